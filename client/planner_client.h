@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "absl/time/time.h"
+#include "core/types/event.h"
+#include "core/types/map_snapshot.h"
+#include "core/types/observation.h"
+#include "core/types/options.h"
+#include "core/types/plan.h"
+#include "core/types/plan_request.h"
+
+namespace plumescout::client {
+
+// What the server holds of a robot's log.
+struct IngestState {
+  std::int64_t applied_sequence = 0;  // in the mission's state
+  std::int64_t durable_sequence = 0;  // survives a crash of the server: the robot may forget it
+  std::int64_t credit_sequence = 0;   // last number the robot may send now
+  std::int64_t revision = 0;          // mission revision that includes applied_sequence
+
+  friend bool operator==(const IngestState&, const IngestState&) = default;
+};
+
+// A robot's standing in a mission, from RegisterRobot.
+struct RobotSession {
+  MissionId mission;
+  RobotId robot;
+  std::int64_t lease_token = 0;
+  std::string server_boot_id;  // changes when the server restarts: resend from durable + 1
+  IngestState ingest;
+};
+
+struct ObservationRejected {
+  std::int64_t sequence = 0;
+  absl::Status status;
+};
+
+using IngestReply = std::variant<IngestState, ObservationRejected>;
+
+// One open ingest stream. Not thread-safe. After any error it is dead: open another.
+class ObservationStream {
+ public:
+  virtual ~ObservationStream() = default;
+
+  // State at opening: send opened().applied_sequence + 1 next.
+  virtual const IngestState& opened() const = 0;
+  // Hands over consecutive observations, in order, within the credit.
+  virtual absl::Status Write(const std::vector<Observation>& batch) = 0;
+  // The next acknowledgement or rejection. kDeadlineExceeded if none came (the stream lives on).
+  virtual absl::StatusOr<IngestReply> Read(absl::Duration timeout) = 0;
+  // Half-closes and waits for the server's final status.
+  virtual absl::Status Finish() = 0;
+};
+
+struct PlanQuery {
+  PlanRequest request;
+  std::int64_t lease_token = 0;
+  std::int64_t min_applied_sequence = 0;  // wait until this much of the robot's log is in the belief
+  absl::Duration budget = absl::Seconds(1);    // for planning; 0: the server's default
+  absl::Duration timeout = absl::Seconds(10);  // of the whole call
+};
+
+// The planning service as robots and studies see it. The same interface is served over gRPC
+// (grpc_planner_client.h) and within one process (lab/local/), so callers and tests run on either.
+// Thread-safe.
+class PlannerClient {
+ public:
+  virtual ~PlannerClient() = default;
+
+  // kAlreadyExists if the name is taken.
+  virtual absl::Status CreateMission(const MissionId& mission, const MissionOptions& options) = 0;
+  virtual absl::StatusOr<std::vector<MissionId>> ListMissions() = 0;
+  virtual absl::Status DeleteMission(const MissionId& mission) = 0;
+
+  // Joins a mission or comes back to it. `take_over` supersedes a lease that is still held.
+  virtual absl::StatusOr<RobotSession> RegisterRobot(const MissionId& mission, const RobotId& robot,
+                                                     double radius_m, bool take_over) = 0;
+  virtual absl::StatusOr<std::unique_ptr<ObservationStream>> OpenObservationStream(
+      const RobotSession& session) = 0;
+  virtual absl::StatusOr<Plan> NextBestTrajectory(const MissionId& mission,
+                                                  const PlanQuery& query) = 0;
+  virtual absl::Status ReportProgress(const RobotSession& session, PlanId plan,
+                                      ProgressOutcome outcome) = 0;
+  virtual absl::StatusOr<MapSnapshot> GetMap(const MissionId& mission) = 0;
+};
+
+}  // namespace plumescout::client

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "core/types/gas_reading.h"
+#include "core/types/pose2.h"
+#include "core/types/scan.h"
+
+namespace plumescout::client {
+
+// Velocity command in the robot's frame, held until the next one.
+struct Twist {
+  double forward_mps = 0.0;
+  double turn_rad_per_s = 0.0;
+};
+
+// One robot's sensors, wheels and clock; the simulated robot and real ones implement it.
+// Single-threaded: the robot loop calls everything.
+class RobotDriver {
+ public:
+  virtual ~RobotDriver() = default;
+
+  virtual std::int64_t now_ns() const = 0;  // robot clock, nanoseconds since the Unix epoch
+  virtual Pose2 pose() const = 0;           // localised, frame map
+  virtual absl::StatusOr<Scan> TakeScan() = 0;
+  virtual absl::StatusOr<GasReading> ReadGas() = 0;
+
+  virtual absl::Status Drive(const Twist& twist) = 0;
+  // Ideal following: stand exactly here now. Simulated robots only; real ones return
+  // kUnimplemented.
+  virtual absl::Status PlaceAt(const Pose2& pose) = 0;
+
+  // Lets `duration_s` go by: a simulation steps its world, a real robot waits.
+  virtual absl::Status Advance(double duration_s) = 0;
+};
+
+}  // namespace plumescout::client

@@ -1,0 +1,45 @@
+# plumescout_proto(NAME proto_v1 PROTOS plumescout/v1/types.proto ... [GRPC])
+#
+# Generates C++ from .proto files below proto/ into one library, built once, without debug
+# information and without our warnings. The same run writes the Python stubs.
+function(plumescout_proto name)
+  cmake_parse_arguments(ARG "GRPC" "" "PROTOS" ${ARGN})
+  set(root ${PROJECT_SOURCE_DIR}/proto)
+  set(out ${CMAKE_BINARY_DIR}/generated)
+  set(python_out ${CMAKE_BINARY_DIR}/python)
+  file(MAKE_DIRECTORY ${out} ${python_out})
+  set(sources)
+  foreach(proto ${ARG_PROTOS})
+    string(REGEX REPLACE "\\.proto$" "" base ${proto})
+    set(outputs ${out}/${base}.pb.cc ${out}/${base}.pb.h)
+    set(arguments --cpp_out=${out} --python_out=${python_out})
+    if(ARG_GRPC)
+      list(APPEND outputs ${out}/${base}.grpc.pb.cc ${out}/${base}.grpc.pb.h)
+      list(APPEND arguments --grpc_out=${out}
+           --plugin=protoc-gen-grpc=$<TARGET_FILE:gRPC::grpc_cpp_plugin>)
+      if(GRPC_PYTHON_PLUGIN)
+        list(APPEND arguments --grpc_python_out=${python_out}
+             --plugin=protoc-gen-grpc_python=${GRPC_PYTHON_PLUGIN})
+      endif()
+    endif()
+    add_custom_command(
+      OUTPUT ${outputs}
+      COMMAND protobuf::protoc -I${root} ${arguments} ${root}/${proto}
+      DEPENDS ${root}/${proto} VERBATIM)
+    foreach(output ${outputs})
+      if(output MATCHES "\\.cc$")
+        list(APPEND sources ${output})
+      endif()
+    endforeach()
+  endforeach()
+  add_library(plumescout_${name} STATIC ${sources})
+  target_include_directories(plumescout_${name} SYSTEM PUBLIC ${out})
+  target_compile_options(plumescout_${name} PRIVATE -g0 -O1)
+  target_link_libraries(plumescout_${name} PUBLIC protobuf::libprotobuf)
+  if(ARG_GRPC)
+    target_link_libraries(plumescout_${name} PUBLIC gRPC::grpc++)
+  endif()
+  add_library(plumescout::${name} ALIAS plumescout_${name})
+endfunction()
+
+find_program(GRPC_PYTHON_PLUGIN grpc_python_plugin)

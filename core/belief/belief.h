@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/types/cell_state.h"
+#include "core/types/grid.h"
+#include "core/types/ids.h"
+#include "core/types/map_snapshot.h"
+#include "core/types/options.h"
+#include "core/types/plan.h"
+
+namespace plumescout {
+
+// The end of another robot's live plan: not to be handed out twice.
+struct GoalClaim {
+  RobotId robot;
+  PlanId plan = 0;
+  Goal goal;
+};
+
+// A goal that failed or was visited without change, until it expires.
+struct SetAsideGoal {
+  Goal goal;
+  std::string reason;           // "blocked", "visited without change"
+  std::int64_t expires_ns = 0;  // in sample time
+};
+
+// What planning needs to know of one robot's history.
+struct RobotRecord {
+  RobotState state;
+  std::int64_t plans_issued = 0;
+  int fruitless_fallbacks = 0;  // fallback trajectories in a row that revealed nothing
+};
+
+// Immutable snapshot of a mission that readers plan on and look at. Rasters are shared between
+// snapshots while they do not change. All rasters have the geometry of `occupancy`.
+struct Belief {
+  std::int64_t revision = 0;           // number of the last applied event
+  std::int64_t sample_time_ns = 0;     // newest sample time applied
+  std::int64_t posterior_time_ns = 0;  // to which the posterior was refreshed
+  std::shared_ptr<const MissionOptions> options;
+
+  std::shared_ptr<const Grid<CellState>> occupancy;
+  std::shared_ptr<const Grid<std::uint8_t>> traversable;  // 1: free and outside the inflation
+  std::shared_ptr<const Grid<float>> gas_mean_ppm;        // NaN off free cells
+  std::shared_ptr<const Grid<float>> gas_variance_ppm2;   // NaN off free cells
+  GasCounters gas_counters;
+
+  std::map<RobotId, RobotRecord> robots;
+  std::vector<GoalClaim> claims;
+  std::vector<SetAsideGoal> set_aside;
+  MissionPhase phase = MissionPhase::kExploring;
+
+  const GridGeometry& geometry() const { return occupancy->geometry(); }
+};
+
+// The map as watchers see it: rasters copied, frontiers found from all robots.
+MapSnapshot MakeMapSnapshot(const Belief& belief);
+
+}  // namespace plumescout

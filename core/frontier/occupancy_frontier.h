@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/types/cell_state.h"
+#include "core/types/frontier.h"
+#include "core/types/grid.h"
+
+namespace plumescout {
+
+// Wavefront frontier detection [WFD]. A frontier cell is an unknown cell with a free 8-neighbour
+// that is reachable: connected (8-neighbours, through free cells, no corner cut) to a start cell.
+// Clusters are 8-connected and keep at least `min_cells` cells. Their goal cells are found on
+// `traversable`; start cells that are not traversable search from the nearest traversable cell.
+//
+// REQUIRES: both rasters share one geometry. Cost: O(cells). Deterministic.
+std::vector<Frontier> FindOccupancyFrontiers(const Grid<CellState>& states,
+                                             const Grid<std::uint8_t>& traversable,
+                                             const std::vector<Cell>& starts, int min_cells);
+
+}  // namespace plumescout

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "core/belief/belief.h"
+#include "core/gas/gas_map.h"
+#include "core/occupancy/occupancy_grid.h"
+#include "core/occupancy/scan_inserter.h"
+#include "core/types/event.h"
+#include "core/types/options.h"
+
+namespace plumescout {
+
+// What became of an event that was applied. An observation that the mission refuses (out of the
+// map's limits) still counts as applied: `observation` says why, and the robot's log moves on.
+struct Applied {
+  std::int64_t revision = 0;
+  absl::Status observation;
+  PlanId plan_id = 0;  // of a PlanIssued: the number the mission gave it
+};
+
+// A mission is a deterministic state machine: state' = Apply(state, event). The same events give
+// the same bytes. Single-threaded; the server gives each mission one writer.
+class Mission {
+ public:
+  // kInvalidArgument if the options are invalid.
+  static absl::StatusOr<std::unique_ptr<Mission>> Create(const MissionOptions& options);
+
+  const MissionOptions& options() const { return *options_; }
+  std::int64_t revision() const { return revision_; }
+
+  // Checks the body, gives it the next number and applies it. On error nothing has changed:
+  //   kInvalidArgument     a field is out of range (named with its value)
+  //   kNotFound            unknown robot or plan
+  //   kAlreadyExists       observation sequence <= applied: ignore and acknowledge again
+  //   kFailedPrecondition  a hole in the sequence ("SEQUENCE_GAP: expected N"), a stale plan or lease
+  //   kAborted             PlanIssued: another robot's live plan claims the goal; plan once more
+  //   kResourceExhausted   too many robots
+  absl::StatusOr<Applied> Apply(decltype(Event::body) body);
+
+  // The state of one robot's log; kNotFound if unknown.
+  absl::StatusOr<std::int64_t> AppliedSequence(const RobotId& robot) const;
+  absl::StatusOr<std::int64_t> LeaseToken(const RobotId& robot) const;
+
+  // Whether readings or free cells changed since the last PosteriorRefreshed.
+  bool posterior_stale() const;
+  // Whether refresh_period_s of sample time has gone by and the posterior is stale.
+  bool refresh_due() const;
+  std::int64_t sample_time_ns() const { return sample_time_ns_; }
+
+  // The present state, for readers. Cost: O(cells) if the map changed since the last call.
+  std::shared_ptr<const Belief> Snapshot() const;
+
+ private:
+  explicit Mission(const MissionOptions& options);
+  // (state: see mission.cc)
+};
+
+}  // namespace plumescout

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "core/belief/belief.h"
+#include "core/types/options.h"
+#include "core/types/plan.h"
+#include "core/types/plan_request.h"
+#include "core/types/stop.h"
+
+namespace plumescout {
+
+// A planner of missions: three small choices - where to go (goals), how to get there (paths),
+// which to take (selection). Immutable; Plan is const and may run on many threads at once.
+class Strategy {
+ public:
+  virtual ~Strategy() = default;
+
+  // The next best trajectory for the robot of `request` on `belief`. Same belief, request and
+  // options: the same bytes, unless `stop` says so. "No goal" and "mission complete" are plans,
+  // not errors.
+  //
+  // Errors: kNotFound if the robot is unknown; kFailedPrecondition if it has no pose yet;
+  // kInvalidArgument if the start is not finite or outside the map; kDeadlineExceeded if `stop`
+  // came before any path was found.
+  virtual absl::StatusOr<plumescout::Plan> Plan(const Belief& belief, const PlanRequest& request,
+                                    const StopFn& stop) const = 0;
+};
+
+// Names of the rows: "xit_gff", "xit_fgf", "xit_f".
+std::vector<std::string> StrategyNames();
+
+// Sets the parts of `options` that the row `options.strategy` fixes (goals, cost, ...).
+// kInvalidArgument for an unknown name.
+absl::Status ApplyStrategyRow(PlanningOptions& options);
+
+// Builds the strategy that `options` describe. kInvalidArgument if they are invalid.
+absl::StatusOr<std::unique_ptr<const Strategy>> MakeStrategy(const PlanningOptions& options);
+
+}  // namespace plumescout

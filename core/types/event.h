@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/types/ids.h"
+#include "core/types/observation.h"
+#include "core/types/plan.h"
+
+namespace plumescout {
+
+// A robot joined the mission, or came back with a new lease.
+struct RobotRegistered {
+  RobotId robot;
+  double radius_m = 0.2;
+  std::int64_t lease_token = 0;
+
+  friend bool operator==(const RobotRegistered&, const RobotRegistered&) = default;
+};
+
+struct ObservationReceived {
+  RobotId robot;
+  Observation observation;
+
+  friend bool operator==(const ObservationReceived&, const ObservationReceived&) = default;
+};
+
+// The posterior was brought up to date; `time_ns` is the instant to which readings were aged.
+struct PosteriorRefreshed {
+  std::int64_t time_ns = 0;
+
+  friend bool operator==(const PosteriorRefreshed&, const PosteriorRefreshed&) = default;
+};
+
+struct PlanIssued {
+  Plan plan;
+
+  friend bool operator==(const PlanIssued&, const PlanIssued&) = default;
+};
+
+enum class ProgressOutcome { kReached, kBlocked, kAborted };
+
+struct ProgressReported {
+  RobotId robot;
+  PlanId plan_id = 0;
+  ProgressOutcome outcome = ProgressOutcome::kReached;
+
+  friend bool operator==(const ProgressReported&, const ProgressReported&) = default;
+};
+
+// Everything that changes a mission. Numbered 1, 2, 3 ...: the number of the last applied event
+// is the mission's revision.
+struct Event {
+  std::int64_t number = 0;
+  std::variant<RobotRegistered, ObservationReceived, PosteriorRefreshed, PlanIssued,
+               ProgressReported>
+      body;
+
+  friend bool operator==(const Event&, const Event&) = default;
+};
+
+}  // namespace plumescout

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/types/options.h"
+
+#include <cmath>
+
+#include "absl/strings/str_cat.h"
+#include "core/types/status_macros.h"
+
+namespace plumescout {
+namespace {
+
+// Collects the first violation, so that a Validate reads as a table of fields.
+class Checker {
+ public:
+  Checker& InRange(absl::string_view field, double value, double low, double high) {
+    if (!(value >= low && value <= high)) {
+      Fail(field, value, absl::StrCat("must be in [", low, ", ", high, "]"));
+    }
+    return *this;
+  }
+  Checker& Positive(absl::string_view field, double value) {
+    if (!(value > 0.0 && std::isfinite(value))) Fail(field, value, "must be > 0 and finite");
+    return *this;
+  }
+  Checker& Negative(absl::string_view field, double value) {
+    if (!(value < 0.0 && std::isfinite(value))) Fail(field, value, "must be < 0 and finite");
+    return *this;
+  }
+  Checker& NotNegative(absl::string_view field, double value) {
+    if (!(value >= 0.0 && std::isfinite(value))) Fail(field, value, "must be >= 0 and finite");
+    return *this;
+  }
+  const absl::Status& status() const { return status_; }
+
+ private:
+  void Fail(absl::string_view field, double value, absl::string_view rule) {
+    if (status_.ok()) {
+      status_ = absl::InvalidArgumentError(absl::StrCat(field, " = ", value, " ", rule));
+    }
+  }
+  absl::Status status_;
+};
+
+constexpr double kBelowHalf = 0.499;
+constexpr double kAboveHalf = 0.501;
+
+}  // namespace
+
+absl::Status Validate(const OccupancyOptions& options) {
+  return Checker()
+      .InRange("occupancy.resolution_m", options.resolution_m, 0.01, 2.0)
+      .InRange("occupancy.inflation_radius_m", options.inflation_radius_m, 0.0, 5.0)
+      .InRange("occupancy.free_threshold", options.free_threshold, 0.001, kBelowHalf)
+      .InRange("occupancy.occupied_threshold", options.occupied_threshold, kAboveHalf, 0.999)
+      .Positive("occupancy.hit_log_odds", options.hit_log_odds)
+      .Negative("occupancy.miss_log_odds", options.miss_log_odds)
+      .InRange("occupancy.clamp_log_odds", options.clamp_log_odds, 0.1, 50.0)
+      .InRange("occupancy.max_extent_m", options.max_extent_m, 1.0, 2000.0)
+      .InRange("occupancy.max_cells", static_cast<double>(options.max_cells), 4096, 16'000'000)
+      .status();
+}
+
+absl::Status Validate(const GasOptions& options) {
+  constexpr double kMaxPrecision = 1e9;
+  constexpr double kMinPrecision = 1e-9;
+  return Checker()
+      .InRange("gas.prior_precision", options.prior_precision, kMinPrecision, kMaxPrecision)
+      .InRange("gas.observation_precision", options.observation_precision, kMinPrecision,
+               kMaxPrecision)
+      .InRange("gas.background_precision", options.background_precision, kMinPrecision,
+               kMaxPrecision)
+      .InRange("gas.background_mean_ppm", options.background_mean_ppm, 0.0, 1e6)
+      .NotNegative("gas.ageing_half_life_s", options.ageing_half_life_s)
+      .InRange("gas.refresh_period_s", options.refresh_period_s, 0.1, 3600.0)
+      .status();
+}
+
+absl::Status Validate(const FrontierOptions& options) {
+  return Checker()
+      .InRange("frontier.min_occupancy_cells", options.min_occupancy_cells, 1, 1e6)
+      .InRange("frontier.min_gas_cells", options.min_gas_cells, 1, 1e6)
+      .InRange("frontier.observed_variance_ratio", options.observed_variance_ratio, 1e-6, 10.0)
+      .Positive("frontier.observed_variance_ppm2", options.observed_variance_ppm2.value_or(1.0))
+      .InRange("frontier.gas_percentile", options.gas_percentile, 0.0, 100.0)
+      .Positive("frontier.min_gas_threshold_ppm", options.min_gas_threshold_ppm)
+      .Positive("frontier.fixed_gas_threshold_ppm", options.fixed_gas_threshold_ppm.value_or(1.0))
+      .status();
+}
+
+absl::Status Validate(const PlanningOptions& options) {
+  return Checker()
+      .InRange("planning.max_goals", options.max_goals, 1, 1000)
+      .InRange("planning.min_goal_distance_m", options.min_goal_distance_m, 0.0, 100.0)
+      .NotNegative("planning.alpha", options.alpha)
+      .NotNegative("planning.beta", options.beta)
+      .InRange("planning.samples", options.samples, 1, 100'000)
+      .InRange("planning.nearest_samples", options.nearest_samples, 1, 100)
+      .InRange("planning.uniform_share", options.uniform_share, 0.0, 1.0)
+      .InRange("planning.radius_factor", options.radius_factor, 0.01, 100.0)
+      .InRange("planning.speed_mps", options.speed_mps, 0.001, 100.0)
+      .InRange("planning.dwell_s", options.dwell_s, 0.0, 3600.0)
+      .Positive("planning.set_aside_s", options.set_aside_s)
+      .InRange("planning.fallback_limit", options.fallback_limit, 1, 1000)
+      .status();
+}
+
+absl::Status Validate(const MissionOptions& options) {
+  PLUMESCOUT_RETURN_IF_ERROR(Validate(options.occupancy));
+  PLUMESCOUT_RETURN_IF_ERROR(Validate(options.gas));
+  PLUMESCOUT_RETURN_IF_ERROR(Validate(options.frontier));
+  PLUMESCOUT_RETURN_IF_ERROR(Validate(options.planning));
+  return Checker()
+      .InRange("pose_limit_m", options.pose_limit_m, 1.0, 1e6)
+      .InRange("max_range_m", options.max_range_m, 0.1, 1000.0)
+      .InRange("max_beams", options.max_beams, 1, 100'000)
+      .InRange("max_concentration_ppm", options.max_concentration_ppm, 1.0, 1e6)
+      .InRange("max_robots", options.max_robots, 1, 1000)
+      .status();
+}
+
+double OpenLatticeVariance_ppm2(const GasOptions& options) {
+  constexpr double kPi = 3.14159265358979323846;
+  return std::log(32.0 * options.prior_precision / options.background_precision) /
+         (4.0 * kPi * options.prior_precision);
+}
+
+}  // namespace plumescout

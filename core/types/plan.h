@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/types/cell.h"
+#include "core/types/ids.h"
+#include "core/types/pose2.h"
+#include "core/types/trajectory.h"
+
+namespace plumescout {
+
+enum class MissionPhase { kExploring, kGasProbing, kFallback, kComplete };
+enum class GoalKind { kOccupancyFrontier, kGasFrontier, kRandomFreeSpace };
+
+// A place worth going to, as the goal policy hands it to the path planner.
+struct Goal {
+  GoalKind kind = GoalKind::kOccupancyFrontier;
+  Cell cell;          // traversable
+  Point2 centroid;    // of the frontier; the cell's centre for random goals
+  int frontier_cells = 0;
+
+  friend bool operator==(const Goal&, const Goal&) = default;
+};
+
+enum class PathSource { kTree, kGridGuard };
+
+// A goal with the path to it and every term of its price.
+struct Candidate {
+  Goal goal;
+  std::vector<Point2> path;          // vertices in frame map, start first
+  PathSource path_source = PathSource::kTree;
+  double cost = 0.0;                 // J of [XIT] Eq. (13), under the selection cost
+  double information_penalty = 0.0;  // sum of P over the path, in cells
+  double length_m = 0.0;
+  double mean_ucb = 0.0;             // mean of I-hat over the path, [MIT] Eq. (3)
+  double mean_concentration_ppm = 0.0;
+
+  friend bool operator==(const Candidate&, const Candidate&) = default;
+};
+
+enum class RejectionReason {
+  kUnreachable,        // no traversable way on the grid
+  kTooSmall,           // fewer cells than the minimum frontier size
+  kSetAside,           // goal memory: failed or visited without change, not yet expired
+  kClaimed,            // another robot's live plan ends there
+  kNotDrawn,           // more goals than max_goals; the draw passed it over
+  kTooClose,           // nearer than the minimum travel distance
+  kSearchStopped,      // deadline or cancel came before a path was found
+};
+
+struct RejectedGoal {
+  Goal goal;
+  RejectionReason reason = RejectionReason::kUnreachable;
+  std::string detail;  // e.g. the robot that claims it, the event at which a set-aside ends
+
+  friend bool operator==(const RejectedGoal&, const RejectedGoal&) = default;
+};
+
+enum class PlanEnd { kAllGoalsReached, kQueueExhausted, kStopped, kNoGoals, kMissionComplete };
+
+// How hard the search worked.
+struct PlanEffort {
+  int samples = 0;
+  int vertices = 0;
+  int edges_evaluated = 0;
+  int goals_by_guard = 0;
+
+  friend bool operator==(const PlanEffort&, const PlanEffort&) = default;
+};
+
+// Answer to "where next": the choice, everything it was chosen from, and why.
+struct Plan {
+  PlanId id = 0;  // 0 until the mission has committed the plan
+  RobotId robot;
+  std::string strategy;
+  std::int64_t belief_revision = 0;
+  std::uint64_t seed = 0;
+  MissionPhase phase = MissionPhase::kExploring;
+  PlanEnd end = PlanEnd::kNoGoals;
+  int chosen = -1;  // index into candidates; -1: stay where you are
+  std::vector<Candidate> candidates;
+  std::vector<RejectedGoal> rejected;
+  Trajectory trajectory;  // of the chosen candidate; empty if none
+  PlanEffort effort;
+  bool field_flat = false;     // the information field had no contrast: pure distance behaviour
+  bool start_escaped = false;  // the robot stood in the inflated zone; the path leads out first
+  std::string explanation;     // one sentence for an operator
+
+  friend bool operator==(const Plan&, const Plan&) = default;
+};
+
+}  // namespace plumescout
