@@ -17,11 +17,20 @@
 
 namespace plumescout {
 
-// The end of another robot's live plan: not to be handed out twice.
+// Goals of one kind nearer to each other than this count as the same goal, for claims and memory.
+inline constexpr double kSameGoalRadius_m = 0.5;
+
+// Whether two goals are the same place for the same purpose.
+inline bool SameGoal(const Goal& a, const Goal& b) {
+  return a.kind == b.kind && Distance_m(a.position, b.position) < kSameGoalRadius_m;
+}
+
+// The end of a robot's live plan: not to be handed out to another robot.
 struct GoalClaim {
   RobotId robot;
   PlanId plan = 0;
   Goal goal;
+  std::int64_t expires_ns = 0;  // in sample time: a stalled robot does not keep its goal for ever
 };
 
 // A goal that failed or was visited without change, until it expires.

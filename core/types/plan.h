@@ -19,7 +19,8 @@ enum class GoalKind { kOccupancyFrontier, kGasFrontier, kRandomFreeSpace };
 // A place worth going to, as the goal policy hands it to the path planner.
 struct Goal {
   GoalKind kind = GoalKind::kOccupancyFrontier;
-  Cell cell;          // traversable
+  Cell cell;          // traversable; of the belief's geometry, which growth of the map may move
+  Point2 position;    // centre of the cell: what claims and goal memory go by
   Point2 centroid;    // of the frontier; the cell's centre for random goals
   int frontier_cells = 0;
 
