@@ -3,14 +3,13 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
-#include <optional>
-#include <vector>
 
 #include "absl/status/status.h"
+#include "absl/status/statusor.h"
 #include "core/belief/belief.h"
 #include "core/gas/gas_map.h"
+#include "core/mission/fleet.h"
 #include "core/occupancy/occupancy_grid.h"
 #include "core/occupancy/scan_inserter.h"
 #include "core/types/event.h"
@@ -30,6 +29,9 @@ struct Applied {
 // the same bytes. Single-threaded; the server gives each mission one writer.
 class Mission {
  public:
+  // REQUIRES: Validate(options).ok(); Create checks it.
+  explicit Mission(const MissionOptions& options);
+
   // kInvalidArgument if the options are invalid.
   static absl::StatusOr<std::unique_ptr<Mission>> Create(const MissionOptions& options);
 
@@ -40,10 +42,10 @@ class Mission {
   //   kInvalidArgument     a field is out of range (named with its value)
   //   kNotFound            unknown robot or plan
   //   kAlreadyExists       observation sequence <= applied: ignore and acknowledge again
-  //   kFailedPrecondition  a hole in the sequence ("SEQUENCE_GAP: expected N"), a stale plan or lease
-  //   kAborted             PlanIssued: another robot's live plan claims the goal; plan once more
-  //   kResourceExhausted   too many robots
-  absl::StatusOr<Applied> Apply(decltype(Event::body) body);
+  //   kFailedPrecondition  a hole in the sequence ("SEQUENCE_GAP: expected N"), a stale plan or
+  //   lease kAborted             PlanIssued: another robot's live plan claims the goal; plan once
+  //   more kResourceExhausted   too many robots
+  absl::StatusOr<Applied> Apply(const EventBody& body);
 
   // The state of one robot's log; kNotFound if unknown.
   absl::StatusOr<std::int64_t> AppliedSequence(const RobotId& robot) const;
@@ -59,8 +61,34 @@ class Mission {
   std::shared_ptr<const Belief> Snapshot() const;
 
  private:
-  explicit Mission(const MissionOptions& options);
-  // (state: see mission.cc)
+  absl::StatusOr<Applied> Change(const RobotRegistered& registration);
+  absl::StatusOr<Applied> Change(const ObservationReceived& received);
+  absl::StatusOr<Applied> Change(const PosteriorRefreshed& refresh);
+  absl::StatusOr<Applied> Change(const PlanIssued& issued);
+  absl::StatusOr<Applied> Change(const ProgressReported& report);
+  absl::Status TakeIn(const RobotId& robot, const Observation& observation);
+
+  std::shared_ptr<const MissionOptions> options_;
+  std::int64_t revision_ = 0;
+  std::int64_t sample_time_ns_ = 0;
+  std::int64_t posterior_time_ns_ = 0;
+  OccupancyGrid occupancy_;
+  ScanInserter scan_inserter_;
+  GasMap gas_;
+  Fleet fleet_;
+  bool map_changed_since_refresh_ = false;
+
+  // Rasters of the last snapshot, shared with it until they change.
+  struct Rasters {
+    std::shared_ptr<const Grid<CellState>> occupancy;
+    std::shared_ptr<const Grid<std::uint8_t>> traversable;
+    std::shared_ptr<const Grid<float>> gas_mean_ppm;
+    std::shared_ptr<const Grid<float>> gas_variance_ppm2;
+  };
+  void UpdateRasters() const;
+  mutable Rasters rasters_;
+  mutable bool map_changed_since_snapshot_ = true;
+  mutable bool gas_changed_since_snapshot_ = true;
 };
 
 }  // namespace plumescout

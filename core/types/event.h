@@ -52,13 +52,14 @@ struct ProgressReported {
   friend bool operator==(const ProgressReported&, const ProgressReported&) = default;
 };
 
-// Everything that changes a mission. Numbered 1, 2, 3 ...: the number of the last applied event
-// is the mission's revision.
+// Everything that changes a mission.
+using EventBody = std::variant<RobotRegistered, ObservationReceived, PosteriorRefreshed, PlanIssued,
+                               ProgressReported>;
+
+// Numbered 1, 2, 3 ...: the number of the last applied event is the mission's revision.
 struct Event {
   std::int64_t number = 0;
-  std::variant<RobotRegistered, ObservationReceived, PosteriorRefreshed, PlanIssued,
-               ProgressReported>
-      body;
+  EventBody body;
 
   friend bool operator==(const Event&, const Event&) = default;
 };

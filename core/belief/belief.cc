@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/belief/belief.h"
+
+#include <utility>
+
+#include "core/frontier/gas_frontier.h"
+#include "core/frontier/occupancy_frontier.h"
+
+namespace plumescout {
+namespace {
+
+std::vector<Cell> RobotCells(const Belief& belief) {
+  std::vector<Cell> cells;
+  for (const auto& [id, record] : belief.robots) {
+    if (!record.state.has_pose) continue;
+    const Cell cell = belief.geometry().CellAt(record.state.pose.position());
+    if (belief.geometry().Contains(cell)) cells.push_back(cell);
+  }
+  return cells;
+}
+
+}  // namespace
+
+MapSnapshot MakeMapSnapshot(const Belief& belief) {
+  MapSnapshot map;
+  map.revision = belief.revision;
+  map.occupancy = *belief.occupancy;
+  map.gas_mean_ppm = *belief.gas_mean_ppm;
+  map.gas_variance_ppm2 = *belief.gas_variance_ppm2;
+  map.gas_counters = belief.gas_counters;
+  map.phase = belief.phase;
+  for (const auto& [id, record] : belief.robots) map.robots.push_back(record.state);
+
+  const MissionOptions& options = *belief.options;
+  const std::vector<Cell> starts = RobotCells(belief);
+  const GasFrontierInput gas{*belief.occupancy, *belief.traversable, *belief.gas_mean_ppm,
+                             *belief.gas_variance_ppm2};
+  const double observed_ppm2 = ObservedVariance_ppm2(options.frontier, options.gas);
+  map.gas_threshold_ppm = GasThreshold_ppm(gas, observed_ppm2, options.frontier);
+  map.frontiers = FindOccupancyFrontiers(*belief.occupancy, *belief.traversable, starts,
+                                         options.frontier.min_occupancy_cells);
+  for (Frontier& frontier :
+       FindGasFrontiers(gas, observed_ppm2, map.gas_threshold_ppm, starts, options.frontier)) {
+    map.frontiers.push_back(std::move(frontier));
+  }
+  return map;
+}
+
+}  // namespace plumescout

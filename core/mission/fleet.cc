@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/mission/fleet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+
+namespace plumescout {
+namespace {
+
+// A goal that is offered again after this many visits has not changed by being visited.
+constexpr int kVisitsBeforeSetAside = 2;
+// A claim outlives its trajectory by this factor and this time before another robot may take it.
+constexpr double kClaimSlack = 2.0;
+constexpr double kClaimGrace_s = 30.0;
+// Poses and beams err a little: the disc is wider than the robot by this much.
+constexpr double kMaskMargin_m = 0.15;
+constexpr double kMaxRadius_m = 5.0;
+// Bounds the memory of a mission that runs for weeks; the oldest visits are forgotten.
+constexpr std::size_t kMaxVisitedGoals = 1000;
+
+std::int64_t Nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
+
+absl::Status UnknownRobot(const RobotId& robot) {
+  return absl::NotFoundError(absl::StrCat("robot \"", robot, "\" is not registered"));
+}
+
+std::optional<Goal> ChosenGoal(const Plan& plan) {
+  if (plan.chosen < 0) return std::nullopt;
+  return plan.candidates[static_cast<std::size_t>(plan.chosen)].goal;
+}
+
+}  // namespace
+
+absl::Status Fleet::Register(const RobotRegistered& registration, int max_robots) {
+  if (absl::Status status = ValidateId("robot", registration.robot); !status.ok()) return status;
+  if (!(registration.radius_m > 0.0 && registration.radius_m <= kMaxRadius_m)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("radius_m = ", registration.radius_m, " must be in (0, ", kMaxRadius_m, "]"));
+  }
+  const auto found = robots_.find(registration.robot);
+  if (found == robots_.end() && robots_.size() >= static_cast<std::size_t>(max_robots)) {
+    return absl::ResourceExhaustedError(
+        absl::StrCat("the mission has ", max_robots, " robots already"));
+  }
+  if (found != robots_.end() && registration.lease_token <= found->second.lease_token) {
+    return absl::FailedPreconditionError(
+        absl::StrCat("LEASE_SUPERSEDED: lease_token = ", registration.lease_token,
+                     " must be newer than ", found->second.lease_token));
+  }
+  Member& member = robots_[registration.robot];
+  member.record.state.id = registration.robot;
+  member.record.state.radius_m = registration.radius_m;
+  member.lease_token = registration.lease_token;
+  return absl::OkStatus();
+}
+
+absl::Status Fleet::CheckSequence(const RobotId& robot, const Observation& observation) const {
+  const auto found = robots_.find(robot);
+  if (found == robots_.end()) return UnknownRobot(robot);
+  const std::int64_t expected = found->second.record.state.applied_sequence + 1;
+  if (observation.sequence < 1) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("sequence = ", observation.sequence, " must be >= 1"));
+  }
+  if (observation.sequence < expected && LastSequence(observation) < expected) {
+    return absl::AlreadyExistsError(
+        absl::StrCat("sequence = ", observation.sequence, " is applied already"));
+  }
+  if (const auto* gap = std::get_if<SequenceGap>(&observation.payload)) {
+    if (gap->first_sequence != observation.sequence || gap->last_sequence < gap->first_sequence) {
+      return absl::InvalidArgumentError(absl::StrCat(
+          "gap = [", gap->first_sequence, ", ", gap->last_sequence,
+          "] must begin at sequence = ", observation.sequence, " and not end earlier"));
+    }
+    if (gap->first_sequence <= expected) return absl::OkStatus();
+  }
+  if (observation.sequence != expected) {
+    return absl::FailedPreconditionError(
+        absl::StrCat("SEQUENCE_GAP: expected ", expected, ", got ", observation.sequence));
+  }
+  return absl::OkStatus();
+}
+
+void Fleet::Advance(const RobotId& robot, const Observation& observation, bool refused) {
+  RobotState& state = robots_.at(robot).record.state;
+  state.applied_sequence = LastSequence(observation);
+  if (refused) {
+    ++state.rejected_observations;
+  } else if (!std::holds_alternative<SequenceGap>(observation.payload)) {
+    state.pose = observation.pose;
+    state.pose.yaw_rad = WrapAngle_rad(observation.pose.yaw_rad);
+    state.has_pose = true;
+  }
+}
+
+absl::StatusOr<PlanId> Fleet::Issue(const Plan& plan, std::int64_t now_ns) {
+  const auto found = robots_.find(plan.robot);
+  if (found == robots_.end()) return UnknownRobot(plan.robot);
+  if (plan.chosen < -1 || plan.chosen >= static_cast<int>(plan.candidates.size())) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("chosen = ", plan.chosen, " must be in [-1, ", plan.candidates.size(), ")"));
+  }
+  LivePlan live{next_plan_, plan.phase, ChosenGoal(plan),
+                now_ns + Nanoseconds(plan.trajectory.duration_s * kClaimSlack + kClaimGrace_s)};
+  if (live.goal) {
+    for (const GoalClaim& claim : Claims(now_ns)) {
+      if (claim.robot != plan.robot && SameGoal(claim.goal, *live.goal)) {
+        return absl::AbortedError(absl::StrCat("the goal is claimed by robot \"", claim.robot,
+                                               "\" with plan ", claim.plan));
+      }
+    }
+  }
+  Member& member = found->second;
+  ++next_plan_;
+  ++member.record.plans_issued;
+  member.last_plan = live.id;
+  if (plan.phase == MissionPhase::kExploring || plan.phase == MissionPhase::kGasProbing) {
+    member.record.fruitless_fallbacks = 0;
+  }
+  member.last_phase = plan.phase;
+  UpdatePhase(plan.phase);
+  member.live = std::move(live);
+  return member.last_plan;
+}
+
+absl::Status Fleet::Report(const ProgressReported& report, std::int64_t now_ns,
+                           double set_aside_s) {
+  const auto found = robots_.find(report.robot);
+  if (found == robots_.end()) return UnknownRobot(report.robot);
+  Member& member = found->second;
+  if (report.plan_id < 1 || report.plan_id >= next_plan_) {
+    return absl::NotFoundError(absl::StrCat("plan ", report.plan_id, " was never issued"));
+  }
+  if (report.plan_id != member.last_plan) {
+    return absl::FailedPreconditionError(absl::StrCat("PLAN_SUPERSEDED: plan ", report.plan_id,
+                                                      " is not robot \"", report.robot,
+                                                      "\"'s latest, ", member.last_plan));
+  }
+  if (!member.live) {
+    return absl::AlreadyExistsError(absl::StrCat("plan ", report.plan_id, " has ended already"));
+  }
+  const LivePlan live = *std::exchange(member.live, std::nullopt);
+  if (live.phase == MissionPhase::kFallback) ++member.record.fruitless_fallbacks;
+  if (!live.goal) return absl::OkStatus();
+  if (report.outcome == ProgressOutcome::kBlocked) {
+    set_aside_.push_back({*live.goal, "reported blocked", now_ns + Nanoseconds(set_aside_s)});
+  } else if (report.outcome == ProgressOutcome::kReached) {
+    RememberVisit(*live.goal, now_ns, set_aside_s);
+  }
+  return absl::OkStatus();
+}
+
+void Fleet::RememberVisit(const Goal& goal, std::int64_t now_ns, double set_aside_s) {
+  std::erase_if(set_aside_, [&](const SetAsideGoal& s) { return s.expires_ns <= now_ns; });
+  if (goal.kind == GoalKind::kRandomFreeSpace) return;  // nothing was expected to change there
+  auto visited = std::find_if(visited_.begin(), visited_.end(),
+                              [&](const VisitedGoal& v) { return SameGoal(v.goal, goal); });
+  if (visited == visited_.end()) {
+    if (visited_.size() >= kMaxVisitedGoals) visited_.erase(visited_.begin());
+    visited_.push_back({goal, 0});
+    visited = visited_.end() - 1;
+  }
+  if (++visited->visits < kVisitsBeforeSetAside) return;
+  visited_.erase(visited);
+  set_aside_.push_back({goal, "visited without change", now_ns + Nanoseconds(set_aside_s)});
+}
+
+// The mission is complete when every robot that ever planned was told so last.
+void Fleet::UpdatePhase(MissionPhase latest) {
+  const bool all_complete = std::all_of(robots_.begin(), robots_.end(), [](const auto& entry) {
+    return entry.second.last_phase.value_or(MissionPhase::kComplete) == MissionPhase::kComplete;
+  });
+  if (latest != MissionPhase::kComplete || all_complete) phase_ = latest;
+}
+
+absl::StatusOr<std::int64_t> Fleet::AppliedSequence(const RobotId& robot) const {
+  const auto found = robots_.find(robot);
+  if (found == robots_.end()) return UnknownRobot(robot);
+  return found->second.record.state.applied_sequence;
+}
+
+absl::StatusOr<std::int64_t> Fleet::LeaseToken(const RobotId& robot) const {
+  const auto found = robots_.find(robot);
+  if (found == robots_.end()) return UnknownRobot(robot);
+  return found->second.lease_token;
+}
+
+std::vector<MaskDisc> Fleet::MasksFor(const RobotId& observer) const {
+  std::vector<MaskDisc> masks;
+  for (const auto& [id, member] : robots_) {
+    const RobotState& state = member.record.state;
+    if (id == observer || !state.has_pose) continue;
+    masks.push_back({state.pose.position(), state.radius_m + kMaskMargin_m});
+  }
+  return masks;
+}
+
+std::map<RobotId, RobotRecord> Fleet::Records() const {
+  std::map<RobotId, RobotRecord> records;
+  for (const auto& [id, member] : robots_) records[id] = member.record;
+  return records;
+}
+
+std::vector<GoalClaim> Fleet::Claims(std::int64_t now_ns) const {
+  std::vector<GoalClaim> claims;
+  for (const auto& [id, member] : robots_) {
+    if (!member.live || !member.live->goal || member.live->expires_ns <= now_ns) continue;
+    claims.push_back({id, member.live->id, *member.live->goal, member.live->expires_ns});
+  }
+  return claims;
+}
+
+std::vector<SetAsideGoal> Fleet::SetAside(std::int64_t now_ns) const {
+  std::vector<SetAsideGoal> result;
+  std::copy_if(set_aside_.begin(), set_aside_.end(), std::back_inserter(result),
+               [&](const SetAsideGoal& s) { return s.expires_ns > now_ns; });
+  return result;
+}
+
+}  // namespace plumescout

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "core/belief/belief.h"
+#include "core/occupancy/scan_inserter.h"
+#include "core/types/event.h"
+
+namespace plumescout {
+
+// The robots of a mission: leases, logs, live plans, and the memory of goals that led nowhere.
+//
+// Invariants: 1. a robot has at most one live plan. 2. no two live, unexpired plans of different
+// robots end at the same goal. Thread-compatible.
+class Fleet {
+ public:
+  absl::Status Register(const RobotRegistered& registration, int max_robots);
+
+  // Checks that the observation is the next of the robot's log; see Mission::Apply for the errors.
+  absl::Status CheckSequence(const RobotId& robot, const Observation& observation) const;
+  // Moves the robot's log past the observation. REQUIRES: CheckSequence was OK.
+  void Advance(const RobotId& robot, const Observation& observation, bool refused);
+
+  // Gives the plan its number and makes it the robot's live plan. kAborted if another robot's live
+  // plan claims the goal.
+  absl::StatusOr<PlanId> Issue(const Plan& plan, std::int64_t now_ns);
+  // Ends the robot's live plan. A goal that was blocked is set aside; so is one that was reached
+  // kVisitsBeforeSetAside times and is still offered.
+  absl::Status Report(const ProgressReported& report, std::int64_t now_ns, double set_aside_s);
+
+  absl::StatusOr<std::int64_t> AppliedSequence(const RobotId& robot) const;
+  absl::StatusOr<std::int64_t> LeaseToken(const RobotId& robot) const;
+  bool Knows(const RobotId& robot) const { return robots_.contains(robot); }
+
+  // Discs around the latest poses of all robots but `observer`, in which beams must not end.
+  std::vector<MaskDisc> MasksFor(const RobotId& observer) const;
+
+  std::map<RobotId, RobotRecord> Records() const;
+  std::vector<GoalClaim> Claims(std::int64_t now_ns) const;
+  std::vector<SetAsideGoal> SetAside(std::int64_t now_ns) const;
+  MissionPhase Phase() const { return phase_; }
+
+ private:
+  struct LivePlan {
+    PlanId id = 0;
+    MissionPhase phase = MissionPhase::kExploring;
+    std::optional<Goal> goal;  // none: the robot stays where it is
+    std::int64_t expires_ns = 0;
+  };
+  struct Member {
+    RobotRecord record;
+    std::int64_t lease_token = 0;
+    PlanId last_plan = 0;
+    std::optional<MissionPhase> last_phase;
+    std::optional<LivePlan> live;
+  };
+  struct VisitedGoal {
+    Goal goal;
+    int visits = 0;
+  };
+
+  void RememberVisit(const Goal& goal, std::int64_t now_ns, double set_aside_s);
+  void UpdatePhase(MissionPhase latest);
+
+  std::map<RobotId, Member> robots_;
+  PlanId next_plan_ = 1;
+  std::vector<VisitedGoal> visited_;
+  std::vector<SetAsideGoal> set_aside_;
+  MissionPhase phase_ = MissionPhase::kExploring;
+};
+
+}  // namespace plumescout

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/mission/mission.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/belief/regrid.h"
+#include "core/mission/observation_check.h"
+#include "core/occupancy/free_space.h"
+#include "core/types/status_macros.h"
+
+namespace plumescout {
+namespace {
+
+constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
+
+// The field on the geometry of `states`, NaN off its free cells.
+std::shared_ptr<const Grid<float>> OnFreeCells(const Grid<float>& field,
+                                               const Grid<CellState>& states) {
+  auto result = std::make_shared<Grid<float>>(states.geometry(), kNoValue);
+  if (field.size() > 0) *result = Regridded(field, states.geometry(), kNoValue);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (states[i] != CellState::kFree) (*result)[i] = kNoValue;
+  }
+  return result;
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<Mission>> Mission::Create(const MissionOptions& options) {
+  PLUMESCOUT_RETURN_IF_ERROR(Validate(options));
+  return std::make_unique<Mission>(options);
+}
+
+Mission::Mission(const MissionOptions& options)
+    : options_(std::make_shared<const MissionOptions>(options)),
+      occupancy_(options.occupancy),
+      gas_(options.gas) {}
+
+absl::StatusOr<Applied> Mission::Apply(const EventBody& body) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(Applied applied,
+                              std::visit([this](const auto& e) { return Change(e); }, body));
+  applied.revision = ++revision_;
+  return applied;
+}
+
+absl::StatusOr<Applied> Mission::Change(const RobotRegistered& registration) {
+  PLUMESCOUT_RETURN_IF_ERROR(fleet_.Register(registration, options_->max_robots));
+  return Applied{};
+}
+
+absl::StatusOr<Applied> Mission::Change(const ObservationReceived& received) {
+  const Observation& observation = received.observation;
+  PLUMESCOUT_RETURN_IF_ERROR(fleet_.CheckSequence(received.robot, observation));
+  Applied applied;
+  applied.observation = TakeIn(received.robot, observation);
+  fleet_.Advance(received.robot, observation, !applied.observation.ok());
+  return applied;
+}
+
+absl::Status Mission::TakeIn(const RobotId& robot, const Observation& observation) {
+  PLUMESCOUT_RETURN_IF_ERROR(CheckObservation(observation, *options_, sample_time_ns_));
+  if (const auto* scan = std::get_if<Scan>(&observation.payload)) {
+    PLUMESCOUT_RETURN_IF_ERROR(
+        scan_inserter_.Insert(observation.pose, *scan, fleet_.MasksFor(robot), occupancy_));
+    map_changed_since_refresh_ = true;
+    map_changed_since_snapshot_ = true;
+  } else if (const auto* gas = std::get_if<GasReading>(&observation.payload)) {
+    gas_.Add(observation.sample_time_ns, observation.pose.position(), *gas);
+  }
+  sample_time_ns_ = std::max(sample_time_ns_, observation.sample_time_ns);
+  return absl::OkStatus();
+}
+
+absl::StatusOr<Applied> Mission::Change(const PosteriorRefreshed& refresh) {
+  if (refresh.time_ns < 0) {
+    return absl::InvalidArgumentError(absl::StrCat("time_ns = ", refresh.time_ns, " must be >= 0"));
+  }
+  PLUMESCOUT_RETURN_IF_ERROR(gas_.Refresh(occupancy_.States(), refresh.time_ns));
+  posterior_time_ns_ = refresh.time_ns;
+  map_changed_since_refresh_ = false;
+  gas_changed_since_snapshot_ = true;
+  return Applied{};
+}
+
+absl::StatusOr<Applied> Mission::Change(const PlanIssued& issued) {
+  if (issued.plan.belief_revision < 0 || issued.plan.belief_revision > revision_) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        "belief_revision = ", issued.plan.belief_revision, " must be in [0, ", revision_, "]"));
+  }
+  Applied applied;
+  PLUMESCOUT_ASSIGN_OR_RETURN(applied.plan_id, fleet_.Issue(issued.plan, sample_time_ns_));
+  return applied;
+}
+
+absl::StatusOr<Applied> Mission::Change(const ProgressReported& report) {
+  PLUMESCOUT_RETURN_IF_ERROR(
+      fleet_.Report(report, sample_time_ns_, options_->planning.set_aside_s));
+  return Applied{};
+}
+
+absl::StatusOr<std::int64_t> Mission::AppliedSequence(const RobotId& robot) const {
+  return fleet_.AppliedSequence(robot);
+}
+
+absl::StatusOr<std::int64_t> Mission::LeaseToken(const RobotId& robot) const {
+  return fleet_.LeaseToken(robot);
+}
+
+bool Mission::posterior_stale() const { return gas_.stale() || map_changed_since_refresh_; }
+
+bool Mission::refresh_due() const {
+  constexpr double kNanosecondsPerSecond = 1e9;
+  return posterior_stale() && static_cast<double>(sample_time_ns_ - posterior_time_ns_) >=
+                                  options_->gas.refresh_period_s * kNanosecondsPerSecond;
+}
+
+void Mission::UpdateRasters() const {
+  if (map_changed_since_snapshot_) {
+    rasters_.occupancy = std::make_shared<const Grid<CellState>>(occupancy_.States());
+    rasters_.traversable = std::make_shared<const Grid<std::uint8_t>>(
+        TraversableCells(*rasters_.occupancy, options_->occupancy.inflation_radius_m));
+  }
+  if (map_changed_since_snapshot_ || gas_changed_since_snapshot_) {
+    rasters_.gas_mean_ppm = OnFreeCells(gas_.mean_ppm(), *rasters_.occupancy);
+    rasters_.gas_variance_ppm2 = OnFreeCells(gas_.variance_ppm2(), *rasters_.occupancy);
+  }
+  map_changed_since_snapshot_ = false;
+  gas_changed_since_snapshot_ = false;
+}
+
+std::shared_ptr<const Belief> Mission::Snapshot() const {
+  UpdateRasters();
+  auto belief = std::make_shared<Belief>();
+  belief->revision = revision_;
+  belief->sample_time_ns = sample_time_ns_;
+  belief->posterior_time_ns = posterior_time_ns_;
+  belief->options = options_;
+  belief->occupancy = rasters_.occupancy;
+  belief->traversable = rasters_.traversable;
+  belief->gas_mean_ppm = rasters_.gas_mean_ppm;
+  belief->gas_variance_ppm2 = rasters_.gas_variance_ppm2;
+  belief->gas_counters = gas_.counters();
+  belief->robots = fleet_.Records();
+  belief->claims = fleet_.Claims(sample_time_ns_);
+  belief->set_aside = fleet_.SetAside(sample_time_ns_);
+  belief->phase = fleet_.Phase();
+  return belief;
+}
+
+}  // namespace plumescout

@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/mission/fleet.h"
+
+#include <string>
+
+#include "gmock/gmock.h"
+#include "gtest/gtest.h"
+
+namespace plumescout {
+namespace {
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr int kMaxRobots = 3;
+
+Fleet FleetOf(std::initializer_list<std::string> robots) {
+  Fleet fleet;
+  for (const std::string& robot : robots) {
+    EXPECT_TRUE(fleet.Register({robot, 0.2, 1}, kMaxRobots).ok());
+  }
+  return fleet;
+}
+
+Observation Numbered(std::int64_t sequence) {
+  return {sequence, kSecond_ns, {1.0, 2.0, 0.0}, GasReading{1.0, 0.0}};
+}
+
+Plan PlanTo(const RobotId& robot, Point2 position, GoalKind kind = GoalKind::kOccupancyFrontier) {
+  Plan plan;
+  plan.robot = robot;
+  Candidate candidate;
+  candidate.goal = {kind, {}, position, position, 10};
+  plan.candidates = {candidate};
+  plan.chosen = 0;
+  plan.phase =
+      kind == GoalKind::kRandomFreeSpace ? MissionPhase::kFallback : MissionPhase::kExploring;
+  plan.trajectory.duration_s = 10.0;
+  return plan;
+}
+
+TEST(FleetRegister, RefusesOldLeasesBadRadiiAndTooManyRobots) {
+  Fleet fleet = FleetOf({"a"});
+  EXPECT_EQ(fleet.Register({"a", 0.2, 1}, kMaxRobots).code(),
+            absl::StatusCode::kFailedPrecondition);
+  EXPECT_TRUE(fleet.Register({"a", 0.2, 2}, kMaxRobots).ok());
+  EXPECT_EQ(fleet.Register({"b", NAN, 1}, kMaxRobots).code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(fleet.Register({"B!", 0.2, 1}, kMaxRobots).code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(fleet.Register({"b", 0.2, 1}, 1).code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_FALSE(fleet.Knows("b"));
+}
+
+TEST(FleetSequence, TakesTheNextNumberOnly) {
+  Fleet fleet = FleetOf({"a"});
+  EXPECT_EQ(fleet.CheckSequence("a", Numbered(0)).code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(fleet.CheckSequence("a", Numbered(2)).code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_EQ(fleet.CheckSequence("b", Numbered(1)).code(), absl::StatusCode::kNotFound);
+  ASSERT_TRUE(fleet.CheckSequence("a", Numbered(1)).ok());
+  fleet.Advance("a", Numbered(1), false);
+  EXPECT_EQ(fleet.CheckSequence("a", Numbered(1)).code(), absl::StatusCode::kAlreadyExists);
+  EXPECT_EQ(*fleet.AppliedSequence("a"), 1);
+}
+
+TEST(FleetSequence, AGapStandsForAllItsNumbers) {
+  Fleet fleet = FleetOf({"a"});
+  Observation gap = Numbered(1);
+  gap.payload = SequenceGap{1, 7};
+  ASSERT_TRUE(fleet.CheckSequence("a", gap).ok());
+  fleet.Advance("a", gap, false);
+  EXPECT_EQ(*fleet.AppliedSequence("a"), 7);
+  EXPECT_FALSE(fleet.Records().at("a").state.has_pose) << "a gap says nothing of the pose";
+  EXPECT_EQ(fleet.CheckSequence("a", gap).code(), absl::StatusCode::kAlreadyExists);
+}
+
+TEST(FleetSequence, AGapMayOverlapWhatIsAppliedButNotBeMalformed) {
+  Fleet fleet = FleetOf({"a"});
+  fleet.Advance("a", Numbered(1), false);
+  Observation gap = Numbered(1);
+  gap.payload = SequenceGap{1, 4};
+  EXPECT_TRUE(fleet.CheckSequence("a", gap).ok());
+  gap.payload = SequenceGap{2, 4};
+  EXPECT_EQ(fleet.CheckSequence("a", gap).code(), absl::StatusCode::kInvalidArgument);
+  gap = Numbered(5);
+  gap.payload = SequenceGap{5, 9};
+  EXPECT_EQ(fleet.CheckSequence("a", gap).code(), absl::StatusCode::kFailedPrecondition);
+}
+
+TEST(FleetIssue, DoesNotHandOutAClaimedGoalTwice) {
+  Fleet fleet = FleetOf({"a", "b"});
+  ASSERT_TRUE(fleet.Issue(PlanTo("a", {1.0, 1.0}), 0).ok());
+  EXPECT_EQ(fleet.Issue(PlanTo("b", {1.2, 1.0}), 0).status().code(), absl::StatusCode::kAborted);
+  EXPECT_TRUE(fleet.Issue(PlanTo("b", {2.0, 1.0}), 0).ok());
+  EXPECT_TRUE(fleet.Issue(PlanTo("a", {1.0, 1.1}), 0).ok()) << "its own claim is no obstacle";
+}
+
+TEST(FleetIssue, ClaimsEndWithAReportAndExpireWithoutOne) {
+  Fleet fleet = FleetOf({"a", "b"});
+  const PlanId plan = *fleet.Issue(PlanTo("a", {1.0, 1.0}), 0);
+  EXPECT_EQ(fleet.Claims(0).size(), 1u);
+  EXPECT_EQ(fleet.Claims(51 * kSecond_ns).size(), 0u);  // 2 x 10 s + 30 s
+  ASSERT_TRUE(fleet.Report({"a", plan, ProgressOutcome::kAborted}, 0, 60.0).ok());
+  EXPECT_TRUE(fleet.Claims(0).empty());
+  EXPECT_TRUE(fleet.SetAside(0).empty()) << "aborting says nothing about the goal";
+}
+
+TEST(FleetReport, KnowsUnknownSupersededAndEndedPlans) {
+  Fleet fleet = FleetOf({"a"});
+  EXPECT_EQ(fleet.Report({"a", 1, ProgressOutcome::kReached}, 0, 60.0).code(),
+            absl::StatusCode::kNotFound);
+  const PlanId first = *fleet.Issue(PlanTo("a", {1.0, 1.0}), 0);
+  const PlanId second = *fleet.Issue(PlanTo("a", {3.0, 1.0}), 0);
+  EXPECT_EQ(fleet.Report({"a", first, ProgressOutcome::kReached}, 0, 60.0).code(),
+            absl::StatusCode::kFailedPrecondition);
+  EXPECT_TRUE(fleet.Report({"a", second, ProgressOutcome::kReached}, 0, 60.0).ok());
+  EXPECT_EQ(fleet.Report({"a", second, ProgressOutcome::kReached}, 0, 60.0).code(),
+            absl::StatusCode::kAlreadyExists);
+}
+
+TEST(FleetMemory, ABlockedGoalIsSetAsideUntilItExpires) {
+  Fleet fleet = FleetOf({"a"});
+  const PlanId plan = *fleet.Issue(PlanTo("a", {1.0, 1.0}), 0);
+  ASSERT_TRUE(fleet.Report({"a", plan, ProgressOutcome::kBlocked}, 0, 60.0).ok());
+  ASSERT_EQ(fleet.SetAside(59 * kSecond_ns).size(), 1u);
+  EXPECT_EQ(fleet.SetAside(0)[0].reason, "reported blocked");
+  EXPECT_TRUE(fleet.SetAside(60 * kSecond_ns).empty());
+}
+
+TEST(FleetMemory, AGoalReachedTwiceIsSetAside) {
+  Fleet fleet = FleetOf({"a"});
+  for (int visit = 0; visit < 2; ++visit) {
+    EXPECT_TRUE(fleet.SetAside(0).empty());
+    const PlanId plan = *fleet.Issue(PlanTo("a", {1.0 + 0.1 * visit, 1.0}), 0);
+    ASSERT_TRUE(fleet.Report({"a", plan, ProgressOutcome::kReached}, 0, 60.0).ok());
+  }
+  ASSERT_EQ(fleet.SetAside(0).size(), 1u);
+  EXPECT_EQ(fleet.SetAside(0)[0].reason, "visited without change");
+}
+
+TEST(FleetMemory, CountsFallbacksInARowThatRevealedNothing) {
+  Fleet fleet = FleetOf({"a"});
+  const auto fallback = [&](double x_m) {
+    const PlanId plan = *fleet.Issue(PlanTo("a", {x_m, 1.0}, GoalKind::kRandomFreeSpace), 0);
+    EXPECT_TRUE(fleet.Report({"a", plan, ProgressOutcome::kReached}, 0, 60.0).ok());
+    return fleet.Records().at("a").fruitless_fallbacks;
+  };
+  EXPECT_EQ(fallback(1.0), 1);
+  ASSERT_TRUE(fleet.Issue(PlanTo("a", {5.0, 5.0}), 0).ok()) << "a frontier appeared";
+  EXPECT_EQ(fallback(2.0), 1);
+  EXPECT_EQ(fallback(3.0), 2);
+}
+
+TEST(FleetPhase, IsCompleteWhenEveryRobotWasToldSo) {
+  Fleet fleet = FleetOf({"a", "b"});
+  Plan done = PlanTo("a", {1.0, 1.0});
+  done.phase = MissionPhase::kComplete;
+  done.chosen = -1;
+  ASSERT_TRUE(fleet.Issue(PlanTo("b", {1.0, 1.0}), 0).ok());
+  ASSERT_TRUE(fleet.Issue(done, 0).ok());
+  EXPECT_EQ(fleet.Phase(), MissionPhase::kExploring);
+  done.robot = "b";
+  ASSERT_TRUE(fleet.Issue(done, 0).ok());
+  EXPECT_EQ(fleet.Phase(), MissionPhase::kComplete);
+}
+
+TEST(FleetMasks, CoverTheOtherRobotsWithPoses) {
+  Fleet fleet = FleetOf({"a", "b", "c"});
+  fleet.Advance("b", Numbered(1), false);
+  ASSERT_EQ(fleet.MasksFor("a").size(), 1u);
+  EXPECT_EQ(fleet.MasksFor("a")[0].center, (Point2{1.0, 2.0}));
+  EXPECT_GT(fleet.MasksFor("a")[0].radius_m, 0.2);
+  EXPECT_TRUE(fleet.MasksFor("b").empty());
+}
+
+}  // namespace
+}  // namespace plumescout

@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/mission/mission.h"
+
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "core/plan/strategy.h"
+#include "gmock/gmock.h"
+#include "gtest/gtest.h"
+#include "tests/support/box_room.h"
+
+namespace plumescout {
+namespace {
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+std::unique_ptr<Mission> MissionWith(std::initializer_list<const char*> robots) {
+  auto mission = Mission::Create(MissionOptions{});
+  EXPECT_TRUE(mission.ok());
+  for (const char* robot : robots)
+    EXPECT_TRUE((*mission)->Apply(RobotRegistered{robot, 0.2, 1}).ok());
+  return *std::move(mission);
+}
+
+// Bitwise equality: NaN equals NaN.
+template <typename T>
+bool SameBytes(const Grid<T>& a, const Grid<T>& b) {
+  return a.geometry() == b.geometry() &&
+         std::memcmp(a.values().data(), b.values().data(), a.size() * sizeof(T)) == 0;
+}
+
+// One robot measures and plans its way through a room; every event lands in the log.
+std::vector<EventBody> RecordRun(Mission& mission) {
+  std::vector<EventBody> log;
+  const auto apply = [&](EventBody body) {
+    const auto applied = mission.Apply(body);
+    EXPECT_TRUE(applied.ok()) << applied.status();
+    log.push_back(std::move(body));
+    return applied.ok() ? *applied : Applied{};
+  };
+  PlanningOptions planning;
+  const auto strategy = MakeStrategy(planning);
+  EXPECT_TRUE(strategy.ok()) << strategy.status();
+  apply(RobotRegistered{"a", 0.2, 1});
+  Pose2 pose{1.0, 1.0, 0.0};
+  std::int64_t sequence = 0;
+  for (int step = 0; step < 12; ++step) {
+    const std::int64_t now_ns = (step + 1) * kSecond_ns;
+    apply(ObservationReceived{"a", {++sequence, now_ns, pose, support::ScanInBox(pose, 6.0, 4.0)}});
+    apply(ObservationReceived{"a", {++sequence, now_ns, pose, GasReading{2.0 * step, 0.0}}});
+    apply(PosteriorRefreshed{now_ns});
+    PlanRequest request;
+    request.robot = "a";
+    auto plan = (*strategy)->Plan(*mission.Snapshot(), request, NeverStop());
+    EXPECT_TRUE(plan.ok()) << plan.status();
+    if (!plan.ok()) break;
+    if (!plan->trajectory.waypoints.empty()) pose = plan->trajectory.waypoints.back().pose;
+    const Applied issued = apply(PlanIssued{*plan});
+    apply(ProgressReported{"a", issued.plan_id, ProgressOutcome::kReached});
+  }
+  return log;
+}
+
+TEST(Mission, ReplayingTheSameEventsGivesTheSameBytes) {
+  const auto original = MissionWith({});
+  const std::vector<EventBody> log = RecordRun(*original);
+  const auto replay = MissionWith({});
+  for (const EventBody& body : log) ASSERT_TRUE(replay->Apply(body).ok());
+
+  const auto a = original->Snapshot();
+  const auto b = replay->Snapshot();
+  EXPECT_EQ(a->revision, b->revision);
+  EXPECT_EQ(a->revision, static_cast<std::int64_t>(log.size()));
+  EXPECT_TRUE(SameBytes(*a->occupancy, *b->occupancy));
+  EXPECT_TRUE(SameBytes(*a->traversable, *b->traversable));
+  EXPECT_TRUE(SameBytes(*a->gas_mean_ppm, *b->gas_mean_ppm));
+  EXPECT_TRUE(SameBytes(*a->gas_variance_ppm2, *b->gas_variance_ppm2));
+  EXPECT_EQ(a->gas_counters, b->gas_counters);
+  EXPECT_EQ(a->phase, b->phase);
+}
+
+TEST(Mission, RefusedObservationsCountAsAppliedAndChangeNothingElse) {
+  const auto mission = MissionWith({"a"});
+  const auto before = mission->Snapshot();
+  const auto applied =
+      mission->Apply(ObservationReceived{"a", {1, kSecond_ns, {NAN, 0, 0}, GasReading{1.0, 0.0}}});
+  ASSERT_TRUE(applied.ok());
+  EXPECT_EQ(applied->observation.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(*mission->AppliedSequence("a"), 1);
+  const auto after = mission->Snapshot();
+  EXPECT_EQ(after->robots.at("a").state.rejected_observations, 1);
+  EXPECT_FALSE(after->robots.at("a").state.has_pose);
+  EXPECT_EQ(after->gas_counters, before->gas_counters);
+  EXPECT_EQ(after->sample_time_ns, 0);
+}
+
+TEST(Mission, ScansBeyondTheLargestMapAreRefused) {
+  const auto mission = MissionWith({"a"});
+  const Pose2 far{900.0, 0.0, 0.0};
+  const Pose2 near{0.0, 0.0, 0.0};
+  ASSERT_TRUE(mission
+                  ->Apply(ObservationReceived{
+                      "a", {1, kSecond_ns, near, support::ScanInBox({1, 1, 0}, 4, 4)}})
+                  ->observation.ok());
+  const auto applied = mission->Apply(
+      ObservationReceived{"a", {2, kSecond_ns, far, support::ScanInBox({1, 1, 0}, 4, 4)}});
+  ASSERT_TRUE(applied.ok());
+  EXPECT_EQ(applied->observation.code(), absl::StatusCode::kResourceExhausted);
+}
+
+TEST(Mission, ErrorsLeaveTheRevisionAlone) {
+  const auto mission = MissionWith({"a"});
+  const std::int64_t revision = mission->revision();
+  EXPECT_FALSE(mission->Apply(ObservationReceived{"ghost", {}}).ok());
+  EXPECT_FALSE(mission->Apply(ObservationReceived{"a", {5, 0, {}, GasReading{}}}).ok());
+  EXPECT_FALSE(mission->Apply(PosteriorRefreshed{-1}).ok());
+  EXPECT_FALSE(mission->Apply(ProgressReported{"a", 1, ProgressOutcome::kReached}).ok());
+  Plan stale;
+  stale.robot = "a";
+  stale.belief_revision = revision + 1;
+  EXPECT_EQ(mission->Apply(PlanIssued{stale}).status().code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(mission->revision(), revision);
+}
+
+TEST(Mission, RobotsDrivingTowardsEachOtherAreNotWalls) {
+  const auto mission = MissionWith({"left", "right"});
+  std::int64_t sequence = 0;
+  for (double gap_m = 3.0; gap_m > 0.8; gap_m -= 0.2) {
+    const Pose2 left{3.0 - gap_m / 2, 2.0, 0.0};
+    const Pose2 right{3.0 + gap_m / 2, 2.0, M_PI};
+    ++sequence;
+    const std::int64_t now_ns = sequence * kSecond_ns / 5;
+    for (const auto& [robot, self, other] :
+         {std::tuple{"left", left, right}, std::tuple{"right", right, left}}) {
+      // Each sees the other's body as a disc of 0.2 m in its scan.
+      const Scan scan = support::ScanInBox(self, 6.0, 4.0, {{other.position(), 0.2}});
+      ASSERT_TRUE(mission->Apply(ObservationReceived{robot, {sequence, now_ns, self, scan}}).ok());
+    }
+  }
+  const auto belief = mission->Snapshot();
+  for (double x_m = 1.5; x_m < 4.5; x_m += 0.1) {
+    const Cell cell = belief->geometry().CellAt({x_m, 2.0});
+    EXPECT_NE((*belief->occupancy)[cell], CellState::kOccupied) << "at x = " << x_m;
+  }
+}
+
+TEST(Mission, TheFirstScanOfARobotNextToAnotherNeedsItsPoseToMaskIt) {
+  const auto mission = MissionWith({"a", "b"});
+  const Pose2 a{2.0, 2.0, 0.0};
+  const Pose2 b{3.5, 2.0, 0.0};
+  ASSERT_TRUE(
+      mission->Apply(ObservationReceived{"b", {1, kSecond_ns, b, GasReading{0.0, 0.0}}}).ok());
+  const Scan scan = support::ScanInBox(a, 6.0, 4.0, {{b.position(), 0.2}});
+  ASSERT_TRUE(mission->Apply(ObservationReceived{"a", {1, kSecond_ns, a, scan}}).ok());
+  const auto belief = mission->Snapshot();
+  EXPECT_NE((*belief->occupancy)[belief->geometry().CellAt({3.32, 2.0})], CellState::kOccupied);
+}
+
+TEST(Mission, SnapshotsStayWhatTheyWere) {
+  const auto mission = MissionWith({"a"});
+  const Pose2 pose{1.0, 1.0, 0.0};
+  ASSERT_TRUE(mission
+                  ->Apply(ObservationReceived{
+                      "a", {1, kSecond_ns, pose, support::ScanInBox(pose, 3.0, 3.0)}})
+                  .ok());
+  const auto before = mission->Snapshot();
+  const Grid<CellState> copy = *before->occupancy;
+  EXPECT_EQ(before->occupancy.get(), mission->Snapshot()->occupancy.get()) << "shared, not copied";
+  ASSERT_TRUE(mission
+                  ->Apply(ObservationReceived{
+                      "a", {2, kSecond_ns, pose, support::ScanInBox(pose, 2.5, 2.5)}})
+                  .ok());
+  ASSERT_TRUE(mission->Apply(PosteriorRefreshed{kSecond_ns}).ok());
+  EXPECT_NE(before->occupancy.get(), mission->Snapshot()->occupancy.get());
+  EXPECT_TRUE(SameBytes(*before->occupancy, copy));
+}
+
+TEST(Mission, RefreshIsDueAfterItsPeriodOfSampleTime) {
+  const auto mission = MissionWith({"a"});
+  EXPECT_FALSE(mission->posterior_stale());
+  const auto gas = [&](std::int64_t sequence, std::int64_t time_ns) {
+    return mission->Apply(ObservationReceived{"a", {sequence, time_ns, {}, GasReading{1.0, 0.0}}});
+  };
+  ASSERT_TRUE(gas(1, 10 * kSecond_ns).ok());
+  EXPECT_TRUE(mission->posterior_stale());
+  EXPECT_TRUE(mission->refresh_due());
+  ASSERT_TRUE(mission->Apply(PosteriorRefreshed{10 * kSecond_ns}).ok());
+  EXPECT_FALSE(mission->posterior_stale());
+  ASSERT_TRUE(gas(2, 11 * kSecond_ns).ok());
+  EXPECT_FALSE(mission->refresh_due());
+  ASSERT_TRUE(gas(3, 12 * kSecond_ns).ok());
+  EXPECT_TRUE(mission->refresh_due());
+}
+
+TEST(MissionCreate, RefusesInvalidOptions) {
+  MissionOptions options;
+  options.gas.prior_precision = NAN;
+  EXPECT_EQ(Mission::Create(options).status().code(), absl::StatusCode::kInvalidArgument);
+}
+
+}  // namespace
+}  // namespace plumescout
