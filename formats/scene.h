@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "core/types/cell_state.h"
+#include "core/types/grid.h"
+#include "core/types/pose2.h"
+
+namespace plumescout {
+
+// Continuous release. The rate is (ppm at the centre of a new filament) x (filaments per second).
+struct GasSource {
+  int id = 0;
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double z_m = 0.0;
+  double rate_ppm_per_s = 0.0;
+
+  friend bool operator==(const GasSource&, const GasSource&) = default;
+};
+
+// Concentration over time; frame t is the state t * dt_s after the start of the run.
+struct ConcentrationSeries {
+  int frames = 0;
+  double dt_s = 0.5;
+  double scale_ppm_per_count = 0.05;
+  std::vector<std::uint16_t> counts;  // frames x height x width, index = t * cells + cell index
+
+  friend bool operator==(const ConcentrationSeries&, const ConcentrationSeries&) = default;
+};
+
+// Horizontal wind at the sensor's height; zero in obstacles.
+struct WindField {
+  Grid<float> u_mps;  // eastward
+  Grid<float> v_mps;  // northward
+
+  friend bool operator==(const WindField&, const WindField&) = default;
+};
+
+// A place with a gas leak and everything that is true of it. All rasters have the geometry of
+// `occupancy`, which is never unknown; occupied cells have concentration 0.
+struct Scene {
+  std::string name;
+  double sensor_height_m = 0.5;
+  Grid<CellState> occupancy;
+  Grid<float> conc_mean_ppm;  // over all frames: the truth that errors are measured against
+  Grid<float> conc_std_ppm;   // over the frames
+  std::vector<Grid<float>> conc_mean_by_source_ppm;  // in the order of `sources`
+  ConcentrationSeries series;
+  std::optional<WindField> wind;
+  std::vector<GasSource> sources;
+  Pose2 start_pose;                     // of the robot, on a free cell
+  double critical_threshold_ppm = 2.5;  // [XIT] Sec. VI-B: free cells above it are critical
+
+  const GridGeometry& geometry() const { return occupancy.geometry(); }
+};
+
+// kInvalidArgument, naming the field, unless all rasters have the geometry of the occupancy, all
+// numbers are finite, concentrations are not negative, and the start stands on a free cell.
+absl::Status ValidateScene(const Scene& scene);
+
+// Concentration at the cell nearest to `point` in the frame nearest to `time_s`, both clamped to
+// the scene, ppm. REQUIRES: the scene is valid.
+double SampleConcentration_ppm(const Scene& scene, Point2 point, double time_s);
+
+}  // namespace plumescout
