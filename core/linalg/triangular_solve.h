@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "core/linalg/supernodal_factor.h"
+#include "core/linalg/supernodal_pattern.h"
+
+namespace plumescout {
+
+// x = A^-1 b from its factor: P^T L^-T L^-1 P b. b and x hold n values and may be the same memory.
+void SolveSupernodes(const SupernodalPattern& pattern, const FactorValues& factor,
+                     std::span<const double> b, std::span<double> x);
+
+}  // namespace plumescout
