@@ -64,7 +64,8 @@ class ObservationStream {
 struct PlanQuery {
   PlanRequest request;
   std::int64_t lease_token = 0;
-  std::int64_t min_applied_sequence = 0;  // wait until this much of the robot's log is in the belief
+  std::int64_t min_applied_sequence =
+      0;  // wait until this much of the robot's log is in the belief
   absl::Duration budget = absl::Seconds(1);    // for planning; 0: the server's default
   absl::Duration timeout = absl::Seconds(10);  // of the whole call
 };

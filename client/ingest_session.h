@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include "absl/base/thread_annotations.h"
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "absl/synchronization/mutex.h"
+#include "absl/time/time.h"
+#include "client/backoff.h"
+#include "client/planner_client.h"
+#include "client/robot_log.h"
+
+namespace plumescout::client {
+
+struct IngestOptions {
+  RobotLogOptions log;
+  BackoffOptions backoff;
+  std::size_t max_batch_observations = 64;
+  std::size_t max_batch_bytes = std::size_t{1} << 17;  // half the server's receive limit
+  // While acknowledgements are due, new observations wait at most this long for the stream.
+  absl::Duration read_slice = absl::Milliseconds(5);
+  absl::Duration idle_check = absl::Milliseconds(200);  // how often a quiet stream is looked at
+  absl::Duration ack_timeout = absl::Seconds(10);       // no word for so long: the link is dead
+};
+
+// Called on the session's own thread; they must not call back into the session.
+struct IngestCallbacks {
+  // The server does not know the robot (any more): create the mission if need be and register.
+  std::function<absl::StatusOr<RobotSession>()> rejoin;
+  std::function<void(const ObservationRejected&)> on_rejected;  // may be empty
+  // OK when a stream has opened, otherwise why it ended. May be empty.
+  std::function<void(const absl::Status&)> on_link;
+};
+
+struct IngestStatistics {
+  std::int64_t last_sequence = 0;     // appended up to here
+  std::int64_t applied_sequence = 0;  // as last acknowledged
+  std::int64_t durable_sequence = 0;
+  std::int64_t sent = 0;      // observations written to a stream, repetitions included
+  std::int64_t rejected = 0;  // refused by the server; they count as applied
+  std::int64_t lost = 0;      // dropped from a full log before any server had applied them
+  std::int64_t reconnects = 0;
+  std::int64_t server_restarts = 0;
+  bool link_up = false;
+};
+
+// Brings a robot's log to the server and keeps it there, whatever the link does. Appending never
+// waits: a thread of the session's own moves the data within the server's credit, reopens a broken
+// stream with growing waits, resumes where the server says, and tells a restarted server everything
+// again. Thread-safe.
+class IngestSession {
+ public:
+  // Starts the thread. `client` must outlive the session.
+  IngestSession(PlannerClient& client, RobotSession session, IngestCallbacks callbacks,
+                const IngestOptions& options);
+  // Ends the stream; what is not acknowledged by now is not waited for.
+  ~IngestSession();
+  IngestSession(const IngestSession&) = delete;
+  IngestSession& operator=(const IngestSession&) = delete;
+
+  // Numbers an observation and leaves it to the session. Returns its number.
+  std::int64_t Append(std::int64_t sample_time_ns, const Pose2& pose,
+                      std::variant<Scan, GasReading> payload);
+
+  // Waits until the server has applied the log up to `sequence`. kDeadlineExceeded if it has not in
+  // time; kFailedPrecondition once the session has ended for good: another client has the lease
+  // (LEASE_SUPERSEDED), or the server's log of this robot is longer than ours.
+  absl::Status WaitApplied(std::int64_t sequence, absl::Duration timeout);
+
+  // The standing to plan with; a rejoin changes it.
+  RobotSession session() const;
+  IngestStatistics statistics() const;
+  // OK while the session lives; why it ended for good otherwise.
+  absl::Status health() const;
+
+ private:
+  // Positions on one stream.
+  struct Cursor {
+    std::int64_t next = 1;     // to send
+    std::int64_t applied = 0;  // acknowledged
+    std::int64_t credit = 0;
+    absl::Time last_word;  // from the server
+  };
+
+  void Run();
+  absl::Status ServeOneStream();
+  absl::Status Pump(ObservationStream& stream);
+  absl::StatusOr<bool> Send(ObservationStream& stream, Cursor& cursor);
+  absl::Status Receive(ObservationStream& stream, absl::Duration timeout, Cursor& cursor);
+  void Digest(const IngestReply& reply, Cursor& cursor);
+  absl::Status NoteOpened(const IngestState& opened);
+  void NoteEnded(const absl::Status& status);
+  void NoteState(const IngestState& state);
+  absl::Status Rejoin();
+  void WaitForWork(const Cursor& cursor);
+  void WaitBeforeRetry();
+  bool stopping() const;
+
+  PlannerClient& client_;
+  const IngestCallbacks callbacks_;
+  const IngestOptions options_;
+  Backoff backoff_;  // of the thread alone
+
+  mutable absl::Mutex mutex_;
+  RobotSession session_ ABSL_GUARDED_BY(mutex_);
+  RobotLog log_ ABSL_GUARDED_BY(mutex_);
+  IngestStatistics statistics_ ABSL_GUARDED_BY(mutex_);
+  absl::Status health_ ABSL_GUARDED_BY(mutex_);
+  bool stopping_ ABSL_GUARDED_BY(mutex_) = false;
+
+  std::thread thread_;  // last: it uses everything above
+};
+
+}  // namespace plumescout::client

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "client/motion.h"
+
+namespace plumescout::client {
+namespace {
+
+constexpr double kSecondsPerNanosecond = 1e-9;
+
+class IdealMotion final : public Motion {
+ public:
+  IdealMotion(const Trajectory& trajectory, std::int64_t departure_ns)
+      : trajectory_(trajectory), departure_ns_(departure_ns) {}
+
+  absl::Status Step(RobotDriver& driver) override {
+    elapsed_s_ = static_cast<double>(driver.now_ns() - departure_ns_) * kSecondsPerNanosecond;
+    stepped_ = true;
+    return driver.PlaceAt(PoseAt(trajectory_, elapsed_s_));
+  }
+
+  bool done() const override {
+    const Waypoint& last = trajectory_.waypoints.back();
+    return stepped_ && elapsed_s_ >= last.arrival_time_s + last.dwell_s;
+  }
+
+  std::vector<Point2> PathAhead(const Pose2& pose) const override {
+    std::vector<Point2> path = {pose.position()};
+    for (const Waypoint& waypoint : trajectory_.waypoints) {
+      if (waypoint.arrival_time_s > elapsed_s_) path.push_back(waypoint.pose.position());
+    }
+    return path;
+  }
+
+ private:
+  const Trajectory trajectory_;
+  const std::int64_t departure_ns_;
+  double elapsed_s_ = 0.0;
+  bool stepped_ = false;
+};
+
+class SteeredMotion final : public Motion {
+ public:
+  SteeredMotion(const Trajectory& trajectory, const FollowerOptions& options)
+      : follower_(trajectory, options) {}
+
+  absl::Status Step(RobotDriver& driver) override {
+    return driver.Drive(follower_.Step(driver.pose(), driver.now_ns()));
+  }
+  bool done() const override { return follower_.done(); }
+  std::vector<Point2> PathAhead(const Pose2& pose) const override {
+    return follower_.PathAhead(pose.position());
+  }
+
+ private:
+  PathFollower follower_;
+};
+
+}  // namespace
+
+std::unique_ptr<Motion> StartMotion(Following following, const Trajectory& trajectory,
+                                    const FollowerOptions& options, std::int64_t departure_ns) {
+  if (following == Following::kIdeal) {
+    return std::make_unique<IdealMotion>(trajectory, departure_ns);
+  }
+  return std::make_unique<SteeredMotion>(trajectory, options);
+}
+
+}  // namespace plumescout::client

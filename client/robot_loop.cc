@@ -1,0 +1,286 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "client/robot_loop.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/time/clock.h"
+#include "client/error_reason.h"
+#include "core/types/status_macros.h"
+
+namespace plumescout::client {
+namespace {
+
+constexpr double kNanosecondsPerSecond = 1e9;
+// A leg is given up after this multiple of its planned time, and a little for the first turn.
+constexpr double kLegPatienceFactor = 3.0;
+constexpr double kLegPatience_s = 10.0;
+// Remainders of a wait below this are rounding.
+constexpr double kTimeRounding_s = 1e-6;
+
+std::int64_t ToNanoseconds(double duration_s) {
+  return std::llround(duration_s * kNanosecondsPerSecond);
+}
+
+absl::Status RequirePositive(absl::string_view field, double value) {
+  if (value > 0.0 && std::isfinite(value)) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(field, " = ", value, " must be > 0 and finite"));
+}
+
+absl::Status RequireNotNegative(absl::string_view field, double value) {
+  if (value >= 0.0 && std::isfinite(value)) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(field, " = ", value, " must be >= 0 and finite"));
+}
+
+}  // namespace
+
+absl::Status Validate(const RobotLoopOptions& options) {
+  PLUMESCOUT_RETURN_IF_ERROR(RequirePositive("tick_s", options.tick_s));
+  PLUMESCOUT_RETURN_IF_ERROR(RequirePositive("radius_m", options.participation.radius_m));
+  PLUMESCOUT_RETURN_IF_ERROR(RequirePositive("stand_before_retry_s", options.stand_before_retry_s));
+  PLUMESCOUT_RETURN_IF_ERROR(RequireNotNegative("look_around_s", options.look_around_s));
+  PLUMESCOUT_RETURN_IF_ERROR(RequireNotNegative("plan_latency_s", options.plan_latency_s));
+  PLUMESCOUT_RETURN_IF_ERROR(RequireNotNegative("time_limit_s", options.time_limit_s));
+  PLUMESCOUT_RETURN_IF_ERROR(RequireNotNegative("rates.scan_hz", options.rates.scan_hz));
+  return RequireNotNegative("rates.gas_hz", options.rates.gas_hz);
+}
+
+RobotLoop::RobotLoop(PlannerClient& client, RobotDriver& driver, const RobotLoopOptions& options,
+                     RobotObserver& observer)
+    : client_(client), driver_(driver), options_(options), observer_(observer) {
+  options_.follower.tick_s = options_.tick_s;
+  options_.blockage.radius_m = options_.participation.radius_m;
+}
+
+absl::StatusOr<RobotResult> RobotLoop::Run(const StopFn& stop) {
+  stop_ = stop;
+  PLUMESCOUT_RETURN_IF_ERROR(Validate(options_));
+  PLUMESCOUT_RETURN_IF_ERROR(JoinMission());
+  if (!over_) {
+    StartSensing();
+    const absl::Status explored = Explore();
+    const absl::Status finished = Finish();
+    PLUMESCOUT_RETURN_IF_ERROR(explored);
+    PLUMESCOUT_RETURN_IF_ERROR(finished);
+  }
+  return result_;
+}
+
+absl::Status RobotLoop::JoinMission() {
+  Backoff backoff(options_.ingest.backoff);
+  const absl::Time give_up = absl::Now() + options_.link_patience;
+  while (!Over()) {
+    absl::StatusOr<RobotSession> joined = Join(client_, options_.participation);
+    if (joined.ok()) {
+      joined_ = *std::move(joined);
+      return absl::OkStatus();
+    }
+    if (!IsRetriable(joined.status()) || absl::Now() > give_up) return joined.status();
+    observer_.OnLink(joined.status());
+    absl::SleepFor(backoff.Next());
+  }
+  return absl::OkStatus();
+}
+
+void RobotLoop::StartSensing() {
+  start_ns_ = driver_.now_ns();
+  last_tick_ns_ = start_ns_ - 1;
+  last_position_ = driver_.pose().position();
+  IngestCallbacks callbacks{
+      .rejoin = [this] { return Join(client_, options_.participation); },
+      .on_rejected = [this](const ObservationRejected& r) { observer_.OnRejected(r); },
+      .on_link = [this](const absl::Status& status) { observer_.OnLink(status); }};
+  ingest_.emplace(client_, *std::move(joined_), std::move(callbacks), options_.ingest);
+  bridge_.emplace(
+      driver_, options_.rates,
+      [this](std::int64_t time_ns, const Pose2& pose, std::variant<Scan, GasReading> payload) {
+        ingest_->Append(time_ns, pose, std::move(payload));
+      });
+}
+
+absl::Status RobotLoop::Explore() {
+  PLUMESCOUT_RETURN_IF_ERROR(Stand(options_.look_around_s));
+  while (!Over()) {
+    PLUMESCOUT_RETURN_IF_ERROR(ingest_->health());
+    if (leg_.has_value()) {
+      PLUMESCOUT_RETURN_IF_ERROR(Tick(options_.tick_s));
+    } else if (options_.pacing == Pacing::kLockstep) {
+      PLUMESCOUT_RETURN_IF_ERROR(AskInLockstep());
+    } else {
+      PLUMESCOUT_RETURN_IF_ERROR(AskWhileRunning());
+    }
+  }
+  return absl::OkStatus();
+}
+
+absl::Status RobotLoop::Finish() {
+  absl::Status status = driver_.Drive({});
+  if (leg_.has_value()) status.Update(EndLeg(ProgressOutcome::kAborted));
+  if (pending_.valid()) pending_.wait();
+  const std::int64_t last = ingest_->statistics().last_sequence;
+  // What is missing shows in the statistics.
+  const bool drained = ingest_->WaitApplied(last, options_.drain_timeout).ok();
+  if (report_.has_value() && drained) {
+    status.Update(client_.ReportProgress(ingest_->session(), report_->plan, report_->outcome));
+  }
+  result_.elapsed_s = elapsed_s();
+  result_.ingest = ingest_->statistics();
+  return status;
+}
+
+// Acts, senses, then lets time go by. A leg that ends here leaves no time to go by: the next plan
+// is asked for at this very instant.
+absl::Status RobotLoop::Tick(double duration_s) {
+  if (leg_.has_value()) PLUMESCOUT_RETURN_IF_ERROR(leg_->motion->Step(driver_));
+  PLUMESCOUT_RETURN_IF_ERROR(bridge_->Poll());
+  NoteProgress();
+  if (const auto outcome = LegOutcome(); outcome.has_value()) return EndLeg(*outcome);
+  return driver_.Advance(duration_s);
+}
+
+absl::Status RobotLoop::Stand(double duration_s) {
+  double left_s = duration_s;
+  while (left_s > kTimeRounding_s && !Over()) {
+    const double step_s = std::min(left_s, options_.tick_s);
+    PLUMESCOUT_RETURN_IF_ERROR(Tick(step_s));
+    left_s -= step_s;
+  }
+  return absl::OkStatus();
+}
+
+void RobotLoop::NoteProgress() {
+  const std::int64_t now_ns = driver_.now_ns();
+  if (now_ns == last_tick_ns_) return;
+  last_tick_ns_ = now_ns;
+  const Pose2 pose = driver_.pose();
+  result_.distance_m += Distance_m(last_position_, pose.position());
+  last_position_ = pose.position();
+  observer_.OnTick({.time_ns = now_ns,
+                    .elapsed_s = elapsed_s(),
+                    .pose = pose,
+                    .plan = leg_.has_value() ? leg_->plan : 0,
+                    .ingest = ingest_->statistics()});
+}
+
+// How the leg has ended; nothing while it goes on, or without one.
+std::optional<ProgressOutcome> RobotLoop::LegOutcome() const {
+  if (!leg_.has_value()) return std::nullopt;
+  if (leg_->motion->done()) return ProgressOutcome::kReached;
+  if (driver_.now_ns() > leg_->deadline_ns) return ProgressOutcome::kAborted;
+  const std::optional<Scan>& scan = bridge_->latest_scan();
+  const bool blocked =
+      scan.has_value() && PathBlocked(*scan, bridge_->latest_scan_pose(),
+                                      leg_->motion->PathAhead(driver_.pose()), options_.blockage);
+  return blocked ? std::optional(ProgressOutcome::kBlocked) : std::nullopt;
+}
+
+absl::Status RobotLoop::EndLeg(ProgressOutcome outcome) {
+  report_ = PlanReport{.plan = leg_->plan, .outcome = outcome};
+  leg_.reset();
+  int& count = outcome == ProgressOutcome::kReached   ? result_.reached
+               : outcome == ProgressOutcome::kBlocked ? result_.blocked
+                                                      : result_.aborted;
+  ++count;
+  observer_.OnReport(report_->plan, outcome);
+  return driver_.Drive({});
+}
+
+absl::Status RobotLoop::AskInLockstep() {
+  Backoff backoff(options_.ingest.backoff);
+  const absl::Time give_up = absl::Now() + options_.link_patience;
+  while (!Over()) {
+    PlanAnswer answer = RunPlanJob(client_, *ingest_, NextJob());
+    if (answer.reported) report_.reset();
+    const absl::Status status = answer.plan.status();
+    if (status.ok()) {
+      PLUMESCOUT_RETURN_IF_ERROR(Stand(options_.plan_latency_s));
+      return Digest(std::move(answer));
+    }
+    observer_.OnPlanFailure(status);
+    PLUMESCOUT_RETURN_IF_ERROR(ingest_->health());
+    if (!MayAskAgain(status) || absl::Now() > give_up) return status;
+    if (absl::IsFailedPrecondition(status)) {  // the belief lacks something that readings bring
+      return Stand(options_.stand_before_retry_s);
+    }
+    absl::SleepFor(backoff.Next());  // the world waits
+  }
+  return absl::OkStatus();
+}
+
+absl::Status RobotLoop::AskWhileRunning() {
+  if (!pending_.valid()) {
+    pending_ = std::async(std::launch::async, [this, job = NextJob()]() mutable {
+      return RunPlanJob(client_, *ingest_, std::move(job));
+    });
+  }
+  if (pending_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    return Tick(options_.tick_s);
+  }
+  PlanAnswer answer = pending_.get();
+  if (answer.reported) report_.reset();
+  if (answer.plan.ok()) return Digest(std::move(answer));
+  observer_.OnPlanFailure(answer.plan.status());
+  if (!MayAskAgain(answer.plan.status())) return answer.plan.status();
+  return Stand(options_.stand_before_retry_s);
+}
+
+PlanJob RobotLoop::NextJob() {
+  asked_ns_ = driver_.now_ns();
+  asked_pose_ = driver_.pose();
+  PlanJob job{.report = report_, .query = {}};
+  job.query.request.robot = options_.participation.robot;
+  job.query.request.start = asked_pose_;
+  job.query.request.max_edge_evaluations = options_.max_edge_evaluations;
+  job.query.min_applied_sequence = ingest_->statistics().last_sequence;
+  job.query.budget = options_.plan_budget;
+  job.query.timeout = options_.plan_timeout;
+  return job;
+}
+
+absl::Status RobotLoop::Digest(PlanAnswer answer) {
+  const Plan& plan = *answer.plan;
+  ++result_.plans;
+  observer_.OnPlan({.time_ns = asked_ns_,
+                    .elapsed_s = static_cast<double>(asked_ns_ - start_ns_) / kNanosecondsPerSecond,
+                    .pose = asked_pose_,
+                    .plan = plan,
+                    .rpc_wall = answer.rpc_wall});
+  if (plan.phase == MissionPhase::kComplete) {
+    result_.end = RobotEnd::kMissionComplete;
+    over_ = true;
+    return absl::OkStatus();
+  }
+  return Depart(plan);
+}
+
+absl::Status RobotLoop::Depart(const Plan& plan) {
+  if (plan.trajectory.waypoints.empty() || !(plan.trajectory.duration_s > 0.0)) {
+    return Stand(options_.stand_before_retry_s);
+  }
+  const std::int64_t now_ns = driver_.now_ns();
+  const double patience_s = kLegPatience_s + kLegPatienceFactor * plan.trajectory.duration_s;
+  leg_ = Leg{.plan = plan.id,
+             .motion = StartMotion(options_.following, plan.trajectory, options_.follower, now_ns),
+             .deadline_ns = now_ns + ToNanoseconds(patience_s)};
+  return absl::OkStatus();
+}
+
+// Latches: a run that is over stays over.
+bool RobotLoop::Over() {
+  if (over_) return true;
+  const bool time_up = options_.time_limit_s > 0.0 && bridge_.has_value() &&
+                       elapsed_s() > options_.time_limit_s - kTimeRounding_s;
+  if (time_up) result_.end = RobotEnd::kTimeLimit;
+  over_ = time_up || stop_();
+  return over_;
+}
+
+double RobotLoop::elapsed_s() const {
+  return static_cast<double>(driver_.now_ns() - start_ns_) / kNanosecondsPerSecond;
+}
+
+}  // namespace plumescout::client

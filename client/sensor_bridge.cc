@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "client/sensor_bridge.h"
+
+#include <cmath>
+#include <utility>
+
+#include "core/types/status_macros.h"
+
+namespace plumescout::client {
+namespace {
+
+constexpr double kNanosecondsPerSecond = 1e9;
+// A clock set back by more than this many periods starts the schedule anew; less is jitter.
+constexpr double kClockStepPeriods = 2.0;
+// Asked so little early, a reading is due: a clock that rounds must not cost every other one.
+constexpr double kEarlyPeriods = 0.05;
+
+}  // namespace
+
+SampleSchedule::SampleSchedule(std::int64_t start_ns, double rate_hz)
+    : start_ns_(start_ns), rate_hz_(rate_hz) {}
+
+bool SampleSchedule::Due(std::int64_t now_ns) {
+  if (!(rate_hz_ > 0.0)) return false;
+  const double early_periods =
+      static_cast<double>(TimeOf_ns(next_count_) - now_ns) * rate_hz_ / kNanosecondsPerSecond;
+  if (early_periods > kClockStepPeriods) {
+    start_ns_ = now_ns;
+    next_count_ = 0;
+  } else if (early_periods > kEarlyPeriods) {
+    return false;
+  }
+  PlaceAfter(now_ns);
+  return true;
+}
+
+std::optional<std::int64_t> SampleSchedule::next_ns() const {
+  if (!(rate_hz_ > 0.0)) return std::nullopt;
+  return TimeOf_ns(next_count_);
+}
+
+std::int64_t SampleSchedule::TimeOf_ns(std::int64_t count) const {
+  const double offset_ns = static_cast<double>(count) * kNanosecondsPerSecond / rate_hz_;
+  return start_ns_ + std::llround(offset_ns);
+}
+
+void SampleSchedule::PlaceAfter(std::int64_t now_ns) {
+  const double elapsed_s = static_cast<double>(now_ns - start_ns_) / kNanosecondsPerSecond;
+  next_count_ = static_cast<std::int64_t>(std::floor(elapsed_s * rate_hz_ + kEarlyPeriods)) + 1;
+}
+
+SensorBridge::SensorBridge(RobotDriver& driver, const SensorRates& rates, Sink sink)
+    : driver_(driver),
+      sink_(std::move(sink)),
+      scan_schedule_(driver.now_ns(), rates.scan_hz),
+      gas_schedule_(driver.now_ns(), rates.gas_hz) {}
+
+absl::Status SensorBridge::Poll() {
+  const std::int64_t now_ns = driver_.now_ns();
+  if (scan_schedule_.Due(now_ns)) PLUMESCOUT_RETURN_IF_ERROR(PollScan(now_ns));
+  if (gas_schedule_.Due(now_ns)) PLUMESCOUT_RETURN_IF_ERROR(PollGas(now_ns));
+  return absl::OkStatus();
+}
+
+absl::Status SensorBridge::PollScan(std::int64_t now_ns) {
+  absl::StatusOr<Scan> scan = driver_.TakeScan();
+  if (!scan.ok()) return Missed(scan.status());
+  latest_scan_ = *scan;
+  latest_scan_pose_ = driver_.pose();
+  ++scans_taken_;
+  sink_(now_ns, latest_scan_pose_, *std::move(scan));
+  return absl::OkStatus();
+}
+
+absl::Status SensorBridge::PollGas(std::int64_t now_ns) {
+  const absl::StatusOr<GasReading> reading = driver_.ReadGas();
+  if (!reading.ok()) return Missed(reading.status());
+  sink_(now_ns, driver_.pose(), *reading);
+  return absl::OkStatus();
+}
+
+absl::Status SensorBridge::Missed(const absl::Status& status) {
+  if (!absl::IsUnavailable(status)) return status;
+  ++readings_missed_;
+  return absl::OkStatus();
+}
+
+}  // namespace plumescout::client

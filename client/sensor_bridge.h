@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <variant>
+
+#include "absl/status/status.h"
+#include "client/robot_driver.h"
+#include "core/types/gas_reading.h"
+#include "core/types/pose2.h"
+#include "core/types/scan.h"
+
+namespace plumescout::client {
+
+// How often each sensor is read, by the robot's clock; 0 switches a sensor off.
+struct SensorRates {
+  double scan_hz = 10.0;
+  double gas_hz = 2.0;
+};
+
+// When a periodic reading is due: at start + k / rate for whole k, so that rounding and lateness
+// never add up. Readings missed while nobody asked are skipped, not made up for.
+class SampleSchedule {
+ public:
+  SampleSchedule(std::int64_t start_ns, double rate_hz);
+
+  // Whether a reading is due at `now_ns`; if so, the next one is put on its place of the grid.
+  bool Due(std::int64_t now_ns);
+  // The earliest time at which Due() is true; nothing if switched off.
+  std::optional<std::int64_t> next_ns() const;
+
+ private:
+  std::int64_t TimeOf_ns(std::int64_t count) const;
+  void PlaceAfter(std::int64_t now_ns);
+
+  std::int64_t start_ns_;
+  double rate_hz_;
+  std::int64_t next_count_ = 0;
+};
+
+// Reads a robot's sensors when they are due and hands every reading, with the pose and the time at
+// which it was taken, to a sink (normally the robot's log).
+class SensorBridge {
+ public:
+  using Sink = std::function<void(std::int64_t sample_time_ns, const Pose2& pose,
+                                  std::variant<Scan, GasReading> payload)>;
+
+  // Both sensors are due at once. `driver` must outlive the bridge.
+  SensorBridge(RobotDriver& driver, const SensorRates& rates, Sink sink);
+
+  // Reads what is due now. A sensor that answers kUnavailable has nothing to say this time: it is
+  // counted and passed over. Any other error of a sensor is returned.
+  absl::Status Poll();
+
+  const std::optional<Scan>& latest_scan() const { return latest_scan_; }
+  const Pose2& latest_scan_pose() const { return latest_scan_pose_; }
+  std::int64_t scans_taken() const { return scans_taken_; }
+  std::int64_t readings_missed() const { return readings_missed_; }
+
+ private:
+  absl::Status PollScan(std::int64_t now_ns);
+  absl::Status PollGas(std::int64_t now_ns);
+  absl::Status Missed(const absl::Status& status);
+
+  RobotDriver& driver_;
+  Sink sink_;
+  SampleSchedule scan_schedule_;
+  SampleSchedule gas_schedule_;
+  std::optional<Scan> latest_scan_;
+  Pose2 latest_scan_pose_;
+  std::int64_t scans_taken_ = 0;
+  std::int64_t readings_missed_ = 0;
+};
+
+}  // namespace plumescout::client
