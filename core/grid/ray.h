@@ -11,42 +11,76 @@
 
 namespace plumescout {
 
+// One axis of a walk along a segment: the column (or row) it is in and when it leaves it.
+struct RayAxis {
+  RayAxis(double start, double delta, int first, int last_cell)
+      : start_cells(start),
+        inverse_delta(1.0 / delta),
+        cell(first),
+        last(last_cell),
+        step(last_cell > first ? 1 : -1) {
+    FindNext();
+  }
+
+  void Advance() {
+    cell += step;
+    FindNext();
+  }
+
+  // Computed afresh for every edge, so that rounding does not add up along the walk.
+  void FindNext() {
+    next = cell == last
+               ? std::numeric_limits<double>::infinity()
+               : (static_cast<double>(step > 0 ? cell + 1 : cell) - start_cells) * inverse_delta;
+  }
+
+  double start_cells;
+  double inverse_delta;
+  int cell;
+  int last;
+  int step;
+  double next = 0.0;  // parameter t in [0, 1] of the next crossing; infinite in the last cell
+};
+
 // Walks the cells that the segment from `from` to `to` (frame map) crosses, in order, by exact
 // grid traversal (Amanatides and Woo). `visit(cell, length_cells)` gets the length of the segment
 // inside the cell in units of the cell edge and returns false to stop. Lengths add up to the
 // length of the segment; cells may lie outside the raster; a point is one cell of length 0.
+//
+// A segment through the corner of four cells touches the two cells beside its way with length 0,
+// so that the walk sees the same cells in both directions and cannot slip between two walls that
+// meet at a corner. That is the corner rule of core/grid/neighbours.h.
+//
 // Returns false if a visit stopped the walk. Cost: O(cells crossed).
+// REQUIRES: finite points, fewer than 2^30 cells apart.
 template <typename Visit>
 bool WalkSegment(const GridGeometry& geometry, Point2 from, Point2 to, Visit&& visit) {
-  const double ax = (from.x_m - geometry.origin_x_m) / geometry.resolution_m;
-  const double ay = (from.y_m - geometry.origin_y_m) / geometry.resolution_m;
+  // Crossings of both axes nearer than this are one corner; as wide as the edges of CellAt.
+  constexpr double kCorner_cells = 1e-9;
   const double dx = (to.x_m - from.x_m) / geometry.resolution_m;
   const double dy = (to.y_m - from.y_m) / geometry.resolution_m;
-  const double length_cells = std::hypot(dx, dy);
-  Cell cell = geometry.CellAt(from);
+  const double length_cells = std::sqrt(dx * dx + dy * dy);
+  const Cell first = geometry.CellAt(from);
   const Cell last = geometry.CellAt(to);
-  const int step_x = dx > 0.0 ? 1 : -1;
-  const int step_y = dy > 0.0 ? 1 : -1;
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  // Parameter t in [0, 1] at which the segment crosses the next vertical and horizontal edge.
-  const auto crossing = [](double a, double d, int c, int step) {
-    return d == 0.0 ? kNever : (static_cast<double>(c + (step > 0 ? 1 : 0)) - a) / d;
-  };
+  RayAxis x((from.x_m - geometry.origin_x_m) / geometry.resolution_m, dx, first.x, last.x);
+  RayAxis y((from.y_m - geometry.origin_y_m) / geometry.resolution_m, dy, first.y, last.y);
   double t = 0.0;
-  int remaining = std::abs(last.x - cell.x) + std::abs(last.y - cell.y);
-  while (remaining-- > 0) {
-    double next_x = cell.x == last.x ? kNever : crossing(ax, dx, cell.x, step_x);
-    double next_y = cell.y == last.y ? kNever : crossing(ay, dy, cell.y, step_y);
-    const double next = std::clamp(std::min(next_x, next_y), t, 1.0);
-    if (!visit(cell, (next - t) * length_cells)) return false;
-    if (next_x <= next_y) {
-      cell.x += step_x;
-    } else {
-      cell.y += step_y;
-    }
+  while (x.cell != last.x || y.cell != last.y) {
+    const double next = std::clamp(std::min(x.next, y.next), t, 1.0);
+    if (!visit(Cell{x.cell, y.cell}, (next - t) * length_cells)) return false;
     t = next;
+    if (std::abs(x.next - y.next) * length_cells <= kCorner_cells) {
+      if (!visit(Cell{x.cell + x.step, y.cell}, 0.0)) return false;
+      if (!visit(Cell{x.cell, y.cell + y.step}, 0.0)) return false;
+      x.Advance();
+      y.Advance();
+    } else if (x.next < y.next) {
+      x.Advance();
+    } else {
+      y.Advance();
+    }
   }
-  return visit(cell, (1.0 - t) * length_cells);
+  return visit(last, (1.0 - t) * length_cells);
 }
 
 }  // namespace plumescout
