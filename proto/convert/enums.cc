@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "proto/convert/enums.h"
+
+#include "absl/strings/str_cat.h"
+#include "proto/convert/field.h"
+
+namespace plumescout {
+namespace {
+
+template <typename Core, typename Proto>
+struct Row {
+  Core core;
+  Proto proto;
+};
+
+// Every enum is one table, read both ways.
+constexpr Row<MissionPhase, v1::MissionPhase> kPhases[] = {
+    {MissionPhase::kExploring, v1::MISSION_PHASE_EXPLORING},
+    {MissionPhase::kGasProbing, v1::MISSION_PHASE_GAS_PROBING},
+    {MissionPhase::kFallback, v1::MISSION_PHASE_FALLBACK},
+    {MissionPhase::kComplete, v1::MISSION_PHASE_COMPLETE},
+};
+constexpr Row<GoalKind, v1::GoalKind> kGoalKinds[] = {
+    {GoalKind::kOccupancyFrontier, v1::GOAL_KIND_OCCUPANCY_FRONTIER},
+    {GoalKind::kGasFrontier, v1::GOAL_KIND_GAS_FRONTIER},
+    {GoalKind::kRandomFreeSpace, v1::GOAL_KIND_RANDOM_FREE_SPACE},
+};
+constexpr Row<FrontierKind, v1::GoalKind> kFrontierKinds[] = {
+    {FrontierKind::kOccupancy, v1::GOAL_KIND_OCCUPANCY_FRONTIER},
+    {FrontierKind::kGas, v1::GOAL_KIND_GAS_FRONTIER},
+};
+constexpr Row<PathSource, v1::Candidate::PathSource> kPathSources[] = {
+    {PathSource::kTree, v1::Candidate::PATH_SOURCE_TREE},
+    {PathSource::kGridGuard, v1::Candidate::PATH_SOURCE_GRID_GUARD},
+};
+constexpr Row<RejectionReason, v1::RejectedGoal::Reason> kRejectionReasons[] = {
+    {RejectionReason::kUnreachable, v1::RejectedGoal::REASON_UNREACHABLE},
+    {RejectionReason::kTooSmall, v1::RejectedGoal::REASON_TOO_SMALL},
+    {RejectionReason::kSetAside, v1::RejectedGoal::REASON_SET_ASIDE},
+    {RejectionReason::kClaimed, v1::RejectedGoal::REASON_CLAIMED},
+    {RejectionReason::kNotDrawn, v1::RejectedGoal::REASON_NOT_DRAWN},
+    {RejectionReason::kTooClose, v1::RejectedGoal::REASON_TOO_CLOSE},
+    {RejectionReason::kSearchStopped, v1::RejectedGoal::REASON_SEARCH_STOPPED},
+};
+constexpr Row<PlanEnd, v1::Plan::End> kPlanEnds[] = {
+    {PlanEnd::kAllGoalsReached, v1::Plan::END_ALL_GOALS_REACHED},
+    {PlanEnd::kQueueExhausted, v1::Plan::END_QUEUE_EXHAUSTED},
+    {PlanEnd::kStopped, v1::Plan::END_STOPPED},
+    {PlanEnd::kNoGoals, v1::Plan::END_NO_GOALS},
+    {PlanEnd::kMissionComplete, v1::Plan::END_MISSION_COMPLETE},
+};
+constexpr Row<ProgressOutcome, v1::ReportProgressRequest::Outcome> kOutcomes[] = {
+    {ProgressOutcome::kReached, v1::ReportProgressRequest::OUTCOME_REACHED},
+    {ProgressOutcome::kBlocked, v1::ReportProgressRequest::OUTCOME_BLOCKED},
+    {ProgressOutcome::kAborted, v1::ReportProgressRequest::OUTCOME_ABORTED},
+};
+constexpr Row<WgfdScope, v1::WgfdScope> kWgfdScopes[] = {
+    {WgfdScope::kReachable, v1::WGFD_SCOPE_REACHABLE},
+    {WgfdScope::kLocal, v1::WGFD_SCOPE_LOCAL},
+};
+constexpr Row<GoalPolicy, v1::GoalPolicy> kGoalPolicies[] = {
+    {GoalPolicy::kGasFirst, v1::GOAL_POLICY_GAS_FIRST},
+    {GoalPolicy::kOccupancyFirst, v1::GOAL_POLICY_OCCUPANCY_FIRST},
+    {GoalPolicy::kOccupancyOnly, v1::GOAL_POLICY_OCCUPANCY_ONLY},
+};
+constexpr Row<CostKind, v1::CostKind> kCostKinds[] = {
+    {CostKind::kUcb, v1::COST_KIND_UCB},
+    {CostKind::kEuclidean, v1::COST_KIND_EUCLIDEAN},
+};
+constexpr Row<SamplingKind, v1::SamplingKind> kSamplingKinds[] = {
+    {SamplingKind::kSystematic, v1::SAMPLING_KIND_SYSTEMATIC},
+    {SamplingKind::kIid, v1::SAMPLING_KIND_IID},
+};
+constexpr Row<SelectionRule, v1::SelectionRule> kSelectionRules[] = {
+    {SelectionRule::kLeastCost, v1::SELECTION_RULE_LEAST_COST},
+    {SelectionRule::kMeanUcb, v1::SELECTION_RULE_MEAN_UCB},
+};
+
+// Proto's zero, "unspecified", if the table lacks the value.
+template <typename Core, typename Proto, std::size_t N>
+Proto Find(const Row<Core, Proto> (&table)[N], Core value) {
+  for (const auto& row : table) {
+    if (row.core == value) return row.proto;
+  }
+  return Proto{};
+}
+
+template <typename Core, typename Proto, std::size_t N>
+absl::StatusOr<Core> Find(const Row<Core, Proto> (&table)[N], Proto value,
+                          absl::string_view field) {
+  for (const auto& row : table) {
+    if (row.proto == value) return row.core;
+  }
+  const int number = static_cast<int>(value);
+  if (number == 0) return FieldError(field, "must be set");
+  return FieldError(field, static_cast<double>(number), "is not a value of this field");
+}
+
+}  // namespace
+
+v1::MissionPhase ToProto(MissionPhase value) { return Find(kPhases, value); }
+v1::GoalKind ToProto(GoalKind value) { return Find(kGoalKinds, value); }
+v1::GoalKind ToProto(FrontierKind value) { return Find(kFrontierKinds, value); }
+v1::Candidate::PathSource ToProto(PathSource value) { return Find(kPathSources, value); }
+v1::RejectedGoal::Reason ToProto(RejectionReason value) { return Find(kRejectionReasons, value); }
+v1::Plan::End ToProto(PlanEnd value) { return Find(kPlanEnds, value); }
+v1::ReportProgressRequest::Outcome ToProto(ProgressOutcome value) { return Find(kOutcomes, value); }
+v1::WgfdScope ToProto(WgfdScope value) { return Find(kWgfdScopes, value); }
+v1::GoalPolicy ToProto(GoalPolicy value) { return Find(kGoalPolicies, value); }
+v1::CostKind ToProto(CostKind value) { return Find(kCostKinds, value); }
+v1::SamplingKind ToProto(SamplingKind value) { return Find(kSamplingKinds, value); }
+v1::SelectionRule ToProto(SelectionRule value) { return Find(kSelectionRules, value); }
+
+absl::StatusOr<MissionPhase> FromProto(v1::MissionPhase proto, absl::string_view field) {
+  return Find(kPhases, proto, field);
+}
+absl::StatusOr<GoalKind> FromProto(v1::GoalKind proto, absl::string_view field) {
+  return Find(kGoalKinds, proto, field);
+}
+absl::StatusOr<FrontierKind> FrontierKindFromProto(v1::GoalKind proto, absl::string_view field) {
+  return Find(kFrontierKinds, proto, field);
+}
+absl::StatusOr<PathSource> FromProto(v1::Candidate::PathSource proto, absl::string_view field) {
+  return Find(kPathSources, proto, field);
+}
+absl::StatusOr<RejectionReason> FromProto(v1::RejectedGoal::Reason proto, absl::string_view field) {
+  return Find(kRejectionReasons, proto, field);
+}
+absl::StatusOr<PlanEnd> FromProto(v1::Plan::End proto, absl::string_view field) {
+  return Find(kPlanEnds, proto, field);
+}
+absl::StatusOr<ProgressOutcome> FromProto(v1::ReportProgressRequest::Outcome proto,
+                                          absl::string_view field) {
+  return Find(kOutcomes, proto, field);
+}
+absl::StatusOr<WgfdScope> FromProto(v1::WgfdScope proto, absl::string_view field) {
+  return Find(kWgfdScopes, proto, field);
+}
+absl::StatusOr<GoalPolicy> FromProto(v1::GoalPolicy proto, absl::string_view field) {
+  return Find(kGoalPolicies, proto, field);
+}
+absl::StatusOr<CostKind> FromProto(v1::CostKind proto, absl::string_view field) {
+  return Find(kCostKinds, proto, field);
+}
+absl::StatusOr<SamplingKind> FromProto(v1::SamplingKind proto, absl::string_view field) {
+  return Find(kSamplingKinds, proto, field);
+}
+absl::StatusOr<SelectionRule> FromProto(v1::SelectionRule proto, absl::string_view field) {
+  return Find(kSelectionRules, proto, field);
+}
+
+}  // namespace plumescout

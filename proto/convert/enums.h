@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "absl/status/statusor.h"
+#include "absl/strings/string_view.h"
+#include "core/types/event.h"
+#include "core/types/frontier.h"
+#include "core/types/options.h"
+#include "core/types/plan.h"
+#include "plumescout/v1/options.pb.h"
+#include "plumescout/v1/planning_service.pb.h"
+#include "plumescout/v1/types.pb.h"
+
+namespace plumescout {
+
+v1::MissionPhase ToProto(MissionPhase value);
+v1::GoalKind ToProto(GoalKind value);
+v1::GoalKind ToProto(FrontierKind value);
+v1::Candidate::PathSource ToProto(PathSource value);
+v1::RejectedGoal::Reason ToProto(RejectionReason value);
+v1::Plan::End ToProto(PlanEnd value);
+v1::ReportProgressRequest::Outcome ToProto(ProgressOutcome value);
+v1::WgfdScope ToProto(WgfdScope value);
+v1::GoalPolicy ToProto(GoalPolicy value);
+v1::CostKind ToProto(CostKind value);
+v1::SamplingKind ToProto(SamplingKind value);
+v1::SelectionRule ToProto(SelectionRule value);
+
+// kInvalidArgument naming `field` for unset and unknown values.
+absl::StatusOr<MissionPhase> FromProto(v1::MissionPhase proto, absl::string_view field);
+absl::StatusOr<GoalKind> FromProto(v1::GoalKind proto, absl::string_view field);
+absl::StatusOr<FrontierKind> FrontierKindFromProto(v1::GoalKind proto, absl::string_view field);
+absl::StatusOr<PathSource> FromProto(v1::Candidate::PathSource proto, absl::string_view field);
+absl::StatusOr<RejectionReason> FromProto(v1::RejectedGoal::Reason proto, absl::string_view field);
+absl::StatusOr<PlanEnd> FromProto(v1::Plan::End proto, absl::string_view field);
+absl::StatusOr<ProgressOutcome> FromProto(v1::ReportProgressRequest::Outcome proto,
+                                          absl::string_view field);
+absl::StatusOr<WgfdScope> FromProto(v1::WgfdScope proto, absl::string_view field);
+absl::StatusOr<GoalPolicy> FromProto(v1::GoalPolicy proto, absl::string_view field);
+absl::StatusOr<CostKind> FromProto(v1::CostKind proto, absl::string_view field);
+absl::StatusOr<SamplingKind> FromProto(v1::SamplingKind proto, absl::string_view field);
+absl::StatusOr<SelectionRule> FromProto(v1::SelectionRule proto, absl::string_view field);
+
+}  // namespace plumescout

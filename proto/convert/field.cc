@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "proto/convert/field.h"
+
+#include <cmath>
+
+#include "absl/strings/escaping.h"
+#include "absl/strings/str_cat.h"
+#include "google/rpc/error_details.pb.h"
+#include "proto/convert/status.h"
+
+namespace plumescout {
+namespace {
+
+constexpr std::size_t kMaxEchoedBytes = 80;  // of a refused string, before escaping
+
+absl::Status Violation(absl::string_view field, absl::string_view description) {
+  google::rpc::BadRequest detail;
+  auto* violation = detail.add_field_violations();
+  violation->set_field(std::string(field));
+  violation->set_description(std::string(description));
+  absl::Status status = absl::InvalidArgumentError(absl::StrCat(field, " ", description));
+  AttachDetail(detail, status);
+  return status;
+}
+
+}  // namespace
+
+absl::Status FieldError(absl::string_view field, absl::string_view value, absl::string_view rule) {
+  return Violation(
+      field, absl::StrCat("= \"", absl::CHexEscape(value.substr(0, kMaxEchoedBytes)), "\" ", rule));
+}
+
+absl::Status FieldError(absl::string_view field, double value, absl::string_view rule) {
+  return Violation(field, absl::StrCat("= ", value, " ", rule));
+}
+
+absl::Status FieldError(absl::string_view field, absl::string_view rule) {
+  return Violation(field, rule);
+}
+
+absl::Status CheckFinite(absl::string_view field, double value) {
+  return std::isfinite(value) ? absl::OkStatus() : FieldError(field, value, "must be finite");
+}
+
+absl::Status CheckPositive(absl::string_view field, double value) {
+  return std::isfinite(value) && value > 0.0 ? absl::OkStatus()
+                                             : FieldError(field, value, "must be finite and > 0");
+}
+
+absl::Status CheckNotNegative(absl::string_view field, double value) {
+  return std::isfinite(value) && value >= 0.0 ? absl::OkStatus()
+                                              : FieldError(field, value, "must be finite and >= 0");
+}
+
+absl::Status CheckRange(absl::string_view field, double value, double low, double high) {
+  return value >= low && value <= high
+             ? absl::OkStatus()
+             : FieldError(field, value, absl::StrCat("must be in [", low, ", ", high, "]"));
+}
+
+absl::Status CheckIntRange(absl::string_view field, std::int64_t value, std::int64_t low,
+                           std::int64_t high) {
+  if (value >= low && value <= high) return absl::OkStatus();
+  return Violation(field, absl::StrCat("= ", value, " must be in [", low, ", ", high, "]"));
+}
+
+absl::Status CheckPresent(absl::string_view field, bool present) {
+  return present ? absl::OkStatus() : FieldError(field, "must be set");
+}
+
+std::string Join(absl::string_view parent, absl::string_view name) {
+  return parent.empty() ? std::string(name) : absl::StrCat(parent, ".", name);
+}
+
+std::string Join(absl::string_view parent, absl::string_view name, int index) {
+  return absl::StrCat(Join(parent, name), "[", index, "]");
+}
+
+absl::Status WithField(const absl::Status& status, absl::string_view parent) {
+  if (!absl::IsInvalidArgument(status) || !FieldViolations(status).empty()) return status;
+  const absl::string_view message = status.message();
+  const std::size_t name_end = message.find(' ');
+  if (name_end == absl::string_view::npos) return Violation(parent, message);
+  return Violation(Join(parent, message.substr(0, name_end)), message.substr(name_end + 1));
+}
+
+}  // namespace plumescout

@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "proto/convert/map.h"
+
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "core/types/status_macros.h"
+#include "proto/convert/enums.h"
+#include "proto/convert/field.h"
+#include "proto/convert/geometry.h"
+#include "proto/convert/names.h"
+
+namespace plumescout {
+namespace {
+
+// The helpers below overload these rather than hide them.
+using plumescout::FromProto;
+using plumescout::ToProto;
+
+v1::Frontier ToProto(const Frontier& frontier) {
+  v1::Frontier proto;
+  proto.set_kind(ToProto(frontier.kind));
+  for (const Cell cell : frontier.cells) {
+    proto.add_cell_columns(cell.x);
+    proto.add_cell_rows(cell.y);
+  }
+  *proto.mutable_centroid() = ToProto(frontier.centroid);
+  *proto.mutable_goal_cell() = ToProto(frontier.goal_cell);
+  proto.set_travel_m(frontier.reachable ? frontier.travel_m : 0.0);
+  proto.set_reachable(frontier.reachable);
+  return proto;
+}
+
+v1::RobotOnMap ToProto(const RobotState& robot, const MissionId& mission) {
+  v1::RobotOnMap proto;
+  proto.set_robot(RobotResource({mission, robot.id}));
+  proto.set_radius_m(robot.radius_m);
+  if (robot.has_pose) *proto.mutable_pose() = ToProto(robot.pose);
+  proto.set_applied_sequence(robot.applied_sequence);
+  proto.set_rejected_observation_count(robot.rejected_observations);
+  return proto;
+}
+
+v1::GasCounters ToProto(const GasCounters& counters) {
+  v1::GasCounters proto;
+  proto.set_reading_count(counters.readings);
+  proto.set_in_posterior_count(counters.in_posterior);
+  proto.set_moved_count(counters.moved_to_neighbour);
+  proto.set_waiting_count(counters.waiting);
+  return proto;
+}
+
+absl::StatusOr<Frontier> FromProto(const v1::Frontier& proto, absl::string_view field) {
+  Frontier frontier;
+  PLUMESCOUT_ASSIGN_OR_RETURN(frontier.kind,
+                              FrontierKindFromProto(proto.kind(), Join(field, "kind")));
+  if (proto.cell_columns_size() != proto.cell_rows_size()) {
+    return FieldError(Join(field, "cell_rows"), "must be as many as cell_columns");
+  }
+  for (int i = 0; i < proto.cell_columns_size(); ++i) {
+    frontier.cells.push_back({proto.cell_columns(i), proto.cell_rows(i)});
+  }
+  PLUMESCOUT_ASSIGN_OR_RETURN(frontier.centroid,
+                              FromProto(proto.centroid(), Join(field, "centroid")));
+  frontier.goal_cell = FromProto(proto.goal_cell());
+  PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative(Join(field, "travel_m"), proto.travel_m()));
+  frontier.travel_m = proto.travel_m();
+  frontier.reachable = proto.reachable();
+  return frontier;
+}
+
+absl::StatusOr<RobotState> FromProto(const v1::RobotOnMap& proto, absl::string_view field) {
+  RobotState robot;
+  PLUMESCOUT_ASSIGN_OR_RETURN(const RobotName name,
+                              ParseRobotName(Join(field, "robot"), proto.robot()));
+  robot.id = name.robot;
+  PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative(Join(field, "radius_m"), proto.radius_m()));
+  robot.radius_m = proto.radius_m();
+  robot.has_pose = proto.has_pose();
+  PLUMESCOUT_ASSIGN_OR_RETURN(robot.pose, FromProto(proto.pose(), Join(field, "pose")));
+  robot.applied_sequence = proto.applied_sequence();
+  robot.rejected_observations = proto.rejected_observation_count();
+  return robot;
+}
+
+GasCounters FromProto(const v1::GasCounters& proto) {
+  return {proto.reading_count(), proto.in_posterior_count(), proto.moved_count(),
+          proto.waiting_count()};
+}
+
+v1::MapTile EncodeGas(v1::MapLayer layer, const Grid<float>& values, bool full_precision,
+                      const CellRect& rect) {
+  return full_precision ? EncodeFloats(layer, values, rect) : EncodeScaled(layer, values, rect);
+}
+
+absl::Status ReadLists(const v1::MapStatus& proto, absl::string_view field, MapSnapshot& map) {
+  for (int i = 0; i < proto.frontiers_size(); ++i) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(Frontier frontier,
+                                FromProto(proto.frontiers(i), Join(field, "frontiers", i)));
+    map.frontiers.push_back(std::move(frontier));
+  }
+  for (int i = 0; i < proto.robots_size(); ++i) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(RobotState robot,
+                                FromProto(proto.robots(i), Join(field, "robots", i)));
+    map.robots.push_back(std::move(robot));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::StatusOr<MapView> MapViewFromProto(const google::protobuf::RepeatedField<int>& layers,
+                                         bool full_precision, absl::string_view field) {
+  if (layers.empty()) return MapView{.full_precision = full_precision};
+  MapView view{false, false, false, full_precision};
+  for (int i = 0; i < layers.size(); ++i) {
+    switch (layers[i]) {
+      case v1::MAP_LAYER_OCCUPANCY:
+        view.occupancy = true;
+        break;
+      case v1::MAP_LAYER_GAS_MEAN:
+        view.gas_mean = true;
+        break;
+      case v1::MAP_LAYER_GAS_VARIANCE:
+        view.gas_variance = true;
+        break;
+      default:
+        return FieldError(Join("", field, i), layers[i], "is not a layer");
+    }
+  }
+  return view;
+}
+
+std::vector<v1::MapTile> EncodeTiles(const MapSnapshot& map, const MapView& view,
+                                     const CellRect& rect) {
+  std::vector<v1::MapTile> tiles;
+  if (view.occupancy) tiles.push_back(EncodeStates(map.occupancy, rect));
+  if (view.gas_mean) {
+    tiles.push_back(EncodeGas(v1::MAP_LAYER_GAS_MEAN, map.gas_mean_ppm, view.full_precision, rect));
+  }
+  if (view.gas_variance) {
+    tiles.push_back(
+        EncodeGas(v1::MAP_LAYER_GAS_VARIANCE, map.gas_variance_ppm2, view.full_precision, rect));
+  }
+  return tiles;
+}
+
+v1::MapStatus StatusToProto(const MapSnapshot& map, const MissionId& mission) {
+  v1::MapStatus proto;
+  *proto.mutable_geometry() = ToProto(map.occupancy.geometry());
+  proto.set_gas_threshold_ppm(map.gas_threshold_ppm);
+  for (const Frontier& frontier : map.frontiers) *proto.add_frontiers() = ToProto(frontier);
+  for (const RobotState& robot : map.robots) *proto.add_robots() = ToProto(robot, mission);
+  *proto.mutable_gas_counters() = ToProto(map.gas_counters);
+  proto.set_phase(ToProto(map.phase));
+  return proto;
+}
+
+v1::GetMapResponse ToProto(const MapSnapshot& map, const MissionId& mission, const MapView& view) {
+  v1::GetMapResponse proto;
+  proto.set_revision(map.revision);
+  *proto.mutable_status() = StatusToProto(map, mission);
+  for (v1::MapTile& tile : EncodeTiles(map, view, WholeRaster(map.occupancy.geometry()))) {
+    *proto.add_tiles() = std::move(tile);
+  }
+  return proto;
+}
+
+absl::Status DecodeTile(const v1::MapTile& tile, absl::string_view field, MapSnapshot& map) {
+  switch (tile.layer()) {
+    case v1::MAP_LAYER_OCCUPANCY:
+      return DecodeStates(tile, field, map.occupancy);
+    case v1::MAP_LAYER_GAS_MEAN:
+      return DecodeValues(tile, field, map.gas_mean_ppm);
+    case v1::MAP_LAYER_GAS_VARIANCE:
+      return DecodeValues(tile, field, map.gas_variance_ppm2);
+    default:
+      return FieldError(Join(field, "layer"), tile.layer(), "is not a layer");
+  }
+}
+
+absl::StatusOr<MapSnapshot> FromProto(const v1::MapStatus& proto, absl::string_view field) {
+  MapSnapshot map;
+  PLUMESCOUT_ASSIGN_OR_RETURN(const GridGeometry geometry,
+                              FromProto(proto.geometry(), Join(field, "geometry")));
+  PLUMESCOUT_RETURN_IF_ERROR(ReadLists(proto, field, map));
+  PLUMESCOUT_ASSIGN_OR_RETURN(map.phase, FromProto(proto.phase(), Join(field, "phase")));
+  PLUMESCOUT_RETURN_IF_ERROR(
+      CheckFinite(Join(field, "gas_threshold_ppm"), proto.gas_threshold_ppm()));
+  map.gas_threshold_ppm = proto.gas_threshold_ppm();
+  map.gas_counters = FromProto(proto.gas_counters());
+  map.occupancy = Grid<CellState>(geometry, CellState::kUnknown);
+  map.gas_mean_ppm = Grid<float>(geometry, std::numeric_limits<float>::quiet_NaN());
+  map.gas_variance_ppm2 = map.gas_mean_ppm;
+  return map;
+}
+
+absl::StatusOr<MapSnapshot> FromProto(const v1::GetMapResponse& proto) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(MapSnapshot map, FromProto(proto.status(), "status"));
+  map.revision = proto.revision();
+  for (int i = 0; i < proto.tiles_size(); ++i) {
+    PLUMESCOUT_RETURN_IF_ERROR(DecodeTile(proto.tiles(i), Join("", "tiles", i), map));
+  }
+  return map;
+}
+
+}  // namespace plumescout

@@ -1,0 +1,252 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "proto/convert/options.h"
+
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/strip.h"
+#include "core/types/status_macros.h"
+#include "proto/convert/enums.h"
+#include "proto/convert/field.h"
+
+namespace plumescout {
+namespace {
+
+// The helpers below overload these rather than hide them.
+using plumescout::FromProto;
+using plumescout::ToProto;
+
+constexpr std::size_t kMaxStrategyName = 64;
+
+v1::OccupancyOptions ToProto(const OccupancyOptions& options) {
+  v1::OccupancyOptions proto;
+  proto.set_resolution_m(options.resolution_m);
+  proto.set_inflation_radius_m(options.inflation_radius_m);
+  proto.set_free_threshold_probability(options.free_threshold);
+  proto.set_occupied_threshold_probability(options.occupied_threshold);
+  proto.set_hit_log_odds(options.hit_log_odds);
+  proto.set_miss_log_odds(options.miss_log_odds);
+  proto.set_clamp_log_odds(options.clamp_log_odds);
+  proto.set_max_extent_m(options.max_extent_m);
+  proto.set_max_cell_count(options.max_cells);
+  return proto;
+}
+
+v1::GasOptions ToProto(const GasOptions& options) {
+  v1::GasOptions proto;
+  proto.set_prior_precision_per_ppm2(options.prior_precision);
+  proto.set_observation_precision_per_ppm2(options.observation_precision);
+  proto.set_background_precision_per_ppm2(options.background_precision);
+  proto.set_background_mean_ppm(options.background_mean_ppm);
+  proto.set_ageing_half_life_s(options.ageing_half_life_s);
+  proto.set_refresh_period_s(options.refresh_period_s);
+  return proto;
+}
+
+v1::FrontierOptions ToProto(const FrontierOptions& options) {
+  v1::FrontierOptions proto;
+  proto.set_min_occupancy_cell_count(options.min_occupancy_cells);
+  proto.set_min_gas_cell_count(options.min_gas_cells);
+  proto.set_observed_variance_ratio(options.observed_variance_ratio);
+  if (options.observed_variance_ppm2.has_value()) {
+    proto.set_observed_variance_ppm2(*options.observed_variance_ppm2);
+  }
+  proto.set_gas_percentile(options.gas_percentile);
+  proto.set_min_gas_threshold_ppm(options.min_gas_threshold_ppm);
+  if (options.fixed_gas_threshold_ppm.has_value()) {
+    proto.set_fixed_gas_threshold_ppm(*options.fixed_gas_threshold_ppm);
+  }
+  proto.set_wgfd_scope(ToProto(options.wgfd_scope));
+  return proto;
+}
+
+v1::PlanningOptions ToProto(const PlanningOptions& options) {
+  v1::PlanningOptions proto;
+  proto.set_strategy(options.strategy);
+  proto.set_goal_policy(ToProto(options.goals));
+  proto.set_draw_goals(options.draw_goals);
+  proto.set_max_goal_count(options.max_goals);
+  proto.set_min_goal_distance_m(options.min_goal_distance_m);
+  proto.set_cost(ToProto(options.cost));
+  proto.set_selection_cost(ToProto(options.selection_cost));
+  proto.set_selection_rule(ToProto(options.selection));
+  proto.set_alpha_per_m(options.alpha);
+  proto.set_beta(options.beta);
+  proto.set_raw_variance(options.raw_variance);
+  proto.set_sample_count(options.samples);
+  proto.set_nearest_sample_count(options.nearest_samples);
+  proto.set_uniform_share(options.uniform_share);
+  proto.set_sampling(ToProto(options.sampling));
+  proto.set_radius_factor(options.radius_factor);
+  proto.set_mixture_radius(options.mixture_radius);
+  proto.set_grid_guard(options.grid_guard);
+  proto.set_speed_mps(options.speed_mps);
+  proto.set_dwell_s(options.dwell_s);
+  proto.set_set_aside_s(options.set_aside_s);
+  proto.set_fallback_limit(options.fallback_limit);
+  return proto;
+}
+
+template <typename From, typename To>
+void Take(bool set, const From& from, To& to) {
+  if (set) to = static_cast<To>(from);
+}
+
+template <typename Proto, typename Core>
+absl::Status TakeEnum(Proto proto, const std::string& field, Core& core) {
+  if (static_cast<int>(proto) == 0) return absl::OkStatus();
+  PLUMESCOUT_ASSIGN_OR_RETURN(core, FromProto(proto, field));
+  return absl::OkStatus();
+}
+
+void Read(const v1::OccupancyOptions& proto, OccupancyOptions& options) {
+  Take(proto.has_resolution_m(), proto.resolution_m(), options.resolution_m);
+  Take(proto.has_inflation_radius_m(), proto.inflation_radius_m(), options.inflation_radius_m);
+  Take(proto.has_free_threshold_probability(), proto.free_threshold_probability(),
+       options.free_threshold);
+  Take(proto.has_occupied_threshold_probability(), proto.occupied_threshold_probability(),
+       options.occupied_threshold);
+  Take(proto.has_hit_log_odds(), proto.hit_log_odds(), options.hit_log_odds);
+  Take(proto.has_miss_log_odds(), proto.miss_log_odds(), options.miss_log_odds);
+  Take(proto.has_clamp_log_odds(), proto.clamp_log_odds(), options.clamp_log_odds);
+  Take(proto.has_max_extent_m(), proto.max_extent_m(), options.max_extent_m);
+  Take(proto.has_max_cell_count(), proto.max_cell_count(), options.max_cells);
+}
+
+void Read(const v1::GasOptions& proto, GasOptions& options) {
+  Take(proto.has_prior_precision_per_ppm2(), proto.prior_precision_per_ppm2(),
+       options.prior_precision);
+  Take(proto.has_observation_precision_per_ppm2(), proto.observation_precision_per_ppm2(),
+       options.observation_precision);
+  Take(proto.has_background_precision_per_ppm2(), proto.background_precision_per_ppm2(),
+       options.background_precision);
+  Take(proto.has_background_mean_ppm(), proto.background_mean_ppm(), options.background_mean_ppm);
+  Take(proto.has_ageing_half_life_s(), proto.ageing_half_life_s(), options.ageing_half_life_s);
+  Take(proto.has_refresh_period_s(), proto.refresh_period_s(), options.refresh_period_s);
+}
+
+absl::Status Read(const v1::FrontierOptions& proto, absl::string_view field,
+                  FrontierOptions& options) {
+  Take(proto.has_min_occupancy_cell_count(), proto.min_occupancy_cell_count(),
+       options.min_occupancy_cells);
+  Take(proto.has_min_gas_cell_count(), proto.min_gas_cell_count(), options.min_gas_cells);
+  Take(proto.has_observed_variance_ratio(), proto.observed_variance_ratio(),
+       options.observed_variance_ratio);
+  Take(proto.has_observed_variance_ppm2(), proto.observed_variance_ppm2(),
+       options.observed_variance_ppm2);
+  Take(proto.has_gas_percentile(), proto.gas_percentile(), options.gas_percentile);
+  Take(proto.has_min_gas_threshold_ppm(), proto.min_gas_threshold_ppm(),
+       options.min_gas_threshold_ppm);
+  Take(proto.has_fixed_gas_threshold_ppm(), proto.fixed_gas_threshold_ppm(),
+       options.fixed_gas_threshold_ppm);
+  return TakeEnum(proto.wgfd_scope(), Join(field, "wgfd_scope"), options.wgfd_scope);
+}
+
+absl::Status ReadChoices(const v1::PlanningOptions& proto, absl::string_view field,
+                         PlanningOptions& options) {
+  if (proto.strategy().size() > kMaxStrategyName) {
+    return FieldError(Join(field, "strategy"), proto.strategy(), "is longer than 64 bytes");
+  }
+  Take(proto.has_strategy(), proto.strategy(), options.strategy);
+  PLUMESCOUT_RETURN_IF_ERROR(
+      TakeEnum(proto.goal_policy(), Join(field, "goal_policy"), options.goals));
+  PLUMESCOUT_RETURN_IF_ERROR(TakeEnum(proto.cost(), Join(field, "cost"), options.cost));
+  PLUMESCOUT_RETURN_IF_ERROR(
+      TakeEnum(proto.selection_cost(), Join(field, "selection_cost"), options.selection_cost));
+  PLUMESCOUT_RETURN_IF_ERROR(
+      TakeEnum(proto.selection_rule(), Join(field, "selection_rule"), options.selection));
+  return TakeEnum(proto.sampling(), Join(field, "sampling"), options.sampling);
+}
+
+void ReadNumbers(const v1::PlanningOptions& proto, PlanningOptions& options) {
+  Take(proto.has_draw_goals(), proto.draw_goals(), options.draw_goals);
+  Take(proto.has_max_goal_count(), proto.max_goal_count(), options.max_goals);
+  Take(proto.has_min_goal_distance_m(), proto.min_goal_distance_m(), options.min_goal_distance_m);
+  Take(proto.has_alpha_per_m(), proto.alpha_per_m(), options.alpha);
+  Take(proto.has_beta(), proto.beta(), options.beta);
+  Take(proto.has_raw_variance(), proto.raw_variance(), options.raw_variance);
+  Take(proto.has_sample_count(), proto.sample_count(), options.samples);
+  Take(proto.has_nearest_sample_count(), proto.nearest_sample_count(), options.nearest_samples);
+  Take(proto.has_uniform_share(), proto.uniform_share(), options.uniform_share);
+  Take(proto.has_radius_factor(), proto.radius_factor(), options.radius_factor);
+  Take(proto.has_mixture_radius(), proto.mixture_radius(), options.mixture_radius);
+  Take(proto.has_grid_guard(), proto.grid_guard(), options.grid_guard);
+  Take(proto.has_speed_mps(), proto.speed_mps(), options.speed_mps);
+  Take(proto.has_dwell_s(), proto.dwell_s(), options.dwell_s);
+  Take(proto.has_set_aside_s(), proto.set_aside_s(), options.set_aside_s);
+  Take(proto.has_fallback_limit(), proto.fallback_limit(), options.fallback_limit);
+}
+
+struct FieldName {
+  absl::string_view core;
+  absl::string_view proto;
+};
+
+// Where Validate(options) calls a field differently from the wire.
+constexpr FieldName kRenamed[] = {
+    {"occupancy.free_threshold", "occupancy.free_threshold_probability"},
+    {"occupancy.occupied_threshold", "occupancy.occupied_threshold_probability"},
+    {"occupancy.max_cells", "occupancy.max_cell_count"},
+    {"gas.prior_precision", "gas.prior_precision_per_ppm2"},
+    {"gas.observation_precision", "gas.observation_precision_per_ppm2"},
+    {"gas.background_precision", "gas.background_precision_per_ppm2"},
+    {"frontier.min_occupancy_cells", "frontier.min_occupancy_cell_count"},
+    {"frontier.min_gas_cells", "frontier.min_gas_cell_count"},
+    {"planning.max_goals", "planning.max_goal_count"},
+    {"planning.alpha", "planning.alpha_per_m"},
+    {"planning.samples", "planning.sample_count"},
+    {"planning.nearest_samples", "planning.nearest_sample_count"},
+    {"max_beams", "max_beam_count"},
+    {"max_robots", "max_robot_count"},
+};
+
+// The same refusal in the words of the wire.
+absl::Status Rename(const absl::Status& status, absl::string_view field) {
+  for (const auto& name : kRenamed) {
+    absl::string_view rest = status.message();
+    if (absl::ConsumePrefix(&rest, absl::StrCat(name.core, " "))) {
+      return WithField(absl::InvalidArgumentError(absl::StrCat(name.proto, " ", rest)), field);
+    }
+  }
+  return WithField(status, field);
+}
+
+}  // namespace
+
+v1::MissionOptions ToProto(const MissionOptions& options) {
+  v1::MissionOptions proto;
+  *proto.mutable_occupancy() = ToProto(options.occupancy);
+  *proto.mutable_gas() = ToProto(options.gas);
+  *proto.mutable_frontier() = ToProto(options.frontier);
+  *proto.mutable_planning() = ToProto(options.planning);
+  proto.set_pose_limit_m(options.pose_limit_m);
+  proto.set_max_range_m(options.max_range_m);
+  proto.set_max_beam_count(options.max_beams);
+  proto.set_max_concentration_ppm(options.max_concentration_ppm);
+  proto.set_max_robot_count(options.max_robots);
+  proto.set_seed(static_cast<std::int64_t>(options.seed));
+  return proto;
+}
+
+absl::StatusOr<MissionOptions> FromProto(const v1::MissionOptions& proto,
+                                         const MissionOptions& defaults, absl::string_view field) {
+  MissionOptions options = defaults;
+  Read(proto.occupancy(), options.occupancy);
+  Read(proto.gas(), options.gas);
+  PLUMESCOUT_RETURN_IF_ERROR(Read(proto.frontier(), Join(field, "frontier"), options.frontier));
+  PLUMESCOUT_RETURN_IF_ERROR(
+      ReadChoices(proto.planning(), Join(field, "planning"), options.planning));
+  ReadNumbers(proto.planning(), options.planning);
+  Take(proto.has_pose_limit_m(), proto.pose_limit_m(), options.pose_limit_m);
+  Take(proto.has_max_range_m(), proto.max_range_m(), options.max_range_m);
+  Take(proto.has_max_beam_count(), proto.max_beam_count(), options.max_beams);
+  Take(proto.has_max_concentration_ppm(), proto.max_concentration_ppm(),
+       options.max_concentration_ppm);
+  Take(proto.has_max_robot_count(), proto.max_robot_count(), options.max_robots);
+  Take(proto.has_seed(), proto.seed(), options.seed);
+  PLUMESCOUT_RETURN_IF_ERROR(Rename(Validate(options), field));
+  return options;
+}
+
+}  // namespace plumescout

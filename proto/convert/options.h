@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "absl/status/statusor.h"
+#include "absl/strings/string_view.h"
+#include "core/types/options.h"
+#include "plumescout/v1/options.pb.h"
+
+namespace plumescout {
+
+// Every field set, but the overrides that are off.
+v1::MissionOptions ToProto(const MissionOptions& options);
+
+// `defaults` with the fields that are set in `proto`; an enum that is unspecified counts as unset.
+// The result is valid; refusals name the field of `proto`, below `field`.
+absl::StatusOr<MissionOptions> FromProto(const v1::MissionOptions& proto,
+                                         const MissionOptions& defaults, absl::string_view field);
+
+}  // namespace plumescout

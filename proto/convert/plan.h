@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "absl/status/statusor.h"
+#include "absl/strings/string_view.h"
+#include "core/types/plan.h"
+#include "plumescout/v1/planning_service.pb.h"
+
+namespace plumescout {
+
+// Resource names are built below `mission`; a plan that is not committed (id 0) has no name.
+v1::Plan ToProto(const Plan& plan, const MissionId& mission);
+
+// Checks that every number is finite, that the choice is one of the candidates and that the
+// trajectory does not go back in time.
+absl::StatusOr<Plan> FromProto(const v1::Plan& proto, absl::string_view field);
+
+}  // namespace plumescout
