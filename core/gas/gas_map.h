@@ -3,10 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
-#include <vector>
 
 #include "absl/status/status.h"
+#include "core/gas/posterior.h"
+#include "core/gas/reading_store.h"
 #include "core/types/cell_state.h"
 #include "core/types/gas_reading.h"
 #include "core/types/grid.h"
@@ -31,11 +31,13 @@ class GasMap {
   // REQUIRES: Validate(options).ok().
   explicit GasMap(const GasOptions& options);
 
+  // A reading that is not finite, or beyond 1e9 ppm, is counted and waits for ever.
   void Add(std::int64_t time_ns, Point2 position, const GasReading& reading);
 
-  // Brings the posterior to `states` and ages readings to `time_ns`. Errors: kInternal if the
-  // factorisation fails (the old posterior stays).
-  // Cost: at 160x200 free cells about 0.1 s of CPU; O(n^1.5) for n free cells.
+  // Brings the posterior to `states` and ages readings to `time_ns`. On error the old posterior
+  // stays: kInvalidArgument if the lattice of `states` is not that of the first refresh moved by
+  // whole cells, kInternal if the factorisation fails.
+  // Cost: at 160x200 free cells about 0.06 s of CPU; O(n^1.5) for n free cells.
   absl::Status Refresh(const Grid<CellState>& states, std::int64_t time_ns);
 
   // As of the last refresh, on its geometry; NaN off free cells. Empty before the first.
@@ -45,13 +47,9 @@ class GasMap {
   bool stale() const { return stale_; }  // readings came since the last refresh
 
  private:
-  struct StoredReading {
-    std::int64_t time_ns;
-    Point2 position;
-    GasReading reading;
-  };
   GasOptions options_;
-  std::vector<StoredReading> readings_;
+  ReadingStore readings_;
+  PosteriorSolver solver_;
   Grid<float> mean_ppm_;
   Grid<float> variance_ppm2_;
   GasCounters counters_;

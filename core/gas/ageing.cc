@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/gas/ageing.h"
+
+#include <algorithm>
+
+namespace plumescout {
+namespace {
+
+constexpr double kSecondsPerNanosecond = 1e-9;
+constexpr double kLeastVariance_ppm2 = 1e-9;  // lambda_o <= 1e9, see Validate(GasOptions)
+
+}  // namespace
+
+Ageing::Ageing(const GasOptions& options)
+    : default_variance_ppm2_(1.0 / options.observation_precision),
+      variance_growth_ppm2_per_s_(options.ageing_half_life_s > 0.0
+                                      ? default_variance_ppm2_ / options.ageing_half_life_s
+                                      : 0.0) {}
+
+double Ageing::InitialVariance_ppm2(double own_variance_ppm2) const {
+  return own_variance_ppm2 > 0.0 ? std::max(own_variance_ppm2, kLeastVariance_ppm2)
+                                 : default_variance_ppm2_;
+}
+
+double Ageing::Precision(double initial_variance_ppm2, std::int64_t taken_ns,
+                         std::int64_t now_ns) const {
+  // In double: the difference of any two clocks, without overflow.
+  const double age_s = std::max(
+      0.0, (static_cast<double>(now_ns) - static_cast<double>(taken_ns)) * kSecondsPerNanosecond);
+  return 1.0 / (initial_variance_ppm2 + age_s * variance_growth_ppm2_per_s_);
+}
+
+}  // namespace plumescout

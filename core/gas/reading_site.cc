@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/gas/reading_site.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace plumescout {
+namespace {
+
+constexpr std::array<Cell, 8> kNeighbours = {
+    {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
+constexpr std::uint32_t kBits = 3;  // of one neighbour's number
+constexpr std::uint32_t kMask = (1U << kBits) - 1;
+
+// Offsets are counted in millionths of a cell, so that equal distances compare equal whatever the
+// rounding of the position.
+constexpr double kStepsPerCell = 1e6;
+constexpr std::int64_t kHalfCell = 500'000;
+
+std::int64_t Steps(double offset_m, double resolution_m) {
+  const double steps = std::round(offset_m / resolution_m * kStepsPerCell);
+  return std::clamp(static_cast<std::int64_t>(std::clamp(steps, -kStepsPerCell, kStepsPerCell)),
+                    -kHalfCell, kHalfCell);
+}
+
+std::uint32_t NeighbourOrder(std::int64_t offset_x, std::int64_t offset_y) {
+  std::array<std::uint32_t, kNeighbours.size()> order = {0, 1, 2, 3, 4, 5, 6, 7};
+  const auto squared_distance = [&](std::uint32_t number) {
+    const std::int64_t dx = 2 * kHalfCell * kNeighbours[number].x - offset_x;
+    const std::int64_t dy = 2 * kHalfCell * kNeighbours[number].y - offset_y;
+    return dx * dx + dy * dy;
+  };
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return squared_distance(a) < squared_distance(b);
+  });
+  std::uint32_t packed = 0;
+  for (std::size_t k = order.size(); k-- > 0;) packed = packed << kBits | order[k];
+  return packed;
+}
+
+// The cell as GmrfGraph::At takes it; saturates, as far beyond the grid as it was.
+Cell ToCell(std::int64_t x, std::int64_t y) {
+  constexpr std::int64_t kLimit = 1 << 30;
+  return {static_cast<int>(std::clamp(x, -kLimit, kLimit)),
+          static_cast<int>(std::clamp(y, -kLimit, kLimit))};
+}
+
+}  // namespace
+
+ReadingSite SiteOf(Point2 position, const GridGeometry& anchor) {
+  const Cell cell = anchor.CellAt(position);
+  const Point2 center = anchor.Center(cell);
+  return {cell.x, cell.y,
+          NeighbourOrder(Steps(position.x_m - center.x_m, anchor.resolution_m),
+                         Steps(position.y_m - center.y_m, anchor.resolution_m))};
+}
+
+Placement Place(const ReadingSite& site, std::int64_t shift_x, std::int64_t shift_y,
+                const GmrfGraph& graph) {
+  const Cell own = ToCell(site.x + shift_x, site.y + shift_y);
+  if (const VariableIndex variable = graph.At(own); variable != VariableIndex::kNone) {
+    return {variable, false};
+  }
+  std::uint32_t order = site.neighbour_order;
+  for (std::size_t k = 0; k < kNeighbours.size(); ++k, order >>= kBits) {
+    const Cell step = kNeighbours[order & kMask];
+    const VariableIndex variable = graph.At({own.x + step.x, own.y + step.y});
+    if (variable != VariableIndex::kNone) return {variable, true};
+  }
+  return {};
+}
+
+}  // namespace plumescout
