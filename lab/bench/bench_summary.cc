@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/bench/bench_summary.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "CLI/Config.hpp"
+#include "CLI/Formatter.hpp"
+#include "absl/strings/str_cat.h"
+
+namespace plumescout::lab {
+namespace {
+
+std::string CpuModel() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t colon = line.find(": ");
+    if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
+      return line.substr(colon + 2);
+    }
+  }
+  return "unknown";
+}
+
+double LoadOfLastMinute() {
+  double load = 0.0;
+  return getloadavg(&load, 1) == 1 ? load : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+BenchSummary::BenchSummary(std::uint64_t seed) : seed_(seed), load_(LoadOfLastMinute()) {}
+
+void BenchSummary::Set(const std::string& name, double value) {
+  if (!std::isfinite(value)) return;
+  std::cout << name << " = " << value << std::endl;
+  const auto same = std::find_if(figures_.begin(), figures_.end(),
+                                 [&name](const Figure& figure) { return figure.name == name; });
+  if (same != figures_.end()) {
+    same->value = value;
+  } else {
+    figures_.push_back({name, value});
+  }
+}
+
+std::string BenchSummary::ToJson() const {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const Figure& figure : figures_) json[figure.name] = figure.value;
+  json["about"] = {{"machine", CpuModel()},
+                   {"load", load_},
+                   {"build_type", PLUMESCOUT_BUILD_TYPE},
+                   {"seed", seed_},
+                   {"version", PLUMESCOUT_VERSION}};
+  return json.dump(2) + "\n";
+}
+
+absl::Status BenchSummary::Write(const std::string& path) const {
+  std::ofstream file(path);
+  file << ToJson();
+  file.close();
+  if (file.fail()) return absl::UnavailableError(absl::StrCat("cannot write ", path));
+  return absl::OkStatus();
+}
+
+int RunBench(CLI::App& app, int argc, char** argv,
+             const std::function<absl::Status(BenchSummary&)>& body) {
+  std::string path;
+  std::uint64_t seed = 1;
+  app.add_option("--summary", path, "Write the figures to this JSON file");
+  app.add_option("--seed", seed, "Seed of everything drawn at random")->capture_default_str();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error);
+  }
+  BenchSummary summary(seed);
+  absl::Status status = body(summary);
+  if (status.ok() && !path.empty()) status = summary.Write(path);
+  if (status.ok()) return EXIT_SUCCESS;
+  std::cerr << status << std::endl;
+  return EXIT_FAILURE;
+}
+
+double ThreadCpu_ms() {
+  constexpr double kMsPerS = 1e3;
+  constexpr double kMsPerNs = 1e-6;
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * kMsPerS + static_cast<double>(now.tv_nsec) * kMsPerNs;
+}
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+double MedianCpu_ms(int repeats, const std::function<void()>& run) {
+  run();
+  std::vector<double> times_ms;
+  for (int i = 0; i < repeats; ++i) {
+    const double start_ms = ThreadCpu_ms();
+    run();
+    times_ms.push_back(ThreadCpu_ms() - start_ms);
+  }
+  return Median(std::move(times_ms));
+}
+
+}  // namespace plumescout::lab

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "CLI/App.hpp"
+#include "absl/status/status.h"
+
+namespace plumescout::lab {
+
+// Figures of one run, and what they were measured on. As a file: one flat JSON object, name to
+// number, in the order in which they were set, and the nested object "about" with machine, load,
+// build_type, seed and version.
+class BenchSummary {
+ public:
+  explicit BenchSummary(std::uint64_t seed);
+
+  std::uint64_t seed() const { return seed_; }
+
+  // Adds a figure and prints it. A value that is not finite was not measured and is left out.
+  // Setting a name again replaces its value.
+  void Set(const std::string& name, double value);
+
+  std::string ToJson() const;
+
+  // Errors: kUnavailable if the file cannot be written.
+  absl::Status Write(const std::string& path) const;
+
+ private:
+  struct Figure {
+    std::string name;
+    double value;
+  };
+
+  std::uint64_t seed_;
+  double load_;  // runnable processes over the last minute, before the run
+  std::vector<Figure> figures_;
+};
+
+// The main function of a bench: adds the flags `--summary FILE` and `--seed N` to those that `app`
+// has already, runs `body`, writes the summary. Returns the exit code.
+int RunBench(CLI::App& app, int argc, char** argv,
+             const std::function<absl::Status(BenchSummary&)>& body);
+
+// CPU time that the calling thread has used.
+double ThreadCpu_ms();
+
+// Middle value, mean of the two in the middle of an even number; NaN of none.
+double Median(std::vector<double> values);
+
+// Median CPU time of the calling thread over `repeats` runs, after one that warms up.
+double MedianCpu_ms(int repeats, const std::function<void()>& run);
+
+}  // namespace plumescout::lab

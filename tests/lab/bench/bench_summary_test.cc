@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/bench/bench_summary.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace plumescout::lab {
+namespace {
+
+TEST(BenchSummary, IsAFlatObjectOfNumbersAndWhatTheyWereMeasuredOn) {
+  BenchSummary summary(7);
+  summary.Set("one_ms", 1.5);
+  summary.Set("two_ms", 2.5);
+  const auto json = nlohmann::json::parse(summary.ToJson());
+  EXPECT_EQ(json["one_ms"], 1.5);
+  EXPECT_EQ(json["two_ms"], 2.5);
+  EXPECT_EQ(json["about"]["seed"], 7);
+  for (const char* key : {"machine", "load", "build_type", "version"}) {
+    EXPECT_TRUE(json["about"].contains(key)) << key;
+  }
+  EXPECT_EQ(json.size(), 3U);
+}
+
+TEST(BenchSummary, LeavesOutWhatCouldNotBeMeasured) {
+  BenchSummary summary(1);
+  summary.Set("nan_ms", std::numeric_limits<double>::quiet_NaN());
+  summary.Set("infinite_ms", std::numeric_limits<double>::infinity());
+  EXPECT_EQ(nlohmann::json::parse(summary.ToJson()).size(), 1U);
+}
+
+TEST(BenchSummary, KeepsTheLastValueOfAName) {
+  BenchSummary summary(1);
+  summary.Set("one_ms", 1.0);
+  summary.Set("one_ms", 3.0);
+  EXPECT_EQ(nlohmann::json::parse(summary.ToJson())["one_ms"], 3.0);
+}
+
+TEST(BenchSummary, SaysWhenItsFileCannotBeWritten) {
+  EXPECT_EQ(BenchSummary(1).Write("/nowhere/summary.json").code(), absl::StatusCode::kUnavailable);
+}
+
+TEST(RunBench, WritesTheSummaryOfItsBodyWithTheSeedGiven) {
+  const std::string path = ::testing::TempDir() + "bench_summary_test.json";
+  std::string arguments[] = {"bench", "--seed", "9", "--summary", path};
+  char* argv[] = {arguments[0].data(), arguments[1].data(), arguments[2].data(),
+                  arguments[3].data(), arguments[4].data()};
+  CLI::App app("bench");
+  EXPECT_EQ(RunBench(app, 5, argv,
+                     [](BenchSummary& summary) {
+                       summary.Set("answer", 42.0);
+                       return absl::OkStatus();
+                     }),
+            0);
+  std::ifstream file(path);
+  const auto json = nlohmann::json::parse(file);
+  EXPECT_EQ(json["answer"], 42.0);
+  EXPECT_EQ(json["about"]["seed"], 9);
+}
+
+TEST(RunBench, FailsWhenItsBodyFailsOrAFlagIsUnknown) {
+  std::string arguments[] = {"bench", "--no-such-flag"};
+  char* argv[] = {arguments[0].data(), arguments[1].data()};
+  CLI::App app("bench");
+  EXPECT_NE(RunBench(app, 1, argv, [](BenchSummary&) { return absl::InternalError("no"); }), 0);
+  CLI::App other("bench");
+  EXPECT_NE(RunBench(other, 2, argv, [](BenchSummary&) { return absl::OkStatus(); }), 0);
+}
+
+TEST(Median, IsTheMiddleOrTheMeanOfBothMiddles) {
+  EXPECT_EQ(Median({3.0, 1.0, 2.0}), 2.0);
+  EXPECT_EQ(Median({4.0, 1.0, 2.0, 3.0}), 2.5);
+  EXPECT_TRUE(std::isnan(Median({})));
+}
+
+TEST(MedianCpu, RunsOnceMoreThanItMeasures) {
+  int runs = 0;
+  EXPECT_GE(MedianCpu_ms(5, [&runs] { ++runs; }), 0.0);
+  EXPECT_EQ(runs, 6);
+}
+
+}  // namespace
+}  // namespace plumescout::lab
