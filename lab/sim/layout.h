@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "core/types/pose2.h"
+#include "formats/scene.h"
+#include "lab/sim/flow_domain.h"
+
+namespace plumescout::lab {
+
+// Gap in a wall.
+struct Door {
+  double at_m = 0.0;     // of its middle, along the wall from Wall::from
+  double width_m = 1.0;  // > 0
+};
+
+// Straight wall, at any angle, with square ends half a thickness beyond `from` and `to`.
+struct Wall {
+  Point2 from;
+  Point2 to;
+  double thickness_m = 0.2;  // > 0
+  std::vector<Door> doors;
+};
+
+// Solid rectangle: a container, a pillar, a machine.
+struct Box {
+  Point2 min;
+  Point2 max;
+};
+
+// Window or vent in the outer wall. Air passes; robots, beams and the map see a wall.
+struct Opening {
+  Side side = Side::kWest;
+  double from_m = 0.0;               // along x on the south and north side, along y on the others
+  double to_m = 0.0;                 // > from_m
+  std::optional<double> inflow_mps;  // (0, 30], at right angles into the building; none: outlet
+};
+
+// How released gas spreads. Sources: [XIT] Table I for the growth; the mixing depth was fitted to a
+// three-dimensional simulation of a hall 2.4 m high; the rest as GADEN scenes commonly have it.
+struct GasParameters {
+  double filaments_per_s = 100.0;      // of each source, [1, 1000]
+  double initial_sigma_m = 0.1;        // sigma_0 of a new filament, (0, 5]
+  double growth_m2_per_s = 0.0015;     // gamma: 15 cm^2/s, [0, 1]
+  double diffusivity_m2_per_s = 0.02;  // K of the filaments' random walk, [0, 1]
+  double mixing_depth_m = 2.05;        // height over which old gas is spread, (0, 100]
+};
+
+// A building as a researcher describes it: metres, origin in the lower-left corner.
+struct Layout {
+  std::string name;
+  double size_x_m = 0.0;      // (0, 200]
+  double size_y_m = 0.0;      // (0, 200]
+  double resolution_m = 0.1;  // [0.02, 1]; at most 1,000,000 cells in all
+  double border_m = 0.2;      // thickness of the outer wall, >= one cell
+  std::vector<Wall> walls;
+  std::vector<Box> boxes;
+  std::vector<Opening> openings;
+  std::vector<GasSource> sources;  // at least one
+  Pose2 start_pose;
+  double sensor_height_m = 0.4;         // >= 0
+  double critical_threshold_ppm = 2.5;  // [XIT] section VI-B, > 0
+  GasParameters gas;
+};
+
+// kInvalidArgument naming field, value and range, e.g. "walls[2].thickness_m = 0 must be > 0".
+// Whether the parts fit together (sources in the open, ...) is Rasterize's to say.
+absl::Status Validate(const Layout& layout);
+
+}  // namespace plumescout::lab

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/sim/mac_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumescout::lab {
+namespace {
+
+void AddScaledTo(std::vector<double>& values, const std::vector<double>& other, double factor) {
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] += factor * other[i];
+}
+
+double MaxMagnitude(const std::vector<double>& values) {
+  double largest = 0.0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+}  // namespace
+
+MacField::MacField(const GridGeometry& geometry)
+    : geometry_(geometry),
+      u_mps_(UIndex(0, geometry.height)),
+      v_mps_(VIndex(0, geometry.height + 1)) {}
+
+Velocity MacField::AtCenter(Cell cell) const {
+  return {0.5 * (u(cell.x, cell.y) + u(cell.x + 1, cell.y)),
+          0.5 * (v(cell.x, cell.y) + v(cell.x, cell.y + 1))};
+}
+
+Velocity MacField::At(Point2 point) const {
+  const Cell cell = geometry_.CellAt(point);
+  if (!geometry_.Contains(cell)) return {};
+  const double east = (point.x_m - geometry_.origin_x_m) / geometry_.resolution_m - cell.x;
+  const double north = (point.y_m - geometry_.origin_y_m) / geometry_.resolution_m - cell.y;
+  return {(1.0 - east) * u(cell.x, cell.y) + east * u(cell.x + 1, cell.y),
+          (1.0 - north) * v(cell.x, cell.y) + north * v(cell.x, cell.y + 1)};
+}
+
+void MacField::AddScaled(const MacField& other, double factor) {
+  AddScaledTo(u_mps_, other.u_mps_, factor);
+  AddScaledTo(v_mps_, other.v_mps_, factor);
+}
+
+Velocity MacField::MaxMagnitudes() const { return {MaxMagnitude(u_mps_), MaxMagnitude(v_mps_)}; }
+
+}  // namespace plumescout::lab

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/types/grid_geometry.h"
+#include "core/types/pose2.h"
+
+namespace plumescout::lab {
+
+// In frame map.
+struct Velocity {
+  double u_mps = 0.0;  // eastward
+  double v_mps = 0.0;  // northward
+};
+
+// Velocity on the faces of a raster's cells (marker-and-cell staggering, Harlow and Welch 1965):
+// u on the (width + 1) x height vertical faces, v on the width x (height + 1) horizontal ones.
+// Cell (x,y) has u(x,y) on its west face, u(x+1,y) on its east face, v(x,y) on its south face,
+// v(x,y+1) on its north face.
+class MacField {
+ public:
+  MacField() = default;
+  explicit MacField(const GridGeometry& geometry);
+
+  const GridGeometry& geometry() const { return geometry_; }
+  double& u(int x, int y) { return u_mps_[UIndex(x, y)]; }
+  double u(int x, int y) const { return u_mps_[UIndex(x, y)]; }
+  double& v(int x, int y) { return v_mps_[VIndex(x, y)]; }
+  double v(int x, int y) const { return v_mps_[VIndex(x, y)]; }
+
+  // Net flow out of a cell per metre of height and cell edge, m/s.
+  double NetOutflow_mps(Cell cell) const {
+    return u(cell.x + 1, cell.y) - u(cell.x, cell.y) + v(cell.x, cell.y + 1) - v(cell.x, cell.y);
+  }
+  Velocity AtCenter(Cell cell) const;
+  // Linear across each cell between its own faces and constant along them: divergence-free inside
+  // every cell that is so as a whole, and without flow through its walls. Zero off the raster.
+  Velocity At(Point2 point) const;
+
+  // this += factor * other. REQUIRES: the same geometry.
+  void AddScaled(const MacField& other, double factor);
+  // max |u| and max |v|, each over its own faces.
+  Velocity MaxMagnitudes() const;
+
+ private:
+  std::size_t UIndex(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(geometry_.width + 1) +
+           static_cast<std::size_t>(x);
+  }
+  std::size_t VIndex(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(geometry_.width) +
+           static_cast<std::size_t>(x);
+  }
+
+  GridGeometry geometry_;
+  std::vector<double> u_mps_;
+  std::vector<double> v_mps_;
+};
+
+}  // namespace plumescout::lab
