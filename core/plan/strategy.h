@@ -30,7 +30,7 @@ class Strategy {
   // kInvalidArgument if the start is not finite or outside the map; kDeadlineExceeded if `stop`
   // came before any path was found.
   virtual absl::StatusOr<plumescout::Plan> Plan(const Belief& belief, const PlanRequest& request,
-                                    const StopFn& stop) const = 0;
+                                                const StopFn& stop) const = 0;
 };
 
 // Names of the rows: "xit_gff", "xit_fgf", "xit_f".

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/explanation.h"
+
+#include <cstddef>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+
+namespace plumescout {
+namespace {
+
+std::string Destination(const Goal& goal) {
+  switch (goal.kind) {
+    case GoalKind::kGasFrontier:
+      return absl::StrCat("a gas frontier of ", goal.frontier_cells, " cells");
+    case GoalKind::kOccupancyFrontier:
+      return absl::StrCat("an occupancy frontier of ", goal.frontier_cells, " cells");
+    case GoalKind::kRandomFreeSpace:
+      return "a random free place, for no frontier is left";
+  }
+  return "";
+}
+
+std::string Merit(const Candidate& candidate, SelectionRule rule) {
+  return rule == SelectionRule::kLeastCost
+             ? absl::StrFormat("least cost, %.2f", candidate.cost)
+             : absl::StrFormat("greatest mean information, %.2f", candidate.mean_ucb);
+}
+
+std::string Choice(const Plan& plan, SelectionRule rule) {
+  const Candidate& chosen = plan.candidates[static_cast<std::size_t>(plan.chosen)];
+  std::string text =
+      absl::StrFormat("Drive %.1f m to %s at (%.1f, %.1f): %s of %d candidates", chosen.length_m,
+                      Destination(chosen.goal), chosen.goal.position.x_m, chosen.goal.position.y_m,
+                      Merit(chosen, rule), plan.candidates.size());
+  if (plan.start_escaped) absl::StrAppend(&text, "; first out of the margin around obstacles");
+  if (plan.field_flat) absl::StrAppend(&text, "; the information field is flat");
+  if (plan.end == PlanEnd::kStopped) absl::StrAppend(&text, "; the search was stopped early");
+  return absl::StrCat(text, ".");
+}
+
+}  // namespace
+
+std::string Explain(const Plan& plan, SelectionRule rule) {
+  if (plan.chosen >= 0) return Choice(plan, rule);
+  switch (plan.end) {
+    case PlanEnd::kMissionComplete:
+      return "Stay: no frontier is left and random visits reveal nothing new; the mission is "
+             "complete.";
+    case PlanEnd::kStopped:
+      return "Stay: the search was stopped before any goal had a path.";
+    case PlanEnd::kNoGoals:
+      return "Stay: there is no place to go to from here.";
+    case PlanEnd::kAllGoalsReached:
+    case PlanEnd::kQueueExhausted:
+      break;
+  }
+  return absl::StrCat("Stay: none of ", plan.rejected.size(), " goals has a path.");
+}
+
+}  // namespace plumescout

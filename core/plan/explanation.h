@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "core/types/options.h"
+#include "core/types/plan.h"
+
+namespace plumescout {
+
+// One sentence for an operator: where the plan leads and why there, or why the robot stays.
+std::string Explain(const Plan& plan, SelectionRule rule);
+
+}  // namespace plumescout

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "core/plan/goals/frontier_goals.h"
+#include "core/types/options.h"
+#include "core/types/plan.h"
+#include "core/types/rng.h"
+
+namespace plumescout {
+
+// The goals that options.goals takes of the offered ones, first kind first; the others are added
+// to `rejected` as not drawn. Under GFF the first kind is gas, the second occupancy; under FGF the
+// other way round; under F there is no second.
+//   draw_goals        [XIT] section VI-B: up to max_goals of the first kind, at random if there
+//                     are more, and the slots left filled with the second kind at random.
+//   not draw_goals    ours: all goals of the first kind, and the slots that these leave free of
+//                     max_goals filled with the nearest of the second; all of the second if there
+//                     is none of the first. A search to more goals costs next to nothing, and
+//                     nothing is left to luck.
+std::vector<Goal> ChooseByPolicy(FrontierGoals frontiers, const PlanningOptions& options, Rng& rng,
+                                 std::vector<RejectedGoal>& rejected);
+
+}  // namespace plumescout

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/goals/goal_set.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/plan/goals/frontier_goals.h"
+#include "core/plan/goals/goal_policy.h"
+#include "core/plan/goals/random_goals.h"
+
+namespace plumescout {
+
+GoalSet FindGoals(const GoalQuery& query, Rng& rng) {
+  FrontierGoals frontiers = FindFrontierGoals(query);
+  GoalSet result;
+  result.rejected = std::move(frontiers.rejected);
+  result.goals = ChooseByPolicy(std::move(frontiers), query.options, rng, result.rejected);
+  if (!result.goals.empty()) return result;
+
+  const bool others_are_exploring = std::any_of(
+      result.rejected.begin(), result.rejected.end(),
+      [](const RejectedGoal& goal) { return goal.reason == RejectionReason::kClaimed; });
+  if (query.robot.fruitless_fallbacks >= query.options.fallback_limit && !others_are_exploring) {
+    result.complete = true;
+    return result;
+  }
+  result.fallback = true;
+  result.goals = RandomGoals(query, rng);
+  return result;
+}
+
+}  // namespace plumescout

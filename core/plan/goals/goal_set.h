@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "core/belief/belief.h"
+#include "core/types/options.h"
+#include "core/types/plan.h"
+#include "core/types/rng.h"
+
+namespace plumescout {
+
+// For whom goals are sought. Holds references: for the length of one call.
+struct GoalQuery {
+  const Belief& belief;
+  const RobotRecord& robot;
+  Cell start;                           // traversable
+  const Grid<std::uint8_t>& reachable;  // 1: traversable and connected to `start`
+  const PlanningOptions& options;
+};
+
+struct GoalSet {
+  std::vector<Goal> goals;
+  std::vector<RejectedGoal> rejected;
+  bool fallback = false;  // no frontier was left: `goals` are random places
+  bool complete = false;  // nothing is left to do: `goals` is empty
+};
+
+// Where to go, by options.goals (section VI-B of [XIT]). If no frontier can be offered, random free
+// places are (section VII); after options.fallback_limit of those in a row that revealed nothing,
+// the mission is complete. A frontier that another robot is on its way to keeps the mission open,
+// for what that robot finds may need this one; one that is set aside does not, or a frontier that
+// no visit can dissolve would keep robots driving for ever.
+// Deterministic in the query and `rng`. Cost: O(cells).
+GoalSet FindGoals(const GoalQuery& query, Rng& rng);
+
+}  // namespace plumescout

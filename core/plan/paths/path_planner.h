@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/plan/edge_cost.h"
+#include "core/types/grid.h"
+#include "core/types/plan.h"
+#include "core/types/pose2.h"
+#include "core/types/stop.h"
+
+namespace plumescout {
+
+// From where, to where, at what price. Holds references: for the length of one call.
+struct PathProblem {
+  const EdgeCost& cost;                 // of tree expansion, with the field it prices
+  const Grid<std::uint8_t>& reachable;  // 1: traversable and connected to the start
+  Point2 start;                         // in a reachable cell
+  const std::vector<Goal>& goals;
+  std::uint64_t seed = 0;
+  std::int64_t max_edge_evaluations = 0;  // 0: no bound
+  const StopFn& stop;
+
+  Cell start_cell() const { return cost.geometry().CellAt(start); }
+};
+
+struct FoundPath {
+  std::vector<Point2> vertices;  // the start first, the centre of the goal's cell last
+  double cost = 0.0;             // under PathProblem::cost
+  PathSource source = PathSource::kTree;
+};
+
+struct PathResult {
+  std::vector<std::optional<FoundPath>> paths;  // one per goal, in their order
+  // kAllGoalsReached, kQueueExhausted, or kStopped by the stop function or the budget.
+  PlanEnd end = PlanEnd::kQueueExhausted;
+  PlanEffort effort;
+};
+
+// Finds collision-free paths from one start to many goals. Immutable; FindPaths may run on many
+// threads at once. Same problem: same bytes, unless the stop function says so; it is polled at
+// least once a millisecond, and then what was found so far is returned.
+class PathPlanner {
+ public:
+  virtual ~PathPlanner() = default;
+  virtual PathResult FindPaths(const PathProblem& problem) const = 0;
+};
+
+}  // namespace plumescout

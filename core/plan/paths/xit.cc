@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/paths/xit.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <queue>
+
+#include "core/plan/paths/connection_radius.h"
+#include "core/plan/paths/goal_sets.h"
+#include "core/plan/paths/neighbour_index.h"
+#include "core/plan/sampler.h"
+
+namespace plumescout {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kNoParent = -1;
+
+// The implicit random geometric graph: samples, goal cells and the root, with their neighbours.
+struct Graph {
+  std::vector<Point2> points;      // samples, then goal cells that are no sample, then the root
+  std::vector<int> goal_vertices;  // by goal
+  int sample_count = 0;
+
+  int root() const { return static_cast<int>(points.size()) - 1; }
+};
+
+Graph MakeGraph(const PathProblem& problem, const PlanningOptions& options) {
+  Rng rng(problem.seed);
+  const Grid<float> mass = SamplingMass(problem.cost.field(), problem.reachable,
+                                        problem.start_cell(), options.uniform_share);
+  std::vector<Cell> cells = DrawSamples(mass, options.samples, options.sampling, rng);  // line 1
+  Graph graph;
+  graph.sample_count = static_cast<int>(cells.size());
+  for (const Goal& goal : problem.goals) {  // line 2
+    const auto known = std::find(cells.begin(), cells.end(), goal.cell);
+    graph.goal_vertices.push_back(static_cast<int>(known - cells.begin()));
+    if (known == cells.end()) cells.push_back(goal.cell);
+  }
+  graph.points.reserve(cells.size() + 1);
+  for (const Cell cell : cells) graph.points.push_back(problem.cost.geometry().Center(cell));
+  graph.points.push_back(problem.start);
+  return graph;
+}
+
+double Radius_m(const PathProblem& problem, const PlanningOptions& options, int samples) {
+  const double resolution_m = problem.cost.geometry().resolution_m;
+  const auto cells = static_cast<double>(problem.reachable.size()) -
+                     static_cast<double>(std::count(problem.reachable.values().begin(),
+                                                    problem.reachable.values().end(), 0));
+  return ConnectionRadius_m(cells * resolution_m * resolution_m, samples, resolution_m, options);
+}
+
+class XitSearch {
+ public:
+  XitSearch(const PathProblem& problem, const PlanningOptions& options)
+      : problem_(problem),
+        graph_(MakeGraph(problem, options)),
+        near_(graph_.points, Radius_m(problem, options, graph_.sample_count)),  // line 7
+        goal_sets_(graph_.points, graph_.sample_count, graph_.goal_vertices,
+                   options.nearest_samples),  // lines 3-5
+        g_(graph_.points.size(), kInfinity),
+        parent_(graph_.points.size(), kNoParent),
+        taken_(graph_.points.size(), 0),
+        queues_(problem.cost.HasHeuristic() ? problem.goals.size() : 1) {
+    Reach(graph_.root(), kNoParent, 0.0);  // line 6
+  }
+
+  PathResult Run() {
+    PathResult result;
+    result.end = Grow();
+    for (const int goal : graph_.goal_vertices) result.paths.push_back(PathTo(goal));
+    result.effort = effort_;
+    result.effort.samples = graph_.sample_count;
+    result.effort.vertices = static_cast<int>(
+        std::count_if(g_.begin(), g_.end(), [](double g) { return g < kInfinity; }));
+    return result;
+  }
+
+ private:
+  struct Queued {
+    double f;  // g + h
+    int vertex;
+    double g;  // when queued; the entry is stale if the vertex has a better one by now
+
+    bool operator>(const Queued& other) const {
+      return f != other.f ? f > other.f : vertex > other.vertex;
+    }
+  };
+  using Queue = std::priority_queue<Queued, std::vector<Queued>, std::greater<>>;
+
+  double& g(int vertex) { return g_[static_cast<std::size_t>(vertex)]; }
+  Point2 At(int vertex) const { return graph_.points[static_cast<std::size_t>(vertex)]; }
+  bool Taken(int vertex) const { return taken_[static_cast<std::size_t>(vertex)] != 0; }
+
+  // Lines 8-28.
+  PlanEnd Grow() {
+    std::vector<std::size_t> open(problem_.goals.size());  // goals not solved yet
+    for (std::size_t j = 0; j < open.size(); ++j) open[j] = j;
+    while (!open.empty()) {
+      for (const std::size_t goal : open) {               // line 9
+        if (Taken(graph_.goal_vertices[goal])) continue;  // lines 10-11
+        if (problem_.stop()) return PlanEnd::kStopped;
+        const int v = TakeNext(goal);  // lines 13-14
+        if (v == kNoParent) return PlanEnd::kQueueExhausted;
+        if (!Expand(v)) return PlanEnd::kStopped;
+      }
+      std::erase_if(open, [this](std::size_t goal) { return Taken(graph_.goal_vertices[goal]); });
+    }
+    return PlanEnd::kAllGoalsReached;
+  }
+
+  // The vertex of Q_v with the least g + h for this goal; kNoParent if Q_v is empty.
+  int TakeNext(std::size_t goal) {
+    Queue& queue = queues_[queues_.size() > 1 ? goal : 0];
+    while (!queue.empty()) {
+      const Queued next = queue.top();
+      queue.pop();
+      if (Taken(next.vertex) || next.g != g(next.vertex)) continue;
+      taken_[static_cast<std::size_t>(next.vertex)] = 1;
+      return next.vertex;
+    }
+    return kNoParent;
+  }
+
+  // Lines 15-28. False if the budget ran out.
+  bool Expand(int v) {
+    bool within_budget = true;
+    near_.ForEachNear(At(v), [&](int w, double length_m) {  // lines 15-19
+      within_budget = within_budget && Try(v, w, length_m);
+    });
+    for (const auto& [from, w] : goal_sets_.EdgesFrom(v)) {
+      within_budget = within_budget && Try(v, w, Distance_m(At(v), At(w)));
+    }
+    return within_budget;
+  }
+
+  // Lines 20-28 for one edge. False if its price is over the budget.
+  bool Try(int v, int w, double length_m) {
+    if (Taken(w)) return true;                                             // its g is final
+    if (!(g(v) + problem_.cost.LowerBound(length_m) < g(w))) return true;  // line 20
+    const std::int64_t budget = problem_.max_edge_evaluations;
+    if (budget > 0 && effort_.edges_evaluated >= budget) return false;
+    ++effort_.edges_evaluated;
+    const double via_v = g(v) + problem_.cost(At(v), At(w));
+    if (via_v < g(w)) Reach(w, v, via_v);  // line 21
+    return true;
+  }
+
+  // Lines 22-28: enters the tree, or changes parent.
+  void Reach(int vertex, int parent, double cost) {
+    g(vertex) = cost;
+    parent_[static_cast<std::size_t>(vertex)] = parent;
+    for (std::size_t k = 0; k < queues_.size(); ++k) {
+      queues_[k].push({cost + Heuristic(vertex, k), vertex, cost});
+    }
+  }
+
+  double Heuristic(int vertex, std::size_t goal) const {
+    if (!problem_.cost.HasHeuristic()) return 0.0;
+    return problem_.cost.Heuristic(Distance_m(At(vertex), At(graph_.goal_vertices[goal])));
+  }
+
+  std::optional<FoundPath> PathTo(int goal) {
+    if (g(goal) == kInfinity) return std::nullopt;
+    FoundPath path;
+    for (int v = goal; v != kNoParent; v = parent_[static_cast<std::size_t>(v)]) {
+      path.vertices.push_back(At(v));
+    }
+    std::reverse(path.vertices.begin(), path.vertices.end());
+    path.cost = g(goal);
+    return path;
+  }
+
+  const PathProblem& problem_;
+  Graph graph_;
+  NeighbourIndex near_;
+  GoalSets goal_sets_;
+  std::vector<double> g_;            // cost to come in the tree, g_tau
+  std::vector<int> parent_;          // E
+  std::vector<std::uint8_t> taken_;  // no longer in Q_v
+  std::vector<Queue> queues_;        // Q_v, by goal; one for all if h = 0
+  PlanEffort effort_;
+};
+
+}  // namespace
+
+PathResult XitPlanner::FindPaths(const PathProblem& problem) const {
+  return XitSearch(problem, options_).Run();
+}
+
+}  // namespace plumescout

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/plan/paths/path_planner.h"
+#include "core/types/options.h"
+
+namespace plumescout {
+
+// Exploration and exploitation informed trees, [XIT] Alg. 1: one tree over a batch of samples of
+// the information field, grown towards all goals in turn.
+//
+// Where the listing leaves room:
+//   line 8      while some goal is unreached and Q_v is not empty.
+//   line 13     one Q_v ordered for each goal by g + h, h = alpha * distance to that goal. h is
+//               consistent for each, so a vertex taken from Q_v has its final g whatever the
+//               order of turns: it is never rewired.
+//   line 16-18  Q_e is drained for one vertex, so its order cannot change the tree: no sort.
+//   goals       as in goal_sets.h; a goal is solved when its vertex is taken from Q_v, not when
+//               an edge first touches it.
+// A goal touched but not solved when the search is stopped still gets the path found so far.
+//
+// Cost: O(cells) for the draw, then about N log N queue steps and edge integrals.
+class XitPlanner : public PathPlanner {
+ public:
+  // REQUIRES: Validate(options).ok().
+  explicit XitPlanner(const PlanningOptions& options) : options_(options) {}
+
+  PathResult FindPaths(const PathProblem& problem) const override;
+
+ private:
+  PlanningOptions options_;
+};
+
+}  // namespace plumescout
