@@ -90,6 +90,9 @@ struct Plan {
   bool field_flat = false;     // the information field had no contrast: pure distance behaviour
   bool start_escaped = false;  // the robot stood in the inflated zone; the path leads out first
   std::string explanation;     // one sentence for an operator
+  // CPU time of planning, filled in by whoever ran the planner when it answers; 0 in the committed
+  // event, which has to be the same whenever the run is repeated.
+  double cpu_s = 0.0;
 
   friend bool operator==(const Plan&, const Plan&) = default;
 };

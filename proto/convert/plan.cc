@@ -3,6 +3,8 @@
 #include "proto/convert/plan.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <string>
 
 #include "core/types/status_macros.h"
@@ -17,6 +19,8 @@ namespace {
 // The helpers below overload these rather than hide them.
 using plumescout::FromProto;
 using plumescout::ToProto;
+
+constexpr double kNanosecondsPerSecond = 1e9;
 
 v1::Goal ToProto(const Goal& goal) {
   v1::Goal proto;
@@ -199,6 +203,10 @@ v1::Plan ToProto(const Plan& plan, const MissionId& mission) {
   proto.set_field_flat(plan.field_flat);
   proto.set_start_escaped(plan.start_escaped);
   proto.set_explanation(plan.explanation);
+  const auto cpu_ns = std::llround(plan.cpu_s * kNanosecondsPerSecond);
+  proto.mutable_cpu_duration()->set_seconds(cpu_ns / std::llround(kNanosecondsPerSecond));
+  proto.mutable_cpu_duration()->set_nanos(
+      static_cast<std::int32_t>(cpu_ns % std::llround(kNanosecondsPerSecond)));
   return proto;
 }
 
@@ -217,6 +225,8 @@ absl::StatusOr<Plan> FromProto(const v1::Plan& proto, absl::string_view field) {
   plan.field_flat = proto.field_flat();
   plan.start_escaped = proto.start_escaped();
   plan.explanation = proto.explanation();
+  plan.cpu_s = static_cast<double>(proto.cpu_duration().seconds()) +
+               static_cast<double>(proto.cpu_duration().nanos()) / kNanosecondsPerSecond;
   return plan;
 }
 
