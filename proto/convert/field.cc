@@ -77,12 +77,20 @@ std::string Join(absl::string_view parent, absl::string_view name, int index) {
   return absl::StrCat(Join(parent, name), "[", index, "]");
 }
 
-absl::Status WithField(const absl::Status& status, absl::string_view parent) {
+absl::Status WithField(const absl::Status& status, absl::string_view parent,
+                       absl::Span<const FieldName> renamed) {
   if (!absl::IsInvalidArgument(status) || !FieldViolations(status).empty()) return status;
   const absl::string_view message = status.message();
   const std::size_t name_end = message.find(' ');
   if (name_end == absl::string_view::npos) return Violation(parent, message);
-  return Violation(Join(parent, message.substr(0, name_end)), message.substr(name_end + 1));
+  absl::string_view name = message.substr(0, name_end);
+  for (const FieldName& rename : renamed) {
+    if (rename.core == name) {
+      name = rename.wire;
+      break;
+    }
+  }
+  return Violation(Join(parent, name), message.substr(name_end + 1));
 }
 
 }  // namespace plumescout

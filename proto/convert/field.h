@@ -7,6 +7,7 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/string_view.h"
+#include "absl/types/span.h"
 
 namespace plumescout {
 
@@ -32,9 +33,16 @@ std::string Join(absl::string_view parent, absl::string_view name);
 // "batch.observations[3]".
 std::string Join(absl::string_view parent, absl::string_view name, int index);
 
+// Where the core calls a field differently from the wire.
+struct FieldName {
+  absl::string_view core;
+  absl::string_view wire;
+};
+
 // The core names a refused field at the start of its message: "radius_m = -1 must be > 0". Turns
-// such a kInvalidArgument into one that names the field below `parent`; others pass unchanged, and
-// so does one that already carries its field.
-absl::Status WithField(const absl::Status& status, absl::string_view parent);
+// such a kInvalidArgument into one that names the field of the wire below `parent`; others pass
+// unchanged, and so does one that already carries its field.
+absl::Status WithField(const absl::Status& status, absl::string_view parent,
+                       absl::Span<const FieldName> renamed = {});
 
 }  // namespace plumescout

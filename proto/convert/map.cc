@@ -30,6 +30,7 @@ v1::Frontier ToProto(const Frontier& frontier) {
   *proto.mutable_goal_cell() = ToProto(frontier.goal_cell);
   proto.set_travel_m(frontier.reachable ? frontier.travel_m : 0.0);
   proto.set_reachable(frontier.reachable);
+  proto.set_too_small(frontier.too_small);
   return proto;
 }
 
@@ -68,6 +69,7 @@ absl::StatusOr<Frontier> FromProto(const v1::Frontier& proto, absl::string_view 
   PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative(Join(field, "travel_m"), proto.travel_m()));
   frontier.travel_m = proto.travel_m();
   frontier.reachable = proto.reachable();
+  frontier.too_small = proto.too_small();
   return frontier;
 }
 

@@ -180,4 +180,10 @@ absl::StatusOr<Observation> FromProto(const v1::Observation& proto, absl::string
   return observation;
 }
 
+absl::Status RefusalFromCore(const absl::Status& refusal, absl::string_view field) {
+  constexpr FieldName kRenamed[] = {{"scan.ranges", "scan.ranges_u16"},
+                                    {"gas.variance_ppm2", "gas.stddev_ppm"}};
+  return WithField(refusal, field, kRenamed);
+}
+
 }  // namespace plumescout

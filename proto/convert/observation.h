@@ -25,4 +25,7 @@ v1::Observation ToProto(const Observation& observation);
 absl::StatusOr<Scan> FromProto(const v1::LaserScan& proto, absl::string_view field);
 absl::StatusOr<Observation> FromProto(const v1::Observation& proto, absl::string_view field);
 
+// A mission's refusal of an observation, in the words of the wire.
+absl::Status RefusalFromCore(const absl::Status& refusal, absl::string_view field);
+
 }  // namespace plumescout

@@ -4,8 +4,6 @@
 
 #include <string>
 
-#include "absl/strings/str_cat.h"
-#include "absl/strings/strip.h"
 #include "core/types/status_macros.h"
 #include "proto/convert/enums.h"
 #include "proto/convert/field.h"
@@ -178,11 +176,6 @@ void ReadNumbers(const v1::PlanningOptions& proto, PlanningOptions& options) {
   Take(proto.has_fallback_limit(), proto.fallback_limit(), options.fallback_limit);
 }
 
-struct FieldName {
-  absl::string_view core;
-  absl::string_view proto;
-};
-
 // Where Validate(options) calls a field differently from the wire.
 constexpr FieldName kRenamed[] = {
     {"occupancy.free_threshold", "occupancy.free_threshold_probability"},
@@ -200,17 +193,6 @@ constexpr FieldName kRenamed[] = {
     {"max_beams", "max_beam_count"},
     {"max_robots", "max_robot_count"},
 };
-
-// The same refusal in the words of the wire.
-absl::Status Rename(const absl::Status& status, absl::string_view field) {
-  for (const auto& name : kRenamed) {
-    absl::string_view rest = status.message();
-    if (absl::ConsumePrefix(&rest, absl::StrCat(name.core, " "))) {
-      return WithField(absl::InvalidArgumentError(absl::StrCat(name.proto, " ", rest)), field);
-    }
-  }
-  return WithField(status, field);
-}
 
 }  // namespace
 
@@ -245,7 +227,7 @@ absl::StatusOr<MissionOptions> FromProto(const v1::MissionOptions& proto,
        options.max_concentration_ppm);
   Take(proto.has_max_robot_count(), proto.max_robot_count(), options.max_robots);
   Take(proto.has_seed(), proto.seed(), options.seed);
-  PLUMESCOUT_RETURN_IF_ERROR(Rename(Validate(options), field));
+  PLUMESCOUT_RETURN_IF_ERROR(WithField(Validate(options), field, kRenamed));
   return options;
 }
 
