@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+
 #include "absl/status/status.h"
 #include "core/types/cell_state.h"
 #include "core/types/grid.h"
@@ -26,19 +29,34 @@ class OccupancyGrid {
   const OccupancyOptions& options() const { return options_; }
   const GridGeometry& geometry() const { return log_odds_.geometry(); }
 
-  // Grows until [min, max] is inside. kResourceExhausted, with nothing changed, beyond the limits.
+  // Grows until [min, max] and one more cell on every side are inside, so that each cell seen has
+  // all its neighbours: what lies beyond it is an unknown cell, not the end of the map.
+  // Errors, with nothing changed: kResourceExhausted beyond the limits; kInvalidArgument if the
+  // rectangle is not finite or min > max. Cost: O(cells) if it grows, else O(1).
   absl::Status GrowToContain(Point2 min, Point2 max);
 
   // Adds to the log-odds of a cell, clamped. REQUIRES: geometry().Contains(cell).
-  void Add(Cell cell, double log_odds);
+  void Add(Cell cell, double log_odds) { Add(geometry().Index(cell), log_odds); }
+  // The same by index into the raster.
+  void Add(std::size_t index, double log_odds) {
+    const float clamp = static_cast<float>(options_.clamp_log_odds);
+    float& value = log_odds_[index];
+    value = std::clamp(value + static_cast<float>(log_odds), -clamp, clamp);
+  }
 
   // Probability of occupation, 0.5 where nothing is known or outside.
   double Probability(Cell cell) const;
+  // kUnknown outside.
   CellState State(Cell cell) const;
   // The states of all cells. Cost: O(cells).
   Grid<CellState> States() const;
 
  private:
+  CellState StateOf(float log_odds) const {
+    if (log_odds <= free_log_odds_) return CellState::kFree;
+    return log_odds >= occupied_log_odds_ ? CellState::kOccupied : CellState::kUnknown;
+  }
+
   OccupancyOptions options_;
   float free_log_odds_;      // at or below: free
   float occupied_log_odds_;  // at or above: occupied

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/occupancy/occupancy_grid.h"
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/grid/padded.h"
+
+namespace plumescout {
+namespace {
+
+constexpr double kRounding_cells = 1e-9;
+
+float LogOdds(double probability) {
+  return static_cast<float>(std::log(probability / (1.0 - probability)));
+}
+
+// Whole tiles along one axis, counted from (0,0) of frame map.
+struct TileSpan {
+  std::int64_t begin = 0;
+  std::int64_t end = 0;
+
+  std::int64_t cells() const { return (end - begin) * OccupancyGrid::kTileCells; }
+  bool empty() const { return begin == end; }
+};
+
+std::int64_t TileOfCell(std::int64_t cell) {
+  constexpr std::int64_t kTile = OccupancyGrid::kTileCells;
+  return cell >= 0 ? cell / kTile : -((kTile - 1 - cell) / kTile);
+}
+
+// The tiles that hold cells first - 1 .. last + 1, and those of `span`.
+TileSpan Covering(const TileSpan& span, std::int64_t first, std::int64_t last) {
+  const TileSpan needed = {TileOfCell(first - 1), TileOfCell(last + 1) + 1};
+  if (span.empty()) return needed;
+  return {std::min(span.begin, needed.begin), std::max(span.end, needed.end)};
+}
+
+TileSpan SpanOf(double origin_m, double resolution_m, int cells) {
+  const double tile_m = OccupancyGrid::kTileCells * resolution_m;
+  const std::int64_t begin = std::llround(origin_m / tile_m);
+  return {begin, begin + cells / OccupancyGrid::kTileCells};
+}
+
+}  // namespace
+
+OccupancyGrid::OccupancyGrid(const OccupancyOptions& options)
+    : options_(options),
+      free_log_odds_(LogOdds(options.free_threshold)),
+      occupied_log_odds_(LogOdds(options.occupied_threshold)) {
+  GridGeometry empty;
+  empty.resolution_m = options.resolution_m;
+  log_odds_ = Grid<float>(empty);
+}
+
+absl::Status OccupancyGrid::GrowToContain(Point2 min, Point2 max) {
+  const bool finite = std::isfinite(min.x_m) && std::isfinite(min.y_m) && std::isfinite(max.x_m) &&
+                      std::isfinite(max.y_m);
+  if (!finite || min.x_m > max.x_m || min.y_m > max.y_m) {
+    return absl::InvalidArgumentError("the rectangle to map is not finite or min > max");
+  }
+  const GridGeometry& old = geometry();
+  const double resolution_m = options_.resolution_m;
+  const GridGeometry lattice = {0.0, 0.0, resolution_m, 0, 0};
+  const Cell first = lattice.CellAt(min);
+  const Cell last = lattice.CellAt(max);
+  const TileSpan old_x = SpanOf(old.origin_x_m, resolution_m, old.width);
+  const TileSpan old_y = SpanOf(old.origin_y_m, resolution_m, old.height);
+  const TileSpan x = Covering(old_x, first.x, last.x);
+  const TileSpan y = Covering(old_y, first.y, last.y);
+  if (x.cells() == old.width && y.cells() == old.height) return absl::OkStatus();
+
+  // Counted in cells, so that an extent of whole tiles is not lost to rounding.
+  const auto widest = static_cast<double>(std::max(x.cells(), y.cells()));
+  if (widest > options_.max_extent_m / resolution_m + kRounding_cells ||
+      x.cells() * y.cells() > options_.max_cells) {
+    return absl::ResourceExhaustedError(
+        absl::StrCat("a map of ", x.cells(), " x ", y.cells(), " cells exceeds max_extent_m = ",
+                     options_.max_extent_m, " or max_cells = ", options_.max_cells));
+  }
+  const double tile_m = kTileCells * resolution_m;
+  Grid<float> grown(GridGeometry{static_cast<double>(x.begin) * tile_m,
+                                 static_cast<double>(y.begin) * tile_m, resolution_m,
+                                 static_cast<int>(x.cells()), static_cast<int>(y.cells())});
+  const auto shift_x = static_cast<std::ptrdiff_t>((old_x.begin - x.begin) * kTileCells);
+  const auto shift_y = static_cast<int>((old_y.begin - y.begin) * kTileCells);
+  for (int row = 0; row < old.height; ++row) {
+    std::copy_n(GridRow(log_odds_, row), old.width, GridRow(grown, row + shift_y) + shift_x);
+  }
+  log_odds_ = std::move(grown);
+  return absl::OkStatus();
+}
+
+double OccupancyGrid::Probability(Cell cell) const {
+  return 1.0 / (1.0 + std::exp(-static_cast<double>(log_odds_.At(cell, 0.0F))));
+}
+
+CellState OccupancyGrid::State(Cell cell) const { return StateOf(log_odds_.At(cell, 0.0F)); }
+
+Grid<CellState> OccupancyGrid::States() const {
+  Grid<CellState> states(geometry());
+  std::transform(log_odds_.values().begin(), log_odds_.values().end(), states.values().begin(),
+                 [this](float log_odds) { return StateOf(log_odds); });
+  return states;
+}
+
+}  // namespace plumescout
