@@ -59,7 +59,9 @@ void PathFollower::PassReachedWaypoints(const Pose2& pose, std::int64_t now_ns) 
       continue;
     }
     const Waypoint& waypoint = trajectory_.waypoints[next_];
-    if (Distance_m(pose.position(), waypoint.pose.position()) > options_.arrival_tolerance_m) break;
+    const double distance_m = Distance_m(pose.position(), waypoint.pose.position());
+    const bool is_start = next_ == 0;  // reached by definition
+    if (!is_start && distance_m > options_.arrival_tolerance_m) break;
     if (waypoint.dwell_s > 0.0) {
       dwell_until_ns_ = now_ns + std::llround(waypoint.dwell_s * kNanosecondsPerSecond);
     } else {
@@ -68,8 +70,8 @@ void PathFollower::PassReachedWaypoints(const Pose2& pose, std::int64_t now_ns) 
   }
 }
 
+// REQUIRES: the start is passed.
 double PathFollower::PlannedSpeed_mps() const {
-  if (next_ == 0) return options_.max_forward_mps;
   const Waypoint& from = trajectory_.waypoints[next_ - 1];
   const Waypoint& to = trajectory_.waypoints[next_];
   const double duration_s = to.arrival_time_s - DepartureTime_s(from);

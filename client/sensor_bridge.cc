@@ -14,7 +14,7 @@ constexpr double kNanosecondsPerSecond = 1e9;
 // A clock set back by more than this many periods starts the schedule anew; less is jitter.
 constexpr double kClockStepPeriods = 2.0;
 // Asked so little early, a reading is due: a clock that rounds must not cost every other one.
-constexpr double kEarlyPeriods = 0.05;
+constexpr std::int64_t kEarly_ns = 1'000'000;
 
 }  // namespace
 
@@ -23,12 +23,11 @@ SampleSchedule::SampleSchedule(std::int64_t start_ns, double rate_hz)
 
 bool SampleSchedule::Due(std::int64_t now_ns) {
   if (!(rate_hz_ > 0.0)) return false;
-  const double early_periods =
-      static_cast<double>(TimeOf_ns(next_count_) - now_ns) * rate_hz_ / kNanosecondsPerSecond;
+  const std::int64_t early_ns = TimeOf_ns(next_count_) - now_ns;
+  const double early_periods = static_cast<double>(early_ns) * rate_hz_ / kNanosecondsPerSecond;
   if (early_periods > kClockStepPeriods) {
     start_ns_ = now_ns;
-    next_count_ = 0;
-  } else if (early_periods > kEarlyPeriods) {
+  } else if (early_ns > kEarly_ns) {
     return false;
   }
   PlaceAfter(now_ns);
@@ -46,8 +45,9 @@ std::int64_t SampleSchedule::TimeOf_ns(std::int64_t count) const {
 }
 
 void SampleSchedule::PlaceAfter(std::int64_t now_ns) {
-  const double elapsed_s = static_cast<double>(now_ns - start_ns_) / kNanosecondsPerSecond;
-  next_count_ = static_cast<std::int64_t>(std::floor(elapsed_s * rate_hz_ + kEarlyPeriods)) + 1;
+  const std::int64_t elapsed_ns = now_ns + kEarly_ns - start_ns_;
+  const double periods = static_cast<double>(elapsed_ns) / kNanosecondsPerSecond * rate_hz_;
+  next_count_ = static_cast<std::int64_t>(std::floor(periods)) + 1;
 }
 
 SensorBridge::SensorBridge(RobotDriver& driver, const SensorRates& rates, Sink sink)

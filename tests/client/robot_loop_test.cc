@@ -1,0 +1,351 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "client/robot_loop.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "client/error_reason.h"
+#include "tests/client/fake_driver.h"
+#include "tests/client/fake_planner_client.h"
+
+namespace plumescout::client {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::Field;
+using ::testing::SizeIs;
+
+constexpr double kSpeed_mps = 1.0;
+
+Plan PlanTo(PlanId id, const PlanQuery& query, Point2 goal) {
+  const Pose2 start = *query.request.start;
+  const double length_m = Distance_m(start.position(), goal);
+  const double yaw_rad = std::atan2(goal.y_m - start.y_m, goal.x_m - start.x_m);
+  Plan plan;
+  plan.id = id;
+  plan.chosen = 0;
+  plan.trajectory.waypoints = {
+      {.pose = {start.x_m, start.y_m, yaw_rad}},
+      {.pose = {goal.x_m, goal.y_m, yaw_rad}, .arrival_time_s = length_m / kSpeed_mps}};
+  plan.trajectory.length_m = length_m;
+  plan.trajectory.duration_s = length_m / kSpeed_mps;
+  return plan;
+}
+
+// Sends the robot through `goals`, then says that the mission is complete.
+FakePlannerClient::PlanScript Tour(std::vector<Point2> goals) {
+  const auto next = std::make_shared<std::size_t>(0);
+  return [goals, next](const PlanQuery& query) -> absl::StatusOr<Plan> {
+    if (*next == goals.size()) return CompletePlan();
+    const Point2 goal = goals[(*next)++];
+    return PlanTo(static_cast<PlanId>(*next), query, goal);
+  };
+}
+
+class Recorder final : public RobotObserver {
+ public:
+  void OnTick(const RobotTick& tick) override { ticks.push_back(tick); }
+  void OnPlan(const PlanArrival& plan) override { plan_times_s.push_back(plan.elapsed_s); }
+  void OnPlanFailure(const absl::Status& status) override { failures.push_back(status); }
+
+  std::vector<RobotTick> ticks;
+  std::vector<double> plan_times_s;
+  std::vector<absl::Status> failures;
+};
+
+RobotLoopOptions Options(Pacing pacing, Following following) {
+  RobotLoopOptions options;
+  options.participation = {.mission = "m", .robot = "r", .create = MissionOptions{}};
+  options.pacing = pacing;
+  options.following = following;
+  options.time_limit_s = 600.0;
+  options.ingest.backoff = {.initial = absl::Milliseconds(1), .maximum = absl::Milliseconds(5)};
+  options.ingest.read_slice = absl::Milliseconds(1);
+  options.ingest.idle_check = absl::Milliseconds(1);
+  return options;
+}
+
+class RobotLoopTest : public ::testing::Test {
+ protected:
+  absl::StatusOr<RobotResult> Run(const RobotLoopOptions& options,
+                                  const StopFn& stop = NeverStop()) {
+    RobotLoop loop(server_, driver_, options, recorder_);
+    return loop.Run(stop);
+  }
+  absl::StatusOr<RobotResult> RunInLockstep() {
+    return Run(Options(Pacing::kLockstep, Following::kIdeal));
+  }
+  // A free-running robot whose world goes on at a pace that leaves threads some time.
+  absl::StatusOr<RobotResult> RunFreely() {
+    driver_.on_advance = [] { absl::SleepFor(absl::Milliseconds(1)); };
+    return Run(Options(Pacing::kFreeRunning, Following::kProportional));
+  }
+
+  FakePlannerClient server_;
+  FakeDriver driver_;
+  Recorder recorder_;
+};
+
+TEST_F(RobotLoopTest, InLockstepItVisitsEveryGoalAndEndsWithTheMission) {
+  server_.set_script(Tour({{1, 0}, {1, 2}}));
+
+  const absl::StatusOr<RobotResult> result = RunInLockstep();
+
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_EQ(result->end, RobotEnd::kMissionComplete);
+  EXPECT_EQ(result->plans, 3);
+  EXPECT_EQ(result->reached, 2);
+  EXPECT_NEAR(result->distance_m, 3.0, 1e-6);
+  EXPECT_EQ(driver_.pose().position(), (Point2{1, 2}));
+}
+
+TEST_F(RobotLoopTest, PlanningCostsTheFixedLatencyOfRobotTime) {
+  server_.set_script(Tour({{1, 0}, {1, 2}}));
+  RobotLoopOptions options = Options(Pacing::kLockstep, Following::kIdeal);
+  options.look_around_s = 0.5;
+  options.plan_latency_s = 0.3;
+
+  ASSERT_TRUE(Run(options).ok());
+
+  ASSERT_THAT(recorder_.plan_times_s, SizeIs(3));
+  EXPECT_NEAR(recorder_.plan_times_s[0], 0.5, 1e-6);
+  EXPECT_NEAR(recorder_.plan_times_s[1], 0.5 + 0.3 + 1.0, 1e-6);
+  EXPECT_NEAR(recorder_.plan_times_s[2], 0.5 + 0.3 + 1.0 + 0.3 + 2.0, 1e-6);
+}
+
+TEST_F(RobotLoopTest, SensorsGoOnWhileTheRobotStandsAndPlans) {
+  server_.set_script(Tour({{1, 0}}));
+
+  const absl::StatusOr<RobotResult> result = RunInLockstep();
+
+  ASSERT_TRUE(result.ok());
+  const double seconds = result->elapsed_s;
+  const auto scans = std::llround(seconds * 10.0);
+  const auto readings = std::llround(seconds * 2.0);
+  EXPECT_NEAR(static_cast<double>(server_.applied()), static_cast<double>(scans + readings), 2.0);
+  EXPECT_EQ(result->ingest.applied_sequence, result->ingest.last_sequence);
+}
+
+TEST_F(RobotLoopTest, EveryPlanWaitsForTheReadingsTakenSoFar) {
+  std::vector<std::int64_t> awaited;
+  auto tour = Tour({{1, 0}});
+  server_.set_script([&](const PlanQuery& query) {
+    awaited.push_back(query.min_applied_sequence);
+    EXPECT_GE(server_.applied(), query.min_applied_sequence);
+    return tour(query);
+  });
+
+  ASSERT_TRUE(RunInLockstep().ok());
+
+  // Look-around of 0.5 s: scans at 0.0 ... 0.4 s and one gas reading.
+  ASSERT_THAT(awaited, SizeIs(2));
+  EXPECT_EQ(awaited[0], 6);
+}
+
+TEST_F(RobotLoopTest, ReportsComeAfterTheReadingsTakenOnTheWay) {
+  server_.set_script(Tour({{1, 0}, {0, 0}}));
+
+  ASSERT_TRUE(RunInLockstep().ok());
+
+  const std::vector<FakePlannerClient::Report> reports = server_.reports();
+  ASSERT_THAT(reports, SizeIs(2));
+  EXPECT_EQ(reports[0].plan, 1);
+  EXPECT_EQ(reports[0].outcome, ProgressOutcome::kReached);
+  EXPECT_GE(reports[0].applied_sequence, 6 + 10);  // one second of scans at the least
+}
+
+TEST_F(RobotLoopTest, TwoRunsInLockstepSendTheSameBytes) {
+  server_.set_script(Tour({{1, 0}, {2, 1}}));
+  ASSERT_TRUE(RunInLockstep().ok());
+  FakePlannerClient again;
+  again.set_script(Tour({{1, 0}, {2, 1}}));
+  FakeDriver driver;
+  RobotLoop loop(again, driver, Options(Pacing::kLockstep, Following::kIdeal), recorder_);
+
+  ASSERT_TRUE(loop.Run(NeverStop()).ok());
+
+  EXPECT_EQ(server_.received(), again.received());
+  EXPECT_EQ(server_.reports(), again.reports());
+}
+
+TEST_F(RobotLoopTest, SteeredWheelsReachTheGoalsToo) {
+  server_.set_script(Tour({{1, 0}, {1, 2}, {-1, -1}}));
+
+  const absl::StatusOr<RobotResult> result =
+      Run(Options(Pacing::kLockstep, Following::kProportional));
+
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_EQ(result->reached, 3);
+  EXPECT_LT(Distance_m(driver_.pose().position(), {-1, -1}), 0.1 + 1e-9);
+  EXPECT_EQ(driver_.twist().forward_mps, 0.0);
+}
+
+TEST_F(RobotLoopTest, AnObstacleOnThePathIsReportedAndPlannedAround) {
+  driver_.posts = {{2.0, 0.0}};
+  server_.set_script(Tour({{4, 0}, {0, 2}}));
+
+  const absl::StatusOr<RobotResult> result = RunInLockstep();
+
+  ASSERT_TRUE(result.ok());
+  EXPECT_EQ(result->blocked, 1);
+  EXPECT_EQ(result->reached, 1);
+  EXPECT_THAT(server_.reports(),
+              ElementsAre(Field(&FakePlannerClient::Report::outcome, ProgressOutcome::kBlocked),
+                          Field(&FakePlannerClient::Report::outcome, ProgressOutcome::kReached)));
+}
+
+TEST_F(RobotLoopTest, TheTimeLimitEndsTheRunMidwayAndReleasesThePlan) {
+  server_.set_script(Tour({{4, 0}}));
+  RobotLoopOptions options = Options(Pacing::kLockstep, Following::kIdeal);
+  options.time_limit_s = 2.0;
+
+  const absl::StatusOr<RobotResult> result = Run(options);
+
+  ASSERT_TRUE(result.ok());
+  EXPECT_EQ(result->end, RobotEnd::kTimeLimit);
+  EXPECT_NEAR(result->elapsed_s, 2.0, 1e-6);
+  ASSERT_THAT(server_.reports(), SizeIs(1));
+  EXPECT_EQ(server_.reports()[0].outcome, ProgressOutcome::kAborted);
+}
+
+TEST_F(RobotLoopTest, StopsWhenTold) {
+  server_.set_script(Tour({{4, 0}}));
+  int asked = 0;
+
+  const absl::StatusOr<RobotResult> result =
+      Run(Options(Pacing::kLockstep, Following::kIdeal), [&asked] { return ++asked > 20; });
+
+  ASSERT_TRUE(result.ok());
+  EXPECT_EQ(result->end, RobotEnd::kStopped);
+}
+
+TEST_F(RobotLoopTest, WithNowhereToGoItStandsAndAsksAgain) {
+  int asked = 0;
+  server_.set_script([&asked](const PlanQuery&) -> absl::StatusOr<Plan> {
+    return ++asked < 4 ? Plan{} : CompletePlan();
+  });
+
+  const absl::StatusOr<RobotResult> result = RunInLockstep();
+
+  ASSERT_TRUE(result.ok());
+  EXPECT_EQ(result->plans, 4);
+  EXPECT_NEAR(result->elapsed_s, 0.5 + 4 * 0.1 + 3 * 1.0, 1e-6);
+  EXPECT_EQ(result->distance_m, 0.0);
+}
+
+TEST_F(RobotLoopTest, ARobotThatCannotMoveGivesThePlanUp) {
+  server_.set_script(Tour({{1, 0}}));
+  driver_.on_advance = [this] { driver_.set_pose({}); };
+
+  const absl::StatusOr<RobotResult> result =
+      Run(Options(Pacing::kLockstep, Following::kProportional));
+
+  ASSERT_TRUE(result.ok());
+  EXPECT_EQ(result->aborted, 1);
+  EXPECT_EQ(result->end, RobotEnd::kMissionComplete);
+}
+
+TEST_F(RobotLoopTest, InLockstepTheWorldWaitsForARestartedServer) {
+  auto tour = Tour({{1, 0}, {1, 2}});
+  bool restarted = false;
+  server_.set_script([&](const PlanQuery& query) {
+    if (!restarted && query.request.start->x_m > 0.5) {
+      restarted = true;
+      server_.Restart();
+      return absl::StatusOr<Plan>(absl::UnavailableError("going down"));
+    }
+    return tour(query);
+  });
+
+  const absl::StatusOr<RobotResult> result = RunInLockstep();
+
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_EQ(result->reached, 2);
+  EXPECT_GE(result->ingest.server_restarts, 1);
+  EXPECT_EQ(server_.received().front().sequence, 1);  // told from the start
+  EXPECT_EQ(server_.applied(), result->ingest.last_sequence);
+}
+
+TEST_F(RobotLoopTest, RunningFreelyItFollowsItsPathWhileTheLinkIsDownAndGoesOnAfterwards) {
+  server_.set_script(Tour({{2, 0}, {2, 2}}));
+  driver_.on_advance = [this] {
+    absl::SleepFor(absl::Milliseconds(1));
+    const double x_m = driver_.pose().x_m;
+    if (x_m > 0.5 && x_m < 0.7) server_.BreakLink();
+    const bool waiting = !recorder_.failures.empty();  // arrived, and asked in vain
+    if (waiting) server_.MendLink();
+  };
+  RobotLoopOptions options = Options(Pacing::kFreeRunning, Following::kProportional);
+  options.plan_timeout = absl::Milliseconds(20);
+
+  const absl::StatusOr<RobotResult> result = Run(options);
+
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_FALSE(recorder_.failures.empty());
+  EXPECT_EQ(result->reached, 2);
+  EXPECT_EQ(result->ingest.applied_sequence, result->ingest.last_sequence);
+  EXPECT_EQ(result->ingest.lost, 0);
+}
+
+TEST_F(RobotLoopTest, RunningFreelyItCompletesAMission) {
+  server_.set_script(Tour({{1, 0}, {1, 2}}));
+
+  const absl::StatusOr<RobotResult> result = RunFreely();
+
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_EQ(result->end, RobotEnd::kMissionComplete);
+  EXPECT_EQ(result->reached, 2);
+}
+
+TEST_F(RobotLoopTest, ALeaseTakenByAnotherClientEndsTheRun) {
+  server_.set_script([this](const PlanQuery&) -> absl::StatusOr<Plan> {
+    server_.SupersedeLease();
+    return absl::FailedPreconditionError("LEASE_SUPERSEDED: newer lease");
+  });
+
+  const absl::StatusOr<RobotResult> result = RunInLockstep();
+
+  EXPECT_EQ(ErrorReason(result.status()), kLeaseSuperseded) << result.status();
+}
+
+TEST_F(RobotLoopTest, ABrokenDriverEndsTheRunWithItsError) {
+  driver_.advance_status = absl::InternalError("motors off");
+
+  EXPECT_EQ(RunInLockstep().status(), absl::InternalError("motors off"));
+}
+
+TEST_F(RobotLoopTest, ALinkThatStaysBrokenIsGivenUpWhenJoining) {
+  server_.BreakLink();
+  RobotLoopOptions options = Options(Pacing::kLockstep, Following::kIdeal);
+  options.link_patience = absl::Milliseconds(5);
+
+  EXPECT_TRUE(absl::IsUnavailable(Run(options).status()));
+}
+
+TEST_F(RobotLoopTest, TicksAreReportedOnceForEachInstant) {
+  server_.set_script(Tour({{1, 0}}));
+
+  ASSERT_TRUE(RunInLockstep().ok());
+
+  ASSERT_FALSE(recorder_.ticks.empty());
+  for (std::size_t i = 1; i < recorder_.ticks.size(); ++i) {
+    EXPECT_GT(recorder_.ticks[i].time_ns, recorder_.ticks[i - 1].time_ns);
+  }
+}
+
+TEST(RobotLoopOptionsTest, NonsenseIsRefusedByName) {
+  RobotLoopOptions options;
+  EXPECT_TRUE(Validate(options).ok());
+
+  options.tick_s = 0.0;
+  EXPECT_THAT(std::string(Validate(options).message()), ::testing::HasSubstr("tick_s"));
+  options = {};
+  options.rates.gas_hz = std::nan("");
+  EXPECT_THAT(std::string(Validate(options).message()), ::testing::HasSubstr("gas_hz"));
+}
+
+}  // namespace
+}  // namespace plumescout::client
