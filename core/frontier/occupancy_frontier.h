@@ -12,9 +12,9 @@
 namespace plumescout {
 
 // Wavefront frontier detection [WFD]. A frontier cell is an unknown cell with a free 8-neighbour
-// that is reachable: connected (8-neighbours, through free cells, no corner cut) to a start cell.
-// Clusters are 8-connected and keep at least `min_cells` cells. Their goal cells are found on
-// `traversable`; start cells that are not traversable search from the nearest traversable cell.
+// that is reachable: connected (8-neighbours, through free cells, no corner cut) to a start cell,
+// or to the free cell nearest to a start that is not free. Clusters are 8-connected; those of
+// fewer than `min_cells` cells are marked too_small. Goal cells: core/frontier/goal_cells.h.
 //
 // REQUIRES: both rasters share one geometry. Cost: O(cells). Deterministic.
 std::vector<Frontier> FindOccupancyFrontiers(const Grid<CellState>& states,

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/frontier/gas_frontier.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "core/frontier/cluster.h"
+#include "core/frontier/goal_cells.h"
+#include "core/grid/flood.h"
+#include "core/grid/mask.h"
+#include "core/grid/padded.h"
+
+namespace plumescout {
+namespace {
+
+constexpr std::uint8_t kOther = 0;     // not free, or observed and not critical
+constexpr std::uint8_t kUnseen = 1;    // C_gas,unk: free, not observed
+constexpr std::uint8_t kWaiting = 2;   // C_gf, Eq. (21), in no cluster yet
+constexpr std::uint8_t kTaken = 3;     // C_gf, phi_gf of Alg. 2
+constexpr std::uint8_t kCritical = 4;  // C_crit, Eq. (19)
+constexpr std::uint8_t kVisited = 5;   // C_crit, phi_v of Alg. 2
+
+struct Thresholds {
+  double observed_variance_ppm2;
+  double gas_ppm;
+};
+
+// NaN compares false: neither observed nor critical.
+bool IsObserved(CellState state, float variance_ppm2, double observed_variance_ppm2) {
+  return state == CellState::kFree && static_cast<double>(variance_ppm2) <= observed_variance_ppm2;
+}
+
+Padded<std::uint8_t> Classify(const GasFrontierInput& input, const Thresholds& thresholds) {
+  const GridGeometry& geometry = input.states.geometry();
+  Padded<std::uint8_t> marks(geometry, kOther, kOther);
+  for (int y = 0; y < geometry.height; ++y) {
+    const CellState* state = GridRow(input.states, y);
+    const float* mean_ppm = GridRow(input.mean_ppm, y);
+    const float* variance_ppm2 = GridRow(input.variance_ppm2, y);
+    std::uint8_t* mark = marks.Row(y);
+    for (int x = 0; x < geometry.width; ++x) {
+      if (state[x] != CellState::kFree) continue;
+      if (!IsObserved(state[x], variance_ppm2[x], thresholds.observed_variance_ppm2)) {
+        mark[x] = kUnseen;
+      } else if (static_cast<double>(mean_ppm[x]) >= thresholds.gas_ppm) {  // Eq. (18)
+        mark[x] = kCritical;
+      }
+    }
+  }
+  return marks;
+}
+
+// Marks C_gf, Eq. (20)-(21): the predicate of Alg. 3 for all cells at once.
+void MarkFrontierCells(const GridGeometry& geometry, Padded<std::uint8_t>& marks) {
+  const auto offsets = marks.NeighbourOffsets();
+  for (int y = 0; y < geometry.height; ++y) {
+    const int begin = marks.IndexOf({0, y});
+    for (int cell = begin; cell < begin + geometry.width; ++cell) {
+      if (marks[cell] != kCritical) continue;
+      for (const int offset : offsets) {
+        if (marks[cell + offset] == kUnseen) marks[cell + offset] = kWaiting;
+      }
+    }
+  }
+}
+
+// Where the outer wavefront begins, as indices of `marks`. kLocal: the starts in gas, observed or
+// not, Alg. 2 lines 2-4. kReachable: every critical cell that a start reaches over free cells.
+std::vector<int> WavefrontSeeds(const GasFrontierInput& input, const Padded<std::uint8_t>& marks,
+                                double gas_threshold_ppm, const std::vector<Cell>& starts,
+                                WgfdScope scope) {
+  std::vector<int> seeds;
+  if (scope == WgfdScope::kLocal) {
+    for (const Cell start : starts) {
+      if (input.states.At(start, CellState::kUnknown) == CellState::kFree &&
+          static_cast<double>(input.mean_ppm[start]) >= gas_threshold_ppm) {
+        seeds.push_back(marks.IndexOf(start));
+      }
+    }
+    return seeds;
+  }
+  const Grid<std::uint8_t> reached =
+      ReachableCells(MaskOf(input.states, CellState::kFree), FreeStarts(input.states, starts));
+  for (int y = 0; y < reached.height(); ++y) {
+    const std::uint8_t* reached_row = GridRow(reached, y);
+    const int begin = marks.IndexOf({0, y});
+    for (int x = 0; x < reached.width(); ++x) {
+      if (reached_row[x] != 0 && marks[begin + x] == kCritical) seeds.push_back(begin + x);
+    }
+  }
+  return seeds;
+}
+
+}  // namespace
+
+double ObservedVariance_ppm2(const FrontierOptions& options, const GasOptions& gas) {
+  return options.observed_variance_ppm2.value_or(options.observed_variance_ratio *
+                                                 OpenLatticeVariance_ppm2(gas));
+}
+
+double GasThreshold_ppm(const GasFrontierInput& input, double observed_variance_ppm2,
+                        const FrontierOptions& options) {
+  if (options.fixed_gas_threshold_ppm) return *options.fixed_gas_threshold_ppm;
+  std::vector<float> means_ppm;
+  for (std::size_t i = 0; i < input.states.size(); ++i) {
+    if (IsObserved(input.states[i], input.variance_ppm2[i], observed_variance_ppm2) &&
+        !std::isnan(input.mean_ppm[i])) {
+      means_ppm.push_back(input.mean_ppm[i]);
+    }
+  }
+  if (means_ppm.empty()) return options.min_gas_threshold_ppm;
+  constexpr double kPercent = 0.01;
+  const double rank = kPercent * options.gas_percentile * static_cast<double>(means_ppm.size() - 1);
+  const auto below = means_ppm.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(means_ppm.begin(), below, means_ppm.end());
+  const double low_ppm = static_cast<double>(*below);
+  const double high_ppm = below + 1 == means_ppm.end()
+                              ? low_ppm
+                              : static_cast<double>(*std::min_element(below + 1, means_ppm.end()));
+  const double percentile_ppm = low_ppm + (rank - std::floor(rank)) * (high_ppm - low_ppm);
+  return std::max(percentile_ppm, options.min_gas_threshold_ppm);
+}
+
+std::vector<Frontier> FindGasFrontiers(const GasFrontierInput& input, double observed_variance_ppm2,
+                                       double gas_threshold_ppm, const std::vector<Cell>& starts,
+                                       const FrontierOptions& options) {
+  const GridGeometry& geometry = input.states.geometry();
+  Padded<std::uint8_t> marks = Classify(input, {observed_variance_ppm2, gas_threshold_ppm});
+  MarkFrontierCells(geometry, marks);
+  const auto offsets = marks.NeighbourOffsets();
+  const ClusterRule rule = {FrontierKind::kGas, kWaiting, kTaken, options.min_gas_cells};
+  std::vector<Frontier> frontiers;
+  std::vector<int> queue =
+      WavefrontSeeds(input, marks, gas_threshold_ppm, starts, options.wgfd_scope);
+  for (const int seed : queue) {
+    if (marks[seed] == kCritical) marks[seed] = kVisited;
+  }
+  for (std::size_t i = 0; i < queue.size(); ++i) {  // [XIT] Alg. 2 lines 8-26
+    for (const int offset : offsets) {
+      const int neighbour = queue[i] + offset;
+      if (marks[neighbour] == kWaiting) {
+        frontiers.push_back(TakeCluster(geometry, rule, neighbour, marks));
+      } else if (marks[neighbour] == kCritical) {
+        marks[neighbour] = kVisited;
+        queue.push_back(neighbour);
+      }
+    }
+  }
+  FindGoalCells(input.states, input.traversable, starts, frontiers);
+  return frontiers;
+}
+
+}  // namespace plumescout
