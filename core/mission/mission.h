@@ -37,6 +37,7 @@ class Mission {
 
   const MissionOptions& options() const { return *options_; }
   std::int64_t revision() const { return revision_; }
+  MissionPhase phase() const { return fleet_.Phase(); }
 
   // Checks the body, gives it the next number and applies it. On error nothing has changed:
   //   kInvalidArgument     a field is out of range (named with its value)
