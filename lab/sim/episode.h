@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "absl/time/time.h"
+#include "client/motion.h"
+#include "client/planner_client.h"
+#include "client/sensor_bridge.h"
+#include "core/types/ids.h"
+#include "core/types/options.h"
+#include "core/types/plan.h"
+#include "core/types/pose2.h"
+#include "core/types/stop.h"
+#include "lab/sim/metrics.h"
+#include "lab/sim/scene_world.h"
+#include "lab/sim/simulated_robot.h"
+
+namespace plumescout::lab {
+
+// The metrics at one time of an episode, or of its end.
+struct MetricSample {
+  double time_s = 0.0;
+  std::int64_t revision = 0;  // of the map
+  MapMetrics metrics;
+};
+
+struct IssuedPlan {
+  double time_s = 0.0;      // when it was asked for
+  absl::Duration rpc_wall;  // from asking to answer
+  Plan plan;
+};
+
+struct DrivenPose {
+  double time_s = 0.0;
+  Pose2 pose;
+};
+
+// One robot in one scene.
+struct EpisodeOptions {
+  MissionId mission;
+  RobotId robot = "robot-1";
+  std::optional<MissionOptions> create;  // create the mission if it is not there
+  double duration_s = 300.0;             // of simulated time, [XIT] section VI-B, > 0
+  client::Following following = client::Following::kIdeal;
+  client::SensorRates rates;
+  // False: the world waits for acknowledgements and plans, so an episode is repeatable. True: time
+  // goes by as on a wall clock, plans take as long as they take.
+  bool realtime = false;
+  // Bound on the work of each plan, for repeatable episodes: see PlanRequest. 0: none.
+  std::int64_t max_edge_evaluations = 0;
+  absl::Duration plan_budget = absl::Seconds(1);
+  SimulatedRobotOptions simulated;  // its `realtime` is set from the one above
+  double metrics_period_s = 5.0;    // > 0
+  // Where the map has no estimate, see MapEvaluator.
+  double prior_variance_ppm2 = OpenLatticeVariance_ppm2(GasOptions{});
+  // Told of every sample as it is taken; may be empty.
+  std::function<void(const MetricSample&, const MapSnapshot&)> on_sample;
+};
+
+struct EpisodeResult {
+  std::vector<MetricSample>
+      samples;  // at 0, every period, and at the end with all readings applied
+  std::vector<IssuedPlan> plans;
+  std::vector<DrivenPose> path;       // one per tick of the robot
+  std::int64_t readings_sent = 0;     // scans and gas readings numbered by the robot
+  std::int64_t readings_applied = 0;  // of those, by the server's last word
+  double simulated_s = 0.0;
+  double distance_m = 0.0;
+  int collisions = 0;
+  bool completed = false;  // the planner said so; else the time was up or `stop` said so
+};
+
+// Runs a simulated robot against a planning service until the mission is complete or the time is
+// up. Errors: those of SimulatedRobot::Create, RobotLoop and GetMap; kInvalidArgument for options.
+absl::StatusOr<EpisodeResult> RunEpisode(client::PlannerClient& planner, const SceneWorld& world,
+                                         const EpisodeOptions& options,
+                                         const StopFn& stop = NeverStop());
+
+}  // namespace plumescout::lab

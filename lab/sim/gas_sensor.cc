@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/sim/gas_sensor.h"
+
+#include <cmath>
+
+#include "absl/strings/str_cat.h"
+#include "core/types/status_macros.h"
+
+namespace plumescout::lab {
+namespace {
+
+constexpr double kMaxTimeConstant_s = 3600.0;
+constexpr double kMaxConcentration_ppm = 1e6;
+
+absl::Status Check(const char* field, double value, double highest) {
+  if (value >= 0.0 && value <= highest) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      absl::StrCat("gas_sensor.", field, " = ", value, " must be in [0, ", highest, "]"));
+}
+
+}  // namespace
+
+absl::Status Validate(const GasSensorOptions& options) {
+  PLUMESCOUT_RETURN_IF_ERROR(Check("time_constant_s", options.time_constant_s, kMaxTimeConstant_s));
+  PLUMESCOUT_RETURN_IF_ERROR(
+      Check("noise_sigma_ppm", options.noise_sigma_ppm, kMaxConcentration_ppm));
+  PLUMESCOUT_RETURN_IF_ERROR(Check("noise_share", options.noise_share, 1.0));
+  return Check("detection_limit_ppm", options.detection_limit_ppm, kMaxConcentration_ppm);
+}
+
+GasSensor::GasSensor(const GasSensorOptions& options, std::uint64_t seed)
+    : options_(options), rng_(seed) {}
+
+void GasSensor::Step(double true_ppm, double duration_s) {
+  if (options_.time_constant_s == 0.0) {
+    cell_ppm_ = true_ppm;
+    return;
+  }
+  cell_ppm_ += (true_ppm - cell_ppm_) * -std::expm1(-duration_s / options_.time_constant_s);
+}
+
+double GasSensor::Read_ppm() {
+  const double sigma_ppm = std::hypot(options_.noise_sigma_ppm, options_.noise_share * cell_ppm_);
+  const double reading_ppm = cell_ppm_ + sigma_ppm * rng_.Gaussian();
+  return reading_ppm < options_.detection_limit_ppm || reading_ppm < 0.0 ? 0.0 : reading_ppm;
+}
+
+}  // namespace plumescout::lab

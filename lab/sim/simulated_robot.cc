@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/sim/simulated_robot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "absl/strings/str_cat.h"
+#include "core/types/status_macros.h"
+
+namespace plumescout::lab {
+namespace {
+
+constexpr double kNanosecondsPerSecond = 1e9;
+constexpr double kMaxAdvance_s = 3600.0;
+constexpr double kMaxSpeed = 100.0;
+constexpr double kMaxBodyRadius_m = 5.0;
+// Turn rates below this leave the path straight to within a nanometre per step.
+constexpr double kStraight_rad_per_s = 1e-6;
+// Independent streams from one seed.
+constexpr std::uint64_t kLidarStream = 0x6C69646172;
+constexpr std::uint64_t kGasStream = 0x676173;
+
+bool IsFinite(const Pose2& pose) {
+  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad);
+}
+
+absl::Status OutOfRange(const char* field, double value, const char* range) {
+  return absl::InvalidArgumentError(
+      absl::StrCat("robot.", field, " = ", value, " must be ", range));
+}
+
+absl::Status Validate(const SimulatedRobotOptions& options) {
+  const auto positive = [](double value) { return value > 0.0 && value <= kMaxSpeed; };
+  if (!positive(options.max_forward_mps)) {
+    return OutOfRange("max_forward_mps", options.max_forward_mps, "in (0, 100]");
+  }
+  if (!positive(options.max_turn_rad_per_s)) {
+    return OutOfRange("max_turn_rad_per_s", options.max_turn_rad_per_s, "in (0, 100]");
+  }
+  if (!(options.body_radius_m >= 0.0 && options.body_radius_m <= kMaxBodyRadius_m)) {
+    return OutOfRange("body_radius_m", options.body_radius_m, "in [0, 5]");
+  }
+  if (options.start_time_ns < 0) {
+    return absl::InvalidArgumentError("robot.start_time_ns must be >= 0");
+  }
+  PLUMESCOUT_RETURN_IF_ERROR(lab::Validate(options.lidar));
+  return lab::Validate(options.gas_sensor);
+}
+
+// Where a unicycle is after `duration_s` on an arc.
+Pose2 AlongArc(const Pose2& from, const client::Twist& twist, double duration_s) {
+  const double yaw_rad = from.yaw_rad + twist.turn_rad_per_s * duration_s;
+  if (std::abs(twist.turn_rad_per_s) < kStraight_rad_per_s) {
+    const double length_m = twist.forward_mps * duration_s;
+    return {from.x_m + length_m * std::cos(from.yaw_rad),
+            from.y_m + length_m * std::sin(from.yaw_rad), WrapAngle_rad(yaw_rad)};
+  }
+  const double radius_m = twist.forward_mps / twist.turn_rad_per_s;
+  return {from.x_m + radius_m * (std::sin(yaw_rad) - std::sin(from.yaw_rad)),
+          from.y_m - radius_m * (std::cos(yaw_rad) - std::cos(from.yaw_rad)),
+          WrapAngle_rad(yaw_rad)};
+}
+
+}  // namespace
+
+absl::StatusOr<SimulatedRobot> SimulatedRobot::Create(const SceneWorld& world,
+                                                      const SimulatedRobotOptions& options) {
+  PLUMESCOUT_RETURN_IF_ERROR(Validate(options));
+  SimulatedRobot robot(world, options);
+  const Pose2 start = robot.pose();
+  if (!IsFinite(start)) return absl::InvalidArgumentError("robot.start must be finite");
+  if (world.Collides(start.position(), options.body_radius_m)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("robot.start (", start.x_m, ", ", start.y_m, ") touches an obstacle"));
+  }
+  return robot;
+}
+
+SimulatedRobot::SimulatedRobot(const SceneWorld& world, const SimulatedRobotOptions& options)
+    : world_(&world),
+      options_(options),
+      lidar_(options.lidar, options.seed ^ kLidarStream),
+      gas_sensor_(options.gas_sensor, options.seed ^ kGasStream),
+      now_ns_(options.start_time_ns),
+      pose_(options.start.value_or(world.scene().start_pose)),
+      due_(std::chrono::steady_clock::now()) {}
+
+absl::StatusOr<Scan> SimulatedRobot::TakeScan() { return lidar_.Take(world_->occupancy(), pose_); }
+
+absl::StatusOr<GasReading> SimulatedRobot::ReadGas() {
+  return GasReading{.concentration_ppm = gas_sensor_.Read_ppm()};
+}
+
+absl::Status SimulatedRobot::Drive(const client::Twist& twist) {
+  if (!std::isfinite(twist.forward_mps) || !std::isfinite(twist.turn_rad_per_s)) {
+    return absl::InvalidArgumentError("twist must be finite");
+  }
+  const double forward = options_.max_forward_mps;
+  const double turn = options_.max_turn_rad_per_s;
+  twist_ = {std::clamp(twist.forward_mps, -forward, forward),
+            std::clamp(twist.turn_rad_per_s, -turn, turn)};
+  return absl::OkStatus();
+}
+
+absl::Status SimulatedRobot::PlaceAt(const Pose2& pose) {
+  if (!IsFinite(pose)) return absl::InvalidArgumentError("pose must be finite");
+  if (world_->Collides(pose.position(), options_.body_radius_m)) {
+    ++collisions_;
+    return absl::OkStatus();
+  }
+  pose_ = pose;
+  pose_.yaw_rad = WrapAngle_rad(pose.yaw_rad);
+  return absl::OkStatus();
+}
+
+absl::Status SimulatedRobot::Advance(double duration_s) {
+  if (!(duration_s >= 0.0 && duration_s <= kMaxAdvance_s)) {
+    return OutOfRange("Advance duration_s", duration_s, "in [0, 3600]");
+  }
+  const std::int64_t begin_ns = now_ns_;
+  constexpr double kRounding = 1e-9;
+  const auto steps = static_cast<int>(std::ceil(duration_s / kStep_s - kRounding));
+  for (int step = 1; step <= steps; ++step) {
+    const double step_s = duration_s / steps;
+    Move(step_s);
+    now_ns_ = begin_ns + std::llround(step * step_s * kNanosecondsPerSecond);
+    gas_sensor_.Step(world_->Concentration_ppm(pose_.position(), scene_time_s()), step_s);
+  }
+  if (options_.realtime) Pace(duration_s);
+  return absl::OkStatus();
+}
+
+void SimulatedRobot::Move(double duration_s) {
+  if (twist_.forward_mps == 0.0 && twist_.turn_rad_per_s == 0.0) return;
+  const Pose2 next = AlongArc(pose_, twist_, duration_s);
+  const bool turns_on_the_spot = next.position() == pose_.position();
+  if (!turns_on_the_spot && world_->Collides(next.position(), options_.body_radius_m)) {
+    ++collisions_;
+    twist_ = {};
+    return;
+  }
+  pose_ = next;
+}
+
+// Sleeps until the stretch is over. Time lost elsewhere (a slow plan) is not caught up.
+void SimulatedRobot::Pace(double duration_s) {
+  using Seconds = std::chrono::duration<double>;
+  due_ += std::chrono::duration_cast<std::chrono::steady_clock::duration>(Seconds(duration_s));
+  const auto now = std::chrono::steady_clock::now();
+  if (due_ < now) {
+    due_ = now;
+  } else {
+    std::this_thread::sleep_until(due_);
+  }
+}
+
+double SimulatedRobot::scene_time_s() const {
+  return static_cast<double>(now_ns_ - options_.start_time_ns) / kNanosecondsPerSecond;
+}
+
+}  // namespace plumescout::lab

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "client/robot_driver.h"
+#include "lab/sim/gas_sensor.h"
+#include "lab/sim/lidar.h"
+#include "lab/sim/scene_world.h"
+
+namespace plumescout::lab {
+
+struct SimulatedRobotOptions {
+  std::optional<Pose2> start;       // default: the scene's
+  double max_forward_mps = 1.25;    // either way, [XIT] section VI-A, (0, 100]
+  double max_turn_rad_per_s = 2.0;  // either way, (0, 100]
+  // Touching a wall stops the robot. Less than the inflation of 0.2 m by the diagonal of a cell:
+  // plans keep the centres of cells apart, and the robot may be anywhere in its cell. [0, 5]
+  double body_radius_m = 0.1;
+  LidarOptions lidar;
+  GasSensorOptions gas_sensor;
+  std::int64_t start_time_ns = 1'700'000'000'000'000'000;  // of the clock, at frame 0; >= 0
+  bool realtime = false;                                   // Advance takes as long as it says
+  std::uint64_t seed = 1;
+};
+
+// A robot in a SceneWorld: exact kinematics, exact localisation, simulated sensors. Everything but
+// the pacing depends on the options and the calls alone.
+class SimulatedRobot : public client::RobotDriver {
+ public:
+  // The longest stretch over which pose and gas are taken as constant; 2.5 cm at 1.25 m/s.
+  static constexpr double kStep_s = 0.02;
+
+  // `world` must outlive the robot. kInvalidArgument naming the field; also if the start collides.
+  static absl::StatusOr<SimulatedRobot> Create(const SceneWorld& world,
+                                               const SimulatedRobotOptions& options);
+
+  std::int64_t now_ns() const override { return now_ns_; }
+  Pose2 pose() const override { return pose_; }
+  absl::StatusOr<Scan> TakeScan() override;
+  absl::StatusOr<GasReading> ReadGas() override;
+
+  // Commands beyond the limits are cut to them. kInvalidArgument if not finite.
+  absl::Status Drive(const client::Twist& twist) override;
+  // A pose that collides is not taken: the robot stays, as if it had bumped into something.
+  // kInvalidArgument if not finite.
+  absl::Status PlaceAt(const Pose2& pose) override;
+  // In steps of at most kStep_s. kInvalidArgument unless 0 <= duration_s <= 3600.
+  absl::Status Advance(double duration_s) override;
+
+  // Moves that a wall prevented. The robot then stands until the next command.
+  int collisions() const { return collisions_; }
+
+ private:
+  SimulatedRobot(const SceneWorld& world, const SimulatedRobotOptions& options);
+
+  void Move(double duration_s);
+  void Pace(double duration_s);
+  double scene_time_s() const;
+
+  const SceneWorld* world_;
+  SimulatedRobotOptions options_;
+  Lidar lidar_;
+  GasSensor gas_sensor_;
+  std::int64_t now_ns_;
+  Pose2 pose_;
+  client::Twist twist_;
+  int collisions_ = 0;
+  std::chrono::steady_clock::time_point due_;  // real time: when the last Advance was to end
+};
+
+}  // namespace plumescout::lab
