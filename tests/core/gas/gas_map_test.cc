@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/gas/gas_map.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "tests/core/gas/dense_field.h"
+#include "tests/support/grid_art.h"
+
+namespace plumescout {
+namespace {
+
+using ::plumescout::testing::DenseField;
+using ::plumescout::testing::DenseReading;
+using ::plumescout::testing::GridArt;
+using ::plumescout::testing::GridFromArt;
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+struct TimedReading {
+  std::int64_t time_ns;
+  Point2 position;
+  GasReading reading;
+};
+
+std::vector<TimedReading> RandomTimedReadings(const Grid<CellState>& states, int count, Rng& rng) {
+  const double width_m = states.width() * states.geometry().resolution_m;
+  const double height_m = states.height() * states.geometry().resolution_m;
+  std::vector<TimedReading> readings;
+  for (int k = 0; k < count; ++k) {
+    readings.push_back({k * kSecond_ns,
+                        {rng.Uniform(0.0, width_m), rng.Uniform(0.0, height_m)},
+                        {rng.Uniform(0.0, 40.0), k % 3 == 0 ? rng.Uniform(0.1, 2.0) : 0.0}});
+  }
+  return readings;
+}
+
+GasMap MapOf(const std::vector<TimedReading>& readings, const Grid<CellState>& states,
+             std::int64_t time_ns, const GasOptions& options = {}) {
+  GasMap map(options);
+  for (const TimedReading& r : readings) map.Add(r.time_ns, r.position, r.reading);
+  EXPECT_TRUE(map.Refresh(states, time_ns).ok());
+  return map;
+}
+
+float At(const Grid<float>& grid, int x, int y) { return grid[Cell{x, y}]; }
+
+// The same bits, NaN included.
+bool SameBytes(const Grid<float>& a, const Grid<float>& b) {
+  return a.geometry() == b.geometry() && a.size() == b.size() &&
+         std::memcmp(a.values().data(), b.values().data(), a.size() * sizeof(float)) == 0;
+}
+
+TEST(GasMapTest, PublishesTheExactPosteriorRoundedToFloat) {
+  Rng rng(1);
+  const Grid<CellState> states = testing::RandomStates(14, 12, 0.2, rng);
+  std::vector<DenseReading> readings = testing::RandomReadings(states, 25, rng);
+  GasOptions options;
+  options.background_mean_ppm = 3.0;
+  GasMap map(options);
+  for (const DenseReading& r : readings) {
+    map.Add(0, states.geometry().Center(r.cell), {r.concentration_ppm, 1.0 / r.precision});
+  }
+  ASSERT_TRUE(map.Refresh(states, 0).ok());
+
+  const DenseField oracle(states, readings, options);
+  for (std::size_t k = 0; k < oracle.cells().size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    // Within one unit of the last place of a float: rounding, and 1e-9 of double before it.
+    EXPECT_FLOAT_EQ(map.mean_ppm()[oracle.cells()[k]], static_cast<float>(oracle.mean_ppm()(row)));
+    EXPECT_FLOAT_EQ(map.variance_ppm2()[oracle.cells()[k]],
+                    static_cast<float>(oracle.variance_ppm2()(row)));
+  }
+}
+
+TEST(GasMapTest, IsNanOffTheFreeCells) {
+  const GridArt art = {".#?"};
+  const GasMap map = MapOf({}, GridFromArt(art), 0);
+  EXPECT_TRUE(std::isfinite(At(map.variance_ppm2(), 0, 0)));
+  for (const Cell cell : {Cell{1, 0}, Cell{2, 0}}) {
+    EXPECT_TRUE(std::isnan(map.mean_ppm()[cell]));
+    EXPECT_TRUE(std::isnan(map.variance_ppm2()[cell]));
+  }
+}
+
+TEST(GasMapTest, AReadingDoesNotCrossAWall) {
+  const GridArt art = {"..#..", "..#..", "..#.."};
+  const Grid<CellState> states = GridFromArt(art);
+  const GasMap without = MapOf({}, states, 0);
+  const GasMap with = MapOf({{0, {0.05, 0.15}, {30.0}}}, states, 0);
+  for (int y = 0; y < 3; ++y) {
+    EXPECT_GT(At(with.mean_ppm(), 1, y), 1.0F);
+    EXPECT_LT(At(with.variance_ppm2(), 1, y), At(without.variance_ppm2(), 1, y));
+    for (const int x : {3, 4}) {
+      EXPECT_EQ(At(with.mean_ppm(), x, y), 0.0F);
+      EXPECT_EQ(At(with.variance_ppm2(), x, y), At(without.variance_ppm2(), x, y));
+    }
+  }
+}
+
+TEST(GasMapTest, AReadingGoesThroughADoor) {
+  const Grid<CellState> states = GridFromArt({"..#..", ".....", "..#.."});
+  EXPECT_GT(At(MapOf({{0, {0.05, 0.15}, {30.0}}}, states, 0).mean_ppm(), 4, 1), 1.0F);
+}
+
+TEST(GasMapTest, OldReadingsWeighLess) {
+  GasOptions options;
+  options.ageing_half_life_s = 60.0;
+  const Grid<CellState> states = GridFromArt({"."});
+  const GasMap map = MapOf({{0, {0.05, 0.05}, {20.0}}}, states, 180 * kSecond_ns, options);
+  const double lambda = 1.0 / (1.0 / 10.0 + 180.0 / 600.0);
+  const double total = lambda + options.background_precision;
+  EXPECT_FLOAT_EQ(At(map.variance_ppm2(), 0, 0), static_cast<float>(1.0 / total));
+  EXPECT_FLOAT_EQ(At(map.mean_ppm(), 0, 0), static_cast<float>(20.0 * lambda / total));
+}
+
+TEST(GasMapTest, GivesTheSameBytesAgain) {
+  Rng rng(2);
+  const Grid<CellState> states = testing::RandomStates(30, 20, 0.25, rng);
+  const std::vector<TimedReading> readings = RandomTimedReadings(states, 60, rng);
+  const GasMap first = MapOf(readings, states, 0);
+  const GasMap second = MapOf(readings, states, 0);
+  EXPECT_TRUE(SameBytes(first.mean_ppm(), second.mean_ppm()));
+  EXPECT_TRUE(SameBytes(first.variance_ppm2(), second.variance_ppm2()));
+}
+
+TEST(GasMapTest, GivesTheSameBytesHoweverOftenItWasRefreshedBefore) {
+  Rng rng(3);
+  const Grid<CellState> states = testing::RandomStates(20, 20, 0.25, rng);
+  const std::vector<TimedReading> readings = RandomTimedReadings(states, 60, rng);
+  for (const double half_life_s : {0.0, 30.0}) {
+    GasOptions options;
+    options.ageing_half_life_s = half_life_s;
+    GasMap often(options);
+    for (const TimedReading& r : readings) {
+      often.Add(r.time_ns, r.position, r.reading);
+      ASSERT_TRUE(often.Refresh(states, r.time_ns).ok());
+    }
+    const GasMap once = MapOf(readings, states, readings.back().time_ns, options);
+    EXPECT_TRUE(SameBytes(once.mean_ppm(), often.mean_ppm()));
+    EXPECT_TRUE(SameBytes(once.variance_ppm2(), often.variance_ppm2()));
+    EXPECT_EQ(once.counters(), often.counters());
+  }
+}
+
+TEST(GasMapTest, DoesNotCareInWhichOrderReadingsArrive) {
+  Rng rng(4);
+  const Grid<CellState> states = testing::RandomStates(12, 12, 0.3, rng);
+  std::vector<TimedReading> readings = RandomTimedReadings(states, 80, rng);
+  const GasMap forward = MapOf(readings, states, 0);
+  std::reverse(readings.begin(), readings.end());
+  const GasMap backward = MapOf(readings, states, 0);
+  EXPECT_EQ(forward.counters(), backward.counters());
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (states[i] != CellState::kFree) continue;
+    EXPECT_FLOAT_EQ(forward.mean_ppm()[i], backward.mean_ppm()[i]);
+    EXPECT_FLOAT_EQ(forward.variance_ppm2()[i], backward.variance_ppm2()[i]);
+  }
+}
+
+TEST(GasMapTest, CountsMovedAndWaitingReadings) {
+  const Grid<CellState> states = GridFromArt({".#??"});
+  const GasMap map = MapOf(
+      {{0, {0.05, 0.05}, {1.0}}, {0, {0.15, 0.05}, {1.0}}, {0, {0.35, 0.05}, {1.0}}}, states, 0);
+  EXPECT_EQ(map.counters(),
+            (GasCounters{.readings = 3, .in_posterior = 2, .moved_to_neighbour = 1, .waiting = 1}));
+}
+
+TEST(GasMapTest, CountsEachReadingBeforeTheNextRefresh) {
+  GasMap map{GasOptions()};
+  EXPECT_FALSE(map.stale());
+  map.Add(0, {0.05, 0.05}, {1.0});
+  EXPECT_TRUE(map.stale());
+  EXPECT_EQ(map.counters(), (GasCounters{.readings = 1, .waiting = 1}));
+  ASSERT_TRUE(map.Refresh(GridFromArt({"."}), 0).ok());
+  EXPECT_FALSE(map.stale());
+  EXPECT_EQ(map.counters(), (GasCounters{.readings = 1, .in_posterior = 1}));
+}
+
+TEST(GasMapTest, ReturnsToTheSamePosteriorWhenACellComesBack) {
+  const Grid<CellState> open = GridFromArt({"....", "....", "...."});
+  const Grid<CellState> blocked = GridFromArt({"###.", "###.", "###."});
+  GasMap map = MapOf({{0, {0.05, 0.15}, {25.0}}}, open, 0);
+  const Grid<float> before = map.mean_ppm();
+  ASSERT_TRUE(map.Refresh(blocked, 0).ok());
+  EXPECT_EQ(map.counters().waiting, 1);
+  EXPECT_EQ(At(map.mean_ppm(), 3, 1), 0.0F);
+  ASSERT_TRUE(map.Refresh(open, 0).ok());
+  EXPECT_EQ(map.counters().in_posterior, 1);
+  EXPECT_TRUE(SameBytes(map.mean_ppm(), before));
+}
+
+TEST(GasMapTest, TakesInWaitingReadingsWhenTheMapReachesThem) {
+  GasMap map = MapOf({{0, {0.75, 0.05}, {25.0}}}, GridFromArt({"..??"}), 0);
+  EXPECT_EQ(map.counters().waiting, 1);
+  const Grid<CellState> grown = GridFromArt({"........"});
+  ASSERT_TRUE(map.Refresh(grown, 0).ok());
+  const GasMap fresh = MapOf({{0, {0.75, 0.05}, {25.0}}}, grown, 0);
+  EXPECT_TRUE(SameBytes(map.mean_ppm(), fresh.mean_ppm()));
+}
+
+TEST(GasMapTest, WorksWithoutCellsAndWithoutFreeCells) {
+  GasMap map{GasOptions()};
+  map.Add(0, {0.05, 0.05}, {5.0});
+  ASSERT_TRUE(map.Refresh(Grid<CellState>(), 0).ok());
+  EXPECT_EQ(map.mean_ppm().size(), 0U);
+  ASSERT_TRUE(map.Refresh(GridFromArt({"?"}), 0).ok());
+  EXPECT_TRUE(std::isnan(At(map.mean_ppm(), 0, 0)));
+  EXPECT_EQ(map.counters().waiting, 1);
+}
+
+TEST(GasMapTest, KeepsTheOldPosteriorWhenTheLatticeDoesNotMatch) {
+  GasMap map = MapOf({{0, {0.05, 0.05}, {5.0}}}, GridFromArt({"."}), 0);
+  const Grid<float> before = map.mean_ppm();
+  EXPECT_EQ(map.Refresh(GridFromArt({".."}, 0.2), 0).code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_TRUE(SameBytes(map.mean_ppm(), before));
+  EXPECT_EQ(map.counters().in_posterior, 1);
+}
+
+TEST(GasMapTest, IsNotPoisonedByReadingsThatAreNotFinite) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const GasMap map =
+      MapOf({{0, {0.05, 0.05}, {nan}}, {0, {nan, nan}, {1.0}}}, GridFromArt({".."}), 0);
+  EXPECT_EQ(At(map.mean_ppm(), 0, 0), 0.0F);
+  EXPECT_EQ(map.counters().waiting, 2);
+}
+
+}  // namespace
+}  // namespace plumescout
