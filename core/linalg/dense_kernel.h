@@ -44,4 +44,8 @@ std::size_t FactorizeFront(double* front, std::size_t stride, std::size_t rows,
 void InvertLower(const double* lower, std::size_t lower_stride, std::size_t size, double* inverse,
                  std::size_t inverse_stride);
 
+// Sum of a[i] * b[i], in four interleaved partial sums: chains of additions that do not wait for
+// each other.
+double Dot(const double* a, const double* b, std::size_t size);
+
 }  // namespace plumescout

@@ -60,18 +60,6 @@ class PathOfBlocks {
   std::vector<Item> items_;
 };
 
-double SquaredNorm(const double* x, std::size_t size) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < size; ++i) sum += x[i] * x[i];
-  return sum;
-}
-
-double Dot(const double* x, const double* y, std::size_t size) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < size; ++i) sum += x[i] * y[i];
-  return sum;
-}
-
 class SelectedInversion {
  public:
   SelectedInversion(const SupernodalPattern& pattern, const FactorValues& factor,
@@ -151,7 +139,7 @@ class SelectedInversion {
   // Nobody asks for the off-diagonal entries of a leaf.
   void PublishLeaf(std::size_t s) {
     for (std::size_t j = 0; j < columns_; ++j) {
-      double value = SquaredNorm(x_.column(j) + j, columns_ - j);
+      double value = Dot(x_.column(j) + j, x_.column(j) + j, columns_ - j);
       if (below_ > 0) value += Dot(y_.column(j), zy_.column(j), below_);
       Publish(s, j, value);
     }

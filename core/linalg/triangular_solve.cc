@@ -6,22 +6,12 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/linalg/dense_kernel.h"
+
 namespace plumescout {
 namespace {
 
 std::size_t Unsigned(int index) { return static_cast<std::size_t>(index); }
-
-// Sum of products in four interleaved partial sums: one order on every machine, and four chains of
-// additions that do not wait for each other.
-double Dot(const double* a, const double* b, std::size_t size) {
-  double sum[4] = {};
-  std::size_t i = 0;
-  for (; i + 4 <= size; i += 4) {
-    for (std::size_t lane = 0; lane < 4; ++lane) sum[lane] += a[i + lane] * b[i + lane];
-  }
-  for (; i < size; ++i) sum[0] += a[i] * b[i];
-  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
-}
 
 class TriangularSolver {
  public:

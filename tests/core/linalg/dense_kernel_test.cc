@@ -186,5 +186,16 @@ TEST(InvertLowerTest, TimesTheTriangleIsTheIdentity) {
   EXPECT_LE((triangle * inverse.view() - identity).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+TEST(DotTest, SumsProductsOfAnyLength) {
+  std::vector<double> a, b;
+  double expected = 0.0;
+  for (int i = 0; i < 23; ++i) {
+    EXPECT_EQ(Dot(a.data(), b.data(), a.size()), expected);  // small integers: exact
+    a.push_back(i);
+    b.push_back(3 - i);
+    expected += i * (3.0 - i);
+  }
+}
+
 }  // namespace
 }  // namespace plumescout
