@@ -13,6 +13,10 @@ constexpr std::size_t kColumnTile = 4;  // with kRowTile: 8 accumulators of 4 do
 constexpr std::size_t kDepth = 256;     // of a tile at once: 16 KiB of a, 8 KiB of b
 constexpr std::size_t kPanel = 24;      // columns factorised before the rest is updated
 
+// Widths of vector registers.
+constexpr int kPortableBytes = 16;
+constexpr int kAvx2Bytes = 32;
+
 template <int kBytes>
 struct VectorOf {
   typedef double Type __attribute__((vector_size(kBytes)));
@@ -72,9 +76,8 @@ template <int kBytes>
   }
 }
 
-void AccumulateBaseline(const Product& p) { AccumulateBody<16>(p); }
 #if defined(__x86_64__)
-[[gnu::target("avx2")]] void AccumulateAvx2(const Product& p) { AccumulateBody<32>(p); }
+[[gnu::target("avx2")]] void AccumulateAvx2(const Product& p) { AccumulateBody<kAvx2Bytes>(p); }
 #endif
 
 using AccumulateFunction = void (*)(const Product&);
@@ -83,7 +86,7 @@ AccumulateFunction BestAccumulate() {
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2")) return AccumulateAvx2;
 #endif
-  return AccumulateBaseline;
+  return AccumulatePortably;
 }
 
 // y -= factor * x
@@ -113,6 +116,8 @@ void Accumulate(const Product& product) {
   static const AccumulateFunction accumulate = BestAccumulate();
   accumulate(product);
 }
+
+void AccumulatePortably(const Product& product) { AccumulateBody<kPortableBytes>(product); }
 
 std::size_t FactorizeFront(double* front, std::size_t stride, std::size_t rows,
                            std::size_t columns) {

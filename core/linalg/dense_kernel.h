@@ -33,6 +33,8 @@ struct Product {
   bool lower_only = false;  // tiles wholly above the diagonal of c are left alone
 };
 void Accumulate(const Product& product);
+// The same with instructions that every CPU of the architecture has; for tests.
+void AccumulatePortably(const Product& product);
 
 // Factorises the first `columns` columns of the lower triangle of `front` (rows x rows) in place,
 // and subtracts their outer product from the rest: L11, L21 and the Schur complement. Returns the

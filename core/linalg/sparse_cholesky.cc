@@ -53,6 +53,7 @@ SparseCholesky& SparseCholesky::operator=(SparseCholesky&& other) noexcept = def
 
 absl::Status SparseCholesky::Factorize(const SymmetricMatrix& matrix) {
   state_->factorized = false;
+  state_->factor = {};  // before the next one is made: memory for one factor, not two
   PLUMESCOUT_RETURN_IF_ERROR(Validate(matrix));
   if (matrix.n == 0) {
     *state_ = State();

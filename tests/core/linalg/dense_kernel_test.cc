@@ -86,6 +86,29 @@ TEST_P(AccumulateTest, AddsTheScaledProduct) {
             1e-12 * static_cast<double>(rows * columns + 1));
 }
 
+TEST_P(AccumulateTest, GivesTheSameBytesWithAnyInstructionSet) {
+  const auto [rows, columns, depth] = GetParam();
+  Rng rng(rows + depth);
+  Padded a = RandomPadded(rows, depth, rng);
+  Padded b = RandomPadded(depth, columns, rng);
+  Padded best = RandomPadded(rows, columns, rng);
+  Padded portable = best;
+  const auto product_into = [&](Padded& c) {
+    return Product{.a = a.data(),
+                   .a_stride = a.stride(),
+                   .b = b.data(),
+                   .b_column_stride = b.stride(),
+                   .c = c.data(),
+                   .c_stride = c.stride(),
+                   .rows = rows,
+                   .columns = columns,
+                   .depth = depth};
+  };
+  Accumulate(product_into(best));
+  AccumulatePortably(product_into(portable));
+  EXPECT_TRUE(best.view() == portable.view());
+}
+
 TEST_P(AccumulateTest, TakesATransposedFactor) {
   const auto [rows, columns, depth] = GetParam();
   Rng rng(rows + columns);
