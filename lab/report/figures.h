@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "lab/report/chart.h"
+#include "lab/report/map_panel.h"
+#include "lab/report/report_data.h"
+
+namespace plumescout::lab {
+
+// True gas (if known), estimated mean, its variance, and occupancy with frontiers, goals and
+// paths: all of the same region, the gas maps with the same colours.
+// REQUIRES: valid data (see report.h).
+std::vector<MapPanel> MakeMapPanels(const ReportData& data);
+
+// Completeness, RMSE with that of an all-zero map, and entropy over time.
+std::vector<Chart> MakeCharts(const ReportData& data);
+
+}  // namespace plumescout::lab

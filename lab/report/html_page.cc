@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/report/html_page.h"
+
+#include <algorithm>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/string_view.h"
+#include "lab/report/svg_canvas.h"
+
+namespace plumescout::lab {
+namespace {
+
+constexpr char kStyle[] = R"(
+body { margin: 0 auto; padding: 2rem; max-width: 120rem; color: #1f2430; background: #fff;
+       font: 16px/1.5 system-ui, sans-serif; }
+h1 { margin: 0 0 1rem; font-size: 1.9rem; }
+h2 { margin: 0 0 .5rem; font-size: 1rem; }
+.headline { display: flex; flex-wrap: wrap; gap: 1rem 3rem; margin: 0 0 2rem; }
+.headline div { font-size: .85rem; color: #6b7280; }
+.headline strong { display: block; font-size: 1.6rem; color: #2463c9; }
+.figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(22rem, 1fr));
+           gap: 1.5rem 2rem; margin: 0 0 1.5rem; }
+svg { overflow: visible; width: 100%; height: auto; max-width: 40rem; }
+table { width: 100%; max-width: 40rem; border-collapse: collapse; font-size: .9rem; }
+td { border-top: 1px solid #e2e5ea; padding: .2rem 0; }
+td:first-child { color: #6b7280; }
+td:last-child { text-align: right; font-variant-numeric: tabular-nums; }
+)";
+
+std::string MakeHeadline(const ReportFigures& figures) {
+  std::string html = "<div class=\"headline\">\n";
+  const std::size_t count = std::min(kHeadlineNumbers, figures.key_numbers.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& [name, value] = figures.key_numbers[i];
+    absl::StrAppend(&html, "<div>", EscapeMarkup(name), "<strong>", EscapeMarkup(value),
+                    "</strong></div>\n");
+  }
+  return html + "</div>\n";
+}
+
+std::string MakeTable(const ReportFigures& figures) {
+  std::string html = "<div><h2>Key numbers</h2>\n<table>\n";
+  for (const auto& [name, value] : figures.key_numbers) {
+    absl::StrAppend(&html, "<tr><td>", EscapeMarkup(name), "</td><td>", EscapeMarkup(value),
+                    "</td></tr>\n");
+  }
+  return html + "</table></div>\n";
+}
+
+std::string MakePanel(const MapPanel& panel, int height_px) {
+  SvgCanvas canvas(kPanelWidth_px, height_px, panel.title);
+  DrawMapPanel(canvas, {0.0, 0.0, kPanelWidth_px, static_cast<double>(height_px)}, panel);
+  return canvas.Element();
+}
+
+std::string MakeChart(const Chart& chart) {
+  SvgCanvas canvas(kPanelWidth_px, kChartHeight_px, chart.title);
+  DrawChart(canvas, {0.0, 0.0, kPanelWidth_px, kChartHeight_px}, chart);
+  return canvas.Element();
+}
+
+}  // namespace
+
+std::string MakeHtmlPage(const ReportFigures& figures) {
+  const std::string title = EscapeMarkup(figures.title);
+  std::string html = absl::StrCat(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width\">\n<title>",
+      title, "</title>\n<style>", kStyle, "</style>\n</head>\n<body>\n<h1>", title, "</h1>\n",
+      MakeHeadline(figures), "<div class=\"figures\">\n");
+  const int height_px = PanelHeight_px(figures);
+  for (const MapPanel& panel : figures.panels) html += MakePanel(panel, height_px);
+  html += "</div>\n<div class=\"figures\">\n";
+  for (const Chart& chart : figures.charts) html += MakeChart(chart);
+  absl::StrAppend(&html, MakeTable(figures), "</div>\n</body>\n</html>\n");
+  return html;
+}
+
+}  // namespace plumescout::lab

@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/report/map_panel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "absl/strings/str_cat.h"
+#include "lab/report/palette.h"
+#include "lab/report/ticks.h"
+
+namespace plumescout::lab {
+namespace {
+
+constexpr double kTitleSize_px = 16.0;
+constexpr double kLabelSize_px = 12.0;
+constexpr double kTop_px = 34.0;     // for the title
+constexpr double kBottom_px = 76.0;  // for colour bar or legend
+constexpr double kMaxMapHeight_px = 640.0;
+constexpr double kHalo_px = 1.5;  // white rim of marks, which sets them off any colour
+
+// Where the map lies on the canvas.
+struct MapFrame {
+  Box box;
+  Region region;
+  double px_per_m;
+
+  PixelPoint ToPixel(Point2 point) const {
+    return {box.x + (point.x_m - region.south_west.x_m) * px_per_m,
+            box.bottom() - (point.y_m - region.south_west.y_m) * px_per_m};
+  }
+};
+
+// The largest map that fits, at the left.
+MapFrame FitMap(const Box& box, const Region& region) {
+  const double height_px = box.height - kTop_px - kBottom_px;
+  const double px_per_m = std::min(box.width / region.width_m(), height_px / region.height_m());
+  return {{box.x, box.y + kTop_px, px_per_m * region.width_m(), px_per_m * region.height_m()},
+          region,
+          px_per_m};
+}
+
+void DrawOutline(Canvas& canvas, const Box& box) {
+  const PixelPoint outline[] = {{box.x, box.y},
+                                {box.right(), box.y},
+                                {box.right(), box.bottom()},
+                                {box.x, box.bottom()},
+                                {box.x, box.y}};
+  canvas.Polyline(outline, {kFrame, 1.0});
+}
+
+// A bar of a round number of metres, in line with the title.
+void DrawScaleBar(Canvas& canvas, const Box& box, const MapFrame& frame) {
+  constexpr double kLargestShare = 0.2;  // of the map's width
+  constexpr double kEnd_px = 4.0;        // half the height of its ends
+  const double length_m = RoundDown125(kLargestShare * frame.region.width_m());
+  const double right = box.right();
+  const double left = right - length_m * frame.px_per_m;
+  const double y = box.y + kTitleSize_px - kEnd_px - 1.0;
+  const PixelPoint bar[] = {{left, y - kEnd_px}, {left, y + kEnd_px},  {left, y},
+                            {right, y},          {right, y - kEnd_px}, {right, y + kEnd_px}};
+  canvas.Polyline(bar, {kInk, 1.5});
+  canvas.Text({left - 8.0, y + kEnd_px + 1.0}, absl::StrCat(TickLabel(length_m), " m"),
+              {kLabelSize_px, kInk, Anchor::kEnd});
+}
+
+void DrawCells(Canvas& canvas, const MapFrame& frame, const CellPicture& cells) {
+  const PixelPoint south_west = frame.ToPixel(cells.region.south_west);
+  const PixelPoint north_east = frame.ToPixel(cells.region.north_east);
+  canvas.Picture(
+      {south_west.x, north_east.y, north_east.x - south_west.x, south_west.y - north_east.y},
+      cells.image);
+}
+
+void DrawCross(Canvas& canvas, PixelPoint center, Rgb color) {
+  constexpr double kArm_px = 5.0;
+  const PixelPoint falling[] = {{center.x - kArm_px, center.y - kArm_px},
+                                {center.x + kArm_px, center.y + kArm_px}};
+  const PixelPoint rising[] = {{center.x - kArm_px, center.y + kArm_px},
+                               {center.x + kArm_px, center.y - kArm_px}};
+  constexpr double kWidth_px = 3.0;
+  for (const Stroke& stroke :
+       {Stroke{kPaper, kWidth_px + 2.0 * kHalo_px}, Stroke{color, kWidth_px}}) {
+    canvas.Polyline(falling, stroke);
+    canvas.Polyline(rising, stroke);
+  }
+}
+
+void DrawMark(Canvas& canvas, MarkShape shape, PixelPoint center, Rgb color) {
+  constexpr double kRadius_px = 4.0;
+  constexpr double kHalfLine_px = 9.0;
+  switch (shape) {
+    case MarkShape::kSwatch:
+      canvas.FillBox({center.x - 6.0, center.y - 6.0, 12.0, 12.0}, kFrame);
+      canvas.FillBox({center.x - 5.0, center.y - 5.0, 10.0, 10.0}, color);
+      return;
+    case MarkShape::kLine: {
+      const PixelPoint line[] = {{center.x - kHalfLine_px, center.y},
+                                 {center.x + kHalfLine_px, center.y}};
+      canvas.Polyline(line, {color, 2.0});
+      return;
+    }
+    case MarkShape::kDisc:
+      canvas.Disc(center, kRadius_px + kHalo_px, kPaper);
+      canvas.Disc(center, kRadius_px, color);
+      return;
+    case MarkShape::kCross:
+      DrawCross(canvas, center, color);
+      return;
+  }
+}
+
+void DrawColorBar(Canvas& canvas, const Box& box, const ColorBar& bar) {
+  constexpr int kSteps = 256;
+  Image strip(kSteps, 1);
+  for (int i = 0; i < kSteps; ++i) {
+    strip.At(i, 0) = ColorAt(bar.scale.map, i / static_cast<double>(kSteps - 1));
+  }
+  canvas.Picture(box, strip);
+  DrawOutline(canvas, box);
+  constexpr int kTicks = 4;
+  const std::vector<double> ticks = bar.scale.logarithmic
+                                        ? DecadeTicks(bar.scale.low, bar.scale.high)
+                                        : LinearTicks(bar.scale.low, bar.scale.high, kTicks);
+  for (const double value : ticks) {
+    const double x = box.x + bar.scale.Share(value) * box.width;
+    const PixelPoint tick[] = {{x, box.bottom()}, {x, box.bottom() + 4.0}};
+    canvas.Polyline(tick, {kFrame, 1.0});
+    canvas.Text({x, box.bottom() + 18.0}, TickLabel(value),
+                {kLabelSize_px, kFaintInk, Anchor::kMiddle});
+  }
+  canvas.Text({box.right() + 8.0, box.bottom() - 2.0}, bar.unit,
+              {kLabelSize_px, kInk, Anchor::kStart});
+}
+
+void DrawLegend(Canvas& canvas, const Box& box, const std::vector<LegendEntry>& legend) {
+  constexpr int kColumns = 3;
+  constexpr double kRow_px = 20.0;
+  constexpr double kMark_px = 10.0;  // centre of the mark
+  constexpr double kName_px = 26.0;
+  for (std::size_t i = 0; i < legend.size(); ++i) {
+    const double x = box.x + static_cast<double>(i % kColumns) * box.width / kColumns;
+    const double y = box.y + 6.0 + static_cast<double>(i / kColumns) * kRow_px;
+    DrawMark(canvas, legend[i].shape, {x + kMark_px, y}, legend[i].color);
+    canvas.Text({x + kName_px, y + 4.0}, legend[i].name, {kLabelSize_px, kInk, Anchor::kStart});
+  }
+}
+
+}  // namespace
+
+Region RegionOf(const GridGeometry& geometry) {
+  return {{geometry.origin_x_m, geometry.origin_y_m},
+          {geometry.origin_x_m + geometry.width * geometry.resolution_m,
+           geometry.origin_y_m + geometry.height * geometry.resolution_m}};
+}
+
+Region Union(const Region& a, const Region& b) {
+  return {
+      {std::min(a.south_west.x_m, b.south_west.x_m), std::min(a.south_west.y_m, b.south_west.y_m)},
+      {std::max(a.north_east.x_m, b.north_east.x_m), std::max(a.north_east.y_m, b.north_east.y_m)}};
+}
+
+CellPicture PaintCells(const GridGeometry& geometry, const Region& region,
+                       const std::function<Rgb(Cell)>& color) {
+  const double inset_m = 1e-6 * geometry.resolution_m;  // an edge touched by rounding is not shown
+  Cell first = geometry.CellAt({region.south_west.x_m + inset_m, region.south_west.y_m + inset_m});
+  Cell last = geometry.CellAt({region.north_east.x_m - inset_m, region.north_east.y_m - inset_m});
+  first = {std::max(first.x, 0), std::max(first.y, 0)};
+  last = {std::min(last.x, geometry.width - 1), std::min(last.y, geometry.height - 1)};
+  if (last.x < first.x || last.y < first.y) return {};
+  GridGeometry part = geometry;
+  part.origin_x_m += first.x * geometry.resolution_m;
+  part.origin_y_m += first.y * geometry.resolution_m;
+  part.width = last.x - first.x + 1;
+  part.height = last.y - first.y + 1;
+  CellPicture picture{Image(part.width, part.height), RegionOf(part)};
+  for (int y = 0; y < part.height; ++y) {
+    for (int x = 0; x < part.width; ++x) {
+      picture.image.At(x, part.height - 1 - y) = color({first.x + x, first.y + y});
+    }
+  }
+  return picture;
+}
+
+double MapPanelHeight_px(const MapPanel& panel, double width_px) {
+  const double map_px = width_px / panel.region.width_m() * panel.region.height_m();
+  return kTop_px + std::min(map_px, kMaxMapHeight_px) + kBottom_px;
+}
+
+void DrawMapPanel(Canvas& canvas, const Box& box, const MapPanel& panel) {
+  const MapFrame frame = FitMap(box, panel.region);
+  canvas.Text({box.x, box.y + kTitleSize_px}, panel.title,
+              {kTitleSize_px, kInk, Anchor::kStart, true});
+  DrawScaleBar(canvas, box, frame);
+  canvas.FillBox(frame.box, kUnknownColor);
+  DrawCells(canvas, frame, panel.cells);
+  for (const MapLine& line : panel.lines) {
+    std::vector<PixelPoint> points;
+    for (const Point2& point : line.points) points.push_back(frame.ToPixel(point));
+    canvas.Polyline(points, line.stroke);
+  }
+  for (const MapMark& mark : panel.marks) {
+    DrawMark(canvas, mark.shape, frame.ToPixel(mark.position), mark.color);
+  }
+  DrawOutline(canvas, frame.box);
+  const double below = frame.box.bottom() + 14.0;
+  if (panel.color_bar) {
+    constexpr double kUnitRoom_px = 48.0;
+    DrawColorBar(canvas, {frame.box.x, below, frame.box.width - kUnitRoom_px, 12.0},
+                 *panel.color_bar);
+  }
+  DrawLegend(canvas, {frame.box.x, below, box.width, kBottom_px}, panel.legend);
+}
+
+}  // namespace plumescout::lab

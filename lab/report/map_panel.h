@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/types/grid_geometry.h"
+#include "core/types/pose2.h"
+#include "formats/image.h"
+#include "lab/report/canvas.h"
+#include "lab/report/color_scale.h"
+
+namespace plumescout::lab {
+
+// Rectangle in frame map.
+struct Region {
+  Point2 south_west;
+  Point2 north_east;
+
+  double width_m() const { return north_east.x_m - south_west.x_m; }
+  double height_m() const { return north_east.y_m - south_west.y_m; }
+};
+
+Region RegionOf(const GridGeometry& geometry);
+// The smallest region that holds both.
+Region Union(const Region& a, const Region& b);
+
+// Cells as an image, one pixel a cell, north up.
+struct CellPicture {
+  Image image;    // without pixels: nothing to show
+  Region region;  // that the image covers
+};
+
+// Paints the cells of `geometry` that touch `region`.
+CellPicture PaintCells(const GridGeometry& geometry, const Region& region,
+                       const std::function<Rgb(Cell)>& color);
+
+struct MapLine {
+  std::vector<Point2> points;
+  Stroke stroke;
+};
+
+enum class MarkShape { kSwatch, kLine, kDisc, kCross };
+
+struct MapMark {
+  MarkShape shape = MarkShape::kDisc;
+  Rgb color;
+  Point2 position;
+};
+
+struct LegendEntry {
+  std::string name;
+  MarkShape shape = MarkShape::kSwatch;
+  Rgb color;
+};
+
+struct ColorBar {
+  ColorScale scale;
+  std::string unit;
+};
+
+// One map with a title, a scale bar and, below it, a colour bar or a legend.
+struct MapPanel {
+  std::string title;
+  Region region;  // shown
+  CellPicture cells;
+  std::vector<MapLine> lines;
+  std::vector<MapMark> marks;
+  std::optional<ColorBar> color_bar;
+  std::vector<LegendEntry> legend;
+};
+
+// Height that a panel of this width needs for its map to fill the width (bounded for tall maps).
+double MapPanelHeight_px(const MapPanel& panel, double width_px);
+
+// Draws the panel into the box, as large as it fits.
+void DrawMapPanel(Canvas& canvas, const Box& box, const MapPanel& panel);
+
+}  // namespace plumescout::lab

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/types/cell_state.h"
+#include "core/types/grid.h"
+#include "core/types/map_snapshot.h"
+#include "core/types/plan.h"
+#include "core/types/pose2.h"
+
+namespace plumescout::lab {
+
+// How good the map was at one instant. A value that is not finite was not measured.
+struct MetricSample {
+  double time_s = 0.0;
+  double completeness = 0.0;   // known-free share of the true reachable free cells, [0, 1]
+  double rmse_ppm = 0.0;       // over critical cells, [XIT] Eq. (23)
+  double rmse_zero_ppm = 0.0;  // of a map that says 0 everywhere: the line to beat
+  double entropy_nats = 0.0;   // over critical cells, [XIT] Eq. (24)
+};
+
+// What a report of one mission shows.
+struct ReportData {
+  std::string title;
+  std::optional<Grid<float>> true_gas_ppm;        // with the geometry of `truth`
+  Grid<CellState> truth;                          // true occupancy; may be empty if nobody knows it
+  MapSnapshot map;                                // at the end of the mission
+  std::vector<std::vector<Point2>> driven_paths;  // one per robot
+  std::vector<Plan> plans;                        // in the order of their issue
+  std::vector<Point2> sources;
+  std::vector<Point2> starts;  // one per robot
+  std::vector<MetricSample> metrics;
+  std::vector<std::pair<std::string, std::string>> key_numbers;  // name, value with unit
+};
+
+}  // namespace plumescout::lab

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "absl/strings/string_view.h"
+#include "lab/report/canvas.h"
+
+namespace plumescout::lab {
+
+// Lines that write `utf8` from the origin to the right, on the base line y = 0 (upwards is
+// negative, as on a canvas). The font knows printable ASCII and the superscript two; any other
+// character is a small box. Cost: O(characters).
+std::vector<std::vector<PixelPoint>> WriteText(absl::string_view utf8, double size_px);
+
+// Length of the base line under the text.
+double TextWidth_px(absl::string_view utf8, double size_px);
+
+}  // namespace plumescout::lab
