@@ -79,7 +79,9 @@ absl::Status RobotLoop::JoinMission() {
       joined_ = *std::move(joined);
       return absl::OkStatus();
     }
-    if (!IsRetriable(joined.status()) || absl::Now() > give_up) return joined.status();
+    const bool may_pass =
+        IsRetriable(joined.status()) || ErrorReason(joined.status()) == kLeaseHeld;
+    if (!may_pass || absl::Now() > give_up) return joined.status();
     observer_.OnLink(joined.status());
     absl::SleepFor(backoff.Next());
   }

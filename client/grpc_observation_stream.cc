@@ -1,0 +1,259 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "client/grpc_observation_stream.h"
+
+#include <grpcpp/grpcpp.h>
+
+#include <deque>
+#include <string>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/time/clock.h"
+#include "client/error_reason.h"
+#include "client/grpc_status.h"
+#include "core/types/status_macros.h"
+#include "proto/convert/names.h"
+#include "proto/convert/observation.h"
+#include "proto/convert/status.h"
+
+namespace plumescout::client {
+namespace {
+
+// Frames stay well below the server's receive limit of 256 KiB.
+constexpr std::size_t kMaxFrame_bytes = std::size_t{192} << 10;
+// How long a failed call is given to say why before it is cancelled.
+constexpr absl::Duration kEndGrace = absl::Milliseconds(200);
+
+IngestState StateFromProto(const v1::IngestState& proto) {
+  return {.applied_sequence = proto.applied_sequence(),
+          .durable_sequence = proto.durable_sequence(),
+          .credit_sequence = proto.credit_sequence(),
+          .revision = proto.revision()};
+}
+
+// An operation on the call; its value is the completion queue's tag.
+enum class Op : std::intptr_t { kStart = 1, kRead, kWrite, kWritesDone, kFinish };
+
+void* TagOf(Op op) { return reinterpret_cast<void*>(static_cast<std::intptr_t>(op)); }
+
+// One bidirectional call driven through a completion queue of its own, so that every wait has a
+// deadline and no thread is needed. A read is always under way while the call lives.
+class GrpcObservationStream final : public ObservationStream {
+ public:
+  explicit GrpcObservationStream(const StreamTimeouts& timeouts) : timeouts_(timeouts) {}
+  ~GrpcObservationStream() override;
+
+  absl::Status Open(v1::IngestService::Stub& stub, const RobotSession& session);
+
+  const IngestState& opened() const override { return opened_; }
+  absl::Status Write(const std::vector<Observation>& batch) override;
+  absl::StatusOr<IngestReply> Read(absl::Duration timeout) override;
+  absl::Status Finish() override;
+
+ private:
+  // Runs completions until `op` has completed; returns its success. False after the deadline.
+  bool Await(Op op, absl::Time deadline);
+  // Runs one completion; false after the deadline.
+  bool RunOne(absl::Time deadline);
+  void OnRead(bool ok);
+  absl::Status WriteFrame(const v1::StreamObservationsRequest& frame);
+  absl::Status AwaitOpened(const RobotSession& session);
+  // Ends the call, if it has not ended, and says why it did. Never OK.
+  absl::Status EndedStatus();
+  absl::Status AwaitFinish(absl::Time deadline);
+  absl::Status Broken(absl::Status status);
+  void StartRead();
+
+  const StreamTimeouts timeouts_;
+  grpc::ClientContext context_;
+  grpc::CompletionQueue queue_;
+  std::unique_ptr<
+      grpc::ClientAsyncReaderWriter<v1::StreamObservationsRequest, v1::StreamObservationsResponse>>
+      call_;
+  IngestState opened_;
+
+  v1::StreamObservationsResponse incoming_;
+  std::deque<v1::StreamObservationsResponse> replies_;
+  bool reads_ended_ = true;  // the server has said all it will; no read is under way
+  bool closing_ = false;     // nothing may be started any more
+  Op completed_ = Op::kStart;
+  bool completed_ok_ = false;
+  bool finish_started_ = false;
+  bool finished_ = false;
+  grpc::Status final_;
+};
+
+GrpcObservationStream::~GrpcObservationStream() {
+  context_.TryCancel();
+  if (call_ != nullptr) AwaitFinish(absl::InfiniteFuture()).IgnoreError();
+  closing_ = true;
+  queue_.Shutdown();
+  while (RunOne(absl::InfiniteFuture())) {
+  }
+}
+
+absl::Status GrpcObservationStream::Open(v1::IngestService::Stub& stub,
+                                         const RobotSession& session) {
+  const absl::Time deadline = absl::Now() + timeouts_.open;
+  call_ = stub.PrepareAsyncStreamObservations(&context_, &queue_);
+  call_->StartCall(TagOf(Op::kStart));
+  if (!Await(Op::kStart, deadline)) return EndedStatus();
+  StartRead();
+  v1::StreamObservationsRequest frame;
+  frame.mutable_open()->set_robot(RobotResource({session.mission, session.robot}));
+  frame.mutable_open()->set_lease_token(session.lease_token);
+  PLUMESCOUT_RETURN_IF_ERROR(WriteFrame(frame));
+  while (replies_.empty() && !reads_ended_ && RunOne(deadline)) {
+  }
+  return AwaitOpened(session);
+}
+
+absl::Status GrpcObservationStream::AwaitOpened(const RobotSession& session) {
+  if (replies_.empty()) return EndedStatus();
+  const v1::StreamObservationsResponse first = std::move(replies_.front());
+  replies_.pop_front();
+  if (!first.has_opened()) {
+    return Broken(absl::InternalError("the server's first frame is not IngestOpened"));
+  }
+  if (first.opened().server_boot_id() != session.server_boot_id) {
+    return Broken(absl::FailedPreconditionError(absl::StrCat(kServerRestarted, ": boot id is ",
+                                                             first.opened().server_boot_id(),
+                                                             ", not ", session.server_boot_id)));
+  }
+  opened_ = StateFromProto(first.opened().ingest_state());
+  return absl::OkStatus();
+}
+
+absl::Status GrpcObservationStream::Write(const std::vector<Observation>& batch) {
+  if (finish_started_) return EndedStatus();
+  v1::StreamObservationsRequest frame;
+  std::size_t frame_bytes = 0;
+  for (const Observation& observation : batch) {
+    v1::Observation proto = ToProto(observation);
+    const std::size_t bytes = proto.ByteSizeLong();
+    if (frame_bytes > 0 && frame_bytes + bytes > kMaxFrame_bytes) {
+      PLUMESCOUT_RETURN_IF_ERROR(WriteFrame(frame));
+      frame.Clear();
+      frame_bytes = 0;
+    }
+    *frame.mutable_batch()->add_observations() = std::move(proto);
+    frame_bytes += bytes;
+  }
+  return frame_bytes > 0 ? WriteFrame(frame) : absl::OkStatus();
+}
+
+absl::StatusOr<IngestReply> GrpcObservationStream::Read(absl::Duration timeout) {
+  const absl::Time deadline = absl::Now() + timeout;
+  while (replies_.empty()) {
+    if (reads_ended_) return EndedStatus();
+    if (!RunOne(deadline)) return absl::DeadlineExceededError("no reply yet");
+  }
+  const v1::StreamObservationsResponse reply = std::move(replies_.front());
+  replies_.pop_front();
+  switch (reply.frame_case()) {
+    case v1::StreamObservationsResponse::kAck:
+      return StateFromProto(reply.ack());
+    case v1::StreamObservationsResponse::kRejected:
+      return ObservationRejected{.sequence = reply.rejected().sequence(),
+                                 .status = FromProto(reply.rejected().status())};
+    default:
+      return Broken(absl::InternalError("the server sent a frame that has no place here"));
+  }
+}
+
+absl::Status GrpcObservationStream::Finish() {
+  if (finished_) return FromGrpc(final_);
+  const absl::Time deadline = absl::Now() + timeouts_.write;
+  call_->WritesDone(TagOf(Op::kWritesDone));
+  Await(Op::kWritesDone, deadline);
+  while (!reads_ended_ && RunOne(deadline)) {
+  }
+  return AwaitFinish(deadline);
+}
+
+bool GrpcObservationStream::Await(Op op, absl::Time deadline) {
+  while (RunOne(deadline)) {
+    if (completed_ == op) return completed_ok_;
+  }
+  return false;
+}
+
+bool GrpcObservationStream::RunOne(absl::Time deadline) {
+  void* tag = nullptr;
+  bool ok = false;
+  if (queue_.AsyncNext(&tag, &ok, absl::ToChronoTime(deadline)) !=
+      grpc::CompletionQueue::GOT_EVENT) {
+    return false;
+  }
+  completed_ = static_cast<Op>(reinterpret_cast<std::intptr_t>(tag));
+  completed_ok_ = ok;
+  if (completed_ == Op::kRead) OnRead(ok);
+  if (completed_ == Op::kFinish) finished_ = true;
+  return true;
+}
+
+void GrpcObservationStream::OnRead(bool ok) {
+  if (!ok) {
+    reads_ended_ = true;
+    return;
+  }
+  replies_.push_back(std::move(incoming_));
+  if (!closing_) StartRead();
+}
+
+void GrpcObservationStream::StartRead() {
+  incoming_.Clear();
+  reads_ended_ = false;
+  call_->Read(&incoming_, TagOf(Op::kRead));
+}
+
+absl::Status GrpcObservationStream::WriteFrame(const v1::StreamObservationsRequest& frame) {
+  call_->Write(frame, TagOf(Op::kWrite));
+  return Await(Op::kWrite, absl::Now() + timeouts_.write) ? absl::OkStatus() : EndedStatus();
+}
+
+absl::Status GrpcObservationStream::EndedStatus() {
+  // If the server ended the call, the read under way ends too and the status is the server's.
+  const absl::Time deadline = absl::Now() + kEndGrace;
+  while (!reads_ended_ && RunOne(deadline)) {
+  }
+  context_.TryCancel();
+  const absl::Status status = AwaitFinish(absl::InfiniteFuture());
+  switch (status.code()) {
+    case absl::StatusCode::kOk:
+      return absl::UnavailableError("the server closed the stream");
+    case absl::StatusCode::kCancelled:
+      return absl::UnavailableError("the server did not answer in time");
+    case absl::StatusCode::kDeadlineExceeded:  // which means something else to readers
+      return absl::UnavailableError(status.message());
+    default:
+      return status;
+  }
+}
+
+absl::Status GrpcObservationStream::AwaitFinish(absl::Time deadline) {
+  if (!finish_started_) {
+    finish_started_ = true;
+    call_->Finish(&final_, TagOf(Op::kFinish));
+  }
+  while (!finished_ && RunOne(deadline)) {
+  }
+  return finished_ ? FromGrpc(final_) : absl::DeadlineExceededError("the server does not finish");
+}
+
+absl::Status GrpcObservationStream::Broken(absl::Status status) {
+  context_.TryCancel();
+  return status;
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<ObservationStream>> OpenGrpcObservationStream(
+    v1::IngestService::Stub& stub, const RobotSession& session, const StreamTimeouts& timeouts) {
+  auto stream = std::make_unique<GrpcObservationStream>(timeouts);
+  PLUMESCOUT_RETURN_IF_ERROR(stream->Open(stub, session));
+  return stream;
+}
+
+}  // namespace plumescout::client

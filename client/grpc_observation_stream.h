@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "absl/status/statusor.h"
+#include "absl/time/time.h"
+#include "client/planner_client.h"
+#include "plumescout/v1/ingest_service.grpc.pb.h"
+
+namespace plumescout::client {
+
+struct StreamTimeouts {
+  absl::Duration open;
+  absl::Duration write;
+};
+
+// Opens an ingest stream and waits for the server's answer. `stub` must outlive the stream.
+// SERVER_RESTARTED if the server is not the one that the session is with.
+absl::StatusOr<std::unique_ptr<ObservationStream>> OpenGrpcObservationStream(
+    v1::IngestService::Stub& stub, const RobotSession& session, const StreamTimeouts& timeouts);
+
+}  // namespace plumescout::client

@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "client/grpc_planner_client.h"
+
+#include <grpcpp/grpcpp.h>
+
+#include <utility>
+
+#include "absl/time/clock.h"
+#include "client/grpc_observation_stream.h"
+#include "client/grpc_status.h"
+#include "core/types/status_macros.h"
+#include "plumescout/v1/ingest_service.grpc.pb.h"
+#include "plumescout/v1/map_service.grpc.pb.h"
+#include "plumescout/v1/mission_service.grpc.pb.h"
+#include "plumescout/v1/planning_service.grpc.pb.h"
+#include "plumescout/v1/robot_service.grpc.pb.h"
+#include "proto/convert/enums.h"
+#include "proto/convert/geometry.h"
+#include "proto/convert/map.h"
+#include "proto/convert/names.h"
+#include "proto/convert/options.h"
+#include "proto/convert/plan.h"
+
+namespace plumescout::client {
+namespace {
+
+// Pings and their patience match the server's minimum ping interval; see the wire's documentation.
+constexpr int kKeepaliveTime_ms = 10'000;
+constexpr int kKeepaliveTimeout_ms = 5'000;
+constexpr int kMinReconnect_ms = 100;
+constexpr int kMaxReconnect_ms = 2'000;
+constexpr int kMaxReceive_bytes = 256 << 20;  // the largest map with three layers, and room
+constexpr int kMissionsPerPage = 1000;
+
+std::shared_ptr<grpc::Channel> MakeChannel(const std::string& target) {
+  grpc::ChannelArguments arguments;
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveTime_ms);
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeout_ms);
+  arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);  // as many as it takes
+  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, kMinReconnect_ms);
+  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, kMinReconnect_ms);
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, kMaxReconnect_ms);
+  arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);  // one connection a client
+  arguments.SetMaxReceiveMessageSize(kMaxReceive_bytes);
+  return grpc::CreateCustomChannel(target, grpc::InsecureChannelCredentials(), arguments);
+}
+
+void SetDuration(absl::Duration duration, google::protobuf::Duration* proto) {
+  proto->set_seconds(absl::IDivDuration(duration, absl::Seconds(1), &duration));
+  proto->set_nanos(static_cast<std::int32_t>(absl::ToInt64Nanoseconds(duration)));
+}
+
+class GrpcPlannerClient final : public PlannerClient {
+ public:
+  explicit GrpcPlannerClient(const GrpcClientOptions& options)
+      : options_(options),
+        channel_(MakeChannel(options.target)),
+        missions_(channel_),
+        robots_(channel_),
+        ingest_(channel_),
+        planning_(channel_),
+        maps_(channel_) {}
+
+  absl::Status CreateMission(const MissionId& mission, const MissionOptions& options) override {
+    v1::CreateMissionRequest request;
+    request.set_mission_id(mission);
+    *request.mutable_options() = ToProto(options);
+    v1::CreateMissionResponse response;
+    return Call(missions_, &v1::MissionService::Stub::CreateMission, request, &response);
+  }
+
+  absl::StatusOr<std::vector<MissionId>> ListMissions() override {
+    std::vector<MissionId> missions;
+    v1::ListMissionsRequest request;
+    request.set_page_size(kMissionsPerPage);
+    do {
+      v1::ListMissionsResponse response;
+      PLUMESCOUT_RETURN_IF_ERROR(
+          Call(missions_, &v1::MissionService::Stub::ListMissions, request, &response));
+      for (const v1::Mission& mission : response.missions()) {
+        PLUMESCOUT_ASSIGN_OR_RETURN(MissionId id,
+                                    ParseMissionName("missions.name", mission.name()));
+        missions.push_back(std::move(id));
+      }
+      request.set_page_token(response.next_page_token());
+    } while (!request.page_token().empty());
+    return missions;
+  }
+
+  absl::Status DeleteMission(const MissionId& mission) override {
+    v1::DeleteMissionRequest request;
+    request.set_name(MissionResource(mission));
+    v1::DeleteMissionResponse response;
+    return Call(missions_, &v1::MissionService::Stub::DeleteMission, request, &response);
+  }
+
+  absl::StatusOr<RobotSession> RegisterRobot(const MissionId& mission, const RobotId& robot,
+                                             double radius_m, bool take_over) override {
+    v1::RegisterRobotRequest request;
+    request.set_mission(MissionResource(mission));
+    request.set_robot_id(robot);
+    request.set_radius_m(radius_m);
+    request.set_take_over(take_over);
+    v1::RegisterRobotResponse response;
+    PLUMESCOUT_RETURN_IF_ERROR(
+        Call(robots_, &v1::RobotService::Stub::RegisterRobot, request, &response));
+    const v1::IngestState& state = response.ingest_state();
+    return RobotSession{.mission = mission,
+                        .robot = robot,
+                        .lease_token = response.lease_token(),
+                        .server_boot_id = response.server_boot_id(),
+                        .ingest = {.applied_sequence = state.applied_sequence(),
+                                   .durable_sequence = state.durable_sequence(),
+                                   .credit_sequence = state.credit_sequence(),
+                                   .revision = state.revision()}};
+  }
+
+  absl::StatusOr<std::unique_ptr<ObservationStream>> OpenObservationStream(
+      const RobotSession& session) override {
+    return OpenGrpcObservationStream(
+        ingest_, session,
+        {.open = options_.stream_open_timeout, .write = options_.stream_write_timeout});
+  }
+
+  absl::StatusOr<Plan> NextBestTrajectory(const MissionId& mission,
+                                          const PlanQuery& query) override {
+    v1::NextBestTrajectoryRequest request;
+    request.set_robot(RobotResource({mission, query.request.robot}));
+    request.set_lease_token(query.lease_token);
+    if (query.request.start.has_value()) *request.mutable_start() = ToProto(*query.request.start);
+    request.set_min_applied_sequence(query.min_applied_sequence);
+    if (query.budget > absl::ZeroDuration()) {
+      SetDuration(query.budget, request.mutable_planning_budget());
+    }
+    request.set_seed(static_cast<std::int64_t>(query.request.seed));
+    request.set_max_edge_evaluation_count(query.request.max_edge_evaluations);
+    v1::NextBestTrajectoryResponse response;
+    PLUMESCOUT_RETURN_IF_ERROR(Call(planning_, &v1::PlanningService::Stub::NextBestTrajectory,
+                                    request, &response, query.timeout));
+    return FromProto(response.plan(), "plan");
+  }
+
+  absl::Status ReportProgress(const RobotSession& session, PlanId plan,
+                              ProgressOutcome outcome) override {
+    v1::ReportProgressRequest request;
+    request.set_robot(RobotResource({session.mission, session.robot}));
+    request.set_lease_token(session.lease_token);
+    request.set_plan(PlanResource({session.mission, plan}));
+    request.set_outcome(ToProto(outcome));
+    v1::ReportProgressResponse response;
+    return Call(planning_, &v1::PlanningService::Stub::ReportProgress, request, &response);
+  }
+
+  absl::StatusOr<MapSnapshot> GetMap(const MissionId& mission) override {
+    v1::GetMapRequest request;
+    request.set_mission(MissionResource(mission));
+    request.set_full_precision(true);
+    v1::GetMapResponse response;
+    PLUMESCOUT_RETURN_IF_ERROR(Call(maps_, &v1::MapService::Stub::GetMap, request, &response));
+    return FromProto(response);
+  }
+
+ private:
+  template <typename Stub, typename Method, typename Request, typename Response>
+  absl::Status Call(Stub& stub, Method method, const Request& request, Response* response,
+                    absl::Duration timeout) {
+    grpc::ClientContext context;
+    context.set_deadline(absl::ToChronoTime(absl::Now() + timeout));
+    context.set_wait_for_ready(true);
+    return FromGrpc((stub.*method)(&context, request, response));
+  }
+  template <typename Stub, typename Method, typename Request, typename Response>
+  absl::Status Call(Stub& stub, Method method, const Request& request, Response* response) {
+    return Call(stub, method, request, response, options_.call_timeout);
+  }
+
+  const GrpcClientOptions options_;
+  const std::shared_ptr<grpc::Channel> channel_;
+  v1::MissionService::Stub missions_;
+  v1::RobotService::Stub robots_;
+  v1::IngestService::Stub ingest_;
+  v1::PlanningService::Stub planning_;
+  v1::MapService::Stub maps_;
+};
+
+}  // namespace
+
+std::unique_ptr<PlannerClient> MakeGrpcPlannerClient(const GrpcClientOptions& options) {
+  return std::make_unique<GrpcPlannerClient>(options);
+}
+
+}  // namespace plumescout::client

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "absl/time/time.h"
+#include "client/planner_client.h"
+
+namespace plumescout::client {
+
+struct GrpcClientOptions {
+  std::string target = "localhost:7411";  // host:port of the server
+  // Of calls that name none. They wait for the link to come up, within this time.
+  absl::Duration call_timeout = absl::Seconds(10);
+  absl::Duration stream_open_timeout = absl::Seconds(5);
+  absl::Duration stream_write_timeout = absl::Seconds(10);  // a server that stops reading is gone
+};
+
+// The planning service over one HTTP/2 connection, opened at the first call and again whenever it
+// breaks.
+std::unique_ptr<PlannerClient> MakeGrpcPlannerClient(const GrpcClientOptions& options);
+
+}  // namespace plumescout::client

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "absl/base/thread_annotations.h"
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "absl/synchronization/mutex.h"
+#include "absl/time/time.h"
+#include "client/planner_client.h"
+#include "core/belief/belief.h"
+#include "core/mission/mission.h"
+#include "core/plan/strategy.h"
+
+namespace plumescout::lab {
+
+struct LocalOptions {
+  std::int64_t credit_window = 256;                  // observations ahead of what is applied, >= 1
+  absl::Duration lease_hold = absl::Seconds(10);     // after the last use
+  absl::Duration default_budget = absl::Seconds(1);  // of plans that ask for none
+  std::function<absl::Time()> clock = absl::Now;     // for leases and deadlines
+};
+
+// One mission with its leases, behind one mutex; searches for plans run outside it, on the caller's
+// thread. The same rules as the server's. Thread-safe.
+class LocalMission {
+ public:
+  // kInvalidArgument if the options are invalid.
+  static absl::StatusOr<std::shared_ptr<LocalMission>> Create(const MissionOptions& mission,
+                                                              const LocalOptions& options);
+  // REQUIRES: both were made from the same options.
+  LocalMission(std::unique_ptr<Mission> mission, std::unique_ptr<const Strategy> strategy,
+               const LocalOptions& options);
+
+  // The session's mission and boot id are left to the caller.
+  absl::StatusOr<client::RobotSession> Register(const RobotRegistered& robot, bool take_over);
+
+  // A stream ends the robot's earlier one. Returns its number.
+  absl::StatusOr<std::int64_t> OpenStream(const RobotId& robot, std::int64_t lease_token);
+  // The state of an open stream, or why it has ended.
+  absl::StatusOr<client::IngestState> StreamState(const RobotId& robot, std::int64_t lease_token,
+                                                  std::int64_t stream);
+  void CloseStream(const RobotId& robot, std::int64_t stream);
+  // Waits until the stream has ended; kDeadlineExceeded if it has not in time.
+  absl::Status AwaitStreamEnd(const RobotId& robot, std::int64_t lease_token, std::int64_t stream,
+                              absl::Duration timeout);
+
+  // Applies a batch in order; observations that the mission refuses are added to `rejected`.
+  absl::Status Ingest(const RobotId& robot, std::int64_t lease_token, std::int64_t stream,
+                      const std::vector<Observation>& batch,
+                      std::vector<client::ObservationRejected>& rejected);
+
+  absl::StatusOr<Plan> NextPlan(const client::PlanQuery& query);
+  absl::Status Report(const ProgressReported& report, std::int64_t lease_token);
+  std::shared_ptr<const Belief> Snapshot() const;
+
+  // Every call fails and every stream has ended from now on.
+  void Close();
+
+ private:
+  struct Lease {
+    absl::Time last_use;
+    std::int64_t stream = 0;  // open; 0: none
+  };
+
+  absl::Status CheckLease(const RobotId& robot, std::int64_t lease_token)
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  absl::Status CheckStream(const RobotId& robot, std::int64_t lease_token, std::int64_t stream)
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  client::IngestState State(const RobotId& robot) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  absl::Status IngestOne(const RobotId& robot, const Observation& observation,
+                         std::vector<client::ObservationRejected>& rejected)
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  absl::Status Refresh() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  absl::StatusOr<std::shared_ptr<const Belief>> BeliefFor(const client::PlanQuery& query,
+                                                          absl::Time deadline);
+  absl::StatusOr<PlanId> Commit(const Plan& plan, std::int64_t lease_token);
+
+  const LocalOptions options_;
+  const std::unique_ptr<const Strategy> strategy_;
+
+  mutable absl::Mutex mutex_;
+  std::unique_ptr<Mission> mission_ ABSL_PT_GUARDED_BY(mutex_);
+  std::map<RobotId, Lease> leases_ ABSL_GUARDED_BY(mutex_);
+  std::int64_t last_token_ ABSL_GUARDED_BY(mutex_) = 0;
+  std::int64_t last_stream_ ABSL_GUARDED_BY(mutex_) = 0;
+  bool closed_ ABSL_GUARDED_BY(mutex_) = false;
+};
+
+}  // namespace plumescout::lab
