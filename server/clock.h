@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <functional>
+
+#include "absl/time/time.h"
+
+namespace plumescout::server {
+
+// Monotonic time: leases and deadlines must not move when somebody sets the wall clock.
+using SteadyTime = std::chrono::steady_clock::time_point;
+using SteadyClock = std::function<SteadyTime()>;
+
+inline SteadyTime SteadyNow() { return std::chrono::steady_clock::now(); }
+
+// `from` + `duration`, saturating at SteadyTime::max().
+inline SteadyTime After(SteadyTime from, absl::Duration duration) {
+  if (from == SteadyTime::max() || duration >= absl::FromChrono(SteadyTime::max() - from)) {
+    return SteadyTime::max();
+  }
+  return from + absl::ToChronoNanoseconds(duration);
+}
+
+// The monotonic instant of a gRPC deadline; max() for none.
+inline SteadyTime ToSteady(std::chrono::system_clock::time_point deadline) {
+  const auto wall_now = std::chrono::system_clock::now();
+  return After(SteadyNow(), absl::FromChrono(deadline - wall_now));
+}
+
+}  // namespace plumescout::server

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/config_file.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/strip.h"
+#include "core/types/status_macros.h"
+#include "proto/convert/field.h"
+#include "server/config_table.h"
+#include "server/message_field.h"
+#include "server/mission_options.h"
+
+namespace plumescout::server {
+namespace {
+
+constexpr char kMission[] = "mission";
+
+absl::Status At(absl::string_view name, const YAML::Mark& mark, absl::string_view what) {
+  return absl::InvalidArgumentError(absl::StrCat(name, ":", mark.line + 1, ": ", what));
+}
+
+// Sets every scalar below `node` under its dotted key.
+absl::Status AddNode(const YAML::Node& node, absl::string_view name, const std::string& prefix,
+                     ConfigBuilder& builder) {
+  for (const auto& entry : node) {
+    const std::string key = Join(prefix, entry.first.Scalar());
+    if (entry.second.IsMap()) {
+      PLUMESCOUT_RETURN_IF_ERROR(AddNode(entry.second, name, key, builder));
+    } else if (entry.second.IsScalar()) {
+      const absl::Status set = builder.Set(key, entry.second.Scalar());
+      if (!set.ok()) return At(name, entry.first.Mark(), set.message());
+    } else {
+      return At(name, entry.first.Mark(), absl::StrCat(key, " has no value"));
+    }
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::Status ConfigBuilder::AddYaml(const std::string& yaml, absl::string_view name) {
+  YAML::Node root;
+  try {
+    root = YAML::Load(yaml);
+  } catch (const YAML::Exception& error) {
+    return At(name, error.mark, error.msg);
+  }
+  if (root.IsNull()) return absl::OkStatus();
+  if (!root.IsMap()) return At(name, root.Mark(), "must be a mapping");
+  return AddNode(root, name, "", *this);
+}
+
+absl::Status ConfigBuilder::AddFile(const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file) return absl::NotFoundError(absl::StrCat(path, " cannot be read"));
+  return AddYaml(text.str(), path);
+}
+
+absl::Status ConfigBuilder::Set(absl::string_view key, const std::string& text) {
+  for (const ConfigRow& row : ConfigTable(config_)) {
+    if (row.key == key) return SetRow(row, text);
+  }
+  absl::Status status = absl::NotFoundError("");
+  absl::string_view path = key;
+  if (absl::ConsumePrefix(&path, absl::StrCat(kMission, "."))) {
+    status = SetMessageField(mission_, path, text);
+  }
+  if (absl::IsNotFound(status)) {
+    return absl::InvalidArgumentError(absl::StrCat(key, " is not an option"));
+  }
+  if (status.ok()) return status;
+  return absl::InvalidArgumentError(absl::StrCat(key, " ", status.message()));
+}
+
+absl::StatusOr<ServerConfig> ConfigBuilder::Build() const {
+  ServerConfig config = config_;
+  PLUMESCOUT_ASSIGN_OR_RETURN(config.mission,
+                              ReadMissionOptions(mission_, MissionOptions{}, kMission));
+  if (config.limits.stream_window_observations > config.limits.max_queued_observations ||
+      config.limits.max_batch_observations > config.limits.max_queued_observations) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("limits.max_queued_observations = ", config.limits.max_queued_observations,
+                     " must hold a batch and the window of a stream"));
+  }
+  return config;
+}
+
+}  // namespace plumescout::server

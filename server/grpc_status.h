@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <grpcpp/support/status.h>
+
+#include "absl/status/status.h"
+
+namespace plumescout::server {
+
+// The one translation from our errors to gRPC's: the same code and message, and google.rpc.Status
+// details with at least an ErrorInfo.
+grpc::Status ToGrpc(const absl::Status& status);
+
+}  // namespace plumescout::server

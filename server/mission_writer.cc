@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/mission_writer.h"
+
+#include <utility>
+
+#include "core/types/status_macros.h"
+#include "server/errors.h"
+#include "server/log.h"
+
+namespace plumescout::server {
+namespace {
+
+// What stands in the log for an entry that could not be read: no mission takes a scan of no beams.
+Observation Unreadable(std::int64_t sequence) {
+  return {.sequence = sequence, .sample_time_ns = 0, .pose = {}, .payload = Scan{}};
+}
+
+}  // namespace
+
+MissionWriter::MissionWriter(std::unique_ptr<Mission> mission, EventSink sink)
+    : mission_(std::move(mission)), sink_(std::move(sink)) {}
+
+absl::StatusOr<Applied> MissionWriter::Apply(EventBody body) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(Applied applied, mission_->Apply(body));
+  if (sink_) sink_(Event{applied.revision, std::move(body)});
+  return applied;
+}
+
+absl::Status MissionWriter::CheckLease(const RobotId& robot, std::int64_t lease_token) const {
+  const auto newest = mission_->LeaseToken(robot);
+  if (!newest.ok()) return RobotNotFound(robot);
+  return *newest == lease_token ? absl::OkStatus() : LeaseSuperseded(robot);
+}
+
+absl::StatusOr<LogPosition> MissionWriter::Register(const RobotRegistered& registration) {
+  PLUMESCOUT_RETURN_IF_ERROR(Apply(registration).status());
+  return Position(registration.robot);
+}
+
+absl::StatusOr<LogPosition> MissionWriter::Position(const RobotId& robot) const {
+  const auto applied = mission_->AppliedSequence(robot);
+  if (!applied.ok()) return RobotNotFound(robot);
+  return LogPosition{*applied, mission_->revision()};
+}
+
+IngestResult MissionWriter::Ingest(const RobotId& robot, std::int64_t lease_token,
+                                   std::vector<IncomingObservation> batch) {
+  IngestResult result;
+  result.status = CheckLease(robot, lease_token);
+  for (IncomingObservation& incoming : batch) {
+    if (!result.status.ok()) break;
+    result.status = IngestOne(robot, std::move(incoming), result);
+  }
+  if (const auto position = Position(robot); position.ok()) result.position = *position;
+  return result;
+}
+
+absl::Status MissionWriter::IngestOne(const RobotId& robot, IncomingObservation incoming,
+                                      IngestResult& result) {
+  const std::int64_t sequence = incoming.observation.sequence;
+  const bool readable = incoming.unreadable.ok();
+  const auto applied = Apply(ObservationReceived{
+      robot, readable ? std::move(incoming.observation) : Unreadable(sequence)});
+  if (absl::IsAlreadyExists(applied.status())) return absl::OkStatus();
+  PLUMESCOUT_RETURN_IF_ERROR(applied.status());
+  if (!applied->observation.ok()) {
+    result.refused.push_back({sequence, readable ? applied->observation : incoming.unreadable});
+  }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<PlanId> MissionWriter::Commit(const Plan& plan, std::int64_t lease_token) {
+  PLUMESCOUT_RETURN_IF_ERROR(CheckLease(plan.robot, lease_token));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Applied applied, Apply(PlanIssued{plan}));
+  return applied.plan_id;
+}
+
+absl::StatusOr<std::int64_t> MissionWriter::Report(const ProgressReported& report,
+                                                   std::int64_t lease_token) {
+  PLUMESCOUT_RETURN_IF_ERROR(CheckLease(report.robot, lease_token));
+  const auto applied = Apply(report);
+  if (!absl::IsAlreadyExists(applied.status())) PLUMESCOUT_RETURN_IF_ERROR(applied.status());
+  return mission_->revision();
+}
+
+void MissionWriter::RefreshIfDue() {
+  if (!mission_->refresh_due()) return;
+  if (const auto refreshed = Apply(PosteriorRefreshed{mission_->sample_time_ns()});
+      !refreshed.ok()) {
+    LogWarning("posterior not refreshed", {{"why", std::string(refreshed.status().message())}});
+  }
+}
+
+absl::StatusOr<std::shared_ptr<const Belief>> MissionWriter::FreshBelief() {
+  if (mission_->posterior_stale()) {
+    PLUMESCOUT_RETURN_IF_ERROR(Apply(PosteriorRefreshed{mission_->sample_time_ns()}).status());
+  }
+  return mission_->Snapshot();
+}
+
+}  // namespace plumescout::server

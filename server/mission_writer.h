@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "core/mission/mission.h"
+#include "core/types/event.h"
+
+namespace plumescout::server {
+
+// Hears of every event in the order in which the mission applied it.
+using EventSink = std::function<void(const Event&)>;
+
+// Where a robot's log stands.
+struct LogPosition {
+  std::int64_t applied_sequence = 0;
+  std::int64_t revision = 0;  // of the mission, which includes it
+};
+
+// An entry of a robot's log as it came over the wire. If it was `unreadable`, only the sequence of
+// the observation is known.
+struct IncomingObservation {
+  Observation observation;
+  absl::Status unreadable;
+};
+
+struct RefusedObservation {
+  std::int64_t sequence = 0;
+  absl::Status status;
+};
+
+// What became of a batch. `status` is not OK if the batch could not be applied to its end: a hole
+// or a lost lease; `position` holds nevertheless.
+struct IngestResult {
+  absl::Status status;
+  LogPosition position;
+  std::vector<RefusedObservation> refused;
+};
+
+// Turns commands into numbered events of one mission. Writes are fenced by the lease token at the
+// moment they are applied. Single-threaded.
+class MissionWriter {
+ public:
+  MissionWriter(std::unique_ptr<Mission> mission, EventSink sink);
+
+  const Mission& mission() const { return *mission_; }
+
+  absl::StatusOr<LogPosition> Register(const RobotRegistered& registration);
+  absl::StatusOr<LogPosition> Position(const RobotId& robot) const;
+
+  // Applies a batch in order. Entries up to the applied sequence are passed over; refused ones
+  // count as applied. An unreadable entry stands in the log as an empty scan, which every mission
+  // refuses.
+  IngestResult Ingest(const RobotId& robot, std::int64_t lease_token,
+                      std::vector<IncomingObservation> batch);
+
+  // Commits a plan; returns its number. kAborted if another robot claims the goal.
+  absl::StatusOr<PlanId> Commit(const Plan& plan, std::int64_t lease_token);
+  // Returns the revision that includes the report; a repeated report changes nothing.
+  absl::StatusOr<std::int64_t> Report(const ProgressReported& report, std::int64_t lease_token);
+
+  void RefreshIfDue();
+  // Brings the posterior up to date and snapshots the mission.
+  absl::StatusOr<std::shared_ptr<const Belief>> FreshBelief();
+  std::shared_ptr<const Belief> Snapshot() const { return mission_->Snapshot(); }
+
+ private:
+  absl::StatusOr<Applied> Apply(EventBody body);
+  absl::Status CheckLease(const RobotId& robot, std::int64_t lease_token) const;
+  absl::Status IngestOne(const RobotId& robot, IncomingObservation incoming, IngestResult& result);
+
+  std::unique_ptr<Mission> mission_;
+  EventSink sink_;
+};
+
+}  // namespace plumescout::server
