@@ -44,7 +44,7 @@ void BeliefWaiters::Serve(MissionWriter& writer, SteadyTime now) {
     if (!verdict.has_value()) {
       waiters_.push_back(std::move(waiter));
     } else if (verdict->ok()) {
-      waiter.done(writer.FreshBelief());
+      waiter.done(waiter.request.robot.empty() ? writer.Snapshot() : writer.FreshBelief());
     } else {
       waiter.done(*verdict);
     }

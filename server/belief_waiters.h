@@ -18,9 +18,10 @@ namespace plumescout::server {
 
 using BeliefCallback = std::function<void(absl::StatusOr<std::shared_ptr<const Belief>>)>;
 
-// Somebody who wants a belief that holds a robot's log up to a number.
+// Somebody who wants a belief that holds a robot's log up to a number, with the posterior up to
+// date.
 struct BeliefRequest {
-  RobotId robot;  // empty: any belief will do
+  RobotId robot;  // empty: the belief as it is will do, and the mission does not change
   std::int64_t min_applied_sequence = 0;
   SteadyTime deadline = SteadyTime::max();
   StopFn abandoned = NeverStop();  // nobody wants it any more
