@@ -7,67 +7,30 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <iostream>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "CLI/Config.hpp"
 #include "CLI/Formatter.hpp"
-#include "absl/strings/str_cat.h"
+#include "lab/bench/about.h"
 
 namespace plumescout::lab {
-namespace {
 
-std::string CpuModel() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);) {
-    const std::size_t colon = line.find(": ");
-    if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
-      return line.substr(colon + 2);
-    }
-  }
-  return "unknown";
+BenchSummary::BenchSummary(std::uint64_t seed) : seed_(seed) {
+  summary_.about = AboutThisRun(seed);
 }
-
-double LoadOfLastMinute() {
-  double load = 0.0;
-  return getloadavg(&load, 1) == 1 ? load : std::numeric_limits<double>::quiet_NaN();
-}
-
-}  // namespace
-
-BenchSummary::BenchSummary(std::uint64_t seed) : seed_(seed), load_(LoadOfLastMinute()) {}
 
 void BenchSummary::Set(const std::string& name, double value) {
   if (!std::isfinite(value)) return;
   std::cout << name << " = " << value << std::endl;
-  const auto same = std::find_if(figures_.begin(), figures_.end(),
-                                 [&name](const Figure& figure) { return figure.name == name; });
-  if (same != figures_.end()) {
-    same->value = value;
+  auto& figures = summary_.figures;
+  const auto same = std::find_if(figures.begin(), figures.end(),
+                                 [&name](const auto& figure) { return figure.first == name; });
+  if (same != figures.end()) {
+    same->second = value;
   } else {
-    figures_.push_back({name, value});
+    figures.emplace_back(name, value);
   }
-}
-
-std::string BenchSummary::ToJson() const {
-  nlohmann::ordered_json json = nlohmann::ordered_json::object();
-  for (const Figure& figure : figures_) json[figure.name] = figure.value;
-  json["about"] = {{"machine", CpuModel()},
-                   {"load", load_},
-                   {"build_type", PLUMESCOUT_BUILD_TYPE},
-                   {"seed", seed_},
-                   {"version", PLUMESCOUT_VERSION}};
-  return json.dump(2) + "\n";
-}
-
-absl::Status BenchSummary::Write(const std::string& path) const {
-  std::ofstream file(path);
-  file << ToJson();
-  file.close();
-  if (file.fail()) return absl::UnavailableError(absl::StrCat("cannot write ", path));
-  return absl::OkStatus();
 }
 
 int RunBench(CLI::App& app, int argc, char** argv,
@@ -83,7 +46,7 @@ int RunBench(CLI::App& app, int argc, char** argv,
   }
   BenchSummary summary(seed);
   absl::Status status = body(summary);
-  if (status.ok() && !path.empty()) status = summary.Write(path);
+  if (status.ok() && !path.empty()) status = WriteSummary(summary.summary(), path);
   if (status.ok()) return EXIT_SUCCESS;
   std::cerr << status << std::endl;
   return EXIT_FAILURE;

@@ -9,12 +9,11 @@
 
 #include "CLI/App.hpp"
 #include "absl/status/status.h"
+#include "formats/summary.h"
 
 namespace plumescout::lab {
 
-// Figures of one run, and what they were measured on. As a file: one flat JSON object, name to
-// number, in the order in which they were set, and the nested object "about" with machine, load,
-// build_type, seed and version.
+// Figures of one run, and what they were measured on; see formats/summary.h for the file.
 class BenchSummary {
  public:
   explicit BenchSummary(std::uint64_t seed);
@@ -25,20 +24,11 @@ class BenchSummary {
   // Setting a name again replaces its value.
   void Set(const std::string& name, double value);
 
-  std::string ToJson() const;
-
-  // Errors: kUnavailable if the file cannot be written.
-  absl::Status Write(const std::string& path) const;
+  const Summary& summary() const { return summary_; }
 
  private:
-  struct Figure {
-    std::string name;
-    double value;
-  };
-
   std::uint64_t seed_;
-  double load_;  // runnable processes over the last minute, before the run
-  std::vector<Figure> figures_;
+  Summary summary_;
 };
 
 // The main function of a bench: adds the flags `--summary FILE` and `--seed N` to those that `app`

@@ -180,9 +180,9 @@ MapPanel FieldPanel(const char* title, const Region& region, CellPicture cells, 
 }
 
 Curve MetricCurve(const ReportData& data, const char* name, const Stroke& stroke,
-                  double MetricSample::*metric) {
+                  double MetricPoint::*metric) {
   Curve curve{name, stroke, {}};
-  for (const MetricSample& sample : data.metrics) {
+  for (const MetricPoint& sample : data.metrics) {
     curve.points.push_back({sample.time_s, sample.*metric});
   }
   return curve;
@@ -220,16 +220,16 @@ std::vector<Chart> MakeCharts(const ReportData& data) {
   return {{"Completeness",
            kTime,
            kShares,
-           {MetricCurve(data, "completeness", solid, &MetricSample::completeness)}},
+           {MetricCurve(data, "completeness", solid, &MetricPoint::completeness)}},
           {"RMSE over critical cells, ppm",
            kTime,
            std::nullopt,
-           {MetricCurve(data, "map", solid, &MetricSample::rmse_ppm),
-            MetricCurve(data, "all-zero map", dashed, &MetricSample::rmse_zero_ppm)}},
+           {MetricCurve(data, "map", solid, &MetricPoint::rmse_ppm),
+            MetricCurve(data, "all-zero map", dashed, &MetricPoint::rmse_zero_ppm)}},
           {"Entropy over critical cells, nats",
            kTime,
            std::nullopt,
-           {MetricCurve(data, "entropy", solid, &MetricSample::entropy_nats)}}};
+           {MetricCurve(data, "entropy", solid, &MetricPoint::entropy_nats)}}};
 }
 
 }  // namespace plumescout::lab

@@ -16,7 +16,7 @@
 namespace plumescout::lab {
 
 // How good the map was at one instant. A value that is not finite was not measured.
-struct MetricSample {
+struct MetricPoint {
   double time_s = 0.0;
   double completeness = 0.0;   // known-free share of the true reachable free cells, [0, 1]
   double rmse_ppm = 0.0;       // over critical cells, [XIT] Eq. (23)
@@ -34,7 +34,7 @@ struct ReportData {
   std::vector<Plan> plans;                        // in the order of their issue
   std::vector<Point2> sources;
   std::vector<Point2> starts;  // one per robot
-  std::vector<MetricSample> metrics;
+  std::vector<MetricPoint> metrics;
   std::vector<std::pair<std::string, std::string>> key_numbers;  // name, value with unit
 };
 

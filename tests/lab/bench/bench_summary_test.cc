@@ -8,40 +8,37 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lab/bench/about.h"
 
 namespace plumescout::lab {
 namespace {
 
-TEST(BenchSummary, IsAFlatObjectOfNumbersAndWhatTheyWereMeasuredOn) {
+using Figures = std::vector<std::pair<std::string, double>>;
+
+TEST(BenchSummary, KeepsFiguresInOrderAndSaysWhatTheyWereMeasuredOn) {
   BenchSummary summary(7);
-  summary.Set("one_ms", 1.5);
   summary.Set("two_ms", 2.5);
-  const auto json = nlohmann::json::parse(summary.ToJson());
-  EXPECT_EQ(json["one_ms"], 1.5);
-  EXPECT_EQ(json["two_ms"], 2.5);
-  EXPECT_EQ(json["about"]["seed"], 7);
-  for (const char* key : {"machine", "load", "build_type", "version"}) {
-    EXPECT_TRUE(json["about"].contains(key)) << key;
-  }
-  EXPECT_EQ(json.size(), 3U);
+  summary.Set("one_ms", 1.5);
+  EXPECT_EQ(summary.summary().figures, (Figures{{"two_ms", 2.5}, {"one_ms", 1.5}}));
+  EXPECT_EQ(summary.summary().about, AboutThisRun(7));
 }
 
 TEST(BenchSummary, LeavesOutWhatCouldNotBeMeasured) {
   BenchSummary summary(1);
   summary.Set("nan_ms", std::numeric_limits<double>::quiet_NaN());
   summary.Set("infinite_ms", std::numeric_limits<double>::infinity());
-  EXPECT_EQ(nlohmann::json::parse(summary.ToJson()).size(), 1U);
+  EXPECT_TRUE(summary.summary().figures.empty());
 }
 
 TEST(BenchSummary, KeepsTheLastValueOfAName) {
   BenchSummary summary(1);
   summary.Set("one_ms", 1.0);
   summary.Set("one_ms", 3.0);
-  EXPECT_EQ(nlohmann::json::parse(summary.ToJson())["one_ms"], 3.0);
-}
-
-TEST(BenchSummary, SaysWhenItsFileCannotBeWritten) {
-  EXPECT_EQ(BenchSummary(1).Write("/nowhere/summary.json").code(), absl::StatusCode::kUnavailable);
+  EXPECT_EQ(summary.summary().figures, (Figures{{"one_ms", 3.0}}));
 }
 
 TEST(RunBench, WritesTheSummaryOfItsBodyWithTheSeedGiven) {
@@ -59,7 +56,7 @@ TEST(RunBench, WritesTheSummaryOfItsBodyWithTheSeedGiven) {
   std::ifstream file(path);
   const auto json = nlohmann::json::parse(file);
   EXPECT_EQ(json["answer"], 42.0);
-  EXPECT_EQ(json["about"]["seed"], 9);
+  EXPECT_EQ(json["about"]["seed"], "9");
 }
 
 TEST(RunBench, FailsWhenItsBodyFailsOrAFlagIsUnknown) {

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "absl/status/status.h"
+#include "core/types/map_snapshot.h"
+#include "formats/scene.h"
+#include "lab/sim/episode.h"
+
+namespace plumescout::lab {
+
+// Everything that one run leaves behind.
+struct Run {
+  const Scene& scene;
+  const EpisodeResult& episode;
+  const MapSnapshot& final_map;
+  std::string strategy;
+  std::uint64_t seed = 0;
+  double wall_s = 0.0;
+};
+
+// Writes report.html, report.png, metrics.csv, summary.json, map.pgm + map.yaml, gas_mean.npy and
+// gas_variance.npy into `folder`, which is made if it is not there.
+absl::Status WriteRunFolder(const Run& run, const std::string& folder);
+
+}  // namespace plumescout::lab
