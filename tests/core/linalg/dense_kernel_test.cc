@@ -169,9 +169,7 @@ TEST_P(FactorizeFrontTest, LeavesTheFactorAndTheSchurComplement) {
   const auto k = static_cast<Eigen::Index>(columns);
   const auto rest = static_cast<Eigen::Index>(rows) - k;
   const Eigen::MatrixXd l11 = original.topLeftCorner(k, k).llt().matrixL();
-  const Eigen::MatrixXd l21 = l11.triangularView<Eigen::Lower>()
-                                  .solve(original.bottomLeftCorner(rest, k).transpose())
-                                  .transpose();
+  const Eigen::MatrixXd l21 = original.bottomLeftCorner(rest, k) * l11.inverse().transpose();
   const Eigen::MatrixXd schur = original.bottomRightCorner(rest, rest) - l21 * l21.transpose();
   const auto lower_error = [](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
     if (a.size() == 0) return 0.0;
