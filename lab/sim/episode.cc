@@ -68,6 +68,7 @@ class EpisodeRecorder : public client::RobotObserver {
 
   void OnPlan(const client::PlanArrival& arrival) override {
     result_.plans.push_back({arrival.elapsed_s, arrival.rpc_wall, arrival.plan});
+    if (options_.on_plan) options_.on_plan(result_.plans.back());
   }
 
   // Of the first map that holds the robot's observations up to `sequence`.

@@ -62,6 +62,8 @@ struct EpisodeOptions {
   double prior_variance_ppm2 = OpenLatticeVariance_ppm2(GasOptions{});
   // Told of every sample as it is taken; may be empty.
   std::function<void(const MetricSample&, const MapSnapshot&)> on_sample;
+  // Told of every plan as it arrives; may be empty.
+  std::function<void(const IssuedPlan&)> on_plan;
 };
 
 struct EpisodeResult {

@@ -16,6 +16,7 @@ namespace {
 constexpr int kMaxBeams = 20'000;
 constexpr double kMaxRange_m = 100.0;
 constexpr double kMaxNoise_m = 1.0;
+constexpr double kTouch_cells = 1e-9;  // a beam through a corner touches cells but crosses none
 constexpr double kNoReturn_m = std::numeric_limits<double>::infinity();
 
 absl::Status OutOfRange(const char* field, double value, const char* range) {
@@ -49,7 +50,8 @@ double CastBeam_m(const Grid<CellState>& truth, Point2 from, double angle_rad, d
   WalkSegment(geometry, from, to, [&](Cell cell, double length_cells) {
     const double edge_m = before_cells * geometry.resolution_m;
     if (edge_m > max_range_m) return false;
-    if (truth.At(cell, CellState::kFree) == CellState::kOccupied) {
+    const bool crossed = length_cells > kTouch_cells;
+    if (crossed && truth.At(cell, CellState::kFree) == CellState::kOccupied) {
       range_m = edge_m + 0.5 * length_cells * geometry.resolution_m;
       return false;
     }

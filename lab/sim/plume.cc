@@ -10,8 +10,6 @@
 namespace plumescout::lab {
 namespace {
 
-// A filament on the very edge of a cell that rounding puts into the wall is kept out by PlaceOf;
-// new filaments start as one point, and the walk spreads them.
 double FilamentVariance_m2(const GasParameters& gas, double age_s) {
   return gas.initial_sigma_m * gas.initial_sigma_m + gas.growth_m2_per_s * age_s;
 }

@@ -18,6 +18,8 @@ struct Filament {
   Point2 position;
   std::int32_t age_steps = 0;
   std::int32_t source = 0;  // index into the sources
+
+  friend bool operator==(const Filament&, const Filament&) = default;
 };
 
 // The cloud of one filament at the sensor's height: peak * exp(-r^2 / (2 sigma^2)).
@@ -38,9 +40,9 @@ double FilamentContent_ppm_m3(const GasSource& source, const GasParameters& gas)
 FilamentShape ShapeAtAge(const GasSource& source, const GasParameters& gas, double age_s);
 
 // Filaments in a steady wind. Each fixed step releases new ones at every source, carries all along
-// the wind and lets them walk at random with diffusivity K. A move that would end in a solid keeps
-// the part along the wall, or else does not take place: the walk stays reversible, so well-mixed
-// gas stays well mixed. Filaments that reach an opening have left for good.
+// the wind and lets them walk at random with diffusivity K. A move through a solid keeps the part
+// along the wall, or else does not take place: along walls the walk goes as easily back as forth,
+// so well-mixed gas stays well mixed. Filaments that reach an opening have left for good.
 // Deterministic in its arguments. Cost of a step: some 50 ns per filament.
 class Plume {
  public:

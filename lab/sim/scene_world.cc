@@ -36,6 +36,8 @@ double SceneWorld::Concentration_ppm(Point2 point, double time_s) const {
 
 bool SceneWorld::Collides(Point2 center, double radius_m) const {
   const GridGeometry& geometry = scene_.geometry();
+  if (occupancy().At(geometry.CellAt(center), CellState::kOccupied) != CellState::kFree)
+    return true;
   const Cell low = geometry.CellAt({center.x_m - radius_m, center.y_m - radius_m});
   const Cell high = geometry.CellAt({center.x_m + radius_m, center.y_m + radius_m});
   for (int y = low.y; y <= high.y; ++y) {

@@ -28,14 +28,14 @@ absl::Status Validate(const WindOptions& options);
 //   momentum   explicit Euler, first-order upwind advection, constant turbulent viscosity
 //   pressure   Poisson equation, factorised once, solved directly in every step
 //   walls      no slip, half a cell inside the solid cell (solid faces simply carry 0)
-//   openings   inlets at a given speed; outlets at ambient pressure, no air comes back in
+//   openings   inlets at a given speed; outlets at ambient pressure, reached without a gradient
 //   step       as long as explicit Euler allows: changes with the fastest air, depends on nothing
 //              else, so the same domain gives the same bytes
-// Why not less: potential flow knows no wakes and blows gas into the wrong rooms (design, section
-// 10). The result has no net flow into any fluid cell, up to rounding. At rest without openings.
+// Why not less: potential flow knows no wakes and blows gas into the wrong rooms. The result has no
+// net flow into any fluid cell, up to rounding. At rest without openings.
 //
-// Errors: kInvalidArgument from Validate; kFailedPrecondition if fluid cells have no outlet while
-// others do. Cost: O(steps * cells log cells); 160 x 200 cells take some 1200 steps.
+// Errors: kInvalidArgument from Validate; those of SparseCholesky. Cost: O(steps * cells log
+// cells); 160 x 200 cells take some 1200 steps.
 absl::StatusOr<MacField> SolveWind(const FlowDomain& domain, const WindOptions& options,
                                    const FractionFn& progress = nullptr);
 
