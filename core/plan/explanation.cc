@@ -31,7 +31,7 @@ std::string Merit(const Candidate& candidate, SelectionRule rule) {
 std::string Choice(const Plan& plan, SelectionRule rule) {
   const Candidate& chosen = plan.candidates[static_cast<std::size_t>(plan.chosen)];
   std::string text =
-      absl::StrFormat("Drive %.1f m to %s at (%.1f, %.1f): %s of %d candidates", chosen.length_m,
+      absl::StrFormat("Drive %.1f m to %s at (%.1f, %.1f): %s, of %d candidates", chosen.length_m,
                       Destination(chosen.goal), chosen.goal.position.x_m, chosen.goal.position.y_m,
                       Merit(chosen, rule), plan.candidates.size());
   if (plan.start_escaped) absl::StrAppend(&text, "; first out of the margin around obstacles");

@@ -31,6 +31,8 @@ struct FoundPath {
   std::vector<Point2> vertices;  // the start first, the centre of the goal's cell last
   double cost = 0.0;             // under PathProblem::cost
   PathSource source = PathSource::kTree;
+
+  friend bool operator==(const FoundPath&, const FoundPath&) = default;
 };
 
 struct PathResult {

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/explanation.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumescout {
+namespace {
+
+using ::testing::HasSubstr;
+
+Plan ChosenPlan(GoalKind kind) {
+  Plan plan;
+  plan.end = PlanEnd::kAllGoalsReached;
+  Candidate candidate;
+  candidate.goal.kind = kind;
+  candidate.goal.position = {3.25, 4.0};
+  candidate.goal.frontier_cells = 23;
+  candidate.length_m = 5.43;
+  candidate.cost = 12.345;
+  candidate.mean_ucb = 0.75;
+  plan.candidates = {candidate, candidate};
+  plan.chosen = 1;
+  return plan;
+}
+
+TEST(Explain, NamesGoalPlaceAndReason) {
+  EXPECT_EQ(Explain(ChosenPlan(GoalKind::kGasFrontier), SelectionRule::kLeastCost),
+            "Drive 5.4 m to a gas frontier of 23 cells at (3.2, 4.0): least cost, 12.35, of 2 "
+            "candidates.");
+  EXPECT_THAT(Explain(ChosenPlan(GoalKind::kOccupancyFrontier), SelectionRule::kMeanUcb),
+              HasSubstr("an occupancy frontier of 23 cells at (3.2, 4.0): greatest mean "
+                        "information, 0.75"));
+}
+
+TEST(Explain, SaysWhenNoFrontierIsLeft) {
+  EXPECT_THAT(Explain(ChosenPlan(GoalKind::kRandomFreeSpace), SelectionRule::kLeastCost),
+              HasSubstr("a random free place, for no frontier is left"));
+}
+
+TEST(Explain, MentionsWhatLimitedThePlan) {
+  Plan plan = ChosenPlan(GoalKind::kGasFrontier);
+  plan.start_escaped = true;
+  plan.field_flat = true;
+  plan.end = PlanEnd::kStopped;
+  const std::string text = Explain(plan, SelectionRule::kLeastCost);
+  EXPECT_THAT(text, HasSubstr("first out of the margin around obstacles"));
+  EXPECT_THAT(text, HasSubstr("the information field is flat"));
+  EXPECT_THAT(text, HasSubstr("the search was stopped early"));
+}
+
+TEST(Explain, SaysWhyTheRobotStays) {
+  Plan plan;
+  const auto stays_because = [&plan](PlanEnd end) {
+    plan.end = end;
+    return Explain(plan, SelectionRule::kLeastCost);
+  };
+  EXPECT_THAT(stays_because(PlanEnd::kMissionComplete), HasSubstr("the mission is complete"));
+  EXPECT_THAT(stays_because(PlanEnd::kNoGoals), HasSubstr("no place to go to"));
+  EXPECT_THAT(stays_because(PlanEnd::kStopped), HasSubstr("stopped before any goal"));
+  plan.rejected.resize(3);
+  EXPECT_THAT(stays_because(PlanEnd::kQueueExhausted), HasSubstr("none of 3 goals has a path"));
+}
+
+}  // namespace
+}  // namespace plumescout

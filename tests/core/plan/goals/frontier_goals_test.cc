@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/goals/frontier_goals.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/goal_case.h"
+
+namespace plumescout {
+namespace {
+
+using testing::GoalCase;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+// One frontier in the east, five cells high.
+const testing::GridArt kCorridor = {"##########",  //
+                                    "#........?",  //
+                                    "#........?",  //
+                                    "#S.......?",  //
+                                    "#........?",  //
+                                    "#........?",  //
+                                    "##########"};
+
+RejectionReason OnlyRejection(const GoalCase& c) {
+  const FrontierGoals found = FindFrontierGoals(c.Query());
+  EXPECT_THAT(found.gas, IsEmpty());
+  EXPECT_THAT(found.occupancy, IsEmpty());
+  EXPECT_THAT(found.rejected, SizeIs(1));
+  return found.rejected.at(0).reason;
+}
+
+Goal OnlyGoal(const GoalCase& c) { return FindFrontierGoals(c.Query()).occupancy.at(0).goal; }
+
+TEST(FrontierGoals, OfferTheTraversableCellNearestToAFrontier) {
+  const GoalCase c(kCorridor);
+  const FrontierGoals found = FindFrontierGoals(c.Query());
+  ASSERT_THAT(found.occupancy, SizeIs(1));
+  const Goal& goal = found.occupancy[0].goal;
+  EXPECT_EQ(goal.kind, GoalKind::kOccupancyFrontier);
+  EXPECT_EQ(goal.cell, (Cell{8, 3}));
+  EXPECT_EQ(goal.position, c.belief.geometry().Center({8, 3}));
+  EXPECT_EQ(goal.frontier_cells, 5);
+  EXPECT_NEAR(found.occupancy[0].travel_m, 0.7, 1e-6);
+  EXPECT_THAT(found.rejected, IsEmpty());
+}
+
+TEST(FrontierGoals, OfGasComeFromThePlumeUnlessThePolicyWantsNone) {
+  const testing::GridArt art = {"########",  //
+                                "#ggg...#",  //
+                                "#gSg...#",  //
+                                "#ggg...#",  //
+                                "########"};
+  GoalCase c(art);
+  c.AddGas(art, 50.0F);
+  const FrontierGoals found = FindFrontierGoals(c.Query());
+  ASSERT_THAT(found.gas, SizeIs(1));
+  EXPECT_EQ(found.gas[0].goal.kind, GoalKind::kGasFrontier);
+  EXPECT_EQ(found.gas[0].goal.cell.x, 4);
+  EXPECT_THAT(found.occupancy, IsEmpty());
+  c.options.goals = GoalPolicy::kOccupancyOnly;
+  EXPECT_THAT(FindFrontierGoals(c.Query()).gas, IsEmpty());
+}
+
+TEST(FrontierGoals, RejectWhatIsTooSmall) {
+  GoalCase c(kCorridor);
+  MissionOptions mission;
+  mission.frontier.min_occupancy_cells = 6;
+  c.SetMission(mission);
+  EXPECT_EQ(OnlyRejection(c), RejectionReason::kTooSmall);
+}
+
+TEST(FrontierGoals, AreOnTheRobotsSideOfAGapThatIsTooNarrow) {
+  const testing::GridArt art = {"#######",  //
+                                "#S.i.?#",  //
+                                "#######"};
+  const GoalCase c(art);
+  const FrontierGoals found = FindFrontierGoals(c.Query());
+  ASSERT_THAT(found.occupancy, SizeIs(1));
+  EXPECT_EQ(found.occupancy[0].goal.cell, (Cell{2, 1}));
+}
+
+TEST(FrontierGoals, RejectWhatIsSetAsideUntilItExpires) {
+  GoalCase c(kCorridor);
+  c.belief.sample_time_ns = 100;
+  c.belief.set_aside = {{OnlyGoal(c), "reported blocked", 101}};
+  EXPECT_EQ(OnlyRejection(c), RejectionReason::kSetAside);
+  EXPECT_THAT(FindFrontierGoals(c.Query()).rejected.at(0).detail, HasSubstr("reported blocked"));
+  c.belief.sample_time_ns = 101;
+  EXPECT_THAT(FindFrontierGoals(c.Query()).occupancy, SizeIs(1));
+}
+
+TEST(FrontierGoals, RejectWhatAnotherRobotIsOnItsWayTo) {
+  GoalCase c(kCorridor);
+  Goal near_by = OnlyGoal(c);
+  near_by.position.y_m += 0.3;  // its frontier has moved a little since
+  c.belief.claims = {{"other", 7, near_by, 1000}};
+  EXPECT_EQ(OnlyRejection(c), RejectionReason::kClaimed);
+  EXPECT_THAT(FindFrontierGoals(c.Query()).rejected.at(0).detail, HasSubstr("\"other\""));
+  c.belief.sample_time_ns = 1000;  // the claim has run out
+  EXPECT_THAT(FindFrontierGoals(c.Query()).occupancy, SizeIs(1));
+}
+
+TEST(FrontierGoals, DoNotMindTheRobotsOwnClaim) {
+  GoalCase c(kCorridor);
+  c.belief.claims = {{"r", 7, OnlyGoal(c), 1000}};
+  EXPECT_THAT(FindFrontierGoals(c.Query()).occupancy, SizeIs(1));
+}
+
+TEST(FrontierGoals, RejectWhatIsTooClose) {
+  GoalCase c(kCorridor);
+  c.options.min_goal_distance_m = 0.71;
+  EXPECT_EQ(OnlyRejection(c), RejectionReason::kTooClose);
+  c.options.min_goal_distance_m = 0.69;
+  EXPECT_THAT(FindFrontierGoals(c.Query()).occupancy, SizeIs(1));
+}
+
+}  // namespace
+}  // namespace plumescout

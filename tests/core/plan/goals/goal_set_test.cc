@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/goals/goal_set.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/goal_case.h"
+
+namespace plumescout {
+namespace {
+
+using testing::GoalCase;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+const testing::GridArt kOpenEnded = {"##########",  //
+                                     "#........?",  //
+                                     "#S.......?",  //
+                                     "##########"};
+const testing::GridArt kClosed = {"##########",  //
+                                  "#........#",  //
+                                  "#S.......#",  //
+                                  "##########"};
+
+GoalSet Find(const GoalCase& c) {
+  Rng rng(1);
+  return FindGoals(c.Query(), rng);
+}
+
+// As if the only frontier were taken by another robot, or set aside.
+Goal TheFrontier(const GoalCase& c) { return Find(c).goals.at(0); }
+
+TEST(FindGoals, OffersFrontiersWhileThereAreAny) {
+  GoalCase c(kOpenEnded);
+  c.belief.robots["r"].fruitless_fallbacks = 99;
+  const GoalSet found = Find(c);
+  ASSERT_THAT(found.goals, SizeIs(1));
+  EXPECT_EQ(found.goals[0].kind, GoalKind::kOccupancyFrontier);
+  EXPECT_FALSE(found.fallback);
+  EXPECT_FALSE(found.complete);
+}
+
+TEST(FindGoals, FallsBackToRandomPlacesIfNoFrontierIsLeft) {
+  GoalCase c(kClosed);
+  c.belief.robots["r"].fruitless_fallbacks = 1;
+  const GoalSet found = Find(c);
+  EXPECT_TRUE(found.fallback);
+  EXPECT_THAT(found.goals, SizeIs(5));
+}
+
+TEST(FindGoals, IsCompleteAfterFruitlessFallbacks) {
+  GoalCase c(kClosed);
+  c.belief.robots["r"].fruitless_fallbacks = 2;
+  const GoalSet found = Find(c);
+  EXPECT_TRUE(found.complete);
+  EXPECT_THAT(found.goals, IsEmpty());
+  c.options.fallback_limit = 3;
+  EXPECT_FALSE(Find(c).complete);
+}
+
+TEST(FindGoals, IsNotCompleteWhileAnotherRobotDrivesToAFrontier) {
+  GoalCase c(kOpenEnded);
+  c.belief.claims = {{"other", 1, TheFrontier(c), 1000}};
+  c.belief.robots["r"].fruitless_fallbacks = 99;
+  const GoalSet found = Find(c);
+  EXPECT_FALSE(found.complete);
+  EXPECT_TRUE(found.fallback);
+  EXPECT_THAT(found.rejected, SizeIs(1));
+}
+
+TEST(FindGoals, IsCompleteThoughAFrontierIsSetAside) {
+  GoalCase c(kOpenEnded);
+  c.belief.set_aside = {{TheFrontier(c), "visited without change", 1000}};
+  EXPECT_TRUE(Find(c).fallback);
+  c.belief.robots["r"].fruitless_fallbacks = 2;
+  EXPECT_TRUE(Find(c).complete);
+}
+
+}  // namespace
+}  // namespace plumescout

@@ -1,0 +1,285 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/paths/xit.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/plan/paths/connection_radius.h"
+#include "core/plan/sampler.h"
+#include "lab/bench/grid_oracle.h"
+#include "tests/support/path_case.h"
+
+namespace plumescout {
+namespace {
+
+using testing::PathCase;
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kRounding = 1e-9;
+
+PlanningOptions Samples(int samples) {
+  PlanningOptions options;
+  options.samples = samples;
+  return options;
+}
+
+TEST(Xit, FindsPathsFromTheStartToTheGoalCellsThatHitNothing) {
+  int found = 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    const PathCase c(seed);
+    const PathResult result = XitPlanner(Samples(150)).FindPaths(c.Problem(seed));
+    ASSERT_EQ(result.paths.size(), c.goals.size());
+    for (std::size_t i = 0; i < c.goals.size(); ++i) {
+      if (!result.paths[i]) continue;
+      ++found;
+      const std::vector<Point2>& path = result.paths[i]->vertices;
+      EXPECT_EQ(path.front(), c.start);
+      EXPECT_EQ(path.back(), c.goals[i].position);
+      EXPECT_TRUE(testing::StaysClear(c.field.penalty, path)) << "seed " << seed;
+    }
+  }
+  EXPECT_GT(found, 100);  // of 120
+}
+
+TEST(Xit, PricesPathsAsTheSumOfTheirEdges) {
+  for (const double alpha_per_m : {0.0, 2.0}) {
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+      const PathCase c(seed, {}, CostKind::kUcb, alpha_per_m);
+      for (const auto& path : XitPlanner(Samples(150)).FindPaths(c.Problem()).paths) {
+        if (path) {
+          EXPECT_NEAR(path->cost, PathCost(c.cost, path->vertices), kRounding);
+        }
+      }
+    }
+  }
+}
+
+TEST(Xit, CostsNoLessThanTheStraightLineThroughTheBestCells) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const PathCase c(seed, {}, CostKind::kUcb, 1.0);
+    const PathResult result = XitPlanner(Samples(150)).FindPaths(c.Problem());
+    const float min_penalty =
+        *std::min_element(c.field.penalty.values().begin(), c.field.penalty.values().end());
+    for (std::size_t i = 0; i < c.goals.size(); ++i) {
+      if (!result.paths[i]) continue;
+      const double line_m = Distance_m(c.start, c.goals[i].position);
+      EXPECT_GE(result.paths[i]->cost, line_m * (1.0 + min_penalty / 0.1) - kRounding);
+    }
+  }
+}
+
+// The random geometric graph of Algorithm 1, made again from the same draws.
+struct RandomGraph {
+  RandomGraph(const PathCase& c, const PlanningOptions& options, std::uint64_t seed)
+      : nearest_samples(options.nearest_samples) {
+    const GridGeometry& geometry = c.open.geometry();
+    Rng rng(seed);
+    const Grid<float> mass =
+        SamplingMass(c.field, c.reachable, c.start_cell, options.uniform_share);
+    for (const Cell cell : DrawSamples(mass, options.samples, options.sampling, rng)) {
+      points.push_back(geometry.Center(cell));
+    }
+    samples = points.size();
+    const auto cells = std::count(c.reachable.values().begin(), c.reachable.values().end(), 1);
+    const double area_m2 = static_cast<double>(cells) * std::pow(geometry.resolution_m, 2);
+    radius_m =
+        ConnectionRadius_m(area_m2, static_cast<int>(samples), geometry.resolution_m, options);
+    for (const Goal& goal : c.goals) points.push_back(goal.position);
+    points.push_back(c.start);
+  }
+
+  // Whether b is a sample and one of the nearest to a, which is a goal.
+  bool InGoalSet(std::size_t a, std::size_t b) const {
+    if (a < samples || a + 1 == points.size() || b >= samples) return false;
+    const auto nearer = std::count_if(
+        points.begin(), points.begin() + static_cast<std::ptrdiff_t>(samples),
+        [&](Point2 p) { return Distance_m(p, points[a]) < Distance_m(points[b], points[a]); });
+    return nearer < nearest_samples;
+  }
+  bool Joined(std::size_t a, std::size_t b) const {
+    return Distance_m(points[a], points[b]) <= radius_m || InGoalSet(a, b) || InGoalSet(b, a);
+  }
+
+  std::vector<Point2> points;  // samples, goals, root
+  std::size_t samples = 0;
+  double radius_m = 0.0;
+  int nearest_samples;
+};
+
+// Prices of the cheapest ways from the root over the whole graph, every edge priced, by
+// Bellman-Ford: what Algorithm 1 must find.
+std::vector<double> CheapestWays(const RandomGraph& graph, const EdgeCost& cost) {
+  struct Edge {
+    std::size_t from, to;
+    double price;
+  };
+  std::vector<Edge> edges;
+  for (std::size_t a = 0; a < graph.points.size(); ++a) {
+    for (std::size_t b = 0; b < graph.points.size(); ++b) {
+      if (graph.Joined(a, b)) edges.push_back({a, b, cost(graph.points[a], graph.points[b])});
+    }
+  }
+  std::vector<double> g(graph.points.size(), kInf);
+  g.back() = 0.0;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const Edge& edge : edges) {
+      if (!(g[edge.from] + edge.price < g[edge.to] - kRounding)) continue;
+      g[edge.to] = g[edge.from] + edge.price;
+      changed = true;
+    }
+  }
+  return g;
+}
+
+TEST(Xit, FindsTheCheapestPathsOfItsGraphWhateverTheHeuristic) {
+  struct Price {
+    CostKind kind;
+    double alpha_per_m;
+  };
+  for (const Price price :
+       {Price{CostKind::kUcb, 0.0}, Price{CostKind::kUcb, 3.0}, Price{CostKind::kEuclidean, 0.0}}) {
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+      const PathCase c(seed, {}, price.kind, price.alpha_per_m);
+      const PlanningOptions options = Samples(80);
+      const PathResult result = XitPlanner(options).FindPaths(c.Problem(seed));
+      const RandomGraph graph(c, options, seed);
+      const std::vector<double> cheapest = CheapestWays(graph, c.cost);
+      for (std::size_t i = 0; i < c.goals.size(); ++i) {
+        const double found = result.paths[i] ? result.paths[i]->cost : kInf;
+        const double expected = cheapest[graph.samples + i];
+        if (expected == kInf) {
+          EXPECT_EQ(found, kInf);
+        } else {
+          EXPECT_NEAR(found, expected, 1e-6) << "seed " << seed;
+        }
+      }
+    }
+  }
+}
+
+// Mean price over that of the 32-connected grid, of goals that were reached.
+double OverOracle(int samples) {
+  double sum = 0.0;
+  int goals = 0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const PathCase c(seed);
+    const Grid<double> oracle = lab::OracleCosts(c.cost, c.start_cell, 32);
+    const PathResult result = XitPlanner(Samples(samples)).FindPaths(c.Problem(seed));
+    for (std::size_t i = 0; i < c.goals.size(); ++i) {
+      if (!result.paths[i] || c.goals[i].cell == c.start_cell) continue;
+      sum += result.paths[i]->cost / oracle[c.goals[i].cell];
+      ++goals;
+    }
+  }
+  return sum / goals;
+}
+
+TEST(Xit, ApproachesTheBestPathAsSamplesGrow) {  // [XIT] Theorem 2
+  const double few = OverOracle(60);
+  const double more = OverOracle(400);
+  const double most = OverOracle(2000);
+  EXPECT_GT(few, more);
+  EXPECT_GT(more, most);
+  EXPECT_LT(most, 1.01);  // at 2000 of some 2200 cells straight edges beat 32 directions
+}
+
+TEST(Xit, GivesTheSameBytesForTheSameSeed) {
+  const PathCase c(3);
+  const XitPlanner xit(Samples(150));
+  const PathResult first = xit.FindPaths(c.Problem(5));
+  const PathResult second = xit.FindPaths(c.Problem(5));
+  EXPECT_TRUE(first.paths == second.paths);
+  EXPECT_EQ(first.effort, second.effort);
+  EXPECT_FALSE(first.paths == xit.FindPaths(c.Problem(6)).paths);
+}
+
+TEST(Xit, SaysHowHardItWorked) {
+  const PathCase c(3);
+  const PathResult result = XitPlanner(Samples(150)).FindPaths(c.Problem());
+  EXPECT_EQ(result.effort.samples, 150);
+  EXPECT_GT(result.effort.vertices, 1);
+  EXPECT_LE(result.effort.vertices, 150 + 4 + 1);
+  EXPECT_GE(result.effort.edges_evaluated, result.effort.vertices - 1);
+  EXPECT_EQ(result.effort.goals_by_guard, 0);
+}
+
+TEST(Xit, EndsWhenAllGoalsAreReachedOrTheQueueIsEmpty) {
+  const PathCase c(3);
+  EXPECT_EQ(XitPlanner(Samples(600)).FindPaths(c.Problem()).end, PlanEnd::kAllGoalsReached);
+  PathCase sealed(3);
+  sealed.goals.push_back(testing::GoalAt(testing::CellInArt({"..x"}, 'x'), sealed.open.geometry()));
+  sealed.goals.back().cell = Cell{-5, -5};  // no way there
+  sealed.goals.back().position = sealed.open.geometry().Center({-5, -5});
+  const PathResult result = XitPlanner(Samples(600)).FindPaths(sealed.Problem());
+  EXPECT_EQ(result.end, PlanEnd::kQueueExhausted);
+  EXPECT_FALSE(result.paths.back().has_value());
+  EXPECT_TRUE(result.paths.front().has_value());
+}
+
+TEST(Xit, StopsWhenTold) {
+  PathCase c(3);
+  c.stop = [] { return true; };
+  const PathResult result = XitPlanner(Samples(150)).FindPaths(c.Problem());
+  EXPECT_EQ(result.end, PlanEnd::kStopped);
+  EXPECT_EQ(result.effort.edges_evaluated, 0);
+}
+
+TEST(Xit, StoppedHalfWayReturnsPathsThatHitNothing) {
+  PathCase c(3);
+  std::size_t found_before = 0;
+  for (const int polls : {5, 20, 60, 150}) {
+    int polled = 0;
+    c.stop = [&polled, polls] { return ++polled > polls; };
+    const PathResult result = XitPlanner(Samples(600)).FindPaths(c.Problem());
+    std::size_t found = 0;
+    for (const auto& path : result.paths) {
+      if (!path) continue;
+      ++found;
+      EXPECT_TRUE(testing::StaysClear(c.field.penalty, path->vertices));
+      EXPECT_NEAR(path->cost, PathCost(c.cost, path->vertices), kRounding);
+    }
+    EXPECT_GE(found, found_before);
+    found_before = found;
+  }
+  EXPECT_GT(found_before, 0U);
+}
+
+TEST(Xit, KeepsWithinItsEdgeBudget) {
+  const PathCase c(3);
+  const XitPlanner xit(Samples(600));
+  const int needed = xit.FindPaths(c.Problem()).effort.edges_evaluated;
+  const PathResult half = xit.FindPaths(c.Problem(1, needed / 2));
+  EXPECT_EQ(half.end, PlanEnd::kStopped);
+  EXPECT_EQ(half.effort.edges_evaluated, needed / 2);
+  EXPECT_EQ(xit.FindPaths(c.Problem(1, needed)).end, PlanEnd::kAllGoalsReached);
+}
+
+TEST(Xit, ReachesAGoalUnderTheRobotAtOnce) {
+  PathCase c(3);
+  c.goals = {testing::GoalAt(c.start_cell, c.open.geometry())};
+  const PathResult result = XitPlanner(Samples(50)).FindPaths(c.Problem());
+  ASSERT_TRUE(result.paths[0].has_value());
+  EXPECT_EQ(result.paths[0]->cost, 0.0);
+}
+
+TEST(Xit, ManagesOnAMapOfOneCell) {
+  PathCase c(1, {1, 1, 0, 1});
+  const PathResult result = XitPlanner(Samples(300)).FindPaths(c.Problem());
+  EXPECT_EQ(result.effort.samples, 0);
+  EXPECT_EQ(result.end, PlanEnd::kAllGoalsReached);
+}
+
+TEST(Xit, WithoutGoalsHasNothingToDo) {
+  PathCase c(3);
+  c.goals.clear();
+  EXPECT_EQ(XitPlanner(Samples(300)).FindPaths(c.Problem()).end, PlanEnd::kAllGoalsReached);
+}
+
+}  // namespace
+}  // namespace plumescout
