@@ -9,6 +9,8 @@
 namespace plumescout::lab {
 namespace {
 
+// Round numbers are up to 2.5 times apart: one above the wanted step may be nearer to it.
+constexpr double kNearest = 1.5;
 constexpr double kRounding = 1e-9;  // of a step, by which computed ticks may miss the ends
 
 }  // namespace
@@ -22,7 +24,7 @@ double RoundDown125(double limit) {
 }
 
 std::vector<double> LinearTicks(double low, double high, int count) {
-  const double step = RoundDown125((high - low) / count);
+  const double step = RoundDown125(kNearest * (high - low) / count);
   std::vector<double> ticks;
   const double last = std::floor(high / step + kRounding);
   for (double i = std::ceil(low / step - kRounding); i <= last; i += 1.0)

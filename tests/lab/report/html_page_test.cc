@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/report/html_page.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "lab/report/figures.h"
+#include "tests/support/small_report.h"
+
+namespace plumescout::lab {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+std::string MakePage() {
+  const ReportData data = MakeSmallReport();
+  return MakeHtmlPage({data.title, data.key_numbers, MakeMapPanels(data), MakeCharts(data)});
+}
+
+int Count(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+TEST(HtmlPage, HoldsAllTitlesAndNumbers) {
+  const std::string page = MakePage();
+  for (const char* text :
+       {"<!DOCTYPE html>", "<h1>Small room &lt;1&gt;</h1>", ">True gas<", ">Estimated mean<",
+        ">Uncertainty (variance)<", ">Occupancy, frontiers and paths<", ">Completeness<",
+        ">RMSE over critical cells, ppm<", ">Entropy over critical cells, nats<",
+        "<td>RMSE</td><td>10 ppm</td>", "<strong>50 %</strong>"}) {
+    EXPECT_THAT(page, HasSubstr(text));
+  }
+}
+
+TEST(HtmlPage, LoadsNothing) {
+  const std::string page = MakePage();
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  EXPECT_THAT(page, Not(HasSubstr("<link")));
+  EXPECT_THAT(page, Not(HasSubstr("src=")));
+  EXPECT_EQ(Count(page, "href=\""), Count(page, "href=\"data:image/png;base64,"));
+}
+
+TEST(HtmlPage, EveryElementThatOpensCloses) {
+  const std::string page = MakePage();
+  for (const char* tag : {"svg", "div", "table", "tr", "td", "text", "title", "html"}) {
+    const std::string name = tag;
+    EXPECT_EQ(Count(page, "<" + name + " ") + Count(page, "<" + name + ">"),
+              Count(page, "</" + name + ">"))
+        << name;
+  }
+}
+
+TEST(HtmlPage, OneFigureEachForMapsAndCharts) { EXPECT_EQ(Count(MakePage(), "<svg "), 4 + 3); }
+
+}  // namespace
+}  // namespace plumescout::lab

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/report/map_panel.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "lab/report/raster_canvas.h"
+#include "lab/report/svg_canvas.h"
+
+namespace plumescout::lab {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr Rgb kGreen{0, 200, 0};
+constexpr Rgb kBlue{0, 0, 255};
+const GridGeometry kGeometry{10.0, 20.0, 0.5, 4, 2};  // 2 m x 1 m
+
+MapPanel MakePanel() {
+  MapPanel panel;
+  panel.title = "Gas";
+  panel.region = RegionOf(kGeometry);
+  panel.cells = PaintCells(kGeometry, panel.region, [](Cell cell) {
+    return cell == Cell{3, 1} ? kGreen : Rgb{};
+  });
+  return panel;
+}
+
+std::string Svg(const MapPanel& panel) {
+  SvgCanvas canvas(400, 400, "");
+  DrawMapPanel(canvas, {0.0, 0.0, 400.0, 400.0}, panel);
+  return canvas.Element();
+}
+
+TEST(MapPanel, RegionsCoverTheirCells) {
+  const Region region = RegionOf(kGeometry);
+  EXPECT_EQ(region.south_west, (Point2{10.0, 20.0}));
+  EXPECT_EQ(region.north_east, (Point2{12.0, 21.0}));
+  const Region both = Union(region, {{9.0, 20.5}, {11.0, 30.0}});
+  EXPECT_EQ(both.south_west, (Point2{9.0, 20.0}));
+  EXPECT_EQ(both.north_east, (Point2{12.0, 30.0}));
+}
+
+TEST(MapPanel, ThePictureHasNorthUp) {
+  const CellPicture picture = MakePanel().cells;
+  ASSERT_EQ(picture.image.width(), 4);
+  ASSERT_EQ(picture.image.height(), 2);
+  EXPECT_EQ(picture.image.At(3, 0), kGreen);  // cell (3, 1) is the north-eastern one
+}
+
+TEST(MapPanel, OnlyCellsOfTheRegionArePainted) {
+  const CellPicture part = PaintCells(kGeometry, {{10.6, 20.1}, {11.4, 20.4}},
+                                      [](Cell cell) { return cell.x == 1 ? kGreen : kBlue; });
+  ASSERT_EQ(part.image.width(), 2);
+  ASSERT_EQ(part.image.height(), 1);
+  EXPECT_EQ(part.image.At(0, 0), kGreen);
+  EXPECT_EQ(part.region.south_west, (Point2{10.5, 20.0}));
+  EXPECT_EQ(part.region.north_east, (Point2{11.5, 20.5}));
+}
+
+TEST(MapPanel, ARegionWithoutCellsHasAnEmptyPicture) {
+  const CellPicture none =
+      PaintCells(kGeometry, {{50.0, 50.0}, {60.0, 60.0}}, [](Cell) { return kBlue; });
+  EXPECT_TRUE(none.image.pixels().empty());
+}
+
+TEST(MapPanel, PanelsAreAsHighAsTheirMapsButBounded) {
+  MapPanel panel = MakePanel();
+  const double wide_px = MapPanelHeight_px(panel, 400.0);
+  panel.region.north_east.y_m += 1.0;  // twice as high: 400 pixels instead of 200
+  EXPECT_DOUBLE_EQ(MapPanelHeight_px(panel, 400.0), wide_px + 200.0);
+  panel.region.north_east.y_m += 1000.0;
+  EXPECT_LT(MapPanelHeight_px(panel, 400.0), 1000.0);
+}
+
+TEST(MapPanel, CellsLinesAndMarksLieWhereTheyAre) {
+  MapPanel panel = MakePanel();
+  panel.lines = {{{{10.0, 20.25}, {12.0, 20.25}}, {kBlue, 3.0}}};
+  panel.marks = {{MarkShape::kDisc, kBlue, {10.5, 20.75}}};
+  RasterCanvas canvas(400, 400, {255, 255, 255});
+  DrawMapPanel(canvas, {0.0, 0.0, 400.0, 400.0}, panel);
+  // 200 pixels a metre; the map's upper left corner is at (0, 34).
+  EXPECT_EQ(canvas.image().At(350, 34 + 50), kGreen);
+  EXPECT_EQ(canvas.image().At(200, 34 + 150), kBlue);
+  EXPECT_EQ(canvas.image().At(100, 34 + 50), kBlue);
+  EXPECT_EQ(canvas.image().At(250, 34 + 50), Rgb{});
+}
+
+TEST(MapPanel, TheScaleBarHasARoundLength) {
+  EXPECT_THAT(Svg(MakePanel()), HasSubstr(">0.2 m<"));  // at most a fifth of 2 m
+}
+
+TEST(MapPanel, TheColorBarPrintsItsUnitAndTicks) {
+  MapPanel panel = MakePanel();
+  panel.color_bar = ColorBar{{ColorMap::kGas, 0.5, 500.0, true}, "ppm"};
+  const std::string svg = Svg(panel);
+  for (const char* text : {">ppm<", ">1<", ">10<", ">100<"}) EXPECT_THAT(svg, HasSubstr(text));
+}
+
+TEST(MapPanel, TheLegendNamesItsEntries) {
+  MapPanel panel = MakePanel();
+  panel.legend = {{"wall", MarkShape::kSwatch, kBlue},
+                  {"path", MarkShape::kLine, kBlue},
+                  {"start", MarkShape::kDisc, kBlue},
+                  {"source", MarkShape::kCross, kBlue}};
+  const std::string svg = Svg(panel);
+  for (const char* text : {">wall<", ">path<", ">start<", ">source<"}) {
+    EXPECT_THAT(svg, HasSubstr(text));
+  }
+}
+
+}  // namespace
+}  // namespace plumescout::lab

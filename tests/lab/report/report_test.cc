@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/report/report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "formats/file_io.h"
+#include "formats/png.h"
+#include "lab/report/sheet.h"
+#include "tests/support/small_report.h"
+#include "tests/support/temp_folder.h"
+
+namespace plumescout::lab {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::uint64_t kNoLimit = 1 << 24;
+
+TEST(Report, PageAndSheetAreWritten) {
+  const TempFolder folder;
+  const std::string path = folder.File("out/run");
+  ASSERT_EQ(WriteReport(MakeSmallReport(), path), absl::OkStatus());
+  EXPECT_THAT(*ReadFile(path + "/report.html", kNoLimit), HasSubstr("Small room"));
+  const auto sheet = DecodePng(*ReadFile(path + "/report.png", kNoLimit));
+  ASSERT_TRUE(sheet.ok()) << sheet.status();
+  EXPECT_GT(sheet->width(), 4 * kPanelWidth_px);
+}
+
+TEST(Report, TheSameDataGiveTheSameBytes) {
+  const TempFolder folder;
+  ASSERT_TRUE(WriteReport(MakeSmallReport(), folder.File("a")).ok());
+  ASSERT_TRUE(WriteReport(MakeSmallReport(), folder.File("b")).ok());
+  for (const char* file : {"/report.html", "/report.png"}) {
+    EXPECT_EQ(*ReadFile(folder.File("a") + file, kNoLimit),
+              *ReadFile(folder.File("b") + file, kNoLimit));
+  }
+}
+
+TEST(Report, AMissionThatNeverStartedStillHasAReport) {
+  const TempFolder folder;
+  ReportData data;
+  const GridGeometry geometry{0.0, 0.0, 0.1, 3, 2};
+  data.map.occupancy = Grid<CellState>(geometry);
+  data.map.gas_mean_ppm = Grid<float>(geometry, NAN);
+  data.map.gas_variance_ppm2 = Grid<float>(geometry, NAN);
+  EXPECT_EQ(WriteReport(data, folder.path()), absl::OkStatus());
+}
+
+TEST(Report, RastersThatDoNotFitAreRefused) {
+  const TempFolder folder;
+  const absl::StatusCode invalid = absl::StatusCode::kInvalidArgument;
+  EXPECT_EQ(WriteReport({}, folder.path()).code(), invalid);
+  ReportData data = MakeSmallReport();
+  data.map.gas_variance_ppm2 = Grid<float>(GridGeometry{0, 0, 1, 2, 2});
+  EXPECT_EQ(WriteReport(data, folder.path()).code(), invalid);
+  data = MakeSmallReport();
+  data.truth = Grid<CellState>();
+  EXPECT_EQ(WriteReport(data, folder.path()).code(), invalid);
+}
+
+}  // namespace
+}  // namespace plumescout::lab
