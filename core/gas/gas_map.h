@@ -36,7 +36,7 @@ class GasMap {
 
   // Brings the posterior to `states` and ages readings to `time_ns`. On error the old posterior
   // stays: kInvalidArgument if the lattice of `states` is not that of the first refresh moved by
-  // whole cells, kInternal if the factorisation fails.
+  // whole cells, kInternal if the factorisation fails (lambda_p / lambda_d beyond about 1e14).
   // Cost: at 160x200 free cells about 0.06 s of CPU; O(n^1.5) for n free cells.
   absl::Status Refresh(const Grid<CellState>& states, std::int64_t time_ns);
 

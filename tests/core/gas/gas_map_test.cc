@@ -223,6 +223,17 @@ TEST(GasMapTest, KeepsTheOldPosteriorWhenTheLatticeDoesNotMatch) {
   EXPECT_EQ(map.counters().in_posterior, 1);
 }
 
+TEST(GasMapTest, KeepsTheOldPosteriorWhenTheFactorisationFails) {
+  GasOptions options;
+  options.prior_precision = 1e9;
+  options.background_precision = 1e-9;  // 1e9 + 1e-9 rounds to 1e9: two cells make H singular
+  GasMap map = MapOf({}, GridFromArt({".#"}), 0, options);
+  const Grid<float> before = map.variance_ppm2();
+  EXPECT_EQ(map.Refresh(GridFromArt({".."}), 0).code(), absl::StatusCode::kInternal);
+  EXPECT_TRUE(SameBytes(map.variance_ppm2(), before));
+  EXPECT_TRUE(map.Refresh(GridFromArt({".#"}), 0).ok());
+}
+
 TEST(GasMapTest, IsNotPoisonedByReadingsThatAreNotFinite) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const GasMap map =
