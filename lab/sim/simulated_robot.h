@@ -16,14 +16,14 @@
 namespace plumescout::lab {
 
 struct SimulatedRobotOptions {
-  std::optional<Pose2> start;       // default: the scene's
-  double max_forward_mps = 1.25;    // either way, [XIT] section VI-A, (0, 100]
-  double max_turn_rad_per_s = 2.0;  // either way, (0, 100]
+  std::optional<Pose2> start = std::nullopt;  // default: the scene's
+  double max_forward_mps = 1.25;              // either way, [XIT] section VI-A, (0, 100]
+  double max_turn_rad_per_s = 2.0;            // either way, (0, 100]
   // Touching a wall stops the robot. Less than the inflation of 0.2 m by the diagonal of a cell:
   // plans keep the centres of cells apart, and the robot may be anywhere in its cell. [0, 5]
   double body_radius_m = 0.1;
-  LidarOptions lidar;
-  GasSensorOptions gas_sensor;
+  LidarOptions lidar = {};
+  GasSensorOptions gas_sensor = {};
   std::int64_t start_time_ns = 1'700'000'000'000'000'000;  // of the clock, at frame 0; >= 0
   bool realtime = false;                                   // Advance takes as long as it says
   std::uint64_t seed = 1;

@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/sim/episode.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "lab/sim/scene_maker.h"
+#include "tests/client/fake_planner_client.h"
+#include "tests/lab/sim/small_layout.h"
+
+namespace plumescout::lab {
+namespace {
+
+// Passes everything on to the fake server but GetMap: an empty map that tells what is applied.
+class FakeService final : public client::PlannerClient {
+ public:
+  explicit FakeService(RobotId robot) : robot_(std::move(robot)) {}
+
+  client::FakePlannerClient& server() { return server_; }
+  void FailMaps() { maps_fail_ = true; }
+
+  absl::Status CreateMission(const MissionId& mission, const MissionOptions& options) override {
+    return server_.CreateMission(mission, options);
+  }
+  absl::StatusOr<std::vector<MissionId>> ListMissions() override { return server_.ListMissions(); }
+  absl::Status DeleteMission(const MissionId& mission) override {
+    return server_.DeleteMission(mission);
+  }
+  absl::StatusOr<client::RobotSession> RegisterRobot(const MissionId& mission, const RobotId& robot,
+                                                     double radius_m, bool take_over) override {
+    return server_.RegisterRobot(mission, robot, radius_m, take_over);
+  }
+  absl::StatusOr<std::unique_ptr<client::ObservationStream>> OpenObservationStream(
+      const client::RobotSession& session) override {
+    return server_.OpenObservationStream(session);
+  }
+  absl::StatusOr<Plan> NextBestTrajectory(const MissionId& mission,
+                                          const client::PlanQuery& query) override {
+    return server_.NextBestTrajectory(mission, query);
+  }
+  absl::Status ReportProgress(const client::RobotSession& session, PlanId plan,
+                              ProgressOutcome outcome) override {
+    return server_.ReportProgress(session, plan, outcome);
+  }
+  absl::StatusOr<MapSnapshot> GetMap(const MissionId&) override {
+    if (maps_fail_) return absl::UnavailableError("no maps today");
+    MapSnapshot map;
+    map.revision = server_.applied();
+    map.robots.push_back({.id = robot_, .pose = {}, .applied_sequence = map.revision});
+    return map;
+  }
+
+ private:
+  RobotId robot_;
+  client::FakePlannerClient server_;
+  bool maps_fail_ = false;
+};
+
+// One metre west and back, at 1 m/s.
+Plan ThereAndBack(const client::PlanQuery& query) {
+  const Pose2 start = query.request.start.value();
+  Plan plan;
+  plan.id = 1;
+  plan.trajectory.waypoints = {
+      {start, 0.0, 0.0}, {{start.x_m - 1.0, start.y_m, 0.0}, 1.0, 0.0}, {start, 2.0, 0.0}};
+  plan.trajectory.length_m = 2.0;
+  plan.trajectory.duration_s = 2.0;
+  return plan;
+}
+
+Scene MakeSmallScene() {
+  SceneMakerOptions options;
+  options.wind.flow_s = 1.0;
+  options.warm_up_s = 1.0;
+  options.frames = 2;
+  return *MakeScene(SmallLayout(), options);
+}
+
+const SceneWorld& SmallWorld() {
+  static const SceneWorld world(MakeSmallScene());
+  return world;
+}
+
+EpisodeOptions ShortEpisode() {
+  EpisodeOptions options;
+  options.mission = "study";
+  options.create = MissionOptions{};
+  options.duration_s = 12.0;
+  options.metrics_period_s = 2.0;
+  return options;
+}
+
+TEST(EpisodeTest, RunsUntilTheTimeIsUp) {
+  FakeService service("robot-1");
+  service.server().set_script(ThereAndBack);
+  const auto result = RunEpisode(service, SmallWorld(), ShortEpisode());
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_FALSE(result->completed);
+  EXPECT_NEAR(result->simulated_s, 12.0, 0.1 + 1e-6);  // one tick
+  EXPECT_GE(result->plans.size(), 4u);                 // each leg takes 2 s, and a little to ask
+  EXPECT_EQ(result->collisions, 0);
+  EXPECT_GT(result->distance_m, 8.0);
+}
+
+TEST(EpisodeTest, EndsWhenThePlannerSaysSo) {
+  FakeService service("robot-1");  // says so at once
+  const auto result = RunEpisode(service, SmallWorld(), ShortEpisode());
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_TRUE(result->completed);
+  EXPECT_EQ(result->plans.size(), 1u);
+  EXPECT_LT(result->simulated_s, 2.0);
+}
+
+TEST(EpisodeTest, JudgesTheMapEveryPeriodAndAtTheEnd) {
+  FakeService service("robot-1");
+  service.server().set_script(ThereAndBack);
+  EpisodeOptions options = ShortEpisode();
+  int told = 0;
+  options.on_sample = [&](const MetricSample& sample, const MapSnapshot& map) {
+    ++told;
+    EXPECT_EQ(sample.revision, map.revision);
+  };
+  const auto result = RunEpisode(service, SmallWorld(), options);
+  ASSERT_TRUE(result.ok()) << result.status();
+  ASSERT_GE(result->samples.size(), 7u);  // 0, 2, ... 10, and the end
+  EXPECT_EQ(told, static_cast<int>(result->samples.size()));
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_NEAR(result->samples[i].time_s, 2.0 * static_cast<double>(i), 0.1 + 1e-6);
+  }
+  EXPECT_EQ(result->samples.back().time_s, result->simulated_s);
+  EXPECT_EQ(result->samples.back().revision, result->readings_applied);
+}
+
+TEST(EpisodeTest, SendsEveryReading) {
+  FakeService service("robot-1");
+  service.server().set_script(ThereAndBack);
+  const auto result = RunEpisode(service, SmallWorld(), ShortEpisode());
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_EQ(result->readings_sent, result->readings_applied);
+  // 10 scans and 2 gas readings a second; the ends may or may not count.
+  EXPECT_NEAR(static_cast<double>(result->readings_sent), 12.0 * 12.0, 4.0);
+}
+
+TEST(EpisodeTest, IsRepeatableInLockstep) {
+  const auto run = [] {
+    FakeService service("robot-1");
+    service.server().set_script(ThereAndBack);
+    auto result = RunEpisode(service, SmallWorld(), ShortEpisode());
+    EXPECT_TRUE(result.ok()) << result.status();
+    std::vector<std::int64_t> revisions;
+    for (const MetricSample& sample : result->samples) revisions.push_back(sample.revision);
+    std::vector<Pose2> path;
+    for (const DrivenPose& driven : result->path) path.push_back(driven.pose);
+    return std::tuple(revisions, path, service.server().received());
+  };
+  EXPECT_TRUE(run() == run());
+}
+
+TEST(EpisodeTest, SteersIfTold) {
+  FakeService service("robot-1");
+  service.server().set_script(ThereAndBack);
+  EpisodeOptions options = ShortEpisode();
+  options.following = client::Following::kProportional;
+  const auto result = RunEpisode(service, SmallWorld(), options);
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_GT(result->distance_m, 1.0);
+}
+
+TEST(EpisodeTest, StopsWhenTold) {
+  FakeService service("robot-1");
+  service.server().set_script(ThereAndBack);
+  int asked = 0;
+  const auto result =
+      RunEpisode(service, SmallWorld(), ShortEpisode(), [&] { return ++asked > 20; });
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_FALSE(result->completed);
+  EXPECT_LT(result->simulated_s, 11.0);
+}
+
+TEST(EpisodeTest, FailsWithoutMaps) {
+  FakeService service("robot-1");
+  service.server().set_script(ThereAndBack);
+  service.FailMaps();
+  EXPECT_EQ(RunEpisode(service, SmallWorld(), ShortEpisode()).status().message(), "no maps today");
+}
+
+TEST(EpisodeTest, RejectsOptionsOutOfRange) {
+  FakeService service("robot-1");
+  for (const double bad : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
+    EpisodeOptions options = ShortEpisode();
+    options.duration_s = bad;
+    EXPECT_TRUE(absl::IsInvalidArgument(RunEpisode(service, SmallWorld(), options).status()));
+    options = ShortEpisode();
+    options.metrics_period_s = bad;
+    EXPECT_TRUE(absl::IsInvalidArgument(RunEpisode(service, SmallWorld(), options).status()));
+    options = ShortEpisode();
+    options.prior_variance_ppm2 = bad;
+    EXPECT_TRUE(absl::IsInvalidArgument(RunEpisode(service, SmallWorld(), options).status()));
+  }
+}
+
+}  // namespace
+}  // namespace plumescout::lab

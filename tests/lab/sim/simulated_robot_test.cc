@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/sim/simulated_robot.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+namespace plumescout::lab {
+namespace {
+
+using ::testing::HasSubstr;
+
+// Rounding of a few thousand additions of values up to 10.
+constexpr double kRounding = 1e-9;
+
+// An empty room, free in [0.5, 9.5) m on both axes. The gas is `ppm` everywhere in every frame.
+Scene EmptyRoom(double ppm = 0.0) {
+  GridGeometry geometry;
+  geometry.resolution_m = 0.5;
+  geometry.width = geometry.height = 20;
+  Scene scene;
+  scene.name = "room";
+  scene.occupancy = Grid<CellState>(geometry, CellState::kOccupied);
+  for (int y = 1; y < 19; ++y) {
+    for (int x = 1; x < 19; ++x) scene.occupancy[Cell{x, y}] = CellState::kFree;
+  }
+  scene.series.frames = 2;
+  const auto counts = static_cast<std::uint16_t>(ppm / scene.series.scale_ppm_per_count);
+  scene.series.counts.assign(2 * geometry.size(), counts);
+  scene.start_pose = {2.0, 3.0, 0.0};
+  return scene;
+}
+
+class SimulatedRobotTest : public ::testing::Test {
+ protected:
+  SimulatedRobot Make(const SimulatedRobotOptions& options = {}) {
+    auto robot = SimulatedRobot::Create(world_, options);
+    EXPECT_TRUE(robot.ok()) << robot.status();
+    return *std::move(robot);
+  }
+  void ExpectInvalid(const SimulatedRobotOptions& options, const std::string& message) {
+    const absl::Status status = SimulatedRobot::Create(world_, options).status();
+    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(std::string(status.message()), HasSubstr(message));
+  }
+
+  const SceneWorld world_{EmptyRoom(40.0)};
+};
+
+void ExpectPose(const Pose2& pose, double x_m, double y_m, double yaw_rad) {
+  EXPECT_NEAR(pose.x_m, x_m, kRounding);
+  EXPECT_NEAR(pose.y_m, y_m, kRounding);
+  EXPECT_NEAR(pose.yaw_rad, yaw_rad, kRounding);
+}
+
+TEST_F(SimulatedRobotTest, StandsAtTheScenesStartWithItsClockAtFrameZero) {
+  const SimulatedRobot robot = Make();
+  EXPECT_EQ(robot.pose(), (Pose2{2.0, 3.0, 0.0}));
+  EXPECT_EQ(robot.now_ns(), 1'700'000'000'000'000'000);
+}
+
+TEST_F(SimulatedRobotTest, DrivesStraight) {
+  SimulatedRobot robot = Make({.start = Pose2{2.0, 3.0, M_PI / 6.0}});
+  ASSERT_TRUE(robot.Drive({1.0, 0.0}).ok());
+  ASSERT_TRUE(robot.Advance(2.0).ok());
+  ExpectPose(robot.pose(), 2.0 + std::sqrt(3.0), 4.0, M_PI / 6.0);
+}
+
+TEST_F(SimulatedRobotTest, DrivesExactArcs) {
+  SimulatedRobot robot = Make({.start = Pose2{5.0, 3.0, 0.0}});
+  ASSERT_TRUE(robot.Drive({1.0, 0.5}).ok());  // a circle of 2 m around (5, 5)
+  ASSERT_TRUE(robot.Advance(M_PI).ok());
+  ExpectPose(robot.pose(), 7.0, 5.0, M_PI / 2.0);
+  ASSERT_TRUE(robot.Advance(3.0 * M_PI).ok());
+  ExpectPose(robot.pose(), 5.0, 3.0, 0.0);
+}
+
+TEST_F(SimulatedRobotTest, TurnsOnTheSpotEvenAtAWall) {
+  SimulatedRobot robot = Make({.start = Pose2{0.65, 3.0, 0.0}});
+  ASSERT_TRUE(robot.Drive({0.0, 1.0}).ok());
+  ASSERT_TRUE(robot.Advance(2.0).ok());
+  ExpectPose(robot.pose(), 0.65, 3.0, 2.0);
+}
+
+TEST_F(SimulatedRobotTest, HoldsACommandUntilTheNext) {
+  SimulatedRobot robot = Make();
+  ASSERT_TRUE(robot.Drive({1.0, 0.0}).ok());
+  for (int i = 0; i < 10; ++i) ASSERT_TRUE(robot.Advance(0.1).ok());
+  ASSERT_TRUE(robot.Drive({}).ok());
+  ASSERT_TRUE(robot.Advance(5.0).ok());
+  ExpectPose(robot.pose(), 3.0, 3.0, 0.0);
+}
+
+TEST_F(SimulatedRobotTest, KeepsToItsLimits) {
+  SimulatedRobot robot = Make({.max_forward_mps = 0.5, .max_turn_rad_per_s = 0.25});
+  ASSERT_TRUE(robot.Drive({9.0, 0.0}).ok());
+  ASSERT_TRUE(robot.Advance(1.0).ok());
+  ExpectPose(robot.pose(), 2.5, 3.0, 0.0);
+  ASSERT_TRUE(robot.Drive({-9.0, 0.0}).ok());
+  ASSERT_TRUE(robot.Advance(1.0).ok());
+  ExpectPose(robot.pose(), 2.0, 3.0, 0.0);
+  ASSERT_TRUE(robot.Drive({0.0, -9.0}).ok());
+  ASSERT_TRUE(robot.Advance(1.0).ok());
+  ExpectPose(robot.pose(), 2.0, 3.0, -0.25);
+}
+
+TEST_F(SimulatedRobotTest, StopsAtAWall) {
+  SimulatedRobot robot = Make();
+  ASSERT_TRUE(robot.Drive({1.0, 0.0}).ok());
+  ASSERT_TRUE(robot.Advance(30.0).ok());
+  // The wall is at 9.5 m, the body reaches 0.1 m, a step is 0.02 m.
+  EXPECT_LT(robot.pose().x_m, 9.4);
+  EXPECT_GE(robot.pose().x_m, 9.38 - kRounding);
+  EXPECT_EQ(robot.collisions(), 1);
+}
+
+TEST_F(SimulatedRobotTest, BacksOffAfterACollision) {
+  SimulatedRobot robot = Make();
+  ASSERT_TRUE(robot.Drive({1.0, 0.0}).ok());
+  ASSERT_TRUE(robot.Advance(30.0).ok());
+  const double wall_x_m = robot.pose().x_m;
+  ASSERT_TRUE(robot.Drive({-1.0, 0.0}).ok());
+  ASSERT_TRUE(robot.Advance(1.0).ok());
+  EXPECT_NEAR(robot.pose().x_m, wall_x_m - 1.0, kRounding);
+}
+
+TEST_F(SimulatedRobotTest, CanBePlaced) {
+  SimulatedRobot robot = Make();
+  ASSERT_TRUE(robot.PlaceAt({5.0, 6.0, 3.0 * M_PI}).ok());
+  ExpectPose(robot.pose(), 5.0, 6.0, M_PI);
+}
+
+TEST_F(SimulatedRobotTest, IsNotPlacedInAWall) {
+  SimulatedRobot robot = Make();
+  ASSERT_TRUE(robot.PlaceAt({0.2, 6.0, 0.0}).ok());
+  EXPECT_EQ(robot.pose(), (Pose2{2.0, 3.0, 0.0}));
+  EXPECT_EQ(robot.collisions(), 1);
+}
+
+TEST_F(SimulatedRobotTest, AdvancesItsClockToTheNanosecond) {
+  SimulatedRobot robot = Make();
+  for (int i = 0; i < 1000; ++i) ASSERT_TRUE(robot.Advance(0.1).ok());
+  EXPECT_EQ(robot.now_ns(), 1'700'000'100'000'000'000);
+  ASSERT_TRUE(robot.Advance(0.0).ok());
+  EXPECT_EQ(robot.now_ns(), 1'700'000'100'000'000'000);
+}
+
+TEST_F(SimulatedRobotTest, SmellsTheWorldThroughItsSensorsLag) {
+  SimulatedRobotOptions options;
+  options.gas_sensor.noise_sigma_ppm = options.gas_sensor.noise_share = 0.0;
+  SimulatedRobot robot = Make(options);
+  EXPECT_EQ(robot.ReadGas()->concentration_ppm, 0.0);
+  ASSERT_TRUE(robot.Advance(0.5).ok());
+  EXPECT_NEAR(robot.ReadGas()->concentration_ppm, 40.0 * (1.0 - std::exp(-1.0)), kRounding);
+  EXPECT_EQ(robot.ReadGas()->variance_ppm2, 0.0);  // the mission's model
+}
+
+TEST_F(SimulatedRobotTest, ScansTheWorldFromWhereItIs) {
+  SimulatedRobotOptions options;
+  options.lidar.noise_sigma_m = 0.0;
+  SimulatedRobot robot = Make(options);
+  const Scan scan = *robot.TakeScan();
+  ASSERT_EQ(scan.ranges_m.size(), 360u);
+  EXPECT_NEAR(scan.ranges_m[180], 7.5 + 0.25, 1e-6);  // ahead: the wall, half a cell in; float
+}
+
+TEST_F(SimulatedRobotTest, DependsOnOptionsAndCallsAlone) {
+  const auto run = [this](std::uint64_t seed) {
+    SimulatedRobot robot = Make({.seed = seed});
+    EXPECT_TRUE(robot.Drive({1.0, 0.3}).ok());
+    EXPECT_TRUE(robot.Advance(1.0).ok());
+    return std::pair(*robot.TakeScan(), *robot.ReadGas());
+  };
+  EXPECT_EQ(run(1), run(1));
+  EXPECT_NE(run(1).first, run(2).first);
+  EXPECT_NE(run(1).second, run(2).second);
+}
+
+TEST_F(SimulatedRobotTest, DoesTheSameInRealTime) {
+  SimulatedRobot fast = Make();
+  SimulatedRobot paced = Make({.realtime = true});
+  for (SimulatedRobot* robot : {&fast, &paced}) {
+    ASSERT_TRUE(robot->Drive({1.0, 0.5}).ok());
+    for (int i = 0; i < 3; ++i) ASSERT_TRUE(robot->Advance(0.01).ok());
+  }
+  EXPECT_EQ(fast.pose(), paced.pose());
+  EXPECT_EQ(fast.now_ns(), paced.now_ns());
+}
+
+TEST_F(SimulatedRobotTest, RejectsCallsThatMakeNoSense) {
+  SimulatedRobot robot = Make();
+  const double nan = std::nan("");
+  EXPECT_TRUE(absl::IsInvalidArgument(robot.Drive({nan, 0.0})));
+  EXPECT_TRUE(absl::IsInvalidArgument(robot.Drive({0.0, HUGE_VAL})));
+  EXPECT_TRUE(absl::IsInvalidArgument(robot.PlaceAt({1.0, nan, 0.0})));
+  EXPECT_TRUE(absl::IsInvalidArgument(robot.Advance(-0.1)));
+  EXPECT_TRUE(absl::IsInvalidArgument(robot.Advance(nan)));
+  EXPECT_TRUE(absl::IsInvalidArgument(robot.Advance(1e9)));
+  EXPECT_EQ(robot.pose(), (Pose2{2.0, 3.0, 0.0}));
+}
+
+TEST_F(SimulatedRobotTest, RejectsOptionsOutOfRange) {
+  ExpectInvalid({.start = Pose2{0.55, 3.0, 0.0}}, "robot.start (0.55, 3) touches an obstacle");
+  ExpectInvalid({.start = Pose2{std::nan(""), 3.0, 0.0}}, "robot.start must be finite");
+  ExpectInvalid({.max_forward_mps = 0.0}, "robot.max_forward_mps = 0");
+  ExpectInvalid({.max_turn_rad_per_s = std::nan("")}, "robot.max_turn_rad_per_s = nan");
+  ExpectInvalid({.body_radius_m = -1.0}, "robot.body_radius_m = -1");
+  ExpectInvalid({.lidar = {.beams = 0}}, "lidar.beams = 0");
+  ExpectInvalid({.gas_sensor = {.noise_share = 2.0}}, "gas_sensor.noise_share = 2");
+  ExpectInvalid({.start_time_ns = -1}, "robot.start_time_ns");
+}
+
+}  // namespace
+}  // namespace plumescout::lab
