@@ -11,7 +11,7 @@
 namespace plumescout::client {
 
 struct GrpcClientOptions {
-  std::string target = "localhost:7411";  // host:port of the server
+  std::string target = "127.0.0.1:50551";  // host:port of the server
   // Of calls that name none. They wait for the link to come up, within this time.
   absl::Duration call_timeout = absl::Seconds(10);
   absl::Duration stream_open_timeout = absl::Seconds(5);

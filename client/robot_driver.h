@@ -26,8 +26,13 @@ class RobotDriver {
 
   virtual std::int64_t now_ns() const = 0;  // robot clock, nanoseconds since the Unix epoch
   virtual Pose2 pose() const = 0;           // localised, frame map
+  // kUnavailable: nothing new to say, ask again when the next reading is due.
   virtual absl::StatusOr<Scan> TakeScan() = 0;
   virtual absl::StatusOr<GasReading> ReadGas() = 0;
+  // When and where the latest TakeScan or ReadGas was measured: here and now, unless a driver
+  // hands on what it was told a moment ago.
+  virtual std::int64_t sample_time_ns() const { return now_ns(); }
+  virtual Pose2 sample_pose() const { return pose(); }
 
   virtual absl::Status Drive(const Twist& twist) = 0;
   // Ideal following: stand exactly here now. Simulated robots only; real ones return

@@ -58,25 +58,25 @@ SensorBridge::SensorBridge(RobotDriver& driver, const SensorRates& rates, Sink s
 
 absl::Status SensorBridge::Poll() {
   const std::int64_t now_ns = driver_.now_ns();
-  if (scan_schedule_.Due(now_ns)) PLUMESCOUT_RETURN_IF_ERROR(PollScan(now_ns));
-  if (gas_schedule_.Due(now_ns)) PLUMESCOUT_RETURN_IF_ERROR(PollGas(now_ns));
+  if (scan_schedule_.Due(now_ns)) PLUMESCOUT_RETURN_IF_ERROR(PollScan());
+  if (gas_schedule_.Due(now_ns)) PLUMESCOUT_RETURN_IF_ERROR(PollGas());
   return absl::OkStatus();
 }
 
-absl::Status SensorBridge::PollScan(std::int64_t now_ns) {
+absl::Status SensorBridge::PollScan() {
   absl::StatusOr<Scan> scan = driver_.TakeScan();
   if (!scan.ok()) return Missed(scan.status());
   latest_scan_ = *scan;
-  latest_scan_pose_ = driver_.pose();
+  latest_scan_pose_ = driver_.sample_pose();
   ++scans_taken_;
-  sink_(now_ns, latest_scan_pose_, *std::move(scan));
+  sink_(driver_.sample_time_ns(), latest_scan_pose_, *std::move(scan));
   return absl::OkStatus();
 }
 
-absl::Status SensorBridge::PollGas(std::int64_t now_ns) {
+absl::Status SensorBridge::PollGas() {
   const absl::StatusOr<GasReading> reading = driver_.ReadGas();
   if (!reading.ok()) return Missed(reading.status());
-  sink_(now_ns, driver_.pose(), *reading);
+  sink_(driver_.sample_time_ns(), driver_.sample_pose(), *reading);
   return absl::OkStatus();
 }
 

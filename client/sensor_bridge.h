@@ -61,8 +61,8 @@ class SensorBridge {
   std::int64_t readings_missed() const { return readings_missed_; }
 
  private:
-  absl::Status PollScan(std::int64_t now_ns);
-  absl::Status PollGas(std::int64_t now_ns);
+  absl::Status PollScan();
+  absl::Status PollGas();
   absl::Status Missed(const absl::Status& status);
 
   RobotDriver& driver_;

@@ -12,8 +12,10 @@
 
 #include "absl/strings/str_cat.h"
 #include "client/error_reason.h"
+#include "client/grpc_planner_client.h"
 #include "client/planner_client.h"
 #include "lab/local/local_planner_client.h"
+#include "server/server.h"
 #include "tests/client/fake_driver.h"
 
 namespace plumescout::client {
@@ -42,9 +44,30 @@ class LocalBackend final : public Backend {
   lab::LocalPlannerClient client_;
 };
 
+class GrpcBackend final : public Backend {
+ public:
+  GrpcBackend() {
+    server::ServerConfig config;
+    config.listen = "127.0.0.1:0";
+    auto started = server::Server::Start(config);
+    EXPECT_TRUE(started.ok()) << started.status();
+    server_ = *std::move(started);
+    client_ = MakeGrpcPlannerClient({.target = absl::StrCat("127.0.0.1:", server_->port())});
+  }
+  PlannerClient& client() override { return *client_; }
+
+ private:
+  std::unique_ptr<server::Server> server_;
+  std::unique_ptr<PlannerClient> client_;
+};
+
 struct BackendKind {
   std::string name;
   std::function<std::unique_ptr<Backend>()> make;
+
+  friend std::ostream& operator<<(std::ostream& out, const BackendKind& kind) {
+    return out << kind.name;
+  }
 };
 
 Observation GasAt(std::int64_t sequence, double x_m = 0.0) {
@@ -476,10 +499,11 @@ TEST_P(PlannerClientContract, StreamsMayBeLeftUnfinished) {
   EXPECT_NE(Open(session), nullptr);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, PlannerClientContract,
-                         ::testing::Values(BackendKind{
-                             "Local", [] { return std::make_unique<LocalBackend>(); }}),
-                         [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    All, PlannerClientContract,
+    ::testing::Values(BackendKind{"Local", [] { return std::make_unique<LocalBackend>(); }},
+                      BackendKind{"Grpc", [] { return std::make_unique<GrpcBackend>(); }}),
+    [](const auto& info) { return info.param.name; });
 
 }  // namespace
 }  // namespace plumescout::client

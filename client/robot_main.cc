@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+// plumescout-robot: puts any robot program that speaks lines of JSON into a mission.
+
+#include <signal.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "client/grpc_planner_client.h"
+#include "client/line_driver.h"
+#include "client/robot_loop.h"
+#include "core/types/status_macros.h"
+
+namespace plumescout::client {
+namespace {
+
+constexpr char kDescription[] =
+    R"(Puts a robot into a mission of a PlumeScout server.
+
+The robot is any program at the other end of standard input and output. It writes one JSON object a
+line, in frame map, metres and radians, with the time of its own clock:
+  {"type":"pose","time_ns":0,"x_m":0,"y_m":0,"yaw_rad":0}
+  {"type":"scan","time_ns":0,"start_angle_rad":-3.14,"angle_step_rad":0.0175,"max_range_m":8,
+   "ranges_m":[1.5,null,8]}          (null: no word of this beam; max_range_m or more: nothing seen)
+  {"type":"gas","time_ns":0,"concentration_ppm":3.2,"stddev_ppm":0.1}       (stddev_ppm: optional)
+Scans and gas readings may carry "pose":{"x_m":..,"y_m":..,"yaw_rad":..}, the pose at which they were
+taken; else the latest pose counts. Each line on one line. It reads back velocity commands to hold:
+  {"type":"twist","forward_mps":0.2,"turn_rad_per_s":-0.1}
+Time goes by as the lines say: send poses at 10 Hz or more. Messages for people go to standard error.)";
+
+std::atomic<bool> stop_requested = false;
+
+void RequestStop(int) { stop_requested = true; }
+
+// Says on standard error what happens.
+class Narrator final : public RobotObserver {
+ public:
+  void OnPlan(const PlanArrival& arrival) override {
+    Say(absl::StrCat("plan ", arrival.plan.id, " at ", arrival.elapsed_s,
+                     " s: ", arrival.plan.explanation));
+  }
+  void OnReport(PlanId plan, ProgressOutcome outcome) override {
+    const char* what = outcome == ProgressOutcome::kReached   ? "reached"
+                       : outcome == ProgressOutcome::kBlocked ? "blocked"
+                                                              : "given up";
+    Say(absl::StrCat("plan ", plan, ": ", what));
+  }
+  void OnPlanFailure(const absl::Status& status) override {
+    Say(absl::StrCat("no plan: ", status.ToString()));
+  }
+  void OnRejected(const ObservationRejected& rejected) override {
+    Say(absl::StrCat("observation ", rejected.sequence, " refused: ", rejected.status.ToString()));
+  }
+  void OnLink(const absl::Status& status) override {
+    Say(status.ok() ? "link is up" : absl::StrCat("link: ", status.ToString()));
+  }
+
+  static void Say(const std::string& text) {
+    std::fprintf(stderr, "plumescout-robot: %s\n", text.c_str());
+  }
+};
+
+struct Flags {
+  GrpcClientOptions client;
+  RobotLoopOptions loop;
+  bool create_mission = false;
+};
+
+void AddFlags(CLI::App& app, Flags& flags) {
+  Participation& participation = flags.loop.participation;
+  app.add_option("--server", flags.client.target, "host:port of the server")->capture_default_str();
+  app.add_option("--mission", participation.mission, "name of the mission")->required();
+  app.add_option("--robot", participation.robot, "name of this robot in the mission")->required();
+  app.add_flag("--create-mission", flags.create_mission,
+               "create the mission if it is not there, with the usual options");
+  app.add_flag("--take-over", participation.take_over,
+               "supersede another client that writes as this robot");
+  app.add_option("--radius", participation.radius_m, "of the robot's footprint, metres")
+      ->capture_default_str();
+  app.add_option("--max-speed", flags.loop.follower.max_forward_mps,
+                 "metres a second; the plan's own speed is used up to this")
+      ->capture_default_str();
+  app.add_option("--max-turn", flags.loop.follower.max_turn_rad_per_s, "radians a second")
+      ->capture_default_str();
+  app.add_option("--time-limit", flags.loop.time_limit_s, "seconds of the robot's clock; 0: none")
+      ->capture_default_str();
+}
+
+absl::Status RunRobot(Flags flags) {
+  if (flags.create_mission) flags.loop.participation.create = MissionOptions{};
+  LineDriver driver({.on_bad_line = [](const absl::Status& status) {
+    Narrator::Say(absl::StrCat("bad line: ", status.message()));
+  }});
+  PLUMESCOUT_RETURN_IF_ERROR(driver.AwaitPose());
+  const auto client = MakeGrpcPlannerClient(flags.client);
+  Narrator narrator;
+  RobotLoop loop(*client, driver, flags.loop, narrator);
+  const auto result = loop.Run([] { return stop_requested.load(); });
+  if (!result.ok()) return result.status();
+  Narrator::Say(absl::StrCat("done after ", result->elapsed_s, " s: ", result->plans, " plans, ",
+                             result->distance_m, " m, ", result->ingest.applied_sequence, " of ",
+                             result->ingest.last_sequence, " observations applied"));
+  return absl::OkStatus();
+}
+
+}  // namespace
+}  // namespace plumescout::client
+
+int main(int argc, char** argv) {
+  namespace client = plumescout::client;
+  signal(SIGPIPE, SIG_IGN);
+  signal(SIGINT, client::RequestStop);
+  signal(SIGTERM, client::RequestStop);
+  CLI::App app(client::kDescription, "plumescout-robot");
+  client::Flags flags;
+  client::AddFlags(app, flags);
+  CLI11_PARSE(app, argc, argv);
+  const absl::Status status = client::RunRobot(flags);
+  if (status.ok()) return EXIT_SUCCESS;
+  client::Narrator::Say(status.ToString());
+  return EXIT_FAILURE;
+}
