@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "proto/convert/options.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+#include "google/protobuf/descriptor.h"
+#include "google/protobuf/util/message_differencer.h"
+#include "proto/convert/status.h"
+
+namespace plumescout {
+namespace {
+
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+using google::protobuf::util::MessageDifferencer;
+
+MissionOptions Unlike() {
+  MissionOptions options;
+  options.occupancy = {0.2, 0.3, 0.2, 0.7, 1.0, -0.5, 4.0, 50.0, 10'000};
+  options.gas = {1.0, 2.0, 0.01, 3.0, 60.0, 5.0};
+  options.frontier = {9, 6, 0.5, 0.25, 20.0, 3.0, 4.0, WgfdScope::kLocal};
+  options.planning.strategy = "xit_f";
+  options.planning.goals = GoalPolicy::kOccupancyOnly;
+  options.planning.cost = CostKind::kEuclidean;
+  options.planning.selection = SelectionRule::kMeanUcb;
+  options.planning.sampling = SamplingKind::kIid;
+  options.planning.samples = 77;
+  options.planning.grid_guard = false;
+  options.max_robots = 3;
+  options.seed = 0xffff'ffff'ffff'fffeULL;
+  return options;
+}
+
+TEST(OptionsTest, OptionsSurviveTheRoundTrip) {
+  const v1::MissionOptions proto = ToProto(Unlike());
+  const auto back = FromProto(proto, MissionOptions{}, "options");
+  ASSERT_TRUE(back.ok()) << back.status();
+  EXPECT_TRUE(MessageDifferencer::Equals(ToProto(*back), proto));
+  EXPECT_EQ(back->seed, Unlike().seed);
+  EXPECT_EQ(back->frontier.fixed_gas_threshold_ppm, 4.0);
+}
+
+// Sets every field of the message tree that has no value yet from the other, by reflection: so a
+// field that conversion forgot shows up as unset.
+void ExpectEveryFieldSet(const Message& message, const std::string& path) {
+  for (int i = 0; i < message.GetDescriptor()->field_count(); ++i) {
+    const FieldDescriptor* field = message.GetDescriptor()->field(i);
+    EXPECT_TRUE(message.GetReflection()->HasField(message, field)) << path << field->name();
+    if (field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
+      ExpectEveryFieldSet(message.GetReflection()->GetMessage(message, field),
+                          path + field->name() + ".");
+    }
+  }
+}
+
+TEST(OptionsTest, EveryFieldOfTheWireIsWritten) { ExpectEveryFieldSet(ToProto(Unlike()), ""); }
+
+TEST(OptionsTest, UnsetFieldsTakeTheDefaultsGiven) {
+  const auto options = FromProto(v1::MissionOptions(), Unlike(), "options");
+  ASSERT_TRUE(options.ok()) << options.status();
+  EXPECT_TRUE(MessageDifferencer::Equals(ToProto(*options), ToProto(Unlike())));
+}
+
+TEST(OptionsTest, OneFieldIsSetWithoutTheOthers) {
+  v1::MissionOptions proto;
+  proto.mutable_gas()->set_refresh_period_s(9.0);
+  const auto options = FromProto(proto, Unlike(), "options");
+  EXPECT_EQ(options->gas.refresh_period_s, 9.0);
+  EXPECT_EQ(options->gas.ageing_half_life_s, Unlike().gas.ageing_half_life_s);
+}
+
+TEST(OptionsTest, RefusalNamesTheFieldOfTheWire) {
+  v1::MissionOptions proto;
+  proto.mutable_gas()->set_prior_precision_per_ppm2(-1.0);
+  const auto options = FromProto(proto, MissionOptions{}, "options");
+  EXPECT_EQ(FieldViolations(options.status()).at(0).field, "options.gas.prior_precision_per_ppm2");
+}
+
+// The words Validate uses are mapped to the wire by a table: a row that is missing would name a
+// field that no client knows.
+void ExpectBadNumbersNamed(const Message& part, const std::string& path) {
+  for (int i = 0; i < part.GetDescriptor()->field_count(); ++i) {
+    const FieldDescriptor* field = part.GetDescriptor()->field(i);
+    const std::string name = path.empty() ? field->name() : path + "." + field->name();
+    if (field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
+      ExpectBadNumbersNamed(part.GetReflection()->GetMessage(part, field), name);
+    }
+    if (field->cpp_type() != FieldDescriptor::CPPTYPE_DOUBLE) continue;
+    v1::MissionOptions proto;
+    Message* spoilt = &proto;
+    if (!path.empty()) {
+      spoilt = proto.GetReflection()->MutableMessage(&proto,
+                                                     proto.GetDescriptor()->FindFieldByName(path));
+    }
+    spoilt->GetReflection()->SetDouble(spoilt, field, std::numeric_limits<double>::quiet_NaN());
+    const auto violations = FieldViolations(FromProto(proto, MissionOptions{}, "options").status());
+    ASSERT_EQ(violations.size(), 1u) << name;
+    EXPECT_EQ(violations[0].field, "options." + name);
+  }
+}
+
+TEST(OptionsTest, NanIsRefusedInEveryFieldByItsName) {
+  ExpectBadNumbersNamed(v1::MissionOptions::default_instance(), "");
+}
+
+TEST(OptionsTest, UnknownEnumIsNoSilentDefault) {
+  v1::MissionOptions proto;
+  proto.mutable_planning()->set_cost(static_cast<v1::CostKind>(99));
+  const auto options = FromProto(proto, MissionOptions{}, "options");
+  EXPECT_EQ(FieldViolations(options.status()).at(0).field, "options.planning.cost");
+}
+
+TEST(OptionsTest, OverlongStrategyNameIsRefused) {
+  v1::MissionOptions proto;
+  proto.mutable_planning()->set_strategy(std::string(100'000, 'x'));
+  const absl::Status status = FromProto(proto, MissionOptions{}, "options").status();
+  EXPECT_TRUE(absl::IsInvalidArgument(status));
+  EXPECT_LT(status.message().size(), 300u);
+}
+
+}  // namespace
+}  // namespace plumescout

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "proto/convert/plan.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <string>
+
+#include "proto/convert/status.h"
+
+namespace plumescout {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+Plan TestPlan() {
+  const Goal goal{GoalKind::kGasFrontier, {3, 4}, {0.35, 0.45}, {0.3, 0.5}, 12};
+  Plan plan;
+  plan.id = 5;
+  plan.robot = "r1";
+  plan.strategy = "xit_gff";
+  plan.belief_revision = 99;
+  plan.seed = 0xffff'ffff'0000'0001ULL;
+  plan.phase = MissionPhase::kGasProbing;
+  plan.end = PlanEnd::kStopped;
+  plan.chosen = 0;
+  plan.candidates = {
+      {goal, {{0.0, 0.0}, {0.35, 0.45}}, PathSource::kGridGuard, 1.5, 0.5, 2.0, 0.25, 7.0}};
+  plan.rejected = {{goal, RejectionReason::kClaimed, "robot r2"}};
+  plan.trajectory = {{{{0.0, 0.0, 0.5}, 0.0, 0.0}, {{0.35, 0.45, 0.5}, 1.0, 0.5}}, 2.0, 1.5};
+  plan.effort = {300, 250, 1000, 1};
+  plan.field_flat = true;
+  plan.start_escaped = true;
+  plan.explanation = "to the nearest plume";
+  return plan;
+}
+
+TEST(PlanTest, PlanSurvivesTheRoundTrip) {
+  const v1::Plan proto = ToProto(TestPlan(), "hall");
+  EXPECT_EQ(proto.name(), "missions/hall/plans/5");
+  EXPECT_EQ(proto.robot(), "missions/hall/robots/r1");
+  const auto back = FromProto(proto, "plan");
+  ASSERT_TRUE(back.ok()) << back.status();
+  EXPECT_EQ(*back, TestPlan());
+}
+
+TEST(PlanTest, PlanThatIsNotCommittedHasNoName) {
+  Plan plan = TestPlan();
+  plan.id = 0;
+  EXPECT_EQ(ToProto(plan, "hall").name(), "");
+  EXPECT_EQ(FromProto(ToProto(plan, "hall"), "plan").value(), plan);
+}
+
+TEST(PlanTest, PlanToStayHasNoChoice) {
+  Plan plan = TestPlan();
+  plan.chosen = -1;
+  plan.trajectory = {};
+  EXPECT_EQ(FromProto(ToProto(plan, "hall"), "plan").value(), plan);
+}
+
+struct BadField {
+  const char* field;
+  std::function<void(v1::Plan&)> spoil;
+};
+
+TEST(PlanTest, WhatARobotWouldFollowIsChecked) {
+  const BadField kBad[] = {
+      {"plan.name", [](auto& p) { p.set_name("missions/hall/plans/x"); }},
+      {"plan.robot", [](auto& p) { p.clear_robot(); }},
+      {"plan.phase", [](auto& p) { p.clear_phase(); }},
+      {"plan.end", [](auto& p) { p.set_end(static_cast<v1::Plan::End>(50)); }},
+      {"plan.chosen_index", [](auto& p) { p.set_chosen_index(1); }},
+      {"plan.chosen_index", [](auto& p) { p.set_chosen_index(-2); }},
+      {"plan.candidates[0].cost", [](auto& p) { p.mutable_candidates(0)->set_cost(kNan); }},
+      {"plan.candidates[0].length_m", [](auto& p) { p.mutable_candidates(0)->set_length_m(-1.0); }},
+      {"plan.candidates[0].path[1].x_m",
+       [](auto& p) { p.mutable_candidates(0)->mutable_path(1)->set_x_m(kNan); }},
+      {"plan.candidates[0].goal.kind",
+       [](auto& p) { p.mutable_candidates(0)->mutable_goal()->clear_kind(); }},
+      {"plan.candidates[0].path_source",
+       [](auto& p) { p.mutable_candidates(0)->clear_path_source(); }},
+      {"plan.rejected_goals[0].reason",
+       [](auto& p) { p.mutable_rejected_goals(0)->clear_reason(); }},
+      {"plan.trajectory.waypoints[1].pose.y_m",
+       [](auto& p) {
+         p.mutable_trajectory()->mutable_waypoints(1)->mutable_pose()->set_y_m(kNan);
+       }},
+      {"plan.trajectory.waypoints[0].arrival_time_s",
+       [](auto& p) { p.mutable_trajectory()->mutable_waypoints(0)->set_arrival_time_s(-1.0); }},
+      {"plan.trajectory.waypoints[1].arrival_time_s",
+       [](auto& p) { p.mutable_trajectory()->mutable_waypoints(0)->set_arrival_time_s(2.0); }},
+      {"plan.trajectory.duration_s", [](auto& p) { p.mutable_trajectory()->set_duration_s(kNan); }},
+  };
+  for (const BadField& bad : kBad) {
+    v1::Plan proto = ToProto(TestPlan(), "hall");
+    bad.spoil(proto);
+    const auto violations = FieldViolations(FromProto(proto, "plan").status());
+    ASSERT_EQ(violations.size(), 1u) << bad.field;
+    EXPECT_EQ(violations[0].field, bad.field);
+  }
+}
+
+}  // namespace
+}  // namespace plumescout
