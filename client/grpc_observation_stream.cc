@@ -218,7 +218,7 @@ absl::Status GrpcObservationStream::EndedStatus() {
   const absl::Time deadline = absl::Now() + kEndGrace;
   while (!reads_ended_ && RunOne(deadline)) {
   }
-  context_.TryCancel();
+  if (!reads_ended_) context_.TryCancel();
   const absl::Status status = AwaitFinish(absl::InfiniteFuture());
   switch (status.code()) {
     case absl::StatusCode::kOk:
