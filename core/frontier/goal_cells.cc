@@ -3,101 +3,115 @@
 #include "core/frontier/goal_cells.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
+#include <span>
+#include <utility>
 
 #include "core/grid/escape.h"
 #include "core/grid/grid_search.h"
 #include "core/grid/mask.h"
-#include "core/grid/padded.h"
+#include "core/grid/travel_search.h"
 
 namespace plumescout {
 namespace {
 
-Grid<double> TravelFromStarts_m(const Grid<CellState>& states,
-                                const Grid<std::uint8_t>& traversable,
-                                const std::vector<Cell>& starts) {
+using Search = TravelSearch<float>;
+
+// The ways from the starts over traversable cells.
+Search SearchFromStarts(const Grid<CellState>& states, const Grid<std::uint8_t>& traversable,
+                        const std::vector<Cell>& starts) {
   std::vector<SearchSource> sources;
   for (const Cell start : starts) {
     const std::vector<Cell> escape = EscapePath(states, traversable, start);
     if (escape.empty()) continue;
     sources.push_back({escape.back(), PathLength_m(escape, states.geometry().resolution_m)});
   }
-  return TravelDistances_m(traversable, sources);
+  Search search(states.geometry(), Connectivity::kEightNoCornerCut,
+                [&traversable](std::size_t index) { return traversable[index] != 0; });
+  search.Run(std::move(sources));
+  return search;
 }
 
+// Counted in cells times the number of cells: whole numbers, so that ties are ties.
 Cell Anchor(const Frontier& frontier, const GridGeometry& geometry) {
-  const auto distance_m = [&](Cell cell) {
-    return Distance_m(geometry.Center(cell), frontier.centroid);
+  const auto count = static_cast<double>(frontier.cells.size());
+  double sum_x = 0.0;
+  double sum_y = 0.0;
+  for (const Cell cell : frontier.cells) {
+    sum_x += cell.x;
+    sum_y += cell.y;
+  }
+  const auto squared_distance = [&](Cell cell) {
+    const double dx = count * cell.x - sum_x;
+    const double dy = count * cell.y - sum_y;
+    return dx * dx + dy * dy;
   };
-  return *std::min_element(frontier.cells.begin(), frontier.cells.end(), [&](Cell a, Cell b) {
-    const double a_m = distance_m(a);
-    const double b_m = distance_m(b);
-    return a_m != b_m ? a_m < b_m : geometry.Index(a) < geometry.Index(b);
-  });
+  Cell anchor = frontier.cells.front();
+  double least = squared_distance(anchor);
+  for (const Cell cell : frontier.cells) {
+    const double squared = squared_distance(cell);
+    const bool lower_index = geometry.Index(cell) < geometry.Index(anchor);
+    if (squared < least || (squared == least && lower_index)) {
+      anchor = cell;
+      least = squared;
+    }
+  }
+  return anchor;
 }
 
-// Ways from the reached cells to those beyond: inflated free cells and frontier cells.
-class LastBit {
- public:
-  LastBit(const Grid<CellState>& states, const Grid<double>& travel_m,
-          const std::vector<Frontier>& frontiers)
-      : travel_m_(travel_m), zones_(states.geometry(), kBlocked, kBlocked) {
-    for (int y = 0; y < states.height(); ++y) {
-      const CellState* state = GridRow(states, y);
-      const double* travel = GridRow(travel_m, y);
-      std::uint8_t* zone = zones_.Row(y);
-      for (int x = 0; x < states.width(); ++x) {
-        const bool reached = travel[x] < kUnreached_m;
-        zone[x] = reached ? kReached : state[x] == CellState::kFree ? kBeyond : kBlocked;
+// A search over the free and the frontier cells that `from_starts` did not reach.
+Search BeyondSearch(const Grid<CellState>& states, const std::vector<Frontier>& frontiers,
+                    const Search& from_starts) {
+  const GridGeometry& geometry = states.geometry();
+  Search beyond(geometry, Connectivity::kEight,
+                [&](std::size_t index) { return states[index] == CellState::kFree; });
+  for (const Frontier& frontier : frontiers) {
+    for (const Cell cell : frontier.cells) beyond.Open(beyond.IndexOf(cell));
+  }
+  for (int y = 0; y < geometry.height; ++y) {
+    const int begin = beyond.IndexOf({0, y});
+    for (int cell = begin; cell < begin + geometry.width; ++cell) {
+      if (from_starts.IsReached(cell)) beyond.Close(cell);
+    }
+  }
+  return beyond;
+}
+
+// Opens to `beyond` the reached cells beside its own: only they need to be sources.
+std::vector<SearchSource> OpenRim(const GridGeometry& geometry, const Search& from_starts,
+                                  Search& beyond) {
+  std::vector<SearchSource> rim;
+  for (int y = 0; y < geometry.height; ++y) {
+    const int begin = beyond.IndexOf({0, y});
+    for (int cell = begin; cell < begin + geometry.width; ++cell) {
+      if (!beyond.IsOpen(cell) || from_starts.IsReached(cell)) continue;
+      for (const int offset : beyond.offsets()) {
+        const int neighbour = cell + offset;
+        if (!from_starts.IsReached(neighbour) || beyond.IsOpen(neighbour)) continue;
+        beyond.Open(neighbour);
+        rim.push_back({beyond.CellAt(neighbour), 0.0});
       }
     }
-    for (const Frontier& frontier : frontiers) {
-      for (const Cell cell : frontier.cells) {
-        std::uint8_t& zone = zones_[zones_.IndexOf(cell)];
-        if (zone == kBlocked) zone = kBeyond;
-      }
-    }
-    Search();
   }
+  return rim;
+}
 
-  // The reached cell nearest to `anchor`; none if there is no way.
-  std::vector<Cell> Way(Cell anchor) const {
-    if (travel_m_[anchor] < kUnreached_m) return {anchor};
-    return ShortestPath(beyond_m_, anchor, Connectivity::kEight);
+// The ways from the reached cells over inflated free cells and frontier cells to the anchors.
+Search SearchBeyond(const Grid<CellState>& states, const std::vector<Frontier>& frontiers,
+                    const std::vector<Cell>& anchors, const Search& from_starts) {
+  Search beyond = BeyondSearch(states, frontiers, from_starts);
+  std::vector<int> pending;
+  for (const Cell anchor : anchors) {
+    const int cell = beyond.IndexOf(anchor);
+    if (!from_starts.IsReached(cell)) pending.push_back(cell);
   }
-
- private:
-  static constexpr std::uint8_t kBlocked = 0;
-  static constexpr std::uint8_t kReached = 1;
-  static constexpr std::uint8_t kBeyond = 2;
-
-  bool TouchesBeyond(int cell, const std::array<int, 8>& offsets) const {
-    return std::any_of(offsets.begin(), offsets.end(),
-                       [&](int offset) { return zones_[cell + offset] == kBeyond; });
-  }
-
-  // Only the rim of the reached zone takes part, so the cost is that of the cells beyond it.
-  void Search() {
-    const GridGeometry& geometry = travel_m_.geometry();
-    const auto offsets = zones_.NeighbourOffsets();
-    Grid<std::uint8_t> open(geometry);
-    std::vector<Cell> rim;
-    for (std::size_t i = 0; i < open.size(); ++i) {
-      const Cell cell = geometry.CellAtIndex(i);
-      const int index = zones_.IndexOf(cell);
-      open[i] = zones_[index] == kBeyond ? 1 : 0;
-      if (zones_[index] != kReached || !TouchesBeyond(index, offsets)) continue;
-      open[i] = 1;
-      rim.push_back(cell);
-    }
-    beyond_m_ = TravelDistances_m(open, rim, Connectivity::kEight);
-  }
-
-  const Grid<double>& travel_m_;
-  Padded<std::uint8_t> zones_;
-  Grid<double> beyond_m_;
-};
+  if (pending.empty()) return beyond;
+  beyond.Run(OpenRim(states.geometry(), from_starts, beyond), [&](std::span<const Search::Entry>) {
+    while (!pending.empty() && beyond.IsSettled(pending.back())) pending.pop_back();
+    return pending.empty();
+  });
+  return beyond;
+}
 
 }  // namespace
 
@@ -119,14 +133,20 @@ std::vector<Cell> FreeStarts(const Grid<CellState>& states, const std::vector<Ce
 void FindGoalCells(const Grid<CellState>& states, const Grid<std::uint8_t>& traversable,
                    const std::vector<Cell>& starts, std::vector<Frontier>& frontiers) {
   if (frontiers.empty()) return;
-  const Grid<double> travel_m = TravelFromStarts_m(states, traversable, starts);
-  const LastBit last_bit(states, travel_m, frontiers);
-  for (Frontier& frontier : frontiers) {
-    const std::vector<Cell> way = last_bit.Way(Anchor(frontier, states.geometry()));
-    frontier.reachable = !way.empty();
+  std::vector<Cell> anchors;
+  for (const Frontier& frontier : frontiers) {
+    anchors.push_back(Anchor(frontier, states.geometry()));
+  }
+  const Search from_starts = SearchFromStarts(states, traversable, starts);
+  const Search beyond = SearchBeyond(states, frontiers, anchors, from_starts);
+  for (std::size_t i = 0; i < frontiers.size(); ++i) {
+    const int anchor = beyond.IndexOf(anchors[i]);
+    Frontier& frontier = frontiers[i];
+    frontier.reachable = from_starts.IsReached(anchor) || beyond.IsReached(anchor);
     if (!frontier.reachable) continue;
-    frontier.goal_cell = way.front();
-    frontier.travel_m = travel_m[way.front()];
+    frontier.goal_cell =
+        from_starts.IsReached(anchor) ? anchors[i] : beyond.WayTo(anchors[i]).front();
+    frontier.travel_m = static_cast<double>(from_starts.Travel(frontier.goal_cell));
   }
 }
 

@@ -7,22 +7,20 @@
 namespace plumescout {
 namespace {
 
-constexpr int kBlocked = -2;
-constexpr int kUnreached = -1;
-
-// Spreads labels over a padded raster of kBlocked, kUnreached or a label.
+// Spreads labels (0, 1, ...) over a padded raster of kBlocked, kUnreached or a label.
+template <typename Label>
 class Flood {
  public:
   Flood(const Grid<std::uint8_t>& passable, Connectivity connectivity)
-      : labels_(PaddedFrom<int>(passable, kBlocked,
-                                [](std::uint8_t ok) { return ok != 0 ? kUnreached : kBlocked; })),
+      : labels_(PaddedFrom<Label>(passable, kBlocked,
+                                  [](std::uint8_t ok) { return ok != 0 ? kUnreached : kBlocked; })),
         offsets_(labels_.NeighbourOffsets()),
         connectivity_(connectivity) {}
 
-  const Padded<int>& labels() const { return labels_; }
+  const Padded<Label>& labels() const { return labels_; }
 
   // Labels all that is connected to `start` and not labelled yet. Returns the number of cells.
-  int Spread(Cell start, int label) {
+  int Spread(Cell start, Label label) {
     const int first = labels_.IndexOf(start);
     if (labels_[first] != kUnreached) return 0;
     int count = 1;
@@ -37,7 +35,7 @@ class Flood {
   }
 
  private:
-  int SpreadFrom(int cell, int label) {
+  int SpreadFrom(int cell, Label label) {
     int count = 0;
     const std::size_t steps = connectivity_ == Connectivity::kFour ? kNeighbours4.size() : 8;
     for (std::size_t k = 0; k < steps; ++k) {
@@ -57,7 +55,10 @@ class Flood {
             labels_[cell + offset.y * labels_.stride()] == kBlocked);
   }
 
-  Padded<int> labels_;
+  static constexpr Label kBlocked = -2;
+  static constexpr Label kUnreached = -1;
+
+  Padded<Label> labels_;
   std::array<int, 8> offsets_;
   Connectivity connectivity_;
   std::vector<int> stack_;
@@ -67,17 +68,17 @@ class Flood {
 
 Grid<std::uint8_t> ReachableCells(const Grid<std::uint8_t>& passable,
                                   const std::vector<Cell>& starts, Connectivity connectivity) {
-  Flood flood(passable, connectivity);
+  Flood<std::int8_t> flood(passable, connectivity);
   for (const Cell start : starts) {
     if (passable.Contains(start)) flood.Spread(start, 0);
   }
-  return GridFrom<std::uint8_t>(flood.labels(), passable.geometry(), [](int label) {
+  return GridFrom<std::uint8_t>(flood.labels(), passable.geometry(), [](std::int8_t label) {
     return static_cast<std::uint8_t>(label >= 0 ? 1 : 0);
   });
 }
 
 Components ConnectedComponents(const Grid<std::uint8_t>& passable, Connectivity connectivity) {
-  Flood flood(passable, connectivity);
+  Flood<int> flood(passable, connectivity);
   Components components;
   for (std::size_t i = 0; i < passable.size(); ++i) {
     if (passable[i] == 0) continue;

@@ -7,17 +7,12 @@
 #include <vector>
 
 #include "core/grid/neighbours.h"
+#include "core/grid/travel_search.h"
 #include "core/types/grid.h"
 
 namespace plumescout {
 
 inline constexpr double kUnreached_m = std::numeric_limits<double>::infinity();
-
-// Where a search starts, and what the way to there has already cost: finite and not negative.
-struct SearchSource {
-  Cell cell;
-  double travel_m = 0.0;
-};
 
 // Length of the shortest way, straight and diagonal steps between cell centres, from the nearest
 // source to each cell over non-zero cells of `passable`; kUnreached_m where there is none. Sources
