@@ -288,8 +288,11 @@ TEST_P(RoomSizes, OneReadingObservesItsCellAndNothingBeyondTheNeighbours) {
   for (std::size_t i = 0; i < room.size(); ++i) {
     const bool observed = static_cast<double>(gas.variance_ppm2()[i]) <= threshold_ppm2;
     const Cell cell = room.geometry().CellAtIndex(i);
-    if (cell == middle) ASSERT_TRUE(observed);
-    if (std::abs(cell.x - middle.x) + std::abs(cell.y - middle.y) > 1) ASSERT_FALSE(observed) << i;
+    const int steps = std::abs(cell.x - middle.x) + std::abs(cell.y - middle.y);
+    // The four neighbours may go either way: what lies around them decides.
+    if (steps != 1) {
+      ASSERT_EQ(observed, steps == 0) << i;
+    }
   }
 }
 
