@@ -17,7 +17,6 @@ IngestStream* IngestStream::Start(const ServiceContext* context) {
   auto stream = std::make_shared<IngestStream>(context);
   stream->self_ = stream;
   context->streams->Add(stream);
-  absl::MutexLock lock(&stream->mutex_);
   stream->Pump();
   return stream.get();
 }
@@ -27,42 +26,39 @@ IngestStream::~IngestStream() {
 }
 
 void IngestStream::End(const absl::Status& status) {
-  absl::MutexLock lock(&mutex_);
-  EndLocked(status, /*flush=*/false);
-  Pump();
-}
-
-void IngestStream::EndLocked(const absl::Status& status, bool flush) {
-  if (end_.has_value()) return;
-  end_ = status;
-  flush_ = flush;
-}
-
-void IngestStream::OnReadDone(bool ok) {
-  const absl::Status status = ok ? HandleFrame() : absl::OkStatus();
-  absl::MutexLock lock(&mutex_);
-  reading_ = false;
-  if (!ok) half_closed_ = true;
-  if (!status.ok()) EndLocked(status, /*flush=*/true);
-  Pump();
-}
-
-void IngestStream::OnWriteDone(bool ok) {
-  absl::MutexLock lock(&mutex_);
-  writing_ = false;
-  if (!ok) {
-    EndLocked(absl::CancelledError("the stream broke"), /*flush=*/false);
-    flush_ = false;
+  {
+    absl::MutexLock lock(&mutex_);
+    SetEnd(status, /*flush=*/false);
   }
   Pump();
 }
 
-void IngestStream::OnCancel() {
-  absl::MutexLock lock(&mutex_);
-  EndLocked(absl::CancelledError("the caller gave up"), /*flush=*/false);
-  flush_ = false;
+void IngestStream::SetEnd(const absl::Status& status, bool flush) {
+  flush_ = flush && (flush_ || !end_.has_value());
+  if (!end_.has_value()) end_ = status;
+}
+
+void IngestStream::OnReadDone(bool ok) {
+  const absl::Status status = ok ? HandleFrame() : absl::OkStatus();
+  {
+    absl::MutexLock lock(&mutex_);
+    reading_ = false;
+    if (!ok) half_closed_ = true;
+    if (!status.ok()) SetEnd(status, /*flush=*/true);
+  }
   Pump();
 }
+
+void IngestStream::OnWriteDone(bool ok) {
+  {
+    absl::MutexLock lock(&mutex_);
+    writing_ = false;
+    if (!ok) SetEnd(absl::CancelledError("the stream broke"), /*flush=*/false);
+  }
+  Pump();
+}
+
+void IngestStream::OnCancel() { End(absl::CancelledError("the caller gave up")); }
 
 void IngestStream::OnDone() {
   context_.streams->Remove(this);
@@ -130,41 +126,52 @@ absl::Status IngestStream::TakeBatch(const v1::ObservationBatch& batch) {
 }
 
 void IngestStream::Opened(const LogPosition& position) {
-  absl::MutexLock lock(&mutex_);
-  opened_ = true;
-  greeting_due_ = true;
-  position_ = position;
+  {
+    absl::MutexLock lock(&mutex_);
+    opened_ = true;
+    greeting_due_ = true;
+    position_ = position;
+  }
   Pump();
 }
 
 void IngestStream::Ingested(int observations, IngestResult result) {
-  absl::MutexLock lock(&mutex_);
-  in_flight_observations_ -= observations;
-  position_ = result.position;
-  ack_due_ = true;
-  std::move(result.refused.begin(), result.refused.end(), std::back_inserter(refused_));
-  if (!result.status.ok()) EndLocked(result.status, /*flush=*/true);
+  {
+    absl::MutexLock lock(&mutex_);
+    in_flight_observations_ -= observations;
+    position_ = result.position;
+    ack_due_ = true;
+    std::move(result.refused.begin(), result.refused.end(), std::back_inserter(refused_));
+    if (!result.status.ok()) SetEnd(result.status, /*flush=*/true);
+  }
   Pump();
 }
 
 void IngestStream::Pump() {
-  if (finished_) return;
+  const auto self = shared_from_this();  // the finish may end us
+  pump_.Run(mutex_, [this] {
+    mutex_.AssertHeld();
+    return NextOperation();
+  });
+}
+
+StreamPump::Operation IngestStream::NextOperation() {
+  if (finished_) return nullptr;
   const bool broken_off = end_.has_value() && !flush_;
   const bool over = end_.has_value() || half_closed_;
-  if (!writing_) {
-    if (!broken_off && FillResponse()) {
-      writing_ = true;
-      StartWrite(&response_);
-    } else if (broken_off || (over && in_flight_observations_ == 0)) {
-      finished_ = true;
-      Finish(ToGrpc(end_.value_or(absl::OkStatus())));
-      return;
-    }
+  if (!writing_ && !broken_off && FillResponse()) {
+    writing_ = true;
+    return [this, response = &response_] { StartWrite(response); };
+  }
+  if (!writing_ && (broken_off || (over && in_flight_observations_ == 0))) {
+    finished_ = true;
+    return [this, status = end_.value_or(absl::OkStatus())] { Finish(ToGrpc(status)); };
   }
   if (MayRead()) {
     reading_ = true;
-    StartRead(&request_);
+    return [this] { StartRead(&request_); };
   }
+  return nullptr;
 }
 
 bool IngestStream::FillResponse() {

@@ -16,6 +16,7 @@
 #include "server/active_streams.h"
 #include "server/mission_host.h"
 #include "server/service_context.h"
+#include "server/stream_pump.h"
 
 namespace plumescout::server {
 
@@ -33,7 +34,7 @@ class IngestStream final
   explicit IngestStream(const ServiceContext* context) : context_(*context) {}
   ~IngestStream() override;
 
-  // The first ending counts; what is due to the robot is not sent any more.
+  // The first ending counts. What is due to the robot is not sent any more.
   void End(const absl::Status& status) override;
 
   void OnReadDone(bool ok) override;
@@ -49,10 +50,12 @@ class IngestStream final
   void Ingested(int observations, IngestResult result);
 
   // Starts whatever can start now: a write, a read, the finish.
-  void Pump() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void Pump() ABSL_LOCKS_EXCLUDED(mutex_);
+  StreamPump::Operation NextOperation() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   bool FillResponse() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   bool MayRead() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  void EndLocked(const absl::Status& status, bool flush) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  // `flush`: the robot first hears what became of its batches.
+  void SetEnd(const absl::Status& status, bool flush) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
   const ServiceContext& context_;
   std::shared_ptr<IngestStream> self_;  // until OnDone
@@ -65,6 +68,7 @@ class IngestStream final
   bool reserved_ = false;
 
   absl::Mutex mutex_;
+  StreamPump pump_;
   v1::StreamObservationsResponse response_ ABSL_GUARDED_BY(mutex_);  // in flight if writing_
   bool opened_ ABSL_GUARDED_BY(mutex_) = false;
   bool reading_ ABSL_GUARDED_BY(mutex_) = false;
@@ -73,7 +77,7 @@ class IngestStream final
   bool finished_ ABSL_GUARDED_BY(mutex_) = false;
   bool greeting_due_ ABSL_GUARDED_BY(mutex_) = false;
   bool ack_due_ ABSL_GUARDED_BY(mutex_) = false;
-  bool flush_ ABSL_GUARDED_BY(mutex_) = false;  // before the end, say what became of the batches
+  bool flush_ ABSL_GUARDED_BY(mutex_) = false;
   std::optional<absl::Status> end_ ABSL_GUARDED_BY(mutex_);
   int in_flight_observations_ ABSL_GUARDED_BY(mutex_) = 0;
   std::int64_t credit_sequence_ ABSL_GUARDED_BY(mutex_) = 0;  // as announced

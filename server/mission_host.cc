@@ -85,7 +85,6 @@ bool MissionHost::TakeCommands(SteadyTime until, std::vector<Command>& commands)
   } else {
     mutex_.AwaitWithTimeout(has_work, absl::FromChrono(until - SteadyNow()));
   }
-  commands.clear();
   commands.swap(commands_);
   return !commands.empty() || !stopping_;
 }
@@ -94,6 +93,8 @@ void MissionHost::Run() {
   std::vector<Command> commands;
   while (TakeCommands(NextWake(), commands)) {
     for (const Command& command : commands) command(writer_);
+    // Not under the lock: what commands hold may call us when it goes.
+    commands.clear();
     AfterCommands();
   }
   absl::Status status;

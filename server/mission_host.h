@@ -83,7 +83,8 @@ class MissionHost {
 
  private:
   void Run();
-  // Waits for commands until then. False if the host is to stop and none are left.
+  // Waits for commands until then. False if the host is to stop and none are left. REQUIRES:
+  // `commands` is empty.
   bool TakeCommands(SteadyTime until, std::vector<Command>& commands);
   bool HasWork() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
     return !commands_.empty() || stopping_;

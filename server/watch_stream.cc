@@ -32,16 +32,20 @@ absl::Status WatchStream::Subscribe(const v1::WatchMapRequest& request) {
 }
 
 void WatchStream::End(const absl::Status& status) {
-  absl::MutexLock lock(&mutex_);
-  if (!end_.has_value()) end_ = status;
+  {
+    absl::MutexLock lock(&mutex_);
+    if (!end_.has_value()) end_ = status;
+  }
   Pump();
 }
 
 void WatchStream::OnWriteDone(bool ok) {
-  absl::MutexLock lock(&mutex_);
-  writing_ = false;
-  frames_.pop_front();
-  if (!ok && !end_.has_value()) end_ = absl::CancelledError("the stream broke");
+  {
+    absl::MutexLock lock(&mutex_);
+    writing_ = false;
+    frames_.pop_front();
+    if (!ok && !end_.has_value()) end_ = absl::CancelledError("the stream broke");
+  }
   Pump();
 }
 
@@ -51,47 +55,57 @@ void WatchStream::OnDone() {
 }
 
 bool WatchStream::Update(absl::StatusOr<BeliefPtr> belief) {
-  absl::MutexLock lock(&mutex_);
-  if (belief.ok()) {
+  if (!belief.ok()) {
+    End(belief.status());
+    return false;
+  }
+  {
+    absl::MutexLock lock(&mutex_);
+    if (end_.has_value()) return false;
     newest_ = *std::move(belief);
-  } else if (!end_.has_value()) {
-    end_ = belief.status();
   }
   Pump();
-  return !end_.has_value();
+  return true;
 }
 
 void WatchStream::Pump() {
-  if (finished_ || writing_) return;
-  if (end_.has_value()) {
-    finished_ = true;
-    Finish(ToGrpc(*end_));
-  } else if (!frames_.empty()) {
-    writing_ = true;
-    StartWrite(&frames_.front());
-  } else if (newest_ != nullptr && !making_) {
-    StartMaking();
-  }
+  const auto self = shared_from_this();  // the finish may end us
+  pump_.Run(mutex_, [this] {
+    mutex_.AssertHeld();
+    return NextOperation();
+  });
 }
 
-void WatchStream::StartMaking() {
+StreamPump::Operation WatchStream::NextOperation() {
+  if (finished_ || writing_) return nullptr;
+  if (end_.has_value()) {
+    finished_ = true;
+    return [this, status = *end_] { Finish(ToGrpc(status)); };
+  }
+  if (!frames_.empty()) {
+    writing_ = true;
+    return [this, frame = &frames_.front()] { StartWrite(frame); };
+  }
+  if (newest_ == nullptr || making_) return nullptr;
   making_ = true;
+  return [this, belief = std::exchange(newest_, nullptr)] { StartMaking(belief); };
+}
+
+void WatchStream::StartMaking(BeliefPtr belief) {
   const absl::Status queued = context_.map_pool->Submit(
-      [self = shared_from_this(), belief = std::exchange(newest_, nullptr)] {
-        self->MakeFrames(*belief);
-      });
-  if (queued.ok()) return;
-  finished_ = true;
-  Finish(ToGrpc(queued));
+      [self = shared_from_this(), belief = std::move(belief)] { self->MakeFrames(*belief); });
+  if (!queued.ok()) End(queued);
 }
 
 void WatchStream::MakeFrames(const Belief& belief) {
   auto now = std::make_shared<const MapSnapshot>(MakeMapSnapshot(belief));
   auto made = FramesBetween(held_.get(), *now, mission_, view_);
   held_ = std::move(now);
-  absl::MutexLock lock(&mutex_);
-  making_ = false;
-  for (v1::WatchMapResponse& frame : made) frames_.push_back(std::move(frame));
+  {
+    absl::MutexLock lock(&mutex_);
+    making_ = false;
+    for (v1::WatchMapResponse& frame : made) frames_.push_back(std::move(frame));
+  }
   Pump();
 }
 

@@ -17,6 +17,7 @@
 #include "proto/convert/map.h"
 #include "server/active_streams.h"
 #include "server/service_context.h"
+#include "server/stream_pump.h"
 
 namespace plumescout::server {
 
@@ -46,8 +47,9 @@ class WatchStream final : public grpc::ServerWriteReactor<v1::WatchMapResponse>,
   bool Update(absl::StatusOr<BeliefPtr> belief);
   void MakeFrames(const Belief& belief);
   // Starts whatever can start now: a write, the making of frames, the finish.
-  void Pump() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  void StartMaking() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void Pump() ABSL_LOCKS_EXCLUDED(mutex_);
+  StreamPump::Operation NextOperation() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void StartMaking(BeliefPtr belief) ABSL_LOCKS_EXCLUDED(mutex_);
 
   const ServiceContext& context_;
   std::shared_ptr<WatchStream> self_;  // until OnDone
@@ -57,6 +59,7 @@ class WatchStream final : public grpc::ServerWriteReactor<v1::WatchMapResponse>,
   std::shared_ptr<const MapSnapshot> held_;  // by the watcher; touched by one MakeFrames at a time
 
   absl::Mutex mutex_;
+  StreamPump pump_;
   BeliefPtr newest_ ABSL_GUARDED_BY(mutex_);  // null if the frames made already hold it
   std::deque<v1::WatchMapResponse> frames_ ABSL_GUARDED_BY(mutex_);  // the front is in flight
   bool writing_ ABSL_GUARDED_BY(mutex_) = false;
