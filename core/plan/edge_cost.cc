@@ -39,7 +39,8 @@ EdgeCost::EdgeCost(const InformationField& field, CostKind kind, double alpha_pe
 double EdgeCost::operator()(Point2 a, Point2 b) const {
   const double penalty_cells = SegmentIntegral_cells(field_->penalty, a, b);
   if (penalty_cells == kInfinity) return kInfinity;
-  return penalty_weight_ * penalty_cells + alpha_per_m_ * Distance_m(a, b);
+  const double length_price = alpha_per_m_ > 0.0 ? alpha_per_m_ * Distance_m(a, b) : 0.0;
+  return penalty_weight_ * penalty_cells + length_price;
 }
 
 double PathCost(const EdgeCost& cost, const std::vector<Point2>& path) {

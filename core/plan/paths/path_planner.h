@@ -43,8 +43,9 @@ struct PathResult {
 };
 
 // Finds collision-free paths from one start to many goals. Immutable; FindPaths may run on many
-// threads at once. Same problem: same bytes, unless the stop function says so; it is polled at
-// least once a millisecond, and then what was found so far is returned.
+// threads at once. Same problem: same bytes, unless the stop function says so: a search polls it
+// many times a millisecond, and returns what was found so far. (Preparations of O(cells), some ten
+// nanoseconds a cell, are not interrupted.)
 class PathPlanner {
  public:
   virtual ~PathPlanner() = default;

@@ -15,13 +15,20 @@ using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
 const testing::GridArt kOpenEnded = {"##########",  //
-                                     "#........?",  //
-                                     "#S.......?",  //
+                                     "#gggggggg?",  //
+                                     "#Sggggggg?",  //
                                      "##########"};
 const testing::GridArt kClosed = {"##########",  //
-                                  "#........#",  //
-                                  "#S.......#",  //
+                                  "#gggggggg#",  //
+                                  "#Sggggggg#",  //
                                   "##########"};
+
+// The map with clean air measured in every cell drawn 'g', so that no gas is unobserved.
+GoalCase Measured(const testing::GridArt& art) {
+  GoalCase c(art);
+  c.AddGas(art, 0.0F);
+  return c;
+}
 
 GoalSet Find(const GoalCase& c) {
   Rng rng(1);
@@ -32,7 +39,7 @@ GoalSet Find(const GoalCase& c) {
 Goal TheFrontier(const GoalCase& c) { return Find(c).goals.at(0); }
 
 TEST(FindGoals, OffersFrontiersWhileThereAreAny) {
-  GoalCase c(kOpenEnded);
+  GoalCase c = Measured(kOpenEnded);
   c.belief.robots["r"].fruitless_fallbacks = 99;
   const GoalSet found = Find(c);
   ASSERT_THAT(found.goals, SizeIs(1));
@@ -42,7 +49,7 @@ TEST(FindGoals, OffersFrontiersWhileThereAreAny) {
 }
 
 TEST(FindGoals, FallsBackToRandomPlacesIfNoFrontierIsLeft) {
-  GoalCase c(kClosed);
+  GoalCase c = Measured(kClosed);
   c.belief.robots["r"].fruitless_fallbacks = 1;
   const GoalSet found = Find(c);
   EXPECT_TRUE(found.fallback);
@@ -50,7 +57,7 @@ TEST(FindGoals, FallsBackToRandomPlacesIfNoFrontierIsLeft) {
 }
 
 TEST(FindGoals, IsCompleteAfterFruitlessFallbacks) {
-  GoalCase c(kClosed);
+  GoalCase c = Measured(kClosed);
   c.belief.robots["r"].fruitless_fallbacks = 2;
   const GoalSet found = Find(c);
   EXPECT_TRUE(found.complete);
@@ -60,7 +67,7 @@ TEST(FindGoals, IsCompleteAfterFruitlessFallbacks) {
 }
 
 TEST(FindGoals, IsNotCompleteWhileAnotherRobotDrivesToAFrontier) {
-  GoalCase c(kOpenEnded);
+  GoalCase c = Measured(kOpenEnded);
   c.belief.claims = {{"other", 1, TheFrontier(c), 1000}};
   c.belief.robots["r"].fruitless_fallbacks = 99;
   const GoalSet found = Find(c);
@@ -70,7 +77,7 @@ TEST(FindGoals, IsNotCompleteWhileAnotherRobotDrivesToAFrontier) {
 }
 
 TEST(FindGoals, IsCompleteThoughAFrontierIsSetAside) {
-  GoalCase c(kOpenEnded);
+  GoalCase c = Measured(kOpenEnded);
   c.belief.set_aside = {{TheFrontier(c), "visited without change", 1000}};
   EXPECT_TRUE(Find(c).fallback);
   c.belief.robots["r"].fruitless_fallbacks = 2;

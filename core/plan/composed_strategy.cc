@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/composed_strategy.h"
+
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/grid/flood.h"
+#include "core/plan/edge_cost.h"
+#include "core/plan/explanation.h"
+#include "core/plan/goals/goal_set.h"
+#include "core/plan/information_field.h"
+#include "core/plan/paths/grid_guard.h"
+#include "core/plan/plan_seed.h"
+#include "core/plan/selection/selection.h"
+#include "core/plan/trajectory_timing.h"
+#include "core/types/rng.h"
+#include "core/types/status_macros.h"
+
+namespace plumescout {
+namespace {
+
+// Draws of goals and of samples must not follow each other's numbers.
+constexpr std::uint64_t kGoalStream = 0x676F616C73ULL;
+
+// The common way out of the inflated zone comes first. It counts as length; its cells have no
+// information penalty, and no choice depends on it.
+void PutBefore(const std::vector<Point2>& way_out, Candidate& candidate) {
+  candidate.path.insert(candidate.path.begin(), way_out.begin(), way_out.end());
+  for (std::size_t i = 0; i < way_out.size(); ++i) {
+    candidate.length_m += Distance_m(candidate.path[i], candidate.path[i + 1]);
+  }
+}
+
+MissionPhase PhaseOf(GoalKind kind) {
+  switch (kind) {
+    case GoalKind::kGasFrontier:
+      return MissionPhase::kGasProbing;
+    case GoalKind::kOccupancyFrontier:
+      return MissionPhase::kExploring;
+    case GoalKind::kRandomFreeSpace:
+      break;
+  }
+  return MissionPhase::kFallback;
+}
+
+absl::Status Stopped() {
+  return absl::DeadlineExceededError("planning was stopped before any path was found");
+}
+
+}  // namespace
+
+absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
+                                                        const PlanRequest& request,
+                                                        const StopFn& stop) const {
+  const auto robot = belief.robots.find(request.robot);
+  if (robot == belief.robots.end()) {
+    return absl::NotFoundError(absl::StrCat("robot \"", request.robot, "\" is not registered"));
+  }
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Pose2 pose, StartPose(belief, request, robot->second.state));
+  plumescout::Plan plan;
+  plan.robot = request.robot;
+  plan.strategy = options_.strategy;
+  plan.belief_revision = belief.revision;
+  plan.seed = request.seed != 0 ? request.seed
+                                : DerivedPlanSeed(belief.options->seed, request.robot,
+                                                  robot->second.plans_issued);
+  plan.phase = MissionPhase::kFallback;
+  if (const std::optional<Departure> departure = Depart(belief, pose.position())) {
+    plan.start_escaped = !departure->way_out.empty();
+    PLUMESCOUT_RETURN_IF_ERROR(PlanFrom(*departure, belief, request, stop, plan));
+  }
+  if (plan.chosen >= 0) {
+    const Candidate& chosen = plan.candidates[static_cast<std::size_t>(plan.chosen)];
+    plan.phase = PhaseOf(chosen.goal.kind);
+    plan.trajectory =
+        TimeTrajectory(chosen.path, pose.yaw_rad, options_.speed_mps, options_.dwell_s);
+  }
+  plan.explanation = Explain(plan, options_.selection);
+  return plan;
+}
+
+absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Belief& belief,
+                                        const PlanRequest& request, const StopFn& stop,
+                                        plumescout::Plan& plan) const {
+  const MissionOptions& mission = *belief.options;
+  const InformationField field =
+      MakeInformationField({*belief.traversable, *belief.gas_mean_ppm, *belief.gas_variance_ppm2,
+                            mission.gas, mission.frontier},
+                           options_);
+  plan.field_flat = field.flat;
+  const Cell start_cell = belief.geometry().CellAt(departure.start);
+  const Grid<std::uint8_t> reachable = ReachableCells(*belief.traversable, {start_cell});
+  if (stop()) return Stopped();
+
+  Rng rng(plan.seed ^ kGoalStream);
+  GoalSet goals =
+      FindGoals({belief, belief.robots.at(request.robot), start_cell, reachable, options_}, rng);
+  plan.rejected = std::move(goals.rejected);
+  if (goals.goals.empty()) {
+    plan.end = goals.complete ? PlanEnd::kMissionComplete : PlanEnd::kNoGoals;
+    plan.phase = goals.complete ? MissionPhase::kComplete : MissionPhase::kFallback;
+    return absl::OkStatus();
+  }
+  if (stop()) return Stopped();
+
+  const EdgeCost cost(field, options_.cost, options_.alpha);
+  const PathResult result = FindPaths({cost, reachable, departure.start, goals.goals, plan.seed,
+                                       request.max_edge_evaluations, stop});
+  const EdgeCost selection_cost(field, options_.selection_cost, options_.alpha);
+  TakeResults(goals.goals, result,
+              {selection_cost, *belief.gas_mean_ppm, mission.gas.background_mean_ppm}, plan);
+  for (Candidate& candidate : plan.candidates) PutBefore(departure.way_out, candidate);
+  const bool budget_spent = request.max_edge_evaluations > 0 &&
+                            plan.effort.edges_evaluated >= request.max_edge_evaluations;
+  const bool stopped_empty = plan.end == PlanEnd::kStopped && plan.candidates.empty();
+  return stopped_empty && !budget_spent ? Stopped() : absl::OkStatus();
+}
+
+PathResult ComposedStrategy::FindPaths(const PathProblem& problem) const {
+  PathResult result = paths_->FindPaths(problem);
+  if (options_.grid_guard && result.end == PlanEnd::kQueueExhausted) {
+    CompleteOnGrid(problem, result);
+  }
+  return result;
+}
+
+void ComposedStrategy::TakeResults(const std::vector<Goal>& goals, const PathResult& result,
+                                   const CandidateJudge& judge, plumescout::Plan& plan) const {
+  plan.end = result.end;
+  plan.effort = result.effort;
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    if (const std::optional<FoundPath>& path = result.paths[i]) {
+      plan.candidates.push_back(MakeCandidate(goals[i], path->vertices, path->source, judge));
+    } else if (result.end == PlanEnd::kStopped) {
+      plan.rejected.push_back({goals[i], RejectionReason::kSearchStopped, ""});
+    } else {
+      plan.rejected.push_back({goals[i], RejectionReason::kUnreachable, "the search ran out"});
+    }
+  }
+  plan.chosen = SelectCandidate(plan.candidates, options_.selection);
+}
+
+}  // namespace plumescout

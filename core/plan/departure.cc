@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/departure.h"
+
+#include <cmath>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/grid/escape.h"
+#include "core/plan/paths/shortcut.h"
+
+namespace plumescout {
+
+absl::StatusOr<Pose2> StartPose(const Belief& belief, const PlanRequest& request,
+                                const RobotState& robot) {
+  if (!request.start && !robot.has_pose) {
+    return absl::FailedPreconditionError(
+        absl::StrCat("robot \"", request.robot, "\" has no pose yet"));
+  }
+  const Pose2 pose = request.start.value_or(robot.pose);
+  const bool finite =
+      std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad);
+  if (!finite || !belief.occupancy->Contains(belief.geometry().CellAt(pose.position()))) {
+    return absl::InvalidArgumentError(absl::StrCat("start = (", pose.x_m, ", ", pose.y_m, ", ",
+                                                   pose.yaw_rad,
+                                                   ") must be finite and inside the map"));
+  }
+  return pose;
+}
+
+std::optional<Departure> Depart(const Belief& belief, Point2 robot) {
+  const Cell cell = belief.geometry().CellAt(robot);
+  const std::vector<Cell> cells = EscapePath(*belief.occupancy, *belief.traversable, cell);
+  if (cells.empty()) return std::nullopt;
+  if (cells.size() == 1) return Departure{{}, robot};
+  std::vector<Point2> way_out = {robot};
+  for (const Cell c : cells) way_out.push_back(belief.geometry().Center(c));
+  way_out = WithoutCollinear(way_out);
+  const Point2 start = way_out.back();
+  way_out.pop_back();
+  return Departure{std::move(way_out), start};
+}
+
+}  // namespace plumescout

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/belief/belief.h"
+#include "core/types/plan_request.h"
+#include "core/types/pose2.h"
+
+namespace plumescout {
+
+// Where the robot of `request` starts: request.start, or its latest pose.
+// Errors: kFailedPrecondition if it has none; kInvalidArgument if the start is not finite or
+// outside the map.
+absl::StatusOr<Pose2> StartPose(const Belief& belief, const PlanRequest& request,
+                                const RobotState& robot);
+
+// Where the search for paths begins.
+struct Departure {
+  std::vector<Point2> way_out;  // from the robot to before `start`; empty if it may drive already
+  Point2 start;                 // in a traversable cell
+};
+
+// The robot's own place if its cell is traversable; else the way out of the inflated zone
+// (EscapePath), which begins with the robot's place and the centre of its cell. None if there is no
+// such way. REQUIRES: `robot` is inside the map. Cost: O(1), O(cells) in the inflated zone.
+std::optional<Departure> Depart(const Belief& belief, Point2 robot);
+
+}  // namespace plumescout

@@ -1,0 +1,348 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/composed_strategy.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "lab/bench/random_world.h"
+#include "tests/support/goal_case.h"
+
+namespace plumescout {
+namespace {
+
+using testing::BeliefFromArt;
+using ::testing::Ge;
+using testing::GridArt;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+constexpr double kRounding = 1e-9;
+
+// A room that is open in the east and, through a door, in the west. 'i': too near a wall.
+const GridArt kRoom = {"################",  //
+                       "?iiiiiiiiiiiiii#",  //
+                       "?.....iiii.....?",  //
+                       "?.....i##i.....?",  //
+                       "?...S.i##i.....?",  //
+                       "?.....iiii.....?",  //
+                       "?..............?",  //
+                       "?iiiiiiiiiiiiii#",  //
+                       "################"};
+const GridArt kClosed = {"########",  //
+                         "#gggggg#",  //
+                         "#gSgggg#",  //
+                         "########"};
+
+PlanRequest For(const RobotId& robot, std::uint64_t seed = 0) {
+  PlanRequest request;
+  request.robot = robot;
+  request.seed = seed;
+  return request;
+}
+
+absl::StatusOr<Plan> TryPlan(const Belief& belief, const PlanRequest& request,
+                             const PlanningOptions& options = {},
+                             const StopFn& stop = NeverStop()) {
+  const auto strategy = MakeStrategy(options);
+  if (!strategy.ok()) return strategy.status();
+  return (*strategy)->Plan(belief, request, stop);
+}
+
+// The frontiers of drawn maps are small.
+Belief SmallBelief(const GridArt& art) {
+  Belief belief = BeliefFromArt(art);
+  MissionOptions mission;
+  mission.frontier.min_occupancy_cells = 3;
+  belief.options = std::make_shared<const MissionOptions>(mission);
+  return belief;
+}
+
+const Candidate& Chosen(const Plan& plan) {
+  return plan.candidates.at(static_cast<std::size_t>(plan.chosen));
+}
+
+Grid<float> Penalty(const Belief& belief) {
+  Grid<float> penalty(belief.geometry(), std::numeric_limits<float>::infinity());
+  for (std::size_t i = 0; i < penalty.size(); ++i) {
+    if ((*belief.traversable)[i] != 0) penalty[i] = 1.0F;
+  }
+  return penalty;
+}
+
+TEST(Strategy, PlansToTheCheapestFrontier) {
+  const Belief belief = SmallBelief(kRoom);
+  const absl::StatusOr<Plan> plan = TryPlan(belief, For("r", 5));
+  ASSERT_TRUE(plan.ok()) << plan.status();
+  EXPECT_EQ(plan->robot, "r");
+  EXPECT_EQ(plan->strategy, "xit_gff");
+  EXPECT_EQ(plan->belief_revision, 1);
+  EXPECT_EQ(plan->seed, 5U);
+  EXPECT_EQ(plan->phase, MissionPhase::kExploring);
+  EXPECT_EQ(plan->end, PlanEnd::kAllGoalsReached);
+  EXPECT_TRUE(plan->field_flat);
+  EXPECT_FALSE(plan->start_escaped);
+  ASSERT_THAT(plan->candidates, SizeIs(2));
+  EXPECT_EQ(Chosen(*plan).goal.cell.x, 1) << "the west is nearer";
+  for (const Candidate& candidate : plan->candidates) {
+    EXPECT_GE(candidate.cost, Chosen(*plan).cost);
+  }
+  EXPECT_THAT(plan->explanation, HasSubstr("an occupancy frontier"));
+  EXPECT_GT(plan->effort.samples, 0);
+}
+
+TEST(Strategy, TimesTheTrajectoryOfTheChosenCandidate) {
+  PlanningOptions options;
+  options.speed_mps = 0.5;
+  options.dwell_s = 2.0;
+  const absl::StatusOr<Plan> plan = TryPlan(SmallBelief(kRoom), For("r"), options);
+  ASSERT_TRUE(plan.ok());
+  const Candidate& chosen = Chosen(*plan);
+  ASSERT_THAT(plan->trajectory.waypoints, SizeIs(chosen.path.size()));
+  EXPECT_NEAR(plan->trajectory.length_m, chosen.length_m, kRounding);
+  const auto legs = static_cast<double>(chosen.path.size() - 1);
+  EXPECT_NEAR(plan->trajectory.duration_s, chosen.length_m / 0.5 + 2.0 * legs, kRounding);
+}
+
+TEST(Strategy, CollidesWithNothingAndReachesAllItOffersInRandomHalls) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const lab::RandomWorld world = lab::MakeRandomWorld(seed, 1);
+    const absl::StatusOr<Plan> plan = TryPlan(world.belief, For(world.robot, seed));
+    ASSERT_TRUE(plan.ok()) << plan.status();
+    EXPECT_EQ(plan->end, PlanEnd::kAllGoalsReached);
+    EXPECT_THAT(plan->candidates, SizeIs(Ge(1)));
+    for (const Candidate& candidate : plan->candidates) {
+      EXPECT_TRUE(testing::StaysClear(Penalty(world.belief), candidate.path)) << "seed " << seed;
+      EXPECT_EQ(candidate.path.back(), candidate.goal.position);
+      EXPECT_NEAR(candidate.cost, candidate.information_penalty, kRounding) << "alpha is 0";
+      EXPECT_GE(candidate.mean_ucb, 0.0);
+      EXPECT_LE(candidate.mean_ucb, 1.0);
+    }
+  }
+}
+
+TEST(Strategy, GivesTheSameBytesForTheSameRequest) {
+  const lab::RandomWorld world = lab::MakeRandomWorld(3, 1);
+  PlanningOptions options;
+  options.draw_goals = true;
+  for (const std::uint64_t seed : {0, 9}) {
+    const absl::StatusOr<Plan> first = TryPlan(world.belief, For(world.robot, seed), options);
+    const absl::StatusOr<Plan> second = TryPlan(world.belief, For(world.robot, seed), options);
+    ASSERT_TRUE(first.ok() && second.ok());
+    EXPECT_EQ(*first, *second);
+  }
+}
+
+TEST(Strategy, DerivesAnotherSeedForEveryMissionRobotAndPlan) {
+  Belief belief = SmallBelief(kRoom);
+  std::set<std::uint64_t> seeds;
+  const auto note_seed = [&](const RobotId& robot) {
+    const absl::StatusOr<Plan> plan = TryPlan(belief, For(robot));
+    ASSERT_TRUE(plan.ok());
+    EXPECT_NE(plan->seed, 0U);
+    seeds.insert(plan->seed);
+    EXPECT_EQ(*TryPlan(belief, For(robot, plan->seed)), *plan) << "the seed repeats the plan";
+  };
+  note_seed("r");
+  belief.robots["r"].plans_issued = 1;
+  note_seed("r");
+  belief.robots["s"] = belief.robots["r"];
+  belief.robots["s"].state.id = "s";
+  note_seed("s");
+  MissionOptions mission = *belief.options;
+  mission.seed = 2;
+  belief.options = std::make_shared<const MissionOptions>(mission);
+  note_seed("r");
+  EXPECT_EQ(seeds.size(), 4U);
+}
+
+TEST(Strategy, StartsWhereTheRequestSays) {
+  PlanRequest request = For("r");
+  request.start = Pose2{1.03, 0.34, 0.0};
+  const absl::StatusOr<Plan> plan = TryPlan(SmallBelief(kRoom), request);
+  ASSERT_TRUE(plan.ok());
+  EXPECT_EQ(Chosen(*plan).path.front(), (Point2{1.03, 0.34}));
+  EXPECT_EQ(Chosen(*plan).goal.cell.x, 14) << "the east is nearer";
+}
+
+TEST(Strategy, DrivesOutOfTheInflatedZoneFirst) {
+  const GridArt art = {"##########",  //
+                       "#iiiiiiiii",  //
+                       "#iSi.....?",  //
+                       "#iii.....?",  //
+                       "#iii.....?",  //
+                       "#iiiiiiiii",  //
+                       "##########"};
+  Belief belief = SmallBelief(art);
+  Grid<std::uint8_t> traversable = *belief.traversable;
+  traversable[testing::CellInArt(art, 'S')] = 0;
+  belief.traversable = std::make_shared<const Grid<std::uint8_t>>(traversable);
+  const absl::StatusOr<Plan> plan = TryPlan(belief, For("r"));
+  ASSERT_TRUE(plan.ok()) << plan.status();
+  EXPECT_TRUE(plan->start_escaped);
+  const Candidate& chosen = Chosen(*plan);
+  EXPECT_EQ(chosen.path.front(), belief.geometry().Center(testing::CellInArt(art, 'S')));
+  EXPECT_EQ(chosen.goal.cell.x, 8);
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < chosen.path.size(); ++i) {
+    length_m += Distance_m(chosen.path[i - 1], chosen.path[i]);
+  }
+  EXPECT_NEAR(chosen.length_m, length_m, kRounding);
+  EXPECT_TRUE(std::isfinite(chosen.cost));
+  EXPECT_TRUE(std::isfinite(chosen.information_penalty));
+  EXPECT_THAT(plan->explanation, HasSubstr("first out of the margin"));
+}
+
+TEST(Strategy, StaysIfTheRobotIsWalledIn) {
+  Belief belief = SmallBelief({"#####",  //
+                               "##S##",  //
+                               "#####"});
+  belief.traversable = std::make_shared<const Grid<std::uint8_t>>(belief.geometry(), 0);
+  const absl::StatusOr<Plan> plan = TryPlan(belief, For("r"));
+  ASSERT_TRUE(plan.ok());
+  EXPECT_EQ(plan->end, PlanEnd::kNoGoals);
+  EXPECT_EQ(plan->chosen, -1);
+  EXPECT_THAT(plan->trajectory.waypoints, IsEmpty());
+}
+
+TEST(Strategy, StaysIfTheRobotsCellIsAllThereIs) {
+  const absl::StatusOr<Plan> plan = TryPlan(SmallBelief({"###",  //
+                                                         "#S#",  //
+                                                         "###"}),
+                                            For("r"));
+  ASSERT_TRUE(plan.ok());
+  EXPECT_EQ(plan->end, PlanEnd::kNoGoals);
+  EXPECT_THAT(plan->explanation, HasSubstr("Stay"));
+}
+
+TEST(Strategy, ProbesGasFrontiers) {
+  const GridArt art = {"#########",  //
+                       "#ggg....#",  //
+                       "#gSg....#",  //
+                       "#ggg....#",  //
+                       "#########"};
+  testing::GoalCase c(art);
+  c.AddGas(art, 50.0F);
+  PlanningOptions options;
+  options.min_goal_distance_m = 0.1;
+  const absl::StatusOr<Plan> plan = TryPlan(c.belief, For("r"), options);
+  ASSERT_TRUE(plan.ok());
+  EXPECT_EQ(plan->phase, MissionPhase::kGasProbing);
+  EXPECT_FALSE(plan->field_flat);
+  EXPECT_GT(Chosen(*plan).mean_concentration_ppm, 0.0);
+}
+
+TEST(Strategy, VisitsRandomPlacesWhenNoFrontierIsLeftAndThenIsComplete) {
+  testing::GoalCase c(kClosed);
+  c.AddGas(kClosed, 0.0F);  // measured everywhere, no gas
+  PlanningOptions options;
+  options.min_goal_distance_m = 0.1;
+  absl::StatusOr<Plan> plan = TryPlan(c.belief, For("r"), options);
+  ASSERT_TRUE(plan.ok());
+  EXPECT_EQ(plan->phase, MissionPhase::kFallback);
+  EXPECT_EQ(Chosen(*plan).goal.kind, GoalKind::kRandomFreeSpace);
+
+  c.belief.robots["r"].fruitless_fallbacks = 2;
+  plan = TryPlan(c.belief, For("r"), options);
+  ASSERT_TRUE(plan.ok());
+  EXPECT_EQ(plan->phase, MissionPhase::kComplete);
+  EXPECT_EQ(plan->end, PlanEnd::kMissionComplete);
+  EXPECT_EQ(plan->chosen, -1);
+}
+
+TEST(Strategy, SaysWhatItPassedOver) {
+  Belief belief = SmallBelief(kRoom);
+  const absl::StatusOr<Plan> free = TryPlan(belief, For("r"));
+  ASSERT_TRUE(free.ok());
+  const Goal taken = Chosen(*free).goal;
+  belief.claims = {{"other", 1, taken, 1000}};
+  const absl::StatusOr<Plan> plan = TryPlan(belief, For("r"));
+  ASSERT_TRUE(plan.ok());
+  EXPECT_EQ(Chosen(*plan).goal.cell.x, 14) << "the other one";
+  ASSERT_THAT(plan->rejected, SizeIs(1));
+  EXPECT_EQ(plan->rejected[0].goal, taken);
+  EXPECT_EQ(plan->rejected[0].reason, RejectionReason::kClaimed);
+}
+
+TEST(Strategy, WithoutTheGuardMayMissGoalsAndSaysSo) {
+  PlanningOptions options;
+  options.grid_guard = false;
+  options.samples = 1;
+  options.nearest_samples = 1;
+  const absl::StatusOr<Plan> plan = TryPlan(SmallBelief(kRoom), For("r", 1), options);
+  ASSERT_TRUE(plan.ok());
+  EXPECT_EQ(plan->end, PlanEnd::kQueueExhausted);
+  EXPECT_THAT(plan->rejected, Not(IsEmpty()));
+  EXPECT_EQ(plan->rejected.back().reason, RejectionReason::kUnreachable);
+  options.grid_guard = true;
+  const absl::StatusOr<Plan> guarded = TryPlan(SmallBelief(kRoom), For("r", 1), options);
+  ASSERT_TRUE(guarded.ok());
+  EXPECT_EQ(guarded->end, PlanEnd::kAllGoalsReached);
+  EXPECT_GT(guarded->effort.goals_by_guard, 0);
+}
+
+TEST(Strategy, StoppedBeforeAnyPathIsAnError) {
+  const absl::StatusOr<Plan> plan = TryPlan(SmallBelief(kRoom), For("r"), {}, [] { return true; });
+  EXPECT_EQ(plan.status().code(), absl::StatusCode::kDeadlineExceeded);
+}
+
+TEST(Strategy, StoppedHalfWayReturnsWhatItHas) {
+  const lab::RandomWorld world = lab::MakeRandomWorld(2, 3);
+  bool saw_part = false;
+  for (int polls = 5; polls < 300; polls += 5) {
+    int polled = 0;
+    const absl::StatusOr<Plan> plan =
+        TryPlan(world.belief, For(world.robot), {}, [&] { return ++polled > polls; });
+    if (!plan.ok()) {
+      EXPECT_EQ(plan.status().code(), absl::StatusCode::kDeadlineExceeded);
+      continue;
+    }
+    if (plan->end != PlanEnd::kStopped) continue;
+    EXPECT_GE(plan->chosen, 0);
+    for (const RejectedGoal& goal : plan->rejected) {
+      saw_part = saw_part || goal.reason == RejectionReason::kSearchStopped;
+    }
+  }
+  EXPECT_TRUE(saw_part);
+}
+
+TEST(Strategy, KeepsToTheEdgeBudgetAndStaysRepeatable) {
+  const lab::RandomWorld world = lab::MakeRandomWorld(2, 3);
+  PlanRequest request = For(world.robot, 4);
+  for (const int budget : {1, 200, 800}) {
+    request.max_edge_evaluations = budget;
+    const absl::StatusOr<Plan> plan = TryPlan(world.belief, request);
+    ASSERT_TRUE(plan.ok()) << plan.status();
+    EXPECT_EQ(plan->end, PlanEnd::kStopped);
+    EXPECT_EQ(plan->effort.edges_evaluated, budget);
+    EXPECT_EQ(*plan, *TryPlan(world.belief, request));
+  }
+}
+
+TEST(Strategy, RefusesRobotsAndStartsItCannotPlanFor) {
+  Belief belief = SmallBelief(kRoom);
+  EXPECT_EQ(TryPlan(belief, For("nobody")).status().code(), absl::StatusCode::kNotFound);
+  PlanRequest request = For("r");
+  for (const Pose2 start : {Pose2{NAN, 0.5, 0.0}, Pose2{0.5, INFINITY, 0.0}, Pose2{0.5, 0.5, NAN},
+                            Pose2{-0.1, 0.5, 0.0}, Pose2{1e300, 0.5, 0.0}}) {
+    request.start = start;
+    EXPECT_EQ(TryPlan(belief, request).status().code(), absl::StatusCode::kInvalidArgument);
+  }
+  belief.robots["r"].state.has_pose = false;
+  EXPECT_EQ(TryPlan(belief, For("r")).status().code(), absl::StatusCode::kFailedPrecondition);
+}
+
+TEST(Strategy, OnAnEmptyMapRefusesTheStart) {
+  Belief belief = BeliefFromArt({});
+  belief.robots["r"].state.has_pose = true;
+  EXPECT_EQ(TryPlan(belief, For("r")).status().code(), absl::StatusCode::kInvalidArgument);
+}
+
+}  // namespace
+}  // namespace plumescout

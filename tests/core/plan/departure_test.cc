@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/departure.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/plan_map.h"
+
+namespace plumescout {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+// The robot may drive in the two cells in the east.
+Belief Corridor() {
+  return testing::BeliefFromArt({"#######",  //
+                                 "#iii..#",  //
+                                 "#######"});
+}
+
+TEST(Depart, FromATraversableCellIsFromWhereTheRobotStands) {
+  const std::optional<Departure> departure = Depart(Corridor(), {0.43, 0.16});
+  ASSERT_TRUE(departure.has_value());
+  EXPECT_THAT(departure->way_out, IsEmpty());
+  EXPECT_EQ(departure->start, (Point2{0.43, 0.16}));
+}
+
+TEST(Depart, LeadsOutOfTheInflatedZoneByWayOfTheCellsCentre) {
+  const Belief belief = Corridor();
+  const std::optional<Departure> departure = Depart(belief, {0.22, 0.11});
+  ASSERT_TRUE(departure.has_value());
+  EXPECT_EQ(departure->start, belief.geometry().Center({4, 1}));
+  EXPECT_THAT(departure->way_out, ElementsAre(Point2{0.22, 0.11}, belief.geometry().Center({2, 1})))
+      << "straight runs have no vertices between";
+}
+
+TEST(Depart, IsImpossibleIfThereIsNoWayOut) {
+  const Belief walled_in = testing::BeliefFromArt({"#######",  //
+                                                   "#i#...#",  //
+                                                   "#######"});
+  EXPECT_FALSE(Depart(walled_in, {0.15, 0.15}).has_value());
+}
+
+TEST(StartPose, IsTheRobotsUnlessTheRequestNamesOne) {
+  const Belief belief = Corridor();
+  RobotState robot;
+  robot.has_pose = true;
+  robot.pose = {0.45, 0.15, 1.0};
+  PlanRequest request;
+  EXPECT_EQ(*StartPose(belief, request, robot), robot.pose);
+  request.start = Pose2{0.55, 0.15, 2.0};
+  EXPECT_EQ(*StartPose(belief, request, robot), *request.start);
+}
+
+TEST(StartPose, MustBeKnownFiniteAndInsideTheMap) {
+  const Belief belief = Corridor();
+  PlanRequest request;
+  EXPECT_EQ(StartPose(belief, request, {}).status().code(), absl::StatusCode::kFailedPrecondition);
+  for (const Pose2 start : {Pose2{NAN, 0.1, 0.0}, Pose2{0.1, INFINITY, 0.0}, Pose2{0.1, 0.1, NAN},
+                            Pose2{-0.1, 0.1, 0.0}, Pose2{0.1, 1e300, 0.0}}) {
+    request.start = start;
+    EXPECT_EQ(StartPose(belief, request, {}).status().code(), absl::StatusCode::kInvalidArgument);
+  }
+}
+
+}  // namespace
+}  // namespace plumescout
