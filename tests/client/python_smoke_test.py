@@ -1,0 +1,155 @@
+# SPDX-FileCopyrightText: PlumeScout contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Runs a short mission in a toy room against the built server, through the Python client."""
+
+import os
+import pathlib
+import subprocess
+import unittest
+
+import grpc
+import numpy as np
+
+import plumescout_client
+
+BUILD_DIR = pathlib.Path(os.environ["PLUMESCOUT_BUILD_DIR"])
+ROOM_M = (6.0, 4.0)  # x and y from 0 to here
+START = (1.0, 1.0, 0.0)
+SOURCE_M = np.array([4.5, 3.0])
+BEAMS = 180
+SCANS_A_STOP = 4  # a cell takes three beams to become free
+SCAN_PERIOD_NS = 100_000_000
+MAX_PLANS = 12
+
+
+def ranges_in_room(pose):
+    """Distance to the walls of the room along each beam."""
+    x_m, y_m, yaw_rad = pose
+    angles = yaw_rad + np.arange(BEAMS) * 2 * np.pi / BEAMS
+    with np.errstate(divide="ignore"):
+        to_x = np.where(np.cos(angles) > 0, ROOM_M[0] - x_m, -x_m) / np.cos(angles)
+        to_y = np.where(np.sin(angles) > 0, ROOM_M[1] - y_m, -y_m) / np.sin(angles)
+    return np.minimum(to_x, to_y)
+
+
+def gas_ppm(pose):
+    return 20.0 * np.exp(-np.sum((np.array(pose[:2]) - SOURCE_M) ** 2))
+
+
+class ToyRobot:
+    def __init__(self, robot):
+        self.robot = robot
+        self.time_ns = 1_000_000_000_000
+
+    def look(self, pose):
+        for _ in range(SCANS_A_STOP):
+            self.time_ns += SCAN_PERIOD_NS
+            self.robot.add_scan(
+                self.time_ns, pose, ranges_in_room(pose), 0.0, 2 * np.pi / BEAMS, 8.0
+            )
+        self.robot.add_gas(self.time_ns, pose, gas_ppm(pose))
+
+    def drive(self, poses):
+        for start, end in zip(poses[:-1], poses[1:]):
+            steps = max(1, int(np.hypot(*(end - start)[:2]) / 0.2))
+            for share in np.linspace(0, 1, steps + 1)[1:]:
+                self.look(tuple(start + share * (end - start)))
+
+
+class SmokeTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.server = subprocess.Popen(
+            [BUILD_DIR / "bin/plumescout-server", "--listen", "127.0.0.1:0"],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+        )
+        for line in cls.server.stdout:
+            if line.startswith("listening on "):
+                cls.target = line.split()[-1]
+                return
+        raise RuntimeError("the server did not start")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.server.terminate()
+        cls.server.wait(timeout=30)
+        cls.server.stdout.close()
+
+    def setUp(self):
+        self.client = plumescout_client.Client(self.target)
+        self.addCleanup(self.client.close)
+
+    def test_a_short_mission_maps_the_room_and_its_gas(self):
+        self.client.create_mission("toy", {"planning": {"speedMps": 0.5}})
+        robot = self.client.register("toy", "scout")
+        toy = ToyRobot(robot)
+        toy.look(START)
+        plans = 0
+        for _ in range(MAX_PLANS):
+            plan = robot.next_best_trajectory()
+            if plan.complete:
+                break
+            plans += 1
+            if len(plan.poses) > 1:
+                toy.drive(plan.poses)
+                robot.report(plan)
+        robot.next_best_trajectory()  # brings the gas map up to the last reading
+
+        self.assertGreater(plans, 0)
+        self.assertEqual(robot.rejections, [])
+        room = self.client.get_map("toy")
+        free = room.occupancy == plumescout_client.FREE
+        cells_in_room = ROOM_M[0] * ROOM_M[1] / room.status.geometry.resolution_m**2
+        self.assertGreater(free.sum(), 0.9 * cells_in_room)
+        self.assertTrue(np.isfinite(room.gas_mean_ppm[free]).all())
+        self.assertTrue(np.isnan(room.gas_mean_ppm[~free]).all())
+        self.assertTrue((room.gas_variance_ppm2[free] > 0).all())
+        at_source = room.gas_mean_ppm[room.cell(*SOURCE_M)]
+        self.assertGreater(at_source, room.gas_mean_ppm[room.cell(0.5, 0.5)])
+        self.assertEqual(room.status.robots[0].applied_sequence, robot.last_sequence)
+
+    def test_ranges_survive_the_wire(self):
+        self.client.create_mission("ranges")
+        robot = self.client.register("ranges", "scout")
+        ranges = np.array([np.inf, np.nan, 0.004, 2.0, 400.0, -1.0])
+        robot.add_scan(1, START, ranges, 0.0, 1.0, 500.0)
+        robot.add_scan(2, START, ranges[:4], 0.0, 1.0, 50.0)
+        robot.flush()
+
+        self.assertEqual([r.sequence for r in robot.rejections], [1])  # beyond the mission's range
+        self.assertIn("max_range_m", robot.rejections[0].message)
+
+    def test_errors_carry_code_and_reason(self):
+        self.client.create_mission("errors")
+        with self.assertRaises(plumescout_client.PlumeScoutError) as caught:
+            self.client.create_mission("errors")
+        self.assertEqual(caught.exception.code, grpc.StatusCode.ALREADY_EXISTS)
+        self.client.create_mission("errors", exist_ok=True)
+
+        old = self.client.register("errors", "scout")
+        self.client.register("errors", "scout", take_over=True)
+        old.add_gas(1, START, 1.0)
+        with self.assertRaises(plumescout_client.PlumeScoutError) as caught:
+            old.flush()
+        self.assertEqual(caught.exception.reason, "LEASE_SUPERSEDED")
+
+    def test_missions_are_listed_and_deleted(self):
+        self.client.create_mission("listed")
+        self.assertIn("listed", self.client.list_missions())
+        self.client.delete_mission("listed")
+        self.assertNotIn("listed", self.client.list_missions())
+
+    def test_a_robot_goes_on_where_its_log_ends(self):
+        self.client.create_mission("return")
+        first = self.client.register("return", "scout")
+        first.add_gas(1, START, 1.0)
+        first.flush()
+        second = self.client.register("return", "scout", take_over=True)
+        self.assertEqual(second.add_gas(2, START, 1.0), 2)
+        second.flush()
+
+
+if __name__ == "__main__":
+    unittest.main()
