@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -288,10 +289,12 @@ TEST_P(RoomSizes, OneReadingObservesItsCellAndNothingBeyondTheNeighbours) {
   for (std::size_t i = 0; i < room.size(); ++i) {
     const bool observed = static_cast<double>(gas.variance_ppm2()[i]) <= threshold_ppm2;
     const Cell cell = room.geometry().CellAtIndex(i);
-    const int steps = std::abs(cell.x - middle.x) + std::abs(cell.y - middle.y);
-    // The four neighbours may go either way: what lies around them decides.
-    if (steps != 1) {
-      ASSERT_EQ(observed, steps == 0) << i;
+    const int rings = std::max(std::abs(cell.x - middle.x), std::abs(cell.y - middle.y));
+    // The eight neighbours are observed in a wide room and not in a narrow one, whose mean level
+    // the one reading leaves open. Two cells away it is neither: with a resistance of 0.7268 / 3
+    // between them the variance falls from 0.304 to 0.221, and the threshold is 0.213.
+    if (rings != 1) {
+      ASSERT_EQ(observed, rings == 0) << i;
     }
   }
 }
