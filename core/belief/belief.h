@@ -17,12 +17,16 @@
 
 namespace plumescout {
 
-// Goals of one kind nearer to each other than this count as the same goal, for claims and memory.
-inline constexpr double kSameGoalRadius_m = 0.5;
+// Goals of one kind nearer to each other than this are one errand: one robot is enough for both.
+inline constexpr double kClaimRadius_m = 0.5;
+// And nearer than this they are one place. A frontier that a visit has pushed on by more is new.
+inline constexpr double kSamePlaceRadius_m = 0.15;
 
-// Whether two goals are the same place for the same purpose.
-inline bool SameGoal(const Goal& a, const Goal& b) {
-  return a.kind == b.kind && Distance_m(a.position, b.position) < kSameGoalRadius_m;
+inline bool ClaimCovers(const Goal& claimed, const Goal& goal) {
+  return claimed.kind == goal.kind && Distance_m(claimed.position, goal.position) < kClaimRadius_m;
+}
+inline bool SamePlace(const Goal& a, const Goal& b) {
+  return a.kind == b.kind && Distance_m(a.position, b.position) < kSamePlaceRadius_m;
 }
 
 // The end of a robot's live plan: not to be handed out to another robot.

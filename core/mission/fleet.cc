@@ -109,7 +109,7 @@ absl::StatusOr<PlanId> Fleet::Issue(const Plan& plan, std::int64_t now_ns) {
                 now_ns + Nanoseconds(plan.trajectory.duration_s * kClaimSlack + kClaimGrace_s)};
   if (live.goal) {
     for (const GoalClaim& claim : Claims(now_ns)) {
-      if (claim.robot != plan.robot && SameGoal(claim.goal, *live.goal)) {
+      if (claim.robot != plan.robot && ClaimCovers(claim.goal, *live.goal)) {
         return absl::AbortedError(absl::StrCat("the goal is claimed by robot \"", claim.robot,
                                                "\" with plan ", claim.plan));
       }
@@ -159,7 +159,7 @@ void Fleet::RememberVisit(const Goal& goal, std::int64_t now_ns, double set_asid
   std::erase_if(set_aside_, [&](const SetAsideGoal& s) { return s.expires_ns <= now_ns; });
   if (goal.kind == GoalKind::kRandomFreeSpace) return;  // nothing was expected to change there
   auto visited = std::find_if(visited_.begin(), visited_.end(),
-                              [&](const VisitedGoal& v) { return SameGoal(v.goal, goal); });
+                              [&](const VisitedGoal& v) { return SamePlace(v.goal, goal); });
   if (visited == visited_.end()) {
     if (visited_.size() >= kMaxVisitedGoals) visited_.erase(visited_.begin());
     visited_.push_back({goal, 0});

@@ -20,7 +20,9 @@ struct GridGeometry {
   int width = 0;
   int height = 0;
 
-  std::size_t size() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+  std::size_t size() const {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  }
   bool Contains(Cell cell) const {
     return cell.x >= 0 && cell.y >= 0 && cell.x < width && cell.y < height;
   }

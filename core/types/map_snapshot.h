@@ -27,10 +27,10 @@ struct RobotState {
 
 // What waits, moved or was merged on its way into the gas posterior; nothing is dropped silently.
 struct GasCounters {
-  std::int64_t readings = 0;         // received
-  std::int64_t in_posterior = 0;     // on a free cell now
+  std::int64_t readings = 0;            // received
+  std::int64_t in_posterior = 0;        // on a free cell now
   std::int64_t moved_to_neighbour = 0;  // of those, moved to the nearest free cell, one cell away
-  std::int64_t waiting = 0;          // their cell is not free (yet, or any more)
+  std::int64_t waiting = 0;             // their cell is not free (yet, or any more)
 
   friend bool operator==(const GasCounters&, const GasCounters&) = default;
 };
@@ -41,8 +41,8 @@ struct MapSnapshot {
   Grid<CellState> occupancy;
   Grid<float> gas_mean_ppm;
   Grid<float> gas_variance_ppm2;
-  double gas_threshold_ppm = 0.0;  // tau_gas of [XIT] Eq. (17)
-  std::vector<Frontier> frontiers;      // both kinds
+  double gas_threshold_ppm = 0.0;   // tau_gas of [XIT] Eq. (17)
+  std::vector<Frontier> frontiers;  // both kinds
   std::vector<RobotState> robots;
   GasCounters gas_counters;
   MissionPhase phase = MissionPhase::kExploring;

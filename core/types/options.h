@@ -12,38 +12,39 @@ namespace plumescout {
 
 // Occupancy grid; paper symbols of [XIT] Eq. (1) and Table I.
 struct OccupancyOptions {
-  double resolution_m = 0.1;          // (0.01, 2]
-  double inflation_radius_m = 0.2;    // [0, 5], farther than this from any occupied cell
-  double free_threshold = 0.25;       // tau_free, probability, (0, 0.5)
-  double occupied_threshold = 0.65;   // tau_occ, probability, (0.5, 1)
-  double hit_log_odds = 0.85;         // > 0
-  double miss_log_odds = -0.4;        // < 0
-  double clamp_log_odds = 3.5;        // > 0
-  double max_extent_m = 200.0;        // the map never grows beyond this width or height, (0, 2000]
-  std::int64_t max_cells = 4'000'000; // nor beyond this many cells
+  double resolution_m = 0.1;           // (0.01, 2]
+  double inflation_radius_m = 0.2;     // [0, 5], farther than this from any occupied cell
+  double free_threshold = 0.25;        // tau_free, probability, (0, 0.5)
+  double occupied_threshold = 0.65;    // tau_occ, probability, (0.5, 1)
+  double hit_log_odds = 0.85;          // > 0
+  double miss_log_odds = -0.4;         // < 0
+  double clamp_log_odds = 3.5;         // > 0
+  double max_extent_m = 200.0;         // the map never grows beyond this width or height, (0, 2000]
+  std::int64_t max_cells = 4'000'000;  // nor beyond this many cells
 };
 
 // Gas posterior; design of the GMRF with precisions in ppm^-2. [XIT] Table I.
 struct GasOptions {
-  double prior_precision = 3.0;        // lambda_p (sigma_r^2), > 0
-  double observation_precision = 10.0; // lambda_o (sigma_s^2), > 0
-  double background_precision = 0.001; // lambda_d (sigma_d^2), > 0
-  double background_mean_ppm = 0.0;    // m_0
+  double prior_precision = 3.0;         // lambda_p (sigma_r^2), > 0
+  double observation_precision = 10.0;  // lambda_o (sigma_s^2), > 0
+  double background_precision = 0.001;  // lambda_d (sigma_d^2), > 0
+  double background_mean_ppm = 0.0;     // m_0
   // A reading's variance grows by 1/lambda_o in this time (lambda_t = half-life * lambda_o);
   // 0: readings do not age.
   double ageing_half_life_s = 0.0;
-  double refresh_period_s = 2.0;       // of sample time between refreshes without a plan, > 0
+  double refresh_period_s = 2.0;  // of sample time between refreshes without a plan, > 0
 };
 
 // Occupancy and gas frontiers; [XIT] section V.
 enum class WgfdScope { kReachable, kLocal };
 struct FrontierOptions {
-  int min_occupancy_cells = 8;             // >= 1
-  int min_gas_cells = 5;                   // >= 1
-  double observed_variance_ratio = 0.7;    // of epsilon_inf, in (0, 10]; observed: eps <= ratio * eps_inf
+  int min_occupancy_cells = 8;  // >= 1
+  int min_gas_cells = 5;        // >= 1
+  double observed_variance_ratio =
+      0.7;  // of epsilon_inf, in (0, 10]; observed: eps <= ratio * eps_inf
   std::optional<double> observed_variance_ppm2;   // overrides the ratio
-  double gas_percentile = 10.0;            // p of [XIT] Eq. (17), [0, 100]
-  double min_gas_threshold_ppm = 2.0;      // tau_gas,min, > 0
+  double gas_percentile = 10.0;                   // p of [XIT] Eq. (17), [0, 100]
+  double min_gas_threshold_ppm = 2.0;             // tau_gas,min, > 0
   std::optional<double> fixed_gas_threshold_ppm;  // replaces Eq. (17), > 0
   WgfdScope wgfd_scope = WgfdScope::kReachable;
 };
@@ -55,28 +56,31 @@ enum class SelectionRule { kLeastCost, kMeanUcb };
 
 // One row of the strategy table: where to go, how to get there, which to take.
 struct PlanningOptions {
-  std::string strategy = "xit_gff";       // name of the row, see core/plan/strategy.h
+  std::string strategy = "xit_gff";  // name of the row, see core/plan/strategy.h
   GoalPolicy goals = GoalPolicy::kGasFirst;
-  bool draw_goals = false;                // true: at most max_goals drawn at random within a kind (paper)
-  int max_goals = 5;                      // with draw_goals; also the number of fallback goals
-  double min_goal_distance_m = 0.3;       // goals nearer than this are passed over, >= 0
-  CostKind cost = CostKind::kUcb;         // expansion, [XIT] Eq. (12)
+  bool draw_goals = false;  // true: at most max_goals drawn at random within a kind (paper)
+  int max_goals = 5;        // with draw_goals; also the number of fallback goals
+  double min_goal_distance_m = 0.3;  // goals nearer than this are passed over, >= 0
+  CostKind cost = CostKind::kUcb;    // expansion, [XIT] Eq. (12)
   CostKind selection_cost = CostKind::kUcb;
   SelectionRule selection = SelectionRule::kLeastCost;  // [XIT] Eq. (4), (13)
-  double alpha = 0.0;                     // per metre, >= 0
-  double beta = 1.0;                      // [XIT] Eq. (8), >= 0
-  bool raw_variance = false;              // Eq. (8) as printed: variance in ppm^2
-  int samples = 300;                      // N, [1, 100000]
-  int nearest_samples = 3;                // k_n, [1, 100]
-  double uniform_share = 0.2;             // epsilon of Eq. (14), [0, 1]
+  double alpha = 0.0;                                   // per metre, >= 0
+  double beta = 1.0;                                    // [XIT] Eq. (8), >= 0
+  bool raw_variance = false;                            // Eq. (8) as printed: variance in ppm^2
+  int samples = 300;                                    // N, [1, 100000]
+  int nearest_samples = 3;                              // k_n, [1, 100]
+  double uniform_share = 0.2;                           // epsilon of Eq. (14), [0, 1]
   SamplingKind sampling = SamplingKind::kSystematic;
-  double radius_factor = 1.1;             // gamma / gamma_RGG, > 0
-  bool mixture_radius = false;            // gamma* = epsilon^(-1/2) gamma
-  bool grid_guard = true;                 // complete missed goals on the grid
-  double speed_mps = 1.25;                // > 0
-  double dwell_s = 0.0;                   // stop-and-sample at each vertex, >= 0
-  double set_aside_s = 120.0;             // expiry of goal memory, seconds of sample time, > 0
-  int fallback_limit = 2;                 // fruitless fallback trajectories that end the mission
+  double radius_factor = 1.1;   // gamma / gamma_RGG, > 0
+  bool mixture_radius = false;  // gamma* = epsilon^(-1/2) gamma
+  bool grid_guard = true;       // complete missed goals on the grid
+  double speed_mps = 1.25;      // > 0
+  double dwell_s = 0.0;         // stop-and-sample at each vertex, >= 0
+  double set_aside_s = 120.0;   // expiry of goal memory, seconds of sample time, > 0
+  // When no frontier is left, go first to places whose gas is unobserved (ours); false: to random
+  // free places only (paper).
+  bool fallback_to_unobserved = true;
+  int fallback_limit = 2;  // fruitless fallback trajectories that end the mission
 };
 
 struct MissionOptions {
@@ -84,9 +88,9 @@ struct MissionOptions {
   GasOptions gas;
   FrontierOptions frontier;
   PlanningOptions planning;
-  double pose_limit_m = 1000.0;   // |x|, |y| of any pose, > 0
-  double max_range_m = 100.0;     // of any lidar, > 0
-  int max_beams = 20'000;         // of any scan
+  double pose_limit_m = 1000.0;  // |x|, |y| of any pose, > 0
+  double max_range_m = 100.0;    // of any lidar, > 0
+  int max_beams = 20'000;        // of any scan
   double max_concentration_ppm = 1e6;
   int max_robots = 32;
   std::uint64_t seed = 1;

@@ -19,9 +19,9 @@ enum class GoalKind { kOccupancyFrontier, kGasFrontier, kRandomFreeSpace };
 // A place worth going to, as the goal policy hands it to the path planner.
 struct Goal {
   GoalKind kind = GoalKind::kOccupancyFrontier;
-  Cell cell;          // traversable; of the belief's geometry, which growth of the map may move
-  Point2 position;    // centre of the cell: what claims and goal memory go by
-  Point2 centroid;    // of the frontier; the cell's centre for random goals
+  Cell cell;        // traversable; of the belief's geometry, which growth of the map may move
+  Point2 position;  // centre of the cell: what claims and goal memory go by
+  Point2 centroid;  // of the frontier; the cell's centre for random goals
   int frontier_cells = 0;
 
   friend bool operator==(const Goal&, const Goal&) = default;
@@ -32,25 +32,25 @@ enum class PathSource { kTree, kGridGuard };
 // A goal with the path to it and every term of its price.
 struct Candidate {
   Goal goal;
-  std::vector<Point2> path;          // vertices in frame map, start first
+  std::vector<Point2> path;  // vertices in frame map, start first
   PathSource path_source = PathSource::kTree;
   double cost = 0.0;                 // J of [XIT] Eq. (13), under the selection cost
   double information_penalty = 0.0;  // sum of P over the path, in cells
   double length_m = 0.0;
-  double mean_ucb = 0.0;             // mean of I-hat over the path, [MIT] Eq. (3)
+  double mean_ucb = 0.0;  // mean of I-hat over the path, [MIT] Eq. (3)
   double mean_concentration_ppm = 0.0;
 
   friend bool operator==(const Candidate&, const Candidate&) = default;
 };
 
 enum class RejectionReason {
-  kUnreachable,        // no traversable way on the grid
-  kTooSmall,           // fewer cells than the minimum frontier size
-  kSetAside,           // goal memory: failed or visited without change, not yet expired
-  kClaimed,            // another robot's live plan ends there
-  kNotDrawn,           // more goals than max_goals; the draw passed it over
-  kTooClose,           // nearer than the minimum travel distance
-  kSearchStopped,      // deadline or cancel came before a path was found
+  kUnreachable,    // no traversable way on the grid
+  kTooSmall,       // fewer cells than the minimum frontier size
+  kSetAside,       // goal memory: failed or visited without change, not yet expired
+  kClaimed,        // another robot's live plan ends there
+  kNotDrawn,       // more goals than max_goals; the draw passed it over
+  kTooClose,       // nearer than the minimum travel distance
+  kSearchStopped,  // deadline or cancel came before a path was found
 };
 
 struct RejectedGoal {

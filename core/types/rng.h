@@ -13,10 +13,10 @@ class Rng {
   explicit Rng(std::uint64_t seed);
 
   std::uint64_t Next();
-  double Uniform01();                            // [0, 1)
-  double Uniform(double low, double high);       // [low, high)
-  std::uint64_t Below(std::uint64_t bound);      // [0, bound), unbiased; REQUIRES bound > 0
-  double Gaussian();                             // mean 0, standard deviation 1
+  double Uniform01();                        // [0, 1)
+  double Uniform(double low, double high);   // [low, high)
+  std::uint64_t Below(std::uint64_t bound);  // [0, bound), unbiased; REQUIRES bound > 0
+  double Gaussian();                         // mean 0, standard deviation 1
 
  private:
   std::uint64_t state_[4];

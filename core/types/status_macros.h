@@ -8,11 +8,11 @@
 #include "absl/status/statusor.h"
 
 // Returns from the enclosing function if `expr` (a Status) is an error.
-#define PLUMESCOUT_RETURN_IF_ERROR(expr)                    \
-  do {                                                      \
-    if (absl::Status status_ = (expr); !status_.ok()) {     \
-      return status_;                                       \
-    }                                                       \
+#define PLUMESCOUT_RETURN_IF_ERROR(expr)                \
+  do {                                                  \
+    if (absl::Status status_ = (expr); !status_.ok()) { \
+      return status_;                                   \
+    }                                                   \
   } while (false)
 
 #define PLUMESCOUT_CONCAT_INNER(a, b) a##b

@@ -9,9 +9,9 @@
 namespace plumescout {
 
 struct Waypoint {
-  Pose2 pose;                    // heading along the segment that leaves it
-  double arrival_time_s = 0.0;   // since departure
-  double dwell_s = 0.0;          // standing time for stop-and-sample
+  Pose2 pose;                   // heading along the segment that leaves it
+  double arrival_time_s = 0.0;  // since departure
+  double dwell_s = 0.0;         // standing time for stop-and-sample
 
   friend bool operator==(const Waypoint&, const Waypoint&) = default;
 };

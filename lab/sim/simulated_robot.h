@@ -19,9 +19,9 @@ struct SimulatedRobotOptions {
   std::optional<Pose2> start = std::nullopt;  // default: the scene's
   double max_forward_mps = 1.25;              // either way, [XIT] section VI-A, (0, 100]
   double max_turn_rad_per_s = 2.0;            // either way, (0, 100]
-  // Touching a wall stops the robot. Less than the inflation of 0.2 m by the diagonal of a cell:
-  // plans keep the centres of cells apart, and the robot may be anywhere in its cell. [0, 5]
-  double body_radius_m = 0.1;
+  // Touching a wall stops the robot, [0, 5]. Far less than its real radius: plans keep the centres
+  // of cells 0.2 m apart, in a map that still grows, and come as near as 0.06 m to true walls.
+  double body_radius_m = 0.05;
   LidarOptions lidar = {};
   GasSensorOptions gas_sensor = {};
   std::int64_t start_time_ns = 1'700'000'000'000'000'000;  // of the clock, at frame 0; >= 0

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plan/goals/frontier_goals.h"
 
+#include <algorithm>
+
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "core/frontier/gas_frontier.h"
@@ -10,14 +12,39 @@
 namespace plumescout {
 namespace {
 
+// A gas frontier lies on free cells, and only a reading taken there resolves it. So its goal is one
+// of its own cells that the robot can stand on, the one nearest to their middle; without any, as
+// along a wall within the inflation radius, no visit could change it.
+void MoveGoalOntoFrontier(const GoalQuery& query, Frontier& frontier) {
+  const GridGeometry& geometry = query.belief.geometry();
+  std::vector<Cell> standable;
+  Point2 middle;
+  for (const Cell cell : frontier.cells) {
+    if (query.reachable[cell] == 0) continue;
+    standable.push_back(cell);
+    middle.x_m += geometry.Center(cell).x_m;
+    middle.y_m += geometry.Center(cell).y_m;
+  }
+  frontier.reachable = !standable.empty();
+  if (standable.empty()) return;
+  middle.x_m /= static_cast<double>(standable.size());
+  middle.y_m /= static_cast<double>(standable.size());
+  frontier.goal_cell = *std::min_element(standable.begin(), standable.end(), [&](Cell a, Cell b) {
+    return Distance_m(geometry.Center(a), middle) < Distance_m(geometry.Center(b), middle);
+  });
+}
+
 std::vector<Frontier> GasFrontiers(const GoalQuery& query) {
   const Belief& belief = query.belief;
   const GasFrontierInput input{*belief.occupancy, *belief.traversable, *belief.gas_mean_ppm,
                                *belief.gas_variance_ppm2};
   const FrontierOptions& options = belief.options->frontier;
   const double observed_ppm2 = ObservedVariance_ppm2(options, belief.options->gas);
-  return FindGasFrontiers(input, observed_ppm2, GasThreshold_ppm(input, observed_ppm2, options),
-                          {query.start}, options);
+  std::vector<Frontier> frontiers =
+      FindGasFrontiers(input, observed_ppm2, GasThreshold_ppm(input, observed_ppm2, options),
+                       {query.start}, options);
+  for (Frontier& frontier : frontiers) MoveGoalOntoFrontier(query, frontier);
+  return frontiers;
 }
 
 Goal GoalOf(const Frontier& frontier, const GridGeometry& geometry) {
@@ -66,7 +93,7 @@ void Judge(const GoalQuery& query, const std::vector<Frontier>& frontiers,
 std::optional<RejectedGoal> RejectedByMemory(const GoalQuery& query, const Goal& goal) {
   const Belief& belief = query.belief;
   for (const SetAsideGoal& aside : belief.set_aside) {
-    if (aside.expires_ns > belief.sample_time_ns && SameGoal(aside.goal, goal)) {
+    if (aside.expires_ns > belief.sample_time_ns && SamePlace(aside.goal, goal)) {
       constexpr double kSecondsPerNanosecond = 1e-9;
       const double left_s =
           static_cast<double>(aside.expires_ns - belief.sample_time_ns) * kSecondsPerNanosecond;
@@ -76,7 +103,7 @@ std::optional<RejectedGoal> RejectedByMemory(const GoalQuery& query, const Goal&
   }
   for (const GoalClaim& claim : belief.claims) {
     if (claim.robot != query.robot.state.id && claim.expires_ns > belief.sample_time_ns &&
-        SameGoal(claim.goal, goal)) {
+        ClaimCovers(claim.goal, goal)) {
       return RejectedGoal{goal, RejectionReason::kClaimed,
                           absl::StrCat("by robot \"", claim.robot, "\"")};
     }

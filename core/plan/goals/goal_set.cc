@@ -18,14 +18,18 @@ GoalSet FindGoals(const GoalQuery& query, Rng& rng) {
   result.goals = ChooseByPolicy(std::move(frontiers), query.options, rng, result.rejected);
   if (!result.goals.empty()) return result;
 
+  result.fallback = true;
+  if (query.options.fallback_to_unobserved) result.goals = UnobservedGoals(query, rng);
+  if (!result.goals.empty()) return result;
+
   const bool others_are_exploring = std::any_of(
       result.rejected.begin(), result.rejected.end(),
       [](const RejectedGoal& goal) { return goal.reason == RejectionReason::kClaimed; });
   if (query.robot.fruitless_fallbacks >= query.options.fallback_limit && !others_are_exploring) {
+    result.fallback = false;
     result.complete = true;
     return result;
   }
-  result.fallback = true;
   result.goals = RandomGoals(query, rng);
   return result;
 }

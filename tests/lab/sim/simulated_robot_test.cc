@@ -80,10 +80,10 @@ TEST_F(SimulatedRobotTest, DrivesExactArcs) {
 }
 
 TEST_F(SimulatedRobotTest, TurnsOnTheSpotEvenAtAWall) {
-  SimulatedRobot robot = Make({.start = Pose2{0.65, 3.0, 0.0}});
+  SimulatedRobot robot = Make({.start = Pose2{0.56, 3.0, 0.0}});
   ASSERT_TRUE(robot.Drive({0.0, 1.0}).ok());
   ASSERT_TRUE(robot.Advance(2.0).ok());
-  ExpectPose(robot.pose(), 0.65, 3.0, 2.0);
+  ExpectPose(robot.pose(), 0.56, 3.0, 2.0);
 }
 
 TEST_F(SimulatedRobotTest, HoldsACommandUntilTheNext) {
@@ -112,9 +112,9 @@ TEST_F(SimulatedRobotTest, StopsAtAWall) {
   SimulatedRobot robot = Make();
   ASSERT_TRUE(robot.Drive({1.0, 0.0}).ok());
   ASSERT_TRUE(robot.Advance(30.0).ok());
-  // The wall is at 9.5 m, the body reaches 0.1 m, a step is 0.02 m.
-  EXPECT_LT(robot.pose().x_m, 9.4);
-  EXPECT_GE(robot.pose().x_m, 9.38 - kRounding);
+  // The wall is at 9.5 m, the body reaches 0.05 m, a step is 0.02 m.
+  EXPECT_LT(robot.pose().x_m, 9.45);
+  EXPECT_GE(robot.pose().x_m, 9.43 - kRounding);
   EXPECT_EQ(robot.collisions(), 1);
 }
 
@@ -204,7 +204,7 @@ TEST_F(SimulatedRobotTest, RejectsCallsThatMakeNoSense) {
 }
 
 TEST_F(SimulatedRobotTest, RejectsOptionsOutOfRange) {
-  ExpectInvalid({.start = Pose2{0.55, 3.0, 0.0}}, "robot.start (0.55, 3) touches an obstacle");
+  ExpectInvalid({.start = Pose2{0.52, 3.0, 0.0}}, "robot.start (0.52, 3) touches an obstacle");
   ExpectInvalid({.start = Pose2{std::nan(""), 3.0, 0.0}}, "robot.start must be finite");
   ExpectInvalid({.max_forward_mps = 0.0}, "robot.max_forward_mps = 0");
   ExpectInvalid({.max_turn_rad_per_s = std::nan("")}, "robot.max_turn_rad_per_s = nan");

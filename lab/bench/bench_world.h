@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/types/grid.h"
+#include "core/types/pose2.h"
+#include "core/types/scan.h"
+
+namespace plumescout::lab {
+
+// A building of `width` x `height` cells of 0.1 m: rooms with a door in each wall and a few
+// boxes, 1 where there is a wall. Its outer wall leaves one cell of margin to none.
+Grid<std::uint8_t> MakeBuilding(int width, int height, std::uint64_t seed);
+
+// What a lidar of 360 beams and 8 m sees at `pose`: exact ranges to the walls, +infinity beyond.
+Scan ScanBuilding(const Grid<std::uint8_t>& walls, const Pose2& pose);
+
+// `count` poses at the centres of cells that hold no wall.
+std::vector<Pose2> FreePoses(const Grid<std::uint8_t>& walls, int count, std::uint64_t seed);
+
+}  // namespace plumescout::lab

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "absl/time/time.h"
+#include "core/types/ids.h"
+
+namespace plumescout::lab {
+
+// Watches a mission's map as an operator's console does, and hears how far each robot's log is in
+// it.
+class LoadWatcher {
+ public:
+  // Called on the watcher's thread with each robot of each frame that arrives.
+  using OnRobot =
+      std::function<void(const RobotId& robot, std::int64_t applied_sequence, absl::Time arrival)>;
+
+  LoadWatcher(const std::string& target, const MissionId& mission, OnRobot on_robot);
+  ~LoadWatcher();
+  LoadWatcher(const LoadWatcher&) = delete;
+  LoadWatcher& operator=(const LoadWatcher&) = delete;
+
+ private:
+  struct Call;
+
+  void Run();
+
+  const OnRobot on_robot_;
+  const std::unique_ptr<Call> call_;
+  std::thread thread_;
+};
+
+}  // namespace plumescout::lab

@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/architecture/include_rules.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <optional>
+#include <regex>
+#include <set>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+
+namespace plumescout {
+namespace {
+
+using Names = std::vector<std::string>;
+
+// A folder with its subfolders, and what it may include besides itself. docs/architecture.md has
+// the same picture.
+struct Room {
+  std::string folder;
+  Names may_include;
+};
+
+const Names kCore = {"core/types",    "core/grid",   "core/occupancy", "core/linalg", "core/gas",
+                     "core/frontier", "core/belief", "core/plan",      "core/mission"};
+
+// The first `count` rooms of core.
+Names CoreBefore(const std::string& folder) {
+  return {kCore.begin(), std::find(kCore.begin(), kCore.end(), folder)};
+}
+
+Names Join(const std::vector<Names>& parts) {
+  Names all;
+  for (const Names& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+std::vector<Room> MakeRooms() {
+  const Names adapters = {"proto/convert", "formats", "ompl_planners"};
+  const Names programs = {"lab/experiments", "lab/bench", "lab/program"};
+  const Names everything =
+      Join({kCore, adapters, {"server", "client", "lab/local", "lab/sim", "lab/report"}, programs});
+  std::vector<Room> rooms = {
+      {"proto/convert", {"core/types"}},
+      {"formats", {"core/types"}},
+      {"ompl_planners", CoreBefore("core/mission")},
+      {"server", Join({kCore, adapters})},
+      {"client", {"core/types", "proto/convert"}},
+      {"lab/local", Join({kCore, {"client"}})},
+      {"lab/sim", {"core/types", "core/grid", "core/linalg", "formats", "client"}},
+      {"lab/report", {"core/types", "formats"}},
+      {"tests", everything},
+  };
+  for (const std::string& folder : kCore) rooms.push_back({folder, CoreBefore(folder)});
+  for (const std::string& folder : programs) rooms.push_back({folder, everything});
+  return rooms;
+}
+
+const std::vector<Room>& Rooms() {
+  static const std::vector<Room> rooms = MakeRooms();
+  return rooms;
+}
+
+bool IsBelow(const std::string& path, const std::string& folder) {
+  return absl::StartsWith(path, folder + "/");
+}
+
+const Room* FindRoom(const std::string& path) {
+  for (const Room& room : Rooms()) {
+    if (IsBelow(path, room.folder)) return &room;
+  }
+  return nullptr;
+}
+
+// Whether the include is somebody else's: a library's, or generated from proto/.
+bool IsForeign(const std::string& include) {
+  for (const char* prefix : {"absl/", "google/", "plumescout/v1/", "gtest/", "gmock/", "CLI/"}) {
+    if (absl::StartsWith(include, prefix)) return true;
+  }
+  return false;
+}
+
+using Graph = std::map<std::string, std::set<std::string>>;
+
+// A way round in the graph, "a -> b -> a", or nothing. Depth-first, each node once.
+std::optional<std::string> FindCycle(const Graph& graph) {
+  Names way;
+  std::set<std::string> done;
+  const std::function<bool(const std::string&)> visit = [&](const std::string& node) {
+    const bool met = std::find(way.begin(), way.end(), node) != way.end();
+    way.push_back(node);
+    if (met) return true;
+    if (done.insert(node).second && graph.count(node) > 0) {
+      for (const std::string& next : graph.at(node)) {
+        if (visit(next)) return true;
+      }
+    }
+    way.pop_back();
+    return false;
+  };
+  for (const auto& [node, next] : graph) {
+    if (!visit(node)) continue;
+    const auto first = std::find(way.begin(), way.end(), way.back());
+    return absl::StrJoin(first, way.end(), " -> ");
+  }
+  return std::nullopt;
+}
+
+bool IsGrpc(const std::string& include) {
+  return absl::StartsWith(include, "grpc") || absl::EndsWith(include, ".grpc.pb.h");
+}
+
+bool IsProtobuf(const std::string& include) {
+  return absl::StartsWith(include, "google/") || absl::EndsWith(include, ".pb.h");
+}
+
+// What core must not include: threads, files, clocks, global random numbers, the console.
+bool IsImpure(const std::string& include) {
+  static const std::set<std::string> names = {
+      "thread",  "mutex",  "shared_mutex", "condition_variable", "future",     "atomic",
+      "fstream", "cstdio", "iostream",     "filesystem",         "chrono",     "ctime",
+      "random",  "time.h", "stdio.h",      "unistd.h",           "sys/time.h", "pthread.h"};
+  const bool from_absl = absl::StartsWith(include, "absl/time/") ||
+                         absl::StartsWith(include, "absl/synchronization/") ||
+                         absl::StartsWith(include, "absl/random/");
+  return from_absl || names.count(include) > 0;
+}
+
+bool IsCholmod(const std::string& include) {
+  return absl::EndsWith(include, "cholmod.h") || include == "Eigen/CholmodSupport";
+}
+
+// Why `file` must not include it; empty if it may.
+std::string WhyForbidden(const SourceFile& file, const std::string& include) {
+  const bool in_core = IsBelow(file.path, "core");
+  if (in_core && (IsGrpc(include) || IsProtobuf(include))) return "core knows no wire";
+  if (in_core && IsImpure(include)) return "core is pure";
+  if (IsBelow(file.path, "proto/convert") && IsGrpc(include)) return "conversion knows no gRPC";
+  // Benches measure CHOLMOD as a rival of our own factorisation.
+  const bool may_cholmod = IsBelow(file.path, "core/linalg") || IsBelow(file.path, "lab/bench");
+  if (IsCholmod(include) && (!may_cholmod || file.is_header())) return "CHOLMOD has one user";
+  if (absl::StartsWith(include, "ompl/") && !IsBelow(file.path, "ompl_planners")) {
+    return "OMPL stays in ompl_planners";
+  }
+  const bool may_wire = IsBelow(file.path, "server") || IsBelow(file.path, "client") ||
+                        IsBelow(file.path, "proto/convert") || IsBelow(file.path, "tests");
+  if (file.is_header() && (IsGrpc(include) || IsProtobuf(include)) && !may_wire) {
+    return "headers without the wire";
+  }
+  return "";
+}
+
+Names AllIncludes(const SourceFile& file) {
+  return Join({file.quoted_includes, file.system_includes});
+}
+
+}  // namespace
+
+std::vector<std::string> CheckDirections(const std::vector<SourceFile>& files) {
+  std::set<std::string> known;
+  for (const SourceFile& file : files) known.insert(file.path);
+  Names violations;
+  for (const SourceFile& file : files) {
+    const Room* const room = FindRoom(file.path);
+    if (room == nullptr) {
+      violations.push_back(absl::StrCat(file.path, " lies in no folder of the table"));
+      continue;
+    }
+    for (const std::string& include : file.quoted_includes) {
+      if (IsForeign(include)) continue;
+      if (known.count(include) == 0) {
+        violations.push_back(absl::StrCat(file.path, " includes ", include, ", which is no file"));
+        continue;
+      }
+      const bool allowed =
+          IsBelow(include, room->folder) ||
+          std::any_of(room->may_include.begin(), room->may_include.end(),
+                      [&](const std::string& folder) { return IsBelow(include, folder); });
+      if (!allowed) violations.push_back(absl::StrCat(file.path, " must not include ", include));
+    }
+  }
+  return violations;
+}
+
+std::vector<std::string> CheckCycles(const std::vector<SourceFile>& files) {
+  Graph file_graph;
+  Graph room_graph;
+  for (const SourceFile& file : files) {
+    for (const std::string& include : file.quoted_includes) {
+      file_graph[file.path].insert(include);
+      const Room* const from = FindRoom(file.path);
+      const Room* const to = FindRoom(include);
+      if (from != nullptr && to != nullptr && from != to)
+        room_graph[from->folder].insert(to->folder);
+    }
+  }
+  Names violations;
+  for (const Graph& graph : {file_graph, room_graph}) {
+    if (const std::optional<std::string> cycle = FindCycle(graph)) violations.push_back(*cycle);
+  }
+  return violations;
+}
+
+std::vector<std::string> CheckPlatformHeaders(const std::vector<SourceFile>& files) {
+  Names violations;
+  Names cholmod_users;
+  for (const SourceFile& file : files) {
+    for (const std::string& include : AllIncludes(file)) {
+      if (IsCholmod(include) && IsBelow(file.path, "core")) cholmod_users.push_back(file.path);
+      const std::string why = WhyForbidden(file, include);
+      if (!why.empty()) {
+        violations.push_back(absl::StrCat(file.path, " must not include ", include, ": ", why));
+      }
+    }
+  }
+  if (cholmod_users.size() > 1) {
+    violations.push_back(
+        absl::StrCat("several users of CHOLMOD: ", absl::StrJoin(cholmod_users, ", ")));
+  }
+  return violations;
+}
+
+std::vector<std::string> CheckImpureCalls(const std::vector<SourceFile>& files) {
+  static const std::regex kCalls(
+      R"(\b(std::cout|std::cerr|printf|random_device|srand|rand|getenv|clock_gettime|time)\b\s*(\(|<<))");
+  Names violations;
+  for (const SourceFile& file : files) {
+    std::smatch match;
+    if (IsBelow(file.path, "core") && std::regex_search(file.code, match, kCalls)) {
+      violations.push_back(absl::StrCat(file.path, " calls ", match[1].str()));
+    }
+  }
+  return violations;
+}
+
+}  // namespace plumescout

@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace plumescout {
+
+// Numbers in the .proto text whose name neither ends in a unit nor stands on the list of pure
+// numbers in proto_rules.cc; one line each.
+std::vector<std::string> CheckUnits(const std::string& path, const std::string& text);
+
+}  // namespace plumescout

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/architecture/proto_rules.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "absl/strings/str_join.h"
+#include "tests/architecture/source_tree.h"
+
+namespace plumescout {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::Not;
+
+TEST(ProtoRules, EveryNumberOnTheWireSaysItsUnit) {
+  const auto paths = ListFiles("proto/plumescout", ".proto");
+  ASSERT_THAT(paths, Not(IsEmpty()));
+  for (const std::string& path : paths)
+    EXPECT_EQ(absl::StrJoin(CheckUnits(path, ReadText(path)), "\n"), "");
+}
+
+TEST(ProtoRules, NumbersWithoutUnitAreFound) {
+  EXPECT_THAT(
+      CheckUnits("a.proto", R"(
+// double height = 1;
+message A {
+  double height = 1;
+  repeated int32 width_m = 2;
+  optional uint64 speed = 3;
+  string name = 4;
+  bytes data = 5;
+  bool ready = 6;
+  int64 seed = 7;
+}
+)"),
+      ElementsAre("a.proto: height does not say its unit", "a.proto: speed does not say its unit"));
+}
+
+}  // namespace
+}  // namespace plumescout

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "server/config_file.h"
+#include "tests/architecture/source_tree.h"
+
+namespace plumescout {
+namespace {
+
+using testing::IsEmpty;
+using testing::Not;
+
+TEST(ShippedConfigs, EveryOneLoads) {
+  const auto paths = ListFiles("deploy/config", ".yaml");
+  ASSERT_THAT(paths, Not(IsEmpty()));
+  for (const std::string& path : paths) {
+    server::ConfigBuilder builder;
+    EXPECT_EQ(builder.AddFile(path), absl::OkStatus()) << path;
+    EXPECT_EQ(builder.Build().status(), absl::OkStatus()) << path;
+  }
+}
+
+}  // namespace
+}  // namespace plumescout

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/mission_writer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "tests/server/host_parts.h"
+
+namespace plumescout::server {
+namespace {
+
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+constexpr std::int64_t kLease = 7;
+
+class MissionWriterTest : public testing::Test {
+ protected:
+  MissionWriterTest() { EXPECT_TRUE(writer_.Register({"r1", 0.2, kLease}).ok()); }
+
+  Plan PlanFor(const RobotId& robot, double x_m) { return PlanTo(*writer_.Snapshot(), robot, x_m); }
+
+  std::vector<Event> events_;
+  MissionWriter writer_{std::make_unique<Mission>(MissionOptions{}),
+                        [this](const Event& event) { events_.push_back(event); }};
+};
+
+TEST_F(MissionWriterTest, BatchMovesTheLogToItsEnd) {
+  const IngestResult result = writer_.Ingest("r1", kLease, GasBatch(1, 5));
+  EXPECT_TRUE(result.status.ok());
+  EXPECT_THAT(result.refused, IsEmpty());
+  EXPECT_EQ(result.position.applied_sequence, 5);
+  EXPECT_EQ(result.position.revision, 6);  // the registration and five readings
+}
+
+TEST_F(MissionWriterTest, RepeatsArePassedOver) {
+  writer_.Ingest("r1", kLease, GasBatch(1, 5));
+  const IngestResult result = writer_.Ingest("r1", kLease, GasBatch(3, 7));
+  EXPECT_TRUE(result.status.ok());
+  EXPECT_EQ(result.position.applied_sequence, 7);
+  EXPECT_EQ(result.position.revision, 8);
+}
+
+TEST_F(MissionWriterTest, HoleStopsTheBatchAndNamesTheNumberExpected) {
+  auto batch = GasBatch(1, 2);
+  batch.push_back(GasBatch(4, 4)[0]);
+  const IngestResult result = writer_.Ingest("r1", kLease, std::move(batch));
+  EXPECT_TRUE(absl::IsFailedPrecondition(result.status));
+  EXPECT_EQ(result.status.message().find("SEQUENCE_GAP: expected 3"), 0u);
+  EXPECT_EQ(result.position.applied_sequence, 2);
+}
+
+TEST_F(MissionWriterTest, RefusedEntryCountsAsApplied) {
+  auto batch = GasBatch(1, 3);
+  batch[1].observation.pose.x_m = 1e9;
+  const IngestResult result = writer_.Ingest("r1", kLease, std::move(batch));
+  EXPECT_TRUE(result.status.ok());
+  EXPECT_EQ(result.position.applied_sequence, 3);
+  ASSERT_THAT(result.refused, SizeIs(1));
+  EXPECT_EQ(result.refused[0].sequence, 2);
+  EXPECT_TRUE(absl::IsInvalidArgument(result.refused[0].status));
+}
+
+TEST_F(MissionWriterTest, UnreadableEntryCountsAsRefusedForItsOwnReason) {
+  auto batch = GasBatch(1, 3);
+  batch[1].unreadable = absl::InvalidArgumentError("payload must be one of scan, gas, gap");
+  const IngestResult result = writer_.Ingest("r1", kLease, std::move(batch));
+  EXPECT_EQ(result.position.applied_sequence, 3);
+  ASSERT_THAT(result.refused, SizeIs(1));
+  EXPECT_EQ(result.refused[0].status.message(), "payload must be one of scan, gas, gap");
+  EXPECT_EQ(writer_.Snapshot()->robots.at("r1").state.rejected_observations, 1);
+}
+
+TEST_F(MissionWriterTest, OldLeaseWritesNothing) {
+  ASSERT_TRUE(writer_.Register({"r1", 0.2, kLease + 1}).ok());
+  const std::int64_t revision = writer_.mission().revision();
+  EXPECT_EQ(writer_.Ingest("r1", kLease, GasBatch(1, 1)).status.message().find("LEASE_SUPERSEDED"),
+            0u);
+  EXPECT_FALSE(writer_.Commit(PlanFor("r1", 1.0), kLease).ok());
+  EXPECT_FALSE(writer_.Report({"r1", 1, ProgressOutcome::kReached}, kLease).ok());
+  EXPECT_EQ(writer_.mission().revision(), revision);
+}
+
+TEST_F(MissionWriterTest, UnknownRobotIsNotFound) {
+  EXPECT_TRUE(absl::IsNotFound(writer_.Ingest("r2", kLease, GasBatch(1, 1)).status));
+  EXPECT_TRUE(absl::IsNotFound(writer_.Position("r2").status()));
+}
+
+TEST_F(MissionWriterTest, GoalClaimedByAnotherRobotAborts) {
+  ASSERT_TRUE(writer_.Register({"r2", 0.2, kLease + 1}).ok());
+  EXPECT_EQ(writer_.Commit(PlanFor("r1", 1.0), kLease).value(), 1);
+  EXPECT_TRUE(absl::IsAborted(writer_.Commit(PlanFor("r2", 1.0), kLease + 1).status()));
+  EXPECT_EQ(writer_.Commit(PlanFor("r2", 5.0), kLease + 1).value(), 2);
+}
+
+TEST_F(MissionWriterTest, RepeatedReportChangesNothing) {
+  ASSERT_TRUE(writer_.Commit(PlanFor("r1", 1.0), kLease).ok());
+  const auto first = writer_.Report({"r1", 1, ProgressOutcome::kReached}, kLease);
+  ASSERT_TRUE(first.ok());
+  EXPECT_EQ(writer_.Report({"r1", 1, ProgressOutcome::kReached}, kLease).value(), *first);
+}
+
+TEST_F(MissionWriterTest, FreshBeliefRefreshesOnceAndSnapshotNever) {
+  writer_.Ingest("r1", kLease, GasBatch(1, 1));
+  const std::int64_t revision = writer_.mission().revision();
+  EXPECT_EQ(writer_.Snapshot()->revision, revision);
+  EXPECT_EQ(writer_.FreshBelief().value()->revision, revision + 1);
+  EXPECT_EQ(writer_.FreshBelief().value()->revision, revision + 1);
+}
+
+TEST_F(MissionWriterTest, EventsToldRebuildTheSameMission) {
+  writer_.Ingest("r1", kLease, GasBatch(1, 3));
+  ASSERT_TRUE(writer_.FreshBelief().ok());
+  ASSERT_TRUE(writer_.Commit(PlanFor("r1", 1.0), kLease).ok());
+  Mission replayed{MissionOptions{}};
+  for (std::size_t i = 0; i < events_.size(); ++i) {
+    EXPECT_EQ(events_[i].number, static_cast<std::int64_t>(i) + 1);
+    ASSERT_TRUE(replayed.Apply(events_[i].body).ok());
+  }
+  EXPECT_EQ(replayed.revision(), writer_.mission().revision());
+  EXPECT_EQ(replayed.Snapshot()->claims.size(), 1u);
+}
+
+}  // namespace
+}  // namespace plumescout::server

@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "absl/status/statusor.h"
+#include "absl/strings/str_cat.h"
+#include "plumescout/v1/ingest_service.grpc.pb.h"
+#include "plumescout/v1/map_service.grpc.pb.h"
+#include "plumescout/v1/mission_service.grpc.pb.h"
+#include "plumescout/v1/planning_service.grpc.pb.h"
+#include "plumescout/v1/robot_service.grpc.pb.h"
+#include "proto/convert/observation.h"
+#include "proto/convert/status.h"
+#include "server/server.h"
+#include "tests/support/box_room.h"
+
+namespace plumescout::server {
+
+inline absl::Status ToAbsl(const grpc::Status& status) {
+  if (status.ok()) return absl::OkStatus();
+  google::rpc::Status proto;
+  if (proto.ParseFromString(status.error_details()) && proto.code() != 0) return FromProto(proto);
+  return absl::Status(static_cast<absl::StatusCode>(status.error_code()), status.error_message());
+}
+
+// Long enough for any call to end by itself, on any machine.
+inline void SetPatience(grpc::ClientContext& context) {
+  context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(60));
+}
+
+// An ingest stream as a robot sees it.
+class IngestClient {
+ public:
+  explicit IngestClient(v1::IngestService::Stub& stub) {
+    SetPatience(context_);
+    stream_ = stub.StreamObservations(&context_);
+  }
+  bool Write(const v1::StreamObservationsRequest& request) { return stream_->Write(request); }
+  bool Open(const std::string& robot, std::int64_t lease_token) {
+    v1::StreamObservationsRequest request;
+    request.mutable_open()->set_robot(robot);
+    request.mutable_open()->set_lease_token(lease_token);
+    return Write(request);
+  }
+  bool Send(const v1::ObservationBatch& batch) {
+    v1::StreamObservationsRequest request;
+    *request.mutable_batch() = batch;
+    return Write(request);
+  }
+  // An empty frame once the stream has ended.
+  v1::StreamObservationsResponse Read() {
+    v1::StreamObservationsResponse response;
+    stream_->Read(&response);
+    return response;
+  }
+  // Reads acknowledgements until one covers `sequence`; the last one read if the stream ends.
+  v1::IngestState ReadAck(std::int64_t sequence) {
+    v1::StreamObservationsResponse response;
+    v1::IngestState state;
+    while (state.applied_sequence() < sequence && stream_->Read(&response)) {
+      if (response.has_ack()) state = response.ack();
+    }
+    return state;
+  }
+  void HalfClose() { stream_->WritesDone(); }
+  void Cancel() { context_.TryCancel(); }
+  // Reads what is left and returns the server's last word.
+  absl::Status Finish() {
+    v1::StreamObservationsResponse response;
+    while (stream_->Read(&response)) {
+    }
+    return ToAbsl(stream_->Finish());
+  }
+
+ private:
+  grpc::ClientContext context_;
+  std::unique_ptr<
+      grpc::ClientReaderWriter<v1::StreamObservationsRequest, v1::StreamObservationsResponse>>
+      stream_;
+};
+
+// A server on a loopback port, with one mission, "hall", and calls to it.
+class ServiceTest : public testing::Test {
+ protected:
+  void StartServer(ServerConfig config = {}, RegistryHooks hooks = {}) {
+    config.listen = "127.0.0.1:0";
+    auto server = Server::Start(config, std::move(hooks));
+    ASSERT_TRUE(server.ok()) << server.status();
+    server_ = *std::move(server);
+    channel_ = grpc::CreateChannel(absl::StrCat("127.0.0.1:", server_->port()),
+                                   grpc::InsecureChannelCredentials());
+    missions_ = v1::MissionService::NewStub(channel_);
+    robots_ = v1::RobotService::NewStub(channel_);
+    ingest_ = v1::IngestService::NewStub(channel_);
+    planning_ = v1::PlanningService::NewStub(channel_);
+    maps_ = v1::MapService::NewStub(channel_);
+    ASSERT_TRUE(CreateMission("hall").ok());
+  }
+
+  template <typename Stub, typename Request, typename Response>
+  absl::StatusOr<Response> Call(std::unique_ptr<Stub>& stub,
+                                grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&,
+                                                             Response*),
+                                const Request& request) {
+    grpc::ClientContext context;
+    SetPatience(context);
+    Response response;
+    const absl::Status status = ToAbsl(((*stub).*method)(&context, request, &response));
+    if (!status.ok()) return status;
+    return response;
+  }
+
+  absl::StatusOr<v1::CreateMissionResponse> CreateMission(const std::string& id,
+                                                          v1::MissionOptions options = {}) {
+    v1::CreateMissionRequest request;
+    request.set_mission_id(id);
+    *request.mutable_options() = std::move(options);
+    return Call(missions_, &v1::MissionService::Stub::CreateMission, request);
+  }
+  absl::StatusOr<v1::RegisterRobotResponse> Register(const std::string& robot,
+                                                     bool take_over = false) {
+    v1::RegisterRobotRequest request;
+    request.set_mission("missions/hall");
+    request.set_robot_id(robot);
+    request.set_radius_m(0.2);
+    request.set_take_over(take_over);
+    return Call(robots_, &v1::RobotService::Stub::RegisterRobot, request);
+  }
+  absl::StatusOr<v1::BatchIngestObservationsResponse> Ingest(const std::string& robot,
+                                                             std::int64_t lease_token,
+                                                             const v1::ObservationBatch& batch) {
+    v1::BatchIngestObservationsRequest request;
+    request.mutable_open()->set_robot(robot);
+    request.mutable_open()->set_lease_token(lease_token);
+    *request.mutable_batch() = batch;
+    return Call(ingest_, &v1::IngestService::Stub::BatchIngestObservations, request);
+  }
+  absl::StatusOr<v1::GetMapResponse> GetMap() {
+    v1::GetMapRequest request;
+    request.set_mission("missions/hall");
+    return Call(maps_, &v1::MapService::Stub::GetMap, request);
+  }
+  std::int64_t Revision() {
+    v1::GetMissionRequest request;
+    request.set_name("missions/hall");
+    const auto response = Call(missions_, &v1::MissionService::Stub::GetMission, request);
+    return response.ok() ? response->mission().revision() : -1;
+  }
+
+  std::unique_ptr<Server> server_;
+  std::shared_ptr<grpc::Channel> channel_;
+  std::unique_ptr<v1::MissionService::Stub> missions_;
+  std::unique_ptr<v1::RobotService::Stub> robots_;
+  std::unique_ptr<v1::IngestService::Stub> ingest_;
+  std::unique_ptr<v1::PlanningService::Stub> planning_;
+  std::unique_ptr<v1::MapService::Stub> maps_;
+};
+
+inline constexpr char kRobot[] = "missions/hall/robots/r1";
+
+// Gas readings numbered first .. last.
+inline v1::ObservationBatch GasReadings(std::int64_t first, std::int64_t last) {
+  v1::ObservationBatch batch;
+  for (std::int64_t sequence = first; sequence <= last; ++sequence) {
+    *batch.add_observations() =
+        ToProto(Observation{sequence, sequence * 1'000'000, {2.0, 1.5, 0.0}, GasReading{1.0, 0.0}});
+  }
+  return batch;
+}
+
+// A scan of an empty room of 6 m x 4 m, from its inside.
+inline v1::ObservationBatch RoomScan(std::int64_t sequence, Pose2 pose = {2.0, 1.5, 0.0}) {
+  v1::ObservationBatch batch;
+  *batch.add_observations() = ToProto(
+      Observation{sequence, sequence * 1'000'000, pose, support::ScanInBox(pose, 6.0, 4.0)});
+  return batch;
+}
+
+}  // namespace plumescout::server
