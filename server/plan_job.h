@@ -18,7 +18,7 @@ namespace plumescout::server {
 
 // A robot's wish for a plan.
 struct PlanOrder {
-  PlanRequest request;
+  PlanRequest request = {};
   std::int64_t lease_token = 0;
   std::int64_t min_applied_sequence = 0;
   absl::Duration budget = absl::Seconds(1);  // for the search

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/types/options.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
@@ -42,12 +43,19 @@ class Checker {
   absl::Status status_;
 };
 
+double LogOddsMagnitude(double probability) {
+  return std::abs(std::log(probability / (1.0 - probability)));
+}
+
 constexpr double kBelowHalf = 0.499;
 constexpr double kAboveHalf = 0.501;
 
 }  // namespace
 
 absl::Status Validate(const OccupancyOptions& options) {
+  // A tighter clamp would keep every cell short of a threshold, unknown for ever.
+  const double least_clamp = std::max(LogOddsMagnitude(options.free_threshold),
+                                      LogOddsMagnitude(options.occupied_threshold));
   return Checker()
       .InRange("occupancy.resolution_m", options.resolution_m, 0.01, 2.0)
       .InRange("occupancy.inflation_radius_m", options.inflation_radius_m, 0.0, 5.0)
@@ -55,7 +63,7 @@ absl::Status Validate(const OccupancyOptions& options) {
       .InRange("occupancy.occupied_threshold", options.occupied_threshold, kAboveHalf, 0.999)
       .Positive("occupancy.hit_log_odds", options.hit_log_odds)
       .Negative("occupancy.miss_log_odds", options.miss_log_odds)
-      .InRange("occupancy.clamp_log_odds", options.clamp_log_odds, 0.1, 50.0)
+      .InRange("occupancy.clamp_log_odds", options.clamp_log_odds, least_clamp, 50.0)
       .InRange("occupancy.max_extent_m", options.max_extent_m, 1.0, 2000.0)
       .InRange("occupancy.max_cells", static_cast<double>(options.max_cells), 4096, 16'000'000)
       .status();

@@ -18,7 +18,7 @@ struct OccupancyOptions {
   double occupied_threshold = 0.65;    // tau_occ, probability, (0.5, 1)
   double hit_log_odds = 0.85;          // > 0
   double miss_log_odds = -0.4;         // < 0
-  double clamp_log_odds = 3.5;         // > 0
+  double clamp_log_odds = 3.5;         // beyond the log-odds of both thresholds, at most 50
   double max_extent_m = 200.0;         // the map never grows beyond this width or height, (0, 2000]
   std::int64_t max_cells = 4'000'000;  // nor beyond this many cells
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/bench/bench_world.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -11,8 +11,8 @@
 
 namespace plumescout::lab {
 
-// A building of `width` x `height` cells of 0.1 m: rooms with a door in each wall and a few
-// boxes, 1 where there is a wall. Its outer wall leaves one cell of margin to none.
+// A building of `width` x `height` cells of 0.1 m: rooms with a door in each wall and a few boxes
+// inside an outer wall. 1 where there is a wall.
 Grid<std::uint8_t> MakeBuilding(int width, int height, std::uint64_t seed);
 
 // What a lidar of 360 beams and 8 m sees at `pose`: exact ranges to the walls, +infinity beyond.

@@ -53,7 +53,8 @@ struct EpisodeOptions {
   // False: the world waits for acknowledgements and plans, so an episode is repeatable. True: time
   // goes by as on a wall clock, plans take as long as they take.
   bool realtime = false;
-  // Bound on the work of each plan, for repeatable episodes: see PlanRequest. 0: none.
+  // Bounds on each plan: its work (see PlanRequest; 0: none) and its time. Episodes that are to be
+  // repeatable bound the work and set an infinite time.
   std::int64_t max_edge_evaluations = 0;
   absl::Duration plan_budget = absl::Seconds(1);
   SimulatedRobotOptions simulated;  // its `realtime` is set from the one above

@@ -8,6 +8,7 @@
 #include "absl/strings/str_format.h"
 #include "core/frontier/gas_frontier.h"
 #include "core/frontier/occupancy_frontier.h"
+#include "core/grid/grid_search.h"
 
 namespace plumescout {
 namespace {
@@ -43,7 +44,12 @@ std::vector<Frontier> GasFrontiers(const GoalQuery& query) {
   std::vector<Frontier> frontiers =
       FindGasFrontiers(input, observed_ppm2, GasThreshold_ppm(input, observed_ppm2, options),
                        {query.start}, options);
-  for (Frontier& frontier : frontiers) MoveGoalOntoFrontier(query, frontier);
+  if (frontiers.empty()) return frontiers;
+  const Grid<double> travel_m = TravelDistances_m(query.reachable, std::vector<Cell>{query.start});
+  for (Frontier& frontier : frontiers) {
+    MoveGoalOntoFrontier(query, frontier);
+    if (frontier.reachable) frontier.travel_m = travel_m[frontier.goal_cell];
+  }
   return frontiers;
 }
 

@@ -24,9 +24,11 @@ struct FrontierGoals {
   std::vector<RejectedGoal> rejected;
 };
 
-// Finds frontiers from query.start and judges each: too small, unreachable, set aside, claimed by
-// another robot (SameGoal of core/belief/belief.h), or too close, in this order; the rest are
-// offered. Gas frontiers are not sought under GoalPolicy::kOccupancyOnly.
+// Finds frontiers from query.start and judges each: too small, unreachable, set aside (SamePlace of
+// core/belief/belief.h), claimed by another robot (ClaimCovers), or too close, in this order; the
+// rest are offered. The goal of a gas frontier is one of its own cells, for only a reading taken
+// there resolves it; one without a cell to stand on is unreachable. Gas frontiers are not sought
+// under GoalPolicy::kOccupancyOnly.
 FrontierGoals FindFrontierGoals(const GoalQuery& query);
 
 // Why this robot must not be sent to `goal` by what other plans and earlier visits say, if so.

@@ -19,7 +19,10 @@ GoalSet FindGoals(const GoalQuery& query, Rng& rng) {
   if (!result.goals.empty()) return result;
 
   result.fallback = true;
-  if (query.options.fallback_to_unobserved) result.goals = UnobservedGoals(query, rng);
+  // Without a gas sensor all would stay unobserved, and the mission would never end.
+  if (query.options.fallback_to_unobserved && query.belief.gas_counters.readings > 0) {
+    result.goals = UnobservedGoals(query, rng);
+  }
   if (!result.goals.empty()) return result;
 
   const bool others_are_exploring = std::any_of(

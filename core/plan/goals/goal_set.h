@@ -27,11 +27,12 @@ struct GoalSet {
   bool complete = false;  // nothing is left to do: `goals` is empty
 };
 
-// Where to go, by options.goals (section VI-B of [XIT]). If no frontier can be offered, random free
-// places are (section VII); after options.fallback_limit of those in a row that revealed nothing,
-// the mission is complete. A frontier that another robot is on its way to keeps the mission open,
-// for what that robot finds may need this one; one that is set aside does not, or a frontier that
-// no visit can dissolve would keep robots driving for ever.
+// Where to go, by options.goals (section VI-B of [XIT]). If no frontier can be offered, places with
+// unobserved gas are (ours, options.fallback_to_unobserved; not before the first gas reading), then
+// random free ones (section VII); once options.fallback_limit fallbacks in a row revealed nothing,
+// the mission is complete instead. A frontier that another robot is on its way to keeps the mission
+// open, for what that robot finds may need this one; one that is set aside does not, or a frontier
+// that no visit can dissolve would keep robots driving for ever.
 // Deterministic in the query and `rng`. Cost: O(cells).
 GoalSet FindGoals(const GoalQuery& query, Rng& rng);
 

@@ -9,7 +9,6 @@
 #include "core/plan/goals/frontier_goals.h"
 
 namespace plumescout {
-
 namespace {
 
 // Draws from the reachable cells that `wanted(cell)` holds for.

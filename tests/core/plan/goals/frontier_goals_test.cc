@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/support/goal_case.h"
 
 namespace plumescout {
@@ -62,6 +64,34 @@ TEST(FrontierGoals, OfGasComeFromThePlumeUnlessThePolicyWantsNone) {
   EXPECT_THAT(found.occupancy, IsEmpty());
   c.options.goals = GoalPolicy::kOccupancyOnly;
   EXPECT_THAT(FindFrontierGoals(c.Query()).gas, IsEmpty());
+}
+
+TEST(FrontierGoals, OfGasHaveTheirGoalAmongTheirOwnCells) {
+  // The frontier is the column right of the plume; its middle cell is too near an obstacle.
+  const testing::GridArt art = {"########",  //
+                                "#ggg...#",  //
+                                "#gSgi..#",  //
+                                "#ggg...#",  //
+                                "########"};
+  GoalCase c(art);
+  c.AddGas(art, 50.0F);
+  const FrontierGoals found = FindFrontierGoals(c.Query());
+  ASSERT_THAT(found.gas, SizeIs(1));
+  EXPECT_EQ(found.gas[0].goal.cell, (Cell{4, 1}));
+  const double straight_m = 0.1;
+  const double diagonal_m = std::sqrt(2.0) * 0.1;
+  EXPECT_NEAR(found.gas[0].travel_m, straight_m + diagonal_m, 1e-6);
+}
+
+TEST(FrontierGoals, OfGasAreUnreachableWithoutACellToStandOn) {
+  const testing::GridArt art = {"######",  //
+                                "#gggi#",  //
+                                "#gSgi#",  //
+                                "#gggi#",  //
+                                "######"};
+  GoalCase c(art);
+  c.AddGas(art, 50.0F);
+  EXPECT_EQ(OnlyRejection(c), RejectionReason::kUnreachable);
 }
 
 TEST(FrontierGoals, RejectWhatIsTooSmall) {

@@ -66,6 +66,31 @@ TEST(FindGoals, IsCompleteAfterFruitlessFallbacks) {
   EXPECT_FALSE(Find(c).complete);
 }
 
+TEST(FindGoals, FallsBackFirstToPlacesWithUnobservedGas) {
+  const testing::GridArt art = {"##########",  //
+                                "#ggg.....#",  //
+                                "#Sgg.....#",  //
+                                "#ggg.....#",  //
+                                "##########"};
+  GoalCase c = Measured(art);
+  c.belief.gas_counters.readings = 1;
+  c.belief.robots["r"].fruitless_fallbacks = 99;
+  const GoalSet found = Find(c);
+  EXPECT_TRUE(found.fallback);
+  EXPECT_FALSE(found.complete);
+  for (const Goal& goal : found.goals) EXPECT_GE(goal.cell.x, 5);
+  c.options.fallback_to_unobserved = false;
+  EXPECT_TRUE(Find(c).complete);
+}
+
+TEST(FindGoals, IsCompleteWithoutAGasSensorThoughAllGasIsUnobserved) {
+  GoalCase c(kClosed);
+  c.belief.robots["r"].fruitless_fallbacks = 2;
+  EXPECT_TRUE(Find(c).complete);
+  c.belief.gas_counters.readings = 1;
+  EXPECT_FALSE(Find(c).complete);
+}
+
 TEST(FindGoals, IsNotCompleteWhileAnotherRobotDrivesToAFrontier) {
   GoalCase c = Measured(kOpenEnded);
   c.belief.claims = {{"other", 1, TheFrontier(c), 1000}};

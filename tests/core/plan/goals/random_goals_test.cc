@@ -60,6 +60,32 @@ TEST(RandomGoals, KeepTheirDistance) {
   EXPECT_THAT(RandomGoals(c.Query(), rng), IsEmpty());
 }
 
+TEST(UnobservedGoals, LieAwayFromAllObservedCells) {
+  const testing::GridArt art = {"########",  //
+                                "#gg....#",  //
+                                "#Sg....#",  //
+                                "#gg....#",  //
+                                "########"};
+  GoalCase c(art);
+  c.AddGas(art, 0.0F);
+  c.options.max_goals = 100;
+  Rng rng(1);
+  std::set<int> columns;
+  const std::vector<Goal> goals = UnobservedGoals(c.Query(), rng);
+  for (const Goal& goal : goals) columns.insert(goal.cell.x);
+  EXPECT_EQ(columns, (std::set<int>{4, 5, 6})) << "column 3 touches observed cells";
+  EXPECT_THAT(goals, SizeIs(9));
+}
+
+TEST(UnobservedGoals, AreNoneWhereAllIsObserved) {
+  const testing::GridArt art = {"ggg",  //
+                                "gSg"};
+  GoalCase c(art);
+  c.AddGas(art, 0.0F);
+  Rng rng(1);
+  EXPECT_THAT(UnobservedGoals(c.Query(), rng), IsEmpty());
+}
+
 TEST(RandomGoals, AreDrawnUniformly) {
   GoalCase c(kRoom);
   c.options.max_goals = 1;

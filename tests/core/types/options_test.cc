@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/types/options.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace plumescout {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(Options, AreValidByDefault) {
+  EXPECT_TRUE(Validate(MissionOptions{}).ok());
+  EXPECT_TRUE(Validate(OccupancyOptions{}).ok());
+  EXPECT_TRUE(Validate(GasOptions{}).ok());
+  EXPECT_TRUE(Validate(FrontierOptions{}).ok());
+  EXPECT_TRUE(Validate(PlanningOptions{}).ok());
+}
+
+// A field of type double, with values that it refuses besides NaN and infinity.
+template <typename Options>
+struct Field {
+  const char* name;
+  double Options::*member;
+  std::vector<double> refused;
+};
+
+template <typename Options>
+void ExpectRefused(const std::vector<Field<Options>>& fields) {
+  for (const Field<Options>& field : fields) {
+    std::vector<double> refused = field.refused;
+    refused.insert(refused.end(), {kNan, kInfinity, -kInfinity});
+    for (const double value : refused) {
+      Options options;
+      options.*field.member = value;
+      const absl::Status status = Validate(options);
+      EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument) << field.name << " = " << value;
+      EXPECT_THAT(std::string(status.message()), HasSubstr(field.name));
+    }
+  }
+}
+
+TEST(OccupancyOptions, RefuseValuesOutsideTheirRanges) {
+  ExpectRefused<OccupancyOptions>({
+      {"resolution_m", &OccupancyOptions::resolution_m, {0.0, -0.1, 2.1}},
+      {"inflation_radius_m", &OccupancyOptions::inflation_radius_m, {-0.1, 5.1}},
+      {"free_threshold", &OccupancyOptions::free_threshold, {0.0, 0.5}},
+      {"occupied_threshold", &OccupancyOptions::occupied_threshold, {0.5, 1.0}},
+      {"hit_log_odds", &OccupancyOptions::hit_log_odds, {0.0, -1.0}},
+      {"miss_log_odds", &OccupancyOptions::miss_log_odds, {0.0, 1.0}},
+      {"clamp_log_odds", &OccupancyOptions::clamp_log_odds, {0.0, -1.0, 51.0}},
+      {"max_extent_m", &OccupancyOptions::max_extent_m, {0.0, 2001.0}},
+  });
+}
+
+TEST(OccupancyOptions, RefuseAClampShortOfAThreshold) {
+  OccupancyOptions options;
+  options.clamp_log_odds = std::log(3.0) - 0.01;  // of tau_free = 0.25
+  EXPECT_EQ(Validate(options).code(), absl::StatusCode::kInvalidArgument);
+  options.clamp_log_odds = std::log(3.0) + 0.01;
+  EXPECT_TRUE(Validate(options).ok());
+}
+
+TEST(GasOptions, RefuseValuesOutsideTheirRanges) {
+  ExpectRefused<GasOptions>({
+      {"prior_precision", &GasOptions::prior_precision, {0.0, -1.0}},
+      {"observation_precision", &GasOptions::observation_precision, {0.0, -1.0}},
+      {"background_precision", &GasOptions::background_precision, {0.0, -1.0}},
+      {"background_mean_ppm", &GasOptions::background_mean_ppm, {-1.0}},
+      {"ageing_half_life_s", &GasOptions::ageing_half_life_s, {-1.0}},
+      {"refresh_period_s", &GasOptions::refresh_period_s, {0.0, -1.0}},
+  });
+}
+
+TEST(FrontierOptions, RefuseValuesOutsideTheirRanges) {
+  ExpectRefused<FrontierOptions>({
+      {"observed_variance_ratio", &FrontierOptions::observed_variance_ratio, {0.0, 11.0}},
+      {"gas_percentile", &FrontierOptions::gas_percentile, {-1.0, 101.0}},
+      {"min_gas_threshold_ppm", &FrontierOptions::min_gas_threshold_ppm, {0.0, -1.0}},
+  });
+}
+
+TEST(FrontierOptions, RefuseGivenThresholdsThatAreNotPositive) {
+  for (const double bad : {0.0, -1.0, kNan}) {
+    FrontierOptions options;
+    options.observed_variance_ppm2 = bad;
+    EXPECT_FALSE(Validate(options).ok()) << bad;
+    options = {};
+    options.fixed_gas_threshold_ppm = bad;
+    EXPECT_FALSE(Validate(options).ok()) << bad;
+  }
+}
+
+TEST(FrontierOptions, RefuseClustersOfNoCells) {
+  FrontierOptions options;
+  options.min_occupancy_cells = 0;
+  EXPECT_FALSE(Validate(options).ok());
+  options = {};
+  options.min_gas_cells = -1;
+  EXPECT_FALSE(Validate(options).ok());
+}
+
+TEST(PlanningOptions, RefuseValuesOutsideTheirRanges) {
+  ExpectRefused<PlanningOptions>({
+      {"min_goal_distance_m", &PlanningOptions::min_goal_distance_m, {-0.1}},
+      {"alpha", &PlanningOptions::alpha, {-1.0}},
+      {"beta", &PlanningOptions::beta, {-1.0}},
+      {"uniform_share", &PlanningOptions::uniform_share, {-0.1, 1.1}},
+      {"radius_factor", &PlanningOptions::radius_factor, {0.0}},
+      {"speed_mps", &PlanningOptions::speed_mps, {0.0, -1.0}},
+      {"dwell_s", &PlanningOptions::dwell_s, {-1.0}},
+      {"set_aside_s", &PlanningOptions::set_aside_s, {0.0, -1.0}},
+  });
+}
+
+TEST(MissionOptions, RefuseValuesOutsideTheirRanges) {
+  ExpectRefused<MissionOptions>({
+      {"pose_limit_m", &MissionOptions::pose_limit_m, {0.0}},
+      {"max_range_m", &MissionOptions::max_range_m, {0.0}},
+      {"max_concentration_ppm", &MissionOptions::max_concentration_ppm, {0.0}},
+  });
+}
+
+TEST(MissionOptions, AreInvalidIfAnyPartIs) {
+  MissionOptions options;
+  options.gas.prior_precision = -1.0;
+  EXPECT_EQ(Validate(options).message(), Validate(options.gas).message());
+}
+
+TEST(OpenLatticeVariance, FollowsItsFormula) {
+  // ln(32 * 3 / 0.001) / (4 pi * 3), worked by hand: 11.47210 / 37.69911.
+  EXPECT_NEAR(OpenLatticeVariance_ppm2(GasOptions{}), 0.304307, 1e-6);
+}
+
+}  // namespace
+}  // namespace plumescout

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/types/pose2.h"
+
+#include <gtest/gtest.h>
+
+namespace plumescout {
+namespace {
+
+TEST(Distance, IsEuclidean) { EXPECT_DOUBLE_EQ(Distance_m({1.0, 2.0}, {4.0, -2.0}), 5.0); }
+
+TEST(WrapAngle, LeavesAnglesWithinHalfATurn) {
+  for (const double angle_rad : {-3.0, -0.5, 0.0, 1.0, 3.0, M_PI}) {
+    EXPECT_DOUBLE_EQ(WrapAngle_rad(angle_rad), angle_rad);
+  }
+}
+
+TEST(WrapAngle, TakesWholeTurnsAway) {
+  constexpr double kTolerance_rad = 1e-12;  // a few turns, rounded
+  EXPECT_NEAR(WrapAngle_rad(4.0), 4.0 - 2.0 * M_PI, kTolerance_rad);
+  EXPECT_NEAR(WrapAngle_rad(-4.0), 2.0 * M_PI - 4.0, kTolerance_rad);
+  EXPECT_NEAR(WrapAngle_rad(1.0 + 20.0 * M_PI), 1.0, kTolerance_rad);
+}
+
+TEST(WrapAngle, MapsBothHalfTurnsToPlusPi) {
+  EXPECT_DOUBLE_EQ(WrapAngle_rad(-M_PI), M_PI);
+  EXPECT_DOUBLE_EQ(WrapAngle_rad(M_PI), M_PI);
+}
+
+}  // namespace
+}  // namespace plumescout
