@@ -71,9 +71,9 @@ TEST(MapFramesTest, DeltaTurnsTheOldMapIntoTheNew) {
     for (const auto& tile : frame.tiles()) ASSERT_TRUE(DecodeTile(tile, "tile", reader).ok());
   }
   EXPECT_EQ(reader.occupancy, now.occupancy);
-  EXPECT_EQ(reader.gas_mean_ppm[Cell{5, 5}], 3.25f);
-  EXPECT_EQ(reader.gas_mean_ppm[Cell{70, 79}], 1.5f);
-  EXPECT_TRUE(std::isnan(reader.gas_mean_ppm[Cell{6, 5}]));
+  EXPECT_EQ((reader.gas_mean_ppm[Cell{5, 5}]), 3.25f);
+  EXPECT_EQ((reader.gas_mean_ppm[Cell{70, 79}]), 1.5f);
+  EXPECT_TRUE(std::isnan((reader.gas_mean_ppm[Cell{6, 5}])));
 }
 
 TEST(MapFramesTest, LayersNobodyAskedForDoNotCount) {

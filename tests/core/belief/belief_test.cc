@@ -14,10 +14,16 @@ Goal At(double x_m, double y_m, GoalKind kind = GoalKind::kGasFrontier) {
   return {kind, {}, {x_m, y_m}, {x_m, y_m}, 5};
 }
 
-TEST(SameGoal, NeedsTheSameKindAndANearPlace) {
-  EXPECT_TRUE(SameGoal(At(1.0, 1.0), At(1.3, 1.3)));
-  EXPECT_FALSE(SameGoal(At(1.0, 1.0), At(1.5, 1.0)));
-  EXPECT_FALSE(SameGoal(At(1.0, 1.0), At(1.0, 1.0, GoalKind::kOccupancyFrontier)));
+TEST(ClaimCovers, GoalsOfTheSameKindNearby) {
+  EXPECT_TRUE(ClaimCovers(At(1.0, 1.0), At(1.3, 1.3)));
+  EXPECT_FALSE(ClaimCovers(At(1.0, 1.0), At(1.5, 1.0)));
+  EXPECT_FALSE(ClaimCovers(At(1.0, 1.0), At(1.0, 1.0, GoalKind::kOccupancyFrontier)));
+}
+
+TEST(SamePlace, IsNearerThanAClaim) {
+  EXPECT_TRUE(SamePlace(At(1.0, 1.0), At(1.1, 1.1)));
+  EXPECT_FALSE(SamePlace(At(1.0, 1.0), At(1.2, 1.0)));
+  EXPECT_FALSE(SamePlace(At(1.0, 1.0), At(1.0, 1.0, GoalKind::kOccupancyFrontier)));
 }
 
 // A free corridor, 20 x 6 cells, whose right half is unknown; gas fills its left end.

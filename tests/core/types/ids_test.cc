@@ -14,13 +14,14 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 TEST(ValidateId, TakesLowerCaseLettersDigitsAndInnerHyphens) {
-  for (const std::string& id : {"a", "a1", "robot-1", "a--b", std::string(63, 'x').c_str()}) {
+  for (const char* id : {"a", "a1", "robot-1", "a--b"}) {
     EXPECT_TRUE(ValidateId("robot", id).ok()) << id;
   }
+  EXPECT_TRUE(ValidateId("robot", std::string(63, 'x')).ok());
 }
 
 TEST(ValidateId, RefusesEverythingElse) {
-  for (const std::string& id : {"", "1a", "-a", "a-", "A", "a_b", "a b", "a/b", "\xC3\xA4"}) {
+  for (const char* id : {"", "1a", "-a", "a-", "A", "a_b", "a b", "a/b", "\xC3\xA4"}) {
     EXPECT_EQ(ValidateId("robot", id).code(), absl::StatusCode::kInvalidArgument) << id;
   }
   EXPECT_FALSE(ValidateId("robot", std::string(64, 'x')).ok());

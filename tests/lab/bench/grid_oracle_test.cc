@@ -42,9 +42,9 @@ TEST(OracleCosts, FallWithMoreDirections) {
   const InformationField field = UniformField(open);
   const EdgeCost cost(field, CostKind::kUcb, 0.0);
   // To (6, 2): 4 straight and 2 diagonal steps; two knight's moves and two straight; straight.
-  EXPECT_NEAR(OracleCosts(cost, {0, 0}, 8)[Cell{6, 2}], 4.0 + 2.0 * std::sqrt(2.0), 1e-9);
-  EXPECT_NEAR(OracleCosts(cost, {0, 0}, 16)[Cell{6, 2}], 2.0 + 2.0 * std::sqrt(5.0), 1e-9);
-  EXPECT_NEAR(OracleCosts(cost, {0, 0}, 32)[Cell{6, 2}], 2.0 * std::sqrt(10.0), 1e-9);
+  EXPECT_NEAR((OracleCosts(cost, {0, 0}, 8)[Cell{6, 2}]), 4.0 + 2.0 * std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR((OracleCosts(cost, {0, 0}, 16)[Cell{6, 2}]), 2.0 + 2.0 * std::sqrt(5.0), 1e-9);
+  EXPECT_NEAR((OracleCosts(cost, {0, 0}, 32)[Cell{6, 2}]), 2.0 * std::sqrt(10.0), 1e-9);
 }
 
 }  // namespace
