@@ -25,6 +25,7 @@ inline SteadyTime After(SteadyTime from, absl::Duration duration) {
 
 // The monotonic instant of a gRPC deadline; max() for none.
 inline SteadyTime ToSteady(std::chrono::system_clock::time_point deadline) {
+  if (deadline == std::chrono::system_clock::time_point::max()) return SteadyTime::max();
   const auto wall_now = std::chrono::system_clock::now();
   return After(SteadyNow(), absl::FromChrono(deadline - wall_now));
 }

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "absl/synchronization/blocking_counter.h"
 #include "absl/synchronization/notification.h"
 #include "tests/server/host_parts.h"
 
@@ -16,6 +17,7 @@ namespace plumescout::server {
 namespace {
 
 constexpr std::int64_t kLease = 7;
+constexpr int kPoolThreads = 2;
 
 // One order, and the answer to it.
 class PlanJobTest : public testing::Test {
@@ -54,6 +56,22 @@ class PlanJobTest : public testing::Test {
     ASSERT_TRUE(posted.ok());
     committed.WaitForNotification();
   }
+  // Busies every worker, and only then every place in the queue: a worker that took its task later
+  // would leave a place free.
+  void FillPool() {
+    absl::BlockingCounter busy(kPoolThreads);
+    for (int i = 0; i < kPoolThreads; ++i) {
+      ASSERT_TRUE(pool_
+                      .Submit([&] {
+                        busy.DecrementCount();
+                        release_.WaitForNotification();
+                      })
+                      .ok());
+    }
+    busy.Wait();
+    while (pool_.Submit([] {}).ok()) {
+    }
+  }
   const absl::StatusOr<PlanAnswer>& Answer() {
     answered_.WaitForNotification();
     return *answer_;
@@ -62,7 +80,8 @@ class PlanJobTest : public testing::Test {
   std::shared_ptr<MissionHost> host_;
   std::optional<absl::StatusOr<PlanAnswer>> answer_;
   absl::Notification answered_;
-  WorkerPool pool_{{"planning", 2, 4}};
+  absl::Notification release_;  // of tasks that FillPool holds; outlives the pool
+  WorkerPool pool_{{"planning", kPoolThreads, 4}};
 };
 
 ScriptedStrategy::Script DriveTo(double x_m) {
@@ -162,13 +181,11 @@ TEST_F(PlanJobTest, ErrorOfTheStrategyIsTheAnswer) {
 }
 
 TEST_F(PlanJobTest, FullPoolRefuses) {
-  absl::Notification release;
   StartHost(DriveTo(1.0));
-  while (pool_.Submit([&] { release.WaitForNotification(); }).ok()) {
-  }
+  FillPool();
   Start({});
   EXPECT_TRUE(absl::IsResourceExhausted(Answer().status()));
-  release.Notify();
+  release_.Notify();
 }
 
 TEST_F(PlanJobTest, StoppedMissionAnswersToo) {
