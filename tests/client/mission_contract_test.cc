@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+// Missions, their robots and their maps.
+#include "tests/client/planner_client_contract.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "client/error_reason.h"
+
+namespace plumescout::client {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+TEST_P(PlannerClientContract, MissionsAreCreatedListedAndDeleted) {
+  EXPECT_TRUE(absl::IsAlreadyExists(client().CreateMission("house", {})));
+  EXPECT_TRUE(client().CreateMission("barn", {}).ok());
+  EXPECT_THAT(*client().ListMissions(), ElementsAre("barn", "house"));
+
+  EXPECT_TRUE(client().DeleteMission("house").ok());
+
+  EXPECT_THAT(*client().ListMissions(), ElementsAre("barn"));
+  EXPECT_TRUE(absl::IsNotFound(client().DeleteMission("house")));
+  EXPECT_TRUE(absl::IsNotFound(client().GetMap("house").status()));
+}
+
+TEST_P(PlannerClientContract, BadNamesAndOptionsAreRefused) {
+  EXPECT_TRUE(absl::IsInvalidArgument(client().CreateMission("House!", {})));
+  EXPECT_TRUE(absl::IsInvalidArgument(client().CreateMission("", {})));
+  MissionOptions options;
+  options.gas.prior_precision = std::nan("");
+  EXPECT_TRUE(absl::IsInvalidArgument(client().CreateMission("barn", options)));
+  EXPECT_TRUE(absl::IsInvalidArgument(
+      client().RegisterRobot("house", "Bad Robot", kRadius_m, false).status()));
+  EXPECT_TRUE(
+      absl::IsInvalidArgument(client().RegisterRobot("house", "scout", -1.0, false).status()));
+}
+
+TEST_P(PlannerClientContract, RobotsOfUnknownMissionsAreNotFound) {
+  EXPECT_TRUE(
+      absl::IsNotFound(client().RegisterRobot("nowhere", "scout", kRadius_m, false).status()));
+}
+
+TEST_P(PlannerClientContract, AFreshRobotStartsWithAnEmptyLogAndSomeCredit) {
+  const RobotSession session = Register();
+
+  EXPECT_EQ(session.mission, "house");
+  EXPECT_EQ(session.robot, "scout");
+  EXPECT_THAT(session.server_boot_id, Not(IsEmpty()));
+  EXPECT_EQ(session.ingest.applied_sequence, 0);
+  const auto stream = Open(session);
+  ASSERT_NE(stream, nullptr);
+  EXPECT_EQ(stream->opened().applied_sequence, 0);
+  EXPECT_GT(stream->opened().credit_sequence, 0);
+}
+
+TEST_P(PlannerClientContract, ALeaseInUseIsNotGivenAwayUnlessTakenOver) {
+  const RobotSession first = Register();
+  const auto stream = Open(first);
+
+  EXPECT_EQ(ErrorReason(client().RegisterRobot("house", "scout", kRadius_m, false).status()),
+            kLeaseHeld);
+
+  const auto second = client().RegisterRobot("house", "scout", kRadius_m, true);
+  ASSERT_TRUE(second.ok()) << second.status();
+  EXPECT_NE(second->lease_token, first.lease_token);
+  EXPECT_EQ(ErrorReason(ReadUntilError(*stream)), kLeaseSuperseded);
+}
+
+TEST_P(PlannerClientContract, AnOldLeaseIsFencedOffEverywhere) {
+  const RobotSession first = Register();
+  const auto second = client().RegisterRobot("house", "scout", kRadius_m, true);
+  ASSERT_TRUE(second.ok());
+
+  EXPECT_EQ(ErrorReason(client().OpenObservationStream(first).status()), kLeaseSuperseded);
+  EXPECT_EQ(ErrorReason(client().NextBestTrajectory("house", Query(first)).status()),
+            kLeaseSuperseded);
+  EXPECT_EQ(ErrorReason(client().ReportProgress(first, 1, ProgressOutcome::kReached)),
+            kLeaseSuperseded);
+  EXPECT_NE(Open(*second), nullptr);
+}
+
+TEST_P(PlannerClientContract, TheMapShowsWhatWasSeen) {
+  const RobotSession session = Register();
+  const auto stream = Open(session);
+  std::vector<Observation> batch = LookAround(8);
+  Observation gas = GasAt(9, 1.0);
+  batch.push_back(gas);
+  ASSERT_TRUE(SendAll(*stream, batch).ok());
+
+  const absl::StatusOr<MapSnapshot> map = client().GetMap("house");
+
+  ASSERT_TRUE(map.ok()) << map.status();
+  const GridGeometry& geometry = map->occupancy.geometry();
+  EXPECT_EQ(map->occupancy.At(geometry.CellAt({1.0, 0.0}), CellState::kUnknown), CellState::kFree);
+  EXPECT_EQ(map->occupancy.At(geometry.CellAt({7.0, 0.0}), CellState::kUnknown),
+            CellState::kUnknown);
+  ASSERT_EQ(map->robots.size(), 1U);
+  EXPECT_EQ(map->robots[0].id, "scout");
+  EXPECT_EQ(map->robots[0].applied_sequence, 9);
+  EXPECT_EQ(map->robots[0].pose.x_m, 1.0);
+  EXPECT_EQ(map->gas_counters.readings, 1);
+}
+
+TEST_P(PlannerClientContract, DeletingAMissionEndsItsStreams) {
+  const RobotSession session = Register();
+  const auto stream = Open(session);
+
+  ASSERT_TRUE(client().DeleteMission("house").ok());
+
+  EXPECT_TRUE(absl::IsNotFound(ReadUntilError(*stream)));
+  EXPECT_TRUE(absl::IsNotFound(client().OpenObservationStream(session).status()));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PlannerClientContract, ::testing::ValuesIn(AllBackends()),
+                         BackendName);
+
+}  // namespace
+}  // namespace plumescout::client
