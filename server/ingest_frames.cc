@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "core/types/status_macros.h"
 #include "proto/convert/field.h"
 #include "proto/convert/observation.h"
@@ -36,8 +37,10 @@ v1::ObservationRejected ToRejected(const RefusedObservation& refused) {
 
 absl::StatusOr<std::vector<IncomingObservation>> ReadBatch(const v1::ObservationBatch& batch,
                                                            int max_observations) {
-  PLUMESCOUT_RETURN_IF_ERROR(
-      CheckIntRange("batch.observations.size", batch.observations_size(), 1, max_observations));
+  if (batch.observations_size() < 1 || batch.observations_size() > max_observations) {
+    return FieldError("batch.observations", batch.observations_size(),
+                      absl::StrCat("entries; must be 1 to ", max_observations));
+  }
   std::vector<IncomingObservation> incoming;
   incoming.reserve(static_cast<std::size_t>(batch.observations_size()));
   for (int i = 0; i < batch.observations_size(); ++i) {

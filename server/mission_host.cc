@@ -22,11 +22,6 @@ MissionHost::MissionHost(Parts parts, const HostOptions& options)
 
 MissionHost::~MissionHost() { Stop(MissionNotFound(id_)); }
 
-MissionSummary MissionHost::summary() const {
-  absl::MutexLock lock(&mutex_);
-  return summary_;
-}
-
 absl::Status MissionHost::Reserve(int observations) {
   absl::MutexLock lock(&mutex_);
   if (observations > host_options_.max_queued_observations - reserved_observations_) {
@@ -117,8 +112,6 @@ void MissionHost::AfterCommands() {
     published_revision_ = writer_.mission().revision();
     Publish(writer_.Snapshot());
   }
-  absl::MutexLock lock(&mutex_);
-  summary_ = {writer_.mission().revision(), writer_.mission().phase()};
 }
 
 SteadyTime MissionHost::next_publication() const {

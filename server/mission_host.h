@@ -31,12 +31,6 @@ struct HostOptions {
   SteadyClock clock = SteadyNow;
 };
 
-// What lists say of a mission.
-struct MissionSummary {
-  std::int64_t revision = 0;
-  MissionPhase phase = MissionPhase::kExploring;
-};
-
 // Runs one mission: a writer thread that takes commands from a bounded queue, and the belief it
 // publishes. No call blocks but Stop. Callbacks run on the writer's thread and must not block.
 // Thread-safe.
@@ -63,7 +57,7 @@ class MissionHost {
   const MissionOptions& options() const { return mission_options_; }
   const Strategy& strategy() const { return *strategy_; }
   LeaseTable& leases() { return leases_; }
-  MissionSummary summary() const;
+  MissionSummary summary() const { return writer_.summary(); }
 
   // Claims room in the queue for observations that will be posted. OVERLOADED if there is none.
   absl::Status Reserve(int observations);
@@ -100,14 +94,13 @@ class MissionHost {
   const std::unique_ptr<const Strategy> strategy_;
   LeaseTable leases_;
 
-  mutable absl::Mutex mutex_;
+  absl::Mutex mutex_;
   std::vector<Command> commands_ ABSL_GUARDED_BY(mutex_);
   int reserved_observations_ ABSL_GUARDED_BY(mutex_) = 0;
   bool stopping_ ABSL_GUARDED_BY(mutex_) = false;
   absl::Status stop_status_ ABSL_GUARDED_BY(mutex_);
-  MissionSummary summary_ ABSL_GUARDED_BY(mutex_);
 
-  // Touched by the writer's thread only.
+  // Touched by the writer's thread only, but for the writer's summary.
   MissionWriter writer_;
   BeliefWaiters waiters_;
   std::vector<Subscriber> subscribers_;

@@ -19,11 +19,20 @@ Observation Unreadable(std::int64_t sequence) {
 }  // namespace
 
 MissionWriter::MissionWriter(std::unique_ptr<Mission> mission, EventSink sink)
-    : mission_(std::move(mission)), sink_(std::move(sink)) {}
+    : mission_(std::move(mission)),
+      sink_(std::move(sink)),
+      summary_{mission_->revision(), mission_->phase()} {}
+
+MissionSummary MissionWriter::summary() const {
+  absl::MutexLock lock(&summary_mutex_);
+  return summary_;
+}
 
 absl::StatusOr<Applied> MissionWriter::Apply(EventBody body) {
   PLUMESCOUT_ASSIGN_OR_RETURN(Applied applied, mission_->Apply(body));
   if (sink_) sink_(Event{applied.revision, std::move(body)});
+  absl::MutexLock lock(&summary_mutex_);
+  summary_ = {mission_->revision(), mission_->phase()};
   return applied;
 }
 

@@ -7,8 +7,10 @@
 #include <memory>
 #include <vector>
 
+#include "absl/base/thread_annotations.h"
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "absl/synchronization/mutex.h"
 #include "core/mission/mission.h"
 #include "core/types/event.h"
 
@@ -43,13 +45,21 @@ struct IngestResult {
   std::vector<RefusedObservation> refused;
 };
 
+// What lists say of a mission.
+struct MissionSummary {
+  std::int64_t revision = 0;
+  MissionPhase phase = MissionPhase::kExploring;
+};
+
 // Turns commands into numbered events of one mission. Writes are fenced by the lease token at the
-// moment they are applied. Single-threaded.
+// moment they are applied. Single-threaded, but for summary().
 class MissionWriter {
  public:
   MissionWriter(std::unique_ptr<Mission> mission, EventSink sink);
 
   const Mission& mission() const { return *mission_; }
+  // From any thread. Never behind an event whose caller has been answered.
+  MissionSummary summary() const;
 
   absl::StatusOr<LogPosition> Register(const RobotRegistered& registration);
   absl::StatusOr<LogPosition> Position(const RobotId& robot) const;
@@ -77,6 +87,9 @@ class MissionWriter {
 
   std::unique_ptr<Mission> mission_;
   EventSink sink_;
+
+  mutable absl::Mutex summary_mutex_;
+  MissionSummary summary_ ABSL_GUARDED_BY(summary_mutex_);
 };
 
 }  // namespace plumescout::server

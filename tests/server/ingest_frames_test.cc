@@ -42,7 +42,8 @@ TEST(IngestFramesTest, EntryWithoutANumberSpoilsTheBatch) {
 TEST(IngestFramesTest, BatchIsNeitherEmptyNorTooLong) {
   EXPECT_TRUE(absl::IsInvalidArgument(ReadBatch({}, 10).status()));
   EXPECT_TRUE(ReadBatch(GasReadings(1, 10), 10).ok());
-  EXPECT_TRUE(absl::IsInvalidArgument(ReadBatch(GasReadings(1, 11), 10).status()));
+  EXPECT_EQ(FieldViolations(ReadBatch(GasReadings(1, 11), 10).status()).at(0).field,
+            "batch.observations");
 }
 
 TEST(IngestFramesTest, RefusalNamesTheFieldOfTheObservation) {

@@ -113,6 +113,16 @@ TEST_F(MissionWriterTest, FreshBeliefRefreshesOnceAndSnapshotNever) {
   EXPECT_EQ(writer_.FreshBelief().value()->revision, revision + 1);
 }
 
+TEST_F(MissionWriterTest, SummaryIsNeverBehindAnEvent) {
+  EXPECT_EQ(writer_.summary().revision, 1);
+  EXPECT_EQ(writer_.summary().phase, MissionPhase::kExploring);
+  Plan plan = PlanFor("r1", 1.0);
+  plan.phase = MissionPhase::kGasProbing;
+  ASSERT_TRUE(writer_.Commit(plan, kLease).ok());
+  EXPECT_EQ(writer_.summary().revision, 2);
+  EXPECT_EQ(writer_.summary().phase, MissionPhase::kGasProbing);
+}
+
 TEST_F(MissionWriterTest, EventsToldRebuildTheSameMission) {
   writer_.Ingest("r1", kLease, GasBatch(1, 3));
   ASSERT_TRUE(writer_.FreshBelief().ok());
