@@ -5,7 +5,6 @@
 #include <grpcpp/grpcpp.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <memory>
 #include <string>
 #include <utility>
@@ -18,74 +17,11 @@
 #include "plumescout/v1/planning_service.grpc.pb.h"
 #include "plumescout/v1/robot_service.grpc.pb.h"
 #include "proto/convert/observation.h"
-#include "proto/convert/status.h"
 #include "server/server.h"
+#include "tests/server/service_clients.h"
 #include "tests/support/box_room.h"
 
 namespace plumescout::server {
-
-inline absl::Status ToAbsl(const grpc::Status& status) {
-  if (status.ok()) return absl::OkStatus();
-  google::rpc::Status proto;
-  if (proto.ParseFromString(status.error_details()) && proto.code() != 0) return FromProto(proto);
-  return absl::Status(static_cast<absl::StatusCode>(status.error_code()), status.error_message());
-}
-
-// Long enough for any call to end by itself, on any machine.
-inline void SetPatience(grpc::ClientContext& context) {
-  context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(60));
-}
-
-// An ingest stream as a robot sees it.
-class IngestClient {
- public:
-  explicit IngestClient(v1::IngestService::Stub& stub) {
-    SetPatience(context_);
-    stream_ = stub.StreamObservations(&context_);
-  }
-  bool Write(const v1::StreamObservationsRequest& request) { return stream_->Write(request); }
-  bool Open(const std::string& robot, std::int64_t lease_token) {
-    v1::StreamObservationsRequest request;
-    request.mutable_open()->set_robot(robot);
-    request.mutable_open()->set_lease_token(lease_token);
-    return Write(request);
-  }
-  bool Send(const v1::ObservationBatch& batch) {
-    v1::StreamObservationsRequest request;
-    *request.mutable_batch() = batch;
-    return Write(request);
-  }
-  // An empty frame once the stream has ended.
-  v1::StreamObservationsResponse Read() {
-    v1::StreamObservationsResponse response;
-    stream_->Read(&response);
-    return response;
-  }
-  // Reads acknowledgements until one covers `sequence`; the last one read if the stream ends.
-  v1::IngestState ReadAck(std::int64_t sequence) {
-    v1::StreamObservationsResponse response;
-    v1::IngestState state;
-    while (state.applied_sequence() < sequence && stream_->Read(&response)) {
-      if (response.has_ack()) state = response.ack();
-    }
-    return state;
-  }
-  void HalfClose() { stream_->WritesDone(); }
-  void Cancel() { context_.TryCancel(); }
-  // Reads what is left and returns the server's last word.
-  absl::Status Finish() {
-    v1::StreamObservationsResponse response;
-    while (stream_->Read(&response)) {
-    }
-    return ToAbsl(stream_->Finish());
-  }
-
- private:
-  grpc::ClientContext context_;
-  std::unique_ptr<
-      grpc::ClientReaderWriter<v1::StreamObservationsRequest, v1::StreamObservationsResponse>>
-      stream_;
-};
 
 // A server on a loopback port, with one mission, "hall", and calls to it.
 class ServiceTest : public testing::Test {
@@ -143,9 +79,25 @@ class ServiceTest : public testing::Test {
     *request.mutable_batch() = batch;
     return Call(ingest_, &v1::IngestService::Stub::BatchIngestObservations, request);
   }
-  absl::StatusOr<v1::GetMapResponse> GetMap() {
+  // Registers robot r1 and returns its lease token.
+  std::int64_t Lease() {
+    const auto registered = Register("r1");
+    EXPECT_TRUE(registered.ok()) << registered.status();
+    return registered.ok() ? registered->lease_token() : 0;
+  }
+  absl::Status DeleteMission(const std::string& id) {
+    v1::DeleteMissionRequest request;
+    request.set_name(absl::StrCat("missions/", id));
+    return Call(missions_, &v1::MissionService::Stub::DeleteMission, request).status();
+  }
+  absl::StatusOr<v1::NextBestTrajectoryResponse> NextBest(
+      const v1::NextBestTrajectoryRequest& request) {
+    return Call(planning_, &v1::PlanningService::Stub::NextBestTrajectory, request);
+  }
+  absl::StatusOr<v1::GetMapResponse> GetMap(bool full_precision = false) {
     v1::GetMapRequest request;
     request.set_mission("missions/hall");
+    request.set_full_precision(full_precision);
     return Call(maps_, &v1::MapService::Stub::GetMap, request);
   }
   std::int64_t Revision() {

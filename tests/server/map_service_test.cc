@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/map_service.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/server/service_fixture.h"
+
+namespace plumescout::server {
+namespace {
+
+constexpr auto kNotFound = absl::StatusCode::kNotFound;
+
+class MapServiceTest : public ServiceTest {
+ protected:
+  void SetUp() override { StartServer(); }
+  absl::StatusOr<v1::GetMapResponse> GetMapOf(const std::string& mission,
+                                              const std::vector<int>& layers = {}) {
+    v1::GetMapRequest request;
+    request.set_mission(mission);
+    for (const int layer : layers) request.add_layers(static_cast<v1::MapLayer>(layer));
+    return Call(maps_, &v1::MapService::Stub::GetMap, request);
+  }
+};
+
+TEST_F(MapServiceTest, NewMissionHasAnEmptyMap) {
+  const auto map = GetMap();
+  ASSERT_TRUE(map.ok()) << map.status();
+  EXPECT_EQ(map->revision(), 0);
+  EXPECT_EQ(map->status().robots_size(), 0);
+  EXPECT_EQ(map->status().gas_counters().reading_count(), 0);
+  EXPECT_EQ(map->status().phase(), v1::MISSION_PHASE_EXPLORING);
+}
+
+TEST_F(MapServiceTest, MapShowsWhatIsApplied) {
+  const std::int64_t lease = Lease();
+  ASSERT_TRUE(Ingest(kRobot, lease, RoomScan(1)).ok());
+  ASSERT_TRUE(Ingest(kRobot, lease, GasReadings(2, 3)).ok());
+  const auto map = GetMap();
+  ASSERT_TRUE(map.ok()) << map.status();
+  EXPECT_EQ(map->revision(), 4);
+  ASSERT_EQ(map->status().robots_size(), 1);
+  EXPECT_EQ(map->status().robots(0).robot(), kRobot);
+  EXPECT_EQ(map->status().robots(0).applied_sequence(), 3);
+  EXPECT_EQ(map->status().gas_counters().reading_count(), 2);
+  ASSERT_EQ(map->tiles_size(), 3);
+  EXPECT_EQ(map->tiles(0).layer(), v1::MAP_LAYER_OCCUPANCY);
+  EXPECT_EQ(map->tiles(0).column_count(), map->status().geometry().column_count());
+  EXPECT_GT(map->tiles(0).column_count(), 0);
+}
+
+TEST_F(MapServiceTest, ReadingAMapChangesNothing) {
+  const std::int64_t lease = Lease();
+  ASSERT_TRUE(Ingest(kRobot, lease, RoomScan(1)).ok());
+  ASSERT_TRUE(Ingest(kRobot, lease, GasReadings(2, 3)).ok());
+  const auto first = GetMap();
+  const auto second = GetMap();
+  ASSERT_TRUE(first.ok() && second.ok());
+  EXPECT_EQ(first->SerializeAsString(), second->SerializeAsString());
+  EXPECT_EQ(Revision(), 4);
+}
+
+TEST_F(MapServiceTest, OnlyTheLayersAskedForAreSent) {
+  ASSERT_TRUE(Ingest(kRobot, Lease(), RoomScan(1)).ok());
+  const auto map = GetMapOf("missions/hall", {v1::MAP_LAYER_GAS_VARIANCE});
+  ASSERT_TRUE(map.ok()) << map.status();
+  ASSERT_EQ(map->tiles_size(), 1);
+  EXPECT_EQ(map->tiles(0).layer(), v1::MAP_LAYER_GAS_VARIANCE);
+  EXPECT_EQ(map->tiles(0).encoding(), v1::MapTile::ENCODING_U16_SCALED);
+}
+
+TEST_F(MapServiceTest, FullPrecisionIsFloat) {
+  ASSERT_TRUE(Ingest(kRobot, Lease(), RoomScan(1)).ok());
+  const auto map = GetMap(/*full_precision=*/true);
+  ASSERT_TRUE(map.ok()) << map.status();
+  ASSERT_EQ(map->tiles_size(), 3);
+  EXPECT_EQ(map->tiles(1).encoding(), v1::MapTile::ENCODING_F32);
+}
+
+TEST_F(MapServiceTest, StrangersAndUnknownLayersAreRefused) {
+  EXPECT_THAT(GetMapOf("missions/attic").status(), Refuses(kNotFound, "MISSION_NOT_FOUND"));
+  EXPECT_THAT(GetMapOf("hall").status(), RefusesField("mission"));
+  EXPECT_THAT(GetMapOf("missions/hall", {v1::MAP_LAYER_OCCUPANCY, 99}).status(),
+              RefusesField("layers[1]"));
+}
+
+TEST_F(MapServiceTest, WatchersAreServedToo) {
+  WatchClient watch(*maps_);
+  EXPECT_EQ(watch.Read().kind(), v1::WatchMapResponse::KIND_FULL);
+}
+
+}  // namespace
+}  // namespace plumescout::server

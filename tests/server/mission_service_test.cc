@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/mission_service.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "proto/convert/options.h"
+#include "tests/server/service_fixture.h"
+
+namespace plumescout::server {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+constexpr auto kNotFound = absl::StatusCode::kNotFound;
+constexpr auto kExhausted = absl::StatusCode::kResourceExhausted;
+
+class MissionServiceTest : public ServiceTest {
+ protected:
+  absl::StatusOr<v1::GetMissionResponse> Get(const std::string& name) {
+    v1::GetMissionRequest request;
+    request.set_name(name);
+    return Call(missions_, &v1::MissionService::Stub::GetMission, request);
+  }
+  absl::StatusOr<v1::ListMissionsResponse> List(int page_size, const std::string& token = "") {
+    v1::ListMissionsRequest request;
+    request.set_page_size(page_size);
+    request.set_page_token(token);
+    return Call(missions_, &v1::MissionService::Stub::ListMissions, request);
+  }
+};
+
+std::vector<std::string> Names(const v1::ListMissionsResponse& page) {
+  std::vector<std::string> names;
+  for (const v1::Mission& mission : page.missions()) names.push_back(mission.name());
+  return names;
+}
+
+TEST_F(MissionServiceTest, NewMissionHasTheServersOptionsButThoseGiven) {
+  ServerConfig config;
+  config.mission.gas.refresh_period_s = 7.0;
+  StartServer(config);
+  v1::MissionOptions options;
+  options.mutable_occupancy()->set_resolution_m(0.5);
+  const auto response = CreateMission("attic", options);
+  ASSERT_TRUE(response.ok()) << response.status();
+  EXPECT_EQ(response->mission().name(), "missions/attic");
+  EXPECT_EQ(response->mission().revision(), 0);
+  EXPECT_EQ(response->mission().phase(), v1::MISSION_PHASE_EXPLORING);
+  MissionOptions expected = config.mission;
+  expected.occupancy.resolution_m = 0.5;
+  EXPECT_EQ(response->mission().options().SerializeAsString(),
+            ToProto(expected).SerializeAsString());
+}
+
+TEST_F(MissionServiceTest, NameIsTakenOnce) {
+  StartServer();
+  EXPECT_THAT(CreateMission("hall").status(),
+              Refuses(absl::StatusCode::kAlreadyExists, "MISSION_EXISTS"));
+}
+
+TEST_F(MissionServiceTest, RefusedOptionIsNamed) {
+  StartServer();
+  v1::MissionOptions options;
+  options.mutable_occupancy()->set_resolution_m(-1.0);
+  EXPECT_THAT(CreateMission("attic", options).status(),
+              RefusesField("options.occupancy.resolution_m"));
+  EXPECT_THAT(CreateMission("The Attic").status(), RefusesField("mission_id"));
+  EXPECT_THAT(Get("missions/attic").status(), Refuses(kNotFound, "MISSION_NOT_FOUND"));
+}
+
+TEST_F(MissionServiceTest, DeletedMissionMakesRoom) {
+  ServerConfig config;
+  config.limits.max_missions = 1;
+  StartServer(config);
+  EXPECT_THAT(CreateMission("attic").status(), Refuses(kExhausted, "LIMIT_REACHED"));
+  ASSERT_TRUE(DeleteMission("hall").ok());
+  EXPECT_TRUE(CreateMission("attic").ok());
+}
+
+TEST_F(MissionServiceTest, MapsThatCouldOutgrowTheServerAreRefused) {
+  ServerConfig config;
+  config.limits.max_total_cells = 2 * config.mission.occupancy.max_cells - 1;
+  StartServer(config);
+  EXPECT_THAT(CreateMission("attic").status(), Refuses(kExhausted, "LIMIT_REACHED"));
+}
+
+TEST_F(MissionServiceTest, GetSaysHowTheMissionStands) {
+  StartServer();
+  ASSERT_TRUE(Ingest(kRobot, Lease(), GasReadings(1, 2)).ok());
+  const auto response = Get("missions/hall");
+  ASSERT_TRUE(response.ok()) << response.status();
+  EXPECT_EQ(response->mission().robot_count(), 1);
+  EXPECT_EQ(response->mission().revision(), 3);
+}
+
+TEST_F(MissionServiceTest, UnknownMissionIsNotFound) {
+  StartServer();
+  EXPECT_THAT(Get("missions/attic").status(), Refuses(kNotFound, "MISSION_NOT_FOUND"));
+  EXPECT_THAT(Get("attic").status(), RefusesField("name"));
+  EXPECT_THAT(DeleteMission("attic"), Refuses(kNotFound, "MISSION_NOT_FOUND"));
+  EXPECT_THAT(DeleteMission(""), RefusesField("name"));
+}
+
+TEST_F(MissionServiceTest, PagesFollowEachOtherInOrderOfName) {
+  StartServer();
+  ASSERT_TRUE(CreateMission("attic").ok());
+  ASSERT_TRUE(CreateMission("yard").ok());
+  const auto first = List(2);
+  ASSERT_TRUE(first.ok()) << first.status();
+  EXPECT_THAT(Names(*first), ElementsAre("missions/attic", "missions/hall"));
+  const auto last = List(2, first->next_page_token());
+  ASSERT_TRUE(last.ok()) << last.status();
+  EXPECT_THAT(Names(*last), ElementsAre("missions/yard"));
+  EXPECT_THAT(last->next_page_token(), IsEmpty());
+}
+
+TEST_F(MissionServiceTest, ListRefusesNegativePagesAndForeignTokens) {
+  StartServer();
+  EXPECT_THAT(List(-1).status(), RefusesField("page_size"));
+  EXPECT_THAT(List(1, "hall").status(), RefusesField("page_token"));
+}
+
+TEST_F(MissionServiceTest, DeletedMissionIsGone) {
+  StartServer();
+  ASSERT_TRUE(DeleteMission("hall").ok());
+  EXPECT_THAT(Get("missions/hall").status(), Refuses(kNotFound, "MISSION_NOT_FOUND"));
+  EXPECT_THAT(DeleteMission("hall"), Refuses(kNotFound, "MISSION_NOT_FOUND"));
+}
+
+}  // namespace
+}  // namespace plumescout::server

@@ -1,0 +1,250 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/planning_service.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <functional>
+#include <future>
+#include <string>
+
+#include "absl/synchronization/notification.h"
+#include "tests/server/host_parts.h"
+#include "tests/server/service_fixture.h"
+
+namespace plumescout::server {
+namespace {
+
+constexpr auto kNotFound = absl::StatusCode::kNotFound;
+constexpr auto kPrecondition = absl::StatusCode::kFailedPrecondition;
+// Of the 60 s that the calls of these tests may take, all but a moment is kept back.
+constexpr double kMostOfPatience_s = 59.9;
+
+constexpr int kScans = 4;
+
+using NextBestResponse = absl::StatusOr<v1::NextBestTrajectoryResponse>;
+
+// Scans of a room whose far walls are out of sight, as many as it takes to trust them.
+v1::ObservationBatch CornerScans() {
+  constexpr double kSide_m = 30.0;
+  const Pose2 pose{2.0, 1.5, 0.0};
+  v1::ObservationBatch batch;
+  for (std::int64_t sequence = 1; sequence <= kScans; ++sequence) {
+    *batch.add_observations() =
+        ToProto(Observation{sequence, 0, pose, support::ScanInBox(pose, kSide_m, kSide_m)});
+  }
+  return batch;
+}
+
+class PlanningServiceTest : public ServiceTest {
+ protected:
+  // A server with a robot that has seen one corner of a room; `script`: how missions plan.
+  void Start(ServerConfig config = {}, ScriptedStrategy::Script script = nullptr) {
+    StartServer(config, script == nullptr ? RegistryHooks{} : ScriptedHooks(std::move(script)));
+    lease_ = Lease();
+    ASSERT_TRUE(Ingest(kRobot, lease_, CornerScans()).ok());
+  }
+  v1::NextBestTrajectoryRequest Order() const {
+    v1::NextBestTrajectoryRequest request;
+    request.set_robot(kRobot);
+    request.set_lease_token(lease_);
+    return request;
+  }
+  NextBestResponse NextBestWith(const std::function<void(v1::NextBestTrajectoryRequest&)>& change) {
+    v1::NextBestTrajectoryRequest request = Order();
+    change(request);
+    return NextBest(request);
+  }
+  absl::StatusOr<v1::ReportProgressResponse> Report(
+      std::int64_t plan,
+      const std::function<void(v1::ReportProgressRequest&)>& change = [](auto&) {}) {
+    v1::ReportProgressRequest request;
+    request.set_robot(kRobot);
+    request.set_lease_token(lease_);
+    request.set_plan(absl::StrCat("missions/hall/plans/", plan));
+    request.set_outcome(v1::ReportProgressRequest::OUTCOME_REACHED);
+    change(request);
+    return Call(planning_, &v1::PlanningService::Stub::ReportProgress, request);
+  }
+
+  std::int64_t lease_ = 0;
+};
+
+// Searches until told to stop, then goes where there was nothing to search.
+absl::StatusOr<Plan> SearchUntilStopped(const Belief& belief, const PlanRequest& request,
+                                        const StopFn& stop) {
+  while (!stop()) {
+  }
+  return PlanTo(belief, request.robot, 1.0);
+}
+
+absl::StatusOr<Plan> DriveEast(const Belief& belief, const PlanRequest& request, const StopFn&) {
+  return PlanTo(belief, request.robot, 1.0);
+}
+
+TEST_F(PlanningServiceTest, PlanStartsAtTheRobotAndIsCommitted) {
+  Start();
+  const auto response = NextBest(Order());
+  ASSERT_TRUE(response.ok()) << response.status();
+  EXPECT_EQ(response->plan().name(), "missions/hall/plans/1");
+  EXPECT_EQ(response->plan().robot(), kRobot);
+  ASSERT_GE(response->plan().chosen_index(), 0) << response->plan().explanation();
+  ASSERT_GT(response->plan().trajectory().waypoints_size(), 1);
+  EXPECT_EQ(response->plan().trajectory().waypoints(0).pose().x_m(), 2.0);
+  EXPECT_EQ(response->plan().trajectory().waypoints(0).pose().y_m(), 1.5);
+  EXPECT_GT(Revision(), response->plan().belief_revision());
+}
+
+TEST_F(PlanningServiceTest, SameSeedAndBeliefMakeTheSameTrajectory) {
+  Start();
+  const auto order = [](auto& request) {
+    request.set_seed(17);
+    request.set_max_edge_evaluation_count(1000);
+  };
+  const auto first = NextBestWith(order);
+  const auto second = NextBestWith(order);
+  ASSERT_TRUE(first.ok() && second.ok()) << first.status() << second.status();
+  EXPECT_GT(first->plan().trajectory().waypoints_size(), 1);
+  EXPECT_EQ(first->plan().trajectory().SerializeAsString(),
+            second->plan().trajectory().SerializeAsString());
+}
+
+TEST_F(PlanningServiceTest, PlanWaitsForTheReadingsOfItsRobot) {
+  std::atomic<std::int64_t> applied = 0;
+  Start({}, [&](const Belief& belief, const PlanRequest& request, const StopFn&) {
+    applied = belief.robots.at("r1").state.applied_sequence;
+    return PlanTo(belief, request.robot, 1.0);
+  });
+  auto response = std::async(std::launch::async, [&] {
+    return NextBestWith([](auto& request) { request.set_min_applied_sequence(kScans + 2); });
+  });
+  ASSERT_TRUE(Ingest(kRobot, lease_, GasReadings(kScans + 1, kScans + 2)).ok());
+  EXPECT_TRUE(response.get().ok());
+  EXPECT_EQ(applied, kScans + 2);
+}
+
+TEST_F(PlanningServiceTest, ReadingsThatDoNotComeAreWaitedForUntilTheDeadline) {
+  ServerConfig config;
+  config.planning.deadline_margin_s = kMostOfPatience_s;
+  Start(config, DriveEast);
+  const absl::Status refused =
+      NextBestWith([](auto& request) { request.set_min_applied_sequence(1000); }).status();
+  EXPECT_THAT(refused, Refuses(absl::StatusCode::kDeadlineExceeded, "DEADLINE_EXCEEDED"));
+  EXPECT_THAT(std::string(refused.message()), testing::HasSubstr("stands at 4"));
+}
+
+TEST_F(PlanningServiceTest, DeadlineOfTheCallStopsTheSearchInTimeForAReply) {
+  ServerConfig config;
+  config.planning.deadline_margin_s = kMostOfPatience_s;
+  Start(config, SearchUntilStopped);
+  const auto response =
+      NextBestWith([](auto& request) { request.mutable_planning_budget()->set_seconds(3600); });
+  EXPECT_TRUE(response.ok()) << response.status();
+}
+
+TEST_F(PlanningServiceTest, BudgetStopsTheSearch) {
+  Start({}, SearchUntilStopped);
+  const auto response =
+      NextBestWith([](auto& request) { request.mutable_planning_budget()->set_nanos(1'000'000); });
+  EXPECT_TRUE(response.ok()) << response.status();
+}
+
+TEST_F(PlanningServiceTest, BudgetBeyondTheServersIsCutToIt) {
+  ServerConfig config;
+  config.planning.max_budget_s = 0.001;
+  Start(config, SearchUntilStopped);
+  const auto response =
+      NextBestWith([](auto& request) { request.mutable_planning_budget()->set_seconds(3600); });
+  EXPECT_TRUE(response.ok()) << response.status();
+}
+
+TEST_F(PlanningServiceTest, CancelStopsTheSearchAndCommitsNothing) {
+  absl::Notification searching;
+  absl::Notification stopped;
+  Start({}, [&](const Belief& belief, const PlanRequest& request, const StopFn& stop) {
+    searching.Notify();
+    auto plan = SearchUntilStopped(belief, request, stop);
+    stopped.Notify();
+    return plan;
+  });
+  grpc::ClientContext context;
+  SetPatience(context);
+  auto status = std::async(std::launch::async, [&] {
+    v1::NextBestTrajectoryRequest request = Order();
+    request.mutable_planning_budget()->set_seconds(3600);
+    v1::NextBestTrajectoryResponse response;
+    return ToAbsl(planning_->NextBestTrajectory(&context, request, &response));
+  });
+  searching.WaitForNotification();
+  context.TryCancel();
+  EXPECT_TRUE(absl::IsCancelled(status.get()));
+  stopped.WaitForNotification();
+  // One thread of the pool is free again, and the goal is nobody's.
+  EXPECT_EQ(Report(1).status().code(), kNotFound);
+}
+
+TEST_F(PlanningServiceTest, ErrorsOfTheSearchReachTheCaller) {
+  Start();
+  ASSERT_TRUE(Register("r2").ok());
+  EXPECT_THAT(NextBestWith([&](auto& request) {
+                request.set_robot("missions/hall/robots/r2");
+                request.set_lease_token(Register("r2", /*take_over=*/true)->lease_token());
+              }).status(),
+              Refuses(kPrecondition, "FAILED_PRECONDITION"));
+  EXPECT_THAT(NextBestWith([](auto& request) { request.mutable_start()->set_x_m(500.0); }).status(),
+              RefusesField("start"));
+}
+
+TEST_F(PlanningServiceTest, GoalOfAnotherRobotAborts) {
+  Start({}, DriveEast);
+  ASSERT_TRUE(NextBest(Order()).ok());
+  EXPECT_THAT(NextBestWith([&](auto& request) {
+                request.set_robot("missions/hall/robots/r2");
+                request.set_lease_token(Register("r2")->lease_token());
+              }).status(),
+              Refuses(absl::StatusCode::kAborted, "ABORTED"));
+}
+
+TEST_F(PlanningServiceTest, StrangersAndOldLeasesGetNoPlan) {
+  Start({}, DriveEast);
+  EXPECT_THAT(
+      NextBestWith([](auto& request) { request.set_robot("missions/hall/robots/r9"); }).status(),
+      Refuses(kNotFound, "ROBOT_NOT_FOUND"));
+  EXPECT_THAT(
+      NextBestWith([](auto& request) { request.set_robot("missions/attic/robots/r1"); }).status(),
+      Refuses(kNotFound, "MISSION_NOT_FOUND"));
+  EXPECT_THAT(NextBestWith([](auto& request) { request.set_robot("r1"); }).status(),
+              RefusesField("robot"));
+  ASSERT_TRUE(Register("r1", /*take_over=*/true).ok());
+  EXPECT_THAT(NextBest(Order()).status(), Refuses(kPrecondition, "LEASE_SUPERSEDED"));
+}
+
+TEST_F(PlanningServiceTest, RepeatedReportChangesNothing) {
+  Start({}, DriveEast);
+  ASSERT_TRUE(NextBest(Order()).ok());
+  const auto first = Report(1);
+  ASSERT_TRUE(first.ok()) << first.status();
+  const auto second = Report(1);
+  ASSERT_TRUE(second.ok()) << second.status();
+  EXPECT_EQ(second->revision(), first->revision());
+  EXPECT_EQ(Revision(), first->revision());
+}
+
+TEST_F(PlanningServiceTest, ReportsOfOtherPlansAreRefused) {
+  Start({}, DriveEast);
+  EXPECT_THAT(Report(1).status(), Refuses(kNotFound, "NOT_FOUND"));
+  ASSERT_TRUE(NextBest(Order()).ok());
+  ASSERT_TRUE(NextBest(Order()).ok());
+  EXPECT_THAT(Report(1).status(), Refuses(kPrecondition, "PLAN_SUPERSEDED"));
+  EXPECT_THAT(Report(2, [](auto& request) { request.set_plan("missions/attic/plans/2"); }).status(),
+              RefusesField("plan"));
+  EXPECT_THAT(Report(2, [](auto& request) { request.clear_outcome(); }).status(),
+              RefusesField("outcome"));
+  EXPECT_THAT(Report(2, [](auto& request) { request.set_lease_token(1); }).status(),
+              Refuses(kPrecondition, "LEASE_SUPERSEDED"));
+}
+
+}  // namespace
+}  // namespace plumescout::server
