@@ -28,10 +28,6 @@ class Checker {
     if (!(value < 0.0 && std::isfinite(value))) Fail(field, value, "must be < 0 and finite");
     return *this;
   }
-  Checker& NotNegative(absl::string_view field, double value) {
-    if (!(value >= 0.0 && std::isfinite(value))) Fail(field, value, "must be >= 0 and finite");
-    return *this;
-  }
   const absl::Status& status() const { return status_; }
 
  private:
@@ -49,6 +45,9 @@ double LogOddsMagnitude(double probability) {
 
 constexpr double kBelowHalf = 0.499;
 constexpr double kAboveHalf = 0.501;
+constexpr double kMaxLogOdds = 50.0;  // a certainty of 1 - 2e-22
+constexpr double kMaxWeight = 1e9;    // of a term of a cost: keeps costs finite, in float too
+constexpr double kMaxTime_s = 1e9;    // 30 years: added to a time in ns, it stays within int64
 
 }  // namespace
 
@@ -63,7 +62,9 @@ absl::Status Validate(const OccupancyOptions& options) {
       .InRange("occupancy.occupied_threshold", options.occupied_threshold, kAboveHalf, 0.999)
       .Positive("occupancy.hit_log_odds", options.hit_log_odds)
       .Negative("occupancy.miss_log_odds", options.miss_log_odds)
-      .InRange("occupancy.clamp_log_odds", options.clamp_log_odds, least_clamp, 50.0)
+      .InRange("occupancy.hit_log_odds", options.hit_log_odds, 0.0, kMaxLogOdds)
+      .InRange("occupancy.miss_log_odds", options.miss_log_odds, -kMaxLogOdds, 0.0)
+      .InRange("occupancy.clamp_log_odds", options.clamp_log_odds, least_clamp, kMaxLogOdds)
       .InRange("occupancy.max_extent_m", options.max_extent_m, 1.0, 2000.0)
       .InRange("occupancy.max_cells", static_cast<double>(options.max_cells), 4096, 16'000'000)
       .status();
@@ -72,6 +73,8 @@ absl::Status Validate(const OccupancyOptions& options) {
 absl::Status Validate(const GasOptions& options) {
   constexpr double kMaxPrecision = 1e9;
   constexpr double kMinPrecision = 1e-9;
+  constexpr double kMinHalfLife_s = 1e-3;  // keeps the variance of old readings finite
+  const bool ages = options.ageing_half_life_s != 0.0;
   return Checker()
       .InRange("gas.prior_precision", options.prior_precision, kMinPrecision, kMaxPrecision)
       .InRange("gas.observation_precision", options.observation_precision, kMinPrecision,
@@ -79,7 +82,8 @@ absl::Status Validate(const GasOptions& options) {
       .InRange("gas.background_precision", options.background_precision, kMinPrecision,
                kMaxPrecision)
       .InRange("gas.background_mean_ppm", options.background_mean_ppm, 0.0, 1e6)
-      .NotNegative("gas.ageing_half_life_s", options.ageing_half_life_s)
+      .InRange("gas.ageing_half_life_s", ages ? options.ageing_half_life_s : kMaxTime_s,
+               kMinHalfLife_s, kMaxTime_s)
       .InRange("gas.refresh_period_s", options.refresh_period_s, 0.1, 3600.0)
       .status();
 }
@@ -100,8 +104,8 @@ absl::Status Validate(const PlanningOptions& options) {
   return Checker()
       .InRange("planning.max_goals", options.max_goals, 1, 1000)
       .InRange("planning.min_goal_distance_m", options.min_goal_distance_m, 0.0, 100.0)
-      .NotNegative("planning.alpha", options.alpha)
-      .NotNegative("planning.beta", options.beta)
+      .InRange("planning.alpha", options.alpha, 0.0, kMaxWeight)
+      .InRange("planning.beta", options.beta, 0.0, kMaxWeight)
       .InRange("planning.samples", options.samples, 1, 100'000)
       .InRange("planning.nearest_samples", options.nearest_samples, 1, 100)
       .InRange("planning.uniform_share", options.uniform_share, 0.0, 1.0)
@@ -109,6 +113,7 @@ absl::Status Validate(const PlanningOptions& options) {
       .InRange("planning.speed_mps", options.speed_mps, 0.001, 100.0)
       .InRange("planning.dwell_s", options.dwell_s, 0.0, 3600.0)
       .Positive("planning.set_aside_s", options.set_aside_s)
+      .InRange("planning.set_aside_s", options.set_aside_s, 0.0, kMaxTime_s)
       .InRange("planning.fallback_limit", options.fallback_limit, 1, 1000)
       .status();
 }

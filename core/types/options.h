@@ -16,8 +16,8 @@ struct OccupancyOptions {
   double inflation_radius_m = 0.2;     // [0, 5], farther than this from any occupied cell
   double free_threshold = 0.25;        // tau_free, probability, (0, 0.5)
   double occupied_threshold = 0.65;    // tau_occ, probability, (0.5, 1)
-  double hit_log_odds = 0.85;          // > 0
-  double miss_log_odds = -0.4;         // < 0
+  double hit_log_odds = 0.85;          // (0, 50]
+  double miss_log_odds = -0.4;         // [-50, 0)
   double clamp_log_odds = 3.5;         // beyond the log-odds of both thresholds, at most 50
   double max_extent_m = 200.0;         // the map never grows beyond this width or height, (0, 2000]
   std::int64_t max_cells = 4'000'000;  // nor beyond this many cells
@@ -30,7 +30,7 @@ struct GasOptions {
   double background_precision = 0.001;  // lambda_d (sigma_d^2), > 0
   double background_mean_ppm = 0.0;     // m_0
   // A reading's variance grows by 1/lambda_o in this time (lambda_t = half-life * lambda_o);
-  // 0: readings do not age.
+  // 0: readings do not age; else [0.001, 1e9].
   double ageing_half_life_s = 0.0;
   double refresh_period_s = 2.0;  // of sample time between refreshes without a plan, > 0
 };
@@ -64,8 +64,8 @@ struct PlanningOptions {
   CostKind cost = CostKind::kUcb;    // expansion, [XIT] Eq. (12)
   CostKind selection_cost = CostKind::kUcb;
   SelectionRule selection = SelectionRule::kLeastCost;  // [XIT] Eq. (4), (13)
-  double alpha = 0.0;                                   // per metre, >= 0
-  double beta = 1.0;                                    // [XIT] Eq. (8), >= 0
+  double alpha = 0.0;                                   // per metre, [0, 1e9]
+  double beta = 1.0;                                    // [XIT] Eq. (8), [0, 1e9]
   bool raw_variance = false;                            // Eq. (8) as printed: variance in ppm^2
   int samples = 300;                                    // N, [1, 100000]
   int nearest_samples = 3;                              // k_n, [1, 100]
@@ -76,7 +76,7 @@ struct PlanningOptions {
   bool grid_guard = true;       // complete missed goals on the grid
   double speed_mps = 1.25;      // > 0
   double dwell_s = 0.0;         // stop-and-sample at each vertex, >= 0
-  double set_aside_s = 120.0;   // expiry of goal memory, seconds of sample time, > 0
+  double set_aside_s = 120.0;   // expiry of goal memory, seconds of sample time, (0, 1e9]
   // When no frontier is left, go first to places whose gas is unobserved (ours); false: to random
   // free places only (paper).
   bool fallback_to_unobserved = true;

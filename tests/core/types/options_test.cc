@@ -56,8 +56,8 @@ TEST(OccupancyOptions, RefuseValuesOutsideTheirRanges) {
       {"inflation_radius_m", &OccupancyOptions::inflation_radius_m, {-0.1, 5.1}},
       {"free_threshold", &OccupancyOptions::free_threshold, {0.0, 0.5}},
       {"occupied_threshold", &OccupancyOptions::occupied_threshold, {0.5, 1.0}},
-      {"hit_log_odds", &OccupancyOptions::hit_log_odds, {0.0, -1.0}},
-      {"miss_log_odds", &OccupancyOptions::miss_log_odds, {0.0, 1.0}},
+      {"hit_log_odds", &OccupancyOptions::hit_log_odds, {0.0, -1.0, 51.0}},
+      {"miss_log_odds", &OccupancyOptions::miss_log_odds, {0.0, 1.0, -51.0}},
       {"clamp_log_odds", &OccupancyOptions::clamp_log_odds, {0.0, -1.0, 51.0}},
       {"max_extent_m", &OccupancyOptions::max_extent_m, {0.0, 2001.0}},
   });
@@ -77,7 +77,7 @@ TEST(GasOptions, RefuseValuesOutsideTheirRanges) {
       {"observation_precision", &GasOptions::observation_precision, {0.0, -1.0}},
       {"background_precision", &GasOptions::background_precision, {0.0, -1.0}},
       {"background_mean_ppm", &GasOptions::background_mean_ppm, {-1.0}},
-      {"ageing_half_life_s", &GasOptions::ageing_half_life_s, {-1.0}},
+      {"ageing_half_life_s", &GasOptions::ageing_half_life_s, {-1.0, 1e-4, 2e9}},
       {"refresh_period_s", &GasOptions::refresh_period_s, {0.0, -1.0}},
   });
 }
@@ -113,13 +113,13 @@ TEST(FrontierOptions, RefuseClustersOfNoCells) {
 TEST(PlanningOptions, RefuseValuesOutsideTheirRanges) {
   ExpectRefused<PlanningOptions>({
       {"min_goal_distance_m", &PlanningOptions::min_goal_distance_m, {-0.1}},
-      {"alpha", &PlanningOptions::alpha, {-1.0}},
-      {"beta", &PlanningOptions::beta, {-1.0}},
+      {"alpha", &PlanningOptions::alpha, {-1.0, 2e9}},
+      {"beta", &PlanningOptions::beta, {-1.0, 2e9}},
       {"uniform_share", &PlanningOptions::uniform_share, {-0.1, 1.1}},
       {"radius_factor", &PlanningOptions::radius_factor, {0.0}},
       {"speed_mps", &PlanningOptions::speed_mps, {0.0, -1.0}},
       {"dwell_s", &PlanningOptions::dwell_s, {-1.0}},
-      {"set_aside_s", &PlanningOptions::set_aside_s, {0.0, -1.0}},
+      {"set_aside_s", &PlanningOptions::set_aside_s, {0.0, -1.0, 2e9}},
   });
 }
 
