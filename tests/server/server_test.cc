@@ -146,6 +146,25 @@ TEST_F(ServerTest, MessageLargerThanTheLimitIsRefused) {
   EXPECT_EQ(Revision(), 1);
 }
 
+TEST_F(ServerTest, BytesThatAreNoMessageAreRefused) {
+  StartServer();
+  const grpc::Slice bytes("\x0a\xff\xff\xff");  // a string whose length runs past the end
+  grpc::GenericStub stub(channel_);
+  for (const char* method : {"MissionService/CreateMission", "RobotService/RegisterRobot",
+                             "IngestService/BatchIngestObservations", "MapService/GetMap",
+                             "PlanningService/NextBestTrajectory"}) {
+    grpc::ClientContext context;
+    SetPatience(context);
+    const grpc::ByteBuffer request(&bytes, 1);
+    grpc::ByteBuffer response;
+    std::promise<grpc::Status> status;
+    stub.UnaryCall(&context, absl::StrCat("/plumescout.v1.", method), {}, &request, &response,
+                   [&](grpc::Status ended) { status.set_value(std::move(ended)); });
+    EXPECT_FALSE(status.get_future().get().ok()) << method;  // which code is gRPC's choice
+    EXPECT_EQ(Revision(), 0);
+  }
+}
+
 TEST_F(ServerTest, RestartedServerIsRecognisedAndItsLeasesAreNew) {
   StartServer();
   const std::string boot_id = server_->boot_id();

@@ -94,15 +94,16 @@ class IngestClient {
       stream_;
 };
 
-// A watcher of mission "hall".
+// A watcher of a map.
 class WatchClient {
  public:
-  explicit WatchClient(v1::MapService::Stub& stub, const std::string& mission = "missions/hall") {
+  WatchClient(v1::MapService::Stub& stub, const v1::WatchMapRequest& request) {
     SetPatience(context_);
-    v1::WatchMapRequest request;
-    request.set_mission(mission);
     stream_ = stub.WatchMap(&context_, request);
   }
+  explicit WatchClient(v1::MapService::Stub& stub, const std::string& mission = "missions/hall")
+      : WatchClient(stub, RequestFor(mission)) {}
+
   // An empty frame once the stream has ended.
   v1::WatchMapResponse Read() {
     v1::WatchMapResponse frame;
@@ -118,6 +119,12 @@ class WatchClient {
   }
 
  private:
+  static v1::WatchMapRequest RequestFor(const std::string& mission) {
+    v1::WatchMapRequest request;
+    request.set_mission(mission);
+    return request;
+  }
+
   grpc::ClientContext context_;
   std::unique_ptr<grpc::ClientReader<v1::WatchMapResponse>> stream_;
 };

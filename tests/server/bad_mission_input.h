@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumescout/v1/mission_service.pb.h"
+#include "plumescout/v1/robot_service.pb.h"
+#include "tests/server/bad_input.h"
+
+namespace plumescout::server {
+
+inline BadInputs BadMissionName(const std::string& field) {
+  return BadInputs()
+      .Values(field, {R"("")", R"("hall")", R"("missions")", R"("missions/")", R"("missions/Hall")",
+                      R"("missions/hall/")", R"("missions/hall/robots/r1")", R"("/missions/hall")",
+                      R"("missions/ha\0ll")", R"("plans/hall")"})
+      .Value(field, R"("missions/attic")", absl::StatusCode::kNotFound, "MISSION_NOT_FOUND");
+}
+
+inline BadInputs BadId(const std::string& field) {
+  static const std::string too_long = absl::StrCat("\"", std::string(64, 'a'), "\"");
+  return BadInputs()
+      .Values(field, {R"("")", R"("A")", R"("1a")", R"("-a")", R"("a-")", R"("a b")", R"("a/b")",
+                      R"("a\0b")", R"("ä")"})
+      .Values(field, {too_long.c_str()});
+}
+
+inline BadInputs BadLimits() {
+  return BadInputs()
+      .Values("options.pose_limit_m", {"nan", "inf", "-1", "0", "1e7"})
+      .Values("options.max_range_m", {"nan", "inf", "-1", "0", "1001"})
+      .Values("options.max_beam_count", {"-1", "0", "100001"})
+      .Values("options.max_concentration_ppm", {"nan", "inf", "-1", "0", "1e7"})
+      .Values("options.max_robot_count", {"-1", "0", "1001"});
+}
+
+inline BadInputs BadOccupancyOptions() {
+  const std::string o = "options.occupancy.";
+  return BadInputs()
+      .Values(o + "resolution_m", {"nan", "inf", "-inf", "-0.1", "0", "3"})
+      .Values(o + "inflation_radius_m", {"nan", "inf", "-0.1", "6"})
+      .Values(o + "free_threshold_probability", {"nan", "inf", "-1", "0", "0.5", "1"})
+      .Values(o + "occupied_threshold_probability", {"nan", "inf", "-1", "0", "0.5", "1"})
+      .Values(o + "hit_log_odds", {"nan", "inf", "-1", "0", "1e300"})
+      .Values(o + "miss_log_odds", {"nan", "-inf", "1", "0", "-1e300"})
+      .Values(o + "clamp_log_odds", {"nan", "inf", "-1", "0", "0.1", "51"})
+      .Values(o + "max_extent_m", {"nan", "inf", "-1", "0", "2001"})
+      .Values(o + "max_cell_count", {"-1", "0", "16000001", "9223372036854775807"});
+}
+
+inline BadInputs BadGasOptions() {
+  const std::string g = "options.gas.";
+  return BadInputs()
+      .Values(g + "prior_precision_per_ppm2", {"nan", "inf", "-1", "0", "1e300", "1e-300"})
+      .Values(g + "observation_precision_per_ppm2", {"nan", "inf", "-1", "0", "1e300", "1e-300"})
+      .Values(g + "background_precision_per_ppm2", {"nan", "inf", "-1", "0", "1e300", "1e-300"})
+      .Values(g + "background_mean_ppm", {"nan", "inf", "-1", "1e7"})
+      .Values(g + "ageing_half_life_s", {"nan", "inf", "-1", "1e-300", "1e300"})
+      .Values(g + "refresh_period_s", {"nan", "inf", "-1", "0", "1e5"});
+}
+
+inline BadInputs BadFrontierOptions() {
+  const std::string f = "options.frontier.";
+  return BadInputs()
+      .Values(f + "min_occupancy_cell_count", {"-1", "0", "2147483647"})
+      .Values(f + "min_gas_cell_count", {"-1", "0", "2147483647"})
+      .Values(f + "observed_variance_ratio", {"nan", "inf", "-1", "0", "11"})
+      .Values(f + "observed_variance_ppm2", {"nan", "inf", "-1", "0"})
+      .Values(f + "gas_percentile", {"nan", "inf", "-1", "101"})
+      .Values(f + "min_gas_threshold_ppm", {"nan", "inf", "-1", "0"})
+      .Values(f + "fixed_gas_threshold_ppm", {"nan", "inf", "-1", "0"})
+      .Values(f + "wgfd_scope", {"-1", "99"});
+}
+
+inline BadInputs BadPlanningOptions() {
+  const std::string p = "options.planning.";
+  static const std::string too_long = absl::StrCat("\"", std::string(100'000, 'x'), "\"");
+  return BadInputs()
+      .Values(p + "strategy", {R"("")", R"("no_such")", R"("XIT_GFF")", too_long.c_str()})
+      .Values(p + "goal_policy", {"-1", "99"})
+      .Values(p + "max_goal_count", {"-1", "0", "1001"})
+      .Values(p + "min_goal_distance_m", {"nan", "inf", "-1", "101"})
+      .Values(p + "cost", {"-1", "99"})
+      .Values(p + "selection_cost", {"-1", "99"})
+      .Values(p + "selection_rule", {"-1", "99"})
+      .Values(p + "alpha_per_m", {"nan", "inf", "-1", "1e300"})
+      .Values(p + "beta", {"nan", "inf", "-1", "1e300"})
+      .Values(p + "sample_count", {"-1", "0", "100001"})
+      .Values(p + "nearest_sample_count", {"-1", "0", "101"})
+      .Values(p + "uniform_share", {"nan", "inf", "-0.1", "1.1"})
+      .Values(p + "sampling", {"-1", "99"})
+      .Values(p + "radius_factor", {"nan", "inf", "-1", "0", "101"})
+      .Values(p + "speed_mps", {"nan", "inf", "-1", "0", "101"})
+      .Values(p + "dwell_s", {"nan", "inf", "-1", "3601"})
+      .Values(p + "set_aside_s", {"nan", "inf", "-1", "0", "1e300"})
+      .Values(p + "fallback_limit", {"-1", "0", "1001"});
+}
+
+// The server has room for a mission of the default size, not for the largest.
+inline BadInputs BadCreateMission() {
+  return BadInputs()
+      .Rows(BadId("mission_id"))
+      .Value("mission_id", R"("hall")", absl::StatusCode::kAlreadyExists, "MISSION_EXISTS")
+      .Rows(BadLimits())
+      .Rows(BadOccupancyOptions())
+      .Rows(BadGasOptions())
+      .Rows(BadFrontierOptions())
+      .Rows(BadPlanningOptions())
+      .Row({"options.occupancy.max_cell_count", "more than the server's memory",
+            [](Message& message) {
+              SetField(message, "options.occupancy.max_cell_count", "16000000");
+              SetField(message, "options.occupancy.max_extent_m", "2000");
+              SetField(message, "options.occupancy.resolution_m", "0.01");
+            },
+            absl::StatusCode::kResourceExhausted, "LIMIT_REACHED"});
+}
+
+inline BadInputs BadListMissions() {
+  return BadInputs()
+      .Values("page_size", {"-1", "-2147483648"})
+      .Values("page_token", {R"("hall")", R"("!")", R"("AAAA")"});
+}
+
+inline BadInputs BadRegisterRobot() {
+  return BadInputs()
+      .Rows(BadMissionName("mission"))
+      .Rows(BadId("robot_id"))
+      .Values("radius_m", {"nan", "inf", "-inf", "-1", "0", "6"});
+}
+
+}  // namespace plumescout::server
