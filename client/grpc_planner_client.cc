@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "absl/time/clock.h"
 #include "client/grpc_observation_stream.h"
 #include "client/grpc_status.h"
@@ -65,7 +66,7 @@ class GrpcPlannerClient final : public PlannerClient {
   absl::Status CreateMission(const MissionId& mission, const MissionOptions& options) override {
     v1::CreateMissionRequest request;
     request.set_mission_id(mission);
-    *request.mutable_options() = ToProto(options);
+    *request.mutable_options() = ChangesToProto(options);
     v1::CreateMissionResponse response;
     return Call(missions_, &v1::MissionService::Stub::CreateMission, request, &response);
   }
@@ -168,7 +169,11 @@ class GrpcPlannerClient final : public PlannerClient {
     grpc::ClientContext context;
     context.set_deadline(absl::ToChronoTime(absl::Now() + timeout));
     context.set_wait_for_ready(true);
-    return FromGrpc((stub.*method)(&context, request, response));
+    const absl::Status status = FromGrpc((stub.*method)(&context, request, response));
+    const bool linked = channel_->GetState(/*try_to_connect=*/false) == GRPC_CHANNEL_READY;
+    if (!absl::IsDeadlineExceeded(status) || linked) return status;
+    return absl::UnavailableError(absl::StrCat("no link to ", options_.target, " within ",
+                                               absl::FormatDuration(timeout)));
   }
   template <typename Stub, typename Method, typename Request, typename Response>
   absl::Status Call(Stub& stub, Method method, const Request& request, Response* response) {

@@ -77,6 +77,7 @@ class PlannerClient {
  public:
   virtual ~PlannerClient() = default;
 
+  // Options that equal those of MissionOptions{} are left to the server's configuration.
   // kAlreadyExists if the name is taken.
   virtual absl::Status CreateMission(const MissionId& mission, const MissionOptions& options) = 0;
   virtual absl::StatusOr<std::vector<MissionId>> ListMissions() = 0;

@@ -3,8 +3,11 @@
 #include "proto/convert/options.h"
 
 #include <string>
+#include <vector>
 
 #include "core/types/status_macros.h"
+#include "google/protobuf/message.h"
+#include "google/protobuf/util/message_differencer.h"
 #include "proto/convert/enums.h"
 #include "proto/convert/field.h"
 
@@ -83,6 +86,7 @@ v1::PlanningOptions ToProto(const PlanningOptions& options) {
   proto.set_dwell_s(options.dwell_s);
   proto.set_set_aside_s(options.set_aside_s);
   proto.set_fallback_limit(options.fallback_limit);
+  proto.set_fallback_to_unobserved(options.fallback_to_unobserved);
   return proto;
 }
 
@@ -174,6 +178,24 @@ void ReadNumbers(const v1::PlanningOptions& proto, PlanningOptions& options) {
   Take(proto.has_dwell_s(), proto.dwell_s(), options.dwell_s);
   Take(proto.has_set_aside_s(), proto.set_aside_s(), options.set_aside_s);
   Take(proto.has_fallback_limit(), proto.fallback_limit(), options.fallback_limit);
+  Take(proto.has_fallback_to_unobserved(), proto.fallback_to_unobserved(),
+       options.fallback_to_unobserved);
+}
+
+// Clears the fields of `message` that are equal in `other`, a message of the same type.
+void ClearEqualFields(const google::protobuf::Message& other, google::protobuf::Message& message) {
+  const google::protobuf::Reflection& reflection = *message.GetReflection();
+  std::vector<const google::protobuf::FieldDescriptor*> fields;
+  reflection.ListFields(message, &fields);
+  google::protobuf::util::MessageDifferencer differencer;
+  for (const auto* field : fields) {
+    if (field->cpp_type() == google::protobuf::FieldDescriptor::CPPTYPE_MESSAGE) {
+      ClearEqualFields(reflection.GetMessage(other, field),
+                       *reflection.MutableMessage(&message, field));
+    } else if (differencer.CompareWithFields(message, other, {field}, {field})) {
+      reflection.ClearField(&message, field);
+    }
+  }
 }
 
 // Where Validate(options) calls a field differently from the wire.
@@ -208,6 +230,12 @@ v1::MissionOptions ToProto(const MissionOptions& options) {
   proto.set_max_concentration_ppm(options.max_concentration_ppm);
   proto.set_max_robot_count(options.max_robots);
   proto.set_seed(static_cast<std::int64_t>(options.seed));
+  return proto;
+}
+
+v1::MissionOptions ChangesToProto(const MissionOptions& options) {
+  v1::MissionOptions proto = ToProto(options);
+  ClearEqualFields(ToProto(MissionOptions{}), proto);
   return proto;
 }
 

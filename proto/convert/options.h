@@ -12,6 +12,10 @@ namespace plumescout {
 // Every field set, but the overrides that are off.
 v1::MissionOptions ToProto(const MissionOptions& options);
 
+// Only the fields that differ from MissionOptions{}: what a creator asks for who leaves the rest
+// to the server's configuration.
+v1::MissionOptions ChangesToProto(const MissionOptions& options);
+
 // `defaults` with the fields that are set in `proto`; an enum that is unspecified counts as unset.
 // The result is valid; refusals name the field of `proto`, below `field`.
 absl::StatusOr<MissionOptions> FromProto(const v1::MissionOptions& proto,

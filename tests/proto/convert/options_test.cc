@@ -45,6 +45,21 @@ TEST(OptionsTest, OptionsSurviveTheRoundTrip) {
   EXPECT_EQ(back->frontier.fixed_gas_threshold_ppm, 4.0);
 }
 
+TEST(OptionsTest, ChangesAreAllThatDiffersFromTheDefaults) {
+  MissionOptions options;
+  EXPECT_EQ(ChangesToProto(options).planning().ByteSizeLong(), 0U);
+  options.planning.strategy = "xit_f";
+  options.planning.fallback_to_unobserved = false;
+  options.frontier.fixed_gas_threshold_ppm = 600.0;
+  v1::MissionOptions expected;
+  expected.mutable_occupancy();
+  expected.mutable_gas();
+  expected.mutable_frontier()->set_fixed_gas_threshold_ppm(600.0);
+  expected.mutable_planning()->set_strategy("xit_f");
+  expected.mutable_planning()->set_fallback_to_unobserved(false);
+  EXPECT_TRUE(MessageDifferencer::Equals(ChangesToProto(options), expected));
+}
+
 // Sets every field of the message tree that has no value yet from the other, by reflection: so a
 // field that conversion forgot shows up as unset.
 void ExpectEveryFieldSet(const Message& message, const std::string& path) {
