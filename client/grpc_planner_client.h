@@ -12,7 +12,8 @@ namespace plumescout::client {
 
 struct GrpcClientOptions {
   std::string target = "127.0.0.1:50551";  // host:port of the server
-  // Of calls that name none. They wait for the link to come up, within this time.
+  // Of calls that name none. They wait for the link to come up, within this time; kUnavailable if
+  // it has not, kDeadlineExceeded if the answer has not come over it.
   absl::Duration call_timeout = absl::Seconds(10);
   absl::Duration stream_open_timeout = absl::Seconds(5);
   absl::Duration stream_write_timeout = absl::Seconds(10);  // a server that stops reading is gone

@@ -16,8 +16,8 @@ struct Participation {
   MissionId mission;
   RobotId robot;
   double radius_m = 0.2;
-  bool take_over = false;                // supersede a lease that is still held
-  std::optional<MissionOptions> create;  // create the mission if it is not there
+  bool take_over = false;                               // supersede a lease that is still held
+  std::optional<MissionOptions> create = std::nullopt;  // create the mission if it is not there
 };
 
 // Creates the mission if asked to and needed, then registers the robot.

@@ -139,6 +139,11 @@ std::vector<FakePlannerClient::Report> FakePlannerClient::reports() const {
   return reports_;
 }
 
+std::vector<FakePlannerClient::Registration> FakePlannerClient::registrations() const {
+  absl::MutexLock lock(&mutex_);
+  return registrations_;
+}
+
 int FakePlannerClient::streams_opened() const {
   absl::MutexLock lock(&mutex_);
   return streams_opened_;
@@ -164,11 +169,13 @@ absl::StatusOr<std::vector<MissionId>> FakePlannerClient::ListMissions() {
 absl::Status FakePlannerClient::DeleteMission(const MissionId&) { return absl::OkStatus(); }
 
 absl::StatusOr<RobotSession> FakePlannerClient::RegisterRobot(const MissionId& mission,
-                                                              const RobotId& robot, double, bool) {
+                                                              const RobotId& robot, double radius_m,
+                                                              bool take_over) {
   absl::MutexLock lock(&mutex_);
   PLUMESCOUT_RETURN_IF_ERROR(LinkStatus());
   if (!mission_exists_) return absl::NotFoundError("mission");
   registered_ = true;
+  registrations_.push_back({mission, robot, radius_m, take_over});
   return RobotSession{mission, robot, ++lease_, absl::StrCat("boot-", boot_), State()};
 }
 

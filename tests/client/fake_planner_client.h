@@ -28,6 +28,14 @@ class FakePlannerClient final : public PlannerClient {
 
     friend bool operator==(const Report&, const Report&) = default;
   };
+  struct Registration {
+    MissionId mission;
+    RobotId robot;
+    double radius_m = 0.0;
+    bool take_over = false;
+
+    friend bool operator==(const Registration&, const Registration&) = default;
+  };
   using PlanScript = std::function<absl::StatusOr<Plan>(const PlanQuery&)>;
 
   // The default script says that the mission is complete.
@@ -51,6 +59,7 @@ class FakePlannerClient final : public PlannerClient {
   std::vector<Observation> received() const;
   std::int64_t applied() const;
   std::vector<Report> reports() const;
+  std::vector<Registration> registrations() const;
   int streams_opened() const;
   int largest_batch() const;
 
@@ -92,6 +101,7 @@ class FakePlannerClient final : public PlannerClient {
   std::set<std::int64_t> refused_ ABSL_GUARDED_BY(mutex_);
   std::vector<Observation> received_ ABSL_GUARDED_BY(mutex_);
   std::vector<Report> reports_ ABSL_GUARDED_BY(mutex_);
+  std::vector<Registration> registrations_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace plumescout::client
