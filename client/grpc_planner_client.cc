@@ -4,6 +4,8 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -33,6 +35,7 @@ constexpr int kMinReconnect_ms = 100;
 constexpr int kMaxReconnect_ms = 2'000;
 constexpr int kMaxReceive_bytes = 256 << 20;  // the largest map with three layers, and room
 constexpr int kMissionsPerPage = 1000;
+constexpr std::int64_t kMaxDuration_s = 315'576'000'000;  // of a google.protobuf.Duration
 
 std::shared_ptr<grpc::Channel> MakeChannel(const std::string& target) {
   grpc::ChannelArguments arguments;
@@ -47,7 +50,9 @@ std::shared_ptr<grpc::Channel> MakeChannel(const std::string& target) {
   return grpc::CreateCustomChannel(target, grpc::InsecureChannelCredentials(), arguments);
 }
 
+// Longer than the wire can say: as long as it can say.
 void SetDuration(absl::Duration duration, google::protobuf::Duration* proto) {
+  duration = std::min(duration, absl::Seconds(kMaxDuration_s));
   proto->set_seconds(absl::IDivDuration(duration, absl::Seconds(1), &duration));
   proto->set_nanos(static_cast<std::int32_t>(absl::ToInt64Nanoseconds(duration)));
 }
@@ -172,8 +177,8 @@ class GrpcPlannerClient final : public PlannerClient {
     const absl::Status status = FromGrpc((stub.*method)(&context, request, response));
     const bool linked = channel_->GetState(/*try_to_connect=*/false) == GRPC_CHANNEL_READY;
     if (!absl::IsDeadlineExceeded(status) || linked) return status;
-    return absl::UnavailableError(absl::StrCat("no link to ", options_.target, " within ",
-                                               absl::FormatDuration(timeout)));
+    return absl::UnavailableError(
+        absl::StrCat("no link to ", options_.target, " within ", absl::FormatDuration(timeout)));
   }
   template <typename Stub, typename Method, typename Request, typename Response>
   absl::Status Call(Stub& stub, Method method, const Request& request, Response* response) {

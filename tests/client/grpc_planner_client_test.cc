@@ -198,6 +198,18 @@ TEST_F(GrpcPlannerClientTest, TheBudgetStopsTheSearch) {
   EXPECT_TRUE(plan.ok()) << plan.status();  // much earlier than the timeout
 }
 
+TEST_F(GrpcPlannerClientTest, AnEndlessBudgetIsUnderstood) {
+  Start(server::ScriptedHooks([&](const Belief& belief, const PlanRequest& request, const StopFn&) {
+    return absl::StatusOr<Plan>(server::PlanTo(belief, request.robot, 1.0));
+  }));
+  PlanQuery query = Query();
+  query.budget = absl::InfiniteDuration();
+
+  const auto plan = client_->NextBestTrajectory("house", query);
+
+  EXPECT_TRUE(plan.ok()) << plan.status();
+}
+
 TEST_F(GrpcPlannerClientTest, ACallThatOutlivesItsTimeoutIsGivenUpAndTheLinkLivesOn) {
   absl::Notification release;
   Start(server::ScriptedHooks([&](const Belief& belief, const PlanRequest& request, const StopFn&) {
