@@ -109,7 +109,7 @@ class BadInputTest : public ServiceTest {
     lease_ = Lease();
     ASSERT_TRUE(Ingest(kRobot, lease_, RoomScan(1)).ok());
     ASSERT_TRUE(Ingest(kRobot, lease_, GasReadings(2, 2)).ok());
-    ASSERT_TRUE(NextBest(NextBestRequest()).ok());
+    ASSERT_TRUE(NextBest(PlanFor(lease_)).ok());
   }
 
   template <typename Stub, typename Request, typename Response>
@@ -143,12 +143,6 @@ class BadInputTest : public ServiceTest {
     request.mutable_open()->set_robot(kRobot);
     request.mutable_open()->set_lease_token(lease_);
     *request.mutable_batch() = RoomScan(AppliedSequence() + 1);
-    return request;
-  }
-  v1::NextBestTrajectoryRequest NextBestRequest() const {
-    v1::NextBestTrajectoryRequest request;
-    request.set_robot(kRobot);
-    request.set_lease_token(lease_);
     return request;
   }
   v1::ReportProgressRequest GoodReport() const {
@@ -250,7 +244,7 @@ TEST_F(BadInputTest, StreamObservations) {
 }
 
 TEST_F(BadInputTest, NextBestTrajectory) {
-  Check(BadNextBest(), Copies(NextBestRequest()),
+  Check(BadNextBest(), Copies(PlanFor(lease_)),
         SenderOf(planning_, &v1::PlanningService::Stub::NextBestTrajectory));
 }
 

@@ -46,12 +46,7 @@ class PlanningServiceTest : public ServiceTest {
     lease_ = Lease();
     ASSERT_TRUE(Ingest(kRobot, lease_, CornerScans()).ok());
   }
-  v1::NextBestTrajectoryRequest Order() const {
-    v1::NextBestTrajectoryRequest request;
-    request.set_robot(kRobot);
-    request.set_lease_token(lease_);
-    return request;
-  }
+  v1::NextBestTrajectoryRequest Order() const { return PlanFor(lease_); }
   NextBestResponse NextBestWith(const std::function<void(v1::NextBestTrajectoryRequest&)>& change) {
     v1::NextBestTrajectoryRequest request = Order();
     change(request);
@@ -146,8 +141,10 @@ TEST_F(PlanningServiceTest, DeadlineOfTheCallStopsTheSearchInTimeForAReply) {
 
 TEST_F(PlanningServiceTest, BudgetStopsTheSearch) {
   Start({}, SearchUntilStopped);
-  const auto response =
-      NextBestWith([](auto& request) { request.mutable_planning_budget()->set_nanos(1'000'000); });
+  const auto response = NextBestWith([](auto& request) {
+    request.mutable_planning_budget()->set_seconds(0);
+    request.mutable_planning_budget()->set_nanos(1'000'000);
+  });
   EXPECT_TRUE(response.ok()) << response.status();
 }
 

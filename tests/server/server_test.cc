@@ -25,13 +25,8 @@ class ServerTest : public ServiceTest {
  protected:
   // A call for a plan, and its answer.
   std::future<absl::Status> AskForAPlan(std::int64_t lease) {
-    return std::async(std::launch::async, [this, lease] {
-      v1::NextBestTrajectoryRequest request;
-      request.set_robot(kRobot);
-      request.set_lease_token(lease);
-      request.mutable_planning_budget()->set_seconds(3600);
-      return NextBest(request).status();
-    });
+    return std::async(std::launch::async,
+                      [this, lease] { return NextBest(PlanFor(lease)).status(); });
   }
 };
 
@@ -180,12 +175,10 @@ TEST_F(ServerTest, ResendingEverythingAfterARestartMakesTheSameMap) {
   std::string maps[2];
   for (std::string& map : maps) {
     StartServer();
-    v1::NextBestTrajectoryRequest request;
-    request.set_robot(kRobot);
-    request.set_lease_token(Lease());
-    ASSERT_TRUE(Ingest(kRobot, request.lease_token(), RoomScan(1)).ok());
-    ASSERT_TRUE(Ingest(kRobot, request.lease_token(), GasReadings(2, 20)).ok());
-    ASSERT_TRUE(NextBest(request).ok());  // brings the posterior up to date
+    const std::int64_t lease = Lease();
+    ASSERT_TRUE(Ingest(kRobot, lease, RoomScan(1)).ok());
+    ASSERT_TRUE(Ingest(kRobot, lease, GasReadings(2, 20)).ok());
+    ASSERT_TRUE(NextBest(PlanFor(lease)).ok());  // brings the posterior up to date
     const auto response = GetMap(/*full_precision=*/true);
     ASSERT_TRUE(response.ok()) << response.status();
     map = response->SerializeAsString();

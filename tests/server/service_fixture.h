@@ -23,6 +23,8 @@
 
 namespace plumescout::server {
 
+inline constexpr char kRobot[] = "missions/hall/robots/r1";
+
 // A server on a loopback port, with one mission, "hall", and calls to it.
 class ServiceTest : public testing::Test {
  protected:
@@ -90,6 +92,15 @@ class ServiceTest : public testing::Test {
     request.set_name(absl::StrCat("missions/", id));
     return Call(missions_, &v1::MissionService::Stub::DeleteMission, request).status();
   }
+  // For robot r1; with time enough for a slow machine, which a search that ends by itself leaves.
+  static v1::NextBestTrajectoryRequest PlanFor(std::int64_t lease_token) {
+    constexpr int kAmpleBudget_s = 50;
+    v1::NextBestTrajectoryRequest request;
+    request.set_robot(kRobot);
+    request.set_lease_token(lease_token);
+    request.mutable_planning_budget()->set_seconds(kAmpleBudget_s);
+    return request;
+  }
   absl::StatusOr<v1::NextBestTrajectoryResponse> NextBest(
       const v1::NextBestTrajectoryRequest& request) {
     return Call(planning_, &v1::PlanningService::Stub::NextBestTrajectory, request);
@@ -115,8 +126,6 @@ class ServiceTest : public testing::Test {
   std::unique_ptr<v1::PlanningService::Stub> planning_;
   std::unique_ptr<v1::MapService::Stub> maps_;
 };
-
-inline constexpr char kRobot[] = "missions/hall/robots/r1";
 
 // Gas readings numbered first .. last.
 inline v1::ObservationBatch GasReadings(std::int64_t first, std::int64_t last) {
