@@ -46,7 +46,8 @@ absl::Status Validate(const RobotLoopOptions& options) {
   PLUMESCOUT_RETURN_IF_ERROR(RequireNotNegative("plan_latency_s", options.plan_latency_s));
   PLUMESCOUT_RETURN_IF_ERROR(RequireNotNegative("time_limit_s", options.time_limit_s));
   PLUMESCOUT_RETURN_IF_ERROR(RequireNotNegative("rates.scan_hz", options.rates.scan_hz));
-  return RequireNotNegative("rates.gas_hz", options.rates.gas_hz);
+  PLUMESCOUT_RETURN_IF_ERROR(RequireNotNegative("rates.gas_hz", options.rates.gas_hz));
+  return RequireNotNegative("gas_time_constant_s", options.gas_time_constant_s);
 }
 
 RobotLoop::RobotLoop(PlannerClient& client, RobotDriver& driver, const RobotLoopOptions& options,
@@ -98,7 +99,7 @@ void RobotLoop::StartSensing() {
       .on_link = [this](const absl::Status& status) { observer_.OnLink(status); }};
   ingest_.emplace(client_, *std::move(joined_), std::move(callbacks), options_.ingest);
   bridge_.emplace(
-      driver_, options_.rates,
+      driver_, options_.rates, options_.gas_time_constant_s,
       [this](std::int64_t time_ns, const Pose2& pose, std::variant<Scan, GasReading> payload) {
         ingest_->Append(time_ns, pose, std::move(payload));
       });

@@ -50,14 +50,17 @@ void SampleSchedule::PlaceAfter(std::int64_t now_ns) {
   next_count_ = static_cast<std::int64_t>(std::floor(periods)) + 1;
 }
 
-SensorBridge::SensorBridge(RobotDriver& driver, const SensorRates& rates, Sink sink)
+SensorBridge::SensorBridge(RobotDriver& driver, const SensorRates& rates,
+                           double gas_time_constant_s, Sink sink)
     : driver_(driver),
       sink_(std::move(sink)),
       scan_schedule_(driver.now_ns(), rates.scan_hz),
-      gas_schedule_(driver.now_ns(), rates.gas_hz) {}
+      gas_schedule_(driver.now_ns(), rates.gas_hz),
+      lag_correction_(gas_time_constant_s) {}
 
 absl::Status SensorBridge::Poll() {
   const std::int64_t now_ns = driver_.now_ns();
+  lag_correction_.NotePose(now_ns, driver_.pose());
   if (scan_schedule_.Due(now_ns)) PLUMESCOUT_RETURN_IF_ERROR(PollScan());
   if (gas_schedule_.Due(now_ns)) PLUMESCOUT_RETURN_IF_ERROR(PollGas());
   return absl::OkStatus();
@@ -76,7 +79,9 @@ absl::Status SensorBridge::PollScan() {
 absl::Status SensorBridge::PollGas() {
   const absl::StatusOr<GasReading> reading = driver_.ReadGas();
   if (!reading.ok()) return Missed(reading.status());
-  sink_(driver_.sample_time_ns(), driver_.sample_pose(), *reading);
+  const GasSample air =
+      lag_correction_.Correct({driver_.sample_time_ns(), driver_.sample_pose(), *reading});
+  sink_(air.time_ns, air.pose, air.reading);
   return absl::OkStatus();
 }
 

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "absl/status/status.h"
+#include "client/lag_correction.h"
 #include "client/robot_driver.h"
 #include "core/types/gas_reading.h"
 #include "core/types/pose2.h"
@@ -42,14 +43,16 @@ class SampleSchedule {
 };
 
 // Reads a robot's sensors when they are due and hands every reading, with the pose and the time at
-// which it was taken, to a sink (normally the robot's log).
+// which it was taken, to a sink (normally the robot's log). The lag of the gas sensor is undone.
 class SensorBridge {
  public:
   using Sink = std::function<void(std::int64_t sample_time_ns, const Pose2& pose,
                                   std::variant<Scan, GasReading> payload)>;
 
   // Both sensors are due at once. `driver` must outlive the bridge.
-  SensorBridge(RobotDriver& driver, const SensorRates& rates, Sink sink);
+  // gas_time_constant_s: see LagCorrection; 0: readings are handed on as they are.
+  SensorBridge(RobotDriver& driver, const SensorRates& rates, double gas_time_constant_s,
+               Sink sink);
 
   // Reads what is due now. A sensor that answers kUnavailable has nothing to say this time: it is
   // counted and passed over. Any other error of a sensor is returned.
@@ -69,6 +72,7 @@ class SensorBridge {
   Sink sink_;
   SampleSchedule scan_schedule_;
   SampleSchedule gas_schedule_;
+  LagCorrection lag_correction_;
   std::optional<Scan> latest_scan_;
   Pose2 latest_scan_pose_;
   std::int64_t scans_taken_ = 0;

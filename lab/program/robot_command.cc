@@ -32,6 +32,7 @@ struct RobotArguments {
   double duration_s = 300.0;
   client::Following following = client::Following::kIdeal;
   bool realtime = false;
+  bool raw_gas = false;
   std::uint64_t seed = 1;
 };
 
@@ -97,6 +98,7 @@ EpisodeOptions MakeEpisodeOptions(const RobotArguments& arguments, EpisodeDispla
   options.duration_s = arguments.duration_s;
   options.following = arguments.following;
   options.realtime = arguments.realtime;
+  options.correct_gas_lag = !arguments.raw_gas;
   options.simulated.seed = arguments.seed;
   options.on_plan = [&](const IssuedPlan& plan) { display.OnPlan(plan); };
   options.on_sample = [&](const MetricSample& sample, const MapSnapshot& map) {
@@ -163,6 +165,8 @@ void AddRobotCommand(CLI::App& app, absl::Status& status) {
       ->capture_default_str();
   robot->add_flag("--realtime", arguments->realtime,
                   "At the pace of a wall clock instead of in lockstep");
+  robot->add_flag("--raw-gas", arguments->raw_gas,
+                  "Send gas readings as the sensor gives them, its lag not undone");
   robot->callback([arguments, &status] { status = DriveRobot(*arguments); });
 }
 

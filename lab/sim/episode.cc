@@ -37,6 +37,9 @@ client::RobotLoopOptions LoopOptions(const EpisodeOptions& options) {
   loop.pacing = options.realtime ? client::Pacing::kFreeRunning : client::Pacing::kLockstep;
   loop.following = options.following;
   loop.rates = options.rates;
+  if (options.correct_gas_lag) {
+    loop.gas_time_constant_s = options.simulated.gas_sensor.time_constant_s;
+  }
   loop.time_limit_s = options.duration_s;
   loop.max_edge_evaluations = options.max_edge_evaluations;
   loop.plan_budget = options.plan_budget;

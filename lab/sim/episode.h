@@ -50,6 +50,7 @@ struct EpisodeOptions {
   double duration_s = 300.0;             // of simulated time, [XIT] section VI-B, > 0
   client::Following following = client::Following::kIdeal;
   client::SensorRates rates;
+  bool correct_gas_lag = true;  // undo the lag of the gas sensor, which the robot knows
   // False: the world waits for acknowledgements and plans, so an episode is repeatable. True: time
   // goes by as on a wall clock, plans take as long as they take.
   bool realtime = false;

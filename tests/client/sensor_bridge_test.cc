@@ -91,7 +91,7 @@ TEST(SampleSchedule, ARateOfZeroIsNeverDue) {
 TEST(SensorBridge, TenScansAndTwoGasReadingsASecond) {
   FakeDriver driver;
   std::vector<Sample> samples;
-  SensorBridge bridge(driver, {.scan_hz = 10.0, .gas_hz = 2.0}, Into(samples));
+  SensorBridge bridge(driver, {.scan_hz = 10.0, .gas_hz = 2.0}, 0.0, Into(samples));
 
   for (int tick = 0; tick < 1000; ++tick) {
     ASSERT_TRUE(bridge.Poll().ok());
@@ -106,7 +106,7 @@ TEST(SensorBridge, TenScansAndTwoGasReadingsASecond) {
 TEST(SensorBridge, SamplesCarryThePoseAndTimeAtWhichTheyWereTaken) {
   FakeDriver driver;
   std::vector<Sample> samples;
-  SensorBridge bridge(driver, {.scan_hz = 10.0, .gas_hz = 0.0}, Into(samples));
+  SensorBridge bridge(driver, {.scan_hz = 10.0, .gas_hz = 0.0}, 0.0, Into(samples));
   const std::int64_t start_ns = driver.now_ns();
   ASSERT_TRUE(driver.Drive({.forward_mps = 1.0}).ok());
 
@@ -125,7 +125,7 @@ TEST(SensorBridge, ASilentSensorIsCountedAndPassedOver) {
   FakeDriver driver;
   driver.gas_status = absl::UnavailableError("warming up");
   std::vector<Sample> samples;
-  SensorBridge bridge(driver, {}, Into(samples));
+  SensorBridge bridge(driver, {}, 0.0, Into(samples));
 
   EXPECT_TRUE(bridge.Poll().ok());
 
@@ -137,7 +137,7 @@ TEST(SensorBridge, ABrokenSensorIsAnError) {
   FakeDriver driver;
   driver.scan_status = absl::InternalError("no laser");
   std::vector<Sample> samples;
-  SensorBridge bridge(driver, {}, Into(samples));
+  SensorBridge bridge(driver, {}, 0.0, Into(samples));
 
   EXPECT_EQ(bridge.Poll(), absl::InternalError("no laser"));
 }
