@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/e2e/trial.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "client/grpc_planner_client.h"
+#include "core/types/status_macros.h"
+#include "lab/sim/layout.h"
+#include "lab/sim/scene_maker.h"
+#include "proto/convert/observation.h"
+
+namespace plumescout::lab {
+namespace {
+
+constexpr double kDuration_s = 40.0;
+constexpr std::int64_t kMaxEdgeEvaluations = 20'000;  // of each plan
+constexpr absl::Duration kPatience = absl::Seconds(30);
+
+Layout GasHallLayout() {
+  Layout layout;
+  layout.name = "gas_hall";
+  layout.size_x_m = 6.0;
+  layout.size_y_m = 5.0;
+  layout.walls = {{{3.0, 0.0}, {3.0, 5.0}, 0.2, {{3.6, 1.4}}}};
+  layout.boxes = {{{4.2, 1.6}, {4.8, 2.2}}};
+  layout.openings = {{Side::kWest, 3.0, 4.2, 1.0}, {Side::kEast, 1.0, 2.2, std::nullopt}};
+  layout.sources = {{0, 3.6, 3.4, 0.4, 1000.0}};
+  layout.start_pose = {0.8, 0.8, 0.0};
+  return layout;
+}
+
+Scene MakeGasHall() {
+  SceneMakerOptions options;
+  options.wind.flow_s = 4.0;
+  options.warm_up_s = 30.0;
+  options.frames = 80;
+  absl::StatusOr<Scene> scene = MakeScene(GasHallLayout(), options);
+  EXPECT_TRUE(scene.ok()) << scene.status();
+  return *std::move(scene);
+}
+
+template <typename T>
+bool SameBytes(const Grid<T>& a, const Grid<T>& b) {
+  return a.geometry() == b.geometry() &&
+         std::memcmp(a.values().data(), b.values().data(), a.size() * sizeof(T)) == 0;
+}
+
+class TappedStream final : public client::ObservationStream {
+ public:
+  TappedStream(std::unique_ptr<ObservationStream> inner, const ObservationTap& tap)
+      : inner_(std::move(inner)), tap_(tap) {}
+
+  const client::IngestState& opened() const override { return inner_->opened(); }
+  absl::Status Write(const std::vector<Observation>& batch) override {
+    std::vector<Observation> tapped;
+    for (const Observation& observation : batch) tapped.push_back(tap_(observation));
+    return inner_->Write(tapped);
+  }
+  absl::StatusOr<client::IngestReply> Read(absl::Duration timeout) override {
+    return inner_->Read(timeout);
+  }
+  absl::Status Finish() override { return inner_->Finish(); }
+
+ private:
+  const std::unique_ptr<ObservationStream> inner_;
+  const ObservationTap& tap_;
+};
+
+class TappedClient final : public client::PlannerClient {
+ public:
+  TappedClient(client::PlannerClient& inner, ObservationTap tap)
+      : inner_(inner), tap_(std::move(tap)) {}
+
+  absl::Status CreateMission(const MissionId& mission, const MissionOptions& options) override {
+    return inner_.CreateMission(mission, options);
+  }
+  absl::StatusOr<std::vector<MissionId>> ListMissions() override { return inner_.ListMissions(); }
+  absl::Status DeleteMission(const MissionId& mission) override {
+    return inner_.DeleteMission(mission);
+  }
+  absl::StatusOr<client::RobotSession> RegisterRobot(const MissionId& mission, const RobotId& robot,
+                                                     double radius_m, bool take_over) override {
+    return inner_.RegisterRobot(mission, robot, radius_m, take_over);
+  }
+  absl::StatusOr<std::unique_ptr<client::ObservationStream>> OpenObservationStream(
+      const client::RobotSession& session) override {
+    PLUMESCOUT_ASSIGN_OR_RETURN(auto stream, inner_.OpenObservationStream(session));
+    return std::make_unique<TappedStream>(std::move(stream), tap_);
+  }
+  absl::StatusOr<Plan> NextBestTrajectory(const MissionId& mission,
+                                          const client::PlanQuery& query) override {
+    return inner_.NextBestTrajectory(mission, query);
+  }
+  absl::Status ReportProgress(const client::RobotSession& session, PlanId plan,
+                              ProgressOutcome outcome) override {
+    return inner_.ReportProgress(session, plan, outcome);
+  }
+  absl::StatusOr<MapSnapshot> GetMap(const MissionId& mission) override {
+    return inner_.GetMap(mission);
+  }
+
+ private:
+  client::PlannerClient& inner_;
+  const ObservationTap tap_;
+};
+
+}  // namespace
+
+const SceneWorld& GasHall() {
+  static const SceneWorld world(MakeGasHall());
+  return world;
+}
+
+EpisodeOptions TrialOptions() {
+  EpisodeOptions options;
+  options.mission = kTrialMission;
+  options.create = MissionOptions{};
+  options.duration_s = kDuration_s;
+  options.max_edge_evaluations = kMaxEdgeEvaluations;
+  options.plan_budget = absl::InfiniteDuration();
+  options.metrics_period_s = 2.0 * kDuration_s;  // before and after, but not on the way
+  return options;
+}
+
+absl::StatusOr<Trial> RunTrial(client::PlannerClient& planner, const EpisodeOptions& options) {
+  Trial trial;
+  PLUMESCOUT_ASSIGN_OR_RETURN(trial.episode, RunEpisode(planner, GasHall(), options));
+  PLUMESCOUT_ASSIGN_OR_RETURN(trial.map, FreshMap(planner));
+  return trial;
+}
+
+absl::StatusOr<MapSnapshot> FreshMap(client::PlannerClient& planner) {
+  const EpisodeOptions options = TrialOptions();
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      const client::RobotSession session,
+      planner.RegisterRobot(options.mission, options.robot, /*radius_m=*/0.2, /*take_over=*/true));
+  client::PlanQuery query;
+  query.request.robot = options.robot;
+  query.request.max_edge_evaluations = 1;
+  query.lease_token = session.lease_token;
+  query.timeout = kPatience;
+  PLUMESCOUT_RETURN_IF_ERROR(planner.NextBestTrajectory(options.mission, query).status());
+  return planner.GetMap(options.mission);
+}
+
+std::vector<Plan> ComparablePlans(const EpisodeResult& episode) {
+  std::vector<Plan> plans;
+  for (const IssuedPlan& issued : episode.plans) {
+    plans.push_back(issued.plan);
+    plans.back().cpu_s = 0.0;
+    plans.back().belief_revision = 0;
+  }
+  return plans;
+}
+
+bool SameMap(const MapSnapshot& a, const MapSnapshot& b) {
+  return SameBytes(a.occupancy, b.occupancy) && SameBytes(a.gas_mean_ppm, b.gas_mean_ppm) &&
+         SameBytes(a.gas_variance_ppm2, b.gas_variance_ppm2) && a.robots == b.robots &&
+         a.gas_counters == b.gas_counters && a.gas_threshold_ppm == b.gas_threshold_ppm;
+}
+
+std::unique_ptr<server::Server> StartServer(int port, server::RegistryHooks hooks) {
+  server::ServerConfig config;
+  config.listen = absl::StrCat("127.0.0.1:", port);
+  absl::StatusOr<std::unique_ptr<server::Server>> started =
+      server::Server::Start(config, std::move(hooks));
+  EXPECT_TRUE(started.ok()) << started.status();
+  return started.ok() ? *std::move(started) : nullptr;
+}
+
+std::unique_ptr<client::PlannerClient> ClientOf(const server::Server& server) {
+  return client::MakeGrpcPlannerClient({.target = absl::StrCat("127.0.0.1:", server.port())});
+}
+
+std::unique_ptr<client::PlannerClient> WithTap(client::PlannerClient& inner, ObservationTap tap) {
+  return std::make_unique<TappedClient>(inner, std::move(tap));
+}
+
+Observation AsOnTheWire(const Observation& observation) {
+  absl::StatusOr<Observation> arrived = FromProto(ToProto(observation), "observation");
+  EXPECT_TRUE(arrived.ok()) << arrived.status();
+  return arrived.ok() ? *std::move(arrived) : observation;
+}
+
+}  // namespace plumescout::lab
