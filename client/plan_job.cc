@@ -11,20 +11,24 @@
 namespace plumescout::client {
 namespace {
 
-absl::Status Report(PlannerClient& client, IngestSession& ingest, const PlanJob& job) {
+absl::Status ReportOfJob(PlannerClient& client, IngestSession& ingest, const PlanJob& job) {
   PLUMESCOUT_RETURN_IF_ERROR(ingest.WaitApplied(job.query.min_applied_sequence, job.query.timeout));
-  const absl::Status status =
-      client.ReportProgress(ingest.session(), job.report->plan, job.report->outcome);
-  const bool lease_lost = ErrorReason(status) == kLeaseSuperseded;
-  return IsRetriable(status) || lease_lost ? status : absl::OkStatus();
+  return MakeReport(client, ingest.session(), *job.report);
 }
 
 }  // namespace
 
+absl::Status MakeReport(PlannerClient& client, const RobotSession& session,
+                        const PlanReport& report) {
+  const absl::Status status = client.ReportProgress(session, report.plan, report.outcome);
+  const bool lease_lost = ErrorReason(status) == kLeaseSuperseded;
+  return IsRetriable(status) || lease_lost ? status : absl::OkStatus();
+}
+
 PlanAnswer RunPlanJob(PlannerClient& client, IngestSession& ingest, PlanJob job) {
   PlanAnswer answer;
   if (job.report.has_value()) {
-    if (absl::Status status = Report(client, ingest, job); !status.ok()) {
+    if (absl::Status status = ReportOfJob(client, ingest, job); !status.ok()) {
       answer.plan = std::move(status);
       return answer;
     }

@@ -33,8 +33,13 @@ struct PlanAnswer {
   absl::Duration rpc_wall;  // of NextBestTrajectory
 };
 
-// Tells how the last plan ended, once the readings taken on the way are applied, and asks for the
-// next. A report that the server cannot place (it restarted, or the plan is stale) is let go.
+// Tells how a plan ended. A report that the server cannot place (it restarted, or the plan is
+// stale) is let go.
+absl::Status MakeReport(PlannerClient& client, const RobotSession& session,
+                        const PlanReport& report);
+
+// Reports how the last plan ended, once the readings taken on the way are applied, and asks for the
+// next.
 PlanAnswer RunPlanJob(PlannerClient& client, IngestSession& ingest, PlanJob job);
 
 // Whether asking again may help: the link is down, the server restarted or has no pose yet.

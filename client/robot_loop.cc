@@ -123,16 +123,26 @@ absl::Status RobotLoop::Explore() {
 absl::Status RobotLoop::Finish() {
   absl::Status status = driver_.Drive({});
   if (leg_.has_value()) status.Update(EndLeg(ProgressOutcome::kAborted));
-  if (pending_.valid()) pending_.wait();
+  DropPending();
   const std::int64_t last = ingest_->statistics().last_sequence;
   // What is missing shows in the statistics.
   const bool drained = ingest_->WaitApplied(last, options_.drain_timeout).ok();
   if (report_.has_value() && drained) {
-    status.Update(client_.ReportProgress(ingest_->session(), report_->plan, report_->outcome));
+    status.Update(MakeReport(client_, ingest_->session(), *report_));
   }
   result_.elapsed_s = elapsed_s();
   result_.ingest = ingest_->statistics();
   return status;
+}
+
+// A plan that comes too late to be driven is given up, or its goal would stay claimed.
+void RobotLoop::DropPending() {
+  if (!pending_.valid()) return;
+  const PlanAnswer answer = pending_.get();
+  if (answer.reported) report_.reset();
+  if (answer.plan.ok() && answer.plan->chosen >= 0) {
+    report_ = PlanReport{.plan = answer.plan->id, .outcome = ProgressOutcome::kAborted};
+  }
 }
 
 // Acts, senses, then lets time go by. A leg that ends here leaves no time to go by: the next plan

@@ -94,6 +94,7 @@ class RobotLoop {
   void StartSensing();
   absl::Status Explore();
   absl::Status Finish();
+  void DropPending();
 
   absl::Status Tick(double duration_s);
   absl::Status Stand(double duration_s);

@@ -7,6 +7,8 @@
 
 #include <vector>
 
+#include "absl/synchronization/notification.h"
+#include "absl/time/clock.h"
 #include "client/error_reason.h"
 #include "tests/client/fake_driver.h"
 #include "tests/client/fake_planner_client.h"
@@ -298,6 +300,44 @@ TEST_F(RobotLoopTest, RunningFreelyItCompletesAMission) {
   ASSERT_TRUE(result.ok()) << result.status();
   EXPECT_EQ(result->end, RobotEnd::kMissionComplete);
   EXPECT_EQ(result->reached, 2);
+}
+
+TEST_F(RobotLoopTest, APlanThatComesAfterTheEndIsGivenUp) {
+  const FakePlannerClient::PlanScript tour = Tour({{1, 0}, {1, 2}});
+  absl::Notification time_is_up;
+  server_.set_script([&](const PlanQuery& query) {
+    const bool second = query.request.start->x_m > 0.5;
+    if (second) time_is_up.WaitForNotificationWithTimeout(absl::Seconds(20));
+    return tour(query);
+  });
+  RobotLoopOptions options = Options(Pacing::kFreeRunning, Following::kProportional);
+  options.time_limit_s = 30.0;
+  const std::int64_t end_ns = driver_.now_ns() + 30'000'000'000;
+  driver_.on_advance = [&] {
+    absl::SleepFor(absl::Milliseconds(1));
+    if (driver_.now_ns() >= end_ns && !time_is_up.HasBeenNotified()) time_is_up.Notify();
+  };
+
+  const absl::StatusOr<RobotResult> result = Run(options);
+
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_EQ(result->end, RobotEnd::kTimeLimit);
+  ASSERT_THAT(server_.reports(), SizeIs(2));
+  EXPECT_EQ(server_.reports()[0].outcome, ProgressOutcome::kReached);
+  EXPECT_EQ(server_.reports()[1].plan, 2);
+  EXPECT_EQ(server_.reports()[1].outcome, ProgressOutcome::kAborted);
+}
+
+TEST_F(RobotLoopTest, AReportThatTheServerCannotPlaceAnyMoreDoesNotFailTheRun) {
+  server_.set_script(Tour({{4, 0}}));
+  server_.set_report_answer(absl::FailedPreconditionError("PLAN_SUPERSEDED: by 9"));
+  RobotLoopOptions options = Options(Pacing::kLockstep, Following::kIdeal);
+  options.time_limit_s = 2.0;  // on the way
+
+  const absl::StatusOr<RobotResult> result = Run(options);
+
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_EQ(result->aborted, 1);
 }
 
 TEST_F(RobotLoopTest, ALeaseTakenByAnotherClientEndsTheRun) {
