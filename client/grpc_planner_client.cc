@@ -162,6 +162,7 @@ class GrpcPlannerClient final : public PlannerClient {
     v1::GetMapRequest request;
     request.set_mission(MissionResource(mission));
     request.set_full_precision(true);
+    request.set_fresh_posterior(true);
     v1::GetMapResponse response;
     PLUMESCOUT_RETURN_IF_ERROR(Call(maps_, &v1::MapService::Stub::GetMap, request, &response));
     return FromProto(response);

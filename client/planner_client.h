@@ -92,6 +92,7 @@ class PlannerClient {
                                                   const PlanQuery& query) = 0;
   virtual absl::Status ReportProgress(const RobotSession& session, PlanId plan,
                                       ProgressOutcome outcome) = 0;
+  // With the posterior brought up to date.
   virtual absl::StatusOr<MapSnapshot> GetMap(const MissionId& mission) = 0;
 };
 

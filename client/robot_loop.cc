@@ -124,15 +124,18 @@ absl::Status RobotLoop::Finish() {
   absl::Status status = driver_.Drive({});
   if (leg_.has_value()) status.Update(EndLeg(ProgressOutcome::kAborted));
   DropPending();
-  const std::int64_t last = ingest_->statistics().last_sequence;
-  // What is missing shows in the statistics.
-  const bool drained = ingest_->WaitApplied(last, options_.drain_timeout).ok();
+  const bool drained = AwaitApplied(options_.drain_timeout);
   if (report_.has_value() && drained) {
     status.Update(MakeReport(client_, ingest_->session(), *report_));
   }
   result_.elapsed_s = elapsed_s();
   result_.ingest = ingest_->statistics();
   return status;
+}
+
+// Whether all that was sensed so far is applied; what is missing shows in the statistics.
+bool RobotLoop::AwaitApplied(absl::Duration timeout) {
+  return ingest_->WaitApplied(ingest_->statistics().last_sequence, timeout).ok();
 }
 
 // A plan that comes too late to be driven is given up, or its goal would stay claimed.
@@ -150,6 +153,7 @@ void RobotLoop::DropPending() {
 absl::Status RobotLoop::Tick(double duration_s) {
   if (leg_.has_value()) PLUMESCOUT_RETURN_IF_ERROR(leg_->motion->Step(driver_));
   PLUMESCOUT_RETURN_IF_ERROR(bridge_->Poll());
+  if (options_.pacing == Pacing::kLockstep) AwaitApplied(options_.link_patience);
   NoteProgress();
   if (const auto outcome = LegOutcome(); outcome.has_value()) return EndLeg(*outcome);
   return driver_.Advance(duration_s);

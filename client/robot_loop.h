@@ -98,6 +98,7 @@ class RobotLoop {
 
   absl::Status Tick(double duration_s);
   absl::Status Stand(double duration_s);
+  bool AwaitApplied(absl::Duration timeout);
   void NoteProgress();
   std::optional<ProgressOutcome> LegOutcome() const;
   absl::Status EndLeg(ProgressOutcome outcome);

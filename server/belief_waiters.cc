@@ -44,7 +44,7 @@ void BeliefWaiters::Serve(MissionWriter& writer, SteadyTime now) {
     if (!verdict.has_value()) {
       waiters_.push_back(std::move(waiter));
     } else if (verdict->ok()) {
-      waiter.done(waiter.request.robot.empty() ? writer.Snapshot() : writer.FreshBelief());
+      waiter.done(waiter.request.fresh_posterior ? writer.FreshBelief() : writer.Snapshot());
     } else {
       waiter.done(*verdict);
     }

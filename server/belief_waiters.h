@@ -18,13 +18,13 @@ namespace plumescout::server {
 
 using BeliefCallback = std::function<void(absl::StatusOr<std::shared_ptr<const Belief>>)>;
 
-// Somebody who wants a belief that holds a robot's log up to a number, with the posterior up to
-// date.
+// Somebody who wants a belief that holds a robot's log up to a number.
 struct BeliefRequest {
-  RobotId robot;  // empty: the belief as it is will do, and the mission does not change
+  RobotId robot;  // empty: nobody's log in particular
   std::int64_t min_applied_sequence = 0;
   SteadyTime deadline = SteadyTime::max();
   StopFn abandoned = NeverStop();  // nobody wants it any more
+  bool fresh_posterior = true;  // false: the posterior as it is will do; the mission stays the same
 };
 
 // Those who wait for a belief, served in the order in which they came. Single-threaded; each

@@ -22,14 +22,17 @@ absl::Status MapService::Get(const v1::GetMapRequest& request, v1::GetMapRespons
       const MapView view, MapViewFromProto(request.layers(), request.full_precision(), "layers"));
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.registry->Find(mission));
   WorkerPool* const pool = context_.map_pool;
-  return host->AwaitBelief({}, [=](absl::StatusOr<std::shared_ptr<const Belief>> belief) {
-    if (!belief.ok()) return Answer(reactor, belief.status());
-    const absl::Status queued = pool->Submit([=, belief = *std::move(belief)] {
-      *response = ToProto(MakeMapSnapshot(*belief), mission, view);
-      Answer(reactor, absl::OkStatus());
-    });
-    if (!queued.ok()) Answer(reactor, queued);
-  });
+  BeliefRequest wanted;
+  wanted.fresh_posterior = request.fresh_posterior();
+  return host->AwaitBelief(
+      std::move(wanted), [=](absl::StatusOr<std::shared_ptr<const Belief>> belief) {
+        if (!belief.ok()) return Answer(reactor, belief.status());
+        const absl::Status queued = pool->Submit([=, belief = *std::move(belief)] {
+          *response = ToProto(MakeMapSnapshot(*belief), mission, view);
+          Answer(reactor, absl::OkStatus());
+        });
+        if (!queued.ok()) Answer(reactor, queued);
+      });
 }
 
 grpc::ServerUnaryReactor* MapService::GetMap(grpc::CallbackServerContext* call,

@@ -105,7 +105,6 @@ void MissionHost::Run() {
 
 void MissionHost::AfterCommands() {
   const SteadyTime now = SteadyNow();
-  writer_.RefreshIfDue();
   waiters_.Serve(writer_, now);
   if (now >= next_publication()) {
     published_at_ = now;

@@ -76,6 +76,7 @@ absl::Status MissionWriter::IngestOne(const RobotId& robot, IncomingObservation 
   if (!applied->observation.ok()) {
     result.refused.push_back({sequence, readable ? applied->observation : incoming.unreadable});
   }
+  RefreshIfDue();
   return absl::OkStatus();
 }
 

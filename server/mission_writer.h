@@ -75,7 +75,6 @@ class MissionWriter {
   // Returns the revision that includes the report; a repeated report changes nothing.
   absl::StatusOr<std::int64_t> Report(const ProgressReported& report, std::int64_t lease_token);
 
-  void RefreshIfDue();
   // Brings the posterior up to date and snapshots the mission.
   absl::StatusOr<std::shared_ptr<const Belief>> FreshBelief();
   std::shared_ptr<const Belief> Snapshot() const { return mission_->Snapshot(); }
@@ -84,6 +83,9 @@ class MissionWriter {
   absl::StatusOr<Applied> Apply(EventBody body);
   absl::Status CheckLease(const RobotId& robot, std::int64_t lease_token) const;
   absl::Status IngestOne(const RobotId& robot, IncomingObservation incoming, IngestResult& result);
+  // After every observation rather than every batch: so the events do not depend on how a log was
+  // cut into batches.
+  void RefreshIfDue();
 
   std::unique_ptr<Mission> mission_;
   EventSink sink_;

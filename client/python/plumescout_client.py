@@ -180,7 +180,9 @@ class Client:
         return Robot(self, self._call(self._robots.RegisterRobot, request))
 
     def get_map(self, mission):
-        request = map_pb.GetMapRequest(mission=f"missions/{mission}", full_precision=True)
+        request = map_pb.GetMapRequest(
+            mission=f"missions/{mission}", full_precision=True, fresh_posterior=True
+        )
         return _map_from_proto(self._call(self._maps.GetMap, request))
 
     def _call(self, method, request, timeout_s=None):

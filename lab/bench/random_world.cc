@@ -40,6 +40,8 @@ constexpr double kMinRange_m = 6.0;
 constexpr double kMaxRange_m = 8.0;
 constexpr double kScanSpacing_m = 1.0;  // of way driven between scans
 constexpr int kMinFrontier_cells = 8;
+// Fewer free cells are a hall whose partitions shut the robot in.
+constexpr int kMinFree_cells = 8000;
 constexpr int kPlumes = 3;
 
 struct Box {
@@ -294,6 +296,8 @@ RandomWorld MakeRandomWorld(std::uint64_t seed, int goal_count) {
     const Exploration exploration = Explore(BuildHall(rng), rng);
     const std::vector<Cluster> clusters = FrontierClusters(exploration);
     if (exploration.traversable[exploration.driven.back()] == 0) continue;
+    const auto& known = exploration.known.values();
+    if (std::count(known.begin(), known.end(), CellState::kFree) < kMinFree_cells) continue;
     if (clusters.size() < static_cast<std::size_t>(goal_count)) continue;
     RandomWorld world;
     world.robot = "robot";

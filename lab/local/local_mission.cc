@@ -152,8 +152,7 @@ absl::StatusOr<std::shared_ptr<const Belief>> LocalMission::BeliefFor(
                                                     AppliedSequence(*mission_, robot)));
   }
   PLUMESCOUT_RETURN_IF_ERROR(CheckLease(robot, query.lease_token));
-  if (mission_->posterior_stale()) PLUMESCOUT_RETURN_IF_ERROR(Refresh());
-  return mission_->Snapshot();
+  return RefreshedBelief();
 }
 
 absl::StatusOr<PlanId> LocalMission::Commit(const Plan& plan, std::int64_t lease_token) {
@@ -170,6 +169,11 @@ absl::Status LocalMission::Report(const ProgressReported& report, std::int64_t l
   return absl::IsAlreadyExists(status) ? absl::OkStatus() : status;
 }
 
+absl::StatusOr<std::shared_ptr<const Belief>> LocalMission::FreshBelief() {
+  absl::MutexLock lock(&mutex_);
+  return RefreshedBelief();
+}
+
 std::shared_ptr<const Belief> LocalMission::Snapshot() const {
   absl::MutexLock lock(&mutex_);
   return mission_->Snapshot();
@@ -178,6 +182,11 @@ std::shared_ptr<const Belief> LocalMission::Snapshot() const {
 void LocalMission::Close() {
   absl::MutexLock lock(&mutex_);
   closed_ = true;
+}
+
+absl::StatusOr<std::shared_ptr<const Belief>> LocalMission::RefreshedBelief() {
+  if (mission_->posterior_stale()) PLUMESCOUT_RETURN_IF_ERROR(Refresh());
+  return mission_->Snapshot();
 }
 
 absl::Status LocalMission::Refresh() {

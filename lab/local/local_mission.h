@@ -58,6 +58,8 @@ class LocalMission {
 
   absl::StatusOr<Plan> NextPlan(const client::PlanQuery& query);
   absl::Status Report(const ProgressReported& report, std::int64_t lease_token);
+  // With the posterior brought up to date.
+  absl::StatusOr<std::shared_ptr<const Belief>> FreshBelief();
   std::shared_ptr<const Belief> Snapshot() const;
 
   // Every call fails and every stream has ended from now on.
@@ -76,6 +78,8 @@ class LocalMission {
   client::IngestState State(const RobotId& robot) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status IngestOne(const RobotId& robot, const Observation& observation,
                          std::vector<client::ObservationRejected>& rejected)
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  absl::StatusOr<std::shared_ptr<const Belief>> RefreshedBelief()
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status Refresh() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::StatusOr<std::shared_ptr<const Belief>> BeliefFor(const client::PlanQuery& query,

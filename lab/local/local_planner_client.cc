@@ -133,7 +133,8 @@ absl::Status LocalPlannerClient::ReportProgress(const client::RobotSession& sess
 }
 
 absl::StatusOr<MapSnapshot> LocalPlannerClient::GetMap(const MissionId& mission) {
-  PLUMESCOUT_ASSIGN_OR_RETURN(const std::shared_ptr<const Belief> belief, GetBelief(mission));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::shared_ptr<LocalMission> found, Find(mission));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::shared_ptr<const Belief> belief, found->FreshBelief());
   return MakeMapSnapshot(*belief);
 }
 

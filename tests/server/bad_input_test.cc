@@ -54,6 +54,7 @@ std::set<std::string> FreeFields() {
       "CreateMissionRequest.options.planning.fallback_to_unobserved",
       "RegisterRobotRequest.take_over",
       "GetMapRequest.full_precision",
+      "GetMapRequest.fresh_posterior",
       "WatchMapRequest.full_precision",
       // Unset options are the server's.
       "CreateMissionRequest.options",

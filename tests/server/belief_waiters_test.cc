@@ -71,10 +71,10 @@ TEST_F(BeliefWaitersTest, UnknownRobotIsNotWaitedFor) {
   EXPECT_TRUE(absl::IsNotFound(*answer_));
 }
 
-TEST_F(BeliefWaitersTest, ReaderWithoutRobotChangesNothing) {
+TEST_F(BeliefWaitersTest, ReaderOfThePosteriorAsItIsChangesNothing) {
   writer_.Ingest("r1", kLease, GasBatch(1, 1));
   const std::int64_t revision = writer_.mission().revision();
-  Wait({});
+  Wait({.fresh_posterior = false});
   waiters_.Serve(writer_, now_);
   EXPECT_TRUE(answer_->ok());
   EXPECT_EQ(writer_.mission().revision(), revision);
