@@ -21,7 +21,8 @@ struct RandomWorld {
 // to 1.4 m, and 14 containers of 2.4 x 1.2 m; explored by a robot with a lidar of 6 to 8 m range
 // that drives to the nearest frontier until it knows 60 % of the cells it can reach; with three
 // plumes, and a variance that rises with the distance from the way driven. Worlds with fewer than
-// `goal_count` frontiers left, whose robot stands too near an obstacle or is shut in, are made anew.
+// `goal_count` frontiers left, or whose robot stands too near an obstacle or is shut in, are made
+// anew.
 RandomWorld MakeRandomWorld(std::uint64_t seed, int goal_count);
 
 }  // namespace plumescout::lab

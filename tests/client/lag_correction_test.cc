@@ -85,8 +85,8 @@ TEST(LagCorrection, SaysHowMuchNoiseItAdds) {
   correction.Correct({0, {}, {1.0, 0.01}});
   const GasSample air = correction.Correct({kPeriod_ns, {}, {1.0, 0.01}});
   const double kept = std::exp(-1.0);
-  EXPECT_NEAR(air.reading.variance_ppm2,
-              0.01 * (1.0 + kept * kept) / ((1.0 - kept) * (1.0 - kept)), 1e-12);
+  EXPECT_NEAR(air.reading.variance_ppm2, 0.01 * (1.0 + kept * kept) / ((1.0 - kept) * (1.0 - kept)),
+              1e-12);
 }
 
 TEST(LagCorrection, NeverGoesBelowNothing) {

@@ -74,7 +74,9 @@ TEST_F(BeliefWaitersTest, UnknownRobotIsNotWaitedFor) {
 TEST_F(BeliefWaitersTest, ReaderOfThePosteriorAsItIsChangesNothing) {
   writer_.Ingest("r1", kLease, GasBatch(1, 1));
   const std::int64_t revision = writer_.mission().revision();
-  Wait({.fresh_posterior = false});
+  BeliefRequest any;
+  any.fresh_posterior = false;
+  Wait(any);
   waiters_.Serve(writer_, now_);
   EXPECT_TRUE(answer_->ok());
   EXPECT_EQ(writer_.mission().revision(), revision);
