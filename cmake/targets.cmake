@@ -37,7 +37,7 @@ function(plumescout_test path)
                      DEPS ${ARG_DEPS} GTest::gmock_main)
   add_test(NAME ${path} COMMAND ${target} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
   set_tests_properties(${path} PROPERTIES TIMEOUT ${ARG_TIMEOUT}
-                       ENVIRONMENT "PLUMESCOUT_BUILD_DIR=${CMAKE_BINARY_DIR};OPENBLAS_NUM_THREADS=1")
+                       ENVIRONMENT "${PLUMESCOUT_TEST_ENVIRONMENT}")
 endfunction()
 
 # plumescout_bench(gas_bench DEPS plumescout::core_gas): lab/bench/gas_bench.cc
