@@ -98,17 +98,17 @@ void DrawCurve(Canvas& canvas, const Plot& plot, const Curve& curve) {
   canvas.Polyline(line, curve.stroke);
 }
 
-// Names of the curves under each other, in the upper right corner.
-void DrawLegend(Canvas& canvas, const Plot& plot, const std::vector<Curve>& curves) {
-  constexpr double kRow_px = 18.0;
+// Names of the curves side by side, right of the title: no curve runs through them there.
+void DrawLegend(Canvas& canvas, const Box& box, const std::vector<Curve>& curves) {
+  constexpr double kSlot_px = 104.0;  // a sample and a name of a dozen letters
   constexpr double kSample_px = 26.0;
-  double y = plot.area.y + 14.0;
+  const double y = box.y + kTitleSize_px;
+  double x = box.right() - kRight_px - kSlot_px * static_cast<double>(curves.size());
   for (const Curve& curve : curves) {
-    const double right = plot.area.right();
-    const PixelPoint sample[] = {{right - kSample_px, y - 4.0}, {right, y - 4.0}};
+    const PixelPoint sample[] = {{x, y - 4.0}, {x + kSample_px, y - 4.0}};
     canvas.Polyline(sample, curve.stroke);
-    canvas.Text({right - kSample_px - 8.0, y}, curve.name, {kLabelSize_px, kInk, Anchor::kEnd});
-    y += kRow_px;
+    canvas.Text({x + kSample_px + 8.0, y}, curve.name, {kLabelSize_px, kInk, Anchor::kStart});
+    x += kSlot_px;
   }
 }
 
@@ -123,7 +123,7 @@ void DrawChart(Canvas& canvas, const Box& box, const Chart& chart) {
               {kTitleSize_px, kInk, Anchor::kStart, true});
   DrawAxes(canvas, plot, chart.x_label);
   for (const Curve& curve : chart.curves) DrawCurve(canvas, plot, curve);
-  if (chart.curves.size() > 1) DrawLegend(canvas, plot, chart.curves);
+  if (chart.curves.size() > 1) DrawLegend(canvas, box, chart.curves);
 }
 
 }  // namespace plumescout::lab

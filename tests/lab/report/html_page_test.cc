@@ -34,7 +34,7 @@ TEST(HtmlPage, HoldsAllTitlesAndNumbers) {
   for (const char* text :
        {"<!DOCTYPE html>", "<h1>Small room &lt;1&gt;</h1>", ">True gas<", ">Estimated mean<",
         ">Uncertainty (variance)<", ">Occupancy, frontiers and paths<", ">Completeness<",
-        ">RMSE over critical cells, ppm<", ">Entropy over critical cells, nats<",
+        ">RMSE, critical cells, ppm<", ">Entropy, critical cells, nats<",
         "<td>RMSE</td><td>10 ppm</td>", "<strong>50 %</strong>"}) {
     EXPECT_THAT(page, HasSubstr(text));
   }
