@@ -33,7 +33,7 @@ absl::StatusOr<MapSnapshot> Replay(const Log& log) {
   std::vector<Observation> batch;
   for (const auto& [sequence, observation] : log) batch.push_back(AsOnTheWire(observation));
   EXPECT_TRUE(client::SendAll(*stream, batch).ok());
-  return FreshMap(local);
+  return local.GetMap(trial.mission);
 }
 
 TEST(ServerRestartTest, TheNewServerIsToldEverythingAndEndsUpWithTheSameMap) {

@@ -19,7 +19,6 @@ namespace {
 
 constexpr double kDuration_s = 40.0;
 constexpr std::int64_t kMaxEdgeEvaluations = 20'000;  // of each plan
-constexpr absl::Duration kPatience = absl::Seconds(30);
 
 Layout GasHallLayout() {
   Layout layout;
@@ -130,22 +129,8 @@ EpisodeOptions TrialOptions() {
 absl::StatusOr<Trial> RunTrial(client::PlannerClient& planner, const EpisodeOptions& options) {
   Trial trial;
   PLUMESCOUT_ASSIGN_OR_RETURN(trial.episode, RunEpisode(planner, GasHall(), options));
-  PLUMESCOUT_ASSIGN_OR_RETURN(trial.map, FreshMap(planner));
+  PLUMESCOUT_ASSIGN_OR_RETURN(trial.map, planner.GetMap(options.mission));
   return trial;
-}
-
-absl::StatusOr<MapSnapshot> FreshMap(client::PlannerClient& planner) {
-  const EpisodeOptions options = TrialOptions();
-  PLUMESCOUT_ASSIGN_OR_RETURN(
-      const client::RobotSession session,
-      planner.RegisterRobot(options.mission, options.robot, /*radius_m=*/0.2, /*take_over=*/true));
-  client::PlanQuery query;
-  query.request.robot = options.robot;
-  query.request.max_edge_evaluations = 1;
-  query.lease_token = session.lease_token;
-  query.timeout = kPatience;
-  PLUMESCOUT_RETURN_IF_ERROR(planner.NextBestTrajectory(options.mission, query).status());
-  return planner.GetMap(options.mission);
 }
 
 std::vector<Plan> ComparablePlans(const EpisodeResult& episode) {

@@ -28,14 +28,10 @@ EpisodeOptions TrialOptions();
 
 struct Trial {
   EpisodeResult episode;
-  MapSnapshot map;  // all readings in the posterior
+  MapSnapshot map;  // at the end
 };
 
 absl::StatusOr<Trial> RunTrial(client::PlannerClient& planner, const EpisodeOptions& options);
-
-// The map with everything in the posterior that the mission has been told. Takes over the robot's
-// lease and asks for one more plan, for which the service brings the posterior up to date.
-absl::StatusOr<MapSnapshot> FreshMap(client::PlannerClient& planner);
 
 // Free of what no two runs share: wall time, and the count of refreshes, which follows the batches.
 std::vector<Plan> ComparablePlans(const EpisodeResult& episode);
