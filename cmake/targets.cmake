@@ -35,6 +35,9 @@ function(plumescout_test path)
   string(REPLACE "/" "_" target ${path})
   plumescout_program(${target} SOURCES ${PROJECT_SOURCE_DIR}/tests/${path}.cc
                      DEPS ${ARG_DEPS} GTest::gmock_main)
+  if(TARGET plumescout_tsan_absl)
+    add_dependencies(${target} plumescout_tsan_absl)  # preloaded
+  endif()
   add_test(NAME ${path} COMMAND ${target} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
   set_tests_properties(${path} PROPERTIES TIMEOUT ${ARG_TIMEOUT}
                        ENVIRONMENT "${PLUMESCOUT_TEST_ENVIRONMENT}")

@@ -74,17 +74,21 @@ class EpisodeRecorder : public client::RobotObserver {
     if (options_.on_plan) options_.on_plan(result_.plans.back());
   }
 
-  // Of the first map that holds the robot's observations up to `sequence`.
+  // Of the first map that holds the robot's observations up to `sequence`. A server that is away or
+  // has lost the mission may be back in a moment, and be told everything again by the robot.
   absl::Status TakeSample(double time_s, std::int64_t sequence) {
     const absl::Time give_up = absl::Now() + kMapPatience;
     while (true) {
-      PLUMESCOUT_ASSIGN_OR_RETURN(const MapSnapshot map, planner_.GetMap(options_.mission));
-      if (AppliedSequence(map, options_.robot) >= sequence) {
-        result_.samples.push_back({time_s, map.revision, evaluator_.Evaluate(map)});
-        if (options_.on_sample) options_.on_sample(result_.samples.back(), map);
+      const absl::StatusOr<MapSnapshot> map = planner_.GetMap(options_.mission);
+      if (map.ok() && AppliedSequence(*map, options_.robot) >= sequence) {
+        result_.samples.push_back({time_s, map->revision, evaluator_.Evaluate(*map)});
+        if (options_.on_sample) options_.on_sample(result_.samples.back(), *map);
         return absl::OkStatus();
       }
-      if (absl::Now() > give_up) return absl::DeadlineExceededError("the map lags behind");
+      const absl::Status why =
+          map.ok() ? absl::UnavailableError("the map lags behind") : map.status();
+      const bool may_come = absl::IsUnavailable(why) || absl::IsNotFound(why);
+      if (!may_come || absl::Now() > give_up) return why;
       absl::SleepFor(kMapPause);
     }
   }

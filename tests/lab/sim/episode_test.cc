@@ -22,7 +22,10 @@ class FakeService final : public client::PlannerClient {
   explicit FakeService(RobotId robot) : robot_(std::move(robot)) {}
 
   client::FakePlannerClient& server() { return server_; }
-  void FailMaps() { maps_fail_ = true; }
+  void FailMaps(absl::Status status, int times) {
+    failure_ = std::move(status);
+    failures_left_ = times;
+  }
 
   absl::Status CreateMission(const MissionId& mission, const MissionOptions& options) override {
     return server_.CreateMission(mission, options);
@@ -48,7 +51,10 @@ class FakeService final : public client::PlannerClient {
     return server_.ReportProgress(session, plan, outcome);
   }
   absl::StatusOr<MapSnapshot> GetMap(const MissionId&) override {
-    if (maps_fail_) return absl::UnavailableError("no maps today");
+    if (failures_left_ > 0) {
+      --failures_left_;
+      return failure_;
+    }
     MapSnapshot map;
     map.revision = server_.applied();
     map.robots.push_back({.id = robot_, .pose = {}, .applied_sequence = map.revision});
@@ -58,7 +64,8 @@ class FakeService final : public client::PlannerClient {
  private:
   RobotId robot_;
   client::FakePlannerClient server_;
-  bool maps_fail_ = false;
+  absl::Status failure_;
+  int failures_left_ = 0;
 };
 
 // One metre west and back, at 1 m/s.
@@ -185,8 +192,15 @@ TEST(EpisodeTest, StopsWhenTold) {
 TEST(EpisodeTest, FailsWithoutMaps) {
   FakeService service("robot-1");
   service.server().set_script(ThereAndBack);
-  service.FailMaps();
+  service.FailMaps(absl::InternalError("no maps today"), 1);
   EXPECT_EQ(RunEpisode(service, SmallWorld(), ShortEpisode()).status().message(), "no maps today");
+}
+
+TEST(EpisodeTest, WaitsForTheMapOfAServerThatComesBack) {
+  FakeService service("robot-1");
+  service.server().set_script(ThereAndBack);
+  service.FailMaps(absl::UnavailableError("going down"), 3);
+  EXPECT_TRUE(RunEpisode(service, SmallWorld(), ShortEpisode()).ok());
 }
 
 TEST(EpisodeTest, RejectsOptionsOutOfRange) {
