@@ -30,12 +30,8 @@ absl::Status LineDriver::AwaitPose() {
   return absl::OkStatus();
 }
 
-absl::StatusOr<Scan> LineDriver::TakeScan() { return Take(scan_); }
-
-absl::StatusOr<GasReading> LineDriver::ReadGas() { return Take(gas_); }
-
 template <typename Reading>
-absl::StatusOr<Reading> LineDriver::Take(std::optional<Sample<Reading>>& sample) {
+absl::StatusOr<Reading> LineDriver::Take(std::optional<LineSample<Reading>>& sample) {
   if (!sample.has_value()) return absl::UnavailableError("nothing new");
   sample_time_ns_ = sample->time_ns;
   sample_pose_ = sample->pose;
@@ -43,6 +39,10 @@ absl::StatusOr<Reading> LineDriver::Take(std::optional<Sample<Reading>>& sample)
   sample.reset();
   return reading;
 }
+
+absl::StatusOr<Scan> LineDriver::TakeScan() { return Take(scan_); }
+
+absl::StatusOr<GasReading> LineDriver::ReadGas() { return Take(gas_); }
 
 absl::Status LineDriver::Drive(const Twist& twist) {
   const std::string line = FormatTwistLine(twist);

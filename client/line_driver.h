@@ -22,6 +22,14 @@ struct LineDriverOptions {
   std::function<void(const absl::Status&)> on_bad_line;
 };
 
+// What a line said of a sensor, with when and where it was measured.
+template <typename Reading>
+struct LineSample {
+  std::int64_t time_ns = 0;
+  Pose2 pose;
+  Reading reading;
+};
+
 // A robot behind a pair of pipes: any program that writes poses, scans and gas readings as lines of
 // JSON and takes velocity commands back. Its clock is that of the lines: time goes by as they come.
 class LineDriver final : public RobotDriver {
@@ -48,26 +56,19 @@ class LineDriver final : public RobotDriver {
   std::int64_t bad_lines() const { return bad_lines_; }
 
  private:
-  template <typename Reading>
-  struct Sample {
-    std::int64_t time_ns = 0;
-    Pose2 pose;
-    Reading reading;
-  };
-
   absl::StatusOr<std::string> ReadLine();
   absl::Status FillBuffer(absl::Time deadline);
   absl::Status TakeInLine();
   absl::Status Digest(RobotLine line);
   template <typename Reading>
-  absl::StatusOr<Reading> Take(std::optional<Sample<Reading>>& sample);
+  absl::StatusOr<Reading> Take(std::optional<LineSample<Reading>>& sample);
 
   const LineDriverOptions options_;
   std::string buffer_;  // read, not yet a line
   std::int64_t now_ns_ = 0;
   std::optional<Pose2> pose_;
-  std::optional<Sample<Scan>> scan_;
-  std::optional<Sample<GasReading>> gas_;
+  std::optional<LineSample<Scan>> scan_;
+  std::optional<LineSample<GasReading>> gas_;
   std::int64_t sample_time_ns_ = 0;
   Pose2 sample_pose_;
   std::int64_t bad_lines_ = 0;

@@ -33,5 +33,6 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LES
   target_compile_options(plumescout_warnings INTERFACE -Wno-restrict)
 endif()
 if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
-  target_compile_options(plumescout_warnings INTERFACE -Wthread-safety)
+  # -Wconversion of GCC leaves signs alone in C++; so does ours.
+  target_compile_options(plumescout_warnings INTERFACE -Wthread-safety -Wno-sign-conversion)
 endif()

@@ -147,7 +147,7 @@ class Encoder {
   template <typename... T>
   void Put(const std::variant<T...>& choice) {
     Put(static_cast<std::uint8_t>(choice.index()));
-    std::visit([this](const auto& value) { Put(value); }, choice);
+    std::visit([this](const auto& value) { this->Put(value); }, choice);
   }
   template <typename T>
   requires std::is_class_v<T>

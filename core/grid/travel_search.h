@@ -211,7 +211,7 @@ class TravelSearch {
     tail = after.Tail();
     count = 0;
     for (std::size_t k = 0; k < 4; ++k) {  // diagonal 4 + k lies between straights k and k + 1
-      const bool allowed = open[k] & open[(k + 1) % 4];
+      const bool allowed = (int{open[k]} & int{open[(k + 1) % 4]}) != 0;  // no branch
       count += Reach(from.cell + offsets_[4 + k], diagonal_m, allowed, tail + count);
     }
     after.count += count;
