@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "absl/status/status.h"
+#include "core/gas/belief_propagation.h"
 #include "core/gas/gas_map.h"
 #include "core/gas/gmrf_graph.h"
 #include "core/gas/information.h"
@@ -157,6 +158,38 @@ absl::Status MeasureErrors(const std::vector<Case>& small, const std::vector<Cas
   return absl::OkStatus();
 }
 
+// The papers' solver, from nothing until its variances have settled, and how far it then is from
+// the exact field.
+absl::Status MeasureBeliefPropagation(const Case& c, BenchSummary& summary) {
+  constexpr std::int64_t kSendsPerCell = 100;
+  const GmrfGraph graph(c.states);
+  ReadingStore store{GasOptions()};
+  for (std::size_t k = 0; k < c.positions.size(); ++k) {
+    store.Add(0, c.positions[k], {c.concentrations_ppm[k]});
+  }
+  PLUMESCOUT_ASSIGN_OR_RETURN(const PlacedReadings placed, store.PlaceAll(graph, 0));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const PeerPosterior truth,
+                              SolveByCholmod(BuildInformation(graph, placed.evidence, {})));
+  BeliefPropagation propagation(graph, {}, {.schedule = MessageSchedule::kWildfire});
+  for (int i = 0; i < graph.variables(); ++i) {
+    const auto variable = static_cast<VariableIndex>(i);
+    propagation.SetEvidence(variable, placed.evidence[ToSize(variable)]);
+  }
+  summary.Set("gbp_100_sweeps_indoor_160x200_ms",
+              MedianCpu_ms(1, [&] { propagation.Propagate(kSendsPerCell * graph.variables()); }));
+  const Posterior beliefs = propagation.Beliefs();
+  std::vector<double> ratios;
+  double mean_error_ppm = 0.0;
+  for (std::size_t i = 0; i < beliefs.mean_ppm.size(); ++i) {
+    ratios.push_back(beliefs.variance_ppm2[i] / truth.variance_ppm2[i]);
+    mean_error_ppm =
+        std::max(mean_error_ppm, std::abs(beliefs.mean_ppm[i] - truth.deviation_ppm[i]));
+  }
+  summary.Set("gbp_variance_ratio_median", Median(ratios));
+  summary.Set("gbp_max_mean_error_ppm", mean_error_ppm);
+  return absl::OkStatus();
+}
+
 // A line of /proc/self/status, in MB; NaN if there is none.
 double ProcessMemory_mb(const std::string& key) {
   constexpr double kMegabytesPerKibibyte = 1024e-6;
@@ -194,6 +227,7 @@ absl::Status Run(BenchSummary& summary) {
   PLUMESCOUT_RETURN_IF_ERROR(MeasureFresh("fresh_indoor_160x200_ms", indoor, kRepeats, summary));
   PLUMESCOUT_RETURN_IF_ERROR(MeasurePeers("indoor_160x200_ms", indoor, summary));
   PLUMESCOUT_RETURN_IF_ERROR(MeasureFresh("fresh_700x700_ms", large, kRepeatsLarge, summary));
+  PLUMESCOUT_RETURN_IF_ERROR(MeasureBeliefPropagation(indoor, summary));
   return MeasureErrors({small, small_indoor}, {open, indoor}, summary);
 }
 
