@@ -75,8 +75,10 @@ void FieldEngine::AddReading(const CellChange& change) {
   const double deviation = change.input.weighted_deviation - cells_.weighted_deviation[slot];
   Store(change);
   if (cells_.active[slot] == 0 || (precision == 0.0 && deviation == 0.0)) return;
-  SlotColumns column = CovarianceColumns(factor_, pending_, {&slot, 1});
-  const double scale = 1.0 / (1.0 + precision * column.column(0)[slot]);
+  SlotColumns column = factor_.Extend(factor_.InverseOnPaths({&slot, 1}));
+  constexpr double kAsItIs = 1.0;
+  CorrectColumns(pending_, {&slot, 1}, {&kAsItIs, 1}, column);
+  const double scale = 1.0 / (1.0 + precision * *column.row(slot));
   // The published mean may be off by the tolerance, which the update would spread.
   const double mean_ppm = Mean_ppm(factor_, pending_, slot);
   const double mean_factor = (deviation - precision * mean_ppm) * scale;

@@ -3,6 +3,7 @@
 #include "core/gas/field/field_factor.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace plumescout {
 namespace {
@@ -23,13 +24,40 @@ void AddProduct(const double* a, std::size_t stride, std::span<const double> x, 
   }
 }
 
-// Values of a vector over slots in the cells of a front.
-void Gather(const double* from, std::span<const Slot> cells, double* to) {
-  for (std::size_t i = 0; i < cells.size(); ++i) to[i] = from[cells[i]];
-}
+// Scratch of the way down.
+struct Descent {
+  std::vector<double> boundary;  // x_R, cell by cell
+  std::vector<double> own;       // x_S, column by column
+};
 
-void Scatter(const double* from, std::span<const Slot> cells, double* to) {
-  for (std::size_t i = 0; i < cells.size(); ++i) to[cells[i]] = from[i];
+// x_S += W x_R
+void DescendFront(const Front& front, SlotColumns& x, Descent& scratch) {
+  const std::size_t columns = x.columns();
+  const std::span<const Slot> boundary = front.boundary_cells();
+  if (front.own == 0 || boundary.empty()) return;
+  scratch.boundary.resize(boundary.size() * columns);
+  for (std::size_t i = 0; i < boundary.size(); ++i) {
+    std::copy_n(x.row(boundary[i]), columns, scratch.boundary.data() + i * columns);
+  }
+  scratch.own.assign(front.stride * columns, 0.0);
+  if (columns == 1) {
+    AddProduct(front.weights.data(), front.stride, scratch.boundary, scratch.own.data());
+  } else {
+    Accumulate({.a = front.weights.data(),
+                .a_stride = front.stride,
+                .b = scratch.boundary.data(),
+                .b_row_stride = columns,
+                .b_column_stride = 1,
+                .c = scratch.own.data(),
+                .c_stride = front.stride,
+                .rows = front.own,
+                .columns = columns,
+                .depth = boundary.size()});
+  }
+  for (std::size_t i = 0; i < front.own; ++i) {
+    double* const row = x.row(front.cells[i]);
+    for (std::size_t j = 0; j < columns; ++j) row[j] += scratch.own[j * front.stride + i];
+  }
 }
 
 }  // namespace
@@ -45,87 +73,77 @@ void FieldFactor::Eliminate(std::span<const std::uint8_t> dirty, const FieldCell
   }
 }
 
-SlotColumns FieldFactor::InverseColumns(std::span<const Slot> slots) const {
-  SlotColumns x(tree_->cells(), slots.size());
-  for (std::size_t j = 0; j < slots.size(); ++j) Ascend(slots[j], x.column(j));
-  if (!slots.empty()) Descend(x);
-  return x;
+PathColumns FieldFactor::InverseOnPaths(std::span<const Slot> slots) const {
+  PathColumns columns{SlotColumns(tree_->cells(), slots.size()), {}};
+  std::vector<double> r(tree_->cells(), 0.0);
+  std::vector<std::uint32_t>& nodes = columns.path_nodes;
+  for (std::size_t j = 0; j < slots.size(); ++j) {
+    const std::vector<std::uint32_t> path = PathFrom(slots[j]);
+    nodes.insert(nodes.end(), path.begin(), path.end());
+    Ascend(slots[j], j, r, columns.values);
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  Descent scratch;
+  for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
+    DescendFront(*fronts_[*node], columns.values, scratch);
+  }
+  return columns;
 }
 
-// From the node of `slot` to the root: x_S = C r_S, r_R += W^T r_S, with r = e_slot at first.
-void FieldFactor::Ascend(Slot slot, double* x) const {
-  std::vector<double> r(tree_->cells(), 0.0);
+std::vector<std::uint32_t> FieldFactor::PathFrom(Slot slot) const {
+  std::vector<std::uint32_t> path;
+  for (std::uint32_t node = tree_->owner(slot); node != SeparatorTree::kNone;
+       node = tree_->nodes()[node].parent) {
+    path.push_back(node);
+  }
+  return path;
+}
+
+// From e_slot up to the root: x_S = C r_S, r_R += W^T r_S. `r` is 0 before and after.
+void FieldFactor::Ascend(Slot slot, std::size_t column, std::vector<double>& r,
+                         SlotColumns& x) const {
   std::vector<double> own;
+  std::vector<double> solution;
   r[slot] = 1.0;
-  for (std::uint32_t i = tree_->owner(slot); i != SeparatorTree::kNone;
-       i = tree_->nodes()[i].parent) {
-    const Front& front = *fronts_[i];
+  for (const std::uint32_t node : PathFrom(slot)) {
+    const Front& front = *fronts_[node];
     if (front.own == 0) continue;
-    own.assign(front.stride, 0.0);
-    Gather(r.data(), front.own_cells(), own.data());
+    own.resize(front.own);
+    for (std::size_t i = 0; i < front.own; ++i) own[i] = std::exchange(r[front.cells[i]], 0.0);
     const std::span<const Slot> boundary = front.boundary_cells();
     for (std::size_t j = 0; j < boundary.size(); ++j) {
       r[boundary[j]] += Dot(front.weights.data() + j * front.stride, own.data(), front.own);
     }
-    std::vector<double> solution(front.stride, 0.0);
-    AddProduct(front.covariance.data(), front.stride, {own.data(), front.own}, solution.data());
-    Scatter(solution.data(), front.own_cells(), x);
+    solution.assign(front.stride, 0.0);
+    AddProduct(front.covariance.data(), front.stride, own, solution.data());
+    for (std::size_t i = 0; i < front.own; ++i) x.row(front.cells[i])[column] = solution[i];
   }
 }
 
-// From the root down: x_S += W x_R.
-void FieldFactor::Descend(SlotColumns& x) const {
-  std::vector<double> above;
-  std::vector<double> own;
+SlotColumns FieldFactor::Extend(PathColumns columns) const {
+  Descent scratch;
+  auto known = columns.path_nodes.rbegin();
   for (std::size_t node = fronts_.size(); node-- > 0;) {
-    const Front& front = *fronts_[node];
-    const std::size_t boundary = front.boundary();
-    if (front.own == 0 || boundary == 0) continue;
-    above.resize(boundary * x.columns());
-    own.resize(front.stride * x.columns());
-    for (std::size_t j = 0; j < x.columns(); ++j) {
-      Gather(x.column(j), front.boundary_cells(), above.data() + j * boundary);
-      Gather(x.column(j), front.own_cells(), own.data() + j * front.stride);
-    }
-    if (x.columns() == 1) {
-      AddProduct(front.weights.data(), front.stride, above, own.data());
+    if (known != columns.path_nodes.rend() && *known == node) {
+      ++known;
     } else {
-      Accumulate({.a = front.weights.data(),
-                  .a_stride = front.stride,
-                  .b = above.data(),
-                  .b_column_stride = boundary,
-                  .c = own.data(),
-                  .c_stride = front.stride,
-                  .rows = front.own,
-                  .columns = x.columns(),
-                  .depth = boundary});
-    }
-    for (std::size_t j = 0; j < x.columns(); ++j) {
-      Scatter(own.data() + j * front.stride, front.own_cells(), x.column(j));
+      DescendFront(*fronts_[node], columns.values, scratch);
     }
   }
+  return std::move(columns.values);
 }
 
 double FieldFactor::Mean_ppm(Slot slot) const {
-  std::vector<std::uint32_t> path;
-  for (std::uint32_t i = tree_->owner(slot); i != SeparatorTree::kNone;
-       i = tree_->nodes()[i].parent) {
-    path.push_back(i);
-  }
-  std::vector<double> mean(tree_->cells(), 0.0);
-  std::vector<double> above;
-  std::vector<double> own;
+  SlotColumns mean(tree_->cells(), 1);
+  Descent scratch;
+  const std::vector<std::uint32_t> path = PathFrom(slot);
   for (auto node = path.rbegin(); node != path.rend(); ++node) {
     const Front& front = *fronts_[*node];
-    if (front.own == 0) continue;
-    own.assign(front.stride, 0.0);
-    std::copy(front.offset_ppm.begin(), front.offset_ppm.end(), own.begin());
-    above.resize(front.boundary());
-    Gather(mean.data(), front.boundary_cells(), above.data());
-    AddProduct(front.weights.data(), front.stride, above, own.data());
-    Scatter(own.data(), front.own_cells(), mean.data());
+    for (std::size_t i = 0; i < front.own; ++i) *mean.row(front.cells[i]) = front.offset_ppm[i];
+    DescendFront(front, mean, scratch);
   }
-  return mean[slot];
+  return *mean.row(slot);
 }
 
 }  // namespace plumescout

@@ -13,21 +13,26 @@
 
 namespace plumescout {
 
-// Vectors over the slots of a tree, one after the other; 0 off the active cells.
+// Vectors over the slots of a tree, slot by slot; 0 off the active cells.
 class SlotColumns {
  public:
   SlotColumns(std::size_t slots, std::size_t columns)
-      : stride_(TileRows(slots)), columns_(columns), values_(stride_ * columns, 0.0) {}
+      : columns_(columns), values_(slots * columns, 0.0) {}
 
-  std::size_t stride() const { return stride_; }
+  std::size_t slots() const { return values_.size() / columns_; }
   std::size_t columns() const { return columns_; }
-  double* column(std::size_t j) { return values_.data() + j * stride_; }
-  const double* column(std::size_t j) const { return values_.data() + j * stride_; }
+  double* row(Slot slot) { return values_.data() + slot * columns_; }
+  const double* row(Slot slot) const { return values_.data() + slot * columns_; }
 
  private:
-  std::size_t stride_;
-  std::size_t columns_;
+  std::size_t columns_;  // >= 1
   std::vector<double> values_;
+};
+
+// Columns that hold their values on some paths to the root only, so far.
+struct PathColumns {
+  SlotColumns values;
+  std::vector<std::uint32_t> path_nodes;  // ascending
 };
 
 // A separator tree with all its nodes eliminated: H^-1 in factored form. A copy shares the fronts,
@@ -45,15 +50,18 @@ class FieldFactor {
   void Eliminate(std::span<const std::uint8_t> dirty, const FieldCells& cells,
                  FrontBuilder& builder);
 
-  // H^-1 e_i for each i in `slots`, which are active. Cost: one pass over all weights.
-  SlotColumns InverseColumns(std::span<const Slot> slots) const;
+  // H^-1 e_i for each i in `slots`, on the paths from there. REQUIRES: slots are active, one at
+  // least. Cost: that of the paths.
+  PathColumns InverseOnPaths(std::span<const Slot> slots) const;
+  // Continues columns of H^-1, or combinations of them, to all slots. Cost: all weights.
+  SlotColumns Extend(PathColumns columns) const;
 
   // m_i of an active slot. Cost: a path.
   double Mean_ppm(Slot slot) const;
 
  private:
-  void Ascend(Slot slot, double* x) const;
-  void Descend(SlotColumns& x) const;
+  std::vector<std::uint32_t> PathFrom(Slot slot) const;
+  void Ascend(Slot slot, std::size_t column, std::vector<double>& r, SlotColumns& x) const;
 
   std::shared_ptr<const SeparatorTree> tree_;
   std::vector<std::shared_ptr<const Front>> fronts_;  // by node

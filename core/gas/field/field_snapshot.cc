@@ -3,6 +3,7 @@
 #include "core/gas/field/field_snapshot.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "absl/status/status.h"
 #include "core/gas/field/cell_input.h"
@@ -11,51 +12,64 @@
 namespace plumescout {
 namespace {
 
-constexpr std::size_t kRowsAtOnce = 512;  // of a product, so that its columns stay in cache
-constexpr std::size_t kColumnsAtOnce = 4;
-
-// L^-1 with L L^T = 1 / precision + Z_CC for the cells C of the columns `z`; column-major.
-std::vector<double> WhitenReadings(const SlotColumns& z, std::span<const Slot> slots,
+// L^-T with L L^T = 1 / precision + Z_CC for the cells C in `slots`; by rows.
+std::vector<double> WhitenReadings(const SlotColumns& factor_columns,
+                                   const PendingReadings& pending, std::span<const Slot> slots,
                                    double precision) {
   const std::size_t size = slots.size();
   const std::size_t stride = PaddedRows(size);
   std::vector<double> matrix(stride * size, 0.0);
   for (std::size_t j = 0; j < size; ++j) {
-    for (std::size_t i = j; i < size; ++i) matrix[j * stride + i] = z.column(j)[slots[i]];
+    for (std::size_t i = j; i < size; ++i) {
+      double z = factor_columns.row(slots[i])[j];
+      for (const auto& reading : pending) {
+        z -= reading->variance_factor * *reading->column.row(slots[i]) *
+             *reading->column.row(slots[j]);
+      }
+      matrix[j * stride + i] = z;
+    }
     matrix[j * stride + j] += 1.0 / precision;
   }
   FactorizeFront(matrix.data(), stride, size, size);
   std::vector<double> inverse(stride * size);
   InvertLower(matrix.data(), stride, size, inverse.data(), stride);
-  return inverse;
+  std::vector<double> transposed;  // L^-1 by columns is L^-T by rows
+  for (std::size_t j = 0; j < size; ++j) {
+    const double* const column = inverse.data() + j * stride;
+    transposed.insert(transposed.end(), column, column + size);
+  }
+  return transposed;
 }
 
-// variance -= diag(Z_C (1 / precision + Z_CC)^-1 Z_C^T) = rows of Z_C L^-T, squared and summed.
-void SubtractGain(const SlotColumns& z, std::span<const Slot> slots, double precision,
-                  std::vector<double>& variance_ppm2) {
-  const std::vector<double> whitening = WhitenReadings(z, slots, precision);
-  const std::size_t stride = PaddedRows(slots.size());
-  std::vector<double> gain(kRowsAtOnce * kColumnsAtOnce);
-  for (std::size_t row = 0; row < variance_ppm2.size(); row += kRowsAtOnce) {
-    const std::size_t rows = std::min(kRowsAtOnce, variance_ppm2.size() - row);
-    for (std::size_t first = 0; first < slots.size(); first += kColumnsAtOnce) {
-      const std::size_t columns = std::min(kColumnsAtOnce, slots.size() - first);
-      std::fill(gain.begin(), gain.end(), 0.0);
-      Accumulate({.a = z.column(0) + row,
-                  .a_stride = z.stride(),
-                  .b = whitening.data() + first,
-                  .b_row_stride = stride,
-                  .b_column_stride = 1,
-                  .c = gain.data(),
-                  .c_stride = kRowsAtOnce,
-                  .rows = rows,
-                  .columns = columns,
-                  .depth = first + columns});
-      for (std::size_t j = 0; j < columns; ++j) {
-        const double* const column = gain.data() + j * kRowsAtOnce;
-        for (std::size_t i = 0; i < rows; ++i) variance_ppm2[row + i] -= column[i] * column[i];
+// Combines the columns so far by `mixing`, by rows.
+void Mix(const SeparatorTree& tree, std::span<const double> mixing, PathColumns& columns) {
+  const std::size_t size = columns.values.columns();
+  std::vector<double> mixed(size);
+  for (const std::uint32_t node : columns.path_nodes) {
+    for (Slot slot = tree.nodes()[node].first; slot < tree.nodes()[node].end; ++slot) {
+      double* const row = columns.values.row(slot);
+      std::fill(mixed.begin(), mixed.end(), 0.0);
+      for (std::size_t i = 0; i < size; ++i) {
+        for (std::size_t j = 0; j < size; ++j) mixed[j] += row[i] * mixing[i * size + j];
       }
+      std::copy(mixed.begin(), mixed.end(), row);
     }
+  }
+}
+
+// diag(Z_C (1 / precision + Z_CC)^-1 Z_C^T), which are the rows of Z_C L^-T squared and summed.
+// Mixed before they are continued off the paths, the columns need no product over all cells.
+void SubtractGain(const FieldFactor& factor, const PendingReadings& pending,
+                  std::span<const Slot> slots, double precision,
+                  std::vector<double>& variance_ppm2) {
+  PathColumns on_paths = factor.InverseOnPaths(slots);
+  const std::vector<double> mixing = WhitenReadings(on_paths.values, pending, slots, precision);
+  Mix(factor.tree(), mixing, on_paths);
+  SlotColumns columns = factor.Extend(std::move(on_paths));
+  CorrectColumns(pending, slots, mixing, columns);
+  for (Slot slot = 0; slot < variance_ppm2.size(); ++slot) {
+    const double* const row = columns.row(slot);
+    variance_ppm2[slot] -= Dot(row, row, columns.columns());
   }
 }
 
@@ -74,10 +88,7 @@ absl::StatusOr<std::vector<double>> FieldSnapshot::VarianceIfRead(
     if (variance_ppm2_[slot] > 0.0) slots.push_back(slot);  // not NaN: active
   }
   std::vector<double> variance_ppm2 = variance_ppm2_;
-  if (!slots.empty()) {
-    const SlotColumns z = CovarianceColumns(factor_, pending_, slots);
-    SubtractGain(z, slots, precision, variance_ppm2);
-  }
+  if (!slots.empty()) SubtractGain(factor_, pending_, slots, precision, variance_ppm2);
   std::vector<double> by_cell(tree.cells());
   for (Slot slot = 0; slot < by_cell.size(); ++slot) {
     by_cell[tree.cell(slot)] = variance_ppm2[slot];

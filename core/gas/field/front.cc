@@ -46,7 +46,7 @@ void FrontBuilder::FindCells(const SeparatorTree::Node& node, const FieldCells& 
   }
   front.own = front.cells.size();
   for (std::size_t i = 0; i < front.own; ++i) {
-    for (const Slot next : tree_.neighbours(front.cells[i])) {
+    for (const Slot next : tree_->neighbours(front.cells[i])) {
       if (next != kNoSlot && next >= node.end && cells.active[next] != 0) {
         front.cells.push_back(next);
       }
@@ -75,7 +75,7 @@ void FrontBuilder::Assemble(const FieldCells& cells, const Front& front) {
   for (std::size_t j = 0; j < front.own; ++j) {
     const Slot slot = front.cells[j];
     double* const column = matrix_.data() + j * matrix_stride_;
-    for (const Slot next : tree_.neighbours(slot)) {
+    for (const Slot next : tree_->neighbours(slot)) {
       if (next == kNoSlot || next < slot || cells.active[next] == 0) continue;
       column[place_[next]] = -prior_.prior_precision;
     }

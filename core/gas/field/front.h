@@ -58,7 +58,7 @@ constexpr std::size_t TileRows(std::size_t rows) {
 class FrontBuilder {
  public:
   FrontBuilder(const SeparatorTree& tree, const FieldPrior& prior)
-      : tree_(tree), prior_(prior), place_(tree.cells(), 0) {}
+      : tree_(&tree), prior_(prior), place_(tree.cells(), 0) {}
 
   // `children` are those of the node, or null for a leaf.
   std::shared_ptr<const Front> Build(const SeparatorTree::Node& node, const FieldCells& cells,
@@ -72,7 +72,7 @@ class FrontBuilder {
   void Condition(Front& front);
   void KeepMessage(Front& front) const;
 
-  const SeparatorTree& tree_;
+  const SeparatorTree* tree_;
   FieldPrior prior_;
   std::vector<std::uint32_t> place_;  // by slot: row in the front
   std::vector<double> matrix_;        // the front, rows: S, R, ground, right-hand side

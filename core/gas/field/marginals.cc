@@ -37,7 +37,7 @@ void FindPlaces(std::span<const Slot> some, std::span<const Slot> all,
 }  // namespace
 
 Marginals::Marginals(const SeparatorTree& tree)
-    : tree_(tree),
+    : tree_(&tree),
       mean_ppm_(tree.cells(), kNaN),
       variance_ppm2_(tree.cells(), kNaN),
       origins_(tree.nodes().size()) {}
@@ -51,7 +51,7 @@ FieldError Marginals::Descend(const FieldFactor& factor, std::span<const std::ui
 }
 
 FieldError Marginals::Visit(std::size_t node, std::size_t depth) {
-  const SeparatorTree::Node& place = tree_.nodes()[node];
+  const SeparatorTree::Node& place = tree_->nodes()[node];
   const Front& front = factor_->front(node);
   Origin& origin = origins_[node];
   if (front.boundary() > 0) {
@@ -189,7 +189,7 @@ void Marginals::FormBlock(const Front& front, Block& block) {
 }
 
 void Marginals::Add(const PendingReading& reading) {
-  const double* const x = reading.column.column(0);
+  const double* const x = reading.column.row(0);
   for (std::size_t i = 0; i < mean_ppm_.size(); ++i) {
     mean_ppm_[i] += reading.mean_factor * x[i];
     variance_ppm2_[i] -= reading.variance_factor * x[i] * x[i];
@@ -205,7 +205,7 @@ void Marginals::Absorb(const FieldFactor& factor, const PendingReadings& reading
     const std::span<const Slot> cells = factor.front(node).boundary_cells();
     x.resize(cells.size());
     for (const auto& reading : readings) {
-      for (std::size_t i = 0; i < x.size(); ++i) x[i] = reading->column.column(0)[cells[i]];
+      for (std::size_t i = 0; i < x.size(); ++i) x[i] = *reading->column.row(cells[i]);
       double* covariance = origin.covariance_ppm2.data();
       for (std::size_t j = 0; j < x.size(); ++j) {
         origin.mean_ppm[j] += reading->mean_factor * x[j];

@@ -67,7 +67,7 @@ class Marginals {
   void FormCross(const Front& front);
   void FormBlock(const Front& front, Block& block);
 
-  const SeparatorTree& tree_;
+  const SeparatorTree* tree_;
   std::vector<double> mean_ppm_;
   std::vector<double> variance_ppm2_;
   std::vector<Origin> origins_;  // by node

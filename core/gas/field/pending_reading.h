@@ -21,9 +21,10 @@ struct PendingReading {
 };
 using PendingReadings = std::vector<std::shared_ptr<const PendingReading>>;
 
-// Columns of the covariance after the pending readings. REQUIRES: `slots` are active.
-SlotColumns CovarianceColumns(const FieldFactor& factor, const PendingReadings& pending,
-                              std::span<const Slot> slots);
+// Columns of the factor's inverse in `slots`, combined by `mixing` (slots x slots, by rows), become
+// those of the covariance after the pending readings.
+void CorrectColumns(const PendingReadings& pending, std::span<const Slot> slots,
+                    std::span<const double> mixing, SlotColumns& columns);
 
 // Mean of an active cell after the pending readings, as deviation from m_0.
 double Mean_ppm(const FieldFactor& factor, const PendingReadings& pending, Slot slot);
