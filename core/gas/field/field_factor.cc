@@ -30,33 +30,47 @@ struct Descent {
   std::vector<double> own;       // x_S, column by column
 };
 
-// x_S += W x_R
-void DescendFront(const Front& front, SlotColumns& x, Descent& scratch) {
+// x_S += W x_R for one column.
+void DescendOne(const Front& front, double* x, Descent& scratch) {
+  const std::span<const Slot> boundary = front.boundary_cells();
+  scratch.boundary.resize(boundary.size());
+  scratch.own.assign(front.stride, 0.0);
+  for (std::size_t i = 0; i < boundary.size(); ++i) scratch.boundary[i] = x[boundary[i]];
+  AddProduct(front.weights.data(), front.stride, scratch.boundary, scratch.own.data());
+  for (std::size_t i = 0; i < front.own; ++i) x[front.cells[i]] += scratch.own[i];
+}
+
+// The same for several columns at once.
+void DescendMany(const Front& front, SlotColumns& x, Descent& scratch) {
   const std::size_t columns = x.columns();
   const std::span<const Slot> boundary = front.boundary_cells();
-  if (front.own == 0 || boundary.empty()) return;
   scratch.boundary.resize(boundary.size() * columns);
   for (std::size_t i = 0; i < boundary.size(); ++i) {
     std::copy_n(x.row(boundary[i]), columns, scratch.boundary.data() + i * columns);
   }
   scratch.own.assign(front.stride * columns, 0.0);
-  if (columns == 1) {
-    AddProduct(front.weights.data(), front.stride, scratch.boundary, scratch.own.data());
-  } else {
-    Accumulate({.a = front.weights.data(),
-                .a_stride = front.stride,
-                .b = scratch.boundary.data(),
-                .b_row_stride = columns,
-                .b_column_stride = 1,
-                .c = scratch.own.data(),
-                .c_stride = front.stride,
-                .rows = front.own,
-                .columns = columns,
-                .depth = boundary.size()});
-  }
+  Accumulate({.a = front.weights.data(),
+              .a_stride = front.stride,
+              .b = scratch.boundary.data(),
+              .b_row_stride = columns,
+              .b_column_stride = 1,
+              .c = scratch.own.data(),
+              .c_stride = front.stride,
+              .rows = front.own,
+              .columns = columns,
+              .depth = boundary.size()});
   for (std::size_t i = 0; i < front.own; ++i) {
     double* const row = x.row(front.cells[i]);
     for (std::size_t j = 0; j < columns; ++j) row[j] += scratch.own[j * front.stride + i];
+  }
+}
+
+void DescendFront(const Front& front, SlotColumns& x, Descent& scratch) {
+  if (front.own == 0 || front.boundary() == 0) return;
+  if (x.columns() == 1) {
+    DescendOne(front, x.row(0), scratch);
+  } else {
+    DescendMany(front, x, scratch);
   }
 }
 
