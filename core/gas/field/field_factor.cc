@@ -89,11 +89,12 @@ void FieldFactor::Eliminate(std::span<const std::uint8_t> dirty, const FieldCell
 
 PathColumns FieldFactor::InverseOnPaths(std::span<const Slot> slots) const {
   PathColumns columns{SlotColumns(tree_->cells(), slots.size()), {}};
+  std::vector<double> r(tree_->cells(), 0.0);
   std::vector<std::uint32_t>& nodes = columns.path_nodes;
   for (std::size_t j = 0; j < slots.size(); ++j) {
     const std::vector<std::uint32_t> path = PathFrom(slots[j]);
     nodes.insert(nodes.end(), path.begin(), path.end());
-    Ascend(slots[j], j, columns.values);
+    Ascend(slots[j], j, r, columns.values);
   }
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -113,27 +114,24 @@ std::vector<std::uint32_t> FieldFactor::PathFrom(Slot slot) const {
   return path;
 }
 
-// From e_slot up to the root: x_S = C r_S, r_R += W^T r_S.
-void FieldFactor::Ascend(Slot slot, std::size_t column, SlotColumns& x) const {
-  std::vector<double> r;         // of the cells of the present front
-  std::vector<double> received;  // of the boundary of the one below
+// From e_slot up to the root: x_S = C r_S, r_R += W^T r_S. `r` is 0 before and after.
+void FieldFactor::Ascend(Slot slot, std::size_t column, std::vector<double>& r,
+                         SlotColumns& x) const {
+  std::vector<double> own;
   std::vector<double> solution;
-  std::vector<std::uint32_t> places;
-  std::span<const Slot> senders = {&slot, 1};
-  received.push_back(1.0);
+  r[slot] = 1.0;
   for (const std::uint32_t node : PathFrom(slot)) {
     const Front& front = *fronts_[node];
-    FindPlaces(senders, front.cells, places);
-    r.assign(front.cells.size(), 0.0);
-    for (std::size_t i = 0; i < places.size(); ++i) r[places[i]] = received[i];
-    for (std::size_t j = 0; j < front.boundary(); ++j) {
-      r[front.own + j] += Dot(front.weights.data() + j * front.stride, r.data(), front.own);
+    if (front.own == 0) continue;
+    own.resize(front.own);
+    for (std::size_t i = 0; i < front.own; ++i) own[i] = std::exchange(r[front.cells[i]], 0.0);
+    const std::span<const Slot> boundary = front.boundary_cells();
+    for (std::size_t j = 0; j < boundary.size(); ++j) {
+      r[boundary[j]] += Dot(front.weights.data() + j * front.stride, own.data(), front.own);
     }
     solution.assign(front.stride, 0.0);
-    AddProduct(front.covariance.data(), front.stride, {r.data(), front.own}, solution.data());
+    AddProduct(front.covariance.data(), front.stride, own, solution.data());
     for (std::size_t i = 0; i < front.own; ++i) x.row(front.cells[i])[column] = solution[i];
-    senders = front.boundary_cells();
-    received.assign(r.begin() + static_cast<std::ptrdiff_t>(front.own), r.end());
   }
 }
 
@@ -151,26 +149,15 @@ SlotColumns FieldFactor::Extend(PathColumns columns) const {
 }
 
 double FieldFactor::Mean_ppm(Slot slot) const {
-  std::vector<double> mean;      // of the cells of the present front
-  std::vector<double> boundary;  // of its boundary
-  std::vector<double> own;
-  std::vector<std::uint32_t> places;
-  std::span<const Slot> above;
+  SlotColumns mean(tree_->cells(), 1);
+  Descent scratch;
   const std::vector<std::uint32_t> path = PathFrom(slot);
   for (auto node = path.rbegin(); node != path.rend(); ++node) {
     const Front& front = *fronts_[*node];
-    FindPlaces(front.boundary_cells(), above, places);
-    boundary.clear();
-    for (const std::uint32_t place : places) boundary.push_back(mean[place]);
-    own.assign(front.stride, 0.0);
-    std::copy(front.offset_ppm.begin(), front.offset_ppm.end(), own.begin());
-    AddProduct(front.weights.data(), front.stride, boundary, own.data());
-    mean.assign(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(front.own));
-    mean.insert(mean.end(), boundary.begin(), boundary.end());
-    above = front.cells;
+    for (std::size_t i = 0; i < front.own; ++i) *mean.row(front.cells[i]) = front.offset_ppm[i];
+    DescendFront(front, mean, scratch);
   }
-  FindPlaces({&slot, 1}, above, places);
-  return mean[places.front()];
+  return *mean.row(slot);
 }
 
 }  // namespace plumescout

@@ -61,7 +61,7 @@ class FieldFactor {
 
  private:
   std::vector<std::uint32_t> PathFrom(Slot slot) const;
-  void Ascend(Slot slot, std::size_t column, SlotColumns& x) const;
+  void Ascend(Slot slot, std::size_t column, std::vector<double>& r, SlotColumns& x) const;
 
   std::shared_ptr<const SeparatorTree> tree_;
   std::vector<std::shared_ptr<const Front>> fronts_;  // by node

@@ -18,16 +18,6 @@ std::size_t MessageSize(std::size_t boundary) {
 
 }  // namespace
 
-void FindPlaces(std::span<const Slot> some, std::span<const Slot> all,
-                std::vector<std::uint32_t>& places) {
-  places.resize(some.size());
-  std::uint32_t place = 0;
-  for (std::size_t i = 0; i < some.size(); ++i) {
-    while (all[place] != some[i]) ++place;
-    places[i] = place;
-  }
-}
-
 std::shared_ptr<const Front> FrontBuilder::Build(const SeparatorTree::Node& node,
                                                  const FieldCells& cells, const Front* low,
                                                  const Front* high) {

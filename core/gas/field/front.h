@@ -54,11 +54,6 @@ constexpr std::size_t TileRows(std::size_t rows) {
   return (rows + kRowTile - 1) / kRowTile * kRowTile;
 }
 
-// Places of the ascending slots `some` among the ascending slots `all`, which hold them: of the
-// boundary of a front among the cells of its parent.
-void FindPlaces(std::span<const Slot> some, std::span<const Slot> all,
-                std::vector<std::uint32_t>& places);
-
 // Builds fronts; holds scratch memory only.
 class FrontBuilder {
  public:

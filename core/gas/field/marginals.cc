@@ -23,6 +23,17 @@ bool IsWithin(const FieldError& error, const FieldError& tolerance) {
   return error.mean_ppm <= tolerance.mean_ppm && error.variance_ppm2 <= tolerance.variance_ppm2;
 }
 
+// Places of the ascending slots `some` among the ascending slots `all`, which hold them.
+void FindPlaces(std::span<const Slot> some, std::span<const Slot> all,
+                std::vector<std::uint32_t>& places) {
+  places.resize(some.size());
+  std::uint32_t place = 0;
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    while (all[place] != some[i]) ++place;
+    places[i] = place;
+  }
+}
+
 }  // namespace
 
 Marginals::Marginals(const SeparatorTree& tree)
