@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 
-// The gas posterior from scratch: CPU time, memory, and error against other solvers, which are
-// timed on the same maps in the same run.
+// The gas posterior, from scratch and online: CPU time, memory, and error against other solvers,
+// which are timed on the same maps in the same run.
 
 #include <malloc.h>
 
@@ -10,12 +10,14 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "absl/status/status.h"
 #include "core/gas/belief_propagation.h"
+#include "core/gas/field/field_engine.h"
 #include "core/gas/gas_map.h"
 #include "core/gas/gmrf_graph.h"
 #include "core/gas/information.h"
@@ -91,13 +93,17 @@ absl::StatusOr<GasMap> FreshMap(const Case& c) {
   return map;
 }
 
-absl::StatusOr<Information> InformationOf(const Case& c) {
-  const GmrfGraph graph(c.states);
+absl::StatusOr<PlacedReadings> PlaceReadings(const Case& c, const GmrfGraph& graph) {
   ReadingStore store{GasOptions()};
   for (std::size_t k = 0; k < c.positions.size(); ++k) {
     store.Add(0, c.positions[k], {c.concentrations_ppm[k]});
   }
-  PLUMESCOUT_ASSIGN_OR_RETURN(const PlacedReadings placed, store.PlaceAll(graph, 0));
+  return store.PlaceAll(graph, 0);
+}
+
+absl::StatusOr<Information> InformationOf(const Case& c) {
+  const GmrfGraph graph(c.states);
+  PLUMESCOUT_ASSIGN_OR_RETURN(const PlacedReadings placed, PlaceReadings(c, graph));
   return BuildInformation(graph, placed.evidence, GasOptions());
 }
 
@@ -212,6 +218,152 @@ absl::Status MeasureMemory(const std::string& name, const Case& c, BenchSummary&
   return absl::OkStatus();
 }
 
+// 1e-5 of the largest mean of these cases, and of the least variance.
+constexpr FieldError kTolerance = {5e-4, 5e-7};
+constexpr std::size_t kReadingsBetweenScans = 2;  // as of four robots: 2 Hz each, scans at 10 Hz
+constexpr std::size_t kWhatIfCells = 16;
+constexpr int kOnlineRepeats = 60;
+
+// A field that goes on from a case, with events as a mission has them.
+class OnlineField {
+ public:
+  OnlineField(const Case& c, const std::vector<Evidence>& evidence, std::uint64_t seed)
+      : c_(c), rng_(seed), cells_(c.states.size()) {
+    const GmrfGraph graph(c.states);
+    for (std::size_t i = 0; i < evidence.size(); ++i) {
+      cells_[graph.cell_index(VariableIndex{static_cast<int>(i)})] = {
+          true, evidence[i].precision, evidence[i].weighted_deviation};
+    }
+  }
+
+  FieldEngine Fresh() const {
+    const GasOptions gas;
+    FieldOptions options;
+    options.prior = {gas.prior_precision, gas.background_precision};
+    options.tolerance = kTolerance;
+    return FieldEngine(static_cast<std::size_t>(c_.states.width()),
+                       static_cast<std::size_t>(c_.states.height()), cells_, options);
+  }
+
+  std::size_t ActiveCell() {
+    std::size_t cell = 0;
+    do {
+      cell = rng_.Below(cells_.size());
+    } while (!cells_[cell].active);
+    return cell;
+  }
+
+  std::vector<CellChange> Reading() {
+    constexpr double kPeak_ppm = 50.0;
+    const std::size_t cell = ActiveCell();
+    const double precision = GasOptions().observation_precision;
+    cells_[cell].precision += precision;
+    cells_[cell].weighted_deviation += precision * rng_.Uniform(0.0, kPeak_ppm);
+    return {{cell, cells_[cell]}};
+  }
+
+  // 40 cells within 3 m of a robot become free or cease to be.
+  std::vector<CellChange> Scan() {
+    constexpr int kFlips = 40;
+    constexpr int kReach_cells = 30;
+    const GridGeometry& geometry = c_.states.geometry();
+    const Cell robot = geometry.CellAtIndex(ActiveCell());
+    std::vector<CellChange> changes;
+    while (changes.size() < kFlips) {
+      const Cell cell{robot.x + Offset(kReach_cells), robot.y + Offset(kReach_cells)};
+      if (!geometry.Contains(cell)) continue;
+      CellInput& input = cells_[geometry.Index(cell)];
+      input.active = !input.active;
+      changes.push_back({geometry.Index(cell), input});
+    }
+    return changes;
+  }
+
+  const std::vector<CellInput>& cells() const { return cells_; }
+
+ private:
+  int Offset(int reach) {
+    return static_cast<int>(rng_.Below(static_cast<std::uint64_t>(2 * reach + 1))) - reach;
+  }
+
+  const Case& c_;
+  Rng rng_;
+  std::vector<CellInput> cells_;
+};
+
+// Worst difference between the field as the events have left it and one from scratch.
+FieldError Drift(const OnlineField& online, const FieldEngine& field) {
+  const FieldEngine fresh = online.Fresh();
+  FieldError drift;
+  for (std::size_t i = 0; i < online.cells().size(); ++i) {
+    if (!online.cells()[i].active) continue;
+    const double mean_ppm = std::abs(field.mean_ppm(i) - fresh.mean_ppm(i));
+    const double variance_ppm2 = std::abs(field.variance_ppm2(i) - fresh.variance_ppm2(i));
+    drift.mean_ppm = std::max(drift.mean_ppm, mean_ppm);
+    drift.variance_ppm2 = std::max(drift.variance_ppm2, variance_ppm2);
+  }
+  return drift;
+}
+
+// Of a field from scratch against CHOLMOD, in every cell.
+absl::Status MeasureFieldError(const std::string& suffix, const Case& c, const OnlineField& online,
+                               BenchSummary& summary) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Information information, InformationOf(c));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const PeerPosterior truth, SolveByCholmod(information));
+  const FieldEngine field = online.Fresh();
+  Errors errors;
+  std::size_t variable = 0;
+  for (std::size_t i = 0; i < online.cells().size(); ++i) {
+    if (!online.cells()[i].active) continue;
+    const double ratio = field.variance_ppm2(i) / truth.variance_ppm2[variable];
+    const double mean_error = std::abs(field.mean_ppm(i) - truth.deviation_ppm[variable++]);
+    errors.mean_ppm = std::max(errors.mean_ppm, mean_error);
+    errors.variance_relative = std::max(errors.variance_relative, std::abs(ratio - 1.0));
+  }
+  summary.Set("field_mean_error_ppm_" + suffix, errors.mean_ppm);
+  summary.Set("field_variance_relative_error_" + suffix, errors.variance_relative);
+  return absl::OkStatus();
+}
+
+double Cpu_ms(const std::function<void()>& run) {
+  const double begin_ms = ThreadCpu_ms();
+  run();
+  return ThreadCpu_ms() - begin_ms;
+}
+
+// The engine that goes on: from scratch, per reading, per scan, and per question to a snapshot.
+absl::Status MeasureOnline(const std::string& suffix, const Case& c, BenchSummary& summary) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const PlacedReadings placed, PlaceReadings(c, GmrfGraph(c.states)));
+  OnlineField online(c, placed.evidence, summary.seed());
+  summary.Set("field_fresh_" + suffix, MedianCpu_ms(kRepeats, [&] { online.Fresh(); }));
+
+  const std::string map = suffix.substr(0, suffix.rfind('_'));
+  PLUMESCOUT_RETURN_IF_ERROR(MeasureFieldError(map, c, online, summary));
+  FieldEngine field = online.Fresh();
+  absl::Status status;
+  std::vector<double> reading_ms, scan_ms, what_if_ms;
+  for (int repeat = 0; repeat < kOnlineRepeats; ++repeat) {
+    for (std::size_t k = 0; k < kReadingsBetweenScans; ++k) {
+      const std::vector<CellChange> reading = online.Reading();
+      reading_ms.push_back(Cpu_ms([&] { status.Update(field.Apply(reading)); }));
+    }
+    const std::vector<CellChange> scan = online.Scan();
+    scan_ms.push_back(Cpu_ms([&] { status.Update(field.Apply(scan)); }));
+    std::vector<std::size_t> cells;
+    while (cells.size() < kWhatIfCells) cells.push_back(online.ActiveCell());
+    const double precision = GasOptions().observation_precision;
+    what_if_ms.push_back(
+        Cpu_ms([&] { status.Update(field.Snapshot().VarianceIfRead(cells, precision).status()); }));
+  }
+  summary.Set("reading_" + suffix, Median(reading_ms));
+  summary.Set("scan_" + suffix, Median(scan_ms));
+  summary.Set("whatif16_" + suffix, Median(what_if_ms));
+  const FieldError drift = Drift(online, field);
+  summary.Set("online_mean_error_ppm_" + map, drift.mean_ppm);
+  summary.Set("online_variance_error_ppm2_" + map, drift.variance_ppm2);
+  return status;
+}
+
 absl::Status Run(BenchSummary& summary) {
   const std::uint64_t seed = summary.seed();
   const Case open = MakeCase(OpenMap(kWidth_cells, kHeight_cells), seed);
@@ -226,6 +378,8 @@ absl::Status Run(BenchSummary& summary) {
   PLUMESCOUT_RETURN_IF_ERROR(MeasurePeers("160x200_ms", open, summary));
   PLUMESCOUT_RETURN_IF_ERROR(MeasureFresh("fresh_indoor_160x200_ms", indoor, kRepeats, summary));
   PLUMESCOUT_RETURN_IF_ERROR(MeasurePeers("indoor_160x200_ms", indoor, summary));
+  PLUMESCOUT_RETURN_IF_ERROR(MeasureOnline("160x200_ms", open, summary));
+  PLUMESCOUT_RETURN_IF_ERROR(MeasureOnline("indoor_160x200_ms", indoor, summary));
   PLUMESCOUT_RETURN_IF_ERROR(MeasureFresh("fresh_700x700_ms", large, kRepeatsLarge, summary));
   PLUMESCOUT_RETURN_IF_ERROR(MeasureBeliefPropagation(indoor, summary));
   return MeasureErrors({small, small_indoor}, {open, indoor}, summary);

@@ -25,8 +25,9 @@ struct Room {
   Names may_include;
 };
 
-const Names kCore = {"core/types",    "core/grid",   "core/occupancy", "core/linalg", "core/gas",
-                     "core/frontier", "core/belief", "core/plan",      "core/mission"};
+const Names kCore = {"core/types",     "core/grid",   "core/occupancy", "core/linalg",
+                     "core/gas/field", "core/gas",    "core/frontier",  "core/belief",
+                     "core/plan",      "core/mission"};
 
 // The first `count` rooms of core.
 Names CoreBefore(const std::string& folder) {

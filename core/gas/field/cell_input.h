@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+namespace plumescout {
+
+// What the field is told of one cell: all of it, not a difference.
+struct CellInput {
+  bool active = false;              // has a variable: known to be free
+  double precision = 0.0;           // sum of lambda_k of its readings, ppm^-2
+  double weighted_deviation = 0.0;  // sum of lambda_k (z_k - m_0), ppm^-1
+};
+
+struct CellChange {
+  std::size_t cell = 0;  // index y * width + x
+  CellInput input;
+};
+
+// Beyond any sensor, and far from where products of two overflow.
+inline constexpr double kMaxCellPrecision = 1e100;
+
+}  // namespace plumescout

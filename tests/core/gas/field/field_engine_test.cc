@@ -1,0 +1,243 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/gas/field/field_engine.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/core/gas/field/field_case.h"
+
+namespace plumescout {
+namespace {
+
+using ::plumescout::testing::DefaultField;
+using ::plumescout::testing::DenseField;
+using ::plumescout::testing::EngineOf;
+using ::plumescout::testing::ErrorAgainst;
+using ::plumescout::testing::FieldCase;
+using ::plumescout::testing::RandomChanges;
+using ::plumescout::testing::RandomFieldCase;
+using ::plumescout::testing::RandomReading;
+using ::plumescout::testing::SameFields;
+
+// Means are up to 50 ppm and the dense inverse itself is good to its condition, 24000, times 1e-16.
+constexpr double kExact = 1e-9;
+
+void ExpectExact(const FieldCase& c, const FieldEngine& engine) {
+  const FieldError error = ErrorAgainst(c, engine, c.Dense());
+  EXPECT_LE(error.mean_ppm, kExact);
+  EXPECT_LE(error.variance_ppm2, kExact);
+}
+
+TEST(FieldEngineTest, EqualsTheDenseInverseOnRandomMaps) {
+  Rng rng(1);
+  for (const double blocked_share : {0.0, 0.1, 0.4, 0.7, 0.95}) {
+    for (const std::size_t width : {1, 3, 11, 29}) {
+      const FieldCase c = RandomFieldCase(width, 23, blocked_share, rng);
+      ExpectExact(c, EngineOf(c));
+    }
+  }
+}
+
+TEST(FieldEngineTest, HandlesMapsWithoutAnActiveCell) {
+  FieldCase c{13, std::vector<CellInput>(13 * 17)};
+  FieldEngine engine = EngineOf(c);
+  ExpectExact(c, engine);
+  const std::vector<CellChange> changes = {{20, {true, 3.0, 12.0}}};
+  c.Apply(changes);
+  ASSERT_TRUE(engine.Apply(changes).ok());
+  ExpectExact(c, engine);
+}
+
+TEST(FieldEngineTest, StaysExactWhileCellsAppearAndVanishAndReadingsArrive) {
+  Rng rng(2);
+  for (const double blocked_share : {0.05, 0.3, 0.6}) {
+    FieldCase c = RandomFieldCase(24, 20, blocked_share, rng);
+    FieldEngine engine = EngineOf(c);
+    for (int batch = 0; batch < 60; ++batch) {
+      const std::vector<CellChange> changes =
+          batch % 3 == 0 ? RandomChanges(c, 1 + static_cast<int>(rng.Below(12)), blocked_share, rng)
+                         : RandomReading(c, rng);
+      c.Apply(changes);
+      ASSERT_TRUE(engine.Apply(changes).ok());
+      if (batch % 4 == 0) ExpectExact(c, engine);
+    }
+    ExpectExact(c, engine);
+  }
+}
+
+TEST(FieldEngineTest, StaysExactOverMoreReadingsThanMayBePending) {
+  Rng rng(3);
+  FieldCase c = RandomFieldCase(20, 20, 0.2, rng);
+  FieldOptions options = DefaultField();
+  options.max_pending = 4;
+  FieldEngine engine = EngineOf(c, options);
+  for (int k = 0; k < 50; ++k) {
+    const std::vector<CellChange> changes = RandomReading(c, rng);
+    c.Apply(changes);
+    ASSERT_TRUE(engine.Apply(changes).ok());
+  }
+  ExpectExact(c, engine);
+}
+
+TEST(FieldEngineTest, ExploresAMapThatWasWhollyUnknown) {
+  Rng rng(4);
+  const FieldCase target = RandomFieldCase(26, 22, 0.2, rng);
+  FieldCase c{target.width, std::vector<CellInput>(target.cells.size())};
+  FieldEngine engine = EngineOf(c);
+  for (std::size_t row = 0; row < target.height(); ++row) {
+    std::vector<CellChange> changes;
+    for (std::size_t x = 0; x < target.width; ++x) {
+      const std::size_t cell = row * target.width + x;
+      changes.push_back({cell, target.cells[cell]});
+    }
+    c.Apply(changes);
+    ASSERT_TRUE(engine.Apply(changes).ok());
+    if (row % 5 == 0) ExpectExact(c, engine);
+  }
+  ExpectExact(target, engine);
+}
+
+TEST(FieldEngineTest, RemembersTheEvidenceOfACellThatVanishes) {
+  Rng rng(5);
+  FieldCase c = RandomFieldCase(15, 15, 0.1, rng);
+  FieldEngine engine = EngineOf(c);
+  const std::vector<CellChange> changes = RandomChanges(c, 30, 1.0, rng);
+  c.Apply(changes);
+  ASSERT_TRUE(engine.Apply(changes).ok());
+  std::vector<CellChange> back = changes;
+  for (CellChange& change : back) {
+    change.input = c.cells[change.cell];
+    change.input.active = true;
+  }
+  c.Apply(back);
+  ASSERT_TRUE(engine.Apply(back).ok());
+  ExpectExact(c, engine);
+}
+
+TEST(FieldEngineTest, LosesNoDigitsWhereTheBackgroundIsNegligible) {
+  // Every cell's variance in an unobserved map of n cells is at least 1 / (n lambda_d), and beyond
+  // that at most the resistance between any two cells over lambda_p: here below 100 / 3.
+  FieldOptions options = DefaultField();
+  options.prior.background_precision = 1e-13;
+  FieldCase c{20, std::vector<CellInput>(400, {true, 0.0, 0.0})};
+  const FieldEngine engine = EngineOf(c, options);
+  for (std::size_t i = 0; i < c.cells.size(); ++i) {
+    EXPECT_NEAR(engine.variance_ppm2(i) * 400.0 * 1e-13, 1.0, 2e-9);
+  }
+}
+
+TEST(FieldEngineTest, KeepsWithinItsToleranceAndSaysSo) {
+  Rng rng(6);
+  FieldCase c = RandomFieldCase(40, 40, 0.25, rng);
+  FieldOptions options = DefaultField();
+  options.tolerance = {1e-3, 1e-4};
+  FieldEngine engine = EngineOf(c, options);
+  bool approximate = false;
+  for (int batch = 0; batch < 60; ++batch) {
+    const std::vector<CellChange> changes =
+        batch % 2 == 0 ? RandomChanges(c, 2, 0.25, rng) : RandomReading(c, rng);
+    c.Apply(changes);
+    ASSERT_TRUE(engine.Apply(changes).ok());
+    const FieldError bound = engine.error_bound();
+    EXPECT_LE(bound.mean_ppm, options.tolerance.mean_ppm);
+    EXPECT_LE(bound.variance_ppm2, options.tolerance.variance_ppm2);
+    approximate = approximate || bound.mean_ppm > 0.0;
+    const FieldEngine fresh = EngineOf(c);
+    for (std::size_t i = 0; i < c.cells.size(); ++i) {
+      if (!c.cells[i].active) continue;
+      EXPECT_NEAR(engine.mean_ppm(i), fresh.mean_ppm(i), bound.mean_ppm + kExact);
+      EXPECT_NEAR(engine.variance_ppm2(i), fresh.variance_ppm2(i),
+                  bound.variance_ppm2 + kExact * fresh.variance_ppm2(i));
+    }
+  }
+  EXPECT_TRUE(approximate) << "nothing was pruned";
+}
+
+TEST(FieldEngineTest, IsExactAgainAfterRecomputing) {
+  Rng rng(7);
+  FieldCase c = RandomFieldCase(30, 30, 0.2, rng);
+  FieldOptions options = DefaultField();
+  options.tolerance = {1.0, 1.0};
+  FieldEngine engine = EngineOf(c, options);
+  for (int k = 0; k < 10; ++k) {
+    const std::vector<CellChange> changes = RandomChanges(c, 3, 0.2, rng);
+    c.Apply(changes);
+    ASSERT_TRUE(engine.Apply(changes).ok());
+  }
+  EXPECT_GT(ErrorAgainst(c, engine, c.Dense()).mean_ppm, 1e-6);
+  engine.Recompute();
+  ExpectExact(c, engine);
+  EXPECT_EQ(engine.error_bound().mean_ppm, 0.0);
+}
+
+TEST(FieldEngineTest, GivesTheSameBytesForTheSameCalls) {
+  Rng rng(8);
+  FieldCase c = RandomFieldCase(30, 30, 0.2, rng);
+  FieldOptions options = DefaultField();
+  options.tolerance = {1e-4, 1e-5};
+  FieldEngine a = EngineOf(c, options);
+  FieldEngine b = EngineOf(c, options);
+  for (int k = 0; k < 40; ++k) {
+    const std::vector<CellChange> changes =
+        k % 3 == 0 ? RandomChanges(c, 5, 0.2, rng) : RandomReading(c, rng);
+    c.Apply(changes);
+    ASSERT_TRUE(a.Apply(changes).ok());
+    ASSERT_TRUE(b.Apply(changes).ok());
+  }
+  EXPECT_TRUE(SameFields(c, a, b));
+}
+
+TEST(FieldEngineTest, RecomputesToTheBytesOfAFreshEngine) {
+  Rng rng(9);
+  FieldCase c = RandomFieldCase(25, 25, 0.0, rng);
+  FieldEngine engine = EngineOf(c);
+  for (int k = 0; k < 20; ++k) {
+    const std::vector<CellChange> changes = RandomReading(c, rng);
+    c.Apply(changes);
+    ASSERT_TRUE(engine.Apply(changes).ok());
+  }
+  engine.Recompute();
+  EXPECT_TRUE(SameFields(c, engine, EngineOf(c)));
+}
+
+TEST(FieldEngineTest, RefusesBadInputAndKeepsItsFields) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Rng rng(10);
+  const FieldCase c = RandomFieldCase(10, 10, 0.2, rng);
+  FieldEngine engine = EngineOf(c);
+  const std::vector<CellChange> bad = {{100, {true, 1.0, 1.0}},      {0, {true, -1.0, 1.0}},
+                                       {0, {true, kNaN, 1.0}},       {0, {true, kInfinity, 1.0}},
+                                       {0, {true, 1.0, kNaN}},       {0, {true, 1.0, kInfinity}},
+                                       {0, {true, 1.0, -kInfinity}}, {0, {true, 1e101, 1.0}}};
+  for (const CellChange& change : bad) {
+    const std::vector<CellChange> changes = {{5, {true, 40.0, 40.0}}, change};
+    EXPECT_EQ(engine.Apply(changes).code(), absl::StatusCode::kInvalidArgument);
+  }
+  EXPECT_TRUE(SameFields(c, engine, EngineOf(c)));
+}
+
+TEST(FieldEngineTest, TakesTheGreatestPrecision) {
+  FieldCase c{12, std::vector<CellInput>(144, {true, 0.0, 0.0})};
+  FieldEngine engine = EngineOf(c);
+  const CellChange certain{70, {true, kMaxCellPrecision, 0.0}};
+  ASSERT_TRUE(engine.Apply({&certain, 1}).ok());
+  engine.Recompute();
+  for (std::size_t i = 0; i < c.cells.size(); ++i) {
+    EXPECT_TRUE(std::isfinite(engine.variance_ppm2(i)) && engine.variance_ppm2(i) > 0.0);
+  }
+  EXPECT_NEAR(engine.variance_ppm2(70), 1.0 / kMaxCellPrecision, 1e-110);
+}
+
+TEST(FieldEngineTest, AppliesNothingAtNoCost) {
+  Rng rng(11);
+  const FieldCase c = RandomFieldCase(10, 10, 0.2, rng);
+  FieldEngine engine = EngineOf(c);
+  ASSERT_TRUE(engine.Apply({}).ok());
+  EXPECT_TRUE(SameFields(c, engine, EngineOf(c)));
+}
+
+}  // namespace
+}  // namespace plumescout

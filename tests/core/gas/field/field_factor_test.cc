@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/gas/field/field_factor.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "core/gas/field/pending_reading.h"
+#include "tests/core/gas/field/factor_case.h"
+
+namespace plumescout {
+namespace {
+
+using ::plumescout::testing::FactorCase;
+
+TEST(FieldFactorTest, GivesColumnsOfTheDenseInverse) {
+  for (const std::size_t count : {1, 2, 9}) {
+    const FactorCase c(count);
+    const std::vector<Slot> slots = c.RandomActiveSlots(count);
+    const SlotColumns columns = c.factor.Extend(c.factor.InverseOnPaths(slots));
+    for (std::size_t j = 0; j < count; ++j) {
+      const Eigen::VectorXd truth = c.inverse.col(c.Variable(slots[j]));
+      for (Slot slot = 0; slot < c.tree->cells(); ++slot) {
+        const double expected = c.IsActive(slot) ? truth(c.Variable(slot)) : 0.0;
+        EXPECT_NEAR(columns.row(slot)[j], expected, 1e-10);
+      }
+    }
+  }
+}
+
+TEST(FieldFactorTest, GivesTheSameOnPathsBeforeExtending) {
+  const FactorCase c(1);
+  const std::vector<Slot> slots = c.RandomActiveSlots(3);
+  const PathColumns on_paths = c.factor.InverseOnPaths(slots);
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    for (std::size_t j = 0; j < slots.size(); ++j) {
+      const double truth = c.inverse(c.Variable(slots[i]), c.Variable(slots[j]));
+      EXPECT_NEAR(on_paths.values.row(slots[i])[j], truth, 1e-10);
+    }
+  }
+}
+
+TEST(FieldFactorTest, GivesTheMeanOfOneCell) {
+  const FactorCase c(2);
+  for (const Slot slot : c.RandomActiveSlots(20)) {
+    EXPECT_NEAR(c.factor.Mean_ppm(slot), c.mean_ppm(c.Variable(slot)), 1e-9);
+  }
+}
+
+TEST(FieldFactorTest, LeavesACopyAsItWasWhenPathsAreEliminatedAgain) {
+  FactorCase c(3);
+  const Slot slot = c.RandomActiveSlots(1)[0];
+  const FieldFactor copy = c.factor;
+  std::vector<std::uint8_t> dirty(c.tree->nodes().size(), 0);
+  for (std::uint32_t node = c.tree->owner(slot); node != SeparatorTree::kNone;
+       node = c.tree->nodes()[node].parent) {
+    dirty[node] = 1;
+  }
+  c.cells.precision[slot] += 100.0;
+  FrontBuilder builder(*c.tree, testing::DefaultField().prior);
+  c.factor.Eliminate(dirty, c.cells, builder);
+  const double variance = c.inverse(c.Variable(slot), c.Variable(slot));
+  EXPECT_NEAR(*copy.InverseOnPaths({&slot, 1}).values.row(slot), variance, 1e-10);
+  EXPECT_NEAR(*c.factor.InverseOnPaths({&slot, 1}).values.row(slot),
+              variance / (1.0 + 100.0 * variance), 1e-10);
+}
+
+TEST(FieldFactorTest, SharesTheNodesOffTheChangedPath) {
+  FactorCase c(4);
+  const FieldFactor copy = c.factor;
+  std::vector<std::uint8_t> dirty(c.tree->nodes().size(), 0);
+  dirty.back() = 1;
+  FrontBuilder builder(*c.tree, testing::DefaultField().prior);
+  c.factor.Eliminate(dirty, c.cells, builder);
+  const std::size_t root = dirty.size() - 1;
+  EXPECT_NE(&copy.front(root), &c.factor.front(root));
+  for (std::size_t node = 0; node < root; ++node) {
+    EXPECT_EQ(&copy.front(node), &c.factor.front(node));
+  }
+}
+
+}  // namespace
+}  // namespace plumescout

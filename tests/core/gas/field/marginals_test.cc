@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/gas/field/marginals.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "tests/core/gas/field/factor_case.h"
+
+namespace plumescout {
+namespace {
+
+using ::plumescout::testing::FactorCase;
+
+constexpr double kAnything = std::numeric_limits<double>::max();
+
+std::vector<std::uint8_t> Flags(const FactorCase& c, std::uint8_t flag) {
+  return std::vector<std::uint8_t>(c.tree->nodes().size(), flag);
+}
+
+// Eliminates all nodes anew and flags those from the owner of `slot` to the root.
+std::vector<std::uint8_t> ChangePrecision(FactorCase& c, Slot slot, double precision) {
+  std::vector<std::uint8_t> dirty = Flags(c, 0);
+  for (std::uint32_t node = c.tree->owner(slot); node != SeparatorTree::kNone;
+       node = c.tree->nodes()[node].parent) {
+    dirty[node] = 1;
+  }
+  c.cells.precision[slot] = precision;
+  FrontBuilder builder(*c.tree, testing::DefaultField().prior);
+  c.factor.Eliminate(dirty, c.cells, builder);
+  return dirty;
+}
+
+TEST(MarginalsTest, EqualTheDenseInverse) {
+  const FactorCase c(1);
+  Marginals marginals(*c.tree);
+  marginals.Descend(c.factor, Flags(c, 1), {});
+  for (Slot slot = 0; slot < c.tree->cells(); ++slot) {
+    if (!c.IsActive(slot)) {
+      EXPECT_TRUE(std::isnan(marginals.mean_ppm()[slot]));
+      EXPECT_TRUE(std::isnan(marginals.variance_ppm2()[slot]));
+      continue;
+    }
+    const Eigen::Index v = c.Variable(slot);
+    EXPECT_NEAR(marginals.mean_ppm()[slot], c.mean_ppm(v), 1e-9);
+    EXPECT_NEAR(marginals.variance_ppm2()[slot] / c.inverse(v, v), 1.0, 1e-9);
+  }
+}
+
+TEST(MarginalsTest, StayAsTheyAreIfNothingHasChanged) {
+  const FactorCase c(2);
+  Marginals marginals(*c.tree);
+  marginals.Descend(c.factor, Flags(c, 1), {});
+  const FieldError error = marginals.Descend(c.factor, Flags(c, 0), {});
+  EXPECT_EQ(error.mean_ppm, 0.0);
+  EXPECT_EQ(error.variance_ppm2, 0.0);
+}
+
+TEST(MarginalsTest, LeaveSubtreesAloneWithinTheToleranceAndSayHowFarTheyAreOff) {
+  FactorCase c(3);
+  Marginals marginals(*c.tree);
+  marginals.Descend(c.factor, Flags(c, 1), {});
+  const Slot slot = c.RandomActiveSlots(1)[0];
+  const std::vector<std::uint8_t> dirty = ChangePrecision(c, slot, 500.0);
+  const FieldError error = marginals.Descend(c.factor, dirty, {kAnything, kAnything});
+  Marginals exact(*c.tree);
+  exact.Descend(c.factor, Flags(c, 1), {});
+  double worst_mean = 0.0;
+  double worst_variance = 0.0;
+  for (Slot i = 0; i < c.tree->cells(); ++i) {
+    if (!c.IsActive(i)) continue;
+    const double mean = std::abs(marginals.mean_ppm()[i] - exact.mean_ppm()[i]);
+    const double variance = std::abs(marginals.variance_ppm2()[i] - exact.variance_ppm2()[i]);
+    worst_mean = std::max(worst_mean, mean);
+    worst_variance = std::max(worst_variance, variance);
+    if (dirty[c.tree->owner(i)] == 0) continue;
+    EXPECT_EQ(mean, 0.0);
+    EXPECT_EQ(variance, 0.0);
+  }
+  EXPECT_GT(worst_variance, 0.0);
+  EXPECT_LE(worst_mean, error.mean_ppm * (1.0 + 1e-9));
+  EXPECT_LE(worst_variance, error.variance_ppm2 * (1.0 + 1e-9));
+}
+
+TEST(MarginalsTest, DoNotForgetOldChangesWhenNewOnesAreSmall) {
+  // Many changes, each within the tolerance, must be noticed once their sum is beyond it.
+  FactorCase c(4);
+  Marginals marginals(*c.tree);
+  marginals.Descend(c.factor, Flags(c, 1), {});
+  const Slot slot = c.RandomActiveSlots(1)[0];
+  constexpr FieldError kTolerance = {1e-2, 1e-3};
+  for (int k = 1; k <= 200; ++k) {
+    const std::vector<std::uint8_t> dirty = ChangePrecision(c, slot, 0.05 * k);
+    const FieldError error = marginals.Descend(c.factor, dirty, kTolerance);
+    EXPECT_LE(error.variance_ppm2, kTolerance.variance_ppm2);
+  }
+  Marginals exact(*c.tree);
+  exact.Descend(c.factor, Flags(c, 1), {});
+  for (Slot i = 0; i < c.tree->cells(); ++i) {
+    if (!c.IsActive(i)) continue;
+    EXPECT_NEAR(marginals.mean_ppm()[i], exact.mean_ppm()[i], kTolerance.mean_ppm);
+    EXPECT_NEAR(marginals.variance_ppm2()[i], exact.variance_ppm2()[i], kTolerance.variance_ppm2);
+  }
+}
+
+TEST(MarginalsTest, KnowAfterAbsorbingThatTheyHaveHeardAReading) {
+  // Whatever the factor learns of it later moves no boundary: everything off its path is kept.
+  FactorCase c(5);
+  Marginals marginals(*c.tree);
+  marginals.Descend(c.factor, Flags(c, 1), {});
+  const Slot slot = c.RandomActiveSlots(1)[0];
+  constexpr double kPrecision = 9.0;
+  SlotColumns x = c.factor.Extend(c.factor.InverseOnPaths({&slot, 1}));
+  const double scale = 1.0 / (1.0 + kPrecision * *x.row(slot));
+  const double mean_factor = -kPrecision * scale * marginals.mean_ppm()[slot];
+  const auto reading = std::make_shared<PendingReading>(
+      PendingReading{slot, std::move(x), kPrecision * scale, mean_factor});
+  marginals.Add(*reading);
+  marginals.Absorb(c.factor, {reading}, Flags(c, 0));
+  const auto dirty = ChangePrecision(c, slot, c.cells.precision[slot] + kPrecision);
+  const FieldError error = marginals.Descend(c.factor, dirty, {kAnything, kAnything});
+  EXPECT_LE(error.mean_ppm, 1e-9);
+  EXPECT_LE(error.variance_ppm2, 1e-10);
+}
+
+}  // namespace
+}  // namespace plumescout
