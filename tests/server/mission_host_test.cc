@@ -81,10 +81,10 @@ TEST(MissionHostTest, WaiterIsDroppedAtItsDeadlineThoughNothingHappens) {
 TEST(MissionHostTest, SubscriberGetsTheBeliefAtOnceAndThenTheNewest) {
   HostOptions options;
   options.publish_period = absl::ZeroDuration();
+  absl::Notification seen;
+  std::vector<std::int64_t> revisions;  // outlives the host, whose thread still reads it
   MissionHost host(HostParts(), options);
   AddRobot(host);
-  absl::Notification seen;
-  std::vector<std::int64_t> revisions;
   ASSERT_TRUE(host.Subscribe([&](absl::StatusOr<std::shared_ptr<const Belief>> belief) {
                     if (!belief.ok()) return false;
                     revisions.push_back((*belief)->revision);
