@@ -35,6 +35,21 @@ struct GasCounters {
   friend bool operator==(const GasCounters&, const GasCounters&) = default;
 };
 
+// How good the gas posterior is: what is certified, and what was measured.
+struct GasQuality {
+  double mean_error_ppm = 0.0;        // no mean is farther from the exact one, beside rounding
+  double variance_error_ratio = 0.0;  // nor any variance, as share of the exact one
+  std::int64_t aged_to_ns = 0;        // readings have the precisions of this instant
+  double ageing_error_ratio = 0.0;    // variances may be too small by this share for that
+  std::int64_t refreshes = 0;         // batches of changes brought into the fields
+  std::int64_t epochs = 0;            // recomputations from scratch that were adopted
+  std::int64_t healed = 0;            // recomputations since a variance was not positive
+  double drift_mean_ppm = 0.0;        // largest found at the last adoption
+  double drift_variance_ratio = 0.0;
+
+  friend bool operator==(const GasQuality&, const GasQuality&) = default;
+};
+
 // A whole map as readers see it at one revision. Off the free cells mean and variance are NaN.
 struct MapSnapshot {
   std::int64_t revision = 0;
@@ -45,6 +60,7 @@ struct MapSnapshot {
   std::vector<Frontier> frontiers;  // both kinds
   std::vector<RobotState> robots;
   GasCounters gas_counters;
+  GasQuality gas_quality;
   MissionPhase phase = MissionPhase::kExploring;
 };
 
