@@ -11,6 +11,10 @@ struct CellInput {
   bool active = false;              // has a variable: known to be free
   double precision = 0.0;           // sum of lambda_k of its readings, ppm^-2
   double weighted_deviation = 0.0;  // sum of lambda_k (z_k - m_0), ppm^-1
+  // Whether a prior factor joins it to its neighbour, once both are active: on a lattice coarser
+  // than the map there may be a wall between the two.
+  bool linked_east = true;
+  bool linked_north = true;
 };
 
 struct CellChange {

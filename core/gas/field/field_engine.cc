@@ -3,6 +3,7 @@
 #include "core/gas/field/field_engine.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace plumescout {
@@ -25,19 +26,21 @@ absl::Status Check(const CellChange& change, std::size_t cells) {
   return absl::OkStatus();
 }
 
+bool HasSameLinks(const CellInput& a, const CellInput& b) {
+  return a.linked_east == b.linked_east && a.linked_north == b.linked_north;
+}
+
 }  // namespace
 
 FieldEngine::FieldEngine(std::size_t width, std::size_t height, std::span<const CellInput> cells,
                          const FieldOptions& options)
     : options_(options),
       tree_(MakeTree(width, height, cells)),
-      cells_{std::vector<std::uint8_t>(cells.size()), std::vector<double>(cells.size()),
-             std::vector<double>(cells.size())},
+      cells_(*tree_, cells),
       builder_(*tree_, options.prior),
       factor_(tree_),
       marginals_(*tree_),
       dirty_(tree_->nodes().size()) {
-  for (std::size_t i = 0; i < cells.size(); ++i) Store({i, cells[i]});
   Recompute();
 }
 
@@ -48,22 +51,23 @@ absl::Status FieldEngine::Apply(std::span<const CellChange> changes) {
   }
   if (pending_.size() + changes.size() <= options_.max_pending && AreReadings(changes)) {
     for (const CellChange& change : changes) AddReading(change);
-    return absl::OkStatus();
+    return Heal();
   }
   for (const CellChange& change : changes) {
     MarkChange(change);
-    Store(change);
+    cells_.Set(*tree_, change);
   }
   Refresh();
-  return absl::OkStatus();
+  return Heal();
 }
 
 // Whether each change only adds to what is known of its cell, or concerns a cell without variable.
 bool FieldEngine::AreReadings(std::span<const CellChange> changes) const {
   return std::all_of(changes.begin(), changes.end(), [this](const CellChange& change) {
-    const Slot slot = tree_->slot(change.cell);
-    if (change.input.active != (cells_.active[slot] != 0)) return false;
-    return !change.input.active || change.input.precision >= cells_.precision[slot];
+    const CellInput was = input(change.cell);
+    const CellInput& is = change.input;
+    if (!was.active && !is.active) return true;
+    return was.active == is.active && HasSameLinks(was, is) && is.precision >= was.precision;
   });
 }
 
@@ -73,7 +77,7 @@ void FieldEngine::AddReading(const CellChange& change) {
   const Slot slot = tree_->slot(change.cell);
   const double precision = change.input.precision - cells_.precision[slot];
   const double deviation = change.input.weighted_deviation - cells_.weighted_deviation[slot];
-  Store(change);
+  cells_.Set(*tree_, change);
   if (cells_.active[slot] == 0 || (precision == 0.0 && deviation == 0.0)) return;
   SlotColumns column = factor_.Extend(factor_.InverseOnPaths({&slot, 1}));
   constexpr double kAsItIs = 1.0;
@@ -84,24 +88,18 @@ void FieldEngine::AddReading(const CellChange& change) {
   const double mean_factor = (deviation - precision * mean_ppm) * scale;
   pending_.push_back(std::make_shared<PendingReading>(
       PendingReading{slot, std::move(column), precision * scale, mean_factor}));
-  marginals_.Add(*pending_.back());
-}
-
-void FieldEngine::Store(const CellChange& change) {
-  const Slot slot = tree_->slot(change.cell);
-  cells_.active[slot] = change.input.active ? 1 : 0;
-  cells_.precision[slot] = change.input.precision;
-  cells_.weighted_deviation[slot] = change.input.weighted_deviation;
+  healthy_ = marginals_.Add(*pending_.back()) && healthy_;
 }
 
 // Flags the nodes that hold a term with the cell: its own, and those of active neighbours that are
 // eliminated earlier.
 void FieldEngine::MarkChange(const CellChange& change) {
   const Slot slot = tree_->slot(change.cell);
-  const bool was_active = cells_.active[slot] != 0;
-  if (!was_active && !change.input.active) return;
+  const CellInput was = cells_.Get(slot);
+  const CellInput& is = change.input;
+  if (!was.active && !is.active) return;
   MarkPath(slot);
-  if (was_active == change.input.active) return;
+  if (was.active == is.active && HasSameLinks(was, is)) return;
   for (const Slot next : tree_->neighbours(slot)) {
     if (next < slot && cells_.active[next] != 0) MarkPath(next);
   }
@@ -116,6 +114,7 @@ void FieldEngine::MarkPath(Slot slot) {
 }
 
 void FieldEngine::Recompute() {
+  healthy_ = true;
   std::fill(dirty_.begin(), dirty_.end(), std::uint8_t{1});
   Refresh();
 }
@@ -125,8 +124,38 @@ void FieldEngine::Refresh() {
   marginals_.Absorb(factor_, pending_, dirty_);
   pending_.clear();
   factor_.Eliminate(dirty_, cells_, builder_);
-  error_bound_ = marginals_.Descend(factor_, dirty_, options_.tolerance);
+  const Marginals::Pass pass = marginals_.Descend(factor_, dirty_, AllowedShift());
+  shift_ = pass.error;
+  healthy_ = healthy_ && pass.healthy;
+  largest_mean_ppm_ = marginals_.LargestMean_ppm();
   std::fill(dirty_.begin(), dirty_.end(), std::uint8_t{0});
+}
+
+absl::Status FieldEngine::Heal() {
+  if (healthy_) return absl::OkStatus();
+  assert(false && "a field is not finite, or a variance not positive");
+  ++healed_;
+  Recompute();
+  return healthy_ ? absl::OkStatus() : absl::InternalError("the gas field cannot be computed");
+}
+
+FieldShift FieldEngine::AllowedShift() const {
+  return {options_.tolerance.mean_share * largest_mean_ppm_,
+          options_.tolerance.variance_share / VarianceRatioOfShift()};
+}
+
+FieldError FieldEngine::error_bound() const {
+  return {shift_.mean_ppm, shift_.covariance_ppm2 * VarianceRatioOfShift()};
+}
+
+// If no covariance on the boundary of a subtree has moved by more than d, no variance inside has
+// moved by more than this, times d, of itself. For the weights w_a of the boundary on cell a are
+// lambda_p / H_aa times the sum of those on its neighbours, which sum to 1 at most: so the sum s of
+// w_a is at most n lambda_p / H_aa for n <= 4 neighbours, the variance moves by w_a^T D w_a <= d
+// s^2, and it is 1 / H_aa at least. Together d (n lambda_p)^2 / H_aa <= d n lambda_p.
+double FieldEngine::VarianceRatioOfShift() const {
+  constexpr double kNeighbours = 4.0;
+  return kNeighbours * options_.prior.prior_precision;
 }
 
 }  // namespace plumescout

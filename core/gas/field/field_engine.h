@@ -19,11 +19,22 @@
 
 namespace plumescout {
 
+// How far the fields may be from the exact ones; 0: only what is the same to the last bit is left
+// alone.
+struct FieldTolerance {
+  double mean_share = 1e-5;      // of the largest absolute deviation of all means
+  double variance_share = 1e-5;  // of each variance
+};
+
+// How far they are at most, in any cell and beside rounding.
+struct FieldError {
+  double mean_ppm = 0.0;
+  double variance_ratio = 0.0;  // of the exact variance
+};
+
 struct FieldOptions {
   FieldPrior prior;
-  // How far the fields may stay behind the exact ones after a batch that is not readings alone; 0:
-  // only subtrees whose surroundings are the same to the last bit are left alone.
-  FieldError tolerance;
+  FieldTolerance tolerance;
   // Readings that the factor may lag behind; each makes the next one dearer by one pass over the
   // cells, and saves a path of fronts.
   std::size_t max_pending = 16;
@@ -50,7 +61,8 @@ class FieldEngine {
   // paths of the changed cells upward and a pruned pass downward.
   // Errors, after which nothing has changed: kInvalidArgument for a cell beyond the lattice, a
   // precision that is negative, NaN or beyond kMaxCellPrecision, a deviation that is not finite or
-  // beyond it.
+  // beyond it. kInternal if fields are not finite or a variance not positive even after a fresh
+  // computation; the next call tries again.
   absl::Status Apply(std::span<const CellChange> changes);
 
   // Everything from scratch; afterwards the fields are exact to rounding.
@@ -61,19 +73,34 @@ class FieldEngine {
   double variance_ppm2(std::size_t cell) const {
     return marginals_.variance_ppm2()[tree_->slot(cell)];
   }
-  // By how much any cell may be off, beside rounding: at most the tolerance.
-  const FieldError& error_bound() const { return error_bound_; }
+  // Within the tolerance, that of the mean being a share of its largest value before the batch.
+  FieldError error_bound() const;
+
+  std::size_t width() const { return tree_->width(); }
+  std::size_t cells() const { return tree_->cells(); }
+  // What was last told of a cell.
+  CellInput input(std::size_t cell) const { return cells_.Get(tree_->slot(cell)); }
+  // Fresh computations that became necessary because a field was not finite, or a variance not
+  // positive. Each is a defect; builds with assertions stop there.
+  std::int64_t healed() const { return healed_; }
+  // Multiply-adds that eliminating all cells takes with this tree: by it a new one can be judged.
+  // Cost: O(nodes).
+  double work() const { return factor_.work(); }
 
   // Cost: one pointer per node and one number per cell.
   FieldSnapshot Snapshot() const { return {factor_, pending_, marginals_.variance_ppm2()}; }
 
  private:
+  friend struct FieldEnginePeer;  // of the tests
+
   bool AreReadings(std::span<const CellChange> changes) const;
   void AddReading(const CellChange& change);
-  void Store(const CellChange& change);
   void MarkChange(const CellChange& change);
   void MarkPath(Slot slot);
   void Refresh();
+  absl::Status Heal();
+  FieldShift AllowedShift() const;
+  double VarianceRatioOfShift() const;
 
   FieldOptions options_;
   std::shared_ptr<const SeparatorTree> tree_;
@@ -83,7 +110,10 @@ class FieldEngine {
   Marginals marginals_;
   PendingReadings pending_;
   std::vector<std::uint8_t> dirty_;  // by node
-  FieldError error_bound_;
+  FieldShift shift_;                 // how far the fields may be off
+  double largest_mean_ppm_ = 0.0;    // of the last pass
+  bool healthy_ = true;
+  std::int64_t healed_ = 0;
 };
 
 }  // namespace plumescout

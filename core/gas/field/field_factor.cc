@@ -87,6 +87,12 @@ void FieldFactor::Eliminate(std::span<const std::uint8_t> dirty, const FieldCell
   }
 }
 
+double FieldFactor::work() const {
+  double sum = 0.0;
+  for (const auto& front : fronts_) sum += front->work();
+  return sum;
+}
+
 PathColumns FieldFactor::InverseOnPaths(std::span<const Slot> slots) const {
   PathColumns columns{SlotColumns(tree_->cells(), slots.size()), {}};
   std::vector<double> r(tree_->cells(), 0.0);

@@ -56,10 +56,15 @@ class FieldFactor {
   // Continues columns of H^-1, or combinations of them, to all slots. Cost: all weights.
   SlotColumns Extend(PathColumns columns) const;
 
+  // Multiply-adds of eliminating all nodes. Cost: O(nodes).
+  double work() const;
+
   // m_i of an active slot. Cost: a path.
   double Mean_ppm(Slot slot) const;
 
  private:
+  friend struct FieldEnginePeer;  // of the tests
+
   std::vector<std::uint32_t> PathFrom(Slot slot) const;
   void Ascend(Slot slot, std::size_t column, std::vector<double>& r, SlotColumns& x) const;
 

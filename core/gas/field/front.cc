@@ -18,6 +18,11 @@ std::size_t MessageSize(std::size_t boundary) {
 
 }  // namespace
 
+double Front::work() const {
+  const auto cube = [](double n) { return n * n * n / 6.0; };
+  return cube(static_cast<double>(cells.size())) - cube(static_cast<double>(boundary()));
+}
+
 std::shared_ptr<const Front> FrontBuilder::Build(const SeparatorTree::Node& node,
                                                  const FieldCells& cells, const Front* low,
                                                  const Front* high) {
@@ -46,10 +51,10 @@ void FrontBuilder::FindCells(const SeparatorTree::Node& node, const FieldCells& 
   }
   front.own = front.cells.size();
   for (std::size_t i = 0; i < front.own; ++i) {
-    for (const Slot next : tree_->neighbours(front.cells[i])) {
-      if (next != kNoSlot && next >= node.end && cells.active[next] != 0) {
-        front.cells.push_back(next);
-      }
+    const Slot slot = front.cells[i];
+    for (std::size_t direction = 0; direction < tree_->neighbours(slot).size(); ++direction) {
+      const Slot next = tree_->neighbours(slot)[direction];
+      if (next >= node.end && cells.HasFactor(*tree_, slot, direction)) front.cells.push_back(next);
     }
   }
   for (const Front* child : {low, high}) {
@@ -75,8 +80,9 @@ void FrontBuilder::Assemble(const FieldCells& cells, const Front& front) {
   for (std::size_t j = 0; j < front.own; ++j) {
     const Slot slot = front.cells[j];
     double* const column = matrix_.data() + j * matrix_stride_;
-    for (const Slot next : tree_->neighbours(slot)) {
-      if (next == kNoSlot || next < slot || cells.active[next] == 0) continue;
+    for (std::size_t direction = 0; direction < tree_->neighbours(slot).size(); ++direction) {
+      const Slot next = tree_->neighbours(slot)[direction];
+      if (next < slot || !cells.HasFactor(*tree_, slot, direction)) continue;
       column[place_[next]] = -prior_.prior_precision;
     }
     column[unknowns] = -(prior_.background_precision + cells.precision[slot]);

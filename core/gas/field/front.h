@@ -8,17 +8,11 @@
 #include <span>
 #include <vector>
 
+#include "core/gas/field/field_cells.h"
 #include "core/gas/field/separator_tree.h"
 #include "core/linalg/dense_kernel.h"
 
 namespace plumescout {
-
-// What the field is told of its cells, by slot.
-struct FieldCells {
-  std::vector<std::uint8_t> active;        // 1: has a variable
-  std::vector<double> precision;           // sum of lambda_k of its readings, ppm^-2
-  std::vector<double> weighted_deviation;  // sum of lambda_k (z_k - m_0), ppm^-1
-};
 
 // lambda_p and lambda_d of [IPP] Eq. (1).
 struct FieldPrior {
@@ -45,6 +39,8 @@ struct Front {
   std::vector<double> message;
 
   std::size_t boundary() const { return cells.size() - own; }
+  // Multiply-adds of the elimination.
+  double work() const;
   std::span<const Slot> own_cells() const { return {cells.data(), own}; }
   std::span<const Slot> boundary_cells() const { return {cells.data() + own, boundary()}; }
 };

@@ -11,17 +11,19 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-FieldError Max(const FieldError& a, const FieldError& b) {
-  return {std::max(a.mean_ppm, b.mean_ppm), std::max(a.variance_ppm2, b.variance_ppm2)};
+FieldShift Max(const FieldShift& a, const FieldShift& b) {
+  return {std::max(a.mean_ppm, b.mean_ppm), std::max(a.covariance_ppm2, b.covariance_ppm2)};
 }
 
-FieldError Sum(const FieldError& a, const FieldError& b) {
-  return {a.mean_ppm + b.mean_ppm, a.variance_ppm2 + b.variance_ppm2};
+FieldShift Sum(const FieldShift& a, const FieldShift& b) {
+  return {a.mean_ppm + b.mean_ppm, a.covariance_ppm2 + b.covariance_ppm2};
 }
 
-bool IsWithin(const FieldError& error, const FieldError& tolerance) {
-  return error.mean_ppm <= tolerance.mean_ppm && error.variance_ppm2 <= tolerance.variance_ppm2;
+bool IsWithin(const FieldShift& error, const FieldShift& tolerance) {
+  return error.mean_ppm <= tolerance.mean_ppm && error.covariance_ppm2 <= tolerance.covariance_ppm2;
 }
+
+bool IsVariance(double value) { return value > 0.0 && std::isfinite(value); }
 
 // Places of the ascending slots `some` among the ascending slots `all`, which hold them.
 void FindPlaces(std::span<const Slot> some, std::span<const Slot> all,
@@ -42,15 +44,17 @@ Marginals::Marginals(const SeparatorTree& tree)
       variance_ppm2_(tree.cells(), kNaN),
       origins_(tree.nodes().size()) {}
 
-FieldError Marginals::Descend(const FieldFactor& factor, std::span<const std::uint8_t> dirty,
-                              const FieldError& tolerance) {
+Marginals::Pass Marginals::Descend(const FieldFactor& factor, std::span<const std::uint8_t> dirty,
+                                   const FieldShift& tolerance) {
   factor_ = &factor;
   dirty_ = dirty;
   tolerance_ = tolerance;
-  return Visit(origins_.size() - 1, 0);
+  healthy_ = true;
+  const FieldShift error = Visit(origins_.size() - 1, 0);
+  return {error, healthy_};
 }
 
-FieldError Marginals::Visit(std::size_t node, std::size_t depth) {
+FieldShift Marginals::Visit(std::size_t node, std::size_t depth) {
   const SeparatorTree::Node& place = tree_->nodes()[node];
   const Front& front = factor_->front(node);
   Origin& origin = origins_[node];
@@ -58,7 +62,7 @@ FieldError Marginals::Visit(std::size_t node, std::size_t depth) {
     GatherBoundary(front, factor_->front(place.parent), blocks_[depth - 1]);
   }
   if (dirty_[node] == 0) {
-    const FieldError error = Sum(Moved(front, origin), origin.below);
+    const FieldShift error = Sum(Moved(front, origin), origin.below);
     if (IsWithin(error, tolerance_)) return error;
   }
   Remember(front, origin);
@@ -71,8 +75,8 @@ FieldError Marginals::Visit(std::size_t node, std::size_t depth) {
   }
   if (blocks_.size() <= depth) blocks_.resize(depth + 1);
   FormBlock(front, blocks_[depth]);
-  const FieldError low = Visit(place.children[0], depth + 1);
-  const FieldError high = Visit(place.children[1], depth + 1);
+  const FieldShift low = Visit(place.children[0], depth + 1);
+  const FieldShift high = Visit(place.children[1], depth + 1);
   return origins_[node].below = Max(low, high);
 }
 
@@ -89,10 +93,10 @@ void Marginals::GatherBoundary(const Front& front, const Front& parent, const Bl
   }
 }
 
-FieldError Marginals::Moved(const Front& front, const Origin& origin) const {
+FieldShift Marginals::Moved(const Front& front, const Origin& origin) const {
   const std::size_t size = front.boundary();
   const std::span<const Slot> cells = front.boundary_cells();
-  FieldError moved;
+  FieldShift moved;
   const double* old = origin.covariance_ppm2.data();
   for (std::size_t j = 0; j < size; ++j) {
     const double change = std::abs(mean_ppm_[cells[j]] - origin.mean_ppm[j]);
@@ -100,7 +104,7 @@ FieldError Marginals::Moved(const Front& front, const Origin& origin) const {
     const double* const column = boundary_.data() + j * size;
     double most = 0.0;
     for (std::size_t i = j; i < size; ++i) most = std::max(most, std::abs(column[i] - *old++));
-    moved.variance_ppm2 = std::max(moved.variance_ppm2, most);
+    moved.covariance_ppm2 = std::max(moved.covariance_ppm2, most);
   }
   return moved;
 }
@@ -126,6 +130,9 @@ void Marginals::UpdateMean(const Front& front) {
     const double* const weights = front.weights.data() + j * front.stride;
     for (std::size_t i = 0; i < front.own; ++i) mean_ppm_[front.cells[i]] += weights[i] * mean;
   }
+  for (const Slot slot : front.own_cells()) {
+    healthy_ = healthy_ && std::isfinite(mean_ppm_[slot]);
+  }
 }
 
 // diag Z_SS, with Z_SS = C + W Z_RR W^T.
@@ -137,7 +144,10 @@ void Marginals::UpdateVariance(const Front& front) {
   for (std::size_t k = 0; k < front.weights.size(); k += front.stride) {
     for (std::size_t i = 0; i < front.stride; ++i) sum[i] += cross_[k + i] * front.weights[k + i];
   }
-  for (std::size_t i = 0; i < front.own; ++i) variance_ppm2_[front.cells[i]] = sum[i];
+  for (std::size_t i = 0; i < front.own; ++i) {
+    variance_ppm2_[front.cells[i]] = sum[i];
+    healthy_ = healthy_ && IsVariance(sum[i]);
+  }
 }
 
 // Z_SR = W Z_RR
@@ -180,6 +190,7 @@ void Marginals::FormBlock(const Front& front, Block& block) {
   for (std::size_t j = 0; j < own; ++j) {
     double* const column = block.values.data() + j * block.stride;
     variance_ppm2_[front.cells[j]] = column[j];
+    healthy_ = healthy_ && IsVariance(column[j]);
     for (std::size_t i = 0; i < size; ++i) column[own + i] = cross_[i * front.stride + j];
   }
   for (std::size_t j = 0; j < size; ++j) {
@@ -188,12 +199,23 @@ void Marginals::FormBlock(const Front& front, Block& block) {
   }
 }
 
-void Marginals::Add(const PendingReading& reading) {
+bool Marginals::Add(const PendingReading& reading) {
   const double* const x = reading.column.row(0);
+  bool healthy = true;
   for (std::size_t i = 0; i < mean_ppm_.size(); ++i) {
     mean_ppm_[i] += reading.mean_factor * x[i];
     variance_ppm2_[i] -= reading.variance_factor * x[i] * x[i];
+    healthy =
+        healthy && (x[i] == 0.0 || (IsVariance(variance_ppm2_[i]) && std::isfinite(mean_ppm_[i])));
   }
+  return healthy;
+}
+
+double Marginals::LargestMean_ppm() const {
+  double largest = 0.0;
+  for (const double mean : mean_ppm_)
+    largest = std::max(largest, std::abs(mean));  // NaN is passed over
+  return largest;
 }
 
 void Marginals::Absorb(const FieldFactor& factor, const PendingReadings& readings,

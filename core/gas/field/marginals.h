@@ -12,10 +12,10 @@
 
 namespace plumescout {
 
-// How far the fields may be, or at most are, from the exact ones.
-struct FieldError {
+// How far means and covariances may be, or at most are, from the exact ones.
+struct FieldShift {
   double mean_ppm = 0.0;
-  double variance_ppm2 = 0.0;
+  double covariance_ppm2 = 0.0;
 };
 
 // Mean and marginal variance of every active cell, and the downward pass that keeps them so.
@@ -32,11 +32,15 @@ class Marginals {
 
   // Brings the fields to `factor`, whose flagged fronts have changed. Cells that are not active
   // become NaN. Returns how far off the fields may be, at most `tolerance`.
-  FieldError Descend(const FieldFactor& factor, std::span<const std::uint8_t> dirty,
-                     const FieldError& tolerance);
+  struct Pass {
+    FieldShift error;
+    bool healthy = true;  // all that was computed is finite, variances positive
+  };
+  Pass Descend(const FieldFactor& factor, std::span<const std::uint8_t> dirty,
+               const FieldShift& tolerance);
 
-  // One reading, exactly, in all cells.
-  void Add(const PendingReading& reading);
+  // One reading, exactly, in all cells. Returns whether they are healthy.
+  bool Add(const PendingReading& reading);
   // Tells the remembered boundaries of readings that the fields have heard; to be called before
   // `factor` hears of them. Nodes with a flag are passed over. Cost: all boundaries squared.
   void Absorb(const FieldFactor& factor, const PendingReadings& readings,
@@ -44,13 +48,17 @@ class Marginals {
 
   const std::vector<double>& mean_ppm() const { return mean_ppm_; }  // by slot; deviation from m_0
   const std::vector<double>& variance_ppm2() const { return variance_ppm2_; }
+  // The largest absolute mean of all active cells. Cost: O(cells).
+  double LargestMean_ppm() const;
 
  private:
+  friend struct FieldEnginePeer;  // of the tests
+
   // What a node was computed from.
   struct Origin {
     std::vector<double> mean_ppm;         // of the boundary
     std::vector<double> covariance_ppm2;  // of the boundary: lower triangle, packed by columns
-    FieldError below;                     // of its descendants, if it had not moved since
+    FieldShift below;                     // of its descendants, if it had not moved since
   };
   // Covariance of the cells of a front, lower triangle; one per depth.
   struct Block {
@@ -58,9 +66,9 @@ class Marginals {
     std::size_t stride = 0;
   };
 
-  FieldError Visit(std::size_t node, std::size_t depth);
+  FieldShift Visit(std::size_t node, std::size_t depth);
   void GatherBoundary(const Front& front, const Front& parent, const Block& from);
-  FieldError Moved(const Front& front, const Origin& origin) const;
+  FieldShift Moved(const Front& front, const Origin& origin) const;
   void Remember(const Front& front, Origin& origin) const;
   void UpdateMean(const Front& front);
   void UpdateVariance(const Front& front);
@@ -75,7 +83,8 @@ class Marginals {
   // Of the present pass.
   const FieldFactor* factor_ = nullptr;
   std::span<const std::uint8_t> dirty_;
-  FieldError tolerance_;
+  FieldShift tolerance_;
+  bool healthy_ = true;
   std::vector<Block> blocks_;     // by depth
   std::vector<double> boundary_;  // Z_RR of the present node, full, stride |R|
   std::vector<double> cross_;     // Z_SR = W Z_RR

@@ -19,26 +19,18 @@ struct FactorCase {
     std::vector<std::uint8_t> active;
     for (const CellInput& cell : field.cells) active.push_back(cell.active ? 1 : 0);
     tree = std::make_shared<SeparatorTree>(field.width, field.height(), active);
-    for (Slot slot = 0; slot < tree->cells(); ++slot) {
-      const CellInput& cell = field.cells[tree->cell(slot)];
-      cells.active.push_back(cell.active ? 1 : 0);
-      cells.precision.push_back(cell.precision);
-      cells.weighted_deviation.push_back(cell.weighted_deviation);
-    }
+    cells = FieldCells(*tree, field.cells);
     factor = FieldFactor(tree);
     FrontBuilder builder(*tree, DefaultField().prior);
     factor.Eliminate(std::vector<std::uint8_t>(tree->nodes().size(), 1), cells, builder);
-    const DenseField dense = field.Dense();
-    inverse = dense.hessian().inverse();
-    mean_ppm = dense.mean_ppm();
+    dense = std::make_unique<DenseTruth>(field.Dense());
+    inverse = dense->covariance();
+    mean_ppm = dense->mean_ppm();
   }
 
   bool IsActive(Slot slot) const { return cells.active[slot] != 0; }
-  // Row of the dense system: active cells in the order of their indices.
-  Eigen::Index Variable(Slot slot) const {
-    const auto end = field.cells.begin() + static_cast<std::ptrdiff_t>(tree->cell(slot));
-    return std::count_if(field.cells.begin(), end, [](const CellInput& c) { return c.active; });
-  }
+  // Row of the dense system.
+  Eigen::Index Variable(Slot slot) const { return dense->variable(tree->cell(slot)); }
   // Different ones.
   std::vector<Slot> RandomActiveSlots(std::size_t count) const {
     Rng draw(count);
@@ -56,6 +48,7 @@ struct FactorCase {
   std::shared_ptr<const SeparatorTree> tree;
   FieldCells cells;
   FieldFactor factor{std::make_shared<SeparatorTree>(1, 1, std::vector<std::uint8_t>{0})};
+  std::unique_ptr<DenseTruth> dense;
   Eigen::MatrixXd inverse;
   Eigen::VectorXd mean_ppm;
 };

@@ -28,15 +28,14 @@ constexpr double kPrecision = 7.0;
 void ExpectVariances(FieldCase c, const std::vector<std::size_t>& cells,
                      const std::vector<double>& variance_ppm2) {
   for (const std::size_t cell : cells) c.cells[cell].precision += kPrecision;
-  const testing::DenseField dense = c.Dense();
+  const testing::DenseTruth dense = c.Dense();
   ASSERT_EQ(variance_ppm2.size(), c.cells.size());
-  Eigen::Index variable = 0;
   for (std::size_t i = 0; i < c.cells.size(); ++i) {
     if (!c.cells[i].active) {
       EXPECT_TRUE(std::isnan(variance_ppm2[i]));
       continue;
     }
-    const double truth = dense.variance_ppm2()(variable++);
+    const double truth = dense.covariance()(dense.variable(i), dense.variable(i));
     EXPECT_NEAR(variance_ppm2[i] / truth, 1.0, kExact) << "cell " << i;
   }
 }

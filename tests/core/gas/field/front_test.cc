@@ -74,9 +74,9 @@ TEST(FrontTest, TouchesNobodyAcrossAWall) {
   std::vector<std::uint8_t> active(20 * 9, 1);
   for (std::size_t y = 0; y < 9; ++y) active[y * 20 + 10] = 0;
   const SeparatorTree tree(20, 9, active);
-  FieldCells cells{std::vector<std::uint8_t>(180), std::vector<double>(180),
-                   std::vector<double>(180)};
-  for (Slot slot = 0; slot < 180; ++slot) cells.active[slot] = active[tree.cell(slot)];
+  std::vector<CellInput> inputs(180);
+  for (std::size_t i = 0; i < 180; ++i) inputs[i].active = active[i] != 0;
+  const FieldCells cells(tree, inputs);
   FieldFactor factor(std::make_shared<SeparatorTree>(tree));
   FrontBuilder builder(tree, testing::DefaultField().prior);
   factor.Eliminate(std::vector<std::uint8_t>(tree.nodes().size(), 1), cells, builder);

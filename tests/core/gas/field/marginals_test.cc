@@ -54,9 +54,9 @@ TEST(MarginalsTest, StayAsTheyAreIfNothingHasChanged) {
   const FactorCase c(2);
   Marginals marginals(*c.tree);
   marginals.Descend(c.factor, Flags(c, 1), {});
-  const FieldError error = marginals.Descend(c.factor, Flags(c, 0), {});
+  const FieldShift error = marginals.Descend(c.factor, Flags(c, 0), {}).error;
   EXPECT_EQ(error.mean_ppm, 0.0);
-  EXPECT_EQ(error.variance_ppm2, 0.0);
+  EXPECT_EQ(error.covariance_ppm2, 0.0);
 }
 
 TEST(MarginalsTest, LeaveSubtreesAloneWithinTheToleranceAndSayHowFarTheyAreOff) {
@@ -65,7 +65,7 @@ TEST(MarginalsTest, LeaveSubtreesAloneWithinTheToleranceAndSayHowFarTheyAreOff) 
   marginals.Descend(c.factor, Flags(c, 1), {});
   const Slot slot = c.RandomActiveSlots(1)[0];
   const std::vector<std::uint8_t> dirty = ChangePrecision(c, slot, 500.0);
-  const FieldError error = marginals.Descend(c.factor, dirty, {kAnything, kAnything});
+  const FieldShift error = marginals.Descend(c.factor, dirty, {kAnything, kAnything}).error;
   Marginals exact(*c.tree);
   exact.Descend(c.factor, Flags(c, 1), {});
   double worst_mean = 0.0;
@@ -82,7 +82,7 @@ TEST(MarginalsTest, LeaveSubtreesAloneWithinTheToleranceAndSayHowFarTheyAreOff) 
   }
   EXPECT_GT(worst_variance, 0.0);
   EXPECT_LE(worst_mean, error.mean_ppm * (1.0 + 1e-9));
-  EXPECT_LE(worst_variance, error.variance_ppm2 * (1.0 + 1e-9));
+  EXPECT_LE(worst_variance, error.covariance_ppm2 * (1.0 + 1e-9));
 }
 
 TEST(MarginalsTest, DoNotForgetOldChangesWhenNewOnesAreSmall) {
@@ -91,18 +91,18 @@ TEST(MarginalsTest, DoNotForgetOldChangesWhenNewOnesAreSmall) {
   Marginals marginals(*c.tree);
   marginals.Descend(c.factor, Flags(c, 1), {});
   const Slot slot = c.RandomActiveSlots(1)[0];
-  constexpr FieldError kTolerance = {1e-2, 1e-3};
+  constexpr FieldShift kTolerance = {1e-2, 1e-3};
   for (int k = 1; k <= 200; ++k) {
     const std::vector<std::uint8_t> dirty = ChangePrecision(c, slot, 0.05 * k);
-    const FieldError error = marginals.Descend(c.factor, dirty, kTolerance);
-    EXPECT_LE(error.variance_ppm2, kTolerance.variance_ppm2);
+    const FieldShift error = marginals.Descend(c.factor, dirty, kTolerance).error;
+    EXPECT_LE(error.covariance_ppm2, kTolerance.covariance_ppm2);
   }
   Marginals exact(*c.tree);
   exact.Descend(c.factor, Flags(c, 1), {});
   for (Slot i = 0; i < c.tree->cells(); ++i) {
     if (!c.IsActive(i)) continue;
     EXPECT_NEAR(marginals.mean_ppm()[i], exact.mean_ppm()[i], kTolerance.mean_ppm);
-    EXPECT_NEAR(marginals.variance_ppm2()[i], exact.variance_ppm2()[i], kTolerance.variance_ppm2);
+    EXPECT_NEAR(marginals.variance_ppm2()[i], exact.variance_ppm2()[i], kTolerance.covariance_ppm2);
   }
 }
 
@@ -121,9 +121,9 @@ TEST(MarginalsTest, KnowAfterAbsorbingThatTheyHaveHeardAReading) {
   marginals.Add(*reading);
   marginals.Absorb(c.factor, {reading}, Flags(c, 0));
   const auto dirty = ChangePrecision(c, slot, c.cells.precision[slot] + kPrecision);
-  const FieldError error = marginals.Descend(c.factor, dirty, {kAnything, kAnything});
+  const FieldShift error = marginals.Descend(c.factor, dirty, {kAnything, kAnything}).error;
   EXPECT_LE(error.mean_ppm, 1e-9);
-  EXPECT_LE(error.variance_ppm2, 1e-10);
+  EXPECT_LE(error.covariance_ppm2, 1e-10);
 }
 
 }  // namespace
