@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "absl/status/status.h"
+#include "core/gas/gas_epoch.h"
 #include "core/gas/posterior.h"
 #include "core/gas/reading_store.h"
 #include "core/types/cell_state.h"
@@ -40,6 +42,15 @@ class GasMap {
   // Cost: at 160x200 free cells about 0.06 s of CPU; O(n^1.5) for n free cells.
   absl::Status Refresh(const Grid<CellState>& states, std::int64_t time_ns);
 
+  bool epoch_due(std::int64_t time_ns) const;
+  // REQUIRES: no epoch is under way.
+  std::shared_ptr<GasEpoch> BeginEpoch(std::int64_t time_ns);
+  std::shared_ptr<GasEpoch> epoch() const { return epoch_; }
+  bool adoption_due(std::int64_t time_ns) const;
+  // kFailedPrecondition if no epoch is under way.
+  absl::Status Adopt();
+  const GasQuality& quality() const { return quality_; }
+
   // As of the last refresh, on its geometry; NaN off free cells. Empty before the first.
   const Grid<float>& mean_ppm() const { return mean_ppm_; }
   const Grid<float>& variance_ppm2() const { return variance_ppm2_; }
@@ -53,6 +64,10 @@ class GasMap {
   Grid<float> mean_ppm_;
   Grid<float> variance_ppm2_;
   GasCounters counters_;
+  GasQuality quality_;
+  Grid<CellState> states_;
+  std::shared_ptr<GasEpoch> epoch_;
+  std::int64_t refreshes_at_begin_ = 0;
   bool stale_ = false;
 };
 
