@@ -64,6 +64,7 @@ struct Belief {
   std::shared_ptr<const Grid<float>> gas_mean_ppm;        // NaN off free cells
   std::shared_ptr<const Grid<float>> gas_variance_ppm2;   // NaN off free cells
   GasCounters gas_counters;
+  GasQuality gas_quality;
 
   std::map<RobotId, RobotRecord> robots;
   std::vector<GoalClaim> claims;
