@@ -4,7 +4,9 @@
 
 #include <cassert>
 #include <limits>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "core/gas/gmrf_graph.h"
@@ -23,6 +25,25 @@ Grid<float> ToGrid(const GmrfGraph& graph, const std::vector<double>& values) {
   return grid;
 }
 
+absl::Status PlaceAnew(const Grid<CellState>& states, ReadingStore& readings) {
+  std::vector<std::size_t> all(states.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return readings.Place(states, all);
+}
+
+absl::StatusOr<std::vector<Evidence>> EvidenceByVariable(const GmrfGraph& graph,
+                                                         const ReadingStore& readings,
+                                                         std::int64_t time_ns) {
+  std::vector<Evidence> evidence(static_cast<std::size_t>(graph.variables()));
+  if (graph.variables() == 0) return evidence;
+  PLUMESCOUT_ASSIGN_OR_RETURN(const AnchorCell corner,
+                              CornerOf(graph.geometry(), readings.anchor()));
+  for (const CellEvidence& c : readings.EvidenceAsOf(time_ns)) {
+    evidence[ToSize(graph.At({c.cell.x - corner.x, c.cell.y - corner.y}))] = c.evidence;
+  }
+  return evidence;
+}
+
 }  // namespace
 
 GasMap::GasMap(const GasOptions& options) : options_(options), readings_(options) {
@@ -31,21 +52,20 @@ GasMap::GasMap(const GasOptions& options) : options_(options), readings_(options
 
 void GasMap::Add(std::int64_t time_ns, Point2 position, const GasReading& reading) {
   readings_.Add(time_ns, position, reading);
-  ++counters_.readings;
-  ++counters_.waiting;
   stale_ = true;
 }
 
 absl::Status GasMap::Refresh(const Grid<CellState>& states, std::int64_t time_ns) {
   const GmrfGraph graph(states);
-  PLUMESCOUT_ASSIGN_OR_RETURN(const PlacedReadings placed, readings_.PlaceAll(graph, time_ns));
-  absl::StatusOr<Posterior> posterior = solver_.Solve(graph, placed.evidence, options_);
+  PLUMESCOUT_RETURN_IF_ERROR(PlaceAnew(states, readings_));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<Evidence> evidence,
+                              EvidenceByVariable(graph, readings_, time_ns));
+  absl::StatusOr<Posterior> posterior = solver_.Solve(graph, evidence, options_);
   if (!posterior.ok()) {
     return absl::InternalError(absl::StrCat("gas map: ", posterior.status().ToString()));
   }
   mean_ppm_ = ToGrid(graph, posterior->mean_ppm);
   variance_ppm2_ = ToGrid(graph, posterior->variance_ppm2);
-  counters_ = placed.counters;
   stale_ = false;
   return absl::OkStatus();
 }

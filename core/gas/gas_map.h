@@ -43,7 +43,7 @@ class GasMap {
   // As of the last refresh, on its geometry; NaN off free cells. Empty before the first.
   const Grid<float>& mean_ppm() const { return mean_ppm_; }
   const Grid<float>& variance_ppm2() const { return variance_ppm2_; }
-  const GasCounters& counters() const { return counters_; }
+  const GasCounters& counters() const { return readings_.counters(); }
   bool stale() const { return stale_; }  // readings came since the last refresh
 
  private:
@@ -52,7 +52,6 @@ class GasMap {
   PosteriorSolver solver_;
   Grid<float> mean_ppm_;
   Grid<float> variance_ppm2_;
-  GasCounters counters_;
   bool stale_ = false;
 };
 

@@ -66,5 +66,12 @@ TEST(AgeingTest, BoundsThePrecisionOfAReading) {
   EXPECT_LE(ageing.Precision(variance_ppm2, 0, 0), 1e9 * (1.0 + 1e-12));
 }
 
+TEST(AgeingTest, LetsAHugeVarianceSayNothingWithoutOverflow) {
+  const Ageing ageing(HalfLife(1.0));
+  const double variance_ppm2 = ageing.InitialVariance_ppm2(std::numeric_limits<double>::max());
+  EXPECT_TRUE(std::isfinite(variance_ppm2 * variance_ppm2));
+  EXPECT_LT(ageing.Precision(variance_ppm2, 0, 0), 1e-9 * 1e-16);  // of the least background's
+}
+
 }  // namespace
 }  // namespace plumescout
