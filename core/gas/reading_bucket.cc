@@ -8,20 +8,26 @@
 namespace plumescout {
 namespace {
 
+using Moments = ReadingBucket::Moments;
+
 // The same bucket, its variances as of `time_ns` >= newest_ns.
 ReadingBucket AsOf(ReadingBucket bucket, const Ageing& ageing, std::int64_t time_ns) {
-  const auto aged = [&](double variance_ppm2) {
-    return ageing.Variance_ppm2(variance_ppm2, bucket.newest_ns, time_ns);
-  };
-  bucket.least_variance_ppm2 = aged(bucket.least_variance_ppm2);
-  bucket.mean_variance_ppm2 = aged(bucket.mean_variance_ppm2);
-  bucket.most_variance_ppm2 = aged(bucket.most_variance_ppm2);
+  bucket.least_variance_ppm2 =
+      ageing.Variance_ppm2(bucket.least_variance_ppm2, bucket.newest_ns, time_ns);
+  bucket.most_variance_ppm2 =
+      ageing.Variance_ppm2(bucket.most_variance_ppm2, bucket.newest_ns, time_ns);
   bucket.newest_ns = time_ns;
   return bucket;
 }
 
-double MomentAbout(const ReadingBucket& bucket, double variance_ppm2) {
-  return bucket.moment_ppm3 + bucket.deviation_ppm * (bucket.mean_variance_ppm2 - variance_ppm2);
+// Adds `from`, taken about a variance greater by `shift`: (x + shift)^k by the binomial theorem,
+// Horner's rule for all k at once.
+void AddShifted(const Moments& from, double shift, Moments& to) {
+  Moments shifted = from;
+  for (std::size_t row = 1; row < shifted.size(); ++row) {
+    for (std::size_t k = shifted.size(); k-- > row;) shifted[k] += shift * shifted[k - 1];
+  }
+  for (std::size_t k = 0; k < to.size(); ++k) to[k] += shifted[k];
 }
 
 ReadingBucket Merged(const ReadingBucket& first, const ReadingBucket& second,
@@ -30,35 +36,39 @@ ReadingBucket Merged(const ReadingBucket& first, const ReadingBucket& second,
   const ReadingBucket a = AsOf(first, ageing, newest_ns);
   const ReadingBucket b = AsOf(second, ageing, newest_ns);
   ReadingBucket merged;
-  merged.count = a.count + b.count;
   merged.newest_ns = newest_ns;
   merged.least_variance_ppm2 = std::min(a.least_variance_ppm2, b.least_variance_ppm2);
-  merged.mean_variance_ppm2 = a.mean_variance_ppm2 + (b.mean_variance_ppm2 - a.mean_variance_ppm2) *
-                                                         static_cast<double>(b.count) /
-                                                         static_cast<double>(merged.count);
   merged.most_variance_ppm2 = std::max(a.most_variance_ppm2, b.most_variance_ppm2);
-  merged.deviation_ppm = a.deviation_ppm + b.deviation_ppm;
-  merged.moment_ppm3 =
-      MomentAbout(a, merged.mean_variance_ppm2) + MomentAbout(b, merged.mean_variance_ppm2);
+  for (const ReadingBucket& part : {a, b}) {
+    const double shift = part.middle_variance_ppm2() - merged.middle_variance_ppm2();
+    AddShifted(part.count_moments, shift, merged.count_moments);
+    AddShifted(part.deviation_moments, shift, merged.deviation_moments);
+  }
   return merged;
+}
+
+// The sum of m_k (-1)^k / v^(k+1).
+double SumOfSeries(const Moments& moments, double precision) {
+  double sum = 0.0;
+  for (std::size_t k = moments.size(); k-- > 0;) sum = moments[k] - precision * sum;
+  return precision * sum;
 }
 
 }  // namespace
 
 ReadingBucket BucketOf(std::int64_t taken_ns, double variance_ppm2, double deviation_ppm) {
-  return {.count = 1,
-          .newest_ns = taken_ns,
+  return {.newest_ns = taken_ns,
           .least_variance_ppm2 = variance_ppm2,
-          .mean_variance_ppm2 = variance_ppm2,
           .most_variance_ppm2 = variance_ppm2,
-          .deviation_ppm = deviation_ppm};
+          .count_moments = {1.0},
+          .deviation_moments = {deviation_ppm}};
 }
 
 Evidence EvidenceOf(const ReadingBucket& bucket, const Ageing& ageing, std::int64_t time_ns) {
-  const double variance_ppm2 =
-      ageing.Variance_ppm2(bucket.mean_variance_ppm2, bucket.newest_ns, time_ns);
-  return {static_cast<double>(bucket.count) / variance_ppm2,
-          (bucket.deviation_ppm - bucket.moment_ppm3 / variance_ppm2) / variance_ppm2};
+  const double precision =
+      ageing.Precision(bucket.middle_variance_ppm2(), bucket.newest_ns, time_ns);
+  return {SumOfSeries(bucket.count_moments, precision),
+          SumOfSeries(bucket.deviation_moments, precision)};
 }
 
 void MergeAlike(std::int64_t now_ns, const Ageing& ageing, std::vector<ReadingBucket>& buckets) {

@@ -51,6 +51,11 @@ ReadingSite SiteOf(Point2 position, const GridGeometry& anchor) {
                          Steps(position.y_m - center.y_m, anchor.resolution_m))};
 }
 
+ReadingSite CentreOf(AnchorCell cell) {
+  static const std::uint32_t order = NeighbourOrder(0, 0);
+  return {cell, order};
+}
+
 Placement PlacementOf(const ReadingSite& site, const Grid<CellState>& states, AnchorCell corner) {
   const auto is_free = [&](AnchorCell cell) {
     // No overflow: sites are within 2^30 + 1 cells of the anchor, corners within 2^29.

@@ -27,6 +27,9 @@ struct ReadingSite {
 // REQUIRES: finite position.
 ReadingSite SiteOf(Point2 position, const GridGeometry& anchor);
 
+// The site of a reading in the middle of its cell.
+ReadingSite CentreOf(AnchorCell cell);
+
 struct Placement {
   std::optional<AnchorCell> cell;  // none: the site has to wait
   bool moved = false;              // to a neighbour

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -19,6 +20,10 @@ bool IsUsable(Point2 position, const GasReading& reading) {
   return std::isfinite(position.x_m) && std::isfinite(position.y_m) &&
          std::abs(reading.concentration_ppm) <= kMostConcentration_ppm &&
          std::isfinite(reading.variance_ppm2) && reading.variance_ppm2 >= 0.0;
+}
+
+void Insert(const ReadingSite& site, std::vector<ReadingSite>& sites) {
+  sites.insert(std::lower_bound(sites.begin(), sites.end(), site), site);
 }
 
 }  // namespace
@@ -80,10 +85,7 @@ void ReadingStore::PlaceSite(const ReadingSite& key, Site& site, const Grid<Cell
   if (site.placement.cell) std::erase(MarkChanged(*site.placement.cell).sites, key);
   site.placement = placement;
   Count(site.placement, site.count);
-  if (site.placement.cell) {
-    std::vector<ReadingSite>& sites = MarkChanged(*site.placement.cell).sites;
-    sites.insert(std::lower_bound(sites.begin(), sites.end(), key), key);
-  }
+  if (site.placement.cell) Insert(key, MarkChanged(*site.placement.cell).sites);
 }
 
 void ReadingStore::PlaceArrival(const Arrival& arrival, const Grid<CellState>& states) {
@@ -153,7 +155,35 @@ void ReadingStore::AgeTo(std::int64_t time_ns) {
 
 void ReadingStore::Compact(std::int64_t now_ns) {
   if (!ageing_.enabled()) return;
+  for (auto it = sites_.begin(); it != sites_.end();) {
+    it = HasSettled(*it, now_ns) ? MoveToCentre(it) : std::next(it);
+  }
   for (auto& [key, site] : sites_) MergeAlike(now_ns, ageing_, site.buckets);
+}
+
+bool ReadingStore::HasSettled(const Sites::value_type& entry, std::int64_t now_ns) const {
+  const auto& [key, site] = entry;
+  return site.placement.cell == key.cell && key != CentreOf(key.cell) &&
+         std::all_of(site.buckets.begin(), site.buckets.end(), [&](const ReadingBucket& bucket) {
+           return ageing_.IsHalved(bucket.newest_ns, now_ns);
+         });
+}
+
+// Both sites lie in the same free cell, so nothing but the order of summation changes.
+ReadingStore::Sites::iterator ReadingStore::MoveToCentre(Sites::iterator from) {
+  const auto& [key, site] = *from;
+  const ReadingSite centre_key = CentreOf(key.cell);
+  std::vector<ReadingSite>& in_cell = cells_[key.cell].sites;
+  const auto [it, is_new] = sites_.try_emplace(centre_key);
+  Site& centre = it->second;
+  if (is_new) {
+    centre.placement = site.placement;
+    Insert(centre_key, in_cell);
+  }
+  centre.count += site.count;
+  centre.buckets.insert(centre.buckets.end(), site.buckets.begin(), site.buckets.end());
+  std::erase(in_cell, key);
+  return sites_.erase(from);
 }
 
 std::size_t ReadingStore::buckets() const {

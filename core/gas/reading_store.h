@@ -36,7 +36,7 @@ struct CellEvidence {
 //   for (AnchorCell cell : store.TakeChanged()) use(store.EvidenceAt(cell));
 //
 // Readings of one site are merged: without ageing into their sums, with it into buckets of like
-// age, so that memory and time follow the area that was visited, not the length of the mission.
+// age. Memory and time follow the area that was visited, not the length of the mission.
 // The evidence of a cell is always summed anew, site by site in a fixed order, and never corrected
 // by differences: readings that came and went leave no trace in it. Thread-compatible.
 class ReadingStore {
@@ -57,7 +57,7 @@ class ReadingStore {
   // Cells whose evidence may have changed since the last call, ascending, each once.
   std::vector<AnchorCell> TakeChanged();
 
-  // As of aged_to_ns(). Cost: O(buckets in the cell), a few hundred at most per site.
+  // As of aged_to_ns(). Cost: O(buckets in the cell).
   Evidence EvidenceAt(AnchorCell cell) const;
 
   // All cells with evidence, ascending, as of `time_ns`. The same bits as AgeTo(time_ns) and
@@ -68,9 +68,11 @@ class ReadingStore {
   // Without ageing nothing happens.
   void AgeTo(std::int64_t time_ns);
 
-  // Merges readings of like age within the bounds of MergeAlike, which hold for evidence as of
-  // `now_ns` or later. Changes evidence within these bounds, but does not count that as a change.
-  // Without ageing nothing happens. Cost: O(buckets log buckets).
+  // Merges readings of like age, within the bounds of MergeAlike for evidence as of `now_ns` or
+  // later. A site that lies in a free cell and has brought nothing for a half-life is merged into
+  // the centre of its cell: should the cell cease to be free, it moves as if taken there. So a cell
+  // holds tens of buckets, not thousands. Evidence changes within these bounds, but does not count
+  // as changed. Without ageing nothing happens. Cost: O(buckets log buckets).
   void Compact(std::int64_t now_ns);
 
   const GridGeometry& anchor() const { return anchor_; }  // no cells: none yet
@@ -102,9 +104,13 @@ class ReadingStore {
     bool Covers(const Extent& other) const;
   };
 
+  using Sites = std::map<ReadingSite, Site>;
+
   void PlaceSitesNear(AnchorCell cell, const Grid<CellState>& states);
   void PlaceSite(const ReadingSite& key, Site& site, const Grid<CellState>& states);
   void PlaceArrival(const Arrival& arrival, const Grid<CellState>& states);
+  bool HasSettled(const Sites::value_type& entry, std::int64_t now_ns) const;
+  Sites::iterator MoveToCentre(Sites::iterator from);
   void Count(const Placement& placement, std::int64_t readings);
   PlacedCell& MarkChanged(AnchorCell cell);
   Evidence SumOver(const PlacedCell& cell, std::int64_t time_ns) const;
@@ -116,7 +122,7 @@ class ReadingStore {
   GridGeometry anchor_;
   Extent extent_;                  // of the last grid
   std::vector<Arrival> arrivals_;  // not yet placed, for want of an anchor or of a call
-  std::map<ReadingSite, Site> sites_;
+  Sites sites_;
   std::map<AnchorCell, PlacedCell> cells_;  // all that ever had a site
   std::vector<AnchorCell> changed_;         // those marked so
 };

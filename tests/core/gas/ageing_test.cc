@@ -34,6 +34,14 @@ TEST(AgeingTest, HalvesThePrecisionInAHalfLife) {
   EXPECT_DOUBLE_EQ(ageing.Precision(0.1, 0, 60 * kSecond_ns), 5.0);
 }
 
+TEST(AgeingTest, KnowsWhetherPrecisionHasHalved) {
+  const Ageing ageing(HalfLife(60.0));
+  EXPECT_FALSE(ageing.IsHalved(0, 59 * kSecond_ns));
+  EXPECT_TRUE(ageing.IsHalved(0, 61 * kSecond_ns));
+  EXPECT_FALSE(ageing.IsHalved(61 * kSecond_ns, 0));
+  EXPECT_FALSE(Ageing(HalfLife(0.0)).IsHalved(0, std::numeric_limits<std::int64_t>::max()));
+}
+
 TEST(AgeingTest, KeepsPrecisionForEverWithoutAHalfLife) {
   const Ageing ageing(HalfLife(0.0));
   EXPECT_FALSE(ageing.enabled());

@@ -87,6 +87,12 @@ TEST(PlacementOfTest, FollowsAnOriginThatMoved) {
   EXPECT_EQ(PlacementOf(site, grown, {-1, -1}), Placement());
 }
 
+TEST(SiteOfTest, FindsTheCentreOfACell) {
+  const GridGeometry anchor = GridFromArt({"."}).geometry();
+  EXPECT_EQ(SiteOf({0.35, -0.15}, anchor), CentreOf({3, -2}));
+  EXPECT_NE(SiteOf({0.36, -0.15}, anchor), CentreOf({3, -2}));
+}
+
 // Truncation of 4.3 / 0.1 and the like puts one index in twenty a cell off.
 TEST(SiteOfTest, FindsTheCellOfEveryCornerAndCentre) {
   const GridGeometry anchor = GridFromArt({"."}).geometry();
