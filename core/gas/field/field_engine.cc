@@ -9,6 +9,9 @@
 namespace plumescout {
 namespace {
 
+// Share of the tolerance that a pass may use; readings until the next one may use the rest.
+constexpr double kPassShare = 0.5;
+
 std::shared_ptr<const SeparatorTree> MakeTree(std::size_t width, std::size_t height,
                                               std::span<const CellInput> cells) {
   std::vector<std::uint8_t> active;
@@ -49,7 +52,7 @@ absl::Status FieldEngine::Apply(std::span<const CellChange> changes) {
     const absl::Status status = Check(change, tree_->cells());
     if (!status.ok()) return status;
   }
-  if (pending_.size() + changes.size() <= options_.max_pending && AreReadings(changes)) {
+  if (pending_ + changes.size() <= options_.max_pending && AreReadings(changes)) {
     for (const CellChange& change : changes) AddReading(change);
     return Heal();
   }
@@ -71,24 +74,20 @@ bool FieldEngine::AreReadings(std::span<const CellChange> changes) const {
   });
 }
 
-// [IPP] Eq. (3) with one more precision w on the diagonal: for the column x of the covariance in
-// cell i, Z' = Z - w / (1 + w Z_ii) x x^T and m' = m + (db - w m_i) / (1 + w Z_ii) x.
 void FieldEngine::AddReading(const CellChange& change) {
-  const Slot slot = tree_->slot(change.cell);
-  const double precision = change.input.precision - cells_.precision[slot];
-  const double deviation = change.input.weighted_deviation - cells_.weighted_deviation[slot];
+  const CellInput was = input(change.cell);
   cells_.Set(*tree_, change);
-  if (cells_.active[slot] == 0 || (precision == 0.0 && deviation == 0.0)) return;
-  SlotColumns column = factor_.Extend(factor_.InverseOnPaths({&slot, 1}));
-  constexpr double kAsItIs = 1.0;
-  CorrectColumns(pending_, {&slot, 1}, {&kAsItIs, 1}, column);
-  const double scale = 1.0 / (1.0 + precision * *column.row(slot));
-  // The published mean may be off by the tolerance, which the update would spread.
-  const double mean_ppm = Mean_ppm(factor_, pending_, slot);
-  const double mean_factor = (deviation - precision * mean_ppm) * scale;
-  pending_.push_back(std::make_shared<PendingReading>(
-      PendingReading{slot, std::move(column), precision * scale, mean_factor}));
-  healthy_ = marginals_.Add(*pending_.back()) && healthy_;
+  const FieldReading reading = {tree_->slot(change.cell), change.input.precision - was.precision,
+                                change.input.weighted_deviation - was.weighted_deviation};
+  const bool is_new = reading.precision != 0.0 || reading.weighted_deviation != 0.0;
+  if (!was.active || !is_new) return;
+  ++pending_;
+  const double share = static_cast<double>(pending_) / static_cast<double>(options_.max_pending);
+  const FieldShift limit = ((1.0 - kPassShare) * share) * Tolerance();
+  const std::vector<PathStep> steps = factor_.StepsFrom(reading.slot);
+  healthy_ = marginals_.Hear(factor_, reading, steps, limit) && healthy_;
+  factor_.AddReading(steps, reading.precision, reading.weighted_deviation);
+  MarkPath(reading.slot);
 }
 
 // Flags the nodes that hold a term with the cell: its own, and those of active neighbours that are
@@ -120,11 +119,9 @@ void FieldEngine::Recompute() {
 }
 
 void FieldEngine::Refresh() {
-  for (const auto& reading : pending_) MarkPath(reading->slot);
-  marginals_.Absorb(factor_, pending_, dirty_);
-  pending_.clear();
+  pending_ = 0;
   factor_.Eliminate(dirty_, cells_, builder_);
-  const Marginals::Pass pass = marginals_.Descend(factor_, dirty_, AllowedShift());
+  const Marginals::Pass pass = marginals_.Descend(factor_, dirty_, kPassShare * Tolerance());
   shift_ = pass.error;
   healthy_ = healthy_ && pass.healthy;
   largest_mean_ppm_ = marginals_.LargestMean_ppm();
@@ -139,13 +136,14 @@ absl::Status FieldEngine::Heal() {
   return healthy_ ? absl::OkStatus() : absl::InternalError("the gas field cannot be computed");
 }
 
-FieldShift FieldEngine::AllowedShift() const {
+FieldShift FieldEngine::Tolerance() const {
   return {options_.tolerance.mean_share * largest_mean_ppm_,
           options_.tolerance.variance_share / VarianceRatioOfShift()};
 }
 
 FieldError FieldEngine::error_bound() const {
-  return {shift_.mean_ppm, shift_.covariance_ppm2 * VarianceRatioOfShift()};
+  const FieldShift shift = shift_ + marginals_.owed();
+  return {shift.mean_ppm, shift.covariance_ppm2 * VarianceRatioOfShift()};
 }
 
 // If no covariance on the boundary of a subtree has moved by more than d, no variance inside has

@@ -14,7 +14,6 @@
 #include "core/gas/field/field_snapshot.h"
 #include "core/gas/field/front.h"
 #include "core/gas/field/marginals.h"
-#include "core/gas/field/pending_reading.h"
 #include "core/gas/field/separator_tree.h"
 
 namespace plumescout {
@@ -35,8 +34,7 @@ struct FieldError {
 struct FieldOptions {
   FieldPrior prior;
   FieldTolerance tolerance;
-  // Readings that the factor may lag behind; each makes the next one dearer by one pass over the
-  // cells, and saves a path of fronts.
+  // Batches of readings alone that may pass over what they hardly touch, before a pass sees to it.
   std::size_t max_pending = 16;
 };
 
@@ -56,9 +54,9 @@ class FieldEngine {
   FieldEngine(std::size_t width, std::size_t height, std::span<const CellInput> cells,
               const FieldOptions& options);
 
-  // Brings the fields up to date with all changes; of several to one cell the last holds. Up to
-  // `max_pending` batches of added readings cost a column of the inverse each; anything else the
-  // paths of the changed cells upward and a pruned pass downward.
+  // Brings the fields up to date with all changes; of several to one cell the last holds. Added
+  // readings cost a column of the inverse each, as far as it matters; anything else, and every
+  // `max_pending`-th reading, the paths of the changed cells upward and a pruned pass downward.
   // Errors, after which nothing has changed: kInvalidArgument for a cell beyond the lattice, a
   // precision that is negative, NaN or beyond kMaxCellPrecision, a deviation that is not finite or
   // beyond it. kInternal if fields are not finite or a variance not positive even after a fresh
@@ -88,7 +86,7 @@ class FieldEngine {
   double work() const { return factor_.work(); }
 
   // Cost: one pointer per node and one number per cell.
-  FieldSnapshot Snapshot() const { return {factor_, pending_, marginals_.variance_ppm2()}; }
+  FieldSnapshot Snapshot() const { return {factor_, marginals_.variance_ppm2()}; }
 
  private:
   friend struct FieldEnginePeer;  // of the tests
@@ -99,7 +97,7 @@ class FieldEngine {
   void MarkPath(Slot slot);
   void Refresh();
   absl::Status Heal();
-  FieldShift AllowedShift() const;
+  FieldShift Tolerance() const;
   double VarianceRatioOfShift() const;
 
   FieldOptions options_;
@@ -108,10 +106,10 @@ class FieldEngine {
   FrontBuilder builder_;
   FieldFactor factor_;
   Marginals marginals_;
-  PendingReadings pending_;
   std::vector<std::uint8_t> dirty_;  // by node
-  FieldShift shift_;                 // how far the fields may be off
-  double largest_mean_ppm_ = 0.0;    // of the last pass
+  std::size_t pending_ = 0;          // readings since the last pass
+  FieldShift shift_;                 // how far the fields were off after it, at most
+  double largest_mean_ppm_ = 0.0;    // then
   bool healthy_ = true;
   std::int64_t healed_ = 0;
 };

@@ -8,22 +8,6 @@
 namespace plumescout {
 namespace {
 
-// y += a x, for a column-major `a` with whole row tiles; four columns at once, to load and store y
-// less often.
-void AddProduct(const double* a, std::size_t stride, std::span<const double> x, double* y) {
-  std::size_t j = 0;
-  for (; j + 4 <= x.size(); j += 4, a += 4 * stride) {
-    const double *a0 = a, *a1 = a0 + stride, *a2 = a1 + stride, *a3 = a2 + stride;
-    const double x0 = x[j], x1 = x[j + 1], x2 = x[j + 2], x3 = x[j + 3];
-    for (std::size_t i = 0; i < stride; ++i) {
-      y[i] += (a0[i] * x0 + a1[i] * x1) + (a2[i] * x2 + a3[i] * x3);
-    }
-  }
-  for (; j < x.size(); ++j, a += stride) {
-    for (std::size_t i = 0; i < stride; ++i) y[i] += a[i] * x[j];
-  }
-}
-
 // Scratch of the way down.
 struct Descent {
   std::vector<double> boundary;  // x_R, cell by cell
@@ -36,7 +20,7 @@ void DescendOne(const Front& front, double* x, Descent& scratch) {
   scratch.boundary.resize(boundary.size());
   scratch.own.assign(front.stride, 0.0);
   for (std::size_t i = 0; i < boundary.size(); ++i) scratch.boundary[i] = x[boundary[i]];
-  AddProduct(front.weights.data(), front.stride, scratch.boundary, scratch.own.data());
+  front.AddWeighted(scratch.boundary, scratch.own.data());
   for (std::size_t i = 0; i < front.own; ++i) x[front.cells[i]] += scratch.own[i];
 }
 
@@ -74,6 +58,19 @@ void DescendFront(const Front& front, SlotColumns& x, Descent& scratch) {
   }
 }
 
+// From weights of S and R in the mean of a cell to those of R alone: p = C w_S, q = w_R + W^T w_S.
+void Condition(const Front& front, std::span<const double> weights, PathStep& step) {
+  const std::span<const double> own = weights.first(front.own);
+  step.own.assign(front.stride, 0.0);
+  AddProduct(front.covariance.data(), front.stride, own, step.own.data());
+  step.variance_ppm2 += Dot(own.data(), step.own.data(), front.own);
+  step.mean_ppm += Dot(own.data(), front.offset_ppm.data(), front.own);
+  step.boundary.assign(weights.begin() + static_cast<std::ptrdiff_t>(front.own), weights.end());
+  for (std::size_t j = 0; j < step.boundary.size(); ++j) {
+    step.boundary[j] += Dot(front.weights.data() + j * front.stride, own.data(), front.own);
+  }
+}
+
 }  // namespace
 
 void FieldFactor::Eliminate(std::span<const std::uint8_t> dirty, const FieldCells& cells,
@@ -93,14 +90,51 @@ double FieldFactor::work() const {
   return sum;
 }
 
+std::vector<PathStep> FieldFactor::StepsFrom(Slot slot) const {
+  std::vector<PathStep> steps;
+  std::vector<double> weights;  // of the cells of the front in the mean of the cell given them
+  std::vector<std::uint32_t> places;
+  for (std::uint32_t node = tree_->owner(slot); node != SeparatorTree::kNone;
+       node = tree_->nodes()[node].parent) {
+    const Front& front = *fronts_[node];
+    weights.assign(front.cells.size(), 0.0);
+    PathStep step;
+    step.node = node;
+    if (steps.empty()) {
+      const auto place = std::lower_bound(front.cells.begin(), front.cells.end(), slot);
+      weights[static_cast<std::size_t>(place - front.cells.begin())] = 1.0;
+    } else {
+      const PathStep& below = steps.back();
+      FindPlaces(fronts_[below.node]->boundary_cells(), front.cells, places);
+      for (std::size_t i = 0; i < places.size(); ++i) weights[places[i]] = below.boundary[i];
+      step.mean_ppm = below.mean_ppm;
+      step.variance_ppm2 = below.variance_ppm2;
+    }
+    Condition(front, weights, step);
+    steps.push_back(std::move(step));
+  }
+  return steps;
+}
+
+void FieldFactor::AddReading(std::span<const PathStep> steps, double precision,
+                             double weighted_deviation) {
+  for (const PathStep& step : steps) {
+    std::shared_ptr<const Front>& front = fronts_[step.node];
+    front = AfterReading(*front, step, precision, weighted_deviation);
+  }
+}
+
 PathColumns FieldFactor::InverseOnPaths(std::span<const Slot> slots) const {
   PathColumns columns{SlotColumns(tree_->cells(), slots.size()), {}};
-  std::vector<double> r(tree_->cells(), 0.0);
   std::vector<std::uint32_t>& nodes = columns.path_nodes;
   for (std::size_t j = 0; j < slots.size(); ++j) {
-    const std::vector<std::uint32_t> path = PathFrom(slots[j]);
-    nodes.insert(nodes.end(), path.begin(), path.end());
-    Ascend(slots[j], j, r, columns.values);
+    for (const PathStep& step : StepsFrom(slots[j])) {
+      nodes.push_back(step.node);
+      const Front& front = *fronts_[step.node];
+      for (std::size_t i = 0; i < front.own; ++i) {
+        columns.values.row(front.cells[i])[j] = step.own[i];
+      }
+    }
   }
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -109,36 +143,6 @@ PathColumns FieldFactor::InverseOnPaths(std::span<const Slot> slots) const {
     DescendFront(*fronts_[*node], columns.values, scratch);
   }
   return columns;
-}
-
-std::vector<std::uint32_t> FieldFactor::PathFrom(Slot slot) const {
-  std::vector<std::uint32_t> path;
-  for (std::uint32_t node = tree_->owner(slot); node != SeparatorTree::kNone;
-       node = tree_->nodes()[node].parent) {
-    path.push_back(node);
-  }
-  return path;
-}
-
-// From e_slot up to the root: x_S = C r_S, r_R += W^T r_S. `r` is 0 before and after.
-void FieldFactor::Ascend(Slot slot, std::size_t column, std::vector<double>& r,
-                         SlotColumns& x) const {
-  std::vector<double> own;
-  std::vector<double> solution;
-  r[slot] = 1.0;
-  for (const std::uint32_t node : PathFrom(slot)) {
-    const Front& front = *fronts_[node];
-    if (front.own == 0) continue;
-    own.resize(front.own);
-    for (std::size_t i = 0; i < front.own; ++i) own[i] = std::exchange(r[front.cells[i]], 0.0);
-    const std::span<const Slot> boundary = front.boundary_cells();
-    for (std::size_t j = 0; j < boundary.size(); ++j) {
-      r[boundary[j]] += Dot(front.weights.data() + j * front.stride, own.data(), front.own);
-    }
-    solution.assign(front.stride, 0.0);
-    AddProduct(front.covariance.data(), front.stride, own, solution.data());
-    for (std::size_t i = 0; i < front.own; ++i) x.row(front.cells[i])[column] = solution[i];
-  }
 }
 
 SlotColumns FieldFactor::Extend(PathColumns columns) const {
@@ -152,18 +156,6 @@ SlotColumns FieldFactor::Extend(PathColumns columns) const {
     }
   }
   return std::move(columns.values);
-}
-
-double FieldFactor::Mean_ppm(Slot slot) const {
-  SlotColumns mean(tree_->cells(), 1);
-  Descent scratch;
-  const std::vector<std::uint32_t> path = PathFrom(slot);
-  for (auto node = path.rbegin(); node != path.rend(); ++node) {
-    const Front& front = *fronts_[*node];
-    for (std::size_t i = 0; i < front.own; ++i) *mean.row(front.cells[i]) = front.offset_ppm[i];
-    DescendFront(front, mean, scratch);
-  }
-  return *mean.row(slot);
 }
 
 }  // namespace plumescout

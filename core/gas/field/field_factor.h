@@ -50,6 +50,13 @@ class FieldFactor {
   void Eliminate(std::span<const std::uint8_t> dirty, const FieldCells& cells,
                  FrontBuilder& builder);
 
+  // What each node from the owner of an active cell to the root knows of it; at the root that is
+  // its mean and variance. Cost: that of reading the fronts.
+  std::vector<PathStep> StepsFrom(Slot slot) const;
+  // The cell that the steps start from has more evidence. Its nodes are to be eliminated anew when
+  // next any is. Cost: that of copying the fronts.
+  void AddReading(std::span<const PathStep> steps, double precision, double weighted_deviation);
+
   // H^-1 e_i for each i in `slots`, on the paths from there. REQUIRES: slots are active, one at
   // least. Cost: that of the paths.
   PathColumns InverseOnPaths(std::span<const Slot> slots) const;
@@ -59,14 +66,8 @@ class FieldFactor {
   // Multiply-adds of eliminating all nodes. Cost: O(nodes).
   double work() const;
 
-  // m_i of an active slot. Cost: a path.
-  double Mean_ppm(Slot slot) const;
-
  private:
   friend struct FieldEnginePeer;  // of the tests
-
-  std::vector<std::uint32_t> PathFrom(Slot slot) const;
-  void Ascend(Slot slot, std::size_t column, std::vector<double>& r, SlotColumns& x) const;
 
   std::shared_ptr<const SeparatorTree> tree_;
   std::vector<std::shared_ptr<const Front>> fronts_;  // by node

@@ -13,21 +13,13 @@ namespace plumescout {
 namespace {
 
 // L^-T with L L^T = 1 / precision + Z_CC for the cells C in `slots`; by rows.
-std::vector<double> WhitenReadings(const SlotColumns& factor_columns,
-                                   const PendingReadings& pending, std::span<const Slot> slots,
+std::vector<double> WhitenReadings(const SlotColumns& columns, std::span<const Slot> slots,
                                    double precision) {
   const std::size_t size = slots.size();
   const std::size_t stride = PaddedRows(size);
   std::vector<double> matrix(stride * size, 0.0);
   for (std::size_t j = 0; j < size; ++j) {
-    for (std::size_t i = j; i < size; ++i) {
-      double z = factor_columns.row(slots[i])[j];
-      for (const auto& reading : pending) {
-        z -= reading->variance_factor * *reading->column.row(slots[i]) *
-             *reading->column.row(slots[j]);
-      }
-      matrix[j * stride + i] = z;
-    }
+    for (std::size_t i = j; i < size; ++i) matrix[j * stride + i] = columns.row(slots[i])[j];
     matrix[j * stride + j] += 1.0 / precision;
   }
   FactorizeFront(matrix.data(), stride, size, size);
@@ -59,14 +51,12 @@ void Mix(const SeparatorTree& tree, std::span<const double> mixing, PathColumns&
 
 // diag(Z_C (1 / precision + Z_CC)^-1 Z_C^T), which are the rows of Z_C L^-T squared and summed.
 // Mixed before they are continued off the paths, the columns need no product over all cells.
-void SubtractGain(const FieldFactor& factor, const PendingReadings& pending,
-                  std::span<const Slot> slots, double precision,
+void SubtractGain(const FieldFactor& factor, std::span<const Slot> slots, double precision,
                   std::vector<double>& variance_ppm2) {
   PathColumns on_paths = factor.InverseOnPaths(slots);
-  const std::vector<double> mixing = WhitenReadings(on_paths.values, pending, slots, precision);
+  const std::vector<double> mixing = WhitenReadings(on_paths.values, slots, precision);
   Mix(factor.tree(), mixing, on_paths);
-  SlotColumns columns = factor.Extend(std::move(on_paths));
-  CorrectColumns(pending, slots, mixing, columns);
+  const SlotColumns columns = factor.Extend(std::move(on_paths));
   for (Slot slot = 0; slot < variance_ppm2.size(); ++slot) {
     const double* const row = columns.row(slot);
     variance_ppm2[slot] -= Dot(row, row, columns.columns());
@@ -88,7 +78,7 @@ absl::StatusOr<std::vector<double>> FieldSnapshot::VarianceIfRead(
     if (variance_ppm2_[slot] > 0.0) slots.push_back(slot);  // not NaN: active
   }
   std::vector<double> variance_ppm2 = variance_ppm2_;
-  if (!slots.empty()) SubtractGain(factor_, pending_, slots, precision, variance_ppm2);
+  if (!slots.empty()) SubtractGain(factor_, slots, precision, variance_ppm2);
   std::vector<double> by_cell(tree.cells());
   for (Slot slot = 0; slot < by_cell.size(); ++slot) {
     by_cell[tree.cell(slot)] = variance_ppm2[slot];

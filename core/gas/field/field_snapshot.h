@@ -8,7 +8,6 @@
 
 #include "absl/status/statusor.h"
 #include "core/gas/field/field_factor.h"
-#include "core/gas/field/pending_reading.h"
 
 namespace plumescout {
 
@@ -16,10 +15,8 @@ namespace plumescout {
 // goes on without changing them. Immutable, so it may be read from any thread.
 class FieldSnapshot {
  public:
-  FieldSnapshot(FieldFactor factor, PendingReadings pending, std::vector<double> variance_ppm2)
-      : factor_(std::move(factor)),
-        pending_(std::move(pending)),
-        variance_ppm2_(std::move(variance_ppm2)) {}
+  FieldSnapshot(FieldFactor factor, std::vector<double> variance_ppm2)
+      : factor_(std::move(factor)), variance_ppm2_(std::move(variance_ppm2)) {}
 
   // Marginal variance of every cell, by cell index, if readings of `precision` each were taken in
   // `cells`; NaN off the active cells. A reading in a cell that is not active changes nothing.
@@ -30,7 +27,6 @@ class FieldSnapshot {
 
  private:
   FieldFactor factor_;
-  PendingReadings pending_;
   std::vector<double> variance_ppm2_;  // by slot
 };
 

@@ -3,6 +3,7 @@
 #include "core/gas/field/front.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "core/gas/field/dominant_front.h"
 
@@ -21,6 +22,61 @@ std::size_t MessageSize(std::size_t boundary) {
 double Front::work() const {
   const auto cube = [](double n) { return n * n * n / 6.0; };
   return cube(static_cast<double>(cells.size())) - cube(static_cast<double>(boundary()));
+}
+
+void Front::AddWeighted(std::span<const double> boundary, double* own_values) const {
+  AddProduct(weights.data(), stride, boundary, own_values);
+}
+
+// Sherman and Morrison on the joint distribution of S and cell i given R, of which W is the
+// derivative of the means.
+std::shared_ptr<const Front> AfterReading(const Front& front, const PathStep& step,
+                                          double precision, double weighted_deviation) {
+  auto after = std::make_shared<Front>();
+  after->cells = front.cells;
+  after->own = front.own;
+  after->stride = front.stride;
+  after->covariance = front.covariance;
+  after->weights = front.weights;
+  after->offset_ppm = front.offset_ppm;
+  const double scale = 1.0 / (1.0 + precision * step.variance_ppm2);
+  const double gain = (weighted_deviation - precision * step.mean_ppm) * scale;
+  for (std::size_t i = 0; i < front.own; ++i) after->offset_ppm[i] += gain * step.own[i];
+  const auto subtract = [&](std::span<const double> by_column, std::vector<double>& block) {
+    for (std::size_t j = 0; j < by_column.size(); ++j) {
+      const double factor = precision * scale * by_column[j];
+      double* const column = block.data() + j * front.stride;
+      for (std::size_t i = 0; i < front.own; ++i) column[i] -= factor * step.own[i];
+    }
+  };
+  subtract({step.own.data(), front.own}, after->covariance);
+  subtract(step.boundary, after->weights);
+  return after;
+}
+
+// Four columns at once, to load and store y less often.
+void AddProduct(const double* a, std::size_t stride, std::span<const double> x, double* y) {
+  std::size_t j = 0;
+  for (; j + 4 <= x.size(); j += 4, a += 4 * stride) {
+    const double *a0 = a, *a1 = a0 + stride, *a2 = a1 + stride, *a3 = a2 + stride;
+    const double x0 = x[j], x1 = x[j + 1], x2 = x[j + 2], x3 = x[j + 3];
+    for (std::size_t i = 0; i < stride; ++i) {
+      y[i] += (a0[i] * x0 + a1[i] * x1) + (a2[i] * x2 + a3[i] * x3);
+    }
+  }
+  for (; j < x.size(); ++j, a += stride) {
+    for (std::size_t i = 0; i < stride; ++i) y[i] += a[i] * x[j];
+  }
+}
+
+void FindPlaces(std::span<const Slot> some, std::span<const Slot> all,
+                std::vector<std::uint32_t>& places) {
+  places.resize(some.size());
+  std::uint32_t place = 0;
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    while (all[place] != some[i]) ++place;
+    places[i] = place;
+  }
 }
 
 std::shared_ptr<const Front> FrontBuilder::Build(const SeparatorTree::Node& node,
@@ -92,6 +148,7 @@ void FrontBuilder::Assemble(const FieldCells& cells, const Front& front) {
 
 void FrontBuilder::AddMessage(const Front& child) {
   const std::span<const Slot> boundary = child.boundary_cells();
+  assert(child.message.size() == MessageSize(boundary.size()));
   const double* value = child.message.data();
   for (std::size_t j = 0; j < boundary.size(); ++j) {
     double* const column = matrix_.data() + place_[boundary[j]] * matrix_stride_;

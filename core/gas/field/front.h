@@ -35,12 +35,15 @@ struct Front {
   std::vector<double> weights;     // W: S x R
   std::vector<double> offset_ppm;  // S
   // The Schur complement on R as DominantFront keeps it, columns packed: below the diagonal, then
-  // ground, then right-hand side.
+  // ground, then right-hand side. Absent after a reading.
   std::vector<double> message;
 
   std::size_t boundary() const { return cells.size() - own; }
   // Multiply-adds of the elimination.
   double work() const;
+
+  // own += W boundary; `own` has `stride` elements.
+  void AddWeighted(std::span<const double> boundary, double* own) const;
   std::span<const Slot> own_cells() const { return {cells.data(), own}; }
   std::span<const Slot> boundary_cells() const { return {cells.data() + own, boundary()}; }
 };
@@ -49,6 +52,28 @@ struct Front {
 constexpr std::size_t TileRows(std::size_t rows) {
   return (rows + kRowTile - 1) / kRowTile * kRowTile;
 }
+
+// A reading of cell i in the subtree of a node, as the node sees it. Moments are those given that
+// its boundary is 0.
+struct PathStep {
+  std::uint32_t node = 0;
+  std::vector<double> own;       // p: covariance of cell i with the own cells
+  std::vector<double> boundary;  // q: weights of the boundary in the mean of cell i
+  double mean_ppm = 0.0;         // of cell i
+  double variance_ppm2 = 0.0;
+};
+
+// The front once cell i has `precision` more on the diagonal and `weighted_deviation` more on the
+// right-hand side: all but the message, which needs an elimination. Cost: a copy.
+std::shared_ptr<const Front> AfterReading(const Front& front, const PathStep& step,
+                                          double precision, double weighted_deviation);
+
+// y += a x, for a column-major `a` whose columns are whole row tiles.
+void AddProduct(const double* a, std::size_t stride, std::span<const double> x, double* y);
+
+// Places of the ascending slots `some` among the ascending slots `all`, which hold them.
+void FindPlaces(std::span<const Slot> some, std::span<const Slot> all,
+                std::vector<std::uint32_t>& places);
 
 // Builds fronts; holds scratch memory only.
 class FrontBuilder {

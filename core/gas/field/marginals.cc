@@ -11,30 +11,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-FieldShift Max(const FieldShift& a, const FieldShift& b) {
-  return {std::max(a.mean_ppm, b.mean_ppm), std::max(a.covariance_ppm2, b.covariance_ppm2)};
-}
-
-FieldShift Sum(const FieldShift& a, const FieldShift& b) {
-  return {a.mean_ppm + b.mean_ppm, a.covariance_ppm2 + b.covariance_ppm2};
-}
-
-bool IsWithin(const FieldShift& error, const FieldShift& tolerance) {
-  return error.mean_ppm <= tolerance.mean_ppm && error.covariance_ppm2 <= tolerance.covariance_ppm2;
-}
-
 bool IsVariance(double value) { return value > 0.0 && std::isfinite(value); }
-
-// Places of the ascending slots `some` among the ascending slots `all`, which hold them.
-void FindPlaces(std::span<const Slot> some, std::span<const Slot> all,
-                std::vector<std::uint32_t>& places) {
-  places.resize(some.size());
-  std::uint32_t place = 0;
-  for (std::size_t i = 0; i < some.size(); ++i) {
-    while (all[place] != some[i]) ++place;
-    places[i] = place;
-  }
-}
 
 }  // namespace
 
@@ -42,7 +19,10 @@ Marginals::Marginals(const SeparatorTree& tree)
     : tree_(&tree),
       mean_ppm_(tree.cells(), kNaN),
       variance_ppm2_(tree.cells(), kNaN),
-      origins_(tree.nodes().size()) {}
+      memories_(tree.nodes().size()),
+      below_(tree.nodes().size()),
+      debts_(tree.nodes().size()),
+      column_(tree.cells()) {}
 
 Marginals::Pass Marginals::Descend(const FieldFactor& factor, std::span<const std::uint8_t> dirty,
                                    const FieldShift& tolerance) {
@@ -50,40 +30,52 @@ Marginals::Pass Marginals::Descend(const FieldFactor& factor, std::span<const st
   dirty_ = dirty;
   tolerance_ = tolerance;
   healthy_ = true;
-  const FieldShift error = Visit(origins_.size() - 1, 0);
+  CollectDebts();
+  const FieldShift error = Visit(memories_.size() - 1, 0);
   return {error, healthy_};
+}
+
+// What a node itself has missed shows in the boundary it remembers; what its descendants have does
+// not, if it is left alone.
+void Marginals::CollectDebts() {
+  for (std::size_t node = 0; node < debts_.size(); ++node) {
+    below_[node] = below_[node] + debts_[node].below;
+    debts_[node] = {};
+  }
 }
 
 FieldShift Marginals::Visit(std::size_t node, std::size_t depth) {
   const SeparatorTree::Node& place = tree_->nodes()[node];
   const Front& front = factor_->front(node);
-  Origin& origin = origins_[node];
+  boundary_mean_.clear();
   if (front.boundary() > 0) {
     GatherBoundary(front, factor_->front(place.parent), blocks_[depth - 1]);
   }
+  const BoundaryField boundary = {boundary_mean_, boundary_};
   if (dirty_[node] == 0) {
-    const FieldShift error = Sum(Moved(front, origin), origin.below);
-    if (IsWithin(error, tolerance_)) return error;
+    const FieldShift error = memories_[node].Moved(boundary) + below_[node];
+    if (error.IsWithin(tolerance_)) return error;
   }
-  Remember(front, origin);
+  memories_[node].Remember(boundary);
   std::fill(mean_ppm_.begin() + place.first, mean_ppm_.begin() + place.end, kNaN);
   std::fill(variance_ppm2_.begin() + place.first, variance_ppm2_.begin() + place.end, kNaN);
   UpdateMean(front);
   if (place.is_leaf()) {
     UpdateVariance(front);
-    return origin.below = {};
+    return below_[node] = {};
   }
   if (blocks_.size() <= depth) blocks_.resize(depth + 1);
   FormBlock(front, blocks_[depth]);
   const FieldShift low = Visit(place.children[0], depth + 1);
   const FieldShift high = Visit(place.children[1], depth + 1);
-  return origins_[node].below = Max(low, high);
+  return below_[node] = Max(low, high);
 }
 
-// Z_RR, out of the parent's block.
+// Z_RR, out of the parent's block, and m_R.
 void Marginals::GatherBoundary(const Front& front, const Front& parent, const Block& from) {
   const std::size_t size = front.boundary();
   FindPlaces(front.boundary_cells(), parent.cells, place_);
+  for (const Slot slot : front.boundary_cells()) boundary_mean_.push_back(mean_ppm_[slot]);
   boundary_.resize(size * size);
   for (std::size_t j = 0; j < size; ++j) {
     const double* const column = from.values.data() + place_[j] * from.stride;
@@ -93,60 +85,28 @@ void Marginals::GatherBoundary(const Front& front, const Front& parent, const Bl
   }
 }
 
-FieldShift Marginals::Moved(const Front& front, const Origin& origin) const {
-  const std::size_t size = front.boundary();
-  const std::span<const Slot> cells = front.boundary_cells();
-  FieldShift moved;
-  const double* old = origin.covariance_ppm2.data();
-  for (std::size_t j = 0; j < size; ++j) {
-    const double change = std::abs(mean_ppm_[cells[j]] - origin.mean_ppm[j]);
-    moved.mean_ppm = std::max(moved.mean_ppm, change);
-    const double* const column = boundary_.data() + j * size;
-    double most = 0.0;
-    for (std::size_t i = j; i < size; ++i) most = std::max(most, std::abs(column[i] - *old++));
-    moved.covariance_ppm2 = std::max(moved.covariance_ppm2, most);
-  }
-  return moved;
-}
-
-void Marginals::Remember(const Front& front, Origin& origin) const {
-  const std::size_t size = front.boundary();
-  origin.mean_ppm.clear();
-  for (const Slot slot : front.boundary_cells()) origin.mean_ppm.push_back(mean_ppm_[slot]);
-  origin.covariance_ppm2.clear();
-  origin.covariance_ppm2.reserve(size * (size + 1) / 2);
-  for (std::size_t j = 0; j < size; ++j) {
-    const double* const column = boundary_.data() + j * size;
-    origin.covariance_ppm2.insert(origin.covariance_ppm2.end(), column + j, column + size);
-  }
-}
-
 // m_S = offset + W m_R
 void Marginals::UpdateMean(const Front& front) {
-  const std::span<const Slot> boundary = front.boundary_cells();
-  for (std::size_t i = 0; i < front.own; ++i) mean_ppm_[front.cells[i]] = front.offset_ppm[i];
-  for (std::size_t j = 0; j < boundary.size(); ++j) {
-    const double mean = mean_ppm_[boundary[j]];
-    const double* const weights = front.weights.data() + j * front.stride;
-    for (std::size_t i = 0; i < front.own; ++i) mean_ppm_[front.cells[i]] += weights[i] * mean;
-  }
-  for (const Slot slot : front.own_cells()) {
-    healthy_ = healthy_ && std::isfinite(mean_ppm_[slot]);
+  own_.assign(front.stride, 0.0);
+  std::copy(front.offset_ppm.begin(), front.offset_ppm.end(), own_.begin());
+  front.AddWeighted(boundary_mean_, own_.data());
+  for (std::size_t i = 0; i < front.own; ++i) {
+    mean_ppm_[front.cells[i]] = own_[i];
+    healthy_ = healthy_ && std::isfinite(own_[i]);
   }
 }
 
 // diag Z_SS, with Z_SS = C + W Z_RR W^T.
 void Marginals::UpdateVariance(const Front& front) {
   FormCross(front);
-  std::vector<double>& sum = diagonal_;
-  sum.assign(front.stride, 0.0);
-  for (std::size_t i = 0; i < front.own; ++i) sum[i] = front.covariance[i * front.stride + i];
+  own_.assign(front.stride, 0.0);
+  for (std::size_t i = 0; i < front.own; ++i) own_[i] = front.covariance[i * front.stride + i];
   for (std::size_t k = 0; k < front.weights.size(); k += front.stride) {
-    for (std::size_t i = 0; i < front.stride; ++i) sum[i] += cross_[k + i] * front.weights[k + i];
+    for (std::size_t i = 0; i < front.stride; ++i) own_[i] += cross_[k + i] * front.weights[k + i];
   }
   for (std::size_t i = 0; i < front.own; ++i) {
-    variance_ppm2_[front.cells[i]] = sum[i];
-    healthy_ = healthy_ && IsVariance(sum[i]);
+    variance_ppm2_[front.cells[i]] = own_[i];
+    healthy_ = healthy_ && IsVariance(own_[i]);
   }
 }
 
@@ -199,43 +159,88 @@ void Marginals::FormBlock(const Front& front, Block& block) {
   }
 }
 
-bool Marginals::Add(const PendingReading& reading) {
-  const double* const x = reading.column.row(0);
-  bool healthy = true;
-  for (std::size_t i = 0; i < mean_ppm_.size(); ++i) {
-    mean_ppm_[i] += reading.mean_factor * x[i];
-    variance_ppm2_[i] -= reading.variance_factor * x[i] * x[i];
-    healthy =
-        healthy && (x[i] == 0.0 || (IsVariance(variance_ppm2_[i]) && std::isfinite(mean_ppm_[i])));
+// [IPP] Eq. (3) with one more precision w on the diagonal and d on the right-hand side: for the
+// column x of the covariance in cell i, Z' = Z - w / (1 + w Z_ii) x x^T and
+// m' = m + (d - w m_i) / (1 + w Z_ii) x.
+bool Marginals::Hear(const FieldFactor& factor, const FieldReading& reading,
+                     std::span<const PathStep> steps, const FieldShift& limit) {
+  // As the factor knows them, exactly: the published mean may be off by the tolerance.
+  const double mean_ppm = steps.back().mean_ppm;
+  const double variance_ppm2 = steps.back().variance_ppm2;
+  const double scale = 1.0 / (1.0 + reading.precision * variance_ppm2);
+  factor_ = &factor;
+  healthy_ = true;
+  hearing_.factors.mean_factor =
+      (reading.weighted_deviation - reading.precision * mean_ppm) * scale;
+  hearing_.factors.variance_factor = reading.precision * scale;
+  hearing_.steps = steps;
+  hearing_.limit = limit;
+  VisitForReading(memories_.size() - 1, {});
+  // With a greater diagonal the error that the cell had would be a larger share of its variance.
+  mean_ppm_[reading.slot] = mean_ppm + hearing_.factors.mean_factor * variance_ppm2;
+  variance_ppm2_[reading.slot] = variance_ppm2 * scale;
+  return healthy_;
+}
+
+void Marginals::VisitForReading(std::size_t node, const FieldShift& owed_above) {
+  const Front& front = factor_->front(node);
+  Debt& debt = debts_[node];
+  const double largest = GatherColumn(front);
+  const bool on_path = !hearing_.steps.empty() && hearing_.steps.back().node == node;
+  if (!on_path) {
+    const ReadingFactors& factors = hearing_.factors;
+    const FieldShift missed = {std::abs(factors.mean_factor) * largest,
+                               factors.variance_factor * largest * largest};
+    const FieldShift owed = debt.own + missed;
+    if ((owed_above + owed + debt.below).IsWithin(hearing_.limit)) {
+      debt.own = owed;
+      return;
+    }
+    memories_[node].Hear(factors, x_);
   }
-  return healthy;
+  own_.assign(front.stride, 0.0);
+  if (on_path) {
+    own_ = hearing_.steps.back().own;
+    hearing_.steps = hearing_.steps.first(hearing_.steps.size() - 1);
+  }
+  front.AddWeighted(x_, own_.data());
+  UpdateForReading(front);
+  const SeparatorTree::Node& place = tree_->nodes()[node];
+  if (place.is_leaf()) return;
+  debt.below = {};
+  for (const std::uint32_t child : place.children) {
+    VisitForReading(child, owed_above + debt.own);
+    debt.below = Max(debt.below, debts_[child].own + debts_[child].below);
+  }
+}
+
+// x_R; returns the largest of them.
+double Marginals::GatherColumn(const Front& front) {
+  x_.clear();
+  double largest = 0.0;
+  for (const Slot slot : front.boundary_cells()) {
+    x_.push_back(column_[slot]);
+    largest = std::max(largest, column_[slot]);
+  }
+  return largest;
+}
+
+void Marginals::UpdateForReading(const Front& front) {
+  const auto [mean_factor, variance_factor] = hearing_.factors;
+  for (std::size_t i = 0; i < front.own; ++i) {
+    const Slot slot = front.cells[i];
+    const double x = column_[slot] = own_[i];
+    const double mean = mean_ppm_[slot] += mean_factor * x;
+    const double variance = variance_ppm2_[slot] -= variance_factor * x * x;
+    healthy_ = healthy_ && std::isfinite(mean) && IsVariance(variance);
+  }
 }
 
 double Marginals::LargestMean_ppm() const {
   double largest = 0.0;
   for (const double mean : mean_ppm_)
-    largest = std::max(largest, std::abs(mean));  // NaN is passed over
+    largest = std::max(largest, std::abs(mean));  // passes over NaN
   return largest;
-}
-
-void Marginals::Absorb(const FieldFactor& factor, const PendingReadings& readings,
-                       std::span<const std::uint8_t> dirty) {
-  std::vector<double> x;
-  for (std::size_t node = 0; node < origins_.size(); ++node) {
-    if (dirty[node] != 0) continue;
-    Origin& origin = origins_[node];
-    const std::span<const Slot> cells = factor.front(node).boundary_cells();
-    x.resize(cells.size());
-    for (const auto& reading : readings) {
-      for (std::size_t i = 0; i < x.size(); ++i) x[i] = *reading->column.row(cells[i]);
-      double* covariance = origin.covariance_ppm2.data();
-      for (std::size_t j = 0; j < x.size(); ++j) {
-        origin.mean_ppm[j] += reading->mean_factor * x[j];
-        const double scale = reading->variance_factor * x[j];
-        for (std::size_t i = j; i < x.size(); ++i) *covariance++ -= scale * x[i];
-      }
-    }
-  }
 }
 
 }  // namespace plumescout

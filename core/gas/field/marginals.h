@@ -7,18 +7,21 @@
 #include <span>
 #include <vector>
 
+#include "core/gas/field/boundary_memory.h"
 #include "core/gas/field/field_factor.h"
-#include "core/gas/field/pending_reading.h"
+#include "core/gas/field/field_shift.h"
 
 namespace plumescout {
 
-// How far means and covariances may be, or at most are, from the exact ones.
-struct FieldShift {
-  double mean_ppm = 0.0;
-  double covariance_ppm2 = 0.0;
+// More evidence in one cell.
+struct FieldReading {
+  Slot slot = 0;  // active
+  double precision = 0.0;
+  double weighted_deviation = 0.0;
 };
 
-// Mean and marginal variance of every active cell, and the downward pass that keeps them so.
+// Mean and marginal variance of every active cell, and the two passes down the tree that keep them
+// so: one for any change of the factor, and a cheaper one for a reading.
 //
 // Inside a subtree whose own fronts have not changed, the fields are averages of their values on
 // its boundary, with weights >= 0 that sum to at most 1, plus something constant: if no mean and no
@@ -26,6 +29,10 @@ struct FieldShift {
 // has. So each node remembers the boundary it was computed from, and how far its descendants may
 // be off already; a subtree for which both together stay within the tolerance is left alone.
 // Errors therefore do not add up, neither by depth nor in time.
+//
+// The same holds for the column x of the covariance that a reading needs: x >= 0, and in a subtree
+// without the cell that is read it is nowhere larger than on the boundary. A subtree that has been
+// passed over owes what it has missed, until the next pass for changes.
 class Marginals {
  public:
   explicit Marginals(const SeparatorTree& tree);
@@ -39,12 +46,14 @@ class Marginals {
   Pass Descend(const FieldFactor& factor, std::span<const std::uint8_t> dirty,
                const FieldShift& tolerance);
 
-  // One reading, exactly, in all cells. Returns whether they are healthy.
-  bool Add(const PendingReading& reading);
-  // Tells the remembered boundaries of readings that the fields have heard; to be called before
-  // `factor` hears of them. Nodes with a flag are passed over. Cost: all boundaries squared.
-  void Absorb(const FieldFactor& factor, const PendingReadings& readings,
-              std::span<const std::uint8_t> dirty);
+  // Brings the fields to what they are after a reading that `factor` has not heard; `steps` are
+  // those from its cell. Passes over subtrees that together with earlier readings owe no more than
+  // `limit`. The nodes on the path are to be flagged at the next descent. Returns whether all that
+  // was computed is healthy.
+  bool Hear(const FieldFactor& factor, const FieldReading& reading, std::span<const PathStep> steps,
+            const FieldShift& limit);
+  // How far the fields may be off through readings since the last descent.
+  FieldShift owed() const { return debts_.back().own + debts_.back().below; }
 
   const std::vector<double>& mean_ppm() const { return mean_ppm_; }  // by slot; deviation from m_0
   const std::vector<double>& variance_ppm2() const { return variance_ppm2_; }
@@ -54,42 +63,57 @@ class Marginals {
  private:
   friend struct FieldEnginePeer;  // of the tests
 
-  // What a node was computed from.
-  struct Origin {
-    std::vector<double> mean_ppm;         // of the boundary
-    std::vector<double> covariance_ppm2;  // of the boundary: lower triangle, packed by columns
-    FieldShift below;                     // of its descendants, if it had not moved since
+  // Of readings that passed over a node.
+  struct Debt {
+    FieldShift own;    // of the node and its descendants
+    FieldShift below;  // of its descendants besides, at most
   };
   // Covariance of the cells of a front, lower triangle; one per depth.
   struct Block {
     std::vector<double> values;
     std::size_t stride = 0;
   };
+  // Of the present reading.
+  struct Hearing {
+    ReadingFactors factors;
+    std::span<const PathStep> steps;  // those not yet visited; the next is the last
+    FieldShift limit;
+  };
 
+  void CollectDebts();
   FieldShift Visit(std::size_t node, std::size_t depth);
   void GatherBoundary(const Front& front, const Front& parent, const Block& from);
-  FieldShift Moved(const Front& front, const Origin& origin) const;
-  void Remember(const Front& front, Origin& origin) const;
   void UpdateMean(const Front& front);
   void UpdateVariance(const Front& front);
   void FormCross(const Front& front);
   void FormBlock(const Front& front, Block& block);
 
+  void VisitForReading(std::size_t node, const FieldShift& owed_above);
+  double GatherColumn(const Front& front);
+  void UpdateForReading(const Front& front);
+
   const SeparatorTree* tree_;
   std::vector<double> mean_ppm_;
   std::vector<double> variance_ppm2_;
-  std::vector<Origin> origins_;  // by node
+  std::vector<BoundaryMemory> memories_;  // by node
+  std::vector<FieldShift> below_;         // by node: error of its descendants beside its own
+  std::vector<Debt> debts_;               // by node
 
   // Of the present pass.
   const FieldFactor* factor_ = nullptr;
+  bool healthy_ = true;
   std::span<const std::uint8_t> dirty_;
   FieldShift tolerance_;
-  bool healthy_ = true;
-  std::vector<Block> blocks_;     // by depth
-  std::vector<double> boundary_;  // Z_RR of the present node, full, stride |R|
-  std::vector<double> cross_;     // Z_SR = W Z_RR
-  std::vector<double> diagonal_;
+  std::vector<Block> blocks_;          // by depth
+  std::vector<double> boundary_;       // Z_RR of the present node, full, stride |R|
+  std::vector<double> boundary_mean_;  // m_R
+  std::vector<double> cross_;          // Z_SR = W Z_RR
+  std::vector<double> own_;
   std::vector<std::uint32_t> place_;  // of the boundary in the parent's block
+
+  Hearing hearing_;
+  std::vector<double> column_;  // x by slot, where it has been computed
+  std::vector<double> x_;       // on the boundary of the present node
 };
 
 }  // namespace plumescout

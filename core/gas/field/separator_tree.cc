@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "core/gas/field/lattice_lines.h"
 
 namespace plumescout {
 namespace {
@@ -23,79 +26,11 @@ constexpr double kImbalancePenalty = 2.0;
 // walls the one in the middle wins.
 constexpr double kLineCharge = 0.1;
 
-struct Rectangle {
-  std::size_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // [x0, x1) x [y0, y1)
-
-  std::size_t area() const { return (x1 - x0) * (y1 - y0); }
-};
-
-// Number of active cells in any rectangle, in O(1).
-class ActiveCount {
- public:
-  ActiveCount(std::size_t width, std::size_t height, std::span<const std::uint8_t> active)
-      : stride_(width + 1), sums_(stride_ * (height + 1), 0) {
-    for (std::size_t y = 0; y < height; ++y) {
-      std::uint32_t row = 0;
-      for (std::size_t x = 0; x < width; ++x) {
-        row += active[y * width + x] != 0 ? 1 : 0;
-        sums_[(y + 1) * stride_ + x + 1] = sums_[y * stride_ + x + 1] + row;
-      }
-    }
-  }
-  std::uint32_t operator()(const Rectangle& r) const {
-    return At(r.x1, r.y1) + At(r.x0, r.y0) - At(r.x0, r.y1) - At(r.x1, r.y0);
-  }
-  double Weight(const Rectangle& r) const {
-    const double active = (*this)(r);
-    return active + kInactiveWeight * (static_cast<double>(r.area()) - active);
-  }
-
- private:
-  std::uint32_t At(std::size_t x, std::size_t y) const { return sums_[y * stride_ + x]; }
-
-  std::size_t stride_;
-  std::vector<std::uint32_t> sums_;
-};
-
-struct Cut {
-  Rectangle low, line, high;
-  double score = std::numeric_limits<double>::infinity();
-};
-
-Cut CutAt(const Rectangle& r, bool vertical, std::size_t at) {
-  Cut cut{r, r, r};
-  if (vertical) {
-    cut.low.x1 = cut.line.x0 = at;
-    cut.line.x1 = cut.high.x0 = at + 1;
-  } else {
-    cut.low.y1 = cut.line.y0 = at;
-    cut.line.y1 = cut.high.y0 = at + 1;
-  }
-  return cut;
-}
-
-double Score(const Cut& cut, const ActiveCount& count) {
-  const double low = count.Weight(cut.low);
-  const double high = count.Weight(cut.high);
+// Weights of the parts that a line divides, and that of the line.
+double Score(double low, double high, double line) {
   const double imbalance = std::abs(low - high) / (low + high);
   if (imbalance > kMaxImbalance) return std::numeric_limits<double>::max() * imbalance;
-  const double length = count(cut.line) + kLineCharge * static_cast<double>(cut.line.area());
-  return length * (1.0 + kImbalancePenalty * imbalance * imbalance);
-}
-
-// The best line with cells on both sides. REQUIRES: a side of at least three cells.
-Cut BestCut(const Rectangle& r, const ActiveCount& count) {
-  Cut best;
-  for (const bool vertical : {true, false}) {
-    const std::size_t begin = vertical ? r.x0 : r.y0;
-    const std::size_t end = vertical ? r.x1 : r.y1;
-    for (std::size_t at = begin + 1; at + 1 < end; ++at) {
-      Cut cut = CutAt(r, vertical, at);
-      cut.score = Score(cut, count);
-      if (cut.score < best.score) best = cut;
-    }
-  }
-  return best;
+  return line * (1.0 + kImbalancePenalty * imbalance * imbalance);
 }
 
 }  // namespace
@@ -103,30 +38,110 @@ Cut BestCut(const Rectangle& r, const ActiveCount& count) {
 // Builds the tree, children first.
 class Dissection {
  public:
-  Dissection(SeparatorTree& tree, const ActiveCount& count) : tree_(tree), count_(count) {}
+  Dissection(SeparatorTree& tree, std::size_t height, std::span<const std::uint8_t> active)
+      : tree_(tree), active_(active) {
+    places_.reserve(active.size());
+    const auto width = static_cast<std::int32_t>(tree.width());
+    for (std::int32_t y = 0; y < static_cast<std::int32_t>(height); ++y) {
+      for (std::int32_t x = 0; x < width; ++x) places_.push_back({x, y});
+    }
+    AddLines(0.0, height);
+    const double slope = WallSlope(tree.width(), height, active);
+    if (slope != 0.0) AddLines(slope, height);
+  }
 
-  std::uint32_t Split(const Rectangle& r) {
-    if (r.area() <= kLeafCells) return AddNode(r, {SeparatorTree::kNone, SeparatorTree::kNone});
-    const Cut cut = BestCut(r, count_);
-    const std::uint32_t low = Split(cut.low);
-    const std::uint32_t high = Split(cut.high);
-    const std::uint32_t node = AddNode(cut.line, {low, high});
-    tree_.nodes_[low].parent = node;
-    tree_.nodes_[high].parent = node;
+  void Run() { Split(places_); }
+
+ private:
+  using Places = std::span<LatticeCell>;
+
+  struct Line {
+    const LatticeLines* lines = nullptr;
+    std::int32_t number = 0;
+    double score = std::numeric_limits<double>::infinity();
+  };
+  // Cells of a part that lie on one line.
+  struct Count {
+    std::uint32_t cells = 0;
+    std::uint32_t active = 0;
+
+    double weight() const { return active + kInactiveWeight * (cells - active); }
+    double length() const { return active + kLineCharge * cells; }
+  };
+
+  void AddLines(double slope, std::size_t height) {
+    lines_.emplace_back(LatticeLines::Across::kX, slope, tree_.width(), height);
+    lines_.emplace_back(LatticeLines::Across::kY, slope, tree_.width(), height);
+  }
+
+  std::uint32_t Cell(LatticeCell place) const {
+    return static_cast<std::uint32_t>(place.y) * static_cast<std::uint32_t>(tree_.width()) +
+           static_cast<std::uint32_t>(place.x);
+  }
+
+  std::uint32_t Split(Places part) {
+    if (part.size() <= kLeafCells) {
+      return AddNode(part, {SeparatorTree::kNone, SeparatorTree::kNone});
+    }
+    const Line line = BestLine(part);
+    const auto side = [&line](LatticeCell place) { return line.lines->line(place) - line.number; };
+    const auto high = std::stable_partition(part.begin(), part.end(),
+                                            [&](LatticeCell place) { return side(place) < 0; });
+    const auto own =
+        std::stable_partition(high, part.end(), [&](LatticeCell place) { return side(place) > 0; });
+    const std::uint32_t low_node = Split({part.begin(), high});
+    const std::uint32_t high_node = Split({high, own});
+    const std::uint32_t node = AddNode({own, part.end()}, {low_node, high_node});
+    tree_.nodes_[low_node].parent = node;
+    tree_.nodes_[high_node].parent = node;
     return node;
   }
 
- private:
-  std::uint32_t AddNode(const Rectangle& own, const std::array<std::uint32_t, 2>& children) {
+  // The best line with cells on both sides. REQUIRES: a part of more cells than a leaf, so that
+  // columns or rows number at least three.
+  Line BestLine(Places part) {
+    Line best;
+    for (const LatticeLines& lines : lines_) {
+      const auto [first, last] = CountLines(lines, part);
+      double above = 0.0;
+      for (std::size_t k = first; k <= last; ++k) above += counts_[k].weight();
+      double below = 0.0;
+      for (std::size_t k = first; k <= last; ++k) {
+        const Count count = std::exchange(counts_[k], {});
+        above -= count.weight();
+        if (k > first && k < last) {
+          const double score = Score(below, above, count.length());
+          if (score < best.score) best = {&lines, static_cast<std::int32_t>(k), score};
+        }
+        below += count.weight();
+      }
+    }
+    return best;
+  }
+
+  // Adds the part to counts_; returns its first and its last line.
+  std::pair<std::size_t, std::size_t> CountLines(const LatticeLines& lines, Places part) {
+    counts_.resize(std::max(counts_.size(), lines.count()));
+    std::size_t first = lines.count();
+    std::size_t last = 0;
+    for (const LatticeCell place : part) {
+      const auto line = static_cast<std::size_t>(lines.line(place));
+      first = std::min(first, line);
+      last = std::max(last, line);
+      ++counts_[line].cells;
+      counts_[line].active += active_[Cell(place)];
+    }
+    return {first, last};
+  }
+
+  std::uint32_t AddNode(Places own, const std::array<std::uint32_t, 2>& children) {
     const auto id = static_cast<std::uint32_t>(tree_.nodes_.size());
     const auto first = static_cast<Slot>(tree_.cell_of_slot_.size());
-    for (std::size_t y = own.y0; y < own.y1; ++y) {
-      for (std::size_t x = own.x0; x < own.x1; ++x) {
-        const std::size_t cell = y * tree_.width_ + x;
-        tree_.slot_of_cell_[cell] = static_cast<Slot>(tree_.cell_of_slot_.size());
-        tree_.cell_of_slot_.push_back(static_cast<std::uint32_t>(cell));
-        tree_.owner_.push_back(id);
-      }
+    for (const LatticeCell place : own) {
+      const std::uint32_t cell = Cell(place);
+      tree_.slot_of_cell_[cell] = static_cast<Slot>(tree_.cell_of_slot_.size());
+      tree_.cell_of_slot_.push_back(cell);
+      tree_.owner_.push_back(id);
     }
     const auto end = static_cast<Slot>(tree_.cell_of_slot_.size());
     tree_.nodes_.push_back({SeparatorTree::kNone, children, first, end});
@@ -134,7 +149,10 @@ class Dissection {
   }
 
   SeparatorTree& tree_;
-  const ActiveCount& count_;
+  std::span<const std::uint8_t> active_;
+  std::vector<LatticeCell> places_;  // those of a part side by side
+  std::vector<LatticeLines> lines_;
+  std::vector<Count> counts_;  // by line; 0 between uses
 };
 
 SeparatorTree::SeparatorTree(std::size_t width, std::size_t height,
@@ -142,7 +160,7 @@ SeparatorTree::SeparatorTree(std::size_t width, std::size_t height,
     : width_(width), slot_of_cell_(width * height) {
   cell_of_slot_.reserve(cells());
   owner_.reserve(cells());
-  Dissection(*this, ActiveCount(width, height, active)).Split({0, 0, width, height});
+  Dissection(*this, height, active).Run();
   FindNeighbours();
 }
 

@@ -14,9 +14,9 @@ namespace plumescout {
 using Slot = std::uint32_t;
 inline constexpr Slot kNoSlot = ~Slot{0};
 
-// Nested dissection of a lattice of 4-connected cells, active or not: each node owns a line of
-// cells that separates those of its two children, or, as a leaf, a small rectangle. Nodes are
-// numbered children first, the root last, and their cells in that order, so that
+// Nested dissection of a lattice of 4-connected cells, active or not: each node owns cells on a
+// line along the axes or the walls that separate those of its two children, or, as a leaf, a small
+// part. Nodes are numbered children first, the root last, and their cells in that order, so that
 //   * a node owns the slots [first, end), and its descendants slots below `first`;
 //   * a neighbour of a cell of the node with a slot >= `end` belongs to an ancestor.
 // Activity only advises where to cut: any cell may become active later without a new tree.

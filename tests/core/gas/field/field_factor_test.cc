@@ -7,7 +7,6 @@
 #include <memory>
 #include <vector>
 
-#include "core/gas/field/pending_reading.h"
 #include "tests/core/gas/field/factor_case.h"
 
 namespace plumescout {
@@ -42,10 +41,41 @@ TEST(FieldFactorTest, GivesTheSameOnPathsBeforeExtending) {
   }
 }
 
-TEST(FieldFactorTest, GivesTheMeanOfOneCell) {
+TEST(FieldFactorTest, KnowsMeanAndVarianceOfACellAtTheEndOfItsSteps) {
   const FactorCase c(2);
   for (const Slot slot : c.RandomActiveSlots(20)) {
-    EXPECT_NEAR(c.factor.Mean_ppm(slot), c.mean_ppm(c.Variable(slot)), 1e-9);
+    const std::vector<PathStep> steps = c.factor.StepsFrom(slot);
+    const Eigen::Index v = c.Variable(slot);
+    EXPECT_NEAR(steps.back().mean_ppm, c.mean_ppm(v), 1e-9);
+    EXPECT_NEAR(steps.back().variance_ppm2, c.inverse(v, v), 1e-10);
+  }
+}
+
+TEST(FieldFactorTest, HearsReadingsAsIfItHadBeenEliminatedWithThem) {
+  FactorCase c(5);
+  FactorCase truth(5);
+  std::vector<std::uint8_t> all(c.tree->nodes().size(), 1);
+  FrontBuilder builder(*c.tree, testing::DefaultField().prior);
+  constexpr double kPrecision = 12.0;
+  constexpr double kDeviation = 240.0;
+  for (const Slot slot : c.RandomActiveSlots(6)) {
+    c.factor.AddReading(c.factor.StepsFrom(slot), kPrecision, kDeviation);
+    truth.cells.precision[slot] += kPrecision;
+    truth.cells.weighted_deviation[slot] += kDeviation;
+  }
+  truth.factor.Eliminate(all, truth.cells, builder);
+  for (std::size_t node = 0; node < all.size(); ++node) {
+    const Front& front = c.factor.front(node);
+    const Front& expected = truth.factor.front(node);
+    for (std::size_t i = 0; i < front.own; ++i) {
+      EXPECT_NEAR(front.offset_ppm[i], expected.offset_ppm[i], 1e-10);
+    }
+    for (std::size_t i = 0; i < front.covariance.size(); ++i) {
+      EXPECT_NEAR(front.covariance[i], expected.covariance[i], 1e-12);
+    }
+    for (std::size_t i = 0; i < front.weights.size(); ++i) {
+      EXPECT_NEAR(front.weights[i], expected.weights[i], 1e-12);
+    }
   }
 }
 

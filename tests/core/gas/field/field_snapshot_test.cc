@@ -58,7 +58,7 @@ TEST(FieldSnapshotTest, ForeseesTheDenseVarianceOfAnyNumberOfReadings) {
   }
 }
 
-TEST(FieldSnapshotTest, KnowsTheReadingsThatAreStillPending) {
+TEST(FieldSnapshotTest, KnowsTheReadingsSinceTheLastPass) {
   Rng rng(2);
   FieldCase c = RandomFieldCase(19, 23, 0.25, rng);
   FieldEngine engine = EngineOf(c);

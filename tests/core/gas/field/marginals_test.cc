@@ -106,24 +106,76 @@ TEST(MarginalsTest, DoNotForgetOldChangesWhenNewOnesAreSmall) {
   }
 }
 
-TEST(MarginalsTest, KnowAfterAbsorbingThatTheyHaveHeardAReading) {
-  // Whatever the factor learns of it later moves no boundary: everything off its path is kept.
+// What the fields should be, from scratch.
+void ExpectNear(const FactorCase& c, const Marginals& marginals, const FieldShift& error) {
+  constexpr double kRounding = 1e-10;
+  Marginals exact(*c.tree);
+  exact.Descend(c.factor, Flags(c, 1), {});
+  for (Slot i = 0; i < c.tree->cells(); ++i) {
+    if (!c.IsActive(i)) continue;
+    EXPECT_NEAR(marginals.mean_ppm()[i], exact.mean_ppm()[i], error.mean_ppm + kRounding);
+    EXPECT_NEAR(marginals.variance_ppm2()[i], exact.variance_ppm2()[i],
+                error.covariance_ppm2 + kRounding);
+  }
+}
+
+void Hear(FactorCase& c, const FieldReading& reading, const FieldShift& limit,
+          Marginals& marginals) {
+  const std::vector<PathStep> steps = c.factor.StepsFrom(reading.slot);
+  EXPECT_TRUE(marginals.Hear(c.factor, reading, steps, limit));
+  c.factor.AddReading(steps, reading.precision, reading.weighted_deviation);
+}
+
+TEST(MarginalsTest, HearReadingsExactlyIfNothingMayBeOwed) {
   FactorCase c(5);
   Marginals marginals(*c.tree);
   marginals.Descend(c.factor, Flags(c, 1), {});
+  for (const Slot slot : c.RandomActiveSlots(8)) Hear(c, {slot, 9.0, 90.0}, {}, marginals);
+  EXPECT_EQ(marginals.owed().mean_ppm, 0.0);
+  EXPECT_EQ(marginals.owed().covariance_ppm2, 0.0);
+  ExpectNear(c, marginals, {});
+}
+
+TEST(MarginalsTest, OweNoMoreThanTheySayForReadingsTheyPassOver) {
+  FactorCase c(6);
+  Marginals marginals(*c.tree);
+  marginals.Descend(c.factor, Flags(c, 1), {});
+  FieldShift limit;
+  for (const Slot slot : c.RandomActiveSlots(12)) {
+    limit = limit + FieldShift{0.5, 5e-3};
+    Hear(c, {slot, 9.0, 90.0}, limit, marginals);
+    EXPECT_TRUE(marginals.owed().IsWithin(limit));
+    ExpectNear(c, marginals, marginals.owed());
+  }
+  EXPECT_GT(marginals.owed().mean_ppm, 0.0) << "nothing was passed over";
+}
+
+TEST(MarginalsTest, KnowAtTheNextDescentWhatTheyHaveHeard) {
+  // What the factor learns of readings that all nodes have heard moves no boundary: everything off
+  // their path is kept.
+  FactorCase c(7);
+  Marginals marginals(*c.tree);
+  marginals.Descend(c.factor, Flags(c, 1), {});
   const Slot slot = c.RandomActiveSlots(1)[0];
-  constexpr double kPrecision = 9.0;
-  SlotColumns x = c.factor.Extend(c.factor.InverseOnPaths({&slot, 1}));
-  const double scale = 1.0 / (1.0 + kPrecision * *x.row(slot));
-  const double mean_factor = -kPrecision * scale * marginals.mean_ppm()[slot];
-  const auto reading = std::make_shared<PendingReading>(
-      PendingReading{slot, std::move(x), kPrecision * scale, mean_factor});
-  marginals.Add(*reading);
-  marginals.Absorb(c.factor, {reading}, Flags(c, 0));
-  const auto dirty = ChangePrecision(c, slot, c.cells.precision[slot] + kPrecision);
+  Hear(c, {slot, 9.0, 0.0}, {}, marginals);
+  const auto dirty = ChangePrecision(c, slot, c.cells.precision[slot] + 9.0);
   const FieldShift error = marginals.Descend(c.factor, dirty, {kAnything, kAnything}).error;
   EXPECT_LE(error.mean_ppm, 1e-9);
   EXPECT_LE(error.covariance_ppm2, 1e-10);
+}
+
+TEST(MarginalsTest, PayAtTheNextDescentWhatTheyOwe) {
+  FactorCase c(8);
+  Marginals marginals(*c.tree);
+  marginals.Descend(c.factor, Flags(c, 1), {});
+  const Slot slot = c.RandomActiveSlots(1)[0];
+  Hear(c, {slot, 9.0, 0.0}, {kAnything, kAnything}, marginals);
+  ASSERT_GT(marginals.owed().covariance_ppm2, 1e-4);
+  const auto dirty = ChangePrecision(c, slot, c.cells.precision[slot] + 9.0);
+  constexpr FieldShift kTolerance = {1e-5, 1e-6};
+  EXPECT_TRUE(marginals.Descend(c.factor, dirty, kTolerance).error.IsWithin(kTolerance));
+  EXPECT_EQ(marginals.owed().covariance_ppm2, 0.0);
+  ExpectNear(c, marginals, kTolerance);
 }
 
 }  // namespace
