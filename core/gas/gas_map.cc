@@ -127,8 +127,13 @@ bool GasMap::epoch_due(std::int64_t time_ns) const {
          schedule_.IsDue(lattice_, inputs_.box(), time_ns);
 }
 
-std::shared_ptr<GasEpoch> GasMap::BeginEpoch(std::int64_t time_ns) {
-  assert(engine_ != nullptr && epoch_ == nullptr);
+absl::Status GasMap::BeginEpoch(std::int64_t time_ns) {
+  if (epoch_ != nullptr) {
+    return absl::FailedPreconditionError("an epoch of the gas map is under way already");
+  }
+  if (engine_ == nullptr || engine_is_behind_) {
+    return absl::FailedPreconditionError("there is no gas field to begin an epoch with");
+  }
   EpochInputs start;
   start.time_ns = time_ns;
   start.options = field_options_;
@@ -151,7 +156,8 @@ std::shared_ptr<GasEpoch> GasMap::BeginEpoch(std::int64_t time_ns) {
       start.aged.push_back({index, aged});
     }
   }
-  return epoch_ = std::make_shared<GasEpoch>(std::move(start));
+  epoch_ = std::make_shared<GasEpoch>(std::move(start));
+  return absl::OkStatus();
 }
 
 bool GasMap::adoption_due(std::int64_t time_ns) const {

@@ -37,9 +37,9 @@ namespace plumescout {
 // the dissection to the map, and to measure how far the live field has drifted. Someone else may
 // run its long part meanwhile:
 //
-//   if (gas.epoch_due(now_ns)) epoch = gas.BeginEpoch(now_ns);
-//   epoch->Recompute();                       // on any thread
-//   if (gas.adoption_due(now_ns)) gas.Adopt();
+//   if (gas.epoch_due(now_ns)) RETURN_IF_ERROR(gas.BeginEpoch(now_ns));
+//   gas.epoch()->Recompute();  // on any thread
+//   if (gas.adoption_due(now_ns)) RETURN_IF_ERROR(gas.Adopt());
 //
 // The same calls give the same bytes, wherever Recompute ran. Thread-compatible.
 class GasMap {
@@ -72,8 +72,8 @@ class GasMap {
   bool stale() const { return stale_; }  // readings came since the last refresh
 
   bool epoch_due(std::int64_t time_ns) const;
-  // REQUIRES: epoch() is null, and there has been a free cell.
-  std::shared_ptr<GasEpoch> BeginEpoch(std::int64_t time_ns);
+  // kFailedPrecondition if one is under way or there is no field yet. Cost: O(cells).
+  absl::Status BeginEpoch(std::int64_t time_ns);
   std::shared_ptr<GasEpoch> epoch() const { return epoch_; }  // under way, or null
   // Whether the long part has had its time. A fixed one, so that events do not depend on machines.
   bool adoption_due(std::int64_t time_ns) const;

@@ -109,10 +109,7 @@ absl::StatusOr<Applied> Mission::Change(const ProgressReported& report) {
 
 absl::StatusOr<Applied> Mission::Change(const EpochBegun& begun) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckTime(begun.time_ns));
-  if (gas_.epoch() != nullptr) {
-    return absl::FailedPreconditionError("an epoch is under way already");
-  }
-  gas_.BeginEpoch(begun.time_ns);
+  PLUMESCOUT_RETURN_IF_ERROR(gas_.BeginEpoch(begun.time_ns));
   return Applied{};
 }
 
@@ -169,6 +166,7 @@ std::shared_ptr<const Belief> Mission::Snapshot() const {
   belief->traversable = rasters_.traversable;
   belief->gas_mean_ppm = rasters_.gas_mean_ppm;
   belief->gas_variance_ppm2 = rasters_.gas_variance_ppm2;
+  belief->gas_what_if = gas_.what_if();
   belief->gas_counters = gas_.counters();
   belief->gas_quality = gas_.quality();
   belief->robots = fleet_.Records();

@@ -45,7 +45,8 @@ class Mission {
   //   kNotFound            unknown robot or plan
   //   kAlreadyExists       observation sequence <= applied: ignore and acknowledge again
   //   kFailedPrecondition  a hole in the sequence ("SEQUENCE_GAP: expected N"), a stale plan or
-  //                        lease, an epoch begun while one is under way or adopted while none is
+  //                        lease, an epoch begun while one is under way or there is no
+  //                        field, or adopted while none is under way
   //   kAborted             PlanIssued: another robot's live plan claims the goal; plan once more
   //   kResourceExhausted   too many robots
   absl::StatusOr<Applied> Apply(const EventBody& body);

@@ -141,7 +141,9 @@ void Step(Discovery& discovery, GasMap& map, std::int64_t time_ns) {
     ASSERT_TRUE(map.Adopt().ok());
   }
   ASSERT_TRUE(map.Refresh(discovery.known(), time_ns).ok());
-  if (map.epoch_due(time_ns)) map.BeginEpoch(time_ns);
+  if (map.epoch_due(time_ns)) {
+    ASSERT_TRUE(map.BeginEpoch(time_ns).ok());
+  }
 }
 
 TEST(GasMapOnlineTest, StaysWithinItsCertificateWhileTheMapGrows) {
@@ -190,7 +192,7 @@ TEST(GasMapOnlineTest, AgesAllAtOnceWhenItIsFarBehind) {
   const Grid<CellState> states = GridFromArt({"."});
   map.Add(0, {0.05, 0.05}, {20.0});
   ASSERT_TRUE(map.Refresh(states, 0).ok());
-  map.BeginEpoch(0);
+  ASSERT_TRUE(map.BeginEpoch(0).ok());
   ASSERT_TRUE(map.Refresh(states, 180 * kSecond_ns).ok());
   const double precision = kObservationPrecision / 4.0 + options.background_precision;
   EXPECT_FLOAT_EQ(map.variance_ppm2()[0], static_cast<float>(1.0 / precision));
@@ -218,7 +220,8 @@ TEST(GasMapOnlineTest, GivesTheSameBytesWhereverAndWheneverAnEpochIsRecomputed) 
 TEST(GasMapOnlineTest, AnEpochDoesNotForgetWhatCameMeanwhile) {
   GasMap map{GasOptions()};
   ASSERT_TRUE(map.Refresh(GridFromArt({"....", "...."}), 0).ok());
-  const std::shared_ptr<GasEpoch> epoch = map.BeginEpoch(0);
+  ASSERT_TRUE(map.BeginEpoch(0).ok());
+  const std::shared_ptr<GasEpoch> epoch = map.epoch();
   map.Add(0, {0.05, 0.05}, {20.0});
   const Grid<CellState> walled = GridFromArt({"..#.", "..#."});
   ASSERT_TRUE(map.Refresh(walled, 0).ok());
@@ -234,8 +237,10 @@ TEST(GasMapOnlineTest, AdoptsOnlyWhatWasBegun) {
   EXPECT_FALSE(map.epoch_due(0));
   EXPECT_FALSE(map.adoption_due(1'000'000 * kSecond_ns));
   EXPECT_TRUE(absl::IsFailedPrecondition(map.Adopt()));
+  EXPECT_TRUE(absl::IsFailedPrecondition(map.BeginEpoch(0)));
   ASSERT_TRUE(map.Refresh(GridFromArt({".."}), 0).ok());
-  map.BeginEpoch(5 * kSecond_ns);
+  ASSERT_TRUE(map.BeginEpoch(5 * kSecond_ns).ok());
+  EXPECT_TRUE(absl::IsFailedPrecondition(map.BeginEpoch(5 * kSecond_ns)));
   EXPECT_FALSE(map.epoch_due(100 * kSecond_ns)) << "one at a time";
   EXPECT_FALSE(map.adoption_due(6 * kSecond_ns - 1));
   EXPECT_TRUE(map.adoption_due(6 * kSecond_ns));

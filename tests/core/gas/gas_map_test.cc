@@ -59,7 +59,7 @@ bool SameBytes(const Grid<float>& a, const Grid<float>& b) {
 
 // Lets an epoch age all readings to `time_ns`.
 void Age(GasMap& map, std::int64_t time_ns) {
-  map.BeginEpoch(time_ns);
+  EXPECT_TRUE(map.BeginEpoch(time_ns).ok());
   EXPECT_TRUE(map.Adopt().ok());
 }
 
