@@ -18,7 +18,8 @@ class EpochRunnerTest : public testing::Test {
     const Grid<CellState> states({0.0, 0.0, 0.1, 64, 64}, CellState::kFree);
     gas_.Add(1, {1.0, 1.0}, {5.0, 0.0});
     EXPECT_TRUE(gas_.Refresh(states, 1).ok());
-    epoch_ = gas_.BeginEpoch(2);
+    EXPECT_TRUE(gas_.BeginEpoch(2).ok());
+    epoch_ = gas_.epoch();
   }
   // Until Release the pool's only thread does nothing else.
   void Occupy(int max_queued) {

@@ -51,8 +51,8 @@ std::vector<EventBody> RecordRun(Mission& mission) {
     const std::int64_t now_ns = (step + 1) * kSecond_ns;
     apply(ObservationReceived{"a", {++sequence, now_ns, pose, support::ScanInBox(pose, 6.0, 4.0)}});
     apply(ObservationReceived{"a", {++sequence, now_ns, pose, GasReading{2.0 * step, 0.0}}});
-    if (step % 4 == 1) apply(EpochBegun{now_ns});
     apply(PosteriorRefreshed{now_ns});
+    if (step % 4 == 2) apply(EpochBegun{now_ns});
     if (step % 4 == 3) apply(EpochAdopted{});
     PlanRequest request;
     request.robot = "a";
@@ -186,7 +186,20 @@ TEST(Mission, SnapshotsStayWhatTheyWere) {
 TEST(Mission, EpochsBeginAndAreAdoptedInTurn) {
   const auto mission = MissionWith({"a"});
   EXPECT_EQ(mission->Apply(EpochAdopted{}).status().code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_EQ(mission->Apply(EpochBegun{kSecond_ns}).status().code(),
+            absl::StatusCode::kFailedPrecondition)
+      << "no field yet";
   EXPECT_EQ(mission->epoch(), nullptr);
+  const Pose2 pose{1.0, 1.0, 0.0};
+  for (std::int64_t sequence = 1; sequence <= 3; ++sequence) {
+    ASSERT_TRUE(mission
+                    ->Apply(ObservationReceived{
+                        "a", {sequence, kSecond_ns, pose, support::ScanInBox(pose, 3.0, 3.0)}})
+                    .ok());
+  }
+  ASSERT_TRUE(mission->Apply(PosteriorRefreshed{kSecond_ns}).ok());
+  EXPECT_EQ(mission->Apply(EpochBegun{-1}).status().code(), absl::StatusCode::kInvalidArgument);
+  const std::int64_t revision = mission->revision();
   ASSERT_TRUE(mission->Apply(EpochBegun{kSecond_ns}).ok());
   EXPECT_NE(mission->epoch(), nullptr);
   EXPECT_FALSE(mission->epoch_due());
@@ -196,7 +209,7 @@ TEST(Mission, EpochsBeginAndAreAdoptedInTurn) {
   EXPECT_EQ(mission->epoch(), nullptr);
   EXPECT_FALSE(mission->adoption_due());
   EXPECT_EQ(mission->Snapshot()->gas_quality.epochs, 1);
-  EXPECT_EQ(mission->revision(), 3);
+  EXPECT_EQ(mission->revision(), revision + 2);
 }
 
 TEST(Mission, WhoRecomputesAnEpochDoesNotShow) {
