@@ -113,6 +113,13 @@ void Visit(auto& archive, Is<ProgressReported> auto& event) {
   auto& [robot, plan_id, outcome] = event;
   archive(robot, plan_id, outcome);
 }
+void Visit(auto& archive, Is<EpochBegun> auto& event) {
+  auto& [time_ns] = event;
+  archive(time_ns);
+}
+void Visit(auto&, Is<EpochAdopted> auto&) {
+  static_assert(std::is_empty_v<EpochAdopted>);  // no members, so no binding to name them in
+}
 void Visit(auto& archive, Is<Event> auto& event) {
   auto& [number, body] = event;
   archive(number, body);

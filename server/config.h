@@ -32,6 +32,12 @@ struct MapConfig {
   int threads = 1;
   int max_queued = 128;
   double publish_period_s = 0.1;
+  double gas_wait_s = 0.08;  // in spite of the period, a reading is seen after this
+};
+
+struct EpochConfig {
+  int threads = 1;
+  int max_queued = 64;
 };
 
 struct ConnectionConfig {
@@ -48,6 +54,7 @@ struct ServerConfig {
   LimitConfig limits;
   PlanningConfig planning;
   MapConfig maps;
+  EpochConfig epochs;
   ConnectionConfig connection;
   MissionOptions mission;  // what missions get for fields that their creator leaves unset
 };

@@ -38,6 +38,7 @@ std::vector<ConfigRow> ConfigTable(ServerConfig& config) {
   LimitConfig& limits = config.limits;
   PlanningConfig& planning = config.planning;
   MapConfig& maps = config.maps;
+  EpochConfig& epochs = config.epochs;
   ConnectionConfig& connection = config.connection;
   return {
       {"listen", "address and port; port 0: any free one", &config.listen},
@@ -67,6 +68,12 @@ std::vector<ConfigRow> ConfigTable(ServerConfig& config) {
       {"maps.max_queued", "map frames that wait for a thread", &maps.max_queued, 1, kMaxCount},
       {"maps.publish_period_s", "watchers see a new belief at most this often",
        &maps.publish_period_s, 0.01, 60},
+      {"maps.gas_wait_s", "but see an acknowledged reading after this at the latest",
+       &maps.gas_wait_s, 0.01, 60},
+      {"epochs.threads", "threads that recompute gas posteriors beside the missions",
+       &epochs.threads, 1, kMaxThreads},
+      {"epochs.max_queued", "recomputations that wait for a thread", &epochs.max_queued, 1,
+       kMaxCount},
       {"connection.keepalive_time_s", "silence after which a connection is probed",
        &connection.keepalive_time_s, 1, kDay_s},
       {"connection.keepalive_timeout_s", "time to answer the probe",

@@ -16,7 +16,7 @@ MissionHost::MissionHost(Parts parts, const HostOptions& options)
       mission_options_(parts.mission->options()),
       strategy_(std::move(parts.strategy)),
       leases_(options.lease_hold, options.first_lease_token, options.clock),
-      writer_(std::move(parts.mission), std::move(parts.sink)),
+      writer_(std::move(parts.mission), std::move(parts.sink), parts.epoch_pool),
       waiters_(options.max_waiters),
       thread_([this] { Run(); }) {}
 
@@ -54,6 +54,7 @@ absl::Status MissionHost::AwaitBelief(BeliefRequest request, BeliefCallback done
 
 absl::Status MissionHost::Subscribe(Subscriber subscriber) {
   return Post([this, subscriber = std::move(subscriber)](MissionWriter& writer) {
+    if (subscribers_.empty()) writer.BeginPublishing();
     if (subscriber(writer.Snapshot())) subscribers_.push_back(subscriber);
   });
 }
@@ -107,15 +108,18 @@ void MissionHost::AfterCommands() {
   const SteadyTime now = SteadyNow();
   waiters_.Serve(writer_, now);
   if (now >= next_publication()) {
+    auto belief = writer_.Publish(host_options_.gas_wait);
     published_at_ = now;
-    published_revision_ = writer_.mission().revision();
-    Publish(writer_.Snapshot());
+    published_revision_ = belief->revision;
+    Publish(std::move(belief));
   }
 }
 
 SteadyTime MissionHost::next_publication() const {
-  const bool news = !subscribers_.empty() && published_revision_ != writer_.mission().revision();
-  return news ? After(published_at_, host_options_.publish_period) : SteadyTime::max();
+  if (subscribers_.empty()) return SteadyTime::max();
+  const bool news = published_revision_ != writer_.mission().revision();
+  return std::min(news ? After(published_at_, host_options_.publish_period) : SteadyTime::max(),
+                  After(writer_.unpublished_since(), host_options_.gas_wait));
 }
 
 void MissionHost::Publish(const absl::StatusOr<std::shared_ptr<const Belief>>& belief) {

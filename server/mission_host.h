@@ -25,7 +25,10 @@ struct HostOptions {
   int max_queued_observations = 4096;
   int max_queued_commands = 4096;
   int max_waiters = 256;
-  absl::Duration publish_period = absl::Milliseconds(100);  // watchers see at most this often
+  // Watchers see a new belief at most this often; but a reading ...
+  absl::Duration publish_period = absl::Milliseconds(100);
+  // ... that was acknowledged is in the posterior that they see after this at the latest.
+  absl::Duration gas_wait = absl::Milliseconds(80);
   absl::Duration lease_hold = absl::Seconds(10);
   std::int64_t first_lease_token = 1;
   SteadyClock clock = SteadyNow;
@@ -45,6 +48,7 @@ class MissionHost {
     std::unique_ptr<Mission> mission;
     std::unique_ptr<const Strategy> strategy;
     EventSink sink;
+    WorkerPool* epoch_pool = nullptr;  // of the writer; see MissionWriter
   };
 
   MissionHost(Parts parts, const HostOptions& options);
@@ -58,6 +62,7 @@ class MissionHost {
   const Strategy& strategy() const { return *strategy_; }
   LeaseTable& leases() { return leases_; }
   MissionSummary summary() const { return writer_.summary(); }
+  GasTimings gas_timings() const { return writer_.gas_timings(); }
 
   // Claims room in the queue for observations that will be posted. OVERLOADED if there is none.
   absl::Status Reserve(int observations);
@@ -67,7 +72,7 @@ class MissionHost {
   // given to Stop once the host stops.
   absl::Status Post(Command command);
   absl::Status AwaitBelief(BeliefRequest request, BeliefCallback done);
-  // The present belief at once, then at most one a publish period.
+  // The present belief at once, then new ones as HostOptions say.
   absl::Status Subscribe(Subscriber subscriber);
   // Looks again whether those who wait still do.
   void Wake();

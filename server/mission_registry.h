@@ -30,6 +30,8 @@ struct RegistryHooks {
       make_strategy = MakeStrategy;
   // The sink of a new mission's events; may be empty.
   std::function<EventSink(const MissionId&, const MissionOptions&)> make_event_sink;
+  // Recomputes gas posteriors; outlives the missions. Null: their writers do.
+  WorkerPool* epoch_pool = nullptr;
 };
 
 // The most cells that a mission's map can come to have.

@@ -21,8 +21,19 @@
 namespace plumescout::server {
 namespace {
 
+using plumescout::ToProto;  // the one below overloads these rather than hide them
+
 constexpr int kDefaultPage = 100;
 constexpr int kMaxPage = 1000;
+
+v1::Latency ToProto(const LatencyFigures& figures) {
+  v1::Latency proto;
+  proto.set_sample_count(figures.samples);
+  proto.set_median_s(absl::ToDoubleSeconds(figures.median));
+  proto.set_p99_s(absl::ToDoubleSeconds(figures.p99));
+  proto.set_max_s(absl::ToDoubleSeconds(figures.max));
+  return proto;
+}
 
 v1::Mission Describe(MissionHost& host) {
   const MissionSummary summary = host.summary();
@@ -32,6 +43,9 @@ v1::Mission Describe(MissionHost& host) {
   proto.set_revision(summary.revision);
   proto.set_phase(ToProto(summary.phase));
   proto.set_robot_count(host.leases().robot_count());
+  const GasTimings timings = host.gas_timings();
+  *proto.mutable_gas_timings()->mutable_update() = ToProto(timings.update);
+  *proto.mutable_gas_timings()->mutable_staleness() = ToProto(timings.staleness);
   return proto;
 }
 

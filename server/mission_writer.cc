@@ -3,6 +3,7 @@
 #include "server/mission_writer.h"
 
 #include <utility>
+#include <variant>
 
 #include "core/types/status_macros.h"
 #include "server/errors.h"
@@ -16,11 +17,18 @@ Observation Unreadable(std::int64_t sequence) {
   return {.sequence = sequence, .sample_time_ns = 0, .pose = {}, .payload = Scan{}};
 }
 
+void Warn(const absl::Status& gas) {
+  if (!gas.ok()) LogWarning("gas posterior not kept up", {{"why", std::string(gas.message())}});
+}
+
 }  // namespace
 
-MissionWriter::MissionWriter(std::unique_ptr<Mission> mission, EventSink sink)
+MissionWriter::MissionWriter(std::unique_ptr<Mission> mission, EventSink sink,
+                             WorkerPool* epoch_pool, SteadyClock clock)
     : mission_(std::move(mission)),
       sink_(std::move(sink)),
+      clock_(std::move(clock)),
+      epoch_runner_(epoch_pool),
       summary_{mission_->revision(), mission_->phase()} {}
 
 MissionSummary MissionWriter::summary() const {
@@ -69,14 +77,17 @@ absl::Status MissionWriter::IngestOne(const RobotId& robot, IncomingObservation 
                                       IngestResult& result) {
   const std::int64_t sequence = incoming.observation.sequence;
   const bool readable = incoming.unreadable.ok();
+  const bool is_reading = std::holds_alternative<GasReading>(incoming.observation.payload);
   const auto applied = Apply(ObservationReceived{
       robot, readable ? std::move(incoming.observation) : Unreadable(sequence)});
   if (absl::IsAlreadyExists(applied.status())) return absl::OkStatus();
   PLUMESCOUT_RETURN_IF_ERROR(applied.status());
   if (!applied->observation.ok()) {
     result.refused.push_back({sequence, readable ? applied->observation : incoming.unreadable});
+  } else if (is_reading) {
+    gas_timer_.NoteReading(clock_());
   }
-  RefreshIfDue();
+  KeepGasUp();
   return absl::OkStatus();
 }
 
@@ -94,19 +105,51 @@ absl::StatusOr<std::int64_t> MissionWriter::Report(const ProgressReported& repor
   return mission_->revision();
 }
 
-void MissionWriter::RefreshIfDue() {
-  if (!mission_->refresh_due()) return;
-  if (const auto refreshed = Apply(PosteriorRefreshed{mission_->sample_time_ns()});
-      !refreshed.ok()) {
-    LogWarning("posterior not refreshed", {{"why", std::string(refreshed.status().message())}});
-  }
+void MissionWriter::KeepGasUp() {
+  absl::Status status;
+  if (mission_->adoption_due()) status.Update(AdoptEpoch());
+  if (mission_->refresh_due()) status.Update(Refresh());
+  if (mission_->epoch_due()) status.Update(BeginEpoch());
+  Warn(status);
+}
+
+absl::Status MissionWriter::Refresh() {
+  const SteadyTime from = clock_();
+  PLUMESCOUT_RETURN_IF_ERROR(Apply(PosteriorRefreshed{mission_->sample_time_ns()}).status());
+  gas_timer_.NoteRefresh(from, clock_());
+  return absl::OkStatus();
+}
+
+absl::Status MissionWriter::AdoptEpoch() {
+  const SteadyTime from = clock_();
+  epoch_runner_.Finish();
+  PLUMESCOUT_RETURN_IF_ERROR(Apply(EpochAdopted{}).status());
+  gas_timer_.NoteAdoption(from, clock_());
+  return absl::OkStatus();
+}
+
+absl::Status MissionWriter::BeginEpoch() {
+  PLUMESCOUT_RETURN_IF_ERROR(Apply(EpochBegun{mission_->sample_time_ns()}).status());
+  epoch_runner_.Start(mission_->epoch());
+  return absl::OkStatus();
 }
 
 absl::StatusOr<std::shared_ptr<const Belief>> MissionWriter::FreshBelief() {
-  if (mission_->posterior_stale()) {
-    PLUMESCOUT_RETURN_IF_ERROR(Apply(PosteriorRefreshed{mission_->sample_time_ns()}).status());
-  }
+  if (mission_->posterior_stale()) PLUMESCOUT_RETURN_IF_ERROR(Refresh());
   return mission_->Snapshot();
+}
+
+std::shared_ptr<const Belief> MissionWriter::Publish(absl::Duration gas_wait) {
+  const SteadyTime now = clock_();
+  const bool waits = !gas_timer_.unpublished_in_posterior();
+  if (waits && now >= After(unpublished_since(), gas_wait)) {
+    const absl::Status refreshed = Refresh();
+    Warn(refreshed);
+    if (!refreshed.ok()) gas_timer_.Restart(now);  // to be tried again, but not at once
+  }
+  auto belief = Snapshot();
+  gas_timer_.NotePublication(clock_());
+  return belief;
 }
 
 }  // namespace plumescout::server

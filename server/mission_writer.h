@@ -11,8 +11,13 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/synchronization/mutex.h"
+#include "absl/time/time.h"
 #include "core/mission/mission.h"
 #include "core/types/event.h"
+#include "server/clock.h"
+#include "server/epoch_runner.h"
+#include "server/gas_timings.h"
+#include "server/worker_pool.h"
 
 namespace plumescout::server {
 
@@ -52,14 +57,18 @@ struct MissionSummary {
 };
 
 // Turns commands into numbered events of one mission. Writes are fenced by the lease token at the
-// moment they are applied. Single-threaded, but for summary().
+// moment they are applied. Single-threaded, but for summary() and gas_timings().
 class MissionWriter {
  public:
-  MissionWriter(std::unique_ptr<Mission> mission, EventSink sink);
+  // `epoch_pool` recomputes the gas posterior at times; null: the writer does. It is not owned and
+  // outlives the last call. The events are the same with any pool and clock.
+  MissionWriter(std::unique_ptr<Mission> mission, EventSink sink, WorkerPool* epoch_pool = nullptr,
+                SteadyClock clock = SteadyNow);
 
   const Mission& mission() const { return *mission_; }
   // From any thread. Never behind an event whose caller has been answered.
   MissionSummary summary() const;
+  GasTimings gas_timings() const { return gas_timer_.timings(); }
 
   absl::StatusOr<LogPosition> Register(const RobotRegistered& registration);
   absl::StatusOr<LogPosition> Position(const RobotId& robot) const;
@@ -79,16 +88,30 @@ class MissionWriter {
   absl::StatusOr<std::shared_ptr<const Belief>> FreshBelief();
   std::shared_ptr<const Belief> Snapshot() const { return mission_->Snapshot(); }
 
+  // For those who watch: a snapshot whose posterior holds every reading that was applied
+  // `gas_wait` ago or earlier. If no observation has led to the refresh for that, this does.
+  std::shared_ptr<const Belief> Publish(absl::Duration gas_wait);
+  // When the first reading was applied that Publish has not given out; max() if there is none.
+  SteadyTime unpublished_since() const { return gas_timer_.unpublished_since(); }
+  // Nobody has watched until now.
+  void BeginPublishing() { gas_timer_.Restart(clock_()); }
+
  private:
   absl::StatusOr<Applied> Apply(EventBody body);
   absl::Status CheckLease(const RobotId& robot, std::int64_t lease_token) const;
   absl::Status IngestOne(const RobotId& robot, IncomingObservation incoming, IngestResult& result);
-  // After every observation rather than every batch: so the events do not depend on how a log was
-  // cut into batches.
-  void RefreshIfDue();
+  // What is due to the gas posterior. After every observation rather than every batch: so the
+  // events do not depend on how a log was cut into batches.
+  void KeepGasUp();
+  absl::Status Refresh();
+  absl::Status AdoptEpoch();
+  absl::Status BeginEpoch();
 
   std::unique_ptr<Mission> mission_;
   EventSink sink_;
+  const SteadyClock clock_;
+  EpochRunner epoch_runner_;
+  GasTimer gas_timer_;
 
   mutable absl::Mutex summary_mutex_;
   MissionSummary summary_ ABSL_GUARDED_BY(summary_mutex_);

@@ -41,6 +41,7 @@ RegistryOptions ToRegistryOptions(const ServerConfig& config) {
   options.host.max_queued_observations = config.limits.max_queued_observations;
   options.host.max_waiters = config.limits.max_waiting_calls;
   options.host.publish_period = absl::Seconds(config.maps.publish_period_s);
+  options.host.gas_wait = absl::Seconds(config.maps.gas_wait_s);
   options.host.lease_hold = absl::Seconds(config.connection.lease_hold_s);
   options.host.first_lease_token = FirstLeaseToken();
   return options;
@@ -54,6 +55,11 @@ ServiceLimits ToServiceLimits(const ServerConfig& config) {
   limits.max_planning_budget = absl::Seconds(config.planning.max_budget_s);
   limits.deadline_margin = absl::Seconds(config.planning.deadline_margin_s);
   return limits;
+}
+
+RegistryHooks WithPool(RegistryHooks hooks, WorkerPool* epoch_pool) {
+  hooks.epoch_pool = epoch_pool;
+  return hooks;
 }
 
 int Milliseconds(double seconds) {
@@ -79,7 +85,8 @@ void SetArguments(const ServerConfig& config, grpc::ServerBuilder& builder) {
 
 Server::Server(Private, const ServerConfig& config, RegistryHooks hooks)
     : config_(config),
-      registry_(ToRegistryOptions(config), std::move(hooks)),
+      epoch_pool_({"epoch", config.epochs.threads, config.epochs.max_queued}),
+      registry_(ToRegistryOptions(config), WithPool(std::move(hooks), &epoch_pool_)),
       planning_pool_({"planning", config.planning.threads, config.planning.max_queued}),
       map_pool_({"map", config.maps.threads, config.maps.max_queued}),
       context_{&registry_,     &planning_pool_,         &map_pool_, &streams_,

@@ -49,6 +49,7 @@ class Server {
   absl::Status Listen();
 
   const ServerConfig config_;
+  WorkerPool epoch_pool_;  // before the missions that use it
   MissionRegistry registry_;
   WorkerPool planning_pool_;
   WorkerPool map_pool_;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/gas/gas_what_if.h"
 #include "core/types/cell_state.h"
 #include "core/types/grid.h"
 #include "core/types/ids.h"
@@ -63,7 +64,9 @@ struct Belief {
   std::shared_ptr<const Grid<std::uint8_t>> traversable;  // 1: free and outside the inflation
   std::shared_ptr<const Grid<float>> gas_mean_ppm;        // NaN off free cells
   std::shared_ptr<const Grid<float>> gas_variance_ppm2;   // NaN off free cells
+  std::shared_ptr<const GasWhatIf> gas_what_if;  // of the refresh; null before there is a free cell
   GasCounters gas_counters;
+  GasQuality gas_quality;
 
   std::map<RobotId, RobotRecord> robots;
   std::vector<GoalClaim> claims;

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kSecondsPerNanosecond = 1e-9;
 constexpr double kLeastVariance_ppm2 = 1e-9;  // lambda_o <= 1e9, see Validate(GasOptions)
+constexpr double kMostVariance_ppm2 = 1e30;   // says nothing beside lambda_d >= 1e-9, see there
 
 }  // namespace
 
@@ -19,16 +20,17 @@ Ageing::Ageing(const GasOptions& options)
                                       : 0.0) {}
 
 double Ageing::InitialVariance_ppm2(double own_variance_ppm2) const {
-  return own_variance_ppm2 > 0.0 ? std::max(own_variance_ppm2, kLeastVariance_ppm2)
-                                 : default_variance_ppm2_;
+  return own_variance_ppm2 > 0.0
+             ? std::clamp(own_variance_ppm2, kLeastVariance_ppm2, kMostVariance_ppm2)
+             : default_variance_ppm2_;
 }
 
-double Ageing::Precision(double initial_variance_ppm2, std::int64_t taken_ns,
-                         std::int64_t now_ns) const {
+double Ageing::Variance_ppm2(double initial_variance_ppm2, std::int64_t taken_ns,
+                             std::int64_t now_ns) const {
   // In double: the difference of any two clocks, without overflow.
   const double age_s = std::max(
       0.0, (static_cast<double>(now_ns) - static_cast<double>(taken_ns)) * kSecondsPerNanosecond);
-  return 1.0 / (initial_variance_ppm2 + age_s * variance_growth_ppm2_per_s_);
+  return initial_variance_ppm2 + age_s * variance_growth_ppm2_per_s_;
 }
 
 }  // namespace plumescout

@@ -17,13 +17,24 @@ class Ageing {
 
   bool enabled() const { return variance_growth_ppm2_per_s_ > 0.0; }
 
-  // 1 / lambda_o for this reading: its own variance if it brings one, else the mission's. Not below
-  // the least variance a mission can be configured with, so that H stays finite.
+  // 1 / lambda_o for this reading: its own variance if it brings one, else the mission's. Kept
+  // within [1e-9, 1e30] ppm^2, so that H and products of two variances stay finite.
   double InitialVariance_ppm2(double own_variance_ppm2) const;
 
-  // lambda(now) of a reading taken at `taken_ns`, ppm^-2. A reading from the future (clocks of
-  // robots differ) has age 0.
-  double Precision(double initial_variance_ppm2, std::int64_t taken_ns, std::int64_t now_ns) const;
+  // 1 / lambda(now) of a reading taken at `taken_ns`. A reading from the future (clocks of robots
+  // differ) has age 0.
+  double Variance_ppm2(double initial_variance_ppm2, std::int64_t taken_ns,
+                       std::int64_t now_ns) const;
+
+  // lambda(now), ppm^-2.
+  double Precision(double initial_variance_ppm2, std::int64_t taken_ns, std::int64_t now_ns) const {
+    return 1.0 / Variance_ppm2(initial_variance_ppm2, taken_ns, now_ns);
+  }
+
+  // Whether a reading of the mission's variance has lost half its precision; never without ageing.
+  bool IsHalved(std::int64_t taken_ns, std::int64_t now_ns) const {
+    return Variance_ppm2(default_variance_ppm2_, taken_ns, now_ns) >= 2.0 * default_variance_ppm2_;
+  }
 
  private:
   double default_variance_ppm2_;       // 1 / lambda_o

@@ -2,52 +2,230 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/gas/gas_map.h"
 
+#include <algorithm>
 #include <cassert>
 #include <limits>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "core/gas/gmrf_graph.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
 namespace {
 
-// One value per variable, rounded to float; NaN off the free cells.
-Grid<float> ToGrid(const GmrfGraph& graph, const std::vector<double>& values) {
-  Grid<float> grid(graph.geometry(), std::numeric_limits<float>::quiet_NaN());
-  for (int i = 0; i < graph.variables(); ++i) {
-    grid[graph.cell_index(VariableIndex{i})] =
-        static_cast<float>(values[static_cast<std::size_t>(i)]);
+FieldOptions ToFieldOptions(const GasOptions& options) {
+  FieldOptions field;
+  field.prior = {.prior_precision = options.prior_precision,
+                 .background_precision = options.background_precision};
+  return field;
+}
+
+std::int64_t CountActive(std::span<const CellInput> inputs) {
+  return std::count_if(inputs.begin(), inputs.end(), [](const CellInput& i) { return i.active; });
+}
+
+std::unique_ptr<FieldEngine> MakeEngine(const GasLattice& lattice,
+                                        std::span<const CellInput> inputs,
+                                        const FieldOptions& options) {
+  return std::make_unique<FieldEngine>(static_cast<std::size_t>(lattice.width),
+                                       static_cast<std::size_t>(lattice.height), inputs, options);
+}
+
+// What `inputs` say and `engine` has not heard.
+std::vector<CellChange> Differences(std::span<const CellInput> inputs, const FieldEngine& engine) {
+  std::vector<CellChange> changes;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (inputs[i] != engine.input(i)) changes.push_back({i, inputs[i]});
   }
-  return grid;
+  return changes;
 }
 
 }  // namespace
 
-GasMap::GasMap(const GasOptions& options) : options_(options), readings_(options) {
+GasMap::GasMap(const GasOptions& options)
+    : field_options_(ToFieldOptions(options)),
+      background_mean_ppm_(options.background_mean_ppm),
+      inputs_(options),
+      schedule_(options) {
   assert(Validate(options).ok());
 }
 
 void GasMap::Add(std::int64_t time_ns, Point2 position, const GasReading& reading) {
-  readings_.Add(time_ns, position, reading);
-  ++counters_.readings;
-  ++counters_.waiting;
+  inputs_.Add(time_ns, position, reading);
+  schedule_.NoteReading(reading);
   stale_ = true;
 }
 
 absl::Status GasMap::Refresh(const Grid<CellState>& states, std::int64_t time_ns) {
-  const GmrfGraph graph(states);
-  PLUMESCOUT_ASSIGN_OR_RETURN(const PlacedReadings placed, readings_.PlaceAll(graph, time_ns));
-  absl::StatusOr<Posterior> posterior = solver_.Solve(graph, placed.evidence, options_);
-  if (!posterior.ok()) {
-    return absl::InternalError(absl::StrCat("gas map: ", posterior.status().ToString()));
-  }
-  mean_ppm_ = ToGrid(graph, posterior->mean_ppm);
-  variance_ppm2_ = ToGrid(graph, posterior->variance_ppm2);
-  counters_ = placed.counters;
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<GasCell> changed, inputs_.Update(states));
   stale_ = false;
+  if (inputs_.box().empty()) {
+    published_ = false;
+    return absl::OkStatus();
+  }
+  const bool usable = engine_ != nullptr && !engine_is_behind_ &&
+                      HasRoom(lattice_, inputs_.box(), 0) && !schedule_.IsTooOld(time_ns);
+  const absl::Status status = usable ? Apply(changed) : Rebuild(time_ns);
+  engine_is_behind_ = !status.ok();
+  if (engine_is_behind_) {
+    epoch_.reset();
+    return absl::InternalError(absl::StrCat("gas map: ", status.ToString()));
+  }
+  published_ = false;
+  ++quality_.refreshes;
+  Note(time_ns);
   return absl::OkStatus();
+}
+
+absl::Status GasMap::Apply(std::span<const GasCell> changed) {
+  std::vector<CellChange> changes;
+  std::int64_t activity_changes = 0;
+  for (const GasCell gas_cell : changed) {
+    if (!lattice_.Contains(gas_cell)) continue;  // beside the first cell that has been free
+    const std::size_t index = lattice_.Index(gas_cell);
+    const CellInput input = inputs_.Of(gas_cell);
+    const CellInput heard = engine_->input(index);
+    if (input == heard) continue;
+    if (input.active != heard.active) ++activity_changes;
+    changes.push_back({index, input});
+  }
+  schedule_.NoteRefresh(activity_changes);
+  return engine_->Apply(changes);
+}
+
+// All here and now: at the first free cell, and when the lattice or the precisions no longer do.
+absl::Status GasMap::Rebuild(std::int64_t time_ns) {
+  epoch_.reset();
+  inputs_.EvidenceAsOf(time_ns);
+  inputs_.AgeTo(time_ns);
+  const GasLattice lattice = RoomyLattice();
+  const std::vector<CellInput> inputs = InputsOn(lattice);
+  TakeOver(MakeEngine(lattice, inputs, field_options_), lattice);
+  schedule_.NoteFresh(time_ns, CountActive(inputs));
+  return absl::OkStatus();
+}
+
+GasLattice GasMap::RoomyLattice() const {
+  return MakeLattice(lattice_, inputs_.box(), EpochSchedule::Margin_cells(inputs_.box()));
+}
+
+std::vector<CellInput> GasMap::InputsOn(const GasLattice& lattice) const {
+  std::vector<CellInput> inputs(lattice.size());
+  for (std::size_t i = 0; i < inputs.size(); ++i) inputs[i] = inputs_.Of(lattice.CellAt(i));
+  return inputs;
+}
+
+void GasMap::TakeOver(std::unique_ptr<FieldEngine> engine, const GasLattice& lattice) {
+  if (engine_ != nullptr) quality_.healed += engine_->healed();
+  engine_ = std::move(engine);
+  lattice_ = lattice;
+  published_ = false;
+}
+
+bool GasMap::epoch_due(std::int64_t time_ns) const {
+  return engine_ != nullptr && epoch_ == nullptr && !engine_is_behind_ &&
+         schedule_.IsDue(lattice_, inputs_.box(), time_ns);
+}
+
+absl::Status GasMap::BeginEpoch(std::int64_t time_ns) {
+  if (epoch_ != nullptr) {
+    return absl::FailedPreconditionError("an epoch of the gas map is under way already");
+  }
+  if (engine_ == nullptr || engine_is_behind_) {
+    return absl::FailedPreconditionError("there is no gas field to begin an epoch with");
+  }
+  EpochInputs start;
+  start.time_ns = time_ns;
+  start.options = field_options_;
+  start.lattice = RoomyLattice();
+  start.cells.resize(start.lattice.size());
+  start.mean_ppm.resize(start.lattice.size());
+  start.variance_ppm2.resize(start.lattice.size());
+  for (std::size_t i = 0; i < lattice_.size(); ++i) {
+    const std::size_t index = start.lattice.Index(lattice_.CellAt(i));
+    start.cells[index] = engine_->input(i);
+    start.mean_ppm[index] = engine_->mean_ppm(i);
+    start.variance_ppm2[index] = engine_->variance_ppm2(i);
+  }
+  if (schedule_.ages()) {
+    for (const auto& [gas_cell, evidence] : inputs_.EvidenceAsOf(time_ns)) {
+      const std::size_t index = start.lattice.Index(gas_cell);
+      CellInput aged = start.cells[index];
+      aged.precision = evidence.precision;
+      aged.weighted_deviation = evidence.weighted_deviation;
+      start.aged.push_back({index, aged});
+    }
+  }
+  epoch_ = std::make_shared<GasEpoch>(std::move(start));
+  return absl::OkStatus();
+}
+
+bool GasMap::adoption_due(std::int64_t time_ns) const {
+  return epoch_ != nullptr && time_ns - epoch_->time_ns() >= EpochSchedule::kRecompute_ns;
+}
+
+absl::Status GasMap::Adopt() {
+  if (epoch_ == nullptr)
+    return absl::FailedPreconditionError("no epoch of the gas map is under way");
+  epoch_->Recompute();
+  const std::shared_ptr<GasEpoch> epoch = std::exchange(epoch_, nullptr);
+  std::vector<CellInput> inputs(epoch->lattice().size());
+  for (std::size_t i = 0; i < lattice_.size(); ++i) {
+    inputs[epoch->lattice().Index(lattice_.CellAt(i))] = engine_->input(i);
+  }
+  for (const GasCell gas_cell : inputs_.AgeTo(epoch->time_ns())) {
+    inputs[epoch->lattice().Index(gas_cell)] = inputs_.Of(gas_cell);
+  }
+  std::unique_ptr<FieldEngine> engine = epoch->TakeEngine();
+  PLUMESCOUT_RETURN_IF_ERROR(engine->Apply(Differences(inputs, *engine)));
+  TakeOver(std::move(engine), epoch->lattice());
+  schedule_.NoteFresh(epoch->time_ns(), CountActive(inputs));
+  ++quality_.epochs;
+  quality_.drift_mean_ppm = epoch->drift().mean_ppm;
+  quality_.drift_variance_ratio = epoch->drift().variance_ratio;
+  Note(time_ns_);
+  return absl::OkStatus();
+}
+
+void GasMap::Note(std::int64_t time_ns) {
+  time_ns_ = time_ns;
+  quality_.mean_error_ppm = engine_->error_bound().mean_ppm;
+  quality_.variance_error_ratio = engine_->error_bound().variance_ratio;
+  quality_.aged_to_ns = schedule_.aged_to_ns();
+  quality_.ageing_error_ratio = schedule_.AgeingError(time_ns);
+}
+
+void GasMap::Publish() const {
+  if (published_ || engine_is_behind_) return;
+  constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
+  const AnchoredStates& known = inputs_.states();
+  mean_ppm_ = Grid<float>(known.states().geometry(), kNoValue);
+  variance_ppm2_ = mean_ppm_;
+  for (std::size_t i = 0; i < known.states().size(); ++i) {
+    if (known.states()[i] != CellState::kFree) continue;
+    const std::size_t index = lattice_.Index(GasCellOf(known.At(i), inputs_.factor()));
+    mean_ppm_[i] = static_cast<float>(background_mean_ppm_ + engine_->mean_ppm(index));
+    variance_ppm2_[i] = static_cast<float>(engine_->variance_ppm2(index));
+  }
+  what_if_ = engine_ == nullptr
+                 ? nullptr
+                 : std::make_shared<const GasWhatIf>(engine_->Snapshot(), lattice_, inputs_);
+  published_ = true;
+}
+
+const Grid<float>& GasMap::mean_ppm() const {
+  Publish();
+  return mean_ppm_;
+}
+
+const Grid<float>& GasMap::variance_ppm2() const {
+  Publish();
+  return variance_ppm2_;
+}
+
+std::shared_ptr<const GasWhatIf> GasMap::what_if() const {
+  Publish();
+  return what_if_;
 }
 
 }  // namespace plumescout

@@ -3,10 +3,17 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
 
 #include "absl/status/status.h"
-#include "core/gas/posterior.h"
-#include "core/gas/reading_store.h"
+#include "core/gas/epoch_schedule.h"
+#include "core/gas/field/field_engine.h"
+#include "core/gas/gas_epoch.h"
+#include "core/gas/gas_inputs.h"
+#include "core/gas/gas_lattice.h"
+#include "core/gas/gas_what_if.h"
 #include "core/types/cell_state.h"
 #include "core/types/gas_reading.h"
 #include "core/types/grid.h"
@@ -16,16 +23,25 @@
 
 namespace plumescout {
 
-// Gas posterior of a mission: takes readings anywhere and at any time, and recomputes mean and
-// marginal variance of every free cell exactly.
+// Gas posterior of a mission, kept exact while readings come and the map changes.
 //
 //   GasMap gas(options);
 //   gas.Add(time_ns, position, reading);
 //   RETURN_IF_ERROR(gas.Refresh(occupancy.States(), now_ns));
 //   gas.mean_ppm()[cell], gas.variance_ppm2()[cell]
 //
-// Readings are kept by position for ever. At a refresh each takes part if its cell is free, or, if
-// not, in the nearest free cell one cell away; otherwise it waits. Thread-compatible.
+// Readings are kept by position for ever. Each takes part if its cell is free, or, if not, in the
+// nearest free cell one cell away; otherwise it waits.
+//
+// Now and then the field is made anew in an epoch: to age readings, to have room to grow, to suit
+// the dissection to the map, and to measure how far the live field has drifted. Someone else may
+// run its long part meanwhile:
+//
+//   if (gas.epoch_due(now_ns)) RETURN_IF_ERROR(gas.BeginEpoch(now_ns));
+//   gas.epoch()->Recompute();  // on any thread
+//   if (gas.adoption_due(now_ns)) RETURN_IF_ERROR(gas.Adopt());
+//
+// The same calls give the same bytes, wherever Recompute ran. Thread-compatible.
 class GasMap {
  public:
   // REQUIRES: Validate(options).ok().
@@ -34,26 +50,63 @@ class GasMap {
   // A reading that is not finite, or beyond 1e9 ppm, is counted and waits for ever.
   void Add(std::int64_t time_ns, Point2 position, const GasReading& reading);
 
-  // Brings the posterior to `states` and ages readings to `time_ns`. On error the old posterior
-  // stays: kInvalidArgument if the lattice of `states` is not that of the first refresh moved by
-  // whole cells, kInternal if the factorisation fails (lambda_p / lambda_d beyond about 1e14).
-  // Cost: at 160x200 free cells about 0.06 s of CPU; O(n^1.5) for n free cells.
+  // Brings the posterior to `states` and all readings so far. Their precisions are those of the
+  // last epoch, unless `time_ns` is so much later that all is made anew.
+  // On error readers see what they saw last: kInvalidArgument if the lattice of `states` is not
+  // that of the first refresh moved by whole cells, kInternal if the field cannot be computed; the
+  // next refresh then makes all anew. Cost at 160x200 cells: about 1 ms a reading, 4 ms a scan;
+  // anew 25 to 60 ms.
   absl::Status Refresh(const Grid<CellState>& states, std::int64_t time_ns);
 
-  // As of the last refresh, on its geometry; NaN off free cells. Empty before the first.
-  const Grid<float>& mean_ppm() const { return mean_ppm_; }
-  const Grid<float>& variance_ppm2() const { return variance_ppm2_; }
-  const GasCounters& counters() const { return counters_; }
+  // As of the last refresh, on a lattice that covers its states; NaN off free cells. Empty before
+  // the first. Cost: O(cells) at the first call after a change.
+  const Grid<float>& mean_ppm() const;
+  const Grid<float>& variance_ppm2() const;
+  // The same moment, to ask what further readings would tell. Null before there is a free cell.
+  // Cost: one number per cell, one pointer per node of the factor, at the first call after a
+  // change.
+  std::shared_ptr<const GasWhatIf> what_if() const;
+
+  const GasCounters& counters() const { return inputs_.counters(); }
+  const GasQuality& quality() const { return quality_; }
   bool stale() const { return stale_; }  // readings came since the last refresh
 
+  bool epoch_due(std::int64_t time_ns) const;
+  // kFailedPrecondition if one is under way or there is no field yet. Cost: O(cells).
+  absl::Status BeginEpoch(std::int64_t time_ns);
+  std::shared_ptr<GasEpoch> epoch() const { return epoch_; }  // under way, or null
+  // Whether the long part has had its time. A fixed one, so that events do not depend on machines.
+  bool adoption_due(std::int64_t time_ns) const;
+  // Takes the epoch's field over, after the changes since it began; recomputes it here and now if
+  // nobody has. kFailedPrecondition if none is under way.
+  absl::Status Adopt();
+
  private:
-  GasOptions options_;
-  ReadingStore readings_;
-  PosteriorSolver solver_;
-  Grid<float> mean_ppm_;
-  Grid<float> variance_ppm2_;
-  GasCounters counters_;
+  absl::Status Rebuild(std::int64_t time_ns);
+  absl::Status Apply(std::span<const GasCell> changed);
+  GasLattice RoomyLattice() const;
+  std::vector<CellInput> InputsOn(const GasLattice& lattice) const;
+  void TakeOver(std::unique_ptr<FieldEngine> engine, const GasLattice& lattice);
+  void Note(std::int64_t time_ns);
+  void Publish() const;
+
+  FieldOptions field_options_;
+  double background_mean_ppm_;
+  GasInputs inputs_;
+  EpochSchedule schedule_;
+  GasLattice lattice_;
+  std::unique_ptr<FieldEngine> engine_;  // null before there is a free cell
+  std::shared_ptr<GasEpoch> epoch_;
+  std::int64_t time_ns_ = 0;       // of the last refresh
+  bool engine_is_behind_ = false;  // it has refused changes
   bool stale_ = false;
+  GasQuality quality_;
+
+  // What readers see; made when they look.
+  mutable Grid<float> mean_ppm_;
+  mutable Grid<float> variance_ppm2_;
+  mutable std::shared_ptr<const GasWhatIf> what_if_;
+  mutable bool published_ = true;
 };
 
 }  // namespace plumescout

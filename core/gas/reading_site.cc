@@ -41,34 +41,33 @@ std::uint32_t NeighbourOrder(std::int64_t offset_x, std::int64_t offset_y) {
   return packed;
 }
 
-// The cell as GmrfGraph::At takes it; saturates, as far beyond the grid as it was.
-Cell ToCell(std::int64_t x, std::int64_t y) {
-  constexpr std::int64_t kLimit = 1 << 30;
-  return {static_cast<int>(std::clamp(x, -kLimit, kLimit)),
-          static_cast<int>(std::clamp(y, -kLimit, kLimit))};
-}
-
 }  // namespace
 
 ReadingSite SiteOf(Point2 position, const GridGeometry& anchor) {
   const Cell cell = anchor.CellAt(position);
   const Point2 center = anchor.Center(cell);
-  return {cell.x, cell.y,
+  return {{cell.x, cell.y},
           NeighbourOrder(Steps(position.x_m - center.x_m, anchor.resolution_m),
                          Steps(position.y_m - center.y_m, anchor.resolution_m))};
 }
 
-Placement Place(const ReadingSite& site, std::int64_t shift_x, std::int64_t shift_y,
-                const GmrfGraph& graph) {
-  const Cell own = ToCell(site.x + shift_x, site.y + shift_y);
-  if (const VariableIndex variable = graph.At(own); variable != VariableIndex::kNone) {
-    return {variable, false};
-  }
+ReadingSite CentreOf(AnchorCell cell) {
+  static const std::uint32_t order = NeighbourOrder(0, 0);
+  return {cell, order};
+}
+
+Placement PlacementOf(const ReadingSite& site, const Grid<CellState>& states, AnchorCell corner) {
+  const auto is_free = [&](AnchorCell cell) {
+    // No overflow: sites are within 2^30 + 1 cells of the anchor, corners within 2^29.
+    return states.At({cell.x - corner.x, cell.y - corner.y}, CellState::kUnknown) ==
+           CellState::kFree;
+  };
+  if (is_free(site.cell)) return {site.cell, false};
   std::uint32_t order = site.neighbour_order;
   for (std::size_t k = 0; k < kNeighbours.size(); ++k, order >>= kBits) {
     const Cell step = kNeighbours[order & kMask];
-    const VariableIndex variable = graph.At({own.x + step.x, own.y + step.y});
-    if (variable != VariableIndex::kNone) return {variable, true};
+    const AnchorCell neighbour{site.cell.x + step.x, site.cell.y + step.y};
+    if (is_free(neighbour)) return {neighbour, true};
   }
   return {};
 }

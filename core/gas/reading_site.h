@@ -4,19 +4,21 @@
 
 #include <compare>
 #include <cstdint>
+#include <optional>
 
-#include "core/gas/gmrf_graph.h"
+#include "core/gas/anchor_cell.h"
+#include "core/types/cell_state.h"
+#include "core/types/grid.h"
 #include "core/types/grid_geometry.h"
 #include "core/types/pose2.h"
 
 namespace plumescout {
 
-// All that placing needs to know of where a reading was taken: its cell, counted from the corner of
-// a fixed anchor lattice, and the order in which the eight neighbours lie near it. Readings of the
-// same site always share a variable, so they can be merged and yet be placed by their position.
+// All that placing needs to know of where a reading was taken: its cell, and the order in which
+// the eight neighbours lie near it. Readings of the same site always share a cell of the field, so
+// they can be merged and yet be placed by their position.
 struct ReadingSite {
-  std::int64_t x = 0;
-  std::int64_t y = 0;
+  AnchorCell cell;
   std::uint32_t neighbour_order = 0;  // 3 bits a neighbour, the nearest lowest
 
   friend auto operator<=>(const ReadingSite&, const ReadingSite&) = default;
@@ -25,15 +27,19 @@ struct ReadingSite {
 // REQUIRES: finite position.
 ReadingSite SiteOf(Point2 position, const GridGeometry& anchor);
 
+// The site of a reading in the middle of its cell.
+ReadingSite CentreOf(AnchorCell cell);
+
 struct Placement {
-  VariableIndex variable = VariableIndex::kNone;  // kNone: the site has to wait
-  bool moved = false;                             // to a neighbour
+  std::optional<AnchorCell> cell;  // none: the site has to wait
+  bool moved = false;              // to a neighbour
+
+  friend bool operator==(const Placement&, const Placement&) = default;
 };
 
-// The variable of the site's own cell, else of the free neighbour whose centre is nearest; of equal
-// ones the first in the order E, N, W, S, NE, NW, SW, SE. (`shift_x`, `shift_y`) is the cell of
-// `graph` in which the anchor's cell (0, 0) lies.
-Placement Place(const ReadingSite& site, std::int64_t shift_x, std::int64_t shift_y,
-                const GmrfGraph& graph);
+// The site's own cell if it is free in `states`, whose cell (0, 0) is `corner`, else the free
+// neighbour whose centre is nearest; of equal ones the first in the order E, N, W, S, NE, NW, SW,
+// SE.
+Placement PlacementOf(const ReadingSite& site, const Grid<CellState>& states, AnchorCell corner);
 
 }  // namespace plumescout

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/gas/reading_store.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
 
-#include "absl/status/status.h"
-#include "absl/strings/str_cat.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
@@ -20,25 +22,8 @@ bool IsUsable(Point2 position, const GasReading& reading) {
          std::isfinite(reading.variance_ppm2) && reading.variance_ppm2 >= 0.0;
 }
 
-struct Shift {
-  std::int64_t x = 0;
-  std::int64_t y = 0;
-};
-
-// The cell of `geometry` in which the anchor's cell (0, 0) lies.
-absl::StatusOr<Shift> ShiftOf(const GridGeometry& anchor, const GridGeometry& geometry) {
-  constexpr double kTolerance_cells = 1e-3;  // origins are sums of rounded tile sizes
-  const double x = (anchor.origin_x_m - geometry.origin_x_m) / anchor.resolution_m;
-  const double y = (anchor.origin_y_m - geometry.origin_y_m) / anchor.resolution_m;
-  if (geometry.resolution_m != anchor.resolution_m ||
-      !(std::abs(x - std::round(x)) <= kTolerance_cells) ||
-      !(std::abs(y - std::round(y)) <= kTolerance_cells)) {
-    return absl::InvalidArgumentError(absl::StrCat(
-        "gas map: lattice of ", geometry.resolution_m, " m from (", geometry.origin_x_m, ", ",
-        geometry.origin_y_m, ") does not match ", anchor.resolution_m, " m from (",
-        anchor.origin_x_m, ", ", anchor.origin_y_m, ")"));
-  }
-  return Shift{std::llround(x), std::llround(y)};
+void Insert(const ReadingSite& site, std::vector<ReadingSite>& sites) {
+  sites.insert(std::lower_bound(sites.begin(), sites.end(), site), site);
 }
 
 }  // namespace
@@ -47,63 +32,164 @@ ReadingStore::ReadingStore(const GasOptions& options)
     : background_mean_ppm_(options.background_mean_ppm), ageing_(options) {}
 
 void ReadingStore::Add(std::int64_t time_ns, Point2 position, const GasReading& reading) {
-  if (!IsUsable(position, reading)) {
-    ++unusable_;
-    return;
-  }
-  arrivals_.push_back({position,
-                       {time_ns, reading.concentration_ppm - background_mean_ppm_,
-                        ageing_.InitialVariance_ppm2(reading.variance_ppm2)}});
+  ++counters_.readings;
+  ++counters_.waiting;
+  if (!IsUsable(position, reading)) return;
+  arrivals_.push_back(
+      {position, BucketOf(time_ns, ageing_.InitialVariance_ppm2(reading.variance_ppm2),
+                          reading.concentration_ppm - background_mean_ppm_)});
 }
 
-absl::StatusOr<PlacedReadings> ReadingStore::PlaceAll(const GmrfGraph& graph,
-                                                      std::int64_t time_ns) {
-  PlacedReadings placed;
-  placed.evidence.resize(static_cast<std::size_t>(graph.variables()));
-  placed.counters.waiting = unusable_ + static_cast<std::int64_t>(arrivals_.size());
-  placed.counters.readings = placed.counters.waiting;
-  if (graph.geometry().size() == 0 && anchor_.size() == 0) return placed;
-  if (anchor_.size() == 0) anchor_ = graph.geometry();
-  MergeArrivals();
-  PLUMESCOUT_ASSIGN_OR_RETURN(const Shift shift, ShiftOf(anchor_, graph.geometry()));
-  GasCounters& counters = placed.counters;
-  counters = {.readings = unusable_, .waiting = unusable_};
-  for (const auto& [site, record] : records_) {
-    const Placement placement = Place(site, shift.x, shift.y, graph);
-    const bool waits = placement.variable == VariableIndex::kNone;
-    counters.readings += record.count;
-    (waits ? counters.waiting : counters.in_posterior) += record.count;
-    if (placement.moved) counters.moved_to_neighbour += record.count;
-    if (!waits) placed.evidence[ToSize(placement.variable)] += EvidenceOf(record, time_ns);
+absl::Status ReadingStore::Place(const Grid<CellState>& states,
+                                 std::span<const std::size_t> changed) {
+  const bool is_first = anchor_.size() == 0;
+  if (is_first && states.size() == 0) return absl::OkStatus();
+  PLUMESCOUT_ASSIGN_OR_RETURN(const AnchorCell corner,
+                              CornerOf(states.geometry(), is_first ? states.geometry() : anchor_));
+  if (is_first) anchor_ = states.geometry();
+  const Extent before = std::exchange(extent_, Extent{corner, states.width(), states.height()});
+  if (!extent_.Covers(before) || changed.size() >= sites_.size()) {
+    for (auto& [key, site] : sites_) PlaceSite(key, site, states);
+  } else {
+    for (const std::size_t index : changed) {
+      const Cell cell = states.geometry().CellAtIndex(index);
+      PlaceSitesNear({corner.x + cell.x, corner.y + cell.y}, states);
+    }
   }
+  for (const Arrival& arrival : arrivals_) PlaceArrival(arrival, states);
+  arrivals_.clear();
+  return absl::OkStatus();
+}
+
+bool ReadingStore::Extent::Covers(const Extent& other) const {
+  return corner.x <= other.corner.x && corner.y <= other.corner.y &&
+         corner.x + width >= other.corner.x + other.width &&
+         corner.y + height >= other.corner.y + other.height;
+}
+
+// Only sites within one cell can be placed on a cell, or anew because of it.
+void ReadingStore::PlaceSitesNear(AnchorCell cell, const Grid<CellState>& states) {
+  constexpr std::uint32_t kLastOrder = std::numeric_limits<std::uint32_t>::max();
+  for (int y = cell.y - 1; y <= cell.y + 1; ++y) {
+    const auto end = sites_.upper_bound({{cell.x + 1, y}, kLastOrder});
+    for (auto it = sites_.lower_bound({{cell.x - 1, y}, 0}); it != end; ++it) {
+      PlaceSite(it->first, it->second, states);
+    }
+  }
+}
+
+void ReadingStore::PlaceSite(const ReadingSite& key, Site& site, const Grid<CellState>& states) {
+  const Placement placement = PlacementOf(key, states, extent_.corner);
+  if (placement == site.placement) return;
+  Count(site.placement, -site.count);
+  if (site.placement.cell) std::erase(MarkChanged(*site.placement.cell).sites, key);
+  site.placement = placement;
+  Count(site.placement, site.count);
+  if (site.placement.cell) Insert(key, MarkChanged(*site.placement.cell).sites);
+}
+
+void ReadingStore::PlaceArrival(const Arrival& arrival, const Grid<CellState>& states) {
+  const auto [it, is_new] = sites_.try_emplace(SiteOf(arrival.position, anchor_));
+  auto& [key, site] = *it;
+  if (is_new) PlaceSite(key, site, states);
+  ++site.count;
+  if (ageing_.enabled()) {
+    site.buckets.push_back(arrival.reading);
+  } else {
+    site.sums += EvidenceOf(arrival.reading, ageing_, arrival.reading.newest_ns);
+  }
+  --counters_.waiting;  // as an arrival
+  Count(site.placement, 1);
+  if (site.placement.cell) MarkChanged(*site.placement.cell);
+}
+
+void ReadingStore::Count(const Placement& placement, std::int64_t readings) {
+  (placement.cell ? counters_.in_posterior : counters_.waiting) += readings;
+  if (placement.moved) counters_.moved_to_neighbour += readings;
+}
+
+ReadingStore::PlacedCell& ReadingStore::MarkChanged(AnchorCell cell) {
+  PlacedCell& placed = cells_[cell];
+  if (!std::exchange(placed.changed, true)) changed_.push_back(cell);
   return placed;
 }
 
-void ReadingStore::MergeArrivals() {
-  for (const Arrival& arrival : arrivals_) {
-    Merge(arrival.reading, records_[SiteOf(arrival.position, anchor_)]);
+std::vector<AnchorCell> ReadingStore::TakeChanged() {
+  std::sort(changed_.begin(), changed_.end());
+  for (const AnchorCell cell : changed_) cells_[cell].changed = false;
+  return std::exchange(changed_, {});
+}
+
+Evidence ReadingStore::EvidenceAt(AnchorCell cell) const {
+  const auto it = cells_.find(cell);
+  return it == cells_.end() ? Evidence{} : SumOver(it->second, aged_to_ns_);
+}
+
+std::vector<CellEvidence> ReadingStore::EvidenceAsOf(std::int64_t time_ns) const {
+  std::vector<CellEvidence> evidence;
+  for (const auto& [cell, placed] : cells_) {
+    if (!placed.sites.empty()) evidence.push_back({cell, SumOver(placed, time_ns)});
   }
-  arrivals_.clear();
-}
-
-void ReadingStore::Merge(const Reading& reading, Record& record) const {
-  ++record.count;
-  if (ageing_.enabled()) {
-    record.readings.push_back(reading);
-  } else {
-    record.sums += EvidenceOf(reading, reading.time_ns);
-  }
-}
-
-Evidence ReadingStore::EvidenceOf(const Reading& reading, std::int64_t time_ns) const {
-  const double precision = ageing_.Precision(reading.variance_ppm2, reading.time_ns, time_ns);
-  return {precision, precision * reading.deviation_ppm};
-}
-
-Evidence ReadingStore::EvidenceOf(const Record& record, std::int64_t time_ns) const {
-  Evidence evidence = record.sums;
-  for (const Reading& reading : record.readings) evidence += EvidenceOf(reading, time_ns);
   return evidence;
+}
+
+Evidence ReadingStore::SumOver(const PlacedCell& cell, std::int64_t time_ns) const {
+  Evidence evidence;
+  for (const ReadingSite& key : cell.sites) {
+    const Site& site = sites_.find(key)->second;
+    evidence += site.sums;
+    for (const ReadingBucket& bucket : site.buckets) {
+      evidence += EvidenceOf(bucket, ageing_, time_ns);
+    }
+  }
+  return evidence;
+}
+
+void ReadingStore::AgeTo(std::int64_t time_ns) {
+  if (!ageing_.enabled()) return;
+  aged_to_ns_ = time_ns;
+  for (const auto& [cell, placed] : cells_) {
+    if (!placed.sites.empty()) MarkChanged(cell);
+  }
+}
+
+void ReadingStore::Compact(std::int64_t now_ns) {
+  if (!ageing_.enabled()) return;
+  for (auto it = sites_.begin(); it != sites_.end();) {
+    it = HasSettled(*it, now_ns) ? MoveToCentre(it) : std::next(it);
+  }
+  for (auto& [key, site] : sites_) MergeAlike(now_ns, ageing_, site.buckets);
+}
+
+bool ReadingStore::HasSettled(const Sites::value_type& entry, std::int64_t now_ns) const {
+  const auto& [key, site] = entry;
+  return site.placement.cell == key.cell && key != CentreOf(key.cell) &&
+         std::all_of(site.buckets.begin(), site.buckets.end(), [&](const ReadingBucket& bucket) {
+           return ageing_.IsHalved(bucket.newest_ns, now_ns);
+         });
+}
+
+// Both sites lie in the same free cell, so nothing but the order of summation changes.
+ReadingStore::Sites::iterator ReadingStore::MoveToCentre(Sites::iterator from) {
+  const auto& [key, site] = *from;
+  const ReadingSite centre_key = CentreOf(key.cell);
+  std::vector<ReadingSite>& in_cell = cells_[key.cell].sites;
+  const auto [it, is_new] = sites_.try_emplace(centre_key);
+  Site& centre = it->second;
+  if (is_new) {
+    centre.placement = site.placement;
+    Insert(centre_key, in_cell);
+  }
+  centre.count += site.count;
+  centre.buckets.insert(centre.buckets.end(), site.buckets.begin(), site.buckets.end());
+  std::erase(in_cell, key);
+  return sites_.erase(from);
+}
+
+std::size_t ReadingStore::buckets() const {
+  std::size_t buckets = 0;
+  for (const auto& [key, site] : sites_) buckets += site.buckets.size();
+  return buckets;
 }
 
 }  // namespace plumescout

@@ -2,73 +2,129 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <vector>
 
-#include "absl/status/statusor.h"
+#include "absl/status/status.h"
 #include "core/gas/ageing.h"
-#include "core/gas/gmrf_graph.h"
+#include "core/gas/anchor_cell.h"
 #include "core/gas/information.h"
+#include "core/gas/reading_bucket.h"
 #include "core/gas/reading_site.h"
+#include "core/types/cell_state.h"
 #include "core/types/gas_reading.h"
+#include "core/types/grid.h"
 #include "core/types/map_snapshot.h"
 #include "core/types/options.h"
 #include "core/types/pose2.h"
 
 namespace plumescout {
 
-// What the readings say of each variable at one time, and how many said it.
-struct PlacedReadings {
-  std::vector<Evidence> evidence;  // by variable
-  GasCounters counters;
+struct CellEvidence {
+  AnchorCell cell;
+  Evidence evidence;
 };
 
-// Every reading of a mission, kept by where it was taken, for ever.
+// Every reading of a mission, kept by where it was taken, for ever, and placed on the cells of a
+// map that changes and grows.
 //
-// Readings of one site are merged: without ageing into their sums, so that memory and time follow
-// the area that was visited, not the length of the mission; with ageing they are kept one by one,
-// since each weight changes with time.
+//   store.Add(time_ns, position, reading);
+//   RETURN_IF_ERROR(store.Place(states, changed));
+//   for (AnchorCell cell : store.TakeChanged()) use(store.EvidenceAt(cell));
+//
+// Readings of one site are merged: without ageing into their sums, with it into buckets of like
+// age. Memory and time follow the area that was visited, not the length of the mission.
+// The evidence of a cell is always summed anew, site by site in a fixed order, and never corrected
+// by differences: readings that came and went leave no trace in it. Thread-compatible.
 class ReadingStore {
  public:
   explicit ReadingStore(const GasOptions& options);
 
-  // A reading that is not finite, or whose concentration is absurd, is counted and waits for ever.
+  // A reading that is not finite, or whose concentration is absurd, is counted and waits for ever;
+  // any other waits for the next Place. Cost: O(1).
   void Add(std::int64_t time_ns, Point2 position, const GasReading& reading);
 
-  // Places all readings on `graph`, their precision as of `time_ns`. The first grid with cells
-  // becomes the anchor lattice; later ones may begin elsewhere, by whole cells.
-  // Errors: kInvalidArgument for a lattice of other resolution or between the cells.
-  // Cost: O(sites log sites), with ageing O(readings) besides.
-  absl::StatusOr<PlacedReadings> PlaceAll(const GmrfGraph& graph, std::int64_t time_ns);
+  // Places what arrived, and places anew the sites near `changed`: the indices of at least those
+  // cells of `states` that became free or ceased to be since the last call; beyond the grid nothing
+  // is free. The first grid with cells becomes the anchor; later ones may begin elsewhere, by whole
+  // cells. Errors, after which nothing has changed: kInvalidArgument as from CornerOf.
+  // Cost: O((arrivals + min(changed, sites)) log sites); O(sites log sites) if the grid lost cells.
+  absl::Status Place(const Grid<CellState>& states, std::span<const std::size_t> changed);
+
+  // Cells whose evidence may have changed since the last call, ascending, each once.
+  std::vector<AnchorCell> TakeChanged();
+
+  // As of aged_to_ns(). Cost: O(buckets in the cell).
+  Evidence EvidenceAt(AnchorCell cell) const;
+
+  // All cells with evidence, ascending, as of `time_ns`. The same bits as AgeTo(time_ns) and
+  // EvidenceAt would give, until a cell's readings change or are merged. Cost: O(buckets).
+  std::vector<CellEvidence> EvidenceAsOf(std::int64_t time_ns) const;
+
+  // From now on precisions are as of `time_ns`; every cell with evidence counts as changed.
+  // Without ageing nothing happens.
+  void AgeTo(std::int64_t time_ns);
+
+  // Merges readings of like age, within the bounds of MergeAlike for evidence as of `now_ns` or
+  // later. A site that lies in a free cell and has brought nothing for a half-life is merged into
+  // the centre of its cell: should the cell cease to be free, it moves as if taken there. So a cell
+  // holds tens of buckets, not thousands. Evidence changes within these bounds, but does not count
+  // as changed. Without ageing nothing happens. Cost: O(buckets log buckets).
+  void Compact(std::int64_t now_ns);
+
+  const GridGeometry& anchor() const { return anchor_; }  // no cells: none yet
+  std::int64_t aged_to_ns() const { return aged_to_ns_; }
+  const GasCounters& counters() const { return counters_; }  // current at any time
+  std::size_t buckets() const;                               // held by all sites. Cost: O(sites)
 
  private:
-  struct Reading {
-    std::int64_t time_ns;
-    double deviation_ppm;  // z_k - m_0
-    double variance_ppm2;  // 1 / lambda_o of this reading
-  };
   struct Arrival {
     Point2 position;
-    Reading reading;
+    ReadingBucket reading;
   };
-  struct Record {
+  struct Site {
     std::int64_t count = 0;
-    Evidence sums;                  // without ageing
-    std::vector<Reading> readings;  // with ageing
+    Evidence sums;                       // without ageing
+    std::vector<ReadingBucket> buckets;  // with ageing
+    Placement placement;
+  };
+  struct PlacedCell {
+    std::vector<ReadingSite> sites;  // ascending
+    bool changed = false;
+  };
+  // The part of the anchor's lattice that a grid covers.
+  struct Extent {
+    AnchorCell corner;
+    int width = 0;
+    int height = 0;
+
+    bool Covers(const Extent& other) const;
   };
 
-  void MergeArrivals();
-  void Merge(const Reading& reading, Record& record) const;
-  Evidence EvidenceOf(const Reading& reading, std::int64_t time_ns) const;
-  Evidence EvidenceOf(const Record& record, std::int64_t time_ns) const;
+  using Sites = std::map<ReadingSite, Site>;
+
+  void PlaceSitesNear(AnchorCell cell, const Grid<CellState>& states);
+  void PlaceSite(const ReadingSite& key, Site& site, const Grid<CellState>& states);
+  void PlaceArrival(const Arrival& arrival, const Grid<CellState>& states);
+  bool HasSettled(const Sites::value_type& entry, std::int64_t now_ns) const;
+  Sites::iterator MoveToCentre(Sites::iterator from);
+  void Count(const Placement& placement, std::int64_t readings);
+  PlacedCell& MarkChanged(AnchorCell cell);
+  Evidence SumOver(const PlacedCell& cell, std::int64_t time_ns) const;
 
   double background_mean_ppm_;
   Ageing ageing_;
-  std::int64_t unusable_ = 0;
-  GridGeometry anchor_;            // no cells: none yet
-  std::vector<Arrival> arrivals_;  // not yet merged, for want of an anchor or of a refresh
-  std::map<ReadingSite, Record> records_;
+  std::int64_t aged_to_ns_ = 0;
+  GasCounters counters_;
+  GridGeometry anchor_;
+  Extent extent_;                  // of the last grid
+  std::vector<Arrival> arrivals_;  // not yet placed, for want of an anchor or of a call
+  Sites sites_;
+  std::map<AnchorCell, PlacedCell> cells_;  // all that ever had a site
+  std::vector<AnchorCell> changed_;         // those marked so
 };
 
 }  // namespace plumescout

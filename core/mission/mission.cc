@@ -28,6 +28,11 @@ std::shared_ptr<const Grid<float>> OnFreeCells(const Grid<float>& field,
   return result;
 }
 
+absl::Status CheckTime(std::int64_t time_ns) {
+  if (time_ns >= 0) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat("time_ns = ", time_ns, " must be >= 0"));
+}
+
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<Mission>> Mission::Create(const MissionOptions& options) {
@@ -76,11 +81,11 @@ absl::Status Mission::TakeIn(const RobotId& robot, const Observation& observatio
 }
 
 absl::StatusOr<Applied> Mission::Change(const PosteriorRefreshed& refresh) {
-  if (refresh.time_ns < 0) {
-    return absl::InvalidArgumentError(absl::StrCat("time_ns = ", refresh.time_ns, " must be >= 0"));
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(CheckTime(refresh.time_ns));
+  const bool readings_waited = gas_.stale();
   PLUMESCOUT_RETURN_IF_ERROR(gas_.Refresh(occupancy_.States(), refresh.time_ns));
   posterior_time_ns_ = refresh.time_ns;
+  if (readings_waited) readings_refreshed_ns_ = refresh.time_ns;
   map_changed_since_refresh_ = false;
   gas_changed_since_snapshot_ = true;
   return Applied{};
@@ -102,6 +107,18 @@ absl::StatusOr<Applied> Mission::Change(const ProgressReported& report) {
   return Applied{};
 }
 
+absl::StatusOr<Applied> Mission::Change(const EpochBegun& begun) {
+  PLUMESCOUT_RETURN_IF_ERROR(CheckTime(begun.time_ns));
+  PLUMESCOUT_RETURN_IF_ERROR(gas_.BeginEpoch(begun.time_ns));
+  return Applied{};
+}
+
+absl::StatusOr<Applied> Mission::Change(const EpochAdopted&) {
+  PLUMESCOUT_RETURN_IF_ERROR(gas_.Adopt());
+  gas_changed_since_snapshot_ = true;
+  return Applied{};
+}
+
 absl::StatusOr<std::int64_t> Mission::AppliedSequence(const RobotId& robot) const {
   return fleet_.AppliedSequence(robot);
 }
@@ -112,10 +129,16 @@ absl::StatusOr<std::int64_t> Mission::LeaseToken(const RobotId& robot) const {
 
 bool Mission::posterior_stale() const { return gas_.stale() || map_changed_since_refresh_; }
 
+// A reading does not wait behind a refresh that a scan has just caused.
 bool Mission::refresh_due() const {
+  return (posterior_stale() && PeriodHasPassedSince(posterior_time_ns_)) ||
+         (gas_.stale() && PeriodHasPassedSince(readings_refreshed_ns_));
+}
+
+bool Mission::PeriodHasPassedSince(std::int64_t time_ns) const {
   constexpr double kNanosecondsPerSecond = 1e9;
-  return posterior_stale() && static_cast<double>(sample_time_ns_ - posterior_time_ns_) >=
-                                  options_->gas.refresh_period_s * kNanosecondsPerSecond;
+  return static_cast<double>(sample_time_ns_ - time_ns) >=
+         options_->gas.refresh_period_s * kNanosecondsPerSecond;
 }
 
 void Mission::UpdateRasters() const {
@@ -143,7 +166,9 @@ std::shared_ptr<const Belief> Mission::Snapshot() const {
   belief->traversable = rasters_.traversable;
   belief->gas_mean_ppm = rasters_.gas_mean_ppm;
   belief->gas_variance_ppm2 = rasters_.gas_variance_ppm2;
+  belief->gas_what_if = gas_.what_if();
   belief->gas_counters = gas_.counters();
+  belief->gas_quality = gas_.quality();
   belief->robots = fleet_.Records();
   belief->claims = fleet_.Claims(sample_time_ns_);
   belief->set_aside = fleet_.SetAside(sample_time_ns_);

@@ -8,6 +8,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/belief/belief.h"
+#include "core/gas/gas_epoch.h"
 #include "core/gas/gas_map.h"
 #include "core/mission/fleet.h"
 #include "core/occupancy/occupancy_grid.h"
@@ -44,8 +45,10 @@ class Mission {
   //   kNotFound            unknown robot or plan
   //   kAlreadyExists       observation sequence <= applied: ignore and acknowledge again
   //   kFailedPrecondition  a hole in the sequence ("SEQUENCE_GAP: expected N"), a stale plan or
-  //   lease kAborted             PlanIssued: another robot's live plan claims the goal; plan once
-  //   more kResourceExhausted   too many robots
+  //                        lease, an epoch begun while one is under way or there is no
+  //                        field, or adopted while none is under way
+  //   kAborted             PlanIssued: another robot's live plan claims the goal; plan once more
+  //   kResourceExhausted   too many robots
   absl::StatusOr<Applied> Apply(const EventBody& body);
 
   // The state of one robot's log; kNotFound if unknown.
@@ -54,8 +57,18 @@ class Mission {
 
   // Whether readings or free cells changed since the last PosteriorRefreshed.
   bool posterior_stale() const;
-  // Whether refresh_period_s of sample time has gone by and the posterior is stale.
+
+  // What the gas posterior needs now. These follow from the events alone, so writers that ask after
+  // every observation, and apply what is due in this order, write the same events:
+  // 1. EpochAdopted. epoch() is then best recomputed beforehand; if not, Apply does it.
+  bool adoption_due() const { return gas_.adoption_due(sample_time_ns_); }
+  // 2. PosteriorRefreshed, to sample_time_ns(): a reading waits and refresh_period_s has gone by
+  // since the last refresh that found one, or the map changed and as much since any refresh.
   bool refresh_due() const;
+  // 3. EpochBegun, at sample_time_ns(). Then somebody may recompute epoch() on another thread.
+  bool epoch_due() const { return gas_.epoch_due(sample_time_ns_); }
+
+  std::shared_ptr<GasEpoch> epoch() const { return gas_.epoch(); }  // under way, or null
   std::int64_t sample_time_ns() const { return sample_time_ns_; }
 
   // The present state, for readers. Cost: O(cells) if the map changed since the last call.
@@ -67,12 +80,16 @@ class Mission {
   absl::StatusOr<Applied> Change(const PosteriorRefreshed& refresh);
   absl::StatusOr<Applied> Change(const PlanIssued& issued);
   absl::StatusOr<Applied> Change(const ProgressReported& report);
+  absl::StatusOr<Applied> Change(const EpochBegun& begun);
+  absl::StatusOr<Applied> Change(const EpochAdopted& adopted);
+  bool PeriodHasPassedSince(std::int64_t time_ns) const;
   absl::Status TakeIn(const RobotId& robot, const Observation& observation);
 
   std::shared_ptr<const MissionOptions> options_;
   std::int64_t revision_ = 0;
   std::int64_t sample_time_ns_ = 0;
   std::int64_t posterior_time_ns_ = 0;
+  std::int64_t readings_refreshed_ns_ = 0;  // of the last refresh that found readings waiting
   OccupancyGrid occupancy_;
   ScanInserter scan_inserter_;
   GasMap gas_;

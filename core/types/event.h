@@ -52,9 +52,23 @@ struct ProgressReported {
   friend bool operator==(const ProgressReported&, const ProgressReported&) = default;
 };
 
-// Everything that changes a mission.
+// The posterior began to be recomputed from scratch, beside the mission; `time_ns` is the instant
+// to which that ages readings.
+struct EpochBegun {
+  std::int64_t time_ns = 0;
+
+  friend bool operator==(const EpochBegun&, const EpochBegun&) = default;
+};
+
+// What was recomputed took the place of the posterior. What changed in between is in it too.
+struct EpochAdopted {
+  friend bool operator==(const EpochAdopted&, const EpochAdopted&) = default;
+};
+
+// Everything that changes a mission. Recorded events know their kind by its place in this list: new
+// kinds come last.
 using EventBody = std::variant<RobotRegistered, ObservationReceived, PosteriorRefreshed, PlanIssued,
-                               ProgressReported>;
+                               ProgressReported, EpochBegun, EpochAdopted>;
 
 // Numbered 1, 2, 3 ...: the number of the last applied event is the mission's revision.
 struct Event {

@@ -84,7 +84,8 @@ absl::Status Validate(const GasOptions& options) {
       .InRange("gas.background_mean_ppm", options.background_mean_ppm, 0.0, 1e6)
       .InRange("gas.ageing_half_life_s", ages ? options.ageing_half_life_s : kMaxTime_s,
                kMinHalfLife_s, kMaxTime_s)
-      .InRange("gas.refresh_period_s", options.refresh_period_s, 0.1, 3600.0)
+      .InRange("gas.lattice_factor", options.lattice_factor, 1, 16)
+      .InRange("gas.refresh_period_s", options.refresh_period_s, 0.01, 3600.0)
       .status();
 }
 

@@ -93,18 +93,24 @@ absl::StatusOr<GasMap> FreshMap(const Case& c) {
   return map;
 }
 
-absl::StatusOr<PlacedReadings> PlaceReadings(const Case& c, const GmrfGraph& graph) {
+// What the readings say of each variable.
+absl::StatusOr<std::vector<Evidence>> PlaceReadings(const Case& c, const GmrfGraph& graph) {
   ReadingStore store{GasOptions()};
   for (std::size_t k = 0; k < c.positions.size(); ++k) {
     store.Add(0, c.positions[k], {c.concentrations_ppm[k]});
   }
-  return store.PlaceAll(graph, 0);
+  PLUMESCOUT_RETURN_IF_ERROR(store.Place(c.states, {}));
+  std::vector<Evidence> evidence(static_cast<std::size_t>(graph.variables()));
+  for (const AnchorCell cell : store.TakeChanged()) {
+    evidence[ToSize(graph.At({cell.x, cell.y}))] = store.EvidenceAt(cell);
+  }
+  return evidence;
 }
 
 absl::StatusOr<Information> InformationOf(const Case& c) {
   const GmrfGraph graph(c.states);
-  PLUMESCOUT_ASSIGN_OR_RETURN(const PlacedReadings placed, PlaceReadings(c, graph));
-  return BuildInformation(graph, placed.evidence, GasOptions());
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<Evidence> evidence, PlaceReadings(c, graph));
+  return BuildInformation(graph, evidence, GasOptions());
 }
 
 // Placing the readings, assembly, ordering, factorisation, mean and all variances.
@@ -169,17 +175,13 @@ absl::Status MeasureErrors(const std::vector<Case>& small, const std::vector<Cas
 absl::Status MeasureBeliefPropagation(const Case& c, BenchSummary& summary) {
   constexpr std::int64_t kSendsPerCell = 100;
   const GmrfGraph graph(c.states);
-  ReadingStore store{GasOptions()};
-  for (std::size_t k = 0; k < c.positions.size(); ++k) {
-    store.Add(0, c.positions[k], {c.concentrations_ppm[k]});
-  }
-  PLUMESCOUT_ASSIGN_OR_RETURN(const PlacedReadings placed, store.PlaceAll(graph, 0));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<Evidence> evidence, PlaceReadings(c, graph));
   PLUMESCOUT_ASSIGN_OR_RETURN(const PeerPosterior truth,
-                              SolveByCholmod(BuildInformation(graph, placed.evidence, {})));
+                              SolveByCholmod(BuildInformation(graph, evidence, {})));
   BeliefPropagation propagation(graph, {}, {.schedule = MessageSchedule::kWildfire});
   for (int i = 0; i < graph.variables(); ++i) {
     const auto variable = static_cast<VariableIndex>(i);
-    propagation.SetEvidence(variable, placed.evidence[ToSize(variable)]);
+    propagation.SetEvidence(variable, evidence[ToSize(variable)]);
   }
   summary.Set("gbp_100_sweeps_indoor_160x200_ms",
               MedianCpu_ms(1, [&] { propagation.Propagate(kSendsPerCell * graph.variables()); }));
@@ -330,8 +332,9 @@ double Cpu_ms(const std::function<void()>& run) {
 
 // The engine that goes on: from scratch, per reading, per scan, and per question to a snapshot.
 absl::Status MeasureOnline(const std::string& suffix, const Case& c, BenchSummary& summary) {
-  PLUMESCOUT_ASSIGN_OR_RETURN(const PlacedReadings placed, PlaceReadings(c, GmrfGraph(c.states)));
-  OnlineField online(c, placed.evidence, summary.seed());
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<Evidence> evidence,
+                              PlaceReadings(c, GmrfGraph(c.states)));
+  OnlineField online(c, evidence, summary.seed());
   summary.Set("field_fresh_" + suffix, MedianCpu_ms(kRepeats, [&] { online.Fresh(); }));
 
   const std::string map = suffix.substr(0, suffix.rfind('_'));

@@ -21,6 +21,7 @@
 #include "lab/bench/bench_summary.h"
 #include "lab/bench/bench_world.h"
 #include "lab/bench/load_robot.h"
+#include "lab/bench/load_timings.h"
 #include "lab/bench/load_watcher.h"
 #include "lab/bench/server_process.h"
 
@@ -52,9 +53,9 @@ double Quantile(std::vector<double> values, double share) {
 using Team = std::map<RobotId, std::unique_ptr<LoadRobot>>;
 
 // From taking an observation until the watcher has a map that knows it. On the watcher's thread.
-class Staleness {
+class MapDelay {
  public:
-  explicit Staleness(const Team& team) : team_(team) {}
+  explicit MapDelay(const Team& team) : team_(team) {}
 
   void Note(const RobotId& robot, std::int64_t applied_sequence, absl::Time arrival) {
     const auto found = team_.find(robot);
@@ -111,19 +112,28 @@ void SetTeamFigures(const std::vector<LoadRobotFigures>& team, BenchSummary& sum
   summary.Set("lost", lost);
 }
 
+absl::Status SetGasFigures(const std::string& target, BenchSummary& summary) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const LoadTimings timings, AskLoadTimings(target, kMission));
+  summary.Set("gas_update_wall_ms_p50", timings.update_wall_ms_p50);
+  summary.Set("gas_update_wall_ms_p99", timings.update_wall_ms_p99);
+  summary.Set("belief_staleness_wall_ms_p50", timings.staleness_wall_ms_p50);
+  summary.Set("belief_staleness_wall_ms_p99", timings.staleness_wall_ms_p99);
+  return absl::OkStatus();
+}
+
 absl::Status RunLoad(const LoadFlags& flags, BenchSummary& summary) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto server, ServerProcess::Start(flags.server_program));
   const auto admin = client::MakeGrpcPlannerClient({.target = server->target()});
   PLUMESCOUT_RETURN_IF_ERROR(admin->CreateMission(kMission, MissionOptions{}));
   const Grid<std::uint8_t> walls = MakeBuilding(kBuildingWidth, kBuildingHeight, summary.seed());
   PLUMESCOUT_ASSIGN_OR_RETURN(Team team, StartTeam(flags, server->target(), walls, summary.seed()));
-  Staleness staleness(team);
+  MapDelay map_delay(team);
   std::vector<LoadRobotFigures> figures;
   {
     const LoadWatcher watcher(
         server->target(), kMission,
-        [&staleness](const RobotId& robot, std::int64_t applied, absl::Time arrival) {
-          staleness.Note(robot, applied, arrival);
+        [&map_delay](const RobotId& robot, std::int64_t applied, absl::Time arrival) {
+          map_delay.Note(robot, applied, arrival);
         });
     PLUMESCOUT_ASSIGN_OR_RETURN(const ProcessUsage before, server->Usage());
     const absl::Time start = absl::Now();
@@ -134,9 +144,10 @@ absl::Status RunLoad(const LoadFlags& flags, BenchSummary& summary) {
     summary.Set("scan_hz", flags.scan_hz);
     summary.Set("cpu_cores_used", (after.cpu_s - before.cpu_s) / wall_s);
     summary.Set("rss_mb", after.peak_rss_mb);
+    PLUMESCOUT_RETURN_IF_ERROR(SetGasFigures(server->target(), summary));
     for (const auto& [id, robot] : team) figures.push_back(robot->Stop(kDrain));
   }
-  summary.Set("belief_staleness_wall_ms_p99", Quantile(staleness.ages_ms(), kTail));
+  summary.Set("map_delay_wall_ms_p99", Quantile(map_delay.ages_ms(), kTail));
   SetTeamFigures(figures, summary);
   return absl::OkStatus();
 }

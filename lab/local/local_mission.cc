@@ -115,7 +115,7 @@ absl::Status LocalMission::IngestOne(const RobotId& robot, const Observation& ob
   if (!applied->observation.ok()) {
     rejected.push_back({observation.sequence, std::move(applied->observation)});
   }
-  return mission_->refresh_due() ? Refresh() : absl::OkStatus();
+  return KeepGasUp();
 }
 
 absl::StatusOr<Plan> LocalMission::NextPlan(const client::PlanQuery& query) {
@@ -187,6 +187,15 @@ void LocalMission::Close() {
 absl::StatusOr<std::shared_ptr<const Belief>> LocalMission::RefreshedBelief() {
   if (mission_->posterior_stale()) PLUMESCOUT_RETURN_IF_ERROR(Refresh());
   return mission_->Snapshot();
+}
+
+absl::Status LocalMission::KeepGasUp() {
+  if (mission_->adoption_due()) {
+    PLUMESCOUT_RETURN_IF_ERROR(mission_->Apply(EpochAdopted{}).status());
+  }
+  if (mission_->refresh_due()) PLUMESCOUT_RETURN_IF_ERROR(Refresh());
+  if (!mission_->epoch_due()) return absl::OkStatus();
+  return mission_->Apply(EpochBegun{mission_->sample_time_ns()}).status();
 }
 
 absl::Status LocalMission::Refresh() {

@@ -81,6 +81,8 @@ class LocalMission {
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::StatusOr<std::shared_ptr<const Belief>> RefreshedBelief()
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  // What is due to the gas posterior, in the order in which servers do it.
+  absl::Status KeepGasUp() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status Refresh() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::StatusOr<std::shared_ptr<const Belief>> BeliefFor(const client::PlanQuery& query,
                                                           absl::Time deadline);

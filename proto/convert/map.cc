@@ -53,6 +53,20 @@ v1::GasCounters ToProto(const GasCounters& counters) {
   return proto;
 }
 
+v1::GasQuality ToProto(const GasQuality& quality) {
+  v1::GasQuality proto;
+  proto.set_mean_error_ppm(quality.mean_error_ppm);
+  proto.set_variance_error_ratio(quality.variance_error_ratio);
+  proto.set_aged_to_ns(quality.aged_to_ns);
+  proto.set_ageing_error_ratio(quality.ageing_error_ratio);
+  proto.set_refresh_count(quality.refreshes);
+  proto.set_epoch_count(quality.epochs);
+  proto.set_healed_count(quality.healed);
+  proto.set_drift_mean_ppm(quality.drift_mean_ppm);
+  proto.set_drift_variance_ratio(quality.drift_variance_ratio);
+  return proto;
+}
+
 absl::StatusOr<Frontier> FromProto(const v1::Frontier& proto, absl::string_view field) {
   Frontier frontier;
   PLUMESCOUT_ASSIGN_OR_RETURN(frontier.kind,
@@ -90,6 +104,18 @@ absl::StatusOr<RobotState> FromProto(const v1::RobotOnMap& proto, absl::string_v
 GasCounters FromProto(const v1::GasCounters& proto) {
   return {proto.reading_count(), proto.in_posterior_count(), proto.moved_count(),
           proto.waiting_count()};
+}
+
+GasQuality FromProto(const v1::GasQuality& proto) {
+  return {.mean_error_ppm = proto.mean_error_ppm(),
+          .variance_error_ratio = proto.variance_error_ratio(),
+          .aged_to_ns = proto.aged_to_ns(),
+          .ageing_error_ratio = proto.ageing_error_ratio(),
+          .refreshes = proto.refresh_count(),
+          .epochs = proto.epoch_count(),
+          .healed = proto.healed_count(),
+          .drift_mean_ppm = proto.drift_mean_ppm(),
+          .drift_variance_ratio = proto.drift_variance_ratio()};
 }
 
 v1::MapTile EncodeGas(v1::MapLayer layer, const Grid<float>& values, bool full_precision,
@@ -156,6 +182,7 @@ v1::MapStatus StatusToProto(const MapSnapshot& map, const MissionId& mission) {
   for (const Frontier& frontier : map.frontiers) *proto.add_frontiers() = ToProto(frontier);
   for (const RobotState& robot : map.robots) *proto.add_robots() = ToProto(robot, mission);
   *proto.mutable_gas_counters() = ToProto(map.gas_counters);
+  *proto.mutable_gas_quality() = ToProto(map.gas_quality);
   proto.set_phase(ToProto(map.phase));
   return proto;
 }
@@ -193,6 +220,7 @@ absl::StatusOr<MapSnapshot> FromProto(const v1::MapStatus& proto, absl::string_v
       CheckFinite(Join(field, "gas_threshold_ppm"), proto.gas_threshold_ppm()));
   map.gas_threshold_ppm = proto.gas_threshold_ppm();
   map.gas_counters = FromProto(proto.gas_counters());
+  map.gas_quality = FromProto(proto.gas_quality());
   map.occupancy = Grid<CellState>(geometry, CellState::kUnknown);
   map.gas_mean_ppm = Grid<float>(geometry, std::numeric_limits<float>::quiet_NaN());
   map.gas_variance_ppm2 = map.gas_mean_ppm;

@@ -21,6 +21,16 @@ TEST(EventCodec, TheLayoutIsFixed) {
             std::string("\x03\0\0\0\0\0\0\0\x02\x08\x07\x06\x05\x04\x03\x02\x01", 17));
 }
 
+TEST(EventCodec, KindsKeepTheNumbersOfRecordedLogs) {
+  EXPECT_EQ(EncodeEvent({1, RobotRegistered{}})[8], 0);
+  EXPECT_EQ(EncodeEvent({1, ObservationReceived{}})[8], 1);
+  EXPECT_EQ(EncodeEvent({1, PosteriorRefreshed{}})[8], 2);
+  EXPECT_EQ(EncodeEvent({1, PlanIssued{}})[8], 3);
+  EXPECT_EQ(EncodeEvent({1, ProgressReported{}})[8], 4);
+  EXPECT_EQ(EncodeEvent({1, EpochBegun{}})[8], 5);
+  EXPECT_EQ(EncodeEvent({1, EpochAdopted{}})[8], 6);
+}
+
 TEST(EventCodec, AnObservationComesBack) {
   Event event;
   event.number = 42;
@@ -63,7 +73,7 @@ TEST(EventCodec, BytesLeftOverAreDataLoss) {
 
 TEST(EventCodec, UnknownKindsAndEnumeratorsAreDataLoss) {
   std::string bytes = EncodeEvent(MakeRefresh());
-  bytes[8] = 5;  // five kinds of events: 0 to 4
+  bytes[8] = 7;  // seven kinds of events: 0 to 6
   EXPECT_EQ(DecodeEvent(bytes).status().code(), absl::StatusCode::kDataLoss);
   bytes = EncodeEvent({1, ProgressReported{"r", 1, ProgressOutcome::kAborted}});
   ASSERT_TRUE(DecodeEvent(bytes).ok());

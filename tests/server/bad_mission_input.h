@@ -55,7 +55,8 @@ inline BadInputs BadGasOptions() {
       .Values(g + "background_precision_per_ppm2", {"nan", "inf", "-1", "0", "1e300", "1e-300"})
       .Values(g + "background_mean_ppm", {"nan", "inf", "-1", "1e7"})
       .Values(g + "ageing_half_life_s", {"nan", "inf", "-1", "1e-300", "1e300"})
-      .Values(g + "refresh_period_s", {"nan", "inf", "-1", "0", "1e5"});
+      .Values(g + "refresh_period_s", {"nan", "inf", "-1", "0", "1e5"})
+      .Values(g + "lattice_factor", {"-1", "0", "17"});
 }
 
 inline BadInputs BadFrontierOptions() {

@@ -10,6 +10,7 @@
 #include "server/mission_host.h"
 #include "server/mission_registry.h"
 #include "tests/support/box_room.h"
+#include "tests/support/room_run.h"
 #include "tests/support/scripted_strategy.h"
 
 namespace plumescout::server {
@@ -38,6 +39,14 @@ inline std::vector<IncomingObservation> GasBatch(std::int64_t first, std::int64_
   for (std::int64_t sequence = first; sequence <= last; ++sequence) {
     batch.push_back({{sequence, sequence * 1'000'000, {0.5, 0.5, 0.0}, GasReading{1.0, 0.0}},
                      absl::OkStatus()});
+  }
+  return batch;
+}
+
+inline std::vector<IncomingObservation> RoomRunBatch() {
+  std::vector<IncomingObservation> batch;
+  for (Observation& observation : support::RoomRun()) {
+    batch.push_back({std::move(observation), absl::OkStatus()});
   }
   return batch;
 }

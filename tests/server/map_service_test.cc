@@ -50,6 +50,17 @@ TEST_F(MapServiceTest, MapShowsWhatIsApplied) {
   EXPECT_GT(map->tiles(0).column_count(), 0);
 }
 
+TEST_F(MapServiceTest, FreshPosteriorHasItsQuality) {
+  const std::int64_t lease = Lease();
+  ASSERT_TRUE(Ingest(kRobot, lease, RoomScan(1)).ok());
+  v1::GetMapRequest request;
+  request.set_mission("missions/hall");
+  request.set_fresh_posterior(true);
+  const auto map = Call(maps_, &v1::MapService::Stub::GetMap, request);
+  ASSERT_TRUE(map.ok()) << map.status();
+  EXPECT_EQ(map->status().gas_quality().refresh_count(), 1);
+}
+
 TEST_F(MapServiceTest, ReadingAMapChangesNothing) {
   const std::int64_t lease = Lease();
   ASSERT_TRUE(Ingest(kRobot, lease, RoomScan(1)).ok());

@@ -99,6 +99,66 @@ TEST(MissionHostTest, SubscriberGetsTheBeliefAtOnceAndThenTheNewest) {
   EXPECT_EQ(revisions.back(), 4);
 }
 
+// In no test does sample time go on far enough for a refresh of its own accord.
+TEST(MissionHostTest, ReadingThatNothingFollowsReachesWhoeverWatches) {
+  HostOptions options;
+  options.publish_period = absl::Hours(1);
+  options.gas_wait = absl::Milliseconds(5);
+  absl::Notification seen;
+  MissionHost host(HostParts(), options);
+  AddRobot(host);
+  ASSERT_TRUE(host.Subscribe([&](absl::StatusOr<std::shared_ptr<const Belief>> belief) {
+                    if (!belief.ok() || (*belief)->posterior_time_ns == 0) return belief.ok();
+                    seen.Notify();
+                    return false;
+                  })
+                  .ok());
+  PostGas(host, 1, 3);
+  seen.WaitForNotification();
+  EXPECT_EQ(host.gas_timings().staleness.samples, 1);
+}
+
+TEST(MissionHostTest, NobodyWatchingTheClockAddsNoEvent) {
+  HostOptions options;
+  options.publish_period = absl::ZeroDuration();
+  options.gas_wait = absl::ZeroDuration();
+  MissionHost host(HostParts(), options);
+  AddRobot(host);
+  PostGas(host, 1, 3);
+  Settle(host);
+  Settle(host);
+  EXPECT_EQ(host.summary().revision, 4);
+}
+
+TEST(MissionHostTest, StopLeavesAnEpochBehind) {
+  absl::Notification occupied;
+  absl::Notification release;
+  WorkerPool pool({"epoch", 1, 8});
+  ASSERT_TRUE(pool.Submit([&] {
+                    occupied.Notify();
+                    release.WaitForNotification();
+                  })
+                  .ok());
+  occupied.WaitForNotification();
+  {
+    MissionHost::Parts parts = HostParts();
+    parts.mission = std::make_unique<Mission>(support::FastAgeing());
+    parts.epoch_pool = &pool;
+    MissionHost host(std::move(parts), {});
+    AddRobot(host);
+    ASSERT_TRUE(host.Post([](MissionWriter& writer) {
+                      auto log = RoomRunBatch();
+                      for (std::size_t i = 0; writer.mission().epoch() == nullptr; ++i) {
+                        ASSERT_LT(i, log.size());
+                        writer.Ingest("r1", kLease, {log[i]});
+                      }
+                    })
+                    .ok());
+    host.Stop(absl::NotFoundError("deleted"));
+  }
+  release.Notify();
+}
+
 TEST(MissionHostTest, QueueRefusesWhatItHasNoRoomFor) {
   HostOptions options;
   options.max_queued_observations = 10;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/synchronization/notification.h"
 #include "tests/server/host_parts.h"
 
 namespace plumescout::server {
@@ -96,6 +97,30 @@ TEST(MissionRegistryTest, SinkHearsTheEventsOfItsMission) {
                   .ok());
   registry.StopAll(absl::UnavailableError("over"));
   EXPECT_THAT(heard, ElementsAre("hall1"));
+}
+
+TEST(MissionRegistryTest, MissionsRecomputeOnThePoolGiven) {
+  absl::Notification occupied;
+  absl::Notification release;
+  WorkerPool pool({"epoch", 1, 1});
+  ASSERT_TRUE(pool.Submit([&] {
+                    occupied.Notify();
+                    release.WaitForNotification();
+                  })
+                  .ok());
+  occupied.WaitForNotification();
+  RegistryHooks hooks;
+  hooks.epoch_pool = &pool;
+  MissionRegistry registry({}, hooks);
+  const auto host = registry.Create("hall", support::FastAgeing()).value();
+  ASSERT_TRUE(host->Post([&](MissionWriter& writer) {
+                    EXPECT_TRUE(writer.Register({"r1", 0.2, 1}).ok());
+                    EXPECT_TRUE(writer.Ingest("r1", 1, RoomRunBatch()).status.ok());
+                  })
+                  .ok());
+  registry.StopAll(absl::UnavailableError("over"));
+  EXPECT_TRUE(absl::IsResourceExhausted(pool.Submit([] {}))) << "an epoch waits in the queue";
+  release.Notify();
 }
 
 }  // namespace

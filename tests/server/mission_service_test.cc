@@ -58,6 +58,20 @@ TEST_F(MissionServiceTest, NewMissionHasTheServersOptionsButThoseGiven) {
             ToProto(expected).SerializeAsString());
 }
 
+TEST_F(MissionServiceTest, MissionTellsHowLongItsPosteriorTakes) {
+  StartServer();
+  EXPECT_EQ(Get("missions/hall")->mission().gas_timings().update().sample_count(), 0);
+  ASSERT_TRUE(Ingest(kRobot, Lease(), RoomScan(1)).ok());
+  v1::GetMapRequest request;
+  request.set_mission("missions/hall");
+  request.set_fresh_posterior(true);
+  ASSERT_TRUE(Call(maps_, &v1::MapService::Stub::GetMap, request).ok());
+  const v1::Latency update = Get("missions/hall")->mission().gas_timings().update();
+  EXPECT_EQ(update.sample_count(), 1);
+  EXPECT_GT(update.max_s(), 0.0);
+  EXPECT_EQ(update.max_s(), update.p99_s());
+}
+
 TEST_F(MissionServiceTest, NameIsTakenOnce) {
   StartServer();
   EXPECT_THAT(CreateMission("hall").status(),

@@ -5,10 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "absl/synchronization/notification.h"
 #include "tests/server/host_parts.h"
 
 namespace plumescout::server {
@@ -134,6 +136,120 @@ TEST_F(MissionWriterTest, EventsToldRebuildTheSameMission) {
   }
   EXPECT_EQ(replayed.revision(), writer_.mission().revision());
   EXPECT_EQ(replayed.Snapshot()->claims.size(), 1u);
+}
+
+// Bitwise equality: NaN equals NaN.
+bool SameBytes(const Grid<float>& a, const Grid<float>& b) {
+  return a.geometry() == b.geometry() &&
+         std::memcmp(a.values().data(), b.values().data(), a.size() * sizeof(float)) == 0;
+}
+
+void ExpectSame(const Belief& a, const Belief& b) {
+  EXPECT_EQ(a.revision, b.revision);
+  EXPECT_EQ(*a.occupancy, *b.occupancy);
+  EXPECT_TRUE(SameBytes(*a.gas_mean_ppm, *b.gas_mean_ppm));
+  EXPECT_TRUE(SameBytes(*a.gas_variance_ppm2, *b.gas_variance_ppm2));
+  EXPECT_EQ(a.gas_quality, b.gas_quality);
+}
+
+struct Recording {
+  std::vector<Event> events;
+  std::shared_ptr<const Belief> belief;
+};
+
+Recording Record(WorkerPool* epoch_pool) {
+  Recording recording;
+  MissionWriter writer(
+      std::make_unique<Mission>(support::FastAgeing()),
+      [&](const Event& event) { recording.events.push_back(event); }, epoch_pool);
+  EXPECT_TRUE(writer.Register({"r1", 0.2, kLease}).ok());
+  const IngestResult result = writer.Ingest("r1", kLease, RoomRunBatch());
+  EXPECT_TRUE(result.status.ok()) << result.status;
+  EXPECT_THAT(result.refused, IsEmpty());
+  recording.belief = writer.Snapshot();
+  return recording;
+}
+
+TEST(MissionWriterEpochs, ReplayOfTheEventsComesToTheSameBytes) {
+  WorkerPool pool({"epoch", 1, 1});
+  const Recording recording = Record(&pool);
+  EXPECT_GE(recording.belief->gas_quality.epochs, 1);
+  Mission replayed(support::FastAgeing());
+  for (const Event& event : recording.events) ASSERT_TRUE(replayed.Apply(event.body).ok());
+  ExpectSame(*replayed.Snapshot(), *recording.belief);
+}
+
+TEST(MissionWriterEpochs, EventsAndBytesAreTheSameWhoeverRecomputes) {
+  WorkerPool pool({"epoch", 1, 1});
+  const Recording beside = Record(&pool);
+  absl::Notification release;
+  Recording refused;
+  {
+    WorkerPool busy({"epoch", 1, 1});
+    ASSERT_TRUE(busy.Submit([&] { release.WaitForNotification(); }).ok());
+    refused = Record(&busy);
+    release.Notify();
+  }
+  const Recording alone = Record(nullptr);
+  EXPECT_EQ(beside.events, alone.events);
+  EXPECT_EQ(refused.events, alone.events);
+  ExpectSame(*beside.belief, *alone.belief);
+  ExpectSame(*refused.belief, *alone.belief);
+}
+
+TEST(MissionWriterEpochs, EventsDoNotDependOnHowTheLogWasCut) {
+  const Recording whole = Record(nullptr);
+  std::vector<Event> events;
+  MissionWriter writer(std::make_unique<Mission>(support::FastAgeing()),
+                       [&](const Event& event) { events.push_back(event); });
+  ASSERT_TRUE(writer.Register({"r1", 0.2, kLease}).ok());
+  for (IncomingObservation& incoming : RoomRunBatch()) {
+    std::vector<IncomingObservation> batch;
+    batch.push_back(std::move(incoming));
+    ASSERT_TRUE(writer.Ingest("r1", kLease, std::move(batch)).status.ok());
+  }
+  EXPECT_EQ(events, whole.events);
+}
+
+TEST(MissionWriterEpochs, EventsOfOneObservationComeInTheirOrder) {
+  const Recording recording = Record(nullptr);
+  // Within the events between two observations the kinds come in this order, once each at most.
+  const auto rank = [](const EventBody& body) {
+    if (std::holds_alternative<EpochAdopted>(body)) return 1;
+    if (std::holds_alternative<PosteriorRefreshed>(body)) return 2;
+    return std::holds_alternative<EpochBegun>(body) ? 3 : 0;
+  };
+  for (std::size_t i = 1; i < recording.events.size(); ++i) {
+    const int here = rank(recording.events[i].body);
+    EXPECT_TRUE(here == 0 || rank(recording.events[i - 1].body) < here) << "event " << i + 1;
+  }
+}
+
+TEST(MissionWriterGas, PublicationRefreshesOnlyForAReadingThatHasWaited) {
+  SteadyTime now;
+  MissionWriter writer(std::make_unique<Mission>(MissionOptions{}), nullptr, nullptr,
+                       [&now] { return now; });
+  ASSERT_TRUE(writer.Register({"r1", 0.2, kLease}).ok());
+  ASSERT_TRUE(writer.Ingest("r1", kLease, GasBatch(1, 1)).status.ok());
+  const absl::Duration wait = absl::Milliseconds(80);
+  now += std::chrono::milliseconds(79);
+  EXPECT_EQ(writer.Publish(wait)->posterior_time_ns, 0);
+  now += std::chrono::milliseconds(1);
+  const auto belief = writer.Publish(wait);
+  EXPECT_EQ(belief->posterior_time_ns, belief->sample_time_ns);
+  EXPECT_EQ(writer.gas_timings().staleness.samples, 1);
+  EXPECT_EQ(writer.gas_timings().staleness.max, wait);
+  EXPECT_EQ(writer.gas_timings().update.samples, 1);
+  EXPECT_EQ(writer.unpublished_since(), SteadyTime::max());
+}
+
+TEST(MissionWriterGas, RefusedReadingsAreNotWaitedFor) {
+  MissionWriter writer(std::make_unique<Mission>(MissionOptions{}), nullptr);
+  ASSERT_TRUE(writer.Register({"r1", 0.2, kLease}).ok());
+  auto batch = GasBatch(1, 1);
+  batch[0].observation.pose.x_m = 1e9;
+  writer.Ingest("r1", kLease, std::move(batch));
+  EXPECT_EQ(writer.unpublished_since(), SteadyTime::max());
 }
 
 }  // namespace

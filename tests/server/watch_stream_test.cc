@@ -79,7 +79,7 @@ TEST_F(WatchStreamTest, WatcherThatLagsSkipsButNeverLosesTheThread) {
   for (int i = 1; i <= kReadings; ++i) Apply(GasReadings(i, i));
   Frame frame = watch.Read();
   ASSERT_EQ(frame.kind(), Frame::KIND_FULL);
-  while (frame.revision() < 1 + kReadings) {
+  while (frame.status().gas_counters().reading_count() < kReadings) {
     const std::int64_t held = frame.revision();
     frame = watch.Read();
     ASSERT_EQ(frame.base_revision(), held);

@@ -34,8 +34,14 @@ class RandomEvents {
       case 3:
         event.body = PlanIssued{MakePlan()};
         break;
-      default:
+      case 4:
         event.body = ProgressReported{Text(), Int64(), Choice<ProgressOutcome>(3)};
+        break;
+      case 5:
+        event.body = EpochBegun{Int64()};
+        break;
+      default:
+        event.body = EpochAdopted{};
     }
     return event;
   }

@@ -15,6 +15,8 @@ struct CellInput {
   // than the map there may be a wall between the two.
   bool linked_east = true;
   bool linked_north = true;
+
+  friend bool operator==(const CellInput&, const CellInput&) = default;
 };
 
 struct CellChange {

@@ -34,6 +34,14 @@ TEST(AgeingTest, HalvesThePrecisionInAHalfLife) {
   EXPECT_DOUBLE_EQ(ageing.Precision(0.1, 0, 60 * kSecond_ns), 5.0);
 }
 
+TEST(AgeingTest, KnowsWhetherPrecisionHasHalved) {
+  const Ageing ageing(HalfLife(60.0));
+  EXPECT_FALSE(ageing.IsHalved(0, 59 * kSecond_ns));
+  EXPECT_TRUE(ageing.IsHalved(0, 61 * kSecond_ns));
+  EXPECT_FALSE(ageing.IsHalved(61 * kSecond_ns, 0));
+  EXPECT_FALSE(Ageing(HalfLife(0.0)).IsHalved(0, std::numeric_limits<std::int64_t>::max()));
+}
+
 TEST(AgeingTest, KeepsPrecisionForEverWithoutAHalfLife) {
   const Ageing ageing(HalfLife(0.0));
   EXPECT_FALSE(ageing.enabled());
@@ -64,6 +72,13 @@ TEST(AgeingTest, BoundsThePrecisionOfAReading) {
   const double variance_ppm2 =
       ageing.InitialVariance_ppm2(std::numeric_limits<double>::denorm_min());
   EXPECT_LE(ageing.Precision(variance_ppm2, 0, 0), 1e9 * (1.0 + 1e-12));
+}
+
+TEST(AgeingTest, LetsAHugeVarianceSayNothingWithoutOverflow) {
+  const Ageing ageing(HalfLife(1.0));
+  const double variance_ppm2 = ageing.InitialVariance_ppm2(std::numeric_limits<double>::max());
+  EXPECT_TRUE(std::isfinite(variance_ppm2 * variance_ppm2));
+  EXPECT_LT(ageing.Precision(variance_ppm2, 0, 0), 1e-9 * 1e-16);  // of the least background's
 }
 
 }  // namespace

@@ -20,78 +20,90 @@ using ::plumescout::testing::GridFromArt;
 
 // Where a reading at `position` goes on the map itself.
 Placement PlaceAt(Point2 position, const Grid<CellState>& states) {
-  return Place(SiteOf(position, states.geometry()), 0, 0, GmrfGraph(states));
+  return PlacementOf(SiteOf(position, states.geometry()), states, AnchorCell{0, 0});
 }
 
-Cell CellOf(const Placement& placement, const Grid<CellState>& states) {
-  return states.geometry().CellAtIndex(GmrfGraph(states).cell_index(placement.variable));
+AnchorCell CellOf(Point2 position, const Grid<CellState>& states) {
+  return PlaceAt(position, states).cell.value();
 }
 
-TEST(PlaceTest, KeepsAReadingInItsOwnFreeCell) {
+TEST(PlacementOfTest, KeepsAReadingInItsOwnFreeCell) {
   const Grid<CellState> states = GridFromArt({"...", "...", "..."});
-  const Placement placement = PlaceAt({0.11, 0.29}, states);
-  EXPECT_EQ(CellOf(placement, states), (Cell{1, 2}));
-  EXPECT_FALSE(placement.moved);
+  EXPECT_EQ(PlaceAt({0.11, 0.29}, states), (Placement{AnchorCell{1, 2}, false}));
 }
 
-TEST(PlaceTest, MovesToTheSideOfAThinWallWhereTheReadingWas) {
+TEST(PlacementOfTest, MovesToTheSideOfAThinWallWhereTheReadingWas) {
   const Grid<CellState> states = GridFromArt({".#.", ".#.", ".#."});
-  EXPECT_EQ(CellOf(PlaceAt({0.149, 0.15}, states), states), (Cell{0, 1}));
-  EXPECT_EQ(CellOf(PlaceAt({0.151, 0.15}, states), states), (Cell{2, 1}));
+  EXPECT_EQ(CellOf({0.149, 0.15}, states), (AnchorCell{0, 1}));
+  EXPECT_EQ(CellOf({0.151, 0.15}, states), (AnchorCell{2, 1}));
   EXPECT_TRUE(PlaceAt({0.151, 0.15}, states).moved);
 }
 
-TEST(PlaceTest, MovesAcrossACornerIfNothingNearerIsFree) {
+TEST(PlacementOfTest, MovesAcrossACornerIfNothingNearerIsFree) {
   const Grid<CellState> states = GridFromArt({"##.", "###", "###"});
-  EXPECT_EQ(CellOf(PlaceAt({0.15, 0.15}, states), states), (Cell{2, 2}));
+  EXPECT_EQ(CellOf({0.15, 0.15}, states), (AnchorCell{2, 2}));
 }
 
-TEST(PlaceTest, BreaksTiesInAFixedOrder) {
+TEST(PlacementOfTest, BreaksTiesInAFixedOrder) {
   const Grid<CellState> all_but_centre = GridFromArt({"...", ".#.", "..."});
-  EXPECT_EQ(CellOf(PlaceAt({0.15, 0.15}, all_but_centre), all_but_centre), (Cell{2, 1}));
+  EXPECT_EQ(CellOf({0.15, 0.15}, all_but_centre), (AnchorCell{2, 1}));
   const Grid<CellState> corners = GridFromArt({".#.", "###", ".#."});
-  EXPECT_EQ(CellOf(PlaceAt({0.15, 0.15}, corners), corners), (Cell{2, 2}));
+  EXPECT_EQ(CellOf({0.15, 0.15}, corners), (AnchorCell{2, 2}));
 }
 
-TEST(PlaceTest, BreaksTiesWhateverTheRoundingOfThePosition) {
+TEST(PlacementOfTest, BreaksTiesWhateverTheRoundingOfThePosition) {
   const Grid<CellState> states = GridFromArt({"...", ".#.", "..."});
   for (const double noise_m : {-1e-12, 0.0, 1e-12}) {
-    EXPECT_EQ(CellOf(PlaceAt({0.15 + noise_m, 0.15 - noise_m}, states), states), (Cell{2, 1}));
+    EXPECT_EQ(CellOf({0.15 + noise_m, 0.15 - noise_m}, states), (AnchorCell{2, 1}));
   }
 }
 
-TEST(PlaceTest, WaitsIfNothingWithinOneCellIsFree) {
+TEST(PlacementOfTest, WaitsIfNothingWithinOneCellIsFree) {
   const Grid<CellState> states = GridFromArt({".....", ".###.", ".###.", ".###.", "....."});
-  EXPECT_EQ(PlaceAt({0.25, 0.25}, states).variable, VariableIndex::kNone);
+  EXPECT_EQ(PlaceAt({0.25, 0.25}, states), Placement());
 }
 
-TEST(PlaceTest, MovesAReadingFromJustBeyondTheGrid) {
+TEST(PlacementOfTest, MovesAReadingFromJustBeyondTheGrid) {
   const Grid<CellState> states = GridFromArt({"..", ".."});
-  EXPECT_EQ(CellOf(PlaceAt({-0.05, 0.15}, states), states), (Cell{0, 1}));
-  EXPECT_EQ(PlaceAt({-0.15, 0.15}, states).variable, VariableIndex::kNone);
+  EXPECT_EQ(CellOf({-0.05, 0.15}, states), (AnchorCell{0, 1}));
+  EXPECT_EQ(PlaceAt({-0.15, 0.15}, states), Placement());
 }
 
-TEST(PlaceTest, WaitsForAnyPositionFarAway) {
+TEST(PlacementOfTest, WaitsForAnyPositionFarAway) {
   const Grid<CellState> states = GridFromArt({"..", ".."});
   constexpr double kHuge = std::numeric_limits<double>::max();
   for (const Point2 position : {Point2{1e9, 0.0}, Point2{-kHuge, kHuge}, Point2{0.05, kHuge}}) {
-    EXPECT_EQ(PlaceAt(position, states).variable, VariableIndex::kNone);
+    EXPECT_EQ(PlaceAt(position, states), Placement());
   }
 }
 
-TEST(PlaceTest, FollowsAnOriginThatMoved) {
+TEST(PlacementOfTest, FollowsAnOriginThatMoved) {
   const ReadingSite site = SiteOf({0.05, 0.05}, GridFromArt({"."}).geometry());
   const Grid<CellState> grown = GridFromArt({"?????",  //
                                              "???.?",  //
                                              "?????"});
-  EXPECT_FALSE(Place(site, 3, 1, GmrfGraph(grown)).moved);
-  EXPECT_EQ(CellOf(Place(site, 3, 1, GmrfGraph(grown)), grown), (Cell{3, 1}));
-  EXPECT_TRUE(Place(site, 2, 1, GmrfGraph(grown)).moved);
-  EXPECT_EQ(Place(site, 1, 1, GmrfGraph(grown)).variable, VariableIndex::kNone);
+  EXPECT_EQ(PlacementOf(site, grown, {-3, -1}), (Placement{AnchorCell{0, 0}, false}));
+  EXPECT_EQ(PlacementOf(site, grown, {-2, -1}), (Placement{AnchorCell{1, 0}, true}));
+  EXPECT_EQ(PlacementOf(site, grown, {-1, -1}), Placement());
+}
+
+TEST(SiteOfTest, FindsTheCentreOfACell) {
+  const GridGeometry anchor = GridFromArt({"."}).geometry();
+  EXPECT_EQ(SiteOf({0.35, -0.15}, anchor), CentreOf({3, -2}));
+  EXPECT_NE(SiteOf({0.36, -0.15}, anchor), CentreOf({3, -2}));
+}
+
+// Truncation of 4.3 / 0.1 and the like puts one index in twenty a cell off.
+TEST(SiteOfTest, FindsTheCellOfEveryCornerAndCentre) {
+  const GridGeometry anchor = GridFromArt({"."}).geometry();
+  for (int k = -300; k < 300; ++k) {
+    EXPECT_EQ(SiteOf({k * 0.1, 0.0}, anchor).cell, (AnchorCell{k, 0}));
+    EXPECT_EQ(SiteOf({(k + 0.5) * 0.1, 0.0}, anchor).cell, (AnchorCell{k, 0}));
+  }
 }
 
 // Distance from each neighbour's centre, straight from the definition.
-TEST(PlaceTest, TakesTheNearestFreeCentre) {
+TEST(PlacementOfTest, TakesTheNearestFreeCentre) {
   Rng rng(7);
   int moved = 0;
   for (int trial = 0; trial < 2000; ++trial) {
@@ -105,12 +117,12 @@ TEST(PlaceTest, TakesTheNearestFreeCentre) {
       nearest_m = std::min(nearest_m, Distance_m(position, center));
     }
     const Placement placement = PlaceAt(position, states);
-    ASSERT_EQ(placement.variable == VariableIndex::kNone, std::isinf(nearest_m));
-    if (placement.variable == VariableIndex::kNone) continue;
+    ASSERT_EQ(placement.cell.has_value(), std::isfinite(nearest_m));
+    if (!placement.cell) continue;
     ++moved;
     // Positions are compared in millionths of a cell: 1e-7 m.
-    EXPECT_NEAR(Distance_m(position, states.geometry().Center(CellOf(placement, states))),
-                nearest_m, 2e-7);
+    const Cell cell{placement.cell->x, placement.cell->y};
+    EXPECT_NEAR(Distance_m(position, states.geometry().Center(cell)), nearest_m, 2e-7);
   }
   EXPECT_GT(moved, 1000);
 }

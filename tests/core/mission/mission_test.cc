@@ -16,8 +16,9 @@ namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
-std::unique_ptr<Mission> MissionWith(std::initializer_list<const char*> robots) {
-  auto mission = Mission::Create(MissionOptions{});
+std::unique_ptr<Mission> MissionWith(std::initializer_list<const char*> robots,
+                                     const MissionOptions& options = {}) {
+  auto mission = Mission::Create(options);
   EXPECT_TRUE(mission.ok());
   for (const char* robot : robots)
     EXPECT_TRUE((*mission)->Apply(RobotRegistered{robot, 0.2, 1}).ok());
@@ -50,7 +51,9 @@ std::vector<EventBody> RecordRun(Mission& mission) {
     const std::int64_t now_ns = (step + 1) * kSecond_ns;
     apply(ObservationReceived{"a", {++sequence, now_ns, pose, support::ScanInBox(pose, 6.0, 4.0)}});
     apply(ObservationReceived{"a", {++sequence, now_ns, pose, GasReading{2.0 * step, 0.0}}});
+    if (step % 4 == 1) apply(EpochBegun{now_ns});
     apply(PosteriorRefreshed{now_ns});
+    if (step % 4 == 3) apply(EpochAdopted{});
     PlanRequest request;
     request.robot = "a";
     auto plan = (*strategy)->Plan(*mission.Snapshot(), request, NeverStop());
@@ -78,6 +81,8 @@ TEST(Mission, ReplayingTheSameEventsGivesTheSameBytes) {
   EXPECT_TRUE(SameBytes(*a->gas_mean_ppm, *b->gas_mean_ppm));
   EXPECT_TRUE(SameBytes(*a->gas_variance_ppm2, *b->gas_variance_ppm2));
   EXPECT_EQ(a->gas_counters, b->gas_counters);
+  EXPECT_EQ(a->gas_quality, b->gas_quality);
+  EXPECT_EQ(a->gas_quality.epochs, 3);
   EXPECT_EQ(a->phase, b->phase);
 }
 
@@ -116,6 +121,7 @@ TEST(Mission, ErrorsLeaveTheRevisionAlone) {
   EXPECT_FALSE(mission->Apply(ObservationReceived{"ghost", {}}).ok());
   EXPECT_FALSE(mission->Apply(ObservationReceived{"a", {5, 0, {}, GasReading{}}}).ok());
   EXPECT_FALSE(mission->Apply(PosteriorRefreshed{-1}).ok());
+  EXPECT_EQ(mission->Apply(EpochBegun{-1}).status().code(), absl::StatusCode::kInvalidArgument);
   EXPECT_FALSE(mission->Apply(ProgressReported{"a", 1, ProgressOutcome::kReached}).ok());
   Plan stale;
   stale.robot = "a";
@@ -177,8 +183,41 @@ TEST(Mission, SnapshotsStayWhatTheyWere) {
   EXPECT_TRUE(SameBytes(*before->occupancy, copy));
 }
 
-TEST(Mission, RefreshIsDueAfterItsPeriodOfSampleTime) {
+TEST(Mission, EpochsBeginAndAreAdoptedInTurn) {
   const auto mission = MissionWith({"a"});
+  EXPECT_EQ(mission->Apply(EpochAdopted{}).status().code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_EQ(mission->epoch(), nullptr);
+  ASSERT_TRUE(mission->Apply(EpochBegun{kSecond_ns}).ok());
+  EXPECT_NE(mission->epoch(), nullptr);
+  EXPECT_FALSE(mission->epoch_due());
+  EXPECT_EQ(mission->Apply(EpochBegun{kSecond_ns}).status().code(),
+            absl::StatusCode::kFailedPrecondition);
+  ASSERT_TRUE(mission->Apply(EpochAdopted{}).ok());
+  EXPECT_EQ(mission->epoch(), nullptr);
+  EXPECT_FALSE(mission->adoption_due());
+  EXPECT_EQ(mission->Snapshot()->gas_quality.epochs, 1);
+  EXPECT_EQ(mission->revision(), 3);
+}
+
+TEST(Mission, WhoRecomputesAnEpochDoesNotShow) {
+  std::shared_ptr<const Belief> beliefs[2];
+  for (const bool beside : {false, true}) {
+    const auto mission = MissionWith({});
+    RecordRun(*mission);
+    ASSERT_TRUE(mission->Apply(EpochBegun{20 * kSecond_ns}).ok());
+    if (beside) mission->epoch()->Recompute();
+    ASSERT_TRUE(mission->Apply(EpochAdopted{}).ok());
+    beliefs[beside] = mission->Snapshot();
+  }
+  EXPECT_TRUE(SameBytes(*beliefs[0]->gas_mean_ppm, *beliefs[1]->gas_mean_ppm));
+  EXPECT_TRUE(SameBytes(*beliefs[0]->gas_variance_ppm2, *beliefs[1]->gas_variance_ppm2));
+  EXPECT_EQ(beliefs[0]->gas_quality, beliefs[1]->gas_quality);
+}
+
+TEST(Mission, RefreshIsDueAfterItsPeriodOfSampleTime) {
+  MissionOptions options;
+  options.gas.refresh_period_s = 2.0;
+  const auto mission = MissionWith({"a"}, options);
   EXPECT_FALSE(mission->posterior_stale());
   const auto gas = [&](std::int64_t sequence, std::int64_t time_ns) {
     return mission->Apply(ObservationReceived{"a", {sequence, time_ns, {}, GasReading{1.0, 0.0}}});
@@ -192,6 +231,28 @@ TEST(Mission, RefreshIsDueAfterItsPeriodOfSampleTime) {
   EXPECT_FALSE(mission->refresh_due());
   ASSERT_TRUE(gas(3, 12 * kSecond_ns).ok());
   EXPECT_TRUE(mission->refresh_due());
+}
+
+TEST(Mission, AReadingDoesNotWaitForTheRefreshThatAScanCaused) {
+  MissionOptions options;
+  options.gas.refresh_period_s = 2.0;
+  const auto mission = MissionWith({"a"}, options);
+  const Pose2 pose{1.0, 1.0, 0.0};
+  std::int64_t sequence = 0;
+  const auto observe = [&](std::int64_t time_ns, auto payload) {
+    return mission->Apply(ObservationReceived{"a", {++sequence, time_ns, pose, payload}});
+  };
+  const Scan scan = support::ScanInBox(pose, 3.0, 3.0);
+  ASSERT_TRUE(observe(10 * kSecond_ns, scan).ok());
+  EXPECT_TRUE(mission->refresh_due());
+  ASSERT_TRUE(mission->Apply(PosteriorRefreshed{10 * kSecond_ns}).ok());
+  ASSERT_TRUE(observe(11 * kSecond_ns, scan).ok());
+  EXPECT_FALSE(mission->refresh_due());
+  ASSERT_TRUE(observe(11 * kSecond_ns, GasReading{1.0, 0.0}).ok());
+  EXPECT_TRUE(mission->refresh_due());
+  ASSERT_TRUE(mission->Apply(PosteriorRefreshed{11 * kSecond_ns}).ok());
+  ASSERT_TRUE(observe(12 * kSecond_ns, GasReading{1.0, 0.0}).ok());
+  EXPECT_FALSE(mission->refresh_due()) << "readings, too, bring about one refresh a period";
 }
 
 TEST(MissionCreate, RefusesInvalidOptions) {

@@ -78,7 +78,7 @@ TEST(GasOptions, RefuseValuesOutsideTheirRanges) {
       {"background_precision", &GasOptions::background_precision, {0.0, -1.0}},
       {"background_mean_ppm", &GasOptions::background_mean_ppm, {-1.0}},
       {"ageing_half_life_s", &GasOptions::ageing_half_life_s, {-1.0, 1e-4, 2e9}},
-      {"refresh_period_s", &GasOptions::refresh_period_s, {0.0, -1.0}},
+      {"refresh_period_s", &GasOptions::refresh_period_s, {0.0, -1.0, 0.009, 3601.0}},
   });
 }
 

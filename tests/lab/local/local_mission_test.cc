@@ -14,6 +14,7 @@
 #include "absl/time/clock.h"
 #include "client/error_reason.h"
 #include "tests/client/ingest_traffic.h"
+#include "tests/support/room_run.h"
 #include "tests/support/scripted_strategy.h"
 
 namespace plumescout::lab {
@@ -200,6 +201,20 @@ TEST_F(LocalMissionTest, PlansSeeEveryReadingInThePosterior) {
   ASSERT_TRUE(mission_->NextPlan(Query("scout", lease)).ok());
 
   EXPECT_EQ(readings_in_posterior, 3);
+}
+
+TEST_F(LocalMissionTest, PosteriorsAreRecomputedWhileAMissionRuns) {
+  mission_ = std::make_shared<LocalMission>(std::make_unique<Mission>(support::FastAgeing()),
+                                            std::make_unique<const ScriptedStrategy>(nullptr),
+                                            LocalOptions{.credit_window = 1000});
+  const std::int64_t lease = Join("scout");
+  const std::int64_t stream = *mission_->OpenStream("scout", lease);
+  std::vector<client::ObservationRejected> rejected;
+  ASSERT_TRUE(mission_->Ingest("scout", lease, stream, support::RoomRun(), rejected).ok());
+
+  const auto belief = mission_->Snapshot();
+  EXPECT_GE(belief->gas_quality.epochs, 1);
+  EXPECT_GT(belief->gas_quality.refreshes, belief->gas_quality.epochs);
 }
 
 TEST_F(LocalMissionTest, ClosingWakesWhoeverWaits) {

@@ -22,7 +22,7 @@ using google::protobuf::util::MessageDifferencer;
 MissionOptions Unlike() {
   MissionOptions options;
   options.occupancy = {0.2, 0.3, 0.2, 0.7, 1.0, -0.5, 4.0, 50.0, 10'000};
-  options.gas = {1.0, 2.0, 0.01, 3.0, 60.0, 5.0};
+  options.gas = {1.0, 2.0, 0.01, 3.0, 60.0, 2, 5.0};
   options.frontier = {9, 6, 0.5, 0.25, 20.0, 3.0, 4.0, WgfdScope::kLocal};
   options.planning.strategy = "xit_f";
   options.planning.goals = GoalPolicy::kOccupancyOnly;

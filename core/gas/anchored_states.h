@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/gas/anchor_cell.h"
+#include "core/types/cell_state.h"
+#include "core/types/grid.h"
+
+namespace plumescout {
+
+// The newest occupancy states, and what changed in them. The first grid with cells is the anchor.
+class AnchoredStates {
+ public:
+  // Takes `states` over. Returns the indices into states() of the cells that became free or are so
+  // no more, ascending. Errors, with nothing changed: those of CornerOf. Cost: O(cells).
+  absl::StatusOr<std::vector<std::size_t>> Update(const Grid<CellState>& states);
+
+  bool empty() const { return states_.size() == 0; }
+  // Of the last update; if it left out cells that were known before, those too, as unknown.
+  const Grid<CellState>& states() const { return states_; }
+  AnchorCell At(std::size_t index) const {
+    const Cell cell = states_.geometry().CellAtIndex(index);
+    return {cell.x + corner_.x, cell.y + corner_.y};
+  }
+  bool IsFree(AnchorCell cell) const {
+    return states_.At({cell.x - corner_.x, cell.y - corner_.y}, CellState::kUnknown) ==
+           CellState::kFree;
+  }
+
+ private:
+  GridGeometry anchor_;
+  Grid<CellState> states_;
+  AnchorCell corner_;  // of states_
+};
+
+}  // namespace plumescout

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/gas/gas_epoch.h"
+
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "absl/status/status.h"
+
+namespace plumescout {
+namespace {
+
+// As std::max, but what is not a number counts as beyond measure.
+void Raise(double& largest, double value) {
+  if (!(value <= largest)) {
+    largest = std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
+  }
+}
+
+FieldDrift DriftBetween(const EpochInputs& live, const FieldEngine& fresh) {
+  FieldDrift drift;
+  for (std::size_t cell = 0; cell < live.cells.size(); ++cell) {
+    if (!live.cells[cell].active) continue;
+    const double variance_ppm2 = fresh.variance_ppm2(cell);
+    Raise(drift.mean_ppm, std::abs(live.mean_ppm[cell] - fresh.mean_ppm(cell)));
+    Raise(drift.variance_ratio, std::abs(live.variance_ppm2[cell] - variance_ppm2) / variance_ppm2);
+  }
+  return drift;
+}
+
+}  // namespace
+
+void GasEpoch::Recompute() {
+  if (done()) return;
+  auto engine = std::make_unique<FieldEngine>(static_cast<std::size_t>(inputs_.lattice.width),
+                                              static_cast<std::size_t>(inputs_.lattice.height),
+                                              inputs_.cells, inputs_.options);
+  drift_ = DriftBetween(inputs_, *engine);
+  if (!inputs_.aged.empty()) {
+    [[maybe_unused]] const absl::Status status = engine->Apply(inputs_.aged);
+    assert(status.ok());  // cells of this lattice, precisions below those they had
+  }
+  engine_ = std::move(engine);
+}
+
+}  // namespace plumescout

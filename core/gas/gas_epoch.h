@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/gas/field/field_engine.h"
+#include "core/gas/gas_lattice.h"
+
+namespace plumescout {
+
+// What an epoch starts from: the live engine at one moment.
+struct EpochInputs {
+  std::int64_t time_ns = 0;
+  FieldOptions options;
+  GasLattice lattice;            // of the new engine
+  std::vector<CellInput> cells;  // by its cells
+  std::vector<CellChange> aged;  // evidence with the precisions of `time_ns`; none without ageing
+  // The live fields on the new lattice, NaN off the active cells.
+  std::vector<double> mean_ppm;
+  std::vector<double> variance_ppm2;
+};
+
+// How far the live fields were from fresh ones.
+struct FieldDrift {
+  double mean_ppm = 0.0;        // largest difference
+  double variance_ratio = 0.0;  // largest, as share of the fresh one
+};
+
+// The gas field from scratch, on a lattice with room to grow and a dissection that suits it: made
+// beside the live one, which goes on meanwhile. Shares nothing with it.
+class GasEpoch {
+ public:
+  explicit GasEpoch(EpochInputs inputs) : inputs_(std::move(inputs)) {}
+
+  // The long part; may run on any thread. Does nothing if it is done.
+  // Cost: a fresh computation, two with ageing.
+  void Recompute();
+  bool done() const { return engine_ != nullptr; }
+
+  std::int64_t time_ns() const { return inputs_.time_ns; }
+  const GasLattice& lattice() const { return inputs_.lattice; }
+  // REQUIRES: done().
+  const FieldDrift& drift() const { return drift_; }
+  std::unique_ptr<FieldEngine> TakeEngine() { return std::move(engine_); }
+
+ private:
+  EpochInputs inputs_;
+  FieldDrift drift_;
+  std::unique_ptr<FieldEngine> engine_;
+};
+
+}  // namespace plumescout

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/gas/gas_inputs.h"
+
+#include <algorithm>
+#include <map>
+
+#include "core/types/status_macros.h"
+
+namespace plumescout {
+namespace {
+
+void SortOnce(std::vector<GasCell>& cells) {
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+}
+
+}  // namespace
+
+GasInputs::GasInputs(const GasOptions& options)
+    : factor_(options.lattice_factor), readings_(options) {}
+
+absl::StatusOr<std::vector<GasCell>> GasInputs::Update(const Grid<CellState>& states) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<std::size_t> freed, states_.Update(states));
+  PLUMESCOUT_RETURN_IF_ERROR(readings_.Place(states_.states(), freed));
+  std::vector<GasCell> changed = GasCellsOf(readings_.TakeChanged());
+  for (const std::size_t index : freed) {
+    const GasCell gas_cell = GasCellOf(states_.At(index), factor_);
+    changed.push_back(gas_cell);
+    if (states_.states()[index] == CellState::kFree) box_.Add(gas_cell);
+    if (factor_ == 1) continue;
+    // The links to it belong to its neighbours west and south.
+    changed.push_back({gas_cell.x - 1, gas_cell.y});
+    changed.push_back({gas_cell.x, gas_cell.y - 1});
+  }
+  SortOnce(changed);
+  return changed;
+}
+
+CellInput GasInputs::Of(GasCell cell) const {
+  CellInput input = StructureOf(states_, cell, factor_);
+  if (!input.active) return input;
+  Evidence sum;
+  for (int y = 0; y < factor_; ++y) {
+    for (int x = 0; x < factor_; ++x) {
+      sum += readings_.EvidenceAt({cell.x * factor_ + x, cell.y * factor_ + y});
+    }
+  }
+  input.precision = sum.precision;
+  input.weighted_deviation = sum.weighted_deviation;
+  return input;
+}
+
+std::vector<std::pair<GasCell, Evidence>> GasInputs::EvidenceAsOf(std::int64_t time_ns) {
+  readings_.Compact(time_ns);
+  // A sum for each gas cell of its anchor cells in ascending order, as in Of.
+  std::map<GasCell, Evidence> sums;
+  for (const CellEvidence& e : readings_.EvidenceAsOf(time_ns)) {
+    sums[GasCellOf(e.cell, factor_)] += e.evidence;
+  }
+  return {sums.begin(), sums.end()};
+}
+
+std::vector<GasCell> GasInputs::AgeTo(std::int64_t time_ns) {
+  readings_.AgeTo(time_ns);
+  return GasCellsOf(readings_.TakeChanged());
+}
+
+std::vector<GasCell> GasInputs::GasCellsOf(std::span<const AnchorCell> cells) const {
+  std::vector<GasCell> gas_cells;
+  gas_cells.reserve(cells.size());
+  for (const AnchorCell cell : cells) gas_cells.push_back(GasCellOf(cell, factor_));
+  SortOnce(gas_cells);
+  return gas_cells;
+}
+
+}  // namespace plumescout

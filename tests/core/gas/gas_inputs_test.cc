@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/gas/gas_inputs.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "absl/status/status.h"
+#include "tests/support/grid_art.h"
+
+namespace plumescout {
+namespace {
+
+using ::plumescout::testing::GridFromArt;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+GasOptions Options(int lattice_factor, double half_life_s = 0.0) {
+  GasOptions options;
+  options.lattice_factor = lattice_factor;
+  options.ageing_half_life_s = half_life_s;
+  return options;
+}
+
+TEST(GasInputsTest, SaysWhichCellsHaveNews) {
+  GasInputs inputs(Options(1));
+  EXPECT_THAT(*inputs.Update(GridFromArt({"..#"})), ElementsAre(GasCell{0, 0}, GasCell{1, 0}));
+  EXPECT_THAT(*inputs.Update(GridFromArt({"..#"})), IsEmpty());
+  inputs.Add(0, {0.15, 0.05}, {7.0});
+  EXPECT_THAT(*inputs.Update(GridFromArt({"..#"})), ElementsAre(GasCell{1, 0}));
+  EXPECT_EQ(inputs.Of({1, 0}), (CellInput{true, 10.0, 70.0, true, true}));
+  EXPECT_FALSE(inputs.Of({2, 0}).active);
+}
+
+TEST(GasInputsTest, BoxHoldsAllThatEverWasFree) {
+  GasInputs inputs(Options(1));
+  EXPECT_TRUE(inputs.box().empty());
+  ASSERT_TRUE(inputs.Update(GridFromArt({"?..?"})).ok());
+  ASSERT_TRUE(inputs.Update(GridFromArt({"?#.."})).ok());
+  EXPECT_EQ(inputs.box().x0, 1);
+  EXPECT_EQ(inputs.box().x1, 4);
+}
+
+TEST(GasInputsTest, CoarseCellAddsUpTheReadingsOfItsCells) {
+  GasInputs inputs(Options(2));
+  for (const double x_m : {0.05, 0.15, 0.25}) inputs.Add(0, {x_m, 0.05}, {1.0});
+  ASSERT_TRUE(inputs.Update(GridFromArt({"....", "...."})).ok());
+  EXPECT_EQ(inputs.Of({0, 0}), (CellInput{true, 20.0, 20.0, true, false}));
+  EXPECT_EQ(inputs.Of({1, 0}), (CellInput{true, 10.0, 10.0, false, false}));
+}
+
+TEST(GasInputsTest, ADoorIsNewsForTheCellsThatItLinks) {
+  GasInputs inputs(Options(2));
+  ASSERT_TRUE(inputs.Update(GridFromArt({".#..", ".#.."})).ok());
+  EXPECT_FALSE(inputs.Of({0, 0}).linked_east);
+  EXPECT_THAT(*inputs.Update(GridFromArt({".#..", "...."})), ::testing::Contains(GasCell{0, 0}));
+  EXPECT_TRUE(inputs.Of({0, 0}).linked_east);
+  // Opened from the east side, the cell whose link it is has not changed itself.
+  ASSERT_TRUE(inputs.Update(GridFromArt({"..#.", "..#."})).ok());
+  EXPECT_FALSE(inputs.Of({0, 0}).linked_east);
+  EXPECT_THAT(*inputs.Update(GridFromArt({"..#.", "...."})), ::testing::Contains(GasCell{0, 0}));
+  EXPECT_TRUE(inputs.Of({0, 0}).linked_east);
+}
+
+TEST(GasInputsTest, AgedEvidenceIsTheSameBeforeAndAfterAgeing) {
+  GasInputs inputs(Options(2, 60.0));
+  for (int k = 0; k < 50; ++k) {
+    inputs.Add(k * kSecond_ns, {0.05 + 0.1 * (k % 4), 0.05 + 0.1 * (k % 2)},
+               {1.0 + k, 0.1 + k % 3});
+  }
+  ASSERT_TRUE(inputs.Update(GridFromArt({"....", "...."})).ok());
+  const auto aged = inputs.EvidenceAsOf(90 * kSecond_ns);
+  EXPECT_THAT(inputs.AgeTo(90 * kSecond_ns), ElementsAre(GasCell{0, 0}, GasCell{1, 0}));
+  ASSERT_EQ(aged.size(), 2U);
+  for (const auto& [cell, evidence] : aged) {
+    EXPECT_EQ(inputs.Of(cell).precision, evidence.precision);
+    EXPECT_EQ(inputs.Of(cell).weighted_deviation, evidence.weighted_deviation);
+  }
+}
+
+TEST(GasInputsTest, RefusesAnotherLatticeAndChangesNothing) {
+  GasInputs inputs(Options(1));
+  ASSERT_TRUE(inputs.Update(GridFromArt({".."})).ok());
+  inputs.Add(0, {0.05, 0.05}, {7.0});
+  EXPECT_TRUE(absl::IsInvalidArgument(inputs.Update(GridFromArt({".#"}, 0.2)).status()));
+  EXPECT_TRUE(inputs.Of({1, 0}).active);
+  EXPECT_EQ(inputs.counters().waiting, 1);
+}
+
+}  // namespace
+}  // namespace plumescout
