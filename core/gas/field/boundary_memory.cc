@@ -5,10 +5,18 @@
 #include <cmath>
 
 namespace plumescout {
+namespace {
+
+// Readings before they are settled: the memory that they take is then at most twice that of a
+// boundary of as many cells.
+constexpr std::size_t kMostHeard = 16;
+
+}  // namespace
 
 void BoundaryMemory::Remember(const BoundaryField& boundary) {
   const std::size_t size = boundary.mean_ppm.size();
   mean_ppm_.assign(boundary.mean_ppm.begin(), boundary.mean_ppm.end());
+  heard_.clear();
   covariance_ppm2_.clear();
   covariance_ppm2_.reserve(size * (size + 1) / 2);
   for (std::size_t j = 0; j < size; ++j) {
@@ -17,7 +25,8 @@ void BoundaryMemory::Remember(const BoundaryField& boundary) {
   }
 }
 
-FieldShift BoundaryMemory::Moved(const BoundaryField& boundary) const {
+FieldShift BoundaryMemory::Moved(const BoundaryField& boundary) {
+  Settle();
   const std::size_t size = boundary.mean_ppm.size();
   FieldShift moved;
   const double* old = covariance_ppm2_.data();
@@ -32,14 +41,24 @@ FieldShift BoundaryMemory::Moved(const BoundaryField& boundary) const {
 }
 
 void BoundaryMemory::Hear(const ReadingFactors& factors, std::span<const double> x) {
+  for (std::size_t j = 0; j < x.size(); ++j) mean_ppm_[j] += factors.mean_factor * x[j];
+  heard_.push_back(factors.variance_factor);
+  heard_.insert(heard_.end(), x.begin(), x.end());
+  if (heard_.size() >= kMostHeard * (x.size() + 1)) Settle();
+}
+
+void BoundaryMemory::Settle() {
+  const std::size_t size = mean_ppm_.size();
   double* covariance = covariance_ppm2_.data();
-  for (std::size_t j = 0; j < x.size(); ++j) {
-    mean_ppm_[j] += factors.mean_factor * x[j];
-    const double scale = factors.variance_factor * x[j];
-    const double* const rest = x.data() + j;
-    for (std::size_t i = 0; i < x.size() - j; ++i) covariance[i] -= scale * rest[i];
-    covariance += x.size() - j;
+  for (std::size_t j = 0; j < size; ++j) {
+    for (std::size_t entry = 0; entry < heard_.size(); entry += size + 1) {
+      const double scale = heard_[entry] * heard_[entry + 1 + j];
+      const double* const rest = heard_.data() + entry + 1 + j;
+      for (std::size_t i = 0; i < size - j; ++i) covariance[i] -= scale * rest[i];
+    }
+    covariance += size - j;
   }
+  heard_.clear();
 }
 
 }  // namespace plumescout

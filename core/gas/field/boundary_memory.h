@@ -27,15 +27,19 @@ struct ReadingFactors {
 class BoundaryMemory {
  public:
   void Remember(const BoundaryField& boundary);
-  // By how much the present boundary differs.
-  FieldShift Moved(const BoundaryField& boundary) const;
+  // By how much the present boundary differs. Settles what has been heard.
+  FieldShift Moved(const BoundaryField& boundary);
   // The fields of the node have heard a reading, so that all is as if they had been computed from a
-  // boundary that had heard it too. `x` is by boundary cell.
+  // boundary that had heard it too. `x` is by boundary cell. Cost: O(x), the square of it at times.
   void Hear(const ReadingFactors& factors, std::span<const double> x);
 
  private:
+  void Settle();
+
   std::vector<double> mean_ppm_;
   std::vector<double> covariance_ppm2_;  // lower triangle, packed by columns
+  // Readings that the covariance has yet to hear: together they pass over it once.
+  std::vector<double> heard_;  // variance factor and x, reading by reading
 };
 
 }  // namespace plumescout

@@ -12,40 +12,41 @@ namespace {
 struct Descent {
   std::vector<double> boundary;  // x_R, cell by cell
   std::vector<double> own;       // x_S, column by column
+  std::vector<double> weights;
 };
 
 // x_S += W x_R for one column.
 void DescendOne(const Front& front, double* x, Descent& scratch) {
-  const std::span<const Slot> boundary = front.boundary_cells();
-  scratch.boundary.resize(boundary.size());
-  scratch.own.assign(front.stride, 0.0);
-  for (std::size_t i = 0; i < boundary.size(); ++i) scratch.boundary[i] = x[boundary[i]];
-  front.AddWeighted(scratch.boundary, scratch.own.data());
+  scratch.boundary.clear();
+  for (const Slot slot : front.boundary_cells()) scratch.boundary.push_back(x[slot]);
+  scratch.own.assign(front.own, 0.0);
+  front.AddWeighted(scratch.boundary, scratch.weights, scratch.own.data());
   for (std::size_t i = 0; i < front.own; ++i) x[front.cells[i]] += scratch.own[i];
 }
 
 // The same for several columns at once.
 void DescendMany(const Front& front, SlotColumns& x, Descent& scratch) {
   const std::size_t columns = x.columns();
+  const std::size_t stride = TileRows(front.own);
   const std::span<const Slot> boundary = front.boundary_cells();
   scratch.boundary.resize(boundary.size() * columns);
   for (std::size_t i = 0; i < boundary.size(); ++i) {
     std::copy_n(x.row(boundary[i]), columns, scratch.boundary.data() + i * columns);
   }
-  scratch.own.assign(front.stride * columns, 0.0);
-  Accumulate({.a = front.weights.data(),
-              .a_stride = front.stride,
+  scratch.own.assign(stride * columns, 0.0);
+  Accumulate({.a = front.Weights(scratch.weights),
+              .a_stride = front.own,
               .b = scratch.boundary.data(),
               .b_row_stride = columns,
               .b_column_stride = 1,
               .c = scratch.own.data(),
-              .c_stride = front.stride,
+              .c_stride = stride,
               .rows = front.own,
               .columns = columns,
               .depth = boundary.size()});
   for (std::size_t i = 0; i < front.own; ++i) {
     double* const row = x.row(front.cells[i]);
-    for (std::size_t j = 0; j < columns; ++j) row[j] += scratch.own[j * front.stride + i];
+    for (std::size_t j = 0; j < columns; ++j) row[j] += scratch.own[j * stride + i];
   }
 }
 
@@ -55,19 +56,6 @@ void DescendFront(const Front& front, SlotColumns& x, Descent& scratch) {
     DescendOne(front, x.row(0), scratch);
   } else {
     DescendMany(front, x, scratch);
-  }
-}
-
-// From weights of S and R in the mean of a cell to those of R alone: p = C w_S, q = w_R + W^T w_S.
-void Condition(const Front& front, std::span<const double> weights, PathStep& step) {
-  const std::span<const double> own = weights.first(front.own);
-  step.own.assign(front.stride, 0.0);
-  AddProduct(front.covariance.data(), front.stride, own, step.own.data());
-  step.variance_ppm2 += Dot(own.data(), step.own.data(), front.own);
-  step.mean_ppm += Dot(own.data(), front.offset_ppm.data(), front.own);
-  step.boundary.assign(weights.begin() + static_cast<std::ptrdiff_t>(front.own), weights.end());
-  for (std::size_t j = 0; j < step.boundary.size(); ++j) {
-    step.boundary[j] += Dot(front.weights.data() + j * front.stride, own.data(), front.own);
   }
 }
 

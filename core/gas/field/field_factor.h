@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "core/gas/field/front.h"
+#include "core/gas/field/front_builder.h"
 #include "core/gas/field/separator_tree.h"
 
 namespace plumescout {

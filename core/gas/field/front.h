@@ -8,17 +8,15 @@
 #include <span>
 #include <vector>
 
-#include "core/gas/field/field_cells.h"
 #include "core/gas/field/separator_tree.h"
 #include "core/linalg/dense_kernel.h"
 
 namespace plumescout {
 
-// lambda_p and lambda_d of [IPP] Eq. (1).
-struct FieldPrior {
-  double prior_precision = 0.0;       // > 0
-  double background_precision = 0.0;  // > 0
-};
+// Padded rows of a column-major block that a product reads or writes from its first row on.
+constexpr std::size_t TileRows(std::size_t rows) {
+  return (rows + kRowTile - 1) / kRowTile * kRowTile;
+}
 
 // One node of a separator tree, eliminated: given the deviations m_R of its boundary, those of its
 // own active cells S are Gaussian with
@@ -28,30 +26,44 @@ struct FieldPrior {
 // that the subtree touches. W >= 0 with row sums <= 1, and C >= 0 element by element, since H is an
 // M-matrix. With H = L L^T, X = L_SS^-1: C = X^T X, W = -X^T L_RS^T. Immutable once built.
 struct Front {
+  // A prior factor between a cell of S and one of R.
+  struct Coupling {
+    std::uint32_t own = 0;
+    std::uint32_t boundary = 0;
+  };
+
   std::vector<Slot> cells;         // ascending: S, then R
   std::size_t own = 0;             // |S|
-  std::size_t stride = 0;          // of C and W, >= |S|, in whole row tiles; padding is 0
-  std::vector<double> covariance;  // C: S x S
-  std::vector<double> weights;     // W: S x R
-  std::vector<double> offset_ppm;  // S
+  std::vector<double> covariance;  // C: lower triangle, packed by columns
+  // W by columns, and elements that a tile may read beyond. A leaf has none: it touches its
+  // boundary by its own factors only, so that W = lambda_p C K with K_sr = 1 for couplings (s, r).
+  std::vector<double> weights;
+  std::vector<Coupling> couplings;
+  double coupling_precision = 0.0;  // lambda_p
+  std::vector<double> offset_ppm;   // S
   // The Schur complement on R as DominantFront keeps it, columns packed: below the diagonal, then
   // ground, then right-hand side. Absent after a reading.
   std::vector<double> message;
 
   std::size_t boundary() const { return cells.size() - own; }
-  // Multiply-adds of the elimination.
-  double work() const;
-
-  // own += W boundary; `own` has `stride` elements.
-  void AddWeighted(std::span<const double> boundary, double* own) const;
   std::span<const Slot> own_cells() const { return {cells.data(), own}; }
   std::span<const Slot> boundary_cells() const { return {cells.data() + own, boundary()}; }
-};
+  // Column j of C, from the diagonal down.
+  const double* covariance_column(std::size_t j) const {
+    return covariance.data() + j * own - (j * j - j) / 2;
+  }
 
-// Padded rows of a column-major block that a product reads or writes from its first row on.
-constexpr std::size_t TileRows(std::size_t rows) {
-  return (rows + kRowTile - 1) / kRowTile * kRowTile;
-}
+  // result += C own
+  void AddCovariance(std::span<const double> own_values, double* result) const;
+  // result += W boundary; `scratch` is for |S| elements.
+  void AddWeighted(std::span<const double> boundary_values, std::vector<double>& scratch,
+                   double* result) const;
+  // W, |S| rows: a tile may read beyond its end. `scratch` may hold it, and must then live on.
+  const double* Weights(std::vector<double>& scratch) const;
+
+  // Multiply-adds of the elimination.
+  double work() const;
+};
 
 // A reading of cell i in the subtree of a node, as the node sees it. Moments are those given that
 // its boundary is 0.
@@ -63,45 +75,17 @@ struct PathStep {
   double variance_ppm2 = 0.0;
 };
 
+// Takes a step from the weights of S and R in the mean of cell i to those of R alone: p = C w_S,
+// q = w_R + W^T w_S. Moments of the step so far are those given S and R.
+void Condition(const Front& front, std::span<const double> weights, PathStep& step);
+
 // The front once cell i has `precision` more on the diagonal and `weighted_deviation` more on the
 // right-hand side: all but the message, which needs an elimination. Cost: a copy.
 std::shared_ptr<const Front> AfterReading(const Front& front, const PathStep& step,
                                           double precision, double weighted_deviation);
 
-// y += a x, for a column-major `a` whose columns are whole row tiles.
-void AddProduct(const double* a, std::size_t stride, std::span<const double> x, double* y);
-
 // Places of the ascending slots `some` among the ascending slots `all`, which hold them.
 void FindPlaces(std::span<const Slot> some, std::span<const Slot> all,
                 std::vector<std::uint32_t>& places);
-
-// Builds fronts; holds scratch memory only.
-class FrontBuilder {
- public:
-  FrontBuilder(const SeparatorTree& tree, const FieldPrior& prior)
-      : tree_(&tree), prior_(prior), place_(tree.cells(), 0) {}
-
-  // `children` are those of the node, or null for a leaf.
-  std::shared_ptr<const Front> Build(const SeparatorTree::Node& node, const FieldCells& cells,
-                                     const Front* low, const Front* high);
-
- private:
-  void FindCells(const SeparatorTree::Node& node, const FieldCells& cells, const Front* low,
-                 const Front* high, Front& front);
-  void Assemble(const FieldCells& cells, const Front& front);
-  void AddMessage(const Front& child);
-  void Condition(Front& front);
-  void KeepMessage(Front& front) const;
-
-  const SeparatorTree* tree_;
-  FieldPrior prior_;
-  std::vector<std::uint32_t> place_;  // by slot: row in the front
-  std::vector<double> matrix_;        // the front, rows: S, R, ground, right-hand side
-  std::size_t rows_ = 0;
-  std::size_t matrix_stride_ = 0;
-  std::vector<double> inverse_;             // X
-  std::vector<double> transposed_inverse_;  // X^T
-  std::vector<double> extended_weights_;    // W, and its columns for ground and right-hand side
-};
 
 }  // namespace plumescout

@@ -87,9 +87,8 @@ void Marginals::GatherBoundary(const Front& front, const Front& parent, const Bl
 
 // m_S = offset + W m_R
 void Marginals::UpdateMean(const Front& front) {
-  own_.assign(front.stride, 0.0);
-  std::copy(front.offset_ppm.begin(), front.offset_ppm.end(), own_.begin());
-  front.AddWeighted(boundary_mean_, own_.data());
+  own_ = front.offset_ppm;
+  front.AddWeighted(boundary_mean_, scratch_, own_.data());
   for (std::size_t i = 0; i < front.own; ++i) {
     mean_ppm_[front.cells[i]] = own_[i];
     healthy_ = healthy_ && std::isfinite(own_[i]);
@@ -98,11 +97,14 @@ void Marginals::UpdateMean(const Front& front) {
 
 // diag Z_SS, with Z_SS = C + W Z_RR W^T.
 void Marginals::UpdateVariance(const Front& front) {
-  FormCross(front);
-  own_.assign(front.stride, 0.0);
-  for (std::size_t i = 0; i < front.own; ++i) own_[i] = front.covariance[i * front.stride + i];
-  for (std::size_t k = 0; k < front.weights.size(); k += front.stride) {
-    for (std::size_t i = 0; i < front.stride; ++i) own_[i] += cross_[k + i] * front.weights[k + i];
+  const double* weights = FormCross(front);
+  own_.clear();
+  for (std::size_t i = 0; i < front.own; ++i) own_.push_back(*front.covariance_column(i));
+  const double* cross = cross_.data();
+  for (std::size_t k = 0; k < front.boundary(); ++k) {
+    for (std::size_t i = 0; i < front.own; ++i) own_[i] += cross[i] * weights[i];
+    cross += TileRows(front.own);
+    weights += front.own;
   }
   for (std::size_t i = 0; i < front.own; ++i) {
     variance_ppm2_[front.cells[i]] = own_[i];
@@ -110,36 +112,40 @@ void Marginals::UpdateVariance(const Front& front) {
   }
 }
 
-// Z_SR = W Z_RR
-void Marginals::FormCross(const Front& front) {
+// Z_SR = W Z_RR; returns W.
+const double* Marginals::FormCross(const Front& front) {
   const std::size_t size = front.boundary();
-  cross_.assign(front.stride * size, 0.0);
-  Accumulate({.a = front.weights.data(),
-              .a_stride = front.stride,
+  const std::size_t stride = TileRows(front.own);
+  const double* const weights = front.Weights(scratch_);
+  cross_.assign(stride * size, 0.0);
+  Accumulate({.a = weights,
+              .a_stride = front.own,
               .b = boundary_.data(),
               .b_column_stride = size,
               .c = cross_.data(),
-              .c_stride = front.stride,
+              .c_stride = stride,
               .rows = front.own,
               .columns = size,
               .depth = size});
+  return weights;
 }
 
 void Marginals::FormBlock(const Front& front, Block& block) {
   const std::size_t own = front.own;
   const std::size_t size = front.boundary();
-  FormCross(front);
+  const std::size_t cross_stride = TileRows(own);
+  const double* const weights = FormCross(front);
   block.stride = PaddedRows(front.cells.size());
   block.values.resize(std::max(block.values.size(), block.stride * front.cells.size()));
   for (std::size_t j = 0; j < own; ++j) {
     double* const column = block.values.data() + j * block.stride;
-    std::copy_n(front.covariance.data() + j * front.stride, own, column);
+    std::copy_n(front.covariance_column(j), own - j, column + j);
     std::fill_n(column + own, block.stride - own, 0.0);
   }
   Accumulate({.a = cross_.data(),
-              .a_stride = front.stride,
-              .b = front.weights.data(),
-              .b_row_stride = front.stride,
+              .a_stride = cross_stride,
+              .b = weights,
+              .b_row_stride = own,
               .b_column_stride = 1,
               .c = block.values.data(),
               .c_stride = block.stride,
@@ -151,7 +157,7 @@ void Marginals::FormBlock(const Front& front, Block& block) {
     double* const column = block.values.data() + j * block.stride;
     variance_ppm2_[front.cells[j]] = column[j];
     healthy_ = healthy_ && IsVariance(column[j]);
-    for (std::size_t i = 0; i < size; ++i) column[own + i] = cross_[i * front.stride + j];
+    for (std::size_t i = 0; i < size; ++i) column[own + i] = cross_[i * cross_stride + j];
   }
   for (std::size_t j = 0; j < size; ++j) {
     std::copy_n(boundary_.data() + j * size + j, size - j,
@@ -198,12 +204,13 @@ void Marginals::VisitForReading(std::size_t node, const FieldShift& owed_above) 
     }
     memories_[node].Hear(factors, x_);
   }
-  own_.assign(front.stride, 0.0);
   if (on_path) {
     own_ = hearing_.steps.back().own;
     hearing_.steps = hearing_.steps.first(hearing_.steps.size() - 1);
+  } else {
+    own_.assign(front.own, 0.0);
   }
-  front.AddWeighted(x_, own_.data());
+  front.AddWeighted(x_, scratch_, own_.data());
   UpdateForReading(front);
   const SeparatorTree::Node& place = tree_->nodes()[node];
   if (place.is_leaf()) return;

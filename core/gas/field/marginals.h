@@ -85,7 +85,7 @@ class Marginals {
   void GatherBoundary(const Front& front, const Front& parent, const Block& from);
   void UpdateMean(const Front& front);
   void UpdateVariance(const Front& front);
-  void FormCross(const Front& front);
+  const double* FormCross(const Front& front);
   void FormBlock(const Front& front, Block& block);
 
   void VisitForReading(std::size_t node, const FieldShift& owed_above);
@@ -109,6 +109,7 @@ class Marginals {
   std::vector<double> boundary_mean_;  // m_R
   std::vector<double> cross_;          // Z_SR = W Z_RR
   std::vector<double> own_;
+  std::vector<double> scratch_;       // of the weights of a leaf
   std::vector<std::uint32_t> place_;  // of the boundary in the parent's block
 
   Hearing hearing_;

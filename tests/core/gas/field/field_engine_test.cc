@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "tests/core/gas/field/field_case.h"
@@ -41,7 +42,7 @@ void ExpectExact(const FieldCase& c, const FieldEngine& engine) {
 TEST(FieldEngineTest, EqualsTheDenseInverseOnRandomMaps) {
   Rng rng(1);
   for (const double blocked_share : {0.0, 0.1, 0.4, 0.7, 0.95}) {
-    for (const std::size_t width : {1, 3, 11, 29}) {
+    for (const std::size_t width : {1, 3, 11, 22}) {
       const FieldCase c = RandomFieldCase(width, 23, blocked_share, rng);
       ExpectExact(c, EngineOf(c));
     }
@@ -53,7 +54,7 @@ TEST(FieldEngineTest, StaysExactWhileLinksAreRemovedAndRestored) {
   FieldCase c = RandomFieldCase(19, 17, 0.1, rng);
   FieldEngine engine = EngineOf(c);
   std::vector<CellChange> restored;
-  for (int batch = 0; batch < 12; ++batch) {
+  for (int batch = 0; batch < 8; ++batch) {
     std::vector<CellChange> changes = std::move(restored);
     restored.clear();
     for (int k = 0; k < 20; ++k) {
@@ -116,7 +117,7 @@ TEST(FieldEngineTest, HandlesMapsWithoutAnActiveCell) {
 TEST(FieldEngineTest, StaysExactWhileCellsAppearAndVanishAndReadingsArrive) {
   Rng rng(2);
   for (const double blocked_share : {0.05, 0.3, 0.6}) {
-    FieldCase c = RandomFieldCase(24, 20, blocked_share, rng);
+    FieldCase c = RandomFieldCase(20, 17, blocked_share, rng);
     FieldEngine engine = EngineOf(c);
     for (int batch = 0; batch < 60; ++batch) {
       const std::vector<CellChange> changes =
@@ -124,7 +125,7 @@ TEST(FieldEngineTest, StaysExactWhileCellsAppearAndVanishAndReadingsArrive) {
                          : RandomReading(c, rng);
       c.Apply(changes);
       ASSERT_TRUE(engine.Apply(changes).ok());
-      if (batch % 4 == 0) ExpectExact(c, engine);
+      if (batch % 6 == 5) ExpectExact(c, engine);
     }
     ExpectExact(c, engine);
   }
@@ -146,7 +147,7 @@ TEST(FieldEngineTest, StaysExactOverMoreReadingsThanMayBePending) {
 
 TEST(FieldEngineTest, ExploresAMapThatWasWhollyUnknown) {
   Rng rng(4);
-  const FieldCase target = RandomFieldCase(26, 22, 0.2, rng);
+  const FieldCase target = RandomFieldCase(22, 20, 0.2, rng);
   FieldCase c{target.width, std::vector<CellInput>(target.cells.size())};
   FieldEngine engine = EngineOf(c);
   for (std::size_t row = 0; row < target.height(); ++row) {
@@ -191,36 +192,73 @@ TEST(FieldEngineTest, LosesNoDigitsWhereTheBackgroundIsNegligible) {
   }
 }
 
-TEST(FieldEngineTest, KeepsWithinItsToleranceAndSaysSo) {
-  Rng rng(6);
-  FieldCase c = RandomFieldCase(40, 40, 0.25, rng);
+// A batch of what a mission may see: mostly a reading, else walls that come and go, else ageing,
+// which takes a little precision from all cells.
+std::vector<CellChange> RandomBatch(const FieldCase& c, Rng& rng) {
+  const double draw = rng.Uniform01();
+  if (draw < 0.7) return RandomReading(c, rng);
+  if (draw < 0.95) return RandomChanges(c, 3, 0.25, rng);
+  constexpr double kKept = 0.98;
+  std::vector<CellChange> changes;
+  for (std::size_t i = 0; i < c.cells.size(); ++i) {
+    changes.push_back({i, c.cells[i]});
+    changes.back().input.precision *= kKept;
+    changes.back().input.weighted_deviation *= kKept;
+  }
+  return changes;
+}
+
+void ExpectWithin(const FieldError& bound, const FieldCase& c, const FieldEngine& engine) {
+  const FieldEngine fresh = EngineOf(c);
+  for (std::size_t i = 0; i < c.cells.size(); ++i) {
+    if (!c.cells[i].active) continue;
+    EXPECT_NEAR(engine.mean_ppm(i), fresh.mean_ppm(i), bound.mean_ppm + kExact);
+    EXPECT_NEAR(engine.variance_ppm2(i) / fresh.variance_ppm2(i), 1.0,
+                bound.variance_ratio + kExact);
+  }
+}
+
+TEST(FieldEngineTest, KeepsWithinItsToleranceAndSaysSoOverALongRun) {
+  for (const double share : {1e-4, 1e-2}) {
+    Rng rng(6);
+    FieldCase c = RandomFieldCase(30, 28, 0.25, rng);
+    FieldOptions options = DefaultField();
+    options.tolerance = {share, share};
+    FieldEngine engine = EngineOf(c, options);
+    double greatest_bound = 0.0;
+    for (int batch = 0; batch < 120; ++batch) {
+      const std::vector<CellChange> changes = RandomBatch(c, rng);
+      c.Apply(changes);
+      ASSERT_TRUE(engine.Apply(changes).ok());
+      const FieldError bound = engine.error_bound();
+      EXPECT_LE(bound.mean_ppm, share * kPeak_ppm);
+      EXPECT_LE(bound.variance_ratio, share * (1.0 + kExact));
+      greatest_bound = std::max(greatest_bound, bound.variance_ratio);
+      ExpectWithin(bound, c, engine);
+    }
+    EXPECT_GT(greatest_bound, 0.0) << "nothing was passed over";
+  }
+}
+
+TEST(FieldEngineTest, KeepsTheShareOfVariancesThatAreTiny) {
+  // Cells with thousands of readings between others with none.
+  Rng rng(17);
+  FieldCase c = RandomFieldCase(30, 28, 0.2, rng);
+  for (int k = 0; k < 20; ++k) c.cells[rng.Below(c.cells.size())].precision = 5e4;
   FieldOptions options = DefaultField();
-  options.tolerance = {1e-4, 1e-3};
+  options.tolerance = {1e-2, 1e-2};
   FieldEngine engine = EngineOf(c, options);
-  bool approximate = false;
-  for (int batch = 0; batch < 60; ++batch) {
-    const std::vector<CellChange> changes =
-        batch % 2 == 0 ? RandomChanges(c, 2, 0.25, rng) : RandomReading(c, rng);
+  for (int batch = 0; batch < 40; ++batch) {
+    const std::vector<CellChange> changes = RandomBatch(c, rng);
     c.Apply(changes);
     ASSERT_TRUE(engine.Apply(changes).ok());
-    const FieldError bound = engine.error_bound();
-    EXPECT_LE(bound.mean_ppm, options.tolerance.mean_share * kPeak_ppm);
-    EXPECT_LE(bound.variance_ratio, options.tolerance.variance_share * (1.0 + kExact));
-    approximate = approximate || bound.mean_ppm > 0.0;
-    const FieldEngine fresh = EngineOf(c);
-    for (std::size_t i = 0; i < c.cells.size(); ++i) {
-      if (!c.cells[i].active) continue;
-      EXPECT_NEAR(engine.mean_ppm(i), fresh.mean_ppm(i), bound.mean_ppm + kExact);
-      EXPECT_NEAR(engine.variance_ppm2(i) / fresh.variance_ppm2(i), 1.0,
-                  bound.variance_ratio + kExact);
-    }
+    ExpectWithin(engine.error_bound(), c, engine);
   }
-  EXPECT_TRUE(approximate) << "nothing was pruned";
 }
 
 TEST(FieldEngineTest, IsExactAgainAfterRecomputing) {
   Rng rng(7);
-  FieldCase c = RandomFieldCase(30, 30, 0.2, rng);
+  FieldCase c = RandomFieldCase(20, 20, 0.2, rng);
   FieldOptions options = DefaultField();
   options.tolerance = {1.0, 1.0};
   FieldEngine engine = EngineOf(c, options);
@@ -300,7 +338,13 @@ TEST(FieldEngineTest, AppliesNothingAtNoCost) {
   EXPECT_TRUE(SameFields(c, engine, EngineOf(c)));
 }
 
-TEST(FieldEngineTest, HealsPoisonedFieldsByAFreshComputation) {
+// Where assertions stop the program, tests fork, and sanitizers may run threads.
+class FieldEngineHealingTest : public ::testing::Test {
+ protected:
+  FieldEngineHealingTest() { GTEST_FLAG_SET(death_test_style, "threadsafe"); }
+};
+
+TEST_F(FieldEngineHealingTest, ComputesPoisonedFieldsAfresh) {
   Rng rng(14);
   for (const double poison : {kNaN, -1.0, kInfinity}) {
     FieldCase c = RandomFieldCase(24, 24, 0.2, rng);
@@ -315,7 +359,7 @@ TEST(FieldEngineTest, HealsPoisonedFieldsByAFreshComputation) {
   }
 }
 
-TEST(FieldEngineTest, HealsPoisonedFrontsByAFreshComputation) {
+TEST_F(FieldEngineHealingTest, ComputesPoisonedFrontsAfresh) {
   Rng rng(15);
   FieldCase c = RandomFieldCase(24, 24, 0.2, rng);
   FieldEngine engine = EngineOf(c);
@@ -328,7 +372,7 @@ TEST(FieldEngineTest, HealsPoisonedFrontsByAFreshComputation) {
   ExpectExact(c, engine);
 }
 
-TEST(FieldEngineTest, SaysSoWhenItCannotHealAndTriesAgain) {
+TEST_F(FieldEngineHealingTest, SaysSoWhenItCannotHealAndTriesAgain) {
   Rng rng(16);
   const FieldCase c = RandomFieldCase(12, 12, 0.2, rng);
   FieldEngine engine = EngineOf(c);

@@ -14,77 +14,86 @@ namespace {
 
 using ::plumescout::testing::FactorCase;
 
-Eigen::MatrixXd Part(const FactorCase& c, const Eigen::MatrixXd& matrix, std::span<const Slot> rows,
-                     std::span<const Slot> columns) {
-  Eigen::MatrixXd part(rows.size(), columns.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (std::size_t j = 0; j < columns.size(); ++j) {
-      part(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          matrix(c.Variable(rows[i]), c.Variable(columns[j]));
-    }
-  }
-  return part;
+Eigen::VectorXd RandomVector(std::size_t size, Rng& rng) {
+  Eigen::VectorXd vector(static_cast<Eigen::Index>(size));
+  for (double& value : vector) value = rng.Uniform(0.0, 1.0);
+  return vector;
 }
 
-// The distribution of own cells given the boundary, out of the joint one.
-TEST(FrontTest, HoldsTheConditionalDistributionOfItsCells) {
-  const FactorCase c(1);
-  for (std::size_t node = 0; node < c.tree->nodes().size(); ++node) {
-    const Front& front = c.factor.front(node);
-    const Eigen::MatrixXd rs = Part(c, c.inverse, front.boundary_cells(), front.own_cells());
-    const Eigen::MatrixXd rr = Part(c, c.inverse, front.boundary_cells(), front.boundary_cells());
-    const Eigen::MatrixXd ss = Part(c, c.inverse, front.own_cells(), front.own_cells());
-    const Eigen::MatrixXd weights = rs.transpose() * rr.inverse();
-    const Eigen::MatrixXd covariance = ss - weights * rs;
-    for (std::size_t i = 0; i < front.own; ++i) {
+std::span<const double> SpanOf(const Eigen::VectorXd& vector) {
+  return {vector.data(), static_cast<std::size_t>(vector.size())};
+}
+
+Eigen::MatrixXd DenseCovariance(const Front& front) {
+  const auto size = static_cast<Eigen::Index>(front.own);
+  Eigen::MatrixXd covariance(size, size);
+  for (std::size_t j = 0; j < front.own; ++j) {
+    for (std::size_t i = j; i < front.own; ++i) {
       const auto row = static_cast<Eigen::Index>(i);
-      double mean = front.offset_ppm[i];
-      for (std::size_t j = 0; j < front.boundary(); ++j) {
-        const double weight = front.weights[j * front.stride + i];
-        EXPECT_NEAR(weight, weights(row, static_cast<Eigen::Index>(j)), 1e-9);
-        mean += weight * c.mean_ppm(c.Variable(front.boundary_cells()[j]));
-      }
-      EXPECT_NEAR(mean, c.mean_ppm(c.Variable(front.cells[i])), 1e-9);
-      for (std::size_t j = 0; j < front.own; ++j) {
-        EXPECT_NEAR(front.covariance[j * front.stride + i],
-                    covariance(row, static_cast<Eigen::Index>(j)), 1e-9);
-      }
+      const auto column = static_cast<Eigen::Index>(j);
+      covariance(row, column) = covariance(column, row) = front.covariance_column(j)[i - j];
     }
   }
+  return covariance;
 }
 
-TEST(FrontTest, WeighsItsBoundaryByAtMostOne) {
-  const FactorCase c(2);
+Eigen::MatrixXd DenseWeights(const Front& front) {
+  std::vector<double> scratch;
+  return Eigen::Map<const Eigen::MatrixXd>(front.Weights(scratch),
+                                           static_cast<Eigen::Index>(front.own),
+                                           static_cast<Eigen::Index>(front.boundary()));
+}
+
+TEST(FrontTest, MultipliesByItsCovarianceAndItsWeights) {
+  const FactorCase c(1);
+  Rng rng(1);
   for (std::size_t node = 0; node < c.tree->nodes().size(); ++node) {
     const Front& front = c.factor.front(node);
-    for (std::size_t i = 0; i < front.own; ++i) {
-      double sum = 0.0;
-      for (std::size_t j = 0; j < front.boundary(); ++j) {
-        const double weight = front.weights[j * front.stride + i];
-        EXPECT_GE(weight, 0.0);
-        sum += weight;
-      }
-      EXPECT_LE(sum, 1.0 + 1e-12);
+    const Eigen::VectorXd own = RandomVector(front.own, rng);
+    const Eigen::VectorXd boundary = RandomVector(front.boundary(), rng);
+    Eigen::VectorXd sum = own;
+    std::vector<double> scratch;
+    front.AddCovariance(SpanOf(own), sum.data());
+    front.AddWeighted(SpanOf(boundary), scratch, sum.data());
+    const Eigen::VectorXd expected =
+        own + DenseCovariance(front) * own + DenseWeights(front) * boundary;
+    EXPECT_LE((sum - expected).cwiseAbs().sum(), 1e-10);
+  }
+}
+
+TEST(FrontTest, ConditionsAStepOnItsBoundary) {
+  const FactorCase c(2);
+  Rng rng(2);
+  for (std::size_t node = 0; node < c.tree->nodes().size(); ++node) {
+    const Front& front = c.factor.front(node);
+    const Eigen::VectorXd weights = RandomVector(front.cells.size(), rng);
+    const auto own = weights.head(static_cast<Eigen::Index>(front.own));
+    PathStep step;
+    step.mean_ppm = 3.0;
+    step.variance_ppm2 = 0.5;
+    Condition(front, SpanOf(weights), step);
+    const Eigen::VectorXd covariance = DenseCovariance(front) * own;
+    const Eigen::VectorXd boundary = weights.tail(static_cast<Eigen::Index>(front.boundary())) +
+                                     DenseWeights(front).transpose() * own;
+    const Eigen::Map<const Eigen::VectorXd> offset(front.offset_ppm.data(), own.size());
+    EXPECT_NEAR(step.variance_ppm2, 0.5 + own.dot(covariance), 1e-10);
+    EXPECT_NEAR(step.mean_ppm, 3.0 + own.dot(offset), 1e-9);
+    for (std::size_t i = 0; i < step.own.size(); ++i) {
+      EXPECT_NEAR(step.own[i], covariance(static_cast<Eigen::Index>(i)), 1e-10);
+    }
+    for (std::size_t i = 0; i < step.boundary.size(); ++i) {
+      EXPECT_NEAR(step.boundary[i], boundary(static_cast<Eigen::Index>(i)), 1e-10);
     }
   }
 }
 
-TEST(FrontTest, TouchesNobodyAcrossAWall) {
-  // Two rooms, the wall between them as separator: neither has a boundary.
-  std::vector<std::uint8_t> active(20 * 9, 1);
-  for (std::size_t y = 0; y < 9; ++y) active[y * 20 + 10] = 0;
-  const SeparatorTree tree(20, 9, active);
-  std::vector<CellInput> inputs(180);
-  for (std::size_t i = 0; i < 180; ++i) inputs[i].active = active[i] != 0;
-  const FieldCells cells(tree, inputs);
-  FieldFactor factor(std::make_shared<SeparatorTree>(tree));
-  FrontBuilder builder(tree, testing::DefaultField().prior);
-  factor.Eliminate(std::vector<std::uint8_t>(tree.nodes().size(), 1), cells, builder);
-  EXPECT_TRUE(factor.front(tree.nodes().size() - 1).cells.empty());
-  for (const std::uint32_t child : tree.nodes().back().children) {
-    EXPECT_EQ(factor.front(child).boundary(), 0u);
-    EXPECT_FALSE(factor.front(child).cells.empty());
-  }
+TEST(FrontTest, FindsPlaces) {
+  const std::vector<Slot> all = {2, 3, 5, 8, 13};
+  std::vector<std::uint32_t> places;
+  FindPlaces(std::vector<Slot>{3, 8, 13}, all, places);
+  EXPECT_EQ(places, (std::vector<std::uint32_t>{1, 3, 4}));
+  FindPlaces({}, all, places);
+  EXPECT_TRUE(places.empty());
 }
 
 }  // namespace

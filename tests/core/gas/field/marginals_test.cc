@@ -150,6 +150,22 @@ TEST(MarginalsTest, OweNoMoreThanTheySayForReadingsTheyPassOver) {
   EXPECT_GT(marginals.owed().mean_ppm, 0.0) << "nothing was passed over";
 }
 
+TEST(MarginalsTest, AreExactInACellThatIsRead) {
+  // However far off they were: after a precise reading that would be a large share of the variance.
+  FactorCase c(9);
+  Marginals marginals(*c.tree);
+  marginals.Descend(c.factor, Flags(c, 1), {});
+  const auto dirty = ChangePrecision(c, c.RandomActiveSlots(1)[0], 500.0);
+  marginals.Descend(c.factor, dirty, {kAnything, kAnything});
+  constexpr double kPrecision = 1e6;
+  for (const Slot slot : c.RandomActiveSlots(20)) {
+    if (dirty[c.tree->owner(slot)] != 0) continue;
+    Hear(c, {slot, kPrecision, 0.0}, {}, marginals);
+    const double exact = c.factor.StepsFrom(slot).back().variance_ppm2;
+    EXPECT_NEAR(marginals.variance_ppm2()[slot] / exact, 1.0, 1e-9);
+  }
+}
+
 TEST(MarginalsTest, KnowAtTheNextDescentWhatTheyHaveHeard) {
   // What the factor learns of readings that all nodes have heard moves no boundary: everything off
   // their path is kept.
