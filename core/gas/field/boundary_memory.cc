@@ -7,9 +7,8 @@
 namespace plumescout {
 namespace {
 
-// Readings before they are settled: the memory that they take is then at most twice that of a
-// boundary of as many cells.
-constexpr std::size_t kMostHeard = 16;
+// Readings before they are settled. More would save little, and cost memory on small boundaries.
+constexpr std::size_t kMostHeard = 8;
 
 }  // namespace
 

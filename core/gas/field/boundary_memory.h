@@ -38,7 +38,7 @@ class BoundaryMemory {
 
   std::vector<double> mean_ppm_;
   std::vector<double> covariance_ppm2_;  // lower triangle, packed by columns
-  // Readings that the covariance has yet to hear: together they pass over it once.
+  // Readings that the covariances have yet to hear: one pass over them serves several.
   std::vector<double> heard_;  // variance factor and x, reading by reading
 };
 

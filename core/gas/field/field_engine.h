@@ -34,7 +34,7 @@ struct FieldError {
 struct FieldOptions {
   FieldPrior prior;
   FieldTolerance tolerance;
-  // Batches of readings alone that may pass over what they hardly touch, before a pass sees to it.
+  // Readings that may pass over cells they hardly touch, before a pass for changes sees to those.
   std::size_t max_pending = 16;
 };
 
@@ -57,10 +57,10 @@ class FieldEngine {
   // Brings the fields up to date with all changes; of several to one cell the last holds. Added
   // readings cost a column of the inverse each, as far as it matters; anything else, and every
   // `max_pending`-th reading, the paths of the changed cells upward and a pruned pass downward.
-  // Errors, after which nothing has changed: kInvalidArgument for a cell beyond the lattice, a
-  // precision that is negative, NaN or beyond kMaxCellPrecision, a deviation that is not finite or
-  // beyond it. kInternal if fields are not finite or a variance not positive even after a fresh
-  // computation; the next call tries again.
+  // Errors: kInvalidArgument, with nothing changed, for a cell beyond the lattice, a precision that
+  // is negative, NaN or beyond kMaxCellPrecision, a deviation that is not finite or beyond it.
+  // kInternal if a field is not finite or a variance not positive even after a fresh computation;
+  // the next call tries again.
   absl::Status Apply(std::span<const CellChange> changes);
 
   // Everything from scratch; afterwards the fields are exact to rounding.

@@ -49,16 +49,15 @@ void Front::AddWeighted(std::span<const double> boundary_values, std::vector<dou
 
 const double* Front::Weights(std::vector<double>& scratch) const {
   if (couplings.empty()) return weights.data();
-  scratch.assign(own * cells.size() + kRowTile, 0.0);
-  double* const full = scratch.data() + own * boundary();  // C
-  const double* value = covariance.data();
-  for (std::size_t j = 0; j < own; ++j) {
-    for (std::size_t i = j; i < own; ++i) full[j * own + i] = full[i * own + j] = *value++;
-  }
+  scratch.assign(own * boundary() + kRowTile, 0.0);
   for (const Coupling& coupling : couplings) {
-    const double* const from = full + coupling.own * own;
-    double* const to = scratch.data() + coupling.boundary * own;
-    for (std::size_t i = 0; i < own; ++i) to[i] += coupling_precision * from[i];
+    double* const column = scratch.data() + coupling.boundary * own;
+    const double* value = covariance.data() + coupling.own;  // along the row of C to its diagonal
+    for (std::size_t i = 0; i < coupling.own; ++i) {
+      column[i] += coupling_precision * *value;
+      value += own - i - 1;
+    }
+    for (std::size_t i = coupling.own; i < own; ++i) column[i] += coupling_precision * *value++;
   }
   return scratch.data();
 }

@@ -87,6 +87,19 @@ TEST_P(SeparatorTreeTest, KnowsTheFourNeighbours) {
   }
 }
 
+TEST(SeparatorTreeCutsTest, SeparateCellsAlongLinesOfAnySlope) {
+  for (double angle_deg = -45.0; angle_deg <= 45.0; angle_deg += 6.0) {
+    constexpr std::size_t kSide = 90;
+    const SeparatorTree tree(kSide, kSide, testing::RotatedRooms(kSide, angle_deg));
+    for (Slot slot = 0; slot < tree.cells(); ++slot) {
+      for (const Slot next : tree.neighbours(slot)) {
+        if (next == kNoSlot || next < slot) continue;
+        EXPECT_TRUE(IsSameOrAncestor(tree, tree.owner(next), tree.owner(slot)));
+      }
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Lattices, SeparatorTreeTest,
                          ::testing::Values(Lattice{1, 1}, Lattice{1, 500}, Lattice{500, 1},
                                            Lattice{2, 90}, Lattice{7, 7}, Lattice{40, 61}));
