@@ -61,7 +61,8 @@ class ReadingStore {
   Evidence EvidenceAt(AnchorCell cell) const;
 
   // All cells with evidence, ascending, as of `time_ns`. The same bits as AgeTo(time_ns) and
-  // EvidenceAt would give, until a cell's readings change or are merged. Cost: O(buckets).
+  // EvidenceAt would give, until a cell's readings change or are merged. Cost: O(buckets + sites
+  // log sites).
   std::vector<CellEvidence> EvidenceAsOf(std::int64_t time_ns) const;
 
   // From now on precisions are as of `time_ns`; every cell with evidence counts as changed.
