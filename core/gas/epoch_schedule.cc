@@ -61,13 +61,15 @@ bool EpochSchedule::IsTooOld(std::int64_t time_ns) const {
 
 bool EpochSchedule::IsDue(const GasLattice& lattice, const GasCellBox& box,
                           std::int64_t time_ns) const {
+  const double ageing_error = AgeingError(time_ns + kRecompute_ns);
+  if (ageing_error > kMostAgeingError) return false;  // a refresh will not wait for it
   if (!HasRoom(lattice, box, Margin_cells(box) / 2)) return true;
   if (static_cast<double>(activity_changes_) >
       kDissectedShare * static_cast<double>(active_cells_)) {
     return true;
   }
   if (refreshes_ >= kMostRefreshes) return true;
-  return AgeingError(time_ns + kRecompute_ns) > kAgeingAim;
+  return ageing_error > kAgeingAim;
 }
 
 }  // namespace plumescout

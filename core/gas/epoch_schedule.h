@@ -35,7 +35,7 @@ class EpochSchedule {
   // By what share true variances may exceed those of readings aged to aged_to_ns(): weights that
   // shrink by a factor 1 / (1 + r) or less let no variance grow by more than 1 + r.
   double AgeingError(std::int64_t time_ns) const;
-  // It has grown beyond what may be published.
+  // It has grown beyond what may be published: a refresh then ages all itself.
   bool IsTooOld(std::int64_t time_ns) const;
   bool IsDue(const GasLattice& lattice, const GasCellBox& box, std::int64_t time_ns) const;
 

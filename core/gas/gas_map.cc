@@ -59,6 +59,7 @@ void GasMap::Add(std::int64_t time_ns, Point2 position, const GasReading& readin
 absl::Status GasMap::Refresh(const Grid<CellState>& states, std::int64_t time_ns) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<GasCell> changed, inputs_.Update(states));
   stale_ = false;
+  ++quality_.refreshes;
   if (inputs_.box().empty()) {
     published_ = false;
     return absl::OkStatus();
@@ -72,7 +73,6 @@ absl::Status GasMap::Refresh(const Grid<CellState>& states, std::int64_t time_ns
     return absl::InternalError(absl::StrCat("gas map: ", status.ToString()));
   }
   published_ = false;
-  ++quality_.refreshes;
   Note(time_ns);
   return absl::OkStatus();
 }
@@ -96,7 +96,6 @@ absl::Status GasMap::Apply(std::span<const GasCell> changed) {
 // All here and now: at the first free cell, and when the lattice or the precisions no longer do.
 absl::Status GasMap::Rebuild(std::int64_t time_ns) {
   epoch_.reset();
-  inputs_.EvidenceAsOf(time_ns);
   inputs_.AgeTo(time_ns);
   const GasLattice lattice = RoomyLattice();
   const std::vector<CellInput> inputs = InputsOn(lattice);

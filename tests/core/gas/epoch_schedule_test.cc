@@ -83,6 +83,7 @@ TEST(EpochScheduleTest, DueSoThatAgeingStaysWithinItsAim) {
   schedule.NoteFresh(0, 100);
   EXPECT_FALSE(schedule.IsDue(kRoomy, kBox, 9 * kSecond_ns - 1));
   EXPECT_TRUE(schedule.IsDue(kRoomy, kBox, 9 * kSecond_ns + 1));
+  EXPECT_FALSE(schedule.IsDue(kRoomy, kBox, 100 * kSecond_ns)) << "it would come too late";
   EXPECT_FALSE(schedule.IsTooOld(100 * kSecond_ns - 1));
   EXPECT_TRUE(schedule.IsTooOld(100 * kSecond_ns + 1));
 }

@@ -164,7 +164,7 @@ TEST(GasMapOnlineTest, StaysWithinItsCertificateWhileTheMapGrows) {
 }
 
 TEST(GasMapOnlineTest, AgesReadingsInEpochs) {
-  constexpr double kMerged = kBucketSpread * kBucketSpread;
+  constexpr double kMerged = 2 * kBucketError;
 
   Discovery discovery(2);
   GasOptions options;
