@@ -32,7 +32,7 @@ struct MapConfig {
   int threads = 1;
   int max_queued = 128;
   double publish_period_s = 0.1;
-  double gas_wait_s = 0.08;  // in spite of the period, a reading is seen after this
+  double gas_wait_s = 0.06;  // in spite of the period, a reading is seen after this
 };
 
 struct EpochConfig {

@@ -39,11 +39,14 @@ class EpochRunner::Task {
   bool done_ ABSL_GUARDED_BY(mutex_) = false;
 };
 
-EpochRunner::~EpochRunner() {
+EpochRunner::~EpochRunner() { Drop(); }
+
+void EpochRunner::Drop() {
   if (task_ != nullptr) task_->Claim();
 }
 
 void EpochRunner::Start(std::shared_ptr<GasEpoch> epoch) {
+  Drop();
   task_ = std::make_shared<Task>(std::move(epoch));
   if (pool_ == nullptr) return;
   // Refused: it waits for Finish.

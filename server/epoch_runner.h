@@ -16,12 +16,13 @@ class EpochRunner {
  public:
   // `pool` is not owned and outlives the last Start; null: callers of Finish compute.
   explicit EpochRunner(WorkerPool* pool) : pool_(pool) {}
-  // An epoch that runs is left to its end, one that waits is dropped.
+  // An epoch that runs is left to its end, one that waits never runs.
   ~EpochRunner();
   EpochRunner(const EpochRunner&) = delete;
   EpochRunner& operator=(const EpochRunner&) = delete;
 
-  // The epoch is not to be touched until Finish has returned.
+  // The epoch is not to be touched until Finish has returned. One that was started before and not
+  // finished is no longer wanted: it is left as by the destructor.
   void Start(std::shared_ptr<GasEpoch> epoch);
   // Blocks until the epoch given to Start, if any, is recomputed. What was written to it is then
   // seen by the caller.
@@ -29,6 +30,8 @@ class EpochRunner {
 
  private:
   class Task;
+
+  void Drop();
 
   WorkerPool* const pool_;
   std::shared_ptr<Task> task_;  // of the epoch started last; null if it is finished

@@ -28,7 +28,7 @@ struct HostOptions {
   // Watchers see a new belief at most this often; but a reading ...
   absl::Duration publish_period = absl::Milliseconds(100);
   // ... that was acknowledged is in the posterior that they see after this at the latest.
-  absl::Duration gas_wait = absl::Milliseconds(80);
+  absl::Duration gas_wait = absl::Milliseconds(60);
   absl::Duration lease_hold = absl::Seconds(10);
   std::int64_t first_lease_token = 1;
   SteadyClock clock = SteadyNow;

@@ -12,15 +12,17 @@
 namespace plumescout::server {
 namespace {
 
+std::shared_ptr<GasEpoch> MakeEpoch() {
+  const Grid<CellState> states({0.0, 0.0, 0.1, 64, 64}, CellState::kFree);
+  GasMap gas{GasOptions{}};
+  gas.Add(1, {1.0, 1.0}, {5.0, 0.0});
+  EXPECT_TRUE(gas.Refresh(states, 1).ok());
+  EXPECT_TRUE(gas.BeginEpoch(2).ok());
+  return gas.epoch();
+}
+
 class EpochRunnerTest : public testing::Test {
  protected:
-  EpochRunnerTest() {
-    const Grid<CellState> states({0.0, 0.0, 0.1, 64, 64}, CellState::kFree);
-    gas_.Add(1, {1.0, 1.0}, {5.0, 0.0});
-    EXPECT_TRUE(gas_.Refresh(states, 1).ok());
-    EXPECT_TRUE(gas_.BeginEpoch(2).ok());
-    epoch_ = gas_.epoch();
-  }
   // Until Release the pool's only thread does nothing else.
   void Occupy(int max_queued) {
     pool_.emplace(WorkerPoolOptions{"test", 1, max_queued});
@@ -33,8 +35,7 @@ class EpochRunnerTest : public testing::Test {
     occupied_.WaitForNotification();
   }
 
-  GasMap gas_{GasOptions{}};
-  std::shared_ptr<GasEpoch> epoch_;
+  const std::shared_ptr<GasEpoch> epoch_ = MakeEpoch();
   absl::Notification occupied_;
   absl::Notification release_;
   std::optional<WorkerPool> pool_;  // goes first: its threads use the above
@@ -92,6 +93,19 @@ TEST_F(EpochRunnerTest, EpochThatWaitsIsDroppedWithItsRunner) {
   release_.Notify();
   pool_.reset();  // having run what was queued
   EXPECT_FALSE(epoch_->done());
+}
+
+TEST_F(EpochRunnerTest, EpochThatWaitsIsDroppedForTheNext) {
+  Occupy(2);
+  const auto next = MakeEpoch();
+  EpochRunner runner(&*pool_);
+  runner.Start(epoch_);
+  runner.Start(next);
+  release_.Notify();
+  pool_.reset();
+  runner.Finish();
+  EXPECT_FALSE(epoch_->done());
+  EXPECT_TRUE(next->done());
 }
 
 }  // namespace
