@@ -32,8 +32,8 @@ struct GasOptions {
   // A reading's variance grows by 1/lambda_o in this time (lambda_t = half-life * lambda_o);
   // 0: readings do not age; else [0.001, 1e9].
   double ageing_half_life_s = 0.0;
-  // A gas cell is this many occupancy cells wide and high, [1, 16]. lambda_p links gas cells, so the
-  // field is smoother in metres on a coarser lattice.
+  // A gas cell is this many occupancy cells wide and high, [1, 16]. lambda_p links gas cells, so
+  // the field is smoother in metres on a coarser lattice.
   int lattice_factor = 1;
   // Of sample time. Refreshes that no plan asks for are this far apart, those for the sake of
   // readings and those for the sake of the map each among themselves; [0.01, 3600].
