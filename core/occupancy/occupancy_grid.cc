@@ -45,6 +45,16 @@ TileSpan SpanOf(double origin_m, double resolution_m, int cells) {
   return {begin, begin + cells / OccupancyGrid::kTileCells};
 }
 
+// `raster` on a larger lattice, its cell (0, 0) at `shift`.
+template <typename T>
+Grid<T> Moved(const Grid<T>& raster, const GridGeometry& geometry, Cell shift, T fill) {
+  Grid<T> moved(geometry, fill);
+  for (int row = 0; row < raster.height(); ++row) {
+    std::copy_n(GridRow(raster, row), raster.width(), GridRow(moved, row + shift.y) + shift.x);
+  }
+  return moved;
+}
+
 }  // namespace
 
 OccupancyGrid::OccupancyGrid(const OccupancyOptions& options)
@@ -54,6 +64,7 @@ OccupancyGrid::OccupancyGrid(const OccupancyOptions& options)
   GridGeometry empty;
   empty.resolution_m = options.resolution_m;
   log_odds_ = Grid<float>(empty);
+  states_ = Grid<CellState>(empty);
 }
 
 absl::Status OccupancyGrid::GrowToContain(Point2 min, Point2 max) {
@@ -82,29 +93,18 @@ absl::Status OccupancyGrid::GrowToContain(Point2 min, Point2 max) {
                      options_.max_extent_m, " or max_cells = ", options_.max_cells));
   }
   const double tile_m = kTileCells * resolution_m;
-  Grid<float> grown(GridGeometry{static_cast<double>(x.begin) * tile_m,
-                                 static_cast<double>(y.begin) * tile_m, resolution_m,
-                                 static_cast<int>(x.cells()), static_cast<int>(y.cells())});
-  const auto shift_x = static_cast<std::ptrdiff_t>((old_x.begin - x.begin) * kTileCells);
-  const auto shift_y = static_cast<int>((old_y.begin - y.begin) * kTileCells);
-  for (int row = 0; row < old.height; ++row) {
-    std::copy_n(GridRow(log_odds_, row), old.width, GridRow(grown, row + shift_y) + shift_x);
-  }
-  log_odds_ = std::move(grown);
+  const GridGeometry grown = {static_cast<double>(x.begin) * tile_m,
+                              static_cast<double>(y.begin) * tile_m, resolution_m,
+                              static_cast<int>(x.cells()), static_cast<int>(y.cells())};
+  const Cell shift = {static_cast<int>((old_x.begin - x.begin) * kTileCells),
+                      static_cast<int>((old_y.begin - y.begin) * kTileCells)};
+  log_odds_ = Moved(log_odds_, grown, shift, 0.0F);
+  states_ = Moved(states_, grown, shift, CellState::kUnknown);
   return absl::OkStatus();
 }
 
 double OccupancyGrid::Probability(Cell cell) const {
   return 1.0 / (1.0 + std::exp(-static_cast<double>(log_odds_.At(cell, 0.0F))));
-}
-
-CellState OccupancyGrid::State(Cell cell) const { return StateOf(log_odds_.At(cell, 0.0F)); }
-
-Grid<CellState> OccupancyGrid::States() const {
-  Grid<CellState> states(geometry());
-  std::transform(log_odds_.values().begin(), log_odds_.values().end(), states.values().begin(),
-                 [this](float log_odds) { return StateOf(log_odds); });
-  return states;
 }
 
 }  // namespace plumescout

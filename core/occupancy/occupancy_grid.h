@@ -17,6 +17,11 @@ namespace plumescout {
 // resolution from (0,0) of frame map, and growth moves the origin by whole tiles, so a cell keeps
 // its place in the world for the whole mission.
 //
+// A cell is free from where its probability falls to tau_free until it rises to tau_occ, and the
+// other way round; unknown is what has never come to either. The paper's rule, unknown in between
+// ([XIT] section III), makes cells at the face of a wall change with every few scans
+// (docs/decisions).
+//
 // Invariants: 1. width and height are multiples of kTileCells. 2. |log-odds| <= clamp. 3. neither
 // extent nor cell count ever exceeds the options. Thread-compatible.
 class OccupancyGrid {
@@ -42,25 +47,25 @@ class OccupancyGrid {
     const float clamp = static_cast<float>(options_.clamp_log_odds);
     float& value = log_odds_[index];
     value = std::clamp(value + static_cast<float>(log_odds), -clamp, clamp);
+    if (value <= free_log_odds_) {
+      states_[index] = CellState::kFree;
+    } else if (value >= occupied_log_odds_) {
+      states_[index] = CellState::kOccupied;
+    }
   }
 
   // Probability of occupation, 0.5 where nothing is known or outside.
   double Probability(Cell cell) const;
   // kUnknown outside.
-  CellState State(Cell cell) const;
-  // The states of all cells. Cost: O(cells).
-  Grid<CellState> States() const;
+  CellState State(Cell cell) const { return states_.At(cell, CellState::kUnknown); }
+  const Grid<CellState>& States() const { return states_; }
 
  private:
-  CellState StateOf(float log_odds) const {
-    if (log_odds <= free_log_odds_) return CellState::kFree;
-    return log_odds >= occupied_log_odds_ ? CellState::kOccupied : CellState::kUnknown;
-  }
-
   OccupancyOptions options_;
   float free_log_odds_;      // at or below: free
   float occupied_log_odds_;  // at or above: occupied
   Grid<float> log_odds_;
+  Grid<CellState> states_;
 };
 
 }  // namespace plumescout

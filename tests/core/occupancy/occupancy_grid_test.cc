@@ -160,6 +160,36 @@ TEST(OccupancyGrid, CallsACellFreeAfterThreePassesAndOccupiedAfterOneHitByDefaul
   EXPECT_EQ(grid.State({1, 0}), CellState::kOccupied);
 }
 
+TEST(OccupancyGrid, AKnownCellChangesOnlyAtTheOtherThreshold) {
+  const OccupancyOptions options;
+  OccupancyGrid grid = OneTile();
+  const Cell cell{0, 0};
+  const auto raise_to = [&](double p) {
+    const double now = grid.Probability(cell);
+    grid.Add(cell, std::log(p / (1.0 - p)) - std::log(now / (1.0 - now)));
+  };
+  raise_to(options.free_threshold - 0.01);
+  EXPECT_EQ(grid.State(cell), CellState::kFree);
+  raise_to(options.occupied_threshold - 0.01);
+  EXPECT_EQ(grid.State(cell), CellState::kFree);
+  raise_to(options.occupied_threshold + 0.01);
+  EXPECT_EQ(grid.State(cell), CellState::kOccupied);
+  raise_to(options.free_threshold + 0.01);
+  EXPECT_EQ(grid.State(cell), CellState::kOccupied);
+  raise_to(options.free_threshold - 0.01);
+  EXPECT_EQ(grid.State(cell), CellState::kFree);
+}
+
+TEST(OccupancyGrid, StatesStayWithTheirCellsWhileItGrows) {
+  OccupancyGrid grid = OneTile();
+  const Point2 place = grid.geometry().Center({3, 5});
+  grid.Add(Cell{3, 5}, -3.0);
+  grid.Add(Cell{3, 5}, 3.0);  // between the thresholds, and still free
+  ASSERT_TRUE(grid.GrowToContain({-20.0, -9.0}, {20.0, 9.0}).ok());
+  EXPECT_EQ(grid.State(grid.geometry().CellAt(place)), CellState::kFree);
+  EXPECT_EQ(grid.State({3, 5}), CellState::kUnknown);
+}
+
 TEST(OccupancyGrid, StatesAreTheStatesOfItsCells) {
   Rng rng(3);
   OccupancyGrid grid = OneTile();
