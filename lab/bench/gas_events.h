@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "core/gas/field/field_engine.h"
+#include "core/types/rng.h"
+
+namespace plumescout::lab {
+
+// Readings and scans as missions have them, and the field that they should lead to.
+class GasEvents {
+ public:
+  // `cells`: the inputs to begin with, row by row of a map that is `width` cells wide.
+  GasEvents(std::size_t width, std::vector<CellInput> cells, std::uint64_t seed)
+      : width_(width), cells_(std::move(cells)), rng_(seed) {}
+
+  std::size_t ActiveCell();
+  // One more reading, in a random active cell.
+  std::vector<CellChange> Reading();
+  // What all robots' scans of one moment change: 40 cells within 3 m of each become free or cease
+  // to be. Every other one is a cell that changed long ago and changes back.
+  std::vector<CellChange> Scan(int robots);
+
+  const std::vector<CellInput>& cells() const { return cells_; }
+  // All from scratch.
+  FieldEngine Fresh() const;
+  // Worst difference of `field` from that; on the variance as share.
+  FieldError ErrorOf(const FieldEngine& field) const;
+
+ private:
+  CellChange Flip(std::size_t cell);
+
+  std::size_t width_;
+  std::vector<CellInput> cells_;
+  Rng rng_;
+  std::deque<std::size_t> flipped_;  // the oldest first
+};
+
+}  // namespace plumescout::lab
