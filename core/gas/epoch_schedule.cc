@@ -12,8 +12,8 @@ namespace {
 constexpr double kAgeingAim = 0.01;
 constexpr double kMostAgeingError = 0.1;
 
-// A dissection made for other cells than the present ones costs time: up to twice as much when a
-// fifth has changed, see docs/performance.md.
+// A dissection made for other cells than the present ones costs time: one made before anything was
+// known is 1.3 times as dear at 160 x 200 cells, and 3 times at 700 x 700.
 constexpr double kDissectedShare = 0.2;
 
 // Rounding: a batch of changes costs a variance that it does not recompute at most about eight
