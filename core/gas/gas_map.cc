@@ -90,7 +90,10 @@ absl::Status GasMap::Apply(std::span<const GasCell> changed) {
     changes.push_back({index, input});
   }
   schedule_.NoteRefresh(activity_changes);
-  return engine_->Apply(changes);
+  const std::int64_t healed = engine_->healed();
+  const absl::Status status = engine_->Apply(changes);
+  quality_.healed += engine_->healed() - healed;
+  return status;
 }
 
 // All here and now: at the first free cell, and when the lattice or the precisions no longer do.
@@ -115,7 +118,6 @@ std::vector<CellInput> GasMap::InputsOn(const GasLattice& lattice) const {
 }
 
 void GasMap::TakeOver(std::unique_ptr<FieldEngine> engine, const GasLattice& lattice) {
-  if (engine_ != nullptr) quality_.healed += engine_->healed();
   engine_ = std::move(engine);
   lattice_ = lattice;
   published_ = false;
@@ -164,8 +166,9 @@ bool GasMap::adoption_due(std::int64_t time_ns) const {
 }
 
 absl::Status GasMap::Adopt() {
-  if (epoch_ == nullptr)
+  if (epoch_ == nullptr) {
     return absl::FailedPreconditionError("no epoch of the gas map is under way");
+  }
   epoch_->Recompute();
   const std::shared_ptr<GasEpoch> epoch = std::exchange(epoch_, nullptr);
   std::vector<CellInput> inputs(epoch->lattice().size());
