@@ -224,6 +224,7 @@ TEST_F(GrpcPlannerClientTest, ACallThatOutlivesItsTimeoutIsGivenUpAndTheLinkLive
 
   EXPECT_TRUE(absl::IsDeadlineExceeded(status)) << status;
   EXPECT_THAT(*client_->ListMissions(), ElementsAre("house"));
+  server_.reset();  // its search may only begin now, and waits for `release`
 }
 
 }  // namespace
