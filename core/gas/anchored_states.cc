@@ -10,13 +10,6 @@
 namespace plumescout {
 namespace {
 
-bool Covers(const GridGeometry& outer, AnchorCell outer_corner, const GridGeometry& inner,
-            AnchorCell inner_corner) {
-  return outer_corner.x <= inner_corner.x && outer_corner.y <= inner_corner.y &&
-         outer_corner.x + outer.width >= inner_corner.x + inner.width &&
-         outer_corner.y + outer.height >= inner_corner.y + inner.height;
-}
-
 // `states` on the smallest lattice that also covers `other`, unknown where it says nothing.
 Grid<CellState> Widened(const Grid<CellState>& states, AnchorCell corner, const GridGeometry& other,
                         AnchorCell other_corner) {
@@ -46,7 +39,8 @@ absl::StatusOr<std::vector<std::size_t>> AnchoredStates::Update(const Grid<CellS
   anchor_ = anchor;
   corner_ = corner;
   states_ = states;
-  if (!old.empty() && !Covers(states.geometry(), corner, old.states_.geometry(), old.corner_)) {
+  const AnchorExtent covered = {corner, states.width(), states.height()};
+  if (!covered.Covers({old.corner_, old.states_.width(), old.states_.height()}) && !old.empty()) {
     states_ = Widened(states, corner, old.states_.geometry(), old.corner_);
     corner_ = {std::min(corner.x, old.corner_.x), std::min(corner.y, old.corner_.y)};
   }

@@ -32,6 +32,7 @@ class GasInputs {
   // Errors, with nothing changed: those of AnchoredStates::Update. Cost: O(cells) to compare maps.
   absl::StatusOr<std::vector<GasCell>> Update(const Grid<CellState>& states);
 
+  // Cost: O(factor()^2) lookups, and the buckets of the readings in the cell.
   CellInput Of(GasCell cell) const;
   const AnchoredStates& states() const { return states_; }
   // Holds all gas cells that ever were active.

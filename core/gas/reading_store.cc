@@ -47,7 +47,8 @@ absl::Status ReadingStore::Place(const Grid<CellState>& states,
   PLUMESCOUT_ASSIGN_OR_RETURN(const AnchorCell corner,
                               CornerOf(states.geometry(), is_first ? states.geometry() : anchor_));
   if (is_first) anchor_ = states.geometry();
-  const Extent before = std::exchange(extent_, Extent{corner, states.width(), states.height()});
+  const AnchorExtent before =
+      std::exchange(extent_, AnchorExtent{corner, states.width(), states.height()});
   if (!extent_.Covers(before) || changed.size() >= sites_.size()) {
     for (auto& [key, site] : sites_) PlaceSite(key, site, states);
   } else {
@@ -59,12 +60,6 @@ absl::Status ReadingStore::Place(const Grid<CellState>& states,
   for (const Arrival& arrival : arrivals_) PlaceArrival(arrival, states);
   arrivals_.clear();
   return absl::OkStatus();
-}
-
-bool ReadingStore::Extent::Covers(const Extent& other) const {
-  return corner.x <= other.corner.x && corner.y <= other.corner.y &&
-         corner.x + width >= other.corner.x + other.width &&
-         corner.y + height >= other.corner.y + other.height;
 }
 
 // Only sites within one cell can be placed on a cell, or anew because of it.

@@ -96,15 +96,6 @@ class ReadingStore {
     std::vector<ReadingSite> sites;  // ascending
     bool changed = false;
   };
-  // The part of the anchor's lattice that a grid covers.
-  struct Extent {
-    AnchorCell corner;
-    int width = 0;
-    int height = 0;
-
-    bool Covers(const Extent& other) const;
-  };
-
   using Sites = std::map<ReadingSite, Site>;
 
   void PlaceSitesNear(AnchorCell cell, const Grid<CellState>& states);
@@ -121,7 +112,7 @@ class ReadingStore {
   std::int64_t aged_to_ns_ = 0;
   GasCounters counters_;
   GridGeometry anchor_;
-  Extent extent_;                  // of the last grid
+  AnchorExtent extent_;            // of the last grid
   std::vector<Arrival> arrivals_;  // not yet placed, for want of an anchor or of a call
   Sites sites_;
   std::map<AnchorCell, PlacedCell> cells_;  // all that ever had a site

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -13,6 +12,7 @@
 #include "lab/sim/layout.h"
 #include "lab/sim/scene_maker.h"
 #include "proto/convert/observation.h"
+#include "tests/support/same_bytes.h"
 
 namespace plumescout::lab {
 namespace {
@@ -41,12 +41,6 @@ Scene MakeGasHall() {
   absl::StatusOr<Scene> scene = MakeScene(GasHallLayout(), options);
   EXPECT_TRUE(scene.ok()) << scene.status();
   return *std::move(scene);
-}
-
-template <typename T>
-bool SameBytes(const Grid<T>& a, const Grid<T>& b) {
-  return a.geometry() == b.geometry() &&
-         std::memcmp(a.values().data(), b.values().data(), a.size() * sizeof(T)) == 0;
 }
 
 class TappedStream final : public client::ObservationStream {
@@ -144,8 +138,9 @@ std::vector<Plan> ComparablePlans(const EpisodeResult& episode) {
 }
 
 bool SameMap(const MapSnapshot& a, const MapSnapshot& b) {
-  return SameBytes(a.occupancy, b.occupancy) && SameBytes(a.gas_mean_ppm, b.gas_mean_ppm) &&
-         SameBytes(a.gas_variance_ppm2, b.gas_variance_ppm2) && a.robots == b.robots &&
+  return support::SameBytes(a.occupancy, b.occupancy) &&
+         support::SameBytes(a.gas_mean_ppm, b.gas_mean_ppm) &&
+         support::SameBytes(a.gas_variance_ppm2, b.gas_variance_ppm2) && a.robots == b.robots &&
          a.gas_counters == b.gas_counters && a.gas_threshold_ppm == b.gas_threshold_ppm;
 }
 

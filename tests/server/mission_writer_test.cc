@@ -5,13 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include "absl/synchronization/notification.h"
 #include "tests/server/host_parts.h"
+#include "tests/support/same_bytes.h"
 
 namespace plumescout::server {
 namespace {
@@ -138,17 +138,11 @@ TEST_F(MissionWriterTest, EventsToldRebuildTheSameMission) {
   EXPECT_EQ(replayed.Snapshot()->claims.size(), 1u);
 }
 
-// Bitwise equality: NaN equals NaN.
-bool SameBytes(const Grid<float>& a, const Grid<float>& b) {
-  return a.geometry() == b.geometry() &&
-         std::memcmp(a.values().data(), b.values().data(), a.size() * sizeof(float)) == 0;
-}
-
 void ExpectSame(const Belief& a, const Belief& b) {
   EXPECT_EQ(a.revision, b.revision);
   EXPECT_EQ(*a.occupancy, *b.occupancy);
-  EXPECT_TRUE(SameBytes(*a.gas_mean_ppm, *b.gas_mean_ppm));
-  EXPECT_TRUE(SameBytes(*a.gas_variance_ppm2, *b.gas_variance_ppm2));
+  EXPECT_TRUE(support::SameBytes(*a.gas_mean_ppm, *b.gas_mean_ppm));
+  EXPECT_TRUE(support::SameBytes(*a.gas_variance_ppm2, *b.gas_variance_ppm2));
   EXPECT_EQ(a.gas_quality, b.gas_quality);
 }
 

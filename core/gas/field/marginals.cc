@@ -245,8 +245,9 @@ void Marginals::UpdateForReading(const Front& front) {
 
 double Marginals::LargestMean_ppm() const {
   double largest = 0.0;
-  for (const double mean : mean_ppm_)
+  for (const double mean : mean_ppm_) {
     largest = std::max(largest, std::abs(mean));  // passes over NaN
+  }
   return largest;
 }
 

@@ -13,6 +13,7 @@
 #include "core/gas/gas_map.h"
 #include "tests/core/gas/dense_field.h"
 #include "tests/support/grid_art.h"
+#include "tests/support/same_bytes.h"
 
 namespace plumescout {
 namespace {
@@ -126,11 +127,6 @@ void ExpectCertified(const GasMap& map, const DenseField& exact, double merged =
   }
 }
 
-bool SameBytes(const Grid<float>& a, const Grid<float>& b) {
-  return a.geometry() == b.geometry() &&
-         std::memcmp(a.values().data(), b.values().data(), a.size() * sizeof(float)) == 0;
-}
-
 // One step of a mission: map and readings change, epochs come and go as they are due.
 void Step(Discovery& discovery, GasMap& map, std::int64_t time_ns) {
   if (time_ns % (3 * kSecond_ns) == 0) discovery.Grow();
@@ -210,8 +206,8 @@ TEST(GasMapOnlineTest, GivesTheSameBytesWhereverAndWheneverAnEpochIsRecomputed) 
       Step(at_once_world, at_once, step * kSecond_ns / 2);
       Step(late_world, late, step * kSecond_ns / 2);
       if (at_once.epoch() != nullptr) at_once.epoch()->Recompute();
-      ASSERT_TRUE(SameBytes(at_once.mean_ppm(), late.mean_ppm()));
-      ASSERT_TRUE(SameBytes(at_once.variance_ppm2(), late.variance_ppm2()));
+      ASSERT_TRUE(support::SameBytes(at_once.mean_ppm(), late.mean_ppm()));
+      ASSERT_TRUE(support::SameBytes(at_once.variance_ppm2(), late.variance_ppm2()));
       ASSERT_EQ(at_once.quality(), late.quality());
     }
   }

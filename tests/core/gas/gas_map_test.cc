@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <vector>
 
 #include "tests/core/gas/dense_field.h"
 #include "tests/support/grid_art.h"
+#include "tests/support/same_bytes.h"
 
 namespace plumescout {
 namespace {
@@ -50,12 +50,6 @@ GasMap MapOf(const std::vector<TimedReading>& readings, const Grid<CellState>& s
 }
 
 float At(const Grid<float>& grid, int x, int y) { return grid[Cell{x, y}]; }
-
-// The same bits, NaN included.
-bool SameBytes(const Grid<float>& a, const Grid<float>& b) {
-  return a.geometry() == b.geometry() && a.size() == b.size() &&
-         std::memcmp(a.values().data(), b.values().data(), a.size() * sizeof(float)) == 0;
-}
 
 // Lets an epoch age all readings to `time_ns`.
 void Age(GasMap& map, std::int64_t time_ns) {
@@ -151,8 +145,8 @@ TEST(GasMapTest, GivesTheSameBytesAgain) {
   const std::vector<TimedReading> readings = RandomTimedReadings(states, 60, rng);
   const GasMap first = MapOf(readings, states, 0);
   const GasMap second = MapOf(readings, states, 0);
-  EXPECT_TRUE(SameBytes(first.mean_ppm(), second.mean_ppm()));
-  EXPECT_TRUE(SameBytes(first.variance_ppm2(), second.variance_ppm2()));
+  EXPECT_TRUE(support::SameBytes(first.mean_ppm(), second.mean_ppm()));
+  EXPECT_TRUE(support::SameBytes(first.variance_ppm2(), second.variance_ppm2()));
 }
 
 TEST(GasMapTest, IsTheSameHoweverOftenItWasRefreshedBefore) {
@@ -242,7 +236,7 @@ TEST(GasMapTest, KeepsTheOldPosteriorWhenTheLatticeDoesNotMatch) {
   GasMap map = MapOf({{0, {0.05, 0.05}, {5.0}}}, GridFromArt({"."}), 0);
   const Grid<float> before = map.mean_ppm();
   EXPECT_EQ(map.Refresh(GridFromArt({".."}, 0.2), 0).code(), absl::StatusCode::kInvalidArgument);
-  EXPECT_TRUE(SameBytes(map.mean_ppm(), before));
+  EXPECT_TRUE(support::SameBytes(map.mean_ppm(), before));
   EXPECT_EQ(map.counters().in_posterior, 1);
 }
 

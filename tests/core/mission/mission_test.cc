@@ -3,13 +3,13 @@
 #include "core/mission/mission.h"
 
 #include <cmath>
-#include <cstring>
 #include <vector>
 
 #include "core/plan/strategy.h"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
 #include "tests/support/box_room.h"
+#include "tests/support/same_bytes.h"
 
 namespace plumescout {
 namespace {
@@ -23,13 +23,6 @@ std::unique_ptr<Mission> MissionWith(std::initializer_list<const char*> robots,
   for (const char* robot : robots)
     EXPECT_TRUE((*mission)->Apply(RobotRegistered{robot, 0.2, 1}).ok());
   return *std::move(mission);
-}
-
-// Bitwise equality: NaN equals NaN.
-template <typename T>
-bool SameBytes(const Grid<T>& a, const Grid<T>& b) {
-  return a.geometry() == b.geometry() &&
-         std::memcmp(a.values().data(), b.values().data(), a.size() * sizeof(T)) == 0;
 }
 
 // One robot measures and plans its way through a room; every event lands in the log.
@@ -76,10 +69,10 @@ TEST(Mission, ReplayingTheSameEventsGivesTheSameBytes) {
   const auto b = replay->Snapshot();
   EXPECT_EQ(a->revision, b->revision);
   EXPECT_EQ(a->revision, static_cast<std::int64_t>(log.size()));
-  EXPECT_TRUE(SameBytes(*a->occupancy, *b->occupancy));
-  EXPECT_TRUE(SameBytes(*a->traversable, *b->traversable));
-  EXPECT_TRUE(SameBytes(*a->gas_mean_ppm, *b->gas_mean_ppm));
-  EXPECT_TRUE(SameBytes(*a->gas_variance_ppm2, *b->gas_variance_ppm2));
+  EXPECT_TRUE(support::SameBytes(*a->occupancy, *b->occupancy));
+  EXPECT_TRUE(support::SameBytes(*a->traversable, *b->traversable));
+  EXPECT_TRUE(support::SameBytes(*a->gas_mean_ppm, *b->gas_mean_ppm));
+  EXPECT_TRUE(support::SameBytes(*a->gas_variance_ppm2, *b->gas_variance_ppm2));
   EXPECT_EQ(a->gas_counters, b->gas_counters);
   EXPECT_EQ(a->gas_quality, b->gas_quality);
   EXPECT_EQ(a->gas_quality.epochs, 3);
@@ -180,7 +173,7 @@ TEST(Mission, SnapshotsStayWhatTheyWere) {
                   .ok());
   ASSERT_TRUE(mission->Apply(PosteriorRefreshed{kSecond_ns}).ok());
   EXPECT_NE(before->occupancy.get(), mission->Snapshot()->occupancy.get());
-  EXPECT_TRUE(SameBytes(*before->occupancy, copy));
+  EXPECT_TRUE(support::SameBytes(*before->occupancy, copy));
 }
 
 TEST(Mission, EpochsBeginAndAreAdoptedInTurn) {
@@ -222,8 +215,8 @@ TEST(Mission, WhoRecomputesAnEpochDoesNotShow) {
     ASSERT_TRUE(mission->Apply(EpochAdopted{}).ok());
     beliefs[beside] = mission->Snapshot();
   }
-  EXPECT_TRUE(SameBytes(*beliefs[0]->gas_mean_ppm, *beliefs[1]->gas_mean_ppm));
-  EXPECT_TRUE(SameBytes(*beliefs[0]->gas_variance_ppm2, *beliefs[1]->gas_variance_ppm2));
+  EXPECT_TRUE(support::SameBytes(*beliefs[0]->gas_mean_ppm, *beliefs[1]->gas_mean_ppm));
+  EXPECT_TRUE(support::SameBytes(*beliefs[0]->gas_variance_ppm2, *beliefs[1]->gas_variance_ppm2));
   EXPECT_EQ(beliefs[0]->gas_quality, beliefs[1]->gas_quality);
 }
 
