@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -25,9 +26,9 @@ concept Enum = std::is_enum_v<T>;
 // How many enumerators there are; a stored value beyond is damage.
 constexpr std::uint8_t CountOf(MissionPhase) { return 4; }
 constexpr std::uint8_t CountOf(GoalKind) { return 3; }
-constexpr std::uint8_t CountOf(PathSource) { return 2; }
+constexpr std::uint8_t CountOf(PathSource) { return 3; }
 constexpr std::uint8_t CountOf(RejectionReason) { return 7; }
-constexpr std::uint8_t CountOf(PlanEnd) { return 5; }
+constexpr std::uint8_t CountOf(PlanEnd) { return 7; }
 constexpr std::uint8_t CountOf(ProgressOutcome) { return 3; }
 
 // A struct is visited by naming all its members in a structured binding, so that a member added
@@ -76,22 +77,24 @@ void Visit(auto& archive, Is<Goal> auto& goal) {
   archive(kind, cell, position, centroid, frontier_cells);
 }
 void Visit(auto& archive, Is<Candidate> auto& candidate) {
-  auto& [goal, path, source, cost, penalty, length_m, mean_ucb, mean_ppm] = candidate;
-  archive(goal, path, source, cost, penalty, length_m, mean_ucb, mean_ppm);
+  auto& [goal, path, source, cost, penalty, length_m, mean_ucb, mean_ppm, duration_s,
+         information_nats] = candidate;
+  archive(goal, path, source, cost, penalty, length_m, mean_ucb, mean_ppm, duration_s,
+          information_nats);
 }
 void Visit(auto& archive, Is<RejectedGoal> auto& rejected) {
   auto& [goal, reason, detail] = rejected;
   archive(goal, reason, detail);
 }
 void Visit(auto& archive, Is<PlanEffort> auto& effort) {
-  auto& [samples, vertices, edges_evaluated, goals_by_guard] = effort;
-  archive(samples, vertices, edges_evaluated, goals_by_guard);
+  auto& [samples, vertices, edges_evaluated, goals_by_guard, batches] = effort;
+  archive(samples, vertices, edges_evaluated, goals_by_guard, batches);
 }
 void Visit(auto& archive, Is<Plan> auto& plan) {
   auto& [id, robot, strategy, belief_revision, seed, phase, end, chosen, candidates, rejected,
-         trajectory, effort, field_flat, start_escaped, explanation, cpu_s] = plan;
+         trajectory, effort, field_flat, goal_kept, start_escaped, explanation, cpu_s] = plan;
   archive(id, robot, strategy, belief_revision, seed, phase, end, chosen, candidates, rejected,
-          trajectory, effort, field_flat, start_escaped, explanation, cpu_s);
+          trajectory, effort, field_flat, goal_kept, start_escaped, explanation, cpu_s);
 }
 void Visit(auto& archive, Is<RobotRegistered> auto& event) {
   auto& [robot, radius_m, lease_token] = event;
@@ -150,6 +153,11 @@ class Encoder {
   void Put(const std::vector<T>& list) {
     Put(static_cast<std::uint32_t>(list.size()));
     for (const T& element : list) Put(element);
+  }
+  template <typename T>
+  void Put(const std::optional<T>& value) {
+    Put(value.has_value());
+    if (value) Put(*value);
   }
   template <typename... T>
   void Put(const std::variant<T...>& choice) {
@@ -212,6 +220,13 @@ class Decoder {
     Get(size);
     list.clear();
     for (std::uint32_t i = 0; i < size && ok_; ++i) Get(list.emplace_back());
+  }
+  template <typename T>
+  void Get(std::optional<T>& value) {
+    bool present = false;
+    Get(present);
+    value.reset();
+    if (present) Get(value.emplace());
   }
   template <typename... T>
   void Get(std::variant<T...>& choice) {

@@ -27,7 +27,7 @@ struct RegistryOptions {
 // What a registry makes missions of; tests put their own here.
 struct RegistryHooks {
   std::function<absl::StatusOr<std::unique_ptr<const Strategy>>(const PlanningOptions&)>
-      make_strategy = MakeStrategy;
+      make_strategy = [](const PlanningOptions& options) { return MakeStrategy(options); };
   // The sink of a new mission's events; may be empty.
   std::function<EventSink(const MissionId&, const MissionOptions&)> make_event_sink;
   // Recomputes gas posteriors; outlives the missions. Null: their writers do.

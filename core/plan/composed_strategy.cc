@@ -12,8 +12,8 @@
 #include "core/plan/explanation.h"
 #include "core/plan/goals/goal_set.h"
 #include "core/plan/information_field.h"
-#include "core/plan/paths/grid_guard.h"
 #include "core/plan/plan_seed.h"
+#include "core/plan/selection/expected_information.h"
 #include "core/plan/selection/selection.h"
 #include "core/plan/trajectory_timing.h"
 #include "core/types/rng.h"
@@ -34,6 +34,18 @@ void PutBefore(const std::vector<Point2>& way_out, Candidate& candidate) {
   }
 }
 
+// Index of the candidate that the robot's live plan ends at, -1 if there is none.
+int UnderWayTo(const std::vector<Candidate>& candidates, const Belief& belief,
+               const RobotId& robot) {
+  for (const GoalClaim& claim : belief.claims) {
+    if (claim.robot != robot || claim.expires_ns <= belief.sample_time_ns) continue;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (ClaimCovers(claim.goal, candidates[i].goal)) return static_cast<int>(i);
+    }
+  }
+  return -1;
+}
+
 MissionPhase PhaseOf(GoalKind kind) {
   switch (kind) {
     case GoalKind::kGasFrontier:
@@ -47,7 +59,8 @@ MissionPhase PhaseOf(GoalKind kind) {
 }
 
 absl::Status Stopped() {
-  return absl::DeadlineExceededError("planning was stopped before any path was found");
+  return absl::DeadlineExceededError(
+      "DEADLINE_BEFORE_FIRST_PLAN: planning was stopped before any path was found");
 }
 
 }  // namespace
@@ -71,6 +84,8 @@ absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
   if (const std::optional<Departure> departure = Depart(belief, pose.position())) {
     plan.start_escaped = !departure->way_out.empty();
     PLUMESCOUT_RETURN_IF_ERROR(PlanFrom(*departure, belief, request, stop, plan));
+  } else {
+    plan.end = PlanEnd::kStartOccupied;
   }
   if (plan.chosen >= 0) {
     const Candidate& chosen = plan.candidates[static_cast<std::size_t>(plan.chosen)];
@@ -100,31 +115,26 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Belief
       FindGoals({belief, belief.robots.at(request.robot), start_cell, reachable, options_}, rng);
   plan.rejected = std::move(goals.rejected);
   if (goals.goals.empty()) {
-    plan.end = goals.complete ? PlanEnd::kMissionComplete : PlanEnd::kNoGoals;
+    plan.end = goals.complete          ? PlanEnd::kMissionComplete
+               : plan.rejected.empty() ? PlanEnd::kNoGoals
+                                       : PlanEnd::kAllGoalsRejected;
     plan.phase = goals.complete ? MissionPhase::kComplete : MissionPhase::kFallback;
     return absl::OkStatus();
   }
   if (stop()) return Stopped();
 
   const EdgeCost cost(field, options_.cost, options_.alpha);
-  const PathResult result = FindPaths({cost, reachable, departure.start, goals.goals, plan.seed,
-                                       request.max_edge_evaluations, stop});
+  const PathResult result =
+      paths_->FindPaths({cost, reachable, departure.start, goals.goals, plan.seed,
+                         request.max_edge_evaluations, stop, nullptr});
   const EdgeCost selection_cost(field, options_.selection_cost, options_.alpha);
   TakeResults(goals.goals, result,
               {selection_cost, *belief.gas_mean_ppm, mission.gas.background_mean_ppm}, plan);
-  for (Candidate& candidate : plan.candidates) PutBefore(departure.way_out, candidate);
+  Choose(departure, belief, stop, plan);
   const bool budget_spent = request.max_edge_evaluations > 0 &&
                             plan.effort.edges_evaluated >= request.max_edge_evaluations;
   const bool stopped_empty = plan.end == PlanEnd::kStopped && plan.candidates.empty();
   return stopped_empty && !budget_spent ? Stopped() : absl::OkStatus();
-}
-
-PathResult ComposedStrategy::FindPaths(const PathProblem& problem) const {
-  PathResult result = paths_->FindPaths(problem);
-  if (options_.grid_guard && result.end == PlanEnd::kQueueExhausted) {
-    CompleteOnGrid(problem, result);
-  }
-  return result;
 }
 
 void ComposedStrategy::TakeResults(const std::vector<Goal>& goals, const PathResult& result,
@@ -140,7 +150,34 @@ void ComposedStrategy::TakeResults(const std::vector<Goal>& goals, const PathRes
       plan.rejected.push_back({goals[i], RejectionReason::kUnreachable, "the search ran out"});
     }
   }
+}
+
+void ComposedStrategy::Choose(const Departure& departure, const Belief& belief, const StopFn& stop,
+                              plumescout::Plan& plan) const {
+  for (Candidate& candidate : plan.candidates) {
+    PutBefore(departure.way_out, candidate);
+    candidate.duration_s =
+        TimeTrajectory(candidate.path, 0.0, options_.speed_mps, options_.dwell_s).duration_s;
+  }
+  if (options_.selection == SelectionRule::kInformationRate) {
+    const ExpectedInformation information(belief);
+    for (Candidate& candidate : plan.candidates) {
+      if (stop()) break;
+      candidate.expected_information_nats =
+          information.Of(ReadingCells(candidate.path, belief.geometry(), options_));
+    }
+  }
   plan.chosen = SelectCandidate(plan.candidates, options_.selection);
+  const int kept = UnderWayTo(plan.candidates, belief, plan.robot);
+  if (kept < 0 || kept == plan.chosen || options_.commitment_margin == 0.0) return;
+  const auto at = [&plan](int i) -> const Candidate& {
+    return plan.candidates[static_cast<std::size_t>(i)];
+  };
+  if (BeatsByMargin(at(plan.chosen), at(kept), options_.selection, options_.commitment_margin)) {
+    return;
+  }
+  plan.chosen = kept;
+  plan.goal_kept = true;
 }
 
 }  // namespace plumescout

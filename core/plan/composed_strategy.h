@@ -31,10 +31,12 @@ class ComposedStrategy : public Strategy {
   absl::Status PlanFrom(const Departure& departure, const Belief& belief,
                         const PlanRequest& request, const StopFn& stop,
                         plumescout::Plan& plan) const;
-  PathResult FindPaths(const PathProblem& problem) const;
   // Turns what the search found for `goals` into candidates and rejections.
   void TakeResults(const std::vector<Goal>& goals, const PathResult& result,
                    const CandidateJudge& judge, plumescout::Plan& plan) const;
+  // Completes the candidates by what their paths from the robot on cost and bring, and chooses.
+  void Choose(const Departure& departure, const Belief& belief, const StopFn& stop,
+              plumescout::Plan& plan) const;
 
   PlanningOptions options_;
   std::unique_ptr<const PathPlanner> paths_;

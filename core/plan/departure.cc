@@ -3,6 +3,7 @@
 #include "core/plan/departure.h"
 
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -20,10 +21,12 @@ absl::StatusOr<Pose2> StartPose(const Belief& belief, const PlanRequest& request
   const Pose2 pose = request.start.value_or(robot.pose);
   const bool finite =
       std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad);
-  if (!finite || !belief.occupancy->Contains(belief.geometry().CellAt(pose.position()))) {
-    return absl::InvalidArgumentError(absl::StrCat("start = (", pose.x_m, ", ", pose.y_m, ", ",
-                                                   pose.yaw_rad,
-                                                   ") must be finite and inside the map"));
+  const std::string place =
+      absl::StrCat("start = (", pose.x_m, ", ", pose.y_m, ", ", pose.yaw_rad, ")");
+  if (!finite) return absl::InvalidArgumentError(absl::StrCat(place, " must be finite"));
+  if (!belief.occupancy->Contains(belief.geometry().CellAt(pose.position()))) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("START_OUTSIDE_MAP: ", place, " must be inside the map"));
   }
   return pose;
 }

@@ -19,9 +19,14 @@ namespace plumescout {
 // at a corner. Cost: O(cells crossed).
 double SegmentIntegral_cells(const Grid<float>& field, Point2 a, Point2 b);
 
+// The same over the cells that can be crossed: others count as `blocked_value`.
+double OpenSegmentIntegral_cells(const Grid<float>& field, Point2 a, Point2 b,
+                                 double blocked_value);
+
 // Price of driving a straight segment, [XIT] Eq. (12): information penalty, in cells, plus alpha
-// per metre. kEuclidean is P = 0 and alpha = 1: the length. +infinity if any cell touched is not
-// traversable. Cheap to copy; keeps a reference to the field.
+// per metre. kVertices takes the penalty of the cell that the segment ends in and of no other (the
+// paper's alternative; not the same both ways). kEuclidean is P = 0 and alpha = 1: the length.
+// +infinity if any cell touched is not traversable. Cheap to copy; keeps a reference to the field.
 class EdgeCost {
  public:
   EdgeCost(const InformationField& field, CostKind kind, double alpha_per_m);
@@ -29,19 +34,26 @@ class EdgeCost {
   // c(a, b) of Eq. (12).
   double operator()(Point2 a, Point2 b) const;
 
-  // c-hat of [XIT] Eq. (6): no segment of this length costs less.
-  double LowerBound(double length_m) const { return lower_bound_per_m_ * length_m; }
+  // c-hat of [XIT] Eq. (6): no segment of this length, > 0, costs less.
+  double LowerBound(double length_m) const {
+    return lower_bound_per_edge_ + lower_bound_per_m_ * length_m;
+  }
 
   // h-hat of [XIT] Alg. 1 line 13 towards a goal at this distance: distance only, consistent.
   double Heuristic(double distance_m) const { return alpha_per_m_ * distance_m; }
   bool HasHeuristic() const { return alpha_per_m_ > 0.0; }
+
+  // The other h-hat of [XIT] section IV-C: the price of the straight segment as if what stands in
+  // the way had the greatest penalty. May exceed the price of the best way round.
+  double InformedHeuristic(Point2 a, Point2 b) const;
 
   // The price of one grid step of `length_cells` between the centres of neighbouring cells, half
   // in each: the same integral, without the walk.
   double GridStep(float penalty_from, float penalty_to, double length_cells) const {
     constexpr double kHalf = 0.5;
     const double penalty = kHalf * (static_cast<double>(penalty_from) + penalty_to);
-    return (penalty_weight_ * penalty + alpha_per_m_ * resolution_m_) * length_cells;
+    return (penalty_weight_ * penalty + alpha_per_m_ * resolution_m_) * length_cells +
+           vertex_weight_ * static_cast<double>(penalty_to);
   }
 
   const InformationField& field() const { return *field_; }
@@ -49,10 +61,12 @@ class EdgeCost {
 
  private:
   const InformationField* field_;
-  double penalty_weight_;  // 1, or 0 for kEuclidean
+  double penalty_weight_;  // of the integral: 1 for kUcb, else 0
+  double vertex_weight_;   // of the end: 1 for kVertices, else 0
   double alpha_per_m_;
   double resolution_m_;
   double lower_bound_per_m_;
+  double lower_bound_per_edge_;
 };
 
 // J of [XIT] Eq. (13): the sum over the segments of a polyline.

@@ -23,17 +23,26 @@ std::string Destination(const Goal& goal) {
 }
 
 std::string Merit(const Candidate& candidate, SelectionRule rule) {
-  return rule == SelectionRule::kLeastCost
-             ? absl::StrFormat("least cost, %.2f", candidate.cost)
-             : absl::StrFormat("greatest mean information, %.2f", candidate.mean_ucb);
+  switch (rule) {
+    case SelectionRule::kLeastCost:
+      break;
+    case SelectionRule::kMeanUcb:
+      return absl::StrFormat("greatest mean information, %.2f", candidate.mean_ucb);
+    case SelectionRule::kInformationRate:
+      if (!candidate.expected_information_nats) break;
+      return absl::StrFormat("most information expected, %.1f nats in %.0f s",
+                             *candidate.expected_information_nats, candidate.duration_s);
+  }
+  return absl::StrFormat("least cost, %.2f", candidate.cost);
 }
 
 std::string Choice(const Plan& plan, SelectionRule rule) {
   const Candidate& chosen = plan.candidates[static_cast<std::size_t>(plan.chosen)];
-  std::string text =
-      absl::StrFormat("Drive %.1f m to %s at (%.1f, %.1f): %s, of %d candidates", chosen.length_m,
-                      Destination(chosen.goal), chosen.goal.position.x_m, chosen.goal.position.y_m,
-                      Merit(chosen, rule), plan.candidates.size());
+  std::string text = absl::StrFormat(
+      "Drive %.1f m to %s at (%.1f, %.1f): %s, of %d candidates", chosen.length_m,
+      Destination(chosen.goal), chosen.goal.position.x_m, chosen.goal.position.y_m,
+      plan.goal_kept ? "kept, for none is better by the margin" : Merit(chosen, rule),
+      plan.candidates.size());
   if (plan.start_escaped) absl::StrAppend(&text, "; first out of the margin around obstacles");
   if (plan.field_flat) absl::StrAppend(&text, "; the information field is flat");
   if (plan.end == PlanEnd::kStopped) absl::StrAppend(&text, "; the search was stopped early");
@@ -52,6 +61,10 @@ std::string Explain(const Plan& plan, SelectionRule rule) {
       return "Stay: the search was stopped before any goal had a path.";
     case PlanEnd::kNoGoals:
       return "Stay: there is no place to go to from here.";
+    case PlanEnd::kStartOccupied:
+      return "Stay: there is no way out from where the robot stands.";
+    case PlanEnd::kAllGoalsRejected:
+      return absl::StrCat("Stay: all of ", plan.rejected.size(), " goals were rejected.");
     case PlanEnd::kAllGoalsReached:
     case PlanEnd::kQueueExhausted:
       break;

@@ -8,7 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "core/plan/composed_strategy.h"
-#include "core/plan/paths/xit.h"
+#include "core/plan/paths/path_planners.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
@@ -17,12 +17,32 @@ namespace {
 // What a name of the strategy table stands for.
 struct StrategyRow {
   absl::string_view name;
-  GoalPolicy goals;
+  GoalPolicy goals = GoalPolicy::kGasFirst;
+  PathKind paths = PathKind::kXit;
+  CostKind cost = CostKind::kUcb;
+  SelectionRule selection = SelectionRule::kLeastCost;
 };
 
-constexpr std::array<StrategyRow, 3> kRows = {{{"xit_gff", GoalPolicy::kGasFirst},
-                                               {"xit_fgf", GoalPolicy::kOccupancyFirst},
-                                               {"xit_f", GoalPolicy::kOccupancyOnly}}};
+constexpr std::array<StrategyRow, 5> kRows = {{
+    {"xit_gff", GoalPolicy::kGasFirst},
+    {"xit_fgf", GoalPolicy::kOccupancyFirst},
+    {"xit_f", GoalPolicy::kOccupancyOnly},
+    {"mit", GoalPolicy::kOccupancyOnly, PathKind::kXit, CostKind::kEuclidean,
+     SelectionRule::kMeanUcb},
+    {"rrt_star_frontier", GoalPolicy::kOccupancyOnly, PathKind::kRrtStar, CostKind::kEuclidean,
+     SelectionRule::kLeastCost},
+}};
+
+// The search of [MIT] section IV, within ours: independent samples of the UCB field alone.
+void ApplyMit(PlanningOptions& options) {
+  constexpr int kSamples = 270;
+  options.samples = kSamples;
+  options.nearest_samples = 3;
+  options.beta = 1.0;  // lambda
+  options.sampling = SamplingKind::kIid;
+  options.uniform_share = 0.0;
+  options.goal_vertices = false;
+}
 
 absl::StatusOr<StrategyRow> FindRow(const std::string& name) {
   const auto* row =
@@ -43,17 +63,23 @@ std::vector<std::string> StrategyNames() {
 absl::Status ApplyStrategyRow(PlanningOptions& options) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const StrategyRow row, FindRow(options.strategy));
   options.goals = row.goals;
-  options.cost = CostKind::kUcb;
-  options.selection_cost = CostKind::kUcb;
-  options.selection = SelectionRule::kLeastCost;
+  options.paths = row.paths;
+  options.cost = row.cost;
+  options.selection_cost = row.cost;
+  options.selection = row.selection;
+  // Baselines drive the paths that they were published with.
+  options.straighten = row.cost == CostKind::kUcb;
+  if (row.name == "mit") ApplyMit(options);
   return absl::OkStatus();
 }
 
-absl::StatusOr<std::unique_ptr<const Strategy>> MakeStrategy(const PlanningOptions& options) {
+absl::StatusOr<std::unique_ptr<const Strategy>> MakeStrategy(const PlanningOptions& options,
+                                                             const PathPlannerFactory& others) {
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options));
   PLUMESCOUT_RETURN_IF_ERROR(FindRow(options.strategy).status());
-  return std::make_unique<const ComposedStrategy>(options,
-                                                  std::make_unique<const XitPlanner>(options));
+  auto paths = MakePathPlanner(options, others);
+  PLUMESCOUT_RETURN_IF_ERROR(paths.status());
+  return std::make_unique<const ComposedStrategy>(options, *std::move(paths));
 }
 
 }  // namespace plumescout

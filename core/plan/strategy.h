@@ -9,6 +9,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/belief/belief.h"
+#include "core/plan/paths/path_planners.h"
 #include "core/types/options.h"
 #include "core/types/plan.h"
 #include "core/types/plan_request.h"
@@ -33,14 +34,16 @@ class Strategy {
                                                 const StopFn& stop) const = 0;
 };
 
-// Names of the rows: "xit_gff", "xit_fgf", "xit_f".
+// Names of the rows: "xit_gff", "xit_fgf", "xit_f", "mit", "rrt_star_frontier".
 std::vector<std::string> StrategyNames();
 
 // Sets the parts of `options` that the row `options.strategy` fixes (goals, cost, ...).
 // kInvalidArgument for an unknown name.
 absl::Status ApplyStrategyRow(PlanningOptions& options);
 
-// Builds the strategy that `options` describe. kInvalidArgument if they are invalid.
-absl::StatusOr<std::unique_ptr<const Strategy>> MakeStrategy(const PlanningOptions& options);
+// Builds the strategy that `options` describe; `others` makes path planners that core does not
+// have. kInvalidArgument if the options are invalid, or no such planner is to be had.
+absl::StatusOr<std::unique_ptr<const Strategy>> MakeStrategy(
+    const PlanningOptions& options, const PathPlannerFactory& others = nullptr);
 
 }  // namespace plumescout

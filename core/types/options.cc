@@ -111,6 +111,8 @@ absl::Status Validate(const PlanningOptions& options) {
       .InRange("planning.nearest_samples", options.nearest_samples, 1, 100)
       .InRange("planning.uniform_share", options.uniform_share, 0.0, 1.0)
       .InRange("planning.radius_factor", options.radius_factor, 0.01, 100.0)
+      .InRange("planning.reading_rate_hz", options.reading_rate_hz, 0.01, 1000.0)
+      .InRange("planning.commitment_margin", options.commitment_margin, 0.0, 1.0)
       .InRange("planning.speed_mps", options.speed_mps, 0.001, 100.0)
       .InRange("planning.dwell_s", options.dwell_s, 0.0, 3600.0)
       .Positive("planning.set_aside_s", options.set_aside_s)

@@ -55,9 +55,20 @@ struct FrontierOptions {
 };
 
 enum class GoalPolicy { kGasFirst, kOccupancyFirst, kOccupancyOnly };  // GFF, FGF, F
-enum class CostKind { kUcb, kEuclidean };
+enum class CostKind { kUcb, kEuclidean, kVertices };
 enum class SamplingKind { kSystematic, kIid };
-enum class SelectionRule { kLeastCost, kMeanUcb };
+enum class SelectionRule { kLeastCost, kMeanUcb, kInformationRate };
+// What finds paths; the last five are baselines of ompl_planners.
+enum class PathKind {
+  kXit,
+  kAnytimeXit,
+  kGridExact,
+  kRrt,
+  kRrtStar,
+  kInformedRrtStar,
+  kBitStar,
+  kPrmStar,
+};
 
 // One row of the strategy table: where to go, how to get there, which to take.
 struct PlanningOptions {
@@ -66,7 +77,8 @@ struct PlanningOptions {
   bool draw_goals = false;  // true: at most max_goals drawn at random within a kind (paper)
   int max_goals = 5;        // with draw_goals; also the number of fallback goals
   double min_goal_distance_m = 0.3;  // goals nearer than this are passed over, >= 0
-  CostKind cost = CostKind::kUcb;    // expansion, [XIT] Eq. (12)
+  PathKind paths = PathKind::kXit;
+  CostKind cost = CostKind::kUcb;  // expansion, [XIT] Eq. (12)
   CostKind selection_cost = CostKind::kUcb;
   SelectionRule selection = SelectionRule::kLeastCost;  // [XIT] Eq. (4), (13)
   double alpha = 0.0;                                   // per metre, [0, 1e9]
@@ -79,9 +91,20 @@ struct PlanningOptions {
   double radius_factor = 1.1;   // gamma / gamma_RGG, > 0
   bool mixture_radius = false;  // gamma* = epsilon^(-1/2) gamma
   bool grid_guard = true;       // complete missed goals on the grid
-  double speed_mps = 1.25;      // > 0
-  double dwell_s = 0.0;         // stop-and-sample at each vertex, >= 0
-  double set_aside_s = 120.0;   // expiry of goal memory, seconds of sample time, (0, 1e9]
+  // Goal cells are vertices, where paths end (ours); false: paths end at the sample of the goal set
+  // that is the cheapest to reach (paper).
+  bool goal_vertices = true;
+  // Search guided by [XIT] section IV-C's UCB-aware h-hat in place of the admissible distance.
+  bool informed_heuristic = false;
+  // Free the tree's paths of detours between its samples (ours).
+  bool straighten = true;
+  // Readings expected along a path when its information is priced, [0.01, 1000].
+  double reading_rate_hz = 2.0;
+  // A robot under way keeps its goal unless another is better by more than this share, [0, 1].
+  double commitment_margin = 0.0;
+  double speed_mps = 1.25;     // > 0
+  double dwell_s = 0.0;        // stop-and-sample at each vertex, >= 0
+  double set_aside_s = 120.0;  // expiry of goal memory, seconds of sample time, (0, 1e9]
   // When no frontier is left, go first to places whose gas is unobserved (ours); false: to random
   // free places only (paper).
   bool fallback_to_unobserved = true;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,7 @@ struct Goal {
   friend bool operator==(const Goal&, const Goal&) = default;
 };
 
-enum class PathSource { kTree, kGridGuard };
+enum class PathSource { kTree, kGridGuard, kGridSearch };
 
 // A goal with the path to it and every term of its price.
 struct Candidate {
@@ -39,6 +40,10 @@ struct Candidate {
   double length_m = 0.0;
   double mean_ucb = 0.0;  // mean of I-hat over the path, [MIT] Eq. (3)
   double mean_concentration_ppm = 0.0;
+  double duration_s = 0.0;  // of its trajectory
+  // By how much readings on the way are expected to lower the entropy of the gas field, weighted by
+  // relevance; only where the selection asks for it and time allowed.
+  std::optional<double> expected_information_nats;
 
   friend bool operator==(const Candidate&, const Candidate&) = default;
 };
@@ -61,7 +66,16 @@ struct RejectedGoal {
   friend bool operator==(const RejectedGoal&, const RejectedGoal&) = default;
 };
 
-enum class PlanEnd { kAllGoalsReached, kQueueExhausted, kStopped, kNoGoals, kMissionComplete };
+// How planning ended. The last four have no trajectory.
+enum class PlanEnd {
+  kAllGoalsReached,   // every goal has a path
+  kQueueExhausted,    // some goal has none
+  kStopped,           // deadline, budget or cancellation; paths found so far count
+  kNoGoals,           // there is no place to go to
+  kMissionComplete,   // nothing is left to do
+  kStartOccupied,     // the robot stands where there is no way out to traversable cells
+  kAllGoalsRejected,  // there are places to go to, each rejected for a reason
+};
 
 // How hard the search worked.
 struct PlanEffort {
@@ -69,6 +83,7 @@ struct PlanEffort {
   int vertices = 0;
   int edges_evaluated = 0;
   int goals_by_guard = 0;
+  int batches = 0;  // of an anytime search; 0: there are none
 
   friend bool operator==(const PlanEffort&, const PlanEffort&) = default;
 };
@@ -88,6 +103,7 @@ struct Plan {
   Trajectory trajectory;  // of the chosen candidate; empty if none
   PlanEffort effort;
   bool field_flat = false;     // the information field had no contrast: pure distance behaviour
+  bool goal_kept = false;      // another was better, but not by the commitment margin
   bool start_escaped = false;  // the robot stood in the inflated zone; the path leads out first
   std::string explanation;     // one sentence for an operator
   // CPU time of planning, filled in by whoever ran the planner when it answers; 0 in the committed

@@ -14,6 +14,7 @@
 #include "core/grid/flood.h"
 #include "core/plan/edge_cost.h"
 #include "core/plan/information_field.h"
+#include "core/plan/paths/grid_exact.h"
 #include "core/plan/paths/grid_guard.h"
 #include "core/plan/paths/xit.h"
 #include "core/plan/strategy.h"
@@ -85,6 +86,8 @@ double Mean(const std::vector<double>& values) {
 
 struct Figures {
   std::vector<double> plan_ms, all_goals_ms, search_ms, guard_ms;
+  std::vector<double> exact_ms;
+  Quality exact;
   Quality tree;
   Quality guarded;
 };
@@ -111,12 +114,17 @@ void MeasureSearch(const Case& c, std::uint64_t seed, Figures& figures) {
   const Grid<double> d8 = OracleCosts(c.cost, c.start_cell, 8);
   const Grid<double> d32 = OracleCosts(c.cost, c.start_cell, 32);
   figures.tree.Add(result, c, d8, d32);
-  CompleteOnGrid(problem, result);
+  CompleteOnGrid(problem, PathSource::kGridGuard, result);
   figures.guarded.Add(result, c, d8, d32);
+  const GridExactPlanner exact;
+  PathResult exact_result;
+  figures.exact_ms.push_back(
+      MedianCpu_ms(kRepeats, [&] { exact_result = exact.FindPaths(problem); }));
+  figures.exact.Add(exact_result, c, d8, d32);
   figures.guard_ms.push_back(MedianCpu_ms(kRepeats, [&] {  // with every goal missed
     PathResult nothing;
     nothing.paths.resize(c.world.goals.size());
-    CompleteOnGrid(problem, nothing);
+    CompleteOnGrid(problem, PathSource::kGridGuard, nothing);
   }));
 }
 
@@ -135,6 +143,9 @@ absl::Status Measure(int worlds, BenchSummary& summary) {
   summary.Set("xit300_all_goals_ms", Median(figures.all_goals_ms));
   summary.Set("xit300_search_ms", Median(figures.search_ms));
   summary.Set("grid_guard_ms", Median(figures.guard_ms));
+  summary.Set("grid_exact_ms", Median(figures.exact_ms));
+  summary.Set("grid_exact_over_d8", Mean(figures.exact.over_d8));
+  summary.Set("grid_exact_over_d32", Mean(figures.exact.over_d32));
   summary.Set("xit300_reached_ratio", figures.guarded.ReachedRatio());
   summary.Set("xit300_tree_only_reached_ratio", figures.tree.ReachedRatio());
   summary.Set("xit300_over_d8", Mean(figures.guarded.over_d8));

@@ -33,6 +33,7 @@ constexpr Row<FrontierKind, v1::GoalKind> kFrontierKinds[] = {
 constexpr Row<PathSource, v1::Candidate::PathSource> kPathSources[] = {
     {PathSource::kTree, v1::Candidate::PATH_SOURCE_TREE},
     {PathSource::kGridGuard, v1::Candidate::PATH_SOURCE_GRID_GUARD},
+    {PathSource::kGridSearch, v1::Candidate::PATH_SOURCE_GRID_SEARCH},
 };
 constexpr Row<RejectionReason, v1::RejectedGoal::Reason> kRejectionReasons[] = {
     {RejectionReason::kUnreachable, v1::RejectedGoal::REASON_UNREACHABLE},
@@ -49,6 +50,8 @@ constexpr Row<PlanEnd, v1::Plan::End> kPlanEnds[] = {
     {PlanEnd::kStopped, v1::Plan::END_STOPPED},
     {PlanEnd::kNoGoals, v1::Plan::END_NO_GOALS},
     {PlanEnd::kMissionComplete, v1::Plan::END_MISSION_COMPLETE},
+    {PlanEnd::kStartOccupied, v1::Plan::END_START_OCCUPIED},
+    {PlanEnd::kAllGoalsRejected, v1::Plan::END_ALL_GOALS_REJECTED},
 };
 constexpr Row<ProgressOutcome, v1::ReportProgressRequest::Outcome> kOutcomes[] = {
     {ProgressOutcome::kReached, v1::ReportProgressRequest::OUTCOME_REACHED},
@@ -67,6 +70,7 @@ constexpr Row<GoalPolicy, v1::GoalPolicy> kGoalPolicies[] = {
 constexpr Row<CostKind, v1::CostKind> kCostKinds[] = {
     {CostKind::kUcb, v1::COST_KIND_UCB},
     {CostKind::kEuclidean, v1::COST_KIND_EUCLIDEAN},
+    {CostKind::kVertices, v1::COST_KIND_VERTICES},
 };
 constexpr Row<SamplingKind, v1::SamplingKind> kSamplingKinds[] = {
     {SamplingKind::kSystematic, v1::SAMPLING_KIND_SYSTEMATIC},
@@ -75,6 +79,17 @@ constexpr Row<SamplingKind, v1::SamplingKind> kSamplingKinds[] = {
 constexpr Row<SelectionRule, v1::SelectionRule> kSelectionRules[] = {
     {SelectionRule::kLeastCost, v1::SELECTION_RULE_LEAST_COST},
     {SelectionRule::kMeanUcb, v1::SELECTION_RULE_MEAN_UCB},
+    {SelectionRule::kInformationRate, v1::SELECTION_RULE_INFORMATION_RATE},
+};
+constexpr Row<PathKind, v1::PathKind> kPathKinds[] = {
+    {PathKind::kXit, v1::PATH_KIND_XIT},
+    {PathKind::kAnytimeXit, v1::PATH_KIND_ANYTIME_XIT},
+    {PathKind::kGridExact, v1::PATH_KIND_GRID_EXACT},
+    {PathKind::kRrt, v1::PATH_KIND_RRT},
+    {PathKind::kRrtStar, v1::PATH_KIND_RRT_STAR},
+    {PathKind::kInformedRrtStar, v1::PATH_KIND_INFORMED_RRT_STAR},
+    {PathKind::kBitStar, v1::PATH_KIND_BIT_STAR},
+    {PathKind::kPrmStar, v1::PATH_KIND_PRM_STAR},
 };
 
 // Proto's zero, "unspecified", if the table lacks the value.
@@ -111,6 +126,7 @@ v1::GoalPolicy ToProto(GoalPolicy value) { return Find(kGoalPolicies, value); }
 v1::CostKind ToProto(CostKind value) { return Find(kCostKinds, value); }
 v1::SamplingKind ToProto(SamplingKind value) { return Find(kSamplingKinds, value); }
 v1::SelectionRule ToProto(SelectionRule value) { return Find(kSelectionRules, value); }
+v1::PathKind ToProto(PathKind value) { return Find(kPathKinds, value); }
 
 absl::StatusOr<MissionPhase> FromProto(v1::MissionPhase proto, absl::string_view field) {
   return Find(kPhases, proto, field);
@@ -148,6 +164,9 @@ absl::StatusOr<SamplingKind> FromProto(v1::SamplingKind proto, absl::string_view
 }
 absl::StatusOr<SelectionRule> FromProto(v1::SelectionRule proto, absl::string_view field) {
   return Find(kSelectionRules, proto, field);
+}
+absl::StatusOr<PathKind> FromProto(v1::PathKind proto, absl::string_view field) {
+  return Find(kPathKinds, proto, field);
 }
 
 }  // namespace plumescout

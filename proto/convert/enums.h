@@ -26,6 +26,7 @@ v1::GoalPolicy ToProto(GoalPolicy value);
 v1::CostKind ToProto(CostKind value);
 v1::SamplingKind ToProto(SamplingKind value);
 v1::SelectionRule ToProto(SelectionRule value);
+v1::PathKind ToProto(PathKind value);
 
 // kInvalidArgument naming `field` for unset and unknown values.
 absl::StatusOr<MissionPhase> FromProto(v1::MissionPhase proto, absl::string_view field);
@@ -41,5 +42,6 @@ absl::StatusOr<GoalPolicy> FromProto(v1::GoalPolicy proto, absl::string_view fie
 absl::StatusOr<CostKind> FromProto(v1::CostKind proto, absl::string_view field);
 absl::StatusOr<SamplingKind> FromProto(v1::SamplingKind proto, absl::string_view field);
 absl::StatusOr<SelectionRule> FromProto(v1::SelectionRule proto, absl::string_view field);
+absl::StatusOr<PathKind> FromProto(v1::PathKind proto, absl::string_view field);
 
 }  // namespace plumescout

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proto/convert/field.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "absl/strings/ascii.h"
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "google/rpc/error_details.pb.h"
@@ -14,14 +16,27 @@ namespace {
 
 constexpr std::size_t kMaxEchoedBytes = 80;  // of a refused string, before escaping
 
-absl::Status Violation(absl::string_view field, absl::string_view description) {
+// `reason`: "WORD: " or nothing, which comes first in the message.
+absl::Status Violation(absl::string_view field, absl::string_view description,
+                       absl::string_view reason = "") {
   google::rpc::BadRequest detail;
   auto* violation = detail.add_field_violations();
   violation->set_field(std::string(field));
   violation->set_description(std::string(description));
-  absl::Status status = absl::InvalidArgumentError(absl::StrCat(field, " ", description));
+  absl::Status status = absl::InvalidArgumentError(absl::StrCat(reason, field, " ", description));
   AttachDetail(detail, status);
   return status;
+}
+
+// The "WORD: " in capitals that a message may begin with.
+absl::string_view LeadingReason(absl::string_view message) {
+  constexpr absl::string_view kEnd = ": ";
+  const std::size_t end = message.find(kEnd);
+  if (end == absl::string_view::npos || end == 0) return "";
+  const absl::string_view word = message.substr(0, end);
+  const bool capitals = std::all_of(word.begin(), word.end(),
+                                    [](char c) { return absl::ascii_isupper(c) || c == '_'; });
+  return capitals ? message.substr(0, end + kEnd.size()) : "";
 }
 
 }  // namespace
@@ -80,9 +95,10 @@ std::string Join(absl::string_view parent, absl::string_view name, int index) {
 absl::Status WithField(const absl::Status& status, absl::string_view parent,
                        absl::Span<const FieldName> renamed) {
   if (!absl::IsInvalidArgument(status) || !FieldViolations(status).empty()) return status;
-  const absl::string_view message = status.message();
+  const absl::string_view reason = LeadingReason(status.message());
+  const absl::string_view message = status.message().substr(reason.size());
   const std::size_t name_end = message.find(' ');
-  if (name_end == absl::string_view::npos) return Violation(parent, message);
+  if (name_end == absl::string_view::npos) return Violation(parent, message, reason);
   absl::string_view name = message.substr(0, name_end);
   for (const FieldName& rename : renamed) {
     if (rename.core == name) {
@@ -90,7 +106,7 @@ absl::Status WithField(const absl::Status& status, absl::string_view parent,
       break;
     }
   }
-  return Violation(Join(parent, name), message.substr(name_end + 1));
+  return Violation(Join(parent, name), message.substr(name_end + 1), reason);
 }
 
 }  // namespace plumescout

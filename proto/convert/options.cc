@@ -88,6 +88,12 @@ v1::PlanningOptions ToProto(const PlanningOptions& options) {
   proto.set_set_aside_s(options.set_aside_s);
   proto.set_fallback_limit(options.fallback_limit);
   proto.set_fallback_to_unobserved(options.fallback_to_unobserved);
+  proto.set_paths(ToProto(options.paths));
+  proto.set_goal_vertices(options.goal_vertices);
+  proto.set_informed_heuristic(options.informed_heuristic);
+  proto.set_straighten(options.straighten);
+  proto.set_reading_rate_hz(options.reading_rate_hz);
+  proto.set_commitment_margin_share(options.commitment_margin);
   return proto;
 }
 
@@ -155,6 +161,7 @@ absl::Status ReadChoices(const v1::PlanningOptions& proto, absl::string_view fie
   Take(proto.has_strategy(), proto.strategy(), options.strategy);
   PLUMESCOUT_RETURN_IF_ERROR(
       TakeEnum(proto.goal_policy(), Join(field, "goal_policy"), options.goals));
+  PLUMESCOUT_RETURN_IF_ERROR(TakeEnum(proto.paths(), Join(field, "paths"), options.paths));
   PLUMESCOUT_RETURN_IF_ERROR(TakeEnum(proto.cost(), Join(field, "cost"), options.cost));
   PLUMESCOUT_RETURN_IF_ERROR(
       TakeEnum(proto.selection_cost(), Join(field, "selection_cost"), options.selection_cost));
@@ -182,6 +189,12 @@ void ReadNumbers(const v1::PlanningOptions& proto, PlanningOptions& options) {
   Take(proto.has_fallback_limit(), proto.fallback_limit(), options.fallback_limit);
   Take(proto.has_fallback_to_unobserved(), proto.fallback_to_unobserved(),
        options.fallback_to_unobserved);
+  Take(proto.has_goal_vertices(), proto.goal_vertices(), options.goal_vertices);
+  Take(proto.has_informed_heuristic(), proto.informed_heuristic(), options.informed_heuristic);
+  Take(proto.has_straighten(), proto.straighten(), options.straighten);
+  Take(proto.has_reading_rate_hz(), proto.reading_rate_hz(), options.reading_rate_hz);
+  Take(proto.has_commitment_margin_share(), proto.commitment_margin_share(),
+       options.commitment_margin);
 }
 
 // Clears the fields of `message` that are equal in `other`, a message of the same type.
@@ -213,6 +226,7 @@ constexpr FieldName kRenamed[] = {
     {"planning.max_goals", "planning.max_goal_count"},
     {"planning.alpha", "planning.alpha_per_m"},
     {"planning.samples", "planning.sample_count"},
+    {"planning.commitment_margin", "planning.commitment_margin_share"},
     {"planning.nearest_samples", "planning.nearest_sample_count"},
     {"max_beams", "max_beam_count"},
     {"max_robots", "max_robot_count"},

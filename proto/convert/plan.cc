@@ -42,6 +42,10 @@ v1::Candidate ToProto(const Candidate& candidate) {
   proto.set_length_m(candidate.length_m);
   proto.set_mean_ucb(candidate.mean_ucb);
   proto.set_mean_concentration_ppm(candidate.mean_concentration_ppm);
+  proto.set_duration_s(candidate.duration_s);
+  if (candidate.expected_information_nats) {
+    proto.set_expected_information_nats(*candidate.expected_information_nats);
+  }
   return proto;
 }
 
@@ -72,6 +76,7 @@ v1::PlanEffort ToProto(const PlanEffort& effort) {
   proto.set_vertex_count(effort.vertices);
   proto.set_edge_evaluation_count(effort.edges_evaluated);
   proto.set_guarded_goal_count(effort.goals_by_guard);
+  proto.set_batch_count(effort.batches);
   return proto;
 }
 
@@ -91,6 +96,9 @@ absl::Status CheckPrice(const v1::Candidate& proto, absl::string_view field) {
       CheckFinite(Join(field, "information_penalty"), proto.information_penalty()));
   PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative(Join(field, "length_m"), proto.length_m()));
   PLUMESCOUT_RETURN_IF_ERROR(CheckFinite(Join(field, "mean_ucb"), proto.mean_ucb()));
+  PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative(Join(field, "duration_s"), proto.duration_s()));
+  PLUMESCOUT_RETURN_IF_ERROR(
+      CheckFinite(Join(field, "expected_information_nats"), proto.expected_information_nats()));
   return CheckFinite(Join(field, "mean_concentration_ppm"), proto.mean_concentration_ppm());
 }
 
@@ -110,6 +118,10 @@ absl::StatusOr<Candidate> FromProto(const v1::Candidate& proto, absl::string_vie
   candidate.length_m = proto.length_m();
   candidate.mean_ucb = proto.mean_ucb();
   candidate.mean_concentration_ppm = proto.mean_concentration_ppm();
+  candidate.duration_s = proto.duration_s();
+  if (proto.has_expected_information_nats()) {
+    candidate.expected_information_nats = proto.expected_information_nats();
+  }
   return candidate;
 }
 
@@ -153,7 +165,7 @@ absl::StatusOr<Trajectory> FromProto(const v1::Trajectory& proto, absl::string_v
 
 PlanEffort FromProto(const v1::PlanEffort& proto) {
   return {proto.sample_count(), proto.vertex_count(), proto.edge_evaluation_count(),
-          proto.guarded_goal_count()};
+          proto.guarded_goal_count(), proto.batch_count()};
 }
 
 absl::Status ReadNames(const v1::Plan& proto, absl::string_view field, Plan& plan) {
@@ -201,6 +213,7 @@ v1::Plan ToProto(const Plan& plan, const MissionId& mission) {
   *proto.mutable_trajectory() = ToProto(plan.trajectory);
   *proto.mutable_effort() = ToProto(plan.effort);
   proto.set_field_flat(plan.field_flat);
+  proto.set_goal_kept(plan.goal_kept);
   proto.set_start_escaped(plan.start_escaped);
   proto.set_explanation(plan.explanation);
   const auto cpu_ns = std::llround(plan.cpu_s * kNanosecondsPerSecond);
@@ -223,6 +236,7 @@ absl::StatusOr<Plan> FromProto(const v1::Plan& proto, absl::string_view field) {
   plan.seed = static_cast<std::uint64_t>(proto.seed());
   plan.effort = FromProto(proto.effort());
   plan.field_flat = proto.field_flat();
+  plan.goal_kept = proto.goal_kept();
   plan.start_escaped = proto.start_escaped();
   plan.explanation = proto.explanation();
   plan.cpu_s = static_cast<double>(proto.cpu_duration().seconds()) +

@@ -99,12 +99,14 @@ class RandomEvents {
   Candidate MakeCandidate() {
     return {MakeGoal(),
             List([this] { return MakePoint(); }),
-            Choice<PathSource>(2),
+            Choice<PathSource>(3),
             Real(),
             Real(),
             Real(),
             Real(),
-            Real()};
+            Real(),
+            Real(),
+            Bool() ? std::optional<double>(Real()) : std::nullopt};
   }
   Plan MakePlan() {
     Plan plan;
@@ -114,7 +116,7 @@ class RandomEvents {
     plan.belief_revision = Int64();
     plan.seed = rng_.Next();
     plan.phase = Choice<MissionPhase>(4);
-    plan.end = Choice<PlanEnd>(5);
+    plan.end = Choice<PlanEnd>(7);
     plan.chosen = Int();
     plan.candidates = List([this] { return MakeCandidate(); });
     plan.rejected = List([this] {
@@ -123,8 +125,9 @@ class RandomEvents {
     plan.trajectory.waypoints = List([this] { return Waypoint{MakePose(), Real(), Real()}; });
     plan.trajectory.length_m = Real();
     plan.trajectory.duration_s = Real();
-    plan.effort = {Int(), Int(), Int(), Int()};
+    plan.effort = {Int(), Int(), Int(), Int(), Int()};
     plan.field_flat = Bool();
+    plan.goal_kept = Bool();
     plan.start_escaped = Bool();
     plan.explanation = Text();
     plan.cpu_s = Real();

@@ -7,18 +7,26 @@
 
 namespace plumescout {
 
+std::vector<int> NearestSamples(std::span<const Point2> samples, Point2 goal, int count) {
+  std::vector<std::pair<double, int>> by_distance;
+  by_distance.reserve(samples.size());
+  for (const Point2 sample : samples) {
+    by_distance.emplace_back(Distance_m(sample, goal), static_cast<int>(by_distance.size()));
+  }
+  const auto size =
+      std::min(static_cast<std::ptrdiff_t>(count), static_cast<std::ptrdiff_t>(by_distance.size()));
+  std::partial_sort(by_distance.begin(), by_distance.begin() + size, by_distance.end());
+  std::vector<int> nearest;
+  for (std::ptrdiff_t k = 0; k < size; ++k) nearest.push_back((by_distance.begin() + k)->second);
+  return nearest;
+}
+
 GoalSets::GoalSets(const std::vector<Point2>& points, int sample_count,
                    const std::vector<int>& goal_vertices, int nearest_samples) {
-  std::vector<std::pair<double, int>> by_distance(static_cast<std::size_t>(sample_count));
-  const auto set_size = std::min(nearest_samples, sample_count);
+  const auto samples = std::span(points).first(static_cast<std::size_t>(sample_count));
   for (const int goal : goal_vertices) {
-    for (int i = 0; i < sample_count; ++i) {
-      const auto index = static_cast<std::size_t>(i);
-      by_distance[index] = {Distance_m(points[index], points[static_cast<std::size_t>(goal)]), i};
-    }
-    std::partial_sort(by_distance.begin(), by_distance.begin() + set_size, by_distance.end());
-    for (int k = 0; k < set_size; ++k) {
-      const int sample = by_distance[static_cast<std::size_t>(k)].second;
+    const Point2 center = points[static_cast<std::size_t>(goal)];
+    for (const int sample : NearestSamples(samples, center, nearest_samples)) {
       if (sample == goal) continue;
       edges_.emplace_back(sample, goal);
       edges_.emplace_back(goal, sample);

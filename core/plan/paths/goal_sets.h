@@ -28,4 +28,7 @@ class GoalSets {
   std::vector<Edge> edges_;  // sorted
 };
 
+// Indices of the `count` samples nearest to `goal`, the nearest first; all if there are fewer.
+std::vector<int> NearestSamples(std::span<const Point2> samples, Point2 goal, int count);
+
 }  // namespace plumescout

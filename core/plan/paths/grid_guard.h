@@ -7,12 +7,12 @@
 namespace plumescout {
 
 // Ours: finds a path to every goal of `result` that has none yet, so that a goal which can be
-// reached on the grid is reached. An exact 8-connected search (no corner cut) from the start under
-// the problem's cost, then Shortcut, so that the paths are polylines priced like those of a tree.
+// reached on the grid is reached: an exact 8-connected search (no corner cut) from the start under
+// the problem's cost, then Straighten. The paths are marked as `source`.
 // Ends as kAllGoalsReached, kQueueExhausted if a goal has no traversable way, or kStopped.
-// The edge budget does not bound it: call it only when the tree search ended by itself.
+// The edge budget does not bound the search: call it only when the tree search ended by itself.
 //
-// Cost: O(cells nearer than the farthest missed goal); nothing if no goal is missed.
-void CompleteOnGrid(const PathProblem& problem, PathResult& result);
+// Cost: O(cells cheaper to reach than the dearest missed goal); nothing if no goal is missed.
+void CompleteOnGrid(const PathProblem& problem, PathSource source, PathResult& result);
 
 }  // namespace plumescout

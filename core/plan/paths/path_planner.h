@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -13,19 +14,6 @@
 #include "core/types/stop.h"
 
 namespace plumescout {
-
-// From where, to where, at what price. Holds references: for the length of one call.
-struct PathProblem {
-  const EdgeCost& cost;                 // of tree expansion, with the field it prices
-  const Grid<std::uint8_t>& reachable;  // 1: traversable and connected to the start
-  Point2 start;                         // in a reachable cell
-  const std::vector<Goal>& goals;
-  std::uint64_t seed = 0;
-  std::int64_t max_edge_evaluations = 0;  // 0: no bound
-  const StopFn& stop;
-
-  Cell start_cell() const { return cost.geometry().CellAt(start); }
-};
 
 struct FoundPath {
   std::vector<Point2> vertices;  // the start first, the centre of the goal's cell last
@@ -40,6 +28,23 @@ struct PathResult {
   // kAllGoalsReached, kQueueExhausted, or kStopped by the stop function or the budget.
   PlanEnd end = PlanEnd::kQueueExhausted;
   PlanEffort effort;
+};
+
+// Told of every better answer of an anytime search; no price in it is above an earlier one.
+using PathListener = std::function<void(const PathResult&)>;
+
+// From where, to where, at what price. Holds references: for the length of one call.
+struct PathProblem {
+  const EdgeCost& cost;                 // of tree expansion, with the field it prices
+  const Grid<std::uint8_t>& reachable;  // 1: traversable and connected to the start
+  Point2 start;                         // in a reachable cell
+  const std::vector<Goal>& goals;
+  std::uint64_t seed = 0;
+  std::int64_t max_edge_evaluations = 0;  // 0: no bound
+  const StopFn& stop;
+  const PathListener* improved = nullptr;
+
+  Cell start_cell() const { return cost.geometry().CellAt(start); }
 };
 
 // Finds collision-free paths from one start to many goals. Immutable; FindPaths may run on many

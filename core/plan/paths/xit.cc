@@ -21,7 +21,8 @@ constexpr int kNoParent = -1;
 // The implicit random geometric graph: samples, goal cells and the root, with their neighbours.
 struct Graph {
   std::vector<Point2> points;      // samples, then goal cells that are no sample, then the root
-  std::vector<int> goal_vertices;  // by goal
+  std::vector<int> goal_vertices;  // by goal; none if goal cells are no vertices
+  std::vector<std::vector<int>> goal_sets;  // by goal: vertices that solve it
   int sample_count = 0;
 
   int root() const { return static_cast<int>(points.size()) - 1; }
@@ -34,13 +35,22 @@ Graph MakeGraph(const PathProblem& problem, const PlanningOptions& options) {
   std::vector<Cell> cells = DrawSamples(mass, options.samples, options.sampling, rng);  // line 1
   Graph graph;
   graph.sample_count = static_cast<int>(cells.size());
-  for (const Goal& goal : problem.goals) {  // line 2
-    const auto known = std::find(cells.begin(), cells.end(), goal.cell);
-    graph.goal_vertices.push_back(static_cast<int>(known - cells.begin()));
-    if (known == cells.end()) cells.push_back(goal.cell);
+  if (options.goal_vertices) {
+    for (const Goal& goal : problem.goals) {  // line 2
+      const auto known = std::find(cells.begin(), cells.end(), goal.cell);
+      graph.goal_vertices.push_back(static_cast<int>(known - cells.begin()));
+      graph.goal_sets.push_back({graph.goal_vertices.back()});
+      if (known == cells.end()) cells.push_back(goal.cell);
+    }
   }
   graph.points.reserve(cells.size() + 1);
   for (const Cell cell : cells) graph.points.push_back(problem.cost.geometry().Center(cell));
+  if (!options.goal_vertices) {
+    for (const Goal& goal : problem.goals) {  // lines 3-5
+      graph.goal_sets.push_back(
+          NearestSamples(graph.points, goal.position, options.nearest_samples));
+    }
+  }
   graph.points.push_back(problem.start);
   return graph;
 }
@@ -57,6 +67,7 @@ class XitSearch {
  public:
   XitSearch(const PathProblem& problem, const PlanningOptions& options)
       : problem_(problem),
+        informed_(options.informed_heuristic),
         graph_(MakeGraph(problem, options)),
         near_(graph_.points, Radius_m(problem, options, graph_.sample_count)),  // line 7
         goal_sets_(graph_.points, graph_.sample_count, graph_.goal_vertices,
@@ -64,14 +75,14 @@ class XitSearch {
         g_(graph_.points.size(), kInfinity),
         parent_(graph_.points.size(), kNoParent),
         taken_(graph_.points.size(), 0),
-        queues_(problem.cost.HasHeuristic() ? problem.goals.size() : 1) {
+        queues_(problem.cost.HasHeuristic() || informed_ ? problem.goals.size() : 1) {
     Reach(graph_.root(), kNoParent, 0.0);  // line 6
   }
 
   PathResult Run() {
     PathResult result;
     result.end = Grow();
-    for (const int goal : graph_.goal_vertices) result.paths.push_back(PathTo(goal));
+    for (const std::vector<int>& goal : graph_.goal_sets) result.paths.push_back(PathTo(goal));
     result.effort = effort_;
     result.effort.samples = graph_.sample_count;
     result.effort.vertices = static_cast<int>(
@@ -94,20 +105,24 @@ class XitSearch {
   double& g(int vertex) { return g_[static_cast<std::size_t>(vertex)]; }
   Point2 At(int vertex) const { return graph_.points[static_cast<std::size_t>(vertex)]; }
   bool Taken(int vertex) const { return taken_[static_cast<std::size_t>(vertex)] != 0; }
+  bool Solved(std::size_t goal) const {
+    const std::vector<int>& set = graph_.goal_sets[goal];
+    return std::any_of(set.begin(), set.end(), [this](int vertex) { return Taken(vertex); });
+  }
 
   // Lines 8-28.
   PlanEnd Grow() {
     std::vector<std::size_t> open(problem_.goals.size());  // goals not solved yet
     for (std::size_t j = 0; j < open.size(); ++j) open[j] = j;
     while (!open.empty()) {
-      for (const std::size_t goal : open) {               // line 9
-        if (Taken(graph_.goal_vertices[goal])) continue;  // lines 10-11
+      for (const std::size_t goal : open) {  // line 9
+        if (Solved(goal)) continue;          // lines 10-11
         if (problem_.stop()) return PlanEnd::kStopped;
         const int v = TakeNext(goal);  // lines 13-14
         if (v == kNoParent) return PlanEnd::kQueueExhausted;
         if (!Expand(v)) return PlanEnd::kStopped;
       }
-      std::erase_if(open, [this](std::size_t goal) { return Taken(graph_.goal_vertices[goal]); });
+      std::erase_if(open, [this](std::size_t goal) { return Solved(goal); });
     }
     return PlanEnd::kAllGoalsReached;
   }
@@ -139,7 +154,7 @@ class XitSearch {
 
   // Lines 20-28 for one edge. False if its price is over the budget.
   bool Try(int v, int w, double length_m) {
-    if (Taken(w)) return true;                                             // its g is final
+    if (Taken(w) && !informed_) return true;                               // its g is final
     if (!(g(v) + problem_.cost.LowerBound(length_m) < g(w))) return true;  // line 20
     const std::int64_t budget = problem_.max_edge_evaluations;
     if (budget > 0 && effort_.edges_evaluated >= budget) return false;
@@ -153,28 +168,45 @@ class XitSearch {
   void Reach(int vertex, int parent, double cost) {
     g(vertex) = cost;
     parent_[static_cast<std::size_t>(vertex)] = parent;
+    taken_[static_cast<std::size_t>(vertex)] = 0;
     for (std::size_t k = 0; k < queues_.size(); ++k) {
       queues_[k].push({cost + Heuristic(vertex, k), vertex, cost});
     }
   }
 
+  // To the nearest, or cheapest, vertex of the goal's set.
   double Heuristic(int vertex, std::size_t goal) const {
-    if (!problem_.cost.HasHeuristic()) return 0.0;
-    return problem_.cost.Heuristic(Distance_m(At(vertex), At(graph_.goal_vertices[goal])));
+    if (!problem_.cost.HasHeuristic() && !informed_) return 0.0;
+    double least = kInfinity;
+    for (const int member : graph_.goal_sets[goal]) {
+      least =
+          std::min(least, informed_ ? problem_.cost.InformedHeuristic(At(vertex), At(member))
+                                    : problem_.cost.Heuristic(Distance_m(At(vertex), At(member))));
+    }
+    return least;
   }
 
-  std::optional<FoundPath> PathTo(int goal) {
-    if (g(goal) == kInfinity) return std::nullopt;
+  std::optional<FoundPath> PathTo(const std::vector<int>& goal_set) const {
+    const auto cheaper = [this](int a, int b) {
+      return g_[static_cast<std::size_t>(a)] < g_[static_cast<std::size_t>(b)];
+    };
+    const auto end = std::min_element(goal_set.begin(), goal_set.end(), cheaper);
+    if (end == goal_set.end() || g_[static_cast<std::size_t>(*end)] == kInfinity) {
+      return std::nullopt;
+    }
     FoundPath path;
-    for (int v = goal; v != kNoParent; v = parent_[static_cast<std::size_t>(v)]) {
+    for (int v = *end; v != kNoParent; v = parent_[static_cast<std::size_t>(v)]) {
       path.vertices.push_back(At(v));
     }
     std::reverse(path.vertices.begin(), path.vertices.end());
-    path.cost = g(goal);
+    // Of a vertex that was rewired and not taken again, those behind it have not heard.
+    path.cost =
+        informed_ ? PathCost(problem_.cost, path.vertices) : g_[static_cast<std::size_t>(*end)];
     return path;
   }
 
   const PathProblem& problem_;
+  bool informed_;  // h may exceed the price of the way
   Graph graph_;
   NeighbourIndex near_;
   GoalSets goal_sets_;

@@ -8,16 +8,21 @@
 namespace plumescout {
 
 // Exploration and exploitation informed trees, [XIT] Alg. 1: one tree over a batch of samples of
-// the information field, grown towards all goals in turn.
+// the information field, grown towards all goals in turn. [MIT] Alg. 1 is the same search under the
+// distance as cost, with independent samples of the field and nothing else (strategy "mit").
 //
 // Where the listing leaves room:
 //   line 8      while some goal is unreached and Q_v is not empty.
 //   line 13     one Q_v ordered for each goal by g + h, h = alpha * distance to that goal. h is
 //               consistent for each, so a vertex taken from Q_v has its final g whatever the
-//               order of turns: it is never rewired.
+//               order of turns: it is never rewired. With options.informed_heuristic, h of section
+//               IV-C is not: a vertex that is rewired goes back into Q_v, which the listing
+//               forgets.
 //   line 16-18  Q_e is drained for one vertex, so its order cannot change the tree: no sort.
+//   line 20-21  "<" in both; "<=" as [MIT] prints would rewire ties for ever.
 //   goals       as in goal_sets.h; a goal is solved when its vertex is taken from Q_v, not when
-//               an edge first touches it.
+//               an edge first touches it. Without options.goal_vertices the goal sets are the
+//               paper's: a path ends at the sample of the set that is the cheapest to reach.
 // A goal touched but not solved when the search is stopped still gets the path found so far.
 //
 // Cost: O(cells) for the draw, then about N log N queue steps and edge integrals.

@@ -127,6 +127,40 @@ TEST(Strategy, CollidesWithNothingAndReachesAllItOffersInRandomHalls) {
   }
 }
 
+TEST(Strategy, KeepsTheGoalItDrivesToUnlessAnotherIsBetterByTheMargin) {
+  Belief belief = SmallBelief(kRoom);
+  const absl::StatusOr<Plan> free = TryPlan(belief, For("r"));
+  ASSERT_TRUE(free.ok());
+  ASSERT_THAT(free->candidates, SizeIs(2));
+  const Candidate& other = free->candidates[static_cast<std::size_t>(1 - free->chosen)];
+  belief.claims = {{"r", 1, other.goal, belief.sample_time_ns + 1}};
+
+  PlanningOptions options;
+  options.commitment_margin = 1.0;
+  const absl::StatusOr<Plan> kept = TryPlan(belief, For("r"), options);
+  ASSERT_TRUE(kept.ok());
+  EXPECT_TRUE(kept->goal_kept);
+  EXPECT_EQ(Chosen(*kept).goal, other.goal);
+
+  options.commitment_margin = 0.01;
+  const absl::StatusOr<Plan> changed = TryPlan(belief, For("r"), options);
+  ASSERT_TRUE(changed.ok());
+  EXPECT_FALSE(changed->goal_kept);
+  EXPECT_EQ(Chosen(*changed).goal, Chosen(*free).goal);
+}
+
+TEST(Strategy, SaysHowLongEachCandidateTakes) {
+  PlanningOptions options;
+  options.speed_mps = 0.5;
+  const absl::StatusOr<Plan> plan = TryPlan(SmallBelief(kRoom), For("r"), options);
+  ASSERT_TRUE(plan.ok());
+  for (const Candidate& candidate : plan->candidates) {
+    EXPECT_NEAR(candidate.duration_s, candidate.length_m / 0.5, kRounding);
+    EXPECT_FALSE(candidate.expected_information_nats.has_value()) << "nobody asked";
+  }
+  EXPECT_NEAR(Chosen(*plan).duration_s, plan->trajectory.duration_s, kRounding);
+}
+
 TEST(Strategy, GivesTheSameBytesForTheSameRequest) {
   const lab::RandomWorld world = lab::MakeRandomWorld(3, 1);
   PlanningOptions options;
@@ -206,7 +240,7 @@ TEST(Strategy, StaysIfTheRobotIsWalledIn) {
   belief.traversable = std::make_shared<const Grid<std::uint8_t>>(belief.geometry(), 0);
   const absl::StatusOr<Plan> plan = TryPlan(belief, For("r"));
   ASSERT_TRUE(plan.ok());
-  EXPECT_EQ(plan->end, PlanEnd::kNoGoals);
+  EXPECT_EQ(plan->end, PlanEnd::kStartOccupied);
   EXPECT_EQ(plan->chosen, -1);
   EXPECT_THAT(plan->trajectory.waypoints, IsEmpty());
 }

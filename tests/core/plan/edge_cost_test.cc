@@ -48,6 +48,31 @@ struct RandomCase {
   InformationField field;
 };
 
+TEST(EdgeCost, AtVerticesTakesTheEndsPenaltyAlone) {
+  const InformationField field = FieldOf(ThreeCells(0.9F, 0.5F, 0.25F));
+  const EdgeCost cost(field, CostKind::kVertices, 2.0);
+  EXPECT_NEAR(cost({0.05, 0.05}, {0.25, 0.05}), 0.25 + 2.0 * 0.2, 1e-6);
+  EXPECT_NEAR(cost({0.25, 0.05}, {0.05, 0.05}), 0.9 + 2.0 * 0.2, 1e-6);
+  EXPECT_NEAR(cost.GridStep(0.9F, 0.5F, 1.0), cost({0.05, 0.05}, {0.15, 0.05}), 1e-6);
+  EXPECT_LE(cost.LowerBound(0.2), cost({0.05, 0.05}, {0.25, 0.05}));
+}
+
+TEST(EdgeCost, AtVerticesStillHitsWhatStandsBetween) {
+  const InformationField field = FieldOf(ThreeCells(0.9F, kInf, 0.25F));
+  EXPECT_EQ(EdgeCost(field, CostKind::kVertices, 0.0)({0.05, 0.05}, {0.25, 0.05}), kInf);
+}
+
+TEST(EdgeCost, InformedHeuristicPricesTheStraightLineThroughObstacles) {
+  const InformationField field = FieldOf(ThreeCells(0.5F, kInf, 0.25F));
+  const EdgeCost cost(field, CostKind::kUcb, 2.0);
+  // Half a cell at 0.5, one blocked at the greatest penalty, half a cell at 0.25.
+  EXPECT_NEAR(cost.InformedHeuristic({0.05, 0.05}, {0.25, 0.05}),
+              0.5 * 0.5 + 1.0 + 0.5 * 0.25 + 2.0 * 0.2, 1e-6);
+  EXPECT_NEAR(
+      EdgeCost(field, CostKind::kEuclidean, 0.0).InformedHeuristic({0.05, 0.05}, {0.25, 0.05}), 0.2,
+      kRounding);
+}
+
 TEST(SegmentIntegral, WeighsEachCellByTheLengthInside) {
   // From the middle of the first cell to a quarter into the third.
   EXPECT_NEAR(SegmentIntegral_cells(ThreeCells(1.0F, 0.5F, 0.25F), {0.05, 0.05}, {0.225, 0.05}),

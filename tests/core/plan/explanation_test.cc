@@ -34,6 +34,30 @@ TEST(Explain, NamesGoalPlaceAndReason) {
                         "information, 0.75"));
 }
 
+TEST(Explain, NamesTheInformationExpected) {
+  Plan plan = ChosenPlan(GoalKind::kGasFrontier);
+  plan.candidates[1].duration_s = 12.0;
+  EXPECT_THAT(Explain(plan, SelectionRule::kInformationRate), HasSubstr("least cost"));
+  plan.candidates[1].expected_information_nats = 34.56;
+  EXPECT_THAT(Explain(plan, SelectionRule::kInformationRate),
+              HasSubstr("most information expected, 34.6 nats in 12 s"));
+}
+
+TEST(Explain, SaysThatTheGoalWasKept) {
+  Plan plan = ChosenPlan(GoalKind::kGasFrontier);
+  plan.goal_kept = true;
+  EXPECT_THAT(Explain(plan, SelectionRule::kLeastCost), HasSubstr("kept"));
+}
+
+TEST(Explain, SaysWhyThereIsNoWayOn) {
+  Plan plan;
+  plan.end = PlanEnd::kStartOccupied;
+  EXPECT_THAT(Explain(plan, SelectionRule::kLeastCost), HasSubstr("no way out"));
+  plan.end = PlanEnd::kAllGoalsRejected;
+  plan.rejected.resize(3);
+  EXPECT_THAT(Explain(plan, SelectionRule::kLeastCost), HasSubstr("all of 3 goals were rejected"));
+}
+
 TEST(Explain, SaysWhenNoFrontierIsLeft) {
   EXPECT_THAT(Explain(ChosenPlan(GoalKind::kRandomFreeSpace), SelectionRule::kLeastCost),
               HasSubstr("a random free place, for no frontier is left"));

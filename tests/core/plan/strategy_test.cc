@@ -11,8 +11,9 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-TEST(StrategyTable, NamesTheRowsOfThePaper) {
-  EXPECT_THAT(StrategyNames(), ElementsAre("xit_gff", "xit_fgf", "xit_f"));
+TEST(StrategyTable, NamesTheRowsOfThePapers) {
+  EXPECT_THAT(StrategyNames(),
+              ElementsAre("xit_gff", "xit_fgf", "xit_f", "mit", "rrt_star_frontier"));
 }
 
 TEST(StrategyTable, SetsThePartsOfARow) {
@@ -29,6 +30,30 @@ TEST(StrategyTable, SetsThePartsOfARow) {
   options.strategy = "xit_f";
   ASSERT_TRUE(ApplyStrategyRow(options).ok());
   EXPECT_EQ(options.goals, GoalPolicy::kOccupancyOnly);
+}
+
+TEST(StrategyTable, MakesMitASearchByDistanceAmongSamplesOfTheField) {
+  PlanningOptions options;
+  options.strategy = "mit";
+  ASSERT_TRUE(ApplyStrategyRow(options).ok());
+  EXPECT_EQ(options.cost, CostKind::kEuclidean);
+  EXPECT_EQ(options.selection, SelectionRule::kMeanUcb);
+  EXPECT_EQ(options.samples, 270);  // [MIT] section IV, as the rest
+  EXPECT_EQ(options.nearest_samples, 3);
+  EXPECT_EQ(options.beta, 1.0);
+  EXPECT_EQ(options.uniform_share, 0.0);
+  EXPECT_EQ(options.sampling, SamplingKind::kIid);
+  EXPECT_FALSE(options.goal_vertices);
+  EXPECT_FALSE(options.straighten);
+  EXPECT_TRUE(MakeStrategy(options).ok());
+}
+
+TEST(StrategyTable, NeedsSomebodyToMakeTheBaselines) {
+  PlanningOptions options;
+  options.strategy = "rrt_star_frontier";
+  ASSERT_TRUE(ApplyStrategyRow(options).ok());
+  EXPECT_EQ(options.paths, PathKind::kRrtStar);
+  EXPECT_EQ(MakeStrategy(options).status().code(), absl::StatusCode::kInvalidArgument);
 }
 
 TEST(StrategyTable, RefusesUnknownNamesAndBadOptions) {

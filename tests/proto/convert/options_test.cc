@@ -27,6 +27,12 @@ MissionOptions Unlike() {
   options.planning.strategy = "xit_f";
   options.planning.goals = GoalPolicy::kOccupancyOnly;
   options.planning.cost = CostKind::kEuclidean;
+  options.planning.paths = PathKind::kBitStar;
+  options.planning.goal_vertices = false;
+  options.planning.informed_heuristic = true;
+  options.planning.straighten = false;
+  options.planning.reading_rate_hz = 4.0;
+  options.planning.commitment_margin = 0.25;
   options.planning.selection = SelectionRule::kMeanUcb;
   options.planning.sampling = SamplingKind::kIid;
   options.planning.samples = 77;

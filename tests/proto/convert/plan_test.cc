@@ -27,11 +27,20 @@ Plan TestPlan() {
   plan.phase = MissionPhase::kGasProbing;
   plan.end = PlanEnd::kStopped;
   plan.chosen = 0;
-  plan.candidates = {
-      {goal, {{0.0, 0.0}, {0.35, 0.45}}, PathSource::kGridGuard, 1.5, 0.5, 2.0, 0.25, 7.0}};
+  plan.candidates = {{goal,
+                      {{0.0, 0.0}, {0.35, 0.45}},
+                      PathSource::kGridGuard,
+                      1.5,
+                      0.5,
+                      2.0,
+                      0.25,
+                      7.0,
+                      3.0,
+                      12.5}};
   plan.rejected = {{goal, RejectionReason::kClaimed, "robot r2"}};
   plan.trajectory = {{{{0.0, 0.0, 0.5}, 0.0, 0.0}, {{0.35, 0.45, 0.5}, 1.0, 0.5}}, 2.0, 1.5};
-  plan.effort = {300, 250, 1000, 1};
+  plan.effort = {300, 250, 1000, 1, 4};
+  plan.goal_kept = true;
   plan.field_flat = true;
   plan.start_escaped = true;
   plan.explanation = "to the nearest plume";

@@ -163,6 +163,62 @@ TEST(Xit, FindsTheCheapestPathsOfItsGraphWhateverTheHeuristic) {
   }
 }
 
+TEST(Xit, EndsAtTheCheapestSampleOfTheGoalSetAsPublished) {
+  PlanningOptions options = Samples(80);
+  options.goal_vertices = false;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const PathCase c(seed);
+    const PathResult result = XitPlanner(options).FindPaths(c.Problem(seed));
+    PlanningOptions no_goal_edges = options;
+    no_goal_edges.nearest_samples = 0;
+    RandomGraph graph(c, no_goal_edges, seed);
+    // Samples and the root alone.
+    graph.points.erase(graph.points.begin() + static_cast<std::ptrdiff_t>(graph.samples),
+                       graph.points.end() - 1);
+    const std::vector<double> cheapest = CheapestWays(graph, c.cost);
+    for (std::size_t i = 0; i < c.goals.size(); ++i) {
+      std::vector<std::size_t> set(graph.samples);
+      for (std::size_t k = 0; k < set.size(); ++k) set[k] = k;
+      std::sort(set.begin(), set.end(), [&](std::size_t a, std::size_t b) {
+        return Distance_m(graph.points[a], c.goals[i].position) <
+               Distance_m(graph.points[b], c.goals[i].position);
+      });
+      double expected = kInf;
+      for (int k = 0; k < options.nearest_samples; ++k) {
+        expected = std::min(expected, cheapest[set[static_cast<std::size_t>(k)]]);
+      }
+      const double found = result.paths[i] ? result.paths[i]->cost : kInf;
+      if (expected == kInf) {
+        EXPECT_EQ(found, kInf);
+      } else {
+        EXPECT_NEAR(found, expected, 1e-6) << "seed " << seed;
+      }
+    }
+  }
+}
+
+TEST(Xit, PricesPathsRightUnderTheInformedHeuristic) {
+  double informed_sum = 0.0;
+  double cheapest_sum = 0.0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const PathCase c(seed, {}, CostKind::kUcb, 1.0);
+    PlanningOptions options = Samples(150);
+    const PathResult cheapest = XitPlanner(options).FindPaths(c.Problem(seed));
+    options.informed_heuristic = true;
+    const PathResult informed = XitPlanner(options).FindPaths(c.Problem(seed));
+    for (std::size_t i = 0; i < c.goals.size(); ++i) {
+      ASSERT_EQ(informed.paths[i].has_value(), cheapest.paths[i].has_value());
+      if (!informed.paths[i]) continue;
+      EXPECT_NEAR(informed.paths[i]->cost, PathCost(c.cost, informed.paths[i]->vertices),
+                  kRounding);
+      EXPECT_GE(informed.paths[i]->cost, cheapest.paths[i]->cost - kRounding);
+      informed_sum += informed.paths[i]->cost;
+      cheapest_sum += cheapest.paths[i]->cost;
+    }
+  }
+  EXPECT_LT(informed_sum, 1.1 * cheapest_sum) << "inadmissible, but no waste";
+}
+
 // Mean price over that of the 32-connected grid, of goals that were reached.
 double OverOracle(int samples) {
   double sum = 0.0;

@@ -33,6 +33,36 @@ TEST(SelectCandidate, TakesTheFirstOfEquals) {
   EXPECT_EQ(SelectCandidate({Priced(3, 0.5), Priced(2, 0.5)}, SelectionRule::kMeanUcb), 0);
 }
 
+Candidate Informed(double nats, double duration_s) {
+  Candidate candidate;
+  candidate.expected_information_nats = nats;
+  candidate.duration_s = duration_s;
+  return candidate;
+}
+
+TEST(SelectCandidate, TakesTheMostInformationPerSecond) {
+  EXPECT_EQ(SelectCandidate({Informed(10, 10), Informed(8, 4), Informed(20, 30)},
+                            SelectionRule::kInformationRate),
+            1);
+}
+
+TEST(SelectCandidate, PassesOverWhatWasNotPricedUnlessNothingWas) {
+  EXPECT_EQ(SelectCandidate({Priced(1, 0.1), Informed(0, 10)}, SelectionRule::kInformationRate), 1);
+  EXPECT_EQ(SelectCandidate({Priced(3, 0.1), Priced(1, 0.1)}, SelectionRule::kInformationRate), 1);
+}
+
+TEST(BeatsByMargin, AsksForAShareOfTheKeptOnesMerit) {
+  const auto cost = SelectionRule::kLeastCost;
+  EXPECT_TRUE(BeatsByMargin(Priced(7, 0), Priced(10, 0), cost, 0.2));
+  EXPECT_FALSE(BeatsByMargin(Priced(9, 0), Priced(10, 0), cost, 0.2));
+  EXPECT_TRUE(BeatsByMargin(Priced(0, 0.7), Priced(0, 0.5), SelectionRule::kMeanUcb, 0.2));
+  EXPECT_FALSE(BeatsByMargin(Priced(0, 0.55), Priced(0, 0.5), SelectionRule::kMeanUcb, 0.2));
+  const auto rate = SelectionRule::kInformationRate;
+  EXPECT_TRUE(BeatsByMargin(Informed(13, 10), Informed(10, 10), rate, 0.2));
+  EXPECT_FALSE(BeatsByMargin(Informed(11, 10), Informed(10, 10), rate, 0.2));
+  EXPECT_FALSE(BeatsByMargin(Priced(1, 0), Priced(1, 0), cost, 0.0));
+}
+
 TEST(SelectCandidate, OfNoneIsNone) {
   EXPECT_EQ(SelectCandidate({}, SelectionRule::kLeastCost), -1);
 }

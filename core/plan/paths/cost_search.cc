@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/paths/cost_search.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/grid/neighbours.h"
+#include "core/plan/paths/shortcut.h"
+
+namespace plumescout {
+namespace {
+
+constexpr float kBlockedPenalty = std::numeric_limits<float>::infinity();
+constexpr double kUnreached = std::numeric_limits<double>::infinity();
+constexpr int kNoParent = -1;
+constexpr int kVisitsBetweenStops = 512;  // some tens of microseconds
+
+}  // namespace
+
+CostSearch::CostSearch(const EdgeCost& cost)
+    : cost_(cost),
+      penalty_(PaddedFrom<float>(cost.field().penalty, kBlockedPenalty,
+                                 [](float penalty) { return penalty; })),
+      g_(cost.geometry(), kUnreached, kUnreached),
+      parent_(cost.geometry(), kNoParent, kNoParent),
+      offsets_(penalty_.NeighbourOffsets()),
+      bucket_width_(cost.GridStep(1.0F, 1.0F, kDiagonalStep_cells) / kBucketsPerStep) {}
+
+bool CostSearch::Run(Cell start, const std::vector<Cell>& goals, const StopFn& stop) {
+  Reach(penalty_.IndexOf(start), kNoParent, 0.0);
+  int visits = 0;
+  for (; waiting_ > 0 && !Settled(goals); ++level_) {
+    std::vector<Entry>& bucket = BucketOf(level_);
+    for (std::size_t i = 0; i < bucket.size(); ++i) {
+      const Entry entry = bucket[i];
+      --waiting_;
+      if (entry.g == g_[entry.cell]) ReachNeighbours(entry);
+      if (++visits % kVisitsBetweenStops == 0 && stop()) return false;
+    }
+    bucket.clear();
+  }
+  return true;
+}
+
+// Whether no goal can become cheaper: all lie in buckets done with.
+bool CostSearch::Settled(const std::vector<Cell>& goals) const {
+  return std::all_of(goals.begin(), goals.end(), [this](Cell goal) {
+    const double g = g_[g_.IndexOf(goal)];
+    return g < kUnreached && LevelOf(g) < level_;
+  });
+}
+
+void CostSearch::Reach(int cell, int parent, double g) {
+  if (!(g < g_[cell])) return;
+  g_[cell] = g;
+  parent_[cell] = parent;
+  BucketOf(std::max(LevelOf(g), level_)).push_back({cell, g});
+  ++waiting_;
+}
+
+void CostSearch::ReachNeighbours(const Entry& from) {
+  const float penalty = penalty_[from.cell];
+  std::array<bool, 4> open{};
+  for (std::size_t k = 0; k < kNeighbours8.size(); ++k) {
+    const int to = from.cell + offsets_[k];
+    const bool passable = penalty_[to] != kBlockedPenalty;
+    const bool diagonal = k >= 4;
+    if (!diagonal) open[k] = passable;
+    // Diagonal k lies between the straight steps k - 4 and k - 3.
+    if (!passable || (diagonal && !(open[k - 4] && open[(k - 3) % 4]))) continue;
+    Reach(to, from.cell,
+          from.g + cost_.GridStep(penalty, penalty_[to],
+                                  diagonal ? kDiagonalStep_cells : kStraightStep_cells));
+  }
+}
+
+std::vector<Point2> CostSearch::WayTo(Cell goal, Point2 start) const {
+  if (g_[g_.IndexOf(goal)] == kUnreached) return {};
+  std::vector<Point2> way;
+  for (int cell = g_.IndexOf(goal); cell != kNoParent; cell = parent_[cell]) {
+    way.push_back(cost_.geometry().Center(g_.CellAt(cell)));
+  }
+  if (way.back() != start) way.push_back(start);
+  std::reverse(way.begin(), way.end());
+  return WithoutCollinear(way);
+}
+
+}  // namespace plumescout

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/paths/straighten.h"
+
+#include <utility>
+
+#include "core/plan/paths/shortcut.h"
+#include "core/plan/paths/vertex_adjustment.h"
+
+namespace plumescout {
+
+FoundPath Straighten(const PathProblem& problem, const std::vector<Point2>& way, PathSource source,
+                     PlanEffort& effort) {
+  const StopFn stop = [&] {
+    const std::int64_t budget = problem.max_edge_evaluations;
+    return (budget > 0 && effort.edges_evaluated >= budget) || problem.stop();
+  };
+  ShortcutPath path = Shortcut(problem.cost, way, stop);
+  effort.edges_evaluated += path.edges_evaluated;
+  path.edges_evaluated = 0;
+  AdjustVertices(problem.cost, stop, path);
+  effort.edges_evaluated += path.edges_evaluated;
+  path = Shortcut(problem.cost, path.vertices, stop);
+  effort.edges_evaluated += path.edges_evaluated;
+  return {std::move(path.vertices), path.cost, source};
+}
+
+}  // namespace plumescout

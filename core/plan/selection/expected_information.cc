@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/selection/expected_information.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace plumescout {
+namespace {
+
+// A way and how far along it each vertex lies.
+struct MeasuredWay {
+  explicit MeasuredWay(const std::vector<Point2>& path) : vertices(path) {
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      at_m.push_back(i == 0 ? 0.0 : at_m.back() + Distance_m(path[i - 1], path[i]));
+    }
+  }
+
+  // REQUIRES: a vertex, 0 <= way_m <= at_m.back().
+  Point2 PointAt(double way_m) const {
+    const auto next = std::upper_bound(at_m.begin(), at_m.end(), way_m);
+    if (next == at_m.end()) return vertices.back();
+    const auto i = static_cast<std::size_t>(next - at_m.begin());  // >= 1: at_m begins with 0
+    const double share = (way_m - at_m[i - 1]) / (at_m[i] - at_m[i - 1]);
+    return {vertices[i - 1].x_m + share * (vertices[i].x_m - vertices[i - 1].x_m),
+            vertices[i - 1].y_m + share * (vertices[i].y_m - vertices[i - 1].y_m)};
+  }
+
+  const std::vector<Point2>& vertices;
+  std::vector<double> at_m;
+};
+
+}  // namespace
+
+std::vector<Cell> ReadingCells(const std::vector<Point2>& path, const GridGeometry& geometry,
+                               const PlanningOptions& options) {
+  std::vector<Cell> cells;
+  if (path.empty()) return cells;
+  const MeasuredWay way(path);
+  const double length_m = way.at_m.back();
+  const double spacing_m = options.speed_mps / options.reading_rate_hz;
+  const double standing =
+      std::floor(options.dwell_s * options.reading_rate_hz) * static_cast<double>(path.size() - 1);
+  const double driving = std::floor(length_m / spacing_m);
+  // Thinned evenly, moving and standing alike.
+  const double thinning = std::max(1.0, (driving + standing) / static_cast<double>(kMaxReadings));
+  for (double k = 1.0; k * thinning <= driving; k += 1.0) {
+    cells.push_back(geometry.CellAt(way.PointAt(k * thinning * spacing_m)));
+  }
+  for (double k = 1.0; k * thinning <= standing; k += 1.0) {
+    const double vertex = std::ceil(k * thinning * static_cast<double>(path.size() - 1) / standing);
+    cells.push_back(
+        geometry.CellAt(path[std::min(static_cast<std::size_t>(vertex), path.size() - 1)]));
+  }
+  return cells;
+}
+
+ExpectedInformation::ExpectedInformation(const Belief& belief) : belief_(belief) {
+  const std::vector<float>& mean_ppm = belief.gas_mean_ppm->values();
+  auto greatest_ppm = static_cast<float>(belief.options->frontier.min_gas_threshold_ppm);
+  for (const float mean : mean_ppm) greatest_ppm = std::fmax(greatest_ppm, mean);
+  relevance_.reserve(mean_ppm.size());
+  constexpr auto kLeast = static_cast<float>(kLeastRelevance);
+  for (const float mean : mean_ppm) {
+    const float share = std::fmax(0.0F, mean) / greatest_ppm;  // 0 if the mean is not known
+    relevance_.push_back(kLeast + (1.0F - kLeast) * share);
+  }
+}
+
+std::optional<double> ExpectedInformation::Of(const std::vector<Cell>& readings) const {
+  if (belief_.gas_what_if == nullptr) return std::nullopt;
+  // The map may have grown since the field was computed.
+  const GridGeometry& then_geometry = belief_.gas_what_if->geometry();
+  const Cell shift = belief_.geometry().CellAt(then_geometry.Center({0, 0}));
+  std::vector<Cell> inside;
+  for (const Cell cell : readings) {
+    const Cell shifted{cell.x - shift.x, cell.y - shift.y};
+    if (then_geometry.Contains(shifted)) inside.push_back(shifted);
+  }
+  const double precision = belief_.options->gas.observation_precision;
+  const auto then = belief_.gas_what_if->VarianceIfRead(inside, precision);
+  if (!then.ok()) return std::nullopt;
+  double sum = 0.0;
+  for (int y = 0; y < then_geometry.height; ++y) {
+    const std::size_t row = belief_.geometry().Index({shift.x, y + shift.y});
+    for (int x = 0; x < then_geometry.width; ++x) {
+      const float after = (*then)[Cell{x, y}];
+      const float before = (*belief_.gas_variance_ppm2)[row + static_cast<std::size_t>(x)];
+      if (!(after < before)) continue;  // NaN off free cells
+      const float relevance = relevance_[row + static_cast<std::size_t>(x)];
+      sum += static_cast<double>(relevance * std::log(before / after));
+    }
+  }
+  constexpr double kEntropyShare = 0.5;
+  return kEntropyShare * sum;
+}
+
+}  // namespace plumescout

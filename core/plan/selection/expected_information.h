@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/belief/belief.h"
+#include "core/types/options.h"
+#include "core/types/pose2.h"
+
+namespace plumescout {
+
+// Cells in which a robot that drives along `path` would take its readings, one for each: every
+// 1 / reading_rate_hz seconds on the way at speed_mps, and while it stands for dwell_s at each
+// vertex but the first. Where that makes more than kMaxReadings, so many at equal distances.
+inline constexpr std::size_t kMaxReadings = 256;
+std::vector<Cell> ReadingCells(const std::vector<Point2>& path, const GridGeometry& geometry,
+                               const PlanningOptions& options);
+
+// What a cell's entropy is worth: kLeastRelevance without gas, 1 where the mean is greatest.
+inline constexpr double kLeastRelevance = 0.2;
+
+// By how much readings lower the entropy of the gas field, cell by cell, before they are taken: the
+// variance of a Gaussian field depends on where readings are taken and not on what they say, so
+// this is exact. Ours.
+class ExpectedInformation {
+ public:
+  // Holds references to the belief. Cost: O(cells).
+  explicit ExpectedInformation(const Belief& belief);
+
+  // The sum over free cells of relevance times 1/2 ln(variance now / variance then), in nats. None
+  // if the belief has no gas field yet. Cost: that of GasWhatIf::VarianceIfRead and O(cells).
+  std::optional<double> Of(const std::vector<Cell>& readings) const;
+
+ private:
+  const Belief& belief_;
+  std::vector<float> relevance_;  // by cell
+};
+
+}  // namespace plumescout

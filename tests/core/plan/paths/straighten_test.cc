@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/paths/straighten.h"
+
+#include <gtest/gtest.h>
+
+#include "core/plan/paths/xit.h"
+#include "tests/support/path_case.h"
+
+namespace plumescout {
+namespace {
+
+using testing::PathCase;
+
+constexpr double kRounding = 1e-9;
+
+PathResult TreePaths(const PathCase& c) {
+  PlanningOptions options;
+  options.samples = 100;
+  return XitPlanner(options).FindPaths(c.Problem());
+}
+
+TEST(Straighten, MakesThePathsOfATreeCheaper) {
+  double before = 0.0;
+  double after = 0.0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const PathCase c(seed);
+    for (const auto& path : TreePaths(c).paths) {
+      if (!path) continue;
+      PlanEffort effort;
+      const FoundPath straight = Straighten(c.Problem(), path->vertices, PathSource::kTree, effort);
+      EXPECT_LE(straight.cost, path->cost + kRounding);
+      EXPECT_NEAR(straight.cost, PathCost(c.cost, straight.vertices), kRounding);
+      EXPECT_EQ(straight.vertices.front(), path->vertices.front());
+      EXPECT_EQ(straight.vertices.back(), path->vertices.back());
+      EXPECT_TRUE(testing::StaysClear(c.field.penalty, straight.vertices));
+      EXPECT_EQ(straight.source, PathSource::kTree);
+      before += path->cost;
+      after += straight.cost;
+    }
+  }
+  EXPECT_LT(after, 0.97 * before);
+}
+
+TEST(Straighten, KeepsToTheEdgeBudget) {
+  const PathCase c(5);
+  const PathResult found = TreePaths(c);
+  ASSERT_TRUE(found.paths.front().has_value());
+  const std::vector<Point2>& way = found.paths.front()->vertices;
+  PlanEffort spent;
+  spent.edges_evaluated = 1000;
+  const FoundPath path = Straighten(c.Problem(1, 1000), way, PathSource::kTree, spent);
+  EXPECT_EQ(path.vertices, way);
+}
+
+}  // namespace
+}  // namespace plumescout
