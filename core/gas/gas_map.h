@@ -30,8 +30,8 @@ namespace plumescout {
 //   RETURN_IF_ERROR(gas.Refresh(occupancy.States(), now_ns));
 //   gas.mean_ppm()[cell], gas.variance_ppm2()[cell]
 //
-// Readings are kept by position for ever. Each takes part if its cell is free, or, if not, in the
-// nearest free cell one cell away; otherwise it waits.
+// Readings are kept by position for ever. Each takes part if its cell is free, or, if not, in a
+// free neighbour (see PlacementOf); otherwise it waits.
 //
 // Now and then the field is made anew in an epoch: to age readings, to have room to grow, to suit
 // the dissection to the map, and to measure how far the live field has drifted. Someone else may

@@ -29,7 +29,7 @@ struct RobotState {
 struct GasCounters {
   std::int64_t readings = 0;            // received
   std::int64_t in_posterior = 0;        // on a free cell now
-  std::int64_t moved_to_neighbour = 0;  // of those, moved to the nearest free cell, one cell away
+  std::int64_t moved_to_neighbour = 0;  // of those, moved to a free cell next to their own
   std::int64_t waiting = 0;             // their cell is not free (yet, or any more)
 
   friend bool operator==(const GasCounters&, const GasCounters&) = default;

@@ -10,6 +10,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/types/rng.h"
 #include "tests/support/grid_art.h"
 
 namespace plumescout {
@@ -398,6 +399,19 @@ TEST(ReadingStoreTest, KeepsAWeekInOneCellWithoutAgeingAsOneSum) {
   }
   ASSERT_TRUE(store.Place(GridFromArt({"."}), {}).ok());
   EXPECT_EQ(store.buckets(), 0U);
+  EXPECT_EQ(store.sites(), 1U);
+  EXPECT_DOUBLE_EQ(store.EvidenceAt({0, 0}).precision, 10.0 * static_cast<double>(kWeek_s / 6));
+}
+
+TEST(ReadingStoreTest, KeepsAWeekAnywhereInACellWithoutAgeingAsFewSums) {
+  ReadingStore store(Options());
+  Rng rng(9);
+  for (std::int64_t second = 0; second < kWeek_s; second += 6) {
+    store.Add(second * kSecond_ns, {rng.Uniform(0.0, 0.1), rng.Uniform(0.0, 0.1)}, {12.0});
+  }
+  ASSERT_TRUE(store.Place(GridFromArt({"."}), {}).ok());
+  EXPECT_EQ(store.buckets(), 0U);
+  EXPECT_LE(store.sites(), kSitesPerCell);
   EXPECT_DOUBLE_EQ(store.EvidenceAt({0, 0}).precision, 10.0 * static_cast<double>(kWeek_s / 6));
 }
 
