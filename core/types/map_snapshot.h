@@ -44,6 +44,7 @@ struct GasQuality {
   std::int64_t refreshes = 0;         // batches of changes brought into the fields
   std::int64_t epochs = 0;            // recomputations from scratch that were adopted
   std::int64_t healed = 0;            // recomputations since a variance was not positive
+  std::int64_t failures = 0;          // refreshes and adoptions of which no field came
   double drift_mean_ppm = 0.0;        // largest found at the last adoption
   double drift_variance_ratio = 0.0;
 

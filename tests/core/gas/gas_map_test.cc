@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/core/gas/dense_field.h"
+#include "tests/core/gas/gas_map_peer.h"
 #include "tests/support/grid_art.h"
 #include "tests/support/same_bytes.h"
 
@@ -238,6 +239,53 @@ TEST(GasMapTest, KeepsTheOldPosteriorWhenTheLatticeDoesNotMatch) {
   EXPECT_EQ(map.Refresh(GridFromArt({".."}, 0.2), 0).code(), absl::StatusCode::kInvalidArgument);
   EXPECT_TRUE(support::SameBytes(map.mean_ppm(), before));
   EXPECT_EQ(map.counters().in_posterior, 1);
+}
+
+bool ShowsNothing(const GasMap& map) {
+  const auto is_nan = [](float value) { return std::isnan(value); };
+  return std::all_of(map.mean_ppm().values().begin(), map.mean_ppm().values().end(), is_nan) &&
+         std::all_of(map.variance_ppm2().values().begin(), map.variance_ppm2().values().end(),
+                     is_nan) &&
+         map.what_if() == nullptr;
+}
+
+TEST(GasMapTest, ShowsNoFieldThatCannotBeComputed) {
+  if (GasMapPeer::kStopsAtDefects) GTEST_SKIP() << "stops at an assertion";
+  const Grid<CellState> states = GridFromArt({"...", "..."});
+  GasMap map{GasOptions()};
+  GasMapPeer::LosePrior(map);
+  map.Add(0, {0.05, 0.05}, {5.0});
+  EXPECT_EQ(map.Refresh(states, 0).code(), absl::StatusCode::kInternal);
+  EXPECT_TRUE(ShowsNothing(map));
+  EXPECT_TRUE(map.stale());
+  EXPECT_EQ(map.counters().in_posterior, 1);
+  EXPECT_EQ(map.quality().failures, 1);
+  EXPECT_FALSE(map.epoch_due(0));
+  EXPECT_TRUE(absl::IsFailedPrecondition(map.BeginEpoch(0)));
+
+  GasMapPeer::FindPrior(map);
+  ASSERT_TRUE(map.Refresh(states, 0).ok());
+  EXPECT_FALSE(map.stale());
+  ExpectSameWithinCertificate(map, MapOf({{0, {0.05, 0.05}, {5.0}}}, states, 0));
+}
+
+TEST(GasMapTest, ShowsNoFieldAfterAnEpochThatCannotBeComputed) {
+  if (GasMapPeer::kStopsAtDefects) GTEST_SKIP() << "stops at an assertion";
+  const Grid<CellState> states = GridFromArt({"...", "..."});
+  const std::vector<TimedReading> readings = {{0, {0.05, 0.05}, {5.0}}};
+  GasMap map = MapOf(readings, states, 0);
+  GasMapPeer::LosePrior(map);
+  ASSERT_TRUE(map.BeginEpoch(0).ok());
+  EXPECT_EQ(map.Adopt().code(), absl::StatusCode::kInternal);
+  EXPECT_TRUE(ShowsNothing(map));
+  EXPECT_TRUE(map.stale());
+  EXPECT_EQ(map.epoch(), nullptr);
+  EXPECT_EQ(map.quality().failures, 1);
+  EXPECT_EQ(map.quality().epochs, 0);
+
+  GasMapPeer::FindPrior(map);
+  ASSERT_TRUE(map.Refresh(states, 0).ok());
+  ExpectSameWithinCertificate(map, MapOf(readings, states, 0));
 }
 
 TEST(GasMapTest, NoPrecisionIsTooExtreme) {
