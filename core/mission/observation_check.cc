@@ -79,7 +79,7 @@ absl::Status CheckObservation(const Observation& observation, const MissionOptio
   }
   if (observation.sample_time_ns > kMaxSampleTime_ns) {
     return absl::InvalidArgumentError(
-        absl::StrCat("sample_time_ns = ", observation.sample_time_ns, " must be before 2116"));
+        absl::StrCat("sample_time_ns = ", observation.sample_time_ns, " must be below 2^62"));
   }
   if (newest_sample_time_ns > 0 &&
       observation.sample_time_ns - newest_sample_time_ns > kMaxClockLeap_ns) {
