@@ -115,7 +115,9 @@ void MissionWriter::KeepGasUp() {
 
 absl::Status MissionWriter::Refresh() {
   const SteadyTime from = clock_();
-  PLUMESCOUT_RETURN_IF_ERROR(Apply(PosteriorRefreshed{mission_->sample_time_ns()}).status());
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Applied applied,
+                              Apply(PosteriorRefreshed{mission_->sample_time_ns()}));
+  PLUMESCOUT_RETURN_IF_ERROR(applied.posterior);
   gas_timer_.NoteRefresh(from, clock_());
   return absl::OkStatus();
 }
@@ -123,7 +125,8 @@ absl::Status MissionWriter::Refresh() {
 absl::Status MissionWriter::AdoptEpoch() {
   const SteadyTime from = clock_();
   epoch_runner_.Finish();
-  PLUMESCOUT_RETURN_IF_ERROR(Apply(EpochAdopted{}).status());
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Applied applied, Apply(EpochAdopted{}));
+  PLUMESCOUT_RETURN_IF_ERROR(applied.posterior);
   gas_timer_.NoteAdoption(from, clock_());
   return absl::OkStatus();
 }

@@ -64,17 +64,9 @@ absl::Status GasMap::Refresh(const Grid<CellState>& states, std::int64_t time_ns
     published_ = false;
     return absl::OkStatus();
   }
-  const bool usable = engine_ != nullptr && !engine_is_behind_ &&
-                      HasRoom(lattice_, inputs_.box(), 0) && !schedule_.IsTooOld(time_ns);
-  const absl::Status status = usable ? Apply(changed) : Rebuild(time_ns);
-  engine_is_behind_ = !status.ok();
-  if (engine_is_behind_) {
-    epoch_.reset();
-    return absl::InternalError(absl::StrCat("gas map: ", status.ToString()));
-  }
-  published_ = false;
-  Note(time_ns);
-  return absl::OkStatus();
+  const bool usable = engine_ != nullptr && !has_failed_ && HasRoom(lattice_, inputs_.box(), 0) &&
+                      !schedule_.IsTooOld(time_ns);
+  return Conclude(usable ? Apply(changed) : Rebuild(time_ns), time_ns);
 }
 
 absl::Status GasMap::Apply(std::span<const GasCell> changed) {
@@ -104,7 +96,9 @@ absl::Status GasMap::Rebuild(std::int64_t time_ns) {
   const std::vector<CellInput> inputs = InputsOn(lattice);
   TakeOver(MakeEngine(lattice, inputs, field_options_), lattice);
   schedule_.NoteFresh(time_ns, CountActive(inputs));
-  return absl::OkStatus();
+  const absl::Status status = engine_->Apply({});  // whether it is sound
+  quality_.healed += engine_->healed();
+  return status;
 }
 
 GasLattice GasMap::RoomyLattice() const {
@@ -124,7 +118,7 @@ void GasMap::TakeOver(std::unique_ptr<FieldEngine> engine, const GasLattice& lat
 }
 
 bool GasMap::epoch_due(std::int64_t time_ns) const {
-  return engine_ != nullptr && epoch_ == nullptr && !engine_is_behind_ &&
+  return engine_ != nullptr && epoch_ == nullptr && !has_failed_ &&
          schedule_.IsDue(lattice_, inputs_.box(), time_ns);
 }
 
@@ -132,7 +126,7 @@ absl::Status GasMap::BeginEpoch(std::int64_t time_ns) {
   if (epoch_ != nullptr) {
     return absl::FailedPreconditionError("an epoch of the gas map is under way already");
   }
-  if (engine_ == nullptr || engine_is_behind_) {
+  if (engine_ == nullptr || has_failed_) {
     return absl::FailedPreconditionError("there is no gas field to begin an epoch with");
   }
   EpochInputs start;
@@ -179,40 +173,50 @@ absl::Status GasMap::Adopt() {
     inputs[epoch->lattice().Index(gas_cell)] = inputs_.Of(gas_cell);
   }
   std::unique_ptr<FieldEngine> engine = epoch->TakeEngine();
-  PLUMESCOUT_RETURN_IF_ERROR(engine->Apply(Differences(inputs, *engine)));
+  const absl::Status status = engine->Apply(Differences(inputs, *engine));
+  quality_.healed += engine->healed();
+  if (!status.ok()) return Conclude(status, time_ns_);
   TakeOver(std::move(engine), epoch->lattice());
   schedule_.NoteFresh(epoch->time_ns(), CountActive(inputs));
   ++quality_.epochs;
   quality_.drift_mean_ppm = epoch->drift().mean_ppm;
   quality_.drift_variance_ratio = epoch->drift().variance_ratio;
-  Note(time_ns_);
-  return absl::OkStatus();
+  return Conclude(absl::OkStatus(), time_ns_);
 }
 
-void GasMap::Note(std::int64_t time_ns) {
+// What is left to do when a field was `computed`, or could not be.
+absl::Status GasMap::Conclude(const absl::Status& computed, std::int64_t time_ns) {
+  published_ = false;
+  has_failed_ = !computed.ok();
+  if (has_failed_) {
+    epoch_.reset();
+    ++quality_.failures;
+    return absl::InternalError(absl::StrCat("gas map: ", computed.ToString()));
+  }
   time_ns_ = time_ns;
   quality_.mean_error_ppm = engine_->error_bound().mean_ppm;
   quality_.variance_error_ratio = engine_->error_bound().variance_ratio;
   quality_.aged_to_ns = schedule_.aged_to_ns();
   quality_.ageing_error_ratio = schedule_.AgeingError(time_ns);
+  return absl::OkStatus();
 }
 
 void GasMap::Publish() const {
-  if (published_ || engine_is_behind_) return;
+  if (published_) return;
   constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
   const AnchoredStates& known = inputs_.states();
   mean_ppm_ = Grid<float>(known.states().geometry(), kNoValue);
   variance_ppm2_ = mean_ppm_;
+  what_if_ = nullptr;
+  published_ = true;
+  if (engine_ == nullptr || has_failed_) return;
   for (std::size_t i = 0; i < known.states().size(); ++i) {
     if (known.states()[i] != CellState::kFree) continue;
     const std::size_t index = lattice_.Index(GasCellOf(known.At(i), inputs_.factor()));
     mean_ppm_[i] = static_cast<float>(background_mean_ppm_ + engine_->mean_ppm(index));
     variance_ppm2_[i] = static_cast<float>(engine_->variance_ppm2(index));
   }
-  what_if_ = engine_ == nullptr
-                 ? nullptr
-                 : std::make_shared<const GasWhatIf>(engine_->Snapshot(), lattice_, inputs_);
-  published_ = true;
+  what_if_ = std::make_shared<const GasWhatIf>(engine_->Snapshot(), lattice_, inputs_);
 }
 
 const Grid<float>& GasMap::mean_ppm() const {

@@ -30,8 +30,8 @@ namespace plumescout {
 //   RETURN_IF_ERROR(gas.Refresh(occupancy.States(), now_ns));
 //   gas.mean_ppm()[cell], gas.variance_ppm2()[cell]
 //
-// Readings are kept by position for ever. Each takes part if its cell is free, or, if not, in the
-// nearest free cell one cell away; otherwise it waits.
+// Readings are kept by position for ever. Each takes part if its cell is free, or, if not, in a
+// free neighbour (see PlacementOf); otherwise it waits.
 //
 // Now and then the field is made anew in an epoch: to age readings, to have room to grow, to suit
 // the dissection to the map, and to measure how far the live field has drifted. Someone else may
@@ -52,24 +52,25 @@ class GasMap {
 
   // Brings the posterior to `states` and all readings so far. Their precisions are those of the
   // last epoch, unless `time_ns` is so much later that all is made anew.
-  // On error readers see what they saw last: kInvalidArgument if the lattice of `states` is not
-  // that of the first refresh moved by whole cells, kInternal if the field cannot be computed; the
-  // next refresh then makes all anew. Cost at 160x200 cells, rooms: 0.4 ms a reading, 5 ms
-  // a scan, anew 31 ms; docs/performance.md.
+  // Errors: kInvalidArgument, with nothing changed, if the lattice of `states` is not that of the
+  // first refresh moved by whole cells. kInternal if the field cannot be computed, which would be a
+  // defect: readers then see none until a refresh, which makes all anew, succeeds. Cost at 160x200
+  // cells, rooms: 0.4 ms a reading, 5 ms a scan, anew 31 ms; docs/performance.md.
   absl::Status Refresh(const Grid<CellState>& states, std::int64_t time_ns);
 
-  // As of the last refresh, on a lattice that covers its states; NaN off free cells. Empty before
-  // the first. Cost: O(cells) at the first call after a change.
+  // As of the last refresh, on a lattice that covers its states; NaN off free cells, and everywhere
+  // if that failed. Empty before the first. Cost: O(cells) at the first call after a change.
   const Grid<float>& mean_ppm() const;
   const Grid<float>& variance_ppm2() const;
-  // The same moment, to ask what further readings would tell. Null before there is a free cell.
+  // The same moment, to ask what further readings would tell. Null if there is no field.
   // Cost: one number per cell, one pointer per node of the factor, at the first call after a
   // change.
   std::shared_ptr<const GasWhatIf> what_if() const;
 
   const GasCounters& counters() const { return inputs_.counters(); }
   const GasQuality& quality() const { return quality_; }
-  bool stale() const { return stale_; }  // readings came since the last refresh
+  // Readings came since the last refresh, or no field came of it.
+  bool stale() const { return stale_ || has_failed_; }
 
   bool epoch_due(std::int64_t time_ns) const;
   // kFailedPrecondition if one is under way or there is no field yet. Cost: O(cells).
@@ -78,16 +79,19 @@ class GasMap {
   // Whether the long part has had its time. A fixed one, so that events do not depend on machines.
   bool adoption_due(std::int64_t time_ns) const;
   // Takes the epoch's field over, after the changes since it began; recomputes it here and now if
-  // nobody has. kFailedPrecondition if none is under way.
+  // nobody has. Errors: kFailedPrecondition, with nothing changed, if none is under way; kInternal
+  // as from Refresh.
   absl::Status Adopt();
 
  private:
+  friend struct GasMapPeer;  // of the tests
+
   absl::Status Rebuild(std::int64_t time_ns);
   absl::Status Apply(std::span<const GasCell> changed);
   GasLattice RoomyLattice() const;
   std::vector<CellInput> InputsOn(const GasLattice& lattice) const;
   void TakeOver(std::unique_ptr<FieldEngine> engine, const GasLattice& lattice);
-  void Note(std::int64_t time_ns);
+  absl::Status Conclude(const absl::Status& computed, std::int64_t time_ns);
   void Publish() const;
 
   FieldOptions field_options_;
@@ -97,8 +101,8 @@ class GasMap {
   GasLattice lattice_;
   std::unique_ptr<FieldEngine> engine_;  // null before there is a free cell
   std::shared_ptr<GasEpoch> epoch_;
-  std::int64_t time_ns_ = 0;       // of the last refresh
-  bool engine_is_behind_ = false;  // it has refused changes
+  std::int64_t time_ns_ = 0;  // of the last refresh
+  bool has_failed_ = false;   // the engine holds no field that may be seen
   bool stale_ = false;
   GasQuality quality_;
 

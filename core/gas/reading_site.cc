@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::array<Cell, 8> kNeighbours = {
     {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
-constexpr std::uint32_t kBits = 3;  // of one neighbour's number
+constexpr std::uint32_t kSides = 4;  // the first of them, across a side; the others, a corner
+constexpr std::uint32_t kBits = 3;   // of one neighbour's number
 constexpr std::uint32_t kMask = (1U << kBits) - 1;
 
 // Offsets are counted in millionths of a cell, so that equal distances compare equal whatever the
@@ -33,9 +34,11 @@ std::uint32_t NeighbourOrder(std::int64_t offset_x, std::int64_t offset_y) {
     const std::int64_t dy = 2 * kHalfCell * kNeighbours[number].y - offset_y;
     return dx * dx + dy * dy;
   };
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+  const auto nearer = [&](std::uint32_t a, std::uint32_t b) {
     return squared_distance(a) < squared_distance(b);
-  });
+  };
+  std::stable_sort(order.begin(), order.begin() + kSides, nearer);
+  std::stable_sort(order.begin() + kSides, order.end(), nearer);
   std::uint32_t packed = 0;
   for (std::size_t k = order.size(); k-- > 0;) packed = packed << kBits | order[k];
   return packed;

@@ -36,7 +36,8 @@ struct CellEvidence {
 //   for (AnchorCell cell : store.TakeChanged()) use(store.EvidenceAt(cell));
 //
 // Readings of one site are merged: without ageing into their sums, with it into buckets of like
-// age. Memory and time follow the area that was visited, not the length of the mission.
+// age. Memory and time follow the area that was visited, kSitesPerCell a cell at most, not the
+// length of the mission.
 // The evidence of a cell is always summed anew, site by site in a fixed order, and never corrected
 // by differences: readings that came and went leave no trace in it. Thread-compatible.
 class ReadingStore {
@@ -79,7 +80,8 @@ class ReadingStore {
   const GridGeometry& anchor() const { return anchor_; }  // no cells: none yet
   std::int64_t aged_to_ns() const { return aged_to_ns_; }
   const GasCounters& counters() const { return counters_; }  // current at any time
-  std::size_t buckets() const;                               // held by all sites. Cost: O(sites)
+  std::size_t sites() const { return sites_.size(); }
+  std::size_t buckets() const;  // held by all sites. Cost: O(sites)
 
  private:
   struct Arrival {

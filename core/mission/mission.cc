@@ -33,6 +33,11 @@ absl::Status CheckTime(std::int64_t time_ns) {
   return absl::InvalidArgumentError(absl::StrCat("time_ns = ", time_ns, " must be >= 0"));
 }
 
+// What GasMap could not even begin is no event; what it failed in is one, for a replay to fail too.
+bool HasChangedNothing(const absl::Status& gas) {
+  return absl::IsInvalidArgument(gas) || absl::IsFailedPrecondition(gas);
+}
+
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<Mission>> Mission::Create(const MissionOptions& options) {
@@ -83,12 +88,16 @@ absl::Status Mission::TakeIn(const RobotId& robot, const Observation& observatio
 absl::StatusOr<Applied> Mission::Change(const PosteriorRefreshed& refresh) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckTime(refresh.time_ns));
   const bool readings_waited = gas_.stale();
-  PLUMESCOUT_RETURN_IF_ERROR(gas_.Refresh(occupancy_.States(), refresh.time_ns));
-  posterior_time_ns_ = refresh.time_ns;
-  if (readings_waited) readings_refreshed_ns_ = refresh.time_ns;
+  Applied applied;
+  applied.posterior = gas_.Refresh(occupancy_.States(), refresh.time_ns);
+  if (HasChangedNothing(applied.posterior)) return applied.posterior;
+  const bool succeeded = applied.posterior.ok();
+  if (succeeded) posterior_time_ns_ = refresh.time_ns;
+  refreshed_ns_ = refresh.time_ns;
+  if (readings_waited || !succeeded) readings_refreshed_ns_ = refresh.time_ns;
   map_changed_since_refresh_ = false;
   gas_changed_since_snapshot_ = true;
-  return Applied{};
+  return applied;
 }
 
 absl::StatusOr<Applied> Mission::Change(const PlanIssued& issued) {
@@ -114,9 +123,11 @@ absl::StatusOr<Applied> Mission::Change(const EpochBegun& begun) {
 }
 
 absl::StatusOr<Applied> Mission::Change(const EpochAdopted&) {
-  PLUMESCOUT_RETURN_IF_ERROR(gas_.Adopt());
+  Applied applied;
+  applied.posterior = gas_.Adopt();
+  if (HasChangedNothing(applied.posterior)) return applied.posterior;
   gas_changed_since_snapshot_ = true;
-  return Applied{};
+  return applied;
 }
 
 absl::StatusOr<std::int64_t> Mission::AppliedSequence(const RobotId& robot) const {
@@ -131,7 +142,7 @@ bool Mission::posterior_stale() const { return gas_.stale() || map_changed_since
 
 // A reading does not wait behind a refresh that a scan has just caused.
 bool Mission::refresh_due() const {
-  return (posterior_stale() && PeriodHasPassedSince(posterior_time_ns_)) ||
+  return (posterior_stale() && PeriodHasPassedSince(refreshed_ns_)) ||
          (gas_.stale() && PeriodHasPassedSince(readings_refreshed_ns_));
 }
 

@@ -19,10 +19,12 @@
 namespace plumescout {
 
 // What became of an event that was applied. An observation that the mission refuses (out of the
-// map's limits) still counts as applied: `observation` says why, and the robot's log moves on.
+// map's limits) still counts as applied: `observation` says why, and the robot's log moves on. So
+// does a PosteriorRefreshed or EpochAdopted of which no gas field came: `posterior` says why.
 struct Applied {
   std::int64_t revision = 0;
   absl::Status observation;
+  absl::Status posterior;
   PlanId plan_id = 0;  // of a PlanIssued: the number the mission gave it
 };
 
@@ -55,7 +57,7 @@ class Mission {
   absl::StatusOr<std::int64_t> AppliedSequence(const RobotId& robot) const;
   absl::StatusOr<std::int64_t> LeaseToken(const RobotId& robot) const;
 
-  // Whether readings or free cells changed since the last PosteriorRefreshed.
+  // Whether readings or free cells changed since the last PosteriorRefreshed, or it failed.
   bool posterior_stale() const;
 
   // What the gas posterior needs now. These follow from the events alone, so writers that ask after
@@ -75,6 +77,8 @@ class Mission {
   std::shared_ptr<const Belief> Snapshot() const;
 
  private:
+  friend struct MissionPeer;  // of the tests
+
   absl::StatusOr<Applied> Change(const RobotRegistered& registration);
   absl::StatusOr<Applied> Change(const ObservationReceived& received);
   absl::StatusOr<Applied> Change(const PosteriorRefreshed& refresh);
@@ -88,8 +92,10 @@ class Mission {
   std::shared_ptr<const MissionOptions> options_;
   std::int64_t revision_ = 0;
   std::int64_t sample_time_ns_ = 0;
-  std::int64_t posterior_time_ns_ = 0;
-  std::int64_t readings_refreshed_ns_ = 0;  // of the last refresh that found readings waiting
+  std::int64_t posterior_time_ns_ = 0;  // of the last refresh that succeeded
+  std::int64_t refreshed_ns_ = 0;       // of the last one
+  std::int64_t readings_refreshed_ns_ =
+      0;  // of the last one that found readings waiting, or failed
   OccupancyGrid occupancy_;
   ScanInserter scan_inserter_;
   GasMap gas_;

@@ -12,7 +12,9 @@ namespace {
 
 constexpr double kMaxAngle_rad = 1000.0;  // turns may add up, but not without end
 constexpr std::int64_t kMaxClockLeap_ns = 86'400'000'000'000;  // one day
-constexpr double kMinVariance_ppm2 = 1e-9;                     // keeps precisions within Validate's
+// Of the first observation too, so that all sums of times stay within 64 bits.
+constexpr std::int64_t kMaxSampleTime_ns = (std::int64_t{1} << 62) - 1;
+constexpr double kMinVariance_ppm2 = 1e-9;  // keeps precisions within Validate's
 constexpr double kMaxVariance_ppm2 = 1e12;
 
 absl::Status OutOfRange(absl::string_view field, double value, absl::string_view rule) {
@@ -74,6 +76,10 @@ absl::Status CheckObservation(const Observation& observation, const MissionOptio
   if (observation.sample_time_ns < 0) {
     return absl::InvalidArgumentError(
         absl::StrCat("sample_time_ns = ", observation.sample_time_ns, " must be >= 0"));
+  }
+  if (observation.sample_time_ns > kMaxSampleTime_ns) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("sample_time_ns = ", observation.sample_time_ns, " must be below 2^62"));
   }
   if (newest_sample_time_ns > 0 &&
       observation.sample_time_ns - newest_sample_time_ns > kMaxClockLeap_ns) {

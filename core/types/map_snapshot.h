@@ -29,7 +29,7 @@ struct RobotState {
 struct GasCounters {
   std::int64_t readings = 0;            // received
   std::int64_t in_posterior = 0;        // on a free cell now
-  std::int64_t moved_to_neighbour = 0;  // of those, moved to the nearest free cell, one cell away
+  std::int64_t moved_to_neighbour = 0;  // of those, moved to a free cell next to their own
   std::int64_t waiting = 0;             // their cell is not free (yet, or any more)
 
   friend bool operator==(const GasCounters&, const GasCounters&) = default;
@@ -44,6 +44,7 @@ struct GasQuality {
   std::int64_t refreshes = 0;         // batches of changes brought into the fields
   std::int64_t epochs = 0;            // recomputations from scratch that were adopted
   std::int64_t healed = 0;            // recomputations since a variance was not positive
+  std::int64_t failures = 0;          // refreshes and adoptions of which no field came
   double drift_mean_ppm = 0.0;        // largest found at the last adoption
   double drift_variance_ratio = 0.0;
 

@@ -191,7 +191,8 @@ absl::StatusOr<std::shared_ptr<const Belief>> LocalMission::RefreshedBelief() {
 
 absl::Status LocalMission::KeepGasUp() {
   if (mission_->adoption_due()) {
-    PLUMESCOUT_RETURN_IF_ERROR(mission_->Apply(EpochAdopted{}).status());
+    PLUMESCOUT_ASSIGN_OR_RETURN(const Applied applied, mission_->Apply(EpochAdopted{}));
+    PLUMESCOUT_RETURN_IF_ERROR(applied.posterior);
   }
   if (mission_->refresh_due()) PLUMESCOUT_RETURN_IF_ERROR(Refresh());
   if (!mission_->epoch_due()) return absl::OkStatus();
@@ -199,7 +200,9 @@ absl::Status LocalMission::KeepGasUp() {
 }
 
 absl::Status LocalMission::Refresh() {
-  return mission_->Apply(PosteriorRefreshed{mission_->sample_time_ns()}).status();
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Applied applied,
+                              mission_->Apply(PosteriorRefreshed{mission_->sample_time_ns()}));
+  return applied.posterior;
 }
 
 absl::Status LocalMission::CheckLease(const RobotId& robot, std::int64_t lease_token) {

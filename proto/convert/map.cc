@@ -62,6 +62,7 @@ v1::GasQuality ToProto(const GasQuality& quality) {
   proto.set_refresh_count(quality.refreshes);
   proto.set_epoch_count(quality.epochs);
   proto.set_healed_count(quality.healed);
+  proto.set_failure_count(quality.failures);
   proto.set_drift_mean_ppm(quality.drift_mean_ppm);
   proto.set_drift_variance_ratio(quality.drift_variance_ratio);
   return proto;
@@ -114,6 +115,7 @@ GasQuality FromProto(const v1::GasQuality& proto) {
           .refreshes = proto.refresh_count(),
           .epochs = proto.epoch_count(),
           .healed = proto.healed_count(),
+          .failures = proto.failure_count(),
           .drift_mean_ppm = proto.drift_mean_ppm(),
           .drift_variance_ratio = proto.drift_variance_ratio()};
 }

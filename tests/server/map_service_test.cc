@@ -61,6 +61,57 @@ TEST_F(MapServiceTest, FreshPosteriorHasItsQuality) {
   EXPECT_EQ(map->status().gas_quality().refresh_count(), 1);
 }
 
+TEST_F(MapServiceTest, EveryReadingIsCountedOnTheMap) {
+  const std::int64_t lease = Lease();
+  const Pose2 middle{2.0, 1.5, 0.0};
+  std::int64_t sequence = 0;
+  for (int k = 0; k < 3; ++k) ASSERT_TRUE(Ingest(kRobot, lease, RoomScan(++sequence)).ok());
+  v1::ObservationBatch batch;
+  const auto add = [&](Pose2 pose, GasReading reading) {
+    ++sequence;
+    *batch.add_observations() = ToProto(Observation{sequence, sequence * 1'000'000, pose, reading});
+  };
+  add(middle, {1.0, 0.0});
+  add(middle, {1.0, 1e12});
+  add({2.0, 3.97, 0.0}, {1.0, 0.0});  // in a wall
+  add({500.0, 1.5, 0.0}, {1.0, 0.0});
+  add(middle, {-1.0, 0.0});
+  const auto ingested = Ingest(kRobot, lease, batch);
+  ASSERT_TRUE(ingested.ok()) << ingested.status();
+  ASSERT_EQ(ingested->rejections_size(), 1);
+  EXPECT_EQ(ingested->rejections(0).sequence(), sequence);
+  v1::GetMapRequest request;
+  request.set_mission("missions/hall");
+  request.set_fresh_posterior(true);
+  const auto map = Call(maps_, &v1::MapService::Stub::GetMap, request);
+  ASSERT_TRUE(map.ok()) << map.status();
+  const v1::GasCounters& counters = map->status().gas_counters();
+  EXPECT_EQ(counters.reading_count(), 4);
+  EXPECT_EQ(counters.in_posterior_count(), 3);
+  EXPECT_EQ(counters.moved_count(), 1);
+  EXPECT_EQ(counters.waiting_count(), 1);
+  EXPECT_EQ(map->status().robots(0).rejected_observation_count(), 1);
+  EXPECT_EQ(map->status().gas_quality().failure_count(), 0);
+}
+
+// On an empty mission, on a map without readings, with readings before there is a free cell.
+TEST_F(MapServiceTest, PosteriorIsFreshWithoutReadingsAndWithoutFreeCells) {
+  v1::GetMapRequest request;
+  request.set_mission("missions/hall");
+  request.set_fresh_posterior(true);
+  const auto fresh = [&] { return Call(maps_, &v1::MapService::Stub::GetMap, request); };
+  EXPECT_TRUE(fresh().ok());
+  const std::int64_t lease = Lease();
+  ASSERT_TRUE(Ingest(kRobot, lease, GasReadings(1, 1)).ok());
+  const auto unknown = fresh();
+  ASSERT_TRUE(unknown.ok()) << unknown.status();
+  EXPECT_EQ(unknown->status().gas_counters().waiting_count(), 1);
+  for (int k = 2; k <= 4; ++k) ASSERT_TRUE(Ingest(kRobot, lease, RoomScan(k)).ok());
+  const auto known = fresh();
+  ASSERT_TRUE(known.ok()) << known.status();
+  EXPECT_EQ(known->status().gas_counters().in_posterior_count(), 1);
+}
+
 TEST_F(MapServiceTest, ReadingAMapChangesNothing) {
   const std::int64_t lease = Lease();
   ASSERT_TRUE(Ingest(kRobot, lease, RoomScan(1)).ok());

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "absl/synchronization/notification.h"
+#include "tests/core/mission/mission_peer.h"
 #include "tests/server/host_parts.h"
 #include "tests/support/same_bytes.h"
 
@@ -235,6 +236,27 @@ TEST(MissionWriterGas, PublicationRefreshesOnlyForAReadingThatHasWaited) {
   EXPECT_EQ(writer.gas_timings().staleness.max, wait);
   EXPECT_EQ(writer.gas_timings().update.samples, 1);
   EXPECT_EQ(writer.unpublished_since(), SteadyTime::max());
+}
+
+TEST(MissionWriterGas, FieldThatCannotBeComputedIsToldAndRecorded) {
+  if (GasMapPeer::kStopsAtDefects) GTEST_SKIP() << "stops at an assertion";
+  const auto broken = [] {
+    auto mission = std::make_unique<Mission>(support::FastAgeing());
+    GasMapPeer::LosePrior(MissionPeer::Gas(*mission));
+    return mission;
+  };
+  std::vector<Event> events;
+  MissionWriter writer(broken(), [&](const Event& event) { events.push_back(event); });
+  ASSERT_TRUE(writer.Register({"r1", 0.2, kLease}).ok());
+  ASSERT_TRUE(writer.Ingest("r1", kLease, RoomRunBatch()).status.ok());
+  EXPECT_EQ(writer.FreshBelief().status().code(), absl::StatusCode::kInternal);
+  const auto belief = writer.Snapshot();
+  EXPECT_GT(belief->gas_quality.failures, 1);
+  EXPECT_TRUE(std::holds_alternative<PosteriorRefreshed>(events.back().body));
+
+  const auto replayed = broken();
+  for (const Event& event : events) ASSERT_TRUE(replayed->Apply(event.body).ok());
+  ExpectSame(*replayed->Snapshot(), *belief);
 }
 
 TEST(MissionWriterGas, RefusedReadingsAreNotWaitedFor) {

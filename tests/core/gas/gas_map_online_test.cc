@@ -273,5 +273,40 @@ TEST(GasMapOnlineTest, CoarseLatticeHasNoLinkThroughAWall) {
   EXPECT_GT(map.mean_ppm()[Cell(5, 0)], 1.0F);
 }
 
+// A map of 5 x 4 cells, which then grows by one cell to the west and the south, is one of 2 x 2 gas
+// cells of 3 x 3 that grows to 3 x 3 of them.
+TEST(GasMapOnlineTest, GasCellsNeedNotDivideTheMap) {
+  GasOptions options;
+  options.lattice_factor = 3;
+  GasMap map(options);
+  map.Add(0, {0.45, 0.35}, {20.0});
+  map.Add(0, {0.05, 0.05}, {10.0});
+  map.Add(0, {-0.05, -0.05}, {30.0});
+  Grid<CellState> states(GridGeometry{0.0, 0.0, 0.1, 5, 4}, CellState::kFree);
+  ASSERT_TRUE(map.Refresh(states, 0).ok());
+  // The third reading moves to the cell next to it, across the corner.
+  const DenseField small(Grid<CellState>(GridGeometry{0.0, 0.0, 0.3, 2, 2}, CellState::kFree),
+                         {{{1, 1}, 10.0, 20.0}, {{0, 0}, 10.0, 10.0}, {{0, 0}, 10.0, 30.0}},
+                         options);
+  const auto expect = [&map](const DenseField& exact, std::size_t gas_cell, Cell cell) {
+    const auto row = static_cast<Eigen::Index>(gas_cell);
+    EXPECT_FLOAT_EQ(map.mean_ppm()[cell], static_cast<float>(exact.mean_ppm()(row)));
+    EXPECT_FLOAT_EQ(map.variance_ppm2()[cell], static_cast<float>(exact.variance_ppm2()(row)));
+  };
+  expect(small, 0, {2, 2});
+  expect(small, 1, {3, 0});
+  expect(small, 3, {4, 3});
+
+  states = Grid<CellState>(GridGeometry{-0.1, -0.1, 0.1, 6, 5}, CellState::kFree);
+  ASSERT_TRUE(map.Refresh(states, 0).ok());
+  const DenseField grown(Grid<CellState>(GridGeometry{-0.3, -0.3, 0.3, 3, 3}, CellState::kFree),
+                         {{{2, 2}, 10.0, 20.0}, {{1, 1}, 10.0, 10.0}, {{0, 0}, 10.0, 30.0}},
+                         options);
+  expect(grown, 0, {0, 0});
+  expect(grown, 4, {1, 1});
+  expect(grown, 8, {5, 4});
+  EXPECT_EQ(map.counters(), (GasCounters{.readings = 3, .in_posterior = 3}));
+}
+
 }  // namespace
 }  // namespace plumescout

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "tests/core/gas/dense_field.h"
+#include "tests/core/gas/field/field_case.h"
+#include "tests/core/gas/gas_map_peer.h"
 #include "tests/support/grid_art.h"
 #include "tests/support/same_bytes.h"
 
@@ -22,6 +24,9 @@ using ::plumescout::testing::GridArt;
 using ::plumescout::testing::GridFromArt;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
+// Rounding to float comes on top of what is certified.
+constexpr double kFloat = 1e-7;
+constexpr double kLargest_ppm = 40.0;  // of the readings below
 
 struct TimedReading {
   std::int64_t time_ns;
@@ -56,10 +61,6 @@ void Age(GasMap& map, std::int64_t time_ns) {
   EXPECT_TRUE(map.BeginEpoch(time_ns).ok());
   EXPECT_TRUE(map.Adopt().ok());
 }
-
-// Rounding to float comes on top of what is certified.
-constexpr double kFloat = 1e-7;
-constexpr double kLargest_ppm = 40.0;  // of the readings below
 
 // `merged` is what merging readings of like age may add, as share.
 void ExpectSameWithinCertificate(const GasMap& map, const GasMap& exact, double merged = 0.0) {
@@ -96,6 +97,45 @@ TEST(GasMapTest, PublishesTheExactPosteriorRoundedToFloat) {
     EXPECT_FLOAT_EQ(map.variance_ppm2()[oracle.cells()[k]],
                     static_cast<float>(oracle.variance_ppm2()(row)));
   }
+}
+
+// Neither square nor of the shape of the lattice that it is computed on.
+TEST(GasMapTest, EveryVarianceIsThatOfTheDenseInverseAt40By50Cells) {
+  Rng rng(5);
+  const Grid<CellState> states = testing::RandomStates(40, 50, 0.15, rng);
+  GasMap map{GasOptions()};
+  std::vector<CellInput> cells(states.size());
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    cells[i].active = states[i] == CellState::kFree;
+    if (!cells[i].active || rng.Below(20) != 0) continue;
+    const double concentration_ppm = rng.Uniform(0.0, kLargest_ppm);
+    map.Add(0, states.geometry().Center(states.geometry().CellAtIndex(i)), {concentration_ppm});
+    cells[i].precision = GasOptions().observation_precision;
+    cells[i].weighted_deviation = cells[i].precision * concentration_ppm;
+  }
+  ASSERT_TRUE(map.Refresh(states, 0).ok());
+  const testing::DenseTruth dense(40, cells, GasOptions());
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (!cells[i].active) continue;
+    const Eigen::Index row = dense.variable(i);
+    EXPECT_NEAR(map.variance_ppm2()[i] / dense.covariance()(row, row), 1.0, kFloat);
+    EXPECT_NEAR(map.mean_ppm()[i], dense.mean_ppm()(row), kFloat * kLargest_ppm);
+  }
+}
+
+// Two cells apart from each other and from everything.
+TEST(GasMapTest, NeitherClampsMeansNorCapsVariances) {
+  const Grid<CellState> states = GridFromArt({".#.#."});
+  const GasMap map = MapOf({{0, {0.05, 0.05}, {5e5}}, {0, {0.25, 0.05}, {-3.0}}}, states, 0);
+  const GasOptions options;
+  const double precision = options.observation_precision + options.background_precision;
+  const double share = options.observation_precision / precision;
+  EXPECT_FLOAT_EQ(At(map.mean_ppm(), 0, 0), static_cast<float>(5e5 * share));
+  EXPECT_FLOAT_EQ(At(map.mean_ppm(), 2, 0), static_cast<float>(-3.0 * share));
+  EXPECT_FLOAT_EQ(At(map.variance_ppm2(), 0, 0), static_cast<float>(1.0 / precision));
+  EXPECT_EQ(At(map.mean_ppm(), 4, 0), 0.0F);
+  EXPECT_FLOAT_EQ(At(map.variance_ppm2(), 4, 0),
+                  static_cast<float>(1.0 / options.background_precision));
 }
 
 TEST(GasMapTest, IsNanOffTheFreeCells) {
@@ -222,6 +262,40 @@ TEST(GasMapTest, TakesInWaitingReadingsWhenTheMapReachesThem) {
   ExpectSameWithinCertificate(map, MapOf({{0, {0.75, 0.05}, {25.0}}}, grown, 0));
 }
 
+// Each way alone, and far enough to outgrow the lattice, with one reading on each side of the
+// anchor.
+TEST(GasMapTest, KeepsReadingsWhenItGrowsInAnyDirection) {
+  const std::vector<TimedReading> readings = {{0, {0.05, 0.05}, {25.0}}, {0, {0.35, 0.15}, {5.0}}};
+  GridGeometry start = GridFromArt({"....", "...."}).geometry();
+  for (const int cells : {3, 50}) {
+    for (const Cell way : {Cell{-1, 0}, Cell{1, 0}, Cell{0, -1}, Cell{0, 1}, Cell{-1, -1}}) {
+      GasMap map = MapOf(readings, Grid<CellState>(start, CellState::kFree), 0);
+      GridGeometry grown = start;
+      grown.origin_x_m += std::min(way.x, 0) * cells * grown.resolution_m;
+      grown.origin_y_m += std::min(way.y, 0) * cells * grown.resolution_m;
+      grown.width += std::abs(way.x) * cells;
+      grown.height += std::abs(way.y) * cells;
+      const Grid<CellState> states(grown, CellState::kFree);
+      ASSERT_TRUE(map.Refresh(states, 0).ok());
+      EXPECT_EQ(map.counters(), (GasCounters{.readings = 2, .in_posterior = 2}));
+      ExpectSameWithinCertificate(map, MapOf(readings, states, 0));
+    }
+  }
+}
+
+TEST(GasMapTest, SurvivesTheLossOfEveryFreeCell) {
+  const std::vector<TimedReading> readings = {{0, {0.05, 0.05}, {5.0}}};
+  const Grid<CellState> states = GridFromArt({"..", ".."});
+  GasMap map = MapOf(readings, states, 0);
+  ASSERT_TRUE(map.Refresh(GridFromArt({"##", "??"}), 0).ok());
+  EXPECT_EQ(map.counters(), (GasCounters{.readings = 1, .waiting = 1}));
+  EXPECT_TRUE(std::isnan(At(map.mean_ppm(), 0, 0)));
+  ASSERT_TRUE(map.BeginEpoch(0).ok());
+  ASSERT_TRUE(map.Adopt().ok());
+  ASSERT_TRUE(map.Refresh(states, 0).ok());
+  ExpectSameWithinCertificate(map, MapOf(readings, states, 0));
+}
+
 TEST(GasMapTest, WorksWithoutCellsAndWithoutFreeCells) {
   GasMap map{GasOptions()};
   map.Add(0, {0.05, 0.05}, {5.0});
@@ -238,6 +312,53 @@ TEST(GasMapTest, KeepsTheOldPosteriorWhenTheLatticeDoesNotMatch) {
   EXPECT_EQ(map.Refresh(GridFromArt({".."}, 0.2), 0).code(), absl::StatusCode::kInvalidArgument);
   EXPECT_TRUE(support::SameBytes(map.mean_ppm(), before));
   EXPECT_EQ(map.counters().in_posterior, 1);
+}
+
+bool ShowsNothing(const GasMap& map) {
+  const auto is_nan = [](float value) { return std::isnan(value); };
+  return std::all_of(map.mean_ppm().values().begin(), map.mean_ppm().values().end(), is_nan) &&
+         std::all_of(map.variance_ppm2().values().begin(), map.variance_ppm2().values().end(),
+                     is_nan) &&
+         map.what_if() == nullptr;
+}
+
+TEST(GasMapTest, ShowsNoFieldThatCannotBeComputed) {
+  if (GasMapPeer::kStopsAtDefects) GTEST_SKIP() << "stops at an assertion";
+  const Grid<CellState> states = GridFromArt({"...", "..."});
+  GasMap map{GasOptions()};
+  GasMapPeer::LosePrior(map);
+  map.Add(0, {0.05, 0.05}, {5.0});
+  EXPECT_EQ(map.Refresh(states, 0).code(), absl::StatusCode::kInternal);
+  EXPECT_TRUE(ShowsNothing(map));
+  EXPECT_TRUE(map.stale());
+  EXPECT_EQ(map.counters().in_posterior, 1);
+  EXPECT_EQ(map.quality().failures, 1);
+  EXPECT_FALSE(map.epoch_due(0));
+  EXPECT_TRUE(absl::IsFailedPrecondition(map.BeginEpoch(0)));
+
+  GasMapPeer::FindPrior(map);
+  ASSERT_TRUE(map.Refresh(states, 0).ok());
+  EXPECT_FALSE(map.stale());
+  ExpectSameWithinCertificate(map, MapOf({{0, {0.05, 0.05}, {5.0}}}, states, 0));
+}
+
+TEST(GasMapTest, ShowsNoFieldAfterAnEpochThatCannotBeComputed) {
+  if (GasMapPeer::kStopsAtDefects) GTEST_SKIP() << "stops at an assertion";
+  const Grid<CellState> states = GridFromArt({"...", "..."});
+  const std::vector<TimedReading> readings = {{0, {0.05, 0.05}, {5.0}}};
+  GasMap map = MapOf(readings, states, 0);
+  GasMapPeer::LosePrior(map);
+  ASSERT_TRUE(map.BeginEpoch(0).ok());
+  EXPECT_EQ(map.Adopt().code(), absl::StatusCode::kInternal);
+  EXPECT_TRUE(ShowsNothing(map));
+  EXPECT_TRUE(map.stale());
+  EXPECT_EQ(map.epoch(), nullptr);
+  EXPECT_EQ(map.quality().failures, 1);
+  EXPECT_EQ(map.quality().epochs, 0);
+
+  GasMapPeer::FindPrior(map);
+  ASSERT_TRUE(map.Refresh(states, 0).ok());
+  ExpectSameWithinCertificate(map, MapOf(readings, states, 0));
 }
 
 TEST(GasMapTest, NoPrecisionIsTooExtreme) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <vector>
 
 #include "core/types/rng.h"
@@ -102,27 +103,48 @@ TEST(SiteOfTest, FindsTheCellOfEveryCornerAndCentre) {
   }
 }
 
+// The readings of a doorway that fills up do not leave for another room.
+TEST(PlacementOfTest, CrossesNoCornerIfASideIsFree) {
+  const Grid<CellState> states = GridFromArt({"?#.",  //
+                                              ".##",  //
+                                              "###"});
+  EXPECT_EQ(CellOf({0.199, 0.199}, states), (AnchorCell{0, 1}));
+}
+
+TEST(SiteOfTest, KnowsSoManySitesInACell) {
+  const GridGeometry anchor = GridFromArt({"."}).geometry();
+  std::set<ReadingSite> sites;
+  for (int y = 0; y <= 100; ++y) {
+    for (int x = 0; x <= 100; ++x) sites.insert(SiteOf({0.001 * x, 0.001 * y}, anchor));
+  }
+  std::erase_if(sites, [](const ReadingSite& site) { return site.cell != AnchorCell{0, 0}; });
+  EXPECT_EQ(sites.size(), kSitesPerCell);
+}
+
 // Distance from each neighbour's centre, straight from the definition.
-TEST(PlacementOfTest, TakesTheNearestFreeCentre) {
+TEST(PlacementOfTest, TakesTheNearestFreeCentreAcrossASideElseACorner) {
+  constexpr double kFar_m = std::numeric_limits<double>::infinity();
   Rng rng(7);
   int moved = 0;
   for (int trial = 0; trial < 2000; ++trial) {
     Grid<CellState> states = testing::RandomStates(3, 3, 0.8, rng);
     states[Cell{1, 1}] = CellState::kOccupied;
     const Point2 position{rng.Uniform(0.1, 0.2), rng.Uniform(0.1, 0.2)};
-    double nearest_m = std::numeric_limits<double>::infinity();
+    double nearest_m[] = {kFar_m, kFar_m};  // across a side, across a corner
     for (std::size_t i = 0; i < states.size(); ++i) {
       if (states[i] != CellState::kFree) continue;
-      const Point2 center = states.geometry().Center(states.geometry().CellAtIndex(i));
-      nearest_m = std::min(nearest_m, Distance_m(position, center));
+      const Cell cell = states.geometry().CellAtIndex(i);
+      double& nearest = nearest_m[cell.x != 1 && cell.y != 1];
+      nearest = std::min(nearest, Distance_m(position, states.geometry().Center(cell)));
     }
+    const double expected_m = std::isfinite(nearest_m[0]) ? nearest_m[0] : nearest_m[1];
     const Placement placement = PlaceAt(position, states);
-    ASSERT_EQ(placement.cell.has_value(), std::isfinite(nearest_m));
+    ASSERT_EQ(placement.cell.has_value(), std::isfinite(expected_m));
     if (!placement.cell) continue;
     ++moved;
     // Positions are compared in millionths of a cell: 1e-7 m.
     const Cell cell{placement.cell->x, placement.cell->y};
-    EXPECT_NEAR(Distance_m(position, states.geometry().Center(cell)), nearest_m, 2e-7);
+    EXPECT_NEAR(Distance_m(position, states.geometry().Center(cell)), expected_m, 2e-7);
   }
   EXPECT_GT(moved, 1000);
 }

@@ -102,21 +102,23 @@ class GrowingMap {
 using ByCell = std::map<AnchorCell, std::vector<std::size_t>>;  // indices of readings
 
 // Where a reading goes by definition: its cell, else the free one of the eight around it whose
-// centre is nearest, of equal ones in the order E, N, W, S, NE, NW, SW, SE.
+// centre is nearest, those across a side before those across a corner, of equal ones in the order
+// E, N, W, S, NE, NW, SW, SE.
 std::optional<AnchorCell> PlaceByDefinition(Point2 position, const GrowingMap& map) {
   const AnchorCell own{static_cast<int>(std::floor(position.x_m / kResolution_m)),
                        static_cast<int>(std::floor(position.y_m / kResolution_m))};
   if (map.IsFree(own)) return own;
   constexpr Cell kNeighbours[] = {{1, 0}, {0, 1},  {-1, 0},  {0, -1},
                                   {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
-  constexpr double kTie_m = 1e-9;  // the first of equal ones comes first
+  constexpr double kTie_m = 1e-9;    // the first of equal ones comes first
+  constexpr double kCorner_m = 1.0;  // beyond any neighbour
   int rank = 0;
   std::optional<AnchorCell> nearest;
   double nearest_m = std::numeric_limits<double>::infinity();
   for (const Cell step : kNeighbours) {
     const AnchorCell cell{own.x + step.x, own.y + step.y};
-    const double distance_m =
-        Distance_m(position, kLattice.Center({cell.x, cell.y})) + kTie_m * rank++;
+    const double distance_m = Distance_m(position, kLattice.Center({cell.x, cell.y})) +
+                              (step.x != 0 && step.y != 0 ? kCorner_m : 0.0) + kTie_m * rank++;
     if (!map.IsFree(cell) || distance_m >= nearest_m) continue;
     nearest_m = distance_m;
     nearest = cell;

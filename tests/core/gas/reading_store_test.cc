@@ -10,6 +10,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/types/rng.h"
 #include "tests/support/grid_art.h"
 
 namespace plumescout {
@@ -347,7 +348,6 @@ TEST(ReadingStoreAgeingTest, KeepsAWeekInOneCellSmall) {
     store.Compact(second * kSecond_ns);
     most_buckets = std::max(most_buckets, store.buckets());
   }
-  ASSERT_TRUE(store.Place(GridFromArt({"."}), {}).ok());
   EXPECT_LE(most_buckets, 44U);  // MergeAlike's bound for this ratio of variances
   ASSERT_TRUE(store.Place(GridFromArt({"."}), {}).ok());
   EXPECT_EQ(store.counters().in_posterior, kWeek_s / 6);
@@ -391,14 +391,18 @@ TEST(ReadingStoreAgeingTest, KeepsAWeekAnywhereInACellSmall) {
   EXPECT_LT(most_buckets, 44U + 24U);
 }
 
-TEST(ReadingStoreTest, KeepsAWeekInOneCellWithoutAgeingAsOneSum) {
-  ReadingStore store(Options());
-  for (std::int64_t second = 0; second < kWeek_s; second += 6) {
-    store.Add(second * kSecond_ns, {0.05, 0.05}, {12.0});
+TEST(ReadingStoreTest, KeepsAWeekAnywhereInACellWithoutAgeingAsFewSums) {
+  for (const auto& [width_m, most_sites] : {std::pair{0.0, std::size_t{1}}, {0.1, kSitesPerCell}}) {
+    ReadingStore store(Options());
+    Rng rng(9);
+    for (std::int64_t second = 0; second < kWeek_s; second += 6) {
+      store.Add(second * kSecond_ns, {rng.Uniform(0.0, width_m), rng.Uniform(0.0, width_m)}, {});
+    }
+    ASSERT_TRUE(store.Place(GridFromArt({"."}), {}).ok());
+    EXPECT_LE(store.sites(), most_sites);
+    EXPECT_EQ(store.buckets(), 0U);
+    EXPECT_DOUBLE_EQ(store.EvidenceAt({0, 0}).precision, 10.0 * static_cast<double>(kWeek_s / 6));
   }
-  ASSERT_TRUE(store.Place(GridFromArt({"."}), {}).ok());
-  EXPECT_EQ(store.buckets(), 0U);
-  EXPECT_DOUBLE_EQ(store.EvidenceAt({0, 0}).precision, 10.0 * static_cast<double>(kWeek_s / 6));
 }
 
 }  // namespace

@@ -27,6 +27,18 @@ TEST(CheckObservation, AcceptsGoodObservations) {
   EXPECT_TRUE(CheckObservation(GoodGas(), MissionOptions{}, 0).ok());
 }
 
+TEST(CheckObservation, RefusesTheEndOfTimeEvenAtFirst) {
+  Observation first = GoodGas();
+  for (const std::int64_t time_ns : {std::int64_t{1} << 62, INT64_MAX}) {
+    first.sample_time_ns = time_ns;
+    const absl::Status status = CheckObservation(first, MissionOptions{}, 0);
+    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(std::string(status.message()), testing::HasSubstr(std::to_string(time_ns)));
+  }
+  first.sample_time_ns = (std::int64_t{1} << 62) - 1;
+  EXPECT_TRUE(CheckObservation(first, MissionOptions{}, 0).ok());
+}
+
 struct BadCase {
   std::string field;
   std::function<void(Observation&)> spoil;
