@@ -31,6 +31,8 @@ struct Product {
   std::size_t depth = 0;
   double scale = 1.0;
   bool lower_only = false;  // tiles wholly above the diagonal of c are left alone
+  bool a_is_upper = false;  // a is 0 below its diagonal: tiles there are passed over
+  bool overwrite = false;   // c = scale * a * b, whatever c was; REQUIRES: depth > 0
 };
 void Accumulate(const Product& product);
 // The same with instructions that every CPU of the architecture has; for tests.
@@ -45,6 +47,11 @@ std::size_t FactorizeFront(double* front, std::size_t stride, std::size_t rows,
 // inverse = lower^-1 for a lower triangle of `size` rows; the strict upper triangle is set to 0.
 void InvertLower(const double* lower, std::size_t lower_stride, std::size_t size, double* inverse,
                  std::size_t inverse_stride);
+
+// The same, transposed, for a lower triangle whose inverse is wanted by rows: strictly below the
+// diagonal it is set to 0. REQUIRES: inverse_stride >= size, rounded up to whole tiles.
+void InvertLowerTransposed(const double* lower, std::size_t lower_stride, std::size_t size,
+                           double* inverse, std::size_t inverse_stride);
 
 // Sum of a[i] * b[i], in four interleaved partial sums: chains of additions that do not wait for
 // each other.

@@ -33,7 +33,7 @@ void DescendMany(const Front& front, SlotColumns& x, Descent& scratch) {
   for (std::size_t i = 0; i < boundary.size(); ++i) {
     std::copy_n(x.row(boundary[i]), columns, scratch.boundary.data() + i * columns);
   }
-  scratch.own.assign(stride * columns, 0.0);
+  scratch.own.resize(stride * columns);
   Accumulate({.a = front.Weights(scratch.weights),
               .a_stride = front.own,
               .b = scratch.boundary.data(),
@@ -43,7 +43,8 @@ void DescendMany(const Front& front, SlotColumns& x, Descent& scratch) {
               .c_stride = stride,
               .rows = front.own,
               .columns = columns,
-              .depth = boundary.size()});
+              .depth = boundary.size(),
+              .overwrite = true});
   for (std::size_t i = 0; i < front.own; ++i) {
     double* const row = x.row(front.cells[i]);
     for (std::size_t j = 0; j < columns; ++j) row[j] += scratch.own[j * stride + i];

@@ -117,16 +117,18 @@ const double* Marginals::FormCross(const Front& front) {
   const std::size_t size = front.boundary();
   const std::size_t stride = TileRows(front.own);
   const double* const weights = front.Weights(scratch_);
-  cross_.assign(stride * size, 0.0);
+  cross_.resize(std::max(cross_.size(), stride * size));
   Accumulate({.a = weights,
               .a_stride = front.own,
               .b = boundary_.data(),
-              .b_column_stride = size,
+              .b_row_stride = size,
+              .b_column_stride = 1,
               .c = cross_.data(),
               .c_stride = stride,
               .rows = front.own,
               .columns = size,
-              .depth = size});
+              .depth = size,
+              .overwrite = true});
   return weights;
 }
 
