@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/gas/field/prefetch.h"
+
 namespace plumescout {
 namespace {
 
@@ -61,6 +63,11 @@ void BoundaryMemory::Hear(const ReadingFactors& factors, std::span<const double>
   heard_.push_back(factors.variance_factor);
   heard_.insert(heard_.end(), x.begin(), x.end());
   if (heard_.size() >= kMostHeard * (x.size() + 1)) Settle();
+}
+
+void BoundaryMemory::Prefetch() const {
+  PrefetchBytes(mean_ppm_.data(), mean_ppm_.size() * sizeof(double));
+  PrefetchBytes(covariance_ppm2_.data(), covariance_ppm2_.size() * sizeof(double));
 }
 
 void BoundaryMemory::Settle() {

@@ -32,6 +32,8 @@ class BoundaryMemory {
   // The fields of the node have heard a reading, so that all is as if they had been computed from a
   // boundary that had heard it too. `x` is by boundary cell. Cost: O(x), the square of it at times.
   void Hear(const ReadingFactors& factors, std::span<const double> x);
+  // Asks memory for what Moved and Hear will read.
+  void Prefetch() const;
 
  private:
   void Settle();

@@ -108,6 +108,7 @@ class FieldEngine {
   Marginals marginals_;
   std::vector<std::uint8_t> dirty_;  // by node
   std::size_t pending_ = 0;          // readings since the last pass
+  double reading_share_left_ = 1.0;  // of the tolerance for readings until the next one
   FieldShift shift_;                 // how far the fields were off after it, at most
   double largest_mean_ppm_ = 0.0;    // then
   bool healthy_ = true;

@@ -81,6 +81,7 @@ class Marginals {
   };
 
   void CollectDebts();
+  void PrefetchChildren(const SeparatorTree::Node& node) const;
   FieldShift Visit(std::size_t node, std::size_t depth);
   void GatherBoundary(const Front& front, const Front& parent, const Block& from);
   void UpdateMean(const Front& front);
