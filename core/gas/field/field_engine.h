@@ -86,7 +86,9 @@ class FieldEngine {
   double work() const { return factor_.work(); }
 
   // Cost: one pointer per node and one number per cell.
-  FieldSnapshot Snapshot() const { return {factor_, marginals_.variance_ppm2()}; }
+  FieldSnapshot Snapshot() const {
+    return {factor_, marginals_.variance_ppm2(), Tolerance().covariance_ppm2};
+  }
 
  private:
   friend struct FieldEnginePeer;  // of the tests
