@@ -16,6 +16,7 @@ constexpr std::size_t kPanel = 24;      // columns factorised before the rest is
 // Widths of vector registers.
 constexpr int kPortableBytes = 16;
 constexpr int kAvx2Bytes = 32;
+constexpr int kAvx512Bytes = 64;
 
 template <int kBytes>
 struct VectorOf {
@@ -106,18 +107,14 @@ template <int kBytes>
   }
 }
 
+void AccumulatePortably(const Product& p) { AccumulateBody<kPortableBytes>(p); }
+
 #if defined(__x86_64__)
 [[gnu::target("avx2")]] void AccumulateAvx2(const Product& p) { AccumulateBody<kAvx2Bytes>(p); }
-#endif
-
-using AccumulateFunction = void (*)(const Product&);
-
-AccumulateFunction BestAccumulate() {
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2")) return AccumulateAvx2;
-#endif
-  return AccumulatePortably;
+[[gnu::target("avx512f")]] void AccumulateAvx512(const Product& p) {
+  AccumulateBody<kAvx512Bytes>(p);
 }
+#endif
 
 // y -= factor * x
 void SubtractScaled(double factor, const double* x, double* y, std::size_t size) {
@@ -142,12 +139,19 @@ std::size_t FactorizePanel(double* front, std::size_t stride, std::size_t rows, 
 
 }  // namespace
 
-void Accumulate(const Product& product) {
-  static const AccumulateFunction accumulate = BestAccumulate();
-  accumulate(product);
+std::vector<AccumulateFunction> AccumulateVariants() {
+  std::vector<AccumulateFunction> variants = {AccumulatePortably};
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2")) variants.push_back(AccumulateAvx2);
+  if (__builtin_cpu_supports("avx512f")) variants.push_back(AccumulateAvx512);
+#endif
+  return variants;
 }
 
-void AccumulatePortably(const Product& product) { AccumulateBody<kPortableBytes>(product); }
+void Accumulate(const Product& product) {
+  static const AccumulateFunction best = AccumulateVariants().back();
+  best(product);
+}
 
 std::size_t FactorizeFront(double* front, std::size_t stride, std::size_t rows,
                            std::size_t columns) {

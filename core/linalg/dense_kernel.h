@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 namespace plumescout {
 
@@ -35,8 +36,9 @@ struct Product {
   bool overwrite = false;   // c = scale * a * b, whatever c was; REQUIRES: depth > 0
 };
 void Accumulate(const Product& product);
-// The same with instructions that every CPU of the architecture has; for tests.
-void AccumulatePortably(const Product& product);
+// What it may be on this CPU, by width of the vectors; the last is taken. For tests.
+using AccumulateFunction = void (*)(const Product&);
+std::vector<AccumulateFunction> AccumulateVariants();
 
 // Factorises the first `columns` columns of the lower triangle of `front` (rows x rows) in place,
 // and subtracts their outer product from the rest: L11, L21 and the Schur complement. Returns the

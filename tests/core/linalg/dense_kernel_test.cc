@@ -91,22 +91,24 @@ TEST_P(AccumulateTest, GivesTheSameBytesWithAnyInstructionSet) {
   Rng rng(rows + depth);
   Padded a = RandomPadded(rows, depth, rng);
   Padded b = RandomPadded(depth, columns, rng);
-  Padded best = RandomPadded(rows, columns, rng);
-  Padded portable = best;
-  const auto product_into = [&](Padded& c) {
-    return Product{.a = a.data(),
-                   .a_stride = a.stride(),
-                   .b = b.data(),
-                   .b_column_stride = b.stride(),
-                   .c = c.data(),
-                   .c_stride = c.stride(),
-                   .rows = rows,
-                   .columns = columns,
-                   .depth = depth};
+  const Padded c = RandomPadded(rows, columns, rng);
+  const auto result_of = [&](AccumulateFunction accumulate) {
+    Padded result = c;
+    accumulate({.a = a.data(),
+                .a_stride = a.stride(),
+                .b = b.data(),
+                .b_column_stride = b.stride(),
+                .c = result.data(),
+                .c_stride = result.stride(),
+                .rows = rows,
+                .columns = columns,
+                .depth = depth});
+    return result;
   };
-  Accumulate(product_into(best));
-  AccumulatePortably(product_into(portable));
-  EXPECT_TRUE(best.view() == portable.view());
+  Padded best = result_of(Accumulate);
+  for (const AccumulateFunction variant : AccumulateVariants()) {
+    EXPECT_TRUE(result_of(variant).view() == best.view());
+  }
 }
 
 TEST_P(AccumulateTest, TakesATransposedFactor) {
