@@ -65,9 +65,14 @@ void BoundaryMemory::Hear(const ReadingFactors& factors, std::span<const double>
   if (heard_.size() >= kMostHeard * (x.size() + 1)) Settle();
 }
 
-void BoundaryMemory::Prefetch() const {
+void BoundaryMemory::PrefetchForMoved() const {
   PrefetchBytes(mean_ppm_.data(), mean_ppm_.size() * sizeof(double));
   PrefetchBytes(covariance_ppm2_.data(), covariance_ppm2_.size() * sizeof(double));
+}
+
+void BoundaryMemory::PrefetchForHear() const {
+  PrefetchBytes(mean_ppm_.data(), mean_ppm_.size() * sizeof(double));
+  PrefetchBytes(heard_.data() + heard_.size(), (mean_ppm_.size() + 1) * sizeof(double));
 }
 
 void BoundaryMemory::Settle() {

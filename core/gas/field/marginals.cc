@@ -47,16 +47,16 @@ void Marginals::CollectDebts() {
 }
 
 // While the node itself is worked on.
-void Marginals::PrefetchChildren(const SeparatorTree::Node& node) const {
+void Marginals::PrefetchChildren(const SeparatorTree::Node& node,
+                                 void (BoundaryMemory::*prefetch)() const) const {
   if (node.is_leaf()) return;
   for (const std::uint32_t child : node.children) {
     factor_->front(child).Prefetch();
-    memories_[child].Prefetch();
+    (memories_[child].*prefetch)();
     const SeparatorTree::Node& place = tree_->nodes()[child];
     const std::size_t size = (place.end - place.first) * sizeof(double);
     PrefetchBytes(mean_ppm_.data() + place.first, size);
     PrefetchBytes(variance_ppm2_.data() + place.first, size);
-    PrefetchBytes(column_.data() + place.first, size);
     for (const std::uint32_t next : place.children) {
       if (next != SeparatorTree::kNone) PrefetchBytes(&factor_->front(next), sizeof(Front));
     }
@@ -65,7 +65,7 @@ void Marginals::PrefetchChildren(const SeparatorTree::Node& node) const {
 
 FieldShift Marginals::Visit(std::size_t node, std::size_t depth) {
   const SeparatorTree::Node& place = tree_->nodes()[node];
-  PrefetchChildren(place);
+  PrefetchChildren(place, &BoundaryMemory::PrefetchForMoved);
   const Front& front = factor_->front(node);
   boundary_mean_.clear();
   if (front.boundary() > 0) {
@@ -212,7 +212,7 @@ bool Marginals::Hear(const FieldFactor& factor, const FieldReading& reading,
 
 void Marginals::VisitForReading(std::size_t node, const FieldShift& owed_above) {
   const SeparatorTree::Node& place = tree_->nodes()[node];
-  PrefetchChildren(place);
+  PrefetchChildren(place, &BoundaryMemory::PrefetchForHear);
   const Front& front = factor_->front(node);
   Debt& debt = debts_[node];
   const double largest = GatherColumn(front);
