@@ -54,8 +54,8 @@ class GasMap {
   // last epoch, unless `time_ns` is so much later that all is made anew.
   // On error readers see what they saw last: kInvalidArgument if the lattice of `states` is not
   // that of the first refresh moved by whole cells, kInternal if the field cannot be computed; the
-  // next refresh then makes all anew. Cost at 160x200 cells, rooms: 0.4 ms a reading, 5 ms
-  // a scan, anew 31 ms; docs/performance.md.
+  // next refresh then makes all anew. Cost at 160x200 cells, rooms: 0.2 ms a reading at
+  // worst, 3 ms a scan, anew 23 ms; docs/performance.md.
   absl::Status Refresh(const Grid<CellState>& states, std::int64_t time_ns);
 
   // As of the last refresh, on a lattice that covers its states; NaN off free cells. Empty before

@@ -6,6 +6,7 @@
 #include <utility>
 
 namespace plumescout {
+
 void FieldFactor::Eliminate(std::span<const std::uint8_t> dirty, const FieldCells& cells,
                             FrontBuilder& builder) {
   for (std::size_t i = 0; i < fronts_.size(); ++i) {

@@ -48,7 +48,7 @@ absl::StatusOr<std::vector<double>> FieldSnapshot::VarianceIfRead(
     variance_ppm2[tree.cell(slot)] = variance_ppm2_[slot];
   }
   if (!slots.empty()) {
-    SubtractGain({factor_, slots}, slots, precision, tolerance_ppm2_, variance_ppm2);
+    SubtractGain(InverseColumns(factor_, slots), slots, precision, tolerance_ppm2_, variance_ppm2);
   }
   return variance_ppm2;
 }

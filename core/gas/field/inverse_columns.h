@@ -27,9 +27,9 @@ class InverseColumns {
   // `stride` >= PaddedRows(columns) apart and are 0 beyond its rows.
   void Mix(const double* matrix, std::size_t stride);
 
-  // by_cell[cell] -= |x|^2 for the row x of each active cell, but for subtrees in which that is at
-  // most `limit`: with W >= 0 and row sums of at most 1, no row in a subtree off the paths is
-  // longer than the longest on its boundary. Cost: all weights of the others.
+  // by_cell[cell] -= |x|^2 for the row x of each active cell, but for subtrees off the paths on
+  // whose boundary that is at most `limit`: with W >= 0 and row sums of at most 1, no row inside is
+  // longer than the longest there. Cost: all weights of the others.
   void SubtractSquares(double limit, std::vector<double>& by_cell);
 
  private:
@@ -39,8 +39,10 @@ class InverseColumns {
     std::vector<double> squares;  // by row
   };
 
-  void PlacePaths(std::span<const Slot> slots);
   static constexpr std::size_t kOffPaths = ~std::size_t{0};
+
+  void PlacePaths(std::span<const Slot> slots);
+  // Where the rows of the own cells of a node begin in path_rows_; kOffPaths if it has none there.
   std::size_t FirstOf(std::size_t node) const;
   void CompletePath(std::size_t node, std::size_t depth);
   void SubtractBelow(std::size_t node, std::size_t depth, double limit,
@@ -52,7 +54,7 @@ class InverseColumns {
   std::size_t columns_;
   std::size_t stride_;                     // of rows; 0 beyond the columns
   std::vector<std::uint32_t> path_nodes_;  // ascending
-  std::vector<std::size_t> first_;         // element in path_rows_ of each: its own cells' rows
+  std::vector<std::size_t> first_;         // FirstOf each
   std::vector<double> path_rows_;
 
   std::vector<Block> blocks_;  // by depth
