@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 namespace plumescout {
 
@@ -31,10 +32,13 @@ struct Product {
   std::size_t depth = 0;
   double scale = 1.0;
   bool lower_only = false;  // tiles wholly above the diagonal of c are left alone
+  bool a_is_upper = false;  // a is 0 below its diagonal: tiles there are passed over
+  bool overwrite = false;   // c = scale * a * b, whatever c was; REQUIRES: depth > 0
 };
 void Accumulate(const Product& product);
-// The same with instructions that every CPU of the architecture has; for tests.
-void AccumulatePortably(const Product& product);
+// What it may be on this CPU, by width of the vectors; the last is taken. For tests.
+using AccumulateFunction = void (*)(const Product&);
+std::vector<AccumulateFunction> AccumulateVariants();
 
 // Factorises the first `columns` columns of the lower triangle of `front` (rows x rows) in place,
 // and subtracts their outer product from the rest: L11, L21 and the Schur complement. Returns the
@@ -45,6 +49,11 @@ std::size_t FactorizeFront(double* front, std::size_t stride, std::size_t rows,
 // inverse = lower^-1 for a lower triangle of `size` rows; the strict upper triangle is set to 0.
 void InvertLower(const double* lower, std::size_t lower_stride, std::size_t size, double* inverse,
                  std::size_t inverse_stride);
+
+// The same, transposed, for a lower triangle whose inverse is wanted by rows: strictly below the
+// diagonal it is set to 0. REQUIRES: inverse_stride >= size, rounded up to whole tiles.
+void InvertLowerTransposed(const double* lower, std::size_t lower_stride, std::size_t size,
+                           double* inverse, std::size_t inverse_stride);
 
 // Sum of a[i] * b[i], in four interleaved partial sums: chains of additions that do not wait for
 // each other.

@@ -128,7 +128,7 @@ absl::Status MeasureOnline(const Size& size, bool open, const GasCase& c, BenchS
   std::vector<double> reading_ms, scan_ms, what_if_ms;
   for (int scan = 0; scan < kScans; ++scan) {
     for (int k = 0; k < kReadingsBetweenScans; ++k) {
-      const std::vector<CellChange> reading = events.Reading();
+      const std::vector<CellChange> reading = events.Reading(size.robots);
       reading_ms.push_back(Cpu_ms([&] { status.Update(field.Apply(reading)); }));
     }
     const std::vector<CellChange> changes = events.Scan(size.robots);
@@ -142,6 +142,31 @@ absl::Status MeasureOnline(const Size& size, bool open, const GasCase& c, BenchS
   summary.Set(size.Name("reading", open, "ms"), Median(reading_ms));
   summary.Set(size.Name("scan", open, "ms"), Median(scan_ms));
   summary.Set(size.Name("whatif16", open, "ms"), Median(what_if_ms));
+  return status;
+}
+
+// Readings that come from anywhere and say anything, and the same if none may pass over any cell.
+absl::Status MeasureWorstReadings(const Size& size, bool open, const GasCase& c,
+                                  BenchSummary& summary) {
+  constexpr int kRounds = 20;
+  constexpr int kUnpruned = 15;
+  PLUMESCOUT_ASSIGN_OR_RETURN(std::vector<CellInput> inputs, InputsOf(c));
+  GasEvents events(static_cast<std::size_t>(size.width_cells), std::move(inputs), summary.seed());
+  FieldEngine field = events.Fresh();
+  absl::Status status;
+  const auto read_ms = [&](FieldEngine& engine) {
+    const std::vector<CellChange> reading = events.ReadingAnywhere();
+    return Cpu_ms([&] { status.Update(engine.Apply(reading)); });
+  };
+  std::vector<double> anywhere_ms, unpruned_ms;
+  for (int round = 0; round < kRounds; ++round) {
+    for (int k = 0; k < kReadingsBetweenScans; ++k) anywhere_ms.push_back(read_ms(field));
+    status.Update(field.Apply(events.Scan(size.robots)));
+  }
+  FieldEngine exact = events.Fresh({0.0, 0.0});
+  for (int k = 0; k < kUnpruned; ++k) unpruned_ms.push_back(read_ms(exact));
+  summary.Set(size.Name("reading_anywhere", open, "ms"), Median(anywhere_ms));
+  summary.Set(size.Name("reading_unpruned", open, "ms"), Median(unpruned_ms));
   return status;
 }
 
@@ -177,7 +202,7 @@ absl::Status MeasureOnlineError(const GasCase& c, BenchSummary& summary) {
   FieldError worst, bound;
   for (int event = 1; event <= kEvents; ++event) {
     PLUMESCOUT_RETURN_IF_ERROR(
-        field.Apply(event % kEventsPerScan == 0 ? events.Scan(1) : events.Reading()));
+        field.Apply(event % kEventsPerScan == 0 ? events.Scan(1) : events.ReadingAnywhere()));
     bound.mean_ppm = std::max(bound.mean_ppm, field.error_bound().mean_ppm);
     bound.variance_ratio = std::max(bound.variance_ratio, field.error_bound().variance_ratio);
     if (event % kEventsPerCheck != 0) continue;
@@ -201,6 +226,7 @@ absl::Status Run(BenchSummary& summary) {
       PLUMESCOUT_RETURN_IF_ERROR(MeasureMemory(size.Name("memory", open, "mb"), c, summary));
       PLUMESCOUT_RETURN_IF_ERROR(MeasureFresh(size, open, c, summary));
       PLUMESCOUT_RETURN_IF_ERROR(MeasureOnline(size, open, c, summary));
+      PLUMESCOUT_RETURN_IF_ERROR(MeasureWorstReadings(size, open, c, summary));
       PLUMESCOUT_RETURN_IF_ERROR(MeasureBeliefPropagation(size, open, c, summary));
     }
   }

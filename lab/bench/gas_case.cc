@@ -17,25 +17,28 @@ namespace {
 constexpr int kReadings = 600;
 
 GasCase WithReadings(Grid<CellState> states, std::uint64_t seed) {
-  constexpr double kPeak_ppm = 50.0;
   constexpr double kNoise_ppm = 0.5;
   Rng rng(seed);
   GasCase c{std::move(states), {}, {}};
   const GridGeometry& geometry = c.states.geometry();
-  const Point2 source = geometry.Center({geometry.width / 2, geometry.height / 2});
-  const double width_m = geometry.width * geometry.resolution_m / 4.0;
   while (c.positions.size() < kReadings) {
     const Cell cell = geometry.CellAtIndex(rng.Below(c.states.size()));
     if (c.states[cell] != CellState::kFree) continue;
-    const double distance = Distance_m(geometry.Center(cell), source) / width_m;
     c.positions.push_back(geometry.Center(cell));
-    c.concentrations_ppm.push_back(kPeak_ppm * std::exp(-distance * distance) +
+    c.concentrations_ppm.push_back(Plume_ppm(geometry.width, geometry.height, cell.x, cell.y) +
                                    kNoise_ppm * rng.Gaussian());
   }
   return c;
 }
 
 }  // namespace
+
+double Plume_ppm(double width, double height, double x, double y) {
+  constexpr double kPeak_ppm = 50.0;
+  constexpr double kWidths = 4.0;  // of the plume in that of the map
+  const double distance = std::hypot(x - width / 2.0, y - height / 2.0) / (width / kWidths);
+  return kPeak_ppm * std::exp(-distance * distance);
+}
 
 GasCase OpenCase(int width_cells, int height_cells, std::uint64_t seed) {
   const GridGeometry geometry{0.0, 0.0, 0.1, width_cells, height_cells};

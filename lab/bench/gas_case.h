@@ -22,6 +22,9 @@ struct GasCase {
   std::vector<double> concentrations_ppm;
 };
 
+// What a sensor without noise reads at (x, y) in a map of that size, all in cells.
+double Plume_ppm(double width, double height, double x, double y);
+
 GasCase OpenCase(int width_cells, int height_cells, std::uint64_t seed);
 // Rooms, doors and boxes.
 GasCase IndoorCase(int width_cells, int height_cells, std::uint64_t seed);

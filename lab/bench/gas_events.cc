@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/types/options.h"
+#include "lab/bench/gas_case.h"
 
 namespace plumescout::lab {
 namespace {
@@ -28,12 +30,66 @@ std::size_t GasEvents::ActiveCell() {
   return cell;
 }
 
-std::vector<CellChange> GasEvents::Reading() {
+GasEvents::Robot GasEvents::NewRobot() {
+  const std::size_t cell = ActiveCell();
+  return {static_cast<double>(cell % width_), static_cast<double>(cell / width_),
+          rng_.Uniform(0.0, 2.0 * std::numbers::pi)};
+}
+
+bool GasEvents::IsFree(const Robot& at) const {
+  const auto height = static_cast<double>(cells_.size() / width_);
+  const bool inside = at.x_cells >= 0.0 && at.x_cells < static_cast<double>(width_) &&
+                      at.y_cells >= 0.0 && at.y_cells < height;
+  return inside && cells_[CellOf(at)].active;
+}
+
+std::size_t GasEvents::CellOf(const Robot& robot) const {
+  return static_cast<std::size_t>(robot.y_cells) * width_ + static_cast<std::size_t>(robot.x_cells);
+}
+
+// Whether the way to the next reading is free: then the robot goes there.
+bool GasEvents::Advance(Robot& robot) const {
+  constexpr int kCellsPerReading = 5;  // 1 m/s, 2 Hz
+  Robot ahead = robot;
+  for (int step = 0; step < kCellsPerReading; ++step) {
+    ahead.x_cells += std::cos(ahead.heading_rad);
+    ahead.y_cells += std::sin(ahead.heading_rad);
+    if (!IsFree(ahead)) return false;
+  }
+  robot = ahead;
+  return true;
+}
+
+std::vector<CellChange> GasEvents::Reading(int robots) {
+  constexpr int kTurns = 20;  // then it is shut in, and another goes on elsewhere
+  constexpr double kNoise_ppm = 0.5;
+  while (robots_.size() < static_cast<std::size_t>(robots)) robots_.push_back(NewRobot());
+  Robot robot = robots_.front();
+  robots_.pop_front();
+  for (int turn = 0; !Advance(robot); ++turn) {
+    if (turn == kTurns) {
+      robot = NewRobot();
+      break;
+    }
+    robot.heading_rad += rng_.Uniform(0.5, 1.5);
+  }
+  robots_.push_back(robot);
+  const auto width = static_cast<double>(width_);
+  const auto height = static_cast<double>(cells_.size() / width_);
+  const double plume_ppm = Plume_ppm(width, height, robot.x_cells, robot.y_cells);
+  return ReadAt(CellOf(robot), plume_ppm + kNoise_ppm * rng_.Gaussian());
+}
+
+std::vector<CellChange> GasEvents::ReadingAnywhere() {
   constexpr double kPeak_ppm = 50.0;
   const std::size_t cell = ActiveCell();
+  return ReadAt(cell, rng_.Uniform(0.0, kPeak_ppm));
+}
+
+std::vector<CellChange> GasEvents::ReadAt(std::size_t cell, double deviation_ppm) {
   const double precision = GasOptions().observation_precision;
   cells_[cell].precision += precision;
-  cells_[cell].weighted_deviation += precision * rng_.Uniform(0.0, kPeak_ppm);
+  cells_[cell].weighted_deviation += precision * deviation_ppm;
   return {{cell, cells_[cell]}};
 }
 
@@ -66,10 +122,11 @@ CellChange GasEvents::Flip(std::size_t cell) {
   return {cell, cells_[cell]};
 }
 
-FieldEngine GasEvents::Fresh() const {
+FieldEngine GasEvents::Fresh(const FieldTolerance& tolerance) const {
   const GasOptions gas;
   FieldOptions options;
   options.prior = {gas.prior_precision, gas.background_precision};
+  options.tolerance = tolerance;
   return FieldEngine(width_, cells_.size() / width_, cells_, options);
 }
 

@@ -20,24 +20,39 @@ class GasEvents {
       : width_(width), cells_(std::move(cells)), rng_(seed) {}
 
   std::size_t ActiveCell();
-  // One more reading, in a random active cell.
-  std::vector<CellChange> Reading();
+  // The next reading of `robots` that take turns, half a metre on in the way of each; they go
+  // straight on and turn where that is blocked. It reads the plume of the map.
+  std::vector<CellChange> Reading(int robots);
+  // The worst that can be asked: of a random active cell, any value.
+  std::vector<CellChange> ReadingAnywhere();
   // What all robots' scans of one moment change: 40 cells within 3 m of each become free or cease
   // to be. Every other one is a cell that changed long ago and changes back.
   std::vector<CellChange> Scan(int robots);
 
   const std::vector<CellInput>& cells() const { return cells_; }
   // All from scratch.
-  FieldEngine Fresh() const;
+  FieldEngine Fresh(const FieldTolerance& tolerance = {}) const;
   // Worst difference of `field` from that; on the variance as share.
   FieldError ErrorOf(const FieldEngine& field) const;
 
  private:
+  struct Robot {
+    double x_cells = 0.0;
+    double y_cells = 0.0;
+    double heading_rad = 0.0;
+  };
+
+  Robot NewRobot();
+  bool IsFree(const Robot& at) const;
+  bool Advance(Robot& robot) const;
+  std::size_t CellOf(const Robot& robot) const;
+  std::vector<CellChange> ReadAt(std::size_t cell, double deviation_ppm);
   CellChange Flip(std::size_t cell);
 
   std::size_t width_;
   std::vector<CellInput> cells_;
   Rng rng_;
+  std::deque<Robot> robots_;         // the next to read first
   std::deque<std::size_t> flipped_;  // the oldest first
 };
 

@@ -2,13 +2,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/gas/field/boundary_memory.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+
+#include "core/gas/field/prefetch.h"
 
 namespace plumescout {
 namespace {
 
 // Readings before they are settled. More would save little, and cost memory on small boundaries.
 constexpr std::size_t kMostHeard = 8;
+
+// Largest difference of two elements, in several at once: a maximum is the same in any order.
+double LargestDifference(const double* a, const double* b, std::size_t size) {
+  constexpr std::size_t kLanes = 8;
+  double most[kLanes] = {};
+  std::size_t i = 0;
+  for (; i + kLanes <= size; i += kLanes) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const double difference = std::abs(a[i + lane] - b[i + lane]);
+      most[lane] = difference > most[lane] ? difference : most[lane];
+    }
+  }
+  for (; i < size; ++i) most[0] = std::max(most[0], std::abs(a[i] - b[i]));
+  return *std::max_element(most, most + kLanes);
+}
 
 }  // namespace
 
@@ -28,13 +47,13 @@ FieldShift BoundaryMemory::Moved(const BoundaryField& boundary) {
   Settle();
   const std::size_t size = boundary.mean_ppm.size();
   FieldShift moved;
+  moved.mean_ppm = LargestDifference(boundary.mean_ppm.data(), mean_ppm_.data(), size);
   const double* old = covariance_ppm2_.data();
   for (std::size_t j = 0; j < size; ++j) {
-    moved.mean_ppm = std::max(moved.mean_ppm, std::abs(boundary.mean_ppm[j] - mean_ppm_[j]));
     const double* const column = boundary.covariance_ppm2.data() + j * size;
-    double most = 0.0;
-    for (std::size_t i = j; i < size; ++i) most = std::max(most, std::abs(column[i] - *old++));
-    moved.covariance_ppm2 = std::max(moved.covariance_ppm2, most);
+    moved.covariance_ppm2 =
+        std::max(moved.covariance_ppm2, LargestDifference(column + j, old, size - j));
+    old += size - j;
   }
   return moved;
 }
@@ -44,6 +63,16 @@ void BoundaryMemory::Hear(const ReadingFactors& factors, std::span<const double>
   heard_.push_back(factors.variance_factor);
   heard_.insert(heard_.end(), x.begin(), x.end());
   if (heard_.size() >= kMostHeard * (x.size() + 1)) Settle();
+}
+
+void BoundaryMemory::PrefetchForMoved() const {
+  PrefetchBytes(mean_ppm_.data(), mean_ppm_.size() * sizeof(double));
+  PrefetchBytes(covariance_ppm2_.data(), covariance_ppm2_.size() * sizeof(double));
+}
+
+void BoundaryMemory::PrefetchForHear() const {
+  PrefetchBytes(mean_ppm_.data(), mean_ppm_.size() * sizeof(double));
+  PrefetchBytes(heard_.data() + heard_.size(), (mean_ppm_.size() + 1) * sizeof(double));
 }
 
 void BoundaryMemory::Settle() {

@@ -32,6 +32,9 @@ class BoundaryMemory {
   // The fields of the node have heard a reading, so that all is as if they had been computed from a
   // boundary that had heard it too. `x` is by boundary cell. Cost: O(x), the square of it at times.
   void Hear(const ReadingFactors& factors, std::span<const double> x);
+  // Ask memory for what the others will read.
+  void PrefetchForMoved() const;
+  void PrefetchForHear() const;
 
  private:
   void Settle();

@@ -11,6 +11,9 @@ namespace {
 
 // Share of the tolerance that a pass may use; readings until the next one may use the rest.
 constexpr double kPassShare = 0.5;
+// Each of those may use this share of what the earlier ones have left. Passes are frequent, so that
+// mostly the first few readings count; with a lower tolerance a later one only costs more.
+constexpr double kReadingShare = 0.25;
 
 std::shared_ptr<const SeparatorTree> MakeTree(std::size_t width, std::size_t height,
                                               std::span<const CellInput> cells) {
@@ -82,8 +85,8 @@ void FieldEngine::AddReading(const CellChange& change) {
   const bool is_new = reading.precision != 0.0 || reading.weighted_deviation != 0.0;
   if (!was.active || !is_new) return;
   ++pending_;
-  const double share = static_cast<double>(pending_) / static_cast<double>(options_.max_pending);
-  const FieldShift limit = ((1.0 - kPassShare) * share) * Tolerance();
+  reading_share_left_ *= 1.0 - kReadingShare;
+  const FieldShift limit = ((1.0 - kPassShare) * (1.0 - reading_share_left_)) * Tolerance();
   const std::vector<PathStep> steps = factor_.StepsFrom(reading.slot);
   healthy_ = marginals_.Hear(factor_, reading, steps, limit) && healthy_;
   factor_.AddReading(steps, reading.precision, reading.weighted_deviation);
@@ -120,6 +123,7 @@ void FieldEngine::Recompute() {
 
 void FieldEngine::Refresh() {
   pending_ = 0;
+  reading_share_left_ = 1.0;
   factor_.Eliminate(dirty_, cells_, builder_);
   const Marginals::Pass pass = marginals_.Descend(factor_, dirty_, kPassShare * Tolerance());
   shift_ = pass.error;

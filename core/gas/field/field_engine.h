@@ -86,7 +86,9 @@ class FieldEngine {
   double work() const { return factor_.work(); }
 
   // Cost: one pointer per node and one number per cell.
-  FieldSnapshot Snapshot() const { return {factor_, marginals_.variance_ppm2()}; }
+  FieldSnapshot Snapshot() const {
+    return {factor_, marginals_.variance_ppm2(), Tolerance().covariance_ppm2};
+  }
 
  private:
   friend struct FieldEnginePeer;  // of the tests
@@ -108,6 +110,7 @@ class FieldEngine {
   Marginals marginals_;
   std::vector<std::uint8_t> dirty_;  // by node
   std::size_t pending_ = 0;          // readings since the last pass
+  double reading_share_left_ = 1.0;  // of the tolerance for readings until the next one
   FieldShift shift_;                 // how far the fields were off after it, at most
   double largest_mean_ppm_ = 0.0;    // then
   bool healthy_ = true;

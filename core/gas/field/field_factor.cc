@@ -6,60 +6,6 @@
 #include <utility>
 
 namespace plumescout {
-namespace {
-
-// Scratch of the way down.
-struct Descent {
-  std::vector<double> boundary;  // x_R, cell by cell
-  std::vector<double> own;       // x_S, column by column
-  std::vector<double> weights;
-};
-
-// x_S += W x_R for one column.
-void DescendOne(const Front& front, double* x, Descent& scratch) {
-  scratch.boundary.clear();
-  for (const Slot slot : front.boundary_cells()) scratch.boundary.push_back(x[slot]);
-  scratch.own.assign(front.own, 0.0);
-  front.AddWeighted(scratch.boundary, scratch.weights, scratch.own.data());
-  for (std::size_t i = 0; i < front.own; ++i) x[front.cells[i]] += scratch.own[i];
-}
-
-// The same for several columns at once.
-void DescendMany(const Front& front, SlotColumns& x, Descent& scratch) {
-  const std::size_t columns = x.columns();
-  const std::size_t stride = TileRows(front.own);
-  const std::span<const Slot> boundary = front.boundary_cells();
-  scratch.boundary.resize(boundary.size() * columns);
-  for (std::size_t i = 0; i < boundary.size(); ++i) {
-    std::copy_n(x.row(boundary[i]), columns, scratch.boundary.data() + i * columns);
-  }
-  scratch.own.assign(stride * columns, 0.0);
-  Accumulate({.a = front.Weights(scratch.weights),
-              .a_stride = front.own,
-              .b = scratch.boundary.data(),
-              .b_row_stride = columns,
-              .b_column_stride = 1,
-              .c = scratch.own.data(),
-              .c_stride = stride,
-              .rows = front.own,
-              .columns = columns,
-              .depth = boundary.size()});
-  for (std::size_t i = 0; i < front.own; ++i) {
-    double* const row = x.row(front.cells[i]);
-    for (std::size_t j = 0; j < columns; ++j) row[j] += scratch.own[j * stride + i];
-  }
-}
-
-void DescendFront(const Front& front, SlotColumns& x, Descent& scratch) {
-  if (front.own == 0 || front.boundary() == 0) return;
-  if (x.columns() == 1) {
-    DescendOne(front, x.row(0), scratch);
-  } else {
-    DescendMany(front, x, scratch);
-  }
-}
-
-}  // namespace
 
 void FieldFactor::Eliminate(std::span<const std::uint8_t> dirty, const FieldCells& cells,
                             FrontBuilder& builder) {
@@ -110,40 +56,6 @@ void FieldFactor::AddReading(std::span<const PathStep> steps, double precision,
     std::shared_ptr<const Front>& front = fronts_[step.node];
     front = AfterReading(*front, step, precision, weighted_deviation);
   }
-}
-
-PathColumns FieldFactor::InverseOnPaths(std::span<const Slot> slots) const {
-  PathColumns columns{SlotColumns(tree_->cells(), slots.size()), {}};
-  std::vector<std::uint32_t>& nodes = columns.path_nodes;
-  for (std::size_t j = 0; j < slots.size(); ++j) {
-    for (const PathStep& step : StepsFrom(slots[j])) {
-      nodes.push_back(step.node);
-      const Front& front = *fronts_[step.node];
-      for (std::size_t i = 0; i < front.own; ++i) {
-        columns.values.row(front.cells[i])[j] = step.own[i];
-      }
-    }
-  }
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  Descent scratch;
-  for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
-    DescendFront(*fronts_[*node], columns.values, scratch);
-  }
-  return columns;
-}
-
-SlotColumns FieldFactor::Extend(PathColumns columns) const {
-  Descent scratch;
-  auto known = columns.path_nodes.rbegin();
-  for (std::size_t node = fronts_.size(); node-- > 0;) {
-    if (known != columns.path_nodes.rend() && *known == node) {
-      ++known;
-    } else {
-      DescendFront(*fronts_[node], columns.values, scratch);
-    }
-  }
-  return std::move(columns.values);
 }
 
 }  // namespace plumescout

@@ -15,19 +15,27 @@ namespace plumescout {
 // goes on without changing them. Immutable, so it may be read from any thread.
 class FieldSnapshot {
  public:
-  FieldSnapshot(FieldFactor factor, std::vector<double> variance_ppm2)
-      : factor_(std::move(factor)), variance_ppm2_(std::move(variance_ppm2)) {}
+  // `variance_ppm2` by slot. A fall of a variance inside a subtree may be left out if on the
+  // boundary of that none falls by more than `tolerance_ppm2`; 0: none is.
+  FieldSnapshot(FieldFactor factor, std::vector<double> variance_ppm2, double tolerance_ppm2)
+      : factor_(std::move(factor)),
+        variance_ppm2_(std::move(variance_ppm2)),
+        tolerance_ppm2_(tolerance_ppm2) {}
 
   // Marginal variance of every cell, by cell index, if readings of `precision` each were taken in
   // `cells`; NaN off the active cells. A reading in a cell that is not active changes nothing.
+  // Beside the error that variances have now, no variance is too great by more than the engine's
+  // tolerance on variances as share of itself, and none too small.
   // Errors: kInvalidArgument for a cell beyond the lattice, or a precision that is not positive or
-  // beyond kMaxCellPrecision. Cost: O(k) passes over the factor for k cells.
+  // beyond kMaxCellPrecision. Cost: O(k) passes over the factor for k cells, less
+  // what they hardly tell of.
   absl::StatusOr<std::vector<double>> VarianceIfRead(std::span<const std::size_t> cells,
                                                      double precision) const;
 
  private:
   FieldFactor factor_;
   std::vector<double> variance_ppm2_;  // by slot
+  double tolerance_ppm2_;
 };
 
 }  // namespace plumescout

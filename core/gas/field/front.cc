@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/gas/field/prefetch.h"
+
 namespace plumescout {
 namespace {
 
@@ -60,6 +62,13 @@ const double* Front::Weights(std::vector<double>& scratch) const {
     for (std::size_t i = coupling.own; i < own; ++i) column[i] += coupling_precision * *value++;
   }
   return scratch.data();
+}
+
+void Front::Prefetch() const {
+  PrefetchBytes(cells.data(), cells.size() * sizeof(Slot));
+  PrefetchBytes(covariance.data(), covariance.size() * sizeof(double));
+  PrefetchBytes(weights.data(), weights.size() * sizeof(double));
+  PrefetchBytes(couplings.data(), couplings.size() * sizeof(Coupling));
 }
 
 double Front::work() const {

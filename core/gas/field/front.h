@@ -61,6 +61,10 @@ struct Front {
   // W, |S| rows: a tile may read beyond its end. `scratch` may hold it, and must then live on.
   const double* Weights(std::vector<double>& scratch) const;
 
+  // Asks memory for what will be read of the front soon: its arrays lie apart, and to wait for each
+  // in turn costs more than to use them.
+  void Prefetch() const;
+
   // Multiply-adds of the elimination.
   double work() const;
 };

@@ -17,6 +17,11 @@ std::size_t MessageSize(std::size_t boundary) {
   return boundary * (boundary + 1) / 2 + boundary;  // column j: boundary - 1 - j + kExtraRows
 }
 
+// Room for at least `size` elements, of any value.
+void Reserve(std::vector<double>& values, std::size_t size) {
+  values.resize(std::max(values.size(), size));
+}
+
 }  // namespace
 
 std::shared_ptr<const Front> FrontBuilder::Build(const SeparatorTree::Node& node,
@@ -115,23 +120,20 @@ void FrontBuilder::AddMessage(const Front& child) {
 void FrontBuilder::Condition(Front& front) {
   const std::size_t own = front.own;
   const std::size_t stride = TileRows(own);
-  inverse_.resize(std::max(inverse_.size(), stride * own));
-  InvertLower(matrix_.data(), matrix_stride_, own, inverse_.data(), stride);
-  transposed_inverse_.assign(stride * own, 0.0);
-  for (std::size_t j = 0; j < own; ++j) {
-    for (std::size_t i = j; i < own; ++i) {
-      transposed_inverse_[i * stride + j] = inverse_[j * stride + i];
-    }
-  }
+  Reserve(transposed_inverse_, stride * own);
+  InvertLowerTransposed(matrix_.data(), matrix_stride_, own, transposed_inverse_.data(), stride);
   const Product from_x = {.a = transposed_inverse_.data(),
                           .a_stride = stride,
+                          .b_column_stride = 1,
                           .c_stride = stride,
                           .rows = own,
-                          .depth = own};
-  covariance_.assign(stride * own, 0.0);
+                          .depth = own,
+                          .a_is_upper = true,
+                          .overwrite = true};
+  Reserve(covariance_, stride * own);
   Product c = from_x;
-  c.b = inverse_.data();
-  c.b_column_stride = stride;
+  c.b = transposed_inverse_.data();
+  c.b_row_stride = stride;
   c.c = covariance_.data();
   c.columns = own;
   c.lower_only = true;
@@ -140,11 +142,10 @@ void FrontBuilder::Condition(Front& front) {
   // A leaf needs only the columns for ground and right-hand side.
   const std::size_t columns = front.couplings.empty() ? front.boundary() : 0;
   const std::size_t first = front.cells.size() - columns;
-  extended_weights_.assign(stride * (columns + kExtraRows), 0.0);
+  Reserve(extended_weights_, stride * (columns + kExtraRows));
   Product w = from_x;
   w.b = matrix_.data() + first;  // L_RS^T
   w.b_row_stride = matrix_stride_;
-  w.b_column_stride = 1;
   w.c = extended_weights_.data();
   w.columns = columns + kExtraRows;
   w.scale = -1.0;

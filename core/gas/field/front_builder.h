@@ -45,7 +45,6 @@ class FrontBuilder {
   std::vector<double> matrix_;        // the front, rows: S, R, ground, right-hand side
   std::size_t rows_ = 0;
   std::size_t matrix_stride_ = 0;
-  std::vector<double> inverse_;             // X
   std::vector<double> transposed_inverse_;  // X^T
   std::vector<double> covariance_;          // C
   std::vector<double> extended_weights_;    // W, and its columns for ground and right-hand side

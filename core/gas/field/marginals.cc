@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/gas/field/prefetch.h"
+
 namespace plumescout {
 namespace {
 
@@ -44,8 +46,26 @@ void Marginals::CollectDebts() {
   }
 }
 
+// While the node itself is worked on.
+void Marginals::PrefetchChildren(const SeparatorTree::Node& node,
+                                 void (BoundaryMemory::*prefetch)() const) const {
+  if (node.is_leaf()) return;
+  for (const std::uint32_t child : node.children) {
+    factor_->front(child).Prefetch();
+    (memories_[child].*prefetch)();
+    const SeparatorTree::Node& place = tree_->nodes()[child];
+    const std::size_t size = (place.end - place.first) * sizeof(double);
+    PrefetchBytes(mean_ppm_.data() + place.first, size);
+    PrefetchBytes(variance_ppm2_.data() + place.first, size);
+    for (const std::uint32_t next : place.children) {
+      if (next != SeparatorTree::kNone) PrefetchBytes(&factor_->front(next), sizeof(Front));
+    }
+  }
+}
+
 FieldShift Marginals::Visit(std::size_t node, std::size_t depth) {
   const SeparatorTree::Node& place = tree_->nodes()[node];
+  PrefetchChildren(place, &BoundaryMemory::PrefetchForMoved);
   const Front& front = factor_->front(node);
   boundary_mean_.clear();
   if (front.boundary() > 0) {
@@ -117,16 +137,18 @@ const double* Marginals::FormCross(const Front& front) {
   const std::size_t size = front.boundary();
   const std::size_t stride = TileRows(front.own);
   const double* const weights = front.Weights(scratch_);
-  cross_.assign(stride * size, 0.0);
+  cross_.resize(std::max(cross_.size(), stride * size));
   Accumulate({.a = weights,
               .a_stride = front.own,
               .b = boundary_.data(),
-              .b_column_stride = size,
+              .b_row_stride = size,
+              .b_column_stride = 1,
               .c = cross_.data(),
               .c_stride = stride,
               .rows = front.own,
               .columns = size,
-              .depth = size});
+              .depth = size,
+              .overwrite = true});
   return weights;
 }
 
@@ -189,6 +211,8 @@ bool Marginals::Hear(const FieldFactor& factor, const FieldReading& reading,
 }
 
 void Marginals::VisitForReading(std::size_t node, const FieldShift& owed_above) {
+  const SeparatorTree::Node& place = tree_->nodes()[node];
+  PrefetchChildren(place, &BoundaryMemory::PrefetchForHear);
   const Front& front = factor_->front(node);
   Debt& debt = debts_[node];
   const double largest = GatherColumn(front);
@@ -212,7 +236,6 @@ void Marginals::VisitForReading(std::size_t node, const FieldShift& owed_above) 
   }
   front.AddWeighted(x_, scratch_, own_.data());
   UpdateForReading(front);
-  const SeparatorTree::Node& place = tree_->nodes()[node];
   if (place.is_leaf()) return;
   debt.below = {};
   for (const std::uint32_t child : place.children) {

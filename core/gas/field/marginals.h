@@ -81,6 +81,8 @@ class Marginals {
   };
 
   void CollectDebts();
+  void PrefetchChildren(const SeparatorTree::Node& node,
+                        void (BoundaryMemory::*prefetch)() const) const;
   FieldShift Visit(std::size_t node, std::size_t depth);
   void GatherBoundary(const Front& front, const Front& parent, const Block& from);
   void UpdateMean(const Front& front);

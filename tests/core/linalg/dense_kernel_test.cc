@@ -91,22 +91,24 @@ TEST_P(AccumulateTest, GivesTheSameBytesWithAnyInstructionSet) {
   Rng rng(rows + depth);
   Padded a = RandomPadded(rows, depth, rng);
   Padded b = RandomPadded(depth, columns, rng);
-  Padded best = RandomPadded(rows, columns, rng);
-  Padded portable = best;
-  const auto product_into = [&](Padded& c) {
-    return Product{.a = a.data(),
-                   .a_stride = a.stride(),
-                   .b = b.data(),
-                   .b_column_stride = b.stride(),
-                   .c = c.data(),
-                   .c_stride = c.stride(),
-                   .rows = rows,
-                   .columns = columns,
-                   .depth = depth};
+  const Padded c = RandomPadded(rows, columns, rng);
+  const auto result_of = [&](AccumulateFunction accumulate) {
+    Padded result = c;
+    accumulate({.a = a.data(),
+                .a_stride = a.stride(),
+                .b = b.data(),
+                .b_column_stride = b.stride(),
+                .c = result.data(),
+                .c_stride = result.stride(),
+                .rows = rows,
+                .columns = columns,
+                .depth = depth});
+    return result;
   };
-  Accumulate(product_into(best));
-  AccumulatePortably(product_into(portable));
-  EXPECT_TRUE(best.view() == portable.view());
+  Padded best = result_of(Accumulate);
+  for (const AccumulateFunction variant : AccumulateVariants()) {
+    EXPECT_TRUE(result_of(variant).view() == best.view());
+  }
 }
 
 TEST_P(AccumulateTest, TakesATransposedFactor) {
@@ -130,10 +132,67 @@ TEST_P(AccumulateTest, TakesATransposedFactor) {
             1e-12 * static_cast<double>(rows * columns + 1));
 }
 
+TEST_P(AccumulateTest, OverwritesWithTheSameBytesAsItAddsToZero) {
+  const auto [rows, columns, depth] = GetParam();
+  if (depth == 0) return;  // not allowed
+  Rng rng(rows + 7 * columns);
+  Padded a = RandomPadded(rows, depth, rng);
+  Padded b = RandomPadded(columns, depth, rng);
+  Padded fresh(rows, columns);  // NaN so far
+  Padded sum(rows, columns);
+  sum.view().setZero();
+  const auto product_into = [&](Padded& c) {
+    return Product{.a = a.data(),
+                   .a_stride = a.stride(),
+                   .b = b.data(),
+                   .b_row_stride = b.stride(),
+                   .b_column_stride = 1,
+                   .c = c.data(),
+                   .c_stride = c.stride(),
+                   .rows = rows,
+                   .columns = columns,
+                   .depth = depth};
+  };
+  Product overwriting = product_into(fresh);
+  overwriting.overwrite = true;
+  Accumulate(overwriting);
+  Accumulate(product_into(sum));
+  EXPECT_TRUE(fresh.view() == sum.view());
+}
+
+TEST_P(AccumulateTest, PassesOverTheZerosOfAnUpperTriangle) {
+  const auto [rows, columns, depth] = GetParam();
+  Rng rng(rows + 13 * columns);
+  Padded a = RandomPadded(rows, depth, rng);
+  for (std::size_t k = 0; k < depth; ++k) {
+    for (std::size_t i = k + 1; i < rows; ++i) a.data()[k * a.stride() + i] = 0.0;
+  }
+  Padded b = RandomPadded(depth, columns, rng);
+  Padded all = RandomPadded(rows, columns, rng);
+  Padded some = all;
+  const auto product_into = [&](Padded& c) {
+    return Product{.a = a.data(),
+                   .a_stride = a.stride(),
+                   .b = b.data(),
+                   .b_column_stride = b.stride(),
+                   .c = c.data(),
+                   .c_stride = c.stride(),
+                   .rows = rows,
+                   .columns = columns,
+                   .depth = depth};
+  };
+  Product upper = product_into(some);
+  upper.a_is_upper = true;
+  Accumulate(upper);
+  Accumulate(product_into(all));
+  EXPECT_TRUE(some.view() == all.view());
+}
+
 INSTANTIATE_TEST_SUITE_P(Shapes, AccumulateTest,
                          ::testing::Values(Shape{1, 1, 1}, Shape{8, 4, 1}, Shape{7, 3, 5},
                                            Shape{9, 5, 40}, Shape{64, 17, 256}, Shape{30, 6, 257},
-                                           Shape{3, 2, 700}, Shape{5, 5, 0}, Shape{0, 3, 2}));
+                                           Shape{3, 2, 700}, Shape{5, 5, 0}, Shape{0, 3, 2},
+                                           Shape{290, 4, 280}));
 
 TEST(AccumulateLowerTest, EqualsTheFullProductBelowTheDiagonal) {
   constexpr std::size_t kRows = 29;
@@ -205,6 +264,23 @@ TEST(InvertLowerTest, TimesTheTriangleIsTheIdentity) {
   const Eigen::MatrixXd triangle = lower.view().triangularView<Eigen::Lower>();
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(kSize, kSize);
   EXPECT_LE((triangle * inverse.view() - identity).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(InvertLowerTransposedTest, TransposesTheInverse) {
+  for (const std::size_t size : {1, 3, 4, 8, 13, 37, 48}) {
+    Rng rng(size);
+    Padded lower = RandomFront(size, rng);
+    ASSERT_EQ(FactorizeFront(lower.data(), lower.stride(), size, size), size);
+    Padded inverse(size, size);
+    InvertLower(lower.data(), lower.stride(), size, inverse.data(), inverse.stride());
+    Padded transposed(size, size);
+    InvertLowerTransposed(lower.data(), lower.stride(), size, transposed.data(),
+                          transposed.stride());
+    const Eigen::MatrixXd difference = transposed.view() - inverse.view().transpose();
+    EXPECT_LE(difference.cwiseAbs().maxCoeff(), 1e-12) << size;
+    EXPECT_TRUE(Eigen::MatrixXd(transposed.view().triangularView<Eigen::StrictlyLower>()).isZero(0))
+        << size;
+  }
 }
 
 TEST(DotTest, SumsProductsOfAnyLength) {

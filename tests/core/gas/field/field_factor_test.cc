@@ -14,33 +14,6 @@ namespace {
 
 using ::plumescout::testing::FactorCase;
 
-TEST(FieldFactorTest, GivesColumnsOfTheDenseInverse) {
-  for (const std::size_t count : {1, 2, 9}) {
-    const FactorCase c(count);
-    const std::vector<Slot> slots = c.RandomActiveSlots(count);
-    const SlotColumns columns = c.factor.Extend(c.factor.InverseOnPaths(slots));
-    for (std::size_t j = 0; j < count; ++j) {
-      const Eigen::VectorXd truth = c.inverse.col(c.Variable(slots[j]));
-      for (Slot slot = 0; slot < c.tree->cells(); ++slot) {
-        const double expected = c.IsActive(slot) ? truth(c.Variable(slot)) : 0.0;
-        EXPECT_NEAR(columns.row(slot)[j], expected, 1e-10);
-      }
-    }
-  }
-}
-
-TEST(FieldFactorTest, GivesTheSameOnPathsBeforeExtending) {
-  const FactorCase c(1);
-  const std::vector<Slot> slots = c.RandomActiveSlots(3);
-  const PathColumns on_paths = c.factor.InverseOnPaths(slots);
-  for (std::size_t i = 0; i < slots.size(); ++i) {
-    for (std::size_t j = 0; j < slots.size(); ++j) {
-      const double truth = c.inverse(c.Variable(slots[i]), c.Variable(slots[j]));
-      EXPECT_NEAR(on_paths.values.row(slots[i])[j], truth, 1e-10);
-    }
-  }
-}
-
 TEST(FieldFactorTest, KnowsMeanAndVarianceOfACellAtTheEndOfItsSteps) {
   const FactorCase c(2);
   for (const Slot slot : c.RandomActiveSlots(20)) {
@@ -92,9 +65,9 @@ TEST(FieldFactorTest, LeavesACopyAsItWasWhenPathsAreEliminatedAgain) {
   FrontBuilder builder(*c.tree, testing::DefaultField().prior);
   c.factor.Eliminate(dirty, c.cells, builder);
   const double variance = c.inverse(c.Variable(slot), c.Variable(slot));
-  EXPECT_NEAR(*copy.InverseOnPaths({&slot, 1}).values.row(slot), variance, 1e-10);
-  EXPECT_NEAR(*c.factor.InverseOnPaths({&slot, 1}).values.row(slot),
-              variance / (1.0 + 100.0 * variance), 1e-10);
+  EXPECT_NEAR(copy.StepsFrom(slot).back().variance_ppm2, variance, 1e-10);
+  EXPECT_NEAR(c.factor.StepsFrom(slot).back().variance_ppm2, variance / (1.0 + 100.0 * variance),
+              1e-10);
 }
 
 TEST(FieldFactorTest, SharesTheNodesOffTheChangedPath) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -98,6 +99,27 @@ TEST(FieldSnapshotTest, DoesNotChangeWhenTheEngineGoesOn) {
   const auto variance = snapshot.VarianceIfRead(cells, kPrecision);
   ASSERT_TRUE(variance.ok());
   ExpectVariances(before, cells, *variance);
+}
+
+TEST(FieldSnapshotTest, LeavesOutNoMoreThanTheToleranceOfItsEngine) {
+  constexpr double kShare = 1e-2;
+  Rng rng(7);
+  const FieldCase c = RandomFieldCase(19, 23, 0.25, rng);
+  FieldOptions options = DefaultField();
+  options.tolerance.variance_share = kShare;
+  const std::vector<std::size_t> cells = RandomCells(c, 2, rng);
+  const auto exact = EngineOf(c).Snapshot().VarianceIfRead(cells, kPrecision);
+  const auto pruned = EngineOf(c, options).Snapshot().VarianceIfRead(cells, kPrecision);
+  ASSERT_TRUE(exact.ok() && pruned.ok());
+  double most = 0.0;
+  for (std::size_t i = 0; i < c.cells.size(); ++i) {
+    if (!c.cells[i].active) continue;
+    const double excess = (*pruned)[i] / (*exact)[i] - 1.0;
+    EXPECT_GE(excess, -kExact);
+    most = std::max(most, excess);
+  }
+  EXPECT_LE(most, kShare);
+  EXPECT_GT(most, kExact);  // something is left out
 }
 
 TEST(FieldSnapshotTest, OutlivesItsEngine) {
