@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <string>
+#include <utility>
 
 #include "lab/bench/grid_oracle.h"
 #include "tests/support/path_case.h"
@@ -17,7 +19,7 @@ namespace {
 using testing::PathCase;
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr int kManySamples = 600;
+constexpr int kManySamples = 400;
 
 class OmplSearch : public ::testing::TestWithParam<OmplKind> {
  protected:
@@ -46,7 +48,7 @@ std::pair<double, double> CostsOfBoth(const PathResult& a, const PathResult& b) 
 
 TEST_P(OmplSearch, FindsPathsFromTheStartToTheGoalCellsThatHitNothing) {
   int found = 0;
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const PathCase c(seed);
     const PathResult result = Search(c.Problem(seed));
     ASSERT_EQ(result.paths.size(), c.goals.size());
@@ -62,7 +64,7 @@ TEST_P(OmplSearch, FindsPathsFromTheStartToTheGoalCellsThatHitNothing) {
       EXPECT_EQ(path.source, PathSource::kTree);
     }
   }
-  EXPECT_GE(found, 29);  // of 32; narrow passages may stay shut to random trees
+  EXPECT_GE(found, 20);  // of 24; narrow passages may stay shut to random trees
 }
 
 TEST_P(OmplSearch, IsNowhereBelowTheBestGridPathByMoreThanTheGridMayLose) {
@@ -80,11 +82,11 @@ TEST_P(OmplSearch, IsNowhereBelowTheBestGridPathByMoreThanTheGridMayLose) {
 
 TEST_P(OmplSearch, RepeatsItselfByteForByteAfterOtherSearches) {
   for (const double alpha_per_m : {0.0, 2.0}) {
-    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
       const PathCase c(seed, {}, CostKind::kUcb, alpha_per_m);
-      const PathResult once = Search(c.Problem(seed), 250);
+      const PathResult once = Search(c.Problem(seed), 150);
       Search(c.Problem(seed + 100), 70);
-      const PathResult again = Search(c.Problem(seed), 250);
+      const PathResult again = Search(c.Problem(seed), 150);
       EXPECT_EQ(once.paths, again.paths) << "seed " << seed;
       EXPECT_EQ(once.effort, again.effort) << "seed " << seed;
       EXPECT_EQ(once.end, again.end);
@@ -241,9 +243,9 @@ class OmplSearchOfTheBest : public OmplSearch {};
 TEST_P(OmplSearchOfTheBest, IsCheaperWithMoreSamples) {
   double few_cost = 0.0;
   double many_cost = 0.0;
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const PathCase c(seed);
-    const auto [few, many] = CostsOfBoth(Search(c.Problem(), 200), Search(c.Problem(), 1000));
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const PathCase c(seed, {60, 50, 25, 2});
+    const auto [few, many] = CostsOfBoth(Search(c.Problem(), 150), Search(c.Problem(), 600));
     few_cost += few;
     many_cost += many;
   }
@@ -252,10 +254,10 @@ TEST_P(OmplSearchOfTheBest, IsCheaperWithMoreSamples) {
 }
 
 TEST_P(OmplSearchOfTheBest, ComesNearTheBestGridPath) {
-  const PathCase c(2, {40, 40, 10, 4});
+  const PathCase c(2, {30, 30, 6, 2});
   const Grid<double> best = lab::OracleCosts(c.cost, c.start_cell, 32);
-  const PathResult result = Search(c.Problem(), 2000);
-  ASSERT_EQ(Reached(result), 4);
+  const PathResult result = Search(c.Problem(), 1000);
+  ASSERT_EQ(Reached(result), 2);
   double cost = 0.0;
   double grid_cost = 0.0;
   for (std::size_t i = 0; i < c.goals.size(); ++i) {
