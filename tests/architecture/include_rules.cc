@@ -144,8 +144,9 @@ std::string WhyForbidden(const SourceFile& file, const std::string& include) {
   // Benches measure CHOLMOD as a rival of our own factorisation.
   const bool may_cholmod = IsBelow(file.path, "core/linalg") || IsBelow(file.path, "lab/bench");
   if (IsCholmod(include) && (!may_cholmod || file.is_header())) return "CHOLMOD has one user";
-  if (absl::StartsWith(include, "ompl/") && !IsBelow(file.path, "ompl_planners")) {
-    return "OMPL stays in ompl_planners";
+  const bool may_ompl = IsBelow(file.path, "ompl_planners") && !file.is_header();
+  if (absl::StartsWith(include, "ompl/") && !may_ompl) {
+    return "OMPL stays in the sources of ompl_planners";
   }
   const bool may_wire = IsBelow(file.path, "server") || IsBelow(file.path, "client") ||
                         IsBelow(file.path, "proto/convert") || IsBelow(file.path, "tests");

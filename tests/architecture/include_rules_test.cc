@@ -79,12 +79,20 @@ TEST(IncludeRules, PlatformHeadersOutOfPlaceAreFound) {
       {"core/gas/a.cc", "#include <cholmod.h>\n"},
       {"core/linalg/a.h", "#include <cholmod.h>\n"},
       {"core/plan/a.cc", "#include <ompl/base/Planner.h>\n"},
+      {"ompl_planners/a.h", "#include <ompl/base/Planner.h>\n"},
+      {"tests/ompl_planners/a_test.cc", "#include <ompl/base/Planner.h>\n"},
       {"proto/convert/a.cc", "#include <grpcpp/grpcpp.h>\n"},
       {"lab/sim/a.h", "#include <grpcpp/grpcpp.h>\n"},
   };
   for (const auto& file : cases) {
     EXPECT_THAT(CheckPlatformHeaders(Tree({file})), SizeIs(1)) << file.first << ": " << file.second;
   }
+}
+
+TEST(IncludeRules, OmplIsIncludedWhereItBelongs) {
+  EXPECT_THAT(
+      CheckPlatformHeaders(Tree({{"ompl_planners/a.cc", "#include <ompl/base/Planner.h>\n"}})),
+      IsEmpty());
 }
 
 TEST(IncludeRules, ASecondUserOfCholmodIsFound) {
