@@ -40,6 +40,8 @@ MissionPhase PhaseOf(GoalKind kind) {
       return MissionPhase::kGasProbing;
     case GoalKind::kOccupancyFrontier:
       return MissionPhase::kExploring;
+    case GoalKind::kHome:
+      return MissionPhase::kReturning;
     case GoalKind::kRandomFreeSpace:
       break;
   }

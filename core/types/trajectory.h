@@ -9,14 +9,17 @@
 namespace plumescout {
 
 struct Waypoint {
-  Pose2 pose;                   // heading along the segment that leaves it
+  Pose2 pose;                   // heading along the segment that leaves it, or with which it ends
   double arrival_time_s = 0.0;  // since departure
   double dwell_s = 0.0;         // standing time for stop-and-sample
+  double speed_mps = 0.0;       // in passing; 0 where it stands, or if speed jumps here
 
   friend bool operator==(const Waypoint&, const Waypoint&) = default;
 };
 
-// Timed polyline in frame map; the first waypoint is the start.
+// Timed polyline in frame map; the first waypoint is the start. Between two waypoints speed grows
+// or falls evenly from the one's to the other's; if both are 0, it is constant. Where two lie at
+// one place the robot turns on the spot, evenly, the shorter way round.
 struct Trajectory {
   std::vector<Waypoint> waypoints;
   double length_m = 0.0;
@@ -24,5 +27,9 @@ struct Trajectory {
 
   friend bool operator==(const Trajectory&, const Trajectory&) = default;
 };
+
+// Where the robot is `time_s` after departure. Clamped to the ends. REQUIRES: waypoints not empty.
+// Cost: O(waypoints).
+Pose2 PoseAt(const Trajectory& trajectory, double time_s);
 
 }  // namespace plumescout

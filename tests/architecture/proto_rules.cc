@@ -14,7 +14,7 @@ namespace {
 
 // Units, and words that say what is counted or compared.
 constexpr const char* kSuffixes[] = {
-    "_m",        "_rad",    "_s",          "_ns",      "_mps",      "_hz",
+    "_m",        "_rad",    "_s",          "_ns",      "_mps",      "_mps2",        "_hz",
     "_ppm",      "_ppm2",   "_per_m",      "_ratio",   "_per_ppm2", "_probability",
     "_log_odds", "_share",  "_percentile", "_factor",  "_count",    "_sequence",
     "_revision", "_column", "_row",        "_columns", "_rows",     "_index"};

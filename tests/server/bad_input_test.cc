@@ -52,6 +52,8 @@ std::set<std::string> FreeFields() {
       "CreateMissionRequest.options.planning.mixture_radius",
       "CreateMissionRequest.options.planning.grid_guard",
       "CreateMissionRequest.options.planning.fallback_to_unobserved",
+      "CreateMissionRequest.options.planning.return_home",
+      "NextBestTrajectoryRequest.go_home",
       "RegisterRobotRequest.take_over",
       "GetMapRequest.full_precision",
       "GetMapRequest.fresh_posterior",
@@ -62,6 +64,7 @@ std::set<std::string> FreeFields() {
       "CreateMissionRequest.options.gas",
       "CreateMissionRequest.options.frontier",
       "CreateMissionRequest.options.planning",
+      "CreateMissionRequest.options.home",
       // Unset: the robot's latest pose, the server's budget.
       "NextBestTrajectoryRequest.start",
       "NextBestTrajectoryRequest.planning_budget",
