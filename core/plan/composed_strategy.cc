@@ -77,8 +77,7 @@ absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
   if (plan.chosen >= 0) {
     const Candidate& chosen = plan.candidates[static_cast<std::size_t>(plan.chosen)];
     plan.phase = PhaseOf(chosen.goal.kind);
-    plan.trajectory =
-        TimeTrajectory(chosen.path, pose.yaw_rad, options_.speed_mps, options_.dwell_s);
+    plan.trajectory = TimeTrajectory(chosen.path, pose.yaw_rad, options_);
   }
   plan.explanation = Explain(plan, options_.selection);
   return plan;
