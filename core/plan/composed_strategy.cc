@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plan/composed_strategy.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -11,6 +13,7 @@
 #include "core/plan/edge_cost.h"
 #include "core/plan/explanation.h"
 #include "core/plan/goals/goal_set.h"
+#include "core/plan/goals/travel_budget.h"
 #include "core/plan/information_field.h"
 #include "core/plan/paths/grid_guard.h"
 #include "core/plan/plan_seed.h"
@@ -48,6 +51,12 @@ MissionPhase PhaseOf(GoalKind kind) {
   return MissionPhase::kFallback;
 }
 
+bool HasOverBudget(const Plan& plan) {
+  return std::any_of(plan.rejected.begin(), plan.rejected.end(), [](const RejectedGoal& goal) {
+    return goal.reason == RejectionReason::kOverBudget;
+  });
+}
+
 absl::Status Stopped() {
   return absl::DeadlineExceededError("planning was stopped before any path was found");
 }
@@ -61,7 +70,8 @@ absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
   if (robot == belief.robots.end()) {
     return absl::NotFoundError(absl::StrCat("robot \"", request.robot, "\" is not registered"));
   }
-  PLUMESCOUT_ASSIGN_OR_RETURN(const Pose2 pose, StartPose(belief, request, robot->second.state));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Pose2 pose,
+                              StartPose(belief, request, robot->second, options_));
   plumescout::Plan plan;
   plan.robot = request.robot;
   plan.strategy = options_.strategy;
@@ -69,10 +79,13 @@ absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
   plan.seed = request.seed != 0 ? request.seed
                                 : DerivedPlanSeed(belief.options->seed, request.robot,
                                                   robot->second.plans_issued);
-  plan.phase = MissionPhase::kFallback;
+  plan.phase = request.go_home ? MissionPhase::kReturning : MissionPhase::kFallback;
   if (const std::optional<Departure> departure = Depart(belief, pose.position())) {
     plan.start_escaped = !departure->way_out.empty();
     PLUMESCOUT_RETURN_IF_ERROR(PlanFrom(*departure, belief, request, stop, plan));
+    if (plan.candidates.empty() && HasOverBudget(plan)) {
+      PLUMESCOUT_RETURN_IF_ERROR(PlanLastWayHome(*departure, belief, request, stop, plan));
+    }
   }
   if (plan.chosen >= 0) {
     const Candidate& chosen = plan.candidates[static_cast<std::size_t>(plan.chosen)];
@@ -81,6 +94,19 @@ absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
   }
   plan.explanation = Explain(plan, options_.selection);
   return plan;
+}
+
+absl::Status ComposedStrategy::PlanLastWayHome(const Departure& departure, const Belief& belief,
+                                               PlanRequest request, const StopFn& stop,
+                                               plumescout::Plan& plan) const {
+  request.go_home = true;
+  plan.phase = MissionPhase::kReturning;
+  PLUMESCOUT_RETURN_IF_ERROR(PlanFrom(departure, belief, request, stop, plan));
+  if (plan.end == PlanEnd::kNoGoals) {
+    plan.end = PlanEnd::kMissionComplete;
+    plan.phase = MissionPhase::kComplete;
+  }
+  return absl::OkStatus();
 }
 
 absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Belief& belief,
@@ -97,12 +123,13 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Belief
   if (stop()) return Stopped();
 
   Rng rng(plan.seed ^ kGoalStream);
-  GoalSet goals =
-      FindGoals({belief, belief.robots.at(request.robot), start_cell, reachable, options_}, rng);
-  plan.rejected = std::move(goals.rejected);
+  const GoalQuery query = {
+      belief, belief.robots.at(request.robot), start_cell, reachable, options_, request.go_home};
+  GoalSet goals = FindGoals(query, rng);
+  std::move(goals.rejected.begin(), goals.rejected.end(), std::back_inserter(plan.rejected));
   if (goals.goals.empty()) {
     plan.end = goals.complete ? PlanEnd::kMissionComplete : PlanEnd::kNoGoals;
-    plan.phase = goals.complete ? MissionPhase::kComplete : MissionPhase::kFallback;
+    plan.phase = goals.complete ? MissionPhase::kComplete : plan.phase;
     return absl::OkStatus();
   }
   if (stop()) return Stopped();
@@ -114,9 +141,11 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Belief
   TakeResults(goals.goals, result,
               {selection_cost, *belief.gas_mean_ppm, mission.gas.background_mean_ppm}, plan);
   for (Candidate& candidate : plan.candidates) PutBefore(departure.way_out, candidate);
+  const bool stopped_empty = plan.end == PlanEnd::kStopped && plan.candidates.empty();
+  RejectOverBudget(query, plan);
+  plan.chosen = SelectCandidate(plan.candidates, options_.selection);
   const bool budget_spent = request.max_edge_evaluations > 0 &&
                             plan.effort.edges_evaluated >= request.max_edge_evaluations;
-  const bool stopped_empty = plan.end == PlanEnd::kStopped && plan.candidates.empty();
   return stopped_empty && !budget_spent ? Stopped() : absl::OkStatus();
 }
 
@@ -141,7 +170,6 @@ void ComposedStrategy::TakeResults(const std::vector<Goal>& goals, const PathRes
       plan.rejected.push_back({goals[i], RejectionReason::kUnreachable, "the search ran out"});
     }
   }
-  plan.chosen = SelectCandidate(plan.candidates, options_.selection);
 }
 
 }  // namespace plumescout

@@ -31,6 +31,11 @@ class ComposedStrategy : public Strategy {
   absl::Status PlanFrom(const Departure& departure, const Belief& belief,
                         const PlanRequest& request, const StopFn& stop,
                         plumescout::Plan& plan) const;
+  // The same home, for the travel budget is spent. The plan keeps its rejected goals; it is
+  // complete if the robot is home, or there is no way.
+  absl::Status PlanLastWayHome(const Departure& departure, const Belief& belief,
+                               PlanRequest request, const StopFn& stop,
+                               plumescout::Plan& plan) const;
   PathResult FindPaths(const PathProblem& problem) const;
   // Turns what the search found for `goals` into candidates and rejections.
   void TakeResults(const std::vector<Goal>& goals, const PathResult& result,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plan/explanation.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "absl/strings/str_cat.h"
@@ -30,12 +31,26 @@ std::string Merit(const Candidate& candidate, SelectionRule rule) {
              : absl::StrFormat("greatest mean information, %.2f", candidate.mean_ucb);
 }
 
+bool Rejects(const Plan& plan, RejectionReason reason) {
+  return std::any_of(plan.rejected.begin(), plan.rejected.end(),
+                     [reason](const RejectedGoal& goal) { return goal.reason == reason; });
+}
+
+bool IsWithoutWayHome(const Plan& plan) {
+  return std::any_of(plan.rejected.begin(), plan.rejected.end(), [](const RejectedGoal& rejected) {
+    return rejected.goal.kind == GoalKind::kHome;
+  });
+}
+
 std::string Choice(const Plan& plan, SelectionRule rule) {
   const Candidate& chosen = plan.candidates[static_cast<std::size_t>(plan.chosen)];
   std::string text =
       absl::StrFormat("Drive %.1f m to %s at (%.1f, %.1f): %s, of %d candidates", chosen.length_m,
                       Destination(chosen.goal), chosen.goal.position.x_m, chosen.goal.position.y_m,
                       Merit(chosen, rule), plan.candidates.size());
+  if (Rejects(plan, RejectionReason::kOverBudget) && chosen.goal.kind == GoalKind::kHome) {
+    absl::StrAppend(&text, "; every other goal is beyond the travel budget");
+  }
   if (plan.start_escaped) absl::StrAppend(&text, "; first out of the margin around obstacles");
   if (plan.field_flat) absl::StrAppend(&text, "; the information field is flat");
   if (plan.end == PlanEnd::kStopped) absl::StrAppend(&text, "; the search was stopped early");
@@ -46,6 +61,13 @@ std::string Choice(const Plan& plan, SelectionRule rule) {
 
 std::string Explain(const Plan& plan, SelectionRule rule) {
   if (plan.chosen >= 0) return Choice(plan, rule);
+  if (Rejects(plan, RejectionReason::kOverBudget)) {
+    return absl::StrCat("Stay: what is left of the travel budget is not enough for any goal, and ",
+                        IsWithoutWayHome(plan) ? "there is no way home." : "the robot is home.");
+  }
+  if (plan.phase == MissionPhase::kReturning && plan.end == PlanEnd::kNoGoals) {
+    return IsWithoutWayHome(plan) ? "Stay: there is no way home." : "Stay: the robot is home.";
+  }
   switch (plan.end) {
     case PlanEnd::kMissionComplete:
       return "Stay: no frontier is left and random visits reveal nothing new; the mission is "

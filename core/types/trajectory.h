@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/types/pose2.h"
@@ -31,5 +32,15 @@ struct Trajectory {
 // Where the robot is `time_s` after departure. Clamped to the ends. REQUIRES: waypoints not empty.
 // Cost: O(waypoints).
 Pose2 PoseAt(const Trajectory& trajectory, double time_s);
+
+// When the robot is nearest to a place, and how near.
+struct NearestTime {
+  double time_s = 0.0;
+  double distance_m = 0.0;
+};
+
+// The earliest of them; none if the trajectory is empty. While it stands there: when it leaves.
+// Cost: O(waypoints).
+std::optional<NearestTime> FindNearest(const Trajectory& trajectory, Point2 place);
 
 }  // namespace plumescout

@@ -344,5 +344,110 @@ TEST(Strategy, OnAnEmptyMapRefusesTheStart) {
   EXPECT_EQ(TryPlan(belief, For("r")).status().code(), absl::StatusCode::kInvalidArgument);
 }
 
+// As in kRoom the west is 0.3 m away and the east 1.1 m.
+Belief FromTheEast() {
+  Belief belief = SmallBelief(kRoom);
+  belief.robots["r"].first_place = belief.geometry().Center({13, 5});
+  return belief;
+}
+
+TEST(Strategy, DrivesHomeOnRequest) {
+  PlanRequest request = For("r");
+  request.go_home = true;
+  const absl::StatusOr<Plan> plan = TryPlan(FromTheEast(), request);
+  ASSERT_TRUE(plan.ok()) << plan.status();
+  EXPECT_EQ(plan->phase, MissionPhase::kReturning);
+  ASSERT_THAT(plan->candidates, SizeIs(1));
+  EXPECT_EQ(Chosen(*plan).goal.kind, GoalKind::kHome);
+  EXPECT_EQ(Chosen(*plan).goal.cell, (Cell{13, 5}));
+  EXPECT_THAT(plan->explanation, HasSubstr("to home"));
+}
+
+TEST(Strategy, StaysIfItIsHomeOrHasNoWay) {
+  Belief belief = SmallBelief(kRoom);
+  PlanRequest request = For("r");
+  request.go_home = true;
+  absl::StatusOr<Plan> plan = TryPlan(belief, request);
+  ASSERT_TRUE(plan.ok());
+  EXPECT_EQ(plan->phase, MissionPhase::kReturning);
+  EXPECT_EQ(plan->end, PlanEnd::kNoGoals);
+  EXPECT_THAT(plan->explanation, HasSubstr("the robot is home"));
+  belief.robots["r"].first_place = Point2{-9.0, 0.0};
+  plan = TryPlan(belief, request);
+  ASSERT_TRUE(plan.ok());
+  EXPECT_EQ(plan->chosen, -1);
+  EXPECT_THAT(plan->rejected, SizeIs(1));
+  EXPECT_THAT(plan->explanation, HasSubstr("no way home"));
+}
+
+TEST(Strategy, ReturnsBeforeItIsComplete) {
+  testing::GoalCase c(kClosed);
+  c.AddGas(kClosed, 0.0F);
+  c.belief.robots["r"].fruitless_fallbacks = 2;
+  c.belief.robots["r"].first_place = c.belief.geometry().Center({6, 2});
+  PlanningOptions options;
+  options.return_home = true;
+  absl::StatusOr<Plan> plan = TryPlan(c.belief, For("r"), options);
+  ASSERT_TRUE(plan.ok());
+  EXPECT_EQ(plan->phase, MissionPhase::kReturning);
+  EXPECT_EQ(Chosen(*plan).goal.kind, GoalKind::kHome);
+  const Point2 home = Chosen(*plan).goal.position;
+  c.belief.robots["r"].state.pose = {home.x_m, home.y_m, 0.0};
+  plan = TryPlan(c.belief, For("r"), options);
+  ASSERT_TRUE(plan.ok());
+  EXPECT_EQ(plan->phase, MissionPhase::kComplete);
+}
+
+TEST(Strategy, TakesOnlyGoalsWithinTheTravelBudget) {
+  Belief belief = FromTheEast();
+  PlanningOptions options;
+  options.travel_budget_m = 1.4;  // enough for the east only, which is next to home
+  absl::StatusOr<Plan> plan = TryPlan(belief, For("r"), options);
+  ASSERT_TRUE(plan.ok());
+  EXPECT_EQ(plan->phase, MissionPhase::kExploring);
+  EXPECT_EQ(Chosen(*plan).goal.cell.x, 14);
+  ASSERT_THAT(plan->rejected, SizeIs(1));
+  EXPECT_EQ(plan->rejected[0].reason, RejectionReason::kOverBudget);
+  EXPECT_THAT(plan->rejected[0].detail, HasSubstr("of 1.4 m"));
+}
+
+TEST(Strategy, DrivesHomeOnceEveryGoalIsOverBudgetAndIsThenComplete) {
+  Belief belief = FromTheEast();
+  belief.robots["r"].travelled_m = 100.0;
+  PlanningOptions options;
+  options.travel_budget_m = 101.0;
+  absl::StatusOr<Plan> plan = TryPlan(belief, For("r"), options);
+  ASSERT_TRUE(plan.ok());
+  EXPECT_EQ(plan->phase, MissionPhase::kReturning);
+  EXPECT_EQ(Chosen(*plan).goal.kind, GoalKind::kHome);
+  EXPECT_THAT(plan->rejected, SizeIs(2));
+  EXPECT_THAT(plan->explanation, HasSubstr("beyond the travel budget"));
+  EXPECT_EQ(*plan, *TryPlan(belief, For("r"), options));
+
+  const Point2 home = Chosen(*plan).goal.position;
+  belief.robots["r"].state.pose = {home.x_m, home.y_m, 0.0};
+  belief.robots["r"].travelled_m = 101.0;
+  plan = TryPlan(belief, For("r"), options);
+  ASSERT_TRUE(plan.ok());
+  EXPECT_EQ(plan->phase, MissionPhase::kComplete);
+  EXPECT_EQ(plan->end, PlanEnd::kMissionComplete);
+  EXPECT_EQ(plan->chosen, -1);
+  EXPECT_THAT(plan->explanation, HasSubstr("travel budget"));
+}
+
+TEST(Strategy, StartsWhereTheLivePlanWillHaveTheRobot) {
+  Belief belief = SmallBelief(kRoom);
+  const Pose2 pose = belief.robots["r"].state.pose;
+  Trajectory live;  // to the west at 0.1 m/s
+  live.waypoints = {{{pose.x_m, pose.y_m, M_PI}, 0.0, 0.0},
+                    {{pose.x_m - 0.2, pose.y_m, M_PI}, 2.0, 0.0}};
+  belief.robots["r"].live_trajectory = std::make_shared<const Trajectory>(live);
+  PlanningOptions options;
+  options.planning_latency_s = 1.0;
+  const absl::StatusOr<Plan> plan = TryPlan(belief, For("r"), options);
+  ASSERT_TRUE(plan.ok());
+  EXPECT_NEAR(Chosen(*plan).path.front().x_m, pose.x_m - 0.1, kRounding);
+}
+
 }  // namespace
 }  // namespace plumescout

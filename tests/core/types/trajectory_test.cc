@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "core/types/rng.h"
+
 namespace plumescout {
 namespace {
 
@@ -66,6 +68,42 @@ TEST(PoseAt, TurnsOnTheSpotTheShorterWayRound) {
   EXPECT_NEAR(PoseAt(trajectory, 2.0).yaw_rad, M_PI, kRounding);
   EXPECT_NEAR(PoseAt(trajectory, 2.5).yaw_rad, -3.0 - (M_PI - 3.0) / 2.0, kRounding);
 }
+
+// A leg at constant speed, a dwell, and an accelerated leg with a turn on the spot between.
+Trajectory AllKinds() {
+  Trajectory trajectory;
+  trajectory.waypoints = {{{0, 0, 0}, 0.0, 0.0},           {{2, 0, 0}, 2.0, 1.0},
+                          {{2, 0, M_PI_2}, 4.0, 0.0},      {{2, 1, M_PI_2}, 6.0, 0.0, 1.0},
+                          {{2, 2, M_PI_2}, 7.0, 0.0, 1.0}, {{2, 3, M_PI_2}, 9.0, 0.0, 0.0}};
+  return trajectory;
+}
+
+TEST(FindNearest, FindsTheTimeAtWhichPoseAtIsThere) {
+  const Trajectory trajectory = AllKinds();
+  for (const double time_s : {0.5, 1.75, 4.5, 5.0, 6.25, 7.0, 7.5, 8.9, 9.0}) {
+    const auto nearest = FindNearest(trajectory, PoseAt(trajectory, time_s).position());
+    ASSERT_TRUE(nearest.has_value());
+    EXPECT_NEAR(nearest->time_s, time_s, 1e-9);
+    EXPECT_NEAR(nearest->distance_m, 0.0, 1e-9);
+  }
+}
+
+TEST(FindNearest, IsNeverFartherThanAnyInstant) {
+  const Trajectory trajectory = AllKinds();
+  Rng rng(6);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Point2 place = {rng.Uniform(-1, 4), rng.Uniform(-1, 4)};
+    const NearestTime nearest = *FindNearest(trajectory, place);
+    EXPECT_NEAR(Distance_m(PoseAt(trajectory, nearest.time_s).position(), place),
+                nearest.distance_m, 1e-9);
+    for (double time_s = 0.0; time_s <= 9.0; time_s += 0.05) {
+      EXPECT_LE(nearest.distance_m,
+                Distance_m(PoseAt(trajectory, time_s).position(), place) + 1e-9);
+    }
+  }
+}
+
+TEST(FindNearest, OfNothingIsNone) { EXPECT_FALSE(FindNearest({}, {0, 0}).has_value()); }
 
 }  // namespace
 }  // namespace plumescout
