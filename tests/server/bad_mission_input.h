@@ -56,7 +56,12 @@ inline BadInputs BadPlaces() {
   }();
   rows.ValuesBlaming("options.keep_out[0].vertices", "options.keep_out",
                      {"{}", "{vertices {} vertices {}}", many.c_str()});
-  rows.ValuesBlaming("options.keep_out[0].vertices", "options.keep_out.vertices", {"{x_m: 1}"});
+  rows.Row({"options.keep_out.vertices", "one",
+            [](Message& message) {
+              SetField(message, "options.keep_out", "{}");
+              SetField(message, "options.keep_out.vertices", "{x_m: 1}");
+            },
+            absl::StatusCode::kInvalidArgument, "options.keep_out[0].vertices"});
   return rows;
 }
 
