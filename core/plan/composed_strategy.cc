@@ -51,6 +51,11 @@ MissionPhase PhaseOf(GoalKind kind) {
   return MissionPhase::kFallback;
 }
 
+PlanEffort Sum(const PlanEffort& a, const PlanEffort& b) {
+  return {a.samples + b.samples, a.vertices + b.vertices, a.edges_evaluated + b.edges_evaluated,
+          a.goals_by_guard + b.goals_by_guard};
+}
+
 bool HasOverBudget(const Plan& plan) {
   return std::any_of(plan.rejected.begin(), plan.rejected.end(), [](const RejectedGoal& goal) {
     return goal.reason == RejectionReason::kOverBudget;
@@ -101,7 +106,9 @@ absl::Status ComposedStrategy::PlanLastWayHome(const Departure& departure, const
                                                plumescout::Plan& plan) const {
   request.go_home = true;
   plan.phase = MissionPhase::kReturning;
+  const PlanEffort before = std::exchange(plan.effort, {});
   PLUMESCOUT_RETURN_IF_ERROR(PlanFrom(departure, belief, request, stop, plan));
+  plan.effort = Sum(before, plan.effort);
   if (plan.end == PlanEnd::kNoGoals) {
     plan.end = PlanEnd::kMissionComplete;
     plan.phase = MissionPhase::kComplete;

@@ -61,7 +61,7 @@ std::string Choice(const Plan& plan, SelectionRule rule) {
 
 std::string Explain(const Plan& plan, SelectionRule rule) {
   if (plan.chosen >= 0) return Choice(plan, rule);
-  if (Rejects(plan, RejectionReason::kOverBudget)) {
+  if (plan.end == PlanEnd::kMissionComplete && Rejects(plan, RejectionReason::kOverBudget)) {
     return absl::StrCat("Stay: what is left of the travel budget is not enough for any goal, and ",
                         IsWithoutWayHome(plan) ? "there is no way home." : "the robot is home.");
   }

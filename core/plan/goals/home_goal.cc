@@ -11,6 +11,8 @@ namespace {
 
 // Nearer than this a robot is at home: more than followers miss a goal by.
 constexpr double kAtHome_m = 0.3;
+// Home may lie this much deeper than the inflation radius in cells where no robot can stand.
+constexpr double kInFrontOfHome_m = 1.0;
 
 Point2 HomeOf(const GoalQuery& query) {
   if (query.belief.options->home) return *query.belief.options->home;
@@ -26,7 +28,8 @@ HomeGoal FindHome(const GoalQuery& query) {
   home.goal = {GoalKind::kHome, geometry.CellAt(place), place, place, 0};
   const std::vector<Cell> way =
       EscapePath(*query.belief.occupancy, query.reachable, home.goal.cell);
-  if (way.empty()) return home;
+  const double reach_m = query.belief.options->occupancy.inflation_radius_m + kInFrontOfHome_m;
+  if (way.empty() || Distance_m(geometry.Center(way.back()), place) > reach_m) return home;
   home.reachable = true;
   home.goal.cell = way.back();
   home.goal.position = geometry.Center(way.back());

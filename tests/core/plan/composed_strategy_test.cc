@@ -11,62 +11,30 @@
 
 #include "lab/bench/random_world.h"
 #include "tests/support/goal_case.h"
+#include "tests/support/strategy_case.h"
 
 namespace plumescout {
 namespace {
 
 using testing::BeliefFromArt;
+using testing::Chosen;
+using testing::For;
 using ::testing::Ge;
 using testing::GridArt;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using testing::kRoom;
 using ::testing::Not;
 using ::testing::SizeIs;
+using testing::SmallBelief;
+using testing::TryPlan;
 
 constexpr double kRounding = 1e-9;
 
-// A room that is open in the east and, through a door, in the west. 'i': too near a wall.
-const GridArt kRoom = {"################",  //
-                       "?iiiiiiiiiiiiii#",  //
-                       "?.....iiii.....?",  //
-                       "?.....i##i.....?",  //
-                       "?...S.i##i.....?",  //
-                       "?.....iiii.....?",  //
-                       "?..............?",  //
-                       "?iiiiiiiiiiiiii#",  //
-                       "################"};
 const GridArt kClosed = {"########",  //
                          "#gggggg#",  //
                          "#gSgggg#",  //
                          "########"};
-
-PlanRequest For(const RobotId& robot, std::uint64_t seed = 0) {
-  PlanRequest request;
-  request.robot = robot;
-  request.seed = seed;
-  return request;
-}
-
-absl::StatusOr<Plan> TryPlan(const Belief& belief, const PlanRequest& request,
-                             const PlanningOptions& options = {},
-                             const StopFn& stop = NeverStop()) {
-  const auto strategy = MakeStrategy(options);
-  if (!strategy.ok()) return strategy.status();
-  return (*strategy)->Plan(belief, request, stop);
-}
-
-// The frontiers of drawn maps are small.
-Belief SmallBelief(const GridArt& art) {
-  Belief belief = BeliefFromArt(art);
-  MissionOptions mission;
-  mission.frontier.min_occupancy_cells = 3;
-  belief.options = std::make_shared<const MissionOptions>(mission);
-  return belief;
-}
-
-const Candidate& Chosen(const Plan& plan) {
-  return plan.candidates.at(static_cast<std::size_t>(plan.chosen));
-}
 
 Grid<float> Penalty(const Belief& belief) {
   Grid<float> penalty(belief.geometry(), std::numeric_limits<float>::infinity());
@@ -342,111 +310,6 @@ TEST(Strategy, OnAnEmptyMapRefusesTheStart) {
   Belief belief = BeliefFromArt({});
   belief.robots["r"].state.has_pose = true;
   EXPECT_EQ(TryPlan(belief, For("r")).status().code(), absl::StatusCode::kInvalidArgument);
-}
-
-// As in kRoom the west is 0.3 m away and the east 1.1 m.
-Belief FromTheEast() {
-  Belief belief = SmallBelief(kRoom);
-  belief.robots["r"].first_place = belief.geometry().Center({13, 5});
-  return belief;
-}
-
-TEST(Strategy, DrivesHomeOnRequest) {
-  PlanRequest request = For("r");
-  request.go_home = true;
-  const absl::StatusOr<Plan> plan = TryPlan(FromTheEast(), request);
-  ASSERT_TRUE(plan.ok()) << plan.status();
-  EXPECT_EQ(plan->phase, MissionPhase::kReturning);
-  ASSERT_THAT(plan->candidates, SizeIs(1));
-  EXPECT_EQ(Chosen(*plan).goal.kind, GoalKind::kHome);
-  EXPECT_EQ(Chosen(*plan).goal.cell, (Cell{13, 5}));
-  EXPECT_THAT(plan->explanation, HasSubstr("to home"));
-}
-
-TEST(Strategy, StaysIfItIsHomeOrHasNoWay) {
-  Belief belief = SmallBelief(kRoom);
-  PlanRequest request = For("r");
-  request.go_home = true;
-  absl::StatusOr<Plan> plan = TryPlan(belief, request);
-  ASSERT_TRUE(plan.ok());
-  EXPECT_EQ(plan->phase, MissionPhase::kReturning);
-  EXPECT_EQ(plan->end, PlanEnd::kNoGoals);
-  EXPECT_THAT(plan->explanation, HasSubstr("the robot is home"));
-  belief.robots["r"].first_place = Point2{-9.0, 0.0};
-  plan = TryPlan(belief, request);
-  ASSERT_TRUE(plan.ok());
-  EXPECT_EQ(plan->chosen, -1);
-  EXPECT_THAT(plan->rejected, SizeIs(1));
-  EXPECT_THAT(plan->explanation, HasSubstr("no way home"));
-}
-
-TEST(Strategy, ReturnsBeforeItIsComplete) {
-  testing::GoalCase c(kClosed);
-  c.AddGas(kClosed, 0.0F);
-  c.belief.robots["r"].fruitless_fallbacks = 2;
-  c.belief.robots["r"].first_place = c.belief.geometry().Center({6, 2});
-  PlanningOptions options;
-  options.return_home = true;
-  absl::StatusOr<Plan> plan = TryPlan(c.belief, For("r"), options);
-  ASSERT_TRUE(plan.ok());
-  EXPECT_EQ(plan->phase, MissionPhase::kReturning);
-  EXPECT_EQ(Chosen(*plan).goal.kind, GoalKind::kHome);
-  const Point2 home = Chosen(*plan).goal.position;
-  c.belief.robots["r"].state.pose = {home.x_m, home.y_m, 0.0};
-  plan = TryPlan(c.belief, For("r"), options);
-  ASSERT_TRUE(plan.ok());
-  EXPECT_EQ(plan->phase, MissionPhase::kComplete);
-}
-
-TEST(Strategy, TakesOnlyGoalsWithinTheTravelBudget) {
-  Belief belief = FromTheEast();
-  PlanningOptions options;
-  options.travel_budget_m = 1.4;  // enough for the east only, which is next to home
-  absl::StatusOr<Plan> plan = TryPlan(belief, For("r"), options);
-  ASSERT_TRUE(plan.ok());
-  EXPECT_EQ(plan->phase, MissionPhase::kExploring);
-  EXPECT_EQ(Chosen(*plan).goal.cell.x, 14);
-  ASSERT_THAT(plan->rejected, SizeIs(1));
-  EXPECT_EQ(plan->rejected[0].reason, RejectionReason::kOverBudget);
-  EXPECT_THAT(plan->rejected[0].detail, HasSubstr("of 1.4 m"));
-}
-
-TEST(Strategy, DrivesHomeOnceEveryGoalIsOverBudgetAndIsThenComplete) {
-  Belief belief = FromTheEast();
-  belief.robots["r"].travelled_m = 100.0;
-  PlanningOptions options;
-  options.travel_budget_m = 101.0;
-  absl::StatusOr<Plan> plan = TryPlan(belief, For("r"), options);
-  ASSERT_TRUE(plan.ok());
-  EXPECT_EQ(plan->phase, MissionPhase::kReturning);
-  EXPECT_EQ(Chosen(*plan).goal.kind, GoalKind::kHome);
-  EXPECT_THAT(plan->rejected, SizeIs(2));
-  EXPECT_THAT(plan->explanation, HasSubstr("beyond the travel budget"));
-  EXPECT_EQ(*plan, *TryPlan(belief, For("r"), options));
-
-  const Point2 home = Chosen(*plan).goal.position;
-  belief.robots["r"].state.pose = {home.x_m, home.y_m, 0.0};
-  belief.robots["r"].travelled_m = 101.0;
-  plan = TryPlan(belief, For("r"), options);
-  ASSERT_TRUE(plan.ok());
-  EXPECT_EQ(plan->phase, MissionPhase::kComplete);
-  EXPECT_EQ(plan->end, PlanEnd::kMissionComplete);
-  EXPECT_EQ(plan->chosen, -1);
-  EXPECT_THAT(plan->explanation, HasSubstr("travel budget"));
-}
-
-TEST(Strategy, StartsWhereTheLivePlanWillHaveTheRobot) {
-  Belief belief = SmallBelief(kRoom);
-  const Pose2 pose = belief.robots["r"].state.pose;
-  Trajectory live;  // to the west at 0.1 m/s
-  live.waypoints = {{{pose.x_m, pose.y_m, M_PI}, 0.0, 0.0},
-                    {{pose.x_m - 0.2, pose.y_m, M_PI}, 2.0, 0.0}};
-  belief.robots["r"].live_trajectory = std::make_shared<const Trajectory>(live);
-  PlanningOptions options;
-  options.planning_latency_s = 1.0;
-  const absl::StatusOr<Plan> plan = TryPlan(belief, For("r"), options);
-  ASSERT_TRUE(plan.ok());
-  EXPECT_NEAR(Chosen(*plan).path.front().x_m, pose.x_m - 0.1, kRounding);
 }
 
 }  // namespace

@@ -55,6 +55,20 @@ TEST(FindHome, InTheInflatedZoneIsInFrontOfIt) {
   EXPECT_EQ(home.goal.centroid, CentreOf(c, {1, 1}));
 }
 
+TEST(FindHome, FarInUnknownSpaceIsNotReachable) {
+  const testing::GridArt art = {"################",  //
+                                "#S.????????????#",  //
+                                "################"};
+  GoalCase c(art);
+  c.belief.robots["r"].first_place = CentreOf(c, {5, 1});
+  EXPECT_TRUE(FindHome(c.Query()).reachable);
+  MissionOptions mission;
+  mission.occupancy.inflation_radius_m = 0.0;
+  c.SetMission(mission);
+  c.belief.robots["r"].first_place = CentreOf(c, {13, 1});
+  EXPECT_FALSE(FindHome(c.Query()).reachable);
+}
+
 TEST(FindHome, IsReachedWithinAFewCells) {
   GoalCase c(kHall);
   c.belief.robots["r"].first_place = CentreOf(c, {7, 3});
