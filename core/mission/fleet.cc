@@ -124,8 +124,13 @@ absl::StatusOr<PlanId> Fleet::Issue(const Plan& plan, std::int64_t now_ns) {
   if (plan.phase == MissionPhase::kExploring || plan.phase == MissionPhase::kGasProbing) {
     member.record.fruitless_fallbacks = 0;
   }
-  member.last_phase = plan.phase;
-  UpdatePhase(plan.phase);
+  // Who is sent home when all is done takes nothing up again.
+  const bool stays_complete =
+      plan.phase == MissionPhase::kReturning && member.last_phase == MissionPhase::kComplete;
+  if (!stays_complete) {
+    member.last_phase = plan.phase;
+    UpdatePhase(plan.phase);
+  }
   member.live = std::move(live);
   member.record.live_trajectory =
       plan.chosen < 0 ? nullptr : std::make_shared<const Trajectory>(plan.trajectory);

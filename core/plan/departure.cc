@@ -21,7 +21,7 @@ Pose2 ExpectedPose(const RobotRecord& robot, double latency_s) {
   if (latency_s == 0.0 || robot.live_trajectory == nullptr) return robot.state.pose;
   const std::optional<NearestTime> now =
       FindNearest(*robot.live_trajectory, robot.state.pose.position());
-  if (!now || now->distance_m > kOffTrajectory_m) return robot.state.pose;
+  if (!now || !(now->distance_m <= kOffTrajectory_m)) return robot.state.pose;
   return PoseAt(*robot.live_trajectory, now->time_s + latency_s);
 }
 

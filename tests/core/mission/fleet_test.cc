@@ -186,6 +186,22 @@ TEST(FleetPhase, IsCompleteWhenEveryRobotWasToldSo) {
   EXPECT_EQ(fleet.Phase(), MissionPhase::kComplete);
 }
 
+TEST(FleetPhase, StaysCompleteWhenARobotIsSentHome) {
+  Fleet fleet = FleetOf({"a"});
+  Plan home = PlanTo("a", {1.0, 1.0}, GoalKind::kHome);
+  home.phase = MissionPhase::kReturning;
+  ASSERT_TRUE(fleet.Issue(home, 0).ok());
+  EXPECT_EQ(fleet.Phase(), MissionPhase::kReturning);
+  Plan done = home;
+  done.phase = MissionPhase::kComplete;
+  done.chosen = -1;
+  ASSERT_TRUE(fleet.Issue(done, 0).ok());
+  ASSERT_TRUE(fleet.Issue(home, 0).ok());
+  EXPECT_EQ(fleet.Phase(), MissionPhase::kComplete);
+  ASSERT_TRUE(fleet.Issue(PlanTo("a", {1.0, 1.0}), 0).ok());
+  EXPECT_EQ(fleet.Phase(), MissionPhase::kExploring) << "there is something to do after all";
+}
+
 TEST(FleetMasks, CoverTheOtherRobotsWithPoses) {
   Fleet fleet = FleetOf({"a", "b", "c"});
   fleet.Advance("b", Numbered(1), false);
