@@ -84,9 +84,10 @@ absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
   plan.seed = request.seed != 0 ? request.seed
                                 : DerivedPlanSeed(belief.options->seed, request.robot,
                                                   robot->second.plans_issued);
-  plan.phase = request.go_home ? MissionPhase::kReturning : MissionPhase::kFallback;
+  plan.phase = MissionPhase::kFallback;
   if (const std::optional<Departure> departure = Depart(belief, pose.position())) {
     plan.start_escaped = !departure->way_out.empty();
+    if (request.go_home) plan.phase = MissionPhase::kReturning;
     PLUMESCOUT_RETURN_IF_ERROR(PlanFrom(*departure, belief, request, stop, plan));
     if (plan.candidates.empty() && HasOverBudget(plan)) {
       PLUMESCOUT_RETURN_IF_ERROR(PlanLastWayHome(*departure, belief, request, stop, plan));
@@ -109,7 +110,9 @@ absl::Status ComposedStrategy::PlanLastWayHome(const Departure& departure, const
   const PlanEffort before = std::exchange(plan.effort, {});
   PLUMESCOUT_RETURN_IF_ERROR(PlanFrom(departure, belief, request, stop, plan));
   plan.effort = Sum(before, plan.effort);
-  if (plan.end == PlanEnd::kNoGoals) {
+  const bool searched = plan.end == PlanEnd::kAllGoalsReached ||
+                        plan.end == PlanEnd::kQueueExhausted || plan.end == PlanEnd::kStopped;
+  if (!searched) {
     plan.end = PlanEnd::kMissionComplete;
     plan.phase = MissionPhase::kComplete;
   }

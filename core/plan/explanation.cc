@@ -65,7 +65,8 @@ std::string Explain(const Plan& plan, SelectionRule rule) {
     return absl::StrCat("Stay: what is left of the travel budget is not enough for any goal, and ",
                         IsWithoutWayHome(plan) ? "there is no way home." : "the robot is home.");
   }
-  if (plan.phase == MissionPhase::kReturning && plan.end == PlanEnd::kNoGoals) {
+  const bool search_failed = plan.end == PlanEnd::kQueueExhausted || plan.end == PlanEnd::kStopped;
+  if (plan.phase == MissionPhase::kReturning && !search_failed) {
     return IsWithoutWayHome(plan) ? "Stay: there is no way home." : "Stay: the robot is home.";
   }
   switch (plan.end) {

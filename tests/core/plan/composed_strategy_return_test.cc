@@ -20,6 +20,7 @@ using testing::Chosen;
 using testing::For;
 using ::testing::HasSubstr;
 using testing::kRoom;
+using ::testing::Not;
 using ::testing::SizeIs;
 using testing::SmallBelief;
 using testing::TryPlan;
@@ -65,6 +66,19 @@ TEST(StrategyReturn, StaysIfItIsHomeOrHasNoWay) {
   EXPECT_EQ(plan->chosen, -1);
   EXPECT_THAT(plan->rejected, SizeIs(1));
   EXPECT_THAT(plan->explanation, HasSubstr("no way home"));
+}
+
+TEST(StrategyReturn, DoesNotTakeARobotThatIsWalledInForHome) {
+  Belief belief = SmallBelief({"#####",  //
+                               "##S##",  //
+                               "#####"});
+  belief.traversable = std::make_shared<const Grid<std::uint8_t>>(belief.geometry(), 0);
+  PlanRequest request = For("r");
+  request.go_home = true;
+  const absl::StatusOr<Plan> plan = TryPlan(belief, request);
+  ASSERT_TRUE(plan.ok());
+  EXPECT_EQ(plan->chosen, -1);
+  EXPECT_THAT(plan->explanation, Not(HasSubstr("home")));
 }
 
 TEST(StrategyReturn, ReturnsBeforeItIsComplete) {
