@@ -22,11 +22,18 @@ void FindCrossings_m(const Polygon& area, double y_m, std::vector<double>& cross
   std::sort(crossings_m.begin(), crossings_m.end());
 }
 
-// The first column whose centre is not west of `x_m`, at most `width`.
-int ColumnFrom(const GridGeometry& geometry, double x_m) {
+// The first of `count` columns or rows whose centre lies at `offset_m` from the origin or beyond;
+// `count` if none does.
+int FirstFrom(double offset_m, double resolution_m, int count) {
   constexpr double kCentre = 0.5;
-  const double column = std::ceil((x_m - geometry.origin_x_m) / geometry.resolution_m - kCentre);
-  return static_cast<int>(std::clamp(column, 0.0, static_cast<double>(geometry.width)));
+  const double first = std::ceil(offset_m / resolution_m - kCentre);
+  return static_cast<int>(std::clamp(first, 0.0, static_cast<double>(count)));
+}
+int ColumnFrom(const GridGeometry& geometry, double x_m) {
+  return FirstFrom(x_m - geometry.origin_x_m, geometry.resolution_m, geometry.width);
+}
+int RowFrom(const GridGeometry& geometry, double y_m) {
+  return FirstFrom(y_m - geometry.origin_y_m, geometry.resolution_m, geometry.height);
 }
 
 // Writes `value` to the cells of all areas.
@@ -34,7 +41,12 @@ void Fill(const std::vector<Polygon>& areas, std::uint8_t value, Grid<std::uint8
   const GridGeometry& geometry = cells.geometry();
   std::vector<double> crossings_m;
   for (const Polygon& area : areas) {
-    for (int y = 0; y < geometry.height; ++y) {
+    const auto [south, north] =
+        std::minmax_element(area.vertices.begin(), area.vertices.end(),
+                            [](const Point2& a, const Point2& b) { return a.y_m < b.y_m; });
+    // One row more at either end: rounding may have put its centre inside.
+    const int end_row = std::min(RowFrom(geometry, north->y_m) + 1, geometry.height);
+    for (int y = std::max(RowFrom(geometry, south->y_m) - 1, 0); y < end_row; ++y) {
       FindCrossings_m(area, geometry.Center({0, y}).y_m, crossings_m);
       for (std::size_t i = 0; i + 1 < crossings_m.size(); i += 2) {
         const int end = ColumnFrom(geometry, crossings_m[i + 1]);

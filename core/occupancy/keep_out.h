@@ -11,7 +11,8 @@
 namespace plumescout {
 
 // Sets to 0 the cells whose centre lies in one of the areas; a centre on the boundary counts to its
-// east and north. Cost: O(rows * vertices + cells inside) an area.
+// east and north. REQUIRES: every area has a vertex, finite ones. Cost: O(rows * vertices + cells
+// inside) an area.
 void CloseKeptOut(const std::vector<Polygon>& areas, Grid<std::uint8_t>& traversable);
 
 // 1 in those cells, else 0.
