@@ -140,6 +140,7 @@ class GrpcPlannerClient final : public PlannerClient {
       SetDuration(query.budget, request.mutable_planning_budget());
     }
     request.set_seed(static_cast<std::int64_t>(query.request.seed));
+    request.set_go_home(query.request.go_home);
     request.set_max_edge_evaluation_count(query.request.max_edge_evaluations);
     v1::NextBestTrajectoryResponse response;
     PLUMESCOUT_RETURN_IF_ERROR(Call(planning_, &v1::PlanningService::Stub::NextBestTrajectory,

@@ -12,26 +12,7 @@ double DepartureTime_s(const Waypoint& waypoint) {
   return waypoint.arrival_time_s + waypoint.dwell_s;
 }
 
-Pose2 Interpolate(const Waypoint& from, const Waypoint& to, double time_s) {
-  const double duration_s = to.arrival_time_s - DepartureTime_s(from);
-  const double share =
-      duration_s > 0.0 ? std::clamp((time_s - DepartureTime_s(from)) / duration_s, 0.0, 1.0) : 0.0;
-  return {.x_m = from.pose.x_m + share * (to.pose.x_m - from.pose.x_m),
-          .y_m = from.pose.y_m + share * (to.pose.y_m - from.pose.y_m),
-          .yaw_rad = from.pose.yaw_rad};
-}
-
 }  // namespace
-
-Pose2 PoseAt(const Trajectory& trajectory, double time_s) {
-  const std::vector<Waypoint>& waypoints = trajectory.waypoints;
-  const auto after = std::find_if(waypoints.begin(), waypoints.end(), [time_s](const Waypoint& w) {
-    return w.arrival_time_s > time_s;
-  });
-  if (after == waypoints.begin()) return waypoints.front().pose;
-  if (after == waypoints.end()) return waypoints.back().pose;
-  return Interpolate(*(after - 1), *after, time_s);
-}
 
 PathFollower::PathFollower(const Trajectory& trajectory, const FollowerOptions& options)
     : trajectory_(trajectory), options_(options) {}

@@ -12,10 +12,6 @@
 
 namespace plumescout::client {
 
-// Where the ideal follower stands `time_s` after departure: on the path, at the planned speed,
-// standing still while a waypoint dwells. Clamped to the ends. REQUIRES: waypoints not empty.
-Pose2 PoseAt(const Trajectory& trajectory, double time_s);
-
 struct FollowerOptions {
   double turn_gain_per_s = 3.0;         // turn rate over heading error, > 0
   double max_turn_rad_per_s = 2.0;      // > 0

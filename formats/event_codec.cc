@@ -24,10 +24,10 @@ template <typename T>
 concept Enum = std::is_enum_v<T>;
 
 // How many enumerators there are; a stored value beyond is damage.
-constexpr std::uint8_t CountOf(MissionPhase) { return 4; }
-constexpr std::uint8_t CountOf(GoalKind) { return 3; }
+constexpr std::uint8_t CountOf(MissionPhase) { return 5; }
+constexpr std::uint8_t CountOf(GoalKind) { return 4; }
 constexpr std::uint8_t CountOf(PathSource) { return 3; }
-constexpr std::uint8_t CountOf(RejectionReason) { return 7; }
+constexpr std::uint8_t CountOf(RejectionReason) { return 9; }
 constexpr std::uint8_t CountOf(PlanEnd) { return 7; }
 constexpr std::uint8_t CountOf(ProgressOutcome) { return 3; }
 
@@ -65,8 +65,8 @@ void Visit(auto& archive, Is<Observation> auto& observation) {
   archive(sequence, sample_time_ns, pose, payload);
 }
 void Visit(auto& archive, Is<Waypoint> auto& waypoint) {
-  auto& [pose, arrival_time_s, dwell_s] = waypoint;
-  archive(pose, arrival_time_s, dwell_s);
+  auto& [pose, arrival_time_s, dwell_s, speed_mps] = waypoint;
+  archive(pose, arrival_time_s, dwell_s, speed_mps);
 }
 void Visit(auto& archive, Is<Trajectory> auto& trajectory) {
   auto& [waypoints, length_m, duration_s] = trajectory;

@@ -14,26 +14,13 @@
 namespace plumescout {
 namespace {
 
-struct Named {
-  OmplKind kind;
-  const char* name;
-};
-constexpr Named kNames[] = {
-    {OmplKind::kRrt, "rrt"},
-    {OmplKind::kRrtStar, "rrt_star"},
-    {OmplKind::kInformedRrtStar, "informed_rrt_star"},
-    {OmplKind::kBitStar, "bit_star"},
-    {OmplKind::kPrmStar, "prm_star"},
-};
-
 // OMPL's seed and console belong to the process.
 ABSL_CONST_INIT absl::Mutex ompl_mutex(absl::kConstInit);
 constexpr absl::Duration kBetweenTries = absl::Milliseconds(1);
 
 class OmplPlanner : public PathPlanner {
  public:
-  OmplPlanner(OmplKind kind, const OmplOptions& options)
-      : kind_(kind), samples_(std::max(options.samples, 0)) {}
+  OmplPlanner(PathKind kind, int samples) : kind_(kind), samples_(samples) {}
 
   PathResult FindPaths(const PathProblem& problem) const override {
     while (!ompl_mutex.TryLock()) {
@@ -48,28 +35,23 @@ class OmplPlanner : public PathPlanner {
   }
 
  private:
-  OmplKind kind_;
+  PathKind kind_;
   int samples_;
 };
 
 }  // namespace
 
-const char* OmplName(OmplKind kind) {
-  for (const Named& entry : kNames) {
-    if (entry.kind == kind) return entry.name;
+std::unique_ptr<const PathPlanner> MakeOmplPlanner(const PlanningOptions& options) {
+  switch (options.paths) {
+    case PathKind::kRrt:
+    case PathKind::kRrtStar:
+    case PathKind::kInformedRrtStar:
+    case PathKind::kBitStar:
+    case PathKind::kPrmStar:
+      return std::make_unique<const OmplPlanner>(options.paths, std::max(options.samples, 0));
+    default:
+      return nullptr;
   }
-  return "unknown";
-}
-
-std::optional<OmplKind> OmplKindOf(const std::string& name) {
-  for (const Named& entry : kNames) {
-    if (name == entry.name) return entry.kind;
-  }
-  return std::nullopt;
-}
-
-std::unique_ptr<const PathPlanner> MakeOmplPlanner(OmplKind kind, const OmplOptions& options) {
-  return std::make_unique<OmplPlanner>(kind, options);
 }
 
 }  // namespace plumescout

@@ -234,10 +234,10 @@ class BitTree : public Tree {
   og::BITstar bit_star_;
 };
 
-std::unique_ptr<Tree> MakeTree(OmplKind kind, int samples, const ob::SpaceInformationPtr& space) {
-  if (kind == OmplKind::kBitStar) return std::make_unique<BitTree>(space, samples);
-  if (kind == OmplKind::kRrtStar) return std::make_unique<RrtTree<og::RRTstar>>(space);
-  if (kind == OmplKind::kRrt) return std::make_unique<RrtTree<og::RRT>>(space);
+std::unique_ptr<Tree> MakeTree(PathKind kind, int samples, const ob::SpaceInformationPtr& space) {
+  if (kind == PathKind::kBitStar) return std::make_unique<BitTree>(space, samples);
+  if (kind == PathKind::kRrtStar) return std::make_unique<RrtTree<og::RRTstar>>(space);
+  if (kind == PathKind::kRrt) return std::make_unique<RrtTree<og::RRT>>(space);
   auto informed = std::make_unique<RrtTree<og::InformedRRTstar>>(space);
   // OMPL takes the price of the straight line from the start for a lower bound of the cost to come
   // and prunes by it. Ours is none, and infinite behind a wall: prune by the cost in the tree.
@@ -247,7 +247,7 @@ std::unique_ptr<Tree> MakeTree(OmplKind kind, int samples, const ob::SpaceInform
 
 class OmplSearch {
  public:
-  OmplSearch(OmplKind kind, int samples, const PathProblem& problem)
+  OmplSearch(PathKind kind, int samples, const PathProblem& problem)
       : kind_(kind), samples_(samples), desk_(problem) {
     result_.paths.resize(problem.goals.size());
   }
@@ -257,7 +257,7 @@ class OmplSearch {
     if (goals.empty()) return;
     space_ = MakeSpace(desk_);
     objective_ = std::make_shared<Objective>(space_, desk_);
-    if (kind_ == OmplKind::kPrmStar) {
+    if (kind_ == PathKind::kPrmStar) {
       SearchRoadmap(goals);
     } else {
       for (std::size_t k = 0; k < goals.size() && !desk_.meter.stopped(); ++k) {
@@ -315,7 +315,7 @@ class OmplSearch {
 
   void SearchTree(std::size_t goal, std::size_t searches_left) {
     // A batch begun is no longer searched: one draw beyond the number tells of it.
-    const std::int64_t batch_begun = kind_ == OmplKind::kBitStar ? 1 : 0;
+    const std::int64_t batch_begun = kind_ == PathKind::kBitStar ? 1 : 0;
     desk_.meter.Begin(samples_ + batch_begun, searches_left);
     const ob::ProblemDefinitionPtr query = MakeQuery(goal);
     const std::unique_ptr<Tree> tree = MakeTree(kind_, samples_, space_);
@@ -330,7 +330,7 @@ class OmplSearch {
 
   void SearchRoadmap(const std::vector<std::size_t>& goals);
 
-  OmplKind kind_;
+  PathKind kind_;
   int samples_;
   Desk desk_;
   PathResult result_;
@@ -383,7 +383,7 @@ void SeedOmpl(std::uint64_t seed) {
 
 }  // namespace
 
-PathResult SearchWithOmpl(OmplKind kind, int samples, const PathProblem& problem) noexcept {
+PathResult SearchWithOmpl(PathKind kind, int samples, const PathProblem& problem) noexcept {
   ompl::msg::noOutputHandler();
   SeedOmpl(problem.seed);
   OmplSearch search(kind, samples, problem);

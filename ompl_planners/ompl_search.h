@@ -3,12 +3,12 @@
 #pragma once
 
 #include "core/plan/paths/path_planner.h"
-#include "ompl_planners/ompl_planner.h"
+#include "core/types/options.h"
 
 namespace plumescout {
 
 // The search of an OmplPlanner. Sets OMPL's seed and console output: one call at a time.
-// REQUIRES: samples >= 0.
-PathResult SearchWithOmpl(OmplKind kind, int samples, const PathProblem& problem) noexcept;
+// REQUIRES: samples >= 0, a kind of OMPL's.
+PathResult SearchWithOmpl(PathKind kind, int samples, const PathProblem& problem) noexcept;
 
 }  // namespace plumescout

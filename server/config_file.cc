@@ -24,19 +24,31 @@ absl::Status At(absl::string_view name, const YAML::Mark& mark, absl::string_vie
   return absl::InvalidArgumentError(absl::StrCat(name, ":", mark.line + 1, ": ", what));
 }
 
+absl::Status AddNode(const YAML::Node& node, absl::string_view name, const std::string& prefix,
+                     ConfigBuilder& builder);
+
+// Sets the scalar under `key`, or every one below it. `mark` is where the key stands.
+absl::Status AddValue(const YAML::Node& value, const YAML::Mark& mark, absl::string_view name,
+                      const std::string& key, ConfigBuilder& builder) {
+  if (value.IsMap()) return AddNode(value, name, key, builder);
+  if (value.IsScalar()) {
+    const absl::Status set = builder.Set(key, value.Scalar());
+    return set.ok() ? set : At(name, mark, set.message());
+  }
+  if (!value.IsSequence()) return At(name, mark, absl::StrCat(key, " has no value"));
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    if (!value[i].IsMap()) return At(name, mark, absl::StrCat(key, " has no value"));
+    PLUMESCOUT_RETURN_IF_ERROR(AddNode(value[i], name, absl::StrCat(key, "[", i, "]"), builder));
+  }
+  return absl::OkStatus();
+}
+
 // Sets every scalar below `node` under its dotted key.
 absl::Status AddNode(const YAML::Node& node, absl::string_view name, const std::string& prefix,
                      ConfigBuilder& builder) {
   for (const auto& entry : node) {
     const std::string key = Join(prefix, entry.first.Scalar());
-    if (entry.second.IsMap()) {
-      PLUMESCOUT_RETURN_IF_ERROR(AddNode(entry.second, name, key, builder));
-    } else if (entry.second.IsScalar()) {
-      const absl::Status set = builder.Set(key, entry.second.Scalar());
-      if (!set.ok()) return At(name, entry.first.Mark(), set.message());
-    } else {
-      return At(name, entry.first.Mark(), absl::StrCat(key, " has no value"));
-    }
+    PLUMESCOUT_RETURN_IF_ERROR(AddValue(entry.second, entry.first.Mark(), name, key, builder));
   }
   return absl::OkStatus();
 }

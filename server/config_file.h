@@ -17,7 +17,8 @@ namespace plumescout::server {
 // option".
 class ConfigBuilder {
  public:
-  // `yaml` is a mapping of keys to scalars and mappings; `name` is for errors.
+  // `yaml` is a mapping of keys to scalars, mappings, and lists of mappings, whose elements are set
+  // one by one; `name` is for errors.
   absl::Status AddYaml(const std::string& yaml, absl::string_view name);
   absl::Status AddFile(const std::string& path);
   // "limits.max_missions" and "mission.gas.refresh_period_s" alike.

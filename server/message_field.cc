@@ -2,10 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/message_field.h"
 
+#include <optional>
+
+#include "absl/status/statusor.h"
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/strip.h"
+#include "core/types/status_macros.h"
 #include "google/protobuf/descriptor.h"
 
 namespace plumescout::server {
@@ -77,18 +82,49 @@ absl::Status SetScalar(Message& message, const FieldDescriptor& field, const std
   }
 }
 
+// "keep_out[2]" and "keep_out" apart.
+struct Step {
+  std::string name;
+  std::optional<int> index;
+};
+
+absl::StatusOr<Step> ReadStep(absl::string_view text) {
+  const std::size_t bracket = text.find('[');
+  if (bracket == absl::string_view::npos) return Step{std::string(text), std::nullopt};
+  absl::string_view number = text.substr(bracket + 1);
+  int index = 0;
+  if (!absl::ConsumeSuffix(&number, "]") || !absl::SimpleAtoi(number, &index) || index < 0) {
+    return absl::NotFoundError("not an option");
+  }
+  return Step{std::string(text.substr(0, bracket)), index};
+}
+
+// The message in the field, or its element, which may be the one after the last.
+Message* FindPart(Message& message, const FieldDescriptor& field, std::optional<int> index) {
+  const Reflection& reflection = *message.GetReflection();
+  if (field.cpp_type() != FieldDescriptor::CPPTYPE_MESSAGE) return nullptr;
+  if (field.is_repeated() != index.has_value()) return nullptr;
+  if (!index) return reflection.MutableMessage(&message, &field);
+  const int size = reflection.FieldSize(message, &field);
+  if (*index > size) return nullptr;
+  return *index == size ? reflection.AddMessage(&message, &field)
+                        : reflection.MutableRepeatedMessage(&message, &field, *index);
+}
+
 }  // namespace
 
 absl::Status SetMessageField(Message& message, absl::string_view path, const std::string& text) {
   const std::size_t dot = path.find('.');
-  const std::string name(path.substr(0, dot));
-  const FieldDescriptor* field = message.GetDescriptor()->FindFieldByName(name);
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Step step, ReadStep(path.substr(0, dot)));
+  const FieldDescriptor* field = message.GetDescriptor()->FindFieldByName(step.name);
   if (field == nullptr) return absl::NotFoundError("not an option");
-  const bool nested = field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE;
-  if (nested != (dot != absl::string_view::npos)) return absl::NotFoundError("not an option");
-  if (!nested) return SetScalar(message, *field, text);
-  Message& part = *message.GetReflection()->MutableMessage(&message, field);
-  return SetMessageField(part, path.substr(dot + 1), text);
+  if (dot == absl::string_view::npos) {
+    const bool is_scalar = !field->is_repeated() && !step.index;
+    return is_scalar ? SetScalar(message, *field, text) : absl::NotFoundError("not an option");
+  }
+  Message* part = FindPart(message, *field, step.index);
+  if (part == nullptr) return absl::NotFoundError("not an option");
+  return SetMessageField(*part, path.substr(dot + 1), text);
 }
 
 }  // namespace plumescout::server

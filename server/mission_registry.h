@@ -13,6 +13,7 @@
 #include "absl/status/statusor.h"
 #include "absl/synchronization/mutex.h"
 #include "core/types/options.h"
+#include "ompl_planners/ompl_planner.h"
 #include "server/mission_host.h"
 
 namespace plumescout::server {
@@ -27,7 +28,8 @@ struct RegistryOptions {
 // What a registry makes missions of; tests put their own here.
 struct RegistryHooks {
   std::function<absl::StatusOr<std::unique_ptr<const Strategy>>(const PlanningOptions&)>
-      make_strategy = [](const PlanningOptions& options) { return MakeStrategy(options); };
+      make_strategy =
+          [](const PlanningOptions& options) { return MakeStrategy(options, MakeOmplPlanner); };
   // The sink of a new mission's events; may be empty.
   std::function<EventSink(const MissionId&, const MissionOptions&)> make_event_sink;
   // Recomputes gas posteriors; outlives the missions. Null: their writers do.

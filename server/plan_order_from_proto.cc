@@ -42,6 +42,7 @@ absl::StatusOr<PlanOrder> PlanOrderFromProto(const v1::NextBestTrajectoryRequest
   if (request.has_start()) {
     PLUMESCOUT_ASSIGN_OR_RETURN(order.request.start, FromProto(request.start(), "start"));
   }
+  order.request.go_home = request.go_home();
   order.request.seed = static_cast<std::uint64_t>(request.seed());
   PLUMESCOUT_RETURN_IF_ERROR(CheckIntRange("max_edge_evaluation_count",
                                            request.max_edge_evaluation_count(), 0,

@@ -240,14 +240,20 @@ class Robot:
             applied = response.ingest_state.applied_sequence
             self._waiting = [o for o in self._waiting if o.sequence > applied]
 
-    def next_best_trajectory(self, start=None, budget_s=1.0, seed=0, timeout_s=None):
-        """Sends what waits and asks for a plan that knows it. start: pose; default: the latest."""
+    def next_best_trajectory(
+        self, start=None, budget_s=1.0, seed=0, timeout_s=None, go_home=False
+    ):
+        """Sends what waits and asks for a plan that knows it: to the next goal, or home.
+
+        start: pose; default: the latest, or where the robot will be (planning_latency_s).
+        """
         self.flush()
         request = planning_pb.NextBestTrajectoryRequest(
             robot=self._open.robot,
             lease_token=self._open.lease_token,
             min_applied_sequence=self.last_sequence,
             seed=seed,
+            go_home=go_home,
         )
         request.planning_budget.FromNanoseconds(round(budget_s * 1e9))
         if start is not None:

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,10 +39,10 @@ struct GoalClaim {
   std::int64_t expires_ns = 0;  // in sample time: a stalled robot does not keep its goal for ever
 };
 
-// A goal that failed or was visited without change, until it expires.
+// A goal that failed or was visited without change, until it expires or the map near it changes.
 struct SetAsideGoal {
   Goal goal;
-  std::string reason;           // "blocked", "visited without change"
+  std::string reason;           // "reported blocked", "visited without change"
   std::int64_t expires_ns = 0;  // in sample time
 };
 
@@ -49,7 +50,11 @@ struct SetAsideGoal {
 struct RobotRecord {
   RobotState state;
   std::int64_t plans_issued = 0;
-  int fruitless_fallbacks = 0;  // fallback trajectories in a row that revealed nothing
+  int fruitless_fallbacks = 0;        // fallback trajectories in a row that revealed nothing
+  std::optional<Point2> first_place;  // of its first observation
+  double travelled_m = 0.0;           // since then
+  // Of the live plan; null if there is none, or it is to stay.
+  std::shared_ptr<const Trajectory> live_trajectory;
 };
 
 // Immutable snapshot of a mission that readers plan on and look at. Rasters are shared between
@@ -61,7 +66,7 @@ struct Belief {
   std::shared_ptr<const MissionOptions> options;
 
   std::shared_ptr<const Grid<CellState>> occupancy;
-  std::shared_ptr<const Grid<std::uint8_t>> traversable;  // 1: free and outside the inflation
+  std::shared_ptr<const Grid<std::uint8_t>> traversable;  // 1: a robot may drive there
   std::shared_ptr<const Grid<float>> gas_mean_ppm;        // NaN off free cells
   std::shared_ptr<const Grid<float>> gas_variance_ppm2;   // NaN off free cells
   std::shared_ptr<const GasWhatIf> gas_what_if;  // of the refresh; null before there is a free cell

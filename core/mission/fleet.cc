@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -12,16 +11,12 @@
 namespace plumescout {
 namespace {
 
-// A goal that is offered again after this many visits has not changed by being visited.
-constexpr int kVisitsBeforeSetAside = 2;
 // A claim outlives its trajectory by this factor and this time before another robot may take it.
 constexpr double kClaimSlack = 2.0;
 constexpr double kClaimGrace_s = 30.0;
 // Poses and beams err a little: the disc is wider than the robot by this much.
 constexpr double kMaskMargin_m = 0.15;
 constexpr double kMaxRadius_m = 5.0;
-// Bounds the memory of a mission that runs for weeks; the oldest visits are forgotten.
-constexpr std::size_t kMaxVisitedGoals = 1000;
 
 std::int64_t Nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
 
@@ -29,9 +24,12 @@ absl::Status UnknownRobot(const RobotId& robot) {
   return absl::NotFoundError(absl::StrCat("robot \"", robot, "\" is not registered"));
 }
 
-std::optional<Goal> ChosenGoal(const Plan& plan) {
+// The goal that others must not be sent to meanwhile. There is room for all at home.
+std::optional<Goal> GoalToClaim(const Plan& plan) {
   if (plan.chosen < 0) return std::nullopt;
-  return plan.candidates[static_cast<std::size_t>(plan.chosen)].goal;
+  const Goal& goal = plan.candidates[static_cast<std::size_t>(plan.chosen)].goal;
+  if (goal.kind == GoalKind::kHome) return std::nullopt;
+  return goal;
 }
 
 }  // namespace
@@ -87,7 +85,8 @@ absl::Status Fleet::CheckSequence(const RobotId& robot, const Observation& obser
 }
 
 void Fleet::Advance(const RobotId& robot, const Observation& observation, bool refused) {
-  RobotState& state = robots_.at(robot).record.state;
+  Member& member = robots_.at(robot);
+  RobotState& state = member.record.state;
   state.applied_sequence = LastSequence(observation);
   if (refused) {
     ++state.rejected_observations;
@@ -95,6 +94,9 @@ void Fleet::Advance(const RobotId& robot, const Observation& observation, bool r
     state.pose = observation.pose;
     state.pose.yaw_rad = WrapAngle_rad(observation.pose.yaw_rad);
     state.has_pose = true;
+    member.odometer.Pass(observation.pose.position());
+    member.record.travelled_m = member.odometer.travelled_m();
+    if (!member.record.first_place) member.record.first_place = observation.pose.position();
   }
 }
 
@@ -105,7 +107,7 @@ absl::StatusOr<PlanId> Fleet::Issue(const Plan& plan, std::int64_t now_ns) {
     return absl::InvalidArgumentError(
         absl::StrCat("chosen = ", plan.chosen, " must be in [-1, ", plan.candidates.size(), ")"));
   }
-  LivePlan live{next_plan_, plan.phase, ChosenGoal(plan),
+  LivePlan live{next_plan_, plan.phase, GoalToClaim(plan),
                 now_ns + Nanoseconds(plan.trajectory.duration_s * kClaimSlack + kClaimGrace_s)};
   if (live.goal) {
     for (const GoalClaim& claim : Claims(now_ns)) {
@@ -122,14 +124,20 @@ absl::StatusOr<PlanId> Fleet::Issue(const Plan& plan, std::int64_t now_ns) {
   if (plan.phase == MissionPhase::kExploring || plan.phase == MissionPhase::kGasProbing) {
     member.record.fruitless_fallbacks = 0;
   }
-  member.last_phase = plan.phase;
-  UpdatePhase(plan.phase);
+  // Who is sent home when all is done takes nothing up again.
+  const bool stays_complete =
+      plan.phase == MissionPhase::kReturning && member.last_phase == MissionPhase::kComplete;
+  if (!stays_complete) {
+    member.last_phase = plan.phase;
+    UpdatePhase(plan.phase);
+  }
   member.live = std::move(live);
+  member.record.live_trajectory =
+      plan.chosen < 0 ? nullptr : std::make_shared<const Trajectory>(plan.trajectory);
   return member.last_plan;
 }
 
-absl::Status Fleet::Report(const ProgressReported& report, std::int64_t now_ns,
-                           double set_aside_s) {
+absl::StatusOr<std::optional<Goal>> Fleet::Report(const ProgressReported& report) {
   const auto found = robots_.find(report.robot);
   if (found == robots_.end()) return UnknownRobot(report.robot);
   Member& member = found->second;
@@ -145,29 +153,9 @@ absl::Status Fleet::Report(const ProgressReported& report, std::int64_t now_ns,
     return absl::AlreadyExistsError(absl::StrCat("plan ", report.plan_id, " has ended already"));
   }
   const LivePlan live = *std::exchange(member.live, std::nullopt);
+  member.record.live_trajectory = nullptr;
   if (live.phase == MissionPhase::kFallback) ++member.record.fruitless_fallbacks;
-  if (!live.goal) return absl::OkStatus();
-  if (report.outcome == ProgressOutcome::kBlocked) {
-    set_aside_.push_back({*live.goal, "reported blocked", now_ns + Nanoseconds(set_aside_s)});
-  } else if (report.outcome == ProgressOutcome::kReached) {
-    RememberVisit(*live.goal, now_ns, set_aside_s);
-  }
-  return absl::OkStatus();
-}
-
-void Fleet::RememberVisit(const Goal& goal, std::int64_t now_ns, double set_aside_s) {
-  std::erase_if(set_aside_, [&](const SetAsideGoal& s) { return s.expires_ns <= now_ns; });
-  if (goal.kind == GoalKind::kRandomFreeSpace) return;  // nothing was expected to change there
-  auto visited = std::find_if(visited_.begin(), visited_.end(),
-                              [&](const VisitedGoal& v) { return SamePlace(v.goal, goal); });
-  if (visited == visited_.end()) {
-    if (visited_.size() >= kMaxVisitedGoals) visited_.erase(visited_.begin());
-    visited_.push_back({goal, 0});
-    visited = visited_.end() - 1;
-  }
-  if (++visited->visits < kVisitsBeforeSetAside) return;
-  visited_.erase(visited);
-  set_aside_.push_back({goal, "visited without change", now_ns + Nanoseconds(set_aside_s)});
+  return live.goal;
 }
 
 // The mission is complete when every robot that ever planned was told so last.
@@ -213,13 +201,6 @@ std::vector<GoalClaim> Fleet::Claims(std::int64_t now_ns) const {
     claims.push_back({id, member.live->id, *member.live->goal, member.live->expires_ns});
   }
   return claims;
-}
-
-std::vector<SetAsideGoal> Fleet::SetAside(std::int64_t now_ns) const {
-  std::vector<SetAsideGoal> result;
-  std::copy_if(set_aside_.begin(), set_aside_.end(), std::back_inserter(result),
-               [&](const SetAsideGoal& s) { return s.expires_ns > now_ns; });
-  return result;
 }
 
 }  // namespace plumescout

@@ -10,12 +10,13 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/belief/belief.h"
+#include "core/mission/odometer.h"
 #include "core/occupancy/scan_inserter.h"
 #include "core/types/event.h"
 
 namespace plumescout {
 
-// The robots of a mission: leases, logs, live plans, and the memory of goals that led nowhere.
+// The robots of a mission: leases, logs, live plans, and how far each has driven.
 //
 // Invariants: 1. a robot has at most one live plan. 2. no two live, unexpired plans of different
 // robots end at the same goal. Thread-compatible.
@@ -31,9 +32,8 @@ class Fleet {
   // Gives the plan its number and makes it the robot's live plan. kAborted if another robot's live
   // plan claims the goal.
   absl::StatusOr<PlanId> Issue(const Plan& plan, std::int64_t now_ns);
-  // Ends the robot's live plan. A goal that was blocked is set aside; so is one that was reached
-  // kVisitsBeforeSetAside times and is still offered.
-  absl::Status Report(const ProgressReported& report, std::int64_t now_ns, double set_aside_s);
+  // Ends the robot's live plan. Returns the goal it had, if that was another than home.
+  absl::StatusOr<std::optional<Goal>> Report(const ProgressReported& report);
 
   absl::StatusOr<std::int64_t> AppliedSequence(const RobotId& robot) const;
   absl::StatusOr<std::int64_t> LeaseToken(const RobotId& robot) const;
@@ -44,35 +44,28 @@ class Fleet {
 
   std::map<RobotId, RobotRecord> Records() const;
   std::vector<GoalClaim> Claims(std::int64_t now_ns) const;
-  std::vector<SetAsideGoal> SetAside(std::int64_t now_ns) const;
   MissionPhase Phase() const { return phase_; }
 
  private:
   struct LivePlan {
     PlanId id = 0;
     MissionPhase phase = MissionPhase::kExploring;
-    std::optional<Goal> goal;  // none: the robot stays where it is
+    std::optional<Goal> goal;  // none: the robot stays where it is, or drives home
     std::int64_t expires_ns = 0;
   };
   struct Member {
     RobotRecord record;
+    Odometer odometer;
     std::int64_t lease_token = 0;
     PlanId last_plan = 0;
     std::optional<MissionPhase> last_phase;
     std::optional<LivePlan> live;
   };
-  struct VisitedGoal {
-    Goal goal;
-    int visits = 0;
-  };
 
-  void RememberVisit(const Goal& goal, std::int64_t now_ns, double set_aside_s);
   void UpdatePhase(MissionPhase latest);
 
   std::map<RobotId, Member> robots_;
   PlanId next_plan_ = 1;
-  std::vector<VisitedGoal> visited_;
-  std::vector<SetAsideGoal> set_aside_;
   MissionPhase phase_ = MissionPhase::kExploring;
 };
 

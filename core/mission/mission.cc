@@ -10,6 +10,7 @@
 #include "core/belief/regrid.h"
 #include "core/mission/observation_check.h"
 #include "core/occupancy/free_space.h"
+#include "core/occupancy/keep_out.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
@@ -48,7 +49,8 @@ absl::StatusOr<std::unique_ptr<Mission>> Mission::Create(const MissionOptions& o
 Mission::Mission(const MissionOptions& options)
     : options_(std::make_shared<const MissionOptions>(options)),
       occupancy_(options.occupancy),
-      gas_(options.gas) {}
+      gas_(options.gas),
+      goal_memory_(options) {}
 
 absl::StatusOr<Applied> Mission::Apply(const EventBody& body) {
   PLUMESCOUT_ASSIGN_OR_RETURN(Applied applied,
@@ -111,8 +113,8 @@ absl::StatusOr<Applied> Mission::Change(const PlanIssued& issued) {
 }
 
 absl::StatusOr<Applied> Mission::Change(const ProgressReported& report) {
-  PLUMESCOUT_RETURN_IF_ERROR(
-      fleet_.Report(report, sample_time_ns_, options_->planning.set_aside_s));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::optional<Goal> goal, fleet_.Report(report));
+  if (goal) goal_memory_.Remember(*goal, report.outcome, {sample_time_ns_, occupancy_.States()});
   return Applied{};
 }
 
@@ -155,8 +157,10 @@ bool Mission::PeriodHasPassedSince(std::int64_t time_ns) const {
 void Mission::UpdateRasters() const {
   if (map_changed_since_snapshot_) {
     rasters_.occupancy = std::make_shared<const Grid<CellState>>(occupancy_.States());
-    rasters_.traversable = std::make_shared<const Grid<std::uint8_t>>(
-        TraversableCells(*rasters_.occupancy, options_->occupancy.inflation_radius_m));
+    Grid<std::uint8_t> traversable =
+        TraversableCells(*rasters_.occupancy, options_->occupancy.inflation_radius_m);
+    CloseKeptOut(options_->keep_out, traversable);
+    rasters_.traversable = std::make_shared<const Grid<std::uint8_t>>(std::move(traversable));
   }
   if (map_changed_since_snapshot_ || gas_changed_since_snapshot_) {
     rasters_.gas_mean_ppm = OnFreeCells(gas_.mean_ppm(), *rasters_.occupancy);
@@ -182,7 +186,7 @@ std::shared_ptr<const Belief> Mission::Snapshot() const {
   belief->gas_quality = gas_.quality();
   belief->robots = fleet_.Records();
   belief->claims = fleet_.Claims(sample_time_ns_);
-  belief->set_aside = fleet_.SetAside(sample_time_ns_);
+  belief->set_aside = goal_memory_.SetAside({sample_time_ns_, occupancy_.States()});
   belief->phase = fleet_.Phase();
   return belief;
 }

@@ -11,6 +11,7 @@
 #include "core/gas/gas_epoch.h"
 #include "core/gas/gas_map.h"
 #include "core/mission/fleet.h"
+#include "core/mission/goal_memory.h"
 #include "core/occupancy/occupancy_grid.h"
 #include "core/occupancy/scan_inserter.h"
 #include "core/types/event.h"
@@ -100,6 +101,7 @@ class Mission {
   ScanInserter scan_inserter_;
   GasMap gas_;
   Fleet fleet_;
+  GoalMemory goal_memory_;
   bool map_changed_since_refresh_ = false;
 
   // Rasters of the last snapshot, shared with it until they change.

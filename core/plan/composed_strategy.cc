@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plan/composed_strategy.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -11,10 +13,10 @@
 #include "core/plan/edge_cost.h"
 #include "core/plan/explanation.h"
 #include "core/plan/goals/goal_set.h"
+#include "core/plan/goals/travel_budget.h"
 #include "core/plan/information_field.h"
 #include "core/plan/plan_seed.h"
-#include "core/plan/selection/expected_information.h"
-#include "core/plan/selection/selection.h"
+#include "core/plan/selection/choice.h"
 #include "core/plan/trajectory_timing.h"
 #include "core/types/rng.h"
 #include "core/types/status_macros.h"
@@ -34,28 +36,29 @@ void PutBefore(const std::vector<Point2>& way_out, Candidate& candidate) {
   }
 }
 
-// Index of the candidate that the robot's live plan ends at, -1 if there is none.
-int UnderWayTo(const std::vector<Candidate>& candidates, const Belief& belief,
-               const RobotId& robot) {
-  for (const GoalClaim& claim : belief.claims) {
-    if (claim.robot != robot || claim.expires_ns <= belief.sample_time_ns) continue;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      if (ClaimCovers(claim.goal, candidates[i].goal)) return static_cast<int>(i);
-    }
-  }
-  return -1;
-}
-
 MissionPhase PhaseOf(GoalKind kind) {
   switch (kind) {
     case GoalKind::kGasFrontier:
       return MissionPhase::kGasProbing;
     case GoalKind::kOccupancyFrontier:
       return MissionPhase::kExploring;
+    case GoalKind::kHome:
+      return MissionPhase::kReturning;
     case GoalKind::kRandomFreeSpace:
       break;
   }
   return MissionPhase::kFallback;
+}
+
+PlanEffort Sum(const PlanEffort& a, const PlanEffort& b) {
+  return {a.samples + b.samples, a.vertices + b.vertices, a.edges_evaluated + b.edges_evaluated,
+          a.goals_by_guard + b.goals_by_guard, a.batches + b.batches};
+}
+
+bool HasOverBudget(const Plan& plan) {
+  return std::any_of(plan.rejected.begin(), plan.rejected.end(), [](const RejectedGoal& goal) {
+    return goal.reason == RejectionReason::kOverBudget;
+  });
 }
 
 absl::Status Stopped() {
@@ -72,7 +75,8 @@ absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
   if (robot == belief.robots.end()) {
     return absl::NotFoundError(absl::StrCat("robot \"", request.robot, "\" is not registered"));
   }
-  PLUMESCOUT_ASSIGN_OR_RETURN(const Pose2 pose, StartPose(belief, request, robot->second.state));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Pose2 pose,
+                              StartPose(belief, request, robot->second, options_));
   plumescout::Plan plan;
   plan.robot = request.robot;
   plan.strategy = options_.strategy;
@@ -81,20 +85,41 @@ absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
                                 : DerivedPlanSeed(belief.options->seed, request.robot,
                                                   robot->second.plans_issued);
   plan.phase = MissionPhase::kFallback;
-  if (const std::optional<Departure> departure = Depart(belief, pose.position())) {
+  if (std::optional<Departure> departure = Depart(belief, pose.position())) {
+    departure->yaw_rad = pose.yaw_rad;
     plan.start_escaped = !departure->way_out.empty();
+    if (request.go_home) plan.phase = MissionPhase::kReturning;
     PLUMESCOUT_RETURN_IF_ERROR(PlanFrom(*departure, belief, request, stop, plan));
+    if (plan.candidates.empty() && HasOverBudget(plan)) {
+      PLUMESCOUT_RETURN_IF_ERROR(PlanLastWayHome(*departure, belief, request, stop, plan));
+    }
   } else {
     plan.end = PlanEnd::kStartOccupied;
   }
   if (plan.chosen >= 0) {
     const Candidate& chosen = plan.candidates[static_cast<std::size_t>(plan.chosen)];
     plan.phase = PhaseOf(chosen.goal.kind);
-    plan.trajectory =
-        TimeTrajectory(chosen.path, pose.yaw_rad, options_.speed_mps, options_.dwell_s);
+    plan.trajectory = TimeTrajectory(chosen.path, pose.yaw_rad, options_);
   }
   plan.explanation = Explain(plan, options_.selection);
   return plan;
+}
+
+absl::Status ComposedStrategy::PlanLastWayHome(const Departure& departure, const Belief& belief,
+                                               PlanRequest request, const StopFn& stop,
+                                               plumescout::Plan& plan) const {
+  request.go_home = true;
+  plan.phase = MissionPhase::kReturning;
+  const PlanEffort before = std::exchange(plan.effort, {});
+  PLUMESCOUT_RETURN_IF_ERROR(PlanFrom(departure, belief, request, stop, plan));
+  plan.effort = Sum(before, plan.effort);
+  const bool searched = plan.end == PlanEnd::kAllGoalsReached ||
+                        plan.end == PlanEnd::kQueueExhausted || plan.end == PlanEnd::kStopped;
+  if (!searched) {
+    plan.end = PlanEnd::kMissionComplete;
+    plan.phase = MissionPhase::kComplete;
+  }
+  return absl::OkStatus();
 }
 
 absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Belief& belief,
@@ -111,14 +136,15 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Belief
   if (stop()) return Stopped();
 
   Rng rng(plan.seed ^ kGoalStream);
-  GoalSet goals =
-      FindGoals({belief, belief.robots.at(request.robot), start_cell, reachable, options_}, rng);
-  plan.rejected = std::move(goals.rejected);
+  const GoalQuery query = {
+      belief, belief.robots.at(request.robot), start_cell, reachable, options_, request.go_home};
+  GoalSet goals = FindGoals(query, rng);
+  std::move(goals.rejected.begin(), goals.rejected.end(), std::back_inserter(plan.rejected));
   if (goals.goals.empty()) {
     plan.end = goals.complete          ? PlanEnd::kMissionComplete
                : plan.rejected.empty() ? PlanEnd::kNoGoals
                                        : PlanEnd::kAllGoalsRejected;
-    plan.phase = goals.complete ? MissionPhase::kComplete : MissionPhase::kFallback;
+    plan.phase = goals.complete ? MissionPhase::kComplete : plan.phase;
     return absl::OkStatus();
   }
   if (stop()) return Stopped();
@@ -130,10 +156,15 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Belief
   const EdgeCost selection_cost(field, options_.selection_cost, options_.alpha);
   TakeResults(goals.goals, result,
               {selection_cost, *belief.gas_mean_ppm, mission.gas.background_mean_ppm}, plan);
-  Choose(departure, belief, stop, plan);
+  for (Candidate& candidate : plan.candidates) {
+    PutBefore(departure.way_out, candidate);
+    candidate.duration_s = TimeTrajectory(candidate.path, departure.yaw_rad, options_).duration_s;
+  }
+  const bool stopped_empty = plan.end == PlanEnd::kStopped && plan.candidates.empty();
+  RejectOverBudget(query, plan);
+  Choose(belief, options_, stop, plan);
   const bool budget_spent = request.max_edge_evaluations > 0 &&
                             plan.effort.edges_evaluated >= request.max_edge_evaluations;
-  const bool stopped_empty = plan.end == PlanEnd::kStopped && plan.candidates.empty();
   return stopped_empty && !budget_spent ? Stopped() : absl::OkStatus();
 }
 
@@ -150,34 +181,6 @@ void ComposedStrategy::TakeResults(const std::vector<Goal>& goals, const PathRes
       plan.rejected.push_back({goals[i], RejectionReason::kUnreachable, "the search ran out"});
     }
   }
-}
-
-void ComposedStrategy::Choose(const Departure& departure, const Belief& belief, const StopFn& stop,
-                              plumescout::Plan& plan) const {
-  for (Candidate& candidate : plan.candidates) {
-    PutBefore(departure.way_out, candidate);
-    candidate.duration_s =
-        TimeTrajectory(candidate.path, 0.0, options_.speed_mps, options_.dwell_s).duration_s;
-  }
-  if (options_.selection == SelectionRule::kInformationRate) {
-    const ExpectedInformation information(belief);
-    for (Candidate& candidate : plan.candidates) {
-      if (stop()) break;
-      candidate.expected_information_nats =
-          information.Of(ReadingCells(candidate.path, belief.geometry(), options_));
-    }
-  }
-  plan.chosen = SelectCandidate(plan.candidates, options_.selection);
-  const int kept = UnderWayTo(plan.candidates, belief, plan.robot);
-  if (kept < 0 || kept == plan.chosen || options_.commitment_margin == 0.0) return;
-  const auto at = [&plan](int i) -> const Candidate& {
-    return plan.candidates[static_cast<std::size_t>(i)];
-  };
-  if (BeatsByMargin(at(plan.chosen), at(kept), options_.selection, options_.commitment_margin)) {
-    return;
-  }
-  plan.chosen = kept;
-  plan.goal_kept = true;
 }
 
 }  // namespace plumescout

@@ -31,12 +31,14 @@ class ComposedStrategy : public Strategy {
   absl::Status PlanFrom(const Departure& departure, const Belief& belief,
                         const PlanRequest& request, const StopFn& stop,
                         plumescout::Plan& plan) const;
+  // The same home, for the travel budget is spent. The plan keeps its rejected goals; it is
+  // complete if the robot is home, or there is no way.
+  absl::Status PlanLastWayHome(const Departure& departure, const Belief& belief,
+                               PlanRequest request, const StopFn& stop,
+                               plumescout::Plan& plan) const;
   // Turns what the search found for `goals` into candidates and rejections.
   void TakeResults(const std::vector<Goal>& goals, const PathResult& result,
                    const CandidateJudge& judge, plumescout::Plan& plan) const;
-  // Completes the candidates by what their paths from the robot on cost and bring, and chooses.
-  void Choose(const Departure& departure, const Belief& belief, const StopFn& stop,
-              plumescout::Plan& plan) const;
 
   PlanningOptions options_;
   std::unique_ptr<const PathPlanner> paths_;

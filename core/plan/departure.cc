@@ -11,14 +11,31 @@
 #include "core/plan/paths/shortcut.h"
 
 namespace plumescout {
+namespace {
+
+// Farther than this from its trajectory a robot is not following it: several times what followers
+// stray, and less than the width of a corridor.
+constexpr double kOffTrajectory_m = 0.5;
+
+// The pose `latency_s` after the robot's latest.
+Pose2 ExpectedPose(const RobotRecord& robot, double latency_s) {
+  if (latency_s == 0.0 || robot.live_trajectory == nullptr) return robot.state.pose;
+  const std::optional<NearestTime> now =
+      FindNearest(*robot.live_trajectory, robot.state.pose.position());
+  if (!now || !(now->distance_m <= kOffTrajectory_m)) return robot.state.pose;
+  return PoseAt(*robot.live_trajectory, now->time_s + latency_s);
+}
+
+}  // namespace
 
 absl::StatusOr<Pose2> StartPose(const Belief& belief, const PlanRequest& request,
-                                const RobotState& robot) {
-  if (!request.start && !robot.has_pose) {
+                                const RobotRecord& robot, const PlanningOptions& options) {
+  if (!request.start && !robot.state.has_pose) {
     return absl::FailedPreconditionError(
         absl::StrCat("robot \"", request.robot, "\" has no pose yet"));
   }
-  const Pose2 pose = request.start.value_or(robot.pose);
+  const Pose2 pose =
+      request.start ? *request.start : ExpectedPose(robot, options.planning_latency_s);
   const bool finite =
       std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad);
   const std::string place =

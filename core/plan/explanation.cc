@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plan/explanation.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "absl/strings/str_cat.h"
@@ -18,6 +19,8 @@ std::string Destination(const Goal& goal) {
       return absl::StrCat("an occupancy frontier of ", goal.frontier_cells, " cells");
     case GoalKind::kRandomFreeSpace:
       return "a random free place, for no frontier is left";
+    case GoalKind::kHome:
+      return "home";
   }
   return "";
 }
@@ -36,6 +39,17 @@ std::string Merit(const Candidate& candidate, SelectionRule rule) {
   return absl::StrFormat("least cost, %.2f", candidate.cost);
 }
 
+bool Rejects(const Plan& plan, RejectionReason reason) {
+  return std::any_of(plan.rejected.begin(), plan.rejected.end(),
+                     [reason](const RejectedGoal& goal) { return goal.reason == reason; });
+}
+
+bool IsWithoutWayHome(const Plan& plan) {
+  return std::any_of(plan.rejected.begin(), plan.rejected.end(), [](const RejectedGoal& rejected) {
+    return rejected.goal.kind == GoalKind::kHome;
+  });
+}
+
 std::string Choice(const Plan& plan, SelectionRule rule) {
   const Candidate& chosen = plan.candidates[static_cast<std::size_t>(plan.chosen)];
   std::string text = absl::StrFormat(
@@ -43,6 +57,9 @@ std::string Choice(const Plan& plan, SelectionRule rule) {
       Destination(chosen.goal), chosen.goal.position.x_m, chosen.goal.position.y_m,
       plan.goal_kept ? "kept, for none is better by the margin" : Merit(chosen, rule),
       plan.candidates.size());
+  if (Rejects(plan, RejectionReason::kOverBudget) && chosen.goal.kind == GoalKind::kHome) {
+    absl::StrAppend(&text, "; every other goal is beyond the travel budget");
+  }
   if (plan.start_escaped) absl::StrAppend(&text, "; first out of the margin around obstacles");
   if (plan.field_flat) absl::StrAppend(&text, "; the information field is flat");
   if (plan.end == PlanEnd::kStopped) absl::StrAppend(&text, "; the search was stopped early");
@@ -53,6 +70,14 @@ std::string Choice(const Plan& plan, SelectionRule rule) {
 
 std::string Explain(const Plan& plan, SelectionRule rule) {
   if (plan.chosen >= 0) return Choice(plan, rule);
+  if (plan.end == PlanEnd::kMissionComplete && Rejects(plan, RejectionReason::kOverBudget)) {
+    return absl::StrCat("Stay: what is left of the travel budget is not enough for any goal, and ",
+                        IsWithoutWayHome(plan) ? "there is no way home." : "the robot is home.");
+  }
+  const bool search_failed = plan.end == PlanEnd::kQueueExhausted || plan.end == PlanEnd::kStopped;
+  if (plan.phase == MissionPhase::kReturning && !search_failed) {
+    return IsWithoutWayHome(plan) ? "Stay: there is no way home." : "Stay: the robot is home.";
+  }
   switch (plan.end) {
     case PlanEnd::kMissionComplete:
       return "Stay: no frontier is left and random visits reveal nothing new; the mission is "

@@ -4,17 +4,26 @@
 
 #include <vector>
 
+#include "core/types/options.h"
 #include "core/types/pose2.h"
 #include "core/types/trajectory.h"
 
 namespace plumescout {
 
-// `path` driven at constant speed, standing for `dwell_s` at every vertex but the first (stop and
-// sample, [XIT] section VII: the robot has sampled where it stands). Headings point along the
-// segment that leaves a vertex; the last keeps the heading it arrives with, and a path of no
-// length `start_yaw_rad`. Vertices that repeat the one before are left out. Turning takes
-// no time. REQUIRES: speed_mps > 0. An empty path gives an empty trajectory.
-Trajectory TimeTrajectory(const std::vector<Point2>& path, double start_yaw_rad, double speed_mps,
-                          double dwell_s);
+// `path` driven as the options of motion say: speed_mps, max_acceleration_mps2,
+// max_turn_rate_rad_per_s and dwell_s. The robot stands for dwell_s at every vertex but the first
+// (stop and sample, [XIT] section VII: it has sampled where it stands). Vertices that repeat the
+// one before are left out. Without limits of acceleration and turning it drives at constant speed,
+// and headings jump.
+//
+// With a limit of acceleration it stops at every vertex where the path bends or it dwells; speed in
+// between follows a trapezoid (core/plan/speed_profile.h), whose corners are waypoints of their
+// own. With a limit of the turn rate it turns on the spot before it goes on, from `start_yaw_rad`
+// to begin with, and two waypoints lie where it does. Rounding corners would be quicker, but would
+// leave the path that was checked for collisions.
+//
+// A path of no length keeps `start_yaw_rad`; an empty one gives an empty trajectory.
+Trajectory TimeTrajectory(const std::vector<Point2>& path, double start_yaw_rad,
+                          const PlanningOptions& options);
 
 }  // namespace plumescout

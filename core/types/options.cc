@@ -39,6 +39,12 @@ class Checker {
   absl::Status status_;
 };
 
+// Limits of motion: a smaller one would make trajectories last for ever.
+constexpr double kMinLimit = 1e-3;
+constexpr double kMaxLimit = 100.0;
+// A limit for the range check; 0, which stands for none, passes.
+double LimitToCheck(double limit) { return limit == 0.0 ? kMaxLimit : limit; }
+
 double LogOddsMagnitude(double probability) {
   return std::abs(std::log(probability / (1.0 - probability)));
 }
@@ -118,20 +124,62 @@ absl::Status Validate(const PlanningOptions& options) {
       .Positive("planning.set_aside_s", options.set_aside_s)
       .InRange("planning.set_aside_s", options.set_aside_s, 0.0, kMaxTime_s)
       .InRange("planning.fallback_limit", options.fallback_limit, 1, 1000)
+      .InRange("planning.max_acceleration_mps2", LimitToCheck(options.max_acceleration_mps2),
+               kMinLimit, kMaxLimit)
+      .InRange("planning.max_turn_rate_rad_per_s", LimitToCheck(options.max_turn_rate_rad_per_s),
+               kMinLimit, kMaxLimit)
+      .InRange("planning.travel_budget_m", options.travel_budget_m, 0.0, 1e9)
+      .InRange("planning.return_margin_share", options.return_margin_share, 0.0, 10.0)
+      .InRange("planning.planning_latency_s", options.planning_latency_s, 0.0, 60.0)
       .status();
 }
+
+namespace {
+
+absl::Status Validate(const Polygon& polygon, const std::string& field) {
+  constexpr double kMaxVertices = 256;
+  constexpr double kMaxCoordinate_m = 1e6;
+  Checker checker;
+  checker.InRange(absl::StrCat(field, ".vertices"), static_cast<double>(polygon.vertices.size()), 3,
+                  kMaxVertices);
+  for (std::size_t i = 0; i < polygon.vertices.size(); ++i) {
+    const std::string vertex = absl::StrCat(field, ".vertices[", i, "]");
+    checker
+        .InRange(absl::StrCat(vertex, ".x_m"), polygon.vertices[i].x_m, -kMaxCoordinate_m,
+                 kMaxCoordinate_m)
+        .InRange(absl::StrCat(vertex, ".y_m"), polygon.vertices[i].y_m, -kMaxCoordinate_m,
+                 kMaxCoordinate_m);
+  }
+  return checker.status();
+}
+
+absl::Status ValidateKeepOut(const std::vector<Polygon>& keep_out) {
+  constexpr double kMaxAreas = 64;
+  PLUMESCOUT_RETURN_IF_ERROR(
+      Checker().InRange("keep_out", static_cast<double>(keep_out.size()), 0, kMaxAreas).status());
+  for (std::size_t i = 0; i < keep_out.size(); ++i) {
+    PLUMESCOUT_RETURN_IF_ERROR(Validate(keep_out[i], absl::StrCat("keep_out[", i, "]")));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
 
 absl::Status Validate(const MissionOptions& options) {
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options.occupancy));
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options.gas));
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options.frontier));
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options.planning));
+  PLUMESCOUT_RETURN_IF_ERROR(ValidateKeepOut(options.keep_out));
+  const Point2 home = options.home.value_or(Point2{});
   return Checker()
       .InRange("pose_limit_m", options.pose_limit_m, 1.0, 1e6)
       .InRange("max_range_m", options.max_range_m, 0.1, 1000.0)
       .InRange("max_beams", options.max_beams, 1, 100'000)
       .InRange("max_concentration_ppm", options.max_concentration_ppm, 1.0, 1e6)
       .InRange("max_robots", options.max_robots, 1, 1000)
+      .InRange("home.x_m", home.x_m, -options.pose_limit_m, options.pose_limit_m)
+      .InRange("home.y_m", home.y_m, -options.pose_limit_m, options.pose_limit_m)
       .status();
 }
 

@@ -5,8 +5,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "absl/status/status.h"
+#include "core/types/polygon.h"
+#include "core/types/pose2.h"
 
 namespace plumescout {
 
@@ -109,6 +112,19 @@ struct PlanningOptions {
   // free places only (paper).
   bool fallback_to_unobserved = true;
   int fallback_limit = 2;  // fruitless fallback trajectories that end the mission
+
+  // How trajectories are timed. 0: no limit; else [0.001, 100]. With either limit the robot stops
+  // at every corner and turns on the spot.
+  double max_acceleration_mps2 = 0.0;    // along the path, of speeding up and of braking
+  double max_turn_rate_rad_per_s = 0.0;  // on the spot
+  // How far a robot may drive in the mission, metres, [0, 1e9]; 0: as far as it likes. A goal from
+  // which less would be left than (1 + return_margin_share) times the way home is over budget.
+  double travel_budget_m = 0.0;
+  double return_margin_share = 0.1;  // [0, 10]
+  bool return_home = false;          // before the mission is complete, the robot drives home
+  // From a robot's latest pose to its leaving by the new plan, seconds, [0, 60]: meanwhile it
+  // follows its live plan.
+  double planning_latency_s = 0.0;
 };
 
 struct MissionOptions {
@@ -122,6 +138,9 @@ struct MissionOptions {
   double max_concentration_ppm = 1e6;
   int max_robots = 32;
   std::uint64_t seed = 1;
+  // Where nobody may drive, though it is sensed and mapped: at most 64, of 3 to 256 vertices each.
+  std::vector<Polygon> keep_out;
+  std::optional<Point2> home;  // of every robot, within pose_limit_m; none: its own first pose
 };
 
 // kInvalidArgument naming field, value and range, e.g. "gas.prior_precision = -1 must be > 0".

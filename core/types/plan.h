@@ -14,15 +14,15 @@
 
 namespace plumescout {
 
-enum class MissionPhase { kExploring, kGasProbing, kFallback, kComplete };
-enum class GoalKind { kOccupancyFrontier, kGasFrontier, kRandomFreeSpace };
+enum class MissionPhase { kExploring, kGasProbing, kFallback, kComplete, kReturning };
+enum class GoalKind { kOccupancyFrontier, kGasFrontier, kRandomFreeSpace, kHome };
 
 // A place worth going to, as the goal policy hands it to the path planner.
 struct Goal {
   GoalKind kind = GoalKind::kOccupancyFrontier;
   Cell cell;        // traversable; of the belief's geometry, which growth of the map may move
   Point2 position;  // centre of the cell: what claims and goal memory go by
-  Point2 centroid;  // of the frontier; the cell's centre for random goals
+  Point2 centroid;  // of the frontier; the cell's centre for random goals; home itself
   int frontier_cells = 0;
 
   friend bool operator==(const Goal&, const Goal&) = default;
@@ -56,6 +56,8 @@ enum class RejectionReason {
   kNotDrawn,       // more goals than max_goals; the draw passed it over
   kTooClose,       // nearer than the minimum travel distance
   kSearchStopped,  // deadline or cancel came before a path was found
+  kOverBudget,     // too little of the travel budget would be left to drive home
+  kKeptOut,        // in an area where nobody may drive
 };
 
 struct RejectedGoal {

@@ -119,7 +119,7 @@ void LoadRobot::Plan() {
 
 Pose2 LoadRobot::PoseNow() const {
   absl::MutexLock lock(&mutex_);
-  return client::PoseAt(leg_.trajectory, absl::ToDoubleSeconds(absl::Now() - leg_.departure));
+  return PoseAt(leg_.trajectory, absl::ToDoubleSeconds(absl::Now() - leg_.departure));
 }
 
 }  // namespace plumescout::lab

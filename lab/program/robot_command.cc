@@ -46,6 +46,8 @@ const char* PhaseName(MissionPhase phase) {
       return "fallback";
     case MissionPhase::kComplete:
       return "complete";
+    case MissionPhase::kReturning:
+      return "returning";
   }
   return "unknown";
 }

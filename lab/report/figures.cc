@@ -114,6 +114,7 @@ Rgb GoalColor(GoalKind kind) {
     case GoalKind::kGasFrontier:
       return kGasFrontierColor;
     case GoalKind::kRandomFreeSpace:
+    case GoalKind::kHome:
       break;
   }
   return kRandomGoalColor;

@@ -20,11 +20,13 @@ constexpr Row<MissionPhase, v1::MissionPhase> kPhases[] = {
     {MissionPhase::kGasProbing, v1::MISSION_PHASE_GAS_PROBING},
     {MissionPhase::kFallback, v1::MISSION_PHASE_FALLBACK},
     {MissionPhase::kComplete, v1::MISSION_PHASE_COMPLETE},
+    {MissionPhase::kReturning, v1::MISSION_PHASE_RETURNING},
 };
 constexpr Row<GoalKind, v1::GoalKind> kGoalKinds[] = {
     {GoalKind::kOccupancyFrontier, v1::GOAL_KIND_OCCUPANCY_FRONTIER},
     {GoalKind::kGasFrontier, v1::GOAL_KIND_GAS_FRONTIER},
     {GoalKind::kRandomFreeSpace, v1::GOAL_KIND_RANDOM_FREE_SPACE},
+    {GoalKind::kHome, v1::GOAL_KIND_HOME},
 };
 constexpr Row<FrontierKind, v1::GoalKind> kFrontierKinds[] = {
     {FrontierKind::kOccupancy, v1::GOAL_KIND_OCCUPANCY_FRONTIER},
@@ -43,6 +45,8 @@ constexpr Row<RejectionReason, v1::RejectedGoal::Reason> kRejectionReasons[] = {
     {RejectionReason::kNotDrawn, v1::RejectedGoal::REASON_NOT_DRAWN},
     {RejectionReason::kTooClose, v1::RejectedGoal::REASON_TOO_CLOSE},
     {RejectionReason::kSearchStopped, v1::RejectedGoal::REASON_SEARCH_STOPPED},
+    {RejectionReason::kOverBudget, v1::RejectedGoal::REASON_OVER_BUDGET},
+    {RejectionReason::kKeptOut, v1::RejectedGoal::REASON_KEPT_OUT},
 };
 constexpr Row<PlanEnd, v1::Plan::End> kPlanEnds[] = {
     {PlanEnd::kAllGoalsReached, v1::Plan::END_ALL_GOALS_REACHED},

@@ -10,6 +10,7 @@
 #include "google/protobuf/util/message_differencer.h"
 #include "proto/convert/enums.h"
 #include "proto/convert/field.h"
+#include "proto/convert/geometry.h"
 
 namespace plumescout {
 namespace {
@@ -94,6 +95,12 @@ v1::PlanningOptions ToProto(const PlanningOptions& options) {
   proto.set_straighten(options.straighten);
   proto.set_reading_rate_hz(options.reading_rate_hz);
   proto.set_commitment_margin_share(options.commitment_margin);
+  proto.set_max_acceleration_mps2(options.max_acceleration_mps2);
+  proto.set_max_turn_rate_rad_per_s(options.max_turn_rate_rad_per_s);
+  proto.set_travel_budget_m(options.travel_budget_m);
+  proto.set_return_margin_share(options.return_margin_share);
+  proto.set_return_home(options.return_home);
+  proto.set_planning_latency_s(options.planning_latency_s);
   return proto;
 }
 
@@ -197,6 +204,37 @@ void ReadNumbers(const v1::PlanningOptions& proto, PlanningOptions& options) {
        options.commitment_margin);
 }
 
+void ReadMotion(const v1::PlanningOptions& proto, PlanningOptions& options) {
+  Take(proto.has_max_acceleration_mps2(), proto.max_acceleration_mps2(),
+       options.max_acceleration_mps2);
+  Take(proto.has_max_turn_rate_rad_per_s(), proto.max_turn_rate_rad_per_s(),
+       options.max_turn_rate_rad_per_s);
+  Take(proto.has_travel_budget_m(), proto.travel_budget_m(), options.travel_budget_m);
+  Take(proto.has_return_margin_share(), proto.return_margin_share(), options.return_margin_share);
+  Take(proto.has_return_home(), proto.return_home(), options.return_home);
+  Take(proto.has_planning_latency_s(), proto.planning_latency_s(), options.planning_latency_s);
+}
+
+// A mission's own areas take the place of the defaults, not a place among them.
+absl::Status ReadPlaces(const v1::MissionOptions& proto, absl::string_view field,
+                        MissionOptions& options) {
+  if (proto.keep_out_size() > 0) options.keep_out.clear();
+  for (int i = 0; i < proto.keep_out_size(); ++i) {
+    const std::string area = Join(field, "keep_out", i);
+    Polygon polygon;
+    for (int k = 0; k < proto.keep_out(i).vertices_size(); ++k) {
+      PLUMESCOUT_ASSIGN_OR_RETURN(
+          const Point2 vertex, FromProto(proto.keep_out(i).vertices(k), Join(area, "vertices", k)));
+      polygon.vertices.push_back(vertex);
+    }
+    options.keep_out.push_back(std::move(polygon));
+  }
+  if (proto.has_home()) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(options.home, FromProto(proto.home(), Join(field, "home")));
+  }
+  return absl::OkStatus();
+}
+
 // Clears the fields of `message` that are equal in `other`, a message of the same type.
 void ClearEqualFields(const google::protobuf::Message& other, google::protobuf::Message& message) {
   const google::protobuf::Reflection& reflection = *message.GetReflection();
@@ -204,7 +242,9 @@ void ClearEqualFields(const google::protobuf::Message& other, google::protobuf::
   reflection.ListFields(message, &fields);
   google::protobuf::util::MessageDifferencer differencer;
   for (const auto* field : fields) {
-    if (field->cpp_type() == google::protobuf::FieldDescriptor::CPPTYPE_MESSAGE) {
+    const bool is_part = field->cpp_type() == google::protobuf::FieldDescriptor::CPPTYPE_MESSAGE &&
+                         !field->is_repeated() && reflection.HasField(other, field);
+    if (is_part) {
       ClearEqualFields(reflection.GetMessage(other, field),
                        *reflection.MutableMessage(&message, field));
     } else if (differencer.CompareWithFields(message, other, {field}, {field})) {
@@ -246,6 +286,11 @@ v1::MissionOptions ToProto(const MissionOptions& options) {
   proto.set_max_concentration_ppm(options.max_concentration_ppm);
   proto.set_max_robot_count(options.max_robots);
   proto.set_seed(static_cast<std::int64_t>(options.seed));
+  for (const Polygon& polygon : options.keep_out) {
+    v1::Polygon& added = *proto.add_keep_out();
+    for (const Point2 vertex : polygon.vertices) *added.add_vertices() = ToProto(vertex);
+  }
+  if (options.home) *proto.mutable_home() = ToProto(*options.home);
   return proto;
 }
 
@@ -264,6 +309,7 @@ absl::StatusOr<MissionOptions> FromProto(const v1::MissionOptions& proto,
   PLUMESCOUT_RETURN_IF_ERROR(
       ReadChoices(proto.planning(), Join(field, "planning"), options.planning));
   ReadNumbers(proto.planning(), options.planning);
+  ReadMotion(proto.planning(), options.planning);
   Take(proto.has_pose_limit_m(), proto.pose_limit_m(), options.pose_limit_m);
   Take(proto.has_max_range_m(), proto.max_range_m(), options.max_range_m);
   Take(proto.has_max_beam_count(), proto.max_beam_count(), options.max_beams);
@@ -271,6 +317,7 @@ absl::StatusOr<MissionOptions> FromProto(const v1::MissionOptions& proto,
        options.max_concentration_ppm);
   Take(proto.has_max_robot_count(), proto.max_robot_count(), options.max_robots);
   Take(proto.has_seed(), proto.seed(), options.seed);
+  PLUMESCOUT_RETURN_IF_ERROR(ReadPlaces(proto, field, options));
   PLUMESCOUT_RETURN_IF_ERROR(WithField(Validate(options), field, kRenamed));
   return options;
 }

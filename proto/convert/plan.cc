@@ -64,6 +64,7 @@ v1::Trajectory ToProto(const Trajectory& trajectory) {
     *added.mutable_pose() = ToProto(waypoint.pose);
     added.set_arrival_time_s(waypoint.arrival_time_s);
     added.set_dwell_s(waypoint.dwell_s);
+    added.set_speed_mps(waypoint.speed_mps);
   }
   proto.set_length_m(trajectory.length_m);
   proto.set_duration_s(trajectory.duration_s);
@@ -139,8 +140,10 @@ absl::StatusOr<Waypoint> FromProto(const v1::Waypoint& proto, absl::string_view 
   PLUMESCOUT_RETURN_IF_ERROR(
       CheckNotNegative(Join(field, "arrival_time_s"), proto.arrival_time_s()));
   PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative(Join(field, "dwell_s"), proto.dwell_s()));
+  PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative(Join(field, "speed_mps"), proto.speed_mps()));
   waypoint.arrival_time_s = proto.arrival_time_s();
   waypoint.dwell_s = proto.dwell_s();
+  waypoint.speed_mps = proto.speed_mps();
   return waypoint;
 }
 

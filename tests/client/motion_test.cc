@@ -51,6 +51,23 @@ TEST(IdealMotionTest, TheRobotStandsWhereThePlanPutsItAtThatTimeOfItsClock) {
   EXPECT_NEAR(driver.pose().y_m, 0.5, 1e-12);
 }
 
+TEST(IdealMotionTest, TheRobotSpeedsUpAndTurnsAsPlanned) {
+  FakeDriver driver;
+  Trajectory trajectory;  // a turn by one radian in a second, then 1 m/s^2 for two
+  trajectory.waypoints = {
+      {{0, 0, -1}, 0.0, 0.0}, {{0, 0, 0}, 1.0, 0.0, 0.0}, {{2, 0, 0}, 3.0, 0.0, 2.0}};
+  const std::int64_t departure_ns = driver.now_ns();
+  const auto motion = StartMotion(Following::kIdeal, trajectory, {}, departure_ns);
+
+  driver.set_now_ns(departure_ns + kSecond_ns / 2);
+  ASSERT_TRUE(motion->Step(driver).ok());
+  EXPECT_NEAR(driver.pose().yaw_rad, -0.5, 1e-12);
+
+  driver.set_now_ns(departure_ns + 2 * kSecond_ns);
+  ASSERT_TRUE(motion->Step(driver).ok());
+  EXPECT_NEAR(driver.pose().x_m, 0.5, 1e-12);
+}
+
 TEST(IdealMotionTest, IsDoneOnlyOnceTheRobotStandsAtTheEnd) {
   FakeDriver driver;
   const auto motion = Start(Following::kIdeal, driver);

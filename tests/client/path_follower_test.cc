@@ -73,30 +73,6 @@ Drive Follow(FakeDriver& driver, const std::vector<Point2>& points, double dwell
   return drive;
 }
 
-TEST(PoseAt, WalksTheSegmentsAtThePlannedTimes) {
-  const Trajectory trajectory = Through({{0, 0}, {2.5, 0}, {2.5, 1.25}});
-
-  EXPECT_EQ(PoseAt(trajectory, 0.0).position(), (Point2{0, 0}));
-  EXPECT_EQ(PoseAt(trajectory, 1.0).position(), (Point2{1.25, 0}));
-  EXPECT_EQ(PoseAt(trajectory, 2.0).position(), (Point2{2.5, 0}));
-  EXPECT_EQ(PoseAt(trajectory, 2.5).position(), (Point2{2.5, 0.625}));
-}
-
-TEST(PoseAt, StandsStillWhileAWaypointDwells) {
-  const Trajectory trajectory = Through({{0, 0}, {1.25, 0}, {2.5, 0}}, 5.0);
-
-  EXPECT_EQ(PoseAt(trajectory, 1.0).position(), (Point2{1.25, 0}));
-  EXPECT_EQ(PoseAt(trajectory, 5.9).position(), (Point2{1.25, 0}));
-  EXPECT_EQ(PoseAt(trajectory, 6.5).position(), (Point2{1.875, 0}));
-}
-
-TEST(PoseAt, ClampsToTheEnds) {
-  const Trajectory trajectory = Through({{1, 1}, {2, 1}});
-
-  EXPECT_EQ(PoseAt(trajectory, -1.0).position(), (Point2{1, 1}));
-  EXPECT_EQ(PoseAt(trajectory, 99.0).position(), (Point2{2, 1}));
-}
-
 TEST(PathFollower, OnAStraightLineItKeepsThePlannedSpeed) {
   FakeDriver driver;
 
@@ -151,6 +127,23 @@ TEST(PathFollower, DwellsAtEachWaypointAndThenGoesOn) {
 
   EXPECT_TRUE(drive.arrived);
   EXPECT_NEAR(drive.time_s, 2.0 / kSpeed_mps + 2 * 5.0, 0.6);  // a few ticks
+}
+
+TEST(PathFollower, WhereThePlanTurnsOnTheSpotItTurnsAndGoesOn) {
+  FakeDriver driver;
+  Trajectory trajectory;
+  trajectory.waypoints = {{{0, 0, 0}, 0.0, 0.0},
+                          {{1, 0, 0}, 1.0, 0.0},
+                          {{1, 0, M_PI_2}, 3.0, 0.0},  // two seconds of turning
+                          {{1, 1, M_PI_2}, 4.0, 0.0}};
+  PathFollower follower(trajectory, {});
+  for (int tick = 0; tick < 100 && !follower.done(); ++tick) {
+    ASSERT_TRUE(driver.Drive(follower.Step(driver.pose(), driver.now_ns())).ok());
+    ASSERT_TRUE(driver.Advance(FollowerOptions{}.tick_s).ok());
+  }
+
+  EXPECT_TRUE(follower.done());
+  EXPECT_LE(Distance_m(driver.pose().position(), {1, 1}), FollowerOptions{}.arrival_tolerance_m);
 }
 
 TEST(PathFollower, PathAheadBeginsAtTheRobotAndLeavesOutWhatIsBehind) {

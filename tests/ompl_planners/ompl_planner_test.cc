@@ -5,10 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <set>
-#include <string>
 #include <thread>
 
+#include "core/plan/paths/path_planners.h"
 #include "tests/support/path_case.h"
 
 namespace plumescout {
@@ -16,40 +15,41 @@ namespace {
 
 using testing::PathCase;
 
-constexpr OmplKind kKinds[] = {OmplKind::kRrt, OmplKind::kRrtStar, OmplKind::kInformedRrtStar,
-                               OmplKind::kBitStar, OmplKind::kPrmStar};
+constexpr PathKind kKinds[] = {PathKind::kRrt, PathKind::kRrtStar, PathKind::kInformedRrtStar,
+                               PathKind::kBitStar, PathKind::kPrmStar};
 
-TEST(OmplPlanner, KindsAndNamesBelongTogether) {
-  std::set<std::string> names;
-  for (const OmplKind kind : kKinds) {
-    EXPECT_EQ(OmplKindOf(OmplName(kind)), kind);
-    names.insert(OmplName(kind));
+PlanningOptions Options(PathKind kind, int samples = 1000) {
+  PlanningOptions options;
+  options.paths = kind;
+  options.samples = samples;
+  return options;
+}
+
+TEST(OmplPlanner, IsNoneForOurOwnKinds) {
+  for (const PathKind kind : {PathKind::kXit, PathKind::kAnytimeXit, PathKind::kGridExact}) {
+    EXPECT_EQ(MakeOmplPlanner(Options(kind)), nullptr);
   }
-  EXPECT_EQ(names, (std::set<std::string>{"rrt", "rrt_star", "informed_rrt_star", "bit_star",
-                                          "prm_star"}));
-  EXPECT_EQ(OmplKindOf("lazy_prm_star"), std::nullopt);
-  EXPECT_EQ(OmplKindOf(""), std::nullopt);
 }
 
 TEST(OmplPlanner, OfEveryKindFindsPaths) {
   const PathCase c(3);
-  for (const OmplKind kind : kKinds) {
-    const PathResult result = MakeOmplPlanner(kind, {})->FindPaths(c.Problem());
-    EXPECT_EQ(result.end, PlanEnd::kAllGoalsReached) << OmplName(kind);
+  for (const PathKind kind : kKinds) {
+    const PathResult result = MakeOmplPlanner(Options(kind))->FindPaths(c.Problem());
+    EXPECT_EQ(result.end, PlanEnd::kAllGoalsReached) << PathKindName(kind);
   }
 }
 
 TEST(OmplPlanner, TakesANumberOfSamplesBelowZeroForZero) {
   const PathCase c(3);
-  for (const OmplKind kind : kKinds) {
-    const PathResult result = MakeOmplPlanner(kind, {.samples = -7})->FindPaths(c.Problem());
-    EXPECT_EQ(result.paths.size(), c.goals.size()) << OmplName(kind);
+  for (const PathKind kind : kKinds) {
+    const PathResult result = MakeOmplPlanner(Options(kind, -7))->FindPaths(c.Problem());
+    EXPECT_EQ(result.paths.size(), c.goals.size()) << PathKindName(kind);
   }
 }
 
 TEST(OmplPlanner, GivesTheSameBytesWhenManyThreadsSearchAtOnce) {
   const PathCase c(4);
-  const auto planner = MakeOmplPlanner(OmplKind::kRrtStar, {.samples = 200});
+  const auto planner = MakeOmplPlanner(Options(PathKind::kRrtStar, 200));
   const PathResult alone = planner->FindPaths(c.Problem());
   std::vector<PathResult> results(4);
   std::vector<std::thread> threads;
@@ -61,7 +61,7 @@ TEST(OmplPlanner, GivesTheSameBytesWhenManyThreadsSearchAtOnce) {
 }
 
 TEST(OmplPlanner, ThatWaitsForAnotherSearchHonoursItsStopFunction) {
-  const auto planner = MakeOmplPlanner(OmplKind::kRrtStar, {.samples = 1'000'000});
+  const auto planner = MakeOmplPlanner(Options(PathKind::kRrtStar, 1'000'000));
   std::atomic<bool> searching = false;
   std::atomic<bool> enough = false;
   PathCase first(5);

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "core/plan/paths/path_planners.h"
 #include "lab/bench/grid_oracle.h"
 #include "tests/support/path_case.h"
 
@@ -21,12 +22,12 @@ using testing::PathCase;
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr int kManySamples = 300;
 
-class OmplSearch : public ::testing::TestWithParam<OmplKind> {
+class OmplSearch : public ::testing::TestWithParam<PathKind> {
  protected:
   PathResult Search(const PathProblem& problem, int samples = kManySamples) const {
     return SearchWithOmpl(GetParam(), samples, problem);
   }
-  bool IsRoadmap() const { return GetParam() == OmplKind::kPrmStar; }
+  bool IsRoadmap() const { return GetParam() == PathKind::kPrmStar; }
 };
 
 int Reached(const PathResult& result) {
@@ -232,10 +233,10 @@ TEST_P(OmplSearch, SurvivesRandomWorldsOfAllShapes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, OmplSearch,
-                         ::testing::Values(OmplKind::kRrt, OmplKind::kRrtStar,
-                                           OmplKind::kInformedRrtStar, OmplKind::kBitStar,
-                                           OmplKind::kPrmStar),
-                         [](const auto& info) { return std::string(OmplName(info.param)); });
+                         ::testing::Values(PathKind::kRrt, PathKind::kRrtStar,
+                                           PathKind::kInformedRrtStar, PathKind::kBitStar,
+                                           PathKind::kPrmStar),
+                         [](const auto& info) { return std::string(PathKindName(info.param)); });
 
 // RRT ends at its first path, however many samples it has.
 class OmplSearchOfTheBest : public OmplSearch {};
@@ -268,9 +269,9 @@ TEST_P(OmplSearchOfTheBest, ComesNearTheBestGridPath) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, OmplSearchOfTheBest,
-                         ::testing::Values(OmplKind::kRrtStar, OmplKind::kInformedRrtStar,
-                                           OmplKind::kBitStar, OmplKind::kPrmStar),
-                         [](const auto& info) { return std::string(OmplName(info.param)); });
+                         ::testing::Values(PathKind::kRrtStar, PathKind::kInformedRrtStar,
+                                           PathKind::kBitStar, PathKind::kPrmStar),
+                         [](const auto& info) { return std::string(PathKindName(info.param)); });
 
 // A tree keeps what it has: the path only improves while the same search goes on.
 TEST(OmplRrtStar, IsNoDearerAfterMoreOfTheSameIterations) {
@@ -278,7 +279,7 @@ TEST(OmplRrtStar, IsNoDearerAfterMoreOfTheSameIterations) {
     const PathCase c(seed, {60, 50, 25, 1});
     double last_cost = kInf;
     for (const int samples : {50, 100, 200, 400}) {
-      const PathResult result = SearchWithOmpl(OmplKind::kRrtStar, samples, c.Problem());
+      const PathResult result = SearchWithOmpl(PathKind::kRrtStar, samples, c.Problem());
       if (!result.paths[0]) continue;
       EXPECT_LE(result.paths[0]->cost, last_cost + 1e-9);
       last_cost = result.paths[0]->cost;

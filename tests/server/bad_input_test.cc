@@ -55,6 +55,8 @@ std::set<std::string> FreeFields() {
       "CreateMissionRequest.options.planning.goal_vertices",
       "CreateMissionRequest.options.planning.informed_heuristic",
       "CreateMissionRequest.options.planning.straighten",
+      "CreateMissionRequest.options.planning.return_home",
+      "NextBestTrajectoryRequest.go_home",
       "RegisterRobotRequest.take_over",
       "GetMapRequest.full_precision",
       "GetMapRequest.fresh_posterior",
@@ -65,6 +67,7 @@ std::set<std::string> FreeFields() {
       "CreateMissionRequest.options.gas",
       "CreateMissionRequest.options.frontier",
       "CreateMissionRequest.options.planning",
+      "CreateMissionRequest.options.home",
       // Unset: the robot's latest pose, the server's budget.
       "NextBestTrajectoryRequest.start",
       "NextBestTrajectoryRequest.planning_budget",

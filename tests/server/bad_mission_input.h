@@ -33,6 +33,38 @@ inline BadInputs BadLimits() {
       .Values("options.max_robot_count", {"-1", "0", "1001"});
 }
 
+// An area with one bad vertex, and such as are none.
+inline BadInputs BadPlaces() {
+  BadInputs rows;
+  for (const char* axis : {"x_m", "y_m"}) {
+    rows.Values(absl::StrCat("options.home.", axis), {"nan", "inf", "-1e300", "1001"});
+    const std::string vertices = "options.keep_out.vertices";
+    for (const char* value : {"nan", "-inf", "1e300"}) {
+      const auto spoil = [=](Message& message) {
+        SetField(message, "options.keep_out", "{vertices {} vertices {} vertices {}}");
+        SetField(message, absl::StrCat(vertices, ".", axis), value);
+      };
+      rows.Row({absl::StrCat(vertices, ".", axis), value, spoil, absl::StatusCode::kInvalidArgument,
+                absl::StrCat("options.keep_out[0].vertices[0].", axis)});
+    }
+  }
+  static const std::string many = [] {
+    constexpr int kTooMany = 257;
+    std::string text = "{";
+    for (int i = 0; i < kTooMany; ++i) text += "vertices {} ";
+    return text + "}";
+  }();
+  rows.ValuesBlaming("options.keep_out[0].vertices", "options.keep_out",
+                     {"{}", "{vertices {} vertices {}}", many.c_str()});
+  rows.Row({"options.keep_out.vertices", "one",
+            [](Message& message) {
+              SetField(message, "options.keep_out", "{}");
+              SetField(message, "options.keep_out.vertices", "{x_m: 1}");
+            },
+            absl::StatusCode::kInvalidArgument, "options.keep_out[0].vertices"});
+  return rows;
+}
+
 inline BadInputs BadOccupancyOptions() {
   const std::string o = "options.occupancy.";
   return BadInputs()
@@ -96,7 +128,12 @@ inline BadInputs BadPlanningOptions() {
       .Values(p + "speed_mps", {"nan", "inf", "-1", "0", "101"})
       .Values(p + "dwell_s", {"nan", "inf", "-1", "3601"})
       .Values(p + "set_aside_s", {"nan", "inf", "-1", "0", "1e300"})
-      .Values(p + "fallback_limit", {"-1", "0", "1001"});
+      .Values(p + "fallback_limit", {"-1", "0", "1001"})
+      .Values(p + "max_acceleration_mps2", {"nan", "inf", "-1", "1e-300", "101"})
+      .Values(p + "max_turn_rate_rad_per_s", {"nan", "inf", "-1", "1e-300", "101"})
+      .Values(p + "travel_budget_m", {"nan", "inf", "-1", "1e300"})
+      .Values(p + "return_margin_share", {"nan", "inf", "-0.1", "11"})
+      .Values(p + "planning_latency_s", {"nan", "inf", "-1", "61"});
 }
 
 // The server has room for a mission of the default size, not for the largest.
@@ -105,6 +142,7 @@ inline BadInputs BadCreateMission() {
       .Rows(BadId("mission_id"))
       .Value("mission_id", R"("hall")", absl::StatusCode::kAlreadyExists, "MISSION_EXISTS")
       .Rows(BadLimits())
+      .Rows(BadPlaces())
       .Rows(BadOccupancyOptions())
       .Rows(BadGasOptions())
       .Rows(BadFrontierOptions())

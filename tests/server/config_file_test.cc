@@ -89,6 +89,27 @@ TEST(ConfigFileTest, ErrorsNameTheLine) {
   EXPECT_EQ(ErrorOf("- 1\n"), "test.yaml:1: must be a mapping");
 }
 
+TEST(ConfigFileTest, ListsOfMappingsAreRead) {
+  ConfigBuilder builder;
+  const std::string yaml =
+      "mission:\n"
+      "  home: {x_m: 1.5, y_m: -2}\n"
+      "  keep_out:\n"
+      "    - vertices: [{x_m: 0, y_m: 0}, {x_m: 2, y_m: 0}, {x_m: 0, y_m: 3}]\n"
+      "    - vertices: [{x_m: 5, y_m: 5}, {x_m: 6, y_m: 5}, {x_m: 6, y_m: 6}, {x_m: 5, y_m: 6}]\n";
+  ASSERT_EQ(builder.AddYaml(yaml, "a.yaml"), absl::OkStatus());
+  ASSERT_EQ(builder.Set("mission.keep_out[0].vertices[2].y_m", "4"), absl::OkStatus());
+  const auto config = builder.Build();
+  ASSERT_TRUE(config.ok()) << config.status();
+  EXPECT_EQ(config->mission.home, (Point2{1.5, -2.0}));
+  ASSERT_EQ(config->mission.keep_out.size(), 2u);
+  EXPECT_EQ(config->mission.keep_out[0], (Polygon{{{0, 0}, {2, 0}, {0, 4}}}));
+  EXPECT_EQ(config->mission.keep_out[1].vertices.size(), 4u);
+  EXPECT_EQ(ErrorOf("mission:\n  keep_out: [1]\n"), "test.yaml:2: mission.keep_out has no value");
+  EXPECT_EQ(ErrorOf("mission:\n  keep_out:\n    - corners: 3\n"),
+            "test.yaml:3: mission.keep_out[0].corners is not an option");
+}
+
 TEST(ConfigFileTest, EmptyFileIsTheDefault) { EXPECT_EQ(ErrorOf(""), ""); }
 
 TEST(ConfigFileTest, MissingFileIsNotFound) {

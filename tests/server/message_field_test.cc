@@ -33,6 +33,22 @@ TEST(MessageFieldTest, UnknownPathsAreNotFound) {
   }
 }
 
+TEST(MessageFieldTest, ElementsOfListsAreSetAndAddedAtTheEnd) {
+  v1::MissionOptions options;
+  EXPECT_TRUE(SetMessageField(options, "keep_out[0].vertices[0].x_m", "1").ok());
+  EXPECT_TRUE(SetMessageField(options, "keep_out[0].vertices[1].x_m", "2").ok());
+  EXPECT_TRUE(SetMessageField(options, "keep_out[0].vertices[0].x_m", "3").ok());
+  ASSERT_EQ(options.keep_out_size(), 1);
+  ASSERT_EQ(options.keep_out(0).vertices_size(), 2);
+  EXPECT_EQ(options.keep_out(0).vertices(0).x_m(), 3.0);
+  for (const char* path :
+       {"keep_out", "keep_out.vertices", "keep_out[0]", "keep_out[2].vertices",
+        "keep_out[-1].vertices[0].x_m", "keep_out[x].vertices[0].x_m", "keep_out[0.vertices[0].x_m",
+        "seed[0]", "planning[0].beta", "keep_out[99999999999].vertices[0].x_m"}) {
+    EXPECT_TRUE(absl::IsNotFound(SetMessageField(options, path, "1"))) << path;
+  }
+}
+
 TEST(MessageFieldTest, TextThatIsNoValueIsRefused) {
   v1::MissionOptions options;
   EXPECT_TRUE(absl::IsInvalidArgument(SetMessageField(options, "pose_limit_m", "far")));

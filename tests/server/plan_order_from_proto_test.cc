@@ -24,6 +24,7 @@ TEST(PlanOrderFromProtoTest, EveryFieldIsTaken) {
   request.set_min_applied_sequence(9);
   request.mutable_planning_budget()->set_nanos(300'000'000);
   request.set_seed(-1);
+  request.set_go_home(true);
   request.set_max_edge_evaluation_count(1000);
   const PlanOrder order = PlanOrderFromProto(request, {}).value();
   EXPECT_EQ(order.lease_token, 5);
@@ -31,6 +32,7 @@ TEST(PlanOrderFromProtoTest, EveryFieldIsTaken) {
   EXPECT_EQ(order.min_applied_sequence, 9);
   EXPECT_EQ(order.budget, absl::Milliseconds(300));
   EXPECT_EQ(order.request.seed, std::numeric_limits<std::uint64_t>::max());
+  EXPECT_TRUE(order.request.go_home);
   EXPECT_EQ(order.request.max_edge_evaluations, 1000);
 }
 

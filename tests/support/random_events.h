@@ -95,7 +95,7 @@ class RandomEvents {
     }
     return observation;
   }
-  Goal MakeGoal() { return {Choice<GoalKind>(3), {Int(), Int()}, MakePoint(), MakePoint(), Int()}; }
+  Goal MakeGoal() { return {Choice<GoalKind>(4), {Int(), Int()}, MakePoint(), MakePoint(), Int()}; }
   Candidate MakeCandidate() {
     return {MakeGoal(),
             List([this] { return MakePoint(); }),
@@ -115,14 +115,16 @@ class RandomEvents {
     plan.strategy = Text();
     plan.belief_revision = Int64();
     plan.seed = rng_.Next();
-    plan.phase = Choice<MissionPhase>(4);
+    plan.phase = Choice<MissionPhase>(5);
     plan.end = Choice<PlanEnd>(7);
     plan.chosen = Int();
     plan.candidates = List([this] { return MakeCandidate(); });
     plan.rejected = List([this] {
-      return RejectedGoal{MakeGoal(), Choice<RejectionReason>(7), Text()};
+      return RejectedGoal{MakeGoal(), Choice<RejectionReason>(9), Text()};
     });
-    plan.trajectory.waypoints = List([this] { return Waypoint{MakePose(), Real(), Real()}; });
+    plan.trajectory.waypoints = List([this] {
+      return Waypoint{MakePose(), Real(), Real(), Real()};
+    });
     plan.trajectory.length_m = Real();
     plan.trajectory.duration_s = Real();
     plan.effort = {Int(), Int(), Int(), Int(), Int()};

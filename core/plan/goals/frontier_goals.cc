@@ -9,6 +9,7 @@
 #include "core/frontier/gas_frontier.h"
 #include "core/frontier/occupancy_frontier.h"
 #include "core/grid/grid_search.h"
+#include "core/occupancy/keep_out.h"
 
 namespace plumescout {
 namespace {
@@ -66,10 +67,14 @@ Goal GoalOf(const Frontier& frontier, const GridGeometry& geometry) {
 }
 
 std::optional<RejectedGoal> Rejected(const GoalQuery& query, const Frontier& frontier,
-                                     const Goal& goal) {
+                                     const Goal& goal, const Grid<std::uint8_t>& kept_out) {
   if (frontier.too_small) {
     return RejectedGoal{goal, RejectionReason::kTooSmall,
                         absl::StrCat(goal.frontier_cells, " cells")};
+  }
+  const auto is_kept_out = [&](Cell cell) { return kept_out.At(cell, 0) != 0; };
+  if (std::all_of(frontier.cells.begin(), frontier.cells.end(), is_kept_out)) {
+    return RejectedGoal{goal, RejectionReason::kKeptOut, "all of it lies in keep-out areas"};
   }
   if (!frontier.reachable) {
     return RejectedGoal{goal, RejectionReason::kUnreachable, "no traversable way"};
@@ -84,9 +89,13 @@ std::optional<RejectedGoal> Rejected(const GoalQuery& query, const Frontier& fro
 
 void Judge(const GoalQuery& query, const std::vector<Frontier>& frontiers,
            std::vector<OfferedGoal>& offered, std::vector<RejectedGoal>& rejected) {
+  // An empty raster holds no cell.
+  const std::vector<Polygon>& areas = query.belief.options->keep_out;
+  const Grid<std::uint8_t> kept_out =
+      areas.empty() ? Grid<std::uint8_t>() : KeptOutCells(areas, query.belief.geometry());
   for (const Frontier& frontier : frontiers) {
     const Goal goal = GoalOf(frontier, query.belief.geometry());
-    if (std::optional<RejectedGoal> rejection = Rejected(query, frontier, goal)) {
+    if (std::optional<RejectedGoal> rejection = Rejected(query, frontier, goal, kept_out)) {
       rejected.push_back(*std::move(rejection));
     } else {
       offered.push_back({goal, frontier.travel_m});

@@ -3,15 +3,29 @@
 #include "core/plan/goals/goal_set.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "core/plan/goals/frontier_goals.h"
 #include "core/plan/goals/goal_policy.h"
+#include "core/plan/goals/home_goal.h"
 #include "core/plan/goals/random_goals.h"
 
 namespace plumescout {
 
+GoalSet GoHome(const GoalQuery& query) {
+  GoalSet result;
+  const HomeGoal home = FindHome(query);
+  if (!home.reachable) {
+    result.rejected.push_back({home.goal, RejectionReason::kUnreachable, "no traversable way"});
+  } else if (!home.is_there) {
+    result.goals.push_back(home.goal);
+  }
+  return result;
+}
+
 GoalSet FindGoals(const GoalQuery& query, Rng& rng) {
+  if (query.go_home) return GoHome(query);
   FrontierGoals frontiers = FindFrontierGoals(query);
   GoalSet result;
   result.rejected = std::move(frontiers.rejected);
@@ -30,7 +44,13 @@ GoalSet FindGoals(const GoalQuery& query, Rng& rng) {
       [](const RejectedGoal& goal) { return goal.reason == RejectionReason::kClaimed; });
   if (query.robot.fruitless_fallbacks >= query.options.fallback_limit && !others_are_exploring) {
     result.fallback = false;
-    result.complete = true;
+    if (query.options.return_home) {
+      GoalSet way_home = GoHome(query);
+      result.goals = std::move(way_home.goals);
+      std::move(way_home.rejected.begin(), way_home.rejected.end(),
+                std::back_inserter(result.rejected));
+    }
+    result.complete = result.goals.empty();
     return result;
   }
   result.goals = RandomGoals(query, rng);

@@ -18,6 +18,7 @@ struct GoalQuery {
   Cell start;                           // traversable
   const Grid<std::uint8_t>& reachable;  // 1: traversable and connected to `start`
   const PlanningOptions& options;
+  bool go_home = false;  // home is the only goal
 };
 
 struct GoalSet {
@@ -27,12 +28,16 @@ struct GoalSet {
   bool complete = false;  // nothing is left to do: `goals` is empty
 };
 
+// Nothing to drive to if the robot is home already, and a rejection if there is no way.
+GoalSet GoHome(const GoalQuery& query);
+
 // Where to go, by options.goals (section VI-B of [XIT]). If no frontier can be offered, places with
 // unobserved gas are (ours, options.fallback_to_unobserved; not before the first gas reading), then
 // random free ones (section VII); once options.fallback_limit fallbacks in a row revealed nothing,
 // the mission is complete instead. A frontier that another robot is on its way to keeps the mission
 // open, for what that robot finds may need this one; one that is set aside does not, or a frontier
-// that no visit can dissolve would keep robots driving for ever.
+// that no visit can dissolve would keep robots driving for ever. With options.return_home the robot
+// goes home before its mission is complete. If query.go_home, this is GoHome.
 // Deterministic in the query and `rng`. Cost: O(cells).
 GoalSet FindGoals(const GoalQuery& query, Rng& rng);
 

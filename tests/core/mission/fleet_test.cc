@@ -97,55 +97,80 @@ TEST(FleetIssue, ClaimsEndWithAReportAndExpireWithoutOne) {
   const PlanId plan = *fleet.Issue(PlanTo("a", {1.0, 1.0}), 0);
   EXPECT_EQ(fleet.Claims(0).size(), 1u);
   EXPECT_EQ(fleet.Claims(51 * kSecond_ns).size(), 0u);  // 2 x 10 s + 30 s
-  ASSERT_TRUE(fleet.Report({"a", plan, ProgressOutcome::kAborted}, 0, 60.0).ok());
+  ASSERT_TRUE(fleet.Report({"a", plan, ProgressOutcome::kAborted}).ok());
   EXPECT_TRUE(fleet.Claims(0).empty());
-  EXPECT_TRUE(fleet.SetAside(0).empty()) << "aborting says nothing about the goal";
 }
 
 TEST(FleetReport, KnowsUnknownSupersededAndEndedPlans) {
   Fleet fleet = FleetOf({"a"});
-  EXPECT_EQ(fleet.Report({"a", 1, ProgressOutcome::kReached}, 0, 60.0).code(),
+  EXPECT_EQ(fleet.Report({"a", 1, ProgressOutcome::kReached}).status().code(),
             absl::StatusCode::kNotFound);
   const PlanId first = *fleet.Issue(PlanTo("a", {1.0, 1.0}), 0);
   const PlanId second = *fleet.Issue(PlanTo("a", {3.0, 1.0}), 0);
-  EXPECT_EQ(fleet.Report({"a", first, ProgressOutcome::kReached}, 0, 60.0).code(),
+  EXPECT_EQ(fleet.Report({"a", first, ProgressOutcome::kReached}).status().code(),
             absl::StatusCode::kFailedPrecondition);
-  EXPECT_TRUE(fleet.Report({"a", second, ProgressOutcome::kReached}, 0, 60.0).ok());
-  EXPECT_EQ(fleet.Report({"a", second, ProgressOutcome::kReached}, 0, 60.0).code(),
+  EXPECT_TRUE(fleet.Report({"a", second, ProgressOutcome::kReached}).ok());
+  EXPECT_EQ(fleet.Report({"a", second, ProgressOutcome::kReached}).status().code(),
             absl::StatusCode::kAlreadyExists);
 }
 
-TEST(FleetMemory, ABlockedGoalIsSetAsideUntilItExpires) {
-  Fleet fleet = FleetOf({"a"});
-  const PlanId plan = *fleet.Issue(PlanTo("a", {1.0, 1.0}), 0);
-  ASSERT_TRUE(fleet.Report({"a", plan, ProgressOutcome::kBlocked}, 0, 60.0).ok());
-  ASSERT_EQ(fleet.SetAside(59 * kSecond_ns).size(), 1u);
-  EXPECT_EQ(fleet.SetAside(0)[0].reason, "reported blocked");
-  EXPECT_TRUE(fleet.SetAside(60 * kSecond_ns).empty());
-}
-
-TEST(FleetMemory, AGoalReachedTwiceIsSetAside) {
-  Fleet fleet = FleetOf({"a"});
-  for (int visit = 0; visit < 2; ++visit) {
-    EXPECT_TRUE(fleet.SetAside(0).empty());
-    const PlanId plan = *fleet.Issue(PlanTo("a", {1.0 + 0.1 * visit, 1.0}), 0);
-    ASSERT_TRUE(fleet.Report({"a", plan, ProgressOutcome::kReached}, 0, 60.0).ok());
-  }
-  ASSERT_EQ(fleet.SetAside(0).size(), 1u);
-  EXPECT_EQ(fleet.SetAside(0)[0].reason, "visited without change");
-}
-
-TEST(FleetMemory, CountsFallbacksInARowThatRevealedNothing) {
+TEST(FleetReport, CountsFallbacksInARowThatRevealedNothing) {
   Fleet fleet = FleetOf({"a"});
   const auto fallback = [&](double x_m) {
     const PlanId plan = *fleet.Issue(PlanTo("a", {x_m, 1.0}, GoalKind::kRandomFreeSpace), 0);
-    EXPECT_TRUE(fleet.Report({"a", plan, ProgressOutcome::kReached}, 0, 60.0).ok());
+    EXPECT_TRUE(fleet.Report({"a", plan, ProgressOutcome::kReached}).ok());
     return fleet.Records().at("a").fruitless_fallbacks;
   };
   EXPECT_EQ(fallback(1.0), 1);
   ASSERT_TRUE(fleet.Issue(PlanTo("a", {5.0, 5.0}), 0).ok()) << "a frontier appeared";
   EXPECT_EQ(fallback(2.0), 1);
   EXPECT_EQ(fallback(3.0), 2);
+}
+
+TEST(FleetReport, SaysWhichGoalThePlanHad) {
+  Fleet fleet = FleetOf({"a"});
+  const PlanId plan = *fleet.Issue(PlanTo("a", {1.0, 2.0}), 0);
+  const auto goal = fleet.Report({"a", plan, ProgressOutcome::kBlocked});
+  ASSERT_TRUE(goal.ok());
+  ASSERT_TRUE(goal->has_value());
+  EXPECT_EQ((*goal)->position, (Point2{1.0, 2.0}));
+}
+
+TEST(FleetIssue, NobodyClaimsHomeAndNoMemoryKeepsFromIt) {
+  Fleet fleet = FleetOf({"a", "b"});
+  const PlanId plan = *fleet.Issue(PlanTo("a", {1.0, 1.0}, GoalKind::kHome), 0);
+  EXPECT_TRUE(fleet.Claims(0).empty());
+  EXPECT_TRUE(fleet.Issue(PlanTo("b", {1.0, 1.0}, GoalKind::kHome), 0).ok());
+  EXPECT_EQ(*fleet.Report({"a", plan, ProgressOutcome::kBlocked}), std::nullopt);
+}
+
+TEST(FleetRecords, HoldTheFirstPlaceAndTheWaySinceThen) {
+  Fleet fleet = FleetOf({"a"});
+  EXPECT_FALSE(fleet.Records().at("a").first_place.has_value());
+  Observation observation = Numbered(1);
+  observation.pose = {1.0, 2.0, 0.0};
+  fleet.Advance("a", observation, true);
+  EXPECT_FALSE(fleet.Records().at("a").first_place.has_value()) << "a refused pose is no place";
+  fleet.Advance("a", observation, false);
+  observation.pose = {4.0, 6.0, 0.0};
+  fleet.Advance("a", observation, false);
+  ASSERT_TRUE(fleet.Register({"a", 0.2, 2}, kMaxRobots).ok()) << "it comes back";
+  EXPECT_EQ(fleet.Records().at("a").first_place, (Point2{1.0, 2.0}));
+  EXPECT_EQ(fleet.Records().at("a").travelled_m, 5.0);
+}
+
+TEST(FleetRecords, HoldTheTrajectoryOfTheLivePlan) {
+  Fleet fleet = FleetOf({"a"});
+  EXPECT_EQ(fleet.Records().at("a").live_trajectory, nullptr);
+  const PlanId plan = *fleet.Issue(PlanTo("a", {1.0, 1.0}), 0);
+  ASSERT_NE(fleet.Records().at("a").live_trajectory, nullptr);
+  EXPECT_EQ(fleet.Records().at("a").live_trajectory->duration_s, 10.0);
+  ASSERT_TRUE(fleet.Report({"a", plan, ProgressOutcome::kReached}).ok());
+  EXPECT_EQ(fleet.Records().at("a").live_trajectory, nullptr);
+  Plan stay = PlanTo("a", {1.0, 1.0});
+  stay.chosen = -1;
+  ASSERT_TRUE(fleet.Issue(stay, 0).ok());
+  EXPECT_EQ(fleet.Records().at("a").live_trajectory, nullptr);
 }
 
 TEST(FleetPhase, IsCompleteWhenEveryRobotWasToldSo) {
@@ -159,6 +184,22 @@ TEST(FleetPhase, IsCompleteWhenEveryRobotWasToldSo) {
   done.robot = "b";
   ASSERT_TRUE(fleet.Issue(done, 0).ok());
   EXPECT_EQ(fleet.Phase(), MissionPhase::kComplete);
+}
+
+TEST(FleetPhase, StaysCompleteWhenARobotIsSentHome) {
+  Fleet fleet = FleetOf({"a"});
+  Plan home = PlanTo("a", {1.0, 1.0}, GoalKind::kHome);
+  home.phase = MissionPhase::kReturning;
+  ASSERT_TRUE(fleet.Issue(home, 0).ok());
+  EXPECT_EQ(fleet.Phase(), MissionPhase::kReturning);
+  Plan done = home;
+  done.phase = MissionPhase::kComplete;
+  done.chosen = -1;
+  ASSERT_TRUE(fleet.Issue(done, 0).ok());
+  ASSERT_TRUE(fleet.Issue(home, 0).ok());
+  EXPECT_EQ(fleet.Phase(), MissionPhase::kComplete);
+  ASSERT_TRUE(fleet.Issue(PlanTo("a", {1.0, 1.0}), 0).ok());
+  EXPECT_EQ(fleet.Phase(), MissionPhase::kExploring) << "there is something to do after all";
 }
 
 TEST(FleetMasks, CoverTheOtherRobotsWithPoses) {

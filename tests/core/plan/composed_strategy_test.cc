@@ -11,62 +11,30 @@
 
 #include "lab/bench/random_world.h"
 #include "tests/support/goal_case.h"
+#include "tests/support/strategy_case.h"
 
 namespace plumescout {
 namespace {
 
 using testing::BeliefFromArt;
+using testing::Chosen;
+using testing::For;
 using ::testing::Ge;
 using testing::GridArt;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using testing::kRoom;
 using ::testing::Not;
 using ::testing::SizeIs;
+using testing::SmallBelief;
+using testing::TryPlan;
 
 constexpr double kRounding = 1e-9;
 
-// A room that is open in the east and, through a door, in the west. 'i': too near a wall.
-const GridArt kRoom = {"################",  //
-                       "?iiiiiiiiiiiiii#",  //
-                       "?.....iiii.....?",  //
-                       "?.....i##i.....?",  //
-                       "?...S.i##i.....?",  //
-                       "?.....iiii.....?",  //
-                       "?..............?",  //
-                       "?iiiiiiiiiiiiii#",  //
-                       "################"};
 const GridArt kClosed = {"########",  //
                          "#gggggg#",  //
                          "#gSgggg#",  //
                          "########"};
-
-PlanRequest For(const RobotId& robot, std::uint64_t seed = 0) {
-  PlanRequest request;
-  request.robot = robot;
-  request.seed = seed;
-  return request;
-}
-
-absl::StatusOr<Plan> TryPlan(const Belief& belief, const PlanRequest& request,
-                             const PlanningOptions& options = {},
-                             const StopFn& stop = NeverStop()) {
-  const auto strategy = MakeStrategy(options);
-  if (!strategy.ok()) return strategy.status();
-  return (*strategy)->Plan(belief, request, stop);
-}
-
-// The frontiers of drawn maps are small.
-Belief SmallBelief(const GridArt& art) {
-  Belief belief = BeliefFromArt(art);
-  MissionOptions mission;
-  mission.frontier.min_occupancy_cells = 3;
-  belief.options = std::make_shared<const MissionOptions>(mission);
-  return belief;
-}
-
-const Candidate& Chosen(const Plan& plan) {
-  return plan.candidates.at(static_cast<std::size_t>(plan.chosen));
-}
 
 Grid<float> Penalty(const Belief& belief) {
   Grid<float> penalty(belief.geometry(), std::numeric_limits<float>::infinity());

@@ -87,5 +87,20 @@ TEST(Explain, SaysWhyTheRobotStays) {
   EXPECT_THAT(stays_because(PlanEnd::kQueueExhausted), HasSubstr("none of 3 goals has a path"));
 }
 
+TEST(Explain, SaysWhyTheRobotGoesHomeOrStaysThere) {
+  Plan plan = ChosenPlan(GoalKind::kHome);
+  EXPECT_THAT(Explain(plan, SelectionRule::kLeastCost), HasSubstr("Drive 5.4 m to home at"));
+  plan.rejected = {{{}, RejectionReason::kOverBudget, ""}};
+  EXPECT_THAT(Explain(plan, SelectionRule::kLeastCost),
+              HasSubstr("every other goal is beyond the travel budget"));
+  plan.chosen = -1;
+  plan.end = PlanEnd::kMissionComplete;
+  EXPECT_THAT(Explain(plan, SelectionRule::kLeastCost), HasSubstr("and the robot is home"));
+  Goal home;
+  home.kind = GoalKind::kHome;
+  plan.rejected.push_back({home, RejectionReason::kUnreachable, ""});
+  EXPECT_THAT(Explain(plan, SelectionRule::kLeastCost), HasSubstr("and there is no way home"));
+}
+
 }  // namespace
 }  // namespace plumescout

@@ -120,7 +120,45 @@ TEST(PlanningOptions, RefuseValuesOutsideTheirRanges) {
       {"speed_mps", &PlanningOptions::speed_mps, {0.0, -1.0}},
       {"dwell_s", &PlanningOptions::dwell_s, {-1.0}},
       {"set_aside_s", &PlanningOptions::set_aside_s, {0.0, -1.0, 2e9}},
+      {"max_acceleration_mps2", &PlanningOptions::max_acceleration_mps2, {-1.0, 1e-4, 101.0}},
+      {"max_turn_rate_rad_per_s", &PlanningOptions::max_turn_rate_rad_per_s, {-1.0, 1e-4, 101.0}},
+      {"travel_budget_m", &PlanningOptions::travel_budget_m, {-1.0, 2e9}},
+      {"return_margin_share", &PlanningOptions::return_margin_share, {-0.1, 11.0}},
+      {"planning_latency_s", &PlanningOptions::planning_latency_s, {-1.0, 61.0}},
   });
+}
+
+std::string RefusalOf(const MissionOptions& options) {
+  EXPECT_EQ(Validate(options).code(), absl::StatusCode::kInvalidArgument);
+  return std::string(Validate(options).message());
+}
+
+TEST(MissionOptions, RefuseAreasThatAreNone) {
+  const Polygon triangle = {{{0, 0}, {1, 0}, {0, 1}}};
+  MissionOptions options;
+  options.keep_out = {triangle, {{{0, 0}, {1, 0}}}};
+  EXPECT_EQ(RefusalOf(options), "keep_out[1].vertices = 2 must be in [3, 256]");
+  options.keep_out = {{std::vector<Point2>(257)}};
+  EXPECT_EQ(RefusalOf(options), "keep_out[0].vertices = 257 must be in [3, 256]");
+  options.keep_out.assign(65, triangle);
+  EXPECT_EQ(RefusalOf(options), "keep_out = 65 must be in [0, 64]");
+  options.keep_out.assign(64, triangle);
+  EXPECT_TRUE(Validate(options).ok());
+  for (const double bad : {kNan, kInfinity, 1e7}) {
+    options.keep_out = {triangle};
+    options.keep_out[0].vertices[2].y_m = bad;
+    EXPECT_THAT(RefusalOf(options), HasSubstr("keep_out[0].vertices[2].y_m = "));
+  }
+}
+
+TEST(MissionOptions, RefuseAHomeThatNoPoseMayHave) {
+  for (const double bad : {kNan, kInfinity, -1001.0}) {
+    MissionOptions options;
+    options.home = Point2{bad, 0.0};
+    EXPECT_THAT(RefusalOf(options), HasSubstr("home.x_m = "));
+    options.home = Point2{0.0, bad};
+    EXPECT_THAT(RefusalOf(options), HasSubstr("home.y_m = "));
+  }
 }
 
 TEST(MissionOptions, RefuseValuesOutsideTheirRanges) {

@@ -37,7 +37,15 @@ MissionOptions Unlike() {
   options.planning.sampling = SamplingKind::kIid;
   options.planning.samples = 77;
   options.planning.grid_guard = false;
+  options.planning.max_acceleration_mps2 = 0.5;
+  options.planning.max_turn_rate_rad_per_s = 1.5;
+  options.planning.travel_budget_m = 250.0;
+  options.planning.return_margin_share = 0.25;
+  options.planning.return_home = true;
+  options.planning.planning_latency_s = 0.75;
   options.max_robots = 3;
+  options.keep_out = {{{{1, 2}, {3, 4}, {5, 7}}}, {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}};
+  options.home = Point2{-1.0, 2.0};
   options.seed = 0xffff'ffff'ffff'fffeULL;
   return options;
 }
@@ -49,6 +57,8 @@ TEST(OptionsTest, OptionsSurviveTheRoundTrip) {
   EXPECT_TRUE(MessageDifferencer::Equals(ToProto(*back), proto));
   EXPECT_EQ(back->seed, Unlike().seed);
   EXPECT_EQ(back->frontier.fixed_gas_threshold_ppm, 4.0);
+  EXPECT_EQ(back->keep_out, Unlike().keep_out);
+  EXPECT_EQ(back->home, Unlike().home);
 }
 
 TEST(OptionsTest, ChangesAreAllThatDiffersFromTheDefaults) {
@@ -57,13 +67,33 @@ TEST(OptionsTest, ChangesAreAllThatDiffersFromTheDefaults) {
   options.planning.strategy = "xit_f";
   options.planning.fallback_to_unobserved = false;
   options.frontier.fixed_gas_threshold_ppm = 600.0;
+  options.home = Point2{1.0, 2.0};
+  options.keep_out = {{{{1, 2}, {3, 4}, {5, 7}}}};
   v1::MissionOptions expected;
   expected.mutable_occupancy();
   expected.mutable_gas();
   expected.mutable_frontier()->set_fixed_gas_threshold_ppm(600.0);
   expected.mutable_planning()->set_strategy("xit_f");
   expected.mutable_planning()->set_fallback_to_unobserved(false);
+  *expected.mutable_home() = ToProto(options).home();
+  *expected.mutable_keep_out() = ToProto(options).keep_out();
   EXPECT_TRUE(MessageDifferencer::Equals(ChangesToProto(options), expected));
+}
+
+TEST(OptionsTest, AreasOfAMissionTakeThePlaceOfTheDefaults) {
+  MissionOptions own;
+  own.keep_out = {{{{0, 0}, {9, 0}, {0, 9}}}};
+  EXPECT_EQ(FromProto(ToProto(own), Unlike(), "options")->keep_out, own.keep_out);
+}
+
+TEST(OptionsTest, RefusalNamesTheVertex) {
+  v1::MissionOptions proto = ToProto(Unlike());
+  proto.mutable_keep_out(1)->mutable_vertices(2)->set_x_m(std::numeric_limits<double>::quiet_NaN());
+  const auto options = FromProto(proto, MissionOptions{}, "options");
+  EXPECT_EQ(FieldViolations(options.status()).at(0).field, "options.keep_out[1].vertices[2].x_m");
+  proto.mutable_keep_out(1)->clear_vertices();
+  EXPECT_EQ(FieldViolations(FromProto(proto, MissionOptions{}, "options").status()).at(0).field,
+            "options.keep_out[1].vertices");
 }
 
 // Sets every field of the message tree that has no value yet from the other, by reflection: so a
@@ -71,6 +101,10 @@ TEST(OptionsTest, ChangesAreAllThatDiffersFromTheDefaults) {
 void ExpectEveryFieldSet(const Message& message, const std::string& path) {
   for (int i = 0; i < message.GetDescriptor()->field_count(); ++i) {
     const FieldDescriptor* field = message.GetDescriptor()->field(i);
+    if (field->is_repeated()) {
+      EXPECT_GT(message.GetReflection()->FieldSize(message, field), 0) << path << field->name();
+      continue;
+    }
     EXPECT_TRUE(message.GetReflection()->HasField(message, field)) << path << field->name();
     if (field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
       ExpectEveryFieldSet(message.GetReflection()->GetMessage(message, field),
@@ -107,6 +141,7 @@ TEST(OptionsTest, RefusalNamesTheFieldOfTheWire) {
 void ExpectBadNumbersNamed(const Message& part, const std::string& path) {
   for (int i = 0; i < part.GetDescriptor()->field_count(); ++i) {
     const FieldDescriptor* field = part.GetDescriptor()->field(i);
+    if (field->is_repeated()) continue;  // named by element, in a test of its own
     const std::string name = path.empty() ? field->name() : path + "." + field->name();
     if (field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
       ExpectBadNumbersNamed(part.GetReflection()->GetMessage(part, field), name);

@@ -38,7 +38,7 @@ Plan TestPlan() {
                       3.0,
                       12.5}};
   plan.rejected = {{goal, RejectionReason::kClaimed, "robot r2"}};
-  plan.trajectory = {{{{0.0, 0.0, 0.5}, 0.0, 0.0}, {{0.35, 0.45, 0.5}, 1.0, 0.5}}, 2.0, 1.5};
+  plan.trajectory = {{{{0.0, 0.0, 0.5}, 0.0, 0.0}, {{0.35, 0.45, 0.5}, 1.0, 0.5, 0.25}}, 2.0, 1.5};
   plan.effort = {300, 250, 1000, 1, 4};
   plan.goal_kept = true;
   plan.field_flat = true;
@@ -101,6 +101,8 @@ TEST(PlanTest, WhatARobotWouldFollowIsChecked) {
        [](auto& p) { p.mutable_trajectory()->mutable_waypoints(0)->set_arrival_time_s(-1.0); }},
       {"plan.trajectory.waypoints[1].arrival_time_s",
        [](auto& p) { p.mutable_trajectory()->mutable_waypoints(0)->set_arrival_time_s(2.0); }},
+      {"plan.trajectory.waypoints[1].speed_mps",
+       [](auto& p) { p.mutable_trajectory()->mutable_waypoints(1)->set_speed_mps(-1.0); }},
       {"plan.trajectory.duration_s", [](auto& p) { p.mutable_trajectory()->set_duration_s(kNan); }},
   };
   for (const BadField& bad : kBad) {

@@ -147,5 +147,38 @@ TEST(FrontierGoals, RejectWhatIsTooClose) {
   EXPECT_THAT(FindFrontierGoals(c.Query()).occupancy, SizeIs(1));
 }
 
+void KeepOut(GoalCase& c, Cell south_west, Cell north_east) {
+  const GridGeometry& geometry = c.belief.geometry();
+  const Point2 a = geometry.Center(south_west);
+  const Point2 b = geometry.Center(north_east);
+  const double half_m = geometry.resolution_m / 2.0;
+  MissionOptions mission = *c.belief.options;
+  mission.keep_out = {{{{a.x_m - half_m, a.y_m - half_m},
+                        {b.x_m + half_m, a.y_m - half_m},
+                        {b.x_m + half_m, b.y_m + half_m},
+                        {a.x_m - half_m, b.y_m + half_m}}}};
+  c.SetMission(mission);
+}
+
+TEST(FrontierGoals, RejectWhatLiesInAKeepOutArea) {
+  GoalCase c(kCorridor);
+  const Cell goal = OnlyGoal(c).cell;
+  KeepOut(c, {goal.x - 1, 0}, {goal.x + 5, 10});
+  EXPECT_EQ(OnlyRejection(c), RejectionReason::kKeptOut);
+}
+
+TEST(FrontierGoals, KeepWhatLiesPartlyInAKeepOutArea) {
+  const testing::GridArt art = {"#######",  //
+                                "#.....?",  //
+                                "#.S...?",  //
+                                "#.....?",  //
+                                "#######"};
+  GoalCase c(art);
+  KeepOut(c, {6, 1}, {6, 2});
+  EXPECT_THAT(FindFrontierGoals(c.Query()).occupancy, SizeIs(1));
+  KeepOut(c, {6, 1}, {6, 3});
+  EXPECT_THAT(FindFrontierGoals(c.Query()).occupancy, IsEmpty());
+}
+
 }  // namespace
 }  // namespace plumescout

@@ -109,5 +109,61 @@ TEST(FindGoals, IsCompleteThoughAFrontierIsSetAside) {
   EXPECT_TRUE(Find(c).complete);
 }
 
+// The robot came from the far end.
+GoalCase FarFromHome(const testing::GridArt& art) {
+  GoalCase c = Measured(art);
+  c.belief.robots["r"].first_place = c.belief.geometry().Center({7, 1});
+  return c;
+}
+
+TEST(FindGoals, OfARobotOrderedHomeIsHomeAlone) {
+  const GoalCase c = FarFromHome(kOpenEnded);
+  GoalQuery query = c.Query();
+  query.go_home = true;
+  Rng rng(1);
+  const GoalSet found = FindGoals(query, rng);
+  ASSERT_THAT(found.goals, SizeIs(1));
+  EXPECT_EQ(found.goals[0].kind, GoalKind::kHome);
+  EXPECT_FALSE(found.fallback);
+}
+
+TEST(GoHome, OfARobotThatIsHomeIsNothing) {
+  const GoalCase c = Measured(kOpenEnded);
+  EXPECT_THAT(GoHome(c.Query()).goals, IsEmpty());
+  EXPECT_THAT(GoHome(c.Query()).rejected, IsEmpty());
+}
+
+TEST(GoHome, WithoutAWayIsARejection) {
+  GoalCase c = Measured(kOpenEnded);
+  c.belief.robots["r"].first_place = Point2{-9.0, 0.0};
+  const GoalSet found = GoHome(c.Query());
+  EXPECT_THAT(found.goals, IsEmpty());
+  ASSERT_THAT(found.rejected, SizeIs(1));
+  EXPECT_EQ(found.rejected[0].goal.kind, GoalKind::kHome);
+  EXPECT_EQ(found.rejected[0].reason, RejectionReason::kUnreachable);
+}
+
+TEST(FindGoals, GoesHomeBeforeItIsCompleteIfToldSo) {
+  GoalCase c = FarFromHome(kClosed);
+  c.belief.robots["r"].fruitless_fallbacks = 2;
+  EXPECT_TRUE(Find(c).complete);
+  c.options.return_home = true;
+  const GoalSet found = Find(c);
+  EXPECT_FALSE(found.complete);
+  EXPECT_FALSE(found.fallback);
+  ASSERT_THAT(found.goals, SizeIs(1));
+  EXPECT_EQ(found.goals[0].kind, GoalKind::kHome);
+}
+
+TEST(FindGoals, IsCompleteAtHomeOrWithoutAWayThere) {
+  GoalCase c = Measured(kClosed);
+  c.belief.robots["r"].fruitless_fallbacks = 2;
+  c.options.return_home = true;
+  EXPECT_TRUE(Find(c).complete) << "at home";
+  c.belief.robots["r"].first_place = Point2{-9.0, 0.0};
+  EXPECT_TRUE(Find(c).complete);
+  EXPECT_THAT(Find(c).rejected, SizeIs(1));
+}
+
 }  // namespace
 }  // namespace plumescout

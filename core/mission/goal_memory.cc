@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/mission/goal_memory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace plumescout {
+namespace {
+
+// A goal that is offered again after this many visits has not changed by being visited.
+constexpr int kVisitsBeforeSetAside = 2;
+// Nearer than this the map has to change before a goal is worth another try: what a door that
+// opens, or a pallet that is taken away, changes.
+constexpr double kChangeRadius_m = 1.0;
+// Bound the memory of a mission that runs for weeks; the oldest are forgotten.
+constexpr std::size_t kMaxVisitedGoals = 1000;
+constexpr std::size_t kMaxSetAside = 200;
+
+std::int64_t Nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
+
+// Calls visit(Cell) for the cells within kChangeRadius_m of `place`, always in the same order; some
+// may lie outside the map.
+template <typename Visit>
+void ForCellsNear(const GridGeometry& geometry, Point2 place, Visit&& visit) {
+  const Cell middle = geometry.CellAt(place);
+  const int reach = static_cast<int>(std::ceil(kChangeRadius_m / geometry.resolution_m));
+  for (int dy = -reach; dy <= reach; ++dy) {
+    for (int dx = -reach; dx <= reach; ++dx) {
+      if (dx * dx + dy * dy <= reach * reach) visit(Cell{middle.x + dx, middle.y + dy});
+    }
+  }
+}
+
+std::vector<CellState> StatesNear(const Grid<CellState>& map, Point2 place) {
+  std::vector<CellState> states;
+  ForCellsNear(map.geometry(), place,
+               [&](Cell cell) { states.push_back(map.At(cell, CellState::kUnknown)); });
+  return states;
+}
+
+int ChangedCells(const std::vector<CellState>& then, const Grid<CellState>& map, Point2 place) {
+  std::size_t i = 0;
+  int changed = 0;
+  ForCellsNear(map.geometry(), place, [&](Cell cell) {
+    if (map.At(cell, CellState::kUnknown) != then[i++]) ++changed;
+  });
+  return changed;
+}
+
+}  // namespace
+
+void GoalMemory::Remember(const Goal& goal, ProgressOutcome outcome, const Now& now) {
+  std::erase_if(set_aside_, [&](const Entry& entry) { return !Holds(entry, now); });
+  if (outcome == ProgressOutcome::kBlocked) {
+    Add(goal, "reported blocked", now);
+  } else if (outcome == ProgressOutcome::kReached) {
+    RememberVisit(goal, now);
+  }
+}
+
+void GoalMemory::RememberVisit(const Goal& goal, const Now& now) {
+  if (goal.kind == GoalKind::kRandomFreeSpace) return;  // nothing was expected to change there
+  auto visited = std::find_if(visited_.begin(), visited_.end(),
+                              [&](const VisitedGoal& v) { return SamePlace(v.goal, goal); });
+  if (visited == visited_.end()) {
+    if (visited_.size() >= kMaxVisitedGoals) visited_.erase(visited_.begin());
+    visited_.push_back({goal, 0});
+    visited = visited_.end() - 1;
+  }
+  if (++visited->visits < kVisitsBeforeSetAside) return;
+  visited_.erase(visited);
+  Add(goal, "visited without change", now);
+}
+
+void GoalMemory::Add(const Goal& goal, const std::string& reason, const Now& now) {
+  if (set_aside_.size() >= kMaxSetAside) set_aside_.erase(set_aside_.begin());
+  set_aside_.push_back({{goal, reason, now.time_ns + Nanoseconds(set_aside_s_)},
+                        StatesNear(now.map, goal.position)});
+}
+
+bool GoalMemory::Holds(const Entry& entry, const Now& now) const {
+  return entry.aside.expires_ns > now.time_ns &&
+         ChangedCells(entry.states_then, now.map, entry.aside.goal.position) < min_changed_cells_;
+}
+
+std::vector<SetAsideGoal> GoalMemory::SetAside(const Now& now) const {
+  std::vector<SetAsideGoal> result;
+  for (const Entry& entry : set_aside_) {
+    if (Holds(entry, now)) result.push_back(entry.aside);
+  }
+  return result;
+}
+
+}  // namespace plumescout

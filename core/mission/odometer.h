@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "core/types/pose2.h"
+
+namespace plumescout {
+
+// How far a robot has driven, from the poses of its observations. Displacements count once they
+// come to kStep_m from the last that counted, so that a robot that stands does not drive by the
+// noise of its poses; what is driven in smaller circles is missed. A jump to another place counts
+// as driven. On a straight way noise of standard deviation s adds a share of about (s / kStep_m)^2;
+// curves of radius R lose about kStep_m^2 / (24 R^2).
+class Odometer {
+ public:
+  void Pass(Point2 place) {
+    const double step_m = mark_ ? Distance_m(*mark_, place) : 0.0;
+    if (mark_ && step_m < kStep_m) return;
+    travelled_m_ += step_m;
+    mark_ = place;
+  }
+
+  double travelled_m() const { return travelled_m_; }
+
+ private:
+  static constexpr double kStep_m = 0.1;  // ten times the noise of a good localisation
+
+  std::optional<Point2> mark_;
+  double travelled_m_ = 0.0;
+};
+
+}  // namespace plumescout

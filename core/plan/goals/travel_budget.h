@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/plan/goals/goal_set.h"
+#include "core/types/plan.h"
+
+namespace plumescout {
+
+// Moves the candidates of `plan` that are over the robot's travel budget to its rejected goals:
+// those whose own length and (1 + return_margin_share) times the way home from their end exceed
+// travel_budget_m less what the robot has driven. The way home is the shortest by steps between
+// neighbouring cells, up to 8 % longer than the shortest there is; from where there is none, every
+// length is too much. Nothing is over budget if there is none; home never is.
+// The margin is also for what the robot drives while it is planned for, which does not count yet.
+// The plan's choice is not looked at. Cost: O(cells), one search for all candidates.
+void RejectOverBudget(const GoalQuery& query, Plan& plan);
+
+}  // namespace plumescout

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/selection/choice.h"
+
+#include <cstddef>
+#include <vector>
+
+#include "core/plan/selection/expected_information.h"
+#include "core/plan/selection/selection.h"
+
+namespace plumescout {
+namespace {
+
+void PriceInformation(const Belief& belief, const PlanningOptions& options, const StopFn& stop,
+                      std::vector<Candidate>& candidates) {
+  const ExpectedInformation information(belief);
+  for (Candidate& candidate : candidates) {
+    if (stop()) return;
+    candidate.expected_information_nats =
+        information.Of(ReadingCells(candidate.path, belief.geometry(), options));
+  }
+}
+
+// Index of the candidate that the robot's live plan ends at, -1 if there is none.
+int UnderWayTo(const std::vector<Candidate>& candidates, const Belief& belief,
+               const RobotId& robot) {
+  for (const GoalClaim& claim : belief.claims) {
+    if (claim.robot != robot || claim.expires_ns <= belief.sample_time_ns) continue;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (ClaimCovers(claim.goal, candidates[i].goal)) return static_cast<int>(i);
+    }
+  }
+  return -1;
+}
+
+}  // namespace
+
+void Choose(const Belief& belief, const PlanningOptions& options, const StopFn& stop, Plan& plan) {
+  std::vector<Candidate>& candidates = plan.candidates;
+  if (options.selection == SelectionRule::kInformationRate) {
+    PriceInformation(belief, options, stop, candidates);
+  }
+  plan.chosen = SelectCandidate(candidates, options.selection);
+  const int kept = UnderWayTo(candidates, belief, plan.robot);
+  if (kept < 0 || kept == plan.chosen || options.commitment_margin == 0.0) return;
+  const Candidate& best = candidates[static_cast<std::size_t>(plan.chosen)];
+  if (BeatsByMargin(best, candidates[static_cast<std::size_t>(kept)], options.selection,
+                    options.commitment_margin)) {
+    return;
+  }
+  plan.chosen = kept;
+  plan.goal_kept = true;
+}
+
+}  // namespace plumescout

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/mission/goal_memory.h"
+
+#include <gtest/gtest.h>
+
+namespace plumescout {
+namespace {
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr Point2 kPlace = {1.05, 1.05};  // the centre of cell (20, 20)
+
+Goal At(Point2 position, GoalKind kind = GoalKind::kOccupancyFrontier) {
+  return {kind, {}, position, position, 10};
+}
+
+// A memory with a map of free cells, 4 by 4 metres.
+struct Memory {
+  Memory() : goals(Options()) {}
+
+  static MissionOptions Options() {
+    MissionOptions options;
+    options.planning.set_aside_s = 60.0;
+    options.frontier.min_occupancy_cells = 8;
+    return options;
+  }
+  void Remember(const Goal& goal, ProgressOutcome outcome, std::int64_t time_ns = 0) {
+    goals.Remember(goal, outcome, {time_ns, map});
+  }
+  std::vector<SetAsideGoal> SetAside(std::int64_t time_ns = 0) const {
+    return goals.SetAside({time_ns, map});
+  }
+  // The first `count` cells of a row through the goal's cell, from it to the east.
+  void SetRow(int count, CellState state) {
+    for (int x = 0; x < count; ++x) map[Cell{20 + x, 20}] = state;
+  }
+
+  GoalMemory goals;
+  Grid<CellState> map{GridGeometry{-1.0, -1.0, 0.1, 40, 40}, CellState::kFree};
+};
+
+TEST(GoalMemory, SetsABlockedGoalAsideUntilItExpires) {
+  Memory memory;
+  memory.Remember(At(kPlace), ProgressOutcome::kBlocked);
+  ASSERT_EQ(memory.SetAside(59 * kSecond_ns).size(), 1u);
+  EXPECT_EQ(memory.SetAside()[0].reason, "reported blocked");
+  EXPECT_TRUE(memory.SetAside(60 * kSecond_ns).empty());
+}
+
+TEST(GoalMemory, SetsAGoalAsideThatWasReachedTwice) {
+  Memory memory;
+  memory.Remember(At({1.0, 1.0}), ProgressOutcome::kReached);
+  EXPECT_TRUE(memory.SetAside().empty());
+  memory.Remember(At({1.1, 1.0}), ProgressOutcome::kReached);
+  ASSERT_EQ(memory.SetAside().size(), 1u);
+  EXPECT_EQ(memory.SetAside()[0].reason, "visited without change");
+}
+
+TEST(GoalMemory, DoesNotMixPlacesOrKindsOrExpectChangeAtRandomPlaces) {
+  Memory memory;
+  memory.Remember(At(kPlace), ProgressOutcome::kReached);
+  memory.Remember(At({1.55, 1.05}), ProgressOutcome::kReached);
+  memory.Remember(At(kPlace, GoalKind::kGasFrontier), ProgressOutcome::kReached);
+  for (int visit = 0; visit < 3; ++visit) {
+    memory.Remember(At(kPlace, GoalKind::kRandomFreeSpace), ProgressOutcome::kReached);
+  }
+  EXPECT_TRUE(memory.SetAside().empty());
+}
+
+TEST(GoalMemory, HearsNothingAboutAGoalFromAnAbortedPlan) {
+  Memory memory;
+  for (int i = 0; i < 3; ++i) memory.Remember(At(kPlace), ProgressOutcome::kAborted);
+  EXPECT_TRUE(memory.SetAside().empty());
+}
+
+TEST(GoalMemory, OffersAGoalAgainOnceEnoughCellsNearItChanged) {
+  Memory memory;
+  memory.Remember(At(kPlace), ProgressOutcome::kBlocked);
+  memory.SetRow(7, CellState::kOccupied);
+  EXPECT_EQ(memory.SetAside().size(), 1u);
+  memory.SetRow(8, CellState::kOccupied);
+  EXPECT_TRUE(memory.SetAside().empty());
+}
+
+TEST(GoalMemory, ChangesFartherThanAMetreDoNotMatter) {
+  Memory memory;
+  memory.Remember(At(kPlace), ProgressOutcome::kBlocked);
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 40; ++x) {
+      const int dx = x - 20;
+      const int dy = y - 20;
+      if (dx * dx + dy * dy > 100) memory.map[Cell{x, y}] = CellState::kOccupied;
+    }
+  }
+  EXPECT_EQ(memory.SetAside().size(), 1u);
+}
+
+TEST(GoalMemory, FlickeringCellsNeverAddUpToAChange) {
+  Memory memory;
+  memory.Remember(At(kPlace), ProgressOutcome::kBlocked);
+  for (int scan = 0; scan < 100; ++scan) {
+    memory.SetRow(7, scan % 2 == 0 ? CellState::kOccupied : CellState::kFree);
+    EXPECT_EQ(memory.SetAside(scan * kSecond_ns / 10).size(), 1u);
+  }
+}
+
+TEST(GoalMemory, ForgetsForGoodWhatAReportFindsChanged) {
+  Memory memory;
+  memory.Remember(At(kPlace), ProgressOutcome::kBlocked);
+  memory.SetRow(8, CellState::kOccupied);
+  memory.Remember(At({3.0, 3.0}), ProgressOutcome::kAborted);
+  memory.SetRow(8, CellState::kFree);
+  EXPECT_TRUE(memory.SetAside().empty());
+}
+
+TEST(GoalMemory, MayBeSetAsideAnewOnTheChangedMap) {
+  Memory memory;
+  memory.Remember(At(kPlace), ProgressOutcome::kBlocked);
+  memory.SetRow(8, CellState::kOccupied);
+  memory.Remember(At(kPlace), ProgressOutcome::kBlocked);
+  EXPECT_EQ(memory.SetAside().size(), 1u);
+}
+
+TEST(GoalMemory, KeepsItsPlaceWhenTheMapGrows) {
+  Memory memory;
+  memory.SetRow(3, CellState::kOccupied);
+  memory.Remember(At(kPlace), ProgressOutcome::kBlocked);
+  Grid<CellState> grown(GridGeometry{-7.4, -7.4, 0.1, 168, 168}, CellState::kUnknown);
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 40; ++x) grown[Cell{x + 64, y + 64}] = memory.map[Cell{x, y}];
+  }
+  EXPECT_EQ(memory.goals.SetAside({0, grown}).size(), 1u);
+}
+
+TEST(GoalMemory, RemembersAtTheEdgeOfTheMap) {
+  Memory memory;
+  memory.Remember(At({-0.95, -0.95}), ProgressOutcome::kBlocked);
+  memory.Remember(At({50.0, 50.0}), ProgressOutcome::kBlocked);
+  EXPECT_EQ(memory.SetAside().size(), 2u);
+}
+
+TEST(GoalMemory, IsBounded) {
+  Memory memory;
+  for (int i = 0; i < 1000; ++i) {
+    memory.Remember(At({0.5 * i, 0.0}), ProgressOutcome::kBlocked);
+  }
+  EXPECT_EQ(memory.SetAside().size(), 200u);
+  EXPECT_EQ(memory.SetAside().back().goal.position.x_m, 0.5 * 999) << "the latest are kept";
+}
+
+}  // namespace
+}  // namespace plumescout

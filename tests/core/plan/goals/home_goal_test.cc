@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/goals/home_goal.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/goal_case.h"
+
+namespace plumescout {
+namespace {
+
+using testing::GoalCase;
+
+// 'i': free, but too near a wall.
+const testing::GridArt kHall = {"############",  //
+                                "#iiiiiiiiii#",  //
+                                "#i.......Si#",  //
+                                "#i..######i#",  //
+                                "#i.......#i#",  //
+                                "############"};
+
+Point2 CentreOf(const GoalCase& c, Cell cell) { return c.belief.geometry().Center(cell); }
+
+TEST(FindHome, IsWhereTheRobotCameFrom) {
+  GoalCase c(kHall);
+  c.belief.robots["r"].first_place = CentreOf(c, {3, 1});
+  const HomeGoal home = FindHome(c.Query());
+  EXPECT_TRUE(home.reachable);
+  EXPECT_FALSE(home.is_there);
+  EXPECT_EQ(home.goal.kind, GoalKind::kHome);
+  EXPECT_EQ(home.goal.cell, (Cell{3, 1}));
+  EXPECT_EQ(home.goal.position, CentreOf(c, {3, 1}));
+}
+
+TEST(FindHome, IsThatOfTheMissionIfItNamesOne) {
+  GoalCase c(kHall);
+  c.belief.robots["r"].first_place = CentreOf(c, {3, 1});
+  MissionOptions mission;
+  mission.home = CentreOf(c, {2, 3});
+  c.SetMission(mission);
+  EXPECT_EQ(FindHome(c.Query()).goal.cell, (Cell{2, 3}));
+}
+
+TEST(FindHome, OfARobotThatHasObservedNothingIsWhereItStarts) {
+  const GoalCase c(kHall);
+  EXPECT_TRUE(FindHome(c.Query()).is_there);
+}
+
+TEST(FindHome, InTheInflatedZoneIsInFrontOfIt) {
+  GoalCase c(kHall);
+  c.belief.robots["r"].first_place = CentreOf(c, {1, 1});
+  const HomeGoal home = FindHome(c.Query());
+  EXPECT_TRUE(home.reachable);
+  EXPECT_EQ(home.goal.cell, (Cell{2, 1}));
+  EXPECT_EQ(home.goal.centroid, CentreOf(c, {1, 1}));
+}
+
+TEST(FindHome, FarInUnknownSpaceIsNotReachable) {
+  const testing::GridArt art = {"################",  //
+                                "#S.????????????#",  //
+                                "################"};
+  GoalCase c(art);
+  c.belief.robots["r"].first_place = CentreOf(c, {5, 1});
+  EXPECT_TRUE(FindHome(c.Query()).reachable);
+  MissionOptions mission;
+  mission.occupancy.inflation_radius_m = 0.0;
+  c.SetMission(mission);
+  c.belief.robots["r"].first_place = CentreOf(c, {13, 1});
+  EXPECT_FALSE(FindHome(c.Query()).reachable);
+}
+
+TEST(FindHome, IsReachedWithinAFewCells) {
+  GoalCase c(kHall);
+  c.belief.robots["r"].first_place = CentreOf(c, {7, 3});
+  EXPECT_TRUE(FindHome(c.Query()).is_there);
+  c.belief.robots["r"].first_place = CentreOf(c, {5, 3});
+  EXPECT_FALSE(FindHome(c.Query()).is_there);
+}
+
+TEST(FindHome, BehindWallsOrOffTheMapIsNotReachable) {
+  const testing::GridArt parted = {"#######",  //
+                                   "#S#...#",  //
+                                   "#######"};
+  GoalCase c(parted);
+  for (const Point2 place : {CentreOf(c, {4, 1}), Point2{-1.0, 0.1}, Point2{1e6, 1e6}}) {
+    c.belief.robots["r"].first_place = place;
+    const HomeGoal home = FindHome(c.Query());
+    EXPECT_FALSE(home.reachable);
+    EXPECT_FALSE(home.is_there);
+    EXPECT_EQ(home.goal.position, place);
+  }
+}
+
+TEST(FindHome, IsNotKeptFromByMemoryOrClaims) {
+  GoalCase c(kHall);
+  c.belief.robots["r"].first_place = CentreOf(c, {3, 1});
+  const Goal goal = FindHome(c.Query()).goal;
+  c.belief.set_aside = {{goal, "reported blocked", 1000}};
+  c.belief.claims = {{"other", 1, goal, 1000}};
+  EXPECT_TRUE(FindHome(c.Query()).reachable);
+}
+
+}  // namespace
+}  // namespace plumescout
