@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+// Where robots of a mission may go: areas to keep out of, and goals to come back to.
+#include <memory>
+
+#include "core/mission/mission.h"
+#include "core/plan/strategy.h"
+#include "gtest/gtest.h"
+#include "tests/support/box_room.h"
+#include "tests/support/same_bytes.h"
+
+namespace plumescout {
+namespace {
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+std::unique_ptr<Mission> MissionOfRobotA(const MissionOptions& options = {}) {
+  auto mission = Mission::Create(options);
+  EXPECT_TRUE(mission.ok());
+  EXPECT_TRUE((*mission)->Apply(RobotRegistered{"a", 0.2, 1}).ok());
+  return *std::move(mission);
+}
+
+TEST(MissionPlaces, KeepsRobotsOutOfAreasThatItMapsAllTheSame) {
+  MissionOptions options;
+  options.keep_out = {{{{2.0, 1.0}, {3.0, 1.0}, {3.0, 2.0}, {2.0, 2.0}}}};
+  const auto mission = MissionOfRobotA(options);
+  const auto without = MissionOfRobotA();
+  const Pose2 pose{1.0, 1.5, 0.0};
+  for (Mission* each : {mission.get(), without.get()}) {
+    for (std::int64_t sequence = 1; sequence <= 3; ++sequence) {
+      const Scan scan = support::ScanInBox(pose, 4.0, 3.0);
+      ASSERT_TRUE(
+          each->Apply(ObservationReceived{"a", {sequence, sequence * kSecond_ns, pose, scan}})
+              .ok());
+    }
+  }
+  const auto belief = mission->Snapshot();
+  const auto open = without->Snapshot();
+  EXPECT_TRUE(support::SameBytes(*belief->occupancy, *open->occupancy));
+  int closed = 0;
+  for (std::size_t i = 0; i < belief->traversable->size(); ++i) {
+    const Point2 at = belief->geometry().Center(belief->geometry().CellAtIndex(i));
+    const bool inside = at.x_m > 2.0 && at.x_m < 3.0 && at.y_m > 1.0 && at.y_m < 2.0;
+    const bool was_open = (*open->traversable)[i] != 0;
+    EXPECT_EQ((*belief->traversable)[i] != 0, was_open && !inside);
+    closed += was_open && inside ? 1 : 0;
+  }
+  EXPECT_EQ(closed, 100);
+}
+
+TEST(MissionPlaces, LeadsARobotInAKeepOutAreaOutOfIt) {
+  MissionOptions options;
+  options.keep_out = {{{{0.5, 0.5}, {1.8, 0.5}, {1.8, 2.5}, {0.5, 2.5}}}};
+  options.home = Point2{3.0, 1.5};
+  const auto mission = MissionOfRobotA(options);
+  const Pose2 pose{1.0, 1.5, 0.0};
+  for (std::int64_t sequence = 1; sequence <= 3; ++sequence) {
+    const Scan scan = support::ScanInBox(pose, 4.0, 3.0);
+    ASSERT_TRUE(
+        mission->Apply(ObservationReceived{"a", {sequence, sequence * kSecond_ns, pose, scan}})
+            .ok());
+  }
+  ASSERT_TRUE(mission->Apply(PosteriorRefreshed{3 * kSecond_ns}).ok());
+  PlanRequest request;
+  request.robot = "a";
+  request.go_home = true;
+  const auto plan = (*MakeStrategy({}))->Plan(*mission->Snapshot(), request, NeverStop());
+  ASSERT_TRUE(plan.ok()) << plan.status();
+  EXPECT_TRUE(plan->start_escaped);
+  ASSERT_GE(plan->chosen, 0);
+  EXPECT_NEAR(plan->trajectory.waypoints.back().pose.x_m, 3.0, 0.1);
+}
+
+TEST(MissionPlaces, ForgetsThatAGoalWasBlockedWhenTheMapThereChanges) {
+  const auto mission = MissionOfRobotA();
+  std::int64_t sequence = 0;
+  const auto scan = [&](const Scan& taken) {
+    ++sequence;
+    const std::int64_t now_ns = sequence * kSecond_ns / 10;
+    const Pose2 pose{1.0, 1.5, 0.0};
+    ASSERT_TRUE(mission->Apply(ObservationReceived{"a", {sequence, now_ns, pose, taken}}).ok());
+  };
+  const Pose2 pose{1.0, 1.5, 0.0};
+  for (int i = 0; i < 20; ++i) scan(support::ScanInBox(pose, 4.0, 3.0));
+  Plan plan;
+  plan.robot = "a";
+  plan.candidates = {Candidate{}};
+  plan.candidates[0].goal.position = {3.0, 1.5};
+  plan.chosen = 0;
+  const auto issued = mission->Apply(PlanIssued{plan});
+  ASSERT_TRUE(issued.ok());
+  ASSERT_TRUE(
+      mission->Apply(ProgressReported{"a", issued->plan_id, ProgressOutcome::kBlocked}).ok());
+  for (int i = 0; i < 20; ++i) scan(support::ScanInBox(pose, 4.0, 3.0));
+  EXPECT_EQ(mission->Snapshot()->set_aside.size(), 1u) << "the same room, scanned again";
+  // A pillar stands there now.
+  for (int i = 0; i < 40; ++i) scan(support::ScanInBox(pose, 4.0, 3.0, {{{3.0, 1.5}, 0.6}}));
+  EXPECT_TRUE(mission->Snapshot()->set_aside.empty());
+}
+
+}  // namespace
+}  // namespace plumescout
