@@ -1,82 +1,37 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 
-// Plans in random halls, against exact searches of the grid under the same cost: CPU time, share
-// of goals reached, and how much dearer the paths are.
+// Plans in random halls and large buildings: every planner of the registry on the same work,
+// against exact searches of the grid under the same cost. CPU time, share of goals reached, and how
+// much dearer the paths are.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
-#include <optional>
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "absl/status/status.h"
-#include "core/grid/flood.h"
-#include "core/plan/edge_cost.h"
-#include "core/plan/information_field.h"
-#include "core/plan/paths/grid_exact.h"
-#include "core/plan/paths/grid_guard.h"
-#include "core/plan/paths/xit.h"
+#include "absl/strings/str_cat.h"
+#include "core/plan/paths/anytime_xit.h"
+#include "core/plan/paths/path_planners.h"
+#include "core/plan/selection/expected_information.h"
 #include "core/plan/strategy.h"
 #include "core/types/status_macros.h"
 #include "lab/bench/bench_summary.h"
 #include "lab/bench/grid_oracle.h"
+#include "lab/bench/known_building.h"
+#include "lab/bench/plan_case.h"
+#include "lab/bench/planner_registry.h"
 #include "lab/bench/random_world.h"
 
 namespace plumescout::lab {
 namespace {
 
 constexpr int kGoals = 5;
-constexpr int kRepeats = 9;
 const StopFn kNeverStop = NeverStop();
-
-// One world with what path planners see of it.
-struct Case {
-  explicit Case(std::uint64_t seed)
-      : world(MakeRandomWorld(seed, kGoals)),
-        field(MakeInformationField(
-            {*world.belief.traversable, *world.belief.gas_mean_ppm, *world.belief.gas_variance_ppm2,
-             world.belief.options->gas, world.belief.options->frontier},
-            PlanningOptions{})),
-        cost(field, CostKind::kUcb, 0.0),
-        start(world.belief.robots.at(world.robot).state.pose.position()),
-        start_cell(world.belief.geometry().CellAt(start)),
-        reachable(ReachableCells(*world.belief.traversable, {start_cell})) {}
-
-  Case(const Case&) = delete;  // `cost` refers to `field`
-  Case& operator=(const Case&) = delete;
-
-  PathProblem Problem(std::uint64_t seed) const {
-    return {cost, reachable, start, world.goals, seed, 0, kNeverStop};
-  }
-
-  RandomWorld world;
-  InformationField field;
-  EdgeCost cost;
-  Point2 start;
-  Cell start_cell;
-  Grid<std::uint8_t> reachable;
-};
-
-// Prices over those of an oracle, of the goals that were reached, and how many were.
-struct Quality {
-  std::vector<double> over_d8;
-  std::vector<double> over_d32;
-  int reached = 0;
-  int goals = 0;
-
-  void Add(const PathResult& result, const Case& c, const Grid<double>& d8,
-           const Grid<double>& d32) {
-    for (std::size_t i = 0; i < result.paths.size(); ++i) {
-      ++goals;
-      if (!result.paths[i]) continue;
-      ++reached;
-      over_d8.push_back(result.paths[i]->cost / d8[c.world.goals[i].cell]);
-      over_d32.push_back(result.paths[i]->cost / d32[c.world.goals[i].cell]);
-    }
-  }
-  double ReachedRatio() const { return static_cast<double>(reached) / goals; }
-};
 
 double Mean(const std::vector<double>& values) {
   double sum = 0.0;
@@ -84,72 +39,176 @@ double Mean(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-struct Figures {
-  std::vector<double> plan_ms, all_goals_ms, search_ms, guard_ms;
-  std::vector<double> exact_ms;
-  Quality exact;
-  Quality tree;
-  Quality guarded;
+// One row: a planner on all worlds.
+struct Row {
+  std::vector<double> cpu_ms;
+  std::vector<double> over_d8;  // of the goals that were reached
+  std::vector<double> over_d32;
+  int reached = 0;
+  int goals = 0;
+
+  void Add(const PathResult& result, const PlanCase& c, const Grid<double>& d8,
+           const Grid<double>* d32) {
+    for (std::size_t i = 0; i < result.paths.size(); ++i) {
+      ++goals;
+      if (!result.paths[i]) continue;
+      ++reached;
+      // A path as published ends beside the goal: judged by where it ends.
+      const Cell end = c.cost.geometry().CellAt(result.paths[i]->vertices.back());
+      if (!(d8[end] > 0.0)) continue;
+      const double cost = PathCost(c.cost, result.paths[i]->vertices);
+      over_d8.push_back(cost / d8[end]);
+      if (d32 != nullptr) over_d32.push_back(cost / (*d32)[end]);
+    }
+  }
+  double ReachedRatio() const { return static_cast<double>(reached) / goals; }
+  void Set(const std::string& name, BenchSummary& summary) const {
+    summary.Set(absl::StrCat(name, "_ms"), Median(cpu_ms));
+    summary.Set(absl::StrCat(name, "_reached_ratio"), ReachedRatio());
+    summary.Set(absl::StrCat(name, "_over_d8"), Mean(over_d8));
+    if (!over_d32.empty()) summary.Set(absl::StrCat(name, "_over_d32"), Mean(over_d32));
+  }
 };
 
-absl::Status MeasurePlan(const Case& c, bool draw_goals, std::vector<double>& times_ms) {
-  PlanningOptions options;
-  options.draw_goals = draw_goals;
-  options.max_goals = kGoals;
-  auto strategy = MakeStrategy(options);
-  PLUMESCOUT_RETURN_IF_ERROR(strategy.status());
-  PlanRequest request;
-  request.robot = c.world.robot;
+// A whole plan: frontiers, information field, search, selection.
+absl::Status MeasureWholePlans(int worlds, BenchSummary& summary) {
+  constexpr int kRepeats = 9;
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto strategy, MakeStrategy(PlanningOptions{}));
+  std::vector<double> times_ms;
   absl::Status status;
-  times_ms.push_back(MedianCpu_ms(
-      kRepeats, [&] { status = (*strategy)->Plan(c.world.belief, request, kNeverStop).status(); }));
+  for (int i = 0; i < worlds; ++i) {
+    const RandomWorld world =
+        MakeRandomWorld(summary.seed() + static_cast<std::uint64_t>(i), kGoals);
+    PlanRequest request;
+    request.robot = world.robot;
+    times_ms.push_back(MedianCpu_ms(kRepeats, [&] {
+      status.Update(strategy->Plan(world.belief, request, kNeverStop).status());
+    }));
+  }
+  summary.Set("whole_plan_ms", Median(times_ms));
+  summary.Set("whole_plan_worst_ms", *std::max_element(times_ms.begin(), times_ms.end()));
   return status;
 }
 
-void MeasureSearch(const Case& c, std::uint64_t seed, Figures& figures) {
-  const XitPlanner xit{PlanningOptions{}};
-  const PathProblem problem = c.Problem(seed);
-  PathResult result;
-  figures.search_ms.push_back(MedianCpu_ms(kRepeats, [&] { result = xit.FindPaths(problem); }));
-  const Grid<double> d8 = OracleCosts(c.cost, c.start_cell, 8);
-  const Grid<double> d32 = OracleCosts(c.cost, c.start_cell, 32);
-  figures.tree.Add(result, c, d8, d32);
-  CompleteOnGrid(problem, PathSource::kGridGuard, result);
-  figures.guarded.Add(result, c, d8, d32);
-  const GridExactPlanner exact;
-  PathResult exact_result;
-  figures.exact_ms.push_back(
-      MedianCpu_ms(kRepeats, [&] { exact_result = exact.FindPaths(problem); }));
-  figures.exact.Add(exact_result, c, d8, d32);
-  figures.guard_ms.push_back(MedianCpu_ms(kRepeats, [&] {  // with every goal missed
-    PathResult nothing;
-    nothing.paths.resize(c.world.goals.size());
-    CompleteOnGrid(problem, PathSource::kGridGuard, nothing);
-  }));
-}
-
-absl::Status Measure(int worlds, BenchSummary& summary) {
-  Figures figures;
+// Every planner to the same five goals of the same halls.
+void MeasureRegistry(int worlds, BenchSummary& summary) {
+  constexpr int kRepeats = 5;
+  const std::vector<RegisteredPlanner> planners = PlannerRegistry();
+  std::vector<Row> rows(planners.size());
   for (int i = 0; i < worlds; ++i) {
     const std::uint64_t seed = summary.seed() + static_cast<std::uint64_t>(i);
-    const Case c(seed);
-    PLUMESCOUT_RETURN_IF_ERROR(MeasurePlan(c, true, figures.plan_ms));
-    PLUMESCOUT_RETURN_IF_ERROR(MeasurePlan(c, false, figures.all_goals_ms));
-    MeasureSearch(c, seed, figures);
+    const PlanCase c(MakeRandomWorld(seed, kGoals));
+    const Grid<double> d8 = OracleCosts(c.cost, c.start_cell, 8);
+    const Grid<double> d32 = OracleCosts(c.cost, c.start_cell, 32);
+    for (std::size_t k = 0; k < planners.size(); ++k) {
+      PathResult result;
+      // Rivals take up to seconds: once is enough.
+      const auto run = [&] {
+        result = planners[k].planner->FindPaths(c.Problem(seed, kNeverStop));
+      };
+      if (planners[k].is_rival) {
+        const double begin_ms = ThreadCpu_ms();
+        run();
+        rows[k].cpu_ms.push_back(ThreadCpu_ms() - begin_ms);
+      } else {
+        rows[k].cpu_ms.push_back(MedianCpu_ms(kRepeats, run));
+      }
+      rows[k].Add(result, c, d8, &d32);
+    }
   }
+  double cheapest_rival_ms = std::numeric_limits<double>::quiet_NaN();
+  double grid_exact_ms = 0.0;
+  double grid_exact_over_d32 = 0.0;
+  for (std::size_t k = 0; k < planners.size(); ++k) {
+    rows[k].Set(planners[k].name, summary);
+    if (planners[k].name != "grid_exact") continue;
+    grid_exact_ms = Median(rows[k].cpu_ms);
+    grid_exact_over_d32 = Mean(rows[k].over_d32);
+  }
+  for (std::size_t k = 0; k < planners.size(); ++k) {
+    if (!planners[k].is_rival || Mean(rows[k].over_d32) > grid_exact_over_d32) continue;
+    cheapest_rival_ms = std::fmin(cheapest_rival_ms, Median(rows[k].cpu_ms));
+  }
+  summary.Set("rivals_no_dearer_over_grid_exact_ms_ratio", cheapest_rival_ms / grid_exact_ms);
+}
+
+// Anytime XIT under a deadline and a cancellation, by the CPU clock.
+void MeasureAnytime(int worlds, BenchSummary& summary) {
+  constexpr double kDeadline_ms = 20.0;
+  constexpr double kCancel_ms = 7.0;
+  const AnytimeXitPlanner anytime{PlanningOptions{}};
+  Row row;
+  double late_ms = 0.0;
+  double late_after_cancel_ms = 0.0;
+  for (int i = 0; i < worlds; ++i) {
+    const std::uint64_t seed = summary.seed() + static_cast<std::uint64_t>(i);
+    const PlanCase c(MakeRandomWorld(seed, kGoals));
+    const auto run_until = [&](double limit_ms, PathResult& result) {
+      const double begin_ms = ThreadCpu_ms();
+      const StopFn stop = [&] { return ThreadCpu_ms() - begin_ms >= limit_ms; };
+      result = anytime.FindPaths(c.Problem(seed, stop));
+      return ThreadCpu_ms() - begin_ms;
+    };
+    PathResult result;
+    row.cpu_ms.push_back(run_until(kDeadline_ms, result));
+    late_ms = std::max(late_ms, row.cpu_ms.back() - kDeadline_ms);
+    const Grid<double> d8 = OracleCosts(c.cost, c.start_cell, 8);
+    const Grid<double> d32 = OracleCosts(c.cost, c.start_cell, 32);
+    row.Add(result, c, d8, &d32);
+    late_after_cancel_ms =
+        std::max(late_after_cancel_ms, run_until(kCancel_ms, result) - kCancel_ms);
+  }
+  row.Set("anytime_xit_20ms", summary);
+  summary.Set("anytime_xit_late_ms", late_ms);
+  summary.Set("anytime_xit_late_after_cancel_ms", late_after_cancel_ms);
+}
+
+// How planners scale with the building, and what pricing the information of five ways costs.
+absl::Status MeasureScaling(int worlds, BenchSummary& summary) {
+  constexpr int kWidth_cells = 160;
+  constexpr int kHeight_cells = 200;
+  constexpr int kSides[] = {1, 2, 4, 6};
+  const std::vector<RegisteredPlanner> planners = PlannerRegistry();
+  for (const int side : kSides) {
+    std::vector<Row> rows(planners.size());
+    std::vector<double> information_ms;
+    for (int i = 0; i < worlds; ++i) {
+      const std::uint64_t seed = summary.seed() + static_cast<std::uint64_t>(i);
+      PLUMESCOUT_ASSIGN_OR_RETURN(
+          RandomWorld world,
+          MakeKnownBuilding(side * kWidth_cells, side * kHeight_cells, seed, kGoals));
+      const PlanCase c(std::move(world));
+      const Grid<double> d8 = OracleCosts(c.cost, c.start_cell, 8);
+      PathResult result;
+      for (std::size_t k = 0; k < planners.size(); ++k) {
+        if (planners[k].is_rival) continue;
+        rows[k].cpu_ms.push_back(MedianCpu_ms(
+            1, [&] { result = planners[k].planner->FindPaths(c.Problem(seed, kNeverStop)); }));
+        rows[k].Add(result, c, d8, nullptr);
+      }
+      information_ms.push_back(MedianCpu_ms(3, [&] {
+        const ExpectedInformation information(c.world.belief);
+        for (const auto& path : result.paths) {
+          if (!path) continue;
+          information.Of(ReadingCells(path->vertices, c.cost.geometry(), PlanningOptions{}));
+        }
+      }));
+    }
+    const std::string size = absl::StrCat("_", 16 * side, "x", 20 * side, "m");
+    for (std::size_t k = 0; k < planners.size(); ++k) {
+      if (!planners[k].is_rival) rows[k].Set(planners[k].name + size, summary);
+    }
+    summary.Set(absl::StrCat("expected_information_5", size, "_ms"), Median(information_ms));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status Measure(int worlds, int buildings, BenchSummary& summary) {
   summary.Set("worlds", worlds);
-  summary.Set("xit300_ms", Median(figures.plan_ms));
-  summary.Set("xit300_worst_ms", *std::max_element(figures.plan_ms.begin(), figures.plan_ms.end()));
-  summary.Set("xit300_all_goals_ms", Median(figures.all_goals_ms));
-  summary.Set("xit300_search_ms", Median(figures.search_ms));
-  summary.Set("grid_guard_ms", Median(figures.guard_ms));
-  summary.Set("grid_exact_ms", Median(figures.exact_ms));
-  summary.Set("grid_exact_over_d8", Mean(figures.exact.over_d8));
-  summary.Set("grid_exact_over_d32", Mean(figures.exact.over_d32));
-  summary.Set("xit300_reached_ratio", figures.guarded.ReachedRatio());
-  summary.Set("xit300_tree_only_reached_ratio", figures.tree.ReachedRatio());
-  summary.Set("xit300_over_d8", Mean(figures.guarded.over_d8));
-  summary.Set("xit300_over_d32", Mean(figures.guarded.over_d32));
+  PLUMESCOUT_RETURN_IF_ERROR(MeasureWholePlans(worlds, summary));
+  MeasureAnytime(worlds, summary);
+  PLUMESCOUT_RETURN_IF_ERROR(MeasureScaling(buildings, summary));
+  MeasureRegistry(worlds, summary);
   return absl::OkStatus();
 }
 
@@ -157,10 +216,14 @@ absl::Status Measure(int worlds, BenchSummary& summary) {
 }  // namespace plumescout::lab
 
 int main(int argc, char** argv) {
-  CLI::App app("Plans in random halls: CPU time, goals reached, price over exact grid searches");
+  CLI::App app(
+      "Every planner on the same worlds: CPU time, goals reached, price over exact searches");
   int worlds = 50;
-  app.add_option("--worlds", worlds, "random worlds")->check(CLI::PositiveNumber);
+  int buildings = 6;
+  app.add_option("--worlds", worlds, "random halls")->check(CLI::PositiveNumber);
+  app.add_option("--buildings", buildings, "large buildings of each size")
+      ->check(CLI::PositiveNumber);
   return plumescout::lab::RunBench(app, argc, argv, [&](plumescout::lab::BenchSummary& summary) {
-    return plumescout::lab::Measure(worlds, summary);
+    return plumescout::lab::Measure(worlds, buildings, summary);
   });
 }

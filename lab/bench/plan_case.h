@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "core/plan/edge_cost.h"
+#include "core/plan/information_field.h"
+#include "core/plan/paths/path_planner.h"
+#include "lab/bench/random_world.h"
+
+namespace plumescout::lab {
+
+// A world with what path planners see of it: its information field under the default options, the
+// cost of [XIT] at alpha = 0, and its robot and goals.
+class PlanCase {
+ public:
+  explicit PlanCase(RandomWorld world);
+  PlanCase(const PlanCase&) = delete;  // `cost` refers to `field`
+  PlanCase& operator=(const PlanCase&) = delete;
+
+  // Holds references to this case and to `stop`.
+  PathProblem Problem(std::uint64_t seed, const StopFn& stop) const {
+    return {cost, reachable, start, world.goals, seed, 0, stop, nullptr};
+  }
+
+  RandomWorld world;
+  InformationField field;
+  EdgeCost cost;
+  Point2 start;
+  Cell start_cell;
+  Grid<std::uint8_t> reachable;
+};
+
+}  // namespace plumescout::lab
