@@ -56,6 +56,9 @@ class EdgeCost {
            vertex_weight_ * static_cast<double>(penalty_to);
   }
 
+  // Whether what lies between vertices is free (kVertices): fewer of them are then always cheaper.
+  bool CountsVerticesOnly() const { return vertex_weight_ > 0.0; }
+
   const InformationField& field() const { return *field_; }
   const GridGeometry& geometry() const { return field_->penalty.geometry(); }
 

@@ -11,6 +11,7 @@ namespace plumescout {
 
 FoundPath Straighten(const PathProblem& problem, const std::vector<Point2>& way, PathSource source,
                      PlanEffort& effort) {
+  if (problem.cost.CountsVerticesOnly()) return {way, PathCost(problem.cost, way), source};
   const StopFn stop = [&] {
     const std::int64_t budget = problem.max_edge_evaluations;
     return (budget > 0 && effort.edges_evaluated >= budget) || problem.stop();

@@ -9,8 +9,9 @@
 namespace plumescout {
 
 // Ours: frees a polyline from the directions of a grid and from detours between samples: Shortcut,
-// AdjustVertices, Shortcut again. Never dearer than `way`. Adds to `effort`; stops early, with what
-// it has, when the problem's stop function says so or its edge budget is spent.
+// AdjustVertices, Shortcut again. Never dearer than `way`. Under CostKind::kVertices, where any
+// vertex left out is a gain whatever lies between, the way stays as it is. Adds to `effort`; stops
+// early, with what it has, when the problem's stop function says so or its edge budget is spent.
 // REQUIRES: `way` has a vertex and hits nothing. Cost: some hundreds of edge integrals a vertex.
 FoundPath Straighten(const PathProblem& problem, const std::vector<Point2>& way, PathSource source,
                      PlanEffort& effort);

@@ -42,6 +42,17 @@ TEST(Straighten, MakesThePathsOfATreeCheaper) {
   EXPECT_LT(after, 0.97 * before);
 }
 
+TEST(Straighten, LeavesAWayAloneIfOnlyItsVerticesCost) {
+  const PathCase c(5, {}, CostKind::kVertices);
+  const PathResult found = TreePaths(c);
+  ASSERT_TRUE(found.paths.front().has_value());
+  PlanEffort effort;
+  const FoundPath path =
+      Straighten(c.Problem(), found.paths.front()->vertices, PathSource::kTree, effort);
+  EXPECT_EQ(path.vertices, found.paths.front()->vertices);
+  EXPECT_NEAR(path.cost, found.paths.front()->cost, kRounding);
+}
+
 TEST(Straighten, KeepsToTheEdgeBudget) {
   const PathCase c(5);
   const PathResult found = TreePaths(c);
