@@ -25,7 +25,7 @@ CostSearch::CostSearch(const EdgeCost& cost)
       g_(cost.geometry(), kUnreached, kUnreached),
       parent_(cost.geometry(), kNoParent, kNoParent),
       offsets_(penalty_.NeighbourOffsets()),
-      bucket_width_(cost.GridStep(1.0F, 1.0F, kDiagonalStep_cells) / kBucketsPerStep) {}
+      levels_per_cost_(kBucketsPerStep / cost.GridStep(1.0F, 1.0F, kDiagonalStep_cells)) {}
 
 bool CostSearch::Run(Cell start, const std::vector<Cell>& goals, const StopFn& stop) {
   Reach(penalty_.IndexOf(start), kNoParent, 0.0);

@@ -36,11 +36,11 @@ class CostSearch {
 
   // Buckets for the dearest step: few enough that most are not empty, many enough that few cells
   // are visited twice. Any number gives the same costs.
-  static constexpr int kBucketsPerStep = 16;
+  static constexpr int kBucketsPerStep = 8;
   // A step leads at most kBucketsPerStep buckets on, one more with rounding.
   static constexpr std::size_t kBuckets = kBucketsPerStep + 2;
 
-  std::int64_t LevelOf(double g) const { return static_cast<std::int64_t>(g / bucket_width_); }
+  std::int64_t LevelOf(double g) const { return static_cast<std::int64_t>(g * levels_per_cost_); }
   std::vector<Entry>& BucketOf(std::int64_t level) {
     return buckets_[static_cast<std::size_t>(level) % kBuckets];
   }
@@ -53,7 +53,7 @@ class CostSearch {
   Padded<double> g_;
   Padded<int> parent_;
   std::array<int, 8> offsets_;
-  double bucket_width_;
+  double levels_per_cost_;
   std::array<std::vector<Entry>, kBuckets> buckets_;
   std::int64_t level_ = 0;
   std::int64_t waiting_ = 0;  // entries not visited yet
