@@ -53,11 +53,7 @@ void Conclude(bool stopped, PathResult& best) {
   for (const std::optional<FoundPath>& path : best.paths) {
     if (path && path->source == PathSource::kGridGuard) ++best.effort.goals_by_guard;
   }
-  const bool all = std::all_of(best.paths.begin(), best.paths.end(),
-                               [](const auto& path) { return path.has_value(); });
-  best.end = all       ? PlanEnd::kAllGoalsReached
-             : stopped ? PlanEnd::kStopped
-                       : PlanEnd::kQueueExhausted;
+  best.end = EndOf(best.paths, stopped);
 }
 
 }  // namespace

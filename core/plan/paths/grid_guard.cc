@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plan/paths/grid_guard.h"
 
-#include <algorithm>
 #include <cstddef>
 
 #include "core/plan/paths/cost_search.h"
@@ -34,11 +33,7 @@ void CompleteOnGrid(const PathProblem& problem, PathSource source, PathResult& r
       if (!way.empty()) result.paths[i] = Straighten(problem, way, source, result.effort);
     }
   }
-  const bool all = std::all_of(result.paths.begin(), result.paths.end(),
-                               [](const auto& path) { return path.has_value(); });
-  result.end = all       ? PlanEnd::kAllGoalsReached
-               : stopped ? PlanEnd::kStopped
-                         : PlanEnd::kQueueExhausted;
+  result.end = EndOf(result.paths, stopped);
 }
 
 }  // namespace plumescout

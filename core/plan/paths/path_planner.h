@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -29,6 +30,14 @@ struct PathResult {
   PlanEnd end = PlanEnd::kQueueExhausted;
   PlanEffort effort;
 };
+
+// How a search ended that has all it can find, or was stopped.
+inline PlanEnd EndOf(const std::vector<std::optional<FoundPath>>& paths, bool stopped) {
+  const bool all =
+      std::all_of(paths.begin(), paths.end(), [](const auto& path) { return path.has_value(); });
+  if (all) return PlanEnd::kAllGoalsReached;
+  return stopped ? PlanEnd::kStopped : PlanEnd::kQueueExhausted;
+}
 
 // Told of every better answer of an anytime search; no price in it is above an earlier one.
 using PathListener = std::function<void(const PathResult&)>;
