@@ -67,10 +67,16 @@ void GoalMemory::RememberVisit(const Goal& goal, const Now& now) {
                               [&](const VisitedGoal& v) { return SamePlace(v.goal, goal); });
   if (visited == visited_.end()) {
     if (visited_.size() >= kMaxVisitedGoals) visited_.erase(visited_.begin());
-    visited_.push_back({goal, 0});
+    visited_.push_back({goal, 0, now.time_ns, StatesNear(now.map, goal.position)});
     visited = visited_.end() - 1;
   }
-  if (++visited->visits < kVisitsBeforeSetAside) return;
+  const bool is_news =
+      now.time_ns - visited->last_ns > Nanoseconds(set_aside_s_) ||
+      ChangedCells(visited->states_then, now.map, visited->goal.position) >= min_changed_cells_;
+  visited->visits = is_news ? 1 : visited->visits + 1;
+  visited->last_ns = now.time_ns;
+  visited->states_then = StatesNear(now.map, visited->goal.position);
+  if (visited->visits < kVisitsBeforeSetAside) return;
   visited_.erase(visited);
   Add(goal, "visited without change", now);
 }

@@ -15,8 +15,9 @@
 namespace plumescout {
 
 // The goals of a mission that led nowhere. One that was blocked is set aside; so is one that was
-// reached kVisitsBeforeSetAside times and is still offered, whatever map the visits made. That a
-// goal is unreachable needs no memory: every plan finds it out anew.
+// reached kVisitsBeforeSetAside times in a row and is still offered: visits count from anew if
+// set_aside_s went by since the last one, or the map near the goal has become another after it.
+// That a goal is unreachable needs no memory: every plan finds it out anew.
 //
 // A goal stays set aside until planning.set_aside_s are over, or the map near it has become
 // another: at least frontier.min_occupancy_cells cells within kChangeRadius_m are in another state
@@ -44,6 +45,8 @@ class GoalMemory {
   struct VisitedGoal {
     Goal goal;
     int visits = 0;
+    std::int64_t last_ns = 0;
+    std::vector<CellState> states_then;  // of the map near the goal at the last visit
   };
   struct Entry {
     SetAsideGoal aside;

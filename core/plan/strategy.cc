@@ -67,7 +67,7 @@ absl::Status ApplyStrategyRow(PlanningOptions& options) {
   options.cost = row.cost;
   options.selection_cost = row.cost;
   options.selection = row.selection;
-  // Baselines drive the paths that they were published with.
+  // Baselines drive the paths that they find; goals that they miss are completed like everybody's.
   options.straighten = row.cost == CostKind::kUcb;
   if (row.name == "mit") ApplyMit(options);
   return absl::OkStatus();

@@ -15,6 +15,7 @@ PlanCase::PlanCase(RandomWorld made)
            world.belief.options->gas, world.belief.options->frontier},
           PlanningOptions{})),
       cost(field, CostKind::kUcb, 0.0),
+      length(field, CostKind::kEuclidean, 0.0),
       start(world.belief.robots.at(world.robot).state.pose.position()),
       start_cell(world.belief.geometry().CellAt(start)),
       reachable(ReachableCells(*world.belief.traversable, {start_cell})) {}

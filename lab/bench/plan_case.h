@@ -20,13 +20,16 @@ class PlanCase {
   PlanCase& operator=(const PlanCase&) = delete;
 
   // Holds references to this case and to `stop`.
-  PathProblem Problem(std::uint64_t seed, const StopFn& stop) const {
-    return {cost, reachable, start, world.goals, seed, 0, stop, nullptr};
+  PathProblem Problem(std::uint64_t seed, const StopFn& stop,
+                      CostKind kind = CostKind::kUcb) const {
+    const EdgeCost& searched = kind == CostKind::kEuclidean ? length : cost;
+    return {searched, reachable, start, world.goals, seed, 0, stop, nullptr};
   }
 
   RandomWorld world;
   InformationField field;
   EdgeCost cost;
+  EdgeCost length;  // for searches by distance
   Point2 start;
   Cell start_cell;
   Grid<std::uint8_t> reachable;

@@ -39,7 +39,8 @@ RegisteredPlanner Rival(PathKind kind, int samples) {
   PlanningOptions options;
   options.paths = kind;
   options.samples = samples;
-  return {absl::StrCat(PathKindName(kind), "_", samples), MakeOmplPlanner(options), true};
+  return {absl::StrCat(PathKindName(kind), "_", samples), MakeOmplPlanner(options), options.cost,
+          true};
 }
 
 }  // namespace
@@ -47,7 +48,7 @@ RegisteredPlanner Rival(PathKind kind, int samples) {
 std::vector<RegisteredPlanner> PlannerRegistry() {
   std::vector<RegisteredPlanner> planners;
   planners.push_back({"xit_300_published", std::make_unique<const XitPlanner>(AsPublished(300))});
-  planners.push_back({"mit_270", std::make_unique<const XitPlanner>(Mit())});
+  planners.push_back({"mit_270", std::make_unique<const XitPlanner>(Mit()), Mit().cost});
   planners.push_back(Ours("xit_300", PathKind::kXit, 300));
   planners.push_back(Ours("xit_1000", PathKind::kXit, 1000));
   planners.push_back(Ours("grid_exact", PathKind::kGridExact, 1));

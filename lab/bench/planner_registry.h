@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/plan/paths/path_planner.h"
+#include "core/types/options.h"
 
 namespace plumescout::lab {
 
@@ -14,7 +15,8 @@ namespace plumescout::lab {
 struct RegisteredPlanner {
   std::string name;
   std::unique_ptr<const PathPlanner> planner;
-  bool is_rival = false;  // of another library
+  CostKind cost = CostKind::kUcb;  // that it searches by; all are judged by the same
+  bool is_rival = false;           // of another library
 };
 
 // Every planner there is, to be run on the same work. Ours: XIT as published and as we drive it,

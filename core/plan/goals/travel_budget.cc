@@ -31,7 +31,8 @@ void RejectOverBudget(const GoalQuery& query, Plan& plan) {
   const double left_m = query.options.travel_budget_m - query.robot.travelled_m;
   std::vector<Candidate> affordable;
   for (Candidate& candidate : plan.candidates) {
-    const double back_m = way_home_m[candidate.goal.cell];
+    const Cell end = way_home_m.geometry().CellAt(candidate.path.back());
+    const double back_m = way_home_m[end];
     const double needed_m = candidate.length_m + (1.0 + query.options.return_margin_share) * back_m;
     if (needed_m <= left_m || candidate.goal.kind == GoalKind::kHome) {
       affordable.push_back(std::move(candidate));

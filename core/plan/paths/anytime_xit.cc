@@ -88,6 +88,7 @@ PathResult AnytimeXitPlanner::FindPaths(const PathProblem& problem) const {
 PathResult AnytimeXitPlanner::SearchBatch(const PathProblem& problem, int samples) const {
   PlanningOptions options = options_;
   options.samples = samples;
+  options.goal_vertices = true;
   return GuardedPlanner(std::make_unique<const XitPlanner>(options), options).FindPaths(problem);
 }
 

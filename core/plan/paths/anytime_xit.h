@@ -11,7 +11,8 @@ namespace plumescout {
 // kFirstBatch on, until the problem is stopped, its edge budget is spent, or two batches in a row
 // have made no path cheaper by kLeastGain. Each batch is searched, completed and straightened as
 // options say, and the cheapest path to each goal is kept: no price ever rises. The listener hears
-// of every batch that brought something.
+// of every batch that brought something. Paths always end at goal cells, or those that stop short
+// would pass for cheap.
 //
 // Ends as kAllGoalsReached whenever all goals have a path, also if it was stopped.
 // Cost: twice that of its largest batch.
@@ -20,7 +21,7 @@ class AnytimeXitPlanner : public PathPlanner {
   static constexpr int kFirstBatch = 75;
   static constexpr double kLeastGain = 1e-3;  // of a path's price
 
-  // REQUIRES: Validate(options).ok(). options.samples has no effect.
+  // REQUIRES: Validate(options).ok(). options.samples and goal_vertices have no effect.
   explicit AnytimeXitPlanner(const PlanningOptions& options) : options_(options) {}
 
   PathResult FindPaths(const PathProblem& problem) const override;

@@ -83,7 +83,7 @@ std::vector<Point2> CostSearch::WayTo(Cell goal, Point2 start) const {
   }
   if (way.back() != start) way.push_back(start);
   std::reverse(way.begin(), way.end());
-  return WithoutCollinear(way);
+  return cost_.CountsVerticesOnly() ? way : WithoutCollinear(way);
 }
 
 }  // namespace plumescout

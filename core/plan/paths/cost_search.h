@@ -25,7 +25,8 @@ class CostSearch {
   bool Run(Cell start, const std::vector<Cell>& goals, const StopFn& stop);
 
   // The polyline from `start`, inside the cell that Run began with, along the centres of cells to
-  // that of `goal`, without the vertices in the middle of straight runs; empty if not reached.
+  // that of `goal`, without the vertices in the middle of straight runs unless these cost; empty if
+  // not reached.
   std::vector<Point2> WayTo(Cell goal, Point2 start) const;
 
  private:

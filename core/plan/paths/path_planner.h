@@ -17,8 +17,10 @@
 namespace plumescout {
 
 struct FoundPath {
-  std::vector<Point2> vertices;  // the start first, the centre of the goal's cell last
-  double cost = 0.0;             // under PathProblem::cost
+  // The start first, the centre of the goal's cell last; or, with options.goal_vertices off, that
+  // of a sample near it.
+  std::vector<Point2> vertices;
+  double cost = 0.0;  // under PathProblem::cost
   PathSource source = PathSource::kTree;
 
   friend bool operator==(const FoundPath&, const FoundPath&) = default;

@@ -3,6 +3,7 @@
 #include "core/plan/paths/xit.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <queue>
@@ -16,6 +17,7 @@ namespace plumescout {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kNoParent = -1;
 
 // The implicit random geometric graph: samples, goal cells and the root, with their neighbours.
@@ -76,6 +78,7 @@ class XitSearch {
         parent_(graph_.points.size(), kNoParent),
         taken_(graph_.points.size(), 0),
         queues_(problem.cost.HasHeuristic() || informed_ ? problem.goals.size() : 1) {
+    if (informed_) heuristics_.assign(graph_.points.size() * graph_.goal_sets.size(), kNaN);
     Reach(graph_.root(), kNoParent, 0.0);  // line 6
   }
 
@@ -174,9 +177,16 @@ class XitSearch {
     }
   }
 
-  // To the nearest, or cheapest, vertex of the goal's set.
-  double Heuristic(int vertex, std::size_t goal) const {
+  double Heuristic(int vertex, std::size_t goal) {
     if (!problem_.cost.HasHeuristic() && !informed_) return 0.0;
+    if (!informed_) return LeastHeuristic(vertex, goal);
+    double& known = heuristics_[static_cast<std::size_t>(vertex) * graph_.goal_sets.size() + goal];
+    if (std::isnan(known)) known = LeastHeuristic(vertex, goal);
+    return known;
+  }
+
+  // To the nearest, or cheapest, vertex of the goal's set.
+  double LeastHeuristic(int vertex, std::size_t goal) const {
     double least = kInfinity;
     for (const int member : graph_.goal_sets[goal]) {
       least =
@@ -214,6 +224,7 @@ class XitSearch {
   std::vector<int> parent_;          // E
   std::vector<std::uint8_t> taken_;  // no longer in Q_v
   std::vector<Queue> queues_;        // Q_v, by goal; one for all if h = 0
+  std::vector<double> heuristics_;   // informed h by vertex and goal; NaN: not yet known
   PlanEffort effort_;
 };
 

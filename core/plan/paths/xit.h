@@ -9,7 +9,7 @@ namespace plumescout {
 
 // Exploration and exploitation informed trees, [XIT] Alg. 1: one tree over a batch of samples of
 // the information field, grown towards all goals in turn. [MIT] Alg. 1 is the same search under the
-// distance as cost, with independent samples of the field and nothing else (strategy "mit").
+// distance as cost, with independent samples of the field alone (strategy "mit").
 //
 // Where the listing leaves room:
 //   line 8      while some goal is unreached and Q_v is not empty.

@@ -3,6 +3,7 @@
 #include "core/plan/selection/choice.h"
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "core/plan/selection/expected_information.h"
@@ -21,13 +22,25 @@ void PriceInformation(const Belief& belief, const PlanningOptions& options, cons
   }
 }
 
+// Index of the candidate at `claimed` or nearest to it, -1 if it covers none.
+int NearestCovered(const Goal& claimed, const std::vector<Candidate>& candidates) {
+  int nearest = -1;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const double distance_m = Distance_m(claimed.position, candidates[i].goal.position);
+    if (!ClaimCovers(claimed, candidates[i].goal) || distance_m >= nearest_m) continue;
+    nearest = static_cast<int>(i);
+    nearest_m = distance_m;
+  }
+  return nearest;
+}
+
 // Index of the candidate that the robot's live plan ends at, -1 if there is none.
 int UnderWayTo(const std::vector<Candidate>& candidates, const Belief& belief,
                const RobotId& robot) {
   for (const GoalClaim& claim : belief.claims) {
-    if (claim.robot != robot || claim.expires_ns <= belief.sample_time_ns) continue;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      if (ClaimCovers(claim.goal, candidates[i].goal)) return static_cast<int>(i);
+    if (claim.robot == robot && claim.expires_ns > belief.sample_time_ns) {
+      return NearestCovered(claim.goal, candidates);
     }
   }
   return -1;

@@ -13,7 +13,8 @@ namespace plumescout {
 
 // Cells in which a robot that drives along `path` would take its readings, one for each: every
 // 1 / reading_rate_hz seconds on the way at speed_mps, and while it stands for dwell_s at each
-// vertex but the first. Where that makes more than kMaxReadings, so many at equal distances.
+// vertex but the first; ramps and turns of the trajectory are left out. Where that makes more than
+// kMaxReadings, so many at equal distances: what they bring is then a lower bound.
 inline constexpr std::size_t kMaxReadings = 256;
 std::vector<Cell> ReadingCells(const std::vector<Point2>& path, const GridGeometry& geometry,
                                const PlanningOptions& options);

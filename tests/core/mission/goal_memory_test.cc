@@ -56,6 +56,25 @@ TEST(GoalMemory, SetsAGoalAsideThatWasReachedTwice) {
   EXPECT_EQ(memory.SetAside()[0].reason, "visited without change");
 }
 
+TEST(GoalMemory, CountsVisitsFromAnewIfTheMapThereHasChanged) {
+  Memory memory;
+  memory.Remember(At(kPlace), ProgressOutcome::kReached);
+  memory.SetRow(8, CellState::kOccupied);
+  memory.Remember(At(kPlace), ProgressOutcome::kReached);
+  EXPECT_TRUE(memory.SetAside().empty()) << "the first visit was not in vain";
+  memory.Remember(At(kPlace), ProgressOutcome::kReached);
+  EXPECT_EQ(memory.SetAside().size(), 1u);
+}
+
+TEST(GoalMemory, CountsVisitsFromAnewAfterALongTime) {
+  Memory memory;
+  memory.Remember(At(kPlace), ProgressOutcome::kReached, 0);
+  memory.Remember(At(kPlace), ProgressOutcome::kReached, 61 * kSecond_ns);
+  EXPECT_TRUE(memory.SetAside(61 * kSecond_ns).empty());
+  memory.Remember(At(kPlace), ProgressOutcome::kReached, 100 * kSecond_ns);
+  EXPECT_EQ(memory.SetAside(100 * kSecond_ns).size(), 1u);
+}
+
 TEST(GoalMemory, DoesNotMixPlacesOrKindsOrExpectChangeAtRandomPlaces) {
   Memory memory;
   memory.Remember(At(kPlace), ProgressOutcome::kReached);

@@ -57,6 +57,15 @@ TEST(RejectOverBudget, LeavesEnoughToDriveHome) {
   }
 }
 
+TEST(RejectOverBudget, ReckonsFromWhereThePathEnds) {
+  const GoalCase c = InTheCorridor(10.0, 0.0);
+  Candidate beside = To(c, {10, 1});  // a path as published may end at a sample near its goal
+  beside.path.back() = c.belief.geometry().Center({2, 1});
+  beside.length_m = Distance_m(beside.path[0], beside.path[1]);
+  GoalCase tight = InTheCorridor(0.75, 0.0);  // 0.6 m there, 0.1 m home
+  EXPECT_THAT(Judge(tight, {beside}).candidates, SizeIs(1));
+}
+
 TEST(RejectOverBudget, KeepsTheMarginOfTheWayHomeBack) {
   const GoalCase without = InTheCorridor(1.15, 0.0);
   const GoalCase with = InTheCorridor(1.15, 0.0, 0.1);

@@ -142,8 +142,8 @@ TEST(Xit, FindsTheCheapestPathsOfItsGraphWhateverTheHeuristic) {
     CostKind kind;
     double alpha_per_m;
   };
-  for (const Price price :
-       {Price{CostKind::kUcb, 0.0}, Price{CostKind::kUcb, 3.0}, Price{CostKind::kEuclidean, 0.0}}) {
+  for (const Price price : {Price{CostKind::kUcb, 0.0}, Price{CostKind::kUcb, 3.0},
+                            Price{CostKind::kVertices, 0.5}, Price{CostKind::kEuclidean, 0.0}}) {
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
       const PathCase c(seed, {}, price.kind, price.alpha_per_m);
       const PlanningOptions options = Samples(80);

@@ -83,6 +83,15 @@ TEST(Choose, KeepsTheGoalUnderWayUnlessAnotherIsBetterByTheMargin) {
   EXPECT_FALSE(plan.goal_kept);
 }
 
+TEST(Choose, KeepsTheVeryGoalUnderWayAndNotItsNeighbour) {
+  Belief belief = HalfReadRoom();
+  Plan plan = WestOrEast();
+  plan.candidates.push_back(Way({5.5, 1.3}, 1.4));  // within the claim's radius of the east
+  belief.claims = {{"r", 1, plan.candidates[2].goal, belief.sample_time_ns + 1}};
+  Choose(belief, By(SelectionRule::kLeastCost, 1.0), NeverStop(), plan);
+  EXPECT_EQ(plan.chosen, 2);
+}
+
 TEST(Choose, DoesNotKeepWhatAnotherRobotDrivesToOrWhatHasExpired) {
   Belief belief = HalfReadRoom();
   const Goal east = WestOrEast().candidates[1].goal;
