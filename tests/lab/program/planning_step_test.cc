@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/program/planning_step.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/plan/strategy.h"
+#include "tests/support/room_run.h"
+
+namespace plumescout::lab {
+namespace {
+
+constexpr char kRobot[] = "scout";
+
+// A mission whose robot has seen most of a room and smelled something.
+class PlanningStepTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    Apply(RobotRegistered{.robot = kRobot, .radius_m = 0.2, .lease_token = 1});
+    const std::vector<Observation> run = support::RoomRun();
+    for (std::size_t i = 0; i < 80; ++i) Apply(ObservationReceived{kRobot, run[i]});
+  }
+  void Apply(const EventBody& body) {
+    const auto applied = mission_.Apply(body);
+    ASSERT_TRUE(applied.ok()) << applied.status();
+  }
+
+  Mission mission_{MissionOptions{}};
+};
+
+TEST_F(PlanningStepTest, MakesThePlanThatAStrategyMakes) {
+  const auto step = TakePlanningStep(mission_, {});
+  ASSERT_TRUE(step.ok()) << step.status();
+  ASSERT_FALSE(step->plan.candidates.empty());
+  const auto strategy = MakeStrategy(mission_.options().planning);
+  ASSERT_TRUE(strategy.ok()) << strategy.status();
+  PlanRequest request;
+  request.robot = kRobot;
+  const auto plan = (*strategy)->Plan(*mission_.Snapshot(), request, NeverStop());
+  ASSERT_TRUE(plan.ok()) << plan.status();
+  EXPECT_EQ(step->plan.seed, plan->seed);
+  EXPECT_EQ(step->plan.chosen, plan->chosen);
+  EXPECT_EQ(step->plan.trajectory, plan->trajectory);
+}
+
+TEST_F(PlanningStepTest, ShowsTreeFieldAndExpectedInformation) {
+  const auto step = TakePlanningStep(mission_, {});
+  ASSERT_TRUE(step.ok()) << step.status();
+  EXPECT_EQ(step->tree.size() + 1, static_cast<std::size_t>(step->plan.effort.vertices));
+  EXPECT_EQ(step->field.information.geometry(), step->belief->geometry());
+  for (const Candidate& candidate : step->plan.candidates) {
+    ASSERT_TRUE(candidate.expected_information_nats.has_value());
+    EXPECT_GT(*candidate.expected_information_nats, 0.0);
+  }
+}
+
+TEST_F(PlanningStepTest, BringsThePosteriorUpToDateFirst) {
+  ASSERT_TRUE(mission_.posterior_stale());
+  const auto step = TakePlanningStep(mission_, {});
+  ASSERT_TRUE(step.ok()) << step.status();
+  EXPECT_FALSE(mission_.posterior_stale());
+  EXPECT_EQ(step->belief->posterior_time_ns, mission_.sample_time_ns());
+}
+
+TEST_F(PlanningStepTest, TakesAnotherStrategyAndSeed) {
+  const auto rival = TakePlanningStep(mission_, {kRobot, "rrt_star_frontier"});
+  ASSERT_TRUE(rival.ok()) << rival.status();
+  EXPECT_EQ(rival->plan.strategy, "rrt_star_frontier");
+  EXPECT_TRUE(rival->tree.empty());
+  const auto reseeded = TakePlanningStep(mission_, {kRobot, "", 9});
+  ASSERT_TRUE(reseeded.ok()) << reseeded.status();
+  EXPECT_EQ(reseeded->plan.seed, 9u);
+}
+
+TEST_F(PlanningStepTest, SaysWhatIsNotThere) {
+  EXPECT_TRUE(absl::IsNotFound(TakePlanningStep(mission_, {"nobody", ""}).status()));
+  EXPECT_TRUE(absl::IsInvalidArgument(TakePlanningStep(mission_, {kRobot, "guess"}).status()));
+  Mission empty{MissionOptions{}};
+  EXPECT_TRUE(absl::IsNotFound(TakePlanningStep(empty, {}).status()));
+}
+
+}  // namespace
+}  // namespace plumescout::lab
