@@ -19,6 +19,7 @@
 #include "lab/program/progress_line.h"
 #include "lab/program/recording.h"
 #include "lab/program/run_folder.h"
+#include "lab/report/plan_names.h"
 #include "lab/sim/episode.h"
 #include "lab/sim/scene_world.h"
 
@@ -39,22 +40,6 @@ struct RobotArguments {
   bool raw_gas = false;
   std::uint64_t seed = 1;
 };
-
-const char* PhaseName(MissionPhase phase) {
-  switch (phase) {
-    case MissionPhase::kExploring:
-      return "exploring";
-    case MissionPhase::kGasProbing:
-      return "gas probing";
-    case MissionPhase::kFallback:
-      return "fallback";
-    case MissionPhase::kComplete:
-      return "complete";
-    case MissionPhase::kReturning:
-      return "returning";
-  }
-  return "unknown";
-}
 
 // Highest estimated concentration, ppm.
 double HighestMean_ppm(const MapSnapshot& map) {
@@ -81,7 +66,7 @@ class EpisodeDisplay {
         "%s %5.0f s simulated, %4.1f s wall | %-11s | map %5.1f %% | gas up to %5.1f ppm, RMSE "
         "%5.2f ppm | plan %.1f ms",
         ProgressBar(sample.time_s / duration_s_), sample.time_s,
-        absl::ToDoubleSeconds(absl::Now() - start_), PhaseName(map.phase),
+        absl::ToDoubleSeconds(absl::Now() - start_), NameOf(map.phase),
         100.0 * sample.metrics.completeness, HighestMean_ppm(map), sample.metrics.rmse_ppm,
         plan_ms_));
   }
