@@ -166,14 +166,15 @@ void DrawColorBar(Canvas& canvas, const Box& box, const ColorBar& bar) {
               {kLabelSize_px, kInk, Anchor::kStart});
 }
 
-void DrawLegend(Canvas& canvas, const Box& box, const std::vector<LegendEntry>& legend) {
-  constexpr int kColumns = 3;
+void DrawLegend(Canvas& canvas, const Box& box, const std::vector<LegendEntry>& legend,
+                std::size_t columns) {
   constexpr double kRow_px = 20.0;
   constexpr double kMark_px = 10.0;  // centre of the mark
   constexpr double kName_px = 26.0;
   for (std::size_t i = 0; i < legend.size(); ++i) {
-    const double x = box.x + static_cast<double>(i % kColumns) * box.width / kColumns;
-    const double y = box.y + 6.0 + static_cast<double>(i / kColumns) * kRow_px;
+    const double x =
+        box.x + static_cast<double>(i % columns) * box.width / static_cast<double>(columns);
+    const double y = box.y + 6.0 + static_cast<double>(i / columns) * kRow_px;
     DrawMark(canvas, legend[i].shape, {x + kMark_px, y}, legend[i].color);
     canvas.Text({x + kName_px, y + 4.0}, legend[i].name, {kLabelSize_px, kInk, Anchor::kStart});
   }
@@ -240,14 +241,16 @@ void DrawMapPanel(Canvas& canvas, const Box& box, const MapPanel& panel) {
   DrawLabels(canvas, frame, panel.marks);
   DrawOutline(canvas, frame.box);
   double below = frame.box.bottom() + 14.0;
+  std::size_t columns = 3;  // of the legend, which has one row below a colour bar
   if (panel.color_bar) {
     constexpr double kUnitRoom_px = 48.0;
     DrawColorBar(canvas, {frame.box.x, below, frame.box.width - kUnitRoom_px, 12.0},
                  *panel.color_bar);
     constexpr double kBarAndTicks_px = 38.0;
     below += kBarAndTicks_px;
+    columns = std::max(columns, panel.legend.size());
   }
-  DrawLegend(canvas, {frame.box.x, below, box.width, kBottom_px}, panel.legend);
+  DrawLegend(canvas, {frame.box.x, below, box.width, kBottom_px}, panel.legend, columns);
 }
 
 }  // namespace plumescout::lab
