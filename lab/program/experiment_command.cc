@@ -27,14 +27,8 @@ absl::Status MakeExperiment(const ExperimentArguments& arguments) {
   const absl::Time start = absl::Now();
   ExperimentOptions options = arguments.options;
   options.progress = [&](double share) {
-    constexpr double kLeastShare = 0.01;  // before which nothing can be said of the rest
-    const double gone_s = absl::ToDoubleSeconds(absl::Now() - start);
-    std::string line =
-        absl::StrFormat("%s %3.0f %%  %s", ProgressBar(share), 100.0 * share, arguments.name);
-    if (share > kLeastShare) {
-      absl::StrAppendFormat(&line, ", %.0f s left", gone_s * (1.0 - share) / share);
-    }
-    progress.Show(line);
+    progress.Show(
+        absl::StrCat(ProgressWithTimeLeft(share, absl::Now() - start), "  ", arguments.name));
   };
   PLUMESCOUT_ASSIGN_OR_RETURN(const Study study, RunExperiment(arguments.name, options));
   const std::string out =

@@ -12,6 +12,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
+#include "absl/time/clock.h"
 #include "core/plan/strategy.h"
 #include "core/types/status_macros.h"
 #include "formats/file_io.h"
@@ -59,11 +60,13 @@ absl::Status DrawPlan(const PlanArguments& arguments) {
   if (!recording.end.ok()) std::cerr << recording.end.message() << "\n";
   constexpr int kSteps = 200;  // of the progress line
   int shown = -1;
+  const absl::Time start = absl::Now();
   const auto show = [&](double share) {
     const int step = static_cast<int>(share * kSteps);
     if (step == shown) return;
     shown = step;
-    progress.Show(absl::StrCat(ProgressBar(share), " replaying the mission"));
+    progress.Show(
+        absl::StrCat(ProgressWithTimeLeft(share, absl::Now() - start), "  replaying the mission"));
   };
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::unique_ptr<Mission> mission,
                               Replay(recording, arguments.revision, show));

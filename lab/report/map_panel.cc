@@ -135,7 +135,9 @@ void DrawLabels(Canvas& canvas, const MapFrame& frame, const std::vector<MapMark
     canvas.Disc(places[i], 2.0, kInk);
   }
   for (std::size_t i = 0; i < labelled.size(); ++i) {
-    canvas.Disc(centers[i], kRadius_px + kHalo_px, kPaper);
+    const bool stressed = labelled[i].stressed;
+    canvas.Disc(centers[i], kRadius_px + (stressed ? 2.0 : 1.0) * kHalo_px,
+                stressed ? kSourceColor : kPaper);
     canvas.Disc(centers[i], kRadius_px, labelled[i].color);
     constexpr double kHalfCapital = 0.36;  // of the size of the font
     canvas.Text({centers[i].x, centers[i].y + kHalfCapital * kTextSize_px}, labelled[i].label,

@@ -52,6 +52,7 @@ struct MapMark {
   // One to three letters: the mark is a disc that they stand in, moved aside if another such disc
   // is in its way, with a line to the place.
   std::string label = {};
+  bool stressed = false;  // with a label: a magenta rim in place of the white one
 };
 
 struct LegendEntry {

@@ -3,6 +3,7 @@
 #include "lab/report/plan_panels.h"
 
 #include <cmath>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "lab/report/figures.h"
@@ -70,7 +71,8 @@ std::vector<MapMark> GoalMarks(const Plan& plan) {
   std::vector<MapMark> marks;
   for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
     const Goal& goal = plan.candidates[i].goal;
-    marks.push_back({MarkShape::kDisc, GoalColor(goal.kind), goal.position, CandidateLabel(i)});
+    marks.push_back({MarkShape::kDisc, GoalColor(goal.kind), goal.position, CandidateLabel(i),
+                     static_cast<int>(i) == plan.chosen});
   }
   for (std::size_t i = 0; i < plan.rejected.size(); ++i) {
     marks.push_back(
@@ -85,8 +87,8 @@ MapPanel CandidatesPanel(const PlanPicture& picture, const Region& region) {
   panel.region = region;
   panel.cells = PaintCells(picture.occupancy.geometry(), region,
                            [&](Cell cell) { return StateColor(picture.occupancy[cell]); });
-  panel.lines = PathLines(picture.plan);
   AddRobot(picture.robot, panel);
+  for (MapLine& line : PathLines(picture.plan)) panel.lines.push_back(std::move(line));
   for (MapMark& mark : GoalMarks(picture.plan)) panel.marks.push_back(std::move(mark));
   panel.legend = {{"chosen path", MarkShape::kLine, kChosenPathColor},
                   {"gas frontier", MarkShape::kDisc, GoalColor(GoalKind::kGasFrontier)},

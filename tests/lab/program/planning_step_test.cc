@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "core/plan/strategy.h"
+#include "lab/local/local_planner_client.h"
+#include "lab/program/recording.h"
 #include "tests/support/room_run.h"
 
 namespace plumescout::lab {
@@ -43,6 +43,38 @@ TEST_F(PlanningStepTest, MakesThePlanThatAStrategyMakes) {
   EXPECT_EQ(step->plan.seed, plan->seed);
   EXPECT_EQ(step->plan.chosen, plan->chosen);
   EXPECT_EQ(step->plan.trajectory, plan->trajectory);
+}
+
+TEST(PlanningStepOfARecording, AtTheRevisionOfAnIssuedPlanIsThatPlan) {
+  Recording recording;
+  LocalOptions local;
+  local.on_event = [&](const Event& event) { recording.events.push_back(event); };
+  LocalPlannerClient planner(local);
+  ASSERT_TRUE(planner.CreateMission("house", recording.options).ok());
+  const auto session = planner.RegisterRobot("house", kRobot, 0.2, false);
+  ASSERT_TRUE(session.ok()) << session.status();
+  const auto stream = planner.OpenObservationStream(*session);
+  ASSERT_TRUE(stream.ok()) << stream.status();
+  const std::vector<Observation> run = support::RoomRun();
+  ASSERT_TRUE((*stream)->Write({run.begin(), run.begin() + 80}).ok());
+  client::PlanQuery query;
+  query.request.robot = kRobot;
+  query.lease_token = session->lease_token;
+  query.budget = absl::InfiniteDuration();
+  query.timeout = absl::InfiniteDuration();
+  const auto issued = planner.NextBestTrajectory("house", query);
+  ASSERT_TRUE(issued.ok()) << issued.status();
+  ASSERT_TRUE((*stream)->Write({run.begin() + 80, run.begin() + 120}).ok());
+
+  const auto mission = Replay(recording, issued->belief_revision);
+  ASSERT_TRUE(mission.ok()) << mission.status();
+  const auto step = TakePlanningStep(**mission, {});
+  ASSERT_TRUE(step.ok()) << step.status();
+  EXPECT_GE(issued->chosen, 0);
+  EXPECT_EQ(step->plan.chosen, issued->chosen);
+  EXPECT_EQ(step->plan.trajectory, issued->trajectory);
+  EXPECT_EQ(step->plan.explanation, issued->explanation);
+  EXPECT_EQ(step->plan.rejected, issued->rejected);
 }
 
 TEST_F(PlanningStepTest, ShowsTreeFieldAndExpectedInformation) {

@@ -50,6 +50,12 @@ TEST(PlanPanels, GoalsAreLabelledInTheOrderOfTheTables) {
             (std::vector<std::string>{"1", "2", "a"}));
 }
 
+TEST(PlanPanels, OnlyTheChosenGoalIsStressed) {
+  for (const MapMark& mark : MakePlanPanels(MakeSmallPlanPicture())[1].marks) {
+    EXPECT_EQ(mark.stressed, mark.label == "2") << mark.label;
+  }
+}
+
 TEST(PlanPanels, OfManyRejectedGoalsTheLastHaveNoLetters) {
   PlanPicture picture = MakeSmallPlanPicture();
   picture.plan.rejected.resize(kListedRejections + 3, picture.plan.rejected[0]);
