@@ -45,7 +45,7 @@ absl::StatusOr<client::RobotSession> LocalMission::Register(const RobotRegistere
   }
   RobotRegistered granted = robot;
   granted.lease_token = last_token_ + 1;
-  PLUMESCOUT_RETURN_IF_ERROR(mission_->Apply(granted).status());
+  PLUMESCOUT_RETURN_IF_ERROR(Apply(granted).status());
   ++last_token_;
   leases_[robot.robot] = {.last_use = options_.clock(), .stream = 0};
   client::RobotSession session;
@@ -109,7 +109,7 @@ absl::Status LocalMission::Ingest(const RobotId& robot, std::int64_t lease_token
 // An error if the log cannot go on.
 absl::Status LocalMission::IngestOne(const RobotId& robot, const Observation& observation,
                                      std::vector<client::ObservationRejected>& rejected) {
-  absl::StatusOr<Applied> applied = mission_->Apply(ObservationReceived{robot, observation});
+  absl::StatusOr<Applied> applied = Apply(ObservationReceived{robot, observation});
   if (absl::IsAlreadyExists(applied.status())) return absl::OkStatus();
   PLUMESCOUT_RETURN_IF_ERROR(applied.status());
   if (!applied->observation.ok()) {
@@ -158,14 +158,14 @@ absl::StatusOr<std::shared_ptr<const Belief>> LocalMission::BeliefFor(
 absl::StatusOr<PlanId> LocalMission::Commit(const Plan& plan, std::int64_t lease_token) {
   absl::MutexLock lock(&mutex_);
   PLUMESCOUT_RETURN_IF_ERROR(CheckLease(plan.robot, lease_token));
-  PLUMESCOUT_ASSIGN_OR_RETURN(const Applied applied, mission_->Apply(PlanIssued{plan}));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Applied applied, Apply(PlanIssued{plan}));
   return applied.plan_id;
 }
 
 absl::Status LocalMission::Report(const ProgressReported& report, std::int64_t lease_token) {
   absl::MutexLock lock(&mutex_);
   PLUMESCOUT_RETURN_IF_ERROR(CheckLease(report.robot, lease_token));
-  const absl::Status status = mission_->Apply(report).status();
+  const absl::Status status = Apply(report).status();
   return absl::IsAlreadyExists(status) ? absl::OkStatus() : status;
 }
 
@@ -191,18 +191,24 @@ absl::StatusOr<std::shared_ptr<const Belief>> LocalMission::RefreshedBelief() {
 
 absl::Status LocalMission::KeepGasUp() {
   if (mission_->adoption_due()) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(const Applied applied, mission_->Apply(EpochAdopted{}));
+    PLUMESCOUT_ASSIGN_OR_RETURN(const Applied applied, Apply(EpochAdopted{}));
     PLUMESCOUT_RETURN_IF_ERROR(applied.posterior);
   }
   if (mission_->refresh_due()) PLUMESCOUT_RETURN_IF_ERROR(Refresh());
   if (!mission_->epoch_due()) return absl::OkStatus();
-  return mission_->Apply(EpochBegun{mission_->sample_time_ns()}).status();
+  return Apply(EpochBegun{mission_->sample_time_ns()}).status();
 }
 
 absl::Status LocalMission::Refresh() {
   PLUMESCOUT_ASSIGN_OR_RETURN(const Applied applied,
-                              mission_->Apply(PosteriorRefreshed{mission_->sample_time_ns()}));
+                              Apply(PosteriorRefreshed{mission_->sample_time_ns()}));
   return applied.posterior;
+}
+
+absl::StatusOr<Applied> LocalMission::Apply(EventBody body) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(Applied applied, mission_->Apply(body));
+  if (options_.on_event) options_.on_event({applied.revision, std::move(body)});
+  return applied;
 }
 
 absl::Status LocalMission::CheckLease(const RobotId& robot, std::int64_t lease_token) {

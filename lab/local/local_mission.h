@@ -17,6 +17,7 @@
 #include "core/belief/belief.h"
 #include "core/mission/mission.h"
 #include "core/plan/strategy.h"
+#include "core/types/event.h"
 
 namespace plumescout::lab {
 
@@ -25,6 +26,8 @@ struct LocalOptions {
   absl::Duration lease_hold = absl::Seconds(10);     // after the last use
   absl::Duration default_budget = absl::Seconds(1);  // of plans that ask for none
   std::function<absl::Time()> clock = absl::Now;     // for leases and deadlines
+  // Told of every event of every mission, once it is applied; may be empty.
+  std::function<void(const Event&)> on_event = nullptr;
 };
 
 // One mission with its leases, behind one mutex; searches for plans run outside it, on the caller's
@@ -71,6 +74,7 @@ class LocalMission {
     std::int64_t stream = 0;  // open; 0: none
   };
 
+  absl::StatusOr<Applied> Apply(EventBody body) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status CheckLease(const RobotId& robot, std::int64_t lease_token)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status CheckStream(const RobotId& robot, std::int64_t lease_token, std::int64_t stream)

@@ -7,6 +7,8 @@
 
 #include "CLI/CLI.hpp"
 #include "absl/status/status.h"
+#include "lab/program/experiment_command.h"
+#include "lab/program/plan_command.h"
 #include "lab/program/robot_command.h"
 #include "lab/program/scene_command.h"
 
@@ -16,6 +18,8 @@ int main(int argc, char** argv) {
   CLI::App app{"Simulated robots, gas scenes and studies for PlumeScout."};
   app.require_subcommand(1);
   absl::Status status;
+  plumescout::lab::AddExperimentCommand(app, status);
+  plumescout::lab::AddPlanCommand(app, status);
   plumescout::lab::AddRobotCommand(app, status);
   plumescout::lab::AddSceneCommand(app, status);
   CLI11_PARSE(app, argc, argv);

@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "absl/time/clock.h"
 
 namespace plumescout::lab {
@@ -34,6 +35,16 @@ std::string ProgressBar(double fraction) {
   constexpr int kWidth = 20;
   const auto filled = static_cast<std::size_t>(std::clamp(fraction, 0.0, 1.0) * kWidth + 0.5);
   return absl::StrCat("[", std::string(filled, '#'), std::string(kWidth - filled, '-'), "]");
+}
+
+std::string ProgressWithTimeLeft(double share, absl::Duration gone) {
+  constexpr double kLeastShare = 0.01;  // before which nothing can be said of the rest
+  std::string text = absl::StrFormat("%s %3.0f %%", ProgressBar(share), 100.0 * share);
+  if (share > kLeastShare) {
+    absl::StrAppendFormat(&text, ", %.0f s left",
+                          absl::ToDoubleSeconds(gone) * (1.0 - share) / share);
+  }
+  return text;
 }
 
 }  // namespace plumescout::lab

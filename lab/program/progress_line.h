@@ -27,4 +27,8 @@ class ProgressLine {
 // "[######----]" for a fraction in [0, 1].
 std::string ProgressBar(double fraction);
 
+// "[####----]  40 %, 12 s left", the rest taken to go as fast as what is done. REQUIRES: `share` in
+// [0, 1].
+std::string ProgressWithTimeLeft(double share, absl::Duration gone);
+
 }  // namespace plumescout::lab

@@ -12,10 +12,14 @@
 #include "absl/strings/str_format.h"
 #include "absl/time/clock.h"
 #include "client/grpc_planner_client.h"
+#include "core/plan/strategy.h"
 #include "core/types/status_macros.h"
 #include "formats/scene_folder.h"
+#include "lab/local/local_planner_client.h"
 #include "lab/program/progress_line.h"
+#include "lab/program/recording.h"
 #include "lab/program/run_folder.h"
+#include "lab/report/plan_names.h"
 #include "lab/sim/episode.h"
 #include "lab/sim/scene_world.h"
 
@@ -31,26 +35,11 @@ struct RobotArguments {
   std::string strategy = MissionOptions{}.planning.strategy;
   double duration_s = 300.0;
   client::Following following = client::Following::kIdeal;
+  std::string record;  // empty: a server plans
   bool realtime = false;
   bool raw_gas = false;
   std::uint64_t seed = 1;
 };
-
-const char* PhaseName(MissionPhase phase) {
-  switch (phase) {
-    case MissionPhase::kExploring:
-      return "exploring";
-    case MissionPhase::kGasProbing:
-      return "gas probing";
-    case MissionPhase::kFallback:
-      return "fallback";
-    case MissionPhase::kComplete:
-      return "complete";
-    case MissionPhase::kReturning:
-      return "returning";
-  }
-  return "unknown";
-}
 
 // Highest estimated concentration, ppm.
 double HighestMean_ppm(const MapSnapshot& map) {
@@ -66,7 +55,10 @@ class EpisodeDisplay {
  public:
   EpisodeDisplay(double duration_s, absl::Time start) : duration_s_(duration_s), start_(start) {}
 
-  void OnPlan(const IssuedPlan& plan) { plan_cpu_ms_ = plan.plan.cpu_s * 1e3; }
+  void OnPlan(const IssuedPlan& plan) {
+    const double cpu_ms = plan.plan.cpu_s * 1e3;
+    plan_ms_ = cpu_ms > 0.0 ? cpu_ms : absl::ToDoubleMilliseconds(plan.rpc_wall);
+  }
 
   void OnSample(const MetricSample& sample, const MapSnapshot& map) {
     last_map_ = map;
@@ -74,9 +66,9 @@ class EpisodeDisplay {
         "%s %5.0f s simulated, %4.1f s wall | %-11s | map %5.1f %% | gas up to %5.1f ppm, RMSE "
         "%5.2f ppm | plan %.1f ms",
         ProgressBar(sample.time_s / duration_s_), sample.time_s,
-        absl::ToDoubleSeconds(absl::Now() - start_), PhaseName(map.phase),
+        absl::ToDoubleSeconds(absl::Now() - start_), NameOf(map.phase),
         100.0 * sample.metrics.completeness, HighestMean_ppm(map), sample.metrics.rmse_ppm,
-        plan_cpu_ms_));
+        plan_ms_));
   }
 
   ProgressLine& line() { return line_; }
@@ -86,7 +78,7 @@ class EpisodeDisplay {
   const double duration_s_;
   const absl::Time start_;
   ProgressLine line_{absl::Seconds(2)};
-  double plan_cpu_ms_ = 0.0;
+  double plan_ms_ = 0.0;
   MapSnapshot last_map_;
 };
 
@@ -119,16 +111,32 @@ std::string Verdict(const EpisodeResult& episode, double wall_s) {
       episode.distance_m, episode.readings_applied, episode.readings_sent);
 }
 
+// By a server, or in this process with the mission's events recorded.
+absl::StatusOr<EpisodeResult> RunPlanned(const RobotArguments& arguments, const SceneWorld& world,
+                                         EpisodeOptions options) {
+  if (arguments.record.empty()) {
+    client::GrpcClientOptions link;
+    link.target = arguments.server;
+    return RunEpisode(*client::MakeGrpcPlannerClient(link), world, options);
+  }
+  PLUMESCOUT_RETURN_IF_ERROR(ApplyStrategyRow(options.create->planning));  // as servers do
+  PLUMESCOUT_ASSIGN_OR_RETURN(Recorder recorder,
+                              Recorder::Create(arguments.record, *options.create));
+  LocalOptions local;
+  local.on_event = [&recorder](const Event& event) { recorder.Record(event); };
+  LocalPlannerClient planner(local);
+  PLUMESCOUT_ASSIGN_OR_RETURN(EpisodeResult episode, RunEpisode(planner, world, options));
+  PLUMESCOUT_RETURN_IF_ERROR(recorder.status());
+  return episode;
+}
+
 absl::Status DriveRobot(const RobotArguments& arguments) {
   PLUMESCOUT_ASSIGN_OR_RETURN(Scene scene, ReadScene(arguments.scene));
   const SceneWorld world(std::move(scene));
-  client::GrpcClientOptions link;
-  link.target = arguments.server;
-  const auto planner = client::MakeGrpcPlannerClient(link);
   const absl::Time start = absl::Now();
   EpisodeDisplay display(arguments.duration_s, start);
   PLUMESCOUT_ASSIGN_OR_RETURN(const EpisodeResult episode,
-                              RunEpisode(*planner, world, MakeEpisodeOptions(arguments, display)));
+                              RunPlanned(arguments, world, MakeEpisodeOptions(arguments, display)));
   const double wall_s = absl::ToDoubleSeconds(absl::Now() - start);
   display.line().Finish(Verdict(episode, wall_s));
   PLUMESCOUT_RETURN_IF_ERROR(WriteRunFolder(
@@ -142,13 +150,18 @@ absl::Status DriveRobot(const RobotArguments& arguments) {
 
 void AddRobotCommand(CLI::App& app, absl::Status& status) {
   CLI::App* robot = app.add_subcommand(
-      "robot", "Drive a simulated robot through a scene, planned by a server over gRPC");
+      "robot",
+      "Drive a simulated robot through a scene, planned by a server over gRPC or in this process");
   const auto arguments = std::make_shared<RobotArguments>();
   robot->add_option("--scene", arguments->scene, "Scene folder: the true building and gas")
       ->required()
       ->check(CLI::ExistingDirectory);
   robot->add_option("--server", arguments->server, "host:port of plumescout-server")
       ->capture_default_str();
+  robot
+      ->add_option("--record", arguments->record,
+                   "Plan in this process, without a server, and record the mission in this file")
+      ->excludes("--server");
   robot->add_option("--out", arguments->out, "Folder for results")->capture_default_str();
   robot->add_option("--mission", arguments->mission, "Mission to join, made if it is not there")
       ->capture_default_str();

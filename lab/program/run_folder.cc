@@ -43,8 +43,9 @@ std::vector<double> OfPlans(const EpisodeResult& episode,
 Summary MakeSummary(const Run& run) {
   const MapMetrics& metrics = run.episode.samples.back().metrics;
   constexpr double kMillisecondsPerSecond = 1e3;
-  const auto cpu_ms = OfPlans(
-      run.episode, [](const IssuedPlan& p) { return p.plan.cpu_s * kMillisecondsPerSecond; });
+  auto cpu_ms = OfPlans(run.episode,
+                        [](const IssuedPlan& p) { return p.plan.cpu_s * kMillisecondsPerSecond; });
+  std::erase(cpu_ms, 0.0);  // not said: the planner ran in this process
   const auto wall_ms = OfPlans(
       run.episode, [](const IssuedPlan& p) { return absl::ToDoubleMilliseconds(p.rpc_wall); });
   Summary summary;
@@ -101,7 +102,9 @@ ReportData MakeReport(const Run& run, const Summary& summary) {
         {sample.time_s, m.completeness, m.rmse_ppm, m.rmse_zero_ppm, m.entropy_nats});
   }
   for (const auto& [name, value] : summary.figures) {
-    report.key_numbers.emplace_back(name, absl::StrFormat("%.5g", value));
+    if (std::isfinite(value)) {
+      report.key_numbers.emplace_back(name, absl::StrFormat("%.5g", value));
+    }
   }
   for (const auto& [name, value] : summary.about) report.key_numbers.emplace_back(name, value);
   return report;

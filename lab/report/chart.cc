@@ -103,8 +103,11 @@ void DrawLegend(Canvas& canvas, const Box& box, const std::vector<Curve>& curves
   constexpr double kSlot_px = 104.0;  // a sample and a name of a dozen letters
   constexpr double kSample_px = 26.0;
   const double y = box.y + kTitleSize_px;
-  double x = box.right() - kRight_px - kSlot_px * static_cast<double>(curves.size());
+  const auto named = std::count_if(curves.begin(), curves.end(),
+                                   [](const Curve& curve) { return !curve.name.empty(); });
+  double x = box.right() - kRight_px - kSlot_px * static_cast<double>(named);
   for (const Curve& curve : curves) {
+    if (curve.name.empty()) continue;
     const PixelPoint sample[] = {{x, y - 4.0}, {x + kSample_px, y - 4.0}};
     canvas.Polyline(sample, curve.stroke);
     canvas.Text({x + kSample_px + 8.0, y}, curve.name, {kLabelSize_px, kInk, Anchor::kStart});

@@ -16,7 +16,7 @@ struct ChartPoint {
 };
 
 struct Curve {
-  std::string name;  // shown if the chart has several
+  std::string name;  // shown if the chart has several; empty: not shown
   Stroke stroke;
   std::vector<ChartPoint> points;  // a value that is not finite parts the curve
 };

@@ -17,8 +17,8 @@ constexpr double kDecades = 1e-3;        // of the greatest concentration: where
 constexpr double kLogarithmicFrom = 20;  // greatest over least variance that call for logarithms
 constexpr double kMargin_m = 0.2;        // around what is known
 
-// The part of the map that is known; nothing if none is.
-std::optional<Region> KnownRegion(const Grid<CellState>& map) {
+// The cells that are known, by their centres; nothing if none is.
+std::optional<Region> KnownCenters(const Grid<CellState>& map) {
   const GridGeometry& geometry = map.geometry();
   std::optional<Region> known;
   for (std::size_t i = 0; i < map.size(); ++i) {
@@ -30,16 +30,16 @@ std::optional<Region> KnownRegion(const Grid<CellState>& map) {
   return known;
 }
 
+Region WithMargin(const Region& region) {
+  return {{region.south_west.x_m - kMargin_m, region.south_west.y_m - kMargin_m},
+          {region.north_east.x_m + kMargin_m, region.north_east.y_m + kMargin_m}};
+}
+
 Region ShownRegion(const ReportData& data) {
-  const GridGeometry& geometry = data.map.occupancy.geometry();
-  std::optional<Region> region = KnownRegion(data.map.occupancy);
-  if (data.truth.size() > 0) {
-    const Region truth = RegionOf(data.truth.geometry());
-    region = region ? Union(*region, truth) : truth;
-  }
-  if (!region) region = RegionOf(geometry);
-  return {{region->south_west.x_m - kMargin_m, region->south_west.y_m - kMargin_m},
-          {region->north_east.x_m + kMargin_m, region->north_east.y_m + kMargin_m}};
+  if (data.truth.size() == 0) return KnownRegion(data.map.occupancy);
+  const Region truth = RegionOf(data.truth.geometry());
+  const std::optional<Region> known = KnownCenters(data.map.occupancy);
+  return WithMargin(known ? Union(*known, truth) : truth);
 }
 
 // Least and greatest finite values; low > high if there are none.
@@ -68,18 +68,6 @@ ColorScale VarianceScale(const ReportData& data) {
     return {ColorMap::kUncertainty, range.low, range.high, true};
   }
   return {ColorMap::kUncertainty, 0.0, range.high, false};
-}
-
-Rgb StateColor(CellState state) {
-  switch (state) {
-    case CellState::kFree:
-      return kFreeColor;
-    case CellState::kOccupied:
-      return kOccupiedColor;
-    case CellState::kUnknown:
-      break;
-  }
-  return kUnknownColor;
 }
 
 // Walls, and the values of the other cells; a value that is not finite shows the background.
@@ -190,6 +178,22 @@ Curve MetricCurve(const ReportData& data, const char* name, const Stroke& stroke
 }
 
 }  // namespace
+
+Region KnownRegion(const Grid<CellState>& map) {
+  return WithMargin(KnownCenters(map).value_or(RegionOf(map.geometry())));
+}
+
+Rgb StateColor(CellState state) {
+  switch (state) {
+    case CellState::kFree:
+      return kFreeColor;
+    case CellState::kOccupied:
+      return kOccupiedColor;
+    case CellState::kUnknown:
+      break;
+  }
+  return kUnknownColor;
+}
 
 std::vector<MapPanel> MakeMapPanels(const ReportData& data) {
   const Region region = ShownRegion(data);

@@ -10,6 +10,12 @@
 
 namespace plumescout::lab {
 
+// The part of the map that is known, with a margin; the whole of it if none is.
+Region KnownRegion(const Grid<CellState>& map);
+
+// Colours of what is known of cells.
+Rgb StateColor(CellState state);
+
 // True gas (if known), estimated mean, its variance, and occupancy with frontiers, goals and
 // paths: all of the same region, the gas maps with the same colours.
 // REQUIRES: valid data (see report.h).

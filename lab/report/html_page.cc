@@ -15,6 +15,7 @@ constexpr char kStyle[] = R"(
 body { margin: 0 auto; padding: 2rem; max-width: 120rem; color: #1f2430; background: #fff;
        font: 16px/1.5 system-ui, sans-serif; }
 h1 { margin: 0 0 1rem; font-size: 1.9rem; }
+p { max-width: 60rem; }
 h2 { margin: 0 0 .5rem; font-size: 1rem; }
 .headline { display: flex; flex-wrap: wrap; gap: 1rem 3rem; margin: 0 0 2rem; }
 .headline div { font-size: .85rem; color: #6b7280; }
@@ -37,6 +38,14 @@ std::string MakeHeadline(const ReportFigures& figures) {
                     "</strong></div>\n");
   }
   return html + "</div>\n";
+}
+
+std::string MakeNotes(const ReportFigures& figures) {
+  std::string html;
+  for (const std::string& note : figures.notes) {
+    absl::StrAppend(&html, "<p>", EscapeMarkup(note), "</p>\n");
+  }
+  return html;
 }
 
 std::string MakeTable(const ReportFigures& figures) {
@@ -68,7 +77,7 @@ std::string MakeHtmlPage(const ReportFigures& figures) {
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width\">\n<title>",
       title, "</title>\n<style>", kStyle, "</style>\n</head>\n<body>\n<h1>", title, "</h1>\n",
-      MakeHeadline(figures), "<div class=\"figures\">\n");
+      MakeNotes(figures), MakeHeadline(figures), "<div class=\"figures\">\n");
   const int height_px = PanelHeight_px(figures);
   for (const MapPanel& panel : figures.panels) html += MakePanel(panel, height_px);
   html += "</div>\n<div class=\"figures\">\n";

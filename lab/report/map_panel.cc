@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
+#include "lab/report/disc_layout.h"
 #include "lab/report/palette.h"
 #include "lab/report/ticks.h"
 
@@ -110,6 +111,40 @@ void DrawMark(Canvas& canvas, MarkShape shape, PixelPoint center, Rgb color) {
   }
 }
 
+// Ink that can be read on the colour.
+Rgb InkOn(Rgb color) {
+  constexpr double kLightFrom = 150.0;  // luma, [0, 255]
+  const double luma = 0.299 * color.red + 0.587 * color.green + 0.114 * color.blue;
+  return luma > kLightFrom ? kInk : kPaper;
+}
+
+void DrawLabels(Canvas& canvas, const MapFrame& frame, const std::vector<MapMark>& marks) {
+  constexpr double kRadius_px = 9.0;
+  constexpr double kTextSize_px = 12.0;
+  std::vector<MapMark> labelled;
+  std::vector<PixelPoint> places;
+  for (const MapMark& mark : marks) {
+    if (mark.label.empty()) continue;
+    labelled.push_back(mark);
+    places.push_back(frame.ToPixel(mark.position));
+  }
+  const std::vector<PixelPoint> centers = SpreadDiscs(places, kRadius_px + kHalo_px, frame.box);
+  for (std::size_t i = 0; i < labelled.size(); ++i) {
+    const PixelPoint leader[] = {places[i], centers[i]};
+    canvas.Polyline(leader, {kInk, 1.2});
+    canvas.Disc(places[i], 2.0, kInk);
+  }
+  for (std::size_t i = 0; i < labelled.size(); ++i) {
+    const bool stressed = labelled[i].stressed;
+    canvas.Disc(centers[i], kRadius_px + (stressed ? 2.0 : 1.0) * kHalo_px,
+                stressed ? kSourceColor : kPaper);
+    canvas.Disc(centers[i], kRadius_px, labelled[i].color);
+    constexpr double kHalfCapital = 0.36;  // of the size of the font
+    canvas.Text({centers[i].x, centers[i].y + kHalfCapital * kTextSize_px}, labelled[i].label,
+                {kTextSize_px, InkOn(labelled[i].color), Anchor::kMiddle, true});
+  }
+}
+
 void DrawColorBar(Canvas& canvas, const Box& box, const ColorBar& bar) {
   constexpr int kSteps = 256;
   Image strip(kSteps, 1);
@@ -133,14 +168,15 @@ void DrawColorBar(Canvas& canvas, const Box& box, const ColorBar& bar) {
               {kLabelSize_px, kInk, Anchor::kStart});
 }
 
-void DrawLegend(Canvas& canvas, const Box& box, const std::vector<LegendEntry>& legend) {
-  constexpr int kColumns = 3;
+void DrawLegend(Canvas& canvas, const Box& box, const std::vector<LegendEntry>& legend,
+                std::size_t columns) {
   constexpr double kRow_px = 20.0;
   constexpr double kMark_px = 10.0;  // centre of the mark
   constexpr double kName_px = 26.0;
   for (std::size_t i = 0; i < legend.size(); ++i) {
-    const double x = box.x + static_cast<double>(i % kColumns) * box.width / kColumns;
-    const double y = box.y + 6.0 + static_cast<double>(i / kColumns) * kRow_px;
+    const double x =
+        box.x + static_cast<double>(i % columns) * box.width / static_cast<double>(columns);
+    const double y = box.y + 6.0 + static_cast<double>(i / columns) * kRow_px;
     DrawMark(canvas, legend[i].shape, {x + kMark_px, y}, legend[i].color);
     canvas.Text({x + kName_px, y + 4.0}, legend[i].name, {kLabelSize_px, kInk, Anchor::kStart});
   }
@@ -200,16 +236,23 @@ void DrawMapPanel(Canvas& canvas, const Box& box, const MapPanel& panel) {
     canvas.Polyline(points, line.stroke);
   }
   for (const MapMark& mark : panel.marks) {
-    DrawMark(canvas, mark.shape, frame.ToPixel(mark.position), mark.color);
+    if (mark.label.empty()) {
+      DrawMark(canvas, mark.shape, frame.ToPixel(mark.position), mark.color);
+    }
   }
+  DrawLabels(canvas, frame, panel.marks);
   DrawOutline(canvas, frame.box);
-  const double below = frame.box.bottom() + 14.0;
+  double below = frame.box.bottom() + 14.0;
+  std::size_t columns = 3;  // of the legend, which has one row below a colour bar
   if (panel.color_bar) {
     constexpr double kUnitRoom_px = 48.0;
     DrawColorBar(canvas, {frame.box.x, below, frame.box.width - kUnitRoom_px, 12.0},
                  *panel.color_bar);
+    constexpr double kBarAndTicks_px = 38.0;
+    below += kBarAndTicks_px;
+    columns = std::max(columns, panel.legend.size());
   }
-  DrawLegend(canvas, {frame.box.x, below, box.width, kBottom_px}, panel.legend);
+  DrawLegend(canvas, {frame.box.x, below, box.width, kBottom_px}, panel.legend, columns);
 }
 
 }  // namespace plumescout::lab

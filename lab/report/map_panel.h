@@ -49,6 +49,10 @@ struct MapMark {
   MarkShape shape = MarkShape::kDisc;
   Rgb color;
   Point2 position;
+  // One to three letters: the mark is a disc that they stand in, moved aside if another such disc
+  // is in its way, with a line to the place.
+  std::string label = {};
+  bool stressed = false;  // with a label: a magenta rim in place of the white one
 };
 
 struct LegendEntry {
@@ -62,7 +66,8 @@ struct ColorBar {
   std::string unit;
 };
 
-// One map with a title, a scale bar and, below it, a colour bar or a legend.
+// One map with a title, a scale bar and, below it, a colour bar or a legend, or both: then the
+// legend has one row.
 struct MapPanel {
   std::string title;
   Region region;  // shown

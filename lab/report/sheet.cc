@@ -7,6 +7,7 @@
 
 #include "lab/report/palette.h"
 #include "lab/report/raster_canvas.h"
+#include "lab/report/stroke_font.h"
 
 namespace plumescout::lab {
 namespace {
@@ -22,6 +23,19 @@ constexpr int kWidth_px = 2 * kMargin_px + kColumns * kPanelWidth_px + (kColumns
 
 double ColumnX(std::size_t column) {
   return kMargin_px + static_cast<double>(column) * (kPanelWidth_px + kGap_px);
+}
+
+constexpr double kNoteSize_px = 14.0;
+constexpr int kNoteLine_px = 22;
+
+std::vector<std::string> NoteLines(const ReportFigures& figures) {
+  std::vector<std::string> lines;
+  for (const std::string& note : figures.notes) {
+    for (std::string& line : WrapText(note, kNoteSize_px, kWidth_px - 2.0 * kMargin_px)) {
+      lines.push_back(std::move(line));
+    }
+  }
+  return lines;
 }
 
 void DrawHeadline(Canvas& canvas, double top, const ReportFigures& figures) {
@@ -59,13 +73,20 @@ int PanelHeight_px(const ReportFigures& figures) {
 
 Image DrawSheet(const ReportFigures& figures) {
   const int table_px = kTableTop_px + kTableRow_px * static_cast<int>(figures.key_numbers.size());
-  const int panels_top = kMargin_px + kTitle_px + kHeadline_px;
+  const std::vector<std::string> notes = NoteLines(figures);
+  const int notes_px = kNoteLine_px * static_cast<int>(notes.size());
+  const int headline_top = kMargin_px + kTitle_px + notes_px;
+  const int panels_top = headline_top + kHeadline_px;
   const int panels_height = PanelHeight_px(figures);
   const int charts_top = panels_top + panels_height + kGap_px;
   const int height_px = charts_top + std::max(kChartHeight_px, table_px) + kMargin_px;
   RasterCanvas canvas(kWidth_px, height_px, kPaper);
   canvas.Text({kMargin_px, kMargin_px + 26.0}, figures.title, {30.0, kInk, Anchor::kStart, true});
-  DrawHeadline(canvas, kMargin_px + kTitle_px, figures);
+  for (std::size_t i = 0; i < notes.size(); ++i) {
+    canvas.Text({kMargin_px, kMargin_px + kTitle_px + kNoteLine_px * static_cast<double>(i)},
+                notes[i], {kNoteSize_px, kInk});
+  }
+  DrawHeadline(canvas, headline_top, figures);
   for (std::size_t i = 0; i < figures.panels.size(); ++i) {
     DrawMapPanel(canvas,
                  {ColumnX(i), static_cast<double>(panels_top), kPanelWidth_px,

@@ -18,6 +18,7 @@ struct ReportFigures {
   std::vector<std::pair<std::string, std::string>> key_numbers;
   std::vector<MapPanel> panels;
   std::vector<Chart> charts;
+  std::vector<std::string> notes = {};  // paragraphs under the title
 };
 
 // Sizes that page and sheet share.

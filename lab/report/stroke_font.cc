@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
 #include "absl/strings/strip.h"
 
@@ -203,6 +204,20 @@ std::vector<std::vector<PixelPoint>> WriteText(absl::string_view utf8, double si
 
 double TextWidth_px(absl::string_view utf8, double size_px) {
   return LayOut(utf8).width_units * kUnitsPerSize * size_px;
+}
+
+std::vector<std::string> WrapText(absl::string_view utf8, double size_px, double width_px) {
+  std::vector<std::string> lines;
+  for (const absl::string_view word : absl::StrSplit(utf8, ' ', absl::SkipEmpty())) {
+    const std::string longer =
+        lines.empty() ? std::string(word) : absl::StrCat(lines.back(), " ", word);
+    if (!lines.empty() && TextWidth_px(longer, size_px) <= width_px) {
+      lines.back() = longer;
+    } else {
+      lines.emplace_back(word);
+    }
+  }
+  return lines;
 }
 
 }  // namespace plumescout::lab

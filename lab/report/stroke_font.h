@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "absl/strings/string_view.h"
@@ -16,5 +17,8 @@ std::vector<std::vector<PixelPoint>> WriteText(absl::string_view utf8, double si
 
 // Length of the base line under the text.
 double TextWidth_px(absl::string_view utf8, double size_px);
+
+// The text in lines that are no wider, broken at spaces; a longer word has a line of its own.
+std::vector<std::string> WrapText(absl::string_view utf8, double size_px, double width_px);
 
 }  // namespace plumescout::lab

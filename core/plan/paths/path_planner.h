@@ -44,6 +44,14 @@ inline PlanEnd EndOf(const std::vector<std::optional<FoundPath>>& paths, bool st
 // Told of every better answer of an anytime search; no price in it is above an earlier one.
 using PathListener = std::function<void(const PathResult&)>;
 
+// One edge of a search tree.
+struct TreeEdge {
+  Point2 parent;
+  Point2 child;
+
+  friend bool operator==(const TreeEdge&, const TreeEdge&) = default;
+};
+
 // From where, to where, at what price. Holds references: for the length of one call.
 struct PathProblem {
   const EdgeCost& cost;                 // of tree expansion, with the field it prices
@@ -54,6 +62,9 @@ struct PathProblem {
   std::int64_t max_edge_evaluations = 0;  // 0: no bound
   const StopFn& stop;
   const PathListener* improved = nullptr;
+  // For those who want to look: gets every edge of the tree that was grown, of a search in batches
+  // those of its last. Planners that grow none of ours leave it as it is.
+  std::vector<TreeEdge>* tree = nullptr;
 
   Cell start_cell() const { return cost.geometry().CellAt(start); }
 };

@@ -90,6 +90,7 @@ class XitSearch {
     result.effort.samples = graph_.sample_count;
     result.effort.vertices = static_cast<int>(
         std::count_if(g_.begin(), g_.end(), [](double g) { return g < kInfinity; }));
+    if (problem_.tree != nullptr) *problem_.tree = Edges();
     return result;
   }
 
@@ -194,6 +195,15 @@ class XitSearch {
                                     : problem_.cost.Heuristic(Distance_m(At(vertex), At(member))));
     }
     return least;
+  }
+
+  std::vector<TreeEdge> Edges() const {
+    std::vector<TreeEdge> edges;
+    for (std::size_t child = 0; child < parent_.size(); ++child) {
+      if (parent_[child] == kNoParent) continue;
+      edges.push_back({At(parent_[child]), graph_.points[child]});
+    }
+    return edges;
   }
 
   std::optional<FoundPath> PathTo(const std::vector<int>& goal_set) const {

@@ -217,6 +217,31 @@ TEST_F(LocalMissionTest, PosteriorsAreRecomputedWhileAMissionRuns) {
   EXPECT_GT(belief->gas_quality.refreshes, belief->gas_quality.epochs);
 }
 
+TEST_F(LocalMissionTest, EventsToldOfMakeTheSameMissionAgain) {
+  std::vector<Event> events;
+  LocalOptions options;
+  options.on_event = [&](const Event& event) { events.push_back(event); };
+  Create(nullptr, options);
+  const std::int64_t lease = Join("scout");
+  const auto stream = mission_->OpenStream("scout", lease);
+  ASSERT_TRUE(stream.ok()) << stream.status();
+  std::vector<client::ObservationRejected> rejected;
+  const std::vector<Observation> run = support::RoomRun();
+  ASSERT_TRUE(
+      mission_->Ingest("scout", lease, *stream, {run.begin(), run.begin() + 100}, rejected).ok());
+
+  Mission again{MissionOptions{}};
+  for (const Event& event : events) {
+    const auto applied = again.Apply(event.body);
+    ASSERT_TRUE(applied.ok()) << applied.status();
+    EXPECT_EQ(applied->revision, event.number);
+  }
+  const auto belief = mission_->Snapshot();
+  EXPECT_EQ(again.revision(), belief->revision);
+  EXPECT_GT(again.revision(), 100);  // refreshes are events too
+  EXPECT_EQ(again.Snapshot()->occupancy->values(), belief->occupancy->values());
+}
+
 TEST_F(LocalMissionTest, ClosingWakesWhoeverWaits) {
   Create([](const Belief&, const PlanRequest&, const StopFn&) -> absl::StatusOr<Plan> {
     return absl::InternalError("not to be asked");

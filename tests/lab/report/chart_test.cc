@@ -46,6 +46,20 @@ TEST(Chart, OneCurveNeedsNoLegendButTwoDo) {
   EXPECT_THAT(Svg({"", "", {}, {first, second}}), HasSubstr("first"));
 }
 
+TEST(Chart, ACurveWithoutANameIsDrawnButNotInTheLegend) {
+  const Curve named = MakeCurve("first", {{0, 1}, {1, 2}});
+  const Curve other = MakeCurve("second", {{0, 2}, {1, 1}});
+  const auto lines = [](const std::string& svg) {
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = svg.find("<path", at)) != std::string::npos; ++at) ++count;
+    return count;
+  };
+  const std::string two = Svg({"", "", {}, {named, other}});
+  const std::string one = Svg({"", "", {}, {named, MakeCurve("", {{0, 2}, {1, 1}})}});
+  ASSERT_GT(lines(one), 0u);
+  EXPECT_EQ(lines(one) + 1, lines(two));  // the sample of the legend is missing
+}
+
 TEST(Chart, AQuantityThatIsNeverNegativeStartsAtZero) {
   const std::string svg = Svg({"", "", {}, {MakeCurve("a", {{10, 5}, {20, 40}})}});
   EXPECT_THAT(svg, HasSubstr(">0<"));

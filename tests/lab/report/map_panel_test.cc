@@ -89,6 +89,35 @@ TEST(MapPanel, CellsLinesAndMarksLieWhereTheyAre) {
   EXPECT_EQ(canvas.image().At(250, 34 + 50), Rgb{});
 }
 
+TEST(MapPanel, LabelsOfOnePlaceAreBothReadable) {
+  MapPanel panel = MakePanel();
+  panel.marks = {{MarkShape::kDisc, kBlue, {11.0, 20.5}, "a1"},
+                 {MarkShape::kDisc, kBlue, {11.0, 20.5}, "b2"}};
+  const std::string svg = Svg(panel);
+  const std::size_t first = svg.rfind("<text", svg.find("a1"));
+  const std::size_t second = svg.rfind("<text", svg.find("b2"));
+  ASSERT_NE(svg.find("a1"), std::string::npos);
+  ASSERT_NE(svg.find("b2"), std::string::npos);
+  // Written at different places: what stands before the texts differs.
+  EXPECT_NE(svg.substr(first, svg.find("a1") - first), svg.substr(second, svg.find("b2") - second));
+}
+
+TEST(MapPanel, ALegendStandsBelowTheColorBar) {
+  MapPanel panel = MakePanel();
+  panel.color_bar = ColorBar{{ColorMap::kGas, 0.0, 1.0, false}, "ppm"};
+  panel.legend = {{"one", MarkShape::kDisc, kBlue},
+                  {"two", MarkShape::kDisc, kBlue},
+                  {"three", MarkShape::kDisc, kBlue},
+                  {"four", MarkShape::kDisc, kBlue}};
+  const std::string svg = Svg(panel);
+  const auto y_of = [&](const std::string& text) {
+    const std::size_t element = svg.rfind("<text", svg.find(">" + text + "<"));
+    return std::stod(svg.substr(svg.find(" y=\"", element) + 4));
+  };
+  EXPECT_GT(y_of("one"), y_of("0.4") + 10.0);  // below the ticks
+  EXPECT_EQ(y_of("one"), y_of("four"));        // one row
+}
+
 TEST(MapPanel, TheScaleBarHasARoundLength) {
   EXPECT_THAT(Svg(MakePanel()), HasSubstr(">0.2 m<"));  // at most a fifth of 2 m
 }

@@ -38,6 +38,13 @@ TEST(Sheet, GrowsWithItsTable) {
   EXPECT_GT(DrawSheet(figures).height(), height);
 }
 
+TEST(Sheet, GrowsWithItsNotes) {
+  ReportFigures figures = MakeFigures();
+  const int height = DrawSheet(figures).height();
+  figures.notes = {"What is to be seen here."};
+  EXPECT_GT(DrawSheet(figures).height(), height);
+}
+
 TEST(Sheet, ASheetOfNothingIsStillASheet) { EXPECT_GT(DrawSheet({}).height(), kChartHeight_px); }
 
 }  // namespace

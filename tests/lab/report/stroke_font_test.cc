@@ -85,5 +85,21 @@ TEST(StrokeFont, BytesThatAreNoUtf8AreBoxesToo) {
   EXPECT_EQ(WriteText("\xE2\x82", kSize_px).size(), 1U);
 }
 
+TEST(StrokeFont, WrapsTextIntoLinesThatFit) {
+  constexpr double kSize_px = 14.0;
+  constexpr double kWidth_px = 120.0;
+  const std::string text = "the quick brown fox jumps over the lazy dog";
+  std::string joined;
+  const std::vector<std::string> lines = WrapText(text, kSize_px, kWidth_px);
+  EXPECT_GT(lines.size(), 1u);
+  for (const std::string& line : lines) {
+    EXPECT_LE(TextWidth_px(line, kSize_px), kWidth_px);
+    joined += (joined.empty() ? "" : " ") + line;
+  }
+  EXPECT_EQ(joined, text);
+  EXPECT_EQ(WrapText("unbreakable", kSize_px, 1.0), std::vector<std::string>{"unbreakable"});
+  EXPECT_TRUE(WrapText("", kSize_px, kWidth_px).empty());
+}
+
 }  // namespace
 }  // namespace plumescout::lab

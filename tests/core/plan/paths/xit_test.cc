@@ -59,6 +59,24 @@ TEST(Xit, PricesPathsAsTheSumOfTheirEdges) {
   }
 }
 
+TEST(Xit, ShowsATreeInWhichEveryPathIsAWayFromTheRoot) {
+  const PathCase c(3);
+  std::vector<TreeEdge> tree;
+  PathProblem problem = c.Problem();
+  problem.tree = &tree;
+  const PathResult result = XitPlanner(Samples(150)).FindPaths(problem);
+
+  EXPECT_EQ(result.paths, XitPlanner(Samples(150)).FindPaths(c.Problem()).paths);
+  EXPECT_EQ(tree.size() + 1, static_cast<std::size_t>(result.effort.vertices));
+  for (const auto& path : result.paths) {
+    if (!path) continue;
+    for (std::size_t i = 0; i + 1 < path->vertices.size(); ++i) {
+      const TreeEdge edge{path->vertices[i], path->vertices[i + 1]};
+      EXPECT_EQ(std::count(tree.begin(), tree.end(), edge), 1);
+    }
+  }
+}
+
 TEST(Xit, CostsNoLessThanTheStraightLineThroughTheBestCells) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const PathCase c(seed, {}, CostKind::kUcb, 1.0);

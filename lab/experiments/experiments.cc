@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/experiments/experiments.h"
+
+#include <array>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "lab/experiments/xit_fig3.h"
+#include "lab/experiments/xit_fig4.h"
+
+namespace plumescout::lab {
+namespace {
+
+struct Experiment {
+  const char* name;
+  Study (*run)(const ExperimentOptions&);
+};
+
+constexpr std::array<Experiment, 2> kExperiments = {{
+    {"xit_fig3", RunXitFig3},
+    {"xit_fig4", RunXitFig4},
+}};
+
+}  // namespace
+
+std::vector<std::string> ExperimentNames() {
+  std::vector<std::string> names;
+  for (const Experiment& experiment : kExperiments) names.emplace_back(experiment.name);
+  return names;
+}
+
+absl::StatusOr<Study> RunExperiment(const std::string& name, const ExperimentOptions& options) {
+  for (const Experiment& experiment : kExperiments) {
+    if (name == experiment.name) return experiment.run(options);
+  }
+  return absl::InvalidArgumentError(absl::StrCat("no experiment \"", name, "\"; there are ",
+                                                 absl::StrJoin(ExperimentNames(), ", ")));
+}
+
+}  // namespace plumescout::lab

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/program/recording.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "formats/file_io.h"
+#include "tests/support/room_run.h"
+#include "tests/support/temp_folder.h"
+
+namespace plumescout::lab {
+namespace {
+
+MissionOptions UnusualOptions() {
+  MissionOptions options;
+  options.occupancy.resolution_m = 0.2;
+  options.planning.alpha = 0.25;
+  options.frontier.fixed_gas_threshold_ppm = 7.5;
+  options.seed = 42;
+  return options;
+}
+
+class RecordingTest : public ::testing::Test {
+ protected:
+  // Applies what a robot saw to a mission, and records it.
+  void RecordARun() {
+    auto recorder = Recorder::Create(path_, mission_.options());
+    ASSERT_TRUE(recorder.ok()) << recorder.status();
+    const auto apply = [&](const EventBody& body) {
+      const auto applied = mission_.Apply(body);
+      ASSERT_TRUE(applied.ok()) << applied.status();
+      recorder->Record({applied->revision, body});
+    };
+    apply(RobotRegistered{.robot = "scout", .radius_m = 0.2, .lease_token = 1});
+    const std::vector<Observation> run = support::RoomRun();
+    for (std::size_t i = 0; i < 60; ++i) apply(ObservationReceived{"scout", run[i]});
+    apply(PosteriorRefreshed{mission_.sample_time_ns()});
+    ASSERT_TRUE(recorder->status().ok());
+  }
+
+  TempFolder folder_;
+  const std::string path_ = folder_.File("below/mission.events");
+  Mission mission_{UnusualOptions()};
+};
+
+TEST_F(RecordingTest, ReplaysToTheSameMap) {
+  RecordARun();
+  const auto recording = ReadRecording(path_);
+  ASSERT_TRUE(recording.ok()) << recording.status();
+  EXPECT_TRUE(recording->end.ok());
+  EXPECT_EQ(recording->options.occupancy.resolution_m, 0.2);
+  EXPECT_EQ(recording->options.planning.alpha, 0.25);
+  EXPECT_EQ(recording->options.frontier.fixed_gas_threshold_ppm, 7.5);
+  EXPECT_EQ(recording->options.seed, 42u);
+
+  const auto again = Replay(*recording, 0);
+  ASSERT_TRUE(again.ok()) << again.status();
+  EXPECT_EQ((*again)->revision(), mission_.revision());
+  EXPECT_EQ((*again)->Snapshot()->occupancy->values(), mission_.Snapshot()->occupancy->values());
+}
+
+TEST_F(RecordingTest, StopsAtTheRevisionAskedFor) {
+  RecordARun();
+  const auto recording = ReadRecording(path_);
+  ASSERT_TRUE(recording.ok()) << recording.status();
+  const auto early = Replay(*recording, 5);
+  ASSERT_TRUE(early.ok()) << early.status();
+  EXPECT_EQ((*early)->revision(), 5);
+  for (const std::int64_t absent : {std::int64_t{-1}, mission_.revision() + 1}) {
+    EXPECT_EQ(Replay(*recording, absent).status().code(), absl::StatusCode::kOutOfRange);
+  }
+}
+
+TEST_F(RecordingTest, TellsHowFarItIs) {
+  RecordARun();
+  const auto recording = ReadRecording(path_);
+  ASSERT_TRUE(recording.ok()) << recording.status();
+  std::vector<double> shares;
+  ASSERT_TRUE(Replay(*recording, 4, [&](double share) { shares.push_back(share); }).ok());
+  EXPECT_EQ(shares, (std::vector<double>{0.0, 0.25, 0.5, 0.75}));
+}
+
+TEST_F(RecordingTest, RefusesEventsOfAnotherMission) {
+  RecordARun();
+  auto recording = ReadRecording(path_);
+  ASSERT_TRUE(recording.ok()) << recording.status();
+  recording->events.erase(recording->events.begin());  // nobody registered the robot
+  EXPECT_EQ(Replay(*recording, 0).status().code(), absl::StatusCode::kDataLoss);
+}
+
+TEST_F(RecordingTest, NeedsItsOptions) {
+  RecordARun();
+  ASSERT_TRUE(WriteFile(path_ + ".options.json", "{\"seed\": ").ok());
+  EXPECT_TRUE(absl::IsInvalidArgument(ReadRecording(path_).status()));
+  ASSERT_TRUE(WriteFile(path_ + ".options.json", "{\"occupancy\": {\"resolution_m\": -1}}").ok());
+  EXPECT_TRUE(absl::IsInvalidArgument(ReadRecording(path_).status()));
+  ASSERT_TRUE(std::filesystem::remove(path_ + ".options.json"));
+  EXPECT_TRUE(absl::IsNotFound(ReadRecording(path_).status()));
+}
+
+TEST_F(RecordingTest, ANewRecordingReplacesTheOldOne) {
+  RecordARun();
+  ASSERT_TRUE(Recorder::Create(path_, MissionOptions{}).ok());
+  const auto recording = ReadRecording(path_);
+  ASSERT_TRUE(recording.ok()) << recording.status();
+  EXPECT_TRUE(recording->events.empty());
+  EXPECT_EQ(recording->options.seed, MissionOptions{}.seed);
+}
+
+TEST_F(RecordingTest, InvalidOptionsAreNotRecorded) {
+  MissionOptions options;
+  options.gas.prior_precision = -1.0;
+  EXPECT_TRUE(absl::IsInvalidArgument(Recorder::Create(path_, options).status()));
+}
+
+}  // namespace
+}  // namespace plumescout::lab
