@@ -58,6 +58,7 @@ enum class RejectionReason {
   kSearchStopped,  // deadline or cancel came before a path was found
   kOverBudget,     // too little of the travel budget would be left to drive home
   kKeptOut,        // in an area where nobody may drive
+  kGone,           // of a check: no such goal is left
 };
 
 struct RejectedGoal {
