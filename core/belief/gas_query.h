@@ -2,22 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "core/belief/belief.h"
+#include "core/types/gas_at_place.h"
 #include "core/types/pose2.h"
 
 namespace plumescout {
-
-// What a belief says of the gas at one place: that of its cell, for the field has no finer detail.
-struct GasAtPlace {
-  std::optional<CellState> state;  // none: off the map
-  // Only of free cells, and once the posterior knows them.
-  std::optional<double> mean_ppm;
-  std::optional<double> variance_ppm2;
-  bool observed = false;  // the variance is below that which gas frontiers count as observed
-};
 
 // In the order of `places`. REQUIRES: they are finite. Cost: O(places).
 std::vector<GasAtPlace> QueryGas(const Belief& belief, const std::vector<Point2>& places);

@@ -17,8 +17,13 @@ absl::StatusOr<std::vector<JudgedFrontier>> ListFrontiers(const Belief& belief,
   }
   PlanRequest request;
   request.robot = robot;
-  PLUMESCOUT_ASSIGN_OR_RETURN(const Pose2 pose, StartPose(belief, request, found->second, options));
-  const Reach reach = ReachFrom(belief, pose.position());
+  const absl::StatusOr<Pose2> pose = StartPose(belief, request, found->second, options);
+  // Nothing in the call said where the robot is.
+  if (absl::IsInvalidArgument(pose.status())) {
+    return absl::FailedPreconditionError(pose.status().message());
+  }
+  PLUMESCOUT_RETURN_IF_ERROR(pose.status());
+  const Reach reach = ReachFrom(belief, pose->position());
   return JudgeFrontiers({belief, found->second, reach.start, reach.reachable, options});
 }
 

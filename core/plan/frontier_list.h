@@ -14,8 +14,10 @@ namespace plumescout {
 
 // Every frontier as a goal of one robot, from where its next plan would start: what planning
 // offers, before the limit of goals, and what it leaves out with the reason. A robot without a way
-// out of where it stands can reach none. Errors: kNotFound if the robot is unknown;
-// kFailedPrecondition if it has no pose; kInvalidArgument if it stands off the map. Cost: O(cells).
+// out of where it stands can reach none.
+//
+// Errors: kNotFound if the robot is unknown; kFailedPrecondition if it has no pose or stands off
+// the map (START_OUTSIDE_MAP). Cost: O(cells).
 absl::StatusOr<std::vector<JudgedFrontier>> ListFrontiers(const Belief& belief,
                                                           const RobotId& robot,
                                                           const PlanningOptions& options);

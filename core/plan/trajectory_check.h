@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -11,6 +10,7 @@
 #include "core/types/options.h"
 #include "core/types/plan.h"
 #include "core/types/pose2.h"
+#include "core/types/trajectory_check.h"
 
 namespace plumescout {
 
@@ -28,21 +28,6 @@ absl::StatusOr<IntendedPath> RestOfPlan(const Belief& belief, const RobotId& rob
 
 // A path of the caller's own, to a goal of this kind at its end. REQUIRES: not empty.
 IntendedPath PathTo(GoalKind kind, std::vector<Point2> vertices, const GridGeometry& geometry);
-
-// Where a path cannot be driven.
-struct Blockage {
-  Cell cell;                       // the first such cell; may lie off the map
-  Point2 position;                 // where the path meets it
-  double distance_m = 0.0;         // from the path's first vertex
-  std::optional<CellState> state;  // free: too near an obstacle, or kept out; none: off the map
-};
-
-// What has become of a path on a newer belief.
-struct TrajectoryCheck {
-  std::optional<Blockage> blockage;       // the first; none: the way is still free
-  std::optional<RejectedGoal> rejection;  // why the goal is not worth it any more; none: it is
-  std::optional<Candidate> rest;          // the path with its price; none if it is blocked
-};
 
 // Judges the path by the cells that it touches, as planning does: all must be traversable, but for
 // a beginning in the inflated zone, which may lead out of it as EscapePath would. The goal is

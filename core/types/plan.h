@@ -69,6 +69,13 @@ struct RejectedGoal {
   friend bool operator==(const RejectedGoal&, const RejectedGoal&) = default;
 };
 
+// A frontier as a goal of one robot.
+struct JudgedFrontier {
+  Goal goal;
+  std::optional<double> travel_m;         // on the 8-connected grid; none if there is no way
+  std::optional<RejectedGoal> rejection;  // why it is not offered
+};
+
 // How planning ended. The last four have no trajectory.
 enum class PlanEnd {
   kAllGoalsReached,   // every goal has a path

@@ -11,13 +11,6 @@
 
 namespace plumescout {
 
-// A frontier as a goal of one robot.
-struct JudgedFrontier {
-  Goal goal;
-  std::optional<double> travel_m;         // on the 8-connected grid; none if there is no way
-  std::optional<RejectedGoal> rejection;  // why it is not offered
-};
-
 // A frontier that may be driven to.
 struct OfferedGoal {
   Goal goal;

@@ -91,7 +91,7 @@ TEST(ListFrontiers, NeedsARobotWithAPlaceOnTheMap) {
   Belief belief = testing::SmallBelief(kHall);
   EXPECT_EQ(ListFrontiers(belief, "stranger", {}).status().code(), absl::StatusCode::kNotFound);
   belief.robots["r"].state.pose.x_m = 500.0;
-  EXPECT_EQ(ListFrontiers(belief, "r", {}).status().code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(ListFrontiers(belief, "r", {}).status().code(), absl::StatusCode::kFailedPrecondition);
   belief.robots["r"].state.has_pose = false;
   EXPECT_EQ(ListFrontiers(belief, "r", {}).status().code(), absl::StatusCode::kFailedPrecondition);
 }
