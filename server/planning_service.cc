@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "absl/strings/str_cat.h"
 #include "core/plan/frontier_list.h"
 #include "core/plan/trajectory_check.h"
 #include "core/types/status_macros.h"
@@ -18,31 +17,13 @@
 #include "proto/convert/observation.h"
 #include "proto/convert/plan.h"
 #include "server/errors.h"
-#include "server/log.h"
 #include "server/plan_job.h"
 #include "server/plan_order_from_proto.h"
+#include "server/plan_stream.h"
 #include "server/unary.h"
 
 namespace plumescout::server {
 namespace {
-
-void FillResponse(const PlanAnswer& answer, const MissionId& mission,
-                  v1::NextBestTrajectoryResponse& response) {
-  *response.mutable_plan() = ToProto(answer.plan, mission);
-  absl::Duration rest;
-  auto& cpu = *response.mutable_plan()->mutable_cpu_duration();
-  cpu.set_seconds(absl::IDivDuration(answer.cpu_time, absl::Seconds(1), &rest));
-  cpu.set_nanos(static_cast<int>(absl::ToInt64Nanoseconds(rest)));
-}
-
-void LogPlan(const MissionId& mission, const PlanAnswer& answer) {
-  LogInfo("plan", {{"mission", mission},
-                   {"robot", answer.plan.robot},
-                   {"plan", absl::StrCat(answer.plan.id)},
-                   {"candidates", absl::StrCat(answer.plan.candidates.size())},
-                   {"length_m", absl::StrCat(answer.plan.trajectory.length_m)},
-                   {"cpu_ms", absl::StrCat(absl::ToInt64Milliseconds(answer.cpu_time))}});
-}
 
 // What a CheckTrajectoryRequest asks about: a plan, or a path of the caller's own.
 struct CheckSubject {
@@ -128,7 +109,7 @@ class PlanCall final : public grpc::ServerUnaryReactor {
   void Reply(const MissionId& mission, const absl::StatusOr<PlanAnswer>& answer) {
     if (answer.ok()) {
       LogPlan(mission, *answer);
-      FillResponse(*answer, mission, *response_);
+      *response_->mutable_plan() = ToProto(answer->plan, mission);
     }
     Answer(this, WithField(answer.status(), ""));
   }
@@ -144,6 +125,12 @@ grpc::ServerUnaryReactor* PlanningService::NextBestTrajectory(
     grpc::CallbackServerContext* call, const v1::NextBestTrajectoryRequest* request,
     v1::NextBestTrajectoryResponse* response) {
   return PlanCall::Start(context_, call, *request, response);
+}
+
+grpc::ServerWriteReactor<v1::StreamNextBestTrajectoryResponse>*
+PlanningService::StreamNextBestTrajectory(grpc::CallbackServerContext* call,
+                                          const v1::StreamNextBestTrajectoryRequest* request) {
+  return PlanStream::Start(&context_, call, *request);
 }
 
 absl::Status PlanningService::Check(const v1::CheckTrajectoryRequest& request, SteadyTime deadline,

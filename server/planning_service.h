@@ -15,6 +15,9 @@ class PlanningService final : public v1::PlanningService::CallbackService {
   grpc::ServerUnaryReactor* NextBestTrajectory(grpc::CallbackServerContext* call,
                                                const v1::NextBestTrajectoryRequest* request,
                                                v1::NextBestTrajectoryResponse* response) override;
+  grpc::ServerWriteReactor<v1::StreamNextBestTrajectoryResponse>* StreamNextBestTrajectory(
+      grpc::CallbackServerContext* call,
+      const v1::StreamNextBestTrajectoryRequest* request) override;
   grpc::ServerUnaryReactor* CheckTrajectory(grpc::CallbackServerContext* call,
                                             const v1::CheckTrajectoryRequest* request,
                                             v1::CheckTrajectoryResponse* response) override;

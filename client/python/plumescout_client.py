@@ -259,19 +259,26 @@ class Robot:
 
         start: pose; default: the latest, or where the robot will be (planning_latency_s).
         """
-        self.flush()
-        request = planning_pb.NextBestTrajectoryRequest(
-            robot=self._open.robot,
-            lease_token=self._open.lease_token,
-            min_applied_sequence=self.last_sequence,
-            seed=seed,
-            go_home=go_home,
-        )
-        request.planning_budget.FromNanoseconds(round(budget_s * 1e9))
-        if start is not None:
-            request.start.CopyFrom(_pose(start))
+        request = planning_pb.NextBestTrajectoryRequest()
+        self._order(request, start, budget_s, seed, go_home)
         method = self._client._planning.NextBestTrajectory
         return Plan(self._client._call(method, request, timeout_s).plan)
+
+    def stream_trajectories(self, start=None, budget_s=1.0, seed=0, timeout_s=None, go_home=False):
+        """As next_best_trajectory, but yields better and better plans; the last is the one to drive.
+
+        Leaving the loop before its end cancels the search, and nothing is committed."""
+        request = planning_pb.StreamNextBestTrajectoryRequest()
+        self._order(request, start, budget_s, seed, go_home)
+        method = self._client._planning.StreamNextBestTrajectory
+        responses = self._client._call(method, request, timeout_s)
+        try:
+            for response in responses:
+                yield Plan(response.plan)
+        except grpc.RpcError as error:
+            raise PlumeScoutError(error.code(), error.details(), _reason(error)) from None
+        finally:
+            responses.cancel()
 
     def check(self, plan):
         """Sends what waits and asks whether the rest of the robot's latest plan still holds.
@@ -304,6 +311,17 @@ class Robot:
             outcome=planning_pb.ReportProgressRequest.Outcome.Value(f"OUTCOME_{outcome.upper()}"),
         )
         self._client._call(self._client._planning.ReportProgress, request)
+
+    def _order(self, request, start, budget_s, seed, go_home):
+        self.flush()
+        request.robot = self._open.robot
+        request.lease_token = self._open.lease_token
+        request.min_applied_sequence = self.last_sequence
+        request.seed = seed
+        request.go_home = go_home
+        request.planning_budget.FromNanoseconds(round(budget_s * 1e9))
+        if start is not None:
+            request.start.CopyFrom(_pose(start))
 
     def _add(self, time_ns, pose, **payload):
         self.last_sequence += 1

@@ -117,6 +117,15 @@ class SmokeTest(unittest.TestCase):
         self.assertIsInstance(robot.list_frontiers(), list)
         self.assertEqual(room.status.robots[0].applied_sequence, robot.last_sequence)
 
+    def test_the_last_plan_of_a_stream_is_committed(self):
+        options = {"planning": {"speedMps": 0.5, "paths": "PATH_KIND_ANYTIME_XIT"}}
+        self.client.create_mission("stream", options)
+        robot = self.client.register("stream", "scout")
+        ToyRobot(robot).look(START)
+        plans = list(robot.stream_trajectories(seed=3))
+        self.assertEqual([bool(p.proto.name) for p in plans], [False] * (len(plans) - 1) + [True])
+        robot.report(plans[-1])
+
     def test_ranges_survive_the_wire(self):
         self.client.create_mission("ranges")
         robot = self.client.register("ranges", "scout")

@@ -54,6 +54,7 @@ std::map<std::string, BadInputs> AllBadInputs() {
           {"StreamObservationsRequest", ingest},
           {"BatchIngestObservationsRequest", ingest},
           {"NextBestTrajectoryRequest", BadNextBest()},
+          {"StreamNextBestTrajectoryRequest", BadNextBest()},
           {"CheckTrajectoryRequest", BadCheckTrajectory()},
           {"ListFrontiersRequest",
            BadInputs().Rows(BadRobotName("robot")).Rows(UnknownMission("robot"))},
@@ -69,6 +70,7 @@ std::set<std::string> FreeFields() {
       // Every number is a seed; 0 has a meaning of its own.
       "CreateMissionRequest.options.seed",
       "NextBestTrajectoryRequest.seed",
+      "StreamNextBestTrajectoryRequest.seed",
       // Both values of a bool are good.
       "CreateMissionRequest.options.planning.draw_goals",
       "CreateMissionRequest.options.planning.raw_variance",
@@ -80,6 +82,7 @@ std::set<std::string> FreeFields() {
       "CreateMissionRequest.options.planning.straighten",
       "CreateMissionRequest.options.planning.return_home",
       "NextBestTrajectoryRequest.go_home",
+      "StreamNextBestTrajectoryRequest.go_home",
       "RegisterRobotRequest.take_over",
       "GetMapRequest.full_precision",
       "GetMapRequest.fresh_posterior",
@@ -94,7 +97,9 @@ std::set<std::string> FreeFields() {
       "CreateMissionRequest.options.home",
       // Unset: the robot's latest pose, the server's budget.
       "NextBestTrajectoryRequest.start",
+      "StreamNextBestTrajectoryRequest.start",
       "NextBestTrajectoryRequest.planning_budget",
+      "StreamNextBestTrajectoryRequest.planning_budget",
       // Unset, they lack a name or observations, of which there are rows.
       "BatchIngestObservationsRequest.open",
       "BatchIngestObservationsRequest.batch",
@@ -277,6 +282,17 @@ TEST_F(BadInputTest, StreamObservations) {
 TEST_F(BadInputTest, NextBestTrajectory) {
   Check(BadNextBest(), Copies(PlanFor(lease_)),
         SenderOf(planning_, &v1::PlanningService::Stub::NextBestTrajectory));
+}
+
+TEST_F(BadInputTest, StreamNextBestTrajectory) {
+  v1::StreamNextBestTrajectoryRequest good;
+  good.set_robot(kRobot);
+  good.set_lease_token(lease_);
+  Check(BadNextBest(), Copies(good), [this](const Message& request) {
+    return PlanStreamClient(*planning_,
+                            static_cast<const v1::StreamNextBestTrajectoryRequest&>(request))
+        .Finish();
+  });
 }
 
 TEST_F(BadInputTest, CheckTrajectory) {

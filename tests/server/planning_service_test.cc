@@ -206,6 +206,48 @@ TEST_F(PlanningServiceTest, ErrorsOfTheSearchReachTheCaller) {
               RefusesField("start"));
 }
 
+TEST_F(PlanningServiceTest, AStartOffTheMapIsRefusedWithItsReason) {
+  Start();
+  EXPECT_THAT(NextBestWith([](auto& request) { request.mutable_start()->set_x_m(500.0); }).status(),
+              Refuses(absl::StatusCode::kInvalidArgument, "START_OUTSIDE_MAP"));
+}
+
+TEST_F(PlanningServiceTest, ABudgetForNoPlanAtAllIsRefusedWithItsReason) {
+  Start();
+  const auto refused = NextBestWith([](auto& request) {
+    request.mutable_planning_budget()->set_seconds(0);
+    request.mutable_planning_budget()->set_nanos(1);
+  });
+  EXPECT_THAT(refused.status(),
+              Refuses(absl::StatusCode::kDeadlineExceeded, "DEADLINE_BEFORE_FIRST_PLAN"));
+}
+
+TEST_F(PlanningServiceTest, ARobotThatStandsNowhereFreeIsToldSo) {
+  StartServer();
+  lease_ = Lease();
+  ASSERT_TRUE(Ingest(kRobot, lease_, RoomScan(1)).ok());  // one scan makes no cell free
+  const auto response = NextBest(Order());
+  ASSERT_TRUE(response.ok()) << response.status();
+  EXPECT_EQ(response->plan().end(), v1::Plan::END_START_OCCUPIED);
+  EXPECT_EQ(response->plan().chosen_index(), -1);
+  EXPECT_NE(response->plan().explanation(), "");
+}
+
+TEST_F(PlanningServiceTest, APlanWithoutGoalsSaysWhatBecameOfThem) {
+  ServerConfig config;
+  config.mission.planning.min_goal_distance_m = 100.0;
+  Start(config);
+  const auto rejected = NextBest(Order());
+  ASSERT_TRUE(rejected.ok()) << rejected.status();
+  EXPECT_EQ(rejected->plan().end(), v1::Plan::END_ALL_GOALS_REJECTED);
+  ASSERT_GT(rejected->plan().rejected_goals_size(), 0);
+  const auto at_home = NextBestWith([](auto& request) { request.set_go_home(true); });
+  ASSERT_TRUE(at_home.ok()) << at_home.status();
+  EXPECT_EQ(at_home->plan().end(), v1::Plan::END_NO_GOALS);
+  EXPECT_EQ(at_home->plan().rejected_goals_size(), 0);
+  EXPECT_EQ(at_home->plan().explanation(), "Stay: the robot is home.");
+}
+
 TEST_F(PlanningServiceTest, GoalOfAnotherRobotAborts) {
   Start({}, DriveEast);
   ASSERT_TRUE(NextBest(Order()).ok());
