@@ -59,7 +59,8 @@ TEST(PlanOrderFromProtoTest, BudgetDefaultsAndIsCut) {
   EXPECT_EQ(PlanOrderFromProto(request, limits)->budget, absl::Milliseconds(700));
   request.mutable_planning_budget()->set_seconds(3600);
   EXPECT_EQ(PlanOrderFromProto(request, limits)->budget, absl::Seconds(2));
-  EXPECT_FALSE(PlanOrderFromProto(v1::NextBestTrajectoryRequest(), limits)->request.start.has_value());
+  EXPECT_FALSE(
+      PlanOrderFromProto(v1::NextBestTrajectoryRequest(), limits)->request.start.has_value());
 }
 
 TEST(PlanOrderFromProtoTest, BadFieldsAreNamed) {

@@ -71,7 +71,7 @@ TEST_F(PlanStreamTest, PlansOnTheWayHaveNoNameAndTheLastIsCommitted) {
   EXPECT_EQ(Revision(), revision + 1) << "only the last was committed";
 }
 
-// The reader does not read while the search finds a thousand plans.
+// The reader does not read while the search finds them.
 TEST_F(PlanStreamTest, PlansThatTheReaderMissedAreDropped) {
   constexpr int kPlans = 20'000;  // 3 MB: beyond what the transport holds for a reader
   absl::Notification told;
