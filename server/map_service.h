@@ -14,12 +14,17 @@ class MapService final : public v1::MapService::CallbackService {
   grpc::ServerUnaryReactor* GetMap(grpc::CallbackServerContext* call,
                                    const v1::GetMapRequest* request,
                                    v1::GetMapResponse* response) override;
+  grpc::ServerUnaryReactor* QueryGas(grpc::CallbackServerContext* call,
+                                     const v1::QueryGasRequest* request,
+                                     v1::QueryGasResponse* response) override;
   grpc::ServerWriteReactor<v1::WatchMapResponse>* WatchMap(
       grpc::CallbackServerContext* call, const v1::WatchMapRequest* request) override;
 
  private:
   absl::Status Get(const v1::GetMapRequest& request, v1::GetMapResponse* response,
                    grpc::ServerUnaryReactor* reactor);
+  absl::Status Query(const v1::QueryGasRequest& request, v1::QueryGasResponse* response,
+                     grpc::ServerUnaryReactor* reactor);
 
   const ServiceContext& context_;
 };

@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
+#include "server/log.h"
+
 namespace plumescout::server {
 namespace {
 
@@ -21,6 +24,15 @@ absl::Duration ThreadCpuTime() {
 absl::Status Cancelled() { return absl::CancelledError("the caller gave up"); }
 
 }  // namespace
+
+void LogPlan(const MissionId& mission, const PlanAnswer& answer) {
+  LogInfo("plan", {{"mission", mission},
+                   {"robot", answer.plan.robot},
+                   {"plan", absl::StrCat(answer.plan.id)},
+                   {"candidates", absl::StrCat(answer.plan.candidates.size())},
+                   {"length_m", absl::StrCat(answer.plan.trajectory.length_m)},
+                   {"cpu_ms", absl::StrCat(absl::ToInt64Milliseconds(answer.cpu_time))}});
+}
 
 void PlanJob::Cancel() {
   cancelled_ = true;
@@ -51,7 +63,8 @@ void PlanJob::Search(const Belief& belief) {
   const SteadyTime stop_at = std::min(After(SteadyNow(), order.budget), order.deadline);
   const absl::Duration cpu_before = ThreadCpuTime();
   auto plan = parts_.host->strategy().Plan(
-      belief, order.request, [&] { return cancelled_.load() || SteadyNow() >= stop_at; });
+      belief, order.request, [&] { return cancelled_.load() || SteadyNow() >= stop_at; },
+      parts_.improved);
   cpu_time_ += ThreadCpuTime() - cpu_before;
   if (cancelled_) return Finish(Cancelled());
   if (!plan.ok()) return Finish(plan.status());
@@ -72,6 +85,7 @@ void PlanJob::Committed(Plan plan, absl::StatusOr<PlanId> id) {
   if (absl::IsAborted(id.status()) && conflicts_++ < kMaxConflicts) return AwaitBelief();
   if (!id.ok()) return Finish(id.status());
   plan.id = *id;
+  plan.cpu_s = absl::ToDoubleSeconds(cpu_time_);
   Finish(PlanAnswer{std::move(plan), cpu_time_});
 }
 

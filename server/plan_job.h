@@ -30,6 +30,9 @@ struct PlanAnswer {
   absl::Duration cpu_time;  // of all searches
 };
 
+// One line for the server's log.
+void LogPlan(const MissionId& mission, const PlanAnswer& answer);
+
 // One order on its way: wait for the robot's own readings, search on a pool, commit; once more if
 // another robot claimed the goal in the meantime. Keeps itself alive while it runs. Thread-safe.
 class PlanJob : public std::enable_shared_from_this<PlanJob> {
@@ -40,7 +43,8 @@ class PlanJob : public std::enable_shared_from_this<PlanJob> {
     std::shared_ptr<MissionHost> host;
     WorkerPool* pool = nullptr;  // not owned; outlives the job
     PlanOrder order;
-    Done done;  // called exactly once, on any thread
+    Done done;                        // called exactly once, on any thread
+    PlanListener improved = nullptr;  // told of plans on the way, on a thread of the pool
   };
   explicit PlanJob(Parts parts) : parts_(std::move(parts)) {}
 

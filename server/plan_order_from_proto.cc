@@ -17,8 +17,8 @@ constexpr std::int64_t kMaxNanos = 999'999'999;
 // google.protobuf.Duration's own range: 10000 years.
 constexpr std::int64_t kMaxSeconds = 315'576'000'000;
 
-absl::StatusOr<absl::Duration> ReadBudget(const v1::NextBestTrajectoryRequest& request,
-                                          const ServiceLimits& limits) {
+template <typename Request>
+absl::StatusOr<absl::Duration> ReadBudget(const Request& request, const ServiceLimits& limits) {
   if (!request.has_planning_budget()) return limits.default_planning_budget;
   const auto& budget = request.planning_budget();
   PLUMESCOUT_RETURN_IF_ERROR(
@@ -29,10 +29,8 @@ absl::StatusOr<absl::Duration> ReadBudget(const v1::NextBestTrajectoryRequest& r
   return std::min(wanted, limits.max_planning_budget);
 }
 
-}  // namespace
-
-absl::StatusOr<PlanOrder> PlanOrderFromProto(const v1::NextBestTrajectoryRequest& request,
-                                             const ServiceLimits& limits) {
+template <typename Request>
+absl::StatusOr<PlanOrder> ReadOrder(const Request& request, const ServiceLimits& limits) {
   PlanOrder order;
   order.lease_token = request.lease_token();
   PLUMESCOUT_RETURN_IF_ERROR(
@@ -49,6 +47,17 @@ absl::StatusOr<PlanOrder> PlanOrderFromProto(const v1::NextBestTrajectoryRequest
                                            std::numeric_limits<std::int64_t>::max()));
   order.request.max_edge_evaluations = request.max_edge_evaluation_count();
   return order;
+}
+
+}  // namespace
+
+absl::StatusOr<PlanOrder> PlanOrderFromProto(const v1::NextBestTrajectoryRequest& request,
+                                             const ServiceLimits& limits) {
+  return ReadOrder(request, limits);
+}
+absl::StatusOr<PlanOrder> PlanOrderFromProto(const v1::StreamNextBestTrajectoryRequest& request,
+                                             const ServiceLimits& limits) {
+  return ReadOrder(request, limits);
 }
 
 }  // namespace plumescout::server

@@ -12,5 +12,7 @@ namespace plumescout::server {
 // What a request orders, but the robot and the deadline. A budget above the server's is cut to it.
 absl::StatusOr<PlanOrder> PlanOrderFromProto(const v1::NextBestTrajectoryRequest& request,
                                              const ServiceLimits& limits);
+absl::StatusOr<PlanOrder> PlanOrderFromProto(const v1::StreamNextBestTrajectoryRequest& request,
+                                             const ServiceLimits& limits);
 
 }  // namespace plumescout::server

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plumescout/v1/planning_service.grpc.pb.h"
+#include "server/clock.h"
 #include "server/service_context.h"
 
 namespace plumescout::server {
@@ -14,11 +15,24 @@ class PlanningService final : public v1::PlanningService::CallbackService {
   grpc::ServerUnaryReactor* NextBestTrajectory(grpc::CallbackServerContext* call,
                                                const v1::NextBestTrajectoryRequest* request,
                                                v1::NextBestTrajectoryResponse* response) override;
+  grpc::ServerWriteReactor<v1::StreamNextBestTrajectoryResponse>* StreamNextBestTrajectory(
+      grpc::CallbackServerContext* call,
+      const v1::StreamNextBestTrajectoryRequest* request) override;
+  grpc::ServerUnaryReactor* CheckTrajectory(grpc::CallbackServerContext* call,
+                                            const v1::CheckTrajectoryRequest* request,
+                                            v1::CheckTrajectoryResponse* response) override;
+  grpc::ServerUnaryReactor* ListFrontiers(grpc::CallbackServerContext* call,
+                                          const v1::ListFrontiersRequest* request,
+                                          v1::ListFrontiersResponse* response) override;
   grpc::ServerUnaryReactor* ReportProgress(grpc::CallbackServerContext* call,
                                            const v1::ReportProgressRequest* request,
                                            v1::ReportProgressResponse* response) override;
 
  private:
+  absl::Status Check(const v1::CheckTrajectoryRequest& request, SteadyTime deadline,
+                     v1::CheckTrajectoryResponse* response, grpc::ServerUnaryReactor* reactor);
+  absl::Status List(const v1::ListFrontiersRequest& request, v1::ListFrontiersResponse* response,
+                    grpc::ServerUnaryReactor* reactor);
   absl::Status Report(const v1::ReportProgressRequest& request,
                       v1::ReportProgressResponse* response, grpc::ServerUnaryReactor* reactor);
 

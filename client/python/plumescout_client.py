@@ -185,6 +185,18 @@ class Client:
         )
         return _map_from_proto(self._call(self._maps.GetMap, request))
 
+    def query_gas(self, mission, points):
+        """What the gas field says at points, an array of shape (n, 2): x_m, y_m.
+
+        Returns mean (ppm) and variance (ppm^2), each of shape (n,), NaN off free cells."""
+        request = map_pb.QueryGasRequest(
+            mission=f"missions/{mission}", points=_points(points), fresh_posterior=True
+        )
+        gas = self._call(self._maps.QueryGas, request).gas
+        mean_ppm = [g.mean_ppm if g.HasField("mean_ppm") else np.nan for g in gas]
+        variance_ppm2 = [g.variance_ppm2 if g.HasField("variance_ppm2") else np.nan for g in gas]
+        return np.array(mean_ppm), np.array(variance_ppm2)
+
     def _call(self, method, request, timeout_s=None):
         try:
             return method(request, timeout=timeout_s or self._timeout_s, wait_for_ready=True)
@@ -247,19 +259,47 @@ class Robot:
 
         start: pose; default: the latest, or where the robot will be (planning_latency_s).
         """
-        self.flush()
-        request = planning_pb.NextBestTrajectoryRequest(
-            robot=self._open.robot,
-            lease_token=self._open.lease_token,
-            min_applied_sequence=self.last_sequence,
-            seed=seed,
-            go_home=go_home,
-        )
-        request.planning_budget.FromNanoseconds(round(budget_s * 1e9))
-        if start is not None:
-            request.start.CopyFrom(_pose(start))
+        request = planning_pb.NextBestTrajectoryRequest()
+        self._order(request, start, budget_s, seed, go_home)
         method = self._client._planning.NextBestTrajectory
         return Plan(self._client._call(method, request, timeout_s).plan)
+
+    def stream_trajectories(self, start=None, budget_s=1.0, seed=0, timeout_s=None, go_home=False):
+        """As next_best_trajectory, but yields better and better plans; the last is the one to drive.
+
+        Leaving the loop before its end cancels the search, and nothing is committed."""
+        request = planning_pb.StreamNextBestTrajectoryRequest()
+        self._order(request, start, budget_s, seed, go_home)
+        method = self._client._planning.StreamNextBestTrajectory
+        responses = self._client._call(method, request, timeout_s)
+        try:
+            for response in responses:
+                yield Plan(response.plan)
+        except grpc.RpcError as error:
+            raise PlumeScoutError(error.code(), error.details(), _reason(error)) from None
+        finally:
+            responses.cancel()
+
+    def check(self, plan):
+        """Sends what waits and asks whether the rest of the robot's latest plan still holds.
+
+        Returns a CheckTrajectoryResponse: blockage and rejected_goal are set if something is
+        wrong with its way or its goal."""
+        self.flush()
+        request = planning_pb.CheckTrajectoryRequest(
+            robot=self._open.robot,
+            lease_token=self._open.lease_token,
+            plan=plan.proto.name,
+            min_applied_sequence=self.last_sequence,
+        )
+        return self._client._call(self._client._planning.CheckTrajectory, request)
+
+    def list_frontiers(self):
+        """Sends what waits; returns FrontierGoals: where this robot could go, and why not."""
+        self.flush()
+        request = planning_pb.ListFrontiersRequest(robot=self._open.robot)
+        response = self._client._call(self._client._planning.ListFrontiers, request)
+        return list(response.frontiers)
 
     def report(self, plan, outcome="reached"):
         """Says how a plan ended: "reached", "blocked" or "aborted"."""
@@ -271,6 +311,17 @@ class Robot:
             outcome=planning_pb.ReportProgressRequest.Outcome.Value(f"OUTCOME_{outcome.upper()}"),
         )
         self._client._call(self._client._planning.ReportProgress, request)
+
+    def _order(self, request, start, budget_s, seed, go_home):
+        self.flush()
+        request.robot = self._open.robot
+        request.lease_token = self._open.lease_token
+        request.min_applied_sequence = self.last_sequence
+        request.seed = seed
+        request.go_home = go_home
+        request.planning_budget.FromNanoseconds(round(budget_s * 1e9))
+        if start is not None:
+            request.start.CopyFrom(_pose(start))
 
     def _add(self, time_ns, pose, **payload):
         self.last_sequence += 1
@@ -294,6 +345,10 @@ class Robot:
 def _pose(pose):
     x_m, y_m, yaw_rad = pose
     return types_pb.Pose2D(x_m=x_m, y_m=y_m, yaw_rad=yaw_rad)
+
+
+def _points(points):
+    return [types_pb.Point2D(x_m=x_m, y_m=y_m) for x_m, y_m in points]
 
 
 def _encode_ranges(ranges_m):

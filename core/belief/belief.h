@@ -53,8 +53,10 @@ struct RobotRecord {
   int fruitless_fallbacks = 0;        // fallback trajectories in a row that revealed nothing
   std::optional<Point2> first_place;  // of its first observation
   double travelled_m = 0.0;           // since then
-  // Of the live plan; null if there is none, or it is to stay.
+  PlanId last_plan = 0;               // its latest; 0: none yet
+  // Of the latest plan while it is live; null if it has ended, or is to stay.
   std::shared_ptr<const Trajectory> live_trajectory;
+  std::optional<Goal> live_goal;  // where that ends
 };
 
 // Immutable snapshot of a mission that readers plan on and look at. Rasters are shared between

@@ -24,12 +24,15 @@ absl::Status UnknownRobot(const RobotId& robot) {
   return absl::NotFoundError(absl::StrCat("robot \"", robot, "\" is not registered"));
 }
 
+std::optional<Goal> ChosenGoal(const Plan& plan) {
+  if (plan.chosen < 0) return std::nullopt;
+  return plan.candidates[static_cast<std::size_t>(plan.chosen)].goal;
+}
+
 // The goal that others must not be sent to meanwhile. There is room for all at home.
 std::optional<Goal> GoalToClaim(const Plan& plan) {
-  if (plan.chosen < 0) return std::nullopt;
-  const Goal& goal = plan.candidates[static_cast<std::size_t>(plan.chosen)].goal;
-  if (goal.kind == GoalKind::kHome) return std::nullopt;
-  return goal;
+  const std::optional<Goal> goal = ChosenGoal(plan);
+  return goal && goal->kind != GoalKind::kHome ? goal : std::nullopt;
 }
 
 }  // namespace
@@ -120,7 +123,7 @@ absl::StatusOr<PlanId> Fleet::Issue(const Plan& plan, std::int64_t now_ns) {
   Member& member = found->second;
   ++next_plan_;
   ++member.record.plans_issued;
-  member.last_plan = live.id;
+  member.record.last_plan = live.id;
   if (plan.phase == MissionPhase::kExploring || plan.phase == MissionPhase::kGasProbing) {
     member.record.fruitless_fallbacks = 0;
   }
@@ -134,7 +137,8 @@ absl::StatusOr<PlanId> Fleet::Issue(const Plan& plan, std::int64_t now_ns) {
   member.live = std::move(live);
   member.record.live_trajectory =
       plan.chosen < 0 ? nullptr : std::make_shared<const Trajectory>(plan.trajectory);
-  return member.last_plan;
+  member.record.live_goal = ChosenGoal(plan);
+  return member.record.last_plan;
 }
 
 absl::StatusOr<std::optional<Goal>> Fleet::Report(const ProgressReported& report) {
@@ -144,16 +148,17 @@ absl::StatusOr<std::optional<Goal>> Fleet::Report(const ProgressReported& report
   if (report.plan_id < 1 || report.plan_id >= next_plan_) {
     return absl::NotFoundError(absl::StrCat("plan ", report.plan_id, " was never issued"));
   }
-  if (report.plan_id != member.last_plan) {
+  if (report.plan_id != member.record.last_plan) {
     return absl::FailedPreconditionError(absl::StrCat("PLAN_SUPERSEDED: plan ", report.plan_id,
                                                       " is not robot \"", report.robot,
-                                                      "\"'s latest, ", member.last_plan));
+                                                      "\"'s latest, ", member.record.last_plan));
   }
   if (!member.live) {
     return absl::AlreadyExistsError(absl::StrCat("plan ", report.plan_id, " has ended already"));
   }
   const LivePlan live = *std::exchange(member.live, std::nullopt);
   member.record.live_trajectory = nullptr;
+  member.record.live_goal.reset();
   if (live.phase == MissionPhase::kFallback) ++member.record.fruitless_fallbacks;
   return live.goal;
 }

@@ -57,7 +57,6 @@ class Fleet {
     RobotRecord record;
     Odometer odometer;
     std::int64_t lease_token = 0;
-    PlanId last_plan = 0;
     std::optional<MissionPhase> last_phase;
     std::optional<LivePlan> live;
   };

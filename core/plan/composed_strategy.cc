@@ -70,7 +70,8 @@ absl::Status Stopped() {
 
 absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
                                                         const PlanRequest& request,
-                                                        const StopFn& stop) const {
+                                                        const StopFn& stop,
+                                                        const PlanListener& improved) const {
   const auto robot = belief.robots.find(request.robot);
   if (robot == belief.robots.end()) {
     return absl::NotFoundError(absl::StrCat("robot \"", request.robot, "\" is not registered"));
@@ -89,29 +90,36 @@ absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
     departure->yaw_rad = pose.yaw_rad;
     plan.start_escaped = !departure->way_out.empty();
     if (request.go_home) plan.phase = MissionPhase::kReturning;
-    PLUMESCOUT_RETURN_IF_ERROR(PlanFrom(*departure, belief, request, stop, plan));
+    const Call call = {belief, request, stop, improved};
+    PLUMESCOUT_RETURN_IF_ERROR(PlanFrom(*departure, call, plan));
     if (plan.candidates.empty() && HasOverBudget(plan)) {
-      PLUMESCOUT_RETURN_IF_ERROR(PlanLastWayHome(*departure, belief, request, stop, plan));
+      PLUMESCOUT_RETURN_IF_ERROR(PlanLastWayHome(*departure, call, plan));
     }
   } else {
     plan.end = PlanEnd::kStartOccupied;
   }
-  if (plan.chosen >= 0) {
-    const Candidate& chosen = plan.candidates[static_cast<std::size_t>(plan.chosen)];
-    plan.phase = PhaseOf(chosen.goal.kind);
-    plan.trajectory = TimeTrajectory(chosen.path, pose.yaw_rad, options_);
-  }
-  plan.explanation = Explain(plan, options_.selection);
+  Conclude(pose.yaw_rad, options_.selection, plan);
   return plan;
 }
 
-absl::Status ComposedStrategy::PlanLastWayHome(const Departure& departure, const Belief& belief,
-                                               PlanRequest request, const StopFn& stop,
+void ComposedStrategy::Conclude(double start_yaw_rad, SelectionRule rule,
+                                plumescout::Plan& plan) const {
+  if (plan.chosen >= 0) {
+    const Candidate& chosen = plan.candidates[static_cast<std::size_t>(plan.chosen)];
+    plan.phase = PhaseOf(chosen.goal.kind);
+    plan.trajectory = TimeTrajectory(chosen.path, start_yaw_rad, options_);
+  }
+  plan.explanation = Explain(plan, rule);
+}
+
+absl::Status ComposedStrategy::PlanLastWayHome(const Departure& departure, const Call& call,
                                                plumescout::Plan& plan) const {
+  PlanRequest request = call.request;
   request.go_home = true;
   plan.phase = MissionPhase::kReturning;
   const PlanEffort before = std::exchange(plan.effort, {});
-  PLUMESCOUT_RETURN_IF_ERROR(PlanFrom(departure, belief, request, stop, plan));
+  PLUMESCOUT_RETURN_IF_ERROR(
+      PlanFrom(departure, {call.belief, request, call.stop, call.improved}, plan));
   plan.effort = Sum(before, plan.effort);
   const bool searched = plan.end == PlanEnd::kAllGoalsReached ||
                         plan.end == PlanEnd::kQueueExhausted || plan.end == PlanEnd::kStopped;
@@ -122,9 +130,9 @@ absl::Status ComposedStrategy::PlanLastWayHome(const Departure& departure, const
   return absl::OkStatus();
 }
 
-absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Belief& belief,
-                                        const PlanRequest& request, const StopFn& stop,
+absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& call,
                                         plumescout::Plan& plan) const {
+  const auto& [belief, request, stop, improved] = call;
   const MissionOptions& mission = *belief.options;
   const InformationField field =
       MakeInformationField({*belief.traversable, *belief.gas_mean_ppm, *belief.gas_variance_ppm2,
@@ -149,17 +157,19 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Belief
   }
   if (stop()) return Stopped();
 
+  const EdgeCost selection_cost(field, options_.selection_cost, options_.alpha);
+  const CandidateJudge judge = {selection_cost, *belief.gas_mean_ppm,
+                                mission.gas.background_mean_ppm};
+  const Judging judging = {query, goals.goals, departure, judge};
+  const PathListener tell = [&](const PathResult& better) {
+    const plumescout::Plan incumbent = Incumbent(judging, better, plan);
+    if (incumbent.chosen >= 0) call.improved(incumbent);
+  };
   const EdgeCost cost(field, options_.cost, options_.alpha);
   const PathResult result =
       paths_->FindPaths({cost, reachable, departure.start, goals.goals, plan.seed,
-                         request.max_edge_evaluations, stop, nullptr});
-  const EdgeCost selection_cost(field, options_.selection_cost, options_.alpha);
-  TakeResults(goals.goals, result,
-              {selection_cost, *belief.gas_mean_ppm, mission.gas.background_mean_ppm}, plan);
-  for (Candidate& candidate : plan.candidates) {
-    PutBefore(departure.way_out, candidate);
-    candidate.duration_s = TimeTrajectory(candidate.path, departure.yaw_rad, options_).duration_s;
-  }
+                         request.max_edge_evaluations, stop, improved ? &tell : nullptr});
+  TakeResults(judging, result, plan);
   const bool stopped_empty = plan.end == PlanEnd::kStopped && plan.candidates.empty();
   RejectOverBudget(query, plan);
   Choose(belief, options_, stop, plan);
@@ -168,8 +178,26 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Belief
   return stopped_empty && !budget_spent ? Stopped() : absl::OkStatus();
 }
 
-void ComposedStrategy::TakeResults(const std::vector<Goal>& goals, const PathResult& result,
-                                   const CandidateJudge& judge, plumescout::Plan& plan) const {
+plumescout::Plan ComposedStrategy::Incumbent(const Judging& judging, PathResult result,
+                                             plumescout::Plan plan) const {
+  const bool all = std::all_of(result.paths.begin(), result.paths.end(),
+                               [](const auto& path) { return path.has_value(); });
+  result.end = all ? PlanEnd::kAllGoalsReached : PlanEnd::kStopped;
+  PlanningOptions options = options_;
+  // It would cost the search its time.
+  if (options.selection == SelectionRule::kInformationRate) {
+    options.selection = SelectionRule::kLeastCost;
+  }
+  TakeResults(judging, result, plan);
+  RejectOverBudget(judging.query, plan);
+  Choose(judging.query.belief, options, NeverStop(), plan);
+  Conclude(judging.departure.yaw_rad, options.selection, plan);
+  return plan;
+}
+
+void ComposedStrategy::TakeResults(const Judging& judging, const PathResult& result,
+                                   plumescout::Plan& plan) const {
+  const auto& [query, goals, departure, judge] = judging;
   plan.end = result.end;
   plan.effort = result.effort;
   for (std::size_t i = 0; i < goals.size(); ++i) {
@@ -180,6 +208,10 @@ void ComposedStrategy::TakeResults(const std::vector<Goal>& goals, const PathRes
     } else {
       plan.rejected.push_back({goals[i], RejectionReason::kUnreachable, "the search ran out"});
     }
+  }
+  for (Candidate& candidate : plan.candidates) {
+    PutBefore(departure.way_out, candidate);
+    candidate.duration_s = TimeTrajectory(candidate.path, departure.yaw_rad, options_).duration_s;
   }
 }
 

@@ -9,6 +9,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/plan/departure.h"
+#include "core/plan/goals/goal_set.h"
 #include "core/plan/paths/path_planner.h"
 #include "core/plan/selection/candidate_terms.h"
 #include "core/plan/strategy.h"
@@ -22,23 +23,41 @@ class ComposedStrategy : public Strategy {
   ComposedStrategy(const PlanningOptions& options, std::unique_ptr<const PathPlanner> paths)
       : options_(options), paths_(std::move(paths)) {}
 
+  using Strategy::Plan;
   absl::StatusOr<plumescout::Plan> Plan(const Belief& belief, const PlanRequest& request,
-                                        const StopFn& stop) const override;
+                                        const StopFn& stop,
+                                        const PlanListener& improved) const override;
 
  private:
+  // What Plan was called with.
+  struct Call {
+    const Belief& belief;
+    const PlanRequest& request;
+    const StopFn& stop;
+    const PlanListener& improved;
+  };
+  // What the results of a search are judged by.
+  struct Judging {
+    const GoalQuery& query;
+    const std::vector<Goal>& goals;
+    const Departure& departure;
+    const CandidateJudge& judge;
+  };
+
   // Everything from a place to start to the candidates and the choice. The error is
   // kDeadlineExceeded.
-  absl::Status PlanFrom(const Departure& departure, const Belief& belief,
-                        const PlanRequest& request, const StopFn& stop,
-                        plumescout::Plan& plan) const;
+  absl::Status PlanFrom(const Departure& departure, const Call& call, plumescout::Plan& plan) const;
   // The same home, for the travel budget is spent. The plan keeps its rejected goals; it is
   // complete if the robot is home, or there is no way.
-  absl::Status PlanLastWayHome(const Departure& departure, const Belief& belief,
-                               PlanRequest request, const StopFn& stop,
+  absl::Status PlanLastWayHome(const Departure& departure, const Call& call,
                                plumescout::Plan& plan) const;
-  // Turns what the search found for `goals` into candidates and rejections.
-  void TakeResults(const std::vector<Goal>& goals, const PathResult& result,
-                   const CandidateJudge& judge, plumescout::Plan& plan) const;
+  // Turns what the search found into candidates and rejections.
+  void TakeResults(const Judging& judging, const PathResult& result, plumescout::Plan& plan) const;
+  // The plan that the search would end with now; `plan` is what was known before it.
+  plumescout::Plan Incumbent(const Judging& judging, PathResult result,
+                             plumescout::Plan plan) const;
+  // What follows from the choice.
+  void Conclude(double start_yaw_rad, SelectionRule rule, plumescout::Plan& plan) const;
 
   PlanningOptions options_;
   std::unique_ptr<const PathPlanner> paths_;

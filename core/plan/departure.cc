@@ -8,6 +8,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/grid/escape.h"
+#include "core/grid/flood.h"
 #include "core/plan/paths/shortcut.h"
 
 namespace plumescout {
@@ -59,6 +60,14 @@ std::optional<Departure> Depart(const Belief& belief, Point2 robot) {
   const Point2 start = way_out.back();
   way_out.pop_back();
   return Departure{std::move(way_out), start};
+}
+
+Reach ReachFrom(const Belief& belief, Point2 place) {
+  const GridGeometry& geometry = belief.geometry();
+  const std::optional<Departure> departure = Depart(belief, place);
+  if (!departure) return {geometry.CellAt(place), Grid<std::uint8_t>(geometry, 0)};
+  const Cell start = geometry.CellAt(departure->start);
+  return {start, ReachableCells(*belief.traversable, {start})};
 }
 
 }  // namespace plumescout

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -32,5 +33,14 @@ struct Departure {
 // (EscapePath), which begins with the robot's place and the centre of its cell. None if there is no
 // such way. REQUIRES: `robot` is inside the map. Cost: O(1), O(cells) in the inflated zone.
 std::optional<Departure> Depart(const Belief& belief, Point2 robot);
+
+// Where a robot that departs from a place can drive to.
+struct Reach {
+  Cell start;                    // where the search for paths begins; the place's own if nowhere
+  Grid<std::uint8_t> reachable;  // 1: traversable and connected to `start`; nowhere: all 0
+};
+
+// REQUIRES: `place` is inside the map. Cost: O(cells).
+Reach ReachFrom(const Belief& belief, Point2 place);
 
 }  // namespace plumescout

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@
 
 namespace plumescout {
 
+// Told of every better plan on the way to the final one.
+using PlanListener = std::function<void(const Plan&)>;
+
 // A planner of missions: three small choices - where to go (goals), how to get there (paths),
 // which to take (selection). Immutable; Plan is const and may run on many threads at once.
 class Strategy {
@@ -30,8 +34,18 @@ class Strategy {
   // Errors: kNotFound if the robot is unknown; kFailedPrecondition if it has no pose yet;
   // kInvalidArgument if the start is not finite or outside the map; kDeadlineExceeded if `stop`
   // came before any path was found.
+  //
+  // `improved`, if not null, is told of each better plan that an anytime search has on the way;
+  // other searches have none. The cost of no candidate is above that of an earlier plan, provided
+  // that the selection cost is that of the search. Goals without a path so far are kSearchStopped.
+  // Expected information is not priced: the choice is by cost where the rule asks for it.
   virtual absl::StatusOr<plumescout::Plan> Plan(const Belief& belief, const PlanRequest& request,
-                                                const StopFn& stop) const = 0;
+                                                const StopFn& stop,
+                                                const PlanListener& improved) const = 0;
+  absl::StatusOr<plumescout::Plan> Plan(const Belief& belief, const PlanRequest& request,
+                                        const StopFn& stop) const {
+    return Plan(belief, request, stop, nullptr);
+  }
 };
 
 // Names of the rows: "xit_gff", "xit_fgf", "xit_f", "mit", "rrt_star_frontier".

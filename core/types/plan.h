@@ -58,6 +58,7 @@ enum class RejectionReason {
   kSearchStopped,  // deadline or cancel came before a path was found
   kOverBudget,     // too little of the travel budget would be left to drive home
   kKeptOut,        // in an area where nobody may drive
+  kGone,           // of a check: no such goal is left
 };
 
 struct RejectedGoal {
@@ -66,6 +67,13 @@ struct RejectedGoal {
   std::string detail;  // e.g. the robot that claims it, the event at which a set-aside ends
 
   friend bool operator==(const RejectedGoal&, const RejectedGoal&) = default;
+};
+
+// A frontier as a goal of one robot.
+struct JudgedFrontier {
+  Goal goal;
+  std::optional<double> travel_m;         // on the 8-connected grid; none if there is no way
+  std::optional<RejectedGoal> rejection;  // why it is not offered
 };
 
 // How planning ended. The last four have no trajectory.

@@ -47,6 +47,13 @@ constexpr Row<RejectionReason, v1::RejectedGoal::Reason> kRejectionReasons[] = {
     {RejectionReason::kSearchStopped, v1::RejectedGoal::REASON_SEARCH_STOPPED},
     {RejectionReason::kOverBudget, v1::RejectedGoal::REASON_OVER_BUDGET},
     {RejectionReason::kKeptOut, v1::RejectedGoal::REASON_KEPT_OUT},
+    {RejectionReason::kGone, v1::RejectedGoal::REASON_GONE},
+};
+constexpr Row<std::optional<CellState>, v1::CellState> kCellStates[] = {
+    {CellState::kUnknown, v1::CELL_STATE_UNKNOWN},
+    {CellState::kFree, v1::CELL_STATE_FREE},
+    {CellState::kOccupied, v1::CELL_STATE_OCCUPIED},
+    {std::nullopt, v1::CELL_STATE_OFF_MAP},
 };
 constexpr Row<PlanEnd, v1::Plan::End> kPlanEnds[] = {
     {PlanEnd::kAllGoalsReached, v1::Plan::END_ALL_GOALS_REACHED},
@@ -131,6 +138,7 @@ v1::CostKind ToProto(CostKind value) { return Find(kCostKinds, value); }
 v1::SamplingKind ToProto(SamplingKind value) { return Find(kSamplingKinds, value); }
 v1::SelectionRule ToProto(SelectionRule value) { return Find(kSelectionRules, value); }
 v1::PathKind ToProto(PathKind value) { return Find(kPathKinds, value); }
+v1::CellState ToProto(std::optional<CellState> value) { return Find(kCellStates, value); }
 
 absl::StatusOr<MissionPhase> FromProto(v1::MissionPhase proto, absl::string_view field) {
   return Find(kPhases, proto, field);

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "absl/status/statusor.h"
 #include "absl/strings/string_view.h"
+#include "core/types/cell_state.h"
 #include "core/types/event.h"
 #include "core/types/frontier.h"
 #include "core/types/options.h"
@@ -27,6 +30,7 @@ v1::CostKind ToProto(CostKind value);
 v1::SamplingKind ToProto(SamplingKind value);
 v1::SelectionRule ToProto(SelectionRule value);
 v1::PathKind ToProto(PathKind value);
+v1::CellState ToProto(std::optional<CellState> value);  // none: off the map
 
 // kInvalidArgument naming `field` for unset and unknown values.
 absl::StatusOr<MissionPhase> FromProto(v1::MissionPhase proto, absl::string_view field);

@@ -53,21 +53,6 @@ v1::GasCounters ToProto(const GasCounters& counters) {
   return proto;
 }
 
-v1::GasQuality ToProto(const GasQuality& quality) {
-  v1::GasQuality proto;
-  proto.set_mean_error_ppm(quality.mean_error_ppm);
-  proto.set_variance_error_ratio(quality.variance_error_ratio);
-  proto.set_aged_to_ns(quality.aged_to_ns);
-  proto.set_ageing_error_ratio(quality.ageing_error_ratio);
-  proto.set_refresh_count(quality.refreshes);
-  proto.set_epoch_count(quality.epochs);
-  proto.set_healed_count(quality.healed);
-  proto.set_failure_count(quality.failures);
-  proto.set_drift_mean_ppm(quality.drift_mean_ppm);
-  proto.set_drift_variance_ratio(quality.drift_variance_ratio);
-  return proto;
-}
-
 absl::StatusOr<Frontier> FromProto(const v1::Frontier& proto, absl::string_view field) {
   Frontier frontier;
   PLUMESCOUT_ASSIGN_OR_RETURN(frontier.kind,
@@ -175,6 +160,21 @@ std::vector<v1::MapTile> EncodeTiles(const MapSnapshot& map, const MapView& view
         EncodeGas(v1::MAP_LAYER_GAS_VARIANCE, map.gas_variance_ppm2, view.full_precision, rect));
   }
   return tiles;
+}
+
+v1::GasQuality ToProto(const GasQuality& quality) {
+  v1::GasQuality proto;
+  proto.set_mean_error_ppm(quality.mean_error_ppm);
+  proto.set_variance_error_ratio(quality.variance_error_ratio);
+  proto.set_aged_to_ns(quality.aged_to_ns);
+  proto.set_ageing_error_ratio(quality.ageing_error_ratio);
+  proto.set_refresh_count(quality.refreshes);
+  proto.set_epoch_count(quality.epochs);
+  proto.set_healed_count(quality.healed);
+  proto.set_failure_count(quality.failures);
+  proto.set_drift_mean_ppm(quality.drift_mean_ppm);
+  proto.set_drift_variance_ratio(quality.drift_variance_ratio);
+  return proto;
 }
 
 v1::MapStatus StatusToProto(const MapSnapshot& map, const MissionId& mission) {

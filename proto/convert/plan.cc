@@ -22,41 +22,6 @@ using plumescout::ToProto;
 
 constexpr double kNanosecondsPerSecond = 1e9;
 
-v1::Goal ToProto(const Goal& goal) {
-  v1::Goal proto;
-  proto.set_kind(ToProto(goal.kind));
-  *proto.mutable_cell() = ToProto(goal.cell);
-  *proto.mutable_position() = ToProto(goal.position);
-  *proto.mutable_centroid() = ToProto(goal.centroid);
-  proto.set_frontier_cell_count(goal.frontier_cells);
-  return proto;
-}
-
-v1::Candidate ToProto(const Candidate& candidate) {
-  v1::Candidate proto;
-  *proto.mutable_goal() = ToProto(candidate.goal);
-  for (const Point2& point : candidate.path) *proto.add_path() = ToProto(point);
-  proto.set_path_source(ToProto(candidate.path_source));
-  proto.set_cost(candidate.cost);
-  proto.set_information_penalty(candidate.information_penalty);
-  proto.set_length_m(candidate.length_m);
-  proto.set_mean_ucb(candidate.mean_ucb);
-  proto.set_mean_concentration_ppm(candidate.mean_concentration_ppm);
-  proto.set_duration_s(candidate.duration_s);
-  if (candidate.expected_information_nats) {
-    proto.set_expected_information_nats(*candidate.expected_information_nats);
-  }
-  return proto;
-}
-
-v1::RejectedGoal ToProto(const RejectedGoal& rejected) {
-  v1::RejectedGoal proto;
-  *proto.mutable_goal() = ToProto(rejected.goal);
-  proto.set_reason(ToProto(rejected.reason));
-  proto.set_detail(rejected.detail);
-  return proto;
-}
-
 v1::Trajectory ToProto(const Trajectory& trajectory) {
   v1::Trajectory proto;
   for (const Waypoint& waypoint : trajectory.waypoints) {
@@ -200,6 +165,41 @@ absl::Status ReadGoals(const v1::Plan& proto, absl::string_view field, Plan& pla
 }
 
 }  // namespace
+
+v1::Goal ToProto(const Goal& goal) {
+  v1::Goal proto;
+  proto.set_kind(ToProto(goal.kind));
+  *proto.mutable_cell() = ToProto(goal.cell);
+  *proto.mutable_position() = ToProto(goal.position);
+  *proto.mutable_centroid() = ToProto(goal.centroid);
+  proto.set_frontier_cell_count(goal.frontier_cells);
+  return proto;
+}
+
+v1::Candidate ToProto(const Candidate& candidate) {
+  v1::Candidate proto;
+  *proto.mutable_goal() = ToProto(candidate.goal);
+  for (const Point2& point : candidate.path) *proto.add_path() = ToProto(point);
+  proto.set_path_source(ToProto(candidate.path_source));
+  proto.set_cost(candidate.cost);
+  proto.set_information_penalty(candidate.information_penalty);
+  proto.set_length_m(candidate.length_m);
+  proto.set_mean_ucb(candidate.mean_ucb);
+  proto.set_mean_concentration_ppm(candidate.mean_concentration_ppm);
+  proto.set_duration_s(candidate.duration_s);
+  if (candidate.expected_information_nats) {
+    proto.set_expected_information_nats(*candidate.expected_information_nats);
+  }
+  return proto;
+}
+
+v1::RejectedGoal ToProto(const RejectedGoal& rejected) {
+  v1::RejectedGoal proto;
+  *proto.mutable_goal() = ToProto(rejected.goal);
+  proto.set_reason(ToProto(rejected.reason));
+  proto.set_detail(rejected.detail);
+  return proto;
+}
 
 v1::Plan ToProto(const Plan& plan, const MissionId& mission) {
   v1::Plan proto;

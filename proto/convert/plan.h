@@ -9,6 +9,10 @@
 
 namespace plumescout {
 
+v1::Goal ToProto(const Goal& goal);
+v1::Candidate ToProto(const Candidate& candidate);
+v1::RejectedGoal ToProto(const RejectedGoal& rejected);
+
 // Resource names are built below `mission`; a plan that is not committed (id 0) has no name.
 v1::Plan ToProto(const Plan& plan, const MissionId& mission);
 

@@ -93,6 +93,8 @@ class SmokeTest(unittest.TestCase):
                 break
             plans += 1
             if len(plan.poses) > 1:
+                check = robot.check(plan)
+                self.assertFalse(check.HasField("blockage") or check.HasField("rejected_goal"))
                 toy.drive(plan.poses)
                 robot.report(plan)
         robot.next_best_trajectory()  # brings the gas map up to the last reading
@@ -108,7 +110,21 @@ class SmokeTest(unittest.TestCase):
         self.assertTrue((room.gas_variance_ppm2[free] > 0).all())
         at_source = room.gas_mean_ppm[room.cell(*SOURCE_M)]
         self.assertGreater(at_source, room.gas_mean_ppm[room.cell(0.5, 0.5)])
+        mean_ppm, variance_ppm2 = self.client.query_gas("toy", [SOURCE_M, (-50.0, 0.0)])
+        self.assertAlmostEqual(mean_ppm[0], at_source, places=5)
+        self.assertGreater(variance_ppm2[0], 0)
+        self.assertTrue(np.isnan(mean_ppm[1]))
+        self.assertIsInstance(robot.list_frontiers(), list)
         self.assertEqual(room.status.robots[0].applied_sequence, robot.last_sequence)
+
+    def test_the_last_plan_of_a_stream_is_committed(self):
+        options = {"planning": {"speedMps": 0.5, "paths": "PATH_KIND_ANYTIME_XIT"}}
+        self.client.create_mission("stream", options)
+        robot = self.client.register("stream", "scout")
+        ToyRobot(robot).look(START)
+        plans = list(robot.stream_trajectories(seed=3))
+        self.assertEqual([bool(p.proto.name) for p in plans], [False] * (len(plans) - 1) + [True])
+        robot.report(plans[-1])
 
     def test_ranges_survive_the_wire(self):
         self.client.create_mission("ranges")

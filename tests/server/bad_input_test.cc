@@ -24,6 +24,25 @@ BadInputs BadMap() {
       .ValuesBlaming("layers[0]", "layers", {"0", "99", "-1"});
 }
 
+BadInputs BadQueryGas() {
+  using Request = v1::QueryGasRequest;
+  const auto kInvalid = absl::StatusCode::kInvalidArgument;
+  const std::initializer_list<const char*> off = {"nan", "inf", "-inf", "1001", "-1e300"};
+  return BadInputs()
+      .Rows(BadMissionName("mission"))
+      .Row({"points", "none", [](Message& m) { static_cast<Request&>(m).clear_points(); }, kInvalid,
+            "points"})
+      .Row({"points", "too many",
+            [](Message& m) {
+              while (static_cast<Request&>(m).points_size() <= kMaxPoints) {
+                static_cast<Request&>(m).add_points();
+              }
+            },
+            kInvalid, "points"})
+      .ValuesBlaming("points[0].x_m", "points.x_m", off)
+      .ValuesBlaming("points[0].y_m", "points.y_m", off);
+}
+
 // The rows by the name of the request's type.
 std::map<std::string, BadInputs> AllBadInputs() {
   const BadInputs ingest = BadInputs().Rows(BadBatch()).Rows(BadObservation());
@@ -35,7 +54,12 @@ std::map<std::string, BadInputs> AllBadInputs() {
           {"StreamObservationsRequest", ingest},
           {"BatchIngestObservationsRequest", ingest},
           {"NextBestTrajectoryRequest", BadNextBest()},
+          {"StreamNextBestTrajectoryRequest", BadNextBest()},
+          {"CheckTrajectoryRequest", BadCheckTrajectory()},
+          {"ListFrontiersRequest",
+           BadInputs().Rows(BadRobotName("robot")).Rows(UnknownMission("robot"))},
           {"ReportProgressRequest", BadReportProgress()},
+          {"QueryGasRequest", BadQueryGas()},
           {"GetMapRequest", BadMap()},
           {"WatchMapRequest", BadMap()}};
 }
@@ -46,6 +70,7 @@ std::set<std::string> FreeFields() {
       // Every number is a seed; 0 has a meaning of its own.
       "CreateMissionRequest.options.seed",
       "NextBestTrajectoryRequest.seed",
+      "StreamNextBestTrajectoryRequest.seed",
       // Both values of a bool are good.
       "CreateMissionRequest.options.planning.draw_goals",
       "CreateMissionRequest.options.planning.raw_variance",
@@ -57,9 +82,11 @@ std::set<std::string> FreeFields() {
       "CreateMissionRequest.options.planning.straighten",
       "CreateMissionRequest.options.planning.return_home",
       "NextBestTrajectoryRequest.go_home",
+      "StreamNextBestTrajectoryRequest.go_home",
       "RegisterRobotRequest.take_over",
       "GetMapRequest.full_precision",
       "GetMapRequest.fresh_posterior",
+      "QueryGasRequest.fresh_posterior",
       "WatchMapRequest.full_precision",
       // Unset options are the server's.
       "CreateMissionRequest.options",
@@ -70,7 +97,9 @@ std::set<std::string> FreeFields() {
       "CreateMissionRequest.options.home",
       // Unset: the robot's latest pose, the server's budget.
       "NextBestTrajectoryRequest.start",
+      "StreamNextBestTrajectoryRequest.start",
       "NextBestTrajectoryRequest.planning_budget",
+      "StreamNextBestTrajectoryRequest.planning_budget",
       // Unset, they lack a name or observations, of which there are rows.
       "BatchIngestObservationsRequest.open",
       "BatchIngestObservationsRequest.batch",
@@ -253,6 +282,40 @@ TEST_F(BadInputTest, StreamObservations) {
 TEST_F(BadInputTest, NextBestTrajectory) {
   Check(BadNextBest(), Copies(PlanFor(lease_)),
         SenderOf(planning_, &v1::PlanningService::Stub::NextBestTrajectory));
+}
+
+TEST_F(BadInputTest, StreamNextBestTrajectory) {
+  v1::StreamNextBestTrajectoryRequest good;
+  good.set_robot(kRobot);
+  good.set_lease_token(lease_);
+  Check(BadNextBest(), Copies(good), [this](const Message& request) {
+    return PlanStreamClient(*planning_,
+                            static_cast<const v1::StreamNextBestTrajectoryRequest&>(request))
+        .Finish();
+  });
+}
+
+TEST_F(BadInputTest, CheckTrajectory) {
+  v1::CheckTrajectoryRequest good;
+  good.set_robot(kRobot);
+  good.set_lease_token(lease_);
+  good.mutable_path()->add_vertices();
+  good.mutable_path()->set_goal_kind(v1::GOAL_KIND_HOME);
+  Check(BadCheckTrajectory(), Copies(good),
+        SenderOf(planning_, &v1::PlanningService::Stub::CheckTrajectory));
+}
+
+TEST_F(BadInputTest, ListFrontiers) {
+  Check(BadInputs().Rows(BadRobotName("robot")).Rows(UnknownMission("robot")),
+        Copies(v1::ListFrontiersRequest()),
+        SenderOf(planning_, &v1::PlanningService::Stub::ListFrontiers));
+}
+
+TEST_F(BadInputTest, QueryGas) {
+  v1::QueryGasRequest good;
+  good.set_mission("missions/hall");
+  good.add_points();
+  Check(BadQueryGas(), Copies(good), SenderOf(maps_, &v1::MapService::Stub::QueryGas));
 }
 
 TEST_F(BadInputTest, ReportProgress) {

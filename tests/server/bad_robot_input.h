@@ -3,6 +3,8 @@
 #pragma once
 
 #include "plumescout/v1/ingest_service.pb.h"
+#include "plumescout/v1/planning_service.pb.h"
+#include "proto/convert/inquiry.h"
 #include "proto/convert/observation.h"
 #include "server/config.h"
 #include "tests/server/bad_input.h"
@@ -134,6 +136,35 @@ inline BadInputs BadNextBest() {
       .Values("planning_budget.seconds", {"-1", "315576000001", "9223372036854775807"})
       .Values("planning_budget.nanos", {"-1", "1000000000"})
       .Values("max_edge_evaluation_count", {"-1"});
+}
+
+// Of a request with a path.
+inline BadInputs BadCheckTrajectory() {
+  using Request = v1::CheckTrajectoryRequest;
+  const auto kInvalid = absl::StatusCode::kInvalidArgument;
+  const std::initializer_list<const char*> off = {"nan", "inf", "-inf", "1001", "-1e300"};
+  return BadInputs()
+      .Rows(BadRobotName("robot"))
+      .Rows(UnknownMission("robot"))
+      .Rows(BadLease("lease_token"))
+      .Values("min_applied_sequence", {"-1", "2305843009213693953"})
+      .Row({"subject", "none", [](Message& m) { static_cast<Request&>(m).clear_subject(); },
+            kInvalid, "subject"})
+      .Values("plan",
+              {R"("")", R"("1")", R"("missions/hall/plans/0")", R"("missions/attic/plans/1")"})
+      .Value("plan", R"("missions/hall/plans/99")", absl::StatusCode::kNotFound, "NOT_FOUND")
+      .Row({"path", "empty",
+            [](Message& m) { static_cast<Request&>(m).mutable_path()->clear_vertices(); }, kInvalid,
+            "path.vertices"})
+      .Row({"path.vertices", "too many",
+            [](Message& m) {
+              auto& vertices = *static_cast<Request&>(m).mutable_path()->mutable_vertices();
+              while (vertices.size() <= kMaxPoints) vertices.Add();
+            },
+            kInvalid, "path.vertices"})
+      .ValuesBlaming("path.vertices[0].x_m", "path.vertices.x_m", off)
+      .ValuesBlaming("path.vertices[0].y_m", "path.vertices.y_m", off)
+      .Values("path.goal_kind", {"0", "99", "-1"});
 }
 
 inline BadInputs BadReportProgress() {

@@ -27,6 +27,15 @@ inline RegistryHooks ScriptedHooks(ScriptedStrategy::Script script) {
   return hooks;
 }
 
+// The same with better plans on the way.
+inline RegistryHooks AnytimeHooks(ScriptedStrategy::AnytimeScript script) {
+  RegistryHooks hooks;
+  hooks.make_strategy = [script = std::move(script)](const PlanningOptions&) {
+    return std::make_unique<const ScriptedStrategy>(script);
+  };
+  return hooks;
+}
+
 inline MissionHost::Parts HostParts(ScriptedStrategy::Script script = nullptr,
                                     EventSink sink = nullptr) {
   return {"hall", std::make_unique<Mission>(MissionOptions{}),

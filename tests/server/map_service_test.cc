@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "proto/convert/geometry.h"
 #include "tests/server/service_fixture.h"
 
 namespace plumescout::server {
@@ -145,6 +146,42 @@ TEST_F(MapServiceTest, StrangersAndUnknownLayersAreRefused) {
   EXPECT_THAT(GetMapOf("hall").status(), RefusesField("mission"));
   EXPECT_THAT(GetMapOf("missions/hall", {v1::MAP_LAYER_OCCUPANCY, 99}).status(),
               RefusesField("layers[1]"));
+}
+
+TEST_F(MapServiceTest, GasIsToldPointByPoint) {
+  const std::int64_t lease = Lease();
+  for (int k = 1; k <= 3; ++k) ASSERT_TRUE(Ingest(kRobot, lease, RoomScan(k)).ok());
+  ASSERT_TRUE(Ingest(kRobot, lease, GasReadings(4, 13)).ok());  // 1 ppm at (2, 1.5)
+  v1::QueryGasRequest request;
+  request.set_mission("missions/hall");
+  request.set_fresh_posterior(true);
+  for (const Point2 point : {Point2{2.0, 1.5}, Point2{5.5, 3.5}, Point2{2.0, 4.02}, {500.0, 0.0}}) {
+    *request.add_points() = ToProto(point);
+  }
+  const auto response = Call(maps_, &v1::MapService::Stub::QueryGas, request);
+  ASSERT_TRUE(response.ok()) << response.status();
+  ASSERT_EQ(response->gas_size(), 4);
+  EXPECT_EQ(response->gas(0).state(), v1::CELL_STATE_FREE);
+  EXPECT_TRUE(response->gas(0).observed());
+  EXPECT_GT(response->gas(0).mean_ppm(), 0.5);
+  EXPECT_FALSE(response->gas(1).observed());
+  EXPECT_GT(response->gas(1).variance_ppm2(), response->gas(0).variance_ppm2());
+  EXPECT_EQ(response->gas(2).state(), v1::CELL_STATE_OCCUPIED);
+  EXPECT_FALSE(response->gas(2).has_mean_ppm());
+  EXPECT_EQ(response->gas(3).state(), v1::CELL_STATE_OFF_MAP);
+  EXPECT_EQ(response->posterior_time_ns(), 13'000'000);
+  EXPECT_EQ(response->gas_quality().refresh_count(), 1);
+  EXPECT_EQ(response->revision(), Revision());
+}
+
+TEST_F(MapServiceTest, GasOfAnEmptyMapIsOffTheMap) {
+  v1::QueryGasRequest request;
+  request.set_mission("missions/hall");
+  request.add_points();
+  const auto response = Call(maps_, &v1::MapService::Stub::QueryGas, request);
+  ASSERT_TRUE(response.ok()) << response.status();
+  EXPECT_EQ(response->gas(0).state(), v1::CELL_STATE_OFF_MAP);
+  EXPECT_EQ(Revision(), 0);
 }
 
 TEST_F(MapServiceTest, WatchersAreServedToo) {

@@ -8,6 +8,8 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "absl/synchronization/blocking_counter.h"
 #include "absl/synchronization/notification.h"
@@ -22,8 +24,9 @@ constexpr int kPoolThreads = 2;
 // One order, and the answer to it.
 class PlanJobTest : public testing::Test {
  protected:
-  void StartHost(ScriptedStrategy::Script script) {
-    host_ = std::make_shared<MissionHost>(HostParts(std::move(script)), HostOptions{});
+  void StartHost(ScriptedStrategy::Script script) { StartHost(HostParts(std::move(script))); }
+  void StartHost(MissionHost::Parts parts) {
+    host_ = std::make_shared<MissionHost>(std::move(parts), HostOptions{});
     ASSERT_TRUE(host_
                     ->Post([](MissionWriter& writer) {
                       EXPECT_TRUE(writer.Register({"r1", 0.2, kLease}).ok());
@@ -35,14 +38,20 @@ class PlanJobTest : public testing::Test {
     if (host_ != nullptr) host_->Stop(absl::NotFoundError("over"));
   }
 
-  std::shared_ptr<PlanJob> Start(PlanOrder order) {
+  static PlanOrder OrderOf(PlanOrder order) {
     order.request.robot = "r1";
     order.lease_token = kLease;
+    return order;
+  }
+  PlanJob::Done Taker() {
+    return [this](absl::StatusOr<PlanAnswer> answer) {
+      answer_ = std::move(answer);
+      answered_.Notify();
+    };
+  }
+  std::shared_ptr<PlanJob> Start(PlanOrder order) {
     auto job = std::make_shared<PlanJob>(
-        PlanJob::Parts{host_, &pool_, std::move(order), [this](absl::StatusOr<PlanAnswer> answer) {
-                         answer_ = std::move(answer);
-                         answered_.Notify();
-                       }});
+        PlanJob::Parts{host_, &pool_, OrderOf(std::move(order)), Taker()});
     job->Start();
     return job;
   }
@@ -130,6 +139,26 @@ TEST_F(PlanJobTest, DeadlineStopsTheSearchBeforeTheBudget) {
   StartHost(SearchUntilStopped);
   Start({.budget = absl::Hours(1), .deadline = SteadyNow() + std::chrono::milliseconds(5)});
   EXPECT_TRUE(Answer().ok());
+}
+
+TEST_F(PlanJobTest, PlansOnTheWayAreToldAndNotCommitted) {
+  auto parts = HostParts();
+  parts.strategy = std::make_unique<const ScriptedStrategy>(
+      ScriptedStrategy::AnytimeScript([](const Belief& belief, const PlanRequest& request,
+                                         const StopFn&, const PlanListener& improved) {
+        improved(PlanTo(belief, request.robot, 5.0));
+        return PlanTo(belief, request.robot, 1.0);
+      }));
+  StartHost(std::move(parts));
+  std::vector<Plan> told;
+  auto job = std::make_shared<PlanJob>(PlanJob::Parts{
+      host_, &pool_, OrderOf({}), Taker(), [&](const Plan& plan) { told.push_back(plan); }});
+  job->Start();
+  ASSERT_TRUE(Answer().ok()) << Answer().status();
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].id, 0);
+  EXPECT_EQ(told[0].candidates[0].goal.position.x_m, 5.0);
+  EXPECT_EQ(Answer()->plan.id, 1);
 }
 
 TEST_F(PlanJobTest, CancelStopsTheSearchAndCommitsNothing) {

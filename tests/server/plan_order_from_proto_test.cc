@@ -36,6 +36,20 @@ TEST(PlanOrderFromProtoTest, EveryFieldIsTaken) {
   EXPECT_EQ(order.request.max_edge_evaluations, 1000);
 }
 
+TEST(PlanOrderFromProtoTest, StreamsAreOrderedAlike) {
+  v1::StreamNextBestTrajectoryRequest request;
+  request.mutable_start()->set_x_m(2.5);
+  request.set_min_applied_sequence(12);
+  request.mutable_planning_budget()->set_nanos(5'000'000);
+  request.set_go_home(true);
+  const auto order = PlanOrderFromProto(request, ServiceLimits{});
+  ASSERT_TRUE(order.ok()) << order.status();
+  EXPECT_EQ(order->request.start.value().x_m, 2.5);
+  EXPECT_EQ(order->min_applied_sequence, 12);
+  EXPECT_EQ(order->budget, absl::Milliseconds(5));
+  EXPECT_TRUE(order->request.go_home);
+}
+
 TEST(PlanOrderFromProtoTest, BudgetDefaultsAndIsCut) {
   const ServiceLimits limits{.default_planning_budget = absl::Milliseconds(700),
                              .max_planning_budget = absl::Seconds(2)};
@@ -45,7 +59,8 @@ TEST(PlanOrderFromProtoTest, BudgetDefaultsAndIsCut) {
   EXPECT_EQ(PlanOrderFromProto(request, limits)->budget, absl::Milliseconds(700));
   request.mutable_planning_budget()->set_seconds(3600);
   EXPECT_EQ(PlanOrderFromProto(request, limits)->budget, absl::Seconds(2));
-  EXPECT_FALSE(PlanOrderFromProto({}, limits)->request.start.has_value());
+  EXPECT_FALSE(
+      PlanOrderFromProto(v1::NextBestTrajectoryRequest(), limits)->request.start.has_value());
 }
 
 TEST(PlanOrderFromProtoTest, BadFieldsAreNamed) {

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "absl/synchronization/notification.h"
+#include "proto/convert/geometry.h"
 #include "tests/server/host_parts.h"
 #include "tests/server/service_fixture.h"
 
@@ -51,6 +52,17 @@ class PlanningServiceTest : public ServiceTest {
     v1::NextBestTrajectoryRequest request = Order();
     change(request);
     return NextBest(request);
+  }
+  v1::CheckTrajectoryRequest CheckOrder() const {
+    v1::CheckTrajectoryRequest request;
+    request.set_robot(kRobot);
+    request.set_lease_token(lease_);
+    return request;
+  }
+  absl::StatusOr<v1::CheckTrajectoryResponse> CheckPlan(std::int64_t plan) {
+    v1::CheckTrajectoryRequest request = CheckOrder();
+    request.set_plan(absl::StrCat("missions/hall/plans/", plan));
+    return Call(planning_, &v1::PlanningService::Stub::CheckTrajectory, request);
   }
   absl::StatusOr<v1::ReportProgressResponse> Report(
       std::int64_t plan,
@@ -194,6 +206,48 @@ TEST_F(PlanningServiceTest, ErrorsOfTheSearchReachTheCaller) {
               RefusesField("start"));
 }
 
+TEST_F(PlanningServiceTest, AStartOffTheMapIsRefusedWithItsReason) {
+  Start();
+  EXPECT_THAT(NextBestWith([](auto& request) { request.mutable_start()->set_x_m(500.0); }).status(),
+              Refuses(absl::StatusCode::kInvalidArgument, "START_OUTSIDE_MAP"));
+}
+
+TEST_F(PlanningServiceTest, ABudgetForNoPlanAtAllIsRefusedWithItsReason) {
+  Start();
+  const auto refused = NextBestWith([](auto& request) {
+    request.mutable_planning_budget()->set_seconds(0);
+    request.mutable_planning_budget()->set_nanos(1);
+  });
+  EXPECT_THAT(refused.status(),
+              Refuses(absl::StatusCode::kDeadlineExceeded, "DEADLINE_BEFORE_FIRST_PLAN"));
+}
+
+TEST_F(PlanningServiceTest, ARobotThatStandsNowhereFreeIsToldSo) {
+  StartServer();
+  lease_ = Lease();
+  ASSERT_TRUE(Ingest(kRobot, lease_, RoomScan(1)).ok());  // one scan makes no cell free
+  const auto response = NextBest(Order());
+  ASSERT_TRUE(response.ok()) << response.status();
+  EXPECT_EQ(response->plan().end(), v1::Plan::END_START_OCCUPIED);
+  EXPECT_EQ(response->plan().chosen_index(), -1);
+  EXPECT_NE(response->plan().explanation(), "");
+}
+
+TEST_F(PlanningServiceTest, APlanWithoutGoalsSaysWhatBecameOfThem) {
+  ServerConfig config;
+  config.mission.planning.min_goal_distance_m = 100.0;
+  Start(config);
+  const auto rejected = NextBest(Order());
+  ASSERT_TRUE(rejected.ok()) << rejected.status();
+  EXPECT_EQ(rejected->plan().end(), v1::Plan::END_ALL_GOALS_REJECTED);
+  ASSERT_GT(rejected->plan().rejected_goals_size(), 0);
+  const auto at_home = NextBestWith([](auto& request) { request.set_go_home(true); });
+  ASSERT_TRUE(at_home.ok()) << at_home.status();
+  EXPECT_EQ(at_home->plan().end(), v1::Plan::END_NO_GOALS);
+  EXPECT_EQ(at_home->plan().rejected_goals_size(), 0);
+  EXPECT_EQ(at_home->plan().explanation(), "Stay: the robot is home.");
+}
+
 TEST_F(PlanningServiceTest, GoalOfAnotherRobotAborts) {
   Start({}, DriveEast);
   ASSERT_TRUE(NextBest(Order()).ok());
@@ -216,6 +270,73 @@ TEST_F(PlanningServiceTest, StrangersAndOldLeasesGetNoPlan) {
               RefusesField("robot"));
   ASSERT_TRUE(Register("r1", /*take_over=*/true).ok());
   EXPECT_THAT(NextBest(Order()).status(), Refuses(kPrecondition, "LEASE_SUPERSEDED"));
+}
+
+TEST_F(PlanningServiceTest, APlanJustMadeStillHolds) {
+  Start();
+  const auto planned = NextBest(Order());
+  ASSERT_TRUE(planned.ok()) << planned.status();
+  const v1::Plan& plan = planned->plan();
+  const auto check = CheckPlan(1);
+  ASSERT_TRUE(check.ok()) << check.status();
+  EXPECT_FALSE(check->has_blockage());
+  EXPECT_FALSE(check->has_rejected_goal()) << check->rejected_goal().detail();
+  EXPECT_NEAR(check->rest().length_m(), plan.trajectory().length_m(), 1e-9);
+  EXPECT_NEAR(check->rest().cost(), plan.candidates(plan.chosen_index()).cost(), 1e-9);
+  EXPECT_EQ(check->revision(), Revision());
+}
+
+TEST_F(PlanningServiceTest, APathIntoTheDarkIsBlocked) {
+  Start();
+  const std::int64_t revision = Revision();
+  v1::CheckTrajectoryRequest request = CheckOrder();
+  *request.mutable_path()->add_vertices() = ToProto(Point2{2.0, 1.5});
+  *request.mutable_path()->add_vertices() = ToProto(Point2{900.0, 1.5});
+  request.mutable_path()->set_goal_kind(v1::GOAL_KIND_OCCUPANCY_FRONTIER);
+  const auto check = Call(planning_, &v1::PlanningService::Stub::CheckTrajectory, request);
+  ASSERT_TRUE(check.ok()) << check.status();
+  ASSERT_TRUE(check->has_blockage());
+  EXPECT_GT(check->blockage().distance_m(), 1.0);
+  EXPECT_NEAR(check->blockage().position().x_m(), 2.0 + check->blockage().distance_m(), 1e-9);
+  EXPECT_EQ(check->rejected_goal().reason(), v1::RejectedGoal::REASON_GONE);
+  EXPECT_FALSE(check->has_rest());
+  EXPECT_EQ(Revision(), revision) << "a question changes nothing";
+}
+
+TEST_F(PlanningServiceTest, ChecksOfOtherPlansAreRefused) {
+  Start({}, DriveEast);
+  EXPECT_THAT(CheckPlan(1).status(), Refuses(kNotFound, "NOT_FOUND"));
+  ASSERT_TRUE(NextBest(Order()).ok());
+  EXPECT_THAT(CheckPlan(1).status(), Refuses(kPrecondition, "PLAN_ENDED")) << "it has no waypoints";
+  ASSERT_TRUE(NextBest(Order()).ok());
+  EXPECT_THAT(CheckPlan(1).status(), Refuses(kPrecondition, "PLAN_SUPERSEDED"));
+}
+
+TEST_F(PlanningServiceTest, FrontiersAreListedAsThePlanSawThem) {
+  Start();
+  v1::ListFrontiersRequest request;
+  request.set_robot(kRobot);
+  const auto listed = Call(planning_, &v1::PlanningService::Stub::ListFrontiers, request);
+  ASSERT_TRUE(listed.ok()) << listed.status();
+  const auto planned = NextBest(Order());
+  ASSERT_TRUE(planned.ok()) << planned.status();
+  int offered = 0;
+  for (const v1::FrontierGoal& frontier : listed->frontiers()) {
+    if (frontier.reason() != v1::RejectedGoal::REASON_UNSPECIFIED) continue;
+    ++offered;
+    EXPECT_GT(frontier.travel_m(), 0.0);
+  }
+  EXPECT_EQ(offered, planned->plan().candidates_size());
+  EXPECT_EQ(listed->frontiers_size() - offered, planned->plan().rejected_goals_size());
+}
+
+TEST_F(PlanningServiceTest, ARobotThatWasNeverSeenHasNoFrontiers) {
+  Start();
+  ASSERT_TRUE(Register("r2").ok());
+  v1::ListFrontiersRequest request;
+  request.set_robot("missions/hall/robots/r2");
+  EXPECT_THAT(Call(planning_, &v1::PlanningService::Stub::ListFrontiers, request).status(),
+              Refuses(kPrecondition, "FAILED_PRECONDITION"));
 }
 
 TEST_F(PlanningServiceTest, RepeatedReportChangesNothing) {

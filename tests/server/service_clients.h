@@ -13,6 +13,7 @@
 #include "absl/status/status.h"
 #include "plumescout/v1/ingest_service.grpc.pb.h"
 #include "plumescout/v1/map_service.grpc.pb.h"
+#include "plumescout/v1/planning_service.grpc.pb.h"
 #include "proto/convert/status.h"
 
 namespace plumescout::server {
@@ -127,6 +128,38 @@ class WatchClient {
 
   grpc::ClientContext context_;
   std::unique_ptr<grpc::ClientReader<v1::WatchMapResponse>> stream_;
+};
+
+// A robot that hears of better and better plans.
+class PlanStreamClient {
+ public:
+  PlanStreamClient(v1::PlanningService::Stub& stub,
+                   const v1::StreamNextBestTrajectoryRequest& request) {
+    SetPatience(context_);
+    stream_ = stub.StreamNextBestTrajectory(&context_, request);
+  }
+
+  // An empty plan once the stream has ended.
+  v1::Plan Read() {
+    v1::StreamNextBestTrajectoryResponse response;
+    stream_->Read(&response);
+    return response.plan();
+  }
+  std::vector<v1::Plan> ReadAll() {
+    std::vector<v1::Plan> plans;
+    v1::StreamNextBestTrajectoryResponse response;
+    while (stream_->Read(&response)) plans.push_back(response.plan());
+    return plans;
+  }
+  void Cancel() { context_.TryCancel(); }
+  absl::Status Finish() {
+    ReadAll();
+    return ToAbsl(stream_->Finish());
+  }
+
+ private:
+  grpc::ClientContext context_;
+  std::unique_ptr<grpc::ClientReader<v1::StreamNextBestTrajectoryResponse>> stream_;
 };
 
 }  // namespace plumescout::server

@@ -15,15 +15,25 @@ class ScriptedStrategy final : public Strategy {
  public:
   using Script = std::function<absl::StatusOr<plumescout::Plan>(const Belief&, const PlanRequest&,
                                                                 const StopFn&)>;
+  // The same of a search with better plans on the way.
+  using AnytimeScript = std::function<absl::StatusOr<plumescout::Plan>(
+      const Belief&, const PlanRequest&, const StopFn&, const PlanListener&)>;
 
-  explicit ScriptedStrategy(Script script) : script_(std::move(script)) {}
+  explicit ScriptedStrategy(Script script)
+      : script_([script = std::move(script)](const Belief& belief, const PlanRequest& request,
+                                             const StopFn& stop, const PlanListener&) {
+          return script(belief, request, stop);
+        }) {}
+  explicit ScriptedStrategy(AnytimeScript script) : script_(std::move(script)) {}
+  using Strategy::Plan;
   absl::StatusOr<plumescout::Plan> Plan(const Belief& belief, const PlanRequest& request,
-                                        const StopFn& stop) const override {
-    return script_(belief, request, stop);
+                                        const StopFn& stop,
+                                        const PlanListener& improved) const override {
+    return script_(belief, request, stop, improved);
   }
 
  private:
-  Script script_;
+  AnytimeScript script_;
 };
 
 // A plan that drives robot `robot` to (x, 0), made on `belief`.

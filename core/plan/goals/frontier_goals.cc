@@ -3,6 +3,7 @@
 #include "core/plan/goals/frontier_goals.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
@@ -88,18 +89,16 @@ std::optional<RejectedGoal> Rejected(const GoalQuery& query, const Frontier& fro
 }
 
 void Judge(const GoalQuery& query, const std::vector<Frontier>& frontiers,
-           std::vector<OfferedGoal>& offered, std::vector<RejectedGoal>& rejected) {
+           std::vector<JudgedFrontier>& judged) {
   // An empty raster holds no cell.
   const std::vector<Polygon>& areas = query.belief.options->keep_out;
   const Grid<std::uint8_t> kept_out =
       areas.empty() ? Grid<std::uint8_t>() : KeptOutCells(areas, query.belief.geometry());
   for (const Frontier& frontier : frontiers) {
-    const Goal goal = GoalOf(frontier, query.belief.geometry());
-    if (std::optional<RejectedGoal> rejection = Rejected(query, frontier, goal, kept_out)) {
-      rejected.push_back(*std::move(rejection));
-    } else {
-      offered.push_back({goal, frontier.travel_m});
-    }
+    JudgedFrontier& added = judged.emplace_back();
+    added.goal = GoalOf(frontier, query.belief.geometry());
+    if (frontier.reachable) added.travel_m = frontier.travel_m;
+    added.rejection = Rejected(query, frontier, added.goal, kept_out);
   }
 }
 
@@ -126,16 +125,29 @@ std::optional<RejectedGoal> RejectedByMemory(const GoalQuery& query, const Goal&
   return std::nullopt;
 }
 
-FrontierGoals FindFrontierGoals(const GoalQuery& query) {
+std::vector<JudgedFrontier> JudgeFrontiers(const GoalQuery& query) {
   const Belief& belief = query.belief;
-  FrontierGoals found;
+  std::vector<JudgedFrontier> judged;
   if (query.options.goals != GoalPolicy::kOccupancyOnly) {
-    Judge(query, GasFrontiers(query), found.gas, found.rejected);
+    Judge(query, GasFrontiers(query), judged);
   }
   Judge(query,
         FindOccupancyFrontiers(*belief.occupancy, *belief.traversable, {query.start},
                                belief.options->frontier.min_occupancy_cells),
-        found.occupancy, found.rejected);
+        judged);
+  return judged;
+}
+
+FrontierGoals FindFrontierGoals(const GoalQuery& query) {
+  FrontierGoals found;
+  for (JudgedFrontier& frontier : JudgeFrontiers(query)) {
+    if (frontier.rejection) {
+      found.rejected.push_back(*std::move(frontier.rejection));
+    } else {
+      const bool is_gas = frontier.goal.kind == GoalKind::kGasFrontier;
+      (is_gas ? found.gas : found.occupancy).push_back({frontier.goal, *frontier.travel_m});
+    }
+  }
   return found;
 }
 

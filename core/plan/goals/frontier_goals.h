@@ -29,7 +29,10 @@ struct FrontierGoals {
 // core/belief/belief.h), claimed by another robot (ClaimCovers), or too close, in this order; the
 // rest are offered. The goal of a gas frontier is one of its own cells, for only a reading taken
 // there resolves it; one without a cell to stand on is unreachable. Gas frontiers are not sought
-// under GoalPolicy::kOccupancyOnly.
+// under GoalPolicy::kOccupancyOnly. Those of gas come first.
+std::vector<JudgedFrontier> JudgeFrontiers(const GoalQuery& query);
+
+// The same, sorted by what may become of them.
 FrontierGoals FindFrontierGoals(const GoalQuery& query);
 
 // Why this robot must not be sent to `goal` by what other plans and earlier visits say, if so.

@@ -165,8 +165,11 @@ TEST(FleetRecords, HoldTheTrajectoryOfTheLivePlan) {
   const PlanId plan = *fleet.Issue(PlanTo("a", {1.0, 1.0}), 0);
   ASSERT_NE(fleet.Records().at("a").live_trajectory, nullptr);
   EXPECT_EQ(fleet.Records().at("a").live_trajectory->duration_s, 10.0);
+  EXPECT_EQ(fleet.Records().at("a").live_goal.value().position, (Point2{1.0, 1.0}));
+  EXPECT_EQ(fleet.Records().at("a").last_plan, plan);
   ASSERT_TRUE(fleet.Report({"a", plan, ProgressOutcome::kReached}).ok());
   EXPECT_EQ(fleet.Records().at("a").live_trajectory, nullptr);
+  EXPECT_FALSE(fleet.Records().at("a").live_goal.has_value());
   Plan stay = PlanTo("a", {1.0, 1.0});
   stay.chosen = -1;
   ASSERT_TRUE(fleet.Issue(stay, 0).ok());

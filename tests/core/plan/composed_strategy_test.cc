@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <vector>
 
 #include "lab/bench/random_world.h"
 #include "tests/support/goal_case.h"
@@ -42,6 +43,45 @@ Grid<float> Penalty(const Belief& belief) {
     if ((*belief.traversable)[i] != 0) penalty[i] = 1.0F;
   }
   return penalty;
+}
+
+std::vector<Plan> PlansOnTheWay(const Belief& belief, const RobotId& robot,
+                                const PlanningOptions& options, Plan& last) {
+  std::vector<Plan> plans;
+  const auto strategy = MakeStrategy(options);
+  const auto plan = (*strategy)->Plan(belief, For(robot, 5), NeverStop(),
+                                      [&](const Plan& better) { plans.push_back(better); });
+  EXPECT_TRUE(plan.ok()) << plan.status();
+  last = plan.value_or(Plan{});
+  return plans;
+}
+
+TEST(Strategy, TellsOfBetterPlansOnTheWay) {
+  PlanningOptions options;
+  options.paths = PathKind::kAnytimeXit;
+  const lab::RandomWorld world = lab::MakeRandomWorld(2, 3);
+  Plan last;
+  std::vector<Plan> plans = PlansOnTheWay(world.belief, world.robot, options, last);
+  ASSERT_THAT(plans, Not(IsEmpty()));
+  plans.push_back(last);
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    EXPECT_EQ(plans[i].id, 0);
+    EXPECT_THAT(plans[i].explanation, HasSubstr("Drive "));
+    EXPECT_NEAR(plans[i].trajectory.length_m, Chosen(plans[i]).length_m, kRounding);
+    if (i == 0) continue;
+    for (const Candidate& candidate : plans[i].candidates) {
+      for (const Candidate& before : plans[i - 1].candidates) {
+        if (!(before.goal == candidate.goal)) continue;
+        EXPECT_LE(candidate.cost, before.cost);
+      }
+    }
+  }
+}
+
+TEST(Strategy, TellsOfNoneIfTheSearchHasNone) {
+  Plan last;
+  EXPECT_THAT(PlansOnTheWay(SmallBelief(kRoom), "r", {}, last), IsEmpty());
+  EXPECT_THAT(last.candidates, SizeIs(2));
 }
 
 TEST(Strategy, PlansToTheCheapestFrontier) {

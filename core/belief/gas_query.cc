@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/belief/gas_query.h"
+
+#include <cmath>
+
+#include "core/frontier/gas_frontier.h"
+
+namespace plumescout {
+namespace {
+
+std::optional<double> IfKnown(float value) {
+  if (!std::isfinite(value)) return std::nullopt;
+  return static_cast<double>(value);
+}
+
+}  // namespace
+
+std::vector<GasAtPlace> QueryGas(const Belief& belief, const std::vector<Point2>& places) {
+  const double observed_ppm2 = ObservedVariance_ppm2(belief.options->frontier, belief.options->gas);
+  std::vector<GasAtPlace> answers;
+  answers.reserve(places.size());
+  for (const Point2 place : places) {
+    GasAtPlace& gas = answers.emplace_back();
+    const Cell cell = belief.geometry().CellAt(place);
+    if (!belief.occupancy->Contains(cell)) continue;
+    gas.state = (*belief.occupancy)[cell];
+    gas.mean_ppm = IfKnown((*belief.gas_mean_ppm)[cell]);
+    gas.variance_ppm2 = IfKnown((*belief.gas_variance_ppm2)[cell]);
+    gas.observed = gas.variance_ppm2 && *gas.variance_ppm2 <= observed_ppm2;
+  }
+  return answers;
+}
+
+}  // namespace plumescout

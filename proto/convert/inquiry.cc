@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "proto/convert/inquiry.h"
+
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "core/types/status_macros.h"
+#include "proto/convert/enums.h"
+#include "proto/convert/field.h"
+#include "proto/convert/geometry.h"
+#include "proto/convert/plan.h"
+
+namespace plumescout {
+
+absl::StatusOr<std::vector<Point2>> PointsFromProto(
+    const google::protobuf::RepeatedPtrField<v1::Point2D>& points, double limit_m,
+    absl::string_view field) {
+  if (points.empty() || points.size() > kMaxPoints) {
+    return FieldError(field, absl::StrCat(points.size(), " points"),
+                      absl::StrCat("must be 1 to ", kMaxPoints));
+  }
+  std::vector<Point2> result;
+  for (int i = 0; i < points.size(); ++i) {
+    const std::string item = Join("", field, i);
+    PLUMESCOUT_ASSIGN_OR_RETURN(const Point2 point, FromProto(points.Get(i), item));
+    PLUMESCOUT_RETURN_IF_ERROR(CheckRange(Join(item, "x_m"), point.x_m, -limit_m, limit_m));
+    PLUMESCOUT_RETURN_IF_ERROR(CheckRange(Join(item, "y_m"), point.y_m, -limit_m, limit_m));
+    result.push_back(point);
+  }
+  return result;
+}
+
+v1::CheckTrajectoryResponse ToProto(const TrajectoryCheck& check) {
+  v1::CheckTrajectoryResponse proto;
+  if (check.blockage) {
+    v1::Blockage& blockage = *proto.mutable_blockage();
+    *blockage.mutable_cell() = ToProto(check.blockage->cell);
+    *blockage.mutable_position() = ToProto(check.blockage->position);
+    blockage.set_distance_m(check.blockage->distance_m);
+    blockage.set_state(ToProto(check.blockage->state));
+  }
+  if (check.rejection) *proto.mutable_rejected_goal() = ToProto(*check.rejection);
+  if (check.rest) *proto.mutable_rest() = ToProto(*check.rest);
+  return proto;
+}
+
+v1::FrontierGoal ToProto(const JudgedFrontier& frontier) {
+  v1::FrontierGoal proto;
+  *proto.mutable_goal() = ToProto(frontier.goal);
+  if (frontier.travel_m) proto.set_travel_m(*frontier.travel_m);
+  if (frontier.rejection) {
+    proto.set_reason(ToProto(frontier.rejection->reason));
+    proto.set_detail(frontier.rejection->detail);
+  }
+  return proto;
+}
+
+v1::GasAtPoint ToProto(const GasAtPlace& gas) {
+  v1::GasAtPoint proto;
+  proto.set_state(ToProto(gas.state));
+  if (gas.mean_ppm) proto.set_mean_ppm(*gas.mean_ppm);
+  if (gas.variance_ppm2) proto.set_variance_ppm2(*gas.variance_ppm2);
+  proto.set_observed(gas.observed);
+  return proto;
+}
+
+}  // namespace plumescout

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/belief/gas_query.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <memory>
+
+#include "core/frontier/gas_frontier.h"
+
+namespace plumescout {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+// Four cells in a row from the origin: measured, free, unknown, wall.
+Belief Row() {
+  const GridGeometry geometry{0.0, 0.0, 0.1, 4, 1};
+  Belief belief;
+  belief.options = std::make_shared<const MissionOptions>();
+  Grid<CellState> states(geometry, CellState::kFree);
+  states[Cell{2, 0}] = CellState::kUnknown;
+  states[Cell{3, 0}] = CellState::kOccupied;
+  Grid<float> mean(geometry, kNaN);
+  Grid<float> variance(geometry, kNaN);
+  mean[Cell{0, 0}] = 25.0F;
+  mean[Cell{1, 0}] = 3.0F;
+  const double observed_ppm2 = ObservedVariance_ppm2(belief.options->frontier, belief.options->gas);
+  variance[Cell{0, 0}] = static_cast<float>(0.5 * observed_ppm2);
+  variance[Cell{1, 0}] = static_cast<float>(2.0 * observed_ppm2);
+  belief.occupancy = std::make_shared<const Grid<CellState>>(states);
+  belief.gas_mean_ppm = std::make_shared<const Grid<float>>(mean);
+  belief.gas_variance_ppm2 = std::make_shared<const Grid<float>>(variance);
+  return belief;
+}
+
+TEST(QueryGas, TellsMeasuredPlacesFromOthers) {
+  const auto answers = QueryGas(Row(), {{0.05, 0.05}, {0.15, 0.05}});
+  ASSERT_EQ(answers.size(), 2u);
+  EXPECT_EQ(answers[0].mean_ppm, 25.0);
+  EXPECT_TRUE(answers[0].observed);
+  EXPECT_EQ(answers[1].mean_ppm, 3.0);
+  EXPECT_FALSE(answers[1].observed);
+  EXPECT_GT(*answers[1].variance_ppm2, *answers[0].variance_ppm2);
+}
+
+TEST(QueryGas, HasNoValuesOffFreeCells) {
+  const auto answers = QueryGas(Row(), {{0.25, 0.05}, {0.35, 0.05}});
+  ASSERT_EQ(answers.size(), 2u);
+  EXPECT_EQ(answers[0].state, CellState::kUnknown);
+  EXPECT_EQ(answers[1].state, CellState::kOccupied);
+  for (const GasAtPlace& gas : answers) {
+    EXPECT_FALSE(gas.mean_ppm || gas.variance_ppm2 || gas.observed);
+  }
+}
+
+TEST(QueryGas, SaysWhatIsOffTheMap) {
+  for (const Point2 place : {Point2{-0.01, 0.05}, Point2{0.05, 1e300}, Point2{-1e300, 0.0}}) {
+    const auto answers = QueryGas(Row(), {place});
+    ASSERT_EQ(answers.size(), 1u);
+    EXPECT_FALSE(answers[0].state || answers[0].mean_ppm || answers[0].observed);
+  }
+}
+
+TEST(QueryGas, OfNothingIsNothing) { EXPECT_TRUE(QueryGas(Row(), {}).empty()); }
+
+TEST(QueryGas, FreeCellsWithoutAPosteriorHaveNoValues) {
+  Belief belief = Row();
+  belief.gas_mean_ppm = std::make_shared<const Grid<float>>(belief.geometry(), kNaN);
+  belief.gas_variance_ppm2 = belief.gas_mean_ppm;
+  const auto answers = QueryGas(belief, {{0.05, 0.05}});
+  EXPECT_EQ(answers.at(0).state, CellState::kFree);
+  EXPECT_FALSE(answers[0].mean_ppm || answers[0].variance_ppm2 || answers[0].observed);
+}
+
+}  // namespace
+}  // namespace plumescout
