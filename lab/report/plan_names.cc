@@ -54,6 +54,8 @@ const char* NameOf(RejectionReason reason) {
       return "over the travel budget";
     case RejectionReason::kKeptOut:
       return "in a keep-out area";
+    case RejectionReason::kGone:
+      return "gone";
   }
   return "unknown";
 }

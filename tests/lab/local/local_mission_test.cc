@@ -204,9 +204,10 @@ TEST_F(LocalMissionTest, PlansSeeEveryReadingInThePosterior) {
 }
 
 TEST_F(LocalMissionTest, PosteriorsAreRecomputedWhileAMissionRuns) {
-  mission_ = std::make_shared<LocalMission>(std::make_unique<Mission>(support::FastAgeing()),
-                                            std::make_unique<const ScriptedStrategy>(nullptr),
-                                            LocalOptions{.credit_window = 1000});
+  mission_ = std::make_shared<LocalMission>(
+      std::make_unique<Mission>(support::FastAgeing()),
+      std::make_unique<const ScriptedStrategy>(support::ScriptedStrategy::Script()),
+      LocalOptions{.credit_window = 1000});
   const std::int64_t lease = Join("scout");
   const std::int64_t stream = *mission_->OpenStream("scout", lease);
   std::vector<client::ObservationRejected> rejected;
