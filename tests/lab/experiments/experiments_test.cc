@@ -14,9 +14,11 @@ TEST(Experiments, EachRunsByItsNameAndRepeatsFromItsSeed) {
     const auto study = RunExperiment(name, options);
     ASSERT_TRUE(study.ok()) << study.status();
     EXPECT_FALSE(study->table.rows.empty()) << name;
-    EXPECT_EQ(RunExperiment(name, options)->figures.key_numbers, study->figures.key_numbers) << name;
+    EXPECT_EQ(RunExperiment(name, options)->figures.key_numbers, study->figures.key_numbers)
+        << name;
     options.seed = 2;
-    EXPECT_NE(RunExperiment(name, options)->figures.key_numbers, study->figures.key_numbers) << name;
+    EXPECT_NE(RunExperiment(name, options)->figures.key_numbers, study->figures.key_numbers)
+        << name;
     options.seed = 1;
   }
 }
