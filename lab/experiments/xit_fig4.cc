@@ -186,6 +186,12 @@ void AddFigures(const SceneStudy& study, Summary& summary) {
   }
 }
 
+std::string Text(const Spread& spread) {
+  if (spread.ratios.empty()) return "no path";
+  if (spread.ratios.size() == 1) return absl::StrFormat("%.3f, one path", spread.mean());
+  return absl::StrFormat("%.3f +- %.3f", spread.mean(), spread.stddev());
+}
+
 // The means at the samples of the pictures and at the most of one kind of sampling.
 void AddMeans(const SceneStudy& study, SamplingKind sampling, ReportFigures& figures) {
   const int most = study.spreads.back().samples;
@@ -194,7 +200,7 @@ void AddMeans(const SceneStudy& study, SamplingKind sampling, ReportFigures& fig
     if (!shown || spread.sampling != sampling) continue;
     figures.key_numbers.emplace_back(
         absl::StrFormat("%s, %s, N = %d", study.scene.name, NameOf(sampling), spread.samples),
-        absl::StrFormat("%.3f +- %.3f", spread.mean(), spread.stddev()));
+        Text(spread));
   }
 }
 
