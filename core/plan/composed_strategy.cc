@@ -180,9 +180,7 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
 
 plumescout::Plan ComposedStrategy::Incumbent(const Judging& judging, PathResult result,
                                              plumescout::Plan plan) const {
-  const bool all = std::all_of(result.paths.begin(), result.paths.end(),
-                               [](const auto& path) { return path.has_value(); });
-  result.end = all ? PlanEnd::kAllGoalsReached : PlanEnd::kStopped;
+  result.end = EndOf(result.paths, /*stopped=*/true);
   PlanningOptions options = options_;
   // It would cost the search its time.
   if (options.selection == SelectionRule::kInformationRate) {

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+// The program plumescout-robot as a robot's own program sees it: lines in, lines out, an exit code.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "absl/time/clock.h"
+#include "client/grpc_planner_client.h"
+#include "server/server.h"
+#include "tests/support/box_room.h"
+#include "tests/support/temp_folder.h"
+
+namespace plumescout::client {
+namespace {
+
+constexpr char kProgram[] = PLUMESCOUT_ROBOT_PROGRAM;
+constexpr Pose2 kPose = {1.5, 1.0, 0.0};
+constexpr std::int64_t kStep_ns = 100'000'000;
+
+std::string Read(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+// What a robot that stands in a room of 5 x 4 m writes at one moment.
+std::string LinesAt(std::int64_t time_ns) {
+  std::vector<std::string> ranges;
+  const Scan scan = support::ScanInBox(kPose, 5.0, 4.0);
+  for (const float range_m : scan.ranges_m) {
+    ranges.push_back(std::isfinite(range_m) ? absl::StrCat(range_m) : "null");
+  }
+  return absl::StrCat(R"({"type":"pose","time_ns":)", time_ns, R"(,"x_m":)", kPose.x_m,
+                      R"(,"y_m":)", kPose.y_m, R"(,"yaw_rad":0})", "\n",
+                      R"({"type":"scan","time_ns":)", time_ns, R"(,"start_angle_rad":)",
+                      scan.start_angle_rad, R"(,"angle_step_rad":)", scan.angle_step_rad,
+                      R"(,"max_range_m":8,"ranges_m":[)", absl::StrJoin(ranges, ","), "]}\n",
+                      R"({"type":"gas","time_ns":)", time_ns, R"(,"concentration_ppm":3.2})", "\n");
+}
+
+class RobotMainTest : public ::testing::Test {
+ protected:
+  // Runs the program without input. Returns its exit code.
+  int Run(const std::string& arguments) {
+    return WEXITSTATUS(std::system(Command(arguments, "< /dev/null").c_str()));
+  }
+  std::string Command(const std::string& arguments, const std::string& input) const {
+    return absl::StrCat(kProgram, " ", arguments, " ", input, " > ", out_, " 2> ", err_);
+  }
+
+  TempFolder folder_;
+  const std::string out_ = folder_.File("out");
+  const std::string err_ = folder_.File("err");
+};
+
+TEST_F(RobotMainTest, SaysHowItIsUsed) {
+  EXPECT_EQ(Run("--help"), EXIT_SUCCESS);
+  const std::string help = Read(out_);
+  for (const char* word : {"--server", "--mission", "--robot", R"("type":"scan")", "twist"}) {
+    EXPECT_TRUE(absl::StrContains(help, word)) << word;
+  }
+}
+
+TEST_F(RobotMainTest, RefusesToStartWithoutNames) {
+  EXPECT_NE(Run("--robot scout"), EXIT_SUCCESS);
+  EXPECT_TRUE(absl::StrContains(Read(err_), "--mission")) << Read(err_);
+}
+
+TEST_F(RobotMainTest, FailsIfTheRobotNeverSaysWhereItIs) {
+  EXPECT_EQ(Run("--mission room --robot scout"), EXIT_FAILURE);
+  EXPECT_TRUE(absl::StrContains(Read(err_), "plumescout-robot: ")) << Read(err_);
+}
+
+// A server, and the program as its client with a pipe to its standard input.
+class RobotMainWithServerTest : public RobotMainTest {
+ protected:
+  void SetUp() override {
+    signal(SIGPIPE, SIG_IGN);  // the program may end before we stop writing
+    server::ServerConfig config;
+    config.listen = "127.0.0.1:0";
+    auto server = server::Server::Start(config);
+    ASSERT_TRUE(server.ok()) << server.status();
+    server_ = *std::move(server);
+    address_ = absl::StrCat("127.0.0.1:", server_->port());
+  }
+  void Start(const std::string& arguments) {
+    const std::string all =
+        absl::StrCat("--server ", address_, " --mission room --robot scout --create-mission ");
+    robot_ = popen(Command(all + arguments, "").c_str(), "w");
+    ASSERT_NE(robot_, nullptr);
+  }
+  void Write(const std::string& lines) {
+    fputs(lines.c_str(), robot_);
+    fflush(robot_);
+  }
+  // Ends the program's input. Returns its exit code.
+  int End() { return WEXITSTATUS(pclose(robot_)); }
+
+  std::unique_ptr<server::Server> server_;
+  std::string address_;
+  FILE* robot_ = nullptr;
+};
+
+constexpr absl::Duration kPace = absl::Milliseconds(10);
+
+TEST_F(RobotMainWithServerTest, DrivesByPlansUntilTheRobotsProgramEnds) {
+  Start("");
+  Write("this is no message\n");
+  constexpr int kMostSteps = 3000;  // far beyond what a plan takes on any machine
+  for (int step = 1; step <= kMostSteps && !absl::StrContains(Read(out_), "twist"); ++step) {
+    Write(LinesAt(step * kStep_ns));
+    absl::SleepFor(kPace);
+  }
+  EXPECT_EQ(End(), EXIT_FAILURE) << "nobody told it that the mission is over";
+  const std::string notes = Read(err_);
+  EXPECT_TRUE(absl::StrContains(Read(out_), R"("type":"twist")")) << notes;
+  for (const char* note : {"bad line: ", "plan 1 at ", "the robot program has ended"}) {
+    EXPECT_TRUE(absl::StrContains(notes, note)) << note << " is not in:\n" << notes;
+  }
+  const auto map = MakeGrpcPlannerClient({.target = address_})->GetMap("room");
+  ASSERT_TRUE(map.ok()) << map.status();
+  EXPECT_GT(map->gas_counters.readings, 0);
+}
+
+TEST_F(RobotMainWithServerTest, SaysWhatItDidWhenItsTimeIsOver) {
+  Start("--time-limit 1");
+  for (int step = 1; step <= 20; ++step) {
+    Write(LinesAt(step * kStep_ns));
+    absl::SleepFor(kPace);
+  }
+  EXPECT_EQ(End(), EXIT_SUCCESS);
+  EXPECT_TRUE(absl::StrContains(Read(err_), "done after ")) << Read(err_);
+}
+
+}  // namespace
+}  // namespace plumescout::client
