@@ -18,6 +18,8 @@ struct GasMapPeer {
   static constexpr bool kStopsAtDefects = true;
 #endif
 
+  static constexpr char kDefect[] = "not finite";  // what such builds say then
+
   // From now on no field that is made anew can be computed.
   static void LosePrior(GasMap& map) { map.field_options_.prior.prior_precision = std::nan(""); }
   static void FindPrior(GasMap& map) {
