@@ -176,7 +176,9 @@ TEST(MotionTest, TellsWhetherTheRobotStands) {
       stood = motion->standing();
       const Pose2 before = driver.pose();
       ASSERT_TRUE(driver.Advance(kTick_s).ok());
-      if (stood && following == Following::kProportional) EXPECT_EQ(driver.pose(), before);
+      if (stood && following == Following::kProportional) {
+        EXPECT_EQ(driver.pose(), before);
+      }
     }
     EXPECT_EQ(stops, 2) << "at the corner and at the end";
     EXPECT_TRUE(motion->standing());
