@@ -6,20 +6,32 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "lab/experiments/mit_table1.h"
+#include "lab/experiments/xit_episode.h"
 #include "lab/experiments/xit_fig3.h"
 #include "lab/experiments/xit_fig4.h"
+#include "lab/experiments/xit_trial.h"
 
 namespace plumescout::lab {
 namespace {
 
 struct Experiment {
   const char* name;
-  Study (*run)(const ExperimentOptions&);
+  absl::StatusOr<Study> (*run)(const ExperimentOptions&);
 };
 
-constexpr std::array<Experiment, 2> kExperiments = {{
-    {"xit_fig3", RunXitFig3},
-    {"xit_fig4", RunXitFig4},
+// An experiment that cannot fail, as one that can.
+template <Study (*Run)(const ExperimentOptions&)>
+absl::StatusOr<Study> Sure(const ExperimentOptions& options) {
+  return Run(options);
+}
+
+constexpr std::array<Experiment, 5> kExperiments = {{
+    {"mit_table1", Sure<RunMitTable1>},
+    {"xit_episode", RunXitEpisode},
+    {"xit_fig3", Sure<RunXitFig3>},
+    {"xit_fig4", Sure<RunXitFig4>},
+    {"xit_trial", RunXitTrial},
 }};
 
 }  // namespace

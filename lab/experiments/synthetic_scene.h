@@ -47,6 +47,10 @@ struct SyntheticScene {
   Goal goal;
 };
 
+// Cells of 0.1 m: free, but for an outer wall and the obstacles.
+Grid<CellState> MakeOccupancy(double width_m, double height_m,
+                              const std::vector<SceneBox>& obstacles);
+
 SyntheticScene BuildScene(const SceneSpec& spec);
 
 // Gas away from the straight way, between obstacles: what the distance weight is to show on.
