@@ -48,7 +48,7 @@ SceneMakerOptions SceneOptions(const ExperimentOptions& options) {
 
 absl::StatusOr<EpisodeOptions> MakeEpisodeOptions(const ExperimentOptions& options) {
   EpisodeOptions episode;
-  episode.mission = "xit_episode";
+  episode.mission = "xit-episode";
   episode.create.emplace();
   episode.create->seed = options.seed;
   episode.create->planning.strategy = "xit_gff";

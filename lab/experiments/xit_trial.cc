@@ -75,7 +75,7 @@ absl::StatusOr<MissionOptions> MakeMissionOptions(std::uint64_t seed) {
 
 absl::StatusOr<EpisodeOptions> MakeEpisodeOptions(const ExperimentOptions& options) {
   EpisodeOptions episode;
-  episode.mission = "xit_trial";
+  episode.mission = "xit-trial";
   PLUMESCOUT_ASSIGN_OR_RETURN(episode.create, MakeMissionOptions(options.seed));
   episode.duration_s = options.quick ? kQuickDuration_s : kDuration_s;
   episode.following = client::Following::kProportional;
