@@ -6,6 +6,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "lab/experiments/wind_validation.h"
 #include "lab/experiments/xit_fig3.h"
 #include "lab/experiments/xit_fig4.h"
 
@@ -17,7 +18,8 @@ struct Experiment {
   Study (*run)(const ExperimentOptions&);
 };
 
-constexpr std::array<Experiment, 2> kExperiments = {{
+constexpr std::array<Experiment, 3> kExperiments = {{
+    {"wind_validation", RunWindValidation},
     {"xit_fig3", RunXitFig3},
     {"xit_fig4", RunXitFig4},
 }};

@@ -40,8 +40,7 @@ FlowSolver::FlowSolver(const FlowDomain& domain, const FreeFaces& free, Projecti
 
 double FlowSolver::StableStep_s() const {
   const double h = velocity_.geometry().resolution_m;
-  const Velocity largest = velocity_.MaxMagnitudes();
-  const double fastest_mps = std::max(largest.u_mps + largest.v_mps, fastest_edge_mps_);
+  const double fastest_mps = std::max(velocity_.FastestCell_mps(), fastest_edge_mps_);
   return 1.0 / (fastest_mps / h + 4.0 * viscosity_m2_per_s_ / (h * h));
 }
 

@@ -45,4 +45,16 @@ Velocity MacField::MaxMagnitudes() const {
   return {MaxMagnitude(values().first(first_v_)), MaxMagnitude(values().subspan(first_v_))};
 }
 
+double MacField::FastestCell_mps() const {
+  double fastest = 0.0;
+  for (int y = 0; y < geometry_.height; ++y) {
+    for (int x = 0; x < geometry_.width; ++x) {
+      const double east = std::max(std::abs(u(x, y)), std::abs(u(x + 1, y)));
+      const double north = std::max(std::abs(v(x, y)), std::abs(v(x, y + 1)));
+      fastest = std::max(fastest, east + north);
+    }
+  }
+  return fastest;
+}
+
 }  // namespace plumescout::lab

@@ -57,6 +57,9 @@ class MacField {
   void AddScaled(const MacField& other, double factor);
   // max |u| and max |v|, each over its own faces.
   Velocity MaxMagnitudes() const;
+  // max |u| + max |v| over the faces of one cell, of the cell where that is largest: the rate at
+  // which a time step uses up cells.
+  double FastestCell_mps() const;
 
  private:
   GridGeometry geometry_;
