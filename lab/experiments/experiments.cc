@@ -7,6 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "lab/experiments/mit_table1.h"
+#include "lab/experiments/wind_validation.h"
 #include "lab/experiments/xit_episode.h"
 #include "lab/experiments/xit_fig3.h"
 #include "lab/experiments/xit_fig4.h"
@@ -26,8 +27,9 @@ absl::StatusOr<Study> Sure(const ExperimentOptions& options) {
   return Run(options);
 }
 
-constexpr std::array<Experiment, 5> kExperiments = {{
+constexpr std::array<Experiment, 6> kExperiments = {{
     {"mit_table1", Sure<RunMitTable1>},
+    {"wind_validation", Sure<RunWindValidation>},
     {"xit_episode", RunXitEpisode},
     {"xit_fig3", Sure<RunXitFig3>},
     {"xit_fig4", Sure<RunXitFig4>},

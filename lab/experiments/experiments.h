@@ -10,7 +10,7 @@
 
 namespace plumescout::lab {
 
-// Figures of the papers that can be made again, by name: "xit_fig3", "xit_fig4".
+// Figures of the papers that can be made again, by name: "xit_fig3", ...
 std::vector<std::string> ExperimentNames();
 
 // Same options, same values. kInvalidArgument for an unknown name.
