@@ -280,10 +280,10 @@ std::string SensitivityNote(const TableStudy& study) {
       "MIT finds trajectory 3 best more often than RRT* in %d of all %d scenes, the path that it "
       "chooses has more UCB in %d, and %d scenes reach both 55 %% and 15 points over RRT*. What "
       "the informed draw adds is another matter: the same search with samples spread evenly over "
-      "the free space leads RRT* by %+.1f points in the scene of the table, MIT by %+.1f. Its "
-      "paths through %d samples seen from far are shorter and straighter than those of a tree "
-      "that stops at its first success, and with paths that wander less the choice is more often "
-      "the same.",
+      "the free space leads RRT* by %+.1f points in the scene of the table, MIT by %+.1f. A likely "
+      "reason: paths through %d samples that see far are shorter and straighter than those of a "
+      "tree that stops at its first success, and paths that wander less settle the choice the same "
+      "way more often.",
       study.scenes.size() - 1, ScenesAhead(study, kMit, kRrtStar, InformativeShare),
       study.scenes.size(), ScenesAhead(study, kMit, kRrtStar, ChosenPsi), ScenesOverBar(study),
       kPercent * even_lead, kPercent * lead, kMitSamples);
