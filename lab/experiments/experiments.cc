@@ -11,6 +11,7 @@
 #include "lab/experiments/xit_episode.h"
 #include "lab/experiments/xit_fig3.h"
 #include "lab/experiments/xit_fig4.h"
+#include "lab/experiments/xit_fig5.h"
 #include "lab/experiments/xit_trial.h"
 
 namespace plumescout::lab {
@@ -27,12 +28,13 @@ absl::StatusOr<Study> Sure(const ExperimentOptions& options) {
   return Run(options);
 }
 
-constexpr std::array<Experiment, 6> kExperiments = {{
+constexpr std::array<Experiment, 7> kExperiments = {{
     {"mit_table1", Sure<RunMitTable1>},
     {"wind_validation", Sure<RunWindValidation>},
     {"xit_episode", RunXitEpisode},
     {"xit_fig3", Sure<RunXitFig3>},
     {"xit_fig4", Sure<RunXitFig4>},
+    {"xit_fig5", Sure<RunXitFig5>},
     {"xit_trial", RunXitTrial},
 }};
 

@@ -98,9 +98,8 @@ std::vector<MitRival> MitRivals() {
   rivals.push_back({"MIT", std::make_unique<const XitPlanner>(Mit()), {21.6, 8.8, 69.6}});
   rivals.push_back({"RRT", Tree(PathKind::kRrt), {6.4, 56.0, 37.6}});
   rivals.push_back({"RRT*", Tree(PathKind::kRrtStar), {12.0, 47.6, 40.4}});
-  rivals.push_back({"MIT, even samples",
-                    std::make_unique<const XitPlanner>(UninformedMit()),
-                    {kNan, kNan, kNan}});
+  rivals.push_back(
+      {"MIT, even draw", std::make_unique<const XitPlanner>(UninformedMit()), {kNan, kNan, kNan}});
   return rivals;
 }
 

@@ -43,28 +43,13 @@ Grid<float> TrueGas_ppm(const PlumeSpec& plume, const GridGeometry& geometry) {
   return gas_ppm;
 }
 
-// Points on the way, one every step, the ends included.
-std::vector<Point2> Along(const std::vector<Point2>& way, double step_m) {
-  std::vector<Point2> points = {way.front()};
-  for (std::size_t i = 1; i < way.size(); ++i) {
-    const double length_m = Distance_m(way[i - 1], way[i]);
-    const int steps = std::max(1, static_cast<int>(std::ceil(length_m / step_m)));
-    for (int k = 1; k <= steps; ++k) {
-      const double share = static_cast<double>(k) / steps;
-      points.push_back({way[i - 1].x_m + share * (way[i].x_m - way[i - 1].x_m),
-                        way[i - 1].y_m + share * (way[i].y_m - way[i - 1].y_m)});
-    }
-  }
-  return points;
-}
-
 // Boxes that leave start, goals and the driven way free.
 std::vector<SceneBox> Clutter(const MitSceneSpec& spec) {
   constexpr int kBoxes = 40;
   constexpr double kLeast_m = 0.4;
   constexpr double kMost_m = 1.1;
   constexpr double kClear_m = 0.5;
-  std::vector<Point2> keep_free = Along(spec.driven, kClear_m);
+  std::vector<Point2> keep_free = PointsAlong(spec.driven, kClear_m);
   keep_free.insert(keep_free.end(), spec.goals.begin(), spec.goals.end());
   Rng rng(spec.clutter_seed);
   std::vector<SceneBox> boxes;
@@ -109,7 +94,7 @@ absl::StatusOr<MitScene> BuildMitScene(const MitSceneSpec& spec) {
   scene.driven = spec.driven;
   const GasOptions gas_options;
   GasMap gas(gas_options);
-  for (const Point2 at : Along(spec.driven, kBetweenReadings_m)) {
+  for (const Point2 at : PointsAlong(spec.driven, kBetweenReadings_m)) {
     gas.Add(0, at, {Plume_ppm(spec.plume, at), 0.0});
   }
   PLUMESCOUT_RETURN_IF_ERROR(gas.Refresh(scene.occupancy, 0));
@@ -139,7 +124,7 @@ absl::StatusOr<MitScene> BuildMitScene(const MitSceneSpec& spec) {
 
 MitSceneSpec MitTableScene() {
   MitSceneSpec spec;
-  spec.name = "as drawn";
+  spec.name = "of the table";
   spec.clutter_seed = 1;
   spec.plume = {{4.2, 2.0}, 0.0};
   spec.driven = {{0.8, 8.2}, {2.6, 6.6}, {5.2, 5.4}, {7.0, 2.6},
@@ -163,6 +148,7 @@ std::vector<MitSceneSpec> MitSceneVariants() {
   variants.push_back(WithGoals(base, "goal 2 2 m west", {{one, {9.2, 5.2}, three}}));
   variants.push_back(WithGoals(base, "goal 2 1 m north", {{one, {11.2, 6.2}, three}}));
   variants.push_back(WithGoals(base, "goal 3 2 m west", {{one, two, {9.2, 1.6}}}));
+  variants.push_back(WithGoals(base, "goal 2 near", {{one, {8.2, 5.2}, three}}));
   variants.push_back(base);
   variants.back().name = "variance as printed";
   variants.back().raw_variance = true;

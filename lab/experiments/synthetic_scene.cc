@@ -152,6 +152,20 @@ std::vector<SceneSpec> ConvergenceScenes() {
   return {ColumnsScene(), RoomsScene(), ClutterScene()};
 }
 
+std::vector<Point2> PointsAlong(const std::vector<Point2>& way, double step_m) {
+  std::vector<Point2> points = {way.front()};
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    const double length_m = Distance_m(way[i - 1], way[i]);
+    const int steps = std::max(1, static_cast<int>(std::ceil(length_m / step_m)));
+    for (int k = 1; k <= steps; ++k) {
+      const double share = static_cast<double>(k) / steps;
+      points.push_back({way[i - 1].x_m + share * (way[i].x_m - way[i - 1].x_m),
+                        way[i - 1].y_m + share * (way[i].y_m - way[i - 1].y_m)});
+    }
+  }
+  return points;
+}
+
 double PathLength_m(const std::vector<Point2>& path) {
   double length_m = 0.0;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) length_m += Distance_m(path[i], path[i + 1]);

@@ -3,7 +3,6 @@
 #include "lab/experiments/xit_trial.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -139,24 +138,8 @@ struct Jet {
 
 std::vector<Jet> JetsOf(const Layout& layout) {
   std::vector<Jet> jets;
-  for (const Opening& opening : layout.openings) {
-    if (!opening.inflow_mps) continue;
-    const double middle_m = 0.5 * (opening.from_m + opening.to_m);
-    switch (opening.side) {
-      case Side::kWest:
-        jets.push_back({{layout.border_m, middle_m}, 0.0, *opening.inflow_mps});
-        break;
-      case Side::kEast:
-        jets.push_back({{layout.size_x_m - layout.border_m, middle_m}, M_PI, *opening.inflow_mps});
-        break;
-      case Side::kSouth:
-        jets.push_back({{middle_m, layout.border_m}, M_PI_2, *opening.inflow_mps});
-        break;
-      case Side::kNorth:
-        jets.push_back(
-            {{middle_m, layout.size_y_m - layout.border_m}, -M_PI_2, *opening.inflow_mps});
-        break;
-    }
+  for (const Fan& fan : layout.fans) {
+    jets.push_back({fan.position, fan.direction_rad, fan.speed_mps});
   }
   return jets;
 }

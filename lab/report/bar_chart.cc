@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lab/report/palette.h"
+#include "lab/report/stroke_font.h"
 #include "lab/report/ticks.h"
 
 namespace plumescout::lab {
@@ -100,20 +101,21 @@ void DrawBars(Canvas& canvas, const Plot& plot, const BarChart& chart) {
 // In a row of its own below the title.
 void DrawLegend(Canvas& canvas, const Box& box, const BarChart& chart) {
   constexpr double kSwatch_px = 12.0;
+  constexpr double kBeforeName_px = 6.0;
+  constexpr double kBetween_px = 18.0;
   const double y = box.y + kTitleSize_px + 22.0;
-  const std::size_t entries = chart.series.size() + (chart.reference_name.empty() ? 0 : 1);
-  const double slot =
-      (box.width - kRight_px) / static_cast<double>(std::max<std::size_t>(1, entries));
   double x = box.x;
+  const auto write = [&](const std::string& name) {
+    canvas.Text({x + kSwatch_px + kBeforeName_px, y}, name, {kLabelSize_px, kInk});
+    x += kSwatch_px + kBeforeName_px + TextWidth_px(name, kLabelSize_px) + kBetween_px;
+  };
   for (const BarSeries& series : chart.series) {
     canvas.FillBox({x, y - 10.0, kSwatch_px, kSwatch_px}, series.color);
-    canvas.Text({x + kSwatch_px + 6.0, y}, series.name, {kLabelSize_px, kInk});
-    x += slot;
+    write(series.name);
   }
-  if (!chart.reference_name.empty()) {
-    DrawLine(canvas, {x, y - 4.0}, {x + kSwatch_px, y - 4.0}, {kSourceColor, 2.5});
-    canvas.Text({x + kSwatch_px + 6.0, y}, chart.reference_name, {kLabelSize_px, kInk});
-  }
+  if (chart.reference_name.empty()) return;
+  DrawLine(canvas, {x, y - 4.0}, {x + kSwatch_px, y - 4.0}, {kSourceColor, 2.5});
+  write(chart.reference_name);
 }
 
 }  // namespace
