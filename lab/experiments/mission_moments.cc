@@ -41,7 +41,8 @@ void AddTrajectory(const MissionMoment& moment, MapPanel& panel) {
 double Span_ppm(const Belief& belief, double clean_air_ppm) {
   const FrontierOptions& frontier = belief.options->frontier;
   double span_ppm = frontier.min_gas_threshold_ppm;
-  if (frontier.fixed_gas_threshold_ppm) span_ppm = *frontier.fixed_gas_threshold_ppm - clean_air_ppm;
+  if (frontier.fixed_gas_threshold_ppm)
+    span_ppm = *frontier.fixed_gas_threshold_ppm - clean_air_ppm;
   for (const float mean_ppm : belief.gas_mean_ppm->values()) {
     if (std::isfinite(mean_ppm)) span_ppm = std::max(span_ppm, double{mean_ppm} - clean_air_ppm);
   }

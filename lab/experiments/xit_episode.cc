@@ -28,7 +28,7 @@ namespace plumescout::lab {
 namespace {
 
 constexpr double kDuration_s = 300.0;
-constexpr double kQuickDuration_s = 90.0;
+constexpr double kQuickDuration_s = 60.0;
 constexpr double kSceneShare = 0.6;  // of the time that the study takes, for the progress line
 // A detour by less than this, or shorter than that, shows nothing.
 constexpr double kLeastDetour = 1.1;
@@ -39,7 +39,7 @@ SceneMakerOptions SceneOptions(const ExperimentOptions& options) {
   scene.seed = options.seed;
   if (options.quick) {
     scene.wind.flow_s = 5.0;
-    scene.warm_up_s = 60.0;
+    scene.warm_up_s = 30.0;
     scene.frame_period_s = 2.0;
     scene.frames = static_cast<int>(kQuickDuration_s / scene.frame_period_s);
   }
@@ -164,6 +164,20 @@ MapPanel PanelOf(const RecordedMission& mission, const ChosenMoment& chosen, cha
   return panel;
 }
 
+// The last estimate, in the colours of the truth.
+MapPanel FinalMeanPanel(const RecordedMission& mission, const MapPanel& truth) {
+  const ColorScale& scale = truth.color_bar->scale;
+  const MapSnapshot& map = mission.map;
+  MapPanel panel = truth;
+  panel.title = absl::StrFormat("Estimate at %.0f s", mission.episode.simulated_s);
+  panel.cells = PaintCells(map.occupancy.geometry(), panel.region, [&](Cell cell) {
+    const bool shown = map.occupancy[cell] == CellState::kFree;
+    const float ppm = map.gas_mean_ppm.At(cell, std::numeric_limits<float>::quiet_NaN());
+    return shown && std::isfinite(ppm) ? scale(ppm) : StateColor(map.occupancy[cell]);
+  });
+  return panel;
+}
+
 int TurnCount(const std::vector<MissionMoment>& moments) {
   return static_cast<int>(TurnsTo(moments, GoalKind::kGasFrontier, 0).size() +
                           TurnsTo(moments, GoalKind::kOccupancyFrontier, 0).size());
@@ -190,11 +204,23 @@ void AddNumbers(const RecordedMission& mission, const Detour* detour, Study& stu
       {"exploitative_length_over_shortest", detour != nullptr ? detour->length_ratio : kNan},
       {"exploitative_mean_ucb", detour != nullptr ? detour->mean_ucb : kNan},
       {"shortest_mean_ucb", detour != nullptr ? detour->shortest_mean_ucb : kNan}};
-  for (const auto& [name, value] : study.summary.figures) {
-    if (std::isfinite(value)) {
-      study.figures.key_numbers.emplace_back(name, absl::StrFormat("%.4g", value));
-    }
-  }
+  study.figures.key_numbers = {
+      {"simulated", absl::StrFormat("%.0f s", mission.episode.simulated_s)},
+      {"map complete", absl::StrFormat("%.1f %%", 100.0 * end.completeness)},
+      {"RMSE", absl::StrFormat("%.2f ppm", end.rmse_ppm)},
+      {"RMSE of an all-zero map", absl::StrFormat("%.2f ppm", end.rmse_zero_ppm)},
+      {"entropy", absl::StrFormat("%.0f nats", end.entropy_nats)},
+      {"turns between the kinds of goals", absl::StrCat(TurnCount(mission.moments))},
+      {"trajectories to occupancy frontiers",
+       absl::StrFormat("%.0f", count(GoalKind::kOccupancyFrontier))},
+      {"trajectories to gas frontiers", absl::StrFormat("%.0f", count(GoalKind::kGasFrontier))},
+      {"driven", absl::StrFormat("%.0f m", mission.episode.distance_m)}};
+  if (detour == nullptr) return;
+  study.figures.key_numbers.emplace_back("late path: length / shortest",
+                                         absl::StrFormat("%.2f", detour->length_ratio));
+  study.figures.key_numbers.emplace_back(
+      "late path: mean UCB (of the shortest)",
+      absl::StrFormat("%.2f (%.2f)", detour->mean_ucb, detour->shortest_mean_ucb));
 }
 
 std::vector<std::string> MakeNotes(const RecordedMission& mission, const Detour* detour) {
@@ -282,6 +308,7 @@ absl::StatusOr<Study> RunXitEpisode(const ExperimentOptions& options) {
     study.figures.panels.push_back(PanelOf(mission, chosen, letter++, detour, region));
   }
   study.figures.panels.push_back(TrueMeanPanel(world, "True mean"));
+  study.figures.panels.push_back(FinalMeanPanel(mission, study.figures.panels.back()));
   study.figures.title = "One mission of XIT-GFF with UCB cost ([XIT] Fig. 7)";
   study.figures.notes = MakeNotes(mission, exploitation);
   study.figures.charts = MetricCharts(mission.episode);

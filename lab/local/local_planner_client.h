@@ -14,8 +14,8 @@
 namespace plumescout::lab {
 
 // The planning service within one process: missions of the core, without protobuf or gRPC, under
-// the rules of the wire. Runs of one robot at a time are repeatable if plans have a budget of
-// edge evaluations and of infinite time. Thread-safe; streams must not outlive the client.
+// the rules of the wire. Runs of robots that act one at a time are repeatable if plans have a
+// budget of infinite time. Thread-safe; streams must not outlive the client.
 class LocalPlannerClient final : public client::PlannerClient {
  public:
   explicit LocalPlannerClient(const LocalOptions& options = {}) : options_(options) {}

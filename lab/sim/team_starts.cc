@@ -55,8 +55,9 @@ absl::StatusOr<std::vector<Pose2>> TeamStarts(const SceneWorld& world, int robot
 std::vector<RobotId> TeamNames(const RobotId& first, int robots) {
   std::size_t stem = first.size();
   while (stem > 0 && std::isdigit(static_cast<unsigned char>(first[stem - 1])) != 0) --stem;
-  std::int64_t number = 1;
+  std::int64_t number = 0;
   const bool counts = absl::SimpleAtoi(first.substr(stem), &number);
+  if (!counts) number = 1;
   const std::string prefix = counts ? first.substr(0, stem) : absl::StrCat(first, "-");
   std::vector<RobotId> names = {first};
   for (int i = 1; i < robots; ++i) names.push_back(absl::StrCat(prefix, number + i));

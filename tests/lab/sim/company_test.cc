@@ -15,8 +15,8 @@ namespace {
 
 // Every robot acts `acts` times, `period` ns apart, and notes who it was and when. Only the company
 // keeps them from doing so at once.
-std::vector<std::pair<std::int64_t, int>> Run(const std::vector<std::int64_t>& periods_ns,
-                                              int acts) {
+std::vector<std::pair<std::int64_t, int>> KeepDiary(const std::vector<std::int64_t>& periods_ns,
+                                                    int acts) {
   Company company(static_cast<int>(periods_ns.size()), true);
   std::vector<std::pair<std::int64_t, int>> diary;
   std::vector<std::thread> threads;
@@ -35,7 +35,7 @@ std::vector<std::pair<std::int64_t, int>> Run(const std::vector<std::int64_t>& p
 }
 
 TEST(CompanyTest, RobotsActInTheOrderOfTimeAndOfTheirNumbers) {
-  const auto diary = Run({10, 10, 7}, 200);
+  const auto diary = KeepDiary({10, 10, 7}, 200);
   ASSERT_EQ(diary.size(), 600u);
   EXPECT_TRUE(std::is_sorted(diary.begin(), diary.end()));
 }
