@@ -33,6 +33,7 @@ constexpr double kSceneShare = 0.6;  // of the time that the study takes, for th
 // A detour by less than this, or shorter than that, shows nothing.
 constexpr double kLeastDetour = 1.1;
 constexpr double kLeastLength_m = 3.0;
+constexpr Rgb kShortestColor{240, 130, 30};
 
 SceneMakerOptions SceneOptions(const ExperimentOptions& options) {
   SceneMakerOptions scene;
@@ -103,15 +104,43 @@ std::optional<std::size_t> FirstTo(const std::vector<MissionMoment>& moments, Go
   return std::nullopt;
 }
 
-// Moments after `first` that turn from one kind of frontier to the other, without those to gas
-// frontiers or without the others.
-std::vector<std::size_t> TurnsTo(const std::vector<MissionMoment>& moments, GoalKind kind,
-                                 std::size_t first) {
+// Moments between two that turn from one kind of frontier to the other.
+std::vector<std::size_t> Turns(const std::vector<MissionMoment>& moments, std::size_t first,
+                               std::size_t last) {
   std::vector<std::size_t> turns;
-  for (std::size_t i = first + 1; i < moments.size(); ++i) {
-    if (IsTo(moments[i], kind) && !IsTo(moments[i - 1], kind)) turns.push_back(i);
+  for (std::size_t i = first + 1; i < last; ++i) {
+    for (const GoalKind kind : {GoalKind::kOccupancyFrontier, GoalKind::kGasFrontier}) {
+      if (IsTo(moments[i], kind) && !IsTo(moments[i - 1], kind)) turns.push_back(i);
+    }
   }
   return turns;
+}
+
+// Up to three turns, evenly over the time of all; back to exploring and to gas in turn, if there
+// are such turns.
+std::vector<std::size_t> SpreadTurns(const std::vector<MissionMoment>& moments, std::size_t first,
+                                     std::size_t last) {
+  constexpr std::size_t kMost = 3;
+  const std::vector<std::size_t> turns = Turns(moments, first, last);
+  const std::size_t count = std::min(kMost, turns.size());
+  const double begin_s = moments[first].time_s;
+  const double end_s = moments[std::min(last, moments.size() - 1)].time_s;
+  std::vector<std::size_t> spread;
+  auto from = turns.begin();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto left = static_cast<std::ptrdiff_t>(count - 1 - i);  // to be chosen after this one
+    const GoalKind wanted = i % 2 == 0 ? GoalKind::kOccupancyFrontier : GoalKind::kGasFrontier;
+    const double share = static_cast<double>(i + 1) / static_cast<double>(count + 1);
+    const double aim_s = begin_s + (end_s - begin_s) * share;
+    from = std::min_element(from, turns.end() - left, [&](std::size_t a, std::size_t b) {
+      const auto rank = [&](std::size_t turn) {
+        return std::pair(!IsTo(moments[turn], wanted), std::abs(moments[turn].time_s - aim_s));
+      };
+      return rank(a) < rank(b);
+    });
+    spread.push_back(*from++);
+  }
+  return spread;
 }
 
 std::optional<std::size_t> BestDetour(const std::vector<MissionMoment>& moments,
@@ -158,8 +187,8 @@ MapPanel PanelOf(const RecordedMission& mission, const ChosenMoment& chosen, cha
   MapPanel panel =
       MomentPanel(mission, moment, TitleOf(letter, chosen, moment), {.region = region});
   if (chosen.kind == MomentKind::kExploitation) {
-    panel.lines.push_back({detour.shortest, {kInk, 1.8, 5.0}});
-    panel.legend.back() = {"shortest way", MarkShape::kLine, kInk};
+    panel.lines.push_back({detour.shortest, {kShortestColor, 2.5, 5.0}});
+    panel.legend.back() = {"shortest way", MarkShape::kLine, kShortestColor};
   }
   return panel;
 }
@@ -179,8 +208,7 @@ MapPanel FinalMeanPanel(const RecordedMission& mission, const MapPanel& truth) {
 }
 
 int TurnCount(const std::vector<MissionMoment>& moments) {
-  return static_cast<int>(TurnsTo(moments, GoalKind::kGasFrontier, 0).size() +
-                          TurnsTo(moments, GoalKind::kOccupancyFrontier, 0).size());
+  return static_cast<int>(Turns(moments, 0, moments.size()).size());
 }
 
 void AddNumbers(const RecordedMission& mission, const Detour* detour, Study& study) {
@@ -258,20 +286,9 @@ std::vector<ChosenMoment> ChooseMoments(const std::vector<MissionMoment>& moment
   const auto exploitation = BestDetour(moments, detours);
   if (first_gas) {
     chosen.push_back({MomentKind::kFirstGasFrontier, *first_gas});
-    const double begin_s = moments[*first_gas].time_s;
-    const double end_s = exploitation ? moments[*exploitation].time_s : moments.back().time_s;
-    std::size_t after = *first_gas;
-    constexpr int kAlternations = 3;
-    for (int i = 1; i <= kAlternations; ++i) {
-      const GoalKind kind = i % 2 == 1 ? GoalKind::kOccupancyFrontier : GoalKind::kGasFrontier;
-      const double aim_s = begin_s + (end_s - begin_s) * i / (kAlternations + 1.0);
-      std::vector<std::size_t> turns = TurnsTo(moments, kind, after);
-      std::erase_if(turns, [&](std::size_t turn) { return exploitation && turn >= *exploitation; });
-      if (turns.empty()) break;
-      after = *std::min_element(turns.begin(), turns.end(), [&](std::size_t a, std::size_t b) {
-        return std::abs(moments[a].time_s - aim_s) < std::abs(moments[b].time_s - aim_s);
-      });
-      chosen.push_back({MomentKind::kAlternation, after});
+    const std::size_t last = exploitation.value_or(moments.size());
+    for (const std::size_t turn : SpreadTurns(moments, *first_gas, last)) {
+      chosen.push_back({MomentKind::kAlternation, turn});
     }
   }
   if (exploitation) chosen.push_back({MomentKind::kExploitation, *exploitation});
