@@ -6,9 +6,12 @@
 #include "absl/strings/str_join.h"
 #include "core/types/status_macros.h"
 #include "lab/experiments/mit_table1.h"
+#include "lab/experiments/wind_validation.h"
+#include "lab/experiments/xit_episode.h"
 #include "lab/experiments/xit_fig3.h"
 #include "lab/experiments/xit_fig4.h"
 #include "lab/experiments/xit_fig5.h"
+#include "lab/experiments/xit_trial.h"
 
 namespace plumescout::lab {
 namespace {
@@ -19,10 +22,10 @@ struct Experiment {
 };
 
 constexpr Experiment kExperiments[] = {
-    {"mit_table1", RunMitTable1},
-    {"xit_fig3", RunXitFig3},
-    {"xit_fig4", RunXitFig4},
-    {"xit_fig5", RunXitFig5},
+    {"mit_table1", RunMitTable1}, {"wind_validation", RunWindValidation},
+    {"xit_episode", RunXitEpisode}, {"xit_fig3", RunXitFig3},
+    {"xit_fig4", RunXitFig4}, {"xit_fig5", RunXitFig5},
+    {"xit_trial", RunXitTrial},
 };
 
 absl::Status Validate(const ExperimentOptions& options) {

@@ -9,6 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/grid/flood.h"
 #include "core/types/status_macros.h"
+#include "lab/sim/fan_raster.h"
 
 namespace plumescout::lab {
 namespace {
@@ -141,6 +142,7 @@ absl::StatusOr<LayoutRaster> Rasterize(const Layout& layout) {
   LayoutRaster raster;
   raster.flow.fluid = reachable;
   PLUMESCOUT_RETURN_IF_ERROR(CutOpenings(layout, raster.flow));
+  PLUMESCOUT_RETURN_IF_ERROR(AddFans(layout.fans, raster.flow));
   raster.occupancy = Grid<CellState>(open.geometry(), CellState::kOccupied);
   for (std::size_t i = 0; i < reachable.size(); ++i) {
     if (reachable[i] != 0) raster.occupancy[i] = CellState::kFree;

@@ -18,7 +18,7 @@ struct LayoutRaster {
 
 // A cell is solid if its centre is. Free cells that no way leads to from the start become occupied.
 // Errors, kInvalidArgument: Validate's; the start or a source not in the open; an opening that
-// leads into a wall; inlets without an outlet.
+// leads into a wall; inlets without an outlet; those of AddFans.
 absl::StatusOr<LayoutRaster> Rasterize(const Layout& layout);
 
 }  // namespace plumescout::lab

@@ -115,6 +115,14 @@ absl::Status Read(const YAML::Node& node, const std::string& path, Opening& open
                   {"inflow_mps", Optional(opening.inflow_mps)}});
 }
 
+absl::Status Read(const YAML::Node& node, const std::string& path, Fan& fan) {
+  return ReadMap(node, path,
+                 {{"position_m", Required(fan.position)},
+                  {"direction_rad", Required(fan.direction_rad)},
+                  {"width_m", Required(fan.width_m)},
+                  {"speed_mps", Required(fan.speed_mps)}});
+}
+
 absl::Status Read(const YAML::Node& node, const std::string& path, GasSource& source) {
   Point2 position;
   PLUMESCOUT_RETURN_IF_ERROR(ReadMap(
@@ -174,6 +182,7 @@ absl::Status ReadRoot(const YAML::Node& node, Layout& layout) {
                {"walls", Optional(layout.walls)},
                {"boxes", Optional(layout.boxes)},
                {"openings", Optional(layout.openings)},
+               {"fans", Optional(layout.fans)},
                {"sources", Required(layout.sources)},
                {"start_pose", Required(layout.start_pose)},
                {"sensor_height_m", Optional(layout.sensor_height_m)},

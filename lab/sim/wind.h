@@ -11,9 +11,15 @@
 
 namespace plumescout::lab {
 
+enum class WindModel {
+  kNavierStokes,
+  kPotential,  // inviscid and without eddies: one solve instead of thousands, but no jets or wakes
+};
+
 struct WindOptions {
+  WindModel model = WindModel::kNavierStokes;
   double viscosity_m2_per_s = 0.03;  // of the turbulent air, (0, 10]
-  double flow_s = 15.0;              // simulated from rest; the second half is averaged, (0, 3600]
+  double flow_s = 30.0;              // simulated; the second half is averaged, (0, 3600]
   double stability_share = 0.9;      // of the longest stable step, (0, 1]
 };
 
