@@ -30,7 +30,7 @@ using ProgressFn = std::function<void(absl::string_view stage, double fraction)>
 
 // A scene from a layout: its raster, the wind through it, the gas in that wind, as frames and as
 // means over them. The same arguments give the same bytes. Errors: kInvalidArgument from Validate
-// and Rasterize. Cost: 160 x 200 cells with the options' defaults take some 12 s of one core.
+// and Rasterize. Cost: 160 x 200 cells with the options' defaults take some 20 s of one core.
 absl::StatusOr<Scene> MakeScene(const Layout& layout, const SceneMakerOptions& options,
                                 const ProgressFn& progress = nullptr);
 

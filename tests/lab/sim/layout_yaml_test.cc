@@ -40,6 +40,7 @@ boxes: [{min_m: [1, 2], max_m: [1.4, 2.4]}]
 openings:
   - {side: south, from_m: 0.6, to_m: 1.4, inflow_mps: 2}
   - {side: east, from_m: 1, to_m: 2}
+fans: [{position_m: [2.5, 1.5], direction_rad: -1.5, width_m: 0.6, speed_mps: 2.5}]
 gas: {filaments_per_s: 50, initial_sigma_m: 0.2, growth_m2_per_s: 0.002,
       diffusivity_m2_per_s: 0.03, mixing_depth_m: 1.5}
 )");
@@ -65,6 +66,11 @@ gas: {filaments_per_s: 50, initial_sigma_m: 0.2, growth_m2_per_s: 0.002,
   EXPECT_EQ(layout->openings[0].inflow_mps, 2.0);
   EXPECT_EQ(layout->openings[1].side, Side::kEast);
   EXPECT_FALSE(layout->openings[1].inflow_mps.has_value());
+  ASSERT_EQ(layout->fans.size(), 1u);
+  EXPECT_EQ(layout->fans[0].position, (Point2{2.5, 1.5}));
+  EXPECT_EQ(layout->fans[0].direction_rad, -1.5);
+  EXPECT_EQ(layout->fans[0].width_m, 0.6);
+  EXPECT_EQ(layout->fans[0].speed_mps, 2.5);
   ASSERT_EQ(layout->sources.size(), 1u);
   EXPECT_EQ(layout->sources[0], (GasSource{0, 1.0, 1.5, 0.3, 600.0}));
   EXPECT_EQ(layout->gas.filaments_per_s, 50.0);
@@ -92,6 +98,8 @@ TEST(LayoutYamlTest, NamesUnknownKeysByTheirPath) {
 TEST(LayoutYamlTest, NamesMissingKeys) {
   ExpectInvalid("name: room", "missing key size_m");
   ExpectInvalid(std::string(kShortest) + "boxes: [{min_m: [1, 1]}]", "missing key boxes[0].max_m");
+  ExpectInvalid(std::string(kShortest) + "fans: [{position_m: [1, 1], width_m: 1, speed_mps: 1}]",
+                "missing key fans[0].direction_rad");
 }
 
 TEST(LayoutYamlTest, NamesRepeatedKeys) {
