@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "absl/strings/str_cat.h"
-#include "core/types/status_macros.h"
 #include "lab/sim/ageing_depth.h"
 #include "lab/sim/concentration_slice.h"
 #include "lab/sim/gas_space.h"
@@ -25,7 +23,7 @@ class Transport {
   Transport(const LayoutRaster& raster, const MacField& wind, double diffusivity_m2_per_s);
 
   const std::vector<Cell>& cells() const { return cells_; }  // by unknown
-  // Whether gas can leave: some cell has the outside for a neighbour.
+  // Whether gas can leave: to the outside, or upwards.
   bool open() const { return open_; }
   // The matrix with a loss of `rate_per_s` in every cell.
   Matrix MatrixWithLoss(double rate_per_s) const;
@@ -64,6 +62,13 @@ Transport::Transport(const LayoutRaster& raster, const MacField& wind, double di
   const auto add = [this](Cell low, Cell high, double speed_mps) {
     AddFace(speed_mps >= 0.0 ? Face{low, high, speed_mps} : Face{high, low, -speed_mps});
   };
+  for (const Cell cell : cells_) {
+    constexpr double kRounding_mps = 1e-9;  // of winds without divergence
+    const double upwards_mps = -wind.NetOutflow_mps(cell);
+    if (upwards_mps < kRounding_mps) continue;
+    AddTerm(cell, cell, upwards_mps / resolution_m_);
+    open_ = true;
+  }
   // Each face once: as the western or southern one of a cell, or on the far edge of the raster.
   for (int y = 0; y <= spaces_.height(); ++y) {
     for (int x = 0; x <= spaces_.width(); ++x) {
@@ -134,14 +139,9 @@ Eigen::VectorXd Release(const GasSource& source, const GasParameters& gas,
 absl::StatusOr<std::vector<Grid<float>>> SteadyConcentration(const LayoutRaster& raster,
                                                              const MacField& wind,
                                                              const std::vector<GasSource>& sources,
-                                                             const GasParameters& gas,
-                                                             double air_exchange_per_s) {
-  if (!(air_exchange_per_s >= 0.0 && std::isfinite(air_exchange_per_s))) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("air_exchange_per_s = ", air_exchange_per_s, " must be finite and >= 0"));
-  }
+                                                             const GasParameters& gas) {
   const Transport transport(raster, wind, gas.diffusivity_m2_per_s + gas.growth_m2_per_s / 2.0);
-  if (!transport.open() && air_exchange_per_s == 0.0) {
+  if (!transport.open()) {
     return absl::FailedPreconditionError("gas cannot get out: there is no steady concentration");
   }
   const std::vector<Cell>& cells = transport.cells();
@@ -153,7 +153,7 @@ absl::StatusOr<std::vector<Grid<float>>> SteadyConcentration(const LayoutRaster&
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, release.cols());
   Eigen::SparseLU<Matrix> lu;
   for (const DecayTerm& term : InverseDepthTerms(gas)) {
-    const Matrix matrix = transport.MatrixWithLoss(term.rate_per_s + air_exchange_per_s);
+    const Matrix matrix = transport.MatrixWithLoss(term.rate_per_s);
     lu.compute(matrix);
     if (lu.info() != Eigen::Success) return absl::InternalError(lu.lastErrorMessage());
     sum += term.weight_per_m * lu.solve(release);

@@ -14,7 +14,7 @@ namespace plumescout::lab {
 
 // The concentration that release without end leads to, without filaments: the check on Plume.
 //
-//   div(u C - D grad C) + (rate + exchange) C = source,   D = K + gamma / 2
+//   div(u C - D grad C) + (rate + max(0, -div u)) C = source,   D = K + gamma / 2
 //
 // on the cells that gas fills, by finite volumes: the wind's own faces; upwind-biased advection of
 // second order (Fromm's scheme: first-order upwinding would spread gas by u h / 2, several times
@@ -23,16 +23,16 @@ namespace plumescout::lab {
 // once for each, with its `rate`. Clipped at 0: before sharp fronts the scheme undershoots a
 // little.
 //
-// `air_exchange_per_s` takes gas out of every cell alike, as openings above the slice do.
+// In a wind that flows together, as a slice of a flow in space may, the air that leaves upwards
+// takes gas along, and what comes from above where the wind parts is clean. SolveWind's never does.
+//
 // Schedules of the sources are not looked at. One layer per source, ppm; 0 but in free cells.
 //
-// Errors: kFailedPrecondition if gas cannot get out: neither an outside nor an exchange of air.
-// kInvalidArgument if the exchange is negative or not finite. Cost: some 0.5 s per term for 28,000
-// cells. REQUIRES: all of one layout, which is valid; `wind` has no net flow into any fluid cell.
+// Errors: kFailedPrecondition if gas cannot get out anywhere. Cost: some 0.2 s per term for 28,000
+// cells. REQUIRES: all of one layout, which is valid; `wind` is finite.
 absl::StatusOr<std::vector<Grid<float>>> SteadyConcentration(const LayoutRaster& raster,
                                                              const MacField& wind,
                                                              const std::vector<GasSource>& sources,
-                                                             const GasParameters& gas,
-                                                             double air_exchange_per_s = 0.0);
+                                                             const GasParameters& gas);
 
 }  // namespace plumescout::lab
