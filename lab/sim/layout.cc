@@ -78,7 +78,7 @@ absl::Status CheckWall(const std::string& field, const Wall& wall, const Layout&
   return absl::OkStatus();
 }
 
-absl::Status CheckBox(const std::string& field, const Box& box, const Layout& layout) {
+absl::Status CheckBox(const std::string& field, const SolidBox& box, const Layout& layout) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckInside(field + ".min_m", box.min, layout));
   PLUMESCOUT_RETURN_IF_ERROR(CheckInside(field + ".max_m", box.max, layout));
   if (box.min.x_m < box.max.x_m && box.min.y_m < box.max.y_m) return absl::OkStatus();

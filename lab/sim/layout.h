@@ -28,7 +28,7 @@ struct Wall {
 };
 
 // Solid rectangle: a container, a pillar, a machine.
-struct Box {
+struct SolidBox {
   Point2 min;
   Point2 max;
 };
@@ -59,7 +59,7 @@ struct Layout {
   double resolution_m = 0.1;  // [0.02, 1]; at most 1,000,000 cells in all
   double border_m = 0.2;      // thickness of the outer wall, >= one cell
   std::vector<Wall> walls;
-  std::vector<Box> boxes;
+  std::vector<SolidBox> boxes;
   std::vector<Opening> openings;
   std::vector<GasSource> sources;  // at least one
   Pose2 start_pose;
