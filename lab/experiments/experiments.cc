@@ -6,8 +6,10 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "lab/experiments/mit_table1.h"
 #include "lab/experiments/xit_fig3.h"
 #include "lab/experiments/xit_fig4.h"
+#include "lab/experiments/xit_fig5.h"
 
 namespace plumescout::lab {
 namespace {
@@ -17,9 +19,11 @@ struct Experiment {
   Study (*run)(const ExperimentOptions&);
 };
 
-constexpr std::array<Experiment, 2> kExperiments = {{
+constexpr std::array<Experiment, 4> kExperiments = {{
+    {"mit_table1", RunMitTable1},
     {"xit_fig3", RunXitFig3},
     {"xit_fig4", RunXitFig4},
+    {"xit_fig5", RunXitFig5},
 }};
 
 }  // namespace

@@ -69,6 +69,12 @@ std::string MakeChart(const Chart& chart) {
   return canvas.Element();
 }
 
+std::string MakeBarChart(const BarChart& chart) {
+  SvgCanvas canvas(kPanelWidth_px, kChartHeight_px, chart.title);
+  DrawBarChart(canvas, {0.0, 0.0, kPanelWidth_px, kChartHeight_px}, chart);
+  return canvas.Element();
+}
+
 }  // namespace
 
 std::string MakeHtmlPage(const ReportFigures& figures) {
@@ -82,6 +88,7 @@ std::string MakeHtmlPage(const ReportFigures& figures) {
   for (const MapPanel& panel : figures.panels) html += MakePanel(panel, height_px);
   html += "</div>\n<div class=\"figures\">\n";
   for (const Chart& chart : figures.charts) html += MakeChart(chart);
+  for (const BarChart& chart : figures.bar_charts) html += MakeBarChart(chart);
   absl::StrAppend(&html, MakeTable(figures), "</div>\n</body>\n</html>\n");
   return html;
 }

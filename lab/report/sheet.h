@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "formats/image.h"
+#include "lab/report/bar_chart.h"
 #include "lab/report/chart.h"
 #include "lab/report/map_panel.h"
 
@@ -18,7 +19,8 @@ struct ReportFigures {
   std::vector<std::pair<std::string, std::string>> key_numbers;
   std::vector<MapPanel> panels;
   std::vector<Chart> charts;
-  std::vector<std::string> notes = {};  // paragraphs under the title
+  std::vector<std::string> notes = {};    // paragraphs under the title
+  std::vector<BarChart> bar_charts = {};  // after the charts
 };
 
 // Sizes that page and sheet share.
@@ -29,7 +31,8 @@ inline constexpr std::size_t kHeadlineNumbers = 6;  // the first key numbers, pr
 // Height of the panels: what the tallest one needs.
 int PanelHeight_px(const ReportFigures& figures);
 
-// One picture of everything.
+// One picture of everything: panels in rows of four; at most three charts of both kinds, beside the
+// key numbers.
 Image DrawSheet(const ReportFigures& figures);
 
 }  // namespace plumescout::lab

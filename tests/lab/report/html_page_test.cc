@@ -40,6 +40,12 @@ TEST(HtmlPage, HoldsAllTitlesAndNumbers) {
   }
 }
 
+TEST(HtmlPage, HoldsBarCharts) {
+  ReportFigures figures;
+  figures.bar_charts = {{"Shares of <runs>", "", {"a"}, {{"ours", {}, {{1.0}}}}, ""}};
+  EXPECT_THAT(MakeHtmlPage(figures), HasSubstr(">Shares of &lt;runs&gt;<"));
+}
+
 TEST(HtmlPage, LoadsNothing) {
   const std::string page = MakePage();
   EXPECT_THAT(page, Not(HasSubstr("<script")));
