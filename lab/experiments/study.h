@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "absl/status/status.h"
 #include "formats/csv.h"
@@ -16,6 +17,7 @@ namespace plumescout::lab {
 struct ExperimentOptions {
   std::uint64_t seed = 1;
   bool quick = false;                            // fewer points and runs: a few seconds at most
+  std::vector<std::string> scenes{};             // scene folders to look at, too
   std::function<void(double share)> progress{};  // told how much is done, [0, 1]; may be empty
 };
 

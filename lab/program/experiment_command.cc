@@ -52,6 +52,7 @@ void AddExperimentCommand(CLI::App& app, absl::Status& status) {
   experiment->add_option("--out", arguments->out, "Folder for results (default: out/NAME)");
   experiment->add_option("--seed", arguments->options.seed, "Seed of everything drawn at random")
       ->capture_default_str();
+  experiment->add_option("--scenes", arguments->options.scenes, "Scene folders to look at, too");
   experiment->add_flag("--quick", arguments->options.quick, "Fewer points and runs");
   experiment->callback([arguments, &status] { status = MakeExperiment(*arguments); });
 }
