@@ -7,8 +7,8 @@
 
 namespace plumescout::lab {
 
-// Whether the simulated gas can be believed: the mean of the filaments against the steady
-// advection-diffusion solution on the same wind, in the hall and in generated buildings (quick: in
+// Whether the simulated gas can be believed: the mean of the filaments against the
+// advection-diffusion equation on the same wind, in the hall and in generated buildings (quick: in
 // one small building); in the open against the Gaussian plume; all that was released is inside or
 // has left. With `options.scenes`, also what our gas does on the wind of these folders against
 // their own mean concentration, of which nothing is demanded.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/types/grid.h"
+#include "lab/sim/advection_diffusion.h"
 #include "lab/sim/layout_raster.h"
 #include "lab/sim/mac_field.h"
 #include "lab/sim/wind.h"
@@ -18,11 +19,6 @@ struct GasCase {
   MacField wind;
   std::vector<GasSource> sources;
   GasParameters gas;
-};
-
-struct MeanWindow {
-  double warm_up_s = 180.0;
-  double mean_s = 300.0;  // slices at 2 Hz
 };
 
 // Filaments so far, over all sources.

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "absl/strings/str_cat.h"
+#include "core/types/status_macros.h"
 #include "lab/sim/ageing_depth.h"
 #include "lab/sim/concentration_slice.h"
 #include "lab/sim/gas_space.h"
@@ -134,38 +136,114 @@ Eigen::VectorXd Release(const GasSource& source, const GasParameters& gas,
   return release * (released_ppm_m3_per_s / (release.sum() * cell_m2));
 }
 
+// Solves the law for every term of the depth, and adds up.
+class Solver {
+ public:
+  Solver(const LayoutRaster& raster, const MacField& wind, const std::vector<GasSource>& sources,
+         const GasParameters& gas);
+
+  bool open() const { return transport_.open(); }
+  absl::Status AddSteady(const DecayTerm& term);
+  absl::Status AddMean(const DecayTerm& term, const MeanWindow& window);
+  std::vector<Grid<float>> Layers() const;
+
+ private:
+  absl::Status Factorize(double rate_per_s);
+
+  const GridGeometry geometry_;
+  Transport transport_;
+  Eigen::MatrixXd release_;  // by cell and source
+  Eigen::MatrixXd sum_ppm_;  // likewise
+  Eigen::SparseLU<Matrix> lu_;
+};
+
+Solver::Solver(const LayoutRaster& raster, const MacField& wind,
+               const std::vector<GasSource>& sources, const GasParameters& gas)
+    : geometry_(raster.occupancy.geometry()),
+      transport_(raster, wind, gas.diffusivity_m2_per_s + gas.growth_m2_per_s / 2.0),
+      release_(static_cast<Eigen::Index>(transport_.cells().size()),
+               static_cast<Eigen::Index>(sources.size())),
+      sum_ppm_(Eigen::MatrixXd::Zero(release_.rows(), release_.cols())) {
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    release_.col(static_cast<Eigen::Index>(s)) =
+        Release(sources[s], gas, raster, transport_.cells());
+  }
+}
+
+absl::Status Solver::Factorize(double rate_per_s) {
+  lu_.compute(transport_.MatrixWithLoss(rate_per_s));
+  if (lu_.info() == Eigen::Success) return absl::OkStatus();
+  return absl::InternalError(lu_.lastErrorMessage());
+}
+
+absl::Status Solver::AddSteady(const DecayTerm& term) {
+  PLUMESCOUT_RETURN_IF_ERROR(Factorize(term.rate_per_s));
+  sum_ppm_ += term.weight_per_m * lu_.solve(release_);
+  return absl::OkStatus();
+}
+
+absl::Status Solver::AddMean(const DecayTerm& term, const MeanWindow& window) {
+  PLUMESCOUT_RETURN_IF_ERROR(Factorize(term.rate_per_s + 1.0 / kMeanStep_s));
+  const auto warm_up = std::llround(window.warm_up_s / kMeanStep_s);
+  const auto steps = std::max<long long>(1, std::llround(window.mean_s / kMeanStep_s));
+  Eigen::MatrixXd now = Eigen::MatrixXd::Zero(release_.rows(), release_.cols());
+  for (long long step = 0; step < warm_up + steps; ++step) {
+    now = lu_.solve(release_ + now / kMeanStep_s).eval();
+    if (step >= warm_up) sum_ppm_ += term.weight_per_m / static_cast<double>(steps) * now;
+  }
+  return absl::OkStatus();
+}
+
+std::vector<Grid<float>> Solver::Layers() const {
+  std::vector<Grid<float>> layers(static_cast<std::size_t>(release_.cols()),
+                                  Grid<float>(geometry_));
+  for (std::size_t s = 0; s < layers.size(); ++s) {
+    for (std::size_t i = 0; i < transport_.cells().size(); ++i) {
+      const double ppm = sum_ppm_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(s));
+      layers[s][transport_.cells()[i]] = static_cast<float>(std::max(0.0, ppm));
+    }
+  }
+  return layers;
+}
+
 }  // namespace
 
 absl::StatusOr<std::vector<Grid<float>>> SteadyConcentration(const LayoutRaster& raster,
                                                              const MacField& wind,
                                                              const std::vector<GasSource>& sources,
                                                              const GasParameters& gas) {
-  const Transport transport(raster, wind, gas.diffusivity_m2_per_s + gas.growth_m2_per_s / 2.0);
-  if (!transport.open()) {
+  Solver solver(raster, wind, sources, gas);
+  if (!solver.open()) {
     return absl::FailedPreconditionError("gas cannot get out: there is no steady concentration");
   }
-  const std::vector<Cell>& cells = transport.cells();
-  const auto n = static_cast<Eigen::Index>(cells.size());
-  Eigen::MatrixXd release(n, static_cast<Eigen::Index>(sources.size()));
-  for (std::size_t s = 0; s < sources.size(); ++s) {
-    release.col(static_cast<Eigen::Index>(s)) = Release(sources[s], gas, raster, cells);
-  }
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, release.cols());
-  Eigen::SparseLU<Matrix> lu;
   for (const DecayTerm& term : InverseDepthTerms(gas)) {
-    const Matrix matrix = transport.MatrixWithLoss(term.rate_per_s);
-    lu.compute(matrix);
-    if (lu.info() != Eigen::Success) return absl::InternalError(lu.lastErrorMessage());
-    sum += term.weight_per_m * lu.solve(release);
+    PLUMESCOUT_RETURN_IF_ERROR(solver.AddSteady(term));
   }
-  std::vector<Grid<float>> layers(sources.size(), Grid<float>(raster.occupancy.geometry()));
-  for (std::size_t s = 0; s < sources.size(); ++s) {
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      const double ppm = sum(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(s));
-      layers[s][cells[i]] = static_cast<float>(std::max(0.0, ppm));
-    }
+  return solver.Layers();
+}
+
+absl::StatusOr<std::vector<Grid<float>>> MeanConcentration(const LayoutRaster& raster,
+                                                           const MacField& wind,
+                                                           const std::vector<GasSource>& sources,
+                                                           const GasParameters& gas,
+                                                           const MeanWindow& window) {
+  constexpr double kMaxTime_s = 1e5;
+  if (!(window.warm_up_s >= 0.0 && window.warm_up_s <= kMaxTime_s)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("warm_up_s = ", window.warm_up_s, " must be in [0, ", kMaxTime_s, "]"));
   }
-  return layers;
+  if (!(window.mean_s > 0.0 && window.mean_s <= kMaxTime_s)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("mean_s = ", window.mean_s, " must be in (0, ", kMaxTime_s, "]"));
+  }
+  Solver solver(raster, wind, sources, gas);
+  for (const DecayTerm& term : InverseDepthTerms(gas)) {
+    // After 7 times their own, exp(-7) = 0.1 % are missing from being steady.
+    constexpr double kSteady = 7.0;
+    const bool steady = term.rate_per_s * window.warm_up_s > kSteady;
+    PLUMESCOUT_RETURN_IF_ERROR(steady ? solver.AddSteady(term) : solver.AddMean(term, window));
+  }
+  return solver.Layers();
 }
 
 }  // namespace plumescout::lab

@@ -35,4 +35,21 @@ absl::StatusOr<std::vector<Grid<float>>> SteadyConcentration(const LayoutRaster&
                                                              const std::vector<GasSource>& sources,
                                                              const GasParameters& gas);
 
+// From the beginning of the release on.
+struct MeanWindow {
+  double warm_up_s = 180.0;  // before the mean, [0, 100000]
+  double mean_s = 300.0;     // (0, 100000], without its beginning, with its end
+};
+
+// The same for a release that began a while ago, as a mean over a window of time: rooms without a
+// draught take hours to fill. In implicit steps of kMeanStep_s (Euler: stable at any length, and
+// what changes faster is steady). Gas need not get out. Errors: kInvalidArgument for a window out
+// of range. Cost: besides, a solution per step.
+inline constexpr double kMeanStep_s = 5.0;
+absl::StatusOr<std::vector<Grid<float>>> MeanConcentration(const LayoutRaster& raster,
+                                                           const MacField& wind,
+                                                           const std::vector<GasSource>& sources,
+                                                           const GasParameters& gas,
+                                                           const MeanWindow& window);
+
 }  // namespace plumescout::lab

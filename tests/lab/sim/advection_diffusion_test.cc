@@ -104,6 +104,47 @@ TEST(AdvectionDiffusionTest, AgreesWithTheMeanOfTheFilaments) {
   EXPECT_GE(correlation, 0.85);
 }
 
+// A closed room holds what was released: in the middle of the window, at a constant depth.
+TEST(AdvectionDiffusionTest, MeanOfAClosedRoomIsWhatWasReleasedUntilItsMiddle) {
+  Layout layout = SmallLayout();
+  layout.openings.clear();
+  const LayoutRaster raster = *Rasterize(layout);
+  const MacField still(raster.occupancy.geometry());
+  const MeanWindow window{50.0, 100.0};
+  const auto layers = MeanConcentration(raster, still, layout.sources, ConstantDepth(), window);
+  ASSERT_TRUE(layers.ok()) << layers.status();
+  double content = 0.0;  // ppm m^3
+  for (const float ppm : (*layers)[0].values()) content += ppm * 0.1 * 0.1 * 0.25;
+  // The steps' ends are averaged: half a step later.
+  const double until_s = 50.0 + 100.0 / 2.0 + kMeanStep_s / 2.0;
+  const double expected = until_s * Released_ppm_m3_per_s(layout.sources[0], ConstantDepth());
+  EXPECT_NEAR(content, expected, 1e-5 * expected);
+}
+
+TEST(AdvectionDiffusionTest, MeanBecomesSteady) {
+  const Layout layout = SmallLayout();
+  const LayoutRaster raster = *Rasterize(layout);
+  const MacField wind = *SolveWind(raster.flow, {});
+  const auto steady = SteadyConcentration(raster, wind, layout.sources, layout.gas);
+  const auto mean =
+      MeanConcentration(raster, wind, layout.sources, layout.gas, MeanWindow{2000.0, 10.0});
+  ASSERT_TRUE(mean.ok()) << mean.status();
+  for (std::size_t i = 0; i < raster.occupancy.size(); ++i) {
+    EXPECT_NEAR((*mean)[0][i], (*steady)[0][i], 0.001 + 0.001 * (*steady)[0][i]);
+  }
+}
+
+TEST(AdvectionDiffusionTest, RefusesWindowsOutOfRange) {
+  const Layout layout = SmallLayout();
+  const LayoutRaster raster = *Rasterize(layout);
+  const MacField still(raster.occupancy.geometry());
+  for (const MeanWindow& window : {MeanWindow{-1.0, 1.0}, MeanWindow{0.0, 0.0},
+                                   MeanWindow{std::nan(""), 1.0}, MeanWindow{1.0, 1e300}}) {
+    EXPECT_EQ(MeanConcentration(raster, still, layout.sources, layout.gas, window).status().code(),
+              absl::StatusCode::kInvalidArgument);
+  }
+}
+
 TEST(AdvectionDiffusionTest, KeepsGasOutOfSolidsAndIsNowhereNegative) {
   const Layout layout = SmallLayout();
   const LayoutRaster raster = *Rasterize(layout);
