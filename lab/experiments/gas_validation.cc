@@ -90,22 +90,19 @@ struct Run {
   }
 };
 
+double Thousands(std::int64_t count) { return static_cast<double>(count) / 1000.0; }
+
 Chart MakeMassChart(const std::vector<MassPoint>& mass) {
-  Curve released{"released", {kLineColors[5], 2.0}, {}};
   Curve inside{"inside", {kLineColors[0], 2.0}, {}};
-  Curve left{"left", {kLineColors[1], 2.0}, {}};
-  Curve sum{"inside + left", {kInk, 1.2, 6.0}, {}};
+  Curve accounted{"in + out", {kLineColors[1], 2.0}, {}};
+  Curve released{"released", {kInk, 1.2, 6.0}, {}};
   for (const MassPoint& point : mass) {
-    constexpr double kThousand = 1000.0;
-    const auto add = [&](Curve& curve, std::int64_t filaments) {
-      curve.points.push_back({point.time_s, static_cast<double>(filaments) / kThousand});
-    };
-    add(released, point.released);
-    add(inside, point.inside);
-    add(left, point.left);
-    add(sum, point.inside + point.left);
+    inside.points.push_back({point.time_s, Thousands(point.inside)});
+    accounted.points.push_back({point.time_s, Thousands(point.inside + point.left)});
+    released.points.push_back({point.time_s, Thousands(point.released)});
   }
-  return {"Filaments, thousands", "time, s", std::nullopt, {released, inside, left, sum}};
+  return {
+      "Filaments", "time, s (the mean begins at 0)", std::nullopt, {inside, accounted, released}};
 }
 
 std::int64_t LargestImbalance(const std::vector<MassPoint>& mass) {
@@ -177,8 +174,7 @@ OpenField BlowOverOpenField(Run& run) {
 constexpr double kProfilesAt_m[] = {1.0, 3.0, 7.0};
 
 Chart MakeProfiles(const OpenField& field, Run& run) {
-  Chart chart{
-      "Across the wind, ppm", "y, m (at x = 1, 3, 7 m; dashed: Gaussian)", std::nullopt, {}};
+  Chart chart{"Across, ppm", "y, m (at x = 1, 3, 7 m; dashed: Gaussian)", std::nullopt, {}};
   constexpr double kHalfWidth_m = 1.6;
   std::size_t color = 0;
   for (const double x_m : kProfilesAt_m) {
