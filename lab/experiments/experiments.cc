@@ -5,6 +5,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "core/types/status_macros.h"
+#include "lab/experiments/gas_validation.h"
 #include "lab/experiments/mit_table1.h"
 #include "lab/experiments/wind_validation.h"
 #include "lab/experiments/xit_episode.h"
@@ -22,9 +23,13 @@ struct Experiment {
 };
 
 constexpr Experiment kExperiments[] = {
-    {"mit_table1", RunMitTable1}, {"wind_validation", RunWindValidation},
-    {"xit_episode", RunXitEpisode}, {"xit_fig3", RunXitFig3},
-    {"xit_fig4", RunXitFig4}, {"xit_fig5", RunXitFig5},
+    {"gas_validation", RunGasValidation},
+    {"mit_table1", RunMitTable1},
+    {"wind_validation", RunWindValidation},
+    {"xit_episode", RunXitEpisode},
+    {"xit_fig3", RunXitFig3},
+    {"xit_fig4", RunXitFig4},
+    {"xit_fig5", RunXitFig5},
     {"xit_trial", RunXitTrial},
 };
 

@@ -111,6 +111,9 @@ absl::Status CheckSources(const Layout& layout) {
         CheckInside(field + ".position_m", {source.x_m, source.y_m}, layout));
     PLUMESCOUT_RETURN_IF_ERROR(
         Check(field + ".rate_ppm_per_s", source.rate_ppm_per_s, Positive(kMaxRate_ppm_per_s)));
+    const absl::Status release = Validate(source.release);
+    if (release.ok()) continue;
+    return absl::InvalidArgumentError(absl::StrCat(field, ".release.", release.message()));
   }
   return absl::OkStatus();
 }

@@ -80,6 +80,20 @@ gas: {filaments_per_s: 50, initial_sigma_m: 0.2, growth_m2_per_s: 0.002,
   EXPECT_EQ(layout->gas.mixing_depth_m, 1.5);
 }
 
+TEST(LayoutYamlTest, ReadsSchedulesOfSources) {
+  std::string text = kShortest;
+  const std::string source = "rate_ppm_per_s: 600";
+  text.replace(text.find(source), source.size(),
+               source + ", release: {start_s: -30, end_s: 90, on_s: 5, off_s: 2.5}");
+  const auto layout = ParseLayout(text);
+  ASSERT_TRUE(layout.ok()) << layout.status();
+  EXPECT_EQ(layout->sources[0].release, (ReleaseSchedule{-30.0, 90.0, 5.0, 2.5}));
+  text.replace(text.find("end_s: 90"), 9, "end_s: -90");
+  ExpectInvalid(text, "sources[0].release.end_s = -90 must be after start_s = -30");
+  text.replace(text.find("end_s: -90"), 10, "stop_s: 90");
+  ExpectInvalid(text, "unknown key sources[0].release.stop_s");
+}
+
 TEST(LayoutYamlTest, LeavesDefaultsWhereNothingIsSaid) {
   const auto layout = ParseLayout(kShortest);
   ASSERT_TRUE(layout.ok()) << layout.status();
