@@ -7,11 +7,13 @@
 #include "core/types/status_macros.h"
 #include "lab/experiments/gas_validation.h"
 #include "lab/experiments/mit_table1.h"
+#include "lab/experiments/own_strategy.h"
 #include "lab/experiments/wind_validation.h"
 #include "lab/experiments/xit_episode.h"
 #include "lab/experiments/xit_fig3.h"
 #include "lab/experiments/xit_fig4.h"
 #include "lab/experiments/xit_fig5.h"
+#include "lab/experiments/xit_table3.h"
 #include "lab/experiments/xit_trial.h"
 
 namespace plumescout::lab {
@@ -25,11 +27,13 @@ struct Experiment {
 constexpr Experiment kExperiments[] = {
     {"gas_validation", RunGasValidation},
     {"mit_table1", RunMitTable1},
+    {"own_strategy", RunOwnStrategy},
     {"wind_validation", RunWindValidation},
     {"xit_episode", RunXitEpisode},
     {"xit_fig3", RunXitFig3},
     {"xit_fig4", RunXitFig4},
     {"xit_fig5", RunXitFig5},
+    {"xit_table3", RunXitTable3},
     {"xit_trial", RunXitTrial},
 };
 
