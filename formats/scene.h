@@ -44,6 +44,18 @@ struct WindField {
   friend bool operator==(const WindField&, const WindField&) = default;
 };
 
+enum class Side { kWest, kEast, kSouth, kNorth };
+
+// Window or vent in the outer wall of a building. Air passes; robots, beams and maps see a wall.
+struct Opening {
+  Side side = Side::kWest;
+  double from_m = 0.0;               // along x on the south and north side, along y on the others
+  double to_m = 0.0;                 // > from_m
+  std::optional<double> inflow_mps;  // > 0, at right angles into the building; none: outlet
+
+  friend bool operator==(const Opening&, const Opening&) = default;
+};
+
 // A place with a gas leak and everything that is true of it. All rasters have the geometry of
 // `occupancy`, which is never unknown; occupied cells have concentration 0.
 struct Scene {
@@ -55,6 +67,7 @@ struct Scene {
   std::vector<Grid<float>> conc_mean_by_source_ppm;  // in the order of `sources`
   ConcentrationSeries series;
   std::optional<WindField> wind;
+  std::vector<Opening> openings;  // in frame map; none if not known
   std::vector<GasSource> sources;
   Pose2 start_pose;                     // of the robot, on a free cell
   double critical_threshold_ppm = 2.5;  // [XIT] Sec. VI-B: free cells above it are critical
@@ -62,8 +75,9 @@ struct Scene {
   const GridGeometry& geometry() const { return occupancy.geometry(); }
 };
 
-// kInvalidArgument, naming the field, unless all rasters have the geometry of the occupancy, all
-// numbers are finite, concentrations are not negative, and the start stands on a free cell.
+// kInvalidArgument, naming the field and the value, unless all rasters have the geometry of the
+// occupancy, all numbers are finite, concentrations are not negative, the start stands on a free
+// cell and the openings lie apart in the outer walls.
 absl::Status ValidateScene(const Scene& scene);
 
 // Concentration at the cell nearest to `point` in the frame nearest to `time_s`, both clamped to

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "formats/scene_json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -21,13 +23,19 @@ constexpr int kMaxSide_cells = 1 << 13;  // 2^26 cells
 constexpr int kMaxFrames = 1'000'000;
 constexpr int kMaxId = 1'000'000;
 constexpr std::size_t kMaxSources = 1000;
+constexpr std::size_t kMaxOpenings = 1000;
 constexpr double kMaxMagnitude = 1e9;  // of any number: metres, ppm, seconds
+
+// In the order of Side.
+constexpr absl::string_view kSideNames[] = {"west", "east", "south", "north"};
 
 // One value of the document and its place in it, for error messages. The JSON library throws where
 // a type is not the expected one: every access here asks first.
 class Field {
  public:
   Field(const Json* json, std::string path) : json_(json), path_(std::move(path)) {}
+
+  const std::string& path() const { return path_; }
 
   absl::StatusOr<Field> Member(const char* key) const {
     const std::string path = path_.empty() ? key : absl::StrCat(path_, ".", key);
@@ -45,33 +53,41 @@ class Field {
   }
   absl::StatusOr<std::size_t> ArraySize() const {
     if (!json_->is_array())
-      return absl::InvalidArgumentError(absl::StrCat(path_, " must be a list"));
+      return absl::InvalidArgumentError(absl::StrCat(Said(), " must be a list"));
     return json_->size();
   }
 
   absl::StatusOr<double> Number() const {
     const double value = json_->is_number() ? json_->get<double>() : std::nan("");
     if (std::abs(value) <= kMaxMagnitude) return value;
-    return absl::InvalidArgumentError(absl::StrCat(path_, " must be a number within 1e9"));
+    return absl::InvalidArgumentError(absl::StrCat(Said(), " must be a number within 1e9"));
   }
   absl::StatusOr<int> Integer(int low, int high) const {
     const auto value = json_->is_number_integer() ? json_->get<std::int64_t>() : std::int64_t{-1};
     if (value >= low && value <= high) return static_cast<int>(value);
     return absl::InvalidArgumentError(
-        absl::StrCat(path_, " must be a whole number in [", low, ", ", high, "]"));
+        absl::StrCat(Said(), " must be a whole number in [", low, ", ", high, "]"));
   }
   absl::StatusOr<std::string> Text() const {
     if (json_->is_string()) return json_->get<std::string>();
-    return absl::InvalidArgumentError(absl::StrCat(path_, " must be a text"));
+    return absl::InvalidArgumentError(absl::StrCat(Said(), " must be a text"));
   }
   // A file of the scene's own folder.
   absl::StatusOr<std::string> FileName() const {
     PLUMESCOUT_ASSIGN_OR_RETURN(std::string name, Text());
     if (!name.empty() && name != ".." && !absl::StrContains(name, "/")) return name;
-    return absl::InvalidArgumentError(absl::StrCat(path_, " must name a file of the same folder"));
+    return absl::InvalidArgumentError(absl::StrCat(Said(), " must name a file of the same folder"));
   }
 
  private:
+  // The field and its value, as far as that is short.
+  std::string Said() const {
+    constexpr std::size_t kShort = 40;
+    const std::string value =
+        json_->is_structured() ? "" : json_->dump(-1, ' ', false, Json::error_handler_t::replace);
+    return value.empty() || value.size() > kShort ? path_ : absl::StrCat(path_, " = ", value);
+  }
+
   const Json* json_;
   std::string path_;
 };
@@ -126,6 +142,37 @@ absl::StatusOr<std::vector<GasSource>> ParseSources(const Field& list) {
   return sources;
 }
 
+absl::StatusOr<Side> ParseSide(const Field& field) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::string name, field.Text());
+  const auto* const side = std::find(std::begin(kSideNames), std::end(kSideNames), name);
+  if (side != std::end(kSideNames)) return static_cast<Side>(side - std::begin(kSideNames));
+  return absl::InvalidArgumentError(
+      absl::StrCat(field.path(), " = ", name, " must be west, east, south or north"));
+}
+
+absl::StatusOr<Opening> ParseOpening(const Field& field) {
+  Opening opening;
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Field side, field.Member("side"));
+  PLUMESCOUT_ASSIGN_OR_RETURN(opening.side, ParseSide(side));
+  PLUMESCOUT_ASSIGN_OR_RETURN(opening.from_m, NumberAt(field, "from_m"));
+  PLUMESCOUT_ASSIGN_OR_RETURN(opening.to_m, NumberAt(field, "to_m"));
+  if (!field.Has("inflow_mps")) return opening;
+  PLUMESCOUT_ASSIGN_OR_RETURN(opening.inflow_mps, NumberAt(field, "inflow_mps"));
+  return opening;
+}
+
+absl::StatusOr<std::vector<Opening>> ParseOpenings(const Field& list) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::size_t count, list.ArraySize());
+  if (count > kMaxOpenings) return absl::InvalidArgumentError("more than 1000 openings");
+  std::vector<Opening> openings;
+  for (std::size_t i = 0; i < count; ++i) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(const Field element, list.Element(i));
+    PLUMESCOUT_ASSIGN_OR_RETURN(const Opening opening, ParseOpening(element));
+    openings.push_back(opening);
+  }
+  return openings;
+}
+
 absl::StatusOr<Pose2> ParsePose(const Field& field) {
   Pose2 pose;
   PLUMESCOUT_ASSIGN_OR_RETURN(pose.x_m, NumberAt(field, "x"));
@@ -169,6 +216,10 @@ absl::StatusOr<SceneDescription> ParseDescription(const Field& root) {
     PLUMESCOUT_ASSIGN_OR_RETURN(const Field wind, root.Member("wind"));
     PLUMESCOUT_ASSIGN_OR_RETURN(description.files.wind, FileNameAt(wind, "file"));
   }
+  if (root.Has("openings")) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(const Field openings, root.Member("openings"));
+    PLUMESCOUT_ASSIGN_OR_RETURN(scene.openings, ParseOpenings(openings));
+  }
   PLUMESCOUT_ASSIGN_OR_RETURN(scene.critical_threshold_ppm,
                               NumberAt(root, "critical_threshold_ppm"));
   return description;
@@ -182,6 +233,17 @@ Json FormatSources(const std::vector<GasSource>& sources) {
                     {"y", source.y_m},
                     {"z", source.z_m},
                     {"rate_ppm_per_s", source.rate_ppm_per_s}});
+  }
+  return list;
+}
+
+Json FormatOpenings(const std::vector<Opening>& openings) {
+  Json list = Json::array();
+  for (const Opening& opening : openings) {
+    const absl::string_view side = kSideNames[static_cast<std::size_t>(opening.side)];
+    list.push_back(
+        {{"side", std::string(side)}, {"from_m", opening.from_m}, {"to_m", opening.to_m}});
+    if (opening.inflow_mps) list.back()["inflow_mps"] = *opening.inflow_mps;
   }
   return list;
 }
@@ -222,6 +284,7 @@ std::string FormatSceneJson(const Scene& scene, const SceneFiles& files) {
       {"critical_threshold_ppm", scene.critical_threshold_ppm},
   };
   if (files.wind) json["wind"] = {{"file", *files.wind}};
+  if (!scene.openings.empty()) json["openings"] = FormatOpenings(scene.openings);
   constexpr int kIndent = 1;
   return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + '\n';
 }

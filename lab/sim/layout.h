@@ -2,14 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "absl/status/status.h"
 #include "core/types/pose2.h"
 #include "formats/scene.h"
-#include "lab/sim/flow_domain.h"
 
 namespace plumescout::lab {
 
@@ -33,14 +31,6 @@ struct SolidBox {
   Point2 max;
 };
 
-// Window or vent in the outer wall. Air passes; robots, beams and the map see a wall.
-struct Opening {
-  Side side = Side::kWest;
-  double from_m = 0.0;               // along x on the south and north side, along y on the others
-  double to_m = 0.0;                 // > from_m
-  std::optional<double> inflow_mps;  // (0, 30], at right angles into the building; none: outlet
-};
-
 // How released gas spreads. Sources: [XIT] Table I for the growth; the mixing depth was fitted to a
 // three-dimensional simulation of a hall 2.4 m high; the rest as GADEN scenes commonly have it.
 struct GasParameters {
@@ -60,7 +50,7 @@ struct Layout {
   double border_m = 0.2;      // thickness of the outer wall, >= one cell
   std::vector<Wall> walls;
   std::vector<SolidBox> boxes;
-  std::vector<Opening> openings;
+  std::vector<Opening> openings;   // inlets blow at (0, 30] m/s
   std::vector<GasSource> sources;  // at least one
   Pose2 start_pose;
   double sensor_height_m = 0.4;         // >= 0

@@ -120,6 +120,7 @@ Scene SceneOf(const Layout& layout, const LayoutRaster& raster) {
   scene.sensor_height_m = layout.sensor_height_m;
   scene.occupancy = raster.occupancy;
   scene.sources = layout.sources;
+  scene.openings = layout.openings;
   scene.start_pose = layout.start_pose;
   scene.critical_threshold_ppm = layout.critical_threshold_ppm;
   return scene;
