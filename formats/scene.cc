@@ -4,14 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "absl/strings/str_cat.h"
-#include "absl/strings/string_view.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
 namespace {
+
+// In the order of Side.
+constexpr absl::string_view kSideNames[] = {"west", "east", "south", "north"};
 
 absl::Status Invalid(const std::string& what) { return absl::InvalidArgumentError(what); }
 
@@ -108,6 +111,14 @@ absl::Status ValidateStart(const Scene& scene) {
 }
 
 }  // namespace
+
+absl::string_view NameOf(Side side) { return kSideNames[static_cast<std::size_t>(side)]; }
+
+std::optional<Side> SideNamed(absl::string_view name) {
+  const auto* const found = std::find(std::begin(kSideNames), std::end(kSideNames), name);
+  if (found == std::end(kSideNames)) return std::nullopt;
+  return static_cast<Side>(found - std::begin(kSideNames));
+}
 
 absl::Status ValidateScene(const Scene& scene) {
   const GridGeometry& geometry = scene.geometry();

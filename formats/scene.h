@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "absl/status/status.h"
+#include "absl/strings/string_view.h"
 #include "core/types/cell_state.h"
 #include "core/types/grid.h"
 #include "core/types/pose2.h"
@@ -45,6 +46,10 @@ struct WindField {
 };
 
 enum class Side { kWest, kEast, kSouth, kNorth };
+
+// "west", "east", "south", "north".
+absl::string_view NameOf(Side side);
+std::optional<Side> SideNamed(absl::string_view name);
 
 // Window or vent in the outer wall of a building. Air passes; robots, beams and maps see a wall.
 struct Opening {

@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "formats/scene_json.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -25,9 +23,6 @@ constexpr int kMaxId = 1'000'000;
 constexpr std::size_t kMaxSources = 1000;
 constexpr std::size_t kMaxOpenings = 1000;
 constexpr double kMaxMagnitude = 1e9;  // of any number: metres, ppm, seconds
-
-// In the order of Side.
-constexpr absl::string_view kSideNames[] = {"west", "east", "south", "north"};
 
 // One value of the document and its place in it, for error messages. The JSON library throws where
 // a type is not the expected one: every access here asks first.
@@ -144,8 +139,7 @@ absl::StatusOr<std::vector<GasSource>> ParseSources(const Field& list) {
 
 absl::StatusOr<Side> ParseSide(const Field& field) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::string name, field.Text());
-  const auto* const side = std::find(std::begin(kSideNames), std::end(kSideNames), name);
-  if (side != std::end(kSideNames)) return static_cast<Side>(side - std::begin(kSideNames));
+  if (const std::optional<Side> side = SideNamed(name)) return *side;
   return absl::InvalidArgumentError(
       absl::StrCat(field.path(), " = ", name, " must be west, east, south or north"));
 }
@@ -240,9 +234,9 @@ Json FormatSources(const std::vector<GasSource>& sources) {
 Json FormatOpenings(const std::vector<Opening>& openings) {
   Json list = Json::array();
   for (const Opening& opening : openings) {
-    const absl::string_view side = kSideNames[static_cast<std::size_t>(opening.side)];
-    list.push_back(
-        {{"side", std::string(side)}, {"from_m", opening.from_m}, {"to_m", opening.to_m}});
+    list.push_back({{"side", std::string(NameOf(opening.side))},
+                    {"from_m", opening.from_m},
+                    {"to_m", opening.to_m}});
     if (opening.inflow_mps) list.back()["inflow_mps"] = *opening.inflow_mps;
   }
   return list;

@@ -15,6 +15,8 @@ namespace plumescout::lab {
 struct Door {
   double at_m = 0.0;     // of its middle, along the wall from Wall::from
   double width_m = 1.0;  // > 0
+
+  friend bool operator==(const Door&, const Door&) = default;
 };
 
 // Straight wall, at any angle, with square ends half a thickness beyond `from` and `to`.
@@ -23,12 +25,16 @@ struct Wall {
   Point2 to;
   double thickness_m = 0.2;  // > 0
   std::vector<Door> doors;
+
+  friend bool operator==(const Wall&, const Wall&) = default;
 };
 
 // Solid rectangle: a container, a pillar, a machine.
 struct SolidBox {
   Point2 min;
   Point2 max;
+
+  friend bool operator==(const SolidBox&, const SolidBox&) = default;
 };
 
 // How released gas spreads. Sources: [XIT] Table I for the growth; the mixing depth was fitted to a
@@ -39,6 +45,8 @@ struct GasParameters {
   double growth_m2_per_s = 0.0015;     // gamma: 15 cm^2/s, [0, 1]
   double diffusivity_m2_per_s = 0.02;  // K of the filaments' random walk, [0, 1]
   double mixing_depth_m = 2.05;        // height over which old gas is spread, (0, 100]
+
+  friend bool operator==(const GasParameters&, const GasParameters&) = default;
 };
 
 // A building as a researcher describes it: metres, origin in the lower-left corner.
@@ -56,6 +64,8 @@ struct Layout {
   double sensor_height_m = 0.4;         // >= 0
   double critical_threshold_ppm = 2.5;  // [XIT] section VI-B, > 0
   GasParameters gas;
+
+  friend bool operator==(const Layout&, const Layout&) = default;
 };
 
 // kInvalidArgument naming field, value and range, e.g. "walls[2].thickness_m = 0 must be > 0".

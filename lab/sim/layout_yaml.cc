@@ -72,13 +72,9 @@ absl::Status Read(const YAML::Node& node, const std::string& path, Point2& value
 }
 
 absl::Status Read(const YAML::Node& node, const std::string& path, Side& value) {
-  static const std::map<std::string, Side> kSides = {{"west", Side::kWest},
-                                                     {"east", Side::kEast},
-                                                     {"south", Side::kSouth},
-                                                     {"north", Side::kNorth}};
-  const auto side = node.IsScalar() ? kSides.find(node.Scalar()) : kSides.end();
-  if (side == kSides.end()) return Mistyped(path, "west, east, south or north");
-  value = side->second;
+  const std::optional<Side> side = node.IsScalar() ? SideNamed(node.Scalar()) : std::nullopt;
+  if (!side) return Mistyped(path, "west, east, south or north");
+  value = *side;
   return absl::OkStatus();
 }
 
