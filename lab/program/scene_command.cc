@@ -18,6 +18,7 @@
 #include "lab/program/progress_line.h"
 #include "lab/report/scene_sheet.h"
 #include "lab/sim/layout_generator.h"
+#include "lab/sim/layout_raster.h"
 #include "lab/sim/layout_writer.h"
 #include "lab/sim/layout_yaml.h"
 #include "lab/sim/scene_maker.h"
@@ -55,12 +56,15 @@ struct MakeArguments {
 };
 
 absl::Status Make(const MakeArguments& arguments) {
+  PLUMESCOUT_RETURN_IF_ERROR(Validate(arguments.options));
   PLUMESCOUT_ASSIGN_OR_RETURN(const Layout layout, ReadLayout(arguments.layout));
+  const absl::Status fits = Rasterize(layout).status();
+  if (!fits.ok()) {
+    return absl::Status(fits.code(), absl::StrCat(arguments.layout, ": ", fits.message()));
+  }
+  PLUMESCOUT_RETURN_IF_ERROR(MakeFolder(arguments.out));
   ProgressLine progress;
-  const absl::Status status =
-      MakeFolderOf(layout, arguments.options, {.folder = arguments.out}, progress);
-  if (status.code() != absl::StatusCode::kInvalidArgument) return status;
-  return absl::InvalidArgumentError(absl::StrCat(arguments.layout, ": ", status.message()));
+  return MakeFolderOf(layout, arguments.options, {.folder = arguments.out}, progress);
 }
 
 struct GenerateArguments {

@@ -25,9 +25,8 @@ bool IsFree(const Scene& scene, std::size_t index) {
   return scene.occupancy[index] == CellState::kFree;
 }
 
-bool IsCritical(const Scene& scene, Cell cell) {
-  return scene.occupancy.At(cell, CellState::kOccupied) == CellState::kFree &&
-         scene.conc_mean_ppm[cell] > scene.critical_threshold_ppm;
+bool IsCritical(const Scene& scene, std::size_t index) {
+  return scene.conc_mean_ppm[index] > scene.critical_threshold_ppm;
 }
 
 // A thick line in the outer wall.
@@ -163,21 +162,25 @@ MapPanel WindOf(const Scene& scene) {
   return panel;
 }
 
-// Edges between critical cells and others.
+// Edges between critical free cells and other free ones.
 void AddCriticalOutline(const Scene& scene, MapPanel& panel) {
   const GridGeometry& geometry = scene.geometry();
   const auto corner = [&geometry](int x, int y) {
     return Point2{geometry.origin_x_m + x * geometry.resolution_m,
                   geometry.origin_y_m + y * geometry.resolution_m};
   };
+  const auto differ = [&](Cell a, Cell b) {
+    const std::size_t i = geometry.Index(a);
+    const std::size_t j = geometry.Index(b);
+    return IsFree(scene, i) && IsFree(scene, j) && IsCritical(scene, i) != IsCritical(scene, j);
+  };
   const Stroke stroke{kCriticalColor, 1.4};
   for (int y = 1; y < geometry.height; ++y) {
     for (int x = 1; x < geometry.width; ++x) {
-      const bool critical = IsCritical(scene, {x, y});
-      if (critical != IsCritical(scene, {x - 1, y})) {
+      if (differ({x, y}, {x - 1, y})) {
         panel.lines.push_back({{corner(x, y), corner(x, y + 1)}, stroke});
       }
-      if (critical != IsCritical(scene, {x, y - 1})) {
+      if (differ({x, y}, {x, y - 1})) {
         panel.lines.push_back({{corner(x, y), corner(x + 1, y)}, stroke});
       }
     }
@@ -225,7 +228,7 @@ std::string FiguresText(const Scene& scene) {
   for (std::size_t i = 0; i < scene.occupancy.size(); ++i) {
     if (!IsFree(scene, i)) continue;
     ++free_cells;
-    critical += IsCritical(scene, geometry.CellAtIndex(i)) ? 1 : 0;
+    critical += IsCritical(scene, i) ? 1 : 0;
   }
   return absl::StrFormat(
       "%.1f m x %.1f m in cells of %.2f m; %d free cells, %.0f %% of them critical; %d frames, one "

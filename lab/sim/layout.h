@@ -13,7 +13,7 @@ namespace plumescout::lab {
 
 // Gap in a wall.
 struct Door {
-  double at_m = 0.0;     // of its middle, along the wall from Wall::from
+  double at_m = 0.0;     // of its middle, along the wall from Wall::from; wholly in the wall
   double width_m = 1.0;  // > 0
 
   friend bool operator==(const Door&, const Door&) = default;
@@ -29,7 +29,7 @@ struct Wall {
   friend bool operator==(const Wall&, const Wall&) = default;
 };
 
-// Solid rectangle: a container, a pillar, a machine.
+// Solid rectangle: a container, a pillar, a machine. Boxes may touch but not overlap.
 struct SolidBox {
   Point2 min;
   Point2 max;

@@ -45,6 +45,12 @@ struct Window {
   Spot middle() const { return {(zone.x0 + zone.x1) / 2, (zone.y0 + zone.y1) / 2}; }
 };
 
+struct Source {
+  Spot spot;
+  std::size_t room = 0;
+  double rate_ppm_per_s = 0.0;
+};
+
 // One attempt at a building.
 class Building {
  public:
@@ -56,7 +62,7 @@ class Building {
     std::vector<UnitRect> clear = DoorZones();
     for (const Window& window : windows_) clear.push_back(window.zone);
     furniture_ = DrawFurniture(plan_, clear, rng_);
-    return DrawStart() && DrawSources(options.max_sources);
+    return DrawSources(options.max_sources) && DrawStart();
   }
 
   Layout ToLayout(std::string name) const;
@@ -80,7 +86,7 @@ class Building {
   // Somewhere in the outer wall; nothing if the room drawn does not lie at the side drawn.
   std::optional<Window> DrawWindow();
   bool DrawWindows();
-  bool AddInlet();
+  bool AddInlet(double max_flow_m2_per_s);
   // Of several draws the one farthest from the inlets, which sends the air through the building.
   bool AddOutlet();
   bool IsApart(const Window& window) const;
@@ -88,6 +94,8 @@ class Building {
 
   // A spot in the open of this room.
   std::optional<Spot> DrawSpot(const UnitRect& floor);
+  bool HasSource(std::size_t room) const;
+  bool IsClean(const Spot& spot) const;
   bool DrawStart();
   bool DrawSources(int max_sources);
   bool AddSource();
@@ -101,8 +109,7 @@ class Building {
   Spot start_;
   std::size_t start_room_ = 0;
   double start_yaw_rad_ = 0.0;
-  std::vector<Spot> sources_;
-  std::vector<double> rates_ppm_per_s_;
+  std::vector<Source> sources_;
 };
 
 std::optional<Window> Building::DrawWindow() {
@@ -158,15 +165,13 @@ int Building::DistanceToInlets(const Window& window) const {
   return nearest;
 }
 
-bool Building::AddInlet() {
-  // Of air through a metre of height: what doors can take without a gale in them.
-  constexpr double kMaxFlow_m2_per_s = 3.0;
+bool Building::AddInlet(double max_flow_m2_per_s) {
   for (int i = 0; i < kTries; ++i) {
     const std::optional<Window> window = DrawWindow();
     const double speed_mps = DrawInt(rng_, 5, 30) / 10.0;
     if (!window || !IsApart(*window)) continue;
     const double width_m = static_cast<double>(window->width) / kUnitsPerM;
-    if (speed_mps * width_m > kMaxFlow_m2_per_s) continue;
+    if (speed_mps * width_m > max_flow_m2_per_s) continue;
     windows_.push_back(*window);
     inflow_mps_.push_back(speed_mps);
     ++inlets_;
@@ -194,10 +199,13 @@ bool Building::AddOutlet() {
 }
 
 bool Building::DrawWindows() {
+  // Air through a metre of height: what doors can take without a gale in them.
+  constexpr double kMaxFlow_m2_per_s = 3.0;
   const int inlets = DrawInt(rng_, 1, 2);
   for (int i = 0; i < inlets; ++i) {
-    if (!AddInlet()) return false;
+    if (!AddInlet(kMaxFlow_m2_per_s / inlets)) return false;
   }
+  start_room_ = windows_[rng_.Below(inlets_)].room;
   const int outlets = DrawInt(rng_, 1, 3);
   for (int i = 0; i < outlets; ++i) {
     if (!AddOutlet()) return false;
@@ -214,14 +222,34 @@ std::optional<Spot> Building::DrawSpot(const UnitRect& floor) {
   return spot;
 }
 
+bool Building::HasSource(std::size_t room) const {
+  return std::any_of(sources_.begin(), sources_.end(),
+                     [&](const Source& source) { return source.room == room; });
+}
+
+// Gas seeps through the doors of rooms with a leak, against the wind too.
+bool Building::IsClean(const Spot& spot) const {
+  constexpr int kReach = 3 * kUnitsPerM;
+  for (const Partition& wall : plan_.partitions) {
+    for (const PlanDoor& door : wall.doors) {
+      const auto a = static_cast<std::size_t>(door.room_a);
+      const auto b = static_cast<std::size_t>(door.room_b);
+      const bool seeps = (a == start_room_ && HasSource(b)) || (b == start_room_ && HasSource(a));
+      const int middle = door.from + door.width / 2;
+      const Spot at = wall.vertical ? Spot{wall.solid.x0, middle} : Spot{middle, wall.solid.y0};
+      if (seeps && Distance(at, spot) < kReach) return false;
+    }
+  }
+  return true;
+}
+
 bool Building::DrawStart() {
-  start_room_ = windows_[rng_.Below(inlets_)].room;
   start_yaw_rad_ = DrawInt(rng_, -314, 314) / 100.0;
   for (int i = 0; i < kTries; ++i) {
-    if (const std::optional<Spot> spot = DrawSpot(plan_.rooms[start_room_].floor)) {
-      start_ = *spot;
-      return true;
-    }
+    const std::optional<Spot> spot = DrawSpot(plan_.rooms[start_room_].floor);
+    if (!spot || !IsClean(*spot)) continue;
+    start_ = *spot;
+    return true;
   }
   return false;
 }
@@ -233,15 +261,14 @@ bool Building::AddSource() {
     if (room == start_room_) continue;
     const std::optional<Spot> spot = DrawSpot(plan_.rooms[room].floor);
     if (!spot) continue;
-    const bool apart = std::none_of(sources_.begin(), sources_.end(), [&](const Spot& other) {
-      return Distance(other, *spot) < kApart;
+    const bool apart = std::none_of(sources_.begin(), sources_.end(), [&](const Source& other) {
+      return Distance(other.spot, *spot) < kApart;
     });
     const bool away = std::none_of(windows_.begin(), windows_.end(), [&](const Window& window) {
       return Distance(window.middle(), *spot) < kApart / 2;
     });
     if (!apart || !away) continue;
-    sources_.push_back(*spot);
-    rates_ppm_per_s_.push_back(50.0 * DrawInt(rng_, 12, 40));  // 600 to 2000
+    sources_.push_back({*spot, room, 50.0 * DrawInt(rng_, 12, 40)});  // 600 to 2000 ppm/s
     return true;
   }
   return false;
@@ -297,10 +324,10 @@ Layout Building::ToLayout(std::string name) const {
     if (i < inlets_) opening.inflow_mps = inflow_mps_[i];
     layout.openings.push_back(opening);
   }
-  for (std::size_t i = 0; i < sources_.size(); ++i) {
-    const Point2 at = PointAt(sources_[i].x, sources_[i].y);
-    layout.sources.push_back(
-        {static_cast<int>(i), at.x_m, at.y_m, layout.sensor_height_m, rates_ppm_per_s_[i]});
+  for (const Source& source : sources_) {
+    const Point2 at = PointAt(source.spot.x, source.spot.y);
+    const int id = static_cast<int>(layout.sources.size());
+    layout.sources.push_back({id, at.x_m, at.y_m, layout.sensor_height_m, source.rate_ppm_per_s});
   }
   const Point2 start = PointAt(start_.x, start_.y);
   layout.start_pose = {start.x_m, start.y_m, start_yaw_rad_};

@@ -18,7 +18,7 @@ struct LayoutRaster {
 
 // A cell is solid if its centre is. Free cells that no way leads to from the start become occupied.
 // Errors, kInvalidArgument: Validate's; the start or a source not in the open; an opening that
-// leads into a wall; inlets without an outlet.
+// leads into a wall or overlaps another; openings without an inlet or without an outlet.
 absl::StatusOr<LayoutRaster> Rasterize(const Layout& layout);
 
 }  // namespace plumescout::lab
