@@ -7,6 +7,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
@@ -17,6 +18,7 @@
 #include "formats/scene_folder.h"
 #include "lab/program/progress_line.h"
 #include "lab/report/scene_sheet.h"
+#include "lab/sim/gaden_scene.h"
 #include "lab/sim/layout_generator.h"
 #include "lab/sim/layout_raster.h"
 #include "lab/sim/layout_writer.h"
@@ -161,6 +163,65 @@ void AddShow(CLI::App& scene, absl::Status& status) {
   show->callback([arguments, &status] { status = Show(*arguments); });
 }
 
+struct ImportArguments {
+  GadenImport import;
+  std::vector<double> start;  // x, y in metres and, if given, yaw in radians
+  std::string out;
+};
+
+absl::Status Import(ImportArguments arguments) {
+  GadenImport& import = arguments.import;
+  import.start_pose = {arguments.start[0], arguments.start[1],
+                       arguments.start.size() > 2 ? WrapAngle_rad(arguments.start[2]) : 0.0};
+  import.name = std::filesystem::path(arguments.out).filename().string();
+  ProgressLine progress;
+  const absl::Time start = absl::Now();
+  const auto show = [&](absl::string_view stage, double fraction) {
+    progress.Show(absl::StrCat(ProgressWithTimeLeft(fraction, absl::Now() - start), "  ", stage));
+  };
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Scene scene, ImportGaden(import, show));
+  PLUMESCOUT_RETURN_IF_ERROR(WriteScene(scene, arguments.out));
+  progress.Finish(absl::StrFormat("%s: %d x %d cells, %d frames, %s", arguments.out,
+                                  scene.geometry().width, scene.geometry().height,
+                                  scene.series.frames, scene.wind ? "wind" : "no wind"));
+  return absl::OkStatus();
+}
+
+void AddImport(CLI::App& scene, absl::Status& status) {
+  CLI::App* command = scene.add_subcommand(
+      "import-gaden", "Convert results of GADEN 2.0 to 2.5 or 3 to a scene folder: one slice");
+  const auto arguments = std::make_shared<ImportArguments>();
+  GadenImport& import = arguments->import;
+  command
+      ->add_option("results", import.results,
+                   "Folder with the files iteration_N; several, one per source, add up")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  command->add_option("--out", arguments->out, "Scene folder to write")->required();
+  command
+      ->add_option("--start", arguments->start,
+                   "Where the robot starts: x y in metres, and its heading in radians")
+      ->expected(2, 3)
+      ->required();
+  command
+      ->add_option("--environment", import.environment,
+                   "Folder with OccupancyGrid3D.csv (default: RESULTS or up to three above it)")
+      ->check(CLI::ExistingDirectory);
+  command->add_option("--height-m", import.height_m, "Height of the slice, of the gas sensor")
+      ->capture_default_str();
+  command
+      ->add_option("--frame-period-s", import.frame_period_s,
+                   "Seconds between two frames; the files do not tell")
+      ->capture_default_str();
+  command
+      ->add_option("--skip-frames", import.skip_frames,
+                   "Frames to leave out at the beginning, while the plume spreads")
+      ->capture_default_str();
+  command->add_option("--rate-ppm-per-s", import.rates_ppm_per_s,
+                      "Release rate of each source, if it is to be noted in the scene");
+  command->callback([arguments, &status] { status = Import(*arguments); });
+}
+
 }  // namespace
 
 void AddSceneCommand(CLI::App& app, absl::Status& status) {
@@ -169,6 +230,7 @@ void AddSceneCommand(CLI::App& app, absl::Status& status) {
   AddMake(*scene, status);
   AddGenerate(*scene, status);
   AddShow(*scene, status);
+  AddImport(*scene, status);
 }
 
 }  // namespace plumescout::lab

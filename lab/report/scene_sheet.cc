@@ -211,6 +211,15 @@ MapPanel GasOf(const Scene& scene) {
   return panel;
 }
 
+// Narrower for tall buildings, whose maps are bounded in height.
+int PanelWidth_px(const Region& region) {
+  constexpr double kNarrowest_px = 330.0;  // title and legend
+  constexpr double kWidest_px = 480.0;
+  constexpr double kHeight_px = 620.0;
+  const double width_px = kHeight_px * region.width_m() / region.height_m();
+  return static_cast<int>(std::clamp(width_px, kNarrowest_px, kWidest_px));
+}
+
 std::string SourcesText(const Scene& scene) {
   std::string text = scene.sources.empty() ? "No sources" : "Sources:";
   for (std::size_t i = 0; i < scene.sources.size(); ++i) {
@@ -250,12 +259,12 @@ std::vector<MapPanel> MakeScenePanels(const Scene& scene) {
 Image DrawSceneSheet(const Scene& scene) {
   constexpr int kMargin_px = 32;
   constexpr int kGap_px = 40;
-  constexpr int kPanel_px = 480;
   constexpr int kTop_px = 104;
   const std::vector<MapPanel> panels = MakeScenePanels(scene);
-  const double height_px = std::ceil(MapPanelHeight_px(panels.front(), kPanel_px));
+  const int panel_px = PanelWidth_px(panels.front().region);
+  const double height_px = std::ceil(MapPanelHeight_px(panels.front(), panel_px));
   const int count = static_cast<int>(panels.size());
-  RasterCanvas canvas(2 * kMargin_px + count * kPanel_px + (count - 1) * kGap_px,
+  RasterCanvas canvas(2 * kMargin_px + count * panel_px + (count - 1) * kGap_px,
                       2 * kMargin_px + kTop_px + static_cast<int>(height_px), kPaper);
   canvas.Text({kMargin_px, 54.0}, absl::StrCat("Scene ", scene.name),
               {26.0, kInk, Anchor::kStart, true});
@@ -263,8 +272,9 @@ Image DrawSceneSheet(const Scene& scene) {
   canvas.Text({kMargin_px, 106.0}, SourcesText(scene), {14.0, kInk});
   double x = kMargin_px;
   for (const MapPanel& panel : panels) {
-    DrawMapPanel(canvas, {x, kMargin_px + kTop_px, kPanel_px, height_px}, panel);
-    x += kPanel_px + kGap_px;
+    DrawMapPanel(canvas, {x, kMargin_px + kTop_px, static_cast<double>(panel_px), height_px},
+                 panel);
+    x += panel_px + kGap_px;
   }
   return canvas.image();
 }

@@ -98,7 +98,7 @@ class Interior {
   // As many as the air can carry off: once mixed with all of it they make this much on average.
   // Above it most of the building turns critical.
   bool DrawLeaks(int max_leaks) {
-    constexpr double kMixed_ppm = 12.0;
+    constexpr double kMixed_ppm = 7.0;
     constexpr double kDepth_m = 2.05;            // GasParameters::mixing_depth_m
     constexpr double kRelease_m3 = 0.015749610;  // (2 pi)^(3/2) sigma_0^3, of GasParameters
     const double carried_ppm_per_s = kMixed_ppm * kDepth_m * air_.Flow_m2_per_s() / kRelease_m3;

@@ -12,6 +12,7 @@
 #include "core/grid/distance_field.h"
 #include "core/grid/flood.h"
 #include "lab/sim/layout_raster.h"
+#include "lab/sim/layout_writer.h"
 
 namespace plumescout::lab {
 namespace {
@@ -102,6 +103,13 @@ TEST(LayoutGeneratorTest, StaysWithinItsOptions) {
       EXPECT_TRUE(source.rate_ppm_per_s >= 600.0 && source.rate_ppm_per_s <= 2000.0);
     }
   }
+}
+
+TEST(LayoutGeneratorTest, DrawsTheSameBuildingEverywhere) {
+  const Layout layout = GenerateLayout(7);
+  EXPECT_EQ(layout, GenerateLayout(7));
+  EXPECT_EQ(layout.name, "generated_7");
+  EXPECT_EQ(FormatLayout(layout).size(), 0u);
 }
 
 TEST(LayoutGeneratorTest, DrawsBuildingsThatDiffer) {
