@@ -223,9 +223,12 @@ int PanelWidth_px(const Region& region) {
 std::string SourcesText(const Scene& scene) {
   std::string text = scene.sources.empty() ? "No sources" : "Sources:";
   for (std::size_t i = 0; i < scene.sources.size(); ++i) {
-    absl::StrAppendFormat(&text, "%s %d at (%.1f, %.1f) m with %.0f ppm/s", i == 0 ? "" : ",",
-                          static_cast<int>(i) + 1, scene.sources[i].x_m, scene.sources[i].y_m,
-                          scene.sources[i].rate_ppm_per_s);
+    const GasSource& source = scene.sources[i];
+    absl::StrAppendFormat(&text, "%s %d at (%.1f, %.1f) m", i == 0 ? "" : ",",
+                          static_cast<int>(i) + 1, source.x_m, source.y_m);
+    if (source.rate_ppm_per_s > 0.0) {  // an imported scene may not know
+      absl::StrAppendFormat(&text, " with %.0f ppm/s", source.rate_ppm_per_s);
+    }
   }
   return text;
 }

@@ -25,7 +25,8 @@ namespace {
 constexpr int kTries = 40;  // to find a place for a leak or the start
 constexpr double kRateStep_ppm_per_s = 50.0;
 constexpr int kMinRate_steps = 12;
-constexpr int kMaxRate_steps = 40;  // 600 to 2000 ppm/s
+constexpr int kUsualRate_steps = 16;
+constexpr int kMaxRate_steps = 40;  // 600, 800 and 2000 ppm/s
 
 struct Spot {
   int x = 0;
@@ -103,7 +104,7 @@ class Interior {
     constexpr double kRelease_m3 = 0.015749610;  // (2 pi)^(3/2) sigma_0^3, of GasParameters
     const double carried_ppm_per_s = kMixed_ppm * kDepth_m * air_.Flow_m2_per_s() / kRelease_m3;
     const int carried = static_cast<int>(carried_ppm_per_s / kRateStep_ppm_per_s);
-    const int count = DrawInt(rng_, 1, std::clamp(carried / kMinRate_steps, 1, max_leaks));
+    const int count = DrawInt(rng_, 1, std::clamp(carried / kUsualRate_steps, 1, max_leaks));
     const int high = std::clamp(carried / count, kMinRate_steps, kMaxRate_steps);
     for (int i = 0; i < count; ++i) {
       if (!AddLeak(kRateStep_ppm_per_s * DrawInt(rng_, kMinRate_steps, high))) return false;
