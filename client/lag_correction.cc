@@ -21,6 +21,15 @@ Pose2 Between(const Pose2& from, const Pose2& to, double share) {
 
 }  // namespace
 
+GasReading UndoLag(const GasReading& earlier, const GasReading& later, double elapsed_s,
+                   double time_constant_s) {
+  const double kept = std::exp(-elapsed_s / time_constant_s);
+  const double gained = -std::expm1(-elapsed_s / time_constant_s);
+  const double air_ppm = (later.concentration_ppm - kept * earlier.concentration_ppm) / gained;
+  return {.concentration_ppm = std::max(0.0, air_ppm),
+          .variance_ppm2 = later.variance_ppm2 * (1.0 + kept * kept) / (gained * gained)};
+}
+
 void LagCorrection::NotePose(std::int64_t time_ns, const Pose2& pose) {
   if (time_constant_s_ == 0.0) return;
   if (!way_.empty() && time_ns < way_.back().time_ns) way_.clear();  // the clock was set back
@@ -42,10 +51,7 @@ GasSample LagCorrection::Correct(const GasSample& measured) {
   GasSample air = measured;
   air.time_ns -= std::llround(age_s * kNanosecondsPerSecond);
   if (!way_.empty()) air.pose = PoseAt(air.time_ns);
-  const double then_ppm = previous->reading.concentration_ppm;
-  const double now_ppm = measured.reading.concentration_ppm;
-  air.reading.concentration_ppm = std::max(0.0, (now_ppm - kept * then_ppm) / gained);
-  air.reading.variance_ppm2 *= (1.0 + kept * kept) / (gained * gained);
+  air.reading = UndoLag(previous->reading, measured.reading, elapsed_s, time_constant_s_);
   return air;
 }
 

@@ -18,6 +18,11 @@ struct GasSample {
   GasReading reading;
 };
 
+// The air between two readings of a sensor with a first-order lag, the later `elapsed_s` > 0 after
+// the earlier: see LagCorrection. REQUIRES: time_constant_s > 0.
+GasReading UndoLag(const GasReading& earlier, const GasReading& later, double elapsed_s,
+                   double time_constant_s);
+
 // Undoes the first-order lag of a gas sensor, dc/dt = (air - c) / tau. A robot that drives through
 // a plume at 1.25 m/s with tau = 0.5 s otherwise smears every peak over 0.6 m of its way. Between
 // two readings the solution is c2 = a c1 + (1 - a) air with a = exp(-dt / tau), where `air` is the

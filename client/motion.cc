@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "client/motion.h"
 
+#include <algorithm>
+
 namespace plumescout::client {
 namespace {
 
@@ -21,6 +23,15 @@ class IdealMotion final : public Motion {
   bool done() const override {
     const Waypoint& last = trajectory_.waypoints.back();
     return stepped_ && elapsed_s_ >= last.arrival_time_s + last.dwell_s;
+  }
+
+  bool standing() const override {
+    const auto stands_at = [this](const Waypoint& waypoint) {
+      return elapsed_s_ >= waypoint.arrival_time_s &&
+             elapsed_s_ < waypoint.arrival_time_s + waypoint.dwell_s;
+    };
+    return done() ||
+           std::any_of(trajectory_.waypoints.begin(), trajectory_.waypoints.end(), stands_at);
   }
 
   std::vector<Point2> PathAhead(const Pose2& pose) const override {
@@ -47,6 +58,7 @@ class SteeredMotion final : public Motion {
     return driver.Drive(follower_.Step(driver.pose(), driver.now_ns()));
   }
   bool done() const override { return follower_.done(); }
+  bool standing() const override { return follower_.standing(); }
   std::vector<Point2> PathAhead(const Pose2& pose) const override {
     return follower_.PathAhead(pose.position());
   }

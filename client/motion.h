@@ -28,6 +28,8 @@ class Motion {
   virtual absl::Status Step(RobotDriver& driver) = 0;
   // Whether the end is reached, dwell included; true at the earliest after a Step.
   virtual bool done() const = 0;
+  // Whether the robot stands at a waypoint since the last Step, or at the end.
+  virtual bool standing() const = 0;
   // What is left of the path, beginning at the robot.
   virtual std::vector<Point2> PathAhead(const Pose2& pose) const = 0;
 };

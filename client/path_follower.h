@@ -33,6 +33,8 @@ class PathFollower {
   Twist Step(const Pose2& pose, std::int64_t now_ns);
 
   bool done() const { return next_ >= trajectory_.waypoints.size(); }
+  // Whether the last Step found the robot at a waypoint that dwells, or done.
+  bool standing() const { return done() || dwell_until_ns_ > 0; }
   // What is left of the path: `from`, then the waypoints not yet reached.
   std::vector<Point2> PathAhead(Point2 from) const;
 

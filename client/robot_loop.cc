@@ -47,7 +47,9 @@ absl::Status Validate(const RobotLoopOptions& options) {
   PLUMESCOUT_RETURN_IF_ERROR(RequireNotNegative("time_limit_s", options.time_limit_s));
   PLUMESCOUT_RETURN_IF_ERROR(RequireNotNegative("rates.scan_hz", options.rates.scan_hz));
   PLUMESCOUT_RETURN_IF_ERROR(RequireNotNegative("rates.gas_hz", options.rates.gas_hz));
-  return RequireNotNegative("gas_time_constant_s", options.gas_time_constant_s);
+  PLUMESCOUT_RETURN_IF_ERROR(
+      RequireNotNegative("gas_sampling.time_constant_s", options.gas_sampling.time_constant_s));
+  return RequireNotNegative("gas_sampling.settling_s", options.gas_sampling.settling_s);
 }
 
 RobotLoop::RobotLoop(PlannerClient& client, RobotDriver& driver, const RobotLoopOptions& options,
@@ -99,7 +101,7 @@ void RobotLoop::StartSensing() {
       .on_link = [this](const absl::Status& status) { observer_.OnLink(status); }};
   ingest_.emplace(client_, *std::move(joined_), std::move(callbacks), options_.ingest);
   bridge_.emplace(
-      driver_, options_.rates, options_.gas_time_constant_s,
+      driver_, options_.rates, options_.gas_sampling,
       [this](std::int64_t time_ns, const Pose2& pose, std::variant<Scan, GasReading> payload) {
         ingest_->Append(time_ns, pose, std::move(payload));
       });
@@ -152,7 +154,8 @@ void RobotLoop::DropPending() {
 // is asked for at this very instant.
 absl::Status RobotLoop::Tick(double duration_s) {
   if (leg_.has_value()) PLUMESCOUT_RETURN_IF_ERROR(leg_->motion->Step(driver_));
-  PLUMESCOUT_RETURN_IF_ERROR(bridge_->Poll());
+  const bool standing = !leg_.has_value() || leg_->motion->standing();
+  PLUMESCOUT_RETURN_IF_ERROR(bridge_->Poll(standing));
   if (options_.pacing == Pacing::kLockstep) AwaitApplied(options_.link_patience);
   NoteProgress();
   if (const auto outcome = LegOutcome(); outcome.has_value()) return EndLeg(*outcome);

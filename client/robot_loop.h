@@ -35,10 +35,10 @@ struct RobotLoopOptions {
   Participation participation;
   Pacing pacing = Pacing::kFreeRunning;
   Following following = Following::kProportional;
-  SensorRates rates;                 // no more than one reading of a sensor is taken in a tick
-  double gas_time_constant_s = 0.0;  // lag of the gas sensor, undone before sending; 0: not
-  FollowerOptions follower;          // its tick_s is set from the one below
-  BlockageOptions blockage;          // its radius is set from the participation
+  SensorRates rates;  // no more than one reading of a sensor is taken in a tick
+  GasSampling gas_sampling;
+  FollowerOptions follower;  // its tick_s is set from the one below
+  BlockageOptions blockage;  // its radius is set from the participation
   IngestOptions ingest;
   double tick_s = 0.1;          // between commands, > 0
   double look_around_s = 0.5;   // standing before the first plan: a cell takes 3 beams to be free

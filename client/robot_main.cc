@@ -89,8 +89,12 @@ void AddFlags(CLI::App& app, Flags& flags) {
       ->capture_default_str();
   app.add_option("--max-turn", flags.loop.follower.max_turn_rad_per_s, "radians a second")
       ->capture_default_str();
-  app.add_option("--gas-time-constant", flags.loop.gas_time_constant_s,
+  app.add_option("--gas-time-constant", flags.loop.gas_sampling.time_constant_s,
                  "seconds of first-order lag of the gas sensor, undone before sending; 0: not")
+      ->capture_default_str();
+  app.add_option("--gas-settling", flags.loop.gas_sampling.settling_s,
+                 "seconds that the robot has to stand before gas readings count, for a slow sensor "
+                 "and a mission with a dwell time; 0: they always count")
       ->capture_default_str();
   app.add_option("--time-limit", flags.loop.time_limit_s, "seconds of the robot's clock; 0: none")
       ->capture_default_str();

@@ -51,15 +51,18 @@ void SampleSchedule::PlaceAfter(std::int64_t now_ns) {
 }
 
 SensorBridge::SensorBridge(RobotDriver& driver, const SensorRates& rates,
-                           double gas_time_constant_s, Sink sink)
+                           const GasSampling& gas_sampling, Sink sink)
     : driver_(driver),
       sink_(std::move(sink)),
       scan_schedule_(driver.now_ns(), rates.scan_hz),
       gas_schedule_(driver.now_ns(), rates.gas_hz),
-      lag_correction_(gas_time_constant_s) {}
+      gas_rate_hz_(rates.gas_hz),
+      gas_sampling_(gas_sampling),
+      lag_correction_(gas_sampling.settling_s > 0.0 ? 0.0 : gas_sampling.time_constant_s) {}
 
-absl::Status SensorBridge::Poll() {
+absl::Status SensorBridge::Poll(bool standing) {
   const std::int64_t now_ns = driver_.now_ns();
+  if (gas_sampling_.settling_s > 0.0) NoteStanding(standing, now_ns);
   lag_correction_.NotePose(now_ns, driver_.pose());
   if (scan_schedule_.Due(now_ns)) PLUMESCOUT_RETURN_IF_ERROR(PollScan());
   if (gas_schedule_.Due(now_ns)) PLUMESCOUT_RETURN_IF_ERROR(PollGas());
@@ -79,10 +82,38 @@ absl::Status SensorBridge::PollScan() {
 absl::Status SensorBridge::PollGas() {
   const absl::StatusOr<GasReading> reading = driver_.ReadGas();
   if (!reading.ok()) return Missed(reading.status());
-  const GasSample air =
-      lag_correction_.Correct({driver_.sample_time_ns(), driver_.sample_pose(), *reading});
+  const GasSample measured{driver_.sample_time_ns(), driver_.sample_pose(), *reading};
+  if (gas_sampling_.settling_s > 0.0) {
+    HandOnSettled(measured);
+    return absl::OkStatus();
+  }
+  const GasSample air = lag_correction_.Correct(measured);
   sink_(air.time_ns, air.pose, air.reading);
   return absl::OkStatus();
+}
+
+// A stop begins with a reading.
+void SensorBridge::NoteStanding(bool standing, std::int64_t now_ns) {
+  if (standing == standing_since_ns_.has_value()) return;
+  standing_since_ns_.reset();
+  first_of_stop_.reset();
+  if (!standing) return;
+  standing_since_ns_ = now_ns;
+  gas_schedule_ = SampleSchedule(now_ns, gas_rate_hz_);
+}
+
+void SensorBridge::HandOnSettled(const GasSample& measured) {
+  if (!standing_since_ns_) return;
+  if (!first_of_stop_) first_of_stop_ = measured;
+  const std::int64_t stood_ns = measured.time_ns - *standing_since_ns_ + kEarly_ns;
+  if (static_cast<double>(stood_ns) < gas_sampling_.settling_s * kNanosecondsPerSecond) return;
+  GasReading air = measured.reading;
+  const double elapsed_s =
+      static_cast<double>(measured.time_ns - first_of_stop_->time_ns) / kNanosecondsPerSecond;
+  if (gas_sampling_.time_constant_s > 0.0 && elapsed_s > 0.0) {
+    air = UndoLag(first_of_stop_->reading, air, elapsed_s, gas_sampling_.time_constant_s);
+  }
+  sink_(measured.time_ns, measured.pose, air);
 }
 
 absl::Status SensorBridge::Missed(const absl::Status& status) {

@@ -22,6 +22,14 @@ struct SensorRates {
   double gas_hz = 2.0;
 };
 
+// How readings of a slow gas sensor become readings of the air.
+struct GasSampling {
+  double time_constant_s = 0.0;  // of the sensor's first-order lag, undone before sending; 0: not
+  // Readings count only when the robot has stood for so long (stop-and-sample, [XIT] section VII);
+  // their lag is undone from the beginning of the stop. 0: they always count.
+  double settling_s = 0.0;
+};
+
 // When a periodic reading is due: at start + k / rate for whole k, so that rounding and lateness
 // never add up. Readings missed while nobody asked are skipped, not made up for.
 class SampleSchedule {
@@ -50,13 +58,13 @@ class SensorBridge {
                                   std::variant<Scan, GasReading> payload)>;
 
   // Both sensors are due at once. `driver` must outlive the bridge.
-  // gas_time_constant_s: see LagCorrection; 0: readings are handed on as they are.
-  SensorBridge(RobotDriver& driver, const SensorRates& rates, double gas_time_constant_s,
+  SensorBridge(RobotDriver& driver, const SensorRates& rates, const GasSampling& gas_sampling,
                Sink sink);
 
-  // Reads what is due now. A sensor that answers kUnavailable has nothing to say this time: it is
-  // counted and passed over. Any other error of a sensor is returned.
-  absl::Status Poll();
+  // Reads what is due now; `standing`: the robot stands, and will until the next call. A sensor
+  // that answers kUnavailable has nothing to say this time: it is counted and passed over. Any
+  // other error of a sensor is returned.
+  absl::Status Poll(bool standing = false);
 
   const std::optional<Scan>& latest_scan() const { return latest_scan_; }
   const Pose2& latest_scan_pose() const { return latest_scan_pose_; }
@@ -66,13 +74,19 @@ class SensorBridge {
  private:
   absl::Status PollScan();
   absl::Status PollGas();
+  void NoteStanding(bool standing, std::int64_t now_ns);
+  void HandOnSettled(const GasSample& measured);
   absl::Status Missed(const absl::Status& status);
 
   RobotDriver& driver_;
   Sink sink_;
   SampleSchedule scan_schedule_;
   SampleSchedule gas_schedule_;
+  double gas_rate_hz_;
+  GasSampling gas_sampling_;
   LagCorrection lag_correction_;
+  std::optional<std::int64_t> standing_since_ns_;
+  std::optional<GasSample> first_of_stop_;
   std::optional<Scan> latest_scan_;
   Pose2 latest_scan_pose_;
   std::int64_t scans_taken_ = 0;

@@ -68,8 +68,12 @@ absl::Status ValidateSeries(const Scene& scene) {
 absl::Status ValidateSource(const GasSource& source) {
   const bool finite = std::isfinite(source.x_m) && std::isfinite(source.y_m) &&
                       std::isfinite(source.z_m) && std::isfinite(source.rate_ppm_per_s);
-  if (finite && source.rate_ppm_per_s >= 0.0) return absl::OkStatus();
-  return Invalid(absl::StrCat("source ", source.id, " is not finite or its rate negative"));
+  if (!finite || source.rate_ppm_per_s < 0.0) {
+    return Invalid(absl::StrCat("source ", source.id, " is not finite or its rate negative"));
+  }
+  const absl::Status release = Validate(source.release);
+  if (release.ok()) return release;
+  return Invalid(absl::StrCat("source ", source.id, ": release.", release.message()));
 }
 
 // The part of `opening` that another one overlaps, or its place, is named.

@@ -13,16 +13,19 @@
 #include "core/types/cell_state.h"
 #include "core/types/grid.h"
 #include "core/types/pose2.h"
+#include "formats/release_schedule.h"
 
 namespace plumescout {
 
-// Continuous release. The rate is (ppm at the centre of a new filament) x (filaments per second).
+// A leak. The rate while it releases is (ppm at the centre of a new filament) x (filaments per
+// second).
 struct GasSource {
   int id = 0;
   double x_m = 0.0;
   double y_m = 0.0;
   double z_m = 0.0;
   double rate_ppm_per_s = 0.0;
+  ReleaseSchedule release = {};  // default: always
 
   friend bool operator==(const GasSource&, const GasSource&) = default;
 };

@@ -115,6 +115,22 @@ absl::StatusOr<GridGeometry> ParseGeometry(const Field& root) {
   return geometry;
 }
 
+absl::StatusOr<std::optional<double>> OptionalNumberAt(const Field& object, const char* key) {
+  if (!object.Has(key)) return std::optional<double>();
+  return NumberAt(object, key);
+}
+
+absl::StatusOr<ReleaseSchedule> ParseRelease(const Field& field) {
+  ReleaseSchedule release;
+  PLUMESCOUT_ASSIGN_OR_RETURN(release.start_s, OptionalNumberAt(field, "start_s"));
+  PLUMESCOUT_ASSIGN_OR_RETURN(release.end_s, OptionalNumberAt(field, "end_s"));
+  PLUMESCOUT_ASSIGN_OR_RETURN(release.on_s, OptionalNumberAt(field, "on_s"));
+  PLUMESCOUT_ASSIGN_OR_RETURN(release.off_s, OptionalNumberAt(field, "off_s"));
+  const absl::Status valid = Validate(release);
+  if (valid.ok()) return release;
+  return absl::InvalidArgumentError(absl::StrCat(field.path(), ".", valid.message()));
+}
+
 absl::StatusOr<GasSource> ParseSource(const Field& field) {
   GasSource source;
   PLUMESCOUT_ASSIGN_OR_RETURN(source.id, IntegerAt(field, "id", 0, kMaxId));
@@ -122,6 +138,10 @@ absl::StatusOr<GasSource> ParseSource(const Field& field) {
   PLUMESCOUT_ASSIGN_OR_RETURN(source.y_m, NumberAt(field, "y"));
   PLUMESCOUT_ASSIGN_OR_RETURN(source.z_m, NumberAt(field, "z"));
   PLUMESCOUT_ASSIGN_OR_RETURN(source.rate_ppm_per_s, NumberAt(field, "rate_ppm_per_s"));
+  if (field.Has("release")) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(const Field release, field.Member("release"));
+    PLUMESCOUT_ASSIGN_OR_RETURN(source.release, ParseRelease(release));
+  }
   return source;
 }
 
@@ -219,6 +239,15 @@ absl::StatusOr<SceneDescription> ParseDescription(const Field& root) {
   return description;
 }
 
+Json FormatRelease(const ReleaseSchedule& release) {
+  Json json = Json::object();
+  if (release.start_s) json["start_s"] = *release.start_s;
+  if (release.end_s) json["end_s"] = *release.end_s;
+  if (release.on_s) json["on_s"] = *release.on_s;
+  if (release.off_s) json["off_s"] = *release.off_s;
+  return json;
+}
+
 Json FormatSources(const std::vector<GasSource>& sources) {
   Json list = Json::array();
   for (const GasSource& source : sources) {
@@ -227,6 +256,9 @@ Json FormatSources(const std::vector<GasSource>& sources) {
                     {"y", source.y_m},
                     {"z", source.z_m},
                     {"rate_ppm_per_s", source.rate_ppm_per_s}});
+    if (source.release != ReleaseSchedule{}) {
+      list.back()["release"] = FormatRelease(source.release);
+    }
   }
   return list;
 }

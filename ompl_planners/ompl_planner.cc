@@ -3,6 +3,7 @@
 #include "ompl_planners/ompl_planner.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "absl/base/attributes.h"
@@ -18,9 +19,11 @@ namespace {
 ABSL_CONST_INIT absl::Mutex ompl_mutex(absl::kConstInit);
 constexpr absl::Duration kBetweenTries = absl::Milliseconds(1);
 
+using Search = std::function<PathResult(const PathProblem&)>;
+
 class OmplPlanner : public PathPlanner {
  public:
-  OmplPlanner(PathKind kind, int samples) : kind_(kind), samples_(samples) {}
+  explicit OmplPlanner(Search search) : search_(std::move(search)) {}
 
   PathResult FindPaths(const PathProblem& problem) const override {
     while (!ompl_mutex.TryLock()) {
@@ -29,14 +32,13 @@ class OmplPlanner : public PathPlanner {
       }
       absl::SleepFor(kBetweenTries);
     }
-    PathResult result = SearchWithOmpl(kind_, samples_, problem);
+    PathResult result = search_(problem);
     ompl_mutex.Unlock();
     return result;
   }
 
  private:
-  PathKind kind_;
-  int samples_;
+  Search search_;
 };
 
 }  // namespace
@@ -48,10 +50,17 @@ std::unique_ptr<const PathPlanner> MakeOmplPlanner(const PlanningOptions& option
     case PathKind::kInformedRrtStar:
     case PathKind::kBitStar:
     case PathKind::kPrmStar:
-      return std::make_unique<const OmplPlanner>(options.paths, std::max(options.samples, 0));
+      return std::make_unique<const OmplPlanner>(
+          [kind = options.paths, samples = std::max(options.samples, 0)](
+              const PathProblem& problem) { return SearchWithOmpl(kind, samples, problem); });
     default:
       return nullptr;
   }
+}
+
+std::unique_ptr<const PathPlanner> MakeRegionTreePlanner(const RegionTreeOptions& options) {
+  return std::make_unique<const OmplPlanner>(
+      [options](const PathProblem& problem) { return GrowRegionTree(options, problem); });
 }
 
 }  // namespace plumescout

@@ -6,6 +6,7 @@
 
 #include "core/plan/paths/path_planner.h"
 #include "core/types/options.h"
+#include "ompl_planners/region_tree.h"
 
 namespace plumescout {
 
@@ -26,5 +27,8 @@ namespace plumescout {
 // PathResult::effort.vertices counts the vertices of all trees, or of the roadmap. Switches OMPL's
 // console output off for the whole process.
 std::unique_ptr<const PathPlanner> MakeOmplPlanner(const PlanningOptions& options);
+
+// As above, but one tree for all goals, which ends beside them: see GrowRegionTree.
+std::unique_ptr<const PathPlanner> MakeRegionTreePlanner(const RegionTreeOptions& options);
 
 }  // namespace plumescout

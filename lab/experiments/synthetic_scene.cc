@@ -27,20 +27,6 @@ void Fill(const SceneBox& box, Grid<CellState>& occupancy) {
   }
 }
 
-Grid<CellState> MakeOccupancy(const SceneSpec& spec) {
-  Grid<CellState> occupancy(
-      GridGeometry{0.0, 0.0, kResolution_m,
-                   static_cast<int>(std::lround(spec.width_m / kResolution_m)),
-                   static_cast<int>(std::lround(spec.height_m / kResolution_m))},
-      CellState::kFree);
-  Fill({0.0, 0.0, spec.width_m, kWall_m}, occupancy);
-  Fill({0.0, spec.height_m - kWall_m, spec.width_m, kWall_m}, occupancy);
-  Fill({0.0, 0.0, kWall_m, spec.height_m}, occupancy);
-  Fill({spec.width_m - kWall_m, 0.0, kWall_m, spec.height_m}, occupancy);
-  for (const SceneBox& box : spec.obstacles) Fill(box, occupancy);
-  return occupancy;
-}
-
 Grid<float> MakeMean_ppm(const SceneSpec& spec, const GridGeometry& geometry) {
   Grid<float> mean_ppm(geometry, 0.0F);
   for (std::size_t i = 0; i < mean_ppm.size(); ++i) {
@@ -112,10 +98,24 @@ SceneSpec ClutterScene() {
 
 }  // namespace
 
+Grid<CellState> MakeOccupancy(double width_m, double height_m,
+                              const std::vector<SceneBox>& obstacles) {
+  Grid<CellState> occupancy(
+      GridGeometry{0.0, 0.0, kResolution_m, static_cast<int>(std::lround(width_m / kResolution_m)),
+                   static_cast<int>(std::lround(height_m / kResolution_m))},
+      CellState::kFree);
+  Fill({0.0, 0.0, width_m, kWall_m}, occupancy);
+  Fill({0.0, height_m - kWall_m, width_m, kWall_m}, occupancy);
+  Fill({0.0, 0.0, kWall_m, height_m}, occupancy);
+  Fill({width_m - kWall_m, 0.0, kWall_m, height_m}, occupancy);
+  for (const SceneBox& box : obstacles) Fill(box, occupancy);
+  return occupancy;
+}
+
 SyntheticScene BuildScene(const SceneSpec& spec) {
   SyntheticScene scene;
   scene.name = spec.name;
-  scene.occupancy = MakeOccupancy(spec);
+  scene.occupancy = MakeOccupancy(spec.width_m, spec.height_m, spec.obstacles);
   const GridGeometry& geometry = scene.occupancy.geometry();
   const Grid<std::uint8_t> traversable =
       TraversableCells(scene.occupancy, OccupancyOptions{}.inflation_radius_m);
@@ -150,6 +150,20 @@ SceneSpec DistanceWeightScene() {
 
 std::vector<SceneSpec> ConvergenceScenes() {
   return {ColumnsScene(), RoomsScene(), ClutterScene()};
+}
+
+std::vector<Point2> PointsAlong(const std::vector<Point2>& way, double step_m) {
+  std::vector<Point2> points = {way.front()};
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    const double length_m = Distance_m(way[i - 1], way[i]);
+    const int steps = std::max(1, static_cast<int>(std::ceil(length_m / step_m)));
+    for (int k = 1; k <= steps; ++k) {
+      const double share = static_cast<double>(k) / steps;
+      points.push_back({way[i - 1].x_m + share * (way[i].x_m - way[i - 1].x_m),
+                        way[i - 1].y_m + share * (way[i].y_m - way[i - 1].y_m)});
+    }
+  }
+  return points;
 }
 
 double PathLength_m(const std::vector<Point2>& path) {

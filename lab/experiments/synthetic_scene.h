@@ -47,6 +47,10 @@ struct SyntheticScene {
   Goal goal;
 };
 
+// Cells of 0.1 m: free, but for an outer wall and the obstacles.
+Grid<CellState> MakeOccupancy(double width_m, double height_m,
+                              const std::vector<SceneBox>& obstacles);
+
 SyntheticScene BuildScene(const SceneSpec& spec);
 
 // Gas away from the straight way, between obstacles: what the distance weight is to show on.
@@ -57,6 +61,8 @@ std::vector<SceneSpec> ConvergenceScenes();
 // Mean of I-hat along a path.
 double MeanInformation(const SyntheticScene& scene, const std::vector<Point2>& path);
 double PathLength_m(const std::vector<Point2>& path);
+// Points on a path, at most a step apart, its vertices among them. REQUIRES: step_m > 0.
+std::vector<Point2> PointsAlong(const std::vector<Point2>& path, double step_m);
 
 // The field with start and goal; the paths are left to the caller.
 MapPanel MakeScenePanel(const SyntheticScene& scene);

@@ -24,7 +24,7 @@ absl::StatusOr<std::shared_ptr<LocalMission>> LocalMission::Create(const Mission
                                                                    const LocalOptions& options) {
   PLUMESCOUT_ASSIGN_OR_RETURN(std::unique_ptr<Mission> state, Mission::Create(mission));
   PLUMESCOUT_ASSIGN_OR_RETURN(std::unique_ptr<const Strategy> strategy,
-                              MakeStrategy(mission.planning));
+                              MakeStrategy(mission.planning, options.path_planners));
   return std::make_shared<LocalMission>(std::move(state), std::move(strategy), options);
 }
 

@@ -16,6 +16,7 @@
 #include "client/planner_client.h"
 #include "core/belief/belief.h"
 #include "core/mission/mission.h"
+#include "core/plan/paths/path_planners.h"
 #include "core/plan/strategy.h"
 #include "core/types/event.h"
 
@@ -26,6 +27,7 @@ struct LocalOptions {
   absl::Duration lease_hold = absl::Seconds(10);     // after the last use
   absl::Duration default_budget = absl::Seconds(1);  // of plans that ask for none
   std::function<absl::Time()> clock = absl::Now;     // for leases and deadlines
+  PathPlannerFactory path_planners = nullptr;        // of planners that core does not have
   // Told of every event of every mission, once it is applied; may be empty.
   std::function<void(const Event&)> on_event = nullptr;
 };

@@ -9,6 +9,7 @@
 #include "absl/status/status.h"
 #include "lab/program/experiment_command.h"
 #include "lab/program/plan_command.h"
+#include "lab/program/replay_command.h"
 #include "lab/program/robot_command.h"
 #include "lab/program/scene_command.h"
 
@@ -20,6 +21,7 @@ int main(int argc, char** argv) {
   absl::Status status;
   plumescout::lab::AddExperimentCommand(app, status);
   plumescout::lab::AddPlanCommand(app, status);
+  plumescout::lab::AddReplayCommand(app, status);
   plumescout::lab::AddRobotCommand(app, status);
   plumescout::lab::AddSceneCommand(app, status);
   CLI11_PARSE(app, argc, argv);

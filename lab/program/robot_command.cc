@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/program/robot_command.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/time/clock.h"
 #include "client/grpc_planner_client.h"
@@ -18,28 +20,15 @@
 #include "lab/local/local_planner_client.h"
 #include "lab/program/progress_line.h"
 #include "lab/program/recording.h"
+#include "lab/program/robot_arguments.h"
 #include "lab/program/run_folder.h"
 #include "lab/report/plan_names.h"
 #include "lab/sim/episode.h"
 #include "lab/sim/scene_world.h"
+#include "ompl_planners/ompl_planner.h"
 
 namespace plumescout::lab {
 namespace {
-
-struct RobotArguments {
-  std::string server = "127.0.0.1:50551";
-  std::string scene;
-  std::string out = "out/robot";
-  std::string mission = "demo";
-  std::string robot = "robot-1";
-  std::string strategy = MissionOptions{}.planning.strategy;
-  double duration_s = 300.0;
-  client::Following following = client::Following::kIdeal;
-  std::string record;  // empty: a server plans
-  bool realtime = false;
-  bool raw_gas = false;
-  std::uint64_t seed = 1;
-};
 
 // Highest estimated concentration, ppm.
 double HighestMean_ppm(const MapSnapshot& map) {
@@ -82,65 +71,82 @@ class EpisodeDisplay {
   MapSnapshot last_map_;
 };
 
-EpisodeOptions MakeEpisodeOptions(const RobotArguments& arguments, EpisodeDisplay& display) {
-  EpisodeOptions options;
-  options.mission = arguments.mission;
-  options.robot = arguments.robot;
-  options.create.emplace();
-  options.create->planning.strategy = arguments.strategy;
-  options.create->seed = arguments.seed;
-  options.duration_s = arguments.duration_s;
-  options.following = arguments.following;
-  options.realtime = arguments.realtime;
-  options.correct_gas_lag = !arguments.raw_gas;
-  options.simulated.seed = arguments.seed;
-  options.on_plan = [&](const IssuedPlan& plan) { display.OnPlan(plan); };
-  options.on_sample = [&](const MetricSample& sample, const MapSnapshot& map) {
-    display.OnSample(sample, map);
-  };
-  return options;
+// Sums over the robots of a team.
+struct TeamSums {
+  bool completed = true;  // for all of them
+  int plans = 0;
+  double distance_m = 0.0;
+  std::int64_t sent = 0;
+  std::int64_t applied = 0;
+};
+
+TeamSums SumsOf(const TeamResult& team) {
+  TeamSums sums;
+  for (const EpisodeResult& robot : team.robots) {
+    sums.completed = sums.completed && robot.completed;
+    sums.plans += static_cast<int>(robot.plans.size());
+    sums.distance_m += robot.distance_m;
+    sums.sent += robot.readings_sent;
+    sums.applied += robot.readings_applied;
+  }
+  return sums;
 }
 
-std::string Verdict(const EpisodeResult& episode, double wall_s) {
-  const MapMetrics& metrics = episode.samples.back().metrics;
-  return absl::StrFormat(
-      "%s after %.0f s simulated (%.1f s wall): map %.1f %% complete, RMSE %.2f ppm (all-zero map: "
+std::string Verdict(const TeamResult& team, double wall_s) {
+  const MapMetrics& metrics = team.samples.back().metrics;
+  const TeamSums sums = SumsOf(team);
+  std::string verdict = absl::StrFormat(
+      "%s after %.0f s simulated (%.1f s wall): map %.1f %% complete, RMSE %.2f ppm (clean air: "
       "%.2f), %d plans, %.0f m driven, %d of %d readings applied",
-      episode.completed ? "Mission complete" : "Time is up", episode.simulated_s, wall_s,
-      100.0 * metrics.completeness, metrics.rmse_ppm, metrics.rmse_zero_ppm, episode.plans.size(),
-      episode.distance_m, episode.readings_applied, episode.readings_sent);
+      sums.completed ? "Mission complete" : "Time is up", team.samples.back().time_s, wall_s,
+      100.0 * metrics.completeness, metrics.rmse_ppm, metrics.rmse_zero_ppm, sums.plans,
+      sums.distance_m, sums.applied, sums.sent);
+  if (team.robots.size() > 1) {
+    absl::StrAppend(&verdict, absl::StrFormat(", %d robots never nearer than %.2f m",
+                                              team.robots.size(), team.closest_m));
+  }
+  return verdict;
 }
 
 // By a server, or in this process with the mission's events recorded.
-absl::StatusOr<EpisodeResult> RunPlanned(const RobotArguments& arguments, const SceneWorld& world,
-                                         EpisodeOptions options) {
+absl::StatusOr<TeamResult> RunPlanned(const RobotArguments& arguments, const SceneWorld& world,
+                                      PlannedEpisode planned) {
+  EpisodeOptions& options = planned.options;
   if (arguments.record.empty()) {
     client::GrpcClientOptions link;
     link.target = arguments.server;
-    return RunEpisode(*client::MakeGrpcPlannerClient(link), world, options);
+    return RunTeamEpisode(*client::MakeGrpcPlannerClient(link), world, options, planned.teammates);
   }
   PLUMESCOUT_RETURN_IF_ERROR(ApplyStrategyRow(options.create->planning));  // as servers do
   PLUMESCOUT_ASSIGN_OR_RETURN(Recorder recorder,
                               Recorder::Create(arguments.record, *options.create));
   LocalOptions local;
+  local.path_planners = MakeOmplPlanner;
   local.on_event = [&recorder](const Event& event) { recorder.Record(event); };
   LocalPlannerClient planner(local);
-  PLUMESCOUT_ASSIGN_OR_RETURN(EpisodeResult episode, RunEpisode(planner, world, options));
+  PLUMESCOUT_ASSIGN_OR_RETURN(TeamResult team,
+                              RunTeamEpisode(planner, world, options, planned.teammates));
   PLUMESCOUT_RETURN_IF_ERROR(recorder.status());
-  return episode;
+  return team;
 }
 
-absl::Status DriveRobot(const RobotArguments& arguments) {
+absl::Status DriveRobots(const RobotArguments& arguments) {
+  PLUMESCOUT_RETURN_IF_ERROR(Validate(arguments.world));
   PLUMESCOUT_ASSIGN_OR_RETURN(Scene scene, ReadScene(arguments.scene));
-  const SceneWorld world(std::move(scene));
+  const SceneWorld world(std::move(scene), arguments.world);
+  PLUMESCOUT_ASSIGN_OR_RETURN(PlannedEpisode planned, PlanEpisode(arguments, world));
   const absl::Time start = absl::Now();
   EpisodeDisplay display(arguments.duration_s, start);
-  PLUMESCOUT_ASSIGN_OR_RETURN(const EpisodeResult episode,
-                              RunPlanned(arguments, world, MakeEpisodeOptions(arguments, display)));
+  planned.options.on_plan = [&](const IssuedPlan& plan) { display.OnPlan(plan); };
+  planned.options.on_sample = [&](const MetricSample& sample, const MapSnapshot& map) {
+    display.OnSample(sample, map);
+  };
+  PLUMESCOUT_ASSIGN_OR_RETURN(const TeamResult team,
+                              RunPlanned(arguments, world, std::move(planned)));
   const double wall_s = absl::ToDoubleSeconds(absl::Now() - start);
-  display.line().Finish(Verdict(episode, wall_s));
+  display.line().Finish(Verdict(team, wall_s));
   PLUMESCOUT_RETURN_IF_ERROR(WriteRunFolder(
-      {world.scene(), episode, display.last_map(), arguments.strategy, arguments.seed, wall_s},
+      {world.scene(), team, display.last_map(), arguments.strategy, arguments.seed, wall_s},
       arguments.out));
   std::cout << arguments.out << "/report.html\n";
   return absl::OkStatus();
@@ -151,38 +157,10 @@ absl::Status DriveRobot(const RobotArguments& arguments) {
 void AddRobotCommand(CLI::App& app, absl::Status& status) {
   CLI::App* robot = app.add_subcommand(
       "robot",
-      "Drive a simulated robot through a scene, planned by a server over gRPC or in this process");
+      "Drive simulated robots through a scene, planned by a server over gRPC or in this process");
   const auto arguments = std::make_shared<RobotArguments>();
-  robot->add_option("--scene", arguments->scene, "Scene folder: the true building and gas")
-      ->required()
-      ->check(CLI::ExistingDirectory);
-  robot->add_option("--server", arguments->server, "host:port of plumescout-server")
-      ->capture_default_str();
-  robot
-      ->add_option("--record", arguments->record,
-                   "Plan in this process, without a server, and record the mission in this file")
-      ->excludes("--server");
-  robot->add_option("--out", arguments->out, "Folder for results")->capture_default_str();
-  robot->add_option("--mission", arguments->mission, "Mission to join, made if it is not there")
-      ->capture_default_str();
-  robot->add_option("--robot", arguments->robot, "Name of the robot")->capture_default_str();
-  robot->add_option("--strategy", arguments->strategy, "xit_gff, xit_fgf or xit_f")
-      ->capture_default_str();
-  robot->add_option("--duration", arguments->duration_s, "Longest simulated time, seconds")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  const std::map<std::string, client::Following> followings{
-      {"ideal", client::Following::kIdeal}, {"proportional", client::Following::kProportional}};
-  robot->add_option("--following", arguments->following, "How paths are followed")
-      ->transform(CLI::CheckedTransformer(followings))
-      ->default_str("ideal");
-  robot->add_option("--seed", arguments->seed, "Seed of sensors and planner")
-      ->capture_default_str();
-  robot->add_flag("--realtime", arguments->realtime,
-                  "At the pace of a wall clock instead of in lockstep");
-  robot->add_flag("--raw-gas", arguments->raw_gas,
-                  "Send gas readings as the sensor gives them, its lag not undone");
-  robot->callback([arguments, &status] { status = DriveRobot(*arguments); });
+  AddRobotOptions(*robot, *arguments);
+  robot->callback([arguments, &status] { status = DriveRobots(*arguments); });
 }
 
 }  // namespace plumescout::lab

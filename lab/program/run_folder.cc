@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <limits>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "absl/strings/str_format.h"
 #include "core/types/status_macros.h"
 #include "formats/csv.h"
+#include "formats/file_io.h"
 #include "formats/map_server.h"
 #include "formats/npy.h"
 #include "formats/summary.h"
@@ -33,48 +33,77 @@ double Percentile(std::vector<double> values, double share) {
   return *nth;
 }
 
-std::vector<double> OfPlans(const EpisodeResult& episode,
+// Of all robots, in the order of their issue.
+std::vector<const IssuedPlan*> PlansOf(const TeamResult& team) {
+  std::vector<const IssuedPlan*> plans;
+  for (const EpisodeResult& robot : team.robots) {
+    for (const IssuedPlan& plan : robot.plans) plans.push_back(&plan);
+  }
+  std::stable_sort(plans.begin(), plans.end(),
+                   [](const auto* a, const auto* b) { return a->plan.id < b->plan.id; });
+  return plans;
+}
+
+std::vector<double> OfPlans(const TeamResult& team,
                             const std::function<double(const IssuedPlan&)>& figure) {
   std::vector<double> values;
-  for (const IssuedPlan& plan : episode.plans) values.push_back(figure(plan));
+  for (const IssuedPlan* plan : PlansOf(team)) values.push_back(figure(*plan));
   return values;
 }
 
+template <typename Figure>
+double Sum(const TeamResult& team, Figure figure) {
+  double sum = 0.0;
+  for (const EpisodeResult& robot : team.robots) sum += static_cast<double>(figure(robot));
+  return sum;
+}
+
+void AddTeamFigures(const TeamResult& team, Summary& summary) {
+  const auto add = [&](const char* name, double value) {
+    summary.figures.emplace_back(name, value);
+  };
+  add("readings_sent", Sum(team, [](const EpisodeResult& r) { return r.readings_sent; }));
+  add("readings_applied", Sum(team, [](const EpisodeResult& r) { return r.readings_applied; }));
+  add("distance_m", Sum(team, [](const EpisodeResult& r) { return r.distance_m; }));
+  add("collisions", Sum(team, [](const EpisodeResult& r) { return r.collisions; }));
+  const bool complete = std::all_of(team.robots.begin(), team.robots.end(),
+                                    [](const EpisodeResult& r) { return r.completed; });
+  add("mission_complete", complete ? 1.0 : 0.0);
+  add("robots", static_cast<double>(team.robots.size()));
+  add("closest_m", team.closest_m);
+}
+
 Summary MakeSummary(const Run& run) {
-  const MapMetrics& metrics = run.episode.samples.back().metrics;
+  const MapMetrics& metrics = run.team.samples.back().metrics;
   constexpr double kMillisecondsPerSecond = 1e3;
-  auto cpu_ms = OfPlans(run.episode,
-                        [](const IssuedPlan& p) { return p.plan.cpu_s * kMillisecondsPerSecond; });
+  auto cpu_ms =
+      OfPlans(run.team, [](const IssuedPlan& p) { return p.plan.cpu_s * kMillisecondsPerSecond; });
   std::erase(cpu_ms, 0.0);  // not said: the planner ran in this process
-  const auto wall_ms = OfPlans(
-      run.episode, [](const IssuedPlan& p) { return absl::ToDoubleMilliseconds(p.rpc_wall); });
+  const auto wall_ms =
+      OfPlans(run.team, [](const IssuedPlan& p) { return absl::ToDoubleMilliseconds(p.rpc_wall); });
   Summary summary;
   summary.figures = {
       {"completeness", metrics.completeness},
       {"rmse_ppm", metrics.rmse_ppm},
       {"rmse_zero_ppm", metrics.rmse_zero_ppm},
       {"entropy_nats", metrics.entropy_nats},
-      {"plans", static_cast<double>(run.episode.plans.size())},
+      {"plans", static_cast<double>(PlansOf(run.team).size())},
       {"plan_cpu_ms_p50", Percentile(cpu_ms, 0.5)},
       {"plan_rpc_wall_ms_p99", Percentile(wall_ms, 0.99)},
-      {"simulated_s", run.episode.simulated_s},
+      {"simulated_s", run.team.samples.back().time_s},
       {"wall_s", run.wall_s},
-      {"readings_sent", static_cast<double>(run.episode.readings_sent)},
-      {"readings_applied", static_cast<double>(run.episode.readings_applied)},
-      {"distance_m", run.episode.distance_m},
-      {"collisions", static_cast<double>(run.episode.collisions)},
-      {"mission_complete", run.episode.completed ? 1.0 : 0.0},
   };
+  AddTeamFigures(run.team, summary);
   summary.about = AboutThisRun(run.seed);
   summary.about.emplace_back("scene", run.scene.name);
   summary.about.emplace_back("strategy", run.strategy);
   return summary;
 }
 
-CsvTable MakeMetricsTable(const EpisodeResult& episode) {
+CsvTable MakeMetricsTable(const TeamResult& team) {
   CsvTable table{
       {"time_s", "revision", "completeness", "rmse_ppm", "rmse_zero_ppm", "entropy_nats"}, {}};
-  for (const MetricSample& sample : episode.samples) {
+  for (const MetricSample& sample : team.samples) {
     const MapMetrics& m = sample.metrics;
     table.rows.push_back({sample.time_s, static_cast<double>(sample.revision), m.completeness,
                           m.rmse_ppm, m.rmse_zero_ppm, m.entropy_nats});
@@ -91,12 +120,14 @@ ReportData MakeReport(const Run& run, const Summary& summary) {
   for (const GasSource& source : run.scene.sources) {
     report.sources.push_back({source.x_m, source.y_m});
   }
-  report.starts = {run.scene.start_pose.position()};
-  for (const IssuedPlan& plan : run.episode.plans) report.plans.push_back(plan.plan);
-  std::vector<Point2> path;
-  for (const DrivenPose& driven : run.episode.path) path.push_back(driven.pose.position());
-  report.driven_paths = {std::move(path)};
-  for (const MetricSample& sample : run.episode.samples) {
+  for (const IssuedPlan* plan : PlansOf(run.team)) report.plans.push_back(plan->plan);
+  for (const EpisodeResult& robot : run.team.robots) {
+    std::vector<Point2> path;
+    for (const DrivenPose& driven : robot.path) path.push_back(driven.pose.position());
+    if (!path.empty()) report.starts.push_back(path.front());
+    report.driven_paths.push_back(std::move(path));
+  }
+  for (const MetricSample& sample : run.team.samples) {
     const MapMetrics& m = sample.metrics;
     report.metrics.push_back(
         {sample.time_s, m.completeness, m.rmse_ppm, m.rmse_zero_ppm, m.entropy_nats});
@@ -118,20 +149,19 @@ absl::Status WriteField(const Grid<float>& field, const std::string& path) {
 
 }  // namespace
 
+absl::Status WriteMapFiles(const MapSnapshot& map, const std::string& folder) {
+  PLUMESCOUT_RETURN_IF_ERROR(MakeFolder(folder));
+  PLUMESCOUT_RETURN_IF_ERROR(WriteMapServer(map.occupancy, absl::StrCat(folder, "/map.yaml")));
+  PLUMESCOUT_RETURN_IF_ERROR(WriteField(map.gas_mean_ppm, absl::StrCat(folder, "/gas_mean.npy")));
+  return WriteField(map.gas_variance_ppm2, absl::StrCat(folder, "/gas_variance.npy"));
+}
+
 absl::Status WriteRunFolder(const Run& run, const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    return absl::UnavailableError(absl::StrCat("cannot make ", folder, ": ", error.message()));
-  }
-  const auto in_folder = [&](const char* name) { return absl::StrCat(folder, "/", name); };
   const Summary summary = MakeSummary(run);
-  PLUMESCOUT_RETURN_IF_ERROR(WriteSummary(summary, in_folder("summary.json")));
-  PLUMESCOUT_RETURN_IF_ERROR(WriteCsv(MakeMetricsTable(run.episode), in_folder("metrics.csv")));
-  PLUMESCOUT_RETURN_IF_ERROR(WriteMapServer(run.final_map.occupancy, in_folder("map.yaml")));
-  PLUMESCOUT_RETURN_IF_ERROR(WriteField(run.final_map.gas_mean_ppm, in_folder("gas_mean.npy")));
+  PLUMESCOUT_RETURN_IF_ERROR(WriteMapFiles(run.final_map, folder));
+  PLUMESCOUT_RETURN_IF_ERROR(WriteSummary(summary, absl::StrCat(folder, "/summary.json")));
   PLUMESCOUT_RETURN_IF_ERROR(
-      WriteField(run.final_map.gas_variance_ppm2, in_folder("gas_variance.npy")));
+      WriteCsv(MakeMetricsTable(run.team), absl::StrCat(folder, "/metrics.csv")));
   return WriteReport(MakeReport(run, summary), folder);
 }
 

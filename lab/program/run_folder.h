@@ -15,15 +15,19 @@ namespace plumescout::lab {
 // Everything that one run leaves behind.
 struct Run {
   const Scene& scene;
-  const EpisodeResult& episode;
+  const TeamResult& team;
   const MapSnapshot& final_map;
   std::string strategy;
   std::uint64_t seed = 0;
   double wall_s = 0.0;
 };
 
-// Writes report.html, report.png, metrics.csv, summary.json, map.pgm + map.yaml, gas_mean.npy and
-// gas_variance.npy into `folder`, which is made if it is not there.
+// Writes map.pgm + map.yaml, gas_mean.npy and gas_variance.npy into `folder`, which is made if it
+// is not there. The same map gives the same bytes.
+absl::Status WriteMapFiles(const MapSnapshot& map, const std::string& folder);
+
+// Writes report.html, report.png, metrics.csv, summary.json and the files of the map into `folder`,
+// which is made if it is not there.
 absl::Status WriteRunFolder(const Run& run, const std::string& folder);
 
 }  // namespace plumescout::lab

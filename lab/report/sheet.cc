@@ -12,14 +12,15 @@
 namespace plumescout::lab {
 namespace {
 
-constexpr int kColumns = 4;
+constexpr std::size_t kColumns = 4;
 constexpr int kMargin_px = 40;
 constexpr int kGap_px = 32;
 constexpr int kTitle_px = 64;
 constexpr int kHeadline_px = 84;
 constexpr int kTableRow_px = 24;
 constexpr int kTableTop_px = 34;
-constexpr int kWidth_px = 2 * kMargin_px + kColumns * kPanelWidth_px + (kColumns - 1) * kGap_px;
+constexpr int kWidth_px =
+    2 * kMargin_px + static_cast<int>(kColumns) * (kPanelWidth_px + kGap_px) - kGap_px;
 
 double ColumnX(std::size_t column) {
   return kMargin_px + static_cast<double>(column) * (kPanelWidth_px + kGap_px);
@@ -61,6 +62,26 @@ void DrawTable(Canvas& canvas, const Box& box, const ReportFigures& figures) {
   }
 }
 
+// Draws the panels in rows of four from `top` on.
+void DrawPanels(Canvas& canvas, int top, int height_px, const ReportFigures& figures) {
+  for (std::size_t i = 0; i < figures.panels.size(); ++i) {
+    const int row = static_cast<int>(i / kColumns);
+    DrawMapPanel(canvas,
+                 {ColumnX(i % kColumns), static_cast<double>(top + row * (height_px + kGap_px)),
+                  kPanelWidth_px, static_cast<double>(height_px)},
+                 figures.panels[i]);
+  }
+}
+
+void DrawCharts(Canvas& canvas, int top, const ReportFigures& figures) {
+  std::size_t column = 0;
+  const auto next_box = [&] {
+    return Box{ColumnX(column++), static_cast<double>(top), kPanelWidth_px, kChartHeight_px};
+  };
+  for (const Chart& chart : figures.charts) DrawChart(canvas, next_box(), chart);
+  for (const BarChart& chart : figures.bar_charts) DrawBarChart(canvas, next_box(), chart);
+}
+
 }  // namespace
 
 int PanelHeight_px(const ReportFigures& figures) {
@@ -78,7 +99,8 @@ Image DrawSheet(const ReportFigures& figures) {
   const int headline_top = kMargin_px + kTitle_px + notes_px;
   const int panels_top = headline_top + kHeadline_px;
   const int panels_height = PanelHeight_px(figures);
-  const int charts_top = panels_top + panels_height + kGap_px;
+  const int rows = static_cast<int>((figures.panels.size() + kColumns - 1) / kColumns);
+  const int charts_top = panels_top + rows * (panels_height + kGap_px);
   const int height_px = charts_top + std::max(kChartHeight_px, table_px) + kMargin_px;
   RasterCanvas canvas(kWidth_px, height_px, kPaper);
   canvas.Text({kMargin_px, kMargin_px + 26.0}, figures.title, {30.0, kInk, Anchor::kStart, true});
@@ -87,17 +109,8 @@ Image DrawSheet(const ReportFigures& figures) {
                 notes[i], {kNoteSize_px, kInk});
   }
   DrawHeadline(canvas, headline_top, figures);
-  for (std::size_t i = 0; i < figures.panels.size(); ++i) {
-    DrawMapPanel(canvas,
-                 {ColumnX(i), static_cast<double>(panels_top), kPanelWidth_px,
-                  static_cast<double>(panels_height)},
-                 figures.panels[i]);
-  }
-  for (std::size_t i = 0; i < figures.charts.size(); ++i) {
-    DrawChart(canvas,
-              {ColumnX(i), static_cast<double>(charts_top), kPanelWidth_px, kChartHeight_px},
-              figures.charts[i]);
-  }
+  DrawPanels(canvas, panels_top, panels_height, figures);
+  DrawCharts(canvas, charts_top, figures);
   DrawTable(canvas,
             {ColumnX(kColumns - 1), static_cast<double>(charts_top), kPanelWidth_px,
              static_cast<double>(table_px)},

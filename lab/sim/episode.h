@@ -18,18 +18,11 @@
 #include "core/types/plan.h"
 #include "core/types/pose2.h"
 #include "core/types/stop.h"
-#include "lab/sim/metrics.h"
+#include "lab/sim/map_judge.h"
 #include "lab/sim/scene_world.h"
 #include "lab/sim/simulated_robot.h"
 
 namespace plumescout::lab {
-
-// The metrics at one time of an episode, or of its end.
-struct MetricSample {
-  double time_s = 0.0;
-  std::int64_t revision = 0;  // of the map
-  MapMetrics metrics;
-};
 
 struct IssuedPlan {
   double time_s = 0.0;      // when it was asked for
@@ -42,7 +35,7 @@ struct DrivenPose {
   Pose2 pose;
 };
 
-// One robot in one scene.
+// One robot in one scene, or the first of several.
 struct EpisodeOptions {
   MissionId mission;
   RobotId robot = "robot-1";
@@ -51,6 +44,7 @@ struct EpisodeOptions {
   client::Following following = client::Following::kIdeal;
   client::SensorRates rates;
   bool correct_gas_lag = true;  // undo the lag of the gas sensor, which the robot knows
+  double gas_settling_s = 0.0;  // see client::GasSampling; < the mission's dwell_s
   // False: the world waits for acknowledgements and plans, so an episode is repeatable. True: time
   // goes by as on a wall clock, plans take as long as they take.
   bool realtime = false;
@@ -86,5 +80,28 @@ struct EpisodeResult {
 absl::StatusOr<EpisodeResult> RunEpisode(client::PlannerClient& planner, const SceneWorld& world,
                                          const EpisodeOptions& options,
                                          const StopFn& stop = NeverStop());
+
+// Another robot of the same mission.
+struct Teammate {
+  RobotId robot;
+  Pose2 start;
+  std::uint64_t seed = 1;
+};
+
+struct TeamResult {
+  std::vector<EpisodeResult> robots;  // in the order of the options; their samples are empty
+  std::vector<MetricSample> samples;  // of the map that they share
+  double closest_m = 0.0;             // that two of them ever came, centre to centre
+};
+
+// Several robots that share a mission and a world: the one of `options` and `teammates`, who are
+// like it but for name, start and seed. Robots see each other and may drive through each other.
+// In lockstep they take turns in the order of simulated time, so that the episode is repeatable;
+// `stop`, on_sample and on_plan are called by one robot at a time. In real time each goes its own
+// way, and `stop` must be thread-safe. An error of one ends the episode for all.
+absl::StatusOr<TeamResult> RunTeamEpisode(client::PlannerClient& planner, const SceneWorld& world,
+                                          const EpisodeOptions& options,
+                                          const std::vector<Teammate>& teammates,
+                                          const StopFn& stop = NeverStop());
 
 }  // namespace plumescout::lab

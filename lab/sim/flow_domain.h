@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -18,11 +19,22 @@ struct BoundaryFace {
   std::optional<double> inflow_mps;  // into the building; without it: outlet, ambient pressure
 };
 
+// Face that a fan keeps at one speed. Two fluid cells meet there.
+struct FanFace {
+  Cell cell;
+  Side side = Side::kWest;  // of `cell`: kWest or kSouth
+  double speed_mps = 0.0;   // eastward through a west face, northward through a south face
+};
+
 // Where air can flow. Faces between fluid and solid cells, and outer faces that `openings` does not
-// list, are walls. If there are faces, every fluid cell is connected to an outlet.
+// list, are walls.
 struct FlowDomain {
   Grid<std::uint8_t> fluid;  // 1: air, 0: solid
   std::vector<BoundaryFace> openings;
+  std::vector<FanFace> fans;
+  // Speed at which the walls on the raster's edge slide along themselves, by Side: eastward on the
+  // south and the north edge, northward on the others. Buildings have none that do.
+  std::array<double, 4> edge_speeds_mps{};
 };
 
 }  // namespace plumescout::lab

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/sim/gas_sensor.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
@@ -26,11 +27,31 @@ absl::Status Validate(const GasSensorOptions& options) {
   PLUMESCOUT_RETURN_IF_ERROR(
       Check("noise_sigma_ppm", options.noise_sigma_ppm, kMaxConcentration_ppm));
   PLUMESCOUT_RETURN_IF_ERROR(Check("noise_share", options.noise_share, 1.0));
-  return Check("detection_limit_ppm", options.detection_limit_ppm, kMaxConcentration_ppm);
+  PLUMESCOUT_RETURN_IF_ERROR(
+      Check("detection_limit_ppm", options.detection_limit_ppm, kMaxConcentration_ppm));
+  PLUMESCOUT_RETURN_IF_ERROR(
+      Check("saturation_ppm", options.saturation_ppm, kMaxConcentration_ppm));
+  PLUMESCOUT_RETURN_IF_ERROR(
+      Check("resolution_ppm", options.resolution_ppm, kMaxConcentration_ppm));
+  if (options.saturation_ppm > options.detection_limit_ppm) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      absl::StrCat("gas_sensor.saturation_ppm = ", options.saturation_ppm,
+                   " must be > gas_sensor.detection_limit_ppm = ", options.detection_limit_ppm));
 }
 
-GasSensor::GasSensor(const GasSensorOptions& options, std::uint64_t seed)
-    : options_(options), rng_(seed) {}
+GasSensorOptions PhotoIonisationDetector() { return {}; }
+
+GasSensorOptions CarbonDioxideCell() {
+  return {.time_constant_s = 4.0,
+          .noise_sigma_ppm = 10.0,
+          .noise_share = 0.01,
+          .detection_limit_ppm = 0.0,
+          .saturation_ppm = 10'000.0,
+          .resolution_ppm = 10.0};
+}
+
+GasSensor::GasSensor(const GasSensorOptions& options, std::uint64_t seed, double ambient_ppm)
+    : options_(options), rng_(seed), cell_ppm_(ambient_ppm) {}
 
 void GasSensor::Step(double true_ppm, double duration_s) {
   if (options_.time_constant_s == 0.0) {
@@ -42,8 +63,12 @@ void GasSensor::Step(double true_ppm, double duration_s) {
 
 double GasSensor::Read_ppm() {
   const double sigma_ppm = std::hypot(options_.noise_sigma_ppm, options_.noise_share * cell_ppm_);
-  const double reading_ppm = cell_ppm_ + sigma_ppm * rng_.Gaussian();
-  return reading_ppm < options_.detection_limit_ppm || reading_ppm < 0.0 ? 0.0 : reading_ppm;
+  double reading_ppm = cell_ppm_ + sigma_ppm * rng_.Gaussian();
+  if (reading_ppm < options_.detection_limit_ppm || reading_ppm < 0.0) return 0.0;
+  if (options_.resolution_ppm > 0.0) {
+    reading_ppm = options_.resolution_ppm * std::round(reading_ppm / options_.resolution_ppm);
+  }
+  return std::min(reading_ppm, options_.saturation_ppm);
 }
 
 }  // namespace plumescout::lab

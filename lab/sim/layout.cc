@@ -15,7 +15,7 @@ constexpr double kMinResolution_m = 0.02;
 constexpr double kMaxResolution_m = 1.0;
 constexpr double kMaxCells = 1e6;  // the pressure equation of more would take minutes to factorise
 constexpr double kMaxThickness_m = 10.0;
-constexpr double kMaxInflow_mps = 30.0;     // a storm; air at speeds where it is incompressible
+constexpr double kMaxAir_mps = 30.0;        // a storm; air at speeds where it is incompressible
 constexpr double kMaxRate_ppm_per_s = 1e6;  // pure gas
 constexpr double kMaxFilaments_per_s = 1000.0;
 constexpr double kMaxSigma_m = 5.0;
@@ -112,7 +112,15 @@ absl::Status CheckOpening(const std::string& field, const Opening& opening, cons
   PLUMESCOUT_RETURN_IF_ERROR(Check(field + ".from_m", opening.from_m, {layout.border_m, end_m}));
   PLUMESCOUT_RETURN_IF_ERROR(Check(field + ".to_m", opening.to_m, {opening.from_m, end_m, false}));
   if (!opening.inflow_mps) return absl::OkStatus();
-  return Check(field + ".inflow_mps", *opening.inflow_mps, Positive(kMaxInflow_mps));
+  return Check(field + ".inflow_mps", *opening.inflow_mps, Positive(kMaxAir_mps));
+}
+
+absl::Status CheckFan(const std::string& field, const Fan& fan, const Layout& layout) {
+  PLUMESCOUT_RETURN_IF_ERROR(CheckInside(field + ".position_m", fan.position, layout));
+  PLUMESCOUT_RETURN_IF_ERROR(
+      Check(field + ".direction_rad", fan.direction_rad, {-2.0 * M_PI, 2.0 * M_PI}));
+  PLUMESCOUT_RETURN_IF_ERROR(Check(field + ".width_m", fan.width_m, Positive(kMaxSize_m)));
+  return Check(field + ".speed_mps", fan.speed_mps, Positive(kMaxAir_mps));
 }
 
 absl::Status CheckSources(const Layout& layout) {
@@ -124,6 +132,9 @@ absl::Status CheckSources(const Layout& layout) {
         CheckInside(field + ".position_m", {source.x_m, source.y_m}, layout));
     PLUMESCOUT_RETURN_IF_ERROR(
         Check(field + ".rate_ppm_per_s", source.rate_ppm_per_s, Positive(kMaxRate_ppm_per_s)));
+    const absl::Status release = Validate(source.release);
+    if (release.ok()) continue;
+    return absl::InvalidArgumentError(absl::StrCat(field, ".release.", release.message()));
   }
   return absl::OkStatus();
 }
@@ -159,6 +170,9 @@ absl::Status Validate(const Layout& layout) {
   for (std::size_t i = 0; i < layout.openings.size(); ++i) {
     PLUMESCOUT_RETURN_IF_ERROR(
         CheckOpening(absl::StrCat("openings[", i, "]"), layout.openings[i], layout));
+  }
+  for (std::size_t i = 0; i < layout.fans.size(); ++i) {
+    PLUMESCOUT_RETURN_IF_ERROR(CheckFan(absl::StrCat("fans[", i, "]"), layout.fans[i], layout));
   }
   PLUMESCOUT_RETURN_IF_ERROR(CheckSources(layout));
   PLUMESCOUT_RETURN_IF_ERROR(CheckInside("start_pose", layout.start_pose.position(), layout));

@@ -37,6 +37,17 @@ struct SolidBox {
   friend bool operator==(const SolidBox&, const SolidBox&) = default;
 };
 
+// Ventilator in a room: it moves the air that passes it, at one speed over its whole width. Robots,
+// beams and the map do not see it.
+struct Fan {
+  Point2 position;             // of its middle
+  double direction_rad = 0.0;  // in which it blows, from the x axis, [-2 pi, 2 pi]
+  double width_m = 0.0;        // at right angles to that; at least about one cell
+  double speed_mps = 0.0;      // (0, 30]
+
+  friend bool operator==(const Fan&, const Fan&) = default;
+};
+
 // How released gas spreads. Sources: [XIT] Table I for the growth; the mixing depth was fitted to a
 // three-dimensional simulation of a hall 2.4 m high; the rest as GADEN scenes commonly have it.
 struct GasParameters {
@@ -58,7 +69,8 @@ struct Layout {
   double border_m = 0.2;      // thickness of the outer wall, >= one cell
   std::vector<Wall> walls;
   std::vector<SolidBox> boxes;
-  std::vector<Opening> openings;   // inlets blow at (0, 30] m/s
+  std::vector<Opening> openings;  // inlets blow at (0, 30] m/s
+  std::vector<Fan> fans;
   std::vector<GasSource> sources;  // at least one
   Pose2 start_pose;
   double sensor_height_m = 0.4;         // >= 0

@@ -9,6 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/grid/flood.h"
 #include "core/types/status_macros.h"
+#include "lab/sim/fan_raster.h"
 
 namespace plumescout::lab {
 namespace {
@@ -115,9 +116,10 @@ absl::Status CutOpenings(const Layout& layout, FlowDomain& flow) {
     PLUMESCOUT_RETURN_IF_ERROR(
         CutOpening(absl::StrCat("openings[", i, "]"), opening, BorderCells(layout), flow));
   }
-  if (layout.openings.empty() || (inlet && outlet)) return absl::OkStatus();
+  const bool blown = inlet || !layout.fans.empty();
+  if (layout.openings.empty() || (blown && outlet)) return absl::OkStatus();
   return absl::InvalidArgumentError(
-      inlet ? "openings must include an outlet, one without inflow_mps"
+      blown ? "openings must include an outlet, one without inflow_mps"
             : "openings must include an inlet, one with inflow_mps; without openings air rests");
 }
 
@@ -147,6 +149,7 @@ absl::StatusOr<LayoutRaster> Rasterize(const Layout& layout) {
   LayoutRaster raster;
   raster.flow.fluid = reachable;
   PLUMESCOUT_RETURN_IF_ERROR(CutOpenings(layout, raster.flow));
+  PLUMESCOUT_RETURN_IF_ERROR(AddFans(layout.fans, raster.flow));
   raster.occupancy = Grid<CellState>(open.geometry(), CellState::kOccupied);
   for (std::size_t i = 0; i < reachable.size(); ++i) {
     if (reachable[i] != 0) raster.occupancy[i] = CellState::kFree;

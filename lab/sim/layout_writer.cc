@@ -6,7 +6,9 @@
 
 #include <array>
 #include <charconv>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "core/types/status_macros.h"
@@ -52,6 +54,30 @@ std::string OpeningLine(const Opening& opening) {
   return line + "}\n";
 }
 
+std::string FanLine(const Fan& fan) {
+  return absl::StrCat(
+      "  - {position_m: ", Pair(fan.position), ", direction_rad: ", Number(fan.direction_rad),
+      ", width_m: ", Number(fan.width_m), ", speed_mps: ", Number(fan.speed_mps), "}\n");
+}
+
+std::string SourceLine(const GasSource& source) {
+  std::string line = absl::StrCat("  - {position_m: ", Pair({source.x_m, source.y_m}),
+                                  ", rate_ppm_per_s: ", Number(source.rate_ppm_per_s));
+  if (source.release == ReleaseSchedule{}) return line + "}\n";
+  const std::pair<const char*, std::optional<double>> times[] = {
+      {"start_s", source.release.start_s},
+      {"end_s", source.release.end_s},
+      {"on_s", source.release.on_s},
+      {"off_s", source.release.off_s}};
+  const char* separator = ", release: {";
+  for (const auto& [key, time_s] : times) {
+    if (!time_s) continue;
+    absl::StrAppend(&line, separator, key, ": ", Number(*time_s));
+    separator = ", ";
+  }
+  return line + "}}\n";
+}
+
 std::string FrameLines(const Layout& layout) {
   return absl::StrCat(
       "name: ", Quoted(layout.name), "\nsize_m: ", Pair({layout.size_x_m, layout.size_y_m}),
@@ -80,11 +106,10 @@ std::string FormatLayout(const Layout& layout) {
   }
   if (!layout.openings.empty()) absl::StrAppend(&yaml, "\nopenings:\n");
   for (const Opening& opening : layout.openings) absl::StrAppend(&yaml, OpeningLine(opening));
+  if (!layout.fans.empty()) absl::StrAppend(&yaml, "\nfans:\n");
+  for (const Fan& fan : layout.fans) absl::StrAppend(&yaml, FanLine(fan));
   absl::StrAppend(&yaml, "\nsources:\n");
-  for (const GasSource& source : layout.sources) {
-    absl::StrAppend(&yaml, "  - {position_m: ", Pair({source.x_m, source.y_m}),
-                    ", rate_ppm_per_s: ", Number(source.rate_ppm_per_s), "}\n");
-  }
+  for (const GasSource& source : layout.sources) absl::StrAppend(&yaml, SourceLine(source));
   const Pose2& start = layout.start_pose;
   absl::StrAppend(&yaml, "\nstart_pose: {x_m: ", Number(start.x_m), ", y_m: ", Number(start.y_m),
                   ", yaw_rad: ", Number(start.yaw_rad), "}\n\n", GasLine(layout.gas));

@@ -113,11 +113,28 @@ absl::Status Read(const YAML::Node& node, const std::string& path, Opening& open
                   {"inflow_mps", Optional(opening.inflow_mps)}});
 }
 
+absl::Status Read(const YAML::Node& node, const std::string& path, Fan& fan) {
+  return ReadMap(node, path,
+                 {{"position_m", Required(fan.position)},
+                  {"direction_rad", Required(fan.direction_rad)},
+                  {"width_m", Required(fan.width_m)},
+                  {"speed_mps", Required(fan.speed_mps)}});
+}
+
+absl::Status Read(const YAML::Node& node, const std::string& path, ReleaseSchedule& release) {
+  return ReadMap(node, path,
+                 {{"start_s", Optional(release.start_s)},
+                  {"end_s", Optional(release.end_s)},
+                  {"on_s", Optional(release.on_s)},
+                  {"off_s", Optional(release.off_s)}});
+}
+
 absl::Status Read(const YAML::Node& node, const std::string& path, GasSource& source) {
   Point2 position;
-  PLUMESCOUT_RETURN_IF_ERROR(ReadMap(
-      node, path,
-      {{"position_m", Required(position)}, {"rate_ppm_per_s", Required(source.rate_ppm_per_s)}}));
+  PLUMESCOUT_RETURN_IF_ERROR(ReadMap(node, path,
+                                     {{"position_m", Required(position)},
+                                      {"rate_ppm_per_s", Required(source.rate_ppm_per_s)},
+                                      {"release", Optional(source.release)}}));
   source.x_m = position.x_m;
   source.y_m = position.y_m;
   return absl::OkStatus();
@@ -172,6 +189,7 @@ absl::Status ReadRoot(const YAML::Node& node, Layout& layout) {
                {"walls", Optional(layout.walls)},
                {"boxes", Optional(layout.boxes)},
                {"openings", Optional(layout.openings)},
+               {"fans", Optional(layout.fans)},
                {"sources", Required(layout.sources)},
                {"start_pose", Required(layout.start_pose)},
                {"sensor_height_m", Optional(layout.sensor_height_m)},

@@ -8,11 +8,7 @@
 namespace plumescout::lab {
 namespace {
 
-void AddScaledTo(std::vector<double>& values, const std::vector<double>& other, double factor) {
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] += factor * other[i];
-}
-
-double MaxMagnitude(const std::vector<double>& values) {
+double MaxMagnitude(std::span<const double> values) {
   double largest = 0.0;
   for (const double value : values) largest = std::max(largest, std::abs(value));
   return largest;
@@ -22,8 +18,8 @@ double MaxMagnitude(const std::vector<double>& values) {
 
 MacField::MacField(const GridGeometry& geometry)
     : geometry_(geometry),
-      u_mps_(UIndex(0, geometry.height)),
-      v_mps_(VIndex(0, geometry.height + 1)) {}
+      first_v_(UFace(0, geometry.height)),
+      values_mps_(VFace(0, geometry.height + 1)) {}
 
 Velocity MacField::AtCenter(Cell cell) const {
   return {0.5 * (u(cell.x, cell.y) + u(cell.x + 1, cell.y)),
@@ -40,10 +36,25 @@ Velocity MacField::At(Point2 point) const {
 }
 
 void MacField::AddScaled(const MacField& other, double factor) {
-  AddScaledTo(u_mps_, other.u_mps_, factor);
-  AddScaledTo(v_mps_, other.v_mps_, factor);
+  for (std::size_t i = 0; i < values_mps_.size(); ++i) {
+    values_mps_[i] += factor * other.values_mps_[i];
+  }
 }
 
-Velocity MacField::MaxMagnitudes() const { return {MaxMagnitude(u_mps_), MaxMagnitude(v_mps_)}; }
+Velocity MacField::MaxMagnitudes() const {
+  return {MaxMagnitude(values().first(first_v_)), MaxMagnitude(values().subspan(first_v_))};
+}
+
+double MacField::FastestCell_mps() const {
+  double fastest = 0.0;
+  for (int y = 0; y < geometry_.height; ++y) {
+    for (int x = 0; x < geometry_.width; ++x) {
+      const double east = std::max(std::abs(u(x, y)), std::abs(u(x + 1, y)));
+      const double north = std::max(std::abs(v(x, y)), std::abs(v(x, y + 1)));
+      fastest = std::max(fastest, east + north);
+    }
+  }
+  return fastest;
+}
 
 }  // namespace plumescout::lab

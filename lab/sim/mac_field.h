@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/types/grid_geometry.h"
@@ -26,10 +27,22 @@ class MacField {
   explicit MacField(const GridGeometry& geometry);
 
   const GridGeometry& geometry() const { return geometry_; }
-  double& u(int x, int y) { return u_mps_[UIndex(x, y)]; }
-  double u(int x, int y) const { return u_mps_[UIndex(x, y)]; }
-  double& v(int x, int y) { return v_mps_[VIndex(x, y)]; }
-  double v(int x, int y) const { return v_mps_[VIndex(x, y)]; }
+  double& u(int x, int y) { return values_mps_[UFace(x, y)]; }
+  double u(int x, int y) const { return values_mps_[UFace(x, y)]; }
+  double& v(int x, int y) { return values_mps_[VFace(x, y)]; }
+  double v(int x, int y) const { return values_mps_[VFace(x, y)]; }
+
+  // All faces in one row, for those who walk along lists of faces: first u, then v.
+  std::span<double> values() { return values_mps_; }
+  std::span<const double> values() const { return values_mps_; }
+  std::size_t UFace(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(geometry_.width + 1) +
+           static_cast<std::size_t>(x);
+  }
+  std::size_t VFace(int x, int y) const {
+    return first_v_ + static_cast<std::size_t>(y) * static_cast<std::size_t>(geometry_.width) +
+           static_cast<std::size_t>(x);
+  }
 
   // Net flow out of a cell per metre of height and cell edge, m/s.
   double NetOutflow_mps(Cell cell) const {
@@ -44,20 +57,14 @@ class MacField {
   void AddScaled(const MacField& other, double factor);
   // max |u| and max |v|, each over its own faces.
   Velocity MaxMagnitudes() const;
+  // max |u| + max |v| over the faces of one cell, of the cell where that is largest: the rate at
+  // which a time step uses up cells.
+  double FastestCell_mps() const;
 
  private:
-  std::size_t UIndex(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(geometry_.width + 1) +
-           static_cast<std::size_t>(x);
-  }
-  std::size_t VIndex(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(geometry_.width) +
-           static_cast<std::size_t>(x);
-  }
-
   GridGeometry geometry_;
-  std::vector<double> u_mps_;
-  std::vector<double> v_mps_;
+  std::size_t first_v_ = 0;
+  std::vector<double> values_mps_;
 };
 
 }  // namespace plumescout::lab

@@ -17,13 +17,13 @@ struct Estimate {
   double variance_ppm2 = 0.0;
 };
 
-Estimate EstimateAt(const MapSnapshot& map, Point2 point, double prior_variance_ppm2) {
+Estimate EstimateAt(const MapSnapshot& map, Point2 point, const Estimate& prior) {
   constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
   const double mean = map.gas_mean_ppm.At(map.gas_mean_ppm.geometry().CellAt(point), kNone);
   const double variance =
       map.gas_variance_ppm2.At(map.gas_variance_ppm2.geometry().CellAt(point), kNone);
   const bool known = std::isfinite(mean) && std::isfinite(variance) && variance > 0.0;
-  return known ? Estimate{mean, variance} : Estimate{0.0, prior_variance_ppm2};
+  return known ? Estimate{mean, variance} : prior;
 }
 
 Grid<std::uint8_t> FreeCells(const Scene& scene) {
@@ -40,8 +40,8 @@ double Ratio(double part, std::size_t whole) {
 
 }  // namespace
 
-MapEvaluator::MapEvaluator(const Scene& scene, double prior_variance_ppm2)
-    : prior_variance_ppm2_(prior_variance_ppm2) {
+MapEvaluator::MapEvaluator(const Scene& scene, double prior_variance_ppm2, double ambient_ppm)
+    : prior_variance_ppm2_(prior_variance_ppm2), ambient_ppm_(ambient_ppm) {
   const GridGeometry& geometry = scene.geometry();
   const Grid<std::uint8_t> free = FreeCells(scene);
   const Grid<std::uint8_t> reachable =
@@ -51,7 +51,7 @@ MapEvaluator::MapEvaluator(const Scene& scene, double prior_variance_ppm2)
     if (reachable[i] != 0) reachable_.push_back(center);
     const double truth_ppm = scene.conc_mean_ppm[i];
     if (free[i] != 0 && truth_ppm > scene.critical_threshold_ppm) {
-      critical_.push_back({center, truth_ppm});
+      critical_.push_back({center, ambient_ppm + truth_ppm});
     }
   }
 }
@@ -65,10 +65,11 @@ MapMetrics MapEvaluator::Evaluate(const MapSnapshot& map) const {
   double squares_zero = 0.0;
   double entropy = critical_.empty() ? std::numeric_limits<double>::quiet_NaN() : 0.0;
   for (const CriticalCell& cell : critical_) {
-    const Estimate estimate = EstimateAt(map, cell.center, prior_variance_ppm2_);
+    const Estimate estimate = EstimateAt(map, cell.center, {ambient_ppm_, prior_variance_ppm2_});
     const double error = estimate.mean_ppm - cell.truth_ppm;
+    const double excess = cell.truth_ppm - ambient_ppm_;
     squares += error * error;
-    squares_zero += cell.truth_ppm * cell.truth_ppm;
+    squares_zero += excess * excess;
     entropy += 0.5 * std::log(2.0 * M_PI * M_E * estimate.variance_ppm2);
   }
   MapMetrics metrics;

@@ -16,7 +16,7 @@ namespace plumescout::lab {
 struct MapMetrics {
   double completeness = 0.0;   // known-free share of the reachable free cells, [0, 1]
   double rmse_ppm = 0.0;       // [XIT] Eq. (23)
-  double rmse_zero_ppm = 0.0;  // the same for a map that says 0 everywhere
+  double rmse_zero_ppm = 0.0;  // the same for a map that says 0 (clean air) everywhere
   double entropy_nats = 0.0;   // [XIT] Eq. (24), in all
   int critical_cells = 0;
 };
@@ -26,12 +26,13 @@ struct MapMetrics {
 class MapEvaluator {
  public:
   // `prior_variance_ppm2` (> 0) stands in where the map has no estimate, see Evaluate; usually
-  // OpenLatticeVariance_ppm2 of the mission.
-  MapEvaluator(const Scene& scene, double prior_variance_ppm2);
+  // OpenLatticeVariance_ppm2 of the mission. `ambient_ppm` is in all air beside the scene's gas:
+  // the truth is the sum, and clean air is what a map without an estimate says.
+  MapEvaluator(const Scene& scene, double prior_variance_ppm2, double ambient_ppm = 0.0);
 
-  // Over critical cells, free ones with a true mean above the scene's threshold:
-  //   where the map holds no estimate (unknown, NaN, beyond its edge) it counts as 0 ppm with the
-  //   prior's variance. The paper is silent on this; its map must say something there too, and
+  // Over critical cells, free ones with a true mean of the scene's gas above the scene's threshold:
+  //   where the map holds no estimate (unknown, NaN, beyond its edge) it counts as clean air with
+  //   the prior's variance. The paper is silent on this; its map must say something there too, and
   //   leaving the cells out would reward a robot for not looking.
   // Completeness counts the free cells that the start is connected to (4 neighbours), before
   // inflation: cells that no beam can reach are nobody's failure.
@@ -44,6 +45,7 @@ class MapEvaluator {
   };
 
   double prior_variance_ppm2_;
+  double ambient_ppm_;
   std::vector<Point2> reachable_;
   std::vector<CriticalCell> critical_;
 };

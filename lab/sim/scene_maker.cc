@@ -42,7 +42,7 @@ std::int64_t StepsIn(double duration_s) { return std::llround(duration_s / Plume
 
 void BlowGas(const Layout& layout, const LayoutRaster& raster, const MacField& wind,
              const SceneMakerOptions& options, const FractionFn& progress, Scene& scene) {
-  Plume plume(raster, wind, layout.sources, layout.gas, options.seed);
+  Plume plume(raster, wind, layout.sources, layout.gas, options.seed, -options.warm_up_s);
   SliceRenderer renderer(raster.occupancy, layout.sources, layout.gas);
   FrameRecorder recorder(raster.occupancy.geometry(), layout.sources.size(), options.frames,
                          options.frame_period_s);

@@ -6,8 +6,12 @@
 #include <cmath>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
+
 namespace plumescout::lab {
 namespace {
+
+constexpr double kMaxAmbient_ppm = 1e6;
 
 // From `point` to the nearest point of the cell's square.
 double DistanceToCell_m(Point2 point, Cell cell, const GridGeometry& geometry) {
@@ -20,18 +24,24 @@ double DistanceToCell_m(Point2 point, Cell cell, const GridGeometry& geometry) {
 
 }  // namespace
 
-SceneWorld::SceneWorld(Scene scene, SeriesEnd series_end)
-    : scene_(std::move(scene)), series_end_(series_end) {}
+absl::Status Validate(const SceneWorldOptions& options) {
+  if (options.ambient_ppm >= 0.0 && options.ambient_ppm <= kMaxAmbient_ppm) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      absl::StrCat("world.ambient_ppm = ", options.ambient_ppm, " must be in [0, 1e6]"));
+}
+
+SceneWorld::SceneWorld(Scene scene, const SceneWorldOptions& options)
+    : scene_(std::move(scene)), options_(options) {}
 
 double SceneWorld::Concentration_ppm(Point2 point, double time_s) const {
   const double length_s = scene_.series.frames * scene_.series.dt_s;
   // The frame nearest to a time just before the end is the one after the last: the first again.
   const double half_frame_s = scene_.series.dt_s / 2.0;
   const bool past_end = time_s >= length_s - half_frame_s;
-  if (series_end_ == SeriesEnd::kRepeat && past_end) {
+  if (options_.series_end == SeriesEnd::kRepeat && past_end) {
     time_s = std::fmod(time_s + half_frame_s, length_s) - half_frame_s;
   }
-  return SampleConcentration_ppm(scene_, point, time_s);
+  return options_.ambient_ppm + SampleConcentration_ppm(scene_, point, time_s);
 }
 
 bool SceneWorld::Collides(Point2 center, double radius_m) const {

@@ -16,11 +16,14 @@ constexpr double kNanosecondsPerSecond = 1e9;
 constexpr double kMaxAdvance_s = 3600.0;
 constexpr double kMaxSpeed = 100.0;
 constexpr double kMaxBodyRadius_m = 5.0;
+constexpr double kMaxAcceleration_mps2 = 1000.0;
+constexpr double kMaxSceneStart_s = 1e6;
 // Turn rates below this leave the path straight to within a nanometre per step.
 constexpr double kStraight_rad_per_s = 1e-6;
 // Independent streams from one seed.
 constexpr std::uint64_t kLidarStream = 0x6C69646172;
 constexpr std::uint64_t kGasStream = 0x676173;
+constexpr std::uint64_t kPoseStream = 0x706F7365;
 
 bool IsFinite(const Pose2& pose) {
   return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad);
@@ -42,10 +45,21 @@ absl::Status Validate(const SimulatedRobotOptions& options) {
   if (!(options.body_radius_m >= 0.0 && options.body_radius_m <= kMaxBodyRadius_m)) {
     return OutOfRange("body_radius_m", options.body_radius_m, "in [0, 5]");
   }
+  if (!(options.seen_radius_m >= 0.0 && options.seen_radius_m <= kMaxBodyRadius_m)) {
+    return OutOfRange("seen_radius_m", options.seen_radius_m, "in [0, 5]");
+  }
+  const double acceleration_mps2 = options.max_acceleration_mps2.value_or(kMaxAcceleration_mps2);
+  if (!(acceleration_mps2 > 0.0 && acceleration_mps2 <= kMaxAcceleration_mps2)) {
+    return OutOfRange("max_acceleration_mps2", acceleration_mps2, "in (0, 1000]");
+  }
+  if (!(options.scene_start_s >= 0.0 && options.scene_start_s <= kMaxSceneStart_s)) {
+    return OutOfRange("scene_start_s", options.scene_start_s, "in [0, 1e6]");
+  }
   if (options.start_time_ns < 0) {
     return absl::InvalidArgumentError("robot.start_time_ns must be >= 0");
   }
   PLUMESCOUT_RETURN_IF_ERROR(lab::Validate(options.lidar));
+  PLUMESCOUT_RETURN_IF_ERROR(lab::Validate(options.pose_error));
   return lab::Validate(options.gas_sensor);
 }
 
@@ -69,12 +83,13 @@ absl::StatusOr<SimulatedRobot> SimulatedRobot::Create(const SceneWorld& world,
                                                       const SimulatedRobotOptions& options) {
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options));
   SimulatedRobot robot(world, options);
-  const Pose2 start = robot.pose();
+  const Pose2 start = robot.true_pose();
   if (!IsFinite(start)) return absl::InvalidArgumentError("robot.start must be finite");
   if (world.Collides(start.position(), options.body_radius_m)) {
     return absl::InvalidArgumentError(
         absl::StrCat("robot.start (", start.x_m, ", ", start.y_m, ") touches an obstacle"));
   }
+  robot.ShowBody();
   return robot;
 }
 
@@ -82,12 +97,17 @@ SimulatedRobot::SimulatedRobot(const SceneWorld& world, const SimulatedRobotOpti
     : world_(&world),
       options_(options),
       lidar_(options.lidar, options.seed ^ kLidarStream),
-      gas_sensor_(options.gas_sensor, options.seed ^ kGasStream),
+      gas_sensor_(options.gas_sensor, options.seed ^ kGasStream, world.ambient_ppm()),
       now_ns_(options.start_time_ns),
+      pose_error_(options.pose_error, options.seed ^ kPoseStream),
       pose_(options.start.value_or(world.scene().start_pose)),
       due_(std::chrono::steady_clock::now()) {}
 
-absl::StatusOr<Scan> SimulatedRobot::TakeScan() { return lidar_.Take(world_->occupancy(), pose_); }
+absl::StatusOr<Scan> SimulatedRobot::TakeScan() {
+  const Companion& companion = options_.companion;
+  if (companion.company == nullptr) return lidar_.Take(world_->occupancy(), pose_);
+  return lidar_.Take(world_->occupancy(), pose_, companion.company->Others(companion.robot));
+}
 
 absl::StatusOr<GasReading> SimulatedRobot::ReadGas() {
   return GasReading{.concentration_ppm = gas_sensor_.Read_ppm()};
@@ -106,12 +126,14 @@ absl::Status SimulatedRobot::Drive(const client::Twist& twist) {
 
 absl::Status SimulatedRobot::PlaceAt(const Pose2& pose) {
   if (!IsFinite(pose)) return absl::InvalidArgumentError("pose must be finite");
-  if (world_->Collides(pose.position(), options_.body_radius_m)) {
+  const Pose2 truth = pose_error_.TrueFor(pose);
+  if (world_->Collides(truth.position(), options_.body_radius_m)) {
     ++collisions_;
     return absl::OkStatus();
   }
-  pose_ = pose;
-  pose_.yaw_rad = WrapAngle_rad(pose.yaw_rad);
+  pose_ = truth;
+  pose_.yaw_rad = WrapAngle_rad(truth.yaw_rad);
+  ShowBody();
   return absl::OkStatus();
 }
 
@@ -128,20 +150,42 @@ absl::Status SimulatedRobot::Advance(double duration_s) {
     now_ns_ = begin_ns + std::llround(step * step_s * kNanosecondsPerSecond);
     gas_sensor_.Step(world_->Concentration_ppm(pose_.position(), scene_time_s()), step_s);
   }
+  pose_error_.Advance(duration_s);
+  ShowBody();
   if (options_.realtime) Pace(duration_s);
+  const Companion& companion = options_.companion;
+  if (companion.company != nullptr) companion.company->AwaitTurn(companion.robot, now_ns_);
   return absl::OkStatus();
 }
 
 void SimulatedRobot::Move(double duration_s) {
-  if (twist_.forward_mps == 0.0 && twist_.turn_rad_per_s == 0.0) return;
-  const Pose2 next = AlongArc(pose_, twist_, duration_s);
+  if (!options_.max_acceleration_mps2) speed_mps_ = twist_.forward_mps;
+  const double next_speed_mps = NextSpeed_mps(duration_s);
+  const double mean_speed_mps = 0.5 * (speed_mps_ + next_speed_mps);
+  speed_mps_ = next_speed_mps;
+  if (mean_speed_mps == 0.0 && twist_.turn_rad_per_s == 0.0) return;
+  const Pose2 next = AlongArc(pose_, {mean_speed_mps, twist_.turn_rad_per_s}, duration_s);
   const bool turns_on_the_spot = next.position() == pose_.position();
   if (!turns_on_the_spot && world_->Collides(next.position(), options_.body_radius_m)) {
     ++collisions_;
     twist_ = {};
+    speed_mps_ = 0.0;
     return;
   }
   pose_ = next;
+}
+
+// As near to the command as the acceleration lets it come; without a limit there at once.
+double SimulatedRobot::NextSpeed_mps(double duration_s) const {
+  if (!options_.max_acceleration_mps2) return twist_.forward_mps;
+  const double change_mps = *options_.max_acceleration_mps2 * duration_s;
+  return std::clamp(twist_.forward_mps, speed_mps_ - change_mps, speed_mps_ + change_mps);
+}
+
+void SimulatedRobot::ShowBody() {
+  const Companion& companion = options_.companion;
+  if (companion.company == nullptr) return;
+  companion.company->Stand(companion.robot, {pose_.position(), options_.seen_radius_m});
 }
 
 // Sleeps until the stretch is over. Time lost elsewhere (a slow plan) is not caught up.
@@ -157,7 +201,8 @@ void SimulatedRobot::Pace(double duration_s) {
 }
 
 double SimulatedRobot::scene_time_s() const {
-  return static_cast<double>(now_ns_ - options_.start_time_ns) / kNanosecondsPerSecond;
+  return options_.scene_start_s +
+         static_cast<double>(now_ns_ - options_.start_time_ns) / kNanosecondsPerSecond;
 }
 
 }  // namespace plumescout::lab

@@ -9,8 +9,10 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "client/robot_driver.h"
+#include "lab/sim/company.h"
 #include "lab/sim/gas_sensor.h"
 #include "lab/sim/lidar.h"
+#include "lab/sim/pose_error.h"
 #include "lab/sim/scene_world.h"
 
 namespace plumescout::lab {
@@ -19,18 +21,28 @@ struct SimulatedRobotOptions {
   std::optional<Pose2> start = std::nullopt;  // default: the scene's
   double max_forward_mps = 1.25;              // either way, [XIT] section VI-A, (0, 100]
   double max_turn_rad_per_s = 2.0;            // either way, (0, 100]
+  // Of speeding up and braking, (0, 1000]; none: speed jumps. It holds for what is driven, not for
+  // where the robot is placed.
+  std::optional<double> max_acceleration_mps2 = std::nullopt;
   // Touching a wall stops the robot, [0, 5]. Far less than its real radius: plans keep the centres
   // of cells 0.2 m apart, in a map that still grows, and come as near as 0.06 m to true walls.
   double body_radius_m = 0.05;
+  double seen_radius_m = 0.2;  // of the body that beams of others meet, [0, 5]
   LidarOptions lidar = {};
   GasSensorOptions gas_sensor = {};
-  std::int64_t start_time_ns = 1'700'000'000'000'000'000;  // of the clock, at frame 0; >= 0
+  PoseErrorOptions pose_error = {};
+  double scene_start_s = 0.0;  // of the scene's time, at which the robot's begins, [0, 1e6]
+  std::int64_t start_time_ns = 1'700'000'000'000'000'000;  // of the clock, at its start; >= 0
   bool realtime = false;                                   // Advance takes as long as it says
   std::uint64_t seed = 1;
+  // Others in the same world, who see this robot's body as it sees theirs. They are no walls: it
+  // may drive through them.
+  Companion companion = {};
 };
 
-// A robot in a SceneWorld: exact kinematics, exact localisation, simulated sensors. Everything but
-// the pacing depends on the options and the calls alone.
+// A robot in a SceneWorld: exact kinematics, simulated sensors, localisation as exact as asked for.
+// Sensors and collisions go by where it truly is. Everything but the pacing depends on the options
+// and the calls alone, and on the others if there are any.
 class SimulatedRobot : public client::RobotDriver {
  public:
   // The longest stretch over which pose and gas are taken as constant; 2.5 cm at 1.25 m/s.
@@ -41,14 +53,16 @@ class SimulatedRobot : public client::RobotDriver {
                                                const SimulatedRobotOptions& options);
 
   std::int64_t now_ns() const override { return now_ns_; }
-  Pose2 pose() const override { return pose_; }
+  Pose2 pose() const override { return pose_error_.Told(pose_); }
+  const Pose2& true_pose() const { return pose_; }
   absl::StatusOr<Scan> TakeScan() override;
   absl::StatusOr<GasReading> ReadGas() override;
 
   // Commands beyond the limits are cut to them. kInvalidArgument if not finite.
   absl::Status Drive(const client::Twist& twist) override;
-  // A pose that collides is not taken: the robot stays, as if it had bumped into something.
-  // kInvalidArgument if not finite.
+  // Where the robot holds itself to be: drift of its localisation sets it off. A pose that collides
+  // is not taken: the robot stays, as if it had bumped into something. kInvalidArgument if not
+  // finite.
   absl::Status PlaceAt(const Pose2& pose) override;
   // In steps of at most kStep_s. kInvalidArgument unless 0 <= duration_s <= 3600.
   absl::Status Advance(double duration_s) override;
@@ -60,6 +74,8 @@ class SimulatedRobot : public client::RobotDriver {
   SimulatedRobot(const SceneWorld& world, const SimulatedRobotOptions& options);
 
   void Move(double duration_s);
+  double NextSpeed_mps(double duration_s) const;
+  void ShowBody();
   void Pace(double duration_s);
   double scene_time_s() const;
 
@@ -68,8 +84,10 @@ class SimulatedRobot : public client::RobotDriver {
   Lidar lidar_;
   GasSensor gas_sensor_;
   std::int64_t now_ns_;
-  Pose2 pose_;
-  client::Twist twist_;
+  PoseError pose_error_;
+  Pose2 pose_;           // true
+  client::Twist twist_;  // as commanded
+  double speed_mps_ = 0.0;
   int collisions_ = 0;
   std::chrono::steady_clock::time_point due_;  // real time: when the last Advance was to end
 };

@@ -21,7 +21,7 @@ struct StandIn {
   const char* test;
 };
 constexpr StandIn kStandIns[] = {
-    {"", ""},
+    {"ompl_planners/ompl_space.cc", "tests/ompl_planners/ompl_search_test.cc"},
 };
 
 // Programs and what only they are made of are tried as a whole: by end-to-end tests, or by being

@@ -123,5 +123,20 @@ TEST(LagCorrection, OfNoLagChangesNothing) {
   EXPECT_EQ(same.reading.concentration_ppm, 1.0);
 }
 
+TEST(UndoLag, FindsTheAirBetweenTwoReadingsHoweverFarApart) {
+  for (const double elapsed_s : {0.1, 1.0, 5.0}) {
+    const double kept = std::exp(-elapsed_s / 4.0);
+    const GasReading later{1400.0 - 1000.0 * kept, 100.0};
+    const GasReading air = UndoLag({400.0, 100.0}, later, elapsed_s, 4.0);
+    EXPECT_NEAR(air.concentration_ppm, 1400.0, 1e-6);
+    EXPECT_NEAR(air.variance_ppm2, 100.0 * (1.0 + kept * kept) / ((1.0 - kept) * (1.0 - kept)),
+                1e-6);
+  }
+}
+
+TEST(UndoLag, NeverGivesNegativeConcentrations) {
+  EXPECT_EQ(UndoLag({100.0, 0.0}, {1.0, 0.0}, 0.5, 4.0).concentration_ppm, 0.0);
+}
+
 }  // namespace
 }  // namespace plumescout::client

@@ -164,5 +164,26 @@ TEST(MotionTest, WhatTheRobotRefusesIsPassedOn) {
       StartMotion(Following::kProportional, trajectory, {}, robot.now_ns())->Step(robot)));
 }
 
+TEST(MotionTest, TellsWhetherTheRobotStands) {
+  for (const Following following : {Following::kIdeal, Following::kProportional}) {
+    FakeDriver driver;
+    const auto motion = Start(following, driver);
+    int stops = 0;
+    bool stood = true;
+    while (!motion->done()) {
+      ASSERT_TRUE(motion->Step(driver).ok());
+      if (motion->standing() && !stood) ++stops;
+      stood = motion->standing();
+      const Pose2 before = driver.pose();
+      ASSERT_TRUE(driver.Advance(kTick_s).ok());
+      if (stood && following == Following::kProportional) {
+        EXPECT_EQ(driver.pose(), before);
+      }
+    }
+    EXPECT_EQ(stops, 2) << "at the corner and at the end";
+    EXPECT_TRUE(motion->standing());
+  }
+}
+
 }  // namespace
 }  // namespace plumescout::client

@@ -91,7 +91,7 @@ TEST(SampleSchedule, ARateOfZeroIsNeverDue) {
 TEST(SensorBridge, TenScansAndTwoGasReadingsASecond) {
   FakeDriver driver;
   std::vector<Sample> samples;
-  SensorBridge bridge(driver, {.scan_hz = 10.0, .gas_hz = 2.0}, 0.0, Into(samples));
+  SensorBridge bridge(driver, {.scan_hz = 10.0, .gas_hz = 2.0}, {}, Into(samples));
 
   for (int tick = 0; tick < 1000; ++tick) {
     ASSERT_TRUE(bridge.Poll().ok());
@@ -106,7 +106,7 @@ TEST(SensorBridge, TenScansAndTwoGasReadingsASecond) {
 TEST(SensorBridge, SamplesCarryThePoseAndTimeAtWhichTheyWereTaken) {
   FakeDriver driver;
   std::vector<Sample> samples;
-  SensorBridge bridge(driver, {.scan_hz = 10.0, .gas_hz = 0.0}, 0.0, Into(samples));
+  SensorBridge bridge(driver, {.scan_hz = 10.0, .gas_hz = 0.0}, {}, Into(samples));
   const std::int64_t start_ns = driver.now_ns();
   ASSERT_TRUE(driver.Drive({.forward_mps = 1.0}).ok());
 
@@ -125,7 +125,7 @@ TEST(SensorBridge, ASilentSensorIsCountedAndPassedOver) {
   FakeDriver driver;
   driver.gas_status = absl::UnavailableError("warming up");
   std::vector<Sample> samples;
-  SensorBridge bridge(driver, {}, 0.0, Into(samples));
+  SensorBridge bridge(driver, {}, {}, Into(samples));
 
   EXPECT_TRUE(bridge.Poll().ok());
 
@@ -137,9 +137,37 @@ TEST(SensorBridge, ABrokenSensorIsAnError) {
   FakeDriver driver;
   driver.scan_status = absl::InternalError("no laser");
   std::vector<Sample> samples;
-  SensorBridge bridge(driver, {}, 0.0, Into(samples));
+  SensorBridge bridge(driver, {}, {}, Into(samples));
 
   EXPECT_EQ(bridge.Poll(), absl::InternalError("no laser"));
+}
+
+// Stands from `from_s` on until `to_s`; 10 s of ticks of 0.1 s.
+std::vector<Sample> StopAndSample(FakeDriver& driver, const GasSampling& sampling, double from_s,
+                                  double to_s) {
+  std::vector<Sample> samples;
+  SensorBridge bridge(driver, {.scan_hz = 0.0, .gas_hz = 2.0}, sampling, Into(samples));
+  for (int tick = 0; tick < 100; ++tick) {
+    const double now_s = 0.1 * tick + 0.05;
+    EXPECT_TRUE(bridge.Poll(now_s > from_s && now_s < to_s).ok());
+    EXPECT_TRUE(driver.Advance(0.1).ok());
+  }
+  return samples;
+}
+
+TEST(SensorBridge, OnlySettledReadingsCountIfTheSensorIsSlow) {
+  FakeDriver driver;
+  const std::int64_t start_ns = driver.now_ns();
+  const auto samples = StopAndSample(driver, {.settling_s = 4.0}, 2.3, 7.3);
+
+  ASSERT_THAT(samples, SizeIs(2));  // the stop begins at 2.3 s and its readings with it
+  EXPECT_EQ(samples[0].time_ns, start_ns + 63 * kSecond_ns / 10);
+  EXPECT_EQ(samples[1].time_ns, start_ns + 68 * kSecond_ns / 10);
+}
+
+TEST(SensorBridge, ARobotThatNeverStandsLongEnoughHasNoSettledReading) {
+  FakeDriver driver;
+  EXPECT_THAT(StopAndSample(driver, {.settling_s = 4.0}, 2.3, 6.2), SizeIs(0));
 }
 
 }  // namespace

@@ -90,6 +90,25 @@ TEST(SceneJson, BadOpeningsAreNamed) {
                 "openings[0].to_m is missing");
 }
 
+TEST(SceneJson, SchedulesOfSourcesSurviveARoundTrip) {
+  Scene scene = MakeSmallScene();
+  scene.sources.resize(3);
+  scene.sources[1].release = {-30.0, 60.5, 10.0, 20.0};
+  scene.sources[2].release.end_s = 7.0;
+  const auto description = ParseSceneJson(FormatSceneJson(scene, {"s", {}}));
+  ASSERT_TRUE(description.ok()) << description.status();
+  EXPECT_EQ(description->scene.sources, scene.sources);
+}
+
+TEST(SceneJson, BadSchedulesAreNamed) {
+  const auto expect_invalid = [](const std::string& release, const std::string& message) {
+    ExpectInvalid("\"rate_ppm_per_s\"", "\"release\": " + release + ", \"rate_ppm_per_s\"",
+                  "sources[0].release" + message);
+  };
+  expect_invalid("{\"end_s\": \"soon\"}", ".end_s = \"soon\" must be a number");
+  expect_invalid("{\"start_s\": 5, \"end_s\": 4}", ".end_s = 4 must be after start_s = 5");
+}
+
 TEST(SceneJson, ANameThatIsNoUtf8IsStillWritten) {
   Scene scene = MakeSmallScene();
   scene.name = "\xFF\xFE";

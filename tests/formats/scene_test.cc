@@ -66,6 +66,9 @@ TEST(Scene, ValuesThatAreNotFiniteOrNegativeAreInvalid) {
   scene.sources[1].rate_ppm_per_s = -1.0;
   ExpectInvalid(scene, "source 7");
   scene = MakeSmallScene();
+  scene.sources[1].release.start_s = kNan;
+  ExpectInvalid(scene, "source 7: release.start_s = nan");
+  scene = MakeSmallScene();
   scene.critical_threshold_ppm = kNan;
   ExpectInvalid(scene, "critical_threshold_ppm");
 }

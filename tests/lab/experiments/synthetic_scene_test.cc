@@ -76,6 +76,18 @@ TEST(SyntheticScene, MeansAreOverTheLengthOfThePath) {
   EXPECT_NEAR(MeanInformation(scene, path), (1.0 * 0.25 + 0.5 * 0.75) / 1.5, 1e-6);
 }
 
+TEST(SyntheticScene, PointsAlongAPathKeepItsVerticesAndAreAtMostAStepApart) {
+  const std::vector<Point2> path = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.05}};
+  const std::vector<Point2> points = PointsAlong(path, 0.3);
+  ASSERT_EQ(points.size(), 6u);
+  EXPECT_EQ(points.front(), path.front());
+  EXPECT_EQ(points[4], path[1]);
+  EXPECT_EQ(points.back(), path.back());
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    EXPECT_LE(Distance_m(points[i - 1], points[i]), 0.3);
+  }
+}
+
 TEST(SyntheticScene, PanelsShowThePathsAddedToThem) {
   MapPanel panel = MakeScenePanel(BuildScene(SmallRoom()));
   EXPECT_EQ(panel.title, "Small");

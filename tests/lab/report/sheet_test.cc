@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "lab/report/figures.h"
+#include "lab/report/palette.h"
 #include "tests/support/small_report.h"
 
 namespace plumescout::lab {
@@ -29,6 +30,22 @@ TEST(Sheet, EveryPanelLeavesInkInItsColumn) {
     changed.panels[i].cells = {};
     EXPECT_NE(DrawSheet(changed), with) << i;
   }
+}
+
+TEST(Sheet, AFifthPanelBeginsAnotherRow) {
+  ReportFigures figures = MakeFigures();
+  ASSERT_EQ(figures.panels.size(), 4u);
+  const int height = DrawSheet(figures).height();
+  figures.panels.push_back(figures.panels.front());
+  EXPECT_GE(DrawSheet(figures).height(), height + PanelHeight_px(figures));
+}
+
+TEST(Sheet, BarChartsStandAfterTheCharts) {
+  ReportFigures figures = MakeFigures();
+  figures.charts.pop_back();
+  const Image without = DrawSheet(figures);
+  figures.bar_charts = {{"Shares", "", {"a"}, {{"ours", kInk, {{1.0}}}}, ""}};
+  EXPECT_NE(DrawSheet(figures), without);
 }
 
 TEST(Sheet, GrowsWithItsTable) {

@@ -218,5 +218,32 @@ TEST(EpisodeTest, RejectsOptionsOutOfRange) {
   }
 }
 
+TEST(EpisodeTest, RejectsAStopTooShortForTheSensor) {
+  FakeService service("robot-1");
+  EpisodeOptions options = ShortEpisode();
+  options.gas_settling_s = 5.0;
+  options.create->planning.dwell_s = 5.0;
+  const absl::Status status = RunEpisode(service, SmallWorld(), options).status();
+  EXPECT_TRUE(absl::IsInvalidArgument(status));
+  EXPECT_NE(status.message().find("gas_settling_s = 5"), absl::string_view::npos) << status;
+}
+
+TEST(EpisodeTest, RejectsRobotsOfOneName) {
+  FakeService service("robot-1");
+  const absl::Status status =
+      RunTeamEpisode(service, SmallWorld(), ShortEpisode(), {{"robot-1", {3.0, 0.5, 0.0}, 2}})
+          .status();
+  EXPECT_TRUE(absl::IsInvalidArgument(status)) << status;
+  EXPECT_NE(status.message().find("\"robot-1\""), absl::string_view::npos) << status;
+}
+
+TEST(EpisodeTest, RejectsATeammateThatStartsInAWall) {
+  FakeService service("robot-1");
+  const absl::Status status =
+      RunTeamEpisode(service, SmallWorld(), ShortEpisode(), {{"robot-2", {2.0, 1.5, 0.0}, 2}})
+          .status();
+  EXPECT_TRUE(absl::IsInvalidArgument(status)) << status;
+}
+
 }  // namespace
 }  // namespace plumescout::lab

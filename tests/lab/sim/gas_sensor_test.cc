@@ -97,5 +97,60 @@ TEST(GasSensorTest, RejectsOptionsOutOfRange) {
   }
 }
 
+TEST(GasSensorTest, ReadsNoMoreThanItsSaturation) {
+  GasSensorOptions options = Noiseless();
+  options.saturation_ppm = 200.0;
+  GasSensor sensor(options, 1);
+  sensor.Step(5000.0, 60.0);
+  EXPECT_EQ(sensor.Read_ppm(), 200.0);
+  sensor.Step(150.0, 60.0);
+  EXPECT_NEAR(sensor.Read_ppm(), 150.0, 1e-9) << "the cell itself was not overfilled for good";
+}
+
+TEST(GasSensorTest, ReadsWholeMultiplesOfItsResolution) {
+  GasSensor sensor(CarbonDioxideCell(), 3, 437.0);
+  bool varies = false;
+  double first = -1.0;
+  for (int i = 0; i < 200; ++i) {
+    const double reading = sensor.Read_ppm();
+    EXPECT_EQ(std::fmod(reading, 10.0), 0.0) << reading;
+    if (first < 0.0) first = reading;
+    varies = varies || reading != first;
+  }
+  EXPECT_TRUE(varies);
+}
+
+TEST(GasSensorTest, StartsAtRestInTheAirThereIs) {
+  GasSensor sensor(Noiseless(), 1, 400.0);
+  EXPECT_EQ(sensor.Read_ppm(), 400.0);
+}
+
+TEST(GasSensorTest, TheCarbonDioxideCellIsSlow) {
+  GasSensorOptions options = CarbonDioxideCell();
+  options.noise_sigma_ppm = options.noise_share = options.resolution_ppm = 0.0;
+  GasSensor sensor(options, 1, 400.0);
+  sensor.Step(1400.0, 5.0);
+  EXPECT_NEAR(sensor.Read_ppm(), 1400.0 - 1000.0 * std::exp(-5.0 / 4.0), 1e-9);
+}
+
+TEST(GasSensorTest, PresetsAreValid) {
+  EXPECT_TRUE(Validate(PhotoIonisationDetector()).ok());
+  EXPECT_TRUE(Validate(CarbonDioxideCell()).ok());
+}
+
+TEST(GasSensorTest, RejectsLimitsThatMakeNoSense) {
+  for (const double bad :
+       {-1.0, 0.01, std::nan(""), HUGE_VAL}) {  // 0.01: the detection limit is more
+    GasSensorOptions options;
+    options.saturation_ppm = bad;
+    EXPECT_EQ(Validate(options).code(), absl::StatusCode::kInvalidArgument) << bad;
+  }
+  for (const double bad : {-1.0, std::nan(""), HUGE_VAL}) {
+    GasSensorOptions options;
+    options.resolution_ppm = bad;
+    EXPECT_EQ(Validate(options).code(), absl::StatusCode::kInvalidArgument) << bad;
+  }
+}
+
 }  // namespace
 }  // namespace plumescout::lab

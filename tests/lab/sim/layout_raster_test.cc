@@ -146,6 +146,21 @@ TEST(LayoutRasterTest, RejectsOpeningsWithoutAnInlet) {
   EXPECT_TRUE(Rasterize(layout).ok());
 }
 
+TEST(LayoutRasterTest, PutsFansIntoTheFlowButNotIntoTheMap) {
+  Layout layout = EmptyRoom();
+  layout.fans = {{{2.0, 1.5}, 0.0, 0.6, 2.0}};
+  const auto raster = Rasterize(layout);
+  ASSERT_TRUE(raster.ok()) << raster.status();
+  EXPECT_EQ(raster->flow.fans.size(), 6u);
+  EXPECT_EQ(raster->occupancy, Rasterize(EmptyRoom())->occupancy);
+}
+
+TEST(LayoutRasterTest, RejectsFansInAWall) {
+  Layout layout = SmallLayout();
+  layout.fans = {{{1.5, 1.0}, 0.0, 0.4, 2.0}, {{2.0, 1.5}, 0.0, 0.4, 2.0}};  // the box
+  ExpectInvalid(layout, "fans[1] reaches into a wall");
+}
+
 // All places of the bundled scene can be visited by a robot that keeps 0.2 m off the walls, to
 // within the inflated margin itself.
 TEST(LayoutRasterTest, LeavesARobotWayThroughTheBundledScene) {

@@ -106,6 +106,25 @@ TEST(LayoutTest, RejectsABuildingWithoutSourcesOrName) {
   ExpectInvalid(layout, "name must not be empty");
 }
 
+TEST(LayoutTest, ChecksFans) {
+  const Fan sound{{1.0, 1.0}, 0.5, 0.4, 2.0};
+  Layout layout = SmallLayout();
+  layout.fans = {sound};
+  EXPECT_TRUE(Validate(layout).ok());
+  layout.fans = {sound, sound};
+  layout.fans[1].width_m = 0.0;
+  ExpectInvalid(layout, "fans[1].width_m = 0 must be in (0, 200]");
+  layout.fans[1] = sound;
+  layout.fans[1].speed_mps = 31.0;
+  ExpectInvalid(layout, "fans[1].speed_mps = 31 must be in (0, 30]");
+  layout.fans[1] = sound;
+  layout.fans[1].direction_rad = std::nan("");
+  ExpectInvalid(layout, "fans[1].direction_rad = nan");
+  layout.fans[1] = sound;
+  layout.fans[1].position.y_m = 3.5;
+  ExpectInvalid(layout, "fans[1].position_m[1] = 3.5");
+}
+
 TEST(LayoutTest, ChecksTheGas) {
   Layout layout = SmallLayout();
   layout.gas.mixing_depth_m = -1.0;

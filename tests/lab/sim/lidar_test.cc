@@ -157,5 +157,60 @@ TEST(LidarTest, RejectsOptionsOutOfRange) {
   EXPECT_TRUE(Validate(LidarOptions{}).ok());
 }
 
+TEST(LidarTest, DropsTheShareOfBeamsItIsToldTo) {
+  const Grid<CellState> room = BoxRoom();
+  LidarOptions options = Noiseless();
+  options.dropout_share = 0.25;
+  Lidar lidar(options, 7);
+  int silent = 0;
+  constexpr int kScans = 50;
+  for (int i = 0; i < kScans; ++i) {
+    for (const float range_m : lidar.Take(room, {3.0, 3.0, 0.0}).ranges_m) {
+      EXPECT_NE(range_m, kInfinity) << "would be read as free space";
+      silent += std::isnan(range_m) ? 1 : 0;
+    }
+  }
+  // Binomial, to 4 standard deviations.
+  constexpr double kDraws = 360.0 * kScans;
+  EXPECT_NEAR(silent, 0.25 * kDraws, 4.0 * std::sqrt(0.25 * 0.75 * kDraws));
+}
+
+TEST(LidarTest, MayDropEveryBeam) {
+  LidarOptions options;
+  options.dropout_share = 1.0;
+  Lidar lidar(options, 7);
+  for (const float range_m : lidar.Take(BoxRoom(), {3.0, 3.0, 0.0}).ranges_m) {
+    EXPECT_TRUE(std::isnan(range_m));
+  }
+}
+
+TEST(LidarTest, MeetsBodiesAtTheirEdge) {
+  const std::vector<Body> bodies = {{{3.0, 0.0}, 0.5}, {{5.0, 0.0}, 1.0}};
+  EXPECT_NEAR(CastBeamAtBodies_m(bodies, {0.0, 0.0}, 0.0), 2.5, 1e-12);
+  EXPECT_EQ(CastBeamAtBodies_m(bodies, {0.0, 0.0}, M_PI), kInfinity);
+  // 0.3 m off the centre: half a chord of 0.4 m.
+  EXPECT_NEAR(CastBeamAtBodies_m(bodies, {0.0, 0.3}, 0.0), 2.6, 1e-12);
+  EXPECT_EQ(CastBeamAtBodies_m(bodies, {0.0, 2.0}, 0.0), kInfinity);
+  EXPECT_EQ(CastBeamAtBodies_m({{{0.1, 0.0}, 0.5}}, {0.0, 0.0}, 0.0), kInfinity) << "its own";
+}
+
+TEST(LidarTest, SeesBodiesBeforeWallsOnly) {
+  const Grid<CellState> room = BoxRoom();
+  Lidar lidar(Noiseless(), 1);
+  const Pose2 pose{2.0, 3.05, 0.0};
+  const std::vector<Body> bodies = {{{4.0, 3.05}, 0.2}, {{2.0, 5.5}, 0.2}};
+  const Scan scan = lidar.Take(room, pose, bodies);
+  EXPECT_NEAR(scan.ranges_m[180], 1.8, kFloat_m);
+  EXPECT_NEAR(scan.ranges_m[270], 1.95 + 0.05, kFloat_m) << "the body stands in the wall";
+}
+
+TEST(LidarTest, RejectsDropoutsOutOfRange) {
+  for (const double bad : {-0.1, 1.1, std::nan("")}) {
+    LidarOptions options;
+    options.dropout_share = bad;
+    EXPECT_EQ(Validate(options).code(), absl::StatusCode::kInvalidArgument);
+  }
+}
+
 }  // namespace
 }  // namespace plumescout::lab

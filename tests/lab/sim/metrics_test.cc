@@ -123,5 +123,18 @@ TEST(MetricsTest, HasNoErrorsToTellWithoutCriticalCells) {
   EXPECT_TRUE(std::isnan(metrics.entropy_nats));
 }
 
+TEST(MetricsTest, JudgesTheSumOfAmbientAirAndGas) {
+  const Scene scene = MakeScene();
+  const MapEvaluator evaluator(scene, kPriorVariance_ppm2, 400.0);
+  MapSnapshot map = BlankMap(scene.geometry());
+  const MapMetrics blank = evaluator.Evaluate(map);
+  EXPECT_EQ(blank.critical_cells, 2) << "the threshold is that of the scene's gas";
+  EXPECT_NEAR(blank.rmse_ppm, std::sqrt(58.0), kRounding) << "a blank map says clean air";
+  EXPECT_NEAR(blank.rmse_zero_ppm, std::sqrt(58.0), kRounding);
+  map.gas_mean_ppm[testing::CellInArt(kArt, 'A')] = 407.0F;
+  map.gas_variance_ppm2[testing::CellInArt(kArt, 'A')] = 0.125F;
+  EXPECT_NEAR(evaluator.Evaluate(map).rmse_ppm, std::sqrt(25.0 / 2.0), kRounding);
+}
+
 }  // namespace
 }  // namespace plumescout::lab

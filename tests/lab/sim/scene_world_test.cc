@@ -29,7 +29,7 @@ TEST(SceneWorldTest, HoldsTheLastFrameUnlessToldToRepeat) {
 }
 
 TEST(SceneWorldTest, RepeatsTheFramesIfTold) {
-  const SceneWorld world(MakeSmallScene(), SeriesEnd::kRepeat);
+  const SceneWorld world(MakeSmallScene(), {.series_end = SeriesEnd::kRepeat});
   EXPECT_DOUBLE_EQ(world.Concentration_ppm(kPoint, 1.2), Truth_ppm(2));
   EXPECT_DOUBLE_EQ(world.Concentration_ppm(kPoint, 1.3), Truth_ppm(0));
   EXPECT_DOUBLE_EQ(world.Concentration_ppm(kPoint, 1.5), Truth_ppm(0));
@@ -59,6 +59,19 @@ TEST(SceneWorldTest, CollidesBeyondTheRaster) {
   const SceneWorld world(MakeSmallScene());
   EXPECT_TRUE(world.Collides({100.0, 0.0}, 0.1));
   EXPECT_TRUE(world.Collides({1e12, -1e12}, 0.1));
+}
+
+TEST(SceneWorldTest, AddsTheAmbientAirEverywhere) {
+  const SceneWorld world(MakeSmallScene(), {.ambient_ppm = 400.0});
+  EXPECT_DOUBLE_EQ(world.Concentration_ppm(kPoint, 0.0), 400.0 + Truth_ppm(0));
+  EXPECT_EQ(world.ambient_ppm(), 400.0);
+}
+
+TEST(SceneWorldTest, RejectsAmbientAirOutOfRange) {
+  EXPECT_TRUE(Validate(SceneWorldOptions{}).ok());
+  for (const double bad : {-1.0, std::nan(""), HUGE_VAL}) {
+    EXPECT_TRUE(absl::IsInvalidArgument(Validate(SceneWorldOptions{.ambient_ppm = bad})));
+  }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -212,6 +213,107 @@ TEST_F(SimulatedRobotTest, RejectsOptionsOutOfRange) {
   ExpectInvalid({.lidar = {.beams = 0}}, "lidar.beams = 0");
   ExpectInvalid({.gas_sensor = {.noise_share = 2.0}}, "gas_sensor.noise_share = 2");
   ExpectInvalid({.start_time_ns = -1}, "robot.start_time_ns");
+}
+
+TEST_F(SimulatedRobotTest, SpeedsUpAndBrakesAsItCan) {
+  SimulatedRobot robot = Make({.max_acceleration_mps2 = 0.5});
+  ASSERT_TRUE(robot.Drive({1.0, 0.0}).ok());
+  ASSERT_TRUE(robot.Advance(2.0).ok());
+  ExpectPose(robot.pose(), 2.0 + 1.0, 3.0, 0.0);  // a t^2 / 2
+  ASSERT_TRUE(robot.Advance(1.0).ok());
+  ExpectPose(robot.pose(), 4.0, 3.0, 0.0);
+  ASSERT_TRUE(robot.Drive({}).ok());
+  ASSERT_TRUE(robot.Advance(10.0).ok());
+  ExpectPose(robot.pose(), 5.0, 3.0, 0.0);
+}
+
+TEST_F(SimulatedRobotTest, AWallTakesItsSpeed) {
+  SimulatedRobot robot = Make({.start = Pose2{9.0, 3.0, 0.0}, .max_acceleration_mps2 = 1.0});
+  ASSERT_TRUE(robot.Drive({1.0, 0.0}).ok());
+  ASSERT_TRUE(robot.Advance(5.0).ok());
+  EXPECT_EQ(robot.collisions(), 1);
+  const double wall_x_m = robot.pose().x_m;
+  ASSERT_TRUE(robot.Drive({-1.0, 0.0}).ok());
+  ASSERT_TRUE(robot.Advance(1.0).ok());
+  EXPECT_NEAR(robot.pose().x_m, wall_x_m - 0.5, kRounding);
+}
+
+TEST_F(SimulatedRobotTest, DriftOfItsPoseLeadsItAstray) {
+  SimulatedRobotOptions options;
+  options.pose_error.drift_m_per_sqrt_s = 0.2;
+  SimulatedRobot robot = Make(options);
+  ASSERT_TRUE(robot.Advance(4.0).ok());
+  const Pose2 told = robot.pose();
+  EXPECT_EQ(robot.true_pose(), (Pose2{2.0, 3.0, 0.0})) << "it has not moved";
+  EXPECT_NE(told.x_m, 2.0);
+  ASSERT_TRUE(robot.PlaceAt({5.0, 6.0, 0.0}).ok());
+  ExpectPose(robot.pose(), 5.0, 6.0, 0.0);
+  ExpectPose(robot.true_pose(), 5.0 - (told.x_m - 2.0), 6.0 - (told.y_m - 3.0), 0.0);
+}
+
+TEST_F(SimulatedRobotTest, CollidesWhereItTrulyIs) {
+  SimulatedRobotOptions options;
+  options.pose_error.position_sigma_m = 1.0;
+  SimulatedRobot robot = Make(options);
+  ASSERT_TRUE(robot.Drive({1.0, 0.0}).ok());
+  for (int i = 0; i < 300; ++i) ASSERT_TRUE(robot.Advance(0.1).ok());
+  EXPECT_EQ(robot.collisions(), 1);
+  EXPECT_LT(robot.true_pose().x_m, 9.45);
+  EXPECT_GE(robot.true_pose().x_m, 9.43 - kRounding);
+}
+
+TEST_F(SimulatedRobotTest, MayBeginLaterThanTheScene) {
+  Scene scene = EmptyRoom();
+  const auto cells = static_cast<std::ptrdiff_t>(scene.geometry().size());
+  std::fill(scene.series.counts.begin() + cells, scene.series.counts.end(), std::uint16_t{200});
+  const SceneWorld world(scene);  // 0 ppm in frame 0, 10 ppm in frame 1 at 0.5 s
+  SimulatedRobotOptions options;
+  options.gas_sensor = {.time_constant_s = 0.0, .noise_sigma_ppm = 0.0, .noise_share = 0.0};
+  for (const double start_s : {0.0, 0.5}) {
+    options.scene_start_s = start_s;
+    auto robot = SimulatedRobot::Create(world, options);
+    ASSERT_TRUE(robot.ok()) << robot.status();
+    ASSERT_TRUE(robot->Advance(0.02).ok());
+    EXPECT_NEAR(robot->ReadGas()->concentration_ppm, start_s > 0.0 ? 10.0 : 0.0, kRounding);
+    EXPECT_EQ(robot->now_ns(), 1'700'000'000'020'000'000) << "its clock is its own";
+  }
+}
+
+TEST_F(SimulatedRobotTest, SensesTheAmbientAirFromTheStart) {
+  const SceneWorld world(EmptyRoom(), {.ambient_ppm = 400.0});
+  SimulatedRobotOptions options;
+  options.gas_sensor.noise_sigma_ppm = options.gas_sensor.noise_share = 0.0;
+  auto robot = SimulatedRobot::Create(world, options);
+  ASSERT_TRUE(robot.ok()) << robot.status();
+  EXPECT_EQ(robot->ReadGas()->concentration_ppm, 400.0);
+}
+
+TEST_F(SimulatedRobotTest, RobotsSeeEachOther) {
+  Company company(2, false);
+  SimulatedRobotOptions options;
+  options.lidar.noise_sigma_m = 0.0;
+  options.seen_radius_m = 0.25;
+  options.companion = {&company, 0};
+  SimulatedRobot west = Make(options);
+  options.start = Pose2{5.0, 3.0, 0.0};
+  options.companion.robot = 1;
+  SimulatedRobot east = Make(options);
+  EXPECT_NEAR(west.TakeScan()->ranges_m[180], 2.75, 1e-6);
+  ASSERT_TRUE(east.PlaceAt({6.0, 3.0, 0.0}).ok());
+  EXPECT_NEAR(west.TakeScan()->ranges_m[180], 3.75, 1e-6);
+  ASSERT_TRUE(east.Drive({-1.0, 0.0}).ok());
+  ASSERT_TRUE(east.Advance(2.0).ok());
+  EXPECT_NEAR(west.TakeScan()->ranges_m[180], 1.75, 1e-6);
+  EXPECT_NEAR(company.closest_m(), 2.0, kRounding);
+}
+
+TEST_F(SimulatedRobotTest, RejectsNewerOptionsOutOfRange) {
+  ExpectInvalid({.max_acceleration_mps2 = 0.0}, "robot.max_acceleration_mps2 = 0");
+  ExpectInvalid({.max_acceleration_mps2 = std::nan("")}, "robot.max_acceleration_mps2 = nan");
+  ExpectInvalid({.seen_radius_m = -1.0}, "robot.seen_radius_m = -1");
+  ExpectInvalid({.lidar = {.dropout_share = 2.0}}, "lidar.dropout_share = 2");
+  ExpectInvalid({.pose_error = {.yaw_sigma_rad = -1.0}}, "pose_error.yaw_sigma_rad = -1");
+  ExpectInvalid({.scene_start_s = -1.0}, "robot.scene_start_s = -1");
 }
 
 }  // namespace

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace plumescout::lab {
+
+// What a sample tells of the population it was drawn from.
+struct Spread {
+  std::size_t count = 0;
+  double mean = 0.0;     // NaN without values
+  double stddev = 0.0;   // of the population, from count - 1; 0 for one value
+  double half_95 = 0.0;  // the mean +- this holds the true mean in 95 % of all samples (Student)
+};
+
+Spread SpreadOf(std::span<const double> values);
+
+// Two-sided p of "a and b are equally good", pair by pair: the share of all 2^n ways to swap the
+// two of a pair that bring the means at least as far apart as they are (Fisher's permutation
+// test). Assumes nothing about how values are distributed. Up to 20 pairs exact; beyond, a million
+// swaps drawn from a fixed seed. 1 without pairs. REQUIRES: as many of one as of the other.
+double PairedPValue(std::span<const double> a, std::span<const double> b);
+
+// Wilson's 95 % interval of a share of which `hits` of `trials` were seen. REQUIRES: trials > 0.
+struct ShareInterval {
+  double low = 0.0;
+  double high = 1.0;
+};
+ShareInterval WilsonInterval(std::size_t hits, std::size_t trials);
+
+}  // namespace plumescout::lab

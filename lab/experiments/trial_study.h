@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/types/options.h"
+#include "lab/experiments/trial.h"
+
+namespace plumescout::lab {
+
+// One way to plan, in a study.
+struct StudyRow {
+  std::string name;  // of files too: letters, digits, '_'
+  MissionOptions mission;
+};
+
+// Every row drives `trials` times through every building.
+struct TrialPlan {
+  std::vector<StudyRow> rows;
+  std::vector<std::string> scenes;  // scene folders
+  int trials = 1;                   // with seeds first_seed, first_seed + 1, ...
+  std::uint64_t first_seed = 1;
+  double duration_s = 300.0;
+  std::vector<double> map_times_s = {};
+  std::string folder;  // finished trials are kept here, and taken from here
+  int jobs = 1;        // trials at once
+  std::function<void(double)> progress = {};
+};
+
+// Of one building: by row and trial, in the order of the plan.
+using SceneRecords = std::vector<std::vector<TrialRecord>>;
+
+// By building. Trials with the same number have the same seed in all rows, so they are pairs. The
+// result does not depend on the jobs. Errors: as ReadScene, naming the folder; as RunTrial.
+absl::StatusOr<std::vector<SceneRecords>> RunTrials(const TrialPlan& plan);
+
+// Last path component of a scene folder.
+std::string SceneName(const std::string& folder);
+
+}  // namespace plumescout::lab

@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/program/robot_arguments.h"
+
+#include <map>
+#include <utility>
+
+#include "absl/strings/numbers.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "absl/strings/str_split.h"
+#include "core/plan/strategy.h"
+#include "core/types/status_macros.h"
+#include "lab/sim/team_starts.h"
+
+namespace plumescout::lab {
+namespace {
+
+void AddMissionOptions(CLI::App& app, RobotArguments& arguments) {
+  app.add_option("--scene", arguments.scene, "Scene folder: the true building and gas")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--server", arguments.server, "host:port of plumescout-server")
+      ->capture_default_str();
+  app.add_option("--record", arguments.record,
+                 "Plan in this process, without a server, and record the mission in this file")
+      ->excludes("--server");
+  app.add_option("--out", arguments.out, "Folder for results")->capture_default_str();
+  app.add_option("--mission", arguments.mission, "Mission to join, made if it is not there")
+      ->capture_default_str();
+  app.add_option("--robot", arguments.robot, "Name of the robot, others count on from it")
+      ->capture_default_str();
+  app.add_option("--robots", arguments.robots, "How many robots share the mission")
+      ->capture_default_str()
+      ->check(CLI::Range(1, MissionOptions{}.max_robots));
+  app.add_option("--start", arguments.starts,
+                 "x,y,yaw where a robot starts, metres and radians; once for each robot "
+                 "(default: the scene's start, others beside it)");
+  app.add_option("--strategy", arguments.strategy, absl::StrJoin(StrategyNames(), ", "))
+      ->capture_default_str();
+  app.add_option("--duration", arguments.duration_s, "Longest simulated time, seconds")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  app.add_option("--seed", arguments.seed, "Seed of sensors and planner")->capture_default_str();
+  app.add_flag("--realtime", arguments.realtime,
+               "At the pace of a wall clock instead of in lockstep");
+}
+
+void AddWorldOptions(CLI::App& app, RobotArguments& arguments) {
+  constexpr char kGroup[] = "World";
+  app.add_option("--scene-start", arguments.scene_start_s,
+                 "Time of the scene at which the mission begins, seconds")
+      ->capture_default_str()
+      ->group(kGroup);
+  app.add_option("--ambient", arguments.world.ambient_ppm,
+                 "Gas in all air beside the scene's, ppm; the mission takes it for clean air")
+      ->capture_default_str()
+      ->group(kGroup);
+  const std::map<std::string, SeriesEnd> ends{{"hold", SeriesEnd::kHoldLastFrame},
+                                              {"repeat", SeriesEnd::kRepeat}};
+  app.add_option("--series-end", arguments.world.series_end,
+                 "What the gas does when the scene's frames are over")
+      ->transform(CLI::CheckedTransformer(ends))
+      ->default_str("hold")
+      ->group(kGroup);
+}
+
+void AddLidarOptions(CLI::App& app, RobotArguments& arguments) {
+  constexpr char kGroup[] = "LiDAR";
+  const auto add = [&](const char* name, auto& value, const char* text) {
+    app.add_option(name, value, text)->capture_default_str()->group(kGroup);
+  };
+  add("--lidar-beams", arguments.lidar.beams, "Beams of a scan, evenly around");
+  add("--lidar-range", arguments.lidar.max_range_m, "Longest range, metres");
+  add("--lidar-noise", arguments.lidar.noise_sigma_m, "Standard deviation of ranges, metres");
+  add("--lidar-dropouts", arguments.lidar.dropout_share, "Share of beams that say nothing");
+  add("--scan-rate", arguments.rates.scan_hz, "Scans a second; 0: none");
+}
+
+void AddGasOptions(CLI::App& app, RobotArguments& arguments) {
+  constexpr char kGroup[] = "Gas sensor";
+  const std::map<std::string, GasSensorKind> kinds{{"pid", GasSensorKind::kPhotoIonisation},
+                                                   {"co2", GasSensorKind::kCarbonDioxide}};
+  app.add_option("--gas-sensor", arguments.gas_sensor,
+                 "pid: photo-ionisation detector, fast; co2: infrared cell, slow and coarse")
+      ->transform(CLI::CheckedTransformer(kinds))
+      ->default_str("pid")
+      ->group(kGroup);
+  const auto change = [&](const char* name, std::optional<double>& value, const char* text) {
+    app.add_option(name, value, text)->group(kGroup);
+  };
+  GasSensorChanges& changes = arguments.gas_changes;
+  change("--gas-lag", changes.time_constant_s, "Its time constant, seconds (pid 0.5, co2 4)");
+  change("--gas-noise", changes.noise_sigma_ppm, "Additive noise, ppm (pid 0.1, co2 10)");
+  change("--gas-noise-share", changes.noise_share, "Noise as share of the reading (0.01)");
+  change("--gas-detection-limit", changes.detection_limit_ppm, "Less reads 0, ppm (pid 0.05)");
+  change("--gas-saturation", changes.saturation_ppm, "More reads this, ppm (10000)");
+  change("--gas-resolution", changes.resolution_ppm, "Readings are multiples of it, ppm (co2 10)");
+  app.add_option("--gas-rate", arguments.rates.gas_hz, "Readings a second; 0: none")
+      ->capture_default_str()
+      ->group(kGroup);
+  app.add_flag("--raw-gas", arguments.raw_gas,
+               "Send gas readings as the sensor gives them, its lag not undone")
+      ->group(kGroup);
+  app.add_option("--gas-threshold", arguments.gas_threshold_ppm,
+                 "Above it gas is critical to the planner, ppm (a percentile of what is observed)")
+      ->group(kGroup);
+  app.add_option("--dwell", arguments.dwell_s,
+                 "Stop and sample: seconds to stand at each vertex of a trajectory")
+      ->capture_default_str()
+      ->group(kGroup);
+  app.add_option("--settle", arguments.settling_s,
+                 "Readings count only after so many seconds of standing; less than --dwell")
+      ->capture_default_str()
+      ->group(kGroup);
+}
+
+void AddMotionOptions(CLI::App& app, RobotArguments& arguments) {
+  constexpr char kGroup[] = "Motion";
+  const std::map<std::string, client::Following> followings{
+      {"ideal", client::Following::kIdeal}, {"proportional", client::Following::kProportional}};
+  app.add_option("--following", arguments.following, "How paths are followed")
+      ->transform(CLI::CheckedTransformer(followings))
+      ->default_str("ideal")
+      ->group(kGroup);
+  app.add_option("--speed", arguments.speed_mps, "Of robot and plans, metres a second (1.25)")
+      ->group(kGroup);
+  app.add_option("--max-turn", arguments.max_turn_rad_per_s,
+                 "Of the robot, and of plans if given, radians a second (2)")
+      ->group(kGroup);
+  app.add_option("--max-acceleration", arguments.max_acceleration_mps2,
+                 "Of robot and plans, m/s^2 (no limit)")
+      ->group(kGroup);
+  const auto error = [&](const char* name, double& value, const char* text) {
+    app.add_option(name, value, text)->capture_default_str()->group(kGroup);
+  };
+  PoseErrorOptions& pose = arguments.pose_error;
+  error("--pose-noise", pose.position_sigma_m, "Noise of the pose told to the planner, metres");
+  error("--yaw-noise", pose.yaw_sigma_rad, "Noise of its heading, radians");
+  error("--pose-drift", pose.drift_m_per_sqrt_s, "Random walk of that pose, metres/sqrt(s)");
+  error("--yaw-drift", pose.drift_rad_per_sqrt_s, "Random walk of its heading, rad/sqrt(s)");
+}
+
+GasSensorOptions SensorOf(const RobotArguments& arguments) {
+  GasSensorOptions sensor = arguments.gas_sensor == GasSensorKind::kCarbonDioxide
+                                ? CarbonDioxideCell()
+                                : PhotoIonisationDetector();
+  const GasSensorChanges& changes = arguments.gas_changes;
+  sensor.time_constant_s = changes.time_constant_s.value_or(sensor.time_constant_s);
+  sensor.noise_sigma_ppm = changes.noise_sigma_ppm.value_or(sensor.noise_sigma_ppm);
+  sensor.noise_share = changes.noise_share.value_or(sensor.noise_share);
+  sensor.detection_limit_ppm = changes.detection_limit_ppm.value_or(sensor.detection_limit_ppm);
+  sensor.saturation_ppm = changes.saturation_ppm.value_or(sensor.saturation_ppm);
+  sensor.resolution_ppm = changes.resolution_ppm.value_or(sensor.resolution_ppm);
+  return sensor;
+}
+
+MissionOptions MissionOf(const RobotArguments& arguments) {
+  MissionOptions mission;
+  PlanningOptions& planning = mission.planning;
+  planning.strategy = arguments.strategy;
+  planning.dwell_s = arguments.dwell_s;
+  planning.speed_mps = arguments.speed_mps.value_or(planning.speed_mps);
+  planning.max_turn_rate_rad_per_s = arguments.max_turn_rad_per_s.value_or(0.0);
+  planning.max_acceleration_mps2 = arguments.max_acceleration_mps2.value_or(0.0);
+  mission.frontier.fixed_gas_threshold_ppm = arguments.gas_threshold_ppm;
+  mission.gas.background_mean_ppm = arguments.world.ambient_ppm;
+  mission.seed = arguments.seed;
+  return mission;
+}
+
+SimulatedRobotOptions RobotOf(const RobotArguments& arguments) {
+  SimulatedRobotOptions robot;
+  robot.max_forward_mps = arguments.speed_mps.value_or(robot.max_forward_mps);
+  robot.max_turn_rad_per_s = arguments.max_turn_rad_per_s.value_or(robot.max_turn_rad_per_s);
+  robot.max_acceleration_mps2 = arguments.max_acceleration_mps2;
+  robot.lidar = arguments.lidar;
+  robot.gas_sensor = SensorOf(arguments);
+  robot.pose_error = arguments.pose_error;
+  robot.scene_start_s = arguments.scene_start_s;
+  robot.seed = arguments.seed;
+  return robot;
+}
+
+absl::StatusOr<Pose2> ParseStart(const std::string& text) {
+  const std::vector<std::string> parts = absl::StrSplit(text, ',');
+  Pose2 pose;
+  const bool ok = parts.size() == 3 && absl::SimpleAtod(parts[0], &pose.x_m) &&
+                  absl::SimpleAtod(parts[1], &pose.y_m) &&
+                  absl::SimpleAtod(parts[2], &pose.yaw_rad);
+  if (ok) return pose;
+  return absl::InvalidArgumentError(absl::StrCat("--start ", text, " must be x,y,yaw"));
+}
+
+absl::StatusOr<std::vector<Pose2>> StartsOf(const RobotArguments& arguments,
+                                            const SceneWorld& world, double body_radius_m) {
+  if (arguments.starts.empty()) return TeamStarts(world, arguments.robots, body_radius_m);
+  if (static_cast<int>(arguments.starts.size()) != arguments.robots) {
+    return absl::InvalidArgumentError(absl::StrCat("--start is given ", arguments.starts.size(),
+                                                   " times for --robots ", arguments.robots));
+  }
+  std::vector<Pose2> starts;
+  for (const std::string& text : arguments.starts) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(const Pose2 start, ParseStart(text));
+    starts.push_back(start);
+  }
+  return starts;
+}
+
+}  // namespace
+
+void AddRobotOptions(CLI::App& app, RobotArguments& arguments) {
+  AddMissionOptions(app, arguments);
+  AddWorldOptions(app, arguments);
+  AddLidarOptions(app, arguments);
+  AddGasOptions(app, arguments);
+  AddMotionOptions(app, arguments);
+}
+
+absl::StatusOr<PlannedEpisode> PlanEpisode(const RobotArguments& arguments,
+                                           const SceneWorld& world) {
+  PlannedEpisode planned;
+  EpisodeOptions& options = planned.options;
+  options.mission = arguments.mission;
+  options.create = MissionOf(arguments);
+  options.duration_s = arguments.duration_s;
+  options.following = arguments.following;
+  options.rates = arguments.rates;
+  options.realtime = arguments.realtime;
+  options.correct_gas_lag = !arguments.raw_gas;
+  options.gas_settling_s = arguments.settling_s;
+  options.simulated = RobotOf(arguments);
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<Pose2> starts,
+                              StartsOf(arguments, world, options.simulated.body_radius_m));
+  const std::vector<RobotId> names = TeamNames(arguments.robot, arguments.robots);
+  options.robot = names.front();
+  options.simulated.start = starts.front();
+  for (std::size_t i = 1; i < names.size(); ++i) {
+    planned.teammates.push_back({names[i], starts[i], arguments.seed + i});
+  }
+  return planned;
+}
+
+}  // namespace plumescout::lab

@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/report/bar_chart.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lab/report/palette.h"
+#include "lab/report/stroke_font.h"
+#include "lab/report/ticks.h"
+
+namespace plumescout::lab {
+namespace {
+
+constexpr double kTitleSize_px = 16.0;
+constexpr double kLabelSize_px = 12.0;
+constexpr double kTop_px = 58.0;     // for title and legend
+constexpr double kLeft_px = 52.0;    // for the labels of the values
+constexpr double kBottom_px = 40.0;  // for the names of the groups
+constexpr double kRight_px = 10.0;
+constexpr int kTicks = 4;
+constexpr double kHeadroom = 1.06;
+constexpr double kGroupShare = 0.8;  // of the room of a group that its bars fill
+
+// Plot area, and the value at its upper edge.
+struct Plot {
+  Box area;
+  double top_value;
+
+  double PixelY(double value) const { return area.bottom() - value / top_value * area.height; }
+};
+
+double Greatest(const BarChart& chart) {
+  double greatest = 0.0;
+  for (const BarSeries& series : chart.series) {
+    for (const Bar& bar : series.bars) {
+      for (const double value : {bar.value, bar.high, bar.reference}) {
+        if (std::isfinite(value)) greatest = std::max(greatest, value);
+      }
+    }
+  }
+  return greatest > 0.0 ? greatest : 1.0;
+}
+
+void DrawLine(Canvas& canvas, PixelPoint a, PixelPoint b, const Stroke& stroke) {
+  const PixelPoint line[] = {a, b};
+  canvas.Polyline(line, stroke);
+}
+
+void DrawAxes(Canvas& canvas, const Plot& plot, const BarChart& chart) {
+  const Box& area = plot.area;
+  for (const double value : LinearTicks(0.0, plot.top_value, kTicks)) {
+    const double y = plot.PixelY(value);
+    DrawLine(canvas, {area.x, y}, {area.right(), y}, {kGridLine, 1.0});
+    canvas.Text({area.x - 8.0, y + 4.0}, TickLabel(value),
+                {kLabelSize_px, kFaintInk, Anchor::kEnd});
+  }
+  const double step =
+      area.width / static_cast<double>(std::max<std::size_t>(1, chart.groups.size()));
+  for (std::size_t i = 0; i < chart.groups.size(); ++i) {
+    canvas.Text({area.x + (static_cast<double>(i) + 0.5) * step, area.bottom() + 18.0},
+                chart.groups[i], {kLabelSize_px, kFaintInk, Anchor::kMiddle});
+  }
+  canvas.Text({area.x + 0.5 * area.width, area.bottom() + 36.0}, chart.x_label,
+              {kLabelSize_px, kFaintInk, Anchor::kMiddle});
+}
+
+// `room` is the column of the plot area that belongs to the bar.
+void DrawBar(Canvas& canvas, const Plot& plot, const Box& room, const Bar& bar, Rgb color) {
+  const double middle = room.x + 0.5 * room.width;
+  if (std::isfinite(bar.value)) {
+    const double y = plot.PixelY(bar.value);
+    constexpr double kGap_px = 1.0;  // between neighbours
+    canvas.FillBox({room.x, y, std::max(1.0, room.width - kGap_px), plot.area.bottom() - y}, color);
+  }
+  if (std::isfinite(bar.low) && std::isfinite(bar.high)) {
+    DrawLine(canvas, {middle, plot.PixelY(bar.low)}, {middle, plot.PixelY(bar.high)}, {kInk, 1.2});
+  }
+  if (std::isfinite(bar.reference)) {
+    const double y = plot.PixelY(bar.reference);
+    for (const Stroke& stroke : {Stroke{kPaper, 5.0}, Stroke{kSourceColor, 2.5}}) {
+      DrawLine(canvas, {room.x, y}, {room.right(), y}, stroke);
+    }
+  }
+}
+
+void DrawBars(Canvas& canvas, const Plot& plot, const BarChart& chart) {
+  const double group_px = plot.area.width / static_cast<double>(chart.groups.size());
+  const double bar_px = kGroupShare * group_px / static_cast<double>(chart.series.size());
+  for (std::size_t s = 0; s < chart.series.size(); ++s) {
+    const std::vector<Bar>& bars = chart.series[s].bars;
+    for (std::size_t g = 0; g < std::min(bars.size(), chart.groups.size()); ++g) {
+      const double left = plot.area.x + static_cast<double>(g) * group_px +
+                          0.5 * (1.0 - kGroupShare) * group_px + static_cast<double>(s) * bar_px;
+      DrawBar(canvas, plot, {left, plot.area.y, bar_px, plot.area.height}, bars[g],
+              chart.series[s].color);
+    }
+  }
+}
+
+// In a row of its own below the title.
+void DrawLegend(Canvas& canvas, const Box& box, const BarChart& chart) {
+  constexpr double kSwatch_px = 12.0;
+  constexpr double kBeforeName_px = 6.0;
+  constexpr double kBetween_px = 18.0;
+  const double y = box.y + kTitleSize_px + 22.0;
+  double x = box.x;
+  const auto write = [&](const std::string& name) {
+    canvas.Text({x + kSwatch_px + kBeforeName_px, y}, name, {kLabelSize_px, kInk});
+    x += kSwatch_px + kBeforeName_px + TextWidth_px(name, kLabelSize_px) + kBetween_px;
+  };
+  for (const BarSeries& series : chart.series) {
+    canvas.FillBox({x, y - 10.0, kSwatch_px, kSwatch_px}, series.color);
+    write(series.name);
+  }
+  if (chart.reference_name.empty()) return;
+  DrawLine(canvas, {x, y - 4.0}, {x + kSwatch_px, y - 4.0}, {kSourceColor, 2.5});
+  write(chart.reference_name);
+}
+
+}  // namespace
+
+void DrawBarChart(Canvas& canvas, const Box& box, const BarChart& chart) {
+  const Plot plot{{box.x + kLeft_px, box.y + kTop_px, box.width - kLeft_px - kRight_px,
+                   box.height - kTop_px - kBottom_px},
+                  kHeadroom * Greatest(chart)};
+  canvas.Text({box.x, box.y + kTitleSize_px}, chart.title,
+              {kTitleSize_px, kInk, Anchor::kStart, true});
+  DrawLegend(canvas, box, chart);
+  DrawAxes(canvas, plot, chart);
+  if (!chart.groups.empty() && !chart.series.empty()) DrawBars(canvas, plot, chart);
+  DrawLine(canvas, {plot.area.x, plot.area.bottom()}, {plot.area.right(), plot.area.bottom()},
+           {kFrame, 1.0});
+}
+
+}  // namespace plumescout::lab

@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+// Robots that share a mission, in lockstep: the same bytes however often and by whichever way, and
+// once more from the record.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "core/belief/belief.h"
+#include "core/mission/mission.h"
+#include "lab/local/local_planner_client.h"
+#include "tests/e2e/trial.h"
+
+namespace plumescout::lab {
+namespace {
+
+constexpr double kDuration_s = 20.0;
+
+struct TeamTrial {
+  TeamResult team;
+  MapSnapshot map;
+};
+
+EpisodeOptions WestRobot() {
+  EpisodeOptions options = TrialOptions();
+  options.robot = "west";
+  options.duration_s = kDuration_s;
+  options.metrics_period_s = 5.0;
+  return options;
+}
+
+std::vector<Teammate> Others(int robots) {
+  const std::vector<Teammate> all = {{"east", {5.2, 3.6, M_PI}, 2}, {"south", {5.4, 0.8, M_PI}, 3}};
+  return {all.begin(), all.begin() + (robots - 1)};
+}
+
+TeamTrial RunTeam(client::PlannerClient& planner, int robots) {
+  TeamTrial trial;
+  auto team = RunTeamEpisode(planner, GasHall(), WestRobot(), Others(robots));
+  EXPECT_TRUE(team.ok()) << team.status();
+  if (!team.ok()) return trial;
+  trial.team = *std::move(team);
+  auto map = planner.GetMap(kTrialMission);
+  EXPECT_TRUE(map.ok()) << map.status();
+  if (map.ok()) trial.map = *std::move(map);
+  return trial;
+}
+
+TeamTrial RunInProcess(int robots) {
+  LocalPlannerClient local;
+  const auto planner = WithTap(local, AsOnTheWire);
+  return RunTeam(*planner, robots);
+}
+
+void ExpectSame(const TeamTrial& a, const TeamTrial& b) {
+  ASSERT_EQ(a.team.robots.size(), b.team.robots.size());
+  for (std::size_t r = 0; r < a.team.robots.size(); ++r) {
+    const EpisodeResult& one = a.team.robots[r];
+    const EpisodeResult& other = b.team.robots[r];
+    ASSERT_EQ(one.path.size(), other.path.size()) << r;
+    for (std::size_t i = 0; i < one.path.size(); ++i) {
+      ASSERT_EQ(one.path[i].pose, other.path[i].pose) << r << ", " << i;
+    }
+    EXPECT_TRUE(ComparablePlans(one) == ComparablePlans(other)) << r;
+  }
+  ASSERT_EQ(a.team.samples.size(), b.team.samples.size());
+  for (std::size_t i = 0; i < a.team.samples.size(); ++i) {
+    EXPECT_EQ(a.team.samples[i].time_s, b.team.samples[i].time_s);
+    EXPECT_EQ(a.team.samples[i].metrics.completeness, b.team.samples[i].metrics.completeness);
+    EXPECT_EQ(a.team.samples[i].metrics.rmse_ppm, b.team.samples[i].metrics.rmse_ppm);
+  }
+  EXPECT_EQ(a.team.closest_m, b.team.closest_m);
+  EXPECT_TRUE(SameMap(a.map, b.map));
+}
+
+TEST(TeamTest, AMissionOfThreeIsWorthComparing) {
+  const TeamTrial trial = RunInProcess(3);
+  ASSERT_EQ(trial.team.robots.size(), 3u);
+  for (const EpisodeResult& robot : trial.team.robots) {
+    EXPECT_EQ(robot.readings_applied, robot.readings_sent);
+    EXPECT_GT(robot.distance_m, 2.0);
+    EXPECT_GE(robot.plans.size(), 1u);
+    EXPECT_EQ(robot.collisions, 0);
+    EXPECT_NEAR(robot.simulated_s, kDuration_s, 0.2);
+  }
+  EXPECT_EQ(trial.map.robots.size(), 3u);
+  ASSERT_GE(trial.team.samples.size(), 5u);
+  EXPECT_GT(trial.team.samples.back().metrics.completeness,
+            trial.team.samples.front().metrics.completeness);
+  EXPECT_GT(trial.team.closest_m, 0.0);
+  EXPECT_LT(trial.team.closest_m, 4.4) << "their starts";
+}
+
+TEST(TeamTest, TheSameTeamComesToTheSameBytes) { ExpectSame(RunInProcess(3), RunInProcess(3)); }
+
+TEST(TeamTest, OverGrpcATeamComesToTheBytesOfOneProcess) {
+  const auto server = StartServer();
+  const auto planner = ClientOf(*server);
+  ExpectSame(RunTeam(*planner, 2), RunInProcess(2));
+}
+
+TEST(TeamTest, SeveralRobotsSeeMoreInTheSameTime) {
+  const auto completeness = [](int robots) {
+    return RunInProcess(robots).team.samples[1].metrics.completeness;  // after 5 s
+  };
+  EXPECT_GT(completeness(3), completeness(1));
+}
+
+// Not a wall where another robot once stood: what is occupied in the map is so in truth.
+TEST(TeamTest, RobotsAreNoWallsInTheMap) {
+  const TeamTrial trial = RunInProcess(3);
+  const Grid<CellState>& truth = GasHall().occupancy();
+  int phantoms = 0;
+  for (std::size_t i = 0; i < trial.map.occupancy.size(); ++i) {
+    const GridGeometry& geometry = trial.map.occupancy.geometry();
+    if (trial.map.occupancy[i] != CellState::kOccupied) continue;
+    const Point2 center = geometry.Center(geometry.CellAtIndex(i));
+    bool near_wall = false;  // noise of beams blurs walls by a cell
+    for (const double dx_m : {-0.1, 0.0, 0.1}) {
+      for (const double dy_m : {-0.1, 0.0, 0.1}) {
+        const Cell cell = truth.geometry().CellAt({center.x_m + dx_m, center.y_m + dy_m});
+        near_wall = near_wall || truth.At(cell, CellState::kOccupied) == CellState::kOccupied;
+      }
+    }
+    phantoms += near_wall ? 0 : 1;
+  }
+  EXPECT_EQ(phantoms, 0);
+}
+
+TEST(TeamTest, ItsEventsReplayToTheSameMap) {
+  for (const int robots : {1, 2}) {
+    std::vector<Event> events;
+    LocalOptions options;
+    options.on_event = [&](const Event& event) { events.push_back(event); };
+    LocalPlannerClient planner(options);
+    const TeamTrial trial = RunTeam(planner, robots);
+    auto mission = Mission::Create(*WestRobot().create);
+    ASSERT_TRUE(mission.ok()) << mission.status();
+    for (const Event& event : events) {
+      const auto applied = (*mission)->Apply(event.body);
+      ASSERT_TRUE(applied.ok()) << applied.status();
+      ASSERT_EQ(applied->revision, event.number);
+    }
+    EXPECT_TRUE(SameMap(MakeMapSnapshot(*(*mission)->Snapshot()), trial.map)) << robots;
+  }
+}
+
+TEST(TeamTest, AnErrorOfOneEndsTheEpisodeForAll) {
+  LocalPlannerClient planner;
+  EpisodeOptions options = WestRobot();
+  int west_plans = 0;
+  options.on_plan = [&](const IssuedPlan& issued) {
+    west_plans += issued.plan.robot == "west" ? 1 : 0;
+    if (west_plans != 1) return;
+    EXPECT_TRUE(planner.RegisterRobot(kTrialMission, "east", 0.2, true).ok());  // takes its lease
+  };
+  const auto team = RunTeamEpisode(planner, GasHall(), options, Others(2));
+  EXPECT_NE(team.status().message().find("LEASE_SUPERSEDED"), absl::string_view::npos)
+      << team.status();
+  EXPECT_LE(west_plans, 2);
+}
+
+}  // namespace
+}  // namespace plumescout::lab
