@@ -120,13 +120,19 @@ TEST(LayoutYamlTest, NamesRepeatedKeys) {
   ExpectInvalid(std::string(kShortest) + "border_m: 0.2\nborder_m: 0.3", "repeated key border_m");
 }
 
+TEST(LayoutYamlTest, NamesValuesThatAreNoNumbers) {
+  ExpectInvalid(std::string(kShortest) + "border_m: .nan", "border_m = nan");
+  ExpectInvalid(std::string(kShortest) + "boxes: [{min_m: [.nan, 1], max_m: [2, 2]}]",
+                "boxes[0].min_m[0] = nan");
+}
+
 TEST(LayoutYamlTest, NamesMistypedKeys) {
-  ExpectInvalid(std::string(kShortest) + "border_m: thick", "border_m must be a number");
-  ExpectInvalid(std::string(kShortest) + "boxes: 3", "boxes must be a list");
+  ExpectInvalid(std::string(kShortest) + "border_m: thick", "border_m = thick must be a number");
+  ExpectInvalid(std::string(kShortest) + "boxes: 3", "boxes = 3 must be a list");
   ExpectInvalid(std::string(kShortest) + "boxes: [{min_m: [1, 1, 1], max_m: [2, 2]}]",
                 "boxes[0].min_m must be two numbers [x, y]");
   ExpectInvalid(std::string(kShortest) + "openings: [{side: up, from_m: 1, to_m: 2}]",
-                "openings[0].side must be west, east, south or north");
+                "openings[0].side = up must be west, east, south or north");
   ExpectInvalid(std::string(kShortest) + "gas: [1]", "gas must be a map");
 }
 
