@@ -111,7 +111,7 @@ void AddMake(CLI::App& scene, absl::Status& status) {
       "make", "Compute wind and gas in a building: from a layout file to a scene folder");
   const auto arguments = std::make_shared<MakeArguments>();
   make->add_option("layout", arguments->layout,
-                   "Layout file (YAML); lab/scenes/industrial_16x20.yaml shows every key")
+                   "Layout file (YAML); those in lab/scenes show the keys")
       ->required();
   make->add_option("--out", arguments->out, "Scene folder to write")->required();
   make->add_option("--seed", arguments->options.seed, "Seed of the gas's random motion")
@@ -173,7 +173,8 @@ absl::Status Import(ImportArguments arguments) {
   GadenImport& import = arguments.import;
   import.start_pose = {arguments.start[0], arguments.start[1],
                        arguments.start.size() > 2 ? WrapAngle_rad(arguments.start[2]) : 0.0};
-  import.name = std::filesystem::path(arguments.out).filename().string();
+  const std::filesystem::path out(arguments.out);
+  import.name = (out.has_filename() ? out : out.parent_path()).filename().string();
   ProgressLine progress;
   const absl::Time start = absl::Now();
   const auto show = [&](absl::string_view stage, double fraction) {
@@ -202,6 +203,7 @@ void AddImport(CLI::App& scene, absl::Status& status) {
       ->add_option("--start", arguments->start,
                    "Where the robot starts: x y in metres, and its heading in radians")
       ->expected(2, 3)
+      ->type_name("X Y [YAW]")
       ->required();
   command
       ->add_option("--environment", import.environment,
