@@ -9,19 +9,23 @@
 #include <vector>
 
 #include "absl/status/status.h"
+#include "absl/strings/string_view.h"
 #include "core/types/cell_state.h"
 #include "core/types/grid.h"
 #include "core/types/pose2.h"
+#include "formats/release_schedule.h"
 
 namespace plumescout {
 
-// Continuous release. The rate is (ppm at the centre of a new filament) x (filaments per second).
+// A leak. The rate while it releases is (ppm at the centre of a new filament) x (filaments per
+// second).
 struct GasSource {
   int id = 0;
   double x_m = 0.0;
   double y_m = 0.0;
   double z_m = 0.0;
   double rate_ppm_per_s = 0.0;
+  ReleaseSchedule release = {};  // default: always
 
   friend bool operator==(const GasSource&, const GasSource&) = default;
 };
@@ -44,6 +48,22 @@ struct WindField {
   friend bool operator==(const WindField&, const WindField&) = default;
 };
 
+enum class Side { kWest, kEast, kSouth, kNorth };
+
+// "west", "east", "south", "north".
+absl::string_view NameOf(Side side);
+std::optional<Side> SideNamed(absl::string_view name);
+
+// Window or vent in the outer wall of a building. Air passes; robots, beams and maps see a wall.
+struct Opening {
+  Side side = Side::kWest;
+  double from_m = 0.0;               // along x on the south and north side, along y on the others
+  double to_m = 0.0;                 // > from_m
+  std::optional<double> inflow_mps;  // > 0, at right angles into the building; none: outlet
+
+  friend bool operator==(const Opening&, const Opening&) = default;
+};
+
 // A place with a gas leak and everything that is true of it. All rasters have the geometry of
 // `occupancy`, which is never unknown; occupied cells have concentration 0.
 struct Scene {
@@ -55,6 +75,7 @@ struct Scene {
   std::vector<Grid<float>> conc_mean_by_source_ppm;  // in the order of `sources`
   ConcentrationSeries series;
   std::optional<WindField> wind;
+  std::vector<Opening> openings;  // in frame map; none if not known
   std::vector<GasSource> sources;
   Pose2 start_pose;                     // of the robot, on a free cell
   double critical_threshold_ppm = 2.5;  // [XIT] Sec. VI-B: free cells above it are critical
@@ -62,8 +83,9 @@ struct Scene {
   const GridGeometry& geometry() const { return occupancy.geometry(); }
 };
 
-// kInvalidArgument, naming the field, unless all rasters have the geometry of the occupancy, all
-// numbers are finite, concentrations are not negative, and the start stands on a free cell.
+// kInvalidArgument, naming the field and the value, unless all rasters have the geometry of the
+// occupancy, all numbers are finite, concentrations are not negative, the start stands on a free
+// cell and the openings lie apart in the outer walls.
 absl::Status ValidateScene(const Scene& scene);
 
 // Concentration at the cell nearest to `point` in the frame nearest to `time_s`, both clamped to

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "absl/strings/string_view.h"
 #include "core/types/status_macros.h"
 #include "formats/file_io.h"
@@ -33,6 +35,7 @@ constexpr char kWindFile[] = "wind_uv.npy";
 constexpr std::uint64_t kMaxDescriptionBytes = 1 << 20;
 constexpr std::uint64_t kMaxSeriesBytes = std::uint64_t{1} << 31;  // unpacked
 constexpr std::size_t kWindComponents = 2;
+constexpr float kAnyFinite = std::numeric_limits<float>::lowest();
 // Of a cell, by which map.yaml and scene.json may differ: both print decimals.
 constexpr double kGeometryTolerance_cells = 1e-3;
 
@@ -44,11 +47,36 @@ std::vector<std::size_t> RasterShape(const GridGeometry& geometry) {
   return {static_cast<std::size_t>(geometry.height), static_cast<std::size_t>(geometry.width)};
 }
 
+// "[4, 5]".
+std::string ShapeText(const std::vector<std::size_t>& shape) {
+  return absl::StrCat("[", absl::StrJoin(shape, ", "), "]");
+}
+
+std::vector<std::size_t> PlaceOf(std::size_t index, const std::vector<std::size_t>& shape) {
+  std::vector<std::size_t> place(shape.size());
+  for (std::size_t i = shape.size(); i > 0; --i) {
+    place[i - 1] = index % shape[i - 1];
+    index /= shape[i - 1];
+  }
+  return place;
+}
+
+// Values of this shape that are finite and at least `lowest`.
 absl::StatusOr<std::vector<float>> ReadValues(const std::string& path,
-                                              const std::vector<std::size_t>& shape) {
+                                              const std::vector<std::size_t>& shape, float lowest) {
   PLUMESCOUT_ASSIGN_OR_RETURN(NpyArray array, ReadNpy(path));
-  if (array.shape == shape) return std::move(array.values);
-  return absl::InvalidArgumentError(absl::StrCat(path, ": the shape does not fit scene.json"));
+  if (array.shape != shape) {
+    return absl::InvalidArgumentError(absl::StrCat(path, ": the shape is ", ShapeText(array.shape),
+                                                   ", by scene.json it must be ",
+                                                   ShapeText(shape)));
+  }
+  for (std::size_t i = 0; i < array.values.size(); ++i) {
+    if (std::isfinite(array.values[i]) && array.values[i] >= lowest) continue;
+    return absl::InvalidArgumentError(
+        absl::StrCat(path, ": the value at ", ShapeText(PlaceOf(i, shape)), " is ", array.values[i],
+                     ", it must be finite", lowest == 0.0F ? " and >= 0" : ""));
+  }
+  return std::move(array.values);
 }
 
 Grid<float> MakeGrid(const GridGeometry& geometry, std::span<const float> values) {
@@ -59,7 +87,7 @@ Grid<float> MakeGrid(const GridGeometry& geometry, std::span<const float> values
 
 absl::StatusOr<Grid<float>> ReadRaster(const std::string& path, const GridGeometry& geometry) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<float> values,
-                              ReadValues(path, RasterShape(geometry)));
+                              ReadValues(path, RasterShape(geometry), 0.0F));
   return MakeGrid(geometry, values);
 }
 
@@ -68,13 +96,18 @@ absl::StatusOr<std::vector<Grid<float>>> ReadLayers(const std::string& path,
                                                     std::size_t count) {
   std::vector<std::size_t> shape = RasterShape(geometry);
   shape.insert(shape.begin(), count);
-  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<float> values, ReadValues(path, shape));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<float> values, ReadValues(path, shape, 0.0F));
   std::vector<Grid<float>> layers;
   for (std::size_t i = 0; i < count; ++i) {
     const std::span<const float> all(values);
     layers.push_back(MakeGrid(geometry, all.subspan(i * geometry.size(), geometry.size())));
   }
   return layers;
+}
+
+std::string GeometryText(const GridGeometry& geometry) {
+  return absl::StrCat(geometry.width, " x ", geometry.height, " cells of ", geometry.resolution_m,
+                      " m from (", geometry.origin_x_m, ", ", geometry.origin_y_m, ")");
 }
 
 // The geometry of scene.json is kept; map.yaml must agree.
@@ -87,7 +120,11 @@ absl::StatusOr<Grid<CellState>> ReadOccupancy(const std::string& path,
                     std::abs(found.origin_x_m - geometry.origin_x_m) <= tolerance_m &&
                     std::abs(found.origin_y_m - geometry.origin_y_m) <= tolerance_m &&
                     std::abs(found.resolution_m - geometry.resolution_m) <= tolerance_m;
-  if (!same) return absl::InvalidArgumentError(absl::StrCat(path, ": does not fit scene.json"));
+  if (!same) {
+    return absl::InvalidArgumentError(absl::StrCat(path, " shows ", GeometryText(found),
+                                                   ", by scene.json it must be ",
+                                                   GeometryText(geometry)));
+  }
   Grid<CellState> occupancy(geometry);
   occupancy.values() = std::move(map.values());
   return occupancy;
@@ -110,7 +147,7 @@ absl::StatusOr<std::vector<std::uint16_t>> ReadCounts(const std::string& path, i
 absl::StatusOr<WindField> ReadWind(const std::string& path, const GridGeometry& geometry) {
   std::vector<std::size_t> shape = RasterShape(geometry);
   shape.push_back(kWindComponents);
-  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<float> values, ReadValues(path, shape));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<float> values, ReadValues(path, shape, kAnyFinite));
   WindField wind{Grid<float>(geometry), Grid<float>(geometry)};
   for (std::size_t i = 0; i < geometry.size(); ++i) {
     wind.u_mps[i] = values[kWindComponents * i];

@@ -12,7 +12,7 @@ namespace plumescout {
 
 // A scene is a folder:
 //
-//   scene.json               name, geometry, sources, start pose, layout of the series
+//   scene.json               name, geometry, sources, start pose, openings, layout of the series
 //   map.pgm, map.yaml        map_server pair, free or occupied, never unknown
 //   conc_mean.npy            float32 [height][width], ppm
 //   conc_std.npy             float32 [height][width], ppm

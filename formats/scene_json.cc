@@ -21,6 +21,7 @@ constexpr int kMaxSide_cells = 1 << 13;  // 2^26 cells
 constexpr int kMaxFrames = 1'000'000;
 constexpr int kMaxId = 1'000'000;
 constexpr std::size_t kMaxSources = 1000;
+constexpr std::size_t kMaxOpenings = 1000;
 constexpr double kMaxMagnitude = 1e9;  // of any number: metres, ppm, seconds
 
 // One value of the document and its place in it, for error messages. The JSON library throws where
@@ -28,6 +29,8 @@ constexpr double kMaxMagnitude = 1e9;  // of any number: metres, ppm, seconds
 class Field {
  public:
   Field(const Json* json, std::string path) : json_(json), path_(std::move(path)) {}
+
+  const std::string& path() const { return path_; }
 
   absl::StatusOr<Field> Member(const char* key) const {
     const std::string path = path_.empty() ? key : absl::StrCat(path_, ".", key);
@@ -45,33 +48,41 @@ class Field {
   }
   absl::StatusOr<std::size_t> ArraySize() const {
     if (!json_->is_array())
-      return absl::InvalidArgumentError(absl::StrCat(path_, " must be a list"));
+      return absl::InvalidArgumentError(absl::StrCat(Said(), " must be a list"));
     return json_->size();
   }
 
   absl::StatusOr<double> Number() const {
     const double value = json_->is_number() ? json_->get<double>() : std::nan("");
     if (std::abs(value) <= kMaxMagnitude) return value;
-    return absl::InvalidArgumentError(absl::StrCat(path_, " must be a number within 1e9"));
+    return absl::InvalidArgumentError(absl::StrCat(Said(), " must be a number within 1e9"));
   }
   absl::StatusOr<int> Integer(int low, int high) const {
     const auto value = json_->is_number_integer() ? json_->get<std::int64_t>() : std::int64_t{-1};
     if (value >= low && value <= high) return static_cast<int>(value);
     return absl::InvalidArgumentError(
-        absl::StrCat(path_, " must be a whole number in [", low, ", ", high, "]"));
+        absl::StrCat(Said(), " must be a whole number in [", low, ", ", high, "]"));
   }
   absl::StatusOr<std::string> Text() const {
     if (json_->is_string()) return json_->get<std::string>();
-    return absl::InvalidArgumentError(absl::StrCat(path_, " must be a text"));
+    return absl::InvalidArgumentError(absl::StrCat(Said(), " must be a text"));
   }
   // A file of the scene's own folder.
   absl::StatusOr<std::string> FileName() const {
     PLUMESCOUT_ASSIGN_OR_RETURN(std::string name, Text());
     if (!name.empty() && name != ".." && !absl::StrContains(name, "/")) return name;
-    return absl::InvalidArgumentError(absl::StrCat(path_, " must name a file of the same folder"));
+    return absl::InvalidArgumentError(absl::StrCat(Said(), " must name a file of the same folder"));
   }
 
  private:
+  // The field and its value, as far as that is short.
+  std::string Said() const {
+    constexpr std::size_t kShort = 40;
+    const std::string value =
+        json_->is_structured() ? "" : json_->dump(-1, ' ', false, Json::error_handler_t::replace);
+    return value.empty() || value.size() > kShort ? path_ : absl::StrCat(path_, " = ", value);
+  }
+
   const Json* json_;
   std::string path_;
 };
@@ -104,6 +115,22 @@ absl::StatusOr<GridGeometry> ParseGeometry(const Field& root) {
   return geometry;
 }
 
+absl::StatusOr<std::optional<double>> OptionalNumberAt(const Field& object, const char* key) {
+  if (!object.Has(key)) return std::optional<double>();
+  return NumberAt(object, key);
+}
+
+absl::StatusOr<ReleaseSchedule> ParseRelease(const Field& field) {
+  ReleaseSchedule release;
+  PLUMESCOUT_ASSIGN_OR_RETURN(release.start_s, OptionalNumberAt(field, "start_s"));
+  PLUMESCOUT_ASSIGN_OR_RETURN(release.end_s, OptionalNumberAt(field, "end_s"));
+  PLUMESCOUT_ASSIGN_OR_RETURN(release.on_s, OptionalNumberAt(field, "on_s"));
+  PLUMESCOUT_ASSIGN_OR_RETURN(release.off_s, OptionalNumberAt(field, "off_s"));
+  const absl::Status valid = Validate(release);
+  if (valid.ok()) return release;
+  return absl::InvalidArgumentError(absl::StrCat(field.path(), ".", valid.message()));
+}
+
 absl::StatusOr<GasSource> ParseSource(const Field& field) {
   GasSource source;
   PLUMESCOUT_ASSIGN_OR_RETURN(source.id, IntegerAt(field, "id", 0, kMaxId));
@@ -111,6 +138,10 @@ absl::StatusOr<GasSource> ParseSource(const Field& field) {
   PLUMESCOUT_ASSIGN_OR_RETURN(source.y_m, NumberAt(field, "y"));
   PLUMESCOUT_ASSIGN_OR_RETURN(source.z_m, NumberAt(field, "z"));
   PLUMESCOUT_ASSIGN_OR_RETURN(source.rate_ppm_per_s, NumberAt(field, "rate_ppm_per_s"));
+  if (field.Has("release")) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(const Field release, field.Member("release"));
+    PLUMESCOUT_ASSIGN_OR_RETURN(source.release, ParseRelease(release));
+  }
   return source;
 }
 
@@ -124,6 +155,36 @@ absl::StatusOr<std::vector<GasSource>> ParseSources(const Field& list) {
     sources.push_back(source);
   }
   return sources;
+}
+
+absl::StatusOr<Side> ParseSide(const Field& field) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::string name, field.Text());
+  if (const std::optional<Side> side = SideNamed(name)) return *side;
+  return absl::InvalidArgumentError(
+      absl::StrCat(field.path(), " = ", name, " must be west, east, south or north"));
+}
+
+absl::StatusOr<Opening> ParseOpening(const Field& field) {
+  Opening opening;
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Field side, field.Member("side"));
+  PLUMESCOUT_ASSIGN_OR_RETURN(opening.side, ParseSide(side));
+  PLUMESCOUT_ASSIGN_OR_RETURN(opening.from_m, NumberAt(field, "from_m"));
+  PLUMESCOUT_ASSIGN_OR_RETURN(opening.to_m, NumberAt(field, "to_m"));
+  if (!field.Has("inflow_mps")) return opening;
+  PLUMESCOUT_ASSIGN_OR_RETURN(opening.inflow_mps, NumberAt(field, "inflow_mps"));
+  return opening;
+}
+
+absl::StatusOr<std::vector<Opening>> ParseOpenings(const Field& list) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::size_t count, list.ArraySize());
+  if (count > kMaxOpenings) return absl::InvalidArgumentError("more than 1000 openings");
+  std::vector<Opening> openings;
+  for (std::size_t i = 0; i < count; ++i) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(const Field element, list.Element(i));
+    PLUMESCOUT_ASSIGN_OR_RETURN(const Opening opening, ParseOpening(element));
+    openings.push_back(opening);
+  }
+  return openings;
 }
 
 absl::StatusOr<Pose2> ParsePose(const Field& field) {
@@ -169,9 +230,22 @@ absl::StatusOr<SceneDescription> ParseDescription(const Field& root) {
     PLUMESCOUT_ASSIGN_OR_RETURN(const Field wind, root.Member("wind"));
     PLUMESCOUT_ASSIGN_OR_RETURN(description.files.wind, FileNameAt(wind, "file"));
   }
+  if (root.Has("openings")) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(const Field openings, root.Member("openings"));
+    PLUMESCOUT_ASSIGN_OR_RETURN(scene.openings, ParseOpenings(openings));
+  }
   PLUMESCOUT_ASSIGN_OR_RETURN(scene.critical_threshold_ppm,
                               NumberAt(root, "critical_threshold_ppm"));
   return description;
+}
+
+Json FormatRelease(const ReleaseSchedule& release) {
+  Json json = Json::object();
+  if (release.start_s) json["start_s"] = *release.start_s;
+  if (release.end_s) json["end_s"] = *release.end_s;
+  if (release.on_s) json["on_s"] = *release.on_s;
+  if (release.off_s) json["off_s"] = *release.off_s;
+  return json;
 }
 
 Json FormatSources(const std::vector<GasSource>& sources) {
@@ -182,6 +256,20 @@ Json FormatSources(const std::vector<GasSource>& sources) {
                     {"y", source.y_m},
                     {"z", source.z_m},
                     {"rate_ppm_per_s", source.rate_ppm_per_s}});
+    if (source.release != ReleaseSchedule{}) {
+      list.back()["release"] = FormatRelease(source.release);
+    }
+  }
+  return list;
+}
+
+Json FormatOpenings(const std::vector<Opening>& openings) {
+  Json list = Json::array();
+  for (const Opening& opening : openings) {
+    list.push_back({{"side", std::string(NameOf(opening.side))},
+                    {"from_m", opening.from_m},
+                    {"to_m", opening.to_m}});
+    if (opening.inflow_mps) list.back()["inflow_mps"] = *opening.inflow_mps;
   }
   return list;
 }
@@ -222,6 +310,7 @@ std::string FormatSceneJson(const Scene& scene, const SceneFiles& files) {
       {"critical_threshold_ppm", scene.critical_threshold_ppm},
   };
   if (files.wind) json["wind"] = {{"file", *files.wind}};
+  if (!scene.openings.empty()) json["openings"] = FormatOpenings(scene.openings);
   constexpr int kIndent = 1;
   return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + '\n';
 }

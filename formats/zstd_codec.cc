@@ -18,6 +18,11 @@ absl::StatusOr<std::string> CompressZstd(absl::string_view bytes) {
 }
 
 absl::Status DecompressZstd(absl::string_view frame, char* out, std::size_t size) {
+  const unsigned long long said = ZSTD_getFrameContentSize(frame.data(), frame.size());
+  if (said < ZSTD_CONTENTSIZE_ERROR && said != size) {
+    return absl::DataLossError(
+        absl::StrCat("the zstd frame holds ", said, " bytes, expected ", size));
+  }
   const std::size_t unpacked = ZSTD_decompress(out, size, frame.data(), frame.size());
   if (ZSTD_isError(unpacked) != 0) return absl::DataLossError(ZSTD_getErrorName(unpacked));
   if (unpacked != size) {

@@ -39,6 +39,7 @@ void PutBefore(const std::vector<Point2>& way_out, Candidate& candidate) {
 MissionPhase PhaseOf(GoalKind kind) {
   switch (kind) {
     case GoalKind::kGasFrontier:
+    case GoalKind::kInformation:
       return MissionPhase::kGasProbing;
     case GoalKind::kOccupancyFrontier:
       return MissionPhase::kExploring;

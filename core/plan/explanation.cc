@@ -19,6 +19,8 @@ std::string Destination(const Goal& goal) {
       return absl::StrCat("an occupancy frontier of ", goal.frontier_cells, " cells");
     case GoalKind::kRandomFreeSpace:
       return "a random free place, for no frontier is left";
+    case GoalKind::kInformation:
+      return "a place where readings tell much";
     case GoalKind::kHome:
       return "home";
   }

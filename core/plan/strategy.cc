@@ -23,7 +23,7 @@ struct StrategyRow {
   SelectionRule selection = SelectionRule::kLeastCost;
 };
 
-constexpr std::array<StrategyRow, 5> kRows = {{
+constexpr std::array<StrategyRow, 6> kRows = {{
     {"xit_gff", GoalPolicy::kGasFirst},
     {"xit_fgf", GoalPolicy::kOccupancyFirst},
     {"xit_f", GoalPolicy::kOccupancyOnly},
@@ -31,6 +31,8 @@ constexpr std::array<StrategyRow, 5> kRows = {{
      SelectionRule::kMeanUcb},
     {"rrt_star_frontier", GoalPolicy::kOccupancyOnly, PathKind::kRrtStar, CostKind::kEuclidean,
      SelectionRule::kLeastCost},
+    {"plumescout", GoalPolicy::kEverything, PathKind::kXit, CostKind::kUcb,
+     SelectionRule::kInformationRate},
 }};
 
 // The search of [MIT] section IV, within ours: independent samples of the UCB field alone.

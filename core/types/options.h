@@ -57,7 +57,8 @@ struct FrontierOptions {
   WgfdScope wgfd_scope = WgfdScope::kReachable;
 };
 
-enum class GoalPolicy { kGasFirst, kOccupancyFirst, kOccupancyOnly };  // GFF, FGF, F
+// GFF, FGF and F of [XIT]; ours: frontiers of both kinds and places where readings tell much.
+enum class GoalPolicy { kGasFirst, kOccupancyFirst, kOccupancyOnly, kEverything };
 enum class CostKind { kUcb, kEuclidean, kVertices };
 enum class SamplingKind { kSystematic, kIid };
 enum class SelectionRule { kLeastCost, kMeanUcb, kInformationRate };

@@ -15,7 +15,7 @@
 namespace plumescout {
 
 enum class MissionPhase { kExploring, kGasProbing, kFallback, kComplete, kReturning };
-enum class GoalKind { kOccupancyFrontier, kGasFrontier, kRandomFreeSpace, kHome };
+enum class GoalKind { kOccupancyFrontier, kGasFrontier, kRandomFreeSpace, kHome, kInformation };
 
 // A place worth going to, as the goal policy hands it to the path planner.
 struct Goal {

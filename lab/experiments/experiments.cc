@@ -2,16 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/experiments.h"
 
-#include <array>
-
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "core/types/status_macros.h"
+#include "lab/experiments/gas_validation.h"
 #include "lab/experiments/mit_table1.h"
+#include "lab/experiments/own_strategy.h"
 #include "lab/experiments/wind_validation.h"
 #include "lab/experiments/xit_episode.h"
 #include "lab/experiments/xit_fig3.h"
 #include "lab/experiments/xit_fig4.h"
 #include "lab/experiments/xit_fig5.h"
+#include "lab/experiments/xit_table3.h"
 #include "lab/experiments/xit_trial.h"
 
 namespace plumescout::lab {
@@ -22,21 +24,26 @@ struct Experiment {
   absl::StatusOr<Study> (*run)(const ExperimentOptions&);
 };
 
-// An experiment that cannot fail, as one that can.
-template <Study (*Run)(const ExperimentOptions&)>
-absl::StatusOr<Study> Sure(const ExperimentOptions& options) {
-  return Run(options);
-}
-
-constexpr std::array<Experiment, 7> kExperiments = {{
-    {"mit_table1", Sure<RunMitTable1>},
-    {"wind_validation", Sure<RunWindValidation>},
+constexpr Experiment kExperiments[] = {
+    {"gas_validation", RunGasValidation},
+    {"mit_table1", RunMitTable1},
+    {"own_strategy", RunOwnStrategy},
+    {"wind_validation", RunWindValidation},
     {"xit_episode", RunXitEpisode},
-    {"xit_fig3", Sure<RunXitFig3>},
-    {"xit_fig4", Sure<RunXitFig4>},
-    {"xit_fig5", Sure<RunXitFig5>},
+    {"xit_fig3", RunXitFig3},
+    {"xit_fig4", RunXitFig4},
+    {"xit_fig5", RunXitFig5},
+    {"xit_table3", RunXitTable3},
     {"xit_trial", RunXitTrial},
-}};
+};
+
+absl::Status Validate(const ExperimentOptions& options) {
+  if (options.trials.value_or(1) < 1) {
+    return absl::InvalidArgumentError(absl::StrCat("trials = ", *options.trials, " must be >= 1"));
+  }
+  if (options.jobs >= 1) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat("jobs = ", options.jobs, " must be >= 1"));
+}
 
 }  // namespace
 
@@ -47,6 +54,7 @@ std::vector<std::string> ExperimentNames() {
 }
 
 absl::StatusOr<Study> RunExperiment(const std::string& name, const ExperimentOptions& options) {
+  PLUMESCOUT_RETURN_IF_ERROR(Validate(options));
   for (const Experiment& experiment : kExperiments) {
     if (name == experiment.name) return experiment.run(options);
   }

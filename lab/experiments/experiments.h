@@ -10,10 +10,12 @@
 
 namespace plumescout::lab {
 
-// Figures of the papers that can be made again, by name: "xit_fig3", ...
+// What can be run, by name: figures and tables of the papers ("xit_table3"), our own studies, and
+// checks of the simulated world.
 std::vector<std::string> ExperimentNames();
 
-// Same options, same values. kInvalidArgument for an unknown name.
+// Same options, same values, however many jobs. Errors: kInvalidArgument for an unknown name or
+// options out of range; those of the files in options.scenes and options.folder.
 absl::StatusOr<Study> RunExperiment(const std::string& name, const ExperimentOptions& options);
 
 }  // namespace plumescout::lab

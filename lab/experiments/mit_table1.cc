@@ -366,7 +366,7 @@ void AddFigures(const TableStudy& study, Summary& summary) {
 
 }  // namespace
 
-Study RunMitTable1(const ExperimentOptions& options) {
+absl::StatusOr<Study> RunMitTable1(const ExperimentOptions& options) {
   const TableStudy found = RunAll(options);
   const SceneResult& scene = found.scenes.front();
   Study study;

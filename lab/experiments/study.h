@@ -4,7 +4,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "absl/status/status.h"
 #include "formats/csv.h"
@@ -15,7 +17,11 @@ namespace plumescout::lab {
 
 struct ExperimentOptions {
   std::uint64_t seed = 1;
-  bool quick = false;                            // fewer points and runs: a few seconds at most
+  bool quick = false;                            // less of everything: a minute at most
+  std::optional<int> trials{};                   // >= 1; default: as many as the paper's
+  std::vector<std::string> scenes{};             // scene folders in place of the study's own
+  std::string folder{};                          // for scenes and trials on the way; may stand
+  int jobs = 1;                                  // trials at once, >= 1
   std::function<void(double share)> progress{};  // told how much is done, [0, 1]; may be empty
 };
 

@@ -15,6 +15,7 @@
 #include "lab/bench/about.h"
 #include "lab/experiments/flow_cases.h"
 #include "lab/experiments/flow_pictures.h"
+#include "lab/experiments/flow_runs.h"
 #include "lab/experiments/published_flows.h"
 #include "lab/report/palette.h"
 
@@ -22,165 +23,9 @@ namespace plumescout::lab {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kChannelReynolds = 50.0;  // mean speed * height / nu
-constexpr double kChannelLength = 8.0;     // some three times the entrance
-constexpr double kLengthBehindStep = 16.0;
 
 // Code of a flow in the table.
 enum Flow { kCavityU = 1, kCavityV = 2, kChannel = 3, kStep = 4 };
-
-std::vector<int> CavityCells(bool quick) {
-  return quick ? std::vector<int>{8, 16, 32} : std::vector<int>{32, 64, 128};
-}
-std::vector<int> ChannelCells(bool quick) {
-  return quick ? std::vector<int>{4, 8, 16} : std::vector<int>{8, 16, 32};
-}
-std::vector<int> StepCells(bool quick) {
-  return quick ? std::vector<int>{4, 8} : std::vector<int>{6, 12, 24};
-}
-
-struct CavityRun {
-  int cells = 0;
-  std::vector<LineSample> u;
-  std::vector<LineSample> v;
-  double u_rms = 0.0;  // off Ghia's points, misprints left out
-  double v_rms = 0.0;
-  double least_u = 0.0;
-  double least_v = 0.0;
-  double greatest_v = 0.0;
-  MacField velocity;
-};
-
-struct CavityStudy {
-  GhiaCavity ghia;
-  std::vector<CavityRun> runs;  // from coarse to fine
-};
-
-struct ChannelRun {
-  int cells = 0;
-  std::vector<LineSample> profile;  // at the end
-  double largest_error = 0.0;       // off Poiseuille's parabola
-  double entrance = 0.0;
-};
-
-struct StepRun {
-  Reattachment published;
-  int cells = 0;
-  double length = 0.0;
-  MacField velocity;
-};
-
-struct Results {
-  std::vector<CavityStudy> cavities;
-  std::vector<ChannelRun> channels;
-  std::vector<StepRun> steps;  // by Reynolds number, from coarse to fine
-};
-
-// Tells how much is done; a run costs about the fourth power of its cells across: twice as many
-// each way, four times the steps.
-class Progress {
- public:
-  explicit Progress(const ExperimentOptions& options) : tell_(options.progress) {
-    for (const int n : CavityCells(options.quick)) total_ += 2.0 * Cost(n);
-    for (const int n : ChannelCells(options.quick)) total_ += Cost(n);
-    for (const int n : StepCells(options.quick)) total_ += 2.0 * Cost(2 * n);
-  }
-  void Add(int cells) {
-    done_ += Cost(cells);
-    if (tell_) tell_(std::min(1.0, done_ / total_));
-  }
-
- private:
-  static double Cost(int cells) { return std::pow(cells, 4.0); }
-
-  std::function<void(double)> tell_;
-  double total_ = 0.0;
-  double done_ = 0.0;
-};
-
-double RmsOff(const std::array<ProfilePoint, 15>& points, const std::vector<LineSample>& samples) {
-  double squares = 0.0;
-  int counted = 0;
-  for (const ProfilePoint& point : points) {
-    if (point.misprint) continue;
-    const double error = Interpolate(samples, point.at) - point.speed;
-    squares += error * error;
-    ++counted;
-  }
-  return std::sqrt(squares / counted);
-}
-
-double Greatest(std::vector<LineSample> samples) {
-  for (LineSample& sample : samples) sample.speed = -sample.speed;
-  return -Least(samples);
-}
-
-absl::StatusOr<CavityRun> RunCavity(const GhiaCavity& ghia, int cells) {
-  PLUMESCOUT_ASSIGN_OR_RETURN(SteadyFlow flow,
-                              RunToSteady(CavityDomain(cells), 1.0 / ghia.reynolds));
-  CavityRun run;
-  run.cells = cells;
-  run.u = CavityU(flow.velocity);
-  run.v = CavityV(flow.velocity);
-  run.u_rms = RmsOff(ghia.u, run.u);
-  run.v_rms = RmsOff(ghia.v, run.v);
-  run.least_u = Least(run.u);
-  run.least_v = Least(run.v);
-  run.greatest_v = Greatest(run.v);
-  run.velocity = std::move(flow.velocity);
-  return run;
-}
-
-// Poiseuille's parabola of mean 1.
-double Parabola(double at) { return 6.0 * at * (1.0 - at); }
-
-absl::StatusOr<ChannelRun> RunChannel(int cells) {
-  PLUMESCOUT_ASSIGN_OR_RETURN(
-      const SteadyFlow flow,
-      RunToSteady(ChannelDomain(cells, kChannelLength), 1.0 / kChannelReynolds));
-  ChannelRun run;
-  run.cells = cells;
-  run.entrance = EntranceLength(flow.velocity);
-  for (int y = 0; y < cells; ++y) {
-    const double at = (y + 0.5) / cells;
-    const double speed = flow.velocity.u(flow.velocity.geometry().width, y);
-    run.profile.push_back({at, speed});
-    run.largest_error = std::max(run.largest_error, std::abs(speed - Parabola(at)));
-  }
-  return run;
-}
-
-absl::StatusOr<StepRun> RunStep(const Reattachment& published, int cells) {
-  constexpr double kHydraulicDiameters = 2.0;  // of a channel, in its heights
-  PLUMESCOUT_ASSIGN_OR_RETURN(
-      SteadyFlow flow,
-      RunToSteady(StepDomain(cells, kLengthBehindStep), kHydraulicDiameters / published.reynolds));
-  const double length = ReattachmentLength(flow.velocity);
-  return StepRun{published, cells, length, std::move(flow.velocity)};
-}
-
-absl::StatusOr<Results> RunAll(const ExperimentOptions& options) {
-  Progress progress(options);
-  Results results;
-  for (const int cells : ChannelCells(options.quick)) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(results.channels.emplace_back(), RunChannel(cells));
-    progress.Add(cells);
-  }
-  for (const Reattachment& published : kReattachments) {
-    for (const int cells : StepCells(options.quick)) {
-      PLUMESCOUT_ASSIGN_OR_RETURN(results.steps.emplace_back(), RunStep(published, cells));
-      progress.Add(2 * cells);
-    }
-  }
-  for (const GhiaCavity& ghia : kGhiaCavities) {
-    CavityStudy& study = results.cavities.emplace_back(CavityStudy{ghia, {}});
-    for (const int cells : CavityCells(options.quick)) {
-      PLUMESCOUT_ASSIGN_OR_RETURN(study.runs.emplace_back(), RunCavity(ghia, cells));
-      progress.Add(cells);
-    }
-  }
-  return results;
-}
 
 // Observed order of convergence from three rasters, each twice as fine as the one before.
 double Order(double coarse, double middle, double fine) {
@@ -230,7 +75,7 @@ Chart CavityChart(const CavityStudy& study) {
 }
 
 // Errors whose truth is known to many digits; slopes of -1 and -2 are first and second order.
-Chart ConvergenceChart(const Results& results) {
+Chart ConvergenceChart(const FlowRuns& results) {
   Curve cavity{"cavity", {kLineColors[0], 2.0}, {}};
   for (const CavityRun& run : results.cavities.front().runs) {
     cavity.points.push_back(
@@ -346,10 +191,10 @@ MapPanel StepPanel(const StepRun& run) {
                 {{kStepUpstream - kShownUpstream, 0.0}, {kStepUpstream + kShownBehind, 2.0}},
                 kFastest,
                 {-0.05, -0.03, -0.01, 0.0, 0.1, 0.3, 0.5, 0.7, 0.9}});
-  panel.marks = {{MarkShape::kDisc, kStartColor, {kStepUpstream + run.published.length, 0.0}},
-                 {MarkShape::kDisc, kSourceColor, {kStepUpstream + run.length, 0.0}}};
+  panel.marks = {{MarkShape::kDisc, kSourceColor, {kStepUpstream + run.length, 0.0}},
+                 {MarkShape::kCross, kStartColor, {kStepUpstream + run.published.length, 0.0}}};
   panel.legend = {{"reattachment, ours", MarkShape::kDisc, kSourceColor},
-                  {"Erturk 2008", MarkShape::kDisc, kStartColor}};
+                  {"Erturk 2008", MarkShape::kCross, kStartColor}};
   return panel;
 }
 
@@ -371,34 +216,26 @@ std::vector<std::string> MakeNotes() {
       "The order is that of three rasters, each twice as fine as the one before."};
 }
 
-Study Failed(const absl::Status& status) {
-  Study study;
-  study.figures.title = "Wind on published flows: failed";
-  study.figures.notes = {std::string(status.message())};
-  return study;
-}
-
 }  // namespace
 
-Study RunWindValidation(const ExperimentOptions& options) {
-  const absl::StatusOr<Results> results = RunAll(options);
-  if (!results.ok()) return Failed(results.status());
+absl::StatusOr<Study> RunWindValidation(const ExperimentOptions& options) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const FlowRuns results, RunPublishedFlows(options));
   Study study;
   study.figures.title = "Wind on published flows";
   study.figures.notes = MakeNotes();
   study.table.columns = {"flow", "reynolds", "cells", "at", "ours", "published"};
-  for (const CavityStudy& cavity : results->cavities) {
+  for (const CavityStudy& cavity : results.cavities) {
     AddCavity(cavity, study);
     study.figures.panels.push_back(CavityPanel(cavity));
     study.figures.charts.push_back(CavityChart(cavity));
   }
-  AddSteps(results->steps, study);
-  AddBotella(results->cavities.front().runs.back(), study);
-  AddChannels(results->channels, study);
-  for (const StepRun& run : results->steps) {
-    if (run.cells == results->steps.back().cells) study.figures.panels.push_back(StepPanel(run));
+  AddSteps(results.steps, study);
+  AddBotella(results.cavities.front().runs.back(), study);
+  AddChannels(results.channels, study);
+  for (const StepRun& run : results.steps) {
+    if (run.cells == results.steps.back().cells) study.figures.panels.push_back(StepPanel(run));
   }
-  study.figures.charts.push_back(ConvergenceChart(*results));
+  study.figures.charts.push_back(ConvergenceChart(results));
   study.summary.about = AboutThisRun(options.seed);
   return study;
 }

@@ -178,7 +178,7 @@ const WeighedWays& At(const std::vector<WeighedWays>& ways, double alpha_per_m) 
 
 }  // namespace
 
-Study RunXitFig3(const ExperimentOptions& options) {
+absl::StatusOr<Study> RunXitFig3(const ExperimentOptions& options) {
   const SyntheticScene scene = BuildScene(DistanceWeightScene());
   const double shortest_m = Shortest_m(scene);
   const std::vector<double> alphas = Alphas(options.quick);

@@ -269,7 +269,7 @@ std::vector<std::string> MakeNotes(const std::vector<SceneStudy>& studies) {
 
 }  // namespace
 
-Study RunXitFig4(const ExperimentOptions& options) {
+absl::StatusOr<Study> RunXitFig4(const ExperimentOptions& options) {
   const std::vector<SceneSpec> specs = ConvergenceScenes();
   Progress progress(options, specs.size());
   std::vector<SceneStudy> studies;

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "absl/status/statusor.h"
 #include "lab/experiments/study.h"
 
 namespace plumescout::lab {
 
 // [XIT] Fig. 4: how the price of a path falls with the number of samples N, in three scenes, ten
 // runs each, over that of a fine Dijkstra search.
-Study RunXitFig4(const ExperimentOptions& options);
+absl::StatusOr<Study> RunXitFig4(const ExperimentOptions& options);
 
 }  // namespace plumescout::lab

@@ -59,6 +59,8 @@ std::string GoalText(const FrontierStep& step) {
       return "to a gas frontier";
     case GoalKind::kOccupancyFrontier:
       return "to an occupancy frontier";
+    case GoalKind::kInformation:
+      return "to a place where readings tell much";
     case GoalKind::kRandomFreeSpace:
       return "to a fallback goal";
     case GoalKind::kHome:
@@ -256,7 +258,7 @@ CsvTable MakeTable(const Walks& walks) {
 
 }  // namespace
 
-Study RunXitFig5(const ExperimentOptions& options) {
+absl::StatusOr<Study> RunXitFig5(const ExperimentOptions& options) {
   const FrontierWorld world = MakeFrontierWorld();
   Study study;
   study.figures.title = "Gas frontiers, cell by cell ([XIT] Fig. 5)";

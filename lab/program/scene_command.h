@@ -7,7 +7,7 @@
 
 namespace plumescout::lab {
 
-// `plumescout-lab scene make`: wind and gas in a building from its layout, as a scene folder.
+// `plumescout-lab scene`: make, generate, show and import scene folders.
 // `status` is set when the command has run.
 void AddSceneCommand(CLI::App& app, absl::Status& status);
 

@@ -102,6 +102,7 @@ Rgb GoalColor(GoalKind kind) {
     case GoalKind::kGasFrontier:
       return kGasFrontierColor;
     case GoalKind::kRandomFreeSpace:
+    case GoalKind::kInformation:
     case GoalKind::kHome:
       break;
   }

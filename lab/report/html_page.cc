@@ -26,7 +26,10 @@ svg { overflow: visible; width: 100%; height: auto; max-width: 40rem; }
 table { width: 100%; max-width: 40rem; border-collapse: collapse; font-size: .9rem; }
 td { border-top: 1px solid #e2e5ea; padding: .2rem 0; }
 td:first-child { color: #6b7280; }
-td:last-child { text-align: right; font-variant-numeric: tabular-nums; }
+.wide { max-width: none; margin: 0 0 2rem; }
+.wide td, .wide th { padding: .2rem .6rem .2rem 0; text-align: left; }
+td { font-variant-numeric: tabular-nums; }
+table:not(.wide) td:last-child { text-align: right; }
 )";
 
 std::string MakeHeadline(const ReportFigures& figures) {
@@ -57,6 +60,21 @@ std::string MakeTable(const ReportFigures& figures) {
   return html + "</table></div>\n";
 }
 
+std::string MakeRow(const std::vector<std::string>& cells, const char* tag) {
+  std::string html = "<tr>";
+  for (const std::string& cell : cells) {
+    absl::StrAppend(&html, "<", tag, ">", EscapeMarkup(cell), "</", tag, ">");
+  }
+  return html + "</tr>\n";
+}
+
+std::string MakeTextTable(const TextTable& table) {
+  std::string html = absl::StrCat("<h2>", EscapeMarkup(table.title),
+                                  "</h2>\n<table class=\"wide\">\n", MakeRow(table.columns, "th"));
+  for (const std::vector<std::string>& row : table.rows) html += MakeRow(row, "td");
+  return html + "</table>\n";
+}
+
 std::string MakePanel(const MapPanel& panel, int height_px) {
   SvgCanvas canvas(kPanelWidth_px, height_px, panel.title);
   DrawMapPanel(canvas, {0.0, 0.0, kPanelWidth_px, static_cast<double>(height_px)}, panel);
@@ -83,7 +101,9 @@ std::string MakeHtmlPage(const ReportFigures& figures) {
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width\">\n<title>",
       title, "</title>\n<style>", kStyle, "</style>\n</head>\n<body>\n<h1>", title, "</h1>\n",
-      MakeNotes(figures), MakeHeadline(figures), "<div class=\"figures\">\n");
+      MakeNotes(figures), MakeHeadline(figures));
+  for (const TextTable& table : figures.tables) html += MakeTextTable(table);
+  html += "<div class=\"figures\">\n";
   const int height_px = PanelHeight_px(figures);
   for (const MapPanel& panel : figures.panels) html += MakePanel(panel, height_px);
   html += "</div>\n<div class=\"figures\">\n";

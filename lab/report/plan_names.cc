@@ -28,6 +28,8 @@ const char* NameOf(GoalKind kind) {
       return "gas frontier";
     case GoalKind::kRandomFreeSpace:
       return "random place";
+    case GoalKind::kInformation:
+      return "information";
     case GoalKind::kHome:
       return "home";
   }

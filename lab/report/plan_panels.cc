@@ -117,6 +117,7 @@ Rgb GoalColor(GoalKind kind) {
       return kOccupancyFrontierColor;
     case GoalKind::kGasFrontier:
       return kGasFrontierColor;
+    case GoalKind::kInformation:
     case GoalKind::kHome:
       return kStartColor;
     case GoalKind::kRandomFreeSpace:

@@ -13,6 +13,13 @@
 
 namespace plumescout::lab {
 
+// Rows have as many cells as there are columns.
+struct TextTable {
+  std::string title;
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+};
+
 // What page and sheet show, in this order.
 struct ReportFigures {
   std::string title;
@@ -21,6 +28,7 @@ struct ReportFigures {
   std::vector<Chart> charts;
   std::vector<std::string> notes = {};    // paragraphs under the title
   std::vector<BarChart> bar_charts = {};  // after the charts
+  std::vector<TextTable> tables = {};     // on the page only, under the notes
 };
 
 // Sizes that page and sheet share.

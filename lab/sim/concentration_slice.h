@@ -25,14 +25,24 @@ class SliceRenderer {
   std::vector<Grid<float>> Render(const std::vector<Filament>& filaments);
 
  private:
-  const FilamentShape& UnitShape(int age_steps);
-  void Add(const Filament& filament, Grid<float>& layer);
+  // Filaments of one age, in units of cells, released at 1 ppm/s.
+  struct AgeShape {
+    double peak_ppm = 0.0;
+    double exponent = 0.0;  // of the Gaussian exp(exponent * r^2)
+    double edge = 0.0;      // exp(exponent)
+    double cut_off = 0.0;
+    int reach = 0;  // no cell farther than this, per axis, is within the cut-off
+  };
+
+  const AgeShape& ShapeOf(int age_steps);
+  void Add(const Filament& filament, float* layer);
 
   const Grid<CellState>& occupancy_;
   std::vector<GasSource> sources_;
   GasParameters gas_;
   LineOfSight sight_;
-  std::vector<FilamentShape> shapes_;  // by age in steps, of a source of 1 ppm/s
+  std::vector<AgeShape> shapes_;            // by age in steps
+  std::vector<std::vector<float>> padded_;  // layers being drawn
 };
 
 }  // namespace plumescout::lab

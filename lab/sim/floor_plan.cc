@@ -91,30 +91,35 @@ struct SharedWall {
   int to = 0;
 };
 
+// Units from `from` up to but without `to`.
+struct Span {
+  int from = 0;
+  int to = 0;
+};
+
+Span Along(const Partition& wall, const UnitRect& rect) {
+  return wall.vertical ? Span{rect.y0, rect.y1} : Span{rect.x0, rect.x1};
+}
+Span Across(const Partition& wall, const UnitRect& rect) {
+  return wall.vertical ? Span{rect.x0, rect.x1} : Span{rect.y0, rect.y1};
+}
+
 std::vector<SharedWall> SharedWalls(const FloorPlan& plan) {
   std::vector<SharedWall> shared;
   for (std::size_t p = 0; p < plan.partitions.size(); ++p) {
-    const Partition& partition = plan.partitions[p];
-    const UnitRect& wall = partition.solid;
+    const Partition& wall = plan.partitions[p];
+    const Span thickness = Across(wall, wall.solid);
+    const Span length = Along(wall, wall.solid);
     for (std::size_t a = 0; a < plan.rooms.size(); ++a) {
-      const UnitRect& before = plan.rooms[a].floor;
-      if ((partition.vertical ? before.x1 : before.y1) !=
-          (partition.vertical ? wall.x0 : wall.y0)) {
-        continue;
-      }
+      if (Across(wall, plan.rooms[a].floor).to != thickness.from) continue;
+      const Span before = Along(wall, plan.rooms[a].floor);
       for (std::size_t b = 0; b < plan.rooms.size(); ++b) {
-        const UnitRect& behind = plan.rooms[b].floor;
-        if ((partition.vertical ? behind.x0 : behind.y0) !=
-            (partition.vertical ? wall.x1 : wall.y1)) {
-          continue;
-        }
-        const int from = partition.vertical ? std::max({before.y0, behind.y0, wall.y0})
-                                            : std::max({before.x0, behind.x0, wall.x0});
-        const int to = partition.vertical ? std::min({before.y1, behind.y1, wall.y1})
-                                          : std::min({before.x1, behind.x1, wall.x1});
-        if (to - from < kMinDoor + 2 * kDoorMargin) continue;
-        shared.push_back({static_cast<int>(p), static_cast<int>(a), static_cast<int>(b),
-                          from + kDoorMargin, to - kDoorMargin});
+        if (Across(wall, plan.rooms[b].floor).from != thickness.to) continue;
+        const Span behind = Along(wall, plan.rooms[b].floor);
+        const int from = std::max({before.from, behind.from, length.from}) + kDoorMargin;
+        const int to = std::min({before.to, behind.to, length.to}) - kDoorMargin;
+        if (to - from < kMinDoor) continue;
+        shared.push_back({static_cast<int>(p), static_cast<int>(a), static_cast<int>(b), from, to});
       }
     }
   }

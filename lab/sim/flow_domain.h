@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "core/types/grid.h"
+#include "formats/scene.h"
 
 namespace plumescout::lab {
-
-enum class Side { kWest, kEast, kSouth, kNorth };
 
 // Outer face of a fluid cell on the edge of the raster: where air enters or leaves the building.
 struct BoundaryFace {

@@ -21,6 +21,7 @@ constexpr double kMaxFilaments_per_s = 1000.0;
 constexpr double kMaxSigma_m = 5.0;
 constexpr double kMaxSpreading_m2_per_s = 1.0;
 constexpr double kMaxDepth_m = 100.0;
+constexpr double kTouch_m = 1e-9;  // by which things may overlap: sums of decimals are rounded
 
 struct Range {
   double low;
@@ -62,6 +63,24 @@ absl::Status CheckFrame(const Layout& layout) {
   return Check("cells", cells, {1.0, kMaxCells});
 }
 
+absl::Status CheckDoor(const std::string& wall, const std::vector<Door>& doors, std::size_t index,
+                       double wall_m) {
+  const std::string field = absl::StrCat(wall, ".doors[", index, "]");
+  const Door& door = doors[index];
+  PLUMESCOUT_RETURN_IF_ERROR(Check(field + ".width_m", door.width_m, Positive(wall_m)));
+  const double half_m = door.width_m / 2.0;
+  PLUMESCOUT_RETURN_IF_ERROR(
+      Check(field + ".at_m", door.at_m, {half_m - kTouch_m, wall_m - half_m + kTouch_m}));
+  for (std::size_t i = 0; i < index; ++i) {
+    const double apart_m = std::abs(doors[i].at_m - door.at_m);
+    if (apart_m < half_m + doors[i].width_m / 2.0 - kTouch_m) {
+      return absl::InvalidArgumentError(
+          absl::StrCat(field, ".at_m = ", door.at_m, " overlaps doors[", i, "]"));
+    }
+  }
+  return absl::OkStatus();
+}
+
 absl::Status CheckWall(const std::string& field, const Wall& wall, const Layout& layout) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckInside(field + ".from_m", wall.from, layout));
   PLUMESCOUT_RETURN_IF_ERROR(CheckInside(field + ".to_m", wall.to, layout));
@@ -70,12 +89,14 @@ absl::Status CheckWall(const std::string& field, const Wall& wall, const Layout&
   const double length_m = Distance_m(wall.from, wall.to);
   PLUMESCOUT_RETURN_IF_ERROR(Check(field + ".length_m", length_m, Positive(2.0 * kMaxSize_m)));
   for (std::size_t i = 0; i < wall.doors.size(); ++i) {
-    const std::string door = absl::StrCat(field, ".doors[", i, "]");
-    PLUMESCOUT_RETURN_IF_ERROR(Check(door + ".at_m", wall.doors[i].at_m, {0.0, length_m}));
-    PLUMESCOUT_RETURN_IF_ERROR(
-        Check(door + ".width_m", wall.doors[i].width_m, Positive(kMaxSize_m)));
+    PLUMESCOUT_RETURN_IF_ERROR(CheckDoor(field, wall.doors, i, length_m));
   }
   return absl::OkStatus();
+}
+
+bool Overlap(const SolidBox& a, const SolidBox& b) {
+  return a.min.x_m < b.max.x_m - kTouch_m && b.min.x_m < a.max.x_m - kTouch_m &&
+         a.min.y_m < b.max.y_m - kTouch_m && b.min.y_m < a.max.y_m - kTouch_m;
 }
 
 absl::Status CheckBox(const std::string& field, const SolidBox& box, const Layout& layout) {
@@ -111,6 +132,9 @@ absl::Status CheckSources(const Layout& layout) {
         CheckInside(field + ".position_m", {source.x_m, source.y_m}, layout));
     PLUMESCOUT_RETURN_IF_ERROR(
         Check(field + ".rate_ppm_per_s", source.rate_ppm_per_s, Positive(kMaxRate_ppm_per_s)));
+    const absl::Status release = Validate(source.release);
+    if (release.ok()) continue;
+    return absl::InvalidArgumentError(absl::StrCat(field, ".release.", release.message()));
   }
   return absl::OkStatus();
 }
@@ -136,6 +160,12 @@ absl::Status Validate(const Layout& layout) {
   }
   for (std::size_t i = 0; i < layout.boxes.size(); ++i) {
     PLUMESCOUT_RETURN_IF_ERROR(CheckBox(absl::StrCat("boxes[", i, "]"), layout.boxes[i], layout));
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!Overlap(layout.boxes[j], layout.boxes[i])) continue;
+      const Point2 corner = layout.boxes[i].min;
+      return absl::InvalidArgumentError(absl::StrCat("boxes[", i, "] from (", corner.x_m, ", ",
+                                                     corner.y_m, ") overlaps boxes[", j, "]"));
+    }
   }
   for (std::size_t i = 0; i < layout.openings.size(); ++i) {
     PLUMESCOUT_RETURN_IF_ERROR(

@@ -2,21 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "absl/status/status.h"
 #include "core/types/pose2.h"
 #include "formats/scene.h"
-#include "lab/sim/flow_domain.h"
 
 namespace plumescout::lab {
 
 // Gap in a wall.
 struct Door {
-  double at_m = 0.0;     // of its middle, along the wall from Wall::from
+  double at_m = 0.0;     // of its middle, along the wall from Wall::from; wholly in the wall
   double width_m = 1.0;  // > 0
+
+  friend bool operator==(const Door&, const Door&) = default;
 };
 
 // Straight wall, at any angle, with square ends half a thickness beyond `from` and `to`.
@@ -25,20 +25,16 @@ struct Wall {
   Point2 to;
   double thickness_m = 0.2;  // > 0
   std::vector<Door> doors;
+
+  friend bool operator==(const Wall&, const Wall&) = default;
 };
 
-// Solid rectangle: a container, a pillar, a machine.
+// Solid rectangle: a container, a pillar, a machine. Boxes may touch but not overlap.
 struct SolidBox {
   Point2 min;
   Point2 max;
-};
 
-// Window or vent in the outer wall. Air passes; robots, beams and the map see a wall.
-struct Opening {
-  Side side = Side::kWest;
-  double from_m = 0.0;               // along x on the south and north side, along y on the others
-  double to_m = 0.0;                 // > from_m
-  std::optional<double> inflow_mps;  // (0, 30], at right angles into the building; none: outlet
+  friend bool operator==(const SolidBox&, const SolidBox&) = default;
 };
 
 // Ventilator in a room: it moves the air that passes it, at one speed over its whole width. Robots,
@@ -48,6 +44,8 @@ struct Fan {
   double direction_rad = 0.0;  // in which it blows, from the x axis, [-2 pi, 2 pi]
   double width_m = 0.0;        // at right angles to that; at least about one cell
   double speed_mps = 0.0;      // (0, 30]
+
+  friend bool operator==(const Fan&, const Fan&) = default;
 };
 
 // How released gas spreads. Sources: [XIT] Table I for the growth; the mixing depth was fitted to a
@@ -58,6 +56,8 @@ struct GasParameters {
   double growth_m2_per_s = 0.0015;     // gamma: 15 cm^2/s, [0, 1]
   double diffusivity_m2_per_s = 0.02;  // K of the filaments' random walk, [0, 1]
   double mixing_depth_m = 2.05;        // height over which old gas is spread, (0, 100]
+
+  friend bool operator==(const GasParameters&, const GasParameters&) = default;
 };
 
 // A building as a researcher describes it: metres, origin in the lower-left corner.
@@ -69,13 +69,15 @@ struct Layout {
   double border_m = 0.2;      // thickness of the outer wall, >= one cell
   std::vector<Wall> walls;
   std::vector<SolidBox> boxes;
-  std::vector<Opening> openings;
+  std::vector<Opening> openings;  // inlets blow at (0, 30] m/s
   std::vector<Fan> fans;
   std::vector<GasSource> sources;  // at least one
   Pose2 start_pose;
   double sensor_height_m = 0.4;         // >= 0
   double critical_threshold_ppm = 2.5;  // [XIT] section VI-B, > 0
   GasParameters gas;
+
+  friend bool operator==(const Layout&, const Layout&) = default;
 };
 
 // kInvalidArgument naming field, value and range, e.g. "walls[2].thickness_m = 0 must be > 0".

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,14 +17,16 @@
 #include "lab/sim/floor_plan.h"
 #include "lab/sim/furniture.h"
 #include "lab/sim/layout_raster.h"
+#include "lab/sim/ventilation.h"
 
 namespace plumescout::lab {
 namespace {
 
-constexpr int kClearance = 3;   // of leaks and of the start from solids: 0.6 m
-constexpr int kDoorZone = 6;    // kept clear on both sides of a door: 1.2 m
-constexpr int kWindowZone = 6;  // and before an opening
-constexpr int kTries = 40;      // to find a place for a leak or an opening
+constexpr int kTries = 40;  // to find a place for a leak or the start
+constexpr double kRateStep_ppm_per_s = 50.0;
+constexpr int kMinRate_steps = 12;
+constexpr int kUsualRate_steps = 16;
+constexpr int kMaxRate_steps = 40;  // 600, 800 and 2000 ppm/s
 
 struct Spot {
   int x = 0;
@@ -34,280 +35,194 @@ struct Spot {
 
 int Distance(const Spot& a, const Spot& b) { return std::abs(a.x - b.x) + std::abs(a.y - b.y); }
 
-// Opening in the outer wall of a room.
-struct Window {
-  Side side = Side::kWest;
-  int from = 0;
-  int width = 0;
-  std::size_t room = 0;
-  UnitRect zone;  // before it, inside
+Spot MiddleOf(const UnitRect& rect) { return {(rect.x0 + rect.x1) / 2, (rect.y0 + rect.y1) / 2}; }
 
-  Spot middle() const { return {(zone.x0 + zone.x1) / 2, (zone.y0 + zone.y1) / 2}; }
+// The door's gap.
+UnitRect GapOf(const Partition& wall, const PlanDoor& door) {
+  UnitRect gap = wall.solid;
+  (wall.vertical ? gap.y0 : gap.x0) = door.from;
+  (wall.vertical ? gap.y1 : gap.x1) = door.from + door.width;
+  return gap;
+}
+
+struct Leak {
+  Spot spot;
+  std::size_t room = 0;
+  double rate_ppm_per_s = 0.0;
 };
 
-// One attempt at a building.
-class Building {
+// Furnishes a ventilated building and puts leaks and the start into it.
+class Interior {
  public:
-  Building(FloorPlan plan, Rng& rng) : plan_(std::move(plan)), rng_(rng) {}
+  Interior(const FloorPlan& plan, const Ventilation& air, Rng& rng)
+      : plan_(plan), air_(air), rng_(rng) {}
 
   // Whether all found a place.
-  bool Fill(const GeneratorOptions& options) {
-    if (!DrawWindows()) return false;
+  bool Draw(int max_leaks) {
     std::vector<UnitRect> clear = DoorZones();
-    for (const Window& window : windows_) clear.push_back(window.zone);
+    for (const Window& window : air_.windows) clear.push_back(window.zone);
     furniture_ = DrawFurniture(plan_, clear, rng_);
-    return DrawStart() && DrawSources(options.max_sources);
+    return DrawLeaks(max_leaks) && DrawStart();
   }
 
-  Layout ToLayout(std::string name) const;
+  const std::vector<UnitRect>& furniture() const { return furniture_; }
+  const std::vector<Leak>& leaks() const { return leaks_; }
+  const Spot& start() const { return start_; }
 
  private:
+  // Kept clear on both sides of doors.
   std::vector<UnitRect> DoorZones() const {
+    constexpr int kDepth = 6;  // 1.2 m
     std::vector<UnitRect> zones;
     for (const Partition& wall : plan_.partitions) {
       for (const PlanDoor& door : wall.doors) {
-        UnitRect zone = wall.solid;
-        (wall.vertical ? zone.y0 : zone.x0) = door.from;
-        (wall.vertical ? zone.y1 : zone.x1) = door.from + door.width;
-        (wall.vertical ? zone.x0 : zone.y0) -= kDoorZone;
-        (wall.vertical ? zone.x1 : zone.y1) += kDoorZone;
+        UnitRect zone = GapOf(wall, door);
+        (wall.vertical ? zone.x0 : zone.y0) -= kDepth;
+        (wall.vertical ? zone.x1 : zone.y1) += kDepth;
         zones.push_back(zone);
       }
     }
     return zones;
   }
 
-  // Somewhere in the outer wall; nothing if the room drawn does not lie at the side drawn.
-  std::optional<Window> DrawWindow();
-  bool DrawWindows();
-  bool AddInlet();
-  // Of several draws the one farthest from the inlets, which sends the air through the building.
-  bool AddOutlet();
-  bool IsApart(const Window& window) const;
-  int DistanceToInlets(const Window& window) const;
-
-  // A spot in the open of this room.
-  std::optional<Spot> DrawSpot(const UnitRect& floor);
-  bool DrawStart();
-  bool DrawSources(int max_sources);
-  bool AddSource();
-
-  FloorPlan plan_;
-  Rng& rng_;
-  std::vector<Window> windows_;
-  std::size_t inlets_ = 0;  // the first ones of windows_
-  std::vector<double> inflow_mps_;
-  std::vector<UnitRect> furniture_;
-  Spot start_;
-  std::size_t start_room_ = 0;
-  double start_yaw_rad_ = 0.0;
-  std::vector<Spot> sources_;
-  std::vector<double> rates_ppm_per_s_;
-};
-
-std::optional<Window> Building::DrawWindow() {
-  constexpr int kMargin = 2;
-  Window window;
-  window.room = rng_.Below(plan_.rooms.size());
-  window.side = static_cast<Side>(rng_.Below(4));
-  window.width = DrawInt(rng_, 4, 9);  // 0.8 to 1.8 m
-  const UnitRect& floor = plan_.rooms[window.room].floor;
-  const bool along_y = window.side == Side::kWest || window.side == Side::kEast;
-  const int low = (along_y ? floor.y0 : floor.x0) + kMargin;
-  const int high = (along_y ? floor.y1 : floor.x1) - kMargin - window.width;
-  if (high < low) return std::nullopt;
-  window.from = DrawInt(rng_, low, high);
-  window.zone = floor;
-  (along_y ? window.zone.y0 : window.zone.x0) = window.from;
-  (along_y ? window.zone.y1 : window.zone.x1) = window.from + window.width;
-  bool outer = false;
-  switch (window.side) {
-    case Side::kWest:
-      outer = floor.x0 == 1;
-      window.zone.x1 = floor.x0 + kWindowZone;
-      break;
-    case Side::kEast:
-      outer = floor.x1 == plan_.width - 1;
-      window.zone.x0 = floor.x1 - kWindowZone;
-      break;
-    case Side::kSouth:
-      outer = floor.y0 == 1;
-      window.zone.y1 = floor.y0 + kWindowZone;
-      break;
-    case Side::kNorth:
-      outer = floor.y1 == plan_.height - 1;
-      window.zone.y0 = floor.y1 - kWindowZone;
-      break;
+  // A spot in the open of this room; nothing if furniture is in the way of the draw.
+  std::optional<Spot> DrawSpot(const UnitRect& floor) {
+    constexpr int kClearance = 3;  // 0.6 m
+    const int x = DrawInt(rng_, floor.x0 + kClearance, floor.x1 - kClearance);
+    const int y = DrawInt(rng_, floor.y0 + kClearance, floor.y1 - kClearance);
+    const UnitRect around = UnitRect{x, y, x, y}.Grown(kClearance);
+    const auto overlaps = [&around](const UnitRect& rect) { return rect.Overlaps(around); };
+    if (std::any_of(furniture_.begin(), furniture_.end(), overlaps)) return std::nullopt;
+    return Spot{x, y};
   }
-  return outer ? std::optional(window) : std::nullopt;
-}
 
-bool Building::IsApart(const Window& window) const {
-  return std::none_of(windows_.begin(), windows_.end(), [&window](const Window& other) {
-    return other.zone.Grown(kPassage_units).Overlaps(window.zone);
-  });
-}
-
-int Building::DistanceToInlets(const Window& window) const {
-  int nearest = std::numeric_limits<int>::max();
-  for (std::size_t i = 0; i < inlets_; ++i) {
-    const int distance = Distance(windows_[i].middle(), window.middle());
-    // Air that leaves the room it enters passes no other.
-    nearest = std::min(nearest, windows_[i].room == window.room ? 0 : distance);
-  }
-  return nearest;
-}
-
-bool Building::AddInlet() {
-  // Of air through a metre of height: what doors can take without a gale in them.
-  constexpr double kMaxFlow_m2_per_s = 3.0;
-  for (int i = 0; i < kTries; ++i) {
-    const std::optional<Window> window = DrawWindow();
-    const double speed_mps = DrawInt(rng_, 5, 30) / 10.0;
-    if (!window || !IsApart(*window)) continue;
-    const double width_m = static_cast<double>(window->width) / kUnitsPerM;
-    if (speed_mps * width_m > kMaxFlow_m2_per_s) continue;
-    windows_.push_back(*window);
-    inflow_mps_.push_back(speed_mps);
-    ++inlets_;
+  // As many as the air can carry off: once mixed with all of it they make this much on average.
+  // Above it most of the building turns critical.
+  bool DrawLeaks(int max_leaks) {
+    constexpr double kMixed_ppm = 7.0;
+    constexpr double kDepth_m = 2.05;            // GasParameters::mixing_depth_m
+    constexpr double kRelease_m3 = 0.015749610;  // (2 pi)^(3/2) sigma_0^3, of GasParameters
+    const double carried_ppm_per_s = kMixed_ppm * kDepth_m * air_.Flow_m2_per_s() / kRelease_m3;
+    const int carried = static_cast<int>(carried_ppm_per_s / kRateStep_ppm_per_s);
+    const int count = DrawInt(rng_, 1, std::clamp(carried / kUsualRate_steps, 1, max_leaks));
+    const int high = std::clamp(carried / count, kMinRate_steps, kMaxRate_steps);
+    for (int i = 0; i < count; ++i) {
+      if (!AddLeak(kRateStep_ppm_per_s * DrawInt(rng_, kMinRate_steps, high))) return false;
+    }
     return true;
   }
-  return false;
-}
 
-bool Building::AddOutlet() {
-  constexpr int kGood = 4;  // draws that are compared
-  const int least = std::min(plan_.width, plan_.height) / 3;
-  std::optional<Window> best;
-  int best_distance = least;
-  for (int i = 0, good = 0; i < kTries && good < kGood; ++i) {
-    const std::optional<Window> window = DrawWindow();
-    if (!window || !IsApart(*window)) continue;
-    ++good;
-    const int distance = DistanceToInlets(*window);
-    if (distance <= best_distance) continue;
-    best = window;
-    best_distance = distance;
+  // Apart from the others and from windows, not in the fresh room.
+  bool AddLeak(double rate_ppm_per_s) {
+    constexpr int kApart = 3 * kUnitsPerM;
+    for (int i = 0; i < kTries; ++i) {
+      const std::size_t room = rng_.Below(plan_.rooms.size());
+      if (room == air_.fresh_room) continue;
+      const std::optional<Spot> spot = DrawSpot(plan_.rooms[room].floor);
+      if (!spot) continue;
+      const bool apart = std::none_of(leaks_.begin(), leaks_.end(), [&](const Leak& other) {
+        return Distance(other.spot, *spot) < kApart;
+      });
+      const bool away =
+          std::none_of(air_.windows.begin(), air_.windows.end(), [&](const Window& window) {
+            return Distance(MiddleOf(window.zone), *spot) < kApart / 2;
+          });
+      if (!apart || !away) continue;
+      leaks_.push_back({*spot, room, rate_ppm_per_s});
+      return true;
+    }
+    return false;
   }
-  if (best) windows_.push_back(*best);
-  return best.has_value();
-}
 
-bool Building::DrawWindows() {
-  const int inlets = DrawInt(rng_, 1, 2);
-  for (int i = 0; i < inlets; ++i) {
-    if (!AddInlet()) return false;
-  }
-  const int outlets = DrawInt(rng_, 1, 3);
-  for (int i = 0; i < outlets; ++i) {
-    if (!AddOutlet()) return false;
-  }
-  return true;
-}
-
-std::optional<Spot> Building::DrawSpot(const UnitRect& floor) {
-  const Spot spot{DrawInt(rng_, floor.x0 + kClearance, floor.x1 - kClearance),
-                  DrawInt(rng_, floor.y0 + kClearance, floor.y1 - kClearance)};
-  const UnitRect around = UnitRect{spot.x, spot.y, spot.x, spot.y}.Grown(kClearance);
-  const auto overlaps = [&around](const UnitRect& rect) { return rect.Overlaps(around); };
-  if (std::any_of(furniture_.begin(), furniture_.end(), overlaps)) return std::nullopt;
-  return spot;
-}
-
-bool Building::DrawStart() {
-  start_room_ = windows_[rng_.Below(inlets_)].room;
-  start_yaw_rad_ = DrawInt(rng_, -314, 314) / 100.0;
-  for (int i = 0; i < kTries; ++i) {
-    if (const std::optional<Spot> spot = DrawSpot(plan_.rooms[start_room_].floor)) {
+  bool DrawStart() {
+    for (int i = 0; i < kTries; ++i) {
+      const std::optional<Spot> spot = DrawSpot(plan_.rooms[air_.fresh_room].floor);
+      if (!spot || !IsClean(*spot)) continue;
       start_ = *spot;
       return true;
     }
+    return false;
   }
-  return false;
-}
 
-bool Building::AddSource() {
-  constexpr int kApart = 3 * kUnitsPerM;
-  for (int i = 0; i < kTries; ++i) {
-    const std::size_t room = rng_.Below(plan_.rooms.size());
-    if (room == start_room_) continue;
-    const std::optional<Spot> spot = DrawSpot(plan_.rooms[room].floor);
-    if (!spot) continue;
-    const bool apart = std::none_of(sources_.begin(), sources_.end(), [&](const Spot& other) {
-      return Distance(other, *spot) < kApart;
-    });
-    const bool away = std::none_of(windows_.begin(), windows_.end(), [&](const Window& window) {
-      return Distance(window.middle(), *spot) < kApart / 2;
-    });
-    if (!apart || !away) continue;
-    sources_.push_back(*spot);
-    rates_ppm_per_s_.push_back(50.0 * DrawInt(rng_, 12, 40));  // 600 to 2000
+  // Gas seeps through the doors of rooms with a leak, against the wind too.
+  bool IsClean(const Spot& spot) const {
+    constexpr int kReach = 3 * kUnitsPerM;
+    for (const Partition& wall : plan_.partitions) {
+      for (const PlanDoor& door : wall.doors) {
+        const auto a = static_cast<std::size_t>(door.room_a);
+        const auto b = static_cast<std::size_t>(door.room_b);
+        const bool seeps =
+            (a == air_.fresh_room && HasLeak(b)) || (b == air_.fresh_room && HasLeak(a));
+        if (seeps && Distance(MiddleOf(GapOf(wall, door)), spot) < kReach) return false;
+      }
+    }
     return true;
   }
-  return false;
-}
 
-bool Building::DrawSources(int max_sources) {
-  const int count = DrawInt(rng_, 1, max_sources);
-  for (int i = 0; i < count; ++i) {
-    if (!AddSource()) return false;
+  bool HasLeak(std::size_t room) const {
+    return std::any_of(leaks_.begin(), leaks_.end(),
+                       [room](const Leak& leak) { return leak.room == room; });
   }
-  return true;
-}
 
+  const FloorPlan& plan_;
+  const Ventilation& air_;
+  Rng& rng_;
+  std::vector<UnitRect> furniture_;
+  std::vector<Leak> leaks_;
+  Spot start_;
+};
+
+// Quotients, so that they are the doubles nearest to the decimals.
 double Meters(int units) { return static_cast<double>(units) / kUnitsPerM; }
-Point2 PointAt(int x, int y) { return {Meters(x), Meters(y)}; }
+double HalfMeters(int half_units) { return static_cast<double>(half_units) / (2 * kUnitsPerM); }
 
 Wall ToWall(const Partition& partition) {
   const UnitRect& solid = partition.solid;
   Wall wall;
-  wall.thickness_m = 1.0 / kUnitsPerM;
-  // Twice the units are whole numbers at the wall's middle, so that it prints as 3.5, not 3.4999.
-  const double middle_m =
-      static_cast<double>(2 * (partition.vertical ? solid.x0 : solid.y0) + 1) / (2 * kUnitsPerM);
+  wall.thickness_m = Meters(1);
   if (partition.vertical) {
-    wall.from = {middle_m, Meters(solid.y0)};
-    wall.to = {middle_m, Meters(solid.y1)};
+    wall.from = {HalfMeters(solid.x0 + solid.x1), Meters(solid.y0)};
+    wall.to = {HalfMeters(solid.x0 + solid.x1), Meters(solid.y1)};
   } else {
-    wall.from = {Meters(solid.x0), middle_m};
-    wall.to = {Meters(solid.x1), middle_m};
+    wall.from = {Meters(solid.x0), HalfMeters(solid.y0 + solid.y1)};
+    wall.to = {Meters(solid.x1), HalfMeters(solid.y0 + solid.y1)};
   }
   const int begin = partition.vertical ? solid.y0 : solid.x0;
   for (const PlanDoor& door : partition.doors) {
-    const double at_m =
-        static_cast<double>(2 * (door.from - begin) + door.width) / (2 * kUnitsPerM);
-    wall.doors.push_back({at_m, Meters(door.width)});
+    wall.doors.push_back({HalfMeters(2 * (door.from - begin) + door.width), Meters(door.width)});
   }
   return wall;
 }
 
-Layout Building::ToLayout(std::string name) const {
+Layout ToLayout(const FloorPlan& plan, const Ventilation& air, const Interior& interior) {
   Layout layout;
-  layout.name = std::move(name);
-  layout.size_x_m = Meters(plan_.width);
-  layout.size_y_m = Meters(plan_.height);
+  layout.size_x_m = Meters(plan.width);
+  layout.size_y_m = Meters(plan.height);
   layout.border_m = Meters(1);
-  for (const Partition& partition : plan_.partitions) layout.walls.push_back(ToWall(partition));
-  for (const UnitRect& piece : furniture_) {
-    layout.boxes.push_back({PointAt(piece.x0, piece.y0), PointAt(piece.x1, piece.y1)});
+  for (const Partition& partition : plan.partitions) layout.walls.push_back(ToWall(partition));
+  for (const UnitRect& piece : interior.furniture()) {
+    layout.boxes.push_back(
+        {{Meters(piece.x0), Meters(piece.y0)}, {Meters(piece.x1), Meters(piece.y1)}});
   }
-  for (std::size_t i = 0; i < windows_.size(); ++i) {
-    const Window& window = windows_[i];
-    Opening opening{window.side, Meters(window.from), Meters(window.from + window.width), {}};
-    if (i < inlets_) opening.inflow_mps = inflow_mps_[i];
-    layout.openings.push_back(opening);
+  for (const Window& window : air.windows) {
+    layout.openings.push_back(
+        {window.side, Meters(window.from), Meters(window.from + window.width), window.inflow_mps});
   }
-  for (std::size_t i = 0; i < sources_.size(); ++i) {
-    const Point2 at = PointAt(sources_[i].x, sources_[i].y);
-    layout.sources.push_back(
-        {static_cast<int>(i), at.x_m, at.y_m, layout.sensor_height_m, rates_ppm_per_s_[i]});
+  for (const Leak& leak : interior.leaks()) {
+    GasSource source;
+    source.id = static_cast<int>(layout.sources.size());
+    source.x_m = Meters(leak.spot.x);
+    source.y_m = Meters(leak.spot.y);
+    source.z_m = layout.sensor_height_m;
+    source.rate_ppm_per_s = leak.rate_ppm_per_s;
+    layout.sources.push_back(source);
   }
-  const Point2 start = PointAt(start_.x, start_.y);
-  layout.start_pose = {start.x_m, start.y_m, start_yaw_rad_};
+  layout.start_pose.x_m = Meters(interior.start().x);
+  layout.start_pose.y_m = Meters(interior.start().y);
   return layout;
 }
 
-// From few large halls to many small rooms, at least three.
+// From few large halls to many small rooms, at least about three.
 FloorPlanStyle DrawStyle(int width, int height, Rng& rng) {
   constexpr int kRoomArea_m2 = 14;
   constexpr int kHallArea_m2 = 110;
@@ -319,8 +234,9 @@ FloorPlanStyle DrawStyle(int width, int height, Rng& rng) {
   return style;
 }
 
-// The free cells 0.2 m off everything are one space, and not far from all others.
+// Whether the free cells a robot's radius off everything are one space.
 bool SuitsARobot(const Layout& layout) {
+  constexpr double kRadius_m = 0.2;  // [XIT] Table I, inflation
   const absl::StatusOr<LayoutRaster> raster = Rasterize(layout);
   if (!raster.ok()) return false;
   const Grid<CellState>& occupancy = raster->occupancy;
@@ -328,11 +244,11 @@ bool SuitsARobot(const Layout& layout) {
   for (std::size_t i = 0; i < occupied.size(); ++i) {
     occupied[i] = occupancy[i] == CellState::kOccupied ? 1 : 0;
   }
-  const double inflation_cells = 0.2 / layout.resolution_m;
+  const double radius_cells = kRadius_m / layout.resolution_m;
   const Grid<std::int32_t> distance = SquaredDistances_cells2(occupied);
   Grid<std::uint8_t> traversable(occupancy.geometry());
   for (std::size_t i = 0; i < traversable.size(); ++i) {
-    traversable[i] = distance[i] > inflation_cells * inflation_cells ? 1 : 0;
+    traversable[i] = distance[i] > radius_cells * radius_cells ? 1 : 0;
   }
   const Cell start = occupancy.geometry().CellAt(layout.start_pose.position());
   return ReachableCells(traversable, {start}, Connectivity::kFour) == traversable;
@@ -340,16 +256,21 @@ bool SuitsARobot(const Layout& layout) {
 
 std::optional<Layout> TryLayout(const std::string& name, const GeneratorOptions& options,
                                 Rng& rng) {
-  const int width =
-      DrawInt(rng, options.min_size_m * kUnitsPerM, options.max_size_x_m * kUnitsPerM);
-  const int height =
-      DrawInt(rng, options.min_size_m * kUnitsPerM, options.max_size_y_m * kUnitsPerM);
+  const auto draw_side = [&rng, &options](int max_m) {
+    return DrawInt(rng, options.min_size_m * kUnitsPerM, max_m * kUnitsPerM);
+  };
+  const int width = draw_side(options.max_size_x_m);
+  const int height = draw_side(options.max_size_y_m);
   const FloorPlanStyle style = DrawStyle(width, height, rng);
-  std::optional<FloorPlan> plan = DrawFloorPlan(width, height, style, rng);
-  if (!plan) return std::nullopt;
-  Building building(*std::move(plan), rng);
-  if (!building.Fill(options)) return std::nullopt;
-  Layout layout = building.ToLayout(name);
+  const std::optional<FloorPlan> plan = DrawFloorPlan(width, height, style, rng);
+  if (!plan || plan->rooms.size() < 2) return std::nullopt;
+  const std::optional<Ventilation> air = DrawVentilation(*plan, rng);
+  if (!air) return std::nullopt;
+  Interior interior(*plan, *air, rng);
+  if (!interior.Draw(options.max_sources)) return std::nullopt;
+  Layout layout = ToLayout(*plan, *air, interior);
+  layout.name = name;
+  layout.start_pose.yaw_rad = DrawInt(rng, -314, 314) / 100.0;
   if (!SuitsARobot(layout)) return std::nullopt;
   return layout;
 }
@@ -359,7 +280,7 @@ std::optional<Layout> TryLayout(const std::string& name, const GeneratorOptions&
 Layout GenerateLayout(std::uint64_t seed, const GeneratorOptions& options) {
   const std::string name = absl::StrCat("generated_", seed);
   Rng rng(seed);
-  while (true) {  // most draws suit
+  while (true) {  // one draw in some suits
     if (std::optional<Layout> layout = TryLayout(name, options, rng)) return *std::move(layout);
   }
 }

@@ -116,14 +116,20 @@ absl::Status CutOpenings(const Layout& layout, FlowDomain& flow) {
     PLUMESCOUT_RETURN_IF_ERROR(
         CutOpening(absl::StrCat("openings[", i, "]"), opening, BorderCells(layout), flow));
   }
-  if (!inlet || outlet) return absl::OkStatus();
-  return absl::InvalidArgumentError("openings must include an outlet if one has inflow_mps");
+  const bool blown = inlet || !layout.fans.empty();
+  if (layout.openings.empty() || (blown && outlet)) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      blown ? "openings must include an outlet, one without inflow_mps"
+            : "openings must include an inlet, one with inflow_mps; without openings air rests");
 }
 
-absl::Status CheckOpen(const std::string& field, Point2 point, const Grid<std::uint8_t>& open) {
-  if (open.At(open.geometry().CellAt(point), 0) != 0) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat(field, " (", point.x_m, ", ", point.y_m,
-                                                 ") is not in the space around the start"));
+absl::Status CheckOpen(const std::string& field, Point2 point, const Grid<std::uint8_t>& open,
+                       const Grid<std::uint8_t>& reachable) {
+  const Cell cell = open.geometry().CellAt(point);
+  if (reachable.At(cell, 0) != 0) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      absl::StrCat(field, " (", point.x_m, ", ", point.y_m, ") ",
+                   open.At(cell, 0) != 0 ? "is cut off from the start" : "lies in a wall or box"));
 }
 
 }  // namespace
@@ -133,11 +139,12 @@ absl::StatusOr<LayoutRaster> Rasterize(const Layout& layout) {
   const Grid<std::uint8_t> open = OpenCells(layout);
   const Cell start = open.geometry().CellAt(layout.start_pose.position());
   const Grid<std::uint8_t> reachable = ReachableCells(open, {start}, Connectivity::kFour);
-  PLUMESCOUT_RETURN_IF_ERROR(CheckOpen("start_pose", layout.start_pose.position(), reachable));
+  PLUMESCOUT_RETURN_IF_ERROR(
+      CheckOpen("start_pose", layout.start_pose.position(), open, reachable));
   for (std::size_t i = 0; i < layout.sources.size(); ++i) {
     const GasSource& source = layout.sources[i];
     PLUMESCOUT_RETURN_IF_ERROR(
-        CheckOpen(absl::StrCat("sources[", i, "]"), {source.x_m, source.y_m}, reachable));
+        CheckOpen(absl::StrCat("sources[", i, "]"), {source.x_m, source.y_m}, open, reachable));
   }
   LayoutRaster raster;
   raster.flow.fluid = reachable;

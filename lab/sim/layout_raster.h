@@ -18,7 +18,8 @@ struct LayoutRaster {
 
 // A cell is solid if its centre is. Free cells that no way leads to from the start become occupied.
 // Errors, kInvalidArgument: Validate's; the start or a source not in the open; an opening that
-// leads into a wall; inlets without an outlet; those of AddFans.
+// leads into a wall or overlaps another; inlets without an outlet; openings without an inlet,
+// unless fans move the air; those of AddFans.
 absl::StatusOr<LayoutRaster> Rasterize(const Layout& layout);
 
 }  // namespace plumescout::lab

@@ -19,8 +19,9 @@ namespace {
 
 constexpr std::uint64_t kMaxYamlBytes = 1 << 20;
 
-absl::Status Mistyped(const std::string& path, const char* expected) {
-  return absl::InvalidArgumentError(absl::StrCat(path, " must be ", expected));
+absl::Status Mistyped(const YAML::Node& node, const std::string& path, const char* expected) {
+  const std::string value = node.IsScalar() ? absl::StrCat(" = ", node.Scalar()) : "";
+  return absl::InvalidArgumentError(absl::StrCat(path, value, " must be ", expected));
 }
 
 struct Key {
@@ -30,7 +31,7 @@ struct Key {
 using Keys = std::map<std::string, Key>;
 
 absl::Status ReadMap(const YAML::Node& node, const std::string& path, const Keys& keys) {
-  if (!node.IsMap()) return Mistyped(path.empty() ? "the layout" : path, "a map");
+  if (!node.IsMap()) return Mistyped(node, path.empty() ? "the layout" : path, "a map");
   const std::string prefix = path.empty() ? "" : path + ".";
   std::set<std::string> seen;
   for (const auto& entry : node) {
@@ -51,7 +52,8 @@ absl::Status ReadMap(const YAML::Node& node, const std::string& path, const Keys
 }
 
 absl::Status Read(const YAML::Node& node, const std::string& path, double& value) {
-  return YAML::convert<double>::decode(node, value) ? absl::OkStatus() : Mistyped(path, "a number");
+  return YAML::convert<double>::decode(node, value) ? absl::OkStatus()
+                                                    : Mistyped(node, path, "a number");
 }
 
 absl::Status Read(const YAML::Node& node, const std::string& path, std::optional<double>& value) {
@@ -59,7 +61,7 @@ absl::Status Read(const YAML::Node& node, const std::string& path, std::optional
 }
 
 absl::Status Read(const YAML::Node& node, const std::string& path, std::string& value) {
-  if (!node.IsScalar()) return Mistyped(path, "text");
+  if (!node.IsScalar()) return Mistyped(node, path, "text");
   value = node.Scalar();
   return absl::OkStatus();
 }
@@ -68,17 +70,13 @@ absl::Status Read(const YAML::Node& node, const std::string& path, Point2& value
   const bool pair = node.IsSequence() && node.size() == 2 &&
                     YAML::convert<double>::decode(node[0], value.x_m) &&
                     YAML::convert<double>::decode(node[1], value.y_m);
-  return pair ? absl::OkStatus() : Mistyped(path, "two numbers [x, y]");
+  return pair ? absl::OkStatus() : Mistyped(node, path, "two numbers [x, y]");
 }
 
 absl::Status Read(const YAML::Node& node, const std::string& path, Side& value) {
-  static const std::map<std::string, Side> kSides = {{"west", Side::kWest},
-                                                     {"east", Side::kEast},
-                                                     {"south", Side::kSouth},
-                                                     {"north", Side::kNorth}};
-  const auto side = node.IsScalar() ? kSides.find(node.Scalar()) : kSides.end();
-  if (side == kSides.end()) return Mistyped(path, "west, east, south or north");
-  value = side->second;
+  const std::optional<Side> side = node.IsScalar() ? SideNamed(node.Scalar()) : std::nullopt;
+  if (!side) return Mistyped(node, path, "west, east, south or north");
+  value = *side;
   return absl::OkStatus();
 }
 
@@ -123,11 +121,20 @@ absl::Status Read(const YAML::Node& node, const std::string& path, Fan& fan) {
                   {"speed_mps", Required(fan.speed_mps)}});
 }
 
+absl::Status Read(const YAML::Node& node, const std::string& path, ReleaseSchedule& release) {
+  return ReadMap(node, path,
+                 {{"start_s", Optional(release.start_s)},
+                  {"end_s", Optional(release.end_s)},
+                  {"on_s", Optional(release.on_s)},
+                  {"off_s", Optional(release.off_s)}});
+}
+
 absl::Status Read(const YAML::Node& node, const std::string& path, GasSource& source) {
   Point2 position;
-  PLUMESCOUT_RETURN_IF_ERROR(ReadMap(
-      node, path,
-      {{"position_m", Required(position)}, {"rate_ppm_per_s", Required(source.rate_ppm_per_s)}}));
+  PLUMESCOUT_RETURN_IF_ERROR(ReadMap(node, path,
+                                     {{"position_m", Required(position)},
+                                      {"rate_ppm_per_s", Required(source.rate_ppm_per_s)},
+                                      {"release", Optional(source.release)}}));
   source.x_m = position.x_m;
   source.y_m = position.y_m;
   return absl::OkStatus();
@@ -151,7 +158,7 @@ absl::Status Read(const YAML::Node& node, const std::string& path, GasParameters
 
 template <typename T>
 absl::Status Read(const YAML::Node& node, const std::string& path, std::vector<T>& values) {
-  if (!node.IsSequence()) return Mistyped(path, "a list");
+  if (!node.IsSequence()) return Mistyped(node, path, "a list");
   values.resize(node.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     PLUMESCOUT_RETURN_IF_ERROR(Read(node[i], absl::StrCat(path, "[", i, "]"), values[i]));

@@ -9,7 +9,8 @@
 
 namespace plumescout::lab {
 
-// Reads a layout from YAML; lab/scenes/industrial_16x20.yaml shows every key. Positions are [x, y].
+// Reads a layout from YAML; lab/scenes/industrial_16x20.yaml shows every key but `release`,
+// which a source may have: a map of any of start_s, end_s, on_s, off_s. Positions are [x, y].
 // The result is valid. Errors are kInvalidArgument: YAML that does not parse (with line and
 // column), an unknown, repeated, missing or mistyped key (by its path, "walls[2].thickness_m"), a
 // value out of range.

@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
-#include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "core/types/status_macros.h"
 #include "lab/sim/concentration_slice.h"
+#include "lab/sim/frame_recorder.h"
 #include "lab/sim/layout_raster.h"
 #include "lab/sim/mac_field.h"
 #include "lab/sim/plume.h"
@@ -23,8 +22,6 @@ constexpr double kWindShare = 0.3;  // of the whole work, for the progress bar
 constexpr double kMaxWarmUp_s = 3600.0;
 constexpr int kMaxFrames = 10'000;
 constexpr double kMaxFramePeriod_s = 60.0;
-// Half a count is an error of 0.025 ppm, below any sensor's limit; the range ends at 3277 ppm.
-constexpr double kScale_ppm_per_count = 0.05;
 
 absl::Status OutOfRange(const char* field, double value, const char* range) {
   return absl::InvalidArgumentError(absl::StrCat(field, " = ", value, " must be ", range));
@@ -41,66 +38,14 @@ WindField CellWind(const MacField& field, const Grid<CellState>& occupancy) {
   return wind;
 }
 
-// Collects frames: the series, and sums for the means.
-class FrameRecorder {
- public:
-  FrameRecorder(const GridGeometry& geometry, std::size_t sources, const SceneMakerOptions& options)
-      : geometry_(geometry),
-        sums_(sources, std::vector<double>(geometry.size())),
-        squares_(geometry.size()) {
-    series_.dt_s = options.frame_period_s;
-    series_.scale_ppm_per_count = kScale_ppm_per_count;
-    series_.counts.reserve(static_cast<std::size_t>(options.frames) * geometry.size());
-  }
-
-  void Add(const std::vector<Grid<float>>& layers) {
-    for (std::size_t i = 0; i < geometry_.size(); ++i) {
-      double total = 0.0;
-      for (std::size_t s = 0; s < layers.size(); ++s) {
-        sums_[s][i] += layers[s][i];
-        total += layers[s][i];
-      }
-      squares_[i] += total * total;
-      const double counts = std::round(total / kScale_ppm_per_count);
-      constexpr double kMaxCount = std::numeric_limits<std::uint16_t>::max();
-      series_.counts.push_back(static_cast<std::uint16_t>(std::min(counts, kMaxCount)));
-    }
-    ++series_.frames;
-  }
-
-  // REQUIRES: at least one frame.
-  void MoveTo(Scene& scene) {
-    scene.conc_mean_ppm = Grid<float>(geometry_);
-    scene.conc_std_ppm = Grid<float>(geometry_);
-    scene.conc_mean_by_source_ppm.assign(sums_.size(), Grid<float>(geometry_));
-    for (std::size_t i = 0; i < geometry_.size(); ++i) {
-      double mean = 0.0;
-      for (std::size_t s = 0; s < sums_.size(); ++s) {
-        const double mean_of_source = sums_[s][i] / series_.frames;
-        scene.conc_mean_by_source_ppm[s][i] = static_cast<float>(mean_of_source);
-        mean += mean_of_source;
-      }
-      scene.conc_mean_ppm[i] = static_cast<float>(mean);
-      const double variance = std::max(0.0, squares_[i] / series_.frames - mean * mean);
-      scene.conc_std_ppm[i] = static_cast<float>(std::sqrt(variance));
-    }
-    scene.series = std::move(series_);
-  }
-
- private:
-  GridGeometry geometry_;
-  ConcentrationSeries series_;
-  std::vector<std::vector<double>> sums_;  // by source and cell
-  std::vector<double> squares_;            // of the sum of all sources, by cell
-};
-
 std::int64_t StepsIn(double duration_s) { return std::llround(duration_s / Plume::kStep_s); }
 
 void BlowGas(const Layout& layout, const LayoutRaster& raster, const MacField& wind,
              const SceneMakerOptions& options, const FractionFn& progress, Scene& scene) {
-  Plume plume(raster, wind, layout.sources, layout.gas, options.seed);
+  Plume plume(raster, wind, layout.sources, layout.gas, options.seed, -options.warm_up_s);
   SliceRenderer renderer(raster.occupancy, layout.sources, layout.gas);
-  FrameRecorder recorder(raster.occupancy.geometry(), layout.sources.size(), options);
+  FrameRecorder recorder(raster.occupancy.geometry(), layout.sources.size(), options.frames,
+                         options.frame_period_s);
   const std::int64_t warm_up = StepsIn(options.warm_up_s);
   const std::int64_t period = StepsIn(options.frame_period_s);
   const std::int64_t all = warm_up + (options.frames - 1) * period;
@@ -120,6 +65,7 @@ Scene SceneOf(const Layout& layout, const LayoutRaster& raster) {
   scene.sensor_height_m = layout.sensor_height_m;
   scene.occupancy = raster.occupancy;
   scene.sources = layout.sources;
+  scene.openings = layout.openings;
   scene.start_pose = layout.start_pose;
   scene.critical_threshold_ppm = layout.critical_threshold_ppm;
   return scene;

@@ -16,7 +16,7 @@ namespace plumescout::lab {
 
 struct SceneMakerOptions {
   WindOptions wind;
-  double warm_up_s = 180.0;     // of release before frame 0, [0, 3600]
+  double warm_up_s = 180.0;     // before frame 0, [0, 3600]: sources that always release do
   int frames = 600;             // [1, 10000]; 600 at 2 Hz are the 5 minutes of [XIT] section VI-B
   double frame_period_s = 0.5;  // a whole number of Plume::kStep_s, (0, 60]
   std::uint64_t seed = 1;
@@ -29,8 +29,9 @@ absl::Status Validate(const SceneMakerOptions& options);
 using ProgressFn = std::function<void(absl::string_view stage, double fraction)>;
 
 // A scene from a layout: its raster, the wind through it, the gas in that wind, as frames and as
-// means over them. The same arguments give the same bytes. Errors: kInvalidArgument from Validate
-// and Rasterize. Cost: 160 x 200 cells with the options' defaults take some 12 s of one core.
+// means over them; schedules of sources count from frame 0. The same arguments give the same bytes.
+// Errors: kInvalidArgument from Validate and Rasterize. Cost: 160 x 200 cells with the options'
+// defaults take some 20 s of one core.
 absl::StatusOr<Scene> MakeScene(const Layout& layout, const SceneMakerOptions& options,
                                 const ProgressFn& progress = nullptr);
 

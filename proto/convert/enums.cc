@@ -27,6 +27,7 @@ constexpr Row<GoalKind, v1::GoalKind> kGoalKinds[] = {
     {GoalKind::kGasFrontier, v1::GOAL_KIND_GAS_FRONTIER},
     {GoalKind::kRandomFreeSpace, v1::GOAL_KIND_RANDOM_FREE_SPACE},
     {GoalKind::kHome, v1::GOAL_KIND_HOME},
+    {GoalKind::kInformation, v1::GOAL_KIND_INFORMATION},
 };
 constexpr Row<FrontierKind, v1::GoalKind> kFrontierKinds[] = {
     {FrontierKind::kOccupancy, v1::GOAL_KIND_OCCUPANCY_FRONTIER},
@@ -77,6 +78,7 @@ constexpr Row<GoalPolicy, v1::GoalPolicy> kGoalPolicies[] = {
     {GoalPolicy::kGasFirst, v1::GOAL_POLICY_GAS_FIRST},
     {GoalPolicy::kOccupancyFirst, v1::GOAL_POLICY_OCCUPANCY_FIRST},
     {GoalPolicy::kOccupancyOnly, v1::GOAL_POLICY_OCCUPANCY_ONLY},
+    {GoalPolicy::kEverything, v1::GOAL_POLICY_EVERYTHING},
 };
 constexpr Row<CostKind, v1::CostKind> kCostKinds[] = {
     {CostKind::kUcb, v1::COST_KIND_UCB},

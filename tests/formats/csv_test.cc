@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "formats/file_io.h"
 #include "tests/support/temp_folder.h"
@@ -44,6 +45,20 @@ TEST(Csv, RowsOfAnotherLengthAreRefused) {
   const TempFolder folder;
   EXPECT_EQ(WriteCsv({{"a", "b"}, {{1}}}, folder.File("a.csv")).code(),
             absl::StatusCode::kInvalidArgument);
+}
+
+TEST(Csv, LabelsComeFirstAndAreQuotedWhereNeedBe) {
+  EXPECT_EQ(Written({{"x"}, {{1}, {2}}, {"row"}, {{"a"}, {"b, c"}}}),
+            "row,x\r\na,1\r\n\"b, c\",2\r\n");
+}
+
+TEST(Csv, RowsWithoutTheirLabelsAreRefused) {
+  const TempFolder folder;
+  for (const std::vector<std::vector<std::string>>& labels :
+       {std::vector<std::vector<std::string>>{}, {{}}, {{"a", "b"}}}) {
+    EXPECT_EQ(WriteCsv({{"x"}, {{1}}, {"row"}, labels}, folder.File("a.csv")).code(),
+              absl::StatusCode::kInvalidArgument);
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,7 @@ TEST_F(SceneFolder, WhatIsWrittenComesBackExactly) {
   EXPECT_EQ(read->series, scene_.series);
   EXPECT_EQ(read->wind, scene_.wind);
   EXPECT_EQ(read->sources, scene_.sources);
+  EXPECT_EQ(read->openings, scene_.openings);
   EXPECT_EQ(read->start_pose, scene_.start_pose);
   EXPECT_EQ(read->critical_threshold_ppm, scene_.critical_threshold_ppm);
 }
@@ -99,19 +101,54 @@ TEST_F(SceneFolder, EveryTruncatedFileIsNamed) {
 
 TEST_F(SceneFolder, AMapThatDoesNotFitIsNamed) {
   Replace("map.yaml", "-0.25", "-0.26");
-  ExpectError(absl::StatusCode::kInvalidArgument, "map.yaml");
+  ExpectError(absl::StatusCode::kInvalidArgument,
+              "map.yaml shows 5 x 4 cells of 0.1 m from (-0.26, 1), by scene.json it must be 5 x 4 "
+              "cells of 0.1 m from (-0.25, 1)");
 }
 
 TEST_F(SceneFolder, ARasterOfAnotherShapeIsNamed) {
   const std::vector<std::size_t> shape = {5, 4};
   ASSERT_TRUE(WriteNpy(path_ + "/conc_std.npy", shape, std::vector<float>(20)).ok());
-  ExpectError(absl::StatusCode::kInvalidArgument, "conc_std.npy");
+  ExpectError(absl::StatusCode::kInvalidArgument,
+              "conc_std.npy: the shape is [5, 4], by scene.json it must be [4, 5]");
 }
 
 TEST_F(SceneFolder, ASeriesOfAnotherLengthIsNamed) {
   Replace("scene.json", "\"frames\": 3", "\"frames\": 4");
   Replace("scene.json", "   3,", "   4,");
-  ExpectError(absl::StatusCode::kDataLoss, "conc_ts.u16.zst");
+  ExpectError(absl::StatusCode::kDataLoss,
+              "conc_ts.u16.zst: the zstd frame holds 120 bytes, expected 160");
+}
+
+TEST_F(SceneFolder, ASeriesThatIsLongerThanSaidIsNamed) {
+  Replace("scene.json", "\"frames\": 3", "\"frames\": 2");
+  Replace("scene.json", "   3,", "   2,");
+  ExpectError(absl::StatusCode::kDataLoss,
+              "conc_ts.u16.zst: the zstd frame holds 120 bytes, expected 80");
+}
+
+TEST_F(SceneFolder, ValuesThatAreNotFiniteOrNegativeAreNamed) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  const struct {
+    const char* file;
+    std::vector<std::size_t> shape;
+    float value;
+    const char* message;
+  } cases[] = {
+      {"conc_mean.npy", {4, 5}, kNan, "conc_mean.npy: the value at [1, 2] is nan"},
+      {"conc_std.npy", {4, 5}, -0.5F, "conc_std.npy: the value at [1, 2] is -0.5"},
+      {"conc_mean_by_source.npy", {2, 4, 5}, -1.0F, "by_source.npy: the value at [0, 1, 2] is -1"},
+      {"wind_uv.npy", {4, 5, 2}, kNan, "wind_uv.npy: the value at [0, 3, 1] is nan"}};
+  for (const auto& bad : cases) {
+    const std::string bytes = *ReadFile(path_ + "/" + bad.file, kNoLimit);
+    std::size_t size = 1;
+    for (const std::size_t side : bad.shape) size *= side;
+    std::vector<float> values(size);
+    values[7] = bad.value;
+    ASSERT_TRUE(WriteNpy(path_ + "/" + bad.file, bad.shape, values).ok());
+    ExpectError(absl::StatusCode::kInvalidArgument, bad.message);
+    ASSERT_TRUE(WriteFile(path_ + "/" + bad.file, bytes).ok());
+  }
 }
 
 TEST_F(SceneFolder, ASeriesTooLargeIsRefusedBeforeItIsUnpacked) {

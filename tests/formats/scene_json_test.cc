@@ -43,6 +43,7 @@ TEST(SceneJson, ReadsEveryField) {
   EXPECT_EQ(scene.start_pose, (Pose2{-1.0, -2.1, WrapAngle_rad(3.5)}));
   EXPECT_EQ(scene.series, (ConcentrationSeries{60, 0.5, 0.05, {}}));
   EXPECT_EQ(scene.critical_threshold_ppm, 2.5);
+  EXPECT_TRUE(scene.openings.empty());
   EXPECT_EQ(description->files.series, "ts.zst");
   EXPECT_EQ(description->files.wind, "wind_uv.npy");
 }
@@ -66,6 +67,46 @@ TEST(SceneJson, WhatIsFormattedComesBackExactly) {
   EXPECT_EQ(description->scene.sources, scene.sources);
   EXPECT_EQ(description->files.series, "s");
   EXPECT_EQ(description->files.wind, "w");
+}
+
+TEST(SceneJson, OpeningsComeBackExactly) {
+  Scene scene = MakeSmallScene();
+  scene.openings = {{Side::kNorth, -0.1, 0.1, 0.3}, {Side::kWest, 1.1, 1.3, std::nullopt}};
+  const auto description = ParseSceneJson(FormatSceneJson(scene, {"s", "w"}));
+  ASSERT_TRUE(description.ok()) << description.status();
+  EXPECT_EQ(description->scene.openings, scene.openings);
+}
+
+TEST(SceneJson, BadOpeningsAreNamed) {
+  const std::string before = "\"stats\":";
+  const auto with = [&before](const std::string& openings) {
+    return "\"openings\": " + openings + ", " + before;
+  };
+  ExpectInvalid(before, with("7"), "openings = 7 must be a list");
+  ExpectInvalid(before, with("[{\"from_m\": 1, \"to_m\": 2}]"), "openings[0].side is missing");
+  ExpectInvalid(before, with("[{\"side\": \"up\", \"from_m\": 1, \"to_m\": 2}]"),
+                "openings[0].side = up");
+  ExpectInvalid(before, with("[{\"side\": \"west\", \"from_m\": 1}]"),
+                "openings[0].to_m is missing");
+}
+
+TEST(SceneJson, SchedulesOfSourcesSurviveARoundTrip) {
+  Scene scene = MakeSmallScene();
+  scene.sources.resize(3);
+  scene.sources[1].release = {-30.0, 60.5, 10.0, 20.0};
+  scene.sources[2].release.end_s = 7.0;
+  const auto description = ParseSceneJson(FormatSceneJson(scene, {"s", {}}));
+  ASSERT_TRUE(description.ok()) << description.status();
+  EXPECT_EQ(description->scene.sources, scene.sources);
+}
+
+TEST(SceneJson, BadSchedulesAreNamed) {
+  const auto expect_invalid = [](const std::string& release, const std::string& message) {
+    ExpectInvalid("\"rate_ppm_per_s\"", "\"release\": " + release + ", \"rate_ppm_per_s\"",
+                  "sources[0].release" + message);
+  };
+  expect_invalid("{\"end_s\": \"soon\"}", ".end_s = \"soon\" must be a number");
+  expect_invalid("{\"start_s\": 5, \"end_s\": 4}", ".end_s = 4 must be after start_s = 5");
 }
 
 TEST(SceneJson, ANameThatIsNoUtf8IsStillWritten) {
@@ -92,19 +133,19 @@ TEST(SceneJson, MissingFieldsAreNamed) {
 }
 
 TEST(SceneJson, FieldsOfAnotherTypeAreNamed) {
-  ExpectInvalid("\"D\"", "4", "name must be a text");
-  ExpectInvalid("0.1,", "\"0.1\",", "resolution_m must be a number");
-  ExpectInvalid("0.1,", "null,", "resolution_m must be a number");
-  ExpectInvalid("\"width\": 11", "\"width\": 11.5", "width must be a whole number");
-  ExpectInvalid("\"sources\": [", "\"sources\": 1, \"s\": [", "sources must be a list");
+  ExpectInvalid("\"D\"", "4", "name = 4 must be a text");
+  ExpectInvalid("0.1,", "\"0.1\",", "resolution_m = \"0.1\" must be a number");
+  ExpectInvalid("0.1,", "null,", "resolution_m = null must be a number");
+  ExpectInvalid("\"width\": 11", "\"width\": 11.5", "width = 11.5 must be a whole number");
+  ExpectInvalid("\"sources\": [", "\"sources\": 1, \"s\": [", "sources = 1 must be a list");
   ExpectInvalid("{\"file\": \"wind_uv.npy\"}", "{\"file\": {}}", "wind.file must be a text");
 }
 
 TEST(SceneJson, ValuesOutOfRangeAreNamed) {
-  ExpectInvalid("\"width\": 11", "\"width\": 0", "width");
+  ExpectInvalid("\"width\": 11", "\"width\": 0", "width = 0");
   ExpectInvalid("\"width\": 11", "\"width\": 8193", "width");
   ExpectInvalid("\"width\": 11", "\"width\": 18446744073709551615", "width");
-  ExpectInvalid("-5.5", "1e10", "origin[0]");
+  ExpectInvalid("-5.5", "1e10", "origin[0] = 10000000000.0 must be");
   ExpectInvalid("\"frames\": 60", "\"frames\": 1000001", "frames");
   ExpectInvalid("[60, 12, 11]", "[60, 11, 12]", "time_series.shape[1]");
 }

@@ -55,16 +55,19 @@ TEST(Scene, RastersOfAnotherGeometryAreInvalid) {
 TEST(Scene, ValuesThatAreNotFiniteOrNegativeAreInvalid) {
   Scene scene = MakeSmallScene();
   scene.conc_std_ppm[std::size_t{3}] = kNan;
-  ExpectInvalid(scene, "conc_std_ppm");
+  ExpectInvalid(scene, "conc_std_ppm = nan in cell (3, 0)");
   scene = MakeSmallScene();
   scene.conc_mean_by_source_ppm[1][std::size_t{3}] = -1.0F;
-  ExpectInvalid(scene, "conc_mean_by_source_ppm");
+  ExpectInvalid(scene, "conc_mean_by_source_ppm = -1 in cell (3, 0)");
   scene = MakeSmallScene();
   scene.wind->u_mps[std::size_t{3}] = std::numeric_limits<float>::infinity();
   ExpectInvalid(scene, "wind.u_mps");
   scene = MakeSmallScene();
   scene.sources[1].rate_ppm_per_s = -1.0;
   ExpectInvalid(scene, "source 7");
+  scene = MakeSmallScene();
+  scene.sources[1].release.start_s = kNan;
+  ExpectInvalid(scene, "source 7: release.start_s = nan");
   scene = MakeSmallScene();
   scene.critical_threshold_ppm = kNan;
   ExpectInvalid(scene, "critical_threshold_ppm");
@@ -73,10 +76,10 @@ TEST(Scene, ValuesThatAreNotFiniteOrNegativeAreInvalid) {
 TEST(Scene, ASeriesThatDoesNotFillItsFramesIsInvalid) {
   Scene scene = MakeSmallScene();
   scene.series.counts.pop_back();
-  ExpectInvalid(scene, "series.counts");
+  ExpectInvalid(scene, "series.counts holds");
   scene = MakeSmallScene();
   scene.series.frames = 0;
-  ExpectInvalid(scene, "series.counts");
+  ExpectInvalid(scene, "series.counts holds");
   scene = MakeSmallScene();
   scene.series.dt_s = 0.0;
   ExpectInvalid(scene, "dt_s");
@@ -93,6 +96,22 @@ TEST(Scene, TheStartMustStandOnAFreeCell) {
   ExpectInvalid(scene, "start_pose");
   scene.start_pose.x_m = kNan;
   ExpectInvalid(scene, "start_pose");
+}
+
+TEST(Scene, OpeningsMustLieApartInTheOuterWalls) {
+  Scene scene = MakeSmallScene();  // covers x from -0.25 to 0.25 m, y from 1 to 1.4 m
+  scene.openings[1] = {Side::kNorth, -0.2, 0.6, {}};
+  ExpectInvalid(scene, "openings[1] from -0.2 to 0.6 m");
+  scene.openings[1] = {Side::kNorth, 0.1, 0.1, {}};
+  ExpectInvalid(scene, "openings[1] from 0.1 to 0.1 m");
+  scene.openings[1] = {Side::kNorth, kNan, 0.1, {}};
+  ExpectInvalid(scene, "openings[1] from nan");
+  scene.openings[1] = {Side::kNorth, -0.1, 0.1, -2.0};
+  ExpectInvalid(scene, "openings[1].inflow_mps = -2");
+  scene.openings[1] = {Side::kWest, 1.15, 1.3, {}};
+  ExpectInvalid(scene, "openings[1] overlaps openings[0]");
+  scene.openings[1] = {Side::kWest, 1.2, 1.3, {}};  // touches
+  EXPECT_EQ(ValidateScene(scene), absl::OkStatus());
 }
 
 TEST(Scene, TheNearestCellAndFrameAreSampled) {

@@ -9,7 +9,8 @@
 
 namespace plumescout {
 
-// A valid scene of 5 x 4 cells with a wall around it, two sources, three frames and wind.
+// A valid scene of 5 x 4 cells with a wall around it, two sources, three frames, wind and two
+// openings.
 inline Scene MakeSmallScene() {
   const GridGeometry geometry{-0.25, 1.0, 0.1, 5, 4};
   Scene scene;
@@ -36,6 +37,7 @@ inline Scene MakeSmallScene() {
   for (std::uint16_t i = 0; i < 3 * 20; ++i) scene.series.counts.push_back(i);
   scene.sources = {{0, 0.0, 1.2, 0.5, 600.0}, {7, 0.1, 1.15, 0.25, 1000.0}};
   scene.start_pose = {0.0, 1.15, 3.1};
+  scene.openings = {{Side::kWest, 1.1, 1.2, 0.5}, {Side::kEast, 1.1, 1.3, {}}};
   return scene;
 }
 

@@ -38,20 +38,23 @@ void Take(const std::vector<OfferedGoal>& offered, std::size_t count, std::vecto
 
 std::vector<Goal> ChooseByPolicy(FrontierGoals frontiers, const PlanningOptions& options, Rng& rng,
                                  std::vector<RejectedGoal>& rejected) {
-  const bool gas_first = options.goals == GoalPolicy::kGasFirst;
+  const bool gas_first = options.goals != GoalPolicy::kOccupancyFirst;
   std::vector<OfferedGoal>& first = gas_first ? frontiers.gas : frontiers.occupancy;
   std::vector<OfferedGoal>& second = gas_first ? frontiers.occupancy : frontiers.gas;
   const auto slots = static_cast<std::size_t>(options.max_goals);
 
-  const std::size_t from_first = options.draw_goals ? std::min(first.size(), slots) : first.size();
-  const std::size_t free_slots = slots - std::min(slots, from_first);
+  const bool everything = options.goals == GoalPolicy::kEverything;
+  const bool limited = options.draw_goals || everything;
+  const std::size_t from_first = limited ? std::min(first.size(), slots) : first.size();
+  const std::size_t free_slots = everything ? slots : slots - std::min(slots, from_first);
   std::size_t from_second = std::min(second.size(), free_slots);
   if (options.draw_goals) {
     DrawToFront(first, from_first, rng);
     DrawToFront(second, from_second, rng);
   } else {
+    if (everything) SortByTravel(first);
     SortByTravel(second);
-    if (first.empty()) from_second = second.size();
+    if (first.empty() && !everything) from_second = second.size();
   }
   std::vector<Goal> chosen;
   Take(first, from_first, chosen, rejected);

@@ -20,6 +20,8 @@ namespace plumescout {
 //                     max_goals filled with the nearest of the second; all of the second if there
 //                     is none of the first. A search to more goals costs next to nothing, and
 //                     nothing is left to luck.
+// Under kEverything (ours) each kind has max_goals slots of its own, for the nearest or, with
+// draw_goals, at random: what a path tells is priced goal by goal, which does cost something.
 std::vector<Goal> ChooseByPolicy(FrontierGoals frontiers, const PlanningOptions& options, Rng& rng,
                                  std::vector<RejectedGoal>& rejected);
 

@@ -9,6 +9,7 @@
 #include "core/plan/goals/frontier_goals.h"
 #include "core/plan/goals/goal_policy.h"
 #include "core/plan/goals/home_goal.h"
+#include "core/plan/goals/information_goals.h"
 #include "core/plan/goals/random_goals.h"
 
 namespace plumescout {
@@ -30,6 +31,10 @@ GoalSet FindGoals(const GoalQuery& query, Rng& rng) {
   GoalSet result;
   result.rejected = std::move(frontiers.rejected);
   result.goals = ChooseByPolicy(std::move(frontiers), query.options, rng, result.rejected);
+  if (query.options.goals == GoalPolicy::kEverything) {
+    const std::vector<Goal> telling = InformationGoals(query);
+    result.goals.insert(result.goals.end(), telling.begin(), telling.end());
+  }
   if (!result.goals.empty()) return result;
 
   result.fallback = true;

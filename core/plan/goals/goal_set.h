@@ -31,7 +31,8 @@ struct GoalSet {
 // Nothing to drive to if the robot is home already, and a rejection if there is no way.
 GoalSet GoHome(const GoalQuery& query);
 
-// Where to go, by options.goals (section VI-B of [XIT]). If no frontier can be offered, places with
+// Where to go, by options.goals (section VI-B of [XIT]); under kEverything also where readings tell
+// much (see InformationGoals). If nothing can be offered, places with
 // unobserved gas are (ours, options.fallback_to_unobserved; not before the first gas reading), then
 // random free ones (section VII); once options.fallback_limit fallbacks in a row revealed nothing,
 // the mission is complete instead. A frontier that another robot is on its way to keeps the mission

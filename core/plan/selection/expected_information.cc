@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/plan/relevance.h"
+
 namespace plumescout {
 namespace {
 
@@ -56,17 +58,8 @@ std::vector<Cell> ReadingCells(const std::vector<Point2>& path, const GridGeomet
   return cells;
 }
 
-ExpectedInformation::ExpectedInformation(const Belief& belief) : belief_(belief) {
-  const std::vector<float>& mean_ppm = belief.gas_mean_ppm->values();
-  auto greatest_ppm = static_cast<float>(belief.options->frontier.min_gas_threshold_ppm);
-  for (const float mean : mean_ppm) greatest_ppm = std::fmax(greatest_ppm, mean);
-  relevance_.reserve(mean_ppm.size());
-  constexpr auto kLeast = static_cast<float>(kLeastRelevance);
-  for (const float mean : mean_ppm) {
-    const float share = std::fmax(0.0F, mean) / greatest_ppm;  // 0 if the mean is not known
-    relevance_.push_back(kLeast + (1.0F - kLeast) * share);
-  }
-}
+ExpectedInformation::ExpectedInformation(const Belief& belief)
+    : belief_(belief), relevance_(Relevance(*belief.gas_mean_ppm, *belief.options)) {}
 
 std::optional<double> ExpectedInformation::Of(const std::vector<Cell>& readings) const {
   if (belief_.gas_what_if == nullptr) return std::nullopt;

@@ -19,9 +19,6 @@ inline constexpr std::size_t kMaxReadings = 256;
 std::vector<Cell> ReadingCells(const std::vector<Point2>& path, const GridGeometry& geometry,
                                const PlanningOptions& options);
 
-// What a cell's entropy is worth: kLeastRelevance without gas, 1 where the mean is greatest.
-inline constexpr double kLeastRelevance = 0.2;
-
 // By how much readings lower the entropy of the gas field, cell by cell, before they are taken: the
 // variance of a Gaussian field depends on where readings are taken and not on what they say, so
 // this is exact. Ours.
@@ -30,8 +27,9 @@ class ExpectedInformation {
   // Holds references to the belief. Cost: O(cells).
   explicit ExpectedInformation(const Belief& belief);
 
-  // The sum over free cells of relevance times 1/2 ln(variance now / variance then), in nats. None
-  // if the belief has no gas field yet. Cost: that of GasWhatIf::VarianceIfRead and O(cells).
+  // The sum over free cells of relevance (core/plan/relevance.h) times 1/2 ln(variance now /
+  // variance then), in nats. None if the belief has no gas field yet. Cost: that of
+  // GasWhatIf::VarianceIfRead and O(cells).
   std::optional<double> Of(const std::vector<Cell>& readings) const;
 
  private:

@@ -5,11 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "lab/sim/layout_raster.h"
+#include "lab/sim/layout_yaml.h"
 
 namespace plumescout::lab {
 namespace {
 
-TEST(BundledLayoutsTest, AreLayoutsThatCanBeBuilt) {
+TEST(BundledLayouts, AreLayoutsThatCanBeBuilt) {
   for (const char* name : {"co2_trial", "industrial_16x20"}) {
     const auto layout = BundledLayout(name);
     ASSERT_TRUE(layout.ok()) << layout.status();
@@ -18,7 +19,7 @@ TEST(BundledLayoutsTest, AreLayoutsThatCanBeBuilt) {
   }
 }
 
-TEST(BundledLayoutsTest, TheTrialsArenaIsAsThePaperSays) {
+TEST(BundledLayouts, TheTrialsArenaIsAsThePaperSays) {
   const Layout arena = *BundledLayout("co2_trial");
   EXPECT_NEAR(arena.size_x_m - 2.0 * arena.border_m, 5.0, 1e-9);
   EXPECT_NEAR(arena.size_y_m - 2.0 * arena.border_m, 3.7, 1e-9);
@@ -35,7 +36,7 @@ TEST(BundledLayoutsTest, TheTrialsArenaIsAsThePaperSays) {
 }
 
 // A wall thinner than a cell that lies between two rows of cell centres is none.
-TEST(BundledLayoutsTest, TheTrialsInnerBarriersAreThere) {
+TEST(BundledLayouts, TheTrialsInnerBarriersAreThere) {
   const Layout arena = *BundledLayout("co2_trial");
   const LayoutRaster raster = *Rasterize(arena);
   for (const Wall& wall : arena.walls) {
@@ -45,8 +46,20 @@ TEST(BundledLayoutsTest, TheTrialsInnerBarriersAreThere) {
   }
 }
 
-TEST(BundledLayoutsTest, OthersAreNotFound) {
-  EXPECT_TRUE(absl::IsNotFound(BundledLayout("atlantis").status()));
+TEST(BundledLayouts, AreThoseOfTheirFiles) {
+  const auto bundled = BundledLayout("industrial_16x20");
+  ASSERT_TRUE(bundled.ok()) << bundled.status();
+  const auto file = ReadLayout("lab/scenes/industrial_16x20.yaml");
+  ASSERT_TRUE(file.ok()) << file.status();
+  EXPECT_EQ(bundled->name, file->name);
+  EXPECT_EQ(bundled->sources, file->sources);
+  EXPECT_EQ(bundled->walls.size(), file->walls.size());
+}
+
+TEST(BundledLayouts, OthersAreNotFound) {
+  const absl::Status status = BundledLayout("no_such_hall").status();
+  EXPECT_EQ(status.code(), absl::StatusCode::kNotFound);
+  EXPECT_NE(status.message().find("no_such_hall"), std::string::npos);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ TEST(Experiments, EachRunsByItsNameAndRepeatsFromItsSeed) {
     EXPECT_FALSE(study->table.rows.empty()) << name;
     EXPECT_EQ(RunExperiment(name, options)->figures.key_numbers, study->figures.key_numbers)
         << name;
+    if (name == "wind_validation") continue;  // draws nothing
     options.seed = 2;
     EXPECT_NE(RunExperiment(name, options)->figures.key_numbers, study->figures.key_numbers)
         << name;

@@ -15,7 +15,7 @@ const Study& QuickStudy() {
   static const Study study = [] {
     ExperimentOptions options;
     options.quick = true;
-    return RunMitTable1(options);
+    return RunMitTable1(options).value();
   }();
   return study;
 }
@@ -70,7 +70,7 @@ TEST(MitTable1, TellsHowFarItIs) {
     EXPECT_GT(share, last);
     last = share;
   };
-  RunMitTable1(options);
+  ASSERT_TRUE(RunMitTable1(options).ok());
   EXPECT_DOUBLE_EQ(last, 1.0);
 }
 

@@ -13,7 +13,7 @@ namespace {
 using ::testing::HasSubstr;
 
 const Study& OneStudy() {
-  static const Study study = RunXitFig5({});
+  static const Study study = RunXitFig5({}).value();
   return study;
 }
 

@@ -46,6 +46,15 @@ TEST(HtmlPage, HoldsBarCharts) {
   EXPECT_THAT(MakeHtmlPage(figures), HasSubstr(">Shares of &lt;runs&gt;<"));
 }
 
+TEST(HtmlPage, HoldsTablesWithTheirTextEscaped) {
+  ReportFigures figures;
+  figures.tables = {{"Table III", {"row", "RMSE"}, {{"a < b", "14.9"}}}};
+  const std::string page = MakeHtmlPage(figures);
+  EXPECT_THAT(page, HasSubstr("<h2>Table III</h2>"));
+  EXPECT_THAT(page, HasSubstr("<tr><th>row</th><th>RMSE</th></tr>"));
+  EXPECT_THAT(page, HasSubstr("<tr><td>a &lt; b</td><td>14.9</td></tr>"));
+}
+
 TEST(HtmlPage, LoadsNothing) {
   const std::string page = MakePage();
   EXPECT_THAT(page, Not(HasSubstr("<script")));

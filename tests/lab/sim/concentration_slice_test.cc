@@ -7,6 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "lab/sim/ageing_depth.h"
+#include "lab/sim/open_air.h"
 #include "tests/support/grid_art.h"
 
 namespace plumescout::lab {
@@ -51,6 +53,31 @@ TEST(ConcentrationSliceTest, HoldsTheFilamentsGasButForWhatIsCutOff) {
   const double content = sum_ppm * 0.1 * 0.1 * depth_m;
   const double released = FilamentContent_ppm_m3(kSources[0], gas);
   EXPECT_NEAR(content / released, 1.0 - std::exp(-4.5), 0.003);
+}
+
+// A plume far from walls, at a depth that does not change: the slice times the depth is the gas
+// inside. Of each filament exp(-4.5) lies beyond 3 sigma, and the cells of its circle are off by at
+// most its rim, one cell's diagonal wide: 2 pi 3 sigma * sqrt(2) h * exp(-4.5) / (2 pi sigma^2) =
+// 0.047 h / sigma of it, at either sign for filaments at random places.
+TEST(ConcentrationSliceTest, IntegralTimesDepthIsTheGasInside) {
+  GridGeometry geometry;
+  geometry.width = 120;
+  geometry.height = 60;
+  const LayoutRaster raster = OpenAir(geometry);
+  const MacField wind = UniformWind(geometry, {0.4, 0.1});
+  GasParameters gas;
+  gas.mixing_depth_m = 0.25;  // that of a fresh filament
+  const GasSource source{0, 2.05, 2.05, 0.4, 1000.0};
+  Plume plume(raster, wind, {source}, gas, 3);
+  SliceRenderer renderer(raster.occupancy, {source}, gas);
+  for (int i = 0; i < 300; ++i) plume.Step();
+  ASSERT_EQ(plume.left()[0], 0);
+  double sum_ppm = 0.0;
+  for (const float ppm : renderer.Render(plume.filaments())[0].values()) sum_ppm += ppm;
+  const auto filaments = static_cast<double>(plume.filaments().size());
+  const double inside = filaments * FilamentContent_ppm_m3(source, gas);
+  EXPECT_NEAR(sum_ppm * 0.1 * 0.1 * 0.25 / inside, 1.0 - std::exp(-4.5),
+              4.0 * 0.047 / std::sqrt(filaments));
 }
 
 TEST(ConcentrationSliceTest, AddsUpFilamentsBySource) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <set>
 
 #include "core/grid/distance_field.h"
@@ -102,6 +103,20 @@ TEST(LayoutGeneratorTest, StaysWithinItsOptions) {
       EXPECT_TRUE(source.rate_ppm_per_s >= 600.0 && source.rate_ppm_per_s <= 2000.0);
     }
   }
+}
+
+TEST(LayoutGeneratorTest, DrawsTheSameBuildingEverywhere) {
+  const Layout layout = GenerateLayout(7);
+  EXPECT_EQ(layout, GenerateLayout(7));
+  EXPECT_EQ(layout.name, "generated_7");
+  EXPECT_EQ(Point2({layout.size_x_m, layout.size_y_m}), (Point2{14.8, 19.6}));
+  EXPECT_EQ(layout.walls.size(), 4u);
+  EXPECT_EQ(layout.boxes.size(), 9u);
+  EXPECT_EQ(layout.openings.back(), (Opening{Side::kNorth, 1.2, 2.6, std::nullopt}));
+  ASSERT_EQ(layout.sources.size(), 2u);
+  EXPECT_EQ(layout.sources[1].x_m, 10.2);
+  EXPECT_EQ(layout.sources[1].rate_ppm_per_s, 1200.0);
+  EXPECT_EQ(layout.start_pose, (Pose2{12.8, 11.2, 1.09}));
 }
 
 TEST(LayoutGeneratorTest, DrawsBuildingsThatDiffer) {

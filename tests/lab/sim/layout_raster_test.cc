@@ -111,10 +111,13 @@ TEST(LayoutRasterTest, FillsSpaceThatNoWayLeadsTo) {
 TEST(LayoutRasterTest, WantsTheStartAndTheSourcesInOneOpenSpace) {
   Layout layout = SmallLayout();
   layout.start_pose = {2.0, 1.5, 0.0};  // in the box
-  ExpectInvalid(layout, "start_pose (2, 1.5)");
+  ExpectInvalid(layout, "start_pose (2, 1.5) lies in a wall or box");
+  layout = SmallLayout();
+  layout.sources[0].x_m = 1.9;
+  ExpectInvalid(layout, "sources[0] (1.9, 1.55) lies in a wall or box");
   layout = EmptyRoom();
   layout.walls = {{{2.0, 0.0}, {2.0, 3.0}, 0.2, {}}};  // between start and source
-  ExpectInvalid(layout, "sources[0] (1.05, 1.55)");
+  ExpectInvalid(layout, "sources[0] (1.05, 1.55) is cut off from the start");
 }
 
 TEST(LayoutRasterTest, RejectsOpeningsThatLeadIntoAWall) {
@@ -133,6 +136,29 @@ TEST(LayoutRasterTest, RejectsInletsWithoutAnOutlet) {
   Layout layout = SmallLayout();
   layout.openings.pop_back();
   ExpectInvalid(layout, "must include an outlet");
+}
+
+TEST(LayoutRasterTest, RejectsOpeningsWithoutAnInlet) {
+  Layout layout = SmallLayout();
+  layout.openings[0].inflow_mps.reset();
+  ExpectInvalid(layout, "must include an inlet");
+  layout.openings.clear();  // a sealed room
+  EXPECT_TRUE(Rasterize(layout).ok());
+}
+
+TEST(LayoutRasterTest, PutsFansIntoTheFlowButNotIntoTheMap) {
+  Layout layout = EmptyRoom();
+  layout.fans = {{{2.0, 1.5}, 0.0, 0.6, 2.0}};
+  const auto raster = Rasterize(layout);
+  ASSERT_TRUE(raster.ok()) << raster.status();
+  EXPECT_EQ(raster->flow.fans.size(), 6u);
+  EXPECT_EQ(raster->occupancy, Rasterize(EmptyRoom())->occupancy);
+}
+
+TEST(LayoutRasterTest, RejectsFansInAWall) {
+  Layout layout = SmallLayout();
+  layout.fans = {{{1.5, 1.0}, 0.0, 0.4, 2.0}, {{2.0, 1.5}, 0.0, 0.4, 2.0}};  // the box
+  ExpectInvalid(layout, "fans[1] reaches into a wall");
 }
 
 // All places of the bundled scene can be visited by a robot that keeps 0.2 m off the walls, to

@@ -72,7 +72,29 @@ TEST(LayoutTest, RejectsBoxesAndOpeningsTurnedInsideOut) {
 TEST(LayoutTest, RejectsDoorsBeyondTheWall) {
   Layout layout = SmallLayout();
   layout.walls = {{{1.0, 1.0}, {2.0, 1.0}, 0.2, {{1.5, 0.4}}}};
-  ExpectInvalid(layout, "walls[0].doors[0].at_m = 1.5 must be in [0, 1]");
+  ExpectInvalid(layout, "walls[0].doors[0].at_m = 1.5 must be in [0.2, 0.8]");
+  layout.walls[0].doors[0] = {0.9, 0.4};  // runs over the end
+  ExpectInvalid(layout, "walls[0].doors[0].at_m = 0.9 must be in [0.2, 0.8]");
+  layout.walls[0].doors[0] = {0.5, 1.2};
+  ExpectInvalid(layout, "walls[0].doors[0].width_m = 1.2 must be in (0, 1]");
+  layout.walls[0].doors[0] = {std::nan(""), 0.4};
+  ExpectInvalid(layout, "walls[0].doors[0].at_m = nan");
+}
+
+TEST(LayoutTest, RejectsDoorsThatOverlap) {
+  Layout layout = SmallLayout();
+  layout.walls = {{{1.0, 1.0}, {3.0, 1.0}, 0.2, {{0.5, 0.4}, {0.8, 0.4}}}};
+  ExpectInvalid(layout, "walls[0].doors[1].at_m = 0.8 overlaps doors[0]");
+  layout.walls[0].doors[1].at_m = 0.9;  // touches
+  EXPECT_TRUE(Validate(layout).ok());
+}
+
+TEST(LayoutTest, RejectsBoxesThatOverlap) {
+  Layout layout = SmallLayout();
+  layout.boxes = {{{0.5, 0.5}, {1.0, 1.0}}, {{2.0, 2.0}, {2.5, 2.5}}, {{0.9, 0.9}, {1.2, 1.2}}};
+  ExpectInvalid(layout, "boxes[2] from (0.9, 0.9) overlaps boxes[0]");
+  layout.boxes[2] = {{1.0, 0.5}, {1.2, 1.0}};  // touches
+  EXPECT_TRUE(Validate(layout).ok());
 }
 
 TEST(LayoutTest, RejectsABuildingWithoutSourcesOrName) {
@@ -82,6 +104,25 @@ TEST(LayoutTest, RejectsABuildingWithoutSourcesOrName) {
   layout = SmallLayout();
   layout.name.clear();
   ExpectInvalid(layout, "name must not be empty");
+}
+
+TEST(LayoutTest, ChecksFans) {
+  const Fan sound{{1.0, 1.0}, 0.5, 0.4, 2.0};
+  Layout layout = SmallLayout();
+  layout.fans = {sound};
+  EXPECT_TRUE(Validate(layout).ok());
+  layout.fans = {sound, sound};
+  layout.fans[1].width_m = 0.0;
+  ExpectInvalid(layout, "fans[1].width_m = 0 must be in (0, 200]");
+  layout.fans[1] = sound;
+  layout.fans[1].speed_mps = 31.0;
+  ExpectInvalid(layout, "fans[1].speed_mps = 31 must be in (0, 30]");
+  layout.fans[1] = sound;
+  layout.fans[1].direction_rad = std::nan("");
+  ExpectInvalid(layout, "fans[1].direction_rad = nan");
+  layout.fans[1] = sound;
+  layout.fans[1].position.y_m = 3.5;
+  ExpectInvalid(layout, "fans[1].position_m[1] = 3.5");
 }
 
 TEST(LayoutTest, ChecksTheGas) {

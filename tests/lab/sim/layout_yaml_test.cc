@@ -40,6 +40,7 @@ boxes: [{min_m: [1, 2], max_m: [1.4, 2.4]}]
 openings:
   - {side: south, from_m: 0.6, to_m: 1.4, inflow_mps: 2}
   - {side: east, from_m: 1, to_m: 2}
+fans: [{position_m: [2.5, 1.5], direction_rad: -1.5, width_m: 0.6, speed_mps: 2.5}]
 gas: {filaments_per_s: 50, initial_sigma_m: 0.2, growth_m2_per_s: 0.002,
       diffusivity_m2_per_s: 0.03, mixing_depth_m: 1.5}
 )");
@@ -65,6 +66,11 @@ gas: {filaments_per_s: 50, initial_sigma_m: 0.2, growth_m2_per_s: 0.002,
   EXPECT_EQ(layout->openings[0].inflow_mps, 2.0);
   EXPECT_EQ(layout->openings[1].side, Side::kEast);
   EXPECT_FALSE(layout->openings[1].inflow_mps.has_value());
+  ASSERT_EQ(layout->fans.size(), 1u);
+  EXPECT_EQ(layout->fans[0].position, (Point2{2.5, 1.5}));
+  EXPECT_EQ(layout->fans[0].direction_rad, -1.5);
+  EXPECT_EQ(layout->fans[0].width_m, 0.6);
+  EXPECT_EQ(layout->fans[0].speed_mps, 2.5);
   ASSERT_EQ(layout->sources.size(), 1u);
   EXPECT_EQ(layout->sources[0], (GasSource{0, 1.0, 1.5, 0.3, 600.0}));
   EXPECT_EQ(layout->gas.filaments_per_s, 50.0);
@@ -72,6 +78,20 @@ gas: {filaments_per_s: 50, initial_sigma_m: 0.2, growth_m2_per_s: 0.002,
   EXPECT_EQ(layout->gas.growth_m2_per_s, 0.002);
   EXPECT_EQ(layout->gas.diffusivity_m2_per_s, 0.03);
   EXPECT_EQ(layout->gas.mixing_depth_m, 1.5);
+}
+
+TEST(LayoutYamlTest, ReadsSchedulesOfSources) {
+  std::string text = kShortest;
+  const std::string source = "rate_ppm_per_s: 600";
+  text.replace(text.find(source), source.size(),
+               source + ", release: {start_s: -30, end_s: 90, on_s: 5, off_s: 2.5}");
+  const auto layout = ParseLayout(text);
+  ASSERT_TRUE(layout.ok()) << layout.status();
+  EXPECT_EQ(layout->sources[0].release, (ReleaseSchedule{-30.0, 90.0, 5.0, 2.5}));
+  text.replace(text.find("end_s: 90"), 9, "end_s: -90");
+  ExpectInvalid(text, "sources[0].release.end_s = -90 must be after start_s = -30");
+  text.replace(text.find("end_s: -90"), 10, "stop_s: 90");
+  ExpectInvalid(text, "unknown key sources[0].release.stop_s");
 }
 
 TEST(LayoutYamlTest, LeavesDefaultsWhereNothingIsSaid) {
@@ -92,19 +112,27 @@ TEST(LayoutYamlTest, NamesUnknownKeysByTheirPath) {
 TEST(LayoutYamlTest, NamesMissingKeys) {
   ExpectInvalid("name: room", "missing key size_m");
   ExpectInvalid(std::string(kShortest) + "boxes: [{min_m: [1, 1]}]", "missing key boxes[0].max_m");
+  ExpectInvalid(std::string(kShortest) + "fans: [{position_m: [1, 1], width_m: 1, speed_mps: 1}]",
+                "missing key fans[0].direction_rad");
 }
 
 TEST(LayoutYamlTest, NamesRepeatedKeys) {
   ExpectInvalid(std::string(kShortest) + "border_m: 0.2\nborder_m: 0.3", "repeated key border_m");
 }
 
+TEST(LayoutYamlTest, NamesValuesThatAreNoNumbers) {
+  ExpectInvalid(std::string(kShortest) + "border_m: .nan", "border_m = nan");
+  ExpectInvalid(std::string(kShortest) + "boxes: [{min_m: [.nan, 1], max_m: [2, 2]}]",
+                "boxes[0].min_m[0] = nan");
+}
+
 TEST(LayoutYamlTest, NamesMistypedKeys) {
-  ExpectInvalid(std::string(kShortest) + "border_m: thick", "border_m must be a number");
-  ExpectInvalid(std::string(kShortest) + "boxes: 3", "boxes must be a list");
+  ExpectInvalid(std::string(kShortest) + "border_m: thick", "border_m = thick must be a number");
+  ExpectInvalid(std::string(kShortest) + "boxes: 3", "boxes = 3 must be a list");
   ExpectInvalid(std::string(kShortest) + "boxes: [{min_m: [1, 1, 1], max_m: [2, 2]}]",
                 "boxes[0].min_m must be two numbers [x, y]");
   ExpectInvalid(std::string(kShortest) + "openings: [{side: up, from_m: 1, to_m: 2}]",
-                "openings[0].side must be west, east, south or north");
+                "openings[0].side = up must be west, east, south or north");
   ExpectInvalid(std::string(kShortest) + "gas: [1]", "gas must be a map");
 }
 

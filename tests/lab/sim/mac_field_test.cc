@@ -70,5 +70,21 @@ TEST(MacFieldTest, FindsTheFastestFaceOfEachDirection) {
   EXPECT_EQ(largest.v_mps, 2.0);
 }
 
+TEST(MacFieldTest, FindsTheFastestCell) {
+  MacField field = Stretching();
+  EXPECT_EQ(field.FastestCell_mps(), 3.0 + 2.0);  // cell (2,1)
+  field.u(0, 0) = -7.0;
+  EXPECT_EQ(field.FastestCell_mps(), 7.0 + 1.0);  // cell (0,0)
+}
+
+TEST(MacFieldTest, NumbersItsFacesInOneRow) {
+  MacField field = Stretching();
+  ASSERT_EQ(field.values().size(), 4u * 2u + 3u * 3u);
+  field.values()[field.UFace(3, 1)] = 5.0;
+  field.values()[field.VFace(2, 2)] = 6.0;
+  EXPECT_EQ(field.u(3, 1), 5.0);
+  EXPECT_EQ(field.v(2, 2), 6.0);
+}
+
 }  // namespace
 }  // namespace plumescout::lab

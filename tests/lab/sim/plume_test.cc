@@ -8,27 +8,22 @@
 #include <cstdint>
 #include <vector>
 
+#include "lab/sim/ageing_depth.h"
+#include "lab/sim/concentration_slice.h"
+#include "lab/sim/open_air.h"
 #include "lab/sim/wind.h"
 #include "tests/lab/sim/small_layout.h"
 
 namespace plumescout::lab {
 namespace {
 
-// An open square room and the same wind everywhere.
+// An open square room.
 LayoutRaster OpenRoom(double size_m) {
   Layout layout = SmallLayout();
   layout.size_x_m = layout.size_y_m = size_m;
   layout.boxes.clear();
   layout.openings.clear();
   return *Rasterize(layout);
-}
-
-MacField UniformWind(const LayoutRaster& raster, double u_mps) {
-  MacField wind(raster.occupancy.geometry());
-  for (int y = 0; y < raster.occupancy.height(); ++y) {
-    for (int x = 0; x <= raster.occupancy.width(); ++x) wind.u(x, y) = u_mps;
-  }
-  return wind;
 }
 
 void RunFor(Plume& plume, double duration_s) {
@@ -68,7 +63,7 @@ TEST(PlumeTest, ReleasesRatesThatAreNoWholeNumberPerStep) {
 TEST(PlumeTest, SpreadsSymmetricallyInUniformWind) {
   const LayoutRaster raster = OpenRoom(12.0);
   constexpr double kWind_mps = 0.5;
-  const MacField wind = UniformWind(raster, kWind_mps);
+  const MacField wind = UniformWind(raster.occupancy.geometry(), {kWind_mps, 0.0});
   GasParameters gas;
   gas.diffusivity_m2_per_s = 0.02;
   const Point2 source{1.0, 6.0};
@@ -92,11 +87,130 @@ TEST(PlumeTest, SpreadsSymmetricallyInUniformWind) {
   EXPECT_NEAR(north2, n, 4.0 * std::sqrt(2.0 * n));
 }
 
+// The analytic plume in uniform wind u: with t = x / u and sigma^2 = sigma_0^2 + (gamma + 2 K) t,
+//   c(x, y) = release / (u depth(t) sqrt(2 pi) sigma) exp(-y^2 / (2 sigma^2)).
+// It leaves out what diffuses along the wind: a share of the order of D / (u x).
+//
+// Each of the n filaments that pass during the mean adds G(y - eta; s^2), s^2 = sigma_0^2 + gamma
+// t, with eta ~ N(0, 2 K t): by E G^2 = G(y; s^2 / 2 + 2 K t) / (2 s sqrt(pi)) the mean of n of
+// them has the relative variance (E G^2 / (E G)^2 - 1) / n.
+TEST(PlumeTest, IsTheGaussianPlumeInTheOpen) {
+  GridGeometry geometry;
+  geometry.width = 90;
+  geometry.height = 40;
+  constexpr double kWind_mps = 1.0;
+  const LayoutRaster raster = OpenAir(geometry);
+  const MacField wind = UniformWind(raster.occupancy.geometry(), {kWind_mps, 0.0});
+  const GasSource source{0, 1.05, 2.05, 0.4, 1000.0};
+  const GasParameters gas;
+  Plume plume(raster, wind, {source}, gas, 3);
+  SliceRenderer renderer(raster.occupancy, {source}, gas);
+  RunFor(plume, 20.0);
+  constexpr int kSlices = 600;
+  std::vector<double> mean(geometry.size());
+  for (int k = 0; k < kSlices; ++k) {
+    const Grid<float> slice = renderer.Render(plume.filaments())[0];
+    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += slice[i] / kSlices;
+    RunFor(plume, 0.2);
+  }
+  const double passed = gas.filaments_per_s * kSlices * 0.2;
+  const double release = FilamentContent_ppm_m3(source, gas) * gas.filaments_per_s;
+  const double growth = gas.growth_m2_per_s + 2.0 * gas.diffusivity_m2_per_s;
+  const auto normal = [](double y, double variance) {
+    return std::exp(-0.5 * y * y / variance) / std::sqrt(2.0 * M_PI * variance);
+  };
+  for (const double x_m : {2.0, 4.0, 6.0}) {
+    for (const double y_m : {-0.8, -0.4, 0.0, 0.4, 0.8}) {
+      const double age_s = x_m / kWind_mps;
+      const double variance = 0.01 + growth * age_s;
+      const double expected =
+          release / (kWind_mps * DepthAtAge_m(gas, age_s)) * normal(y_m, variance);
+      const double walk = 2.0 * gas.diffusivity_m2_per_s * age_s;
+      const double cloud = variance - walk;
+      const double square = normal(y_m, cloud / 2.0 + walk) / (2.0 * std::sqrt(M_PI * cloud));
+      const double noise =
+          std::sqrt((square / std::pow(normal(y_m, variance), 2.0) - 1.0) / passed);
+      const double along_wind = growth / 2.0 / (kWind_mps * x_m) * (1.0 + y_m * y_m / variance);
+      constexpr double kCutOff = 0.0111;  // exp(-4.5): beyond 3 sigma of each filament
+      const std::size_t cell =
+          geometry.Index(geometry.CellAt({source.x_m + x_m, source.y_m + y_m}));
+      EXPECT_NEAR(mean[cell] / expected, 1.0, 4.0 * noise + along_wind + kCutOff)
+          << x_m << ", " << y_m;
+    }
+  }
+}
+
+// In an eddy of 1 rad/s a filament stays at its distance. Euler's steps of angle a = 0.05 would
+// stretch it by sqrt(1 + a^2) each, 4.5-fold in 60 s; those of the midpoint rule by
+// sqrt(1 + a^4 / 4), 1e-3 in all.
+TEST(PlumeTest, KeepsGasOnItsWayAroundAnEddy) {
+  GridGeometry geometry;
+  geometry.width = geometry.height = 40;
+  const LayoutRaster raster = OpenAir(geometry);
+  MacField eddy(geometry);
+  for (std::size_t i = 0; i < geometry.size(); ++i) {
+    const Cell cell = geometry.CellAtIndex(i);
+    const Point2 center = geometry.Center(cell);
+    eddy.u(cell.x, cell.y) = -(center.y_m - 2.0);
+    eddy.v(cell.x, cell.y) = center.x_m - 2.0;
+  }
+  GasParameters gas;
+  gas.diffusivity_m2_per_s = 0.0;
+  gas.filaments_per_s = 1.0;
+  Plume plume(raster, eddy, {{0, 3.0, 2.0, 0.4, 1.0}}, gas, 3);
+  RunFor(plume, 60.0);
+  ASSERT_EQ(plume.left()[0], 0);
+  for (const Filament& filament : plume.filaments()) {
+    // The staggered wind is constant along a cell's edge: radii waver by a cell.
+    EXPECT_NEAR(Distance_m(filament.position, {2.0, 2.0}), 1.0, 0.1);
+  }
+}
+
+TEST(PlumeTest, ReleasesAsItsSchedulesSay) {
+  const LayoutRaster raster = OpenRoom(4.0);
+  const MacField still(raster.occupancy.geometry());
+  std::vector<GasSource> sources(4, {0, 2.0, 2.0, 0.4, 1.0});
+  sources[1].release.start_s = -5.0;
+  sources[2].release = {-8.0, 1.0, {}, {}};
+  sources[3].release = {-9.0, {}, 2.0, 3.0};
+  Plume plume(raster, still, sources, GasParameters{}, 3, -10.0);
+  const auto expect_released = [&](std::vector<std::int64_t> expected) {
+    EXPECT_EQ(plume.released(), expected) << plume.time_s();
+  };
+  EXPECT_EQ(plume.time_s(), -10.0);
+  RunFor(plume, 1.0);
+  expect_released({100, 0, 0, 0});
+  RunFor(plume, 3.0);  // until -6 s
+  expect_released({400, 0, 200, 200});
+  RunFor(plume, 8.0);  // until 2 s
+  expect_released({1200, 700, 900, 500});
+}
+
+TEST(PlumeTest, HoldsOrHasLostAllOfSourcesThatComeAndGo) {
+  const LayoutRaster raster = *Rasterize(SmallLayout());
+  const MacField wind = UniformWind(raster.occupancy.geometry(), {1.0, 0.0});
+  std::vector<GasSource> sources(2, SmallLayout().sources[0]);
+  sources[0].release = {2.0, 6.0, {}, {}};
+  sources[1].release = {0.0, {}, 0.5, 1.5};
+  Plume plume(raster, wind, sources, GasParameters{}, 3);
+  for (int i = 0; i < 600; ++i) {
+    plume.Step();
+    std::vector<std::int64_t> accounted = plume.left();
+    for (const Filament& filament : plume.filaments()) {
+      ++accounted[static_cast<std::size_t>(filament.source)];
+    }
+    ASSERT_EQ(plume.released(), accounted);
+  }
+  EXPECT_EQ(plume.released()[0], 400);
+  EXPECT_GT(plume.left()[0], 0);
+}
+
 TEST(PlumeTest, NeverEntersASolid) {
   Layout layout = SmallLayout();
   layout.walls = {{{2.6, 0.4}, {3.2, 2.6}, 0.1, {}}};  // thin and oblique: corners to slip through
   const LayoutRaster raster = *Rasterize(layout);
-  const MacField storm = UniformWind(raster, 8.0);  // 4 cells per step, straight at the walls
+  const MacField storm = UniformWind(raster.occupancy.geometry(),
+                                     {8.0, 0.0});  // 4 cells per step, straight at the walls
   GasParameters gas;
   gas.diffusivity_m2_per_s = 0.5;
   Plume plume(raster, storm, layout.sources, gas, 3);
@@ -112,10 +226,7 @@ TEST(PlumeTest, NeverEntersASolid) {
 
 TEST(PlumeTest, SlidesAlongAWallItIsBlownAgainst) {
   const LayoutRaster raster = OpenRoom(6.0);
-  MacField wind = UniformWind(raster, 1.0);
-  for (int y = 0; y <= raster.occupancy.height(); ++y) {
-    for (int x = 0; x < raster.occupancy.width(); ++x) wind.v(x, y) = -2.0;
-  }
+  const MacField wind = UniformWind(raster.occupancy.geometry(), {1.0, -2.0});
   GasParameters gas;
   gas.diffusivity_m2_per_s = 0.0;
   Plume plume(raster, wind, {{0, 1.0, 0.25, 0.4, 1.0}}, gas, 3);  // right above the southern wall
@@ -161,7 +272,7 @@ TEST(PlumeTest, FillsAStillRoomEvenly) {
 
 TEST(PlumeTest, DependsOnItsSeedAlone) {
   const LayoutRaster raster = *Rasterize(SmallLayout());
-  const MacField wind = UniformWind(raster, 0.1);
+  const MacField wind = UniformWind(raster.occupancy.geometry(), {0.1, 0.0});
   const auto filaments = [&](std::uint64_t seed) {
     Plume plume(raster, wind, SmallLayout().sources, GasParameters{}, seed);
     RunFor(plume, 5.0);

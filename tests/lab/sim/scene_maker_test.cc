@@ -89,6 +89,27 @@ TEST(SceneMakerTest, LeavesNoGasUpwindAndMuchAtTheSource) {
   EXPECT_LT(mean({0.25, 1.55}), 1.0F);  // 0.8 m up a wind of 1 m/s: 8 sigma of a fresh filament
 }
 
+TEST(SceneMakerTest, FramesShowTheSchedule) {
+  Layout layout = SmallLayout();
+  layout.sources[0].release = {2.0, 5.0, {}, {}};
+  const Scene scene = MakeOrDie(layout, ShortRun());
+  const auto at_source = [&](double time_s) {
+    return SampleConcentration_ppm(scene, {1.05, 1.55}, time_s);
+  };
+  for (const double before_s : {0.0, 1.0, 2.0}) EXPECT_EQ(at_source(before_s), 0.0);
+  for (const double while_s : {2.5, 4.0, 5.0}) EXPECT_GT(at_source(while_s), 50.0);
+  // The wind of 1 m/s has carried it off: half a metre are 5 sigma of a fresh filament.
+  for (const double after_s : {6.0, 8.0, 9.5}) EXPECT_LT(at_source(after_s), 1.0);
+}
+
+TEST(SceneMakerTest, SchedulesReachBackIntoTheWarmUp) {
+  Layout layout = SmallLayout();
+  layout.sources[0].release.end_s = 0.0;
+  const Scene scene = MakeOrDie(layout, ShortRun());
+  EXPECT_GT(SampleConcentration_ppm(scene, {1.05, 1.55}, 0.0), 50.0);
+  EXPECT_LT(SampleConcentration_ppm(scene, {1.05, 1.55}, 3.0), 1.0);
+}
+
 TEST(SceneMakerTest, IsTheSameEveryTimeButForTheSeed) {
   SceneMakerOptions options = ShortRun();
   const Scene once = MakeOrDie(SmallLayout(), options);

@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/experiments/trial_store.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "formats/file_io.h"
+#include "tests/lab/experiments/small_scene.h"
+#include "tests/support/temp_folder.h"
+
+namespace plumescout::lab {
+namespace {
+
+constexpr GridGeometry kGeometry{0.0, 0.0, 0.1, 3, 2};
+
+TrialRecord SomeRecord() {
+  TrialRecord record;
+  record.curve.push_back({0.0, {0.0, std::nan(""), 40.0, std::nan(""), 7}});
+  record.curve.push_back({5.0, {0.1 + 0.2, 12.5, 40.0, -3.25, 7}});
+  record.mean_ppm.emplace_back(kGeometry, 1.5F);
+  record.mean_ppm[0][0] = std::numeric_limits<float>::quiet_NaN();
+  record.gas_readings = 11;
+  record.distance_m = 1.0 / 3.0;
+  record.plans = 4;
+  record.collisions = 1;
+  record.completed = true;
+  return record;
+}
+
+TEST(TrialStore, GivesBackWhatItKept) {
+  const TempFolder folder;
+  const auto store = TrialStore::Open(folder.File("trials"));
+  ASSERT_TRUE(store.ok());
+  const TrialRecord kept = SomeRecord();
+  ASSERT_TRUE(store->Keep("a-1", "print", kept).ok());
+  const auto found = store->Find("a-1", "print", kGeometry);
+  ASSERT_TRUE(found.has_value());
+  ASSERT_EQ(found->curve.size(), 2u);
+  EXPECT_TRUE(std::isnan(found->curve[0].metrics.rmse_ppm));
+  EXPECT_EQ(found->curve[1].metrics.completeness, 0.1 + 0.2);
+  EXPECT_EQ(found->curve[1].metrics.entropy_nats, -3.25);
+  EXPECT_EQ(found->curve[1].metrics.critical_cells, 7);
+  EXPECT_EQ(found->distance_m, kept.distance_m);
+  EXPECT_EQ(found->gas_readings, 11);
+  EXPECT_EQ(found->plans, 4);
+  EXPECT_EQ(found->collisions, 1);
+  EXPECT_TRUE(found->completed);
+  ASSERT_EQ(found->mean_ppm.size(), 1u);
+  EXPECT_TRUE(std::isnan(found->mean_ppm[0][0]));
+  EXPECT_EQ(found->mean_ppm[0][1], 1.5F);
+}
+
+TEST(TrialStore, FindsNothingOfOtherSettingsOrDamaged) {
+  const TempFolder folder;
+  const auto store = TrialStore::Open(folder.path());
+  ASSERT_TRUE(store.ok());
+  ASSERT_TRUE(store->Keep("a-1", "print", SomeRecord()).ok());
+  EXPECT_FALSE(store->Find("a-2", "print", kGeometry).has_value());
+  EXPECT_FALSE(store->Find("a-1", "other", kGeometry).has_value());
+  EXPECT_FALSE(store->Find("a-1", "print", {0.0, 0.0, 0.1, 9, 9}).has_value());
+  ASSERT_TRUE(WriteFile(folder.File("a-1.json"), "{\"fingerprint\": \"print\"").ok());
+  EXPECT_FALSE(store->Find("a-1", "print", kGeometry).has_value());
+  ASSERT_TRUE(WriteFile(folder.File("a-1.json"), "{\"fingerprint\": \"print\"}").ok());
+  EXPECT_FALSE(store->Find("a-1", "print", kGeometry).has_value());
+}
+
+TEST(Fingerprint, TellsSettingsBuildingsSeedsAndTimesApart) {
+  const SceneWorld world(SmallScene());
+  Scene moved = SmallScene();
+  moved.start_pose.x_m += 0.1;
+  const SceneWorld other_world(std::move(moved));
+  MissionOptions mission;
+  MissionOptions other_mission;
+  other_mission.planning.beta = 2.0;
+  Trial trial;
+  trial.mission = &mission;
+  trial.world = &world;
+  const std::string print = Fingerprint(trial);
+  EXPECT_EQ(Fingerprint(trial), print);
+  Trial other = trial;
+  other.mission = &other_mission;
+  EXPECT_NE(Fingerprint(other), print);
+  other = trial;
+  other.world = &other_world;
+  EXPECT_NE(Fingerprint(other), print);
+  other = trial;
+  other.seed = 2;
+  EXPECT_NE(Fingerprint(other), print);
+  other = trial;
+  other.duration_s = 10.0;
+  EXPECT_NE(Fingerprint(other), print);
+  other = trial;
+  other.map_times_s = {5.0};
+  EXPECT_NE(Fingerprint(other), print);
+}
+
+}  // namespace
+}  // namespace plumescout::lab

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/experiments/trial.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/plan/strategy.h"
+#include "tests/lab/experiments/small_scene.h"
+
+namespace plumescout::lab {
+namespace {
+
+MissionOptions MissionBy(const char* strategy) {
+  MissionOptions mission;
+  mission.planning.strategy = strategy;
+  EXPECT_TRUE(ApplyStrategyRow(mission.planning).ok());
+  return mission;
+}
+
+Trial SmallTrial(const MissionOptions& mission, const SceneWorld& world) {
+  Trial trial;
+  trial.mission = &mission;
+  trial.world = &world;
+  trial.duration_s = 12.0;
+  trial.map_times_s = {5.0, 10.0};
+  return trial;
+}
+
+TEST(Trial, RecordsMetricsMapsAndReadings) {
+  const SceneWorld world(SmallScene());
+  const MissionOptions mission = MissionBy("xit_gff");
+  const auto record = RunTrial(SmallTrial(mission, world));
+  ASSERT_TRUE(record.ok()) << record.status();
+  ASSERT_EQ(record->curve.size(), 4u);  // 0, 5, 10 s and the end
+  EXPECT_LT(record->curve.back().metrics.rmse_ppm, record->curve.front().metrics.rmse_ppm);
+  EXPECT_GT(record->curve.back().metrics.completeness, 0.9);
+  EXPECT_EQ(record->gas_readings, 24);  // 2 Hz
+  ASSERT_EQ(record->mean_ppm.size(), 2u);
+  EXPECT_EQ(record->mean_ppm[0].geometry(), world.scene().geometry());
+  EXPECT_TRUE(std::isnan(record->mean_ppm[0][Cell{0, 0}]));  // in the wall
+  EXPECT_GT(record->distance_m, 5.0);
+  EXPECT_GT(record->plans, 0);
+}
+
+TEST(Trial, IsTheSameAgainAndAnotherWithAnotherSeed) {
+  const SceneWorld world(SmallScene());
+  for (const char* strategy : {"xit_gff", "rrt_star_frontier"}) {
+    const MissionOptions mission = MissionBy(strategy);
+    Trial trial = SmallTrial(mission, world);
+    const auto once = RunTrial(trial);
+    const auto again = RunTrial(trial);
+    trial.seed = 2;
+    const auto other = RunTrial(trial);
+    ASSERT_TRUE(once.ok() && again.ok() && other.ok());
+    EXPECT_EQ(once->curve.back().metrics.rmse_ppm, again->curve.back().metrics.rmse_ppm);
+    EXPECT_EQ(once->distance_m, again->distance_m);
+    EXPECT_NE(once->curve.back().metrics.rmse_ppm, other->curve.back().metrics.rmse_ppm);
+  }
+}
+
+TEST(Trial, AMissionThatIsInvalidIsAnError) {
+  const SceneWorld world(SmallScene());
+  MissionOptions mission = MissionBy("xit_gff");
+  mission.gas.prior_precision = -1.0;
+  EXPECT_EQ(RunTrial(SmallTrial(mission, world)).status().code(),
+            absl::StatusCode::kInvalidArgument);
+}
+
+}  // namespace
+}  // namespace plumescout::lab

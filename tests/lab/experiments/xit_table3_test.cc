@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/experiments/xit_table3.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "formats/scene_folder.h"
+#include "tests/lab/experiments/small_scene.h"
+#include "tests/support/temp_folder.h"
+
+namespace plumescout::lab {
+namespace {
+
+using ::testing::Contains;
+using ::testing::Key;
+using ::testing::SizeIs;
+
+// In a room of 4 m x 3 m, one trial of 60 s.
+absl::StatusOr<Study> Quick(const TempFolder& folder) {
+  ExperimentOptions options;
+  options.quick = true;
+  options.trials = 1;
+  options.folder = folder.path();
+  options.scenes = {folder.File("small")};
+  EXPECT_TRUE(WriteScene(SmallScene(), options.scenes.front()).ok());
+  return RunXitTable3(options);
+}
+
+TEST(XitTable3, HasAllRowsWithThePapersValuesBeside) {
+  const TempFolder folder;
+  const auto study = Quick(folder);
+  ASSERT_TRUE(study.ok()) << study.status();
+  ASSERT_THAT(study->figures.tables, SizeIs(1));
+  const TextTable& table = study->figures.tables.front();
+  ASSERT_THAT(table.rows, SizeIs(9));
+  for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
+  EXPECT_EQ(table.rows[5][4], "14.9 ± 1.9 (25.5 %)");  // [XIT] Table III
+  EXPECT_EQ(table.rows[5][7], "957 ± 169 (23.7 %)");
+  EXPECT_THAT(table.rows[0][3], ::testing::StartsWith("0.0 %, p = 1"));  // against itself
+  EXPECT_THAT(study->table.rows, SizeIs(9));                             // a trial each
+  EXPECT_THAT(study->figures.panels, SizeIs(6));
+  EXPECT_THAT(study->figures.charts, SizeIs(3));
+  EXPECT_THAT(study->summary.figures, Contains(Key("xit_gff_ucb_rmse_ppm_p")));
+}
+
+TEST(XitTable3, ReadsASceneBeforeAnythingRuns) {
+  ExperimentOptions options;
+  const TempFolder folder;
+  options.folder = folder.path();
+  options.scenes = {folder.File("nothing")};
+  const absl::Status status = RunXitTable3(options).status();
+  EXPECT_NE(status.message().find("nothing"), std::string::npos) << status;
+}
+
+}  // namespace
+}  // namespace plumescout::lab
