@@ -18,7 +18,7 @@ const Study& Quick() {
   static const Study study = [] {
     ExperimentOptions options;
     options.quick = true;
-    return RunWindValidation(options);
+    return RunWindValidation(options).value();
   }();
   return study;
 }
