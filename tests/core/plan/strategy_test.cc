@@ -16,6 +16,18 @@ TEST(StrategyTable, NamesTheRowsOfThePapersAndOurs) {
               ElementsAre("xit_gff", "xit_fgf", "xit_f", "mit", "rrt_star_frontier", "plumescout"));
 }
 
+TEST(StrategyTable, DefaultsAreThePartsOfTheRowThatTheyName) {
+  PlanningOptions options;
+  ASSERT_TRUE(ApplyStrategyRow(options).ok());
+  const PlanningOptions defaults;
+  EXPECT_EQ(options.goals, defaults.goals);
+  EXPECT_EQ(options.paths, defaults.paths);
+  EXPECT_EQ(options.cost, defaults.cost);
+  EXPECT_EQ(options.selection_cost, defaults.selection_cost);
+  EXPECT_EQ(options.selection, defaults.selection);
+  EXPECT_EQ(options.straighten, defaults.straighten);
+}
+
 TEST(StrategyTable, SetsThePartsOfARow) {
   PlanningOptions options;
   options.cost = CostKind::kEuclidean;
