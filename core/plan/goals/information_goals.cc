@@ -21,9 +21,6 @@ constexpr std::size_t kMaxGoals = 12;
 constexpr double kApart_m = 1.5;
 constexpr double kWindowReach_m = 0.5;
 constexpr double kErrand_m = 4.0;
-// A window with less left to tell is no errand: as much as half a window of clean air never
-// measured.
-constexpr float kLeast_nats = 0.5F;
 // Variance that counts as done where there surely is gas, over that of clean air.
 constexpr double kDoneShare = 0.5;
 
@@ -66,8 +63,7 @@ std::vector<Spot> FindSpots(const GoalQuery& query) {
   const double nearest_m = std::max(query.options.min_goal_distance_m, reading_m);
   std::vector<Spot> spots;
   for (std::size_t i = 0; i < left.size(); ++i) {
-    if (query.reachable[i] == 0 || travel_m[i] < nearest_m) continue;
-    if (!(left[i] > 0.0F) || around[i] < kLeast_nats) continue;
+    if (query.reachable[i] == 0 || !(left[i] > 0.0F) || travel_m[i] < nearest_m) continue;
     spots.push_back({static_cast<double>(around[i]) / (kErrand_m + travel_m[i]), i});
   }
   std::make_heap(spots.begin(), spots.end(), IsWorse);
