@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace plumescout {
@@ -15,6 +16,8 @@ constexpr int kVisitsBeforeSetAside = 2;
 // Nearer than this the map has to change before a goal is worth another try: what a door that
 // opens, or a pallet that is taken away, changes.
 constexpr double kChangeRadius_m = 1.0;
+// Of the variance at the visit before; readings that leave more of it were not worth the way.
+constexpr float kVarianceKept = 0.9F;
 // Bound the memory of a mission that runs for weeks; the oldest are forgotten.
 constexpr std::size_t kMaxVisitedGoals = 1000;
 constexpr std::size_t kMaxSetAside = 200;
@@ -50,6 +53,11 @@ int ChangedCells(const std::vector<CellState>& then, const Grid<CellState>& map,
   return changed;
 }
 
+float VarianceAt_ppm2(Point2 place, const Grid<float>& variance_ppm2) {
+  return variance_ppm2.At(variance_ppm2.geometry().CellAt(place),
+                          std::numeric_limits<float>::quiet_NaN());
+}
+
 }  // namespace
 
 void GoalMemory::Remember(const Goal& goal, ProgressOutcome outcome, const Now& now) {
@@ -61,6 +69,15 @@ void GoalMemory::Remember(const Goal& goal, ProgressOutcome outcome, const Now& 
   }
 }
 
+bool GoalMemory::HasNews(const VisitedGoal& visited, const Now& now) const {
+  const Goal& goal = visited.goal;
+  if (now.time_ns - visited.last_ns > Nanoseconds(set_aside_s_)) return true;
+  if (ChangedCells(visited.states_then, now.map, goal.position) >= min_changed_cells_) return true;
+  return goal.kind == GoalKind::kInformation &&
+         VarianceAt_ppm2(goal.position, now.gas_variance_ppm2) <
+             kVarianceKept * visited.variance_then_ppm2;
+}
+
 void GoalMemory::RememberVisit(const Goal& goal, const Now& now) {
   if (goal.kind == GoalKind::kRandomFreeSpace) return;  // nothing was expected to change there
   auto visited = std::find_if(visited_.begin(), visited_.end(),
@@ -70,12 +87,10 @@ void GoalMemory::RememberVisit(const Goal& goal, const Now& now) {
     visited_.push_back({goal, 0, now.time_ns, StatesNear(now.map, goal.position)});
     visited = visited_.end() - 1;
   }
-  const bool is_news =
-      now.time_ns - visited->last_ns > Nanoseconds(set_aside_s_) ||
-      ChangedCells(visited->states_then, now.map, visited->goal.position) >= min_changed_cells_;
-  visited->visits = is_news ? 1 : visited->visits + 1;
+  visited->visits = HasNews(*visited, now) ? 1 : visited->visits + 1;
   visited->last_ns = now.time_ns;
   visited->states_then = StatesNear(now.map, visited->goal.position);
+  visited->variance_then_ppm2 = VarianceAt_ppm2(visited->goal.position, now.gas_variance_ppm2);
   if (visited->visits < kVisitsBeforeSetAside) return;
   visited_.erase(visited);
   Add(goal, "visited without change", now);

@@ -16,7 +16,9 @@ namespace plumescout {
 
 // The goals of a mission that led nowhere. One that was blocked is set aside; so is one that was
 // reached kVisitsBeforeSetAside times in a row and is still offered: visits count from anew if
-// set_aside_s went by since the last one, or the map near the goal has become another after it.
+// set_aside_s went by since the last one, or the map near the goal has become another after it, or,
+// for a place visited for the readings, their variance there has fallen by a tenth: that it falls
+// for ever is impossible, so such a place is done with at last, or set aside.
 // That a goal is unreachable needs no memory: every plan finds it out anew.
 //
 // A goal stays set aside until planning.set_aside_s are over, or the map near it has become
@@ -29,6 +31,7 @@ class GoalMemory {
   struct Now {
     std::int64_t time_ns;  // of samples
     const Grid<CellState>& map;
+    const Grid<float>& gas_variance_ppm2;  // as of the last refresh; its geometry may be older
   };
 
   explicit GoalMemory(const MissionOptions& options)
@@ -46,13 +49,16 @@ class GoalMemory {
     Goal goal;
     int visits = 0;
     std::int64_t last_ns = 0;
-    std::vector<CellState> states_then;  // of the map near the goal at the last visit
+    // At the last visit: of the map near the goal, and of the gas in its cell, NaN if unknown.
+    std::vector<CellState> states_then;
+    float variance_then_ppm2 = 0.0F;
   };
   struct Entry {
     SetAsideGoal aside;
     std::vector<CellState> states_then;  // of the map near the goal
   };
 
+  bool HasNews(const VisitedGoal& visited, const Now& now) const;
   void RememberVisit(const Goal& goal, const Now& now);
   void Add(const Goal& goal, const std::string& reason, const Now& now);
   bool Holds(const Entry& entry, const Now& now) const;

@@ -114,7 +114,7 @@ absl::StatusOr<Applied> Mission::Change(const PlanIssued& issued) {
 
 absl::StatusOr<Applied> Mission::Change(const ProgressReported& report) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::optional<Goal> goal, fleet_.Report(report));
-  if (goal) goal_memory_.Remember(*goal, report.outcome, {sample_time_ns_, occupancy_.States()});
+  if (goal) goal_memory_.Remember(*goal, report.outcome, Present());
   return Applied{};
 }
 
@@ -186,7 +186,7 @@ std::shared_ptr<const Belief> Mission::Snapshot() const {
   belief->gas_quality = gas_.quality();
   belief->robots = fleet_.Records();
   belief->claims = fleet_.Claims(sample_time_ns_);
-  belief->set_aside = goal_memory_.SetAside({sample_time_ns_, occupancy_.States()});
+  belief->set_aside = goal_memory_.SetAside(Present());
   belief->phase = fleet_.Phase();
   return belief;
 }

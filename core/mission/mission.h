@@ -88,6 +88,9 @@ class Mission {
   absl::StatusOr<Applied> Change(const EpochBegun& begun);
   absl::StatusOr<Applied> Change(const EpochAdopted& adopted);
   bool PeriodHasPassedSince(std::int64_t time_ns) const;
+  GoalMemory::Now Present() const {
+    return {sample_time_ns_, occupancy_.States(), gas_.variance_ppm2()};
+  }
   absl::Status TakeIn(const RobotId& robot, const Observation& observation);
 
   std::shared_ptr<const MissionOptions> options_;

@@ -48,7 +48,7 @@ class Strategy {
   }
 };
 
-// Names of the rows: "xit_gff", "xit_fgf", "xit_f", "mit", "rrt_star_frontier".
+// Names of the rows: "xit_gff", "xit_fgf", "xit_f", "mit", "rrt_star_frontier", "plumescout".
 std::vector<std::string> StrategyNames();
 
 // Sets the parts of `options` that the row `options.strategy` fixes (goals, cost, ...).

@@ -33,11 +33,11 @@ IntendedPath PathTo(GoalKind kind, std::vector<Point2> vertices, const GridGeome
 // a beginning in the inflated zone, which may lead out of it as EscapePath would. The goal is
 // judged from the path's first vertex: a frontier is still worth it while one of the same kind that
 // ClaimCovers is offered to this robot, for it moves as the robot sees more of it; being near is no
-// objection. If there is none it is kGone. A random place, and home, are worth it while they can be
-// reached (and nobody claims the former or has set it aside). Whether another goal is better by now
-// is a question for a new plan. The price is without information expected.
-// REQUIRES: the robot is known; the path has a vertex; vertices are finite and fewer than 2^30
-// cells apart. Cost: O(cells).
+// objection. If there is none it is kGone. Home is worth it while it can be reached, another place
+// while moreover nobody else claims it and it is not set aside. Whether another goal is better by
+// now is a question for a new plan. The price is without information expected. REQUIRES: the robot
+// is known; the path has a vertex; vertices are finite and fewer than 2^30 cells apart. Cost:
+// O(cells).
 TrajectoryCheck CheckTrajectory(const Belief& belief, const RobotId& robot,
                                 const IntendedPath& path, const PlanningOptions& options);
 

@@ -76,21 +76,21 @@ enum class PathKind {
 
 // One row of the strategy table: where to go, how to get there, which to take.
 struct PlanningOptions {
-  std::string strategy = "xit_gff";  // name of the row, see core/plan/strategy.h
-  GoalPolicy goals = GoalPolicy::kGasFirst;
+  std::string strategy = "plumescout";  // name of the row, see core/plan/strategy.h
+  GoalPolicy goals = GoalPolicy::kEverything;
   bool draw_goals = false;  // true: at most max_goals drawn at random within a kind (paper)
   int max_goals = 5;        // with draw_goals; also the number of fallback goals
   double min_goal_distance_m = 0.3;  // goals nearer than this are passed over, >= 0
   PathKind paths = PathKind::kXit;
   CostKind cost = CostKind::kUcb;  // expansion, [XIT] Eq. (12)
   CostKind selection_cost = CostKind::kUcb;
-  SelectionRule selection = SelectionRule::kLeastCost;  // [XIT] Eq. (4), (13)
-  double alpha = 0.0;                                   // per metre, [0, 1e9]
-  double beta = 1.0;                                    // [XIT] Eq. (8), [0, 1e9]
-  bool raw_variance = false;                            // Eq. (8) as printed: variance in ppm^2
-  int samples = 300;                                    // N, [1, 100000]
-  int nearest_samples = 3;                              // k_n, [1, 100]
-  double uniform_share = 0.2;                           // epsilon of Eq. (14), [0, 1]
+  SelectionRule selection = SelectionRule::kInformationRate;
+  double alpha = 0.0;          // per metre, [0, 1e9]
+  double beta = 1.0;           // [XIT] Eq. (8), [0, 1e9]
+  bool raw_variance = false;   // Eq. (8) as printed: variance in ppm^2
+  int samples = 300;           // N, [1, 100000]
+  int nearest_samples = 3;     // k_n, [1, 100]
+  double uniform_share = 0.2;  // epsilon of Eq. (14), [0, 1]
   SamplingKind sampling = SamplingKind::kSystematic;
   double radius_factor = 1.1;   // gamma / gamma_RGG, > 0
   bool mixture_radius = false;  // gamma* = epsilon^(-1/2) gamma

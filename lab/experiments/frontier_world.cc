@@ -223,7 +223,9 @@ FrontierWorld MakeFrontierWorld() {
 
 absl::StatusOr<FrontierWalk> WalkFrontiers(const FrontierWorld& world, WgfdScope scope,
                                            std::uint64_t seed) {
-  const MissionOptions options = MakeOptions(scope, seed);
+  MissionOptions options = MakeOptions(scope, seed);
+  options.planning.strategy = "xit_gff";
+  PLUMESCOUT_RETURN_IF_ERROR(ApplyStrategyRow(options.planning));
   PLUMESCOUT_ASSIGN_OR_RETURN(std::unique_ptr<Mission> mission, Mission::Create(options));
   PLUMESCOUT_ASSIGN_OR_RETURN(std::unique_ptr<const Strategy> strategy,
                               MakeStrategy(options.planning));

@@ -21,6 +21,7 @@ struct GoalCase {
     mission.frontier.min_occupancy_cells = 1;
     mission.frontier.min_gas_cells = 1;
     SetMission(mission);
+    options.goals = GoalPolicy::kGasFirst;
     options.min_goal_distance_m = 0.05;
   }
 

@@ -28,8 +28,16 @@ inline PlanRequest For(const RobotId& robot, std::uint64_t seed = 0) {
   return request;
 }
 
+// Of the paper's strategy: gas frontiers first, the path of least cost.
+inline PlanningOptions XitGff() {
+  PlanningOptions options;
+  options.strategy = "xit_gff";
+  const bool applied = ApplyStrategyRow(options).ok();
+  return applied ? options : PlanningOptions{};
+}
+
 inline absl::StatusOr<Plan> TryPlan(const Belief& belief, const PlanRequest& request,
-                                    const PlanningOptions& options = {},
+                                    const PlanningOptions& options = XitGff(),
                                     const StopFn& stop = NeverStop()) {
   const auto strategy = MakeStrategy(options);
   if (!strategy.ok()) return strategy.status();

@@ -32,7 +32,7 @@ GoalSet FindGoals(const GoalQuery& query, Rng& rng) {
   result.rejected = std::move(frontiers.rejected);
   result.goals = ChooseByPolicy(std::move(frontiers), query.options, rng, result.rejected);
   if (query.options.goals == GoalPolicy::kEverything) {
-    const std::vector<Goal> telling = InformationGoals(query);
+    const std::vector<Goal> telling = InformationGoals(query, result.rejected);
     result.goals.insert(result.goals.end(), telling.begin(), telling.end());
   }
   if (!result.goals.empty()) return result;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <utility>
 
 #include "core/frontier/gas_frontier.h"
 #include "core/grid/grid_search.h"
@@ -46,42 +48,58 @@ struct Spot {
   std::size_t index;
 };
 
-// Best first.
-std::vector<Spot> RankSpots(const GoalQuery& query) {
+bool IsWorse(const Spot& a, const Spot& b) {
+  return a.merit != b.merit ? a.merit < b.merit : a.index > b.index;
+}
+
+// A heap, the best on top: of some million spots a few thousand are looked at.
+std::vector<Spot> FindSpots(const GoalQuery& query) {
   const GridGeometry& geometry = query.belief.geometry();
   const int reach_cells = static_cast<int>(std::lround(kWindowReach_m / geometry.resolution_m));
-  const Grid<float> left = WindowSums(LeftToTell(query.belief), reach_cells);
+  const Grid<float> left = LeftToTell(query.belief);
+  const Grid<float> around = WindowSums(left, reach_cells);
   const Grid<double> travel_m = TravelDistances_m(query.reachable, std::vector<Cell>{query.start});
   const double reading_m = query.options.speed_mps / query.options.reading_rate_hz;
   const double nearest_m = std::max(query.options.min_goal_distance_m, reading_m);
   std::vector<Spot> spots;
   for (std::size_t i = 0; i < left.size(); ++i) {
     if (query.reachable[i] == 0 || !(left[i] > 0.0F) || travel_m[i] < nearest_m) continue;
-    spots.push_back({static_cast<double>(left[i]) / (kErrand_m + travel_m[i]), i});
+    spots.push_back({static_cast<double>(around[i]) / (kErrand_m + travel_m[i]), i});
   }
-  std::sort(spots.begin(), spots.end(), [](const Spot& a, const Spot& b) {
-    return a.merit != b.merit ? a.merit > b.merit : a.index < b.index;
-  });
+  std::make_heap(spots.begin(), spots.end(), IsWorse);
   return spots;
+}
+
+Goal GoalAt(std::size_t index, const GridGeometry& geometry) {
+  Goal goal;
+  goal.kind = GoalKind::kInformation;
+  goal.cell = geometry.CellAtIndex(index);
+  goal.position = geometry.Center(goal.cell);
+  goal.centroid = goal.position;
+  return goal;
 }
 
 }  // namespace
 
-std::vector<Goal> InformationGoals(const GoalQuery& query) {
+std::vector<Goal> InformationGoals(const GoalQuery& query, std::vector<RejectedGoal>& rejected) {
   std::vector<Goal> goals;
   if (query.belief.gas_counters.readings == 0) return goals;
-  const GridGeometry& geometry = query.belief.geometry();
-  for (const Spot& spot : RankSpots(query)) {
-    if (goals.size() == kMaxGoals) break;
-    Goal goal;
-    goal.kind = GoalKind::kInformation;
-    goal.cell = geometry.CellAtIndex(spot.index);
-    goal.position = geometry.Center(goal.cell);
-    goal.centroid = goal.position;
-    const bool crowded = std::any_of(goals.begin(), goals.end(), [&](const Goal& taken) {
-      return Distance_m(taken.position, goal.position) < kApart_m;
+  std::vector<Spot> spots = FindSpots(query);
+  std::vector<Point2> taken;
+  while (!spots.empty() && goals.size() < kMaxGoals) {
+    std::pop_heap(spots.begin(), spots.end(), IsWorse);
+    const Goal goal = GoalAt(spots.back().index, query.belief.geometry());
+    spots.pop_back();
+    const bool crowded = std::any_of(taken.begin(), taken.end(), [&](Point2 place) {
+      return Distance_m(place, goal.position) < kApart_m;
     });
-    if (!crowded && !RejectedByMemory(query, goal)) goals.push_back(goal);
+    if (crowded) continue;
+    taken.push_back(goal.position);
+    if (std::optional<RejectedGoal> rejection = RejectedByMemory(query, goal)) {
+      rejected.push_back(*std::move(rejection));
+    } else {
+      goals.push_back(goal);
+    }
   }
   return goals;
 }

@@ -18,8 +18,11 @@ namespace plumescout {
 // air counts as observed and half of that where there surely is gas: without an end to it no
 // mission would end. Summed over a window of 1 m and divided by the way there, lengthened by the
 // length of an average errand, that ranks places; the best are taken that are not too near to each
-// other, nearer than one reading to the robot, set aside or claimed. None before the first reading.
-// Deterministic. Cost: O(cells log cells).
-std::vector<Goal> InformationGoals(const GoalQuery& query);
+// other or nearer than one reading to the robot. The cell itself must have something left to tell:
+// it is where the reading is taken, so every visit brings the end nearer, which it would not for
+// the sake of cells beyond a wall. Places that are set aside or claimed are added to `rejected`,
+// and keep others at a distance just as places taken do. None before the first reading.
+// Deterministic. Cost: O(cells).
+std::vector<Goal> InformationGoals(const GoalQuery& query, std::vector<RejectedGoal>& rejected);
 
 }  // namespace plumescout

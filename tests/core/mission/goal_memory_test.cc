@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace plumescout {
 namespace {
 
@@ -25,10 +27,10 @@ struct Memory {
     return options;
   }
   void Remember(const Goal& goal, ProgressOutcome outcome, std::int64_t time_ns = 0) {
-    goals.Remember(goal, outcome, {time_ns, map});
+    goals.Remember(goal, outcome, {time_ns, map, variance_ppm2});
   }
   std::vector<SetAsideGoal> SetAside(std::int64_t time_ns = 0) const {
-    return goals.SetAside({time_ns, map});
+    return goals.SetAside({time_ns, map, variance_ppm2});
   }
   // The first `count` cells of a row through the goal's cell, from it to the east.
   void SetRow(int count, CellState state) {
@@ -37,6 +39,7 @@ struct Memory {
 
   GoalMemory goals;
   Grid<CellState> map{GridGeometry{-1.0, -1.0, 0.1, 40, 40}, CellState::kFree};
+  Grid<float> variance_ppm2{map.geometry(), 1.0F};
 };
 
 TEST(GoalMemory, SetsABlockedGoalAsideUntilItExpires) {
@@ -84,6 +87,31 @@ TEST(GoalMemory, DoesNotMixPlacesOrKindsOrExpectChangeAtRandomPlaces) {
     memory.Remember(At(kPlace, GoalKind::kRandomFreeSpace), ProgressOutcome::kReached);
   }
   EXPECT_TRUE(memory.SetAside().empty());
+}
+
+// Two visits for readings that leave `kept` of the variance at the place.
+bool IsSetAsideAfterReadings(GoalKind kind, float kept) {
+  Memory memory;
+  memory.Remember(At(kPlace, kind), ProgressOutcome::kReached);
+  memory.variance_ppm2[Cell{20, 20}] = kept;
+  memory.Remember(At(kPlace, kind), ProgressOutcome::kReached);
+  return !memory.SetAside().empty();
+}
+
+TEST(GoalMemory, CountsVisitsForReadingsFromAnewIfTheseLoweredTheVariance) {
+  EXPECT_FALSE(IsSetAsideAfterReadings(GoalKind::kInformation, 0.85F));
+  EXPECT_TRUE(IsSetAsideAfterReadings(GoalKind::kInformation, 0.95F));
+  EXPECT_TRUE(IsSetAsideAfterReadings(GoalKind::kInformation, 1.5F)) << "readings that aged";
+  EXPECT_TRUE(IsSetAsideAfterReadings(GoalKind::kGasFrontier, 0.85F)) << "it should be gone";
+}
+
+TEST(GoalMemory, SetsAPlaceAsideWhoseVarianceIsUnknown) {
+  EXPECT_TRUE(IsSetAsideAfterReadings(GoalKind::kInformation, NAN));
+  Memory memory;
+  memory.variance_ppm2 = Grid<float>();
+  memory.Remember(At(kPlace, GoalKind::kInformation), ProgressOutcome::kReached);
+  memory.Remember(At(kPlace, GoalKind::kInformation), ProgressOutcome::kReached);
+  EXPECT_EQ(memory.SetAside().size(), 1u);
 }
 
 TEST(GoalMemory, HearsNothingAboutAGoalFromAnAbortedPlan) {
@@ -148,7 +176,7 @@ TEST(GoalMemory, KeepsItsPlaceWhenTheMapGrows) {
   for (int y = 0; y < 40; ++y) {
     for (int x = 0; x < 40; ++x) grown[Cell{x + 64, y + 64}] = memory.map[Cell{x, y}];
   }
-  EXPECT_EQ(memory.goals.SetAside({0, grown}).size(), 1u);
+  EXPECT_EQ(memory.goals.SetAside({0, grown, memory.variance_ppm2}).size(), 1u);
 }
 
 TEST(GoalMemory, RemembersAtTheEdgeOfTheMap) {

@@ -86,7 +86,7 @@ TEST(StrategyReturn, ReturnsBeforeItIsComplete) {
   c.AddGas(kClosed, 0.0F);
   c.belief.robots["r"].fruitless_fallbacks = 2;
   c.belief.robots["r"].first_place = c.belief.geometry().Center({6, 2});
-  PlanningOptions options;
+  PlanningOptions options = testing::XitGff();
   options.return_home = true;
   absl::StatusOr<Plan> plan = TryPlan(c.belief, For("r"), options);
   ASSERT_TRUE(plan.ok());
@@ -101,7 +101,7 @@ TEST(StrategyReturn, ReturnsBeforeItIsComplete) {
 
 TEST(StrategyReturn, TakesOnlyGoalsWithinTheTravelBudget) {
   Belief belief = FromTheEast();
-  PlanningOptions options;
+  PlanningOptions options = testing::XitGff();
   options.travel_budget_m = 1.4;  // enough for the east only, which is next to home
   absl::StatusOr<Plan> plan = TryPlan(belief, For("r"), options);
   ASSERT_TRUE(plan.ok());
@@ -115,7 +115,7 @@ TEST(StrategyReturn, TakesOnlyGoalsWithinTheTravelBudget) {
 TEST(StrategyReturn, DrivesHomeOnceEveryGoalIsOverBudgetAndIsThenComplete) {
   Belief belief = FromTheEast();
   belief.robots["r"].travelled_m = 100.0;
-  PlanningOptions options;
+  PlanningOptions options = testing::XitGff();
   options.travel_budget_m = 101.0;
   absl::StatusOr<Plan> plan = TryPlan(belief, For("r"), options);
   ASSERT_TRUE(plan.ok());
@@ -143,7 +143,7 @@ TEST(StrategyReturn, StartsWhereTheLivePlanWillHaveTheRobot) {
   live.waypoints = {{{pose.x_m, pose.y_m, M_PI}, 0.0, 0.0},
                     {{pose.x_m - 0.2, pose.y_m, M_PI}, 2.0, 0.0}};
   belief.robots["r"].live_trajectory = std::make_shared<const Trajectory>(live);
-  PlanningOptions options;
+  PlanningOptions options = testing::XitGff();
   options.planning_latency_s = 1.0;
   const absl::StatusOr<Plan> plan = TryPlan(belief, For("r"), options);
   ASSERT_TRUE(plan.ok());
@@ -151,7 +151,7 @@ TEST(StrategyReturn, StartsWhereTheLivePlanWillHaveTheRobot) {
 }
 
 PlanningOptions RandomLimits(Rng& rng) {
-  PlanningOptions options;
+  PlanningOptions options = testing::XitGff();
   options.travel_budget_m = rng.Uniform(20.0, 60.0);
   options.return_margin_share = rng.Uniform(0.0, 1.0);
   options.return_home = rng.Below(2) == 0;

@@ -57,7 +57,7 @@ std::vector<Plan> PlansOnTheWay(const Belief& belief, const RobotId& robot,
 }
 
 TEST(Strategy, TellsOfBetterPlansOnTheWay) {
-  PlanningOptions options;
+  PlanningOptions options = testing::XitGff();
   options.paths = PathKind::kAnytimeXit;
   const lab::RandomWorld world = lab::MakeRandomWorld(2, 3);
   Plan last;
@@ -106,7 +106,7 @@ TEST(Strategy, PlansToTheCheapestFrontier) {
 }
 
 TEST(Strategy, TimesTheTrajectoryOfTheChosenCandidate) {
-  PlanningOptions options;
+  PlanningOptions options = testing::XitGff();
   options.speed_mps = 0.5;
   options.dwell_s = 2.0;
   const absl::StatusOr<Plan> plan = TryPlan(SmallBelief(kRoom), For("r"), options);
@@ -143,7 +143,7 @@ TEST(Strategy, KeepsTheGoalItDrivesToUnlessAnotherIsBetterByTheMargin) {
   const Candidate& other = free->candidates[static_cast<std::size_t>(1 - free->chosen)];
   belief.claims = {{"r", 1, other.goal, belief.sample_time_ns + 1}};
 
-  PlanningOptions options;
+  PlanningOptions options = testing::XitGff();
   options.commitment_margin = 1.0;
   const absl::StatusOr<Plan> kept = TryPlan(belief, For("r"), options);
   ASSERT_TRUE(kept.ok());
@@ -158,7 +158,7 @@ TEST(Strategy, KeepsTheGoalItDrivesToUnlessAnotherIsBetterByTheMargin) {
 }
 
 TEST(Strategy, SaysHowLongEachCandidateTakes) {
-  PlanningOptions options;
+  PlanningOptions options = testing::XitGff();
   options.speed_mps = 0.5;
   const absl::StatusOr<Plan> plan = TryPlan(SmallBelief(kRoom), For("r"), options);
   ASSERT_TRUE(plan.ok());
@@ -171,7 +171,7 @@ TEST(Strategy, SaysHowLongEachCandidateTakes) {
 
 TEST(Strategy, GivesTheSameBytesForTheSameRequest) {
   const lab::RandomWorld world = lab::MakeRandomWorld(3, 1);
-  PlanningOptions options;
+  PlanningOptions options = testing::XitGff();
   options.draw_goals = true;
   for (const std::uint64_t seed : {0, 9}) {
     const absl::StatusOr<Plan> first = TryPlan(world.belief, For(world.robot, seed), options);
@@ -271,7 +271,7 @@ TEST(Strategy, ProbesGasFrontiers) {
                        "#########"};
   testing::GoalCase c(art);
   c.AddGas(art, 50.0F);
-  PlanningOptions options;
+  PlanningOptions options = testing::XitGff();
   options.min_goal_distance_m = 0.1;
   const absl::StatusOr<Plan> plan = TryPlan(c.belief, For("r"), options);
   ASSERT_TRUE(plan.ok());
@@ -283,7 +283,7 @@ TEST(Strategy, ProbesGasFrontiers) {
 TEST(Strategy, VisitsRandomPlacesWhenNoFrontierIsLeftAndThenIsComplete) {
   testing::GoalCase c(kClosed);
   c.AddGas(kClosed, 0.0F);  // measured everywhere, no gas
-  PlanningOptions options;
+  PlanningOptions options = testing::XitGff();
   options.min_goal_distance_m = 0.1;
   absl::StatusOr<Plan> plan = TryPlan(c.belief, For("r"), options);
   ASSERT_TRUE(plan.ok());
@@ -313,7 +313,7 @@ TEST(Strategy, SaysWhatItPassedOver) {
 }
 
 TEST(Strategy, WithoutTheGuardMayMissGoalsAndSaysSo) {
-  PlanningOptions options;
+  PlanningOptions options = testing::XitGff();
   options.grid_guard = false;
   options.samples = 1;
   options.nearest_samples = 1;

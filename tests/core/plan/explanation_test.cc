@@ -63,6 +63,11 @@ TEST(Explain, SaysWhenNoFrontierIsLeft) {
               HasSubstr("a random free place, for no frontier is left"));
 }
 
+TEST(Explain, SaysThatReadingsTellMuchThere) {
+  EXPECT_THAT(Explain(ChosenPlan(GoalKind::kInformation), SelectionRule::kLeastCost),
+              HasSubstr("Drive 5.4 m to a place where readings tell much at (3.2, 4.0)"));
+}
+
 TEST(Explain, MentionsWhatLimitedThePlan) {
   Plan plan = ChosenPlan(GoalKind::kGasFrontier);
   plan.start_escaped = true;

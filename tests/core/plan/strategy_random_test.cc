@@ -88,8 +88,8 @@ Belief RandomBelief(Rng& rng) {
 PlanningOptions RandomOptions(Rng& rng) {
   PlanningOptions options;
   options.paths = OneOf(rng, {PathKind::kXit, PathKind::kAnytimeXit, PathKind::kGridExact});
-  options.goals =
-      OneOf(rng, {GoalPolicy::kGasFirst, GoalPolicy::kOccupancyFirst, GoalPolicy::kOccupancyOnly});
+  options.goals = OneOf(rng, {GoalPolicy::kGasFirst, GoalPolicy::kOccupancyFirst,
+                              GoalPolicy::kOccupancyOnly, GoalPolicy::kEverything});
   options.cost = OneOf(rng, {CostKind::kUcb, CostKind::kEuclidean, CostKind::kVertices});
   options.selection_cost = OneOf(rng, {CostKind::kUcb, CostKind::kEuclidean, CostKind::kVertices});
   options.selection = OneOf(

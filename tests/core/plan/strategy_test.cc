@@ -11,9 +11,21 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-TEST(StrategyTable, NamesTheRowsOfThePapers) {
+TEST(StrategyTable, NamesTheRowsOfThePapersAndOurs) {
   EXPECT_THAT(StrategyNames(),
-              ElementsAre("xit_gff", "xit_fgf", "xit_f", "mit", "rrt_star_frontier"));
+              ElementsAre("xit_gff", "xit_fgf", "xit_f", "mit", "rrt_star_frontier", "plumescout"));
+}
+
+TEST(StrategyTable, DefaultsAreThePartsOfTheRowThatTheyName) {
+  PlanningOptions options;
+  ASSERT_TRUE(ApplyStrategyRow(options).ok());
+  const PlanningOptions defaults;
+  EXPECT_EQ(options.goals, defaults.goals);
+  EXPECT_EQ(options.paths, defaults.paths);
+  EXPECT_EQ(options.cost, defaults.cost);
+  EXPECT_EQ(options.selection_cost, defaults.selection_cost);
+  EXPECT_EQ(options.selection, defaults.selection);
+  EXPECT_EQ(options.straighten, defaults.straighten);
 }
 
 TEST(StrategyTable, SetsThePartsOfARow) {
@@ -45,6 +57,21 @@ TEST(StrategyTable, MakesMitASearchByDistanceAmongSamplesOfTheField) {
   EXPECT_EQ(options.sampling, SamplingKind::kIid);
   EXPECT_FALSE(options.goal_vertices);
   EXPECT_FALSE(options.straighten);
+  EXPECT_TRUE(MakeStrategy(options).ok());
+}
+
+TEST(StrategyTable, MakesOursGoForInformationPerSecondWhereverItIs) {
+  PlanningOptions options;
+  options.strategy = "mit";
+  ASSERT_TRUE(ApplyStrategyRow(options).ok());
+  options.strategy = "plumescout";
+  ASSERT_TRUE(ApplyStrategyRow(options).ok());
+  EXPECT_EQ(options.goals, GoalPolicy::kEverything);
+  EXPECT_EQ(options.paths, PathKind::kXit);
+  EXPECT_EQ(options.cost, CostKind::kUcb);
+  EXPECT_EQ(options.selection_cost, CostKind::kUcb);
+  EXPECT_EQ(options.selection, SelectionRule::kInformationRate);
+  EXPECT_TRUE(options.straighten);
   EXPECT_TRUE(MakeStrategy(options).ok());
 }
 

@@ -155,7 +155,7 @@ TEST(CheckTrajectory, AFrontierThatMovedALittleIsStillWorthIt) {
 
 TEST(CheckTrajectory, AFrontierInFrontOfTheRobotIsStillWorthIt) {
   const Belief belief = Hall();
-  PlanningOptions options;
+  PlanningOptions options = testing::XitGff();
   options.min_goal_distance_m = 5.0;
   EXPECT_FALSE(CheckTrajectory(belief, "r", East(belief), options).rejection.has_value());
 }
@@ -216,7 +216,7 @@ Belief Driving() {
   RobotRecord& robot = belief.robots["r"];
   robot.last_plan = 4;
   robot.live_goal = East(belief).goal;
-  PlanningOptions options;
+  PlanningOptions options = testing::XitGff();
   options.max_acceleration_mps2 = 0.5;
   robot.live_trajectory = std::make_shared<const Trajectory>(
       TimeTrajectory({At(belief, {1, 2}), At(belief, {4, 2}), At(belief, {8, 1})}, 0.0, options));

@@ -60,6 +60,20 @@ TEST(Trial, IsTheSameAgainAndAnotherWithAnotherSeed) {
   }
 }
 
+// There are always readings that would tell a little more: here some six minutes of them.
+TEST(Trial, OfPlumescoutEndsOfItself) {
+  const SceneWorld world(SmallScene());
+  const MissionOptions mission = MissionBy("plumescout");
+  Trial trial = SmallTrial(mission, world);
+  trial.duration_s = 600.0;
+  for (trial.seed = 1; trial.seed <= 3; ++trial.seed) {
+    const auto record = RunTrial(trial);
+    ASSERT_TRUE(record.ok()) << record.status();
+    EXPECT_TRUE(record->completed);
+    EXPECT_GT(record->curve.back().metrics.completeness, 0.95);
+  }
+}
+
 TEST(Trial, AMissionThatIsInvalidIsAnError) {
   const SceneWorld world(SmallScene());
   MissionOptions mission = MissionBy("xit_gff");

@@ -105,9 +105,41 @@ TEST(ChooseByPolicy, SaysWhichGoalsWereNotDrawn) {
   }
 }
 
+TEST(ChooseByPolicy, EverythingIsTheNearestOfEachKind) {
+  const Chosen chosen = Choose(5, 4, GoalPolicy::kEverything, false);
+  EXPECT_THAT(chosen.numbers, ElementsAre(5, 4, 3, 104, 103, 102));
+  std::set<int> not_drawn;
+  for (const RejectedGoal& goal : chosen.rejected) {
+    EXPECT_EQ(goal.reason, RejectionReason::kNotDrawn);
+    not_drawn.insert(goal.goal.frontier_cells);
+  }
+  EXPECT_EQ(not_drawn, (std::set<int>{1, 2, 101}));
+}
+
+TEST(ChooseByPolicy, EverythingGivesNoSlotOfOneKindToTheOther) {
+  EXPECT_THAT(Choose(1, 5, GoalPolicy::kEverything, false).numbers, ElementsAre(1, 105, 104, 103));
+  EXPECT_THAT(Choose(0, 5, GoalPolicy::kEverything, false).numbers, ElementsAre(105, 104, 103));
+  EXPECT_THAT(Choose(5, 0, GoalPolicy::kEverything, false).numbers, ElementsAre(5, 4, 3));
+}
+
+TEST(ChooseByPolicy, EverythingDrawsWithinEachKindIfToldSo) {
+  std::map<int, int> counts;
+  constexpr int kDraws = 2000;
+  for (int seed = 1; seed <= kDraws; ++seed) {
+    const Chosen chosen =
+        Choose(5, 4, GoalPolicy::kEverything, true, static_cast<std::uint64_t>(seed));
+    ASSERT_THAT(chosen.numbers, SizeIs(6));
+    for (const int number : chosen.numbers) ++counts[number];
+  }
+  // With probability 3/5 and 3/4; five standard deviations.
+  for (int number = 1; number <= 5; ++number) EXPECT_NEAR(counts[number], 1200, 5 * 22);
+  for (int number = 101; number <= 104; ++number) EXPECT_NEAR(counts[number], 1500, 5 * 20);
+}
+
 TEST(ChooseByPolicy, OfNothingIsNothing) {
   EXPECT_THAT(Choose(0, 0, GoalPolicy::kGasFirst, true).numbers, IsEmpty());
   EXPECT_THAT(Choose(0, 0, GoalPolicy::kOccupancyOnly, false).numbers, IsEmpty());
+  EXPECT_THAT(Choose(0, 0, GoalPolicy::kEverything, false).numbers, IsEmpty());
 }
 
 }  // namespace

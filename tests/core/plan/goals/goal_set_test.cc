@@ -5,6 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
+#include <string>
+
 #include "tests/support/goal_case.h"
 
 namespace plumescout {
@@ -107,6 +111,70 @@ TEST(FindGoals, IsCompleteThoughAFrontierIsSetAside) {
   EXPECT_TRUE(Find(c).fallback);
   c.belief.robots["r"].fruitless_fallbacks = 2;
   EXPECT_TRUE(Find(c).complete);
+}
+
+// A strip of 3 m that is known roughly and open in the east: gas in its near half.
+GoalCase Strip(float variance_ppm2) {
+  const testing::GridArt art = {std::string(32, '#'), "#" + std::string(30, 'g') + "?",
+                                "#S" + std::string(29, 'g') + "?", std::string(32, '#')};
+  GoalCase c(art);
+  c.options.goals = GoalPolicy::kEverything;
+  c.belief.gas_counters.readings = 1;
+  Grid<float> mean(c.belief.geometry(), 0.0F);
+  for (std::size_t i = 0; i < mean.size(); ++i) {
+    if (mean.geometry().CellAtIndex(i).x < 16) mean[i] = 20.0F;
+  }
+  c.belief.gas_mean_ppm = std::make_shared<const Grid<float>>(mean);
+  c.belief.gas_variance_ppm2 =
+      std::make_shared<const Grid<float>>(c.belief.geometry(), variance_ppm2);
+  return c;
+}
+
+bool HasKind(const GoalSet& found, GoalKind kind) {
+  return std::any_of(found.goals.begin(), found.goals.end(),
+                     [kind](const Goal& goal) { return goal.kind == kind; });
+}
+
+constexpr float kRough_ppm2 = 0.15F;  // observed (0.7 epsilon_inf is 0.22), and half of that is not
+constexpr float kFine_ppm2 = 0.01F;
+
+TEST(FindGoals, OfEverythingAreFrontiersAndPlacesWhereReadingsTellMuch) {
+  GoalCase c = Strip(kRough_ppm2);
+  EXPECT_TRUE(HasKind(Find(c), GoalKind::kOccupancyFrontier));
+  EXPECT_TRUE(HasKind(Find(c), GoalKind::kInformation));
+  EXPECT_FALSE(Find(c).fallback);
+  c.options.goals = GoalPolicy::kGasFirst;
+  EXPECT_FALSE(HasKind(Find(c), GoalKind::kInformation));
+  c = Strip(kFine_ppm2);
+  EXPECT_FALSE(HasKind(Find(c), GoalKind::kInformation));
+}
+
+TEST(FindGoals, OfEverythingFallsBackOnlyIfThereIsNothing) {
+  GoalCase c = Strip(kRough_ppm2);
+  c.belief.robots["r"].fruitless_fallbacks = 2;
+  c.belief.set_aside = {{TheFrontier(c), "visited without change", 1000}};
+  const GoalSet rough = Find(c);
+  EXPECT_FALSE(rough.fallback || rough.complete);
+  EXPECT_FALSE(HasKind(rough, GoalKind::kOccupancyFrontier));
+  EXPECT_TRUE(HasKind(rough, GoalKind::kInformation));
+  c.belief.gas_variance_ppm2 = Strip(kFine_ppm2).belief.gas_variance_ppm2;
+  EXPECT_TRUE(Find(c).complete);
+  c.belief.robots["r"].fruitless_fallbacks = 0;
+  EXPECT_TRUE(Find(c).fallback);
+}
+
+TEST(FindGoals, IsNotCompleteWhileAnotherRobotReadsWhereThereIsMuchToTell) {
+  GoalCase c = Strip(kRough_ppm2);
+  c.belief.robots["r"].fruitless_fallbacks = 2;
+  c.belief.set_aside = {{TheFrontier(c), "visited without change", 1000}};
+  std::int64_t plan = 0;
+  for (GoalSet found = Find(c); HasKind(found, GoalKind::kInformation); found = Find(c)) {
+    ASSERT_LT(plan, 20);
+    for (const Goal& goal : found.goals) c.belief.claims.push_back({"other", ++plan, goal, 1000});
+  }
+  EXPECT_GT(plan, 0);
+  EXPECT_FALSE(Find(c).complete);
+  EXPECT_TRUE(Find(c).fallback);
 }
 
 // The robot came from the far end.

@@ -93,11 +93,18 @@ struct World {
   GasMap gas{GasOptions()};
 };
 
-// The entropy that was lost between two fields, [XIT] Eq. (24) cell by cell, weighted as relevance
-// is defined.
+// The formula of core/plan/relevance.h, in double precision, for the default thresholds.
+double RelevanceOf(double gas_ppm, double greatest_ppm) {
+  const double sure_ppm = 2.0 * FrontierOptions().min_gas_threshold_ppm;
+  const double gas = std::max(0.0, gas_ppm);
+  return 0.05 + 0.95 * std::pow(std::min(1.0, gas / sure_ppm), 2) +
+         0.5 * gas / std::max(sure_ppm, greatest_ppm);
+}
+
+// The entropy that was lost between two fields, [XIT] Eq. (24) cell by cell, weighted by relevance.
 double LostEntropy(const Grid<float>& mean_ppm, const Grid<float>& before,
                    const Grid<float>& after) {
-  double greatest_ppm = FrontierOptions().min_gas_threshold_ppm;
+  double greatest_ppm = 0.0;
   for (const float mean : mean_ppm.values()) {
     if (std::isfinite(mean)) greatest_ppm = std::max(greatest_ppm, static_cast<double>(mean));
   }
@@ -106,8 +113,8 @@ double LostEntropy(const Grid<float>& mean_ppm, const Grid<float>& before,
   double sum = 0.0;
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (!std::isfinite(before[i])) continue;
-    const double gas_share = std::max(0.0, static_cast<double>(mean_ppm[i])) / greatest_ppm;
-    sum += (0.2 + 0.8 * gas_share) * (entropy(before[i]) - entropy(after[i]));
+    sum += RelevanceOf(static_cast<double>(mean_ppm[i]), greatest_ppm) *
+           (entropy(before[i]) - entropy(after[i]));
   }
   return sum;
 }
