@@ -313,9 +313,10 @@ std::vector<std::string> MakeNotes() {
       "4 s, noise 10 ppm and 1 %, steps of 10 ppm): its readings count after 4 s of standing, the "
       "lag undone from the beginning of the stop. Critical cells, on which RMSE and entropy are "
       "taken, are those above 600 ppm on average.",
-      "The rule that ends it is the paper's, and it is a gamble. Of seeds 1 to 8, seven took 12 to "
-      "19 minutes, of which four never came upon the gas of source 1, and one met no gas on its "
-      "first two fallback trajectories and was done within two minutes.",
+      "The rule that ends it is the paper's, and it is a gamble: a robot whose fallback "
+      "trajectories "
+      "twice in a row meet nothing new is done, whether or not it came upon the gas of both "
+      "sources. That depends on the seed.",
       "Rows of Fig. 11 from left to right, each as map and UCB field: exploring; probing gas at "
       "the second "
       "source; late, through most gas. Red: frontiers, yellow: gas frontiers, purple: the "
