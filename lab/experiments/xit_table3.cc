@@ -145,8 +145,7 @@ struct RowResult {
   double p = 1.0;  // against the baseline
 };
 
-RowResult Compare(const std::vector<SceneRecords>& records, std::size_t row,
-                  MetricFn metric) {
+RowResult Compare(const std::vector<SceneRecords>& records, std::size_t row, MetricFn metric) {
   const std::vector<double> values = Finals(records, row, metric);
   const std::vector<double> baseline = Finals(records, kBaseline, metric);
   RowResult result;
