@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "lab/sim/layout_generator.h"
@@ -42,7 +43,8 @@ TEST(LayoutWriterTest, WritesEveryField) {
   layout.walls = {{{0.5, 2.5}, {3.5, 2.5}, 0.15, {{0.7, 0.6}, {2.1, 0.8}}}};
   layout.fans = {{{1.0, 0.9}, -0.7, 0.4, 2.5}, {{3.0, 1.5}, 1.0, 0.6, 0.1}};
   layout.sources.push_back({1, 3.0, 1.0, layout.sensor_height_m, 750.0, {-30.0, 60.5, 10.0, 20.0}});
-  layout.sources.push_back({2, 3.0, 1.5, layout.sensor_height_m, 1e-3, {.end_s = 7.0}});
+  layout.sources.push_back(
+      {2, 3.0, 1.5, layout.sensor_height_m, 1e-3, {std::nullopt, 7.0, std::nullopt, std::nullopt}});
   layout.start_pose.yaw_rad = -3.0;
   layout.gas = {50.0, 0.2, 0.001, 0.03, 1.5};
   ExpectSameBack(layout);
