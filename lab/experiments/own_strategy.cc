@@ -30,7 +30,6 @@ constexpr int kTrials = 2;
 constexpr double kDuration_s = 300.0;
 constexpr double kQuickDuration_s = 60.0;
 constexpr int kEndless = 1000;  // more fallbacks than a trial has time for
-constexpr double kPercent = 100.0;
 
 struct Contestant {
   const char* name;

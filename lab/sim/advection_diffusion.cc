@@ -86,14 +86,16 @@ void Transport::AddTerm(Cell of, Cell by, double rate_per_s) {
 }
 
 void Transport::AddFace(const Face& face) {
-  const auto [behind, ahead, speed_mps] = face;
+  // Structured bindings could not be captured below: clang knows no such captures yet.
+  const Cell behind = face.behind;
+  const Cell ahead = face.ahead;
   if (SpaceAt(behind) == GasSpace::kSolid || SpaceAt(ahead) == GasSpace::kSolid) return;
   // Leaves `behind` and enters `ahead`, whichever of them are inside.
   const auto flow = [&](Cell by, double rate_per_s) {
     AddTerm(behind, by, rate_per_s);
     AddTerm(ahead, by, -rate_per_s);
   };
-  const double carried_per_s = speed_mps / resolution_m_;
+  const double carried_per_s = face.speed_mps / resolution_m_;
   flow(behind, carried_per_s);
   if (SpaceAt(behind) == GasSpace::kInside && SpaceAt(ahead) == GasSpace::kInside) {
     // Fromm: the slope in `behind` is that between its neighbours; at a wall, which mirrors it, or
