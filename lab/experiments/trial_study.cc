@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/plan/strategy.h"
 #include "core/types/status_macros.h"
 #include "formats/scene_folder.h"
 #include "lab/experiments/task_pool.h"
@@ -64,6 +65,19 @@ class SceneStudy {
 };
 
 }  // namespace
+
+absl::StatusOr<StudyRow> MakeStudyRow(const std::string& name, const std::string& strategy,
+                                      bool as_the_paper) {
+  constexpr int kEndless = 1000;  // more fallbacks than a trial has time for
+  StudyRow row{name, {}};
+  PlanningOptions& planning = row.mission.planning;
+  planning.strategy = strategy;
+  PLUMESCOUT_RETURN_IF_ERROR(ApplyStrategyRow(planning));
+  planning.fallback_limit = kEndless;
+  planning.draw_goals = as_the_paper;
+  planning.fallback_to_unobserved = !as_the_paper;
+  return row;
+}
 
 std::string SceneName(const std::string& folder) {
   const std::filesystem::path path(folder);
