@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "formats/file_io.h"
-#include "tests/lab/experiments/small_scene.h"
+#include "tests/lab/sim/small_scene.h"
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
