@@ -3,6 +3,7 @@
 #include "lab/experiments/trial_study.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -25,6 +26,7 @@ class SceneStudy {
       : plan_(plan),
         name_(std::move(name)),
         world_(std::move(scene)),
+        scene_checksum_(SceneChecksum(world_.scene())),
         store_(store),
         records_(plan.rows.size(),
                  std::vector<TrialRecord>(static_cast<std::size_t>(plan.trials))) {}
@@ -43,7 +45,7 @@ class SceneStudy {
     trial.duration_s = plan_.duration_s;
     trial.map_times_s = plan_.map_times_s;
     const std::string file = absl::StrCat(name_, "-", plan_.rows[row].name, "-", trial.seed);
-    const std::string fingerprint = Fingerprint(trial);
+    const std::string fingerprint = Fingerprint(trial, scene_checksum_);
     TrialRecord& record = records_[row][number];
     std::optional<TrialRecord> kept = store_.Find(file, fingerprint, world_.scene().geometry());
     if (kept) {
@@ -60,6 +62,7 @@ class SceneStudy {
   const TrialPlan& plan_;
   const std::string name_;
   const SceneWorld world_;
+  const std::uint32_t scene_checksum_;
   const TrialStore& store_;
   SceneRecords records_;
 };

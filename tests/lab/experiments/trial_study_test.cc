@@ -9,7 +9,7 @@
 
 #include "core/plan/strategy.h"
 #include "formats/scene_folder.h"
-#include "tests/lab/experiments/small_scene.h"
+#include "tests/lab/sim/small_scene.h"
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
