@@ -42,6 +42,7 @@ v1::Mission Describe(MissionHost& host) {
   *proto.mutable_options() = ToProto(host.options());
   proto.set_revision(summary.revision);
   proto.set_phase(ToProto(summary.phase));
+  if (summary.next_map_update_ns) proto.set_next_map_update_ns(*summary.next_map_update_ns);
   proto.set_robot_count(host.leases().robot_count());
   const GasTimings timings = host.gas_timings();
   *proto.mutable_gas_timings()->mutable_update() = ToProto(timings.update);

@@ -29,7 +29,7 @@ MissionWriter::MissionWriter(std::unique_ptr<Mission> mission, EventSink sink,
       sink_(std::move(sink)),
       clock_(std::move(clock)),
       epoch_runner_(epoch_pool),
-      summary_{mission_->revision(), mission_->phase()} {}
+      summary_{mission_->revision(), mission_->phase(), mission_->next_map_update_ns()} {}
 
 MissionSummary MissionWriter::summary() const {
   absl::MutexLock lock(&summary_mutex_);
@@ -40,7 +40,7 @@ absl::StatusOr<Applied> MissionWriter::Apply(EventBody body) {
   PLUMESCOUT_ASSIGN_OR_RETURN(Applied applied, mission_->Apply(body));
   if (sink_) sink_(Event{applied.revision, std::move(body)});
   absl::MutexLock lock(&summary_mutex_);
-  summary_ = {mission_->revision(), mission_->phase()};
+  summary_ = {mission_->revision(), mission_->phase(), mission_->next_map_update_ns()};
   return applied;
 }
 

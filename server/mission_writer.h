@@ -54,6 +54,7 @@ struct IngestResult {
 struct MissionSummary {
   std::int64_t revision = 0;
   MissionPhase phase = MissionPhase::kExploring;
+  std::optional<std::int64_t> next_map_update_ns;
 };
 
 // Turns commands into numbered events of one mission. Writes are fenced by the lease token at the

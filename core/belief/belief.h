@@ -72,6 +72,7 @@ struct Belief {
   std::shared_ptr<const Grid<float>> gas_mean_ppm;        // NaN off free cells
   std::shared_ptr<const Grid<float>> gas_variance_ppm2;   // NaN off free cells
   std::shared_ptr<const GasWhatIf> gas_what_if;  // of the refresh; null before there is a free cell
+  std::shared_ptr<const Grid<std::uint8_t>> sampled;  // 1: a gas reading was taken in the cell
   GasCounters gas_counters;
   GasQuality gas_quality;
 
@@ -79,6 +80,9 @@ struct Belief {
   std::vector<GoalClaim> claims;
   std::vector<SetAsideGoal> set_aside;
   MissionPhase phase = MissionPhase::kExploring;
+  // When the first of the live plans that sample sites has its last sample, in sample time; none
+  // without such a plan.
+  std::optional<std::int64_t> next_map_update_ns;
 
   const GridGeometry& geometry() const { return occupancy->geometry(); }
 };

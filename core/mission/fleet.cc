@@ -111,7 +111,9 @@ absl::StatusOr<PlanId> Fleet::Issue(const Plan& plan, std::int64_t now_ns) {
         absl::StrCat("chosen = ", plan.chosen, " must be in [-1, ", plan.candidates.size(), ")"));
   }
   LivePlan live{next_plan_, plan.phase, GoalToClaim(plan),
-                now_ns + Nanoseconds(plan.trajectory.duration_s * kClaimSlack + kClaimGrace_s)};
+                now_ns + Nanoseconds(plan.trajectory.duration_s * kClaimSlack + kClaimGrace_s),
+                std::nullopt};
+  if (SamplesSites(plan)) live.map_update_ns = now_ns + Nanoseconds(plan.trajectory.duration_s);
   if (live.goal) {
     for (const GoalClaim& claim : Claims(now_ns)) {
       if (claim.robot != plan.robot && ClaimCovers(claim.goal, *live.goal)) {
@@ -197,6 +199,16 @@ std::map<RobotId, RobotRecord> Fleet::Records() const {
   std::map<RobotId, RobotRecord> records;
   for (const auto& [id, member] : robots_) records[id] = member.record;
   return records;
+}
+
+std::optional<std::int64_t> Fleet::NextMapUpdate_ns(std::int64_t now_ns) const {
+  std::optional<std::int64_t> next_ns;
+  for (const auto& [id, member] : robots_) {
+    if (!member.live || !member.live->map_update_ns) continue;
+    const std::int64_t due_ns = std::max(now_ns, *member.live->map_update_ns);
+    next_ns = std::min(next_ns.value_or(due_ns), due_ns);
+  }
+  return next_ns;
 }
 
 std::vector<GoalClaim> Fleet::Claims(std::int64_t now_ns) const {

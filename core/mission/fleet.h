@@ -45,6 +45,9 @@ class Fleet {
   std::map<RobotId, RobotRecord> Records() const;
   std::vector<GoalClaim> Claims(std::int64_t now_ns) const;
   MissionPhase Phase() const { return phase_; }
+  // When the first of the live plans that sample sites has its last sample; none without such a
+  // plan. One that is late is due now.
+  std::optional<std::int64_t> NextMapUpdate_ns(std::int64_t now_ns) const;
 
  private:
   struct LivePlan {
@@ -52,6 +55,7 @@ class Fleet {
     MissionPhase phase = MissionPhase::kExploring;
     std::optional<Goal> goal;  // none: the robot stays where it is, or drives home
     std::int64_t expires_ns = 0;
+    std::optional<std::int64_t> map_update_ns;  // of plans that sample sites
   };
   struct Member {
     RobotRecord record;

@@ -50,7 +50,8 @@ Mission::Mission(const MissionOptions& options)
     : options_(std::make_shared<const MissionOptions>(options)),
       occupancy_(options.occupancy),
       gas_(options.gas),
-      goal_memory_(options) {}
+      goal_memory_(options),
+      sampled_cells_(options.occupancy.resolution_m) {}
 
 absl::StatusOr<Applied> Mission::Apply(const EventBody& body) {
   PLUMESCOUT_ASSIGN_OR_RETURN(Applied applied,
@@ -82,6 +83,8 @@ absl::Status Mission::TakeIn(const RobotId& robot, const Observation& observatio
     map_changed_since_snapshot_ = true;
   } else if (const auto* gas = std::get_if<GasReading>(&observation.payload)) {
     gas_.Add(observation.sample_time_ns, observation.pose.position(), *gas);
+    sampled_since_snapshot_ =
+        sampled_cells_.Add(observation.pose.position()) || sampled_since_snapshot_;
   }
   sample_time_ns_ = std::max(sample_time_ns_, observation.sample_time_ns);
   return absl::OkStatus();
@@ -166,6 +169,11 @@ void Mission::UpdateRasters() const {
     rasters_.gas_mean_ppm = OnFreeCells(gas_.mean_ppm(), *rasters_.occupancy);
     rasters_.gas_variance_ppm2 = OnFreeCells(gas_.variance_ppm2(), *rasters_.occupancy);
   }
+  if (map_changed_since_snapshot_ || sampled_since_snapshot_) {
+    rasters_.sampled = std::make_shared<const Grid<std::uint8_t>>(
+        sampled_cells_.On(rasters_.occupancy->geometry()));
+  }
+  sampled_since_snapshot_ = false;
   map_changed_since_snapshot_ = false;
   gas_changed_since_snapshot_ = false;
 }
@@ -182,12 +190,14 @@ std::shared_ptr<const Belief> Mission::Snapshot() const {
   belief->gas_mean_ppm = rasters_.gas_mean_ppm;
   belief->gas_variance_ppm2 = rasters_.gas_variance_ppm2;
   belief->gas_what_if = gas_.what_if();
+  belief->sampled = rasters_.sampled;
   belief->gas_counters = gas_.counters();
   belief->gas_quality = gas_.quality();
   belief->robots = fleet_.Records();
   belief->claims = fleet_.Claims(sample_time_ns_);
   belief->set_aside = goal_memory_.SetAside(Present());
   belief->phase = fleet_.Phase();
+  belief->next_map_update_ns = fleet_.NextMapUpdate_ns(sample_time_ns_);
   return belief;
 }
 

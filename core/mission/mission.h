@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
@@ -12,6 +13,7 @@
 #include "core/gas/gas_map.h"
 #include "core/mission/fleet.h"
 #include "core/mission/goal_memory.h"
+#include "core/mission/sampled_cells.h"
 #include "core/occupancy/occupancy_grid.h"
 #include "core/occupancy/scan_inserter.h"
 #include "core/types/event.h"
@@ -42,6 +44,9 @@ class Mission {
   const MissionOptions& options() const { return *options_; }
   std::int64_t revision() const { return revision_; }
   MissionPhase phase() const { return fleet_.Phase(); }
+  std::optional<std::int64_t> next_map_update_ns() const {
+    return fleet_.NextMapUpdate_ns(sample_time_ns_);
+  }
 
   // Checks the body, gives it the next number and applies it. On error nothing has changed:
   //   kInvalidArgument     a field is out of range (named with its value)
@@ -105,6 +110,7 @@ class Mission {
   GasMap gas_;
   Fleet fleet_;
   GoalMemory goal_memory_;
+  SampledCells sampled_cells_;
   bool map_changed_since_refresh_ = false;
 
   // Rasters of the last snapshot, shared with it until they change.
@@ -113,11 +119,13 @@ class Mission {
     std::shared_ptr<const Grid<std::uint8_t>> traversable;
     std::shared_ptr<const Grid<float>> gas_mean_ppm;
     std::shared_ptr<const Grid<float>> gas_variance_ppm2;
+    std::shared_ptr<const Grid<std::uint8_t>> sampled;
   };
   void UpdateRasters() const;
   mutable Rasters rasters_;
   mutable bool map_changed_since_snapshot_ = true;
   mutable bool gas_changed_since_snapshot_ = true;
+  mutable bool sampled_since_snapshot_ = true;
 };
 
 }  // namespace plumescout

@@ -15,7 +15,7 @@
 #include "core/plan/goals/goal_set.h"
 #include "core/plan/goals/travel_budget.h"
 #include "core/plan/information_field.h"
-#include "core/plan/plan_seed.h"
+#include "core/plan/plan_start.h"
 #include "core/plan/selection/choice.h"
 #include "core/plan/trajectory_timing.h"
 #include "core/types/rng.h"
@@ -27,15 +27,6 @@ namespace {
 // Draws of goals and of samples must not follow each other's numbers.
 constexpr std::uint64_t kGoalStream = 0x676F616C73ULL;
 
-// The common way out of the inflated zone comes first. It counts as length; its cells have no
-// information penalty, and no choice depends on it.
-void PutBefore(const std::vector<Point2>& way_out, Candidate& candidate) {
-  candidate.path.insert(candidate.path.begin(), way_out.begin(), way_out.end());
-  for (std::size_t i = 0; i < way_out.size(); ++i) {
-    candidate.length_m += Distance_m(candidate.path[i], candidate.path[i + 1]);
-  }
-}
-
 MissionPhase PhaseOf(GoalKind kind) {
   switch (kind) {
     case GoalKind::kGasFrontier:
@@ -45,6 +36,8 @@ MissionPhase PhaseOf(GoalKind kind) {
       return MissionPhase::kExploring;
     case GoalKind::kHome:
       return MissionPhase::kReturning;
+    case GoalKind::kSite:
+      return MissionPhase::kSampling;
     case GoalKind::kRandomFreeSpace:
       break;
   }
@@ -62,45 +55,24 @@ bool HasOverBudget(const Plan& plan) {
   });
 }
 
-absl::Status Stopped() {
-  return absl::DeadlineExceededError(
-      "DEADLINE_BEFORE_FIRST_PLAN: planning was stopped before any path was found");
-}
-
 }  // namespace
 
 absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
                                                         const PlanRequest& request,
                                                         const StopFn& stop,
                                                         const PlanListener& improved) const {
-  const auto robot = belief.robots.find(request.robot);
-  if (robot == belief.robots.end()) {
-    return absl::NotFoundError(absl::StrCat("robot \"", request.robot, "\" is not registered"));
-  }
-  PLUMESCOUT_ASSIGN_OR_RETURN(const Pose2 pose,
-                              StartPose(belief, request, robot->second, options_));
-  plumescout::Plan plan;
-  plan.robot = request.robot;
-  plan.strategy = options_.strategy;
-  plan.belief_revision = belief.revision;
-  plan.seed = request.seed != 0 ? request.seed
-                                : DerivedPlanSeed(belief.options->seed, request.robot,
-                                                  robot->second.plans_issued);
-  plan.phase = MissionPhase::kFallback;
-  if (std::optional<Departure> departure = Depart(belief, pose.position())) {
-    departure->yaw_rad = pose.yaw_rad;
-    plan.start_escaped = !departure->way_out.empty();
+  PLUMESCOUT_ASSIGN_OR_RETURN(PlanStart start, BeginPlan(belief, request, options_));
+  plumescout::Plan& plan = start.plan;
+  if (start.departure) {
     if (request.go_home) plan.phase = MissionPhase::kReturning;
     const Call call = {belief, request, stop, improved};
-    PLUMESCOUT_RETURN_IF_ERROR(PlanFrom(*departure, call, plan));
+    PLUMESCOUT_RETURN_IF_ERROR(PlanFrom(*start.departure, call, plan));
     if (plan.candidates.empty() && HasOverBudget(plan)) {
-      PLUMESCOUT_RETURN_IF_ERROR(PlanLastWayHome(*departure, call, plan));
+      PLUMESCOUT_RETURN_IF_ERROR(PlanLastWayHome(*start.departure, call, plan));
     }
-  } else {
-    plan.end = PlanEnd::kStartOccupied;
   }
-  Conclude(pose.yaw_rad, options_.selection, plan);
-  return plan;
+  Conclude(start.pose.yaw_rad, options_.selection, plan);
+  return std::move(plan);
 }
 
 void ComposedStrategy::Conclude(double start_yaw_rad, SelectionRule rule,
@@ -142,7 +114,7 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
   plan.field_flat = field.flat;
   const Cell start_cell = belief.geometry().CellAt(departure.start);
   const Grid<std::uint8_t> reachable = ReachableCells(*belief.traversable, {start_cell});
-  if (stop()) return Stopped();
+  if (stop()) return StoppedBeforeAnyPath();
 
   Rng rng(plan.seed ^ kGoalStream);
   const GoalQuery query = {
@@ -156,7 +128,7 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
     plan.phase = goals.complete ? MissionPhase::kComplete : plan.phase;
     return absl::OkStatus();
   }
-  if (stop()) return Stopped();
+  if (stop()) return StoppedBeforeAnyPath();
 
   const EdgeCost selection_cost(field, options_.selection_cost, options_.alpha);
   const CandidateJudge judge = {selection_cost, *belief.gas_mean_ppm,
@@ -176,7 +148,7 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
   Choose(belief, options_, stop, plan);
   const bool budget_spent = request.max_edge_evaluations > 0 &&
                             plan.effort.edges_evaluated >= request.max_edge_evaluations;
-  return stopped_empty && !budget_spent ? Stopped() : absl::OkStatus();
+  return stopped_empty && !budget_spent ? StoppedBeforeAnyPath() : absl::OkStatus();
 }
 
 plumescout::Plan ComposedStrategy::Incumbent(const Judging& judging, PathResult result,

@@ -24,6 +24,8 @@ std::string Destination(const Goal& goal) {
       return "a place where readings tell much";
     case GoalKind::kHome:
       return "home";
+    case GoalKind::kSite:
+      return "a sampling site";
   }
   return "";
 }

@@ -4,15 +4,25 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "core/plan/composed_strategy.h"
 #include "core/plan/paths/path_planners.h"
+#include "core/plan/sampling/reward.h"
+#include "core/plan/sampling/sampling_rule.h"
+#include "core/plan/sampling/sampling_strategy.h"
+#include "core/plan/sampling/site_lattice.h"
+#include "core/plan/sampling/survey.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
 namespace {
+
+// Which rule chooses the sites, of strategies that stop and sample.
+enum class SiteRule { kNone, kReward, kLowToHigh, kRandom, kSweep };
 
 // What a name of the strategy table stands for.
 struct StrategyRow {
@@ -21,9 +31,19 @@ struct StrategyRow {
   PathKind paths = PathKind::kXit;
   CostKind cost = CostKind::kUcb;
   SelectionRule selection = SelectionRule::kLeastCost;
+  SiteRule sites = SiteRule::kNone;
 };
 
-constexpr std::array<StrategyRow, 6> kRows = {{
+constexpr StrategyRow SamplingRow(absl::string_view name, SiteRule rule) {
+  return {name,
+          GoalPolicy::kGasFirst,
+          PathKind::kGridExact,
+          CostKind::kEuclidean,
+          SelectionRule::kLeastCost,
+          rule};
+}
+
+constexpr std::array<StrategyRow, 10> kRows = {{
     {"xit_gff", GoalPolicy::kGasFirst},
     {"xit_fgf", GoalPolicy::kOccupancyFirst},
     {"xit_f", GoalPolicy::kOccupancyOnly},
@@ -33,6 +53,10 @@ constexpr std::array<StrategyRow, 6> kRows = {{
      SelectionRule::kLeastCost},
     {"plumescout", GoalPolicy::kEverything, PathKind::kXit, CostKind::kUcb,
      SelectionRule::kInformationRate},
+    SamplingRow("ipp_reward", SiteRule::kReward),
+    SamplingRow("lhr", SiteRule::kLowToHigh),
+    SamplingRow("random_sampling", SiteRule::kRandom),
+    SamplingRow("sweep", SiteRule::kSweep),
 }};
 
 // The search of [MIT] section IV, within ours: independent samples of the UCB field alone.
@@ -44,6 +68,66 @@ void ApplyMit(PlanningOptions& options) {
   options.sampling = SamplingKind::kIid;
   options.uniform_share = 0.0;
   options.goal_vertices = false;
+}
+
+std::unique_ptr<const SamplingRule> MakeRule(SiteRule rule) {
+  switch (rule) {
+    case SiteRule::kNone:
+    case SiteRule::kReward:
+      break;
+    case SiteRule::kLowToHigh:
+      return MakeLowToHighRule(/*at_random=*/false);
+    case SiteRule::kRandom:
+      return MakeLowToHighRule(/*at_random=*/true);
+    case SiteRule::kSweep:
+      return MakeSweepRule();
+  }
+  return MakeRewardRule();
+}
+
+// [LHR] Remark 1: T t_sam + T d_res / V <= t_up.
+absl::Status CheckCycle(const PlanningOptions& options) {
+  const SiteOptions& sites = options.sites;
+  const double least_s =
+      sites.cycle_samples * (options.dwell_s + sites.spacing_m / options.speed_mps);
+  if (least_s <= sites.update_period_s) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(
+      "planning.sites.update_period_s = ", sites.update_period_s, " must be at least ", least_s,
+      " = cycle_samples (dwell_s + spacing_m / speed_mps), T t_sam + T d_res / V <= t_up of "
+      "Remark 1 in the LHR paper"));
+}
+
+// Nullopt: the sites cover the map.
+absl::StatusOr<std::optional<SiteLattice>> LatticeOf(const PlanningOptions& options,
+                                                     SiteRule rule) {
+  const SiteOptions& sites = options.sites;
+  if (!sites.region) {
+    if (rule == SiteRule::kReward) return std::optional<SiteLattice>{};
+    return absl::InvalidArgumentError(absl::StrCat(
+        "planning.sites.region must be set for planning.strategy = \"", options.strategy, "\""));
+  }
+  PLUMESCOUT_ASSIGN_OR_RETURN(const SiteLattice lattice,
+                              MakeSiteLattice(*sites.region, sites.spacing_m));
+  if (rule == SiteRule::kLowToHigh && sites.survey) {
+    PLUMESCOUT_RETURN_IF_ERROR(CheckSurvey(lattice, sites.survey_stride));
+  }
+  return std::optional<SiteLattice>{lattice};
+}
+
+absl::StatusOr<std::unique_ptr<const Strategy>> MakeSamplingStrategy(
+    const PlanningOptions& options, SiteRule rule, std::unique_ptr<const PathPlanner> paths) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::optional<SiteLattice> lattice, LatticeOf(options, rule));
+  const bool has_cycles = rule == SiteRule::kLowToHigh || rule == SiteRule::kRandom;
+  if (has_cycles) PLUMESCOUT_RETURN_IF_ERROR(CheckCycle(options));
+  if (rule == SiteRule::kLowToHigh && IsPerTime(options.sites.reward)) {
+    return absl::InvalidArgumentError(
+        "planning.sites.reward is per time, which planning.strategy = \"lhr\" cannot add up");
+  }
+  PlanningOptions home = options;
+  home.dwell_s = 0.0;  // nothing is sampled on the way
+  return std::make_unique<const SamplingStrategy>(
+      options, lattice, MakeRule(rule),
+      std::make_unique<const ComposedStrategy>(home, std::move(paths)));
 }
 
 absl::StatusOr<StrategyRow> FindRow(const std::string& name) {
@@ -72,15 +156,21 @@ absl::Status ApplyStrategyRow(PlanningOptions& options) {
   // Baselines drive the paths that they find; goals that they miss are completed like everybody's.
   options.straighten = row.cost == CostKind::kUcb;
   if (row.name == "mit") ApplyMit(options);
+  if (row.sites == SiteRule::kReward) {
+    options.sites.reward = SamplingReward::kConcentrationVariancePerTime;
+  }
   return absl::OkStatus();
 }
 
 absl::StatusOr<std::unique_ptr<const Strategy>> MakeStrategy(const PlanningOptions& options,
                                                              const PathPlannerFactory& others) {
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options));
-  PLUMESCOUT_RETURN_IF_ERROR(FindRow(options.strategy).status());
+  PLUMESCOUT_ASSIGN_OR_RETURN(const StrategyRow row, FindRow(options.strategy));
   auto paths = MakePathPlanner(options, others);
   PLUMESCOUT_RETURN_IF_ERROR(paths.status());
+  if (row.sites != SiteRule::kNone) {
+    return MakeSamplingStrategy(options, row.sites, *std::move(paths));
+  }
   return std::make_unique<const ComposedStrategy>(options, *std::move(paths));
 }
 

@@ -48,7 +48,8 @@ class Strategy {
   }
 };
 
-// Names of the rows: "xit_gff", "xit_fgf", "xit_f", "mit", "rrt_star_frontier", "plumescout".
+// Names of the rows: "xit_gff", "xit_fgf", "xit_f", "mit", "rrt_star_frontier", "plumescout", and
+// those that stop at sites and sample: "ipp_reward", "lhr", "random_sampling", "sweep".
 std::vector<std::string> StrategyNames();
 
 // Sets the parts of `options` that the row `options.strategy` fixes (goals, cost, ...).
@@ -56,7 +57,8 @@ std::vector<std::string> StrategyNames();
 absl::Status ApplyStrategyRow(PlanningOptions& options);
 
 // Builds the strategy that `options` describe; `others` makes path planners that core does not
-// have. kInvalidArgument if the options are invalid, or no such planner is to be had.
+// have. kInvalidArgument if the options are invalid, or not what the strategy needs, or no such
+// planner is to be had.
 absl::StatusOr<std::unique_ptr<const Strategy>> MakeStrategy(
     const PlanningOptions& options, const PathPlannerFactory& others = nullptr);
 

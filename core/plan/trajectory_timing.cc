@@ -47,7 +47,9 @@ class Timer {
     trajectory_.waypoints.push_back(turned);
   }
 
-  // From rest at points[0] to rest at the last, the ones between in passing; then dwells.
+  void Dwell() { trajectory_.waypoints.back().dwell_s = options_.dwell_s; }
+
+  // From rest at points[0] to rest at the last, the ones between in passing.
   void Drive(std::span<const Point2> points) {
     double length_m = 0.0;
     for (std::size_t i = 1; i < points.size(); ++i)
@@ -60,7 +62,6 @@ class Timer {
       before_m += Distance_m(points[i - 1], points[i]);
     }
     trajectory_.waypoints.back().speed_mps = 0.0;  // whatever rounding left
-    trajectory_.waypoints.back().dwell_s = options_.dwell_s;
     trajectory_.length_m += length_m;
   }
 
@@ -107,18 +108,60 @@ class Timer {
   Trajectory trajectory_;
 };
 
+// Vertices of a path, each once where it repeats, and which of them the robot dwells at.
+struct Itinerary {
+  std::vector<Point2> points;
+  std::vector<bool> dwells;
+};
+
+// At every vertex but the first.
+Itinerary DwellingEverywhere(const std::vector<Point2>& path) {
+  Itinerary itinerary{WithoutRepeats(path), {}};
+  itinerary.dwells.assign(itinerary.points.size(), true);
+  itinerary.dwells.front() = false;
+  return itinerary;
+}
+
+Itinerary DwellingAt(const std::vector<Point2>& stops, const std::vector<Point2>& path) {
+  Itinerary itinerary{WithoutRepeats(path), {}};
+  auto next = stops.begin();
+  for (const Point2 point : itinerary.points) {
+    const bool dwells = next != stops.end() && *next == point;
+    itinerary.dwells.push_back(dwells);
+    if (dwells) ++next;
+  }
+  return itinerary;
+}
+
 // The last point of the run that starts at points[first]: the next at which the robot has to stop.
 // Where speed may jump it does so at every vertex, and arrival times add up leg by leg.
-std::size_t EndOfRun(const std::vector<Point2>& points, std::size_t first,
+std::size_t EndOfRun(const Itinerary& itinerary, std::size_t first,
                      const PlanningOptions& options) {
+  const std::vector<Point2>& points = itinerary.points;
+  const auto dwells = [&](std::size_t i) { return options.dwell_s > 0.0 && itinerary.dwells[i]; };
   std::size_t last = first + 1;
-  if (options.max_acceleration_mps2 == 0.0 || options.dwell_s > 0.0) return last;
+  if (options.max_acceleration_mps2 == 0.0) return last;
   const double heading_rad = Heading_rad(points[first], points[last]);
-  while (last + 1 < points.size() &&
+  while (!dwells(last) && last + 1 < points.size() &&
          Turn_rad(heading_rad, Heading_rad(points[last], points[last + 1])) <= kStraight_rad) {
     ++last;
   }
   return last;
+}
+
+Trajectory TimeItinerary(const Itinerary& itinerary, double start_yaw_rad,
+                         const PlanningOptions& options) {
+  const std::vector<Point2>& points = itinerary.points;
+  Timer timer({points.front().x_m, points.front().y_m, start_yaw_rad}, options);
+  if (itinerary.dwells.front()) timer.Dwell();
+  for (std::size_t first = 0; first + 1 < points.size();) {
+    const std::size_t last = EndOfRun(itinerary, first, options);
+    timer.TurnTo(Heading_rad(points[first], points[first + 1]));
+    timer.Drive({points.data() + first, last - first + 1});
+    if (itinerary.dwells[last]) timer.Dwell();
+    first = last;
+  }
+  return std::move(timer).Finish();
 }
 
 }  // namespace
@@ -126,15 +169,13 @@ std::size_t EndOfRun(const std::vector<Point2>& points, std::size_t first,
 Trajectory TimeTrajectory(const std::vector<Point2>& path, double start_yaw_rad,
                           const PlanningOptions& options) {
   if (path.empty()) return {};
-  const std::vector<Point2> points = WithoutRepeats(path);
-  Timer timer({points.front().x_m, points.front().y_m, start_yaw_rad}, options);
-  for (std::size_t first = 0; first + 1 < points.size();) {
-    const std::size_t last = EndOfRun(points, first, options);
-    timer.TurnTo(Heading_rad(points[first], points[first + 1]));
-    timer.Drive({points.data() + first, last - first + 1});
-    first = last;
-  }
-  return std::move(timer).Finish();
+  return TimeItinerary(DwellingEverywhere(path), start_yaw_rad, options);
+}
+
+Trajectory TimeTrajectory(const std::vector<Point2>& path, const std::vector<Point2>& stops,
+                          double start_yaw_rad, const PlanningOptions& options) {
+  if (path.empty()) return {};
+  return TimeItinerary(DwellingAt(stops, path), start_yaw_rad, options);
 }
 
 }  // namespace plumescout

@@ -26,4 +26,9 @@ namespace plumescout {
 Trajectory TimeTrajectory(const std::vector<Point2>& path, double start_yaw_rad,
                           const PlanningOptions& options);
 
+// The same, but the robot stands for dwell_s at `stops` alone: vertices of the path in its order,
+// the first vertex perhaps among them.
+Trajectory TimeTrajectory(const std::vector<Point2>& path, const std::vector<Point2>& stops,
+                          double start_yaw_rad, const PlanningOptions& options);
+
 }  // namespace plumescout

@@ -80,7 +80,37 @@ absl::Status Validate(const FrontierOptions& options) {
       .status();
 }
 
+namespace {
+
+absl::Status Validate(const Rectangle& region) {
+  constexpr double kMaxCoordinate_m = 1e6;
+  return Checker()
+      .InRange("planning.sites.region.min.x_m", region.min.x_m, -kMaxCoordinate_m, kMaxCoordinate_m)
+      .InRange("planning.sites.region.min.y_m", region.min.y_m, -kMaxCoordinate_m, kMaxCoordinate_m)
+      .InRange("planning.sites.region.max.x_m", region.max.x_m, region.min.x_m, kMaxCoordinate_m)
+      .InRange("planning.sites.region.max.y_m", region.max.y_m, region.min.y_m, kMaxCoordinate_m)
+      .status();
+}
+
+}  // namespace
+
+absl::Status Validate(const SiteOptions& options) {
+  constexpr double kMaxStride = 1000;
+  constexpr double kMaxCandidates = 16;  // 2^M subsets of them are priced
+  if (options.region) PLUMESCOUT_RETURN_IF_ERROR(Validate(*options.region));
+  return Checker()
+      .InRange("planning.sites.spacing_m", options.spacing_m, 0.05, 1000.0)
+      .InRange("planning.sites.survey_stride", options.survey_stride, 1, kMaxStride)
+      .InRange("planning.sites.candidates", options.candidates, 1, kMaxCandidates)
+      .InRange("planning.sites.cycle_samples", options.cycle_samples, 1, options.candidates)
+      .InRange("planning.sites.update_period_s", options.update_period_s, 1e-3, 1e6)
+      .InRange("planning.sites.sweep_stride", options.sweep_stride, 1, kMaxStride)
+      .InRange("planning.sites.sweep_leg_stride", options.sweep_leg_stride, 1, kMaxStride)
+      .status();
+}
+
 absl::Status Validate(const PlanningOptions& options) {
+  PLUMESCOUT_RETURN_IF_ERROR(Validate(options.sites));
   return Checker()
       .InRange("planning.max_goals", options.max_goals, 1, 1000)
       .InRange("planning.min_goal_distance_m", options.min_goal_distance_m, 0.0, 100.0)

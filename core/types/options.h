@@ -74,6 +74,48 @@ enum class PathKind {
   kPrmStar,
 };
 
+// What a place is worth sampling for, from its mean mu, its variance and the time C to drive there
+// and sample, [IPP] Eq. (7); V is mu over the mean of the map, both above the background, Eq. (10).
+enum class SamplingReward {
+  kVariance,                      // sigma^2, Eq. (8)
+  kVariancePerTime,               // sigma^2 / C, Eq. (9)
+  kConcentrationVariance,         // V sigma^2, Eq. (11)
+  kConcentrationPerTime,          // V / C, Eq. (12); no place twice
+  kConcentrationVariancePerTime,  // V sigma^2 / C, Eq. (13)
+  kMean,                          // mu, [LHR] section IV
+  kUcb,                           // mu + beta sigma^2, [LHR] section IV
+};
+
+// Axis-parallel, in frame map.
+struct Rectangle {
+  Point2 min;
+  Point2 max;
+
+  friend bool operator==(const Rectangle&, const Rectangle&) = default;
+};
+
+// Sites: the places on a square lattice where the strategies lhr, ipp_reward, random_sampling and
+// sweep have robots stop for dwell_s and sample. One lies in the middle of each square of
+// spacing_m.
+struct SiteOptions {
+  // What is sampled; whole multiples of spacing_m wide and high. None: all of the map, which the
+  // strategies that make a tour do not take.
+  std::optional<Rectangle> region;
+  double spacing_m = 1.0;  // d_res of [LHR], [0.05, 1000]
+  SamplingReward reward = SamplingReward::kUcb;
+  // lhr: every survey_stride-th site first; the last row and column are among them.
+  bool survey = true;
+  int survey_stride = 10;  // alpha of [LHR], [1, 1000]
+  // lhr and random_sampling: update cycles of cycle_samples sites, of the candidates best first,
+  // that are reached and sampled within update_period_s; [LHR] (P2).
+  int candidates = 15;            // M, [1, 16]
+  int cycle_samples = 10;         // T, [1, M]
+  double update_period_s = 50.0;  // t_up, (0, 1e6]
+  // sweep: every sweep_stride-th site of every sweep_leg_stride-th row.
+  int sweep_stride = 1;      // [1, 1000]
+  int sweep_leg_stride = 1;  // [1, 1000]
+};
+
 // One row of the strategy table: where to go, how to get there, which to take.
 struct PlanningOptions {
   std::string strategy = "plumescout";  // name of the row, see core/plan/strategy.h
@@ -126,6 +168,8 @@ struct PlanningOptions {
   // From a robot's latest pose to its leaving by the new plan, seconds, [0, 60]: meanwhile it
   // follows its live plan.
   double planning_latency_s = 0.0;
+
+  SiteOptions sites;  // of strategies that stop and sample
 };
 
 struct MissionOptions {
@@ -148,6 +192,7 @@ struct MissionOptions {
 absl::Status Validate(const OccupancyOptions& options);
 absl::Status Validate(const GasOptions& options);
 absl::Status Validate(const FrontierOptions& options);
+absl::Status Validate(const SiteOptions& options);
 absl::Status Validate(const PlanningOptions& options);
 absl::Status Validate(const MissionOptions& options);
 

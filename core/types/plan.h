@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -14,8 +15,23 @@
 
 namespace plumescout {
 
-enum class MissionPhase { kExploring, kGasProbing, kFallback, kComplete, kReturning };
-enum class GoalKind { kOccupancyFrontier, kGasFrontier, kRandomFreeSpace, kHome, kInformation };
+enum class MissionPhase {
+  kExploring,
+  kGasProbing,
+  kFallback,
+  kComplete,
+  kReturning,
+  kSurvey,    // the low-resolution survey of [LHR]
+  kSampling,  // site by site
+};
+enum class GoalKind {
+  kOccupancyFrontier,
+  kGasFrontier,
+  kRandomFreeSpace,
+  kHome,
+  kInformation,
+  kSite,  // where the robot stops and samples
+};
 
 // A place worth going to, as the goal policy hands it to the path planner.
 struct Goal {
@@ -44,6 +60,9 @@ struct Candidate {
   // By how much readings on the way are expected to lower the entropy of the gas field, weighted by
   // relevance; only where the selection asks for it and time allowed.
   std::optional<double> expected_information_nats;
+  // Of strategies that sample sites: the reward of all stops on the way, in the unit of the reward.
+  std::optional<double> reward;
+  std::vector<Point2> stops = {};  // of those strategies, in order; the goal is the last
 
   friend bool operator==(const Candidate&, const Candidate&) = default;
 };
@@ -122,5 +141,11 @@ struct Plan {
 
   friend bool operator==(const Plan&, const Plan&) = default;
 };
+
+// Whether the plan is to stop at sites: then its last sample is taken when its trajectory ends.
+inline bool SamplesSites(const Plan& plan) {
+  return plan.chosen >= 0 &&
+         plan.candidates[static_cast<std::size_t>(plan.chosen)].goal.kind == GoalKind::kSite;
+}
 
 }  // namespace plumescout

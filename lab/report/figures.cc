@@ -103,6 +103,7 @@ Rgb GoalColor(GoalKind kind) {
       return kGasFrontierColor;
     case GoalKind::kRandomFreeSpace:
     case GoalKind::kInformation:
+    case GoalKind::kSite:
     case GoalKind::kHome:
       break;
   }

@@ -16,6 +16,10 @@ const char* NameOf(MissionPhase phase) {
       return "complete";
     case MissionPhase::kReturning:
       return "returning";
+    case MissionPhase::kSurvey:
+      return "survey";
+    case MissionPhase::kSampling:
+      return "sampling";
   }
   return "unknown";
 }
@@ -32,6 +36,8 @@ const char* NameOf(GoalKind kind) {
       return "information";
     case GoalKind::kHome:
       return "home";
+    case GoalKind::kSite:
+      return "sampling site";
   }
   return "unknown";
 }

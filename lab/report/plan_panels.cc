@@ -118,6 +118,7 @@ Rgb GoalColor(GoalKind kind) {
     case GoalKind::kGasFrontier:
       return kGasFrontierColor;
     case GoalKind::kInformation:
+    case GoalKind::kSite:
     case GoalKind::kHome:
       return kStartColor;
     case GoalKind::kRandomFreeSpace:

@@ -21,6 +21,8 @@ constexpr Row<MissionPhase, v1::MissionPhase> kPhases[] = {
     {MissionPhase::kFallback, v1::MISSION_PHASE_FALLBACK},
     {MissionPhase::kComplete, v1::MISSION_PHASE_COMPLETE},
     {MissionPhase::kReturning, v1::MISSION_PHASE_RETURNING},
+    {MissionPhase::kSurvey, v1::MISSION_PHASE_SURVEY},
+    {MissionPhase::kSampling, v1::MISSION_PHASE_SAMPLING},
 };
 constexpr Row<GoalKind, v1::GoalKind> kGoalKinds[] = {
     {GoalKind::kOccupancyFrontier, v1::GOAL_KIND_OCCUPANCY_FRONTIER},
@@ -28,6 +30,7 @@ constexpr Row<GoalKind, v1::GoalKind> kGoalKinds[] = {
     {GoalKind::kRandomFreeSpace, v1::GOAL_KIND_RANDOM_FREE_SPACE},
     {GoalKind::kHome, v1::GOAL_KIND_HOME},
     {GoalKind::kInformation, v1::GOAL_KIND_INFORMATION},
+    {GoalKind::kSite, v1::GOAL_KIND_SITE},
 };
 constexpr Row<FrontierKind, v1::GoalKind> kFrontierKinds[] = {
     {FrontierKind::kOccupancy, v1::GOAL_KIND_OCCUPANCY_FRONTIER},
@@ -94,6 +97,16 @@ constexpr Row<SelectionRule, v1::SelectionRule> kSelectionRules[] = {
     {SelectionRule::kMeanUcb, v1::SELECTION_RULE_MEAN_UCB},
     {SelectionRule::kInformationRate, v1::SELECTION_RULE_INFORMATION_RATE},
 };
+constexpr Row<SamplingReward, v1::SamplingReward> kSamplingRewards[] = {
+    {SamplingReward::kVariance, v1::SAMPLING_REWARD_VARIANCE},
+    {SamplingReward::kVariancePerTime, v1::SAMPLING_REWARD_VARIANCE_PER_TIME},
+    {SamplingReward::kConcentrationVariance, v1::SAMPLING_REWARD_CONCENTRATION_VARIANCE},
+    {SamplingReward::kConcentrationPerTime, v1::SAMPLING_REWARD_CONCENTRATION_PER_TIME},
+    {SamplingReward::kConcentrationVariancePerTime,
+     v1::SAMPLING_REWARD_CONCENTRATION_VARIANCE_PER_TIME},
+    {SamplingReward::kMean, v1::SAMPLING_REWARD_MEAN},
+    {SamplingReward::kUcb, v1::SAMPLING_REWARD_UCB},
+};
 constexpr Row<PathKind, v1::PathKind> kPathKinds[] = {
     {PathKind::kXit, v1::PATH_KIND_XIT},
     {PathKind::kAnytimeXit, v1::PATH_KIND_ANYTIME_XIT},
@@ -139,6 +152,7 @@ v1::GoalPolicy ToProto(GoalPolicy value) { return Find(kGoalPolicies, value); }
 v1::CostKind ToProto(CostKind value) { return Find(kCostKinds, value); }
 v1::SamplingKind ToProto(SamplingKind value) { return Find(kSamplingKinds, value); }
 v1::SelectionRule ToProto(SelectionRule value) { return Find(kSelectionRules, value); }
+v1::SamplingReward ToProto(SamplingReward value) { return Find(kSamplingRewards, value); }
 v1::PathKind ToProto(PathKind value) { return Find(kPathKinds, value); }
 v1::CellState ToProto(std::optional<CellState> value) { return Find(kCellStates, value); }
 
@@ -178,6 +192,9 @@ absl::StatusOr<SamplingKind> FromProto(v1::SamplingKind proto, absl::string_view
 }
 absl::StatusOr<SelectionRule> FromProto(v1::SelectionRule proto, absl::string_view field) {
   return Find(kSelectionRules, proto, field);
+}
+absl::StatusOr<SamplingReward> FromProto(v1::SamplingReward proto, absl::string_view field) {
+  return Find(kSamplingRewards, proto, field);
 }
 absl::StatusOr<PathKind> FromProto(v1::PathKind proto, absl::string_view field) {
   return Find(kPathKinds, proto, field);

@@ -29,6 +29,7 @@ v1::GoalPolicy ToProto(GoalPolicy value);
 v1::CostKind ToProto(CostKind value);
 v1::SamplingKind ToProto(SamplingKind value);
 v1::SelectionRule ToProto(SelectionRule value);
+v1::SamplingReward ToProto(SamplingReward value);
 v1::PathKind ToProto(PathKind value);
 v1::CellState ToProto(std::optional<CellState> value);  // none: off the map
 
@@ -46,6 +47,7 @@ absl::StatusOr<GoalPolicy> FromProto(v1::GoalPolicy proto, absl::string_view fie
 absl::StatusOr<CostKind> FromProto(v1::CostKind proto, absl::string_view field);
 absl::StatusOr<SamplingKind> FromProto(v1::SamplingKind proto, absl::string_view field);
 absl::StatusOr<SelectionRule> FromProto(v1::SelectionRule proto, absl::string_view field);
+absl::StatusOr<SamplingReward> FromProto(v1::SamplingReward proto, absl::string_view field);
 absl::StatusOr<PathKind> FromProto(v1::PathKind proto, absl::string_view field);
 
 }  // namespace plumescout

@@ -64,6 +64,24 @@ v1::FrontierOptions ToProto(const FrontierOptions& options) {
   return proto;
 }
 
+v1::SiteOptions ToProto(const SiteOptions& options) {
+  v1::SiteOptions proto;
+  if (options.region) {
+    *proto.mutable_region()->mutable_min() = ToProto(options.region->min);
+    *proto.mutable_region()->mutable_max() = ToProto(options.region->max);
+  }
+  proto.set_spacing_m(options.spacing_m);
+  proto.set_reward(ToProto(options.reward));
+  proto.set_survey(options.survey);
+  proto.set_survey_stride(options.survey_stride);
+  proto.set_candidate_count(options.candidates);
+  proto.set_cycle_sample_count(options.cycle_samples);
+  proto.set_update_period_s(options.update_period_s);
+  proto.set_sweep_stride(options.sweep_stride);
+  proto.set_sweep_leg_stride(options.sweep_leg_stride);
+  return proto;
+}
+
 v1::PlanningOptions ToProto(const PlanningOptions& options) {
   v1::PlanningOptions proto;
   proto.set_strategy(options.strategy);
@@ -101,6 +119,7 @@ v1::PlanningOptions ToProto(const PlanningOptions& options) {
   proto.set_return_margin_share(options.return_margin_share);
   proto.set_return_home(options.return_home);
   proto.set_planning_latency_s(options.planning_latency_s);
+  *proto.mutable_sites() = ToProto(options.sites);
   return proto;
 }
 
@@ -215,6 +234,28 @@ void ReadMotion(const v1::PlanningOptions& proto, PlanningOptions& options) {
   Take(proto.has_planning_latency_s(), proto.planning_latency_s(), options.planning_latency_s);
 }
 
+absl::Status Read(const v1::SiteOptions& proto, absl::string_view field, SiteOptions& options) {
+  if (proto.has_region()) {
+    const std::string region = Join(field, "region");
+    PLUMESCOUT_RETURN_IF_ERROR(CheckPresent(Join(region, "min"), proto.region().has_min()));
+    PLUMESCOUT_RETURN_IF_ERROR(CheckPresent(Join(region, "max"), proto.region().has_max()));
+    PLUMESCOUT_ASSIGN_OR_RETURN(const Point2 min,
+                                FromProto(proto.region().min(), Join(region, "min")));
+    PLUMESCOUT_ASSIGN_OR_RETURN(const Point2 max,
+                                FromProto(proto.region().max(), Join(region, "max")));
+    options.region = Rectangle{min, max};
+  }
+  Take(proto.has_spacing_m(), proto.spacing_m(), options.spacing_m);
+  Take(proto.has_survey(), proto.survey(), options.survey);
+  Take(proto.has_survey_stride(), proto.survey_stride(), options.survey_stride);
+  Take(proto.has_candidate_count(), proto.candidate_count(), options.candidates);
+  Take(proto.has_cycle_sample_count(), proto.cycle_sample_count(), options.cycle_samples);
+  Take(proto.has_update_period_s(), proto.update_period_s(), options.update_period_s);
+  Take(proto.has_sweep_stride(), proto.sweep_stride(), options.sweep_stride);
+  Take(proto.has_sweep_leg_stride(), proto.sweep_leg_stride(), options.sweep_leg_stride);
+  return TakeEnum(proto.reward(), Join(field, "reward"), options.reward);
+}
+
 // A mission's own areas take the place of the defaults, not a place among them.
 absl::Status ReadPlaces(const v1::MissionOptions& proto, absl::string_view field,
                         MissionOptions& options) {
@@ -268,6 +309,8 @@ constexpr FieldName kRenamed[] = {
     {"planning.samples", "planning.sample_count"},
     {"planning.commitment_margin", "planning.commitment_margin_share"},
     {"planning.nearest_samples", "planning.nearest_sample_count"},
+    {"planning.sites.candidates", "planning.sites.candidate_count"},
+    {"planning.sites.cycle_samples", "planning.sites.cycle_sample_count"},
     {"max_beams", "max_beam_count"},
     {"max_robots", "max_robot_count"},
 };
@@ -310,6 +353,8 @@ absl::StatusOr<MissionOptions> FromProto(const v1::MissionOptions& proto,
       ReadChoices(proto.planning(), Join(field, "planning"), options.planning));
   ReadNumbers(proto.planning(), options.planning);
   ReadMotion(proto.planning(), options.planning);
+  PLUMESCOUT_RETURN_IF_ERROR(
+      Read(proto.planning().sites(), Join(field, "planning.sites"), options.planning.sites));
   Take(proto.has_pose_limit_m(), proto.pose_limit_m(), options.pose_limit_m);
   Take(proto.has_max_range_m(), proto.max_range_m(), options.max_range_m);
   Take(proto.has_max_beam_count(), proto.max_beam_count(), options.max_beams);

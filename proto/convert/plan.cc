@@ -65,6 +65,7 @@ absl::Status CheckPrice(const v1::Candidate& proto, absl::string_view field) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative(Join(field, "duration_s"), proto.duration_s()));
   PLUMESCOUT_RETURN_IF_ERROR(
       CheckFinite(Join(field, "expected_information_nats"), proto.expected_information_nats()));
+  PLUMESCOUT_RETURN_IF_ERROR(CheckFinite(Join(field, "reward"), proto.reward()));
   return CheckFinite(Join(field, "mean_concentration_ppm"), proto.mean_concentration_ppm());
 }
 
@@ -87,6 +88,12 @@ absl::StatusOr<Candidate> FromProto(const v1::Candidate& proto, absl::string_vie
   candidate.duration_s = proto.duration_s();
   if (proto.has_expected_information_nats()) {
     candidate.expected_information_nats = proto.expected_information_nats();
+  }
+  if (proto.has_reward()) candidate.reward = proto.reward();
+  for (int i = 0; i < proto.stops_size(); ++i) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(const Point2 stop,
+                                FromProto(proto.stops(i), Join(field, "stops", i)));
+    candidate.stops.push_back(stop);
   }
   return candidate;
 }
@@ -190,6 +197,8 @@ v1::Candidate ToProto(const Candidate& candidate) {
   if (candidate.expected_information_nats) {
     proto.set_expected_information_nats(*candidate.expected_information_nats);
   }
+  if (candidate.reward) proto.set_reward(*candidate.reward);
+  for (const Point2& stop : candidate.stops) *proto.add_stops() = ToProto(stop);
   return proto;
 }
 
@@ -219,6 +228,7 @@ v1::Plan ToProto(const Plan& plan, const MissionId& mission) {
   proto.set_goal_kept(plan.goal_kept);
   proto.set_start_escaped(plan.start_escaped);
   proto.set_explanation(plan.explanation);
+  if (SamplesSites(plan)) proto.set_map_update_s(plan.trajectory.duration_s);
   const auto cpu_ns = std::llround(plan.cpu_s * kNanosecondsPerSecond);
   proto.mutable_cpu_duration()->set_seconds(cpu_ns / std::llround(kNanosecondsPerSecond));
   proto.mutable_cpu_duration()->set_nanos(

@@ -113,6 +113,7 @@ inline Belief BeliefFromArt(const GridArt& art, char inflated = 'i') {
   Grid<float> mean_ppm(belief.geometry(), std::numeric_limits<float>::quiet_NaN());
   belief.gas_mean_ppm = std::make_shared<const Grid<float>>(mean_ppm);
   belief.gas_variance_ppm2 = std::make_shared<const Grid<float>>(mean_ppm);
+  belief.sampled = std::make_shared<const Grid<std::uint8_t>>(belief.geometry(), 0);
   RobotRecord& record = belief.robots["r"];
   record.state.id = "r";
   for (const Cell start : CellsInArt(art, 'S')) {

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "core/plan/sampling/sampling_rule.h"
+#include "core/plan/sampling/site_lattice.h"
+
+namespace plumescout {
+
+// Most sites of a survey: the integer program of its tour takes up to a second.
+inline constexpr int kMaxSurveySites = 144;
+
+// kInvalidArgument naming the stride and the lattice, unless every stride-th site from the first on
+// has the last row and column among them, and they are at most kMaxSurveySites.
+absl::Status CheckSurvey(const SiteLattice& lattice, int stride);
+
+// What is left of the low-resolution survey, [LHR] section III-A, in the order to drive: the
+// survey's sites that are not sampled yet, along the shortest closed tour (P1) of all that are
+// offered. It begins with the one nearest to the robot, and goes the way round that is shorter;
+// its last leg, back, is not driven. Empty if nothing is left.
+//
+// The tour's edges lead to neighbours in the mesh, Eq. (2), and cost what the way there is long.
+// If obstacles leave no such tour, they lead from every site to every other (ours).
+// Errors: kDeadlineExceeded if stopped, kInternal from the solver.
+absl::StatusOr<std::vector<Site>> RestOfSurvey(const SamplingQuery& query);
+
+}  // namespace plumescout
