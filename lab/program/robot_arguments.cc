@@ -36,7 +36,8 @@ void AddMissionOptions(CLI::App& app, RobotArguments& arguments) {
   app.add_option("--strategy", arguments.strategy, absl::StrJoin(StrategyNames(), ", "));
   app.add_option("--duration", arguments.duration_s, "Longest simulated time, seconds")
       ->check(CLI::PositiveNumber);
-  app.add_option("--seed", arguments.seed, "Seed of sensors and planner");
+  app.add_option("--seed", arguments.seed, "Seed of sensors and planner")
+      ->check(CLI::NonNegativeNumber);
   app.add_flag("--realtime", arguments.realtime,
                "At the pace of a wall clock instead of in lockstep");
 }
