@@ -39,7 +39,7 @@ int RunBench(CLI::App& app, int argc, char** argv,
   std::uint64_t seed = 1;
   app.add_option("--summary", path, "Write the figures to this JSON file");
   app.add_option("--seed", seed, "Seed of everything drawn at random")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()))
       ->capture_default_str();
   try {
     app.parse(argc, argv);

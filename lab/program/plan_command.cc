@@ -99,7 +99,7 @@ void AddPlanCommand(CLI::App& app, absl::Status& status) {
       "--strategy", arguments->step.strategy,
       absl::StrCat("One of ", absl::StrJoin(StrategyNames(), ", "), " (default: the mission's)"));
   plan->add_option("--seed", arguments->step.seed, "Seed of the plan (default: of its number)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()));
   plan->callback([arguments, &status] { status = DrawPlan(*arguments); });
 }
 
