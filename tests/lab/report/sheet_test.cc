@@ -19,7 +19,7 @@ ReportFigures MakeFigures() {
 TEST(Sheet, HasRoomForFourPanels) {
   const Image sheet = DrawSheet(MakeFigures());
   EXPECT_GT(sheet.width(), 4 * kPanelWidth_px);
-  EXPECT_GT(sheet.height(), PanelHeight_px(MakeFigures()) + kChartHeight_px);
+  EXPECT_GT(sheet.height(), PanelHeight_px(MakeFigures(), kPanelWidth_px) + kChartHeight_px);
 }
 
 TEST(Sheet, EveryPanelLeavesInkInItsColumn) {
@@ -37,7 +37,7 @@ TEST(Sheet, AFifthPanelBeginsAnotherRow) {
   ASSERT_EQ(figures.panels.size(), 4u);
   const int height = DrawSheet(figures).height();
   figures.panels.push_back(figures.panels.front());
-  EXPECT_GE(DrawSheet(figures).height(), height + PanelHeight_px(figures));
+  EXPECT_GE(DrawSheet(figures).height(), height + PanelHeight_px(figures, kPanelWidth_px));
 }
 
 TEST(Sheet, BarChartsStandAfterTheCharts) {
