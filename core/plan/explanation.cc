@@ -7,6 +7,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "core/plan/selection/selection.h"
 
 namespace plumescout {
 namespace {
@@ -35,8 +36,12 @@ std::string Merit(const Candidate& candidate, SelectionRule rule) {
       return absl::StrFormat("greatest mean information, %.2f", candidate.mean_ucb);
     case SelectionRule::kInformationRate:
       if (!candidate.expected_information_nats) break;
-      return absl::StrFormat("most information expected, %.1f nats in %.0f s",
-                             *candidate.expected_information_nats, candidate.duration_s);
+      return absl::StrFormat("most information expected, %.1f nats%s in %.0f s",
+                             *candidate.expected_information_nats,
+                             candidate.goal.kind == GoalKind::kOccupancyFrontier
+                                 ? absl::StrFormat(" and %.0f for what is unseen", kUnseen_nats)
+                                 : "",
+                             candidate.duration_s);
   }
   return absl::StrFormat("least cost, %.2f", candidate.cost);
 }

@@ -6,38 +6,11 @@
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
+#include "core/types/checker.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
 namespace {
-
-// Collects the first violation, so that a Validate reads as a table of fields.
-class Checker {
- public:
-  Checker& InRange(absl::string_view field, double value, double low, double high) {
-    if (!(value >= low && value <= high)) {
-      Fail(field, value, absl::StrCat("must be in [", low, ", ", high, "]"));
-    }
-    return *this;
-  }
-  Checker& Positive(absl::string_view field, double value) {
-    if (!(value > 0.0 && std::isfinite(value))) Fail(field, value, "must be > 0 and finite");
-    return *this;
-  }
-  Checker& Negative(absl::string_view field, double value) {
-    if (!(value < 0.0 && std::isfinite(value))) Fail(field, value, "must be < 0 and finite");
-    return *this;
-  }
-  const absl::Status& status() const { return status_; }
-
- private:
-  void Fail(absl::string_view field, double value, absl::string_view rule) {
-    if (status_.ok()) {
-      status_ = absl::InvalidArgumentError(absl::StrCat(field, " = ", value, " ", rule));
-    }
-  }
-  absl::Status status_;
-};
 
 // Limits of motion: a smaller one would make trajectories last for ever.
 constexpr double kMinLimit = 1e-3;

@@ -79,7 +79,7 @@ struct PlanningOptions {
   std::string strategy = "plumescout";  // name of the row, see core/plan/strategy.h
   GoalPolicy goals = GoalPolicy::kEverything;
   bool draw_goals = false;  // true: at most max_goals drawn at random within a kind (paper)
-  int max_goals = 5;        // with draw_goals; also the number of fallback goals
+  int max_goals = 5;        // see core/plan/goals/goal_policy.h; also the most fallback goals
   double min_goal_distance_m = 0.3;  // goals nearer than this are passed over, >= 0
   PathKind paths = PathKind::kXit;
   CostKind cost = CostKind::kUcb;  // expansion, [XIT] Eq. (12)

@@ -9,7 +9,6 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "core/plan/strategy.h"
 #include "core/types/status_macros.h"
 #include "formats/scene_folder.h"
 #include "lab/bench/about.h"
@@ -29,7 +28,6 @@ constexpr int kQuickBuildings = 2;
 constexpr int kTrials = 2;
 constexpr double kDuration_s = 300.0;
 constexpr double kQuickDuration_s = 60.0;
-constexpr int kEndless = 1000;  // more fallbacks than a trial has time for
 
 struct Contestant {
   const char* name;
@@ -56,13 +54,8 @@ absl::StatusOr<TrialPlan> MakePlan(const ExperimentOptions& options,
                                    std::vector<std::string> scenes) {
   TrialPlan plan;
   for (const Contestant& contestant : kContestants) {
-    StudyRow row{contestant.name, {}};
-    PlanningOptions& planning = row.mission.planning;
-    planning.strategy = contestant.strategy;
-    PLUMESCOUT_RETURN_IF_ERROR(ApplyStrategyRow(planning));
-    planning.fallback_limit = kEndless;
-    planning.draw_goals = contestant.of_the_paper;
-    planning.fallback_to_unobserved = !contestant.of_the_paper;
+    PLUMESCOUT_ASSIGN_OR_RETURN(
+        StudyRow row, MakeStudyRow(contestant.name, contestant.strategy, contestant.of_the_paper));
     plan.rows.push_back(std::move(row));
   }
   plan.scenes = std::move(scenes);

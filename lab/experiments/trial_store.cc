@@ -124,12 +124,12 @@ std::uint32_t SceneChecksum(const Scene& scene) {
                 crc);
 }
 
-std::string Fingerprint(const Trial& trial) {
+std::string Fingerprint(const Trial& trial, std::uint32_t scene_checksum) {
   std::string times;
   for (const double time_s : trial.map_times_s) absl::StrAppend(&times, " ", time_s);
   return absl::StrFormat("mission %08x scene %08x seed %d duration %g maps%s",
-                         Crc32c(ToProto(*trial.mission).SerializeAsString()),
-                         SceneChecksum(trial.world->scene()), trial.seed, trial.duration_s, times);
+                         Crc32c(ToProto(*trial.mission).SerializeAsString()), scene_checksum,
+                         trial.seed, trial.duration_s, times);
 }
 
 }  // namespace plumescout::lab

@@ -35,10 +35,10 @@ class TrialStore {
   std::string folder_;
 };
 
-// Tells trials apart: settings, building, seed and times. Not the program itself: a folder of
-// trials belongs to one build.
-std::string Fingerprint(const Trial& trial);
-// The building's part of it: a checksum of map and gas. Cost: O(frames * cells).
+// A checksum of map and gas. Cost: O(frames * cells), tens of megabytes.
 std::uint32_t SceneChecksum(const Scene& scene);
+// Tells trials apart: settings, building, seed and times. Not the program itself: a folder of
+// trials belongs to one build. `scene_checksum` is that of the trial's world.
+std::string Fingerprint(const Trial& trial, std::uint32_t scene_checksum);
 
 }  // namespace plumescout::lab

@@ -3,11 +3,13 @@
 #include "lab/experiments/trial_study.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/plan/strategy.h"
 #include "core/types/status_macros.h"
 #include "formats/scene_folder.h"
 #include "lab/experiments/task_pool.h"
@@ -24,6 +26,7 @@ class SceneStudy {
       : plan_(plan),
         name_(std::move(name)),
         world_(std::move(scene)),
+        scene_checksum_(SceneChecksum(world_.scene())),
         store_(store),
         records_(plan.rows.size(),
                  std::vector<TrialRecord>(static_cast<std::size_t>(plan.trials))) {}
@@ -42,7 +45,7 @@ class SceneStudy {
     trial.duration_s = plan_.duration_s;
     trial.map_times_s = plan_.map_times_s;
     const std::string file = absl::StrCat(name_, "-", plan_.rows[row].name, "-", trial.seed);
-    const std::string fingerprint = Fingerprint(trial);
+    const std::string fingerprint = Fingerprint(trial, scene_checksum_);
     TrialRecord& record = records_[row][number];
     std::optional<TrialRecord> kept = store_.Find(file, fingerprint, world_.scene().geometry());
     if (kept) {
@@ -59,11 +62,25 @@ class SceneStudy {
   const TrialPlan& plan_;
   const std::string name_;
   const SceneWorld world_;
+  const std::uint32_t scene_checksum_;
   const TrialStore& store_;
   SceneRecords records_;
 };
 
 }  // namespace
+
+absl::StatusOr<StudyRow> MakeStudyRow(const std::string& name, const std::string& strategy,
+                                      bool as_the_paper) {
+  constexpr int kEndless = 1000;  // more fallbacks than a trial has time for
+  StudyRow row{name, {}};
+  PlanningOptions& planning = row.mission.planning;
+  planning.strategy = strategy;
+  PLUMESCOUT_RETURN_IF_ERROR(ApplyStrategyRow(planning));
+  planning.fallback_limit = kEndless;
+  planning.draw_goals = as_the_paper;
+  planning.fallback_to_unobserved = !as_the_paper;
+  return row;
+}
 
 std::string SceneName(const std::string& folder) {
   const std::filesystem::path path(folder);

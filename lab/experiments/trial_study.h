@@ -19,6 +19,12 @@ struct StudyRow {
   MissionOptions mission;
 };
 
+// A strategy of the table, driving until the time is up. As the paper: goals are drawn at random
+// within a kind, and are random free places once no frontier is left ([XIT] section VI-B); else all
+// of them are offered, and then places whose gas is unobserved. Errors: as ApplyStrategyRow.
+absl::StatusOr<StudyRow> MakeStudyRow(const std::string& name, const std::string& strategy,
+                                      bool as_the_paper);
+
 // Every row drives `trials` times through every building.
 struct TrialPlan {
   std::vector<StudyRow> rows;

@@ -12,10 +12,10 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "core/plan/strategy.h"
 #include "core/types/status_macros.h"
 #include "formats/scene_folder.h"
 #include "lab/bench/about.h"
+#include "lab/experiments/error_maps.h"
 #include "lab/experiments/row_figures.h"
 #include "lab/experiments/study_scenes.h"
 #include "lab/experiments/trial_study.h"
@@ -30,7 +30,6 @@ constexpr int kTrials = 20;
 constexpr int kQuickTrials = 2;
 constexpr double kDuration_s = 300.0;
 constexpr double kQuickDuration_s = 60.0;
-constexpr int kEndless = 1000;  // more fallbacks than a trial has time for
 constexpr double kPercent = 100.0;
 
 // Mean and standard deviation as printed; NaN where the paper has no such row.
@@ -104,17 +103,12 @@ constexpr TableRow kRows[] = {
 };
 
 absl::StatusOr<StudyRow> MakeRow(const TableRow& row) {
-  StudyRow made{row.name, {}};
+  const bool own = &row == &kRows[kOwn];
+  PLUMESCOUT_ASSIGN_OR_RETURN(StudyRow made, MakeStudyRow(row.name, row.strategy, !own));
   PlanningOptions& planning = made.mission.planning;
-  planning.strategy = row.strategy;
-  PLUMESCOUT_RETURN_IF_ERROR(ApplyStrategyRow(planning));
   planning.cost = row.expansion;
   planning.selection_cost = row.selection;
   planning.straighten = row.expansion == kUcb;
-  planning.fallback_limit = kEndless;
-  const bool of_the_paper = std::string(row.strategy) != "plumescout";
-  planning.draw_goals = of_the_paper;
-  planning.fallback_to_unobserved = !of_the_paper;
   return made;
 }
 
@@ -145,15 +139,17 @@ struct RowResult {
   double p = 1.0;  // against the baseline
 };
 
-RowResult Compare(const std::vector<SceneRecords>& records, std::size_t row, MetricFn metric) {
-  const std::vector<double> values = Finals(records, row, metric);
-  const std::vector<double> baseline = Finals(records, kBaseline, metric);
+RowResult Compare(const std::vector<double>& values, const std::vector<double>& baseline) {
   RowResult result;
   result.spread = SpreadOf(values);
   const double base = SpreadOf(baseline).mean;
   result.reduction_percent = kPercent * (base - result.spread.mean) / std::abs(base);
   result.p = PairedPValue(values, baseline);
   return result;
+}
+
+RowResult Compare(const std::vector<SceneRecords>& records, std::size_t row, MetricFn metric) {
+  return Compare(Finals(records, row, metric), Finals(records, kBaseline, metric));
 }
 
 std::string Text(const RowResult& result, const char* format) {
@@ -215,68 +211,33 @@ std::vector<RowStyle> MakeStyles() {
   return styles;
 }
 
-// Root of the mean squared error over trials, by cell; what is not estimated counts as 0 ppm.
-Grid<float> ErrorMap(const Scene& scene, const std::vector<TrialRecord>& trials, std::size_t map) {
-  Grid<float> rmse(scene.geometry());
-  for (std::size_t i = 0; i < rmse.size(); ++i) {
-    double squares = 0.0;
-    for (const TrialRecord& trial : trials) {
-      const float mean = trial.mean_ppm[map][i];
-      const double error = (std::isfinite(mean) ? mean : 0.0F) - scene.conc_mean_ppm[i];
-      squares += error * error;
+// A row may fall behind because it misses one room full of gas, or everywhere.
+TextTable MakePartTable(const Scene& scene, const SceneRecords& records, std::size_t map) {
+  TextTable table;
+  table.title = absl::StrFormat(
+      "Where the error lies in %s: the twentieth of the critical cells with the most gas (%.0f %% "
+      "of the squared concentrations) and the others",
+      scene.name, kPercent * ShareOfSquares(scene, GasPart::kMost));
+  table.columns = {"method", "cost", "RMSE, most gas, ppm", "less, p", "RMSE, others, ppm",
+                   "less, p"};
+  for (std::size_t row = 0; row < std::size(kRows); ++row) {
+    std::vector<std::string> texts = {kRows[row].method, kRows[row].cost};
+    for (const GasPart part : {GasPart::kMost, GasPart::kRest}) {
+      const RowResult result = Compare(PartErrors_ppm(scene, records[row], map, part),
+                                       PartErrors_ppm(scene, records[kBaseline], map, part));
+      texts.push_back(Text(result, "%.2f"));
+      texts.push_back(ReductionText(result));
     }
-    rmse[i] = static_cast<float>(std::sqrt(squares / static_cast<double>(trials.size())));
+    table.rows.push_back(std::move(texts));
   }
-  return rmse;
+  return table;
 }
 
-// Edges between critical cells and others.
-std::vector<MapLine> CriticalOutline(const Scene& scene) {
-  constexpr Stroke kOutline{{226, 54, 54}, 1.2};
-  const GridGeometry& geometry = scene.geometry();
-  const auto critical = [&](Cell cell) {
-    return scene.occupancy.At(cell, CellState::kOccupied) == CellState::kFree &&
-           scene.conc_mean_ppm[cell] > scene.critical_threshold_ppm;
-  };
-  std::vector<MapLine> lines;
-  for (int y = 0; y < geometry.height; ++y) {
-    for (int x = 0; x < geometry.width; ++x) {
-      const Point2 corner{geometry.origin_x_m + x * geometry.resolution_m,
-                          geometry.origin_y_m + y * geometry.resolution_m};
-      const double r = geometry.resolution_m;
-      const bool here = critical({x, y});
-      if (here != critical({x - 1, y})) {
-        lines.push_back({{corner, {corner.x_m, corner.y_m + r}}, kOutline});
-      }
-      if (here != critical({x, y - 1})) {
-        lines.push_back({{corner, {corner.x_m + r, corner.y_m}}, kOutline});
-      }
-    }
-  }
-  return lines;
-}
-
-// [XIT] Fig. 9.
-MapPanel MakeErrorPanel(const Scene& scene, const std::vector<TrialRecord>& trials, std::size_t map,
-                        const std::string& title) {
-  constexpr double kHighest_ppm = 60.0;
-  const ColorScale scale{ColorMap::kGas, 0.0, kHighest_ppm, false};
-  const Grid<float> rmse = ErrorMap(scene, trials, map);
-  MapPanel panel;
-  panel.title = title;
-  panel.region = RegionOf(scene.geometry());
-  panel.cells = PaintCells(scene.geometry(), panel.region, [&](Cell cell) {
-    return scene.occupancy[cell] == CellState::kFree ? scale(rmse[cell]) : kPaper;
-  });
-  panel.lines = CriticalOutline(scene);
-  panel.color_bar = ColorBar{scale, "RMSE, ppm"};
-  panel.legend = {{"critical cells", MarkShape::kLine, {226, 54, 54}}};
-  return panel;
-}
-
+// Of the first building.
 absl::Status AddErrorMaps(const TrialPlan& plan, const std::vector<SceneRecords>& records,
                           ReportFigures& figures) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const Scene scene, ReadScene(plan.scenes.front()));
+  figures.tables.push_back(MakePartTable(scene, records.front(), plan.map_times_s.size() - 1));
   for (const std::size_t row : {kBaseline, kBest}) {
     for (std::size_t map = 0; map < plan.map_times_s.size(); ++map) {
       const std::string title = absl::StrFormat("%s %s, %.0f s", kRows[row].method, kRows[row].cost,

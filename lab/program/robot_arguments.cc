@@ -20,125 +20,101 @@ void AddMissionOptions(CLI::App& app, RobotArguments& arguments) {
   app.add_option("--scene", arguments.scene, "Scene folder: the true building and gas")
       ->required()
       ->check(CLI::ExistingDirectory);
-  app.add_option("--server", arguments.server, "host:port of plumescout-server")
-      ->capture_default_str();
+  app.add_option("--server", arguments.server, "host:port of plumescout-server");
   app.add_option("--record", arguments.record,
                  "Plan in this process, without a server, and record the mission in this file")
       ->excludes("--server");
-  app.add_option("--out", arguments.out, "Folder for results")->capture_default_str();
-  app.add_option("--mission", arguments.mission, "Mission to join, made if it is not there")
-      ->capture_default_str();
-  app.add_option("--robot", arguments.robot, "Name of the robot, others count on from it")
-      ->capture_default_str();
+  app.add_option("--out", arguments.out, "Folder for results");
+  app.add_option("--mission", arguments.mission, "Mission to join, made if it is not there");
+  app.add_option("--robot", arguments.robot, "Name of the robot, others count on from it");
   app.add_option("--robots", arguments.robots, "How many robots share the mission")
-      ->capture_default_str()
       ->check(CLI::Range(1, MissionOptions{}.max_robots));
   app.add_option("--start", arguments.starts,
                  "x,y,yaw where a robot starts, metres and radians; once for each robot "
-                 "(default: the scene's start, others beside it)");
-  app.add_option("--strategy", arguments.strategy, absl::StrJoin(StrategyNames(), ", "))
-      ->capture_default_str();
+                 "(default: the scene's start, others beside it)")
+      ->default_str("");
+  app.add_option("--strategy", arguments.strategy, absl::StrJoin(StrategyNames(), ", "));
   app.add_option("--duration", arguments.duration_s, "Longest simulated time, seconds")
-      ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  app.add_option("--seed", arguments.seed, "Seed of sensors and planner")->capture_default_str();
+  app.add_option("--seed", arguments.seed, "Seed of sensors and planner");
   app.add_flag("--realtime", arguments.realtime,
                "At the pace of a wall clock instead of in lockstep");
 }
 
 void AddWorldOptions(CLI::App& app, RobotArguments& arguments) {
-  constexpr char kGroup[] = "World";
+  app.option_defaults()->group("World");
   app.add_option("--scene-start", arguments.scene_start_s,
-                 "Time of the scene at which the mission begins, seconds")
-      ->capture_default_str()
-      ->group(kGroup);
+                 "Time of the scene at which the mission begins, seconds");
   app.add_option("--ambient", arguments.world.ambient_ppm,
-                 "Gas in all air beside the scene's, ppm; the mission takes it for clean air")
-      ->capture_default_str()
-      ->group(kGroup);
+                 "Gas in all air beside the scene's, ppm; the mission takes it for clean air");
   const std::map<std::string, SeriesEnd> ends{{"hold", SeriesEnd::kHoldLastFrame},
                                               {"repeat", SeriesEnd::kRepeat}};
   app.add_option("--series-end", arguments.world.series_end,
                  "What the gas does when the scene's frames are over")
       ->transform(CLI::CheckedTransformer(ends))
-      ->default_str("hold")
-      ->group(kGroup);
+      ->default_str("hold");
 }
 
 void AddLidarOptions(CLI::App& app, RobotArguments& arguments) {
-  constexpr char kGroup[] = "LiDAR";
-  const auto add = [&](const char* name, auto& value, const char* text) {
-    app.add_option(name, value, text)->capture_default_str()->group(kGroup);
-  };
-  add("--lidar-beams", arguments.lidar.beams, "Beams of a scan, evenly around");
-  add("--lidar-range", arguments.lidar.max_range_m, "Longest range, metres");
-  add("--lidar-noise", arguments.lidar.noise_sigma_m, "Standard deviation of ranges, metres");
-  add("--lidar-dropouts", arguments.lidar.dropout_share, "Share of beams that say nothing");
-  add("--scan-rate", arguments.rates.scan_hz, "Scans a second; 0: none");
+  app.option_defaults()->group("LiDAR");
+  app.add_option("--lidar-beams", arguments.lidar.beams, "Beams of a scan, evenly around");
+  app.add_option("--lidar-range", arguments.lidar.max_range_m, "Longest range, metres");
+  app.add_option("--lidar-noise", arguments.lidar.noise_sigma_m,
+                 "Standard deviation of ranges, metres");
+  app.add_option("--lidar-dropouts", arguments.lidar.dropout_share,
+                 "Share of beams that say nothing");
+  app.add_option("--scan-rate", arguments.rates.scan_hz, "Scans a second; 0: none");
 }
 
 void AddGasOptions(CLI::App& app, RobotArguments& arguments) {
-  constexpr char kGroup[] = "Gas sensor";
+  app.option_defaults()->group("Gas sensor");
   const std::map<std::string, GasSensorKind> kinds{{"pid", GasSensorKind::kPhotoIonisation},
                                                    {"co2", GasSensorKind::kCarbonDioxide}};
   app.add_option("--gas-sensor", arguments.gas_sensor,
                  "pid: photo-ionisation detector, fast; co2: infrared cell, slow and coarse")
       ->transform(CLI::CheckedTransformer(kinds))
-      ->default_str("pid")
-      ->group(kGroup);
-  const auto change = [&](const char* name, std::optional<double>& value, const char* text) {
-    app.add_option(name, value, text)->group(kGroup);
-  };
+      ->default_str("pid");
   GasSensorChanges& changes = arguments.gas_changes;
-  change("--gas-lag", changes.time_constant_s, "Its time constant, seconds (pid 0.5, co2 4)");
-  change("--gas-noise", changes.noise_sigma_ppm, "Additive noise, ppm (pid 0.1, co2 10)");
-  change("--gas-noise-share", changes.noise_share, "Noise as share of the reading (0.01)");
-  change("--gas-detection-limit", changes.detection_limit_ppm, "Less reads 0, ppm (pid 0.05)");
-  change("--gas-saturation", changes.saturation_ppm, "More reads this, ppm (10000)");
-  change("--gas-resolution", changes.resolution_ppm, "Readings are multiples of it, ppm (co2 10)");
-  app.add_option("--gas-rate", arguments.rates.gas_hz, "Readings a second; 0: none")
-      ->capture_default_str()
-      ->group(kGroup);
+  app.add_option("--gas-lag", changes.time_constant_s,
+                 "Its time constant, seconds (pid 0.5, co2 4)");
+  app.add_option("--gas-noise", changes.noise_sigma_ppm, "Additive noise, ppm (pid 0.1, co2 10)");
+  app.add_option("--gas-noise-share", changes.noise_share, "Noise as share of the reading (0.01)");
+  app.add_option("--gas-detection-limit", changes.detection_limit_ppm,
+                 "Less reads 0, ppm (pid 0.05)");
+  app.add_option("--gas-saturation", changes.saturation_ppm, "More reads this, ppm (10000)");
+  app.add_option("--gas-resolution", changes.resolution_ppm,
+                 "Readings are multiples of it, ppm (co2 10)");
+  app.add_option("--gas-rate", arguments.rates.gas_hz, "Readings a second; 0: none");
   app.add_flag("--raw-gas", arguments.raw_gas,
-               "Send gas readings as the sensor gives them, its lag not undone")
-      ->group(kGroup);
+               "Send gas readings as the sensor gives them, its lag not undone");
   app.add_option("--gas-threshold", arguments.gas_threshold_ppm,
-                 "Above it gas is critical to the planner, ppm (a percentile of what is observed)")
-      ->group(kGroup);
+                 "Above it gas is critical to the planner, ppm (a percentile of what is observed)");
   app.add_option("--dwell", arguments.dwell_s,
-                 "Stop and sample: seconds to stand at each vertex of a trajectory")
-      ->capture_default_str()
-      ->group(kGroup);
+                 "Stop and sample: seconds to stand at each vertex of a trajectory");
   app.add_option("--settle", arguments.settling_s,
-                 "Readings count only after so many seconds of standing; less than --dwell")
-      ->capture_default_str()
-      ->group(kGroup);
+                 "Readings count only after so many seconds of standing; less than --dwell");
 }
 
 void AddMotionOptions(CLI::App& app, RobotArguments& arguments) {
-  constexpr char kGroup[] = "Motion";
+  app.option_defaults()->group("Motion");
   const std::map<std::string, client::Following> followings{
       {"ideal", client::Following::kIdeal}, {"proportional", client::Following::kProportional}};
   app.add_option("--following", arguments.following, "How paths are followed")
       ->transform(CLI::CheckedTransformer(followings))
-      ->default_str("ideal")
-      ->group(kGroup);
-  app.add_option("--speed", arguments.speed_mps, "Of robot and plans, metres a second (1.25)")
-      ->group(kGroup);
+      ->default_str("ideal");
+  app.add_option("--speed", arguments.speed_mps, "Of robot and plans, metres a second (1.25)");
   app.add_option("--max-turn", arguments.max_turn_rad_per_s,
-                 "Of the robot, and of plans if given, radians a second (2)")
-      ->group(kGroup);
+                 "Of the robot, and of plans if given, radians a second (2)");
   app.add_option("--max-acceleration", arguments.max_acceleration_mps2,
-                 "Of robot and plans, m/s^2 (no limit)")
-      ->group(kGroup);
-  const auto error = [&](const char* name, double& value, const char* text) {
-    app.add_option(name, value, text)->capture_default_str()->group(kGroup);
-  };
+                 "Of robot and plans, m/s^2 (no limit)");
   PoseErrorOptions& pose = arguments.pose_error;
-  error("--pose-noise", pose.position_sigma_m, "Noise of the pose told to the planner, metres");
-  error("--yaw-noise", pose.yaw_sigma_rad, "Noise of its heading, radians");
-  error("--pose-drift", pose.drift_m_per_sqrt_s, "Random walk of that pose, metres/sqrt(s)");
-  error("--yaw-drift", pose.drift_rad_per_sqrt_s, "Random walk of its heading, rad/sqrt(s)");
+  app.add_option("--pose-noise", pose.position_sigma_m,
+                 "Noise of the pose told to the planner, metres");
+  app.add_option("--yaw-noise", pose.yaw_sigma_rad, "Noise of its heading, radians");
+  app.add_option("--pose-drift", pose.drift_m_per_sqrt_s,
+                 "Random walk of that pose, metres/sqrt(s)");
+  app.add_option("--yaw-drift", pose.drift_rad_per_sqrt_s,
+                 "Random walk of its heading, rad/sqrt(s)");
 }
 
 GasSensorOptions SensorOf(const RobotArguments& arguments) {
@@ -210,6 +186,7 @@ absl::StatusOr<std::vector<Pose2>> StartsOf(const RobotArguments& arguments,
 }  // namespace
 
 void AddRobotOptions(CLI::App& app, RobotArguments& arguments) {
+  app.option_defaults()->always_capture_default();
   AddMissionOptions(app, arguments);
   AddWorldOptions(app, arguments);
   AddLidarOptions(app, arguments);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
+#include "core/types/checker.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout::lab {
@@ -14,25 +15,20 @@ namespace {
 constexpr double kMaxTimeConstant_s = 3600.0;
 constexpr double kMaxConcentration_ppm = 1e6;
 
-absl::Status Check(const char* field, double value, double highest) {
-  if (value >= 0.0 && value <= highest) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      absl::StrCat("gas_sensor.", field, " = ", value, " must be in [0, ", highest, "]"));
-}
-
 }  // namespace
 
 absl::Status Validate(const GasSensorOptions& options) {
-  PLUMESCOUT_RETURN_IF_ERROR(Check("time_constant_s", options.time_constant_s, kMaxTimeConstant_s));
   PLUMESCOUT_RETURN_IF_ERROR(
-      Check("noise_sigma_ppm", options.noise_sigma_ppm, kMaxConcentration_ppm));
-  PLUMESCOUT_RETURN_IF_ERROR(Check("noise_share", options.noise_share, 1.0));
-  PLUMESCOUT_RETURN_IF_ERROR(
-      Check("detection_limit_ppm", options.detection_limit_ppm, kMaxConcentration_ppm));
-  PLUMESCOUT_RETURN_IF_ERROR(
-      Check("saturation_ppm", options.saturation_ppm, kMaxConcentration_ppm));
-  PLUMESCOUT_RETURN_IF_ERROR(
-      Check("resolution_ppm", options.resolution_ppm, kMaxConcentration_ppm));
+      Checker()
+          .InRange("gas_sensor.time_constant_s", options.time_constant_s, 0.0, kMaxTimeConstant_s)
+          .InRange("gas_sensor.noise_sigma_ppm", options.noise_sigma_ppm, 0.0,
+                   kMaxConcentration_ppm)
+          .InRange("gas_sensor.noise_share", options.noise_share, 0.0, 1.0)
+          .InRange("gas_sensor.detection_limit_ppm", options.detection_limit_ppm, 0.0,
+                   kMaxConcentration_ppm)
+          .InRange("gas_sensor.saturation_ppm", options.saturation_ppm, 0.0, kMaxConcentration_ppm)
+          .InRange("gas_sensor.resolution_ppm", options.resolution_ppm, 0.0, kMaxConcentration_ppm)
+          .status());
   if (options.saturation_ppm > options.detection_limit_ppm) return absl::OkStatus();
   return absl::InvalidArgumentError(
       absl::StrCat("gas_sensor.saturation_ppm = ", options.saturation_ppm,

@@ -4,20 +4,13 @@
 
 #include <cmath>
 
-#include "absl/strings/str_cat.h"
-#include "core/types/status_macros.h"
+#include "core/types/checker.h"
 
 namespace plumescout::lab {
 namespace {
 
 constexpr double kMaxPosition_m = 10.0;
 constexpr double kMaxYaw_rad = 3.2;
-
-absl::Status Check(const char* field, double value, double highest) {
-  if (value >= 0.0 && value <= highest) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      absl::StrCat("pose_error.", field, " = ", value, " must be in [0, ", highest, "]"));
-}
 
 // Without an error the pose stays as it is, to the last bit.
 Pose2 Sum(const Pose2& pose, const Pose2& drift, const Pose2& noise) {
@@ -29,11 +22,12 @@ Pose2 Sum(const Pose2& pose, const Pose2& drift, const Pose2& noise) {
 }  // namespace
 
 absl::Status Validate(const PoseErrorOptions& options) {
-  PLUMESCOUT_RETURN_IF_ERROR(Check("position_sigma_m", options.position_sigma_m, kMaxPosition_m));
-  PLUMESCOUT_RETURN_IF_ERROR(Check("yaw_sigma_rad", options.yaw_sigma_rad, kMaxYaw_rad));
-  PLUMESCOUT_RETURN_IF_ERROR(
-      Check("drift_m_per_sqrt_s", options.drift_m_per_sqrt_s, kMaxPosition_m));
-  return Check("drift_rad_per_sqrt_s", options.drift_rad_per_sqrt_s, kMaxYaw_rad);
+  return Checker()
+      .InRange("pose_error.position_sigma_m", options.position_sigma_m, 0.0, kMaxPosition_m)
+      .InRange("pose_error.yaw_sigma_rad", options.yaw_sigma_rad, 0.0, kMaxYaw_rad)
+      .InRange("pose_error.drift_m_per_sqrt_s", options.drift_m_per_sqrt_s, 0.0, kMaxPosition_m)
+      .InRange("pose_error.drift_rad_per_sqrt_s", options.drift_rad_per_sqrt_s, 0.0, kMaxYaw_rad)
+      .status();
 }
 
 PoseError::PoseError(const PoseErrorOptions& options, std::uint64_t seed)

@@ -5,7 +5,9 @@
 #include <signal.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -13,12 +15,15 @@
 #include <sstream>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
+#include "absl/base/thread_annotations.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "absl/time/clock.h"
+#include "absl/synchronization/mutex.h"
+#include "absl/time/time.h"
 #include "client/grpc_planner_client.h"
 #include "server/server.h"
 #include "tests/support/box_room.h"
@@ -85,6 +90,33 @@ TEST_F(RobotMainTest, FailsIfTheRobotNeverSaysWhereItIs) {
   EXPECT_TRUE(absl::StrContains(Read(err_), "plumescout-robot: ")) << Read(err_);
 }
 
+// How far the mission is in what the robot has seen.
+class AppliedTime {
+ public:
+  server::EventSink MakeSink() {
+    return [this](const Event& event) {
+      const auto* received = std::get_if<ObservationReceived>(&event.body);
+      if (received == nullptr) return;
+      const absl::MutexLock lock(&mutex_);
+      latest_ns_ = std::max(latest_ns_, received->observation.sample_time_ns);
+    };
+  }
+  // Whether the mission came to `time_ns` before patience was at its end.
+  bool Await(std::int64_t time_ns) const {
+    const auto reached = [&]() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
+      return latest_ns_ >= time_ns;
+    };
+    const absl::MutexLock lock(&mutex_);
+    return mutex_.AwaitWithTimeout(absl::Condition(&reached), kPatience);
+  }
+
+ private:
+  static constexpr absl::Duration kPatience = absl::Seconds(30);
+
+  mutable absl::Mutex mutex_;
+  std::int64_t latest_ns_ ABSL_GUARDED_BY(mutex_) = 0;
+};
+
 // A server, and the program as its client with a pipe to its standard input.
 class RobotMainWithServerTest : public RobotMainTest {
  protected:
@@ -92,7 +124,11 @@ class RobotMainWithServerTest : public RobotMainTest {
     signal(SIGPIPE, SIG_IGN);  // the program may end before we stop writing
     server::ServerConfig config;
     config.listen = "127.0.0.1:0";
-    auto server = server::Server::Start(config);
+    server::RegistryHooks hooks;
+    hooks.make_event_sink = [this](const MissionId&, const MissionOptions&) {
+      return applied_.MakeSink();
+    };
+    auto server = server::Server::Start(config, hooks);
     ASSERT_TRUE(server.ok()) << server.status();
     server_ = *std::move(server);
     address_ = absl::StrCat("127.0.0.1:", server_->port());
@@ -110,21 +146,24 @@ class RobotMainWithServerTest : public RobotMainTest {
   // Ends the program's input. Returns its exit code.
   int End() { return WEXITSTATUS(pclose(robot_)); }
 
+  AppliedTime applied_;  // before the server that tells it
   std::unique_ptr<server::Server> server_;
   std::string address_;
   FILE* robot_ = nullptr;
 };
 
-constexpr absl::Duration kPace = absl::Milliseconds(10);
-
 TEST_F(RobotMainWithServerTest, DrivesByPlansUntilTheRobotsProgramEnds) {
   Start("");
   Write("this is no message\n");
   constexpr int kMostSteps = 3000;  // far beyond what a plan takes on any machine
-  for (int step = 1; step <= kMostSteps && !absl::StrContains(Read(out_), "twist"); ++step) {
+  bool in_time = true;
+  for (int step = 1; in_time && step <= kMostSteps; ++step) {
+    if (absl::StrContains(Read(out_), "twist")) break;
     Write(LinesAt(step * kStep_ns));
-    absl::SleepFor(kPace);
+    // The first line of a step has the program send what the step before has shown.
+    in_time = applied_.Await((step - 1) * kStep_ns);
   }
+  EXPECT_TRUE(in_time);
   EXPECT_EQ(End(), EXIT_FAILURE) << "nobody told it that the mission is over";
   const std::string notes = Read(err_);
   EXPECT_TRUE(absl::StrContains(Read(out_), R"("type":"twist")")) << notes;
@@ -138,10 +177,7 @@ TEST_F(RobotMainWithServerTest, DrivesByPlansUntilTheRobotsProgramEnds) {
 
 TEST_F(RobotMainWithServerTest, SaysWhatItDidWhenItsTimeIsOver) {
   Start("--time-limit 1");
-  for (int step = 1; step <= 20; ++step) {
-    Write(LinesAt(step * kStep_ns));
-    absl::SleepFor(kPace);
-  }
+  for (int step = 1; step <= 20; ++step) Write(LinesAt(step * kStep_ns));
   EXPECT_EQ(End(), EXIT_SUCCESS);
   EXPECT_TRUE(absl::StrContains(Read(err_), "done after ")) << Read(err_);
 }

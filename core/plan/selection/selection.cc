@@ -20,7 +20,7 @@ double Merit(const Candidate& candidate, SelectionRule rule) {
       return candidate.mean_ucb;
     case SelectionRule::kInformationRate:
       if (!candidate.expected_information_nats) return -1.0;  // below any that is priced
-      return *candidate.expected_information_nats / std::max(candidate.duration_s, kLeast_s);
+      return Worth_nats(candidate) / std::max(candidate.duration_s, kLeast_s);
   }
   return -candidate.cost;
 }
@@ -34,6 +34,11 @@ SelectionRule Applicable(const std::vector<Candidate>& candidates, SelectionRule
 }
 
 }  // namespace
+
+double Worth_nats(const Candidate& candidate) {
+  const bool unseen = candidate.goal.kind == GoalKind::kOccupancyFrontier;
+  return *candidate.expected_information_nats + (unseen ? kUnseen_nats : 0.0);
+}
 
 int SelectCandidate(const std::vector<Candidate>& candidates, SelectionRule rule) {
   if (candidates.empty()) return -1;

@@ -41,6 +41,9 @@ TEST(Explain, NamesTheInformationExpected) {
   plan.candidates[1].expected_information_nats = 34.56;
   EXPECT_THAT(Explain(plan, SelectionRule::kInformationRate),
               HasSubstr("most information expected, 34.6 nats in 12 s"));
+  plan.candidates[1].goal.kind = GoalKind::kOccupancyFrontier;
+  EXPECT_THAT(Explain(plan, SelectionRule::kInformationRate),
+              HasSubstr("most information expected, 34.6 nats and 20 for what is unseen in 12 s"));
 }
 
 TEST(Explain, SaysThatTheGoalWasKept) {

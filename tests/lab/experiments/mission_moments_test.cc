@@ -6,24 +6,12 @@
 
 #include <algorithm>
 
-#include "lab/sim/scene_maker.h"
-#include "tests/lab/sim/small_layout.h"
+#include "tests/lab/sim/small_scene.h"
 
 namespace plumescout::lab {
 namespace {
 
 constexpr double kDuration_s = 15.0;
-
-const SceneWorld& SmallWorld() {
-  static const SceneWorld world = [] {
-    SceneMakerOptions options;
-    options.wind.flow_s = 2.0;
-    options.warm_up_s = 10.0;
-    options.frames = 30;
-    return SceneWorld(*MakeScene(SmallLayout(), options));
-  }();
-  return world;
-}
 
 RecordedMission Record() {
   EpisodeOptions options;

@@ -5,8 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "formats/scene_folder.h"
-#include "tests/lab/experiments/small_scene.h"
+#include "tests/lab/experiments/small_study.h"
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
@@ -16,20 +15,9 @@ using ::testing::Contains;
 using ::testing::Key;
 using ::testing::SizeIs;
 
-// In a room of 4 m x 3 m, one trial of 60 s.
-absl::StatusOr<Study> Quick(const TempFolder& folder) {
-  ExperimentOptions options;
-  options.quick = true;
-  options.trials = 1;
-  options.folder = folder.path();
-  options.scenes = {folder.File("small")};
-  EXPECT_TRUE(WriteScene(SmallScene(), options.scenes.front()).ok());
-  return RunOwnStrategy(options);
-}
-
 TEST(OwnStrategy, ComparesAllContestantsWithTheOracle) {
   const TempFolder folder;
-  const auto study = Quick(folder);
+  const auto study = RunOwnStrategy(SmallStudy(folder));
   ASSERT_TRUE(study.ok()) << study.status();
   ASSERT_THAT(study->figures.tables, SizeIs(2));
   EXPECT_THAT(study->figures.tables[0].rows, SizeIs(6));  // five strategies and the oracle

@@ -2,17 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/trial_store.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
 #include "formats/file_io.h"
-#include "tests/lab/experiments/small_scene.h"
+#include "tests/lab/sim/small_scene.h"
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
 namespace {
+
+using ::testing::MatchesRegex;
 
 constexpr GridGeometry kGeometry{0.0, 0.0, 0.1, 3, 2};
 
@@ -68,33 +71,59 @@ TEST(TrialStore, FindsNothingOfOtherSettingsOrDamaged) {
 }
 
 TEST(Fingerprint, TellsSettingsBuildingsSeedsAndTimesApart) {
-  const SceneWorld world(SmallScene());
-  Scene moved = SmallScene();
-  moved.start_pose.x_m += 0.1;
-  const SceneWorld other_world(std::move(moved));
   MissionOptions mission;
   MissionOptions other_mission;
   other_mission.planning.beta = 2.0;
   Trial trial;
   trial.mission = &mission;
-  trial.world = &world;
-  const std::string print = Fingerprint(trial);
-  EXPECT_EQ(Fingerprint(trial), print);
+  const std::string print = Fingerprint(trial, 1);
+  EXPECT_EQ(Fingerprint(trial, 1), print);
+  EXPECT_NE(Fingerprint(trial, 2), print);
   Trial other = trial;
   other.mission = &other_mission;
-  EXPECT_NE(Fingerprint(other), print);
-  other = trial;
-  other.world = &other_world;
-  EXPECT_NE(Fingerprint(other), print);
+  EXPECT_NE(Fingerprint(other, 1), print);
   other = trial;
   other.seed = 2;
-  EXPECT_NE(Fingerprint(other), print);
+  EXPECT_NE(Fingerprint(other, 1), print);
   other = trial;
   other.duration_s = 10.0;
-  EXPECT_NE(Fingerprint(other), print);
+  EXPECT_NE(Fingerprint(other, 1), print);
   other = trial;
   other.map_times_s = {5.0};
-  EXPECT_NE(Fingerprint(other), print);
+  EXPECT_NE(Fingerprint(other, 1), print);
+}
+
+// Finished trials are found by it: another form would have them all driven again.
+TEST(Fingerprint, KeepsItsForm) {
+  const MissionOptions mission;
+  Trial trial;
+  trial.mission = &mission;
+  trial.seed = 7;
+  trial.duration_s = 60.0;
+  trial.map_times_s = {2.5, 60.0};
+  EXPECT_THAT(Fingerprint(trial, 0xbeef),
+              MatchesRegex("mission [0-9a-f]{8} scene 0000beef seed 7 duration 60 maps 2.5 60"));
+}
+
+TEST(SceneChecksum, IsOfMapGasStartAndThreshold) {
+  const Scene scene = SmallScene();
+  const std::uint32_t checksum = SceneChecksum(scene);
+  EXPECT_EQ(SceneChecksum(scene), checksum);
+  Scene other = scene;
+  other.occupancy[0] = CellState::kUnknown;
+  EXPECT_NE(SceneChecksum(other), checksum);
+  other = scene;
+  other.conc_mean_ppm[0] += 1.0F;
+  EXPECT_NE(SceneChecksum(other), checksum);
+  other = scene;
+  ++other.series.counts.back();
+  EXPECT_NE(SceneChecksum(other), checksum);
+  other = scene;
+  other.start_pose.x_m += 0.1;
+  EXPECT_NE(SceneChecksum(other), checksum);
+  other = scene;
+  other.critical_threshold_ppm += 1.0;
+  EXPECT_NE(SceneChecksum(other), checksum);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 #include "core/plan/strategy.h"
 #include "formats/scene_folder.h"
-#include "tests/lab/experiments/small_scene.h"
+#include "tests/lab/sim/small_scene.h"
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
@@ -32,6 +32,18 @@ TrialPlan SmallPlan(const TempFolder& folder) {
 }
 
 double FinalRmse(const TrialRecord& record) { return record.curve.back().metrics.rmse_ppm; }
+
+TEST(TrialStudy, MakesRowsThatDriveAsThePaperOrWithAllGoals) {
+  const auto paper = MakeStudyRow("a", "xit_gff", true);
+  const auto ours = MakeStudyRow("b", "xit_gff", false);
+  ASSERT_TRUE(paper.ok() && ours.ok());
+  EXPECT_TRUE(paper->mission.planning.draw_goals);
+  EXPECT_FALSE(paper->mission.planning.fallback_to_unobserved);
+  EXPECT_FALSE(ours->mission.planning.draw_goals);
+  EXPECT_TRUE(ours->mission.planning.fallback_to_unobserved);
+  EXPECT_EQ(MakeStudyRow("c", "xit_none", true).status().code(),
+            absl::StatusCode::kInvalidArgument);
+}
 
 TEST(TrialStudy, DoesNotDependOnTheNumberOfJobs) {
   const TempFolder folder;

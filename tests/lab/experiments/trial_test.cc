@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/plan/strategy.h"
-#include "tests/lab/experiments/small_scene.h"
+#include "tests/lab/sim/small_scene.h"
 
 namespace plumescout::lab {
 namespace {

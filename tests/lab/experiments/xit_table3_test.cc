@@ -5,8 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "formats/scene_folder.h"
-#include "tests/lab/experiments/small_scene.h"
+#include "tests/lab/experiments/small_study.h"
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
@@ -16,20 +15,9 @@ using ::testing::Contains;
 using ::testing::Key;
 using ::testing::SizeIs;
 
-// In a room of 4 m x 3 m, one trial of 60 s.
-absl::StatusOr<Study> Quick(const TempFolder& folder) {
-  ExperimentOptions options;
-  options.quick = true;
-  options.trials = 1;
-  options.folder = folder.path();
-  options.scenes = {folder.File("small")};
-  EXPECT_TRUE(WriteScene(SmallScene(), options.scenes.front()).ok());
-  return RunXitTable3(options);
-}
-
 TEST(XitTable3, HasAllRowsWithThePapersValuesBeside) {
   const TempFolder folder;
-  const auto study = Quick(folder);
+  const auto study = RunXitTable3(SmallStudy(folder));
   ASSERT_TRUE(study.ok()) << study.status();
   ASSERT_THAT(study->figures.tables, SizeIs(1));
   const TextTable& table = study->figures.tables.front();

@@ -9,9 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "lab/sim/scene_maker.h"
 #include "tests/client/fake_planner_client.h"
-#include "tests/lab/sim/small_layout.h"
+#include "tests/lab/sim/small_scene.h"
 
 namespace plumescout::lab {
 namespace {
@@ -78,19 +77,6 @@ Plan ThereAndBack(const client::PlanQuery& query) {
   plan.trajectory.length_m = 2.0;
   plan.trajectory.duration_s = 2.0;
   return plan;
-}
-
-Scene MakeSmallScene() {
-  SceneMakerOptions options;
-  options.wind.flow_s = 1.0;
-  options.warm_up_s = 1.0;
-  options.frames = 2;
-  return *MakeScene(SmallLayout(), options);
-}
-
-const SceneWorld& SmallWorld() {
-  static const SceneWorld world(MakeSmallScene());
-  return world;
 }
 
 EpisodeOptions ShortEpisode() {

@@ -5,8 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "lab/sim/scene_maker.h"
-#include "tests/lab/sim/small_layout.h"
+#include "tests/lab/sim/small_scene.h"
 
 namespace plumescout::lab {
 namespace {
@@ -14,17 +13,6 @@ namespace {
 using ::testing::ElementsAre;
 
 constexpr double kBody_m = 0.1;
-
-const SceneWorld& SmallWorld() {
-  static const SceneWorld world = [] {
-    SceneMakerOptions options;
-    options.wind.flow_s = 1.0;
-    options.warm_up_s = 1.0;
-    options.frames = 1;
-    return SceneWorld(*MakeScene(SmallLayout(), options));
-  }();
-  return world;
-}
 
 TEST(TeamStartsTest, TheFirstStartsWhereTheSceneSays) {
   const auto starts = TeamStarts(SmallWorld(), 1, kBody_m);

@@ -35,6 +35,7 @@ TEST(SelectCandidate, TakesTheFirstOfEquals) {
 
 Candidate Informed(double nats, double duration_s) {
   Candidate candidate;
+  candidate.goal.kind = GoalKind::kGasFrontier;
   candidate.expected_information_nats = nats;
   candidate.duration_s = duration_s;
   return candidate;
@@ -44,6 +45,17 @@ TEST(SelectCandidate, TakesTheMostInformationPerSecond) {
   EXPECT_EQ(SelectCandidate({Informed(10, 10), Informed(8, 4), Informed(20, 30)},
                             SelectionRule::kInformationRate),
             1);
+}
+
+TEST(SelectCandidate, CountsWhatIsUnseenBehindAnOccupancyFrontier) {
+  Candidate frontier = Informed(1, 10);
+  frontier.goal.kind = GoalKind::kOccupancyFrontier;
+  EXPECT_DOUBLE_EQ(Worth_nats(frontier), 1 + kUnseen_nats);
+  EXPECT_DOUBLE_EQ(Worth_nats(Informed(1, 10)), 1.0);
+  const auto rate = SelectionRule::kInformationRate;
+  EXPECT_EQ(SelectCandidate({Informed(0.9 + kUnseen_nats, 10), frontier}, rate), 1);
+  EXPECT_EQ(SelectCandidate({Informed(1.1 + kUnseen_nats, 10), frontier}, rate), 0);
+  EXPECT_TRUE(BeatsByMargin(frontier, Informed(1, 10), rate, 1.0));
 }
 
 TEST(SelectCandidate, PassesOverWhatWasNotPricedUnlessNothingWas) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lab/sim/scene_maker.h"
+#include "lab/sim/scene_world.h"
 #include "tests/lab/sim/small_layout.h"
 
 namespace plumescout::lab {
@@ -14,6 +15,11 @@ inline Scene SmallScene() {
   options.warm_up_s = 5.0;
   options.frames = 40;
   return MakeScene(SmallLayout(), options).value();
+}
+
+inline const SceneWorld& SmallWorld() {
+  static const SceneWorld world(SmallScene());
+  return world;
 }
 
 }  // namespace plumescout::lab

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+
+#include "absl/status/status.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/string_view.h"
+
+namespace plumescout {
+
+// Collects the first violation, so that a Validate reads as a table of fields. NaN is in no range.
+class Checker {
+ public:
+  Checker& InRange(absl::string_view field, double value, double low, double high) {
+    if (!(value >= low && value <= high)) {
+      Fail(field, value, absl::StrCat("must be in [", low, ", ", high, "]"));
+    }
+    return *this;
+  }
+  Checker& Positive(absl::string_view field, double value) {
+    if (!(value > 0.0 && std::isfinite(value))) Fail(field, value, "must be > 0 and finite");
+    return *this;
+  }
+  Checker& Negative(absl::string_view field, double value) {
+    if (!(value < 0.0 && std::isfinite(value))) Fail(field, value, "must be < 0 and finite");
+    return *this;
+  }
+  // OK, or kInvalidArgument naming field, value and rule.
+  const absl::Status& status() const { return status_; }
+
+ private:
+  void Fail(absl::string_view field, double value, absl::string_view rule) {
+    if (status_.ok()) {
+      status_ = absl::InvalidArgumentError(absl::StrCat(field, " = ", value, " ", rule));
+    }
+  }
+
+  absl::Status status_;
+};
+
+}  // namespace plumescout
