@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "absl/strings/str_replace.h"
 #include "lab/report/palette.h"
 #include "lab/report/stroke_font.h"
 
@@ -21,12 +20,7 @@ constexpr double kBaseline_px = 17.0;   // below the top of a row
 constexpr double kGap_px = 20.0;        // between columns, at least
 constexpr double kMostSpare_px = 40.0;  // by which a column may be wider than it must
 
-// The font of pictures has no such signs.
-std::string Spelled(const std::string& text) {
-  return absl::StrReplaceAll(text, {{"±", "+/-"}, {"–", "-"}});
-}
-
-double Width_px(const std::string& text) { return TextWidth_px(Spelled(text), kTextSize_px); }
+double Width_px(const std::string& text) { return TextWidth_px(text, kTextSize_px); }
 
 // Of the widest line.
 double Width_px(const std::vector<std::string>& lines) {
@@ -71,7 +65,7 @@ std::optional<Layout> LayOut(const TextTable& table, double width_px) {
       std::min(kMostSpare_px, spare_px / static_cast<double>(table.columns.size()));
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     layout.widths_px[i] += more_px;
-    layout.names.push_back(WrapText(Spelled(table.columns[i]), kTextSize_px, layout.widths_px[i]));
+    layout.names.push_back(WrapText(table.columns[i], kTextSize_px, layout.widths_px[i]));
     layout.name_lines = std::max(layout.name_lines, layout.names.back().size());
   }
   return layout;
@@ -95,7 +89,7 @@ void DrawRow(Canvas& canvas, PixelPoint corner, const Layout& layout,
   const PixelPoint rule[] = {corner, {corner.x + layout.width_px(), corner.y}};
   canvas.Polyline(rule, {kGridLine, 1.0});
   for (std::size_t i = 0; i < std::min(row.size(), layout.widths_px.size()); ++i) {
-    canvas.Text({corner.x, corner.y + kBaseline_px}, Spelled(row[i]), {kTextSize_px, kInk});
+    canvas.Text({corner.x, corner.y + kBaseline_px}, row[i], {kTextSize_px, kInk});
     corner.x += layout.widths_px[i] + kGap_px;
   }
 }
@@ -111,7 +105,7 @@ std::optional<double> TextTableHeight_px(const TextTable& table, double width_px
 void DrawTextTable(Canvas& canvas, const Box& box, const TextTable& table) {
   const std::optional<Layout> layout = LayOut(table, box.width);
   if (!layout) return;
-  canvas.Text({box.x, box.y + kTitleSize_px}, Spelled(table.title),
+  canvas.Text({box.x, box.y + kTitleSize_px}, table.title,
               {kTitleSize_px, kInk, Anchor::kStart, true});
   DrawNames(canvas, {box.x, box.y + kTitle_px}, *layout);
   double y = box.y + layout->height_px(0);
