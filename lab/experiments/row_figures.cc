@@ -68,7 +68,7 @@ Chart MakeMetricChart(const std::vector<SceneRecords>& records, const std::vecto
   if (metric == Completeness) chart.y_range = Range{0.0, 1.0};  // a share
   for (std::size_t row = 0; row < rows.size(); ++row) {
     Curve mean{rows[row].name, {rows[row].color, kCurveWidth_px}, {}};
-    Curve low{"", {rows[row].color, kBandWidth_px, kBandDash_px}, {}, true};
+    Curve low{"", {rows[row].color, kBandWidth_px, kBandDash_px}, {}, CurveKind::kBound};
     Curve high = low;
     for (std::size_t i = 0; i < LongestCurve(records, row); ++i) {
       const Spread spread = SpreadAt(records, row, i, metric);

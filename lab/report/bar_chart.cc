@@ -102,7 +102,9 @@ void DrawBars(Canvas& canvas, const Plot& plot, const BarChart& chart) {
 
 std::vector<ChartLegendItem> LegendOf(const BarChart& chart) {
   std::vector<ChartLegendItem> items;
-  for (const BarSeries& series : chart.series) items.push_back({series.name, {series.color}, true});
+  for (const BarSeries& series : chart.series) {
+    items.push_back({series.name, {series.color}, LegendSample::kSquare});
+  }
   if (!chart.reference_name.empty()) items.push_back({chart.reference_name, kReferenceStroke});
   return items;
 }

@@ -51,7 +51,7 @@ Range RangeOfY(const Chart& chart) {
   Range curves = kNowhere;
   Range bounds = kNowhere;
   for (const Curve& curve : chart.curves) {
-    Include(curve, &ChartPoint::y, curve.bound ? bounds : curves);
+    Include(curve, &ChartPoint::y, curve.kind == CurveKind::kBound ? bounds : curves);
   }
   if (IsEmpty(curves)) curves = bounds;
   if (IsEmpty(curves)) return Range{};
@@ -163,22 +163,30 @@ std::vector<PixelPoint> ClipLine(const std::vector<PixelPoint>& line, const Box&
 }
 
 void DrawCurve(Canvas& canvas, const Plot& plot, const Curve& curve) {
-  constexpr double kSlack_px = 1.0;  // a curve along an edge is seen, whatever the rounding
+  constexpr double kSlack_px = 1.0;  // what lies along an edge is seen, whatever the rounding
+  const Box area{plot.area.x - kSlack_px, plot.area.y - kSlack_px,
+                 plot.area.width + 2.0 * kSlack_px, plot.area.height + 2.0 * kSlack_px};
   std::vector<PixelPoint> line;
   for (const ChartPoint& point : curve.points) {
     line.push_back({plot.PixelX(point.x), plot.PixelY(point.y)});
   }
-  const Box& area = plot.area;
-  canvas.Polyline(ClipLine(line, {area.x - kSlack_px, area.y - kSlack_px,
-                                  area.width + 2.0 * kSlack_px, area.height + 2.0 * kSlack_px}),
-                  curve.stroke);
+  if (curve.kind != CurveKind::kDots) {
+    canvas.Polyline(ClipLine(line, area), curve.stroke);
+    return;
+  }
+  for (const PixelPoint& point : line) {
+    if (!ClipSegment({point, point}, area)) continue;
+    canvas.Disc(point, 0.5 * curve.stroke.width_px, curve.stroke.color);
+  }
 }
 
 std::vector<ChartLegendItem> LegendOf(const Chart& chart) {
   std::vector<ChartLegendItem> items;
   if (chart.curves.size() < 2) return items;
   for (const Curve& curve : chart.curves) {
-    if (!curve.name.empty()) items.push_back({curve.name, curve.stroke});
+    if (curve.name.empty()) continue;
+    const bool dots = curve.kind == CurveKind::kDots;
+    items.push_back({curve.name, curve.stroke, dots ? LegendSample::kDot : LegendSample::kLine});
   }
   return items;
 }

@@ -15,11 +15,17 @@ struct ChartPoint {
   double y = 0.0;
 };
 
+enum class CurveKind {
+  kLine,
+  kBound,  // of an interval around another curve: see Chart::y_range
+  kDots,   // points that are not joined, as wide as the stroke
+};
+
 struct Curve {
   std::string name;  // shown if the chart has several; empty: not shown
   Stroke stroke;
   std::vector<ChartPoint> points;  // a value that is not finite parts the curve
-  bool bound = false;              // of an interval around another curve: see Chart::y_range
+  CurveKind kind = CurveKind::kLine;
 };
 
 struct Range {

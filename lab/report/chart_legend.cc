@@ -18,7 +18,9 @@ constexpr double kLine_px = 24.0;
 constexpr double kBeforeName_px = 6.0;
 constexpr double kBetween_px = 18.0;
 
-double SampleWidth_px(const ChartLegendItem& item) { return item.filled ? kSquare_px : kLine_px; }
+double SampleWidth_px(const ChartLegendItem& item) {
+  return item.sample == LegendSample::kLine ? kLine_px : kSquare_px;
+}
 
 // Drops the last character, which may have several bytes.
 void DropLast(std::string& utf8) {
@@ -64,16 +66,23 @@ std::vector<PlacedItem> Place(const std::vector<ChartLegendItem>& items, double 
 }
 
 void DrawSample(Canvas& canvas, PixelPoint baseline, const ChartLegendItem& item) {
-  if (item.filled) {
-    constexpr double kAboveBaseline_px = 10.0;
-    canvas.FillBox({baseline.x, baseline.y - kAboveBaseline_px, kSquare_px, kSquare_px},
-                   item.stroke.color);
-    return;
-  }
+  constexpr double kAboveBaseline_px = 10.0;  // of a square
   constexpr double kHalfLetter_px = 4.0;
-  const PixelPoint line[] = {{baseline.x, baseline.y - kHalfLetter_px},
-                             {baseline.x + kLine_px, baseline.y - kHalfLetter_px}};
-  canvas.Polyline(line, item.stroke);
+  const double y = baseline.y - kHalfLetter_px;
+  const PixelPoint line[] = {{baseline.x, y}, {baseline.x + kLine_px, y}};
+  switch (item.sample) {
+    case LegendSample::kLine:
+      canvas.Polyline(line, item.stroke);
+      return;
+    case LegendSample::kSquare:
+      canvas.FillBox({baseline.x, baseline.y - kAboveBaseline_px, kSquare_px, kSquare_px},
+                     item.stroke.color);
+      return;
+    case LegendSample::kDot:
+      canvas.Disc({baseline.x + 0.5 * kSquare_px, y}, 0.5 * item.stroke.width_px,
+                  item.stroke.color);
+      return;
+  }
 }
 
 }  // namespace

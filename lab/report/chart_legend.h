@@ -9,10 +9,14 @@
 
 namespace plumescout::lab {
 
+// What stands before a name, in the colour of its stroke: a piece of the line, a square, or a dot
+// as wide as the stroke.
+enum class LegendSample { kLine, kSquare, kDot };
+
 struct ChartLegendItem {
   std::string name;
   Stroke stroke;
-  bool filled = false;  // the sample is a square of the stroke's colour, else a piece of line
+  LegendSample sample = LegendSample::kLine;
 };
 
 // Height of the rows that the items need in this width, with the gap below them; 0 without items.
