@@ -62,9 +62,15 @@ void DrawKeyNumbers(Canvas& canvas, const Box& box, const ReportFigures& figures
   }
 }
 
-// Width of panels that fill the sheet.
+// Width of panels that fill the sheet, or of the widest map if all are tall.
 double PanelWidth_px(const ReportFigures& figures) {
-  return (kContent_px + kGap_px) / static_cast<double>(PanelsPerRow(figures)) - kGap_px;
+  const double most_px =
+      (kContent_px + kGap_px) / static_cast<double>(PanelsPerRow(figures)) - kGap_px;
+  double needed_px = kPanelWidth_px;  // for titles and legends
+  for (const MapPanel& panel : figures.panels) {
+    needed_px = std::max(needed_px, MapWidth_px(panel, most_px));
+  }
+  return std::min(most_px, needed_px);
 }
 
 // Where the parts of the sheet begin and how high they are.
@@ -101,9 +107,12 @@ SheetLayout LayOut(const ReportFigures& figures, std::size_t note_lines) {
 void DrawPanels(Canvas& canvas, const SheetLayout& layout, const ReportFigures& figures) {
   const std::size_t columns = PanelsPerRow(figures);
   const double width = PanelWidth_px(figures);
+  const double step = width + kGap_px;
+  const double left =
+      kMargin_px + 0.5 * (kContent_px + kGap_px - static_cast<double>(columns) * step);
   for (std::size_t i = 0; i < figures.panels.size(); ++i) {
     const int row = static_cast<int>(i / columns);
-    const double x = kMargin_px + static_cast<double>(i % columns) * (width + kGap_px);
+    const double x = left + static_cast<double>(i % columns) * step;
     const int y = layout.panels_top + row * (layout.panel_height + kGap_px);
     DrawMapPanel(canvas,
                  {x, static_cast<double>(y), width, static_cast<double>(layout.panel_height)},
@@ -125,10 +134,11 @@ void DrawCharts(Canvas& canvas, const SheetLayout& layout, const ReportFigures& 
 
 std::size_t PanelsPerRow(const ReportFigures& figures) {
   if (figures.panels_per_row) return std::max<std::size_t>(1, *figures.panels_per_row);
-  constexpr std::size_t kFewest = 3;  // one or two are not as large as all the rest
-  const std::size_t rows =
-      std::max<std::size_t>(1, (figures.panels.size() + kColumns - 1) / kColumns);
-  return std::max(kFewest, (figures.panels.size() + rows - 1) / rows);
+  constexpr std::size_t kFewest = 3;  // fewer would be as large as all the rest
+  const std::size_t count = figures.panels.size();
+  if (count < kFewest) return kColumns;
+  const std::size_t rows = (count + kColumns - 1) / kColumns;
+  return (count + rows - 1) / rows;
 }
 
 int PanelHeight_px(const ReportFigures& figures, double width_px) {

@@ -24,8 +24,8 @@ struct ReportFigures {
   std::vector<Chart> charts;
   std::vector<std::string> notes = {};    // paragraphs under the title
   std::vector<BarChart> bar_charts = {};  // after the charts
-  std::vector<TextTable> tables =
-      {};  // under the key numbers; the sheet has the first if it is not too wide
+  // Under the first key numbers; the sheet has the first table if it is not too wide.
+  std::vector<TextTable> tables = {};
   std::optional<std::size_t> panels_per_row = {};  // default: see PanelsPerRow
 };
 
@@ -35,7 +35,7 @@ inline constexpr int kChartHeight_px = 300;         // without legend
 inline constexpr std::size_t kHeadlineNumbers = 6;  // the first key numbers, printed large
 
 // As the figures say, else as many as fill the fewest rows of up to four best: 3 for 5, 6 and 9.
-// One or two panels stand as if they were three.
+// One or two panels stand as if they were four.
 std::size_t PanelsPerRow(const ReportFigures& figures);
 
 // Height of panels of this width: what the tallest one needs.
@@ -44,8 +44,8 @@ int PanelHeight_px(const ReportFigures& figures, double width_px);
 // Height of the charts: with the highest legend.
 int ChartHeight_px(const ReportFigures& figures);
 
-// One picture of everything: the first table, rows of panels as wide as the sheet, and at most
-// three charts of both kinds beside the key numbers.
+// One picture of everything: the first table, rows of panels as wide as the sheet (in its
+// middle, if tall maps need less), and at most three charts of both kinds beside the key numbers.
 Image DrawSheet(const ReportFigures& figures);
 
 }  // namespace plumescout::lab
