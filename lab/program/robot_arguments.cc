@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/program/robot_arguments.h"
 
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -36,7 +37,8 @@ void AddMissionOptions(CLI::App& app, RobotArguments& arguments) {
   app.add_option("--strategy", arguments.strategy, absl::StrJoin(StrategyNames(), ", "));
   app.add_option("--duration", arguments.duration_s, "Longest simulated time, seconds")
       ->check(CLI::PositiveNumber);
-  app.add_option("--seed", arguments.seed, "Seed of sensors and planner");
+  app.add_option("--seed", arguments.seed, "Seed of sensors and planner")
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()));
   app.add_flag("--realtime", arguments.realtime,
                "At the pace of a wall clock instead of in lockstep");
 }
