@@ -61,7 +61,7 @@ void BuildRow(int south, int north, const BuiltUpArea& area, Rng& rng, Grid<Cell
   const int last = geometry.CellAt({area.center.x_m + area.half_width_m, 0.0}).x;
   int west = geometry.CellAt({area.center.x_m - area.half_width_m, 0.0}).x + Draw(0, 2, rng);
   while (west < last) {
-    const int east = west + Draw(3, 6, rng);
+    const int east = west + Draw(3, 7, rng);
     Build({west, south, east, north}, area, rng, occupancy);
     west = east + Draw(1, 2, rng);
   }
@@ -87,11 +87,11 @@ QuarterPlan MakeQuarterPlan(std::uint64_t seed) {
   const int last = geometry.CellAt({0.0, plan.built_up.center.y_m + kHalfHeight_m}).y;
   bool road_built = false;
   for (int south = first; south < last;) {
-    const int north = south + Draw(3, 5, rng);
+    const int north = south + Draw(2, 4, rng);
     BuildRow(south, north, plan.built_up, rng, plan.occupancy);
     const bool is_road = !road_built && north >= kHeight / 2;
     road_built |= is_road;
-    south = north + (is_road ? kRoadWidth : Draw(1, 2, rng));
+    south = north + (is_road ? kRoadWidth : 2);
   }
   return plan;
 }

@@ -20,12 +20,14 @@ namespace plumescout::lab {
 namespace {
 
 constexpr double kWind_mps = 3.0;
+constexpr double kSmoothShare = 0.5;
 constexpr double kDuration_s = 10'000.0;  // [IPP] Alg. 1, line 9
 constexpr double kFramePeriod_s = 20.0;
 constexpr double kTruthRms_ppm = 20.0;
 
-// The cross-wind: standard deviation, how long it remembers, and the steps in which the plume is
-// computed, up to two and a half deviations either way.
+// The cross-wind: mean, standard deviation, how long it remembers, and the steps in which the plume
+// is computed, up to two and a half deviations either way.
+constexpr double kCrossWind_mps = 0.8;
 constexpr double kGust_mps = 0.5;
 constexpr double kGustMemory_s = 300.0;
 constexpr double kGustStep_mps = 0.125;
@@ -34,7 +36,7 @@ constexpr int kPlumes = 2 * kGustSteps + 1;
 
 WindOptions QuarterWind() {
   WindOptions options;
-  options.viscosity_m2_per_s = 4.0;  // eddies of some 10 m at some 0.4 m/s
+  options.viscosity_m2_per_s = 1.0;  // eddies of some 10 m at some 0.1 m/s
   options.flow_s = 1200.0;           // three times as long as air takes through the raster
   return options;
 }
@@ -81,7 +83,7 @@ struct Winds {
 
   MacField With(double gust_mps) const {
     MacField wind = west;
-    wind.AddScaled(across, gust_mps);
+    wind.AddScaled(across, kCrossWind_mps + gust_mps);
     return wind;
   }
 };
@@ -94,6 +96,10 @@ absl::StatusOr<Winds> SolveWinds(const Grid<CellState>& occupancy) {
   potential.model = WindModel::kPotential;
   PLUMESCOUT_ASSIGN_OR_RETURN(winds.across,
                               SolveWind(Channel(occupancy, Side::kSouth, 1.0), potential));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const MacField smooth,
+                              SolveWind(Channel(occupancy, Side::kWest, kWind_mps), potential));
+  winds.west.AddScaled(winds.west, -kSmoothShare);
+  winds.west.AddScaled(smooth, kSmoothShare);
   return winds;
 }
 
@@ -129,7 +135,7 @@ GasSource DrawSource(const QuarterPlan& plan, Rng& rng) {
     const Point2 at = geometry.Center(cell);
     const double x = (at.x_m - area.center.x_m) / area.half_width_m;
     const double y = (at.y_m - area.center.y_m) / area.half_height_m;
-    const bool fits = x > -0.7 && x < -0.3 && std::abs(y) < 0.35;
+    const bool fits = x > -0.7 && x < -0.3 && y > -0.5 && y < 0.1;
     if (fits && plan.occupancy[i] == CellState::kFree) candidates.push_back(cell);
   }
   const Point2 at = geometry.Center(candidates[rng.Below(candidates.size())]);
@@ -246,7 +252,7 @@ absl::StatusOr<QuarterWorld> MakeQuarterWorld(std::uint64_t seed) {
   scene.name = "quarter";
   scene.occupancy = plan.occupancy;
   scene.sources = {source};
-  scene.wind = CellWind(winds.west, plan.occupancy);
+  scene.wind = CellWind(winds.With(0.0), plan.occupancy);
   FrameRecorder recorder(scene.geometry(), 1, static_cast<int>(mixes.size()), kFramePeriod_s);
   for (const PlumeMix& mix : mixes) recorder.Add({Mixed(plumes, mix, scale)});
   recorder.MoveTo(scene);

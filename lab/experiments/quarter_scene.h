@@ -25,16 +25,18 @@ struct QuarterWorld {
 };
 
 // How it is made:
-//   wind    SolveWind's two-dimensional flow, its air as turbulent as between houses, in a channel
-//           without friction on its sides; no air goes over the roofs.
-//   gusts   a cross-wind through the same streets (potential flow) comes and goes, an
-//           Ornstein-Uhlenbeck process: the plume meanders.
+//   wind    the flow of SolveWind in a channel without friction on its sides, halved with that of
+//           an ideal fluid. No air goes over the roofs of a flat solver, so the quarter's wake
+//           would be as long as the raster and fill with gas; real wakes are dragged along from
+//           above.
+//   gusts   a wind across it, through the same streets, is somewhat oblique in the mean and comes
+//           and goes, an Ornstein-Uhlenbeck process: the plume meanders.
 //   gas     SteadyConcentration in the wind with as much of the cross-wind as blows; in between, it
 //           is interpolated. So the plume follows the wind at once, though it is minutes long.
 //   units   root mean square of the truth over the free cells: 20 ppm. The paper's unit is not
 //           stated; its maps count as resolved at an RMSE of 0.0095 units, at which a map of zeros
 //           surely is not. One of its units is 1000 ppm here. Since posterior means are linear in
-//           the readings, a scale only matters beside the noise of the sensor.
+//           the readings, the scale only matters beside the noise of the sensor.
 // The same seed gives the same world. Errors: those of SolveWind and SteadyConcentration. Cost:
 // some seconds.
 absl::StatusOr<QuarterWorld> MakeQuarterWorld(std::uint64_t seed);
