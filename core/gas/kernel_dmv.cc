@@ -58,7 +58,6 @@ class KernelMap {
     }
   }
 
-  // Beyond the grid no cell has weights: the fallback.
   double At(Cell cell) const {
     const double weight = weights_.At(cell, 0.0);
     if (weight == 0.0) return fallback_;
@@ -72,6 +71,13 @@ class KernelMap {
   Grid<double> weights_;  // Omega
   Grid<double> sums_;
 };
+
+// Of the grid, if it has any.
+Cell NearestCell(const GridGeometry& geometry, Point2 point) {
+  const Cell cell = geometry.CellAt(point);
+  return {std::max(0, std::min(cell.x, geometry.width - 1)),
+          std::max(0, std::min(cell.y, geometry.height - 1))};
+}
 
 KernelMap MapOf(const std::vector<Sample>& samples, const GridGeometry& geometry,
                 const Kernel& kernel) {
@@ -110,7 +116,7 @@ absl::StatusOr<MappedGas> KernelDmv::MapOver(const Grid<CellState>& states) {
   }
   const KernelMap means = MapOf(samples, geometry, kernel);
   for (Sample& sample : samples) {
-    const double off = sample.value - means.At(geometry.CellAt(sample.position));
+    const double off = sample.value - means.At(NearestCell(geometry, sample.position));
     sample.value = off * off;
   }
   const KernelMap variances = MapOf(samples, geometry, kernel);

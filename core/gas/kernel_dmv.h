@@ -27,7 +27,7 @@ absl::Status Validate(const KernelDmvOptions& options);
 //   mean = alpha (sum w_i z_i) / Omega + (1 - alpha) r_0
 //   variance = alpha (sum w_i (z_i - r_i)^2) / Omega + (1 - alpha) v_tot
 //
-// r_0 is the mean of all readings, r_i the mean map in the cell that holds reading i, and v_tot the
+// r_0 is the mean of all readings, r_i the mean map in the cell nearest to reading i, and v_tot the
 // mean of all (z_i - r_i)^2. It knows no walls: gas in one room is felt in the next, which is why
 // it is a peer here and not the map. Variances that readings bring along are not looked at: its
 // variance is that of the gas, not of the estimate.

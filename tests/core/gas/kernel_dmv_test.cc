@@ -50,7 +50,7 @@ class Oracle {
 
   double Variance(Cell cell) const {
     const auto square = [this](const PlacedReading& r) {
-      return std::pow(r.concentration_ppm - Mean(geometry_.CellAt(r.position)), 2.0);
+      return std::pow(r.concentration_ppm - Mean(Nearest(r.position)), 2.0);
     };
     double total = 0.0;
     for (const PlacedReading& r : readings_) total += square(r) / Count();
@@ -59,6 +59,18 @@ class Oracle {
 
  private:
   double Count() const { return static_cast<double>(readings_.size()); }
+
+  // By asking every cell.
+  Cell Nearest(Point2 point) const {
+    Cell nearest{0, 0};
+    for (std::size_t i = 0; i < geometry_.size(); ++i) {
+      const Cell cell = geometry_.CellAtIndex(i);
+      const double gained_m =
+          Distance_m(geometry_.Center(nearest), point) - Distance_m(geometry_.Center(cell), point);
+      if (gained_m > 0.0) nearest = cell;
+    }
+    return nearest;
+  }
 
   double Normal(double distance_m) const {
     const double sigma = options_.kernel_width_m;
