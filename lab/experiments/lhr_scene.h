@@ -42,8 +42,8 @@ std::array<Point2, 4> LhrStarts();
 
 struct LhrAir {
   DecayingPlume plume = {};  // along -y; the paper's 3 m/s, 1 m^2/s and 8 s
-  // The paper plots no unit. With this scale the largest values are some 20 ppm and the root mean
-  // square is near 1 ppm: beside variances of the gas field of 0.1 to 1 ppm^2 neither of the two
+  // The paper plots no unit. With this scale the largest values are 13 to 18 ppm and the root mean
+  // square is some 0.8 ppm: beside variances of the gas field of 0.1 to 1 ppm^2 neither of the two
   // terms of mu + beta sigma^2 drowns the other, and readings to 10 % are no surer in clean air
   // than the field's own noise allows.
   double ppm_per_g_per_m3 = 10.0;

@@ -20,7 +20,7 @@ namespace plumescout::lab {
 namespace {
 
 constexpr double kWind_mps = 3.0;
-constexpr double kSmoothShare = 0.5;
+constexpr double kSmoothShare = 0.5;      // of the ideal fluid in it
 constexpr double kDuration_s = 10'000.0;  // [IPP] Alg. 1, line 9
 constexpr double kFramePeriod_s = 20.0;
 constexpr double kTruthRms_ppm = 20.0;
@@ -37,7 +37,7 @@ constexpr int kPlumes = 2 * kGustSteps + 1;
 WindOptions QuarterWind() {
   WindOptions options;
   options.viscosity_m2_per_s = 1.0;  // eddies of some 10 m at some 0.1 m/s
-  options.flow_s = 1200.0;           // three times as long as air takes through the raster
+  options.flow_s = 1200.0;           // four times as long as air takes through the raster
   return options;
 }
 
@@ -125,17 +125,19 @@ std::vector<PlumeMix> DrawGusts(Rng& rng) {
   return mixes;
 }
 
-// One street cell in the windward part of the quarter, so that the plume goes through the rest.
+// A street cell in the windward part of the quarter, so that the plume goes through the rest.
 GasSource DrawSource(const QuarterPlan& plan, Rng& rng) {
   const GridGeometry& geometry = plan.occupancy.geometry();
   const BuiltUpArea& area = plan.built_up;
+  // In half sizes of the built-up area, from its centre.
+  constexpr double kWest = -0.7, kEast = -0.3, kSouth = -0.5, kNorth = 0.1;
   std::vector<Cell> candidates;
   for (std::size_t i = 0; i < plan.occupancy.size(); ++i) {
     const Cell cell = geometry.CellAtIndex(i);
     const Point2 at = geometry.Center(cell);
     const double x = (at.x_m - area.center.x_m) / area.half_width_m;
     const double y = (at.y_m - area.center.y_m) / area.half_height_m;
-    const bool fits = x > -0.7 && x < -0.3 && y > -0.5 && y < 0.1;
+    const bool fits = x > kWest && x < kEast && y > kSouth && y < kNorth;
     if (fits && plan.occupancy[i] == CellState::kFree) candidates.push_back(cell);
   }
   const Point2 at = geometry.Center(candidates[rng.Below(candidates.size())]);

@@ -25,10 +25,10 @@ struct QuarterWorld {
 };
 
 // How it is made:
-//   wind    the flow of SolveWind in a channel without friction on its sides, halved with that of
-//           an ideal fluid. No air goes over the roofs of a flat solver, so the quarter's wake
-//           would be as long as the raster and fill with gas; real wakes are dragged along from
-//           above.
+//   wind    the flow of SolveWind in a channel without friction on its sides, half of it, and half
+//           that of an ideal fluid. No air goes over the roofs of a flat solver, so the quarter's
+//           wake would be as long as the raster and fill with gas; real wakes are dragged along
+//           from above.
 //   gusts   a wind across it, through the same streets, is somewhat oblique in the mean and comes
 //           and goes, an Ornstein-Uhlenbeck process: the plume meanders.
 //   gas     SteadyConcentration in the wind with as much of the cross-wind as blows; in between, it
@@ -38,7 +38,7 @@ struct QuarterWorld {
 //           surely is not. One of its units is 1000 ppm here. Since posterior means are linear in
 //           the readings, the scale only matters beside the noise of the sensor.
 // The same seed gives the same world. Errors: those of SolveWind and SteadyConcentration. Cost:
-// some seconds.
+// some 2.5 s.
 absl::StatusOr<QuarterWorld> MakeQuarterWorld(std::uint64_t seed);
 
 }  // namespace plumescout::lab

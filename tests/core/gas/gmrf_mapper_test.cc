@@ -45,15 +45,16 @@ TEST(GmrfMapperTest, EqualsTheDenseInverse) {
 TEST(GmrfMapperTest, SaysNothingOfCellsThatAreNotFree) {
   GmrfMapper mapper(GasOptions{});
   const MappedGas gas = mapper.MapOver(GridFromArt({".#?"})).value();
-  EXPECT_EQ(gas.mean_ppm[Cell(0, 0)], 0.0F);
-  EXPECT_TRUE(std::isnan(gas.mean_ppm[Cell(1, 0)]) && std::isnan(gas.variance_ppm2[Cell(2, 0)]));
+  EXPECT_EQ(gas.mean_ppm[(Cell{0, 0})], 0.0F);
+  EXPECT_TRUE(std::isnan(gas.mean_ppm[(Cell{1, 0})]) &&
+              std::isnan(gas.variance_ppm2[(Cell{2, 0})]));
 }
 
 TEST(GmrfMapperTest, AReadingInAWallWaitsForAMapInWhichItIsFree) {
   GmrfMapper mapper(GasOptions{});
   ASSERT_TRUE(mapper.Add({0.15, 0.05}, {20.0, 0.0}).ok());
-  EXPECT_EQ(mapper.MapOver(GridFromArt({".#."})).value().mean_ppm[Cell(0, 0)], 0.0F);
-  EXPECT_GT(mapper.MapOver(GridFromArt({"..."})).value().mean_ppm[Cell(0, 0)], 1.0F);
+  EXPECT_EQ(mapper.MapOver(GridFromArt({".#."})).value().mean_ppm[(Cell{0, 0})], 0.0F);
+  EXPECT_GT(mapper.MapOver(GridFromArt({"..."})).value().mean_ppm[(Cell{0, 0})], 1.0F);
 }
 
 TEST(GmrfMapperTest, RefusesReadingsThatAreNotFinite) {

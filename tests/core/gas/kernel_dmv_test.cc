@@ -134,8 +134,8 @@ TEST(KernelDmvTest, FarFromReadingsFallsBackToTheirMeanAndTheirMeanVariance) {
     const double off = r.concentration_ppm - oracle.Mean(states.geometry().CellAt(r.position));
     spread += 0.5 * off * off;
   }
-  EXPECT_FLOAT_EQ(gas.mean_ppm[Cell(19, 19)], 20.0F);
-  EXPECT_NEAR(gas.variance_ppm2[Cell(19, 19)], spread, 1e-6 * spread);
+  EXPECT_FLOAT_EQ(gas.mean_ppm[(Cell{19, 19})], 20.0F);
+  EXPECT_NEAR(gas.variance_ppm2[(Cell{19, 19})], spread, 1e-6 * spread);
 }
 
 TEST(KernelDmvTest, ASingleReadingIsTheMapAndHasNoVariance) {
@@ -149,7 +149,7 @@ TEST(KernelDmvTest, ASingleReadingIsTheMapAndHasNoVariance) {
 TEST(KernelDmvTest, TrustsAReadingInItsOwnPlaceToAllButOnePartInE) {
   // The second reading is 10 sigma away: r_0 = 50, and the first cell has alpha = 1 - 1/e.
   const MappedGas gas = MapOf({{{0.5, 0.5}, 100.0}, {{10.5, 0.5}, 0.0}}, OpenField(11));
-  EXPECT_NEAR(gas.mean_ppm[Cell(0, 0)], 50.0 + 50.0 * (1.0 - std::exp(-1.0)), 1e-5);
+  EXPECT_NEAR(gas.mean_ppm[(Cell{0, 0})], 50.0 + 50.0 * (1.0 - std::exp(-1.0)), 1e-5);
 }
 
 TEST(KernelDmvTest, DoesNotSeeWalls) {
@@ -157,7 +157,7 @@ TEST(KernelDmvTest, DoesNotSeeWalls) {
   const KernelDmvOptions options{0.15, 1.0};
   const MappedGas open = MapOf(readings, GridFromArt({"...."}), options);
   const MappedGas walled = MapOf(readings, GridFromArt({".#.."}), options);
-  EXPECT_EQ(open.mean_ppm[Cell(2, 0)], walled.mean_ppm[Cell(2, 0)]);
+  EXPECT_EQ(open.mean_ppm[(Cell{2, 0})], walled.mean_ppm[(Cell{2, 0})]);
 }
 
 TEST(KernelDmvTest, HasNoMapWithoutReadings) {

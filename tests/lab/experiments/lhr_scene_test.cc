@@ -42,7 +42,7 @@ TEST(LhrSceneTest, ConcentrationsAreThePlumeTimesRateAndScale) {
   const Scene scene = MakeLhrScene({{LhrPlace(10.0, 30.0), 2.0}, {LhrPlace(12.0, 40.0), 5.0}}, air);
   const double expected = 3.0 * (2.0 * air.plume.PerRate_s_per_m3(8.0, 1.0) +
                                  5.0 * air.plume.PerRate_s_per_m3(18.0, -1.0));
-  EXPECT_NEAR(scene.conc_mean_ppm[Cell(11, 22)], expected, 1e-6 * expected);
+  EXPECT_NEAR(scene.conc_mean_ppm[(Cell{11, 22})], expected, 1e-6 * expected);
   EXPECT_EQ(scene.sources[1].rate_ppm_per_s, 15.0);
 }
 
@@ -91,7 +91,7 @@ TEST(LhrSceneTest, StartsAreTheCorners) {
 TEST(LhrSceneTest, WithoutSourcesTheAirIsClean) {
   const Scene scene = MakeLhrScene({});
   EXPECT_TRUE(ValidateScene(scene).ok());
-  EXPECT_EQ(scene.conc_mean_ppm[Cell(25, 25)], 0.0F);
+  EXPECT_EQ(scene.conc_mean_ppm[(Cell{25, 25})], 0.0F);
 }
 
 }  // namespace
