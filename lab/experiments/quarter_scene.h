@@ -19,8 +19,8 @@ namespace plumescout::lab {
 struct QuarterWorld {
   Scene scene;  // conc_mean_ppm is the mean over the 10,000 s: the truth of Eq. (14)
   BuiltUpArea built_up;
-  // Ten places to start from, "both in and out of the plume, as well as inside and outside the
-  // cluttered regions"; the scene's start is the first.
+  // Ten places to start from, in and out of the plume, among the houses and not; the scene's start
+  // is the first.
   std::vector<Point2> starts;
 };
 

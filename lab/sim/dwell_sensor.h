@@ -27,10 +27,9 @@ struct DwellNoise {
   double share = 0.01;  // of the concentration
 };
 
-// The mean of the world's gas over the dwell, with noise, never negative: "averaging noise added
-// values over the sample time" ([IPP] section IV), "ground truth data with added noise" ([LHR]
-// section IV-A). The readings bring no variance: the mission's model holds. `world` must outlive
-// the sensor.
+// The mean of the world's gas over the dwell, with noise, never negative: what [IPP] section IV
+// makes of noisy values around the robot, and [LHR] section IV-A of its ground truth. The readings
+// bring no variance: the mission's model holds. `world` must outlive the sensor.
 DwellSensor MakeDwellSensor(const SceneWorld& world, const DwellNoise& noise);
 
 }  // namespace plumescout::lab
