@@ -47,7 +47,7 @@ v1::GasOptions ToProto(const GasOptions& options) {
   proto.set_ageing_half_life_s(options.ageing_half_life_s);
   proto.set_refresh_period_s(options.refresh_period_s);
   proto.set_lattice_factor(options.lattice_factor);
-  proto.set_observation_relative_stddev(options.observation_relative_stddev);
+  proto.set_observation_stddev_share(options.observation_relative_stddev);
   return proto;
 }
 
@@ -145,7 +145,7 @@ void Read(const v1::GasOptions& proto, GasOptions& options) {
   Take(proto.has_ageing_half_life_s(), proto.ageing_half_life_s(), options.ageing_half_life_s);
   Take(proto.has_refresh_period_s(), proto.refresh_period_s(), options.refresh_period_s);
   Take(proto.has_lattice_factor(), proto.lattice_factor(), options.lattice_factor);
-  Take(proto.has_observation_relative_stddev(), proto.observation_relative_stddev(),
+  Take(proto.has_observation_stddev_share(), proto.observation_stddev_share(),
        options.observation_relative_stddev);
 }
 
@@ -280,6 +280,7 @@ constexpr FieldName kRenamed[] = {
     {"gas.prior_precision", "gas.prior_precision_per_ppm2"},
     {"gas.observation_precision", "gas.observation_precision_per_ppm2"},
     {"gas.background_precision", "gas.background_precision_per_ppm2"},
+    {"gas.observation_relative_stddev", "gas.observation_stddev_share"},
     {"frontier.min_occupancy_cells", "frontier.min_occupancy_cell_count"},
     {"frontier.min_gas_cells", "frontier.min_gas_cell_count"},
     {"planning.max_goals", "planning.max_goal_count"},
