@@ -10,13 +10,17 @@
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <string>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "client/grpc_planner_client.h"
 #include "client/line_driver.h"
 #include "client/robot_loop.h"
+#include "core/types/prior_map.h"
 #include "core/types/status_macros.h"
+#include "formats/map_server.h"
 
 namespace plumescout::client {
 namespace {
@@ -71,6 +75,7 @@ struct Flags {
   GrpcClientOptions client;
   RobotLoopOptions loop;
   bool create_mission = false;
+  std::string prior_map;  // empty: none
 };
 
 void AddFlags(CLI::App& app, Flags& flags) {
@@ -80,6 +85,10 @@ void AddFlags(CLI::App& app, Flags& flags) {
   app.add_option("--robot", participation.robot, "name of this robot in the mission")->required();
   app.add_flag("--create-mission", flags.create_mission,
                "create the mission if it is not there, with the usual options");
+  app.add_option("--prior-map", flags.prior_map,
+                 "YAML file of a map_server map: create the mission, if it is not there, with this "
+                 "as what is known of the building")
+      ->check(CLI::ExistingFile);
   app.add_flag("--take-over", participation.take_over,
                "supersede another client that writes as this robot");
   app.add_option("--radius", participation.radius_m, "of the robot's footprint, metres")
@@ -102,6 +111,12 @@ void AddFlags(CLI::App& app, Flags& flags) {
 
 absl::Status RunRobot(Flags flags) {
   if (flags.create_mission) flags.loop.participation.create = MissionOptions{};
+  if (!flags.prior_map.empty()) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(Grid<CellState> map, ReadMapServer(flags.prior_map));
+    MissionOptions& mission = flags.loop.participation.create.emplace();
+    StartWith(std::make_shared<const Grid<CellState>>(std::move(map)), mission);
+    PLUMESCOUT_RETURN_IF_ERROR(Validate(mission));
+  }
   LineDriver driver({.on_bad_line = [](const absl::Status& status) {
     Narrator::Say(absl::StrCat("bad line: ", status.message()));
   }});

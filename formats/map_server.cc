@@ -41,11 +41,11 @@ struct MapHeader {
   double free_threshold = 0.0;      // probability
 };
 
-absl::StatusOr<MapHeader> ParseHeader(const std::string& text) {
+absl::StatusOr<MapHeader> ParseYaml(const std::string& text) {
   MapHeader header;
   try {  // yaml-cpp reports by exceptions: they end here
     const YAML::Node root = YAML::Load(text);
-    header.image = root["image"].as<std::string>();
+    if (root["image"]) header.image = root["image"].as<std::string>();
     if (root["mode"]) header.mode = root["mode"].as<std::string>();
     header.negate = root["negate"].as<int>() != 0;
     header.resolution_m = root["resolution"].as<double>();
@@ -87,12 +87,22 @@ absl::Status ValidateHeader(const MapHeader& header) {
   return absl::OkStatus();
 }
 
+absl::StatusOr<MapHeader> ParseHeader(const std::string& text) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(MapHeader header, ParseYaml(text));
+  PLUMESCOUT_RETURN_IF_ERROR(ValidateHeader(header));
+  return header;
+}
+
+absl::Status Prefixed(absl::string_view prefix, const absl::Status& status) {
+  return absl::Status(status.code(), absl::StrCat(prefix, status.message()));
+}
+
 absl::StatusOr<MapHeader> ReadHeader(const std::string& path) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::string text, ReadFile(path, kMaxYamlBytes));
-  const absl::StatusOr<MapHeader> header = ParseHeader(text);
-  const absl::Status status = header.ok() ? ValidateHeader(*header) : header.status();
-  if (status.ok()) return header;
-  return absl::Status(status.code(), absl::StrCat(path, ": ", status.message()));
+  absl::StatusOr<MapHeader> header = ParseHeader(text);
+  if (header.ok() && header->image.empty()) header = absl::DataLossError("names no image");
+  if (!header.ok()) return Prefixed(absl::StrCat(path, ": "), header.status());
+  return header;
 }
 
 CellState Classify(std::uint8_t gray, const MapHeader& header) {
@@ -128,12 +138,7 @@ absl::Status ValidateGeometry(const GridGeometry& geometry) {
   return absl::InvalidArgumentError("the map is empty or its geometry out of range");
 }
 
-}  // namespace
-
-absl::StatusOr<Grid<CellState>> ReadMapServer(const std::string& yaml_path) {
-  PLUMESCOUT_ASSIGN_OR_RETURN(const MapHeader header, ReadHeader(yaml_path));
-  const std::filesystem::path folder = std::filesystem::path(yaml_path).parent_path();
-  PLUMESCOUT_ASSIGN_OR_RETURN(const GrayImage image, ReadPgm((folder / header.image).string()));
+Grid<CellState> MakeMap(const MapHeader& header, const GrayImage& image) {
   Grid<CellState> map({.origin_x_m = header.origin_x_m,
                        .origin_y_m = header.origin_y_m,
                        .resolution_m = header.resolution_m,
@@ -144,6 +149,27 @@ absl::StatusOr<Grid<CellState>> ReadMapServer(const std::string& yaml_path) {
     map[i] = Classify(image.pixels[PixelIndex(map.geometry(), cell)], header);
   }
   return map;
+}
+
+}  // namespace
+
+absl::StatusOr<Grid<CellState>> ReadMapServer(const std::string& yaml_path) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const MapHeader header, ReadHeader(yaml_path));
+  const std::filesystem::path folder = std::filesystem::path(yaml_path).parent_path();
+  PLUMESCOUT_ASSIGN_OR_RETURN(const GrayImage image, ReadPgm((folder / header.image).string()));
+  return MakeMap(header, image);
+}
+
+absl::StatusOr<Grid<CellState>> ParseMapServer(absl::string_view yaml, absl::string_view pgm) {
+  if (yaml.size() > kMaxYamlBytes) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("yaml of ", yaml.size(), " bytes: at most ", kMaxYamlBytes, " are read"));
+  }
+  const absl::StatusOr<MapHeader> header = ParseHeader(std::string(yaml));
+  if (!header.ok()) return Prefixed("yaml ", header.status());
+  const absl::StatusOr<GrayImage> image = ParsePgm(pgm);
+  if (!image.ok()) return Prefixed("pgm ", image.status());
+  return MakeMap(*header, *image);
 }
 
 absl::Status WriteMapServer(const Grid<CellState>& map, const std::string& yaml_path) {

@@ -6,6 +6,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "absl/strings/string_view.h"
 #include "core/types/cell_state.h"
 #include "core/types/grid.h"
 
@@ -19,6 +20,10 @@ namespace plumescout {
 // Errors, each naming the file: kNotFound; kDataLoss if a file does not parse or the image is
 // truncated; kInvalidArgument for a mode, yaw, threshold, resolution or size out of range.
 absl::StatusOr<Grid<CellState>> ReadMapServer(const std::string& yaml_path);
+
+// The same map from what stands in its two files; the image that `yaml` names is not looked for.
+// Errors begin with the word "yaml" or "pgm": kDataLoss, kInvalidArgument as above.
+absl::StatusOr<Grid<CellState>> ParseMapServer(absl::string_view yaml, absl::string_view pgm);
 
 // Writes `yaml_path` and, beside it with the extension .pgm, the image: free 254, occupied 0,
 // unknown 205. kInvalidArgument if the grid is empty or its geometry not finite; else as WriteFile.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "formats/pgm.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "absl/strings/ascii.h"
@@ -28,10 +29,12 @@ absl::StatusOr<int> NextNumber(absl::string_view bytes, std::size_t& at) {
   while (at < bytes.size() && absl::ascii_isdigit(bytes[at])) ++at;
   int number = 0;
   if (!absl::SimpleAtoi(bytes.substr(begin, at - begin), &number)) {
-    return absl::DataLossError("the PGM header does not parse");
+    return absl::DataLossError(absl::StrCat("no number in the PGM header at byte ", begin));
   }
   return number;
 }
+
+}  // namespace
 
 absl::StatusOr<GrayImage> ParsePgm(absl::string_view bytes) {
   if (!absl::StartsWith(bytes, "P5")) return absl::DataLossError("no binary PGM (P5)");
@@ -50,14 +53,15 @@ absl::StatusOr<GrayImage> ParsePgm(absl::string_view bytes) {
         absl::StrCat(image.width, " x ", image.height, " pixels, from 1 to 2^26 are read"));
   }
   ++at;  // the one blank between header and pixels
-  if (at > bytes.size() || bytes.size() - at < count)
-    return absl::DataLossError("pixels are missing");
+  at = std::min(at, bytes.size());
+  if (bytes.size() - at < count) {
+    return absl::DataLossError(
+        absl::StrCat("pixels are missing: ", bytes.size() - at, " of ", count));
+  }
   const absl::string_view pixels = bytes.substr(at, count);
   image.pixels.assign(pixels.begin(), pixels.end());
   return image;
 }
-
-}  // namespace
 
 absl::StatusOr<GrayImage> ReadPgm(const std::string& path) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::string bytes,

@@ -8,6 +8,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "absl/strings/string_view.h"
 
 namespace plumescout {
 
@@ -25,6 +26,9 @@ struct GrayImage {
 // Errors, each naming the file: kNotFound; kDataLoss if the header does not parse or pixels are
 // missing; kInvalidArgument for other grey levels or more than 2^26 pixels.
 absl::StatusOr<GrayImage> ReadPgm(const std::string& path);
+
+// The same from memory; errors name no file.
+absl::StatusOr<GrayImage> ParsePgm(absl::string_view bytes);
 
 // kInvalidArgument unless pixels fill a picture of at least one pixel; else as WriteFile.
 absl::Status WritePgm(const GrayImage& image, const std::string& path);

@@ -69,6 +69,7 @@ absl::Status SetScalar(Message& message, const FieldDescriptor& field, const std
       message.GetReflection()->SetBool(&message, &field, text == "true");
       return absl::OkStatus();
     case FieldDescriptor::CPPTYPE_STRING:
+      if (field.type() == FieldDescriptor::TYPE_BYTES) return absl::NotFoundError("not an option");
       message.GetReflection()->SetString(&message, &field, text);
       return absl::OkStatus();
     case FieldDescriptor::CPPTYPE_ENUM:

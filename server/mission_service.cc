@@ -35,11 +35,16 @@ v1::Latency ToProto(const LatencyFigures& figures) {
   return proto;
 }
 
-v1::Mission Describe(MissionHost& host) {
+MissionOptions WithoutPriorMap(MissionOptions options) {
+  options.prior_map = nullptr;
+  return options;
+}
+
+v1::Mission Describe(MissionHost& host, const MissionOptions& options) {
   const MissionSummary summary = host.summary();
   v1::Mission proto;
   proto.set_name(MissionResource(host.id()));
-  *proto.mutable_options() = ToProto(host.options());
+  *proto.mutable_options() = ToProto(options);
   proto.set_revision(summary.revision);
   proto.set_phase(ToProto(summary.phase));
   if (summary.next_map_update_ns) proto.set_next_map_update_ns(*summary.next_map_update_ns);
@@ -74,14 +79,14 @@ absl::Status MissionService::Create(const v1::CreateMissionRequest& request, v1:
   LogInfo("mission created", {{"mission", request.mission_id()},
                               {"max_cells", absl::StrCat(CellBound(options.occupancy))},
                               {"strategy", options.planning.strategy}});
-  mission = Describe(**host);
+  mission = Describe(**host, WithoutPriorMap(options));
   return absl::OkStatus();
 }
 
 absl::Status MissionService::Get(const v1::GetMissionRequest& request, v1::Mission& mission) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const MissionId id, ParseMissionName("name", request.name()));
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.registry->Find(id));
-  mission = Describe(*host);
+  mission = Describe(*host, host->options());
   return absl::OkStatus();
 }
 
@@ -99,7 +104,9 @@ absl::Status MissionService::List(const v1::ListMissionsRequest& request,
     hosts.pop_back();
     response.set_next_page_token(PageToken(hosts.back()->id()));
   }
-  for (const auto& host : hosts) *response.add_missions() = Describe(*host);
+  for (const auto& host : hosts) {
+    *response.add_missions() = Describe(*host, WithoutPriorMap(host->options()));
+  }
   return absl::OkStatus();
 }
 

@@ -17,7 +17,10 @@ a robot that must outlive a restart of the server is better served by the progra
 The generated stubs (plumescout.v1, google.rpc) must be on PYTHONPATH: build/release/python.
 """
 
+import base64
 import dataclasses
+import pathlib
+import re
 import zlib
 
 import grpc
@@ -147,7 +150,8 @@ class Client:
 
     def create_mission(self, mission, options=None, exist_ok=False):
         """options: nested dict of plumescout.v1.MissionOptions, e.g.
-        {"planning": {"speed_mps": 0.5}}; what is left out takes the server's default."""
+        {"planning": {"speed_mps": 0.5}}; what is left out takes the server's default. A known
+        building goes under "prior_map", see prior_map and prior_map_of_files."""
         request = mission_pb.CreateMissionRequest(
             mission_id=mission,
             options=json_format.ParseDict(options or {}, options_pb.MissionOptions()),
@@ -202,6 +206,39 @@ class Client:
             return method(request, timeout=timeout_s or self._timeout_s, wait_for_ready=True)
         except grpc.RpcError as error:
             raise PlumeScoutError(error.code(), error.details(), _reason(error)) from None
+
+
+def prior_map(occupancy, resolution_m, origin_m=(0.0, 0.0)):
+    """A known building for create_mission({"prior_map": ...}).
+
+    occupancy: array of UNKNOWN, FREE and OCCUPIED, shape (rows, columns), row 0 in the south;
+    origin_m: its south-west corner, whole multiples of the resolution, which is the mission's
+    occupancy.resolution_m."""
+    cells = np.asarray(occupancy, dtype=np.uint8)
+    rows, columns = cells.shape
+    return {
+        "cells": {
+            "geometry": {
+                "origin": {"x_m": origin_m[0], "y_m": origin_m[1]},
+                "resolution_m": resolution_m,
+                "column_count": columns,
+                "row_count": rows,
+            },
+            "deflated_data": base64.b64encode(zlib.compress(cells.tobytes())).decode(),
+        }
+    }
+
+
+def prior_map_of_files(yaml_path):
+    """The same from the files of ROS map_server: a YAML file and the PGM image that it names. An
+    image beyond the server's limits.max_receive_bytes has to go through prior_map."""
+    yaml_path = pathlib.Path(yaml_path)
+    yaml = yaml_path.read_text()
+    image = re.search(r"^image:\s*(.+?)\s*$", yaml, re.MULTILINE)
+    if image is None:
+        raise ValueError(f"{yaml_path} names no image")
+    pgm = (yaml_path.parent / image.group(1).strip("'\"")).read_bytes()
+    return {"files": {"yaml": yaml, "pgm": base64.b64encode(pgm).decode()}}
 
 
 class Robot:

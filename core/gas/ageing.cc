@@ -17,12 +17,17 @@ Ageing::Ageing(const GasOptions& options)
     : default_variance_ppm2_(1.0 / options.observation_precision),
       variance_growth_ppm2_per_s_(options.ageing_half_life_s > 0.0
                                       ? default_variance_ppm2_ / options.ageing_half_life_s
-                                      : 0.0) {}
+                                      : 0.0),
+      relative_stddev_(options.observation_relative_stddev),
+      background_mean_ppm_(options.background_mean_ppm) {}
 
-double Ageing::InitialVariance_ppm2(double own_variance_ppm2) const {
-  return own_variance_ppm2 > 0.0
-             ? std::clamp(own_variance_ppm2, kLeastVariance_ppm2, kMostVariance_ppm2)
-             : default_variance_ppm2_;
+double Ageing::InitialVariance_ppm2(const GasReading& reading) const {
+  if (reading.variance_ppm2 > 0.0) {
+    return std::clamp(reading.variance_ppm2, kLeastVariance_ppm2, kMostVariance_ppm2);
+  }
+  if (relative_stddev_ == 0.0) return default_variance_ppm2_;
+  const double stddev_ppm = relative_stddev_ * (reading.concentration_ppm - background_mean_ppm_);
+  return std::min(std::max(default_variance_ppm2_, stddev_ppm * stddev_ppm), kMostVariance_ppm2);
 }
 
 double Ageing::Variance_ppm2(double initial_variance_ppm2, std::int64_t taken_ns,

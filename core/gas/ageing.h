@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "core/types/gas_reading.h"
 #include "core/types/options.h"
 
 namespace plumescout {
@@ -17,9 +18,15 @@ class Ageing {
 
   bool enabled() const { return variance_growth_ppm2_per_s_ > 0.0; }
 
-  // 1 / lambda_o for this reading: its own variance if it brings one, else the mission's. Kept
-  // within [1e-9, 1e30] ppm^2, so that H and products of two variances stay finite.
-  double InitialVariance_ppm2(double own_variance_ppm2) const;
+  // 1 / lambda_o for this reading: its own variance if it brings one, else the mission's,
+  // max(1 / lambda_o, (kappa |z - m_0|)^2). Kept within [1e-9, 1e30] ppm^2, so that H and products
+  // of two variances stay finite.
+  //
+  // [LHR] II-A has the variance proportional to the magnitude of the reading. Ours differs: by the
+  // floor, since a reading of 0 is no perfect one; by the square, since gusts scale a plume, so
+  // that its standard deviation goes with its mean; and by counting from the background (the
+  // paper's is 0), since clean air of 400 ppm of CO2 is steady, however large its reading.
+  double InitialVariance_ppm2(const GasReading& reading) const;
 
   // 1 / lambda(now) of a reading taken at `taken_ns`. A reading from the future (clocks of robots
   // differ) has age 0.
@@ -39,6 +46,8 @@ class Ageing {
  private:
   double default_variance_ppm2_;       // 1 / lambda_o
   double variance_growth_ppm2_per_s_;  // 1 / lambda_t
+  double relative_stddev_;             // kappa
+  double background_mean_ppm_;         // m_0
 };
 
 }  // namespace plumescout

@@ -30,7 +30,7 @@ int EpochSchedule::Margin_cells(const GasCellBox& box) {
 }
 
 void EpochSchedule::NoteReading(const GasReading& reading) {
-  const double variance_ppm2 = ageing_.InitialVariance_ppm2(reading.variance_ppm2);
+  const double variance_ppm2 = ageing_.InitialVariance_ppm2(reading);
   if (!std::isfinite(variance_ppm2)) return;
   least_variance_ppm2_ =
       has_readings_ ? std::min(least_variance_ppm2_, variance_ppm2) : variance_ppm2;

@@ -35,9 +35,8 @@ void ReadingStore::Add(std::int64_t time_ns, Point2 position, const GasReading& 
   ++counters_.readings;
   ++counters_.waiting;
   if (!IsUsable(position, reading)) return;
-  arrivals_.push_back(
-      {position, BucketOf(time_ns, ageing_.InitialVariance_ppm2(reading.variance_ppm2),
-                          reading.concentration_ppm - background_mean_ppm_)});
+  arrivals_.push_back({position, BucketOf(time_ns, ageing_.InitialVariance_ppm2(reading),
+                                          reading.concentration_ppm - background_mean_ppm_)});
 }
 
 absl::Status ReadingStore::Place(const Grid<CellState>& states,

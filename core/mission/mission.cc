@@ -3,6 +3,7 @@
 #include "core/mission/mission.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <utility>
 
@@ -51,7 +52,12 @@ Mission::Mission(const MissionOptions& options)
       occupancy_(options.occupancy),
       gas_(options.gas),
       goal_memory_(options),
-      sampled_cells_(options.occupancy.resolution_m) {}
+      sampled_cells_(options.occupancy.resolution_m) {
+  if (options.prior_map == nullptr) return;
+  [[maybe_unused]] const absl::Status learnt = occupancy_.Learn(*options.prior_map);
+  assert(learnt.ok());
+  map_changed_since_refresh_ = true;  // the gas of a known building can be told before any reading
+}
 
 absl::StatusOr<Applied> Mission::Apply(const EventBody& body) {
   PLUMESCOUT_ASSIGN_OR_RETURN(Applied applied,

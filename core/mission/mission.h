@@ -35,7 +35,7 @@ struct Applied {
 // the same bytes. Single-threaded; the server gives each mission one writer.
 class Mission {
  public:
-  // REQUIRES: Validate(options).ok(); Create checks it.
+  // Starts with what options.prior_map says. REQUIRES: Validate(options).ok(); Create checks it.
   explicit Mission(const MissionOptions& options);
 
   // kInvalidArgument if the options are invalid.

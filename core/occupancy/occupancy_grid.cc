@@ -8,6 +8,9 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/grid/padded.h"
+#include "core/types/map_tiles.h"
+#include "core/types/prior_map.h"
+#include "core/types/status_macros.h"
 
 namespace plumescout {
 namespace {
@@ -16,27 +19,6 @@ constexpr double kRounding_cells = 1e-9;
 
 float LogOdds(double probability) {
   return static_cast<float>(std::log(probability / (1.0 - probability)));
-}
-
-// Whole tiles along one axis, counted from (0,0) of frame map.
-struct TileSpan {
-  std::int64_t begin = 0;
-  std::int64_t end = 0;
-
-  std::int64_t cells() const { return (end - begin) * OccupancyGrid::kTileCells; }
-  bool empty() const { return begin == end; }
-};
-
-std::int64_t TileOfCell(std::int64_t cell) {
-  constexpr std::int64_t kTile = OccupancyGrid::kTileCells;
-  return cell >= 0 ? cell / kTile : -((kTile - 1 - cell) / kTile);
-}
-
-// The tiles that hold cells first - 1 .. last + 1, and those of `span`.
-TileSpan Covering(const TileSpan& span, std::int64_t first, std::int64_t last) {
-  const TileSpan needed = {TileOfCell(first - 1), TileOfCell(last + 1) + 1};
-  if (span.empty()) return needed;
-  return {std::min(span.begin, needed.begin), std::max(span.end, needed.end)};
 }
 
 TileSpan SpanOf(double origin_m, double resolution_m, int cells) {
@@ -80,8 +62,8 @@ absl::Status OccupancyGrid::GrowToContain(Point2 min, Point2 max) {
   const Cell last = lattice.CellAt(max);
   const TileSpan old_x = SpanOf(old.origin_x_m, resolution_m, old.width);
   const TileSpan old_y = SpanOf(old.origin_y_m, resolution_m, old.height);
-  const TileSpan x = Covering(old_x, first.x, last.x);
-  const TileSpan y = Covering(old_y, first.y, last.y);
+  const TileSpan x = TilesAround(old_x, first.x, last.x);
+  const TileSpan y = TilesAround(old_y, first.y, last.y);
   if (x.cells() == old.width && y.cells() == old.height) return absl::OkStatus();
 
   // Counted in cells, so that an extent of whole tiles is not lost to rounding.
@@ -100,6 +82,25 @@ absl::Status OccupancyGrid::GrowToContain(Point2 min, Point2 max) {
                       static_cast<int>((old_y.begin - y.begin) * kTileCells)};
   log_odds_ = Moved(log_odds_, grown, shift, 0.0F);
   states_ = Moved(states_, grown, shift, CellState::kUnknown);
+  return absl::OkStatus();
+}
+
+absl::Status OccupancyGrid::Learn(const Grid<CellState>& map) {
+  PLUMESCOUT_RETURN_IF_ERROR(ValidatePriorMap(map, options_));
+  const Cell first = LatticeCell(map.geometry(), options_.resolution_m);
+  const GridGeometry lattice = {0.0, 0.0, options_.resolution_m, 0, 0};
+  PLUMESCOUT_RETURN_IF_ERROR(
+      GrowToContain(lattice.Center(first),
+                    lattice.Center({first.x + map.width() - 1, first.y + map.height() - 1})));
+  const Cell shift = geometry().CellAt(lattice.Center(first));
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    if (map[i] == CellState::kUnknown) continue;
+    const Cell cell = map.geometry().CellAtIndex(i);
+    const double sign = map[i] == CellState::kOccupied ? 1.0 : -1.0;
+    const std::size_t index = geometry().Index({cell.x + shift.x, cell.y + shift.y});
+    log_odds_[index] = 0.0F;
+    Add(index, sign * options_.clamp_log_odds);
+  }
   return absl::OkStatus();
 }
 

@@ -8,6 +8,7 @@
 #include "absl/status/status.h"
 #include "core/types/cell_state.h"
 #include "core/types/grid.h"
+#include "core/types/map_tiles.h"
 #include "core/types/options.h"
 #include "core/types/pose2.h"
 
@@ -26,7 +27,7 @@ namespace plumescout {
 // extent nor cell count ever exceeds the options. Thread-compatible.
 class OccupancyGrid {
  public:
-  static constexpr int kTileCells = 64;
+  static constexpr int kTileCells = kMapTileCells;
 
   // REQUIRES: Validate(options).ok(). The grid starts empty (0 x 0).
   explicit OccupancyGrid(const OccupancyOptions& options);
@@ -39,6 +40,12 @@ class OccupancyGrid {
   // Errors, with nothing changed: kResourceExhausted beyond the limits; kInvalidArgument if the
   // rectangle is not finite or min > max. Cost: O(cells) if it grows, else O(1).
   absl::Status GrowToContain(Point2 min, Point2 max);
+
+  // Takes over what a map of the building says: its free and occupied cells are as certain as scans
+  // can make them, and scans change them like any others.
+  // Errors, with nothing changed: those of ValidatePriorMap; of GrowToContain if the grid has grown
+  // elsewhere before. Cost: O(cells).
+  absl::Status Learn(const Grid<CellState>& map);
 
   // Adds to the log-odds of a cell, clamped. REQUIRES: geometry().Contains(cell).
   void Add(Cell cell, double log_odds) { Add(geometry().Index(cell), log_odds); }

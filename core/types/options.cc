@@ -7,6 +7,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/types/checker.h"
+#include "core/types/prior_map.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
@@ -24,9 +25,11 @@ double LogOddsMagnitude(double probability) {
 
 constexpr double kBelowHalf = 0.499;
 constexpr double kAboveHalf = 0.501;
-constexpr double kMaxLogOdds = 50.0;  // a certainty of 1 - 2e-22
-constexpr double kMaxWeight = 1e9;    // of a term of a cost: keeps costs finite, in float too
-constexpr double kMaxTime_s = 1e9;    // 30 years: added to a time in ns, it stays within int64
+constexpr double kMaxLogOdds = 50.0;       // a certainty of 1 - 2e-22
+constexpr double kMaxWeight = 1e9;         // of a term of a cost: keeps costs finite, in float too
+constexpr double kMaxResolution_m = 50.0;  // outdoors
+constexpr double kMaxExtent_m = 20'000.0;  // six tiles of such cells; max_cells bounds the memory
+constexpr double kMaxTime_s = 1e9;         // 30 years: added to a time in ns, it stays within int64
 
 }  // namespace
 
@@ -35,7 +38,7 @@ absl::Status Validate(const OccupancyOptions& options) {
   const double least_clamp = std::max(LogOddsMagnitude(options.free_threshold),
                                       LogOddsMagnitude(options.occupied_threshold));
   return Checker()
-      .InRange("occupancy.resolution_m", options.resolution_m, 0.01, 2.0)
+      .InRange("occupancy.resolution_m", options.resolution_m, 0.01, kMaxResolution_m)
       .InRange("occupancy.inflation_radius_m", options.inflation_radius_m, 0.0, 5.0)
       .InRange("occupancy.free_threshold", options.free_threshold, 0.001, kBelowHalf)
       .InRange("occupancy.occupied_threshold", options.occupied_threshold, kAboveHalf, 0.999)
@@ -44,7 +47,7 @@ absl::Status Validate(const OccupancyOptions& options) {
       .InRange("occupancy.hit_log_odds", options.hit_log_odds, 0.0, kMaxLogOdds)
       .InRange("occupancy.miss_log_odds", options.miss_log_odds, -kMaxLogOdds, 0.0)
       .InRange("occupancy.clamp_log_odds", options.clamp_log_odds, least_clamp, kMaxLogOdds)
-      .InRange("occupancy.max_extent_m", options.max_extent_m, 1.0, 2000.0)
+      .InRange("occupancy.max_extent_m", options.max_extent_m, 1.0, kMaxExtent_m)
       .InRange("occupancy.max_cells", static_cast<double>(options.max_cells), 4096, 16'000'000)
       .status();
 }
@@ -61,6 +64,7 @@ absl::Status Validate(const GasOptions& options) {
       .InRange("gas.background_precision", options.background_precision, kMinPrecision,
                kMaxPrecision)
       .InRange("gas.background_mean_ppm", options.background_mean_ppm, 0.0, 1e6)
+      .InRange("gas.observation_relative_stddev", options.observation_relative_stddev, 0.0, 10.0)
       .InRange("gas.ageing_half_life_s", ages ? options.ageing_half_life_s : kMaxTime_s,
                kMinHalfLife_s, kMaxTime_s)
       .InRange("gas.lattice_factor", options.lattice_factor, 1, 16)
@@ -174,6 +178,9 @@ absl::Status Validate(const MissionOptions& options) {
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options.frontier));
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options.planning));
   PLUMESCOUT_RETURN_IF_ERROR(ValidateKeepOut(options.keep_out));
+  if (options.prior_map != nullptr) {
+    PLUMESCOUT_RETURN_IF_ERROR(ValidatePriorMap(*options.prior_map, options.occupancy));
+  }
   const Point2 home = options.home.value_or(Point2{});
   return Checker()
       .InRange("pose_limit_m", options.pose_limit_m, 1.0, 1e6)

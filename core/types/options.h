@@ -3,11 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "absl/status/status.h"
+#include "core/types/cell_state.h"
+#include "core/types/grid.h"
 #include "core/types/polygon.h"
 #include "core/types/pose2.h"
 
@@ -15,14 +18,14 @@ namespace plumescout {
 
 // Occupancy grid; paper symbols of [XIT] Eq. (1) and Table I.
 struct OccupancyOptions {
-  double resolution_m = 0.1;           // (0.01, 2]
-  double inflation_radius_m = 0.2;     // [0, 5], farther than this from any occupied cell
-  double free_threshold = 0.25;        // tau_free, probability, (0, 0.5)
-  double occupied_threshold = 0.65;    // tau_occ, probability, (0.5, 1)
-  double hit_log_odds = 0.85;          // (0, 50]
-  double miss_log_odds = -0.4;         // [-50, 0)
-  double clamp_log_odds = 3.5;         // beyond the log-odds of both thresholds, at most 50
-  double max_extent_m = 200.0;         // the map never grows beyond this width or height, (0, 2000]
+  double resolution_m = 0.1;         // [0.01, 50]
+  double inflation_radius_m = 0.2;   // [0, 5], farther than this from any occupied cell
+  double free_threshold = 0.25;      // tau_free, probability, (0, 0.5)
+  double occupied_threshold = 0.65;  // tau_occ, probability, (0.5, 1)
+  double hit_log_odds = 0.85;        // (0, 50]
+  double miss_log_odds = -0.4;       // [-50, 0)
+  double clamp_log_odds = 3.5;       // beyond the log-odds of both thresholds, at most 50
+  double max_extent_m = 200.0;       // the map never grows beyond this width or height, [1, 20000]
   std::int64_t max_cells = 4'000'000;  // nor beyond this many cells
 };
 
@@ -41,6 +44,9 @@ struct GasOptions {
   // Of sample time. Refreshes that no plan asks for are this far apart, those for the sake of
   // readings and those for the sake of the map each among themselves; [0.01, 3600].
   double refresh_period_s = 0.05;
+  // kappa, [0, 10]: a reading z that brings no variance has max(1 / lambda_o, (kappa |z - m_0|)^2),
+  // for what gusts do to gas grows with it; 0: 1 / lambda_o whatever it reads. [LHR] section II-A.
+  double observation_relative_stddev = 0.0;
 };
 
 // Occupancy and gas frontiers; [XIT] section V.
@@ -186,6 +192,9 @@ struct MissionOptions {
   // Where nobody may drive, though it is sensed and mapped: at most 64, of 3 to 256 vertices each.
   std::vector<Polygon> keep_out;
   std::optional<Point2> home;  // of every robot, within pose_limit_m; none: its own first pose
+  // What is known of the building before the first scan (see core/types/prior_map.h); null:
+  // nothing.
+  std::shared_ptr<const Grid<CellState>> prior_map;
 };
 
 // kInvalidArgument naming field, value and range, e.g. "gas.prior_precision = -1 must be > 0".

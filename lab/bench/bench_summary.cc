@@ -38,7 +38,9 @@ int RunBench(CLI::App& app, int argc, char** argv,
   std::string path;
   std::uint64_t seed = 1;
   app.add_option("--summary", path, "Write the figures to this JSON file");
-  app.add_option("--seed", seed, "Seed of everything drawn at random")->capture_default_str();
+  app.add_option("--seed", seed, "Seed of everything drawn at random")
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()))
+      ->capture_default_str();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

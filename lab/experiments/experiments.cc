@@ -5,7 +5,10 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "core/types/status_macros.h"
+#include "lab/experiments/all_strategies.h"
 #include "lab/experiments/gas_validation.h"
+#include "lab/experiments/ipp_table1.h"
+#include "lab/experiments/lhr_table2.h"
 #include "lab/experiments/mit_table1.h"
 #include "lab/experiments/own_strategy.h"
 #include "lab/experiments/wind_validation.h"
@@ -25,7 +28,10 @@ struct Experiment {
 };
 
 constexpr Experiment kExperiments[] = {
+    {"all_strategies", RunAllStrategies},
     {"gas_validation", RunGasValidation},
+    {"ipp_table1", RunIppTable1},
+    {"lhr_table2", RunLhrTable2},
     {"mit_table1", RunMitTable1},
     {"own_strategy", RunOwnStrategy},
     {"wind_validation", RunWindValidation},

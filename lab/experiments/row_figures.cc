@@ -10,7 +10,8 @@ namespace plumescout::lab {
 namespace {
 
 constexpr double kCurveWidth_px = 1.8;
-constexpr double kBandWidth_px = 0.9;
+constexpr double kBandWidth_px = 1.2;
+constexpr double kBandDash_px = 4.0;
 
 std::size_t LongestCurve(const std::vector<SceneRecords>& records, std::size_t row) {
   std::size_t longest = 0;
@@ -64,9 +65,10 @@ std::vector<double> Finals(const std::vector<SceneRecords>& records, std::size_t
 Chart MakeMetricChart(const std::vector<SceneRecords>& records, const std::vector<RowStyle>& rows,
                       const std::string& title, MetricFn metric) {
   Chart chart{title, "time, s", std::nullopt, {}};
+  if (metric == Completeness) chart.y_range = Range{0.0, 1.0};  // a share
   for (std::size_t row = 0; row < rows.size(); ++row) {
     Curve mean{rows[row].name, {rows[row].color, kCurveWidth_px}, {}};
-    Curve low{"", {rows[row].color, kBandWidth_px}, {}};
+    Curve low{"", {rows[row].color, kBandWidth_px, kBandDash_px}, {}, CurveKind::kBound};
     Curve high = low;
     for (std::size_t i = 0; i < LongestCurve(records, row); ++i) {
       const Spread spread = SpreadAt(records, row, i, metric);

@@ -24,7 +24,8 @@ std::vector<double> Finals(const std::vector<SceneRecords>& records, std::size_t
                            MetricFn metric);
 
 // The metric over time, a curve for each row, the mean over trials; for those in `with_band` also
-// the 95 % interval of the mean, dashed. Trials that end early keep their last value.
+// the 95 % interval of the mean, dashed. Trials that end early keep their last value. Completeness
+// is shown from 0 to 1.
 struct RowStyle {
   std::string name;
   Rgb color;

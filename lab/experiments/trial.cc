@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/trial.h"
 
+#include <cmath>
+#include <cstddef>
 #include <limits>
 #include <utility>
 #include <variant>
@@ -30,9 +32,33 @@ Grid<float> OnSceneGrid(const Grid<float>& field, const GridGeometry& geometry) 
   return moved;
 }
 
-bool IsGasReading(const Event& event) {
+// The gas reading that the event brings, or null.
+const Observation* GasObservation(const Event& event) {
   const auto* received = std::get_if<ObservationReceived>(&event.body);
-  return received != nullptr && std::holds_alternative<GasReading>(received->observation.payload);
+  const bool is_gas =
+      received != nullptr && std::holds_alternative<GasReading>(received->observation.payload);
+  return is_gas ? &received->observation : nullptr;
+}
+
+// RMSE of the readings' map in critical cells, as of [XIT] Eq. (23).
+absl::StatusOr<double> PeerError_ppm(const Scene& scene, const KernelDmvOptions& options,
+                                     const std::vector<Observation>& readings) {
+  PLUMESCOUT_RETURN_IF_ERROR(Validate(options));
+  KernelDmv mapper(options);
+  for (const Observation& reading : readings) {
+    PLUMESCOUT_RETURN_IF_ERROR(
+        mapper.Add(reading.pose.position(), std::get<GasReading>(reading.payload)));
+  }
+  PLUMESCOUT_ASSIGN_OR_RETURN(const MappedGas map, mapper.MapOver(scene.occupancy));
+  double squares = 0.0;
+  double cells = 0.0;
+  for (std::size_t i = 0; i < map.mean_ppm.size(); ++i) {
+    if (!(scene.conc_mean_ppm[i] > scene.critical_threshold_ppm)) continue;
+    const double error = static_cast<double>(map.mean_ppm[i]) - scene.conc_mean_ppm[i];
+    squares += error * error;
+    cells += 1.0;
+  }
+  return cells > 0.0 ? std::sqrt(squares / cells) : 0.0;
 }
 
 EpisodeOptions MakeEpisodeOptions(const Trial& trial, TrialRecord& record) {
@@ -60,7 +86,13 @@ absl::StatusOr<TrialRecord> RunTrial(const Trial& trial) {
   TrialRecord record;
   LocalOptions local;
   local.path_planners = MakeOmplPlanner;
-  local.on_event = [&record](const Event& event) { record.gas_readings += IsGasReading(event); };
+  std::vector<Observation> readings;
+  local.on_event = [&](const Event& event) {
+    const Observation* gas = GasObservation(event);
+    if (gas == nullptr) return;
+    ++record.gas_readings;
+    if (trial.peer) readings.push_back(*gas);
+  };
   LocalPlannerClient planner(local);
   PLUMESCOUT_ASSIGN_OR_RETURN(const EpisodeResult episode,
                               RunEpisode(planner, *trial.world, MakeEpisodeOptions(trial, record)));
@@ -68,6 +100,10 @@ absl::StatusOr<TrialRecord> RunTrial(const Trial& trial) {
   record.plans = static_cast<int>(episode.plans.size());
   record.collisions = episode.collisions;
   record.completed = episode.completed;
+  if (trial.peer) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(record.peer_rmse_ppm,
+                                PeerError_ppm(trial.world->scene(), *trial.peer, readings));
+  }
   return record;
 }
 

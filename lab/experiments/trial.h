@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "core/gas/kernel_dmv.h"
 #include "core/types/grid.h"
 #include "core/types/options.h"
 #include "lab/sim/metrics.h"
@@ -20,6 +22,8 @@ struct Trial {
   std::uint64_t seed = 1;             // of planner and sensors
   double duration_s = 300.0;          // simulated, [XIT] section VI-B
   std::vector<double> map_times_s{};  // when the gas map is kept, ascending
+  // Also map the same readings by Kernel DM+V, over the whole building, and tell its error.
+  std::optional<KernelDmvOptions> peer{};
 };
 
 struct CurvePoint {
@@ -34,7 +38,8 @@ struct TrialRecord {
   double distance_m = 0.0;
   int plans = 0;
   int collisions = 0;
-  bool completed = false;  // the planner said so before the time was up
+  bool completed = false;               // the planner said so before the time was up
+  std::optional<double> peer_rmse_ppm;  // of Kernel DM+V in critical cells, at the end
 };
 
 // Drives the robot through the building, planned in this process, in lockstep: the same trial gives

@@ -53,6 +53,9 @@ TrialRecord RecordFrom(const json& value) {
   record.plans = value.at("plans").get<int>();
   record.collisions = value.at("collisions").get<int>();
   record.completed = value.at("completed").get<bool>();
+  if (value.contains("peer_rmse_ppm")) {
+    record.peer_rmse_ppm = value.at("peer_rmse_ppm").get<double>();
+  }
   return record;
 }
 
@@ -110,6 +113,7 @@ absl::Status TrialStore::Keep(const std::string& name, const std::string& finger
                 {"distance_m", record.distance_m}, {"plans", record.plans},
                 {"collisions", record.collisions}, {"completed", record.completed},
                 {"maps", record.mean_ppm.size()},  {"curve", json::array()}};
+  if (record.peer_rmse_ppm) value["peer_rmse_ppm"] = *record.peer_rmse_ppm;
   for (const CurvePoint& point : record.curve) value["curve"].push_back(ToJson(point));
   return WriteFile(JsonPath(name), value.dump());  // last: it says that the maps are there
 }
@@ -127,6 +131,10 @@ std::uint32_t SceneChecksum(const Scene& scene) {
 std::string Fingerprint(const Trial& trial, std::uint32_t scene_checksum) {
   std::string times;
   for (const double time_s : trial.map_times_s) absl::StrAppend(&times, " ", time_s);
+  if (trial.peer) {
+    absl::StrAppend(&times, " peer ", trial.peer->kernel_width_m, " ",
+                    trial.peer->confidence_scale);
+  }
   return absl::StrFormat("mission %08x scene %08x seed %d duration %g maps%s",
                          Crc32c(ToProto(*trial.mission).SerializeAsString()), scene_checksum,
                          trial.seed, trial.duration_s, times);

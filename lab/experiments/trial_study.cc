@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/trial_study.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -19,6 +21,21 @@
 namespace plumescout::lab {
 namespace {
 
+std::vector<MissionOptions> MissionsIn(const TrialPlan& plan, const Scene& scene) {
+  std::vector<MissionOptions> missions;
+  for (const StudyRow& row : plan.rows) {
+    MissionOptions& mission = missions.emplace_back(row.mission);
+    if (row.knows_map) {
+      mission.prior_map = std::make_shared<const Grid<CellState>>(scene.occupancy);
+    }
+    SiteOptions& sites = mission.planning.sites;
+    if (row.samples_building) {
+      sites.region = RegionOver(scene.geometry(), sites.spacing_m, sites.survey_stride);
+    }
+  }
+  return missions;
+}
+
 // All trials in one building.
 class SceneStudy {
  public:
@@ -28,6 +45,7 @@ class SceneStudy {
         world_(std::move(scene)),
         scene_checksum_(SceneChecksum(world_.scene())),
         store_(store),
+        missions_(MissionsIn(plan, world_.scene())),
         records_(plan.rows.size(),
                  std::vector<TrialRecord>(static_cast<std::size_t>(plan.trials))) {}
 
@@ -39,7 +57,8 @@ class SceneStudy {
     const std::size_t row = task % plan_.rows.size();
     const std::size_t number = task / plan_.rows.size();
     Trial trial;
-    trial.mission = &plan_.rows[row].mission;
+    trial.mission = &missions_[row];
+    trial.peer = plan_.peer;
     trial.world = &world_;
     trial.seed = plan_.first_seed + number;
     trial.duration_s = plan_.duration_s;
@@ -64,6 +83,7 @@ class SceneStudy {
   const SceneWorld world_;
   const std::uint32_t scene_checksum_;
   const TrialStore& store_;
+  const std::vector<MissionOptions> missions_;  // by row
   SceneRecords records_;
 };
 
@@ -80,6 +100,20 @@ absl::StatusOr<StudyRow> MakeStudyRow(const std::string& name, const std::string
   planning.draw_goals = as_the_paper;
   planning.fallback_to_unobserved = !as_the_paper;
   return row;
+}
+
+Rectangle RegionOver(const GridGeometry& building, double spacing_m, int stride) {
+  const auto span = [&](double low_m, int cells, double& first_m, double& last_m) {
+    first_m = std::floor(low_m / spacing_m) * spacing_m;
+    const double covering =
+        std::ceil((low_m + cells * building.resolution_m - first_m) / spacing_m);
+    const double legs = std::ceil((covering - 1.0) / stride);
+    last_m = first_m + (legs * stride + 1.0) * spacing_m;
+  };
+  Rectangle region;
+  span(building.origin_x_m, building.width, region.min.x_m, region.max.x_m);
+  span(building.origin_y_m, building.height, region.min.y_m, region.max.y_m);
+  return region;
 }
 
 std::string SceneName(const std::string& folder) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ namespace plumescout::lab {
 struct StudyRow {
   std::string name;  // of files too: letters, digits, '_'
   MissionOptions mission;
+  bool knows_map = false;  // the building's map is the mission's prior map
+  // The region that is sampled, of strategies that stop at sites, is the building.
+  bool samples_building = false;
 };
 
 // A strategy of the table, driving until the time is up. As the paper: goals are drawn at random
@@ -33,13 +37,18 @@ struct TrialPlan {
   std::uint64_t first_seed = 1;
   double duration_s = 300.0;
   std::vector<double> map_times_s = {};
-  std::string folder;  // finished trials are kept here, and taken from here
-  int jobs = 1;        // trials at once
+  std::optional<KernelDmvOptions> peer = {};  // see Trial
+  std::string folder;                         // finished trials are kept here, and taken from here
+  int jobs = 1;                               // trials at once
   std::function<void(double)> progress = {};
 };
 
 // Of one building: by row and trial, in the order of the plan.
 using SceneRecords = std::vector<std::vector<TrialRecord>>;
+
+// The squares of `spacing_m` that cover the building, and as many beyond it in the north and east
+// as it takes for a survey of every stride-th site to have the last row and column.
+Rectangle RegionOver(const GridGeometry& building, double spacing_m, int stride);
 
 // By building. Trials with the same number have the same seed in all rows, so they are pairs. The
 // result does not depend on the jobs. Errors: as ReadScene, naming the folder; as RunTrial.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,8 +20,6 @@
 
 namespace plumescout::lab {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // Code of a flow in the table.
 enum Flow { kCavityU = 1, kCavityV = 2, kChannel = 3, kStep = 4 };
@@ -43,12 +40,6 @@ double DurstEntrance(double reynolds) {
   return std::pow(std::pow(0.631, kPower) + std::pow(0.0442 * reynolds, kPower), 1.0 / kPower);
 }
 
-// Published values are dots: strokes without length, parted by a point that is none.
-Curve Dots(const std::string& name) { return {name, {kSourceColor, 6.0}, {}}; }
-void AddDot(double x, double y, Curve& dots) {
-  dots.points.insert(dots.points.end(), {{x, y}, {x, y}, {kNan, kNan}});
-}
-
 Curve Line(const std::string& name, const Stroke& stroke, const std::vector<LineSample>& samples) {
   Curve curve{name, stroke, {}};
   for (const LineSample& sample : samples) curve.points.push_back({sample.at, sample.speed});
@@ -60,9 +51,9 @@ Chart CavityChart(const CavityStudy& study) {
   constexpr double kDash_px = 4.0;
   const CavityRun& coarse = study.runs.front();
   const CavityRun& fine = study.runs.back();
-  Curve ghia = Dots("Ghia 1982");
+  Curve ghia{"Ghia 1982", {kSourceColor, 6.0}, {}, CurveKind::kDots};
   for (const auto& points : {study.ghia.u, study.ghia.v}) {
-    for (const ProfilePoint& point : points) AddDot(point.at, point.speed, ghia);
+    for (const ProfilePoint& point : points) ghia.points.push_back({point.at, point.speed});
   }
   return {
       absl::StrFormat("Cavity, Re %.0f", study.ghia.reynolds),

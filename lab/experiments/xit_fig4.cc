@@ -143,7 +143,7 @@ MapPanel MakePanel(const SceneStudy& study) {
 
 Chart MakeChart(const SceneStudy& study) {
   const Stroke band{kLineColors[0], 1.0, 3.0};
-  Curve mean{"iid +- sd", {kLineColors[0], 2.2}, {}};
+  Curve mean{"iid ± sd", {kLineColors[0], 2.2}, {}};
   Curve low{"", band, {}};
   Curve high{"", band, {}};
   Curve systematic{"systematic", {kLineColors[1], 1.8}, {}};
@@ -189,7 +189,7 @@ void AddFigures(const SceneStudy& study, Summary& summary) {
 std::string Text(const Spread& spread) {
   if (spread.ratios.empty()) return "no path";
   if (spread.ratios.size() == 1) return absl::StrFormat("%.3f, one path", spread.mean());
-  return absl::StrFormat("%.3f +- %.3f", spread.mean(), spread.stddev());
+  return absl::StrFormat("%.3f ± %.3f", spread.mean(), spread.stddev());
 }
 
 // The means at the samples of the pictures and at the most of one kind of sampling.

@@ -51,7 +51,6 @@ struct TableRow {
 
 constexpr std::size_t kBaseline = 0;
 constexpr std::size_t kBest = 5;  // the paper's
-constexpr std::size_t kPaperRows = 6;
 constexpr std::size_t kOwn = 8;
 constexpr CostKind kUcb = CostKind::kUcb;
 constexpr CostKind kLength = CostKind::kEuclidean;
@@ -204,9 +203,8 @@ std::vector<RowStyle> MakeStyles() {
                              {190, 190, 190}, {140, 140, 140}, {20, 130, 90}};
   std::vector<RowStyle> styles;
   for (std::size_t row = 0; row < std::size(kRows); ++row) {
-    const bool alternative = row >= kPaperRows && row != kOwn;
-    styles.push_back({alternative ? "" : absl::StrCat(kRows[row].method, " ", kRows[row].cost),
-                      kColors[row], row == kBaseline || row == kBest});
+    styles.push_back({absl::StrCat(kRows[row].method, " ", kRows[row].cost), kColors[row],
+                      row == kBaseline || row == kBest});
   }
   return styles;
 }

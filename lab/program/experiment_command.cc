@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <string>
 #include <thread>
@@ -82,6 +83,7 @@ void AddExperimentCommand(CLI::App& app, absl::Status& status) {
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   experiment->add_option("--seed", options.seed, "Seed of everything drawn at random")
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()))
       ->capture_default_str();
   experiment->add_flag("--quick", options.quick, "Less of everything: all of it in some minutes");
   experiment->callback([arguments, &status] { status = MakeExperiments(*arguments); });

@@ -98,7 +98,8 @@ void AddPlanCommand(CLI::App& app, absl::Status& status) {
   plan->add_option(
       "--strategy", arguments->step.strategy,
       absl::StrCat("One of ", absl::StrJoin(StrategyNames(), ", "), " (default: the mission's)"));
-  plan->add_option("--seed", arguments->step.seed, "Seed of the plan (default: of its number)");
+  plan->add_option("--seed", arguments->step.seed, "Seed of the plan (default: of its number)")
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()));
   plan->callback([arguments, &status] { status = DrawPlan(*arguments); });
 }
 

@@ -16,7 +16,8 @@
 namespace plumescout::lab {
 namespace {
 
-constexpr std::uint64_t kMaxOptionsBytes = std::uint64_t{1} << 20;
+// A prior map of 16 million cells at worst, deflated, in base 64.
+constexpr std::uint64_t kMaxOptionsBytes = std::uint64_t{1} << 25;
 
 std::string OptionsPath(const std::string& path) { return absl::StrCat(path, ".options.json"); }
 

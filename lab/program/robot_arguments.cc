@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/program/robot_arguments.h"
 
+#include <limits>
 #include <map>
+#include <memory>
 #include <utility>
 
 #include "absl/strings/numbers.h"
@@ -10,7 +12,9 @@
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
 #include "core/plan/strategy.h"
+#include "core/types/prior_map.h"
 #include "core/types/status_macros.h"
+#include "formats/map_server.h"
 #include "lab/sim/team_starts.h"
 
 namespace plumescout::lab {
@@ -24,6 +28,12 @@ void AddMissionOptions(CLI::App& app, RobotArguments& arguments) {
   app.add_option("--record", arguments.record,
                  "Plan in this process, without a server, and record the mission in this file")
       ->excludes("--server");
+  app.add_flag("--known-map", arguments.known_map,
+               "The mission knows the scene's map from the start");
+  app.add_option("--prior-map", arguments.prior_map,
+                 "YAML file of a map_server map that the mission knows from the start")
+      ->check(CLI::ExistingFile)
+      ->excludes("--known-map");
   app.add_option("--out", arguments.out, "Folder for results");
   app.add_option("--mission", arguments.mission, "Mission to join, made if it is not there");
   app.add_option("--robot", arguments.robot, "Name of the robot, others count on from it");
@@ -36,7 +46,8 @@ void AddMissionOptions(CLI::App& app, RobotArguments& arguments) {
   app.add_option("--strategy", arguments.strategy, absl::StrJoin(StrategyNames(), ", "));
   app.add_option("--duration", arguments.duration_s, "Longest simulated time, seconds")
       ->check(CLI::PositiveNumber);
-  app.add_option("--seed", arguments.seed, "Seed of sensors and planner");
+  app.add_option("--seed", arguments.seed, "Seed of sensors and planner")
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()));
   app.add_flag("--realtime", arguments.realtime,
                "At the pace of a wall clock instead of in lockstep");
 }
@@ -131,7 +142,18 @@ GasSensorOptions SensorOf(const RobotArguments& arguments) {
   return sensor;
 }
 
-MissionOptions MissionOf(const RobotArguments& arguments) {
+absl::Status TakePriorMap(const RobotArguments& arguments, const SceneWorld& world,
+                          MissionOptions& mission) {
+  if (!arguments.known_map && arguments.prior_map.empty()) return absl::OkStatus();
+  Grid<CellState> map = world.occupancy();
+  if (!arguments.known_map) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(map, ReadMapServer(arguments.prior_map));
+  }
+  StartWith(std::make_shared<const Grid<CellState>>(std::move(map)), mission);
+  return Validate(mission);
+}
+
+absl::StatusOr<MissionOptions> MissionOf(const RobotArguments& arguments, const SceneWorld& world) {
   MissionOptions mission;
   PlanningOptions& planning = mission.planning;
   planning.strategy = arguments.strategy;
@@ -142,6 +164,7 @@ MissionOptions MissionOf(const RobotArguments& arguments) {
   mission.frontier.fixed_gas_threshold_ppm = arguments.gas_threshold_ppm;
   mission.gas.background_mean_ppm = arguments.world.ambient_ppm;
   mission.seed = arguments.seed;
+  PLUMESCOUT_RETURN_IF_ERROR(TakePriorMap(arguments, world, mission));
   return mission;
 }
 
@@ -199,7 +222,7 @@ absl::StatusOr<PlannedEpisode> PlanEpisode(const RobotArguments& arguments,
   PlannedEpisode planned;
   EpisodeOptions& options = planned.options;
   options.mission = arguments.mission;
-  options.create = MissionOf(arguments);
+  PLUMESCOUT_ASSIGN_OR_RETURN(options.create, MissionOf(arguments, world));
   options.duration_s = arguments.duration_s;
   options.following = arguments.following;
   options.rates = arguments.rates;

@@ -38,6 +38,8 @@ struct RobotArguments {
   std::string robot = "robot-1";
   std::string strategy = MissionOptions{}.planning.strategy;
   std::string record;  // empty: a server plans
+  bool known_map = false;
+  std::string prior_map;  // a file; empty: none
   int robots = 1;
   std::vector<std::string> starts;  // "x,y,yaw", one a robot; empty: near the scene's
   double duration_s = 300.0;
@@ -70,7 +72,7 @@ struct PlannedEpisode {
 };
 
 // kInvalidArgument, naming the argument and its value: what does not parse, a wrong number of
-// starts, no room for so many robots.
+// starts, no room for so many robots, a prior map that does not fit; else as ReadMapServer.
 absl::StatusOr<PlannedEpisode> PlanEpisode(const RobotArguments& arguments,
                                            const SceneWorld& world);
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -115,6 +116,7 @@ void AddMake(CLI::App& scene, absl::Status& status) {
       ->required();
   make->add_option("--out", arguments->out, "Scene folder to write")->required();
   make->add_option("--seed", arguments->options.seed, "Seed of the gas's random motion")
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()))
       ->capture_default_str();
   AddMakerOptions(*make, arguments->options);
   make->callback([arguments, &status] { status = Make(*arguments); });
@@ -125,6 +127,7 @@ void AddGenerate(CLI::App& scene, absl::Status& status) {
       scene.add_subcommand("generate", "Draw buildings at random and compute wind and gas in them");
   const auto arguments = std::make_shared<GenerateArguments>();
   generate->add_option("--seed", arguments->seed, "Seed of the first building")
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()))
       ->capture_default_str();
   generate->add_option("--count", arguments->count, "How many buildings; each has the next seed")
       ->check(CLI::Range(1, 10'000))

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lab/report/chart_legend.h"
 #include "lab/report/palette.h"
-#include "lab/report/stroke_font.h"
 #include "lab/report/ticks.h"
 
 namespace plumescout::lab {
@@ -14,13 +14,15 @@ namespace {
 
 constexpr double kTitleSize_px = 16.0;
 constexpr double kLabelSize_px = 12.0;
-constexpr double kTop_px = 58.0;     // for title and legend
+constexpr double kTop_px = 34.0;  // for the title
+constexpr double kLegendTop_px = 26.0;
 constexpr double kLeft_px = 52.0;    // for the labels of the values
 constexpr double kBottom_px = 40.0;  // for the names of the groups
 constexpr double kRight_px = 10.0;
 constexpr int kTicks = 4;
 constexpr double kHeadroom = 1.06;
 constexpr double kGroupShare = 0.8;  // of the room of a group that its bars fill
+constexpr Stroke kReferenceStroke{kSourceColor, 2.5};
 
 // Plot area, and the value at its upper edge.
 struct Plot {
@@ -78,7 +80,7 @@ void DrawBar(Canvas& canvas, const Plot& plot, const Box& room, const Bar& bar, 
   }
   if (std::isfinite(bar.reference)) {
     const double y = plot.PixelY(bar.reference);
-    for (const Stroke& stroke : {Stroke{kPaper, 5.0}, Stroke{kSourceColor, 2.5}}) {
+    for (const Stroke& stroke : {Stroke{kPaper, 5.0}, kReferenceStroke}) {
       DrawLine(canvas, {room.x, y}, {room.right(), y}, stroke);
     }
   }
@@ -98,35 +100,29 @@ void DrawBars(Canvas& canvas, const Plot& plot, const BarChart& chart) {
   }
 }
 
-// In a row of its own below the title.
-void DrawLegend(Canvas& canvas, const Box& box, const BarChart& chart) {
-  constexpr double kSwatch_px = 12.0;
-  constexpr double kBeforeName_px = 6.0;
-  constexpr double kBetween_px = 18.0;
-  const double y = box.y + kTitleSize_px + 22.0;
-  double x = box.x;
-  const auto write = [&](const std::string& name) {
-    canvas.Text({x + kSwatch_px + kBeforeName_px, y}, name, {kLabelSize_px, kInk});
-    x += kSwatch_px + kBeforeName_px + TextWidth_px(name, kLabelSize_px) + kBetween_px;
-  };
+std::vector<ChartLegendItem> LegendOf(const BarChart& chart) {
+  std::vector<ChartLegendItem> items;
   for (const BarSeries& series : chart.series) {
-    canvas.FillBox({x, y - 10.0, kSwatch_px, kSwatch_px}, series.color);
-    write(series.name);
+    items.push_back({series.name, {series.color}, LegendSample::kSquare});
   }
-  if (chart.reference_name.empty()) return;
-  DrawLine(canvas, {x, y - 4.0}, {x + kSwatch_px, y - 4.0}, {kSourceColor, 2.5});
-  write(chart.reference_name);
+  if (!chart.reference_name.empty()) items.push_back({chart.reference_name, kReferenceStroke});
+  return items;
 }
 
 }  // namespace
 
+double LegendHeight_px(const BarChart& chart, double width_px) {
+  return ChartLegendHeight_px(LegendOf(chart), width_px);
+}
+
 void DrawBarChart(Canvas& canvas, const Box& box, const BarChart& chart) {
-  const Plot plot{{box.x + kLeft_px, box.y + kTop_px, box.width - kLeft_px - kRight_px,
-                   box.height - kTop_px - kBottom_px},
+  const double top_px = kTop_px + LegendHeight_px(chart, box.width);
+  const Plot plot{{box.x + kLeft_px, box.y + top_px, box.width - kLeft_px - kRight_px,
+                   box.height - top_px - kBottom_px},
                   kHeadroom * Greatest(chart)};
   canvas.Text({box.x, box.y + kTitleSize_px}, chart.title,
               {kTitleSize_px, kInk, Anchor::kStart, true});
-  DrawLegend(canvas, box, chart);
+  DrawChartLegend(canvas, {box.x, box.y + kLegendTop_px, box.width, box.height}, LegendOf(chart));
   DrawAxes(canvas, plot, chart);
   if (!chart.groups.empty() && !chart.series.empty()) DrawBars(canvas, plot, chart);
   DrawLine(canvas, {plot.area.x, plot.area.bottom()}, {plot.area.right(), plot.area.bottom()},

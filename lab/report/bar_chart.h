@@ -36,6 +36,9 @@ struct BarChart {
   std::string reference_name;  // of the marks, if there are any
 };
 
+// Height of the legend, which stands in rows below the title, in a box of this width.
+double LegendHeight_px(const BarChart& chart, double width_px);
+
 // Draws title, legend, axes and bars into the box.
 void DrawBarChart(Canvas& canvas, const Box& box, const BarChart& chart);
 

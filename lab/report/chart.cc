@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lab/report/chart_legend.h"
 #include "lab/report/palette.h"
 #include "lab/report/ticks.h"
 
@@ -14,7 +15,8 @@ namespace {
 
 constexpr double kTitleSize_px = 16.0;
 constexpr double kLabelSize_px = 12.0;
-constexpr double kTop_px = 34.0;     // for the title
+constexpr double kTop_px = 34.0;  // for the title
+constexpr double kLegendTop_px = 26.0;
 constexpr double kLeft_px = 52.0;    // for the labels of y
 constexpr double kBottom_px = 40.0;  // for the labels of x
 constexpr double kRight_px = 10.0;
@@ -22,20 +24,44 @@ constexpr int kTicks_x = 4;
 constexpr int kTicks_y = 4;
 constexpr double kHeadroom = 0.06;  // of the range, above and below the curves
 
-double ChartPoint::*const kAxisX = &ChartPoint::x;
-double ChartPoint::*const kAxisY = &ChartPoint::y;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr Range kNowhere{kInfinity, -kInfinity};
 
-// Range of all finite values along one axis; [0, 1] if there are none.
-Range RangeOf(const Chart& chart, double ChartPoint::*axis) {
-  Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-  for (const Curve& curve : chart.curves) {
-    for (const ChartPoint& point : curve.points) {
-      if (!std::isfinite(point.x) || !std::isfinite(point.y)) continue;
-      range.low = std::min(range.low, point.*axis);
-      range.high = std::max(range.high, point.*axis);
-    }
+bool IsEmpty(const Range& range) { return range.low > range.high; }
+
+// Adds the finite points of a curve to the range along one axis.
+void Include(const Curve& curve, double ChartPoint::*axis, Range& range) {
+  for (const ChartPoint& point : curve.points) {
+    if (!std::isfinite(point.x) || !std::isfinite(point.y)) continue;
+    range.low = std::min(range.low, point.*axis);
+    range.high = std::max(range.high, point.*axis);
   }
-  return range.low <= range.high ? range : Range{};
+}
+
+// [0, 1] if there are no finite points.
+Range RangeOfX(const Chart& chart) {
+  Range range = kNowhere;
+  for (const Curve& curve : chart.curves) Include(curve, &ChartPoint::x, range);
+  return IsEmpty(range) ? Range{} : range;
+}
+
+// As the default of Chart::y_range says; [0, 1] if there are no finite points. The intervals of few
+// trials are so wide that a range with all of them would show nothing else.
+Range RangeOfY(const Chart& chart) {
+  Range curves = kNowhere;
+  Range bounds = kNowhere;
+  for (const Curve& curve : chart.curves) {
+    Include(curve, &ChartPoint::y, curve.kind == CurveKind::kBound ? bounds : curves);
+  }
+  if (IsEmpty(curves)) curves = bounds;
+  if (IsEmpty(curves)) return Range{};
+  if (IsEmpty(bounds)) return curves;
+  constexpr double kLeastReach = 0.1;  // of the values: intervals of a level curve show
+  const double magnitude = std::max(std::abs(curves.low), std::abs(curves.high));
+  const double reach = std::max(curves.high - curves.low, kLeastReach * magnitude);
+  const double lowest = curves.low >= 0.0 ? 0.0 : -kInfinity;
+  return {std::max({std::min(curves.low, bounds.low), curves.low - reach, lowest}),
+          std::min(std::max(curves.high, bounds.high), curves.high + reach)};
 }
 
 // A range that can be divided: not empty, and wide enough for its numbers to differ in print.
@@ -90,43 +116,98 @@ void DrawAxes(Canvas& canvas, const Plot& plot, const std::string& x_label) {
               {kLabelSize_px, kFaintInk, Anchor::kMiddle});
 }
 
+struct Segment {
+  PixelPoint from;
+  PixelPoint to;
+};
+
+// What of the segment lies in the box; nothing if an end is not finite. The edges of the box cut
+// the line at shares of its length (Liang and Barsky).
+std::optional<Segment> ClipSegment(const Segment& segment, const Box& box) {
+  const PixelPoint a = segment.from;
+  const PixelPoint b = segment.to;
+  double first = 0.0;
+  double last = 1.0;
+  const auto cut = [&](double start, double end, double low, double high) {
+    const double step = end - start;
+    if (!std::isfinite(step)) return false;
+    if (step == 0.0) return start >= low && start <= high;
+    first = std::max(first, std::min((low - start) / step, (high - start) / step));
+    last = std::min(last, std::max((low - start) / step, (high - start) / step));
+    return first <= last;
+  };
+  if (!cut(a.x, b.x, box.x, box.right()) || !cut(a.y, b.y, box.y, box.bottom())) {
+    return std::nullopt;
+  }
+  const auto at = [&](double share) {
+    return PixelPoint{a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
+  };
+  return Segment{first > 0.0 ? at(first) : a, last < 1.0 ? at(last) : b};
+}
+
+// The parts of the line in the box, parted by a point that is not finite.
+std::vector<PixelPoint> ClipLine(const std::vector<PixelPoint>& line, const Box& box) {
+  std::vector<PixelPoint> clipped;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const std::optional<Segment> part = ClipSegment({line[i], line[i + 1]}, box);
+    if (!part) continue;
+    const bool goes_on =
+        !clipped.empty() && clipped.back().x == part->from.x && clipped.back().y == part->from.y;
+    if (!goes_on) {
+      if (!clipped.empty()) clipped.push_back({kInfinity, kInfinity});
+      clipped.push_back(part->from);
+    }
+    clipped.push_back(part->to);
+  }
+  return clipped;
+}
+
 void DrawCurve(Canvas& canvas, const Plot& plot, const Curve& curve) {
+  constexpr double kSlack_px = 1.0;  // what lies along an edge is seen, whatever the rounding
+  const Box area{plot.area.x - kSlack_px, plot.area.y - kSlack_px,
+                 plot.area.width + 2.0 * kSlack_px, plot.area.height + 2.0 * kSlack_px};
   std::vector<PixelPoint> line;
   for (const ChartPoint& point : curve.points) {
     line.push_back({plot.PixelX(point.x), plot.PixelY(point.y)});
   }
-  canvas.Polyline(line, curve.stroke);
+  if (curve.kind != CurveKind::kDots) {
+    canvas.Polyline(ClipLine(line, area), curve.stroke);
+    return;
+  }
+  for (const PixelPoint& point : line) {
+    if (!ClipSegment({point, point}, area)) continue;
+    canvas.Disc(point, 0.5 * curve.stroke.width_px, curve.stroke.color);
+  }
 }
 
-// Names of the curves side by side, right of the title: no curve runs through them there.
-void DrawLegend(Canvas& canvas, const Box& box, const std::vector<Curve>& curves) {
-  constexpr double kSlot_px = 104.0;  // a sample and a name of a dozen letters
-  constexpr double kSample_px = 26.0;
-  const double y = box.y + kTitleSize_px;
-  const auto named = std::count_if(curves.begin(), curves.end(),
-                                   [](const Curve& curve) { return !curve.name.empty(); });
-  double x = box.right() - kRight_px - kSlot_px * static_cast<double>(named);
-  for (const Curve& curve : curves) {
+std::vector<ChartLegendItem> LegendOf(const Chart& chart) {
+  std::vector<ChartLegendItem> items;
+  if (chart.curves.size() < 2) return items;
+  for (const Curve& curve : chart.curves) {
     if (curve.name.empty()) continue;
-    const PixelPoint sample[] = {{x, y - 4.0}, {x + kSample_px, y - 4.0}};
-    canvas.Polyline(sample, curve.stroke);
-    canvas.Text({x + kSample_px + 8.0, y}, curve.name, {kLabelSize_px, kInk, Anchor::kStart});
-    x += kSlot_px;
+    const bool dots = curve.kind == CurveKind::kDots;
+    items.push_back({curve.name, curve.stroke, dots ? LegendSample::kDot : LegendSample::kLine});
   }
+  return items;
 }
 
 }  // namespace
 
+double LegendHeight_px(const Chart& chart, double width_px) {
+  return ChartLegendHeight_px(LegendOf(chart), width_px);
+}
+
 void DrawChart(Canvas& canvas, const Box& box, const Chart& chart) {
-  const Plot plot{{box.x + kLeft_px, box.y + kTop_px, box.width - kLeft_px - kRight_px,
-                   box.height - kTop_px - kBottom_px},
-                  Widen(RangeOf(chart, kAxisX)),
-                  chart.y_range.value_or(WithHeadroom(Widen(RangeOf(chart, kAxisY))))};
+  const double top_px = kTop_px + LegendHeight_px(chart, box.width);
+  const Plot plot{{box.x + kLeft_px, box.y + top_px, box.width - kLeft_px - kRight_px,
+                   box.height - top_px - kBottom_px},
+                  Widen(RangeOfX(chart)),
+                  chart.y_range.value_or(WithHeadroom(Widen(RangeOfY(chart))))};
   canvas.Text({box.x, box.y + kTitleSize_px}, chart.title,
               {kTitleSize_px, kInk, Anchor::kStart, true});
+  DrawChartLegend(canvas, {box.x, box.y + kLegendTop_px, box.width, box.height}, LegendOf(chart));
   DrawAxes(canvas, plot, chart.x_label);
   for (const Curve& curve : chart.curves) DrawCurve(canvas, plot, curve);
-  if (chart.curves.size() > 1) DrawLegend(canvas, box, chart.curves);
 }
 
 }  // namespace plumescout::lab

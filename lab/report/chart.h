@@ -15,10 +15,17 @@ struct ChartPoint {
   double y = 0.0;
 };
 
+enum class CurveKind {
+  kLine,
+  kBound,  // of an interval around another curve: see Chart::y_range
+  kDots,   // points that are not joined, as wide as the stroke
+};
+
 struct Curve {
   std::string name;  // shown if the chart has several; empty: not shown
   Stroke stroke;
   std::vector<ChartPoint> points;  // a value that is not finite parts the curve
+  CurveKind kind = CurveKind::kLine;
 };
 
 struct Range {
@@ -27,13 +34,19 @@ struct Range {
 };
 
 struct Chart {
-  std::string title;             // with the unit of y
-  std::string x_label;           // with the unit of x
-  std::optional<Range> y_range;  // default: what the curves need
+  std::string title;    // with the unit of y
+  std::string x_label;  // with the unit of x
+  // Curves are cut off at its ends. Default: what the curves need; bounds of intervals widen that
+  // by at most its own width to each side, and not below zero if no curve goes there.
+  std::optional<Range> y_range;
   std::vector<Curve> curves;
 };
 
-// Draws title, axes with round ticks, and the curves into the box.
+// Height of the legend, which stands in rows below the title, in a box of this width; 0 if there is
+// none.
+double LegendHeight_px(const Chart& chart, double width_px);
+
+// Draws title, legend, axes with round ticks, and the curves into the box.
 void DrawChart(Canvas& canvas, const Box& box, const Chart& chart);
 
 }  // namespace plumescout::lab

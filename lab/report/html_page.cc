@@ -22,6 +22,9 @@ h2 { margin: 0 0 .5rem; font-size: 1rem; }
 .headline strong { display: block; font-size: 1.6rem; color: #2463c9; }
 .figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(22rem, 1fr));
            gap: 1.5rem 2rem; margin: 0 0 1.5rem; }
+@media (min-width: 90rem) {
+  .panels { grid-template-columns: repeat(var(--columns), minmax(0, 1fr)); }
+}
 svg { overflow: visible; width: 100%; height: auto; max-width: 40rem; }
 table { width: 100%; max-width: 40rem; border-collapse: collapse; font-size: .9rem; }
 td { border-top: 1px solid #e2e5ea; padding: .2rem 0; }
@@ -81,15 +84,15 @@ std::string MakePanel(const MapPanel& panel, int height_px) {
   return canvas.Element();
 }
 
-std::string MakeChart(const Chart& chart) {
-  SvgCanvas canvas(kPanelWidth_px, kChartHeight_px, chart.title);
-  DrawChart(canvas, {0.0, 0.0, kPanelWidth_px, kChartHeight_px}, chart);
+std::string MakeChart(const Chart& chart, int height_px) {
+  SvgCanvas canvas(kPanelWidth_px, height_px, chart.title);
+  DrawChart(canvas, {0.0, 0.0, kPanelWidth_px, static_cast<double>(height_px)}, chart);
   return canvas.Element();
 }
 
-std::string MakeBarChart(const BarChart& chart) {
-  SvgCanvas canvas(kPanelWidth_px, kChartHeight_px, chart.title);
-  DrawBarChart(canvas, {0.0, 0.0, kPanelWidth_px, kChartHeight_px}, chart);
+std::string MakeBarChart(const BarChart& chart, int height_px) {
+  SvgCanvas canvas(kPanelWidth_px, height_px, chart.title);
+  DrawBarChart(canvas, {0.0, 0.0, kPanelWidth_px, static_cast<double>(height_px)}, chart);
   return canvas.Element();
 }
 
@@ -103,12 +106,14 @@ std::string MakeHtmlPage(const ReportFigures& figures) {
       title, "</title>\n<style>", kStyle, "</style>\n</head>\n<body>\n<h1>", title, "</h1>\n",
       MakeNotes(figures), MakeHeadline(figures));
   for (const TextTable& table : figures.tables) html += MakeTextTable(table);
-  html += "<div class=\"figures\">\n";
-  const int height_px = PanelHeight_px(figures);
-  for (const MapPanel& panel : figures.panels) html += MakePanel(panel, height_px);
+  absl::StrAppend(&html, "<div class=\"figures panels\" style=\"--columns: ", PanelsPerRow(figures),
+                  "\">\n");
+  const int panel_px = PanelHeight_px(figures, kPanelWidth_px);
+  for (const MapPanel& panel : figures.panels) html += MakePanel(panel, panel_px);
   html += "</div>\n<div class=\"figures\">\n";
-  for (const Chart& chart : figures.charts) html += MakeChart(chart);
-  for (const BarChart& chart : figures.bar_charts) html += MakeBarChart(chart);
+  const int chart_px = ChartHeight_px(figures);
+  for (const Chart& chart : figures.charts) html += MakeChart(chart, chart_px);
+  for (const BarChart& chart : figures.bar_charts) html += MakeBarChart(chart, chart_px);
   absl::StrAppend(&html, MakeTable(figures), "</div>\n</body>\n</html>\n");
   return html;
 }

@@ -8,6 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "lab/report/disc_layout.h"
 #include "lab/report/palette.h"
+#include "lab/report/stroke_font.h"
 #include "lab/report/ticks.h"
 
 namespace plumescout::lab {
@@ -18,7 +19,8 @@ constexpr double kLabelSize_px = 12.0;
 constexpr double kTop_px = 34.0;     // for the title
 constexpr double kBottom_px = 76.0;  // for colour bar or legend
 constexpr double kMaxMapHeight_px = 640.0;
-constexpr double kHalo_px = 1.5;  // white rim of marks, which sets them off any colour
+constexpr double kBeforeUnit_px = 8.0;  // between colour bar and unit
+constexpr double kHalo_px = 1.5;        // white rim of marks, which sets them off any colour
 
 // Where the map lies on the canvas.
 struct MapFrame {
@@ -50,18 +52,25 @@ void DrawOutline(Canvas& canvas, const Box& box) {
   canvas.Polyline(outline, {kFrame, 1.0});
 }
 
-// A bar of a round number of metres, in line with the title.
-void DrawScaleBar(Canvas& canvas, const Box& box, const MapFrame& frame) {
+// A bar of a round number of metres, in line with the title: over the right edge of the map, or as
+// far beyond it as the title needs.
+void DrawScaleBar(Canvas& canvas, const Box& box, const std::string& title, const MapFrame& frame) {
   constexpr double kLargestShare = 0.2;  // of the map's width
   constexpr double kEnd_px = 4.0;        // half the height of its ends
   const double length_m = RoundDown125(kLargestShare * frame.region.width_m());
-  const double right = box.right();
-  const double left = right - length_m * frame.px_per_m;
+  constexpr double kBeforeBar_px = 8.0;
+  constexpr double kAfterTitle_px = 16.0;
+  const std::string label = absl::StrCat(TickLabel(length_m), " m");
+  const double length_px = length_m * frame.px_per_m;
+  const double after_title = box.x + TextWidth_px(title, kTitleSize_px) + kAfterTitle_px +
+                             TextWidth_px(label, kLabelSize_px) + kBeforeBar_px + length_px;
+  const double right = std::min(box.right(), std::max(frame.box.right(), after_title));
+  const double left = right - length_px;
   const double y = box.y + kTitleSize_px - kEnd_px - 1.0;
   const PixelPoint bar[] = {{left, y - kEnd_px}, {left, y + kEnd_px},  {left, y},
                             {right, y},          {right, y - kEnd_px}, {right, y + kEnd_px}};
   canvas.Polyline(bar, {kInk, 1.5});
-  canvas.Text({left - 8.0, y + kEnd_px + 1.0}, absl::StrCat(TickLabel(length_m), " m"),
+  canvas.Text({left - kBeforeBar_px, y + kEnd_px + 1.0}, label,
               {kLabelSize_px, kInk, Anchor::kEnd});
 }
 
@@ -164,7 +173,7 @@ void DrawColorBar(Canvas& canvas, const Box& box, const ColorBar& bar) {
     canvas.Text({x, box.bottom() + 18.0}, TickLabel(value),
                 {kLabelSize_px, kFaintInk, Anchor::kMiddle});
   }
-  canvas.Text({box.right() + 8.0, box.bottom() - 2.0}, bar.unit,
+  canvas.Text({box.right() + kBeforeUnit_px, box.bottom() - 2.0}, bar.unit,
               {kLabelSize_px, kInk, Anchor::kStart});
 }
 
@@ -223,11 +232,15 @@ double MapPanelHeight_px(const MapPanel& panel, double width_px) {
   return kTop_px + std::min(map_px, kMaxMapHeight_px) + kBottom_px;
 }
 
+double MapWidth_px(const MapPanel& panel, double width_px) {
+  return std::min(width_px, kMaxMapHeight_px / panel.region.height_m() * panel.region.width_m());
+}
+
 void DrawMapPanel(Canvas& canvas, const Box& box, const MapPanel& panel) {
   const MapFrame frame = FitMap(box, panel.region);
   canvas.Text({box.x, box.y + kTitleSize_px}, panel.title,
               {kTitleSize_px, kInk, Anchor::kStart, true});
-  DrawScaleBar(canvas, box, frame);
+  DrawScaleBar(canvas, box, panel.title, frame);
   canvas.FillBox(frame.box, kUnknownColor);
   DrawCells(canvas, frame, panel.cells);
   for (const MapLine& line : panel.lines) {
@@ -245,9 +258,10 @@ void DrawMapPanel(Canvas& canvas, const Box& box, const MapPanel& panel) {
   double below = frame.box.bottom() + 14.0;
   std::size_t columns = 3;  // of the legend, which has one row below a colour bar
   if (panel.color_bar) {
-    constexpr double kUnitRoom_px = 48.0;
-    DrawColorBar(canvas, {frame.box.x, below, frame.box.width - kUnitRoom_px, 12.0},
-                 *panel.color_bar);
+    constexpr double kLeastUnitRoom_px = 48.0;  // bars of short units are equally long
+    const double unit_px = TextWidth_px(panel.color_bar->unit, kLabelSize_px) + kBeforeUnit_px;
+    const double bar_px = frame.box.width - std::max(kLeastUnitRoom_px, unit_px);
+    DrawColorBar(canvas, {frame.box.x, below, bar_px, 12.0}, *panel.color_bar);
     constexpr double kBarAndTicks_px = 38.0;
     below += kBarAndTicks_px;
     columns = std::max(columns, panel.legend.size());

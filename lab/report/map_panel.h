@@ -81,6 +81,9 @@ struct MapPanel {
 // Height that a panel of this width needs for its map to fill the width (bounded for tall maps).
 double MapPanelHeight_px(const MapPanel& panel, double width_px);
 
+// Width of its map then: less than the panel's if the map is tall.
+double MapWidth_px(const MapPanel& panel, double width_px);
+
 // Draws the panel into the box, as large as it fits.
 void DrawMapPanel(Canvas& canvas, const Box& box, const MapPanel& panel);
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,15 +12,9 @@
 #include "lab/report/bar_chart.h"
 #include "lab/report/chart.h"
 #include "lab/report/map_panel.h"
+#include "lab/report/text_table.h"
 
 namespace plumescout::lab {
-
-// Rows have as many cells as there are columns.
-struct TextTable {
-  std::string title;
-  std::vector<std::string> columns;
-  std::vector<std::vector<std::string>> rows;
-};
 
 // What page and sheet show, in this order.
 struct ReportFigures {
@@ -28,19 +24,28 @@ struct ReportFigures {
   std::vector<Chart> charts;
   std::vector<std::string> notes = {};    // paragraphs under the title
   std::vector<BarChart> bar_charts = {};  // after the charts
-  std::vector<TextTable> tables = {};     // on the page only, under the notes
+  // Under the first key numbers; the sheet has the first table if it is not too wide.
+  std::vector<TextTable> tables = {};
+  std::optional<std::size_t> panels_per_row = {};  // default: see PanelsPerRow
 };
 
 // Sizes that page and sheet share.
-inline constexpr int kPanelWidth_px = 448;
-inline constexpr int kChartHeight_px = 300;
+inline constexpr int kPanelWidth_px = 448;          // of a panel in a row of four
+inline constexpr int kChartHeight_px = 300;         // without legend
 inline constexpr std::size_t kHeadlineNumbers = 6;  // the first key numbers, printed large
 
-// Height of the panels: what the tallest one needs.
-int PanelHeight_px(const ReportFigures& figures);
+// As the figures say, else as many as fill the fewest rows of up to four best: 3 for 5, 6 and 9.
+// One or two panels stand as if they were four.
+std::size_t PanelsPerRow(const ReportFigures& figures);
 
-// One picture of everything: panels in rows of four; at most three charts of both kinds, beside the
-// key numbers.
+// Height of panels of this width: what the tallest one needs.
+int PanelHeight_px(const ReportFigures& figures, double width_px);
+
+// Height of the charts: with the highest legend.
+int ChartHeight_px(const ReportFigures& figures);
+
+// One picture of everything: the first table, rows of panels as wide as the sheet (in its
+// middle, if tall maps need less), and at most three charts of both kinds beside the key numbers.
 Image DrawSheet(const ReportFigures& figures);
 
 }  // namespace plumescout::lab

@@ -23,7 +23,6 @@ constexpr char kBaseline = 'e';
 // 'a'..'q', where 'e' is the base line, 'm' the height of small letters and 'q' that of capitals.
 // '~' before a line rounds its corners.
 constexpr char kBoxGlyph[] = "0e0o6o6e0e";
-constexpr char kSuperscriptTwo[] = "~0p1q3q3o2m0k 0k3k";
 constexpr char kFirstGlyph = '!';
 constexpr const char* kGlyphs[] = {
     "0q0i 0e0f",                                    // !
@@ -122,9 +121,22 @@ constexpr const char* kGlyphs[] = {
     "~0i1k2k4i5i6k",                                // ~
 };
 
+// Beyond ASCII.
+struct Sign {
+  const char* utf8;
+  const char* glyph;
+};
+constexpr Sign kSigns[] = {
+    {"\u00B1", "0k6k 3h3n 0f6f"},      // plus or minus
+    {"\u00B2", "~0p1q3q3o2m0k 0k3k"},  // superscript two
+    {"\u2013", "0j7j"},                // en dash
+};
+
 // Takes the next character off the text and returns its glyph; nullptr is a blank.
 const char* NextGlyph(absl::string_view& utf8) {
-  if (absl::ConsumePrefix(&utf8, "\u00B2")) return kSuperscriptTwo;
+  for (const Sign& sign : kSigns) {
+    if (absl::ConsumePrefix(&utf8, sign.utf8)) return sign.glyph;
+  }
   const char c = utf8.front();
   utf8.remove_prefix(1);
   if (c == ' ') return nullptr;

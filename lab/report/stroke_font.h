@@ -11,8 +11,8 @@
 namespace plumescout::lab {
 
 // Lines that write `utf8` from the origin to the right, on the base line y = 0 (upwards is
-// negative, as on a canvas). The font knows printable ASCII and the superscript two; any other
-// character is a small box. Cost: O(characters).
+// negative, as on a canvas). The font knows printable ASCII and the signs ±, ² and –; any
+// other character is a small box. Cost: O(characters).
 std::vector<std::vector<PixelPoint>> WriteText(absl::string_view utf8, double size_px);
 
 // Length of the base line under the text.

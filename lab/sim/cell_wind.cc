@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/sim/cell_wind.h"
 
+#include <cstddef>
 #include <vector>
 
 #include "core/linalg/sparse_cholesky.h"
@@ -54,6 +55,18 @@ absl::StatusOr<SymmetricMatrix> PoissonMatrix(const std::vector<InnerFace>& face
 }
 
 }  // namespace
+
+WindField CellWind(const MacField& wind, const Grid<CellState>& occupancy) {
+  const GridGeometry& geometry = occupancy.geometry();
+  WindField centres{Grid<float>(geometry), Grid<float>(geometry)};
+  for (std::size_t i = 0; i < occupancy.size(); ++i) {
+    if (occupancy[i] != CellState::kFree) continue;
+    const Velocity velocity = wind.AtCenter(geometry.CellAtIndex(i));
+    centres.u_mps[i] = static_cast<float>(velocity.u_mps);
+    centres.v_mps[i] = static_cast<float>(velocity.v_mps);
+  }
+  return centres;
+}
 
 MacField FaceWind(const WindField& wind, const Grid<CellState>& occupancy) {
   MacField field(occupancy.geometry());

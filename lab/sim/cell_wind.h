@@ -10,6 +10,10 @@
 
 namespace plumescout::lab {
 
+// Wind at the centres of free cells, from the faces of each; 0 in others. REQUIRES: all of one
+// geometry.
+WindField CellWind(const MacField& wind, const Grid<CellState>& occupancy);
+
 // Wind on the faces from one that is known at the cells' centres only, as of a scene made
 // elsewhere: means of neighbours between free cells, 0 on all other faces. REQUIRES: all of one
 // geometry.

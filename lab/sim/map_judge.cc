@@ -7,6 +7,7 @@
 
 #include "absl/time/clock.h"
 #include "absl/time/time.h"
+#include "core/types/status_macros.h"
 
 namespace plumescout::lab {
 namespace {
@@ -28,6 +29,20 @@ bool Holds(const MapSnapshot& map, const AppliedSequences& least) {
 }
 
 }  // namespace
+
+absl::StatusOr<MapSnapshot> AwaitMap(client::PlannerClient& planner, const MissionId& mission,
+                                     const AppliedSequences& least) {
+  const absl::Time give_up = absl::Now() + kMapPatience;
+  while (true) {
+    absl::StatusOr<MapSnapshot> map = planner.GetMap(mission);
+    if (map.ok() && Holds(*map, least)) return map;
+    const absl::Status why =
+        map.ok() ? absl::UnavailableError("the map lags behind") : map.status();
+    const bool may_come = absl::IsUnavailable(why) || absl::IsNotFound(why);
+    if (!may_come || absl::Now() > give_up) return why;
+    absl::SleepFor(kMapPause);
+  }
+}
 
 MapJudge::MapJudge(client::PlannerClient& planner, MissionId mission, double period_s,
                    MapEvaluator evaluator, Listener listener)
@@ -60,20 +75,10 @@ std::vector<MetricSample> MapJudge::samples() const {
 }
 
 absl::Status MapJudge::TakeLocked(double time_s, const AppliedSequences& least) {
-  const absl::Time give_up = absl::Now() + kMapPatience;
-  while (true) {
-    const absl::StatusOr<MapSnapshot> map = planner_.GetMap(mission_);
-    if (map.ok() && Holds(*map, least)) {
-      samples_.push_back({time_s, map->revision, evaluator_.Evaluate(*map)});
-      if (listener_) listener_(samples_.back(), *map);
-      return absl::OkStatus();
-    }
-    const absl::Status why =
-        map.ok() ? absl::UnavailableError("the map lags behind") : map.status();
-    const bool may_come = absl::IsUnavailable(why) || absl::IsNotFound(why);
-    if (!may_come || absl::Now() > give_up) return why;
-    absl::SleepFor(kMapPause);
-  }
+  PLUMESCOUT_ASSIGN_OR_RETURN(const MapSnapshot map, AwaitMap(planner_, mission_, least));
+  samples_.push_back({time_s, map.revision, evaluator_.Evaluate(map)});
+  if (listener_) listener_(samples_.back(), map);
+  return absl::OkStatus();
 }
 
 }  // namespace plumescout::lab

@@ -9,6 +9,7 @@
 
 #include "absl/base/thread_annotations.h"
 #include "absl/status/status.h"
+#include "absl/status/statusor.h"
 #include "absl/synchronization/mutex.h"
 #include "client/planner_client.h"
 #include "core/types/ids.h"
@@ -27,6 +28,12 @@ struct MetricSample {
 // Sequences up to which robots' observations are in a map.
 using AppliedSequences = std::map<RobotId, std::int64_t>;
 
+// The first map that holds the observations up to `least`. A server that is away or has lost the
+// mission may be back in a moment, and be told everything again by its robots: after 10 s without,
+// why there is none.
+absl::StatusOr<MapSnapshot> AwaitMap(client::PlannerClient& planner, const MissionId& mission,
+                                     const AppliedSequences& least);
+
 // Judges a mission's map now and then while robots are at work on it. Thread-safe.
 class MapJudge {
  public:
@@ -38,9 +45,7 @@ class MapJudge {
 
   // Takes a sample if one is due, at 0 and every period. After an error nothing more is taken.
   void TakeIfDue(double time_s, const AppliedSequences& least);
-  // Takes a sample of the first map that holds the observations up to `least`. A server that is
-  // away or has lost the mission may be back in a moment, and be told everything again by its
-  // robots.
+  // Takes a sample of AwaitMap's map.
   absl::Status Take(double time_s, const AppliedSequences& least);
 
   absl::Status status() const;  // of TakeIfDue

@@ -9,6 +9,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/types/status_macros.h"
+#include "lab/sim/cell_wind.h"
 #include "lab/sim/concentration_slice.h"
 #include "lab/sim/frame_recorder.h"
 #include "lab/sim/layout_raster.h"
@@ -25,17 +26,6 @@ constexpr double kMaxFramePeriod_s = 60.0;
 
 absl::Status OutOfRange(const char* field, double value, const char* range) {
   return absl::InvalidArgumentError(absl::StrCat(field, " = ", value, " must be ", range));
-}
-
-WindField CellWind(const MacField& field, const Grid<CellState>& occupancy) {
-  WindField wind{Grid<float>(field.geometry()), Grid<float>(field.geometry())};
-  for (std::size_t i = 0; i < occupancy.size(); ++i) {
-    if (occupancy[i] != CellState::kFree) continue;
-    const Velocity velocity = field.AtCenter(field.geometry().CellAtIndex(i));
-    wind.u_mps[i] = static_cast<float>(velocity.u_mps);
-    wind.v_mps[i] = static_cast<float>(velocity.v_mps);
-  }
-  return wind;
 }
 
 std::int64_t StepsIn(double duration_s) { return std::llround(duration_s / Plume::kStep_s); }

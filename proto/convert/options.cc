@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proto/convert/options.h"
 
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/types/status_macros.h"
@@ -11,6 +13,7 @@
 #include "proto/convert/enums.h"
 #include "proto/convert/field.h"
 #include "proto/convert/geometry.h"
+#include "proto/convert/prior_map.h"
 
 namespace plumescout {
 namespace {
@@ -44,6 +47,7 @@ v1::GasOptions ToProto(const GasOptions& options) {
   proto.set_ageing_half_life_s(options.ageing_half_life_s);
   proto.set_refresh_period_s(options.refresh_period_s);
   proto.set_lattice_factor(options.lattice_factor);
+  proto.set_observation_stddev_share(options.observation_relative_stddev);
   return proto;
 }
 
@@ -160,6 +164,8 @@ void Read(const v1::GasOptions& proto, GasOptions& options) {
   Take(proto.has_ageing_half_life_s(), proto.ageing_half_life_s(), options.ageing_half_life_s);
   Take(proto.has_refresh_period_s(), proto.refresh_period_s(), options.refresh_period_s);
   Take(proto.has_lattice_factor(), proto.lattice_factor(), options.lattice_factor);
+  Take(proto.has_observation_stddev_share(), proto.observation_stddev_share(),
+       options.observation_relative_stddev);
 }
 
 absl::Status Read(const v1::FrontierOptions& proto, absl::string_view field,
@@ -276,6 +282,19 @@ absl::Status ReadPlaces(const v1::MissionOptions& proto, absl::string_view field
   return absl::OkStatus();
 }
 
+absl::Status ReadPriorMap(const v1::PriorMap& proto, absl::string_view field,
+                          MissionOptions& options) {
+  if (proto.has_cells()) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(Grid<CellState> map,
+                                FromProto(proto.cells(), Join(field, "cells")));
+    options.prior_map = std::make_shared<const Grid<CellState>>(std::move(map));
+    return absl::OkStatus();
+  }
+  // Files are read before, by somebody who can; `options` has what they say.
+  if (proto.has_files() && options.prior_map != nullptr) return absl::OkStatus();
+  return FieldError(field, proto.has_files() ? "must come as cells here" : "must have a map");
+}
+
 // Clears the fields of `message` that are equal in `other`, a message of the same type.
 void ClearEqualFields(const google::protobuf::Message& other, google::protobuf::Message& message) {
   const google::protobuf::Reflection& reflection = *message.GetReflection();
@@ -303,6 +322,7 @@ constexpr FieldName kRenamed[] = {
     {"gas.prior_precision", "gas.prior_precision_per_ppm2"},
     {"gas.observation_precision", "gas.observation_precision_per_ppm2"},
     {"gas.background_precision", "gas.background_precision_per_ppm2"},
+    {"gas.observation_relative_stddev", "gas.observation_stddev_share"},
     {"frontier.min_occupancy_cells", "frontier.min_occupancy_cell_count"},
     {"frontier.min_gas_cells", "frontier.min_gas_cell_count"},
     {"planning.max_goals", "planning.max_goal_count"},
@@ -335,6 +355,7 @@ v1::MissionOptions ToProto(const MissionOptions& options) {
     for (const Point2 vertex : polygon.vertices) *added.add_vertices() = ToProto(vertex);
   }
   if (options.home) *proto.mutable_home() = ToProto(*options.home);
+  if (options.prior_map) *proto.mutable_prior_map() = ToProto(*options.prior_map);
   return proto;
 }
 
@@ -364,6 +385,9 @@ absl::StatusOr<MissionOptions> FromProto(const v1::MissionOptions& proto,
   Take(proto.has_max_robot_count(), proto.max_robot_count(), options.max_robots);
   Take(proto.has_seed(), proto.seed(), options.seed);
   PLUMESCOUT_RETURN_IF_ERROR(ReadPlaces(proto, field, options));
+  if (proto.has_prior_map()) {
+    PLUMESCOUT_RETURN_IF_ERROR(ReadPriorMap(proto.prior_map(), Join(field, "prior_map"), options));
+  }
   PLUMESCOUT_RETURN_IF_ERROR(WithField(Validate(options), field, kRenamed));
   return options;
 }

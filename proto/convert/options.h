@@ -9,7 +9,7 @@
 
 namespace plumescout {
 
-// Every field set, but the overrides that are off.
+// Every field set, but the overrides that are off and what there is none of.
 v1::MissionOptions ToProto(const MissionOptions& options);
 
 // Only the fields that differ from MissionOptions{}: what a creator asks for who leaves the rest
@@ -17,7 +17,8 @@ v1::MissionOptions ToProto(const MissionOptions& options);
 v1::MissionOptions ChangesToProto(const MissionOptions& options);
 
 // `defaults` with the fields that are set in `proto`; an enum that is unspecified counts as unset.
-// The result is valid; refusals name the field of `proto`, below `field`.
+// The result is valid; refusals name the field of `proto`, below `field`. Files of a prior map are
+// not read: with files in `proto`, the map that they hold has to stand in `defaults`.
 absl::StatusOr<MissionOptions> FromProto(const v1::MissionOptions& proto,
                                          const MissionOptions& defaults, absl::string_view field);
 

@@ -50,7 +50,7 @@ std::vector<Room> MakeRooms() {
       {"formats", {"core/types"}},
       {"ompl_planners", CoreBefore("core/mission")},
       {"server", Join({kCore, adapters})},
-      {"client", {"core/types", "proto/convert"}},
+      {"client", {"core/types", "proto/convert", "formats"}},
       {"lab/local", Join({kCore, {"client"}})},
       {"lab/sim", {"core/types", "core/grid", "core/linalg", "formats", "client"}},
       {"lab/report", {"core/types", "formats"}},

@@ -5,6 +5,7 @@
 import os
 import pathlib
 import subprocess
+import tempfile
 import unittest
 
 import grpc
@@ -116,6 +117,30 @@ class SmokeTest(unittest.TestCase):
         self.assertTrue(np.isnan(mean_ppm[1]))
         self.assertIsInstance(robot.list_frontiers(), list)
         self.assertEqual(room.status.robots[0].applied_sequence, robot.last_sequence)
+
+    def test_a_known_building_is_planned_in_without_a_scan(self):
+        cells = np.full((40, 60), plumescout_client.OCCUPIED)
+        cells[1:-1, 1:-1] = plumescout_client.FREE
+        pgm = np.where(cells == plumescout_client.FREE, 254, 0).astype(np.uint8)[::-1]
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "map.yaml")
+            path.write_text(
+                "image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\n"
+                "occupied_thresh: 0.65\nfree_thresh: 0.196\n"
+            )
+            path.with_suffix(".pgm").write_bytes(b"P5 60 40 255\n" + pgm.tobytes())
+            files = plumescout_client.prior_map_of_files(path)
+        self.client.create_mission("cells", {"prior_map": plumescout_client.prior_map(cells, 0.1)})
+        self.client.create_mission("files", {"prior_map": files})
+        maps = [self.client.get_map(name) for name in ("cells", "files")]
+        np.testing.assert_array_equal(maps[0].occupancy, maps[1].occupancy)
+        self.assertEqual((maps[0].occupancy == plumescout_client.FREE).sum(), 38 * 58)
+
+        robot = self.client.register("files", "scout")
+        robot.add_gas(1_000_000_000, START, 8.0)
+        plan = robot.next_best_trajectory()
+        self.assertGreater(len(plan.poses), 1)
+        self.assertEqual(robot.rejections, [])
 
     def test_the_last_plan_of_a_stream_is_committed(self):
         options = {"planning": {"speedMps": 0.5, "paths": "PATH_KIND_ANYTIME_XIT"}}

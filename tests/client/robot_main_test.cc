@@ -25,6 +25,8 @@
 #include "absl/synchronization/mutex.h"
 #include "absl/time/time.h"
 #include "client/grpc_planner_client.h"
+#include "formats/file_io.h"
+#include "formats/map_server.h"
 #include "server/server.h"
 #include "tests/support/box_room.h"
 #include "tests/support/temp_folder.h"
@@ -35,6 +37,7 @@ namespace {
 constexpr char kProgram[] = PLUMESCOUT_ROBOT_PROGRAM;
 constexpr Pose2 kPose = {1.5, 1.0, 0.0};
 constexpr std::int64_t kStep_ns = 100'000'000;
+constexpr int kMostSteps = 3000;  // far beyond what a plan takes on any machine
 
 std::string Read(const std::string& path) {
   std::ostringstream text;
@@ -43,18 +46,21 @@ std::string Read(const std::string& path) {
 }
 
 // What a robot that stands in a room of 5 x 4 m writes at one moment.
-std::string LinesAt(std::int64_t time_ns) {
+std::string LinesAt(std::int64_t time_ns, bool with_scan = true) {
   std::vector<std::string> ranges;
   const Scan scan = support::ScanInBox(kPose, 5.0, 4.0);
   for (const float range_m : scan.ranges_m) {
     ranges.push_back(std::isfinite(range_m) ? absl::StrCat(range_m) : "null");
   }
-  return absl::StrCat(R"({"type":"pose","time_ns":)", time_ns, R"(,"x_m":)", kPose.x_m,
-                      R"(,"y_m":)", kPose.y_m, R"(,"yaw_rad":0})", "\n",
-                      R"({"type":"scan","time_ns":)", time_ns, R"(,"start_angle_rad":)",
-                      scan.start_angle_rad, R"(,"angle_step_rad":)", scan.angle_step_rad,
-                      R"(,"max_range_m":8,"ranges_m":[)", absl::StrJoin(ranges, ","), "]}\n",
-                      R"({"type":"gas","time_ns":)", time_ns, R"(,"concentration_ppm":3.2})", "\n");
+  const std::string pose =
+      absl::StrCat(R"({"type":"pose","time_ns":)", time_ns, R"(,"x_m":)", kPose.x_m, R"(,"y_m":)",
+                   kPose.y_m, R"(,"yaw_rad":0})", "\n");
+  const std::string scan_line =
+      absl::StrCat(R"({"type":"scan","time_ns":)", time_ns, R"(,"start_angle_rad":)",
+                   scan.start_angle_rad, R"(,"angle_step_rad":)", scan.angle_step_rad,
+                   R"(,"max_range_m":8,"ranges_m":[)", absl::StrJoin(ranges, ","), "]}\n");
+  return absl::StrCat(pose, with_scan ? scan_line : "", R"({"type":"gas","time_ns":)", time_ns,
+                      R"(,"concentration_ppm":3.2})", "\n");
 }
 
 class RobotMainTest : public ::testing::Test {
@@ -155,7 +161,6 @@ class RobotMainWithServerTest : public RobotMainTest {
 TEST_F(RobotMainWithServerTest, DrivesByPlansUntilTheRobotsProgramEnds) {
   Start("");
   Write("this is no message\n");
-  constexpr int kMostSteps = 3000;  // far beyond what a plan takes on any machine
   bool in_time = true;
   for (int step = 1; in_time && step <= kMostSteps; ++step) {
     if (absl::StrContains(Read(out_), "twist")) break;
@@ -173,6 +178,37 @@ TEST_F(RobotMainWithServerTest, DrivesByPlansUntilTheRobotsProgramEnds) {
   const auto map = MakeGrpcPlannerClient({.target = address_})->GetMap("room");
   ASSERT_TRUE(map.ok()) << map.status();
   EXPECT_GT(map->gas_counters.readings, 0);
+}
+
+TEST_F(RobotMainWithServerTest, KnowsItsBuildingFromAFileAndDrivesWithoutAScan) {
+  Grid<CellState> room({0.0, 0.0, 0.05, 100, 80}, CellState::kOccupied);
+  for (int y = 1; y < 79; ++y) {
+    for (int x = 1; x < 99; ++x) room[Cell{x, y}] = CellState::kFree;
+  }
+  ASSERT_TRUE(WriteMapServer(room, folder_.File("room.yaml")).ok());
+  Start("--prior-map " + folder_.File("room.yaml"));
+  bool in_time = true;
+  for (int step = 1; in_time && step <= kMostSteps; ++step) {
+    if (absl::StrContains(Read(out_), "twist")) break;
+    Write(LinesAt(step * kStep_ns, /*with_scan=*/false));
+    in_time = applied_.Await((step - 5) * kStep_ns);  // gas is read at 2 Hz, not with every line
+  }
+  EXPECT_TRUE(in_time);
+  EXPECT_EQ(End(), EXIT_FAILURE) << "nobody told it that the mission is over";
+  EXPECT_TRUE(absl::StrContains(Read(out_), R"("type":"twist")")) << Read(err_);
+  const auto map = MakeGrpcPlannerClient({.target = address_})->GetMap("room");
+  ASSERT_TRUE(map.ok()) << map.status();
+  EXPECT_EQ(map->occupancy.geometry().resolution_m, 0.05);
+  EXPECT_EQ(
+      std::count(map->occupancy.values().begin(), map->occupancy.values().end(), CellState::kFree),
+      98 * 78);
+}
+
+TEST_F(RobotMainTest, RefusesAPriorMapThatIsNone) {
+  ASSERT_TRUE(WriteFile(folder_.File("room.yaml"), "image: no.pgm").ok());
+  EXPECT_EQ(Run("--mission room --robot scout --prior-map " + folder_.File("room.yaml")),
+            EXIT_FAILURE);
+  EXPECT_TRUE(absl::StrContains(Read(err_), "room.yaml: ")) << Read(err_);
 }
 
 TEST_F(RobotMainWithServerTest, SaysWhatItDidWhenItsTimeIsOver) {

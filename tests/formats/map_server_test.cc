@@ -17,8 +17,10 @@
 namespace plumescout {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 constexpr CellState kUnknown = CellState::kUnknown;
 constexpr CellState kFree = CellState::kFree;
@@ -47,6 +49,48 @@ TEST(MapServer, GreysBecomeStatesByTheThresholds) {
   ASSERT_TRUE(map.ok()) << map.status();
   EXPECT_THAT(map->values(), ElementsAre(kFree, kOccupied, kUnknown, kUnknown));
   EXPECT_EQ(map->geometry(), (GridGeometry{-1.5, 2.25, 0.05, 4, 1}));
+}
+
+std::string PgmOf(const GrayImage& image) {
+  const TempFolder folder;
+  EXPECT_TRUE(WritePgm(image, folder.File("m.pgm")).ok());
+  return *ReadFile(folder.File("m.pgm"), 1 << 20);
+}
+
+TEST(MapServer, FromMemoryIsTheSameMap) {
+  const GrayImage image = {3, 2, {254, 0, 205, 0, 254, 254}};
+  const auto map = ParseMapServer(kYaml, PgmOf(image));
+  ASSERT_TRUE(map.ok()) << map.status();
+  EXPECT_EQ(*map, *ReadWith(image, "", ""));
+}
+
+TEST(MapServer, FromMemoryTheNameOfTheImageDoesNotMatter) {
+  const std::string yaml = absl::StrReplaceAll(kYaml, {{"image: m.pgm\n", ""}});
+  EXPECT_TRUE(ParseMapServer(yaml, PgmOf({1, 1, {254}})).ok());
+  EXPECT_EQ(CodeWith("image: m.pgm", "negate: 0"), absl::StatusCode::kDataLoss);
+}
+
+TEST(MapServer, ErrorsFromMemorySayWhichHalfAndWhere) {
+  const std::string pgm = PgmOf({2, 2, {254, 254, 254, 254}});
+  const auto error = [](const std::string& yaml, const std::string& image) {
+    const absl::Status status = ParseMapServer(yaml, image).status();
+    EXPECT_FALSE(status.ok());
+    return std::string(status.message());
+  };
+  const auto with = [](const char* from, const char* to) {
+    return absl::StrReplaceAll(kYaml, {{from, to}});
+  };
+  EXPECT_THAT(error("resolution: [", pgm), AllOf(StartsWith("yaml "), HasSubstr("line 1")));
+  EXPECT_THAT(error("", pgm), StartsWith("yaml "));
+  EXPECT_THAT(error("just words", pgm), StartsWith("yaml "));
+  EXPECT_THAT(error(std::string(60'000, '['), pgm), StartsWith("yaml "));
+  EXPECT_THAT(error(std::string(70'000, ' '), pgm), StartsWith("yaml of 70000 bytes"));
+  EXPECT_THAT(error(with("0.0]", "0.5]"), pgm), StartsWith("yaml origin yaw = 0.5"));
+  EXPECT_THAT(error(with("0.05", ".nan"), pgm), StartsWith("yaml resolution = nan"));
+  EXPECT_THAT(error(kYaml, ""), StartsWith("pgm no binary PGM"));
+  EXPECT_THAT(error(kYaml, "P5 2 x 255 "), AllOf(StartsWith("pgm "), HasSubstr("byte 5")));
+  EXPECT_THAT(error(kYaml, pgm.substr(0, pgm.size() - 1)),
+              StartsWith("pgm pixels are missing: 3 of 4"));
 }
 
 TEST(MapServer, TheThresholdsOfTheFileAreHonoured) {

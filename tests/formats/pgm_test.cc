@@ -71,6 +71,14 @@ TEST(Pgm, HeadersThatDoNotParseAreDataLoss) {
   }
 }
 
+TEST(Pgm, FromMemoryIsTheSamePicture) {
+  const auto image = ParsePgm("P5 # comment\n2 2 255\nabcd");
+  ASSERT_TRUE(image.ok()) << image.status();
+  EXPECT_EQ(*image, (GrayImage{2, 2, {'a', 'b', 'c', 'd'}}));
+  EXPECT_EQ(std::string(ParsePgm("P5 2 2 255\nabc").status().message()),
+            "pixels are missing: 3 of 4");
+}
+
 TEST(Pgm, AMissingFileIsNotFound) {
   EXPECT_EQ(ReadPgm("/nowhere/a.pgm").status().code(), absl::StatusCode::kNotFound);
 }

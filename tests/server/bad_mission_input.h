@@ -5,6 +5,7 @@
 #include "plumescout/v1/mission_service.pb.h"
 #include "plumescout/v1/robot_service.pb.h"
 #include "tests/server/bad_input.h"
+#include "tests/server/bad_prior_map_input.h"
 
 namespace plumescout::server {
 
@@ -68,14 +69,14 @@ inline BadInputs BadPlaces() {
 inline BadInputs BadOccupancyOptions() {
   const std::string o = "options.occupancy.";
   return BadInputs()
-      .Values(o + "resolution_m", {"nan", "inf", "-inf", "-0.1", "0", "3"})
+      .Values(o + "resolution_m", {"nan", "inf", "-inf", "-0.1", "0", "51"})
       .Values(o + "inflation_radius_m", {"nan", "inf", "-0.1", "6"})
       .Values(o + "free_threshold_probability", {"nan", "inf", "-1", "0", "0.5", "1"})
       .Values(o + "occupied_threshold_probability", {"nan", "inf", "-1", "0", "0.5", "1"})
       .Values(o + "hit_log_odds", {"nan", "inf", "-1", "0", "1e300"})
       .Values(o + "miss_log_odds", {"nan", "-inf", "1", "0", "-1e300"})
       .Values(o + "clamp_log_odds", {"nan", "inf", "-1", "0", "0.1", "51"})
-      .Values(o + "max_extent_m", {"nan", "inf", "-1", "0", "2001"})
+      .Values(o + "max_extent_m", {"nan", "inf", "-1", "0", "20001"})
       .Values(o + "max_cell_count", {"-1", "0", "16000001", "9223372036854775807"});
 }
 
@@ -88,6 +89,7 @@ inline BadInputs BadGasOptions() {
       .Values(g + "background_mean_ppm", {"nan", "inf", "-1", "1e7"})
       .Values(g + "ageing_half_life_s", {"nan", "inf", "-1", "1e-300", "1e300"})
       .Values(g + "refresh_period_s", {"nan", "inf", "-1", "0", "1e5"})
+      .Values(g + "observation_stddev_share", {"nan", "inf", "-0.1", "11"})
       .Values(g + "lattice_factor", {"-1", "0", "17"});
 }
 
@@ -194,6 +196,7 @@ inline BadInputs BadCreateMission() {
       .Value("mission_id", R"("hall")", absl::StatusCode::kAlreadyExists, "MISSION_EXISTS")
       .Rows(BadLimits())
       .Rows(BadPlaces())
+      .Rows(BadPriorMap())
       .Rows(BadOccupancyOptions())
       .Rows(BadGasOptions())
       .Rows(BadFrontierOptions())

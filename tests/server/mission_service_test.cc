@@ -5,9 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "proto/convert/map.h"
 #include "proto/convert/options.h"
 #include "tests/server/service_fixture.h"
 
@@ -56,6 +59,54 @@ TEST_F(MissionServiceTest, NewMissionHasTheServersOptionsButThoseGiven) {
   expected.occupancy.resolution_m = 0.5;
   EXPECT_EQ(response->mission().options().SerializeAsString(),
             ToProto(expected).SerializeAsString());
+}
+
+v1::MissionOptions KnowingARoom() {
+  MissionOptions options;
+  Grid<CellState> map({0.0, 0.0, 0.1, 40, 30}, CellState::kOccupied);
+  for (int y = 1; y < 29; ++y) {
+    for (int x = 1; x < 39; ++x) map[Cell{x, y}] = CellState::kFree;
+  }
+  options.prior_map = std::make_shared<const Grid<CellState>>(std::move(map));
+  return ChangesToProto(options);
+}
+
+TEST_F(MissionServiceTest, OnlyGetMissionReturnsThePriorMap) {
+  StartServer();
+  const v1::MissionOptions options = KnowingARoom();
+  const auto created = CreateMission("attic", options);
+  ASSERT_TRUE(created.ok()) << created.status();
+  EXPECT_FALSE(created->mission().options().has_prior_map());
+  EXPECT_EQ(Get("missions/attic")->mission().options().prior_map().SerializeAsString(),
+            options.prior_map().SerializeAsString());
+  const auto page = List(10);
+  ASSERT_TRUE(page.ok()) << page.status();
+  for (const v1::Mission& mission : page->missions()) {
+    EXPECT_FALSE(mission.options().has_prior_map()) << mission.name();
+  }
+}
+
+TEST_F(MissionServiceTest, KnownBuildingIsOnTheMapBeforeAnyRobotIs) {
+  StartServer();
+  ASSERT_TRUE(CreateMission("attic", KnowingARoom()).ok());
+  v1::GetMapRequest request;
+  request.set_mission("missions/attic");
+  request.set_fresh_posterior(true);
+  const auto response = Call(maps_, &v1::MapService::Stub::GetMap, request);
+  ASSERT_TRUE(response.ok()) << response.status();
+  const auto map = FromProto(*response);
+  ASSERT_TRUE(map.ok()) << map.status();
+  const Cell inside = map->occupancy.geometry().CellAt({2.0, 1.5});
+  EXPECT_EQ(map->occupancy[inside], CellState::kFree);
+  EXPECT_GT(map->gas_variance_ppm2[inside], 0.0F);
+}
+
+TEST_F(MissionServiceTest, APriorMapThatDoesNotFitMakesNoMission) {
+  StartServer();
+  v1::MissionOptions options = KnowingARoom();
+  options.mutable_occupancy()->set_resolution_m(0.2);
+  EXPECT_THAT(CreateMission("attic", options).status(), RefusesField("options.prior_map"));
+  EXPECT_THAT(Get("missions/attic").status(), Refuses(kNotFound, "MISSION_NOT_FOUND"));
 }
 
 TEST_F(MissionServiceTest, MissionTellsHowLongItsPosteriorTakes) {

@@ -95,7 +95,7 @@ class RandomEvents {
     }
     return observation;
   }
-  Goal MakeGoal() { return {Choice<GoalKind>(4), {Int(), Int()}, MakePoint(), MakePoint(), Int()}; }
+  Goal MakeGoal() { return {Choice<GoalKind>(6), {Int(), Int()}, MakePoint(), MakePoint(), Int()}; }
   Candidate MakeCandidate() {
     return {MakeGoal(),
             List([this] { return MakePoint(); }),
@@ -106,7 +106,9 @@ class RandomEvents {
             Real(),
             Real(),
             Real(),
-            Bool() ? std::optional<double>(Real()) : std::nullopt};
+            Bool() ? std::optional<double>(Real()) : std::nullopt,
+            Bool() ? std::optional<double>(Real()) : std::nullopt,
+            List([this] { return MakePoint(); })};
   }
   Plan MakePlan() {
     Plan plan;
@@ -115,12 +117,12 @@ class RandomEvents {
     plan.strategy = Text();
     plan.belief_revision = Int64();
     plan.seed = rng_.Next();
-    plan.phase = Choice<MissionPhase>(5);
+    plan.phase = Choice<MissionPhase>(7);
     plan.end = Choice<PlanEnd>(7);
     plan.chosen = Int();
     plan.candidates = List([this] { return MakeCandidate(); });
     plan.rejected = List([this] {
-      return RejectedGoal{MakeGoal(), Choice<RejectionReason>(9), Text()};
+      return RejectedGoal{MakeGoal(), Choice<RejectionReason>(10), Text()};
     });
     plan.trajectory.waypoints = List([this] {
       return Waypoint{MakePose(), Real(), Real(), Real()};

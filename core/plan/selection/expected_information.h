@@ -21,7 +21,8 @@ std::vector<Cell> ReadingCells(const std::vector<Point2>& path, const GridGeomet
 
 // By how much readings lower the entropy of the gas field, cell by cell, before they are taken: the
 // variance of a Gaussian field depends on where readings are taken and not on what they say, so
-// this is exact. Ours.
+// this is exact (too much in gas if gas.observation_relative_stddev makes readings there noisier).
+// Ours.
 class ExpectedInformation {
  public:
   // Holds references to the belief. Cost: O(cells).

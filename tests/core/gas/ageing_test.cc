@@ -63,20 +63,57 @@ TEST(AgeingTest, SurvivesTheWidestClocks) {
 
 TEST(AgeingTest, UsesTheVarianceThatAReadingBrings) {
   const Ageing ageing(HalfLife(60.0));
-  EXPECT_DOUBLE_EQ(ageing.InitialVariance_ppm2(4.0), 4.0);
-  EXPECT_DOUBLE_EQ(ageing.InitialVariance_ppm2(0.0), 0.1);
+  EXPECT_DOUBLE_EQ(ageing.InitialVariance_ppm2({7.0, 4.0}), 4.0);
+  EXPECT_DOUBLE_EQ(ageing.InitialVariance_ppm2({7.0, 0.0}), 0.1);
+}
+
+TEST(AgeingTest, NoiseGrowsWithTheReadingFromWhereItExceedsTheFloor) {
+  GasOptions options = HalfLife(0.0);
+  options.observation_precision = 4.0;  // sigma_min = 0.5 ppm
+  options.observation_relative_stddev = 0.1;
+  const Ageing ageing(options);
+  EXPECT_DOUBLE_EQ(ageing.InitialVariance_ppm2({0.0, 0.0}), 0.25);
+  EXPECT_DOUBLE_EQ(ageing.InitialVariance_ppm2({4.9, 0.0}), 0.25);
+  EXPECT_DOUBLE_EQ(ageing.InitialVariance_ppm2({6.0, 0.0}), 0.36);
+  EXPECT_DOUBLE_EQ(ageing.InitialVariance_ppm2({200.0, 0.0}), 400.0);
+}
+
+TEST(AgeingTest, NoiseGrowsWithTheDistanceFromTheBackgroundOnEitherSide) {
+  GasOptions options = HalfLife(0.0);
+  options.background_mean_ppm = 400.0;
+  options.observation_relative_stddev = 0.1;
+  const Ageing ageing(options);
+  EXPECT_DOUBLE_EQ(ageing.InitialVariance_ppm2({400.0, 0.0}), 0.1);
+  EXPECT_DOUBLE_EQ(ageing.InitialVariance_ppm2({600.0, 0.0}), 400.0);
+  EXPECT_DOUBLE_EQ(ageing.InitialVariance_ppm2({390.0, 0.0}), 1.0);
+}
+
+TEST(AgeingTest, AReadingsOwnVarianceComesBeforeTheRelativeOne) {
+  GasOptions options = HalfLife(0.0);
+  options.observation_relative_stddev = 10.0;
+  EXPECT_DOUBLE_EQ(Ageing(options).InitialVariance_ppm2({1000.0, 2.0}), 2.0);
+}
+
+TEST(AgeingTest, RelativeNoiseOfTheWidestReadingsStaysFinite) {
+  GasOptions options = HalfLife(0.0);
+  options.observation_relative_stddev = 10.0;
+  for (const double reading_ppm : {-1e300, 1e9, 1e300}) {
+    const double variance_ppm2 = Ageing(options).InitialVariance_ppm2({reading_ppm, 0.0});
+    EXPECT_TRUE(std::isfinite(variance_ppm2 * variance_ppm2)) << reading_ppm;
+  }
 }
 
 TEST(AgeingTest, BoundsThePrecisionOfAReading) {
   const Ageing ageing(HalfLife(0.0));
   const double variance_ppm2 =
-      ageing.InitialVariance_ppm2(std::numeric_limits<double>::denorm_min());
+      ageing.InitialVariance_ppm2({1.0, std::numeric_limits<double>::denorm_min()});
   EXPECT_LE(ageing.Precision(variance_ppm2, 0, 0), 1e9 * (1.0 + 1e-12));
 }
 
 TEST(AgeingTest, LetsAHugeVarianceSayNothingWithoutOverflow) {
   const Ageing ageing(HalfLife(1.0));
-  const double variance_ppm2 = ageing.InitialVariance_ppm2(std::numeric_limits<double>::max());
+  const double variance_ppm2 =
+      ageing.InitialVariance_ppm2({1.0, std::numeric_limits<double>::max()});
   EXPECT_TRUE(std::isfinite(variance_ppm2 * variance_ppm2));
   EXPECT_LT(ageing.Precision(variance_ppm2, 0, 0), 1e-9 * 1e-16);  // of the least background's
 }

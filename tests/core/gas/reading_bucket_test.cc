@@ -197,7 +197,7 @@ TEST(ReadingBucketTest, StaysFiniteAtTheWidestValues) {
                                         std::numeric_limits<std::int64_t>::max()}) {
       for (const double deviation_ppm : {-1e9, 1e9, 1e9}) {
         buckets.push_back(
-            BucketOf(taken_ns, ageing.InitialVariance_ppm2(variance_ppm2), deviation_ppm));
+            BucketOf(taken_ns, ageing.InitialVariance_ppm2({0.0, variance_ppm2}), deviation_ppm));
       }
     }
   }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -83,6 +84,28 @@ TEST(OccupancyGrid, ContainsPointsThatLieAHairBesideEdgesOfTiles) {
     ASSERT_TRUE(grid.GrowToContain({x_m, 0.0}, {x_m, 0.0}).ok());
     ASSERT_TRUE(grid.geometry().Contains(grid.geometry().CellAt({x_m, 0.0})));
   }
+}
+
+TEST(OccupancyGrid, LearnsAMapAsSurelyAsItCan) {
+  Grid<CellState> map({-0.3, 12.7, 0.1, 3, 1});
+  map[Cell{0, 0}] = CellState::kFree;
+  map[Cell{2, 0}] = CellState::kOccupied;
+  OccupancyGrid grid((OccupancyOptions()));
+  ASSERT_TRUE(grid.Learn(map).ok());
+  const GridGeometry& geometry = grid.geometry();
+  EXPECT_NEAR(grid.Probability(geometry.CellAt({-0.25, 12.75})), ProbabilityOf(-3.5), kTolerance);
+  EXPECT_NEAR(grid.Probability(geometry.CellAt({-0.05, 12.75})), ProbabilityOf(3.5), kTolerance);
+  EXPECT_EQ(grid.Probability(geometry.CellAt({-0.15, 12.75})), 0.5);
+  EXPECT_EQ(
+      std::count(grid.States().values().begin(), grid.States().values().end(), CellState::kUnknown),
+      static_cast<std::ptrdiff_t>(geometry.size()) - 2);
+}
+
+TEST(OccupancyGrid, AMapThatItCannotHoldTeachesItNothing) {
+  OccupancyGrid grid((OccupancyOptions()));
+  const Grid<CellState> map({0.05, 0.0, 0.1, 3, 1}, CellState::kFree);
+  EXPECT_EQ(grid.Learn(map).code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(grid.geometry().size(), 0U);
 }
 
 TEST(OccupancyGrid, RefusesToGrowBeyondItsExtentAndStaysAsItWas) {

@@ -52,14 +52,14 @@ void ExpectRefused(const std::vector<Field<Options>>& fields) {
 
 TEST(OccupancyOptions, RefuseValuesOutsideTheirRanges) {
   ExpectRefused<OccupancyOptions>({
-      {"resolution_m", &OccupancyOptions::resolution_m, {0.0, -0.1, 2.1}},
+      {"resolution_m", &OccupancyOptions::resolution_m, {0.0, -0.1, 50.1}},
       {"inflation_radius_m", &OccupancyOptions::inflation_radius_m, {-0.1, 5.1}},
       {"free_threshold", &OccupancyOptions::free_threshold, {0.0, 0.5}},
       {"occupied_threshold", &OccupancyOptions::occupied_threshold, {0.5, 1.0}},
       {"hit_log_odds", &OccupancyOptions::hit_log_odds, {0.0, -1.0, 51.0}},
       {"miss_log_odds", &OccupancyOptions::miss_log_odds, {0.0, 1.0, -51.0}},
       {"clamp_log_odds", &OccupancyOptions::clamp_log_odds, {0.0, -1.0, 51.0}},
-      {"max_extent_m", &OccupancyOptions::max_extent_m, {0.0, 2001.0}},
+      {"max_extent_m", &OccupancyOptions::max_extent_m, {0.0, 20001.0}},
   });
 }
 
@@ -78,6 +78,7 @@ TEST(GasOptions, RefuseValuesOutsideTheirRanges) {
       {"background_precision", &GasOptions::background_precision, {0.0, -1.0}},
       {"background_mean_ppm", &GasOptions::background_mean_ppm, {-1.0}},
       {"ageing_half_life_s", &GasOptions::ageing_half_life_s, {-1.0, 1e-4, 2e9}},
+      {"observation_relative_stddev", &GasOptions::observation_relative_stddev, {-0.1, 10.1}},
       {"refresh_period_s", &GasOptions::refresh_period_s, {0.0, -1.0, 0.009, 3601.0}},
   });
 }

@@ -51,6 +51,26 @@ TEST(RowFigures, CurvesAreMeansAndTrialsThatEndKeepTheirLastValue) {
   EXPECT_GT(chart.curves[1].points[1].y, mean.points[1].y);
 }
 
+TEST(RowFigures, BandsAreMarkedAndDashed) {
+  const Chart chart =
+      MakeMetricChart(Records(), {{"a", kInk, true}, {"b", kInk, false}}, "RMSE", Rmse_ppm);
+  ASSERT_THAT(chart.curves, SizeIs(4));
+  for (std::size_t i = 0; i < chart.curves.size(); ++i) {
+    const bool bound = i < 2;
+    EXPECT_EQ(chart.curves[i].kind, bound ? CurveKind::kBound : CurveKind::kLine) << i;
+    EXPECT_EQ(chart.curves[i].stroke.dash_px > 0.0, bound) << i;
+    EXPECT_EQ(chart.curves[i].name.empty(), bound) << i;
+  }
+}
+
+TEST(RowFigures, CompletenessIsShownFromZeroToOne) {
+  const Chart chart = MakeMetricChart(Records(), {{"a", kInk, true}}, "Completeness", Completeness);
+  ASSERT_TRUE(chart.y_range.has_value());
+  EXPECT_EQ(chart.y_range->low, 0.0);
+  EXPECT_EQ(chart.y_range->high, 1.0);
+  EXPECT_FALSE(MakeMetricChart(Records(), {{"a", kInk, true}}, "RMSE", Rmse_ppm).y_range);
+}
+
 TEST(RowFigures, TheTableHasEveryTrial) {
   TrialPlan plan;
   plan.rows = {{"a", {}}, {"b", {}}};

@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <memory>
 
 #include "formats/file_io.h"
 #include "tests/support/room_run.h"
+#include "tests/support/same_bytes.h"
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
@@ -59,6 +61,38 @@ TEST_F(RecordingTest, ReplaysToTheSameMap) {
   ASSERT_TRUE(again.ok()) << again.status();
   EXPECT_EQ((*again)->revision(), mission_.revision());
   EXPECT_EQ((*again)->Snapshot()->occupancy->values(), mission_.Snapshot()->occupancy->values());
+}
+
+TEST_F(RecordingTest, ReplaysAMissionThatKnewItsBuilding) {
+  MissionOptions options;
+  Grid<CellState> map({-0.3, 0.1, 0.1, 30, 20}, CellState::kFree);
+  map[Cell{4, 5}] = CellState::kUnknown;
+  map[Cell{9, 9}] = CellState::kOccupied;
+  options.prior_map = std::make_shared<const Grid<CellState>>(map);
+  const auto mission = Mission::Create(options);
+  ASSERT_TRUE(mission.ok()) << mission.status();
+  auto recorder = Recorder::Create(path_, options);
+  ASSERT_TRUE(recorder.ok()) << recorder.status();
+  const Observation reading = {1, 1'000'000'000, {1.0, 1.0, 0.0}, GasReading{4.0, 0.0}};
+  for (const EventBody& body :
+       {EventBody(PosteriorRefreshed{}), EventBody(RobotRegistered{"scout", 0.2, 1}),
+        EventBody(ObservationReceived{"scout", reading}),
+        EventBody(PosteriorRefreshed{1'000'000'000})}) {
+    const auto applied = (*mission)->Apply(body);
+    ASSERT_TRUE(applied.ok()) << applied.status();
+    recorder->Record({applied->revision, body});
+  }
+  const auto recording = ReadRecording(path_);
+  ASSERT_TRUE(recording.ok()) << recording.status();
+  ASSERT_NE(recording->options.prior_map, nullptr);
+  EXPECT_EQ(*recording->options.prior_map, map);
+  const auto again = Replay(*recording, 0);
+  ASSERT_TRUE(again.ok()) << again.status();
+  const auto before = (*mission)->Snapshot();
+  const auto after = (*again)->Snapshot();
+  EXPECT_EQ(after->occupancy->values(), before->occupancy->values());
+  EXPECT_TRUE(support::SameBytes(*after->gas_mean_ppm, *before->gas_mean_ppm));
+  EXPECT_TRUE(support::SameBytes(*after->gas_variance_ppm2, *before->gas_variance_ppm2));
 }
 
 TEST_F(RecordingTest, StopsAtTheRevisionAskedFor) {

@@ -121,6 +121,8 @@ TEST_F(SceneCommandTest, ArgumentsThatDoNotReadAreNamedWithTheirValue) {
   EXPECT_THAT(Make("small.yaml", "--seed 1.5"), AllOf(HasSubstr("--seed"), HasSubstr("1.5")));
   EXPECT_THAT(Run("make small.yaml"), HasSubstr("--out"));
   EXPECT_THAT(Run("generate --count 0"), AllOf(HasSubstr("--count"), HasSubstr("0")));
+  EXPECT_THAT(Run(absl::StrCat("generate --layout-only --seed -1 --out ", Path("out"))),
+              AllOf(HasSubstr("--seed"), HasSubstr("-1")));
   EXPECT_THAT(Run("show " + Path("nowhere")), AllOf(HasSubstr("folder"), HasSubstr("nowhere")));
   EXPECT_NE(Run(""), "");  // make, generate, show or import?
 }

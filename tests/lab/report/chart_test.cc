@@ -6,11 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "lab/report/raster_canvas.h"
 #include "lab/report/svg_canvas.h"
+#include "tests/support/recording_canvas.h"
 
 namespace plumescout::lab {
 namespace {
@@ -19,7 +21,9 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr Rgb kBlue{0, 0, 255};
+constexpr Rgb kRed{255, 0, 0};
 constexpr Box kBox{0.0, 0.0, 400.0, 300.0};
+constexpr Box kPlot{52.0, 34.0, 338.0, 226.0};  // in kBox, without legend
 
 std::string Svg(const Chart& chart) {
   SvgCanvas canvas(400, 300, "");
@@ -29,6 +33,35 @@ std::string Svg(const Chart& chart) {
 
 Curve MakeCurve(const std::string& name, const std::vector<ChartPoint>& points) {
   return {name, {kBlue, 2.0}, points};
+}
+
+// Red, without a name.
+Curve MakeBound(const std::vector<ChartPoint>& points) {
+  return {"", {kRed, 1.0, 4.0}, points, CurveKind::kBound};
+}
+
+RecordingCanvas Draw(const Chart& chart) {
+  RecordingCanvas canvas;
+  DrawChart(canvas, kBox, chart);
+  return canvas;
+}
+
+std::vector<DrawnLine> LinesOf(Rgb color, const Chart& chart) {
+  std::vector<DrawnLine> lines;
+  for (const DrawnLine& line : Draw(chart).lines) {
+    if (line.stroke.color == color) lines.push_back(line);
+  }
+  return lines;
+}
+
+// The values at the lower and upper edge of the plot area of a chart whose first blue curve is a
+// line between these values, which the range holds.
+Range RangeShown(const Chart& chart, double first, double last) {
+  const std::vector<DrawnLine> lines = LinesOf(kBlue, chart);
+  if (lines.empty() || lines[0].points.size() != 2) return {};
+  const double first_px = lines[0].points[0].y;
+  const double per_px = (last - first) / (lines[0].points[1].y - first_px);
+  return {first + (kPlot.bottom() - first_px) * per_px, first + (kPlot.y - first_px) * per_px};
 }
 
 TEST(Chart, TitlesAndTicksArePrinted) {
@@ -86,6 +119,123 @@ TEST(Chart, ChartsWithoutUsableValuesAreStillDrawn) {
     EXPECT_THAT(svg, Not(HasSubstr("nan")));
     EXPECT_THAT(svg, Not(HasSubstr("inf")));
   }
+}
+
+TEST(Chart, CurvesEndAtTheEdgesOfThePlot) {
+  // A quarter of the way it leaves through the top, at three quarters it comes back.
+  const Chart chart{"", "", Range{0.0, 1.0}, {MakeCurve("", {{0.0, 0.0}, {0.5, 2.0}, {1.0, 0.0}})}};
+  const std::vector<DrawnLine> lines = LinesOf(kBlue, chart);
+  ASSERT_EQ(lines.size(), 1u);
+  constexpr double kSlack_px = 1.0;
+  constexpr double kQuarter_px = kPlot.width / 4.0;
+  std::vector<PixelPoint> at_top;
+  for (const PixelPoint& point : lines[0].points) {
+    if (!std::isfinite(point.y)) continue;
+    EXPECT_GE(point.y, kPlot.y - kSlack_px);
+    EXPECT_LE(point.y, kPlot.bottom() + kSlack_px);
+    if (point.y < kPlot.y + kSlack_px) at_top.push_back(point);
+  }
+  ASSERT_EQ(at_top.size(), 2u);
+  EXPECT_NEAR(at_top[0].x, kPlot.x + kQuarter_px, kSlack_px);
+  EXPECT_NEAR(at_top[1].x, kPlot.right() - kQuarter_px, kSlack_px);
+}
+
+TEST(Chart, ACurveThatLeavesIsNotJoinedAlongTheEdge) {
+  const Chart chart{"", "", Range{0.0, 1.0}, {MakeCurve("", {{0.0, 0.0}, {0.5, 2.0}, {1.0, 0.0}})}};
+  RasterCanvas canvas(400, 300, {255, 255, 255});
+  DrawChart(canvas, kBox, chart);
+  for (int x = 52 + 338 / 4 + 5; x < 52 + 3 * 338 / 4 - 5; ++x) {
+    for (int y = 0; y < 34 + 3; ++y) EXPECT_NE(canvas.image().At(x, y), kBlue) << x << " " << y;
+  }
+}
+
+TEST(Chart, ACurveOutsideTheRangeIsNotDrawn) {
+  const Chart chart{"", "", Range{0.0, 1.0}, {MakeCurve("", {{0, 2}, {1, 3}})}};
+  for (const DrawnLine& line : LinesOf(kBlue, chart)) EXPECT_TRUE(line.points.empty());
+}
+
+TEST(Chart, ClippedCurvesStillHaveTheirGaps) {
+  const double nan = std::nan("");
+  const Chart chart{
+      "", "", Range{0.0, 1.0}, {MakeCurve("", {{0, 0}, {1, 1}, {2, nan}, {3, 0}, {4, 1}})}};
+  const std::vector<DrawnLine> lines = LinesOf(kBlue, chart);
+  ASSERT_EQ(lines.size(), 1u);
+  ASSERT_EQ(lines[0].points.size(), 5u);
+  EXPECT_FALSE(std::isfinite(lines[0].points[2].y));
+}
+
+TEST(Chart, NarrowBoundsAreShownWhole) {
+  const Chart chart{"",
+                    "",
+                    std::nullopt,
+                    {MakeCurve("", {{0, 110}, {1, 120}}), MakeBound({{0, 107}, {1, 112}}),
+                     MakeBound({{0, 113}, {1, 128}})}};
+  const Range shown = RangeShown(chart, 110.0, 120.0);
+  EXPECT_LE(shown.low, 107.0);
+  EXPECT_GE(shown.high, 128.0);
+}
+
+TEST(Chart, BoundsWidenTheRangeByNoMoreThanItself) {
+  const Chart chart{"",
+                    "",
+                    std::nullopt,
+                    {MakeCurve("", {{0, 100}, {1, 150}}), MakeBound({{0, -1e4}, {1, -1e4}}),
+                     MakeBound({{0, 1e4}, {1, 1e4}})}};
+  const Range shown = RangeShown(chart, 100.0, 150.0);
+  constexpr double kHeadroom = 0.06 * 150.0;  // of what is shown
+  EXPECT_NEAR(shown.high, 200.0 + kHeadroom, 1e-6);
+  EXPECT_GE(shown.low, 0.0);
+  EXPECT_LE(shown.low, 50.0);
+}
+
+TEST(Chart, BoundsOfALevelCurveWidenTheRangeByATenthOfItsValue) {
+  const Chart chart{"",
+                    "",
+                    std::nullopt,
+                    {MakeCurve("", {{0, 100}, {1, 100.1}}), MakeBound({{0, 0}, {1, 0}}),
+                     MakeBound({{0, 1e4}, {1, 1e4}})}};
+  const Range shown = RangeShown(chart, 100.0, 100.1);
+  const double headroom = 0.06 * (100.1 - 100.0 + 2.0 * 10.01);
+  EXPECT_NEAR(shown.low, 100.0 - 10.01 - headroom, 1e-6);
+  EXPECT_NEAR(shown.high, 100.1 + 10.01 + headroom, 1e-6);
+}
+
+TEST(Chart, BoundsDoNotGoBelowZeroWhereNoCurveDoes) {
+  const Curve low = MakeBound({{0, -30}, {1, -30}});
+  const auto lowest_shown = [&](double first) {
+    const Curve mean = MakeCurve("", {{0, first}, {1, 40}});
+    return RangeShown({"", "", std::nullopt, {mean, low}}, first, 40.0).low;
+  };
+  EXPECT_NEAR(lowest_shown(5.0), 0.0, 1e-9);
+  EXPECT_LT(lowest_shown(-5.0), -30.0);
+}
+
+TEST(Chart, BoundsAloneAreShownAsTheyAre) {
+  const Chart chart{
+      "", "", std::nullopt, {{"", {kBlue, 1.0}, {{0, 10}, {1, 20}}, CurveKind::kBound}}};
+  EXPECT_EQ(LinesOf(kBlue, chart).size(), 1u);
+  EXPECT_GE(RangeShown(chart, 10.0, 20.0).high, 20.0);
+}
+
+TEST(Chart, DotsAreNotJoined) {
+  Curve dots = MakeCurve("", {{0, 0}, {1, 1}, {1, std::nan("")}, {1, 5}});
+  dots.stroke.width_px = 6.0;
+  dots.kind = CurveKind::kDots;
+  const RecordingCanvas canvas = Draw({"", "", Range{0.0, 1.0}, {dots}});
+  ASSERT_EQ(canvas.discs.size(), 2u);  // that without a place and that beyond the range are not
+  EXPECT_EQ(canvas.discs[0].radius_px, 3.0);
+  EXPECT_DOUBLE_EQ(canvas.discs[0].center.x, kPlot.x);
+  EXPECT_DOUBLE_EQ(canvas.discs[1].center.y, kPlot.y);
+}
+
+TEST(Chart, TheLegendTakesItsRoomFromThePlot) {
+  const Curve named = MakeCurve("first", {{0, 0}, {1, 1}});
+  const Chart one{"", "", Range{0.0, 1.0}, {named}};
+  const Chart two{"", "", Range{0.0, 1.0}, {named, MakeCurve("second", {{0, 0}, {1, 1}})}};
+  EXPECT_EQ(LegendHeight_px(one, kBox.width), 0.0);
+  ASSERT_GT(LegendHeight_px(two, kBox.width), 0.0);
+  EXPECT_DOUBLE_EQ(LinesOf(kBlue, two).back().points[1].y,
+                   LinesOf(kBlue, one).back().points[1].y + LegendHeight_px(two, kBox.width));
 }
 
 }  // namespace

@@ -75,5 +75,23 @@ TEST(HtmlPage, EveryElementThatOpensCloses) {
 
 TEST(HtmlPage, OneFigureEachForMapsAndCharts) { EXPECT_EQ(Count(MakePage(), "<svg "), 4 + 3); }
 
+TEST(HtmlPage, PanelsStandInAsManyColumnsAsOnTheSheet) {
+  ReportFigures figures;
+  figures.panels.resize(6, MakeMapPanels(MakeSmallReport()).front());
+  EXPECT_THAT(MakeHtmlPage(figures),
+              HasSubstr("<div class=\"figures panels\" style=\"--columns: 3\">"));
+  figures.panels_per_row = 2;
+  EXPECT_THAT(MakeHtmlPage(figures), HasSubstr("style=\"--columns: 2\""));
+}
+
+TEST(HtmlPage, TablesStandBeforeTheMaps) {
+  const ReportData data = MakeSmallReport();
+  ReportFigures figures{data.title, data.key_numbers, MakeMapPanels(data), {}};
+  figures.tables = {{"Table III", {"row"}, {{"a"}}}, {"By part", {"row"}, {{"b"}}}};
+  const std::string page = MakeHtmlPage(figures);
+  EXPECT_LT(page.find(">Table III<"), page.find(">By part<"));
+  EXPECT_LT(page.find(">By part<"), page.find("<svg "));
+}
+
 }  // namespace
 }  // namespace plumescout::lab

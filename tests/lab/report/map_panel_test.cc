@@ -5,10 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "lab/report/raster_canvas.h"
 #include "lab/report/svg_canvas.h"
+#include "tests/support/recording_canvas.h"
 
 namespace plumescout::lab {
 namespace {
@@ -122,11 +124,60 @@ TEST(MapPanel, TheScaleBarHasARoundLength) {
   EXPECT_THAT(Svg(MakePanel()), HasSubstr(">0.2 m<"));  // at most a fifth of 2 m
 }
 
+// Of a map of 1 m x 4 m in a panel of 400 x 400 pixels: 72.5 pixels wide.
+DrawnLine ScaleBarOfATallMap(const std::string& title) {
+  MapPanel panel;
+  panel.title = title;
+  panel.region = {{0.0, 0.0}, {1.0, 4.0}};
+  RecordingCanvas canvas;
+  DrawMapPanel(canvas, {0.0, 0.0, 400.0, 400.0}, panel);
+  return canvas.lines.empty() ? DrawnLine{} : canvas.lines.front();
+}
+
+TEST(MapPanel, TheScaleBarEndsAtTheEdgeOfATallMap) {
+  const DrawnLine bar = ScaleBarOfATallMap("");
+  ASSERT_FALSE(bar.points.empty());
+  EXPECT_DOUBLE_EQ(bar.points.back().x, 72.5);
+}
+
+TEST(MapPanel, TheScaleBarGivesWayToTheTitle) {
+  const std::string title = "Estimated mean";
+  const DrawnLine bar = ScaleBarOfATallMap(title);
+  ASSERT_FALSE(bar.points.empty());
+  EXPECT_GT(bar.points.front().x, TextWidth_px(title, 16.0));
+  EXPECT_LT(bar.points.back().x, 400.0);
+}
+
+TEST(MapPanel, TallMapsAreNarrowerThanTheirPanel) {
+  MapPanel panel = MakePanel();  // 2 m x 1 m
+  EXPECT_EQ(MapWidth_px(panel, 400.0), 400.0);
+  panel.region.north_east.y_m += 9.0;
+  const double width_px = MapWidth_px(panel, 400.0);
+  EXPECT_LT(width_px, 400.0);
+  RecordingCanvas canvas;
+  DrawMapPanel(canvas, {0.0, 0.0, 400.0, MapPanelHeight_px(panel, 400.0)}, panel);
+  ASSERT_FALSE(canvas.boxes.empty());
+  EXPECT_DOUBLE_EQ(canvas.boxes.front().width, width_px);  // the ground of the map
+}
+
 TEST(MapPanel, TheColorBarPrintsItsUnitAndTicks) {
   MapPanel panel = MakePanel();
   panel.color_bar = ColorBar{{ColorMap::kGas, 0.5, 500.0, true}, "ppm"};
   const std::string svg = Svg(panel);
   for (const char* text : {">ppm<", ">1<", ">10<", ">100<"}) EXPECT_THAT(svg, HasSubstr(text));
+}
+
+TEST(MapPanel, ALongUnitEndsWithTheMap) {
+  for (const char* unit : {"ppm", "RMSE, ppm", "nats per critical cell"}) {
+    MapPanel panel = MakePanel();
+    panel.color_bar = ColorBar{{ColorMap::kGas, 0.0, 1.0, false}, unit};
+    RecordingCanvas canvas;
+    DrawMapPanel(canvas, {0.0, 0.0, 400.0, 400.0}, panel);
+    const auto text = std::find_if(canvas.texts.begin(), canvas.texts.end(),
+                                   [&](const WrittenText& t) { return t.utf8 == unit; });
+    ASSERT_NE(text, canvas.texts.end());
+    EXPECT_LE(text->right(), 400.0) << unit;
+  }
 }
 
 TEST(MapPanel, TheLegendNamesItsEntries) {

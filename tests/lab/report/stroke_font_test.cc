@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace plumescout::lab {
 namespace {
@@ -14,6 +16,8 @@ namespace {
 constexpr double kSize_px = 100.0;
 constexpr double kCapital_px = 72.0;
 constexpr double kDescender_px = 24.0;
+
+constexpr const char* kSigns[] = {"\u00B1", "\u00B2", "\u2013"};
 
 // All numbers of the lines, to tell characters apart.
 std::string Shape(const std::string& text) {
@@ -30,13 +34,15 @@ std::string Shape(const std::string& text) {
 TEST(StrokeFont, EveryPrintableCharacterHasItsOwnShape) {
   std::set<std::string> shapes;
   for (char c = '!'; c <= '~'; ++c) shapes.insert(Shape(std::string(1, c)));
-  EXPECT_EQ(shapes.size(), static_cast<std::size_t>('~' - '!' + 1));
+  for (const char* sign : kSigns) shapes.insert(Shape(sign));
+  EXPECT_EQ(shapes.size(), static_cast<std::size_t>('~' - '!' + 1) + std::size(kSigns));
   EXPECT_EQ(shapes.count(Shape("\x01")), 0U);  // the box
 }
 
 TEST(StrokeFont, EveryCharacterStaysOnItsLine) {
-  for (char c = '!'; c <= '~'; ++c) {
-    const std::string text(1, c);
+  std::vector<std::string> texts(std::begin(kSigns), std::end(kSigns));
+  for (char c = '!'; c <= '~'; ++c) texts.emplace_back(1, c);
+  for (const std::string& text : texts) {
     for (const auto& line : WriteText(text, kSize_px)) {
       for (const PixelPoint& point : line) {
         EXPECT_GE(point.x, 0.0) << text;

@@ -9,63 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "tests/client/fake_planner_client.h"
+#include "tests/lab/sim/fake_service.h"
 #include "tests/lab/sim/small_scene.h"
 
 namespace plumescout::lab {
 namespace {
-
-// Passes everything on to the fake server but GetMap: an empty map that tells what is applied.
-class FakeService final : public client::PlannerClient {
- public:
-  explicit FakeService(RobotId robot) : robot_(std::move(robot)) {}
-
-  client::FakePlannerClient& server() { return server_; }
-  void FailMaps(absl::Status status, int times) {
-    failure_ = std::move(status);
-    failures_left_ = times;
-  }
-
-  absl::Status CreateMission(const MissionId& mission, const MissionOptions& options) override {
-    return server_.CreateMission(mission, options);
-  }
-  absl::StatusOr<std::vector<MissionId>> ListMissions() override { return server_.ListMissions(); }
-  absl::Status DeleteMission(const MissionId& mission) override {
-    return server_.DeleteMission(mission);
-  }
-  absl::StatusOr<client::RobotSession> RegisterRobot(const MissionId& mission, const RobotId& robot,
-                                                     double radius_m, bool take_over) override {
-    return server_.RegisterRobot(mission, robot, radius_m, take_over);
-  }
-  absl::StatusOr<std::unique_ptr<client::ObservationStream>> OpenObservationStream(
-      const client::RobotSession& session) override {
-    return server_.OpenObservationStream(session);
-  }
-  absl::StatusOr<Plan> NextBestTrajectory(const MissionId& mission,
-                                          const client::PlanQuery& query) override {
-    return server_.NextBestTrajectory(mission, query);
-  }
-  absl::Status ReportProgress(const client::RobotSession& session, PlanId plan,
-                              ProgressOutcome outcome) override {
-    return server_.ReportProgress(session, plan, outcome);
-  }
-  absl::StatusOr<MapSnapshot> GetMap(const MissionId&) override {
-    if (failures_left_ > 0) {
-      --failures_left_;
-      return failure_;
-    }
-    MapSnapshot map;
-    map.revision = server_.applied();
-    map.robots.push_back({.id = robot_, .pose = {}, .applied_sequence = map.revision});
-    return map;
-  }
-
- private:
-  RobotId robot_;
-  client::FakePlannerClient server_;
-  absl::Status failure_;
-  int failures_left_ = 0;
-};
 
 // One metre west and back, at 1 m/s.
 Plan ThereAndBack(const client::PlanQuery& query) {

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "absl/strings/string_view.h"
+#include "lab/report/canvas.h"
+#include "lab/report/stroke_font.h"
+
+namespace plumescout::lab {
+
+struct WrittenText {
+  PixelPoint baseline;
+  std::string utf8;
+  TextStyle style;
+
+  // End of a text that starts at `baseline`.
+  double right() const { return baseline.x + TextWidth_px(utf8, style.size_px); }
+};
+
+struct DrawnLine {
+  std::vector<PixelPoint> points;
+  Stroke stroke;
+};
+
+struct DrawnDisc {
+  PixelPoint center;
+  double radius_px = 0.0;
+  Rgb color;
+};
+
+// Keeps what is drawn, in order, except pictures.
+class RecordingCanvas final : public Canvas {
+ public:
+  std::vector<WrittenText> texts;
+  std::vector<DrawnLine> lines;
+  std::vector<DrawnDisc> discs;
+  std::vector<Box> boxes;
+
+  void FillBox(const Box& box, Rgb) override { boxes.push_back(box); }
+  void Polyline(std::span<const PixelPoint> points, const Stroke& stroke) override {
+    lines.push_back({{points.begin(), points.end()}, stroke});
+  }
+  void Disc(PixelPoint center, double radius_px, Rgb color) override {
+    discs.push_back({center, radius_px, color});
+  }
+  void Text(PixelPoint baseline, absl::string_view utf8, const TextStyle& style) override {
+    texts.push_back({baseline, std::string(utf8), style});
+  }
+  void Picture(const Box&, const Image&) override {}
+};
+
+}  // namespace plumescout::lab
