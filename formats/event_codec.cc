@@ -23,13 +23,77 @@ concept Number = std::is_arithmetic_v<T> && !std::same_as<T, bool>;
 template <typename T>
 concept Enum = std::is_enum_v<T>;
 
-// How many enumerators there are; a stored value beyond is damage.
-constexpr std::uint8_t CountOf(MissionPhase) { return 5; }
-constexpr std::uint8_t CountOf(GoalKind) { return 4; }
-constexpr std::uint8_t CountOf(PathSource) { return 3; }
-constexpr std::uint8_t CountOf(RejectionReason) { return 9; }
-constexpr std::uint8_t CountOf(PlanEnd) { return 7; }
-constexpr std::uint8_t CountOf(ProgressOutcome) { return 3; }
+// Whether a stored value is one of the enumerators; another is damage. Each switch names all of
+// them, so that one more does not compile until it is added here.
+constexpr bool IsOne(MissionPhase phase) {
+  switch (phase) {
+    case MissionPhase::kExploring:
+    case MissionPhase::kGasProbing:
+    case MissionPhase::kFallback:
+    case MissionPhase::kComplete:
+    case MissionPhase::kReturning:
+      return true;
+  }
+  return false;
+}
+constexpr bool IsOne(GoalKind kind) {
+  switch (kind) {
+    case GoalKind::kOccupancyFrontier:
+    case GoalKind::kGasFrontier:
+    case GoalKind::kRandomFreeSpace:
+    case GoalKind::kHome:
+    case GoalKind::kInformation:
+      return true;
+  }
+  return false;
+}
+constexpr bool IsOne(PathSource source) {
+  switch (source) {
+    case PathSource::kTree:
+    case PathSource::kGridGuard:
+    case PathSource::kGridSearch:
+      return true;
+  }
+  return false;
+}
+constexpr bool IsOne(RejectionReason reason) {
+  switch (reason) {
+    case RejectionReason::kUnreachable:
+    case RejectionReason::kTooSmall:
+    case RejectionReason::kSetAside:
+    case RejectionReason::kClaimed:
+    case RejectionReason::kNotDrawn:
+    case RejectionReason::kTooClose:
+    case RejectionReason::kSearchStopped:
+    case RejectionReason::kOverBudget:
+    case RejectionReason::kKeptOut:
+    case RejectionReason::kGone:
+      return true;
+  }
+  return false;
+}
+constexpr bool IsOne(PlanEnd end) {
+  switch (end) {
+    case PlanEnd::kAllGoalsReached:
+    case PlanEnd::kQueueExhausted:
+    case PlanEnd::kStopped:
+    case PlanEnd::kNoGoals:
+    case PlanEnd::kMissionComplete:
+    case PlanEnd::kStartOccupied:
+    case PlanEnd::kAllGoalsRejected:
+      return true;
+  }
+  return false;
+}
+constexpr bool IsOne(ProgressOutcome outcome) {
+  switch (outcome) {
+    case ProgressOutcome::kReached:
+    case ProgressOutcome::kBlocked:
+    case ProgressOutcome::kAborted:
+      return true;
+  }
+  return false;
+}
 
 // A struct is visited by naming all its members in a structured binding, so that a member added
 // to the struct does not compile until it is added here. The same list serves both directions.
@@ -204,7 +268,10 @@ class Decoder {
   void Get(bool& value) { value = GetBelow(2) != 0; }
   template <Enum T>
   void Get(T& value) {
-    value = static_cast<T>(GetBelow(CountOf(T{})));
+    std::uint8_t byte = 0;
+    Get(byte);
+    ok_ = ok_ && IsOne(static_cast<T>(byte));
+    value = ok_ ? static_cast<T>(byte) : T{};
   }
   void Get(std::string& text) {
     std::uint32_t size = 0;

@@ -81,6 +81,21 @@ TEST(EventCodec, UnknownKindsAndEnumeratorsAreDataLoss) {
   EXPECT_EQ(DecodeEvent(bytes).status().code(), absl::StatusCode::kDataLoss);
 }
 
+TEST(EventCodec, PlansToEveryKindOfGoalComeBack) {
+  for (const GoalKind kind :
+       {GoalKind::kOccupancyFrontier, GoalKind::kGasFrontier, GoalKind::kRandomFreeSpace,
+        GoalKind::kHome, GoalKind::kInformation}) {
+    Event event{1, PlanIssued{}};
+    RejectedGoal rejected;
+    rejected.goal.kind = kind;
+    rejected.reason = RejectionReason::kGone;
+    std::get<PlanIssued>(event.body).plan.rejected.push_back(rejected);
+    const auto back = DecodeEvent(EncodeEvent(event));
+    ASSERT_TRUE(back.ok()) << back.status();
+    EXPECT_EQ(*back, event);
+  }
+}
+
 TEST(EventCodec, ADamagedLengthDoesNotAllocate) {
   std::string bytes = EncodeEvent({1, ObservationReceived{"r", {1, 2, {}, Scan{}}}});
   bytes.replace(bytes.size() - 4, 4, "\xFF\xFF\xFF\xFF");  // of the ranges: four thousand million

@@ -95,7 +95,7 @@ class RandomEvents {
     }
     return observation;
   }
-  Goal MakeGoal() { return {Choice<GoalKind>(4), {Int(), Int()}, MakePoint(), MakePoint(), Int()}; }
+  Goal MakeGoal() { return {Choice<GoalKind>(5), {Int(), Int()}, MakePoint(), MakePoint(), Int()}; }
   Candidate MakeCandidate() {
     return {MakeGoal(),
             List([this] { return MakePoint(); }),
@@ -120,7 +120,7 @@ class RandomEvents {
     plan.chosen = Int();
     plan.candidates = List([this] { return MakeCandidate(); });
     plan.rejected = List([this] {
-      return RejectedGoal{MakeGoal(), Choice<RejectionReason>(9), Text()};
+      return RejectedGoal{MakeGoal(), Choice<RejectionReason>(10), Text()};
     });
     plan.trajectory.waypoints = List([this] {
       return Waypoint{MakePose(), Real(), Real(), Real()};
