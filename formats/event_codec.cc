@@ -32,6 +32,8 @@ constexpr bool IsOne(MissionPhase phase) {
     case MissionPhase::kFallback:
     case MissionPhase::kComplete:
     case MissionPhase::kReturning:
+    case MissionPhase::kSurvey:
+    case MissionPhase::kSampling:
       return true;
   }
   return false;
@@ -43,6 +45,7 @@ constexpr bool IsOne(GoalKind kind) {
     case GoalKind::kRandomFreeSpace:
     case GoalKind::kHome:
     case GoalKind::kInformation:
+    case GoalKind::kSite:
       return true;
   }
   return false;
@@ -142,9 +145,9 @@ void Visit(auto& archive, Is<Goal> auto& goal) {
 }
 void Visit(auto& archive, Is<Candidate> auto& candidate) {
   auto& [goal, path, source, cost, penalty, length_m, mean_ucb, mean_ppm, duration_s,
-         information_nats] = candidate;
+         information_nats, reward, stops] = candidate;
   archive(goal, path, source, cost, penalty, length_m, mean_ucb, mean_ppm, duration_s,
-          information_nats);
+          information_nats, reward, stops);
 }
 void Visit(auto& archive, Is<RejectedGoal> auto& rejected) {
   auto& [goal, reason, detail] = rejected;

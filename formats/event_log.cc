@@ -20,7 +20,7 @@ namespace plumescout {
 namespace {
 
 constexpr absl::string_view kMagic = "\x89PSEVLOG";
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 constexpr std::size_t kHeaderBytes = 12;  // magic and version
 constexpr std::size_t kRecordHeaderBytes = 8;
 constexpr std::uint32_t kMaxBodyBytes = std::uint32_t{1} << 28;

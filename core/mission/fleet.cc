@@ -204,7 +204,7 @@ std::map<RobotId, RobotRecord> Fleet::Records() const {
 std::optional<std::int64_t> Fleet::NextMapUpdate_ns(std::int64_t now_ns) const {
   std::optional<std::int64_t> next_ns;
   for (const auto& [id, member] : robots_) {
-    if (!member.live || !member.live->map_update_ns) continue;
+    if (!member.live || !member.live->map_update_ns || member.live->expires_ns <= now_ns) continue;
     const std::int64_t due_ns = std::max(now_ns, *member.live->map_update_ns);
     next_ns = std::min(next_ns.value_or(due_ns), due_ns);
   }

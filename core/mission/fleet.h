@@ -46,7 +46,7 @@ class Fleet {
   std::vector<GoalClaim> Claims(std::int64_t now_ns) const;
   MissionPhase Phase() const { return phase_; }
   // When the first of the live plans that sample sites has its last sample; none without such a
-  // plan. One that is late is due now.
+  // plan. One that is late is due now, until its claim expires.
   std::optional<std::int64_t> NextMapUpdate_ns(std::int64_t now_ns) const;
 
  private:

@@ -73,9 +73,9 @@ bool GoalMemory::HasNews(const VisitedGoal& visited, const Now& now) const {
   const Goal& goal = visited.goal;
   if (now.time_ns - visited.last_ns > Nanoseconds(set_aside_s_)) return true;
   if (ChangedCells(visited.states_then, now.map, goal.position) >= min_changed_cells_) return true;
-  return goal.kind == GoalKind::kInformation &&
-         VarianceAt_ppm2(goal.position, now.gas_variance_ppm2) <
-             kVarianceKept * visited.variance_then_ppm2;
+  const bool is_for_readings = goal.kind == GoalKind::kInformation || goal.kind == GoalKind::kSite;
+  return is_for_readings && VarianceAt_ppm2(goal.position, now.gas_variance_ppm2) <
+                                kVarianceKept * visited.variance_then_ppm2;
 }
 
 void GoalMemory::RememberVisit(const Goal& goal, const Now& now) {

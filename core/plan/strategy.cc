@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -93,30 +92,29 @@ absl::Status CheckCycle(const PlanningOptions& options) {
   if (least_s <= sites.update_period_s) return absl::OkStatus();
   return absl::InvalidArgumentError(absl::StrCat(
       "planning.sites.update_period_s = ", sites.update_period_s, " must be at least ", least_s,
-      " = cycle_samples (dwell_s + spacing_m / speed_mps), T t_sam + T d_res / V <= t_up of "
-      "Remark 1 in the LHR paper"));
+      ": T t_sam + T d_res / V <= t_up of Remark 1 in the LHR paper, with T = ",
+      sites.cycle_samples, ", t_sam = ", options.dwell_s, " s, d_res = ", sites.spacing_m,
+      " m and V = ", options.speed_mps, " m/s"));
 }
 
-// Nullopt: the sites cover the map.
-absl::StatusOr<std::optional<SiteLattice>> LatticeOf(const PlanningOptions& options,
-                                                     SiteRule rule) {
+absl::Status CheckRegion(const PlanningOptions& options, SiteRule rule) {
   const SiteOptions& sites = options.sites;
   if (!sites.region) {
-    if (rule == SiteRule::kReward) return std::optional<SiteLattice>{};
+    if (rule == SiteRule::kReward) return absl::OkStatus();  // its sites cover the map
     return absl::InvalidArgumentError(absl::StrCat(
         "planning.sites.region must be set for planning.strategy = \"", options.strategy, "\""));
   }
   PLUMESCOUT_ASSIGN_OR_RETURN(const SiteLattice lattice,
                               MakeSiteLattice(*sites.region, sites.spacing_m));
   if (rule == SiteRule::kLowToHigh && sites.survey) {
-    PLUMESCOUT_RETURN_IF_ERROR(CheckSurvey(lattice, sites.survey_stride));
+    return CheckSurvey(lattice, sites.survey_stride);
   }
-  return std::optional<SiteLattice>{lattice};
+  return absl::OkStatus();
 }
 
 absl::StatusOr<std::unique_ptr<const Strategy>> MakeSamplingStrategy(
     const PlanningOptions& options, SiteRule rule, std::unique_ptr<const PathPlanner> paths) {
-  PLUMESCOUT_ASSIGN_OR_RETURN(const std::optional<SiteLattice> lattice, LatticeOf(options, rule));
+  PLUMESCOUT_RETURN_IF_ERROR(CheckRegion(options, rule));
   const bool has_cycles = rule == SiteRule::kLowToHigh || rule == SiteRule::kRandom;
   if (has_cycles) PLUMESCOUT_RETURN_IF_ERROR(CheckCycle(options));
   if (rule == SiteRule::kLowToHigh && IsPerTime(options.sites.reward)) {
@@ -126,8 +124,7 @@ absl::StatusOr<std::unique_ptr<const Strategy>> MakeSamplingStrategy(
   PlanningOptions home = options;
   home.dwell_s = 0.0;  // nothing is sampled on the way
   return std::make_unique<const SamplingStrategy>(
-      options, lattice, MakeRule(rule),
-      std::make_unique<const ComposedStrategy>(home, std::move(paths)));
+      options, MakeRule(rule), std::make_unique<const ComposedStrategy>(home, std::move(paths)));
 }
 
 absl::StatusOr<StrategyRow> FindRow(const std::string& name) {
@@ -158,20 +155,34 @@ absl::Status ApplyStrategyRow(PlanningOptions& options) {
   if (row.name == "mit") ApplyMit(options);
   if (row.sites == SiteRule::kReward) {
     options.sites.reward = SamplingReward::kConcentrationVariancePerTime;
+  } else if (row.sites == SiteRule::kLowToHigh) {
+    options.sites.reward = SamplingReward::kUcb;
   }
   return absl::OkStatus();
+}
+
+bool SamplesOnce(const PlanningOptions& options) {
+  const auto row = FindRow(options.strategy);
+  if (!row.ok() || row->sites == SiteRule::kNone) return false;
+  return row->sites != SiteRule::kReward ||
+         options.sites.reward == SamplingReward::kConcentrationPerTime;
 }
 
 absl::StatusOr<std::unique_ptr<const Strategy>> MakeStrategy(const PlanningOptions& options,
                                                              const PathPlannerFactory& others) {
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options));
+  PLUMESCOUT_ASSIGN_OR_RETURN(auto paths, MakePathPlanner(options, others));
+  return MakeStrategyWith(options, std::move(paths));
+}
+
+absl::StatusOr<std::unique_ptr<const Strategy>> MakeStrategyWith(
+    const PlanningOptions& options, std::unique_ptr<const PathPlanner> paths) {
+  PLUMESCOUT_RETURN_IF_ERROR(Validate(options));
   PLUMESCOUT_ASSIGN_OR_RETURN(const StrategyRow row, FindRow(options.strategy));
-  auto paths = MakePathPlanner(options, others);
-  PLUMESCOUT_RETURN_IF_ERROR(paths.status());
   if (row.sites != SiteRule::kNone) {
-    return MakeSamplingStrategy(options, row.sites, *std::move(paths));
+    return MakeSamplingStrategy(options, row.sites, std::move(paths));
   }
-  return std::make_unique<const ComposedStrategy>(options, *std::move(paths));
+  return std::make_unique<const ComposedStrategy>(options, std::move(paths));
 }
 
 }  // namespace plumescout

@@ -56,10 +56,17 @@ std::vector<std::string> StrategyNames();
 // kInvalidArgument for an unknown name.
 absl::Status ApplyStrategyRow(PlanningOptions& options);
 
+// Whether the strategy never has a site sampled twice.
+bool SamplesOnce(const PlanningOptions& options);
+
 // Builds the strategy that `options` describe; `others` makes path planners that core does not
 // have. kInvalidArgument if the options are invalid, or not what the strategy needs, or no such
 // planner is to be had.
 absl::StatusOr<std::unique_ptr<const Strategy>> MakeStrategy(
     const PlanningOptions& options, const PathPlannerFactory& others = nullptr);
+
+// The same, with this planner in the place of the one that options.paths names.
+absl::StatusOr<std::unique_ptr<const Strategy>> MakeStrategyWith(
+    const PlanningOptions& options, std::unique_ptr<const PathPlanner> paths);
 
 }  // namespace plumescout

@@ -16,7 +16,10 @@
 #include "core/plan/goals/home_goal.h"
 #include "core/plan/information_field.h"
 #include "core/plan/paths/shortcut.h"
+#include "core/plan/sampling/site_lattice.h"
+#include "core/plan/sampling/sites.h"
 #include "core/plan/selection/candidate_terms.h"
+#include "core/plan/strategy.h"
 #include "core/plan/trajectory_timing.h"
 
 namespace plumescout {
@@ -112,6 +115,14 @@ std::optional<RejectedGoal> JudgePlace(const GoalQuery& query, const Goal& goal)
   return is_home ? std::nullopt : RejectedByMemory(query, goal);
 }
 
+std::optional<RejectedGoal> JudgeSite(const GoalQuery& query, const IntendedPath& path) {
+  if (std::optional<RejectedGoal> rejected = JudgePlace(query, path.goal)) return rejected;
+  if (path.stops.empty() || !SamplesOnce(query.options)) return std::nullopt;
+  const SiteLattice lattice = LatticeOver(query.belief.geometry(), query.options.sites);
+  if (!AreSampled(query.belief, lattice, path.stops)) return std::nullopt;
+  return RejectedGoal{path.goal, RejectionReason::kGone, "all its sites have been sampled"};
+}
+
 std::optional<RejectedGoal> JudgeGoal(const Belief& belief, const RobotRecord& robot,
                                       const IntendedPath& path, PlanningOptions options) {
   if (!belief.occupancy->Contains(belief.geometry().CellAt(path.vertices.front()))) {
@@ -120,6 +131,7 @@ std::optional<RejectedGoal> JudgeGoal(const Belief& belief, const RobotRecord& r
   options.min_goal_distance_m = 0.0;
   const Reach reach = ReachFrom(belief, path.vertices.front());
   const GoalQuery query = {belief, robot, reach.start, reach.reachable, options};
+  if (path.goal.kind == GoalKind::kSite) return JudgeSite(query, path);
   const bool is_frontier =
       path.goal.kind == GoalKind::kGasFrontier || path.goal.kind == GoalKind::kOccupancyFrontier;
   return is_frontier ? JudgeFrontierGoal(query, path.goal) : JudgePlace(query, path.goal);
@@ -144,8 +156,31 @@ Candidate Price(const Belief& belief, const RobotRecord& robot, const IntendedPa
   for (auto vertex = vertices.begin(); vertex != out; ++vertex) {
     rest.length_m += Distance_m(*vertex, *std::next(vertex));
   }
-  rest.duration_s = TimeTrajectory(vertices, robot.state.pose.yaw_rad, options).duration_s;
+  rest.stops = path.stops;
+  const double yaw_rad = robot.state.pose.yaw_rad;
+  rest.duration_s = path.goal.kind == GoalKind::kSite
+                        ? TimeTrajectory(vertices, path.stops, yaw_rad, options).duration_s
+                        : TimeTrajectory(vertices, yaw_rad, options).duration_s;
   return rest;
+}
+
+// Without the vertices in the middle of straight runs that are no stops.
+std::vector<Point2> WithoutNeedless(const std::vector<Point2>& vertices,
+                                    const std::vector<Point2>& stops) {
+  std::vector<Point2> kept;
+  std::vector<Point2> run;  // from stop to stop
+  auto stop = stops.begin();
+  for (const Point2 vertex : vertices) {
+    run.push_back(vertex);
+    if (stop == stops.end() || *stop != vertex) continue;
+    ++stop;
+    const std::vector<Point2> straight = WithoutCollinear(run);
+    kept.insert(kept.end(), straight.begin(), straight.end() - 1);
+    run = {vertex};
+  }
+  const std::vector<Point2> straight = WithoutCollinear(run);
+  kept.insert(kept.end(), straight.begin(), straight.end());
+  return kept;
 }
 
 absl::Status CheckIsLatest(const Belief& belief, const RobotRecord& robot, PlanId plan) {
@@ -176,17 +211,22 @@ absl::StatusOr<IntendedPath> RestOfPlan(const Belief& belief, const RobotId& rob
   const double now_s = FindNearest(live, record.state.pose.position())->time_s;
   IntendedPath rest{{PoseAt(live, now_s).position()}, *record.live_goal};
   for (const Waypoint& waypoint : live.waypoints) {
-    if (waypoint.arrival_time_s > now_s) rest.vertices.push_back(waypoint.pose.position());
+    if (waypoint.arrival_time_s <= now_s) continue;
+    rest.vertices.push_back(waypoint.pose.position());
+    const bool samples = rest.goal.kind == GoalKind::kSite && waypoint.dwell_s > 0.0;
+    if (samples) rest.stops.push_back(waypoint.pose.position());
   }
   // A robot that turns or changes its speed has waypoints that are no vertices.
   rest.vertices.erase(std::unique(rest.vertices.begin(), rest.vertices.end()), rest.vertices.end());
-  rest.vertices = WithoutCollinear(rest.vertices);
+  rest.vertices = WithoutNeedless(rest.vertices, rest.stops);
   return rest;
 }
 
 IntendedPath PathTo(GoalKind kind, std::vector<Point2> vertices, const GridGeometry& geometry) {
   const Point2 end = vertices.back();
-  return {std::move(vertices), {kind, geometry.CellAt(end), end, end, 0}};
+  IntendedPath path = {std::move(vertices), {kind, geometry.CellAt(end), end, end, 0}};
+  if (kind == GoalKind::kSite) path.stops = {end};
+  return path;
 }
 
 TrajectoryCheck CheckTrajectory(const Belief& belief, const RobotId& robot,

@@ -16,8 +16,9 @@ namespace plumescout {
 
 // A path that a robot means to drive, and what for.
 struct IntendedPath {
-  std::vector<Point2> vertices;  // frame map
-  Goal goal;                     // its cell need not be of the belief's geometry
+  std::vector<Point2> vertices;    // frame map
+  Goal goal;                       // its cell need not be of the belief's geometry
+  std::vector<Point2> stops = {};  // vertices, in order, where it samples; if the goal is a site
 };
 
 // What is left of the robot's plan: its trajectory from the point nearest to the robot's latest
@@ -34,10 +35,11 @@ IntendedPath PathTo(GoalKind kind, std::vector<Point2> vertices, const GridGeome
 // judged from the path's first vertex: a frontier is still worth it while one of the same kind that
 // ClaimCovers is offered to this robot, for it moves as the robot sees more of it; being near is no
 // objection. If there is none it is kGone. Home is worth it while it can be reached, another place
-// while moreover nobody else claims it and it is not set aside. Whether another goal is better by
-// now is a question for a new plan. The price is without information expected. REQUIRES: the robot
-// is known; the path has a vertex; vertices are finite and fewer than 2^30 cells apart. Cost:
-// O(cells).
+// while moreover nobody else claims it and it is not set aside; a site is kGone when all stops of
+// the path have been sampled meanwhile and the strategy samples none twice. Whether another goal is
+// better by now is a question for a new plan. The price is without information expected. REQUIRES:
+// the robot is known; the path has a vertex; vertices are finite and fewer than 2^30 cells apart.
+// Cost: O(cells).
 TrajectoryCheck CheckTrajectory(const Belief& belief, const RobotId& robot,
                                 const IntendedPath& path, const PlanningOptions& options);
 

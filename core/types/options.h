@@ -116,7 +116,7 @@ struct SiteOptions {
   // that are reached and sampled within update_period_s; [LHR] (P2).
   int candidates = 15;            // M, [1, 16]
   int cycle_samples = 10;         // T, [1, M]
-  double update_period_s = 50.0;  // t_up, (0, 1e6]
+  double update_period_s = 50.0;  // t_up, [0.001, 1e6]
   // sweep: every sweep_stride-th site of every sweep_leg_stride-th row.
   int sweep_stride = 1;      // [1, 1000]
   int sweep_leg_stride = 1;  // [1, 1000]

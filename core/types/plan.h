@@ -61,7 +61,7 @@ struct Candidate {
   // relevance; only where the selection asks for it and time allowed.
   std::optional<double> expected_information_nats;
   // Of strategies that sample sites: the reward of all stops on the way, in the unit of the reward.
-  std::optional<double> reward;
+  std::optional<double> reward = std::nullopt;
   std::vector<Point2> stops = {};  // of those strategies, in order; the goal is the last
 
   friend bool operator==(const Candidate&, const Candidate&) = default;

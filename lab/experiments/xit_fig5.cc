@@ -64,6 +64,7 @@ std::string GoalText(const FrontierStep& step) {
     case GoalKind::kRandomFreeSpace:
       return "to a fallback goal";
     case GoalKind::kHome:
+    case GoalKind::kSite:
       break;
   }
   return "home";

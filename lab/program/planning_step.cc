@@ -4,7 +4,6 @@
 
 #include <utility>
 
-#include "core/plan/composed_strategy.h"
 #include "core/plan/paths/path_planners.h"
 #include "core/plan/selection/expected_information.h"
 #include "core/plan/strategy.h"
@@ -74,9 +73,10 @@ absl::StatusOr<PlanningStep> TakePlanningStep(Mission& mission,
   PlanRequest request;
   PLUMESCOUT_ASSIGN_OR_RETURN(request.robot, RobotOf(belief, options.robot));
   request.seed = options.seed;
-  const ComposedStrategy strategy(planning,
-                                  std::make_unique<const TreeKeeper>(std::move(paths), step.tree));
-  PLUMESCOUT_ASSIGN_OR_RETURN(step.plan, strategy.Plan(belief, request, NeverStop()));
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      const auto strategy,
+      MakeStrategyWith(planning, std::make_unique<const TreeKeeper>(std::move(paths), step.tree)));
+  PLUMESCOUT_ASSIGN_OR_RETURN(step.plan, strategy->Plan(belief, request, NeverStop()));
   PriceInformation(belief, planning, step.plan);
   step.field =
       MakeInformationField({*belief.traversable, *belief.gas_mean_ppm, *belief.gas_variance_ppm2,

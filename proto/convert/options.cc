@@ -244,9 +244,9 @@ absl::Status Read(const v1::SiteOptions& proto, absl::string_view field, SiteOpt
   if (proto.has_region()) {
     const std::string region = Join(field, "region");
     PLUMESCOUT_RETURN_IF_ERROR(CheckPresent(Join(region, "min"), proto.region().has_min()));
-    PLUMESCOUT_RETURN_IF_ERROR(CheckPresent(Join(region, "max"), proto.region().has_max()));
     PLUMESCOUT_ASSIGN_OR_RETURN(const Point2 min,
                                 FromProto(proto.region().min(), Join(region, "min")));
+    PLUMESCOUT_RETURN_IF_ERROR(CheckPresent(Join(region, "max"), proto.region().has_max()));
     PLUMESCOUT_ASSIGN_OR_RETURN(const Point2 max,
                                 FromProto(proto.region().max(), Join(region, "max")));
     options.region = Rectangle{min, max};
@@ -305,8 +305,9 @@ void ClearEqualFields(const google::protobuf::Message& other, google::protobuf::
     const bool is_part = field->cpp_type() == google::protobuf::FieldDescriptor::CPPTYPE_MESSAGE &&
                          !field->is_repeated() && reflection.HasField(other, field);
     if (is_part) {
-      ClearEqualFields(reflection.GetMessage(other, field),
-                       *reflection.MutableMessage(&message, field));
+      google::protobuf::Message& part = *reflection.MutableMessage(&message, field);
+      ClearEqualFields(reflection.GetMessage(other, field), part);
+      if (part.ByteSizeLong() == 0) reflection.ClearField(&message, field);
     } else if (differencer.CompareWithFields(message, other, {field}, {field})) {
       reflection.ClearField(&message, field);
     }

@@ -81,6 +81,7 @@ std::set<std::string> FreeFields() {
       "CreateMissionRequest.options.planning.informed_heuristic",
       "CreateMissionRequest.options.planning.straighten",
       "CreateMissionRequest.options.planning.return_home",
+      "CreateMissionRequest.options.planning.sites.survey",
       "NextBestTrajectoryRequest.go_home",
       "StreamNextBestTrajectoryRequest.go_home",
       "RegisterRobotRequest.take_over",
@@ -94,6 +95,7 @@ std::set<std::string> FreeFields() {
       "CreateMissionRequest.options.gas",
       "CreateMissionRequest.options.frontier",
       "CreateMissionRequest.options.planning",
+      "CreateMissionRequest.options.planning.sites",
       "CreateMissionRequest.options.home",
       // Unset: the robot's latest pose, the server's budget.
       "NextBestTrajectoryRequest.start",

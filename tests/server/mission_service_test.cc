@@ -198,5 +198,76 @@ TEST_F(MissionServiceTest, DeletedMissionIsGone) {
   EXPECT_THAT(DeleteMission("hall"), Refuses(kNotFound, "MISSION_NOT_FOUND"));
 }
 
+// A room of 3 m x 3 m that the robot of StartServer's mission surveys.
+v1::MissionOptions LhrOptions() {
+  v1::MissionOptions options;
+  v1::PlanningOptions& planning = *options.mutable_planning();
+  planning.set_strategy("lhr");
+  planning.set_speed_mps(1.0);
+  planning.set_dwell_s(2.0);
+  v1::SiteOptions& sites = *planning.mutable_sites();
+  *sites.mutable_region()->mutable_min() = v1::Point2D();
+  sites.mutable_region()->mutable_max()->set_x_m(51.0);
+  sites.mutable_region()->mutable_max()->set_y_m(51.0);
+  return options;
+}
+
+TEST_F(MissionServiceTest, MissionOfASamplingStrategyHasTheRewardOfItsRowButForTheOneGiven) {
+  StartServer();
+  v1::MissionOptions options = LhrOptions();
+  const auto lhr = CreateMission("lhr", options);
+  ASSERT_TRUE(lhr.ok()) << lhr.status();
+  EXPECT_EQ(lhr->mission().options().planning().sites().reward(), v1::SAMPLING_REWARD_UCB);
+  EXPECT_FALSE(lhr->mission().has_next_map_update_ns()) << "nobody is sampling yet";
+  options.mutable_planning()->set_strategy("ipp_reward");
+  const auto ipp = CreateMission("ipp", options);
+  ASSERT_TRUE(ipp.ok()) << ipp.status();
+  EXPECT_EQ(ipp->mission().options().planning().sites().reward(),
+            v1::SAMPLING_REWARD_CONCENTRATION_VARIANCE_PER_TIME);
+  options.mutable_planning()->mutable_sites()->set_reward(v1::SAMPLING_REWARD_VARIANCE);
+  EXPECT_EQ(CreateMission("doubt", options)->mission().options().planning().sites().reward(),
+            v1::SAMPLING_REWARD_VARIANCE);
+}
+
+TEST_F(MissionServiceTest, MissionThatItsStrategyCannotPlanIsNotCreated) {
+  StartServer();
+  v1::MissionOptions options = LhrOptions();
+  options.mutable_planning()->mutable_sites()->set_survey_stride(7);
+  const absl::Status refused = CreateMission("attic", options).status();
+  EXPECT_THAT(refused, RefusesField("options.planning.sites.survey_stride"));
+  EXPECT_THAT(Get("missions/attic").status(), Refuses(kNotFound, "MISSION_NOT_FOUND"));
+  options.mutable_planning()->mutable_sites()->set_survey_stride(10);
+  options.mutable_planning()->mutable_sites()->set_update_period_s(3.0);
+  EXPECT_THAT(std::string(CreateMission("attic", options).status().message()),
+              ::testing::HasSubstr("Remark 1"));
+  EXPECT_THAT(Get("missions/attic").status(), Refuses(kNotFound, "MISSION_NOT_FOUND"));
+}
+
+TEST_F(MissionServiceTest, MissionTellsWhenItsMapIsUpdatedNext) {
+  ServerConfig config;
+  config.mission.planning.strategy = "ipp_reward";
+  config.mission.planning.dwell_s = 2.0;
+  config.mission.planning.sites.reward = SamplingReward::kVariancePerTime;
+  StartServer(config);
+  const std::int64_t lease = Lease();
+  EXPECT_FALSE(Get("missions/hall")->mission().has_next_map_update_ns());
+  for (int i = 1; i <= 3; ++i) ASSERT_TRUE(Ingest(kRobot, lease, RoomScan(i)).ok());
+  const auto planned = NextBest(PlanFor(lease));
+  ASSERT_TRUE(planned.ok()) << planned.status();
+  const v1::Plan& plan = planned->plan();
+  ASSERT_EQ(plan.chosen_index(), 0) << plan.explanation();
+  EXPECT_EQ(plan.phase(), v1::MISSION_PHASE_SAMPLING);
+  EXPECT_EQ(plan.candidates(0).goal().kind(), v1::GOAL_KIND_SITE);
+  EXPECT_EQ(plan.candidates(0).stops_size(), 1);
+  EXPECT_TRUE(plan.candidates(0).has_reward());
+  EXPECT_EQ(plan.map_update_s(), plan.trajectory().duration_s());
+  const auto mission = Get("missions/hall");
+  ASSERT_TRUE(mission->mission().has_next_map_update_ns());
+  const std::int64_t newest_ns = RoomScan(3).observations(0).sample_time_ns();
+  EXPECT_EQ(mission->mission().next_map_update_ns(),
+            newest_ns + std::llround(plan.map_update_s() * 1e9));
+  EXPECT_EQ(mission->mission().phase(), v1::MISSION_PHASE_SAMPLING);
+}
+
 }  // namespace
 }  // namespace plumescout::server

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <optional>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
@@ -13,6 +14,7 @@
 #include "core/plan/explanation.h"
 #include "core/plan/goals/travel_budget.h"
 #include "core/plan/information_field.h"
+#include "core/plan/sampling/site_lattice.h"
 #include "core/plan/sampling/ways.h"
 #include "core/plan/selection/candidate_terms.h"
 #include "core/plan/trajectory_timing.h"
@@ -122,9 +124,7 @@ absl::Status SamplingStrategy::PlanFrom(const Belief& belief, const StopFn& stop
   const Cell start_cell = belief.geometry().CellAt(departure.start);
   const Grid<std::uint8_t> reachable = ReachableCells(*belief.traversable, {start_cell});
   const GoalQuery query = {belief, start.robot, start_cell, reachable, options_};
-  const SiteLattice lattice =
-      lattice_.value_or(CoveringLattice(belief.geometry(), options_.sites.spacing_m));
-  const Sites sites = FindSites(query, lattice);
+  const Sites sites = FindSites(query, LatticeOver(belief.geometry(), options_.sites));
   if (stop()) return StoppedBeforeAnyPath();
   PLUMESCOUT_ASSIGN_OR_RETURN(const SamplingChoice choice,
                               rule_->Choose({query, departure.start, sites, plan.seed, stop}));

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "absl/status/status.h"
@@ -11,7 +10,6 @@
 #include "core/plan/composed_strategy.h"
 #include "core/plan/plan_start.h"
 #include "core/plan/sampling/sampling_rule.h"
-#include "core/plan/sampling/site_lattice.h"
 #include "core/plan/strategy.h"
 
 namespace plumescout {
@@ -20,11 +18,11 @@ namespace plumescout {
 // [LHR], and their baselines. Which sites come next is up to the rule.
 class SamplingStrategy : public Strategy {
  public:
-  // `home` plans the way home. Without a lattice sites cover the map.
-  // REQUIRES: Validate(options).ok().
-  SamplingStrategy(const PlanningOptions& options, std::optional<SiteLattice> lattice,
-                   std::unique_ptr<const SamplingRule> rule, std::unique_ptr<const Strategy> home)
-      : options_(options), lattice_(lattice), rule_(std::move(rule)), home_(std::move(home)) {}
+  // `home` plans the way home. Without a region sites cover the map.
+  // REQUIRES: Validate(options).ok(), and MakeSiteLattice takes their region.
+  SamplingStrategy(const PlanningOptions& options, std::unique_ptr<const SamplingRule> rule,
+                   std::unique_ptr<const Strategy> home)
+      : options_(options), rule_(std::move(rule)), home_(std::move(home)) {}
 
   // As Strategy says; also kFailedPrecondition "OUTSIDE_REGION" if the robot stands outside the
   // region. The mission is complete when no site is left to sample.
@@ -40,7 +38,6 @@ class SamplingStrategy : public Strategy {
   void Conclude(const SamplingChoice& choice, PlanStart& start) const;
 
   PlanningOptions options_;
-  std::optional<SiteLattice> lattice_;
   std::unique_ptr<const SamplingRule> rule_;
   std::unique_ptr<const Strategy> home_;
 };

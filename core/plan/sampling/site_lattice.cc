@@ -50,4 +50,12 @@ SiteLattice CoveringLattice(const GridGeometry& map, double spacing_m) {
           count(map.origin_y_m, map.height)};
 }
 
+SiteLattice LatticeOver(const GridGeometry& map, const SiteOptions& options) {
+  if (options.region) {
+    const auto lattice = MakeSiteLattice(*options.region, options.spacing_m);
+    if (lattice.ok()) return *lattice;
+  }
+  return CoveringLattice(map, options.spacing_m);
+}
+
 }  // namespace plumescout

@@ -41,4 +41,8 @@ absl::StatusOr<SiteLattice> MakeSiteLattice(const Rectangle& region, double spac
 // frame map: sites stay where they are while the map grows.
 SiteLattice CoveringLattice(const GridGeometry& map, double spacing_m);
 
+// The one of the region, or without a region the one that covers the map. REQUIRES: a region that
+// MakeSiteLattice takes.
+SiteLattice LatticeOver(const GridGeometry& map, const SiteOptions& options);
+
 }  // namespace plumescout

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -87,24 +88,36 @@ absl::StatusOr<std::vector<int>> TourOf(const SamplingQuery& query, const Survey
   return std::move(tour->order);
 }
 
-double LengthThrough(const Grid<std::uint8_t>& reachable, const std::vector<Site>& stops) {
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < stops.size(); ++i) {
-    length_m += WaysFrom(reachable, stops[i - 1].place, {stops[i].place}).front().length_m;
+// The cyclic order `stops` as the shortest open drive from the robot: the way to its first stop,
+// and every leg but the one between its last and its first. Of equal ones the site that comes first
+// in the lattice begins.
+std::vector<Site> FromTheRobot(const Grid<std::uint8_t>& reachable, std::vector<Site> stops) {
+  const std::size_t count = stops.size();
+  std::vector<double> leg_m;  // from each to the next
+  for (std::size_t i = 0; i < count; ++i) {
+    leg_m.push_back(
+        WaysFrom(reachable, stops[i].place, {stops[(i + 1) % count].place}).front().length_m);
   }
-  return length_m;
-}
-
-// The cyclic order `stops` from the one that is the shortest drive away, the shorter way round.
-std::vector<Site> FromTheNearest(const Grid<std::uint8_t>& reachable, std::vector<Site> stops) {
-  const auto nearest =
-      std::min_element(stops.begin(), stops.end(), [](const Site& a, const Site& b) {
-        return a.travel_m != b.travel_m ? a.travel_m < b.travel_m : a.index < b.index;
-      });
-  std::rotate(stops.begin(), nearest, stops.end());
-  std::vector<Site> other = stops;
-  std::reverse(other.begin() + 1, other.end());
-  return LengthThrough(reachable, other) < LengthThrough(reachable, stops) ? other : stops;
+  std::size_t first = 0;
+  bool backwards = false;
+  double least_m = std::numeric_limits<double>::infinity();
+  const auto consider = [&](std::size_t i, bool back, double undriven_m) {
+    constexpr double kRounding_m = 1e-9;
+    const double drive_m = stops[i].travel_m - undriven_m;
+    const bool is_less = drive_m < least_m - kRounding_m;
+    const bool is_tie = drive_m <= least_m + kRounding_m && stops[i].index < stops[first].index;
+    if (!is_less && !is_tie) return;
+    least_m = drive_m;
+    first = i;
+    backwards = back;
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    consider(i, /*back=*/false, leg_m[(i + count - 1) % count]);
+    consider(i, /*back=*/true, leg_m[i]);
+  }
+  std::rotate(stops.begin(), stops.begin() + static_cast<std::ptrdiff_t>(first), stops.end());
+  if (backwards) std::reverse(stops.begin() + 1, stops.end());
+  return stops;
 }
 
 }  // namespace
@@ -133,7 +146,7 @@ absl::StatusOr<std::vector<Site>> RestOfSurvey(const SamplingQuery& query) {
     const Site& site = survey.sites[static_cast<std::size_t>(node)];
     if (is_left(site)) stops.push_back(site);
   }
-  return FromTheNearest(query.robot.reachable, std::move(stops));
+  return FromTheRobot(query.robot.reachable, std::move(stops));
 }
 
 }  // namespace plumescout

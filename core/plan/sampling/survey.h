@@ -20,8 +20,9 @@ absl::Status CheckSurvey(const SiteLattice& lattice, int stride);
 
 // What is left of the low-resolution survey, [LHR] section III-A, in the order to drive: the
 // survey's sites that are not sampled yet, along the shortest closed tour (P1) of all that are
-// offered. It begins with the one nearest to the robot, and goes the way round that is shorter;
-// its last leg, back, is not driven. Empty if nothing is left.
+// offered. It begins where, and goes the way round that, makes the whole drive from the robot the
+// shortest: of a tour with equal legs, at the site nearest to the robot. The leg back is not
+// driven. Empty if nothing is left.
 //
 // The tour's edges lead to neighbours in the mesh, Eq. (2), and cost what the way there is long.
 // If obstacles leave no such tour, they lead from every site to every other (ours).

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 #include "core/grid/grid_search.h"
 #include "core/grid/ray.h"

@@ -214,5 +214,39 @@ TEST(FleetMasks, CoverTheOtherRobotsWithPoses) {
   EXPECT_TRUE(fleet.MasksFor("b").empty());
 }
 
+// To a site, where the last sample is taken after 10 s.
+Plan PlanToSample(const RobotId& robot, Point2 position) {
+  Plan plan = PlanTo(robot, position, GoalKind::kSite);
+  plan.phase = MissionPhase::kSampling;
+  return plan;
+}
+
+TEST(FleetNextMapUpdate, IsWhenTheFirstLivePlanHasItsLastSample) {
+  Fleet fleet = FleetOf({"a", "b", "c"});
+  EXPECT_FALSE(fleet.NextMapUpdate_ns(0).has_value());
+  ASSERT_TRUE(fleet.Issue(PlanTo("c", {9.0, 1.0}), 0).ok());
+  EXPECT_FALSE(fleet.NextMapUpdate_ns(0).has_value()) << "it samples no sites";
+  const PlanId first = *fleet.Issue(PlanToSample("a", {1.0, 1.0}), 2 * kSecond_ns);
+  ASSERT_TRUE(fleet.Issue(PlanToSample("b", {5.0, 1.0}), 4 * kSecond_ns).ok());
+  EXPECT_EQ(fleet.NextMapUpdate_ns(4 * kSecond_ns), 12 * kSecond_ns);
+  ASSERT_TRUE(fleet.Report({"a", first, ProgressOutcome::kReached}).ok());
+  EXPECT_EQ(fleet.NextMapUpdate_ns(12 * kSecond_ns), 14 * kSecond_ns);
+}
+
+TEST(FleetNextMapUpdate, IsNowOfAPlanThatIsLateUntilItsClaimExpires) {
+  Fleet fleet = FleetOf({"a"});
+  ASSERT_TRUE(fleet.Issue(PlanToSample("a", {1.0, 1.0}), 0).ok());
+  EXPECT_EQ(fleet.NextMapUpdate_ns(13 * kSecond_ns), 13 * kSecond_ns);
+  EXPECT_FALSE(fleet.NextMapUpdate_ns(51 * kSecond_ns).has_value());  // 2 x 10 s + 30 s
+}
+
+TEST(FleetNextMapUpdate, IsNoneOfAPlanToStay) {
+  Fleet fleet = FleetOf({"a"});
+  Plan stay = PlanToSample("a", {1.0, 1.0});
+  stay.chosen = -1;
+  ASSERT_TRUE(fleet.Issue(stay, 0).ok());
+  EXPECT_FALSE(fleet.NextMapUpdate_ns(0).has_value());
+}
+
 }  // namespace
 }  // namespace plumescout

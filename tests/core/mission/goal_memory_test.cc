@@ -102,6 +102,8 @@ TEST(GoalMemory, CountsVisitsForReadingsFromAnewIfTheseLoweredTheVariance) {
   EXPECT_FALSE(IsSetAsideAfterReadings(GoalKind::kInformation, 0.85F));
   EXPECT_TRUE(IsSetAsideAfterReadings(GoalKind::kInformation, 0.95F));
   EXPECT_TRUE(IsSetAsideAfterReadings(GoalKind::kInformation, 1.5F)) << "readings that aged";
+  EXPECT_FALSE(IsSetAsideAfterReadings(GoalKind::kSite, 0.85F));
+  EXPECT_TRUE(IsSetAsideAfterReadings(GoalKind::kSite, 0.95F));
   EXPECT_TRUE(IsSetAsideAfterReadings(GoalKind::kGasFrontier, 0.85F)) << "it should be gone";
 }
 

@@ -110,5 +110,10 @@ TEST(Explain, SaysWhyTheRobotGoesHomeOrStaysThere) {
   EXPECT_THAT(Explain(plan, SelectionRule::kLeastCost), HasSubstr("and there is no way home"));
 }
 
+TEST(Explain, NamesASamplingSite) {
+  EXPECT_THAT(Explain(ChosenPlan(GoalKind::kSite), SelectionRule::kLeastCost),
+              HasSubstr("to a sampling site at (3.2, 4.0)"));
+}
+
 }  // namespace
 }  // namespace plumescout

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/plan/trajectory_timing.h"
+#include "tests/support/site_case.h"
 #include "tests/support/strategy_case.h"
 
 namespace plumescout {
@@ -255,6 +256,66 @@ TEST(RestOfPlan, IsOnlyOfTheLatestAndWhileItLives) {
   }
   EXPECT_THAT(std::string(RestOfPlan(belief, "s", 6).status().message()),
               ::testing::StartsWith("PLAN_ENDED: "));
+}
+
+// A robot on its way along a corridor to sample three sites of it, the second on its straight way.
+struct Sampling {
+  Sampling() {
+    RobotRecord& robot = belief.robots["r"];
+    robot.last_plan = 4;
+    robot.live_goal = Goal{GoalKind::kSite, {17, 0}, At(17), At(17), 0};
+    robot.live_trajectory = std::make_shared<const Trajectory>(
+        TimeTrajectory({At(0), At(5), At(10), At(17)}, {At(5), At(10), At(17)}, 0.0, options));
+  }
+  Point2 At(int x) const { return belief.geometry().Center({x, 0}); }
+  IntendedPath Rest() const { return RestOfPlan(belief, "r", 4).value(); }
+  TrajectoryCheck Check() const { return CheckTrajectory(belief, "r", Rest(), options); }
+
+  Belief belief = testing::SiteBelief(testing::OpenArt(20, 1));
+  PlanningOptions options = testing::SiteOptionsOf("lhr", belief.geometry());
+};
+
+TEST(RestOfPlan, KeepsTheStopsThatAreLeft) {
+  Sampling c;
+  EXPECT_THAT(c.Rest().stops, ElementsAre(c.At(5), c.At(10), c.At(17)));
+  EXPECT_THAT(c.Rest().vertices, ElementsAre(c.At(0), c.At(5), c.At(10), c.At(17)));
+  testing::MovePose(c.belief, c.At(7));
+  EXPECT_THAT(c.Rest().stops, ElementsAre(c.At(10), c.At(17)));
+  EXPECT_NEAR(Distance_m(c.Rest().vertices.at(0), c.At(7)), 0.0, kRounding);
+}
+
+TEST(CheckTrajectory, TimesTheStopsOfARobotThatSamples) {
+  Sampling c;
+  EXPECT_NEAR(c.Check().rest.value().duration_s, 1.7 + 3 * 2.0, kRounding);
+  testing::MovePose(c.belief, c.At(7));
+  EXPECT_NEAR(c.Check().rest.value().duration_s, 1.0 + 2 * 2.0, kRounding);
+  EXPECT_EQ(c.Check().rest->stops.size(), 2u);
+}
+
+TEST(CheckTrajectory, SitesAreGoneWhenAllOfThemHaveBeenSampled) {
+  Sampling c;
+  testing::SetSampled(c.belief, {{10, 0}, {17, 0}});
+  EXPECT_FALSE(c.Check().rejection.has_value()) << "one is left";
+  testing::SetSampled(c.belief, {{5, 0}});
+  ASSERT_TRUE(c.Check().rejection.has_value());
+  EXPECT_EQ(c.Check().rejection->reason, RejectionReason::kGone);
+  c.options = testing::SiteOptionsOf("ipp_reward", c.belief.geometry());
+  EXPECT_FALSE(c.Check().rejection.has_value()) << "its rewards may bring it back";
+  c.options.sites.reward = SamplingReward::kConcentrationPerTime;
+  EXPECT_TRUE(c.Check().rejection.has_value());
+}
+
+TEST(CheckTrajectory, ASiteBehindAWallIsUnreachable) {
+  Sampling c;
+  SetState(c.belief, {12, 0}, CellState::kOccupied, false);
+  EXPECT_EQ(c.Check().rejection.value().reason, RejectionReason::kUnreachable);
+  EXPECT_EQ(c.Check().blockage.value().cell, (Cell{12, 0}));
+}
+
+TEST(PathTo, ASiteStopsThere) {
+  const Belief belief = Hall();
+  EXPECT_THAT(East(belief, GoalKind::kSite).stops, ElementsAre(At(belief, {8, 2})));
+  EXPECT_TRUE(East(belief).stops.empty());
 }
 
 }  // namespace

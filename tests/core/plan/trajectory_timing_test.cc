@@ -195,5 +195,50 @@ TEST(TimeTrajectory, OfNothingIsEmpty) {
   EXPECT_THAT(TimeTrajectory({}, 0.0, Motion(1.0, 1.0)).waypoints, IsEmpty());
 }
 
+TEST(TimeTrajectory, StandsAtTheStopsItIsGivenAlone) {
+  const std::vector<Point2> path = {{0, 0}, {1, 0}, {1, 1}, {3, 1}};
+  const Trajectory t = TimeTrajectory(path, {{1, 0}, {3, 1}}, 0.0, Motion(1.0, 5.0));
+  ASSERT_THAT(t.waypoints, SizeIs(4));
+  EXPECT_EQ(t.waypoints[0].dwell_s, 0.0);
+  EXPECT_EQ(t.waypoints[1].dwell_s, 5.0);
+  EXPECT_EQ(t.waypoints[2].dwell_s, 0.0);
+  EXPECT_EQ(t.waypoints[3].dwell_s, 5.0);
+  EXPECT_NEAR(t.duration_s, 4.0 + 10.0, kRounding);
+}
+
+TEST(TimeTrajectory, AStopAtTheStartIsStoodAtFirst) {
+  const Trajectory t = TimeTrajectory({{0, 0}, {2, 0}}, {{0, 0}}, 0.0, Motion(1.0, 5.0));
+  EXPECT_EQ(t.waypoints.at(0).dwell_s, 5.0);
+  EXPECT_EQ(t.waypoints.at(1).dwell_s, 0.0);
+  EXPECT_NEAR(t.waypoints[1].arrival_time_s, 7.0, kRounding);
+  const Trajectory here = TimeTrajectory({{0, 0}, {0, 0}}, {{0, 0}}, 0.5, Motion(1.0, 5.0));
+  ASSERT_THAT(here.waypoints, SizeIs(1));
+  EXPECT_NEAR(here.duration_s, 5.0, kRounding);
+}
+
+TEST(TimeTrajectory, PassesAPlaceWhoseTurnAsAStopHasNotCome) {
+  // Over (1, 0) on its way to (2, 0), and back to it.
+  const Trajectory t =
+      TimeTrajectory({{0, 0}, {1, 0}, {2, 0}, {1, 0}}, {{2, 0}, {1, 0}}, 0.0, Motion(1.0, 5.0));
+  EXPECT_EQ(t.waypoints.at(1).dwell_s, 0.0);
+  EXPECT_EQ(t.waypoints.at(2).dwell_s, 5.0);
+  EXPECT_EQ(t.waypoints.at(3).dwell_s, 5.0);
+}
+
+TEST(TimeTrajectory, WithALimitOfAccelerationComesToRestAtStopsOnAStraightLine) {
+  const std::vector<Point2> path = {{0, 0}, {1, 0}, {2, 0}};
+  const PlanningOptions motion = Motion(1.0, 3.0, 1.0);
+  // Rest to rest over 1 m at 1 m/s^2: 2 s; over 2 m at up to 1 m/s: 3 s.
+  EXPECT_NEAR(TimeTrajectory(path, {{1, 0}, {2, 0}}, 0.0, motion).duration_s, 2 * (2.0 + 3.0),
+              kRounding);
+  EXPECT_NEAR(TimeTrajectory(path, {{2, 0}}, 0.0, motion).duration_s, 3.0 + 3.0, kRounding);
+}
+
+TEST(TimeTrajectory, WithoutStopsOrPathNothingIsStoodAt) {
+  EXPECT_NEAR(TimeTrajectory({{0, 0}, {2, 0}}, {}, 0.0, Motion(1.0, 5.0)).duration_s, 2.0,
+              kRounding);
+  EXPECT_THAT(TimeTrajectory({}, {}, 0.0, Motion(1.0, 5.0)).waypoints, IsEmpty());
+}
+
 }  // namespace
 }  // namespace plumescout

@@ -48,6 +48,8 @@ TEST(EnumsTest, EveryTableIsCompleteAndRefusesTheRest) {
   ExpectTableIsComplete<v1::CostKind>();
   ExpectTableIsComplete<v1::SamplingKind>();
   ExpectTableIsComplete<v1::SelectionRule>();
+  ExpectTableIsComplete<v1::SamplingReward>();
+  ExpectTableIsComplete<v1::PathKind>();
 }
 
 TEST(EnumsTest, FrontiersAreOfTwoKindsOnly) {

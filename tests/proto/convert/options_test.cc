@@ -8,7 +8,9 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "absl/strings/str_split.h"
 #include "google/protobuf/descriptor.h"
 #include "google/protobuf/util/message_differencer.h"
 #include "proto/convert/status.h"
@@ -44,6 +46,16 @@ MissionOptions Unlike() {
   options.planning.return_margin_share = 0.25;
   options.planning.return_home = true;
   options.planning.planning_latency_s = 0.75;
+  options.planning.sites = {Rectangle{{-1.0, 2.0}, {3.0, 8.0}},
+                            2.0,
+                            SamplingReward::kConcentrationPerTime,
+                            false,
+                            3,
+                            12,
+                            7,
+                            30.0,
+                            4,
+                            5};
   options.max_robots = 3;
   options.keep_out = {{{{1, 2}, {3, 4}, {5, 7}}}, {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}};
   options.home = Point2{-1.0, 2.0};
@@ -62,19 +74,24 @@ TEST(OptionsTest, OptionsSurviveTheRoundTrip) {
   EXPECT_EQ(back->frontier.fixed_gas_threshold_ppm, 4.0);
   EXPECT_EQ(back->keep_out, Unlike().keep_out);
   EXPECT_EQ(back->home, Unlike().home);
+  EXPECT_EQ(back->planning.sites.region, Unlike().planning.sites.region);
+  EXPECT_EQ(back->planning.sites.reward, SamplingReward::kConcentrationPerTime);
 }
 
 TEST(OptionsTest, ChangesAreAllThatDiffersFromTheDefaults) {
   MissionOptions options;
-  EXPECT_EQ(ChangesToProto(options).planning().ByteSizeLong(), 0U);
+  EXPECT_EQ(ChangesToProto(options).ByteSizeLong(), 0U);
   options.planning.strategy = "xit_f";
   options.planning.fallback_to_unobserved = false;
+  options.planning.sites.region = Rectangle{{0.0, 0.0}, {2.0, 3.0}};
   options.frontier.fixed_gas_threshold_ppm = 600.0;
   options.home = Point2{1.0, 2.0};
   options.keep_out = {{{{1, 2}, {3, 4}, {5, 7}}}};
   v1::MissionOptions expected;
-  expected.mutable_occupancy();
-  expected.mutable_gas();
+  expected.mutable_planning()->mutable_sites()->mutable_region()->mutable_min()->set_x_m(0.0);
+  expected.mutable_planning()->mutable_sites()->mutable_region()->mutable_min()->set_y_m(0.0);
+  expected.mutable_planning()->mutable_sites()->mutable_region()->mutable_max()->set_x_m(2.0);
+  expected.mutable_planning()->mutable_sites()->mutable_region()->mutable_max()->set_y_m(3.0);
   expected.mutable_frontier()->set_fixed_gas_threshold_ppm(600.0);
   expected.mutable_planning()->set_strategy("xit_f");
   expected.mutable_planning()->set_fallback_to_unobserved(false);
@@ -140,6 +157,24 @@ TEST(OptionsTest, RefusalNamesTheFieldOfTheWire) {
   EXPECT_EQ(FieldViolations(options.status()).at(0).field, "options.gas.prior_precision_per_ppm2");
 }
 
+// The message at the path "planning.sites"; messages beside those on the way are there as well, so
+// that none is missed.
+Message& MutablePart(Message& whole, const std::string& path) {
+  Message* part = &whole;
+  const std::vector<std::string> names = absl::StrSplit(path, '.', absl::SkipEmpty());
+  for (const std::string& name : names) {
+    for (int i = 0; i < part->GetDescriptor()->field_count(); ++i) {
+      const FieldDescriptor* field = part->GetDescriptor()->field(i);
+      const bool is_part =
+          field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE && !field->is_repeated();
+      if (is_part) part->GetReflection()->MutableMessage(part, field);
+    }
+    part =
+        part->GetReflection()->MutableMessage(part, part->GetDescriptor()->FindFieldByName(name));
+  }
+  return *part;
+}
+
 // The words Validate uses are mapped to the wire by a table: a row that is missing would name a
 // field that no client knows.
 void ExpectBadNumbersNamed(const Message& part, const std::string& path) {
@@ -153,11 +188,7 @@ void ExpectBadNumbersNamed(const Message& part, const std::string& path) {
     }
     if (field->cpp_type() != FieldDescriptor::CPPTYPE_DOUBLE) continue;
     v1::MissionOptions proto;
-    Message* spoilt = &proto;
-    if (!path.empty()) {
-      spoilt = proto.GetReflection()->MutableMessage(&proto,
-                                                     proto.GetDescriptor()->FindFieldByName(path));
-    }
+    Message* spoilt = &MutablePart(proto, path);
     spoilt->GetReflection()->SetDouble(spoilt, field, std::numeric_limits<double>::quiet_NaN());
     const auto violations = FieldViolations(FromProto(proto, MissionOptions{}, "options").status());
     ASSERT_EQ(violations.size(), 1u) << name;
@@ -182,6 +213,28 @@ TEST(OptionsTest, OverlongStrategyNameIsRefused) {
   const absl::Status status = FromProto(proto, MissionOptions{}, "options").status();
   EXPECT_TRUE(absl::IsInvalidArgument(status));
   EXPECT_LT(status.message().size(), 300u);
+}
+
+TEST(OptionsTest, ARegionWantsBothOfItsCorners) {
+  v1::MissionOptions proto;
+  v1::Rectangle& region = *proto.mutable_planning()->mutable_sites()->mutable_region();
+  const auto blamed = [&] {
+    return FieldViolations(FromProto(proto, MissionOptions{}, "options").status()).at(0).field;
+  };
+  EXPECT_EQ(blamed(), "options.planning.sites.region.min");
+  region.mutable_min()->set_x_m(1.0);
+  EXPECT_EQ(blamed(), "options.planning.sites.region.max");
+  region.mutable_max()->set_x_m(0.0);
+  EXPECT_EQ(blamed(), "options.planning.sites.region.max.x_m") << "left of the other corner";
+}
+
+TEST(OptionsTest, MoreSamplesThanCandidatesAreNamedAsOnTheWire) {
+  v1::MissionOptions proto;
+  proto.mutable_planning()->mutable_sites()->set_candidate_count(5);
+  proto.mutable_planning()->mutable_sites()->set_cycle_sample_count(6);
+  const auto options = FromProto(proto, MissionOptions{}, "options");
+  EXPECT_EQ(FieldViolations(options.status()).at(0).field,
+            "options.planning.sites.cycle_sample_count");
 }
 
 }  // namespace

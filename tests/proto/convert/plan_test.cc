@@ -37,6 +37,8 @@ Plan TestPlan() {
                       7.0,
                       3.0,
                       12.5}};
+  plan.candidates[0].reward = -0.25;
+  plan.candidates[0].stops = {{0.1, 0.2}, {0.35, 0.45}};
   plan.rejected = {{goal, RejectionReason::kClaimed, "robot r2"}};
   plan.trajectory = {{{{0.0, 0.0, 0.5}, 0.0, 0.0}, {{0.35, 0.45, 0.5}, 1.0, 0.5, 0.25}}, 2.0, 1.5};
   plan.effort = {300, 250, 1000, 1, 4};
@@ -85,6 +87,9 @@ TEST(PlanTest, WhatARobotWouldFollowIsChecked) {
       {"plan.chosen_index", [](auto& p) { p.set_chosen_index(-2); }},
       {"plan.candidates[0].cost", [](auto& p) { p.mutable_candidates(0)->set_cost(kNan); }},
       {"plan.candidates[0].length_m", [](auto& p) { p.mutable_candidates(0)->set_length_m(-1.0); }},
+      {"plan.candidates[0].reward", [](auto& p) { p.mutable_candidates(0)->set_reward(kNan); }},
+      {"plan.candidates[0].stops[1].y_m",
+       [](auto& p) { p.mutable_candidates(0)->mutable_stops(1)->set_y_m(kNan); }},
       {"plan.candidates[0].path[1].x_m",
        [](auto& p) { p.mutable_candidates(0)->mutable_path(1)->set_x_m(kNan); }},
       {"plan.candidates[0].goal.kind",
@@ -112,6 +117,27 @@ TEST(PlanTest, WhatARobotWouldFollowIsChecked) {
     ASSERT_EQ(violations.size(), 1u) << bad.field;
     EXPECT_EQ(violations[0].field, bad.field);
   }
+}
+
+TEST(PlanTest, APlanThatSamplesSitesSaysWhenItsLastSampleIsIn) {
+  Plan plan = TestPlan();
+  EXPECT_FALSE(ToProto(plan, "hall").has_map_update_s());
+  plan.candidates[0].goal.kind = GoalKind::kSite;
+  plan.phase = MissionPhase::kSurvey;
+  const v1::Plan proto = ToProto(plan, "hall");
+  EXPECT_EQ(proto.map_update_s(), plan.trajectory.duration_s);
+  EXPECT_EQ(proto.phase(), v1::MISSION_PHASE_SURVEY);
+  EXPECT_EQ(FromProto(proto, "plan").value(), plan);
+  plan.chosen = -1;
+  EXPECT_FALSE(ToProto(plan, "hall").has_map_update_s());
+}
+
+TEST(PlanTest, ACandidateWithoutARewardHasNone) {
+  Plan plan = TestPlan();
+  plan.candidates[0].reward.reset();
+  plan.candidates[0].stops.clear();
+  EXPECT_FALSE(ToProto(plan, "hall").candidates(0).has_reward());
+  EXPECT_EQ(FromProto(ToProto(plan, "hall"), "plan").value(), plan);
 }
 
 }  // namespace

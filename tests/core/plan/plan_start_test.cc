@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/plan_start.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/plan/plan_seed.h"
+#include "tests/support/strategy_case.h"
+
+namespace plumescout {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+const testing::GridArt kRoom = {".....",  //
+                                "..S..",  //
+                                "iiiii"};
+
+PlanStart Begin(const Belief& belief, const PlanRequest& request) {
+  auto start = BeginPlan(belief, request, testing::XitGff());
+  EXPECT_TRUE(start.ok()) << start.status();
+  return *std::move(start);
+}
+
+TEST(BeginPlan, FillsInWhatEveryPlanSays) {
+  const Belief belief = testing::SmallBelief(kRoom);
+  const PlanStart start = Begin(belief, testing::For("r", 5));
+  EXPECT_EQ(start.plan.robot, "r");
+  EXPECT_EQ(start.plan.strategy, "xit_gff");
+  EXPECT_EQ(start.plan.belief_revision, belief.revision);
+  EXPECT_EQ(start.plan.seed, 5u);
+  EXPECT_EQ(start.plan.chosen, -1);
+  EXPECT_EQ(start.pose.position(), belief.geometry().Center({2, 1}));
+  EXPECT_EQ(&start.robot, &belief.robots.at("r"));
+  ASSERT_TRUE(start.departure.has_value());
+  EXPECT_THAT(start.departure->way_out, IsEmpty());
+  EXPECT_EQ(start.departure->yaw_rad, 0.5) << "of the robot";
+  EXPECT_FALSE(start.plan.start_escaped);
+}
+
+TEST(BeginPlan, DerivesASeedFromMissionRobotAndPlansSoFar) {
+  Belief belief = testing::SmallBelief(kRoom);
+  belief.robots["r"].plans_issued = 3;
+  EXPECT_EQ(Begin(belief, testing::For("r")).plan.seed,
+            DerivedPlanSeed(belief.options->seed, "r", 3));
+}
+
+TEST(BeginPlan, LeadsOutOfTheInflatedZone) {
+  const Belief belief = testing::SmallBelief(kRoom);
+  PlanRequest request = testing::For("r");
+  const Point2 inflated = belief.geometry().Center({2, 0});
+  request.start = Pose2{inflated.x_m, inflated.y_m, 1.0};
+  const PlanStart start = Begin(belief, request);
+  EXPECT_TRUE(start.plan.start_escaped);
+  ASSERT_TRUE(start.departure.has_value());
+  EXPECT_EQ(start.departure->way_out.front(), inflated);
+  EXPECT_EQ(start.departure->yaw_rad, 1.0);
+}
+
+TEST(BeginPlan, WithoutAWayOutThePlanIsToStay) {
+  Belief belief = testing::SmallBelief(kRoom);
+  belief.traversable = std::make_shared<const Grid<std::uint8_t>>(belief.geometry(), 0);
+  const PlanStart start = Begin(belief, testing::For("r"));
+  EXPECT_FALSE(start.departure.has_value());
+  EXPECT_EQ(start.plan.end, PlanEnd::kStartOccupied);
+}
+
+TEST(BeginPlan, RefusesUnknownRobotsAndThoseWithoutAPlace) {
+  Belief belief = testing::SmallBelief(kRoom);
+  const auto status = [&](const RobotId& robot) {
+    return BeginPlan(belief, testing::For(robot), {}).status();
+  };
+  EXPECT_TRUE(absl::IsNotFound(status("nobody")));
+  belief.robots["blind"].state.id = "blind";
+  EXPECT_TRUE(absl::IsFailedPrecondition(status("blind")));
+}
+
+TEST(PutBefore, CountsTheWayOutAsLength) {
+  Candidate candidate;
+  candidate.path = {{3, 4}, {3, 5}};
+  candidate.length_m = 1.0;
+  PutBefore({{0, 0}, {0, 4}}, candidate);
+  EXPECT_THAT(candidate.path, ElementsAre(Point2{0, 0}, Point2{0, 4}, Point2{3, 4}, Point2{3, 5}));
+  EXPECT_NEAR(candidate.length_m, 1.0 + 4.0 + 3.0, 1e-12);
+  const Candidate before = candidate;
+  PutBefore({}, candidate);
+  EXPECT_EQ(candidate, before);
+}
+
+TEST(StoppedBeforeAnyPath, IsAMissedDeadline) {
+  EXPECT_TRUE(absl::IsDeadlineExceeded(StoppedBeforeAnyPath()));
+}
+
+}  // namespace
+}  // namespace plumescout
