@@ -66,6 +66,7 @@ std::string GoalText(const FrontierStep& step) {
     case GoalKind::kSite:
       return "to a sampling site";
     case GoalKind::kHome:
+    case GoalKind::kSite:
       break;
   }
   return "home";

@@ -25,9 +25,9 @@ struct Room {
   Names may_include;
 };
 
-const Names kCore = {"core/types",     "core/grid",   "core/occupancy", "core/linalg",
-                     "core/gas/field", "core/gas",    "core/frontier",  "core/belief",
-                     "core/plan",      "core/mission"};
+const Names kCore = {"core/types",  "core/tour",      "core/grid",   "core/occupancy",
+                     "core/linalg", "core/gas/field", "core/gas",    "core/frontier",
+                     "core/belief", "core/plan",      "core/mission"};
 
 // The first `count` rooms of core.
 Names CoreBefore(const std::string& folder) {
@@ -135,15 +135,34 @@ bool IsCholmod(const std::string& include) {
   return absl::EndsWith(include, "cholmod.h") || include == "Eigen/CholmodSupport";
 }
 
+// CBC and what it is made of.
+bool IsCbc(const std::string& include) {
+  static const std::regex kHeader(R"((coin/)?(Cbc|Cgl|Clp|Coin|Osi)\w*\.(hpp|h))");
+  return std::regex_match(include, kHeader);
+}
+
+// A library that one source of one folder includes, and nobody else in core.
+struct SoleUse {
+  const char* library;
+  bool (*is_header)(const std::string& include);
+  const char* folder;
+};
+constexpr SoleUse kSoleUses[] = {{"CHOLMOD", IsCholmod, "core/linalg"},
+                                 {"CBC", IsCbc, "core/tour"}};
+
 // Why `file` must not include it; empty if it may.
 std::string WhyForbidden(const SourceFile& file, const std::string& include) {
   const bool in_core = IsBelow(file.path, "core");
   if (in_core && (IsGrpc(include) || IsProtobuf(include))) return "core knows no wire";
   if (in_core && IsImpure(include)) return "core is pure";
   if (IsBelow(file.path, "proto/convert") && IsGrpc(include)) return "conversion knows no gRPC";
-  // Benches measure CHOLMOD as a rival of our own factorisation.
-  const bool may_cholmod = IsBelow(file.path, "core/linalg") || IsBelow(file.path, "lab/bench");
-  if (IsCholmod(include) && (!may_cholmod || file.is_header())) return "CHOLMOD has one user";
+  for (const SoleUse& use : kSoleUses) {
+    // Benches measure such a library as a rival of our own.
+    const bool may_use = IsBelow(file.path, use.folder) || IsBelow(file.path, "lab/bench");
+    if (use.is_header(include) && (!may_use || file.is_header())) {
+      return absl::StrCat(use.library, " has one user");
+    }
+  }
   const bool may_ompl = IsBelow(file.path, "ompl_planners") && !file.is_header();
   if (absl::StartsWith(include, "ompl/") && !may_ompl) {
     return "OMPL stays in the sources of ompl_planners";
@@ -158,6 +177,17 @@ std::string WhyForbidden(const SourceFile& file, const std::string& include) {
 
 Names AllIncludes(const SourceFile& file) {
   return Join({file.quoted_includes, file.system_includes});
+}
+
+// Sources of core that include the library.
+Names CoreUsers(const std::vector<SourceFile>& files, const SoleUse& use) {
+  Names users;
+  for (const SourceFile& file : files) {
+    const Names includes = AllIncludes(file);
+    const bool uses = std::any_of(includes.begin(), includes.end(), use.is_header);
+    if (uses && IsBelow(file.path, "core")) users.push_back(file.path);
+  }
+  return users;
 }
 
 }  // namespace
@@ -209,19 +239,19 @@ std::vector<std::string> CheckCycles(const std::vector<SourceFile>& files) {
 
 std::vector<std::string> CheckPlatformHeaders(const std::vector<SourceFile>& files) {
   Names violations;
-  Names cholmod_users;
   for (const SourceFile& file : files) {
     for (const std::string& include : AllIncludes(file)) {
-      if (IsCholmod(include) && IsBelow(file.path, "core")) cholmod_users.push_back(file.path);
       const std::string why = WhyForbidden(file, include);
       if (!why.empty()) {
         violations.push_back(absl::StrCat(file.path, " must not include ", include, ": ", why));
       }
     }
   }
-  if (cholmod_users.size() > 1) {
+  for (const SoleUse& use : kSoleUses) {
+    const Names users = CoreUsers(files, use);
+    if (users.size() < 2) continue;
     violations.push_back(
-        absl::StrCat("several users of CHOLMOD: ", absl::StrJoin(cholmod_users, ", ")));
+        absl::StrCat("several users of ", use.library, ": ", absl::StrJoin(users, ", ")));
   }
   return violations;
 }

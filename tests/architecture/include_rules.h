@@ -19,8 +19,8 @@ std::vector<std::string> CheckDirections(const std::vector<SourceFile>& files);
 std::vector<std::string> CheckCycles(const std::vector<SourceFile>& files);
 
 // Headers of the platform where they must not be: protobuf, gRPC, threads, files, clocks and global
-// random numbers in core; CHOLMOD outside its one file; OMPL outside ompl_planners; gRPC and
-// generated code in headers that others include.
+// random numbers in core; CHOLMOD and CBC outside their one file; OMPL outside ompl_planners; gRPC
+// and generated code in headers that others include.
 std::vector<std::string> CheckPlatformHeaders(const std::vector<SourceFile>& files);
 
 // Words in core that reach for a clock, chance, the environment or the console without a header.
