@@ -63,8 +63,6 @@ std::string GoalText(const FrontierStep& step) {
       return "to a place where readings tell much";
     case GoalKind::kRandomFreeSpace:
       return "to a fallback goal";
-    case GoalKind::kSite:
-      return "to a sampling site";
     case GoalKind::kHome:
     case GoalKind::kSite:
       break;
