@@ -109,10 +109,8 @@ using Drives = std::vector<std::vector<SamplingDrive>>;
 absl::StatusOr<StudyRow> MakeRow(const TableRow& row, const Scene& world) {
   PLUMESCOUT_ASSIGN_OR_RETURN(StudyRow made, MakeStudyRow(row.name, row.strategy, true));
   const double resolution_m = world.geometry().resolution_m;
-  made.mission.occupancy.resolution_m = resolution_m;
   made.mission.occupancy.inflation_radius_m = 0.0;  // streets are one cell wide
   const Region region = RegionOf(world.geometry());
-  made.mission.occupancy.max_extent_m = 2.0 * std::max(region.width_m(), region.height_m());
   made.mission.gas.observation_precision = kObservationPrecision;
   made.mission.gas.prior_precision = kPriorPrecision;
   made.mission.gas.background_precision = kBackgroundPrecision;

@@ -81,7 +81,6 @@ constexpr std::size_t kPictured = 3;  // Fig. 3 is of UCB
 
 absl::StatusOr<StudyRow> MakeRow(const TableRow& row, const Scene& world) {
   PLUMESCOUT_ASSIGN_OR_RETURN(StudyRow made, MakeStudyRow(row.name, row.strategy, true));
-  made.mission.occupancy.resolution_m = world.geometry().resolution_m;
   made.mission.occupancy.inflation_radius_m = 0.0;  // open, and the robot is a point
   constexpr double kShare = 0.1;
   made.mission.gas.observation_relative_stddev = kShare;

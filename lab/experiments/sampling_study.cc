@@ -9,6 +9,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "core/types/prior_map.h"
 #include "core/types/status_macros.h"
 #include "formats/crc32c.h"
 #include "formats/file_io.h"
@@ -30,7 +31,7 @@ MissionOptions MissionFor(const SamplingPlan& plan, std::size_t row, std::size_t
   MissionOptions mission = plan.rows[row].mission;
   const SamplingCase& drive = plan.cases[number];
   mission.seed = drive.seed;
-  mission.prior_map = std::make_shared<const Grid<CellState>>(plan.worlds[drive.world].occupancy);
+  StartWith(std::make_shared<const Grid<CellState>>(plan.worlds[drive.world].occupancy), mission);
   return mission;
 }
 
