@@ -31,9 +31,13 @@ const std::set<std::string>& PureNumbers() {
       "mean_ucb",             // in [0, 1], [MIT] Eq. (3)
       "page_size",            // a count
       "revision",             // of a mission
+      "reward",               // of sampling sites: its unit follows from which reward it is
       "row",                  // of a cell
       "seed",                 // opaque
       "sequence",             // of an observation
+      "survey_stride",        // in sites
+      "sweep_leg_stride",     // in rows of sites
+      "sweep_stride",         // in sites
       "value_offset",         // in the unit of the raster's layer
       "value_scale",          // in the unit of the raster's layer
   };

@@ -113,5 +113,16 @@ TEST_F(PlanningStepTest, SaysWhatIsNotThere) {
   EXPECT_TRUE(absl::IsNotFound(TakePlanningStep(empty, {}).status()));
 }
 
+TEST_F(PlanningStepTest, OfAStrategyThatSamplesSitesGrowsNoTree) {
+  PlanningStepOptions options;
+  options.strategy = "ipp_reward";
+  const auto step = TakePlanningStep(mission_, options);
+  ASSERT_TRUE(step.ok()) << step.status();
+  EXPECT_EQ(step->plan.phase, MissionPhase::kSampling);
+  ASSERT_FALSE(step->plan.candidates.empty());
+  EXPECT_EQ(step->plan.candidates[0].goal.kind, GoalKind::kSite);
+  EXPECT_TRUE(step->tree.empty());
+}
+
 }  // namespace
 }  // namespace plumescout::lab
