@@ -13,8 +13,8 @@ find_package(CLI11 CONFIG REQUIRED)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
 find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
-pkg_check_modules(OSI_CLP REQUIRED IMPORTED_TARGET osi-clp)
-find_library(CBC_LIBRARY Cbc REQUIRED)  # its own pkg-config file adds CBC's command line
+find_library(GLPK_LIBRARY glpk REQUIRED)
+find_path(GLPK_INCLUDE_DIR glpk.h REQUIRED)
 # Not find_package(ompl): Debian's asks for Boost libraries that its package does not pull in.
 find_library(OMPL_LIBRARY ompl REQUIRED)
 find_path(OMPL_INCLUDE_DIR ompl/config.h PATH_SUFFIXES ompl-1.5 REQUIRED)

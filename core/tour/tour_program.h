@@ -12,13 +12,13 @@
 namespace plumescout {
 
 // The integer program [LHR] (P1) with the subtour constraints that have been added so far: which
-// edges to take, two at each node, at least cost. The only user of CBC; see
+// edges to take, two at each node, at least cost. The only user of GLPK; see
 // docs/decisions/0008-survey-tours.md.
 //
 // A solution is a value per edge, and the best one up to 1e-7 of the longest edge for each node,
-// the solver's tolerance. The same calls give the same bytes, and programs may be solved at the
-// same time. Errors: kNotFound if nothing fulfils the constraints, kInternal if the solver gives
-// up.
+// the solver's tolerance. The same calls give the same bytes. Threads may solve programs at the
+// same time, each its own: a program is made, used and destroyed in one thread. Errors: kNotFound
+// if nothing fulfils the constraints, kInternal if the solver gives up.
 class TourProgram {
  public:
   // REQUIRES: Validate(graph).ok().

@@ -135,11 +135,7 @@ bool IsCholmod(const std::string& include) {
   return absl::EndsWith(include, "cholmod.h") || include == "Eigen/CholmodSupport";
 }
 
-// CBC and what it is made of.
-bool IsCbc(const std::string& include) {
-  static const std::regex kHeader(R"((coin/)?(Cbc|Cgl|Clp|Coin|Osi)\w*\.(hpp|h))");
-  return std::regex_match(include, kHeader);
-}
+bool IsGlpk(const std::string& include) { return include == "glpk.h"; }
 
 // A library that one source of one folder includes, and nobody else in core.
 struct SoleUse {
@@ -148,7 +144,7 @@ struct SoleUse {
   const char* folder;
 };
 constexpr SoleUse kSoleUses[] = {{"CHOLMOD", IsCholmod, "core/linalg"},
-                                 {"CBC", IsCbc, "core/tour"}};
+                                 {"GLPK", IsGlpk, "core/tour"}};
 
 // Why `file` must not include it; empty if it may.
 std::string WhyForbidden(const SourceFile& file, const std::string& include) {

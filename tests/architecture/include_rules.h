@@ -19,7 +19,7 @@ std::vector<std::string> CheckDirections(const std::vector<SourceFile>& files);
 std::vector<std::string> CheckCycles(const std::vector<SourceFile>& files);
 
 // Headers of the platform where they must not be: protobuf, gRPC, threads, files, clocks and global
-// random numbers in core; CHOLMOD and CBC outside their one file; OMPL outside ompl_planners; gRPC
+// random numbers in core; CHOLMOD and GLPK outside their one file; OMPL outside ompl_planners; gRPC
 // and generated code in headers that others include.
 std::vector<std::string> CheckPlatformHeaders(const std::vector<SourceFile>& files);
 

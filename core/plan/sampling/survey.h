@@ -11,8 +11,9 @@
 
 namespace plumescout {
 
-// Most sites of a survey: the integer program of its tour takes up to a second.
-inline constexpr int kMaxSurveySites = 144;
+// Most sites of a survey: for that many the integer program of its tour takes milliseconds to
+// seconds, for more it may take minutes.
+inline constexpr int kMaxSurveySites = 64;
 
 // kInvalidArgument naming the stride and the lattice, unless every stride-th site from the first on
 // has the last row and column among them, and they are at most kMaxSurveySites.
