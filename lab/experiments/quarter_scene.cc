@@ -43,8 +43,8 @@ WindOptions QuarterWind() {
 
 GasParameters QuarterGas() {
   GasParameters gas;
-  gas.initial_sigma_m = 5.0;  // less than a cell
-  gas.diffusivity_m2_per_s = 1.0;
+  gas.initial_sigma_m = 5.0;       // less than a cell
+  gas.diffusivity_m2_per_s = 8.0;  // eddies as large as the houses, 20 m, at 0.4 m/s
   gas.growth_m2_per_s = 1.0;
   gas.mixing_depth_m = 20.0;  // the height of the houses
   return gas;

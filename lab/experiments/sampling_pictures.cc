@@ -115,17 +115,22 @@ absl::StatusOr<std::vector<MapPanel>> PictureUpdates(const SamplingPlan& plan, s
 
 absl::StatusOr<MapPanel> PictureTime(const SamplingPlan& plan, std::size_t row, std::size_t number,
                                      double time_s) {
-  const Scene& scene = plan.worlds[plan.cases[number].world];
+  struct Moment {
+    ErrorPoint error;
+    MapSnapshot map;
+    Progress progress;
+  };
   Progress progress;
-  std::optional<MapPanel> panel;
+  std::optional<Moment> latest;
   SamplingWatch watch;
   watch.on_plan = [&](double, const Plan& made) { TakePlan(made, progress); };
   watch.on_map = [&](const ErrorPoint& error, const MapSnapshot& map) {
-    if (!panel && error.time_s >= time_s) panel = UpdatePanel(scene, map, error, progress);
+    if (!latest || latest->error.time_s < time_s) latest = Moment{error, map, progress};
   };
   PLUMESCOUT_RETURN_IF_ERROR(RunSamplingCase(plan, row, number, watch).status());
-  if (panel) return *std::move(panel);
-  return absl::NotFoundError(absl::StrFormat("no map after %.0f s", time_s));
+  if (!latest) return absl::InternalError("a drive without a map");
+  const Scene& scene = plan.worlds[plan.cases[number].world];
+  return UpdatePanel(scene, latest->map, latest->error, latest->progress);
 }
 
 Chart MakeMeanErrorChart(const std::vector<NamedCurves>& rows, const std::string& title) {

@@ -26,7 +26,7 @@ absl::StatusOr<std::vector<MapPanel>> PictureUpdates(const SamplingPlan& plan, s
                                                      std::size_t number,
                                                      const std::vector<int>& updates);
 
-// One drive anew, up to the first map after `time_s`. kNotFound if there is none.
+// One drive anew: the first map after `time_s`, or the last if the drive ended before.
 absl::StatusOr<MapPanel> PictureTime(const SamplingPlan& plan, std::size_t row, std::size_t number,
                                      double time_s);
 
