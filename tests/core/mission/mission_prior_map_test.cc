@@ -43,6 +43,13 @@ absl::StatusOr<Plan> PlanFor(const Mission& mission, const std::string& strategy
   PlanningOptions planning = mission.options().planning;
   planning.strategy = strategy;
   EXPECT_TRUE(ApplyStrategyRow(planning).ok());
+  const GridGeometry& known = mission.options().prior_map->geometry();
+  planning.sites.spacing_m = known.resolution_m;
+  planning.sites.region =
+      Rectangle{{0.0, 0.0}, {known.width * known.resolution_m, known.height * known.resolution_m}};
+  planning.sites.survey = false;
+  planning.sites.update_period_s = 1e4;
+  planning.dwell_s = 1.0;
   PlanRequest request;
   request.robot = "a";
   return (*MakeStrategy(planning))->Plan(*mission.Snapshot(), request, NeverStop());

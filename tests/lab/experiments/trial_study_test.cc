@@ -98,5 +98,24 @@ TEST(TrialStudy, ScenesAreNamedByTheirFolder) {
   EXPECT_EQ(SceneName("a/b/hall/"), "hall");
 }
 
+TEST(TrialStudy, CoversABuildingWithTheSquaresOfASurvey) {
+  // 7.3 m x 4 m from (-0.2, 1): squares from -1 to 8 and from 1 to 5; every third of 10 and of 4.
+  const Rectangle region = RegionOver({-0.2, 1.0, 0.1, 73, 40}, 1.0, 3);
+  EXPECT_EQ(region, (Rectangle{{-1.0, 1.0}, {9.0, 5.0}}));
+}
+
+TEST(TrialStudy, KnowsTheMapBeforehandIfTheRowSaysSo) {
+  const TempFolder folder;
+  TrialPlan plan = SmallPlan(folder);
+  plan.trials = 1;
+  plan.rows = {plan.rows[0], plan.rows[0]};
+  plan.rows[1].name = "known";
+  plan.rows[1].knows_map = true;
+  const auto records = RunTrials(plan);
+  ASSERT_TRUE(records.ok()) << records.status();
+  EXPECT_LT((*records)[0][0][0].curve.front().metrics.completeness, 0.99);
+  EXPECT_GT((*records)[0][1][0].curve.front().metrics.completeness, 0.99);
+}
+
 }  // namespace
 }  // namespace plumescout::lab

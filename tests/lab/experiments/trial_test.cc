@@ -82,5 +82,19 @@ TEST(Trial, AMissionThatIsInvalidIsAnError) {
             absl::StatusCode::kInvalidArgument);
 }
 
+TEST(Trial, MapsTheSameReadingsByAPeer) {
+  const SceneWorld world(SmallScene());
+  const MissionOptions mission = MissionBy("xit_gff");
+  Trial trial = SmallTrial(mission, world);
+  EXPECT_FALSE(RunTrial(trial)->peer_rmse_ppm.has_value());
+  trial.peer = KernelDmvOptions{};
+  const auto record = RunTrial(trial);
+  ASSERT_TRUE(record.ok() && record->peer_rmse_ppm.has_value());
+  EXPECT_GT(*record->peer_rmse_ppm, 0.0);
+  EXPECT_LT(*record->peer_rmse_ppm, record->curve.back().metrics.rmse_zero_ppm);
+  trial.peer->kernel_width_m = -1.0;
+  EXPECT_TRUE(absl::IsInvalidArgument(RunTrial(trial).status()));
+}
+
 }  // namespace
 }  // namespace plumescout::lab
