@@ -143,6 +143,11 @@ std::vector<std::string> StrategyNames() {
   return names;
 }
 
+bool StopsAtSites(const std::string& strategy) {
+  const auto row = FindRow(strategy);
+  return row.ok() && row->sites != SiteRule::kNone;
+}
+
 absl::Status ApplyStrategyRow(PlanningOptions& options) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const StrategyRow row, FindRow(options.strategy));
   options.goals = row.goals;

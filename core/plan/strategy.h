@@ -52,6 +52,9 @@ class Strategy {
 // those that stop at sites and sample: "ipp_reward", "lhr", "random_sampling", "sweep".
 std::vector<std::string> StrategyNames();
 
+// Whether the row of this name has robots stop at sites and sample.
+bool StopsAtSites(const std::string& strategy);
+
 // Sets the parts of `options` that the row `options.strategy` fixes (goals, cost, ...).
 // kInvalidArgument for an unknown name.
 absl::Status ApplyStrategyRow(PlanningOptions& options);

@@ -36,11 +36,6 @@ constexpr double kDwell_s = 2.0;
 // As wide as its authors take it for robots in rooms.
 constexpr KernelDmvOptions kPeer{0.5, 1.0};
 
-bool StopsAtSites(const std::string& strategy) {
-  return strategy == "lhr" || strategy == "ipp_reward" || strategy == "random_sampling" ||
-         strategy == "sweep";
-}
-
 absl::StatusOr<StudyRow> MakeRow(const std::string& strategy, bool knows_map) {
   PLUMESCOUT_ASSIGN_OR_RETURN(
       StudyRow row,

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/experiments/trial_study.h"
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/plan/sampling/site_lattice.h"
 #include "core/plan/strategy.h"
 #include "core/types/status_macros.h"
 #include "formats/scene_folder.h"
@@ -100,20 +100,6 @@ absl::StatusOr<StudyRow> MakeStudyRow(const std::string& name, const std::string
   planning.draw_goals = as_the_paper;
   planning.fallback_to_unobserved = !as_the_paper;
   return row;
-}
-
-Rectangle RegionOver(const GridGeometry& building, double spacing_m, int stride) {
-  const auto span = [&](double low_m, int cells, double& first_m, double& last_m) {
-    first_m = std::floor(low_m / spacing_m) * spacing_m;
-    const double covering =
-        std::ceil((low_m + cells * building.resolution_m - first_m) / spacing_m);
-    const double legs = std::ceil((covering - 1.0) / stride);
-    last_m = first_m + (legs * stride + 1.0) * spacing_m;
-  };
-  Rectangle region;
-  span(building.origin_x_m, building.width, region.min.x_m, region.max.x_m);
-  span(building.origin_y_m, building.height, region.min.y_m, region.max.y_m);
-  return region;
 }
 
 std::string SceneName(const std::string& folder) {

@@ -46,10 +46,6 @@ struct TrialPlan {
 // Of one building: by row and trial, in the order of the plan.
 using SceneRecords = std::vector<std::vector<TrialRecord>>;
 
-// The squares of `spacing_m` that cover the building, and as many beyond it in the north and east
-// as it takes for a survey of every stride-th site to have the last row and column.
-Rectangle RegionOver(const GridGeometry& building, double spacing_m, int stride);
-
 // By building. Trials with the same number have the same seed in all rows, so they are pairs. The
 // result does not depend on the jobs. Errors: as ReadScene, naming the folder; as RunTrial.
 absl::StatusOr<std::vector<SceneRecords>> RunTrials(const TrialPlan& plan);

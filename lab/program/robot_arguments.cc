@@ -11,6 +11,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
+#include "core/plan/sampling/site_lattice.h"
 #include "core/plan/strategy.h"
 #include "core/types/prior_map.h"
 #include "core/types/status_macros.h"
@@ -104,6 +105,13 @@ void AddGasOptions(CLI::App& app, RobotArguments& arguments) {
                  "Stop and sample: seconds to stand at each vertex of a trajectory");
   app.add_option("--settle", arguments.settling_s,
                  "Readings count only after so many seconds of standing; less than --dwell");
+  app.add_option("--site-spacing", arguments.site_spacing_m,
+                 "Metres between the sites that lhr, ipp_reward, random_sampling and sweep sample, "
+                 "all over the scene")
+      ->check(CLI::Range(0.05, 1000.0));
+  app.add_option("--survey-stride", arguments.survey_stride,
+                 "Every how many sites the survey of lhr has one")
+      ->check(CLI::Range(1, 1000));
 }
 
 void AddMotionOptions(CLI::App& app, RobotArguments& arguments) {
@@ -158,6 +166,12 @@ absl::StatusOr<MissionOptions> MissionOf(const RobotArguments& arguments, const 
   PlanningOptions& planning = mission.planning;
   planning.strategy = arguments.strategy;
   planning.dwell_s = arguments.dwell_s;
+  if (StopsAtSites(arguments.strategy)) {
+    planning.sites.spacing_m = arguments.site_spacing_m;
+    planning.sites.survey_stride = arguments.survey_stride;
+    planning.sites.region =
+        RegionOver(world.scene().geometry(), arguments.site_spacing_m, arguments.survey_stride);
+  }
   planning.speed_mps = arguments.speed_mps.value_or(planning.speed_mps);
   planning.max_turn_rate_rad_per_s = arguments.max_turn_rad_per_s.value_or(0.0);
   planning.max_acceleration_mps2 = arguments.max_acceleration_mps2.value_or(0.0);

@@ -55,6 +55,8 @@ struct RobotArguments {
   std::optional<double> gas_threshold_ppm;
   double dwell_s = 0.0;
   double settling_s = 0.0;
+  double site_spacing_m = SiteOptions{}.spacing_m;
+  int survey_stride = 3;  // of rooms; the papers' 10 is for fields
   PoseErrorOptions pose_error;
   client::Following following = client::Following::kIdeal;
   std::optional<double> speed_mps;

@@ -58,4 +58,18 @@ SiteLattice LatticeOver(const GridGeometry& map, const SiteOptions& options) {
   return CoveringLattice(map, options.spacing_m);
 }
 
+Rectangle RegionOver(const GridGeometry& building, double spacing_m, int stride) {
+  const auto span = [&](double low_m, int cells, double& first_m, double& last_m) {
+    first_m = std::floor(low_m / spacing_m) * spacing_m;
+    const double covering =
+        std::ceil((low_m + cells * building.resolution_m - first_m) / spacing_m);
+    const double legs = std::ceil((covering - 1.0) / stride);
+    last_m = first_m + (legs * stride + 1.0) * spacing_m;
+  };
+  Rectangle region;
+  span(building.origin_x_m, building.width, region.min.x_m, region.max.x_m);
+  span(building.origin_y_m, building.height, region.min.y_m, region.max.y_m);
+  return region;
+}
+
 }  // namespace plumescout

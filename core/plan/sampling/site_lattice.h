@@ -45,4 +45,8 @@ SiteLattice CoveringLattice(const GridGeometry& map, double spacing_m);
 // MakeSiteLattice takes.
 SiteLattice LatticeOver(const GridGeometry& map, const SiteOptions& options);
 
+// The squares of `spacing_m` that cover the building, and as many beyond it in the north and east
+// as it takes for a survey of every stride-th site to have the last row and column.
+Rectangle RegionOver(const GridGeometry& building, double spacing_m, int stride);
+
 }  // namespace plumescout

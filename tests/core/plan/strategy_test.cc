@@ -17,6 +17,13 @@ TEST(StrategyTable, NamesTheRowsOfThePapersAndOurs) {
                           "ipp_reward", "lhr", "random_sampling", "sweep"));
 }
 
+TEST(StrategyTable, TellsThoseThatStopAtSites) {
+  for (const char* name : {"ipp_reward", "lhr", "random_sampling", "sweep"}) {
+    EXPECT_TRUE(StopsAtSites(name)) << name;
+  }
+  for (const char* name : {"plumescout", "mit", "none"}) EXPECT_FALSE(StopsAtSites(name)) << name;
+}
+
 TEST(StrategyTable, DefaultsAreThePartsOfTheRowThatTheyName) {
   PlanningOptions options;
   ASSERT_TRUE(ApplyStrategyRow(options).ok());

@@ -98,12 +98,6 @@ TEST(TrialStudy, ScenesAreNamedByTheirFolder) {
   EXPECT_EQ(SceneName("a/b/hall/"), "hall");
 }
 
-TEST(TrialStudy, CoversABuildingWithTheSquaresOfASurvey) {
-  // 7.3 m x 4 m from (-0.2, 1): squares from -1 to 8 and from 1 to 5; every third of 10 and of 4.
-  const Rectangle region = RegionOver({-0.2, 1.0, 0.1, 73, 40}, 1.0, 3);
-  EXPECT_EQ(region, (Rectangle{{-1.0, 1.0}, {9.0, 5.0}}));
-}
-
 TEST(TrialStudy, KnowsTheMapBeforehandIfTheRowSaysSo) {
   const TempFolder folder;
   TrialPlan plan = SmallPlan(folder);

@@ -98,5 +98,11 @@ TEST(LatticeOver, IsOfTheRegionOrElseOfTheMap) {
   EXPECT_EQ(LatticeOver(map, options).corner, (Point2{1.0, 1.0}));
 }
 
+TEST(SiteLattice, CoversABuildingWithTheSquaresOfASurvey) {
+  // 7.3 m x 4 m from (-0.2, 1): squares from -1 to 8 and from 1 to 5; every third of 10 and of 4.
+  const Rectangle region = RegionOver({-0.2, 1.0, 0.1, 73, 40}, 1.0, 3);
+  EXPECT_EQ(region, (Rectangle{{-1.0, 1.0}, {9.0, 5.0}}));
+}
+
 }  // namespace
 }  // namespace plumescout
