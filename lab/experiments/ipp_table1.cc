@@ -277,10 +277,9 @@ absl::Status AddPictures(const SamplingPlan& plan, ReportFigures& figures) {
 
 // Fig. 3 is of one start; this is the mean over all.
 Chart MakeErrorChart(const Drives& drives) {
-  std::vector<NamedCurves> rows;
+  std::vector<NamedDrives> rows;
   for (std::size_t row = 0; row < std::size(kRows); ++row) {
-    rows.push_back({kRows[row].label, kRows[row].color, {}});
-    for (const SamplingDrive& drive : drives[row]) rows.back().curves.push_back(drive.errors);
+    rows.push_back({kRows[row].label, kRows[row].color, drives[row]});
   }
   return MakeMeanErrorChart(rows, "RMSE over the quarter, ppm (Fig. 3)");
 }
@@ -294,8 +293,7 @@ std::vector<std::string> MakeNotes(const SamplingPlan& plan) {
           plan.cases.size(), plan.time_limit_s),
       "T_r counts until the RMSE, Eq. (14), is as low as that of the sweep from the same start in "
       "the end; the paper's limit of 0.0095 is its sweep's final value too. RMSE is in ppm here, "
-      "so "
-      "it is compared as a share of the sweep's. \"var\" is the paper's sigma^2.",
+      "so it is compared as a share of the sweep's. \"var\" is the paper's sigma^2.",
   };
 }
 

@@ -199,10 +199,9 @@ absl::Status AddPictures(const ExperimentOptions& options, SamplingPlan plan,
 
 // Fig. 4.
 Chart MakeErrorChart(const Drives& drives) {
-  std::vector<NamedCurves> rows;
+  std::vector<NamedDrives> rows;
   for (std::size_t row = 0; row < std::size(kRows); ++row) {
-    rows.push_back({kRows[row].label, kRows[row].color, {}});
-    for (const SamplingDrive& drive : drives[row]) rows.back().curves.push_back(drive.errors);
+    rows.push_back({kRows[row].label, kRows[row].color, drives[row]});
   }
   return MakeMeanErrorChart(rows, "RMSE over the region, ppm (Fig. 4)");
 }

@@ -133,21 +133,25 @@ absl::StatusOr<MapPanel> PictureTime(const SamplingPlan& plan, std::size_t row, 
   return UpdatePanel(scene, latest->map, latest->error, latest->progress);
 }
 
-Chart MakeMeanErrorChart(const std::vector<NamedCurves>& rows, const std::string& title) {
+Chart MakeMeanErrorChart(const std::vector<NamedDrives>& rows, const std::string& title) {
   constexpr double kSecondsPerMinute = 60.0;
   constexpr double kSteps = 400.0;
   double end_s = 0.0;
-  for (const NamedCurves& row : rows) {
-    for (const ErrorCurve& curve : row.curves) end_s = std::max(end_s, curve.back().time_s);
+  for (const NamedDrives& row : rows) {
+    for (const SamplingDrive& drive : row.drives) {
+      end_s = std::max(end_s, drive.errors.back().time_s);
+    }
   }
   Chart chart{title, "time, min", std::nullopt, {}};
   if (!(end_s > 0.0)) return chart;
   const std::vector<double> times_s = EvenTimes_s(end_s, end_s / kSteps);
-  for (const NamedCurves& row : rows) {
+  for (const NamedDrives& row : rows) {
     Curve curve;
     curve.name = row.name;
     curve.stroke = {row.color, 2.0};
-    for (const ErrorPoint& point : MeanCurve(row.curves, times_s)) {
+    std::vector<ErrorCurve> errors;
+    for (const SamplingDrive& drive : row.drives) errors.push_back(drive.errors);
+    for (const ErrorPoint& point : MeanCurve(errors, times_s)) {
       curve.points.push_back({point.time_s / kSecondsPerMinute, point.rmse_ppm});
     }
     chart.curves.push_back(std::move(curve));

@@ -32,12 +32,12 @@ absl::StatusOr<MapPanel> PictureTime(const SamplingPlan& plan, std::size_t row, 
 
 // The mean error of several drives over time, a curve for each row. Drives that ended early keep
 // their last value.
-struct NamedCurves {
+struct NamedDrives {
   std::string name;
   Rgb color;
-  std::vector<ErrorCurve> curves;
+  std::vector<SamplingDrive> drives;
 };
-Chart MakeMeanErrorChart(const std::vector<NamedCurves>& rows, const std::string& title);
+Chart MakeMeanErrorChart(const std::vector<NamedDrives>& rows, const std::string& title);
 
 // Every drive: row and case as labels, then seed, distance, samples, times and errors.
 CsvTable MakeDriveTable(const SamplingPlan& plan,

@@ -30,18 +30,6 @@ std::vector<double> LengthsFrom(const Grid<std::uint8_t>& reachable, Point2 from
   return lengths_m;
 }
 
-// The first M of the sorted rewards, [LHR] Algorithm 1 line 4.
-std::vector<Errand> FirstCandidates(std::vector<Errand> single, int candidates) {
-  const auto kept = std::min(single.size(), static_cast<std::size_t>(candidates));
-  std::partial_sort(single.begin(), single.begin() + static_cast<std::ptrdiff_t>(kept),
-                    single.end(), [](const Errand& a, const Errand& b) {
-                      return a.reward != b.reward ? a.reward > b.reward
-                                                  : a.stops[0].index < b.stops[0].index;
-                    });
-  single.resize(kept);
-  return single;
-}
-
 // (P2) over the candidates, each of one stop.
 absl::StatusOr<SubsetTour> BestCycle(const SamplingQuery& query,
                                      const std::vector<Errand>& candidates) {
@@ -84,8 +72,9 @@ class LowToHighRule : public SamplingRule {
 
  private:
   absl::StatusOr<SamplingChoice> NextCycle(const SamplingQuery& query) const {
+    // The first M of the sorted rewards, Algorithm 1 line 4.
     const std::vector<Errand> candidates =
-        FirstCandidates(Unsampled(query), query.robot.options.sites.candidates);
+        BestFirst(Unsampled(query), query.robot.options.sites.candidates);
     if (candidates.empty()) return SamplingChoice{};
     PLUMESCOUT_ASSIGN_OR_RETURN(const SubsetTour tour, BestCycle(query, candidates));
     SamplingChoice choice;

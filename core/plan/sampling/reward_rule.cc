@@ -45,15 +45,8 @@ class RewardRule : public SamplingRule {
     for (const Site& site : query.sites.offered) {
       if (IsEligible(site, terms)) choice.errands.push_back({{site}, RewardOf(site, terms)});
     }
-    const auto kept =
-        std::min(choice.errands.size(), static_cast<std::size_t>(query.robot.options.max_goals));
-    std::partial_sort(
-        choice.errands.begin(), choice.errands.begin() + static_cast<std::ptrdiff_t>(kept),
-        choice.errands.end(), [](const Errand& a, const Errand& b) {
-          return a.reward != b.reward ? a.reward > b.reward : a.stops[0].index < b.stops[0].index;
-        });
-    choice.errands.resize(kept);
-    if (kept > 0) {
+    choice.errands = BestFirst(std::move(choice.errands), query.robot.options.max_goals);
+    if (!choice.errands.empty()) {
       choice.merit =
           absl::StrFormat("greatest %s, %.4g", NameOf(terms.reward), choice.errands.front().reward);
     }
@@ -62,6 +55,17 @@ class RewardRule : public SamplingRule {
 };
 
 }  // namespace
+
+std::vector<Errand> BestFirst(std::vector<Errand> errands, int count) {
+  const auto kept = std::min(errands.size(), static_cast<std::size_t>(count));
+  std::partial_sort(errands.begin(), errands.begin() + static_cast<std::ptrdiff_t>(kept),
+                    errands.end(), [](const Errand& a, const Errand& b) {
+                      return a.reward != b.reward ? a.reward > b.reward
+                                                  : a.stops[0].index < b.stops[0].index;
+                    });
+  errands.resize(kept);
+  return errands;
+}
 
 RewardTerms TermsOf(const SamplingQuery& query) {
   const PlanningOptions& options = query.robot.options;

@@ -47,6 +47,10 @@ class SamplingRule {
   virtual absl::StatusOr<SamplingChoice> Choose(const SamplingQuery& query) const = 0;
 };
 
+// The `count` errands with the greatest rewards, best first; of equal ones the one whose first stop
+// comes first in the lattice. All if there are fewer. Cost: O(errands log count).
+std::vector<Errand> BestFirst(std::vector<Errand> errands, int count);
+
 // The terms by which the query's sites are judged.
 RewardTerms TermsOf(const SamplingQuery& query);
 

@@ -38,8 +38,10 @@ TEST(SamplingPictures, MarkTheSourcesOfTheTruth) {
 }
 
 TEST(SamplingPictures, ChartTheMeanOverDrives) {
-  const ErrorCurve a = {{0.0, 4.0}, {60.0, 2.0}, {120.0, 2.0}};
-  const ErrorCurve b = {{0.0, 2.0}, {60.0, 0.0}};  // ended early
+  SamplingDrive a;
+  a.errors = {{0.0, 4.0}, {60.0, 2.0}, {120.0, 2.0}};
+  SamplingDrive b;
+  b.errors = {{0.0, 2.0}, {60.0, 0.0}};  // ended early
   const Chart chart = MakeMeanErrorChart({{"row", {}, {a, b}}}, "RMSE");
   ASSERT_THAT(chart.curves, SizeIs(1));
   EXPECT_EQ(chart.curves[0].points.front().y, 3.0);
