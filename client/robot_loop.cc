@@ -213,7 +213,7 @@ absl::Status RobotLoop::AskInLockstep() {
   Backoff backoff(options_.ingest.backoff);
   const absl::Time give_up = absl::Now() + options_.link_patience;
   while (!Over()) {
-    PlanAnswer answer = RunPlanJob(client_, *ingest_, NextJob());
+    PlanAnswer answer = RunPlanCall(client_, *ingest_, NextJob());
     if (answer.reported) report_.reset();
     const absl::Status status = answer.plan.status();
     if (status.ok()) {
@@ -234,7 +234,7 @@ absl::Status RobotLoop::AskInLockstep() {
 absl::Status RobotLoop::AskWhileRunning() {
   if (!pending_.valid()) {
     pending_ = std::async(std::launch::async, [this, job = NextJob()]() mutable {
-      return RunPlanJob(client_, *ingest_, std::move(job));
+      return RunPlanCall(client_, *ingest_, std::move(job));
     });
   }
   if (pending_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
@@ -248,10 +248,10 @@ absl::Status RobotLoop::AskWhileRunning() {
   return Stand(options_.stand_before_retry_s);
 }
 
-PlanJob RobotLoop::NextJob() {
+PlanCall RobotLoop::NextJob() {
   asked_ns_ = driver_.now_ns();
   asked_pose_ = driver_.pose();
-  PlanJob job{.report = report_, .query = {}};
+  PlanCall job{.report = report_, .query = {}};
   job.query.request.robot = options_.participation.robot;
   job.query.request.start = asked_pose_;
   job.query.request.max_edge_evaluations = options_.max_edge_evaluations;

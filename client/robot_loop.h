@@ -14,7 +14,7 @@
 #include "client/ingest_session.h"
 #include "client/join.h"
 #include "client/motion.h"
-#include "client/plan_job.h"
+#include "client/plan_call.h"
 #include "client/planner_client.h"
 #include "client/robot_driver.h"
 #include "client/robot_observer.h"
@@ -105,7 +105,7 @@ class RobotLoop {
 
   absl::Status AskInLockstep();
   absl::Status AskWhileRunning();
-  PlanJob NextJob();
+  PlanCall NextJob();
   absl::Status Digest(PlanAnswer answer);
   absl::Status Depart(const Plan& plan);
 

@@ -2,10 +2,15 @@
 #
 # Makes the library plumescout_core_gas with the alias plumescout::core_gas. Includes are relative
 # to the root of the repository. Without SOURCES the library is an INTERFACE (headers only).
+# PRECOMPILED names the headers that are read once, if not `base`.
 function(plumescout_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS" ${ARGN})
+  cmake_parse_arguments(ARG "" "PRECOMPILED" "SOURCES;DEPS" ${ARGN})
+  if(NOT ARG_PRECOMPILED)
+    set(ARG_PRECOMPILED base)
+  endif()
   if(ARG_SOURCES)
     add_library(plumescout_${name} STATIC ${ARG_SOURCES})
+    plumescout_precompile(plumescout_${name} ${ARG_PRECOMPILED})
     target_include_directories(plumescout_${name} PUBLIC ${PROJECT_SOURCE_DIR})
     target_link_libraries(plumescout_${name} PUBLIC ${ARG_DEPS} PRIVATE plumescout_warnings)
   else()
@@ -24,23 +29,33 @@ function(plumescout_program name)
   target_link_libraries(${name} PRIVATE ${ARG_DEPS} plumescout_warnings)
 endfunction()
 
-# plumescout_test(core/gas/posterior_test DEPS plumescout::core_gas)
+# plumescout_tests(core/gas DEPS plumescout::core_gas)
 #
-# Builds tests/core/gas/posterior_test.cc into one program, registered with CTest under its path.
-function(plumescout_test path)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "DEPS" ${ARGN})
-  if(NOT ARG_TIMEOUT)
-    set(ARG_TIMEOUT 120)
+# Builds every *_test.cc in and below tests/core/gas into the program core_gas_tests. CTest has one
+# test for each file, under its path: core/gas/posterior_test.
+function(plumescout_tests folder)
+  cmake_parse_arguments(ARG "" "PRECOMPILED" "DEPS" ${ARGN})
+  if(NOT ARG_PRECOMPILED)
+    set(ARG_PRECOMPILED tests)
   endif()
-  string(REPLACE "/" "_" target ${path})
-  plumescout_program(${target} SOURCES ${PROJECT_SOURCE_DIR}/tests/${path}.cc
-                     DEPS ${ARG_DEPS} GTest::gmock_main)
+  string(REPLACE "/" "_" target ${folder}_tests)
+  file(GLOB_RECURSE sources RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
+       ${PROJECT_SOURCE_DIR}/tests/${folder}/*_test.cc)
+  list(TRANSFORM sources PREPEND ${PROJECT_SOURCE_DIR}/ OUTPUT_VARIABLE paths)
+  plumescout_program(${target} SOURCES ${paths} DEPS ${ARG_DEPS} plumescout::tests_main)
+  target_compile_options(${target} PRIVATE ${PLUMESCOUT_TEST_OPTIONS})
+  plumescout_precompile(${target} ${ARG_PRECOMPILED})
   if(TARGET plumescout_tsan_absl)
     add_dependencies(${target} plumescout_tsan_absl)  # preloaded
   endif()
-  add_test(NAME ${path} COMMAND ${target} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
-  set_tests_properties(${path} PROPERTIES TIMEOUT ${ARG_TIMEOUT}
-                       ENVIRONMENT "${PLUMESCOUT_TEST_ENVIRONMENT}")
+  foreach(source ${sources})
+    string(REGEX REPLACE "^tests/(.*)\\.cc$" "\\1" name ${source})
+    add_test(NAME ${name} COMMAND ${target} --source=${source}
+             WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+    set_tests_properties(${name} PROPERTIES TIMEOUT 120
+                         ENVIRONMENT "${PLUMESCOUT_TEST_ENVIRONMENT}")
+  endforeach()
+  set_property(GLOBAL APPEND PROPERTY PLUMESCOUT_TEST_PROGRAMS ${target})
 endfunction()
 
 # plumescout_bench(gas_bench DEPS plumescout::core_gas): lab/bench/gas_bench.cc

@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "absl/strings/str_cat.h"
-#include "server/command_line.h"
-#include "server/log.h"
+#include "server/base/log.h"
+#include "server/config/command_line.h"
 #include "server/server.h"
 
 namespace plumescout::server {

@@ -14,8 +14,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/types/status_macros.h"
-#include "server/errors.h"
-#include "server/log.h"
+#include "server/base/errors.h"
+#include "server/base/log.h"
 
 namespace plumescout::server {
 namespace {

@@ -10,13 +10,13 @@
 
 #include "absl/status/statusor.h"
 #include "absl/time/time.h"
-#include "server/config.h"
-#include "server/ingest_service.h"
-#include "server/map_service.h"
-#include "server/mission_service.h"
-#include "server/planning_service.h"
-#include "server/robot_service.h"
-#include "server/service_context.h"
+#include "server/config/config.h"
+#include "server/services/ingest_service.h"
+#include "server/services/map_service.h"
+#include "server/services/mission_service.h"
+#include "server/services/planning_service.h"
+#include "server/services/robot_service.h"
+#include "server/streams/service_context.h"
 
 namespace plumescout::server {
 

@@ -10,11 +10,11 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/grid/flood.h"
-#include "core/plan/edge_cost.h"
+#include "core/plan/cost/edge_cost.h"
+#include "core/plan/cost/information_field.h"
 #include "core/plan/explanation.h"
-#include "core/plan/goals/goal_set.h"
+#include "core/plan/goals/goal_offer.h"
 #include "core/plan/goals/travel_budget.h"
-#include "core/plan/information_field.h"
 #include "core/plan/plan_start.h"
 #include "core/plan/selection/choice.h"
 #include "core/plan/trajectory_timing.h"
@@ -119,7 +119,7 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
   Rng rng(plan.seed ^ kGoalStream);
   const GoalQuery query = {
       belief, belief.robots.at(request.robot), start_cell, reachable, options_, request.go_home};
-  GoalSet goals = FindGoals(query, rng);
+  GoalOffer goals = FindGoals(query, rng);
   std::move(goals.rejected.begin(), goals.rejected.end(), std::back_inserter(plan.rejected));
   if (goals.goals.empty()) {
     plan.end = goals.complete          ? PlanEnd::kMissionComplete

@@ -9,7 +9,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/plan/departure.h"
-#include "core/plan/goals/goal_set.h"
+#include "core/plan/goals/goal_offer.h"
 #include "core/plan/paths/path_planner.h"
 #include "core/plan/selection/candidate_terms.h"
 #include "core/plan/strategy.h"

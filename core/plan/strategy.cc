@@ -12,9 +12,9 @@
 #include "core/plan/paths/path_planners.h"
 #include "core/plan/sampling/reward.h"
 #include "core/plan/sampling/sampling_rule.h"
-#include "core/plan/sampling/sampling_strategy.h"
 #include "core/plan/sampling/site_lattice.h"
 #include "core/plan/sampling/survey.h"
+#include "core/plan/sampling_strategy.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {

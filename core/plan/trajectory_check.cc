@@ -10,11 +10,11 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/grid/ray.h"
+#include "core/plan/cost/edge_cost.h"
+#include "core/plan/cost/information_field.h"
 #include "core/plan/departure.h"
-#include "core/plan/edge_cost.h"
 #include "core/plan/goals/frontier_goals.h"
 #include "core/plan/goals/home_goal.h"
-#include "core/plan/information_field.h"
 #include "core/plan/paths/shortcut.h"
 #include "core/plan/sampling/site_lattice.h"
 #include "core/plan/sampling/sites.h"
@@ -229,10 +229,10 @@ IntendedPath PathTo(GoalKind kind, std::vector<Point2> vertices, const GridGeome
   return path;
 }
 
-TrajectoryCheck CheckTrajectory(const Belief& belief, const RobotId& robot,
-                                const IntendedPath& path, const PlanningOptions& options) {
+TrajectoryVerdict CheckTrajectory(const Belief& belief, const RobotId& robot,
+                                  const IntendedPath& path, const PlanningOptions& options) {
   const RobotRecord& record = belief.robots.at(robot);
-  TrajectoryCheck check;
+  TrajectoryVerdict check;
   check.blockage = FindBlockage(belief, path.vertices);
   check.rejection = JudgeGoal(belief, record, path, options);
   if (!check.blockage) check.rest = Price(belief, record, path, options);

@@ -10,7 +10,7 @@
 #include "core/types/options.h"
 #include "core/types/plan.h"
 #include "core/types/pose2.h"
-#include "core/types/trajectory_check.h"
+#include "core/types/trajectory_verdict.h"
 
 namespace plumescout {
 
@@ -40,7 +40,7 @@ IntendedPath PathTo(GoalKind kind, std::vector<Point2> vertices, const GridGeome
 // better by now is a question for a new plan. The price is without information expected. REQUIRES:
 // the robot is known; the path has a vertex; vertices are finite and fewer than 2^30 cells apart.
 // Cost: O(cells).
-TrajectoryCheck CheckTrajectory(const Belief& belief, const RobotId& robot,
-                                const IntendedPath& path, const PlanningOptions& options);
+TrajectoryVerdict CheckTrajectory(const Belief& belief, const RobotId& robot,
+                                  const IntendedPath& path, const PlanningOptions& options);
 
 }  // namespace plumescout

@@ -12,7 +12,7 @@
 
 #include "CLI/Config.hpp"
 #include "CLI/Formatter.hpp"
-#include "lab/bench/about.h"
+#include "lab/about/about.h"
 
 namespace plumescout::lab {
 

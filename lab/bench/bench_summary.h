@@ -9,11 +9,11 @@
 
 #include "CLI/App.hpp"
 #include "absl/status/status.h"
-#include "formats/summary.h"
+#include "lab/formats/summary.h"
 
 namespace plumescout::lab {
 
-// Figures of one run, and what they were measured on; see formats/summary.h for the file.
+// Figures of one run, and what they were measured on; see lab/formats/summary.h for the file.
 class BenchSummary {
  public:
   explicit BenchSummary(std::uint64_t seed);

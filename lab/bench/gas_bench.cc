@@ -17,12 +17,12 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
-#include "core/gas/belief_propagation.h"
 #include "core/types/status_macros.h"
 #include "lab/bench/bench_summary.h"
 #include "lab/bench/gas_case.h"
 #include "lab/bench/gas_events.h"
 #include "lab/bench/gas_peers.h"
+#include "lab/rivals/belief_propagation.h"
 
 namespace plumescout::lab {
 namespace {

@@ -9,7 +9,7 @@
 #include "core/gas/reading_store.h"
 #include "core/types/rng.h"
 #include "core/types/status_macros.h"
-#include "lab/bench/bench_world.h"
+#include "lab/worlds/bench_world.h"
 
 namespace plumescout::lab {
 namespace {

@@ -19,11 +19,11 @@
 #include "client/grpc_planner_client.h"
 #include "core/types/status_macros.h"
 #include "lab/bench/bench_summary.h"
-#include "lab/bench/bench_world.h"
 #include "lab/bench/load_robot.h"
 #include "lab/bench/load_timings.h"
 #include "lab/bench/load_watcher.h"
 #include "lab/bench/server_process.h"
+#include "lab/worlds/bench_world.h"
 
 namespace plumescout::lab {
 namespace {

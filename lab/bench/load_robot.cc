@@ -7,7 +7,7 @@
 #include "absl/time/clock.h"
 #include "client/path_follower.h"
 #include "core/types/status_macros.h"
-#include "lab/bench/bench_world.h"
+#include "lab/worlds/bench_world.h"
 
 namespace plumescout::lab {
 namespace {

@@ -23,7 +23,7 @@
 #include "core/occupancy/scan_inserter.h"
 #include "core/types/status_macros.h"
 #include "lab/bench/bench_summary.h"
-#include "lab/bench/bench_world.h"
+#include "lab/worlds/bench_world.h"
 
 namespace plumescout::lab {
 namespace {

@@ -21,11 +21,11 @@
 #include "core/plan/strategy.h"
 #include "core/types/status_macros.h"
 #include "lab/bench/bench_summary.h"
-#include "lab/bench/grid_oracle.h"
-#include "lab/bench/known_building.h"
 #include "lab/bench/plan_case.h"
 #include "lab/bench/planner_registry.h"
-#include "lab/bench/random_world.h"
+#include "lab/worlds/grid_oracle.h"
+#include "lab/worlds/known_building.h"
+#include "lab/worlds/random_world.h"
 
 namespace plumescout::lab {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <cstdint>
 
-#include "core/plan/edge_cost.h"
-#include "core/plan/information_field.h"
+#include "core/plan/cost/edge_cost.h"
+#include "core/plan/cost/information_field.h"
 #include "core/plan/paths/path_planner.h"
-#include "lab/bench/random_world.h"
+#include "lab/worlds/random_world.h"
 
 namespace plumescout::lab {
 

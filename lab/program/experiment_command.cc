@@ -14,8 +14,8 @@
 #include "absl/strings/str_format.h"
 #include "absl/time/clock.h"
 #include "core/types/status_macros.h"
-#include "lab/experiments/experiments.h"
 #include "lab/program/progress_line.h"
+#include "lab/studies/experiments.h"
 
 namespace plumescout::lab {
 namespace {

@@ -16,7 +16,7 @@
 #include "core/plan/strategy.h"
 #include "core/types/status_macros.h"
 #include "formats/file_io.h"
-#include "formats/png.h"
+#include "lab/formats/png.h"
 #include "lab/program/plan_json.h"
 #include "lab/program/planning_step.h"
 #include "lab/program/progress_line.h"

@@ -10,7 +10,7 @@
 #include "absl/status/statusor.h"
 #include "core/belief/belief.h"
 #include "core/mission/mission.h"
-#include "core/plan/information_field.h"
+#include "core/plan/cost/information_field.h"
 #include "core/plan/paths/path_planner.h"
 #include "core/types/ids.h"
 #include "core/types/plan.h"

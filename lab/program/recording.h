@@ -14,11 +14,11 @@
 #include "core/mission/mission.h"
 #include "core/types/event.h"
 #include "core/types/options.h"
-#include "formats/event_log.h"
+#include "lab/formats/event_log.h"
 
 namespace plumescout::lab {
 
-// A mission on disk: FILE is the log of its events (formats/event_log.h), FILE.options.json its
+// A mission on disk: FILE is the log of its events (lab/formats/event_log.h), FILE.options.json its
 // options, as JSON of plumescout.v1.MissionOptions.
 
 // Writes a new recording, event by event. Not thread-safe.

@@ -16,7 +16,7 @@
 #include "client/grpc_planner_client.h"
 #include "core/plan/strategy.h"
 #include "core/types/status_macros.h"
-#include "formats/scene_folder.h"
+#include "lab/formats/scene_folder.h"
 #include "lab/local/local_planner_client.h"
 #include "lab/program/progress_line.h"
 #include "lab/program/recording.h"

@@ -12,12 +12,12 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "core/types/status_macros.h"
-#include "formats/csv.h"
 #include "formats/file_io.h"
 #include "formats/map_server.h"
-#include "formats/npy.h"
-#include "formats/summary.h"
-#include "lab/bench/about.h"
+#include "lab/about/about.h"
+#include "lab/formats/csv.h"
+#include "lab/formats/npy.h"
+#include "lab/formats/summary.h"
 #include "lab/report/report.h"
 
 namespace plumescout::lab {

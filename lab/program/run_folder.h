@@ -7,7 +7,7 @@
 
 #include "absl/status/status.h"
 #include "core/types/map_snapshot.h"
-#include "formats/scene.h"
+#include "lab/formats/scene.h"
 #include "lab/sim/episode.h"
 
 namespace plumescout::lab {

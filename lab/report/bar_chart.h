@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/image.h"
+#include "lab/formats/image.h"
 #include "lab/report/canvas.h"
 
 namespace plumescout::lab {

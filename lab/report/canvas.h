@@ -5,7 +5,7 @@
 #include <span>
 
 #include "absl/strings/string_view.h"
-#include "formats/image.h"
+#include "lab/formats/image.h"
 
 namespace plumescout::lab {
 

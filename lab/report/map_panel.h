@@ -9,7 +9,7 @@
 
 #include "core/types/grid_geometry.h"
 #include "core/types/pose2.h"
-#include "formats/image.h"
+#include "lab/formats/image.h"
 #include "lab/report/canvas.h"
 #include "lab/report/color_scale.h"
 

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "formats/image.h"
+#include "lab/formats/image.h"
 
 namespace plumescout::lab {
 

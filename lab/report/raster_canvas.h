@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "absl/strings/string_view.h"
-#include "formats/image.h"
+#include "lab/formats/image.h"
 #include "lab/report/canvas.h"
 
 namespace plumescout::lab {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "formats/image.h"
+#include "lab/formats/image.h"
 #include "lab/report/bar_chart.h"
 #include "lab/report/chart.h"
 #include "lab/report/map_panel.h"

@@ -8,7 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_replace.h"
-#include "formats/png.h"
+#include "lab/formats/png.h"
 
 namespace plumescout::lab {
 namespace {

@@ -5,7 +5,7 @@
 #include "absl/status/statusor.h"
 #include "core/types/cell_state.h"
 #include "core/types/grid.h"
-#include "formats/scene.h"
+#include "lab/formats/scene.h"
 #include "lab/sim/mac_field.h"
 
 namespace plumescout::lab {

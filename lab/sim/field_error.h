@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/types/map_snapshot.h"
-#include "formats/scene.h"
+#include "lab/formats/scene.h"
 
 namespace plumescout::lab {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/types/grid.h"
-#include "formats/scene.h"
+#include "lab/formats/scene.h"
 
 namespace plumescout::lab {
 

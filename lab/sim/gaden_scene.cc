@@ -19,9 +19,9 @@
 #include "core/grid/flood.h"
 #include "core/grid/mask.h"
 #include "core/types/status_macros.h"
-#include "formats/gaden_environment.h"
-#include "formats/gaden_frame.h"
-#include "formats/gaden_wind.h"
+#include "lab/formats/gaden_environment.h"
+#include "lab/formats/gaden_frame.h"
+#include "lab/formats/gaden_wind.h"
 #include "lab/sim/frame_recorder.h"
 #include "lab/sim/gaden_slice.h"
 

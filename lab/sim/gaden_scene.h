@@ -8,7 +8,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/types/pose2.h"
-#include "formats/scene.h"
+#include "lab/formats/scene.h"
 #include "lab/sim/scene_maker.h"
 
 namespace plumescout::lab {

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "formats/gaden_wind.h"
+#include "lab/formats/gaden_wind.h"
 
 namespace plumescout::lab {
 namespace {

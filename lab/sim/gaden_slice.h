@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/types/grid.h"
-#include "formats/gaden_environment.h"
-#include "formats/gaden_frame.h"
+#include "lab/formats/gaden_environment.h"
+#include "lab/formats/gaden_frame.h"
 
 namespace plumescout::lab {
 

@@ -7,7 +7,7 @@
 
 #include "absl/status/status.h"
 #include "core/types/pose2.h"
-#include "formats/scene.h"
+#include "lab/formats/scene.h"
 
 namespace plumescout::lab {
 

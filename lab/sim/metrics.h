@@ -7,7 +7,7 @@
 #include "core/types/cell.h"
 #include "core/types/map_snapshot.h"
 #include "core/types/pose2.h"
-#include "formats/scene.h"
+#include "lab/formats/scene.h"
 
 namespace plumescout::lab {
 

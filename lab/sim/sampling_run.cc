@@ -9,7 +9,7 @@
 
 #include "absl/base/thread_annotations.h"
 #include "absl/synchronization/mutex.h"
-#include "client/plan_job.h"
+#include "client/plan_call.h"
 #include "core/types/checker.h"
 #include "core/types/rng.h"
 #include "core/types/status_macros.h"

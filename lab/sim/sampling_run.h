@@ -16,7 +16,7 @@
 #include "core/types/plan.h"
 #include "core/types/pose2.h"
 #include "core/types/stop.h"
-#include "formats/scene.h"
+#include "lab/formats/scene.h"
 #include "lab/sim/dwell_sensor.h"
 #include "lab/sim/field_error.h"
 

@@ -8,7 +8,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/strings/string_view.h"
-#include "formats/scene.h"
+#include "lab/formats/scene.h"
 #include "lab/sim/layout.h"
 #include "lab/sim/wind.h"
 

@@ -6,7 +6,7 @@
 #include "core/types/cell_state.h"
 #include "core/types/grid.h"
 #include "core/types/pose2.h"
-#include "formats/scene.h"
+#include "lab/formats/scene.h"
 
 namespace plumescout::lab {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/types/rng.h"
-#include "formats/scene.h"
+#include "lab/formats/scene.h"
 #include "lab/sim/floor_plan.h"
 
 namespace plumescout::lab {

@@ -31,7 +31,7 @@ absl::StatusOr<std::vector<Point2>> PointsFromProto(
   return result;
 }
 
-v1::CheckTrajectoryResponse ToProto(const TrajectoryCheck& check) {
+v1::CheckTrajectoryResponse ToProto(const TrajectoryVerdict& check) {
   v1::CheckTrajectoryResponse proto;
   if (check.blockage) {
     v1::Blockage& blockage = *proto.mutable_blockage();

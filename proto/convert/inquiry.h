@@ -9,7 +9,7 @@
 #include "core/types/gas_at_place.h"
 #include "core/types/plan.h"
 #include "core/types/pose2.h"
-#include "core/types/trajectory_check.h"
+#include "core/types/trajectory_verdict.h"
 #include "plumescout/v1/map_service.pb.h"
 #include "plumescout/v1/planning_service.pb.h"
 
@@ -25,7 +25,7 @@ absl::StatusOr<std::vector<Point2>> PointsFromProto(
     absl::string_view field);
 
 // All but the revision.
-v1::CheckTrajectoryResponse ToProto(const TrajectoryCheck& check);
+v1::CheckTrajectoryResponse ToProto(const TrajectoryVerdict& check);
 v1::FrontierGoal ToProto(const JudgedFrontier& frontier);
 v1::GasAtPoint ToProto(const GasAtPlace& gas);
 

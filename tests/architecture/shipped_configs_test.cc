@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "server/config_file.h"
+#include "server/config/config_file.h"
 #include "tests/architecture/source_tree.h"
 
 namespace plumescout {

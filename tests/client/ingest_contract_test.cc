@@ -13,7 +13,9 @@
 namespace plumescout::client {
 namespace {
 
-TEST_P(PlannerClientContract, ObservationsAreAcknowledgedAndNeverDurableYet) {
+class IngestContract : public PlannerClientContract {};
+
+TEST_P(IngestContract, ObservationsAreAcknowledgedAndNeverDurableYet) {
   const RobotSession session = Register();
   const auto stream = Open(session);
 
@@ -26,7 +28,7 @@ TEST_P(PlannerClientContract, ObservationsAreAcknowledgedAndNeverDurableYet) {
   EXPECT_GE(sent->state.revision, 20);
 }
 
-TEST_P(PlannerClientContract, RepeatedObservationsAreAcknowledgedOnceMoreAndCountOnce) {
+TEST_P(IngestContract, RepeatedObservationsAreAcknowledgedOnceMoreAndCountOnce) {
   const RobotSession session = Register();
   const auto stream = Open(session);
   ASSERT_TRUE(SendAll(*stream, GasRange(1, 5)).ok());
@@ -37,7 +39,7 @@ TEST_P(PlannerClientContract, RepeatedObservationsAreAcknowledgedOnceMoreAndCoun
   EXPECT_EQ(client().GetMap("house")->gas_counters.readings, 8);
 }
 
-TEST_P(PlannerClientContract, AHoleEndsTheStreamAndNamesTheNumberExpected) {
+TEST_P(IngestContract, AHoleEndsTheStreamAndNamesTheNumberExpected) {
   const RobotSession session = Register();
   const auto stream = Open(session);
   ASSERT_TRUE(SendAll(*stream, GasRange(1, 2)).ok());
@@ -50,7 +52,7 @@ TEST_P(PlannerClientContract, AHoleEndsTheStreamAndNamesTheNumberExpected) {
   EXPECT_THAT(std::string(status.message()), ::testing::HasSubstr("3"));
 }
 
-TEST_P(PlannerClientContract, ADeclaredGapMovesTheLogOn) {
+TEST_P(IngestContract, ADeclaredGapMovesTheLogOn) {
   const RobotSession session = Register();
   const auto stream = Open(session);
   Observation gap = GasAt(1);
@@ -63,7 +65,7 @@ TEST_P(PlannerClientContract, ADeclaredGapMovesTheLogOn) {
   EXPECT_EQ(client().GetMap("house")->gas_counters.readings, 1);
 }
 
-TEST_P(PlannerClientContract, ABadObservationIsRefusedAloneAndCountsAsApplied) {
+TEST_P(IngestContract, ABadObservationIsRefusedAloneAndCountsAsApplied) {
   const RobotSession session = Register();
   const auto stream = Open(session);
   std::vector<Observation> batch = GasRange(1, 3);
@@ -79,7 +81,7 @@ TEST_P(PlannerClientContract, ABadObservationIsRefusedAloneAndCountsAsApplied) {
   EXPECT_EQ(client().GetMap("house")->robots[0].rejected_observations, 1);
 }
 
-TEST_P(PlannerClientContract, ObservationsBeyondTheCreditEndTheStream) {
+TEST_P(IngestContract, ObservationsBeyondTheCreditEndTheStream) {
   const RobotSession session = Register();
   const auto stream = Open(session);
   const std::int64_t credit = stream->opened().credit_sequence;
@@ -92,7 +94,7 @@ TEST_P(PlannerClientContract, ObservationsBeyondTheCreditEndTheStream) {
   EXPECT_TRUE(absl::IsResourceExhausted(status)) << status;
 }
 
-TEST_P(PlannerClientContract, ReadWithoutRepliesTimesOutAndTheStreamLivesOn) {
+TEST_P(IngestContract, ReadWithoutRepliesTimesOutAndTheStreamLivesOn) {
   const RobotSession session = Register();
   const auto stream = Open(session);
 
@@ -102,7 +104,7 @@ TEST_P(PlannerClientContract, ReadWithoutRepliesTimesOutAndTheStreamLivesOn) {
   EXPECT_EQ(SendAll(*stream, GasRange(1, 1)).status(), absl::OkStatus());
 }
 
-TEST_P(PlannerClientContract, ANewStreamResumesWhereTheLogEnds) {
+TEST_P(IngestContract, ANewStreamResumesWhereTheLogEnds) {
   const RobotSession session = Register();
   {
     const auto stream = Open(session);
@@ -117,7 +119,7 @@ TEST_P(PlannerClientContract, ANewStreamResumesWhereTheLogEnds) {
   EXPECT_EQ(SendAll(*stream, GasRange(8, 9)).status(), absl::OkStatus());
 }
 
-TEST_P(PlannerClientContract, ANewStreamOfTheSameClientReplacesItsOldOne) {
+TEST_P(IngestContract, ANewStreamOfTheSameClientReplacesItsOldOne) {
   const RobotSession session = Register();
   const auto old_stream = Open(session);
 
@@ -128,7 +130,7 @@ TEST_P(PlannerClientContract, ANewStreamOfTheSameClientReplacesItsOldOne) {
   EXPECT_EQ(SendAll(*stream, GasRange(1, 1)).status(), absl::OkStatus());
 }
 
-TEST_P(PlannerClientContract, TwoRobotsKeepTheirOwnLogs) {
+TEST_P(IngestContract, TwoRobotsKeepTheirOwnLogs) {
   const RobotSession one = Register("one");
   const RobotSession two = Register("two");
   const auto stream_one = Open(one);
@@ -141,7 +143,7 @@ TEST_P(PlannerClientContract, TwoRobotsKeepTheirOwnLogs) {
   EXPECT_EQ(Open(two)->opened().applied_sequence, 3);
 }
 
-TEST_P(PlannerClientContract, StreamsMayBeLeftUnfinished) {
+TEST_P(IngestContract, StreamsMayBeLeftUnfinished) {
   const RobotSession session = Register();
   for (int i = 0; i < 20; ++i) {
     const auto stream = Open(session);
@@ -151,8 +153,7 @@ TEST_P(PlannerClientContract, StreamsMayBeLeftUnfinished) {
   EXPECT_NE(Open(session), nullptr);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, PlannerClientContract, ::testing::ValuesIn(AllBackends()),
-                         BackendName);
+INSTANTIATE_TEST_SUITE_P(All, IngestContract, ::testing::ValuesIn(AllBackends()), BackendName);
 
 }  // namespace
 }  // namespace plumescout::client

@@ -17,7 +17,9 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-TEST_P(PlannerClientContract, MissionsAreCreatedListedAndDeleted) {
+class MissionContract : public PlannerClientContract {};
+
+TEST_P(MissionContract, MissionsAreCreatedListedAndDeleted) {
   EXPECT_TRUE(absl::IsAlreadyExists(client().CreateMission("house", {})));
   EXPECT_TRUE(client().CreateMission("barn", {}).ok());
   EXPECT_THAT(*client().ListMissions(), ElementsAre("barn", "house"));
@@ -29,7 +31,7 @@ TEST_P(PlannerClientContract, MissionsAreCreatedListedAndDeleted) {
   EXPECT_TRUE(absl::IsNotFound(client().GetMap("house").status()));
 }
 
-TEST_P(PlannerClientContract, BadNamesAndOptionsAreRefused) {
+TEST_P(MissionContract, BadNamesAndOptionsAreRefused) {
   EXPECT_TRUE(absl::IsInvalidArgument(client().CreateMission("House!", {})));
   EXPECT_TRUE(absl::IsInvalidArgument(client().CreateMission("", {})));
   MissionOptions options;
@@ -41,12 +43,12 @@ TEST_P(PlannerClientContract, BadNamesAndOptionsAreRefused) {
       absl::IsInvalidArgument(client().RegisterRobot("house", "scout", -1.0, false).status()));
 }
 
-TEST_P(PlannerClientContract, RobotsOfUnknownMissionsAreNotFound) {
+TEST_P(MissionContract, RobotsOfUnknownMissionsAreNotFound) {
   EXPECT_TRUE(
       absl::IsNotFound(client().RegisterRobot("nowhere", "scout", kRadius_m, false).status()));
 }
 
-TEST_P(PlannerClientContract, AFreshRobotStartsWithAnEmptyLogAndSomeCredit) {
+TEST_P(MissionContract, AFreshRobotStartsWithAnEmptyLogAndSomeCredit) {
   const RobotSession session = Register();
 
   EXPECT_EQ(session.mission, "house");
@@ -59,7 +61,7 @@ TEST_P(PlannerClientContract, AFreshRobotStartsWithAnEmptyLogAndSomeCredit) {
   EXPECT_GT(stream->opened().credit_sequence, 0);
 }
 
-TEST_P(PlannerClientContract, ALeaseInUseIsNotGivenAwayUnlessTakenOver) {
+TEST_P(MissionContract, ALeaseInUseIsNotGivenAwayUnlessTakenOver) {
   const RobotSession first = Register();
   const auto stream = Open(first);
 
@@ -72,7 +74,7 @@ TEST_P(PlannerClientContract, ALeaseInUseIsNotGivenAwayUnlessTakenOver) {
   EXPECT_EQ(ErrorReason(ReadUntilError(*stream)), kLeaseSuperseded);
 }
 
-TEST_P(PlannerClientContract, AnOldLeaseIsFencedOffEverywhere) {
+TEST_P(MissionContract, AnOldLeaseIsFencedOffEverywhere) {
   const RobotSession first = Register();
   const auto second = client().RegisterRobot("house", "scout", kRadius_m, true);
   ASSERT_TRUE(second.ok());
@@ -85,7 +87,7 @@ TEST_P(PlannerClientContract, AnOldLeaseIsFencedOffEverywhere) {
   EXPECT_NE(Open(*second), nullptr);
 }
 
-TEST_P(PlannerClientContract, TheMapShowsWhatWasSeen) {
+TEST_P(MissionContract, TheMapShowsWhatWasSeen) {
   const RobotSession session = Register();
   const auto stream = Open(session);
   std::vector<Observation> batch = LookAround(8);
@@ -107,7 +109,7 @@ TEST_P(PlannerClientContract, TheMapShowsWhatWasSeen) {
   EXPECT_EQ(map->gas_counters.readings, 1);
 }
 
-TEST_P(PlannerClientContract, DeletingAMissionEndsItsStreams) {
+TEST_P(MissionContract, DeletingAMissionEndsItsStreams) {
   const RobotSession session = Register();
   const auto stream = Open(session);
 
@@ -117,8 +119,7 @@ TEST_P(PlannerClientContract, DeletingAMissionEndsItsStreams) {
   EXPECT_TRUE(absl::IsNotFound(client().OpenObservationStream(session).status()));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, PlannerClientContract, ::testing::ValuesIn(AllBackends()),
-                         BackendName);
+INSTANTIATE_TEST_SUITE_P(All, MissionContract, ::testing::ValuesIn(AllBackends()), BackendName);
 
 }  // namespace
 }  // namespace plumescout::client

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "core/plan/paths/path_planners.h"
-#include "lab/bench/grid_oracle.h"
+#include "lab/worlds/grid_oracle.h"
 #include "tests/support/path_case.h"
 
 namespace plumescout {

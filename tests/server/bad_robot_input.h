@@ -6,7 +6,7 @@
 #include "plumescout/v1/planning_service.pb.h"
 #include "proto/convert/inquiry.h"
 #include "proto/convert/observation.h"
-#include "server/config.h"
+#include "server/config/config.h"
 #include "tests/server/bad_input.h"
 
 namespace plumescout::server {

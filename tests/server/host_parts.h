@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/mission/mission.h"
-#include "server/mission_host.h"
-#include "server/mission_registry.h"
+#include "server/missions/mission_host.h"
+#include "server/missions/mission_registry.h"
 #include "tests/support/box_room.h"
 #include "tests/support/room_run.h"
 #include "tests/support/scripted_strategy.h"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "formats/gaden_environment.h"
-#include "formats/gaden_frame.h"
+#include "lab/formats/gaden_environment.h"
+#include "lab/formats/gaden_frame.h"
 
 namespace plumescout::support {
 

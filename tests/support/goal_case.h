@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "core/grid/flood.h"
-#include "core/plan/goals/goal_set.h"
+#include "core/plan/goals/goal_offer.h"
 #include "tests/support/plan_map.h"
 
 namespace plumescout::testing {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/belief/belief.h"
-#include "core/plan/information_field.h"
+#include "core/plan/cost/information_field.h"
 #include "core/types/grid.h"
 #include "core/types/plan.h"
 #include "core/types/rng.h"

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "formats/scene.h"
+#include "lab/formats/scene.h"
 
 namespace plumescout {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/plan/goals/goal_set.h"
+#include "core/plan/goals/goal_offer.h"
 #include "core/types/frontier.h"
 
 namespace plumescout {

@@ -11,8 +11,8 @@
 #include "core/frontier/gas_frontier.h"
 #include "core/grid/grid_search.h"
 #include "core/grid/window_sums.h"
+#include "core/plan/cost/relevance.h"
 #include "core/plan/goals/frontier_goals.h"
-#include "core/plan/relevance.h"
 
 namespace plumescout {
 namespace {

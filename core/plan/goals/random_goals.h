@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/plan/goals/goal_set.h"
+#include "core/plan/goals/goal_offer.h"
 #include "core/types/plan.h"
 #include "core/types/rng.h"
 

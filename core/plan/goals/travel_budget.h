@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/plan/goals/goal_set.h"
+#include "core/plan/goals/goal_offer.h"
 #include "core/types/plan.h"
 
 namespace plumescout {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/plan/edge_cost.h"
+#include "core/plan/cost/edge_cost.h"
 #include "core/plan/paths/shortcut.h"
 #include "core/types/stop.h"
 

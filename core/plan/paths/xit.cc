@@ -8,10 +8,10 @@
 #include <limits>
 #include <queue>
 
+#include "core/plan/cost/sampler.h"
 #include "core/plan/paths/connection_radius.h"
-#include "core/plan/paths/goal_sets.h"
+#include "core/plan/paths/goal_neighbours.h"
 #include "core/plan/paths/neighbour_index.h"
-#include "core/plan/sampler.h"
 
 namespace plumescout {
 namespace {
@@ -72,8 +72,8 @@ class XitSearch {
         informed_(options.informed_heuristic),
         graph_(MakeGraph(problem, options)),
         near_(graph_.points, Radius_m(problem, options, graph_.sample_count)),  // line 7
-        goal_sets_(graph_.points, graph_.sample_count, graph_.goal_vertices,
-                   options.nearest_samples),  // lines 3-5
+        goal_neighbours_(graph_.points, graph_.sample_count, graph_.goal_vertices,
+                         options.nearest_samples),  // lines 3-5
         g_(graph_.points.size(), kInfinity),
         parent_(graph_.points.size(), kNoParent),
         taken_(graph_.points.size(), 0),
@@ -150,7 +150,7 @@ class XitSearch {
     near_.ForEachNear(At(v), [&](int w, double length_m) {  // lines 15-19
       within_budget = within_budget && Try(v, w, length_m);
     });
-    for (const auto& [from, w] : goal_sets_.EdgesFrom(v)) {
+    for (const auto& [from, w] : goal_neighbours_.EdgesFrom(v)) {
       within_budget = within_budget && Try(v, w, Distance_m(At(v), At(w)));
     }
     return within_budget;
@@ -229,7 +229,7 @@ class XitSearch {
   bool informed_;  // h may exceed the price of the way
   Graph graph_;
   NeighbourIndex near_;
-  GoalSets goal_sets_;
+  GoalNeighbours goal_neighbours_;
   std::vector<double> g_;            // cost to come in the tree, g_tau
   std::vector<int> parent_;          // E
   std::vector<std::uint8_t> taken_;  // no longer in Q_v

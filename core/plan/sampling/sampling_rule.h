@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "core/plan/goals/goal_set.h"
+#include "core/plan/goals/goal_offer.h"
 #include "core/plan/sampling/reward.h"
 #include "core/plan/sampling/sites.h"
 #include "core/types/options.h"

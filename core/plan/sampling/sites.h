@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/belief/belief.h"
-#include "core/plan/goals/goal_set.h"
+#include "core/plan/goals/goal_offer.h"
 #include "core/plan/sampling/site_lattice.h"
 #include "core/types/plan.h"
 

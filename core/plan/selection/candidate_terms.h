@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/plan/edge_cost.h"
+#include "core/plan/cost/edge_cost.h"
 #include "core/types/grid.h"
 #include "core/types/plan.h"
 #include "core/types/pose2.h"

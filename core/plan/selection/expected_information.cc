@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/plan/relevance.h"
+#include "core/plan/cost/relevance.h"
 
 namespace plumescout {
 namespace {

@@ -28,7 +28,7 @@ class ExpectedInformation {
   // Holds references to the belief. Cost: O(cells).
   explicit ExpectedInformation(const Belief& belief);
 
-  // The sum over free cells of relevance (core/plan/relevance.h) times 1/2 ln(variance now /
+  // The sum over free cells of relevance (core/plan/cost/relevance.h) times 1/2 ln(variance now /
   // variance then), in nats. None if the belief has no gas field yet. Cost: that of
   // GasWhatIf::VarianceIfRead and O(cells).
   std::optional<double> Of(const std::vector<Cell>& readings) const;

@@ -9,7 +9,7 @@
 
 #include "core/grid/grid_search.h"
 #include "core/plan/composed_strategy.h"
-#include "lab/bench/random_world.h"
+#include "lab/worlds/random_world.h"
 #include "tests/support/goal_case.h"
 #include "tests/support/strategy_case.h"
 

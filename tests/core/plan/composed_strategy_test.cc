@@ -10,7 +10,7 @@
 #include <set>
 #include <vector>
 
-#include "lab/bench/random_world.h"
+#include "lab/worlds/random_world.h"
 #include "tests/support/goal_case.h"
 #include "tests/support/strategy_case.h"
 

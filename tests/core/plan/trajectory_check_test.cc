@@ -43,20 +43,20 @@ void SetState(Belief& belief, Cell cell, CellState state, bool traversable) {
   belief.traversable = std::make_shared<const Grid<std::uint8_t>>(open);
 }
 
-TrajectoryCheck Check(const Belief& belief, const IntendedPath& path) {
+TrajectoryVerdict Check(const Belief& belief, const IntendedPath& path) {
   return CheckTrajectory(belief, "r", path, {});
 }
 
 // The rejection of a goal whose path may be what it likes.
 RejectionReason Objection(const Belief& belief, const IntendedPath& path) {
-  const TrajectoryCheck check = Check(belief, path);
+  const TrajectoryVerdict check = Check(belief, path);
   EXPECT_TRUE(check.rejection.has_value());
   return check.rejection ? check.rejection->reason : RejectionReason::kNotDrawn;
 }
 
 TEST(CheckTrajectory, FindsNothingWrongWhileNothingChanges) {
   const Belief belief = Hall();
-  const TrajectoryCheck check = Check(belief, East(belief));
+  const TrajectoryVerdict check = Check(belief, East(belief));
   EXPECT_FALSE(check.blockage.has_value());
   EXPECT_FALSE(check.rejection.has_value());
   ASSERT_TRUE(check.rest.has_value());
@@ -69,7 +69,7 @@ TEST(CheckTrajectory, AcceptsTheOwnPlansOfThePlanner) {
     const auto plan = testing::TryPlan(belief, testing::For("r"));
     ASSERT_TRUE(plan.ok()) << plan.status();
     for (const Candidate& candidate : plan->candidates) {
-      const TrajectoryCheck check = Check(belief, {candidate.path, candidate.goal});
+      const TrajectoryVerdict check = Check(belief, {candidate.path, candidate.goal});
       EXPECT_FALSE(check.blockage.has_value());
       EXPECT_FALSE(check.rejection.has_value());
       ASSERT_TRUE(check.rest.has_value());
@@ -84,7 +84,7 @@ TEST(CheckTrajectory, NamesTheFirstBlockedCellAndTheWayToIt) {
   Belief belief = Hall();
   SetState(belief, {5, 2}, CellState::kOccupied, false);
   SetState(belief, {7, 2}, CellState::kOccupied, false);
-  const TrajectoryCheck check = Check(belief, East(belief));
+  const TrajectoryVerdict check = Check(belief, East(belief));
   ASSERT_TRUE(check.blockage.has_value());
   EXPECT_EQ(check.blockage->cell, (Cell{5, 2}));
   EXPECT_EQ(check.blockage->state, CellState::kOccupied);
@@ -102,7 +102,7 @@ TEST(CheckTrajectory, CountsTheWayOverAllSegments) {
       PathTo(GoalKind::kRandomFreeSpace,
              {At(belief, {1, 2}), At(belief, {3, 2}), At(belief, {3, 3}), At(belief, {8, 3})},
              belief.geometry());
-  const TrajectoryCheck check = Check(belief, path);
+  const TrajectoryVerdict check = Check(belief, path);
   ASSERT_TRUE(check.blockage.has_value());
   EXPECT_EQ(check.blockage->state, CellState::kFree) << "too near an obstacle";
   EXPECT_NEAR(check.blockage->distance_m, 0.2 + 0.1 + 0.15, kRounding);
@@ -114,7 +114,7 @@ TEST(CheckTrajectory, UnknownAndOffTheMapAreBlocked) {
       PathTo(GoalKind::kRandomFreeSpace, {At(belief, {1, 2}), {5.0, 0.25}}, belief.geometry());
   EXPECT_EQ(Check(belief, path).blockage.value().state, CellState::kUnknown);
   path.vertices = {{-3.0, 0.25}, At(belief, {1, 2})};
-  const TrajectoryCheck check = Check(belief, path);
+  const TrajectoryVerdict check = Check(belief, path);
   EXPECT_FALSE(check.blockage.value().state.has_value());
   EXPECT_EQ(check.blockage->distance_m, 0.0);
   EXPECT_EQ(check.rejection.value().reason, RejectionReason::kUnreachable);
@@ -269,7 +269,7 @@ struct Sampling {
   }
   Point2 At(int x) const { return belief.geometry().Center({x, 0}); }
   IntendedPath Rest() const { return RestOfPlan(belief, "r", 4).value(); }
-  TrajectoryCheck Check() const { return CheckTrajectory(belief, "r", Rest(), options); }
+  TrajectoryVerdict Check() const { return CheckTrajectory(belief, "r", Rest(), options); }
 
   Belief belief = testing::SiteBelief(testing::OpenArt(20, 1));
   PlanningOptions options = testing::SiteOptionsOf("lhr", belief.geometry());

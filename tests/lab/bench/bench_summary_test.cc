@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "lab/bench/about.h"
+#include "lab/about/about.h"
 
 namespace plumescout::lab {
 namespace {

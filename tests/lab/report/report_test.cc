@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "formats/file_io.h"
-#include "formats/png.h"
+#include "lab/formats/png.h"
 #include "lab/report/sheet.h"
 #include "tests/support/small_report.h"
 #include "tests/support/temp_folder.h"

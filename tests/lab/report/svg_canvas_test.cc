@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "absl/strings/escaping.h"
-#include "formats/png.h"
+#include "lab/formats/png.h"
 
 namespace plumescout::lab {
 namespace {

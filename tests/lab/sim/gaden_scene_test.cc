@@ -10,7 +10,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "formats/file_io.h"
-#include "formats/zlib_codec.h"
+#include "lab/formats/zlib_codec.h"
 #include "lab/sim/gaden_slice.h"
 #include "tests/support/gaden_files.h"
 #include "tests/support/temp_folder.h"

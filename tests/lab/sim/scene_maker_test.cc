@@ -11,7 +11,7 @@
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
-#include "formats/scene_folder.h"
+#include "lab/formats/scene_folder.h"
 #include "lab/sim/layout_raster.h"
 #include "tests/lab/sim/small_layout.h"
 #include "tests/support/temp_folder.h"

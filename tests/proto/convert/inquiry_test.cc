@@ -48,7 +48,7 @@ TEST(InquiryTest, PointsAreWithinTheLimit) {
 }
 
 TEST(InquiryTest, AFreePathHasAPriceAndNoObjections) {
-  TrajectoryCheck check;
+  TrajectoryVerdict check;
   check.rest = Candidate{};
   check.rest->length_m = 2.5;
   const v1::CheckTrajectoryResponse proto = ToProto(check);
@@ -57,7 +57,7 @@ TEST(InquiryTest, AFreePathHasAPriceAndNoObjections) {
 }
 
 TEST(InquiryTest, ABlockedPathSaysWhereAndWhy) {
-  TrajectoryCheck check;
+  TrajectoryVerdict check;
   check.blockage = Blockage{{3, 4}, {0.3, 0.45}, 1.25, CellState::kOccupied};
   check.rejection = RejectedGoal{{}, RejectionReason::kGone, "no frontier"};
   const v1::CheckTrajectoryResponse proto = ToProto(check);

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "lab/bench/grid_oracle.h"
+#include "lab/worlds/grid_oracle.h"
 #include "tests/support/path_case.h"
 
 namespace plumescout {

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "lab/bench/grid_oracle.h"
+#include "lab/worlds/grid_oracle.h"
 #include "tests/support/path_case.h"
 
 namespace plumescout {

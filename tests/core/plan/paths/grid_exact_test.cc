@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lab/bench/grid_oracle.h"
+#include "lab/worlds/grid_oracle.h"
 #include "tests/support/path_case.h"
 
 namespace plumescout {

@@ -9,9 +9,9 @@
 #include <limits>
 #include <vector>
 
+#include "core/plan/cost/sampler.h"
 #include "core/plan/paths/connection_radius.h"
-#include "core/plan/sampler.h"
-#include "lab/bench/grid_oracle.h"
+#include "lab/worlds/grid_oracle.h"
 #include "tests/support/path_case.h"
 
 namespace plumescout {

@@ -93,7 +93,7 @@ struct World {
   GasMap gas{GasOptions()};
 };
 
-// The formula of core/plan/relevance.h, in double precision, for the default thresholds.
+// The formula of core/plan/cost/relevance.h, in double precision, for the default thresholds.
 double RelevanceOf(double gas_ppm, double greatest_ppm) {
   const double sure_ppm = 2.0 * FrontierOptions().min_gas_threshold_ppm;
   const double gas = std::max(0.0, gas_ppm);

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/cost/information_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plumescout {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+// Contrast below this share of the field's size is rounding of the posterior, not information.
+constexpr float kFlatContrast = 1e-5F;
+
+// Denominator of Eq. (9): over all free cells, inflated zone included, as in the paper.
+float MaxMean_ppm(const InformationFieldInput& input) {
+  float max_ppm = static_cast<float>(input.frontier.min_gas_threshold_ppm);
+  for (const float mean_ppm : input.mean_ppm.values()) {
+    if (std::isfinite(mean_ppm)) max_ppm = std::max(max_ppm, mean_ppm);
+  }
+  return max_ppm;
+}
+
+// Eq. (8) of one cell.
+class UpperConfidenceBound {
+ public:
+  UpperConfidenceBound(const InformationFieldInput& input, const PlanningOptions& options)
+      : prior_mean_ppm_(static_cast<float>(input.gas.background_mean_ppm)),
+        prior_variance_ppm2_(static_cast<float>(OpenLatticeVariance_ppm2(input.gas))),
+        mean_scale_(1.0F / MaxMean_ppm(input)),
+        variance_scale_(options.raw_variance ? 1.0F : 1.0F / prior_variance_ppm2_),
+        variance_limit_(options.raw_variance ? kInfinity : 1.0F),
+        beta_(static_cast<float>(options.beta)) {}
+
+  float operator()(float mean_ppm, float variance_ppm2) const {
+    if (!std::isfinite(mean_ppm)) mean_ppm = prior_mean_ppm_;
+    if (!std::isfinite(variance_ppm2)) variance_ppm2 = prior_variance_ppm2_;
+    const float mean = std::max(0.0F, mean_ppm) * mean_scale_;
+    return mean + beta_ * std::min(variance_limit_, variance_ppm2 * variance_scale_);
+  }
+
+ private:
+  float prior_mean_ppm_;
+  float prior_variance_ppm2_;
+  float mean_scale_;
+  float variance_scale_;
+  float variance_limit_;
+  float beta_;
+};
+
+struct Range {
+  float low = kInfinity;
+  float high = -kInfinity;
+
+  bool flat() const {
+    return !(high - low > kFlatContrast * std::max(std::abs(low), std::abs(high)));
+  }
+};
+
+// Writes I of Eq. (8) into `values` on the traversable cells and returns I_min and I_max.
+Range WriteInformation(const InformationFieldInput& input, const UpperConfidenceBound& bound,
+                       Grid<float>& values) {
+  Range range;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (input.traversable[i] == 0) continue;
+    values[i] = bound(input.mean_ppm[i], input.variance_ppm2[i]);
+    range.low = std::min(range.low, values[i]);
+    range.high = std::max(range.high, values[i]);
+  }
+  return range;
+}
+
+}  // namespace
+
+InformationField MakeInformationField(const InformationFieldInput& input,
+                                      const PlanningOptions& options) {
+  InformationField field;
+  field.information = Grid<float>(input.traversable.geometry(), 0.0F);
+  field.penalty = Grid<float>(input.traversable.geometry(), kInfinity);
+  const Range range =
+      WriteInformation(input, UpperConfidenceBound(input, options), field.information);
+  field.flat = range.flat();
+  const float scale = field.flat ? 0.0F : 1.0F / (range.high - range.low);
+  constexpr float kFlatInformation = 0.5F;
+  for (std::size_t i = 0; i < field.penalty.size(); ++i) {
+    if (input.traversable[i] == 0) continue;
+    float& information = field.information[i];
+    information = field.flat  // Eq. (10)
+                      ? kFlatInformation
+                      : std::clamp((information - range.low) * scale, 0.0F, 1.0F);
+    field.penalty[i] = std::max(1.0F - information, kMinPenalty);  // Eq. (11)
+    field.min_penalty = std::min(field.min_penalty, field.penalty[i]);
+  }
+  return field;
+}
+
+}  // namespace plumescout

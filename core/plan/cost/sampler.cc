@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/cost/sampler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/plan/cost/hilbert.h"
+
+namespace plumescout {
+namespace {
+
+// Successive draws without replacement, by exponential keys (Efraimidis and Spirakis 2006): the
+// `count` least of Exp(1) / q have the law of drawing one after the other.
+std::vector<Cell> DrawIid(const Grid<float>& mass, std::size_t count, Rng& rng) {
+  std::vector<std::pair<double, std::size_t>> keys;
+  for (std::size_t i = 0; i < mass.size(); ++i) {
+    if (mass[i] > 0.0F) keys.emplace_back(-std::log1p(-rng.Uniform01()) / mass[i], i);
+  }
+  count = std::min(count, keys.size());
+  std::nth_element(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(count), keys.end());
+  keys.resize(count);
+  std::sort(keys.begin(), keys.end(),
+            [](const auto& a, const auto& b) { return a.second < b.second; });
+  std::vector<Cell> samples;
+  samples.reserve(count);
+  for (const auto& [key, index] : keys) samples.push_back(mass.geometry().CellAtIndex(index));
+  return samples;
+}
+
+// Distance in mass between systematic draws. Cells with at least that much are drawn for certain
+// and the others share the draws that remain, so that no cell is met twice.
+// REQUIRES: more than `count` cells with mass.
+double SystematicStep(const Grid<float>& mass, std::size_t count) {
+  double step = std::numeric_limits<double>::infinity();
+  std::size_t certain = 0;
+  while (
+      true) {  // ends: the step shrinks and more cells become certain in every round but the last
+    double shared_mass = 0.0;
+    std::size_t now_certain = 0;
+    for (const float q : mass.values()) {
+      const bool is_certain = q >= step;
+      now_certain += is_certain ? 1 : 0;
+      shared_mass += is_certain ? 0.0 : static_cast<double>(q);
+    }
+    const bool settled = std::isfinite(step) && now_certain == certain;
+    if (settled || now_certain >= count) return step;
+    certain = now_certain;
+    step = shared_mass / static_cast<double>(count - certain);
+  }
+}
+
+std::vector<Cell> DrawSystematic(const Grid<float>& mass, std::size_t count, Rng& rng) {
+  const auto cells_with_mass = static_cast<std::size_t>(
+      std::count_if(mass.values().begin(), mass.values().end(), [](float q) { return q > 0.0F; }));
+  const double step = count < cells_with_mass ? SystematicStep(mass, count) : 0.0;
+  std::vector<Cell> samples;
+  samples.reserve(std::min(count, cells_with_mass));
+  double until_next = step * (1.0 - rng.Uniform01());  // in (0, step]
+  ForEachCellAlongHilbert(mass.width(), mass.height(), [&](Cell cell) {
+    const double q = mass[cell];
+    if (q <= 0.0) return;
+    if (q >= step) {
+      samples.push_back(cell);
+      return;
+    }
+    until_next -= q;
+    if (until_next > 0.0) return;
+    samples.push_back(cell);
+    until_next += step;
+  });
+  return samples;
+}
+
+}  // namespace
+
+Grid<float> SamplingMass(const InformationField& field, const Grid<std::uint8_t>& domain,
+                         Cell robot_cell, double uniform_share) {
+  Grid<float> mass(domain.geometry(), 0.0F);
+  double information = 0.0;
+  double cells = 0.0;
+  for (std::size_t i = 0; i < mass.size(); ++i) {
+    if (domain[i] == 0) continue;
+    information += field.information[i];
+    cells += 1.0;
+  }
+  if (domain.At(robot_cell, 0) != 0) {
+    information -= field.information[robot_cell];
+    cells -= 1.0;
+  }
+  if (cells <= 0.0) return mass;
+  const bool no_information = information <= 0.0;
+  const auto per_information =
+      no_information ? 0.0F : static_cast<float>((1.0 - uniform_share) / information);
+  const auto per_cell = static_cast<float>((no_information ? 1.0 : uniform_share) / cells);
+  for (std::size_t i = 0; i < mass.size(); ++i) {
+    if (domain[i] != 0) mass[i] = per_information * field.information[i] + per_cell;  // Eq. (14)
+  }
+  if (mass.Contains(robot_cell)) mass[robot_cell] = 0.0F;
+  return mass;
+}
+
+std::vector<Cell> DrawSamples(const Grid<float>& mass, int count, SamplingKind kind, Rng& rng) {
+  const auto wanted = static_cast<std::size_t>(std::max(count, 0));
+  return kind == SamplingKind::kIid ? DrawIid(mass, wanted, rng)
+                                    : DrawSystematic(mass, wanted, rng);
+}
+
+}  // namespace plumescout

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/goals/goal_offer.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "core/plan/goals/frontier_goals.h"
+#include "core/plan/goals/goal_policy.h"
+#include "core/plan/goals/home_goal.h"
+#include "core/plan/goals/information_goals.h"
+#include "core/plan/goals/random_goals.h"
+
+namespace plumescout {
+
+GoalOffer GoHome(const GoalQuery& query) {
+  GoalOffer result;
+  const HomeGoal home = FindHome(query);
+  if (!home.reachable) {
+    result.rejected.push_back({home.goal, RejectionReason::kUnreachable, "no traversable way"});
+  } else if (!home.is_there) {
+    result.goals.push_back(home.goal);
+  }
+  return result;
+}
+
+GoalOffer FindGoals(const GoalQuery& query, Rng& rng) {
+  if (query.go_home) return GoHome(query);
+  FrontierGoals frontiers = FindFrontierGoals(query);
+  GoalOffer result;
+  result.rejected = std::move(frontiers.rejected);
+  result.goals = ChooseByPolicy(std::move(frontiers), query.options, rng, result.rejected);
+  if (query.options.goals == GoalPolicy::kEverything) {
+    const std::vector<Goal> telling = InformationGoals(query, result.rejected);
+    result.goals.insert(result.goals.end(), telling.begin(), telling.end());
+  }
+  if (!result.goals.empty()) return result;
+
+  result.fallback = true;
+  // Without a gas sensor all would stay unobserved, and the mission would never end.
+  if (query.options.fallback_to_unobserved && query.belief.gas_counters.readings > 0) {
+    result.goals = UnobservedGoals(query, rng);
+  }
+  if (!result.goals.empty()) return result;
+
+  const bool others_are_exploring = std::any_of(
+      result.rejected.begin(), result.rejected.end(),
+      [](const RejectedGoal& goal) { return goal.reason == RejectionReason::kClaimed; });
+  if (query.robot.fruitless_fallbacks >= query.options.fallback_limit && !others_are_exploring) {
+    result.fallback = false;
+    if (query.options.return_home) {
+      GoalOffer way_home = GoHome(query);
+      result.goals = std::move(way_home.goals);
+      std::move(way_home.rejected.begin(), way_home.rejected.end(),
+                std::back_inserter(result.rejected));
+    }
+    result.complete = result.goals.empty();
+    return result;
+  }
+  result.goals = RandomGoals(query, rng);
+  return result;
+}
+
+}  // namespace plumescout

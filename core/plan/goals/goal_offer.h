@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "core/belief/belief.h"
+#include "core/types/options.h"
+#include "core/types/plan.h"
+#include "core/types/rng.h"
+
+namespace plumescout {
+
+// For whom goals are sought. Holds references: for the length of one call.
+struct GoalQuery {
+  const Belief& belief;
+  const RobotRecord& robot;
+  Cell start;                           // traversable
+  const Grid<std::uint8_t>& reachable;  // 1: traversable and connected to `start`
+  const PlanningOptions& options;
+  bool go_home = false;  // home is the only goal
+};
+
+struct GoalOffer {
+  std::vector<Goal> goals;
+  std::vector<RejectedGoal> rejected;
+  bool fallback = false;  // nothing else was left: `goals` are random places
+  bool complete = false;  // nothing is left to do: `goals` is empty
+};
+
+// Nothing to drive to if the robot is home already, and a rejection if there is no way.
+GoalOffer GoHome(const GoalQuery& query);
+
+// Where to go, by options.goals (section VI-B of [XIT]); under kEverything also where readings tell
+// much (see InformationGoals). If nothing can be offered, places with unobserved gas are (ours,
+// options.fallback_to_unobserved; not before the first gas reading), then random free ones
+// (section VII); once options.fallback_limit fallbacks in a row revealed nothing, the mission is
+// complete instead. A goal that another robot is on its way to keeps the mission open, for what
+// that robot finds may need this one; one that is set aside does not, or a frontier that no visit
+// can dissolve would keep robots driving for ever. With options.return_home the robot
+// goes home before its mission is complete. If query.go_home, this is GoHome.
+// Deterministic in the query and `rng`. Cost: O(cells).
+GoalOffer FindGoals(const GoalQuery& query, Rng& rng);
+
+}  // namespace plumescout

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "absl/strings/string_view.h"
+
+namespace plumescout::lab {
+
+// One zstd frame that holds `bytes`. kInternal if the library fails.
+absl::StatusOr<std::string> CompressZstd(absl::string_view bytes);
+
+// Unpacks one zstd frame into `size` bytes at `out`, never more. kDataLoss if the frame is damaged
+// or holds another number of bytes.
+absl::Status DecompressZstd(absl::string_view frame, char* out, std::size_t size);
+
+}  // namespace plumescout::lab

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/studies/experiments.h"
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "core/types/status_macros.h"
+#include "lab/studies/all_strategies.h"
+#include "lab/studies/gas_validation.h"
+#include "lab/studies/ipp_table1.h"
+#include "lab/studies/lhr_table2.h"
+#include "lab/studies/mit_table1.h"
+#include "lab/studies/own_strategy.h"
+#include "lab/studies/wind_validation.h"
+#include "lab/studies/xit_episode.h"
+#include "lab/studies/xit_fig3.h"
+#include "lab/studies/xit_fig4.h"
+#include "lab/studies/xit_fig5.h"
+#include "lab/studies/xit_table3.h"
+#include "lab/studies/xit_trial.h"
+
+namespace plumescout::lab {
+namespace {
+
+struct Experiment {
+  const char* name;
+  absl::StatusOr<Study> (*run)(const ExperimentOptions&);
+};
+
+constexpr Experiment kExperiments[] = {
+    {"all_strategies", RunAllStrategies},
+    {"gas_validation", RunGasValidation},
+    {"ipp_table1", RunIppTable1},
+    {"lhr_table2", RunLhrTable2},
+    {"mit_table1", RunMitTable1},
+    {"own_strategy", RunOwnStrategy},
+    {"wind_validation", RunWindValidation},
+    {"xit_episode", RunXitEpisode},
+    {"xit_fig3", RunXitFig3},
+    {"xit_fig4", RunXitFig4},
+    {"xit_fig5", RunXitFig5},
+    {"xit_table3", RunXitTable3},
+    {"xit_trial", RunXitTrial},
+};
+
+absl::Status Validate(const ExperimentOptions& options) {
+  if (options.trials.value_or(1) < 1) {
+    return absl::InvalidArgumentError(absl::StrCat("trials = ", *options.trials, " must be >= 1"));
+  }
+  if (options.jobs >= 1) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat("jobs = ", options.jobs, " must be >= 1"));
+}
+
+}  // namespace
+
+std::vector<std::string> ExperimentNames() {
+  std::vector<std::string> names;
+  for (const Experiment& experiment : kExperiments) names.emplace_back(experiment.name);
+  return names;
+}
+
+absl::StatusOr<Study> RunExperiment(const std::string& name, const ExperimentOptions& options) {
+  PLUMESCOUT_RETURN_IF_ERROR(Validate(options));
+  for (const Experiment& experiment : kExperiments) {
+    if (name == experiment.name) return experiment.run(options);
+  }
+  return absl::InvalidArgumentError(absl::StrCat("no experiment \"", name, "\"; there are ",
+                                                 absl::StrJoin(ExperimentNames(), ", ")));
+}
+
+}  // namespace plumescout::lab

@@ -1,0 +1,290 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/studies/own_strategy.h"
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "core/types/status_macros.h"
+#include "lab/about/about.h"
+#include "lab/formats/scene_folder.h"
+#include "lab/report/palette.h"
+#include "lab/trials/oracle.h"
+#include "lab/trials/row_figures.h"
+#include "lab/trials/study_scenes.h"
+#include "lab/trials/task_pool.h"
+#include "lab/trials/trial_study.h"
+
+namespace plumescout::lab {
+namespace {
+
+constexpr std::uint64_t kFirstBuilding = 1;  // 101 and on were tuned on
+constexpr int kBuildings = 20;
+constexpr int kQuickBuildings = 2;
+constexpr int kTrials = 2;
+constexpr double kDuration_s = 300.0;
+constexpr double kQuickDuration_s = 60.0;
+
+struct Contestant {
+  const char* name;
+  const char* label;
+  const char* strategy;
+  bool of_the_paper;  // goals at random, and random places once no frontier is left
+};
+
+constexpr std::size_t kBaseline = 0;
+constexpr std::size_t kGff = 2;
+constexpr std::size_t kGffOurs = 3;
+constexpr std::size_t kOwn = 4;
+constexpr Contestant kContestants[] = {
+    {"rrt_star_frontier", "RRT* frontier", "rrt_star_frontier", true},
+    {"rrt_star_frontier_ours", "RRT* frontier, our fallback", "rrt_star_frontier", false},
+    {"xit_gff", "XIT-GFF, paper", "xit_gff", true},
+    {"xit_gff_ours", "XIT-GFF, our options", "xit_gff", false},
+    {"plumescout", "plumescout", "plumescout", false},
+};
+constexpr Rgb kColors[] = {
+    {36, 99, 201}, {130, 170, 225}, {206, 30, 60}, {225, 140, 150}, {20, 130, 90}};
+
+absl::StatusOr<TrialPlan> MakePlan(const ExperimentOptions& options,
+                                   std::vector<std::string> scenes) {
+  TrialPlan plan;
+  for (const Contestant& contestant : kContestants) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(
+        StudyRow row, MakeStudyRow(contestant.name, contestant.strategy, contestant.of_the_paper));
+    plan.rows.push_back(std::move(row));
+  }
+  plan.scenes = std::move(scenes);
+  plan.trials = options.trials.value_or(options.quick ? 1 : kTrials);
+  plan.first_seed = options.seed;
+  plan.duration_s = options.quick ? kQuickDuration_s : kDuration_s;
+  plan.folder = absl::StrCat(options.folder, "/trials");
+  plan.jobs = options.jobs;
+  return plan;
+}
+
+// What one strategy, or the oracle, reached in one building: means over trials.
+struct Reached {
+  double rmse_ppm = 0.0;
+  double entropy_nats = 0.0;  // per critical cell
+  double completeness = 0.0;
+};
+
+struct Building {
+  std::string name;
+  std::vector<Reached> rows;
+  Reached oracle;
+  double rmse_zero_ppm = 0.0;
+};
+
+Reached MeanOf(const std::vector<TrialRecord>& trials) {
+  Reached mean;
+  const auto n = static_cast<double>(trials.size());
+  for (const TrialRecord& trial : trials) {
+    const MapMetrics& m = trial.curve.back().metrics;
+    mean.rmse_ppm += Rmse_ppm(m) / n;
+    mean.entropy_nats += EntropyPerCell_nats(m) / n;
+    mean.completeness += Completeness(m) / n;
+  }
+  return mean;
+}
+
+// As many readings as the robots took, greedily for the entropy.
+absl::StatusOr<std::vector<Building>> Judge(const TrialPlan& plan,
+                                            const std::vector<SceneRecords>& records,
+                                            const std::function<void(double)>& progress) {
+  std::vector<Building> buildings(records.size());
+  PLUMESCOUT_RETURN_IF_ERROR(RunTasks(
+      records.size(), plan.jobs,
+      [&](std::size_t i) -> absl::Status {
+        Building& building = buildings[i];
+        building.name = SceneName(plan.scenes[i]);
+        for (const std::vector<TrialRecord>& trials : records[i]) {
+          building.rows.push_back(MeanOf(trials));
+        }
+        PLUMESCOUT_ASSIGN_OR_RETURN(const Scene scene, ReadScene(plan.scenes[i]));
+        const int readings = records[i][kBaseline].front().gas_readings;
+        PLUMESCOUT_ASSIGN_OR_RETURN(
+            const MapMetrics best,
+            PlaceReadings(scene, plan.rows.front().mission.gas, readings, OracleAim::kEntropy));
+        building.oracle = {Rmse_ppm(best), EntropyPerCell_nats(best), 1.0};
+        building.rmse_zero_ppm = best.rmse_zero_ppm;
+        return absl::OkStatus();
+      },
+      progress));
+  return buildings;
+}
+
+// A figure of one row in all buildings. RMSE as share of that of an all-zero map, so that buildings
+// with much gas do not count for more.
+using FigureFn = double (*)(const Building&, const Reached&);
+double RmseShare(const Building& building, const Reached& reached) {
+  return reached.rmse_ppm / building.rmse_zero_ppm;
+}
+double Entropy(const Building&, const Reached& reached) { return reached.entropy_nats; }
+double Complete(const Building&, const Reached& reached) { return reached.completeness; }
+
+std::vector<double> Of(const std::vector<Building>& buildings, std::size_t row, FigureFn figure) {
+  std::vector<double> values;
+  for (const Building& building : buildings) {
+    values.push_back(figure(building, building.rows[row]));
+  }
+  return values;
+}
+
+double MeanOfOracle(const std::vector<Building>& buildings, FigureFn figure) {
+  std::vector<double> values;
+  for (const Building& building : buildings) {
+    values.push_back(figure(building, building.oracle));
+  }
+  return SpreadOf(values).mean;
+}
+
+// Share of the oracle's gain over row `from`, of the means over buildings.
+double OracleShare(const std::vector<Building>& buildings, std::size_t row, std::size_t from,
+                   FigureFn figure) {
+  const double base = SpreadOf(Of(buildings, from, figure)).mean;
+  const double gain = base - SpreadOf(Of(buildings, row, figure)).mean;
+  return gain / (base - MeanOfOracle(buildings, figure));
+}
+
+TextTable MakeTextTable(const std::vector<Building>& buildings) {
+  TextTable table;
+  table.title = "Means over buildings [± 95 % interval]";
+  table.columns = {"strategy",
+                   "RMSE / that of an all-zero map",
+                   "share of the oracle's gain",
+                   "entropy, nats per critical cell",
+                   "share of the oracle's gain",
+                   "map complete",
+                   "p: plumescout against it, RMSE",
+                   "entropy",
+                   "completeness"};
+  const auto mean = [&](std::size_t row, FigureFn figure) {
+    const Spread spread = SpreadOf(Of(buildings, row, figure));
+    return absl::StrFormat("%.3f [± %.3f]", spread.mean, spread.half_95);
+  };
+  const auto p = [&](std::size_t row, FigureFn figure) {
+    if (row == kOwn) return std::string("–");
+    return absl::StrFormat("%.2g",
+                           PairedPValue(Of(buildings, kOwn, figure), Of(buildings, row, figure)));
+  };
+  for (std::size_t row = 0; row < std::size(kContestants); ++row) {
+    table.rows.push_back(
+        {kContestants[row].label, mean(row, RmseShare),
+         absl::StrFormat("%.2f", OracleShare(buildings, row, kBaseline, RmseShare)),
+         mean(row, Entropy),
+         absl::StrFormat("%.2f", OracleShare(buildings, row, kBaseline, Entropy)),
+         mean(row, Complete), p(row, RmseShare), p(row, Entropy), p(row, Complete)});
+  }
+  table.rows.push_back({"oracle", absl::StrFormat("%.3f", MeanOfOracle(buildings, RmseShare)), "1",
+                        absl::StrFormat("%.3f", MeanOfOracle(buildings, Entropy)), "1", "", "", "",
+                        ""});
+  return table;
+}
+
+TextTable MakeBuildingTable(const std::vector<Building>& buildings) {
+  TextTable table;
+  table.title = "By building: RMSE, ppm / entropy, nats per critical cell";
+  table.columns = {"building", "all-zero map"};
+  for (const Contestant& contestant : kContestants) table.columns.emplace_back(contestant.label);
+  table.columns.emplace_back("oracle");
+  const auto text = [](const Reached& r) {
+    return absl::StrFormat("%.2f / %.3f", r.rmse_ppm, r.entropy_nats);
+  };
+  for (const Building& building : buildings) {
+    std::vector<std::string>& row = table.rows.emplace_back();
+    row = {building.name, absl::StrFormat("%.2f", building.rmse_zero_ppm)};
+    for (const Reached& reached : building.rows) row.push_back(text(reached));
+    row.push_back(text(building.oracle));
+  }
+  return table;
+}
+
+void AddNumbers(const std::vector<Building>& buildings, Study& study) {
+  const std::pair<const char*, FigureFn> figures[] = {{"rmse", RmseShare}, {"entropy", Entropy}};
+  for (const auto& [name, figure] : figures) {
+    for (std::size_t row = 0; row < std::size(kContestants); ++row) {
+      const std::string prefix = absl::StrCat(kContestants[row].name, "_", name);
+      study.summary.figures.emplace_back(prefix + "_mean",
+                                         SpreadOf(Of(buildings, row, figure)).mean);
+      study.summary.figures.emplace_back(prefix + "_oracle_share",
+                                         OracleShare(buildings, row, kBaseline, figure));
+      if (row == kOwn) continue;
+      study.summary.figures.emplace_back(
+          absl::StrCat("plumescout_against_", prefix, "_p"),
+          PairedPValue(Of(buildings, kOwn, figure), Of(buildings, row, figure)));
+    }
+    study.figures.key_numbers.emplace_back(
+        absl::StrCat("share of the oracle's gain, ", name),
+        absl::StrFormat("%.2f", OracleShare(buildings, kOwn, kBaseline, figure)));
+    study.figures.key_numbers.emplace_back(
+        absl::StrCat("XIT-GFF's, ", name),
+        absl::StrFormat("%.2f paper, %.2f ours", OracleShare(buildings, kGff, kBaseline, figure),
+                        OracleShare(buildings, kGffOurs, kBaseline, figure)));
+  }
+  for (std::size_t row = 0; row < std::size(kContestants); ++row) {
+    study.summary.figures.emplace_back(absl::StrCat(kContestants[row].name, "_completeness_mean"),
+                                       SpreadOf(Of(buildings, row, Complete)).mean);
+  }
+}
+
+std::vector<std::string> MakeNotes(const TrialPlan& plan) {
+  return {
+      absl::StrFormat("%d buildings, %d trials of %.0f s with each strategy, all from the same "
+                      "pose with the same sensors and seeds, and the same grid guard. None of the "
+                      "generated buildings was used to tune a strategy.",
+                      plan.scenes.size(), plan.trials, plan.duration_s),
+      "The oracle knows building and gas, does not drive, and places as many readings as a robot "
+      "takes one by one where each lowers the entropy of the critical cells most. Shares are of "
+      "its gain over RRT* frontier exploration, from the means over buildings.",
+      "Paper: up to five goals at random within a kind, and random free places once no frontier "
+      "is left. Our options: all goals, and then places whose gas is unobserved.",
+  };
+}
+
+}  // namespace
+
+absl::StatusOr<Study> RunOwnStrategy(const ExperimentOptions& options) {
+  constexpr double kScenesShare = 0.2;  // of the time, for the progress line
+  constexpr double kOracleShare = 0.25;
+  const auto part = [&](double from, double to) {
+    return [&options, from, to](double share) {
+      if (options.progress) options.progress(from + (to - from) * share);
+    };
+  };
+  ExperimentOptions making = options;
+  making.progress = part(0.0, kScenesShare);
+  const double duration_s = options.quick ? kQuickDuration_s : kDuration_s;
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      std::vector<std::string> scenes,
+      GeneratedScenes(making, kFirstBuilding, options.quick ? kQuickBuildings : kBuildings,
+                      duration_s));
+  PLUMESCOUT_ASSIGN_OR_RETURN(TrialPlan plan, MakePlan(options, std::move(scenes)));
+  plan.progress = part(kScenesShare, 1.0 - kOracleShare);
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<SceneRecords> records, RunTrials(plan));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<Building> buildings,
+                              Judge(plan, records, part(1.0 - kOracleShare, 1.0)));
+  Study study;
+  study.figures.title = "Our own strategy in buildings it does not know";
+  study.figures.notes = MakeNotes(plan);
+  study.figures.tables = {MakeTextTable(buildings), MakeBuildingTable(buildings)};
+  std::vector<RowStyle> styles;
+  for (std::size_t row = 0; row < std::size(kContestants); ++row) {
+    styles.push_back({kContestants[row].label, kColors[row], row == kBaseline || row == kOwn});
+  }
+  study.figures.charts = {
+      MakeMetricChart(records, styles, "RMSE, critical cells, ppm", Rmse_ppm),
+      MakeMetricChart(records, styles, "Entropy, nats per critical cell", EntropyPerCell_nats),
+      MakeMetricChart(records, styles, "Completeness", Completeness)};
+  AddNumbers(buildings, study);
+  study.table = MakeTrialTable(plan, records);
+  study.summary.about = AboutThisRun(options.seed);
+  return study;
+}
+
+}  // namespace plumescout::lab

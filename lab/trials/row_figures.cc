@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/trials/row_figures.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+
+namespace plumescout::lab {
+namespace {
+
+constexpr double kCurveWidth_px = 1.8;
+constexpr double kBandWidth_px = 1.2;
+constexpr double kBandDash_px = 4.0;
+
+std::size_t LongestCurve(const std::vector<SceneRecords>& records, std::size_t row) {
+  std::size_t longest = 0;
+  for (const SceneRecords& scene : records) {
+    for (const TrialRecord& trial : scene[row]) longest = std::max(longest, trial.curve.size());
+  }
+  return longest;
+}
+
+// Of all trials at sample `index`.
+Spread SpreadAt(const std::vector<SceneRecords>& records, std::size_t row, std::size_t index,
+                MetricFn metric) {
+  std::vector<double> values;
+  for (const SceneRecords& scene : records) {
+    for (const TrialRecord& trial : scene[row]) {
+      values.push_back(metric(trial.curve[std::min(index, trial.curve.size() - 1)].metrics));
+    }
+  }
+  return SpreadOf(values);
+}
+
+double TimeAt(const std::vector<SceneRecords>& records, std::size_t row, std::size_t index) {
+  double time_s = 0.0;
+  for (const SceneRecords& scene : records) {
+    for (const TrialRecord& trial : scene[row]) {
+      if (index < trial.curve.size()) time_s = std::max(time_s, trial.curve[index].time_s);
+    }
+  }
+  return time_s;
+}
+
+}  // namespace
+
+double Rmse_ppm(const MapMetrics& metrics) { return metrics.rmse_ppm; }
+double EntropyPerCell_nats(const MapMetrics& metrics) {
+  return metrics.entropy_nats / metrics.critical_cells;
+}
+double Completeness(const MapMetrics& metrics) { return metrics.completeness; }
+
+std::vector<double> Finals(const std::vector<SceneRecords>& records, std::size_t row,
+                           MetricFn metric) {
+  std::vector<double> finals;
+  for (const SceneRecords& scene : records) {
+    for (const TrialRecord& trial : scene[row]) {
+      finals.push_back(metric(trial.curve.back().metrics));
+    }
+  }
+  return finals;
+}
+
+Chart MakeMetricChart(const std::vector<SceneRecords>& records, const std::vector<RowStyle>& rows,
+                      const std::string& title, MetricFn metric) {
+  Chart chart{title, "time, s", std::nullopt, {}};
+  if (metric == Completeness) chart.y_range = Range{0.0, 1.0};  // a share
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    Curve mean{rows[row].name, {rows[row].color, kCurveWidth_px}, {}};
+    Curve low{"", {rows[row].color, kBandWidth_px, kBandDash_px}, {}, CurveKind::kBound};
+    Curve high = low;
+    for (std::size_t i = 0; i < LongestCurve(records, row); ++i) {
+      const Spread spread = SpreadAt(records, row, i, metric);
+      const double time_s = TimeAt(records, row, i);
+      mean.points.push_back({time_s, spread.mean});
+      low.points.push_back({time_s, spread.mean - spread.half_95});
+      high.points.push_back({time_s, spread.mean + spread.half_95});
+    }
+    if (rows[row].with_band) chart.curves.insert(chart.curves.end(), {low, high});
+    chart.curves.push_back(std::move(mean));
+  }
+  return chart;
+}
+
+CsvTable MakeTrialTable(const TrialPlan& plan, const std::vector<SceneRecords>& records) {
+  CsvTable table;
+  table.label_columns = {"scene", "row"};
+  table.columns = {"seed",           "rmse_ppm",     "rmse_zero_ppm", "entropy_nats",
+                   "critical_cells", "completeness", "gas_readings",  "distance_m",
+                   "plans",          "collisions",   "completed"};
+  for (std::size_t scene = 0; scene < records.size(); ++scene) {
+    for (std::size_t row = 0; row < plan.rows.size(); ++row) {
+      for (std::size_t k = 0; k < records[scene][row].size(); ++k) {
+        const TrialRecord& trial = records[scene][row][k];
+        const MapMetrics& m = trial.curve.back().metrics;
+        table.labels.push_back({SceneName(plan.scenes[scene]), plan.rows[row].name});
+        table.rows.push_back({static_cast<double>(plan.first_seed + k), m.rmse_ppm, m.rmse_zero_ppm,
+                              m.entropy_nats, static_cast<double>(m.critical_cells), m.completeness,
+                              static_cast<double>(trial.gas_readings), trial.distance_m,
+                              static_cast<double>(trial.plans),
+                              static_cast<double>(trial.collisions), trial.completed ? 1.0 : 0.0});
+      }
+    }
+  }
+  return table;
+}
+
+}  // namespace plumescout::lab

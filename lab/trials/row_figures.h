@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lab/formats/csv.h"
+#include "lab/report/chart.h"
+#include "lab/trials/statistics.h"
+#include "lab/trials/trial_study.h"
+
+namespace plumescout::lab {
+
+// What trials of several rows are compared by, and how that is shown.
+
+using MetricFn = double (*)(const MapMetrics&);
+double Rmse_ppm(const MapMetrics& metrics);
+double EntropyPerCell_nats(const MapMetrics& metrics);  // so that buildings can be compared
+double Completeness(const MapMetrics& metrics);
+
+// The metric at the end of every trial of a row, building by building: pairs between rows.
+std::vector<double> Finals(const std::vector<SceneRecords>& records, std::size_t row,
+                           MetricFn metric);
+
+// The metric over time, a curve for each row, the mean over trials; for those in `with_band` also
+// the 95 % interval of the mean, dashed. Trials that end early keep their last value. Completeness
+// is shown from 0 to 1.
+struct RowStyle {
+  std::string name;
+  Rgb color;
+  bool with_band = false;
+};
+Chart MakeMetricChart(const std::vector<SceneRecords>& records, const std::vector<RowStyle>& rows,
+                      const std::string& title, MetricFn metric);
+
+// Every trial: scene and row as labels, then seed, metrics at the end, distance, plans, collisions.
+CsvTable MakeTrialTable(const TrialPlan& plan, const std::vector<SceneRecords>& records);
+
+}  // namespace plumescout::lab

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/trials/statistics.h"
+
+#include <bit>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "core/types/rng.h"
+
+namespace plumescout::lab {
+namespace {
+
+constexpr std::size_t kExactPairs = 20;
+constexpr std::uint64_t kDraws = 1'000'000;
+// Sums that differ by rounding alone count as equal.
+constexpr double kRounding = 1e-9;
+
+// Share of the 2^n sign patterns with |sum| >= `limit`. Walks them in Gray code, one change each.
+double ExactShare(std::vector<double> differences, double sum, double limit) {
+  const std::uint64_t patterns = std::uint64_t{1} << differences.size();
+  std::uint64_t hits = 0;
+  for (std::uint64_t k = 1; k <= patterns; ++k) {
+    if (std::abs(sum) >= limit) ++hits;
+    double& flipped =
+        differences[static_cast<std::size_t>(std::countr_zero(k)) % differences.size()];
+    sum -= 2.0 * flipped;
+    flipped = -flipped;
+  }
+  return static_cast<double>(hits) / static_cast<double>(patterns);
+}
+
+double DrawnShare(const std::vector<double>& differences, double limit) {
+  Rng rng(1);
+  std::uint64_t hits = 1;  // the pattern that was seen is one of them
+  for (std::uint64_t k = 0; k < kDraws; ++k) {
+    double sum = 0.0;
+    for (const double difference : differences) {
+      sum += rng.Below(2) == 0 ? difference : -difference;
+    }
+    if (std::abs(sum) >= limit) ++hits;
+  }
+  return static_cast<double>(hits) / static_cast<double>(kDraws + 1);
+}
+
+}  // namespace
+
+Spread SpreadOf(std::span<const double> values) {
+  Spread spread;
+  spread.count = values.size();
+  const auto n = static_cast<double>(values.size());
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  spread.mean = values.empty() ? std::numeric_limits<double>::quiet_NaN() : sum / n;
+  if (values.size() < 2) return spread;
+  double squares = 0.0;
+  for (const double value : values) squares += (value - spread.mean) * (value - spread.mean);
+  spread.stddev = std::sqrt(squares / (n - 1.0));
+  constexpr double kUpperTail = 0.975;
+  const double t = boost::math::quantile(boost::math::students_t(n - 1.0), kUpperTail);
+  spread.half_95 = t * spread.stddev / std::sqrt(n);
+  return spread;
+}
+
+double PairedPValue(std::span<const double> a, std::span<const double> b) {
+  if (a.empty()) return 1.0;
+  std::vector<double> differences;
+  double sum = 0.0;
+  double scale = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    differences.push_back(a[i] - b[i]);
+    sum += differences.back();
+    scale += std::abs(differences.back());
+  }
+  const double limit = std::abs(sum) - kRounding * scale;
+  return a.size() <= kExactPairs ? ExactShare(differences, sum, limit)
+                                 : DrawnShare(differences, limit);
+}
+
+ShareInterval WilsonInterval(std::size_t hits, std::size_t trials) {
+  constexpr double kZ = 1.959964;  // of the standard normal, 97.5 %
+  const auto n = static_cast<double>(trials);
+  const double share = static_cast<double>(hits) / n;
+  const double spread = kZ * std::sqrt(share * (1.0 - share) / n + kZ * kZ / (4.0 * n * n));
+  const double middle = share + kZ * kZ / (2.0 * n);
+  const double scale = 1.0 + kZ * kZ / n;
+  return {(middle - spread) / scale, (middle + spread) / scale};
+}
+
+}  // namespace plumescout::lab

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "lab/formats/csv.h"
+#include "lab/formats/summary.h"
+#include "lab/report/sheet.h"
+
+namespace plumescout::lab {
+
+struct ExperimentOptions {
+  std::uint64_t seed = 1;
+  bool quick = false;                            // less of everything: a minute at most
+  std::optional<int> trials{};                   // >= 1; default: as many as the paper's
+  std::vector<std::string> scenes{};             // scene folders in place of the study's own
+  std::string folder{};                          // for scenes and trials on the way; may stand
+  int jobs = 1;                                  // trials at once, >= 1
+  std::function<void(double share)> progress{};  // told how much is done, [0, 1]; may be empty
+};
+
+// What an experiment found.
+struct Study {
+  ReportFigures figures;
+  CsvTable table;  // every single value behind the figures
+  Summary summary;
+};
+
+// Writes report.html, report.png, results.csv and summary.json into `folder`, which is made if it
+// is not there.
+absl::Status WriteStudy(const Study& study, const std::string& folder);
+
+}  // namespace plumescout::lab

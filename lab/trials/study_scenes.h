@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "lab/trials/study.h"
+
+namespace plumescout::lab {
+
+// Scene folders that a study drives through: options.scenes if there are any; else its own, made in
+// options.folder/scenes unless they stand there. Quick ones have a short wind and warm-up.
+// Errors: kInvalidArgument without a folder; as MakeScene and WriteScene.
+
+// The industrial hall of [XIT] Fig. 6, ours, with gas for `duration_s`.
+absl::StatusOr<std::vector<std::string>> HallScene(const ExperimentOptions& options,
+                                                   double duration_s);
+
+// Buildings of GenerateLayout with seeds first_seed, first_seed + 1, ...; made options.jobs at
+// once. Progress goes from 0 to 1.
+absl::StatusOr<std::vector<std::string>> GeneratedScenes(const ExperimentOptions& options,
+                                                         std::uint64_t first_seed, int count,
+                                                         double duration_s);
+
+}  // namespace plumescout::lab

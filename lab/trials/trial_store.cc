@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/trials/trial_store.h"
+
+#include <cstddef>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "core/types/status_macros.h"
+#include "formats/file_io.h"
+#include "lab/formats/crc32c.h"
+#include "lab/formats/npy.h"
+#include "proto/convert/options.h"
+
+namespace plumescout::lab {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::uint64_t kMaxRecordBytes = 16ULL << 20U;
+
+// JSON has no NaN: such values are null.
+double Number(const json& value) {
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+}
+
+json ToJson(const CurvePoint& point) {
+  const MapMetrics& m = point.metrics;
+  return {point.time_s,    m.completeness, m.rmse_ppm,
+          m.rmse_zero_ppm, m.entropy_nats, m.critical_cells};
+}
+
+CurvePoint CurvePointFrom(const json& value) {
+  CurvePoint point;
+  point.time_s = value.at(0).get<double>();
+  point.metrics.completeness = Number(value.at(1));
+  point.metrics.rmse_ppm = Number(value.at(2));
+  point.metrics.rmse_zero_ppm = Number(value.at(3));
+  point.metrics.entropy_nats = Number(value.at(4));
+  point.metrics.critical_cells = value.at(5).get<int>();
+  return point;
+}
+
+TrialRecord RecordFrom(const json& value) {
+  TrialRecord record;
+  for (const json& point : value.at("curve")) record.curve.push_back(CurvePointFrom(point));
+  record.gas_readings = value.at("gas_readings").get<int>();
+  record.distance_m = value.at("distance_m").get<double>();
+  record.plans = value.at("plans").get<int>();
+  record.collisions = value.at("collisions").get<int>();
+  record.completed = value.at("completed").get<bool>();
+  if (value.contains("peer_rmse_ppm")) {
+    record.peer_rmse_ppm = value.at("peer_rmse_ppm").get<double>();
+  }
+  return record;
+}
+
+template <typename T>
+std::uint32_t ChecksumOf(const std::vector<T>& values, std::uint32_t crc) {
+  const absl::string_view bytes(reinterpret_cast<const char*>(values.data()),
+                                values.size() * sizeof(T));
+  return Crc32c(bytes, crc);
+}
+
+}  // namespace
+
+absl::StatusOr<TrialStore> TrialStore::Open(const std::string& folder) {
+  PLUMESCOUT_RETURN_IF_ERROR(MakeFolder(folder));
+  return TrialStore(folder);
+}
+
+std::string TrialStore::JsonPath(const std::string& name) const {
+  return absl::StrCat(folder_, "/", name, ".json");
+}
+
+std::string TrialStore::MapPath(const std::string& name, std::size_t map) const {
+  return absl::StrCat(folder_, "/", name, ".map-", map, ".npy");
+}
+
+std::optional<TrialRecord> TrialStore::Find(const std::string& name, const std::string& fingerprint,
+                                            const GridGeometry& geometry) const {
+  const auto text = ReadFile(JsonPath(name), kMaxRecordBytes);
+  if (!text.ok()) return std::nullopt;
+  try {
+    const json value = json::parse(*text);
+    if (value.at("fingerprint").get<std::string>() != fingerprint) return std::nullopt;
+    TrialRecord record = RecordFrom(value);
+    for (std::size_t map = 0; map < value.at("maps").get<std::size_t>(); ++map) {
+      auto array = ReadNpy(MapPath(name, map));
+      if (!array.ok() || array->values.size() != geometry.size()) return std::nullopt;
+      Grid<float>& field = record.mean_ppm.emplace_back(geometry);
+      for (std::size_t i = 0; i < field.size(); ++i) field[i] = array->values[i];
+    }
+    return record;
+  } catch (const json::exception&) {
+    return std::nullopt;
+  }
+}
+
+absl::Status TrialStore::Keep(const std::string& name, const std::string& fingerprint,
+                              const TrialRecord& record) const {
+  for (std::size_t map = 0; map < record.mean_ppm.size(); ++map) {
+    const Grid<float>& field = record.mean_ppm[map];
+    const std::size_t shape[] = {static_cast<std::size_t>(field.height()),
+                                 static_cast<std::size_t>(field.width())};
+    PLUMESCOUT_RETURN_IF_ERROR(WriteNpy(MapPath(name, map), shape, field.values()));
+  }
+  json value = {{"fingerprint", fingerprint},      {"gas_readings", record.gas_readings},
+                {"distance_m", record.distance_m}, {"plans", record.plans},
+                {"collisions", record.collisions}, {"completed", record.completed},
+                {"maps", record.mean_ppm.size()},  {"curve", json::array()}};
+  if (record.peer_rmse_ppm) value["peer_rmse_ppm"] = *record.peer_rmse_ppm;
+  for (const CurvePoint& point : record.curve) value["curve"].push_back(ToJson(point));
+  return WriteFile(JsonPath(name), value.dump());  // last: it says that the maps are there
+}
+
+std::uint32_t SceneChecksum(const Scene& scene) {
+  std::uint32_t crc = ChecksumOf(scene.occupancy.values(), 0);
+  crc = ChecksumOf(scene.conc_mean_ppm.values(), crc);
+  crc = ChecksumOf(scene.series.counts, crc);
+  const Pose2& start = scene.start_pose;
+  return Crc32c(absl::StrCat(start.x_m, " ", start.y_m, " ", start.yaw_rad, " ",
+                             scene.critical_threshold_ppm),
+                crc);
+}
+
+std::string Fingerprint(const Trial& trial, std::uint32_t scene_checksum) {
+  std::string times;
+  for (const double time_s : trial.map_times_s) absl::StrAppend(&times, " ", time_s);
+  if (trial.peer) {
+    absl::StrAppend(&times, " peer ", trial.peer->kernel_width_m, " ",
+                    trial.peer->confidence_scale);
+  }
+  return absl::StrFormat("mission %08x scene %08x seed %d duration %g maps%s",
+                         Crc32c(ToProto(*trial.mission).SerializeAsString()), scene_checksum,
+                         trial.seed, trial.duration_s, times);
+}
+
+}  // namespace plumescout::lab

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/types/options.h"
+#include "lab/trials/trial.h"
+
+namespace plumescout::lab {
+
+// One way to plan, in a study.
+struct StudyRow {
+  std::string name;  // of files too: letters, digits, '_'
+  MissionOptions mission;
+  bool knows_map = false;  // the building's map is the mission's prior map
+  // The region that is sampled, of strategies that stop at sites, is the building.
+  bool samples_building = false;
+};
+
+// A strategy of the table, driving until the time is up. As the paper: goals are drawn at random
+// within a kind, and are random free places once no frontier is left ([XIT] section VI-B); else all
+// of them are offered, and then places whose gas is unobserved. Errors: as ApplyStrategyRow.
+absl::StatusOr<StudyRow> MakeStudyRow(const std::string& name, const std::string& strategy,
+                                      bool as_the_paper);
+
+// Every row drives `trials` times through every building.
+struct TrialPlan {
+  std::vector<StudyRow> rows;
+  std::vector<std::string> scenes;  // scene folders
+  int trials = 1;                   // with seeds first_seed, first_seed + 1, ...
+  std::uint64_t first_seed = 1;
+  double duration_s = 300.0;
+  std::vector<double> map_times_s = {};
+  std::optional<KernelDmvOptions> peer = {};  // see Trial
+  std::string folder;                         // finished trials are kept here, and taken from here
+  int jobs = 1;                               // trials at once
+  std::function<void(double)> progress = {};
+};
+
+// Of one building: by row and trial, in the order of the plan.
+using SceneRecords = std::vector<std::vector<TrialRecord>>;
+
+// By building. Trials with the same number have the same seed in all rows, so they are pairs. The
+// result does not depend on the jobs. Errors: as ReadScene, naming the folder; as RunTrial.
+absl::StatusOr<std::vector<SceneRecords>> RunTrials(const TrialPlan& plan);
+
+// Last path component of a scene folder.
+std::string SceneName(const std::string& folder);
+
+}  // namespace plumescout::lab

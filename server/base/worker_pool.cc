@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/base/worker_pool.h"
+
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "server/base/errors.h"
+
+namespace plumescout::server {
+
+WorkerPool::WorkerPool(const WorkerPoolOptions& options) : options_(options) {
+  for (int i = 0; i < options_.threads; ++i) threads_.emplace_back([this] { Run(); });
+}
+
+WorkerPool::~WorkerPool() {
+  {
+    absl::MutexLock lock(&mutex_);
+    stopping_ = true;
+  }
+  for (std::thread& thread : threads_) thread.join();
+}
+
+absl::Status WorkerPool::Submit(std::function<void()> task) {
+  absl::MutexLock lock(&mutex_);
+  if (tasks_.size() >= static_cast<std::size_t>(options_.max_queued)) {
+    return Overloaded(absl::StrCat("the ", options_.name, " queue is full"));
+  }
+  tasks_.push_back(std::move(task));
+  return absl::OkStatus();
+}
+
+void WorkerPool::Run() {
+  while (true) {
+    std::function<void()> task;
+    {
+      absl::MutexLock lock(&mutex_);
+      mutex_.Await(absl::Condition(this, &WorkerPool::Ready));
+      if (tasks_.empty()) return;
+      task = std::move(tasks_.front());
+      tasks_.pop_front();
+    }
+    task();
+  }
+}
+
+}  // namespace plumescout::server

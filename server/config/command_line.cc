@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/config/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "core/types/status_macros.h"
+#include "server/config/config_file.h"
+#include "server/config/config_table.h"
+
+namespace plumescout::server {
+namespace {
+
+struct Flags {
+  std::string config_path;
+  std::string listen;
+  std::vector<std::string> settings;  // KEY=VALUE
+};
+
+void Declare(Flags& flags, CLI::App& app) {
+  app.add_option("-c,--config", flags.config_path, "YAML file with any of the options below")
+      ->type_name("FILE");
+  app.add_option("-l,--listen", flags.listen, "address and port to serve on; port 0: any free one")
+      ->type_name("HOST:PORT");
+  app.add_option("-s,--set", flags.settings, "sets one option, over the file; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  app.set_version_flag("--version", "plumescout-server 0.1.0");
+}
+
+// The options with their defaults, one a line.
+std::string OptionHelp() {
+  ServerConfig defaults;
+  std::string help = "Options of the configuration:\n";
+  for (const ConfigRow& row : ConfigTable(defaults)) {
+    absl::StrAppend(&help, "  ", row.key, " = ", RowText(row), "\n      ", row.help, "\n");
+  }
+  absl::StrAppend(&help,
+                  "  mission.*\n      options of missions whose creator leaves them unset; "
+                  "deploy/config/plumescout.yaml lists them\n");
+  return help;
+}
+
+absl::StatusOr<ServerConfig> BuildConfig(const Flags& flags) {
+  ConfigBuilder builder;
+  if (!flags.config_path.empty()) PLUMESCOUT_RETURN_IF_ERROR(builder.AddFile(flags.config_path));
+  for (const std::string& setting : flags.settings) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos) {
+      return absl::InvalidArgumentError(absl::StrCat("--set ", setting, ": must be KEY=VALUE"));
+    }
+    PLUMESCOUT_RETURN_IF_ERROR(builder.Set(setting.substr(0, equals), setting.substr(equals + 1)));
+  }
+  if (!flags.listen.empty()) PLUMESCOUT_RETURN_IF_ERROR(builder.Set("listen", flags.listen));
+  return builder.Build();
+}
+
+}  // namespace
+
+absl::StatusOr<CommandLine> ReadCommandLine(int argc, const char* const* argv) {
+  CLI::App app("Serves gas-mapping missions to robots: plumescout.v1 over gRPC.",
+               "plumescout-server");
+  Flags flags;
+  Declare(flags, app);
+  app.footer(OptionHelp);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    return CommandLine{{}, app.help()};
+  } catch (const CLI::CallForVersion&) {
+    return CommandLine{{}, app.version() + "\n"};
+  } catch (const CLI::ParseError& error) {
+    return absl::InvalidArgumentError(error.what());
+  }
+  PLUMESCOUT_ASSIGN_OR_RETURN(ServerConfig config, BuildConfig(flags));
+  return CommandLine{std::move(config), std::nullopt};
+}
+
+}  // namespace plumescout::server

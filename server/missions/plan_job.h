@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+
+#include "absl/status/statusor.h"
+#include "absl/time/time.h"
+#include "core/types/plan.h"
+#include "core/types/plan_request.h"
+#include "server/base/clock.h"
+#include "server/base/worker_pool.h"
+#include "server/missions/mission_host.h"
+
+namespace plumescout::server {
+
+// A robot's wish for a plan.
+struct PlanOrder {
+  PlanRequest request = {};
+  std::int64_t lease_token = 0;
+  std::int64_t min_applied_sequence = 0;
+  absl::Duration budget = absl::Seconds(1);  // for the search
+  SteadyTime deadline = SteadyTime::max();   // of everything, the reply's way back left out
+};
+
+struct PlanAnswer {
+  Plan plan;                // committed
+  absl::Duration cpu_time;  // of all searches
+};
+
+// One line for the server's log.
+void LogPlan(const MissionId& mission, const PlanAnswer& answer);
+
+// One order on its way: wait for the robot's own readings, search on a pool, commit; once more if
+// another robot claimed the goal in the meantime. Keeps itself alive while it runs. Thread-safe.
+class PlanJob : public std::enable_shared_from_this<PlanJob> {
+ public:
+  using Done = std::function<void(absl::StatusOr<PlanAnswer>)>;
+
+  struct Parts {
+    std::shared_ptr<MissionHost> host;
+    WorkerPool* pool = nullptr;  // not owned; outlives the job
+    PlanOrder order;
+    Done done;                        // called exactly once, on any thread
+    PlanListener improved = nullptr;  // told of plans on the way, on a thread of the pool
+  };
+  explicit PlanJob(Parts parts) : parts_(std::move(parts)) {}
+
+  void Start() { AwaitBelief(); }
+  // Stops the search soon; nothing is committed after it.
+  void Cancel();
+
+ private:
+  void AwaitBelief();
+  void Enqueue(std::shared_ptr<const Belief> belief);
+  void Search(const Belief& belief);
+  void Commit(Plan plan);
+  void Committed(Plan plan, absl::StatusOr<PlanId> id);
+  void Finish(absl::StatusOr<PlanAnswer> answer) { parts_.done(std::move(answer)); }
+
+  const Parts parts_;
+  std::atomic<bool> cancelled_ = false;
+  // Touched by one stage at a time; the queues between the stages order them.
+  int conflicts_ = 0;
+  absl::Duration cpu_time_;
+};
+
+}  // namespace plumescout::server

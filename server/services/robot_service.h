@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plumescout/v1/robot_service.grpc.pb.h"
+#include "server/streams/service_context.h"
+
+namespace plumescout::server {
+
+class RobotService final : public v1::RobotService::CallbackService {
+ public:
+  explicit RobotService(const ServiceContext* context) : context_(*context) {}
+
+  grpc::ServerUnaryReactor* RegisterRobot(grpc::CallbackServerContext* call,
+                                          const v1::RegisterRobotRequest* request,
+                                          v1::RegisterRobotResponse* response) override;
+
+ private:
+  absl::Status Register(const v1::RegisterRobotRequest& request,
+                        v1::RegisterRobotResponse* response, grpc::ServerUnaryReactor* reactor);
+
+  const ServiceContext& context_;
+};
+
+}  // namespace plumescout::server

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/streams/ingest_frames.h"
+
+#include <string>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/types/status_macros.h"
+#include "proto/convert/field.h"
+#include "proto/convert/observation.h"
+#include "proto/convert/status.h"
+#include "server/base/errors.h"
+
+namespace plumescout::server {
+namespace {
+
+constexpr char kObservation[] = "observation";
+
+}  // namespace
+
+v1::IngestState ToIngestState(const LogPosition& position, int window) {
+  v1::IngestState proto;
+  proto.set_applied_sequence(position.applied_sequence);
+  proto.set_durable_sequence(0);  // missions live in memory: nothing survives a crash
+  proto.set_credit_sequence(position.applied_sequence + window);
+  proto.set_revision(position.revision);
+  return proto;
+}
+
+v1::ObservationRejected ToRejected(const RefusedObservation& refused) {
+  v1::ObservationRejected proto;
+  proto.set_sequence(refused.sequence);
+  *proto.mutable_status() = ToProto(WithErrorInfo(RefusalFromCore(refused.status, kObservation)));
+  return proto;
+}
+
+absl::StatusOr<std::vector<IncomingObservation>> ReadBatch(const v1::ObservationBatch& batch,
+                                                           int max_observations) {
+  if (batch.observations_size() < 1 || batch.observations_size() > max_observations) {
+    return FieldError("batch.observations", batch.observations_size(),
+                      absl::StrCat("entries; must be 1 to ", max_observations));
+  }
+  std::vector<IncomingObservation> incoming;
+  incoming.reserve(static_cast<std::size_t>(batch.observations_size()));
+  for (int i = 0; i < batch.observations_size(); ++i) {
+    const v1::Observation& proto = batch.observations(i);
+    const std::string field = Join(Join("batch", "observations", i), "sequence");
+    PLUMESCOUT_RETURN_IF_ERROR(CheckIntRange(field, proto.sequence(), 1, kMaxSequence));
+    auto observation = FromProto(proto, kObservation);
+    if (observation.ok()) {
+      incoming.push_back({*std::move(observation), absl::OkStatus()});
+    } else {
+      incoming.push_back({{}, observation.status()});
+      incoming.back().observation.sequence = proto.sequence();
+    }
+  }
+  return incoming;
+}
+
+}  // namespace plumescout::server

@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/streams/ingest_stream.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/types/status_macros.h"
+#include "proto/convert/field.h"
+#include "server/base/errors.h"
+#include "server/base/grpc_status.h"
+#include "server/streams/ingest_frames.h"
+
+namespace plumescout::server {
+
+IngestStream* IngestStream::Start(const ServiceContext* context) {
+  auto stream = std::make_shared<IngestStream>(context);
+  stream->self_ = stream;
+  context->streams->Add(stream);
+  stream->Pump();
+  return stream.get();
+}
+
+IngestStream::~IngestStream() {
+  if (reserved_) host_->Release(context_.limits.stream_window_observations);
+}
+
+void IngestStream::End(const absl::Status& status) {
+  {
+    absl::MutexLock lock(&mutex_);
+    SetEnd(status, /*flush=*/false);
+  }
+  Pump();
+}
+
+void IngestStream::SetEnd(const absl::Status& status, bool flush) {
+  flush_ = flush && (flush_ || !end_.has_value());
+  if (!end_.has_value()) end_ = status;
+}
+
+void IngestStream::OnReadDone(bool ok) {
+  const absl::Status status = ok ? HandleFrame() : absl::OkStatus();
+  {
+    absl::MutexLock lock(&mutex_);
+    reading_ = false;
+    if (!ok) half_closed_ = true;
+    if (!status.ok()) SetEnd(status, /*flush=*/true);
+  }
+  Pump();
+}
+
+void IngestStream::OnWriteDone(bool ok) {
+  {
+    absl::MutexLock lock(&mutex_);
+    writing_ = false;
+    if (!ok) SetEnd(absl::CancelledError("the stream broke"), /*flush=*/false);
+  }
+  Pump();
+}
+
+void IngestStream::OnCancel() { End(absl::CancelledError("the caller gave up")); }
+
+void IngestStream::OnDone() {
+  context_.streams->Remove(this);
+  if (host_ != nullptr) host_->leases().CloseStream(robot_.robot, this);
+  self_.reset();
+}
+
+absl::Status IngestStream::HandleFrame() {
+  switch (request_.frame_case()) {
+    case v1::StreamObservationsRequest::kOpen:
+      return Open(request_.open());
+    case v1::StreamObservationsRequest::kBatch:
+      return TakeBatch(request_.batch());
+    case v1::StreamObservationsRequest::FRAME_NOT_SET:
+      break;
+  }
+  return FieldError("frame", "must be one of open, batch");
+}
+
+absl::Status IngestStream::Open(const v1::OpenIngest& open) {
+  if (host_ != nullptr) return FieldError("open", "must come once, as the first frame");
+  PLUMESCOUT_ASSIGN_OR_RETURN(robot_, ParseRobotName("open.robot", open.robot()));
+  PLUMESCOUT_ASSIGN_OR_RETURN(host_, context_.registry->Find(robot_.mission));
+  lease_token_ = open.lease_token();
+  PLUMESCOUT_RETURN_IF_ERROR(host_->Reserve(context_.limits.stream_window_observations));
+  reserved_ = true;
+  const std::weak_ptr<IngestStream> weak = weak_from_this();
+  PLUMESCOUT_RETURN_IF_ERROR(host_->leases().OpenStream(robot_.robot, lease_token_, this,
+                                                        [weak](const absl::Status& status) {
+                                                          if (const auto stream = weak.lock())
+                                                            stream->End(status);
+                                                        }));
+  return host_->Post([self = shared_from_this()](MissionWriter& writer) {
+    const auto position = writer.Position(self->robot_.robot);
+    if (!position.ok()) return self->End(position.status());
+    self->Opened(*position);
+  });
+}
+
+absl::Status IngestStream::TakeBatch(const v1::ObservationBatch& batch) {
+  if (host_ == nullptr) return FieldError("open", "must be the first frame");
+  PLUMESCOUT_ASSIGN_OR_RETURN(auto incoming,
+                              ReadBatch(batch, context_.limits.max_batch_observations));
+  const int count = static_cast<int>(incoming.size());
+  {
+    absl::MutexLock lock(&mutex_);
+    for (const IncomingObservation& entry : incoming) {
+      if (entry.observation.sequence > credit_sequence_) {
+        return CreditExceeded(entry.observation.sequence, credit_sequence_);
+      }
+    }
+    in_flight_observations_ += count;
+  }
+  const absl::Status posted =
+      host_->Post([self = shared_from_this(), count,
+                   incoming = std::move(incoming)](MissionWriter& writer) mutable {
+        self->Ingested(count,
+                       writer.Ingest(self->robot_.robot, self->lease_token_, std::move(incoming)));
+      });
+  if (!posted.ok()) {
+    absl::MutexLock lock(&mutex_);
+    in_flight_observations_ -= count;
+  }
+  return posted;
+}
+
+void IngestStream::Opened(const LogPosition& position) {
+  {
+    absl::MutexLock lock(&mutex_);
+    opened_ = true;
+    greeting_due_ = true;
+    position_ = position;
+  }
+  Pump();
+}
+
+void IngestStream::Ingested(int observations, IngestResult result) {
+  {
+    absl::MutexLock lock(&mutex_);
+    in_flight_observations_ -= observations;
+    position_ = result.position;
+    ack_due_ = true;
+    std::move(result.refused.begin(), result.refused.end(), std::back_inserter(refused_));
+    if (!result.status.ok()) SetEnd(result.status, /*flush=*/true);
+  }
+  Pump();
+}
+
+void IngestStream::Pump() {
+  const auto self = shared_from_this();  // the finish may end us
+  pump_.Run(mutex_, [this] {
+    mutex_.AssertHeld();
+    return NextOperation();
+  });
+}
+
+StreamPump::Operation IngestStream::NextOperation() {
+  if (finished_) return nullptr;
+  const bool broken_off = end_.has_value() && !flush_;
+  const bool over = end_.has_value() || half_closed_;
+  if (!writing_ && !broken_off && FillResponse()) {
+    writing_ = true;
+    return [this, response = &response_] { StartWrite(response); };
+  }
+  if (!writing_ && (broken_off || (over && in_flight_observations_ == 0))) {
+    finished_ = true;
+    return [this, status = end_.value_or(absl::OkStatus())] { Finish(ToGrpc(status)); };
+  }
+  if (MayRead()) {
+    reading_ = true;
+    return [this] { StartRead(&request_); };
+  }
+  return nullptr;
+}
+
+bool IngestStream::FillResponse() {
+  response_.Clear();
+  const v1::IngestState state =
+      ToIngestState(position_, context_.limits.stream_window_observations);
+  if (greeting_due_) {
+    greeting_due_ = false;
+    *response_.mutable_opened()->mutable_ingest_state() = state;
+    response_.mutable_opened()->set_server_boot_id(context_.boot_id);
+  } else if (!refused_.empty()) {
+    *response_.mutable_rejected() = ToRejected(refused_.front());
+    refused_.pop_front();
+    return true;
+  } else if (ack_due_) {
+    ack_due_ = false;
+    *response_.mutable_ack() = state;
+  } else {
+    return false;
+  }
+  credit_sequence_ = std::max(credit_sequence_, state.credit_sequence());
+  return true;
+}
+
+bool IngestStream::MayRead() const {
+  const bool opening = host_ != nullptr && !opened_;
+  return !reading_ && !half_closed_ && !end_.has_value() && !opening &&
+         in_flight_observations_ < context_.limits.stream_window_observations;
+}
+
+}  // namespace plumescout::server

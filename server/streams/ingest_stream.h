@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <grpcpp/support/server_callback.h>
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "absl/base/thread_annotations.h"
+#include "absl/synchronization/mutex.h"
+#include "plumescout/v1/ingest_service.pb.h"
+#include "proto/convert/names.h"
+#include "server/missions/mission_host.h"
+#include "server/streams/active_streams.h"
+#include "server/streams/service_context.h"
+#include "server/streams/stream_pump.h"
+
+namespace plumescout::server {
+
+// One robot's ingest stream: opens, hands batches to the mission's writer, and acknowledges what
+// was applied. One write is in flight at a time, and the acknowledgement that follows is the newest
+// one, however slowly the robot reads. Reading pauses while a window of observations is in flight.
+class IngestStream final
+    : public grpc::ServerBidiReactor<v1::StreamObservationsRequest, v1::StreamObservationsResponse>,
+      public EndableStream,
+      public std::enable_shared_from_this<IngestStream> {
+ public:
+  // The reactor owns itself until gRPC is done with it.
+  static IngestStream* Start(const ServiceContext* context);
+
+  explicit IngestStream(const ServiceContext* context) : context_(*context) {}
+  ~IngestStream() override;
+
+  // The first ending counts. What is due to the robot is not sent any more.
+  void End(const absl::Status& status) override;
+
+  void OnReadDone(bool ok) override;
+  void OnWriteDone(bool ok) override;
+  void OnCancel() override;
+  void OnDone() override;
+
+ private:
+  absl::Status HandleFrame();
+  absl::Status Open(const v1::OpenIngest& open);
+  absl::Status TakeBatch(const v1::ObservationBatch& batch);
+  void Opened(const LogPosition& position);
+  void Ingested(int observations, IngestResult result);
+
+  // Starts whatever can start now: a write, a read, the finish.
+  void Pump() ABSL_LOCKS_EXCLUDED(mutex_);
+  StreamPump::Operation NextOperation() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  bool FillResponse() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  bool MayRead() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  // `flush`: the robot first hears what became of its batches.
+  void SetEnd(const absl::Status& status, bool flush) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+
+  const ServiceContext& context_;
+  std::shared_ptr<IngestStream> self_;  // until OnDone
+
+  // Touched by the reading reactions only, which gRPC runs one after the other.
+  v1::StreamObservationsRequest request_;
+  std::shared_ptr<MissionHost> host_;
+  RobotName robot_;
+  std::int64_t lease_token_ = 0;
+  bool reserved_ = false;
+
+  absl::Mutex mutex_;
+  StreamPump pump_;
+  v1::StreamObservationsResponse response_ ABSL_GUARDED_BY(mutex_);  // in flight if writing_
+  bool opened_ ABSL_GUARDED_BY(mutex_) = false;
+  bool reading_ ABSL_GUARDED_BY(mutex_) = false;
+  bool writing_ ABSL_GUARDED_BY(mutex_) = false;
+  bool half_closed_ ABSL_GUARDED_BY(mutex_) = false;
+  bool finished_ ABSL_GUARDED_BY(mutex_) = false;
+  bool greeting_due_ ABSL_GUARDED_BY(mutex_) = false;
+  bool ack_due_ ABSL_GUARDED_BY(mutex_) = false;
+  bool flush_ ABSL_GUARDED_BY(mutex_) = false;
+  std::optional<absl::Status> end_ ABSL_GUARDED_BY(mutex_);
+  int in_flight_observations_ ABSL_GUARDED_BY(mutex_) = 0;
+  std::int64_t credit_sequence_ ABSL_GUARDED_BY(mutex_) = 0;  // as announced
+  LogPosition position_ ABSL_GUARDED_BY(mutex_);
+  std::deque<RefusedObservation> refused_ ABSL_GUARDED_BY(mutex_);
+};
+
+}  // namespace plumescout::server

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/paths/goal_neighbours.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plumescout {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::Pair;
+
+// Samples 0 to 3 at x = 0, 1, 2, 3; a goal of its own, vertex 4, at x = 2.2.
+const std::vector<Point2> kPoints = {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {2.2, 0}};
+
+std::vector<GoalNeighbours::Edge> EdgesFrom(const GoalNeighbours& sets, int vertex) {
+  const auto edges = sets.EdgesFrom(vertex);
+  return {edges.begin(), edges.end()};
+}
+
+TEST(GoalNeighbours, JoinTheGoalToItsNearestSamplesInBothDirections) {
+  const GoalNeighbours sets(kPoints, 4, {4}, 3);
+  EXPECT_THAT(EdgesFrom(sets, 4), ElementsAre(Pair(4, 1), Pair(4, 2), Pair(4, 3)));
+  EXPECT_THAT(EdgesFrom(sets, 1), ElementsAre(Pair(1, 4)));
+  EXPECT_THAT(EdgesFrom(sets, 0), IsEmpty());
+}
+
+TEST(GoalNeighbours, LeaveOutTheGoalItselfIfItIsASample) {
+  const GoalNeighbours sets(kPoints, 4, {2}, 2);
+  EXPECT_THAT(EdgesFrom(sets, 2), ElementsAre(Pair(2, 1)));
+}
+
+TEST(GoalNeighbours, ShareSamplesAndKeepEqualGoalsOnce) {
+  const GoalNeighbours sets(kPoints, 4, {4, 4, 3}, 1);
+  EXPECT_THAT(EdgesFrom(sets, 2), ElementsAre(Pair(2, 4)));
+  EXPECT_THAT(EdgesFrom(sets, 3), IsEmpty()) << "its nearest sample is itself";
+}
+
+TEST(GoalNeighbours, TakeAllSamplesIfThereAreFew) {
+  EXPECT_THAT(EdgesFrom(GoalNeighbours(kPoints, 2, {4}, 9), 4),
+              ElementsAre(Pair(4, 0), Pair(4, 1)));
+  EXPECT_THAT(EdgesFrom(GoalNeighbours({{1, 1}}, 0, {0}, 3), 0), IsEmpty());
+}
+
+}  // namespace
+}  // namespace plumescout

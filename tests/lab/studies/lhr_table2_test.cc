@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/studies/lhr_table2.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/temp_folder.h"
+
+namespace plumescout::lab {
+namespace {
+
+using ::testing::Contains;
+using ::testing::Key;
+using ::testing::SizeIs;
+
+// One drive of each row takes some seconds.
+TEST(LhrTable2, HasTheRowsOfThePaperAndSamplesEverySite) {
+  const TempFolder folder;
+  ExperimentOptions options;
+  options.quick = true;
+  options.jobs = 2;
+  options.folder = folder.path();
+  const auto study = RunLhrTable2(options);
+  ASSERT_TRUE(study.ok()) << study.status();
+  const TextTable& table = study->figures.tables.at(0);
+  ASSERT_THAT(table.rows, SizeIs(6));
+  for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
+  EXPECT_EQ(table.rows[2][2], "15547");  // [LHR] Table II
+  EXPECT_EQ(table.rows[2][4], "46.7");
+  constexpr std::size_t kSamples = 2;  // column
+  for (const auto& row : study->table.rows) EXPECT_EQ(row[kSamples], 51 * 51);
+  EXPECT_THAT(study->figures.panels, SizeIs(6));  // the truth and five updates
+  EXPECT_THAT(study->summary.figures, Contains(Key("ucb_convergence_min")));
+}
+
+}  // namespace
+}  // namespace plumescout::lab

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/studies/mit_table1.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "lab/worlds/mit_scene.h"
+
+namespace plumescout::lab {
+namespace {
+
+const Study& QuickStudy() {
+  static const Study study = [] {
+    ExperimentOptions options;
+    options.quick = true;
+    return RunMitTable1(options).value();
+  }();
+  return study;
+}
+
+double Figure(const std::string& name) {
+  const std::map<std::string, double> figures(QuickStudy().summary.figures.begin(),
+                                              QuickStudy().summary.figures.end());
+  return figures.at(name);
+}
+
+TEST(MitTable1, HasARowForEveryRunOfEveryPlannerInEveryScene) {
+  const double scenes = static_cast<double>(MitSceneVariants().size() + 1);
+  EXPECT_EQ(Figure("scenes"), scenes);
+  std::map<std::pair<double, double>, int> runs;
+  for (const auto& row : QuickStudy().table.rows) {
+    ASSERT_EQ(row.size(), QuickStudy().table.columns.size());
+    ++runs[{row[0], row[1]}];
+  }
+  EXPECT_EQ(runs.size(), static_cast<std::size_t>(4.0 * scenes));
+  for (const auto& [key, count] : runs) EXPECT_EQ(count, key.first == 0.0 ? 40 : 10);
+}
+
+TEST(MitTable1, SharesAreThoseOfTheRuns) {
+  int third = 0;
+  int all = 0;
+  for (const auto& row : QuickStudy().table.rows) {
+    if (row[0] != 0.0 || row[1] != 0.0) continue;
+    third += row[3] == 3.0 ? 1 : 0;
+    ++all;
+  }
+  EXPECT_DOUBLE_EQ(Figure("scene_0_mit_share_3"), third / static_cast<double>(all));
+}
+
+// The bar of the table, with runs few enough for a share to err by 0.08 (one standard error).
+TEST(MitTable1, MitFindsTheInformativeTrajectoryMoreOftenThanTheTrees) {
+  EXPECT_GT(Figure("scene_0_mit_share_3"), 0.55);
+  EXPECT_GT(Figure("scene_0_mit_share_3"), Figure("scene_0_rrt_star_share_3") + 0.15);
+  EXPECT_GT(Figure("scene_0_mit_share_3"), Figure("scene_0_rrt_share_3") + 0.15);
+}
+
+TEST(MitTable1, ShowsTheSceneThePathsAndTheCharts) {
+  EXPECT_EQ(QuickStudy().figures.panels.size(), 4u);
+  EXPECT_EQ(QuickStudy().figures.bar_charts.size(), 3u);
+  EXPECT_EQ(QuickStudy().figures.notes.size(), 4u);
+}
+
+TEST(MitTable1, TellsHowFarItIs) {
+  ExperimentOptions options;
+  options.quick = true;
+  double last = 0.0;
+  options.progress = [&](double share) {
+    EXPECT_GT(share, last);
+    last = share;
+  };
+  ASSERT_TRUE(RunMitTable1(options).ok());
+  EXPECT_DOUBLE_EQ(last, 1.0);
+}
+
+}  // namespace
+}  // namespace plumescout::lab

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/studies/own_strategy.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/lab/studies/small_study.h"
+#include "tests/support/temp_folder.h"
+
+namespace plumescout::lab {
+namespace {
+
+using ::testing::Contains;
+using ::testing::Key;
+using ::testing::SizeIs;
+
+TEST(OwnStrategy, ComparesAllContestantsWithTheOracle) {
+  const TempFolder folder;
+  const auto study = RunOwnStrategy(SmallStudy(folder));
+  ASSERT_TRUE(study.ok()) << study.status();
+  ASSERT_THAT(study->figures.tables, SizeIs(2));
+  EXPECT_THAT(study->figures.tables[0].rows, SizeIs(6));  // five strategies and the oracle
+  EXPECT_THAT(study->figures.tables[1].rows, SizeIs(1));  // one building
+  for (const TextTable& table : study->figures.tables) {
+    for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
+  }
+  EXPECT_THAT(study->table.rows, SizeIs(5));
+  EXPECT_THAT(study->summary.figures, Contains(Key("plumescout_entropy_oracle_share")));
+  EXPECT_THAT(study->summary.figures,
+              Contains(std::pair<std::string, double>("rrt_star_frontier_rmse_oracle_share", 0.0)));
+}
+
+}  // namespace
+}  // namespace plumescout::lab

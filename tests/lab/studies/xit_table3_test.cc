@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/studies/xit_table3.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/lab/studies/small_study.h"
+#include "tests/support/temp_folder.h"
+
+namespace plumescout::lab {
+namespace {
+
+using ::testing::Contains;
+using ::testing::Key;
+using ::testing::SizeIs;
+
+TEST(XitTable3, HasAllRowsWithThePapersValuesBeside) {
+  const TempFolder folder;
+  const auto study = RunXitTable3(SmallStudy(folder));
+  ASSERT_TRUE(study.ok()) << study.status();
+  ASSERT_THAT(study->figures.tables, SizeIs(2));  // the paper's, and where the error lies
+  for (const TextTable& table : study->figures.tables) {
+    ASSERT_THAT(table.rows, SizeIs(9));
+    for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
+  }
+  const TextTable& table = study->figures.tables.front();
+  EXPECT_EQ(table.rows[5][4], "14.9 ± 1.9 (25.5 %)");  // [XIT] Table III
+  EXPECT_EQ(table.rows[5][7], "957 ± 169 (23.7 %)");
+  EXPECT_THAT(table.rows[0][3], ::testing::StartsWith("0.0 %, p = 1"));  // against itself
+  EXPECT_THAT(study->table.rows, SizeIs(9));                             // a trial each
+  EXPECT_THAT(study->figures.panels, SizeIs(6));
+  EXPECT_THAT(study->figures.charts, SizeIs(3));
+  for (const Chart& chart : study->figures.charts) {
+    const auto is_named = [](const Curve& curve) { return !curve.name.empty(); };
+    EXPECT_EQ(std::count_if(chart.curves.begin(), chart.curves.end(), is_named), 9) << chart.title;
+  }
+  EXPECT_THAT(study->summary.figures, Contains(Key("xit_gff_ucb_rmse_ppm_p")));
+}
+
+TEST(XitTable3, ReadsASceneBeforeAnythingRuns) {
+  ExperimentOptions options;
+  const TempFolder folder;
+  options.folder = folder.path();
+  options.scenes = {folder.File("nothing")};
+  const absl::Status status = RunXitTable3(options).status();
+  EXPECT_NE(status.message().find("nothing"), std::string::npos) << status;
+}
+
+}  // namespace
+}  // namespace plumescout::lab

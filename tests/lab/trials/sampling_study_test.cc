@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/trials/sampling_study.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "tests/lab/trials/small_sampling.h"
+#include "tests/support/temp_folder.h"
+
+namespace plumescout::lab {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr int kSites = 29;
+
+TEST(SamplingStudy, DrivesEveryRowThroughEveryCase) {
+  const TempFolder folder;
+  const auto drives = RunSamplingStudy(SmallSampling(folder.File("drives")));
+  ASSERT_TRUE(drives.ok()) << drives.status();
+  ASSERT_EQ(drives->size(), 2u);
+  for (const std::vector<SamplingDrive>& row : *drives) {
+    ASSERT_EQ(row.size(), 2u);
+    for (const SamplingDrive& drive : row) {
+      EXPECT_EQ(drive.end, SamplingEnd::kMissionComplete);
+      EXPECT_EQ(drive.samples, kSites);
+      EXPECT_LT(drive.errors.back().rmse_ppm, 0.5 * drive.errors.front().rmse_ppm);
+    }
+  }
+  EXPECT_LT((*drives)[0][0].driven_m, (*drives)[1][0].driven_m) << "a sweep is the shorter way";
+}
+
+TEST(SamplingStudy, DoesNotDependOnTheNumberOfJobs) {
+  const TempFolder folder;
+  const auto one = RunSamplingStudy(SmallSampling(folder.File("one")));
+  SamplingPlan plan = SmallSampling(folder.File("three"));
+  plan.jobs = 3;
+  const auto three = RunSamplingStudy(plan);
+  ASSERT_TRUE(one.ok() && three.ok());
+  EXPECT_EQ(*one, *three);
+}
+
+TEST(SamplingStudy, GoesOnFromWhatItFindsAndTellsSettingsApart) {
+  const TempFolder folder;
+  SamplingPlan plan = SmallSampling(folder.File("drives"));
+  const auto first = RunSamplingStudy(plan);
+  ASSERT_TRUE(first.ok());
+  // A record that says something else shows whether it was read or made anew.
+  const std::string file = plan.folder + "/sweep-one.json";
+  std::stringstream text;
+  text << std::ifstream(file).rdbuf();
+  std::string changed = text.str();
+  const std::string samples = "\"samples\":29";
+  ASSERT_THAT(changed, HasSubstr(samples));
+  changed.replace(changed.find(samples), samples.size(), "\"samples\":28");
+  std::ofstream(file) << changed;
+  EXPECT_EQ(RunSamplingStudy(plan).value()[0][0].samples, 28);
+  plan.noise.sigma_ppm = 0.5;
+  EXPECT_EQ(RunSamplingStudy(plan).value()[0][0].samples, kSites);
+}
+
+TEST(SamplingStudy, NamesTheDriveThatFailed) {
+  const TempFolder folder;
+  SamplingPlan plan = SmallSampling(folder.File("drives"));
+  plan.rows[1].mission.planning.sites.region->max.x_m = 6.5;
+  const absl::Status status = RunSamplingStudy(plan).status();
+  EXPECT_TRUE(absl::IsInvalidArgument(status));
+  EXPECT_THAT(std::string(status.message()), HasSubstr("random_sampling-one"));
+  EXPECT_THAT(std::string(status.message()), HasSubstr("region"));
+}
+
+}  // namespace
+}  // namespace plumescout::lab

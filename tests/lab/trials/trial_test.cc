@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/trials/trial.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/plan/strategy.h"
+#include "tests/lab/sim/small_scene.h"
+
+namespace plumescout::lab {
+namespace {
+
+MissionOptions MissionBy(const char* strategy) {
+  MissionOptions mission;
+  mission.planning.strategy = strategy;
+  EXPECT_TRUE(ApplyStrategyRow(mission.planning).ok());
+  return mission;
+}
+
+Trial SmallTrial(const MissionOptions& mission, const SceneWorld& world) {
+  Trial trial;
+  trial.mission = &mission;
+  trial.world = &world;
+  trial.duration_s = 12.0;
+  trial.map_times_s = {5.0, 10.0};
+  return trial;
+}
+
+TEST(Trial, RecordsMetricsMapsAndReadings) {
+  const SceneWorld world(SmallScene());
+  const MissionOptions mission = MissionBy("xit_gff");
+  const auto record = RunTrial(SmallTrial(mission, world));
+  ASSERT_TRUE(record.ok()) << record.status();
+  ASSERT_EQ(record->curve.size(), 4u);  // 0, 5, 10 s and the end
+  EXPECT_LT(record->curve.back().metrics.rmse_ppm, record->curve.front().metrics.rmse_ppm);
+  EXPECT_GT(record->curve.back().metrics.completeness, 0.9);
+  EXPECT_EQ(record->gas_readings, 24);  // 2 Hz
+  ASSERT_EQ(record->mean_ppm.size(), 2u);
+  EXPECT_EQ(record->mean_ppm[0].geometry(), world.scene().geometry());
+  EXPECT_TRUE(std::isnan(record->mean_ppm[0][Cell{0, 0}]));  // in the wall
+  EXPECT_GT(record->distance_m, 5.0);
+  EXPECT_GT(record->plans, 0);
+}
+
+TEST(Trial, IsTheSameAgainAndAnotherWithAnotherSeed) {
+  const SceneWorld world(SmallScene());
+  for (const char* strategy : {"xit_gff", "rrt_star_frontier"}) {
+    const MissionOptions mission = MissionBy(strategy);
+    Trial trial = SmallTrial(mission, world);
+    const auto once = RunTrial(trial);
+    const auto again = RunTrial(trial);
+    trial.seed = 2;
+    const auto other = RunTrial(trial);
+    ASSERT_TRUE(once.ok() && again.ok() && other.ok());
+    EXPECT_EQ(once->curve.back().metrics.rmse_ppm, again->curve.back().metrics.rmse_ppm);
+    EXPECT_EQ(once->distance_m, again->distance_m);
+    EXPECT_NE(once->curve.back().metrics.rmse_ppm, other->curve.back().metrics.rmse_ppm);
+  }
+}
+
+// There are always readings that would tell a little more: here some six minutes of them.
+TEST(Trial, OfPlumescoutEndsOfItself) {
+  const SceneWorld world(SmallScene());
+  const MissionOptions mission = MissionBy("plumescout");
+  Trial trial = SmallTrial(mission, world);
+  trial.duration_s = 600.0;
+  for (trial.seed = 1; trial.seed <= 3; ++trial.seed) {
+    const auto record = RunTrial(trial);
+    ASSERT_TRUE(record.ok()) << record.status();
+    EXPECT_TRUE(record->completed);
+    EXPECT_GT(record->curve.back().metrics.completeness, 0.95);
+  }
+}
+
+TEST(Trial, AMissionThatIsInvalidIsAnError) {
+  const SceneWorld world(SmallScene());
+  MissionOptions mission = MissionBy("xit_gff");
+  mission.gas.prior_precision = -1.0;
+  EXPECT_EQ(RunTrial(SmallTrial(mission, world)).status().code(),
+            absl::StatusCode::kInvalidArgument);
+}
+
+TEST(Trial, MapsTheSameReadingsByAPeer) {
+  const SceneWorld world(SmallScene());
+  const MissionOptions mission = MissionBy("xit_gff");
+  Trial trial = SmallTrial(mission, world);
+  EXPECT_FALSE(RunTrial(trial)->peer_rmse_ppm.has_value());
+  trial.peer = KernelDmvOptions{};
+  const auto record = RunTrial(trial);
+  ASSERT_TRUE(record.ok() && record->peer_rmse_ppm.has_value());
+  EXPECT_GT(*record->peer_rmse_ppm, 0.0);
+  EXPECT_LT(*record->peer_rmse_ppm, record->curve.back().metrics.rmse_zero_ppm);
+  trial.peer->kernel_width_m = -1.0;
+  EXPECT_TRUE(absl::IsInvalidArgument(RunTrial(trial).status()));
+}
+
+}  // namespace
+}  // namespace plumescout::lab

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/base/worker_pool.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "absl/synchronization/notification.h"
+#include "proto/convert/status.h"
+
+namespace plumescout::server {
+namespace {
+
+TEST(WorkerPoolTest, RunsWhatItIsGivenBeforeItGoes) {
+  std::atomic<int> runs = 0;
+  {
+    WorkerPool pool({"test", 2, 100});
+    for (int i = 0; i < 100; ++i) ASSERT_TRUE(pool.Submit([&] { ++runs; }).ok());
+  }
+  EXPECT_EQ(runs, 100);
+}
+
+TEST(WorkerPoolTest, FullQueueRefusesAndSaysWhenToRetry) {
+  absl::Notification started;
+  absl::Notification release;
+  WorkerPool pool({"test", 1, 1});
+  ASSERT_TRUE(pool.Submit([&] {
+                    started.Notify();
+                    release.WaitForNotification();
+                  })
+                  .ok());
+  started.WaitForNotification();
+  EXPECT_TRUE(pool.Submit([] {}).ok());
+  const absl::Status refused = pool.Submit([] {});
+  EXPECT_TRUE(absl::IsResourceExhausted(refused));
+  EXPECT_TRUE(RetryDelay(refused).has_value());
+  release.Notify();
+}
+
+TEST(WorkerPoolTest, ThreadsRunSideBySide) {
+  absl::Notification first;
+  absl::Notification second;
+  WorkerPool pool({"test", 2, 10});
+  ASSERT_TRUE(pool.Submit([&] { second.WaitForNotification(); }).ok());
+  ASSERT_TRUE(pool.Submit([&] { first.Notify(); }).ok());
+  first.WaitForNotification();  // would hang if the first task held the only thread
+  second.Notify();
+}
+
+}  // namespace
+}  // namespace plumescout::server

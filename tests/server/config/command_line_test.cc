@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/config/command_line.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace plumescout::server {
+namespace {
+
+using ::testing::HasSubstr;
+
+absl::StatusOr<CommandLine> Read(std::vector<const char*> flags) {
+  flags.insert(flags.begin(), "plumescout-server");
+  return ReadCommandLine(static_cast<int>(flags.size()), flags.data());
+}
+
+TEST(CommandLineTest, WithoutFlagsEverythingIsDefault) {
+  const auto line = Read({});
+  ASSERT_TRUE(line.ok()) << line.status();
+  EXPECT_EQ(line->config.listen, "127.0.0.1:50551");
+  EXPECT_FALSE(line->print.has_value());
+}
+
+TEST(CommandLineTest, FlagsWinOverTheFile) {
+  const auto line = Read({"--config", "deploy/config/plumescout.yaml", "--listen", "127.0.0.1:0",
+                          "--set", "limits.max_missions=3", "--set", "mission.seed=9"});
+  ASSERT_TRUE(line.ok()) << line.status();
+  EXPECT_EQ(line->config.listen, "127.0.0.1:0");
+  EXPECT_EQ(line->config.limits.max_missions, 3);
+  EXPECT_EQ(line->config.mission.seed, 9u);
+}
+
+TEST(CommandLineTest, HelpNamesFlagsAndOptions) {
+  const auto line = Read({"--help"});
+  ASSERT_TRUE(line.ok() && line->print.has_value());
+  EXPECT_THAT(*line->print, HasSubstr("--listen"));
+  EXPECT_THAT(*line->print, HasSubstr("limits.max_missions = 64"));
+}
+
+TEST(CommandLineTest, MistakesAreNamed) {
+  EXPECT_THAT(std::string(Read({"--lissen", "x"}).status().message()), HasSubstr("--lissen"));
+  EXPECT_THAT(std::string(Read({"--set", "x"}).status().message()), HasSubstr("KEY=VALUE"));
+  EXPECT_THAT(std::string(Read({"--set", "x=1"}).status().message()),
+              HasSubstr("x is not an option"));
+  EXPECT_FALSE(Read({"--config", "/no/such/file"}).ok());
+}
+
+}  // namespace
+}  // namespace plumescout::server

@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/services/map_service.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "proto/convert/geometry.h"
+#include "tests/server/service_fixture.h"
+
+namespace plumescout::server {
+namespace {
+
+constexpr auto kNotFound = absl::StatusCode::kNotFound;
+
+class MapServiceTest : public ServiceTest {
+ protected:
+  void SetUp() override { StartServer(); }
+  absl::StatusOr<v1::GetMapResponse> GetMapOf(const std::string& mission,
+                                              const std::vector<int>& layers = {}) {
+    v1::GetMapRequest request;
+    request.set_mission(mission);
+    for (const int layer : layers) request.add_layers(static_cast<v1::MapLayer>(layer));
+    return Call(maps_, &v1::MapService::Stub::GetMap, request);
+  }
+};
+
+TEST_F(MapServiceTest, NewMissionHasAnEmptyMap) {
+  const auto map = GetMap();
+  ASSERT_TRUE(map.ok()) << map.status();
+  EXPECT_EQ(map->revision(), 0);
+  EXPECT_EQ(map->status().robots_size(), 0);
+  EXPECT_EQ(map->status().gas_counters().reading_count(), 0);
+  EXPECT_EQ(map->status().phase(), v1::MISSION_PHASE_EXPLORING);
+}
+
+TEST_F(MapServiceTest, MapShowsWhatIsApplied) {
+  const std::int64_t lease = Lease();
+  ASSERT_TRUE(Ingest(kRobot, lease, RoomScan(1)).ok());
+  ASSERT_TRUE(Ingest(kRobot, lease, GasReadings(2, 3)).ok());
+  const auto map = GetMap();
+  ASSERT_TRUE(map.ok()) << map.status();
+  EXPECT_EQ(map->revision(), 4);
+  ASSERT_EQ(map->status().robots_size(), 1);
+  EXPECT_EQ(map->status().robots(0).robot(), kRobot);
+  EXPECT_EQ(map->status().robots(0).applied_sequence(), 3);
+  EXPECT_EQ(map->status().gas_counters().reading_count(), 2);
+  ASSERT_EQ(map->tiles_size(), 3);
+  EXPECT_EQ(map->tiles(0).layer(), v1::MAP_LAYER_OCCUPANCY);
+  EXPECT_EQ(map->tiles(0).column_count(), map->status().geometry().column_count());
+  EXPECT_GT(map->tiles(0).column_count(), 0);
+}
+
+TEST_F(MapServiceTest, FreshPosteriorHasItsQuality) {
+  const std::int64_t lease = Lease();
+  ASSERT_TRUE(Ingest(kRobot, lease, RoomScan(1)).ok());
+  v1::GetMapRequest request;
+  request.set_mission("missions/hall");
+  request.set_fresh_posterior(true);
+  const auto map = Call(maps_, &v1::MapService::Stub::GetMap, request);
+  ASSERT_TRUE(map.ok()) << map.status();
+  EXPECT_EQ(map->status().gas_quality().refresh_count(), 1);
+}
+
+TEST_F(MapServiceTest, EveryReadingIsCountedOnTheMap) {
+  const std::int64_t lease = Lease();
+  const Pose2 middle{2.0, 1.5, 0.0};
+  std::int64_t sequence = 0;
+  for (int k = 0; k < 3; ++k) ASSERT_TRUE(Ingest(kRobot, lease, RoomScan(++sequence)).ok());
+  v1::ObservationBatch batch;
+  const auto add = [&](Pose2 pose, GasReading reading) {
+    ++sequence;
+    *batch.add_observations() = ToProto(Observation{sequence, sequence * 1'000'000, pose, reading});
+  };
+  add(middle, {1.0, 0.0});
+  add(middle, {1.0, 1e12});
+  add({2.0, 3.97, 0.0}, {1.0, 0.0});  // in a wall
+  add({500.0, 1.5, 0.0}, {1.0, 0.0});
+  add(middle, {-1.0, 0.0});
+  const auto ingested = Ingest(kRobot, lease, batch);
+  ASSERT_TRUE(ingested.ok()) << ingested.status();
+  ASSERT_EQ(ingested->rejections_size(), 1);
+  EXPECT_EQ(ingested->rejections(0).sequence(), sequence);
+  v1::GetMapRequest request;
+  request.set_mission("missions/hall");
+  request.set_fresh_posterior(true);
+  const auto map = Call(maps_, &v1::MapService::Stub::GetMap, request);
+  ASSERT_TRUE(map.ok()) << map.status();
+  const v1::GasCounters& counters = map->status().gas_counters();
+  EXPECT_EQ(counters.reading_count(), 4);
+  EXPECT_EQ(counters.in_posterior_count(), 3);
+  EXPECT_EQ(counters.moved_count(), 1);
+  EXPECT_EQ(counters.waiting_count(), 1);
+  EXPECT_EQ(map->status().robots(0).rejected_observation_count(), 1);
+  EXPECT_EQ(map->status().gas_quality().failure_count(), 0);
+}
+
+// On an empty mission, on a map without readings, with readings before there is a free cell.
+TEST_F(MapServiceTest, PosteriorIsFreshWithoutReadingsAndWithoutFreeCells) {
+  v1::GetMapRequest request;
+  request.set_mission("missions/hall");
+  request.set_fresh_posterior(true);
+  const auto fresh = [&] { return Call(maps_, &v1::MapService::Stub::GetMap, request); };
+  EXPECT_TRUE(fresh().ok());
+  const std::int64_t lease = Lease();
+  ASSERT_TRUE(Ingest(kRobot, lease, GasReadings(1, 1)).ok());
+  const auto unknown = fresh();
+  ASSERT_TRUE(unknown.ok()) << unknown.status();
+  EXPECT_EQ(unknown->status().gas_counters().waiting_count(), 1);
+  for (int k = 2; k <= 4; ++k) ASSERT_TRUE(Ingest(kRobot, lease, RoomScan(k)).ok());
+  const auto known = fresh();
+  ASSERT_TRUE(known.ok()) << known.status();
+  EXPECT_EQ(known->status().gas_counters().in_posterior_count(), 1);
+}
+
+TEST_F(MapServiceTest, ReadingAMapChangesNothing) {
+  const std::int64_t lease = Lease();
+  ASSERT_TRUE(Ingest(kRobot, lease, RoomScan(1)).ok());
+  ASSERT_TRUE(Ingest(kRobot, lease, GasReadings(2, 3)).ok());
+  const auto first = GetMap();
+  const auto second = GetMap();
+  ASSERT_TRUE(first.ok() && second.ok());
+  EXPECT_EQ(first->SerializeAsString(), second->SerializeAsString());
+  EXPECT_EQ(Revision(), 4);
+}
+
+TEST_F(MapServiceTest, OnlyTheLayersAskedForAreSent) {
+  ASSERT_TRUE(Ingest(kRobot, Lease(), RoomScan(1)).ok());
+  const auto map = GetMapOf("missions/hall", {v1::MAP_LAYER_GAS_VARIANCE});
+  ASSERT_TRUE(map.ok()) << map.status();
+  ASSERT_EQ(map->tiles_size(), 1);
+  EXPECT_EQ(map->tiles(0).layer(), v1::MAP_LAYER_GAS_VARIANCE);
+  EXPECT_EQ(map->tiles(0).encoding(), v1::MapTile::ENCODING_U16_SCALED);
+}
+
+TEST_F(MapServiceTest, FullPrecisionIsFloat) {
+  ASSERT_TRUE(Ingest(kRobot, Lease(), RoomScan(1)).ok());
+  const auto map = GetMap(/*full_precision=*/true);
+  ASSERT_TRUE(map.ok()) << map.status();
+  ASSERT_EQ(map->tiles_size(), 3);
+  EXPECT_EQ(map->tiles(1).encoding(), v1::MapTile::ENCODING_F32);
+}
+
+TEST_F(MapServiceTest, StrangersAndUnknownLayersAreRefused) {
+  EXPECT_THAT(GetMapOf("missions/attic").status(), Refuses(kNotFound, "MISSION_NOT_FOUND"));
+  EXPECT_THAT(GetMapOf("hall").status(), RefusesField("mission"));
+  EXPECT_THAT(GetMapOf("missions/hall", {v1::MAP_LAYER_OCCUPANCY, 99}).status(),
+              RefusesField("layers[1]"));
+}
+
+TEST_F(MapServiceTest, GasIsToldPointByPoint) {
+  const std::int64_t lease = Lease();
+  for (int k = 1; k <= 3; ++k) ASSERT_TRUE(Ingest(kRobot, lease, RoomScan(k)).ok());
+  ASSERT_TRUE(Ingest(kRobot, lease, GasReadings(4, 13)).ok());  // 1 ppm at (2, 1.5)
+  v1::QueryGasRequest request;
+  request.set_mission("missions/hall");
+  request.set_fresh_posterior(true);
+  for (const Point2 point : {Point2{2.0, 1.5}, Point2{5.5, 3.5}, Point2{2.0, 4.02}, {500.0, 0.0}}) {
+    *request.add_points() = ToProto(point);
+  }
+  const auto response = Call(maps_, &v1::MapService::Stub::QueryGas, request);
+  ASSERT_TRUE(response.ok()) << response.status();
+  ASSERT_EQ(response->gas_size(), 4);
+  EXPECT_EQ(response->gas(0).state(), v1::CELL_STATE_FREE);
+  EXPECT_TRUE(response->gas(0).observed());
+  EXPECT_GT(response->gas(0).mean_ppm(), 0.5);
+  EXPECT_FALSE(response->gas(1).observed());
+  EXPECT_GT(response->gas(1).variance_ppm2(), response->gas(0).variance_ppm2());
+  EXPECT_EQ(response->gas(2).state(), v1::CELL_STATE_OCCUPIED);
+  EXPECT_FALSE(response->gas(2).has_mean_ppm());
+  EXPECT_EQ(response->gas(3).state(), v1::CELL_STATE_OFF_MAP);
+  EXPECT_EQ(response->posterior_time_ns(), 13'000'000);
+  EXPECT_EQ(response->gas_quality().refresh_count(), 1);
+  EXPECT_EQ(response->revision(), Revision());
+}
+
+TEST_F(MapServiceTest, GasOfAnEmptyMapIsOffTheMap) {
+  v1::QueryGasRequest request;
+  request.set_mission("missions/hall");
+  request.add_points();
+  const auto response = Call(maps_, &v1::MapService::Stub::QueryGas, request);
+  ASSERT_TRUE(response.ok()) << response.status();
+  EXPECT_EQ(response->gas(0).state(), v1::CELL_STATE_OFF_MAP);
+  EXPECT_EQ(Revision(), 0);
+}
+
+TEST_F(MapServiceTest, WatchersAreServedToo) {
+  WatchClient watch(*maps_);
+  EXPECT_EQ(watch.Read().kind(), v1::WatchMapResponse::KIND_FULL);
+}
+
+}  // namespace
+}  // namespace plumescout::server

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/services/robot_service.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "tests/server/service_fixture.h"
+
+namespace plumescout::server {
+namespace {
+
+constexpr auto kNotFound = absl::StatusCode::kNotFound;
+constexpr auto kPrecondition = absl::StatusCode::kFailedPrecondition;
+
+class RobotServiceTest : public ServiceTest {
+ protected:
+  absl::Status RegisterWith(const std::function<void(v1::RegisterRobotRequest&)>& change) {
+    v1::RegisterRobotRequest request;
+    request.set_mission("missions/hall");
+    request.set_robot_id("r1");
+    request.set_radius_m(0.2);
+    change(request);
+    return Call(robots_, &v1::RobotService::Stub::RegisterRobot, request).status();
+  }
+};
+
+ServerConfig WithLeaseHold(double seconds) {
+  ServerConfig config;
+  config.connection.lease_hold_s = seconds;
+  return config;
+}
+
+TEST_F(RobotServiceTest, NewRobotStartsItsLogAtTheBeginning) {
+  StartServer();
+  const auto response = Register("r1");
+  ASSERT_TRUE(response.ok()) << response.status();
+  EXPECT_EQ(response->robot(), kRobot);
+  EXPECT_GT(response->lease_token(), 0);
+  EXPECT_EQ(response->server_boot_id(), server_->boot_id());
+  EXPECT_EQ(response->ingest_state().applied_sequence(), 0);
+  EXPECT_EQ(response->ingest_state().credit_sequence(), LimitConfig{}.stream_window_observations);
+  EXPECT_EQ(response->ingest_state().revision(), 1);
+}
+
+TEST_F(RobotServiceTest, HeldLeaseIsRefusedAndSaysWhenToRetry) {
+  StartServer(WithLeaseHold(3600.0));
+  ASSERT_TRUE(Register("r1").ok());
+  const absl::Status refused = Register("r1").status();
+  EXPECT_THAT(refused, Refuses(kPrecondition, "LEASE_HELD"));
+  EXPECT_GT(RetryDelay(refused).value(), absl::ZeroDuration());
+  EXPECT_EQ(Revision(), 1);
+}
+
+TEST_F(RobotServiceTest, TakeOverGrantsANewerLeaseAndTheLogGoesOn) {
+  StartServer();
+  const std::int64_t old_lease = Lease();
+  ASSERT_TRUE(Ingest(kRobot, old_lease, GasReadings(1, 3)).ok());
+  const auto response = Register("r1", /*take_over=*/true);
+  ASSERT_TRUE(response.ok()) << response.status();
+  EXPECT_GT(response->lease_token(), old_lease);
+  EXPECT_EQ(response->ingest_state().applied_sequence(), 3);
+}
+
+TEST_F(RobotServiceTest, LeaseThatRanOutIsFree) {
+  StartServer(WithLeaseHold(0.0));
+  ASSERT_TRUE(Register("r1").ok());
+  EXPECT_TRUE(Register("r1").ok());
+}
+
+TEST_F(RobotServiceTest, OpenStreamHoldsTheLease) {
+  StartServer(WithLeaseHold(0.0));
+  IngestClient stream(*ingest_);
+  ASSERT_TRUE(stream.Open(kRobot, Lease()));
+  ASSERT_TRUE(stream.Read().has_opened());
+  EXPECT_THAT(Register("r1").status(), Refuses(kPrecondition, "LEASE_HELD"));
+}
+
+TEST_F(RobotServiceTest, EachFieldIsNamedWhenItIsRefused) {
+  StartServer();
+  EXPECT_THAT(RegisterWith([](auto& request) { request.set_mission("hall"); }),
+              RefusesField("mission"));
+  EXPECT_THAT(RegisterWith([](auto& request) { request.set_robot_id("R 1"); }),
+              RefusesField("robot_id"));
+  EXPECT_THAT(RegisterWith([](auto& request) { request.set_radius_m(0.0); }),
+              RefusesField("radius_m"));
+}
+
+TEST_F(RobotServiceTest, MissionMustExist) {
+  StartServer();
+  EXPECT_THAT(RegisterWith([](auto& request) { request.set_mission("missions/attic"); }),
+              Refuses(kNotFound, "MISSION_NOT_FOUND"));
+}
+
+TEST_F(RobotServiceTest, FullMissionTakesNoMoreRobots) {
+  ServerConfig config;
+  config.mission.max_robots = 1;
+  StartServer(config);
+  ASSERT_TRUE(Register("r1").ok());
+  EXPECT_THAT(Register("r2").status(),
+              Refuses(absl::StatusCode::kResourceExhausted, "RESOURCE_EXHAUSTED"));
+}
+
+}  // namespace
+}  // namespace plumescout::server
