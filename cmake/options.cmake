@@ -49,7 +49,8 @@ target_compile_options(plumescout_warnings INTERFACE -Wall -Wextra -Wconversion 
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # GCC 12 sees overlaps and ends of objects in std::string = "literal" that are not there (its bugs
   # 105651 and 105329); it says so of precompiled system headers too.
-  target_compile_options(plumescout_warnings INTERFACE -Wno-restrict -Wno-array-bounds)
+  target_compile_options(plumescout_warnings INTERFACE -Wno-restrict -Wno-array-bounds
+                         -Wno-stringop-overread)
 endif()
 if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
   # -Wconversion of GCC leaves signs alone in C++; so does ours.

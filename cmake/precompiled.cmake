@@ -21,7 +21,7 @@ foreach(kind base wire tests wire_tests)
     target_link_libraries(${holder} PRIVATE GTest::gmock)
     target_compile_options(${holder} PRIVATE ${PLUMESCOUT_TEST_OPTIONS})
   endif()
-  target_precompile_headers(${holder} PRIVATE cmake/precompiled/${kind}.h)
+  target_precompile_headers(${holder} PRIVATE <cmake/precompiled/${kind}.h>)
 endforeach()
 
 function(plumescout_precompile target kind)
