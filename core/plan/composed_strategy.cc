@@ -71,7 +71,7 @@ absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
       PLUMESCOUT_RETURN_IF_ERROR(PlanLastWayHome(*start.departure, call, plan));
     }
   }
-  Conclude(start.pose.yaw_rad, options_.selection, plan);
+  Conclude(start.pose.yaw_rad, options_.selection_rule, plan);
   return std::move(plan);
 }
 
@@ -130,7 +130,7 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
   }
   if (stop()) return StoppedBeforeAnyPath();
 
-  const EdgeCost selection_cost(field, options_.selection_cost, options_.alpha);
+  const EdgeCost selection_cost(field, options_.selection_cost, options_.alpha_per_m);
   const CandidateJudge judge = {selection_cost, *belief.gas_mean_ppm,
                                 mission.gas.background_mean_ppm};
   const Judging judging = {query, goals.goals, departure, judge};
@@ -138,7 +138,7 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
     const plumescout::Plan incumbent = Incumbent(judging, better, plan);
     if (incumbent.chosen >= 0) call.improved(incumbent);
   };
-  const EdgeCost cost(field, options_.cost, options_.alpha);
+  const EdgeCost cost(field, options_.cost, options_.alpha_per_m);
   const PathResult result =
       paths_->FindPaths({cost, reachable, departure.start, goals.goals, plan.seed,
                          request.max_edge_evaluations, stop, improved ? &tell : nullptr});
@@ -156,13 +156,13 @@ plumescout::Plan ComposedStrategy::Incumbent(const Judging& judging, PathResult 
   result.end = EndOf(result.paths, /*stopped=*/true);
   PlanningOptions options = options_;
   // It would cost the search its time.
-  if (options.selection == SelectionRule::kInformationRate) {
-    options.selection = SelectionRule::kLeastCost;
+  if (options.selection_rule == SelectionRule::kInformationRate) {
+    options.selection_rule = SelectionRule::kLeastCost;
   }
   TakeResults(judging, result, plan);
   RejectOverBudget(judging.query, plan);
   Choose(judging.query.belief, options, NeverStop(), plan);
-  Conclude(judging.departure.yaw_rad, options.selection, plan);
+  Conclude(judging.departure.yaw_rad, options.selection_rule, plan);
   return plan;
 }
 

@@ -44,7 +44,7 @@ class ErrandPricer {
             {*belief.traversable, *belief.gas_mean_ppm, *belief.gas_variance_ppm2,
              belief.options->gas, belief.options->frontier},
             options)),
-        cost_(field_, CostKind::kEuclidean, options.alpha) {}
+        cost_(field_, CostKind::kEuclidean, options.alpha_per_m) {}
 
   Candidate Price(const Errand& errand, const std::vector<Point2>& path) const {
     Candidate candidate =

@@ -145,7 +145,7 @@ Candidate Price(const Belief& belief, const RobotRecord& robot, const IntendedPa
       MakeInformationField({*belief.traversable, *belief.gas_mean_ppm, *belief.gas_variance_ppm2,
                             mission.gas, mission.frontier},
                            options);
-  const EdgeCost cost(field, options.selection_cost, options.alpha);
+  const EdgeCost cost(field, options.selection_cost, options.alpha_per_m);
   const std::vector<Point2>& vertices = path.vertices;
   const auto out = std::find_if(vertices.begin(), vertices.end(), [&](Point2 vertex) {
     return belief.traversable->At(belief.geometry().CellAt(vertex), 0) != 0;

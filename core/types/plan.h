@@ -72,7 +72,7 @@ enum class RejectionReason {
   kTooSmall,       // fewer cells than the minimum frontier size
   kSetAside,       // goal memory: failed or visited without change, not yet expired
   kClaimed,        // another robot's live plan ends there
-  kNotDrawn,       // more goals than max_goals; the draw passed it over
+  kNotDrawn,       // more goals than max_goal_count; the draw passed it over
   kTooClose,       // nearer than the minimum travel distance
   kSearchStopped,  // deadline or cancel came before a path was found
   kOverBudget,     // too little of the travel budget would be left to drive home

@@ -135,7 +135,7 @@ absl::Status MeasureOnline(const Size& size, bool open, const GasCase& c, BenchS
     scan_ms.push_back(Cpu_ms([&] { status.Update(field.Apply(changes)); }));
     std::vector<std::size_t> cells;
     while (cells.size() < kWhatIfCells) cells.push_back(events.ActiveCell());
-    const double precision = GasOptions().observation_precision;
+    const double precision = GasOptions().observation_precision_per_ppm2;
     what_if_ms.push_back(
         Cpu_ms([&] { status.Update(field.Snapshot().VarianceIfRead(cells, precision).status()); }));
   }

@@ -87,7 +87,7 @@ std::vector<CellChange> GasEvents::ReadingAnywhere() {
 }
 
 std::vector<CellChange> GasEvents::ReadAt(std::size_t cell, double deviation_ppm) {
-  const double precision = GasOptions().observation_precision;
+  const double precision = GasOptions().observation_precision_per_ppm2;
   cells_[cell].precision += precision;
   cells_[cell].weighted_deviation += precision * deviation_ppm;
   return {{cell, cells_[cell]}};
@@ -125,7 +125,7 @@ CellChange GasEvents::Flip(std::size_t cell) {
 FieldEngine GasEvents::Fresh(const FieldTolerance& tolerance) const {
   const GasOptions gas;
   FieldOptions options;
-  options.prior = {gas.prior_precision, gas.background_precision};
+  options.prior = {gas.prior_precision_per_ppm2, gas.background_precision_per_ppm2};
   options.tolerance = tolerance;
   return FieldEngine(width_, cells_.size() / width_, cells_, options);
 }

@@ -70,7 +70,7 @@ struct SceneStudy {
 std::optional<FoundPath> Search(const SyntheticScene& scene, const Spread& spread,
                                 std::uint64_t seed) {
   PlanningOptions options;
-  options.samples = spread.samples;
+  options.sample_count = spread.samples;
   options.sampling = spread.sampling;
   const EdgeCost cost(scene.field, CostKind::kUcb, kAlpha_per_m);
   const std::vector<Goal> goals = {scene.goal};

@@ -24,7 +24,7 @@ PlanningOptions Mit() {
   PlanningOptions options;
   options.strategy = "mit";
   if (!ApplyStrategyRow(options).ok()) return {};
-  options.samples = kMitSamples;
+  options.sample_count = kMitSamples;
   return options;
 }
 

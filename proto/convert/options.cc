@@ -28,33 +28,33 @@ v1::OccupancyOptions ToProto(const OccupancyOptions& options) {
   v1::OccupancyOptions proto;
   proto.set_resolution_m(options.resolution_m);
   proto.set_inflation_radius_m(options.inflation_radius_m);
-  proto.set_free_threshold_probability(options.free_threshold);
-  proto.set_occupied_threshold_probability(options.occupied_threshold);
+  proto.set_free_threshold_probability(options.free_threshold_probability);
+  proto.set_occupied_threshold_probability(options.occupied_threshold_probability);
   proto.set_hit_log_odds(options.hit_log_odds);
   proto.set_miss_log_odds(options.miss_log_odds);
   proto.set_clamp_log_odds(options.clamp_log_odds);
   proto.set_max_extent_m(options.max_extent_m);
-  proto.set_max_cell_count(options.max_cells);
+  proto.set_max_cell_count(options.max_cell_count);
   return proto;
 }
 
 v1::GasOptions ToProto(const GasOptions& options) {
   v1::GasOptions proto;
-  proto.set_prior_precision_per_ppm2(options.prior_precision);
-  proto.set_observation_precision_per_ppm2(options.observation_precision);
-  proto.set_background_precision_per_ppm2(options.background_precision);
+  proto.set_prior_precision_per_ppm2(options.prior_precision_per_ppm2);
+  proto.set_observation_precision_per_ppm2(options.observation_precision_per_ppm2);
+  proto.set_background_precision_per_ppm2(options.background_precision_per_ppm2);
   proto.set_background_mean_ppm(options.background_mean_ppm);
   proto.set_ageing_half_life_s(options.ageing_half_life_s);
   proto.set_refresh_period_s(options.refresh_period_s);
   proto.set_lattice_factor(options.lattice_factor);
-  proto.set_observation_stddev_share(options.observation_relative_stddev);
+  proto.set_observation_stddev_share(options.observation_stddev_share);
   return proto;
 }
 
 v1::FrontierOptions ToProto(const FrontierOptions& options) {
   v1::FrontierOptions proto;
-  proto.set_min_occupancy_cell_count(options.min_occupancy_cells);
-  proto.set_min_gas_cell_count(options.min_gas_cells);
+  proto.set_min_occupancy_cell_count(options.min_occupancy_cell_count);
+  proto.set_min_gas_cell_count(options.min_gas_cell_count);
   proto.set_observed_variance_ratio(options.observed_variance_ratio);
   if (options.observed_variance_ppm2.has_value()) {
     proto.set_observed_variance_ppm2(*options.observed_variance_ppm2);
@@ -78,8 +78,8 @@ v1::SiteOptions ToProto(const SiteOptions& options) {
   proto.set_reward(ToProto(options.reward));
   proto.set_survey(options.survey);
   proto.set_survey_stride(options.survey_stride);
-  proto.set_candidate_count(options.candidates);
-  proto.set_cycle_sample_count(options.cycle_samples);
+  proto.set_candidate_count(options.candidate_count);
+  proto.set_cycle_sample_count(options.cycle_sample_count);
   proto.set_update_period_s(options.update_period_s);
   proto.set_sweep_stride(options.sweep_stride);
   proto.set_sweep_leg_stride(options.sweep_leg_stride);
@@ -89,18 +89,18 @@ v1::SiteOptions ToProto(const SiteOptions& options) {
 v1::PlanningOptions ToProto(const PlanningOptions& options) {
   v1::PlanningOptions proto;
   proto.set_strategy(options.strategy);
-  proto.set_goal_policy(ToProto(options.goals));
+  proto.set_goal_policy(ToProto(options.goal_policy));
   proto.set_draw_goals(options.draw_goals);
-  proto.set_max_goal_count(options.max_goals);
+  proto.set_max_goal_count(options.max_goal_count);
   proto.set_min_goal_distance_m(options.min_goal_distance_m);
   proto.set_cost(ToProto(options.cost));
   proto.set_selection_cost(ToProto(options.selection_cost));
-  proto.set_selection_rule(ToProto(options.selection));
-  proto.set_alpha_per_m(options.alpha);
+  proto.set_selection_rule(ToProto(options.selection_rule));
+  proto.set_alpha_per_m(options.alpha_per_m);
   proto.set_beta(options.beta);
   proto.set_raw_variance(options.raw_variance);
-  proto.set_sample_count(options.samples);
-  proto.set_nearest_sample_count(options.nearest_samples);
+  proto.set_sample_count(options.sample_count);
+  proto.set_nearest_sample_count(options.nearest_sample_count);
   proto.set_uniform_share(options.uniform_share);
   proto.set_sampling(ToProto(options.sampling));
   proto.set_radius_factor(options.radius_factor);
@@ -116,7 +116,7 @@ v1::PlanningOptions ToProto(const PlanningOptions& options) {
   proto.set_informed_heuristic(options.informed_heuristic);
   proto.set_straighten(options.straighten);
   proto.set_reading_rate_hz(options.reading_rate_hz);
-  proto.set_commitment_margin_share(options.commitment_margin);
+  proto.set_commitment_margin_share(options.commitment_margin_share);
   proto.set_max_acceleration_mps2(options.max_acceleration_mps2);
   proto.set_max_turn_rate_rad_per_s(options.max_turn_rate_rad_per_s);
   proto.set_travel_budget_m(options.travel_budget_m);
@@ -143,36 +143,36 @@ void Read(const v1::OccupancyOptions& proto, OccupancyOptions& options) {
   Take(proto.has_resolution_m(), proto.resolution_m(), options.resolution_m);
   Take(proto.has_inflation_radius_m(), proto.inflation_radius_m(), options.inflation_radius_m);
   Take(proto.has_free_threshold_probability(), proto.free_threshold_probability(),
-       options.free_threshold);
+       options.free_threshold_probability);
   Take(proto.has_occupied_threshold_probability(), proto.occupied_threshold_probability(),
-       options.occupied_threshold);
+       options.occupied_threshold_probability);
   Take(proto.has_hit_log_odds(), proto.hit_log_odds(), options.hit_log_odds);
   Take(proto.has_miss_log_odds(), proto.miss_log_odds(), options.miss_log_odds);
   Take(proto.has_clamp_log_odds(), proto.clamp_log_odds(), options.clamp_log_odds);
   Take(proto.has_max_extent_m(), proto.max_extent_m(), options.max_extent_m);
-  Take(proto.has_max_cell_count(), proto.max_cell_count(), options.max_cells);
+  Take(proto.has_max_cell_count(), proto.max_cell_count(), options.max_cell_count);
 }
 
 void Read(const v1::GasOptions& proto, GasOptions& options) {
   Take(proto.has_prior_precision_per_ppm2(), proto.prior_precision_per_ppm2(),
-       options.prior_precision);
+       options.prior_precision_per_ppm2);
   Take(proto.has_observation_precision_per_ppm2(), proto.observation_precision_per_ppm2(),
-       options.observation_precision);
+       options.observation_precision_per_ppm2);
   Take(proto.has_background_precision_per_ppm2(), proto.background_precision_per_ppm2(),
-       options.background_precision);
+       options.background_precision_per_ppm2);
   Take(proto.has_background_mean_ppm(), proto.background_mean_ppm(), options.background_mean_ppm);
   Take(proto.has_ageing_half_life_s(), proto.ageing_half_life_s(), options.ageing_half_life_s);
   Take(proto.has_refresh_period_s(), proto.refresh_period_s(), options.refresh_period_s);
   Take(proto.has_lattice_factor(), proto.lattice_factor(), options.lattice_factor);
   Take(proto.has_observation_stddev_share(), proto.observation_stddev_share(),
-       options.observation_relative_stddev);
+       options.observation_stddev_share);
 }
 
 absl::Status Read(const v1::FrontierOptions& proto, absl::string_view field,
                   FrontierOptions& options) {
   Take(proto.has_min_occupancy_cell_count(), proto.min_occupancy_cell_count(),
-       options.min_occupancy_cells);
-  Take(proto.has_min_gas_cell_count(), proto.min_gas_cell_count(), options.min_gas_cells);
+       options.min_occupancy_cell_count);
+  Take(proto.has_min_gas_cell_count(), proto.min_gas_cell_count(), options.min_gas_cell_count);
   Take(proto.has_observed_variance_ratio(), proto.observed_variance_ratio(),
        options.observed_variance_ratio);
   Take(proto.has_observed_variance_ppm2(), proto.observed_variance_ppm2(),
@@ -192,25 +192,26 @@ absl::Status ReadChoices(const v1::PlanningOptions& proto, absl::string_view fie
   }
   Take(proto.has_strategy(), proto.strategy(), options.strategy);
   PLUMESCOUT_RETURN_IF_ERROR(
-      TakeEnum(proto.goal_policy(), Join(field, "goal_policy"), options.goals));
+      TakeEnum(proto.goal_policy(), Join(field, "goal_policy"), options.goal_policy));
   PLUMESCOUT_RETURN_IF_ERROR(TakeEnum(proto.paths(), Join(field, "paths"), options.paths));
   PLUMESCOUT_RETURN_IF_ERROR(TakeEnum(proto.cost(), Join(field, "cost"), options.cost));
   PLUMESCOUT_RETURN_IF_ERROR(
       TakeEnum(proto.selection_cost(), Join(field, "selection_cost"), options.selection_cost));
   PLUMESCOUT_RETURN_IF_ERROR(
-      TakeEnum(proto.selection_rule(), Join(field, "selection_rule"), options.selection));
+      TakeEnum(proto.selection_rule(), Join(field, "selection_rule"), options.selection_rule));
   return TakeEnum(proto.sampling(), Join(field, "sampling"), options.sampling);
 }
 
 void ReadNumbers(const v1::PlanningOptions& proto, PlanningOptions& options) {
   Take(proto.has_draw_goals(), proto.draw_goals(), options.draw_goals);
-  Take(proto.has_max_goal_count(), proto.max_goal_count(), options.max_goals);
+  Take(proto.has_max_goal_count(), proto.max_goal_count(), options.max_goal_count);
   Take(proto.has_min_goal_distance_m(), proto.min_goal_distance_m(), options.min_goal_distance_m);
-  Take(proto.has_alpha_per_m(), proto.alpha_per_m(), options.alpha);
+  Take(proto.has_alpha_per_m(), proto.alpha_per_m(), options.alpha_per_m);
   Take(proto.has_beta(), proto.beta(), options.beta);
   Take(proto.has_raw_variance(), proto.raw_variance(), options.raw_variance);
-  Take(proto.has_sample_count(), proto.sample_count(), options.samples);
-  Take(proto.has_nearest_sample_count(), proto.nearest_sample_count(), options.nearest_samples);
+  Take(proto.has_sample_count(), proto.sample_count(), options.sample_count);
+  Take(proto.has_nearest_sample_count(), proto.nearest_sample_count(),
+       options.nearest_sample_count);
   Take(proto.has_uniform_share(), proto.uniform_share(), options.uniform_share);
   Take(proto.has_radius_factor(), proto.radius_factor(), options.radius_factor);
   Take(proto.has_mixture_radius(), proto.mixture_radius(), options.mixture_radius);
@@ -226,7 +227,7 @@ void ReadNumbers(const v1::PlanningOptions& proto, PlanningOptions& options) {
   Take(proto.has_straighten(), proto.straighten(), options.straighten);
   Take(proto.has_reading_rate_hz(), proto.reading_rate_hz(), options.reading_rate_hz);
   Take(proto.has_commitment_margin_share(), proto.commitment_margin_share(),
-       options.commitment_margin);
+       options.commitment_margin_share);
 }
 
 void ReadMotion(const v1::PlanningOptions& proto, PlanningOptions& options) {
@@ -254,8 +255,8 @@ absl::Status Read(const v1::SiteOptions& proto, absl::string_view field, SiteOpt
   Take(proto.has_spacing_m(), proto.spacing_m(), options.spacing_m);
   Take(proto.has_survey(), proto.survey(), options.survey);
   Take(proto.has_survey_stride(), proto.survey_stride(), options.survey_stride);
-  Take(proto.has_candidate_count(), proto.candidate_count(), options.candidates);
-  Take(proto.has_cycle_sample_count(), proto.cycle_sample_count(), options.cycle_samples);
+  Take(proto.has_candidate_count(), proto.candidate_count(), options.candidate_count);
+  Take(proto.has_cycle_sample_count(), proto.cycle_sample_count(), options.cycle_sample_count);
   Take(proto.has_update_period_s(), proto.update_period_s(), options.update_period_s);
   Take(proto.has_sweep_stride(), proto.sweep_stride(), options.sweep_stride);
   Take(proto.has_sweep_leg_stride(), proto.sweep_leg_stride(), options.sweep_leg_stride);
@@ -314,28 +315,6 @@ void ClearEqualFields(const google::protobuf::Message& other, google::protobuf::
   }
 }
 
-// Where Validate(options) calls a field differently from the wire.
-constexpr FieldName kRenamed[] = {
-    {"occupancy.free_threshold", "occupancy.free_threshold_probability"},
-    {"occupancy.occupied_threshold", "occupancy.occupied_threshold_probability"},
-    {"occupancy.max_cells", "occupancy.max_cell_count"},
-    {"gas.prior_precision", "gas.prior_precision_per_ppm2"},
-    {"gas.observation_precision", "gas.observation_precision_per_ppm2"},
-    {"gas.background_precision", "gas.background_precision_per_ppm2"},
-    {"gas.observation_relative_stddev", "gas.observation_stddev_share"},
-    {"frontier.min_occupancy_cells", "frontier.min_occupancy_cell_count"},
-    {"frontier.min_gas_cells", "frontier.min_gas_cell_count"},
-    {"planning.max_goals", "planning.max_goal_count"},
-    {"planning.alpha", "planning.alpha_per_m"},
-    {"planning.samples", "planning.sample_count"},
-    {"planning.commitment_margin", "planning.commitment_margin_share"},
-    {"planning.nearest_samples", "planning.nearest_sample_count"},
-    {"planning.sites.candidates", "planning.sites.candidate_count"},
-    {"planning.sites.cycle_samples", "planning.sites.cycle_sample_count"},
-    {"max_beams", "max_beam_count"},
-    {"max_robots", "max_robot_count"},
-};
-
 }  // namespace
 
 v1::MissionOptions ToProto(const MissionOptions& options) {
@@ -346,9 +325,9 @@ v1::MissionOptions ToProto(const MissionOptions& options) {
   *proto.mutable_planning() = ToProto(options.planning);
   proto.set_pose_limit_m(options.pose_limit_m);
   proto.set_max_range_m(options.max_range_m);
-  proto.set_max_beam_count(options.max_beams);
+  proto.set_max_beam_count(options.max_beam_count);
   proto.set_max_concentration_ppm(options.max_concentration_ppm);
-  proto.set_max_robot_count(options.max_robots);
+  proto.set_max_robot_count(options.max_robot_count);
   proto.set_seed(static_cast<std::int64_t>(options.seed));
   for (const Polygon& polygon : options.keep_out) {
     v1::Polygon& added = *proto.add_keep_out();
@@ -379,16 +358,16 @@ absl::StatusOr<MissionOptions> FromProto(const v1::MissionOptions& proto,
       Read(proto.planning().sites(), Join(field, "planning.sites"), options.planning.sites));
   Take(proto.has_pose_limit_m(), proto.pose_limit_m(), options.pose_limit_m);
   Take(proto.has_max_range_m(), proto.max_range_m(), options.max_range_m);
-  Take(proto.has_max_beam_count(), proto.max_beam_count(), options.max_beams);
+  Take(proto.has_max_beam_count(), proto.max_beam_count(), options.max_beam_count);
   Take(proto.has_max_concentration_ppm(), proto.max_concentration_ppm(),
        options.max_concentration_ppm);
-  Take(proto.has_max_robot_count(), proto.max_robot_count(), options.max_robots);
+  Take(proto.has_max_robot_count(), proto.max_robot_count(), options.max_robot_count);
   Take(proto.has_seed(), proto.seed(), options.seed);
   PLUMESCOUT_RETURN_IF_ERROR(ReadPlaces(proto, field, options));
   if (proto.has_prior_map()) {
     PLUMESCOUT_RETURN_IF_ERROR(ReadPriorMap(proto.prior_map(), Join(field, "prior_map"), options));
   }
-  PLUMESCOUT_RETURN_IF_ERROR(WithField(Validate(options), field, kRenamed));
+  PLUMESCOUT_RETURN_IF_ERROR(WithField(Validate(options), field));
   return options;
 }
 

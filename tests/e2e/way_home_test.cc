@@ -45,7 +45,7 @@ TEST(WayHomeTest, ARobotReturnsBeforeItsMissionIsComplete) {
   options.create->planning.return_home = true;
   // A mission soon over: only the building counts, and no place is worth a visit for its gas alone.
   options.create->planning.strategy = "xit_f";
-  options.create->planning.goals = GoalPolicy::kOccupancyOnly;
+  options.create->planning.goal_policy = GoalPolicy::kOccupancyOnly;
   options.create->planning.fallback_to_unobserved = false;
   options.create->home = Point2{2.0, 4.0};
   const EpisodeResult episode = Drive(options);

@@ -71,7 +71,7 @@ std::optional<double> ExpectedInformation::Of(const std::vector<Cell>& readings)
     const Cell shifted{cell.x - shift.x, cell.y - shift.y};
     if (then_geometry.Contains(shifted)) inside.push_back(shifted);
   }
-  const double precision = belief_.options->gas.observation_precision;
+  const double precision = belief_.options->gas.observation_precision_per_ppm2;
   const auto then = belief_.gas_what_if->VarianceIfRead(inside, precision);
   if (!then.ok()) return std::nullopt;
   double sum = 0.0;

@@ -184,7 +184,7 @@ TEST(FieldEngineTest, LosesNoDigitsWhereTheBackgroundIsNegligible) {
   // Every cell's variance in an unobserved map of n cells is at least 1 / (n lambda_d), and beyond
   // that at most the resistance between any two cells over lambda_p: here below 100 / 3.
   FieldOptions options = DefaultField();
-  options.prior.background_precision = 1e-13;
+  options.prior.background_precision_per_ppm2 = 1e-13;
   FieldCase c{20, std::vector<CellInput>(400, {true, 0.0, 0.0})};
   const FieldEngine engine = EngineOf(c, options);
   for (std::size_t i = 0; i < c.cells.size(); ++i) {

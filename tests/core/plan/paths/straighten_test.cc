@@ -16,7 +16,7 @@ constexpr double kRounding = 1e-9;
 
 PathResult TreePaths(const PathCase& c) {
   PlanningOptions options;
-  options.samples = 100;
+  options.sample_count = 100;
   return XitPlanner(options).FindPaths(c.Problem());
 }
 
