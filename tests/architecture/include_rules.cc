@@ -79,7 +79,7 @@ const Room* FindRoom(const std::string& path) {
 
 // Whether the include is somebody else's: a library's, or generated from proto/.
 bool IsForeign(const std::string& include) {
-  for (const char* prefix : {"absl/", "google/", "plumescout/v1/", "gtest/", "gmock/", "CLI/"}) {
+  for (const char* prefix : {"absl/", "google/", "plumescout/", "gtest/", "gmock/", "CLI/"}) {
     if (absl::StartsWith(include, prefix)) return true;
   }
   return false;
