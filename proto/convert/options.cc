@@ -11,7 +11,7 @@
 #include "google/protobuf/message.h"
 #include "google/protobuf/util/message_differencer.h"
 #include "proto/convert/field.h"
-#include "proto/convert/field_binding.h"
+#include "proto/convert/option_binding.h"
 #include "proto/convert/geometry.h"
 #include "proto/convert/prior_map.h"
 
@@ -118,12 +118,12 @@ void Visit(OneOf<MissionOptions> auto& options, auto& field) {
 }
 
 void Write(const auto& options, google::protobuf::Message& proto) {
-  FieldWriter field(proto);
+  OptionWriter field(proto);
   Visit(options, field);
 }
 
 absl::Status Read(const google::protobuf::Message& proto, absl::string_view path, auto& options) {
-  FieldReader field(proto, path);
+  OptionReader field(proto, path);
   Visit(options, field);
   return field.status();
 }

@@ -3,7 +3,7 @@
 #include "server/config/config_convert.h"
 
 #include "core/types/status_macros.h"
-#include "proto/convert/field_binding.h"
+#include "proto/convert/option_binding.h"
 #include "proto/convert/options.h"
 #include "server/config/mission_options.h"
 
@@ -52,13 +52,13 @@ void Visit(OneOf<ConnectionConfig> auto& connection, auto& field) {
 void Visit(OneOf<ServerConfig> auto& config, auto& field) { field("listen", config.listen); }
 
 void Write(const auto& config, google::protobuf::Message& proto) {
-  FieldWriter field(proto);
+  OptionWriter field(proto);
   Visit(config, field);
 }
 
 // There is nothing to refuse before Validate: no enums.
 void Read(const google::protobuf::Message& proto, auto& config) {
-  FieldReader field(proto, "");
+  OptionReader field(proto, "");
   Visit(config, field);
 }
 

@@ -22,7 +22,7 @@ namespace plumescout {
 //   void Visit(OneOf<GasOptions> auto& options, auto& field) {
 //     field("lattice_factor", options.lattice_factor); ...
 //
-// and serves both ways: with a FieldWriter as `field`, or with a FieldReader. A name that the
+// and serves both ways: with a OptionWriter as `field`, or with a OptionReader. A name that the
 // message lacks is our bug.
 template <typename Type, typename Struct>
 concept OneOf = std::same_as<std::remove_const_t<Type>, Struct>;
@@ -31,9 +31,9 @@ template <typename Type>
 concept Enumeration = std::is_enum_v<Type>;
 
 // Sets fields of `message`, which must outlive it. Optional members without a value set none.
-class FieldWriter {
+class OptionWriter {
  public:
-  explicit FieldWriter(google::protobuf::Message& message) : message_(message) {}
+  explicit OptionWriter(google::protobuf::Message& message) : message_(message) {}
 
   void operator()(absl::string_view name, bool value);
   void operator()(absl::string_view name, int value);
@@ -54,10 +54,10 @@ class FieldWriter {
 
 // Takes the fields that are set in `message`, which must outlive it, and leaves other members as
 // they are; an enum that is unspecified counts as unset.
-class FieldReader {
+class OptionReader {
  public:
   // `path`: of the message, from the request; for refusals.
-  FieldReader(const google::protobuf::Message& message, absl::string_view path)
+  OptionReader(const google::protobuf::Message& message, absl::string_view path)
       : message_(message), path_(path) {}
 
   void operator()(absl::string_view name, bool& value) const;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "proto/convert/field_binding.h"
+#include "proto/convert/option_binding.h"
 
 #include <cassert>
 #include "google/protobuf/descriptor.h"
@@ -26,61 +26,61 @@ const FieldDescriptor* FindSet(const Message& message, absl::string_view name) {
 
 }  // namespace
 
-void FieldWriter::operator()(absl::string_view name, bool value) {
+void OptionWriter::operator()(absl::string_view name, bool value) {
   message_.GetReflection()->SetBool(&message_, Find(message_, name), value);
 }
-void FieldWriter::operator()(absl::string_view name, int value) {
+void OptionWriter::operator()(absl::string_view name, int value) {
   message_.GetReflection()->SetInt32(&message_, Find(message_, name), value);
 }
-void FieldWriter::operator()(absl::string_view name, std::int64_t value) {
+void OptionWriter::operator()(absl::string_view name, std::int64_t value) {
   message_.GetReflection()->SetInt64(&message_, Find(message_, name), value);
 }
-void FieldWriter::operator()(absl::string_view name, std::uint64_t value) {
+void OptionWriter::operator()(absl::string_view name, std::uint64_t value) {
   (*this)(name, static_cast<std::int64_t>(value));
 }
-void FieldWriter::operator()(absl::string_view name, double value) {
+void OptionWriter::operator()(absl::string_view name, double value) {
   message_.GetReflection()->SetDouble(&message_, Find(message_, name), value);
 }
-void FieldWriter::operator()(absl::string_view name, const std::string& value) {
+void OptionWriter::operator()(absl::string_view name, const std::string& value) {
   message_.GetReflection()->SetString(&message_, Find(message_, name), value);
 }
-void FieldWriter::operator()(absl::string_view name, const std::optional<double>& value) {
+void OptionWriter::operator()(absl::string_view name, const std::optional<double>& value) {
   if (value) (*this)(name, *value);
 }
-void FieldWriter::SetEnum(absl::string_view name, int value) {
+void OptionWriter::SetEnum(absl::string_view name, int value) {
   message_.GetReflection()->SetEnumValue(&message_, Find(message_, name), value);
 }
 
-void FieldReader::operator()(absl::string_view name, bool& value) const {
+void OptionReader::operator()(absl::string_view name, bool& value) const {
   const FieldDescriptor* field = FindSet(message_, name);
   if (field != nullptr) value = message_.GetReflection()->GetBool(message_, field);
 }
-void FieldReader::operator()(absl::string_view name, int& value) const {
+void OptionReader::operator()(absl::string_view name, int& value) const {
   const FieldDescriptor* field = FindSet(message_, name);
   if (field != nullptr) value = message_.GetReflection()->GetInt32(message_, field);
 }
-void FieldReader::operator()(absl::string_view name, std::int64_t& value) const {
+void OptionReader::operator()(absl::string_view name, std::int64_t& value) const {
   const FieldDescriptor* field = FindSet(message_, name);
   if (field != nullptr) value = message_.GetReflection()->GetInt64(message_, field);
 }
-void FieldReader::operator()(absl::string_view name, std::uint64_t& value) const {
+void OptionReader::operator()(absl::string_view name, std::uint64_t& value) const {
   const FieldDescriptor* field = FindSet(message_, name);
   if (field == nullptr) return;
   value = static_cast<std::uint64_t>(message_.GetReflection()->GetInt64(message_, field));
 }
-void FieldReader::operator()(absl::string_view name, double& value) const {
+void OptionReader::operator()(absl::string_view name, double& value) const {
   const FieldDescriptor* field = FindSet(message_, name);
   if (field != nullptr) value = message_.GetReflection()->GetDouble(message_, field);
 }
-void FieldReader::operator()(absl::string_view name, std::string& value) const {
+void OptionReader::operator()(absl::string_view name, std::string& value) const {
   const FieldDescriptor* field = FindSet(message_, name);
   if (field != nullptr) value = message_.GetReflection()->GetString(message_, field);
 }
-void FieldReader::operator()(absl::string_view name, std::optional<double>& value) const {
+void OptionReader::operator()(absl::string_view name, std::optional<double>& value) const {
   const FieldDescriptor* field = FindSet(message_, name);
   if (field != nullptr) value = message_.GetReflection()->GetDouble(message_, field);
 }
-int FieldReader::EnumNumber(absl::string_view name) const {
+int OptionReader::EnumNumber(absl::string_view name) const {
   return message_.GetReflection()->GetEnumValue(message_, Find(message_, name));
 }
 

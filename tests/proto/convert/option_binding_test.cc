@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "proto/convert/field_binding.h"
+#include "proto/convert/option_binding.h"
 
 #include <gtest/gtest.h>
 
@@ -24,17 +24,17 @@ void Visit(OneOf<Members> auto& members, auto& field) {
   field("seed", members.seed);
 }
 
-TEST(FieldBindingTest, OneVisitServesBothWays) {
+TEST(OptionBindingTest, OneVisitServesBothWays) {
   const Members members = {2.5, 7, std::numeric_limits<std::uint64_t>::max()};
   v1::MissionOptions proto;
-  FieldWriter writer(proto);
+  OptionWriter writer(proto);
   Visit(members, writer);
   EXPECT_EQ(proto.pose_limit_m(), 2.5);
   EXPECT_EQ(proto.max_beam_count(), 7);
   EXPECT_EQ(proto.seed(), -1);
 
   Members read;
-  FieldReader reader(proto, "options");
+  OptionReader reader(proto, "options");
   Visit(read, reader);
   EXPECT_TRUE(reader.status().ok());
   EXPECT_EQ(read.pose_limit_m, members.pose_limit_m);
@@ -42,34 +42,34 @@ TEST(FieldBindingTest, OneVisitServesBothWays) {
   EXPECT_EQ(read.seed, members.seed);
 }
 
-TEST(FieldBindingTest, FieldsThatAreNotSetLeaveTheirMembers) {
+TEST(OptionBindingTest, FieldsThatAreNotSetLeaveTheirMembers) {
   v1::MissionOptions proto;
   proto.set_max_beam_count(0);  // set, to the value that an unset field would read as
   Members read = {1.5, 3, 4};
-  FieldReader reader(proto, "options");
+  OptionReader reader(proto, "options");
   Visit(read, reader);
   EXPECT_EQ(read.pose_limit_m, 1.5);
   EXPECT_EQ(read.max_beam_count, 0);
   EXPECT_EQ(read.seed, 4u);
 }
 
-TEST(FieldBindingTest, OptionalMembersWithoutAValueSetNothing) {
+TEST(OptionBindingTest, OptionalMembersWithoutAValueSetNothing) {
   v1::FrontierOptions proto;
-  FieldWriter writer(proto);
+  OptionWriter writer(proto);
   writer("observed_variance_ppm2", std::optional<double>());
   writer("fixed_gas_threshold_ppm", std::optional<double>(4.0));
   EXPECT_FALSE(proto.has_observed_variance_ppm2());
   EXPECT_EQ(proto.fixed_gas_threshold_ppm(), 4.0);
   std::optional<double> read;
-  FieldReader(proto, "")("observed_variance_ppm2", read);
+  OptionReader(proto, "")("observed_variance_ppm2", read);
   EXPECT_FALSE(read.has_value());
-  FieldReader(proto, "")("fixed_gas_threshold_ppm", read);
+  OptionReader(proto, "")("fixed_gas_threshold_ppm", read);
   EXPECT_EQ(read, 4.0);
 }
 
-TEST(FieldBindingTest, WordsAndSwitchesAreRead) {
+TEST(OptionBindingTest, WordsAndSwitchesAreRead) {
   v1::PlanningOptions proto;
-  FieldWriter writer(proto);
+  OptionWriter writer(proto);
   writer("strategy", std::string("xit_f"));
   writer("grid_guard", false);
   writer("cost", CostKind::kEuclidean);
@@ -78,7 +78,7 @@ TEST(FieldBindingTest, WordsAndSwitchesAreRead) {
   std::string strategy;
   bool grid_guard = true;
   CostKind cost = CostKind::kUcb;
-  FieldReader reader(proto, "planning");
+  OptionReader reader(proto, "planning");
   reader("strategy", strategy);
   reader("grid_guard", grid_guard);
   reader("cost", cost);
@@ -87,14 +87,14 @@ TEST(FieldBindingTest, WordsAndSwitchesAreRead) {
   EXPECT_EQ(cost, CostKind::kEuclidean);
 }
 
-TEST(FieldBindingTest, TheFirstEnumThatIsUnknownIsRefusedByItsPath) {
+TEST(OptionBindingTest, TheFirstEnumThatIsUnknownIsRefusedByItsPath) {
   v1::PlanningOptions proto;
   proto.set_cost(static_cast<v1::CostKind>(99));
   proto.set_sampling(static_cast<v1::SamplingKind>(99));
   CostKind cost = CostKind::kVertices;
   SamplingKind sampling = SamplingKind::kIid;
   SelectionRule rule = SelectionRule::kMeanUcb;
-  FieldReader reader(proto, "options.planning");
+  OptionReader reader(proto, "options.planning");
   reader("selection_rule", rule);  // unspecified: unset
   EXPECT_TRUE(reader.status().ok());
   reader("cost", cost);
