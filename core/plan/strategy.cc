@@ -58,7 +58,7 @@ constexpr std::array<StrategyRow, 10> kRows = {{
     SamplingRow("sweep", SiteRule::kSweep),
 }};
 
-// The search of [MIT] section IV, within ours: independent samples of the UCB field alone.
+// The search of [MIT] section IV, within ours: independent samples of the information map alone.
 void ApplyMit(PlanningOptions& options) {
   constexpr int kSamples = 270;
   options.sample_count = kSamples;

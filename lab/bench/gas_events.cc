@@ -130,9 +130,9 @@ FieldEngine GasEvents::Fresh(const FieldTolerance& tolerance) const {
   return FieldEngine(width_, cells_.size() / width_, cells_, options);
 }
 
-FieldError GasEvents::ErrorOf(const FieldEngine& field) const {
+FieldDeviation GasEvents::ErrorOf(const FieldEngine& field) const {
   const FieldEngine fresh = Fresh();
-  FieldError error;
+  FieldDeviation error;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     if (!cells_[i].active) continue;
     const double ratio = field.variance_ppm2(i) / fresh.variance_ppm2(i);

@@ -145,7 +145,7 @@ FieldShift FieldEngine::Tolerance() const {
           options_.tolerance.variance_share / VarianceRatioOfShift()};
 }
 
-FieldError FieldEngine::error_bound() const {
+FieldDeviation FieldEngine::error_bound() const {
   const FieldShift shift = shift_ + marginals_.owed();
   return {shift.mean_ppm, shift.covariance_ppm2 * VarianceRatioOfShift()};
 }

@@ -32,7 +32,7 @@ struct Graph {
 
 Graph MakeGraph(const PathProblem& problem, const PlanningOptions& options) {
   Rng rng(problem.seed);
-  const Grid<float> mass = SamplingMass(problem.cost.field(), problem.reachable,
+  const Grid<float> mass = SamplingMass(problem.cost.information(), problem.reachable,
                                         problem.start_cell(), options.uniform_share);
   std::vector<Cell> cells =
       DrawSamples(mass, options.sample_count, options.sampling, rng);  // line 1

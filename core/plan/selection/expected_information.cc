@@ -63,7 +63,7 @@ ExpectedInformation::ExpectedInformation(const Belief& belief)
 
 std::optional<double> ExpectedInformation::Of(const std::vector<Cell>& readings) const {
   if (belief_.gas_what_if == nullptr) return std::nullopt;
-  // The map may have grown since the field was computed.
+  // The map may have grown since the gas field was computed.
   const GridGeometry& then_geometry = belief_.gas_what_if->geometry();
   const Cell shift = belief_.geometry().CellAt(then_geometry.Center({0, 0}));
   std::vector<Cell> inside;

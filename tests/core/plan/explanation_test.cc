@@ -74,11 +74,11 @@ TEST(Explain, SaysThatReadingsTellMuchThere) {
 TEST(Explain, MentionsWhatLimitedThePlan) {
   Plan plan = ChosenPlan(GoalKind::kGasFrontier);
   plan.start_escaped = true;
-  plan.field_flat = true;
+  plan.information_flat = true;
   plan.end = PlanEnd::kStopped;
   const std::string text = Explain(plan, SelectionRule::kLeastCost);
   EXPECT_THAT(text, HasSubstr("first out of the margin around obstacles"));
-  EXPECT_THAT(text, HasSubstr("the information field is flat"));
+  EXPECT_THAT(text, HasSubstr("the information map is flat"));
   EXPECT_THAT(text, HasSubstr("the search was stopped early"));
 }
 

@@ -169,9 +169,9 @@ inline std::vector<CellChange> ReadingInAnActiveCell(const FieldCase& c, Rng& rn
 }
 
 // Largest errors over all active cells; expects NaN elsewhere.
-inline FieldError ErrorAgainst(const FieldCase& c, const FieldEngine& engine,
-                               const DenseTruth& dense) {
-  FieldError error;
+inline FieldDeviation ErrorAgainst(const FieldCase& c, const FieldEngine& engine,
+                                   const DenseTruth& dense) {
+  FieldDeviation error;
   for (std::size_t i = 0; i < c.cells.size(); ++i) {
     if (!c.cells[i].active) {
       EXPECT_TRUE(std::isnan(engine.mean_ppm(i)) && std::isnan(engine.variance_ppm2(i)));

@@ -34,7 +34,7 @@ constexpr double kPeak_ppm = 50.0;  // of all readings
 constexpr double kExact = 1e-9;
 
 void ExpectExact(const FieldCase& c, const FieldEngine& engine) {
-  const FieldError error = ErrorAgainst(c, engine, c.Dense());
+  const FieldDeviation error = ErrorAgainst(c, engine, c.Dense());
   EXPECT_LE(error.mean_ppm, kExact);
   EXPECT_LE(error.variance_ratio, kExact);
 }
@@ -208,7 +208,7 @@ std::vector<CellChange> RandomBatch(const FieldCase& c, Rng& rng) {
   return changes;
 }
 
-void ExpectWithin(const FieldError& bound, const FieldCase& c, const FieldEngine& engine) {
+void ExpectWithin(const FieldDeviation& bound, const FieldCase& c, const FieldEngine& engine) {
   const FieldEngine fresh = EngineOf(c);
   for (std::size_t i = 0; i < c.cells.size(); ++i) {
     if (!c.cells[i].active) continue;
@@ -230,7 +230,7 @@ TEST(FieldEngineTest, KeepsWithinItsToleranceAndSaysSoOverALongRun) {
       const std::vector<CellChange> changes = RandomBatch(c, rng);
       c.Apply(changes);
       ASSERT_TRUE(engine.Apply(changes).ok());
-      const FieldError bound = engine.error_bound();
+      const FieldDeviation bound = engine.error_bound();
       EXPECT_LE(bound.mean_ppm, share * kPeak_ppm);
       EXPECT_LE(bound.variance_ratio, share * (1.0 + kExact));
       greatest_bound = std::max(greatest_bound, bound.variance_ratio);

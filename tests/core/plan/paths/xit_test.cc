@@ -40,7 +40,7 @@ TEST(Xit, FindsPathsFromTheStartToTheGoalCellsThatHitNothing) {
       const std::vector<Point2>& path = result.paths[i]->vertices;
       EXPECT_EQ(path.front(), c.start);
       EXPECT_EQ(path.back(), c.goals[i].position);
-      EXPECT_TRUE(testing::StaysClear(c.field.penalty, path)) << "seed " << seed;
+      EXPECT_TRUE(testing::StaysClear(c.information.penalty, path)) << "seed " << seed;
     }
   }
   EXPECT_GT(found, 100);  // of 120
@@ -81,8 +81,8 @@ TEST(Xit, CostsNoLessThanTheStraightLineThroughTheBestCells) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const PathCase c(seed, {}, CostKind::kUcb, 1.0);
     const PathResult result = XitPlanner(Samples(150)).FindPaths(c.Problem());
-    const float min_penalty =
-        *std::min_element(c.field.penalty.values().begin(), c.field.penalty.values().end());
+    const float min_penalty = *std::min_element(c.information.penalty.values().begin(),
+                                                c.information.penalty.values().end());
     for (std::size_t i = 0; i < c.goals.size(); ++i) {
       if (!result.paths[i]) continue;
       const double line_m = Distance_m(c.start, c.goals[i].position);
@@ -98,7 +98,7 @@ struct RandomGraph {
     const GridGeometry& geometry = c.open.geometry();
     Rng rng(seed);
     const Grid<float> mass =
-        SamplingMass(c.field, c.reachable, c.start_cell, options.uniform_share);
+        SamplingMass(c.information, c.reachable, c.start_cell, options.uniform_share);
     for (const Cell cell : DrawSamples(mass, options.sample_count, options.sampling, rng)) {
       points.push_back(geometry.Center(cell));
     }
@@ -315,7 +315,7 @@ TEST(Xit, StoppedHalfWayReturnsPathsThatHitNothing) {
     for (const auto& path : result.paths) {
       if (!path) continue;
       ++found;
-      EXPECT_TRUE(testing::StaysClear(c.field.penalty, path->vertices));
+      EXPECT_TRUE(testing::StaysClear(c.information.penalty, path->vertices));
       EXPECT_NEAR(path->cost, PathCost(c.cost, path->vertices), kRounding);
     }
     EXPECT_GE(found, found_before);
