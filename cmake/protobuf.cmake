@@ -33,6 +33,7 @@ function(plumescout_proto name)
     endforeach()
   endforeach()
   add_library(plumescout_${name} STATIC ${sources})
+  add_custom_target(generated_${name} DEPENDS ${sources})
   target_include_directories(plumescout_${name} SYSTEM PUBLIC ${out})
   target_compile_options(plumescout_${name} PRIVATE -g0 -O1)
   target_link_libraries(plumescout_${name} PUBLIC protobuf::libprotobuf)
@@ -62,7 +63,9 @@ function(plumescout_proto_descriptors name)
             --descriptor_set_out=${base}.descriptors ${root}/${ARG_PROTO}
     COMMAND ${CMAKE_COMMAND} -DIN=${base}.descriptors -DOUT=${base}.descriptors.inc -P ${script}
     DEPENDS ${root}/${ARG_PROTO} ${imports} ${script} VERBATIM)
+  add_custom_target(generated_${name}_descriptors DEPENDS ${base}.descriptors.inc)
   target_sources(plumescout_${name} PRIVATE ${base}.descriptors.inc)
+  add_dependencies(plumescout_${name} generated_${name}_descriptors)
 endfunction()
 
 find_program(GRPC_PYTHON_PLUGIN grpc_python_plugin)

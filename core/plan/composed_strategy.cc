@@ -111,7 +111,7 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
       MakeInformationMap({*belief.traversable, *belief.gas_mean_ppm, *belief.gas_variance_ppm2,
                           mission.gas, mission.frontier},
                          options_);
-  plan.information_flat = information.flat;
+  plan.field_flat = information.flat;
   const Cell start_cell = belief.geometry().CellAt(departure.start);
   const Grid<std::uint8_t> reachable = ReachableCells(*belief.traversable, {start_cell});
   if (stop()) return StoppedBeforeAnyPath();

@@ -131,10 +131,10 @@ struct Plan {
   std::vector<RejectedGoal> rejected;
   Trajectory trajectory;  // of the chosen candidate; empty if none
   PlanEffort effort;
-  bool information_flat = false;  // the information map had no contrast: pure distance behaviour
-  bool goal_kept = false;         // another was better, but not by the commitment margin
-  bool start_escaped = false;     // the robot stood in the inflated zone; the path leads out first
-  std::string explanation;        // one sentence for an operator
+  bool field_flat = false;     // the information map had no contrast: pure distance behaviour
+  bool goal_kept = false;      // another was better, but not by the commitment margin
+  bool start_escaped = false;  // the robot stood in the inflated zone; the path leads out first
+  std::string explanation;     // one sentence for an operator
   // CPU time of planning, filled in by whoever ran the planner when it answers; 0 in the committed
   // event, which has to be the same whenever the run is repeated.
   double cpu_s = 0.0;

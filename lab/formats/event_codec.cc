@@ -159,9 +159,9 @@ void Visit(auto& archive, Is<PlanEffort> auto& effort) {
 }
 void Visit(auto& archive, Is<Plan> auto& plan) {
   auto& [id, robot, strategy, belief_revision, seed, phase, end, chosen, candidates, rejected,
-         trajectory, effort, information_flat, goal_kept, start_escaped, explanation, cpu_s] = plan;
+         trajectory, effort, field_flat, goal_kept, start_escaped, explanation, cpu_s] = plan;
   archive(id, robot, strategy, belief_revision, seed, phase, end, chosen, candidates, rejected,
-          trajectory, effort, information_flat, goal_kept, start_escaped, explanation, cpu_s);
+          trajectory, effort, field_flat, goal_kept, start_escaped, explanation, cpu_s);
 }
 void Visit(auto& archive, Is<RobotRegistered> auto& event) {
   auto& [robot, radius_m, lease_token] = event;

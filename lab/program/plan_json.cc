@@ -56,7 +56,7 @@ std::string PlanToJson(const Plan& plan, std::size_t tree_edges) {
                {"chosen", plan.chosen},
                {"trajectory_length_m", plan.trajectory.length_m},
                {"trajectory_duration_s", plan.trajectory.duration_s},
-               {"information_flat", plan.information_flat},
+               {"field_flat", plan.field_flat},
                {"goal_kept", plan.goal_kept},
                {"start_escaped", plan.start_escaped}};
   json["effort"] = {{"samples", plan.effort.samples},

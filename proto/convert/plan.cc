@@ -224,7 +224,7 @@ v1::Plan ToProto(const Plan& plan, const MissionId& mission) {
   for (const RejectedGoal& goal : plan.rejected) *proto.add_rejected_goals() = ToProto(goal);
   *proto.mutable_trajectory() = ToProto(plan.trajectory);
   *proto.mutable_effort() = ToProto(plan.effort);
-  proto.set_information_flat(plan.information_flat);
+  proto.set_field_flat(plan.field_flat);
   proto.set_goal_kept(plan.goal_kept);
   proto.set_start_escaped(plan.start_escaped);
   proto.set_explanation(plan.explanation);
@@ -248,7 +248,7 @@ absl::StatusOr<Plan> FromProto(const v1::Plan& proto, absl::string_view field) {
   plan.belief_revision = proto.belief_revision();
   plan.seed = static_cast<std::uint64_t>(proto.seed());
   plan.effort = FromProto(proto.effort());
-  plan.information_flat = proto.information_flat();
+  plan.field_flat = proto.field_flat();
   plan.goal_kept = proto.goal_kept();
   plan.start_escaped = proto.start_escaped();
   plan.explanation = proto.explanation();

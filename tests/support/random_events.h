@@ -130,7 +130,7 @@ class RandomEvents {
     plan.trajectory.length_m = Real();
     plan.trajectory.duration_s = Real();
     plan.effort = {Int(), Int(), Int(), Int(), Int()};
-    plan.information_flat = Bool();
+    plan.field_flat = Bool();
     plan.goal_kept = Bool();
     plan.start_escaped = Bool();
     plan.explanation = Text();

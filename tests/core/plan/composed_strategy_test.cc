@@ -94,7 +94,7 @@ TEST(Strategy, PlansToTheCheapestFrontier) {
   EXPECT_EQ(plan->seed, 5U);
   EXPECT_EQ(plan->phase, MissionPhase::kExploring);
   EXPECT_EQ(plan->end, PlanEnd::kAllGoalsReached);
-  EXPECT_TRUE(plan->information_flat);
+  EXPECT_TRUE(plan->field_flat);
   EXPECT_FALSE(plan->start_escaped);
   ASSERT_THAT(plan->candidates, SizeIs(2));
   EXPECT_EQ(Chosen(*plan).goal.cell.x, 1) << "the west is nearer";
@@ -276,7 +276,7 @@ TEST(Strategy, ProbesGasFrontiers) {
   const absl::StatusOr<Plan> plan = TryPlan(c.belief, For("r"), options);
   ASSERT_TRUE(plan.ok());
   EXPECT_EQ(plan->phase, MissionPhase::kGasProbing);
-  EXPECT_FALSE(plan->information_flat);
+  EXPECT_FALSE(plan->field_flat);
   EXPECT_GT(Chosen(*plan).mean_concentration_ppm, 0.0);
 }
 

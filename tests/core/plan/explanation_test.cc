@@ -74,7 +74,7 @@ TEST(Explain, SaysThatReadingsTellMuchThere) {
 TEST(Explain, MentionsWhatLimitedThePlan) {
   Plan plan = ChosenPlan(GoalKind::kGasFrontier);
   plan.start_escaped = true;
-  plan.information_flat = true;
+  plan.field_flat = true;
   plan.end = PlanEnd::kStopped;
   const std::string text = Explain(plan, SelectionRule::kLeastCost);
   EXPECT_THAT(text, HasSubstr("first out of the margin around obstacles"));

@@ -43,7 +43,7 @@ Plan TestPlan() {
   plan.trajectory = {{{{0.0, 0.0, 0.5}, 0.0, 0.0}, {{0.35, 0.45, 0.5}, 1.0, 0.5, 0.25}}, 2.0, 1.5};
   plan.effort = {300, 250, 1000, 1, 4};
   plan.goal_kept = true;
-  plan.information_flat = true;
+  plan.field_flat = true;
   plan.start_escaped = true;
   plan.explanation = "to the nearest plume";
   return plan;
