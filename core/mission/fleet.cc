@@ -38,16 +38,16 @@ std::optional<Goal> GoalToClaim(const Plan& plan) {
 
 }  // namespace
 
-absl::Status Fleet::Register(const RobotRegistered& registration, int max_robots) {
+absl::Status Fleet::Register(const RobotRegistered& registration, int max_robot_count) {
   if (absl::Status status = ValidateId("robot", registration.robot); !status.ok()) return status;
   if (!(registration.radius_m > 0.0 && registration.radius_m <= kMaxRadius_m)) {
     return absl::InvalidArgumentError(
         absl::StrCat("radius_m = ", registration.radius_m, " must be in (0, ", kMaxRadius_m, "]"));
   }
   const auto found = robots_.find(registration.robot);
-  if (found == robots_.end() && robots_.size() >= static_cast<std::size_t>(max_robots)) {
+  if (found == robots_.end() && robots_.size() >= static_cast<std::size_t>(max_robot_count)) {
     return absl::ResourceExhaustedError(
-        absl::StrCat("the mission has ", max_robots, " robots already"));
+        absl::StrCat("the mission has ", max_robot_count, " robots already"));
   }
   if (found != robots_.end() && registration.lease_token <= found->second.lease_token) {
     return TypedError(absl::StatusCode::kFailedPrecondition, reason::kLeaseSuperseded,
