@@ -51,7 +51,8 @@ class GasMap {
   void Add(std::int64_t time_ns, Point2 position, const GasReading& reading);
 
   // Brings the posterior to `states` and all readings so far. Their precisions are those of the
-  // last epoch, unless `time_ns` is so much later that all is made anew.
+  // last epoch; where that is too long before `time_ns` for how precise they are, cells are aged
+  // to `time_ns` here and now.
   // Errors: kInvalidArgument, with nothing changed, if the lattice of `states` is not that of the
   // first refresh moved by whole cells. kInternal if the field cannot be computed, which would be a
   // defect: readers then see none until a refresh, which makes all anew, succeeds. Cost at 160x200
@@ -89,7 +90,6 @@ class GasMap {
   absl::Status Rebuild(std::int64_t time_ns);
   absl::Status Apply(std::span<const GasCell> changed);
   GasLattice RoomyLattice() const;
-  std::vector<CellInput> InputsOn(const GasLattice& lattice) const;
   void TakeOver(std::unique_ptr<FieldEngine> engine, const GasLattice& lattice);
   absl::Status Conclude(const absl::Status& computed, std::int64_t time_ns);
   void Publish() const;

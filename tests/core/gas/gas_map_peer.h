@@ -20,6 +20,9 @@ struct GasMapPeer {
 
   static constexpr char kDefect[] = "not finite";  // what such builds say then
 
+  // Another one whenever the field was made anew.
+  static const void* EngineOf(const GasMap& map) { return map.engine_.get(); }
+
   // From now on no field that is made anew can be computed.
   static void LosePrior(GasMap& map) { map.field_options_.prior.prior_precision = std::nan(""); }
   static void FindPrior(GasMap& map) {
