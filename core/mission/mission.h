@@ -92,6 +92,7 @@ class Mission {
   absl::StatusOr<Applied> Change(const ProgressReported& report);
   absl::StatusOr<Applied> Change(const EpochBegun& begun);
   absl::StatusOr<Applied> Change(const EpochAdopted& adopted);
+  absl::StatusOr<Applied> Change(const RobotRemoved& removal);
   bool PeriodHasPassedSince(std::int64_t time_ns) const;
   GoalMemory::Now Present() const {
     return {sample_time_ns_, occupancy_.States(), gas_.variance_ppm2()};

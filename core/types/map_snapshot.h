@@ -21,6 +21,9 @@ struct RobotState {
   Pose2 pose;
   std::int64_t applied_sequence = 0;
   std::int64_t rejected_observations = 0;
+  // Not heard of for robot_silence_s while others were: it masks no beam, claims no goal and keeps
+  // no mission from completing until it is.
+  bool silent = false;
 
   friend bool operator==(const RobotState&, const RobotState&) = default;
 };
@@ -39,7 +42,7 @@ struct GasCounters {
 struct GasQuality {
   double mean_error_ppm = 0.0;        // no mean is farther from the exact one, beside rounding
   double variance_error_ratio = 0.0;  // nor any variance, as share of the exact one
-  std::int64_t aged_to_ns = 0;        // readings have the precisions of this instant
+  std::int64_t aged_to_ns = 0;        // readings have the precisions of this instant or a later
   double ageing_error_ratio = 0.0;    // variances may be too small by this share for that
   std::int64_t refreshes = 0;         // batches of changes brought into the fields
   std::int64_t epochs = 0;            // recomputations from scratch that were adopted

@@ -188,6 +188,7 @@ absl::Status Validate(const MissionOptions& options) {
       .InRange("max_beams", options.max_beams, 1, 100'000)
       .InRange("max_concentration_ppm", options.max_concentration_ppm, 1.0, 1e6)
       .InRange("max_robots", options.max_robots, 1, 1000)
+      .InRange("robot_silence_s", options.robot_silence_s, 1.0, 1e9)
       .InRange("home.x_m", home.x_m, -options.pose_limit_m, options.pose_limit_m)
       .InRange("home.y_m", home.y_m, -options.pose_limit_m, options.pose_limit_m)
       .status();

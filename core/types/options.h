@@ -188,6 +188,9 @@ struct MissionOptions {
   int max_beams = 20'000;        // of any scan
   double max_concentration_ppm = 1e6;
   int max_robots = 32;
+  // A robot that is not heard of while the sample time moves on by this much counts as gone until
+  // it is; [1, 1e9].
+  double robot_silence_s = 60.0;
   std::uint64_t seed = 1;
   // Where nobody may drive, though it is sensed and mapped: at most 64, of 3 to 256 vertices each.
   std::vector<Polygon> keep_out;

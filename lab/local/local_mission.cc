@@ -55,6 +55,15 @@ absl::StatusOr<client::RobotSession> LocalMission::Register(const RobotRegistere
   return session;
 }
 
+absl::Status LocalMission::Remove(const RobotId& robot, std::int64_t lease_token, bool force) {
+  absl::MutexLock lock(&mutex_);
+  const absl::Status lease = CheckLease(robot, lease_token);
+  if (absl::IsNotFound(lease) || !force) PLUMESCOUT_RETURN_IF_ERROR(lease);
+  PLUMESCOUT_RETURN_IF_ERROR(Apply(RobotRemoved{robot}).status());
+  leases_.erase(robot);
+  return absl::OkStatus();
+}
+
 absl::StatusOr<std::int64_t> LocalMission::OpenStream(const RobotId& robot,
                                                       std::int64_t lease_token) {
   absl::MutexLock lock(&mutex_);

@@ -46,6 +46,9 @@ class LocalMission {
   // The session's mission and boot id are left to the caller.
   absl::StatusOr<client::RobotSession> Register(const RobotRegistered& robot, bool take_over);
 
+  // Its streams have ended with ROBOT_NOT_FOUND.
+  absl::Status Remove(const RobotId& robot, std::int64_t lease_token, bool force);
+
   // A stream ends the robot's earlier one. Returns its number.
   absl::StatusOr<std::int64_t> OpenStream(const RobotId& robot, std::int64_t lease_token);
   // The state of an open stream, or why it has ended.

@@ -109,6 +109,12 @@ absl::StatusOr<client::RobotSession> LocalPlannerClient::RegisterRobot(const Mis
   return session;
 }
 
+absl::Status LocalPlannerClient::RemoveRobot(const MissionId& mission, const RobotId& robot,
+                                             std::int64_t lease_token, bool force) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::shared_ptr<LocalMission> found, Find(mission));
+  return found->Remove(robot, lease_token, force);
+}
+
 absl::StatusOr<std::unique_ptr<client::ObservationStream>>
 LocalPlannerClient::OpenObservationStream(const client::RobotSession& session) {
   PLUMESCOUT_ASSIGN_OR_RETURN(std::shared_ptr<LocalMission> mission, Find(session.mission));

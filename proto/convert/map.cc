@@ -41,6 +41,7 @@ v1::RobotOnMap ToProto(const RobotState& robot, const MissionId& mission) {
   if (robot.has_pose) *proto.mutable_pose() = ToProto(robot.pose);
   proto.set_applied_sequence(robot.applied_sequence);
   proto.set_rejected_observation_count(robot.rejected_observations);
+  proto.set_silent(robot.silent);
   return proto;
 }
 
@@ -84,6 +85,7 @@ absl::StatusOr<RobotState> FromProto(const v1::RobotOnMap& proto, absl::string_v
   PLUMESCOUT_ASSIGN_OR_RETURN(robot.pose, FromProto(proto.pose(), Join(field, "pose")));
   robot.applied_sequence = proto.applied_sequence();
   robot.rejected_observations = proto.rejected_observation_count();
+  robot.silent = proto.silent();
   return robot;
 }
 

@@ -349,6 +349,7 @@ v1::MissionOptions ToProto(const MissionOptions& options) {
   proto.set_max_beam_count(options.max_beams);
   proto.set_max_concentration_ppm(options.max_concentration_ppm);
   proto.set_max_robot_count(options.max_robots);
+  proto.set_robot_silence_s(options.robot_silence_s);
   proto.set_seed(static_cast<std::int64_t>(options.seed));
   for (const Polygon& polygon : options.keep_out) {
     v1::Polygon& added = *proto.add_keep_out();
@@ -383,6 +384,7 @@ absl::StatusOr<MissionOptions> FromProto(const v1::MissionOptions& proto,
   Take(proto.has_max_concentration_ppm(), proto.max_concentration_ppm(),
        options.max_concentration_ppm);
   Take(proto.has_max_robot_count(), proto.max_robot_count(), options.max_robots);
+  Take(proto.has_robot_silence_s(), proto.robot_silence_s(), options.robot_silence_s);
   Take(proto.has_seed(), proto.seed(), options.seed);
   PLUMESCOUT_RETURN_IF_ERROR(ReadPlaces(proto, field, options));
   if (proto.has_prior_map()) {

@@ -38,6 +38,18 @@ void LeaseTable::Grant(const RobotId& robot, std::int64_t token) {
   if (end_old) end_old(LeaseSuperseded(robot));
 }
 
+void LeaseTable::Remove(const RobotId& robot) {
+  EndStream end;
+  {
+    absl::MutexLock lock(&mutex_);
+    const auto found = leases_.find(robot);
+    if (found == leases_.end()) return;
+    end = std::move(found->second.end_stream);
+    leases_.erase(found);
+  }
+  if (end) end(RobotNotFound(robot));
+}
+
 absl::StatusOr<LeaseTable::Lease*> LeaseTable::Find(const RobotId& robot, std::int64_t token) {
   const auto found = leases_.find(robot);
   if (found == leases_.end()) return RobotNotFound(robot);

@@ -38,6 +38,10 @@ class LeaseTable {
   // stream of the old one.
   void Grant(const RobotId& robot, std::int64_t token);
 
+  // The robot has left the mission: its token is in force no more, its stream ends with
+  // ROBOT_NOT_FOUND. No effect if there is none.
+  void Remove(const RobotId& robot);
+
   // Counts as a use. ROBOT_NOT_FOUND; LEASE_SUPERSEDED unless `token` is the newest.
   absl::Status Check(const RobotId& robot, std::int64_t token);
 

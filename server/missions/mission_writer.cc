@@ -55,6 +55,14 @@ absl::StatusOr<LogPosition> MissionWriter::Register(const RobotRegistered& regis
   return Position(registration.robot);
 }
 
+absl::StatusOr<std::int64_t> MissionWriter::Remove(const RobotId& robot,
+                                                   std::optional<std::int64_t> lease_token) {
+  if (!mission_->LeaseToken(robot).ok()) return RobotNotFound(robot);
+  if (lease_token) PLUMESCOUT_RETURN_IF_ERROR(CheckLease(robot, *lease_token));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Applied applied, Apply(RobotRemoved{robot}));
+  return applied.revision;
+}
+
 absl::StatusOr<LogPosition> MissionWriter::Position(const RobotId& robot) const {
   const auto applied = mission_->AppliedSequence(robot);
   if (!applied.ok()) return RobotNotFound(robot);

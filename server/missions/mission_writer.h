@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "absl/base/thread_annotations.h"
@@ -72,6 +73,9 @@ class MissionWriter {
   GasTimings gas_timings() const { return gas_timer_.timings(); }
 
   absl::StatusOr<LogPosition> Register(const RobotRegistered& registration);
+  // Returns the revision that includes it. No token: whoever holds the lease.
+  absl::StatusOr<std::int64_t> Remove(const RobotId& robot,
+                                      std::optional<std::int64_t> lease_token);
   absl::StatusOr<LogPosition> Position(const RobotId& robot) const;
 
   // Applies a batch in order. Entries up to the applied sequence are passed over; refused ones

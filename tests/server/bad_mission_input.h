@@ -32,7 +32,8 @@ inline BadInputs BadLimits() {
       .Values("options.max_range_m", {"nan", "inf", "-1", "0", "1001"})
       .Values("options.max_beam_count", {"-1", "0", "100001"})
       .Values("options.max_concentration_ppm", {"nan", "inf", "-1", "0", "1e7"})
-      .Values("options.max_robot_count", {"-1", "0", "1001"});
+      .Values("options.max_robot_count", {"-1", "0", "1001"})
+      .Values("options.robot_silence_s", {"nan", "inf", "-1", "0", "0.9", "1.1e9"});
 }
 
 // An area with one bad vertex, and such as are none.

@@ -46,6 +46,18 @@ TEST_F(LeaseTableTest, LeaseIsHeldForAWhileAfterItsLastUse) {
   EXPECT_FALSE(Held());
 }
 
+TEST_F(LeaseTableTest, RemovedRobotIsUnknownAndItsStreamEnds) {
+  const int stream = 0;
+  const std::int64_t token = Take("r1");
+  ASSERT_TRUE(table_.OpenStream("r1", token, &stream, end_).ok());
+  table_.Remove("r1");
+  EXPECT_EQ(ended_.message().find("ROBOT_NOT_FOUND"), 0u);
+  EXPECT_TRUE(absl::IsNotFound(table_.Check("r1", token)));
+  EXPECT_EQ(table_.robot_count(), 0);
+  table_.Remove("r1");
+  EXPECT_GT(Take("r1"), token) << "nobody holds it";
+}
+
 TEST_F(LeaseTableTest, OpenStreamHoldsTheLeaseHoweverLong) {
   const int stream = 0;
   const std::int64_t token = Take("r1");
