@@ -18,6 +18,7 @@
 #include "core/plan/sampling/ways.h"
 #include "core/plan/selection/candidate_terms.h"
 #include "core/plan/trajectory_timing.h"
+#include "core/types/error_reason.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
@@ -111,10 +112,11 @@ absl::Status SamplingStrategy::CheckInside(const RobotId& robot, Point2 place) c
   const bool inside =
       place.x_m >= min.x_m && place.x_m <= max.x_m && place.y_m >= min.y_m && place.y_m <= max.y_m;
   if (inside) return absl::OkStatus();
-  return absl::FailedPreconditionError(absl::StrFormat(
-      "OUTSIDE_REGION: robot \"%s\" at (%.2f, %.2f) is outside planning.sites.region, from "
-      "(%.2f, %.2f) to (%.2f, %.2f)",
-      robot, place.x_m, place.y_m, min.x_m, min.y_m, max.x_m, max.y_m));
+  return TypedError(
+      absl::StatusCode::kFailedPrecondition, reason::kOutsideRegion,
+      absl::StrFormat("robot \"%s\" at (%.2f, %.2f) is outside planning.sites.region, from "
+                      "(%.2f, %.2f) to (%.2f, %.2f)",
+                      robot, place.x_m, place.y_m, min.x_m, min.y_m, max.x_m, max.y_m));
 }
 
 absl::Status SamplingStrategy::PlanFrom(const Belief& belief, const StopFn& stop,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/mission/conduct/conduct_errors.h"
 #include "core/types/status_macros.h"
 #include "server/base/errors.h"
 
@@ -21,9 +22,7 @@ MissionRegistry::MissionRegistry(const RegistryOptions& options, RegistryHooks h
     : options_(options), hooks_(std::move(hooks)) {}
 
 absl::Status MissionRegistry::CheckRoom(const MissionId& id, std::int64_t cells) const {
-  if (hosts_.contains(id)) {
-    return absl::AlreadyExistsError(absl::StrCat("MISSION_EXISTS: missions/", id));
-  }
+  if (hosts_.contains(id)) return MissionExists(id);
   if (hosts_.size() >= static_cast<std::size_t>(options_.max_missions)) {
     return LimitReached(absl::StrCat("the server holds ", options_.max_missions, " missions"));
   }

@@ -25,9 +25,9 @@ struct Room {
   Names may_include;
 };
 
-const Names kCore = {"core/types",  "core/tour",      "core/grid",   "core/occupancy",
-                     "core/linalg", "core/gas/field", "core/gas",    "core/frontier",
-                     "core/belief", "core/plan",      "core/mission"};
+const Names kCore = {"core/types",  "core/tour",      "core/grid",    "core/occupancy",
+                     "core/linalg", "core/gas/field", "core/gas",     "core/frontier",
+                     "core/belief", "core/plan",      "core/mission", "core/mission/conduct"};
 
 // The first `count` rooms of core.
 Names CoreBefore(const std::string& folder) {
@@ -70,11 +70,14 @@ bool IsBelow(const std::string& path, const std::string& folder) {
   return absl::StartsWith(path, folder + "/");
 }
 
+// The innermost room that the path lies in.
 const Room* FindRoom(const std::string& path) {
+  const Room* found = nullptr;
   for (const Room& room : Rooms()) {
-    if (IsBelow(path, room.folder)) return &room;
+    const bool inner = found == nullptr || room.folder.size() > found->folder.size();
+    if (inner && IsBelow(path, room.folder)) found = &room;
   }
-  return nullptr;
+  return found;
 }
 
 // Whether the include is somebody else's: a library's, or generated from proto/.
@@ -205,7 +208,7 @@ std::vector<std::string> CheckDirections(const std::vector<SourceFile>& files) {
         continue;
       }
       const bool allowed =
-          IsBelow(include, room->folder) ||
+          FindRoom(include) == room ||
           std::any_of(room->may_include.begin(), room->may_include.end(),
                       [&](const std::string& folder) { return IsBelow(include, folder); });
       if (!allowed) violations.push_back(absl::StrCat(file.path, " must not include ", include));
