@@ -43,6 +43,8 @@ class GasInputs {
   const GasCellBox& box() const { return box_; }
   int factor() const { return factor_; }
   const AgeingWatch& watch() const { return readings_.watch(); }
+  // What Of says of readings, by anchor cell.
+  std::vector<CellEvidence> AllEvidence() const { return readings_.AllEvidence(); }
 
   // Merges readings of so nearly the same age that it makes no difference, and says what all would
   // say after AgeTo(time_ns): evidence only, cells ascending. Nothing without ageing.

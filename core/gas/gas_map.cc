@@ -43,9 +43,7 @@ std::vector<CellChange> Differences(std::span<const CellInput> inputs, const Fie
 }  // namespace
 
 GasMap::GasMap(const GasOptions& options)
-    : field_options_(ToFieldOptions(options)),
-      background_mean_ppm_(options.background_mean_ppm),
-      inputs_(options) {
+    : options_(options), field_options_(ToFieldOptions(options)), inputs_(options) {
   assert(Validate(options).ok());
 }
 
@@ -169,6 +167,30 @@ absl::Status GasMap::Adopt() {
   return Conclude(absl::OkStatus(), time_ns_);
 }
 
+bool GasMap::audit_due() const {
+  const std::int64_t period = options_.audit_period_epochs;
+  return period > 0 && quality_.epochs > 0 && (quality_.epochs - 1) % period == 0;
+}
+
+std::shared_ptr<const AuditInputs> GasMap::MakeAudit() const {
+  if (engine_ == nullptr || has_failed_ || epoch_ != nullptr) return nullptr;
+  auto audit = std::make_shared<AuditInputs>();
+  audit->options = options_;
+  audit->states = inputs_.states().states();
+  audit->corner = inputs_.states().At(0);
+  audit->evidence = inputs_.AllEvidence();
+  audit->lattice = lattice_;
+  audit->mean_ppm.resize(lattice_.size());
+  audit->variance_ppm2.resize(lattice_.size());
+  for (std::size_t i = 0; i < lattice_.size(); ++i) {
+    audit->mean_ppm[i] = engine_->mean_ppm(i);
+    audit->variance_ppm2[i] = engine_->variance_ppm2(i);
+  }
+  audit->certified_mean_ppm = quality_.mean_error_ppm;
+  audit->certified_variance_ratio = quality_.variance_error_ratio;
+  return audit;
+}
+
 // What is left to do when a field was `computed`, or could not be.
 absl::Status GasMap::Conclude(const absl::Status& computed, std::int64_t time_ns) {
   published_ = false;
@@ -197,7 +219,7 @@ void GasMap::Publish() const {
   for (std::size_t i = 0; i < known.states().size(); ++i) {
     if (known.states()[i] != CellState::kFree) continue;
     const std::size_t index = lattice_.Index(GasCellOf(known.At(i), inputs_.factor()));
-    mean_ppm_[i] = static_cast<float>(background_mean_ppm_ + engine_->mean_ppm(index));
+    mean_ppm_[i] = static_cast<float>(options_.background_mean_ppm + engine_->mean_ppm(index));
     variance_ppm2_[i] = static_cast<float>(engine_->variance_ppm2(index));
   }
   what_if_ = std::make_shared<const GasWhatIf>(engine_->Snapshot(), lattice_, inputs_);

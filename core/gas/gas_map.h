@@ -10,6 +10,7 @@
 #include "absl/status/status.h"
 #include "core/gas/epoch_schedule.h"
 #include "core/gas/field/field_engine.h"
+#include "core/gas/field_audit.h"
 #include "core/gas/gas_epoch.h"
 #include "core/gas/gas_inputs.h"
 #include "core/gas/gas_lattice.h"
@@ -84,6 +85,13 @@ class GasMap {
   // as from Refresh.
   absl::Status Adopt();
 
+  // Whether the epoch adopted last is one after which the field is to be audited.
+  bool audit_due() const;
+  // Copies what an audit compares; RunAudit may then run on any thread. Null if there is no field,
+  // or an epoch under way: that merges readings which the field has heard one by one. Cost:
+  // O(cells).
+  std::shared_ptr<const AuditInputs> MakeAudit() const;
+
  private:
   friend struct GasMapPeer;  // of the tests
 
@@ -94,8 +102,8 @@ class GasMap {
   absl::Status Conclude(const absl::Status& computed, std::int64_t time_ns);
   void Publish() const;
 
+  GasOptions options_;
   FieldOptions field_options_;
-  double background_mean_ppm_;
   GasInputs inputs_;
   EpochSchedule schedule_;
   GasLattice lattice_;

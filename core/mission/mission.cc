@@ -206,6 +206,7 @@ std::shared_ptr<const Belief> Mission::Snapshot() const {
   belief->sampled = rasters_.sampled;
   belief->gas_counters = gas_.counters();
   belief->gas_quality = gas_.quality();
+  belief->gas_audits = gas_audits_;
   belief->robots = fleet_.Records();
   belief->claims = fleet_.Claims(sample_time_ns_);
   belief->set_aside = goal_memory_.SetAside(Present());

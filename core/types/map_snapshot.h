@@ -54,6 +54,17 @@ struct GasQuality {
   friend bool operator==(const GasQuality&, const GasQuality&) = default;
 };
 
+// What audits of the gas posterior found: an independent implementation computed means and
+// variances from the same map and readings. Of this process only: no part of a mission's state.
+struct GasAudits {
+  std::int64_t audits = 0;      // that came to an end
+  double mean_ppm = 0.0;        // largest difference of means at the last one
+  double variance_ratio = 0.0;  // of variances, as share of the independent one
+  std::int64_t alarms = 0;      // found more than was certified; each had the field made anew
+
+  friend bool operator==(const GasAudits&, const GasAudits&) = default;
+};
+
 // A whole map as readers see it at one revision. Off the free cells mean and variance are NaN.
 struct MapSnapshot {
   std::int64_t revision = 0;
@@ -65,6 +76,7 @@ struct MapSnapshot {
   std::vector<RobotState> robots;
   GasCounters gas_counters;
   GasQuality gas_quality;
+  GasAudits gas_audits;
   MissionPhase phase = MissionPhase::kExploring;
 };
 

@@ -69,6 +69,7 @@ absl::Status Validate(const GasOptions& options) {
                kMinHalfLife_s, kMaxTime_s)
       .InRange("gas.lattice_factor", options.lattice_factor, 1, 16)
       .InRange("gas.refresh_period_s", options.refresh_period_s, 0.01, 3600.0)
+      .InRange("gas.audit_period_epochs", options.audit_period_epochs, 0, 1'000'000)
       .status();
 }
 

@@ -47,6 +47,9 @@ struct GasOptions {
   // kappa, [0, 10]: a reading z that brings no variance has max(1 / lambda_o, (kappa |z - m_0|)^2),
   // for what gusts do to gas grows with it; 0: 1 / lambda_o whatever it reads. [LHR] section II-A.
   double observation_relative_stddev = 0.0;
+  // Servers compare the posterior with an independent one after the first epoch and after every so
+  // many from then on, [0, 1000000]; 0: never.
+  int audit_period_epochs = 30;
 };
 
 // Occupancy and gas frontiers; [XIT] section V.

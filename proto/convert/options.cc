@@ -46,6 +46,7 @@ v1::GasOptions ToProto(const GasOptions& options) {
   proto.set_background_mean_ppm(options.background_mean_ppm);
   proto.set_ageing_half_life_s(options.ageing_half_life_s);
   proto.set_refresh_period_s(options.refresh_period_s);
+  proto.set_audit_period_epochs(options.audit_period_epochs);
   proto.set_lattice_factor(options.lattice_factor);
   proto.set_observation_stddev_share(options.observation_relative_stddev);
   return proto;
@@ -163,6 +164,7 @@ void Read(const v1::GasOptions& proto, GasOptions& options) {
   Take(proto.has_background_mean_ppm(), proto.background_mean_ppm(), options.background_mean_ppm);
   Take(proto.has_ageing_half_life_s(), proto.ageing_half_life_s(), options.ageing_half_life_s);
   Take(proto.has_refresh_period_s(), proto.refresh_period_s(), options.refresh_period_s);
+  Take(proto.has_audit_period_epochs(), proto.audit_period_epochs(), options.audit_period_epochs);
   Take(proto.has_lattice_factor(), proto.lattice_factor(), options.lattice_factor);
   Take(proto.has_observation_stddev_share(), proto.observation_stddev_share(),
        options.observation_relative_stddev);

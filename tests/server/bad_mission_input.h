@@ -91,6 +91,7 @@ inline BadInputs BadGasOptions() {
       .Values(g + "background_mean_ppm", {"nan", "inf", "-1", "1e7"})
       .Values(g + "ageing_half_life_s", {"nan", "inf", "-1", "1e-300", "1e300"})
       .Values(g + "refresh_period_s", {"nan", "inf", "-1", "0", "1e5"})
+      .Values(g + "audit_period_epochs", {"-1", "1000001"})
       .Values(g + "observation_stddev_share", {"nan", "inf", "-0.1", "11"})
       .Values(g + "lattice_factor", {"-1", "0", "17"});
 }

@@ -141,6 +141,16 @@ absl::Status MissionConduct::BeginEpoch() {
   return Take(GasStep::kBeginEpoch, EpochBegun{mission_->sample_time_ns()});
 }
 
+void MissionConduct::TakeFinding(const AuditFinding& finding) {
+  GasAudits audits = mission_->gas_audits();
+  ++audits.audits;
+  audits.mean_ppm = finding.mean_ppm;
+  audits.variance_ratio = finding.variance_ratio;
+  if (!finding.certified) ++audits.alarms;
+  mission_->NoteAudits(audits);
+  if (!finding.certified && mission_->epoch() == nullptr) BeginEpoch().IgnoreError();
+}
+
 absl::Status MissionConduct::Take(GasStep step, EventBody body) {
   if (observer_ != nullptr) observer_->BeforeGasStep(step);
   const auto applied = Apply(std::move(body));

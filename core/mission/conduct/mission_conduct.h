@@ -10,6 +10,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/belief/belief.h"
+#include "core/gas/field_audit.h"
 #include "core/mission/conduct/conduct_observer.h"
 #include "core/mission/conduct/ingest.h"
 #include "core/mission/conduct/lease_book.h"
@@ -97,6 +98,10 @@ class MissionConduct {
   absl::Status Refresh();
   // kFailedPrecondition if an epoch is under way or there is no field. It is adopted in its time.
   absl::Status BeginEpoch();
+
+  // Counts what an audit found (see Mission::MakeAudit). If that is more than was certified, begins
+  // an epoch out of turn, which makes the field anew; one that is under way will do.
+  void TakeFinding(const AuditFinding& finding);
 
  private:
   absl::StatusOr<Applied> Apply(EventBody body);
