@@ -183,6 +183,13 @@ class Client:
         )
         return Robot(self, self._call(self._robots.RegisterRobot, request))
 
+    def remove_robot(self, mission, robot):
+        """Removes a robot whoever holds its lease, as one that died; see Robot.leave."""
+        request = robot_pb.RemoveRobotRequest(
+            robot=f"missions/{mission}/robots/{robot}", force=True
+        )
+        self._call(self._robots.RemoveRobot, request)
+
     def get_map(self, mission):
         request = map_pb.GetMapRequest(
             mission=f"missions/{mission}", full_precision=True, fresh_posterior=True
@@ -348,6 +355,14 @@ class Robot:
             outcome=planning_pb.ReportProgressRequest.Outcome.Value(f"OUTCOME_{outcome.upper()}"),
         )
         self._client._call(self._client._planning.ReportProgress, request)
+
+    def leave(self):
+        """Sends what waits and leaves the mission; registering again goes on with the log."""
+        self.flush()
+        request = robot_pb.RemoveRobotRequest(
+            robot=self._open.robot, lease_token=self._open.lease_token
+        )
+        self._client._call(self._client._robots.RemoveRobot, request)
 
     def _order(self, request, start, budget_s, seed, go_home):
         self.flush()

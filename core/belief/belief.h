@@ -75,6 +75,7 @@ struct Belief {
   std::shared_ptr<const Grid<std::uint8_t>> sampled;  // 1: a gas reading was taken in the cell
   GasCounters gas_counters;
   GasQuality gas_quality;
+  GasAudits gas_audits;
 
   std::map<RobotId, RobotRecord> robots;
   std::vector<GoalClaim> claims;

@@ -47,6 +47,9 @@ struct GasOptions {
   // kappa, [0, 10]: a reading z that brings no variance has max(1 / lambda_o, (kappa |z - m_0|)^2),
   // for what gusts do to gas grows with it; 0: 1 / lambda_o whatever it reads. [LHR] section II-A.
   double observation_stddev_share = 0.0;
+  // Servers compare the posterior with an independent one after the first epoch and after every so
+  // many from then on, [0, 1000000]; 0: never.
+  int audit_period_epochs = 30;
 };
 
 // Occupancy and gas frontiers; [XIT] section V.
@@ -188,6 +191,9 @@ struct MissionOptions {
   int max_beam_count = 20'000;   // of any scan
   double max_concentration_ppm = 1e6;
   int max_robot_count = 32;
+  // A robot that is not heard of while the sample time moves on by this much counts as gone until
+  // it is; [1, 1e9].
+  double robot_silence_s = 60.0;
   std::uint64_t seed = 1;
   // Where nobody may drive, though it is sensed and mapped: at most 64, of 3 to 256 vertices each.
   std::vector<Polygon> keep_out;

@@ -190,6 +190,10 @@ void Visit(auto& archive, Is<EpochBegun> auto& event) {
 void Visit(auto&, Is<EpochAdopted> auto&) {
   static_assert(std::is_empty_v<EpochAdopted>);  // no members, so no binding to name them in
 }
+void Visit(auto& archive, Is<RobotRemoved> auto& event) {
+  auto& [robot] = event;
+  archive(robot);
+}
 void Visit(auto& archive, Is<Event> auto& event) {
   auto& [number, body] = event;
   archive(number, body);

@@ -41,6 +41,7 @@ void Visit(OneOf<GasOptions> auto& options, auto& field) {
   field("refresh_period_s", options.refresh_period_s);
   field("lattice_factor", options.lattice_factor);
   field("observation_stddev_share", options.observation_stddev_share);
+  field("audit_period_epochs", options.audit_period_epochs);
 }
 
 void Visit(OneOf<FrontierOptions> auto& options, auto& field) {
@@ -114,6 +115,7 @@ void Visit(OneOf<MissionOptions> auto& options, auto& field) {
   field("max_beam_count", options.max_beam_count);
   field("max_concentration_ppm", options.max_concentration_ppm);
   field("max_robot_count", options.max_robot_count);
+  field("robot_silence_s", options.robot_silence_s);
   field("seed", options.seed);
 }
 

@@ -191,6 +191,19 @@ class SmokeTest(unittest.TestCase):
         self.assertEqual(second.add_gas(2, START, 1.0), 2)
         second.flush()
 
+    def test_a_robot_leaves_or_is_removed(self):
+        self.client.create_mission("leaving")
+        robot = self.client.register("leaving", "scout")
+        robot.add_gas(1, START, 1.0)
+        robot.leave()
+        self.assertEqual(len(self.client.get_map("leaving").status.robots), 0)
+        back = self.client.register("leaving", "scout")
+        self.assertEqual(back.add_gas(2, START, 1.0), 2)
+        self.client.remove_robot("leaving", "scout")
+        with self.assertRaises(plumescout_client.PlumeScoutError) as caught:
+            back.flush()
+        self.assertEqual(caught.exception.reason, "ROBOT_NOT_FOUND")
+
 
 if __name__ == "__main__":
     unittest.main()

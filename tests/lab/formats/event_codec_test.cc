@@ -29,6 +29,7 @@ TEST(EventCodec, KindsKeepTheNumbersOfRecordedLogs) {
   EXPECT_EQ(EncodeEvent({1, ProgressReported{}})[8], 4);
   EXPECT_EQ(EncodeEvent({1, EpochBegun{}})[8], 5);
   EXPECT_EQ(EncodeEvent({1, EpochAdopted{}})[8], 6);
+  EXPECT_EQ(EncodeEvent({1, RobotRemoved{}})[8], 7);
 }
 
 TEST(EventCodec, AnObservationComesBack) {
