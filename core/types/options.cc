@@ -124,6 +124,7 @@ absl::Status Validate(const PlanningOptions& options) {
       .InRange("planning.nearest_samples", options.nearest_samples, 1, 100)
       .InRange("planning.uniform_share", options.uniform_share, 0.0, 1.0)
       .InRange("planning.radius_factor", options.radius_factor, 0.01, 100.0)
+      .InRange("planning.max_connection_radius_m", options.max_connection_radius_m, 0.0, 1000.0)
       .InRange("planning.reading_rate_hz", options.reading_rate_hz, 0.01, 1000.0)
       .InRange("planning.commitment_margin", options.commitment_margin, 0.0, 1.0)
       .InRange("planning.speed_mps", options.speed_mps, 0.001, 100.0)

@@ -142,7 +142,10 @@ struct PlanningOptions {
   SamplingKind sampling = SamplingKind::kSystematic;
   double radius_factor = 1.1;   // gamma / gamma_RGG, > 0
   bool mixture_radius = false;  // gamma* = epsilon^(-1/2) gamma
-  bool grid_guard = true;       // complete missed goals on the grid
+  // No edge is tried that is longer than this, metres (ours), however few samples there are for the
+  // area, for nearly every such edge of a cluttered map is blocked; 0: no limit (paper); [0, 1000].
+  double max_connection_radius_m = 5.0;
+  bool grid_guard = true;  // complete missed goals on the grid
   // Goal cells are vertices, where paths end (ours); false: paths end at the sample of the goal set
   // that is the cheapest to reach (paper).
   bool goal_vertices = true;

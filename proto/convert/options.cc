@@ -124,6 +124,7 @@ v1::PlanningOptions ToProto(const PlanningOptions& options) {
   proto.set_return_home(options.return_home);
   proto.set_planning_latency_s(options.planning_latency_s);
   *proto.mutable_sites() = ToProto(options.sites);
+  proto.set_max_connection_radius_m(options.max_connection_radius_m);
   return proto;
 }
 
@@ -227,6 +228,8 @@ void ReadNumbers(const v1::PlanningOptions& proto, PlanningOptions& options) {
   Take(proto.has_reading_rate_hz(), proto.reading_rate_hz(), options.reading_rate_hz);
   Take(proto.has_commitment_margin_share(), proto.commitment_margin_share(),
        options.commitment_margin);
+  Take(proto.has_max_connection_radius_m(), proto.max_connection_radius_m(),
+       options.max_connection_radius_m);
 }
 
 void ReadMotion(const v1::PlanningOptions& proto, PlanningOptions& options) {
