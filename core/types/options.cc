@@ -126,6 +126,7 @@ absl::Status Validate(const PlanningOptions& options) {
       .InRange("planning.radius_factor", options.radius_factor, 0.01, 100.0)
       .InRange("planning.max_connection_radius_m", options.max_connection_radius_m, 0.0, 1000.0)
       .InRange("planning.reading_rate_hz", options.reading_rate_hz, 0.01, 1000.0)
+      .InRange("planning.unseen_information_nats", options.unseen_information_nats, 0.0, kMaxWeight)
       .InRange("planning.commitment_margin", options.commitment_margin, 0.0, 1.0)
       .InRange("planning.speed_mps", options.speed_mps, 0.001, 100.0)
       .InRange("planning.dwell_s", options.dwell_s, 0.0, 3600.0)

@@ -155,6 +155,11 @@ struct PlanningOptions {
   bool straighten = true;
   // Readings expected along a path when its information is priced, [0.01, 1000].
   double reading_rate_hz = 2.0;
+  // The gas field has no cells behind an occupancy frontier, so what readings there would tell
+  // cannot be priced (ours). Where information is priced it counts as this much, nats, [0, 1e9].
+  // Found by trial with the default precisions, where from 10 to 30 are equal
+  // (docs/decisions/0007-own-strategy.md): with none, rooms that promise little stay unseen.
+  double unseen_information_nats = 20.0;
   // A robot under way keeps its goal unless another is better by more than this share, [0, 1].
   double commitment_margin = 0.0;
   double speed_mps = 1.25;     // > 0

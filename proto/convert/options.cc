@@ -125,6 +125,7 @@ v1::PlanningOptions ToProto(const PlanningOptions& options) {
   proto.set_planning_latency_s(options.planning_latency_s);
   *proto.mutable_sites() = ToProto(options.sites);
   proto.set_max_connection_radius_m(options.max_connection_radius_m);
+  proto.set_unseen_information_nats(options.unseen_information_nats);
   return proto;
 }
 
@@ -230,6 +231,8 @@ void ReadNumbers(const v1::PlanningOptions& proto, PlanningOptions& options) {
        options.commitment_margin);
   Take(proto.has_max_connection_radius_m(), proto.max_connection_radius_m(),
        options.max_connection_radius_m);
+  Take(proto.has_unseen_information_nats(), proto.unseen_information_nats(),
+       options.unseen_information_nats);
 }
 
 void ReadMotion(const v1::PlanningOptions& proto, PlanningOptions& options) {
