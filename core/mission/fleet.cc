@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/types/checker.h"
+#include "core/types/status_macros.h"
 
 namespace plumescout {
 namespace {
@@ -38,11 +40,9 @@ std::optional<Goal> GoalToClaim(const Plan& plan) {
 }  // namespace
 
 absl::Status Fleet::Register(const RobotRegistered& registration, int max_robots) {
-  if (absl::Status status = ValidateId("robot", registration.robot); !status.ok()) return status;
-  if (!(registration.radius_m > 0.0 && registration.radius_m <= kMaxRadius_m)) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("radius_m = ", registration.radius_m, " must be in (0, ", kMaxRadius_m, "]"));
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(ValidateId("robot", registration.robot));
+  PLUMESCOUT_RETURN_IF_ERROR(
+      Checker().InRangeAbove("radius_m", registration.radius_m, 0.0, kMaxRadius_m).status());
   const auto found = robots_.find(registration.robot);
   if (found == robots_.end() && robots_.size() >= static_cast<std::size_t>(max_robots)) {
     return absl::ResourceExhaustedError(
@@ -161,7 +161,9 @@ absl::StatusOr<std::optional<Goal>> Fleet::Report(const ProgressReported& report
   const LivePlan live = *std::exchange(member.live, std::nullopt);
   member.record.live_trajectory = nullptr;
   member.record.live_goal.reset();
-  if (live.phase == MissionPhase::kFallback) ++member.record.fruitless_fallbacks;
+  // A place that was not reached says nothing of what can be seen from there.
+  const bool reached = report.outcome == ProgressOutcome::kReached;
+  if (live.phase == MissionPhase::kFallback && reached) ++member.record.fruitless_fallbacks;
   return live.goal;
 }
 

@@ -168,7 +168,7 @@ struct PlanningOptions {
   // When no frontier is left, go first to places whose gas is unobserved (ours); false: to random
   // free places only (paper).
   bool fallback_to_unobserved = true;
-  int fallback_limit = 2;  // fruitless fallback trajectories that end the mission
+  int fallback_limit = 2;  // random places reached in vain that end the mission, [1, 1000]
 
   // How trajectories are timed. 0: no limit; else [0.001, 100]. With either limit the robot stops
   // at every corner and turns on the spot.

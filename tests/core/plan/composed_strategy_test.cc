@@ -298,6 +298,22 @@ TEST(Strategy, VisitsRandomPlacesWhenNoFrontierIsLeftAndThenIsComplete) {
   EXPECT_EQ(plan->chosen, -1);
 }
 
+TEST(Strategy, VisitsUnobservedGasForReadingsAndNotInVain) {
+  const testing::GridArt art = {"############",  //
+                                "#Sgg.......#",  //
+                                "#ggg.......#",  //
+                                "############"};
+  testing::GoalCase c(art);
+  c.AddGas(art, 0.0F);
+  c.belief.gas_counters.readings = 1;
+  PlanningOptions options = testing::XitGff();
+  options.min_goal_distance_m = 0.1;
+  const absl::StatusOr<Plan> plan = TryPlan(c.belief, For("r"), options);
+  ASSERT_TRUE(plan.ok());
+  EXPECT_EQ(Chosen(*plan).goal.kind, GoalKind::kInformation);
+  EXPECT_EQ(plan->phase, MissionPhase::kGasProbing) << "no fallback, which would count";
+}
+
 TEST(Strategy, SaysWhatItPassedOver) {
   Belief belief = SmallBelief(kRoom);
   const absl::StatusOr<Plan> free = TryPlan(belief, For("r"));
