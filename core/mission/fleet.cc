@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/types/checker.h"
 #include "core/types/error_reason.h"
+#include "core/types/status_macros.h"
 
 namespace plumescout {
 namespace {
@@ -46,11 +48,9 @@ const Fleet::Member* Fleet::Find(const RobotId& robot) const {
 }
 
 absl::Status Fleet::Register(const RobotRegistered& registration, int max_robot_count) {
-  if (absl::Status status = ValidateId("robot", registration.robot); !status.ok()) return status;
-  if (!(registration.radius_m > 0.0 && registration.radius_m <= kMaxRadius_m)) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("radius_m = ", registration.radius_m, " must be in (0, ", kMaxRadius_m, "]"));
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(ValidateId("robot", registration.robot));
+  PLUMESCOUT_RETURN_IF_ERROR(
+      Checker().InRangeAbove("radius_m", registration.radius_m, 0.0, kMaxRadius_m).status());
   const auto found = robots_.find(registration.robot);
   const auto present = std::count_if(robots_.begin(), robots_.end(),
                                      [](const auto& entry) { return !entry.second.removed; });
@@ -213,7 +213,9 @@ absl::StatusOr<std::optional<Goal>> Fleet::Report(const ProgressReported& report
   }
   const LivePlan live = *member.live;
   EndPlan(member);
-  if (live.phase == MissionPhase::kFallback) ++member.record.fruitless_fallbacks;
+  // A place that was not reached says nothing of what can be seen from there.
+  const bool reached = report.outcome == ProgressOutcome::kReached;
+  if (live.phase == MissionPhase::kFallback && reached) ++member.record.fruitless_fallbacks;
   return live.goal;
 }
 

@@ -145,7 +145,10 @@ struct PlanningOptions {
   SamplingKind sampling = SamplingKind::kSystematic;
   double radius_factor = 1.1;   // gamma / gamma_RGG, > 0
   bool mixture_radius = false;  // gamma* = epsilon^(-1/2) gamma
-  bool grid_guard = true;       // complete missed goals on the grid
+  // No edge is tried that is longer than this, metres (ours), however few samples there are for the
+  // area, for nearly every such edge of a cluttered map is blocked; 0: no limit (paper); [0, 1000].
+  double max_connection_radius_m = 5.0;
+  bool grid_guard = true;  // complete missed goals on the grid
   // Goal cells are vertices, where paths end (ours); false: paths end at the sample of the goal set
   // that is the cheapest to reach (paper).
   bool goal_vertices = true;
@@ -155,6 +158,11 @@ struct PlanningOptions {
   bool straighten = true;
   // Readings expected along a path when its information is priced, [0.01, 1000].
   double reading_rate_hz = 2.0;
+  // The gas field has no cells behind an occupancy frontier, so what readings there would tell
+  // cannot be priced (ours). Where information is priced it counts as this much, nats, [0, 1e9].
+  // Found by trial with the default precisions, where from 10 to 30 are equal
+  // (docs/decisions/0007-own-strategy.md): with none, rooms that promise little stay unseen.
+  double unseen_information_nats = 20.0;
   // A robot under way keeps its goal unless another is better by more than this share, [0, 1].
   double commitment_margin_share = 0.0;
   double speed_mps = 1.25;     // > 0
@@ -163,7 +171,7 @@ struct PlanningOptions {
   // When no frontier is left, go first to places whose gas is unobserved (ours); false: to random
   // free places only (paper).
   bool fallback_to_unobserved = true;
-  int fallback_limit = 2;  // fruitless fallback trajectories that end the mission
+  int fallback_limit = 2;  // random places reached in vain that end the mission, [1, 1000]
 
   // How trajectories are timed. 0: no limit; else [0.001, 100]. With either limit the robot stops
   // at every corner and turns on the spot.

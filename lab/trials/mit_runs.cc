@@ -25,6 +25,7 @@ PlanningOptions Mit() {
   options.strategy = "mit";
   if (!ApplyStrategyRow(options).ok()) return {};
   options.sample_count = kMitSamples;
+  options.max_connection_radius_m = 0.0;
   return options;
 }
 

@@ -11,8 +11,8 @@
 #include "google/protobuf/message.h"
 #include "google/protobuf/util/message_differencer.h"
 #include "proto/convert/field.h"
-#include "proto/convert/option_binding.h"
 #include "proto/convert/geometry.h"
+#include "proto/convert/option_binding.h"
 #include "proto/convert/prior_map.h"
 
 namespace plumescout {
@@ -86,11 +86,13 @@ void VisitSearch(OneOf<PlanningOptions> auto& options, auto& field) {
   field("sampling", options.sampling);
   field("radius_factor", options.radius_factor);
   field("mixture_radius", options.mixture_radius);
+  field("max_connection_radius_m", options.max_connection_radius_m);
   field("grid_guard", options.grid_guard);
   field("goal_vertices", options.goal_vertices);
   field("informed_heuristic", options.informed_heuristic);
   field("straighten", options.straighten);
   field("reading_rate_hz", options.reading_rate_hz);
+  field("unseen_information_nats", options.unseen_information_nats);
   field("commitment_margin_share", options.commitment_margin_share);
 }
 

@@ -138,7 +138,9 @@ inline BadInputs BadPlanningOptions() {
       .Values(p + "max_turn_rate_rad_per_s", {"nan", "inf", "-1", "1e-300", "101"})
       .Values(p + "travel_budget_m", {"nan", "inf", "-1", "1e300"})
       .Values(p + "return_margin_share", {"nan", "inf", "-0.1", "11"})
-      .Values(p + "planning_latency_s", {"nan", "inf", "-1", "61"});
+      .Values(p + "planning_latency_s", {"nan", "inf", "-1", "61"})
+      .Values(p + "max_connection_radius_m", {"nan", "inf", "-1", "1001"})
+      .Values(p + "unseen_information_nats", {"nan", "inf", "-1", "1e300"});
 }
 
 // The server has room for a mission of the default size, not for the largest.

@@ -127,6 +127,15 @@ TEST(FleetReport, CountsFallbacksInARowThatRevealedNothing) {
   EXPECT_EQ(fallback(3.0), 2);
 }
 
+TEST(FleetReport, CountsNoFallbackThatDidNotReachItsPlace) {
+  Fleet fleet = FleetOf({"a"});
+  for (const ProgressOutcome outcome : {ProgressOutcome::kBlocked, ProgressOutcome::kAborted}) {
+    const PlanId plan = *fleet.Issue(PlanTo("a", {1.0, 1.0}, GoalKind::kRandomFreeSpace), 0);
+    ASSERT_TRUE(fleet.Report({"a", plan, outcome}).ok());
+    EXPECT_EQ(fleet.Records().at("a").fruitless_fallbacks, 0);
+  }
+}
+
 TEST(FleetReport, SaysWhichGoalThePlanHad) {
   Fleet fleet = FleetOf({"a"});
   const PlanId plan = *fleet.Issue(PlanTo("a", {1.0, 2.0}), 0);

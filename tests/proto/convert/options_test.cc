@@ -46,6 +46,8 @@ MissionOptions Unlike() {
   options.planning.return_margin_share = 0.25;
   options.planning.return_home = true;
   options.planning.planning_latency_s = 0.75;
+  options.planning.max_connection_radius_m = 7.5;
+  options.planning.unseen_information_nats = 12.0;
   options.planning.sites = {Rectangle{{-1.0, 2.0}, {3.0, 8.0}},
                             2.0,
                             SamplingReward::kConcentrationPerTime,
