@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "core/types/quantile.h"
 #include "core/types/status_macros.h"
 #include "formats/file_io.h"
 #include "formats/map_server.h"
@@ -22,16 +22,6 @@
 
 namespace plumescout::lab {
 namespace {
-
-// The value that `share` of the values do not exceed; NaN if there are none.
-double Percentile(std::vector<double> values, double share) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())) -
-                                             (share > 0.0 ? 1.0 : 0.0));
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(std::min(rank, values.size() - 1));
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
-}
 
 // Of all robots, in the order of their issue.
 std::vector<const IssuedPlan*> PlansOf(const TeamResult& team) {
@@ -88,8 +78,8 @@ Summary MakeSummary(const Run& run) {
       {"rmse_zero_ppm", metrics.rmse_zero_ppm},
       {"entropy_nats", metrics.entropy_nats},
       {"plans", static_cast<double>(PlansOf(run.team).size())},
-      {"plan_cpu_ms_p50", Percentile(cpu_ms, 0.5)},
-      {"plan_rpc_wall_ms_p99", Percentile(wall_ms, 0.99)},
+      {"plan_cpu_ms_p50", Median(cpu_ms)},
+      {"plan_rpc_wall_ms_p99", Quantile(wall_ms, 0.99)},
       {"simulated_s", run.team.samples.back().time_s},
       {"wall_s", run.wall_s},
   };

@@ -351,6 +351,11 @@ void AddFigures(const TableStudy& study, Summary& summary) {
       for (std::size_t t = 0; t < kTrajectories; ++t) {
         const std::string trajectory = absl::StrCat("_", t + 1);
         summary.figures.emplace_back(prefix + "share" + trajectory, found.share(t));
+        if (s == 0) {  // of the table
+          summary.figures.emplace_back(
+              absl::StrFormat("%s_t%d_percent", Slug(study.rivals[r]), t + 1),
+              kPercent * found.share(t));
+        }
         summary.figures.emplace_back(prefix + "mean_psi" + trajectory, found.psi[t]);
         summary.figures.emplace_back(prefix + "found" + trajectory, found.found[t]);
       }
@@ -358,6 +363,7 @@ void AddFigures(const TableStudy& study, Summary& summary) {
       summary.figures.emplace_back(prefix + "samples", found.samples);
     }
   }
+  summary.figures.emplace_back("trials", study.table(kMit).runs);
   summary.figures.emplace_back("scenes", static_cast<double>(study.scenes.size()));
   summary.figures.emplace_back("scenes_mit_ahead_of_rrt_star",
                                ScenesAhead(study, kMit, kRrtStar, InformativeShare));

@@ -27,6 +27,23 @@ std::optional<double> TimeBelow_s(const ErrorCurve& errors, double limit_ppm) {
   return below->time_s;
 }
 
+Resolution ResolveAgainst(std::span<const ErrorCurve> drives, std::span<const ErrorCurve> sweeps,
+                          double unresolved_s) {
+  constexpr double kRounding = 1.0 + 1e-9;  // so that a sweep itself comes to its own end
+  Resolution resolution;
+  double sweep_s = 0.0;
+  double drive_s = 0.0;
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    const double limit_ppm = kRounding * sweeps[i].back().rmse_ppm;
+    const std::optional<double> time_s = TimeBelow_s(drives[i], limit_ppm);
+    sweep_s += TimeBelow_s(sweeps[i], limit_ppm).value_or(unresolved_s);
+    drive_s += time_s.value_or(unresolved_s);
+    resolution.resolved += time_s.has_value();
+  }
+  resolution.times_faster = sweep_s / drive_s;
+  return resolution;
+}
+
 std::optional<ErrorPoint> FinalError(const ErrorCurve& errors) {
   if (errors.empty()) return std::nullopt;
   return errors.back();

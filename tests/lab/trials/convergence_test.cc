@@ -85,5 +85,16 @@ TEST(ConvergenceTest, RunsOfDifferentLengthAreAveragedTimeByTime) {
   EXPECT_EQ(MeanCurve(curves, times_s), expected);
 }
 
+TEST(ResolveAgainst, ADriveThatNeverResolvesCountsWithTheWholeTime) {
+  const std::vector<ErrorCurve> sweeps = {{{0.0, 9.0}, {100.0, 4.0}}, {{0.0, 9.0}, {100.0, 4.0}}};
+  const std::vector<ErrorCurve> drives = {{{0.0, 9.0}, {50.0, 4.0}}, {{0.0, 9.0}, {100.0, 4.5}}};
+  const Resolution resolution = ResolveAgainst(drives, sweeps, 350.0);
+  EXPECT_DOUBLE_EQ(resolution.times_faster, (100.0 + 100.0) / (50.0 + 350.0));
+  EXPECT_EQ(resolution.resolved, 1);
+  const Resolution itself = ResolveAgainst(sweeps, sweeps, 350.0);
+  EXPECT_DOUBLE_EQ(itself.times_faster, 1.0);
+  EXPECT_EQ(itself.resolved, 2);
+}
+
 }  // namespace
 }  // namespace plumescout::lab
