@@ -57,7 +57,7 @@ PlanPicture MakePicture(const PlanningStep& step) {
 absl::Status DrawPlan(const PlanArguments& arguments) {
   ProgressLine progress(absl::Seconds(2));
   PLUMESCOUT_ASSIGN_OR_RETURN(const Recording recording, ReadRecording(arguments.belief));
-  if (!recording.end.ok()) std::cerr << recording.end.message() << "\n";
+  std::cerr << Remarks(recording);
   constexpr int kSteps = 200;  // of the progress line
   int shown = -1;
   const absl::Time start = absl::Now();
