@@ -16,12 +16,12 @@
 #include "core/plan/strategy.h"
 #include "core/types/status_macros.h"
 #include "formats/file_io.h"
-#include "lab/formats/png.h"
 #include "lab/program/plan_json.h"
 #include "lab/program/planning_step.h"
 #include "lab/program/progress_line.h"
 #include "lab/program/recording.h"
 #include "lab/report/plan_sheet.h"
+#include "lab/report/png.h"
 
 namespace plumescout::lab {
 namespace {

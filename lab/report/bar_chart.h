@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "lab/formats/image.h"
 #include "lab/report/canvas.h"
+#include "lab/report/image.h"
 
 namespace plumescout::lab {
 

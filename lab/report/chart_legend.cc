@@ -3,8 +3,8 @@
 #include "lab/report/chart_legend.h"
 
 #include "absl/strings/str_cat.h"
+#include "lab/report/font.h"
 #include "lab/report/palette.h"
-#include "lab/report/stroke_font.h"
 
 namespace plumescout::lab {
 namespace {

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 
+#include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
 #include "absl/strings/string_view.h"
-#include "lab/report/svg_canvas.h"
+#include "lab/report/cairo_canvas.h"
 
 namespace plumescout::lab {
 namespace {
@@ -25,7 +27,7 @@ h2 { margin: 0 0 .5rem; font-size: 1rem; }
 @media (min-width: 90rem) {
   .panels { grid-template-columns: repeat(var(--columns), minmax(0, 1fr)); }
 }
-svg { overflow: visible; width: 100%; height: auto; max-width: 40rem; }
+img { width: 100%; height: auto; max-width: 40rem; }
 table { width: 100%; max-width: 40rem; border-collapse: collapse; font-size: .9rem; }
 td { border-top: 1px solid #e2e5ea; padding: .2rem 0; }
 td:first-child { color: #6b7280; }
@@ -34,6 +36,11 @@ td:first-child { color: #6b7280; }
 td { font-variant-numeric: tabular-nums; }
 table:not(.wide) td:last-child { text-align: right; }
 )";
+
+std::string EscapeMarkup(absl::string_view text) {
+  return absl::StrReplaceAll(
+      text, {{"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}, {"\"", "&quot;"}, {"'", "&#39;"}});
+}
 
 std::string MakeHeadline(const ReportFigures& figures) {
   std::string html = "<div class=\"headline\">\n";
@@ -78,22 +85,10 @@ std::string MakeTextTable(const TextTable& table) {
   return html + "</table>\n";
 }
 
-std::string MakePanel(const MapPanel& panel, int height_px) {
-  SvgCanvas canvas(kPanelWidth_px, height_px, panel.title);
-  DrawMapPanel(canvas, {0.0, 0.0, kPanelWidth_px, static_cast<double>(height_px)}, panel);
-  return canvas.Element();
-}
-
-std::string MakeChart(const Chart& chart, int height_px) {
-  SvgCanvas canvas(kPanelWidth_px, height_px, chart.title);
-  DrawChart(canvas, {0.0, 0.0, kPanelWidth_px, static_cast<double>(height_px)}, chart);
-  return canvas.Element();
-}
-
-std::string MakeBarChart(const BarChart& chart, int height_px) {
-  SvgCanvas canvas(kPanelWidth_px, height_px, chart.title);
-  DrawBarChart(canvas, {0.0, 0.0, kPanelWidth_px, static_cast<double>(height_px)}, chart);
-  return canvas.Element();
+// A figure of its own, so that names within one do not meet those of another.
+std::string MakeFigure(const std::string& title, int height_px, const Drawing& draw) {
+  return absl::StrCat("<img alt=\"", EscapeMarkup(title), "\" src=\"data:image/svg+xml;base64,",
+                      absl::Base64Escape(DrawSvg(kPanelWidth_px, height_px, draw)), "\">\n");
 }
 
 }  // namespace
@@ -109,11 +104,22 @@ std::string MakeHtmlPage(const ReportFigures& figures) {
   absl::StrAppend(&html, "<div class=\"figures panels\" style=\"--columns: ", PanelsPerRow(figures),
                   "\">\n");
   const int panel_px = PanelHeight_px(figures, kPanelWidth_px);
-  for (const MapPanel& panel : figures.panels) html += MakePanel(panel, panel_px);
+  const Box panel_box{0.0, 0.0, kPanelWidth_px, static_cast<double>(panel_px)};
+  for (const MapPanel& panel : figures.panels) {
+    html += MakeFigure(panel.title, panel_px,
+                       [&](Canvas& canvas) { DrawMapPanel(canvas, panel_box, panel); });
+  }
   html += "</div>\n<div class=\"figures\">\n";
   const int chart_px = ChartHeight_px(figures);
-  for (const Chart& chart : figures.charts) html += MakeChart(chart, chart_px);
-  for (const BarChart& chart : figures.bar_charts) html += MakeBarChart(chart, chart_px);
+  const Box chart_box{0.0, 0.0, kPanelWidth_px, static_cast<double>(chart_px)};
+  for (const Chart& chart : figures.charts) {
+    html += MakeFigure(chart.title, chart_px,
+                       [&](Canvas& canvas) { DrawChart(canvas, chart_box, chart); });
+  }
+  for (const BarChart& chart : figures.bar_charts) {
+    html += MakeFigure(chart.title, chart_px,
+                       [&](Canvas& canvas) { DrawBarChart(canvas, chart_box, chart); });
+  }
   absl::StrAppend(&html, MakeTable(figures), "</div>\n</body>\n</html>\n");
   return html;
 }

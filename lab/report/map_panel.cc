@@ -7,8 +7,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "lab/report/disc_layout.h"
+#include "lab/report/font.h"
 #include "lab/report/palette.h"
-#include "lab/report/stroke_font.h"
 #include "lab/report/ticks.h"
 
 namespace plumescout::lab {

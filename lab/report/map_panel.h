@@ -9,9 +9,9 @@
 
 #include "core/types/grid_geometry.h"
 #include "core/types/pose2.h"
-#include "lab/formats/image.h"
 #include "lab/report/canvas.h"
 #include "lab/report/color_scale.h"
+#include "lab/report/image.h"
 
 namespace plumescout::lab {
 

@@ -9,9 +9,9 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "lab/report/cairo_canvas.h"
 #include "lab/report/palette.h"
 #include "lab/report/plan_names.h"
-#include "lab/report/raster_canvas.h"
 
 namespace plumescout::lab {
 namespace {
@@ -140,19 +140,19 @@ Image DrawPlanSheet(const PlanPicture& picture) {
   int height_px = tables_top + kMargin_px;
   for (const Table& table : tables) height_px += table.height_px();
 
-  RasterCanvas canvas(kWidth_px, height_px, kPaper);
-  DrawHead(canvas, picture);
-  double x = kMargin_px;
-  for (const MapPanel& panel : panels) {
-    DrawMapPanel(canvas, {x, kMargin_px + kTop_px, kPanel_px, panel_height_px}, panel);
-    x += kPanel_px + kGap_px;
-  }
-  double top = tables_top;
-  for (const Table& table : tables) {
-    DrawTable(canvas, top, table);
-    top += table.height_px();
-  }
-  return canvas.image();
+  return DrawImage(kWidth_px, height_px, kPaper, [&](Canvas& canvas) {
+    DrawHead(canvas, picture);
+    double x = kMargin_px;
+    for (const MapPanel& panel : panels) {
+      DrawMapPanel(canvas, {x, kMargin_px + kTop_px, kPanel_px, panel_height_px}, panel);
+      x += kPanel_px + kGap_px;
+    }
+    double top = tables_top;
+    for (const Table& table : tables) {
+      DrawTable(canvas, top, table);
+      top += table.height_px();
+    }
+  });
 }
 
 }  // namespace plumescout::lab

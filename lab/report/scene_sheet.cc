@@ -10,9 +10,9 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "lab/report/cairo_canvas.h"
 #include "lab/report/figures.h"
 #include "lab/report/palette.h"
-#include "lab/report/raster_canvas.h"
 
 namespace plumescout::lab {
 namespace {
@@ -267,19 +267,20 @@ Image DrawSceneSheet(const Scene& scene) {
   const int panel_px = PanelWidth_px(panels.front().region);
   const double height_px = std::ceil(MapPanelHeight_px(panels.front(), panel_px));
   const int count = static_cast<int>(panels.size());
-  RasterCanvas canvas(2 * kMargin_px + count * panel_px + (count - 1) * kGap_px,
-                      2 * kMargin_px + kTop_px + static_cast<int>(height_px), kPaper);
-  canvas.Text({kMargin_px, 54.0}, absl::StrCat("Scene ", scene.name),
-              {26.0, kInk, Anchor::kStart, true});
-  canvas.Text({kMargin_px, 84.0}, FiguresText(scene), {14.0, kInk});
-  canvas.Text({kMargin_px, 106.0}, SourcesText(scene), {14.0, kInk});
-  double x = kMargin_px;
-  for (const MapPanel& panel : panels) {
-    DrawMapPanel(canvas, {x, kMargin_px + kTop_px, static_cast<double>(panel_px), height_px},
-                 panel);
-    x += panel_px + kGap_px;
-  }
-  return canvas.image();
+  const int width_px = 2 * kMargin_px + count * panel_px + (count - 1) * kGap_px;
+  const int sheet_px = 2 * kMargin_px + kTop_px + static_cast<int>(height_px);
+  return DrawImage(width_px, sheet_px, kPaper, [&](Canvas& canvas) {
+    canvas.Text({kMargin_px, 54.0}, absl::StrCat("Scene ", scene.name),
+                {26.0, kInk, Anchor::kStart, true});
+    canvas.Text({kMargin_px, 84.0}, FiguresText(scene), {14.0, kInk});
+    canvas.Text({kMargin_px, 106.0}, SourcesText(scene), {14.0, kInk});
+    double x = kMargin_px;
+    for (const MapPanel& panel : panels) {
+      DrawMapPanel(canvas, {x, kMargin_px + kTop_px, static_cast<double>(panel_px), height_px},
+                   panel);
+      x += panel_px + kGap_px;
+    }
+  });
 }
 
 }  // namespace plumescout::lab

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lab/report/cairo_canvas.h"
+#include "lab/report/font.h"
 #include "lab/report/palette.h"
-#include "lab/report/raster_canvas.h"
-#include "lab/report/stroke_font.h"
 
 namespace plumescout::lab {
 namespace {
@@ -163,27 +163,27 @@ int ChartHeight_px(const ReportFigures& figures) {
 Image DrawSheet(const ReportFigures& figures) {
   const std::vector<std::string> notes = NoteLines(figures);
   const SheetLayout layout = LayOut(figures, notes.size());
-  RasterCanvas canvas(kWidth_px, layout.height, kPaper);
-  canvas.Text({kMargin_px, kMargin_px + 26.0}, figures.title, {30.0, kInk, Anchor::kStart, true});
-  for (std::size_t i = 0; i < notes.size(); ++i) {
-    canvas.Text({kMargin_px, kMargin_px + kTitle_px + kNoteLine_px * static_cast<double>(i)},
-                notes[i], {kNoteSize_px, kInk});
-  }
-  DrawHeadline(canvas, layout.headline_top, figures);
-  const auto whole_width = [&](int top) {
-    return Box{kMargin_px, static_cast<double>(top), kContent_px,
-               static_cast<double>(layout.height - top)};
-  };
-  if (!figures.tables.empty()) {
-    DrawTextTable(canvas, whole_width(layout.table_top), figures.tables.front());
-  }
-  DrawPanels(canvas, layout, figures);
-  DrawCharts(canvas, layout, figures);
-  Box numbers = whole_width(layout.charts_top);
-  numbers.x = ColumnX(kColumns - 1);
-  numbers.width = kPanelWidth_px;
-  DrawKeyNumbers(canvas, numbers, figures);
-  return canvas.image();
+  return DrawImage(kWidth_px, layout.height, kPaper, [&](Canvas& canvas) {
+    canvas.Text({kMargin_px, kMargin_px + 26.0}, figures.title, {30.0, kInk, Anchor::kStart, true});
+    for (std::size_t i = 0; i < notes.size(); ++i) {
+      canvas.Text({kMargin_px, kMargin_px + kTitle_px + kNoteLine_px * static_cast<double>(i)},
+                  notes[i], {kNoteSize_px, kInk});
+    }
+    DrawHeadline(canvas, layout.headline_top, figures);
+    const auto whole_width = [&](int top) {
+      return Box{kMargin_px, static_cast<double>(top), kContent_px,
+                 static_cast<double>(layout.height - top)};
+    };
+    if (!figures.tables.empty()) {
+      DrawTextTable(canvas, whole_width(layout.table_top), figures.tables.front());
+    }
+    DrawPanels(canvas, layout, figures);
+    DrawCharts(canvas, layout, figures);
+    Box numbers = whole_width(layout.charts_top);
+    numbers.x = ColumnX(kColumns - 1);
+    numbers.width = kPanelWidth_px;
+    DrawKeyNumbers(canvas, numbers, figures);
+  });
 }
 
 }  // namespace plumescout::lab

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "lab/formats/image.h"
 #include "lab/report/bar_chart.h"
 #include "lab/report/chart.h"
+#include "lab/report/image.h"
 #include "lab/report/map_panel.h"
 #include "lab/report/text_table.h"
 

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <string>
 
-#include "lab/report/raster_canvas.h"
-#include "lab/report/svg_canvas.h"
+#include "lab/report/cairo_canvas.h"
+#include "tests/support/recording_canvas.h"
 
 namespace plumescout::lab {
 namespace {
@@ -30,16 +30,14 @@ BarChart TwoByTwo() {
           ""};
 }
 
-std::string Svg(const BarChart& chart) {
-  SvgCanvas canvas(400, 300, "");
+std::string Texts(const BarChart& chart) {
+  RecordingCanvas canvas;
   DrawBarChart(canvas, kBox, chart);
-  return canvas.Element();
+  return canvas.Texts();
 }
 
 Image Raster(const BarChart& chart) {
-  RasterCanvas canvas(400, 300, kWhite);
-  DrawBarChart(canvas, kBox, chart);
-  return canvas.image();
+  return DrawImage(400, 300, kWhite, [&](Canvas& canvas) { DrawBarChart(canvas, kBox, chart); });
 }
 
 // Rows of a colour in one column of pixels.
@@ -50,11 +48,11 @@ int Height(const Image& image, int x, Rgb color) {
 }
 
 TEST(BarChart, NamesTitleAxesGroupsAndSeries) {
-  const std::string svg = Svg(TwoByTwo());
+  const std::string texts = Texts(TwoByTwo());
   for (const char* text : {">Share, %<", ">trajectory<", ">one<", ">two<", ">ours<", ">theirs<"}) {
-    EXPECT_THAT(svg, HasSubstr(text));
+    EXPECT_THAT(texts, HasSubstr(text));
   }
-  EXPECT_THAT(svg, Not(HasSubstr("paper")));
+  EXPECT_THAT(texts, Not(HasSubstr("paper")));
 }
 
 // The plot area is 338 x 202 pixels from (52, 58); a bar is 0.4 of half of it wide.
@@ -79,7 +77,7 @@ TEST(BarChart, IntervalsAndReferencesAreDrawnIfTheyAreThere) {
   chart.series[0].bars[0].reference = 80.0;
   chart.reference_name = "paper";
   EXPECT_NE(Raster(chart), with_interval);
-  EXPECT_THAT(Svg(chart), HasSubstr(">paper<"));
+  EXPECT_THAT(Texts(chart), HasSubstr(">paper<"));
 }
 
 TEST(BarChart, AHighIntervalStaysInThePlot) {
@@ -94,10 +92,10 @@ TEST(BarChart, WithoutUsableValuesItIsStillDrawn) {
   for (BarSeries& series : chart.series) {
     for (Bar& bar : series.bars) bar = {NAN, NAN, INFINITY, NAN};
   }
-  EXPECT_THAT(Svg(chart), Not(HasSubstr("nan")));
-  EXPECT_THAT(Svg({}), Not(HasSubstr("nan")));
+  EXPECT_THAT(Texts(chart), Not(HasSubstr("nan")));
+  EXPECT_THAT(Texts({}), Not(HasSubstr("nan")));
   chart.series[0].bars.clear();  // fewer bars than groups
-  EXPECT_THAT(Svg(chart), HasSubstr(">ours<"));
+  EXPECT_THAT(Texts(chart), HasSubstr(">ours<"));
 }
 
 }  // namespace

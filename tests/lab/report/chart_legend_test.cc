@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "lab/report/stroke_font.h"
+#include "lab/report/font.h"
 #include "tests/support/recording_canvas.h"
 
 namespace plumescout::lab {
