@@ -3,13 +3,11 @@
 #include "lab/program/run_folder.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_format.h"
 #include "core/types/quantile.h"
 #include "core/types/status_macros.h"
 #include "formats/file_io.h"
@@ -18,6 +16,7 @@
 #include "lab/formats/csv.h"
 #include "lab/formats/npy.h"
 #include "lab/formats/summary.h"
+#include "lab/report/number_labels.h"
 #include "lab/report/report.h"
 
 namespace plumescout::lab {
@@ -122,12 +121,7 @@ ReportData MakeReport(const Run& run, const Summary& summary) {
     report.metrics.push_back(
         {sample.time_s, m.completeness, m.rmse_ppm, m.rmse_zero_ppm, m.entropy_nats});
   }
-  for (const auto& [name, value] : summary.figures) {
-    if (std::isfinite(value)) {
-      report.key_numbers.emplace_back(name, absl::StrFormat("%.5g", value));
-    }
-  }
-  for (const auto& [name, value] : summary.about) report.key_numbers.emplace_back(name, value);
+  report.key_numbers = LabelledNumbers(summary);
   return report;
 }
 

@@ -29,6 +29,8 @@ struct Stroke {
   Rgb color;
   double width_px = 1.0;
   double dash_px = 0.0;  // length of dashes and of the gaps between them; 0: solid
+
+  friend bool operator==(const Stroke&, const Stroke&) = default;
 };
 
 enum class Anchor { kStart, kMiddle, kEnd };

@@ -39,6 +39,11 @@ double TextWidth_px(absl::string_view utf8, double size_px, bool bold) {
   return extents.x_advance;
 }
 
+double SizeToFit_px(absl::string_view utf8, double size_px, double width_px, bool bold) {
+  const double needed_px = TextWidth_px(utf8, size_px, bold);
+  return needed_px > width_px ? size_px * std::max(0.0, width_px) / needed_px : size_px;
+}
+
 std::vector<std::string> WrapText(absl::string_view utf8, double size_px, double width_px) {
   std::vector<std::string> lines;
   for (const absl::string_view word : absl::StrSplit(utf8, ' ', absl::SkipEmpty())) {

@@ -21,6 +21,9 @@ std::string Writable(absl::string_view text);
 // How far the text reaches.
 double TextWidth_px(absl::string_view utf8, double size_px, bool bold = false);
 
+// `size_px`, or less if the text would be wider than `width_px` with it.
+double SizeToFit_px(absl::string_view utf8, double size_px, double width_px, bool bold = false);
+
 // The text in lines that are no wider, broken at spaces; a longer word has a line of its own.
 std::vector<std::string> WrapText(absl::string_view utf8, double size_px, double width_px);
 

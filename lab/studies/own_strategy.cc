@@ -199,6 +199,7 @@ TextTable MakeBuildingTable(const std::vector<Building>& buildings) {
 void AddNumbers(const std::vector<Building>& buildings, Study& study) {
   const std::pair<const char*, FigureFn> figures[] = {{"rmse", RmseShare}, {"entropy", Entropy}};
   for (const auto& [name, figure] : figures) {
+    const char* const label = figure == RmseShare ? "RMSE" : "entropy";
     for (std::size_t row = 0; row < std::size(kContestants); ++row) {
       const std::string prefix = absl::StrCat(kContestants[row].name, "_", name);
       study.summary.figures.emplace_back(prefix + "_mean",
@@ -211,10 +212,10 @@ void AddNumbers(const std::vector<Building>& buildings, Study& study) {
           PairedPValue(Of(buildings, kOwn, figure), Of(buildings, row, figure)));
     }
     study.figures.key_numbers.emplace_back(
-        absl::StrCat("share of the oracle's gain, ", name),
+        absl::StrCat("Share of the oracle's gain, ", label),
         absl::StrFormat("%.2f", OracleShare(buildings, kOwn, kBaseline, figure)));
     study.figures.key_numbers.emplace_back(
-        absl::StrCat("XIT-GFF's, ", name),
+        absl::StrCat("XIT-GFF's, ", label),
         absl::StrFormat("%.2f paper, %.2f ours", OracleShare(buildings, kGff, kBaseline, figure),
                         OracleShare(buildings, kGffOurs, kBaseline, figure)));
   }

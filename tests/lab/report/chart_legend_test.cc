@@ -83,7 +83,7 @@ TEST(ChartLegend, ANameThatIsTooLongIsCut) {
   ASSERT_THAT(texts, SizeIs(1));
   EXPECT_THAT(texts[0].utf8, AllOf(StartsWith("mmm"), EndsWith("m...")));
   // Not by more than it must: one more letter would not fit.
-  EXPECT_GT(texts[0].right() + TextWidth_px("mm", 12.0), 10.0 + kWidth_px);
+  EXPECT_GT(texts[0].right() + TextWidth_px("mm", 13.0), 10.0 + kWidth_px);
 }
 
 TEST(ChartLegend, ACharacterIsNotCutInItsMiddle) {

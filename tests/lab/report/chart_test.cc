@@ -226,10 +226,18 @@ TEST(Chart, TheLegendTakesItsRoomFromThePlot) {
   const Curve named = MakeCurve("first", {{0, 0}, {1, 1}});
   const Chart one{"", "", Range{0.0, 1.0}, {named}};
   const Chart two{"", "", Range{0.0, 1.0}, {named, MakeCurve("second", {{0, 0}, {1, 1}})}};
-  EXPECT_EQ(LegendHeight_px(one, kBox.width), 0.0);
-  ASSERT_GT(LegendHeight_px(two, kBox.width), 0.0);
+  const double legend_px = ChartLegendHeight_px(LegendOf(two), kBox.width);
+  EXPECT_TRUE(LegendOf(one).empty());
+  ASSERT_GT(legend_px, 0.0);
   EXPECT_DOUBLE_EQ(LinesOf(kBlue, two).back().points[1].y,
-                   LinesOf(kBlue, one).back().points[1].y + LegendHeight_px(two, kBox.width));
+                   LinesOf(kBlue, one).back().points[1].y + legend_px);
+}
+
+TEST(Chart, ALegendThatStandsElsewhereIsLeftOut) {
+  const Chart two{"", "", {}, {MakeCurve("first", {{0, 1}}), MakeCurve("second", {{0, 2}})}};
+  RecordingCanvas canvas;
+  DrawChart(canvas, kBox, two, {});
+  EXPECT_THAT(canvas.Texts(), Not(HasSubstr("first")));
 }
 
 }  // namespace

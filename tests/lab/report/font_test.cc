@@ -36,6 +36,13 @@ TEST(Font, BytesThatAreNoUtf8AreReplaced) {
   EXPECT_GT(TextWidth_px("\xE2\x82", kSize_px), 0.0);
 }
 
+TEST(Font, ShrinksWhatIsTooWide) {
+  EXPECT_EQ(SizeToFit_px("gas", kSize_px, 200.0), kSize_px);
+  const double size_px = SizeToFit_px("a long title", kSize_px, 40.0, true);
+  EXPECT_NEAR(TextWidth_px("a long title", size_px, true), 40.0, 0.5);
+  EXPECT_EQ(SizeToFit_px("gas", kSize_px, -1.0), 0.0);
+}
+
 TEST(Font, WrapsTextIntoLinesThatFit) {
   constexpr double kWidth_px = 120.0;
   const std::string text = "the quick brown fox jumps over the lazy dog";

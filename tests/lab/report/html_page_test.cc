@@ -36,9 +36,28 @@ TEST(HtmlPage, HoldsAllTitlesAndNumbers) {
         "alt=\"Estimated mean\"", "alt=\"Uncertainty (variance)\"",
         "alt=\"Occupancy, frontiers and paths\"", "alt=\"Completeness\"",
         "alt=\"RMSE, critical cells, ppm\"", "alt=\"Entropy, critical cells, nats\"",
-        "<td>RMSE</td><td>10 ppm</td>", "<strong>50 %</strong>"}) {
+        "<div>completeness<strong>50 %</strong></div>", "<div>RMSE<strong>10 ppm</strong></div>"}) {
     EXPECT_THAT(page, HasSubstr(text));
   }
+}
+
+TEST(HtmlPage, ANumberStandsOnce) {
+  ReportFigures figures;
+  for (int i = 0; i < 8; ++i) {
+    figures.key_numbers.emplace_back("number " + std::to_string(i), "value");
+  }
+  const std::string page = MakeHtmlPage(figures);
+  for (const auto& [name, value] : figures.key_numbers) EXPECT_EQ(Count(page, name), 1) << name;
+  EXPECT_THAT(page, HasSubstr("<td>number 6</td><td>value</td>"));
+}
+
+TEST(HtmlPage, ALegendThatAllChartsShareStandsOnce) {
+  ReportFigures figures;
+  const Chart chart{"a", "", {}, {{"ours", {}, {{0, 1}}}, {"theirs", {}, {{0, 2}}}}};
+  figures.charts = {chart, chart};
+  EXPECT_EQ(Count(MakeHtmlPage(figures), "<div class=\"legend\">"), 1);
+  figures.charts[1].curves[0].name = "others";
+  EXPECT_EQ(Count(MakeHtmlPage(figures), "<div class=\"legend\">"), 0);
 }
 
 TEST(HtmlPage, HoldsBarCharts) {
