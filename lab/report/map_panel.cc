@@ -25,17 +25,17 @@ constexpr double kHalo_px = 1.5;        // white rim of marks, which sets them o
 // Where the map lies on the canvas.
 struct MapFrame {
   Box box;
-  Region region;
+  Rectangle region;
   double px_per_m;
 
   PixelPoint ToPixel(Point2 point) const {
-    return {box.x + (point.x_m - region.south_west.x_m) * px_per_m,
-            box.bottom() - (point.y_m - region.south_west.y_m) * px_per_m};
+    return {box.x + (point.x_m - region.min.x_m) * px_per_m,
+            box.bottom() - (point.y_m - region.min.y_m) * px_per_m};
   }
 };
 
 // The largest map that fits, at the left.
-MapFrame FitMap(const Box& box, const Region& region) {
+MapFrame FitMap(const Box& box, const Rectangle& region) {
   const double height_px = box.height - kTop_px - kBottom_px;
   const double px_per_m = std::min(box.width / region.width_m(), height_px / region.height_m());
   return {{box.x, box.y + kTop_px, px_per_m * region.width_m(), px_per_m * region.height_m()},
@@ -79,8 +79,8 @@ void DrawTitleAndScaleBar(Canvas& canvas, const Box& box, const std::string& tit
 }
 
 void DrawCells(Canvas& canvas, const MapFrame& frame, const CellPicture& cells) {
-  const PixelPoint south_west = frame.ToPixel(cells.region.south_west);
-  const PixelPoint north_east = frame.ToPixel(cells.region.north_east);
+  const PixelPoint south_west = frame.ToPixel(cells.region.min);
+  const PixelPoint north_east = frame.ToPixel(cells.region.max);
   canvas.Picture(
       {south_west.x, north_east.y, north_east.x - south_west.x, south_west.y - north_east.y},
       cells.image);
@@ -210,23 +210,22 @@ void DrawLegend(Canvas& canvas, const Box& box, const std::vector<LegendEntry>& 
 
 }  // namespace
 
-Region RegionOf(const GridGeometry& geometry) {
+Rectangle RegionOf(const GridGeometry& geometry) {
   return {{geometry.origin_x_m, geometry.origin_y_m},
           {geometry.origin_x_m + geometry.width * geometry.resolution_m,
            geometry.origin_y_m + geometry.height * geometry.resolution_m}};
 }
 
-Region Union(const Region& a, const Region& b) {
-  return {
-      {std::min(a.south_west.x_m, b.south_west.x_m), std::min(a.south_west.y_m, b.south_west.y_m)},
-      {std::max(a.north_east.x_m, b.north_east.x_m), std::max(a.north_east.y_m, b.north_east.y_m)}};
+Rectangle Union(const Rectangle& a, const Rectangle& b) {
+  return {{std::min(a.min.x_m, b.min.x_m), std::min(a.min.y_m, b.min.y_m)},
+          {std::max(a.max.x_m, b.max.x_m), std::max(a.max.y_m, b.max.y_m)}};
 }
 
-CellPicture PaintCells(const GridGeometry& geometry, const Region& region,
+CellPicture PaintCells(const GridGeometry& geometry, const Rectangle& region,
                        const std::function<Rgb(Cell)>& color) {
   const double inset_m = 1e-6 * geometry.resolution_m;  // an edge touched by rounding is not shown
-  Cell first = geometry.CellAt({region.south_west.x_m + inset_m, region.south_west.y_m + inset_m});
-  Cell last = geometry.CellAt({region.north_east.x_m - inset_m, region.north_east.y_m - inset_m});
+  Cell first = geometry.CellAt({region.min.x_m + inset_m, region.min.y_m + inset_m});
+  Cell last = geometry.CellAt({region.max.x_m - inset_m, region.max.y_m - inset_m});
   first = {std::max(first.x, 0), std::max(first.y, 0)};
   last = {std::min(last.x, geometry.width - 1), std::min(last.y, geometry.height - 1)};
   if (last.x < first.x || last.y < first.y) return {};

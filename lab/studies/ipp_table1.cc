@@ -123,14 +123,13 @@ absl::StatusOr<StudyRow> MakeRow(const TableRow& row, const Scene& world) {
   PLUMESCOUT_ASSIGN_OR_RETURN(StudyRow made, MakeStudyRow(row.name, row.strategy, true));
   const double resolution_m = world.geometry().resolution_m;
   made.mission.occupancy.inflation_radius_m = 0.0;  // streets are one cell wide
-  const Region region = RegionOf(world.geometry());
   made.mission.gas.observation_precision = kObservationPrecision;
   made.mission.gas.prior_precision = kPriorPrecision;
   made.mission.gas.background_precision = kBackgroundPrecision;
   PlanningOptions& planning = made.mission.planning;
   planning.speed_mps = kSpeed_mps;
   planning.dwell_s = kDwell_s;
-  planning.sites.region = Rectangle{region.south_west, region.north_east};
+  planning.sites.region = RegionOf(world.geometry());
   planning.sites.spacing_m = resolution_m;
   planning.sites.reward = row.reward;
   const bool square = &row == &kRows[kSquareSweep];

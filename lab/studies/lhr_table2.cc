@@ -81,8 +81,7 @@ absl::StatusOr<StudyRow> MakeRow(const TableRow& row, const Scene& world) {
   PlanningOptions& planning = made.mission.planning;
   planning.speed_mps = kSpeed_mps;
   planning.dwell_s = kDwell_s;
-  const Region region = RegionOf(world.geometry());
-  planning.sites.region = Rectangle{region.south_west, region.north_east};
+  planning.sites.region = RegionOf(world.geometry());
   planning.sites.spacing_m = world.geometry().resolution_m;
   planning.sites.reward = row.reward;
   planning.sites.survey = row.survey;

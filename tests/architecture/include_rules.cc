@@ -46,7 +46,7 @@ std::vector<Room> MakeRooms() {
   const Names everything =
       Join({kCore, adapters, {"server", "client", "lab/local", "lab/sim", "lab/report"}, programs});
   std::vector<Room> rooms = {
-      {"proto/convert", {"core/types"}},
+      {"proto/convert", {"core/types", "formats"}},
       {"formats", {"core/types"}},
       {"ompl_planners", CoreBefore("core/mission")},
       {"server", Join({kCore, adapters})},

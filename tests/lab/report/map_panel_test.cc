@@ -47,12 +47,12 @@ WrittenText TextOf(const MapPanel& panel, const std::string& utf8) {
 }
 
 TEST(MapPanel, RegionsCoverTheirCells) {
-  const Region region = RegionOf(kGeometry);
-  EXPECT_EQ(region.south_west, (Point2{10.0, 20.0}));
-  EXPECT_EQ(region.north_east, (Point2{12.0, 21.0}));
-  const Region both = Union(region, {{9.0, 20.5}, {11.0, 30.0}});
-  EXPECT_EQ(both.south_west, (Point2{9.0, 20.0}));
-  EXPECT_EQ(both.north_east, (Point2{12.0, 30.0}));
+  const Rectangle region = RegionOf(kGeometry);
+  EXPECT_EQ(region.min, (Point2{10.0, 20.0}));
+  EXPECT_EQ(region.max, (Point2{12.0, 21.0}));
+  const Rectangle both = Union(region, {{9.0, 20.5}, {11.0, 30.0}});
+  EXPECT_EQ(both.min, (Point2{9.0, 20.0}));
+  EXPECT_EQ(both.max, (Point2{12.0, 30.0}));
 }
 
 TEST(MapPanel, ThePictureHasNorthUp) {
@@ -68,8 +68,8 @@ TEST(MapPanel, OnlyCellsOfTheRegionArePainted) {
   ASSERT_EQ(part.image.width(), 2);
   ASSERT_EQ(part.image.height(), 1);
   EXPECT_EQ(part.image.At(0, 0), kGreen);
-  EXPECT_EQ(part.region.south_west, (Point2{10.5, 20.0}));
-  EXPECT_EQ(part.region.north_east, (Point2{11.5, 20.5}));
+  EXPECT_EQ(part.region.min, (Point2{10.5, 20.0}));
+  EXPECT_EQ(part.region.max, (Point2{11.5, 20.5}));
 }
 
 TEST(MapPanel, ARegionWithoutCellsHasAnEmptyPicture) {
@@ -81,9 +81,9 @@ TEST(MapPanel, ARegionWithoutCellsHasAnEmptyPicture) {
 TEST(MapPanel, PanelsAreAsHighAsTheirMapsButBounded) {
   MapPanel panel = MakePanel();
   const double wide_px = MapPanelHeight_px(panel, 400.0);
-  panel.region.north_east.y_m += 1.0;  // twice as high: 400 pixels instead of 200
+  panel.region.max.y_m += 1.0;  // twice as high: 400 pixels instead of 200
   EXPECT_DOUBLE_EQ(MapPanelHeight_px(panel, 400.0), wide_px + 200.0);
-  panel.region.north_east.y_m += 1000.0;
+  panel.region.max.y_m += 1000.0;
   EXPECT_LT(MapPanelHeight_px(panel, 400.0), 1000.0);
 }
 
@@ -153,7 +153,7 @@ TEST(MapPanel, TheScaleBarGivesWayToTheTitle) {
 TEST(MapPanel, TallMapsAreNarrowerThanTheirPanel) {
   MapPanel panel = MakePanel();  // 2 m x 1 m
   EXPECT_EQ(MapWidth_px(panel, 400.0), 400.0);
-  panel.region.north_east.y_m += 9.0;
+  panel.region.max.y_m += 9.0;
   const double width_px = MapWidth_px(panel, 400.0);
   EXPECT_LT(width_px, 400.0);
   RecordingCanvas canvas;

@@ -108,11 +108,11 @@ TEST(Sheet, ARowOfTallMapsStandsInTheMiddle) {
     panel.title = "";
     panel.color_bar.reset();
     panel.legend = {};
-    panel.region.north_east.y_m = panel.region.south_west.y_m + 1.2 * panel.region.width_m();
+    panel.region.max.y_m = panel.region.min.y_m + 1.2 * panel.region.width_m();
   }
   ReportFigures changed = figures;
   for (MapPanel& panel : changed.panels) {
-    const Point2 corner = panel.region.south_west;
+    const Point2 corner = panel.region.min;
     const GridGeometry cells{corner.x_m, corner.y_m, 0.1 * panel.region.width_m(), 10, 12};
     panel.cells = PaintCells(cells, panel.region, [](Cell) { return kSourceColor; });
   }
