@@ -31,7 +31,7 @@ std::string Destination(const Goal& goal) {
 }
 
 std::string Merit(const Candidate& candidate, const PlanningOptions& options) {
-  switch (options.selection) {
+  switch (options.selection_rule) {
     case SelectionRule::kLeastCost:
       break;
     case SelectionRule::kMeanUcb:

@@ -13,6 +13,7 @@
 #include "core/types/grid.h"
 #include "core/types/polygon.h"
 #include "core/types/pose2.h"
+#include "core/types/rectangle.h"
 
 namespace plumescout {
 
@@ -93,14 +94,6 @@ enum class SamplingReward {
   kConcentrationVariancePerTime,  // V sigma^2 / C, Eq. (13)
   kMean,                          // mu, [LHR] section IV
   kUcb,                           // mu + beta sigma^2, [LHR] section IV
-};
-
-// Axis-parallel, in frame map.
-struct Rectangle {
-  Point2 min;
-  Point2 max;
-
-  friend bool operator==(const Rectangle&, const Rectangle&) = default;
 };
 
 // Sites: the places on a square lattice where the strategies lhr, ipp_reward, random_sampling and

@@ -18,7 +18,9 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
+#include "core/types/quantile.h"
 #include "core/types/status_macros.h"
+#include "lab/about/cpu_time.h"
 #include "lab/bench/bench_summary.h"
 #include "lab/bench/gas_case.h"
 #include "lab/bench/gas_events.h"

@@ -157,7 +157,7 @@ Information GasEvents::AsMatrix() const {
 }
 
 FieldDeviation GasEvents::ErrorOf(const FieldEngine& field, std::span<const double> deviation_ppm,
-                              std::span<const double> variance_ppm2) const {
+                                  std::span<const double> variance_ppm2) const {
   FieldDeviation error;
   std::size_t variable = 0;
   for (std::size_t i = 0; i < cells_.size(); ++i) {

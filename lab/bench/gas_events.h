@@ -40,7 +40,7 @@ class GasEvents {
   Information AsMatrix() const;
   // Worst difference of `field` from what such a solver made of that.
   FieldDeviation ErrorOf(const FieldEngine& field, std::span<const double> deviation_ppm,
-                     std::span<const double> variance_ppm2) const;
+                         std::span<const double> variance_ppm2) const;
 
  private:
   struct Robot {

@@ -17,6 +17,8 @@
 namespace plumescout::lab {
 namespace {
 
+constexpr std::int64_t kStartNumber = 0;  // events of a mission count from 1
+
 template <typename T>
 concept Number = std::is_arithmetic_v<T> && !std::same_as<T, bool>;
 
@@ -333,6 +335,24 @@ absl::StatusOr<Event> DecodeEvent(absl::string_view bytes) {
   decoder(event);
   if (!decoder.Finished()) return absl::DataLossError("the event does not decode");
   return event;
+}
+
+std::string EncodeStart(const RecordingStart& start) {
+  std::string bytes;
+  Encoder encoder(bytes);
+  encoder(kStartNumber, start.code_version, start.mission_options);
+  return bytes;
+}
+
+absl::StatusOr<RecordingStart> DecodeStart(absl::string_view bytes) {
+  std::int64_t number = -1;
+  RecordingStart start;
+  Decoder decoder(bytes);
+  decoder(number, start.code_version, start.mission_options);
+  if (!decoder.Finished() || number != kStartNumber) {
+    return absl::DataLossError("the mission's options do not decode");
+  }
+  return start;
 }
 
 }  // namespace plumescout::lab

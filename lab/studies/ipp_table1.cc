@@ -59,7 +59,7 @@ struct TableRow {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr TableRow kRows[] = {
     {"sweep", "Sweep", "sweep", SamplingReward::kVariance, 9.5, 9.2, 1.0, 110, {120, 120, 120}},
-    {"variance",
+    {"uncertainty",
      "var",
      "ipp_reward",
      SamplingReward::kVariance,
@@ -68,7 +68,7 @@ constexpr TableRow kRows[] = {
      kNone,
      55,
      {214, 158, 46}},
-    {"variance_per_time",
+    {"uncertainty_time",
      "var/C",
      "ipp_reward",
      SamplingReward::kVariancePerTime,
@@ -77,7 +77,7 @@ constexpr TableRow kRows[] = {
      0.56,
      195,
      {120, 160, 60}},
-    {"concentration_variance",
+    {"uncertainty_concentration",
      "V var",
      "ipp_reward",
      SamplingReward::kConcentrationVariance,
@@ -86,7 +86,7 @@ constexpr TableRow kRows[] = {
      1.06,
      108,
      {150, 110, 190}},
-    {"concentration_per_time",
+    {"concentration_time",
      "V/C",
      "ipp_reward",
      SamplingReward::kConcentrationPerTime,
@@ -95,7 +95,7 @@ constexpr TableRow kRows[] = {
      1.15,
      211,
      {36, 99, 201}},
-    {"concentration_variance_per_time",
+    {"joint_uncertainty_concentration_time",
      "V var/C",
      "ipp_reward",
      SamplingReward::kConcentrationVariancePerTime,
@@ -124,14 +124,13 @@ absl::StatusOr<StudyRow> MakeRow(const TableRow& row, const Scene& world) {
   PLUMESCOUT_ASSIGN_OR_RETURN(StudyRow made, MakeStudyRow(row.name, row.strategy, true));
   const double resolution_m = world.geometry().resolution_m;
   made.mission.occupancy.inflation_radius_m = 0.0;  // streets are one cell wide
-  const Region region = RegionOf(world.geometry());
   made.mission.gas.observation_precision_per_ppm2 = kObservationPrecision;
   made.mission.gas.prior_precision_per_ppm2 = kPriorPrecision;
   made.mission.gas.background_precision_per_ppm2 = kBackgroundPrecision;
   PlanningOptions& planning = made.mission.planning;
   planning.speed_mps = kSpeed_mps;
   planning.dwell_s = kDwell_s;
-  planning.sites.region = Rectangle{region.south_west, region.north_east};
+  planning.sites.region = RegionOf(world.geometry());
   planning.sites.spacing_m = resolution_m;
   planning.sites.reward = row.reward;
   const bool square = &row == &kRows[kSquareSweep];
@@ -218,11 +217,9 @@ void AddNumbers(const Drives& drives, double time_limit_s, Study& study) {
   for (std::size_t row = 0; row < std::size(kRows); ++row) {
     const std::string name = kRows[row].name;
     const Resolution resolution = Resolve(drives[row], drives[kSweep], time_limit_s);
-    study.summary.figures.emplace_back(name + "_final_rmse_ppm",
-                                       SpreadBy(drives[row], Final_ppm).mean);
-    study.summary.figures.emplace_back(name + "_least_rmse_ppm",
-                                       SpreadBy(drives[row], Least_ppm).mean);
-    study.summary.figures.emplace_back(name + "_times_faster", resolution.times_faster);
+    study.summary.figures.emplace_back(name + "_final_rmse", SpreadBy(drives[row], Final_ppm).mean);
+    study.summary.figures.emplace_back(name + "_min_rmse", SpreadBy(drives[row], Least_ppm).mean);
+    study.summary.figures.emplace_back(name + "_t_r_score", resolution.times_faster);
     study.summary.figures.emplace_back(name + "_resolved", resolution.resolved);
     study.summary.figures.emplace_back(name + "_samples", SpreadBy(drives[row], Samples).mean);
     if (row == kSweep) continue;

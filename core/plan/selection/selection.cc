@@ -46,7 +46,7 @@ double Worth_nats(const Candidate& candidate, const PlanningOptions& options) {
 
 int SelectCandidate(const std::vector<Candidate>& candidates, const PlanningOptions& options) {
   if (candidates.empty()) return -1;
-  const SelectionRule rule = Applicable(candidates, options.selection);
+  const SelectionRule rule = Applicable(candidates, options.selection_rule);
   const auto better = [&](const Candidate& a, const Candidate& b) {
     return Merit(a, rule, options) > Merit(b, rule, options);
   };
@@ -55,9 +55,9 @@ int SelectCandidate(const std::vector<Candidate>& candidates, const PlanningOpti
 }
 
 bool BeatsByMargin(const Candidate& best, const Candidate& kept, const PlanningOptions& options) {
-  const SelectionRule rule = Applicable({best, kept}, options.selection);
+  const SelectionRule rule = Applicable({best, kept}, options.selection_rule);
   const double needed = Merit(kept, rule, options);
-  return Merit(best, rule, options) > needed + options.commitment_margin * std::abs(needed);
+  return Merit(best, rule, options) > needed + options.commitment_margin_share * std::abs(needed);
 }
 
 }  // namespace plumescout

@@ -17,8 +17,8 @@ bool EndsAtTheUnseen(const Candidate& candidate);
 // REQUIRES: the candidate is priced.
 double Worth_nats(const Candidate& candidate, const PlanningOptions& options);
 
-// Index of the next best trajectory by options.selection, -1 if there is no candidate; the first of
-// equals.
+// Index of the next best trajectory by options.selection_rule, -1 if there is no candidate; the
+// first of equals.
 //   kLeastCost         argmin J, [XIT] Eq. (4) and (13)
 //   kMeanUcb           argmax mean I-hat along the path, [MIT] Eq. (3); of I itself it would be the
 //                      same, for I-hat rises linearly with it
@@ -26,8 +26,8 @@ double Worth_nats(const Candidate& candidate, const PlanningOptions& options);
 //                      least cost if none is (ours)
 int SelectCandidate(const std::vector<Candidate>& candidates, const PlanningOptions& options);
 
-// Whether `best` beats `kept`, by the same rule, by more than options.commitment_margin: a share of
-// the kept one's merit.
+// Whether `best` beats `kept`, by the same rule, by more than options.commitment_margin_share: a
+// share of the kept one's merit.
 bool BeatsByMargin(const Candidate& best, const Candidate& kept, const PlanningOptions& options);
 
 }  // namespace plumescout

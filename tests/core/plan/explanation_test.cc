@@ -12,7 +12,7 @@ using ::testing::HasSubstr;
 
 PlanningOptions By(SelectionRule rule) {
   PlanningOptions options;
-  options.selection = rule;
+  options.selection_rule = rule;
   return options;
 }
 

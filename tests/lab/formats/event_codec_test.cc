@@ -116,5 +116,14 @@ TEST(EventCodec, RandomDamageNeverDecodesToOtherBytes) {
   }
 }
 
+TEST(EventCodec, TheStartOfARecordingIsEventZero) {
+  const RecordingStart start = {"1.2.3", std::string("\0options", 8)};
+  const std::string bytes = EncodeStart(start);
+  EXPECT_EQ(bytes.substr(0, 8), std::string(8, '\0'));
+  EXPECT_EQ(*DecodeStart(bytes), start);
+  EXPECT_FALSE(DecodeStart(bytes + '!').ok());
+  EXPECT_FALSE(DecodeStart('\1' + bytes.substr(1)).ok());
+}
+
 }  // namespace
 }  // namespace plumescout::lab

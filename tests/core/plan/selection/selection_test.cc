@@ -9,7 +9,7 @@ namespace {
 
 PlanningOptions By(SelectionRule rule, double margin = 0.0) {
   PlanningOptions options;
-  options.selection = rule;
+  options.selection_rule = rule;
   options.commitment_margin = margin;
   return options;
 }
