@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/types/error_reason.h"
 
 namespace plumescout {
 namespace {
@@ -37,21 +38,21 @@ std::optional<Goal> GoalToClaim(const Plan& plan) {
 
 }  // namespace
 
-absl::Status Fleet::Register(const RobotRegistered& registration, int max_robots) {
+absl::Status Fleet::Register(const RobotRegistered& registration, int max_robot_count) {
   if (absl::Status status = ValidateId("robot", registration.robot); !status.ok()) return status;
   if (!(registration.radius_m > 0.0 && registration.radius_m <= kMaxRadius_m)) {
     return absl::InvalidArgumentError(
         absl::StrCat("radius_m = ", registration.radius_m, " must be in (0, ", kMaxRadius_m, "]"));
   }
   const auto found = robots_.find(registration.robot);
-  if (found == robots_.end() && robots_.size() >= static_cast<std::size_t>(max_robots)) {
+  if (found == robots_.end() && robots_.size() >= static_cast<std::size_t>(max_robot_count)) {
     return absl::ResourceExhaustedError(
-        absl::StrCat("the mission has ", max_robots, " robots already"));
+        absl::StrCat("the mission has ", max_robot_count, " robots already"));
   }
   if (found != robots_.end() && registration.lease_token <= found->second.lease_token) {
-    return absl::FailedPreconditionError(
-        absl::StrCat("LEASE_SUPERSEDED: lease_token = ", registration.lease_token,
-                     " must be newer than ", found->second.lease_token));
+    return TypedError(absl::StatusCode::kFailedPrecondition, reason::kLeaseSuperseded,
+                      absl::StrCat("lease_token = ", registration.lease_token,
+                                   " must be newer than ", found->second.lease_token));
   }
   Member& member = robots_[registration.robot];
   member.record.state.id = registration.robot;
@@ -81,8 +82,8 @@ absl::Status Fleet::CheckSequence(const RobotId& robot, const Observation& obser
     if (gap->first_sequence <= expected) return absl::OkStatus();
   }
   if (observation.sequence != expected) {
-    return absl::FailedPreconditionError(
-        absl::StrCat("SEQUENCE_GAP: expected ", expected, ", got ", observation.sequence));
+    return TypedError(absl::StatusCode::kFailedPrecondition, reason::kSequenceGap,
+                      absl::StrCat("expected ", expected, ", got ", observation.sequence));
   }
   return absl::OkStatus();
 }
@@ -151,9 +152,9 @@ absl::StatusOr<std::optional<Goal>> Fleet::Report(const ProgressReported& report
     return absl::NotFoundError(absl::StrCat("plan ", report.plan_id, " was never issued"));
   }
   if (report.plan_id != member.record.last_plan) {
-    return absl::FailedPreconditionError(absl::StrCat("PLAN_SUPERSEDED: plan ", report.plan_id,
-                                                      " is not robot \"", report.robot,
-                                                      "\"'s latest, ", member.record.last_plan));
+    return TypedError(absl::StatusCode::kFailedPrecondition, reason::kPlanSuperseded,
+                      absl::StrCat("plan ", report.plan_id, " is not robot \"", report.robot,
+                                   "\"'s latest, ", member.record.last_plan));
   }
   if (!member.live) {
     return absl::AlreadyExistsError(absl::StrCat("plan ", report.plan_id, " has ended already"));

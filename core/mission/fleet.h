@@ -22,7 +22,7 @@ namespace plumescout {
 // robots end at the same goal. Thread-compatible.
 class Fleet {
  public:
-  absl::Status Register(const RobotRegistered& registration, int max_robots);
+  absl::Status Register(const RobotRegistered& registration, int max_robot_count);
 
   // Checks that the observation is the next of the robot's log; see Mission::Apply for the errors.
   absl::Status CheckSequence(const RobotId& robot, const Observation& observation) const;

@@ -11,13 +11,14 @@
 #include "absl/strings/str_format.h"
 #include "core/grid/flood.h"
 #include "core/plan/cost/edge_cost.h"
-#include "core/plan/cost/information_field.h"
+#include "core/plan/cost/information_map.h"
 #include "core/plan/explanation.h"
 #include "core/plan/goals/travel_budget.h"
 #include "core/plan/sampling/site_lattice.h"
 #include "core/plan/sampling/ways.h"
 #include "core/plan/selection/candidate_terms.h"
 #include "core/plan/trajectory_timing.h"
+#include "core/types/error_reason.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
@@ -40,11 +41,11 @@ class ErrandPricer {
  public:
   ErrandPricer(const Belief& belief, const PlanningOptions& options)
       : belief_(belief),
-        field_(MakeInformationField(
+        information_(MakeInformationMap(
             {*belief.traversable, *belief.gas_mean_ppm, *belief.gas_variance_ppm2,
              belief.options->gas, belief.options->frontier},
             options)),
-        cost_(field_, CostKind::kEuclidean, options.alpha) {}
+        cost_(information_, CostKind::kEuclidean, options.alpha_per_m) {}
 
   Candidate Price(const Errand& errand, const std::vector<Point2>& path) const {
     Candidate candidate =
@@ -57,7 +58,7 @@ class ErrandPricer {
 
  private:
   const Belief& belief_;
-  const InformationField field_;
+  const InformationMap information_;
   const EdgeCost cost_;
 };
 
@@ -111,10 +112,11 @@ absl::Status SamplingStrategy::CheckInside(const RobotId& robot, Point2 place) c
   const bool inside =
       place.x_m >= min.x_m && place.x_m <= max.x_m && place.y_m >= min.y_m && place.y_m <= max.y_m;
   if (inside) return absl::OkStatus();
-  return absl::FailedPreconditionError(absl::StrFormat(
-      "OUTSIDE_REGION: robot \"%s\" at (%.2f, %.2f) is outside planning.sites.region, from "
-      "(%.2f, %.2f) to (%.2f, %.2f)",
-      robot, place.x_m, place.y_m, min.x_m, min.y_m, max.x_m, max.y_m));
+  return TypedError(
+      absl::StatusCode::kFailedPrecondition, reason::kOutsideRegion,
+      absl::StrFormat("robot \"%s\" at (%.2f, %.2f) is outside planning.sites.region, from "
+                      "(%.2f, %.2f) to (%.2f, %.2f)",
+                      robot, place.x_m, place.y_m, min.x_m, min.y_m, max.x_m, max.y_m));
 }
 
 absl::Status SamplingStrategy::PlanFrom(const Belief& belief, const StopFn& stop,

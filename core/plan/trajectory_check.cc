@@ -11,7 +11,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/grid/ray.h"
 #include "core/plan/cost/edge_cost.h"
-#include "core/plan/cost/information_field.h"
+#include "core/plan/cost/information_map.h"
 #include "core/plan/departure.h"
 #include "core/plan/goals/frontier_goals.h"
 #include "core/plan/goals/home_goal.h"
@@ -21,6 +21,7 @@
 #include "core/plan/selection/candidate_terms.h"
 #include "core/plan/strategy.h"
 #include "core/plan/trajectory_timing.h"
+#include "core/types/error_reason.h"
 
 namespace plumescout {
 namespace {
@@ -141,11 +142,11 @@ std::optional<RejectedGoal> JudgeGoal(const Belief& belief, const RobotRecord& r
 Candidate Price(const Belief& belief, const RobotRecord& robot, const IntendedPath& path,
                 const PlanningOptions& options) {
   const MissionOptions& mission = *belief.options;
-  const InformationField field =
-      MakeInformationField({*belief.traversable, *belief.gas_mean_ppm, *belief.gas_variance_ppm2,
-                            mission.gas, mission.frontier},
-                           options);
-  const EdgeCost cost(field, options.selection_cost, options.alpha);
+  const InformationMap information =
+      MakeInformationMap({*belief.traversable, *belief.gas_mean_ppm, *belief.gas_variance_ppm2,
+                          mission.gas, mission.frontier},
+                         options);
+  const EdgeCost cost(information, options.selection_cost, options.alpha_per_m);
   const std::vector<Point2>& vertices = path.vertices;
   const auto out = std::find_if(vertices.begin(), vertices.end(), [&](Point2 vertex) {
     return belief.traversable->At(belief.geometry().CellAt(vertex), 0) != 0;
@@ -188,9 +189,9 @@ absl::Status CheckIsLatest(const Belief& belief, const RobotRecord& robot, PlanI
   for (const auto& [id, record] : belief.robots) newest = std::max(newest, record.last_plan);
   if (plan > newest) return absl::NotFoundError(absl::StrCat("plan ", plan, " was never issued"));
   if (plan == robot.last_plan) return absl::OkStatus();
-  return absl::FailedPreconditionError(absl::StrCat("PLAN_SUPERSEDED: plan ", plan,
-                                                    " is not robot \"", robot.state.id,
-                                                    "\"'s latest, ", robot.last_plan));
+  return TypedError(absl::StatusCode::kFailedPrecondition, reason::kPlanSuperseded,
+                    absl::StrCat("plan ", plan, " is not robot \"", robot.state.id, "\"'s latest, ",
+                                 robot.last_plan));
 }
 
 }  // namespace
@@ -204,8 +205,8 @@ absl::StatusOr<IntendedPath> RestOfPlan(const Belief& belief, const RobotId& rob
   if (absl::Status status = CheckIsLatest(belief, record, plan); !status.ok()) return status;
   if (!record.live_goal || record.live_trajectory == nullptr ||
       record.live_trajectory->waypoints.empty()) {
-    return absl::FailedPreconditionError(
-        absl::StrCat("PLAN_ENDED: plan ", plan, " has nothing left to drive"));
+    return TypedError(absl::StatusCode::kFailedPrecondition, reason::kPlanEnded,
+                      absl::StrCat("plan ", plan, " has nothing left to drive"));
   }
   const Trajectory& live = *record.live_trajectory;
   const double now_s = FindNearest(live, record.state.pose.position())->time_s;

@@ -135,7 +135,7 @@ absl::Status MeasureOnline(const Size& size, bool open, const GasCase& c, BenchS
     scan_ms.push_back(Cpu_ms([&] { status.Update(field.Apply(changes)); }));
     std::vector<std::size_t> cells;
     while (cells.size() < kWhatIfCells) cells.push_back(events.ActiveCell());
-    const double precision = GasOptions().observation_precision;
+    const double precision = GasOptions().observation_precision_per_ppm2;
     what_if_ms.push_back(
         Cpu_ms([&] { status.Update(field.Snapshot().VarianceIfRead(cells, precision).status()); }));
   }
@@ -177,7 +177,7 @@ absl::Status MeasureFreshError(const GasCase& c, BenchSummary& summary) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const PeerPosterior truth, SolveByCholmod(information));
   const GasEvents events(static_cast<std::size_t>(c.states.width()), std::move(inputs), 0);
   const FieldEngine field = events.Fresh();
-  FieldError error;
+  FieldDeviation error;
   std::size_t variable = 0;
   for (std::size_t i = 0; i < events.cells().size(); ++i) {
     if (!events.cells()[i].active) continue;
@@ -199,14 +199,14 @@ absl::Status MeasureOnlineError(const GasCase& c, BenchSummary& summary) {
   PLUMESCOUT_ASSIGN_OR_RETURN(std::vector<CellInput> inputs, InputsOf(c));
   GasEvents events(static_cast<std::size_t>(c.states.width()), std::move(inputs), summary.seed());
   FieldEngine field = events.Fresh();
-  FieldError worst, bound;
+  FieldDeviation worst, bound;
   for (int event = 1; event <= kEvents; ++event) {
     PLUMESCOUT_RETURN_IF_ERROR(
         field.Apply(event % kEventsPerScan == 0 ? events.Scan(1) : events.ReadingAnywhere()));
     bound.mean_ppm = std::max(bound.mean_ppm, field.error_bound().mean_ppm);
     bound.variance_ratio = std::max(bound.variance_ratio, field.error_bound().variance_ratio);
     if (event % kEventsPerCheck != 0) continue;
-    const FieldError error = events.ErrorOf(field);
+    const FieldDeviation error = events.ErrorOf(field);
     worst.mean_ppm = std::max(worst.mean_ppm, error.mean_ppm);
     worst.variance_ratio = std::max(worst.variance_ratio, error.variance_ratio);
   }

@@ -33,7 +33,7 @@ class GasEvents {
   // All from scratch.
   FieldEngine Fresh(const FieldTolerance& tolerance = {}) const;
   // Worst difference of `field` from that; on the variance as share.
-  FieldError ErrorOf(const FieldEngine& field) const;
+  FieldDeviation ErrorOf(const FieldEngine& field) const;
 
  private:
   struct Robot {

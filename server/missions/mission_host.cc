@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/mission/conduct/conduct_errors.h"
 #include "server/base/errors.h"
 
 namespace plumescout::server {
@@ -55,7 +56,7 @@ absl::Status MissionHost::AwaitBelief(BeliefRequest request, BeliefCallback done
 absl::Status MissionHost::Subscribe(Subscriber subscriber) {
   return Post([this, subscriber = std::move(subscriber)](MissionWriter& writer) {
     if (subscribers_.empty()) writer.BeginPublishing();
-    if (subscriber(writer.Snapshot())) subscribers_.push_back(subscriber);
+    if (subscriber(writer.conduct().Snapshot())) subscribers_.push_back(subscriber);
   });
 }
 
@@ -106,7 +107,7 @@ void MissionHost::Run() {
 
 void MissionHost::AfterCommands() {
   const SteadyTime now = SteadyNow();
-  waiters_.Serve(writer_, now);
+  waiters_.Serve(writer_.conduct(), now);
   if (now >= next_publication()) {
     auto belief = writer_.Publish(host_options_.gas_wait);
     published_at_ = now;

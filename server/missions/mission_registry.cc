@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/mission/conduct/conduct_errors.h"
 #include "core/types/status_macros.h"
 #include "server/base/errors.h"
 
@@ -14,16 +15,15 @@ namespace plumescout::server {
 
 std::int64_t CellBound(const OccupancyOptions& options) {
   const double side = std::ceil(options.max_extent_m / options.resolution_m);
-  return static_cast<std::int64_t>(std::min(side * side, static_cast<double>(options.max_cells)));
+  return static_cast<std::int64_t>(
+      std::min(side * side, static_cast<double>(options.max_cell_count)));
 }
 
 MissionRegistry::MissionRegistry(const RegistryOptions& options, RegistryHooks hooks)
     : options_(options), hooks_(std::move(hooks)) {}
 
 absl::Status MissionRegistry::CheckRoom(const MissionId& id, std::int64_t cells) const {
-  if (hosts_.contains(id)) {
-    return absl::AlreadyExistsError(absl::StrCat("MISSION_EXISTS: missions/", id));
-  }
+  if (hosts_.contains(id)) return MissionExists(id);
   if (hosts_.size() >= static_cast<std::size_t>(options_.max_missions)) {
     return LimitReached(absl::StrCat("the server holds ", options_.max_missions, " missions"));
   }

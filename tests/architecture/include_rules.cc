@@ -105,7 +105,7 @@ bool MayInclude(const Room& room, const Room* other) {
 
 // Whether the include is somebody else's: a library's, or generated from proto/.
 bool IsForeign(const std::string& include) {
-  for (const char* prefix : {"absl/", "google/", "plumescout/v1/", "gtest/", "gmock/", "CLI/"}) {
+  for (const char* prefix : {"absl/", "google/", "plumescout/", "gtest/", "gmock/", "CLI/"}) {
     if (absl::StartsWith(include, prefix)) return true;
   }
   return false;

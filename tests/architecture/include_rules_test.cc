@@ -51,6 +51,14 @@ TEST(IncludeRules, AnIncludeAgainstTheDirectionIsFound) {
       SizeIs(1));
 }
 
+TEST(IncludeRules, ARoomWithinAnotherIsARoomOfItsOwn) {
+  const auto tree = Tree({{"core/mission/a.h", "#include \"core/mission/conduct/b.h\"\n"},
+                          {"core/mission/c.h", ""},
+                          {"core/mission/conduct/b.h", "#include \"core/mission/c.h\"\n"}});
+  EXPECT_THAT(CheckDirections(tree),
+              ElementsAre("core/mission/a.h must not include core/mission/conduct/b.h"));
+}
+
 TEST(IncludeRules, FoldersAndFilesThatAreNotKnownAreFound) {
   EXPECT_THAT(CheckDirections(Tree({{"core/misc/a.h", ""}})),
               ElementsAre("core/misc/a.h lies in no folder of the table"));
