@@ -86,7 +86,7 @@ absl::StatusOr<plumescout::Plan> SamplingStrategy::Plan(const Belief& belief,
   PLUMESCOUT_ASSIGN_OR_RETURN(PlanStart start, BeginPlan(belief, request, options_));
   PLUMESCOUT_RETURN_IF_ERROR(CheckInside(request.robot, start.pose.position()));
   if (!start.departure) {
-    start.plan.explanation = Explain(start.plan, SelectionRule::kLeastCost);
+    start.plan.explanation = Explain(start.plan, options_);
     return std::move(start.plan);
   }
   PLUMESCOUT_RETURN_IF_ERROR(PlanFrom(belief, stop, start));
@@ -162,8 +162,8 @@ void SamplingStrategy::Conclude(const SamplingChoice& choice, PlanStart& start) 
   const bool waits = HasReason(plan, RejectionReason::kClaimed);
   plan.end = waits ? PlanEnd::kAllGoalsRejected : PlanEnd::kMissionComplete;
   plan.phase = waits ? choice.phase : MissionPhase::kComplete;
-  plan.explanation = waits ? Explain(plan, SelectionRule::kLeastCost)
-                           : "Stay: no site is left to sample; the mission is complete.";
+  plan.explanation =
+      waits ? Explain(plan, options_) : "Stay: no site is left to sample; the mission is complete.";
 }
 
 }  // namespace plumescout

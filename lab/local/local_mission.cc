@@ -49,6 +49,13 @@ absl::StatusOr<client::RobotSession> LocalMission::Register(const Registration& 
   return session;
 }
 
+absl::Status LocalMission::Remove(const Removal& wish) {
+  absl::MutexLock lock(&mutex_);
+  PLUMESCOUT_RETURN_IF_ERROR(closed_);
+  LeasesAt leases(leases_, Now_ns());
+  return conduct_.Remove(wish, leases).status();
+}
+
 absl::StatusOr<StreamId> LocalMission::OpenStream(const RobotId& robot, std::int64_t lease_token) {
   absl::MutexLock lock(&mutex_);
   PLUMESCOUT_RETURN_IF_ERROR(closed_);

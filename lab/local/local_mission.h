@@ -48,6 +48,9 @@ class LocalMission final : private ConductObserver {
   // The session's mission and boot id are left to the caller.
   absl::StatusOr<client::RobotSession> Register(const Registration& wish);
 
+  // Its streams have ended with ROBOT_NOT_FOUND.
+  absl::Status Remove(const Removal& wish);
+
   // A stream ends the robot's earlier one. Returns its number.
   absl::StatusOr<StreamId> OpenStream(const RobotId& robot, std::int64_t lease_token);
   // The state of an open stream, or why it has ended.

@@ -3,6 +3,7 @@
 #include "lab/local/local_planner_client.h"
 
 #include <deque>
+#include <optional>
 #include <utility>
 
 #include "core/mission/conduct/conduct_errors.h"
@@ -107,6 +108,12 @@ absl::StatusOr<client::RobotSession> LocalPlannerClient::RegisterRobot(const Mis
   session.mission = mission;
   session.server_boot_id = kBootId;
   return session;
+}
+
+absl::Status LocalPlannerClient::RemoveRobot(const MissionId& mission, const RobotId& robot,
+                                             std::int64_t lease_token, bool force) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::shared_ptr<LocalMission> found, Find(mission));
+  return found->Remove({robot, force ? std::nullopt : std::optional(lease_token)});
 }
 
 absl::StatusOr<std::unique_ptr<client::ObservationStream>>

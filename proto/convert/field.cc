@@ -3,10 +3,10 @@
 #include "proto/convert/field.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
+#include "core/types/checker.h"
 #include "core/types/error_reason.h"
 #include "google/rpc/error_details.pb.h"
 #include "proto/convert/status.h"
@@ -52,23 +52,19 @@ absl::Status FieldError(absl::string_view field, absl::string_view rule) {
 }
 
 absl::Status CheckFinite(absl::string_view field, double value) {
-  return std::isfinite(value) ? absl::OkStatus() : FieldError(field, value, "must be finite");
+  return WithField(Checker().Finite(field, value).status(), "");
 }
 
 absl::Status CheckPositive(absl::string_view field, double value) {
-  return std::isfinite(value) && value > 0.0 ? absl::OkStatus()
-                                             : FieldError(field, value, "must be finite and > 0");
+  return WithField(Checker().Positive(field, value).status(), "");
 }
 
 absl::Status CheckNotNegative(absl::string_view field, double value) {
-  return std::isfinite(value) && value >= 0.0 ? absl::OkStatus()
-                                              : FieldError(field, value, "must be finite and >= 0");
+  return WithField(Checker().NotNegative(field, value).status(), "");
 }
 
 absl::Status CheckRange(absl::string_view field, double value, double low, double high) {
-  return value >= low && value <= high
-             ? absl::OkStatus()
-             : FieldError(field, value, absl::StrCat("must be in [", low, ", ", high, "]"));
+  return WithField(Checker().InRange(field, value, low, high).status(), "");
 }
 
 absl::Status CheckIntRange(absl::string_view field, std::int64_t value, std::int64_t low,

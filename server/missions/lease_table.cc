@@ -26,6 +26,15 @@ void LeaseTable::Grant(const RobotId& robot, std::int64_t token) {
   if (end_old) end_old(LeaseSuperseded(robot));
 }
 
+void LeaseTable::Remove(const RobotId& robot) {
+  EndStream end;
+  {
+    absl::MutexLock lock(&mutex_);
+    end = TakeEnd(book_.Remove(robot));
+  }
+  if (end) end(RobotNotFound(robot));
+}
+
 absl::Status LeaseTable::Use(const RobotId& robot, std::int64_t token) {
   absl::MutexLock lock(&mutex_);
   return book_.Use(robot, token, ToNanoseconds(clock_()));

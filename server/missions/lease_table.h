@@ -29,6 +29,8 @@ class LeaseTable final : public Leases {
 
   absl::StatusOr<std::int64_t> Propose(const RobotId& robot, bool take_over) override;
   void Grant(const RobotId& robot, std::int64_t token) override;
+  // Its stream ends with ROBOT_NOT_FOUND.
+  void Remove(const RobotId& robot) override;
 
   // Counts as a use. ROBOT_NOT_FOUND; LEASE_SUPERSEDED unless `token` is the newest.
   absl::Status Use(const RobotId& robot, std::int64_t token);

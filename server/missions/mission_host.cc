@@ -17,7 +17,8 @@ MissionHost::MissionHost(Parts parts, const HostOptions& options)
       mission_options_(parts.mission->options()),
       strategy_(std::move(parts.strategy)),
       leases_(options.lease_hold, options.first_lease_token, options.clock),
-      writer_(std::move(parts.mission), std::move(parts.sink), parts.epoch_pool),
+      writer_(std::move(parts.mission), std::move(parts.sink), parts.epoch_pool, SteadyNow,
+              parts.audit_pool),
       waiters_(options.max_waiters),
       thread_([this] { Run(); }) {}
 
@@ -106,6 +107,7 @@ void MissionHost::Run() {
 }
 
 void MissionHost::AfterCommands() {
+  writer_.CollectAudit();
   const SteadyTime now = SteadyNow();
   waiters_.Serve(writer_.conduct(), now);
   if (now >= next_publication()) {

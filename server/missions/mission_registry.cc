@@ -42,7 +42,8 @@ absl::StatusOr<std::shared_ptr<MissionHost>> MissionRegistry::Create(
   absl::MutexLock lock(&mutex_);
   PLUMESCOUT_RETURN_IF_ERROR(CheckRoom(id, cells));
   PLUMESCOUT_ASSIGN_OR_RETURN(auto mission, Mission::Create(options));
-  MissionHost::Parts parts{id, std::move(mission), std::move(strategy), nullptr, hooks_.epoch_pool};
+  MissionHost::Parts parts{id,      std::move(mission), std::move(strategy),
+                           nullptr, hooks_.epoch_pool,  hooks_.audit_pool};
   if (hooks_.make_event_sink) parts.sink = hooks_.make_event_sink(id, options);
   auto host = std::make_shared<MissionHost>(std::move(parts), options_.host);
   hosts_.emplace(id, host);

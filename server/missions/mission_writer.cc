@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "absl/strings/str_cat.h"
 #include "server/base/log.h"
 
 namespace plumescout::server {
@@ -24,10 +25,11 @@ bool IsReadingTakenIn(const Event& event, const Applied& applied) {
 }  // namespace
 
 MissionWriter::MissionWriter(std::unique_ptr<Mission> mission, EventSink sink,
-                             WorkerPool* epoch_pool, SteadyClock clock)
+                             WorkerPool* epoch_pool, SteadyClock clock, WorkerPool* audit_pool)
     : sink_(std::move(sink)),
       clock_(std::move(clock)),
       epoch_runner_(epoch_pool),
+      audit_runner_(audit_pool),
       conduct_(std::move(mission), this),
       summary_(SummaryOf(conduct_.mission())) {}
 
@@ -54,12 +56,32 @@ void MissionWriter::AfterGasStep(GasStep step, const absl::Status& status) {
   }
   switch (step) {
     case GasStep::kAdoptEpoch:
-      return gas_timer_.NoteAdoption(gas_step_from_, clock_());
+      gas_timer_.NoteAdoption(gas_step_from_, clock_());
+      if (mission().audit_due() && audit_runner_.is_free()) {
+        audit_runner_.Start(mission().MakeAudit());
+      }
+      return;
     case GasStep::kRefresh:
       return gas_timer_.NoteRefresh(gas_step_from_, clock_());
     case GasStep::kBeginEpoch:
       return epoch_runner_.Start(mission().epoch());
   }
+}
+
+void MissionWriter::CollectAudit() {
+  const auto finding = audit_runner_.Take();
+  if (!finding) return;
+  if (!finding->ok()) {
+    LogWarning("gas posterior not audited", {{"why", std::string(finding->status().message())}});
+    return;
+  }
+  const AuditFinding& found = **finding;
+  if (!found.certified) {
+    LogWarning("gas posterior is not what it should be, and is made anew",
+               {{"mean_ppm", absl::StrCat(found.mean_ppm)},
+                {"variance_ratio", absl::StrCat(found.variance_ratio)}});
+  }
+  conduct_.TakeFinding(found);
 }
 
 std::shared_ptr<const Belief> MissionWriter::Publish(absl::Duration gas_wait) {

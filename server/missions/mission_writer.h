@@ -17,6 +17,7 @@
 #include "core/types/event.h"
 #include "server/base/clock.h"
 #include "server/base/worker_pool.h"
+#include "server/missions/audit_runner.h"
 #include "server/missions/epoch_runner.h"
 #include "server/missions/gas_timings.h"
 
@@ -39,8 +40,9 @@ class MissionWriter final : private ConductObserver {
  public:
   // `epoch_pool` recomputes the gas posterior at times; null: the writer does. It is not owned and
   // outlives the last call. The events are the same with any pool and clock.
+  // `audit_pool` audits it, null: nobody does; as above.
   MissionWriter(std::unique_ptr<Mission> mission, EventSink sink, WorkerPool* epoch_pool = nullptr,
-                SteadyClock clock = SteadyNow);
+                SteadyClock clock = SteadyNow, WorkerPool* audit_pool = nullptr);
   MissionWriter(const MissionWriter&) = delete;
   MissionWriter& operator=(const MissionWriter&) = delete;
 
@@ -49,6 +51,10 @@ class MissionWriter final : private ConductObserver {
   // From any thread. Never behind an event whose caller has been answered.
   MissionSummary summary() const;
   GasTimings gas_timings() const { return gas_timer_.timings(); }
+
+  // Counts what an audit has found, if one has ended since, and mends what it blames. What is
+  // mended, and when, is an event.
+  void CollectAudit();
 
   // For those who watch: a snapshot whose posterior holds every reading that was applied
   // `gas_wait` ago or earlier. If no observation has led to the refresh for that, this does.
@@ -66,6 +72,7 @@ class MissionWriter final : private ConductObserver {
   EventSink sink_;
   const SteadyClock clock_;
   EpochRunner epoch_runner_;
+  AuditRunner audit_runner_;
   GasTimer gas_timer_;
   SteadyTime gas_step_from_;
   MissionConduct conduct_;

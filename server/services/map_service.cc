@@ -48,7 +48,8 @@ absl::Status MapService::Query(const v1::QueryGasRequest& request, v1::QueryGasR
                               *response->add_gas() = ToProto(gas);
                             response->set_revision(belief.revision);
                             response->set_posterior_time_ns(belief.posterior_time_ns);
-                            *response->mutable_gas_quality() = ToProto(belief.gas_quality);
+                            *response->mutable_gas_quality() =
+                                ToProto(belief.gas_quality, belief.gas_audits);
                             return absl::OkStatus();
                           });
 }

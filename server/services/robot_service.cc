@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/services/robot_service.h"
 
+#include <optional>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -42,6 +43,32 @@ grpc::ServerUnaryReactor* RobotService::RegisterRobot(grpc::CallbackServerContex
                                                       v1::RegisterRobotResponse* response) {
   auto* reactor = call->DefaultReactor();
   const absl::Status started = Register(*request, response, reactor);
+  if (!started.ok()) Answer(reactor, started);
+  return reactor;
+}
+
+absl::Status RobotService::Remove(const v1::RemoveRobotRequest& request,
+                                  v1::RemoveRobotResponse* response,
+                                  grpc::ServerUnaryReactor* reactor) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const RobotName name, ParseRobotName("robot", request.robot()));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.registry->Find(name.mission));
+  Removal wish{name.robot};
+  if (!request.force()) wish.lease_token = request.lease_token();
+  return host->Post([host, wish, response, reactor](MissionWriter& writer) {
+    const auto revision = writer.conduct().Remove(wish, host->leases());
+    if (revision.ok()) {
+      LogInfo("robot removed", {{"mission", host->id()}, {"robot", wish.robot}});
+      response->set_revision(*revision);
+    }
+    Answer(reactor, revision.status());
+  });
+}
+
+grpc::ServerUnaryReactor* RobotService::RemoveRobot(grpc::CallbackServerContext* call,
+                                                    const v1::RemoveRobotRequest* request,
+                                                    v1::RemoveRobotResponse* response) {
+  auto* reactor = call->DefaultReactor();
+  const absl::Status started = Remove(*request, response, reactor);
   if (!started.ok()) Answer(reactor, started);
   return reactor;
 }

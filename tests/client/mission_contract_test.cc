@@ -87,6 +87,35 @@ TEST_P(MissionContract, AnOldLeaseIsFencedOffEverywhere) {
   EXPECT_NE(Open(*second), nullptr);
 }
 
+TEST_P(MissionContract, ARobotThatLeavesIsForgottenButForItsLog) {
+  const RobotSession session = Register();
+  const auto stream = Open(session);
+  ASSERT_TRUE(SendAll(*stream, LookAround(3)).ok());
+
+  ASSERT_TRUE(client().RemoveRobot("house", "scout", session.lease_token, false).ok());
+
+  EXPECT_TRUE(absl::IsNotFound(ReadUntilError(*stream)));
+  EXPECT_TRUE(absl::IsNotFound(client().OpenObservationStream(session).status()));
+  EXPECT_TRUE(absl::IsNotFound(client().RemoveRobot("house", "scout", session.lease_token, true)));
+  EXPECT_TRUE(client().GetMap("house")->robots.empty());
+  const RobotSession back = Register();
+  EXPECT_EQ(back.ingest.applied_sequence, 3);
+  EXPECT_NE(back.lease_token, session.lease_token);
+}
+
+TEST_P(MissionContract, OnlyForceRemovesARobotWithoutItsLease) {
+  const RobotSession session = Register();
+
+  EXPECT_EQ(ErrorReason(client().RemoveRobot("house", "scout", session.lease_token + 1, false)),
+            kLeaseSuperseded);
+  EXPECT_NE(Open(session), nullptr);
+
+  EXPECT_TRUE(client().RemoveRobot("house", "scout", 0, true).ok());
+  EXPECT_TRUE(absl::IsNotFound(client().OpenObservationStream(session).status()));
+  EXPECT_TRUE(absl::IsNotFound(client().RemoveRobot("house", "other", 0, true)));
+  EXPECT_TRUE(absl::IsNotFound(client().RemoveRobot("nowhere", "scout", 0, true)));
+}
+
 TEST_P(MissionContract, TheMapShowsWhatWasSeen) {
   const RobotSession session = Register();
   const auto stream = Open(session);

@@ -51,6 +51,7 @@ std::map<std::string, BadInputs> AllBadInputs() {
           {"ListMissionsRequest", BadListMissions()},
           {"DeleteMissionRequest", BadMissionName("name")},
           {"RegisterRobotRequest", BadRegisterRobot()},
+          {"RemoveRobotRequest", BadRemoveRobot()},
           {"StreamObservationsRequest", ingest},
           {"BatchIngestObservationsRequest", ingest},
           {"NextBestTrajectoryRequest", BadNextBest()},
@@ -85,6 +86,7 @@ std::set<std::string> FreeFields() {
       "NextBestTrajectoryRequest.go_home",
       "StreamNextBestTrajectoryRequest.go_home",
       "RegisterRobotRequest.take_over",
+      "RemoveRobotRequest.force",
       "GetMapRequest.full_precision",
       "GetMapRequest.fresh_posterior",
       "QueryGasRequest.fresh_posterior",
@@ -267,6 +269,13 @@ TEST_F(BadInputTest, RegisterRobot) {
   good.set_radius_m(0.2);
   Check(BadRegisterRobot(), Copies(good),
         SenderOf(robots_, &v1::RobotService::Stub::RegisterRobot));
+}
+
+TEST_F(BadInputTest, RemoveRobot) {
+  v1::RemoveRobotRequest good;
+  good.set_robot(kRobot);
+  good.set_lease_token(lease_);
+  Check(BadRemoveRobot(), Copies(good), SenderOf(robots_, &v1::RobotService::Stub::RemoveRobot));
 }
 
 TEST_F(BadInputTest, BatchIngestObservations) {

@@ -32,6 +32,14 @@ StreamId LeaseBook::Grant(const RobotId& robot, std::int64_t token, std::int64_t
   return std::exchange(lease.stream, 0);
 }
 
+StreamId LeaseBook::Remove(const RobotId& robot) {
+  const auto found = leases_.find(robot);
+  if (found == leases_.end()) return 0;
+  const StreamId ended = found->second.stream;
+  leases_.erase(found);
+  return ended;
+}
+
 absl::Status LeaseBook::Check(const RobotId& robot, std::int64_t token) const {
   const auto found = leases_.find(robot);
   if (found == leases_.end()) return RobotNotFound(robot);

@@ -24,6 +24,9 @@ class Leases {
   // Puts a proposed token in force, once the mission has registered the robot under it. The stream
   // of the old one has ended.
   virtual void Grant(const RobotId& robot, std::int64_t token) = 0;
+  // The robot has left: no token of its is in force, its stream has ended. No effect if there is
+  // none.
+  virtual void Remove(const RobotId& robot) = 0;
 };
 
 // Who may write each robot's log. A lease is held while its ingest stream is open and for a time
@@ -49,6 +52,8 @@ class LeaseBook {
                                        std::int64_t now_ns) const;
   // Returns the stream that it ended. REQUIRES: the token is newer than the robot's last.
   StreamId Grant(const RobotId& robot, std::int64_t token, std::int64_t now_ns);
+  // As Leases. Returns the stream that it ended.
+  StreamId Remove(const RobotId& robot);
 
   // ROBOT_NOT_FOUND; LEASE_SUPERSEDED unless `token` is the newest.
   absl::Status Check(const RobotId& robot, std::int64_t token) const;
@@ -91,6 +96,7 @@ class LeasesAt final : public Leases {
   void Grant(const RobotId& robot, std::int64_t token) override {
     book_.Grant(robot, token, now_ns_);
   }
+  void Remove(const RobotId& robot) override { book_.Remove(robot); }
 
  private:
   LeaseBook& book_;

@@ -40,6 +40,15 @@ absl::StatusOr<LogPosition> MissionConduct::Register(const RobotRegistered& regi
   return Position(registration.robot);
 }
 
+absl::StatusOr<std::int64_t> MissionConduct::Remove(const Removal& wish, Leases& leases) {
+  if (wish.lease_token) PLUMESCOUT_RETURN_IF_ERROR(CheckLease(wish.robot, *wish.lease_token));
+  const auto applied = Apply(RobotRemoved{wish.robot});
+  if (absl::IsNotFound(applied.status())) return RobotNotFound(wish.robot);
+  PLUMESCOUT_RETURN_IF_ERROR(applied.status());
+  leases.Remove(wish.robot);
+  return applied->revision;
+}
+
 absl::StatusOr<LogPosition> MissionConduct::Position(const RobotId& robot) const {
   const auto applied = mission_->AppliedSequence(robot);
   if (!applied.ok()) return RobotNotFound(robot);
@@ -130,6 +139,16 @@ absl::Status MissionConduct::Refresh() {
 
 absl::Status MissionConduct::BeginEpoch() {
   return Take(GasStep::kBeginEpoch, EpochBegun{mission_->sample_time_ns()});
+}
+
+void MissionConduct::TakeFinding(const AuditFinding& finding) {
+  GasAudits audits = mission_->gas_audits();
+  ++audits.audits;
+  audits.mean_ppm = finding.mean_ppm;
+  audits.variance_ratio = finding.variance_ratio;
+  if (!finding.certified) ++audits.alarms;
+  mission_->NoteAudits(audits);
+  if (!finding.certified && mission_->epoch() == nullptr) BeginEpoch().IgnoreError();
 }
 
 absl::Status MissionConduct::Take(GasStep step, EventBody body) {

@@ -10,6 +10,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/belief/belief.h"
+#include "core/gas/field_audit.h"
 #include "core/mission/conduct/conduct_observer.h"
 #include "core/mission/conduct/ingest.h"
 #include "core/mission/conduct/lease_book.h"
@@ -23,6 +24,12 @@ struct Registration {
   RobotId robot;
   double radius_m = 0.0;
   bool take_over = false;  // although another client holds the lease
+};
+
+// A wish that a robot leave the mission.
+struct Removal {
+  RobotId robot;
+  std::optional<std::int64_t> lease_token = std::nullopt;  // none: whoever holds the lease
 };
 
 struct Registered {
@@ -57,6 +64,9 @@ class MissionConduct {
   // The same under a lease that others grant.
   absl::StatusOr<LogPosition> Register(const RobotRegistered& registration);
 
+  // Returns the revision that includes it. ROBOT_NOT_FOUND, LEASE_SUPERSEDED.
+  absl::StatusOr<std::int64_t> Remove(const Removal& wish, Leases& leases);
+
   absl::StatusOr<LogPosition> Position(const RobotId& robot) const;
   // Whether writes under this token are applied now, whatever any book of leases says.
   absl::Status CheckLease(const RobotId& robot, std::int64_t lease_token) const;
@@ -88,6 +98,10 @@ class MissionConduct {
   absl::Status Refresh();
   // kFailedPrecondition if an epoch is under way or there is no field. It is adopted in its time.
   absl::Status BeginEpoch();
+
+  // Counts what an audit found (see Mission::MakeAudit). If that is more than was certified, begins
+  // an epoch out of turn, which makes the field anew; one that is under way will do.
+  void TakeFinding(const AuditFinding& finding);
 
  private:
   absl::StatusOr<Applied> Apply(EventBody body);

@@ -32,11 +32,6 @@ using testing::TryPlan;
 
 constexpr double kRounding = 1e-9;
 
-const GridArt kClosed = {"########",  //
-                         "#gggggg#",  //
-                         "#gSgggg#",  //
-                         "########"};
-
 Grid<float> Penalty(const Belief& belief) {
   Grid<float> penalty(belief.geometry(), std::numeric_limits<float>::infinity());
   for (std::size_t i = 0; i < penalty.size(); ++i) {
@@ -278,24 +273,6 @@ TEST(Strategy, ProbesGasFrontiers) {
   EXPECT_EQ(plan->phase, MissionPhase::kGasProbing);
   EXPECT_FALSE(plan->field_flat);
   EXPECT_GT(Chosen(*plan).mean_concentration_ppm, 0.0);
-}
-
-TEST(Strategy, VisitsRandomPlacesWhenNoFrontierIsLeftAndThenIsComplete) {
-  testing::GoalCase c(kClosed);
-  c.AddGas(kClosed, 0.0F);  // measured everywhere, no gas
-  PlanningOptions options = testing::XitGff();
-  options.min_goal_distance_m = 0.1;
-  absl::StatusOr<Plan> plan = TryPlan(c.belief, For("r"), options);
-  ASSERT_TRUE(plan.ok());
-  EXPECT_EQ(plan->phase, MissionPhase::kFallback);
-  EXPECT_EQ(Chosen(*plan).goal.kind, GoalKind::kRandomFreeSpace);
-
-  c.belief.robots["r"].fruitless_fallbacks = 2;
-  plan = TryPlan(c.belief, For("r"), options);
-  ASSERT_TRUE(plan.ok());
-  EXPECT_EQ(plan->phase, MissionPhase::kComplete);
-  EXPECT_EQ(plan->end, PlanEnd::kMissionComplete);
-  EXPECT_EQ(plan->chosen, -1);
 }
 
 TEST(Strategy, SaysWhatItPassedOver) {

@@ -128,6 +128,8 @@ TEST(PlanningOptions, RefuseValuesOutsideTheirRanges) {
       {"travel_budget_m", &PlanningOptions::travel_budget_m, {-1.0, 2e9}},
       {"return_margin_share", &PlanningOptions::return_margin_share, {-0.1, 11.0}},
       {"planning_latency_s", &PlanningOptions::planning_latency_s, {-1.0, 61.0}},
+      {"unseen_information_nats", &PlanningOptions::unseen_information_nats, {-1.0, 2e9}},
+      {"max_connection_radius_m", &PlanningOptions::max_connection_radius_m, {-1.0, 1001.0}},
   });
 }
 

@@ -29,6 +29,7 @@ TEST(EventCodec, KindsKeepTheNumbersOfRecordedLogs) {
   EXPECT_EQ(EncodeEvent({1, ProgressReported{}})[8], 4);
   EXPECT_EQ(EncodeEvent({1, EpochBegun{}})[8], 5);
   EXPECT_EQ(EncodeEvent({1, EpochAdopted{}})[8], 6);
+  EXPECT_EQ(EncodeEvent({1, RobotRemoved{}})[8], 7);
 }
 
 TEST(EventCodec, AnObservationComesBack) {
@@ -113,6 +114,15 @@ TEST(EventCodec, RandomDamageNeverDecodesToOtherBytes) {
       ASSERT_EQ(EncodeEvent(*decoded), bytes);
     }
   }
+}
+
+TEST(EventCodec, TheStartOfARecordingIsEventZero) {
+  const RecordingStart start = {"1.2.3", std::string("\0options", 8)};
+  const std::string bytes = EncodeStart(start);
+  EXPECT_EQ(bytes.substr(0, 8), std::string(8, '\0'));
+  EXPECT_EQ(*DecodeStart(bytes), start);
+  EXPECT_FALSE(DecodeStart(bytes + '!').ok());
+  EXPECT_FALSE(DecodeStart('\1' + bytes.substr(1)).ok());
 }
 
 }  // namespace

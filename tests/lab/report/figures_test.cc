@@ -22,8 +22,8 @@ using testing::SizeIs;
 Rgb ColorIn(const MapPanel& panel, Point2 point) {
   const CellPicture& cells = panel.cells;
   const double cell_m = cells.region.width_m() / cells.image.width();
-  return cells.image.At(static_cast<int>((point.x_m - cells.region.south_west.x_m) / cell_m),
-                        static_cast<int>((cells.region.north_east.y_m - point.y_m) / cell_m));
+  return cells.image.At(static_cast<int>((point.x_m - cells.region.min.x_m) / cell_m),
+                        static_cast<int>((cells.region.max.y_m - point.y_m) / cell_m));
 }
 
 constexpr Point2 kKnown{1.75, 4.75};

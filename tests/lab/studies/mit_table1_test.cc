@@ -47,6 +47,9 @@ TEST(MitTable1, SharesAreThoseOfTheRuns) {
     ++all;
   }
   EXPECT_DOUBLE_EQ(Figure("scene_0_mit_share_3"), third / static_cast<double>(all));
+  EXPECT_DOUBLE_EQ(Figure("mit_t3_percent"), 100.0 * third / static_cast<double>(all));
+  EXPECT_EQ(Figure("trials"), all);
+  EXPECT_GT(Figure("rrt_star_t3_percent"), 0.0);
 }
 
 // The bar of the table, with runs few enough for a share to err by 0.08 (one standard error).

@@ -40,6 +40,17 @@ TEST_F(LeaseTableTest, LeaseIsHeldByTheServersClock) {
   EXPECT_FALSE(Held());
 }
 
+TEST_F(LeaseTableTest, RemovedRobotIsUnknownAndItsStreamEnds) {
+  const std::int64_t token = Take("r1");
+  ASSERT_TRUE(table_.OpenStream("r1", token, end_).ok());
+  table_.Remove("r1");
+  EXPECT_EQ(ended_.message().find("ROBOT_NOT_FOUND"), 0u);
+  EXPECT_TRUE(absl::IsNotFound(table_.Use("r1", token)));
+  EXPECT_EQ(table_.robot_count(), 0);
+  table_.Remove("r1");
+  EXPECT_GT(Take("r1"), token) << "nobody holds it";
+}
+
 TEST_F(LeaseTableTest, OpenStreamHoldsTheLeaseUntilItIsClosed) {
   const std::int64_t token = Take("r1");
   const auto stream = table_.OpenStream("r1", token, end_);

@@ -5,8 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "absl/synchronization/notification.h"
@@ -92,6 +95,52 @@ TEST(MissionWriterEpochs, EventsAndBytesAreTheSameWhoeverRecomputes) {
   EXPECT_EQ(refused.events, alone.events);
   ExpectSame(*beside.belief, *alone.belief);
   ExpectSame(*refused.belief, *alone.belief);
+}
+
+TEST(MissionWriterAudit, FindsCountsAndMendsAFieldThatWasMisled) {
+  for (const bool misled : {false, true}) {
+    std::optional<WorkerPool> pool(std::in_place, WorkerPoolOptions{"audit", 1, 1});
+    auto mission = std::make_unique<Mission>(support::FastAgeing());
+    GasMap& gas = MissionPeer::Gas(*mission);
+    std::vector<Event> events;
+    bool struck = false;
+    MissionWriter writer(
+        std::move(mission),
+        [&](const Event& event) {
+          events.push_back(event);
+          // As the epoch takes its place, and before it is audited.
+          if (!misled || struck || !std::holds_alternative<EpochAdopted>(event.body)) return;
+          struck = true;
+          const auto moment = gas.MakeAudit();
+          std::size_t index = 0;
+          while (std::isnan(moment->mean_ppm[index])) ++index;
+          GasMapPeer::Mislead(gas, moment->lattice.CellAt(index), 50.0);
+        },
+        nullptr, SteadyNow, &*pool);
+    ASSERT_TRUE(writer.conduct().Register({"r1", 0.2, kLease}).ok());
+    auto log = RoomRunBatch();
+    std::size_t next = 0;
+    while (writer.mission().Snapshot()->gas_quality.epochs == 0 && next < log.size()) {
+      ASSERT_TRUE(writer.conduct().Ingest("r1", kLease, {log[next++]}).status.ok());
+    }
+    pool.reset();  // the audit has ended; the next one is 30 epochs away
+    writer.CollectAudit();
+    const GasAudits audits = writer.conduct().Snapshot()->gas_audits;
+    EXPECT_EQ(audits.audits, 1);
+    EXPECT_EQ(audits.alarms, misled ? 1 : 0);
+    EXPECT_EQ(audits.mean_ppm > 1e-3, misled);
+    EXPECT_NE(writer.mission().epoch(), nullptr) << "under way to mend it, or by its time";
+    while (writer.mission().Snapshot()->gas_quality.epochs == 1 && next < log.size()) {
+      ASSERT_TRUE(writer.conduct().Ingest("r1", kLease, {log[next++]}).status.ok());
+    }
+    EXPECT_EQ(writer.mission().Snapshot()->gas_quality.epochs, 2);
+    Mission replayed(support::FastAgeing());
+    for (const Event& event : events) ASSERT_TRUE(replayed.Apply(event.body).ok());
+    const auto a = writer.conduct().Snapshot();
+    const auto b = replayed.Snapshot();
+    EXPECT_TRUE(support::SameBytes(*a->gas_mean_ppm, *b->gas_mean_ppm)) << "as if not misled";
+    EXPECT_TRUE(support::SameBytes(*a->gas_variance_ppm2, *b->gas_variance_ppm2));
+  }
 }
 
 TEST(MissionWriterGas, PublicationRefreshesOnlyForAReadingThatHasWaited) {

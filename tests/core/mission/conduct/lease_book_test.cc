@@ -71,6 +71,17 @@ TEST_F(LeaseBookTest, LeaseThatRanOutHoldsUntilAnotherTakesIt) {
   EXPECT_TRUE(Held());
 }
 
+TEST_F(LeaseBookTest, WhoLeftHasNeitherLeaseNorStream) {
+  const std::int64_t token = Take("r1");
+  const StreamId stream = Open("r1", token);
+  EXPECT_EQ(book_.Remove("r1"), stream);
+  EXPECT_EQ(ErrorReason(book_.Check("r1", token)), reason::kRobotNotFound);
+  EXPECT_EQ(book_.robot_count(), 0);
+  EXPECT_EQ(book_.Remove("r1"), 0);
+  EXPECT_FALSE(Held());
+  EXPECT_GT(Take("r1"), token);
+}
+
 TEST_F(LeaseBookTest, OpenStreamHoldsTheLeaseHoweverLong) {
   const StreamId stream = Open("r1", Take("r1"));
   now_ns_ += kForEver_ns;

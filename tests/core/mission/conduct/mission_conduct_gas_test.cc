@@ -220,5 +220,49 @@ TEST(MissionConductGas, FieldThatCannotBeComputedStopsNoLogAndIsToldAndRecorded)
   ExpectSame(*replayed->Snapshot(), *belief);
 }
 
+TEST(MissionConductGas, AFieldThatAnAuditBlamesIsMadeAnewByAnEventThatReplays) {
+  Conducted run(std::make_unique<Mission>(MissionOptions{}));
+  const std::vector<IncomingObservation> log = RoomRunBatch();
+  const auto middle = log.begin() + static_cast<std::ptrdiff_t>(log.size() / 2);
+  ASSERT_TRUE(run.conduct.Ingest("r1", kLease, {log.begin(), middle}).status.ok());
+  ASSERT_EQ(run.conduct.mission().epoch(), nullptr) << "nothing is due";
+  const auto finding = [&] { return RunAudit(*run.conduct.mission().MakeAudit()).value(); };
+  run.conduct.TakeFinding(finding());
+  EXPECT_EQ(run.conduct.Snapshot()->gas_audits.audits, 1);
+  EXPECT_EQ(run.conduct.Snapshot()->gas_audits.alarms, 0);
+  EXPECT_EQ(run.conduct.mission().epoch(), nullptr) << "nothing is to be mended";
+
+  GasMap& gas = MissionPeer::Gas(const_cast<Mission&>(run.conduct.mission()));
+  const Belief before = *run.conduct.Snapshot();
+  std::size_t free = 0;
+  while ((*before.occupancy)[free] != CellState::kFree) ++free;
+  const AnchorCell corner = gas.MakeAudit()->corner;
+  const Cell cell = before.occupancy->geometry().CellAtIndex(free);
+  GasMapPeer::Mislead(gas, {corner.x + cell.x, corner.y + cell.y}, 50.0);
+  const AuditFinding blame = finding();
+  EXPECT_FALSE(blame.certified);
+  run.conduct.TakeFinding(blame);
+  EXPECT_EQ(run.conduct.Snapshot()->gas_audits.audits, 2);
+  EXPECT_EQ(run.conduct.Snapshot()->gas_audits.alarms, 1);
+  EXPECT_EQ(run.conduct.Snapshot()->gas_audits.mean_ppm, blame.mean_ppm);
+  EXPECT_TRUE(std::holds_alternative<EpochBegun>(run.listener.events.back().body));
+  run.conduct.TakeFinding(blame);
+  EXPECT_EQ(run.conduct.Snapshot()->gas_audits.alarms, 2);
+  EXPECT_TRUE(std::holds_alternative<EpochBegun>(run.listener.events.back().body))
+      << "the epoch under way will do";
+
+  ASSERT_TRUE(run.conduct.Ingest("r1", kLease, {middle, log.end()}).status.ok());
+  EXPECT_GE(run.listener.adopted, 1);
+  ASSERT_EQ(run.conduct.mission().epoch(), nullptr);
+  EXPECT_TRUE(finding().certified);
+
+  Mission replayed{MissionOptions{}};
+  for (const Event& event : run.listener.events) ASSERT_TRUE(replayed.Apply(event.body).ok());
+  const auto a = run.conduct.Snapshot();
+  const auto b = replayed.Snapshot();
+  EXPECT_TRUE(support::SameBytes(*a->gas_mean_ppm, *b->gas_mean_ppm));
+  EXPECT_TRUE(support::SameBytes(*a->gas_variance_ppm2, *b->gas_variance_ppm2));
+}
+
 }  // namespace
 }  // namespace plumescout

@@ -225,5 +225,28 @@ TEST_F(MissionConductTest, CommandsThatChangeNothingAreNotTold) {
   EXPECT_THAT(events_, SizeIs(1));
 }
 
+TEST_F(MissionConductTest, ARobotLeavesByItsOwnLeaseOrByForce) {
+  LeaseBook book(/*hold_ns=*/1000, /*first_token=*/100);
+  LeasesAt leases(book, 0);
+  const auto joined = conduct_.Register({"r2", 0.2, false}, leases);
+  ASSERT_TRUE(joined.ok()) << joined.status();
+  const std::size_t events = events_.size();
+  EXPECT_EQ(ErrorReason(conduct_.Remove({"r2", joined->lease_token - 1}, leases).status()),
+            reason::kLeaseSuperseded);
+  EXPECT_EQ(ErrorReason(conduct_.Remove({"r3", 1}, leases).status()), reason::kRobotNotFound);
+  EXPECT_EQ(ErrorReason(conduct_.Remove({"r3"}, leases).status()), reason::kRobotNotFound);
+  EXPECT_EQ(events_.size(), events);
+  EXPECT_EQ(book.robot_count(), 1);
+
+  EXPECT_EQ(conduct_.Remove({"r2", joined->lease_token}, leases).value(), revision());
+  EXPECT_EQ(events_.back().body, EventBody(RobotRemoved{"r2"}));
+  EXPECT_EQ(book.robot_count(), 0);
+  EXPECT_EQ(ErrorReason(conduct_.Ingest("r2", joined->lease_token, GasBatch(1, 1)).status),
+            reason::kRobotNotFound);
+
+  ASSERT_TRUE(conduct_.Register({"r2", 0.2, false}, leases).ok());
+  EXPECT_TRUE(conduct_.Remove({"r2"}, leases).ok());
+}
+
 }  // namespace
 }  // namespace plumescout

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/formats/png.h"
+#include "lab/report/png.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,7 @@
 
 #include "core/types/rng.h"
 #include "formats/file_io.h"
+#include "lab/report/cairo_image.h"
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
@@ -24,8 +25,11 @@ Image RandomImage(int width, int height) {
 }
 
 TEST(Png, EveryPixelComesBack) {
+  const TempFolder folder;
   const Image image = RandomImage(37, 23);
-  EXPECT_EQ(*DecodePng(*EncodePng(image)), image);
+  ASSERT_TRUE(WritePng(image, folder.File("a.png")).ok());
+  const CairoSurface read(cairo_image_surface_create_from_png(folder.File("a.png").c_str()));
+  EXPECT_EQ(FromCairo(read.get()), image);
 }
 
 TEST(Png, TheFileHoldsTheEncodedPicture) {
@@ -37,26 +41,6 @@ TEST(Png, TheFileHoldsTheEncodedPicture) {
 
 TEST(Png, APictureWithoutPixelsIsRefused) {
   EXPECT_EQ(EncodePng(Image()).status().code(), absl::StatusCode::kInvalidArgument);
-}
-
-TEST(Png, DamageIsDataLoss) {
-  const std::string bytes = *EncodePng(RandomImage(37, 23));
-  for (const std::size_t size :
-       {std::size_t{0}, std::size_t{8}, std::size_t{33}, bytes.size() / 2}) {
-    EXPECT_EQ(DecodePng(bytes.substr(0, size)).status().code(), absl::StatusCode::kDataLoss)
-        << size;
-  }
-  EXPECT_EQ(DecodePng("no picture at all").status().code(), absl::StatusCode::kDataLoss);
-}
-
-TEST(Png, APictureTooLargeIsRefusedBeforeItIsUnpacked) {
-  // Signature, header chunk of a picture of 65535 x 65535 pixels, and a first chunk of data.
-  const std::string bytes(
-      "\x89PNG\r\n\x1A\n"
-      "\0\0\0\x0DIHDR\0\0\xFF\xFF\0\0\xFF\xFF\x08\x02\0\0\0\x39\x67\x4E\x07"
-      "\0\0\0\0IDAT\x35\xAF\x06\x1E",
-      45);
-  EXPECT_EQ(DecodePng(bytes).status().code(), absl::StatusCode::kInvalidArgument);
 }
 
 }  // namespace

@@ -8,13 +8,13 @@
 #include "absl/status/statusor.h"
 #include "absl/strings/string_view.h"
 
-namespace plumescout::lab {
+namespace plumescout {
 
 // Unpacks one zlib stream (RFC 1950). kDataLoss if it is damaged, truncated or followed by other
 // bytes; kInvalidArgument if it unpacks to more than `max_bytes`.
 absl::StatusOr<std::string> DecompressZlib(absl::string_view bytes, std::uint64_t max_bytes);
 
-// Packs at zlib's own default level.
-absl::StatusOr<std::string> CompressZlib(absl::string_view bytes);
+// Packs. `level`: 1 is the fastest, 9 the smallest; -1 is zlib's own choice.
+std::string CompressZlib(absl::string_view bytes, int level = -1);
 
-}  // namespace plumescout::lab
+}  // namespace plumescout

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/formats/zlib_codec.h"
+#include "formats/zlib_codec.h"
 
 #include <zlib.h>
 
@@ -9,7 +9,7 @@
 
 #include "absl/strings/str_cat.h"
 
-namespace plumescout::lab {
+namespace plumescout {
 namespace {
 
 constexpr std::size_t kChunkBytes = std::size_t{1} << 18;
@@ -73,15 +73,14 @@ absl::StatusOr<std::string> DecompressZlib(absl::string_view bytes, std::uint64_
   return unpacked;
 }
 
-absl::StatusOr<std::string> CompressZlib(absl::string_view bytes) {
+std::string CompressZlib(absl::string_view bytes, int level) {
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   std::string packed(size, '\0');
-  const int code =
-      compress(reinterpret_cast<Bytef*>(packed.data()), &size,
-               reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()));
-  if (code != Z_OK) return absl::InternalError(absl::StrCat("zlib error ", code));
-  packed.resize(size);
+  const int code = compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
+                             reinterpret_cast<const Bytef*>(bytes.data()),
+                             static_cast<uLong>(bytes.size()), level);
+  packed.resize(code == Z_OK ? size : 0);  // it fails for want of memory alone
   return packed;
 }
 
-}  // namespace plumescout::lab
+}  // namespace plumescout

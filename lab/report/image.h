@@ -17,7 +17,6 @@ struct Rgb {
 
   friend bool operator==(const Rgb&, const Rgb&) = default;
 };
-static_assert(sizeof(Rgb) == 3);  // rows of Image are handed to libpng as they are
 
 // Colour picture; (0, 0) is the top left pixel, y grows downwards.
 class Image {
