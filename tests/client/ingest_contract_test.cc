@@ -81,7 +81,7 @@ TEST_P(IngestContract, ABadObservationIsRefusedAloneAndCountsAsApplied) {
   EXPECT_EQ(client().GetMap("house")->robots[0].rejected_observations, 1);
 }
 
-TEST_P(IngestContract, ObservationsBeyondTheCreditEndTheStream) {
+TEST_P(IngestContract, ObservationsBeyondTheCreditEndTheStreamAndTheirBatchIsLost) {
   const RobotSession session = Register();
   const auto stream = Open(session);
   const std::int64_t credit = stream->opened().credit_sequence;
@@ -92,6 +92,7 @@ TEST_P(IngestContract, ObservationsBeyondTheCreditEndTheStream) {
   const absl::Status status = ReadUntilError(*stream);
 
   EXPECT_TRUE(absl::IsResourceExhausted(status)) << status;
+  EXPECT_EQ(Open(session)->opened().applied_sequence, 0);
 }
 
 TEST_P(IngestContract, ReadWithoutRepliesTimesOutAndTheStreamLivesOn) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // Plans and what is reported of them.
+#include "client/error_reason.h"
 #include "tests/client/planner_client_contract.h"
 
 #include <gmock/gmock.h>
@@ -98,6 +99,21 @@ TEST_P(PlanContract, PlanningGivesUpOnReadingsThatNeverCome) {
   const absl::Status status = client().NextBestTrajectory("house", query).status();
 
   EXPECT_TRUE(absl::IsDeadlineExceeded(status)) << status;
+}
+
+TEST_P(PlanContract, PlanningEndsWhenAnotherTakesTheLease) {
+  const RobotSession session = Register();
+  const auto stream = Open(session);
+  ASSERT_TRUE(SendAll(*stream, LookAround(8)).ok());
+
+  std::thread rival([&] {
+    absl::SleepFor(absl::Milliseconds(30));
+    EXPECT_TRUE(client().RegisterRobot("house", session.robot, kRadius_m, /*take_over=*/true).ok());
+  });
+  const absl::Status status = client().NextBestTrajectory("house", Query(session, 100)).status();
+  rival.join();
+
+  EXPECT_EQ(ErrorReason(status), kLeaseSuperseded) << status;
 }
 
 TEST_P(PlanContract, ProgressIsReportedOfKnownPlansOnly) {
