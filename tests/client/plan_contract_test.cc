@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // Plans and what is reported of them.
-#include "client/error_reason.h"
 #include "tests/client/planner_client_contract.h"
 
 #include <gmock/gmock.h>
@@ -10,6 +9,7 @@
 #include <thread>
 
 #include "absl/time/clock.h"
+#include "client/error_reason.h"
 
 namespace plumescout::client {
 namespace {
