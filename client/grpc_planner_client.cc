@@ -122,6 +122,16 @@ class GrpcPlannerClient final : public PlannerClient {
                                    .revision = state.revision()}};
   }
 
+  absl::Status RemoveRobot(const MissionId& mission, const RobotId& robot, std::int64_t lease_token,
+                           bool force) override {
+    v1::RemoveRobotRequest request;
+    request.set_robot(RobotResource({mission, robot}));
+    request.set_lease_token(lease_token);
+    request.set_force(force);
+    v1::RemoveRobotResponse response;
+    return Call(robots_, &v1::RobotService::Stub::RemoveRobot, request, &response);
+  }
+
   absl::StatusOr<std::unique_ptr<ObservationStream>> OpenObservationStream(
       const RobotSession& session) override {
     return OpenGrpcObservationStream(

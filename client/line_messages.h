@@ -23,7 +23,7 @@ struct RobotLine {
   std::variant<std::monostate, Scan, GasReading> reading;
 };
 
-// Reads one line of JSON; the format is in docs/robot.md. kInvalidArgument naming what is wrong.
+// Reads one line of JSON; the format is in docs/robots.md. kInvalidArgument naming what is wrong.
 absl::StatusOr<RobotLine> ParseRobotLine(absl::string_view line);
 
 // The line that commands a twist, with its newline.

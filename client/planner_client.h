@@ -86,6 +86,11 @@ class PlannerClient {
   // Joins a mission or comes back to it. `take_over` supersedes a lease that is still held.
   virtual absl::StatusOr<RobotSession> RegisterRobot(const MissionId& mission, const RobotId& robot,
                                                      double radius_m, bool take_over) = 0;
+  // The robot leaves: it masks no beam, claims no goal, keeps no mission from completing. Only its
+  // newest lease may have it so, or anybody by `force`, for a robot that died. Its log goes on
+  // should it register again. kNotFound (ROBOT_NOT_FOUND), LEASE_SUPERSEDED.
+  virtual absl::Status RemoveRobot(const MissionId& mission, const RobotId& robot,
+                                   std::int64_t lease_token, bool force) = 0;
   virtual absl::StatusOr<std::unique_ptr<ObservationStream>> OpenObservationStream(
       const RobotSession& session) = 0;
   virtual absl::StatusOr<Plan> NextBestTrajectory(const MissionId& mission,

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
 #include "absl/time/clock.h"
 #include "client/error_reason.h"
+#include "core/types/checker.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout::client {
@@ -26,30 +26,22 @@ std::int64_t ToNanoseconds(double duration_s) {
   return std::llround(duration_s * kNanosecondsPerSecond);
 }
 
-absl::Status RequirePositive(absl::string_view field, double value) {
-  if (value > 0.0 && std::isfinite(value)) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat(field, " = ", value, " must be > 0 and finite"));
-}
-
-absl::Status RequireNotNegative(absl::string_view field, double value) {
-  if (value >= 0.0 && std::isfinite(value)) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat(field, " = ", value, " must be >= 0 and finite"));
-}
-
 }  // namespace
 
 absl::Status Validate(const RobotLoopOptions& options) {
-  PLUMESCOUT_RETURN_IF_ERROR(RequirePositive("tick_s", options.tick_s));
-  PLUMESCOUT_RETURN_IF_ERROR(RequirePositive("radius_m", options.participation.radius_m));
-  PLUMESCOUT_RETURN_IF_ERROR(RequirePositive("stand_before_retry_s", options.stand_before_retry_s));
-  PLUMESCOUT_RETURN_IF_ERROR(RequireNotNegative("look_around_s", options.look_around_s));
-  PLUMESCOUT_RETURN_IF_ERROR(RequireNotNegative("plan_latency_s", options.plan_latency_s));
-  PLUMESCOUT_RETURN_IF_ERROR(RequireNotNegative("time_limit_s", options.time_limit_s));
-  PLUMESCOUT_RETURN_IF_ERROR(RequireNotNegative("rates.scan_hz", options.rates.scan_hz));
-  PLUMESCOUT_RETURN_IF_ERROR(RequireNotNegative("rates.gas_hz", options.rates.gas_hz));
-  PLUMESCOUT_RETURN_IF_ERROR(
-      RequireNotNegative("gas_sampling.time_constant_s", options.gas_sampling.time_constant_s));
-  return RequireNotNegative("gas_sampling.settling_s", options.gas_sampling.settling_s);
+  const GasSampling& gas_sampling = options.gas_sampling;
+  return Checker()
+      .Positive("tick_s", options.tick_s)
+      .Positive("radius_m", options.participation.radius_m)
+      .Positive("stand_before_retry_s", options.stand_before_retry_s)
+      .NotNegative("look_around_s", options.look_around_s)
+      .NotNegative("plan_latency_s", options.plan_latency_s)
+      .NotNegative("time_limit_s", options.time_limit_s)
+      .NotNegative("rates.scan_hz", options.rates.scan_hz)
+      .NotNegative("rates.gas_hz", options.rates.gas_hz)
+      .NotNegative("gas_sampling.time_constant_s", gas_sampling.time_constant_s)
+      .NotNegative("gas_sampling.settling_s", gas_sampling.settling_s)
+      .status();
 }
 
 RobotLoop::RobotLoop(PlannerClient& client, RobotDriver& driver, const RobotLoopOptions& options,

@@ -47,6 +47,9 @@ RegistryOptions ToRegistryOptions(const ServerConfig& config) {
   return options;
 }
 
+// One is enough for audits to take their share of all missions, and few enough not to be missed.
+constexpr int kAuditThreads = 1;
+
 ServiceLimits ToServiceLimits(const ServerConfig& config) {
   ServiceLimits limits;
   limits.max_batch_observations = config.limits.max_batch_observations;
@@ -57,8 +60,9 @@ ServiceLimits ToServiceLimits(const ServerConfig& config) {
   return limits;
 }
 
-RegistryHooks WithPool(RegistryHooks hooks, WorkerPool* epoch_pool) {
+RegistryHooks WithPools(RegistryHooks hooks, WorkerPool* epoch_pool, WorkerPool* audit_pool) {
   hooks.epoch_pool = epoch_pool;
+  hooks.audit_pool = audit_pool;
   return hooks;
 }
 
@@ -86,7 +90,8 @@ void SetArguments(const ServerConfig& config, grpc::ServerBuilder& builder) {
 Server::Server(Private, const ServerConfig& config, RegistryHooks hooks)
     : config_(config),
       epoch_pool_({"epoch", config.epochs.threads, config.epochs.max_queued}),
-      registry_(ToRegistryOptions(config), WithPool(std::move(hooks), &epoch_pool_)),
+      audit_pool_({"audit", kAuditThreads, config.limits.max_missions}),
+      registry_(ToRegistryOptions(config), WithPools(std::move(hooks), &epoch_pool_, &audit_pool_)),
       planning_pool_({"planning", config.planning.threads, config.planning.max_queued}),
       map_pool_({"map", config.maps.threads, config.maps.max_queued}),
       context_{&registry_,     &planning_pool_,         &map_pool_, &streams_,

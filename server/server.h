@@ -49,7 +49,8 @@ class Server {
   absl::Status Listen();
 
   const ServerConfig config_;
-  WorkerPool epoch_pool_;  // before the missions that use it
+  WorkerPool epoch_pool_;  // before the missions that use it, as is the next
+  WorkerPool audit_pool_;
   MissionRegistry registry_;
   WorkerPool planning_pool_;
   WorkerPool map_pool_;

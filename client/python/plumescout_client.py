@@ -19,6 +19,7 @@ The generated stubs (plumescout.v1, google.rpc) must be on PYTHONPATH: build/rel
 
 import base64
 import dataclasses
+import logging
 import pathlib
 import re
 import zlib
@@ -50,6 +51,7 @@ _MAX_REQUEST_BYTES = 192 << 10  # below the server's receive limit
 _MAX_BATCH_OBSERVATIONS = 512
 _RANGE_UNIT_M = 0.005
 _NO_RETURN, _INVALID = 0, 65535  # counts of ranges_u16 with a meaning of their own
+_LOG = logging.getLogger(__name__)
 _DETAILS_KEY = "grpc-status-details-bin"
 
 
@@ -176,12 +178,22 @@ class Client:
         request = mission_pb.DeleteMissionRequest(name=f"missions/{mission}")
         self._call(self._missions.DeleteMission, request)
 
-    def register(self, mission, robot, radius_m=0.2, take_over=False):
-        """Joins a mission, or comes back to it; returns a Robot."""
+    def register(self, mission, robot, radius_m=0.2, take_over=False, on_rejected=None):
+        """Joins a mission, or comes back to it; returns a Robot.
+
+        on_rejected is called with the Rejection of each observation that the server refuses, from
+        within the call that sent it; default: a warning of the logger "plumescout_client"."""
         request = robot_pb.RegisterRobotRequest(
             mission=f"missions/{mission}", robot_id=robot, radius_m=radius_m, take_over=take_over
         )
-        return Robot(self, self._call(self._robots.RegisterRobot, request))
+        return Robot(self, self._call(self._robots.RegisterRobot, request), on_rejected)
+
+    def remove_robot(self, mission, robot):
+        """Removes a robot whoever holds its lease, as one that died; see Robot.leave."""
+        request = robot_pb.RemoveRobotRequest(
+            robot=f"missions/{mission}/robots/{robot}", force=True
+        )
+        self._call(self._robots.RemoveRobot, request)
 
     def get_map(self, mission):
         request = map_pb.GetMapRequest(
@@ -244,8 +256,9 @@ def prior_map_of_files(yaml_path):
 class Robot:
     """One robot's part in a mission; made by Client.register. Not thread-safe."""
 
-    def __init__(self, client, registration):
+    def __init__(self, client, registration, on_rejected=None):
         self._client = client
+        self._on_rejected = on_rejected or self._warn
         self._open = ingest_pb.OpenIngest(
             robot=registration.robot, lease_token=registration.lease_token
         )
@@ -275,7 +288,8 @@ class Robot:
         return self._add(time_ns, pose, gas=reading)
 
     def flush(self):
-        """Sends what waits. Refused observations are added to `rejections`."""
+        """Sends what waits. Refused observations are added to `rejections`, and on_rejected is told
+        of each."""
         while self._waiting:
             request = ingest_pb.BatchIngestObservationsRequest(
                 open=self._open, batch=self._next_batch()
@@ -283,11 +297,12 @@ class Robot:
             response = self._client._call(
                 self._client._ingest.BatchIngestObservations, request
             )
-            self.rejections += [
-                Rejection(r.sequence, r.status.message) for r in response.rejections
-            ]
             applied = response.ingest_state.applied_sequence
             self._waiting = [o for o in self._waiting if o.sequence > applied]
+            rejections = [Rejection(r.sequence, r.status.message) for r in response.rejections]
+            self.rejections += rejections
+            for rejection in rejections:
+                self._on_rejected(rejection)
 
     def next_best_trajectory(
         self, start=None, budget_s=1.0, seed=0, timeout_s=None, go_home=False
@@ -348,6 +363,22 @@ class Robot:
             outcome=planning_pb.ReportProgressRequest.Outcome.Value(f"OUTCOME_{outcome.upper()}"),
         )
         self._client._call(self._client._planning.ReportProgress, request)
+
+    def leave(self):
+        """Sends what waits and leaves the mission; registering again goes on with the log."""
+        self.flush()
+        request = robot_pb.RemoveRobotRequest(
+            robot=self._open.robot, lease_token=self._open.lease_token
+        )
+        self._client._call(self._client._robots.RemoveRobot, request)
+
+    def _warn(self, rejection):
+        _LOG.warning(
+            "%s: observation %d refused: %s",
+            self._open.robot,
+            rejection.sequence,
+            rejection.message,
+        )
 
     def _order(self, request, start, budget_s, seed, go_home):
         self.flush()

@@ -30,6 +30,7 @@ MapSnapshot MakeMapSnapshot(const Belief& belief) {
   map.gas_variance_ppm2 = *belief.gas_variance_ppm2;
   map.gas_counters = belief.gas_counters;
   map.gas_quality = belief.gas_quality;
+  map.gas_audits = belief.gas_audits;
   map.phase = belief.phase;
   for (const auto& [id, record] : belief.robots) map.robots.push_back(record.state);
 

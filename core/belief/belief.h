@@ -50,7 +50,7 @@ struct SetAsideGoal {
 struct RobotRecord {
   RobotState state;
   std::int64_t plans_issued = 0;
-  int fruitless_fallbacks = 0;        // fallback trajectories in a row that revealed nothing
+  int fruitless_fallbacks = 0;        // random places reached in a row that revealed nothing
   std::optional<Point2> first_place;  // of its first observation
   double travelled_m = 0.0;           // since then
   PlanId last_plan = 0;               // its latest; 0: none yet
@@ -75,6 +75,7 @@ struct Belief {
   std::shared_ptr<const Grid<std::uint8_t>> sampled;  // 1: a gas reading was taken in the cell
   GasCounters gas_counters;
   GasQuality gas_quality;
+  GasAudits gas_audits;
 
   std::map<RobotId, RobotRecord> robots;
   std::vector<GoalClaim> claims;

@@ -6,12 +6,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "core/frontier/cluster.h"
 #include "core/frontier/goal_cells.h"
 #include "core/grid/flood.h"
 #include "core/grid/mask.h"
 #include "core/grid/padded.h"
+#include "core/types/quantile.h"
 
 namespace plumescout {
 namespace {
@@ -113,14 +115,7 @@ double GasThreshold_ppm(const GasFrontierInput& input, double observed_variance_
   }
   if (means_ppm.empty()) return options.min_gas_threshold_ppm;
   constexpr double kPercent = 0.01;
-  const double rank = kPercent * options.gas_percentile * static_cast<double>(means_ppm.size() - 1);
-  const auto below = means_ppm.begin() + static_cast<std::ptrdiff_t>(rank);
-  std::nth_element(means_ppm.begin(), below, means_ppm.end());
-  const double low_ppm = static_cast<double>(*below);
-  const double high_ppm = below + 1 == means_ppm.end()
-                              ? low_ppm
-                              : static_cast<double>(*std::min_element(below + 1, means_ppm.end()));
-  const double percentile_ppm = low_ppm + (rank - std::floor(rank)) * (high_ppm - low_ppm);
+  const double percentile_ppm = Quantile(std::move(means_ppm), kPercent * options.gas_percentile);
   return std::max(percentile_ppm, options.min_gas_threshold_ppm);
 }
 

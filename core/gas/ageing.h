@@ -38,6 +38,11 @@ class Ageing {
     return 1.0 / Variance_ppm2(initial_variance_ppm2, taken_ns, now_ns);
   }
 
+  // By what share of itself a variance grows per second; 0 without ageing.
+  double GrowthShare_per_s(double variance_ppm2) const {
+    return variance_growth_ppm2_per_s_ / variance_ppm2;
+  }
+
   // Whether a reading of the mission's variance has lost half its precision; never without ageing.
   bool IsHalved(std::int64_t taken_ns, std::int64_t now_ns) const {
     return Variance_ppm2(default_variance_ppm2_, taken_ns, now_ns) >= 2.0 * default_variance_ppm2_;

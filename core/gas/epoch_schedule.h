@@ -4,15 +4,12 @@
 
 #include <cstdint>
 
-#include "core/gas/ageing.h"
 #include "core/gas/gas_lattice.h"
-#include "core/types/gas_reading.h"
-#include "core/types/options.h"
 
 namespace plumescout {
 
-// When the field should be made anew, as a function of sample time and of what changed: never of
-// a clock or a machine.
+// When the field should be made anew though no reading has aged (see AgeingWatch for that), as a
+// function of what changed: never of a clock or a machine.
 class EpochSchedule {
  public:
   // The long part of an epoch gets this much sample time; a fresh field of 400,000 cells takes
@@ -22,28 +19,14 @@ class EpochSchedule {
   // one is due, so a map that grows is made anew a number of times that follows its logarithm.
   static int Margin_cells(const GasCellBox& box);
 
-  explicit EpochSchedule(const GasOptions& options) : ageing_(options) {}
-
-  void NoteReading(const GasReading& reading);
   // A batch of changes, of which so many made a cell active or not.
   void NoteRefresh(std::int64_t activity_changes);
-  // A field was made anew, with precisions as of `time_ns`.
-  void NoteFresh(std::int64_t time_ns, std::int64_t active_cells);
+  // A field was made anew.
+  void NoteFresh(std::int64_t active_cells);
 
-  bool ages() const { return ageing_.enabled(); }
-  std::int64_t aged_to_ns() const { return aged_to_ns_; }
-  // By what share true variances may exceed those of readings aged to aged_to_ns(): weights that
-  // shrink by a factor 1 / (1 + r) or less let no variance grow by more than 1 + r.
-  double AgeingError(std::int64_t time_ns) const;
-  // It has grown beyond what may be published: a refresh then ages all itself.
-  bool IsTooOld(std::int64_t time_ns) const;
-  bool IsDue(const GasLattice& lattice, const GasCellBox& box, std::int64_t time_ns) const;
+  bool IsDue(const GasLattice& lattice, const GasCellBox& box) const;
 
  private:
-  Ageing ageing_;
-  bool has_readings_ = false;
-  double least_variance_ppm2_ = 0.0;  // 1 / lambda of the most precise reading
-  std::int64_t aged_to_ns_ = 0;
   std::int64_t activity_changes_ = 0;  // since the last fresh field
   std::int64_t active_cells_ = 0;      // of that field
   std::int64_t refreshes_ = 0;         // since then

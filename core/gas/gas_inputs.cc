@@ -18,12 +18,15 @@ void SortOnce(std::vector<GasCell>& cells) {
 }  // namespace
 
 GasInputs::GasInputs(const GasOptions& options)
-    : factor_(options.lattice_factor), readings_(options) {}
+    : factor_(options.lattice_factor), ages_(Ageing(options).enabled()), readings_(options) {}
 
-absl::StatusOr<std::vector<GasCell>> GasInputs::Update(const Grid<CellState>& states) {
+absl::StatusOr<std::vector<GasCell>> GasInputs::Update(const Grid<CellState>& states,
+                                                       std::int64_t time_ns) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<std::size_t> freed, states_.Update(states));
   PLUMESCOUT_RETURN_IF_ERROR(readings_.Place(states_.states(), freed));
   std::vector<GasCell> changed = GasCellsOf(readings_.TakeChanged());
+  readings_.AgeStale(time_ns);
+  for (const GasCell cell : GasCellsOf(readings_.TakeChanged())) changed.push_back(cell);
   for (const std::size_t index : freed) {
     const GasCell gas_cell = GasCellOf(states_.At(index), factor_);
     changed.push_back(gas_cell);
@@ -52,13 +55,31 @@ CellInput GasInputs::Of(GasCell cell) const {
 }
 
 std::vector<std::pair<GasCell, Evidence>> GasInputs::EvidenceAsOf(std::int64_t time_ns) {
+  if (!ages_) return {};
   readings_.Compact(time_ns);
-  // A sum for each gas cell of its anchor cells in ascending order, as in Of.
-  std::map<GasCell, Evidence> sums;
-  for (const CellEvidence& e : readings_.EvidenceAsOf(time_ns)) {
-    sums[GasCellOf(e.cell, factor_)] += e.evidence;
-  }
+  const std::map<GasCell, Evidence> sums = SumsOf(readings_.EvidenceAsOf(time_ns));
   return {sums.begin(), sums.end()};
+}
+
+// A sum for each gas cell of its anchor cells in ascending order, as in Of: the same bits.
+std::map<GasCell, Evidence> GasInputs::SumsOf(std::span<const CellEvidence> cells) const {
+  std::map<GasCell, Evidence> sums;
+  for (const CellEvidence& e : cells) sums[GasCellOf(e.cell, factor_)] += e.evidence;
+  return sums;
+}
+
+std::vector<CellInput> GasInputs::On(const GasLattice& lattice) const {
+  std::vector<CellInput> inputs(lattice.size());
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    inputs[i] = StructureOf(states_, lattice.CellAt(i), factor_);
+  }
+  for (const auto& [cell, evidence] : SumsOf(readings_.AllEvidence())) {
+    CellInput& input = inputs[lattice.Index(cell)];
+    if (!input.active) continue;
+    input.precision = evidence.precision;
+    input.weighted_deviation = evidence.weighted_deviation;
+  }
+  return inputs;
 }
 
 std::vector<GasCell> GasInputs::AgeTo(std::int64_t time_ns) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <utility>
 #include <vector>
@@ -27,29 +28,37 @@ class GasInputs {
   }
   const GasCounters& counters() const { return readings_.counters(); }
 
-  // Takes over the map and places readings on it. Returns the gas cells of which Of may have
-  // changed, ascending, each once.
+  // Takes over the map, places readings on it, and ages those alone that an epoch would age too
+  // late (see AgeingWatch). Returns the gas cells of which Of may have changed, ascending, each
+  // once.
   // Errors, with nothing changed: those of AnchoredStates::Update. Cost: O(cells) to compare maps.
-  absl::StatusOr<std::vector<GasCell>> Update(const Grid<CellState>& states);
+  absl::StatusOr<std::vector<GasCell>> Update(const Grid<CellState>& states, std::int64_t time_ns);
 
   // Cost: O(factor()^2) lookups, and the buckets of the readings in the cell.
   CellInput Of(GasCell cell) const;
+  // Of all cells of the lattice. REQUIRES: it holds box(). Cost: O(cells), and all buckets.
+  std::vector<CellInput> On(const GasLattice& lattice) const;
   const AnchoredStates& states() const { return states_; }
   // Holds all gas cells that ever were active.
   const GasCellBox& box() const { return box_; }
   int factor() const { return factor_; }
+  const AgeingWatch& watch() const { return readings_.watch(); }
+  // What Of says of readings, by anchor cell.
+  std::vector<CellEvidence> AllEvidence() const { return readings_.AllEvidence(); }
 
   // Merges readings of so nearly the same age that it makes no difference, and says what all would
-  // say as of `time_ns`: evidence only, cells ascending.
+  // say after AgeTo(time_ns): evidence only, cells ascending. Nothing without ageing.
   std::vector<std::pair<GasCell, Evidence>> EvidenceAsOf(std::int64_t time_ns);
   // From now on Of says so; returns the cells of which it does. For cells without news since
   // EvidenceAsOf(time_ns) it is the same to the bit.
   std::vector<GasCell> AgeTo(std::int64_t time_ns);
 
  private:
+  std::map<GasCell, Evidence> SumsOf(std::span<const CellEvidence> cells) const;
   std::vector<GasCell> GasCellsOf(std::span<const AnchorCell> cells) const;
 
   int factor_;
+  bool ages_;
   ReadingStore readings_;
   AnchoredStates states_;
   GasCellBox box_;

@@ -43,29 +43,24 @@ std::vector<CellChange> Differences(std::span<const CellInput> inputs, const Fie
 }  // namespace
 
 GasMap::GasMap(const GasOptions& options)
-    : field_options_(ToFieldOptions(options)),
-      background_mean_ppm_(options.background_mean_ppm),
-      inputs_(options),
-      schedule_(options) {
+    : options_(options), field_options_(ToFieldOptions(options)), inputs_(options) {
   assert(Validate(options).ok());
 }
 
 void GasMap::Add(std::int64_t time_ns, Point2 position, const GasReading& reading) {
   inputs_.Add(time_ns, position, reading);
-  schedule_.NoteReading(reading);
   stale_ = true;
 }
 
 absl::Status GasMap::Refresh(const Grid<CellState>& states, std::int64_t time_ns) {
-  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<GasCell> changed, inputs_.Update(states));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<GasCell> changed, inputs_.Update(states, time_ns));
   stale_ = false;
   ++quality_.refreshes;
   if (inputs_.box().empty()) {
     published_ = false;
     return absl::OkStatus();
   }
-  const bool usable = engine_ != nullptr && !has_failed_ && HasRoom(lattice_, inputs_.box(), 0) &&
-                      !schedule_.IsTooOld(time_ns);
+  const bool usable = engine_ != nullptr && !has_failed_ && HasRoom(lattice_, inputs_.box(), 0);
   return Conclude(usable ? Apply(changed) : Rebuild(time_ns), time_ns);
 }
 
@@ -88,14 +83,15 @@ absl::Status GasMap::Apply(std::span<const GasCell> changed) {
   return status;
 }
 
-// All here and now: at the first free cell, and when the lattice or the precisions no longer do.
+// All here and now: at the first free cell, and when the lattice no longer does.
 absl::Status GasMap::Rebuild(std::int64_t time_ns) {
   epoch_.reset();
   inputs_.AgeTo(time_ns);
   const GasLattice lattice = RoomyLattice();
-  const std::vector<CellInput> inputs = InputsOn(lattice);
+  const std::vector<CellInput> inputs = inputs_.On(lattice);
   TakeOver(MakeEngine(lattice, inputs, field_options_), lattice);
-  schedule_.NoteFresh(time_ns, CountActive(inputs));
+  schedule_.NoteFresh(CountActive(inputs));
+  quality_.aged_to_ns = time_ns;
   const absl::Status status = engine_->Apply({});  // whether it is sound
   quality_.healed += engine_->healed();
   return status;
@@ -103,12 +99,6 @@ absl::Status GasMap::Rebuild(std::int64_t time_ns) {
 
 GasLattice GasMap::RoomyLattice() const {
   return MakeLattice(lattice_, inputs_.box(), EpochSchedule::Margin_cells(inputs_.box()));
-}
-
-std::vector<CellInput> GasMap::InputsOn(const GasLattice& lattice) const {
-  std::vector<CellInput> inputs(lattice.size());
-  for (std::size_t i = 0; i < inputs.size(); ++i) inputs[i] = inputs_.Of(lattice.CellAt(i));
-  return inputs;
 }
 
 void GasMap::TakeOver(std::unique_ptr<FieldEngine> engine, const GasLattice& lattice) {
@@ -119,7 +109,7 @@ void GasMap::TakeOver(std::unique_ptr<FieldEngine> engine, const GasLattice& lat
 
 bool GasMap::epoch_due(std::int64_t time_ns) const {
   return engine_ != nullptr && epoch_ == nullptr && !has_failed_ &&
-         schedule_.IsDue(lattice_, inputs_.box(), time_ns);
+         (schedule_.IsDue(lattice_, inputs_.box()) || inputs_.watch().IsEpochDue(time_ns));
 }
 
 absl::Status GasMap::BeginEpoch(std::int64_t time_ns) {
@@ -133,23 +123,20 @@ absl::Status GasMap::BeginEpoch(std::int64_t time_ns) {
   start.time_ns = time_ns;
   start.options = field_options_;
   start.lattice = RoomyLattice();
-  start.cells.resize(start.lattice.size());
+  start.cells = inputs_.On(start.lattice);
   start.mean_ppm.resize(start.lattice.size());
   start.variance_ppm2.resize(start.lattice.size());
   for (std::size_t i = 0; i < lattice_.size(); ++i) {
     const std::size_t index = start.lattice.Index(lattice_.CellAt(i));
-    start.cells[index] = engine_->input(i);
     start.mean_ppm[index] = engine_->mean_ppm(i);
     start.variance_ppm2[index] = engine_->variance_ppm2(i);
   }
-  if (schedule_.ages()) {
-    for (const auto& [gas_cell, evidence] : inputs_.EvidenceAsOf(time_ns)) {
-      const std::size_t index = start.lattice.Index(gas_cell);
-      CellInput aged = start.cells[index];
-      aged.precision = evidence.precision;
-      aged.weighted_deviation = evidence.weighted_deviation;
-      start.aged.push_back({index, aged});
-    }
+  for (const auto& [gas_cell, evidence] : inputs_.EvidenceAsOf(time_ns)) {
+    const std::size_t index = start.lattice.Index(gas_cell);
+    CellInput aged = start.cells[index];
+    aged.precision = evidence.precision;
+    aged.weighted_deviation = evidence.weighted_deviation;
+    start.aged.push_back({index, aged});
   }
   epoch_ = std::make_shared<GasEpoch>(std::move(start));
   return absl::OkStatus();
@@ -165,23 +152,43 @@ absl::Status GasMap::Adopt() {
   }
   epoch_->Recompute();
   const std::shared_ptr<GasEpoch> epoch = std::exchange(epoch_, nullptr);
-  std::vector<CellInput> inputs(epoch->lattice().size());
-  for (std::size_t i = 0; i < lattice_.size(); ++i) {
-    inputs[epoch->lattice().Index(lattice_.CellAt(i))] = engine_->input(i);
-  }
-  for (const GasCell gas_cell : inputs_.AgeTo(epoch->time_ns())) {
-    inputs[epoch->lattice().Index(gas_cell)] = inputs_.Of(gas_cell);
-  }
+  inputs_.AgeTo(epoch->time_ns());
+  const std::vector<CellInput> inputs = inputs_.On(epoch->lattice());
   std::unique_ptr<FieldEngine> engine = epoch->TakeEngine();
   const absl::Status status = engine->Apply(Differences(inputs, *engine));
   quality_.healed += engine->healed();
   if (!status.ok()) return Conclude(status, time_ns_);
   TakeOver(std::move(engine), epoch->lattice());
-  schedule_.NoteFresh(epoch->time_ns(), CountActive(inputs));
+  schedule_.NoteFresh(CountActive(inputs));
+  quality_.aged_to_ns = epoch->time_ns();
   ++quality_.epochs;
   quality_.drift_mean_ppm = epoch->drift().mean_ppm;
   quality_.drift_variance_ratio = epoch->drift().variance_ratio;
   return Conclude(absl::OkStatus(), time_ns_);
+}
+
+bool GasMap::audit_due() const {
+  const std::int64_t period = options_.audit_period_epochs;
+  return period > 0 && quality_.epochs > 0 && (quality_.epochs - 1) % period == 0;
+}
+
+std::shared_ptr<const AuditInputs> GasMap::MakeAudit() const {
+  if (engine_ == nullptr || has_failed_ || epoch_ != nullptr) return nullptr;
+  auto audit = std::make_shared<AuditInputs>();
+  audit->options = options_;
+  audit->states = inputs_.states().states();
+  audit->corner = inputs_.states().At(0);
+  audit->evidence = inputs_.AllEvidence();
+  audit->lattice = lattice_;
+  audit->mean_ppm.resize(lattice_.size());
+  audit->variance_ppm2.resize(lattice_.size());
+  for (std::size_t i = 0; i < lattice_.size(); ++i) {
+    audit->mean_ppm[i] = engine_->mean_ppm(i);
+    audit->variance_ppm2[i] = engine_->variance_ppm2(i);
+  }
+  audit->certified_mean_ppm = quality_.mean_error_ppm;
+  audit->certified_variance_ratio = quality_.variance_error_ratio;
+  return audit;
 }
 
 // What is left to do when a field was `computed`, or could not be.
@@ -196,8 +203,7 @@ absl::Status GasMap::Conclude(const absl::Status& computed, std::int64_t time_ns
   time_ns_ = time_ns;
   quality_.mean_error_ppm = engine_->error_bound().mean_ppm;
   quality_.variance_error_ratio = engine_->error_bound().variance_ratio;
-  quality_.aged_to_ns = schedule_.aged_to_ns();
-  quality_.ageing_error_ratio = schedule_.AgeingError(time_ns);
+  quality_.ageing_error_ratio = inputs_.watch().Error(time_ns);
   return absl::OkStatus();
 }
 
@@ -213,7 +219,7 @@ void GasMap::Publish() const {
   for (std::size_t i = 0; i < known.states().size(); ++i) {
     if (known.states()[i] != CellState::kFree) continue;
     const std::size_t index = lattice_.Index(GasCellOf(known.At(i), inputs_.factor()));
-    mean_ppm_[i] = static_cast<float>(background_mean_ppm_ + engine_->mean_ppm(index));
+    mean_ppm_[i] = static_cast<float>(options_.background_mean_ppm + engine_->mean_ppm(index));
     variance_ppm2_[i] = static_cast<float>(engine_->variance_ppm2(index));
   }
   what_if_ = std::make_shared<const GasWhatIf>(engine_->Snapshot(), lattice_, inputs_);

@@ -10,6 +10,7 @@
 #include "absl/status/status.h"
 #include "core/gas/epoch_schedule.h"
 #include "core/gas/field/field_engine.h"
+#include "core/gas/field_audit.h"
 #include "core/gas/gas_epoch.h"
 #include "core/gas/gas_inputs.h"
 #include "core/gas/gas_lattice.h"
@@ -51,7 +52,8 @@ class GasMap {
   void Add(std::int64_t time_ns, Point2 position, const GasReading& reading);
 
   // Brings the posterior to `states` and all readings so far. Their precisions are those of the
-  // last epoch, unless `time_ns` is so much later that all is made anew.
+  // last epoch; where that is too long before `time_ns` for how precise they are, cells are aged
+  // to `time_ns` here and now.
   // Errors: kInvalidArgument, with nothing changed, if the lattice of `states` is not that of the
   // first refresh moved by whole cells. kInternal if the field cannot be computed, which would be a
   // defect: readers then see none until a refresh, which makes all anew, succeeds. Cost at 160x200
@@ -83,19 +85,25 @@ class GasMap {
   // as from Refresh.
   absl::Status Adopt();
 
+  // Whether the epoch adopted last is one after which the field is to be audited.
+  bool audit_due() const;
+  // Copies what an audit compares; RunAudit may then run on any thread. Null if there is no field,
+  // or an epoch under way: that merges readings which the field has heard one by one. Cost:
+  // O(cells).
+  std::shared_ptr<const AuditInputs> MakeAudit() const;
+
  private:
   friend struct GasMapPeer;  // of the tests
 
   absl::Status Rebuild(std::int64_t time_ns);
   absl::Status Apply(std::span<const GasCell> changed);
   GasLattice RoomyLattice() const;
-  std::vector<CellInput> InputsOn(const GasLattice& lattice) const;
   void TakeOver(std::unique_ptr<FieldEngine> engine, const GasLattice& lattice);
   absl::Status Conclude(const absl::Status& computed, std::int64_t time_ns);
   void Publish() const;
 
+  GasOptions options_;
   FieldOptions field_options_;
-  double background_mean_ppm_;
   GasInputs inputs_;
   EpochSchedule schedule_;
   GasLattice lattice_;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/gas/anchor_cell.h"
 #include "core/types/cell_state.h"
 #include "core/types/grid.h"
 
@@ -22,7 +23,11 @@ constexpr std::size_t ToSize(VariableIndex variable) { return static_cast<std::s
 class GmrfGraph {
  public:
   GmrfGraph() = default;
-  explicit GmrfGraph(const Grid<CellState>& states);
+  explicit GmrfGraph(const Grid<CellState>& states) : GmrfGraph(states, {}, 1) {}
+  // The same for squares of `factor` x `factor` cells, one of which begins at the anchor: cell
+  // (0, 0) of the grid is the anchor cell `corner`. A square is free if one of its cells is, and
+  // two share an edge if two free cells of theirs do. geometry() is then that of the squares.
+  GmrfGraph(const Grid<CellState>& states, AnchorCell corner, int factor);
 
   const GridGeometry& geometry() const { return geometry_; }
   int variables() const { return static_cast<int>(cell_index_.size()); }

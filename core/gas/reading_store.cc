@@ -103,28 +103,55 @@ void ReadingStore::Count(const Placement& placement, std::int64_t readings) {
 }
 
 ReadingStore::PlacedCell& ReadingStore::MarkChanged(AnchorCell cell) {
-  PlacedCell& placed = cells_[cell];
+  const auto [it, is_new] = cells_.try_emplace(cell);
+  PlacedCell& placed = it->second;
+  if (is_new) placed.watched = watch_.Add(cell);
   if (!std::exchange(placed.changed, true)) changed_.push_back(cell);
   return placed;
 }
 
 std::vector<AnchorCell> ReadingStore::TakeChanged() {
   std::sort(changed_.begin(), changed_.end());
-  for (const AnchorCell cell : changed_) cells_[cell].changed = false;
+  for (const AnchorCell cell : changed_) {
+    PlacedCell& placed = cells_.find(cell)->second;
+    placed.changed = false;
+    watch_.Set(placed.watched, StalenessOf(placed));
+  }
   return std::exchange(changed_, {});
 }
 
 Evidence ReadingStore::EvidenceAt(AnchorCell cell) const {
   const auto it = cells_.find(cell);
-  return it == cells_.end() ? Evidence{} : SumOver(it->second, aged_to_ns_);
+  return it == cells_.end() ? Evidence{} : SumOver(it->second, AgedTo_ns(it->second));
 }
+
+std::vector<CellEvidence> ReadingStore::AllEvidence() const { return EvidenceAsOf(aged_to_ns_); }
 
 std::vector<CellEvidence> ReadingStore::EvidenceAsOf(std::int64_t time_ns) const {
   std::vector<CellEvidence> evidence;
   for (const auto& [cell, placed] : cells_) {
-    if (!placed.sites.empty()) evidence.push_back({cell, SumOver(placed, time_ns)});
+    if (placed.sites.empty()) continue;
+    evidence.push_back({cell, SumOver(placed, std::max(time_ns, placed.aged_alone_to_ns))});
   }
   return evidence;
+}
+
+// The fastest growth of any reading, and the earliest instant from which any grows.
+Staleness ReadingStore::StalenessOf(const PlacedCell& cell) const {
+  if (!ageing_.enabled()) return {};
+  const std::int64_t aged_to_ns = AgedTo_ns(cell);
+  Staleness staleness;
+  for (const ReadingSite& key : cell.sites) {
+    for (const ReadingBucket& bucket : sites_.find(key)->second.buckets) {
+      const std::int64_t since_ns = std::max(aged_to_ns, bucket.newest_ns);
+      const bool is_first = staleness.share_per_s == 0.0;
+      staleness.since_ns = is_first ? since_ns : std::min(staleness.since_ns, since_ns);
+      staleness.share_per_s = std::max(
+          staleness.share_per_s, ageing_.GrowthShare_per_s(ageing_.Variance_ppm2(
+                                     bucket.least_variance_ppm2, bucket.newest_ns, aged_to_ns)));
+    }
+  }
+  return staleness;
 }
 
 Evidence ReadingStore::SumOver(const PlacedCell& cell, std::int64_t time_ns) const {
@@ -144,6 +171,12 @@ void ReadingStore::AgeTo(std::int64_t time_ns) {
   aged_to_ns_ = time_ns;
   for (const auto& [cell, placed] : cells_) {
     if (!placed.sites.empty()) MarkChanged(cell);
+  }
+}
+
+void ReadingStore::AgeStale(std::int64_t time_ns) {
+  for (const AnchorCell cell : watch_.TooOld(time_ns)) {
+    MarkChanged(cell).aged_alone_to_ns = time_ns;
   }
 }
 

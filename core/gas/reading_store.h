@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <span>
 #include <vector>
 
 #include "absl/status/status.h"
 #include "core/gas/ageing.h"
+#include "core/gas/ageing_watch.h"
 #include "core/gas/anchor_cell.h"
 #include "core/gas/information.h"
 #include "core/gas/reading_bucket.h"
@@ -58,17 +61,25 @@ class ReadingStore {
   // Cells whose evidence may have changed since the last call, ascending, each once.
   std::vector<AnchorCell> TakeChanged();
 
-  // As of aged_to_ns(). Cost: O(buckets in the cell).
+  // As of the last AgeTo, or of the AgeStale that aged the cell after that. Cost: O(buckets in the
+  // cell).
   Evidence EvidenceAt(AnchorCell cell) const;
+  // The same of all cells with evidence, ascending. Cost: O(buckets + sites log sites).
+  std::vector<CellEvidence> AllEvidence() const;
 
-  // All cells with evidence, ascending, as of `time_ns`. The same bits as AgeTo(time_ns) and
-  // EvidenceAt would give, until a cell's readings change or are merged. Cost: O(buckets + sites
-  // log sites).
+  // All cells with evidence, ascending, as of `time_ns`, or later if AgeStale went further. The
+  // same bits as AgeTo(time_ns) and EvidenceAt would give, until a cell's readings change or are
+  // merged, or it is aged further. Cost: as of AllEvidence.
   std::vector<CellEvidence> EvidenceAsOf(std::int64_t time_ns) const;
 
-  // From now on precisions are as of `time_ns`; every cell with evidence counts as changed.
-  // Without ageing nothing happens.
+  // From now on precisions are as of `time_ns`, or later where AgeStale went further; every cell
+  // with evidence counts as changed. Without ageing nothing happens.
   void AgeTo(std::int64_t time_ns);
+  // The same, only of cells whose variances would otherwise be wrong by more than
+  // AgeingWatch::kMostError. REQUIRES: TakeChanged was called after the last change.
+  void AgeStale(std::int64_t time_ns);
+  // How wrong they are, as of what was taken from TakeChanged.
+  const AgeingWatch& watch() const { return watch_; }
 
   // Merges readings of like age, within the bounds of MergeAlike for evidence as of `now_ns` or
   // later. A site that lies in a free cell and has brought nothing for a half-life is merged into
@@ -77,8 +88,7 @@ class ReadingStore {
   // as changed. Without ageing nothing happens. Cost: O(buckets log buckets).
   void Compact(std::int64_t now_ns);
 
-  const GridGeometry& anchor() const { return anchor_; }  // no cells: none yet
-  std::int64_t aged_to_ns() const { return aged_to_ns_; }
+  const GridGeometry& anchor() const { return anchor_; }     // no cells: none yet
   const GasCounters& counters() const { return counters_; }  // current at any time
   std::size_t sites() const { return sites_.size(); }
   std::size_t buckets() const;  // held by all sites. Cost: O(sites)
@@ -97,6 +107,8 @@ class ReadingStore {
   struct PlacedCell {
     std::vector<ReadingSite> sites;  // ascending
     bool changed = false;
+    std::int64_t aged_alone_to_ns = std::numeric_limits<std::int64_t>::min();
+    std::size_t watched = 0;  // entry of watch_
   };
   using Sites = std::map<ReadingSite, Site>;
 
@@ -107,6 +119,10 @@ class ReadingStore {
   Sites::iterator MoveToCentre(Sites::iterator from);
   void Count(const Placement& placement, std::int64_t readings);
   PlacedCell& MarkChanged(AnchorCell cell);
+  std::int64_t AgedTo_ns(const PlacedCell& cell) const {
+    return std::max(aged_to_ns_, cell.aged_alone_to_ns);
+  }
+  Staleness StalenessOf(const PlacedCell& cell) const;
   Evidence SumOver(const PlacedCell& cell, std::int64_t time_ns) const;
 
   double background_mean_ppm_;
@@ -119,6 +135,7 @@ class ReadingStore {
   Sites sites_;
   std::map<AnchorCell, PlacedCell> cells_;  // all that ever had a site
   std::vector<AnchorCell> changed_;         // those marked so
+  AgeingWatch watch_;                       // over cells_
 };
 
 }  // namespace plumescout

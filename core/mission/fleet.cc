@@ -7,6 +7,9 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/types/checker.h"
+#include "core/types/error_reason.h"
+#include "core/types/status_macros.h"
 
 namespace plumescout {
 namespace {
@@ -37,33 +40,82 @@ std::optional<Goal> GoalToClaim(const Plan& plan) {
 
 }  // namespace
 
+Fleet::Fleet(double robot_silence_s) : silence_ns_(Nanoseconds(robot_silence_s)) {}
+
+const Fleet::Member* Fleet::Find(const RobotId& robot) const {
+  const auto found = robots_.find(robot);
+  return found == robots_.end() || found->second.removed ? nullptr : &found->second;
+}
+
 absl::Status Fleet::Register(const RobotRegistered& registration, int max_robot_count) {
-  if (absl::Status status = ValidateId("robot", registration.robot); !status.ok()) return status;
-  if (!(registration.radius_m > 0.0 && registration.radius_m <= kMaxRadius_m)) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("radius_m = ", registration.radius_m, " must be in (0, ", kMaxRadius_m, "]"));
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(ValidateId("robot", registration.robot));
+  PLUMESCOUT_RETURN_IF_ERROR(
+      Checker().InRangeAbove("radius_m", registration.radius_m, 0.0, kMaxRadius_m).status());
   const auto found = robots_.find(registration.robot);
-  if (found == robots_.end() && robots_.size() >= static_cast<std::size_t>(max_robot_count)) {
+  const auto present = std::count_if(robots_.begin(), robots_.end(),
+                                     [](const auto& entry) { return !entry.second.removed; });
+  if (!Knows(registration.robot) && present >= max_robot_count) {
     return absl::ResourceExhaustedError(
         absl::StrCat("the mission has ", max_robot_count, " robots already"));
   }
   if (found != robots_.end() && registration.lease_token <= found->second.lease_token) {
-    return absl::FailedPreconditionError(
-        absl::StrCat("LEASE_SUPERSEDED: lease_token = ", registration.lease_token,
-                     " must be newer than ", found->second.lease_token));
+    return TypedError(absl::StatusCode::kFailedPrecondition, reason::kLeaseSuperseded,
+                      absl::StrCat("lease_token = ", registration.lease_token,
+                                   " must be newer than ", found->second.lease_token));
   }
   Member& member = robots_[registration.robot];
   member.record.state.id = registration.robot;
   member.record.state.radius_m = registration.radius_m;
   member.lease_token = registration.lease_token;
+  member.removed = false;
   return absl::OkStatus();
 }
 
+absl::Status Fleet::Remove(const RobotId& robot) {
+  Member* const member = Find(robot);
+  if (member == nullptr) return UnknownRobot(robot);
+  member->removed = true;
+  member->heard_ns.reset();
+  member->last_phase.reset();
+  member->record.state.has_pose = false;
+  member->record.state.silent = false;
+  EndPlan(*member);
+  CompleteIfAllAre();
+  return absl::OkStatus();
+}
+
+void Fleet::Hear(const RobotId& robot, std::int64_t now_ns) {
+  for (auto& [id, member] : robots_) {
+    if (member.removed) continue;
+    if (id == robot) {
+      member.heard_ns = now_ns;
+      member.record.state.silent = false;
+    } else if (!member.heard_ns) {
+      member.heard_ns = now_ns;
+    } else if (!member.record.state.silent && now_ns - *member.heard_ns > silence_ns_) {
+      FallSilent(member);
+    }
+  }
+}
+
+// A robot that was told that the mission is complete keeps nobody from completing it.
+void Fleet::FallSilent(Member& member) {
+  member.record.state.silent = true;
+  EndPlan(member);
+  if (member.last_phase != MissionPhase::kComplete) member.last_phase.reset();
+  CompleteIfAllAre();
+}
+
+void Fleet::EndPlan(Member& member) {
+  member.live.reset();
+  member.record.live_trajectory = nullptr;
+  member.record.live_goal.reset();
+}
+
 absl::Status Fleet::CheckSequence(const RobotId& robot, const Observation& observation) const {
-  const auto found = robots_.find(robot);
-  if (found == robots_.end()) return UnknownRobot(robot);
-  const std::int64_t expected = found->second.record.state.applied_sequence + 1;
+  const Member* const member = Find(robot);
+  if (member == nullptr) return UnknownRobot(robot);
+  const std::int64_t expected = member->record.state.applied_sequence + 1;
   if (observation.sequence < 1) {
     return absl::InvalidArgumentError(
         absl::StrCat("sequence = ", observation.sequence, " must be >= 1"));
@@ -81,8 +133,8 @@ absl::Status Fleet::CheckSequence(const RobotId& robot, const Observation& obser
     if (gap->first_sequence <= expected) return absl::OkStatus();
   }
   if (observation.sequence != expected) {
-    return absl::FailedPreconditionError(
-        absl::StrCat("SEQUENCE_GAP: expected ", expected, ", got ", observation.sequence));
+    return TypedError(absl::StatusCode::kFailedPrecondition, reason::kSequenceGap,
+                      absl::StrCat("expected ", expected, ", got ", observation.sequence));
   }
   return absl::OkStatus();
 }
@@ -104,8 +156,8 @@ void Fleet::Advance(const RobotId& robot, const Observation& observation, bool r
 }
 
 absl::StatusOr<PlanId> Fleet::Issue(const Plan& plan, std::int64_t now_ns) {
-  const auto found = robots_.find(plan.robot);
-  if (found == robots_.end()) return UnknownRobot(plan.robot);
+  Member* const planner = Find(plan.robot);
+  if (planner == nullptr) return UnknownRobot(plan.robot);
   if (plan.chosen < -1 || plan.chosen >= static_cast<int>(plan.candidates.size())) {
     return absl::InvalidArgumentError(
         absl::StrCat("chosen = ", plan.chosen, " must be in [-1, ", plan.candidates.size(), ")"));
@@ -122,7 +174,8 @@ absl::StatusOr<PlanId> Fleet::Issue(const Plan& plan, std::int64_t now_ns) {
       }
     }
   }
-  Member& member = found->second;
+  Hear(plan.robot, now_ns);
+  Member& member = *planner;
   ++next_plan_;
   ++member.record.plans_issued;
   member.record.last_plan = live.id;
@@ -144,52 +197,65 @@ absl::StatusOr<PlanId> Fleet::Issue(const Plan& plan, std::int64_t now_ns) {
 }
 
 absl::StatusOr<std::optional<Goal>> Fleet::Report(const ProgressReported& report) {
-  const auto found = robots_.find(report.robot);
-  if (found == robots_.end()) return UnknownRobot(report.robot);
-  Member& member = found->second;
+  Member* const reporter = Find(report.robot);
+  if (reporter == nullptr) return UnknownRobot(report.robot);
+  Member& member = *reporter;
   if (report.plan_id < 1 || report.plan_id >= next_plan_) {
     return absl::NotFoundError(absl::StrCat("plan ", report.plan_id, " was never issued"));
   }
   if (report.plan_id != member.record.last_plan) {
-    return absl::FailedPreconditionError(absl::StrCat("PLAN_SUPERSEDED: plan ", report.plan_id,
-                                                      " is not robot \"", report.robot,
-                                                      "\"'s latest, ", member.record.last_plan));
+    return TypedError(absl::StatusCode::kFailedPrecondition, reason::kPlanSuperseded,
+                      absl::StrCat("plan ", report.plan_id, " is not robot \"", report.robot,
+                                   "\"'s latest, ", member.record.last_plan));
   }
   if (!member.live) {
     return absl::AlreadyExistsError(absl::StrCat("plan ", report.plan_id, " has ended already"));
   }
-  const LivePlan live = *std::exchange(member.live, std::nullopt);
-  member.record.live_trajectory = nullptr;
-  member.record.live_goal.reset();
-  if (live.phase == MissionPhase::kFallback) ++member.record.fruitless_fallbacks;
+  const LivePlan live = *member.live;
+  EndPlan(member);
+  // A place that was not reached says nothing of what can be seen from there.
+  const bool reached = report.outcome == ProgressOutcome::kReached;
+  if (live.phase == MissionPhase::kFallback && reached) ++member.record.fruitless_fallbacks;
   return live.goal;
 }
 
-// The mission is complete when every robot that ever planned was told so last.
 void Fleet::UpdatePhase(MissionPhase latest) {
-  const bool all_complete = std::all_of(robots_.begin(), robots_.end(), [](const auto& entry) {
-    return entry.second.last_phase.value_or(MissionPhase::kComplete) == MissionPhase::kComplete;
-  });
-  if (latest != MissionPhase::kComplete || all_complete) phase_ = latest;
+  if (latest == MissionPhase::kComplete) {
+    CompleteIfAllAre();
+  } else {
+    phase_ = latest;
+  }
+}
+
+// The mission is complete when every robot that ever planned, and has neither left nor fallen
+// silent since, was told so last.
+void Fleet::CompleteIfAllAre() {
+  bool any = false;
+  for (const auto& [id, member] : robots_) {
+    if (!member.last_phase) continue;
+    if (*member.last_phase != MissionPhase::kComplete) return;
+    any = true;
+  }
+  if (any) phase_ = MissionPhase::kComplete;
 }
 
 absl::StatusOr<std::int64_t> Fleet::AppliedSequence(const RobotId& robot) const {
-  const auto found = robots_.find(robot);
-  if (found == robots_.end()) return UnknownRobot(robot);
-  return found->second.record.state.applied_sequence;
+  const Member* const member = Find(robot);
+  if (member == nullptr) return UnknownRobot(robot);
+  return member->record.state.applied_sequence;
 }
 
 absl::StatusOr<std::int64_t> Fleet::LeaseToken(const RobotId& robot) const {
-  const auto found = robots_.find(robot);
-  if (found == robots_.end()) return UnknownRobot(robot);
-  return found->second.lease_token;
+  const Member* const member = Find(robot);
+  if (member == nullptr) return UnknownRobot(robot);
+  return member->lease_token;
 }
 
 std::vector<MaskDisc> Fleet::MasksFor(const RobotId& observer) const {
   std::vector<MaskDisc> masks;
   for (const auto& [id, member] : robots_) {
     const RobotState& state = member.record.state;
-    if (id == observer || !state.has_pose) continue;
+    if (id == observer || !state.has_pose || state.silent) continue;
     masks.push_back({state.pose.position(), state.radius_m + kMaskMargin_m});
   }
   return masks;
@@ -197,7 +263,9 @@ std::vector<MaskDisc> Fleet::MasksFor(const RobotId& observer) const {
 
 std::map<RobotId, RobotRecord> Fleet::Records() const {
   std::map<RobotId, RobotRecord> records;
-  for (const auto& [id, member] : robots_) records[id] = member.record;
+  for (const auto& [id, member] : robots_) {
+    if (!member.removed) records[id] = member.record;
+  }
   return records;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "absl/status/status.h"
@@ -13,6 +14,7 @@
 #include "core/mission/odometer.h"
 #include "core/occupancy/scan_inserter.h"
 #include "core/types/event.h"
+#include "core/types/options.h"
 
 namespace plumescout {
 
@@ -20,9 +22,20 @@ namespace plumescout {
 //
 // Invariants: 1. a robot has at most one live plan. 2. no two live, unexpired plans of different
 // robots end at the same goal. Thread-compatible.
+// A robot that is not heard of for `robot_silence_s` while others are is silent: its mask, its
+// claim and its vote on whether the mission is complete lapse, by sample time alone. It is silent
+// no more when it is heard of again; its plan has ended then.
 class Fleet {
  public:
+  explicit Fleet(double robot_silence_s = MissionOptions().robot_silence_s);
+
   absl::Status Register(const RobotRegistered& registration, int max_robot_count);
+
+  // The robot leaves: it is unknown until it registers again, and then goes on with its log.
+  absl::Status Remove(const RobotId& robot);
+
+  // The robot was heard of at the latest sample time; who was not for too long falls silent.
+  void Hear(const RobotId& robot, std::int64_t now_ns);
 
   // Checks that the observation is the next of the robot's log; see Mission::Apply for the errors.
   absl::Status CheckSequence(const RobotId& robot, const Observation& observation) const;
@@ -37,9 +50,10 @@ class Fleet {
 
   absl::StatusOr<std::int64_t> AppliedSequence(const RobotId& robot) const;
   absl::StatusOr<std::int64_t> LeaseToken(const RobotId& robot) const;
-  bool Knows(const RobotId& robot) const { return robots_.contains(robot); }
+  bool Knows(const RobotId& robot) const { return Find(robot) != nullptr; }
 
-  // Discs around the latest poses of all robots but `observer`, in which beams must not end.
+  // Discs around the latest poses of all robots but `observer` and the silent, in which beams must
+  // not end.
   std::vector<MaskDisc> MasksFor(const RobotId& observer) const;
 
   std::map<RobotId, RobotRecord> Records() const;
@@ -63,10 +77,20 @@ class Fleet {
     std::int64_t lease_token = 0;
     std::optional<MissionPhase> last_phase;
     std::optional<LivePlan> live;
+    std::optional<std::int64_t> heard_ns;  // none: no time has passed since it registered
+    bool removed = false;                  // only its log and its lease are remembered
   };
 
+  const Member* Find(const RobotId& robot) const;  // null if unknown
+  Member* Find(const RobotId& robot) {
+    return const_cast<Member*>(std::as_const(*this).Find(robot));
+  }
+  static void EndPlan(Member& member);
+  void FallSilent(Member& member);
   void UpdatePhase(MissionPhase latest);
+  void CompleteIfAllAre();
 
+  std::int64_t silence_ns_;
   std::map<RobotId, Member> robots_;
   PlanId next_plan_ = 1;
   MissionPhase phase_ = MissionPhase::kExploring;

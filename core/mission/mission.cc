@@ -51,6 +51,7 @@ Mission::Mission(const MissionOptions& options)
     : options_(std::make_shared<const MissionOptions>(options)),
       occupancy_(options.occupancy),
       gas_(options.gas),
+      fleet_(options.robot_silence_s),
       goal_memory_(options),
       sampled_cells_(options.occupancy.resolution_m) {
   if (options.prior_map == nullptr) return;
@@ -82,6 +83,7 @@ absl::StatusOr<Applied> Mission::Change(const ObservationReceived& received) {
 
 absl::Status Mission::TakeIn(const RobotId& robot, const Observation& observation) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckObservation(observation, *options_, sample_time_ns_));
+  fleet_.Hear(robot, std::max(sample_time_ns_, observation.sample_time_ns));
   if (const auto* scan = std::get_if<Scan>(&observation.payload)) {
     PLUMESCOUT_RETURN_IF_ERROR(
         scan_inserter_.Insert(observation.pose, *scan, fleet_.MasksFor(robot), occupancy_));
@@ -139,6 +141,11 @@ absl::StatusOr<Applied> Mission::Change(const EpochAdopted&) {
   if (HasChangedNothing(applied.posterior)) return applied.posterior;
   gas_changed_since_snapshot_ = true;
   return applied;
+}
+
+absl::StatusOr<Applied> Mission::Change(const RobotRemoved& removal) {
+  PLUMESCOUT_RETURN_IF_ERROR(fleet_.Remove(removal.robot));
+  return Applied{};
 }
 
 absl::StatusOr<std::int64_t> Mission::AppliedSequence(const RobotId& robot) const {
@@ -199,6 +206,7 @@ std::shared_ptr<const Belief> Mission::Snapshot() const {
   belief->sampled = rasters_.sampled;
   belief->gas_counters = gas_.counters();
   belief->gas_quality = gas_.quality();
+  belief->gas_audits = gas_audits_;
   belief->robots = fleet_.Records();
   belief->claims = fleet_.Claims(sample_time_ns_);
   belief->set_aside = goal_memory_.SetAside(Present());

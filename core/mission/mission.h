@@ -77,6 +77,14 @@ class Mission {
   bool epoch_due() const { return gas_.epoch_due(sample_time_ns_); }
 
   std::shared_ptr<GasEpoch> epoch() const { return gas_.epoch(); }  // under way, or null
+
+  // As GasMap. What audits find belongs to this process: it goes with snapshots, but it is no event
+  // and changes nothing that an event could tell.
+  bool audit_due() const { return gas_.audit_due(); }
+  std::shared_ptr<const AuditInputs> MakeAudit() const { return gas_.MakeAudit(); }
+  void NoteAudits(const GasAudits& audits) { gas_audits_ = audits; }
+  const GasAudits& gas_audits() const { return gas_audits_; }
+
   std::int64_t sample_time_ns() const { return sample_time_ns_; }
 
   // The present state, for readers. Cost: O(cells) if the map changed since the last call.
@@ -92,6 +100,7 @@ class Mission {
   absl::StatusOr<Applied> Change(const ProgressReported& report);
   absl::StatusOr<Applied> Change(const EpochBegun& begun);
   absl::StatusOr<Applied> Change(const EpochAdopted& adopted);
+  absl::StatusOr<Applied> Change(const RobotRemoved& removal);
   bool PeriodHasPassedSince(std::int64_t time_ns) const;
   GoalMemory::Now Present() const {
     return {sample_time_ns_, occupancy_.States(), gas_.variance_ppm2()};
@@ -108,6 +117,7 @@ class Mission {
   OccupancyGrid occupancy_;
   ScanInserter scan_inserter_;
   GasMap gas_;
+  GasAudits gas_audits_;
   Fleet fleet_;
   GoalMemory goal_memory_;
   SampledCells sampled_cells_;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
+#include "core/types/checker.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
@@ -17,21 +18,12 @@ constexpr std::int64_t kMaxSampleTime_ns = (std::int64_t{1} << 62) - 1;
 constexpr double kMinVariance_ppm2 = 1e-9;  // keeps precisions within Validate's
 constexpr double kMaxVariance_ppm2 = 1e12;
 
-absl::Status OutOfRange(absl::string_view field, double value, absl::string_view rule) {
-  return absl::InvalidArgumentError(absl::StrCat(field, " = ", value, " ", rule));
-}
-
-// True for NaN too.
-bool Outside(double value, double low, double high) { return !(value >= low && value <= high); }
-
 absl::Status CheckPose(const Pose2& pose, double limit_m) {
-  const std::string rule = absl::StrCat("must be in [", -limit_m, ", ", limit_m, "]");
-  if (Outside(pose.x_m, -limit_m, limit_m)) return OutOfRange("pose.x_m", pose.x_m, rule);
-  if (Outside(pose.y_m, -limit_m, limit_m)) return OutOfRange("pose.y_m", pose.y_m, rule);
-  if (Outside(pose.yaw_rad, -kMaxAngle_rad, kMaxAngle_rad)) {
-    return OutOfRange("pose.yaw_rad", pose.yaw_rad, "must be in [-1000, 1000]");
-  }
-  return absl::OkStatus();
+  return Checker()
+      .InRange("pose.x_m", pose.x_m, -limit_m, limit_m)
+      .InRange("pose.y_m", pose.y_m, -limit_m, limit_m)
+      .InRange("pose.yaw_rad", pose.yaw_rad, -kMaxAngle_rad, kMaxAngle_rad)
+      .status();
 }
 
 absl::Status CheckPayload(const Scan& scan, const MissionOptions& options) {
@@ -40,31 +32,25 @@ absl::Status CheckPayload(const Scan& scan, const MissionOptions& options) {
     return absl::InvalidArgumentError(
         absl::StrCat("scan.ranges has ", beams, " beams, must have 1 to ", options.max_beam_count));
   }
-  if (Outside(scan.start_angle_rad, -kMaxAngle_rad, kMaxAngle_rad)) {
-    return OutOfRange("scan.start_angle_rad", scan.start_angle_rad, "must be in [-1000, 1000]");
-  }
-  if (Outside(std::abs(scan.angle_step_rad), beams > 1 ? 1e-9 : 0.0, 2.0 * M_PI)) {
-    return OutOfRange("scan.angle_step_rad", scan.angle_step_rad,
-                      "must be in [-2 pi, 2 pi] and not 0");
-  }
-  if (!(scan.max_range_m > 0.0) || scan.max_range_m > options.max_range_m) {
-    return OutOfRange("scan.max_range_m", scan.max_range_m,
-                      absl::StrCat("must be in (0, ", options.max_range_m, "]"));
-  }
-  return absl::OkStatus();
+  const double step_rad = std::abs(scan.angle_step_rad);
+  const double least_step_rad = beams > 1 ? 1e-9 : 0.0;
+  return Checker()
+      .InRange("scan.start_angle_rad", scan.start_angle_rad, -kMaxAngle_rad, kMaxAngle_rad)
+      .Require(step_rad >= least_step_rad && step_rad <= 2.0 * M_PI, "scan.angle_step_rad",
+               scan.angle_step_rad, "must be in [-2 pi, 2 pi] and not 0")
+      .InRangeAbove("scan.max_range_m", scan.max_range_m, 0.0, options.max_range_m)
+      .status();
 }
 
 absl::Status CheckPayload(const GasReading& gas, const MissionOptions& options) {
-  if (Outside(gas.concentration_ppm, 0.0, options.max_concentration_ppm)) {
-    return OutOfRange("gas.concentration_ppm", gas.concentration_ppm,
-                      absl::StrCat("must be in [0, ", options.max_concentration_ppm, "]"));
-  }
-  if (gas.variance_ppm2 != 0.0 &&
-      Outside(gas.variance_ppm2, kMinVariance_ppm2, kMaxVariance_ppm2)) {
-    return OutOfRange("gas.variance_ppm2", gas.variance_ppm2,
-                      "must be 0 (the mission's model) or in [1e-9, 1e12]");
-  }
-  return absl::OkStatus();
+  const double variance_ppm2 = gas.variance_ppm2;
+  const bool by_model = variance_ppm2 == 0.0;
+  return Checker()
+      .InRange("gas.concentration_ppm", gas.concentration_ppm, 0.0, options.max_concentration_ppm)
+      .Require(
+          by_model || (variance_ppm2 >= kMinVariance_ppm2 && variance_ppm2 <= kMaxVariance_ppm2),
+          "gas.variance_ppm2", variance_ppm2, "must be 0 (the mission's model) or in [1e-9, 1e12]")
+      .status();
 }
 
 absl::Status CheckPayload(const SequenceGap&, const MissionOptions&) { return absl::OkStatus(); }

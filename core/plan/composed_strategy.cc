@@ -71,18 +71,18 @@ absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
       PLUMESCOUT_RETURN_IF_ERROR(PlanLastWayHome(*start.departure, call, plan));
     }
   }
-  Conclude(start.pose.yaw_rad, options_.selection_rule, plan);
+  Conclude(start.pose.yaw_rad, options_, plan);
   return std::move(plan);
 }
 
-void ComposedStrategy::Conclude(double start_yaw_rad, SelectionRule rule,
-                                plumescout::Plan& plan) const {
+void ComposedStrategy::Conclude(double start_yaw_rad, const PlanningOptions& options,
+                                plumescout::Plan& plan) {
   if (plan.chosen >= 0) {
     const Candidate& chosen = plan.candidates[static_cast<std::size_t>(plan.chosen)];
     plan.phase = PhaseOf(chosen.goal.kind);
-    plan.trajectory = TimeTrajectory(chosen.path, start_yaw_rad, options_);
+    plan.trajectory = TimeTrajectory(chosen.path, start_yaw_rad, options);
   }
-  plan.explanation = Explain(plan, rule);
+  plan.explanation = Explain(plan, options);
 }
 
 absl::Status ComposedStrategy::PlanLastWayHome(const Departure& departure, const Call& call,
@@ -162,7 +162,7 @@ plumescout::Plan ComposedStrategy::Incumbent(const Judging& judging, PathResult 
   TakeResults(judging, result, plan);
   RejectOverBudget(judging.query, plan);
   Choose(judging.query.belief, options, NeverStop(), plan);
-  Conclude(judging.departure.yaw_rad, options.selection_rule, plan);
+  Conclude(judging.departure.yaw_rad, options, plan);
   return plan;
 }
 

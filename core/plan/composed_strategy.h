@@ -56,8 +56,9 @@ class ComposedStrategy : public Strategy {
   // The plan that the search would end with now; `plan` is what was known before it.
   plumescout::Plan Incumbent(const Judging& judging, PathResult result,
                              plumescout::Plan plan) const;
-  // What follows from the choice.
-  void Conclude(double start_yaw_rad, SelectionRule rule, plumescout::Plan& plan) const;
+  // What follows from the choice, which was made by `options`.
+  static void Conclude(double start_yaw_rad, const PlanningOptions& options,
+                       plumescout::Plan& plan);
 
   PlanningOptions options_;
   std::unique_ptr<const PathPlanner> paths_;

@@ -10,6 +10,7 @@
 #include "core/grid/escape.h"
 #include "core/grid/flood.h"
 #include "core/plan/paths/shortcut.h"
+#include "core/types/error_reason.h"
 
 namespace plumescout {
 namespace {
@@ -43,8 +44,8 @@ absl::StatusOr<Pose2> StartPose(const Belief& belief, const PlanRequest& request
       absl::StrCat("start = (", pose.x_m, ", ", pose.y_m, ", ", pose.yaw_rad, ")");
   if (!finite) return absl::InvalidArgumentError(absl::StrCat(place, " must be finite"));
   if (!belief.occupancy->Contains(belief.geometry().CellAt(pose.position()))) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("START_OUTSIDE_MAP: ", place, " must be inside the map"));
+    return TypedError(absl::StatusCode::kInvalidArgument, reason::kStartOutsideMap,
+                      absl::StrCat(place, " must be inside the map"));
   }
   return pose;
 }

@@ -30,20 +30,20 @@ std::string Destination(const Goal& goal) {
   return "";
 }
 
-std::string Merit(const Candidate& candidate, SelectionRule rule) {
-  switch (rule) {
+std::string Merit(const Candidate& candidate, const PlanningOptions& options) {
+  switch (options.selection_rule) {
     case SelectionRule::kLeastCost:
       break;
     case SelectionRule::kMeanUcb:
       return absl::StrFormat("greatest mean information, %.2f", candidate.mean_ucb);
     case SelectionRule::kInformationRate:
       if (!candidate.expected_information_nats) break;
-      return absl::StrFormat("most information expected, %.1f nats%s in %.0f s",
-                             *candidate.expected_information_nats,
-                             candidate.goal.kind == GoalKind::kOccupancyFrontier
-                                 ? absl::StrFormat(" and %.0f for what is unseen", kUnseen_nats)
-                                 : "",
-                             candidate.duration_s);
+      return absl::StrFormat(
+          "most information expected, %.1f nats%s in %.0f s", *candidate.expected_information_nats,
+          EndsAtTheUnseen(candidate)
+              ? absl::StrFormat(" and %.3g for what is unseen", options.unseen_information_nats)
+              : "",
+          candidate.duration_s);
   }
   return absl::StrFormat("least cost, %.2f", candidate.cost);
 }
@@ -59,12 +59,12 @@ bool IsWithoutWayHome(const Plan& plan) {
   });
 }
 
-std::string Choice(const Plan& plan, SelectionRule rule) {
+std::string Choice(const Plan& plan, const PlanningOptions& options) {
   const Candidate& chosen = plan.candidates[static_cast<std::size_t>(plan.chosen)];
   std::string text = absl::StrFormat(
       "Drive %.1f m to %s at (%.1f, %.1f): %s, of %d candidates", chosen.length_m,
       Destination(chosen.goal), chosen.goal.position.x_m, chosen.goal.position.y_m,
-      plan.goal_kept ? "kept, for none is better by the margin" : Merit(chosen, rule),
+      plan.goal_kept ? "kept, for none is better by the margin" : Merit(chosen, options),
       plan.candidates.size());
   if (Rejects(plan, RejectionReason::kOverBudget) && chosen.goal.kind == GoalKind::kHome) {
     absl::StrAppend(&text, "; every other goal is beyond the travel budget");
@@ -77,8 +77,8 @@ std::string Choice(const Plan& plan, SelectionRule rule) {
 
 }  // namespace
 
-std::string Explain(const Plan& plan, SelectionRule rule) {
-  if (plan.chosen >= 0) return Choice(plan, rule);
+std::string Explain(const Plan& plan, const PlanningOptions& options) {
+  if (plan.chosen >= 0) return Choice(plan, options);
   if (plan.end == PlanEnd::kMissionComplete && Rejects(plan, RejectionReason::kOverBudget)) {
     return absl::StrCat("Stay: what is left of the travel budget is not enough for any goal, and ",
                         IsWithoutWayHome(plan) ? "there is no way home." : "the robot is home.");

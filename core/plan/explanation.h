@@ -9,7 +9,8 @@
 
 namespace plumescout {
 
-// One sentence for an operator: where the plan leads and why there, or why the robot stays.
-std::string Explain(const Plan& plan, SelectionRule rule);
+// One sentence for an operator: where the plan leads and why there by options.selection, or why the
+// robot stays.
+std::string Explain(const Plan& plan, const PlanningOptions& options);
 
 }  // namespace plumescout

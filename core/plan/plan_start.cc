@@ -6,6 +6,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/plan/plan_seed.h"
+#include "core/types/error_reason.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
@@ -42,8 +43,8 @@ void PutBefore(const std::vector<Point2>& way_out, Candidate& candidate) {
 }
 
 absl::Status StoppedBeforeAnyPath() {
-  return absl::DeadlineExceededError(
-      "DEADLINE_BEFORE_FIRST_PLAN: planning was stopped before any path was found");
+  return TypedError(absl::StatusCode::kDeadlineExceeded, reason::kDeadlineBeforeFirstPlan,
+                    "planning was stopped before any path was found");
 }
 
 }  // namespace plumescout

@@ -18,6 +18,7 @@
 #include "core/plan/sampling/ways.h"
 #include "core/plan/selection/candidate_terms.h"
 #include "core/plan/trajectory_timing.h"
+#include "core/types/error_reason.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
@@ -85,7 +86,7 @@ absl::StatusOr<plumescout::Plan> SamplingStrategy::Plan(const Belief& belief,
   PLUMESCOUT_ASSIGN_OR_RETURN(PlanStart start, BeginPlan(belief, request, options_));
   PLUMESCOUT_RETURN_IF_ERROR(CheckInside(request.robot, start.pose.position()));
   if (!start.departure) {
-    start.plan.explanation = Explain(start.plan, SelectionRule::kLeastCost);
+    start.plan.explanation = Explain(start.plan, options_);
     return std::move(start.plan);
   }
   PLUMESCOUT_RETURN_IF_ERROR(PlanFrom(belief, stop, start));
@@ -111,10 +112,11 @@ absl::Status SamplingStrategy::CheckInside(const RobotId& robot, Point2 place) c
   const bool inside =
       place.x_m >= min.x_m && place.x_m <= max.x_m && place.y_m >= min.y_m && place.y_m <= max.y_m;
   if (inside) return absl::OkStatus();
-  return absl::FailedPreconditionError(absl::StrFormat(
-      "OUTSIDE_REGION: robot \"%s\" at (%.2f, %.2f) is outside planning.sites.region, from "
-      "(%.2f, %.2f) to (%.2f, %.2f)",
-      robot, place.x_m, place.y_m, min.x_m, min.y_m, max.x_m, max.y_m));
+  return TypedError(
+      absl::StatusCode::kFailedPrecondition, reason::kOutsideRegion,
+      absl::StrFormat("robot \"%s\" at (%.2f, %.2f) is outside planning.sites.region, from "
+                      "(%.2f, %.2f) to (%.2f, %.2f)",
+                      robot, place.x_m, place.y_m, min.x_m, min.y_m, max.x_m, max.y_m));
 }
 
 absl::Status SamplingStrategy::PlanFrom(const Belief& belief, const StopFn& stop,
@@ -160,8 +162,8 @@ void SamplingStrategy::Conclude(const SamplingChoice& choice, PlanStart& start) 
   const bool waits = HasReason(plan, RejectionReason::kClaimed);
   plan.end = waits ? PlanEnd::kAllGoalsRejected : PlanEnd::kMissionComplete;
   plan.phase = waits ? choice.phase : MissionPhase::kComplete;
-  plan.explanation = waits ? Explain(plan, SelectionRule::kLeastCost)
-                           : "Stay: no site is left to sample; the mission is complete.";
+  plan.explanation =
+      waits ? Explain(plan, options_) : "Stay: no site is left to sample; the mission is complete.";
 }
 
 }  // namespace plumescout

@@ -21,6 +21,7 @@
 #include "core/plan/selection/candidate_terms.h"
 #include "core/plan/strategy.h"
 #include "core/plan/trajectory_timing.h"
+#include "core/types/error_reason.h"
 
 namespace plumescout {
 namespace {
@@ -188,9 +189,9 @@ absl::Status CheckIsLatest(const Belief& belief, const RobotRecord& robot, PlanI
   for (const auto& [id, record] : belief.robots) newest = std::max(newest, record.last_plan);
   if (plan > newest) return absl::NotFoundError(absl::StrCat("plan ", plan, " was never issued"));
   if (plan == robot.last_plan) return absl::OkStatus();
-  return absl::FailedPreconditionError(absl::StrCat("PLAN_SUPERSEDED: plan ", plan,
-                                                    " is not robot \"", robot.state.id,
-                                                    "\"'s latest, ", robot.last_plan));
+  return TypedError(absl::StatusCode::kFailedPrecondition, reason::kPlanSuperseded,
+                    absl::StrCat("plan ", plan, " is not robot \"", robot.state.id, "\"'s latest, ",
+                                 robot.last_plan));
 }
 
 }  // namespace
@@ -204,8 +205,8 @@ absl::StatusOr<IntendedPath> RestOfPlan(const Belief& belief, const RobotId& rob
   if (absl::Status status = CheckIsLatest(belief, record, plan); !status.ok()) return status;
   if (!record.live_goal || record.live_trajectory == nullptr ||
       record.live_trajectory->waypoints.empty()) {
-    return absl::FailedPreconditionError(
-        absl::StrCat("PLAN_ENDED: plan ", plan, " has nothing left to drive"));
+    return TypedError(absl::StatusCode::kFailedPrecondition, reason::kPlanEnded,
+                      absl::StrCat("plan ", plan, " has nothing left to drive"));
   }
   const Trajectory& live = *record.live_trajectory;
   const double now_s = FindNearest(live, record.state.pose.position())->time_s;

@@ -19,12 +19,28 @@ class Checker {
     }
     return *this;
   }
-  Checker& Positive(absl::string_view field, double value) {
-    if (!(value > 0.0 && std::isfinite(value))) Fail(field, value, "must be > 0 and finite");
+  // Without its lower end.
+  Checker& InRangeAbove(absl::string_view field, double value, double low, double high) {
+    if (!(value > low && value <= high)) {
+      Fail(field, value, absl::StrCat("must be in (", low, ", ", high, "]"));
+    }
     return *this;
   }
+  Checker& Finite(absl::string_view field, double value) {
+    return Require(std::isfinite(value), field, value, "must be finite");
+  }
+  Checker& Positive(absl::string_view field, double value) {
+    return Require(value > 0.0 && std::isfinite(value), field, value, "must be > 0 and finite");
+  }
+  Checker& NotNegative(absl::string_view field, double value) {
+    return Require(value >= 0.0 && std::isfinite(value), field, value, "must be >= 0 and finite");
+  }
   Checker& Negative(absl::string_view field, double value) {
-    if (!(value < 0.0 && std::isfinite(value))) Fail(field, value, "must be < 0 and finite");
+    return Require(value < 0.0 && std::isfinite(value), field, value, "must be < 0 and finite");
+  }
+  // A rule of the caller's own: "must be ...".
+  Checker& Require(bool holds, absl::string_view field, double value, absl::string_view rule) {
+    if (!holds) Fail(field, value, rule);
     return *this;
   }
   // OK, or kInvalidArgument naming field, value and rule.

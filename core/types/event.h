@@ -65,10 +65,18 @@ struct EpochAdopted {
   friend bool operator==(const EpochAdopted&, const EpochAdopted&) = default;
 };
 
+// A robot left the mission for good. Should it come back, it registers anew and goes on with its
+// log.
+struct RobotRemoved {
+  RobotId robot;
+
+  friend bool operator==(const RobotRemoved&, const RobotRemoved&) = default;
+};
+
 // Everything that changes a mission. Recorded events know their kind by its place in this list: new
 // kinds come last.
 using EventBody = std::variant<RobotRegistered, ObservationReceived, PosteriorRefreshed, PlanIssued,
-                               ProgressReported, EpochBegun, EpochAdopted>;
+                               ProgressReported, EpochBegun, EpochAdopted, RobotRemoved>;
 
 // Numbered 1, 2, 3 ...: the number of the last applied event is the mission's revision.
 struct Event {

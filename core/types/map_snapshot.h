@@ -21,6 +21,9 @@ struct RobotState {
   Pose2 pose;
   std::int64_t applied_sequence = 0;
   std::int64_t rejected_observations = 0;
+  // Not heard of for robot_silence_s while others were: it masks no beam, claims no goal and keeps
+  // no mission from completing until it is.
+  bool silent = false;
 
   friend bool operator==(const RobotState&, const RobotState&) = default;
 };
@@ -39,7 +42,7 @@ struct GasCounters {
 struct GasQuality {
   double mean_error_ppm = 0.0;        // no mean is farther from the exact one, beside rounding
   double variance_error_ratio = 0.0;  // nor any variance, as share of the exact one
-  std::int64_t aged_to_ns = 0;        // readings have the precisions of this instant
+  std::int64_t aged_to_ns = 0;        // readings have the precisions of this instant or a later
   double ageing_error_ratio = 0.0;    // variances may be too small by this share for that
   std::int64_t refreshes = 0;         // batches of changes brought into the fields
   std::int64_t epochs = 0;            // recomputations from scratch that were adopted
@@ -49,6 +52,17 @@ struct GasQuality {
   double drift_variance_ratio = 0.0;
 
   friend bool operator==(const GasQuality&, const GasQuality&) = default;
+};
+
+// What audits of the gas posterior found: an independent implementation computed means and
+// variances from the same map and readings. Of this process only: no part of a mission's state.
+struct GasAudits {
+  std::int64_t audits = 0;      // that came to an end
+  double mean_ppm = 0.0;        // largest difference of means at the last one
+  double variance_ratio = 0.0;  // of variances, as share of the independent one
+  std::int64_t alarms = 0;      // found more than was certified; each had the field made anew
+
+  friend bool operator==(const GasAudits&, const GasAudits&) = default;
 };
 
 // A whole map as readers see it at one revision. Off the free cells mean and variance are NaN.
@@ -62,6 +76,7 @@ struct MapSnapshot {
   std::vector<RobotState> robots;
   GasCounters gas_counters;
   GasQuality gas_quality;
+  GasAudits gas_audits;
   MissionPhase phase = MissionPhase::kExploring;
 };
 

@@ -74,6 +74,7 @@ absl::Status Validate(const GasOptions& options) {
                kMinHalfLife_s, kMaxTime_s)
       .InRange("gas.lattice_factor", options.lattice_factor, 1, 16)
       .InRange("gas.refresh_period_s", options.refresh_period_s, 0.01, 3600.0)
+      .InRange("gas.audit_period_epochs", options.audit_period_epochs, 0, 1'000'000)
       .status();
 }
 
@@ -130,7 +131,9 @@ absl::Status Validate(const PlanningOptions& options) {
       .InRange("planning.nearest_sample_count", options.nearest_sample_count, 1, 100)
       .InRange("planning.uniform_share", options.uniform_share, 0.0, 1.0)
       .InRange("planning.radius_factor", options.radius_factor, 0.01, 100.0)
+      .InRange("planning.max_connection_radius_m", options.max_connection_radius_m, 0.0, 1000.0)
       .InRange("planning.reading_rate_hz", options.reading_rate_hz, 0.01, 1000.0)
+      .InRange("planning.unseen_information_nats", options.unseen_information_nats, 0.0, kMaxWeight)
       .InRange("planning.commitment_margin_share", options.commitment_margin_share, 0.0, 1.0)
       .InRange("planning.speed_mps", options.speed_mps, 0.001, 100.0)
       .InRange("planning.dwell_s", options.dwell_s, 0.0, 3600.0)
@@ -194,6 +197,7 @@ absl::Status Validate(const MissionOptions& options) {
       .InRange("max_beam_count", options.max_beam_count, 1, 100'000)
       .InRange("max_concentration_ppm", options.max_concentration_ppm, 1.0, 1e6)
       .InRange("max_robot_count", options.max_robot_count, 1, 1000)
+      .InRange("robot_silence_s", options.robot_silence_s, 1.0, 1e9)
       .InRange("home.x_m", home.x_m, -options.pose_limit_m, options.pose_limit_m)
       .InRange("home.y_m", home.y_m, -options.pose_limit_m, options.pose_limit_m)
       .status();

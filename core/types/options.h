@@ -13,6 +13,7 @@
 #include "core/types/grid.h"
 #include "core/types/polygon.h"
 #include "core/types/pose2.h"
+#include "core/types/rectangle.h"
 
 namespace plumescout {
 
@@ -47,6 +48,9 @@ struct GasOptions {
   // kappa, [0, 10]: a reading z that brings no variance has max(1 / lambda_o, (kappa |z - m_0|)^2),
   // for what gusts do to gas grows with it; 0: 1 / lambda_o whatever it reads. [LHR] section II-A.
   double observation_stddev_share = 0.0;
+  // Servers compare the posterior with an independent one after the first epoch and after every so
+  // many from then on, [0, 1000000]; 0: never.
+  int audit_period_epochs = 30;
 };
 
 // Occupancy and gas frontiers; [XIT] section V.
@@ -92,14 +96,6 @@ enum class SamplingReward {
   kUcb,                           // mu + beta sigma^2, [LHR] section IV
 };
 
-// Axis-parallel, in frame map.
-struct Rectangle {
-  Point2 min;
-  Point2 max;
-
-  friend bool operator==(const Rectangle&, const Rectangle&) = default;
-};
-
 // Sites: the places on a square lattice where the strategies lhr, ipp_reward, random_sampling and
 // sweep have robots stop for dwell_s and sample. One lies in the middle of each square of
 // spacing_m.
@@ -142,7 +138,10 @@ struct PlanningOptions {
   SamplingKind sampling = SamplingKind::kSystematic;
   double radius_factor = 1.1;   // gamma / gamma_RGG, > 0
   bool mixture_radius = false;  // gamma* = epsilon^(-1/2) gamma
-  bool grid_guard = true;       // complete missed goals on the grid
+  // No edge is tried that is longer than this, metres (ours), however few samples there are for the
+  // area, for nearly every such edge of a cluttered map is blocked; 0: no limit (paper); [0, 1000].
+  double max_connection_radius_m = 5.0;
+  bool grid_guard = true;  // complete missed goals on the grid
   // Goal cells are vertices, where paths end (ours); false: paths end at the sample of the goal set
   // that is the cheapest to reach (paper).
   bool goal_vertices = true;
@@ -152,6 +151,11 @@ struct PlanningOptions {
   bool straighten = true;
   // Readings expected along a path when its information is priced, [0.01, 1000].
   double reading_rate_hz = 2.0;
+  // The gas field has no cells behind an occupancy frontier, so what readings there would tell
+  // cannot be priced (ours). Where information is priced it counts as this much, nats, [0, 1e9].
+  // Found by trial with the default precisions, where from 10 to 30 are equal
+  // (docs/decisions/0007-own-strategy.md): with none, rooms that promise little stay unseen.
+  double unseen_information_nats = 20.0;
   // A robot under way keeps its goal unless another is better by more than this share, [0, 1].
   double commitment_margin_share = 0.0;
   double speed_mps = 1.25;     // > 0
@@ -160,7 +164,7 @@ struct PlanningOptions {
   // When no frontier is left, go first to places whose gas is unobserved (ours); false: to random
   // free places only (paper).
   bool fallback_to_unobserved = true;
-  int fallback_limit = 2;  // fruitless fallback trajectories that end the mission
+  int fallback_limit = 2;  // random places reached in vain that end the mission, [1, 1000]
 
   // How trajectories are timed. 0: no limit; else [0.001, 100]. With either limit the robot stops
   // at every corner and turns on the spot.
@@ -188,6 +192,9 @@ struct MissionOptions {
   int max_beam_count = 20'000;   // of any scan
   double max_concentration_ppm = 1e6;
   int max_robot_count = 32;
+  // A robot that is not heard of while the sample time moves on by this much counts as gone until
+  // it is; [1, 1e9].
+  double robot_silence_s = 60.0;
   std::uint64_t seed = 1;
   // Where nobody may drive, though it is sensed and mapped: at most 64, of 3 to 256 vertices each.
   std::vector<Polygon> keep_out;

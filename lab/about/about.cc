@@ -29,12 +29,14 @@ std::string LoadOfLastMinute() {
 
 }  // namespace
 
+std::string CodeVersion() { return PLUMESCOUT_VERSION; }
+
 std::vector<std::pair<std::string, std::string>> AboutThisRun(std::uint64_t seed) {
   return {{"machine", CpuModel()},
           {"load", LoadOfLastMinute()},
           {"build_type", PLUMESCOUT_BUILD_TYPE},
           {"seed", absl::StrCat(seed)},
-          {"version", PLUMESCOUT_VERSION}};
+          {"version", CodeVersion()}};
 }
 
 }  // namespace plumescout::lab

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/bench/bench_summary.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -52,32 +50,6 @@ int RunBench(CLI::App& app, int argc, char** argv,
   if (status.ok()) return EXIT_SUCCESS;
   std::cerr << status << std::endl;
   return EXIT_FAILURE;
-}
-
-double ThreadCpu_ms() {
-  constexpr double kMsPerS = 1e3;
-  constexpr double kMsPerNs = 1e-6;
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) * kMsPerS + static_cast<double>(now.tv_nsec) * kMsPerNs;
-}
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
-
-double MedianCpu_ms(int repeats, const std::function<void()>& run) {
-  run();
-  std::vector<double> times_ms;
-  for (int i = 0; i < repeats; ++i) {
-    const double start_ms = ThreadCpu_ms();
-    run();
-    times_ms.push_back(ThreadCpu_ms() - start_ms);
-  }
-  return Median(std::move(times_ms));
 }
 
 }  // namespace plumescout::lab

@@ -36,13 +36,4 @@ class BenchSummary {
 int RunBench(CLI::App& app, int argc, char** argv,
              const std::function<absl::Status(BenchSummary&)>& body);
 
-// CPU time that the calling thread has used.
-double ThreadCpu_ms();
-
-// Middle value, mean of the two in the middle of an even number; NaN of none.
-double Median(std::vector<double> values);
-
-// Median CPU time of the calling thread over `repeats` runs, after one that warms up.
-double MedianCpu_ms(int repeats, const std::function<void()>& run);
-
 }  // namespace plumescout::lab

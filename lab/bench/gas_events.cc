@@ -132,11 +132,39 @@ FieldEngine GasEvents::Fresh(const FieldTolerance& tolerance) const {
 
 FieldDeviation GasEvents::ErrorOf(const FieldEngine& field) const {
   const FieldEngine fresh = Fresh();
-  FieldDeviation error;
+  std::vector<double> deviation_ppm, variance_ppm2;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     if (!cells_[i].active) continue;
-    const double ratio = field.variance_ppm2(i) / fresh.variance_ppm2(i);
-    error.mean_ppm = std::max(error.mean_ppm, std::abs(field.mean_ppm(i) - fresh.mean_ppm(i)));
+    deviation_ppm.push_back(fresh.mean_ppm(i));
+    variance_ppm2.push_back(fresh.variance_ppm2(i));
+  }
+  return ErrorOf(field, deviation_ppm, variance_ppm2);
+}
+
+Information GasEvents::AsMatrix() const {
+  const auto width = static_cast<int>(width_);
+  GridGeometry geometry;
+  geometry.width = width;
+  geometry.height = static_cast<int>(cells_.size()) / width;
+  Grid<CellState> states(geometry, CellState::kOccupied);
+  std::vector<Evidence> evidence;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    if (!cells_[i].active) continue;
+    states[i] = CellState::kFree;
+    evidence.push_back({cells_[i].precision, cells_[i].weighted_deviation});
+  }
+  return BuildInformation(GmrfGraph(states), evidence, {});
+}
+
+FieldDeviation GasEvents::ErrorOf(const FieldEngine& field, std::span<const double> deviation_ppm,
+                                  std::span<const double> variance_ppm2) const {
+  FieldDeviation error;
+  std::size_t variable = 0;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    if (!cells_[i].active) continue;
+    const double ratio = field.variance_ppm2(i) / variance_ppm2[variable];
+    const double mean_error_ppm = std::abs(field.mean_ppm(i) - deviation_ppm[variable++]);
+    error.mean_ppm = std::max(error.mean_ppm, mean_error_ppm);
     error.variance_ratio = std::max(error.variance_ratio, std::abs(ratio - 1.0));
   }
   return error;

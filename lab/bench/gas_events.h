@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <span>
 #include <vector>
 
 #include "core/gas/field/field_engine.h"
+#include "core/gas/information.h"
 #include "core/types/rng.h"
 
 namespace plumescout::lab {
@@ -34,6 +36,11 @@ class GasEvents {
   FieldEngine Fresh(const FieldTolerance& tolerance = {}) const;
   // Worst difference of `field` from that; on the variance as share.
   FieldDeviation ErrorOf(const FieldEngine& field) const;
+  // The same field as matrices, for other solvers, with its cells' variables in their order.
+  Information AsMatrix() const;
+  // Worst difference of `field` from what such a solver made of that.
+  FieldDeviation ErrorOf(const FieldEngine& field, std::span<const double> deviation_ppm,
+                         std::span<const double> variance_ppm2) const;
 
  private:
   struct Robot {

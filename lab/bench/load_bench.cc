@@ -17,6 +17,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/time/clock.h"
 #include "client/grpc_planner_client.h"
+#include "core/types/quantile.h"
 #include "core/types/status_macros.h"
 #include "lab/bench/bench_summary.h"
 #include "lab/bench/load_robot.h"
@@ -41,14 +42,6 @@ struct LoadFlags {
   double scan_hz = 10.0;
   std::string server_program = SiblingProgram("plumescout-server");
 };
-
-// Nearest rank; NaN of none.
-double Quantile(std::vector<double> values, double share) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(values.begin(), values.end());
-  const double rank = std::ceil(share * static_cast<double>(values.size()));
-  return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
-}
 
 using Team = std::map<RobotId, std::unique_ptr<LoadRobot>>;
 

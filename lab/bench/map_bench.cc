@@ -22,6 +22,7 @@
 #include "core/occupancy/occupancy_grid.h"
 #include "core/occupancy/scan_inserter.h"
 #include "core/types/status_macros.h"
+#include "lab/about/cpu_time.h"
 #include "lab/bench/bench_summary.h"
 #include "lab/worlds/bench_world.h"
 

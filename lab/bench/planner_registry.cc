@@ -19,13 +19,16 @@ PlanningOptions AsPublished(int samples) {
   options.sample_count = samples;
   options.sampling = SamplingKind::kIid;
   options.goal_vertices = false;
+  options.max_connection_radius_m = 0.0;
   return options;
 }
 
 PlanningOptions Mit() {
   PlanningOptions options;
   options.strategy = "mit";
-  return ApplyStrategyRow(options).ok() ? options : PlanningOptions{};
+  if (!ApplyStrategyRow(options).ok()) return {};
+  options.max_connection_radius_m = 0.0;
+  return options;
 }
 
 RegisteredPlanner Ours(std::string name, PathKind kind, int samples) {

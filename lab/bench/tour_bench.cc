@@ -5,7 +5,6 @@
 // in CPU time and as the part of its bar that it takes.
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,33 +13,17 @@
 #include "absl/strings/str_cat.h"
 #include "core/tour/closed_tour.h"
 #include "core/tour/subset_tour.h"
+#include "core/types/quantile.h"
 #include "core/types/rng.h"
 #include "core/types/status_macros.h"
+#include "lab/about/cpu_time.h"
 #include "lab/bench/bench_summary.h"
+#include "lab/worlds/tour_cases.h"
 
 namespace plumescout::lab {
 namespace {
 
-constexpr double kSide_m = 50.0;  // of the region, [LHR] IV
 constexpr int kRepeats = 9;
-
-struct Place {
-  double x_m = 0.0;
-  double y_m = 0.0;
-};
-
-double Distance_m(const Place& a, const Place& b) {
-  return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m);
-}
-
-std::vector<Place> RandomPlaces(int count, Rng& rng) {
-  std::vector<Place> places;
-  for (int i = 0; i < count; ++i) {
-    const double x_m = rng.Uniform(0.0, kSide_m);
-    places.push_back({x_m, rng.Uniform(0.0, kSide_m)});
-  }
-  return places;
-}
 
 absl::Status MeasureSurvey(const std::string& name, const TourGraph& graph, BenchSummary& summary) {
   constexpr double kBar_ms = 1000.0;
@@ -55,19 +38,18 @@ absl::Status MeasureSurvey(const std::string& name, const TourGraph& graph, Benc
 
 // Meshes as in [LHR], whole and without one of their points.
 absl::Status BenchSurveys(BenchSummary& summary) {
-  constexpr double kSpacing_m = 10.0;  // alpha d_res, [LHR] IV
   for (const int side : {6, 8, 10}) {
     std::vector<Cell> points = LatticePoints(side, side);
     const std::string name = absl::StrCat(side, "x", side);
-    PLUMESCOUT_RETURN_IF_ERROR(MeasureSurvey(name, MeshGraph(points, kSpacing_m), summary));
+    PLUMESCOUT_RETURN_IF_ERROR(MeasureSurvey(name, MeshGraph(points, kSurveySpacing_m), summary));
     points.erase(points.begin() + side + 1);
     PLUMESCOUT_RETURN_IF_ERROR(
-        MeasureSurvey(name + "_gap", MeshGraph(points, kSpacing_m), summary));
+        MeasureSurvey(name + "_gap", MeshGraph(points, kSurveySpacing_m), summary));
   }
   return absl::OkStatus();
 }
 
-TourGraph AllPairs(const std::vector<Place>& places) {
+TourGraph AllPairs(const std::vector<Point2>& places) {
   TourGraph graph{static_cast<int>(places.size()), {}};
   for (int a = 0; a < graph.nodes; ++a) {
     for (int b = a + 1; b < graph.nodes; ++b) {
@@ -86,7 +68,7 @@ absl::Status BenchAllPairs(BenchSummary& summary) {
   for (const int count : {36, 64}) {
     std::vector<double> times_ms;
     for (int i = 0; i < kCases; ++i) {
-      const TourGraph graph = AllPairs(RandomPlaces(count, rng));
+      const TourGraph graph = AllPairs(RandomTourPlaces(count, rng));
       const double begin_ms = ThreadCpu_ms();
       PLUMESCOUT_RETURN_IF_ERROR(ShortestClosedTour(graph).status());
       times_ms.push_back(ThreadCpu_ms() - begin_ms);
@@ -98,37 +80,15 @@ absl::Status BenchAllPairs(BenchSummary& summary) {
   return absl::OkStatus();
 }
 
-// Random cells and rewards; the robot in a corner of the region, as in [LHR] IV-B.
-struct SubsetCase {
-  std::vector<double> from_start_m;
-  std::vector<double> between_m;
-  std::vector<double> rewards;
-};
-
-SubsetCase RandomSubsetCase(int cells, Rng& rng) {
-  SubsetCase random;
-  const std::vector<Place> places = RandomPlaces(cells, rng);
-  for (const Place& place : places) {
-    random.from_start_m.push_back(Distance_m({}, place));
-    random.rewards.push_back(rng.Uniform01());
-    for (const Place& other : places) random.between_m.push_back(Distance_m(place, other));
-  }
-  return random;
-}
-
-// [LHR] IV-A: T = 10 of M, 50 s, 2 s each, 5 m/s; and if the cycle is too short for any cell, so
+// [LHR] IV-A: T = 10 of M; and if the cycle is too short for any cell, so
 // that every smaller size is tried too.
 absl::Status BenchSubsets(BenchSummary& summary) {
   constexpr double kBar_ms = 20.0;
   constexpr double kTooShort_s = 1.0;
   for (const int cells : {15, kMaxTourCells}) {
     Rng rng(summary.seed());
-    const SubsetCase random = RandomSubsetCase(cells, rng);
-    SubsetTourProblem problem = {random.from_start_m, random.between_m, random.rewards};
-    problem.wanted = 10;
-    problem.cycle_s = 50.0;
-    problem.sampling_s = 2.0;
-    problem.speed_mps = 5.0;
+    const SubsetTourCase random = RandomSubsetTourCase(cells, rng);
+    SubsetTourProblem problem = random.Problem();
     absl::StatusOr<SubsetTour> tour;
     const auto run = [&] { tour = BestSubsetTour(problem); };
     const std::string name = absl::StrCat("subsets_", problem.wanted, "_of_", cells);

@@ -17,6 +17,8 @@
 namespace plumescout::lab {
 namespace {
 
+constexpr std::int64_t kStartNumber = 0;  // events of a mission count from 1
+
 template <typename T>
 concept Number = std::is_arithmetic_v<T> && !std::same_as<T, bool>;
 
@@ -190,6 +192,10 @@ void Visit(auto& archive, Is<EpochBegun> auto& event) {
 void Visit(auto&, Is<EpochAdopted> auto&) {
   static_assert(std::is_empty_v<EpochAdopted>);  // no members, so no binding to name them in
 }
+void Visit(auto& archive, Is<RobotRemoved> auto& event) {
+  auto& [robot] = event;
+  archive(robot);
+}
 void Visit(auto& archive, Is<Event> auto& event) {
   auto& [number, body] = event;
   archive(number, body);
@@ -329,6 +335,24 @@ absl::StatusOr<Event> DecodeEvent(absl::string_view bytes) {
   decoder(event);
   if (!decoder.Finished()) return absl::DataLossError("the event does not decode");
   return event;
+}
+
+std::string EncodeStart(const RecordingStart& start) {
+  std::string bytes;
+  Encoder encoder(bytes);
+  encoder(kStartNumber, start.code_version, start.mission_options);
+  return bytes;
+}
+
+absl::StatusOr<RecordingStart> DecodeStart(absl::string_view bytes) {
+  std::int64_t number = -1;
+  RecordingStart start;
+  Decoder decoder(bytes);
+  decoder(number, start.code_version, start.mission_options);
+  if (!decoder.Finished() || number != kStartNumber) {
+    return absl::DataLossError("the mission's options do not decode");
+  }
+  return start;
 }
 
 }  // namespace plumescout::lab

@@ -3,20 +3,18 @@
 #include "lab/local/local_mission.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
+#include "core/mission/conduct/commit_race.h"
+#include "core/mission/conduct/ingest.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout::lab {
 namespace {
 
-constexpr int kMaxConflicts = 1;  // searches after the first that lost a race for a goal
-
-// A robot that no observation has reached may have no log yet.
-std::int64_t AppliedSequence(const Mission& mission, const RobotId& robot) {
-  return mission.AppliedSequence(robot).value_or(0);
-}
+// The process never restarts under its clients: tokens may start anywhere.
+constexpr std::int64_t kFirstLeaseToken = 1;
 
 }  // namespace
 
@@ -30,56 +28,58 @@ absl::StatusOr<std::shared_ptr<LocalMission>> LocalMission::Create(const Mission
 
 LocalMission::LocalMission(std::unique_ptr<Mission> mission,
                            std::unique_ptr<const Strategy> strategy, const LocalOptions& options)
-    : options_(options), strategy_(std::move(strategy)), mission_(std::move(mission)) {}
+    : options_(options),
+      strategy_(std::move(strategy)),
+      conduct_(std::move(mission), this),
+      leases_(absl::ToInt64Nanoseconds(options.lease_hold), kFirstLeaseToken) {}
 
-absl::StatusOr<client::RobotSession> LocalMission::Register(const RobotRegistered& robot,
-                                                            bool take_over) {
+void LocalMission::OnEvent(const Event& event, const Applied&) {
+  if (options_.on_event) options_.on_event(event);
+}
+
+absl::StatusOr<client::RobotSession> LocalMission::Register(const Registration& wish) {
   absl::MutexLock lock(&mutex_);
-  const auto held = leases_.find(robot.robot);
-  if (held != leases_.end() && !take_over) {
-    const bool used = options_.clock() - held->second.last_use < options_.lease_hold;
-    if (held->second.stream != 0 || used) {
-      return absl::FailedPreconditionError(
-          absl::StrCat("LEASE_HELD: another client writes the log of robot \"", robot.robot, "\""));
-    }
-  }
-  RobotRegistered granted = robot;
-  granted.lease_token = last_token_ + 1;
-  PLUMESCOUT_RETURN_IF_ERROR(Apply(granted).status());
-  ++last_token_;
-  leases_[robot.robot] = {.last_use = options_.clock(), .stream = 0};
+  PLUMESCOUT_RETURN_IF_ERROR(closed_);
+  LeasesAt leases(leases_, Now_ns());
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Registered registered, conduct_.Register(wish, leases));
   client::RobotSession session;
-  session.robot = robot.robot;
-  session.lease_token = last_token_;
-  session.ingest = State(robot.robot);
+  session.robot = wish.robot;
+  session.lease_token = registered.lease_token;
+  session.ingest = State(registered.position);
   return session;
 }
 
-absl::StatusOr<std::int64_t> LocalMission::OpenStream(const RobotId& robot,
-                                                      std::int64_t lease_token) {
+absl::Status LocalMission::Remove(const Removal& wish) {
   absl::MutexLock lock(&mutex_);
-  PLUMESCOUT_RETURN_IF_ERROR(CheckLease(robot, lease_token));
-  leases_[robot].stream = ++last_stream_;
-  return last_stream_;
+  PLUMESCOUT_RETURN_IF_ERROR(closed_);
+  LeasesAt leases(leases_, Now_ns());
+  return conduct_.Remove(wish, leases).status();
+}
+
+absl::StatusOr<StreamId> LocalMission::OpenStream(const RobotId& robot, std::int64_t lease_token) {
+  absl::MutexLock lock(&mutex_);
+  PLUMESCOUT_RETURN_IF_ERROR(closed_);
+  PLUMESCOUT_ASSIGN_OR_RETURN(const LeaseBook::OpenedStream opened,
+                              leases_.OpenStream(robot, lease_token, Now_ns()));
+  return opened.stream;
 }
 
 absl::StatusOr<client::IngestState> LocalMission::StreamState(const RobotId& robot,
                                                               std::int64_t lease_token,
-                                                              std::int64_t stream) {
+                                                              StreamId stream) const {
   absl::MutexLock lock(&mutex_);
   PLUMESCOUT_RETURN_IF_ERROR(CheckStream(robot, lease_token, stream));
-  return State(robot);
+  PLUMESCOUT_ASSIGN_OR_RETURN(const LogPosition position, conduct_.Position(robot));
+  return State(position);
 }
 
-void LocalMission::CloseStream(const RobotId& robot, std::int64_t stream) {
+void LocalMission::CloseStream(const RobotId& robot, StreamId stream) {
   absl::MutexLock lock(&mutex_);
-  const auto lease = leases_.find(robot);
-  if (lease == leases_.end() || lease->second.stream != stream) return;
-  lease->second = {.last_use = options_.clock(), .stream = 0};
+  leases_.CloseStream(robot, stream, Now_ns());
 }
 
 absl::Status LocalMission::AwaitStreamEnd(const RobotId& robot, std::int64_t lease_token,
-                                          std::int64_t stream, absl::Duration timeout) {
+                                          StreamId stream, absl::Duration timeout) {
   absl::MutexLock lock(&mutex_);
   const auto ended = [&]() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
     return !CheckStream(robot, lease_token, stream).ok();
@@ -90,47 +90,39 @@ absl::Status LocalMission::AwaitStreamEnd(const RobotId& robot, std::int64_t lea
   return CheckStream(robot, lease_token, stream);
 }
 
-absl::Status LocalMission::Ingest(const RobotId& robot, std::int64_t lease_token,
-                                  std::int64_t stream, const std::vector<Observation>& batch,
+absl::Status LocalMission::Ingest(const RobotId& robot, std::int64_t lease_token, StreamId stream,
+                                  const std::vector<Observation>& batch,
                                   std::vector<client::ObservationRejected>& rejected) {
+  std::vector<IncomingObservation> incoming;
+  incoming.reserve(batch.size());
+  for (const Observation& observation : batch) incoming.push_back({observation, absl::OkStatus()});
   absl::MutexLock lock(&mutex_);
   PLUMESCOUT_RETURN_IF_ERROR(CheckStream(robot, lease_token, stream));
-  const std::int64_t credit = State(robot).credit_sequence;
-  for (const Observation& observation : batch) {
-    if (observation.sequence > credit) {
-      return absl::ResourceExhaustedError(absl::StrCat(
-          "CREDIT_EXCEEDED: sequence ", observation.sequence, " is beyond the credit, ", credit));
-    }
-    PLUMESCOUT_RETURN_IF_ERROR(IngestOne(robot, observation, rejected));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const LogPosition position, conduct_.Position(robot));
+  PLUMESCOUT_RETURN_IF_ERROR(
+      CheckCredit(incoming, CreditSequence(position, options_.credit_window)));
+  IngestResult result = conduct_.Ingest(robot, lease_token, std::move(incoming));
+  for (RefusedObservation& refused : result.refused) {
+    rejected.push_back({refused.sequence, std::move(refused.status)});
   }
-  return absl::OkStatus();
-}
-
-// An error if the log cannot go on.
-absl::Status LocalMission::IngestOne(const RobotId& robot, const Observation& observation,
-                                     std::vector<client::ObservationRejected>& rejected) {
-  absl::StatusOr<Applied> applied = Apply(ObservationReceived{robot, observation});
-  if (absl::IsAlreadyExists(applied.status())) return absl::OkStatus();
-  PLUMESCOUT_RETURN_IF_ERROR(applied.status());
-  if (!applied->observation.ok()) {
-    rejected.push_back({observation.sequence, std::move(applied->observation)});
-  }
-  return KeepGasUp();
+  return result.status;
 }
 
 absl::StatusOr<Plan> LocalMission::NextPlan(const client::PlanQuery& query) {
   const absl::Time deadline = options_.clock() + query.timeout;
   const absl::Duration budget =
       query.budget > absl::ZeroDuration() ? query.budget : options_.default_budget;
-  for (int conflicts = 0;; ++conflicts) {
+  for (CommitRace race;;) {
     PLUMESCOUT_ASSIGN_OR_RETURN(const std::shared_ptr<const Belief> belief,
                                 BeliefFor(query, deadline));
     const absl::Time stop_at = std::min(options_.clock() + budget, deadline);
     PLUMESCOUT_ASSIGN_OR_RETURN(Plan plan, strategy_->Plan(*belief, query.request, [&] {
       return options_.clock() >= stop_at;
     }));
-    const absl::StatusOr<PlanId> id = Commit(plan, query.lease_token);
-    if (absl::IsAborted(id.status()) && conflicts < kMaxConflicts) continue;
+    absl::MutexLock lock(&mutex_);
+    PLUMESCOUT_RETURN_IF_ERROR(closed_);
+    const absl::StatusOr<PlanId> id = conduct_.Commit(plan, query.lease_token);
+    if (race.SearchAgainAfter(id.status())) continue;
     PLUMESCOUT_RETURN_IF_ERROR(id.status());
     plan.id = *id;
     return plan;
@@ -139,106 +131,59 @@ absl::StatusOr<Plan> LocalMission::NextPlan(const client::PlanQuery& query) {
 
 absl::StatusOr<std::shared_ptr<const Belief>> LocalMission::BeliefFor(
     const client::PlanQuery& query, absl::Time deadline) {
+  const BeliefWish wish{.robot = query.request.robot,
+                        .min_applied_sequence = query.min_applied_sequence,
+                        .lease_token = query.lease_token};
   absl::MutexLock lock(&mutex_);
-  const RobotId& robot = query.request.robot;
-  PLUMESCOUT_RETURN_IF_ERROR(CheckLease(robot, query.lease_token));
+  PLUMESCOUT_RETURN_IF_ERROR(UseLease(wish.robot, query.lease_token));
   const auto settled = [&]() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
-    return AppliedSequence(*mission_, robot) >= query.min_applied_sequence ||
-           !CheckLease(robot, query.lease_token).ok();
+    return !closed_.ok() || conduct_.Verdict(wish).has_value();
   };
-  if (!mutex_.AwaitWithTimeout(absl::Condition(&settled), deadline - options_.clock())) {
-    return absl::DeadlineExceededError(absl::StrCat("observation ", query.min_applied_sequence,
-                                                    " is not applied yet: the log ends at ",
-                                                    AppliedSequence(*mission_, robot)));
-  }
-  PLUMESCOUT_RETURN_IF_ERROR(CheckLease(robot, query.lease_token));
-  return RefreshedBelief();
-}
-
-absl::StatusOr<PlanId> LocalMission::Commit(const Plan& plan, std::int64_t lease_token) {
-  absl::MutexLock lock(&mutex_);
-  PLUMESCOUT_RETURN_IF_ERROR(CheckLease(plan.robot, lease_token));
-  PLUMESCOUT_ASSIGN_OR_RETURN(const Applied applied, Apply(PlanIssued{plan}));
-  return applied.plan_id;
+  mutex_.AwaitWithTimeout(absl::Condition(&settled), deadline - options_.clock());
+  PLUMESCOUT_RETURN_IF_ERROR(closed_);
+  const std::optional<absl::Status> verdict = conduct_.Verdict(wish);
+  if (!verdict.has_value()) return conduct_.WaitedInVain(wish);
+  PLUMESCOUT_RETURN_IF_ERROR(*verdict);
+  return conduct_.BeliefFor(wish);
 }
 
 absl::Status LocalMission::Report(const ProgressReported& report, std::int64_t lease_token) {
   absl::MutexLock lock(&mutex_);
-  PLUMESCOUT_RETURN_IF_ERROR(CheckLease(report.robot, lease_token));
-  const absl::Status status = Apply(report).status();
-  return absl::IsAlreadyExists(status) ? absl::OkStatus() : status;
+  PLUMESCOUT_RETURN_IF_ERROR(UseLease(report.robot, lease_token));
+  return conduct_.Report(report, lease_token).status();
 }
 
 absl::StatusOr<std::shared_ptr<const Belief>> LocalMission::FreshBelief() {
   absl::MutexLock lock(&mutex_);
-  return RefreshedBelief();
+  return conduct_.FreshBelief();
 }
 
 std::shared_ptr<const Belief> LocalMission::Snapshot() const {
   absl::MutexLock lock(&mutex_);
-  return mission_->Snapshot();
+  return conduct_.Snapshot();
 }
 
-void LocalMission::Close() {
+void LocalMission::Close(const absl::Status& status) {
   absl::MutexLock lock(&mutex_);
-  closed_ = true;
+  closed_ = status;
 }
 
-absl::StatusOr<std::shared_ptr<const Belief>> LocalMission::RefreshedBelief() {
-  if (mission_->posterior_stale()) PLUMESCOUT_RETURN_IF_ERROR(Refresh());
-  return mission_->Snapshot();
-}
-
-absl::Status LocalMission::KeepGasUp() {
-  if (mission_->adoption_due()) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(const Applied applied, Apply(EpochAdopted{}));
-    PLUMESCOUT_RETURN_IF_ERROR(applied.posterior);
-  }
-  if (mission_->refresh_due()) PLUMESCOUT_RETURN_IF_ERROR(Refresh());
-  if (!mission_->epoch_due()) return absl::OkStatus();
-  return Apply(EpochBegun{mission_->sample_time_ns()}).status();
-}
-
-absl::Status LocalMission::Refresh() {
-  PLUMESCOUT_ASSIGN_OR_RETURN(const Applied applied,
-                              Apply(PosteriorRefreshed{mission_->sample_time_ns()}));
-  return applied.posterior;
-}
-
-absl::StatusOr<Applied> LocalMission::Apply(EventBody body) {
-  PLUMESCOUT_ASSIGN_OR_RETURN(Applied applied, mission_->Apply(body));
-  if (options_.on_event) options_.on_event({applied.revision, std::move(body)});
-  return applied;
-}
-
-absl::Status LocalMission::CheckLease(const RobotId& robot, std::int64_t lease_token) {
-  if (closed_) return absl::NotFoundError("MISSION_NOT_FOUND: the mission is deleted");
-  const auto lease = leases_.find(robot);
-  if (lease == leases_.end()) {
-    return absl::NotFoundError(absl::StrCat("ROBOT_NOT_FOUND: robot \"", robot, "\""));
-  }
-  if (mission_->LeaseToken(robot).value_or(0) != lease_token) {
-    return absl::FailedPreconditionError(absl::StrCat(
-        "LEASE_SUPERSEDED: a newer registration writes the log of robot \"", robot, "\""));
-  }
-  lease->second.last_use = options_.clock();
-  return absl::OkStatus();
+absl::Status LocalMission::UseLease(const RobotId& robot, std::int64_t lease_token) {
+  PLUMESCOUT_RETURN_IF_ERROR(closed_);
+  return leases_.Use(robot, lease_token, Now_ns());
 }
 
 absl::Status LocalMission::CheckStream(const RobotId& robot, std::int64_t lease_token,
-                                       std::int64_t stream) {
-  PLUMESCOUT_RETURN_IF_ERROR(CheckLease(robot, lease_token));
-  if (leases_[robot].stream == stream) return absl::OkStatus();
-  return absl::AbortedError(
-      absl::StrCat("STREAM_REPLACED: a newer stream took over the log of robot \"", robot, "\""));
+                                       StreamId stream) const {
+  PLUMESCOUT_RETURN_IF_ERROR(closed_);
+  return leases_.CheckStream(robot, lease_token, stream);
 }
 
-client::IngestState LocalMission::State(const RobotId& robot) const {
-  const std::int64_t applied = AppliedSequence(*mission_, robot);
-  return {.applied_sequence = applied,
+client::IngestState LocalMission::State(const LogPosition& position) const {
+  return {.applied_sequence = position.applied_sequence,
           .durable_sequence = 0,  // nothing here survives the process
-          .credit_sequence = applied + options_.credit_window,
-          .revision = mission_->revision()};
+          .credit_sequence = CreditSequence(position, options_.credit_window),
+          .revision = position.revision};
 }
 
 }  // namespace plumescout::lab

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <vector>
 
@@ -15,6 +14,9 @@
 #include "absl/time/time.h"
 #include "client/planner_client.h"
 #include "core/belief/belief.h"
+#include "core/mission/conduct/conduct_observer.h"
+#include "core/mission/conduct/lease_book.h"
+#include "core/mission/conduct/mission_conduct.h"
 #include "core/mission/mission.h"
 #include "core/plan/paths/path_planners.h"
 #include "core/plan/strategy.h"
@@ -32,9 +34,9 @@ struct LocalOptions {
   std::function<void(const Event&)> on_event = nullptr;
 };
 
-// One mission with its leases, behind one mutex; searches for plans run outside it, on the caller's
-// thread. The same rules as the server's. Thread-safe.
-class LocalMission {
+// The conduct of one mission and its leases, behind one mutex; searches for plans run outside it,
+// on the caller's thread. Thread-safe.
+class LocalMission final : private ConductObserver {
  public:
   // kInvalidArgument if the options are invalid.
   static absl::StatusOr<std::shared_ptr<LocalMission>> Create(const MissionOptions& mission,
@@ -44,20 +46,23 @@ class LocalMission {
                const LocalOptions& options);
 
   // The session's mission and boot id are left to the caller.
-  absl::StatusOr<client::RobotSession> Register(const RobotRegistered& robot, bool take_over);
+  absl::StatusOr<client::RobotSession> Register(const Registration& wish);
+
+  // Its streams have ended with ROBOT_NOT_FOUND.
+  absl::Status Remove(const Removal& wish);
 
   // A stream ends the robot's earlier one. Returns its number.
-  absl::StatusOr<std::int64_t> OpenStream(const RobotId& robot, std::int64_t lease_token);
+  absl::StatusOr<StreamId> OpenStream(const RobotId& robot, std::int64_t lease_token);
   // The state of an open stream, or why it has ended.
   absl::StatusOr<client::IngestState> StreamState(const RobotId& robot, std::int64_t lease_token,
-                                                  std::int64_t stream);
-  void CloseStream(const RobotId& robot, std::int64_t stream);
+                                                  StreamId stream) const;
+  void CloseStream(const RobotId& robot, StreamId stream);
   // Waits until the stream has ended; kDeadlineExceeded if it has not in time.
-  absl::Status AwaitStreamEnd(const RobotId& robot, std::int64_t lease_token, std::int64_t stream,
+  absl::Status AwaitStreamEnd(const RobotId& robot, std::int64_t lease_token, StreamId stream,
                               absl::Duration timeout);
 
   // Applies a batch in order; observations that the mission refuses are added to `rejected`.
-  absl::Status Ingest(const RobotId& robot, std::int64_t lease_token, std::int64_t stream,
+  absl::Status Ingest(const RobotId& robot, std::int64_t lease_token, StreamId stream,
                       const std::vector<Observation>& batch,
                       std::vector<client::ObservationRejected>& rejected);
 
@@ -67,42 +72,28 @@ class LocalMission {
   absl::StatusOr<std::shared_ptr<const Belief>> FreshBelief();
   std::shared_ptr<const Belief> Snapshot() const;
 
-  // Every call fails and every stream has ended from now on.
-  void Close();
+  // From now on every call of a robot fails with `status`, and every stream has ended so.
+  void Close(const absl::Status& status);
 
  private:
-  struct Lease {
-    absl::Time last_use;
-    std::int64_t stream = 0;  // open; 0: none
-  };
+  void OnEvent(const Event& event, const Applied& applied) override;
 
-  absl::StatusOr<Applied> Apply(EventBody body) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  absl::Status CheckLease(const RobotId& robot, std::int64_t lease_token)
+  std::int64_t Now_ns() const { return absl::ToUnixNanos(options_.clock()); }
+  absl::Status UseLease(const RobotId& robot, std::int64_t lease_token)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  absl::Status CheckStream(const RobotId& robot, std::int64_t lease_token, std::int64_t stream)
+  absl::Status CheckStream(const RobotId& robot, std::int64_t lease_token, StreamId stream) const
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  client::IngestState State(const RobotId& robot) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  absl::Status IngestOne(const RobotId& robot, const Observation& observation,
-                         std::vector<client::ObservationRejected>& rejected)
-      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  absl::StatusOr<std::shared_ptr<const Belief>> RefreshedBelief()
-      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  // What is due to the gas posterior, in the order in which servers do it.
-  absl::Status KeepGasUp() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  absl::Status Refresh() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  client::IngestState State(const LogPosition& position) const;
   absl::StatusOr<std::shared_ptr<const Belief>> BeliefFor(const client::PlanQuery& query,
                                                           absl::Time deadline);
-  absl::StatusOr<PlanId> Commit(const Plan& plan, std::int64_t lease_token);
 
   const LocalOptions options_;
   const std::unique_ptr<const Strategy> strategy_;
 
   mutable absl::Mutex mutex_;
-  std::unique_ptr<Mission> mission_ ABSL_PT_GUARDED_BY(mutex_);
-  std::map<RobotId, Lease> leases_ ABSL_GUARDED_BY(mutex_);
-  std::int64_t last_token_ ABSL_GUARDED_BY(mutex_) = 0;
-  std::int64_t last_stream_ ABSL_GUARDED_BY(mutex_) = 0;
-  bool closed_ ABSL_GUARDED_BY(mutex_) = false;
+  MissionConduct conduct_ ABSL_GUARDED_BY(mutex_);
+  LeaseBook leases_ ABSL_GUARDED_BY(mutex_);
+  absl::Status closed_ ABSL_GUARDED_BY(mutex_);  // OK: it is open
 };
 
 }  // namespace plumescout::lab

@@ -3,9 +3,10 @@
 #include "lab/local/local_planner_client.h"
 
 #include <deque>
+#include <optional>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
+#include "core/mission/conduct/conduct_errors.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout::lab {
@@ -17,7 +18,7 @@ constexpr char kBootId[] = "local";
 class LocalObservationStream final : public client::ObservationStream {
  public:
   LocalObservationStream(std::shared_ptr<LocalMission> mission, const client::RobotSession& session,
-                         std::int64_t stream, const client::IngestState& opened)
+                         StreamId stream, const client::IngestState& opened)
       : mission_(std::move(mission)),
         robot_(session.robot),
         lease_token_(session.lease_token),
@@ -61,7 +62,7 @@ class LocalObservationStream final : public client::ObservationStream {
   const std::shared_ptr<LocalMission> mission_;
   const RobotId robot_;
   const std::int64_t lease_token_;
-  const std::int64_t stream_;
+  const StreamId stream_;
   const client::IngestState opened_;
   std::deque<client::IngestReply> replies_;
   absl::Status ended_;
@@ -76,7 +77,7 @@ absl::Status LocalPlannerClient::CreateMission(const MissionId& mission,
                               LocalMission::Create(options, options_));
   absl::MutexLock lock(&mutex_);
   if (!missions_.emplace(mission, std::move(created)).second) {
-    return absl::AlreadyExistsError(absl::StrCat("MISSION_EXISTS: missions/", mission));
+    return MissionExists(mission);
   }
   return absl::OkStatus();
 }
@@ -90,7 +91,7 @@ absl::StatusOr<std::vector<MissionId>> LocalPlannerClient::ListMissions() {
 
 absl::Status LocalPlannerClient::DeleteMission(const MissionId& mission) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::shared_ptr<LocalMission> found, Find(mission));
-  found->Close();
+  found->Close(MissionNotFound(mission));
   absl::MutexLock lock(&mutex_);
   missions_.erase(mission);
   return absl::OkStatus();
@@ -103,16 +104,22 @@ absl::StatusOr<client::RobotSession> LocalPlannerClient::RegisterRobot(const Mis
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::shared_ptr<LocalMission> found, Find(mission));
   PLUMESCOUT_ASSIGN_OR_RETURN(
       client::RobotSession session,
-      found->Register({.robot = robot, .radius_m = radius_m, .lease_token = 0}, take_over));
+      found->Register({.robot = robot, .radius_m = radius_m, .take_over = take_over}));
   session.mission = mission;
   session.server_boot_id = kBootId;
   return session;
 }
 
+absl::Status LocalPlannerClient::RemoveRobot(const MissionId& mission, const RobotId& robot,
+                                             std::int64_t lease_token, bool force) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::shared_ptr<LocalMission> found, Find(mission));
+  return found->Remove({robot, force ? std::nullopt : std::optional(lease_token)});
+}
+
 absl::StatusOr<std::unique_ptr<client::ObservationStream>>
 LocalPlannerClient::OpenObservationStream(const client::RobotSession& session) {
   PLUMESCOUT_ASSIGN_OR_RETURN(std::shared_ptr<LocalMission> mission, Find(session.mission));
-  PLUMESCOUT_ASSIGN_OR_RETURN(const std::int64_t stream,
+  PLUMESCOUT_ASSIGN_OR_RETURN(const StreamId stream,
                               mission->OpenStream(session.robot, session.lease_token));
   PLUMESCOUT_ASSIGN_OR_RETURN(const client::IngestState opened,
                               mission->StreamState(session.robot, session.lease_token, stream));
@@ -148,9 +155,7 @@ absl::StatusOr<std::shared_ptr<LocalMission>> LocalPlannerClient::Find(
     const MissionId& mission) const {
   absl::MutexLock lock(&mutex_);
   const auto found = missions_.find(mission);
-  if (found == missions_.end()) {
-    return absl::NotFoundError(absl::StrCat("MISSION_NOT_FOUND: missions/", mission));
-  }
+  if (found == missions_.end()) return MissionNotFound(mission);
   return found->second;
 }
 

@@ -25,6 +25,8 @@ class LocalPlannerClient final : public client::PlannerClient {
   absl::Status DeleteMission(const MissionId& mission) override;
   absl::StatusOr<client::RobotSession> RegisterRobot(const MissionId& mission, const RobotId& robot,
                                                      double radius_m, bool take_over) override;
+  absl::Status RemoveRobot(const MissionId& mission, const RobotId& robot, std::int64_t lease_token,
+                           bool force) override;
   absl::StatusOr<std::unique_ptr<client::ObservationStream>> OpenObservationStream(
       const client::RobotSession& session) override;
   absl::StatusOr<Plan> NextBestTrajectory(const MissionId& mission,

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
@@ -22,26 +23,39 @@ namespace {
 
 struct ExperimentArguments {
   std::string name;
-  std::string out;  // empty: out/NAME
+  std::string out;      // empty: out/NAME
+  std::string summary;  // empty: none but summary.json of the folder
   ExperimentOptions options;
 };
 
 constexpr char kAll[] = "all";
 
-absl::Status MakeExperiment(const std::string& name, const std::string& out,
-                            ExperimentOptions options) {
+// The summary of what was found.
+absl::StatusOr<Summary> MakeExperiment(const std::string& name, const std::string& out,
+                                       ExperimentOptions options) {
   ProgressLine progress(absl::Seconds(2));
   const absl::Time start = absl::Now();
   options.folder = out;
   options.progress = [&](double share) {
     progress.Show(absl::StrCat(ProgressWithTimeLeft(share, absl::Now() - start), "  ", name));
   };
-  PLUMESCOUT_ASSIGN_OR_RETURN(const Study study, RunExperiment(name, options));
+  PLUMESCOUT_ASSIGN_OR_RETURN(Study study, RunExperiment(name, options));
+  study.summary.figures.emplace_back("wall_s", absl::ToDoubleSeconds(absl::Now() - start));
   PLUMESCOUT_RETURN_IF_ERROR(WriteStudy(study, out));
   progress.Finish(absl::StrFormat("%s: done in %.1f s", study.figures.title,
                                   absl::ToDoubleSeconds(absl::Now() - start)));
   std::cout << out << "/report.html" << std::endl;
-  return absl::OkStatus();
+  return std::move(study.summary);
+}
+
+// Figures of many experiments in one object: "xit_fig3_shortest_m".
+void Append(const Summary& summary, const std::string& name, Summary& all) {
+  for (const auto& [figure, value] : summary.figures) {
+    all.figures.emplace_back(absl::StrCat(name, "_", figure), value);
+  }
+  for (const auto& [what, text] : summary.about) {
+    all.about.emplace_back(absl::StrCat(name, "_", what), text);
+  }
 }
 
 absl::Status MakeExperiments(const ExperimentArguments& arguments) {
@@ -49,12 +63,18 @@ absl::Status MakeExperiments(const ExperimentArguments& arguments) {
   const std::string out = !arguments.out.empty() ? arguments.out
                           : all                  ? "out"
                                                  : absl::StrCat("out/", arguments.name);
-  if (!all) return MakeExperiment(arguments.name, out, arguments.options);
-  for (const std::string& name : ExperimentNames()) {
-    PLUMESCOUT_RETURN_IF_ERROR(
-        MakeExperiment(name, absl::StrCat(out, "/", name), arguments.options));
+  Summary summary;
+  if (all) {
+    for (const std::string& name : ExperimentNames()) {
+      PLUMESCOUT_ASSIGN_OR_RETURN(
+          const Summary one, MakeExperiment(name, absl::StrCat(out, "/", name), arguments.options));
+      Append(one, name, summary);
+    }
+  } else {
+    PLUMESCOUT_ASSIGN_OR_RETURN(summary, MakeExperiment(arguments.name, out, arguments.options));
   }
-  return absl::OkStatus();
+  if (arguments.summary.empty()) return absl::OkStatus();
+  return WriteSummary(summary, arguments.summary);
 }
 
 }  // namespace
@@ -73,6 +93,8 @@ void AddExperimentCommand(CLI::App& app, absl::Status& status) {
   experiment->add_option("--out", arguments->out,
                          "Folder for results (default: out/NAME). Studies of many trials keep "
                          "each there, and go on from what they find");
+  experiment->add_option("--summary", arguments->summary,
+                         "Write the figures to this JSON file too; of all, NAME_ before each");
   experiment->add_option("--trials", options.trials, "Trials of each row (default: the paper's)")
       ->check(CLI::PositiveNumber);
   experiment

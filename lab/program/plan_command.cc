@@ -16,12 +16,12 @@
 #include "core/plan/strategy.h"
 #include "core/types/status_macros.h"
 #include "formats/file_io.h"
-#include "lab/formats/png.h"
 #include "lab/program/plan_json.h"
 #include "lab/program/planning_step.h"
 #include "lab/program/progress_line.h"
 #include "lab/program/recording.h"
 #include "lab/report/plan_sheet.h"
+#include "lab/report/png.h"
 
 namespace plumescout::lab {
 namespace {
@@ -57,7 +57,7 @@ PlanPicture MakePicture(const PlanningStep& step) {
 absl::Status DrawPlan(const PlanArguments& arguments) {
   ProgressLine progress(absl::Seconds(2));
   PLUMESCOUT_ASSIGN_OR_RETURN(const Recording recording, ReadRecording(arguments.belief));
-  if (!recording.end.ok()) std::cerr << recording.end.message() << "\n";
+  std::cerr << Remarks(recording);
   constexpr int kSteps = 200;  // of the progress line
   int shown = -1;
   const absl::Time start = absl::Now();

@@ -11,6 +11,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/types/status_macros.h"
 #include "formats/file_io.h"
+#include "lab/about/about.h"
 #include "proto/convert/options.h"
 
 namespace plumescout::lab {
@@ -19,24 +20,22 @@ namespace {
 // A prior map of 16 million cells at worst, deflated, in base 64.
 constexpr std::uint64_t kMaxOptionsBytes = std::uint64_t{1} << 25;
 
+// Of recordings that do not hold their options.
 std::string OptionsPath(const std::string& path) { return absl::StrCat(path, ".options.json"); }
 
-absl::Status WriteOptions(const MissionOptions& options, const std::string& path) {
-  google::protobuf::util::JsonPrintOptions style;
-  style.add_whitespace = true;
-  style.preserve_proto_field_names = true;
-  std::string json;
-  if (!google::protobuf::util::MessageToJsonString(ToProto(options), &json, style).ok()) {
-    return absl::InternalError(absl::StrCat(path, ": options could not be written as JSON"));
-  }
-  return WriteFile(path, json);
-}
-
-absl::StatusOr<MissionOptions> ReadOptions(const std::string& path) {
+absl::StatusOr<MissionOptions> ReadOptionsFile(const std::string& path) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::string json, ReadFile(path, kMaxOptionsBytes));
   v1::MissionOptions proto;
   const auto read = google::protobuf::util::JsonStringToMessage(json, &proto);
   if (!read.ok()) return absl::InvalidArgumentError(absl::StrCat(path, ": ", read.ToString()));
+  return FromProto(proto, MissionOptions{}, path);
+}
+
+absl::StatusOr<MissionOptions> ParseOptions(const std::string& bytes, const std::string& path) {
+  v1::MissionOptions proto;
+  if (!proto.ParseFromString(bytes)) {
+    return absl::InvalidArgumentError(absl::StrCat(path, ": event 0 holds no options"));
+  }
   return FromProto(proto, MissionOptions{}, path);
 }
 
@@ -46,10 +45,12 @@ absl::StatusOr<Recorder> Recorder::Create(const std::string& path, const Mission
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options));
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   if (!folder.empty()) PLUMESCOUT_RETURN_IF_ERROR(MakeFolder(folder.string()));
-  PLUMESCOUT_RETURN_IF_ERROR(WriteOptions(options, OptionsPath(path)));
   std::error_code ignored;  // what cannot be removed is in the way of Create
   std::filesystem::remove(path, ignored);
-  PLUMESCOUT_ASSIGN_OR_RETURN(EventLogWriter writer, EventLogWriter::Create(path));
+  std::filesystem::remove(OptionsPath(path), ignored);
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      EventLogWriter writer,
+      EventLogWriter::Create(path, {CodeVersion(), ToProto(options).SerializeAsString()}));
   return Recorder(std::move(writer));
 }
 
@@ -60,10 +61,25 @@ void Recorder::Record(const Event& event) {
 absl::StatusOr<Recording> ReadRecording(const std::string& path) {
   Recording recording;
   PLUMESCOUT_ASSIGN_OR_RETURN(EventLog log, ReadEventLog(path));
-  PLUMESCOUT_ASSIGN_OR_RETURN(recording.options, ReadOptions(OptionsPath(path)));
+  PLUMESCOUT_ASSIGN_OR_RETURN(recording.options,
+                              log.start ? ParseOptions(log.start->mission_options, path)
+                                        : ReadOptionsFile(OptionsPath(path)));
+  if (log.start) recording.code_version = std::move(log.start->code_version);
   recording.events = std::move(log.events);
   recording.end = std::move(log.end);
   return recording;
+}
+
+std::string Remarks(const Recording& recording) {
+  std::string remarks;
+  if (!recording.end.ok()) absl::StrAppend(&remarks, recording.end.message(), "\n");
+  if (recording.code_version.empty()) {
+    absl::StrAppend(&remarks, "recorded by an older version\n");
+  } else if (recording.code_version != CodeVersion()) {
+    absl::StrAppend(&remarks, "recorded by version ", recording.code_version, ", this is ",
+                    CodeVersion(), "\n");
+  }
+  return remarks;
 }
 
 absl::StatusOr<std::unique_ptr<Mission>> Replay(const Recording& recording, std::int64_t revision,

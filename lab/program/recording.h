@@ -18,8 +18,8 @@
 
 namespace plumescout::lab {
 
-// A mission on disk: FILE is the log of its events (lab/formats/event_log.h), FILE.options.json its
-// options, as JSON of plumescout.v1.MissionOptions.
+// A mission on disk: a log of its events, the first of which holds its options
+// (lab/formats/event_log.h). Of older recordings, the options are in FILE.options.json.
 
 // Writes a new recording, event by event. Not thread-safe.
 class Recorder {
@@ -40,6 +40,7 @@ class Recorder {
 };
 
 struct Recording {
+  std::string code_version;  // of the program that wrote it; empty: of an older recording
   MissionOptions options;
   std::vector<Event> events;
   absl::Status end;  // see EventLog::end
@@ -48,6 +49,10 @@ struct Recording {
 // Errors, naming the file: those of ReadFile and ReadEventLog; kInvalidArgument for options that
 // are none.
 absl::StatusOr<Recording> ReadRecording(const std::string& path);
+
+// What its reader should know, a sentence a line: that its end is damaged, that another version of
+// the program wrote it. Empty if there is nothing.
+std::string Remarks(const Recording& recording);
 
 // The mission as it was after event number `revision`; 0: after the last. kOutOfRange if there is
 // no such event; kDataLoss if an event cannot be applied, so that it is not that mission's.

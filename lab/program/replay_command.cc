@@ -27,7 +27,7 @@ struct ReplayArguments {
 absl::Status ReplayRecording(const ReplayArguments& arguments) {
   ProgressLine progress(absl::Seconds(2));
   PLUMESCOUT_ASSIGN_OR_RETURN(const Recording recording, ReadRecording(arguments.recording));
-  if (!recording.end.ok()) std::cerr << recording.end.message() << "\n";
+  std::cerr << Remarks(recording);
   const absl::Time start = absl::Now();
   PLUMESCOUT_ASSIGN_OR_RETURN(
       const std::unique_ptr<Mission> mission,

@@ -3,14 +3,12 @@
 #include "lab/program/run_folder.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_format.h"
+#include "core/types/quantile.h"
 #include "core/types/status_macros.h"
 #include "formats/file_io.h"
 #include "formats/map_server.h"
@@ -18,20 +16,11 @@
 #include "lab/formats/csv.h"
 #include "lab/formats/npy.h"
 #include "lab/formats/summary.h"
+#include "lab/report/number_labels.h"
 #include "lab/report/report.h"
 
 namespace plumescout::lab {
 namespace {
-
-// The value that `share` of the values do not exceed; NaN if there are none.
-double Percentile(std::vector<double> values, double share) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())) -
-                                             (share > 0.0 ? 1.0 : 0.0));
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(std::min(rank, values.size() - 1));
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
-}
 
 // Of all robots, in the order of their issue.
 std::vector<const IssuedPlan*> PlansOf(const TeamResult& team) {
@@ -88,8 +77,8 @@ Summary MakeSummary(const Run& run) {
       {"rmse_zero_ppm", metrics.rmse_zero_ppm},
       {"entropy_nats", metrics.entropy_nats},
       {"plans", static_cast<double>(PlansOf(run.team).size())},
-      {"plan_cpu_ms_p50", Percentile(cpu_ms, 0.5)},
-      {"plan_rpc_wall_ms_p99", Percentile(wall_ms, 0.99)},
+      {"plan_cpu_ms_p50", Median(cpu_ms)},
+      {"plan_rpc_wall_ms_p99", Quantile(wall_ms, 0.99)},
       {"simulated_s", run.team.samples.back().time_s},
       {"wall_s", run.wall_s},
   };
@@ -132,12 +121,7 @@ ReportData MakeReport(const Run& run, const Summary& summary) {
     report.metrics.push_back(
         {sample.time_s, m.completeness, m.rmse_ppm, m.rmse_zero_ppm, m.entropy_nats});
   }
-  for (const auto& [name, value] : summary.figures) {
-    if (std::isfinite(value)) {
-      report.key_numbers.emplace_back(name, absl::StrFormat("%.5g", value));
-    }
-  }
-  for (const auto& [name, value] : summary.about) report.key_numbers.emplace_back(name, value);
+  report.key_numbers = LabelledNumbers(summary);
   return report;
 }
 

@@ -5,21 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lab/report/chart_legend.h"
+#include "lab/report/chart_frame.h"
 #include "lab/report/palette.h"
-#include "lab/report/ticks.h"
 
 namespace plumescout::lab {
 namespace {
 
-constexpr double kTitleSize_px = 16.0;
-constexpr double kLabelSize_px = 12.0;
-constexpr double kTop_px = 34.0;  // for the title
-constexpr double kLegendTop_px = 26.0;
-constexpr double kLeft_px = 52.0;    // for the labels of the values
-constexpr double kBottom_px = 40.0;  // for the names of the groups
-constexpr double kRight_px = 10.0;
-constexpr int kTicks = 4;
 constexpr double kHeadroom = 1.06;
 constexpr double kGroupShare = 0.8;  // of the room of a group that its bars fill
 constexpr Stroke kReferenceStroke{kSourceColor, 2.5};
@@ -50,21 +41,14 @@ void DrawLine(Canvas& canvas, PixelPoint a, PixelPoint b, const Stroke& stroke) 
 }
 
 void DrawAxes(Canvas& canvas, const Plot& plot, const BarChart& chart) {
-  const Box& area = plot.area;
-  for (const double value : LinearTicks(0.0, plot.top_value, kTicks)) {
-    const double y = plot.PixelY(value);
-    DrawLine(canvas, {area.x, y}, {area.right(), y}, {kGridLine, 1.0});
-    canvas.Text({area.x - 8.0, y + 4.0}, TickLabel(value),
-                {kLabelSize_px, kFaintInk, Anchor::kEnd});
-  }
+  DrawValueLines(canvas, plot.area, 0.0, plot.top_value,
+                 [&](double value) { return plot.PixelY(value); });
   const double step =
-      area.width / static_cast<double>(std::max<std::size_t>(1, chart.groups.size()));
+      plot.area.width / static_cast<double>(std::max<std::size_t>(1, chart.groups.size()));
   for (std::size_t i = 0; i < chart.groups.size(); ++i) {
-    canvas.Text({area.x + (static_cast<double>(i) + 0.5) * step, area.bottom() + 18.0},
-                chart.groups[i], {kLabelSize_px, kFaintInk, Anchor::kMiddle});
+    DrawBelowPlot(canvas, plot.area, plot.area.x + (static_cast<double>(i) + 0.5) * step,
+                  chart.groups[i]);
   }
-  canvas.Text({area.x + 0.5 * area.width, area.bottom() + 36.0}, chart.x_label,
-              {kLabelSize_px, kFaintInk, Anchor::kMiddle});
 }
 
 // `room` is the column of the plot area that belongs to the bar.
@@ -100,6 +84,8 @@ void DrawBars(Canvas& canvas, const Plot& plot, const BarChart& chart) {
   }
 }
 
+}  // namespace
+
 std::vector<ChartLegendItem> LegendOf(const BarChart& chart) {
   std::vector<ChartLegendItem> items;
   for (const BarSeries& series : chart.series) {
@@ -109,24 +95,13 @@ std::vector<ChartLegendItem> LegendOf(const BarChart& chart) {
   return items;
 }
 
-}  // namespace
-
-double LegendHeight_px(const BarChart& chart, double width_px) {
-  return ChartLegendHeight_px(LegendOf(chart), width_px);
-}
-
-void DrawBarChart(Canvas& canvas, const Box& box, const BarChart& chart) {
-  const double top_px = kTop_px + LegendHeight_px(chart, box.width);
-  const Plot plot{{box.x + kLeft_px, box.y + top_px, box.width - kLeft_px - kRight_px,
-                   box.height - top_px - kBottom_px},
+void DrawBarChart(Canvas& canvas, const Box& box, const BarChart& chart,
+                  const std::vector<ChartLegendItem>& legend) {
+  const Plot plot{DrawChartFrame(canvas, box, chart.title, chart.x_label, legend),
                   kHeadroom * Greatest(chart)};
-  canvas.Text({box.x, box.y + kTitleSize_px}, chart.title,
-              {kTitleSize_px, kInk, Anchor::kStart, true});
-  DrawChartLegend(canvas, {box.x, box.y + kLegendTop_px, box.width, box.height}, LegendOf(chart));
   DrawAxes(canvas, plot, chart);
   if (!chart.groups.empty() && !chart.series.empty()) DrawBars(canvas, plot, chart);
-  DrawLine(canvas, {plot.area.x, plot.area.bottom()}, {plot.area.right(), plot.area.bottom()},
-           {kFrame, 1.0});
+  DrawFootLine(canvas, plot.area);
 }
 
 }  // namespace plumescout::lab

@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "lab/formats/image.h"
 #include "lab/report/canvas.h"
+#include "lab/report/chart_legend.h"
+#include "lab/report/image.h"
 
 namespace plumescout::lab {
 
@@ -36,10 +37,14 @@ struct BarChart {
   std::string reference_name;  // of the marks, if there are any
 };
 
-// Height of the legend, which stands in rows below the title, in a box of this width.
-double LegendHeight_px(const BarChart& chart, double width_px);
+// What the legend, which stands in rows below the title, has to say.
+std::vector<ChartLegendItem> LegendOf(const BarChart& chart);
 
 // Draws title, legend, axes and bars into the box.
-void DrawBarChart(Canvas& canvas, const Box& box, const BarChart& chart);
+void DrawBarChart(Canvas& canvas, const Box& box, const BarChart& chart,
+                  const std::vector<ChartLegendItem>& legend);
+inline void DrawBarChart(Canvas& canvas, const Box& box, const BarChart& chart) {
+  DrawBarChart(canvas, box, chart, LegendOf(chart));
+}
 
 }  // namespace plumescout::lab

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "absl/strings/string_view.h"
-#include "lab/formats/image.h"
+#include "lab/report/image.h"
 
 namespace plumescout::lab {
 
@@ -29,19 +29,21 @@ struct Stroke {
   Rgb color;
   double width_px = 1.0;
   double dash_px = 0.0;  // length of dashes and of the gaps between them; 0: solid
+
+  friend bool operator==(const Stroke&, const Stroke&) = default;
 };
 
 enum class Anchor { kStart, kMiddle, kEnd };
 
 struct TextStyle {
-  double size_px = 12.0;  // of the font; capitals are 0.72 of it
+  double size_px = 12.0;  // of the font; capitals are 0.73 of it
   Rgb color;
   Anchor anchor = Anchor::kStart;
   bool bold = false;
 };
 
-// Where figures are drawn. A figure is written once and drawn into a page (svg_canvas.h) as well
-// as into a picture (raster_canvas.h). What lies beyond the canvas is cut off.
+// Where figures are drawn. A figure is written once and drawn into a page as well as into a picture
+// (cairo_canvas.h). What lies beyond the canvas is cut off.
 class Canvas {
  public:
   virtual ~Canvas() = default;

@@ -6,22 +6,14 @@
 #include <cmath>
 #include <limits>
 
-#include "lab/report/chart_legend.h"
+#include "lab/report/chart_frame.h"
 #include "lab/report/palette.h"
 #include "lab/report/ticks.h"
 
 namespace plumescout::lab {
 namespace {
 
-constexpr double kTitleSize_px = 16.0;
-constexpr double kLabelSize_px = 12.0;
-constexpr double kTop_px = 34.0;  // for the title
-constexpr double kLegendTop_px = 26.0;
-constexpr double kLeft_px = 52.0;    // for the labels of y
-constexpr double kBottom_px = 40.0;  // for the labels of x
-constexpr double kRight_px = 10.0;
-constexpr int kTicks_x = 4;
-constexpr int kTicks_y = 4;
+constexpr int kTicks_x = 6;
 constexpr double kHeadroom = 0.06;  // of the range, above and below the curves
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -93,27 +85,16 @@ struct Plot {
   }
 };
 
-void DrawAxes(Canvas& canvas, const Plot& plot, const std::string& x_label) {
-  const Stroke grid{kGridLine, 1.0};
-  for (const double value : LinearTicks(plot.y.low, plot.y.high, kTicks_y)) {
-    const double y = plot.PixelY(value);
-    const PixelPoint line[] = {{plot.area.x, y}, {plot.area.right(), y}};
-    canvas.Polyline(line, grid);
-    canvas.Text({plot.area.x - 8.0, y + 4.0}, TickLabel(value),
-                {kLabelSize_px, kFaintInk, Anchor::kEnd});
-  }
+void DrawAxes(Canvas& canvas, const Plot& plot) {
+  DrawValueLines(canvas, plot.area, plot.y.low, plot.y.high,
+                 [&](double value) { return plot.PixelY(value); });
   for (const double value : LinearTicks(plot.x.low, plot.x.high, kTicks_x)) {
     const double x = plot.PixelX(value);
     const PixelPoint tick[] = {{x, plot.area.bottom()}, {x, plot.area.bottom() + 4.0}};
     canvas.Polyline(tick, {kFrame, 1.0});
-    canvas.Text({x, plot.area.bottom() + 18.0}, TickLabel(value),
-                {kLabelSize_px, kFaintInk, Anchor::kMiddle});
+    DrawBelowPlot(canvas, plot.area, x, TickLabel(value));
   }
-  const PixelPoint axis[] = {{plot.area.x, plot.area.bottom()},
-                             {plot.area.right(), plot.area.bottom()}};
-  canvas.Polyline(axis, {kFrame, 1.0});
-  canvas.Text({plot.area.x + 0.5 * plot.area.width, plot.area.bottom() + 36.0}, x_label,
-              {kLabelSize_px, kFaintInk, Anchor::kMiddle});
+  DrawFootLine(canvas, plot.area);
 }
 
 struct Segment {
@@ -180,6 +161,8 @@ void DrawCurve(Canvas& canvas, const Plot& plot, const Curve& curve) {
   }
 }
 
+}  // namespace
+
 std::vector<ChartLegendItem> LegendOf(const Chart& chart) {
   std::vector<ChartLegendItem> items;
   if (chart.curves.size() < 2) return items;
@@ -191,22 +174,12 @@ std::vector<ChartLegendItem> LegendOf(const Chart& chart) {
   return items;
 }
 
-}  // namespace
-
-double LegendHeight_px(const Chart& chart, double width_px) {
-  return ChartLegendHeight_px(LegendOf(chart), width_px);
-}
-
-void DrawChart(Canvas& canvas, const Box& box, const Chart& chart) {
-  const double top_px = kTop_px + LegendHeight_px(chart, box.width);
-  const Plot plot{{box.x + kLeft_px, box.y + top_px, box.width - kLeft_px - kRight_px,
-                   box.height - top_px - kBottom_px},
+void DrawChart(Canvas& canvas, const Box& box, const Chart& chart,
+               const std::vector<ChartLegendItem>& legend) {
+  const Plot plot{DrawChartFrame(canvas, box, chart.title, chart.x_label, legend),
                   Widen(RangeOfX(chart)),
                   chart.y_range.value_or(WithHeadroom(Widen(RangeOfY(chart))))};
-  canvas.Text({box.x, box.y + kTitleSize_px}, chart.title,
-              {kTitleSize_px, kInk, Anchor::kStart, true});
-  DrawChartLegend(canvas, {box.x, box.y + kLegendTop_px, box.width, box.height}, LegendOf(chart));
-  DrawAxes(canvas, plot, chart.x_label);
+  DrawAxes(canvas, plot);
   for (const Curve& curve : chart.curves) DrawCurve(canvas, plot, curve);
 }
 

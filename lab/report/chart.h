@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lab/report/canvas.h"
+#include "lab/report/chart_legend.h"
 
 namespace plumescout::lab {
 
@@ -42,11 +43,14 @@ struct Chart {
   std::vector<Curve> curves;
 };
 
-// Height of the legend, which stands in rows below the title, in a box of this width; 0 if there is
-// none.
-double LegendHeight_px(const Chart& chart, double width_px);
+// What the legend, which stands in rows below the title, has to say; nothing for one curve.
+std::vector<ChartLegendItem> LegendOf(const Chart& chart);
 
 // Draws title, legend, axes with round ticks, and the curves into the box.
-void DrawChart(Canvas& canvas, const Box& box, const Chart& chart);
+void DrawChart(Canvas& canvas, const Box& box, const Chart& chart,
+               const std::vector<ChartLegendItem>& legend);
+inline void DrawChart(Canvas& canvas, const Box& box, const Chart& chart) {
+  DrawChart(canvas, box, chart, LegendOf(chart));
+}
 
 }  // namespace plumescout::lab

@@ -3,14 +3,14 @@
 #include "lab/report/chart_legend.h"
 
 #include "absl/strings/str_cat.h"
+#include "lab/report/font.h"
 #include "lab/report/palette.h"
-#include "lab/report/stroke_font.h"
 
 namespace plumescout::lab {
 namespace {
 
-constexpr double kNameSize_px = 12.0;
-constexpr double kRow_px = 18.0;
+constexpr double kNameSize_px = 13.0;
+constexpr double kRow_px = 20.0;
 constexpr double kBelow_px = 6.0;
 constexpr double kBaseline_px = 12.0;  // below the top of a row
 constexpr double kSquare_px = 12.0;

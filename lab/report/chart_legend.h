@@ -17,6 +17,8 @@ struct ChartLegendItem {
   std::string name;
   Stroke stroke;
   LegendSample sample = LegendSample::kLine;
+
+  friend bool operator==(const ChartLegendItem&, const ChartLegendItem&) = default;
 };
 
 // Height of the rows that the items need in this width, with the gap below them; 0 without items.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "lab/formats/image.h"
+#include "lab/report/image.h"
 
 namespace plumescout::lab {
 

@@ -18,27 +18,27 @@ constexpr double kLogarithmicFrom = 20;  // greatest over least variance that ca
 constexpr double kMargin_m = 0.2;        // around what is known
 
 // The cells that are known, by their centres; nothing if none is.
-std::optional<Region> KnownCenters(const Grid<CellState>& map) {
+std::optional<Rectangle> KnownCenters(const Grid<CellState>& map) {
   const GridGeometry& geometry = map.geometry();
-  std::optional<Region> known;
+  std::optional<Rectangle> known;
   for (std::size_t i = 0; i < map.size(); ++i) {
     if (map[i] == CellState::kUnknown) continue;
     const Point2 center = geometry.Center(geometry.CellAtIndex(i));
-    const Region cell{center, center};
+    const Rectangle cell{center, center};
     known = known ? Union(*known, cell) : cell;
   }
   return known;
 }
 
-Region WithMargin(const Region& region) {
-  return {{region.south_west.x_m - kMargin_m, region.south_west.y_m - kMargin_m},
-          {region.north_east.x_m + kMargin_m, region.north_east.y_m + kMargin_m}};
+Rectangle WithMargin(const Rectangle& region) {
+  return {{region.min.x_m - kMargin_m, region.min.y_m - kMargin_m},
+          {region.max.x_m + kMargin_m, region.max.y_m + kMargin_m}};
 }
 
-Region ShownRegion(const ReportData& data) {
+Rectangle ShownRegion(const ReportData& data) {
   if (data.truth.size() == 0) return KnownRegion(data.map.occupancy);
-  const Region truth = RegionOf(data.truth.geometry());
-  const std::optional<Region> known = KnownCenters(data.map.occupancy);
+  const Rectangle truth = RegionOf(data.truth.geometry());
+  const std::optional<Rectangle> known = KnownCenters(data.map.occupancy);
   return WithMargin(known ? Union(*known, truth) : truth);
 }
 
@@ -71,8 +71,8 @@ ColorScale VarianceScale(const ReportData& data) {
 }
 
 // Walls, and the values of the other cells; a value that is not finite shows the background.
-CellPicture PaintField(const Grid<float>& field, const Grid<CellState>& walls, const Region& region,
-                       const ColorScale& scale) {
+CellPicture PaintField(const Grid<float>& field, const Grid<CellState>& walls,
+                       const Rectangle& region, const ColorScale& scale) {
   return PaintCells(field.geometry(), region, [&](Cell cell) {
     if (walls[cell] == CellState::kOccupied) return kWallColor;
     return std::isfinite(field[cell]) ? scale(field[cell]) : kUnknownColor;
@@ -83,7 +83,7 @@ Rgb FrontierColor(FrontierKind kind) {
   return kind == FrontierKind::kGas ? kGasFrontierColor : kOccupancyFrontierColor;
 }
 
-CellPicture PaintOccupancy(const MapSnapshot& map, const Region& region) {
+CellPicture PaintOccupancy(const MapSnapshot& map, const Rectangle& region) {
   const GridGeometry& geometry = map.occupancy.geometry();
   Grid<Rgb> colors(geometry);
   for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = StateColor(map.occupancy[i]);
@@ -93,21 +93,6 @@ CellPicture PaintOccupancy(const MapSnapshot& map, const Region& region) {
     }
   }
   return PaintCells(geometry, region, [&colors](Cell cell) { return colors[cell]; });
-}
-
-Rgb GoalColor(GoalKind kind) {
-  switch (kind) {
-    case GoalKind::kOccupancyFrontier:
-      return kOccupancyFrontierColor;
-    case GoalKind::kGasFrontier:
-      return kGasFrontierColor;
-    case GoalKind::kRandomFreeSpace:
-    case GoalKind::kInformation:
-    case GoalKind::kSite:
-    case GoalKind::kHome:
-      break;
-  }
-  return kRandomGoalColor;
 }
 
 // Where the chosen path of a plan ends; nothing if the plan was to stay.
@@ -135,7 +120,7 @@ std::vector<MapLine> PathLines(const ReportData& data) {
   return lines;
 }
 
-MapPanel OccupancyPanel(const ReportData& data, const Region& region) {
+MapPanel OccupancyPanel(const ReportData& data, const Rectangle& region) {
   MapPanel panel{.title = "Occupancy, frontiers and paths",
                  .region = region,
                  .cells = PaintOccupancy(data.map, region),
@@ -161,7 +146,7 @@ MapPanel OccupancyPanel(const ReportData& data, const Region& region) {
   return panel;
 }
 
-MapPanel FieldPanel(const char* title, const Region& region, CellPicture cells, ColorBar bar) {
+MapPanel FieldPanel(const char* title, const Rectangle& region, CellPicture cells, ColorBar bar) {
   MapPanel panel;
   panel.title = title;
   panel.region = region;
@@ -181,7 +166,7 @@ Curve MetricCurve(const ReportData& data, const char* name, const Stroke& stroke
 
 }  // namespace
 
-Region KnownRegion(const Grid<CellState>& map) {
+Rectangle KnownRegion(const Grid<CellState>& map) {
   return WithMargin(KnownCenters(map).value_or(RegionOf(map.geometry())));
 }
 
@@ -197,8 +182,24 @@ Rgb StateColor(CellState state) {
   return kUnknownColor;
 }
 
+Rgb GoalColor(GoalKind kind) {
+  switch (kind) {
+    case GoalKind::kOccupancyFrontier:
+      return kOccupancyFrontierColor;
+    case GoalKind::kGasFrontier:
+      return kGasFrontierColor;
+    case GoalKind::kInformation:
+    case GoalKind::kSite:
+    case GoalKind::kHome:
+      return kStartColor;
+    case GoalKind::kRandomFreeSpace:
+      break;
+  }
+  return kRandomGoalColor;
+}
+
 std::vector<MapPanel> MakeMapPanels(const ReportData& data) {
-  const Region region = ShownRegion(data);
+  const Rectangle region = ShownRegion(data);
   const ColorBar gas{GasScale(data), "ppm"};
   const ColorBar variance{VarianceScale(data), "ppm\u00B2"};
   std::vector<MapPanel> panels;

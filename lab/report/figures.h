@@ -11,10 +11,13 @@
 namespace plumescout::lab {
 
 // The part of the map that is known, with a margin; the whole of it if none is.
-Region KnownRegion(const Grid<CellState>& map);
+Rectangle KnownRegion(const Grid<CellState>& map);
 
 // Colours of what is known of cells.
 Rgb StateColor(CellState state);
+
+// Colours of goals.
+Rgb GoalColor(GoalKind kind);
 
 // True gas (if known), estimated mean, its variance, and occupancy with frontiers, goals and
 // paths: all of the same region, the gas maps with the same colours.

@@ -3,10 +3,13 @@
 #include "lab/report/html_page.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
 #include "absl/strings/string_view.h"
-#include "lab/report/svg_canvas.h"
+#include "lab/report/cairo_canvas.h"
 
 namespace plumescout::lab {
 namespace {
@@ -25,15 +28,22 @@ h2 { margin: 0 0 .5rem; font-size: 1rem; }
 @media (min-width: 90rem) {
   .panels { grid-template-columns: repeat(var(--columns), minmax(0, 1fr)); }
 }
-svg { overflow: visible; width: 100%; height: auto; max-width: 40rem; }
-table { width: 100%; max-width: 40rem; border-collapse: collapse; font-size: .9rem; }
-td { border-top: 1px solid #e2e5ea; padding: .2rem 0; }
-td:first-child { color: #6b7280; }
-.wide { max-width: none; margin: 0 0 2rem; }
-.wide td, .wide th { padding: .2rem .6rem .2rem 0; text-align: left; }
-td { font-variant-numeric: tabular-nums; }
-table:not(.wide) td:last-child { text-align: right; }
+.charts { grid-template-columns: repeat(auto-fit, minmax(min(32rem, 100%), 1fr)); }
+img { width: 100%; height: auto; max-width: 52rem; }
+.legend img { width: auto; max-width: 100%; }
+table { border-collapse: collapse; font-size: .9rem; font-variant-numeric: tabular-nums; }
+td { border-top: 1px solid #e2e5ea; padding: .2rem .6rem .2rem 0; }
+th { padding: .2rem .6rem .2rem 0; text-align: left; }
+.wide { width: 100%; margin: 0 0 2rem; }
+.numbers { width: 100%; max-width: 40rem; }
+.numbers td:first-child { color: #6b7280; }
+.numbers td:last-child { text-align: right; }
 )";
+
+std::string EscapeMarkup(absl::string_view text) {
+  return absl::StrReplaceAll(
+      text, {{"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}, {"\"", "&quot;"}, {"'", "&#39;"}});
+}
 
 std::string MakeHeadline(const ReportFigures& figures) {
   std::string html = "<div class=\"headline\">\n";
@@ -54,13 +64,16 @@ std::string MakeNotes(const ReportFigures& figures) {
   return html;
 }
 
-std::string MakeTable(const ReportFigures& figures) {
-  std::string html = "<div><h2>Key numbers</h2>\n<table>\n";
-  for (const auto& [name, value] : figures.key_numbers) {
+// What the headline does not hold.
+std::string MakeOtherNumbers(const ReportFigures& figures) {
+  if (figures.key_numbers.size() <= kHeadlineNumbers) return "";
+  std::string html = "<h2>More numbers</h2>\n<table class=\"numbers\">\n";
+  for (std::size_t i = kHeadlineNumbers; i < figures.key_numbers.size(); ++i) {
+    const auto& [name, value] = figures.key_numbers[i];
     absl::StrAppend(&html, "<tr><td>", EscapeMarkup(name), "</td><td>", EscapeMarkup(value),
                     "</td></tr>\n");
   }
-  return html + "</table></div>\n";
+  return html + "</table>\n";
 }
 
 std::string MakeRow(const std::vector<std::string>& cells, const char* tag) {
@@ -78,22 +91,43 @@ std::string MakeTextTable(const TextTable& table) {
   return html + "</table>\n";
 }
 
-std::string MakePanel(const MapPanel& panel, int height_px) {
-  SvgCanvas canvas(kPanelWidth_px, height_px, panel.title);
-  DrawMapPanel(canvas, {0.0, 0.0, kPanelWidth_px, static_cast<double>(height_px)}, panel);
-  return canvas.Element();
+// A figure of its own, so that names within one do not meet those of another.
+std::string MakeFigure(const std::string& title, int width_px, int height_px, const Drawing& draw) {
+  return absl::StrCat("<img alt=\"", EscapeMarkup(title), "\" src=\"data:image/svg+xml;base64,",
+                      absl::Base64Escape(DrawSvg(width_px, height_px, draw)), "\">\n");
 }
 
-std::string MakeChart(const Chart& chart, int height_px) {
-  SvgCanvas canvas(kPanelWidth_px, height_px, chart.title);
-  DrawChart(canvas, {0.0, 0.0, kPanelWidth_px, static_cast<double>(height_px)}, chart);
-  return canvas.Element();
+std::string MakePanels(const ReportFigures& figures) {
+  const int height_px = PanelHeight_px(figures, kPanelWidth_px);
+  const Box box{0.0, 0.0, kPanelWidth_px, static_cast<double>(height_px)};
+  std::string html;
+  for (const MapPanel& panel : figures.panels) {
+    html += MakeFigure(panel.title, kPanelWidth_px, height_px,
+                       [&](Canvas& canvas) { DrawMapPanel(canvas, box, panel); });
+  }
+  return html;
 }
 
-std::string MakeBarChart(const BarChart& chart, int height_px) {
-  SvgCanvas canvas(kPanelWidth_px, height_px, chart.title);
-  DrawBarChart(canvas, {0.0, 0.0, kPanelWidth_px, static_cast<double>(height_px)}, chart);
-  return canvas.Element();
+std::string MakeLegend(const std::vector<ChartLegendItem>& items) {
+  if (items.empty()) return "";
+  constexpr int kWidth_px = 2 * kChartWidth_px;
+  const int height_px = static_cast<int>(std::ceil(ChartLegendHeight_px(items, kWidth_px)));
+  const Box box{0.0, 0.0, kWidth_px, static_cast<double>(height_px)};
+  return absl::StrCat("<div class=\"legend\">\n",
+                      MakeFigure("Legend of the charts", kWidth_px, height_px,
+                                 [&](Canvas& canvas) { DrawChartLegend(canvas, box, items); }),
+                      "</div>\n");
+}
+
+std::string MakeCharts(const ReportFigures& figures) {
+  const ChartDrawings charts = MakeChartDrawings(figures);
+  const Box box{0.0, 0.0, kChartWidth_px, static_cast<double>(charts.height_px)};
+  std::string html = absl::StrCat(MakeLegend(charts.legend), "<div class=\"figures charts\">\n");
+  for (const ChartDrawing& chart : charts.charts) {
+    html += MakeFigure(chart.title, kChartWidth_px, charts.height_px,
+                       [&](Canvas& canvas) { chart.draw(canvas, box); });
+  }
+  return html + "</div>\n";
 }
 
 }  // namespace
@@ -108,13 +142,8 @@ std::string MakeHtmlPage(const ReportFigures& figures) {
   for (const TextTable& table : figures.tables) html += MakeTextTable(table);
   absl::StrAppend(&html, "<div class=\"figures panels\" style=\"--columns: ", PanelsPerRow(figures),
                   "\">\n");
-  const int panel_px = PanelHeight_px(figures, kPanelWidth_px);
-  for (const MapPanel& panel : figures.panels) html += MakePanel(panel, panel_px);
-  html += "</div>\n<div class=\"figures\">\n";
-  const int chart_px = ChartHeight_px(figures);
-  for (const Chart& chart : figures.charts) html += MakeChart(chart, chart_px);
-  for (const BarChart& chart : figures.bar_charts) html += MakeBarChart(chart, chart_px);
-  absl::StrAppend(&html, MakeTable(figures), "</div>\n</body>\n</html>\n");
+  absl::StrAppend(&html, MakePanels(figures), "</div>\n", MakeCharts(figures),
+                  MakeOtherNumbers(figures), "</body>\n</html>\n");
   return html;
 }
 

@@ -7,8 +7,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "lab/report/disc_layout.h"
+#include "lab/report/font.h"
 #include "lab/report/palette.h"
-#include "lab/report/stroke_font.h"
 #include "lab/report/ticks.h"
 
 namespace plumescout::lab {
@@ -25,17 +25,17 @@ constexpr double kHalo_px = 1.5;        // white rim of marks, which sets them o
 // Where the map lies on the canvas.
 struct MapFrame {
   Box box;
-  Region region;
+  Rectangle region;
   double px_per_m;
 
   PixelPoint ToPixel(Point2 point) const {
-    return {box.x + (point.x_m - region.south_west.x_m) * px_per_m,
-            box.bottom() - (point.y_m - region.south_west.y_m) * px_per_m};
+    return {box.x + (point.x_m - region.min.x_m) * px_per_m,
+            box.bottom() - (point.y_m - region.min.y_m) * px_per_m};
   }
 };
 
 // The largest map that fits, at the left.
-MapFrame FitMap(const Box& box, const Region& region) {
+MapFrame FitMap(const Box& box, const Rectangle& region) {
   const double height_px = box.height - kTop_px - kBottom_px;
   const double px_per_m = std::min(box.width / region.width_m(), height_px / region.height_m());
   return {{box.x, box.y + kTop_px, px_per_m * region.width_m(), px_per_m * region.height_m()},
@@ -52,19 +52,23 @@ void DrawOutline(Canvas& canvas, const Box& box) {
   canvas.Polyline(outline, {kFrame, 1.0});
 }
 
-// A bar of a round number of metres, in line with the title: over the right edge of the map, or as
-// far beyond it as the title needs.
-void DrawScaleBar(Canvas& canvas, const Box& box, const std::string& title, const MapFrame& frame) {
+// The title and, in line with it, a bar of a round number of metres: over the right edge of the
+// map, or as far beyond it as the title needs.
+void DrawTitleAndScaleBar(Canvas& canvas, const Box& box, const std::string& title,
+                          const MapFrame& frame) {
   constexpr double kLargestShare = 0.2;  // of the map's width
   constexpr double kEnd_px = 4.0;        // half the height of its ends
-  const double length_m = RoundDown125(kLargestShare * frame.region.width_m());
   constexpr double kBeforeBar_px = 8.0;
   constexpr double kAfterTitle_px = 16.0;
+  const double length_m = RoundDown125(kLargestShare * frame.region.width_m());
   const std::string label = absl::StrCat(TickLabel(length_m), " m");
   const double length_px = length_m * frame.px_per_m;
-  const double after_title = box.x + TextWidth_px(title, kTitleSize_px) + kAfterTitle_px +
-                             TextWidth_px(label, kLabelSize_px) + kBeforeBar_px + length_px;
-  const double right = std::min(box.right(), std::max(frame.box.right(), after_title));
+  const double behind_title_px =
+      kAfterTitle_px + TextWidth_px(label, kLabelSize_px) + kBeforeBar_px + length_px;
+  const double size_px = SizeToFit_px(title, kTitleSize_px, box.width - behind_title_px, true);
+  canvas.Text({box.x, box.y + kTitleSize_px}, title, {size_px, kInk, Anchor::kStart, true});
+  const double after_title = box.x + TextWidth_px(title, size_px, true) + behind_title_px;
+  const double right = std::max(frame.box.right(), after_title);
   const double left = right - length_px;
   const double y = box.y + kTitleSize_px - kEnd_px - 1.0;
   const PixelPoint bar[] = {{left, y - kEnd_px}, {left, y + kEnd_px},  {left, y},
@@ -75,8 +79,8 @@ void DrawScaleBar(Canvas& canvas, const Box& box, const std::string& title, cons
 }
 
 void DrawCells(Canvas& canvas, const MapFrame& frame, const CellPicture& cells) {
-  const PixelPoint south_west = frame.ToPixel(cells.region.south_west);
-  const PixelPoint north_east = frame.ToPixel(cells.region.north_east);
+  const PixelPoint south_west = frame.ToPixel(cells.region.min);
+  const PixelPoint north_east = frame.ToPixel(cells.region.max);
   canvas.Picture(
       {south_west.x, north_east.y, north_east.x - south_west.x, south_west.y - north_east.y},
       cells.image);
@@ -177,39 +181,51 @@ void DrawColorBar(Canvas& canvas, const Box& box, const ColorBar& bar) {
               {kLabelSize_px, kInk, Anchor::kStart});
 }
 
+// Entries one after the other, in rows; in one row, as small as it takes, if `one_row`.
 void DrawLegend(Canvas& canvas, const Box& box, const std::vector<LegendEntry>& legend,
-                std::size_t columns) {
+                bool one_row) {
   constexpr double kRow_px = 20.0;
   constexpr double kMark_px = 10.0;  // centre of the mark
-  constexpr double kName_px = 26.0;
-  for (std::size_t i = 0; i < legend.size(); ++i) {
-    const double x =
-        box.x + static_cast<double>(i % columns) * box.width / static_cast<double>(columns);
-    const double y = box.y + 6.0 + static_cast<double>(i / columns) * kRow_px;
-    DrawMark(canvas, legend[i].shape, {x + kMark_px, y}, legend[i].color);
-    canvas.Text({x + kName_px, y + 4.0}, legend[i].name, {kLabelSize_px, kInk, Anchor::kStart});
+  constexpr double kName_px = 24.0;
+  constexpr double kBetween_px = 16.0;
+  const auto width_px = [](const LegendEntry& entry) {
+    return kName_px + TextWidth_px(entry.name, kLabelSize_px) + kBetween_px;
+  };
+  double all_px = -kBetween_px;
+  for (const LegendEntry& entry : legend) all_px += width_px(entry);
+  const double scale = one_row && all_px > box.width ? box.width / all_px : 1.0;
+  double x = 0.0;
+  double y = box.y + 6.0;
+  for (const LegendEntry& entry : legend) {
+    if (!one_row && x > 0.0 && x + width_px(entry) - kBetween_px > box.width) {
+      x = 0.0;
+      y += kRow_px;
+    }
+    DrawMark(canvas, entry.shape, {box.x + x + scale * kMark_px, y}, entry.color);
+    canvas.Text({box.x + x + scale * kName_px, y + 4.0}, entry.name,
+                {scale * kLabelSize_px, kInk, Anchor::kStart});
+    x += scale * width_px(entry);
   }
 }
 
 }  // namespace
 
-Region RegionOf(const GridGeometry& geometry) {
+Rectangle RegionOf(const GridGeometry& geometry) {
   return {{geometry.origin_x_m, geometry.origin_y_m},
           {geometry.origin_x_m + geometry.width * geometry.resolution_m,
            geometry.origin_y_m + geometry.height * geometry.resolution_m}};
 }
 
-Region Union(const Region& a, const Region& b) {
-  return {
-      {std::min(a.south_west.x_m, b.south_west.x_m), std::min(a.south_west.y_m, b.south_west.y_m)},
-      {std::max(a.north_east.x_m, b.north_east.x_m), std::max(a.north_east.y_m, b.north_east.y_m)}};
+Rectangle Union(const Rectangle& a, const Rectangle& b) {
+  return {{std::min(a.min.x_m, b.min.x_m), std::min(a.min.y_m, b.min.y_m)},
+          {std::max(a.max.x_m, b.max.x_m), std::max(a.max.y_m, b.max.y_m)}};
 }
 
-CellPicture PaintCells(const GridGeometry& geometry, const Region& region,
+CellPicture PaintCells(const GridGeometry& geometry, const Rectangle& region,
                        const std::function<Rgb(Cell)>& color) {
   const double inset_m = 1e-6 * geometry.resolution_m;  // an edge touched by rounding is not shown
-  Cell first = geometry.CellAt({region.south_west.x_m + inset_m, region.south_west.y_m + inset_m});
-  Cell last = geometry.CellAt({region.north_east.x_m - inset_m, region.north_east.y_m - inset_m});
+  Cell first = geometry.CellAt({region.min.x_m + inset_m, region.min.y_m + inset_m});
+  Cell last = geometry.CellAt({region.max.x_m - inset_m, region.max.y_m - inset_m});
   first = {std::max(first.x, 0), std::max(first.y, 0)};
   last = {std::min(last.x, geometry.width - 1), std::min(last.y, geometry.height - 1)};
   if (last.x < first.x || last.y < first.y) return {};
@@ -238,9 +254,7 @@ double MapWidth_px(const MapPanel& panel, double width_px) {
 
 void DrawMapPanel(Canvas& canvas, const Box& box, const MapPanel& panel) {
   const MapFrame frame = FitMap(box, panel.region);
-  canvas.Text({box.x, box.y + kTitleSize_px}, panel.title,
-              {kTitleSize_px, kInk, Anchor::kStart, true});
-  DrawScaleBar(canvas, box, panel.title, frame);
+  DrawTitleAndScaleBar(canvas, box, panel.title, frame);
   canvas.FillBox(frame.box, kUnknownColor);
   DrawCells(canvas, frame, panel.cells);
   for (const MapLine& line : panel.lines) {
@@ -256,7 +270,6 @@ void DrawMapPanel(Canvas& canvas, const Box& box, const MapPanel& panel) {
   DrawLabels(canvas, frame, panel.marks);
   DrawOutline(canvas, frame.box);
   double below = frame.box.bottom() + 14.0;
-  std::size_t columns = 3;  // of the legend, which has one row below a colour bar
   if (panel.color_bar) {
     constexpr double kLeastUnitRoom_px = 48.0;  // bars of short units are equally long
     const double unit_px = TextWidth_px(panel.color_bar->unit, kLabelSize_px) + kBeforeUnit_px;
@@ -264,9 +277,9 @@ void DrawMapPanel(Canvas& canvas, const Box& box, const MapPanel& panel) {
     DrawColorBar(canvas, {frame.box.x, below, bar_px, 12.0}, *panel.color_bar);
     constexpr double kBarAndTicks_px = 38.0;
     below += kBarAndTicks_px;
-    columns = std::max(columns, panel.legend.size());
   }
-  DrawLegend(canvas, {frame.box.x, below, box.width, kBottom_px}, panel.legend, columns);
+  DrawLegend(canvas, {frame.box.x, below, box.width, kBottom_px}, panel.legend,
+             panel.color_bar.has_value());
 }
 
 }  // namespace plumescout::lab

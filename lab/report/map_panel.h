@@ -9,33 +9,25 @@
 
 #include "core/types/grid_geometry.h"
 #include "core/types/pose2.h"
-#include "lab/formats/image.h"
+#include "core/types/rectangle.h"
 #include "lab/report/canvas.h"
 #include "lab/report/color_scale.h"
+#include "lab/report/image.h"
 
 namespace plumescout::lab {
 
-// Rectangle in frame map.
-struct Region {
-  Point2 south_west;
-  Point2 north_east;
-
-  double width_m() const { return north_east.x_m - south_west.x_m; }
-  double height_m() const { return north_east.y_m - south_west.y_m; }
-};
-
-Region RegionOf(const GridGeometry& geometry);
-// The smallest region that holds both.
-Region Union(const Region& a, const Region& b);
+Rectangle RegionOf(const GridGeometry& geometry);
+// The smallest rectangle that holds both.
+Rectangle Union(const Rectangle& a, const Rectangle& b);
 
 // Cells as an image, one pixel a cell, north up.
 struct CellPicture {
-  Image image;    // without pixels: nothing to show
-  Region region;  // that the image covers
+  Image image;       // without pixels: nothing to show
+  Rectangle region;  // that the image covers
 };
 
 // Paints the cells of `geometry` that touch `region`.
-CellPicture PaintCells(const GridGeometry& geometry, const Region& region,
+CellPicture PaintCells(const GridGeometry& geometry, const Rectangle& region,
                        const std::function<Rgb(Cell)>& color);
 
 struct MapLine {
@@ -70,7 +62,7 @@ struct ColorBar {
 // legend has one row.
 struct MapPanel {
   std::string title;
-  Region region;  // shown
+  Rectangle region;  // shown
   CellPicture cells;
   std::vector<MapLine> lines;
   std::vector<MapMark> marks;

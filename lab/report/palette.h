@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "lab/formats/image.h"
+#include "lab/report/image.h"
 
 namespace plumescout::lab {
 

@@ -33,7 +33,7 @@ void AddRobot(const Pose2& robot, MapPanel& panel) {
   panel.marks.push_back({MarkShape::kDisc, kStartColor, robot.position()});
 }
 
-MapPanel TreePanel(const PlanPicture& picture, const Region& region) {
+MapPanel TreePanel(const PlanPicture& picture, const Rectangle& region) {
   const ColorScale scale{ColorMap::kGas, 0.0, 1.0, false};
   MapPanel panel;
   panel.title = "Information map and search tree";
@@ -81,7 +81,7 @@ std::vector<MapMark> GoalMarks(const Plan& plan) {
   return marks;
 }
 
-MapPanel CandidatesPanel(const PlanPicture& picture, const Region& region) {
+MapPanel CandidatesPanel(const PlanPicture& picture, const Rectangle& region) {
   MapPanel panel;
   panel.title = "Candidates and choice";
   panel.region = region;
@@ -111,24 +111,8 @@ std::string RejectionLabel(std::size_t index) {
   return std::string(1, static_cast<char>('a' + static_cast<char>(index)));
 }
 
-Rgb GoalColor(GoalKind kind) {
-  switch (kind) {
-    case GoalKind::kOccupancyFrontier:
-      return kOccupancyFrontierColor;
-    case GoalKind::kGasFrontier:
-      return kGasFrontierColor;
-    case GoalKind::kInformation:
-    case GoalKind::kSite:
-    case GoalKind::kHome:
-      return kStartColor;
-    case GoalKind::kRandomFreeSpace:
-      break;
-  }
-  return kRandomGoalColor;
-}
-
 std::vector<MapPanel> MakePlanPanels(const PlanPicture& picture) {
-  const Region region = KnownRegion(picture.occupancy);
+  const Rectangle region = KnownRegion(picture.occupancy);
   return {TreePanel(picture, region), CandidatesPanel(picture, region)};
 }
 

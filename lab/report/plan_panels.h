@@ -32,7 +32,6 @@ inline constexpr std::size_t kListedRejections = 8;
 std::string CandidateLabel(std::size_t index);
 std::string RejectionLabel(std::size_t index);
 
-Rgb GoalColor(GoalKind kind);
 inline constexpr Rgb kChosenPathColor{206, 30, 140};
 
 // The information map with the search tree on it, and the map with the candidates' paths, the

@@ -9,9 +9,10 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "lab/report/cairo_canvas.h"
+#include "lab/report/font.h"
 #include "lab/report/palette.h"
 #include "lab/report/plan_names.h"
-#include "lab/report/raster_canvas.h"
 
 namespace plumescout::lab {
 namespace {
@@ -22,7 +23,7 @@ constexpr int kPanel_px = 480;
 constexpr int kTop_px = 104;  // title, sentence and effort
 constexpr int kTableTitle_px = 30;
 constexpr int kRow_px = 24;
-constexpr double kText_px = 13.0;
+constexpr double kText_px = 12.0;
 constexpr int kWidth_px = 2 * kMargin_px + 2 * kPanel_px + kGap_px;
 
 struct Column {
@@ -49,14 +50,14 @@ struct Table {
 Table CandidateTable(const Plan& plan) {
   Table table{absl::StrCat("Candidates (", plan.candidates.size(), ")"),
               {{"", 0.0},
-               {"goal", 36.0},
-               {"cost J", 270.0, true},
-               {"length, m", 355.0, true},
-               {"duration, s", 450.0, true},
-               {"mean UCB, 0-1", 570.0, true},
-               {"mean gas, ppm", 690.0, true},
-               {"exp. information, nats", 860.0, true},
-               {"path from", 890.0}},
+               {"goal", 30.0},
+               {"cost J", 295.0, true},
+               {"length, m", 370.0, true},
+               {"duration, s", 455.0, true},
+               {"mean UCB, 0–1", 560.0, true},
+               {"mean gas, ppm", 665.0, true},
+               {"exp. information, nats", 825.0, true},
+               {"path from", 845.0}},
               {}};
   for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
     const Candidate& c = plan.candidates[i];
@@ -75,7 +76,7 @@ Table CandidateTable(const Plan& plan) {
 
 Table RejectionTable(const Plan& plan) {
   Table table{absl::StrCat("Rejected goals (", plan.rejected.size(), ")"),
-              {{"", 0.0}, {"goal", 36.0}, {"at, m", 220.0}, {"why", 340.0}, {"detail", 540.0}},
+              {{"", 0.0}, {"goal", 30.0}, {"at, m", 200.0}, {"why", 300.0}, {"detail", 500.0}},
               {}};
   const std::size_t listed = std::min(kListedRejections, plan.rejected.size());
   for (std::size_t i = 0; i < listed; ++i) {
@@ -99,9 +100,13 @@ void DrawRow(Canvas& canvas, const Box& box, const std::vector<Column>& columns,
   canvas.Polyline(rule, {kGridLine, 1.0});
   constexpr double kIndent_px = 6.0;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    canvas.Text({box.x + kIndent_px + columns[i].x_px, box.bottom() - 7.0}, row.texts[i],
-                {kText_px, kInk, columns[i].numeric ? Anchor::kEnd : Anchor::kStart,
-                 row.highlighted || i == 0});
+    const bool bold = row.highlighted || i == 0;
+    const double x = kIndent_px + columns[i].x_px;
+    const bool last = i + 1 == columns.size();
+    const double size_px =
+        last ? SizeToFit_px(row.texts[i], kText_px, box.width - x, bold) : kText_px;
+    canvas.Text({box.x + x, box.bottom() - 7.0}, row.texts[i],
+                {size_px, kInk, columns[i].numeric ? Anchor::kEnd : Anchor::kStart, bold});
   }
 }
 
@@ -119,15 +124,17 @@ void DrawTable(Canvas& canvas, double top, const Table& table) {
 
 void DrawHead(Canvas& canvas, const PlanPicture& picture) {
   const Plan& plan = picture.plan;
-  canvas.Text({kMargin_px, 50.0}, picture.title, {26.0, kInk, Anchor::kStart, true});
-  canvas.Text({kMargin_px, 78.0}, plan.explanation, {15.0, kInk});
-  canvas.Text({kMargin_px, 100.0},
-              absl::StrFormat("Search: %s; %d samples, %d vertices, %d edges priced, %d of %d "
-                              "paths by the grid guard; seed %u.",
-                              NameOf(plan.end), plan.effort.samples, plan.effort.vertices,
-                              plan.effort.edges_evaluated, plan.effort.goals_by_guard,
-                              plan.candidates.size(), plan.seed),
-              {kText_px, kFaintInk});
+  constexpr double kContent_px = kWidth_px - 2 * kMargin_px;
+  const std::string effort = absl::StrFormat(
+      "Search: %s; %d samples, %d vertices, %d edges priced, %d of %d paths by the grid guard; "
+      "seed %u.",
+      NameOf(plan.end), plan.effort.samples, plan.effort.vertices, plan.effort.edges_evaluated,
+      plan.effort.goals_by_guard, plan.candidates.size(), plan.seed);
+  canvas.Text({kMargin_px, 50.0}, picture.title,
+              {SizeToFit_px(picture.title, 26.0, kContent_px, true), kInk, Anchor::kStart, true});
+  canvas.Text({kMargin_px, 78.0}, plan.explanation,
+              {SizeToFit_px(plan.explanation, 15.0, kContent_px), kInk});
+  canvas.Text({kMargin_px, 100.0}, effort, {SizeToFit_px(effort, 13.0, kContent_px), kFaintInk});
 }
 
 }  // namespace
@@ -140,19 +147,19 @@ Image DrawPlanSheet(const PlanPicture& picture) {
   int height_px = tables_top + kMargin_px;
   for (const Table& table : tables) height_px += table.height_px();
 
-  RasterCanvas canvas(kWidth_px, height_px, kPaper);
-  DrawHead(canvas, picture);
-  double x = kMargin_px;
-  for (const MapPanel& panel : panels) {
-    DrawMapPanel(canvas, {x, kMargin_px + kTop_px, kPanel_px, panel_height_px}, panel);
-    x += kPanel_px + kGap_px;
-  }
-  double top = tables_top;
-  for (const Table& table : tables) {
-    DrawTable(canvas, top, table);
-    top += table.height_px();
-  }
-  return canvas.image();
+  return DrawImage(kWidth_px, height_px, kPaper, [&](Canvas& canvas) {
+    DrawHead(canvas, picture);
+    double x = kMargin_px;
+    for (const MapPanel& panel : panels) {
+      DrawMapPanel(canvas, {x, kMargin_px + kTop_px, kPanel_px, panel_height_px}, panel);
+      x += kPanel_px + kGap_px;
+    }
+    double top = tables_top;
+    for (const Table& table : tables) {
+      DrawTable(canvas, top, table);
+      top += table.height_px();
+    }
+  });
 }
 
 }  // namespace plumescout::lab

@@ -6,9 +6,9 @@
 
 #include "core/types/status_macros.h"
 #include "formats/file_io.h"
-#include "lab/formats/png.h"
 #include "lab/report/figures.h"
 #include "lab/report/html_page.h"
+#include "lab/report/png.h"
 #include "lab/report/sheet.h"
 
 namespace plumescout::lab {

@@ -10,9 +10,10 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "core/types/quantile.h"
+#include "lab/report/cairo_canvas.h"
 #include "lab/report/figures.h"
 #include "lab/report/palette.h"
-#include "lab/report/raster_canvas.h"
 
 namespace plumescout::lab {
 namespace {
@@ -30,10 +31,10 @@ bool IsCritical(const Scene& scene, std::size_t index) {
 }
 
 // A thick line in the outer wall.
-MapLine OpeningLine(const Opening& opening, const Region& region) {
+MapLine OpeningLine(const Opening& opening, const Rectangle& region) {
   constexpr double kInset_m = 0.1;  // half a usual wall
-  const Point2 low = region.south_west;
-  const Point2 high = region.north_east;
+  const Point2 low = region.min;
+  const Point2 high = region.max;
   std::vector<Point2> ends;
   switch (opening.side) {
     case Side::kWest:
@@ -104,12 +105,7 @@ ColorScale SpeedScale(const Scene& scene) {
   for (std::size_t i = 0; i < scene.occupancy.size(); ++i) {
     if (IsFree(scene, i)) speeds.push_back(Speed_mps(*scene.wind, i));
   }
-  double high = 0.0;
-  if (!speeds.empty()) {
-    const auto rank = static_cast<std::ptrdiff_t>(kShare * static_cast<double>(speeds.size() - 1));
-    std::nth_element(speeds.begin(), speeds.begin() + rank, speeds.end());
-    high = speeds[static_cast<std::size_t>(rank)];
-  }
+  const double high = Quantile(std::move(speeds), kShare);
   return {ColorMap::kGas, 0.0, high > 0.0 ? high : 1.0, false};
 }
 
@@ -212,7 +208,7 @@ MapPanel GasOf(const Scene& scene) {
 }
 
 // Narrower for tall buildings, whose maps are bounded in height.
-int PanelWidth_px(const Region& region) {
+int PanelWidth_px(const Rectangle& region) {
   constexpr double kNarrowest_px = 330.0;  // title and legend
   constexpr double kWidest_px = 480.0;
   constexpr double kHeight_px = 620.0;
@@ -267,19 +263,20 @@ Image DrawSceneSheet(const Scene& scene) {
   const int panel_px = PanelWidth_px(panels.front().region);
   const double height_px = std::ceil(MapPanelHeight_px(panels.front(), panel_px));
   const int count = static_cast<int>(panels.size());
-  RasterCanvas canvas(2 * kMargin_px + count * panel_px + (count - 1) * kGap_px,
-                      2 * kMargin_px + kTop_px + static_cast<int>(height_px), kPaper);
-  canvas.Text({kMargin_px, 54.0}, absl::StrCat("Scene ", scene.name),
-              {26.0, kInk, Anchor::kStart, true});
-  canvas.Text({kMargin_px, 84.0}, FiguresText(scene), {14.0, kInk});
-  canvas.Text({kMargin_px, 106.0}, SourcesText(scene), {14.0, kInk});
-  double x = kMargin_px;
-  for (const MapPanel& panel : panels) {
-    DrawMapPanel(canvas, {x, kMargin_px + kTop_px, static_cast<double>(panel_px), height_px},
-                 panel);
-    x += panel_px + kGap_px;
-  }
-  return canvas.image();
+  const int width_px = 2 * kMargin_px + count * panel_px + (count - 1) * kGap_px;
+  const int sheet_px = 2 * kMargin_px + kTop_px + static_cast<int>(height_px);
+  return DrawImage(width_px, sheet_px, kPaper, [&](Canvas& canvas) {
+    canvas.Text({kMargin_px, 54.0}, absl::StrCat("Scene ", scene.name),
+                {26.0, kInk, Anchor::kStart, true});
+    canvas.Text({kMargin_px, 84.0}, FiguresText(scene), {14.0, kInk});
+    canvas.Text({kMargin_px, 106.0}, SourcesText(scene), {14.0, kInk});
+    double x = kMargin_px;
+    for (const MapPanel& panel : panels) {
+      DrawMapPanel(canvas, {x, kMargin_px + kTop_px, static_cast<double>(panel_px), height_px},
+                   panel);
+      x += panel_px + kGap_px;
+    }
+  });
 }
 
 }  // namespace plumescout::lab

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "lab/formats/image.h"
 #include "lab/formats/scene.h"
+#include "lab/report/image.h"
 #include "lab/report/map_panel.h"
 
 namespace plumescout::lab {

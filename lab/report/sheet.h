@@ -3,14 +3,16 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "lab/formats/image.h"
 #include "lab/report/bar_chart.h"
 #include "lab/report/chart.h"
+#include "lab/report/chart_legend.h"
+#include "lab/report/image.h"
 #include "lab/report/map_panel.h"
 #include "lab/report/text_table.h"
 
@@ -31,7 +33,8 @@ struct ReportFigures {
 
 // Sizes that page and sheet share.
 inline constexpr int kPanelWidth_px = 448;          // of a panel in a row of four
-inline constexpr int kChartHeight_px = 300;         // without legend
+inline constexpr int kChartWidth_px = 608;          // of a chart in a row of three
+inline constexpr int kChartHeight_px = 400;         // without legend
 inline constexpr std::size_t kHeadlineNumbers = 6;  // the first key numbers, printed large
 
 // As the figures say, else as many as fill the fewest rows of up to four best: 3 for 5, 6 and 9.
@@ -41,11 +44,20 @@ std::size_t PanelsPerRow(const ReportFigures& figures);
 // Height of panels of this width: what the tallest one needs.
 int PanelHeight_px(const ReportFigures& figures, double width_px);
 
-// Height of the charts: with the highest legend.
-int ChartHeight_px(const ReportFigures& figures);
+// The charts of both kinds, ready to be drawn.
+struct ChartDrawing {
+  std::string title;
+  std::function<void(Canvas&, const Box&)> draw;
+};
+struct ChartDrawings {
+  std::vector<ChartLegendItem> legend;  // of all charts: if several have one and all the same
+  int height_px = 0;                    // of each, with its own legend if it has one
+  std::vector<ChartDrawing> charts;     // refer to the figures
+};
+ChartDrawings MakeChartDrawings(const ReportFigures& figures);
 
 // One picture of everything: the first table, rows of panels as wide as the sheet (in its
-// middle, if tall maps need less), and at most three charts of both kinds beside the key numbers.
+// middle, if tall maps need less), charts in rows of three, and the other key numbers.
 Image DrawSheet(const ReportFigures& figures);
 
 }  // namespace plumescout::lab

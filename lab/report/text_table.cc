@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "lab/report/font.h"
 #include "lab/report/palette.h"
-#include "lab/report/stroke_font.h"
 
 namespace plumescout::lab {
 namespace {

@@ -94,12 +94,12 @@ absl::Status CheckWall(const std::string& field, const Wall& wall, const Layout&
   return absl::OkStatus();
 }
 
-bool Overlap(const SolidBox& a, const SolidBox& b) {
+bool Overlap(const Rectangle& a, const Rectangle& b) {
   return a.min.x_m < b.max.x_m - kTouch_m && b.min.x_m < a.max.x_m - kTouch_m &&
          a.min.y_m < b.max.y_m - kTouch_m && b.min.y_m < a.max.y_m - kTouch_m;
 }
 
-absl::Status CheckBox(const std::string& field, const SolidBox& box, const Layout& layout) {
+absl::Status CheckBox(const std::string& field, const Rectangle& box, const Layout& layout) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckInside(field + ".min_m", box.min, layout));
   PLUMESCOUT_RETURN_IF_ERROR(CheckInside(field + ".max_m", box.max, layout));
   if (box.min.x_m < box.max.x_m && box.min.y_m < box.max.y_m) return absl::OkStatus();

@@ -7,6 +7,7 @@
 
 #include "absl/status/status.h"
 #include "core/types/pose2.h"
+#include "core/types/rectangle.h"
 #include "lab/formats/scene.h"
 
 namespace plumescout::lab {
@@ -27,14 +28,6 @@ struct Wall {
   std::vector<Door> doors;
 
   friend bool operator==(const Wall&, const Wall&) = default;
-};
-
-// Solid rectangle: a container, a pillar, a machine. Boxes may touch but not overlap.
-struct SolidBox {
-  Point2 min;
-  Point2 max;
-
-  friend bool operator==(const SolidBox&, const SolidBox&) = default;
 };
 
 // Ventilator in a room: it moves the air that passes it, at one speed over its whole width. Robots,
@@ -68,7 +61,8 @@ struct Layout {
   double resolution_m = 0.1;  // [0.02, 1]; at most 1,000,000 cells in all
   double border_m = 0.2;      // thickness of the outer wall, >= one cell
   std::vector<Wall> walls;
-  std::vector<SolidBox> boxes;
+  // Solid: containers, pillars, machines. They may touch but not overlap.
+  std::vector<Rectangle> boxes;
   std::vector<Opening> openings;  // inlets blow at (0, 30] m/s
   std::vector<Fan> fans;
   std::vector<GasSource> sources;  // at least one

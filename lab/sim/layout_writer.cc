@@ -101,7 +101,7 @@ std::string FormatLayout(const Layout& layout) {
   if (!layout.walls.empty()) absl::StrAppend(&yaml, "\nwalls:\n");
   for (const Wall& wall : layout.walls) absl::StrAppend(&yaml, WallLine(wall));
   if (!layout.boxes.empty()) absl::StrAppend(&yaml, "\nboxes:\n");
-  for (const SolidBox& box : layout.boxes) {
+  for (const Rectangle& box : layout.boxes) {
     absl::StrAppend(&yaml, "  - {min_m: ", Pair(box.min), ", max_m: ", Pair(box.max), "}\n");
   }
   if (!layout.openings.empty()) absl::StrAppend(&yaml, "\nopenings:\n");

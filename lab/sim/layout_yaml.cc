@@ -101,7 +101,7 @@ absl::Status Read(const YAML::Node& node, const std::string& path, Wall& wall) {
                   {"doors", Optional(wall.doors)}});
 }
 
-absl::Status Read(const YAML::Node& node, const std::string& path, SolidBox& box) {
+absl::Status Read(const YAML::Node& node, const std::string& path, Rectangle& box) {
   return ReadMap(node, path, {{"min_m", Required(box.min)}, {"max_m", Required(box.max)}});
 }
 

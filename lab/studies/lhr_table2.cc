@@ -17,6 +17,7 @@
 #include "lab/trials/sampling_pictures.h"
 #include "lab/trials/sampling_study.h"
 #include "lab/trials/statistics.h"
+#include "lab/trials/tour_cost.h"
 #include "lab/worlds/lhr_scene.h"
 
 namespace plumescout::lab {
@@ -49,17 +50,10 @@ struct TableRow {
 };
 constexpr TableRow kRows[] = {
     {"sweep", "Sweep", "sweep", SamplingReward::kUcb, false, 2601, 95.33, {120, 120, 120}},
-    {"random",
-     "CRS",
-     "random_sampling",
-     SamplingReward::kUcb,
-     false,
-     34807,
-     202.72,
-     {214, 158, 46}},
-    {"mean", "LHR, mean", "lhr", SamplingReward::kMean, true, 15547, 46.71, {36, 99, 201}},
-    {"ucb", "LHR, UCB", "lhr", SamplingReward::kUcb, true, 24065, 51.41, {206, 30, 60}},
-    {"mean_without",
+    {"crs", "CRS", "random_sampling", SamplingReward::kUcb, false, 34807, 202.72, {214, 158, 46}},
+    {"lhr_mean", "LHR, mean", "lhr", SamplingReward::kMean, true, 15547, 46.71, {36, 99, 201}},
+    {"lhr_ucb", "LHR, UCB", "lhr", SamplingReward::kUcb, true, 24065, 51.41, {206, 30, 60}},
+    {"lhr_mean_no_survey",
      "mean, no survey",
      "lhr",
      SamplingReward::kMean,
@@ -67,7 +61,7 @@ constexpr TableRow kRows[] = {
      9939,
      78.07,
      {130, 170, 225}},
-    {"ucb_without",
+    {"lhr_ucb_no_survey",
      "UCB, no survey",
      "lhr",
      SamplingReward::kUcb,
@@ -87,8 +81,7 @@ absl::StatusOr<StudyRow> MakeRow(const TableRow& row, const Scene& world) {
   PlanningOptions& planning = made.mission.planning;
   planning.speed_mps = kSpeed_mps;
   planning.dwell_s = kDwell_s;
-  const Region region = RegionOf(world.geometry());
-  planning.sites.region = Rectangle{region.south_west, region.north_east};
+  planning.sites.region = RegionOf(world.geometry());
   planning.sites.spacing_m = world.geometry().resolution_m;
   planning.sites.reward = row.reward;
   planning.sites.survey = row.survey;
@@ -174,7 +167,7 @@ void AddNumbers(const Drives& drives, Study& study) {
     const double convergence_min = SpreadOf(Of(drives[row], Convergence_min)).mean;
     study.summary.figures.emplace_back(name + "_distance_m",
                                        SpreadOf(Of(drives[row], Driven_m)).mean);
-    study.summary.figures.emplace_back(name + "_convergence_min", convergence_min);
+    study.summary.figures.emplace_back(name + "_rmse_ct_min", convergence_min);
     study.summary.figures.emplace_back(name + "_final_rmse_ppm",
                                        SpreadOf(Of(drives[row], Final_ppm)).mean);
     study.figures.key_numbers.emplace_back(
@@ -231,6 +224,9 @@ absl::StatusOr<Study> RunLhrTable2(const ExperimentOptions& options) {
   study.figures.charts = {MakeErrorChart(drives)};
   PLUMESCOUT_RETURN_IF_ERROR(AddPictures(options, plan, study.figures));
   AddNumbers(drives, study);
+  PLUMESCOUT_ASSIGN_OR_RETURN(const TourCost cost, MeasureTourCost(options.seed));
+  study.summary.figures.emplace_back("p2_3003_subsets_ms", cost.subsets_ms);
+  study.summary.figures.emplace_back("p1_6x6_ms", cost.survey_ms);
   study.table = MakeDriveTable(plan, drives);
   study.summary.about = AboutThisRun(options.seed);
   study.summary.about.emplace_back("drives", absl::StrCat(plan.cases.size()));

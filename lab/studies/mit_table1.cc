@@ -15,6 +15,7 @@
 #include "lab/report/bar_chart.h"
 #include "lab/report/palette.h"
 #include "lab/trials/mit_runs.h"
+#include "lab/trials/statistics.h"
 #include "lab/worlds/mit_scene.h"
 #include "lab/worlds/synthetic_scene.h"
 
@@ -149,12 +150,12 @@ BarChart PsiChart(const TableStudy& study) {
     BarSeries series{study.rivals[r].name, RivalColor(r), {}};
     for (std::size_t t = 0; t < kTrajectories; ++t) {
       const MitSummary& summary = study.table(r);
-      double squares = 0.0;
+      std::vector<double> psi;
       for (const MitRun& run : study.scenes.front().runs[r]) {
-        if (!run.paths[t].empty()) squares += std::pow(run.psi[t] - summary.psi[t], 2);
+        if (!run.paths[t].empty()) psi.push_back(run.psi[t]);
       }
-      const double n = summary.found[t];
-      const double error = 2.0 * std::sqrt(squares / std::max(1.0, n * (n - 1.0)));
+      const double error = 2.0 * SpreadOf(psi).stddev /
+                           std::sqrt(static_cast<double>(std::max<std::size_t>(1, psi.size())));
       series.bars.push_back({summary.psi[t], summary.psi[t] - error, summary.psi[t] + error});
     }
     chart.series.push_back(std::move(series));
@@ -351,6 +352,11 @@ void AddFigures(const TableStudy& study, Summary& summary) {
       for (std::size_t t = 0; t < kTrajectories; ++t) {
         const std::string trajectory = absl::StrCat("_", t + 1);
         summary.figures.emplace_back(prefix + "share" + trajectory, found.share(t));
+        if (s == 0) {  // of the table
+          summary.figures.emplace_back(
+              absl::StrFormat("%s_t%d_percent", Slug(study.rivals[r]), t + 1),
+              kPercent * found.share(t));
+        }
         summary.figures.emplace_back(prefix + "mean_psi" + trajectory, found.psi[t]);
         summary.figures.emplace_back(prefix + "found" + trajectory, found.found[t]);
       }
@@ -358,6 +364,7 @@ void AddFigures(const TableStudy& study, Summary& summary) {
       summary.figures.emplace_back(prefix + "samples", found.samples);
     }
   }
+  summary.figures.emplace_back("trials", study.table(kMit).runs);
   summary.figures.emplace_back("scenes", static_cast<double>(study.scenes.size()));
   summary.figures.emplace_back("scenes_mit_ahead_of_rrt_star",
                                ScenesAhead(study, kMit, kRrtStar, InformativeShare));

@@ -3,6 +3,7 @@
 #include "lab/studies/own_strategy.h"
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,12 +12,9 @@
 #include "absl/strings/str_format.h"
 #include "core/types/status_macros.h"
 #include "lab/about/about.h"
-#include "lab/formats/scene_folder.h"
 #include "lab/report/palette.h"
-#include "lab/trials/oracle.h"
 #include "lab/trials/row_figures.h"
 #include "lab/trials/study_scenes.h"
-#include "lab/trials/task_pool.h"
 #include "lab/trials/trial_study.h"
 
 namespace plumescout::lab {
@@ -93,29 +91,22 @@ Reached MeanOf(const std::vector<TrialRecord>& trials) {
   return mean;
 }
 
-// As many readings as the robots took, greedily for the entropy.
+// The oracle has as many readings as the baseline's robots took.
 absl::StatusOr<std::vector<Building>> Judge(const TrialPlan& plan,
                                             const std::vector<SceneRecords>& records,
                                             const std::function<void(double)>& progress) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<MapMetrics> oracles,
+                              OracleMetrics(plan, records, kBaseline, progress));
   std::vector<Building> buildings(records.size());
-  PLUMESCOUT_RETURN_IF_ERROR(RunTasks(
-      records.size(), plan.jobs,
-      [&](std::size_t i) -> absl::Status {
-        Building& building = buildings[i];
-        building.name = SceneName(plan.scenes[i]);
-        for (const std::vector<TrialRecord>& trials : records[i]) {
-          building.rows.push_back(MeanOf(trials));
-        }
-        PLUMESCOUT_ASSIGN_OR_RETURN(const Scene scene, ReadScene(plan.scenes[i]));
-        const int readings = records[i][kBaseline].front().gas_readings;
-        PLUMESCOUT_ASSIGN_OR_RETURN(
-            const MapMetrics best,
-            PlaceReadings(scene, plan.rows.front().mission.gas, readings, OracleAim::kEntropy));
-        building.oracle = {Rmse_ppm(best), EntropyPerCell_nats(best), 1.0};
-        building.rmse_zero_ppm = best.rmse_zero_ppm;
-        return absl::OkStatus();
-      },
-      progress));
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    Building& building = buildings[i];
+    building.name = SceneName(plan.scenes[i]);
+    for (const std::vector<TrialRecord>& trials : records[i]) {
+      building.rows.push_back(MeanOf(trials));
+    }
+    building.oracle = {Rmse_ppm(oracles[i]), EntropyPerCell_nats(oracles[i]), 1.0};
+    building.rmse_zero_ppm = oracles[i].rmse_zero_ppm;
+  }
   return buildings;
 }
 
@@ -208,6 +199,7 @@ TextTable MakeBuildingTable(const std::vector<Building>& buildings) {
 void AddNumbers(const std::vector<Building>& buildings, Study& study) {
   const std::pair<const char*, FigureFn> figures[] = {{"rmse", RmseShare}, {"entropy", Entropy}};
   for (const auto& [name, figure] : figures) {
+    const char* const label = figure == RmseShare ? "RMSE" : "entropy";
     for (std::size_t row = 0; row < std::size(kContestants); ++row) {
       const std::string prefix = absl::StrCat(kContestants[row].name, "_", name);
       study.summary.figures.emplace_back(prefix + "_mean",
@@ -220,10 +212,10 @@ void AddNumbers(const std::vector<Building>& buildings, Study& study) {
           PairedPValue(Of(buildings, kOwn, figure), Of(buildings, row, figure)));
     }
     study.figures.key_numbers.emplace_back(
-        absl::StrCat("share of the oracle's gain, ", name),
+        absl::StrCat("Share of the oracle's gain, ", label),
         absl::StrFormat("%.2f", OracleShare(buildings, kOwn, kBaseline, figure)));
     study.figures.key_numbers.emplace_back(
-        absl::StrCat("XIT-GFF's, ", name),
+        absl::StrCat("XIT-GFF's, ", label),
         absl::StrFormat("%.2f paper, %.2f ours", OracleShare(buildings, kGff, kBaseline, figure),
                         OracleShare(buildings, kGffOurs, kBaseline, figure)));
   }

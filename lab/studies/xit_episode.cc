@@ -182,7 +182,7 @@ std::string TitleOf(char letter, const ChosenMoment& chosen, const MissionMoment
 }
 
 MapPanel PanelOf(const RecordedMission& mission, const ChosenMoment& chosen, char letter,
-                 const Detour& detour, const Region& region) {
+                 const Detour& detour, const Rectangle& region) {
   const MissionMoment& moment = mission.moments[chosen.index];
   MapPanel panel =
       MomentPanel(mission, moment, TitleOf(letter, chosen, moment), {.region = region});
@@ -315,7 +315,7 @@ absl::StatusOr<Study> RunXitEpisode(const ExperimentOptions& options) {
 
   std::vector<Detour> detours;
   for (const MissionMoment& moment : mission.moments) detours.push_back(FindDetour(moment));
-  const Region region = RegionOf(world.scene().geometry());
+  const Rectangle region = RegionOf(world.scene().geometry());
   Study study;
   const Detour* exploitation = nullptr;
   char letter = 'a';

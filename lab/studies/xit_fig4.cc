@@ -70,6 +70,7 @@ struct SceneStudy {
 std::optional<FoundPath> Search(const SyntheticScene& scene, const Spread& spread,
                                 std::uint64_t seed) {
   PlanningOptions options;
+  options.max_connection_radius_m = 0.0;  // Eq. (7) alone
   options.sample_count = spread.samples;
   options.sampling = spread.sampling;
   const EdgeCost cost(scene.information, CostKind::kUcb, kAlpha_per_m);

@@ -76,14 +76,14 @@ std::string CountText(std::size_t frontiers) {
 
 void AddCellEdges(const GridGeometry& geometry, MapPanel& panel) {
   const Stroke edge{kGridLine, 0.6};
-  const Region region = RegionOf(geometry);
+  const Rectangle region = RegionOf(geometry);
   for (int x = 0; x <= geometry.width; ++x) {
     const double x_m = geometry.origin_x_m + x * geometry.resolution_m;
-    panel.lines.push_back({{{x_m, region.south_west.y_m}, {x_m, region.north_east.y_m}}, edge});
+    panel.lines.push_back({{{x_m, region.min.y_m}, {x_m, region.max.y_m}}, edge});
   }
   for (int y = 0; y <= geometry.height; ++y) {
     const double y_m = geometry.origin_y_m + y * geometry.resolution_m;
-    panel.lines.push_back({{{region.south_west.x_m, y_m}, {region.north_east.x_m, y_m}}, edge});
+    panel.lines.push_back({{{region.min.x_m, y_m}, {region.max.x_m, y_m}}, edge});
   }
 }
 

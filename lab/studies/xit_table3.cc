@@ -246,18 +246,38 @@ absl::Status AddErrorMaps(const TrialPlan& plan, const std::vector<SceneRecords>
   return absl::OkStatus();
 }
 
-void AddNumbers(const std::vector<SceneRecords>& records, Study& study) {
-  const std::pair<const char*, MetricFn> metrics[] = {{"rmse_ppm", Rmse_ppm},
-                                                      {"entropy_nats", Entropy_nats}};
-  for (const auto& [name, metric] : metrics) {
+// The row's share of the oracle's gain over the baseline, of the means over trials and buildings.
+double OracleShare(const std::vector<SceneRecords>& records, std::size_t row,
+                   const std::vector<MapMetrics>& oracles, MetricFn metric) {
+  std::vector<double> best;
+  for (const MapMetrics& oracle : oracles) best.push_back(metric(oracle));
+  const double base = SpreadOf(Finals(records, kBaseline, metric)).mean;
+  return (base - SpreadOf(Finals(records, row, metric)).mean) / (base - SpreadOf(best).mean);
+}
+
+void AddNumbers(const std::vector<SceneRecords>& records, const std::vector<MapMetrics>& oracles,
+                Study& study) {
+  struct Metric {
+    const char* name;
+    const char* with_unit;
+    MetricFn of;
+    MetricFn by_cell;  // the oracle may have judged fewer cells
+  };
+  constexpr Metric kMetrics[] = {{"rmse", "rmse_ppm", Rmse_ppm, Rmse_ppm},
+                                 {"entropy", "entropy", Entropy_nats, EntropyPerCell_nats}};
+  auto& figures = study.summary.figures;
+  for (const auto& [name, with_unit, metric, by_cell] : kMetrics) {
     for (std::size_t row = 0; row < std::size(kRows); ++row) {
       const RowResult result = Compare(records, row, metric);
-      const std::string prefix = absl::StrCat(kRows[row].name, "_", name);
-      study.summary.figures.emplace_back(prefix + "_mean", result.spread.mean);
-      study.summary.figures.emplace_back(prefix + "_stddev", result.spread.stddev);
-      study.summary.figures.emplace_back(prefix + "_half_95", result.spread.half_95);
-      study.summary.figures.emplace_back(prefix + "_less_percent", result.reduction_percent);
-      study.summary.figures.emplace_back(prefix + "_p", result.p);
+      const std::string of_row = absl::StrCat(kRows[row].name, "_");
+      figures.emplace_back(absl::StrCat(of_row, with_unit, "_mean"), result.spread.mean);
+      figures.emplace_back(absl::StrCat(of_row, with_unit, "_std"), result.spread.stddev);
+      figures.emplace_back(absl::StrCat(of_row, with_unit, "_half_95"), result.spread.half_95);
+      figures.emplace_back(absl::StrCat(of_row, name, "_reduction_percent"),
+                           result.reduction_percent);
+      figures.emplace_back(absl::StrCat(of_row, name, "_p_value"), result.p);
+      figures.emplace_back(absl::StrCat(of_row, name, "_oracle_share"),
+                           OracleShare(records, row, oracles, by_cell));
       if (row == kBest || row == kOwn) {
         study.figures.key_numbers.emplace_back(
             absl::StrCat(kRows[row].method, " ", kRows[row].cost, ": less ",
@@ -266,6 +286,14 @@ void AddNumbers(const std::vector<SceneRecords>& records, Study& study) {
       }
     }
   }
+}
+
+void AddCompleteness(const std::vector<SceneRecords>& records, int trials, Summary& summary) {
+  for (std::size_t row = 0; row < std::size(kRows); ++row) {
+    summary.figures.emplace_back(absl::StrCat(kRows[row].name, "_completeness_mean"),
+                                 SpreadOf(Finals(records, row, Completeness)).mean);
+  }
+  summary.figures.emplace_back("trials", trials);
 }
 
 std::vector<std::string> MakeNotes(const TrialPlan& plan) {
@@ -304,7 +332,10 @@ absl::StatusOr<Study> RunXitTable3(const ExperimentOptions& options) {
       MakeMetricChart(records, styles, "Entropy, critical cells, nats", Entropy_nats),
       MakeMetricChart(records, styles, "Completeness", Completeness)};
   PLUMESCOUT_RETURN_IF_ERROR(AddErrorMaps(plan, records, study.figures));
-  AddNumbers(records, study);
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<MapMetrics> oracles,
+                              OracleMetrics(plan, records, kBaseline, nullptr));
+  AddNumbers(records, oracles, study);
+  AddCompleteness(records, plan.trials, study.summary);
   study.table = MakeTrialTable(plan, records);
   study.summary.about = AboutThisRun(options.seed);
   study.summary.about.emplace_back("trials", absl::StrCat(plan.trials));

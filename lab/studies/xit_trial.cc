@@ -64,11 +64,12 @@ absl::StatusOr<MissionOptions> MakeMissionOptions(std::uint64_t seed) {
   PLUMESCOUT_RETURN_IF_ERROR(ApplyStrategyRow(mission.planning));
   mission.planning.speed_mps = kSpeed_mps;
   mission.planning.dwell_s = kDwell_s;
-  // As the paper has it: up to five goals, stops at the vertices of the tree, and fallback goals
-  // drawn at random.
+  // As the paper has it: up to five goals, stops at the vertices of the tree, fallback goals drawn
+  // at random, and a connection radius that follows Eq. (7) alone.
   mission.planning.draw_goals = true;
   mission.planning.straighten = false;
   mission.planning.fallback_to_unobserved = false;
+  mission.planning.max_connection_radius_m = 0.0;
   return mission;
 }
 

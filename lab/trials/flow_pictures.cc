@@ -14,9 +14,9 @@ namespace {
 
 constexpr Stroke kStreamLine{{255, 255, 255}, 1.0};
 
-bool Holds(const Region& region, Point2 point) {
-  return point.x_m > region.south_west.x_m && point.x_m < region.north_east.x_m &&
-         point.y_m > region.south_west.y_m && point.y_m < region.north_east.y_m;
+bool Holds(const Rectangle& region, Point2 point) {
+  return point.x_m > region.min.x_m && point.x_m < region.max.x_m && point.y_m > region.min.y_m &&
+         point.y_m < region.max.y_m;
 }
 
 // Corner of a cell and the value there.

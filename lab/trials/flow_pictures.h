@@ -13,7 +13,7 @@ namespace plumescout::lab {
 
 struct FlowPicture {
   std::string title;
-  Region region;                      // shown, of the domain
+  Rectangle region;                   // shown, of the domain
   double fastest_mps = 1.0;           // speed of the last colour
   std::vector<double> stream_values;  // of the stream lines to draw, see StreamFunction
 };

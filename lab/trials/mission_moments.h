@@ -54,7 +54,7 @@ InformationMap InformationOf(const MissionMoment& moment);
 
 // How pictures of moments are made.
 struct MomentStyle {
-  Region region;
+  Rectangle region;
   double clean_air_ppm = 0.0;  // gets the first colour
 };
 

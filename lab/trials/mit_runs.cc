@@ -25,6 +25,7 @@ PlanningOptions Mit() {
   options.strategy = "mit";
   if (!ApplyStrategyRow(options).ok()) return {};
   options.sample_count = kMitSamples;
+  options.max_connection_radius_m = 0.0;
   return options;
 }
 
@@ -145,16 +146,6 @@ MitSummary Summarise(const std::vector<MitRun>& runs) {
     summary.length_m[i] *= scale;
   }
   return summary;
-}
-
-ShareInterval WilsonInterval(int hits, int runs) {
-  constexpr double kZ = 1.959964;  // 97.5 % point of the normal distribution
-  const double n = runs;
-  const double p = hits / n;
-  const double middle = p + kZ * kZ / (2.0 * n);
-  const double half = kZ * std::sqrt(p * (1.0 - p) / n + kZ * kZ / (4.0 * n * n));
-  const double scale = 1.0 / (1.0 + kZ * kZ / n);
-  return {std::max(0.0, scale * (middle - half)), std::min(1.0, scale * (middle + half))};
 }
 
 int MostTypical(const std::vector<const std::vector<Point2>*>& paths) {

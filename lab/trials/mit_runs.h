@@ -62,13 +62,6 @@ struct MitSummary {
 // REQUIRES: runs not empty.
 MitSummary Summarise(const std::vector<MitRun>& runs);
 
-// 95 % interval of a share by Wilson's score. REQUIRES: 0 <= hits <= runs, runs > 0.
-struct ShareInterval {
-  double low = 0.0;
-  double high = 1.0;
-};
-ShareInterval WilsonInterval(int hits, int runs);
-
 // Index of the most typical path: the one with the least mean distance to the others, from points
 // at equal shares of the length. -1 if there is none.
 int MostTypical(const std::vector<const std::vector<Point2>*>& paths);

@@ -6,6 +6,11 @@
 #include <cstddef>
 #include <string>
 
+#include "core/types/status_macros.h"
+#include "lab/formats/scene_folder.h"
+#include "lab/trials/oracle.h"
+#include "lab/trials/task_pool.h"
+
 namespace plumescout::lab {
 namespace {
 
@@ -81,6 +86,22 @@ Chart MakeMetricChart(const std::vector<SceneRecords>& records, const std::vecto
     chart.curves.push_back(std::move(mean));
   }
   return chart;
+}
+
+absl::StatusOr<std::vector<MapMetrics>> OracleMetrics(const TrialPlan& plan,
+                                                      const std::vector<SceneRecords>& records,
+                                                      std::size_t row,
+                                                      const std::function<void(double)>& progress) {
+  std::vector<MapMetrics> oracles(records.size());
+  const auto judge = [&](std::size_t i) -> absl::Status {
+    PLUMESCOUT_ASSIGN_OR_RETURN(const Scene scene, ReadScene(plan.scenes[i]));
+    const int readings = records[i][row].front().gas_readings;
+    PLUMESCOUT_ASSIGN_OR_RETURN(oracles[i], PlaceReadings(scene, plan.rows.front().mission.gas,
+                                                          readings, OracleAim::kEntropy));
+    return absl::OkStatus();
+  };
+  PLUMESCOUT_RETURN_IF_ERROR(RunTasks(records.size(), plan.jobs, judge, progress));
+  return oracles;
 }
 
 CsvTable MakeTrialTable(const TrialPlan& plan, const std::vector<SceneRecords>& records) {

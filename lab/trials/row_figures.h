@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "absl/status/statusor.h"
 #include "lab/formats/csv.h"
 #include "lab/report/chart.h"
 #include "lab/trials/statistics.h"
@@ -33,6 +36,13 @@ struct RowStyle {
 };
 Chart MakeMetricChart(const std::vector<SceneRecords>& records, const std::vector<RowStyle>& rows,
                       const std::string& title, MetricFn metric);
+
+// What the oracle (oracle.h) reaches in every building with as many readings as the first trial of
+// `row` took: a bound to measure gains by. Errors: as ReadScene and PlaceReadings.
+absl::StatusOr<std::vector<MapMetrics>> OracleMetrics(const TrialPlan& plan,
+                                                      const std::vector<SceneRecords>& records,
+                                                      std::size_t row,
+                                                      const std::function<void(double)>& progress);
 
 // Every trial: scene and row as labels, then seed, metrics at the end, distance, plans, collisions.
 CsvTable MakeTrialTable(const TrialPlan& plan, const std::vector<SceneRecords>& records);

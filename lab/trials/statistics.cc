@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/trials/statistics.h"
 
+#include <algorithm>
 #include <bit>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
@@ -80,14 +81,14 @@ double PairedPValue(std::span<const double> a, std::span<const double> b) {
                                  : DrawnShare(differences, limit);
 }
 
-ShareInterval WilsonInterval(std::size_t hits, std::size_t trials) {
+ShareInterval WilsonInterval(int hits, int trials) {
   constexpr double kZ = 1.959964;  // of the standard normal, 97.5 %
-  const auto n = static_cast<double>(trials);
-  const double share = static_cast<double>(hits) / n;
+  const double n = trials;
+  const double share = hits / n;
   const double spread = kZ * std::sqrt(share * (1.0 - share) / n + kZ * kZ / (4.0 * n * n));
   const double middle = share + kZ * kZ / (2.0 * n);
   const double scale = 1.0 + kZ * kZ / n;
-  return {(middle - spread) / scale, (middle + spread) / scale};
+  return {std::max(0.0, (middle - spread) / scale), std::min(1.0, (middle + spread) / scale)};
 }
 
 }  // namespace plumescout::lab

@@ -23,11 +23,12 @@ Spread SpreadOf(std::span<const double> values);
 // swaps drawn from a fixed seed. 1 without pairs. REQUIRES: as many of one as of the other.
 double PairedPValue(std::span<const double> a, std::span<const double> b);
 
-// Wilson's 95 % interval of a share of which `hits` of `trials` were seen. REQUIRES: trials > 0.
+// Wilson's 95 % interval of a share, of which `hits` of `trials` were seen; within [0, 1].
+// REQUIRES: 0 <= hits <= trials, trials > 0.
 struct ShareInterval {
   double low = 0.0;
   double high = 1.0;
 };
-ShareInterval WilsonInterval(std::size_t hits, std::size_t trials);
+ShareInterval WilsonInterval(int hits, int trials);
 
 }  // namespace plumescout::lab

@@ -5,8 +5,8 @@
 #include "absl/strings/str_cat.h"
 #include "core/types/status_macros.h"
 #include "formats/file_io.h"
-#include "lab/formats/png.h"
 #include "lab/report/html_page.h"
+#include "lab/report/png.h"
 
 namespace plumescout::lab {
 

@@ -99,6 +99,7 @@ absl::StatusOr<StudyRow> MakeStudyRow(const std::string& name, const std::string
   planning.fallback_limit = kEndless;
   planning.draw_goals = as_the_paper;
   planning.fallback_to_unobserved = !as_the_paper;
+  if (as_the_paper) planning.max_connection_radius_m = 0.0;
   return row;
 }
 

@@ -24,8 +24,9 @@ struct StudyRow {
 };
 
 // A strategy of the table, driving until the time is up. As the paper: goals are drawn at random
-// within a kind, and are random free places once no frontier is left ([XIT] section VI-B); else all
-// of them are offered, and then places whose gas is unobserved. Errors: as ApplyStrategyRow.
+// within a kind, and are random free places once no frontier is left ([XIT] section VI-B), and the
+// connection radius of [XIT] Eq. (7) has no limit; else all of them are offered, and then places
+// whose gas is unobserved, and the radius has that of the options. Errors: as ApplyStrategyRow.
 absl::StatusOr<StudyRow> MakeStudyRow(const std::string& name, const std::string& strategy,
                                       bool as_the_paper);
 

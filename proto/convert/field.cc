@@ -3,11 +3,11 @@
 #include "proto/convert/field.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "absl/strings/ascii.h"
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
+#include "core/types/checker.h"
+#include "core/types/error_reason.h"
 #include "google/rpc/error_details.pb.h"
 #include "proto/convert/status.h"
 
@@ -28,15 +28,12 @@ absl::Status Violation(absl::string_view field, absl::string_view description,
   return status;
 }
 
-// The "WORD: " in capitals that a message may begin with.
-absl::string_view LeadingReason(absl::string_view message) {
+// The "REASON: " that a message may begin with.
+absl::string_view LeadingReason(const absl::Status& status) {
   constexpr absl::string_view kEnd = ": ";
-  const std::size_t end = message.find(kEnd);
-  if (end == absl::string_view::npos || end == 0) return "";
-  const absl::string_view word = message.substr(0, end);
-  const bool capitals = std::all_of(word.begin(), word.end(),
-                                    [](char c) { return absl::ascii_isupper(c) || c == '_'; });
-  return capitals ? message.substr(0, end + kEnd.size()) : "";
+  const std::size_t end = ErrorReason(status).size();
+  if (end == 0 || status.message().substr(end, kEnd.size()) != kEnd) return "";
+  return status.message().substr(0, end + kEnd.size());
 }
 
 }  // namespace
@@ -55,23 +52,19 @@ absl::Status FieldError(absl::string_view field, absl::string_view rule) {
 }
 
 absl::Status CheckFinite(absl::string_view field, double value) {
-  return std::isfinite(value) ? absl::OkStatus() : FieldError(field, value, "must be finite");
+  return WithField(Checker().Finite(field, value).status(), "");
 }
 
 absl::Status CheckPositive(absl::string_view field, double value) {
-  return std::isfinite(value) && value > 0.0 ? absl::OkStatus()
-                                             : FieldError(field, value, "must be finite and > 0");
+  return WithField(Checker().Positive(field, value).status(), "");
 }
 
 absl::Status CheckNotNegative(absl::string_view field, double value) {
-  return std::isfinite(value) && value >= 0.0 ? absl::OkStatus()
-                                              : FieldError(field, value, "must be finite and >= 0");
+  return WithField(Checker().NotNegative(field, value).status(), "");
 }
 
 absl::Status CheckRange(absl::string_view field, double value, double low, double high) {
-  return value >= low && value <= high
-             ? absl::OkStatus()
-             : FieldError(field, value, absl::StrCat("must be in [", low, ", ", high, "]"));
+  return WithField(Checker().InRange(field, value, low, high).status(), "");
 }
 
 absl::Status CheckIntRange(absl::string_view field, std::int64_t value, std::int64_t low,
@@ -95,7 +88,7 @@ std::string Join(absl::string_view parent, absl::string_view name, int index) {
 absl::Status WithField(const absl::Status& status, absl::string_view parent,
                        absl::Span<const FieldName> renamed) {
   if (!absl::IsInvalidArgument(status) || !FieldViolations(status).empty()) return status;
-  const absl::string_view reason = LeadingReason(status.message());
+  const absl::string_view reason = LeadingReason(status);
   const absl::string_view message = status.message().substr(reason.size());
   const std::size_t name_end = message.find(' ');
   if (name_end == absl::string_view::npos) return Violation(parent, message, reason);

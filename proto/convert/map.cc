@@ -41,6 +41,7 @@ v1::RobotOnMap ToProto(const RobotState& robot, const MissionId& mission) {
   if (robot.has_pose) *proto.mutable_pose() = ToProto(robot.pose);
   proto.set_applied_sequence(robot.applied_sequence);
   proto.set_rejected_observation_count(robot.rejected_observations);
+  proto.set_silent(robot.silent);
   return proto;
 }
 
@@ -84,6 +85,7 @@ absl::StatusOr<RobotState> FromProto(const v1::RobotOnMap& proto, absl::string_v
   PLUMESCOUT_ASSIGN_OR_RETURN(robot.pose, FromProto(proto.pose(), Join(field, "pose")));
   robot.applied_sequence = proto.applied_sequence();
   robot.rejected_observations = proto.rejected_observation_count();
+  robot.silent = proto.silent();
   return robot;
 }
 
@@ -103,6 +105,13 @@ GasQuality FromProto(const v1::GasQuality& proto) {
           .failures = proto.failure_count(),
           .drift_mean_ppm = proto.drift_mean_ppm(),
           .drift_variance_ratio = proto.drift_variance_ratio()};
+}
+
+GasAudits AuditsFromProto(const v1::GasQuality& proto) {
+  return {.audits = proto.audit_count(),
+          .mean_ppm = proto.audit_mean_ppm(),
+          .variance_ratio = proto.audit_variance_ratio(),
+          .alarms = proto.audit_alarm_count()};
 }
 
 v1::MapTile EncodeGas(v1::MapLayer layer, const Grid<float>& values, bool full_precision,
@@ -162,7 +171,7 @@ std::vector<v1::MapTile> EncodeTiles(const MapSnapshot& map, const MapView& view
   return tiles;
 }
 
-v1::GasQuality ToProto(const GasQuality& quality) {
+v1::GasQuality ToProto(const GasQuality& quality, const GasAudits& audits) {
   v1::GasQuality proto;
   proto.set_mean_error_ppm(quality.mean_error_ppm);
   proto.set_variance_error_ratio(quality.variance_error_ratio);
@@ -172,6 +181,10 @@ v1::GasQuality ToProto(const GasQuality& quality) {
   proto.set_epoch_count(quality.epochs);
   proto.set_healed_count(quality.healed);
   proto.set_failure_count(quality.failures);
+  proto.set_audit_count(audits.audits);
+  proto.set_audit_mean_ppm(audits.mean_ppm);
+  proto.set_audit_variance_ratio(audits.variance_ratio);
+  proto.set_audit_alarm_count(audits.alarms);
   proto.set_drift_mean_ppm(quality.drift_mean_ppm);
   proto.set_drift_variance_ratio(quality.drift_variance_ratio);
   return proto;
@@ -184,7 +197,7 @@ v1::MapStatus StatusToProto(const MapSnapshot& map, const MissionId& mission) {
   for (const Frontier& frontier : map.frontiers) *proto.add_frontiers() = ToProto(frontier);
   for (const RobotState& robot : map.robots) *proto.add_robots() = ToProto(robot, mission);
   *proto.mutable_gas_counters() = ToProto(map.gas_counters);
-  *proto.mutable_gas_quality() = ToProto(map.gas_quality);
+  *proto.mutable_gas_quality() = ToProto(map.gas_quality, map.gas_audits);
   proto.set_phase(ToProto(map.phase));
   return proto;
 }
@@ -223,6 +236,7 @@ absl::StatusOr<MapSnapshot> FromProto(const v1::MapStatus& proto, absl::string_v
   map.gas_threshold_ppm = proto.gas_threshold_ppm();
   map.gas_counters = FromProto(proto.gas_counters());
   map.gas_quality = FromProto(proto.gas_quality());
+  map.gas_audits = AuditsFromProto(proto.gas_quality());
   map.occupancy = Grid<CellState>(geometry, CellState::kUnknown);
   map.gas_mean_ppm = Grid<float>(geometry, std::numeric_limits<float>::quiet_NaN());
   map.gas_variance_ppm2 = map.gas_mean_ppm;

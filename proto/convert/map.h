@@ -30,7 +30,7 @@ absl::StatusOr<MapView> MapViewFromProto(const google::protobuf::RepeatedField<i
 // The tiles of one rectangle, a layer each.
 std::vector<v1::MapTile> EncodeTiles(const MapSnapshot& map, const MapView& view,
                                      const CellRect& rect);
-v1::GasQuality ToProto(const GasQuality& quality);
+v1::GasQuality ToProto(const GasQuality& quality, const GasAudits& audits);
 // Everything but revision and rasters.
 v1::MapStatus StatusToProto(const MapSnapshot& map, const MissionId& mission);
 v1::GetMapResponse ToProto(const MapSnapshot& map, const MissionId& mission, const MapView& view);

@@ -11,8 +11,8 @@
 #include "google/protobuf/message.h"
 #include "google/protobuf/util/message_differencer.h"
 #include "proto/convert/field.h"
-#include "proto/convert/option_binding.h"
 #include "proto/convert/geometry.h"
+#include "proto/convert/option_binding.h"
 #include "proto/convert/prior_map.h"
 
 namespace plumescout {
@@ -41,6 +41,7 @@ void Visit(OneOf<GasOptions> auto& options, auto& field) {
   field("refresh_period_s", options.refresh_period_s);
   field("lattice_factor", options.lattice_factor);
   field("observation_stddev_share", options.observation_stddev_share);
+  field("audit_period_epochs", options.audit_period_epochs);
 }
 
 void Visit(OneOf<FrontierOptions> auto& options, auto& field) {
@@ -85,11 +86,13 @@ void VisitSearch(OneOf<PlanningOptions> auto& options, auto& field) {
   field("sampling", options.sampling);
   field("radius_factor", options.radius_factor);
   field("mixture_radius", options.mixture_radius);
+  field("max_connection_radius_m", options.max_connection_radius_m);
   field("grid_guard", options.grid_guard);
   field("goal_vertices", options.goal_vertices);
   field("informed_heuristic", options.informed_heuristic);
   field("straighten", options.straighten);
   field("reading_rate_hz", options.reading_rate_hz);
+  field("unseen_information_nats", options.unseen_information_nats);
   field("commitment_margin_share", options.commitment_margin_share);
 }
 
@@ -114,6 +117,7 @@ void Visit(OneOf<MissionOptions> auto& options, auto& field) {
   field("max_beam_count", options.max_beam_count);
   field("max_concentration_ppm", options.max_concentration_ppm);
   field("max_robot_count", options.max_robot_count);
+  field("robot_silence_s", options.robot_silence_s);
   field("seed", options.seed);
 }
 

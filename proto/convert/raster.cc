@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proto/convert/raster.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -13,6 +11,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/types/status_macros.h"
+#include "formats/zlib_codec.h"
 #include "proto/convert/field.h"
 #include "proto/convert/geometry.h"
 
@@ -29,24 +28,10 @@ std::size_t CellCount(const CellRect& rect) {
   return static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height);
 }
 
-std::string Deflate(const void* data, std::size_t size) {
-  uLongf deflated_size = compressBound(size);
-  std::string deflated(deflated_size, '\0');
-  compress2(reinterpret_cast<Bytef*>(deflated.data()), &deflated_size,
-            static_cast<const Bytef*>(data), size, kDeflateLevel);
-  deflated.resize(deflated_size);
-  return deflated;
-}
-
-// Inflates into exactly `size` bytes; anything else is refused.
-absl::Status Inflate(const std::string& deflated, absl::string_view field, void* data,
-                     std::size_t size) {
-  uLongf inflated_size = size;
-  uLong consumed = deflated.size();
-  const int code = uncompress2(static_cast<Bytef*>(data), &inflated_size,
-                               reinterpret_cast<const Bytef*>(deflated.data()), &consumed);
-  if (code == Z_OK && inflated_size == size && consumed == deflated.size()) return absl::OkStatus();
-  return FieldError(field, absl::StrCat("must inflate to exactly ", size, " bytes"));
+template <typename T>
+std::string Deflate(const std::vector<T>& cells) {
+  return CompressZlib({reinterpret_cast<const char*>(cells.data()), cells.size() * sizeof(T)},
+                      kDeflateLevel);
 }
 
 // The rectangle's cells, row by row, as one vector.
@@ -99,8 +84,13 @@ template <typename T>
 absl::StatusOr<std::vector<T>> InflateCells(const v1::MapTile& tile, absl::string_view field,
                                             const CellRect& rect) {
   std::vector<T> cells(CellCount(rect));
-  PLUMESCOUT_RETURN_IF_ERROR(Inflate(tile.deflated_data(), Join(field, "deflated_data"),
-                                     cells.data(), cells.size() * sizeof(T)));
+  const std::size_t size = cells.size() * sizeof(T);
+  const absl::StatusOr<std::string> bytes = DecompressZlib(tile.deflated_data(), size);
+  if (!bytes.ok() || bytes->size() != size) {
+    return FieldError(Join(field, "deflated_data"),
+                      absl::StrCat("must inflate to exactly ", size, " bytes"));
+  }
+  if (size > 0) std::memcpy(cells.data(), bytes->data(), size);
   return cells;
 }
 
@@ -129,7 +119,7 @@ v1::MapTile EncodeStates(const Grid<CellState>& states, const CellRect& rect) {
   v1::MapTile tile = MakeTile(v1::MAP_LAYER_OCCUPANCY, rect, v1::MapTile::ENCODING_U8);
   static_assert(sizeof(CellState) == 1);
   const std::vector<CellState> cells = Gather(states, rect);
-  tile.set_deflated_data(Deflate(cells.data(), cells.size()));
+  tile.set_deflated_data(Deflate(cells));
   return tile;
 }
 
@@ -152,14 +142,14 @@ v1::MapTile EncodeScaled(v1::MapLayer layer, const Grid<float>& values, const Ce
     const double step = scale > 0.0 ? std::round((value - low) / scale) : 0.0;
     counts.push_back(std::isfinite(value) ? static_cast<std::uint16_t>(step) : kNanCount);
   }
-  tile.set_deflated_data(Deflate(counts.data(), counts.size() * sizeof(std::uint16_t)));
+  tile.set_deflated_data(Deflate(counts));
   return tile;
 }
 
 v1::MapTile EncodeFloats(v1::MapLayer layer, const Grid<float>& values, const CellRect& rect) {
   v1::MapTile tile = MakeTile(layer, rect, v1::MapTile::ENCODING_F32);
   const std::vector<float> cells = Gather(values, rect);
-  tile.set_deflated_data(Deflate(cells.data(), cells.size() * sizeof(float)));
+  tile.set_deflated_data(Deflate(cells));
   return tile;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 
 #include "absl/time/time.h"
@@ -21,6 +22,11 @@ inline SteadyTime After(SteadyTime from, absl::Duration duration) {
     return SteadyTime::max();
   }
   return from + absl::ToChronoNanoseconds(duration);
+}
+
+// As core counts time: its zero is the clock's.
+inline std::int64_t ToNanoseconds(SteadyTime time) {
+  return absl::ToInt64Nanoseconds(absl::FromChrono(time.time_since_epoch()));
 }
 
 // The monotonic instant of a gRPC deadline; max() for none.

@@ -6,24 +6,18 @@
 #include <optional>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
 #include "server/base/errors.h"
 
 namespace plumescout::server {
 namespace {
 
 // What to tell the waiter now; nothing if it has to wait on.
-std::optional<absl::Status> Verdict(const BeliefRequest& request, const MissionWriter& writer,
+std::optional<absl::Status> Verdict(const BeliefRequest& request, const MissionConduct& conduct,
                                     SteadyTime now) {
   if (request.abandoned()) return absl::CancelledError("the caller gave up");
-  if (request.robot.empty()) return absl::OkStatus();
-  const auto position = writer.Position(request.robot);
-  if (!position.ok()) return position.status();
-  if (position->applied_sequence >= request.min_applied_sequence) return absl::OkStatus();
-  if (now < request.deadline) return std::nullopt;
-  return absl::DeadlineExceededError(
-      absl::StrCat("waited for sequence ", request.min_applied_sequence, " of robot \"",
-                   request.robot, "\", which stands at ", position->applied_sequence));
+  const std::optional<absl::Status> verdict = conduct.Verdict(request.wish);
+  if (verdict.has_value() || now < request.deadline) return verdict;
+  return conduct.WaitedInVain(request.wish);
 }
 
 }  // namespace
@@ -36,15 +30,15 @@ void BeliefWaiters::Add(BeliefRequest request, BeliefCallback done) {
   waiters_.push_back({std::move(request), std::move(done)});
 }
 
-void BeliefWaiters::Serve(MissionWriter& writer, SteadyTime now) {
+void BeliefWaiters::Serve(MissionConduct& conduct, SteadyTime now) {
   std::vector<Waiter> waiting;
   std::swap(waiting, waiters_);
   for (Waiter& waiter : waiting) {
-    const auto verdict = Verdict(waiter.request, writer, now);
+    const auto verdict = Verdict(waiter.request, conduct, now);
     if (!verdict.has_value()) {
       waiters_.push_back(std::move(waiter));
     } else if (verdict->ok()) {
-      waiter.done(waiter.request.fresh_posterior ? writer.FreshBelief() : writer.Snapshot());
+      waiter.done(conduct.BeliefFor(waiter.request.wish));
     } else {
       waiter.done(*verdict);
     }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -10,21 +9,19 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/belief/belief.h"
+#include "core/mission/conduct/mission_conduct.h"
 #include "core/types/stop.h"
 #include "server/base/clock.h"
-#include "server/missions/mission_writer.h"
 
 namespace plumescout::server {
 
 using BeliefCallback = std::function<void(absl::StatusOr<std::shared_ptr<const Belief>>)>;
 
-// Somebody who wants a belief that holds a robot's log up to a number.
+// Somebody who wants a belief.
 struct BeliefRequest {
-  RobotId robot;  // empty: nobody's log in particular
-  std::int64_t min_applied_sequence = 0;
+  BeliefWish wish;
   SteadyTime deadline = SteadyTime::max();
   StopFn abandoned = NeverStop();  // nobody wants it any more
-  bool fresh_posterior = true;  // false: the posterior as it is will do; the mission stays the same
 };
 
 // Those who wait for a belief, served in the order in which they came. Single-threaded; each
@@ -35,7 +32,7 @@ class BeliefWaiters {
 
   void Add(BeliefRequest request, BeliefCallback done);
   // Serves whom the mission can serve now; drops whom time or interest has left.
-  void Serve(MissionWriter& writer, SteadyTime now);
+  void Serve(MissionConduct& conduct, SteadyTime now);
   void FailAll(const absl::Status& status);
 
   // When Serve has something to drop; max() if never.

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/missions/gas_timings.h"
 
-#include <algorithm>
-#include <cmath>
+#include "core/types/quantile.h"
 
 namespace plumescout::server {
 namespace {
@@ -11,30 +10,26 @@ namespace {
 constexpr double kMedian = 0.5;
 constexpr double kTail = 0.99;
 
-// Nearest rank. REQUIRES: `sorted` is not empty.
-absl::Duration Quantile(const std::vector<absl::Duration>& sorted, double share) {
-  const double rank = std::ceil(share * static_cast<double>(sorted.size()));
-  return sorted[static_cast<std::size_t>(rank) - 1];
-}
-
 absl::Duration Between(SteadyTime from, SteadyTime to) { return absl::FromChrono(to - from); }
 
 }  // namespace
 
 void LatencyWindow::Add(absl::Duration sample) {
-  if (window_.size() < kLatencyWindow) {
-    window_.push_back(sample);
+  const double sample_ms = absl::ToDoubleMilliseconds(sample);
+  if (window_ms_.size() < kLatencyWindow) {
+    window_ms_.push_back(sample_ms);
   } else {
-    window_[static_cast<std::size_t>(samples_) % kLatencyWindow] = sample;
+    window_ms_[static_cast<std::size_t>(samples_) % kLatencyWindow] = sample_ms;
   }
   ++samples_;
 }
 
 LatencyFigures LatencyWindow::Figures() const {
-  if (window_.empty()) return {};
-  std::vector<absl::Duration> sorted = window_;
-  std::sort(sorted.begin(), sorted.end());
-  return {samples_, Quantile(sorted, kMedian), Quantile(sorted, kTail), sorted.back()};
+  if (window_ms_.empty()) return {};
+  const auto quantile = [&](double share) {
+    return absl::Milliseconds(Quantile(window_ms_, share));
+  };
+  return {samples_, quantile(kMedian), quantile(kTail), quantile(1.0)};
 }
 
 void GasTimer::NoteReading(SteadyTime now) {

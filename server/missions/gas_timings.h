@@ -38,7 +38,7 @@ class LatencyWindow {
   LatencyFigures Figures() const;
 
  private:
-  std::vector<absl::Duration> window_;  // a ring once it is full
+  std::vector<double> window_ms_;  // a ring once it is full
   std::int64_t samples_ = 0;
 };
 

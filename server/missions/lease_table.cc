@@ -3,91 +3,83 @@
 #include "server/missions/lease_table.h"
 
 #include <utility>
-#include <vector>
 
+#include "core/mission/conduct/conduct_errors.h"
 #include "core/types/status_macros.h"
-#include "server/base/errors.h"
 
 namespace plumescout::server {
 
 LeaseTable::LeaseTable(absl::Duration hold, std::int64_t first_token, SteadyClock clock)
-    : hold_(hold), clock_(std::move(clock)), next_token_(first_token) {}
+    : clock_(std::move(clock)), book_(absl::ToInt64Nanoseconds(hold), first_token) {}
 
 absl::StatusOr<std::int64_t> LeaseTable::Propose(const RobotId& robot, bool take_over) {
   absl::MutexLock lock(&mutex_);
-  const auto found = leases_.find(robot);
-  if (found != leases_.end() && !take_over) {
-    const Lease& lease = found->second;
-    const absl::Duration idle = absl::FromChrono(clock_() - lease.last_use);
-    if (lease.stream != nullptr) return LeaseHeld(robot, hold_);
-    if (idle < hold_) return LeaseHeld(robot, hold_ - idle);
-  }
-  return next_token_++;
+  return book_.Propose(robot, take_over, ToNanoseconds(clock_()));
 }
 
 void LeaseTable::Grant(const RobotId& robot, std::int64_t token) {
   EndStream end_old;
   {
     absl::MutexLock lock(&mutex_);
-    Lease& lease = leases_[robot];
-    end_old = std::exchange(lease.end_stream, nullptr);
-    lease.stream = nullptr;
-    lease.token = token;
-    lease.last_use = clock_();
+    end_old = TakeEnd(book_.Grant(robot, token, ToNanoseconds(clock_())));
   }
   if (end_old) end_old(LeaseSuperseded(robot));
 }
 
-absl::StatusOr<LeaseTable::Lease*> LeaseTable::Find(const RobotId& robot, std::int64_t token) {
-  const auto found = leases_.find(robot);
-  if (found == leases_.end()) return RobotNotFound(robot);
-  if (found->second.token != token) return LeaseSuperseded(robot);
-  found->second.last_use = clock_();
-  return &found->second;
-}
-
-absl::Status LeaseTable::Check(const RobotId& robot, std::int64_t token) {
-  absl::MutexLock lock(&mutex_);
-  return Find(robot, token).status();
-}
-
-absl::Status LeaseTable::OpenStream(const RobotId& robot, std::int64_t token, const void* stream,
-                                    EndStream end) {
-  EndStream end_old;
+void LeaseTable::Remove(const RobotId& robot) {
+  EndStream end;
   {
     absl::MutexLock lock(&mutex_);
-    PLUMESCOUT_ASSIGN_OR_RETURN(Lease* const lease, Find(robot, token));
-    end_old = std::exchange(lease->end_stream, std::move(end));
-    lease->stream = stream;
+    end = TakeEnd(book_.Remove(robot));
   }
-  if (end_old) end_old(StreamReplaced(robot));
-  return absl::OkStatus();
+  if (end) end(RobotNotFound(robot));
 }
 
-void LeaseTable::CloseStream(const RobotId& robot, const void* stream) {
+absl::Status LeaseTable::Use(const RobotId& robot, std::int64_t token) {
   absl::MutexLock lock(&mutex_);
-  const auto found = leases_.find(robot);
-  if (found == leases_.end() || found->second.stream != stream) return;
-  found->second.stream = nullptr;
-  found->second.end_stream = nullptr;
-  found->second.last_use = clock_();
+  return book_.Use(robot, token, ToNanoseconds(clock_()));
+}
+
+absl::StatusOr<StreamId> LeaseTable::OpenStream(const RobotId& robot, std::int64_t token,
+                                                EndStream end) {
+  EndStream end_old;
+  LeaseBook::OpenedStream opened;
+  {
+    absl::MutexLock lock(&mutex_);
+    PLUMESCOUT_ASSIGN_OR_RETURN(opened, book_.OpenStream(robot, token, ToNanoseconds(clock_())));
+    end_old = TakeEnd(opened.replaced);
+    ends_.emplace(opened.stream, std::move(end));
+  }
+  if (end_old) end_old(StreamReplaced(robot));
+  return opened.stream;
+}
+
+void LeaseTable::CloseStream(const RobotId& robot, StreamId stream) {
+  absl::MutexLock lock(&mutex_);
+  book_.CloseStream(robot, stream, ToNanoseconds(clock_()));
+  ends_.erase(stream);
 }
 
 void LeaseTable::EndAll(const absl::Status& status) {
-  std::vector<EndStream> ends;
+  std::map<StreamId, EndStream> ends;
   {
     absl::MutexLock lock(&mutex_);
-    for (auto& [robot, lease] : leases_) {
-      if (lease.end_stream) ends.push_back(std::exchange(lease.end_stream, nullptr));
-      lease.stream = nullptr;
-    }
+    ends.swap(ends_);
+    book_.CloseAllStreams();
   }
-  for (const EndStream& end : ends) end(status);
+  for (const auto& [stream, end] : ends) {
+    if (end) end(status);
+  }
+}
+
+LeaseTable::EndStream LeaseTable::TakeEnd(StreamId stream) {
+  const auto found = ends_.extract(stream);
+  return found.empty() ? nullptr : std::move(found.mapped());
 }
 
 int LeaseTable::robot_count() const {
   absl::MutexLock lock(&mutex_);
-  return static_cast<int>(leases_.size());
+  return book_.robot_count();
 }
 
 }  // namespace plumescout::server

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/mission/conduct/conduct_errors.h"
 #include "server/base/errors.h"
 
 namespace plumescout::server {
@@ -16,7 +17,8 @@ MissionHost::MissionHost(Parts parts, const HostOptions& options)
       mission_options_(parts.mission->options()),
       strategy_(std::move(parts.strategy)),
       leases_(options.lease_hold, options.first_lease_token, options.clock),
-      writer_(std::move(parts.mission), std::move(parts.sink), parts.epoch_pool),
+      writer_(std::move(parts.mission), std::move(parts.sink), parts.epoch_pool, SteadyNow,
+              parts.audit_pool),
       waiters_(options.max_waiters),
       thread_([this] { Run(); }) {}
 
@@ -55,7 +57,7 @@ absl::Status MissionHost::AwaitBelief(BeliefRequest request, BeliefCallback done
 absl::Status MissionHost::Subscribe(Subscriber subscriber) {
   return Post([this, subscriber = std::move(subscriber)](MissionWriter& writer) {
     if (subscribers_.empty()) writer.BeginPublishing();
-    if (subscriber(writer.Snapshot())) subscribers_.push_back(subscriber);
+    if (subscriber(writer.conduct().Snapshot())) subscribers_.push_back(subscriber);
   });
 }
 
@@ -105,8 +107,9 @@ void MissionHost::Run() {
 }
 
 void MissionHost::AfterCommands() {
+  writer_.CollectAudit();
   const SteadyTime now = SteadyNow();
-  waiters_.Serve(writer_, now);
+  waiters_.Serve(writer_.conduct(), now);
   if (now >= next_publication()) {
     auto belief = writer_.Publish(host_options_.gas_wait);
     published_at_ = now;

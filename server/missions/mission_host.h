@@ -48,7 +48,8 @@ class MissionHost {
     std::unique_ptr<Mission> mission;
     std::unique_ptr<const Strategy> strategy;
     EventSink sink;
-    WorkerPool* epoch_pool = nullptr;  // of the writer; see MissionWriter
+    WorkerPool* epoch_pool = nullptr;  // of the writer, as is the next; see MissionWriter
+    WorkerPool* audit_pool = nullptr;
   };
 
   MissionHost(Parts parts, const HostOptions& options);

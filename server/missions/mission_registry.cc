@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/mission/conduct/conduct_errors.h"
 #include "core/types/status_macros.h"
 #include "server/base/errors.h"
 
@@ -22,9 +23,7 @@ MissionRegistry::MissionRegistry(const RegistryOptions& options, RegistryHooks h
     : options_(options), hooks_(std::move(hooks)) {}
 
 absl::Status MissionRegistry::CheckRoom(const MissionId& id, std::int64_t cells) const {
-  if (hosts_.contains(id)) {
-    return absl::AlreadyExistsError(absl::StrCat("MISSION_EXISTS: missions/", id));
-  }
+  if (hosts_.contains(id)) return MissionExists(id);
   if (hosts_.size() >= static_cast<std::size_t>(options_.max_missions)) {
     return LimitReached(absl::StrCat("the server holds ", options_.max_missions, " missions"));
   }
@@ -43,7 +42,8 @@ absl::StatusOr<std::shared_ptr<MissionHost>> MissionRegistry::Create(
   absl::MutexLock lock(&mutex_);
   PLUMESCOUT_RETURN_IF_ERROR(CheckRoom(id, cells));
   PLUMESCOUT_ASSIGN_OR_RETURN(auto mission, Mission::Create(options));
-  MissionHost::Parts parts{id, std::move(mission), std::move(strategy), nullptr, hooks_.epoch_pool};
+  MissionHost::Parts parts{id,      std::move(mission), std::move(strategy),
+                           nullptr, hooks_.epoch_pool,  hooks_.audit_pool};
   if (hooks_.make_event_sink) parts.sink = hooks_.make_event_sink(id, options);
   auto host = std::make_shared<MissionHost>(std::move(parts), options_.host);
   hosts_.emplace(id, host);

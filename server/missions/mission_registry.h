@@ -34,6 +34,8 @@ struct RegistryHooks {
   std::function<EventSink(const MissionId&, const MissionOptions&)> make_event_sink;
   // Recomputes gas posteriors; outlives the missions. Null: their writers do.
   WorkerPool* epoch_pool = nullptr;
+  // Audits them; as above. Null: nobody does.
+  WorkerPool* audit_pool = nullptr;
 };
 
 // The most cells that a mission's map can come to have.

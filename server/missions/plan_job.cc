@@ -13,8 +13,6 @@
 namespace plumescout::server {
 namespace {
 
-constexpr int kMaxConflicts = 1;  // searches after the first that lost a race for a goal
-
 absl::Duration ThreadCpuTime() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
@@ -41,8 +39,12 @@ void PlanJob::Cancel() {
 
 void PlanJob::AwaitBelief() {
   const PlanOrder& order = parts_.order;
-  BeliefRequest request{order.request.robot, order.min_applied_sequence, order.deadline,
-                        [self = shared_from_this()] { return self->cancelled_.load(); }};
+  BeliefRequest request{
+      .wish = {.robot = order.request.robot,
+               .min_applied_sequence = order.min_applied_sequence,
+               .lease_token = order.lease_token},
+      .deadline = order.deadline,
+      .abandoned = [self = shared_from_this()] { return self->cancelled_.load(); }};
   const absl::Status posted = parts_.host->AwaitBelief(
       std::move(request),
       [self = shared_from_this()](absl::StatusOr<std::shared_ptr<const Belief>> belief) {
@@ -75,14 +77,14 @@ void PlanJob::Commit(Plan plan) {
   const absl::Status posted = parts_.host->Post(
       [self = shared_from_this(), plan = std::move(plan)](MissionWriter& writer) mutable {
         if (self->cancelled_) return self->Finish(Cancelled());
-        const auto id = writer.Commit(plan, self->parts_.order.lease_token);
+        const auto id = writer.conduct().Commit(plan, self->parts_.order.lease_token);
         self->Committed(std::move(plan), id);
       });
   if (!posted.ok()) Finish(posted);
 }
 
 void PlanJob::Committed(Plan plan, absl::StatusOr<PlanId> id) {
-  if (absl::IsAborted(id.status()) && conflicts_++ < kMaxConflicts) return AwaitBelief();
+  if (race_.SearchAgainAfter(id.status())) return AwaitBelief();
   if (!id.ok()) return Finish(id.status());
   plan.id = *id;
   plan.cpu_s = absl::ToDoubleSeconds(cpu_time_);

@@ -8,6 +8,7 @@
 
 #include "absl/status/statusor.h"
 #include "absl/time/time.h"
+#include "core/mission/conduct/commit_race.h"
 #include "core/types/plan.h"
 #include "core/types/plan_request.h"
 #include "server/base/clock.h"
@@ -63,7 +64,7 @@ class PlanJob : public std::enable_shared_from_this<PlanJob> {
   const Parts parts_;
   std::atomic<bool> cancelled_ = false;
   // Touched by one stage at a time; the queues between the stages order them.
-  int conflicts_ = 0;
+  CommitRace race_;
   absl::Duration cpu_time_;
 };
 

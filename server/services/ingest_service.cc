@@ -26,12 +26,12 @@ absl::Status IngestService::BatchIngest(const v1::BatchIngestObservationsRequest
   PLUMESCOUT_ASSIGN_OR_RETURN(auto incoming, ReadBatch(request.batch(), window));
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.registry->Find(name.mission));
   const std::int64_t token = request.open().lease_token();
-  PLUMESCOUT_RETURN_IF_ERROR(host->leases().Check(name.robot, token));
+  PLUMESCOUT_RETURN_IF_ERROR(host->leases().Use(name.robot, token));
   const int count = static_cast<int>(incoming.size());
   PLUMESCOUT_RETURN_IF_ERROR(host->Reserve(count));
   const absl::Status posted =
       host->Post([=, incoming = std::move(incoming)](MissionWriter& writer) mutable {
-        const IngestResult result = writer.Ingest(name.robot, token, std::move(incoming));
+        const IngestResult result = writer.conduct().Ingest(name.robot, token, std::move(incoming));
         host->Release(count);
         *response->mutable_ingest_state() = ToIngestState(result.position, window);
         for (const auto& refused : result.refused)

@@ -24,7 +24,7 @@ absl::Status MapService::Get(const v1::GetMapRequest& request, v1::GetMapRespons
       const MapView view, MapViewFromProto(request.layers(), request.full_precision(), "layers"));
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.registry->Find(mission));
   BeliefRequest wanted;
-  wanted.fresh_posterior = request.fresh_posterior();
+  wanted.wish.fresh_posterior = request.fresh_posterior();
   return AnswerFromBelief(*host, context_.map_pool, reactor, std::move(wanted),
                           [=](const Belief& belief) {
                             *response = ToProto(MakeMapSnapshot(belief), mission, view);
@@ -41,14 +41,15 @@ absl::Status MapService::Query(const v1::QueryGasRequest& request, v1::QueryGasR
       std::vector<Point2> points,
       PointsFromProto(request.points(), host->options().pose_limit_m, "points"));
   BeliefRequest wanted;
-  wanted.fresh_posterior = request.fresh_posterior();
+  wanted.wish.fresh_posterior = request.fresh_posterior();
   return AnswerFromBelief(*host, context_.map_pool, reactor, std::move(wanted),
                           [response, points = std::move(points)](const Belief& belief) {
                             for (const GasAtPlace& gas : plumescout::QueryGas(belief, points))
                               *response->add_gas() = ToProto(gas);
                             response->set_revision(belief.revision);
                             response->set_posterior_time_ns(belief.posterior_time_ns);
-                            *response->mutable_gas_quality() = ToProto(belief.gas_quality);
+                            *response->mutable_gas_quality() =
+                                ToProto(belief.gas_quality, belief.gas_audits);
                             return absl::OkStatus();
                           });
 }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/mission/conduct/conduct_errors.h"
 #include "core/plan/frontier_list.h"
 #include "core/plan/trajectory_check.h"
 #include "core/types/status_macros.h"
@@ -16,7 +17,6 @@
 #include "proto/convert/names.h"
 #include "proto/convert/observation.h"
 #include "proto/convert/plan.h"
-#include "server/base/errors.h"
 #include "server/missions/plan_job.h"
 #include "server/services/unary.h"
 #include "server/streams/plan_order_from_proto.h"
@@ -94,7 +94,7 @@ class PlanReactor final : public grpc::ServerUnaryReactor {
     PLUMESCOUT_ASSIGN_OR_RETURN(const RobotName name, ParseRobotName("robot", request.robot()));
     PLUMESCOUT_ASSIGN_OR_RETURN(PlanOrder order, PlanOrderFromProto(request, context.limits));
     PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context.registry->Find(name.mission));
-    PLUMESCOUT_RETURN_IF_ERROR(host->leases().Check(name.robot, order.lease_token));
+    PLUMESCOUT_RETURN_IF_ERROR(host->leases().Use(name.robot, order.lease_token));
     order.request.robot = name.robot;
     order.deadline = After(ToSteady(call->deadline()), -context.limits.deadline_margin);
     job_ = std::make_shared<PlanJob>(
@@ -140,11 +140,14 @@ absl::Status PlanningService::Check(const v1::CheckTrajectoryRequest& request, S
   PLUMESCOUT_RETURN_IF_ERROR(
       CheckIntRange("min_applied_sequence", request.min_applied_sequence(), 0, kMaxSequence));
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.registry->Find(name.mission));
-  PLUMESCOUT_RETURN_IF_ERROR(host->leases().Check(name.robot, request.lease_token()));
+  PLUMESCOUT_RETURN_IF_ERROR(host->leases().Use(name.robot, request.lease_token()));
   PLUMESCOUT_ASSIGN_OR_RETURN(
       CheckSubject subject, SubjectFromProto(request, name.mission, host->options().pose_limit_m));
-  BeliefRequest wanted{name.robot, request.min_applied_sequence(), deadline};
-  wanted.fresh_posterior = false;
+  BeliefRequest wanted{.wish = {.robot = name.robot,
+                                .min_applied_sequence = request.min_applied_sequence(),
+                                .lease_token = request.lease_token(),
+                                .fresh_posterior = false},
+                       .deadline = deadline};
   return AnswerFromBelief(*host, context_.map_pool, reactor, std::move(wanted),
                           [=, subject = std::move(subject)](const Belief& belief) {
                             return CheckOn(belief, name.robot, subject, *response);
@@ -167,7 +170,7 @@ absl::Status PlanningService::List(const v1::ListFrontiersRequest& request,
   PLUMESCOUT_ASSIGN_OR_RETURN(const RobotName name, ParseRobotName("robot", request.robot()));
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.registry->Find(name.mission));
   BeliefRequest wanted;
-  wanted.fresh_posterior = false;
+  wanted.wish.fresh_posterior = false;
   return AnswerFromBelief(*host, context_.map_pool, reactor, std::move(wanted),
                           [response, robot = name.robot](const Belief& belief) -> absl::Status {
                             if (belief.robots.count(robot) == 0) return RobotNotFound(robot);
@@ -203,10 +206,10 @@ absl::Status PlanningService::Report(const v1::ReportProgressRequest& request,
                               FromProto(request.outcome(), "outcome"));
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.registry->Find(name.mission));
   const std::int64_t token = request.lease_token();
-  PLUMESCOUT_RETURN_IF_ERROR(host->leases().Check(name.robot, token));
+  PLUMESCOUT_RETURN_IF_ERROR(host->leases().Use(name.robot, token));
   const ProgressReported report{name.robot, plan.plan, outcome};
   return host->Post([report, token, response, reactor](MissionWriter& writer) {
-    const auto revision = writer.Report(report, token);
+    const auto revision = writer.conduct().Report(report, token);
     if (revision.ok()) response->set_revision(*revision);
     Answer(reactor, revision.status());
   });

@@ -15,7 +15,13 @@ class RobotService final : public v1::RobotService::CallbackService {
                                           const v1::RegisterRobotRequest* request,
                                           v1::RegisterRobotResponse* response) override;
 
+  grpc::ServerUnaryReactor* RemoveRobot(grpc::CallbackServerContext* call,
+                                        const v1::RemoveRobotRequest* request,
+                                        v1::RemoveRobotResponse* response) override;
+
  private:
+  absl::Status Remove(const v1::RemoveRobotRequest& request, v1::RemoveRobotResponse* response,
+                      grpc::ServerUnaryReactor* reactor);
   absl::Status Register(const v1::RegisterRobotRequest& request,
                         v1::RegisterRobotResponse* response, grpc::ServerUnaryReactor* reactor);
 

@@ -23,7 +23,7 @@ v1::IngestState ToIngestState(const LogPosition& position, int window) {
   v1::IngestState proto;
   proto.set_applied_sequence(position.applied_sequence);
   proto.set_durable_sequence(0);  // missions live in memory: nothing survives a crash
-  proto.set_credit_sequence(position.applied_sequence + window);
+  proto.set_credit_sequence(CreditSequence(position, window));
   proto.set_revision(position.revision);
   return proto;
 }

@@ -5,9 +5,8 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "absl/strings/string_view.h"
+#include "core/mission/conduct/ingest.h"
 #include "plumescout/v1/ingest_service.pb.h"
-#include "server/missions/mission_writer.h"
 
 namespace plumescout::server {
 

@@ -7,7 +7,6 @@
 
 #include "core/types/status_macros.h"
 #include "proto/convert/field.h"
-#include "server/base/errors.h"
 #include "server/base/grpc_status.h"
 #include "server/streams/ingest_frames.h"
 
@@ -62,7 +61,7 @@ void IngestStream::OnCancel() { End(absl::CancelledError("the caller gave up"));
 
 void IngestStream::OnDone() {
   context_.streams->Remove(this);
-  if (host_ != nullptr) host_->leases().CloseStream(robot_.robot, this);
+  if (host_ != nullptr) host_->leases().CloseStream(robot_.robot, stream_);
   self_.reset();
 }
 
@@ -86,13 +85,13 @@ absl::Status IngestStream::Open(const v1::OpenIngest& open) {
   PLUMESCOUT_RETURN_IF_ERROR(host_->Reserve(context_.limits.stream_window_observations));
   reserved_ = true;
   const std::weak_ptr<IngestStream> weak = weak_from_this();
-  PLUMESCOUT_RETURN_IF_ERROR(host_->leases().OpenStream(robot_.robot, lease_token_, this,
-                                                        [weak](const absl::Status& status) {
-                                                          if (const auto stream = weak.lock())
-                                                            stream->End(status);
-                                                        }));
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      stream_,
+      host_->leases().OpenStream(robot_.robot, lease_token_, [weak](const absl::Status& status) {
+        if (const auto stream = weak.lock()) stream->End(status);
+      }));
   return host_->Post([self = shared_from_this()](MissionWriter& writer) {
-    const auto position = writer.Position(self->robot_.robot);
+    const auto position = writer.conduct().Position(self->robot_.robot);
     if (!position.ok()) return self->End(position.status());
     self->Opened(*position);
   });
@@ -105,18 +104,14 @@ absl::Status IngestStream::TakeBatch(const v1::ObservationBatch& batch) {
   const int count = static_cast<int>(incoming.size());
   {
     absl::MutexLock lock(&mutex_);
-    for (const IncomingObservation& entry : incoming) {
-      if (entry.observation.sequence > credit_sequence_) {
-        return CreditExceeded(entry.observation.sequence, credit_sequence_);
-      }
-    }
+    PLUMESCOUT_RETURN_IF_ERROR(CheckCredit(incoming, credit_sequence_));
     in_flight_observations_ += count;
   }
   const absl::Status posted =
       host_->Post([self = shared_from_this(), count,
                    incoming = std::move(incoming)](MissionWriter& writer) mutable {
-        self->Ingested(count,
-                       writer.Ingest(self->robot_.robot, self->lease_token_, std::move(incoming)));
+        self->Ingested(count, writer.conduct().Ingest(self->robot_.robot, self->lease_token_,
+                                                      std::move(incoming)));
       });
   if (!posted.ok()) {
     absl::MutexLock lock(&mutex_);

@@ -65,6 +65,7 @@ class IngestStream final
   std::shared_ptr<MissionHost> host_;
   RobotName robot_;
   std::int64_t lease_token_ = 0;
+  StreamId stream_ = 0;  // among the mission's
   bool reserved_ = false;
 
   absl::Mutex mutex_;

@@ -30,7 +30,7 @@ absl::Status PlanStream::Order(grpc::CallbackServerContext* call,
   PLUMESCOUT_ASSIGN_OR_RETURN(const RobotName name, ParseRobotName("robot", request.robot()));
   PLUMESCOUT_ASSIGN_OR_RETURN(PlanOrder order, PlanOrderFromProto(request, context_.limits));
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.registry->Find(name.mission));
-  PLUMESCOUT_RETURN_IF_ERROR(host->leases().Check(name.robot, order.lease_token));
+  PLUMESCOUT_RETURN_IF_ERROR(host->leases().Use(name.robot, order.lease_token));
   order.request.robot = name.robot;
   order.deadline = After(ToSteady(call->deadline()), -context_.limits.deadline_margin);
   mission_ = name.mission;

@@ -51,7 +51,7 @@ Names Join(const std::vector<Names>& parts) {
 std::vector<Room> MakeRooms() {
   const Names adapters = {"proto/convert", "formats", "ompl_planners"};
   std::vector<Room> rooms = {
-      {"proto/convert", {"core/types"}},
+      {"proto/convert", {"core/types", "formats"}},
       {"formats", {"core/types"}},
       {"ompl_planners", Before(kCore, "core/mission")},
       {"client", {"core/types", "proto/convert", "formats"}},

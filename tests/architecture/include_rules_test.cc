@@ -11,7 +11,7 @@
 
 #include "absl/strings/str_join.h"
 namespace plumescout {
-namespace {
+namespace include_rules_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -49,6 +49,14 @@ TEST(IncludeRules, AnIncludeAgainstTheDirectionIsFound) {
   EXPECT_THAT(
       CheckDirections(Tree({{"client/a.h", "#include \"server/b.h\"\n"}, {"server/b.h", ""}})),
       SizeIs(1));
+}
+
+TEST(IncludeRules, ARoomWithinAnotherIsARoomOfItsOwn) {
+  const auto tree = Tree({{"core/mission/a.h", "#include \"core/mission/conduct/b.h\"\n"},
+                          {"core/mission/c.h", ""},
+                          {"core/mission/conduct/b.h", "#include \"core/mission/c.h\"\n"}});
+  EXPECT_THAT(CheckDirections(tree),
+              ElementsAre("core/mission/a.h must not include core/mission/conduct/b.h"));
 }
 
 TEST(IncludeRules, FoldersAndFilesThatAreNotKnownAreFound) {
@@ -133,5 +141,5 @@ TEST(IncludeRules, ImpureCallsAreFoundButNotInComments) {
               IsEmpty());
 }
 
-}  // namespace
+}  // namespace include_rules_test
 }  // namespace plumescout

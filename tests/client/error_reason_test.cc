@@ -5,20 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout::client {
-namespace {
-
-TEST(ErrorReason, IsTheUpperSnakeWordBeforeTheColon) {
-  EXPECT_EQ(ErrorReason(absl::FailedPreconditionError("SEQUENCE_GAP: expected 7")), kSequenceGap);
-  EXPECT_EQ(ErrorReason(absl::AbortedError("LEASE_HELD")), kLeaseHeld);
-}
-
-TEST(ErrorReason, IsEmptyForPlainMessages) {
-  EXPECT_EQ(ErrorReason(absl::OkStatus()), "");
-  EXPECT_EQ(ErrorReason(absl::UnknownError("")), "");
-  EXPECT_EQ(ErrorReason(absl::UnknownError("mission: not found")), "");
-  EXPECT_EQ(ErrorReason(absl::UnknownError("IO error: disk")), "");
-  EXPECT_EQ(ErrorReason(absl::UnknownError("_X: no")), "");
-}
+namespace error_reason_test {
 
 TEST(IsRetriable, HoldsForTroubleThatPassesOnly) {
   EXPECT_TRUE(IsRetriable(absl::UnavailableError("")));
@@ -30,5 +17,5 @@ TEST(IsRetriable, HoldsForTroubleThatPassesOnly) {
   EXPECT_FALSE(IsRetriable(absl::FailedPreconditionError("")));
 }
 
-}  // namespace
+}  // namespace error_reason_test
 }  // namespace plumescout::client

@@ -179,6 +179,15 @@ absl::StatusOr<RobotSession> FakePlannerClient::RegisterRobot(const MissionId& m
   return RobotSession{mission, robot, ++lease_, absl::StrCat("boot-", boot_), State()};
 }
 
+absl::Status FakePlannerClient::RemoveRobot(const MissionId&, const RobotId&,
+                                            std::int64_t lease_token, bool force) {
+  absl::MutexLock lock(&mutex_);
+  PLUMESCOUT_RETURN_IF_ERROR(LinkStatus());
+  if (!force) PLUMESCOUT_RETURN_IF_ERROR(LeaseStatus(lease_token));
+  registered_ = false;
+  return absl::OkStatus();
+}
+
 absl::StatusOr<std::unique_ptr<ObservationStream>> FakePlannerClient::OpenObservationStream(
     const RobotSession& session) {
   absl::MutexLock lock(&mutex_);

@@ -68,6 +68,8 @@ class FakePlannerClient final : public PlannerClient {
   absl::Status DeleteMission(const MissionId&) override;
   absl::StatusOr<RobotSession> RegisterRobot(const MissionId& mission, const RobotId& robot,
                                              double radius_m, bool take_over) override;
+  absl::Status RemoveRobot(const MissionId&, const RobotId&, std::int64_t lease_token,
+                           bool force) override;
   absl::StatusOr<std::unique_ptr<ObservationStream>> OpenObservationStream(
       const RobotSession& session) override;
   absl::StatusOr<Plan> NextBestTrajectory(const MissionId&, const PlanQuery& query) override;

@@ -11,7 +11,7 @@
 #include "client/error_reason.h"
 
 namespace plumescout::client {
-namespace {
+namespace mission_contract_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -87,6 +87,35 @@ TEST_P(MissionContract, AnOldLeaseIsFencedOffEverywhere) {
   EXPECT_NE(Open(*second), nullptr);
 }
 
+TEST_P(MissionContract, ARobotThatLeavesIsForgottenButForItsLog) {
+  const RobotSession session = Register();
+  const auto stream = Open(session);
+  ASSERT_TRUE(SendAll(*stream, LookAround(3)).ok());
+
+  ASSERT_TRUE(client().RemoveRobot("house", "scout", session.lease_token, false).ok());
+
+  EXPECT_TRUE(absl::IsNotFound(ReadUntilError(*stream)));
+  EXPECT_TRUE(absl::IsNotFound(client().OpenObservationStream(session).status()));
+  EXPECT_TRUE(absl::IsNotFound(client().RemoveRobot("house", "scout", session.lease_token, true)));
+  EXPECT_TRUE(client().GetMap("house")->robots.empty());
+  const RobotSession back = Register();
+  EXPECT_EQ(back.ingest.applied_sequence, 3);
+  EXPECT_NE(back.lease_token, session.lease_token);
+}
+
+TEST_P(MissionContract, OnlyForceRemovesARobotWithoutItsLease) {
+  const RobotSession session = Register();
+
+  EXPECT_EQ(ErrorReason(client().RemoveRobot("house", "scout", session.lease_token + 1, false)),
+            kLeaseSuperseded);
+  EXPECT_NE(Open(session), nullptr);
+
+  EXPECT_TRUE(client().RemoveRobot("house", "scout", 0, true).ok());
+  EXPECT_TRUE(absl::IsNotFound(client().OpenObservationStream(session).status()));
+  EXPECT_TRUE(absl::IsNotFound(client().RemoveRobot("house", "other", 0, true)));
+  EXPECT_TRUE(absl::IsNotFound(client().RemoveRobot("nowhere", "scout", 0, true)));
+}
+
 TEST_P(MissionContract, TheMapShowsWhatWasSeen) {
   const RobotSession session = Register();
   const auto stream = Open(session);
@@ -121,5 +150,5 @@ TEST_P(MissionContract, DeletingAMissionEndsItsStreams) {
 
 INSTANTIATE_TEST_SUITE_P(All, MissionContract, ::testing::ValuesIn(AllBackends()), BackendName);
 
-}  // namespace
+}  // namespace mission_contract_test
 }  // namespace plumescout::client

@@ -157,10 +157,50 @@ class SmokeTest(unittest.TestCase):
         ranges = np.array([np.inf, np.nan, 0.004, 2.0, 400.0, -1.0])
         robot.add_scan(1, START, ranges, 0.0, 1.0, 500.0)
         robot.add_scan(2, START, ranges[:4], 0.0, 1.0, 50.0)
-        robot.flush()
+        with self.assertLogs("plumescout_client", "WARNING"):
+            robot.flush()
 
         self.assertEqual([r.sequence for r in robot.rejections], [1])  # beyond the mission's range
         self.assertIn("max_range_m", robot.rejections[0].message)
+
+    def test_refused_observations_are_logged(self):
+        self.client.create_mission("logged")
+        robot = self.client.register("logged", "scout")
+        robot.add_gas(1, START, 1.0)
+        robot.add_gas(2, START, -5.0)
+        with self.assertLogs("plumescout_client", "WARNING") as logs:
+            robot.flush()
+
+        self.assertEqual(len(logs.output), 1)
+        self.assertIn("missions/logged/robots/scout: observation 2 refused", logs.output[0])
+        self.assertIn("concentration_ppm = -5", logs.output[0])
+        self.assertEqual([r.sequence for r in robot.rejections], [2])
+
+    def test_refused_observations_reach_the_callback(self):
+        self.client.create_mission("told")
+        told = []
+        robot = self.client.register("told", "scout", on_rejected=told.append)
+        robot.add_gas(1, START, -5.0)
+        robot.add_gas(2, START, 1.0)
+        robot.add_gas(3, START, float("nan"))
+        with self.assertNoLogs("plumescout_client"):
+            robot.flush()
+
+        self.assertEqual([r.sequence for r in told], [1, 3])
+        self.assertEqual(told, robot.rejections)
+
+    def test_a_callback_that_raises_loses_nothing(self):
+        def refuse(rejection):
+            raise ValueError(rejection.message)
+
+        self.client.create_mission("raised")
+        robot = self.client.register("raised", "scout", on_rejected=refuse)
+        robot.add_gas(1, START, -5.0)
+        with self.assertRaises(ValueError):
+            robot.flush()
+        robot.add_gas(2, START, 1.0)
+        robot.flush()  # sends the second alone
+        self.assertEqual([r.sequence for r in robot.rejections], [1])
 
     def test_errors_carry_code_and_reason(self):
         self.client.create_mission("errors")
@@ -190,6 +230,19 @@ class SmokeTest(unittest.TestCase):
         second = self.client.register("return", "scout", take_over=True)
         self.assertEqual(second.add_gas(2, START, 1.0), 2)
         second.flush()
+
+    def test_a_robot_leaves_or_is_removed(self):
+        self.client.create_mission("leaving")
+        robot = self.client.register("leaving", "scout")
+        robot.add_gas(1, START, 1.0)
+        robot.leave()
+        self.assertEqual(len(self.client.get_map("leaving").status.robots), 0)
+        back = self.client.register("leaving", "scout")
+        self.assertEqual(back.add_gas(2, START, 1.0), 2)
+        self.client.remove_robot("leaving", "scout")
+        with self.assertRaises(plumescout_client.PlumeScoutError) as caught:
+            back.flush()
+        self.assertEqual(caught.exception.reason, "ROBOT_NOT_FOUND")
 
 
 if __name__ == "__main__":

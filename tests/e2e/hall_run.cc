@@ -80,6 +80,10 @@ class TappedClient final : public client::PlannerClient {
                                                      double radius_m, bool take_over) override {
     return inner_.RegisterRobot(mission, robot, radius_m, take_over);
   }
+  absl::Status RemoveRobot(const MissionId& mission, const RobotId& robot, std::int64_t lease_token,
+                           bool force) override {
+    return inner_.RemoveRobot(mission, robot, lease_token, force);
+  }
   absl::StatusOr<std::unique_ptr<client::ObservationStream>> OpenObservationStream(
       const client::RobotSession& session) override {
     PLUMESCOUT_ASSIGN_OR_RETURN(auto stream, inner_.OpenObservationStream(session));

@@ -16,7 +16,7 @@
 #include "tests/server/service_fixture.h"
 
 namespace plumescout::server {
-namespace {
+namespace bad_input_test {
 
 BadInputs BadMap() {
   return BadInputs()
@@ -51,6 +51,7 @@ std::map<std::string, BadInputs> AllBadInputs() {
           {"ListMissionsRequest", BadListMissions()},
           {"DeleteMissionRequest", BadMissionName("name")},
           {"RegisterRobotRequest", BadRegisterRobot()},
+          {"RemoveRobotRequest", BadRemoveRobot()},
           {"StreamObservationsRequest", ingest},
           {"BatchIngestObservationsRequest", ingest},
           {"NextBestTrajectoryRequest", BadNextBest()},
@@ -85,6 +86,7 @@ std::set<std::string> FreeFields() {
       "NextBestTrajectoryRequest.go_home",
       "StreamNextBestTrajectoryRequest.go_home",
       "RegisterRobotRequest.take_over",
+      "RemoveRobotRequest.force",
       "GetMapRequest.full_precision",
       "GetMapRequest.fresh_posterior",
       "QueryGasRequest.fresh_posterior",
@@ -269,6 +271,13 @@ TEST_F(BadInputTest, RegisterRobot) {
         SenderOf(robots_, &v1::RobotService::Stub::RegisterRobot));
 }
 
+TEST_F(BadInputTest, RemoveRobot) {
+  v1::RemoveRobotRequest good;
+  good.set_robot(kRobot);
+  good.set_lease_token(lease_);
+  Check(BadRemoveRobot(), Copies(good), SenderOf(robots_, &v1::RobotService::Stub::RemoveRobot));
+}
+
 TEST_F(BadInputTest, BatchIngestObservations) {
   const Sender send = [this](const Message& request) { return SendBatch(request); };
   Check(BadBatch(), GoodBatches(), send);
@@ -384,5 +393,5 @@ TEST(BadInputCoverageTest, EveryFieldOfEveryRequestHasARowOrAReason) {
   EXPECT_EQ(tables.size(), RequestTypes().size());
 }
 
-}  // namespace
+}  // namespace bad_input_test
 }  // namespace plumescout::server

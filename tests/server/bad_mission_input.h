@@ -32,7 +32,8 @@ inline BadInputs BadLimits() {
       .Values("options.max_range_m", {"nan", "inf", "-1", "0", "1001"})
       .Values("options.max_beam_count", {"-1", "0", "100001"})
       .Values("options.max_concentration_ppm", {"nan", "inf", "-1", "0", "1e7"})
-      .Values("options.max_robot_count", {"-1", "0", "1001"});
+      .Values("options.max_robot_count", {"-1", "0", "1001"})
+      .Values("options.robot_silence_s", {"nan", "inf", "-1", "0", "0.9", "1.1e9"});
 }
 
 // An area with one bad vertex, and such as are none.
@@ -90,6 +91,7 @@ inline BadInputs BadGasOptions() {
       .Values(g + "background_mean_ppm", {"nan", "inf", "-1", "1e7"})
       .Values(g + "ageing_half_life_s", {"nan", "inf", "-1", "1e-300", "1e300"})
       .Values(g + "refresh_period_s", {"nan", "inf", "-1", "0", "1e5"})
+      .Values(g + "audit_period_epochs", {"-1", "1000001"})
       .Values(g + "observation_stddev_share", {"nan", "inf", "-0.1", "11"})
       .Values(g + "lattice_factor", {"-1", "0", "17"});
 }
@@ -136,7 +138,9 @@ inline BadInputs BadPlanningOptions() {
       .Values(p + "max_turn_rate_rad_per_s", {"nan", "inf", "-1", "1e-300", "101"})
       .Values(p + "travel_budget_m", {"nan", "inf", "-1", "1e300"})
       .Values(p + "return_margin_share", {"nan", "inf", "-0.1", "11"})
-      .Values(p + "planning_latency_s", {"nan", "inf", "-1", "61"});
+      .Values(p + "planning_latency_s", {"nan", "inf", "-1", "61"})
+      .Values(p + "max_connection_radius_m", {"nan", "inf", "-1", "1001"})
+      .Values(p + "unseen_information_nats", {"nan", "inf", "-1", "1e300"});
 }
 
 // The server has room for a mission of the default size, not for the largest.

@@ -32,6 +32,13 @@ inline BadInputs BadLease(const std::string& field) {
   return rows;
 }
 
+inline BadInputs BadRemoveRobot() {
+  return BadInputs()
+      .Rows(BadRobotName("robot"))
+      .Rows(UnknownMission("robot"))
+      .Rows(BadLease("lease_token"));
+}
+
 inline v1::Observation& FirstObservation(Message& request) {
   return *static_cast<v1::BatchIngestObservationsRequest&>(request)
               .mutable_batch()

@@ -40,8 +40,11 @@ class RandomEvents {
       case 5:
         event.body = EpochBegun{Int64()};
         break;
-      default:
+      case 6:
         event.body = EpochAdopted{};
+        break;
+      default:
+        event.body = RobotRemoved{Text()};
     }
     return event;
   }

@@ -8,7 +8,7 @@
 
 #include "absl/strings/string_view.h"
 #include "lab/report/canvas.h"
-#include "lab/report/stroke_font.h"
+#include "lab/report/font.h"
 
 namespace plumescout::lab {
 
@@ -18,7 +18,7 @@ struct WrittenText {
   TextStyle style;
 
   // End of a text that starts at `baseline`.
-  double right() const { return baseline.x + TextWidth_px(utf8, style.size_px); }
+  double right() const { return baseline.x + TextWidth_px(utf8, style.size_px, style.bold); }
 };
 
 struct DrawnLine {
@@ -39,6 +39,13 @@ class RecordingCanvas final : public Canvas {
   std::vector<DrawnLine> lines;
   std::vector<DrawnDisc> discs;
   std::vector<Box> boxes;
+
+  // All that is written, each text between ">" and "<".
+  std::string Texts() const {
+    std::string all;
+    for (const WrittenText& text : texts) all += ">" + text.utf8 + "<";
+    return all;
+  }
 
   void FillBox(const Box& box, Rgb) override { boxes.push_back(box); }
   void Polyline(std::span<const PixelPoint> points, const Stroke& stroke) override {

@@ -24,7 +24,7 @@ struct GoalQuery {
 struct GoalOffer {
   std::vector<Goal> goals;
   std::vector<RejectedGoal> rejected;
-  bool fallback = false;  // nothing else was left: `goals` are random places
+  bool fallback = false;  // nothing else was left: `goals` are drawn at random
   bool complete = false;  // nothing is left to do: `goals` is empty
 };
 
@@ -34,11 +34,11 @@ GoalOffer GoHome(const GoalQuery& query);
 // Where to go, by options.goal_policy (section VI-B of [XIT]); under kEverything also where
 // readings tell much (see InformationGoals). If nothing can be offered, places with unobserved gas
 // are (ours, options.fallback_to_unobserved; not before the first gas reading), then random free
-// ones (section VII); once options.fallback_limit fallbacks in a row revealed nothing, the mission
-// is complete instead. A goal that another robot is on its way to keeps the mission open, for what
-// that robot finds may need this one; one that is set aside does not, or a frontier that no visit
-// can dissolve would keep robots driving for ever. With options.return_home the robot
-// goes home before its mission is complete. If query.go_home, this is GoHome.
+// ones (section VII); once options.fallback_limit random places in a row were reached and revealed
+// nothing, the mission is complete instead. A goal that another robot is on its way to keeps the
+// mission open, for what that robot finds may need this one; one that is set aside does not, or a
+// frontier that no visit can dissolve would keep robots driving for ever. With options.return_home
+// the robot goes home before its mission is complete. If query.go_home, this is GoHome.
 // Deterministic in the query and `rng`. Cost: O(cells).
 GoalOffer FindGoals(const GoalQuery& query, Rng& rng);
 

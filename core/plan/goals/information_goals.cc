@@ -43,6 +43,60 @@ Grid<float> LeftToTell(const Belief& belief) {
   return left;
 }
 
+// What each cell is worth driving to; 0 where no goal may be.
+Grid<double> Merits(const GoalQuery& query) {
+  const GridGeometry& geometry = query.belief.geometry();
+  const int reach_cells = static_cast<int>(std::lround(kWindowReach_m / geometry.resolution_m));
+  const Grid<float> left = LeftToTell(query.belief);
+  const Grid<float> around = WindowSums(left, reach_cells);
+  const Grid<double> travel_m = TravelDistances_m(query.reachable, std::vector<Cell>{query.start});
+  const double reading_m = query.options.speed_mps / query.options.reading_rate_hz;
+  const double nearest_m = std::max(query.options.min_goal_distance_m, reading_m);
+  Grid<double> merits(geometry, 0.0);
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    if (query.reachable[i] == 0 || !(left[i] > 0.0F) || travel_m[i] < nearest_m) continue;
+    merits[i] = static_cast<double>(around[i]) / (kErrand_m + travel_m[i]);
+  }
+  return merits;
+}
+
+// Leaves no goal nearer to `place` than kApart_m. Returns whether there might have been one.
+bool Clear(Point2 place, Grid<double>& merits) {
+  const GridGeometry& geometry = merits.geometry();
+  const Cell middle = geometry.CellAt(place);
+  const int reach = 1 + static_cast<int>(std::ceil(kApart_m / geometry.resolution_m));
+  bool found = false;
+  for (int y = middle.y - reach; y <= middle.y + reach; ++y) {
+    for (int x = middle.x - reach; x <= middle.x + reach; ++x) {
+      const Cell cell{x, y};
+      if (!(merits.At(cell, 0.0) > 0.0)) continue;
+      if (Distance_m(place, geometry.Center(cell)) >= kApart_m) continue;
+      merits[cell] = 0.0;
+      found = true;
+    }
+  }
+  return found;
+}
+
+// Claims come first, for they keep the mission open: what is set aside beside one may leave out
+// nothing more.
+std::vector<Goal> PlacesInMemory(const Belief& belief) {
+  std::vector<Goal> places;
+  for (const GoalClaim& claim : belief.claims) places.push_back(claim.goal);
+  for (const SetAsideGoal& aside : belief.set_aside) places.push_back(aside.goal);
+  std::erase_if(places, [](const Goal& goal) { return goal.kind != GoalKind::kInformation; });
+  return places;
+}
+
+void ClearPlacesInMemory(const GoalQuery& query, Grid<double>& merits,
+                         std::vector<RejectedGoal>& rejected) {
+  for (Goal& place : PlacesInMemory(query.belief)) {
+    place.cell = merits.geometry().CellAt(place.position);  // the map may have grown since
+    std::optional<RejectedGoal> rejection = RejectedByMemory(query, place);
+    if (rejection && Clear(place.position, merits)) rejected.push_back(*std::move(rejection));
+  }
+}
+
 struct Spot {
   double merit;
   std::size_t index;
@@ -53,18 +107,10 @@ bool IsWorse(const Spot& a, const Spot& b) {
 }
 
 // A heap, the best on top: of some million spots a few thousand are looked at.
-std::vector<Spot> FindSpots(const GoalQuery& query) {
-  const GridGeometry& geometry = query.belief.geometry();
-  const int reach_cells = static_cast<int>(std::lround(kWindowReach_m / geometry.resolution_m));
-  const Grid<float> left = LeftToTell(query.belief);
-  const Grid<float> around = WindowSums(left, reach_cells);
-  const Grid<double> travel_m = TravelDistances_m(query.reachable, std::vector<Cell>{query.start});
-  const double reading_m = query.options.speed_mps / query.options.reading_rate_hz;
-  const double nearest_m = std::max(query.options.min_goal_distance_m, reading_m);
+std::vector<Spot> SpotsOf(const Grid<double>& merits) {
   std::vector<Spot> spots;
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    if (query.reachable[i] == 0 || !(left[i] > 0.0F) || travel_m[i] < nearest_m) continue;
-    spots.push_back({static_cast<double>(around[i]) / (kErrand_m + travel_m[i]), i});
+  for (std::size_t i = 0; i < merits.size(); ++i) {
+    if (merits[i] > 0.0) spots.push_back({merits[i], i});
   }
   std::make_heap(spots.begin(), spots.end(), IsWorse);
   return spots;
@@ -84,22 +130,16 @@ Goal GoalAt(std::size_t index, const GridGeometry& geometry) {
 std::vector<Goal> InformationGoals(const GoalQuery& query, std::vector<RejectedGoal>& rejected) {
   std::vector<Goal> goals;
   if (query.belief.gas_counters.readings == 0) return goals;
-  std::vector<Spot> spots = FindSpots(query);
-  std::vector<Point2> taken;
+  Grid<double> merits = Merits(query);
+  ClearPlacesInMemory(query, merits, rejected);
+  std::vector<Spot> spots = SpotsOf(merits);
   while (!spots.empty() && goals.size() < kMaxGoals) {
     std::pop_heap(spots.begin(), spots.end(), IsWorse);
-    const Goal goal = GoalAt(spots.back().index, query.belief.geometry());
+    const std::size_t best = spots.back().index;
     spots.pop_back();
-    const bool crowded = std::any_of(taken.begin(), taken.end(), [&](Point2 place) {
-      return Distance_m(place, goal.position) < kApart_m;
-    });
-    if (crowded) continue;
-    taken.push_back(goal.position);
-    if (std::optional<RejectedGoal> rejection = RejectedByMemory(query, goal)) {
-      rejected.push_back(*std::move(rejection));
-    } else {
-      goals.push_back(goal);
-    }
+    if (!(merits[best] > 0.0)) continue;  // too near to one that is taken
+    goals.push_back(GoalAt(best, merits.geometry()));
+    Clear(goals.back().position, merits);
   }
   return goals;
 }

@@ -13,7 +13,8 @@ namespace {
 
 // Draws from the reachable cells that `wanted(cell)` holds for.
 template <typename Predicate>
-std::vector<Goal> DrawGoals(const GoalQuery& query, Rng& rng, const Predicate& wanted) {
+std::vector<Goal> DrawGoals(const GoalQuery& query, GoalKind kind, Rng& rng,
+                            const Predicate& wanted) {
   const GridGeometry& geometry = query.reachable.geometry();
   const Point2 from = geometry.Center(query.start);
   std::vector<std::size_t> cells;
@@ -29,7 +30,7 @@ std::vector<Goal> DrawGoals(const GoalQuery& query, Rng& rng, const Predicate& w
   for (std::size_t i = 0; i < cells.size() && goals.size() < limit; ++i) {
     std::swap(cells[i], cells[i + rng.Below(cells.size() - i)]);
     Goal goal;
-    goal.kind = GoalKind::kRandomFreeSpace;
+    goal.kind = kind;
     goal.cell = geometry.CellAtIndex(cells[i]);
     goal.position = geometry.Center(goal.cell);
     goal.centroid = goal.position;
@@ -41,14 +42,14 @@ std::vector<Goal> DrawGoals(const GoalQuery& query, Rng& rng, const Predicate& w
 }  // namespace
 
 std::vector<Goal> RandomGoals(const GoalQuery& query, Rng& rng) {
-  return DrawGoals(query, rng, [](Cell) { return true; });
+  return DrawGoals(query, GoalKind::kRandomFreeSpace, rng, [](Cell) { return true; });
 }
 
 std::vector<Goal> UnobservedGoals(const GoalQuery& query, Rng& rng) {
   const Grid<float>& variance_ppm2 = *query.belief.gas_variance_ppm2;
   const auto limit_ppm2 = static_cast<float>(
       ObservedVariance_ppm2(query.belief.options->frontier, query.belief.options->gas));
-  return DrawGoals(query, rng, [&](Cell cell) {
+  return DrawGoals(query, GoalKind::kInformation, rng, [&](Cell cell) {
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dx = -1; dx <= 1; ++dx) {
         // Off free cells the variance is NaN: neither observed nor to be.

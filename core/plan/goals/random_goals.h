@@ -18,7 +18,8 @@ namespace plumescout {
 std::vector<Goal> RandomGoals(const GoalQuery& query, Rng& rng);
 
 // From the cells whose gas is unobserved with that of all their neighbours (ours): a plume that no
-// path has crossed shows no frontier, and random places find it late or never.
+// path has crossed shows no frontier, and random places find it late or never. They are places
+// where readings tell much (GoalKind::kInformation), so driving there is no fruitless fallback.
 std::vector<Goal> UnobservedGoals(const GoalQuery& query, Rng& rng);
 
 }  // namespace plumescout

@@ -19,8 +19,9 @@ double ConnectionRadius_m(double area_m2, int samples, double resolution_m,
       options.radius_factor * gamma_rgg * (widen ? 1.0 / std::sqrt(options.uniform_share) : 1.0);
   const double n = std::max(samples, 1);
   const double radius_m = gamma * std::sqrt(std::log(n) / n);
-  const double min_m = kMinRadius_cells * resolution_m;
-  return std::clamp(radius_m, min_m, std::max(min_m, kMaxRadius_m));
+  const double limit_m = options.max_connection_radius_m;
+  const double limited_m = limit_m > 0.0 ? std::min(radius_m, limit_m) : radius_m;
+  return std::max(limited_m, kMinRadius_cells * resolution_m);
 }
 
 }  // namespace plumescout

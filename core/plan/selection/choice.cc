@@ -53,12 +53,11 @@ void Choose(const Belief& belief, const PlanningOptions& options, const StopFn& 
   if (options.selection_rule == SelectionRule::kInformationRate) {
     PriceInformation(belief, options, stop, candidates);
   }
-  plan.chosen = SelectCandidate(candidates, options.selection_rule);
+  plan.chosen = SelectCandidate(candidates, options);
   const int kept = UnderWayTo(candidates, belief, plan.robot);
   if (kept < 0 || kept == plan.chosen || options.commitment_margin_share == 0.0) return;
   const Candidate& best = candidates[static_cast<std::size_t>(plan.chosen)];
-  if (BeatsByMargin(best, candidates[static_cast<std::size_t>(kept)], options.selection_rule,
-                    options.commitment_margin_share)) {
+  if (BeatsByMargin(best, candidates[static_cast<std::size_t>(kept)], options)) {
     return;
   }
   plan.chosen = kept;

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kLeast_s = 1e-3;  // a candidate takes this long at least
 
-// What the rule wants most of.
-double Merit(const Candidate& candidate, SelectionRule rule) {
+// What the rule wants most of; the rest of `options` says how information counts.
+double Merit(const Candidate& candidate, SelectionRule rule, const PlanningOptions& options) {
   switch (rule) {
     case SelectionRule::kLeastCost:
       break;
@@ -20,7 +20,7 @@ double Merit(const Candidate& candidate, SelectionRule rule) {
       return candidate.mean_ucb;
     case SelectionRule::kInformationRate:
       if (!candidate.expected_information_nats) return -1.0;  // below any that is priced
-      return Worth_nats(candidate) / std::max(candidate.duration_s, kLeast_s);
+      return Worth_nats(candidate, options) / std::max(candidate.duration_s, kLeast_s);
   }
   return -candidate.cost;
 }
@@ -35,26 +35,29 @@ SelectionRule Applicable(const std::vector<Candidate>& candidates, SelectionRule
 
 }  // namespace
 
-double Worth_nats(const Candidate& candidate) {
-  const bool unseen = candidate.goal.kind == GoalKind::kOccupancyFrontier;
-  return *candidate.expected_information_nats + (unseen ? kUnseen_nats : 0.0);
+bool EndsAtTheUnseen(const Candidate& candidate) {
+  return candidate.goal.kind == GoalKind::kOccupancyFrontier;
 }
 
-int SelectCandidate(const std::vector<Candidate>& candidates, SelectionRule rule) {
+double Worth_nats(const Candidate& candidate, const PlanningOptions& options) {
+  return *candidate.expected_information_nats +
+         (EndsAtTheUnseen(candidate) ? options.unseen_information_nats : 0.0);
+}
+
+int SelectCandidate(const std::vector<Candidate>& candidates, const PlanningOptions& options) {
   if (candidates.empty()) return -1;
-  const SelectionRule applicable = Applicable(candidates, rule);
-  const auto better = [applicable](const Candidate& a, const Candidate& b) {
-    return Merit(a, applicable) > Merit(b, applicable);
+  const SelectionRule rule = Applicable(candidates, options.selection_rule);
+  const auto better = [&](const Candidate& a, const Candidate& b) {
+    return Merit(a, rule, options) > Merit(b, rule, options);
   };
   return static_cast<int>(std::min_element(candidates.begin(), candidates.end(), better) -
                           candidates.begin());
 }
 
-bool BeatsByMargin(const Candidate& best, const Candidate& kept, SelectionRule rule,
-                   double margin) {
-  const SelectionRule applicable = Applicable({best, kept}, rule);
-  const double needed = Merit(kept, applicable);
-  return Merit(best, applicable) > needed + margin * std::abs(needed);
+bool BeatsByMargin(const Candidate& best, const Candidate& kept, const PlanningOptions& options) {
+  const SelectionRule rule = Applicable({best, kept}, options.selection_rule);
+  const double needed = Merit(kept, rule, options);
+  return Merit(best, rule, options) > needed + options.commitment_margin_share * std::abs(needed);
 }
 
 }  // namespace plumescout

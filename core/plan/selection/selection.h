@@ -9,24 +9,25 @@
 
 namespace plumescout {
 
-// The gas field has no cells behind an occupancy frontier, so what readings there would tell cannot
-// be priced. It counts as this much, nats. Found by trial, where from 10 to 30 are equal
-// (docs/decisions/0007-own-strategy.md): without it rooms that promise little stay unseen.
-inline constexpr double kUnseen_nats = 20.0;
+// Whether there is more to learn at the end of the way than can be priced: the gas field has no
+// cells behind an occupancy frontier.
+bool EndsAtTheUnseen(const Candidate& candidate);
 
-// Expected information, nats, and kUnseen_nats if the way ends at an occupancy frontier.
+// Expected information, nats, and options.unseen_information_nats if the way ends at the unseen.
 // REQUIRES: the candidate is priced.
-double Worth_nats(const Candidate& candidate);
+double Worth_nats(const Candidate& candidate, const PlanningOptions& options);
 
-// Index of the next best trajectory, -1 if there is no candidate; the first of equals.
+// Index of the next best trajectory by options.selection_rule, -1 if there is no candidate; the
+// first of equals.
 //   kLeastCost         argmin J, [XIT] Eq. (4) and (13)
 //   kMeanUcb           argmax mean I-hat along the path, [MIT] Eq. (3); of I itself it would be the
 //                      same, for I-hat rises linearly with it
 //   kInformationRate   argmax of what they are worth, as below, per second of those priced; the
 //                      least cost if none is (ours)
-int SelectCandidate(const std::vector<Candidate>& candidates, SelectionRule rule);
+int SelectCandidate(const std::vector<Candidate>& candidates, const PlanningOptions& options);
 
-// Whether `best` beats `kept`, by the rule, by more than `margin`: a share of the kept one's merit.
-bool BeatsByMargin(const Candidate& best, const Candidate& kept, SelectionRule rule, double margin);
+// Whether `best` beats `kept`, by the same rule, by more than options.commitment_margin_share: a
+// share of the kept one's merit.
+bool BeatsByMargin(const Candidate& best, const Candidate& kept, const PlanningOptions& options);
 
 }  // namespace plumescout

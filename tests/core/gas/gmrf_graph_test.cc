@@ -7,7 +7,7 @@
 #include "tests/support/grid_art.h"
 
 namespace plumescout {
-namespace {
+namespace gmrf_graph_test {
 
 using ::plumescout::testing::GridFromArt;
 
@@ -50,7 +50,32 @@ TEST(GmrfGraphTest, DoesNotConnectAcrossWallsCornersOrTheEdgeOfTheGrid) {
   }
 }
 
+// The anchor lies at cell (1, 1); squares of 2 x 2 begin there. From the west: what is left of one,
+// a whole one, and one behind a wall that only the northern row passes.
+TEST(GmrfGraphTest, SquaresOfCellsAreFreeAndLinkedByTheirCells) {
+  const Grid<CellState> states = GridFromArt({"...#.",  //
+                                              "?.#..",  //
+                                              "?....",  //
+                                              "....."});
+  const GmrfGraph graph(states, {-1, -1}, 2);
+  EXPECT_EQ(graph.geometry().width, 3);
+  EXPECT_EQ(graph.geometry().height, 3);
+  EXPECT_NEAR(graph.geometry().origin_x_m, -0.1, 1e-12);
+  EXPECT_NEAR(graph.geometry().resolution_m, 0.2, 1e-12);
+  EXPECT_EQ(graph.variables(), 8) << "all but the western one of the middle row";
+  EXPECT_EQ(graph.At({0, 1}), VariableIndex::kNone);
+  const auto linked = [&](Cell from, Cell to) {
+    const auto& next = graph.later_neighbours(graph.At(from));
+    return next[0] == graph.At(to) || next[1] == graph.At(to);
+  };
+  EXPECT_TRUE(linked({0, 0}, {1, 0}));
+  EXPECT_TRUE(linked({1, 1}, {2, 1})) << "past the wall";
+  EXPECT_FALSE(linked({1, 2}, {2, 2})) << "a wall between them";
+  EXPECT_TRUE(linked({0, 2}, {1, 2}));
+  EXPECT_TRUE(linked({1, 1}, {1, 2}));
+}
+
 TEST(GmrfGraphTest, TakesTheEmptyGrid) { EXPECT_EQ(GmrfGraph(Grid<CellState>()).variables(), 0); }
 
-}  // namespace
+}  // namespace gmrf_graph_test
 }  // namespace plumescout

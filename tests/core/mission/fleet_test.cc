@@ -8,7 +8,7 @@
 #include "gtest/gtest.h"
 
 namespace plumescout {
-namespace {
+namespace fleet_test {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr int kMaxRobots = 3;
@@ -127,6 +127,15 @@ TEST(FleetReport, CountsFallbacksInARowThatRevealedNothing) {
   EXPECT_EQ(fallback(3.0), 2);
 }
 
+TEST(FleetReport, CountsNoFallbackThatDidNotReachItsPlace) {
+  Fleet fleet = FleetOf({"a"});
+  for (const ProgressOutcome outcome : {ProgressOutcome::kBlocked, ProgressOutcome::kAborted}) {
+    const PlanId plan = *fleet.Issue(PlanTo("a", {1.0, 1.0}, GoalKind::kRandomFreeSpace), 0);
+    ASSERT_TRUE(fleet.Report({"a", plan, outcome}).ok());
+    EXPECT_EQ(fleet.Records().at("a").fruitless_fallbacks, 0);
+  }
+}
+
 TEST(FleetReport, SaysWhichGoalThePlanHad) {
   Fleet fleet = FleetOf({"a"});
   const PlanId plan = *fleet.Issue(PlanTo("a", {1.0, 2.0}), 0);
@@ -214,6 +223,96 @@ TEST(FleetMasks, CoverTheOtherRobotsWithPoses) {
   EXPECT_TRUE(fleet.MasksFor("b").empty());
 }
 
+TEST(FleetSilence, MaskClaimAndLivePlanLapseAndComeBackOnlyByANewPlan) {
+  Fleet fleet(60.0);
+  for (const char* robot : {"a", "b"}) {
+    ASSERT_TRUE(fleet.Register({robot, 0.2, 1}, kMaxRobots).ok());
+  }
+  constexpr std::int64_t kStart_ns = 1'000'000 * kSecond_ns;
+  fleet.Hear("b", kStart_ns);
+  fleet.Advance("b", Numbered(1), false);
+  const PlanId plan = *fleet.Issue(PlanTo("b", {1.0, 1.0}), kStart_ns);
+  fleet.Hear("a", kStart_ns + 60 * kSecond_ns);
+  EXPECT_EQ(fleet.MasksFor("a").size(), 1u);
+  EXPECT_FALSE(fleet.Records().at("b").state.silent);
+
+  fleet.Hear("a", kStart_ns + 60 * kSecond_ns + 1);
+  EXPECT_TRUE(fleet.MasksFor("a").empty());
+  EXPECT_TRUE(fleet.Records().at("b").state.silent);
+  EXPECT_TRUE(fleet.Claims(kStart_ns).empty()) << "its claim would hold for 50 s";
+  EXPECT_EQ(fleet.Records().at("b").live_trajectory, nullptr);
+
+  fleet.Hear("b", kStart_ns + 61 * kSecond_ns);
+  EXPECT_FALSE(fleet.Records().at("b").state.silent);
+  EXPECT_EQ(fleet.MasksFor("a").size(), 1u);
+  EXPECT_EQ(fleet.Report({"b", plan, ProgressOutcome::kReached}).status().code(),
+            absl::StatusCode::kAlreadyExists);
+}
+
+TEST(FleetSilence, WhoIsAloneOrHasJustRegisteredIsNotSilent) {
+  Fleet fleet(60.0);
+  ASSERT_TRUE(fleet.Register({"a", 0.2, 1}, kMaxRobots).ok());
+  ASSERT_TRUE(fleet.Register({"b", 0.2, 1}, kMaxRobots).ok());
+  fleet.Hear("a", 1'000'000 * kSecond_ns);
+  EXPECT_FALSE(fleet.Records().at("b").state.silent) << "no time has passed since it came";
+  fleet.Hear("a", 1'000'100 * kSecond_ns);
+  EXPECT_FALSE(fleet.Records().at("a").state.silent);
+  EXPECT_TRUE(fleet.Records().at("b").state.silent);
+  ASSERT_TRUE(fleet.Issue(PlanTo("b", {1.0, 1.0}), 1'000'100 * kSecond_ns).ok());
+  EXPECT_FALSE(fleet.Records().at("b").state.silent) << "who asks for a plan is there";
+}
+
+TEST(FleetSilence, ADeadRobotKeepsNoMissionFromCompleting) {
+  Fleet fleet(60.0);
+  ASSERT_TRUE(fleet.Register({"a", 0.2, 1}, kMaxRobots).ok());
+  ASSERT_TRUE(fleet.Register({"b", 0.2, 1}, kMaxRobots).ok());
+  ASSERT_TRUE(fleet.Issue(PlanTo("b", {1.0, 1.0}), kSecond_ns).ok());
+  Plan done = PlanTo("a", {1.0, 1.0});
+  done.phase = MissionPhase::kComplete;
+  done.chosen = -1;
+  ASSERT_TRUE(fleet.Issue(done, kSecond_ns).ok());
+  EXPECT_EQ(fleet.Phase(), MissionPhase::kExploring);
+  fleet.Hear("a", 100 * kSecond_ns);
+  EXPECT_EQ(fleet.Phase(), MissionPhase::kComplete);
+  ASSERT_TRUE(fleet.Issue(PlanTo("b", {1.0, 1.0}), 100 * kSecond_ns).ok());
+  EXPECT_EQ(fleet.Phase(), MissionPhase::kExploring) << "it lives";
+}
+
+TEST(FleetRemove, LeavesNothingButTheLogAndTheLease) {
+  Fleet fleet = FleetOf({"a", "b", "c"});
+  EXPECT_EQ(fleet.Remove("d").code(), absl::StatusCode::kNotFound);
+  fleet.Advance("b", Numbered(1), false);
+  ASSERT_TRUE(fleet.Issue(PlanTo("b", {1.0, 1.0}), 0).ok());
+  Plan done = PlanTo("a", {1.0, 1.0});
+  done.phase = MissionPhase::kComplete;
+  done.chosen = -1;
+  ASSERT_TRUE(fleet.Issue(done, 0).ok());
+  EXPECT_EQ(fleet.Phase(), MissionPhase::kExploring);
+
+  ASSERT_TRUE(fleet.Remove("b").ok());
+  EXPECT_EQ(fleet.Phase(), MissionPhase::kComplete);
+  EXPECT_TRUE(fleet.MasksFor("a").empty());
+  EXPECT_TRUE(fleet.Claims(0).empty());
+  EXPECT_FALSE(fleet.Knows("b"));
+  EXPECT_EQ(fleet.Records().count("b"), 0u);
+  EXPECT_EQ(fleet.Remove("b").code(), absl::StatusCode::kNotFound);
+  EXPECT_EQ(fleet.CheckSequence("b", Numbered(2)).code(), absl::StatusCode::kNotFound);
+  EXPECT_EQ(fleet.AppliedSequence("b").status().code(), absl::StatusCode::kNotFound);
+  EXPECT_EQ(fleet.LeaseToken("b").status().code(), absl::StatusCode::kNotFound);
+  EXPECT_EQ(fleet.Issue(PlanTo("b", {1.0, 1.0}), 0).status().code(), absl::StatusCode::kNotFound);
+  EXPECT_EQ(fleet.Report({"b", 1, ProgressOutcome::kReached}).status().code(),
+            absl::StatusCode::kNotFound);
+
+  ASSERT_TRUE(fleet.Register({"d", 0.2, 1}, kMaxRobots).ok()) << "its place is free";
+  EXPECT_EQ(fleet.Register({"b", 0.2, 2}, kMaxRobots).code(), absl::StatusCode::kResourceExhausted);
+  ASSERT_TRUE(fleet.Remove("d").ok());
+  EXPECT_EQ(fleet.Register({"b", 0.2, 1}, kMaxRobots).code(), absl::StatusCode::kFailedPrecondition)
+      << "its lease was that old";
+  ASSERT_TRUE(fleet.Register({"b", 0.2, 2}, kMaxRobots).ok());
+  EXPECT_EQ(*fleet.AppliedSequence("b"), 1) << "no reading counts twice";
+  EXPECT_TRUE(fleet.MasksFor("a").empty()) << "nobody knows where it is";
+}
+
 // To a site, where the last sample is taken after 10 s.
 Plan PlanToSample(const RobotId& robot, Point2 position) {
   Plan plan = PlanTo(robot, position, GoalKind::kSite);
@@ -248,5 +347,5 @@ TEST(FleetNextMapUpdate, IsNoneOfAPlanToStay) {
   EXPECT_FALSE(fleet.NextMapUpdate_ns(0).has_value());
 }
 
-}  // namespace
+}  // namespace fleet_test
 }  // namespace plumescout

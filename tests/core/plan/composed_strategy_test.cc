@@ -15,7 +15,7 @@
 #include "tests/support/strategy_case.h"
 
 namespace plumescout {
-namespace {
+namespace composed_strategy_test {
 
 using testing::BeliefFromArt;
 using testing::Chosen;
@@ -31,11 +31,6 @@ using testing::SmallBelief;
 using testing::TryPlan;
 
 constexpr double kRounding = 1e-9;
-
-const GridArt kClosed = {"########",  //
-                         "#gggggg#",  //
-                         "#gSgggg#",  //
-                         "########"};
 
 Grid<float> Penalty(const Belief& belief) {
   Grid<float> penalty(belief.geometry(), std::numeric_limits<float>::infinity());
@@ -280,24 +275,6 @@ TEST(Strategy, ProbesGasFrontiers) {
   EXPECT_GT(Chosen(*plan).mean_concentration_ppm, 0.0);
 }
 
-TEST(Strategy, VisitsRandomPlacesWhenNoFrontierIsLeftAndThenIsComplete) {
-  testing::GoalCase c(kClosed);
-  c.AddGas(kClosed, 0.0F);  // measured everywhere, no gas
-  PlanningOptions options = testing::XitGff();
-  options.min_goal_distance_m = 0.1;
-  absl::StatusOr<Plan> plan = TryPlan(c.belief, For("r"), options);
-  ASSERT_TRUE(plan.ok());
-  EXPECT_EQ(plan->phase, MissionPhase::kFallback);
-  EXPECT_EQ(Chosen(*plan).goal.kind, GoalKind::kRandomFreeSpace);
-
-  c.belief.robots["r"].fruitless_fallbacks = 2;
-  plan = TryPlan(c.belief, For("r"), options);
-  ASSERT_TRUE(plan.ok());
-  EXPECT_EQ(plan->phase, MissionPhase::kComplete);
-  EXPECT_EQ(plan->end, PlanEnd::kMissionComplete);
-  EXPECT_EQ(plan->chosen, -1);
-}
-
 TEST(Strategy, SaysWhatItPassedOver) {
   Belief belief = SmallBelief(kRoom);
   const absl::StatusOr<Plan> free = TryPlan(belief, For("r"));
@@ -386,5 +363,5 @@ TEST(Strategy, OnAnEmptyMapRefusesTheStart) {
   EXPECT_EQ(TryPlan(belief, For("r")).status().code(), absl::StatusCode::kInvalidArgument);
 }
 
-}  // namespace
+}  // namespace composed_strategy_test
 }  // namespace plumescout

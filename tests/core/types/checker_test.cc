@@ -8,7 +8,7 @@
 #include <limits>
 
 namespace plumescout {
-namespace {
+namespace checker_test {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -18,6 +18,31 @@ TEST(Checker, RangesHaveTheirEnds) {
   }
   for (const double bad : {-1.1, 2.1, -kInfinity, kInfinity, std::nan("")}) {
     EXPECT_TRUE(absl::IsInvalidArgument(Checker().InRange("x", bad, -1.0, 2.0).status())) << bad;
+  }
+}
+
+TEST(Checker, RangesAboveAnEndAreWithoutIt) {
+  EXPECT_TRUE(Checker().InRangeAbove("x", 2.0, 0.0, 2.0).status().ok());
+  for (const double bad : {-1.0, 0.0, 2.1, kInfinity, std::nan("")}) {
+    EXPECT_FALSE(Checker().InRangeAbove("x", bad, 0.0, 2.0).status().ok()) << bad;
+  }
+  EXPECT_EQ(Checker().InRangeAbove("x", 0.0, 0.0, 2.0).status().message(),
+            "x = 0 must be in (0, 2]");
+}
+
+TEST(Checker, RulesOfTheCallersOwnAreToldAsTheyAre) {
+  EXPECT_TRUE(Checker().Require(true, "x", 3.0, "must be even").status().ok());
+  EXPECT_EQ(Checker().Require(false, "x", 3.0, "must be even").status().message(),
+            "x = 3 must be even");
+}
+
+TEST(Checker, ZeroIsNotNegativeAndInfinityIsNotFinite) {
+  EXPECT_TRUE(Checker().NotNegative("x", 0.0).Finite("y", -3.0).status().ok());
+  for (const double bad : {-0.1, kInfinity, std::nan("")}) {
+    EXPECT_FALSE(Checker().NotNegative("x", bad).status().ok()) << bad;
+  }
+  for (const double bad : {-kInfinity, kInfinity, std::nan("")}) {
+    EXPECT_FALSE(Checker().Finite("x", bad).status().ok()) << bad;
   }
 }
 
@@ -34,5 +59,5 @@ TEST(Checker, TellsTheFirstViolationWithFieldValueAndRule) {
             absl::InvalidArgumentError("b.c = 3.5 must be in [0, 2]"));
 }
 
-}  // namespace
+}  // namespace checker_test
 }  // namespace plumescout

@@ -12,7 +12,7 @@
 #include <vector>
 
 namespace plumescout {
-namespace {
+namespace options_test {
 
 using ::testing::HasSubstr;
 
@@ -128,6 +128,8 @@ TEST(PlanningOptions, RefuseValuesOutsideTheirRanges) {
       {"travel_budget_m", &PlanningOptions::travel_budget_m, {-1.0, 2e9}},
       {"return_margin_share", &PlanningOptions::return_margin_share, {-0.1, 11.0}},
       {"planning_latency_s", &PlanningOptions::planning_latency_s, {-1.0, 61.0}},
+      {"unseen_information_nats", &PlanningOptions::unseen_information_nats, {-1.0, 2e9}},
+      {"max_connection_radius_m", &PlanningOptions::max_connection_radius_m, {-1.0, 1001.0}},
   });
 }
 
@@ -183,5 +185,5 @@ TEST(OpenLatticeVariance, FollowsItsFormula) {
   EXPECT_NEAR(OpenLatticeVariance_ppm2(GasOptions{}), 0.304307, 1e-6);
 }
 
-}  // namespace
+}  // namespace options_test
 }  // namespace plumescout

@@ -15,7 +15,7 @@
 #include "lab/about/about.h"
 
 namespace plumescout::lab {
-namespace {
+namespace bench_summary_test {
 
 using Figures = std::vector<std::pair<std::string, double>>;
 
@@ -68,17 +68,5 @@ TEST(RunBench, FailsWhenItsBodyFailsOrAFlagIsUnknown) {
   EXPECT_NE(RunBench(other, 2, argv, [](BenchSummary&) { return absl::OkStatus(); }), 0);
 }
 
-TEST(Median, IsTheMiddleOrTheMeanOfBothMiddles) {
-  EXPECT_EQ(Median({3.0, 1.0, 2.0}), 2.0);
-  EXPECT_EQ(Median({4.0, 1.0, 2.0, 3.0}), 2.5);
-  EXPECT_TRUE(std::isnan(Median({})));
-}
-
-TEST(MedianCpu, RunsOnceMoreThanItMeasures) {
-  int runs = 0;
-  EXPECT_GE(MedianCpu_ms(5, [&runs] { ++runs; }), 0.0);
-  EXPECT_EQ(runs, 6);
-}
-
-}  // namespace
+}  // namespace bench_summary_test
 }  // namespace plumescout::lab

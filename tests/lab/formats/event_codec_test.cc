@@ -11,7 +11,7 @@
 #include "tests/support/random_events.h"
 
 namespace plumescout::lab {
-namespace {
+namespace event_codec_test {
 
 // An event without floating-point numbers, which may be compared with ==.
 Event MakeRefresh() { return {3, PosteriorRefreshed{0x0102030405060708}}; }
@@ -29,6 +29,7 @@ TEST(EventCodec, KindsKeepTheNumbersOfRecordedLogs) {
   EXPECT_EQ(EncodeEvent({1, ProgressReported{}})[8], 4);
   EXPECT_EQ(EncodeEvent({1, EpochBegun{}})[8], 5);
   EXPECT_EQ(EncodeEvent({1, EpochAdopted{}})[8], 6);
+  EXPECT_EQ(EncodeEvent({1, RobotRemoved{}})[8], 7);
 }
 
 TEST(EventCodec, AnObservationComesBack) {
@@ -115,5 +116,14 @@ TEST(EventCodec, RandomDamageNeverDecodesToOtherBytes) {
   }
 }
 
-}  // namespace
+TEST(EventCodec, TheStartOfARecordingIsEventZero) {
+  const RecordingStart start = {"1.2.3", std::string("\0options", 8)};
+  const std::string bytes = EncodeStart(start);
+  EXPECT_EQ(bytes.substr(0, 8), std::string(8, '\0'));
+  EXPECT_EQ(*DecodeStart(bytes), start);
+  EXPECT_FALSE(DecodeStart(bytes + '!').ok());
+  EXPECT_FALSE(DecodeStart('\1' + bytes.substr(1)).ok());
+}
+
+}  // namespace event_codec_test
 }  // namespace plumescout::lab

@@ -9,23 +9,25 @@
 #include <vector>
 
 #include "formats/file_io.h"
-#include "lab/formats/event_codec.h"
 #include "tests/support/random_events.h"
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace event_log_test {
 
 using testing::HasSubstr;
 
 constexpr std::uint64_t kNoLimit = 1 << 24;
-constexpr std::size_t kHeaderBytes = 12;
+// Fits no options of any mission: the log does not read them.
+const RecordingStart kStart = {"1.2.3", std::string("\0\xff", 2)};
+// Magic, version and event 0.
+const std::size_t kHeaderBytes = 12 + 8 + EncodeStart(kStart).size();
 
 class EventLogTest : public testing::Test {
  protected:
   // Records `count` random events and returns their encodings.
   std::vector<std::string> Record(int count) {
-    auto writer = EventLogWriter::Create(path_);
+    auto writer = EventLogWriter::Create(path_, kStart);
     EXPECT_TRUE(writer.ok()) << writer.status();
     RandomEvents events(6);
     std::vector<std::string> bodies;
@@ -68,10 +70,40 @@ TEST_F(EventLogTest, ARecordingWithoutEventsIsWhole) {
   ASSERT_TRUE(log.ok()) << log.status();
   EXPECT_TRUE(log->end.ok());
   EXPECT_TRUE(log->events.empty());
+  EXPECT_EQ(log->start, kStart);
+}
+
+TEST_F(EventLogTest, WithoutAWholeEventZeroNothingIsRead) {
+  Record(2);
+  const std::string bytes = Bytes();
+  for (std::size_t size = 12; size < kHeaderBytes; ++size) {
+    ASSERT_TRUE(WriteFile(path_, bytes.substr(0, size)).ok());
+    const auto log = ReadEventLog(path_);
+    ASSERT_EQ(log.status().code(), absl::StatusCode::kDataLoss) << size;
+    ASSERT_THAT(std::string(log.status().message()), HasSubstr("event 0"));
+  }
+}
+
+TEST_F(EventLogTest, AnEventIsNotTakenForEventZero) {
+  Record(1);
+  std::string bytes = Bytes();
+  ASSERT_TRUE(WriteFile(path_, bytes.substr(0, 12) + bytes.substr(kHeaderBytes)).ok());
+  EXPECT_EQ(ReadEventLog(path_).status().code(), absl::StatusCode::kDataLoss);
+}
+
+TEST_F(EventLogTest, VersionThreeBeginsWithEventOne) {
+  const std::vector<std::string> bodies = Record(3);
+  std::string bytes = Bytes();
+  bytes.erase(12, kHeaderBytes - 12);
+  bytes[8] = 3;
+  const EventLog log = ReadBytes(bytes);
+  EXPECT_TRUE(log.end.ok()) << log.end;
+  EXPECT_FALSE(log.start.has_value());
+  EXPECT_EQ(Encodings(log), bodies);
 }
 
 TEST_F(EventLogTest, EventsCanBeReadWhileTheWriterLives) {
-  auto writer = EventLogWriter::Create(path_);
+  auto writer = EventLogWriter::Create(path_, kStart);
   ASSERT_TRUE(writer.ok());
   ASSERT_TRUE(writer->Append({1, PosteriorRefreshed{5}}).ok());
   EXPECT_EQ(ReadEventLog(path_)->events.size(), 1U);
@@ -79,7 +111,8 @@ TEST_F(EventLogTest, EventsCanBeReadWhileTheWriterLives) {
 
 TEST_F(EventLogTest, AnExistingFileIsNotOverwritten) {
   Record(1);
-  EXPECT_EQ(EventLogWriter::Create(path_).status().code(), absl::StatusCode::kAlreadyExists);
+  EXPECT_EQ(EventLogWriter::Create(path_, kStart).status().code(),
+            absl::StatusCode::kAlreadyExists);
 }
 
 TEST_F(EventLogTest, EveryTornTailKeepsTheEventsBeforeItAndIsReported) {
@@ -144,9 +177,9 @@ TEST_F(EventLogTest, AnotherVersionIsRefused) {
 }
 
 TEST_F(EventLogTest, AFolderThatDoesNotExistIsUnavailable) {
-  EXPECT_EQ(EventLogWriter::Create(folder_.File("absent/a")).status().code(),
+  EXPECT_EQ(EventLogWriter::Create(folder_.File("absent/a"), kStart).status().code(),
             absl::StatusCode::kUnavailable);
 }
 
-}  // namespace
+}  // namespace event_log_test
 }  // namespace plumescout::lab

@@ -9,12 +9,12 @@
 #include <string>
 
 #include "formats/file_io.h"
-#include "lab/formats/zlib_codec.h"
+#include "formats/zlib_codec.h"
 #include "tests/support/gaden_files.h"
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace gaden_frame_test {
 
 using support::Append;
 using support::FrameBytes2;
@@ -155,7 +155,7 @@ TEST(GadenFrameTest, NamesFieldsOutOfRange) {
 TEST(GadenFrameTest, FilesAreZlibStreamsAndNamedInErrors) {
   const TempFolder folder;
   const std::string path = folder.File("iteration_0");
-  ASSERT_TRUE(WriteFile(path, CompressZlib(FrameBytes3(SampleFrame())).value()).ok());
+  ASSERT_TRUE(WriteFile(path, CompressZlib(FrameBytes3(SampleFrame()))).ok());
   ExpectSample(ReadGadenFrame(path));
   ASSERT_TRUE(WriteFile(path, FrameBytes3(SampleFrame())).ok());  // not packed
   const auto raw = ReadGadenFrame(path);
@@ -164,5 +164,5 @@ TEST(GadenFrameTest, FilesAreZlibStreamsAndNamedInErrors) {
   EXPECT_EQ(ReadGadenFrame(folder.File("none")).status().code(), absl::StatusCode::kNotFound);
 }
 
-}  // namespace
+}  // namespace gaden_frame_test
 }  // namespace plumescout::lab

@@ -18,7 +18,7 @@
 #include "tests/support/scripted_strategy.h"
 
 namespace plumescout::lab {
-namespace {
+namespace local_mission_test {
 
 using client::ErrorReason;
 using client::GasRange;
@@ -36,7 +36,7 @@ class LocalMissionTest : public ::testing::Test {
         std::make_unique<const ScriptedStrategy>(std::move(script)), options);
   }
   absl::StatusOr<client::RobotSession> Register(const RobotId& robot, bool take_over = false) {
-    return mission_->Register({.robot = robot, .radius_m = 0.2, .lease_token = 0}, take_over);
+    return mission_->Register({.robot = robot, .radius_m = 0.2, .take_over = take_over});
   }
   // Its lease.
   std::int64_t Join(const RobotId& robot) {
@@ -121,7 +121,7 @@ TEST_F(LocalMissionTest, TheCreditRunsAheadOfWhatIsApplied) {
 
   const absl::Status status = mission_->Ingest("scout", lease, stream, GasRange(6, 11), rejected);
   EXPECT_EQ(ErrorReason(status), "CREDIT_EXCEEDED");
-  EXPECT_EQ(mission_->StreamState("scout", lease, stream)->applied_sequence, 10);
+  EXPECT_EQ(mission_->StreamState("scout", lease, stream)->applied_sequence, 5);
   EXPECT_TRUE(rejected.empty());
 }
 
@@ -256,7 +256,7 @@ TEST_F(LocalMissionTest, ClosingWakesWhoeverWaits) {
   std::thread planner([&] { planned = mission_->NextPlan(query).status(); });
   std::thread reader([&] { ended = mission_->AwaitStreamEnd("scout", lease, stream, kPatience); });
 
-  mission_->Close();
+  mission_->Close(absl::NotFoundError("MISSION_NOT_FOUND: missions/house"));
   planner.join();
   reader.join();
 
@@ -264,5 +264,5 @@ TEST_F(LocalMissionTest, ClosingWakesWhoeverWaits) {
   EXPECT_TRUE(absl::IsNotFound(ended)) << ended;
 }
 
-}  // namespace
+}  // namespace local_mission_test
 }  // namespace plumescout::lab

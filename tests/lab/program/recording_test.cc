@@ -5,15 +5,21 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <iterator>
 #include <memory>
+#include <string>
 
 #include "formats/file_io.h"
+#include "lab/about/about.h"
+#include "lab/formats/event_log.h"
+#include "lab/formats/little_endian.h"
+#include "plumescout/v1/options.pb.h"
 #include "tests/support/room_run.h"
 #include "tests/support/same_bytes.h"
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace recording_test {
 
 MissionOptions UnusualOptions() {
   MissionOptions options;
@@ -124,14 +130,54 @@ TEST_F(RecordingTest, RefusesEventsOfAnotherMission) {
   EXPECT_EQ(Replay(*recording, 0).status().code(), absl::StatusCode::kDataLoss);
 }
 
-TEST_F(RecordingTest, NeedsItsOptions) {
+TEST_F(RecordingTest, IsOneFileThatKnowsWhoWroteIt) {
   RecordARun();
+  const std::filesystem::directory_iterator files(std::filesystem::path(path_).parent_path());
+  EXPECT_EQ(std::distance(begin(files), end(files)), 1);
+  auto recording = ReadRecording(path_);
+  ASSERT_TRUE(recording.ok()) << recording.status();
+  EXPECT_EQ(recording->code_version, CodeVersion());
+  EXPECT_EQ(Remarks(*recording), "");
+  recording->code_version = "0.0.1";
+  EXPECT_NE(Remarks(*recording).find("0.0.1"), std::string::npos);
+}
+
+TEST_F(RecordingTest, OptionsThatAreNoneAreRefused) {
+  v1::MissionOptions out_of_range;
+  out_of_range.mutable_occupancy()->set_resolution_m(-1.0);
+  std::filesystem::create_directories(std::filesystem::path(path_).parent_path());
+  for (const std::string& options : {std::string("no message"), out_of_range.SerializeAsString()}) {
+    std::filesystem::remove(path_);
+    ASSERT_TRUE(EventLogWriter::Create(path_, {"1.0.0", options}).ok());
+    const absl::Status status = ReadRecording(path_).status();
+    EXPECT_TRUE(absl::IsInvalidArgument(status)) << status;
+    EXPECT_NE(status.message().find(path_), std::string::npos) << status;
+  }
+}
+
+// Recordings used to have their options beside them.
+TEST_F(RecordingTest, AnOlderRecordingIsReadWithItsOptionsFile) {
+  RecordARun();
+  std::string bytes = *ReadFile(path_, 1 << 28);
+  const auto options_bytes = LoadLittleEndian<std::uint32_t>(bytes.data() + 12);
+  bytes.erase(12, 8 + options_bytes);
+  bytes[8] = 3;
+  ASSERT_TRUE(WriteFile(path_, bytes).ok());
+  EXPECT_TRUE(absl::IsNotFound(ReadRecording(path_).status()));
   ASSERT_TRUE(WriteFile(path_ + ".options.json", "{\"seed\": ").ok());
   EXPECT_TRUE(absl::IsInvalidArgument(ReadRecording(path_).status()));
   ASSERT_TRUE(WriteFile(path_ + ".options.json", "{\"occupancy\": {\"resolution_m\": -1}}").ok());
   EXPECT_TRUE(absl::IsInvalidArgument(ReadRecording(path_).status()));
-  ASSERT_TRUE(std::filesystem::remove(path_ + ".options.json"));
-  EXPECT_TRUE(absl::IsNotFound(ReadRecording(path_).status()));
+  ASSERT_TRUE(WriteFile(path_ + ".options.json",
+                        "{\"seed\": \"42\", \"occupancy\": {\"resolution_m\": 0.2}}")
+                  .ok());
+  const auto recording = ReadRecording(path_);
+  ASSERT_TRUE(recording.ok()) << recording.status();
+  EXPECT_EQ(recording->options.seed, 42u);
+  EXPECT_EQ(recording->code_version, "");
+  const auto again = Replay(*recording, 0);
+  ASSERT_TRUE(again.ok()) << again.status();
+  EXPECT_EQ((*again)->Snapshot()->occupancy->values(), mission_.Snapshot()->occupancy->values());
 }
 
 TEST_F(RecordingTest, ANewRecordingReplacesTheOldOne) {
@@ -149,5 +195,5 @@ TEST_F(RecordingTest, InvalidOptionsAreNotRecorded) {
   EXPECT_TRUE(absl::IsInvalidArgument(Recorder::Create(path_, options).status()));
 }
 
-}  // namespace
+}  // namespace recording_test
 }  // namespace plumescout::lab

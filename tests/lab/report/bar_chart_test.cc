@@ -8,11 +8,11 @@
 #include <cmath>
 #include <string>
 
-#include "lab/report/raster_canvas.h"
-#include "lab/report/svg_canvas.h"
+#include "lab/report/cairo_canvas.h"
+#include "tests/support/recording_canvas.h"
 
 namespace plumescout::lab {
-namespace {
+namespace bar_chart_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -30,16 +30,14 @@ BarChart TwoByTwo() {
           ""};
 }
 
-std::string Svg(const BarChart& chart) {
-  SvgCanvas canvas(400, 300, "");
+std::string Texts(const BarChart& chart) {
+  RecordingCanvas canvas;
   DrawBarChart(canvas, kBox, chart);
-  return canvas.Element();
+  return canvas.Texts();
 }
 
 Image Raster(const BarChart& chart) {
-  RasterCanvas canvas(400, 300, kWhite);
-  DrawBarChart(canvas, kBox, chart);
-  return canvas.image();
+  return DrawImage(400, 300, kWhite, [&](Canvas& canvas) { DrawBarChart(canvas, kBox, chart); });
 }
 
 // Rows of a colour in one column of pixels.
@@ -50,20 +48,20 @@ int Height(const Image& image, int x, Rgb color) {
 }
 
 TEST(BarChart, NamesTitleAxesGroupsAndSeries) {
-  const std::string svg = Svg(TwoByTwo());
+  const std::string texts = Texts(TwoByTwo());
   for (const char* text : {">Share, %<", ">trajectory<", ">one<", ">two<", ">ours<", ">theirs<"}) {
-    EXPECT_THAT(svg, HasSubstr(text));
+    EXPECT_THAT(texts, HasSubstr(text));
   }
-  EXPECT_THAT(svg, Not(HasSubstr("paper")));
+  EXPECT_THAT(texts, Not(HasSubstr("paper")));
 }
 
-// The plot area is 338 x 202 pixels from (52, 58); a bar is 0.4 of half of it wide.
+// The plot area is 338 x 200 pixels from (52, 60); a bar is 0.4 of half of it wide.
 TEST(BarChart, BarsAreAsHighAsTheirValues) {
   const Image image = Raster(TwoByTwo());
   const int first = 52 + 17 + 30;
   const int width = 67;
   const int full = Height(image, first + width, kRed);
-  EXPECT_NEAR(full, 202 / 1.06, 2);
+  EXPECT_NEAR(full, 200 / 1.06, 2);
   EXPECT_NEAR(Height(image, first, kBlue), full / 2, 2);
   EXPECT_NEAR(Height(image, first + 169, kBlue), full, 2);
   EXPECT_NEAR(Height(image, first + 169 + width, kRed), full / 4, 2);
@@ -79,14 +77,14 @@ TEST(BarChart, IntervalsAndReferencesAreDrawnIfTheyAreThere) {
   chart.series[0].bars[0].reference = 80.0;
   chart.reference_name = "paper";
   EXPECT_NE(Raster(chart), with_interval);
-  EXPECT_THAT(Svg(chart), HasSubstr(">paper<"));
+  EXPECT_THAT(Texts(chart), HasSubstr(">paper<"));
 }
 
 TEST(BarChart, AHighIntervalStaysInThePlot) {
   BarChart chart = TwoByTwo();
   chart.series[0].bars[1].low = 90.0;
   chart.series[0].bars[1].high = 200.0;
-  EXPECT_LT(Height(Raster(chart), 52 + 17 + 30 + 67, kRed), 202 / 2);
+  EXPECT_LT(Height(Raster(chart), 52 + 17 + 30 + 67, kRed), 200 / 2);
 }
 
 TEST(BarChart, WithoutUsableValuesItIsStillDrawn) {
@@ -94,11 +92,11 @@ TEST(BarChart, WithoutUsableValuesItIsStillDrawn) {
   for (BarSeries& series : chart.series) {
     for (Bar& bar : series.bars) bar = {NAN, NAN, INFINITY, NAN};
   }
-  EXPECT_THAT(Svg(chart), Not(HasSubstr("nan")));
-  EXPECT_THAT(Svg({}), Not(HasSubstr("nan")));
+  EXPECT_THAT(Texts(chart), Not(HasSubstr("nan")));
+  EXPECT_THAT(Texts({}), Not(HasSubstr("nan")));
   chart.series[0].bars.clear();  // fewer bars than groups
-  EXPECT_THAT(Svg(chart), HasSubstr(">ours<"));
+  EXPECT_THAT(Texts(chart), HasSubstr(">ours<"));
 }
 
-}  // namespace
+}  // namespace bar_chart_test
 }  // namespace plumescout::lab

@@ -10,12 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "lab/report/raster_canvas.h"
-#include "lab/report/svg_canvas.h"
+#include "lab/report/cairo_canvas.h"
 #include "tests/support/recording_canvas.h"
 
 namespace plumescout::lab {
-namespace {
+namespace chart_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -24,12 +23,6 @@ constexpr Rgb kBlue{0, 0, 255};
 constexpr Rgb kRed{255, 0, 0};
 constexpr Box kBox{0.0, 0.0, 400.0, 300.0};
 constexpr Box kPlot{52.0, 34.0, 338.0, 226.0};  // in kBox, without legend
-
-std::string Svg(const Chart& chart) {
-  SvgCanvas canvas(400, 300, "");
-  DrawChart(canvas, kBox, chart);
-  return canvas.Element();
-}
 
 Curve MakeCurve(const std::string& name, const std::vector<ChartPoint>& points) {
   return {name, {kBlue, 2.0}, points};
@@ -44,6 +37,13 @@ RecordingCanvas Draw(const Chart& chart) {
   RecordingCanvas canvas;
   DrawChart(canvas, kBox, chart);
   return canvas;
+}
+
+std::string Texts(const Chart& chart) { return Draw(chart).Texts(); }
+
+Image Picture(const Chart& chart) {
+  return DrawImage(400, 300, {255, 255, 255},
+                   [&](Canvas& canvas) { DrawChart(canvas, kBox, chart); });
 }
 
 std::vector<DrawnLine> LinesOf(Rgb color, const Chart& chart) {
@@ -65,45 +65,40 @@ Range RangeShown(const Chart& chart, double first, double last) {
 }
 
 TEST(Chart, TitlesAndTicksArePrinted) {
-  const std::string svg =
-      Svg({"RMSE, ppm", "time, s", Range{0.0, 1.0}, {MakeCurve("a", {{0, 0.1}, {300, 0.9}})}});
+  const std::string texts =
+      Texts({"RMSE, ppm", "time, s", Range{0.0, 1.0}, {MakeCurve("a", {{0, 0.1}, {300, 0.9}})}});
   for (const char* text : {">RMSE, ppm<", ">time, s<", ">0.2<", ">1<", ">100<", ">300<"}) {
-    EXPECT_THAT(svg, HasSubstr(text));
+    EXPECT_THAT(texts, HasSubstr(text));
   }
 }
 
 TEST(Chart, OneCurveNeedsNoLegendButTwoDo) {
   const Curve first = MakeCurve("first", {{0, 1}, {1, 2}});
   const Curve second = MakeCurve("second", {{0, 2}, {1, 1}});
-  EXPECT_THAT(Svg({"", "", {}, {first}}), Not(HasSubstr("first")));
-  EXPECT_THAT(Svg({"", "", {}, {first, second}}), HasSubstr("first"));
+  EXPECT_THAT(Texts({"", "", {}, {first}}), Not(HasSubstr("first")));
+  EXPECT_THAT(Texts({"", "", {}, {first, second}}), HasSubstr("first"));
 }
 
 TEST(Chart, ACurveWithoutANameIsDrawnButNotInTheLegend) {
   const Curve named = MakeCurve("first", {{0, 1}, {1, 2}});
   const Curve other = MakeCurve("second", {{0, 2}, {1, 1}});
-  const auto lines = [](const std::string& svg) {
-    std::size_t count = 0;
-    for (std::size_t at = 0; (at = svg.find("<path", at)) != std::string::npos; ++at) ++count;
-    return count;
-  };
-  const std::string two = Svg({"", "", {}, {named, other}});
-  const std::string one = Svg({"", "", {}, {named, MakeCurve("", {{0, 2}, {1, 1}})}});
-  ASSERT_GT(lines(one), 0u);
-  EXPECT_EQ(lines(one) + 1, lines(two));  // the sample of the legend is missing
+  const auto lines = [](const Chart& chart) { return Draw(chart).lines.size(); };
+  const std::size_t two = lines({"", "", {}, {named, other}});
+  const std::size_t one = lines({"", "", {}, {named, MakeCurve("", {{0, 2}, {1, 1}})}});
+  ASSERT_GT(one, 0u);
+  EXPECT_EQ(one + 1, two);  // the sample of the legend is missing
 }
 
 TEST(Chart, AQuantityThatIsNeverNegativeStartsAtZero) {
-  const std::string svg = Svg({"", "", {}, {MakeCurve("a", {{10, 5}, {20, 40}})}});
-  EXPECT_THAT(svg, HasSubstr(">0<"));
+  const std::string texts = Texts({"", "", {}, {MakeCurve("a", {{10, 5}, {20, 40}})}});
+  EXPECT_THAT(texts, HasSubstr(">0<"));
 }
 
 TEST(Chart, CurvesRiseFromLeftToRight) {
-  RasterCanvas canvas(400, 300, {255, 255, 255});
-  DrawChart(canvas, kBox, {"", "", Range{0.0, 1.0}, {MakeCurve("a", {{0, 0}, {1, 1}})}});
+  const Image image = Picture({"", "", Range{0.0, 1.0}, {MakeCurve("a", {{0, 0}, {1, 1}})}});
   // The plot area is 338 x 226 pixels from (52, 34).
-  EXPECT_EQ(canvas.image().At(52 + 338 / 4, 34 + 3 * 226 / 4), kBlue);
-  EXPECT_EQ(canvas.image().At(52 + 3 * 338 / 4, 34 + 226 / 4), kBlue);
+  EXPECT_EQ(image.At(52 + 338 / 4, 34 + 3 * 226 / 4), kBlue);
+  EXPECT_EQ(image.At(52 + 3 * 338 / 4, 34 + 226 / 4), kBlue);
 }
 
 TEST(Chart, ChartsWithoutUsableValuesAreStillDrawn) {
@@ -114,10 +109,10 @@ TEST(Chart, ChartsWithoutUsableValuesAreStillDrawn) {
                                                 {{0, 0}, {1, 0}},
                                                 {{0, 7}, {0, 7}},
                                                 {{0, -1e300}, {1, 1e300}}}) {
-    const std::string svg = Svg({"title", "", {}, {MakeCurve("a", points)}});
-    EXPECT_THAT(svg, HasSubstr(">title<"));
-    EXPECT_THAT(svg, Not(HasSubstr("nan")));
-    EXPECT_THAT(svg, Not(HasSubstr("inf")));
+    const std::string texts = Texts({"title", "", {}, {MakeCurve("a", points)}});
+    EXPECT_THAT(texts, HasSubstr(">title<"));
+    EXPECT_THAT(texts, Not(HasSubstr("nan")));
+    EXPECT_THAT(texts, Not(HasSubstr("inf")));
   }
 }
 
@@ -142,10 +137,9 @@ TEST(Chart, CurvesEndAtTheEdgesOfThePlot) {
 
 TEST(Chart, ACurveThatLeavesIsNotJoinedAlongTheEdge) {
   const Chart chart{"", "", Range{0.0, 1.0}, {MakeCurve("", {{0.0, 0.0}, {0.5, 2.0}, {1.0, 0.0}})}};
-  RasterCanvas canvas(400, 300, {255, 255, 255});
-  DrawChart(canvas, kBox, chart);
+  const Image image = Picture(chart);
   for (int x = 52 + 338 / 4 + 5; x < 52 + 3 * 338 / 4 - 5; ++x) {
-    for (int y = 0; y < 34 + 3; ++y) EXPECT_NE(canvas.image().At(x, y), kBlue) << x << " " << y;
+    for (int y = 0; y < 34 + 3; ++y) EXPECT_NE(image.At(x, y), kBlue) << x << " " << y;
   }
 }
 
@@ -232,11 +226,19 @@ TEST(Chart, TheLegendTakesItsRoomFromThePlot) {
   const Curve named = MakeCurve("first", {{0, 0}, {1, 1}});
   const Chart one{"", "", Range{0.0, 1.0}, {named}};
   const Chart two{"", "", Range{0.0, 1.0}, {named, MakeCurve("second", {{0, 0}, {1, 1}})}};
-  EXPECT_EQ(LegendHeight_px(one, kBox.width), 0.0);
-  ASSERT_GT(LegendHeight_px(two, kBox.width), 0.0);
+  const double legend_px = ChartLegendHeight_px(LegendOf(two), kBox.width);
+  EXPECT_TRUE(LegendOf(one).empty());
+  ASSERT_GT(legend_px, 0.0);
   EXPECT_DOUBLE_EQ(LinesOf(kBlue, two).back().points[1].y,
-                   LinesOf(kBlue, one).back().points[1].y + LegendHeight_px(two, kBox.width));
+                   LinesOf(kBlue, one).back().points[1].y + legend_px);
 }
 
-}  // namespace
+TEST(Chart, ALegendThatStandsElsewhereIsLeftOut) {
+  const Chart two{"", "", {}, {MakeCurve("first", {{0, 1}}), MakeCurve("second", {{0, 2}})}};
+  RecordingCanvas canvas;
+  DrawChart(canvas, kBox, two, {});
+  EXPECT_THAT(canvas.Texts(), Not(HasSubstr("first")));
+}
+
+}  // namespace chart_test
 }  // namespace plumescout::lab

@@ -12,7 +12,7 @@
 #include "tests/support/small_report.h"
 
 namespace plumescout::lab {
-namespace {
+namespace figures_test {
 
 using testing::ElementsAre;
 using testing::Field;
@@ -22,8 +22,8 @@ using testing::SizeIs;
 Rgb ColorIn(const MapPanel& panel, Point2 point) {
   const CellPicture& cells = panel.cells;
   const double cell_m = cells.region.width_m() / cells.image.width();
-  return cells.image.At(static_cast<int>((point.x_m - cells.region.south_west.x_m) / cell_m),
-                        static_cast<int>((cells.region.north_east.y_m - point.y_m) / cell_m));
+  return cells.image.At(static_cast<int>((point.x_m - cells.region.min.x_m) / cell_m),
+                        static_cast<int>((cells.region.max.y_m - point.y_m) / cell_m));
 }
 
 constexpr Point2 kKnown{1.75, 4.75};
@@ -116,5 +116,5 @@ TEST(Figures, ChartsFollowTheMetrics) {
   EXPECT_EQ(charts[2].curves[0].points.back().x, 200.0);
 }
 
-}  // namespace
+}  // namespace figures_test
 }  // namespace plumescout::lab

@@ -5,15 +5,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <cmath>
 #include <string>
 
-#include "lab/report/raster_canvas.h"
-#include "lab/report/svg_canvas.h"
+#include "lab/report/cairo_canvas.h"
 #include "tests/support/recording_canvas.h"
 
 namespace plumescout::lab {
-namespace {
+namespace map_panel_test {
 
 using testing::HasSubstr;
 
@@ -31,19 +30,29 @@ MapPanel MakePanel() {
   return panel;
 }
 
-std::string Svg(const MapPanel& panel) {
-  SvgCanvas canvas(400, 400, "");
+RecordingCanvas Draw(const MapPanel& panel) {
+  RecordingCanvas canvas;
   DrawMapPanel(canvas, {0.0, 0.0, 400.0, 400.0}, panel);
-  return canvas.Element();
+  return canvas;
+}
+
+std::string Texts(const MapPanel& panel) { return Draw(panel).Texts(); }
+
+WrittenText TextOf(const MapPanel& panel, const std::string& utf8) {
+  for (const WrittenText& text : Draw(panel).texts) {
+    if (text.utf8 == utf8) return text;
+  }
+  ADD_FAILURE() << utf8 << " is not written";
+  return {};
 }
 
 TEST(MapPanel, RegionsCoverTheirCells) {
-  const Region region = RegionOf(kGeometry);
-  EXPECT_EQ(region.south_west, (Point2{10.0, 20.0}));
-  EXPECT_EQ(region.north_east, (Point2{12.0, 21.0}));
-  const Region both = Union(region, {{9.0, 20.5}, {11.0, 30.0}});
-  EXPECT_EQ(both.south_west, (Point2{9.0, 20.0}));
-  EXPECT_EQ(both.north_east, (Point2{12.0, 30.0}));
+  const Rectangle region = RegionOf(kGeometry);
+  EXPECT_EQ(region.min, (Point2{10.0, 20.0}));
+  EXPECT_EQ(region.max, (Point2{12.0, 21.0}));
+  const Rectangle both = Union(region, {{9.0, 20.5}, {11.0, 30.0}});
+  EXPECT_EQ(both.min, (Point2{9.0, 20.0}));
+  EXPECT_EQ(both.max, (Point2{12.0, 30.0}));
 }
 
 TEST(MapPanel, ThePictureHasNorthUp) {
@@ -59,8 +68,8 @@ TEST(MapPanel, OnlyCellsOfTheRegionArePainted) {
   ASSERT_EQ(part.image.width(), 2);
   ASSERT_EQ(part.image.height(), 1);
   EXPECT_EQ(part.image.At(0, 0), kGreen);
-  EXPECT_EQ(part.region.south_west, (Point2{10.5, 20.0}));
-  EXPECT_EQ(part.region.north_east, (Point2{11.5, 20.5}));
+  EXPECT_EQ(part.region.min, (Point2{10.5, 20.0}));
+  EXPECT_EQ(part.region.max, (Point2{11.5, 20.5}));
 }
 
 TEST(MapPanel, ARegionWithoutCellsHasAnEmptyPicture) {
@@ -72,9 +81,9 @@ TEST(MapPanel, ARegionWithoutCellsHasAnEmptyPicture) {
 TEST(MapPanel, PanelsAreAsHighAsTheirMapsButBounded) {
   MapPanel panel = MakePanel();
   const double wide_px = MapPanelHeight_px(panel, 400.0);
-  panel.region.north_east.y_m += 1.0;  // twice as high: 400 pixels instead of 200
+  panel.region.max.y_m += 1.0;  // twice as high: 400 pixels instead of 200
   EXPECT_DOUBLE_EQ(MapPanelHeight_px(panel, 400.0), wide_px + 200.0);
-  panel.region.north_east.y_m += 1000.0;
+  panel.region.max.y_m += 1000.0;
   EXPECT_LT(MapPanelHeight_px(panel, 400.0), 1000.0);
 }
 
@@ -82,26 +91,23 @@ TEST(MapPanel, CellsLinesAndMarksLieWhereTheyAre) {
   MapPanel panel = MakePanel();
   panel.lines = {{{{10.0, 20.25}, {12.0, 20.25}}, {kBlue, 3.0}}};
   panel.marks = {{MarkShape::kDisc, kBlue, {10.5, 20.75}}};
-  RasterCanvas canvas(400, 400, {255, 255, 255});
-  DrawMapPanel(canvas, {0.0, 0.0, 400.0, 400.0}, panel);
+  const Image image = DrawImage(400, 400, {255, 255, 255}, [&](Canvas& canvas) {
+    DrawMapPanel(canvas, {0.0, 0.0, 400.0, 400.0}, panel);
+  });
   // 200 pixels a metre; the map's upper left corner is at (0, 34).
-  EXPECT_EQ(canvas.image().At(350, 34 + 50), kGreen);
-  EXPECT_EQ(canvas.image().At(200, 34 + 150), kBlue);
-  EXPECT_EQ(canvas.image().At(100, 34 + 50), kBlue);
-  EXPECT_EQ(canvas.image().At(250, 34 + 50), Rgb{});
+  EXPECT_EQ(image.At(350, 34 + 50), kGreen);
+  EXPECT_EQ(image.At(200, 34 + 150), kBlue);
+  EXPECT_EQ(image.At(100, 34 + 50), kBlue);
+  EXPECT_EQ(image.At(250, 34 + 50), Rgb{});
 }
 
 TEST(MapPanel, LabelsOfOnePlaceAreBothReadable) {
   MapPanel panel = MakePanel();
   panel.marks = {{MarkShape::kDisc, kBlue, {11.0, 20.5}, "a1"},
                  {MarkShape::kDisc, kBlue, {11.0, 20.5}, "b2"}};
-  const std::string svg = Svg(panel);
-  const std::size_t first = svg.rfind("<text", svg.find("a1"));
-  const std::size_t second = svg.rfind("<text", svg.find("b2"));
-  ASSERT_NE(svg.find("a1"), std::string::npos);
-  ASSERT_NE(svg.find("b2"), std::string::npos);
-  // Written at different places: what stands before the texts differs.
-  EXPECT_NE(svg.substr(first, svg.find("a1") - first), svg.substr(second, svg.find("b2") - second));
+  const PixelPoint first = TextOf(panel, "a1").baseline;
+  const PixelPoint second = TextOf(panel, "b2").baseline;
+  EXPECT_GT(std::hypot(first.x - second.x, first.y - second.y), 18.0);  // discs do not meet
 }
 
 TEST(MapPanel, ALegendStandsBelowTheColorBar) {
@@ -111,17 +117,13 @@ TEST(MapPanel, ALegendStandsBelowTheColorBar) {
                   {"two", MarkShape::kDisc, kBlue},
                   {"three", MarkShape::kDisc, kBlue},
                   {"four", MarkShape::kDisc, kBlue}};
-  const std::string svg = Svg(panel);
-  const auto y_of = [&](const std::string& text) {
-    const std::size_t element = svg.rfind("<text", svg.find(">" + text + "<"));
-    return std::stod(svg.substr(svg.find(" y=\"", element) + 4));
-  };
+  const auto y_of = [&](const std::string& text) { return TextOf(panel, text).baseline.y; };
   EXPECT_GT(y_of("one"), y_of("0.4") + 10.0);  // below the ticks
   EXPECT_EQ(y_of("one"), y_of("four"));        // one row
 }
 
 TEST(MapPanel, TheScaleBarHasARoundLength) {
-  EXPECT_THAT(Svg(MakePanel()), HasSubstr(">0.2 m<"));  // at most a fifth of 2 m
+  EXPECT_THAT(Texts(MakePanel()), HasSubstr(">0.2 m<"));  // at most a fifth of 2 m
 }
 
 // Of a map of 1 m x 4 m in a panel of 400 x 400 pixels: 72.5 pixels wide.
@@ -151,7 +153,7 @@ TEST(MapPanel, TheScaleBarGivesWayToTheTitle) {
 TEST(MapPanel, TallMapsAreNarrowerThanTheirPanel) {
   MapPanel panel = MakePanel();  // 2 m x 1 m
   EXPECT_EQ(MapWidth_px(panel, 400.0), 400.0);
-  panel.region.north_east.y_m += 9.0;
+  panel.region.max.y_m += 9.0;
   const double width_px = MapWidth_px(panel, 400.0);
   EXPECT_LT(width_px, 400.0);
   RecordingCanvas canvas;
@@ -163,20 +165,15 @@ TEST(MapPanel, TallMapsAreNarrowerThanTheirPanel) {
 TEST(MapPanel, TheColorBarPrintsItsUnitAndTicks) {
   MapPanel panel = MakePanel();
   panel.color_bar = ColorBar{{ColorMap::kGas, 0.5, 500.0, true}, "ppm"};
-  const std::string svg = Svg(panel);
-  for (const char* text : {">ppm<", ">1<", ">10<", ">100<"}) EXPECT_THAT(svg, HasSubstr(text));
+  const std::string texts = Texts(panel);
+  for (const char* text : {">ppm<", ">1<", ">10<", ">100<"}) EXPECT_THAT(texts, HasSubstr(text));
 }
 
 TEST(MapPanel, ALongUnitEndsWithTheMap) {
   for (const char* unit : {"ppm", "RMSE, ppm", "nats per critical cell"}) {
     MapPanel panel = MakePanel();
     panel.color_bar = ColorBar{{ColorMap::kGas, 0.0, 1.0, false}, unit};
-    RecordingCanvas canvas;
-    DrawMapPanel(canvas, {0.0, 0.0, 400.0, 400.0}, panel);
-    const auto text = std::find_if(canvas.texts.begin(), canvas.texts.end(),
-                                   [&](const WrittenText& t) { return t.utf8 == unit; });
-    ASSERT_NE(text, canvas.texts.end());
-    EXPECT_LE(text->right(), 400.0) << unit;
+    EXPECT_LE(TextOf(panel, unit).right(), 400.0) << unit;
   }
 }
 
@@ -186,11 +183,11 @@ TEST(MapPanel, TheLegendNamesItsEntries) {
                   {"path", MarkShape::kLine, kBlue},
                   {"start", MarkShape::kDisc, kBlue},
                   {"source", MarkShape::kCross, kBlue}};
-  const std::string svg = Svg(panel);
+  const std::string texts = Texts(panel);
   for (const char* text : {">wall<", ">path<", ">start<", ">source<"}) {
-    EXPECT_THAT(svg, HasSubstr(text));
+    EXPECT_THAT(texts, HasSubstr(text));
   }
 }
 
-}  // namespace
+}  // namespace map_panel_test
 }  // namespace plumescout::lab

@@ -11,10 +11,11 @@
 
 #include "lab/report/figures.h"
 #include "lab/report/palette.h"
+#include "tests/support/recording_canvas.h"
 #include "tests/support/small_report.h"
 
 namespace plumescout::lab {
-namespace {
+namespace sheet_test {
 
 ReportFigures MakeFigures() {
   const ReportData data = MakeSmallReport();
@@ -107,11 +108,11 @@ TEST(Sheet, ARowOfTallMapsStandsInTheMiddle) {
     panel.title = "";
     panel.color_bar.reset();
     panel.legend = {};
-    panel.region.north_east.y_m = panel.region.south_west.y_m + 1.2 * panel.region.width_m();
+    panel.region.max.y_m = panel.region.min.y_m + 1.2 * panel.region.width_m();
   }
   ReportFigures changed = figures;
   for (MapPanel& panel : changed.panels) {
-    const Point2 corner = panel.region.south_west;
+    const Point2 corner = panel.region.min;
     const GridGeometry cells{corner.x_m, corner.y_m, 0.1 * panel.region.width_m(), 10, 12};
     panel.cells = PaintCells(cells, panel.region, [](Cell) { return kSourceColor; });
   }
@@ -135,16 +136,38 @@ TEST(Sheet, GrowsWithItsFirstTableIfThatFits) {
 
 TEST(Sheet, ChartsAreAsHighAsTheHighestLegendNeeds) {
   ReportFigures figures = MakeFigures();
-  const int height = ChartHeight_px(figures);
+  const int height = MakeChartDrawings(figures).height_px;
   for (int i = 0; i < 9; ++i) {
-    figures.charts[1].curves.push_back({"a curve with a name of its own", {}, {}});
+    figures.charts[2].curves.push_back({"a curve with a name of its own", {}, {}});
   }
-  EXPECT_EQ(ChartHeight_px(figures),
-            kChartHeight_px + std::ceil(LegendHeight_px(figures.charts[1], kPanelWidth_px)));
-  EXPECT_GT(ChartHeight_px(figures), height);
+  EXPECT_EQ(MakeChartDrawings(figures).height_px,
+            kChartHeight_px +
+                std::ceil(ChartLegendHeight_px(LegendOf(figures.charts[2]), kChartWidth_px)));
+  EXPECT_GT(MakeChartDrawings(figures).height_px, height);
 }
 
-TEST(Sheet, ASheetOfNothingIsStillASheet) { EXPECT_GT(DrawSheet({}).height(), kChartHeight_px); }
+TEST(Sheet, ALegendThatSeveralChartsShareIsDrawnOnce) {
+  ReportFigures figures = MakeFigures();
+  EXPECT_TRUE(MakeChartDrawings(figures).legend.empty());  // one chart has a legend
+  figures.charts.push_back(figures.charts[1]);
+  const ChartDrawings shared = MakeChartDrawings(figures);
+  EXPECT_EQ(shared.legend, LegendOf(figures.charts[1]));
+  EXPECT_EQ(shared.height_px, kChartHeight_px);
+  RecordingCanvas canvas;
+  for (const ChartDrawing& chart : shared.charts) chart.draw(canvas, {0, 0, 608, 400});
+  EXPECT_EQ(canvas.Texts().find("all-zero map"), std::string::npos);
+  figures.charts.back().curves[0].stroke.width_px += 1.0;  // others
+  EXPECT_TRUE(MakeChartDrawings(figures).legend.empty());
+}
 
-}  // namespace
+TEST(Sheet, AFourthChartBeginsAnotherRow) {
+  ReportFigures figures = MakeFigures();
+  const int height = DrawSheet(figures).height();
+  figures.charts.push_back(figures.charts[0]);
+  EXPECT_GE(DrawSheet(figures).height(), height + kChartHeight_px);
+}
+
+TEST(Sheet, ASheetOfNothingIsStillASheet) { EXPECT_GT(DrawSheet({}).height(), 100); }
+
+}  // namespace sheet_test
 }  // namespace plumescout::lab

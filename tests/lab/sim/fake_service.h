@@ -37,6 +37,10 @@ class FakeService final : public client::PlannerClient {
                                                      double radius_m, bool take_over) override {
     return server_.RegisterRobot(mission, robot, radius_m, take_over);
   }
+  absl::Status RemoveRobot(const MissionId& mission, const RobotId& robot, std::int64_t lease_token,
+                           bool force) override {
+    return server_.RemoveRobot(mission, robot, lease_token, force);
+  }
   absl::StatusOr<std::unique_ptr<client::ObservationStream>> OpenObservationStream(
       const client::RobotSession& session) override {
     return server_.OpenObservationStream(session);

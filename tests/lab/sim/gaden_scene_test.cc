@@ -10,13 +10,13 @@
 
 #include "absl/strings/str_cat.h"
 #include "formats/file_io.h"
-#include "lab/formats/zlib_codec.h"
+#include "formats/zlib_codec.h"
 #include "lab/sim/gaden_slice.h"
 #include "tests/support/gaden_files.h"
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace gaden_scene_test {
 
 using testing::HasSubstr;
 
@@ -48,8 +48,7 @@ class GadenSceneTest : public testing::Test {
     ASSERT_TRUE(WriteFile(Path(name), bytes).ok());
   }
   void WriteFrame(const std::string& folder, int number, const GadenFrame& frame) {
-    Write(absl::StrCat(folder, "/iteration_", number),
-          CompressZlib(support::FrameBytes3(frame)).value());
+    Write(absl::StrCat(folder, "/iteration_", number), CompressZlib(support::FrameBytes3(frame)));
   }
   void ExpectError(absl::StatusCode code, const std::string& message) {
     const auto scene = ImportGaden(import_);
@@ -106,8 +105,7 @@ TEST_F(GadenSceneTest, ASceneMayHaveNoWind) {
 
 TEST_F(GadenSceneTest, ReadsFoldersOfVersion2) {
   for (int i = 0; i < 4; ++i) {
-    Write(absl::StrCat("old/iteration_", i + 1),
-          CompressZlib(support::FrameBytes2(FrameAt(i))).value());
+    Write(absl::StrCat("old/iteration_", i + 1), CompressZlib(support::FrameBytes2(FrameAt(i))));
   }
   const auto scene = ImportGaden(import_);
   import_.results = {Path("old")};
@@ -184,5 +182,5 @@ TEST_F(GadenSceneTest, NamesFieldsOutOfRange) {
   ExpectError(absl::StatusCode::kInvalidArgument, "2 rates for 1 result folders");
 }
 
-}  // namespace
+}  // namespace gaden_scene_test
 }  // namespace plumescout::lab

@@ -5,10 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace ipp_table1_test {
 
 using ::testing::Contains;
 using ::testing::Key;
@@ -31,8 +33,13 @@ TEST(IppTable1, HasTheRowsOfThePaper) {
   EXPECT_EQ(table.rows[0][2], "1.00");            // of the sweep's own
   EXPECT_THAT(study->table.rows, SizeIs(7));      // a drive each
   EXPECT_THAT(study->figures.panels, SizeIs(5));  // the truth, and two of two rows
-  EXPECT_THAT(study->summary.figures, Contains(Key("variance_per_time_times_faster")));
+  for (const char* row : {"sweep", "uncertainty", "uncertainty_time", "uncertainty_concentration",
+                          "concentration_time", "joint_uncertainty_concentration_time"}) {
+    for (const char* figure : {"_final_rmse", "_min_rmse", "_t_r_score", "_samples"}) {
+      EXPECT_THAT(study->summary.figures, Contains(Key(std::string(row) + figure)));
+    }
+  }
 }
 
-}  // namespace
+}  // namespace ipp_table1_test
 }  // namespace plumescout::lab

@@ -5,10 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace lhr_table2_test {
 
 using ::testing::Contains;
 using ::testing::Key;
@@ -31,8 +33,15 @@ TEST(LhrTable2, HasTheRowsOfThePaperAndSamplesEverySite) {
   constexpr std::size_t kSamples = 2;  // column
   for (const auto& row : study->table.rows) EXPECT_EQ(row[kSamples], 51 * 51);
   EXPECT_THAT(study->figures.panels, SizeIs(6));  // the truth and five updates
-  EXPECT_THAT(study->summary.figures, Contains(Key("ucb_convergence_min")));
+  for (const char* row :
+       {"sweep", "crs", "lhr_mean", "lhr_ucb", "lhr_mean_no_survey", "lhr_ucb_no_survey"}) {
+    for (const char* figure : {"_distance_m", "_rmse_ct_min"}) {
+      EXPECT_THAT(study->summary.figures, Contains(Key(std::string(row) + figure)));
+    }
+  }
+  EXPECT_THAT(study->summary.figures, Contains(Key("p2_3003_subsets_ms")));
+  EXPECT_THAT(study->summary.figures, Contains(Key("p1_6x6_ms")));
 }
 
-}  // namespace
+}  // namespace lhr_table2_test
 }  // namespace plumescout::lab

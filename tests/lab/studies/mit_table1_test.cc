@@ -9,7 +9,7 @@
 #include "lab/worlds/mit_scene.h"
 
 namespace plumescout::lab {
-namespace {
+namespace mit_table1_test {
 
 const Study& QuickStudy() {
   static const Study study = [] {
@@ -47,6 +47,9 @@ TEST(MitTable1, SharesAreThoseOfTheRuns) {
     ++all;
   }
   EXPECT_DOUBLE_EQ(Figure("scene_0_mit_share_3"), third / static_cast<double>(all));
+  EXPECT_DOUBLE_EQ(Figure("mit_t3_percent"), 100.0 * third / static_cast<double>(all));
+  EXPECT_EQ(Figure("trials"), all);
+  EXPECT_GT(Figure("rrt_star_t3_percent"), 0.0);
 }
 
 // The bar of the table, with runs few enough for a share to err by 0.08 (one standard error).
@@ -74,5 +77,5 @@ TEST(MitTable1, TellsHowFarItIs) {
   EXPECT_DOUBLE_EQ(last, 1.0);
 }
 
-}  // namespace
+}  // namespace mit_table1_test
 }  // namespace plumescout::lab

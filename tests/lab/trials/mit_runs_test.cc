@@ -7,7 +7,7 @@
 #include <cmath>
 
 namespace plumescout::lab {
-namespace {
+namespace mit_runs_test {
 
 const MitScene& Scene() {
   static const MitScene scene = *BuildMitScene(MitTableScene());
@@ -79,16 +79,6 @@ TEST(MitRuns, SummariesCountWhatWasFound) {
   EXPECT_DOUBLE_EQ(summary.samples, 10.0);
 }
 
-TEST(MitRuns, WilsonsIntervalIsWhatItsFormulaGivesByHand) {
-  const ShareInterval interval = WilsonInterval(174, 250);
-  // (0.696 + 3.8415/500 -+ 1.96 * 0.029355) / (1 + 3.8415/250)
-  EXPECT_NEAR(interval.low, 0.6364, 5e-4);
-  EXPECT_NEAR(interval.high, 0.7497, 5e-4);
-  EXPECT_NEAR(WilsonInterval(0, 10).low, 0.0, 1e-12);
-  EXPECT_NEAR(WilsonInterval(0, 10).high, 0.2775, 5e-4);
-  EXPECT_NEAR(WilsonInterval(10, 10).high, 1.0, 1e-12);
-}
-
 TEST(MitRuns, TheMostTypicalPathIsTheOneInTheMiddle) {
   const std::vector<Point2> low = {{0.0, 0.0}, {5.0, 0.0}};
   const std::vector<Point2> middle = {{0.0, 1.0}, {1.0, 1.0}, {5.0, 1.0}};
@@ -104,5 +94,5 @@ TEST(MitRuns, APathOfNoLengthCanBeTypical) {
   EXPECT_EQ(MostTypical({&point}), 0);
 }
 
-}  // namespace
+}  // namespace mit_runs_test
 }  // namespace plumescout::lab

@@ -10,7 +10,7 @@
 #include "core/types/rng.h"
 
 namespace plumescout::lab {
-namespace {
+namespace statistics_test {
 
 TEST(Spread, IsThatOfAHandWorkedSample) {
   const std::vector<double> values = {2.0, 4.0, 4.0, 6.0};
@@ -87,5 +87,15 @@ TEST(WilsonInterval, IsThatOfThePublishedExample) {
   EXPECT_NEAR(WilsonInterval(0, 10).low, 0.0, 1e-12);
 }
 
-}  // namespace
+TEST(WilsonInterval, IsWhatItsFormulaGivesByHand) {
+  const ShareInterval interval = WilsonInterval(174, 250);
+  // (0.696 + 3.8415/500 -+ 1.96 * 0.029355) / (1 + 3.8415/250)
+  EXPECT_NEAR(interval.low, 0.6364, 5e-4);
+  EXPECT_NEAR(interval.high, 0.7497, 5e-4);
+  EXPECT_NEAR(WilsonInterval(0, 10).low, 0.0, 1e-12);
+  EXPECT_NEAR(WilsonInterval(0, 10).high, 0.2775, 5e-4);
+  EXPECT_NEAR(WilsonInterval(10, 10).high, 1.0, 1e-12);
+}
+
+}  // namespace statistics_test
 }  // namespace plumescout::lab

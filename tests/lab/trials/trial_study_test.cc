@@ -13,7 +13,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace trial_study_test {
 
 TrialPlan SmallPlan(const TempFolder& folder) {
   TrialPlan plan;
@@ -39,8 +39,10 @@ TEST(TrialStudy, MakesRowsThatDriveAsThePaperOrWithAllGoals) {
   ASSERT_TRUE(paper.ok() && ours.ok());
   EXPECT_TRUE(paper->mission.planning.draw_goals);
   EXPECT_FALSE(paper->mission.planning.fallback_to_unobserved);
+  EXPECT_EQ(paper->mission.planning.max_connection_radius_m, 0.0);
   EXPECT_FALSE(ours->mission.planning.draw_goals);
   EXPECT_TRUE(ours->mission.planning.fallback_to_unobserved);
+  EXPECT_EQ(ours->mission.planning.max_connection_radius_m, 5.0);
   EXPECT_EQ(MakeStudyRow("c", "xit_none", true).status().code(),
             absl::StatusCode::kInvalidArgument);
 }
@@ -111,5 +113,5 @@ TEST(TrialStudy, KnowsTheMapBeforehandIfTheRowSaysSo) {
   EXPECT_GT((*records)[0][1][0].curve.front().metrics.completeness, 0.99);
 }
 
-}  // namespace
+}  // namespace trial_study_test
 }  // namespace plumescout::lab

@@ -13,7 +13,7 @@
 #include "proto/convert/status.h"
 
 namespace plumescout {
-namespace {
+namespace map_test {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
@@ -32,9 +32,10 @@ MapSnapshot TestMap() {
   map.gas_threshold_ppm = 2.5;
   map.frontiers = {{FrontierKind::kGas, {{1, 2}, {2, 3}}, {0.1, 0.2}, {2, 2}, 3.5, true, false},
                    {FrontierKind::kOccupancy, {{9, 9}}, {1.0, 2.0}, {}, 0.0, false, true}};
-  map.robots = {{"r1", 0.25, true, {1.0, 2.0, 0.5}, 40, 2}, {"r2", 0.2, false, {}, 0, 0}};
+  map.robots = {{"r1", 0.25, true, {1.0, 2.0, 0.5}, 40, 2}, {"r2", 0.2, false, {}, 0, 0, true}};
   map.gas_counters = {10, 7, 2, 3};
   map.gas_quality = {1e-4, 1e-5, 1'700'000'000'000'000'000, 0.02, 900, 8, 2, 1, 2e-4, 3e-5};
+  map.gas_audits = {5, 2e-5, 4e-6, 1};
   map.phase = MissionPhase::kGasProbing;
   return map;
 }
@@ -58,6 +59,7 @@ TEST(MapTest, MapSurvivesTheRoundTripInFullPrecision) {
   EXPECT_EQ(back->robots, map.robots);
   EXPECT_EQ(back->gas_counters, map.gas_counters);
   EXPECT_EQ(back->gas_quality, map.gas_quality);
+  EXPECT_EQ(back->gas_audits, map.gas_audits);
   EXPECT_EQ(back->phase, map.phase);
 }
 
@@ -147,5 +149,5 @@ TEST(MapTest, WhatAReaderAllocatesByIsChecked) {
   }
 }
 
-}  // namespace
+}  // namespace map_test
 }  // namespace plumescout

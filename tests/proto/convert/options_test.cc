@@ -16,7 +16,7 @@
 #include "proto/convert/status.h"
 
 namespace plumescout {
-namespace {
+namespace options_test {
 
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
@@ -46,6 +46,8 @@ MissionOptions Unlike() {
   options.planning.return_margin_share = 0.25;
   options.planning.return_home = true;
   options.planning.planning_latency_s = 0.75;
+  options.planning.max_connection_radius_m = 7.5;
+  options.planning.unseen_information_nats = 12.0;
   options.planning.sites = {Rectangle{{-1.0, 2.0}, {3.0, 8.0}},
                             2.0,
                             SamplingReward::kConcentrationPerTime,
@@ -57,6 +59,8 @@ MissionOptions Unlike() {
                             4,
                             5};
   options.max_robot_count = 3;
+  options.robot_silence_s = 12.5;
+  options.gas.audit_period_epochs = 7;
   options.keep_out = {{{{1, 2}, {3, 4}, {5, 7}}}, {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}};
   options.home = Point2{-1.0, 2.0};
   options.prior_map =
@@ -71,6 +75,8 @@ TEST(OptionsTest, OptionsSurviveTheRoundTrip) {
   ASSERT_TRUE(back.ok()) << back.status();
   EXPECT_TRUE(MessageDifferencer::Equals(ToProto(*back), proto));
   EXPECT_EQ(back->seed, Unlike().seed);
+  EXPECT_EQ(back->robot_silence_s, 12.5);
+  EXPECT_EQ(back->gas.audit_period_epochs, 7);
   EXPECT_EQ(back->frontier.fixed_gas_threshold_ppm, 4.0);
   EXPECT_EQ(back->keep_out, Unlike().keep_out);
   EXPECT_EQ(back->home, Unlike().home);
@@ -237,5 +243,5 @@ TEST(OptionsTest, MoreSamplesThanCandidatesAreNamedAsOnTheWire) {
             "options.planning.sites.cycle_sample_count");
 }
 
-}  // namespace
+}  // namespace options_test
 }  // namespace plumescout

@@ -5,11 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/mission/conduct/conduct_errors.h"
 #include "proto/convert/field.h"
 #include "proto/convert/status.h"
 
 namespace plumescout::server {
-namespace {
+namespace errors_test {
 
 using ::testing::ElementsAre;
 using ::testing::Pair;
@@ -17,7 +18,7 @@ using ::testing::Pair;
 TEST(ErrorsTest, TypedErrorsCarryTheirReason) {
   EXPECT_EQ(Reason(WithErrorInfo(MissionNotFound("hall"))), "MISSION_NOT_FOUND");
   EXPECT_EQ(Reason(WithErrorInfo(RobotNotFound("r1"))), "ROBOT_NOT_FOUND");
-  EXPECT_EQ(Reason(WithErrorInfo(LeaseHeld("r1", absl::Seconds(1)))), "LEASE_HELD");
+  EXPECT_EQ(Reason(WithErrorInfo(LeaseHeld("r1", 1))), "LEASE_HELD");
   EXPECT_EQ(Reason(WithErrorInfo(LeaseSuperseded("r1"))), "LEASE_SUPERSEDED");
   EXPECT_EQ(Reason(WithErrorInfo(StreamReplaced("r1"))), "STREAM_REPLACED");
   EXPECT_EQ(Reason(WithErrorInfo(CreditExceeded(9, 8))), "CREDIT_EXCEEDED");
@@ -27,11 +28,19 @@ TEST(ErrorsTest, TypedErrorsCarryTheirReason) {
 }
 
 TEST(ErrorsTest, WhatPassesSaysWhenToRetryAndWhatDoesNotDoesNot) {
-  EXPECT_TRUE(RetryDelay(Overloaded("full")).has_value());
-  EXPECT_TRUE(RetryDelay(Draining()).has_value());
-  EXPECT_EQ(RetryDelay(LeaseHeld("r1", absl::Seconds(3))), absl::Seconds(3));
-  EXPECT_FALSE(RetryDelay(LimitReached("full")).has_value());
-  EXPECT_FALSE(RetryDelay(LeaseSuperseded("r1")).has_value());
+  const auto delay = [](const absl::Status& status) { return RetryDelay(WithErrorInfo(status)); };
+  EXPECT_EQ(delay(Overloaded("full")), absl::Milliseconds(250));
+  EXPECT_EQ(delay(Draining()), absl::Seconds(1));
+  EXPECT_EQ(delay(LeaseHeld("r1", 3'000'000'001)), absl::Seconds(3) + absl::Nanoseconds(1));
+  EXPECT_EQ(delay(CreditExceeded(9, 8)), absl::Milliseconds(250));
+  EXPECT_FALSE(delay(LimitReached("full")).has_value());
+  EXPECT_FALSE(delay(LeaseSuperseded("r1")).has_value());
+}
+
+TEST(ErrorsTest, NothingButDetailsOfGoogleRpcGoesOverTheWire) {
+  EXPECT_EQ(ToProto(WithErrorInfo(LeaseHeld("r1", 1))).details_size(), 2);
+  const absl::Status reasoned = WithReason(LeaseHeld("r1", 1), "MINE");
+  EXPECT_EQ(ToProto(WithErrorInfo(reasoned)).details_size(), 2);
 }
 
 TEST(ErrorsTest, HoleInALogTellsTheNumberExpected) {
@@ -52,5 +61,5 @@ TEST(ErrorsTest, ReasonThatIsThereStays) {
   EXPECT_TRUE(WithErrorInfo(absl::OkStatus()).ok());
 }
 
-}  // namespace
+}  // namespace errors_test
 }  // namespace plumescout::server

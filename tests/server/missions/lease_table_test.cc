@@ -7,10 +7,10 @@
 
 #include <vector>
 
-#include "proto/convert/status.h"
+#include "core/types/error_reason.h"
 
 namespace plumescout::server {
-namespace {
+namespace lease_table_test {
 
 class LeaseTableTest : public testing::Test {
  protected:
@@ -28,82 +28,79 @@ class LeaseTableTest : public testing::Test {
   LeaseTable table_{absl::Seconds(10), 100, [this] { return now_; }};
 };
 
-TEST_F(LeaseTableTest, TokensGrow) {
-  const std::int64_t first = Take("r1");
-  EXPECT_GE(first, 100);
-  EXPECT_GT(Take("r1", /*take_over=*/true), first);
-}
-
-TEST_F(LeaseTableTest, LeaseIsHeldForAWhileAfterItsLastUse) {
+TEST_F(LeaseTableTest, LeaseIsHeldByTheServersClock) {
   const std::int64_t token = Take("r1");
   now_ += std::chrono::seconds(9);
-  EXPECT_TRUE(table_.Check("r1", token).ok());
+  EXPECT_TRUE(table_.Use("r1", token).ok());
   now_ += std::chrono::milliseconds(9999);
   const absl::Status refused = table_.Propose("r1", false).status();
-  EXPECT_EQ(refused.message().find("LEASE_HELD"), 0u);
-  EXPECT_EQ(RetryDelay(refused), absl::Milliseconds(1));
+  EXPECT_EQ(ErrorReason(refused), reason::kLeaseHeld);
+  EXPECT_EQ(RetryAfter_ns(refused), 1'000'000);
   now_ += std::chrono::milliseconds(1);
   EXPECT_FALSE(Held());
 }
 
-TEST_F(LeaseTableTest, OpenStreamHoldsTheLeaseHoweverLong) {
-  const int stream = 0;
+TEST_F(LeaseTableTest, RemovedRobotIsUnknownAndItsStreamEnds) {
   const std::int64_t token = Take("r1");
-  ASSERT_TRUE(table_.OpenStream("r1", token, &stream, end_).ok());
-  now_ += std::chrono::hours(1);
-  EXPECT_TRUE(Held());
-  table_.CloseStream("r1", &stream);
-  EXPECT_TRUE(Held());
-  now_ += std::chrono::seconds(10);
-  EXPECT_FALSE(Held());
+  ASSERT_TRUE(table_.OpenStream("r1", token, end_).ok());
+  table_.Remove("r1");
+  EXPECT_EQ(ended_.message().find("ROBOT_NOT_FOUND"), 0u);
+  EXPECT_TRUE(absl::IsNotFound(table_.Use("r1", token)));
+  EXPECT_EQ(table_.robot_count(), 0);
+  table_.Remove("r1");
+  EXPECT_GT(Take("r1"), token) << "nobody holds it";
 }
 
-TEST_F(LeaseTableTest, ProposalAloneChangesNothing) {
-  const int stream = 0;
+TEST_F(LeaseTableTest, OpenStreamHoldsTheLeaseUntilItIsClosed) {
   const std::int64_t token = Take("r1");
-  ASSERT_TRUE(table_.OpenStream("r1", token, &stream, end_).ok());
-  ASSERT_TRUE(table_.Propose("r1", /*take_over=*/true).ok());
-  EXPECT_TRUE(table_.Check("r1", token).ok());
+  const auto stream = table_.OpenStream("r1", token, end_);
+  ASSERT_TRUE(stream.ok());
+  now_ += std::chrono::hours(1);
+  EXPECT_TRUE(Held());
+  table_.CloseStream("r1", *stream);
+  now_ += std::chrono::seconds(10);
+  EXPECT_FALSE(Held());
   EXPECT_TRUE(ended_.ok());
 }
 
-TEST_F(LeaseTableTest, TakeOverEndsTheOldStreamAndFencesItsToken) {
-  const int stream = 0;
+TEST_F(LeaseTableTest, TakeOverEndsTheOldStream) {
   const std::int64_t token = Take("r1");
-  ASSERT_TRUE(table_.OpenStream("r1", token, &stream, end_).ok());
+  ASSERT_TRUE(table_.OpenStream("r1", token, end_).ok());
   Take("r1", /*take_over=*/true);
-  EXPECT_EQ(ended_.message().find("LEASE_SUPERSEDED"), 0u);
-  EXPECT_EQ(table_.Check("r1", token).message().find("LEASE_SUPERSEDED"), 0u);
-  EXPECT_FALSE(table_.OpenStream("r1", token, &stream, end_).ok());
+  EXPECT_EQ(ErrorReason(ended_), reason::kLeaseSuperseded);
+  EXPECT_EQ(ErrorReason(table_.OpenStream("r1", token, end_).status()), reason::kLeaseSuperseded);
 }
 
-TEST_F(LeaseTableTest, NewerStreamOfTheSameLeaseReplacesTheOlder) {
-  const int older = 0;
-  const int newer = 0;
+TEST_F(LeaseTableTest, NewerStreamOfTheSameLeaseEndsTheOlder) {
   const std::int64_t token = Take("r1");
-  ASSERT_TRUE(table_.OpenStream("r1", token, &older, end_).ok());
-  ASSERT_TRUE(table_.OpenStream("r1", token, &newer, nullptr).ok());
-  EXPECT_EQ(ended_.message().find("STREAM_REPLACED"), 0u);
-  table_.CloseStream("r1", &older);  // the late end of the older is no end of the lease
+  const auto older = table_.OpenStream("r1", token, end_);
+  ASSERT_TRUE(table_.OpenStream("r1", token, nullptr).ok());
+  EXPECT_EQ(ErrorReason(ended_), reason::kStreamReplaced);
+  table_.CloseStream("r1", *older);  // the late end of the older is no end of the lease
   now_ += std::chrono::hours(1);
   EXPECT_TRUE(Held());
 }
 
-TEST_F(LeaseTableTest, UnknownRobotIsNotFound) {
-  EXPECT_TRUE(absl::IsNotFound(table_.Check("r1", 100)));
+TEST_F(LeaseTableTest, RobotsAreCounted) {
   EXPECT_EQ(table_.robot_count(), 0);
+  EXPECT_TRUE(absl::IsNotFound(table_.Use("r1", 100)));
+  Take("r1");
+  Take("r2");
+  EXPECT_EQ(table_.robot_count(), 2);
 }
 
-TEST_F(LeaseTableTest, EndAllReachesEveryStream) {
+TEST_F(LeaseTableTest, EndAllReachesEveryOpenStreamOnce) {
   std::vector<absl::Status> ended;
-  const int streams[2] = {};
   const auto end = [&](const absl::Status& status) { ended.push_back(status); };
-  ASSERT_TRUE(table_.OpenStream("r1", Take("r1"), &streams[0], end).ok());
-  ASSERT_TRUE(table_.OpenStream("r2", Take("r2"), &streams[1], end).ok());
+  ASSERT_TRUE(table_.OpenStream("r1", Take("r1"), end).ok());
+  ASSERT_TRUE(table_.OpenStream("r2", Take("r2"), end).ok());
+  const auto closed = table_.OpenStream("r3", Take("r3"), end);
+  table_.CloseStream("r3", *closed);
+  table_.EndAll(absl::UnavailableError("over"));
   table_.EndAll(absl::UnavailableError("over"));
   EXPECT_THAT(ended,
               testing::ElementsAre(absl::UnavailableError("over"), absl::UnavailableError("over")));
 }
 
-}  // namespace
+}  // namespace lease_table_test
 }  // namespace plumescout::server

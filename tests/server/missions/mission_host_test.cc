@@ -12,7 +12,7 @@
 #include "tests/server/host_parts.h"
 
 namespace plumescout::server {
-namespace {
+namespace mission_host_test {
 
 constexpr std::int64_t kLease = 7;
 
@@ -25,14 +25,15 @@ void Settle(MissionHost& host) {
 
 void AddRobot(MissionHost& host) {
   ASSERT_TRUE(host.Post([](MissionWriter& writer) {
-                    EXPECT_TRUE(writer.Register({"r1", 0.2, kLease}).ok());
+                    EXPECT_TRUE(writer.conduct().Register({"r1", 0.2, kLease}).ok());
                   })
                   .ok());
 }
 
 void PostGas(MissionHost& host, std::int64_t first, std::int64_t last) {
   ASSERT_TRUE(host.Post([first, last](MissionWriter& writer) {
-                    EXPECT_TRUE(writer.Ingest("r1", kLease, GasBatch(first, last)).status.ok());
+                    EXPECT_TRUE(
+                        writer.conduct().Ingest("r1", kLease, GasBatch(first, last)).status.ok());
                   })
                   .ok());
 }
@@ -52,7 +53,7 @@ TEST(MissionHostTest, WaiterIsServedWhenTheLogArrives) {
   AddRobot(host);
   absl::Notification served;
   std::int64_t revision = 0;
-  ASSERT_TRUE(host.AwaitBelief({.robot = "r1", .min_applied_sequence = 2},
+  ASSERT_TRUE(host.AwaitBelief({.wish = {.robot = "r1", .min_applied_sequence = 2}},
                                [&](absl::StatusOr<std::shared_ptr<const Belief>> belief) {
                                  revision = belief.value()->revision;
                                  served.Notify();
@@ -67,8 +68,7 @@ TEST(MissionHostTest, WaiterIsDroppedAtItsDeadlineThoughNothingHappens) {
   MissionHost host(HostParts(), {});
   AddRobot(host);
   absl::Notification dropped;
-  ASSERT_TRUE(host.AwaitBelief({.robot = "r1",
-                                .min_applied_sequence = 2,
+  ASSERT_TRUE(host.AwaitBelief({.wish = {.robot = "r1", .min_applied_sequence = 2},
                                 .deadline = SteadyNow() + std::chrono::milliseconds(20)},
                                [&](absl::StatusOr<std::shared_ptr<const Belief>> belief) {
                                  EXPECT_TRUE(absl::IsDeadlineExceeded(belief.status()));
@@ -150,7 +150,7 @@ TEST(MissionHostTest, StopLeavesAnEpochBehind) {
                       auto log = RoomRunBatch();
                       for (std::size_t i = 0; writer.mission().epoch() == nullptr; ++i) {
                         ASSERT_LT(i, log.size());
-                        writer.Ingest("r1", kLease, {log[i]});
+                        writer.conduct().Ingest("r1", kLease, {log[i]});
                       }
                     })
                     .ok());
@@ -195,7 +195,7 @@ TEST(MissionHostTest, StopRunsWhatIsQueuedAndFailsWhoWaits) {
     if (!belief.ok()) ends.push_back(belief.status().code());
     return true;
   };
-  ASSERT_TRUE(host.AwaitBelief({.robot = "r1", .min_applied_sequence = 9}, note).ok());
+  ASSERT_TRUE(host.AwaitBelief({.wish = {.robot = "r1", .min_applied_sequence = 9}}, note).ok());
   ASSERT_TRUE(host.Subscribe(note).ok());
   bool ran = false;
   ASSERT_TRUE(host.Post([&](MissionWriter&) { ran = true; }).ok());
@@ -225,5 +225,5 @@ TEST(MissionHostTest, SummaryFollowsTheMission) {
   EXPECT_EQ(host.summary().revision, 4);
 }
 
-}  // namespace
+}  // namespace mission_host_test
 }  // namespace plumescout::server

@@ -13,7 +13,7 @@
 #include "tests/server/host_parts.h"
 
 namespace plumescout::server {
-namespace {
+namespace mission_registry_test {
 
 using ::testing::ElementsAre;
 
@@ -92,7 +92,7 @@ TEST(MissionRegistryTest, SinkHearsTheEventsOfItsMission) {
   MissionRegistry registry({}, hooks);
   const auto host = registry.Create("hall", {}).value();
   ASSERT_TRUE(host->Post([](MissionWriter& writer) {
-                    EXPECT_TRUE(writer.Register({"r1", 0.2, 1}).ok());
+                    EXPECT_TRUE(writer.conduct().Register({"r1", 0.2, 1}).ok());
                   })
                   .ok());
   registry.StopAll(absl::UnavailableError("over"));
@@ -114,8 +114,8 @@ TEST(MissionRegistryTest, MissionsRecomputeOnThePoolGiven) {
   MissionRegistry registry({}, hooks);
   const auto host = registry.Create("hall", support::FastAgeing()).value();
   ASSERT_TRUE(host->Post([&](MissionWriter& writer) {
-                    EXPECT_TRUE(writer.Register({"r1", 0.2, 1}).ok());
-                    EXPECT_TRUE(writer.Ingest("r1", 1, RoomRunBatch()).status.ok());
+                    EXPECT_TRUE(writer.conduct().Register({"r1", 0.2, 1}).ok());
+                    EXPECT_TRUE(writer.conduct().Ingest("r1", 1, RoomRunBatch()).status.ok());
                   })
                   .ok());
   registry.StopAll(absl::UnavailableError("over"));
@@ -123,5 +123,5 @@ TEST(MissionRegistryTest, MissionsRecomputeOnThePoolGiven) {
   release.Notify();
 }
 
-}  // namespace
+}  // namespace mission_registry_test
 }  // namespace plumescout::server

@@ -16,7 +16,7 @@
 #include "tests/server/host_parts.h"
 
 namespace plumescout::server {
-namespace {
+namespace plan_job_test {
 
 constexpr std::int64_t kLease = 7;
 constexpr int kPoolThreads = 2;
@@ -29,8 +29,8 @@ class PlanJobTest : public testing::Test {
     host_ = std::make_shared<MissionHost>(std::move(parts), HostOptions{});
     ASSERT_TRUE(host_
                     ->Post([](MissionWriter& writer) {
-                      EXPECT_TRUE(writer.Register({"r1", 0.2, kLease}).ok());
-                      EXPECT_TRUE(writer.Register({"r2", 0.2, kLease + 1}).ok());
+                      EXPECT_TRUE(writer.conduct().Register({"r1", 0.2, kLease}).ok());
+                      EXPECT_TRUE(writer.conduct().Register({"r2", 0.2, kLease + 1}).ok());
                     })
                     .ok());
   }
@@ -59,7 +59,9 @@ class PlanJobTest : public testing::Test {
   void TakeGoalForTheOtherRobot() {
     absl::Notification committed;
     const absl::Status posted = host_->Post([&](MissionWriter& writer) {
-      EXPECT_TRUE(writer.Commit(PlanTo(*writer.Snapshot(), "r2", 1.0), kLease + 1).ok());
+      EXPECT_TRUE(writer.conduct()
+                      .Commit(PlanTo(*writer.conduct().Snapshot(), "r2", 1.0), kLease + 1)
+                      .ok());
       committed.Notify();
     });
     ASSERT_TRUE(posted.ok());
@@ -122,8 +124,11 @@ TEST_F(PlanJobTest, PlansOnABeliefThatHoldsTheRobotsReadings) {
     return PlanTo(belief, request.robot, 1.0);
   });
   Start({.min_applied_sequence = 3});
-  ASSERT_TRUE(
-      host_->Post([](MissionWriter& writer) { writer.Ingest("r1", kLease, GasBatch(1, 3)); }).ok());
+  ASSERT_TRUE(host_
+                  ->Post([](MissionWriter& writer) {
+                    writer.conduct().Ingest("r1", kLease, GasBatch(1, 3));
+                  })
+                  .ok());
   ASSERT_TRUE(Answer().ok());
   EXPECT_EQ(applied, 3);
 }
@@ -224,5 +229,5 @@ TEST_F(PlanJobTest, StoppedMissionAnswersToo) {
   EXPECT_TRUE(absl::IsNotFound(Answer().status()));
 }
 
-}  // namespace
+}  // namespace plan_job_test
 }  // namespace plumescout::server

@@ -5,11 +5,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "absl/time/clock.h"
+#include "absl/time/time.h"
 #include "proto/convert/geometry.h"
 #include "tests/server/service_fixture.h"
+#include "tests/support/room_run.h"
 
 namespace plumescout::server {
-namespace {
+namespace map_service_test {
 
 constexpr auto kNotFound = absl::StatusCode::kNotFound;
 
@@ -60,6 +63,29 @@ TEST_F(MapServiceTest, FreshPosteriorHasItsQuality) {
   const auto map = Call(maps_, &v1::MapService::Stub::GetMap, request);
   ASSERT_TRUE(map.ok()) << map.status();
   EXPECT_EQ(map->status().gas_quality().refresh_count(), 1);
+}
+
+// An epoch is due soon, for a room is discovered at once; who asks for the map collects the audit.
+TEST_F(MapServiceTest, AuditsAreCountedInTheQuality) {
+  const std::int64_t lease = Lease();
+  for (const Observation& observation : support::RoomRun()) {
+    v1::ObservationBatch batch;
+    *batch.add_observations() = ToProto(observation);
+    ASSERT_TRUE(Ingest(kRobot, lease, batch).ok());
+  }
+  auto map = GetMap();
+  ASSERT_TRUE(map.ok()) << map.status();
+  ASSERT_GE(map->status().gas_quality().epoch_count(), 1);
+  const absl::Time patience = absl::Now() + absl::Seconds(60);
+  while (map->status().gas_quality().audit_count() == 0 && absl::Now() < patience) {
+    map = GetMap();
+    ASSERT_TRUE(map.ok()) << map.status();
+  }
+  const v1::GasQuality& quality = map->status().gas_quality();
+  EXPECT_GE(quality.audit_count(), 1);
+  EXPECT_EQ(quality.audit_alarm_count(), 0);
+  EXPECT_GT(quality.audit_mean_ppm(), 0.0);
+  EXPECT_LE(quality.audit_variance_ratio(), 1e-5);
 }
 
 TEST_F(MapServiceTest, EveryReadingIsCountedOnTheMap) {
@@ -189,5 +215,5 @@ TEST_F(MapServiceTest, WatchersAreServedToo) {
   EXPECT_EQ(watch.Read().kind(), v1::WatchMapResponse::KIND_FULL);
 }
 
-}  // namespace
+}  // namespace map_service_test
 }  // namespace plumescout::server

@@ -10,7 +10,7 @@
 #include "tests/server/service_fixture.h"
 
 namespace plumescout::server {
-namespace {
+namespace robot_service_test {
 
 constexpr auto kNotFound = absl::StatusCode::kNotFound;
 constexpr auto kPrecondition = absl::StatusCode::kFailedPrecondition;
@@ -24,6 +24,14 @@ class RobotServiceTest : public ServiceTest {
     request.set_radius_m(0.2);
     change(request);
     return Call(robots_, &v1::RobotService::Stub::RegisterRobot, request).status();
+  }
+  absl::StatusOr<v1::RemoveRobotResponse> Remove(const std::string& robot, std::int64_t lease_token,
+                                                 bool force = false) {
+    v1::RemoveRobotRequest request;
+    request.set_robot(robot);
+    request.set_lease_token(lease_token);
+    request.set_force(force);
+    return Call(robots_, &v1::RobotService::Stub::RemoveRobot, request);
   }
 };
 
@@ -103,5 +111,40 @@ TEST_F(RobotServiceTest, FullMissionTakesNoMoreRobots) {
               Refuses(absl::StatusCode::kResourceExhausted, "RESOURCE_EXHAUSTED"));
 }
 
-}  // namespace
+TEST_F(RobotServiceTest, ARobotLeavesWithItsLeaseAndComesBackToItsLog) {
+  StartServer();
+  const std::int64_t lease = Lease();
+  IngestClient stream(*ingest_);
+  ASSERT_TRUE(stream.Open(kRobot, lease));
+  ASSERT_TRUE(stream.Read().has_opened());
+  ASSERT_TRUE(Ingest(kRobot, lease, GasReadings(1, 3)).ok());
+  const auto removed = Remove(kRobot, lease);
+  ASSERT_TRUE(removed.ok()) << removed.status();
+  EXPECT_EQ(removed->revision(), Revision());
+  EXPECT_THAT(stream.Finish(), Refuses(kNotFound, "ROBOT_NOT_FOUND"));
+  EXPECT_THAT(Ingest(kRobot, lease, GasReadings(4, 1)).status(),
+              Refuses(kNotFound, "ROBOT_NOT_FOUND"));
+  EXPECT_THAT(Remove(kRobot, lease).status(), Refuses(kNotFound, "ROBOT_NOT_FOUND"));
+  EXPECT_EQ(GetMap()->status().robots_size(), 0);
+
+  const auto back = Register("r1");
+  ASSERT_TRUE(back.ok()) << back.status();
+  EXPECT_GT(back->lease_token(), lease);
+  EXPECT_EQ(back->ingest_state().applied_sequence(), 3);
+}
+
+TEST_F(RobotServiceTest, OnlyForceRemovesARobotWithoutItsLease) {
+  StartServer();
+  const std::int64_t old_lease = Lease();
+  ASSERT_TRUE(Register("r1", /*take_over=*/true).ok());
+  const std::int64_t revision = Revision();
+  EXPECT_THAT(Remove(kRobot, old_lease).status(), Refuses(kPrecondition, "LEASE_SUPERSEDED"));
+  EXPECT_EQ(Revision(), revision);
+  EXPECT_TRUE(Remove(kRobot, 0, /*force=*/true).ok());
+  EXPECT_THAT(Remove(kRobot, 0, /*force=*/true).status(), Refuses(kNotFound, "ROBOT_NOT_FOUND"));
+  EXPECT_THAT(Remove("missions/attic/robots/r1", 0, true).status(),
+              Refuses(kNotFound, "MISSION_NOT_FOUND"));
+}
+
+}  // namespace robot_service_test
 }  // namespace plumescout::server

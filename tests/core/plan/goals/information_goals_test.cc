@@ -13,14 +13,16 @@
 #include <tuple>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "core/frontier/gas_frontier.h"
 #include "core/grid/grid_search.h"
 #include "core/types/rng.h"
 #include "tests/support/goal_case.h"
 
 namespace plumescout {
-namespace {
+namespace information_goals_test {
 
+using ::testing::Contains;
 using testing::GoalCase;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
@@ -238,6 +240,99 @@ TEST(InformationGoals, OfTwoRobotsAreApart) {
   EXPECT_EQ(Find(c)[0].cell, goals[0].cell) << "its own claim";
 }
 
+// A place where a robot may have driven to read, not only one that would be offered.
+Goal PlaceForReadings(const GoalCase& c, Rng& rng) {
+  const GridGeometry& geometry = c.belief.geometry();
+  Goal goal;
+  goal.kind = GoalKind::kInformation;
+  do {
+    goal.cell = geometry.CellAtIndex(rng.Below(geometry.size()));
+  } while (c.reachable[goal.cell] == 0);
+  goal.position = geometry.Center(goal.cell);
+  goal.centroid = goal.position;
+  return goal;
+}
+
+TEST(InformationGoals, KeepTheirDistanceFromEveryPlaceThatIsClaimedOrSetAside) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    GoalCase c = RandomHall(seed);
+    Rng rng(1000 + seed);
+    std::vector<Point2> taken;
+    for (PlanId plan = 1; plan <= 3; ++plan) {
+      const Goal claimed = PlaceForReadings(c, rng);
+      c.belief.claims.push_back({absl::StrCat("other-", plan), plan, claimed, 1000});
+      taken.push_back(claimed.position);
+    }
+    const Goal aside = PlaceForReadings(c, rng);
+    c.belief.set_aside = {{aside, "visited without change", 1000}};
+    taken.push_back(aside.position);
+    std::vector<RejectedGoal> rejected;
+    const std::vector<Goal> goals = Find(c, rejected);
+    EXPECT_FALSE(goals.empty());
+    for (const Goal& goal : goals) {
+      for (const Point2 place : taken) {
+        EXPECT_GE(Distance_m(place, goal.position), 1.5) << "seed " << seed;
+      }
+    }
+    for (const RejectedGoal& rejection : rejected) {
+      EXPECT_THAT(taken, Contains(rejection.goal.position)) << "seed " << seed;
+    }
+    c.belief.sample_time_ns = 1000;
+    const std::vector<Goal> after = Find(c, rejected);
+    const std::vector<Goal> alone = Find(RandomHall(seed));
+    ASSERT_EQ(after.size(), alone.size());
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      EXPECT_EQ(after[i].cell, alone[i].cell) << "claims and memory have expired";
+    }
+  }
+}
+
+TEST(InformationGoals, AreTheBestOfWhatClaimsLeave) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    GoalCase c = RandomHall(seed);
+    Rng rng(2000 + seed);
+    const Goal claimed = PlaceForReadings(c, rng);
+    c.belief.claims = {{"other", 1, claimed, 1000}};
+    const GridGeometry& geometry = c.belief.geometry();
+    std::vector<double> merits = SlowMerits(c);
+    const auto clear = [&](Point2 place) {
+      for (std::size_t i = 0; i < merits.size(); ++i) {
+        const Point2 other = geometry.Center(geometry.CellAtIndex(i));
+        if (Distance_m(place, other) < 1.5) merits[i] = 0.0;
+      }
+    };
+    clear(claimed.position);
+    for (const Goal& goal : Find(c)) {
+      const double best = *std::max_element(merits.begin(), merits.end());
+      EXPECT_NEAR(merits[geometry.Index(goal.cell)], best, 1e-5 * best) << "seed " << seed;
+      clear(goal.position);
+    }
+  }
+}
+
+TEST(InformationGoals, AreNotKeptApartFromGoalsOfOtherKinds) {
+  GoalCase c = RandomHall(5);
+  const std::vector<Goal> alone = Find(c);
+  Goal frontier = alone[0];
+  frontier.kind = GoalKind::kOccupancyFrontier;
+  c.belief.claims = {{"other", 1, frontier, 1000}};
+  c.belief.set_aside = {{frontier, "visited without change", 1000}};
+  std::vector<RejectedGoal> rejected;
+  const std::vector<Goal> goals = Find(c, rejected);
+  EXPECT_THAT(rejected, IsEmpty());
+  ASSERT_EQ(goals.size(), alone.size());
+  EXPECT_EQ(goals[0].cell, alone[0].cell);
+}
+
+TEST(InformationGoals, RejectPlacesOnlyIfSomethingIsLeftToTellAround) {
+  GoalCase c = Hall(10.0F, 0.1F);
+  Rng rng(1);
+  c.belief.claims = {{"other", 1, PlaceForReadings(c, rng), 1000}};
+  std::vector<RejectedGoal> rejected;
+  EXPECT_THAT(Find(c, rejected), IsEmpty());
+  EXPECT_THAT(rejected, IsEmpty());
+}
+
 TEST(InformationGoals, AreNotWhereVisitsBroughtNothing) {
   GoalCase c = RandomHall(4);
   const Goal best = Find(c)[0];
@@ -257,5 +352,5 @@ TEST(InformationGoals, AreTheSameAgain) {
   for (std::size_t i = 0; i < once.size(); ++i) EXPECT_EQ(once[i].cell, again[i].cell);
 }
 
-}  // namespace
+}  // namespace information_goals_test
 }  // namespace plumescout

@@ -11,7 +11,7 @@
 #include "tests/support/goal_case.h"
 
 namespace plumescout {
-namespace {
+namespace random_goals_test {
 
 using testing::GoalCase;
 using ::testing::IsEmpty;
@@ -72,7 +72,10 @@ TEST(UnobservedGoals, LieAwayFromAllObservedCells) {
   Rng rng(1);
   std::set<int> columns;
   const std::vector<Goal> goals = UnobservedGoals(c.Query(), rng);
-  for (const Goal& goal : goals) columns.insert(goal.cell.x);
+  for (const Goal& goal : goals) {
+    columns.insert(goal.cell.x);
+    EXPECT_EQ(goal.kind, GoalKind::kInformation);
+  }
   EXPECT_EQ(columns, (std::set<int>{4, 5, 6})) << "column 3 touches observed cells";
   EXPECT_THAT(goals, SizeIs(9));
 }
@@ -107,5 +110,5 @@ TEST(RandomGoals, AvoidThePlacesOfOtherRobots) {
   EXPECT_THAT(RandomGoals(c.Query(), rng), IsEmpty());
 }
 
-}  // namespace
+}  // namespace random_goals_test
 }  // namespace plumescout

@@ -7,7 +7,7 @@
 #include <cmath>
 
 namespace plumescout {
-namespace {
+namespace connection_radius_test {
 
 constexpr double kResolution_m = 0.1;
 
@@ -39,12 +39,29 @@ TEST(ConnectionRadius, ShrinksWithMoreSamples) {
             ConnectionRadius_m(150.0, 300, kResolution_m, Factor(1.1)));
 }
 
-TEST(ConnectionRadius, StaysBetweenThreeCellsAndFiveMetres) {
+TEST(ConnectionRadius, IsThreeCellsAtLeast) {
   EXPECT_DOUBLE_EQ(ConnectionRadius_m(0.01, 1, kResolution_m, Factor(1.1)), 0.3);
   EXPECT_DOUBLE_EQ(ConnectionRadius_m(0.0, 0, kResolution_m, Factor(1.1)), 0.3);
-  EXPECT_DOUBLE_EQ(ConnectionRadius_m(1e6, 300, kResolution_m, Factor(1.1)), 5.0);
   EXPECT_DOUBLE_EQ(ConnectionRadius_m(1e6, 300, 2.0, Factor(1.1)), 6.0) << "coarse cells";
 }
 
-}  // namespace
+TEST(ConnectionRadius, StaysWithinItsLimit) {
+  PlanningOptions options = Factor(1.1);
+  EXPECT_DOUBLE_EQ(ConnectionRadius_m(1e6, 300, kResolution_m, options), 5.0);
+  options.max_connection_radius_m = 8.0;
+  EXPECT_DOUBLE_EQ(ConnectionRadius_m(1e6, 300, kResolution_m, options), 8.0);
+  options.max_connection_radius_m = 0.1;
+  EXPECT_DOUBLE_EQ(ConnectionRadius_m(1e6, 300, kResolution_m, options), 0.3);
+}
+
+TEST(ConnectionRadius, FollowsEquation7OnAnyAreaWithoutALimit) {
+  PlanningOptions options = Factor(1.1);
+  options.max_connection_radius_m = 0.0;
+  const double gamma_rgg = 2.0 * std::pow(1.5, 0.5) * std::pow(1e6 / M_PI, 0.5);
+  EXPECT_NEAR(ConnectionRadius_m(1e6, 300, kResolution_m, options),
+              1.1 * gamma_rgg * std::pow(std::log(300.0) / 300.0, 0.5), 1e-9);
+  EXPECT_DOUBLE_EQ(ConnectionRadius_m(0.01, 1, kResolution_m, options), 0.3);
+}
+
+}  // namespace connection_radius_test
 }  // namespace plumescout

@@ -5,7 +5,14 @@
 #include <gtest/gtest.h>
 
 namespace plumescout {
-namespace {
+namespace selection_test {
+
+PlanningOptions By(SelectionRule rule, double margin = 0.0) {
+  PlanningOptions options;
+  options.selection_rule = rule;
+  options.commitment_margin = margin;
+  return options;
+}
 
 Candidate Priced(double cost, double mean_ucb) {
   Candidate candidate;
@@ -15,22 +22,22 @@ Candidate Priced(double cost, double mean_ucb) {
 }
 
 TEST(SelectCandidate, TakesTheLeastCost) {
-  EXPECT_EQ(
-      SelectCandidate({Priced(3, 0.9), Priced(1, 0.1), Priced(2, 0.5)}, SelectionRule::kLeastCost),
-      1);
+  EXPECT_EQ(SelectCandidate({Priced(3, 0.9), Priced(1, 0.1), Priced(2, 0.5)},
+                            By(SelectionRule::kLeastCost)),
+            1);
 }
 
 TEST(SelectCandidate, TakesTheGreatestMeanInformation) {
-  EXPECT_EQ(
-      SelectCandidate({Priced(3, 0.2), Priced(1, 0.1), Priced(2, 0.5)}, SelectionRule::kMeanUcb),
-      2);
+  EXPECT_EQ(SelectCandidate({Priced(3, 0.2), Priced(1, 0.1), Priced(2, 0.5)},
+                            By(SelectionRule::kMeanUcb)),
+            2);
 }
 
 TEST(SelectCandidate, TakesTheFirstOfEquals) {
-  EXPECT_EQ(
-      SelectCandidate({Priced(3, 0.5), Priced(2, 0.5), Priced(2, 0.5)}, SelectionRule::kLeastCost),
-      1);
-  EXPECT_EQ(SelectCandidate({Priced(3, 0.5), Priced(2, 0.5)}, SelectionRule::kMeanUcb), 0);
+  EXPECT_EQ(SelectCandidate({Priced(3, 0.5), Priced(2, 0.5), Priced(2, 0.5)},
+                            By(SelectionRule::kLeastCost)),
+            1);
+  EXPECT_EQ(SelectCandidate({Priced(3, 0.5), Priced(2, 0.5)}, By(SelectionRule::kMeanUcb)), 0);
 }
 
 Candidate Informed(double nats, double duration_s) {
@@ -43,41 +50,56 @@ Candidate Informed(double nats, double duration_s) {
 
 TEST(SelectCandidate, TakesTheMostInformationPerSecond) {
   EXPECT_EQ(SelectCandidate({Informed(10, 10), Informed(8, 4), Informed(20, 30)},
-                            SelectionRule::kInformationRate),
+                            By(SelectionRule::kInformationRate)),
             1);
 }
 
 TEST(SelectCandidate, CountsWhatIsUnseenBehindAnOccupancyFrontier) {
   Candidate frontier = Informed(1, 10);
   frontier.goal.kind = GoalKind::kOccupancyFrontier;
-  EXPECT_DOUBLE_EQ(Worth_nats(frontier), 1 + kUnseen_nats);
-  EXPECT_DOUBLE_EQ(Worth_nats(Informed(1, 10)), 1.0);
-  const auto rate = SelectionRule::kInformationRate;
-  EXPECT_EQ(SelectCandidate({Informed(0.9 + kUnseen_nats, 10), frontier}, rate), 1);
-  EXPECT_EQ(SelectCandidate({Informed(1.1 + kUnseen_nats, 10), frontier}, rate), 0);
-  EXPECT_TRUE(BeatsByMargin(frontier, Informed(1, 10), rate, 1.0));
+  PlanningOptions options = By(SelectionRule::kInformationRate, 1.0);
+  EXPECT_DOUBLE_EQ(Worth_nats(frontier, options), 21.0);
+  EXPECT_DOUBLE_EQ(Worth_nats(Informed(1, 10), options), 1.0);
+  EXPECT_EQ(SelectCandidate({Informed(20.9, 10), frontier}, options), 1);
+  EXPECT_EQ(SelectCandidate({Informed(21.1, 10), frontier}, options), 0);
+  EXPECT_TRUE(BeatsByMargin(frontier, Informed(1, 10), options));
+}
+
+TEST(SelectCandidate, CountsWhatIsUnseenAsMuchAsItIsTold) {
+  Candidate frontier = Informed(1, 10);
+  frontier.goal.kind = GoalKind::kOccupancyFrontier;
+  PlanningOptions options = By(SelectionRule::kInformationRate, 1.0);
+  options.unseen_information_nats = 4.0;
+  EXPECT_EQ(SelectCandidate({Informed(4.9, 10), frontier}, options), 1);
+  EXPECT_EQ(SelectCandidate({Informed(5.1, 10), frontier}, options), 0);
+  options.unseen_information_nats = 0.0;
+  EXPECT_EQ(SelectCandidate({Informed(1.1, 10), frontier}, options), 0);
+  EXPECT_FALSE(BeatsByMargin(frontier, Informed(1, 10), options));
 }
 
 TEST(SelectCandidate, PassesOverWhatWasNotPricedUnlessNothingWas) {
-  EXPECT_EQ(SelectCandidate({Priced(1, 0.1), Informed(0, 10)}, SelectionRule::kInformationRate), 1);
-  EXPECT_EQ(SelectCandidate({Priced(3, 0.1), Priced(1, 0.1)}, SelectionRule::kInformationRate), 1);
+  EXPECT_EQ(SelectCandidate({Priced(1, 0.1), Informed(0, 10)}, By(SelectionRule::kInformationRate)),
+            1);
+  EXPECT_EQ(SelectCandidate({Priced(3, 0.1), Priced(1, 0.1)}, By(SelectionRule::kInformationRate)),
+            1);
 }
 
 TEST(BeatsByMargin, AsksForAShareOfTheKeptOnesMerit) {
-  const auto cost = SelectionRule::kLeastCost;
-  EXPECT_TRUE(BeatsByMargin(Priced(7, 0), Priced(10, 0), cost, 0.2));
-  EXPECT_FALSE(BeatsByMargin(Priced(9, 0), Priced(10, 0), cost, 0.2));
-  EXPECT_TRUE(BeatsByMargin(Priced(0, 0.7), Priced(0, 0.5), SelectionRule::kMeanUcb, 0.2));
-  EXPECT_FALSE(BeatsByMargin(Priced(0, 0.55), Priced(0, 0.5), SelectionRule::kMeanUcb, 0.2));
-  const auto rate = SelectionRule::kInformationRate;
-  EXPECT_TRUE(BeatsByMargin(Informed(13, 10), Informed(10, 10), rate, 0.2));
-  EXPECT_FALSE(BeatsByMargin(Informed(11, 10), Informed(10, 10), rate, 0.2));
-  EXPECT_FALSE(BeatsByMargin(Priced(1, 0), Priced(1, 0), cost, 0.0));
+  const PlanningOptions cost = By(SelectionRule::kLeastCost, 0.2);
+  EXPECT_TRUE(BeatsByMargin(Priced(7, 0), Priced(10, 0), cost));
+  EXPECT_FALSE(BeatsByMargin(Priced(9, 0), Priced(10, 0), cost));
+  const PlanningOptions ucb = By(SelectionRule::kMeanUcb, 0.2);
+  EXPECT_TRUE(BeatsByMargin(Priced(0, 0.7), Priced(0, 0.5), ucb));
+  EXPECT_FALSE(BeatsByMargin(Priced(0, 0.55), Priced(0, 0.5), ucb));
+  const PlanningOptions rate = By(SelectionRule::kInformationRate, 0.2);
+  EXPECT_TRUE(BeatsByMargin(Informed(13, 10), Informed(10, 10), rate));
+  EXPECT_FALSE(BeatsByMargin(Informed(11, 10), Informed(10, 10), rate));
+  EXPECT_FALSE(BeatsByMargin(Priced(1, 0), Priced(1, 0), By(SelectionRule::kLeastCost)));
 }
 
 TEST(SelectCandidate, OfNoneIsNone) {
-  EXPECT_EQ(SelectCandidate({}, SelectionRule::kLeastCost), -1);
+  EXPECT_EQ(SelectCandidate({}, By(SelectionRule::kLeastCost)), -1);
 }
 
-}  // namespace
+}  // namespace selection_test
 }  // namespace plumescout

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/mission/conduct/lease_book.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "core/mission/conduct/conduct_errors.h"
+#include "core/types/status_macros.h"
+
+namespace plumescout {
+
+absl::StatusOr<std::int64_t> LeaseBook::Propose(const RobotId& robot, bool take_over,
+                                                std::int64_t now_ns) const {
+  const auto found = leases_.find(robot);
+  if (found != leases_.end() && !take_over) {
+    const Lease& lease = found->second;
+    const std::int64_t idle_ns = now_ns - lease.last_use_ns;
+    if (lease.stream != 0) return LeaseHeld(robot, hold_ns_);
+    if (idle_ns < hold_ns_) return LeaseHeld(robot, hold_ns_ - idle_ns);
+  }
+  return next_token_;
+}
+
+StreamId LeaseBook::Grant(const RobotId& robot, std::int64_t token, std::int64_t now_ns) {
+  Lease& lease = leases_[robot];
+  assert(token > lease.token);
+  next_token_ = std::max(next_token_, token + 1);
+  lease.token = token;
+  lease.last_use_ns = now_ns;
+  return std::exchange(lease.stream, 0);
+}
+
+StreamId LeaseBook::Remove(const RobotId& robot) {
+  const auto found = leases_.find(robot);
+  if (found == leases_.end()) return 0;
+  const StreamId ended = found->second.stream;
+  leases_.erase(found);
+  return ended;
+}
+
+absl::Status LeaseBook::Check(const RobotId& robot, std::int64_t token) const {
+  const auto found = leases_.find(robot);
+  if (found == leases_.end()) return RobotNotFound(robot);
+  return found->second.token == token ? absl::OkStatus() : LeaseSuperseded(robot);
+}
+
+absl::Status LeaseBook::Use(const RobotId& robot, std::int64_t token, std::int64_t now_ns) {
+  PLUMESCOUT_RETURN_IF_ERROR(Check(robot, token));
+  leases_.at(robot).last_use_ns = now_ns;
+  return absl::OkStatus();
+}
+
+absl::StatusOr<LeaseBook::OpenedStream> LeaseBook::OpenStream(const RobotId& robot,
+                                                              std::int64_t token,
+                                                              std::int64_t now_ns) {
+  PLUMESCOUT_RETURN_IF_ERROR(Use(robot, token, now_ns));
+  const StreamId replaced = std::exchange(leases_.at(robot).stream, ++last_stream_);
+  return OpenedStream{last_stream_, replaced};
+}
+
+absl::Status LeaseBook::CheckStream(const RobotId& robot, std::int64_t token,
+                                    StreamId stream) const {
+  PLUMESCOUT_RETURN_IF_ERROR(Check(robot, token));
+  return leases_.at(robot).stream == stream ? absl::OkStatus() : StreamReplaced(robot);
+}
+
+void LeaseBook::CloseStream(const RobotId& robot, StreamId stream, std::int64_t now_ns) {
+  const auto found = leases_.find(robot);
+  if (stream == 0 || found == leases_.end() || found->second.stream != stream) return;
+  found->second.stream = 0;
+  found->second.last_use_ns = now_ns;
+}
+
+void LeaseBook::CloseAllStreams() {
+  for (auto& [robot, lease] : leases_) lease.stream = 0;
+}
+
+}  // namespace plumescout

@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/mission/conduct/mission_conduct.h"
+
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/mission/conduct/conduct_errors.h"
+#include "core/types/status_macros.h"
+
+namespace plumescout {
+namespace {
+
+// What stands in the log for an entry that could not be read: no mission takes a scan of no beams.
+Observation Unreadable(std::int64_t sequence) {
+  return {.sequence = sequence, .sample_time_ns = 0, .pose = {}, .payload = Scan{}};
+}
+
+}  // namespace
+
+MissionConduct::MissionConduct(std::unique_ptr<Mission> mission, ConductObserver* observer)
+    : mission_(std::move(mission)), observer_(observer) {}
+
+absl::StatusOr<Applied> MissionConduct::Apply(EventBody body) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(Applied applied, mission_->Apply(body));
+  if (observer_ != nullptr) observer_->OnEvent({applied.revision, std::move(body)}, applied);
+  return applied;
+}
+
+absl::StatusOr<Registered> MissionConduct::Register(const Registration& wish, Leases& leases) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::int64_t token, leases.Propose(wish.robot, wish.take_over));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const LogPosition position,
+                              Register(RobotRegistered{wish.robot, wish.radius_m, token}));
+  leases.Grant(wish.robot, token);
+  return Registered{token, position};
+}
+
+absl::StatusOr<LogPosition> MissionConduct::Register(const RobotRegistered& registration) {
+  PLUMESCOUT_RETURN_IF_ERROR(Apply(registration).status());
+  return Position(registration.robot);
+}
+
+absl::StatusOr<std::int64_t> MissionConduct::Remove(const Removal& wish, Leases& leases) {
+  if (wish.lease_token) PLUMESCOUT_RETURN_IF_ERROR(CheckLease(wish.robot, *wish.lease_token));
+  const auto applied = Apply(RobotRemoved{wish.robot});
+  if (absl::IsNotFound(applied.status())) return RobotNotFound(wish.robot);
+  PLUMESCOUT_RETURN_IF_ERROR(applied.status());
+  leases.Remove(wish.robot);
+  return applied->revision;
+}
+
+absl::StatusOr<LogPosition> MissionConduct::Position(const RobotId& robot) const {
+  const auto applied = mission_->AppliedSequence(robot);
+  if (!applied.ok()) return RobotNotFound(robot);
+  return LogPosition{*applied, mission_->revision()};
+}
+
+absl::Status MissionConduct::CheckLease(const RobotId& robot, std::int64_t lease_token) const {
+  const auto newest = mission_->LeaseToken(robot);
+  if (!newest.ok()) return RobotNotFound(robot);
+  return *newest == lease_token ? absl::OkStatus() : LeaseSuperseded(robot);
+}
+
+IngestResult MissionConduct::Ingest(const RobotId& robot, std::int64_t lease_token,
+                                    std::vector<IncomingObservation> batch) {
+  IngestResult result;
+  result.status = CheckLease(robot, lease_token);
+  for (IncomingObservation& incoming : batch) {
+    if (!result.status.ok()) break;
+    result.status = IngestOne(robot, std::move(incoming), result);
+  }
+  if (const auto position = Position(robot); position.ok()) result.position = *position;
+  return result;
+}
+
+absl::Status MissionConduct::IngestOne(const RobotId& robot, IncomingObservation incoming,
+                                       IngestResult& result) {
+  const std::int64_t sequence = incoming.observation.sequence;
+  const bool readable = incoming.unreadable.ok();
+  const auto applied = Apply(ObservationReceived{
+      robot, readable ? std::move(incoming.observation) : Unreadable(sequence)});
+  if (absl::IsAlreadyExists(applied.status())) return absl::OkStatus();
+  PLUMESCOUT_RETURN_IF_ERROR(applied.status());
+  if (!applied->observation.ok()) {
+    result.refused.push_back({sequence, readable ? applied->observation : incoming.unreadable});
+  }
+  KeepGasUp();
+  return absl::OkStatus();
+}
+
+absl::StatusOr<PlanId> MissionConduct::Commit(const Plan& plan, std::int64_t lease_token) {
+  PLUMESCOUT_RETURN_IF_ERROR(CheckLease(plan.robot, lease_token));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Applied applied, Apply(PlanIssued{plan}));
+  return applied.plan_id;
+}
+
+absl::StatusOr<std::int64_t> MissionConduct::Report(const ProgressReported& report,
+                                                    std::int64_t lease_token) {
+  PLUMESCOUT_RETURN_IF_ERROR(CheckLease(report.robot, lease_token));
+  const auto applied = Apply(report);
+  if (!absl::IsAlreadyExists(applied.status())) PLUMESCOUT_RETURN_IF_ERROR(applied.status());
+  return mission_->revision();
+}
+
+std::optional<absl::Status> MissionConduct::Verdict(const BeliefWish& wish) const {
+  if (wish.robot.empty()) return absl::OkStatus();
+  if (wish.lease_token) PLUMESCOUT_RETURN_IF_ERROR(CheckLease(wish.robot, *wish.lease_token));
+  const auto position = Position(wish.robot);
+  if (!position.ok()) return position.status();
+  if (position->applied_sequence >= wish.min_applied_sequence) return absl::OkStatus();
+  return std::nullopt;
+}
+
+absl::StatusOr<std::shared_ptr<const Belief>> MissionConduct::BeliefFor(const BeliefWish& wish) {
+  if (wish.fresh_posterior) return FreshBelief();
+  return Snapshot();
+}
+
+absl::Status MissionConduct::WaitedInVain(const BeliefWish& wish) const {
+  return absl::DeadlineExceededError(
+      absl::StrCat("waited for sequence ", wish.min_applied_sequence, " of robot \"", wish.robot,
+                   "\", which stands at ", mission_->AppliedSequence(wish.robot).value_or(0)));
+}
+
+absl::StatusOr<std::shared_ptr<const Belief>> MissionConduct::FreshBelief() {
+  if (mission_->posterior_stale()) PLUMESCOUT_RETURN_IF_ERROR(Refresh());
+  return Snapshot();
+}
+
+void MissionConduct::KeepGasUp() {
+  if (mission_->adoption_due()) Take(GasStep::kAdoptEpoch, EpochAdopted{}).IgnoreError();
+  if (mission_->refresh_due()) Refresh().IgnoreError();
+  if (mission_->epoch_due()) BeginEpoch().IgnoreError();
+}
+
+absl::Status MissionConduct::Refresh() {
+  return Take(GasStep::kRefresh, PosteriorRefreshed{mission_->sample_time_ns()});
+}
+
+absl::Status MissionConduct::BeginEpoch() {
+  return Take(GasStep::kBeginEpoch, EpochBegun{mission_->sample_time_ns()});
+}
+
+void MissionConduct::TakeFinding(const AuditFinding& finding) {
+  GasAudits audits = mission_->gas_audits();
+  ++audits.audits;
+  audits.mean_ppm = finding.mean_ppm;
+  audits.variance_ratio = finding.variance_ratio;
+  if (!finding.certified) ++audits.alarms;
+  mission_->NoteAudits(audits);
+  if (!finding.certified && mission_->epoch() == nullptr) BeginEpoch().IgnoreError();
+}
+
+absl::Status MissionConduct::Take(GasStep step, EventBody body) {
+  if (observer_ != nullptr) observer_->BeforeGasStep(step);
+  const auto applied = Apply(std::move(body));
+  const absl::Status status = applied.ok() ? applied->posterior : applied.status();
+  if (observer_ != nullptr) observer_->AfterGasStep(step, status);
+  return status;
+}
+
+}  // namespace plumescout

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "absl/status/status.h"
+#include "absl/strings/string_view.h"
+
+namespace plumescout {
+
+// A typed error is a status whose message begins with its reason, an UPPER_SNAKE word that programs
+// may act on: "SEQUENCE_GAP: expected 7, got 9". Whatever carries the error keeps to this form, and
+// on the wire the reason stands in an ErrorInfo as well.
+namespace reason {
+
+// Of the conduct of missions.
+inline constexpr absl::string_view kMissionNotFound = "MISSION_NOT_FOUND";
+inline constexpr absl::string_view kMissionExists = "MISSION_EXISTS";
+inline constexpr absl::string_view kRobotNotFound = "ROBOT_NOT_FOUND";
+inline constexpr absl::string_view kLeaseHeld = "LEASE_HELD";
+inline constexpr absl::string_view kLeaseSuperseded = "LEASE_SUPERSEDED";
+inline constexpr absl::string_view kStreamReplaced = "STREAM_REPLACED";
+inline constexpr absl::string_view kCreditExceeded = "CREDIT_EXCEEDED";
+inline constexpr absl::string_view kSequenceGap = "SEQUENCE_GAP";
+// Of plans.
+inline constexpr absl::string_view kPlanSuperseded = "PLAN_SUPERSEDED";
+inline constexpr absl::string_view kPlanEnded = "PLAN_ENDED";
+inline constexpr absl::string_view kStartOutsideMap = "START_OUTSIDE_MAP";
+inline constexpr absl::string_view kOutsideRegion = "OUTSIDE_REGION";
+inline constexpr absl::string_view kDeadlineBeforeFirstPlan = "DEADLINE_BEFORE_FIRST_PLAN";
+// Of a server that others load or restart.
+inline constexpr absl::string_view kOverloaded = "OVERLOADED";
+inline constexpr absl::string_view kLimitReached = "LIMIT_REACHED";
+inline constexpr absl::string_view kDraining = "DRAINING";
+inline constexpr absl::string_view kServerRestarted = "SERVER_RESTARTED";
+
+}  // namespace reason
+
+// "REASON: message".
+absl::Status TypedError(absl::StatusCode code, absl::string_view reason, absl::string_view message);
+
+// The reason with which the message begins, or nothing.
+absl::string_view ErrorReason(const absl::Status& status);
+
+// The same error, which says not to try again before so long from now. A payload carries it.
+absl::Status WithRetryAfter(absl::Status status, std::int64_t delay_ns);
+std::optional<std::int64_t> RetryAfter_ns(const absl::Status& status);
+// The same error as it was before WithRetryAfter.
+absl::Status WithoutRetryAfter(absl::Status status);
+
+}  // namespace plumescout

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/missions/audit_runner.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "absl/synchronization/notification.h"
+#include "core/gas/gas_map.h"
+
+namespace plumescout::server {
+namespace audit_runner_test {
+
+std::shared_ptr<const AuditInputs> Moment() {
+  GasMap gas{GasOptions{}};
+  gas.Add(1, {1.0, 1.0}, {5.0, 0.0});
+  EXPECT_TRUE(gas.Refresh(Grid<CellState>({0.0, 0.0, 0.1, 24, 24}, CellState::kFree), 1).ok());
+  return gas.MakeAudit();
+}
+
+TEST(AuditRunnerTest, GivesWhatItFoundOnce) {
+  std::optional<WorkerPool> pool(std::in_place, WorkerPoolOptions{"test", 1, 1});
+  AuditRunner runner(&*pool);
+  EXPECT_TRUE(runner.is_free());
+  EXPECT_FALSE(runner.Take().has_value());
+  runner.Start(Moment());
+  EXPECT_FALSE(runner.is_free());
+  pool.reset();  // having run what was queued
+  const auto finding = runner.Take();
+  ASSERT_TRUE(finding.has_value());
+  ASSERT_TRUE(finding->ok());
+  EXPECT_TRUE((*finding)->certified);
+  EXPECT_TRUE(runner.is_free());
+  EXPECT_FALSE(runner.Take().has_value());
+}
+
+TEST(AuditRunnerTest, SaysWhenNothingCouldBeFound) {
+  std::optional<WorkerPool> pool(std::in_place, WorkerPoolOptions{"test", 1, 1});
+  AuditRunner runner(&*pool);
+  auto broken = std::make_shared<AuditInputs>(*Moment());
+  broken->options.prior_precision_per_ppm2 = std::nan("");
+  runner.Start(broken);
+  pool.reset();
+  const auto finding = runner.Take();
+  ASSERT_TRUE(finding.has_value());
+  EXPECT_FALSE(finding->ok());
+}
+
+TEST(AuditRunnerTest, OneAtATimeAndNoneThatThePoolHasNoRoomFor) {
+  absl::Notification occupied, release;
+  std::optional<WorkerPool> pool(std::in_place, WorkerPoolOptions{"test", 1, 1});
+  ASSERT_TRUE(pool->Submit([&] {
+                    occupied.Notify();
+                    release.WaitForNotification();
+                  })
+                  .ok());
+  occupied.WaitForNotification();
+  AuditRunner first(&*pool);
+  AuditRunner second(&*pool);
+  first.Start(Moment());
+  second.Start(Moment());
+  EXPECT_FALSE(first.is_free());
+  EXPECT_TRUE(second.is_free()) << "passed over";
+  EXPECT_FALSE(first.Take().has_value()) << "it waits";
+  release.Notify();
+  pool.reset();
+  EXPECT_TRUE(first.Take().has_value());
+}
+
+TEST(AuditRunnerTest, AnAuditThatWaitsIsDroppedWithItsRunner) {
+  absl::Notification occupied, release;
+  const auto moment = Moment();
+  std::optional<WorkerPool> pool(std::in_place, WorkerPoolOptions{"test", 1, 1});
+  ASSERT_TRUE(pool->Submit([&] {
+                    occupied.Notify();
+                    release.WaitForNotification();
+                  })
+                  .ok());
+  occupied.WaitForNotification();
+  {
+    AuditRunner runner(&*pool);
+    runner.Start(moment);
+  }
+  release.Notify();
+  pool.reset();
+  EXPECT_EQ(moment.use_count(), 1);
+}
+
+TEST(AuditRunnerTest, NothingIsAuditedWithoutAPool) {
+  AuditRunner runner(nullptr);
+  EXPECT_FALSE(runner.is_free());
+  runner.Start(Moment());
+  EXPECT_FALSE(runner.Take().has_value());
+}
+
+}  // namespace audit_runner_test
+}  // namespace plumescout::server
