@@ -12,7 +12,7 @@
 #include "client/error_reason.h"
 
 namespace plumescout::client {
-namespace {
+namespace plan_contract_test {
 
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -142,5 +142,5 @@ TEST_P(PlanContract, AReportMadeTwiceIsNotAnError) {
 
 INSTANTIATE_TEST_SUITE_P(All, PlanContract, ::testing::ValuesIn(AllBackends()), BackendName);
 
-}  // namespace
+}  // namespace plan_contract_test
 }  // namespace plumescout::client

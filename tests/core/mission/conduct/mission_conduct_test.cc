@@ -15,7 +15,7 @@
 #include "tests/support/scripted_strategy.h"
 
 namespace plumescout {
-namespace {
+namespace mission_conduct_test {
 
 using support::GasBatch;
 using ::testing::IsEmpty;
@@ -248,5 +248,5 @@ TEST_F(MissionConductTest, ARobotLeavesByItsOwnLeaseOrByForce) {
   EXPECT_TRUE(conduct_.Remove({"r2"}, leases).ok());
 }
 
-}  // namespace
+}  // namespace mission_conduct_test
 }  // namespace plumescout
