@@ -57,7 +57,7 @@ GasSample LagCorrection::Correct(const GasSample& measured) {
 
 Pose2 LagCorrection::PoseAt(std::int64_t time_ns) const {
   const auto after = std::find_if(way_.begin(), way_.end(),
-                                  [&](const Waypoint& w) { return w.time_ns >= time_ns; });
+                                  [&](const PassedPose& w) { return w.time_ns >= time_ns; });
   if (after == way_.begin()) return way_.front().pose;
   if (after == way_.end()) return way_.back().pose;
   const auto before = std::prev(after);

@@ -41,14 +41,14 @@ class LagCorrection {
   GasSample Correct(const GasSample& measured);
 
  private:
-  struct Waypoint {
+  struct PassedPose {
     std::int64_t time_ns;
     Pose2 pose;
   };
   Pose2 PoseAt(std::int64_t time_ns) const;
 
   double time_constant_s_;
-  std::deque<Waypoint> way_;  // in order of time, no older than matters
+  std::deque<PassedPose> way_;  // in order of time, no older than matters
   std::optional<GasSample> previous_;
 };
 

@@ -25,8 +25,8 @@ absl::Status MakeReport(PlannerClient& client, const RobotSession& session,
   return IsRetriable(status) || lease_lost ? status : absl::OkStatus();
 }
 
-PlanAnswer RunPlanCall(PlannerClient& client, IngestSession& ingest, PlanCall job) {
-  PlanAnswer answer;
+PlanReply RunPlanCall(PlannerClient& client, IngestSession& ingest, PlanCall job) {
+  PlanReply answer;
   if (job.report.has_value()) {
     if (absl::Status status = ReportOfJob(client, ingest, job); !status.ok()) {
       answer.plan = std::move(status);

@@ -27,7 +27,7 @@ struct PlanCall {
   PlanQuery query;  // the lease is filled in when the job runs
 };
 
-struct PlanAnswer {
+struct PlanReply {
   absl::StatusOr<Plan> plan;
   bool reported = false;    // the report need not be made again
   absl::Duration rpc_wall;  // of NextBestTrajectory
@@ -40,7 +40,7 @@ absl::Status MakeReport(PlannerClient& client, const RobotSession& session,
 
 // Reports how the last plan ended, once the readings taken on the way are applied, and asks for the
 // next.
-PlanAnswer RunPlanCall(PlannerClient& client, IngestSession& ingest, PlanCall job);
+PlanReply RunPlanCall(PlannerClient& client, IngestSession& ingest, PlanCall job);
 
 // Whether asking again may help: the link is down, the server restarted or has no pose yet.
 bool MayAskAgain(const absl::Status& status);

@@ -143,7 +143,7 @@ bool RobotLoop::AwaitApplied(absl::Duration timeout) {
 // A plan that comes too late to be driven is given up, or its goal would stay claimed.
 void RobotLoop::DropPending() {
   if (!pending_.valid()) return;
-  const PlanAnswer answer = pending_.get();
+  const PlanReply answer = pending_.get();
   if (answer.reported) report_.reset();
   if (answer.plan.ok() && answer.plan->chosen >= 0) {
     report_ = PlanReport{.plan = answer.plan->id, .outcome = ProgressOutcome::kAborted};
@@ -213,7 +213,7 @@ absl::Status RobotLoop::AskInLockstep() {
   Backoff backoff(options_.ingest.backoff);
   const absl::Time give_up = absl::Now() + options_.link_patience;
   while (!Over()) {
-    PlanAnswer answer = RunPlanCall(client_, *ingest_, NextJob());
+    PlanReply answer = RunPlanCall(client_, *ingest_, NextJob());
     if (answer.reported) report_.reset();
     const absl::Status status = answer.plan.status();
     if (status.ok()) {
@@ -240,7 +240,7 @@ absl::Status RobotLoop::AskWhileRunning() {
   if (pending_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
     return Tick(options_.tick_s);
   }
-  PlanAnswer answer = pending_.get();
+  PlanReply answer = pending_.get();
   if (answer.reported) report_.reset();
   if (answer.plan.ok()) return Digest(std::move(answer));
   observer_.OnPlanFailure(answer.plan.status());
@@ -261,7 +261,7 @@ PlanCall RobotLoop::NextJob() {
   return job;
 }
 
-absl::Status RobotLoop::Digest(PlanAnswer answer) {
+absl::Status RobotLoop::Digest(PlanReply answer) {
   const Plan& plan = *answer.plan;
   ++result_.plans;
   observer_.OnPlan({.time_ns = asked_ns_,

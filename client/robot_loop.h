@@ -106,7 +106,7 @@ class RobotLoop {
   absl::Status AskInLockstep();
   absl::Status AskWhileRunning();
   PlanCall NextJob();
-  absl::Status Digest(PlanAnswer answer);
+  absl::Status Digest(PlanReply answer);
   absl::Status Depart(const Plan& plan);
 
   bool Over();
@@ -131,7 +131,7 @@ class RobotLoop {
   std::optional<RobotSession> joined_;
   std::optional<IngestSession> ingest_;
   std::optional<SensorBridge> bridge_;
-  std::future<PlanAnswer> pending_;  // uses ingest_; its destructor waits for the answer
+  std::future<PlanReply> pending_;  // uses ingest_; its destructor waits for the answer
 };
 
 }  // namespace plumescout::client

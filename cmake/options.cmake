@@ -1,5 +1,6 @@
 option(PLUMESCOUT_BUILD_TESTS "Build the tests" ON)
 option(PLUMESCOUT_BUILD_BENCHES "Build lab/bench" ON)
+set(PLUMESCOUT_SUITES ".*" CACHE STRING "Folders below tests/ to build and register, by regex")
 set(PLUMESCOUT_SANITIZE "" CACHE STRING "Sanitizers, e.g. address,undefined or thread")
 
 set(CMAKE_CXX_STANDARD 20)

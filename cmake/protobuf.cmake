@@ -33,6 +33,7 @@ function(plumescout_proto name)
     endforeach()
   endforeach()
   add_library(plumescout_${name} STATIC ${sources})
+  add_custom_target(generated_${name} DEPENDS ${sources})
   target_include_directories(plumescout_${name} SYSTEM PUBLIC ${out})
   target_compile_options(plumescout_${name} PRIVATE -g0 -O1)
   target_link_libraries(plumescout_${name} PUBLIC protobuf::libprotobuf)
@@ -43,6 +44,28 @@ function(plumescout_proto name)
     target_link_libraries(plumescout_${name} PUBLIC gRPC::grpc++)
   endif()
   add_library(plumescout::${name} ALIAS plumescout_${name})
+endfunction()
+
+# plumescout_proto_descriptors(proto_config PROTO plumescout/config/v1/server_config.proto
+#                              IMPORTS plumescout/v1/options.proto)
+#
+# Adds plumescout/config/v1/server_config.descriptors.inc to the library's generated files: the bytes
+# of a FileDescriptorSet of the .proto file and what it imports, with comments.
+function(plumescout_proto_descriptors name)
+  cmake_parse_arguments(ARG "" "PROTO" "IMPORTS" ${ARGN})
+  set(root ${PROJECT_SOURCE_DIR}/proto)
+  string(REGEX REPLACE "\\.proto$" "" base ${CMAKE_BINARY_DIR}/generated/${ARG_PROTO})
+  list(TRANSFORM ARG_IMPORTS PREPEND ${root}/ OUTPUT_VARIABLE imports)
+  set(script ${PROJECT_SOURCE_DIR}/cmake/bytes.cmake)
+  add_custom_command(
+    OUTPUT ${base}.descriptors.inc
+    COMMAND protobuf::protoc -I${root} --include_imports --include_source_info
+            --descriptor_set_out=${base}.descriptors ${root}/${ARG_PROTO}
+    COMMAND ${CMAKE_COMMAND} -DIN=${base}.descriptors -DOUT=${base}.descriptors.inc -P ${script}
+    DEPENDS ${root}/${ARG_PROTO} ${imports} ${script} VERBATIM)
+  add_custom_target(generated_${name}_descriptors DEPENDS ${base}.descriptors.inc)
+  target_sources(plumescout_${name} PRIVATE ${base}.descriptors.inc)
+  add_dependencies(plumescout_${name} generated_${name}_descriptors)
 endfunction()
 
 find_program(GRPC_PYTHON_PLUGIN grpc_python_plugin)

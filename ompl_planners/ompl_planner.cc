@@ -51,7 +51,7 @@ std::unique_ptr<const PathPlanner> MakeOmplPlanner(const PlanningOptions& option
     case PathKind::kBitStar:
     case PathKind::kPrmStar:
       return std::make_unique<const OmplPlanner>(
-          [kind = options.paths, samples = std::max(options.samples, 0)](
+          [kind = options.paths, samples = std::max(options.sample_count, 0)](
               const PathProblem& problem) { return SearchWithOmpl(kind, samples, problem); });
     default:
       return nullptr;

@@ -13,7 +13,7 @@ namespace plumescout {
 // The public planners that ours are compared with, of the Open Motion Planning Library 1.5, under
 // our EdgeCost and its exact walk: that of options.paths, null if it is none of them.
 //
-// options.samples states are drawn at random before a search ends: for each goal, since a tree
+// options.sample_count states are drawn at random before a search ends: for each goal, since a tree
 // knows one goal; by kPrmStar once, for the one roadmap that serves all. kRrt ends at its first
 // path, kBitStar draws in batches of 100 and ends when the next would exceed the number. Of
 // PathProblem:

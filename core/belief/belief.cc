@@ -41,7 +41,7 @@ MapSnapshot MakeMapSnapshot(const Belief& belief) {
   const double observed_ppm2 = ObservedVariance_ppm2(options.frontier, options.gas);
   map.gas_threshold_ppm = GasThreshold_ppm(gas, observed_ppm2, options.frontier);
   map.frontiers = FindOccupancyFrontiers(*belief.occupancy, *belief.traversable, starts,
-                                         options.frontier.min_occupancy_cells);
+                                         options.frontier.min_occupancy_cell_count);
   for (Frontier& frontier :
        FindGasFrontiers(gas, observed_ppm2, map.gas_threshold_ppm, starts, options.frontier)) {
     map.frontiers.push_back(std::move(frontier));

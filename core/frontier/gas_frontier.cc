@@ -131,7 +131,7 @@ std::vector<Frontier> FindGasFrontiers(const GasFrontierInput& input, double obs
   Padded<std::uint8_t> marks = Classify(input, {observed_variance_ppm2, gas_threshold_ppm});
   MarkFrontierCells(geometry, marks);
   const auto offsets = marks.NeighbourOffsets();
-  const ClusterRule rule = {FrontierKind::kGas, kWaiting, kTaken, options.min_gas_cells};
+  const ClusterRule rule = {FrontierKind::kGas, kWaiting, kTaken, options.min_gas_cell_count};
   std::vector<Frontier> frontiers;
   std::vector<int> queue =
       WavefrontSeeds(input, marks, gas_threshold_ppm, starts, options.wgfd_scope);

@@ -14,11 +14,11 @@ constexpr double kMostVariance_ppm2 = 1e30;   // says nothing beside lambda_d >=
 }  // namespace
 
 Ageing::Ageing(const GasOptions& options)
-    : default_variance_ppm2_(1.0 / options.observation_precision),
+    : default_variance_ppm2_(1.0 / options.observation_precision_per_ppm2),
       variance_growth_ppm2_per_s_(options.ageing_half_life_s > 0.0
                                       ? default_variance_ppm2_ / options.ageing_half_life_s
                                       : 0.0),
-      relative_stddev_(options.observation_relative_stddev),
+      relative_stddev_(options.observation_stddev_share),
       background_mean_ppm_(options.background_mean_ppm) {}
 
 double Ageing::InitialVariance_ppm2(const GasReading& reading) const {

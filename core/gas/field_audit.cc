@@ -28,7 +28,8 @@ void Raise(double& largest, double value) {
 double RoundingShare(const GasOptions& options) {
   constexpr double kLeast = 1e-9;
   constexpr double kUnits = 100.0 * std::numeric_limits<double>::epsilon();
-  return std::max(kLeast, kUnits * 8.0 * options.prior_precision / options.background_precision);
+  return std::max(kLeast, kUnits * 8.0 * options.prior_precision_per_ppm2 /
+                              options.background_precision_per_ppm2);
 }
 
 // Which square of the graph's lattice is which gas cell.

@@ -15,8 +15,8 @@ namespace {
 
 FieldOptions ToFieldOptions(const GasOptions& options) {
   FieldOptions field;
-  field.prior = {.prior_precision = options.prior_precision,
-                 .background_precision = options.background_precision};
+  field.prior = {.prior_precision_per_ppm2 = options.prior_precision_per_ppm2,
+                 .background_precision_per_ppm2 = options.background_precision_per_ppm2};
   return field;
 }
 

@@ -40,12 +40,12 @@ Information BuildInformation(const GmrfGraph& graph, std::span<const Evidence> e
   for (int i = 0; i < h.n; ++i) {
     const std::size_t k = static_cast<std::size_t>(i);
     h.row.push_back(i);
-    h.value.push_back(options.background_precision + evidence[k].precision +
-                      degree[k] * options.prior_precision);
+    h.value.push_back(options.background_precision_per_ppm2 + evidence[k].precision +
+                      degree[k] * options.prior_precision_per_ppm2);
     for (const VariableIndex j : graph.later_neighbours(VariableIndex{i})) {
       if (j == VariableIndex::kNone) continue;
       h.row.push_back(static_cast<int>(j));
-      h.value.push_back(-options.prior_precision);
+      h.value.push_back(-options.prior_precision_per_ppm2);
     }
     h.column_start.push_back(static_cast<int>(h.row.size()));
     information.negative_gradient.push_back(evidence[k].weighted_deviation);

@@ -45,7 +45,7 @@ const Fleet::Member* Fleet::Find(const RobotId& robot) const {
   return found == robots_.end() || found->second.removed ? nullptr : &found->second;
 }
 
-absl::Status Fleet::Register(const RobotRegistered& registration, int max_robots) {
+absl::Status Fleet::Register(const RobotRegistered& registration, int max_robot_count) {
   if (absl::Status status = ValidateId("robot", registration.robot); !status.ok()) return status;
   if (!(registration.radius_m > 0.0 && registration.radius_m <= kMaxRadius_m)) {
     return absl::InvalidArgumentError(
@@ -54,9 +54,9 @@ absl::Status Fleet::Register(const RobotRegistered& registration, int max_robots
   const auto found = robots_.find(registration.robot);
   const auto present = std::count_if(robots_.begin(), robots_.end(),
                                      [](const auto& entry) { return !entry.second.removed; });
-  if (!Knows(registration.robot) && present >= max_robots) {
+  if (!Knows(registration.robot) && present >= max_robot_count) {
     return absl::ResourceExhaustedError(
-        absl::StrCat("the mission has ", max_robots, " robots already"));
+        absl::StrCat("the mission has ", max_robot_count, " robots already"));
   }
   if (found != robots_.end() && registration.lease_token <= found->second.lease_token) {
     return TypedError(absl::StatusCode::kFailedPrecondition, reason::kLeaseSuperseded,

@@ -29,7 +29,7 @@ class Fleet {
  public:
   explicit Fleet(double robot_silence_s = MissionOptions().robot_silence_s);
 
-  absl::Status Register(const RobotRegistered& registration, int max_robots);
+  absl::Status Register(const RobotRegistered& registration, int max_robot_count);
 
   // The robot leaves: it is unknown until it registers again, and then goes on with its log.
   absl::Status Remove(const RobotId& robot);

@@ -22,9 +22,9 @@ namespace plumescout {
 // That a goal is unreachable needs no memory: every plan finds it out anew.
 //
 // A goal stays set aside until planning.set_aside_s are over, or the map near it has become
-// another: at least frontier.min_occupancy_cells cells within kChangeRadius_m are in another state
-// than they were when it was set aside. Cells that change and change back count for nothing, so
-// neither flicker nor the passing of time adds up to a change. Thread-compatible.
+// another: at least frontier.min_occupancy_cell_count cells within kChangeRadius_m are in another
+// state than they were when it was set aside. Cells that change and change back count for nothing,
+// so neither flicker nor the passing of time adds up to a change. Thread-compatible.
 class GoalMemory {
  public:
   // The mission at present.
@@ -36,7 +36,7 @@ class GoalMemory {
 
   explicit GoalMemory(const MissionOptions& options)
       : set_aside_s_(options.planning.set_aside_s),
-        min_changed_cells_(options.frontier.min_occupancy_cells) {}
+        min_changed_cells_(options.frontier.min_occupancy_cell_count) {}
 
   // A plan to `goal` ended. Cost: O(cells within kChangeRadius_m + kMaxSetAside).
   void Remember(const Goal& goal, ProgressOutcome outcome, const Now& now);

@@ -68,7 +68,7 @@ absl::StatusOr<Applied> Mission::Apply(const EventBody& body) {
 }
 
 absl::StatusOr<Applied> Mission::Change(const RobotRegistered& registration) {
-  PLUMESCOUT_RETURN_IF_ERROR(fleet_.Register(registration, options_->max_robots));
+  PLUMESCOUT_RETURN_IF_ERROR(fleet_.Register(registration, options_->max_robot_count));
   return Applied{};
 }
 

@@ -36,9 +36,9 @@ absl::Status CheckPose(const Pose2& pose, double limit_m) {
 
 absl::Status CheckPayload(const Scan& scan, const MissionOptions& options) {
   const std::size_t beams = scan.ranges_m.size();
-  if (beams == 0 || beams > static_cast<std::size_t>(options.max_beams)) {
+  if (beams == 0 || beams > static_cast<std::size_t>(options.max_beam_count)) {
     return absl::InvalidArgumentError(
-        absl::StrCat("scan.ranges has ", beams, " beams, must have 1 to ", options.max_beams));
+        absl::StrCat("scan.ranges has ", beams, " beams, must have 1 to ", options.max_beam_count));
   }
   if (Outside(scan.start_angle_rad, -kMaxAngle_rad, kMaxAngle_rad)) {
     return OutOfRange("scan.start_angle_rad", scan.start_angle_rad, "must be in [-1000, 1000]");

@@ -41,8 +41,8 @@ Grid<T> Moved(const Grid<T>& raster, const GridGeometry& geometry, Cell shift, T
 
 OccupancyGrid::OccupancyGrid(const OccupancyOptions& options)
     : options_(options),
-      free_log_odds_(LogOdds(options.free_threshold)),
-      occupied_log_odds_(LogOdds(options.occupied_threshold)) {
+      free_log_odds_(LogOdds(options.free_threshold_probability)),
+      occupied_log_odds_(LogOdds(options.occupied_threshold_probability)) {
   GridGeometry empty;
   empty.resolution_m = options.resolution_m;
   log_odds_ = Grid<float>(empty);
@@ -69,10 +69,10 @@ absl::Status OccupancyGrid::GrowToContain(Point2 min, Point2 max) {
   // Counted in cells, so that an extent of whole tiles is not lost to rounding.
   const auto widest = static_cast<double>(std::max(x.cells(), y.cells()));
   if (widest > options_.max_extent_m / resolution_m + kRounding_cells ||
-      x.cells() * y.cells() > options_.max_cells) {
+      x.cells() * y.cells() > options_.max_cell_count) {
     return absl::ResourceExhaustedError(
         absl::StrCat("a map of ", x.cells(), " x ", y.cells(), " cells exceeds max_extent_m = ",
-                     options_.max_extent_m, " or max_cells = ", options_.max_cells));
+                     options_.max_extent_m, " or max_cell_count = ", options_.max_cell_count));
   }
   const double tile_m = kTileCells * resolution_m;
   const GridGeometry grown = {static_cast<double>(x.begin) * tile_m,

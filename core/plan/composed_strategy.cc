@@ -11,7 +11,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/grid/flood.h"
 #include "core/plan/cost/edge_cost.h"
-#include "core/plan/cost/information_field.h"
+#include "core/plan/cost/information_map.h"
 #include "core/plan/explanation.h"
 #include "core/plan/goals/goal_offer.h"
 #include "core/plan/goals/travel_budget.h"
@@ -71,7 +71,7 @@ absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
       PLUMESCOUT_RETURN_IF_ERROR(PlanLastWayHome(*start.departure, call, plan));
     }
   }
-  Conclude(start.pose.yaw_rad, options_.selection, plan);
+  Conclude(start.pose.yaw_rad, options_.selection_rule, plan);
   return std::move(plan);
 }
 
@@ -107,11 +107,11 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
                                         plumescout::Plan& plan) const {
   const auto& [belief, request, stop, improved] = call;
   const MissionOptions& mission = *belief.options;
-  const InformationField field =
-      MakeInformationField({*belief.traversable, *belief.gas_mean_ppm, *belief.gas_variance_ppm2,
-                            mission.gas, mission.frontier},
-                           options_);
-  plan.field_flat = field.flat;
+  const InformationMap information =
+      MakeInformationMap({*belief.traversable, *belief.gas_mean_ppm, *belief.gas_variance_ppm2,
+                          mission.gas, mission.frontier},
+                         options_);
+  plan.field_flat = information.flat;
   const Cell start_cell = belief.geometry().CellAt(departure.start);
   const Grid<std::uint8_t> reachable = ReachableCells(*belief.traversable, {start_cell});
   if (stop()) return StoppedBeforeAnyPath();
@@ -130,7 +130,7 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
   }
   if (stop()) return StoppedBeforeAnyPath();
 
-  const EdgeCost selection_cost(field, options_.selection_cost, options_.alpha);
+  const EdgeCost selection_cost(information, options_.selection_cost, options_.alpha_per_m);
   const CandidateJudge judge = {selection_cost, *belief.gas_mean_ppm,
                                 mission.gas.background_mean_ppm};
   const Judging judging = {query, goals.goals, departure, judge};
@@ -138,7 +138,7 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
     const plumescout::Plan incumbent = Incumbent(judging, better, plan);
     if (incumbent.chosen >= 0) call.improved(incumbent);
   };
-  const EdgeCost cost(field, options_.cost, options_.alpha);
+  const EdgeCost cost(information, options_.cost, options_.alpha_per_m);
   const PathResult result =
       paths_->FindPaths({cost, reachable, departure.start, goals.goals, plan.seed,
                          request.max_edge_evaluations, stop, improved ? &tell : nullptr});
@@ -156,13 +156,13 @@ plumescout::Plan ComposedStrategy::Incumbent(const Judging& judging, PathResult 
   result.end = EndOf(result.paths, /*stopped=*/true);
   PlanningOptions options = options_;
   // It would cost the search its time.
-  if (options.selection == SelectionRule::kInformationRate) {
-    options.selection = SelectionRule::kLeastCost;
+  if (options.selection_rule == SelectionRule::kInformationRate) {
+    options.selection_rule = SelectionRule::kLeastCost;
   }
   TakeResults(judging, result, plan);
   RejectOverBudget(judging.query, plan);
   Choose(judging.query.belief, options, NeverStop(), plan);
-  Conclude(judging.departure.yaw_rad, options.selection, plan);
+  Conclude(judging.departure.yaw_rad, options.selection_rule, plan);
   return plan;
 }
 

@@ -70,7 +70,7 @@ std::string Choice(const Plan& plan, SelectionRule rule) {
     absl::StrAppend(&text, "; every other goal is beyond the travel budget");
   }
   if (plan.start_escaped) absl::StrAppend(&text, "; first out of the margin around obstacles");
-  if (plan.field_flat) absl::StrAppend(&text, "; the information field is flat");
+  if (plan.field_flat) absl::StrAppend(&text, "; the information map is flat");
   if (plan.end == PlanEnd::kStopped) absl::StrAppend(&text, "; the search was stopped early");
   return absl::StrCat(text, ".");
 }

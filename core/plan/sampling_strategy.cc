@@ -11,7 +11,7 @@
 #include "absl/strings/str_format.h"
 #include "core/grid/flood.h"
 #include "core/plan/cost/edge_cost.h"
-#include "core/plan/cost/information_field.h"
+#include "core/plan/cost/information_map.h"
 #include "core/plan/explanation.h"
 #include "core/plan/goals/travel_budget.h"
 #include "core/plan/sampling/site_lattice.h"
@@ -41,11 +41,11 @@ class ErrandPricer {
  public:
   ErrandPricer(const Belief& belief, const PlanningOptions& options)
       : belief_(belief),
-        field_(MakeInformationField(
+        information_(MakeInformationMap(
             {*belief.traversable, *belief.gas_mean_ppm, *belief.gas_variance_ppm2,
              belief.options->gas, belief.options->frontier},
             options)),
-        cost_(field_, CostKind::kEuclidean, options.alpha) {}
+        cost_(information_, CostKind::kEuclidean, options.alpha_per_m) {}
 
   Candidate Price(const Errand& errand, const std::vector<Point2>& path) const {
     Candidate candidate =
@@ -58,7 +58,7 @@ class ErrandPricer {
 
  private:
   const Belief& belief_;
-  const InformationField field_;
+  const InformationMap information_;
   const EdgeCost cost_;
 };
 

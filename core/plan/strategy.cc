@@ -26,10 +26,10 @@ enum class SiteRule { kNone, kReward, kLowToHigh, kRandom, kSweep };
 // What a name of the strategy table stands for.
 struct StrategyRow {
   absl::string_view name;
-  GoalPolicy goals = GoalPolicy::kGasFirst;
+  GoalPolicy goal_policy = GoalPolicy::kGasFirst;
   PathKind paths = PathKind::kXit;
   CostKind cost = CostKind::kUcb;
-  SelectionRule selection = SelectionRule::kLeastCost;
+  SelectionRule selection_rule = SelectionRule::kLeastCost;
   SiteRule sites = SiteRule::kNone;
 };
 
@@ -58,11 +58,11 @@ constexpr std::array<StrategyRow, 10> kRows = {{
     SamplingRow("sweep", SiteRule::kSweep),
 }};
 
-// The search of [MIT] section IV, within ours: independent samples of the UCB field alone.
+// The search of [MIT] section IV, within ours: independent samples of the information map alone.
 void ApplyMit(PlanningOptions& options) {
   constexpr int kSamples = 270;
-  options.samples = kSamples;
-  options.nearest_samples = 3;
+  options.sample_count = kSamples;
+  options.nearest_sample_count = 3;
   options.beta = 1.0;  // lambda
   options.sampling = SamplingKind::kIid;
   options.uniform_share = 0.0;
@@ -88,12 +88,12 @@ std::unique_ptr<const SamplingRule> MakeRule(SiteRule rule) {
 absl::Status CheckCycle(const PlanningOptions& options) {
   const SiteOptions& sites = options.sites;
   const double least_s =
-      sites.cycle_samples * (options.dwell_s + sites.spacing_m / options.speed_mps);
+      sites.cycle_sample_count * (options.dwell_s + sites.spacing_m / options.speed_mps);
   if (least_s <= sites.update_period_s) return absl::OkStatus();
   return absl::InvalidArgumentError(absl::StrCat(
       "planning.sites.update_period_s = ", sites.update_period_s, " must be at least ", least_s,
       ": T t_sam + T d_res / V <= t_up of Remark 1 in the LHR paper, with T = ",
-      sites.cycle_samples, ", t_sam = ", options.dwell_s, " s, d_res = ", sites.spacing_m,
+      sites.cycle_sample_count, ", t_sam = ", options.dwell_s, " s, d_res = ", sites.spacing_m,
       " m and V = ", options.speed_mps, " m/s"));
 }
 
@@ -150,11 +150,11 @@ bool StopsAtSites(const std::string& strategy) {
 
 absl::Status ApplyStrategyRow(PlanningOptions& options) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const StrategyRow row, FindRow(options.strategy));
-  options.goals = row.goals;
+  options.goal_policy = row.goal_policy;
   options.paths = row.paths;
   options.cost = row.cost;
   options.selection_cost = row.cost;
-  options.selection = row.selection;
+  options.selection_rule = row.selection_rule;
   // Baselines drive the paths that they find; goals that they miss are completed like everybody's.
   options.straighten = row.cost == CostKind::kUcb;
   if (row.name == "mit") ApplyMit(options);

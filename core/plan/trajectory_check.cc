@@ -11,7 +11,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/grid/ray.h"
 #include "core/plan/cost/edge_cost.h"
-#include "core/plan/cost/information_field.h"
+#include "core/plan/cost/information_map.h"
 #include "core/plan/departure.h"
 #include "core/plan/goals/frontier_goals.h"
 #include "core/plan/goals/home_goal.h"
@@ -142,11 +142,11 @@ std::optional<RejectedGoal> JudgeGoal(const Belief& belief, const RobotRecord& r
 Candidate Price(const Belief& belief, const RobotRecord& robot, const IntendedPath& path,
                 const PlanningOptions& options) {
   const MissionOptions& mission = *belief.options;
-  const InformationField field =
-      MakeInformationField({*belief.traversable, *belief.gas_mean_ppm, *belief.gas_variance_ppm2,
-                            mission.gas, mission.frontier},
-                           options);
-  const EdgeCost cost(field, options.selection_cost, options.alpha);
+  const InformationMap information =
+      MakeInformationMap({*belief.traversable, *belief.gas_mean_ppm, *belief.gas_variance_ppm2,
+                          mission.gas, mission.frontier},
+                         options);
+  const EdgeCost cost(information, options.selection_cost, options.alpha_per_m);
   const std::vector<Point2>& vertices = path.vertices;
   const auto out = std::find_if(vertices.begin(), vertices.end(), [&](Point2 vertex) {
     return belief.traversable->At(belief.geometry().CellAt(vertex), 0) != 0;

@@ -28,27 +28,31 @@ constexpr double kAboveHalf = 0.501;
 constexpr double kMaxLogOdds = 50.0;       // a certainty of 1 - 2e-22
 constexpr double kMaxWeight = 1e9;         // of a term of a cost: keeps costs finite, in float too
 constexpr double kMaxResolution_m = 50.0;  // outdoors
-constexpr double kMaxExtent_m = 20'000.0;  // six tiles of such cells; max_cells bounds the memory
-constexpr double kMaxTime_s = 1e9;         // 30 years: added to a time in ns, it stays within int64
+constexpr double kMaxExtent_m =
+    20'000.0;                       // six tiles of such cells; max_cell_count bounds the memory
+constexpr double kMaxTime_s = 1e9;  // 30 years: added to a time in ns, it stays within int64
 
 }  // namespace
 
 absl::Status Validate(const OccupancyOptions& options) {
   // A tighter clamp would keep every cell short of a threshold, unknown for ever.
-  const double least_clamp = std::max(LogOddsMagnitude(options.free_threshold),
-                                      LogOddsMagnitude(options.occupied_threshold));
+  const double least_clamp = std::max(LogOddsMagnitude(options.free_threshold_probability),
+                                      LogOddsMagnitude(options.occupied_threshold_probability));
   return Checker()
       .InRange("occupancy.resolution_m", options.resolution_m, 0.01, kMaxResolution_m)
       .InRange("occupancy.inflation_radius_m", options.inflation_radius_m, 0.0, 5.0)
-      .InRange("occupancy.free_threshold", options.free_threshold, 0.001, kBelowHalf)
-      .InRange("occupancy.occupied_threshold", options.occupied_threshold, kAboveHalf, 0.999)
+      .InRange("occupancy.free_threshold_probability", options.free_threshold_probability, 0.001,
+               kBelowHalf)
+      .InRange("occupancy.occupied_threshold_probability", options.occupied_threshold_probability,
+               kAboveHalf, 0.999)
       .Positive("occupancy.hit_log_odds", options.hit_log_odds)
       .Negative("occupancy.miss_log_odds", options.miss_log_odds)
       .InRange("occupancy.hit_log_odds", options.hit_log_odds, 0.0, kMaxLogOdds)
       .InRange("occupancy.miss_log_odds", options.miss_log_odds, -kMaxLogOdds, 0.0)
       .InRange("occupancy.clamp_log_odds", options.clamp_log_odds, least_clamp, kMaxLogOdds)
       .InRange("occupancy.max_extent_m", options.max_extent_m, 1.0, kMaxExtent_m)
-      .InRange("occupancy.max_cells", static_cast<double>(options.max_cells), 4096, 16'000'000)
+      .InRange("occupancy.max_cell_count", static_cast<double>(options.max_cell_count), 4096,
+               16'000'000)
       .status();
 }
 
@@ -58,13 +62,14 @@ absl::Status Validate(const GasOptions& options) {
   constexpr double kMinHalfLife_s = 1e-3;  // keeps the variance of old readings finite
   const bool ages = options.ageing_half_life_s != 0.0;
   return Checker()
-      .InRange("gas.prior_precision", options.prior_precision, kMinPrecision, kMaxPrecision)
-      .InRange("gas.observation_precision", options.observation_precision, kMinPrecision,
+      .InRange("gas.prior_precision_per_ppm2", options.prior_precision_per_ppm2, kMinPrecision,
                kMaxPrecision)
-      .InRange("gas.background_precision", options.background_precision, kMinPrecision,
-               kMaxPrecision)
+      .InRange("gas.observation_precision_per_ppm2", options.observation_precision_per_ppm2,
+               kMinPrecision, kMaxPrecision)
+      .InRange("gas.background_precision_per_ppm2", options.background_precision_per_ppm2,
+               kMinPrecision, kMaxPrecision)
       .InRange("gas.background_mean_ppm", options.background_mean_ppm, 0.0, 1e6)
-      .InRange("gas.observation_relative_stddev", options.observation_relative_stddev, 0.0, 10.0)
+      .InRange("gas.observation_stddev_share", options.observation_stddev_share, 0.0, 10.0)
       .InRange("gas.ageing_half_life_s", ages ? options.ageing_half_life_s : kMaxTime_s,
                kMinHalfLife_s, kMaxTime_s)
       .InRange("gas.lattice_factor", options.lattice_factor, 1, 16)
@@ -75,8 +80,8 @@ absl::Status Validate(const GasOptions& options) {
 
 absl::Status Validate(const FrontierOptions& options) {
   return Checker()
-      .InRange("frontier.min_occupancy_cells", options.min_occupancy_cells, 1, 1e6)
-      .InRange("frontier.min_gas_cells", options.min_gas_cells, 1, 1e6)
+      .InRange("frontier.min_occupancy_cell_count", options.min_occupancy_cell_count, 1, 1e6)
+      .InRange("frontier.min_gas_cell_count", options.min_gas_cell_count, 1, 1e6)
       .InRange("frontier.observed_variance_ratio", options.observed_variance_ratio, 1e-6, 10.0)
       .Positive("frontier.observed_variance_ppm2", options.observed_variance_ppm2.value_or(1.0))
       .InRange("frontier.gas_percentile", options.gas_percentile, 0.0, 100.0)
@@ -106,8 +111,9 @@ absl::Status Validate(const SiteOptions& options) {
   return Checker()
       .InRange("planning.sites.spacing_m", options.spacing_m, 0.05, 1000.0)
       .InRange("planning.sites.survey_stride", options.survey_stride, 1, kMaxStride)
-      .InRange("planning.sites.candidates", options.candidates, 1, kMaxCandidates)
-      .InRange("planning.sites.cycle_samples", options.cycle_samples, 1, options.candidates)
+      .InRange("planning.sites.candidate_count", options.candidate_count, 1, kMaxCandidates)
+      .InRange("planning.sites.cycle_sample_count", options.cycle_sample_count, 1,
+               options.candidate_count)
       .InRange("planning.sites.update_period_s", options.update_period_s, 1e-3, 1e6)
       .InRange("planning.sites.sweep_stride", options.sweep_stride, 1, kMaxStride)
       .InRange("planning.sites.sweep_leg_stride", options.sweep_leg_stride, 1, kMaxStride)
@@ -117,16 +123,16 @@ absl::Status Validate(const SiteOptions& options) {
 absl::Status Validate(const PlanningOptions& options) {
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options.sites));
   return Checker()
-      .InRange("planning.max_goals", options.max_goals, 1, 1000)
+      .InRange("planning.max_goal_count", options.max_goal_count, 1, 1000)
       .InRange("planning.min_goal_distance_m", options.min_goal_distance_m, 0.0, 100.0)
-      .InRange("planning.alpha", options.alpha, 0.0, kMaxWeight)
+      .InRange("planning.alpha_per_m", options.alpha_per_m, 0.0, kMaxWeight)
       .InRange("planning.beta", options.beta, 0.0, kMaxWeight)
-      .InRange("planning.samples", options.samples, 1, 100'000)
-      .InRange("planning.nearest_samples", options.nearest_samples, 1, 100)
+      .InRange("planning.sample_count", options.sample_count, 1, 100'000)
+      .InRange("planning.nearest_sample_count", options.nearest_sample_count, 1, 100)
       .InRange("planning.uniform_share", options.uniform_share, 0.0, 1.0)
       .InRange("planning.radius_factor", options.radius_factor, 0.01, 100.0)
       .InRange("planning.reading_rate_hz", options.reading_rate_hz, 0.01, 1000.0)
-      .InRange("planning.commitment_margin", options.commitment_margin, 0.0, 1.0)
+      .InRange("planning.commitment_margin_share", options.commitment_margin_share, 0.0, 1.0)
       .InRange("planning.speed_mps", options.speed_mps, 0.001, 100.0)
       .InRange("planning.dwell_s", options.dwell_s, 0.0, 3600.0)
       .Positive("planning.set_aside_s", options.set_aside_s)
@@ -186,9 +192,9 @@ absl::Status Validate(const MissionOptions& options) {
   return Checker()
       .InRange("pose_limit_m", options.pose_limit_m, 1.0, 1e6)
       .InRange("max_range_m", options.max_range_m, 0.1, 1000.0)
-      .InRange("max_beams", options.max_beams, 1, 100'000)
+      .InRange("max_beam_count", options.max_beam_count, 1, 100'000)
       .InRange("max_concentration_ppm", options.max_concentration_ppm, 1.0, 1e6)
-      .InRange("max_robots", options.max_robots, 1, 1000)
+      .InRange("max_robot_count", options.max_robot_count, 1, 1000)
       .InRange("robot_silence_s", options.robot_silence_s, 1.0, 1e9)
       .InRange("home.x_m", home.x_m, -options.pose_limit_m, options.pose_limit_m)
       .InRange("home.y_m", home.y_m, -options.pose_limit_m, options.pose_limit_m)
@@ -197,8 +203,8 @@ absl::Status Validate(const MissionOptions& options) {
 
 double OpenLatticeVariance_ppm2(const GasOptions& options) {
   constexpr double kPi = 3.14159265358979323846;
-  return std::log(32.0 * options.prior_precision / options.background_precision) /
-         (4.0 * kPi * options.prior_precision);
+  return std::log(32.0 * options.prior_precision_per_ppm2 / options.background_precision_per_ppm2) /
+         (4.0 * kPi * options.prior_precision_per_ppm2);
 }
 
 }  // namespace plumescout

@@ -18,23 +18,23 @@ namespace plumescout {
 
 // Occupancy grid; paper symbols of [XIT] Eq. (1) and Table I.
 struct OccupancyOptions {
-  double resolution_m = 0.1;         // [0.01, 50]
-  double inflation_radius_m = 0.2;   // [0, 5], farther than this from any occupied cell
-  double free_threshold = 0.25;      // tau_free, probability, (0, 0.5)
-  double occupied_threshold = 0.65;  // tau_occ, probability, (0.5, 1)
-  double hit_log_odds = 0.85;        // (0, 50]
-  double miss_log_odds = -0.4;       // [-50, 0)
-  double clamp_log_odds = 3.5;       // beyond the log-odds of both thresholds, at most 50
-  double max_extent_m = 200.0;       // the map never grows beyond this width or height, [1, 20000]
-  std::int64_t max_cells = 4'000'000;  // nor beyond this many cells
+  double resolution_m = 0.1;                     // [0.01, 50]
+  double inflation_radius_m = 0.2;               // [0, 5], farther than this from any occupied cell
+  double free_threshold_probability = 0.25;      // tau_free, probability, (0, 0.5)
+  double occupied_threshold_probability = 0.65;  // tau_occ, probability, (0.5, 1)
+  double hit_log_odds = 0.85;                    // (0, 50]
+  double miss_log_odds = -0.4;                   // [-50, 0)
+  double clamp_log_odds = 3.5;  // beyond the log-odds of both thresholds, at most 50
+  double max_extent_m = 200.0;  // the map never grows beyond this width or height, [1, 20000]
+  std::int64_t max_cell_count = 4'000'000;  // nor beyond this many cells
 };
 
 // Gas posterior; design of the GMRF with precisions in ppm^-2. [XIT] Table I.
 struct GasOptions {
-  double prior_precision = 3.0;         // lambda_p (sigma_r^2), > 0
-  double observation_precision = 10.0;  // lambda_o (sigma_s^2), > 0
-  double background_precision = 0.001;  // lambda_d (sigma_d^2), > 0
-  double background_mean_ppm = 0.0;     // m_0
+  double prior_precision_per_ppm2 = 3.0;         // lambda_p (sigma_r^2), > 0
+  double observation_precision_per_ppm2 = 10.0;  // lambda_o (sigma_s^2), > 0
+  double background_precision_per_ppm2 = 0.001;  // lambda_d (sigma_d^2), > 0
+  double background_mean_ppm = 0.0;              // m_0
   // A reading's variance grows by 1/lambda_o in this time (lambda_t = half-life * lambda_o);
   // 0: readings do not age; else [0.001, 1e9].
   double ageing_half_life_s = 0.0;
@@ -46,7 +46,7 @@ struct GasOptions {
   double refresh_period_s = 0.05;
   // kappa, [0, 10]: a reading z that brings no variance has max(1 / lambda_o, (kappa |z - m_0|)^2),
   // for what gusts do to gas grows with it; 0: 1 / lambda_o whatever it reads. [LHR] section II-A.
-  double observation_relative_stddev = 0.0;
+  double observation_stddev_share = 0.0;
   // Servers compare the posterior with an independent one after the first epoch and after every so
   // many from then on, [0, 1000000]; 0: never.
   int audit_period_epochs = 30;
@@ -55,8 +55,8 @@ struct GasOptions {
 // Occupancy and gas frontiers; [XIT] section V.
 enum class WgfdScope { kReachable, kLocal };
 struct FrontierOptions {
-  int min_occupancy_cells = 8;  // >= 1
-  int min_gas_cells = 5;        // >= 1
+  int min_occupancy_cell_count = 8;  // >= 1
+  int min_gas_cell_count = 5;        // >= 1
   double observed_variance_ratio =
       0.7;  // of epsilon_inf, in (0, 10]; observed: eps <= ratio * eps_inf
   std::optional<double> observed_variance_ppm2;   // overrides the ratio
@@ -115,10 +115,10 @@ struct SiteOptions {
   // lhr: every survey_stride-th site first; the last row and column are among them.
   bool survey = true;
   int survey_stride = 10;  // alpha of [LHR], [1, 1000]
-  // lhr and random_sampling: update cycles of cycle_samples sites, of the candidates best first,
-  // that are reached and sampled within update_period_s; [LHR] (P2).
-  int candidates = 15;            // M, [1, 16]
-  int cycle_samples = 10;         // T, [1, M]
+  // lhr and random_sampling: update cycles of cycle_sample_count sites, of the candidate_count
+  // best, that are reached and sampled within update_period_s; [LHR] (P2).
+  int candidate_count = 15;       // M, [1, 16]
+  int cycle_sample_count = 10;    // T, [1, M]
   double update_period_s = 50.0;  // t_up, [0.001, 1e6]
   // sweep: every sweep_stride-th site of every sweep_leg_stride-th row.
   int sweep_stride = 1;      // [1, 1000]
@@ -128,20 +128,20 @@ struct SiteOptions {
 // One row of the strategy table: where to go, how to get there, which to take.
 struct PlanningOptions {
   std::string strategy = "plumescout";  // name of the row, see core/plan/strategy.h
-  GoalPolicy goals = GoalPolicy::kEverything;
-  bool draw_goals = false;  // true: at most max_goals drawn at random within a kind (paper)
-  int max_goals = 5;        // see core/plan/goals/goal_policy.h; also the most fallback goals
+  GoalPolicy goal_policy = GoalPolicy::kEverything;
+  bool draw_goals = false;  // true: at most max_goal_count drawn at random within a kind (paper)
+  int max_goal_count = 5;   // see core/plan/goals/goal_policy.h; also the most fallback goals
   double min_goal_distance_m = 0.3;  // goals nearer than this are passed over, >= 0
   PathKind paths = PathKind::kXit;
   CostKind cost = CostKind::kUcb;  // expansion, [XIT] Eq. (12)
   CostKind selection_cost = CostKind::kUcb;
-  SelectionRule selection = SelectionRule::kInformationRate;
-  double alpha = 0.0;          // per metre, [0, 1e9]
-  double beta = 1.0;           // [XIT] Eq. (8), [0, 1e9]
-  bool raw_variance = false;   // Eq. (8) as printed: variance in ppm^2
-  int samples = 300;           // N, [1, 100000]
-  int nearest_samples = 3;     // k_n, [1, 100]
-  double uniform_share = 0.2;  // epsilon of Eq. (14), [0, 1]
+  SelectionRule selection_rule = SelectionRule::kInformationRate;
+  double alpha_per_m = 0.0;      // [XIT] Eq. (12), [0, 1e9]
+  double beta = 1.0;             // [XIT] Eq. (8), [0, 1e9]
+  bool raw_variance = false;     // Eq. (8) as printed: variance in ppm^2
+  int sample_count = 300;        // N, [1, 100000]
+  int nearest_sample_count = 3;  // k_n, [1, 100]
+  double uniform_share = 0.2;    // epsilon of Eq. (14), [0, 1]
   SamplingKind sampling = SamplingKind::kSystematic;
   double radius_factor = 1.1;   // gamma / gamma_RGG, > 0
   bool mixture_radius = false;  // gamma* = epsilon^(-1/2) gamma
@@ -156,7 +156,7 @@ struct PlanningOptions {
   // Readings expected along a path when its information is priced, [0.01, 1000].
   double reading_rate_hz = 2.0;
   // A robot under way keeps its goal unless another is better by more than this share, [0, 1].
-  double commitment_margin = 0.0;
+  double commitment_margin_share = 0.0;
   double speed_mps = 1.25;     // > 0
   double dwell_s = 0.0;        // stop-and-sample at each vertex, >= 0
   double set_aside_s = 120.0;  // expiry of goal memory, seconds of sample time, (0, 1e9]
@@ -188,9 +188,9 @@ struct MissionOptions {
   PlanningOptions planning;
   double pose_limit_m = 1000.0;  // |x|, |y| of any pose, > 0
   double max_range_m = 100.0;    // of any lidar, > 0
-  int max_beams = 20'000;        // of any scan
+  int max_beam_count = 20'000;   // of any scan
   double max_concentration_ppm = 1e6;
-  int max_robots = 32;
+  int max_robot_count = 32;
   // A robot that is not heard of while the sample time moves on by this much counts as gone until
   // it is; [1, 1e9].
   double robot_silence_s = 60.0;
@@ -203,7 +203,7 @@ struct MissionOptions {
   std::shared_ptr<const Grid<CellState>> prior_map;
 };
 
-// kInvalidArgument naming field, value and range, e.g. "gas.prior_precision = -1 must be > 0".
+// kInvalidArgument naming field, value and range: "gas.lattice_factor = 0 must be in [1, 16]".
 absl::Status Validate(const OccupancyOptions& options);
 absl::Status Validate(const GasOptions& options);
 absl::Status Validate(const FrontierOptions& options);

@@ -72,7 +72,7 @@ enum class RejectionReason {
   kTooSmall,       // fewer cells than the minimum frontier size
   kSetAside,       // goal memory: failed or visited without change, not yet expired
   kClaimed,        // another robot's live plan ends there
-  kNotDrawn,       // more goals than max_goals; the draw passed it over
+  kNotDrawn,       // more goals than max_goal_count; the draw passed it over
   kTooClose,       // nearer than the minimum travel distance
   kSearchStopped,  // deadline or cancel came before a path was found
   kOverBudget,     // too little of the travel budget would be left to drive home
@@ -131,7 +131,7 @@ struct Plan {
   std::vector<RejectedGoal> rejected;
   Trajectory trajectory;  // of the chosen candidate; empty if none
   PlanEffort effort;
-  bool field_flat = false;     // the information field had no contrast: pure distance behaviour
+  bool field_flat = false;     // the information map had no contrast: pure distance behaviour
   bool goal_kept = false;      // another was better, but not by the commitment margin
   bool start_escaped = false;  // the robot stood in the inflated zone; the path leads out first
   std::string explanation;     // one sentence for an operator

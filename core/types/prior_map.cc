@@ -52,13 +52,13 @@ absl::Status CheckSize(const GridGeometry& geometry, const OccupancyOptions& opt
   const MapSize size = SizeOnMission(geometry, options.resolution_m);
   const auto widest = static_cast<double>(std::max(size.width_cells, size.height_cells));
   if (widest <= options.max_extent_m / options.resolution_m + kRounding_cells &&
-      size.width_cells * size.height_cells <= options.max_cells) {
+      size.width_cells * size.height_cells <= options.max_cell_count) {
     return absl::OkStatus();
   }
   return absl::InvalidArgumentError(absl::StrCat(
       "prior_map of ", geometry.width, " x ", geometry.height, " cells needs ", size.width_cells,
       " x ", size.height_cells, " in whole tiles, beyond occupancy.max_extent_m = ",
-      options.max_extent_m, " or occupancy.max_cells = ", options.max_cells));
+      options.max_extent_m, " or occupancy.max_cell_count = ", options.max_cell_count));
 }
 
 }  // namespace
@@ -93,7 +93,8 @@ void StartWith(std::shared_ptr<const Grid<CellState>> map, MissionOptions& optio
   occupancy.resolution_m = geometry.resolution_m;
   const auto widest = static_cast<double>(std::max(size.width_cells, size.height_cells));
   occupancy.max_extent_m = std::max(occupancy.max_extent_m, widest * geometry.resolution_m);
-  occupancy.max_cells = std::max(occupancy.max_cells, size.width_cells * size.height_cells);
+  occupancy.max_cell_count =
+      std::max(occupancy.max_cell_count, size.width_cells * size.height_cells);
   for (const double edge_m : {geometry.origin_x_m, geometry.origin_y_m,
                               geometry.origin_x_m + geometry.width * geometry.resolution_m,
                               geometry.origin_y_m + geometry.height * geometry.resolution_m}) {

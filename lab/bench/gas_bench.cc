@@ -136,7 +136,7 @@ absl::Status MeasureOnline(const Size& size, bool open, const GasCase& c, BenchS
     scan_ms.push_back(Cpu_ms([&] { status.Update(field.Apply(changes)); }));
     std::vector<std::size_t> cells;
     while (cells.size() < kWhatIfCells) cells.push_back(events.ActiveCell());
-    const double precision = GasOptions().observation_precision;
+    const double precision = GasOptions().observation_precision_per_ppm2;
     what_if_ms.push_back(
         Cpu_ms([&] { status.Update(field.Snapshot().VarianceIfRead(cells, precision).status()); }));
   }
@@ -172,7 +172,7 @@ absl::Status MeasureWorstReadings(const Size& size, bool open, const GasCase& c,
 }
 
 // Against CHOLMOD's textbook use, in every cell.
-absl::StatusOr<FieldError> ErrorToCholmod(const GasEvents& events, const FieldEngine& field) {
+absl::StatusOr<FieldDeviation> ErrorToCholmod(const GasEvents& events, const FieldEngine& field) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const PeerPosterior truth, SolveByCholmod(events.AsMatrix()));
   return events.ErrorOf(field, truth.deviation_ppm, truth.variance_ppm2);
 }
@@ -180,13 +180,13 @@ absl::StatusOr<FieldError> ErrorToCholmod(const GasEvents& events, const FieldEn
 absl::Status MeasureFreshError(const GasCase& c, BenchSummary& summary) {
   PLUMESCOUT_ASSIGN_OR_RETURN(std::vector<CellInput> inputs, InputsOf(c));
   const GasEvents events(static_cast<std::size_t>(c.states.width()), std::move(inputs), 0);
-  PLUMESCOUT_ASSIGN_OR_RETURN(const FieldError error, ErrorToCholmod(events, events.Fresh()));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const FieldDeviation error, ErrorToCholmod(events, events.Fresh()));
   summary.Set("fresh_mean_error_ppm", error.mean_ppm);
   summary.Set("fresh_variance_relative_error", error.variance_ratio);
   return absl::OkStatus();
 }
 
-void Raise(FieldError& worst, const FieldError& error) {
+void Raise(FieldDeviation& worst, const FieldDeviation& error) {
   worst.mean_ppm = std::max(worst.mean_ppm, error.mean_ppm);
   worst.variance_ratio = std::max(worst.variance_ratio, error.variance_ratio);
 }
@@ -200,7 +200,7 @@ absl::Status MeasureOnlineError(const GasCase& c, BenchSummary& summary) {
   PLUMESCOUT_ASSIGN_OR_RETURN(std::vector<CellInput> inputs, InputsOf(c));
   GasEvents events(static_cast<std::size_t>(c.states.width()), std::move(inputs), summary.seed());
   FieldEngine field = events.Fresh();
-  FieldError worst, worst_to_cholmod, bound;
+  FieldDeviation worst, worst_to_cholmod, bound;
   double most_of_bound = 0.0;
   for (int event = 1; event <= kEvents; ++event) {
     PLUMESCOUT_RETURN_IF_ERROR(
@@ -208,7 +208,7 @@ absl::Status MeasureOnlineError(const GasCase& c, BenchSummary& summary) {
     Raise(bound, field.error_bound());
     if (event % kEventsPerCheck != 0) continue;
     Raise(worst, events.ErrorOf(field));
-    PLUMESCOUT_ASSIGN_OR_RETURN(const FieldError error, ErrorToCholmod(events, field));
+    PLUMESCOUT_ASSIGN_OR_RETURN(const FieldDeviation error, ErrorToCholmod(events, field));
     Raise(worst_to_cholmod, error);
     most_of_bound = std::max({most_of_bound, error.mean_ppm / field.error_bound().mean_ppm,
                               error.variance_ratio / field.error_bound().variance_ratio});

@@ -87,7 +87,7 @@ std::vector<CellChange> GasEvents::ReadingAnywhere() {
 }
 
 std::vector<CellChange> GasEvents::ReadAt(std::size_t cell, double deviation_ppm) {
-  const double precision = GasOptions().observation_precision;
+  const double precision = GasOptions().observation_precision_per_ppm2;
   cells_[cell].precision += precision;
   cells_[cell].weighted_deviation += precision * deviation_ppm;
   return {{cell, cells_[cell]}};
@@ -125,12 +125,12 @@ CellChange GasEvents::Flip(std::size_t cell) {
 FieldEngine GasEvents::Fresh(const FieldTolerance& tolerance) const {
   const GasOptions gas;
   FieldOptions options;
-  options.prior = {gas.prior_precision, gas.background_precision};
+  options.prior = {gas.prior_precision_per_ppm2, gas.background_precision_per_ppm2};
   options.tolerance = tolerance;
   return FieldEngine(width_, cells_.size() / width_, cells_, options);
 }
 
-FieldError GasEvents::ErrorOf(const FieldEngine& field) const {
+FieldDeviation GasEvents::ErrorOf(const FieldEngine& field) const {
   const FieldEngine fresh = Fresh();
   std::vector<double> deviation_ppm, variance_ppm2;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -156,9 +156,9 @@ Information GasEvents::AsMatrix() const {
   return BuildInformation(GmrfGraph(states), evidence, {});
 }
 
-FieldError GasEvents::ErrorOf(const FieldEngine& field, std::span<const double> deviation_ppm,
+FieldDeviation GasEvents::ErrorOf(const FieldEngine& field, std::span<const double> deviation_ppm,
                               std::span<const double> variance_ppm2) const {
-  FieldError error;
+  FieldDeviation error;
   std::size_t variable = 0;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     if (!cells_[i].active) continue;

@@ -35,11 +35,11 @@ class GasEvents {
   // All from scratch.
   FieldEngine Fresh(const FieldTolerance& tolerance = {}) const;
   // Worst difference of `field` from that; on the variance as share.
-  FieldError ErrorOf(const FieldEngine& field) const;
+  FieldDeviation ErrorOf(const FieldEngine& field) const;
   // The same field as matrices, for other solvers, with its cells' variables in their order.
   Information AsMatrix() const;
   // Worst difference of `field` from what such a solver made of that.
-  FieldError ErrorOf(const FieldEngine& field, std::span<const double> deviation_ppm,
+  FieldDeviation ErrorOf(const FieldEngine& field, std::span<const double> deviation_ppm,
                      std::span<const double> variance_ppm2) const;
 
  private:

@@ -203,7 +203,7 @@ void BenchFrontiers(const World& world, BenchSummary& summary) {
   const std::vector<Cell> starts = {world.start};
   const auto find = [&] {
     return FindOccupancyFrontiers(world.states, world.traversable, starts,
-                                  options.min_occupancy_cells);
+                                  options.min_occupancy_cell_count);
   };
   summary.Set("frontiers_160x200_ms", MedianCpu_ms(kRepeats, find));
   summary.Set("frontiers_found", static_cast<double>(find().size()));

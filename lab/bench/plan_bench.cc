@@ -70,7 +70,7 @@ struct Row {
   }
 };
 
-// A whole plan: frontiers, information field, search, selection.
+// A whole plan: frontiers, information map, search, selection.
 absl::Status MeasureWholePlans(int worlds, BenchSummary& summary) {
   constexpr int kRepeats = 9;
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto strategy, MakeStrategy(PlanningOptions{}));

@@ -10,12 +10,12 @@ namespace plumescout::lab {
 
 PlanCase::PlanCase(RandomWorld made)
     : world(std::move(made)),
-      field(MakeInformationField(
+      information(MakeInformationMap(
           {*world.belief.traversable, *world.belief.gas_mean_ppm, *world.belief.gas_variance_ppm2,
            world.belief.options->gas, world.belief.options->frontier},
           PlanningOptions{})),
-      cost(field, CostKind::kUcb, 0.0),
-      length(field, CostKind::kEuclidean, 0.0),
+      cost(information, CostKind::kUcb, 0.0),
+      length(information, CostKind::kEuclidean, 0.0),
       start(world.belief.robots.at(world.robot).state.pose.position()),
       start_cell(world.belief.geometry().CellAt(start)),
       reachable(ReachableCells(*world.belief.traversable, {start_cell})) {}

@@ -5,18 +5,18 @@
 #include <cstdint>
 
 #include "core/plan/cost/edge_cost.h"
-#include "core/plan/cost/information_field.h"
+#include "core/plan/cost/information_map.h"
 #include "core/plan/paths/path_planner.h"
 #include "lab/worlds/random_world.h"
 
 namespace plumescout::lab {
 
-// A world with what path planners see of it: its information field under the default options, the
+// A world with what path planners see of it: its information map under the default options, the
 // cost of [XIT] at alpha = 0, and its robot and goals.
 class PlanCase {
  public:
   explicit PlanCase(RandomWorld world);
-  PlanCase(const PlanCase&) = delete;  // `cost` refers to `field`
+  PlanCase(const PlanCase&) = delete;  // `cost` refers to `information`
   PlanCase& operator=(const PlanCase&) = delete;
 
   // Holds references to this case and to `stop`.
@@ -27,7 +27,7 @@ class PlanCase {
   }
 
   RandomWorld world;
-  InformationField field;
+  InformationMap information;
   EdgeCost cost;
   EdgeCost length;  // for searches by distance
   Point2 start;

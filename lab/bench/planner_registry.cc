@@ -16,7 +16,7 @@ namespace {
 // As published: independent samples, paths that end at the goal sets, nothing added.
 PlanningOptions AsPublished(int samples) {
   PlanningOptions options;
-  options.samples = samples;
+  options.sample_count = samples;
   options.sampling = SamplingKind::kIid;
   options.goal_vertices = false;
   return options;
@@ -31,14 +31,14 @@ PlanningOptions Mit() {
 RegisteredPlanner Ours(std::string name, PathKind kind, int samples) {
   PlanningOptions options;
   options.paths = kind;
-  options.samples = samples;
+  options.sample_count = samples;
   return {std::move(name), *MakePathPlanner(options, nullptr)};
 }
 
 RegisteredPlanner Rival(PathKind kind, int samples) {
   PlanningOptions options;
   options.paths = kind;
-  options.samples = samples;
+  options.sample_count = samples;
   return {absl::StrCat(PathKindName(kind), "_", samples), MakeOmplPlanner(options), options.cost,
           true};
 }

@@ -38,7 +38,7 @@ PlanPicture MakePicture(const PlanningStep& step) {
   picture.title = absl::StrFormat("Plan of %s at revision %d, strategy %s", step.plan.robot,
                                   step.plan.belief_revision, step.plan.strategy);
   picture.occupancy = *step.belief->occupancy;
-  picture.information = step.field.information;
+  picture.information = step.information.value;
   for (std::size_t i = 0; i < picture.information.size(); ++i) {
     if ((*step.belief->traversable)[i] == 0) {
       picture.information[i] = std::numeric_limits<float>::quiet_NaN();

@@ -78,10 +78,10 @@ absl::StatusOr<PlanningStep> TakePlanningStep(Mission& mission,
       MakeStrategyWith(planning, std::make_unique<const TreeKeeper>(std::move(paths), step.tree)));
   PLUMESCOUT_ASSIGN_OR_RETURN(step.plan, strategy->Plan(belief, request, NeverStop()));
   PriceInformation(belief, planning, step.plan);
-  step.field =
-      MakeInformationField({*belief.traversable, *belief.gas_mean_ppm, *belief.gas_variance_ppm2,
-                            mission.options().gas, mission.options().frontier},
-                           planning);
+  step.information =
+      MakeInformationMap({*belief.traversable, *belief.gas_mean_ppm, *belief.gas_variance_ppm2,
+                          mission.options().gas, mission.options().frontier},
+                         planning);
   return step;
 }
 

@@ -10,7 +10,7 @@
 #include "absl/status/statusor.h"
 #include "core/belief/belief.h"
 #include "core/mission/mission.h"
-#include "core/plan/cost/information_field.h"
+#include "core/plan/cost/information_map.h"
 #include "core/plan/paths/path_planner.h"
 #include "core/types/ids.h"
 #include "core/types/plan.h"
@@ -26,7 +26,7 @@ struct PlanningStepOptions {
 // One planning step, with what a plan does not say: what it was made from.
 struct PlanningStep {
   std::shared_ptr<const Belief> belief;
-  InformationField field;
+  InformationMap information;
   std::vector<TreeEdge> tree;  // empty if the planner grows none of ours
   Plan plan;  // every candidate with its expected information, if there is a gas field
 };

@@ -39,7 +39,7 @@ void AddMissionOptions(CLI::App& app, RobotArguments& arguments) {
   app.add_option("--mission", arguments.mission, "Mission to join, made if it is not there");
   app.add_option("--robot", arguments.robot, "Name of the robot, others count on from it");
   app.add_option("--robots", arguments.robots, "How many robots share the mission")
-      ->check(CLI::Range(1, MissionOptions{}.max_robots));
+      ->check(CLI::Range(1, MissionOptions{}.max_robot_count));
   app.add_option("--start", arguments.starts,
                  "x,y,yaw where a robot starts, metres and radians; once for each robot "
                  "(default: the scene's start, others beside it)")

@@ -53,7 +53,7 @@ const char* NameOf(RejectionReason reason) {
     case RejectionReason::kClaimed:
       return "claimed by another robot";
     case RejectionReason::kNotDrawn:
-      return "beyond max_goals";
+      return "beyond max_goal_count";
     case RejectionReason::kTooClose:
       return "too close";
     case RejectionReason::kSearchStopped:

@@ -36,7 +36,7 @@ void AddRobot(const Pose2& robot, MapPanel& panel) {
 MapPanel TreePanel(const PlanPicture& picture, const Region& region) {
   const ColorScale scale{ColorMap::kGas, 0.0, 1.0, false};
   MapPanel panel;
-  panel.title = "Information field and search tree";
+  panel.title = "Information map and search tree";
   panel.region = region;
   panel.cells = PaintCells(picture.occupancy.geometry(), region, [&](Cell cell) {
     const CellState state = picture.occupancy[cell];

@@ -35,7 +35,7 @@ std::string RejectionLabel(std::size_t index);
 Rgb GoalColor(GoalKind kind);
 inline constexpr Rgb kChosenPathColor{206, 30, 140};
 
-// The information field with the search tree on it, and the map with the candidates' paths, the
+// The information map with the search tree on it, and the map with the candidates' paths, the
 // chosen one thick, and all goals, labelled as in the tables.
 std::vector<MapPanel> MakePlanPanels(const PlanPicture& picture);
 

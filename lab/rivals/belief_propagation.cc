@@ -21,7 +21,7 @@ BeliefPropagation::BeliefPropagation(const GmrfGraph& graph, const GasOptions& g
     : gas_(gas), options_(options), nodes_(static_cast<std::size_t>(graph.variables())) {
   for (Node& node : nodes_) {
     node.neighbour.fill(VariableIndex::kNone);
-    node.own.precision = gas.background_precision;
+    node.own.precision = gas.background_precision_per_ppm2;
   }
   for (int i = 0; i < graph.variables(); ++i) {
     const auto variable = static_cast<VariableIndex>(i);
@@ -37,7 +37,7 @@ BeliefPropagation::BeliefPropagation(const GmrfGraph& graph, const GasOptions& g
 }
 
 void BeliefPropagation::SetEvidence(VariableIndex variable, const Evidence& evidence) {
-  nodes_[ToSize(variable)].own = {gas_.background_precision + evidence.precision,
+  nodes_[ToSize(variable)].own = {gas_.background_precision_per_ppm2 + evidence.precision,
                                   evidence.weighted_deviation};
   Note(variable, kUnbounded);
 }
@@ -125,7 +125,8 @@ void BeliefPropagation::Send(VariableIndex variable) {
     if (node.neighbour[side] == VariableIndex::kNone) continue;
     const double precision = total.precision - node.incoming[side].precision;
     const double information = total.information - node.incoming[side].information;
-    const double passed = gas_.prior_precision / (gas_.prior_precision + precision);
+    const double passed =
+        gas_.prior_precision_per_ppm2 / (gas_.prior_precision_per_ppm2 + precision);
     const Message message{passed * precision, passed * information};
     Message& heard = nodes_[ToSize(node.neighbour[side])]
                          .incoming[static_cast<std::size_t>(Opposite(direction))];

@@ -11,8 +11,8 @@ namespace plumescout::lab {
 
 absl::Status GmrfMapper::Add(Point2 position, const GasReading& reading) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckMappable(position, reading));
-  const double precision =
-      reading.variance_ppm2 > 0.0 ? 1.0 / reading.variance_ppm2 : options_.observation_precision;
+  const double precision = reading.variance_ppm2 > 0.0 ? 1.0 / reading.variance_ppm2
+                                                       : options_.observation_precision_per_ppm2;
   const double deviation_ppm = reading.concentration_ppm - options_.background_mean_ppm;
   readings_.push_back({position, {precision, precision * deviation_ppm}});
   return absl::OkStatus();

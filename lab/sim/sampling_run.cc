@@ -76,7 +76,7 @@ class SamplingRobot {
 
   absl::Status FollowNextPlan() {
     if (stop_()) return End(SamplingEnd::kStopped);
-    client::PlanAnswer answer = client::RunPlanJob(planner_, *ingest_, NextJob());
+    client::PlanAnswer answer = client::RunPlanCall(planner_, *ingest_, NextCall());
     if (answer.reported) report_.reset();
     PLUMESCOUT_RETURN_IF_ERROR(answer.plan.status());
     const Plan& plan = *answer.plan;
@@ -95,8 +95,8 @@ class SamplingRobot {
     return absl::OkStatus();
   }
 
-  client::PlanJob NextJob() const {
-    client::PlanJob job{.report = report_, .query = {}};
+  client::PlanCall NextCall() const {
+    client::PlanCall job{.report = report_, .query = {}};
     job.query.request.robot = options_.participation.robot;
     job.query.request.start = pose_;
     job.query.min_applied_sequence = ingest_->statistics().last_sequence;

@@ -125,9 +125,9 @@ absl::StatusOr<StudyRow> MakeRow(const TableRow& row, const Scene& world) {
   const double resolution_m = world.geometry().resolution_m;
   made.mission.occupancy.inflation_radius_m = 0.0;  // streets are one cell wide
   const Region region = RegionOf(world.geometry());
-  made.mission.gas.observation_precision = kObservationPrecision;
-  made.mission.gas.prior_precision = kPriorPrecision;
-  made.mission.gas.background_precision = kBackgroundPrecision;
+  made.mission.gas.observation_precision_per_ppm2 = kObservationPrecision;
+  made.mission.gas.prior_precision_per_ppm2 = kPriorPrecision;
+  made.mission.gas.background_precision_per_ppm2 = kBackgroundPrecision;
   PlanningOptions& planning = made.mission.planning;
   planning.speed_mps = kSpeed_mps;
   planning.dwell_s = kDwell_s;

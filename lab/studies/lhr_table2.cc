@@ -83,7 +83,7 @@ absl::StatusOr<StudyRow> MakeRow(const TableRow& row, const Scene& world) {
   PLUMESCOUT_ASSIGN_OR_RETURN(StudyRow made, MakeStudyRow(row.name, row.strategy, true));
   made.mission.occupancy.inflation_radius_m = 0.0;  // open, and the robot is a point
   constexpr double kShare = 0.1;
-  made.mission.gas.observation_relative_stddev = kShare;
+  made.mission.gas.observation_stddev_share = kShare;
   PlanningOptions& planning = made.mission.planning;
   planning.speed_mps = kSpeed_mps;
   planning.dwell_s = kDwell_s;
@@ -93,8 +93,8 @@ absl::StatusOr<StudyRow> MakeRow(const TableRow& row, const Scene& world) {
   planning.sites.reward = row.reward;
   planning.sites.survey = row.survey;
   planning.sites.survey_stride = kStride;
-  planning.sites.candidates = kCandidates;
-  planning.sites.cycle_samples = kCycle;
+  planning.sites.candidate_count = kCandidates;
+  planning.sites.cycle_sample_count = kCycle;
   planning.sites.update_period_s = kUpdatePeriod_s;
   return made;
 }

@@ -84,8 +84,8 @@ MapPanel FieldPanel(const MitScene& scene, std::string title) {
   panel.region = RegionOf(scene.occupancy.geometry());
   panel.cells = PaintCells(scene.occupancy.geometry(), panel.region, [&](Cell cell) {
     if (scene.occupancy[cell] != CellState::kFree) return kWallColor;
-    return std::isfinite(scene.field.penalty[cell]) ? scale(scene.field.information[cell])
-                                                    : kUnknownColor;
+    return std::isfinite(scene.information.penalty[cell]) ? scale(scene.information.value[cell])
+                                                          : kUnknownColor;
   });
   panel.marks.push_back({MarkShape::kDisc, kStartMark, scene.start, "S"});
   for (std::size_t i = 0; i < kTrajectories; ++i) {

@@ -59,18 +59,18 @@ absl::StatusOr<EpisodeOptions> MakeEpisodeOptions(const ExperimentOptions& optio
   return episode;
 }
 
-double MeanUcb(const InformationField& field, const std::vector<Point2>& path) {
+double MeanUcb(const InformationMap& information, const std::vector<Point2>& path) {
   double integral_cells = 0.0;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    integral_cells += SegmentIntegral_cells(field.information, path[i], path[i + 1]);
+    integral_cells += SegmentIntegral_cells(information.value, path[i], path[i + 1]);
   }
-  return integral_cells * field.information.geometry().resolution_m / PathLength_m(path);
+  return integral_cells * information.value.geometry().resolution_m / PathLength_m(path);
 }
 
 // Of the moment's trajectory; no detour if there is nothing to compare it with.
 Detour FindDetour(const MissionMoment& moment) {
   const Candidate& chosen = Chosen(moment);
-  const InformationField field = FieldOf(moment);
+  const InformationMap information = InformationOf(moment);
   const GridGeometry& geometry = moment.belief->geometry();
   Detour detour;
   detour.mean_ucb = detour.shortest_mean_ucb = chosen.mean_ucb;
@@ -80,7 +80,7 @@ Detour FindDetour(const MissionMoment& moment) {
   exact.paths = PathKind::kGridExact;
   const auto planner = MakePathPlanner(exact, nullptr);
   if (!planner.ok()) return detour;
-  const EdgeCost length(field, CostKind::kEuclidean, 0.0);
+  const EdgeCost length(information, CostKind::kEuclidean, 0.0);
   const Grid<std::uint8_t> reachable = ReachableCells(*moment.belief->traversable, {start});
   const std::vector<Goal> goals = {chosen.goal};
   const StopFn stop = NeverStop();
@@ -90,8 +90,8 @@ Detour FindDetour(const MissionMoment& moment) {
   detour.shortest = found.paths.front()->vertices;
   if (!(PathLength_m(detour.shortest) > 0.0) || !(PathLength_m(chosen.path) > 0.0)) return {};
   detour.length_ratio = PathLength_m(chosen.path) / PathLength_m(detour.shortest);
-  detour.mean_ucb = MeanUcb(field, chosen.path);
-  detour.shortest_mean_ucb = MeanUcb(field, detour.shortest);
+  detour.mean_ucb = MeanUcb(information, chosen.path);
+  detour.shortest_mean_ucb = MeanUcb(information, detour.shortest);
   return detour;
 }
 

@@ -67,7 +67,7 @@ WeighedWays Weigh(const SyntheticScene& scene, double alpha_per_m, std::uint64_t
   const PlanningOptions options;
   PlanningOptions exact_options;
   exact_options.paths = PathKind::kGridExact;
-  const EdgeCost cost(scene.field, CostKind::kUcb, alpha_per_m);
+  const EdgeCost cost(scene.information, CostKind::kUcb, alpha_per_m);
   const std::vector<Goal> goals = {scene.goal};
   const StopFn stop = NeverStop();
   const PathProblem problem{cost, scene.reachable, scene.start, goals, seed, 0, stop};
@@ -77,7 +77,7 @@ WeighedWays Weigh(const SyntheticScene& scene, double alpha_per_m, std::uint64_t
 }
 
 double Shortest_m(const SyntheticScene& scene) {
-  const EdgeCost length(scene.field, CostKind::kEuclidean, 0.0);
+  const EdgeCost length(scene.information, CostKind::kEuclidean, 0.0);
   const Cell start = scene.occupancy.geometry().CellAt(scene.start);
   return OracleCosts(length, start, kConnectivity)[scene.goal.cell];
 }

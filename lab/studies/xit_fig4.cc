@@ -70,9 +70,9 @@ struct SceneStudy {
 std::optional<FoundPath> Search(const SyntheticScene& scene, const Spread& spread,
                                 std::uint64_t seed) {
   PlanningOptions options;
-  options.samples = spread.samples;
+  options.sample_count = spread.samples;
   options.sampling = spread.sampling;
-  const EdgeCost cost(scene.field, CostKind::kUcb, kAlpha_per_m);
+  const EdgeCost cost(scene.information, CostKind::kUcb, kAlpha_per_m);
   const std::vector<Goal> goals = {scene.goal};
   const StopFn stop = NeverStop();
   return XitPlanner(options)
@@ -81,7 +81,7 @@ std::optional<FoundPath> Search(const SyntheticScene& scene, const Spread& sprea
 }
 
 double OracleCost(const SyntheticScene& scene) {
-  const EdgeCost cost(scene.field, CostKind::kUcb, kAlpha_per_m);
+  const EdgeCost cost(scene.information, CostKind::kUcb, kAlpha_per_m);
   const Cell start = scene.occupancy.geometry().CellAt(scene.start);
   return OracleCosts(cost, start, kConnectivity)[scene.goal.cell];
 }

@@ -117,12 +117,12 @@ std::vector<Point2> DrivenUntil(const RecordedMission& mission, double time_s) {
   return driven;
 }
 
-InformationField FieldOf(const MissionMoment& moment) {
+InformationMap InformationOf(const MissionMoment& moment) {
   const Belief& belief = *moment.belief;
   const MissionOptions& options = *belief.options;
-  return MakeInformationField({*belief.traversable, *belief.gas_mean_ppm, *belief.gas_variance_ppm2,
-                               options.gas, options.frontier},
-                              options.planning);
+  return MakeInformationMap({*belief.traversable, *belief.gas_mean_ppm, *belief.gas_variance_ppm2,
+                             options.gas, options.frontier},
+                            options.planning);
 }
 
 MapPanel MomentPanel(const RecordedMission& mission, const MissionMoment& moment,
@@ -149,14 +149,14 @@ MapPanel MomentFieldPanel(const MissionMoment& moment, const std::string& title,
                           const MomentStyle& style) {
   const ColorScale scale{ColorMap::kGas, 0.0, 1.0, false};
   const Belief& belief = *moment.belief;
-  const InformationField field = FieldOf(moment);
+  const InformationMap information = InformationOf(moment);
   MapPanel panel;
   panel.title = title;
   panel.region = style.region;
   panel.cells = PaintCells(belief.geometry(), style.region, [&](Cell cell) {
     const CellState state = (*belief.occupancy)[cell];
     if (state != CellState::kFree) return StateColor(state);
-    return (*belief.traversable)[cell] != 0 ? scale(field.information[cell]) : kTooNearColor;
+    return (*belief.traversable)[cell] != 0 ? scale(information.value[cell]) : kTooNearColor;
   });
   for (const Candidate& candidate : moment.plan.candidates) {
     panel.lines.push_back({candidate.path, kCandidate});

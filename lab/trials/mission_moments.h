@@ -9,7 +9,7 @@
 
 #include "absl/status/statusor.h"
 #include "core/belief/belief.h"
-#include "core/plan/cost/information_field.h"
+#include "core/plan/cost/information_map.h"
 #include "core/types/plan.h"
 #include "lab/report/chart.h"
 #include "lab/report/map_panel.h"
@@ -49,8 +49,8 @@ absl::StatusOr<RecordedMission> RecordMission(const SceneWorld& world, EpisodeOp
 const Candidate& Chosen(const MissionMoment& moment);
 // Where the robot was up to the moment.
 std::vector<Point2> DrivenUntil(const RecordedMission& mission, double time_s);
-// The UCB field on which the moment's plan was made.
-InformationField FieldOf(const MissionMoment& moment);
+// The information map on which the moment's plan was made.
+InformationMap InformationOf(const MissionMoment& moment);
 
 // How pictures of moments are made.
 struct MomentStyle {
@@ -62,7 +62,7 @@ struct MomentStyle {
 // the way so far and the trajectory that was chosen.
 MapPanel MomentPanel(const RecordedMission& mission, const MissionMoment& moment,
                      const std::string& title, const MomentStyle& style);
-// The UCB field with the paths to all candidates, that of the choice thick; cells too near to
+// The information map with the paths to all candidates, that of the choice thick; cells too near to
 // obstacles grey.
 MapPanel MomentFieldPanel(const MissionMoment& moment, const std::string& title,
                           const MomentStyle& style);

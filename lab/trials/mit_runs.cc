@@ -19,12 +19,12 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kTrajectories = 3;
 
-// [MIT] section IV: the strategy's search, bare. It takes samples of the field alone.
+// [MIT] section IV: the strategy's search, bare. It takes samples of the information map alone.
 PlanningOptions Mit() {
   PlanningOptions options;
   options.strategy = "mit";
   if (!ApplyStrategyRow(options).ok()) return {};
-  options.samples = kMitSamples;
+  options.sample_count = kMitSamples;
   return options;
 }
 
@@ -41,12 +41,12 @@ std::unique_ptr<const PathPlanner> Tree(PathKind kind) {
 }
 
 // Eq. (3): the mean over the cells of the path, each by the length of the path inside it.
-double Psi(const InformationField& field, const std::vector<Point2>& path) {
+double Psi(const InformationMap& information, const std::vector<Point2>& path) {
   double sum = 0.0;
   double length_cells = 0.0;
-  const double resolution_m = field.information.geometry().resolution_m;
+  const double resolution_m = information.value.geometry().resolution_m;
   for (std::size_t i = 1; i < path.size(); ++i) {
-    sum += SegmentIntegral_cells(field.information, path[i - 1], path[i]);
+    sum += SegmentIntegral_cells(information.value, path[i - 1], path[i]);
     length_cells += Distance_m(path[i - 1], path[i]) / resolution_m;
   }
   return sum / length_cells;
@@ -61,7 +61,7 @@ MitRun Judge(const PathResult& result, const MitScene& scene) {
     if (!result.paths[i]) continue;
     run.paths[i] = result.paths[i]->vertices;
     run.length_m[i] = PathLength_m(run.paths[i]);
-    run.psi[i] = Psi(scene.field, run.paths[i]);
+    run.psi[i] = Psi(scene.information, run.paths[i]);
     const bool better = run.best < 0 || run.psi[i] > run.psi[static_cast<std::size_t>(run.best)];
     if (better) run.best = static_cast<int>(i);
   }
@@ -105,7 +105,7 @@ std::vector<MitRival> MitRivals() {
 
 std::vector<MitRun> RunMitRival(const MitRival& rival, const MitScene& scene, int runs,
                                 std::uint64_t seed, const std::function<void()>& done) {
-  const EdgeCost length(scene.field, CostKind::kEuclidean, 0.0);
+  const EdgeCost length(scene.information, CostKind::kEuclidean, 0.0);
   const StopFn stop = NeverStop();
   Rng seeds(seed);
   std::vector<MitRun> results;

@@ -45,12 +45,12 @@ PriorField MakePriorField(const Scene& scene, const GasOptions& gas) {
   for (std::size_t i = 0; i < variable.size(); ++i) {
     const int a = variable[i];
     if (a == kNoVariable) continue;
-    field.precision.push_back({a, a, gas.background_precision});
+    field.precision.push_back({a, a, gas.background_precision_per_ppm2});
     const Cell cell = geometry.CellAtIndex(i);
     for (const Cell next : {Cell{cell.x + 1, cell.y}, Cell{cell.x, cell.y + 1}}) {
       const int b = variable.At(next, kNoVariable);
       if (b == kNoVariable) continue;
-      const double link = gas.prior_precision;
+      const double link = gas.prior_precision_per_ppm2;
       field.precision.insert(field.precision.end(), {{a, a, link}, {b, b, link}, {b, a, -link}});
     }
   }
@@ -78,7 +78,7 @@ class CriticalPosterior {
     PLUMESCOUT_RETURN_IF_ERROR(cholesky.Factorize(matrix));
     const auto n = static_cast<Eigen::Index>(field.critical.size());
     CriticalPosterior posterior;
-    posterior.noise_ppm2_ = 1.0F / static_cast<float>(gas.observation_precision);
+    posterior.noise_ppm2_ = 1.0F / static_cast<float>(gas.observation_precision_per_ppm2);
     posterior.covariance_.resize(n, n);
     posterior.residual_.resize(n);
     std::vector<double> column(static_cast<std::size_t>(field.variables));

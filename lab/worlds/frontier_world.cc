@@ -73,9 +73,9 @@ MissionOptions MakeOptions(WgfdScope scope, std::uint64_t seed) {
   MissionOptions options;
   options.occupancy.resolution_m = kResolution_m;
   options.frontier.wgfd_scope = scope;
-  options.frontier.min_gas_cells = 3;          // the width of a corridor
+  options.frontier.min_gas_cell_count = 3;     // the width of a corridor
   options.planning.min_goal_distance_m = 0.2;  // less than a cell
-  options.planning.max_goals = 1;  // leaves no slot for occupancy frontiers while there is gas
+  options.planning.max_goal_count = 1;  // leaves no slot for occupancy frontiers while there is gas
   options.seed = seed;
   return options;
 }

@@ -105,7 +105,7 @@ absl::StatusOr<MitScene> BuildMitScene(const MitSceneSpec& spec) {
   scene.reachable = ReachableCells(traversable, {start});
   PlanningOptions planning;  // beta = lambda of Eq. (2) = 1
   planning.raw_variance = spec.raw_variance;
-  scene.field = MakeInformationField(
+  scene.information = MakeInformationMap(
       {scene.reachable, gas.mean_ppm(), gas.variance_ppm2(), gas_options, FrontierOptions{}},
       planning);
   for (const Point2 place : spec.goals) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "core/plan/cost/information_field.h"
+#include "core/plan/cost/information_map.h"
 #include "core/types/cell_state.h"
 #include "core/types/grid.h"
 #include "core/types/plan.h"
@@ -38,7 +38,7 @@ struct MitScene {
   std::string name;
   Grid<CellState> occupancy;
   Grid<float> true_gas_ppm;
-  InformationField field;        // of the posterior after the drive: UCB, Eq. (2), as I-hat
+  InformationMap information;    // of the posterior after the drive: UCB, Eq. (2), as I-hat
   Grid<std::uint8_t> reachable;  // from the start
   Point2 start;
   std::vector<Goal> goals;

@@ -121,7 +121,7 @@ SyntheticScene BuildScene(const SceneSpec& spec) {
       TraversableCells(scene.occupancy, OccupancyOptions{}.inflation_radius_m);
   const GasOptions gas;
   const Grid<float> variance_ppm2(geometry, static_cast<float>(OpenLatticeVariance_ppm2(gas)));
-  scene.field = MakeInformationField(
+  scene.information = MakeInformationMap(
       {traversable, MakeMean_ppm(spec, geometry), variance_ppm2, gas, FrontierOptions{}},
       PlanningOptions{});
   const Cell start = geometry.CellAt(spec.start);
@@ -175,7 +175,7 @@ double PathLength_m(const std::vector<Point2>& path) {
 double MeanInformation(const SyntheticScene& scene, const std::vector<Point2>& path) {
   double integral_cells = 0.0;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    integral_cells += SegmentIntegral_cells(scene.field.information, path[i], path[i + 1]);
+    integral_cells += SegmentIntegral_cells(scene.information.value, path[i], path[i + 1]);
   }
   return integral_cells * scene.occupancy.geometry().resolution_m / PathLength_m(path);
 }
@@ -189,8 +189,8 @@ MapPanel MakeScenePanel(const SyntheticScene& scene) {
   panel.region = RegionOf(scene.occupancy.geometry());
   panel.cells = PaintCells(scene.occupancy.geometry(), panel.region, [&](Cell cell) {
     if (scene.occupancy[cell] != CellState::kFree) return kWallColor;
-    return std::isfinite(scene.field.penalty[cell]) ? scale(scene.field.information[cell])
-                                                    : kUnknownColor;
+    return std::isfinite(scene.information.penalty[cell]) ? scale(scene.information.value[cell])
+                                                          : kUnknownColor;
   });
   panel.marks = {{MarkShape::kDisc, kStartMark, scene.start},
                  {MarkShape::kDisc, kGoalMark, scene.goal.position}};

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/plan/cost/information_field.h"
+#include "core/plan/cost/information_map.h"
 #include "core/plan/paths/path_planner.h"
 #include "core/types/cell_state.h"
 #include "core/types/grid.h"
@@ -37,11 +37,11 @@ struct SceneSpec {
 };
 
 // Where one search from one start to one goal is studied: everything known, in cells of 0.1 m with
-// an outer wall, the gas with one variance everywhere, so that the information field is the mean.
+// an outer wall, the gas with one variance everywhere, so that the information map is the mean.
 struct SyntheticScene {
   std::string name;
   Grid<CellState> occupancy;
-  InformationField field;
+  InformationMap information;
   Grid<std::uint8_t> reachable;  // from the start, with the default inflation
   Point2 start;                  // a cell's centre
   Goal goal;

@@ -9,7 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/types/status_macros.h"
 #include "server/config/config_file.h"
-#include "server/config/config_table.h"
+#include "server/config/option_help.h"
 
 namespace plumescout::server {
 namespace {
@@ -29,19 +29,6 @@ void Declare(Flags& flags, CLI::App& app) {
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   app.set_version_flag("--version", "plumescout-server 0.1.0");
-}
-
-// The options with their defaults, one a line.
-std::string OptionHelp() {
-  ServerConfig defaults;
-  std::string help = "Options of the configuration:\n";
-  for (const ConfigRow& row : ConfigTable(defaults)) {
-    absl::StrAppend(&help, "  ", row.key, " = ", RowText(row), "\n      ", row.help, "\n");
-  }
-  absl::StrAppend(&help,
-                  "  mission.*\n      options of missions whose creator leaves them unset; "
-                  "deploy/config/plumescout.yaml lists them\n");
-  return help;
 }
 
 absl::StatusOr<ServerConfig> BuildConfig(const Flags& flags) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "absl/status/status.h"
 #include "core/types/options.h"
 
 namespace plumescout::server {
@@ -48,7 +49,8 @@ struct ConnectionConfig {
   double drain_s = 1.0;  // calls in flight get this long when the server stops
 };
 
-// Everything that can be set, by file or flag; see config_file.h.
+// Everything that can be set, by file or flag: the fields of plumescout.config.v1.ServerConfig,
+// where their meaning and range stand. See config_file.h.
 struct ServerConfig {
   std::string listen = "127.0.0.1:50551";
   LimitConfig limits;
@@ -58,5 +60,8 @@ struct ServerConfig {
   ConnectionConfig connection;
   MissionOptions mission;  // what missions get for fields that their creator leaves unset
 };
+
+// kInvalidArgument naming option, value and range: "planning.threads = 0 must be in [1, 256]".
+absl::Status Validate(const ServerConfig& config);
 
 }  // namespace plumescout::server

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/strings/string_view.h"
-#include "plumescout/v1/options.pb.h"
+#include "plumescout/config/v1/server_config.pb.h"
 #include "server/config/config.h"
 
 namespace plumescout::server {
@@ -27,8 +28,11 @@ class ConfigBuilder {
   absl::StatusOr<ServerConfig> Build() const;
 
  private:
-  ServerConfig config_;
-  v1::MissionOptions mission_;
+  // `place`: for errors, "server.yaml:12: " or nothing.
+  absl::Status SetAt(const std::string& place, absl::string_view key, const std::string& text);
+
+  config::v1::ServerConfig proto_;
+  std::map<std::string, std::string> places_;  // of each option set
 };
 
 }  // namespace plumescout::server

@@ -15,7 +15,8 @@ namespace plumescout::server {
 
 std::int64_t CellBound(const OccupancyOptions& options) {
   const double side = std::ceil(options.max_extent_m / options.resolution_m);
-  return static_cast<std::int64_t>(std::min(side * side, static_cast<double>(options.max_cells)));
+  return static_cast<std::int64_t>(
+      std::min(side * side, static_cast<double>(options.max_cell_count)));
 }
 
 MissionRegistry::MissionRegistry(const RegistryOptions& options, RegistryHooks hooks)

@@ -78,7 +78,7 @@ absl::Status MissionService::Create(const v1::CreateMissionRequest& request, v1:
   const auto host = context_.registry->Create(request.mission_id(), options);
   PLUMESCOUT_RETURN_IF_ERROR(WithField(host.status(), "options"));
   LogInfo("mission created", {{"mission", request.mission_id()},
-                              {"max_cells", absl::StrCat(CellBound(options.occupancy))},
+                              {"max_cell_count", absl::StrCat(CellBound(options.occupancy))},
                               {"strategy", options.planning.strategy}});
   mission = Describe(**host, WithoutPriorMap(options));
   return absl::OkStatus();

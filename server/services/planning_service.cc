@@ -65,19 +65,19 @@ absl::Status CheckOn(const Belief& belief, const RobotId& robot, const CheckSubj
 }
 
 // A planning call: carries cancellation to the job and its answer back.
-class PlanCall final : public grpc::ServerUnaryReactor {
+class PlanReactor final : public grpc::ServerUnaryReactor {
  public:
-  explicit PlanCall(v1::NextBestTrajectoryResponse* response) : response_(response) {}
+  explicit PlanReactor(v1::NextBestTrajectoryResponse* response) : response_(response) {}
 
   // The call owns itself until gRPC is done with it.
-  static PlanCall* Start(const ServiceContext& context, grpc::CallbackServerContext* call,
-                         const v1::NextBestTrajectoryRequest& request,
-                         v1::NextBestTrajectoryResponse* response) {
-    auto plan_call = std::make_shared<PlanCall>(response);
-    plan_call->self_ = plan_call;
-    const absl::Status status = plan_call->Order(context, call, request);
-    if (!status.ok()) Answer(plan_call.get(), status);
-    return plan_call.get();
+  static PlanReactor* Start(const ServiceContext& context, grpc::CallbackServerContext* call,
+                            const v1::NextBestTrajectoryRequest& request,
+                            v1::NextBestTrajectoryResponse* response) {
+    auto reactor = std::make_shared<PlanReactor>(response);
+    reactor->self_ = reactor;
+    const absl::Status status = reactor->Order(context, call, request);
+    if (!status.ok()) Answer(reactor.get(), status);
+    return reactor.get();
   }
 
   void OnCancel() override {
@@ -115,7 +115,7 @@ class PlanCall final : public grpc::ServerUnaryReactor {
   }
 
   v1::NextBestTrajectoryResponse* const response_;
-  std::shared_ptr<PlanCall> self_;  // until OnDone
+  std::shared_ptr<PlanReactor> self_;  // until OnDone
   std::shared_ptr<PlanJob> job_;
 };
 
@@ -124,7 +124,7 @@ class PlanCall final : public grpc::ServerUnaryReactor {
 grpc::ServerUnaryReactor* PlanningService::NextBestTrajectory(
     grpc::CallbackServerContext* call, const v1::NextBestTrajectoryRequest* request,
     v1::NextBestTrajectoryResponse* response) {
-  return PlanCall::Start(context_, call, *request, response);
+  return PlanReactor::Start(context_, call, *request, response);
 }
 
 grpc::ServerWriteReactor<v1::StreamNextBestTrajectoryResponse>*

@@ -15,7 +15,8 @@ namespace plumescout {
 // includes that are not relative to the root.
 std::vector<std::string> CheckDirections(const std::vector<SourceFile>& files);
 
-// Cycles of files, and of folders as the table knows them; one line each, with the way round.
+// Cycles of files, and of folders, each subfolder a folder of its own; one line each, with the way
+// round.
 std::vector<std::string> CheckCycles(const std::vector<SourceFile>& files);
 
 // Headers of the platform where they must not be: protobuf, gRPC, threads, files, clocks and global

@@ -79,6 +79,20 @@ TEST(IncludeRules, CyclesOfFoldersAreFoundWithoutOneOfFiles) {
               ElementsAre("lab/bench -> lab/program -> lab/bench"));
 }
 
+TEST(IncludeRules, CyclesOfSubfoldersAreFound) {
+  EXPECT_THAT(CheckCycles(Tree({{"core/plan/a.h", "#include \"core/plan/paths/b.h\"\n"},
+                                {"core/plan/c.h", ""},
+                                {"core/plan/paths/b.h", "#include \"core/plan/c.h\"\n"}})),
+              ElementsAre("core/plan -> core/plan/paths -> core/plan"));
+}
+
+TEST(IncludeRules, ASubfolderIsARoomOfItsOwn) {
+  EXPECT_THAT(CheckDirections(Tree({{"core/plan/paths/a.h", "#include \"core/plan/b.h\"\n"},
+                                    {"core/plan/b.h", "#include \"core/plan/cost/c.h\"\n"},
+                                    {"core/plan/cost/c.h", ""}})),
+              ElementsAre("core/plan/paths/a.h must not include core/plan/b.h"));
+}
+
 TEST(IncludeRules, PlatformHeadersOutOfPlaceAreFound) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"core/gas/a.cc", "#include <thread>\n"},

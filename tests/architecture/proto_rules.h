@@ -11,4 +11,8 @@ namespace plumescout {
 // numbers in proto_rules.cc; one line each.
 std::vector<std::string> CheckUnits(const std::string& path, const std::string& text);
 
+// Numbers below the largest of a message or enum that are neither used nor reserved: they may have
+// meant something to somebody. One line for each.
+std::vector<std::string> CheckNumbers(const std::string& path, const std::string& text);
+
 }  // namespace plumescout

@@ -39,5 +39,28 @@ message A {
       ElementsAre("a.proto: height does not say its unit", "a.proto: speed does not say its unit"));
 }
 
+TEST(ProtoRules, EveryNumberIsUsedOrReserved) {
+  for (const std::string& path : ListFiles("proto/plumescout", ".proto"))
+    EXPECT_EQ(absl::StrJoin(CheckNumbers(path, ReadText(path)), "\n"), "");
+}
+
+TEST(ProtoRules, SkippedNumbersAreFound) {
+  EXPECT_THAT(CheckNumbers("a.proto", R"(
+service S { rpc Call(A) returns (B) { option x = 3; } }
+message A {
+  reserved 2, 5 to 6;
+  enum Kind { NONE = 0; ONE = 1; THREE = 3; }
+  double a_m = 1;
+  // double b_m = 3;
+  oneof c { int32 d_m = 4; int32 e_m = 8; }
+  message Inner { double f_m = 2 [deprecated = true]; }
+}
+)"),
+              ElementsAre("a.proto: Kind neither uses nor reserves 2",
+                          "a.proto: Inner neither uses nor reserves 1",
+                          "a.proto: A neither uses nor reserves 3",
+                          "a.proto: A neither uses nor reserves 7"));
+}
+
 }  // namespace
 }  // namespace plumescout

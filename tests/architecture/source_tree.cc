@@ -86,7 +86,9 @@ void AddInclude(absl::string_view line, SourceFile& file) {
 
 bool SourceFile::is_header() const { return absl::EndsWith(path, ".h"); }
 
-std::string SourceFile::folder() const {
+std::string SourceFile::folder() const { return FolderOf(path); }
+
+std::string FolderOf(const std::string& path) {
   const std::size_t slash = path.rfind('/');
   return slash == std::string::npos ? "" : path.substr(0, slash);
 }

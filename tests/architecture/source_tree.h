@@ -19,6 +19,9 @@ struct SourceFile {
   std::string folder() const;  // "core/gas"
 };
 
+// "core/gas" of "core/gas/gas_map.h"; empty if it lies in none.
+std::string FolderOf(const std::string& path);
+
 // `path` names the file, which need not exist.
 SourceFile ParseSource(const std::string& path, const std::string& text);
 

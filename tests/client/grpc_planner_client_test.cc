@@ -133,9 +133,9 @@ TEST_F(GrpcPlannerClientTest, ErrorsComeWithTheServersReasonAndDetails) {
   EXPECT_EQ(ErrorReason(held), kLeaseHeld);
 
   MissionOptions options;
-  options.gas.prior_precision = -2.0;
+  options.gas.prior_precision_per_ppm2 = -2.0;
   EXPECT_THAT(FieldViolations(client_->CreateMission("barn", options)),
-              Contains(Field(&FieldViolation::field, HasSubstr("prior_precision"))));
+              Contains(Field(&FieldViolation::field, HasSubstr("prior_precision_per_ppm2"))));
 }
 
 TEST_F(GrpcPlannerClientTest, MissionsAreMadeWithTheOptionsGiven) {

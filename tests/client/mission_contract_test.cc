@@ -35,7 +35,7 @@ TEST_P(MissionContract, BadNamesAndOptionsAreRefused) {
   EXPECT_TRUE(absl::IsInvalidArgument(client().CreateMission("House!", {})));
   EXPECT_TRUE(absl::IsInvalidArgument(client().CreateMission("", {})));
   MissionOptions options;
-  options.gas.prior_precision = std::nan("");
+  options.gas.prior_precision_per_ppm2 = std::nan("");
   EXPECT_TRUE(absl::IsInvalidArgument(client().CreateMission("barn", options)));
   EXPECT_TRUE(absl::IsInvalidArgument(
       client().RegisterRobot("house", "Bad Robot", kRadius_m, false).status()));

@@ -43,7 +43,7 @@ class PlanJobTest : public ::testing::Test {
     for (int i = 0; i < kReadings; ++i) ingest_->Append(i, {}, GasReading{});
   }
 
-  PlanAnswer Run(std::optional<PlanReport> report, absl::Duration timeout = kPatience) {
+  PlanReply Run(std::optional<PlanReport> report, absl::Duration timeout = kPatience) {
     PlanCall job{.report = report, .query = {}};
     job.query.request.robot = "r";
     job.query.min_applied_sequence = kReadings;
@@ -57,7 +57,7 @@ class PlanJobTest : public ::testing::Test {
 };
 
 TEST_F(PlanJobTest, ThePlanIsAskedForUnderThePresentLease) {
-  const PlanAnswer answer = Run(std::nullopt);
+  const PlanReply answer = Run(std::nullopt);
 
   ASSERT_TRUE(answer.plan.ok()) << answer.plan.status();
   EXPECT_FALSE(answer.reported);
@@ -68,7 +68,7 @@ TEST_F(PlanJobTest, ThePlanIsAskedForUnderThePresentLease) {
 }
 
 TEST_F(PlanJobTest, TheLastPlanIsReportedOnceTheReadingsOfItsWayAreApplied) {
-  const PlanAnswer answer = Run(kReached);
+  const PlanReply answer = Run(kReached);
 
   ASSERT_TRUE(answer.plan.ok()) << answer.plan.status();
   EXPECT_TRUE(answer.reported);
@@ -81,7 +81,7 @@ TEST_F(PlanJobTest, AReportThatTheServerCannotPlaceIsLetGo) {
        {absl::NotFoundError("PLAN_NOT_FOUND: plan 7"), absl::FailedPreconditionError("stale")}) {
     server_.set_report_answer(answer_to_report);
 
-    const PlanAnswer answer = Run(kReached);
+    const PlanReply answer = Run(kReached);
 
     EXPECT_TRUE(answer.plan.ok()) << answer.plan.status();
     EXPECT_TRUE(answer.reported);
@@ -91,7 +91,7 @@ TEST_F(PlanJobTest, AReportThatTheServerCannotPlaceIsLetGo) {
 TEST_F(PlanJobTest, AReportThatDidNotArriveIsKeptAndNoPlanAskedFor) {
   server_.set_report_answer(absl::UnavailableError("busy"));
 
-  const PlanAnswer answer = Run(kReached);
+  const PlanReply answer = Run(kReached);
 
   EXPECT_TRUE(absl::IsUnavailable(answer.plan.status()));
   EXPECT_FALSE(answer.reported);
@@ -106,7 +106,7 @@ TEST_F(PlanJobTest, ReadingsThatAreNotAppliedInTimeHoldUpTheReport) {
   job.query.min_applied_sequence = kReadings + 1;
   job.query.timeout = absl::Milliseconds(20);
 
-  const PlanAnswer answer = RunPlanCall(server_, *ingest_, std::move(job));
+  const PlanReply answer = RunPlanCall(server_, *ingest_, std::move(job));
 
   EXPECT_TRUE(absl::IsDeadlineExceeded(answer.plan.status())) << answer.plan.status();
   EXPECT_FALSE(answer.reported);
@@ -124,7 +124,7 @@ TEST_F(PlanJobTest, ALostLeaseEndsTheJob) {
 TEST_F(PlanJobTest, WhatThePlannerSaysIsPassedOn) {
   server_.set_script([](const PlanQuery&) { return absl::ResourceExhaustedError("too many"); });
 
-  const PlanAnswer answer = Run(kReached);
+  const PlanReply answer = Run(kReached);
 
   EXPECT_EQ(answer.plan.status(), absl::ResourceExhaustedError("too many"));
   EXPECT_TRUE(answer.reported);  // not to be made again

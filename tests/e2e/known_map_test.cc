@@ -7,13 +7,13 @@
 #include <variant>
 
 #include "core/types/prior_map.h"
-#include "tests/e2e/trial.h"
+#include "tests/e2e/hall_run.h"
 
 namespace plumescout::lab {
 namespace {
 
 EpisodeOptions BlindOptions() {
-  EpisodeOptions options = TrialOptions();
+  EpisodeOptions options = HallOptions();
   options.rates.scan_hz = 0.0;
   StartWith(std::make_shared<const Grid<CellState>>(GasHall().occupancy()), *options.create);
   return options;
@@ -27,16 +27,16 @@ TEST(KnownMapTest, ARobotThatNeverScansMapsTheGasOverTheWire) {
     scanned = scanned || std::holds_alternative<Scan>(observation.payload);
     return observation;
   });
-  const auto trial = RunTrial(*planner, BlindOptions());
-  ASSERT_TRUE(trial.ok()) << trial.status();
+  const auto run = RunInHall(*planner, BlindOptions());
+  ASSERT_TRUE(run.ok()) << run.status();
   EXPECT_FALSE(scanned);
-  EXPECT_GT(trial->episode.distance_m, 5.0);
-  EXPECT_GT(trial->map.gas_counters.in_posterior, 50);
-  EXPECT_EQ(trial->map.gas_counters.waiting, 0);
-  for (const IssuedPlan& issued : trial->episode.plans) {
+  EXPECT_GT(run->episode.distance_m, 5.0);
+  EXPECT_GT(run->map.gas_counters.in_posterior, 50);
+  EXPECT_EQ(run->map.gas_counters.waiting, 0);
+  for (const IssuedPlan& issued : run->episode.plans) {
     EXPECT_TRUE(issued.plan.chosen < 0 || issued.plan.phase != MissionPhase::kExploring);
   }
-  const MetricSample& last = trial->episode.samples.back();
+  const MetricSample& last = run->episode.samples.back();
   EXPECT_EQ(last.metrics.completeness, 1.0) << "nothing else was to be found";
   EXPECT_LT(last.metrics.rmse_ppm, last.metrics.rmse_zero_ppm);
 }
@@ -44,10 +44,10 @@ TEST(KnownMapTest, ARobotThatNeverScansMapsTheGasOverTheWire) {
 TEST(KnownMapTest, RunsRepeatToTheByte) {
   const auto server = StartServer();
   const auto client = ClientOf(*server);
-  const auto first = RunTrial(*client, BlindOptions());
+  const auto first = RunInHall(*client, BlindOptions());
   ASSERT_TRUE(first.ok()) << first.status();
-  ASSERT_TRUE(client->DeleteMission(kTrialMission).ok());
-  const auto second = RunTrial(*client, BlindOptions());
+  ASSERT_TRUE(client->DeleteMission(kHallMission).ok());
+  const auto second = RunInHall(*client, BlindOptions());
   ASSERT_TRUE(second.ok()) << second.status();
   EXPECT_TRUE(ComparablePlans(first->episode) == ComparablePlans(second->episode));
   EXPECT_TRUE(SameMap(first->map, second->map));

@@ -4,33 +4,33 @@
 #include <gtest/gtest.h>
 
 #include "lab/local/local_planner_client.h"
-#include "tests/e2e/trial.h"
+#include "tests/e2e/hall_run.h"
 
 namespace plumescout::lab {
 namespace {
 
-Trial RunOverGrpc() {
+HallRun RunOverGrpc() {
   const auto server = StartServer();
   const auto planner = ClientOf(*server);
-  const absl::StatusOr<Trial> trial = RunTrial(*planner, TrialOptions());
-  EXPECT_TRUE(trial.ok()) << trial.status();
-  return trial.ok() ? *trial : Trial{};
+  const absl::StatusOr<HallRun> run = RunInHall(*planner, HallOptions());
+  EXPECT_TRUE(run.ok()) << run.status();
+  return run.ok() ? *run : HallRun{};
 }
 
-Trial RunInProcess() {
+HallRun RunInProcess() {
   LocalPlannerClient local;
   const auto planner = WithTap(local, AsOnTheWire);
-  const absl::StatusOr<Trial> trial = RunTrial(*planner, TrialOptions());
-  EXPECT_TRUE(trial.ok()) << trial.status();
-  return trial.ok() ? *trial : Trial{};
+  const absl::StatusOr<HallRun> run = RunInHall(*planner, HallOptions());
+  EXPECT_TRUE(run.ok()) << run.status();
+  return run.ok() ? *run : HallRun{};
 }
 
-const Trial& TrialOverGrpc() {
-  static const Trial trial = RunOverGrpc();
-  return trial;
+const HallRun& HallRunOverGrpc() {
+  static const HallRun run = RunOverGrpc();
+  return run;
 }
 
-void ExpectSame(const Trial& a, const Trial& b) {
+void ExpectSame(const HallRun& a, const HallRun& b) {
   ASSERT_EQ(a.episode.path.size(), b.episode.path.size());
   for (std::size_t i = 0; i < a.episode.path.size(); ++i) {
     ASSERT_EQ(a.episode.path[i].time_s, b.episode.path[i].time_s) << i;
@@ -41,24 +41,24 @@ void ExpectSame(const Trial& a, const Trial& b) {
 }
 
 TEST(RepeatabilityTest, AMissionIsWorthComparing) {
-  const Trial& trial = TrialOverGrpc();
+  const HallRun& run = HallRunOverGrpc();
 
-  EXPECT_EQ(trial.episode.readings_applied, trial.episode.readings_sent);
-  EXPECT_GT(trial.episode.readings_sent, 400);  // 12 a second
-  EXPECT_GE(trial.episode.plans.size(), 3U);
-  EXPECT_GT(trial.episode.distance_m, 5.0);
-  EXPECT_EQ(trial.episode.collisions, 0);
-  EXPECT_GT(trial.episode.samples.back().metrics.completeness,
-            trial.episode.samples.front().metrics.completeness);
-  EXPECT_GT(trial.map.gas_counters.in_posterior, 0);
+  EXPECT_EQ(run.episode.readings_applied, run.episode.readings_sent);
+  EXPECT_GT(run.episode.readings_sent, 400);  // 12 a second
+  EXPECT_GE(run.episode.plans.size(), 3U);
+  EXPECT_GT(run.episode.distance_m, 5.0);
+  EXPECT_EQ(run.episode.collisions, 0);
+  EXPECT_GT(run.episode.samples.back().metrics.completeness,
+            run.episode.samples.front().metrics.completeness);
+  EXPECT_GT(run.map.gas_counters.in_posterior, 0);
 }
 
 TEST(RepeatabilityTest, OverGrpcTheSameMissionComesToTheSameBytes) {
-  ExpectSame(TrialOverGrpc(), RunOverGrpc());
+  ExpectSame(HallRunOverGrpc(), RunOverGrpc());
 }
 
 TEST(RepeatabilityTest, WithinOneProcessAMissionComesToTheBytesOfTheWire) {
-  ExpectSame(TrialOverGrpc(), RunInProcess());
+  ExpectSame(HallRunOverGrpc(), RunInProcess());
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/plan/strategy.h"
-#include "tests/e2e/trial.h"
+#include "tests/e2e/hall_run.h"
 
 namespace plumescout::lab {
 namespace {
@@ -23,7 +23,7 @@ constexpr double kSpacing_m = 0.5;
 
 // Readings are taken at stops alone.
 EpisodeOptions SamplingOptions(const char* strategy) {
-  EpisodeOptions options = TrialOptions();
+  EpisodeOptions options = HallOptions();
   options.duration_s = 150.0;
   options.gas_settling_s = 1.0;
   PlanningOptions& planning = options.create->planning;
@@ -34,12 +34,12 @@ EpisodeOptions SamplingOptions(const char* strategy) {
   return options;
 }
 
-Trial RunOverGrpc(const EpisodeOptions& options) {
+HallRun RunOverGrpc(const EpisodeOptions& options) {
   const auto server = StartServer();
   const auto planner = ClientOf(*server);
-  absl::StatusOr<Trial> trial = RunTrial(*planner, options);
-  EXPECT_TRUE(trial.ok()) << trial.status();
-  return trial.ok() ? *std::move(trial) : Trial{};
+  absl::StatusOr<HallRun> run = RunInHall(*planner, options);
+  EXPECT_TRUE(run.ok()) << run.status();
+  return run.ok() ? *std::move(run) : HallRun{};
 }
 
 // Column and row in the region.
@@ -56,12 +56,12 @@ TEST(SamplingTest, LhrSurveysThenSamplesEachSiteOnceAndIsComplete) {
   EpisodeOptions options = SamplingOptions("lhr");
   options.create->planning.sites.region = kRegion;
   options.create->planning.sites.survey_stride = 2;
-  const Trial trial = RunOverGrpc(options);
-  EXPECT_TRUE(trial.episode.completed);
-  EXPECT_EQ(trial.episode.collisions, 0);
+  const HallRun run = RunOverGrpc(options);
+  EXPECT_TRUE(run.episode.completed);
+  EXPECT_EQ(run.episode.collisions, 0);
   std::set<std::pair<int, int>> sampled;
   std::vector<MissionPhase> phases;
-  for (const IssuedPlan& issued : trial.episode.plans) {
+  for (const IssuedPlan& issued : run.episode.plans) {
     const Plan& plan = issued.plan;
     if (phases.empty() || phases.back() != plan.phase) phases.push_back(plan.phase);
     if (plan.chosen < 0) continue;
@@ -73,18 +73,18 @@ TEST(SamplingTest, LhrSurveysThenSamplesEachSiteOnceAndIsComplete) {
   EXPECT_THAT(sampled, SizeIs(15));
   EXPECT_THAT(phases, ::testing::ElementsAre(MissionPhase::kSurvey, MissionPhase::kSampling,
                                              MissionPhase::kComplete));
-  EXPECT_THAT(Chosen(trial.episode.plans.front().plan).stops, SizeIs(6));
+  EXPECT_THAT(Chosen(run.episode.plans.front().plan).stops, SizeIs(6));
 }
 
 TEST(SamplingTest, TheRewardOfConcentrationAndDoubtSendsARobotFromSiteToSite) {
   EpisodeOptions options = SamplingOptions("ipp_reward");
   options.duration_s = 60.0;
-  const Trial trial = RunOverGrpc(options);
-  EXPECT_FALSE(trial.episode.completed);
-  EXPECT_EQ(trial.episode.collisions, 0);
-  ASSERT_GE(trial.episode.plans.size(), 10u) << "sites half a metre apart, 2 s at each";
+  const HallRun run = RunOverGrpc(options);
+  EXPECT_FALSE(run.episode.completed);
+  EXPECT_EQ(run.episode.collisions, 0);
+  ASSERT_GE(run.episode.plans.size(), 10u) << "sites half a metre apart, 2 s at each";
   std::set<std::pair<int, int>> visited;
-  for (const IssuedPlan& issued : trial.episode.plans) {
+  for (const IssuedPlan& issued : run.episode.plans) {
     EXPECT_EQ(issued.plan.phase, MissionPhase::kSampling);
     ASSERT_GE(issued.plan.chosen, 0) << issued.plan.explanation;
     EXPECT_TRUE(Chosen(issued.plan).reward.has_value());

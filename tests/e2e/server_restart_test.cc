@@ -10,7 +10,7 @@
 
 #include "lab/local/local_planner_client.h"
 #include "tests/client/ingest_traffic.h"
-#include "tests/e2e/trial.h"
+#include "tests/e2e/hall_run.h"
 
 namespace plumescout::lab {
 namespace {
@@ -25,15 +25,15 @@ absl::StatusOr<MapSnapshot> Replay(const Log& log) {
   LocalOptions options;
   options.credit_window = static_cast<std::int64_t>(log.size());
   LocalPlannerClient local(options);
-  const EpisodeOptions trial = TrialOptions();
-  EXPECT_TRUE(local.CreateMission(trial.mission, *trial.create).ok());
-  const auto session = local.RegisterRobot(trial.mission, trial.robot, 0.2, false);
+  const EpisodeOptions episode = HallOptions();
+  EXPECT_TRUE(local.CreateMission(episode.mission, *episode.create).ok());
+  const auto session = local.RegisterRobot(episode.mission, episode.robot, 0.2, false);
   EXPECT_TRUE(session.ok()) << session.status();
   const auto stream = *local.OpenObservationStream(*session);
   std::vector<Observation> batch;
   for (const auto& [sequence, observation] : log) batch.push_back(AsOnTheWire(observation));
   EXPECT_TRUE(client::SendAll(*stream, batch).ok());
-  return local.GetMap(trial.mission);
+  return local.GetMap(episode.mission);
 }
 
 TEST(ServerRestartTest, TheNewServerIsToldEverythingAndEndsUpWithTheSameMap) {
@@ -47,7 +47,7 @@ TEST(ServerRestartTest, TheNewServerIsToldEverythingAndEndsUpWithTheSameMap) {
     log.emplace(observation.sequence, observation);
     return observation;
   });
-  EpisodeOptions options = TrialOptions();
+  EpisodeOptions options = HallOptions();
   std::size_t plans = 0;
   options.on_plan = [&](const IssuedPlan&) {
     if (++plans != kPlansBeforeRestart) return;
@@ -55,19 +55,19 @@ TEST(ServerRestartTest, TheNewServerIsToldEverythingAndEndsUpWithTheSameMap) {
     server = StartServer(port);
   };
 
-  const absl::StatusOr<Trial> trial = RunTrial(*planner, options);
+  const absl::StatusOr<HallRun> run = RunInHall(*planner, options);
 
-  ASSERT_TRUE(trial.ok()) << trial.status();
+  ASSERT_TRUE(run.ok()) << run.status();
   EXPECT_NE(server->boot_id(), first_boot);
   EXPECT_GT(plans, kPlansBeforeRestart);
-  EXPECT_EQ(trial->episode.readings_applied, trial->episode.readings_sent);
-  ASSERT_EQ(trial->map.robots.size(), 1U);
-  EXPECT_EQ(trial->map.robots[0].applied_sequence, trial->episode.readings_sent);
-  EXPECT_EQ(trial->map.robots[0].rejected_observations, 0);
-  ASSERT_EQ(static_cast<std::int64_t>(log.size()), trial->episode.readings_sent);
+  EXPECT_EQ(run->episode.readings_applied, run->episode.readings_sent);
+  ASSERT_EQ(run->map.robots.size(), 1U);
+  EXPECT_EQ(run->map.robots[0].applied_sequence, run->episode.readings_sent);
+  EXPECT_EQ(run->map.robots[0].rejected_observations, 0);
+  ASSERT_EQ(static_cast<std::int64_t>(log.size()), run->episode.readings_sent);
   const absl::StatusOr<MapSnapshot> undisturbed = Replay(log);
   ASSERT_TRUE(undisturbed.ok()) << undisturbed.status();
-  EXPECT_TRUE(SameMap(trial->map, *undisturbed));
+  EXPECT_TRUE(SameMap(run->map, *undisturbed));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lab/local/local_planner_client.h"
-#include "tests/e2e/trial.h"
+#include "tests/e2e/hall_run.h"
 
 namespace plumescout::lab {
 namespace {
@@ -23,7 +23,7 @@ const SceneWorld& SteadyHall() {
 }
 
 EpisodeOptions SlowOptions(client::Following following) {
-  EpisodeOptions options = TrialOptions();
+  EpisodeOptions options = HallOptions();
   options.duration_s = 90.0;
   options.following = following;
   options.create->planning.dwell_s = kDwell_s;

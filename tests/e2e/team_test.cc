@@ -9,20 +9,20 @@
 #include "core/belief/belief.h"
 #include "core/mission/mission.h"
 #include "lab/local/local_planner_client.h"
-#include "tests/e2e/trial.h"
+#include "tests/e2e/hall_run.h"
 
 namespace plumescout::lab {
 namespace {
 
 constexpr double kDuration_s = 20.0;
 
-struct TeamTrial {
+struct TeamRun {
   TeamResult team;
   MapSnapshot map;
 };
 
 EpisodeOptions WestRobot() {
-  EpisodeOptions options = TrialOptions();
+  EpisodeOptions options = HallOptions();
   options.robot = "west";
   options.duration_s = kDuration_s;
   options.metrics_period_s = 5.0;
@@ -34,25 +34,25 @@ std::vector<Teammate> Others(int robots) {
   return {all.begin(), all.begin() + (robots - 1)};
 }
 
-TeamTrial RunTeam(client::PlannerClient& planner, int robots) {
-  TeamTrial trial;
+TeamRun RunTeam(client::PlannerClient& planner, int robots) {
+  TeamRun run;
   auto team = RunTeamEpisode(planner, GasHall(), WestRobot(), Others(robots));
   EXPECT_TRUE(team.ok()) << team.status();
-  if (!team.ok()) return trial;
-  trial.team = *std::move(team);
-  auto map = planner.GetMap(kTrialMission);
+  if (!team.ok()) return run;
+  run.team = *std::move(team);
+  auto map = planner.GetMap(kHallMission);
   EXPECT_TRUE(map.ok()) << map.status();
-  if (map.ok()) trial.map = *std::move(map);
-  return trial;
+  if (map.ok()) run.map = *std::move(map);
+  return run;
 }
 
-TeamTrial RunInProcess(int robots) {
+TeamRun RunInProcess(int robots) {
   LocalPlannerClient local;
   const auto planner = WithTap(local, AsOnTheWire);
   return RunTeam(*planner, robots);
 }
 
-void ExpectSame(const TeamTrial& a, const TeamTrial& b) {
+void ExpectSame(const TeamRun& a, const TeamRun& b) {
   ASSERT_EQ(a.team.robots.size(), b.team.robots.size());
   for (std::size_t r = 0; r < a.team.robots.size(); ++r) {
     const EpisodeResult& one = a.team.robots[r];
@@ -74,21 +74,21 @@ void ExpectSame(const TeamTrial& a, const TeamTrial& b) {
 }
 
 TEST(TeamTest, AMissionOfThreeIsWorthComparing) {
-  const TeamTrial trial = RunInProcess(3);
-  ASSERT_EQ(trial.team.robots.size(), 3u);
-  for (const EpisodeResult& robot : trial.team.robots) {
+  const TeamRun run = RunInProcess(3);
+  ASSERT_EQ(run.team.robots.size(), 3u);
+  for (const EpisodeResult& robot : run.team.robots) {
     EXPECT_EQ(robot.readings_applied, robot.readings_sent);
     EXPECT_GT(robot.distance_m, 2.0);
     EXPECT_GE(robot.plans.size(), 1u);
     EXPECT_EQ(robot.collisions, 0);
     EXPECT_NEAR(robot.simulated_s, kDuration_s, 0.2);
   }
-  EXPECT_EQ(trial.map.robots.size(), 3u);
-  ASSERT_GE(trial.team.samples.size(), 5u);
-  EXPECT_GT(trial.team.samples.back().metrics.completeness,
-            trial.team.samples.front().metrics.completeness);
-  EXPECT_GT(trial.team.closest_m, 0.0);
-  EXPECT_LT(trial.team.closest_m, 4.4) << "their starts";
+  EXPECT_EQ(run.map.robots.size(), 3u);
+  ASSERT_GE(run.team.samples.size(), 5u);
+  EXPECT_GT(run.team.samples.back().metrics.completeness,
+            run.team.samples.front().metrics.completeness);
+  EXPECT_GT(run.team.closest_m, 0.0);
+  EXPECT_LT(run.team.closest_m, 4.4) << "their starts";
 }
 
 TEST(TeamTest, TheSameTeamComesToTheSameBytes) { ExpectSame(RunInProcess(3), RunInProcess(3)); }
@@ -108,12 +108,12 @@ TEST(TeamTest, SeveralRobotsSeeMoreInTheSameTime) {
 
 // Not a wall where another robot once stood: what is occupied in the map is so in truth.
 TEST(TeamTest, RobotsAreNoWallsInTheMap) {
-  const TeamTrial trial = RunInProcess(3);
+  const TeamRun run = RunInProcess(3);
   const Grid<CellState>& truth = GasHall().occupancy();
   int phantoms = 0;
-  for (std::size_t i = 0; i < trial.map.occupancy.size(); ++i) {
-    const GridGeometry& geometry = trial.map.occupancy.geometry();
-    if (trial.map.occupancy[i] != CellState::kOccupied) continue;
+  for (std::size_t i = 0; i < run.map.occupancy.size(); ++i) {
+    const GridGeometry& geometry = run.map.occupancy.geometry();
+    if (run.map.occupancy[i] != CellState::kOccupied) continue;
     const Point2 center = geometry.Center(geometry.CellAtIndex(i));
     bool near_wall = false;  // noise of beams blurs walls by a cell
     for (const double dx_m : {-0.1, 0.0, 0.1}) {
@@ -133,7 +133,7 @@ TEST(TeamTest, ItsEventsReplayToTheSameMap) {
     LocalOptions options;
     options.on_event = [&](const Event& event) { events.push_back(event); };
     LocalPlannerClient planner(options);
-    const TeamTrial trial = RunTeam(planner, robots);
+    const TeamRun run = RunTeam(planner, robots);
     auto mission = Mission::Create(*WestRobot().create);
     ASSERT_TRUE(mission.ok()) << mission.status();
     for (const Event& event : events) {
@@ -141,7 +141,7 @@ TEST(TeamTest, ItsEventsReplayToTheSameMap) {
       ASSERT_TRUE(applied.ok()) << applied.status();
       ASSERT_EQ(applied->revision, event.number);
     }
-    EXPECT_TRUE(SameMap(MakeMapSnapshot(*(*mission)->Snapshot()), trial.map)) << robots;
+    EXPECT_TRUE(SameMap(MakeMapSnapshot(*(*mission)->Snapshot()), run.map)) << robots;
   }
 }
 
@@ -152,7 +152,7 @@ TEST(TeamTest, AnErrorOfOneEndsTheEpisodeForAll) {
   options.on_plan = [&](const IssuedPlan& issued) {
     west_plans += issued.plan.robot == "west" ? 1 : 0;
     if (west_plans != 1) return;
-    EXPECT_TRUE(planner.RegisterRobot(kTrialMission, "east", 0.2, true).ok());  // takes its lease
+    EXPECT_TRUE(planner.RegisterRobot(kHallMission, "east", 0.2, true).ok());  // takes its lease
   };
   const auto team = RunTeamEpisode(planner, GasHall(), options, Others(2));
   EXPECT_NE(team.status().message().find("LEASE_SUPERSEDED"), absl::string_view::npos)

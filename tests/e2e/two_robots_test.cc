@@ -14,7 +14,7 @@
 #include "absl/synchronization/mutex.h"
 #include "core/belief/belief.h"
 #include "core/types/event.h"
-#include "tests/e2e/trial.h"
+#include "tests/e2e/hall_run.h"
 
 namespace plumescout::lab {
 namespace {
@@ -65,7 +65,7 @@ class ClaimReferee {
 };
 
 EpisodeOptions RobotAt(const RobotId& robot, const Pose2& start) {
-  EpisodeOptions options = TrialOptions();
+  EpisodeOptions options = HallOptions();
   options.robot = robot;
   options.simulated.start = start;
   return options;
@@ -92,7 +92,7 @@ TEST(TwoRobotsTest, NeitherWaitsForTheOtherNorGoesForItsGoal) {
   });
   west_robot.join();
   east_robot.join();
-  const absl::StatusOr<MapSnapshot> map = west_planner->GetMap(kTrialMission);
+  const absl::StatusOr<MapSnapshot> map = west_planner->GetMap(kHallMission);
   server.reset();
 
   ASSERT_TRUE(west.ok()) << west.status();

@@ -7,16 +7,16 @@
 #include <cmath>
 
 #include "lab/local/local_planner_client.h"
-#include "tests/e2e/trial.h"
+#include "tests/e2e/hall_run.h"
 
 namespace plumescout::lab {
 namespace {
 
 EpisodeResult Drive(const EpisodeOptions& options) {
   LocalPlannerClient planner;
-  const absl::StatusOr<Trial> trial = RunTrial(planner, options);
-  EXPECT_TRUE(trial.ok()) << trial.status();
-  return trial.ok() ? trial->episode : EpisodeResult{};
+  const absl::StatusOr<HallRun> run = RunInHall(planner, options);
+  EXPECT_TRUE(run.ok()) << run.status();
+  return run.ok() ? run->episode : EpisodeResult{};
 }
 
 bool HasPhase(const EpisodeResult& episode, MissionPhase phase) {
@@ -25,7 +25,7 @@ bool HasPhase(const EpisodeResult& episode, MissionPhase phase) {
 }
 
 TEST(WayHomeTest, ARobotWithATravelBudgetIsHomeBeforeItIsSpent) {
-  EpisodeOptions options = TrialOptions();
+  EpisodeOptions options = HallOptions();
   options.duration_s = 120.0;
   constexpr double kBudget_m = 14.0;
   options.create->planning.travel_budget_m = kBudget_m;
@@ -40,12 +40,12 @@ TEST(WayHomeTest, ARobotWithATravelBudgetIsHomeBeforeItIsSpent) {
 }
 
 TEST(WayHomeTest, ARobotReturnsBeforeItsMissionIsComplete) {
-  EpisodeOptions options = TrialOptions();
+  EpisodeOptions options = HallOptions();
   options.duration_s = 300.0;
   options.create->planning.return_home = true;
   // A mission soon over: only the building counts, and no place is worth a visit for its gas alone.
   options.create->planning.strategy = "xit_f";
-  options.create->planning.goals = GoalPolicy::kOccupancyOnly;
+  options.create->planning.goal_policy = GoalPolicy::kOccupancyOnly;
   options.create->planning.fallback_to_unobserved = false;
   options.create->home = Point2{2.0, 4.0};
   const EpisodeResult episode = Drive(options);
@@ -56,7 +56,7 @@ TEST(WayHomeTest, ARobotReturnsBeforeItsMissionIsComplete) {
 }
 
 TEST(WayHomeTest, NoRobotDrivesIntoAKeepOutArea) {
-  EpisodeOptions options = TrialOptions();
+  EpisodeOptions options = HallOptions();
   // From the west wall to within 1.2 m of the screen: the robot has to drive round it.
   options.create->keep_out = {{{{0.0, 1.6}, {1.8, 1.6}, {1.8, 2.6}, {0.0, 2.6}}}};
   const EpisodeResult episode = Drive(options);
@@ -75,7 +75,7 @@ TEST(WayHomeTest, NoRobotDrivesIntoAKeepOutArea) {
 
 TEST(WayHomeTest, RobotsFollowTrajectoriesWithLimitsOfMotion) {
   for (const auto following : {client::Following::kIdeal, client::Following::kProportional}) {
-    EpisodeOptions options = TrialOptions();
+    EpisodeOptions options = HallOptions();
     options.following = following;
     options.create->planning.max_acceleration_mps2 = 0.5;
     options.create->planning.max_turn_rate_rad_per_s = 1.0;

@@ -21,7 +21,7 @@ constexpr PathKind kKinds[] = {PathKind::kRrt, PathKind::kRrtStar, PathKind::kIn
 PlanningOptions Options(PathKind kind, int samples = 1000) {
   PlanningOptions options;
   options.paths = kind;
-  options.samples = samples;
+  options.sample_count = samples;
   return options;
 }
 

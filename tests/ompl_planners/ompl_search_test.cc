@@ -59,7 +59,7 @@ TEST_P(OmplSearch, FindsPathsFromTheStartToTheGoalCellsThatHitNothing) {
       const FoundPath& path = *result.paths[i];
       EXPECT_EQ(path.vertices.front(), c.start);
       EXPECT_EQ(path.vertices.back(), c.goals[i].position);
-      EXPECT_TRUE(testing::StaysClear(c.field.penalty, path.vertices)) << "seed " << seed;
+      EXPECT_TRUE(testing::StaysClear(c.information.penalty, path.vertices)) << "seed " << seed;
       EXPECT_EQ(path.cost, PathCost(c.cost, path.vertices));
       EXPECT_TRUE(std::isfinite(path.cost));
       EXPECT_EQ(path.source, PathSource::kTree);
@@ -121,7 +121,7 @@ TEST_P(OmplSearch, KeepsTheBudgetOfEdgeEvaluations) {
     EXPECT_EQ(result.end, PlanEnd::kStopped) << "budget " << budget;
     for (const auto& path : result.paths) {
       if (path) {
-        EXPECT_TRUE(testing::StaysClear(c.field.penalty, path->vertices));
+        EXPECT_TRUE(testing::StaysClear(c.information.penalty, path->vertices));
       }
     }
   }

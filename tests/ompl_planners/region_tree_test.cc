@@ -37,7 +37,7 @@ TEST_P(RegionTree, LeadsIntoTheDiscOfEveryGoalWithoutHittingAnything) {
       const std::vector<Point2>& path = result.paths[i]->vertices;
       EXPECT_EQ(path.front(), c.start);
       EXPECT_LE(Distance_m(path.back(), c.goals[i].position), kRadius_m);
-      EXPECT_TRUE(testing::StaysClear(c.field.penalty, path));
+      EXPECT_TRUE(testing::StaysClear(c.information.penalty, path));
       EXPECT_DOUBLE_EQ(result.paths[i]->cost, PathCost(c.cost, path));
     }
   }

@@ -144,7 +144,7 @@ class BadInputTest : public ServiceTest {
   // Mission "hall" has a robot with a scan, a reading and a plan, which leaves its posterior fresh.
   void SetUp() override {
     ServerConfig config;
-    config.limits.max_total_cells = 3 * config.mission.occupancy.max_cells;
+    config.limits.max_total_cells = 3 * config.mission.occupancy.max_cell_count;
     StartServer(config);
     lease_ = Lease();
     ASSERT_TRUE(Ingest(kRobot, lease_, RoomScan(1)).ok());

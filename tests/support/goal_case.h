@@ -18,10 +18,10 @@ struct GoalCase {
         start(CellInArt(art, 'S')),
         reachable(ReachableCells(*belief.traversable, {start})) {
     MissionOptions mission;
-    mission.frontier.min_occupancy_cells = 1;
-    mission.frontier.min_gas_cells = 1;
+    mission.frontier.min_occupancy_cell_count = 1;
+    mission.frontier.min_gas_cell_count = 1;
     SetMission(mission);
-    options.goals = GoalPolicy::kGasFirst;
+    options.goal_policy = GoalPolicy::kGasFirst;
     options.min_goal_distance_m = 0.05;
   }
 

@@ -24,8 +24,8 @@ class PathCase {
                     double alpha_per_m = 0.0)
       : rng_(seed),
         open(RandomObstacles(shape.width, shape.height, shape.obstacles, rng_)),
-        field(WavyField(open, rng_)),
-        cost(field, kind, alpha_per_m),
+        information(WavyInformation(open, rng_)),
+        cost(information, kind, alpha_per_m),
         start_cell(RandomOpenCell(open, rng_)),
         reachable(ReachableCells(open, {start_cell})) {
     start = open.geometry().Center(start_cell);
@@ -34,7 +34,7 @@ class PathCase {
     }
   }
   explicit PathCase(std::uint64_t seed) : PathCase(seed, Shape{}) {}
-  PathCase(const PathCase&) = delete;  // `cost` refers to `field`
+  PathCase(const PathCase&) = delete;  // `cost` refers to `information`
   PathCase& operator=(const PathCase&) = delete;
 
   PathProblem Problem(std::uint64_t seed = 1, std::int64_t max_edge_evaluations = 0) const {
@@ -46,7 +46,7 @@ class PathCase {
 
  public:
   Grid<std::uint8_t> open;
-  InformationField field;
+  InformationMap information;
   EdgeCost cost;
   Cell start_cell;
   Grid<std::uint8_t> reachable;

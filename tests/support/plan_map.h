@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/belief/belief.h"
-#include "core/plan/cost/information_field.h"
+#include "core/plan/cost/information_map.h"
 #include "core/types/grid.h"
 #include "core/types/plan.h"
 #include "core/types/rng.h"
@@ -36,23 +36,23 @@ inline Grid<std::uint8_t> RandomObstacles(int width, int height, int obstacles, 
   return traversable;
 }
 
-// A field whose information rolls in waves over the traversable cells.
-inline InformationField WavyField(const Grid<std::uint8_t>& traversable, Rng& rng) {
+// Information that rolls in waves over the traversable cells.
+inline InformationMap WavyInformation(const Grid<std::uint8_t>& traversable, Rng& rng) {
   const double fx = rng.Uniform(0.05, 0.3);
   const double fy = rng.Uniform(0.05, 0.3);
   const double phase = rng.Uniform(0.0, 6.0);
-  InformationField field;
-  field.information = Grid<float>(traversable.geometry(), 0.0F);
-  field.penalty = Grid<float>(traversable.geometry(), std::numeric_limits<float>::infinity());
+  InformationMap information;
+  information.value = Grid<float>(traversable.geometry(), 0.0F);
+  information.penalty = Grid<float>(traversable.geometry(), std::numeric_limits<float>::infinity());
   for (std::size_t i = 0; i < traversable.size(); ++i) {
     if (traversable[i] == 0) continue;
     const Cell cell = traversable.geometry().CellAtIndex(i);
-    field.information[i] =
+    information.value[i] =
         static_cast<float>(0.5 + 0.5 * std::sin(fx * cell.x + phase) * std::cos(fy * cell.y));
-    field.penalty[i] = std::max(kMinPenalty, 1.0F - field.information[i]);
-    field.min_penalty = std::min(field.min_penalty, field.penalty[i]);
+    information.penalty[i] = std::max(kMinPenalty, 1.0F - information.value[i]);
+    information.min_penalty = std::min(information.min_penalty, information.penalty[i]);
   }
-  return field;
+  return information;
 }
 
 inline Cell RandomOpenCell(const Grid<std::uint8_t>& mask, Rng& rng) {
@@ -70,20 +70,20 @@ inline Goal GoalAt(Cell cell, const GridGeometry& geometry) {
   return goal;
 }
 
-// The value of `field` at points spread densely and evenly over the segment: a check of line
+// The value of `raster` at points spread densely and evenly over the segment: a check of line
 // integrals and collisions that knows nothing of grid traversal. Points within 1e-6 of a cell of
 // an edge between cells belong to nobody and are left out.
-inline std::vector<float> ValuesAlong(const Grid<float>& field, Point2 a, Point2 b, int points) {
+inline std::vector<float> ValuesAlong(const Grid<float>& raster, Point2 a, Point2 b, int points) {
   std::vector<float> values;
-  const GridGeometry& g = field.geometry();
+  const GridGeometry& g = raster.geometry();
   for (int i = 0; i < points; ++i) {
     const double t = (i + 0.5) / points;
     const double x = (a.x_m + t * (b.x_m - a.x_m) - g.origin_x_m) / g.resolution_m;
     const double y = (a.y_m + t * (b.y_m - a.y_m) - g.origin_y_m) / g.resolution_m;
     constexpr double kEdge = 1e-6;
     if (std::abs(x - std::round(x)) < kEdge || std::abs(y - std::round(y)) < kEdge) continue;
-    values.push_back(field.At({static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y))},
-                              std::numeric_limits<float>::infinity()));
+    values.push_back(raster.At({static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y))},
+                               std::numeric_limits<float>::infinity()));
   }
   return values;
 }

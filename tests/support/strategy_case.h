@@ -48,7 +48,7 @@ inline absl::StatusOr<Plan> TryPlan(const Belief& belief, const PlanRequest& req
 inline Belief SmallBelief(const GridArt& art) {
   Belief belief = BeliefFromArt(art);
   MissionOptions mission;
-  mission.frontier.min_occupancy_cells = 3;
+  mission.frontier.min_occupancy_cell_count = 3;
   belief.options = std::make_shared<const MissionOptions>(mission);
   return belief;
 }

@@ -145,7 +145,7 @@ FieldShift FieldEngine::Tolerance() const {
           options_.tolerance.variance_share / VarianceRatioOfShift()};
 }
 
-FieldError FieldEngine::error_bound() const {
+FieldDeviation FieldEngine::error_bound() const {
   const FieldShift shift = shift_ + marginals_.owed();
   return {shift.mean_ppm, shift.covariance_ppm2 * VarianceRatioOfShift()};
 }
@@ -157,7 +157,7 @@ FieldError FieldEngine::error_bound() const {
 // s^2, and it is 1 / H_aa at least. Together d (n lambda_p)^2 / H_aa <= d n lambda_p.
 double FieldEngine::VarianceRatioOfShift() const {
   constexpr double kNeighbours = 4.0;
-  return kNeighbours * options_.prior.prior_precision;
+  return kNeighbours * options_.prior.prior_precision_per_ppm2;
 }
 
 }  // namespace plumescout

@@ -26,7 +26,7 @@ struct FieldTolerance {
 };
 
 // How far they are at most, in any cell and beside rounding.
-struct FieldError {
+struct FieldDeviation {
   double mean_ppm = 0.0;
   double variance_ratio = 0.0;  // of the exact variance
 };
@@ -72,7 +72,7 @@ class FieldEngine {
     return marginals_.variance_ppm2()[tree_->slot(cell)];
   }
   // Within the tolerance, that of the mean being a share of its largest value before the batch.
-  FieldError error_bound() const;
+  FieldDeviation error_bound() const;
 
   std::size_t width() const { return tree_->width(); }
   std::size_t cells() const { return tree_->cells(); }

@@ -74,7 +74,7 @@ void FrontBuilder::FindCells(const SeparatorTree::Node& node, const FieldCells& 
 }
 
 void FrontBuilder::Couple(const FieldCells& cells, Front& front) const {
-  front.coupling_precision = prior_.prior_precision;
+  front.coupling_precision = prior_.prior_precision_per_ppm2;
   for (std::uint32_t i = 0; i < front.own; ++i) {
     const Slot slot = front.cells[i];
     for (std::size_t direction = 0; direction < tree_->neighbours(slot).size(); ++direction) {
@@ -98,9 +98,9 @@ void FrontBuilder::Assemble(const FieldCells& cells, const Front& front) {
     for (std::size_t direction = 0; direction < tree_->neighbours(slot).size(); ++direction) {
       const Slot next = tree_->neighbours(slot)[direction];
       if (next < slot || !cells.HasFactor(*tree_, slot, direction)) continue;
-      column[place_[next]] = -prior_.prior_precision;
+      column[place_[next]] = -prior_.prior_precision_per_ppm2;
     }
-    column[unknowns] = -(prior_.background_precision + cells.precision[slot]);
+    column[unknowns] = -(prior_.background_precision_per_ppm2 + cells.precision[slot]);
     column[unknowns + 1] = cells.weighted_deviation[slot];
   }
 }

@@ -15,8 +15,8 @@ namespace plumescout {
 
 // lambda_p and lambda_d of [IPP] Eq. (1).
 struct FieldPrior {
-  double prior_precision = 0.0;       // > 0
-  double background_precision = 0.0;  // > 0
+  double prior_precision_per_ppm2 = 0.0;       // > 0
+  double background_precision_per_ppm2 = 0.0;  // > 0
 };
 
 // Builds fronts; holds scratch memory only.

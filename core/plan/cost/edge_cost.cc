@@ -14,13 +14,14 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-double SegmentIntegral_cells(const Grid<float>& field, Point2 a, Point2 b) {
-  const GridGeometry& geometry = field.geometry();
+double SegmentIntegral_cells(const Grid<float>& raster, Point2 a, Point2 b) {
+  const GridGeometry& geometry = raster.geometry();
   // Between two cells of the raster the walk never leaves it.
-  if (!field.Contains(geometry.CellAt(a)) || !field.Contains(geometry.CellAt(b))) return kInfinity;
+  if (!raster.Contains(geometry.CellAt(a)) || !raster.Contains(geometry.CellAt(b)))
+    return kInfinity;
   double sum = 0.0;
   const bool passed = WalkSegment(geometry, a, b, [&](Cell cell, double length_cells) {
-    const double value = field[cell];
+    const double value = raster[cell];
     if (value == kInfinity) return false;
     sum += value * length_cells;
     return true;
@@ -28,33 +29,34 @@ double SegmentIntegral_cells(const Grid<float>& field, Point2 a, Point2 b) {
   return passed ? sum : kInfinity;
 }
 
-double OpenSegmentIntegral_cells(const Grid<float>& field, Point2 a, Point2 b,
+double OpenSegmentIntegral_cells(const Grid<float>& raster, Point2 a, Point2 b,
                                  double blocked_value) {
   double sum = 0.0;
-  WalkSegment(field.geometry(), a, b, [&](Cell cell, double length_cells) {
-    const double value = field.At(cell, std::numeric_limits<float>::infinity());
+  WalkSegment(raster.geometry(), a, b, [&](Cell cell, double length_cells) {
+    const double value = raster.At(cell, std::numeric_limits<float>::infinity());
     sum += (value == kInfinity ? blocked_value : value) * length_cells;
     return true;
   });
   return sum;
 }
 
-EdgeCost::EdgeCost(const InformationField& field, CostKind kind, double alpha_per_m)
-    : field_(&field),
+EdgeCost::EdgeCost(const InformationMap& information, CostKind kind, double alpha_per_m)
+    : information_(&information),
       penalty_weight_(kind == CostKind::kUcb ? 1.0 : 0.0),
       vertex_weight_(kind == CostKind::kVertices ? 1.0 : 0.0),
       alpha_per_m_(kind == CostKind::kEuclidean ? 1.0 : alpha_per_m),
-      resolution_m_(field.penalty.geometry().resolution_m),
-      lower_bound_per_m_(alpha_per_m_ +
-                         penalty_weight_ * static_cast<double>(field.min_penalty) / resolution_m_),
-      lower_bound_per_edge_(vertex_weight_ * static_cast<double>(field.min_penalty)) {}
+      resolution_m_(information.penalty.geometry().resolution_m),
+      lower_bound_per_m_(alpha_per_m_ + penalty_weight_ *
+                                            static_cast<double>(information.min_penalty) /
+                                            resolution_m_),
+      lower_bound_per_edge_(vertex_weight_ * static_cast<double>(information.min_penalty)) {}
 
 double EdgeCost::operator()(Point2 a, Point2 b) const {
-  const double penalty_cells = SegmentIntegral_cells(field_->penalty, a, b);
+  const double penalty_cells = SegmentIntegral_cells(information_->penalty, a, b);
   if (penalty_cells == kInfinity) return kInfinity;
   const double length_price = alpha_per_m_ > 0.0 ? alpha_per_m_ * Distance_m(a, b) : 0.0;
   if (vertex_weight_ > 0.0) {
-    return static_cast<double>(field_->penalty[geometry().CellAt(b)]) + length_price;
+    return static_cast<double>(information_->penalty[geometry().CellAt(b)]) + length_price;
   }
   return penalty_weight_ * penalty_cells + length_price;
 }
@@ -63,7 +65,7 @@ double EdgeCost::InformedHeuristic(Point2 a, Point2 b) const {
   constexpr double kGreatestPenalty = 1.0;
   double price = alpha_per_m_ * Distance_m(a, b);
   if (penalty_weight_ > 0.0) {
-    price += OpenSegmentIntegral_cells(field_->penalty, a, b, kGreatestPenalty);
+    price += OpenSegmentIntegral_cells(information_->penalty, a, b, kGreatestPenalty);
   }
   return price;
 }

@@ -4,32 +4,32 @@
 
 #include <vector>
 
-#include "core/plan/cost/information_field.h"
+#include "core/plan/cost/information_map.h"
 #include "core/types/grid.h"
 #include "core/types/options.h"
 #include "core/types/pose2.h"
 
 namespace plumescout {
 
-// Integral of `field` along the straight segment a-b (frame map) in units of cells: the sum over
-// the cells crossed of the field's value times the length inside the cell over the cell's edge.
+// Integral of `raster` along the straight segment a-b (frame map) in units of cells: the sum over
+// the cells crossed of its value times the length inside the cell over the cell's edge.
 // This is our reading of the sum over S(x, y) in [XIT] Eq. (12): it is exact, adds up when a
 // segment is split and is the same both ways. +infinity if any cell that WalkSegment visits has an
 // infinite value or lies outside the raster; so no path slips between two blocked cells that meet
 // at a corner. Cost: O(cells crossed).
-double SegmentIntegral_cells(const Grid<float>& field, Point2 a, Point2 b);
+double SegmentIntegral_cells(const Grid<float>& raster, Point2 a, Point2 b);
 
 // The same over the cells that can be crossed: others count as `blocked_value`.
-double OpenSegmentIntegral_cells(const Grid<float>& field, Point2 a, Point2 b,
+double OpenSegmentIntegral_cells(const Grid<float>& raster, Point2 a, Point2 b,
                                  double blocked_value);
 
 // Price of driving a straight segment, [XIT] Eq. (12): information penalty, in cells, plus alpha
 // per metre. kVertices takes the penalty of the cell that the segment ends in and of no other (the
 // paper's alternative; not the same both ways). kEuclidean is P = 0 and alpha = 1: the length.
-// +infinity if any cell touched is not traversable. Cheap to copy; keeps a reference to the field.
+// +infinity if any cell touched is not traversable. Cheap to copy; keeps a reference to the map.
 class EdgeCost {
  public:
-  EdgeCost(const InformationField& field, CostKind kind, double alpha_per_m);
+  EdgeCost(const InformationMap& information, CostKind kind, double alpha_per_m);
 
   // c(a, b) of Eq. (12).
   double operator()(Point2 a, Point2 b) const;
@@ -59,11 +59,11 @@ class EdgeCost {
   // Whether what lies between vertices is free (kVertices): fewer of them are then always cheaper.
   bool CountsVerticesOnly() const { return vertex_weight_ > 0.0; }
 
-  const InformationField& field() const { return *field_; }
-  const GridGeometry& geometry() const { return field_->penalty.geometry(); }
+  const InformationMap& information() const { return *information_; }
+  const GridGeometry& geometry() const { return information_->penalty.geometry(); }
 
  private:
-  const InformationField* field_;
+  const InformationMap* information_;
   double penalty_weight_;  // of the integral: 1 for kUcb, else 0
   double vertex_weight_;   // of the end: 1 for kVertices, else 0
   double alpha_per_m_;

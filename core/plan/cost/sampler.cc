@@ -76,27 +76,27 @@ std::vector<Cell> DrawSystematic(const Grid<float>& mass, std::size_t count, Rng
 
 }  // namespace
 
-Grid<float> SamplingMass(const InformationField& field, const Grid<std::uint8_t>& domain,
+Grid<float> SamplingMass(const InformationMap& information, const Grid<std::uint8_t>& domain,
                          Cell robot_cell, double uniform_share) {
   Grid<float> mass(domain.geometry(), 0.0F);
-  double information = 0.0;
+  double total = 0.0;
   double cells = 0.0;
   for (std::size_t i = 0; i < mass.size(); ++i) {
     if (domain[i] == 0) continue;
-    information += field.information[i];
+    total += information.value[i];
     cells += 1.0;
   }
   if (domain.At(robot_cell, 0) != 0) {
-    information -= field.information[robot_cell];
+    total -= information.value[robot_cell];
     cells -= 1.0;
   }
   if (cells <= 0.0) return mass;
-  const bool no_information = information <= 0.0;
+  const bool no_information = total <= 0.0;
   const auto per_information =
-      no_information ? 0.0F : static_cast<float>((1.0 - uniform_share) / information);
+      no_information ? 0.0F : static_cast<float>((1.0 - uniform_share) / total);
   const auto per_cell = static_cast<float>((no_information ? 1.0 : uniform_share) / cells);
   for (std::size_t i = 0; i < mass.size(); ++i) {
-    if (domain[i] != 0) mass[i] = per_information * field.information[i] + per_cell;  // Eq. (14)
+    if (domain[i] != 0) mass[i] = per_information * information.value[i] + per_cell;  // Eq. (14)
   }
   if (mass.Contains(robot_cell)) mass[robot_cell] = 0.0F;
   return mass;

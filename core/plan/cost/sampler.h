@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/plan/cost/information_field.h"
+#include "core/plan/cost/information_map.h"
 #include "core/types/grid.h"
 #include "core/types/options.h"
 #include "core/types/rng.h"
@@ -15,7 +15,7 @@ namespace plumescout {
 // Sampling mass q of [XIT] Eq. (14): (1 - eps) * I-hat / sum(I-hat) + eps / cells, with eps =
 // `uniform_share`. It sums to 1 over the cells marked in `domain` without the robot's own cell and
 // is 0 elsewhere. If all information is in the robot's cell the mass is uniform. Cost: O(cells).
-Grid<float> SamplingMass(const InformationField& field, const Grid<std::uint8_t>& domain,
+Grid<float> SamplingMass(const InformationMap& information, const Grid<std::uint8_t>& domain,
                          Cell robot_cell, double uniform_share);
 
 // InformedSample of [XIT] Alg. 1 line 1: min(count, cells with mass) different cells.

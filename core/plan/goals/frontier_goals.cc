@@ -128,12 +128,12 @@ std::optional<RejectedGoal> RejectedByMemory(const GoalQuery& query, const Goal&
 std::vector<JudgedFrontier> JudgeFrontiers(const GoalQuery& query) {
   const Belief& belief = query.belief;
   std::vector<JudgedFrontier> judged;
-  if (query.options.goals != GoalPolicy::kOccupancyOnly) {
+  if (query.options.goal_policy != GoalPolicy::kOccupancyOnly) {
     Judge(query, GasFrontiers(query), judged);
   }
   Judge(query,
         FindOccupancyFrontiers(*belief.occupancy, *belief.traversable, {query.start},
-                               belief.options->frontier.min_occupancy_cells),
+                               belief.options->frontier.min_occupancy_cell_count),
         judged);
   return judged;
 }

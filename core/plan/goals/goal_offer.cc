@@ -31,7 +31,7 @@ GoalOffer FindGoals(const GoalQuery& query, Rng& rng) {
   GoalOffer result;
   result.rejected = std::move(frontiers.rejected);
   result.goals = ChooseByPolicy(std::move(frontiers), query.options, rng, result.rejected);
-  if (query.options.goals == GoalPolicy::kEverything) {
+  if (query.options.goal_policy == GoalPolicy::kEverything) {
     const std::vector<Goal> telling = InformationGoals(query, result.rejected);
     result.goals.insert(result.goals.end(), telling.begin(), telling.end());
   }

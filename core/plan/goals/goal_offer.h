@@ -31,11 +31,11 @@ struct GoalOffer {
 // Nothing to drive to if the robot is home already, and a rejection if there is no way.
 GoalOffer GoHome(const GoalQuery& query);
 
-// Where to go, by options.goals (section VI-B of [XIT]); under kEverything also where readings tell
-// much (see InformationGoals). If nothing can be offered, places with unobserved gas are (ours,
-// options.fallback_to_unobserved; not before the first gas reading), then random free ones
-// (section VII); once options.fallback_limit fallbacks in a row revealed nothing, the mission is
-// complete instead. A goal that another robot is on its way to keeps the mission open, for what
+// Where to go, by options.goal_policy (section VI-B of [XIT]); under kEverything also where
+// readings tell much (see InformationGoals). If nothing can be offered, places with unobserved gas
+// are (ours, options.fallback_to_unobserved; not before the first gas reading), then random free
+// ones (section VII); once options.fallback_limit fallbacks in a row revealed nothing, the mission
+// is complete instead. A goal that another robot is on its way to keeps the mission open, for what
 // that robot finds may need this one; one that is set aside does not, or a frontier that no visit
 // can dissolve would keep robots driving for ever. With options.return_home the robot
 // goes home before its mission is complete. If query.go_home, this is GoHome.

@@ -38,12 +38,12 @@ void Take(const std::vector<OfferedGoal>& offered, std::size_t count, std::vecto
 
 std::vector<Goal> ChooseByPolicy(FrontierGoals frontiers, const PlanningOptions& options, Rng& rng,
                                  std::vector<RejectedGoal>& rejected) {
-  const bool gas_first = options.goals != GoalPolicy::kOccupancyFirst;
+  const bool gas_first = options.goal_policy != GoalPolicy::kOccupancyFirst;
   std::vector<OfferedGoal>& first = gas_first ? frontiers.gas : frontiers.occupancy;
   std::vector<OfferedGoal>& second = gas_first ? frontiers.occupancy : frontiers.gas;
-  const auto slots = static_cast<std::size_t>(options.max_goals);
+  const auto slots = static_cast<std::size_t>(options.max_goal_count);
 
-  const bool everything = options.goals == GoalPolicy::kEverything;
+  const bool everything = options.goal_policy == GoalPolicy::kEverything;
   const bool limited = options.draw_goals || everything;
   const std::size_t from_first = limited ? std::min(first.size(), slots) : first.size();
   const std::size_t free_slots = everything ? slots : slots - std::min(slots, from_first);

@@ -24,7 +24,7 @@ std::vector<Goal> DrawGoals(const GoalQuery& query, Rng& rng, const Predicate& w
       cells.push_back(i);
     }
   }
-  const auto limit = static_cast<std::size_t>(query.options.max_goals);
+  const auto limit = static_cast<std::size_t>(query.options.max_goal_count);
   std::vector<Goal> goals;
   for (std::size_t i = 0; i < cells.size() && goals.size() < limit; ++i) {
     std::swap(cells[i], cells[i + rng.Below(cells.size() - i)]);

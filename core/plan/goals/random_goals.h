@@ -10,8 +10,8 @@
 
 namespace plumescout {
 
-// Fallback goals: up to options.max_goals different cells drawn uniformly from a set, of those that
-// the robot can reach, at least min_goal_distance_m away in a straight line and not claimed by
+// Fallback goals: up to options.max_goal_count different cells drawn uniformly from a set, of those
+// that the robot can reach, at least min_goal_distance_m away in a straight line and not claimed by
 // another robot or set aside. Fewer if there are no more. Cost: O(cells).
 
 // From all of free space, [XIT] section VII.

@@ -15,7 +15,7 @@ namespace plumescout {
 namespace {
 
 constexpr int kPatience = 2;           // batches without gain
-constexpr int kMostSamples = 100'000;  // as PlanningOptions::samples
+constexpr int kMostSamples = 100'000;  // as PlanningOptions::sample_count
 
 // What a batch added to the best answer so far.
 struct Gain {
@@ -87,7 +87,7 @@ PathResult AnytimeXitPlanner::FindPaths(const PathProblem& problem) const {
 
 PathResult AnytimeXitPlanner::SearchBatch(const PathProblem& problem, int samples) const {
   PlanningOptions options = options_;
-  options.samples = samples;
+  options.sample_count = samples;
   options.goal_vertices = true;
   return GuardedPlanner(std::make_unique<const XitPlanner>(options), options).FindPaths(problem);
 }

@@ -21,7 +21,7 @@ class AnytimeXitPlanner : public PathPlanner {
   static constexpr int kFirstBatch = 75;
   static constexpr double kLeastGain = 1e-3;  // of a path's price
 
-  // REQUIRES: Validate(options).ok(). options.samples and goal_vertices have no effect.
+  // REQUIRES: Validate(options).ok(). options.sample_count and goal_vertices have no effect.
   explicit AnytimeXitPlanner(const PlanningOptions& options) : options_(options) {}
 
   PathResult FindPaths(const PathProblem& problem) const override;

@@ -20,7 +20,7 @@ constexpr int kVisitsBetweenStops = 512;  // some tens of microseconds
 
 CostSearch::CostSearch(const EdgeCost& cost)
     : cost_(cost),
-      penalty_(PaddedFrom<float>(cost.field().penalty, kBlockedPenalty,
+      penalty_(PaddedFrom<float>(cost.information().penalty, kBlockedPenalty,
                                  [](float penalty) { return penalty; })),
       g_(cost.geometry(), kUnreached, kUnreached),
       parent_(cost.geometry(), kNoParent, kNoParent),

@@ -22,11 +22,11 @@ std::vector<int> NearestSamples(std::span<const Point2> samples, Point2 goal, in
 }
 
 GoalNeighbours::GoalNeighbours(const std::vector<Point2>& points, int sample_count,
-                               const std::vector<int>& goal_vertices, int nearest_samples) {
+                               const std::vector<int>& goal_vertices, int nearest_sample_count) {
   const auto samples = std::span(points).first(static_cast<std::size_t>(sample_count));
   for (const int goal : goal_vertices) {
     const Point2 center = points[static_cast<std::size_t>(goal)];
-    for (const int sample : NearestSamples(samples, center, nearest_samples)) {
+    for (const int sample : NearestSamples(samples, center, nearest_sample_count)) {
       if (sample == goal) continue;
       edges_.emplace_back(sample, goal);
       edges_.emplace_back(goal, sample);

@@ -19,7 +19,7 @@ class GoalNeighbours {
   // `points` holds the samples first, `sample_count` of them. `goal_vertices` index into `points`.
   // Cost: O(goals * samples).
   GoalNeighbours(const std::vector<Point2>& points, int sample_count,
-                 const std::vector<int>& goal_vertices, int nearest_samples);
+                 const std::vector<int>& goal_vertices, int nearest_sample_count);
 
   using Edge = std::pair<int, int>;  // from vertex, to vertex; each edge stands in both directions
   std::span<const Edge> EdgesFrom(int vertex) const;

@@ -54,7 +54,7 @@ struct TreeEdge {
 
 // From where, to where, at what price. Holds references: for the length of one call.
 struct PathProblem {
-  const EdgeCost& cost;                 // of tree expansion, with the field it prices
+  const EdgeCost& cost;                 // of tree expansion, with the information it prices
   const Grid<std::uint8_t>& reachable;  // 1: traversable and connected to the start
   Point2 start;                         // in a reachable cell
   const std::vector<Goal>& goals;

@@ -32,9 +32,10 @@ struct Graph {
 
 Graph MakeGraph(const PathProblem& problem, const PlanningOptions& options) {
   Rng rng(problem.seed);
-  const Grid<float> mass = SamplingMass(problem.cost.field(), problem.reachable,
+  const Grid<float> mass = SamplingMass(problem.cost.information(), problem.reachable,
                                         problem.start_cell(), options.uniform_share);
-  std::vector<Cell> cells = DrawSamples(mass, options.samples, options.sampling, rng);  // line 1
+  std::vector<Cell> cells =
+      DrawSamples(mass, options.sample_count, options.sampling, rng);  // line 1
   Graph graph;
   graph.sample_count = static_cast<int>(cells.size());
   if (options.goal_vertices) {
@@ -50,7 +51,7 @@ Graph MakeGraph(const PathProblem& problem, const PlanningOptions& options) {
   if (!options.goal_vertices) {
     for (const Goal& goal : problem.goals) {  // lines 3-5
       graph.goal_sets.push_back(
-          NearestSamples(graph.points, goal.position, options.nearest_samples));
+          NearestSamples(graph.points, goal.position, options.nearest_sample_count));
     }
   }
   graph.points.push_back(problem.start);
@@ -73,7 +74,7 @@ class XitSearch {
         graph_(MakeGraph(problem, options)),
         near_(graph_.points, Radius_m(problem, options, graph_.sample_count)),  // line 7
         goal_neighbours_(graph_.points, graph_.sample_count, graph_.goal_vertices,
-                         options.nearest_samples),  // lines 3-5
+                         options.nearest_sample_count),  // lines 3-5
         g_(graph_.points.size(), kInfinity),
         parent_(graph_.points.size(), kNoParent),
         taken_(graph_.points.size(), 0),

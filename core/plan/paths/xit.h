@@ -8,8 +8,8 @@
 namespace plumescout {
 
 // Exploration and exploitation informed trees, [XIT] Alg. 1: one tree over a batch of samples of
-// the information field, grown towards all goals in turn. [MIT] Alg. 1 is the same search under the
-// distance as cost, with independent samples of the field alone (strategy "mit").
+// the information map, grown towards all goals in turn. [MIT] Alg. 1 is the same search under the
+// distance as cost, with independent samples of the information map alone (strategy "mit").
 //
 // Where the listing leaves room:
 //   line 8      while some goal is unreached and Q_v is not empty.

@@ -47,7 +47,7 @@ absl::StatusOr<SubsetTour> BestCycle(const SamplingQuery& query,
     between_m.insert(between_m.end(), row_m.begin(), row_m.end());
   }
   SubsetTourProblem problem{from_start_m, between_m, rewards};
-  problem.wanted = std::min(options.sites.cycle_samples, static_cast<int>(candidates.size()));
+  problem.wanted = std::min(options.sites.cycle_sample_count, static_cast<int>(candidates.size()));
   problem.cycle_s = options.sites.update_period_s;
   problem.sampling_s = options.dwell_s;
   problem.speed_mps = options.speed_mps;
@@ -74,7 +74,7 @@ class LowToHighRule : public SamplingRule {
   absl::StatusOr<SamplingChoice> NextCycle(const SamplingQuery& query) const {
     // The first M of the sorted rewards, Algorithm 1 line 4.
     const std::vector<Errand> candidates =
-        BestFirst(Unsampled(query), query.robot.options.sites.candidates);
+        BestFirst(Unsampled(query), query.robot.options.sites.candidate_count);
     if (candidates.empty()) return SamplingChoice{};
     PLUMESCOUT_ASSIGN_OR_RETURN(const SubsetTour tour, BestCycle(query, candidates));
     SamplingChoice choice;

@@ -45,7 +45,7 @@ class RewardRule : public SamplingRule {
     for (const Site& site : query.sites.offered) {
       if (IsEligible(site, terms)) choice.errands.push_back({{site}, RewardOf(site, terms)});
     }
-    choice.errands = BestFirst(std::move(choice.errands), query.robot.options.max_goals);
+    choice.errands = BestFirst(std::move(choice.errands), query.robot.options.max_goal_count);
     if (!choice.errands.empty()) {
       choice.merit =
           absl::StrFormat("greatest %s, %.4g", NameOf(terms.reward), choice.errands.front().reward);

@@ -55,7 +55,7 @@ std::vector<Errand> BestFirst(std::vector<Errand> errands, int count);
 RewardTerms TermsOf(const SamplingQuery& query);
 
 // The next best site by the reward, [IPP] Eq. (8)-(13), which kMean and kUcb extend; up to
-// max_goals errands.
+// max_goal_count errands.
 std::unique_ptr<const SamplingRule> MakeRewardRule();
 
 // [LHR] Algorithm 1; `at_random` draws the rewards, and there is no survey: constrained random

@@ -29,7 +29,7 @@ double MeanAlong(const GridGeometry& geometry, const std::vector<Point2>& path, 
 
 Candidate MakeCandidate(const Goal& goal, const std::vector<Point2>& path, PathSource source,
                         const CandidateJudge& judge) {
-  const InformationField& field = judge.selection_cost.field();
+  const InformationMap& information = judge.selection_cost.information();
   const GridGeometry& geometry = judge.selection_cost.geometry();
   Candidate candidate;
   candidate.goal = goal;
@@ -37,11 +37,12 @@ Candidate MakeCandidate(const Goal& goal, const std::vector<Point2>& path, PathS
   candidate.path_source = source;
   candidate.cost = PathCost(judge.selection_cost, path);
   for (std::size_t i = 1; i < path.size(); ++i) {
-    candidate.information_penalty += SegmentIntegral_cells(field.penalty, path[i - 1], path[i]);
+    candidate.information_penalty +=
+        SegmentIntegral_cells(information.penalty, path[i - 1], path[i]);
     candidate.length_m += Distance_m(path[i - 1], path[i]);
   }
   candidate.mean_ucb = MeanAlong(
-      geometry, path, [&](Cell cell) { return static_cast<double>(field.information[cell]); });
+      geometry, path, [&](Cell cell) { return static_cast<double>(information.value[cell]); });
   candidate.mean_concentration_ppm = MeanAlong(geometry, path, [&](Cell cell) {
     const double mean_ppm = judge.mean_ppm[cell];
     return std::isfinite(mean_ppm) ? mean_ppm : judge.background_mean_ppm;

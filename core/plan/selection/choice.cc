@@ -50,15 +50,15 @@ int UnderWayTo(const std::vector<Candidate>& candidates, const Belief& belief,
 
 void Choose(const Belief& belief, const PlanningOptions& options, const StopFn& stop, Plan& plan) {
   std::vector<Candidate>& candidates = plan.candidates;
-  if (options.selection == SelectionRule::kInformationRate) {
+  if (options.selection_rule == SelectionRule::kInformationRate) {
     PriceInformation(belief, options, stop, candidates);
   }
-  plan.chosen = SelectCandidate(candidates, options.selection);
+  plan.chosen = SelectCandidate(candidates, options.selection_rule);
   const int kept = UnderWayTo(candidates, belief, plan.robot);
-  if (kept < 0 || kept == plan.chosen || options.commitment_margin == 0.0) return;
+  if (kept < 0 || kept == plan.chosen || options.commitment_margin_share == 0.0) return;
   const Candidate& best = candidates[static_cast<std::size_t>(plan.chosen)];
-  if (BeatsByMargin(best, candidates[static_cast<std::size_t>(kept)], options.selection,
-                    options.commitment_margin)) {
+  if (BeatsByMargin(best, candidates[static_cast<std::size_t>(kept)], options.selection_rule,
+                    options.commitment_margin_share)) {
     return;
   }
   plan.chosen = kept;

@@ -9,9 +9,9 @@
 
 namespace plumescout {
 
-// Chooses among plan.candidates by options.selection, after pricing their expected information if
-// it asks for that and until `stop` says so. The goal that the robot's live plan ends at is kept
-// unless another is better by options.commitment_margin, so that robots do not turn round for
+// Chooses among plan.candidates by options.selection_rule, after pricing their expected information
+// if it asks for that and until `stop` says so. The goal that the robot's live plan ends at is kept
+// unless another is better by options.commitment_margin_share, so that robots do not turn round for
 // little (ours). Pricing one candidate is not interrupted. Cost: that of ExpectedInformation::Of
 // for each candidate, or nothing.
 void Choose(const Belief& belief, const PlanningOptions& options, const StopFn& stop, Plan& plan);

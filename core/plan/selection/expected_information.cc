@@ -63,7 +63,7 @@ ExpectedInformation::ExpectedInformation(const Belief& belief)
 
 std::optional<double> ExpectedInformation::Of(const std::vector<Cell>& readings) const {
   if (belief_.gas_what_if == nullptr) return std::nullopt;
-  // The map may have grown since the field was computed.
+  // The map may have grown since the gas field was computed.
   const GridGeometry& then_geometry = belief_.gas_what_if->geometry();
   const Cell shift = belief_.geometry().CellAt(then_geometry.Center({0, 0}));
   std::vector<Cell> inside;
@@ -71,7 +71,7 @@ std::optional<double> ExpectedInformation::Of(const std::vector<Cell>& readings)
     const Cell shifted{cell.x - shift.x, cell.y - shift.y};
     if (then_geometry.Contains(shifted)) inside.push_back(shifted);
   }
-  const double precision = belief_.options->gas.observation_precision;
+  const double precision = belief_.options->gas.observation_precision_per_ppm2;
   const auto then = belief_.gas_what_if->VarianceIfRead(inside, precision);
   if (!then.ok()) return std::nullopt;
   double sum = 0.0;

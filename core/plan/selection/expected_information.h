@@ -21,7 +21,7 @@ std::vector<Cell> ReadingCells(const std::vector<Point2>& path, const GridGeomet
 
 // By how much readings lower the entropy of the gas field, cell by cell, before they are taken: the
 // variance of a Gaussian field depends on where readings are taken and not on what they say, so
-// this is exact (too much in gas if gas.observation_relative_stddev makes readings there noisier).
+// this is exact (too much in gas if gas.observation_stddev_share makes readings there noisier).
 // Ours.
 class ExpectedInformation {
  public:

@@ -64,7 +64,7 @@ struct DrawnGas {
                              int min_cells = 1) const {
     FrontierOptions options;
     options.wgfd_scope = scope;
-    options.min_gas_cells = min_cells;
+    options.min_gas_cell_count = min_cells;
     return FindGasFrontiers(input(), kObserved_ppm2, kThreshold_ppm, starts, options);
   }
   std::vector<Frontier> Find(WgfdScope scope) const { return Find(scope, robots); }

@@ -21,7 +21,7 @@ GasOptions HalfLife(double half_life_s) {
 TEST(AgeingTest, FollowsTheFormula) {
   const GasOptions options = HalfLife(60.0);
   const Ageing ageing(options);
-  const double lambda_o = options.observation_precision;
+  const double lambda_o = options.observation_precision_per_ppm2;
   const double lambda_t = 60.0 * lambda_o;
   for (const std::int64_t age_s : {0, 1, 30, 60, 600, 86400}) {
     EXPECT_DOUBLE_EQ(ageing.Precision(1.0 / lambda_o, 5 * kSecond_ns, (5 + age_s) * kSecond_ns),
@@ -69,8 +69,8 @@ TEST(AgeingTest, UsesTheVarianceThatAReadingBrings) {
 
 TEST(AgeingTest, NoiseGrowsWithTheReadingFromWhereItExceedsTheFloor) {
   GasOptions options = HalfLife(0.0);
-  options.observation_precision = 4.0;  // sigma_min = 0.5 ppm
-  options.observation_relative_stddev = 0.1;
+  options.observation_precision_per_ppm2 = 4.0;  // sigma_min = 0.5 ppm
+  options.observation_stddev_share = 0.1;
   const Ageing ageing(options);
   EXPECT_DOUBLE_EQ(ageing.InitialVariance_ppm2({0.0, 0.0}), 0.25);
   EXPECT_DOUBLE_EQ(ageing.InitialVariance_ppm2({4.9, 0.0}), 0.25);
@@ -81,7 +81,7 @@ TEST(AgeingTest, NoiseGrowsWithTheReadingFromWhereItExceedsTheFloor) {
 TEST(AgeingTest, NoiseGrowsWithTheDistanceFromTheBackgroundOnEitherSide) {
   GasOptions options = HalfLife(0.0);
   options.background_mean_ppm = 400.0;
-  options.observation_relative_stddev = 0.1;
+  options.observation_stddev_share = 0.1;
   const Ageing ageing(options);
   EXPECT_DOUBLE_EQ(ageing.InitialVariance_ppm2({400.0, 0.0}), 0.1);
   EXPECT_DOUBLE_EQ(ageing.InitialVariance_ppm2({600.0, 0.0}), 400.0);
@@ -90,13 +90,13 @@ TEST(AgeingTest, NoiseGrowsWithTheDistanceFromTheBackgroundOnEitherSide) {
 
 TEST(AgeingTest, AReadingsOwnVarianceComesBeforeTheRelativeOne) {
   GasOptions options = HalfLife(0.0);
-  options.observation_relative_stddev = 10.0;
+  options.observation_stddev_share = 10.0;
   EXPECT_DOUBLE_EQ(Ageing(options).InitialVariance_ppm2({1000.0, 2.0}), 2.0);
 }
 
 TEST(AgeingTest, RelativeNoiseOfTheWidestReadingsStaysFinite) {
   GasOptions options = HalfLife(0.0);
-  options.observation_relative_stddev = 10.0;
+  options.observation_stddev_share = 10.0;
   for (const double reading_ppm : {-1e300, 1e9, 1e300}) {
     const double variance_ppm2 = Ageing(options).InitialVariance_ppm2({reading_ppm, 0.0});
     EXPECT_TRUE(std::isfinite(variance_ppm2 * variance_ppm2)) << reading_ppm;

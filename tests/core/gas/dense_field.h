@@ -30,9 +30,9 @@ class DenseField {
     for (std::size_t i = 0; i < states.size(); ++i) {
       if (states[i] == CellState::kFree) cells_.push_back(states.geometry().CellAtIndex(i));
     }
-    AddPriorRows(options.prior_precision);
+    AddPriorRows(options.prior_precision_per_ppm2);
     for (std::size_t i = 0; i < cells_.size(); ++i) {
-      AddRow(options.background_precision, options.background_mean_ppm)(Index(i)) = 1.0;
+      AddRow(options.background_precision_per_ppm2, options.background_mean_ppm)(Index(i)) = 1.0;
     }
     for (const DenseReading& reading : readings) {
       for (std::size_t i = 0; i < cells_.size(); ++i) {

@@ -145,7 +145,7 @@ TEST(FieldAudit, WhatCannotBeComputedIsAnError) {
   GasMap map{GasOptions()};
   ASSERT_TRUE(map.Refresh(GridFromArt({".."}), 0).ok());
   AuditInputs broken = *map.MakeAudit();
-  broken.options.prior_precision = std::nan("");
+  broken.options.prior_precision_per_ppm2 = std::nan("");
   EXPECT_FALSE(RunAudit(broken).ok());
 }
 

@@ -191,7 +191,7 @@ TEST(GasMapOnlineTest, AgesAllAtOnceWhenItIsFarBehind) {
   ASSERT_TRUE(map.Refresh(states, 0).ok());
   ASSERT_TRUE(map.BeginEpoch(0).ok());
   ASSERT_TRUE(map.Refresh(states, 180 * kSecond_ns).ok());
-  const double precision = kObservationPrecision / 4.0 + options.background_precision;
+  const double precision = kObservationPrecision / 4.0 + options.background_precision_per_ppm2;
   EXPECT_FLOAT_EQ(map.variance_ppm2()[0], static_cast<float>(1.0 / precision));
   EXPECT_EQ(map.quality().ageing_error_ratio, 0.0);
   ASSERT_TRUE(map.Adopt().ok());

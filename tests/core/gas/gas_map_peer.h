@@ -36,9 +36,11 @@ struct GasMapPeer {
   }
 
   // From now on no field that is made anew can be computed.
-  static void LosePrior(GasMap& map) { map.field_options_.prior.prior_precision = std::nan(""); }
+  static void LosePrior(GasMap& map) {
+    map.field_options_.prior.prior_precision_per_ppm2 = std::nan("");
+  }
   static void FindPrior(GasMap& map) {
-    map.field_options_.prior.prior_precision = GasOptions().prior_precision;
+    map.field_options_.prior.prior_precision_per_ppm2 = GasOptions().prior_precision_per_ppm2;
   }
 };
 

@@ -110,7 +110,7 @@ TEST(GasMapTest, EveryVarianceIsThatOfTheDenseInverseAt40By50Cells) {
     if (!cells[i].active || rng.Below(20) != 0) continue;
     const double concentration_ppm = rng.Uniform(0.0, kLargest_ppm);
     map.Add(0, states.geometry().Center(states.geometry().CellAtIndex(i)), {concentration_ppm});
-    cells[i].precision = GasOptions().observation_precision;
+    cells[i].precision = GasOptions().observation_precision_per_ppm2;
     cells[i].weighted_deviation = cells[i].precision * concentration_ppm;
   }
   ASSERT_TRUE(map.Refresh(states, 0).ok());
@@ -128,14 +128,15 @@ TEST(GasMapTest, NeitherClampsMeansNorCapsVariances) {
   const Grid<CellState> states = GridFromArt({".#.#."});
   const GasMap map = MapOf({{0, {0.05, 0.05}, {5e5}}, {0, {0.25, 0.05}, {-3.0}}}, states, 0);
   const GasOptions options;
-  const double precision = options.observation_precision + options.background_precision;
-  const double share = options.observation_precision / precision;
+  const double precision =
+      options.observation_precision_per_ppm2 + options.background_precision_per_ppm2;
+  const double share = options.observation_precision_per_ppm2 / precision;
   EXPECT_FLOAT_EQ(At(map.mean_ppm(), 0, 0), static_cast<float>(5e5 * share));
   EXPECT_FLOAT_EQ(At(map.mean_ppm(), 2, 0), static_cast<float>(-3.0 * share));
   EXPECT_FLOAT_EQ(At(map.variance_ppm2(), 0, 0), static_cast<float>(1.0 / precision));
   EXPECT_EQ(At(map.mean_ppm(), 4, 0), 0.0F);
   EXPECT_FLOAT_EQ(At(map.variance_ppm2(), 4, 0),
-                  static_cast<float>(1.0 / options.background_precision));
+                  static_cast<float>(1.0 / options.background_precision_per_ppm2));
 }
 
 TEST(GasMapTest, IsNanOffTheFreeCells) {
@@ -174,7 +175,7 @@ TEST(GasMapTest, OldReadingsWeighLess) {
   const Grid<CellState> states = GridFromArt({"."});
   const GasMap map = MapOf({{0, {0.05, 0.05}, {20.0}}}, states, 180 * kSecond_ns, options);
   const double lambda = 1.0 / (1.0 / 10.0 + 180.0 / 600.0);
-  const double total = lambda + options.background_precision;
+  const double total = lambda + options.background_precision_per_ppm2;
   EXPECT_FLOAT_EQ(At(map.variance_ppm2(), 0, 0), static_cast<float>(1.0 / total));
   EXPECT_FLOAT_EQ(At(map.mean_ppm(), 0, 0), static_cast<float>(20.0 * lambda / total));
 }
@@ -369,8 +370,8 @@ TEST(GasMapTest, ShowsNoFieldAfterAnEpochThatCannotBeComputed) {
 
 TEST(GasMapTest, NoPrecisionIsTooExtreme) {
   GasOptions options;
-  options.prior_precision = 1e9;
-  options.background_precision = 1e-9;  // 1e9 + 1e-9 rounds to 1e9
+  options.prior_precision_per_ppm2 = 1e9;
+  options.background_precision_per_ppm2 = 1e-9;  // 1e9 + 1e-9 rounds to 1e9
   GasMap map = MapOf({}, GridFromArt({".#"}), 0, options);
   ASSERT_TRUE(map.Refresh(GridFromArt({".."}), 0).ok());
   EXPECT_FLOAT_EQ(At(map.variance_ppm2(), 0, 0), 0.5e9F);

@@ -19,7 +19,7 @@ using ::plumescout::testing::DenseReading;
 GasOptions Options() {
   GasOptions options;
   options.background_mean_ppm = 7.0;
-  options.background_precision = 0.02;
+  options.background_precision_per_ppm2 = 0.02;
   return options;
 }
 

@@ -67,7 +67,7 @@ TEST(PosteriorTest, EqualsTheDenseInverseInRoomsWithADoorAndAClosedPocket) {
 
 TEST(PosteriorTest, EqualsTheDenseInverseWithTheParametersOfInformativePathPlanning) {
   GasOptions options;
-  options.prior_precision = 0.5;  // F_p and F_o of [IPP] section IV
+  options.prior_precision_per_ppm2 = 0.5;  // F_p and F_o of [IPP] section IV
   options.background_mean_ppm = 400.0;
   Rng rng(102);
   const Grid<CellState> states = testing::RandomStates(12, 14, 0.25, rng);
@@ -83,7 +83,7 @@ TEST(PosteriorTest, WithoutReadingsIsTheBackground) {
 
 TEST(PosteriorTest, OfOneLonelyCellIsTheWeightedMean) {
   GasOptions options;
-  options.background_precision = 2.0;
+  options.background_precision_per_ppm2 = 2.0;
   options.background_mean_ppm = 1.0;
   const Posterior posterior = SolveField(GridFromArt({"."}), {{{0, 0}, 6.0, 9.0}}, options);
   EXPECT_DOUBLE_EQ(posterior.mean_ppm[0], (2.0 * 1.0 + 6.0 * 9.0) / 8.0);
@@ -95,8 +95,8 @@ TEST(PosteriorTest, MinimisesTheEnergy) {
   const Grid<CellState> states = GridFromArt({"..", ".."});
   const GasOptions options;
   const std::vector<double> m = SolveField(states, {{{0, 0}, 10.0, 20.0}}, options).mean_ppm;
-  const double lambda_p = options.prior_precision;
-  const double lambda_d = options.background_precision;
+  const double lambda_p = options.prior_precision_per_ppm2;
+  const double lambda_d = options.background_precision_per_ppm2;
   EXPECT_NEAR(10.0 * (m[0] - 20.0) + lambda_d * m[0] + lambda_p * (2 * m[0] - m[1] - m[2]), 0.0,
               1e-11);
   EXPECT_NEAR(lambda_d * m[3] + lambda_p * (2 * m[3] - m[1] - m[2]), 0.0, 1e-11);

@@ -18,7 +18,7 @@ constexpr double kDefaultVariance_ppm2 = 0.1;
 
 Ageing HalfLife(double half_life_s = kHalfLife_s) {
   GasOptions options;
-  options.observation_precision = 1.0 / kDefaultVariance_ppm2;
+  options.observation_precision_per_ppm2 = 1.0 / kDefaultVariance_ppm2;
   options.ageing_half_life_s = half_life_s;
   return Ageing(options);
 }

@@ -255,7 +255,7 @@ void CompareOverAMission(const MissionOptions& run) {
   Rng rng(run.seed);
   GrowingMap map(rng);
   GasOptions options;
-  options.observation_precision = kObservationPrecision;
+  options.observation_precision_per_ppm2 = kObservationPrecision;
   options.background_mean_ppm = kMean_ppm;
   options.ageing_half_life_s = run.half_life_s;
   ReadingStore store(options);

@@ -23,7 +23,7 @@ struct Memory {
   static MissionOptions Options() {
     MissionOptions options;
     options.planning.set_aside_s = 60.0;
-    options.frontier.min_occupancy_cells = 8;
+    options.frontier.min_occupancy_cell_count = 8;
     return options;
   }
   void Remember(const Goal& goal, ProgressOutcome outcome, std::int64_t time_ns = 0) {

@@ -357,7 +357,7 @@ TEST(Mission, AReadingDoesNotWaitForTheRefreshThatAScanCaused) {
 
 TEST(MissionCreate, RefusesInvalidOptions) {
   MissionOptions options;
-  options.gas.prior_precision = NAN;
+  options.gas.prior_precision_per_ppm2 = NAN;
   EXPECT_EQ(Mission::Create(options).status().code(), absl::StatusCode::kInvalidArgument);
 }
 

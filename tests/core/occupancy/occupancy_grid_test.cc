@@ -123,7 +123,7 @@ TEST(OccupancyGrid, RefusesToGrowBeyondItsExtentAndStaysAsItWas) {
 
 TEST(OccupancyGrid, RefusesToGrowBeyondItsNumberOfCells) {
   OccupancyOptions options;
-  options.max_cells = 2 * 64 * 64;
+  options.max_cell_count = 2 * 64 * 64;
   OccupancyGrid grid = OneTile(options);
   EXPECT_TRUE(grid.GrowToContain({1.0, 1.0}, {7.0, 1.0}).ok());
   EXPECT_EQ(grid.GrowToContain({1.0, 1.0}, {1.0, 7.0}).code(),
@@ -161,10 +161,10 @@ TEST(OccupancyGrid, CallsACellFreeOrOccupiedAtItsThresholds) {
   OccupancyGrid grid = OneTile(options);
   const auto log_odds = [](double p) { return std::log(p / (1.0 - p)); };
   constexpr double kHair = 1e-5;
-  grid.Add(Cell{0, 0}, log_odds(options.free_threshold));
-  grid.Add(Cell{1, 0}, log_odds(options.free_threshold) + kHair);
-  grid.Add(Cell{2, 0}, log_odds(options.occupied_threshold));
-  grid.Add(Cell{3, 0}, log_odds(options.occupied_threshold) - kHair);
+  grid.Add(Cell{0, 0}, log_odds(options.free_threshold_probability));
+  grid.Add(Cell{1, 0}, log_odds(options.free_threshold_probability) + kHair);
+  grid.Add(Cell{2, 0}, log_odds(options.occupied_threshold_probability));
+  grid.Add(Cell{3, 0}, log_odds(options.occupied_threshold_probability) - kHair);
   EXPECT_EQ(grid.State({0, 0}), CellState::kFree);
   EXPECT_EQ(grid.State({1, 0}), CellState::kUnknown);
   EXPECT_EQ(grid.State({2, 0}), CellState::kOccupied);
@@ -191,15 +191,15 @@ TEST(OccupancyGrid, AKnownCellChangesOnlyAtTheOtherThreshold) {
     const double now = grid.Probability(cell);
     grid.Add(cell, std::log(p / (1.0 - p)) - std::log(now / (1.0 - now)));
   };
-  raise_to(options.free_threshold - 0.01);
+  raise_to(options.free_threshold_probability - 0.01);
   EXPECT_EQ(grid.State(cell), CellState::kFree);
-  raise_to(options.occupied_threshold - 0.01);
+  raise_to(options.occupied_threshold_probability - 0.01);
   EXPECT_EQ(grid.State(cell), CellState::kFree);
-  raise_to(options.occupied_threshold + 0.01);
+  raise_to(options.occupied_threshold_probability + 0.01);
   EXPECT_EQ(grid.State(cell), CellState::kOccupied);
-  raise_to(options.free_threshold + 0.01);
+  raise_to(options.free_threshold_probability + 0.01);
   EXPECT_EQ(grid.State(cell), CellState::kOccupied);
-  raise_to(options.free_threshold - 0.01);
+  raise_to(options.free_threshold_probability - 0.01);
   EXPECT_EQ(grid.State(cell), CellState::kFree);
 }
 

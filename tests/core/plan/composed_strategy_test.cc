@@ -144,13 +144,13 @@ TEST(Strategy, KeepsTheGoalItDrivesToUnlessAnotherIsBetterByTheMargin) {
   belief.claims = {{"r", 1, other.goal, belief.sample_time_ns + 1}};
 
   PlanningOptions options = testing::XitGff();
-  options.commitment_margin = 1.0;
+  options.commitment_margin_share = 1.0;
   const absl::StatusOr<Plan> kept = TryPlan(belief, For("r"), options);
   ASSERT_TRUE(kept.ok());
   EXPECT_TRUE(kept->goal_kept);
   EXPECT_EQ(Chosen(*kept).goal, other.goal);
 
-  options.commitment_margin = 0.01;
+  options.commitment_margin_share = 0.01;
   const absl::StatusOr<Plan> changed = TryPlan(belief, For("r"), options);
   ASSERT_TRUE(changed.ok());
   EXPECT_FALSE(changed->goal_kept);
@@ -315,8 +315,8 @@ TEST(Strategy, SaysWhatItPassedOver) {
 TEST(Strategy, WithoutTheGuardMayMissGoalsAndSaysSo) {
   PlanningOptions options = testing::XitGff();
   options.grid_guard = false;
-  options.samples = 1;
-  options.nearest_samples = 1;
+  options.sample_count = 1;
+  options.nearest_sample_count = 1;
   const absl::StatusOr<Plan> plan = TryPlan(SmallBelief(kRoom), For("r", 1), options);
   ASSERT_TRUE(plan.ok());
   EXPECT_EQ(plan->end, PlanEnd::kQueueExhausted);

@@ -78,7 +78,7 @@ TEST(Explain, MentionsWhatLimitedThePlan) {
   plan.end = PlanEnd::kStopped;
   const std::string text = Explain(plan, SelectionRule::kLeastCost);
   EXPECT_THAT(text, HasSubstr("first out of the margin around obstacles"));
-  EXPECT_THAT(text, HasSubstr("the information field is flat"));
+  EXPECT_THAT(text, HasSubstr("the information map is flat"));
   EXPECT_THAT(text, HasSubstr("the search was stopped early"));
 }
 

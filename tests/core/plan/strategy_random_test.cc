@@ -67,8 +67,8 @@ Belief RandomBelief(Rng& rng) {
   Belief belief;
   belief.revision = 1;
   MissionOptions mission;
-  mission.frontier.min_occupancy_cells = 1 + static_cast<int>(rng.Below(4));
-  mission.frontier.min_gas_cells = 1;
+  mission.frontier.min_occupancy_cell_count = 1 + static_cast<int>(rng.Below(4));
+  mission.frontier.min_gas_cell_count = 1;
   mission.occupancy.inflation_radius_m = OneOf(rng, {0.0, 0.1, 0.2});
   belief.options = std::make_shared<const MissionOptions>(mission);
   belief.occupancy = std::make_shared<const Grid<CellState>>(RandomOccupancy(rng));
@@ -88,15 +88,15 @@ Belief RandomBelief(Rng& rng) {
 PlanningOptions RandomOptions(Rng& rng) {
   PlanningOptions options;
   options.paths = OneOf(rng, {PathKind::kXit, PathKind::kAnytimeXit, PathKind::kGridExact});
-  options.goals = OneOf(rng, {GoalPolicy::kGasFirst, GoalPolicy::kOccupancyFirst,
-                              GoalPolicy::kOccupancyOnly, GoalPolicy::kEverything});
+  options.goal_policy = OneOf(rng, {GoalPolicy::kGasFirst, GoalPolicy::kOccupancyFirst,
+                                    GoalPolicy::kOccupancyOnly, GoalPolicy::kEverything});
   options.cost = OneOf(rng, {CostKind::kUcb, CostKind::kEuclidean, CostKind::kVertices});
   options.selection_cost = OneOf(rng, {CostKind::kUcb, CostKind::kEuclidean, CostKind::kVertices});
-  options.selection = OneOf(
+  options.selection_rule = OneOf(
       rng, {SelectionRule::kLeastCost, SelectionRule::kMeanUcb, SelectionRule::kInformationRate});
   options.sampling = OneOf(rng, {SamplingKind::kSystematic, SamplingKind::kIid});
-  options.samples = OneOf(rng, {1, 2, 50, 3000});
-  options.alpha = OneOf(rng, {0.0, 1.0, 1e9});
+  options.sample_count = OneOf(rng, {1, 2, 50, 3000});
+  options.alpha_per_m = OneOf(rng, {0.0, 1.0, 1e9});
   options.beta = OneOf(rng, {0.0, 1.0, 1e9});
   options.uniform_share = OneOf(rng, {0.0, 0.2, 1.0});
   options.min_goal_distance_m = OneOf(rng, {0.0, 0.3});
@@ -106,14 +106,14 @@ PlanningOptions RandomOptions(Rng& rng) {
   options.straighten = rng.Below(2) == 0;
   options.grid_guard = rng.Below(2) == 0;
   options.mixture_radius = rng.Below(2) == 0;
-  options.commitment_margin = OneOf(rng, {0.0, 0.5});
+  options.commitment_margin_share = OneOf(rng, {0.0, 0.5});
   options.dwell_s = OneOf(rng, {0.0, 5.0});
   options.max_turn_rate_rad_per_s = OneOf(rng, {0.0, 1.0});
   options.max_acceleration_mps2 = OneOf(rng, {0.0, 0.5});
   options.travel_budget_m = OneOf(rng, {0.0, 1.0, 50.0});
   options.return_home = rng.Below(2) == 0;
   options.raw_variance = rng.Below(2) == 0;
-  options.nearest_samples = OneOf(rng, {1, 3, 100});
+  options.nearest_sample_count = OneOf(rng, {1, 3, 100});
   return options;
 }
 

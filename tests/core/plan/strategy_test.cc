@@ -28,28 +28,28 @@ TEST(StrategyTable, DefaultsAreThePartsOfTheRowThatTheyName) {
   PlanningOptions options;
   ASSERT_TRUE(ApplyStrategyRow(options).ok());
   const PlanningOptions defaults;
-  EXPECT_EQ(options.goals, defaults.goals);
+  EXPECT_EQ(options.goal_policy, defaults.goal_policy);
   EXPECT_EQ(options.paths, defaults.paths);
   EXPECT_EQ(options.cost, defaults.cost);
   EXPECT_EQ(options.selection_cost, defaults.selection_cost);
-  EXPECT_EQ(options.selection, defaults.selection);
+  EXPECT_EQ(options.selection_rule, defaults.selection_rule);
   EXPECT_EQ(options.straighten, defaults.straighten);
 }
 
 TEST(StrategyTable, SetsThePartsOfARow) {
   PlanningOptions options;
   options.cost = CostKind::kEuclidean;
-  options.selection = SelectionRule::kMeanUcb;
-  options.samples = 77;
+  options.selection_rule = SelectionRule::kMeanUcb;
+  options.sample_count = 77;
   options.strategy = "xit_fgf";
   ASSERT_TRUE(ApplyStrategyRow(options).ok());
-  EXPECT_EQ(options.goals, GoalPolicy::kOccupancyFirst);
+  EXPECT_EQ(options.goal_policy, GoalPolicy::kOccupancyFirst);
   EXPECT_EQ(options.cost, CostKind::kUcb);
-  EXPECT_EQ(options.selection, SelectionRule::kLeastCost);
-  EXPECT_EQ(options.samples, 77) << "no part of the row";
+  EXPECT_EQ(options.selection_rule, SelectionRule::kLeastCost);
+  EXPECT_EQ(options.sample_count, 77) << "no part of the row";
   options.strategy = "xit_f";
   ASSERT_TRUE(ApplyStrategyRow(options).ok());
-  EXPECT_EQ(options.goals, GoalPolicy::kOccupancyOnly);
+  EXPECT_EQ(options.goal_policy, GoalPolicy::kOccupancyOnly);
 }
 
 TEST(StrategyTable, MakesMitASearchByDistanceAmongSamplesOfTheField) {
@@ -57,9 +57,9 @@ TEST(StrategyTable, MakesMitASearchByDistanceAmongSamplesOfTheField) {
   options.strategy = "mit";
   ASSERT_TRUE(ApplyStrategyRow(options).ok());
   EXPECT_EQ(options.cost, CostKind::kEuclidean);
-  EXPECT_EQ(options.selection, SelectionRule::kMeanUcb);
-  EXPECT_EQ(options.samples, 270);  // [MIT] section IV, as the rest
-  EXPECT_EQ(options.nearest_samples, 3);
+  EXPECT_EQ(options.selection_rule, SelectionRule::kMeanUcb);
+  EXPECT_EQ(options.sample_count, 270);  // [MIT] section IV, as the rest
+  EXPECT_EQ(options.nearest_sample_count, 3);
   EXPECT_EQ(options.beta, 1.0);
   EXPECT_EQ(options.uniform_share, 0.0);
   EXPECT_EQ(options.sampling, SamplingKind::kIid);
@@ -74,11 +74,11 @@ TEST(StrategyTable, MakesOursGoForInformationPerSecondWhereverItIs) {
   ASSERT_TRUE(ApplyStrategyRow(options).ok());
   options.strategy = "plumescout";
   ASSERT_TRUE(ApplyStrategyRow(options).ok());
-  EXPECT_EQ(options.goals, GoalPolicy::kEverything);
+  EXPECT_EQ(options.goal_policy, GoalPolicy::kEverything);
   EXPECT_EQ(options.paths, PathKind::kXit);
   EXPECT_EQ(options.cost, CostKind::kUcb);
   EXPECT_EQ(options.selection_cost, CostKind::kUcb);
-  EXPECT_EQ(options.selection, SelectionRule::kInformationRate);
+  EXPECT_EQ(options.selection_rule, SelectionRule::kInformationRate);
   EXPECT_TRUE(options.straighten);
   EXPECT_TRUE(MakeStrategy(options).ok());
 }
@@ -98,7 +98,7 @@ TEST(StrategyTable, RefusesUnknownNamesAndBadOptions) {
   EXPECT_EQ(MakeStrategy(options).status().code(), absl::StatusCode::kInvalidArgument);
   EXPECT_THAT(std::string(MakeStrategy(options).status().message()), HasSubstr("xit_gff"));
   options = {};
-  options.samples = 0;
+  options.sample_count = 0;
   EXPECT_EQ(MakeStrategy(options).status().code(), absl::StatusCode::kInvalidArgument);
 }
 
@@ -125,8 +125,8 @@ TEST(SamplingStrategies, TakeThePapersNumbers) {
   }
   const PlanningOptions options = LhrOptions();
   EXPECT_EQ(options.sites.survey_stride, 10);
-  EXPECT_EQ(options.sites.candidates, 15);
-  EXPECT_EQ(options.sites.cycle_samples, 10);
+  EXPECT_EQ(options.sites.candidate_count, 15);
+  EXPECT_EQ(options.sites.cycle_sample_count, 10);
   EXPECT_EQ(options.sites.update_period_s, 50.0);
 }
 
@@ -190,12 +190,12 @@ TEST(SamplingStrategies, WantUpdatePeriodsAboveTheBoundOfRemark1) {
 
 TEST(SamplingStrategies, RefuseMoreSamplesThanCandidates) {
   PlanningOptions options = LhrOptions();
-  options.sites.cycle_samples = 16;
-  ExpectRefused(options, "planning.sites.cycle_samples ");
-  options.sites.candidates = 16;
+  options.sites.cycle_sample_count = 16;
+  ExpectRefused(options, "planning.sites.cycle_sample_count ");
+  options.sites.candidate_count = 16;
   EXPECT_TRUE(MakeStrategy(options).ok());
-  options.sites.candidates = 17;
-  ExpectRefused(options, "planning.sites.candidates ");
+  options.sites.candidate_count = 17;
+  ExpectRefused(options, "planning.sites.candidate_count ");
 }
 
 TEST(SamplingStrategies, LhrCannotAddUpRewardsPerTime) {

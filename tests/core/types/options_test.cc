@@ -54,8 +54,10 @@ TEST(OccupancyOptions, RefuseValuesOutsideTheirRanges) {
   ExpectRefused<OccupancyOptions>({
       {"resolution_m", &OccupancyOptions::resolution_m, {0.0, -0.1, 50.1}},
       {"inflation_radius_m", &OccupancyOptions::inflation_radius_m, {-0.1, 5.1}},
-      {"free_threshold", &OccupancyOptions::free_threshold, {0.0, 0.5}},
-      {"occupied_threshold", &OccupancyOptions::occupied_threshold, {0.5, 1.0}},
+      {"free_threshold_probability", &OccupancyOptions::free_threshold_probability, {0.0, 0.5}},
+      {"occupied_threshold_probability",
+       &OccupancyOptions::occupied_threshold_probability,
+       {0.5, 1.0}},
       {"hit_log_odds", &OccupancyOptions::hit_log_odds, {0.0, -1.0, 51.0}},
       {"miss_log_odds", &OccupancyOptions::miss_log_odds, {0.0, 1.0, -51.0}},
       {"clamp_log_odds", &OccupancyOptions::clamp_log_odds, {0.0, -1.0, 51.0}},
@@ -73,12 +75,12 @@ TEST(OccupancyOptions, RefuseAClampShortOfAThreshold) {
 
 TEST(GasOptions, RefuseValuesOutsideTheirRanges) {
   ExpectRefused<GasOptions>({
-      {"prior_precision", &GasOptions::prior_precision, {0.0, -1.0}},
-      {"observation_precision", &GasOptions::observation_precision, {0.0, -1.0}},
-      {"background_precision", &GasOptions::background_precision, {0.0, -1.0}},
+      {"prior_precision_per_ppm2", &GasOptions::prior_precision_per_ppm2, {0.0, -1.0}},
+      {"observation_precision_per_ppm2", &GasOptions::observation_precision_per_ppm2, {0.0, -1.0}},
+      {"background_precision_per_ppm2", &GasOptions::background_precision_per_ppm2, {0.0, -1.0}},
       {"background_mean_ppm", &GasOptions::background_mean_ppm, {-1.0}},
       {"ageing_half_life_s", &GasOptions::ageing_half_life_s, {-1.0, 1e-4, 2e9}},
-      {"observation_relative_stddev", &GasOptions::observation_relative_stddev, {-0.1, 10.1}},
+      {"observation_stddev_share", &GasOptions::observation_stddev_share, {-0.1, 10.1}},
       {"refresh_period_s", &GasOptions::refresh_period_s, {0.0, -1.0, 0.009, 3601.0}},
   });
 }
@@ -104,17 +106,17 @@ TEST(FrontierOptions, RefuseGivenThresholdsThatAreNotPositive) {
 
 TEST(FrontierOptions, RefuseClustersOfNoCells) {
   FrontierOptions options;
-  options.min_occupancy_cells = 0;
+  options.min_occupancy_cell_count = 0;
   EXPECT_FALSE(Validate(options).ok());
   options = {};
-  options.min_gas_cells = -1;
+  options.min_gas_cell_count = -1;
   EXPECT_FALSE(Validate(options).ok());
 }
 
 TEST(PlanningOptions, RefuseValuesOutsideTheirRanges) {
   ExpectRefused<PlanningOptions>({
       {"min_goal_distance_m", &PlanningOptions::min_goal_distance_m, {-0.1}},
-      {"alpha", &PlanningOptions::alpha, {-1.0, 2e9}},
+      {"alpha_per_m", &PlanningOptions::alpha_per_m, {-1.0, 2e9}},
       {"beta", &PlanningOptions::beta, {-1.0, 2e9}},
       {"uniform_share", &PlanningOptions::uniform_share, {-0.1, 1.1}},
       {"radius_factor", &PlanningOptions::radius_factor, {0.0}},
@@ -172,7 +174,7 @@ TEST(MissionOptions, RefuseValuesOutsideTheirRanges) {
 
 TEST(MissionOptions, AreInvalidIfAnyPartIs) {
   MissionOptions options;
-  options.gas.prior_precision = -1.0;
+  options.gas.prior_precision_per_ppm2 = -1.0;
   EXPECT_EQ(Validate(options).message(), Validate(options.gas).message());
 }
 

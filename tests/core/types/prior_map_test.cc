@@ -68,9 +68,9 @@ TEST(PriorMap, LimitsCountWholeTilesWithACellOfMargin) {
   ExpectRefused({0.1, 0.1, 0.1, 127, 1}, options, "127 x 1 cells needs 192 x 64");
   ExpectRefused({0.0, 0.1, 0.1, 126, 1}, options, "occupancy.max_extent_m = 12.8");
   options = {};
-  options.max_cells = 2 * 64 * 64;
+  options.max_cell_count = 2 * 64 * 64;
   EXPECT_TRUE(ValidatePriorMap(AllFree({0.1, 0.1, 0.1, 126, 1}), options).ok());
-  ExpectRefused({0.1, 0.1, 0.1, 126, 63}, options, "occupancy.max_cells = 8192");
+  ExpectRefused({0.1, 0.1, 0.1, 126, 63}, options, "occupancy.max_cell_count = 8192");
 }
 
 TEST(PriorMap, WithoutAFreeCellItIsRefused) {
@@ -96,7 +96,7 @@ TEST(PriorMap, LimitsThatHoldItStayAsTheyAre) {
   MissionOptions options;
   StartWith(std::make_shared<const Grid<CellState>>(AllFree({0.0, 0.0, 0.1, 50, 40})), options);
   EXPECT_EQ(options.occupancy.max_extent_m, MissionOptions{}.occupancy.max_extent_m);
-  EXPECT_EQ(options.occupancy.max_cells, MissionOptions{}.occupancy.max_cells);
+  EXPECT_EQ(options.occupancy.max_cell_count, MissionOptions{}.occupancy.max_cell_count);
   EXPECT_EQ(options.pose_limit_m, MissionOptions{}.pose_limit_m);
 }
 

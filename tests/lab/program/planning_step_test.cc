@@ -81,7 +81,7 @@ TEST_F(PlanningStepTest, ShowsTreeFieldAndExpectedInformation) {
   const auto step = TakePlanningStep(mission_, {});
   ASSERT_TRUE(step.ok()) << step.status();
   EXPECT_EQ(step->tree.size() + 1, static_cast<std::size_t>(step->plan.effort.vertices));
-  EXPECT_EQ(step->field.information.geometry(), step->belief->geometry());
+  EXPECT_EQ(step->information.value.geometry(), step->belief->geometry());
   for (const Candidate& candidate : step->plan.candidates) {
     ASSERT_TRUE(candidate.expected_information_nats.has_value());
     EXPECT_GT(*candidate.expected_information_nats, 0.0);

@@ -18,7 +18,7 @@ namespace {
 MissionOptions UnusualOptions() {
   MissionOptions options;
   options.occupancy.resolution_m = 0.2;
-  options.planning.alpha = 0.25;
+  options.planning.alpha_per_m = 0.25;
   options.frontier.fixed_gas_threshold_ppm = 7.5;
   options.seed = 42;
   return options;
@@ -53,7 +53,7 @@ TEST_F(RecordingTest, ReplaysToTheSameMap) {
   ASSERT_TRUE(recording.ok()) << recording.status();
   EXPECT_TRUE(recording->end.ok());
   EXPECT_EQ(recording->options.occupancy.resolution_m, 0.2);
-  EXPECT_EQ(recording->options.planning.alpha, 0.25);
+  EXPECT_EQ(recording->options.planning.alpha_per_m, 0.25);
   EXPECT_EQ(recording->options.frontier.fixed_gas_threshold_ppm, 7.5);
   EXPECT_EQ(recording->options.seed, 42u);
 
@@ -145,7 +145,7 @@ TEST_F(RecordingTest, ANewRecordingReplacesTheOldOne) {
 
 TEST_F(RecordingTest, InvalidOptionsAreNotRecorded) {
   MissionOptions options;
-  options.gas.prior_precision = -1.0;
+  options.gas.prior_precision_per_ppm2 = -1.0;
   EXPECT_TRUE(absl::IsInvalidArgument(Recorder::Create(path_, options).status()));
 }
 

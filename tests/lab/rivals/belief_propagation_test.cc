@@ -77,7 +77,7 @@ Case RandomCase(const BeliefPropagationOptions& propagation, std::uint64_t seed 
   const std::vector<DenseReading> readings = testing::RandomReadings(states, 30, rng);
   GasOptions gas;
   gas.background_mean_ppm = 2.0;
-  gas.background_precision = 0.01;
+  gas.background_precision_per_ppm2 = 0.01;
   return {states, readings, gas, propagation};
 }
 
@@ -179,7 +179,7 @@ TEST(BeliefPropagation, OfAnIsolatedCellIsItsOwnEvidence) {
   BeliefPropagation solver(graph, options, {});
   solver.SetEvidence(graph.At({1, 0}), {10.0, 50.0});
   solver.Propagate();
-  const double precision = 10.0 + options.background_precision;
+  const double precision = 10.0 + options.background_precision_per_ppm2;
   EXPECT_NEAR(solver.Beliefs().mean_ppm[0], 50.0 / precision, 1e-12);
   EXPECT_NEAR(solver.Beliefs().variance_ppm2[0], 1.0 / precision, 1e-12);
 }

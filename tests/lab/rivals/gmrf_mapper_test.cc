@@ -24,7 +24,7 @@ constexpr double kRelative = 1e-6;
 TEST(GmrfMapperTest, EqualsTheDenseInverse) {
   Rng rng(11);
   GasOptions options;
-  options.prior_precision = 0.5;
+  options.prior_precision_per_ppm2 = 0.5;
   options.background_mean_ppm = 4.0;
   const Grid<CellState> states = testing::RandomStates(12, 9, 0.25, rng);
   const std::vector<DenseReading> readings = testing::RandomReadings(states, 14, rng);

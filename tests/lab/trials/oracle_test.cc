@@ -37,7 +37,8 @@ Scene TinyScene() {
 // The same by dense algebra: every set of two readings, one after the other.
 class DenseOracle {
  public:
-  DenseOracle(const Scene& scene, const GasOptions& gas) : noise_(1.0 / gas.observation_precision) {
+  DenseOracle(const Scene& scene, const GasOptions& gas)
+      : noise_(1.0 / gas.observation_precision_per_ppm2) {
     std::vector<Cell> cells;
     for (std::size_t i = 0; i < scene.occupancy.size(); ++i) {
       if (scene.occupancy[i] == CellState::kFree) {
@@ -45,7 +46,7 @@ class DenseOracle {
       }
     }
     const auto n = static_cast<Eigen::Index>(cells.size());
-    Eigen::MatrixXd precision = Eigen::MatrixXd::Identity(n, n) * gas.background_precision;
+    Eigen::MatrixXd precision = Eigen::MatrixXd::Identity(n, n) * gas.background_precision_per_ppm2;
     truth_ = Eigen::VectorXd(n);
     for (Eigen::Index i = 0; i < n; ++i) {
       const Cell a = cells[static_cast<std::size_t>(i)];
@@ -54,8 +55,8 @@ class DenseOracle {
       for (Eigen::Index j = 0; j < n; ++j) {
         const Cell b = cells[static_cast<std::size_t>(j)];
         if (std::abs(a.x - b.x) + std::abs(a.y - b.y) != 1) continue;
-        precision(i, i) += gas.prior_precision;
-        precision(i, j) -= gas.prior_precision;
+        precision(i, i) += gas.prior_precision_per_ppm2;
+        precision(i, j) -= gas.prior_precision_per_ppm2;
       }
     }
     covariance_ = precision.inverse();

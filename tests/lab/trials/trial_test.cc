@@ -77,7 +77,7 @@ TEST(Trial, OfPlumescoutEndsOfItself) {
 TEST(Trial, AMissionThatIsInvalidIsAnError) {
   const SceneWorld world(SmallScene());
   MissionOptions mission = MissionBy("xit_gff");
-  mission.gas.prior_precision = -1.0;
+  mission.gas.prior_precision_per_ppm2 = -1.0;
   EXPECT_EQ(RunTrial(SmallTrial(mission, world)).status().code(),
             absl::StatusCode::kInvalidArgument);
 }

@@ -12,21 +12,22 @@
 namespace plumescout::lab {
 namespace {
 
-InformationField UniformField(const Grid<std::uint8_t>& open) {
+InformationMap UniformInformation(const Grid<std::uint8_t>& open) {
   Rng rng(1);
-  InformationField field = testing::WavyField(open, rng);
-  for (float& penalty : field.penalty.values()) {
+  InformationMap information = testing::WavyInformation(open, rng);
+  for (float& penalty : information.penalty.values()) {
     if (std::isfinite(penalty)) penalty = 1.0F;
   }
-  return field;
+  return information;
 }
 
 TEST(OracleCosts, OfLengthAreTheTravelDistancesOfTheGrid) {
   Rng rng(2);
   const Grid<std::uint8_t> open = testing::RandomObstacles(40, 30, 20, rng);
-  const InformationField field = UniformField(open);
+  const InformationMap information = UniformInformation(open);
   const Cell start = testing::RandomOpenCell(open, rng);
-  const Grid<double> costs = OracleCosts(EdgeCost(field, CostKind::kEuclidean, 1.0), start, 8);
+  const Grid<double> costs =
+      OracleCosts(EdgeCost(information, CostKind::kEuclidean, 1.0), start, 8);
   const Grid<double> travel_m = TravelDistances_m(open, std::vector<Cell>{start});
   for (std::size_t i = 0; i < costs.size(); ++i) {
     if (travel_m[i] == kUnreached_m) {
@@ -39,8 +40,8 @@ TEST(OracleCosts, OfLengthAreTheTravelDistancesOfTheGrid) {
 
 TEST(OracleCosts, FallWithMoreDirections) {
   const Grid<std::uint8_t> open(GridGeometry{0.0, 0.0, 0.1, 20, 20}, 1);
-  const InformationField field = UniformField(open);
-  const EdgeCost cost(field, CostKind::kUcb, 0.0);
+  const InformationMap information = UniformInformation(open);
+  const EdgeCost cost(information, CostKind::kUcb, 0.0);
   // To (6, 2): 4 straight and 2 diagonal steps; two knight's moves and two straight; straight.
   EXPECT_NEAR((OracleCosts(cost, {0, 0}, 8)[Cell{6, 2}]), 4.0 + 2.0 * std::sqrt(2.0), 1e-9);
   EXPECT_NEAR((OracleCosts(cost, {0, 0}, 16)[Cell{6, 2}]), 2.0 + 2.0 * std::sqrt(5.0), 1e-9);

@@ -51,7 +51,7 @@ TEST(MitScene, ThePlumeFadesDownwindAndTheSourceIsItsPeak) {
 // Where the robot has read clean air both mean and variance are low; nobody has been in the east.
 TEST(MitScene, WhatWasReadAndCleanIsTheLeastInformative) {
   const MitScene scene = *BuildMitScene(MitTableScene());
-  const Grid<float>& information = scene.field.information;
+  const Grid<float>& information = scene.information.value;
   EXPECT_LT(information[information.geometry().CellAt({2.6, 6.6})], 0.2F);
   EXPECT_GT(information[scene.goals[1].cell], 0.4F);
 }
@@ -60,7 +60,7 @@ TEST(MitScene, TheVarianceAsPrintedMakesAnotherField) {
   MitSceneSpec spec = MitTableScene();
   const MitScene ours = *BuildMitScene(spec);
   spec.raw_variance = true;
-  EXPECT_NE(BuildMitScene(spec)->field.information, ours.field.information);
+  EXPECT_NE(BuildMitScene(spec)->information.value, ours.information.value);
 }
 
 TEST(MitScene, AGoalWithoutAWayIsRefusedByName) {

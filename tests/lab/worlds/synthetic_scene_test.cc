@@ -41,8 +41,8 @@ TEST(SyntheticScene, GoalsCanBeReached) {
 TEST(SyntheticScene, NoStraightWayIsFree) {
   for (const SceneSpec& spec : AllScenes()) {
     const SyntheticScene scene = BuildScene(spec);
-    EXPECT_TRUE(
-        std::isinf(SegmentIntegral_cells(scene.field.penalty, scene.start, scene.goal.position)))
+    EXPECT_TRUE(std::isinf(
+        SegmentIntegral_cells(scene.information.penalty, scene.start, scene.goal.position)))
         << spec.name;
   }
 }
@@ -50,9 +50,9 @@ TEST(SyntheticScene, NoStraightWayIsFree) {
 TEST(SyntheticScene, InformationIsTheGas) {
   const SyntheticScene scene = BuildScene(SmallRoom());
   const GridGeometry& geometry = scene.occupancy.geometry();
-  EXPECT_FALSE(scene.field.flat);
-  EXPECT_NEAR(scene.field.information[geometry.CellAt({3.05, 1.55})], 1.0, 1e-3);
-  EXPECT_NEAR(scene.field.information[geometry.CellAt({1.55, 1.55})], 0.0, 1e-2);
+  EXPECT_FALSE(scene.information.flat);
+  EXPECT_NEAR(scene.information.value[geometry.CellAt({3.05, 1.55})], 1.0, 1e-3);
+  EXPECT_NEAR(scene.information.value[geometry.CellAt({1.55, 1.55})], 0.0, 1e-2);
 }
 
 TEST(SyntheticScene, ObstaclesAndWallsKeepTheRobotAtADistance) {
@@ -67,9 +67,9 @@ TEST(SyntheticScene, ObstaclesAndWallsKeepTheRobotAtADistance) {
 
 TEST(SyntheticScene, MeansAreOverTheLengthOfThePath) {
   SyntheticScene scene = BuildScene(SmallRoom());
-  for (std::size_t i = 0; i < scene.field.information.size(); ++i) {
+  for (std::size_t i = 0; i < scene.information.value.size(); ++i) {
     const Cell cell = scene.occupancy.geometry().CellAtIndex(i);
-    scene.field.information[i] = cell.x < 20 ? 0.25F : 0.75F;
+    scene.information.value[i] = cell.x < 20 ? 0.25F : 0.75F;
   }
   const std::vector<Point2> path = {{1.0, 2.05}, {2.0, 2.05}, {2.5, 2.05}};
   EXPECT_DOUBLE_EQ(PathLength_m(path), 1.5);

@@ -61,10 +61,10 @@ TEST(FieldTest, JoinBuildsPaths) {
 }
 
 TEST(FieldTest, RefusalOfTheCoreGetsItsPlaceAndTheNameOfTheWire) {
-  constexpr FieldName kRenamed[] = {{"max_cells", "max_cell_count"}};
-  const absl::Status core = absl::InvalidArgumentError("max_cells = 7 must be in [10, 20]");
+  constexpr FieldName kRenamed[] = {{"scan.ranges", "scan.ranges_u16"}};
+  const absl::Status core = absl::InvalidArgumentError("scan.ranges = 7 must be in [10, 20]");
   EXPECT_THAT(FieldViolations(WithField(core, "options", kRenamed)),
-              ElementsAre(FieldViolation{"options.max_cell_count", "= 7 must be in [10, 20]"}));
+              ElementsAre(FieldViolation{"options.scan.ranges_u16", "= 7 must be in [10, 20]"}));
 }
 
 TEST(FieldTest, OtherErrorsPassUnchanged) {

@@ -28,17 +28,17 @@ MissionOptions Unlike() {
   options.gas = {1.0, 2.0, 0.01, 3.0, 60.0, 2, 5.0, 0.1};
   options.frontier = {9, 6, 0.5, 0.25, 20.0, 3.0, 4.0, WgfdScope::kLocal};
   options.planning.strategy = "xit_f";
-  options.planning.goals = GoalPolicy::kOccupancyOnly;
+  options.planning.goal_policy = GoalPolicy::kOccupancyOnly;
   options.planning.cost = CostKind::kEuclidean;
   options.planning.paths = PathKind::kBitStar;
   options.planning.goal_vertices = false;
   options.planning.informed_heuristic = true;
   options.planning.straighten = false;
   options.planning.reading_rate_hz = 4.0;
-  options.planning.commitment_margin = 0.25;
-  options.planning.selection = SelectionRule::kMeanUcb;
+  options.planning.commitment_margin_share = 0.25;
+  options.planning.selection_rule = SelectionRule::kMeanUcb;
   options.planning.sampling = SamplingKind::kIid;
-  options.planning.samples = 77;
+  options.planning.sample_count = 77;
   options.planning.grid_guard = false;
   options.planning.max_acceleration_mps2 = 0.5;
   options.planning.max_turn_rate_rad_per_s = 1.5;
@@ -56,7 +56,7 @@ MissionOptions Unlike() {
                             30.0,
                             4,
                             5};
-  options.max_robots = 3;
+  options.max_robot_count = 3;
   options.robot_silence_s = 12.5;
   options.gas.audit_period_epochs = 7;
   options.keep_out = {{{{1, 2}, {3, 4}, {5, 7}}}, {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}};

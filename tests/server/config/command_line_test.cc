@@ -39,6 +39,7 @@ TEST(CommandLineTest, HelpNamesFlagsAndOptions) {
   ASSERT_TRUE(line.ok() && line->print.has_value());
   EXPECT_THAT(*line->print, HasSubstr("--listen"));
   EXPECT_THAT(*line->print, HasSubstr("limits.max_missions = 64"));
+  EXPECT_THAT(*line->print, HasSubstr("mission.planning.speed_mps = 1.25"));
 }
 
 TEST(CommandLineTest, MistakesAreNamed) {

@@ -18,23 +18,24 @@ TEST(MissionOptionsTest, NamedStrategySetsThePartsOfItsRow) {
   proto.mutable_planning()->set_strategy("xit_f");
   const auto options = ReadMissionOptions(proto, {}, "options");
   ASSERT_TRUE(options.ok()) << options.status();
-  EXPECT_EQ(options->planning.goals, GoalPolicy::kOccupancyOnly);
+  EXPECT_EQ(options->planning.goal_policy, GoalPolicy::kOccupancyOnly);
 }
 
 TEST(MissionOptionsTest, FieldsThatAreSetOverrideTheRow) {
   v1::MissionOptions proto;
   proto.mutable_planning()->set_strategy("xit_f");
   proto.mutable_planning()->set_goal_policy(v1::GOAL_POLICY_OCCUPANCY_FIRST);
-  EXPECT_EQ(ReadMissionOptions(proto, {}, "options")->planning.goals, GoalPolicy::kOccupancyFirst);
+  EXPECT_EQ(ReadMissionOptions(proto, {}, "options")->planning.goal_policy,
+            GoalPolicy::kOccupancyFirst);
 }
 
 TEST(MissionOptionsTest, WithoutANameTheDefaultsStay) {
   MissionOptions defaults;
-  defaults.planning.goals = GoalPolicy::kOccupancyFirst;
-  defaults.gas.prior_precision = 7.0;
+  defaults.planning.goal_policy = GoalPolicy::kOccupancyFirst;
+  defaults.gas.prior_precision_per_ppm2 = 7.0;
   const auto options = ReadMissionOptions({}, defaults, "options");
-  EXPECT_EQ(options->planning.goals, GoalPolicy::kOccupancyFirst);
-  EXPECT_EQ(options->gas.prior_precision, 7.0);
+  EXPECT_EQ(options->planning.goal_policy, GoalPolicy::kOccupancyFirst);
+  EXPECT_EQ(options->gas.prior_precision_per_ppm2, 7.0);
 }
 
 constexpr char kYaml[] =

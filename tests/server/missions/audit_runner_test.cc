@@ -41,7 +41,7 @@ TEST(AuditRunnerTest, SaysWhenNothingCouldBeFound) {
   std::optional<WorkerPool> pool(std::in_place, WorkerPoolOptions{"test", 1, 1});
   AuditRunner runner(&*pool);
   auto broken = std::make_shared<AuditInputs>(*Moment());
-  broken->options.prior_precision = std::nan("");
+  broken->options.prior_precision_per_ppm2 = std::nan("");
   runner.Start(broken);
   pool.reset();
   const auto finding = runner.Take();

@@ -55,7 +55,7 @@ TEST(MissionRegistryTest, CellsOfAllMissionsTogetherAreBounded) {
   options.max_total_cells = 25'000;
   MissionRegistry registry(options, {});
   MissionOptions mission;
-  mission.occupancy.max_cells = 10'000;
+  mission.occupancy.max_cell_count = 10'000;
   ASSERT_TRUE(registry.Create("a", mission).ok());
   ASSERT_TRUE(registry.Create("b", mission).ok());
   const absl::Status refused = registry.Create("c", mission).status();
@@ -67,7 +67,7 @@ TEST(MissionRegistryTest, CellsOfAllMissionsTogetherAreBounded) {
 
 TEST(MissionRegistryTest, ExtentBoundsCellsToo) {
   OccupancyOptions options;
-  options.max_cells = 4'000'000;
+  options.max_cell_count = 4'000'000;
   options.resolution_m = 0.1;
   options.max_extent_m = 10.0;
   EXPECT_EQ(CellBound(options), 10'000);

@@ -150,7 +150,7 @@ TEST_F(MissionServiceTest, DeletedMissionMakesRoom) {
 
 TEST_F(MissionServiceTest, MapsThatCouldOutgrowTheServerAreRefused) {
   ServerConfig config;
-  config.limits.max_total_cells = 2 * config.mission.occupancy.max_cells - 1;
+  config.limits.max_total_cells = 2 * config.mission.occupancy.max_cell_count - 1;
   StartServer(config);
   EXPECT_THAT(CreateMission("attic").status(), Refuses(kExhausted, "LIMIT_REACHED"));
 }

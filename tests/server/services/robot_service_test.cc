@@ -104,7 +104,7 @@ TEST_F(RobotServiceTest, MissionMustExist) {
 
 TEST_F(RobotServiceTest, FullMissionTakesNoMoreRobots) {
   ServerConfig config;
-  config.mission.max_robots = 1;
+  config.mission.max_robot_count = 1;
   StartServer(config);
   ASSERT_TRUE(Register("r1").ok());
   EXPECT_THAT(Register("r2").status(),

@@ -56,11 +56,12 @@ class DenseTruth {
     Eigen::VectorXd information = Eigen::VectorXd::Zero(count);
     for (std::size_t i = 0; i < cells.size(); ++i) {
       if (!cells[i].active) continue;
-      hessian_(variables_[i], variables_[i]) += options.background_precision + cells[i].precision;
+      hessian_(variables_[i], variables_[i]) +=
+          options.background_precision_per_ppm2 + cells[i].precision;
       information(variables_[i]) = cells[i].weighted_deviation;
       const bool has_east = (i + 1) % width != 0;
-      if (has_east && cells[i].linked_east) Join(i, i + 1, options.prior_precision);
-      if (cells[i].linked_north) Join(i, i + width, options.prior_precision);
+      if (has_east && cells[i].linked_east) Join(i, i + 1, options.prior_precision_per_ppm2);
+      if (cells[i].linked_north) Join(i, i + width, options.prior_precision_per_ppm2);
     }
     covariance_ = hessian_.inverse();
     mean_ppm_ = covariance_ * information;
@@ -107,7 +108,7 @@ struct FieldCase {
 inline FieldOptions DefaultField() {
   const GasOptions gas;
   FieldOptions options;
-  options.prior = {gas.prior_precision, gas.background_precision};
+  options.prior = {gas.prior_precision_per_ppm2, gas.background_precision_per_ppm2};
   options.tolerance = {0.0, 0.0};
   return options;
 }
@@ -168,9 +169,9 @@ inline std::vector<CellChange> ReadingInAnActiveCell(const FieldCase& c, Rng& rn
 }
 
 // Largest errors over all active cells; expects NaN elsewhere.
-inline FieldError ErrorAgainst(const FieldCase& c, const FieldEngine& engine,
-                               const DenseTruth& dense) {
-  FieldError error;
+inline FieldDeviation ErrorAgainst(const FieldCase& c, const FieldEngine& engine,
+                                   const DenseTruth& dense) {
+  FieldDeviation error;
   for (std::size_t i = 0; i < c.cells.size(); ++i) {
     if (!c.cells[i].active) {
       EXPECT_TRUE(std::isnan(engine.mean_ppm(i)) && std::isnan(engine.variance_ppm2(i)));

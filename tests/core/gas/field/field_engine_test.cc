@@ -34,7 +34,7 @@ constexpr double kPeak_ppm = 50.0;  // of all readings
 constexpr double kExact = 1e-9;
 
 void ExpectExact(const FieldCase& c, const FieldEngine& engine) {
-  const FieldError error = ErrorAgainst(c, engine, c.Dense());
+  const FieldDeviation error = ErrorAgainst(c, engine, c.Dense());
   EXPECT_LE(error.mean_ppm, kExact);
   EXPECT_LE(error.variance_ratio, kExact);
 }
@@ -184,7 +184,7 @@ TEST(FieldEngineTest, LosesNoDigitsWhereTheBackgroundIsNegligible) {
   // Every cell's variance in an unobserved map of n cells is at least 1 / (n lambda_d), and beyond
   // that at most the resistance between any two cells over lambda_p: here below 100 / 3.
   FieldOptions options = DefaultField();
-  options.prior.background_precision = 1e-13;
+  options.prior.background_precision_per_ppm2 = 1e-13;
   FieldCase c{20, std::vector<CellInput>(400, {true, 0.0, 0.0})};
   const FieldEngine engine = EngineOf(c, options);
   for (std::size_t i = 0; i < c.cells.size(); ++i) {
@@ -208,7 +208,7 @@ std::vector<CellChange> RandomBatch(const FieldCase& c, Rng& rng) {
   return changes;
 }
 
-void ExpectWithin(const FieldError& bound, const FieldCase& c, const FieldEngine& engine) {
+void ExpectWithin(const FieldDeviation& bound, const FieldCase& c, const FieldEngine& engine) {
   const FieldEngine fresh = EngineOf(c);
   for (std::size_t i = 0; i < c.cells.size(); ++i) {
     if (!c.cells[i].active) continue;
@@ -230,7 +230,7 @@ TEST(FieldEngineTest, KeepsWithinItsToleranceAndSaysSoOverALongRun) {
       const std::vector<CellChange> changes = RandomBatch(c, rng);
       c.Apply(changes);
       ASSERT_TRUE(engine.Apply(changes).ok());
-      const FieldError bound = engine.error_bound();
+      const FieldDeviation bound = engine.error_bound();
       EXPECT_LE(bound.mean_ppm, share * kPeak_ppm);
       EXPECT_LE(bound.variance_ratio, share * (1.0 + kExact));
       greatest_bound = std::max(greatest_bound, bound.variance_ratio);

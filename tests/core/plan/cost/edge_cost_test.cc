@@ -17,11 +17,11 @@ namespace {
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kRounding = 1e-9;  // hundreds of additions of values of order 1
 
-InformationField FieldOf(const Grid<float>& penalty) {
-  InformationField field;
-  field.penalty = penalty;
-  field.min_penalty = 0.1F;
-  return field;
+InformationMap InformationOf(const Grid<float>& penalty) {
+  InformationMap information;
+  information.penalty = penalty;
+  information.min_penalty = 0.1F;
+  return information;
 }
 
 // Three cells of 0.1 m in a row.
@@ -35,7 +35,7 @@ struct RandomCase {
   explicit RandomCase(std::uint64_t seed)
       : rng(seed),
         open(testing::RandomObstacles(40, 30, 8, rng)),
-        field(testing::WavyField(open, rng)) {}
+        information(testing::WavyInformation(open, rng)) {}
 
   Point2 Point() {
     const GridGeometry& g = open.geometry();
@@ -45,12 +45,12 @@ struct RandomCase {
 
   Rng rng;
   Grid<std::uint8_t> open;
-  InformationField field;
+  InformationMap information;
 };
 
 TEST(EdgeCost, AtVerticesTakesTheEndsPenaltyAlone) {
-  const InformationField field = FieldOf(ThreeCells(0.9F, 0.5F, 0.25F));
-  const EdgeCost cost(field, CostKind::kVertices, 2.0);
+  const InformationMap information = InformationOf(ThreeCells(0.9F, 0.5F, 0.25F));
+  const EdgeCost cost(information, CostKind::kVertices, 2.0);
   EXPECT_NEAR(cost({0.05, 0.05}, {0.25, 0.05}), 0.25 + 2.0 * 0.2, 1e-6);
   EXPECT_NEAR(cost({0.25, 0.05}, {0.05, 0.05}), 0.9 + 2.0 * 0.2, 1e-6);
   EXPECT_NEAR(cost.GridStep(0.9F, 0.5F, 1.0), cost({0.05, 0.05}, {0.15, 0.05}), 1e-6);
@@ -58,19 +58,19 @@ TEST(EdgeCost, AtVerticesTakesTheEndsPenaltyAlone) {
 }
 
 TEST(EdgeCost, AtVerticesStillHitsWhatStandsBetween) {
-  const InformationField field = FieldOf(ThreeCells(0.9F, kInf, 0.25F));
-  EXPECT_EQ(EdgeCost(field, CostKind::kVertices, 0.0)({0.05, 0.05}, {0.25, 0.05}), kInf);
+  const InformationMap information = InformationOf(ThreeCells(0.9F, kInf, 0.25F));
+  EXPECT_EQ(EdgeCost(information, CostKind::kVertices, 0.0)({0.05, 0.05}, {0.25, 0.05}), kInf);
 }
 
 TEST(EdgeCost, InformedHeuristicPricesTheStraightLineThroughObstacles) {
-  const InformationField field = FieldOf(ThreeCells(0.5F, kInf, 0.25F));
-  const EdgeCost cost(field, CostKind::kUcb, 2.0);
+  const InformationMap information = InformationOf(ThreeCells(0.5F, kInf, 0.25F));
+  const EdgeCost cost(information, CostKind::kUcb, 2.0);
   // Half a cell at 0.5, one blocked at the greatest penalty, half a cell at 0.25.
   EXPECT_NEAR(cost.InformedHeuristic({0.05, 0.05}, {0.25, 0.05}),
               0.5 * 0.5 + 1.0 + 0.5 * 0.25 + 2.0 * 0.2, 1e-6);
-  EXPECT_NEAR(
-      EdgeCost(field, CostKind::kEuclidean, 0.0).InformedHeuristic({0.05, 0.05}, {0.25, 0.05}), 0.2,
-      kRounding);
+  EXPECT_NEAR(EdgeCost(information, CostKind::kEuclidean, 0.0)
+                  .InformedHeuristic({0.05, 0.05}, {0.25, 0.05}),
+              0.2, kRounding);
 }
 
 TEST(SegmentIntegral, WeighsEachCellByTheLengthInside) {
@@ -85,9 +85,9 @@ TEST(SegmentIntegral, EqualsDenseSampling) {
   for (int i = 0; i < 300; ++i) {
     const Point2 a = c.Point();
     const Point2 b = c.Point();
-    const double exact = SegmentIntegral_cells(c.field.penalty, a, b);
+    const double exact = SegmentIntegral_cells(c.information.penalty, a, b);
     constexpr int kPoints = 20'000;
-    const std::vector<float> values = testing::ValuesAlong(c.field.penalty, a, b, kPoints);
+    const std::vector<float> values = testing::ValuesAlong(c.information.penalty, a, b, kPoints);
     double sum = 0.0;
     for (const float value : values) sum += value;
     const double length_cells = Distance_m(a, b) / c.open.geometry().resolution_m;
@@ -114,10 +114,10 @@ TEST(SegmentIntegral, AddsUpUnderSubdivisionAndIsTheSameBothWays) {
     const Point2 b = c.Point();
     const double t = c.rng.Uniform01();
     const Point2 middle{a.x_m + t * (b.x_m - a.x_m), a.y_m + t * (b.y_m - a.y_m)};
-    const double whole = SegmentIntegral_cells(c.field.penalty, a, b);
-    const double back = SegmentIntegral_cells(c.field.penalty, b, a);
-    const double parts = SegmentIntegral_cells(c.field.penalty, a, middle) +
-                         SegmentIntegral_cells(c.field.penalty, middle, b);
+    const double whole = SegmentIntegral_cells(c.information.penalty, a, b);
+    const double back = SegmentIntegral_cells(c.information.penalty, b, a);
+    const double parts = SegmentIntegral_cells(c.information.penalty, a, middle) +
+                         SegmentIntegral_cells(c.information.penalty, middle, b);
     if (whole == kInf) {
       EXPECT_EQ(back, kInf);
       EXPECT_EQ(parts, kInf);
@@ -151,31 +151,31 @@ TEST(SegmentIntegral, OfAPointIsZeroInsideAndInfiniteInABlockedCell) {
 }
 
 TEST(EdgeCost, IsPenaltyInCellsPlusAlphaPerMetre) {  // Eq. (12)
-  const InformationField field = FieldOf(ThreeCells(1.0F, 0.5F, 0.25F));
+  const InformationMap information = InformationOf(ThreeCells(1.0F, 0.5F, 0.25F));
   const Point2 a{0.05, 0.05};
   const Point2 b{0.25, 0.05};
-  EXPECT_NEAR(EdgeCost(field, CostKind::kUcb, 0.0)(a, b), 0.5 + 0.5 + 0.125, kRounding);
-  EXPECT_NEAR(EdgeCost(field, CostKind::kUcb, 3.0)(a, b), 1.125 + 3.0 * 0.2, kRounding);
+  EXPECT_NEAR(EdgeCost(information, CostKind::kUcb, 0.0)(a, b), 0.5 + 0.5 + 0.125, kRounding);
+  EXPECT_NEAR(EdgeCost(information, CostKind::kUcb, 3.0)(a, b), 1.125 + 3.0 * 0.2, kRounding);
 }
 
 TEST(EdgeCost, EuclideanIsTheLengthWhateverAlpha) {
-  const InformationField field = FieldOf(ThreeCells(1.0F, 0.5F, 0.25F));
-  EXPECT_NEAR(EdgeCost(field, CostKind::kEuclidean, 7.0)({0.05, 0.05}, {0.25, 0.05}), 0.2,
+  const InformationMap information = InformationOf(ThreeCells(1.0F, 0.5F, 0.25F));
+  EXPECT_NEAR(EdgeCost(information, CostKind::kEuclidean, 7.0)({0.05, 0.05}, {0.25, 0.05}), 0.2,
               kRounding);
 }
 
 TEST(EdgeCost, IsInfiniteThroughBlockedCellsForEveryKind) {
-  const InformationField field =
-      FieldOf(ThreeCells(1.0F, std::numeric_limits<float>::infinity(), 1.0F));
+  const InformationMap information =
+      InformationOf(ThreeCells(1.0F, std::numeric_limits<float>::infinity(), 1.0F));
   for (const CostKind kind : {CostKind::kUcb, CostKind::kEuclidean}) {
-    EXPECT_EQ(EdgeCost(field, kind, 1.0)({0.05, 0.05}, {0.25, 0.05}), kInf);
+    EXPECT_EQ(EdgeCost(information, kind, 1.0)({0.05, 0.05}, {0.25, 0.05}), kInf);
   }
 }
 
 TEST(EdgeCost, NeverGoesBelowItsLowerBoundAndTheHeuristicIsConsistent) {
   RandomCase c(3);
   for (const CostKind kind : {CostKind::kUcb, CostKind::kEuclidean}) {
-    const EdgeCost cost(c.field, kind, 0.7);
+    const EdgeCost cost(c.information, kind, 0.7);
     for (int i = 0; i < 500; ++i) {
       const Point2 a = c.Point();
       const Point2 b = c.Point();
@@ -188,32 +188,32 @@ TEST(EdgeCost, NeverGoesBelowItsLowerBoundAndTheHeuristicIsConsistent) {
 }
 
 TEST(EdgeCost, HasAHeuristicOnlyIfLengthCosts) {
-  const InformationField field = FieldOf(ThreeCells(1, 1, 1));
-  EXPECT_FALSE(EdgeCost(field, CostKind::kUcb, 0.0).HasHeuristic());
-  EXPECT_TRUE(EdgeCost(field, CostKind::kUcb, 0.1).HasHeuristic());
-  EXPECT_TRUE(EdgeCost(field, CostKind::kEuclidean, 0.0).HasHeuristic());
+  const InformationMap information = InformationOf(ThreeCells(1, 1, 1));
+  EXPECT_FALSE(EdgeCost(information, CostKind::kUcb, 0.0).HasHeuristic());
+  EXPECT_TRUE(EdgeCost(information, CostKind::kUcb, 0.1).HasHeuristic());
+  EXPECT_TRUE(EdgeCost(information, CostKind::kEuclidean, 0.0).HasHeuristic());
 }
 
 TEST(EdgeCost, OfAGridStepIsThatOfTheSegment) {
   RandomCase c(4);
   for (const CostKind kind : {CostKind::kUcb, CostKind::kEuclidean}) {
-    const EdgeCost cost(c.field, kind, 0.3);
+    const EdgeCost cost(c.information, kind, 0.3);
     for (int i = 0; i < 200; ++i) {
       const Cell from = testing::RandomOpenCell(c.open, c.rng);
       const Cell offset = kNeighbours8[c.rng.Below(8)];
       const Cell to = Shifted(from, offset);
       const double walked = cost(c.open.geometry().Center(from), c.open.geometry().Center(to));
       if (walked == kInf) continue;
-      EXPECT_NEAR(
-          cost.GridStep(c.field.penalty[from], c.field.penalty[to], StepLength_cells(offset)),
-          walked, kRounding);
+      EXPECT_NEAR(cost.GridStep(c.information.penalty[from], c.information.penalty[to],
+                                StepLength_cells(offset)),
+                  walked, kRounding);
     }
   }
 }
 
 TEST(PathCost, IsTheSumOverTheSegments) {  // Eq. (13)
-  const InformationField field = FieldOf(ThreeCells(1.0F, 0.5F, 0.25F));
-  const EdgeCost cost(field, CostKind::kUcb, 1.0);
+  const InformationMap information = InformationOf(ThreeCells(1.0F, 0.5F, 0.25F));
+  const EdgeCost cost(information, CostKind::kUcb, 1.0);
   const Point2 a{0.05, 0.05};
   const Point2 b{0.12, 0.08};
   const Point2 c{0.25, 0.02};

@@ -26,12 +26,12 @@ struct RandomCase {
   explicit RandomCase(std::uint64_t seed, int width = 40, int height = 30)
       : rng(seed),
         domain(testing::RandomObstacles(width, height, 8, rng)),
-        field(testing::WavyField(domain, rng)),
+        information(testing::WavyInformation(domain, rng)),
         robot(testing::RandomOpenCell(domain, rng)) {}
 
   Rng rng;
   Grid<std::uint8_t> domain;
-  InformationField field;
+  InformationMap information;
   Cell robot;
 };
 
@@ -47,17 +47,17 @@ Grid<float> RowOfMass(std::vector<float> values) {
 
 TEST(SamplingMass, FollowsEquation14) {
   const RandomCase c(1);
-  const Grid<float> mass = SamplingMass(c.field, c.domain, c.robot, 0.2);
-  double information = 0.0;
+  const Grid<float> mass = SamplingMass(c.information, c.domain, c.robot, 0.2);
+  double total = 0.0;
   double cells = 0.0;
   for (std::size_t i = 0; i < mass.size(); ++i) {
     if (c.domain[i] == 0 || c.domain.geometry().CellAtIndex(i) == c.robot) continue;
-    information += c.field.information[i];
+    total += c.information.value[i];
     cells += 1.0;
   }
   for (std::size_t i = 0; i < mass.size(); ++i) {
     const bool counts = c.domain[i] != 0 && c.domain.geometry().CellAtIndex(i) != c.robot;
-    const double q = 0.8 * c.field.information[i] / information + 0.2 / cells;
+    const double q = 0.8 * c.information.value[i] / total + 0.2 / cells;
     EXPECT_NEAR(mass[i], counts ? q : 0.0, 1e-6 * q);
   }
   EXPECT_NEAR(Total(mass), 1.0, kFloatSum);
@@ -65,35 +65,36 @@ TEST(SamplingMass, FollowsEquation14) {
 
 TEST(SamplingMass, IsUniformForAShareOfOneAndPureInformationForZero) {
   const RandomCase c(2);
-  const Grid<float> uniform = SamplingMass(c.field, c.domain, c.robot, 1.0);
+  const Grid<float> uniform = SamplingMass(c.information, c.domain, c.robot, 1.0);
   std::set<float> values(uniform.values().begin(), uniform.values().end());
   EXPECT_EQ(values.size(), 2U);  // 0 and 1 / cells
-  const Grid<float> pure = SamplingMass(c.field, c.domain, c.robot, 0.0);
+  const Grid<float> pure = SamplingMass(c.information, c.domain, c.robot, 0.0);
   for (std::size_t i = 0; i < pure.size(); ++i) {
-    if (c.field.information[i] == 0.0F) {
+    if (c.information.value[i] == 0.0F) {
       EXPECT_EQ(pure[i], 0.0F);
     }
   }
 }
 
 TEST(SamplingMass, IsUniformIfAllInformationIsUnderTheRobot) {
-  InformationField field;
-  field.information = RowOfMass({0.0F, 1.0F, 0.0F});
-  Grid<std::uint8_t> domain(field.information.geometry(), 1);
-  EXPECT_THAT(SamplingMass(field, domain, {1, 0}, 0.0).values(), ElementsAre(0.5F, 0.0F, 0.5F));
+  InformationMap information;
+  information.value = RowOfMass({0.0F, 1.0F, 0.0F});
+  Grid<std::uint8_t> domain(information.value.geometry(), 1);
+  EXPECT_THAT(SamplingMass(information, domain, {1, 0}, 0.0).values(),
+              ElementsAre(0.5F, 0.0F, 0.5F));
 }
 
 TEST(SamplingMass, OfTheRobotsCellAloneIsZero) {
-  InformationField field;
-  field.information = RowOfMass({1.0F});
-  EXPECT_EQ(
-      Total(SamplingMass(field, Grid<std::uint8_t>(field.information.geometry(), 1), {0, 0}, 0.2)),
-      0.0);
+  InformationMap information;
+  information.value = RowOfMass({1.0F});
+  EXPECT_EQ(Total(SamplingMass(information, Grid<std::uint8_t>(information.value.geometry(), 1),
+                               {0, 0}, 0.2)),
+            0.0);
 }
 
 TEST(DrawSamples, GivesDifferentCellsWithMassAsManyAsAsked) {
   RandomCase c(3);
-  const Grid<float> mass = SamplingMass(c.field, c.domain, c.robot, 0.2);
+  const Grid<float> mass = SamplingMass(c.information, c.domain, c.robot, 0.2);
   for (const SamplingKind kind : {SamplingKind::kIid, SamplingKind::kSystematic}) {
     for (const int count : {1, 7, 300, 600}) {
       const std::vector<Cell> samples = DrawSamples(mass, count, kind, c.rng);
@@ -120,7 +121,7 @@ TEST(DrawSamples, GivesAllCellsIfThereAreNoMore) {
 
 TEST(DrawSamples, IsRepeatableFromTheSeed) {
   const RandomCase c(5);
-  const Grid<float> mass = SamplingMass(c.field, c.domain, c.robot, 0.2);
+  const Grid<float> mass = SamplingMass(c.information, c.domain, c.robot, 0.2);
   for (const SamplingKind kind : {SamplingKind::kIid, SamplingKind::kSystematic}) {
     Rng first(77);
     Rng second(77);
@@ -169,7 +170,7 @@ TEST(DrawSamples, IidPairsFollowDrawsWithoutReplacement) {
 
 TEST(DrawSamples, SystematicGivesEveryRunOfTheCurveItsShareWithinOne) {
   RandomCase c(8);
-  const Grid<float> mass = SamplingMass(c.field, c.domain, c.robot, 0.2);
+  const Grid<float> mass = SamplingMass(c.information, c.domain, c.robot, 0.2);
   constexpr int kCount = 60;
   ASSERT_LT(*std::max_element(mass.values().begin(), mass.values().end()), 1.0F / kCount);
   for (int draw = 0; draw < 20; ++draw) {

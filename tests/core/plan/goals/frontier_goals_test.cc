@@ -62,7 +62,7 @@ TEST(FrontierGoals, OfGasComeFromThePlumeUnlessThePolicyWantsNone) {
   EXPECT_EQ(found.gas[0].goal.kind, GoalKind::kGasFrontier);
   EXPECT_EQ(found.gas[0].goal.cell.x, 4);
   EXPECT_THAT(found.occupancy, IsEmpty());
-  c.options.goals = GoalPolicy::kOccupancyOnly;
+  c.options.goal_policy = GoalPolicy::kOccupancyOnly;
   EXPECT_THAT(FindFrontierGoals(c.Query()).gas, IsEmpty());
 }
 
@@ -97,7 +97,7 @@ TEST(FrontierGoals, OfGasAreUnreachableWithoutACellToStandOn) {
 TEST(FrontierGoals, RejectWhatIsTooSmall) {
   GoalCase c(kCorridor);
   MissionOptions mission;
-  mission.frontier.min_occupancy_cells = 6;
+  mission.frontier.min_occupancy_cell_count = 6;
   c.SetMission(mission);
   EXPECT_EQ(OnlyRejection(c), RejectionReason::kTooSmall);
 }

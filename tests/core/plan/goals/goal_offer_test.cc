@@ -118,7 +118,7 @@ GoalCase Strip(float variance_ppm2) {
   const testing::GridArt art = {std::string(32, '#'), "#" + std::string(30, 'g') + "?",
                                 "#S" + std::string(29, 'g') + "?", std::string(32, '#')};
   GoalCase c(art);
-  c.options.goals = GoalPolicy::kEverything;
+  c.options.goal_policy = GoalPolicy::kEverything;
   c.belief.gas_counters.readings = 1;
   Grid<float> mean(c.belief.geometry(), 0.0F);
   for (std::size_t i = 0; i < mean.size(); ++i) {
@@ -143,7 +143,7 @@ TEST(FindGoals, OfEverythingAreFrontiersAndPlacesWhereReadingsTellMuch) {
   EXPECT_TRUE(HasKind(Find(c), GoalKind::kOccupancyFrontier));
   EXPECT_TRUE(HasKind(Find(c), GoalKind::kInformation));
   EXPECT_FALSE(Find(c).fallback);
-  c.options.goals = GoalPolicy::kGasFirst;
+  c.options.goal_policy = GoalPolicy::kGasFirst;
   EXPECT_FALSE(HasKind(Find(c), GoalKind::kInformation));
   c = Strip(kFine_ppm2);
   EXPECT_FALSE(HasKind(Find(c), GoalKind::kInformation));

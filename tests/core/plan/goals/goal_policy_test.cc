@@ -35,9 +35,9 @@ struct Chosen {
 
 Chosen Choose(int gas, int occupancy, GoalPolicy policy, bool draw_goals, std::uint64_t seed = 1) {
   PlanningOptions options;
-  options.goals = policy;
+  options.goal_policy = policy;
   options.draw_goals = draw_goals;
-  options.max_goals = 3;
+  options.max_goal_count = 3;
   FrontierGoals frontiers;
   frontiers.gas = Offered(gas, 1);
   frontiers.occupancy = Offered(occupancy, 101);

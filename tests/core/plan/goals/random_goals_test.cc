@@ -26,7 +26,7 @@ const testing::GridArt kRoom = {"#######",  //
 
 TEST(RandomGoals, AreDifferentCellsThatCanBeReached) {
   GoalCase c(kRoom);
-  c.options.max_goals = 5;
+  c.options.max_goal_count = 5;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Rng rng(seed);
     const std::vector<Goal> goals = RandomGoals(c.Query(), rng);
@@ -45,14 +45,14 @@ TEST(RandomGoals, AreDifferentCellsThatCanBeReached) {
 
 TEST(RandomGoals, AreAsManyAsThereAre) {
   GoalCase c(kRoom);
-  c.options.max_goals = 100;
+  c.options.max_goal_count = 100;
   Rng rng(1);
   EXPECT_THAT(RandomGoals(c.Query(), rng), SizeIs(8));
 }
 
 TEST(RandomGoals, KeepTheirDistance) {
   GoalCase c(kRoom);
-  c.options.max_goals = 100;
+  c.options.max_goal_count = 100;
   c.options.min_goal_distance_m = 0.12;  // the four diagonal neighbours are 0.14 m away
   Rng rng(1);
   EXPECT_THAT(RandomGoals(c.Query(), rng), SizeIs(4));
@@ -68,7 +68,7 @@ TEST(UnobservedGoals, LieAwayFromAllObservedCells) {
                                 "########"};
   GoalCase c(art);
   c.AddGas(art, 0.0F);
-  c.options.max_goals = 100;
+  c.options.max_goal_count = 100;
   Rng rng(1);
   std::set<int> columns;
   const std::vector<Goal> goals = UnobservedGoals(c.Query(), rng);
@@ -88,7 +88,7 @@ TEST(UnobservedGoals, AreNoneWhereAllIsObserved) {
 
 TEST(RandomGoals, AreDrawnUniformly) {
   GoalCase c(kRoom);
-  c.options.max_goals = 1;
+  c.options.max_goal_count = 1;
   Rng rng(2);
   std::map<Cell, int> counts;
   constexpr int kDraws = 8000;

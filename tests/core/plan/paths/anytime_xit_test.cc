@@ -87,7 +87,7 @@ TEST(AnytimeXit, IsRepeatableFromItsSeedAndBudget) {
 TEST(AnytimeXit, EndsWhereAGoalCannotBeReached) {
   PathCase c(6);
   c.reachable[c.goals.front().cell] = 0;
-  c.field.penalty[c.goals.front().cell] = std::numeric_limits<float>::infinity();
+  c.information.penalty[c.goals.front().cell] = std::numeric_limits<float>::infinity();
   const PathResult result = AnytimeXitPlanner({}).FindPaths(c.Problem());
   EXPECT_EQ(result.end, PlanEnd::kQueueExhausted);
   EXPECT_FALSE(result.paths.front().has_value());

@@ -47,8 +47,8 @@ TEST(CostSearch, FindsTheCheapestWaysOfTheGridUnderEveryCost) {
 
 TEST(CostSearch, HasNoWayToWhatItCannotReach) {
   PathCase c(3);
-  c.field.penalty = Grid<float>(c.open.geometry(), std::numeric_limits<float>::infinity());
-  c.field.penalty[c.start_cell] = 1.0F;
+  c.information.penalty = Grid<float>(c.open.geometry(), std::numeric_limits<float>::infinity());
+  c.information.penalty[c.start_cell] = 1.0F;
   CostSearch search(c.cost);
   EXPECT_TRUE(search.Run(c.start_cell, {{0, 0}}, c.stop));
   EXPECT_TRUE(search.WayTo({0, 0}, c.start).empty());

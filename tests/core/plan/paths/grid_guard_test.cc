@@ -37,7 +37,7 @@ TEST(GridGuard, ReachesEveryGoalThatCanBeReached) {
       EXPECT_EQ(result.paths[i]->source, PathSource::kGridGuard);
       EXPECT_EQ(result.paths[i]->vertices.front(), c.start);
       EXPECT_EQ(result.paths[i]->vertices.back(), c.goals[i].position);
-      EXPECT_TRUE(testing::StaysClear(c.field.penalty, result.paths[i]->vertices));
+      EXPECT_TRUE(testing::StaysClear(c.information.penalty, result.paths[i]->vertices));
       EXPECT_NEAR(result.paths[i]->cost, PathCost(c.cost, result.paths[i]->vertices), kRounding);
     }
   }
@@ -82,7 +82,7 @@ TEST(GridGuard, StartsWhereTheRobotStandsInItsCell) {
   for (const auto& path : result.paths) {
     ASSERT_TRUE(path.has_value());
     EXPECT_EQ(path->vertices.front(), c.start);
-    EXPECT_TRUE(testing::StaysClear(c.field.penalty, path->vertices));
+    EXPECT_TRUE(testing::StaysClear(c.information.penalty, path->vertices));
   }
 }
 

@@ -19,7 +19,7 @@ PathResult Search(const PathCase& c, const PlanningOptions& options) {
 
 PlanningOptions FewSamples() {
   PlanningOptions options;
-  options.samples = 15;
+  options.sample_count = 15;
   return options;
 }
 

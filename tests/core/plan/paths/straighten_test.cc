@@ -16,7 +16,7 @@ constexpr double kRounding = 1e-9;
 
 PathResult TreePaths(const PathCase& c) {
   PlanningOptions options;
-  options.samples = 100;
+  options.sample_count = 100;
   return XitPlanner(options).FindPaths(c.Problem());
 }
 
@@ -33,7 +33,7 @@ TEST(Straighten, MakesThePathsOfATreeCheaper) {
       EXPECT_NEAR(straight.cost, PathCost(c.cost, straight.vertices), kRounding);
       EXPECT_EQ(straight.vertices.front(), path->vertices.front());
       EXPECT_EQ(straight.vertices.back(), path->vertices.back());
-      EXPECT_TRUE(testing::StaysClear(c.field.penalty, straight.vertices));
+      EXPECT_TRUE(testing::StaysClear(c.information.penalty, straight.vertices));
       EXPECT_EQ(straight.source, PathSource::kTree);
       before += path->cost;
       after += straight.cost;

@@ -41,7 +41,7 @@ TEST(AdjustVertices, NeverMakesAPathDearerAndSayWhatItCosts) {
       EXPECT_EQ(path.vertices.front(), way.front());
       EXPECT_EQ(path.vertices.back(), way.back());
       EXPECT_EQ(path.vertices.size(), way.size());
-      EXPECT_TRUE(testing::StaysClear(c.field.penalty, path.vertices));
+      EXPECT_TRUE(testing::StaysClear(c.information.penalty, path.vertices));
       before += cost;
       after += path.cost;
     }

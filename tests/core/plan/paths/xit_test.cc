@@ -24,7 +24,7 @@ constexpr double kRounding = 1e-9;
 
 PlanningOptions Samples(int samples) {
   PlanningOptions options;
-  options.samples = samples;
+  options.sample_count = samples;
   return options;
 }
 
@@ -40,7 +40,7 @@ TEST(Xit, FindsPathsFromTheStartToTheGoalCellsThatHitNothing) {
       const std::vector<Point2>& path = result.paths[i]->vertices;
       EXPECT_EQ(path.front(), c.start);
       EXPECT_EQ(path.back(), c.goals[i].position);
-      EXPECT_TRUE(testing::StaysClear(c.field.penalty, path)) << "seed " << seed;
+      EXPECT_TRUE(testing::StaysClear(c.information.penalty, path)) << "seed " << seed;
     }
   }
   EXPECT_GT(found, 100);  // of 120
@@ -81,8 +81,8 @@ TEST(Xit, CostsNoLessThanTheStraightLineThroughTheBestCells) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const PathCase c(seed, {}, CostKind::kUcb, 1.0);
     const PathResult result = XitPlanner(Samples(150)).FindPaths(c.Problem());
-    const float min_penalty =
-        *std::min_element(c.field.penalty.values().begin(), c.field.penalty.values().end());
+    const float min_penalty = *std::min_element(c.information.penalty.values().begin(),
+                                                c.information.penalty.values().end());
     for (std::size_t i = 0; i < c.goals.size(); ++i) {
       if (!result.paths[i]) continue;
       const double line_m = Distance_m(c.start, c.goals[i].position);
@@ -94,12 +94,12 @@ TEST(Xit, CostsNoLessThanTheStraightLineThroughTheBestCells) {
 // The random geometric graph of Algorithm 1, made again from the same draws.
 struct RandomGraph {
   RandomGraph(const PathCase& c, const PlanningOptions& options, std::uint64_t seed)
-      : nearest_samples(options.nearest_samples) {
+      : nearest_sample_count(options.nearest_sample_count) {
     const GridGeometry& geometry = c.open.geometry();
     Rng rng(seed);
     const Grid<float> mass =
-        SamplingMass(c.field, c.reachable, c.start_cell, options.uniform_share);
-    for (const Cell cell : DrawSamples(mass, options.samples, options.sampling, rng)) {
+        SamplingMass(c.information, c.reachable, c.start_cell, options.uniform_share);
+    for (const Cell cell : DrawSamples(mass, options.sample_count, options.sampling, rng)) {
       points.push_back(geometry.Center(cell));
     }
     samples = points.size();
@@ -117,7 +117,7 @@ struct RandomGraph {
     const auto nearer = std::count_if(
         points.begin(), points.begin() + static_cast<std::ptrdiff_t>(samples),
         [&](Point2 p) { return Distance_m(p, points[a]) < Distance_m(points[b], points[a]); });
-    return nearer < nearest_samples;
+    return nearer < nearest_sample_count;
   }
   bool Joined(std::size_t a, std::size_t b) const {
     return Distance_m(points[a], points[b]) <= radius_m || InGoalSet(a, b) || InGoalSet(b, a);
@@ -126,7 +126,7 @@ struct RandomGraph {
   std::vector<Point2> points;  // samples, goals, root
   std::size_t samples = 0;
   double radius_m = 0.0;
-  int nearest_samples;
+  int nearest_sample_count;
 };
 
 // Prices of the cheapest ways from the root over the whole graph, every edge priced, by
@@ -188,7 +188,7 @@ TEST(Xit, EndsAtTheCheapestSampleOfTheGoalSetAsPublished) {
     const PathCase c(seed);
     const PathResult result = XitPlanner(options).FindPaths(c.Problem(seed));
     PlanningOptions no_goal_edges = options;
-    no_goal_edges.nearest_samples = 0;
+    no_goal_edges.nearest_sample_count = 0;
     RandomGraph graph(c, no_goal_edges, seed);
     // Samples and the root alone.
     graph.points.erase(graph.points.begin() + static_cast<std::ptrdiff_t>(graph.samples),
@@ -202,7 +202,7 @@ TEST(Xit, EndsAtTheCheapestSampleOfTheGoalSetAsPublished) {
                Distance_m(graph.points[b], c.goals[i].position);
       });
       double expected = kInf;
-      for (int k = 0; k < options.nearest_samples; ++k) {
+      for (int k = 0; k < options.nearest_sample_count; ++k) {
         expected = std::min(expected, cheapest[set[static_cast<std::size_t>(k)]]);
       }
       const double found = result.paths[i] ? result.paths[i]->cost : kInf;
@@ -315,7 +315,7 @@ TEST(Xit, StoppedHalfWayReturnsPathsThatHitNothing) {
     for (const auto& path : result.paths) {
       if (!path) continue;
       ++found;
-      EXPECT_TRUE(testing::StaysClear(c.field.penalty, path->vertices));
+      EXPECT_TRUE(testing::StaysClear(c.information.penalty, path->vertices));
       EXPECT_NEAR(path->cost, PathCost(c.cost, path->vertices), kRounding);
     }
     EXPECT_GE(found, found_before);

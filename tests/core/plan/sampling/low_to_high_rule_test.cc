@@ -106,10 +106,11 @@ TEST(LowToHighRule, TakesTheBestFeasibleSetByBruteForce) {
   int tight = 0;
   for (int round = 0; round < 40; ++round) {
     SiteCase c = GassyYard(rng);
-    c.options.sites.candidates = 6;
-    c.options.sites.cycle_samples = 1 + round % 5;
+    c.options.sites.candidate_count = 6;
+    c.options.sites.cycle_sample_count = 1 + round % 5;
     c.options.dwell_s = 0.1;
-    c.options.sites.update_period_s = c.options.sites.cycle_samples * 0.1 + rng.Uniform(0.5, 3.0);
+    c.options.sites.update_period_s =
+        c.options.sites.cycle_sample_count * 0.1 + rng.Uniform(0.5, 3.0);
     std::vector<Site> by_reward = c.Find().offered;
     std::stable_sort(by_reward.begin(), by_reward.end(),
                      [](const Site& a, const Site& b) { return a.mean_ppm > b.mean_ppm; });
@@ -117,14 +118,14 @@ TEST(LowToHighRule, TakesTheBestFeasibleSetByBruteForce) {
     std::vector<double> rewards;
     for (const Site& site : by_reward) rewards.push_back(site.mean_ppm);
     const BruteForce oracle{c.At(c.start), by_reward, 1.0, 0.1, c.options.sites.update_period_s};
-    std::size_t wanted = static_cast<std::size_t>(c.options.sites.cycle_samples);
+    std::size_t wanted = static_cast<std::size_t>(c.options.sites.cycle_sample_count);
     while (wanted > 0 && oracle.BestReward(wanted, rewards) < 0.0) --wanted;
 
     const SamplingChoice choice = Choose(c);
     ASSERT_THAT(choice.errands, SizeIs(1));
     const Errand& errand = choice.errands[0];
     if (wanted == 0) continue;  // see NotEvenOneFits
-    if (wanted < static_cast<std::size_t>(c.options.sites.cycle_samples)) ++tight;
+    if (wanted < static_cast<std::size_t>(c.options.sites.cycle_sample_count)) ++tight;
     EXPECT_THAT(errand.stops, SizeIs(wanted));
     EXPECT_NEAR(errand.reward, oracle.BestReward(wanted, rewards), 1e-9);
     const double spent_s = Drive_m(c.At(c.start), errand) + 0.1 * static_cast<double>(wanted);
@@ -161,8 +162,8 @@ TEST(LowToHighRule, HasNothingLeftOnceAllIsSampled) {
 TEST(LowToHighRule, SixteenCandidatesAreTheMost) {
   Rng rng(5);
   SiteCase c = GassyYard(rng);
-  c.options.sites.candidates = 16;
-  c.options.sites.cycle_samples = 10;
+  c.options.sites.candidate_count = 16;
+  c.options.sites.cycle_sample_count = 10;
   c.options.sites.update_period_s = 1000.0;
   const SamplingChoice choice = Choose(c);
   // Everything fits: the ten best.
@@ -177,8 +178,8 @@ TEST(LowToHighRule, SixteenCandidatesAreTheMost) {
 TEST(LowToHighRule, IfNotEvenOneFitsItTakesTheNearestOfTheCandidates) {
   SiteCase c(testing::OpenArt(40, 1));
   c.options.sites.reward = SamplingReward::kMean;
-  c.options.sites.candidates = 2;
-  c.options.sites.cycle_samples = 1;
+  c.options.sites.candidate_count = 2;
+  c.options.sites.cycle_sample_count = 1;
   c.options.sites.update_period_s = 2.5;  // 0.5 m
   testing::SetMean(c.belief, {39, 0}, 9.0F);
   testing::SetMean(c.belief, {30, 0}, 8.0F);
@@ -195,8 +196,8 @@ TEST(LowToHighRule, DrivesRoundObstacles) {
                                 "......."};
   SiteCase c(art);
   c.options.sites.reward = SamplingReward::kMean;
-  c.options.sites.candidates = 2;
-  c.options.sites.cycle_samples = 2;
+  c.options.sites.candidate_count = 2;
+  c.options.sites.cycle_sample_count = 2;
   c.options.sites.update_period_s = 5.2;     // 1.2 m for both
   testing::SetMean(c.belief, {4, 4}, 9.0F);  // 0.45 m away, but 0.98 m or more to drive
   testing::SetMean(c.belief, {0, 4}, 8.0F);  // 0.2 m
@@ -243,8 +244,8 @@ TEST(RandomSampling, FollowsItsSeedAndMakesNoSurvey) {
 
 TEST(RandomSampling, DrawsEverySiteAboutAsOften) {
   SiteCase c(testing::OpenArt(4, 1));
-  c.options.sites.candidates = 1;
-  c.options.sites.cycle_samples = 1;
+  c.options.sites.candidate_count = 1;
+  c.options.sites.cycle_sample_count = 1;
   testing::SetMean(c.belief, {2, 0}, 100.0F);  // nothing to it
   std::vector<int> draws(4, 0);
   constexpr int kDraws = 400;

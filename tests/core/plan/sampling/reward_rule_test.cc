@@ -33,7 +33,7 @@ SiteCase Corridor(SamplingReward reward) {
   SiteCase c(testing::OpenArt(40, 1));
   c.options.sites.reward = reward;
   c.options.dwell_s = 1.0;
-  c.options.max_goals = 5;
+  c.options.max_goal_count = 5;
   return c;
 }
 

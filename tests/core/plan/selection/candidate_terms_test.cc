@@ -12,14 +12,14 @@ namespace {
 constexpr double kRounding = 1e-6;  // single-precision fields
 
 // Four cells of 0.1 m in a row: I-hat 0, 0.25, 0.5, 1.
-InformationField RowField() {
-  InformationField field;
-  field.information = Grid<float>(GridGeometry{0.0, 0.0, 0.1, 4, 1});
-  field.information.values() = {0.0F, 0.25F, 0.5F, 1.0F};
-  field.penalty = Grid<float>(field.information.geometry());
-  field.penalty.values() = {1.0F, 0.75F, 0.5F, 0.001F};
-  field.min_penalty = 0.001F;
-  return field;
+InformationMap RowInformation() {
+  InformationMap information;
+  information.value = Grid<float>(GridGeometry{0.0, 0.0, 0.1, 4, 1});
+  information.value.values() = {0.0F, 0.25F, 0.5F, 1.0F};
+  information.penalty = Grid<float>(information.value.geometry());
+  information.penalty.values() = {1.0F, 0.75F, 0.5F, 0.001F};
+  information.min_penalty = 0.001F;
+  return information;
 }
 
 Grid<float> RowMean() {
@@ -32,8 +32,8 @@ Grid<float> RowMean() {
 const std::vector<Point2> kPath = {{0.05, 0.05}, {0.13, 0.05}, {0.25, 0.05}};
 
 TEST(MakeCandidate, FillsInEveryTermOfThePath) {
-  const InformationField field = RowField();
-  const EdgeCost cost(field, CostKind::kUcb, 2.0);
+  const InformationMap information = RowInformation();
+  const EdgeCost cost(information, CostKind::kUcb, 2.0);
   const Grid<float> mean_ppm = RowMean();
   Goal goal;
   goal.frontier_cells = 9;
@@ -51,8 +51,8 @@ TEST(MakeCandidate, FillsInEveryTermOfThePath) {
 }
 
 TEST(MakeCandidate, ComparesBySelectionCostButReportsThePenalty) {
-  const InformationField field = RowField();
-  const EdgeCost length(field, CostKind::kEuclidean, 0.0);
+  const InformationMap information = RowInformation();
+  const EdgeCost length(information, CostKind::kEuclidean, 0.0);
   const Grid<float> mean_ppm = RowMean();
   const Candidate candidate = MakeCandidate({}, kPath, PathSource::kTree, {length, mean_ppm, 0.0});
   EXPECT_NEAR(candidate.cost, 0.2, kRounding);
@@ -60,8 +60,8 @@ TEST(MakeCandidate, ComparesBySelectionCostButReportsThePenalty) {
 }
 
 TEST(MakeCandidate, OfNoLengthHasTheMeansOfItsCell) {
-  const InformationField field = RowField();
-  const EdgeCost cost(field, CostKind::kUcb, 0.0);
+  const InformationMap information = RowInformation();
+  const EdgeCost cost(information, CostKind::kUcb, 0.0);
   const Grid<float> mean_ppm = RowMean();
   const Candidate candidate =
       MakeCandidate({}, {{0.15, 0.05}}, PathSource::kTree, {cost, mean_ppm, 0.0});

@@ -46,8 +46,8 @@ Plan WestOrEast() {
 
 PlanningOptions By(SelectionRule rule, double margin = 0.0) {
   PlanningOptions options;
-  options.selection = rule;
-  options.commitment_margin = margin;
+  options.selection_rule = rule;
+  options.commitment_margin_share = margin;
   return options;
 }
 

@@ -16,7 +16,7 @@
 
 namespace plumescout::lab {
 
-inline constexpr char kTrialMission[] = "trial";
+inline constexpr char kHallMission[] = "trial";
 
 // A hall of 6 m x 5 m with an inlet in the west, an outlet in the east, a screen, a box and one
 // source. Made once.
@@ -24,14 +24,14 @@ const SceneWorld& GasHall();
 
 // 40 simulated seconds in lockstep, with bounded work, so that only the planning service could make
 // a difference.
-EpisodeOptions TrialOptions();
+EpisodeOptions HallOptions();
 
-struct Trial {
+struct HallRun {
   EpisodeResult episode;
   MapSnapshot map;  // at the end
 };
 
-absl::StatusOr<Trial> RunTrial(client::PlannerClient& planner, const EpisodeOptions& options);
+absl::StatusOr<HallRun> RunInHall(client::PlannerClient& planner, const EpisodeOptions& options);
 
 // Free of what no two runs share: wall time, and the count of refreshes, which follows the batches.
 std::vector<Plan> ComparablePlans(const EpisodeResult& episode);

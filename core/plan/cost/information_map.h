@@ -9,8 +9,8 @@
 
 namespace plumescout {
 
-// What the information field is made from: rasters of one geometry, and the numbers of models.
-struct InformationFieldInput {
+// What the information map is made from: rasters of one geometry, and the numbers of models.
+struct InformationMapInput {
   const Grid<std::uint8_t>& traversable;
   const Grid<float>& mean_ppm;       // mu; NaN off free cells and where not yet computed
   const Grid<float>& variance_ppm2;  // epsilon; NaN likewise
@@ -18,9 +18,9 @@ struct InformationFieldInput {
   const FrontierOptions& frontier;
 };
 
-// Upper-confidence-bound field over the traversable cells, [XIT] Eq. (8)-(11).
-struct InformationField {
-  Grid<float> information;  // I-hat of Eq. (10), in [0, 1]; 0 where not traversable
+// Upper confidence bound over the traversable cells, [XIT] Eq. (8)-(11).
+struct InformationMap {
+  Grid<float> value;  // I-hat of Eq. (10), in [0, 1]; 0 where not traversable
   // P of Eq. (11), in [kMinPenalty, 1]; +infinity where not traversable, so that one walk along a
   // segment gives its price and finds collisions.
   Grid<float> penalty;
@@ -32,14 +32,13 @@ struct InformationField {
 // [XIT] Eq. (4) asks for a strictly positive cost.
 inline constexpr float kMinPenalty = 1e-3F;
 
-// The field for variance weight options.beta. Differs from the paper where its formulas break:
+// The map for variance weight options.beta. Differs from the paper where its formulas break:
 //   Eq. (9)   max(0, mu) / max(max mu, tau_gas,min): posterior means may be 0 or less.
 //   Eq. (8)   min(1, epsilon / epsilon_inf) in place of a raw variance in ppm^2, which would
 //             outweigh the dimensionless mean; options.raw_variance takes it as printed.
 //   Eq. (10)  I-hat = 0.5 and `flat` if I has no contrast.
 // Cells known to be free since the last refresh of the posterior have no mean or variance yet:
 // they take the prior, m_0 and epsilon_inf. Cost: O(cells).
-InformationField MakeInformationField(const InformationFieldInput& input,
-                                      const PlanningOptions& options);
+InformationMap MakeInformationMap(const InformationMapInput& input, const PlanningOptions& options);
 
 }  // namespace plumescout

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/plan/cost/information_field.h"
+#include "core/plan/cost/information_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +10,11 @@ namespace plumescout {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-// Contrast below this share of the field's size is rounding of the posterior, not information.
+// Contrast below this share of the map's size is rounding of the posterior, not information.
 constexpr float kFlatContrast = 1e-5F;
 
 // Denominator of Eq. (9): over all free cells, inflated zone included, as in the paper.
-float MaxMean_ppm(const InformationFieldInput& input) {
+float MaxMean_ppm(const InformationMapInput& input) {
   float max_ppm = static_cast<float>(input.frontier.min_gas_threshold_ppm);
   for (const float mean_ppm : input.mean_ppm.values()) {
     if (std::isfinite(mean_ppm)) max_ppm = std::max(max_ppm, mean_ppm);
@@ -25,7 +25,7 @@ float MaxMean_ppm(const InformationFieldInput& input) {
 // Eq. (8) of one cell.
 class UpperConfidenceBound {
  public:
-  UpperConfidenceBound(const InformationFieldInput& input, const PlanningOptions& options)
+  UpperConfidenceBound(const InformationMapInput& input, const PlanningOptions& options)
       : prior_mean_ppm_(static_cast<float>(input.gas.background_mean_ppm)),
         prior_variance_ppm2_(static_cast<float>(OpenLatticeVariance_ppm2(input.gas))),
         mean_scale_(1.0F / MaxMean_ppm(input)),
@@ -59,7 +59,7 @@ struct Range {
 };
 
 // Writes I of Eq. (8) into `values` on the traversable cells and returns I_min and I_max.
-Range WriteInformation(const InformationFieldInput& input, const UpperConfidenceBound& bound,
+Range WriteInformation(const InformationMapInput& input, const UpperConfidenceBound& bound,
                        Grid<float>& values) {
   Range range;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -73,26 +73,26 @@ Range WriteInformation(const InformationFieldInput& input, const UpperConfidence
 
 }  // namespace
 
-InformationField MakeInformationField(const InformationFieldInput& input,
-                                      const PlanningOptions& options) {
-  InformationField field;
-  field.information = Grid<float>(input.traversable.geometry(), 0.0F);
-  field.penalty = Grid<float>(input.traversable.geometry(), kInfinity);
+InformationMap MakeInformationMap(const InformationMapInput& input,
+                                  const PlanningOptions& options) {
+  InformationMap information;
+  information.value = Grid<float>(input.traversable.geometry(), 0.0F);
+  information.penalty = Grid<float>(input.traversable.geometry(), kInfinity);
   const Range range =
-      WriteInformation(input, UpperConfidenceBound(input, options), field.information);
-  field.flat = range.flat();
-  const float scale = field.flat ? 0.0F : 1.0F / (range.high - range.low);
+      WriteInformation(input, UpperConfidenceBound(input, options), information.value);
+  information.flat = range.flat();
+  const float scale = information.flat ? 0.0F : 1.0F / (range.high - range.low);
   constexpr float kFlatInformation = 0.5F;
-  for (std::size_t i = 0; i < field.penalty.size(); ++i) {
+  for (std::size_t i = 0; i < information.penalty.size(); ++i) {
     if (input.traversable[i] == 0) continue;
-    float& information = field.information[i];
-    information = field.flat  // Eq. (10)
-                      ? kFlatInformation
-                      : std::clamp((information - range.low) * scale, 0.0F, 1.0F);
-    field.penalty[i] = std::max(1.0F - information, kMinPenalty);  // Eq. (11)
-    field.min_penalty = std::min(field.min_penalty, field.penalty[i]);
+    float& value = information.value[i];
+    value = information.flat  // Eq. (10)
+                ? kFlatInformation
+                : std::clamp((value - range.low) * scale, 0.0F, 1.0F);
+    information.penalty[i] = std::max(1.0F - value, kMinPenalty);  // Eq. (11)
+    information.min_penalty = std::min(information.min_penalty, information.penalty[i]);
   }
-  return field;
+  return information;
 }
 
 }  // namespace plumescout

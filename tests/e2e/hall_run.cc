@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/e2e/trial.h"
+#include "tests/e2e/hall_run.h"
 
 #include <gtest/gtest.h>
 
@@ -113,9 +113,9 @@ const SceneWorld& GasHall() {
   return world;
 }
 
-EpisodeOptions TrialOptions() {
+EpisodeOptions HallOptions() {
   EpisodeOptions options;
-  options.mission = kTrialMission;
+  options.mission = kHallMission;
   options.create = MissionOptions{};
   options.duration_s = kDuration_s;
   options.max_edge_evaluations = kMaxEdgeEvaluations;
@@ -124,11 +124,11 @@ EpisodeOptions TrialOptions() {
   return options;
 }
 
-absl::StatusOr<Trial> RunTrial(client::PlannerClient& planner, const EpisodeOptions& options) {
-  Trial trial;
-  PLUMESCOUT_ASSIGN_OR_RETURN(trial.episode, RunEpisode(planner, GasHall(), options));
-  PLUMESCOUT_ASSIGN_OR_RETURN(trial.map, planner.GetMap(options.mission));
-  return trial;
+absl::StatusOr<HallRun> RunInHall(client::PlannerClient& planner, const EpisodeOptions& options) {
+  HallRun run;
+  PLUMESCOUT_ASSIGN_OR_RETURN(run.episode, RunEpisode(planner, GasHall(), options));
+  PLUMESCOUT_ASSIGN_OR_RETURN(run.map, planner.GetMap(options.mission));
+  return run;
 }
 
 std::vector<Plan> ComparablePlans(const EpisodeResult& episode) {

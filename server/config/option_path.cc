@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "server/config/message_field.h"
+#include "server/config/option_path.h"
 
 #include <optional>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "absl/strings/ascii.h"
-#include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "absl/strings/strip.h"
 #include "core/types/status_macros.h"
-#include "google/protobuf/descriptor.h"
 
 namespace plumescout::server {
 namespace {
@@ -25,19 +25,18 @@ absl::Status Refuse(const std::string& text, absl::string_view wanted) {
   return absl::InvalidArgumentError(absl::StrCat("= ", text, " must be ", wanted));
 }
 
-// The value whose name ends in _TEXT; the unspecified value is not for people.
+// The value that is written so; the unspecified one is not for people.
 const EnumValueDescriptor* FindEnumValue(const FieldDescriptor& field, const std::string& text) {
-  const std::string ending = absl::StrCat("_", absl::AsciiStrToUpper(text));
   for (int i = 1; i < field.enum_type()->value_count(); ++i) {
     const EnumValueDescriptor* value = field.enum_type()->value(i);
-    if (absl::EndsWith(value->name(), ending)) return value;
+    if (EnumText(*value) == text) return value;
   }
   return nullptr;
 }
 
 absl::Status SetEnum(Message& message, const FieldDescriptor& field, const std::string& text) {
   const EnumValueDescriptor* value = FindEnumValue(field, text);
-  if (value == nullptr) return Refuse(text, absl::StrCat("a ", field.enum_type()->name()));
+  if (value == nullptr) return Refuse(text, absl::StrCat("one of ", EnumTexts(*field.enum_type())));
   message.GetReflection()->SetEnum(&message, &field, value);
   return absl::OkStatus();
 }
@@ -52,12 +51,12 @@ absl::Status SetNumber(Message& message, const FieldDescriptor& field, const std
   }
   if (field.cpp_type() == FieldDescriptor::CPPTYPE_INT32) {
     std::int32_t value = 0;
-    if (!absl::SimpleAtoi(text, &value)) return Refuse(text, "a whole number");
+    if (!absl::SimpleAtoi(text, &value)) return Refuse(text, "a whole number of 32 bits");
     reflection.SetInt32(&message, &field, value);
     return absl::OkStatus();
   }
   std::int64_t value = 0;
-  if (!absl::SimpleAtoi(text, &value)) return Refuse(text, "a whole number");
+  if (!absl::SimpleAtoi(text, &value)) return Refuse(text, "a whole number of 64 bits");
   reflection.SetInt64(&message, &field, value);
   return absl::OkStatus();
 }
@@ -69,7 +68,6 @@ absl::Status SetScalar(Message& message, const FieldDescriptor& field, const std
       message.GetReflection()->SetBool(&message, &field, text == "true");
       return absl::OkStatus();
     case FieldDescriptor::CPPTYPE_STRING:
-      if (field.type() == FieldDescriptor::TYPE_BYTES) return absl::NotFoundError("not an option");
       message.GetReflection()->SetString(&message, &field, text);
       return absl::OkStatus();
     case FieldDescriptor::CPPTYPE_ENUM:
@@ -114,18 +112,40 @@ Message* FindPart(Message& message, const FieldDescriptor& field, std::optional<
 
 }  // namespace
 
-absl::Status SetMessageField(Message& message, absl::string_view path, const std::string& text) {
+bool IsOption(const FieldDescriptor& field) {
+  if (field.type() == FieldDescriptor::TYPE_BYTES) return false;
+  return field.message_type() == nullptr || field.message_type()->real_oneof_decl_count() == 0;
+}
+
+std::string EnumText(const EnumValueDescriptor& value) {
+  // Its names begin with the type's, as that of the value 0 does: GOAL_POLICY_UNSPECIFIED.
+  absl::string_view prefix = value.type()->FindValueByNumber(0)->name();
+  absl::string_view text = value.name();
+  if (!absl::ConsumeSuffix(&prefix, "UNSPECIFIED") || !absl::ConsumePrefix(&text, prefix) ||
+      value.number() == 0) {
+    return "";
+  }
+  return absl::AsciiStrToLower(text);
+}
+
+std::string EnumTexts(const google::protobuf::EnumDescriptor& type) {
+  std::vector<std::string> texts;
+  for (int i = 1; i < type.value_count(); ++i) texts.push_back(EnumText(*type.value(i)));
+  return absl::StrJoin(texts, ", ");
+}
+
+absl::Status SetOption(Message& message, absl::string_view path, const std::string& text) {
   const std::size_t dot = path.find('.');
   PLUMESCOUT_ASSIGN_OR_RETURN(const Step step, ReadStep(path.substr(0, dot)));
   const FieldDescriptor* field = message.GetDescriptor()->FindFieldByName(step.name);
-  if (field == nullptr) return absl::NotFoundError("not an option");
+  if (field == nullptr || !IsOption(*field)) return absl::NotFoundError("not an option");
   if (dot == absl::string_view::npos) {
     const bool is_scalar = !field->is_repeated() && !step.index;
     return is_scalar ? SetScalar(message, *field, text) : absl::NotFoundError("not an option");
   }
   Message* part = FindPart(message, *field, step.index);
   if (part == nullptr) return absl::NotFoundError("not an option");
-  return SetMessageField(*part, path.substr(dot + 1), text);
+  return SetOption(*part, path.substr(dot + 1), text);
 }
 
 }  // namespace plumescout::server

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/config/config_convert.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "google/protobuf/descriptor.h"
+#include "google/protobuf/util/message_differencer.h"
+
+namespace plumescout::server {
+namespace {
+
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+using google::protobuf::util::MessageDifferencer;
+
+ServerConfig Unlike() {
+  ServerConfig config;
+  config.listen = "[::]:1";
+  config.limits = {2, 3, 5000, 4, 5, 6, 7, 8};
+  config.planning = {9, 10, 0.5, 11.0, 0.25};
+  config.maps = {12, 13, 0.75, 0.125};
+  config.epochs = {14, 15};
+  config.connection = {16.0, 17.0, 18.0, 19.0, 20.0};
+  config.mission.seed = 21;
+  return config;
+}
+
+TEST(ConfigConvertTest, EveryOptionSurvivesTheRoundTrip) {
+  const config::v1::ServerConfig proto = ToProto(Unlike());
+  const auto back = FromProto(proto);
+  ASSERT_TRUE(back.ok()) << back.status();
+  EXPECT_TRUE(MessageDifferencer::Equals(ToProto(*back), proto));
+  EXPECT_EQ(back->listen, "[::]:1");
+  EXPECT_EQ(back->limits.max_total_cells, 3);
+  EXPECT_EQ(back->limits.max_streams_per_connection, 8);
+  EXPECT_EQ(back->planning.deadline_margin_s, 0.25);
+  EXPECT_EQ(back->maps.gas_wait_s, 0.125);
+  EXPECT_EQ(back->epochs.max_queued, 15);
+  EXPECT_EQ(back->connection.drain_s, 20.0);
+  EXPECT_EQ(back->mission.seed, 21u);
+}
+
+// A field that conversion forgot is unset, or keeps its default.
+void ExpectEveryFieldUnlike(const Message& defaults, const Message& message) {
+  for (int i = 0; i < message.GetDescriptor()->field_count(); ++i) {
+    const FieldDescriptor* field = message.GetDescriptor()->field(i);
+    if (field->name() == "mission") continue;  // see tests/proto/convert/options_test.cc
+    ASSERT_TRUE(message.GetReflection()->HasField(message, field)) << field->full_name();
+    if (field->message_type() != nullptr) {
+      ExpectEveryFieldUnlike(defaults.GetReflection()->GetMessage(defaults, field),
+                             message.GetReflection()->GetMessage(message, field));
+    } else {
+      MessageDifferencer differencer;
+      EXPECT_FALSE(differencer.CompareWithFields(defaults, message, {field}, {field}))
+          << field->full_name();
+    }
+  }
+}
+
+TEST(ConfigConvertTest, EveryFieldIsConverted) {
+  ExpectEveryFieldUnlike(ToProto(ServerConfig()), ToProto(*FromProto(ToProto(Unlike()))));
+}
+
+TEST(ConfigConvertTest, FieldsThatAreUnsetKeepTheirDefaults) {
+  EXPECT_TRUE(MessageDifferencer::Equals(ToProto(*FromProto({})), ToProto(ServerConfig())));
+}
+
+TEST(ConfigConvertTest, AStrategySetsThePartsOfItsRow) {
+  config::v1::ServerConfig proto;
+  proto.mutable_mission()->mutable_planning()->set_strategy("xit_f");
+  EXPECT_EQ(FromProto(proto)->mission.planning.goal_policy, GoalPolicy::kOccupancyOnly);
+}
+
+TEST(ConfigConvertTest, RefusalsBeginWithTheOption) {
+  config::v1::ServerConfig proto;
+  proto.mutable_mission()->mutable_gas()->set_lattice_factor(17);
+  EXPECT_EQ(FromProto(proto).status().message(),
+            "mission.gas.lattice_factor = 17 must be in [1, 16]");
+  proto.clear_mission();
+  proto.mutable_epochs()->set_threads(0);
+  EXPECT_EQ(FromProto(proto).status().message(), "epochs.threads = 0 must be in [1, 256]");
+}
+
+}  // namespace
+}  // namespace plumescout::server
