@@ -47,7 +47,7 @@ RegistryOptions ToRegistryOptions(const ServerConfig& config) {
   return options;
 }
 
-// One is enough for audits to take their share of all missions, and few enough not to be missed.
+// Audits are rare and nobody waits for them: one thread does for all missions.
 constexpr int kAuditThreads = 1;
 
 ServiceLimits ToServiceLimits(const ServerConfig& config) {

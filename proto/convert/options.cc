@@ -39,9 +39,9 @@ void Visit(OneOf<GasOptions> auto& options, auto& field) {
   field("background_mean_ppm", options.background_mean_ppm);
   field("ageing_half_life_s", options.ageing_half_life_s);
   field("refresh_period_s", options.refresh_period_s);
+  field("audit_period_epochs", options.audit_period_epochs);
   field("lattice_factor", options.lattice_factor);
   field("observation_stddev_share", options.observation_stddev_share);
-  field("audit_period_epochs", options.audit_period_epochs);
 }
 
 void Visit(OneOf<FrontierOptions> auto& options, auto& field) {
