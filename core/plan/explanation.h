@@ -9,8 +9,8 @@
 
 namespace plumescout {
 
-// One sentence for an operator: where the plan leads and why there by options.selection, or why the
-// robot stays.
+// One sentence for an operator: where the plan leads and why there by options.selection_rule, or
+// why the robot stays.
 std::string Explain(const Plan& plan, const PlanningOptions& options);
 
 }  // namespace plumescout

@@ -10,7 +10,7 @@ namespace selection_test {
 PlanningOptions By(SelectionRule rule, double margin = 0.0) {
   PlanningOptions options;
   options.selection_rule = rule;
-  options.commitment_margin = margin;
+  options.commitment_margin_share = margin;
   return options;
 }
 
