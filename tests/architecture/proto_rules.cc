@@ -102,7 +102,8 @@ void AddGaps(const std::string& path, const Block& block, std::vector<std::strin
 
 std::vector<std::string> CheckNumbers(const std::string& path, const std::string& text) {
   static const std::regex kToken(
-      R"((message|enum|oneof)\s+(\w+)\s*\{|(\{)|(\})|=\s*(\d+)\s*(?:\[[^\]]*\])?;|reserved\s([^;]*);)");
+      R"((message|enum|oneof)\s+(\w+)\s*\{|(\{)|(\})|=\s*(\d+)\s*(?:\[[^\]]*\])?;)"
+      R"(|reserved\s([^;]*);)");
   const std::string code = StripComments(text);
   std::vector<Block> open;
   std::vector<std::string> violations;
