@@ -9,7 +9,7 @@
 
 namespace plumescout {
 
-// One sentence for an operator: where the plan leads and why there, by options.selection_rule, or
+// One sentence for an operator: where the plan leads and why there by options.selection_rule, or
 // why the robot stays.
 std::string Explain(const Plan& plan, const PlanningOptions& options);
 

@@ -17,7 +17,7 @@ constexpr const char* kSuffixes[] = {
     "_m",        "_rad",   "_s",          "_ns",     "_mps",      "_mps2",        "_hz",
     "_ppm",      "_ppm2",  "_per_m",      "_ratio",  "_per_ppm2", "_probability", "_nats",
     "_log_odds", "_share", "_percentile", "_factor", "_count",    "_sequence",    "_revision",
-    "_column",   "_row",   "_columns",    "_rows",   "_index",    "_bytes"};
+    "_column",   "_row",   "_columns",    "_rows",   "_index",    "_bytes",       "_epochs"};
 
 // Numbers that have no unit.
 const std::set<std::string>& PureNumbers() {
@@ -102,7 +102,8 @@ void AddGaps(const std::string& path, const Block& block, std::vector<std::strin
 
 std::vector<std::string> CheckNumbers(const std::string& path, const std::string& text) {
   static const std::regex kToken(
-      R"((message|enum|oneof)\s+(\w+)\s*\{|(\{)|(\})|=\s*(\d+)\s*(?:\[[^\]]*\])?;|reserved\s([^;]*);)");
+      R"((message|enum|oneof)\s+(\w+)\s*\{|(\{)|(\})|=\s*(\d+)\s*(?:\[[^\]]*\])?;)"
+      R"(|reserved\s([^;]*);)");
   const std::string code = StripComments(text);
   std::vector<Block> open;
   std::vector<std::string> violations;

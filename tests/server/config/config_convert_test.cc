@@ -20,7 +20,7 @@ ServerConfig Unlike() {
   ServerConfig config;
   config.listen = "[::]:1";
   config.limits = {2, 3, 5000, 4, 5, 6, 7, 8};
-  config.planning = {9, 10, 0.5, 11.0, 0.25};
+  config.planning = {9, 10, 0.5, 11.0, 0.25, true};
   config.maps = {12, 13, 0.75, 0.125};
   config.epochs = {14, 15};
   config.connection = {16.0, 17.0, 18.0, 19.0, 20.0};
@@ -37,6 +37,7 @@ TEST(ConfigConvertTest, EveryOptionSurvivesTheRoundTrip) {
   EXPECT_EQ(back->limits.max_total_cells, 3);
   EXPECT_EQ(back->limits.max_streams_per_connection, 8);
   EXPECT_EQ(back->planning.deadline_margin_s, 0.25);
+  EXPECT_TRUE(back->planning.rivals);
   EXPECT_EQ(back->maps.gas_wait_s, 0.125);
   EXPECT_EQ(back->epochs.max_queued, 15);
   EXPECT_EQ(back->connection.drain_s, 20.0);
