@@ -29,10 +29,32 @@ function(plumescout_program name)
   target_link_libraries(${name} PRIVATE ${ARG_DEPS} plumescout_warnings)
 endfunction()
 
+# Sets `united` to sources that include those given, by paths relative to the root, eight at a time.
+# (CMake's UNITY_BUILD names them by absolute paths, which no compiler cache of another clone knows.)
+function(plumescout_unite united target)
+  list(TRANSFORM ARGN PREPEND ${PROJECT_SOURCE_DIR}/ OUTPUT_VARIABLE made)
+  if(PLUMESCOUT_UNITE_TESTS)
+    set(made)
+    set(left ${ARGN})
+    while(left)
+      list(SUBLIST left 0 8 batch)
+      list(REMOVE_ITEM left ${batch})
+      list(LENGTH made number)
+      set(file ${CMAKE_CURRENT_BINARY_DIR}/${target}_${number}.cc)
+      list(TRANSFORM batch REPLACE "(.+)" "#include \"\\1\"\n")
+      list(JOIN batch "" text)
+      file(CONFIGURE OUTPUT ${file} CONTENT "${text}" @ONLY)
+      list(APPEND made ${file})
+    endwhile()
+  endif()
+  set(${united} ${made} PARENT_SCOPE)
+endfunction()
+
 # plumescout_tests(core/gas DEPS plumescout::core_gas)
 #
 # Builds every *_test.cc in and below tests/core/gas into the program core_gas_tests. CTest has one
-# test for each file, under its path: core/gas/posterior_test.
+# test for each file, under its path: core/gas/posterior_test. Sources are compiled several at a
+# time, which halves the time: each keeps to a namespace of its own name.
 function(plumescout_tests folder)
   cmake_parse_arguments(ARG "" "PRECOMPILED" "DEPS" ${ARGN})
   if(NOT folder MATCHES "${PLUMESCOUT_SUITES}")
@@ -44,8 +66,8 @@ function(plumescout_tests folder)
   string(REPLACE "/" "_" target ${folder}_tests)
   file(GLOB_RECURSE sources RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
        ${PROJECT_SOURCE_DIR}/tests/${folder}/*_test.cc)
-  list(TRANSFORM sources PREPEND ${PROJECT_SOURCE_DIR}/ OUTPUT_VARIABLE paths)
-  plumescout_program(${target} SOURCES ${paths} DEPS ${ARG_DEPS} plumescout::tests_main)
+  plumescout_unite(united ${target} ${sources})
+  plumescout_program(${target} SOURCES ${united} DEPS ${ARG_DEPS} plumescout::tests_main)
   target_compile_options(${target} PRIVATE ${PLUMESCOUT_TEST_OPTIONS})
   plumescout_precompile(${target} ${ARG_PRECOMPILED})
   if(TARGET plumescout_tsan_absl)

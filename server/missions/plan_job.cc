@@ -39,12 +39,12 @@ void PlanJob::Cancel() {
 
 void PlanJob::AwaitBelief() {
   const PlanOrder& order = parts_.order;
-  BeliefRequest request{
-      .wish = {.robot = order.request.robot,
-               .min_applied_sequence = order.min_applied_sequence,
-               .lease_token = order.lease_token},
-      .deadline = order.deadline,
-      .abandoned = [self = shared_from_this()] { return self->cancelled_.load(); }};
+  BeliefRequest request;
+  request.wish.robot = order.request.robot;
+  request.wish.min_applied_sequence = order.min_applied_sequence;
+  request.wish.lease_token = order.lease_token;
+  request.deadline = order.deadline;
+  request.abandoned = [self = shared_from_this()] { return self->cancelled_.load(); };
   const absl::Status posted = parts_.host->AwaitBelief(
       std::move(request),
       [self = shared_from_this()](absl::StatusOr<std::shared_ptr<const Belief>> belief) {

@@ -10,7 +10,7 @@
 
 #include "absl/strings/str_join.h"
 namespace plumescout {
-namespace {
+namespace file_rules_test {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -50,5 +50,5 @@ TEST(FileRules, FilesWithoutTheirFrameAreFound) {
   EXPECT_THAT(CheckFrames({ParseSource("a.h", licence + "#pragma once\n")}), IsEmpty());
 }
 
-}  // namespace
+}  // namespace file_rules_test
 }  // namespace plumescout

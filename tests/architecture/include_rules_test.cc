@@ -11,7 +11,7 @@
 
 #include "absl/strings/str_join.h"
 namespace plumescout {
-namespace {
+namespace include_rules_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -141,5 +141,5 @@ TEST(IncludeRules, ImpureCallsAreFoundButNotInComments) {
               IsEmpty());
 }
 
-}  // namespace
+}  // namespace include_rules_test
 }  // namespace plumescout

@@ -8,7 +8,7 @@
 #include "tests/architecture/source_tree.h"
 
 namespace plumescout {
-namespace {
+namespace option_rules_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -76,5 +76,5 @@ TEST(OptionRules, MembersThatAreTakenAwayAreMissed) {
               ElementsAre(HasSubstr("commitment_margin_share"), HasSubstr("margin_shame")));
 }
 
-}  // namespace
+}  // namespace option_rules_test
 }  // namespace plumescout

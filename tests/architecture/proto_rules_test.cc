@@ -9,7 +9,7 @@
 #include "tests/architecture/source_tree.h"
 
 namespace plumescout {
-namespace {
+namespace proto_rules_test {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -62,5 +62,5 @@ message A {
                           "a.proto: A neither uses nor reserves 7"));
 }
 
-}  // namespace
+}  // namespace proto_rules_test
 }  // namespace plumescout

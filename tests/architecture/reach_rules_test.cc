@@ -8,7 +8,7 @@
 #include "absl/strings/str_join.h"
 
 namespace plumescout {
-namespace {
+namespace reach_rules_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -48,5 +48,5 @@ TEST(ReachRules, TheClientLibraryIsPublished) {
               IsEmpty());
 }
 
-}  // namespace
+}  // namespace reach_rules_test
 }  // namespace plumescout

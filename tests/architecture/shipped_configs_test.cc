@@ -7,7 +7,7 @@
 #include "tests/architecture/source_tree.h"
 
 namespace plumescout {
-namespace {
+namespace shipped_configs_test {
 
 using testing::IsEmpty;
 using testing::Not;
@@ -22,5 +22,5 @@ TEST(ShippedConfigs, EveryOneLoads) {
   }
 }
 
-}  // namespace
+}  // namespace shipped_configs_test
 }  // namespace plumescout

@@ -9,7 +9,7 @@
 
 #include "absl/strings/str_join.h"
 namespace plumescout {
-namespace {
+namespace size_rules_test {
 
 using testing::AllOf;
 using testing::ElementsAre;
@@ -84,5 +84,5 @@ TEST(SizeRules, FilesAndFunctionsBeyondTheirLimitsAreFound) {
       IsEmpty());
 }
 
-}  // namespace
+}  // namespace size_rules_test
 }  // namespace plumescout

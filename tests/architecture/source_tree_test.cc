@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout {
-namespace {
+namespace source_tree_test {
 
 using testing::ElementsAre;
 
@@ -39,5 +39,5 @@ TEST(SourceTree, TheWholeProjectIsFound) {
   EXPECT_TRUE(server);
 }
 
-}  // namespace
+}  // namespace source_tree_test
 }  // namespace plumescout

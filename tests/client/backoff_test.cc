@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout::client {
-namespace {
+namespace backoff_test {
 
 TEST(Backoff, WaitsGrowByTheFactorUpToTheMaximum) {
   Backoff backoff({.initial = absl::Milliseconds(100),
@@ -61,5 +61,5 @@ TEST(Backoff, ResetStartsAgainFromTheInitialWait) {
   EXPECT_EQ(backoff.Next(), absl::Milliseconds(10));
 }
 
-}  // namespace
+}  // namespace backoff_test
 }  // namespace plumescout::client

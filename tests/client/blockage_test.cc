@@ -11,7 +11,7 @@
 #include "tests/client/fake_driver.h"
 
 namespace plumescout::client {
-namespace {
+namespace blockage_test {
 
 // What a robot at `pose` sees of posts in a large empty room.
 Scan ScanWithPosts(const Pose2& pose, std::vector<Point2> posts) {
@@ -92,5 +92,5 @@ TEST(PathBlocked, NoPathIsNeverBlocked) {
   EXPECT_FALSE(PathBlocked(scan, {}, {{0, 0}}, {}));
 }
 
-}  // namespace
+}  // namespace blockage_test
 }  // namespace plumescout::client

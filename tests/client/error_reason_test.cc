@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout::client {
-namespace {
+namespace error_reason_test {
 
 TEST(IsRetriable, HoldsForTroubleThatPassesOnly) {
   EXPECT_TRUE(IsRetriable(absl::UnavailableError("")));
@@ -17,5 +17,5 @@ TEST(IsRetriable, HoldsForTroubleThatPassesOnly) {
   EXPECT_FALSE(IsRetriable(absl::FailedPreconditionError("")));
 }
 
-}  // namespace
+}  // namespace error_reason_test
 }  // namespace plumescout::client

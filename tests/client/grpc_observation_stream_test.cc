@@ -19,7 +19,7 @@
 #include "tests/client/ingest_traffic.h"
 
 namespace plumescout::client {
-namespace {
+namespace grpc_observation_stream_test {
 
 constexpr StreamTimeouts kPatient = {.open = kPatience, .write = kPatience};
 constexpr StreamTimeouts kQuick = {.open = absl::Milliseconds(50), .write = absl::Milliseconds(50)};
@@ -265,5 +265,5 @@ TEST(GrpcObservationStreamTest, LargeBatchesAreCutIntoFramesThatAServerTakes) {
   for (std::size_t i = 0; i < batch.size(); ++i) EXPECT_EQ(received[i], batch[i].sequence);
 }
 
-}  // namespace
+}  // namespace grpc_observation_stream_test
 }  // namespace plumescout::client

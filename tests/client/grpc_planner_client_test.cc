@@ -22,7 +22,7 @@
 #include "tests/server/host_parts.h"
 
 namespace plumescout::client {
-namespace {
+namespace grpc_planner_client_test {
 
 using ::testing::Contains;
 using ::testing::ElementsAre;
@@ -227,5 +227,5 @@ TEST_F(GrpcPlannerClientTest, ACallThatOutlivesItsTimeoutIsGivenUpAndTheLinkLive
   server_.reset();  // its search may only begin now, and waits for `release`
 }
 
-}  // namespace
+}  // namespace grpc_planner_client_test
 }  // namespace plumescout::client

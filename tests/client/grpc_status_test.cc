@@ -10,7 +10,7 @@
 #include "proto/convert/status.h"
 
 namespace plumescout::client {
-namespace {
+namespace grpc_status_test {
 
 grpc::Status WithDetails(grpc::StatusCode code, const absl::Status& details) {
   return {code, std::string(details.message()), ToProto(details).SerializeAsString()};
@@ -48,5 +48,5 @@ TEST(GrpcStatusTest, DetailsThatCannotBeReadAreNotBelieved) {
             absl::InternalError("broken"));
 }
 
-}  // namespace
+}  // namespace grpc_status_test
 }  // namespace plumescout::client

@@ -11,7 +11,7 @@
 #include "client/error_reason.h"
 
 namespace plumescout::client {
-namespace {
+namespace ingest_contract_test {
 
 class IngestContract : public PlannerClientContract {};
 
@@ -155,5 +155,5 @@ TEST_P(IngestContract, StreamsMayBeLeftUnfinished) {
 
 INSTANTIATE_TEST_SUITE_P(All, IngestContract, ::testing::ValuesIn(AllBackends()), BackendName);
 
-}  // namespace
+}  // namespace ingest_contract_test
 }  // namespace plumescout::client

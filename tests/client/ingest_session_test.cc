@@ -14,7 +14,7 @@
 #include "tests/client/fake_planner_client.h"
 
 namespace plumescout::client {
-namespace {
+namespace ingest_session_test {
 
 using ::testing::ElementsAre;
 
@@ -262,5 +262,5 @@ TEST_F(IngestSessionTest, ManyThreadsMayAppendAtOnce) {
   EXPECT_EQ(ReceivedNumbers(), Range(1, kThreads * kEach));
 }
 
-}  // namespace
+}  // namespace ingest_session_test
 }  // namespace plumescout::client

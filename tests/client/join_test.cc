@@ -8,7 +8,7 @@
 #include "tests/client/fake_planner_client.h"
 
 namespace plumescout::client {
-namespace {
+namespace join_test {
 
 using ::testing::ElementsAre;
 
@@ -55,5 +55,5 @@ TEST(JoinTest, ABrokenLinkIsReportedAndNobodyRegisters) {
   EXPECT_TRUE(server.registrations().empty());
 }
 
-}  // namespace
+}  // namespace join_test
 }  // namespace plumescout::client

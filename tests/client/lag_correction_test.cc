@@ -8,7 +8,7 @@
 #include <functional>
 
 namespace plumescout::client {
-namespace {
+namespace lag_correction_test {
 
 constexpr double kTau_s = 0.5;
 constexpr std::int64_t kPeriod_ns = 500'000'000;
@@ -138,5 +138,5 @@ TEST(UndoLag, NeverGivesNegativeConcentrations) {
   EXPECT_EQ(UndoLag({100.0, 0.0}, {1.0, 0.0}, 0.5, 4.0).concentration_ppm, 0.0);
 }
 
-}  // namespace
+}  // namespace lag_correction_test
 }  // namespace plumescout::client

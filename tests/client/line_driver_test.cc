@@ -14,7 +14,7 @@
 #include "absl/strings/str_cat.h"
 
 namespace plumescout::client {
-namespace {
+namespace line_driver_test {
 
 std::string PoseLine(std::int64_t time_ns, double x_m) {
   return absl::StrCat(R"({"type":"pose","time_ns":)", time_ns, R"(,"x_m":)", x_m,
@@ -174,5 +174,5 @@ TEST_F(LineDriverTest, ARealRobotCannotBePlaced) {
   EXPECT_TRUE(absl::IsUnimplemented(driver.PlaceAt({})));
 }
 
-}  // namespace
+}  // namespace line_driver_test
 }  // namespace plumescout::client

@@ -8,7 +8,7 @@
 #include <cmath>
 
 namespace plumescout::client {
-namespace {
+namespace line_messages_test {
 
 TEST(ParseRobotLine, ReadsAPose) {
   const auto line =
@@ -87,5 +87,5 @@ TEST(FormatTwistLine, IsOneLineOfJson) {
             "{\"forward_mps\":0.25,\"turn_rad_per_s\":-0.5,\"type\":\"twist\"}\n");
 }
 
-}  // namespace
+}  // namespace line_messages_test
 }  // namespace plumescout::client

@@ -11,7 +11,7 @@
 #include "client/error_reason.h"
 
 namespace plumescout::client {
-namespace {
+namespace mission_contract_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -150,5 +150,5 @@ TEST_P(MissionContract, DeletingAMissionEndsItsStreams) {
 
 INSTANTIATE_TEST_SUITE_P(All, MissionContract, ::testing::ValuesIn(AllBackends()), BackendName);
 
-}  // namespace
+}  // namespace mission_contract_test
 }  // namespace plumescout::client

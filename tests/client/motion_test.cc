@@ -11,7 +11,7 @@
 #include "tests/client/fake_driver.h"
 
 namespace plumescout::client {
-namespace {
+namespace motion_test {
 
 using ::testing::ElementsAre;
 
@@ -185,5 +185,5 @@ TEST(MotionTest, TellsWhetherTheRobotStands) {
   }
 }
 
-}  // namespace
+}  // namespace motion_test
 }  // namespace plumescout::client

@@ -13,7 +13,7 @@
 #include "tests/client/fake_driver.h"
 
 namespace plumescout::client {
-namespace {
+namespace path_follower_test {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr double kSpeed_mps = 1.25;
@@ -161,5 +161,5 @@ TEST(PathFollower, NothingToFollowIsDoneAtOnce) {
   EXPECT_EQ(follower.Step({}, 0).forward_mps, 0.0);
 }
 
-}  // namespace
+}  // namespace path_follower_test
 }  // namespace plumescout::client

@@ -15,7 +15,7 @@
 #include "tests/client/ingest_traffic.h"
 
 namespace plumescout::client {
-namespace {
+namespace plan_call_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -143,5 +143,5 @@ TEST(MayAskAgainTest, NotAfterALostLeaseOrAMistake) {
   EXPECT_FALSE(MayAskAgain(absl::PermissionDeniedError("not yours")));
 }
 
-}  // namespace
+}  // namespace plan_call_test
 }  // namespace plumescout::client

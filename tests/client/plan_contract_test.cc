@@ -11,7 +11,7 @@
 #include "absl/time/clock.h"
 
 namespace plumescout::client {
-namespace {
+namespace plan_contract_test {
 
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -126,5 +126,5 @@ TEST_P(PlanContract, AReportMadeTwiceIsNotAnError) {
 
 INSTANTIATE_TEST_SUITE_P(All, PlanContract, ::testing::ValuesIn(AllBackends()), BackendName);
 
-}  // namespace
+}  // namespace plan_contract_test
 }  // namespace plumescout::client

@@ -8,7 +8,7 @@
 #include "core/types/rng.h"
 
 namespace plumescout::client {
-namespace {
+namespace robot_log_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -238,5 +238,5 @@ TEST(RobotLog, EveryNumberIsAccountedForUnderRandomUse) {
   }
 }
 
-}  // namespace
+}  // namespace robot_log_test
 }  // namespace plumescout::client

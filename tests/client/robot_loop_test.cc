@@ -14,7 +14,7 @@
 #include "tests/client/fake_planner_client.h"
 
 namespace plumescout::client {
-namespace {
+namespace robot_loop_test {
 
 using ::testing::ElementsAre;
 using ::testing::Field;
@@ -387,5 +387,5 @@ TEST(RobotLoopOptionsTest, NonsenseIsRefusedByName) {
   EXPECT_THAT(std::string(Validate(options).message()), ::testing::HasSubstr("gas_hz"));
 }
 
-}  // namespace
+}  // namespace robot_loop_test
 }  // namespace plumescout::client

@@ -32,7 +32,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::client {
-namespace {
+namespace robot_main_test {
 
 constexpr char kProgram[] = PLUMESCOUT_ROBOT_PROGRAM;
 constexpr Pose2 kPose = {1.5, 1.0, 0.0};
@@ -218,5 +218,5 @@ TEST_F(RobotMainWithServerTest, SaysWhatItDidWhenItsTimeIsOver) {
   EXPECT_TRUE(absl::StrContains(Read(err_), "done after ")) << Read(err_);
 }
 
-}  // namespace
+}  // namespace robot_main_test
 }  // namespace plumescout::client

@@ -15,7 +15,7 @@
 #include "tests/client/fake_driver.h"
 
 namespace plumescout::client {
-namespace {
+namespace robot_over_grpc_test {
 
 constexpr double kTimeLimit_s = 20.0;
 
@@ -109,5 +109,5 @@ TEST_F(RobotOverGrpcTest, RunningFreelyARobotSurvivesARestart) {
   EXPECT_EQ(result->ingest.applied_sequence, result->ingest.last_sequence);
 }
 
-}  // namespace
+}  // namespace robot_over_grpc_test
 }  // namespace plumescout::client

@@ -10,7 +10,7 @@
 #include "tests/client/fake_driver.h"
 
 namespace plumescout::client {
-namespace {
+namespace sensor_bridge_test {
 
 using ::testing::ElementsAre;
 using ::testing::SizeIs;
@@ -170,5 +170,5 @@ TEST(SensorBridge, ARobotThatNeverStandsLongEnoughHasNoSettledReading) {
   EXPECT_THAT(StopAndSample(driver, {.settling_s = 4.0}, 2.3, 6.2), SizeIs(0));
 }
 
-}  // namespace
+}  // namespace sensor_bridge_test
 }  // namespace plumescout::client

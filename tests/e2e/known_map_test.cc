@@ -10,7 +10,7 @@
 #include "tests/e2e/hall_run.h"
 
 namespace plumescout::lab {
-namespace {
+namespace known_map_test {
 
 EpisodeOptions BlindOptions() {
   EpisodeOptions options = HallOptions();
@@ -53,5 +53,5 @@ TEST(KnownMapTest, RunsRepeatToTheByte) {
   EXPECT_TRUE(SameMap(first->map, second->map));
 }
 
-}  // namespace
+}  // namespace known_map_test
 }  // namespace plumescout::lab

@@ -7,7 +7,7 @@
 #include "tests/e2e/hall_run.h"
 
 namespace plumescout::lab {
-namespace {
+namespace repeatability_test {
 
 HallRun RunOverGrpc() {
   const auto server = StartServer();
@@ -61,5 +61,5 @@ TEST(RepeatabilityTest, WithinOneProcessAMissionComesToTheBytesOfTheWire) {
   ExpectSame(HallRunOverGrpc(), RunInProcess());
 }
 
-}  // namespace
+}  // namespace repeatability_test
 }  // namespace plumescout::lab

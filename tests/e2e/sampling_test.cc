@@ -13,7 +13,7 @@
 #include "tests/e2e/hall_run.h"
 
 namespace plumescout::lab {
-namespace {
+namespace sampling_test {
 
 using ::testing::SizeIs;
 
@@ -94,5 +94,5 @@ TEST(SamplingTest, TheRewardOfConcentrationAndDoubtSendsARobotFromSiteToSite) {
   EXPECT_GT(visited.size(), 5u);
 }
 
-}  // namespace
+}  // namespace sampling_test
 }  // namespace plumescout::lab

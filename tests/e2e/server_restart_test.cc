@@ -13,7 +13,7 @@
 #include "tests/e2e/hall_run.h"
 
 namespace plumescout::lab {
-namespace {
+namespace server_restart_test {
 
 constexpr std::size_t kPlansBeforeRestart = 3;
 
@@ -70,5 +70,5 @@ TEST(ServerRestartTest, TheNewServerIsToldEverythingAndEndsUpWithTheSameMap) {
   EXPECT_TRUE(SameMap(run->map, *undisturbed));
 }
 
-}  // namespace
+}  // namespace server_restart_test
 }  // namespace plumescout::lab

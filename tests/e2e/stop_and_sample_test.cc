@@ -10,7 +10,7 @@
 #include "tests/e2e/hall_run.h"
 
 namespace plumescout::lab {
-namespace {
+namespace stop_and_sample_test {
 
 constexpr double kDwell_s = 5.0;
 constexpr double kSettling_s = 4.0;
@@ -127,5 +127,5 @@ TEST(StopAndSampleTest, ItStandsAtEveryVertexOfItsTrajectories) {
   EXPECT_GT(vertices, 3);
 }
 
-}  // namespace
+}  // namespace stop_and_sample_test
 }  // namespace plumescout::lab

@@ -12,7 +12,7 @@
 #include "tests/e2e/hall_run.h"
 
 namespace plumescout::lab {
-namespace {
+namespace team_test {
 
 constexpr double kDuration_s = 20.0;
 
@@ -160,5 +160,5 @@ TEST(TeamTest, AnErrorOfOneEndsTheEpisodeForAll) {
   EXPECT_LE(west_plans, 2);
 }
 
-}  // namespace
+}  // namespace team_test
 }  // namespace plumescout::lab

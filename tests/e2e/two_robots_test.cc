@@ -17,7 +17,7 @@
 #include "tests/e2e/hall_run.h"
 
 namespace plumescout::lab {
-namespace {
+namespace two_robots_test {
 
 // A claim lives at least this long, if its robot says nothing more of it.
 constexpr std::int64_t kClaimGrace_ns = 30'000'000'000;
@@ -106,5 +106,5 @@ TEST(TwoRobotsTest, NeitherWaitsForTheOtherNorGoesForItsGoal) {
   EXPECT_TRUE(referee.fouls().empty()) << referee.fouls().front();
 }
 
-}  // namespace
+}  // namespace two_robots_test
 }  // namespace plumescout::lab

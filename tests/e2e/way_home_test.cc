@@ -10,7 +10,7 @@
 #include "tests/e2e/hall_run.h"
 
 namespace plumescout::lab {
-namespace {
+namespace way_home_test {
 
 EpisodeResult Drive(const EpisodeOptions& options) {
   LocalPlannerClient planner;
@@ -88,5 +88,5 @@ TEST(WayHomeTest, RobotsFollowTrajectoriesWithLimitsOfMotion) {
   }
 }
 
-}  // namespace
+}  // namespace way_home_test
 }  // namespace plumescout::lab

@@ -11,7 +11,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout {
-namespace {
+namespace file_io_test {
 
 using testing::HasSubstr;
 
@@ -77,5 +77,5 @@ TEST(FileIo, AFolderCannotReplaceAFile) {
   EXPECT_EQ(MakeFolder(folder.File("a")).code(), absl::StatusCode::kUnavailable);
 }
 
-}  // namespace
+}  // namespace file_io_test
 }  // namespace plumescout

@@ -15,7 +15,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout {
-namespace {
+namespace map_server_test {
 
 using testing::AllOf;
 using testing::ElementsAre;
@@ -176,5 +176,5 @@ TEST(MapServer, MapsWithoutCellsOrPlaceAreNotWritten) {
             absl::StatusCode::kInvalidArgument);
 }
 
-}  // namespace
+}  // namespace map_server_test
 }  // namespace plumescout

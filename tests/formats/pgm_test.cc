@@ -11,7 +11,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout {
-namespace {
+namespace pgm_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -90,5 +90,5 @@ TEST(Pgm, PixelsThatDoNotFillThePictureAreNotWritten) {
   EXPECT_EQ(WritePgm({0, 0, {}}, folder.File("a.pgm")).code(), absl::StatusCode::kInvalidArgument);
 }
 
-}  // namespace
+}  // namespace pgm_test
 }  // namespace plumescout

@@ -9,7 +9,7 @@
 #include "absl/strings/string_view.h"
 
 namespace plumescout {
-namespace {
+namespace zlib_codec_test {
 
 constexpr std::uint64_t kNoLimit = 1 << 30;
 
@@ -44,5 +44,5 @@ TEST(ZlibCodec, ABombIsStopped) {
   EXPECT_EQ(DecompressZlib(packed, 1'000'000).status().code(), absl::StatusCode::kInvalidArgument);
 }
 
-}  // namespace
+}  // namespace zlib_codec_test
 }  // namespace plumescout

@@ -10,7 +10,7 @@
 #include "tests/support/plan_map.h"
 
 namespace plumescout {
-namespace {
+namespace cell_sampler_test {
 
 constexpr GridGeometry kGeometry = {-1.3, 2.7, 0.1, 30, 20};
 
@@ -87,5 +87,5 @@ TEST(CellSampler, OfNothingIsEmpty) {
   EXPECT_TRUE(sampler.empty());
 }
 
-}  // namespace
+}  // namespace cell_sampler_test
 }  // namespace plumescout

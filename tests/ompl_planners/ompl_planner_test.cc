@@ -11,7 +11,7 @@
 #include "tests/support/path_case.h"
 
 namespace plumescout {
-namespace {
+namespace ompl_planner_test {
 
 using testing::PathCase;
 
@@ -80,5 +80,5 @@ TEST(OmplPlanner, ThatWaitsForAnotherSearchHonoursItsStopFunction) {
   busy.join();
 }
 
-}  // namespace
+}  // namespace ompl_planner_test
 }  // namespace plumescout

@@ -15,7 +15,7 @@
 #include "tests/support/path_case.h"
 
 namespace plumescout {
-namespace {
+namespace ompl_search_test {
 
 using testing::PathCase;
 
@@ -288,5 +288,5 @@ TEST(OmplRrtStar, IsNoDearerAfterMoreOfTheSameIterations) {
   }
 }
 
-}  // namespace
+}  // namespace ompl_search_test
 }  // namespace plumescout

@@ -12,7 +12,7 @@
 #include "tests/support/path_case.h"
 
 namespace plumescout {
-namespace {
+namespace region_tree_test {
 
 using testing::PathCase;
 
@@ -125,5 +125,5 @@ TEST_P(RegionTree, EndsAtTheStopFunctionsWord) {
 INSTANTIATE_TEST_SUITE_P(Kinds, RegionTree, ::testing::Values(PathKind::kRrt, PathKind::kRrtStar),
                          [](const auto& info) { return std::string(PathKindName(info.param)); });
 
-}  // namespace
+}  // namespace region_tree_test
 }  // namespace plumescout

@@ -9,7 +9,7 @@
 #include "tests/support/path_case.h"
 
 namespace plumescout {
-namespace {
+namespace search_meter_test {
 
 using testing::PathCase;
 
@@ -102,5 +102,5 @@ TEST(SearchMeter, StaysStoppedOnceTheStopFunctionSaidSo) {
   EXPECT_TRUE(meter.stopped());
 }
 
-}  // namespace
+}  // namespace search_meter_test
 }  // namespace plumescout

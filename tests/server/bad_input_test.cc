@@ -16,7 +16,7 @@
 #include "tests/server/service_fixture.h"
 
 namespace plumescout::server {
-namespace {
+namespace bad_input_test {
 
 BadInputs BadMap() {
   return BadInputs()
@@ -393,5 +393,5 @@ TEST(BadInputCoverageTest, EveryFieldOfEveryRequestHasARowOrAReason) {
   EXPECT_EQ(tables.size(), RequestTypes().size());
 }
 
-}  // namespace
+}  // namespace bad_input_test
 }  // namespace plumescout::server

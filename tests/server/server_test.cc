@@ -17,7 +17,7 @@
 #include "tests/server/service_fixture.h"
 
 namespace plumescout::server {
-namespace {
+namespace server_test {
 
 constexpr auto kUnavailable = absl::StatusCode::kUnavailable;
 
@@ -187,5 +187,5 @@ TEST_F(ServerTest, ResendingEverythingAfterARestartMakesTheSameMap) {
   EXPECT_EQ(maps[0], maps[1]);
 }
 
-}  // namespace
+}  // namespace server_test
 }  // namespace plumescout::server

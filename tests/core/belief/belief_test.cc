@@ -8,7 +8,7 @@
 #include "gtest/gtest.h"
 
 namespace plumescout {
-namespace {
+namespace belief_test {
 
 Goal At(double x_m, double y_m, GoalKind kind = GoalKind::kGasFrontier) {
   return {kind, {}, {x_m, y_m}, {x_m, y_m}, 5};
@@ -79,5 +79,5 @@ TEST(MakeMapSnapshot, OfAnEmptyMapHasNoFrontiers) {
   EXPECT_TRUE(MakeMapSnapshot(belief).frontiers.empty());
 }
 
-}  // namespace
+}  // namespace belief_test
 }  // namespace plumescout

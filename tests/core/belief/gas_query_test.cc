@@ -10,7 +10,7 @@
 #include "core/frontier/gas_frontier.h"
 
 namespace plumescout {
-namespace {
+namespace gas_query_test {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
@@ -74,5 +74,5 @@ TEST(QueryGas, FreeCellsWithoutAPosteriorHaveNoValues) {
   EXPECT_FALSE(answers[0].mean_ppm || answers[0].variance_ppm2 || answers[0].observed);
 }
 
-}  // namespace
+}  // namespace gas_query_test
 }  // namespace plumescout

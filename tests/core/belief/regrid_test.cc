@@ -5,7 +5,7 @@
 #include "gtest/gtest.h"
 
 namespace plumescout {
-namespace {
+namespace regrid_test {
 
 TEST(Regridded, KeepsEveryCellAtItsPlaceInTheWorld) {
   const GridGeometry small{-0.3, 0.2, 0.1, 4, 3};
@@ -33,5 +33,5 @@ TEST(Regridded, OfTheSameGeometryIsTheSame) {
   EXPECT_EQ(Regridded(grid, grid.geometry(), 0), grid);
 }
 
-}  // namespace
+}  // namespace regrid_test
 }  // namespace plumescout

@@ -8,7 +8,7 @@
 #include "tests/support/grid_art.h"
 
 namespace plumescout {
-namespace {
+namespace cluster_test {
 
 using ::testing::UnorderedElementsAre;
 
@@ -65,5 +65,5 @@ TEST(TakeCluster, IsTooSmallBelowTheMinimum) {
   EXPECT_TRUE(Drawing({"Sff"}).Take(4).too_small);
 }
 
-}  // namespace
+}  // namespace cluster_test
 }  // namespace plumescout

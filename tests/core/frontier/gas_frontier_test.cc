@@ -18,7 +18,7 @@
 #include "tests/support/slow_frontier.h"
 
 namespace plumescout {
-namespace {
+namespace gas_frontier_test {
 
 using testing::Cluster;
 using testing::ClustersOf;
@@ -301,5 +301,5 @@ TEST_P(RoomSizes, OneReadingObservesItsCellAndNothingBeyondTheNeighbours) {
 
 INSTANTIATE_TEST_SUITE_P(ObservedVariance, RoomSizes, ::testing::Values(6, 20, 200));
 
-}  // namespace
+}  // namespace gas_frontier_test
 }  // namespace plumescout

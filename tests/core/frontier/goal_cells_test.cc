@@ -20,7 +20,7 @@
 #include "tests/support/slow_frontier.h"
 
 namespace plumescout {
-namespace {
+namespace goal_cells_test {
 
 using testing::CellInArt;
 using testing::CellsInArt;
@@ -186,5 +186,5 @@ TEST(FreeStarts, DropsAStartWithNoFreeCellToGoTo) {
   EXPECT_THAT(FreeStarts(testing::GridFromArt({"?#."}), {{0, 0}}), IsEmpty());
 }
 
-}  // namespace
+}  // namespace goal_cells_test
 }  // namespace plumescout

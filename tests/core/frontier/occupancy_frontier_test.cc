@@ -13,7 +13,7 @@
 #include "tests/support/slow_frontier.h"
 
 namespace plumescout {
-namespace {
+namespace occupancy_frontier_test {
 
 using testing::ClustersOf;
 using ::testing::ElementsAre;
@@ -134,5 +134,5 @@ TEST(OccupancyFrontiers, WithoutAStartOrOutsideTheMapAreNone) {
               IsEmpty());
 }
 
-}  // namespace
+}  // namespace occupancy_frontier_test
 }  // namespace plumescout

@@ -8,7 +8,7 @@
 #include <limits>
 
 namespace plumescout {
-namespace {
+namespace ageing_test {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
@@ -118,5 +118,5 @@ TEST(AgeingTest, LetsAHugeVarianceSayNothingWithoutOverflow) {
   EXPECT_LT(ageing.Precision(variance_ppm2, 0, 0), 1e-9 * 1e-16);  // of the least background's
 }
 
-}  // namespace
+}  // namespace ageing_test
 }  // namespace plumescout

@@ -9,7 +9,7 @@
 #include <limits>
 
 namespace plumescout {
-namespace {
+namespace ageing_watch_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -64,5 +64,5 @@ TEST(AgeingWatchTest, NoEpochIsDueForWhatItWouldAgeTooLate) {
   EXPECT_TRUE(watch.IsEpochDue(5 * kSecond_ns));
 }
 
-}  // namespace
+}  // namespace ageing_watch_test
 }  // namespace plumescout

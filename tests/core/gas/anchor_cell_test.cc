@@ -7,7 +7,7 @@
 #include <limits>
 
 namespace plumescout {
-namespace {
+namespace anchor_cell_test {
 
 constexpr GridGeometry kAnchor{1.0, -2.0, 0.1, 4, 3};
 
@@ -52,5 +52,5 @@ TEST(CornerOfTest, RefusesAnAnchorWithoutResolution) {
   EXPECT_EQ(CornerOf(none, none).status().code(), absl::StatusCode::kInvalidArgument);
 }
 
-}  // namespace
+}  // namespace anchor_cell_test
 }  // namespace plumescout

@@ -11,7 +11,7 @@
 #include "tests/support/grid_art.h"
 
 namespace plumescout {
-namespace {
+namespace anchored_states_test {
 
 using ::plumescout::testing::GridArt;
 using ::plumescout::testing::GridFromArt;
@@ -78,5 +78,5 @@ TEST(AnchoredStatesTest, RefusesAnotherLatticeAndChangesNothing) {
   EXPECT_FALSE(states.IsFree({1, 0}));
 }
 
-}  // namespace
+}  // namespace anchored_states_test
 }  // namespace plumescout

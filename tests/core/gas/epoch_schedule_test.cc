@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout {
-namespace {
+namespace epoch_schedule_test {
 
 constexpr GasCellBox kBox{0, 0, 100, 100};
 constexpr GasLattice kRoomy{-40, -40, 180, 180};
@@ -52,5 +52,5 @@ TEST(EpochScheduleTest, DueBeforeRoundingAddsUp) {
   EXPECT_EQ(refreshes, 10'000);
 }
 
-}  // namespace
+}  // namespace epoch_schedule_test
 }  // namespace plumescout

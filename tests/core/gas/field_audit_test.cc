@@ -14,7 +14,7 @@
 #include "tests/support/grid_art.h"
 
 namespace plumescout {
-namespace {
+namespace field_audit_test {
 
 using ::plumescout::testing::GridFromArt;
 
@@ -174,5 +174,5 @@ TEST(FieldAudit, IsDueAfterTheFirstEpochAndThenPeriodically) {
   EXPECT_EQ(due, (std::vector<int>{1, 4, 7}));
 }
 
-}  // namespace
+}  // namespace field_audit_test
 }  // namespace plumescout

@@ -8,7 +8,7 @@
 #include <limits>
 
 namespace plumescout {
-namespace {
+namespace gas_epoch_test {
 
 constexpr GasLattice kLattice{0, 0, 12, 9};
 constexpr FieldOptions kOptions{
@@ -95,5 +95,5 @@ TEST(GasEpochTest, RecomputesOnce) {
   EXPECT_NE(epoch.TakeEngine(), nullptr);
 }
 
-}  // namespace
+}  // namespace gas_epoch_test
 }  // namespace plumescout

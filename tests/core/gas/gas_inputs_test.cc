@@ -9,7 +9,7 @@
 #include "tests/support/grid_art.h"
 
 namespace plumescout {
-namespace {
+namespace gas_inputs_test {
 
 using ::plumescout::testing::GridFromArt;
 using ::testing::ElementsAre;
@@ -116,5 +116,5 @@ TEST(GasInputsTest, RefusesAnotherLatticeAndChangesNothing) {
   EXPECT_EQ(inputs.counters().waiting, 1);
 }
 
-}  // namespace
+}  // namespace gas_inputs_test
 }  // namespace plumescout

@@ -7,7 +7,7 @@
 #include "tests/support/grid_art.h"
 
 namespace plumescout {
-namespace {
+namespace gas_lattice_test {
 
 using ::plumescout::testing::GridArt;
 using ::plumescout::testing::GridFromArt;
@@ -66,5 +66,5 @@ TEST(GasLatticeTest, CoarseCellsAreLinkedWhereFreeCellsTouchAcrossTheirSide) {
   EXPECT_FALSE(Structure({"#.", "#.", ".#", ".."}, {0, 0}, 2).linked_north);
 }
 
-}  // namespace
+}  // namespace gas_lattice_test
 }  // namespace plumescout

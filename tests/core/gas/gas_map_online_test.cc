@@ -17,7 +17,7 @@
 #include "tests/support/same_bytes.h"
 
 namespace plumescout {
-namespace {
+namespace gas_map_online_test {
 
 using ::plumescout::testing::DenseField;
 using ::plumescout::testing::DenseReading;
@@ -365,5 +365,5 @@ TEST(GasMapOnlineTest, GasCellsNeedNotDivideTheMap) {
   EXPECT_EQ(map.counters(), (GasCounters{.readings = 3, .in_posterior = 3}));
 }
 
-}  // namespace
+}  // namespace gas_map_online_test
 }  // namespace plumescout

@@ -16,7 +16,7 @@
 #include "tests/support/same_bytes.h"
 
 namespace plumescout {
-namespace {
+namespace gas_map_test {
 
 using ::plumescout::testing::DenseField;
 using ::plumescout::testing::DenseReading;
@@ -386,5 +386,5 @@ TEST(GasMapTest, IsNotPoisonedByReadingsThatAreNotFinite) {
   EXPECT_EQ(map.counters().waiting, 2);
 }
 
-}  // namespace
+}  // namespace gas_map_test
 }  // namespace plumescout

@@ -15,7 +15,7 @@
 #include "tests/support/grid_art.h"
 
 namespace plumescout {
-namespace {
+namespace gas_what_if_test {
 
 using ::plumescout::testing::DenseField;
 using ::plumescout::testing::DenseReading;
@@ -107,5 +107,5 @@ TEST(GasWhatIfTest, ThereIsNoneBeforeThereIsAFreeCell) {
   EXPECT_EQ(map.what_if(), nullptr);
 }
 
-}  // namespace
+}  // namespace gas_what_if_test
 }  // namespace plumescout

@@ -7,7 +7,7 @@
 #include "tests/support/grid_art.h"
 
 namespace plumescout {
-namespace {
+namespace gmrf_graph_test {
 
 using ::plumescout::testing::GridFromArt;
 
@@ -77,5 +77,5 @@ TEST(GmrfGraphTest, SquaresOfCellsAreFreeAndLinkedByTheirCells) {
 
 TEST(GmrfGraphTest, TakesTheEmptyGrid) { EXPECT_EQ(GmrfGraph(Grid<CellState>()).variables(), 0); }
 
-}  // namespace
+}  // namespace gmrf_graph_test
 }  // namespace plumescout

@@ -11,7 +11,7 @@
 #include "tests/core/linalg/dense_oracle.h"
 
 namespace plumescout {
-namespace {
+namespace information_test {
 
 using ::plumescout::testing::DenseField;
 using ::plumescout::testing::DenseReading;
@@ -73,5 +73,5 @@ TEST(InformationOfNothingTest, IsEmpty) {
   EXPECT_TRUE(information.negative_gradient.empty());
 }
 
-}  // namespace
+}  // namespace information_test
 }  // namespace plumescout

@@ -11,7 +11,7 @@
 #include "tests/support/grid_art.h"
 
 namespace plumescout {
-namespace {
+namespace posterior_test {
 
 using ::plumescout::testing::DenseField;
 using ::plumescout::testing::DenseReading;
@@ -114,5 +114,5 @@ TEST(PosteriorTest, RefusesEvidenceThatIsNotFinite) {
             absl::StatusCode::kInvalidArgument);
 }
 
-}  // namespace
+}  // namespace posterior_test
 }  // namespace plumescout

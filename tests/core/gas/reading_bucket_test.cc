@@ -10,7 +10,7 @@
 #include "core/types/rng.h"
 
 namespace plumescout {
-namespace {
+namespace reading_bucket_test {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr double kHalfLife_s = 120.0;
@@ -213,5 +213,5 @@ TEST(ReadingBucketTest, StaysFiniteAtTheWidestValues) {
   }
 }
 
-}  // namespace
+}  // namespace reading_bucket_test
 }  // namespace plumescout

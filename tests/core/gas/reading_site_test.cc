@@ -15,7 +15,7 @@
 #include "tests/support/grid_art.h"
 
 namespace plumescout {
-namespace {
+namespace reading_site_test {
 
 using ::plumescout::testing::GridFromArt;
 
@@ -149,5 +149,5 @@ TEST(PlacementOfTest, TakesTheNearestFreeCentreAcrossASideElseACorner) {
   EXPECT_GT(moved, 1000);
 }
 
-}  // namespace
+}  // namespace reading_site_test
 }  // namespace plumescout

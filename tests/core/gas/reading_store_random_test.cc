@@ -16,7 +16,7 @@
 #include "core/types/rng.h"
 
 namespace plumescout {
-namespace {
+namespace reading_store_random_test {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr double kResolution_m = 0.1;
@@ -317,5 +317,5 @@ TEST(ReadingStoreRandomTest, AgreesWithinTheBoundsWhileReadingsMerge) {
   }
 }
 
-}  // namespace
+}  // namespace reading_store_random_test
 }  // namespace plumescout

@@ -10,7 +10,7 @@
 #include "tests/support/grid_art.h"
 
 namespace plumescout {
-namespace {
+namespace reading_store_stale_test {
 
 using ::plumescout::testing::GridFromArt;
 
@@ -67,5 +67,5 @@ TEST(ReadingStoreStaleTest, NothingIsStaleWithoutAgeing) {
   EXPECT_EQ(store.watch().Error(kWeek_s * kSecond_ns), 0.0);
 }
 
-}  // namespace
+}  // namespace reading_store_stale_test
 }  // namespace plumescout

@@ -17,7 +17,7 @@ namespace plumescout {
 
 void PrintTo(AnchorCell cell, std::ostream* out) { *out << "(" << cell.x << ", " << cell.y << ")"; }
 
-namespace {
+namespace reading_store_test {
 
 using ::plumescout::testing::GridArt;
 using ::plumescout::testing::GridFromArt;
@@ -405,5 +405,5 @@ TEST(ReadingStoreTest, KeepsAWeekAnywhereInACellWithoutAgeingAsFewSums) {
   }
 }
 
-}  // namespace
+}  // namespace reading_store_test
 }  // namespace plumescout

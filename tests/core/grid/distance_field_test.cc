@@ -10,7 +10,7 @@
 #include "tests/support/random_grid.h"
 
 namespace plumescout {
-namespace {
+namespace distance_field_test {
 
 // The definition: the least over all set cells.
 Grid<std::int32_t> SlowDistances(const Grid<std::uint8_t>& set) {
@@ -74,5 +74,5 @@ TEST(SquaredDistances, OfAnEmptyRasterAreEmpty) {
   EXPECT_EQ(SquaredDistancesUpTo_cells2(Grid<std::uint8_t>(), 3).size(), 0U);
 }
 
-}  // namespace
+}  // namespace distance_field_test
 }  // namespace plumescout

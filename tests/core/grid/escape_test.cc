@@ -8,7 +8,7 @@
 #include "tests/support/grid_art.h"
 
 namespace plumescout {
-namespace {
+namespace escape_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -63,5 +63,5 @@ TEST(EscapePath, FromOutsideOrOnAnEmptyMapIsEmpty) {
   EXPECT_THAT(EscapePath(Grid<CellState>(), Grid<std::uint8_t>(), {0, 0}), IsEmpty());
 }
 
-}  // namespace
+}  // namespace escape_test
 }  // namespace plumescout

@@ -11,7 +11,7 @@
 #include "tests/support/random_grid.h"
 
 namespace plumescout {
-namespace {
+namespace flood_test {
 
 using testing::ArtFromMask;
 using testing::CellInArt;
@@ -116,5 +116,5 @@ TEST(ConnectedComponents, SizesCountEveryPassableCellOnce) {
             std::accumulate(mask.values().begin(), mask.values().end(), 0));
 }
 
-}  // namespace
+}  // namespace flood_test
 }  // namespace plumescout

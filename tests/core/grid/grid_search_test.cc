@@ -13,7 +13,7 @@
 #include "tests/support/random_grid.h"
 
 namespace plumescout {
-namespace {
+namespace grid_search_test {
 
 using testing::ArtFromMask;
 using testing::CellInArt;
@@ -201,5 +201,5 @@ TEST(PathLength, AddsStraightAndDiagonalSteps) {
   EXPECT_EQ(PathLength_m({}, 0.5), 0.0);
 }
 
-}  // namespace
+}  // namespace grid_search_test
 }  // namespace plumescout

@@ -8,7 +8,7 @@
 #include "tests/support/grid_art.h"
 
 namespace plumescout {
-namespace {
+namespace mask_test {
 
 TEST(MaskOf, IsOneWhereTheGridHoldsTheValue) {
   const Grid<CellState> states = testing::GridFromArt({".#?",  //
@@ -23,5 +23,5 @@ TEST(MaskWhere, IsOneWhereThePredicateHolds) {
   EXPECT_EQ(testing::ArtFromMask(MaskWhere(grid, [](double v) { return v >= 0.0; })), ".##\n");
 }
 
-}  // namespace
+}  // namespace mask_test
 }  // namespace plumescout

@@ -11,7 +11,7 @@
 #include "tests/support/grid_art.h"
 
 namespace plumescout {
-namespace {
+namespace neighbours_test {
 
 TEST(Neighbours, AreTheEightCellsAroundStraightOnesFirst) {
   const std::set<Cell> offsets(kNeighbours8.begin(), kNeighbours8.end());
@@ -59,5 +59,5 @@ TEST(StepAllowed, NeverLeavesTheRaster) {
   EXPECT_FALSE(Allowed({".."}, {0, 0}, {1, 1}));
 }
 
-}  // namespace
+}  // namespace neighbours_test
 }  // namespace plumescout

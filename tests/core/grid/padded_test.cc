@@ -7,7 +7,7 @@
 #include "tests/support/random_grid.h"
 
 namespace plumescout {
-namespace {
+namespace padded_test {
 
 GridGeometry SmallGeometry() {
   GridGeometry geometry;
@@ -59,5 +59,5 @@ TEST(Padded, OfAnEmptyRasterIsAllBorder) {
   EXPECT_EQ(padded[padded.IndexOf({0, 0})], 5);
 }
 
-}  // namespace
+}  // namespace padded_test
 }  // namespace plumescout

@@ -11,7 +11,7 @@
 #include "core/types/rng.h"
 
 namespace plumescout {
-namespace {
+namespace ray_test {
 
 using ::testing::ElementsAre;
 using ::testing::UnorderedElementsAreArray;
@@ -202,5 +202,5 @@ TEST(WalkSegment, LeavesTheRasterWhereTheSegmentDoes) {
               ElementsAre(Cell{0, 0}, Cell{-1, 0}, Cell{-2, 0}));
 }
 
-}  // namespace
+}  // namespace ray_test
 }  // namespace plumescout

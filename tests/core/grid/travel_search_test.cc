@@ -9,7 +9,7 @@
 #include "tests/support/random_grid.h"
 
 namespace plumescout {
-namespace {
+namespace travel_search_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -91,5 +91,5 @@ TEST(TravelSearch, PassesOverSourcesOutsideOrBlocked) {
   EXPECT_FALSE(search.IsReached(search.IndexOf({2, 2})));
 }
 
-}  // namespace
+}  // namespace travel_search_test
 }  // namespace plumescout

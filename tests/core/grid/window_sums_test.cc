@@ -10,7 +10,7 @@
 #include "core/types/rng.h"
 
 namespace plumescout {
-namespace {
+namespace window_sums_test {
 
 Grid<float> RandomValues(const GridGeometry& geometry, Rng& rng) {
   Grid<float> values(geometry);
@@ -61,5 +61,5 @@ TEST(WindowSums, StayExactOverAWideRaster) {
   EXPECT_NEAR(static_cast<double>(sums[Cell{2998, 2}]), 9.0 * static_cast<double>(0.3F), 1e-6);
 }
 
-}  // namespace
+}  // namespace window_sums_test
 }  // namespace plumescout

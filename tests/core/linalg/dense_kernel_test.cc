@@ -12,7 +12,7 @@
 #include "core/types/rng.h"
 
 namespace plumescout {
-namespace {
+namespace dense_kernel_test {
 
 using StridedMap = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 
@@ -294,5 +294,5 @@ TEST(DotTest, SumsProductsOfAnyLength) {
   }
 }
 
-}  // namespace
+}  // namespace dense_kernel_test
 }  // namespace plumescout

@@ -9,7 +9,7 @@
 #include "tests/core/linalg/dense_oracle.h"
 
 namespace plumescout {
-namespace {
+namespace selected_inverse_test {
 
 void ExpectInverseDiagonal(const SymmetricMatrix& matrix) {
   const SupernodalPattern pattern = AnalyzePattern(matrix).value();
@@ -50,5 +50,5 @@ TEST(InverseDiagonalSupernodesTest, OfADiagonalMatrixIsItsReciprocal) {
   EXPECT_DOUBLE_EQ(diagonal[2], 0.125);
 }
 
-}  // namespace
+}  // namespace selected_inverse_test
 }  // namespace plumescout

@@ -11,7 +11,7 @@
 #include "tests/core/linalg/dense_oracle.h"
 
 namespace plumescout {
-namespace {
+namespace sparse_cholesky_test {
 
 std::vector<double> Solution(const SparseCholesky& cholesky, const std::vector<double>& b) {
   std::vector<double> x(b.size());
@@ -140,5 +140,5 @@ TEST(SparseCholeskyTest, KeepsItsFactorWhenMoved) {
   EXPECT_EQ(moved.n(), 4);
 }
 
-}  // namespace
+}  // namespace sparse_cholesky_test
 }  // namespace plumescout

@@ -9,7 +9,7 @@
 #include "tests/core/linalg/dense_oracle.h"
 
 namespace plumescout {
-namespace {
+namespace supernodal_factor_test {
 
 // L as a dense matrix, in the order of the factor.
 Eigen::MatrixXd DenseFactor(const SupernodalPattern& pattern, const FactorValues& factor) {
@@ -60,5 +60,5 @@ TEST(FactorizeSupernodesTest, NamesAnUnknownOfAnIndefiniteMatrix) {
   EXPECT_NE(factor.status().message().find("unknown 7"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace supernodal_factor_test
 }  // namespace plumescout

@@ -11,7 +11,7 @@
 #include "tests/core/linalg/dense_oracle.h"
 
 namespace plumescout {
-namespace {
+namespace supernodal_pattern_test {
 
 std::size_t Unsigned(int index) { return static_cast<std::size_t>(index); }
 
@@ -106,5 +106,5 @@ TEST_F(SupernodalPatternTest, SaysNothingOnStandardOutput) {
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
 }
 
-}  // namespace
+}  // namespace supernodal_pattern_test
 }  // namespace plumescout

@@ -10,7 +10,7 @@
 #include "tests/core/linalg/dense_oracle.h"
 
 namespace plumescout {
-namespace {
+namespace symmetric_matrix_test {
 
 // [ 4 -1  . ]
 // [-1  5 -2 ]
@@ -93,5 +93,5 @@ TEST(MultiplyTest, AgreesWithTheDenseProduct) {
     EXPECT_NEAR(y[static_cast<std::size_t>(i)], expected(i), 1e-12);
 }
 
-}  // namespace
+}  // namespace symmetric_matrix_test
 }  // namespace plumescout

@@ -9,7 +9,7 @@
 #include "tests/core/linalg/dense_oracle.h"
 
 namespace plumescout {
-namespace {
+namespace triangular_solve_test {
 
 void ExpectSolves(const SymmetricMatrix& matrix, Rng& rng) {
   const SupernodalPattern pattern = AnalyzePattern(matrix).value();
@@ -44,5 +44,5 @@ TEST(SolveSupernodesTest, WorksInPlace) {
   EXPECT_EQ(values, x);
 }
 
-}  // namespace
+}  // namespace triangular_solve_test
 }  // namespace plumescout

@@ -8,7 +8,7 @@
 #include "gtest/gtest.h"
 
 namespace plumescout {
-namespace {
+namespace fleet_test {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr int kMaxRobots = 3;
@@ -347,5 +347,5 @@ TEST(FleetNextMapUpdate, IsNoneOfAPlanToStay) {
   EXPECT_FALSE(fleet.NextMapUpdate_ns(0).has_value());
 }
 
-}  // namespace
+}  // namespace fleet_test
 }  // namespace plumescout

@@ -7,7 +7,7 @@
 #include <cmath>
 
 namespace plumescout {
-namespace {
+namespace goal_memory_test {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr Point2 kPlace = {1.05, 1.05};  // the centre of cell (20, 20)
@@ -197,5 +197,5 @@ TEST(GoalMemory, IsBounded) {
   EXPECT_EQ(memory.SetAside().back().goal.position.x_m, 0.5 * 999) << "the latest are kept";
 }
 
-}  // namespace
+}  // namespace goal_memory_test
 }  // namespace plumescout

@@ -10,7 +10,7 @@
 #include "tests/support/same_bytes.h"
 
 namespace plumescout {
-namespace {
+namespace mission_places_test {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
@@ -99,5 +99,5 @@ TEST(MissionPlaces, ForgetsThatAGoalWasBlockedWhenTheMapThereChanges) {
   EXPECT_TRUE(mission->Snapshot()->set_aside.empty());
 }
 
-}  // namespace
+}  // namespace mission_places_test
 }  // namespace plumescout

@@ -13,7 +13,7 @@
 #include "tests/support/same_bytes.h"
 
 namespace plumescout {
-namespace {
+namespace mission_prior_map_test {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
@@ -194,5 +194,5 @@ TEST(MissionPriorMap, OneThatDoesNotFitMakesNoMission) {
   EXPECT_EQ(Mission::Create(options).status().code(), absl::StatusCode::kInvalidArgument);
 }
 
-}  // namespace
+}  // namespace mission_prior_map_test
 }  // namespace plumescout

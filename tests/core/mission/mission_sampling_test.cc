@@ -10,7 +10,7 @@
 #include "tests/support/box_room.h"
 
 namespace plumescout {
-namespace {
+namespace mission_sampling_test {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
@@ -103,5 +103,5 @@ TEST(MissionSampling, SaysWhenItsMapIsUpdatedNext) {
   EXPECT_FALSE(mission->next_map_update_ns().has_value());
 }
 
-}  // namespace
+}  // namespace mission_sampling_test
 }  // namespace plumescout

@@ -12,7 +12,7 @@
 #include "tests/support/same_bytes.h"
 
 namespace plumescout {
-namespace {
+namespace mission_silence_test {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr double kWidth_m = 6.0;
@@ -112,5 +112,5 @@ TEST(MissionSilenceTest, ReplayGivesTheSameBytes) {
   for (const auto& [id, record] : a->robots) EXPECT_EQ(record.state, b->robots.at(id).state);
 }
 
-}  // namespace
+}  // namespace mission_silence_test
 }  // namespace plumescout

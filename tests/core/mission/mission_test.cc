@@ -13,7 +13,7 @@
 #include "tests/support/same_bytes.h"
 
 namespace plumescout {
-namespace {
+namespace mission_test {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
@@ -361,5 +361,5 @@ TEST(MissionCreate, RefusesInvalidOptions) {
   EXPECT_EQ(Mission::Create(options).status().code(), absl::StatusCode::kInvalidArgument);
 }
 
-}  // namespace
+}  // namespace mission_test
 }  // namespace plumescout

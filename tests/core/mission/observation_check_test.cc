@@ -11,7 +11,7 @@
 #include "gtest/gtest.h"
 
 namespace plumescout {
-namespace {
+namespace observation_check_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -95,5 +95,5 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"gas.variance_ppm2", [](Observation& o) { GasOf(o).variance_ppm2 = 1e-300; },
                 GoodGas()}));
 
-}  // namespace
+}  // namespace observation_check_test
 }  // namespace plumescout

@@ -9,7 +9,7 @@
 #include "core/types/rng.h"
 
 namespace plumescout {
-namespace {
+namespace odometer_test {
 
 // Centred noise of the given standard deviation, even in a square.
 Point2 Noisy(Point2 place, double deviation_m, Rng& rng) {
@@ -58,5 +58,5 @@ TEST(Odometer, IsLittleShorterThanATightCircle) {
   EXPECT_GT(odometer.travelled_m(), 2.0 * M_PI * kRadius_m * 0.998 - 0.1);
 }
 
-}  // namespace
+}  // namespace odometer_test
 }  // namespace plumescout

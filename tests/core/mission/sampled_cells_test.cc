@@ -7,7 +7,7 @@
 #include <numeric>
 
 namespace plumescout {
-namespace {
+namespace sampled_cells_test {
 
 int Sum(const Grid<std::uint8_t>& raster) {
   return std::accumulate(raster.values().begin(), raster.values().end(), 0);
@@ -54,5 +54,5 @@ TEST(SampledCells, AreTheCellsOfTheMap) {
   }
 }
 
-}  // namespace
+}  // namespace sampled_cells_test
 }  // namespace plumescout

@@ -10,7 +10,7 @@
 #include "tests/support/grid_art.h"
 
 namespace plumescout {
-namespace {
+namespace free_space_test {
 
 using testing::ArtFromMask;
 using testing::GridFromArt;
@@ -71,5 +71,5 @@ TEST(TraversableCells, OfAnEmptyMapAreEmpty) {
   EXPECT_EQ(TraversableCells(Grid<CellState>(), 0.2).size(), 0U);
 }
 
-}  // namespace
+}  // namespace free_space_test
 }  // namespace plumescout

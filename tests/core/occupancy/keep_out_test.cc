@@ -9,7 +9,7 @@
 #include "core/types/rng.h"
 
 namespace plumescout {
-namespace {
+namespace keep_out_test {
 
 constexpr GridGeometry kGeometry = {-1.0, -0.5, 0.1, 30, 20};
 
@@ -82,5 +82,5 @@ TEST(CloseKeptOut, ClosesCellsAndOpensNone) {
   EXPECT_EQ(traversable[kGeometry.CellAt({0.15, 0.15})], 0);
 }
 
-}  // namespace
+}  // namespace keep_out_test
 }  // namespace plumescout

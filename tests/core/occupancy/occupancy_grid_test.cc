@@ -12,7 +12,7 @@
 #include "core/types/rng.h"
 
 namespace plumescout {
-namespace {
+namespace occupancy_grid_test {
 
 // Log-odds are stored as floats of magnitude up to 3.5 and summed a few times.
 constexpr double kTolerance = 1e-6;
@@ -224,5 +224,5 @@ TEST(OccupancyGrid, StatesAreTheStatesOfItsCells) {
   }
 }
 
-}  // namespace
+}  // namespace occupancy_grid_test
 }  // namespace plumescout

@@ -11,7 +11,7 @@
 #include "core/types/rng.h"
 
 namespace plumescout {
-namespace {
+namespace scan_inserter_test {
 
 constexpr float kNoReturn = std::numeric_limits<float>::infinity();
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
@@ -254,5 +254,5 @@ TEST(ScanInserter, EqualsEveryBeamClippedAgainstEveryCellOnRandomScans) {
   }
 }
 
-}  // namespace
+}  // namespace scan_inserter_test
 }  // namespace plumescout

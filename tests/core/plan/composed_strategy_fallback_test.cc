@@ -8,7 +8,7 @@
 #include "tests/support/strategy_case.h"
 
 namespace plumescout {
-namespace {
+namespace composed_strategy_fallback_test {
 
 using testing::Chosen;
 using testing::For;
@@ -53,5 +53,5 @@ TEST(StrategyFallback, VisitsUnobservedGasForReadingsAndNotInVain) {
   EXPECT_EQ(plan->phase, MissionPhase::kGasProbing) << "no fallback, which would count";
 }
 
-}  // namespace
+}  // namespace composed_strategy_fallback_test
 }  // namespace plumescout

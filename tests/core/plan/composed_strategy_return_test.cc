@@ -14,7 +14,7 @@
 #include "tests/support/strategy_case.h"
 
 namespace plumescout {
-namespace {
+namespace composed_strategy_return_test {
 
 using testing::Chosen;
 using testing::For;
@@ -225,5 +225,5 @@ TEST(StrategyReturn, OutOfWorkOnTheWayHomeDoesNotClaimToBeThere) {
   EXPECT_THAT(plan->explanation, HasSubstr("stopped"));
 }
 
-}  // namespace
+}  // namespace composed_strategy_return_test
 }  // namespace plumescout

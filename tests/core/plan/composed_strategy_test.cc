@@ -15,7 +15,7 @@
 #include "tests/support/strategy_case.h"
 
 namespace plumescout {
-namespace {
+namespace composed_strategy_test {
 
 using testing::BeliefFromArt;
 using testing::Chosen;
@@ -363,5 +363,5 @@ TEST(Strategy, OnAnEmptyMapRefusesTheStart) {
   EXPECT_EQ(TryPlan(belief, For("r")).status().code(), absl::StatusCode::kInvalidArgument);
 }
 
-}  // namespace
+}  // namespace composed_strategy_test
 }  // namespace plumescout

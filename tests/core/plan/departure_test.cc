@@ -11,7 +11,7 @@
 #include "tests/support/plan_map.h"
 
 namespace plumescout {
-namespace {
+namespace departure_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -114,5 +114,5 @@ TEST(StartPose, MustBeKnownFiniteAndInsideTheMap) {
   }
 }
 
-}  // namespace
+}  // namespace departure_test
 }  // namespace plumescout

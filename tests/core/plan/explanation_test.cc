@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout {
-namespace {
+namespace explanation_test {
 
 using ::testing::HasSubstr;
 
@@ -125,5 +125,5 @@ TEST(Explain, NamesASamplingSite) {
               HasSubstr("to a sampling site at (3.2, 4.0)"));
 }
 
-}  // namespace
+}  // namespace explanation_test
 }  // namespace plumescout

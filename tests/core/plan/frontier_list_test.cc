@@ -10,7 +10,7 @@
 #include "tests/support/strategy_case.h"
 
 namespace plumescout {
-namespace {
+namespace frontier_list_test {
 
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
@@ -96,5 +96,5 @@ TEST(ListFrontiers, NeedsARobotWithAPlaceOnTheMap) {
   EXPECT_EQ(ListFrontiers(belief, "r", {}).status().code(), absl::StatusCode::kFailedPrecondition);
 }
 
-}  // namespace
+}  // namespace frontier_list_test
 }  // namespace plumescout

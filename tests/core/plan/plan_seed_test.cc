@@ -7,7 +7,7 @@
 #include <set>
 
 namespace plumescout {
-namespace {
+namespace plan_seed_test {
 
 TEST(DerivedPlanSeed, DiffersForEveryMissionRobotAndPlan) {
   std::set<std::uint64_t> seeds;
@@ -25,5 +25,5 @@ TEST(DerivedPlanSeed, IsTheSameEverywhere) {
   EXPECT_EQ(DerivedPlanSeed(1, "r", 0), 2873858097215289398U);
 }
 
-}  // namespace
+}  // namespace plan_seed_test
 }  // namespace plumescout

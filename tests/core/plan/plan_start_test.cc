@@ -9,7 +9,7 @@
 #include "tests/support/strategy_case.h"
 
 namespace plumescout {
-namespace {
+namespace plan_start_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -93,5 +93,5 @@ TEST(StoppedBeforeAnyPath, IsAMissedDeadline) {
   EXPECT_TRUE(absl::IsDeadlineExceeded(StoppedBeforeAnyPath()));
 }
 
-}  // namespace
+}  // namespace plan_start_test
 }  // namespace plumescout

@@ -14,7 +14,7 @@
 #include "tests/support/strategy_case.h"
 
 namespace plumescout {
-namespace {
+namespace sampling_strategy_test {
 
 using testing::Chosen;
 using testing::For;
@@ -352,5 +352,5 @@ TEST(SamplingStrategy, ExplainsItself) {
             "of 5 of the sweep.");
 }
 
-}  // namespace
+}  // namespace sampling_strategy_test
 }  // namespace plumescout

@@ -11,7 +11,7 @@
 #include "core/types/rng.h"
 
 namespace plumescout {
-namespace {
+namespace speed_profile_test {
 
 constexpr double kRounding = 1e-12;
 
@@ -89,5 +89,5 @@ TEST(SpeedProfile, OfNoLengthTakesNoTime) {
   EXPECT_EQ(SpeedProfile(0.0, 1.0, 0.0).duration_s(), 0.0);
 }
 
-}  // namespace
+}  // namespace speed_profile_test
 }  // namespace plumescout

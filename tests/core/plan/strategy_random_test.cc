@@ -15,7 +15,7 @@
 #include "tests/support/plan_map.h"
 
 namespace plumescout {
-namespace {
+namespace strategy_random_test {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -173,5 +173,5 @@ TEST(StrategyOnRandomBeliefs, AnswersSoundlyOrSaysWhyNot) {
   EXPECT_GT(refused, kBeliefs / 10);
 }
 
-}  // namespace
+}  // namespace strategy_random_test
 }  // namespace plumescout

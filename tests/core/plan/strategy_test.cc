@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout {
-namespace {
+namespace strategy_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -222,5 +222,5 @@ TEST(SamplesOnce, IsOfAllButRewardsThatBringARobotBack) {
   EXPECT_FALSE(SamplesOnce(options));
 }
 
-}  // namespace
+}  // namespace strategy_test
 }  // namespace plumescout

@@ -13,7 +13,7 @@
 #include "tests/support/strategy_case.h"
 
 namespace plumescout {
-namespace {
+namespace trajectory_check_test {
 
 using ::testing::ElementsAre;
 
@@ -318,5 +318,5 @@ TEST(PathTo, ASiteStopsThere) {
   EXPECT_TRUE(East(belief).stops.empty());
 }
 
-}  // namespace
+}  // namespace trajectory_check_test
 }  // namespace plumescout

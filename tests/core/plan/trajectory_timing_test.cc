@@ -11,7 +11,7 @@
 #include "core/types/rng.h"
 
 namespace plumescout {
-namespace {
+namespace trajectory_timing_test {
 
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
@@ -240,5 +240,5 @@ TEST(TimeTrajectory, WithoutStopsOrPathNothingIsStoodAt) {
   EXPECT_THAT(TimeTrajectory({}, {}, 0.0, Motion(1.0, 5.0)).waypoints, IsEmpty());
 }
 
-}  // namespace
+}  // namespace trajectory_timing_test
 }  // namespace plumescout

@@ -13,7 +13,7 @@
 #include "tests/core/tour/tour_case.h"
 
 namespace plumescout {
-namespace {
+namespace closed_tour_test {
 
 using testing::ElementsAre;
 
@@ -184,5 +184,5 @@ TEST(ClosedTour, SeveralThreadsFindTheTourOfOne) {
   EXPECT_THAT(together, testing::Each(alone));
 }
 
-}  // namespace
+}  // namespace closed_tour_test
 }  // namespace plumescout

@@ -12,7 +12,7 @@
 #include <vector>
 
 namespace plumescout {
-namespace {
+namespace lawnmower_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -85,5 +85,5 @@ TEST(Lawnmower, ALatticeOrStrideOfNothingIsRefused) {
   EXPECT_THAT(refusal({.width = 3, .height = 3, .leg_stride = -2}), HasSubstr("leg_stride = -2"));
 }
 
-}  // namespace
+}  // namespace lawnmower_test
 }  // namespace plumescout

@@ -16,7 +16,7 @@
 #include "core/types/rng.h"
 
 namespace plumescout {
-namespace {
+namespace subset_tour_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -390,5 +390,5 @@ TEST(SubsetTour, TimesAndSpeedOutOfRangeAreRefused) {
   }
 }
 
-}  // namespace
+}  // namespace subset_tour_test
 }  // namespace plumescout

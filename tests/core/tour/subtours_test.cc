@@ -10,7 +10,7 @@
 #include "tests/core/tour/tour_case.h"
 
 namespace plumescout {
-namespace {
+namespace subtours_test {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -41,5 +41,5 @@ TEST(Subtours, NodesJoinedInAnyOrderOfEdgesAreFound) {
   EXPECT_THAT(FindSubtours(graph, x), ElementsAre(ElementsAre(0, 1, 2, 3), ElementsAre(4, 5, 6)));
 }
 
-}  // namespace
+}  // namespace subtours_test
 }  // namespace plumescout

@@ -14,7 +14,7 @@
 #include "core/types/cell.h"
 
 namespace plumescout {
-namespace {
+namespace tour_graph_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -82,5 +82,5 @@ TEST(TourGraph, AMeshLeadsAroundPointsThatAreMissing) {
   }
 }
 
-}  // namespace
+}  // namespace tour_graph_test
 }  // namespace plumescout

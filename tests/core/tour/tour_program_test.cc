@@ -11,7 +11,7 @@
 #include "tests/core/tour/tour_case.h"
 
 namespace plumescout {
-namespace {
+namespace tour_program_test {
 
 using testing::ElementsAre;
 
@@ -84,5 +84,5 @@ TEST(TourProgram, ASearchThatIsStoppedSaysSo) {
             absl::StatusCode::kDeadlineExceeded);
 }
 
-}  // namespace
+}  // namespace tour_program_test
 }  // namespace plumescout

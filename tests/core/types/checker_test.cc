@@ -8,7 +8,7 @@
 #include <limits>
 
 namespace plumescout {
-namespace {
+namespace checker_test {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -59,5 +59,5 @@ TEST(Checker, TellsTheFirstViolationWithFieldValueAndRule) {
             absl::InvalidArgumentError("b.c = 3.5 must be in [0, 2]"));
 }
 
-}  // namespace
+}  // namespace checker_test
 }  // namespace plumescout

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout {
-namespace {
+namespace error_reason_test {
 
 TEST(ErrorReason, IsTheUpperSnakeWordBeforeTheColon) {
   EXPECT_EQ(ErrorReason(absl::FailedPreconditionError("SEQUENCE_GAP: expected 7")),
@@ -37,5 +37,5 @@ TEST(RetryAfter, IsCarriedAlongAndTakenOff) {
   EXPECT_EQ(WithoutRetryAfter(status), plain);
 }
 
-}  // namespace
+}  // namespace error_reason_test
 }  // namespace plumescout

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout {
-namespace {
+namespace grid_geometry_test {
 
 GridGeometry Geometry() { return {-6.4, 12.8, 0.1, 64, 128}; }
 
@@ -55,5 +55,5 @@ TEST(GridGeometry, SaturatesFarOutside) {
   EXPECT_EQ(Geometry().CellAt({1e300, -1e300}), (Cell{kLimit, -kLimit}));
 }
 
-}  // namespace
+}  // namespace grid_geometry_test
 }  // namespace plumescout

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout {
-namespace {
+namespace grid_test {
 
 TEST(Grid, HoldsItsFillEverywhere) {
   const Grid<int> grid(GridGeometry{0.0, 0.0, 0.1, 3, 2}, 7);
@@ -40,5 +40,5 @@ TEST(Grid, EqualsAnotherOfTheSamePlaceAndValues) {
   EXPECT_NE(grid, Grid<int>(GridGeometry{0.1, 0.0, 0.1, 3, 2}, 7));
 }
 
-}  // namespace
+}  // namespace grid_test
 }  // namespace plumescout

@@ -8,7 +8,7 @@
 #include <string>
 
 namespace plumescout {
-namespace {
+namespace ids_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -39,5 +39,5 @@ TEST(ValidateId, ShowsNoMoreThanTheBeginningOfAHugeId) {
   EXPECT_LT(ValidateId("robot", std::string(1'000'000, 'x')).message().size(), 500U);
 }
 
-}  // namespace
+}  // namespace ids_test
 }  // namespace plumescout

@@ -7,7 +7,7 @@
 #include <cmath>
 
 namespace plumescout {
-namespace {
+namespace map_tiles_test {
 
 TEST(MapTiles, CellsLieInTheTileThatDivisionSays) {
   for (std::int64_t cell = -200; cell <= 200; ++cell) {
@@ -28,5 +28,5 @@ TEST(MapTiles, TilesThatAreThereStay) {
   EXPECT_EQ(span.end, 5);
 }
 
-}  // namespace
+}  // namespace map_tiles_test
 }  // namespace plumescout

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout {
-namespace {
+namespace observation_test {
 
 TEST(LastSequence, OfAReadingIsItsOwn) {
   Observation observation;
@@ -21,5 +21,5 @@ TEST(LastSequence, OfAGapIsItsEnd) {
   EXPECT_EQ(LastSequence(observation), 12);
 }
 
-}  // namespace
+}  // namespace observation_test
 }  // namespace plumescout

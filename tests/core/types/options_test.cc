@@ -12,7 +12,7 @@
 #include <vector>
 
 namespace plumescout {
-namespace {
+namespace options_test {
 
 using ::testing::HasSubstr;
 
@@ -185,5 +185,5 @@ TEST(OpenLatticeVariance, FollowsItsFormula) {
   EXPECT_NEAR(OpenLatticeVariance_ppm2(GasOptions{}), 0.304307, 1e-6);
 }
 
-}  // namespace
+}  // namespace options_test
 }  // namespace plumescout

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout {
-namespace {
+namespace pose2_test {
 
 TEST(Distance, IsEuclidean) { EXPECT_DOUBLE_EQ(Distance_m({1.0, 2.0}, {4.0, -2.0}), 5.0); }
 
@@ -27,5 +27,5 @@ TEST(WrapAngle, MapsBothHalfTurnsToPlusPi) {
   EXPECT_DOUBLE_EQ(WrapAngle_rad(M_PI), M_PI);
 }
 
-}  // namespace
+}  // namespace pose2_test
 }  // namespace plumescout

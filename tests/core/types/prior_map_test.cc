@@ -9,7 +9,7 @@
 #include <string>
 
 namespace plumescout {
-namespace {
+namespace prior_map_test {
 
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -106,5 +106,5 @@ TEST(PriorMap, OptionsWithOneThatDoesNotFitAreInvalid) {
   EXPECT_THAT(std::string(Validate(options).message()), HasSubstr("prior_map resolution_m = 0.2"));
 }
 
-}  // namespace
+}  // namespace prior_map_test
 }  // namespace plumescout

@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace plumescout {
-namespace {
+namespace quantile_test {
 
 TEST(Quantile, IsLinearBetweenOrderStatistics) {
   const std::vector<double> values = {40.0, 10.0, 30.0, 20.0, 50.0};
@@ -28,5 +28,5 @@ TEST(Median, IsTheMiddleOrTheMeanOfBothMiddles) {
   EXPECT_EQ(Median(std::vector<double>{4.0, 1.0, 2.0, 3.0}), 2.5);
 }
 
-}  // namespace
+}  // namespace quantile_test
 }  // namespace plumescout

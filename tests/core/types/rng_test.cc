@@ -8,7 +8,7 @@
 #include <cmath>
 
 namespace plumescout {
-namespace {
+namespace rng_test {
 
 constexpr int kDraws = 100'000;
 
@@ -79,5 +79,5 @@ TEST(Rng, DrawsGaussiansOfMeanZeroAndVarianceOne) {
   EXPECT_NEAR(beyond_two, tails * kDraws, 5.0 * std::sqrt(tails * kDraws));
 }
 
-}  // namespace
+}  // namespace rng_test
 }  // namespace plumescout

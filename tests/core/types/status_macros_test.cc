@@ -7,7 +7,7 @@
 #include <memory>
 
 namespace plumescout {
-namespace {
+namespace status_macros_test {
 
 absl::Status ReturnsEarly(const absl::Status& status, bool& went_on) {
   PLUMESCOUT_RETURN_IF_ERROR(status);
@@ -42,5 +42,5 @@ TEST(AssignOrReturn, MovesWhatCannotBeCopied) {
   EXPECT_EQ(*Dereferences(std::make_unique<int>(5)), 5);
 }
 
-}  // namespace
+}  // namespace status_macros_test
 }  // namespace plumescout

@@ -9,7 +9,7 @@
 #include "core/types/rng.h"
 
 namespace plumescout {
-namespace {
+namespace trajectory_test {
 
 constexpr double kRounding = 1e-12;
 constexpr double kSpeed_mps = 1.25;
@@ -105,5 +105,5 @@ TEST(FindNearest, IsNeverFartherThanAnyInstant) {
 
 TEST(FindNearest, OfNothingIsNone) { EXPECT_FALSE(FindNearest({}, {0, 0}).has_value()); }
 
-}  // namespace
+}  // namespace trajectory_test
 }  // namespace plumescout

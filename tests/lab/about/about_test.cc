@@ -9,7 +9,7 @@
 #include "gtest/gtest.h"
 
 namespace plumescout::lab {
-namespace {
+namespace about_test {
 
 TEST(AboutThisRun, NamesMachineLoadBuildSeedAndVersion) {
   const auto about = AboutThisRun(42);
@@ -21,5 +21,5 @@ TEST(AboutThisRun, NamesMachineLoadBuildSeedAndVersion) {
   }
 }
 
-}  // namespace
+}  // namespace about_test
 }  // namespace plumescout::lab

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout::lab {
-namespace {
+namespace cpu_time_test {
 
 TEST(MedianCpu, RunsOnceMoreThanItMeasures) {
   int runs = 0;
@@ -13,5 +13,5 @@ TEST(MedianCpu, RunsOnceMoreThanItMeasures) {
   EXPECT_EQ(runs, 6);
 }
 
-}  // namespace
+}  // namespace cpu_time_test
 }  // namespace plumescout::lab

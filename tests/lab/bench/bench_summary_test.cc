@@ -15,7 +15,7 @@
 #include "lab/about/about.h"
 
 namespace plumescout::lab {
-namespace {
+namespace bench_summary_test {
 
 using Figures = std::vector<std::pair<std::string, double>>;
 
@@ -68,5 +68,5 @@ TEST(RunBench, FailsWhenItsBodyFailsOrAFlagIsUnknown) {
   EXPECT_NE(RunBench(other, 2, argv, [](BenchSummary&) { return absl::OkStatus(); }), 0);
 }
 
-}  // namespace
+}  // namespace bench_summary_test
 }  // namespace plumescout::lab

@@ -11,7 +11,7 @@
 #include "tests/support/path_case.h"
 
 namespace plumescout::lab {
-namespace {
+namespace planner_registry_test {
 
 TEST(PlannerRegistry, NamesEveryRowOnce) {
   std::set<std::string> names;
@@ -41,5 +41,5 @@ TEST(PlannerRegistry, RunsEveryRowOnTheSameWork) {
   }
 }
 
-}  // namespace
+}  // namespace planner_registry_test
 }  // namespace plumescout::lab

@@ -7,7 +7,7 @@
 #include <string>
 
 namespace plumescout::lab {
-namespace {
+namespace crc32c_test {
 
 // The examples of RFC 3720 appendix B.4, as values (the RFC prints bytes, lowest first).
 TEST(Crc32c, TheExamplesOfTheRfcHold) {
@@ -24,5 +24,5 @@ TEST(Crc32c, NothingHasChecksumZero) { EXPECT_EQ(Crc32c(""), 0U); }
 
 TEST(Crc32c, PiecesContinue) { EXPECT_EQ(Crc32c("56789", Crc32c("1234")), Crc32c("123456789")); }
 
-}  // namespace
+}  // namespace crc32c_test
 }  // namespace plumescout::lab

@@ -13,7 +13,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace csv_test {
 
 std::string Written(const CsvTable& table) {
   const TempFolder folder;
@@ -61,5 +61,5 @@ TEST(Csv, RowsWithoutTheirLabelsAreRefused) {
   }
 }
 
-}  // namespace
+}  // namespace csv_test
 }  // namespace plumescout::lab

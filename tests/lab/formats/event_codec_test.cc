@@ -11,7 +11,7 @@
 #include "tests/support/random_events.h"
 
 namespace plumescout::lab {
-namespace {
+namespace event_codec_test {
 
 // An event without floating-point numbers, which may be compared with ==.
 Event MakeRefresh() { return {3, PosteriorRefreshed{0x0102030405060708}}; }
@@ -125,5 +125,5 @@ TEST(EventCodec, TheStartOfARecordingIsEventZero) {
   EXPECT_FALSE(DecodeStart('\1' + bytes.substr(1)).ok());
 }
 
-}  // namespace
+}  // namespace event_codec_test
 }  // namespace plumescout::lab

@@ -13,7 +13,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace event_log_test {
 
 using testing::HasSubstr;
 
@@ -181,5 +181,5 @@ TEST_F(EventLogTest, AFolderThatDoesNotExistIsUnavailable) {
             absl::StatusCode::kUnavailable);
 }
 
-}  // namespace
+}  // namespace event_log_test
 }  // namespace plumescout::lab

@@ -13,7 +13,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace gaden_environment_test {
 
 using testing::HasSubstr;
 
@@ -92,5 +92,5 @@ TEST_F(GadenEnvironmentFile, AMissingFileIsNamed) {
   EXPECT_EQ(environment.status().code(), absl::StatusCode::kNotFound);
 }
 
-}  // namespace
+}  // namespace gaden_environment_test
 }  // namespace plumescout::lab

@@ -14,7 +14,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace gaden_frame_test {
 
 using support::Append;
 using support::FrameBytes2;
@@ -164,5 +164,5 @@ TEST(GadenFrameTest, FilesAreZlibStreamsAndNamedInErrors) {
   EXPECT_EQ(ReadGadenFrame(folder.File("none")).status().code(), absl::StatusCode::kNotFound);
 }
 
-}  // namespace
+}  // namespace gaden_frame_test
 }  // namespace plumescout::lab

@@ -13,7 +13,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace gaden_wind_test {
 
 using support::Append;
 using testing::HasSubstr;
@@ -80,5 +80,5 @@ TEST_F(GadenWindFile, ASpeedThatIsNoNumberIsNamed) {
   EXPECT_THAT(std::string(wind.status().message()), HasSubstr("cell (2, 1, 1) is nan"));
 }
 
-}  // namespace
+}  // namespace gaden_wind_test
 }  // namespace plumescout::lab

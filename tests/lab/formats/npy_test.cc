@@ -15,7 +15,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace npy_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -170,5 +170,5 @@ TEST(Npy, ValuesThatDoNotFillTheShapeAreNotWritten) {
             absl::StatusCode::kInvalidArgument);
 }
 
-}  // namespace
+}  // namespace npy_test
 }  // namespace plumescout::lab

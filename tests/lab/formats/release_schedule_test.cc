@@ -9,7 +9,7 @@
 #include <string>
 
 namespace plumescout::lab {
-namespace {
+namespace release_schedule_test {
 
 ReleaseSchedule Turns() { return {10.0, 100.0, 4.0, 6.0}; }
 
@@ -73,5 +73,5 @@ TEST(ReleaseSchedule, NamesWhatIsWrongWithIt) {
   EXPECT_EQ(message(schedule), "on_s and off_s must come with start_s");
 }
 
-}  // namespace
+}  // namespace release_schedule_test
 }  // namespace plumescout::lab

@@ -17,7 +17,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace scene_folder_test {
 
 using testing::HasSubstr;
 
@@ -166,5 +166,5 @@ TEST_F(SceneFolder, AnInvalidSceneIsNeitherReadNorWritten) {
   EXPECT_FALSE(std::filesystem::exists(path));
 }
 
-}  // namespace
+}  // namespace scene_folder_test
 }  // namespace plumescout::lab

@@ -11,7 +11,7 @@
 #include "tests/support/small_scene.h"
 
 namespace plumescout::lab {
-namespace {
+namespace scene_json_test {
 
 using testing::HasSubstr;
 
@@ -156,5 +156,5 @@ TEST(SceneJson, FilesOfOtherFoldersAreRefused) {
   ExpectInvalid("wind_uv.npy", "..", "wind.file");
 }
 
-}  // namespace
+}  // namespace scene_json_test
 }  // namespace plumescout::lab

@@ -11,7 +11,7 @@
 #include "tests/support/small_scene.h"
 
 namespace plumescout::lab {
-namespace {
+namespace scene_test {
 
 using testing::HasSubstr;
 
@@ -126,5 +126,5 @@ TEST(Scene, PointsAndTimesBeyondTheSceneAreClamped) {
   EXPECT_DOUBLE_EQ(SampleConcentration_ppm(scene, {-1e9, -1e9}, -1e9), 0.0);
 }
 
-}  // namespace
+}  // namespace scene_test
 }  // namespace plumescout::lab

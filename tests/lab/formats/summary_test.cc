@@ -12,7 +12,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace summary_test {
 
 std::string Written(const Summary& summary) {
   const TempFolder folder;
@@ -49,5 +49,5 @@ TEST(Summary, NamesThatClashAreRefused) {
   EXPECT_EQ(WriteSummary({{{"", 1}}, {}}, path).code(), invalid);
 }
 
-}  // namespace
+}  // namespace summary_test
 }  // namespace plumescout::lab

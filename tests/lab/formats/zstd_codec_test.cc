@@ -9,7 +9,7 @@
 #include "core/types/rng.h"
 
 namespace plumescout::lab {
-namespace {
+namespace zstd_codec_test {
 
 std::string RandomText(std::size_t size) {
   Rng rng(7);
@@ -50,5 +50,5 @@ TEST(ZstdCodec, EveryTruncationIsDataLoss) {
   }
 }
 
-}  // namespace
+}  // namespace zstd_codec_test
 }  // namespace plumescout::lab

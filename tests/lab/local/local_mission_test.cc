@@ -18,7 +18,7 @@
 #include "tests/support/scripted_strategy.h"
 
 namespace plumescout::lab {
-namespace {
+namespace local_mission_test {
 
 using client::ErrorReason;
 using client::GasRange;
@@ -264,5 +264,5 @@ TEST_F(LocalMissionTest, ClosingWakesWhoeverWaits) {
   EXPECT_TRUE(absl::IsNotFound(ended)) << ended;
 }
 
-}  // namespace
+}  // namespace local_mission_test
 }  // namespace plumescout::lab

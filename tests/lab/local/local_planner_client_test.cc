@@ -13,7 +13,7 @@
 #include "tests/client/ingest_traffic.h"
 
 namespace plumescout::lab {
-namespace {
+namespace local_planner_client_test {
 
 using client::GasRange;
 using client::kPatience;
@@ -122,5 +122,5 @@ TEST(LocalPlannerClientTest, TheNameOfADeletedMissionIsFreeAndOldStreamsStayDead
   EXPECT_EQ((*planner.OpenObservationStream(session))->opened().applied_sequence, 0);
 }
 
-}  // namespace
+}  // namespace local_planner_client_test
 }  // namespace plumescout::lab

@@ -10,7 +10,7 @@
 #include "tests/support/small_plan_picture.h"
 
 namespace plumescout::lab {
-namespace {
+namespace plan_json_test {
 
 TEST(PlanJson, HoldsEveryCandidateAndRejection) {
   const Plan plan = MakeSmallPlanPicture().plan;
@@ -33,5 +33,5 @@ TEST(PlanJson, WhatIsNotFiniteIsNull) {
   EXPECT_TRUE(json["candidates"][0]["mean_ucb"].is_null());
 }
 
-}  // namespace
+}  // namespace plan_json_test
 }  // namespace plumescout::lab

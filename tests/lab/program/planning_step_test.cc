@@ -10,7 +10,7 @@
 #include "tests/support/room_run.h"
 
 namespace plumescout::lab {
-namespace {
+namespace planning_step_test {
 
 constexpr char kRobot[] = "scout";
 
@@ -124,5 +124,5 @@ TEST_F(PlanningStepTest, OfAStrategyThatSamplesSitesGrowsNoTree) {
   EXPECT_TRUE(step->tree.empty());
 }
 
-}  // namespace
+}  // namespace planning_step_test
 }  // namespace plumescout::lab

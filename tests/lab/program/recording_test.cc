@@ -19,7 +19,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace recording_test {
 
 MissionOptions UnusualOptions() {
   MissionOptions options;
@@ -195,5 +195,5 @@ TEST_F(RecordingTest, InvalidOptionsAreNotRecorded) {
   EXPECT_TRUE(absl::IsInvalidArgument(Recorder::Create(path_, options).status()));
 }
 
-}  // namespace
+}  // namespace recording_test
 }  // namespace plumescout::lab

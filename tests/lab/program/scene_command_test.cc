@@ -22,7 +22,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace scene_command_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -191,5 +191,5 @@ TEST_F(SceneImportTest, BadArgumentsAreNamedAndNothingIsWritten) {
   EXPECT_FALSE(Exists("room"));
 }
 
-}  // namespace
+}  // namespace scene_command_test
 }  // namespace plumescout::lab

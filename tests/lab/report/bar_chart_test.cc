@@ -12,7 +12,7 @@
 #include "tests/support/recording_canvas.h"
 
 namespace plumescout::lab {
-namespace {
+namespace bar_chart_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -98,5 +98,5 @@ TEST(BarChart, WithoutUsableValuesItIsStillDrawn) {
   EXPECT_THAT(Texts(chart), HasSubstr(">ours<"));
 }
 
-}  // namespace
+}  // namespace bar_chart_test
 }  // namespace plumescout::lab

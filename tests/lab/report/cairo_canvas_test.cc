@@ -13,7 +13,7 @@
 #include <vector>
 
 namespace plumescout::lab {
-namespace {
+namespace cairo_canvas_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -175,5 +175,5 @@ TEST(CairoSvg, TheSameDrawingGivesTheSameBytesWhateverWasDrawnBefore) {
   EXPECT_EQ(DrawImage(90, 30, kWhite, DrawAll), DrawImage(90, 30, kWhite, DrawAll));
 }
 
-}  // namespace
+}  // namespace cairo_canvas_test
 }  // namespace plumescout::lab

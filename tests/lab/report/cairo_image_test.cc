@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout::lab {
-namespace {
+namespace cairo_image_test {
 
 TEST(CairoImage, EveryPixelComesBack) {
   Image image(3, 2, {1, 2, 3});  // rows of three pixels
@@ -14,5 +14,5 @@ TEST(CairoImage, EveryPixelComesBack) {
   EXPECT_EQ(FromCairo(ToCairo(image).get()), image);
 }
 
-}  // namespace
+}  // namespace cairo_image_test
 }  // namespace plumescout::lab

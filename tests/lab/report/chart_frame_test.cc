@@ -10,7 +10,7 @@
 #include "tests/support/recording_canvas.h"
 
 namespace plumescout::lab {
-namespace {
+namespace chart_frame_test {
 
 constexpr Box kBox{10.0, 20.0, 400.0, 300.0};
 
@@ -44,5 +44,5 @@ TEST(ChartFrame, TheLegendTakesItsRoomFromThePlot) {
   EXPECT_EQ(with.bottom(), without.bottom());
 }
 
-}  // namespace
+}  // namespace chart_frame_test
 }  // namespace plumescout::lab

@@ -12,7 +12,7 @@
 #include "tests/support/recording_canvas.h"
 
 namespace plumescout::lab {
-namespace {
+namespace chart_legend_test {
 
 using ::testing::AllOf;
 using ::testing::EndsWith;
@@ -118,5 +118,5 @@ TEST(ChartLegend, SamplesAreLinesSquaresOrDots) {
   EXPECT_EQ(canvas.discs[0].radius_px, 3.0);
 }
 
-}  // namespace
+}  // namespace chart_legend_test
 }  // namespace plumescout::lab

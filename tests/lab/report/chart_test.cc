@@ -14,7 +14,7 @@
 #include "tests/support/recording_canvas.h"
 
 namespace plumescout::lab {
-namespace {
+namespace chart_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -240,5 +240,5 @@ TEST(Chart, ALegendThatStandsElsewhereIsLeftOut) {
   EXPECT_THAT(canvas.Texts(), Not(HasSubstr("first")));
 }
 
-}  // namespace
+}  // namespace chart_test
 }  // namespace plumescout::lab

@@ -7,7 +7,7 @@
 #include <cmath>
 
 namespace plumescout::lab {
-namespace {
+namespace color_scale_test {
 
 // Lightness L* of CIE 1976 (Y of sRGB, D65): another model than the one the maps are made in.
 double Lightness(Rgb color) {
@@ -62,5 +62,5 @@ TEST(ColorScale, LogarithmicSharesGrowByFactors) {
   EXPECT_DOUBLE_EQ(scale.Share(-5.0), 0.0);
 }
 
-}  // namespace
+}  // namespace color_scale_test
 }  // namespace plumescout::lab

@@ -7,7 +7,7 @@
 #include <cmath>
 
 namespace plumescout::lab {
-namespace {
+namespace disc_layout_test {
 
 constexpr Box kBounds{0.0, 0.0, 400.0, 300.0};
 constexpr double kRadius_px = 10.0;
@@ -45,5 +45,5 @@ TEST(DiscLayout, WithoutAnyRoomTheyStayWhereTheyAre) {
   }
 }
 
-}  // namespace
+}  // namespace disc_layout_test
 }  // namespace plumescout::lab

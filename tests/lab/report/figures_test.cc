@@ -12,7 +12,7 @@
 #include "tests/support/small_report.h"
 
 namespace plumescout::lab {
-namespace {
+namespace figures_test {
 
 using testing::ElementsAre;
 using testing::Field;
@@ -116,5 +116,5 @@ TEST(Figures, ChartsFollowTheMetrics) {
   EXPECT_EQ(charts[2].curves[0].points.back().x, 200.0);
 }
 
-}  // namespace
+}  // namespace figures_test
 }  // namespace plumescout::lab

@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace plumescout::lab {
-namespace {
+namespace font_test {
 
 constexpr double kSize_px = 14.0;
 
@@ -58,5 +58,5 @@ TEST(Font, WrapsTextIntoLinesThatFit) {
   EXPECT_TRUE(WrapText("", kSize_px, kWidth_px).empty());
 }
 
-}  // namespace
+}  // namespace font_test
 }  // namespace plumescout::lab

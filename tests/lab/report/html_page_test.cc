@@ -11,7 +11,7 @@
 #include "tests/support/small_report.h"
 
 namespace plumescout::lab {
-namespace {
+namespace html_page_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -113,5 +113,5 @@ TEST(HtmlPage, TablesStandBeforeTheMaps) {
   EXPECT_LT(page.find(">By part<"), page.find("<img "));
 }
 
-}  // namespace
+}  // namespace html_page_test
 }  // namespace plumescout::lab

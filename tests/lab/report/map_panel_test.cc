@@ -12,7 +12,7 @@
 #include "tests/support/recording_canvas.h"
 
 namespace plumescout::lab {
-namespace {
+namespace map_panel_test {
 
 using testing::HasSubstr;
 
@@ -189,5 +189,5 @@ TEST(MapPanel, TheLegendNamesItsEntries) {
   }
 }
 
-}  // namespace
+}  // namespace map_panel_test
 }  // namespace plumescout::lab

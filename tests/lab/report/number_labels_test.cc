@@ -8,7 +8,7 @@
 #include <cmath>
 
 namespace plumescout::lab {
-namespace {
+namespace number_labels_test {
 
 using ::testing::ElementsAre;
 using ::testing::Pair;
@@ -29,5 +29,5 @@ TEST(NumberLabels, FiguresHaveNamesAndUnits) {
                           Pair("Build", "Release"), Pair("other", "text")));
 }
 
-}  // namespace
+}  // namespace number_labels_test
 }  // namespace plumescout::lab

@@ -8,7 +8,7 @@
 #include <string>
 
 namespace plumescout::lab {
-namespace {
+namespace plan_names_test {
 
 // The names of the first `count` values of an enum.
 template <typename Enum>
@@ -30,5 +30,5 @@ TEST(PlanNames, AValueThatIsNoneIsUnknown) {
   EXPECT_STREQ(NameOf(static_cast<GoalKind>(99)), "unknown");
 }
 
-}  // namespace
+}  // namespace plan_names_test
 }  // namespace plumescout::lab

@@ -9,7 +9,7 @@
 #include "tests/support/small_plan_picture.h"
 
 namespace plumescout::lab {
-namespace {
+namespace plan_panels_test {
 
 std::vector<std::string> Labels(const MapPanel& panel) {
   std::vector<std::string> labels;
@@ -73,5 +73,5 @@ TEST(PlanPanels, APlanToStayHasNoThickPath) {
   }
 }
 
-}  // namespace
+}  // namespace plan_panels_test
 }  // namespace plumescout::lab

@@ -7,7 +7,7 @@
 #include "tests/support/small_plan_picture.h"
 
 namespace plumescout::lab {
-namespace {
+namespace plan_sheet_test {
 
 TEST(PlanSheet, GrowsByARowForEachCandidateAndRejection) {
   PlanPicture picture = MakeSmallPlanPicture();
@@ -42,5 +42,5 @@ TEST(PlanSheet, DrawsAPlanWithoutAnything) {
   EXPECT_GT(DrawPlanSheet(picture).height(), 0);
 }
 
-}  // namespace
+}  // namespace plan_sheet_test
 }  // namespace plumescout::lab

@@ -12,7 +12,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace png_test {
 
 Image RandomImage(int width, int height) {
   Rng rng(11);
@@ -43,5 +43,5 @@ TEST(Png, APictureWithoutPixelsIsRefused) {
   EXPECT_EQ(EncodePng(Image()).status().code(), absl::StatusCode::kInvalidArgument);
 }
 
-}  // namespace
+}  // namespace png_test
 }  // namespace plumescout::lab

@@ -14,7 +14,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace report_test {
 
 using testing::HasSubstr;
 
@@ -61,5 +61,5 @@ TEST(Report, RastersThatDoNotFitAreRefused) {
   EXPECT_EQ(WriteReport(data, folder.path()).code(), invalid);
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace plumescout::lab

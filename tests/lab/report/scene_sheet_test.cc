@@ -11,7 +11,7 @@
 #include "tests/support/small_scene.h"
 
 namespace plumescout::lab {
-namespace {
+namespace scene_sheet_test {
 
 std::vector<std::string> Titles(const Scene& scene) {
   std::vector<std::string> titles;
@@ -81,5 +81,5 @@ TEST(SceneSheetTest, DrawsScenesWithoutGasOrAir) {
   EXPECT_TRUE(drawn);
 }
 
-}  // namespace
+}  // namespace scene_sheet_test
 }  // namespace plumescout::lab

@@ -15,7 +15,7 @@
 #include "tests/support/small_report.h"
 
 namespace plumescout::lab {
-namespace {
+namespace sheet_test {
 
 ReportFigures MakeFigures() {
   const ReportData data = MakeSmallReport();
@@ -169,5 +169,5 @@ TEST(Sheet, AFourthChartBeginsAnotherRow) {
 
 TEST(Sheet, ASheetOfNothingIsStillASheet) { EXPECT_GT(DrawSheet({}).height(), 100); }
 
-}  // namespace
+}  // namespace sheet_test
 }  // namespace plumescout::lab

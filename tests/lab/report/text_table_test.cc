@@ -13,7 +13,7 @@
 #include "tests/support/recording_canvas.h"
 
 namespace plumescout::lab {
-namespace {
+namespace text_table_test {
 
 using ::testing::IsEmpty;
 
@@ -112,5 +112,5 @@ TEST(TextTable, RowsOfOtherLengthAreDrawnAsFarAsThereAreColumns) {
   EXPECT_EQ(texts.size(), 1u + 2u + 1u + 2u);
 }
 
-}  // namespace
+}  // namespace text_table_test
 }  // namespace plumescout::lab

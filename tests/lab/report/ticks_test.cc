@@ -8,7 +8,7 @@
 #include <cmath>
 
 namespace plumescout::lab {
-namespace {
+namespace ticks_test {
 
 using testing::DoubleNear;
 using testing::ElementsAre;
@@ -57,5 +57,5 @@ TEST(Ticks, LabelsAreShort) {
   EXPECT_EQ(TickLabel(2.5e7), "2.5e+07");
 }
 
-}  // namespace
+}  // namespace ticks_test
 }  // namespace plumescout::lab

@@ -12,7 +12,7 @@
 #include "tests/support/grid_art.h"
 
 namespace plumescout::lab {
-namespace {
+namespace belief_propagation_test {
 
 using ::plumescout::testing::DenseField;
 using ::plumescout::testing::DenseReading;
@@ -184,5 +184,5 @@ TEST(BeliefPropagation, OfAnIsolatedCellIsItsOwnEvidence) {
   EXPECT_NEAR(solver.Beliefs().variance_ppm2[0], 1.0 / precision, 1e-12);
 }
 
-}  // namespace
+}  // namespace belief_propagation_test
 }  // namespace plumescout::lab

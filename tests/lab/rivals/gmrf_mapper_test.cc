@@ -12,7 +12,7 @@
 #include "tests/support/grid_art.h"
 
 namespace plumescout::lab {
-namespace {
+namespace gmrf_mapper_test {
 
 using ::plumescout::testing::DenseField;
 using ::plumescout::testing::DenseReading;
@@ -70,5 +70,5 @@ TEST(GmrfMapperTest, AMapWithoutFreeCellsIsEmptyOfGas) {
   EXPECT_TRUE(std::isnan(mapper.MapOver(GridFromArt({"##"})).value().mean_ppm[0]));
 }
 
-}  // namespace
+}  // namespace gmrf_mapper_test
 }  // namespace plumescout::lab

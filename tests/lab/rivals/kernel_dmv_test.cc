@@ -13,7 +13,7 @@
 #include "tests/support/grid_art.h"
 
 namespace plumescout::lab {
-namespace {
+namespace kernel_dmv_test {
 
 using ::plumescout::testing::GridFromArt;
 
@@ -188,5 +188,5 @@ TEST(KernelDmvTest, OptionsOutOfRangeAreNamed) {
   EXPECT_TRUE(absl::IsInvalidArgument(Validate(KernelDmvOptions{1.0, -1.0})));
 }
 
-}  // namespace
+}  // namespace kernel_dmv_test
 }  // namespace plumescout::lab

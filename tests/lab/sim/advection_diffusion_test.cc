@@ -15,7 +15,7 @@
 #include "tests/lab/sim/small_layout.h"
 
 namespace plumescout::lab {
-namespace {
+namespace advection_diffusion_test {
 
 // A depth that never changes: 0.25 m is that of a fresh filament, sqrt(2 pi) 0.1 m.
 GasParameters ConstantDepth() {
@@ -167,5 +167,5 @@ TEST(AdvectionDiffusionTest, RefusesARoomThatGasCannotLeave) {
             absl::StatusCode::kFailedPrecondition);
 }
 
-}  // namespace
+}  // namespace advection_diffusion_test
 }  // namespace plumescout::lab

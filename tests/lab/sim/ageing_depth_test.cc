@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace plumescout::lab {
-namespace {
+namespace ageing_depth_test {
 
 TEST(AgeingDepthTest, StartsAsAThreeDimensionalGaussianAndEndsAtTheMixingDepth) {
   const GasParameters gas;
@@ -57,5 +57,5 @@ TEST(AgeingDepthTest, ADepthThatDoesNotGrowIsOneTermThatNeverEnds) {
   EXPECT_NEAR(InverseDepthTerms(gas)[0].weight_per_m, 1.0 / (std::sqrt(2.0 * M_PI) * 0.1), 1e-9);
 }
 
-}  // namespace
+}  // namespace ageing_depth_test
 }  // namespace plumescout::lab

@@ -9,7 +9,7 @@
 #include "tests/lab/sim/small_layout.h"
 
 namespace plumescout::lab {
-namespace {
+namespace air_test {
 
 // Points in and around a raster whose origin is not at zero.
 struct RandomAir {
@@ -78,5 +78,5 @@ TEST(AirTest, IsClearWhereAWalkMeetsNoSolid) {
   EXPECT_GT(clear, 1000);
 }
 
-}  // namespace
+}  // namespace air_test
 }  // namespace plumescout::lab

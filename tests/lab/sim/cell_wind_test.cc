@@ -12,7 +12,7 @@
 #include "tests/lab/sim/small_layout.h"
 
 namespace plumescout::lab {
-namespace {
+namespace cell_wind_test {
 
 WindField RandomWind(const GridGeometry& geometry) {
   WindField wind{Grid<float>(geometry), Grid<float>(geometry)};
@@ -77,5 +77,5 @@ TEST(CellWindTest, ARoomWithoutFreeCellsHasNoWind) {
   EXPECT_EQ(wind->MaxMagnitudes().u_mps, 0.0);
 }
 
-}  // namespace
+}  // namespace cell_wind_test
 }  // namespace plumescout::lab

@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace plumescout::lab {
-namespace {
+namespace company_test {
 
 // Every robot acts `acts` times, `period` ns apart, and notes who it was and when. Only the company
 // keeps them from doing so at once.
@@ -72,5 +72,5 @@ TEST(CompanyTest, RemembersHowCloseTheyCame) {
   EXPECT_EQ(company.closest_m(), 1.5);
 }
 
-}  // namespace
+}  // namespace company_test
 }  // namespace plumescout::lab

@@ -12,7 +12,7 @@
 #include "tests/support/grid_art.h"
 
 namespace plumescout::lab {
-namespace {
+namespace concentration_slice_test {
 
 // Layers are float: relative rounding of a product of two exponentials, with room.
 constexpr double kFloatShare = 1e-5;
@@ -134,5 +134,5 @@ TEST(ConcentrationSliceTest, IgnoresFilamentsOutsideTheFreeCells) {
   for (const float ppm : layers[0].values()) EXPECT_EQ(ppm, 0.0F);
 }
 
-}  // namespace
+}  // namespace concentration_slice_test
 }  // namespace plumescout::lab

@@ -9,7 +9,7 @@
 #include "tests/support/small_scene.h"
 
 namespace plumescout::lab {
-namespace {
+namespace dwell_sensor_test {
 
 constexpr Point2 kPlace{-0.05, 1.15};  // centre of cell (2, 1), index 7
 
@@ -77,5 +77,5 @@ TEST(DwellSensorTest, ADwellOfNoLengthReadsThatInstant) {
                    30.0);
 }
 
-}  // namespace
+}  // namespace dwell_sensor_test
 }  // namespace plumescout::lab

@@ -13,7 +13,7 @@
 #include "tests/lab/sim/small_scene.h"
 
 namespace plumescout::lab {
-namespace {
+namespace episode_test {
 
 // One metre west and back, at 1 m/s.
 Plan ThereAndBack(const client::PlanQuery& query) {
@@ -179,5 +179,5 @@ TEST(EpisodeTest, RejectsATeammateThatStartsInAWall) {
   EXPECT_TRUE(absl::IsInvalidArgument(status)) << status;
 }
 
-}  // namespace
+}  // namespace episode_test
 }  // namespace plumescout::lab

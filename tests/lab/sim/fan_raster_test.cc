@@ -11,7 +11,7 @@
 #include "tests/lab/sim/flow_domains.h"
 
 namespace plumescout::lab {
-namespace {
+namespace fan_raster_test {
 
 using ::testing::HasSubstr;
 
@@ -84,5 +84,5 @@ TEST(FanRasterTest, RejectsAFanThatFillsTheWholeRoom) {
                 "fans: air is driven out of the space around cell (0, 0)");
 }
 
-}  // namespace
+}  // namespace fan_raster_test
 }  // namespace plumescout::lab

@@ -10,7 +10,7 @@
 #include "tests/support/small_scene.h"
 
 namespace plumescout::lab {
-namespace {
+namespace field_error_test {
 
 // Free cells of the small scene hold x + 0.1 y for x in 1 ... 3, y in 1 ... 2.
 constexpr int kFreeCells = 6;
@@ -65,5 +65,5 @@ TEST(FieldErrorTest, IsNoNumberWithoutFreeCells) {
   EXPECT_TRUE(std::isnan(FieldRmse_ppm(truth, MapSaying(truth.geometry(), 1.0F))));
 }
 
-}  // namespace
+}  // namespace field_error_test
 }  // namespace plumescout::lab

@@ -8,7 +8,7 @@
 #include <cstdint>
 
 namespace plumescout::lab {
-namespace {
+namespace floor_plan_test {
 
 constexpr std::uint64_t kSeeds = 50;
 constexpr FloorPlanStyle kOffices{400, 0.8, 0.3};
@@ -103,5 +103,5 @@ TEST(FloorPlanTest, IntegersCoverTheirRange) {
   EXPECT_EQ(DrawInt(rng, -2, -2), -2);
 }
 
-}  // namespace
+}  // namespace floor_plan_test
 }  // namespace plumescout::lab

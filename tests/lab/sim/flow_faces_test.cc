@@ -7,7 +7,7 @@
 #include "tests/lab/sim/flow_domains.h"
 
 namespace plumescout::lab {
-namespace {
+namespace flow_faces_test {
 
 TEST(FlowFacesTest, FreesTheFacesBetweenFluidCells) {
   FlowDomain domain = ClosedRoom(3, 2);
@@ -48,5 +48,5 @@ TEST(FlowFacesTest, FindsTheFacesOfOpeningsOnEverySide) {
   expect(Side::kNorth, {1, 1}, field.VFace(1, 2), field.VFace(1, 1), -1.0);
 }
 
-}  // namespace
+}  // namespace flow_faces_test
 }  // namespace plumescout::lab

@@ -10,7 +10,7 @@
 #include "tests/lab/sim/flow_domains.h"
 
 namespace plumescout::lab {
-namespace {
+namespace flow_parts_test {
 
 using ::testing::HasSubstr;
 
@@ -69,5 +69,5 @@ TEST(FlowPartsTest, RejectsAnInletIntoAClosedRoom) {
               HasSubstr("into the space around cell (0, 0)"));
 }
 
-}  // namespace
+}  // namespace flow_parts_test
 }  // namespace plumescout::lab

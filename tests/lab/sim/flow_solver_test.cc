@@ -10,7 +10,7 @@
 #include "tests/lab/sim/flow_domains.h"
 
 namespace plumescout::lab {
-namespace {
+namespace flow_solver_test {
 
 constexpr double kViscosity_m2_per_s = 0.01;
 
@@ -81,5 +81,5 @@ TEST(FlowSolverTest, StaysBoundedWithHardlyAnyViscosity) {
   EXPECT_LT(solver->velocity().FastestCell_mps(), 5.0);  // the gap alone makes 0.54 of 0.3 m/s
 }
 
-}  // namespace
+}  // namespace flow_solver_test
 }  // namespace plumescout::lab

@@ -7,7 +7,7 @@
 #include <cmath>
 
 namespace plumescout::lab {
-namespace {
+namespace frame_recorder_test {
 
 constexpr GridGeometry kGeometry{0.0, 0.0, 0.1, 2, 1};
 
@@ -45,5 +45,5 @@ TEST(FrameRecorderTest, CountsEndWhereTheirRangeEnds) {
   EXPECT_EQ(scene.conc_mean_ppm[Cell(0, 0)], 1e6F);  // the mean is not cut
 }
 
-}  // namespace
+}  // namespace frame_recorder_test
 }  // namespace plumescout::lab

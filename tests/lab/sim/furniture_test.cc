@@ -8,7 +8,7 @@
 #include <set>
 
 namespace plumescout::lab {
-namespace {
+namespace furniture_test {
 
 constexpr std::uint64_t kSeeds = 50;
 
@@ -71,5 +71,5 @@ TEST(FurnitureTest, NarrowCorridorsStayEmpty) {
   }
 }
 
-}  // namespace
+}  // namespace furniture_test
 }  // namespace plumescout::lab

@@ -16,7 +16,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace gaden_scene_test {
 
 using testing::HasSubstr;
 
@@ -182,5 +182,5 @@ TEST_F(GadenSceneTest, NamesFieldsOutOfRange) {
   ExpectError(absl::StatusCode::kInvalidArgument, "2 rates for 1 result folders");
 }
 
-}  // namespace
+}  // namespace gaden_scene_test
 }  // namespace plumescout::lab

@@ -9,7 +9,7 @@
 #include "tests/support/gaden_files.h"
 
 namespace plumescout::lab {
-namespace {
+namespace gaden_slice_test {
 
 // A hall of 20 x 20 x 10 cells of 0.1 m, free throughout.
 GadenEnvironment Hall() {
@@ -81,5 +81,5 @@ TEST(GadenSliceTest, FilamentsOutsideAreNotSeen) {
   EXPECT_EQ(slice[Cell(0, 10)], 0.0F);
 }
 
-}  // namespace
+}  // namespace gaden_slice_test
 }  // namespace plumescout::lab

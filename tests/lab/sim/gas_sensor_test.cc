@@ -7,7 +7,7 @@
 #include <cmath>
 
 namespace plumescout::lab {
-namespace {
+namespace gas_sensor_test {
 
 GasSensorOptions Noiseless() {
   GasSensorOptions options;
@@ -152,5 +152,5 @@ TEST(GasSensorTest, RejectsLimitsThatMakeNoSense) {
   }
 }
 
-}  // namespace
+}  // namespace gas_sensor_test
 }  // namespace plumescout::lab

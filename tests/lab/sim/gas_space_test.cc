@@ -11,7 +11,7 @@
 #include "tests/lab/sim/small_layout.h"
 
 namespace plumescout::lab {
-namespace {
+namespace gas_space_test {
 
 TEST(GasSpaceTest, TellsRoomOpeningsAndSolidsApart) {
   const Grid<GasSpace> spaces = GasSpaces(*Rasterize(SmallLayout()));
@@ -47,5 +47,5 @@ TEST(GasSpaceTest, ClearanceIsTheStepsToTheNearestSolid) {
   }
 }
 
-}  // namespace
+}  // namespace gas_space_test
 }  // namespace plumescout::lab

@@ -15,7 +15,7 @@
 #include "lab/sim/layout_raster.h"
 
 namespace plumescout::lab {
-namespace {
+namespace layout_generator_test {
 
 constexpr std::uint64_t kSeeds = 60;
 
@@ -134,5 +134,5 @@ TEST(LayoutGeneratorTest, DrawsBuildingsThatDiffer) {
   EXPECT_EQ(sources, (std::set<std::size_t>{1, 2, 3, 4}));
 }
 
-}  // namespace
+}  // namespace layout_generator_test
 }  // namespace plumescout::lab

@@ -15,7 +15,7 @@
 #include "tests/lab/sim/small_layout.h"
 
 namespace plumescout::lab {
-namespace {
+namespace layout_raster_test {
 
 using ::testing::HasSubstr;
 
@@ -186,5 +186,5 @@ TEST(LayoutRasterTest, LeavesARobotWayThroughTheBundledScene) {
   }
 }
 
-}  // namespace
+}  // namespace layout_raster_test
 }  // namespace plumescout::lab

@@ -11,7 +11,7 @@
 #include "tests/lab/sim/small_layout.h"
 
 namespace plumescout::lab {
-namespace {
+namespace layout_test {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -131,5 +131,5 @@ TEST(LayoutTest, ChecksTheGas) {
   ExpectInvalid(layout, "gas.mixing_depth_m = -1");
 }
 
-}  // namespace
+}  // namespace layout_test
 }  // namespace plumescout::lab

@@ -16,7 +16,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace layout_writer_test {
 
 void ExpectSameBack(const Layout& layout) {
   const auto read = ParseLayout(FormatLayout(layout));
@@ -58,5 +58,5 @@ TEST(LayoutWriterTest, RefusesAnInvalidLayout) {
   EXPECT_FALSE(std::filesystem::exists(folder.File("l.yaml")));
 }
 
-}  // namespace
+}  // namespace layout_writer_test
 }  // namespace plumescout::lab

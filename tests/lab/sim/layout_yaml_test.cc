@@ -11,7 +11,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace layout_yaml_test {
 
 using ::testing::HasSubstr;
 
@@ -166,5 +166,5 @@ TEST(LayoutYamlTest, NamesTheFileInErrors) {
               HasSubstr("bad.yaml"));
 }
 
-}  // namespace
+}  // namespace layout_yaml_test
 }  // namespace plumescout::lab

@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace plumescout::lab {
-namespace {
+namespace lidar_test {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Ranges are float: half a unit in the last place at 8 m is below a micrometre.
@@ -212,5 +212,5 @@ TEST(LidarTest, RejectsDropoutsOutOfRange) {
   }
 }
 
-}  // namespace
+}  // namespace lidar_test
 }  // namespace plumescout::lab

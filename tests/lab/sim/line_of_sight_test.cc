@@ -11,7 +11,7 @@
 #include "tests/support/grid_art.h"
 
 namespace plumescout::lab {
-namespace {
+namespace line_of_sight_test {
 
 using testing::CellInArt;
 using testing::CellsInArt;
@@ -98,5 +98,5 @@ TEST(LineOfSightTest, IsThatOfWalkingEveryLine) {
   EXPECT_GT(seen, 0);
 }
 
-}  // namespace
+}  // namespace line_of_sight_test
 }  // namespace plumescout::lab

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout::lab {
-namespace {
+namespace mac_field_test {
 
 // Rounding of a handful of operations on values around 1.
 constexpr double kRounding = 1e-12;
@@ -86,5 +86,5 @@ TEST(MacFieldTest, NumbersItsFacesInOneRow) {
   EXPECT_EQ(field.v(2, 2), 6.0);
 }
 
-}  // namespace
+}  // namespace mac_field_test
 }  // namespace plumescout::lab

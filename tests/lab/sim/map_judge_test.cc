@@ -8,7 +8,7 @@
 #include "tests/support/small_scene.h"
 
 namespace plumescout::lab {
-namespace {
+namespace map_judge_test {
 
 class MapJudgeTest : public ::testing::Test {
  protected:
@@ -35,5 +35,5 @@ TEST_F(MapJudgeTest, TakesOneSampleAPeriodWhoeverAsks) {
   EXPECT_EQ(told_, 3);
 }
 
-}  // namespace
+}  // namespace map_judge_test
 }  // namespace plumescout::lab

@@ -10,7 +10,7 @@
 #include "tests/support/grid_art.h"
 
 namespace plumescout::lab {
-namespace {
+namespace metrics_test {
 
 constexpr double kPriorVariance_ppm2 = 0.3;
 constexpr double kRounding = 1e-9;
@@ -136,5 +136,5 @@ TEST(MetricsTest, JudgesTheSumOfAmbientAirAndGas) {
   EXPECT_NEAR(evaluator.Evaluate(map).rmse_ppm, std::sqrt(25.0 / 2.0), kRounding);
 }
 
-}  // namespace
+}  // namespace metrics_test
 }  // namespace plumescout::lab

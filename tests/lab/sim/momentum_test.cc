@@ -9,7 +9,7 @@
 #include "tests/lab/sim/flow_domains.h"
 
 namespace plumescout::lab {
-namespace {
+namespace momentum_test {
 
 constexpr double kCell_m = 0.1;
 constexpr double kRounding = 1e-11;  // of sums of some ten terms around 10, divided by a cell
@@ -108,5 +108,5 @@ TEST(MomentumTest, MovesFreeFacesAndOutlets) {
   EXPECT_EQ(momentum.moving().size(), 11u + 10u + 3u);
 }
 
-}  // namespace
+}  // namespace momentum_test
 }  // namespace plumescout::lab

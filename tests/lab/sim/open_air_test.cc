@@ -7,7 +7,7 @@
 #include "lab/sim/gas_space.h"
 
 namespace plumescout::lab {
-namespace {
+namespace open_air_test {
 
 TEST(OpenAirTest, IsInsideEverywhereAndOutsideBeyond) {
   GridGeometry geometry;
@@ -31,5 +31,5 @@ TEST(OpenAirTest, UniformWindIsTheSameAtEveryPointAndFlowsThrough) {
   }
 }
 
-}  // namespace
+}  // namespace open_air_test
 }  // namespace plumescout::lab

@@ -15,7 +15,7 @@
 #include "tests/lab/sim/small_layout.h"
 
 namespace plumescout::lab {
-namespace {
+namespace plume_test {
 
 // An open square room.
 LayoutRaster OpenRoom(double size_m) {
@@ -303,5 +303,5 @@ TEST(PlumeTest, ConservesAFilamentsGasAsItGrows) {
   }
 }
 
-}  // namespace
+}  // namespace plume_test
 }  // namespace plumescout::lab

@@ -7,7 +7,7 @@
 #include <cmath>
 
 namespace plumescout::lab {
-namespace {
+namespace pose_error_test {
 
 constexpr Pose2 kTruth{1.25, -2.5, 0.75};
 
@@ -78,5 +78,5 @@ TEST(PoseErrorTest, RejectsOptionsOutOfRange) {
   }
 }
 
-}  // namespace
+}  // namespace pose_error_test
 }  // namespace plumescout::lab

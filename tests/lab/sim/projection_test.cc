@@ -8,7 +8,7 @@
 #include "tests/lab/sim/flow_domains.h"
 
 namespace plumescout::lab {
-namespace {
+namespace projection_test {
 
 // Rounding times the condition of a Poisson matrix of a hundred cells.
 constexpr double kTolerance_mps = 1e-12;
@@ -73,5 +73,5 @@ TEST(ProjectionTest, RejectsAirThatHasNowhereToGo) {
             absl::StatusCode::kInvalidArgument);
 }
 
-}  // namespace
+}  // namespace projection_test
 }  // namespace plumescout::lab

@@ -13,7 +13,7 @@
 #include "tests/lab/sim/fake_service.h"
 
 namespace plumescout::lab {
-namespace {
+namespace sampling_run_test {
 
 // A field of 8 x 4 cells of 1 m in which the concentration is the number of the column.
 Scene ColumnsScene() {
@@ -295,5 +295,5 @@ TEST(SamplingRunLocalTest, AMissionWithoutAMapSaysSo) {
   EXPECT_TRUE(absl::IsInvalidArgument(record.status()));
 }
 
-}  // namespace
+}  // namespace sampling_run_test
 }  // namespace plumescout::lab

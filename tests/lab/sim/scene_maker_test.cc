@@ -17,7 +17,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace scene_maker_test {
 
 SceneMakerOptions ShortRun() {
   SceneMakerOptions options;
@@ -167,5 +167,5 @@ TEST(SceneMakerTest, RejectsLayoutsThatDoNotFitTogether) {
   EXPECT_EQ(MakeScene(layout, ShortRun()).status().code(), absl::StatusCode::kInvalidArgument);
 }
 
-}  // namespace
+}  // namespace scene_maker_test
 }  // namespace plumescout::lab

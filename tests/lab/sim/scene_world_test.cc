@@ -9,7 +9,7 @@
 #include "tests/support/small_scene.h"
 
 namespace plumescout::lab {
-namespace {
+namespace scene_world_test {
 
 // In the small scene frame t holds 20 t + cell index counts of 0.05 ppm, every 0.5 s.
 constexpr Point2 kPoint{0.0, 1.15};  // cell (2,1), index 7
@@ -74,5 +74,5 @@ TEST(SceneWorldTest, RejectsAmbientAirOutOfRange) {
   }
 }
 
-}  // namespace
+}  // namespace scene_world_test
 }  // namespace plumescout::lab

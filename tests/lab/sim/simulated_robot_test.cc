@@ -11,7 +11,7 @@
 #include <string>
 
 namespace plumescout::lab {
-namespace {
+namespace simulated_robot_test {
 
 using ::testing::HasSubstr;
 
@@ -316,5 +316,5 @@ TEST_F(SimulatedRobotTest, RejectsNewerOptionsOutOfRange) {
   ExpectInvalid({.scene_start_s = -1.0}, "robot.scene_start_s = -1");
 }
 
-}  // namespace
+}  // namespace simulated_robot_test
 }  // namespace plumescout::lab

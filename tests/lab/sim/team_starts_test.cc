@@ -8,7 +8,7 @@
 #include "tests/lab/sim/small_scene.h"
 
 namespace plumescout::lab {
-namespace {
+namespace team_starts_test {
 
 using ::testing::ElementsAre;
 
@@ -46,5 +46,5 @@ TEST(TeamStartsTest, NamesCountOnFromTheFirst) {
   EXPECT_THAT(TeamNames("scout", 1), ElementsAre("scout"));
 }
 
-}  // namespace
+}  // namespace team_starts_test
 }  // namespace plumescout::lab

@@ -8,7 +8,7 @@
 #include <cstdint>
 
 namespace plumescout::lab {
-namespace {
+namespace ventilation_test {
 
 struct Draw {
   FloorPlan plan;
@@ -93,5 +93,5 @@ TEST(VentilationTest, NoAirOfOtherRoomsEntersTheFreshRoom) {
   }
 }
 
-}  // namespace
+}  // namespace ventilation_test
 }  // namespace plumescout::lab

@@ -15,7 +15,7 @@
 #include "tests/lab/sim/small_layout.h"
 
 namespace plumescout::lab {
-namespace {
+namespace wind_test {
 
 // What the direct solver leaves of a divergence of order 1 m/s: rounding times the condition of a
 // Poisson matrix of some 1000 cells (about 1e3), with room.
@@ -244,5 +244,5 @@ TEST(WindTest, RejectsOptionsOutOfRange) {
   }
 }
 
-}  // namespace
+}  // namespace wind_test
 }  // namespace plumescout::lab

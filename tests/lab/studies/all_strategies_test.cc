@@ -9,7 +9,7 @@
 #include "tests/lab/studies/small_study.h"
 
 namespace plumescout::lab {
-namespace {
+namespace all_strategies_test {
 
 using ::testing::Contains;
 using ::testing::Gt;
@@ -34,5 +34,5 @@ TEST(AllStrategies, HasEveryStrategyWithTheMapUnknownAndKnown) {
   EXPECT_THAT(study->summary.figures, Contains(Key("lhr_known_entropy_nats")));
 }
 
-}  // namespace
+}  // namespace all_strategies_test
 }  // namespace plumescout::lab

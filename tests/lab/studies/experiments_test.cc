@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout::lab {
-namespace {
+namespace experiments_test {
 
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
@@ -48,5 +48,5 @@ TEST(Experiments, OptionsOutOfRangeAreRefusedByName) {
   EXPECT_THAT(RunExperiment("xit_fig3", options).status().message(), HasSubstr("jobs = -1"));
 }
 
-}  // namespace
+}  // namespace experiments_test
 }  // namespace plumescout::lab

@@ -13,7 +13,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace gas_validation_test {
 
 std::map<std::string, double> FiguresOf(const Study& study) {
   return {study.summary.figures.begin(), study.summary.figures.end()};
@@ -74,5 +74,5 @@ TEST(GasValidation, NamesAFolderThatIsNoScene) {
   EXPECT_NE(status.message().find("no/such/scene"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace gas_validation_test
 }  // namespace plumescout::lab

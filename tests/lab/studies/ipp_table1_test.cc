@@ -10,7 +10,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace ipp_table1_test {
 
 using ::testing::Contains;
 using ::testing::Key;
@@ -41,5 +41,5 @@ TEST(IppTable1, HasTheRowsOfThePaper) {
   }
 }
 
-}  // namespace
+}  // namespace ipp_table1_test
 }  // namespace plumescout::lab

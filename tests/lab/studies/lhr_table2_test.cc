@@ -10,7 +10,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace lhr_table2_test {
 
 using ::testing::Contains;
 using ::testing::Key;
@@ -43,5 +43,5 @@ TEST(LhrTable2, HasTheRowsOfThePaperAndSamplesEverySite) {
   EXPECT_THAT(study->summary.figures, Contains(Key("p1_6x6_ms")));
 }
 
-}  // namespace
+}  // namespace lhr_table2_test
 }  // namespace plumescout::lab

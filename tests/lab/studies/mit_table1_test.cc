@@ -9,7 +9,7 @@
 #include "lab/worlds/mit_scene.h"
 
 namespace plumescout::lab {
-namespace {
+namespace mit_table1_test {
 
 const Study& QuickStudy() {
   static const Study study = [] {
@@ -77,5 +77,5 @@ TEST(MitTable1, TellsHowFarItIs) {
   EXPECT_DOUBLE_EQ(last, 1.0);
 }
 
-}  // namespace
+}  // namespace mit_table1_test
 }  // namespace plumescout::lab

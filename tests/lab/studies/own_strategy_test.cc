@@ -9,7 +9,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace own_strategy_test {
 
 using ::testing::Contains;
 using ::testing::Key;
@@ -31,5 +31,5 @@ TEST(OwnStrategy, ComparesAllContestantsWithTheOracle) {
               Contains(std::pair<std::string, double>("rrt_star_frontier_rmse_oracle_share", 0.0)));
 }
 
-}  // namespace
+}  // namespace own_strategy_test
 }  // namespace plumescout::lab

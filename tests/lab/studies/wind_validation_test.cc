@@ -11,7 +11,7 @@
 #include "lab/worlds/published_flows.h"
 
 namespace plumescout::lab {
-namespace {
+namespace wind_validation_test {
 
 // Run once: all tests look at the same.
 const Study& Quick() {
@@ -85,5 +85,5 @@ TEST(WindValidation, ShowsEveryFlow) {
   }
 }
 
-}  // namespace
+}  // namespace wind_validation_test
 }  // namespace plumescout::lab

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout::lab {
-namespace {
+namespace xit_episode_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -80,5 +80,5 @@ TEST(XitEpisode, DrawsAMissionWithItsCurves) {
   EXPECT_LT(rows.back()[2], rows.back()[3]) << "it knows more of the gas than nothing";
 }
 
-}  // namespace
+}  // namespace xit_episode_test
 }  // namespace plumescout::lab

@@ -7,7 +7,7 @@
 #include <map>
 
 namespace plumescout::lab {
-namespace {
+namespace xit_fig3_test {
 
 const Study& QuickStudy() {
   static const Study study = [] {
@@ -64,5 +64,5 @@ TEST(XitFig3, TellsHowFarItIs) {
   EXPECT_GT(last, 0.5);
 }
 
-}  // namespace
+}  // namespace xit_fig3_test
 }  // namespace plumescout::lab

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 namespace plumescout::lab {
-namespace {
+namespace xit_fig4_test {
 
 ExperimentOptions Quick() {
   ExperimentOptions options;
@@ -54,5 +54,5 @@ TEST(XitFig4, TellsHowFarItIs) {
   EXPECT_DOUBLE_EQ(last, 1.0);
 }
 
-}  // namespace
+}  // namespace xit_fig4_test
 }  // namespace plumescout::lab

@@ -8,7 +8,7 @@
 #include <map>
 
 namespace plumescout::lab {
-namespace {
+namespace xit_fig5_test {
 
 using ::testing::HasSubstr;
 
@@ -48,5 +48,5 @@ TEST(XitFig5, HasARowForEveryReadingOfBothWalks) {
   EXPECT_GT(static_cast<int>(OneStudy().table.rows.size()) - local, 8);
 }
 
-}  // namespace
+}  // namespace xit_fig5_test
 }  // namespace plumescout::lab

@@ -13,7 +13,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace xit_table3_test {
 
 using ::testing::Contains;
 using ::testing::Key;
@@ -63,5 +63,5 @@ TEST(XitTable3, ReadsASceneBeforeAnythingRuns) {
   EXPECT_NE(status.message().find("nothing"), std::string::npos) << status;
 }
 
-}  // namespace
+}  // namespace xit_table3_test
 }  // namespace plumescout::lab

@@ -8,7 +8,7 @@
 #include <string>
 
 namespace plumescout::lab {
-namespace {
+namespace xit_trial_test {
 
 const Study& QuickStudy() {
   static const Study study = [] {
@@ -49,5 +49,5 @@ TEST(XitTrial, ItsPageSetsThePapersFiguresBeside) {
   EXPECT_NE(study.figures.key_numbers.front().first.find("paper"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace xit_trial_test
 }  // namespace plumescout::lab

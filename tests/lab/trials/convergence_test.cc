@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace plumescout::lab {
-namespace {
+namespace convergence_test {
 
 // Falls, comes near its final value, leaves it once more, and stays.
 const ErrorCurve kCurve = {{0.0, 10.0}, {1.0, 4.0},  {2.0, 2.05}, {3.0, 2.5},
@@ -85,5 +85,5 @@ TEST(ConvergenceTest, RunsOfDifferentLengthAreAveragedTimeByTime) {
   EXPECT_EQ(MeanCurve(curves, times_s), expected);
 }
 
-}  // namespace
+}  // namespace convergence_test
 }  // namespace plumescout::lab

@@ -8,7 +8,7 @@
 #include <limits>
 
 namespace plumescout::lab {
-namespace {
+namespace error_maps_test {
 
 constexpr double kThreshold_ppm = 2.5;
 constexpr float kStrong_ppm = 30.0F;
@@ -75,5 +75,5 @@ TEST(ErrorMaps, ThePanelOutlinesCriticalCells) {
   }
 }
 
-}  // namespace
+}  // namespace error_maps_test
 }  // namespace plumescout::lab

@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace plumescout::lab {
-namespace {
+namespace field_agreement_test {
 
 Grid<float> Row(const std::vector<float>& values) {
   GridGeometry geometry;
@@ -59,5 +59,5 @@ TEST(FieldAgreementTest, NothingAnywhereHasNoCorrelationAndNoDisagreement) {
   EXPECT_EQ(agreement.overlap, 1.0);
 }
 
-}  // namespace
+}  // namespace field_agreement_test
 }  // namespace plumescout::lab

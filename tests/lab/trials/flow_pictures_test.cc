@@ -7,7 +7,7 @@
 #include "lab/report/palette.h"
 
 namespace plumescout::lab {
-namespace {
+namespace flow_pictures_test {
 
 // Eastward, faster and faster to the north: 1, 2, 3 m/s.
 FlowDomain Rows() {
@@ -61,5 +61,5 @@ TEST(FlowPicturesTest, PaintsWallsGreyAndAirByItsSpeed) {
   EXPECT_EQ(panel.cells.image.At(0, 2), ColorAt(ColorMap::kGas, 1.0 / 3.0));
 }
 
-}  // namespace
+}  // namespace flow_pictures_test
 }  // namespace plumescout::lab

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout::lab {
-namespace {
+namespace flow_runs_test {
 
 TEST(FlowRunsTest, RunsEveryFlowFromCoarseToFineAndTellsHowFarItIs) {
   ExperimentOptions options;
@@ -29,5 +29,5 @@ TEST(FlowRunsTest, RunsEveryFlowFromCoarseToFineAndTellsHowFarItIs) {
   EXPECT_EQ(runs->steps.size(), 2u * kReattachments.size());
 }
 
-}  // namespace
+}  // namespace flow_runs_test
 }  // namespace plumescout::lab

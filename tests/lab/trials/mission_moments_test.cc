@@ -9,7 +9,7 @@
 #include "tests/lab/sim/small_scene.h"
 
 namespace plumescout::lab {
-namespace {
+namespace mission_moments_test {
 
 constexpr double kDuration_s = 15.0;
 
@@ -79,5 +79,5 @@ TEST(MissionMoments, PicturesShowTheTrajectoryOnTheField) {
   EXPECT_EQ(MetricRows(Mission().episode).size(), Mission().episode.samples.size());
 }
 
-}  // namespace
+}  // namespace mission_moments_test
 }  // namespace plumescout::lab

@@ -7,7 +7,7 @@
 #include <cmath>
 
 namespace plumescout::lab {
-namespace {
+namespace mit_runs_test {
 
 const MitScene& Scene() {
   static const MitScene scene = *BuildMitScene(MitTableScene());
@@ -94,5 +94,5 @@ TEST(MitRuns, APathOfNoLengthCanBeTypical) {
   EXPECT_EQ(MostTypical({&point}), 0);
 }
 
-}  // namespace
+}  // namespace mit_runs_test
 }  // namespace plumescout::lab

@@ -14,7 +14,7 @@
 #include "core/types/rng.h"
 
 namespace plumescout::lab {
-namespace {
+namespace oracle_test {
 
 // Six by five cells with a wall; some of them critical.
 Scene TinyScene() {
@@ -151,5 +151,5 @@ TEST(Oracle, RefusesASceneWithoutGas) {
   EXPECT_NE(status.message().find("tiny"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace oracle_test
 }  // namespace plumescout::lab

@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace plumescout::lab {
-namespace {
+namespace resolution_test {
 
 constexpr double kLimit_s = 10'000.0;
 
@@ -57,5 +57,5 @@ TEST(ResolutionTest, TakesTheSweepFromTheSameStart) {
   EXPECT_EQ(both.times_faster, 9'000.0 / 10'000.0);
 }
 
-}  // namespace
+}  // namespace resolution_test
 }  // namespace plumescout::lab

@@ -8,7 +8,7 @@
 #include "lab/report/palette.h"
 
 namespace plumescout::lab {
-namespace {
+namespace row_figures_test {
 
 using ::testing::ElementsAre;
 using ::testing::SizeIs;
@@ -85,5 +85,5 @@ TEST(RowFigures, TheTableHasEveryTrial) {
   for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
 }
 
-}  // namespace
+}  // namespace row_figures_test
 }  // namespace plumescout::lab

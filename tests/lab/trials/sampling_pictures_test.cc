@@ -9,7 +9,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace sampling_pictures_test {
 
 using ::testing::SizeIs;
 using ::testing::StartsWith;
@@ -60,5 +60,5 @@ TEST(SamplingPictures, ListEveryDrive) {
   for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
 }
 
-}  // namespace
+}  // namespace sampling_pictures_test
 }  // namespace plumescout::lab

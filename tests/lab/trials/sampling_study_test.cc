@@ -12,7 +12,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace sampling_study_test {
 
 using ::testing::HasSubstr;
 
@@ -73,5 +73,5 @@ TEST(SamplingStudy, NamesTheDriveThatFailed) {
   EXPECT_THAT(std::string(status.message()), HasSubstr("region"));
 }
 
-}  // namespace
+}  // namespace sampling_study_test
 }  // namespace plumescout::lab

@@ -10,7 +10,7 @@
 #include "core/types/rng.h"
 
 namespace plumescout::lab {
-namespace {
+namespace statistics_test {
 
 TEST(Spread, IsThatOfAHandWorkedSample) {
   const std::vector<double> values = {2.0, 4.0, 4.0, 6.0};
@@ -97,5 +97,5 @@ TEST(WilsonInterval, IsWhatItsFormulaGivesByHand) {
   EXPECT_NEAR(WilsonInterval(10, 10).high, 1.0, 1e-12);
 }
 
-}  // namespace
+}  // namespace statistics_test
 }  // namespace plumescout::lab

@@ -11,7 +11,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace study_scenes_test {
 
 using ::testing::ElementsAre;
 
@@ -47,5 +47,5 @@ TEST(StudyScenes, AreMadeOnceWithGasForTheTimeAsked) {
   EXPECT_EQ(std::filesystem::last_write_time(scenes->front() + "/scene.json"), made);
 }
 
-}  // namespace
+}  // namespace study_scenes_test
 }  // namespace plumescout::lab

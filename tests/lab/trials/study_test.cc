@@ -8,7 +8,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace study_test {
 
 constexpr std::uint64_t kMaxBytes = 1 << 20;
 
@@ -40,5 +40,5 @@ TEST(Study, SaysWhereItCannotWrite) {
   EXPECT_FALSE(WriteStudy(SmallStudy(), folder.File("file")).ok());
 }
 
-}  // namespace
+}  // namespace study_test
 }  // namespace plumescout::lab

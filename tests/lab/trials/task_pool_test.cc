@@ -11,7 +11,7 @@
 #include "absl/synchronization/barrier.h"
 
 namespace plumescout::lab {
-namespace {
+namespace task_pool_test {
 
 TEST(TaskPool, DoesEveryTaskOnce) {
   for (const int jobs : {1, 2, 5, 100}) {
@@ -55,5 +55,5 @@ TEST(TaskPool, HasNothingToDoWithoutTasks) {
   EXPECT_TRUE(RunTasks(0, 3, [](std::size_t) { return absl::InternalError("no"); }).ok());
 }
 
-}  // namespace
+}  // namespace task_pool_test
 }  // namespace plumescout::lab

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout::lab {
-namespace {
+namespace tour_cost_test {
 
 TEST(TourCost, BothProgramsTakeTime) {
   const auto cost = MeasureTourCost(1);
@@ -14,5 +14,5 @@ TEST(TourCost, BothProgramsTakeTime) {
   EXPECT_GT(cost->survey_ms, 0.0);
 }
 
-}  // namespace
+}  // namespace tour_cost_test
 }  // namespace plumescout::lab

@@ -13,7 +13,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace trial_store_test {
 
 using ::testing::MatchesRegex;
 
@@ -126,5 +126,5 @@ TEST(SceneChecksum, IsOfMapGasStartAndThreshold) {
   EXPECT_NE(SceneChecksum(other), checksum);
 }
 
-}  // namespace
+}  // namespace trial_store_test
 }  // namespace plumescout::lab

@@ -13,7 +13,7 @@
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
-namespace {
+namespace trial_study_test {
 
 TrialPlan SmallPlan(const TempFolder& folder) {
   TrialPlan plan;
@@ -113,5 +113,5 @@ TEST(TrialStudy, KnowsTheMapBeforehandIfTheRowSaysSo) {
   EXPECT_GT((*records)[0][1][0].curve.front().metrics.completeness, 0.99);
 }
 
-}  // namespace
+}  // namespace trial_study_test
 }  // namespace plumescout::lab

@@ -10,7 +10,7 @@
 #include "tests/lab/sim/small_scene.h"
 
 namespace plumescout::lab {
-namespace {
+namespace trial_test {
 
 MissionOptions MissionBy(const char* strategy) {
   MissionOptions mission;
@@ -96,5 +96,5 @@ TEST(Trial, MapsTheSameReadingsByAPeer) {
   EXPECT_TRUE(absl::IsInvalidArgument(RunTrial(trial).status()));
 }
 
-}  // namespace
+}  // namespace trial_test
 }  // namespace plumescout::lab

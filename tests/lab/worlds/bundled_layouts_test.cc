@@ -8,7 +8,7 @@
 #include "lab/sim/layout_yaml.h"
 
 namespace plumescout::lab {
-namespace {
+namespace bundled_layouts_test {
 
 TEST(BundledLayouts, AreLayoutsThatCanBeBuilt) {
   for (const char* name : {"co2_trial", "industrial_16x20"}) {
@@ -62,5 +62,5 @@ TEST(BundledLayouts, OthersAreNotFound) {
   EXPECT_NE(status.message().find("no_such_hall"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace bundled_layouts_test
 }  // namespace plumescout::lab

@@ -7,7 +7,7 @@
 #include <cmath>
 
 namespace plumescout::lab {
-namespace {
+namespace decaying_plume_test {
 
 // How far the plume is from  u dc/dx = D (c_xx + c_rr + c_r / r) - c / tau, as a share of c / tau,
 // by central differences.
@@ -84,5 +84,5 @@ TEST(DecayingPlumeTest, WithoutWindIsTheSameInAllDirections) {
   EXPECT_DOUBLE_EQ(plume.PerRate_s_per_m3(-3.0, 4.0), plume.PerRate_s_per_m3(5.0, 0.0));
 }
 
-}  // namespace
+}  // namespace decaying_plume_test
 }  // namespace plumescout::lab

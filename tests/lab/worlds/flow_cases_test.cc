@@ -7,7 +7,7 @@
 #include <cmath>
 
 namespace plumescout::lab {
-namespace {
+namespace flow_cases_test {
 
 TEST(FlowCasesTest, InterpolatesCubicsExactly) {
   std::vector<LineSample> samples;
@@ -74,5 +74,5 @@ TEST(FlowCasesTest, PassesOnTheSolversErrors) {
   EXPECT_EQ(RunToSteady(domain, 0.1).status().code(), absl::StatusCode::kInvalidArgument);
 }
 
-}  // namespace
+}  // namespace flow_cases_test
 }  // namespace plumescout::lab

@@ -8,7 +8,7 @@
 #include <cmath>
 
 namespace plumescout::lab {
-namespace {
+namespace frontier_world_test {
 
 const FrontierWorld& World() {
   static const FrontierWorld world = MakeFrontierWorld();
@@ -112,5 +112,5 @@ TEST(FrontierWorld, RepeatsFromItsSeed) {
   EXPECT_NE(readings(3), readings(4));
 }
 
-}  // namespace
+}  // namespace frontier_world_test
 }  // namespace plumescout::lab

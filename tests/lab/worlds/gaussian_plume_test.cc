@@ -11,7 +11,7 @@
 #include "lab/sim/plume.h"
 
 namespace plumescout::lab {
-namespace {
+namespace gaussian_plume_test {
 
 GaussianPlume Plume1000() {
   GaussianPlume plume;
@@ -64,5 +64,5 @@ TEST(GaussianPlumeTest, ToleranceIsFourDeviationsOfTheMeanOfClouds) {
   EXPECT_LT(others, 0.02);
 }
 
-}  // namespace
+}  // namespace gaussian_plume_test
 }  // namespace plumescout::lab

@@ -10,7 +10,7 @@
 #include "tests/support/plan_map.h"
 
 namespace plumescout::lab {
-namespace {
+namespace grid_oracle_test {
 
 InformationMap UniformInformation(const Grid<std::uint8_t>& open) {
   Rng rng(1);
@@ -48,5 +48,5 @@ TEST(OracleCosts, FallWithMoreDirections) {
   EXPECT_NEAR((OracleCosts(cost, {0, 0}, 32)[Cell{6, 2}]), 2.0 * std::sqrt(10.0), 1e-9);
 }
 
-}  // namespace
+}  // namespace grid_oracle_test
 }  // namespace plumescout::lab

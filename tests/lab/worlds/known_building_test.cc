@@ -8,7 +8,7 @@
 #include "tests/support/same_bytes.h"
 
 namespace plumescout::lab {
-namespace {
+namespace known_building_test {
 
 TEST(KnownBuilding, HasGoalsThatItsRobotCanReach) {
   const auto world = MakeKnownBuilding(160, 200, 3, 5);
@@ -29,5 +29,5 @@ TEST(KnownBuilding, IsTheSameForTheSameSeed) {
   EXPECT_EQ(first->goals, second->goals);
 }
 
-}  // namespace
+}  // namespace known_building_test
 }  // namespace plumescout::lab

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 namespace plumescout::lab {
-namespace {
+namespace lhr_scene_test {
 
 TEST(LhrSceneTest, NodesAreCentresOfOpenCells) {
   const Scene scene = MakeLhrScene(LhrTable1Sources());
@@ -94,5 +94,5 @@ TEST(LhrSceneTest, WithoutSourcesTheAirIsClean) {
   EXPECT_EQ(scene.conc_mean_ppm[(Cell{25, 25})], 0.0F);
 }
 
-}  // namespace
+}  // namespace lhr_scene_test
 }  // namespace plumescout::lab

@@ -10,7 +10,7 @@
 #include <set>
 
 namespace plumescout::lab {
-namespace {
+namespace mit_scene_test {
 
 using ::testing::HasSubstr;
 
@@ -73,5 +73,5 @@ TEST(MitScene, AGoalWithoutAWayIsRefusedByName) {
   }
 }
 
-}  // namespace
+}  // namespace mit_scene_test
 }  // namespace plumescout::lab

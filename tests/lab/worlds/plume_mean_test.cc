@@ -9,7 +9,7 @@
 #include "lab/sim/plume.h"
 
 namespace plumescout::lab {
-namespace {
+namespace plume_mean_test {
 
 PlumeCase SmallCase() {
   GridGeometry geometry;
@@ -57,5 +57,5 @@ TEST(PlumeMeanTest, TellsHowFarItIs) {
   EXPECT_NEAR(last, 1.0, 1e-9);
 }
 
-}  // namespace
+}  // namespace plume_mean_test
 }  // namespace plumescout::lab

@@ -9,7 +9,7 @@
 #include "core/grid/flood.h"
 
 namespace plumescout::lab {
-namespace {
+namespace quarter_plan_test {
 
 constexpr std::uint64_t kSeeds = 40;
 
@@ -74,5 +74,5 @@ TEST(QuarterPlanTest, TheSeedDecides) {
   EXPECT_NE(MakeQuarterPlan(2).occupancy, MakeQuarterPlan(3).occupancy);
 }
 
-}  // namespace
+}  // namespace quarter_plan_test
 }  // namespace plumescout::lab

@@ -10,7 +10,7 @@
 #include <utility>
 
 namespace plumescout::lab {
-namespace {
+namespace quarter_scene_test {
 
 const QuarterWorld& World() {
   static const QuarterWorld world = MakeQuarterWorld(1).value();
@@ -98,5 +98,5 @@ TEST(QuarterSceneTest, TheSeedDecides) {
   EXPECT_EQ(again.starts, World().starts);
 }
 
-}  // namespace
+}  // namespace quarter_scene_test
 }  // namespace plumescout::lab

@@ -11,7 +11,7 @@
 #include "core/grid/flood.h"
 
 namespace plumescout::lab {
-namespace {
+namespace random_world_test {
 
 class RandomWorldTest : public ::testing::TestWithParam<std::uint64_t> {
  protected:
@@ -53,5 +53,5 @@ TEST_P(RandomWorldTest, IsTheSameForTheSameSeed) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomWorldTest, ::testing::Values(1, 2, 3));
 
-}  // namespace
+}  // namespace random_world_test
 }  // namespace plumescout::lab

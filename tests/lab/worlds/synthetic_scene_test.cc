@@ -9,7 +9,7 @@
 #include "core/plan/cost/edge_cost.h"
 
 namespace plumescout::lab {
-namespace {
+namespace synthetic_scene_test {
 
 // A room of 4 m x 3 m with a box in its west and a cloud in its east.
 SceneSpec SmallRoom() {
@@ -99,5 +99,5 @@ TEST(SyntheticScene, PanelsShowThePathsAddedToThem) {
   EXPECT_GT(panel.lines.front().stroke.width_px, panel.lines.back().stroke.width_px);
 }
 
-}  // namespace
+}  // namespace synthetic_scene_test
 }  // namespace plumescout::lab

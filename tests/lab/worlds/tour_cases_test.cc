@@ -7,7 +7,7 @@
 #include <algorithm>
 
 namespace plumescout::lab {
-namespace {
+namespace tour_cases_test {
 
 TEST(TourCases, PlacesLieInTheRegionAndFollowTheSeed) {
   Rng rng(3);
@@ -34,5 +34,5 @@ TEST(TourCases, ASubsetCaseCanBeSolvedAsInThePaper) {
   EXPECT_GT(tour->feasible_subsets, 0);
 }
 
-}  // namespace
+}  // namespace tour_cases_test
 }  // namespace plumescout::lab

@@ -10,7 +10,7 @@
 #include "proto/convert/status.h"
 
 namespace plumescout {
-namespace {
+namespace enums_test {
 
 // Every value of the wire but "unspecified" must stand for one of the core and come back.
 template <typename Proto, typename Read>
@@ -59,5 +59,5 @@ TEST(EnumsTest, FrontiersAreOfTwoKindsOnly) {
   EXPECT_FALSE(FrontierKindFromProto(v1::GOAL_KIND_RANDOM_FREE_SPACE, "kind").ok());
 }
 
-}  // namespace
+}  // namespace enums_test
 }  // namespace plumescout

@@ -11,7 +11,7 @@
 #include "proto/convert/status.h"
 
 namespace plumescout {
-namespace {
+namespace field_test {
 
 using ::testing::ElementsAre;
 
@@ -78,5 +78,5 @@ TEST(FieldTest, RefusalThatNamesItsFieldKeepsIt) {
   EXPECT_EQ(WithField(named, "options"), named);
 }
 
-}  // namespace
+}  // namespace field_test
 }  // namespace plumescout

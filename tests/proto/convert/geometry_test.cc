@@ -11,7 +11,7 @@
 #include "proto/convert/status.h"
 
 namespace plumescout {
-namespace {
+namespace geometry_test {
 
 TEST(GeometryTest, ValuesSurviveTheRoundTrip) {
   const Pose2 pose{1.25, -7.5, -3.0};
@@ -59,5 +59,5 @@ TEST(GeometryTest, RasterNeedsAResolution) {
             "g.resolution_m");
 }
 
-}  // namespace
+}  // namespace geometry_test
 }  // namespace plumescout

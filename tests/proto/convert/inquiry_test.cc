@@ -10,7 +10,7 @@
 #include "proto/convert/status.h"
 
 namespace plumescout {
-namespace {
+namespace inquiry_test {
 
 constexpr double kLimit_m = 100.0;
 
@@ -99,5 +99,5 @@ TEST(InquiryTest, EveryStateOfACellHasAName) {
   EXPECT_EQ(ToProto(std::optional(CellState::kFree)), v1::CELL_STATE_FREE);
 }
 
-}  // namespace
+}  // namespace inquiry_test
 }  // namespace plumescout

@@ -13,7 +13,7 @@
 #include "proto/convert/status.h"
 
 namespace plumescout {
-namespace {
+namespace map_test {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
@@ -149,5 +149,5 @@ TEST(MapTest, WhatAReaderAllocatesByIsChecked) {
   }
 }
 
-}  // namespace
+}  // namespace map_test
 }  // namespace plumescout

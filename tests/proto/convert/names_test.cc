@@ -8,7 +8,7 @@
 #include "proto/convert/status.h"
 
 namespace plumescout {
-namespace {
+namespace names_test {
 
 using ::testing::ElementsAre;
 using ::testing::Field;
@@ -47,5 +47,5 @@ TEST(NamesTest, KindsAreNotMixed) {
   EXPECT_FALSE(ParseMissionName("f", "missions/hall/robots/r1").ok());
 }
 
-}  // namespace
+}  // namespace names_test
 }  // namespace plumescout

@@ -13,7 +13,7 @@
 #include "proto/convert/status.h"
 
 namespace plumescout {
-namespace {
+namespace observation_test {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -155,5 +155,5 @@ TEST(ObservationTest, RefusalOfAMissionNamesTheFieldOfTheWire) {
             "observation.gas.stddev_ppm");
 }
 
-}  // namespace
+}  // namespace observation_test
 }  // namespace plumescout

@@ -10,7 +10,7 @@
 #include "proto/convert/status.h"
 
 namespace plumescout {
-namespace {
+namespace option_binding_test {
 
 struct Members {
   double pose_limit_m = 0.0;
@@ -104,5 +104,5 @@ TEST(OptionBindingTest, TheFirstEnumThatIsUnknownIsRefusedByItsPath) {
   EXPECT_EQ(rule, SelectionRule::kMeanUcb);
 }
 
-}  // namespace
+}  // namespace option_binding_test
 }  // namespace plumescout

@@ -16,7 +16,7 @@
 #include "proto/convert/status.h"
 
 namespace plumescout {
-namespace {
+namespace options_test {
 
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
@@ -243,5 +243,5 @@ TEST(OptionsTest, MoreSamplesThanCandidatesAreNamedAsOnTheWire) {
             "options.planning.sites.cycle_sample_count");
 }
 
-}  // namespace
+}  // namespace options_test
 }  // namespace plumescout

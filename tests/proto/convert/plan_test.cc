@@ -12,7 +12,7 @@
 #include "proto/convert/status.h"
 
 namespace plumescout {
-namespace {
+namespace plan_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -140,5 +140,5 @@ TEST(PlanTest, ACandidateWithoutARewardHasNone) {
   EXPECT_EQ(FromProto(ToProto(plan, "hall"), "plan").value(), plan);
 }
 
-}  // namespace
+}  // namespace plan_test
 }  // namespace plumescout

@@ -13,7 +13,7 @@
 #include "proto/convert/status.h"
 
 namespace plumescout {
-namespace {
+namespace prior_map_test {
 
 Grid<CellState> RandomMap(int width, int height) {
   Rng rng(3);
@@ -137,5 +137,5 @@ TEST(PriorMapConvertTest, OfFilesTheMapComesWithTheDefaults) {
   EXPECT_EQ(options->prior_map, defaults.prior_map);
 }
 
-}  // namespace
+}  // namespace prior_map_test
 }  // namespace plumescout

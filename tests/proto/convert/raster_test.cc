@@ -15,7 +15,7 @@
 #include "proto/convert/status.h"
 
 namespace plumescout {
-namespace {
+namespace raster_test {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr GridGeometry kGeometry{0.0, 0.0, 0.1, 70, 50};
@@ -167,5 +167,5 @@ TEST_F(BadTileTest, UnknownCellStateIsRefused) {
   EXPECT_TRUE(absl::IsInvalidArgument(DecodeStates(tile, "tile", states)));
 }
 
-}  // namespace
+}  // namespace raster_test
 }  // namespace plumescout

@@ -8,7 +8,7 @@
 #include "proto/convert/field.h"
 
 namespace plumescout {
-namespace {
+namespace status_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -59,5 +59,5 @@ TEST(StatusTest, ReasonsOfOtherDomainsAreNotOurs) {
   EXPECT_EQ(Reason(FromProto(proto)), "");
 }
 
-}  // namespace
+}  // namespace status_test
 }  // namespace plumescout

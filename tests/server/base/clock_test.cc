@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout::server {
-namespace {
+namespace clock_test {
 
 TEST(ClockTest, AfterAddsAndTakesAway) {
   const SteadyTime from = SteadyTime() + std::chrono::seconds(100);
@@ -31,5 +31,5 @@ TEST(ClockTest, DeadlineOfTheWallClockKeepsItsDistance) {
   EXPECT_LE(deadline, SteadyNow() + std::chrono::hours(1));
 }
 
-}  // namespace
+}  // namespace clock_test
 }  // namespace plumescout::server

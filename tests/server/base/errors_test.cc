@@ -10,7 +10,7 @@
 #include "proto/convert/status.h"
 
 namespace plumescout::server {
-namespace {
+namespace errors_test {
 
 using ::testing::ElementsAre;
 using ::testing::Pair;
@@ -61,5 +61,5 @@ TEST(ErrorsTest, ReasonThatIsThereStays) {
   EXPECT_TRUE(WithErrorInfo(absl::OkStatus()).ok());
 }
 
-}  // namespace
+}  // namespace errors_test
 }  // namespace plumescout::server

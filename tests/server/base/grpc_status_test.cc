@@ -9,7 +9,7 @@
 #include "server/base/errors.h"
 
 namespace plumescout::server {
-namespace {
+namespace grpc_status_test {
 
 absl::Status Details(const grpc::Status& status) {
   google::rpc::Status proto;
@@ -34,5 +34,5 @@ TEST(GrpcStatusTest, EveryErrorHasAReason) {
 
 TEST(GrpcStatusTest, OkIsOk) { EXPECT_TRUE(ToGrpc(absl::OkStatus()).ok()); }
 
-}  // namespace
+}  // namespace grpc_status_test
 }  // namespace plumescout::server

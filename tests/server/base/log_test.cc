@@ -8,7 +8,7 @@
 #include <string>
 
 namespace plumescout::server {
-namespace {
+namespace log_test {
 
 using ::testing::MatchesRegex;
 
@@ -27,5 +27,5 @@ TEST(LogTest, ValueCannotForgeALine) {
               MatchesRegex(".*Z WARNING odd name=\"a\\\\n2026 INFO b\"\n"));
 }
 
-}  // namespace
+}  // namespace log_test
 }  // namespace plumescout::server

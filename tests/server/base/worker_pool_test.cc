@@ -10,7 +10,7 @@
 #include "proto/convert/status.h"
 
 namespace plumescout::server {
-namespace {
+namespace worker_pool_test {
 
 TEST(WorkerPoolTest, RunsWhatItIsGivenBeforeItGoes) {
   std::atomic<int> runs = 0;
@@ -48,5 +48,5 @@ TEST(WorkerPoolTest, ThreadsRunSideBySide) {
   second.Notify();
 }
 
-}  // namespace
+}  // namespace worker_pool_test
 }  // namespace plumescout::server

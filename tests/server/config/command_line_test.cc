@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace plumescout::server {
-namespace {
+namespace command_line_test {
 
 using ::testing::HasSubstr;
 
@@ -50,5 +50,5 @@ TEST(CommandLineTest, MistakesAreNamed) {
   EXPECT_FALSE(Read({"--config", "/no/such/file"}).ok());
 }
 
-}  // namespace
+}  // namespace command_line_test
 }  // namespace plumescout::server

@@ -10,7 +10,7 @@
 #include "google/protobuf/util/message_differencer.h"
 
 namespace plumescout::server {
-namespace {
+namespace config_convert_test {
 
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
@@ -84,5 +84,5 @@ TEST(ConfigConvertTest, RefusalsBeginWithTheOption) {
   EXPECT_EQ(FromProto(proto).status().message(), "epochs.threads = 0 must be in [1, 256]");
 }
 
-}  // namespace
+}  // namespace config_convert_test
 }  // namespace plumescout::server

@@ -14,7 +14,7 @@
 #include "server/config/config_convert.h"
 
 namespace plumescout::server {
-namespace {
+namespace config_file_test {
 
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
@@ -136,5 +136,5 @@ TEST(ConfigFileTest, QueueMustHoldAWindowAndABatch) {
               HasSubstr("limits.max_queued_observations = 10"));
 }
 
-}  // namespace
+}  // namespace config_file_test
 }  // namespace plumescout::server

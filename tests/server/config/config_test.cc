@@ -14,7 +14,7 @@
 #include "server/config/config_convert.h"
 
 namespace plumescout::server {
-namespace {
+namespace config_test {
 
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
@@ -91,5 +91,5 @@ TEST(ConfigTest, OptionsOfMissionsAreChecked) {
   EXPECT_THAT(RefusalOf(config), StartsWith("mission.planning.beta = -1 "));
 }
 
-}  // namespace
+}  // namespace config_test
 }  // namespace plumescout::server

@@ -11,7 +11,7 @@
 #include "proto/convert/status.h"
 
 namespace plumescout::server {
-namespace {
+namespace mission_options_test {
 
 TEST(MissionOptionsTest, NamedStrategySetsThePartsOfItsRow) {
   v1::MissionOptions proto;
@@ -80,5 +80,5 @@ TEST(MissionOptionsTest, UnknownStrategyIsRefusedByItsField) {
   EXPECT_EQ(FieldViolations(options.status()).at(0).field, "options.planning.strategy");
 }
 
-}  // namespace
+}  // namespace mission_options_test
 }  // namespace plumescout::server

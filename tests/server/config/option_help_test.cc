@@ -15,7 +15,7 @@
 #include "plumescout/config/v1/server_config.pb.h"
 
 namespace plumescout::server {
-namespace {
+namespace option_help_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -80,5 +80,5 @@ TEST(OptionHelpTest, EveryOptionIsExplainedAndNoLineIsTooLong) {
   }
 }
 
-}  // namespace
+}  // namespace option_help_test
 }  // namespace plumescout::server

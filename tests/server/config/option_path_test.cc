@@ -9,7 +9,7 @@
 #include "plumescout/v1/options.pb.h"
 
 namespace plumescout::server {
-namespace {
+namespace option_path_test {
 
 TEST(OptionPathTest, EveryKindOfFieldIsSet) {
   v1::MissionOptions options;
@@ -85,5 +85,5 @@ TEST(OptionPathTest, MapsOfTheBuildingAreNoOptions) {
   }
 }
 
-}  // namespace
+}  // namespace option_path_test
 }  // namespace plumescout::server

@@ -12,7 +12,7 @@
 #include "core/gas/gas_map.h"
 
 namespace plumescout::server {
-namespace {
+namespace audit_runner_test {
 
 std::shared_ptr<const AuditInputs> Moment() {
   GasMap gas{GasOptions{}};
@@ -96,5 +96,5 @@ TEST(AuditRunnerTest, NothingIsAuditedWithoutAPool) {
   EXPECT_FALSE(runner.Take().has_value());
 }
 
-}  // namespace
+}  // namespace audit_runner_test
 }  // namespace plumescout::server

@@ -11,7 +11,7 @@
 #include "tests/server/host_parts.h"
 
 namespace plumescout::server {
-namespace {
+namespace belief_waiters_test {
 
 constexpr std::int64_t kLease = 7;
 
@@ -96,5 +96,5 @@ TEST_F(BeliefWaitersTest, FailAllAnswersEveryone) {
   EXPECT_TRUE(absl::IsUnavailable(*answer_));
 }
 
-}  // namespace
+}  // namespace belief_waiters_test
 }  // namespace plumescout::server

@@ -10,7 +10,7 @@
 #include "core/gas/gas_map.h"
 
 namespace plumescout::server {
-namespace {
+namespace epoch_runner_test {
 
 std::shared_ptr<GasEpoch> MakeEpoch() {
   const Grid<CellState> states({0.0, 0.0, 0.1, 64, 64}, CellState::kFree);
@@ -108,5 +108,5 @@ TEST_F(EpochRunnerTest, EpochThatWaitsIsDroppedForTheNext) {
   EXPECT_TRUE(next->done());
 }
 
-}  // namespace
+}  // namespace epoch_runner_test
 }  // namespace plumescout::server

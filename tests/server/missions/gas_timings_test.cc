@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout::server {
-namespace {
+namespace gas_timings_test {
 
 SteadyTime At(int ms) { return SteadyTime() + std::chrono::milliseconds(ms); }
 
@@ -85,5 +85,5 @@ TEST(GasTimerTest, WhoBeginsToWatchHasNotWaitedBefore) {
   EXPECT_EQ(timer.timings().staleness.max, absl::Milliseconds(5));
 }
 
-}  // namespace
+}  // namespace gas_timings_test
 }  // namespace plumescout::server

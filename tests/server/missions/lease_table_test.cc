@@ -10,7 +10,7 @@
 #include "core/types/error_reason.h"
 
 namespace plumescout::server {
-namespace {
+namespace lease_table_test {
 
 class LeaseTableTest : public testing::Test {
  protected:
@@ -102,5 +102,5 @@ TEST_F(LeaseTableTest, EndAllReachesEveryOpenStreamOnce) {
               testing::ElementsAre(absl::UnavailableError("over"), absl::UnavailableError("over")));
 }
 
-}  // namespace
+}  // namespace lease_table_test
 }  // namespace plumescout::server

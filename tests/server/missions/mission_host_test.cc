@@ -12,7 +12,7 @@
 #include "tests/server/host_parts.h"
 
 namespace plumescout::server {
-namespace {
+namespace mission_host_test {
 
 constexpr std::int64_t kLease = 7;
 
@@ -225,5 +225,5 @@ TEST(MissionHostTest, SummaryFollowsTheMission) {
   EXPECT_EQ(host.summary().revision, 4);
 }
 
-}  // namespace
+}  // namespace mission_host_test
 }  // namespace plumescout::server

@@ -13,7 +13,7 @@
 #include "tests/server/host_parts.h"
 
 namespace plumescout::server {
-namespace {
+namespace mission_registry_test {
 
 using ::testing::ElementsAre;
 
@@ -123,5 +123,5 @@ TEST(MissionRegistryTest, MissionsRecomputeOnThePoolGiven) {
   release.Notify();
 }
 
-}  // namespace
+}  // namespace mission_registry_test
 }  // namespace plumescout::server

@@ -18,7 +18,7 @@
 #include "tests/support/same_bytes.h"
 
 namespace plumescout::server {
-namespace {
+namespace mission_writer_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -185,5 +185,5 @@ TEST(MissionWriterGas, RefusedReadingsAreNotWaitedFor) {
   EXPECT_EQ(writer.unpublished_since(), SteadyTime::max());
 }
 
-}  // namespace
+}  // namespace mission_writer_test
 }  // namespace plumescout::server

@@ -16,7 +16,7 @@
 #include "tests/server/host_parts.h"
 
 namespace plumescout::server {
-namespace {
+namespace plan_job_test {
 
 constexpr std::int64_t kLease = 7;
 constexpr int kPoolThreads = 2;
@@ -229,5 +229,5 @@ TEST_F(PlanJobTest, StoppedMissionAnswersToo) {
   EXPECT_TRUE(absl::IsNotFound(Answer().status()));
 }
 
-}  // namespace
+}  // namespace plan_job_test
 }  // namespace plumescout::server

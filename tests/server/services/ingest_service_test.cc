@@ -8,7 +8,7 @@
 #include "tests/server/service_fixture.h"
 
 namespace plumescout::server {
-namespace {
+namespace ingest_service_test {
 
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
@@ -115,5 +115,5 @@ TEST_F(ServiceTest, FullIngestQueueSaysWhenToRetry) {
   EXPECT_TRUE(RetryDelay(refused).has_value());
 }
 
-}  // namespace
+}  // namespace ingest_service_test
 }  // namespace plumescout::server

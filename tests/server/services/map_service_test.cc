@@ -12,7 +12,7 @@
 #include "tests/support/room_run.h"
 
 namespace plumescout::server {
-namespace {
+namespace map_service_test {
 
 constexpr auto kNotFound = absl::StatusCode::kNotFound;
 
@@ -215,5 +215,5 @@ TEST_F(MapServiceTest, WatchersAreServedToo) {
   EXPECT_EQ(watch.Read().kind(), v1::WatchMapResponse::KIND_FULL);
 }
 
-}  // namespace
+}  // namespace map_service_test
 }  // namespace plumescout::server

@@ -15,7 +15,7 @@
 #include "tests/server/service_fixture.h"
 
 namespace plumescout::server {
-namespace {
+namespace mission_service_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -269,5 +269,5 @@ TEST_F(MissionServiceTest, MissionTellsWhenItsMapIsUpdatedNext) {
   EXPECT_EQ(mission->mission().phase(), v1::MISSION_PHASE_SAMPLING);
 }
 
-}  // namespace
+}  // namespace mission_service_test
 }  // namespace plumescout::server

@@ -16,7 +16,7 @@
 #include "tests/server/service_fixture.h"
 
 namespace plumescout::server {
-namespace {
+namespace planning_service_test {
 
 constexpr auto kNotFound = absl::StatusCode::kNotFound;
 constexpr auto kPrecondition = absl::StatusCode::kFailedPrecondition;
@@ -364,5 +364,5 @@ TEST_F(PlanningServiceTest, ReportsOfOtherPlansAreRefused) {
               Refuses(kPrecondition, "LEASE_SUPERSEDED"));
 }
 
-}  // namespace
+}  // namespace planning_service_test
 }  // namespace plumescout::server

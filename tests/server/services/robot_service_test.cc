@@ -10,7 +10,7 @@
 #include "tests/server/service_fixture.h"
 
 namespace plumescout::server {
-namespace {
+namespace robot_service_test {
 
 constexpr auto kNotFound = absl::StatusCode::kNotFound;
 constexpr auto kPrecondition = absl::StatusCode::kFailedPrecondition;
@@ -146,5 +146,5 @@ TEST_F(RobotServiceTest, OnlyForceRemovesARobotWithoutItsLease) {
               Refuses(kNotFound, "MISSION_NOT_FOUND"));
 }
 
-}  // namespace
+}  // namespace robot_service_test
 }  // namespace plumescout::server

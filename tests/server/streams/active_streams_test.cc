@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout::server {
-namespace {
+namespace active_streams_test {
 
 class RecordingStream final : public EndableStream {
  public:
@@ -47,5 +47,5 @@ TEST(ActiveStreamsTest, StreamsThatDiedAreSkipped) {
   EXPECT_EQ(streams.size(), 1);  // until its owner removes it
 }
 
-}  // namespace
+}  // namespace active_streams_test
 }  // namespace plumescout::server

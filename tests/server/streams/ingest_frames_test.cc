@@ -11,7 +11,7 @@
 #include "tests/server/service_fixture.h"
 
 namespace plumescout::server {
-namespace {
+namespace ingest_frames_test {
 
 TEST(IngestFramesTest, StateOffersAWindowAndNoDurability) {
   const v1::IngestState state = ToIngestState({40, 55}, 128);
@@ -55,5 +55,5 @@ TEST(IngestFramesTest, RefusalNamesTheFieldOfTheObservation) {
   EXPECT_EQ(Reason(status), "INVALID_ARGUMENT");
 }
 
-}  // namespace
+}  // namespace ingest_frames_test
 }  // namespace plumescout::server

@@ -8,7 +8,7 @@
 #include "tests/server/service_fixture.h"
 
 namespace plumescout::server {
-namespace {
+namespace ingest_stream_test {
 
 constexpr auto kNotFound = absl::StatusCode::kNotFound;
 constexpr auto kPrecondition = absl::StatusCode::kFailedPrecondition;
@@ -190,5 +190,5 @@ TEST_F(ServiceTest, StreamsReserveRoomInTheQueueForTheirWindow) {
   EXPECT_THAT(second.Finish(), Refuses(absl::StatusCode::kResourceExhausted, "OVERLOADED"));
 }
 
-}  // namespace
+}  // namespace ingest_stream_test
 }  // namespace plumescout::server

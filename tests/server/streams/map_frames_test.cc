@@ -9,7 +9,7 @@
 #include <limits>
 
 namespace plumescout::server {
-namespace {
+namespace map_frames_test {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
@@ -110,5 +110,5 @@ TEST(MapFramesTest, MapThatGrewIsResetAndSentWhole) {
   EXPECT_EQ(frames[1].status().geometry().column_count(), 164);
 }
 
-}  // namespace
+}  // namespace map_frames_test
 }  // namespace plumescout::server

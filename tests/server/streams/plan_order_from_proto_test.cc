@@ -10,7 +10,7 @@
 #include "proto/convert/status.h"
 
 namespace plumescout::server {
-namespace {
+namespace plan_order_from_proto_test {
 
 std::string RefusedField(const v1::NextBestTrajectoryRequest& request) {
   const auto violations = FieldViolations(PlanOrderFromProto(request, {}).status());
@@ -74,5 +74,5 @@ TEST(PlanOrderFromProtoTest, BadFieldsAreNamed) {
   EXPECT_EQ(RefusedField(request), "planning_budget.nanos");
 }
 
-}  // namespace
+}  // namespace plan_order_from_proto_test
 }  // namespace plumescout::server

@@ -16,7 +16,7 @@
 #include "tests/server/service_fixture.h"
 
 namespace plumescout::server {
-namespace {
+namespace plan_stream_test {
 
 using ::testing::SizeIs;
 
@@ -189,5 +189,5 @@ TEST_F(PlanStreamTest, EndsWithTheServer) {
   EXPECT_TRUE(absl::IsUnavailable(stream.Finish()));
 }
 
-}  // namespace
+}  // namespace plan_stream_test
 }  // namespace plumescout::server

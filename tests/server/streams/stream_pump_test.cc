@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace plumescout::server {
-namespace {
+namespace stream_pump_test {
 
 TEST(StreamPumpTest, RunsUntilNothingIsLeft) {
   absl::Mutex mutex;
@@ -45,5 +45,5 @@ TEST(StreamPumpTest, ReactionInsideAnOperationMayPumpAgain) {
   EXPECT_EQ(deepest, 1);  // one operation at a time
 }
 
-}  // namespace
+}  // namespace stream_pump_test
 }  // namespace plumescout::server

@@ -8,7 +8,7 @@
 #include "tests/server/service_fixture.h"
 
 namespace plumescout::server {
-namespace {
+namespace watch_stream_test {
 
 using Frame = v1::WatchMapResponse;
 
@@ -113,5 +113,5 @@ TEST_F(WatchStreamTest, StrangersAndUnknownLayersAreRefused) {
   EXPECT_THAT(misnamed.Finish(), RefusesField("mission"));
 }
 
-}  // namespace
+}  // namespace watch_stream_test
 }  // namespace plumescout::server

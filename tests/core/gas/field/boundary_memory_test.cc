@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace plumescout {
-namespace {
+namespace boundary_memory_test {
 
 const std::vector<double> kMean = {1.0, 2.0, -3.0};
 const std::vector<double> kCovariance = {5.0, 1.0, 0.5, 1.0, 4.0, 0.2, 0.5, 0.2, 6.0};
@@ -59,5 +59,5 @@ TEST(BoundaryMemoryTest, HoldsTheBoundaryOfARoot) {
   EXPECT_EQ(memory.Moved({}).covariance_ppm2, 0.0);
 }
 
-}  // namespace
+}  // namespace boundary_memory_test
 }  // namespace plumescout

@@ -12,7 +12,7 @@
 #include "core/types/rng.h"
 
 namespace plumescout {
-namespace {
+namespace dominant_front_test {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -121,5 +121,5 @@ TEST(EliminateDominantTest, LosesNoDigitsOnANearlySingularMatrix) {
   EXPECT_NEAR(pivot * pivot / kGround, 1.0, 1e-14);
 }
 
-}  // namespace
+}  // namespace dominant_front_test
 }  // namespace plumescout

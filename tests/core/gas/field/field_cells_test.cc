@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace plumescout {
-namespace {
+namespace field_cells_test {
 
 constexpr std::size_t kWidth = 9;
 constexpr std::size_t kHeight = 8;
@@ -57,5 +57,5 @@ TEST(FieldCellsTest, HaveNoFactorWithACellThatIsNotActiveOrBeyondTheLattice) {
   EXPECT_TRUE(cells.HasFactor(tree, tree.slot(0), 1));
 }
 
-}  // namespace
+}  // namespace field_cells_test
 }  // namespace plumescout

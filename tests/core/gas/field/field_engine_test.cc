@@ -10,7 +10,7 @@
 #include "tests/core/gas/field/field_case.h"
 
 namespace plumescout {
-namespace {
+namespace field_engine_test {
 
 using ::plumescout::testing::DefaultField;
 using ::plumescout::testing::EngineOf;
@@ -387,5 +387,5 @@ TEST_F(FieldEngineHealingTest, SaysSoWhenItCannotHealAndTriesAgain) {
   EXPECT_EQ(engine.healed(), 3);
 }
 
-}  // namespace
+}  // namespace field_engine_test
 }  // namespace plumescout

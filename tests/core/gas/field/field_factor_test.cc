@@ -10,7 +10,7 @@
 #include "tests/core/gas/field/factor_case.h"
 
 namespace plumescout {
-namespace {
+namespace field_factor_test {
 
 using ::plumescout::testing::FactorCase;
 
@@ -84,5 +84,5 @@ TEST(FieldFactorTest, SharesTheNodesOffTheChangedPath) {
   }
 }
 
-}  // namespace
+}  // namespace field_factor_test
 }  // namespace plumescout

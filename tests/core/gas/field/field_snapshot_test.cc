@@ -13,7 +13,7 @@
 #include "tests/core/gas/field/field_case.h"
 
 namespace plumescout {
-namespace {
+namespace field_snapshot_test {
 
 using ::plumescout::testing::DefaultField;
 using ::plumescout::testing::EngineOf;
@@ -146,5 +146,5 @@ TEST(FieldSnapshotTest, RefusesCellsBeyondTheLatticeAndSenselessPrecisions) {
   }
 }
 
-}  // namespace
+}  // namespace field_snapshot_test
 }  // namespace plumescout

@@ -10,7 +10,7 @@
 #include "tests/core/gas/field/factor_case.h"
 
 namespace plumescout {
-namespace {
+namespace front_builder_test {
 
 using ::plumescout::testing::FactorCase;
 
@@ -91,5 +91,5 @@ TEST(FrontBuilderTest, TouchesNobodyAcrossAWall) {
   }
 }
 
-}  // namespace
+}  // namespace front_builder_test
 }  // namespace plumescout

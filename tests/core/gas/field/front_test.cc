@@ -10,7 +10,7 @@
 #include "tests/core/gas/field/factor_case.h"
 
 namespace plumescout {
-namespace {
+namespace front_test {
 
 using ::plumescout::testing::FactorCase;
 
@@ -96,5 +96,5 @@ TEST(FrontTest, FindsPlaces) {
   EXPECT_TRUE(places.empty());
 }
 
-}  // namespace
+}  // namespace front_test
 }  // namespace plumescout

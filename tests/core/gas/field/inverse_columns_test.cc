@@ -12,7 +12,7 @@
 #include "tests/core/gas/field/factor_case.h"
 
 namespace plumescout {
-namespace {
+namespace inverse_columns_test {
 
 using ::plumescout::testing::FactorCase;
 
@@ -99,5 +99,5 @@ TEST(InverseColumnsTest, PassOverNoCellThatHasMoreThanTheLimit) {
   EXPECT_GT(left_out, 0U);
 }
 
-}  // namespace
+}  // namespace inverse_columns_test
 }  // namespace plumescout

@@ -12,7 +12,7 @@
 #include "tests/core/gas/field/rotated_rooms.h"
 
 namespace plumescout {
-namespace {
+namespace lattice_lines_test {
 
 using ::plumescout::testing::RotatedRooms;
 
@@ -66,5 +66,5 @@ TEST(WallSlopeTest, IsZeroWithoutWalls) {
   EXPECT_EQ(WallSlope(1, 1, std::vector<std::uint8_t>(1, 1)), 0.0);
 }
 
-}  // namespace
+}  // namespace lattice_lines_test
 }  // namespace plumescout

@@ -11,7 +11,7 @@
 #include "tests/core/gas/field/factor_case.h"
 
 namespace plumescout {
-namespace {
+namespace marginals_test {
 
 using ::plumescout::testing::FactorCase;
 
@@ -194,5 +194,5 @@ TEST(MarginalsTest, PayAtTheNextDescentWhatTheyOwe) {
   ExpectNear(c, marginals, kTolerance);
 }
 
-}  // namespace
+}  // namespace marginals_test
 }  // namespace plumescout

@@ -11,7 +11,7 @@
 #include "tests/core/gas/field/rotated_rooms.h"
 
 namespace plumescout {
-namespace {
+namespace separator_tree_test {
 
 std::vector<std::uint8_t> RandomActivity(std::size_t cells, double share, Rng& rng) {
   std::vector<std::uint8_t> active(cells);
@@ -139,5 +139,5 @@ TEST(SeparatorTreeCutsTest, LeaveTheUnknownReadyToBecomeActive) {
   }
 }
 
-}  // namespace
+}  // namespace separator_tree_test
 }  // namespace plumescout

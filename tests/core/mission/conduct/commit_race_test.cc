@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout {
-namespace {
+namespace commit_race_test {
 
 TEST(CommitRace, OneLostRaceIsRunOnceMore) {
   CommitRace race;
@@ -20,5 +20,5 @@ TEST(CommitRace, NothingElseIsWorthAnotherSearch) {
   EXPECT_TRUE(race.SearchAgainAfter(absl::AbortedError("claimed")));
 }
 
-}  // namespace
+}  // namespace commit_race_test
 }  // namespace plumescout

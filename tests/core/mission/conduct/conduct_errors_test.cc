@@ -7,7 +7,7 @@
 #include "core/types/error_reason.h"
 
 namespace plumescout {
-namespace {
+namespace conduct_errors_test {
 
 TEST(ConductErrors, EachHasItsReasonAndCode) {
   const auto expect = [](const absl::Status& status, absl::StatusCode code,
@@ -36,5 +36,5 @@ TEST(ConductErrors, WhatPassesSaysWhenToTryAgain) {
   EXPECT_FALSE(RetryAfter_ns(LeaseSuperseded("r1")).has_value());
 }
 
-}  // namespace
+}  // namespace conduct_errors_test
 }  // namespace plumescout

@@ -8,7 +8,7 @@
 #include "tests/support/ingest_batch.h"
 
 namespace plumescout {
-namespace {
+namespace ingest_test {
 
 TEST(Ingest, CreditRunsAheadOfWhatIsApplied) {
   EXPECT_EQ(CreditSequence({.applied_sequence = 7, .revision = 30}, 5), 12);
@@ -21,5 +21,5 @@ TEST(Ingest, BatchMayReachItsCreditAndNoFurther) {
   EXPECT_NE(beyond.message().find("sequence 6 "), absl::string_view::npos) << beyond;
 }
 
-}  // namespace
+}  // namespace ingest_test
 }  // namespace plumescout

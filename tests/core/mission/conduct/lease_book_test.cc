@@ -7,7 +7,7 @@
 #include "core/types/error_reason.h"
 
 namespace plumescout {
-namespace {
+namespace lease_book_test {
 
 constexpr std::int64_t kHold_ns = 10'000;
 constexpr std::int64_t kForEver_ns = 1'000'000'000'000;
@@ -153,5 +153,5 @@ TEST_F(LeaseBookTest, BookAtAnInstantIsTheSameBook) {
   EXPECT_EQ(LeasesAt(book_, now_ns_ + kHold_ns).Propose("r1", false).value(), 101);
 }
 
-}  // namespace
+}  // namespace lease_book_test
 }  // namespace plumescout

@@ -16,7 +16,7 @@
 #include "tests/support/same_bytes.h"
 
 namespace plumescout {
-namespace {
+namespace mission_conduct_gas_test {
 
 using support::FastAgeing;
 using support::GasBatch;
@@ -264,5 +264,5 @@ TEST(MissionConductGas, AFieldThatAnAuditBlamesIsMadeAnewByAnEventThatReplays) {
   EXPECT_TRUE(support::SameBytes(*a->gas_variance_ppm2, *b->gas_variance_ppm2));
 }
 
-}  // namespace
+}  // namespace mission_conduct_gas_test
 }  // namespace plumescout

@@ -15,7 +15,7 @@
 #include "tests/support/scripted_strategy.h"
 
 namespace plumescout {
-namespace {
+namespace mission_conduct_test {
 
 using support::GasBatch;
 using ::testing::IsEmpty;
@@ -101,7 +101,8 @@ TEST_F(MissionConductTest, UnreadableEntryCountsAsRefusedForItsOwnReason) {
   EXPECT_EQ(result.refused[0].status.message(), "payload must be one of scan, gas, gap");
   EXPECT_EQ(conduct_.Snapshot()->robots.at("r1").state.rejected_observations, 1);
   const auto& told = std::get<ObservationReceived>(events_[2].body);
-  EXPECT_EQ(told.observation, (Observation{.sequence = 2, .payload = Scan{}}));
+  EXPECT_EQ(told.observation,
+            (Observation{.sequence = 2, .sample_time_ns = 0, .pose = {}, .payload = Scan{}}));
 }
 
 TEST_F(MissionConductTest, RegistrationPutsALeaseInForce) {
@@ -247,5 +248,5 @@ TEST_F(MissionConductTest, ARobotLeavesByItsOwnLeaseOrByForce) {
   EXPECT_TRUE(conduct_.Remove({"r2"}, leases).ok());
 }
 
-}  // namespace
+}  // namespace mission_conduct_test
 }  // namespace plumescout

@@ -12,7 +12,7 @@
 #include "tests/support/plan_map.h"
 
 namespace plumescout {
-namespace {
+namespace edge_cost_test {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kRounding = 1e-9;  // hundreds of additions of values of order 1
@@ -222,5 +222,5 @@ TEST(PathCost, IsTheSumOverTheSegments) {  // Eq. (13)
   EXPECT_EQ(PathCost(cost, {}), 0.0);
 }
 
-}  // namespace
+}  // namespace edge_cost_test
 }  // namespace plumescout

@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace plumescout {
-namespace {
+namespace hilbert_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -45,5 +45,5 @@ TEST(Hilbert, VisitsEveryCellOfAnyRasterOnce) {
 
 TEST(Hilbert, OfAnEmptyRasterIsEmpty) { EXPECT_THAT(CurveOf(0, 0), IsEmpty()); }
 
-}  // namespace
+}  // namespace hilbert_test
 }  // namespace plumescout

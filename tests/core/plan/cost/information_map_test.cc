@@ -14,7 +14,7 @@
 #include "tests/support/random_grid.h"
 
 namespace plumescout {
-namespace {
+namespace information_map_test {
 
 using ::testing::Each;
 using ::testing::ElementsAre;
@@ -176,5 +176,5 @@ TEST(InformationMap, OfOneCellOrNoneIsFlat) {
   EXPECT_TRUE(InformationOf({{}, {}}).flat);
 }
 
-}  // namespace
+}  // namespace information_map_test
 }  // namespace plumescout

@@ -10,7 +10,7 @@
 #include "core/types/rng.h"
 
 namespace plumescout {
-namespace {
+namespace relevance_test {
 
 constexpr double kSingle = 1e-6;  // relative error of a handful of operations in single precision
 
@@ -85,5 +85,5 @@ TEST(Relevance, NeverFallsWithTheMeanAndStaysWithinItsBounds) {
   }
 }
 
-}  // namespace
+}  // namespace relevance_test
 }  // namespace plumescout

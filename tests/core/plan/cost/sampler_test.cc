@@ -15,7 +15,7 @@
 #include "tests/support/plan_map.h"
 
 namespace plumescout {
-namespace {
+namespace sampler_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -205,5 +205,5 @@ TEST(DrawSamples, SystematicTakesHeavyCellsForCertainAndSharesTheRestByMass) {
   EXPECT_NEAR(counts[4], kDraws * 2.0 * 0.06 / 0.14, five_sigma);
 }
 
-}  // namespace
+}  // namespace sampler_test
 }  // namespace plumescout

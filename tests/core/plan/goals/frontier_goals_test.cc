@@ -10,7 +10,7 @@
 #include "tests/support/goal_case.h"
 
 namespace plumescout {
-namespace {
+namespace frontier_goals_test {
 
 using testing::GoalCase;
 using ::testing::HasSubstr;
@@ -180,5 +180,5 @@ TEST(FrontierGoals, KeepWhatLiesPartlyInAKeepOutArea) {
   EXPECT_THAT(FindFrontierGoals(c.Query()).occupancy, IsEmpty());
 }
 
-}  // namespace
+}  // namespace frontier_goals_test
 }  // namespace plumescout

@@ -12,7 +12,7 @@
 #include "tests/support/goal_case.h"
 
 namespace plumescout {
-namespace {
+namespace goal_offer_test {
 
 using testing::GoalCase;
 using ::testing::IsEmpty;
@@ -233,5 +233,5 @@ TEST(FindGoals, IsCompleteAtHomeOrWithoutAWayThere) {
   EXPECT_THAT(Find(c).rejected, SizeIs(1));
 }
 
-}  // namespace
+}  // namespace goal_offer_test
 }  // namespace plumescout

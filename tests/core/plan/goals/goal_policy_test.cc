@@ -9,7 +9,7 @@
 #include <set>
 
 namespace plumescout {
-namespace {
+namespace goal_policy_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -142,5 +142,5 @@ TEST(ChooseByPolicy, OfNothingIsNothing) {
   EXPECT_THAT(Choose(0, 0, GoalPolicy::kEverything, false).numbers, IsEmpty());
 }
 
-}  // namespace
+}  // namespace goal_policy_test
 }  // namespace plumescout

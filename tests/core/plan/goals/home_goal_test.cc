@@ -7,7 +7,7 @@
 #include "tests/support/goal_case.h"
 
 namespace plumescout {
-namespace {
+namespace home_goal_test {
 
 using testing::GoalCase;
 
@@ -100,5 +100,5 @@ TEST(FindHome, IsNotKeptFromByMemoryOrClaims) {
   EXPECT_TRUE(FindHome(c.Query()).reachable);
 }
 
-}  // namespace
+}  // namespace home_goal_test
 }  // namespace plumescout

@@ -20,7 +20,7 @@
 #include "tests/support/goal_case.h"
 
 namespace plumescout {
-namespace {
+namespace information_goals_test {
 
 using ::testing::Contains;
 using testing::GoalCase;
@@ -352,5 +352,5 @@ TEST(InformationGoals, AreTheSameAgain) {
   for (std::size_t i = 0; i < once.size(); ++i) EXPECT_EQ(once[i].cell, again[i].cell);
 }
 
-}  // namespace
+}  // namespace information_goals_test
 }  // namespace plumescout

@@ -11,7 +11,7 @@
 #include "tests/support/goal_case.h"
 
 namespace plumescout {
-namespace {
+namespace random_goals_test {
 
 using testing::GoalCase;
 using ::testing::IsEmpty;
@@ -110,5 +110,5 @@ TEST(RandomGoals, AvoidThePlacesOfOtherRobots) {
   EXPECT_THAT(RandomGoals(c.Query(), rng), IsEmpty());
 }
 
-}  // namespace
+}  // namespace random_goals_test
 }  // namespace plumescout

@@ -11,7 +11,7 @@
 #include "tests/support/goal_case.h"
 
 namespace plumescout {
-namespace {
+namespace travel_budget_test {
 
 using testing::GoalCase;
 using ::testing::IsEmpty;
@@ -170,5 +170,5 @@ TEST(RejectOverBudget, AcceptsJustThoseFromWhichTheRobotCanGetHome) {
   }
 }
 
-}  // namespace
+}  // namespace travel_budget_test
 }  // namespace plumescout

@@ -11,7 +11,7 @@
 #include "tests/support/path_case.h"
 
 namespace plumescout {
-namespace {
+namespace anytime_xit_test {
 
 using testing::PathCase;
 
@@ -93,5 +93,5 @@ TEST(AnytimeXit, EndsWhereAGoalCannotBeReached) {
   EXPECT_FALSE(result.paths.front().has_value());
 }
 
-}  // namespace
+}  // namespace anytime_xit_test
 }  // namespace plumescout

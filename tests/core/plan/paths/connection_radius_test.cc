@@ -7,7 +7,7 @@
 #include <cmath>
 
 namespace plumescout {
-namespace {
+namespace connection_radius_test {
 
 constexpr double kResolution_m = 0.1;
 
@@ -63,5 +63,5 @@ TEST(ConnectionRadius, FollowsEquation7OnAnyAreaWithoutALimit) {
   EXPECT_DOUBLE_EQ(ConnectionRadius_m(0.01, 1, kResolution_m, options), 0.3);
 }
 
-}  // namespace
+}  // namespace connection_radius_test
 }  // namespace plumescout

@@ -10,7 +10,7 @@
 #include "tests/support/path_case.h"
 
 namespace plumescout {
-namespace {
+namespace cost_search_test {
 
 using testing::PathCase;
 
@@ -63,5 +63,5 @@ TEST(CostSearch, StopsSoon) {
   EXPECT_EQ(polls, 1);
 }
 
-}  // namespace
+}  // namespace cost_search_test
 }  // namespace plumescout

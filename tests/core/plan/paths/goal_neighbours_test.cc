@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout {
-namespace {
+namespace goal_neighbours_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -44,5 +44,5 @@ TEST(GoalNeighbours, TakeAllSamplesIfThereAreFew) {
   EXPECT_THAT(EdgesFrom(GoalNeighbours({{1, 1}}, 0, {0}, 3), 0), IsEmpty());
 }
 
-}  // namespace
+}  // namespace goal_neighbours_test
 }  // namespace plumescout

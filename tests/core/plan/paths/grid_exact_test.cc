@@ -8,7 +8,7 @@
 #include "tests/support/path_case.h"
 
 namespace plumescout {
-namespace {
+namespace grid_exact_test {
 
 using testing::PathCase;
 
@@ -54,5 +54,5 @@ TEST(GridExact, OfNoGoalsIsDone) {
   EXPECT_EQ(result.end, PlanEnd::kAllGoalsReached);
 }
 
-}  // namespace
+}  // namespace grid_exact_test
 }  // namespace plumescout

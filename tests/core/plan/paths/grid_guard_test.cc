@@ -9,7 +9,7 @@
 #include "tests/support/path_case.h"
 
 namespace plumescout {
-namespace {
+namespace grid_guard_test {
 
 using testing::PathCase;
 
@@ -123,5 +123,5 @@ TEST(GridGuard, ReachesAGoalUnderTheRobot) {
   EXPECT_EQ(result.paths[0]->vertices.size(), 1U);
 }
 
-}  // namespace
+}  // namespace grid_guard_test
 }  // namespace plumescout

@@ -8,7 +8,7 @@
 #include "tests/support/path_case.h"
 
 namespace plumescout {
-namespace {
+namespace guarded_planner_test {
 
 using testing::PathCase;
 
@@ -68,5 +68,5 @@ TEST(GuardedPlanner, StraightensTheTreesPaths) {
   EXPECT_LT(after, before);
 }
 
-}  // namespace
+}  // namespace guarded_planner_test
 }  // namespace plumescout

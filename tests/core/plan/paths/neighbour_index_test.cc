@@ -10,7 +10,7 @@
 #include "core/types/rng.h"
 
 namespace plumescout {
-namespace {
+namespace neighbour_index_test {
 
 using ::testing::IsEmpty;
 using ::testing::UnorderedElementsAre;
@@ -57,5 +57,5 @@ TEST(NeighbourIndex, OfNothingFindsNothing) {
   EXPECT_THAT(Near(NeighbourIndex({}, 1.0), {0, 0}), IsEmpty());
 }
 
-}  // namespace
+}  // namespace neighbour_index_test
 }  // namespace plumescout

@@ -10,7 +10,7 @@
 #include "tests/support/path_case.h"
 
 namespace plumescout {
-namespace {
+namespace path_planners_test {
 
 using testing::PathCase;
 
@@ -66,5 +66,5 @@ TEST(PathKindName, IsDifferentForEachKind) {
   EXPECT_FALSE(names.contains(""));
 }
 
-}  // namespace
+}  // namespace path_planners_test
 }  // namespace plumescout

@@ -11,7 +11,7 @@
 #include "tests/support/path_case.h"
 
 namespace plumescout {
-namespace {
+namespace shortcut_test {
 
 using ::testing::ElementsAre;
 using testing::PathCase;
@@ -95,5 +95,5 @@ TEST(WithoutCollinear, OfTwoVerticesChangesNothing) {
   EXPECT_THAT(WithoutCollinear({{0, 0}, {2, 0}}), ElementsAre(Point2{0, 0}, Point2{2, 0}));
 }
 
-}  // namespace
+}  // namespace shortcut_test
 }  // namespace plumescout

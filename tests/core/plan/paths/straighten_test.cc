@@ -8,7 +8,7 @@
 #include "tests/support/path_case.h"
 
 namespace plumescout {
-namespace {
+namespace straighten_test {
 
 using testing::PathCase;
 
@@ -64,5 +64,5 @@ TEST(Straighten, KeepsToTheEdgeBudget) {
   EXPECT_EQ(path.vertices, way);
 }
 
-}  // namespace
+}  // namespace straighten_test
 }  // namespace plumescout

@@ -11,7 +11,7 @@
 #include "tests/support/path_case.h"
 
 namespace plumescout {
-namespace {
+namespace vertex_adjustment_test {
 
 using testing::PathCase;
 
@@ -77,5 +77,5 @@ TEST(AdjustVertices, LeavesThePathAsItIsIfStopped) {
   EXPECT_NEAR(path.cost, PathCost(c.cost, way), kRounding);
 }
 
-}  // namespace
+}  // namespace vertex_adjustment_test
 }  // namespace plumescout

@@ -15,7 +15,7 @@
 #include "tests/support/path_case.h"
 
 namespace plumescout {
-namespace {
+namespace xit_test {
 
 using testing::PathCase;
 
@@ -355,5 +355,5 @@ TEST(Xit, WithoutGoalsHasNothingToDo) {
   EXPECT_EQ(XitPlanner(Samples(300)).FindPaths(c.Problem()).end, PlanEnd::kAllGoalsReached);
 }
 
-}  // namespace
+}  // namespace xit_test
 }  // namespace plumescout

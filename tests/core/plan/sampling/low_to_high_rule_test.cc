@@ -15,7 +15,7 @@
 #include "tests/support/site_case.h"
 
 namespace plumescout {
-namespace {
+namespace low_to_high_rule_test {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -256,5 +256,5 @@ TEST(RandomSampling, DrawsEverySiteAboutAsOften) {
   for (const int count : draws) EXPECT_NEAR(count, 100, 44);
 }
 
-}  // namespace
+}  // namespace low_to_high_rule_test
 }  // namespace plumescout

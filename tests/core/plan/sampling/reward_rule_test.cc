@@ -9,7 +9,7 @@
 #include "tests/support/site_case.h"
 
 namespace plumescout {
-namespace {
+namespace reward_rule_test {
 
 using ::testing::Each;
 using ::testing::HasSubstr;
@@ -124,5 +124,5 @@ TEST(RewardRule, CountsTheWayRoundObstaclesNotTheStraightLine) {
   EXPECT_EQ(First(choice), (Cell{0, 0})) << 0.4 / 0.3 << " against " << 1.0 / (way_m + 0.1);
 }
 
-}  // namespace
+}  // namespace reward_rule_test
 }  // namespace plumescout

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout {
-namespace {
+namespace reward_test {
 
 constexpr double kRounding = 1e-12;
 
@@ -70,5 +70,5 @@ TEST(IsPerTime, KnowsTheRewardsThatAreDividedByIt) {
   EXPECT_FALSE(IsPerTime(SamplingReward::kUcb));
 }
 
-}  // namespace
+}  // namespace reward_test
 }  // namespace plumescout

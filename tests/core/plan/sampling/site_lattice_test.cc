@@ -10,7 +10,7 @@
 #include <string>
 
 namespace plumescout {
-namespace {
+namespace site_lattice_test {
 
 using ::testing::HasSubstr;
 
@@ -104,5 +104,5 @@ TEST(SiteLattice, CoversABuildingWithTheSquaresOfASurvey) {
   EXPECT_EQ(region, (Rectangle{{-1.0, 1.0}, {9.0, 5.0}}));
 }
 
-}  // namespace
+}  // namespace site_lattice_test
 }  // namespace plumescout

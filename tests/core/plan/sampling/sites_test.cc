@@ -16,7 +16,7 @@
 #include "tests/support/site_case.h"
 
 namespace plumescout {
-namespace {
+namespace sites_test {
 
 using ::testing::IsEmpty;
 using testing::SiteCase;
@@ -214,5 +214,5 @@ TEST(AreSampled, IsOfAllPlacesInsideTheRegionAndOut) {
   EXPECT_FALSE(AreSampled(c.belief, c.Lattice(), {{-7.0, 0.0}}));
 }
 
-}  // namespace
+}  // namespace sites_test
 }  // namespace plumescout

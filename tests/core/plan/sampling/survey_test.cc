@@ -13,7 +13,7 @@
 #include "tests/support/site_case.h"
 
 namespace plumescout {
-namespace {
+namespace survey_test {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -168,5 +168,5 @@ TEST(RestOfSurvey, SaysWhenItIsStopped) {
       absl::IsDeadlineExceeded(RestOfSurvey({robot, c.At(c.start), sites, 1, always}).status()));
 }
 
-}  // namespace
+}  // namespace survey_test
 }  // namespace plumescout

@@ -10,7 +10,7 @@
 #include "tests/support/site_case.h"
 
 namespace plumescout {
-namespace {
+namespace sweep_rule_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -82,5 +82,5 @@ TEST(SweepRule, HasNothingLeftAtItsEnd) {
   EXPECT_THAT(Choose(c).errands, IsEmpty());
 }
 
-}  // namespace
+}  // namespace sweep_rule_test
 }  // namespace plumescout

@@ -12,7 +12,7 @@
 #include "tests/support/plan_map.h"
 
 namespace plumescout {
-namespace {
+namespace ways_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -108,5 +108,5 @@ TEST(WaysFrom, AreClearAndNoLongerThanOnTheGridAmongRandomObstacles) {
   }
 }
 
-}  // namespace
+}  // namespace ways_test
 }  // namespace plumescout

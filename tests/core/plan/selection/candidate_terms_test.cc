@@ -7,7 +7,7 @@
 #include <limits>
 
 namespace plumescout {
-namespace {
+namespace candidate_terms_test {
 
 constexpr double kRounding = 1e-6;  // single-precision fields
 
@@ -70,5 +70,5 @@ TEST(MakeCandidate, OfNoLengthHasTheMeansOfItsCell) {
   EXPECT_EQ(candidate.mean_concentration_ppm, 8.0);
 }
 
-}  // namespace
+}  // namespace candidate_terms_test
 }  // namespace plumescout

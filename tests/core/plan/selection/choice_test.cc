@@ -9,7 +9,7 @@
 #include "core/gas/gas_map.h"
 
 namespace plumescout {
-namespace {
+namespace choice_test {
 
 // An empty room whose west has been read all over.
 Belief HalfReadRoom() {
@@ -108,5 +108,5 @@ TEST(Choose, OfNothingIsNothing) {
   EXPECT_EQ(plan.chosen, -1);
 }
 
-}  // namespace
+}  // namespace choice_test
 }  // namespace plumescout

@@ -14,7 +14,7 @@
 #include "core/types/rng.h"
 
 namespace plumescout {
-namespace {
+namespace expected_information_test {
 
 using ::testing::ElementsAre;
 using ::testing::SizeIs;
@@ -182,5 +182,5 @@ TEST(ExpectedInformation, IsUnknownBeforeThereIsAField) {
   EXPECT_EQ(ExpectedInformation(belief).Of({{1, 1}}), std::nullopt);
 }
 
-}  // namespace
+}  // namespace expected_information_test
 }  // namespace plumescout

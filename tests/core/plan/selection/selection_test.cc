@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace plumescout {
-namespace {
+namespace selection_test {
 
 PlanningOptions By(SelectionRule rule, double margin = 0.0) {
   PlanningOptions options;
@@ -101,5 +101,5 @@ TEST(SelectCandidate, OfNoneIsNone) {
   EXPECT_EQ(SelectCandidate({}, By(SelectionRule::kLeastCost)), -1);
 }
 
-}  // namespace
+}  // namespace selection_test
 }  // namespace plumescout
