@@ -63,8 +63,8 @@ void DrawTitleAndScaleBar(Canvas& canvas, const Box& box, const std::string& tit
   const double length_m = RoundDown125(kLargestShare * frame.region.width_m());
   const std::string label = absl::StrCat(TickLabel(length_m), " m");
   const double length_px = length_m * frame.px_per_m;
-  const double behind_title_px =
-      kAfterTitle_px + TextWidth_px(label, kLabelSize_px) + kBeforeBar_px + length_px;
+  const double behind_title_px = (title.empty() ? 0.0 : kAfterTitle_px) +
+                                 TextWidth_px(label, kLabelSize_px) + kBeforeBar_px + length_px;
   const double size_px = SizeToFit_px(title, kTitleSize_px, box.width - behind_title_px, true);
   canvas.Text({box.x, box.y + kTitleSize_px}, title, {size_px, kInk, Anchor::kStart, true});
   const double after_title = box.x + TextWidth_px(title, size_px, true) + behind_title_px;

@@ -14,6 +14,11 @@
 
 namespace plumescout::support {
 
+using lab::GadenCell;
+using lab::GadenEnvironment;
+using lab::GadenFilament;
+using lab::GadenFrame;
+
 // Files as GADEN lays them out, byte by byte.
 template <typename T>
 void Append(std::string& bytes, std::type_identity_t<T> value) {

@@ -7,7 +7,7 @@
 
 #include "lab/formats/scene.h"
 
-namespace plumescout {
+namespace plumescout::lab {
 
 // A valid scene of 5 x 4 cells with a wall around it, two sources, three frames, wind and two
 // openings.
@@ -41,4 +41,4 @@ inline Scene MakeSmallScene() {
   return scene;
 }
 
-}  // namespace plumescout
+}  // namespace plumescout::lab
