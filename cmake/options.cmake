@@ -1,4 +1,5 @@
 option(PLUMESCOUT_BUILD_TESTS "Build the tests" ON)
+option(PLUMESCOUT_SERVER_OMPL "Let servers offer the planners of OMPL (planning.rivals)" ON)
 option(PLUMESCOUT_BUILD_BENCHES "Build lab/bench" ON)
 option(PLUMESCOUT_UNITE_TESTS "Compile tests several sources at a time" ON)
 set(PLUMESCOUT_SUITES ".*" CACHE STRING "Folders below tests/ to build and register, by regex")

@@ -60,9 +60,15 @@ ServiceLimits ToServiceLimits(const ServerConfig& config) {
   return limits;
 }
 
-RegistryHooks WithPools(RegistryHooks hooks, WorkerPool* epoch_pool, WorkerPool* audit_pool) {
+RegistryHooks Complete(RegistryHooks hooks, const ServerConfig& config, WorkerPool* epoch_pool,
+                       WorkerPool* audit_pool) {
   hooks.epoch_pool = epoch_pool;
   hooks.audit_pool = audit_pool;
+  if (config.planning.rivals) {
+    hooks.make_strategy = [](const PlanningOptions& options) {
+      return MakeMissionStrategy(options, Rivals::kOn);
+    };
+  }
   return hooks;
 }
 
@@ -91,7 +97,8 @@ Server::Server(Private, const ServerConfig& config, RegistryHooks hooks)
     : config_(config),
       epoch_pool_({"epoch", config.epochs.threads, config.epochs.max_queued}),
       audit_pool_({"audit", kAuditThreads, config.limits.max_missions}),
-      registry_(ToRegistryOptions(config), WithPools(std::move(hooks), &epoch_pool_, &audit_pool_)),
+      registry_(ToRegistryOptions(config),
+                Complete(std::move(hooks), config, &epoch_pool_, &audit_pool_)),
       planning_pool_({"planning", config.planning.threads, config.planning.max_queued}),
       map_pool_({"map", config.maps.threads, config.maps.max_queued}),
       context_{&registry_,     &planning_pool_,         &map_pool_, &streams_,
@@ -104,6 +111,10 @@ Server::Server(Private, const ServerConfig& config, RegistryHooks hooks)
 
 absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config,
                                                       RegistryHooks hooks) {
+  if (config.planning.rivals && !HasRivals()) {
+    return absl::InvalidArgumentError(
+        "planning.rivals = true needs a server that is built with OMPL");
+  }
   auto server = std::make_unique<Server>(Private(), config, std::move(hooks));
   PLUMESCOUT_RETURN_IF_ERROR(server->Listen());
   return server;

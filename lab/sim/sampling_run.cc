@@ -76,7 +76,7 @@ class SamplingRobot {
 
   absl::Status FollowNextPlan() {
     if (stop_()) return End(SamplingEnd::kStopped);
-    client::PlanAnswer answer = client::RunPlanCall(planner_, *ingest_, NextCall());
+    client::PlanReply answer = client::RunPlanCall(planner_, *ingest_, NextCall());
     if (answer.reported) report_.reset();
     PLUMESCOUT_RETURN_IF_ERROR(answer.plan.status());
     const Plan& plan = *answer.plan;

@@ -27,6 +27,7 @@ struct PlanningConfig {
   double default_budget_s = 1.0;
   double max_budget_s = 60.0;
   double deadline_margin_s = 0.02;  // kept back from a call's deadline for commit and reply
+  bool rivals = false;              // missions may choose the planners of OMPL
 };
 
 struct MapConfig {

@@ -27,6 +27,7 @@ void Visit(OneOf<PlanningConfig> auto& planning, auto& field) {
   field("default_budget_s", planning.default_budget_s);
   field("max_budget_s", planning.max_budget_s);
   field("deadline_margin_s", planning.deadline_margin_s);
+  field("rivals", planning.rivals);
 }
 
 void Visit(OneOf<MapConfig> auto& maps, auto& field) {

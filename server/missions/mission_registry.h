@@ -13,8 +13,8 @@
 #include "absl/status/statusor.h"
 #include "absl/synchronization/mutex.h"
 #include "core/types/options.h"
-#include "ompl_planners/ompl_planner.h"
 #include "server/missions/mission_host.h"
+#include "server/missions/mission_strategy.h"
 
 namespace plumescout::server {
 
@@ -29,7 +29,7 @@ struct RegistryOptions {
 struct RegistryHooks {
   std::function<absl::StatusOr<std::unique_ptr<const Strategy>>(const PlanningOptions&)>
       make_strategy =
-          [](const PlanningOptions& options) { return MakeStrategy(options, MakeOmplPlanner); };
+          [](const PlanningOptions& options) { return MakeMissionStrategy(options, Rivals::kOff); };
   // The sink of a new mission's events; may be empty.
   std::function<EventSink(const MissionId&, const MissionOptions&)> make_event_sink;
   // Recomputes gas posteriors; outlives the missions. Null: their writers do.

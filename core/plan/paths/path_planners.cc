@@ -57,7 +57,8 @@ absl::StatusOr<std::unique_ptr<const PathPlanner>> MakePathPlanner(
   auto planner = others ? others(options) : nullptr;
   if (planner == nullptr) {
     return absl::InvalidArgumentError(
-        absl::StrCat("planning.paths = ", PathKindName(options.paths), " is not available here"));
+        absl::StrCat("planning.paths = ", PathKindName(options.paths),
+                     " is not available here: the planners of OMPL are off"));
   }
   return Guarded(std::move(planner), options);
 }

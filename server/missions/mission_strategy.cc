@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/missions/mission_strategy.h"
+
+#ifdef PLUMESCOUT_SERVER_OMPL
+#include "ompl_planners/ompl_planner.h"
+#endif
+
+namespace plumescout::server {
+namespace {
+
+#ifdef PLUMESCOUT_SERVER_OMPL
+const PathPlannerFactory kRivals = MakeOmplPlanner;
+#else
+const PathPlannerFactory kRivals = nullptr;
+#endif
+
+}  // namespace
+
+bool HasRivals() { return kRivals != nullptr; }
+
+absl::StatusOr<std::unique_ptr<const Strategy>> MakeMissionStrategy(const PlanningOptions& options,
+                                                                    Rivals rivals) {
+  return MakeStrategy(options, rivals == Rivals::kOn ? kRivals : nullptr);
+}
+
+}  // namespace plumescout::server
