@@ -32,12 +32,12 @@ The robot is any program at the other end of standard input and output. It write
 line, in frame map, metres and radians, with the time of its own clock:
   {"type":"pose","time_ns":0,"x_m":0,"y_m":0,"yaw_rad":0}
   {"type":"scan","time_ns":0,"start_angle_rad":-3.14,"angle_step_rad":0.0175,"max_range_m":8,
-   "ranges_m":[1.5,null,8]}          (null: no word of this beam; max_range_m or more: nothing seen)
+   "ranges_m":[1.5,null,8]}          (null: beam unknown; max_range_m or more: nothing was hit)
   {"type":"gas","time_ns":0,"concentration_ppm":3.2,"stddev_ppm":0.1}       (stddev_ppm: optional)
 Scans and gas readings may carry "pose":{"x_m":..,"y_m":..,"yaw_rad":..}, the pose at which they were
-taken; else the latest pose counts. Each line on one line. It reads back velocity commands to hold:
+taken; otherwise the latest pose counts. Each object is one line. It reads velocities to hold:
   {"type":"twist","forward_mps":0.2,"turn_rad_per_s":-0.1}
-Time goes by as the lines say: send poses at 10 Hz or more. Messages for people go to standard error.)";
+Time passes as the lines say: send poses at 10 Hz or more. Messages for people go to standard error.)";
 
 std::atomic<bool> stop_requested = false;
 
@@ -84,28 +84,30 @@ void AddFlags(CLI::App& app, Flags& flags) {
   app.add_option("--mission", participation.mission, "name of the mission")->required();
   app.add_option("--robot", participation.robot, "name of this robot in the mission")->required();
   app.add_flag("--create-mission", flags.create_mission,
-               "create the mission if it is not there, with the usual options");
+               "create the mission if it is not there, with the server's options");
   app.add_option("--prior-map", flags.prior_map,
                  "YAML file of a map_server map: create the mission, if it is not there, with this "
                  "as what is known of the building")
       ->check(CLI::ExistingFile);
   app.add_flag("--take-over", participation.take_over,
                "supersede another client that writes as this robot");
-  app.add_option("--radius", participation.radius_m, "of the robot's footprint, metres")
+  app.add_option("--radius", participation.radius_m, "radius of the robot's footprint, metres")
       ->capture_default_str();
   app.add_option("--max-speed", flags.loop.follower.max_forward_mps,
-                 "metres a second; the plan's own speed is used up to this")
+                 "greatest speed, metres a second; plans may ask for less")
       ->capture_default_str();
-  app.add_option("--max-turn", flags.loop.follower.max_turn_rad_per_s, "radians a second")
+  app.add_option("--max-turn", flags.loop.follower.max_turn_rad_per_s,
+                 "greatest turn rate, radians a second")
       ->capture_default_str();
   app.add_option("--gas-time-constant", flags.loop.gas_sampling.time_constant_s,
-                 "seconds of first-order lag of the gas sensor, undone before sending; 0: not")
+                 "lag of the gas sensor (first order), seconds, undone before sending; 0: none")
       ->capture_default_str();
   app.add_option("--gas-settling", flags.loop.gas_sampling.settling_s,
                  "seconds that the robot has to stand before gas readings count, for a slow sensor "
                  "and a mission with a dwell time; 0: they always count")
       ->capture_default_str();
-  app.add_option("--time-limit", flags.loop.time_limit_s, "seconds of the robot's clock; 0: none")
+  app.add_option("--time-limit", flags.loop.time_limit_s,
+                 "end after so many seconds of the robot's clock; 0: never")
       ->capture_default_str();
 }
 

@@ -37,7 +37,7 @@ void AddMissionOptions(CLI::App& app, RobotArguments& arguments) {
       ->excludes("--known-map");
   app.add_option("--out", arguments.out, "Folder for results");
   app.add_option("--mission", arguments.mission, "Mission to join, made if it is not there");
-  app.add_option("--robot", arguments.robot, "Name of the robot, others count on from it");
+  app.add_option("--robot", arguments.robot, "Name of the robot; others are numbered on from it");
   app.add_option("--robots", arguments.robots, "How many robots share the mission")
       ->check(CLI::Range(1, MissionOptions{}.max_robot_count));
   app.add_option("--start", arguments.starts,
@@ -92,15 +92,16 @@ void AddGasOptions(CLI::App& app, RobotArguments& arguments) {
   app.add_option("--gas-noise", changes.noise_sigma_ppm, "Additive noise, ppm (pid 0.1, co2 10)");
   app.add_option("--gas-noise-share", changes.noise_share, "Noise as share of the reading (0.01)");
   app.add_option("--gas-detection-limit", changes.detection_limit_ppm,
-                 "Less reads 0, ppm (pid 0.05)");
-  app.add_option("--gas-saturation", changes.saturation_ppm, "More reads this, ppm (10000)");
+                 "Lower concentrations read 0, ppm (pid 0.05)");
+  app.add_option("--gas-saturation", changes.saturation_ppm,
+                 "Higher concentrations read this, ppm (10000)");
   app.add_option("--gas-resolution", changes.resolution_ppm,
                  "Readings are multiples of it, ppm (co2 10)");
   app.add_option("--gas-rate", arguments.rates.gas_hz, "Readings a second; 0: none");
   app.add_flag("--raw-gas", arguments.raw_gas,
                "Send gas readings as the sensor gives them, its lag not undone");
   app.add_option("--gas-threshold", arguments.gas_threshold_ppm,
-                 "Above it gas is critical to the planner, ppm (a percentile of what is observed)");
+                 "Above it gas counts as a plume, ppm (default: a percentile of what is observed)");
   app.add_option("--dwell", arguments.dwell_s,
                  "Stop and sample: seconds to stand at each vertex of a trajectory");
   app.add_option("--settle", arguments.settling_s,
@@ -110,7 +111,7 @@ void AddGasOptions(CLI::App& app, RobotArguments& arguments) {
                  "all over the scene")
       ->check(CLI::Range(0.05, 1000.0));
   app.add_option("--survey-stride", arguments.survey_stride,
-                 "Every how many sites the survey of lhr has one")
+                 "The survey of lhr takes every n-th site of every n-th row")
       ->check(CLI::Range(1, 1000));
 }
 
@@ -121,11 +122,12 @@ void AddMotionOptions(CLI::App& app, RobotArguments& arguments) {
   app.add_option("--following", arguments.following, "How paths are followed")
       ->transform(CLI::CheckedTransformer(followings))
       ->default_str("ideal");
-  app.add_option("--speed", arguments.speed_mps, "Of robot and plans, metres a second (1.25)");
+  app.add_option("--speed", arguments.speed_mps,
+                 "Speed of robot and plans, metres a second (1.25)");
   app.add_option("--max-turn", arguments.max_turn_rad_per_s,
-                 "Of the robot, and of plans if given, radians a second (2)");
+                 "Turn rate of the robot, and of plans if given, radians a second (2)");
   app.add_option("--max-acceleration", arguments.max_acceleration_mps2,
-                 "Of robot and plans, m/s^2 (no limit)");
+                 "Acceleration of robot and plans, m/s^2 (no limit)");
   PoseErrorOptions& pose = arguments.pose_error;
   app.add_option("--pose-noise", pose.position_sigma_m,
                  "Noise of the pose told to the planner, metres");
