@@ -238,7 +238,9 @@ TEST_F(MissionConductTest, ARobotLeavesByItsOwnLeaseOrByForce) {
   EXPECT_EQ(events_.size(), events);
   EXPECT_EQ(book.robot_count(), 1);
 
-  EXPECT_EQ(conduct_.Remove({"r2", joined->lease_token}, leases).value(), revision());
+  const auto removed = conduct_.Remove({"r2", joined->lease_token}, leases);
+  ASSERT_TRUE(removed.ok()) << removed.status();
+  EXPECT_EQ(*removed, revision());
   EXPECT_EQ(events_.back().body, EventBody(RobotRemoved{"r2"}));
   EXPECT_EQ(book.robot_count(), 0);
   EXPECT_EQ(ErrorReason(conduct_.Ingest("r2", joined->lease_token, GasBatch(1, 1)).status),
