@@ -167,7 +167,8 @@ TEST(MissionConductGas, EachStepIsToldAroundItsEvent) {
 }
 
 TEST(MissionConductGas, EpochOutOfTurnIsAnOrdinaryEventAndAdoptedInItsTime) {
-  Conducted run;
+  Conducted run(
+      std::make_unique<Mission>(MissionOptions{}));  // ageing would have one follow another
   const auto rest = RunUntilEpoch(run.conduct);
   EXPECT_TRUE(absl::IsFailedPrecondition(run.conduct.BeginEpoch()));  // one is under way
   EXPECT_EQ(run.listener.told.back(), "!begin");
@@ -185,7 +186,7 @@ TEST(MissionConductGas, EpochOutOfTurnIsAnOrdinaryEventAndAdoptedInItsTime) {
     ASSERT_TRUE(run.conduct.Ingest("r1", kLease, {rest[at]}).status.ok());
   }
 
-  Mission replayed(FastAgeing());
+  Mission replayed{MissionOptions{}};
   for (const Event& event : run.listener.events) ASSERT_TRUE(replayed.Apply(event.body).ok());
   ExpectSame(*replayed.Snapshot(), *run.conduct.Snapshot());
 }
