@@ -40,7 +40,8 @@ struct AuditFinding {
 // Computes means and variances of the whole map once more, independently of core/gas/field: the
 // graph from the occupancy, [IPP] Eq. (3) as one sparse matrix, its factorisation in CHOLMOD's
 // order, selected inversion. The two share the readings' evidence and the dense kernels.
-// Errors: those of PosteriorSolver::Solve; then nothing is known. Cost: 0.1 s at 160x200 cells.
+// Errors: those of PosteriorSolver::Solve; then nothing is known. Cost at 160x200 cells: 0.05 s in
+// rooms, 0.14 s in the open.
 absl::StatusOr<AuditFinding> RunAudit(const AuditInputs& inputs);
 
 }  // namespace plumescout
