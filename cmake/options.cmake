@@ -21,7 +21,8 @@ add_compile_options(-ffp-contract=off)
 add_compile_options(-pthread)
 
 if(PLUMESCOUT_SANITIZE)
-  add_compile_options(-fsanitize=${PLUMESCOUT_SANITIZE} -fno-omit-frame-pointer)
+  add_compile_options(-fsanitize=${PLUMESCOUT_SANITIZE} -fno-sanitize-recover=undefined
+                      -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${PLUMESCOUT_SANITIZE})
 endif()
 
