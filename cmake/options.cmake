@@ -21,7 +21,8 @@ add_compile_options(-ffp-contract=off)
 add_compile_options(-pthread)
 
 if(PLUMESCOUT_SANITIZE)
-  add_compile_options(-fsanitize=${PLUMESCOUT_SANITIZE} -fno-omit-frame-pointer)
+  add_compile_options(-fsanitize=${PLUMESCOUT_SANITIZE} -fno-sanitize-recover=undefined
+                      -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${PLUMESCOUT_SANITIZE})
 endif()
 
@@ -40,10 +41,13 @@ if(MOLD_PROGRAM)
   add_link_options(-fuse-ld=mold)
 endif()
 
-# Tests are compiled once and run for seconds: little optimisation pays.
+# Tests are compiled once and run for seconds: little optimisation pays. What they compare with, dense
+# matrices, wants some of GCC's.
 set(PLUMESCOUT_TEST_OPTIONS -O1)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   add_compile_options(-fpch-preprocess)  # ccache asks for it
+elseif(CMAKE_CXX_COMPILER_ID MATCHES Clang)
+  set(PLUMESCOUT_TEST_OPTIONS -O0)
 endif()
 
 # Warnings of our own code; generated and vendored code is built without them.
