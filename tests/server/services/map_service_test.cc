@@ -65,8 +65,11 @@ TEST_F(MapServiceTest, FreshPosteriorHasItsQuality) {
   EXPECT_EQ(map->status().gas_quality().refresh_count(), 1);
 }
 
-// An epoch is due soon, for a room is discovered at once; who asks for the map collects the audit.
+// Readings age, so epochs follow each other; who asks for the map collects the audit.
 TEST_F(MapServiceTest, AuditsAreCountedInTheQuality) {
+  ServerConfig config;
+  config.mission = support::FastAgeing();
+  StartServer(config);
   const std::int64_t lease = Lease();
   for (const Observation& observation : support::RoomRun()) {
     v1::ObservationBatch batch;

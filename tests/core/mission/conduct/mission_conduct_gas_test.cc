@@ -167,8 +167,9 @@ TEST(MissionConductGas, EachStepIsToldAroundItsEvent) {
 }
 
 TEST(MissionConductGas, EpochOutOfTurnIsAnOrdinaryEventAndAdoptedInItsTime) {
-  Conducted run(
-      std::make_unique<Mission>(MissionOptions{}));  // ageing would have one follow another
+  MissionOptions slow;  // so that epochs do not follow each other at once
+  slow.gas.ageing_half_life_s = 300.0;
+  Conducted run(std::make_unique<Mission>(slow));
   const auto rest = RunUntilEpoch(run.conduct);
   EXPECT_TRUE(absl::IsFailedPrecondition(run.conduct.BeginEpoch()));  // one is under way
   EXPECT_EQ(run.listener.told.back(), "!begin");
@@ -186,7 +187,7 @@ TEST(MissionConductGas, EpochOutOfTurnIsAnOrdinaryEventAndAdoptedInItsTime) {
     ASSERT_TRUE(run.conduct.Ingest("r1", kLease, {rest[at]}).status.ok());
   }
 
-  Mission replayed{MissionOptions{}};
+  Mission replayed(slow);
   for (const Event& event : run.listener.events) ASSERT_TRUE(replayed.Apply(event.body).ok());
   ExpectSame(*replayed.Snapshot(), *run.conduct.Snapshot());
 }
