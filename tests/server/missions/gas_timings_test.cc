@@ -68,7 +68,7 @@ TEST(GasTimerTest, UpdatesAreRefreshesAndAdoptions) {
   timer.NoteRefresh(At(10), At(12));
   timer.NoteAdoption(At(20), At(27));
   EXPECT_EQ(timer.timings().update.samples, 2);
-  EXPECT_EQ(timer.timings().update.median, absl::Milliseconds(2));
+  EXPECT_EQ(timer.timings().update.median, absl::Microseconds(4500));
   EXPECT_EQ(timer.timings().update.max, absl::Milliseconds(7));
 }
 
