@@ -11,6 +11,7 @@
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
 #include "absl/strings/strip.h"
 
 namespace plumescout {
@@ -57,7 +58,8 @@ class Stripper {
   void BlankRawString() {
     const std::size_t open = text_.find('(', at_);
     if (open == std::string::npos) return BlankTo(text_.size());
-    const std::string close = ")" + text_.substr(at_ + 2, open - at_ - 2) + "\"";
+    const std::string close =
+        absl::StrCat(")", absl::string_view(text_).substr(at_ + 2, open - at_ - 2), "\"");
     BlankUntil(close, close.size());
   }
   void BlankLiteral(char quote) {
