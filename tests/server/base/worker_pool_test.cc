@@ -7,7 +7,7 @@
 #include <atomic>
 
 #include "absl/synchronization/notification.h"
-#include "proto/convert/status.h"
+#include "core/types/error_reason.h"
 
 namespace plumescout::server {
 namespace worker_pool_test {
@@ -34,7 +34,7 @@ TEST(WorkerPoolTest, FullQueueRefusesAndSaysWhenToRetry) {
   EXPECT_TRUE(pool.Submit([] {}).ok());
   const absl::Status refused = pool.Submit([] {});
   EXPECT_TRUE(absl::IsResourceExhausted(refused));
-  EXPECT_TRUE(RetryDelay(refused).has_value());
+  EXPECT_TRUE(RetryAfter_ns(refused).has_value());
   release.Notify();
 }
 

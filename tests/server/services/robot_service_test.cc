@@ -122,7 +122,7 @@ TEST_F(RobotServiceTest, ARobotLeavesWithItsLeaseAndComesBackToItsLog) {
   ASSERT_TRUE(removed.ok()) << removed.status();
   EXPECT_EQ(removed->revision(), Revision());
   EXPECT_THAT(stream.Finish(), Refuses(kNotFound, "ROBOT_NOT_FOUND"));
-  EXPECT_THAT(Ingest(kRobot, lease, GasReadings(4, 1)).status(),
+  EXPECT_THAT(Ingest(kRobot, lease, GasReadings(4, 4)).status(),
               Refuses(kNotFound, "ROBOT_NOT_FOUND"));
   EXPECT_THAT(Remove(kRobot, lease).status(), Refuses(kNotFound, "ROBOT_NOT_FOUND"));
   EXPECT_EQ(GetMap()->status().robots_size(), 0);
