@@ -29,7 +29,8 @@ std::map<std::string, Names> MakeNeeds(const std::vector<SourceFile>& files) {
   for (const SourceFile& file : files) paths.insert(file.path);
   std::map<std::string, Names> needs;
   for (const SourceFile& file : files) {
-    needs[file.path] = file.quoted_includes;
+    Names& own_needs = needs[file.path];
+    own_needs.insert(own_needs.end(), file.quoted_includes.begin(), file.quoted_includes.end());
     if (file.is_header()) continue;
     const std::string own = absl::StrCat(file.path.substr(0, file.path.size() - 2), "h");
     if (paths.count(own) > 0) {

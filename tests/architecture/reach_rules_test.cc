@@ -42,6 +42,15 @@ TEST(ReachRules, ASourceWithoutAHeaderGoesWithTheOneThatItIncludesFirst) {
               ElementsAre("core/tour/way.cc is needed by the laboratory only"));
 }
 
+TEST(ReachRules, TheOrderOfFilesDoesNotMatter) {
+  const std::vector<SourceFile> files = {
+      ParseSource("core/gas/needed.cc", "#include \"core/gas/needed.h\"\n"),
+      ParseSource("core/gas/needed.h", "#include \"core/gas/part.h\"\n"),
+      ParseSource("core/gas/part.h", ""),
+      ParseSource("server/main.cc", "#include \"core/gas/needed.h\"\n")};
+  EXPECT_THAT(CheckReachability(files), IsEmpty());
+}
+
 TEST(ReachRules, TheClientLibraryIsPublished) {
   EXPECT_THAT(CheckReachability({ParseSource("client/driver.h", "#include \"core/types/a.h\"\n"),
                                  ParseSource("core/types/a.h", "")}),
