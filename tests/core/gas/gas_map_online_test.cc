@@ -319,15 +319,15 @@ TEST(GasMapOnlineTest, CoarseLatticeHasNoLinkThroughAWall) {
   const DenseField exact(GridFromArt({"..#."}), {{{0, 0}, 10.0, 20.0}, {{0, 0}, 10.0, 10.0}},
                          options);
   for (const auto& [coarse, fine] : {std::pair{0, 1}, {1, 3}, {2, 5}}) {
-    EXPECT_FLOAT_EQ(map.mean_ppm()[Cell(fine, 1)], static_cast<float>(exact.mean_ppm()(coarse)));
-    EXPECT_FLOAT_EQ(map.variance_ppm2()[Cell(fine, 0)],
+    EXPECT_FLOAT_EQ(map.mean_ppm()[(Cell{fine, 1})], static_cast<float>(exact.mean_ppm()(coarse)));
+    EXPECT_FLOAT_EQ(map.variance_ppm2()[(Cell{fine, 0})],
                     static_cast<float>(exact.variance_ppm2()(coarse)));
   }
-  EXPECT_TRUE(std::isnan(map.mean_ppm()[Cell(4, 0)]));
+  EXPECT_TRUE(std::isnan(map.mean_ppm()[(Cell{4, 0})]));
 
   // A door opens.
   ASSERT_TRUE(map.Refresh(GridFromArt({"....#.", "......"}), 0).ok());
-  EXPECT_GT(map.mean_ppm()[Cell(5, 0)], 1.0F);
+  EXPECT_GT(map.mean_ppm()[(Cell{5, 0})], 1.0F);
 }
 
 // A map of 5 x 4 cells, which then grows by one cell to the west and the south, is one of 2 x 2 gas

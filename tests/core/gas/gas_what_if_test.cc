@@ -73,8 +73,8 @@ TEST(GasWhatIfTest, CellsThatAreNotFreeTellNothing) {
   const std::vector<Cell> walls = {{2, 0}, {3, 0}};
   const auto foretold = map.what_if()->VarianceIfRead(walls, 10.0);
   ASSERT_TRUE(foretold.ok());
-  EXPECT_EQ((*foretold)[Cell(0, 0)], map.variance_ppm2()[Cell(0, 0)]);
-  EXPECT_TRUE(std::isnan((*foretold)[Cell(2, 0)]));
+  EXPECT_EQ((*foretold)[(Cell{0, 0})], map.variance_ppm2()[(Cell{0, 0})]);
+  EXPECT_TRUE(std::isnan((*foretold)[(Cell{2, 0})]));
 }
 
 TEST(GasWhatIfTest, AllCellsOfACoarseCellHearTheReading) {
@@ -84,9 +84,9 @@ TEST(GasWhatIfTest, AllCellsOfACoarseCellHearTheReading) {
   const std::vector<Cell> cells = {{0, 0}};
   const auto foretold = map.what_if()->VarianceIfRead(cells, 10.0);
   ASSERT_TRUE(foretold.ok());
-  EXPECT_LT((*foretold)[Cell(1, 1)], 0.1F);
-  EXPECT_EQ((*foretold)[Cell(0, 0)], (*foretold)[Cell(1, 1)]);
-  EXPECT_LT((*foretold)[Cell(0, 0)], (*foretold)[Cell(3, 0)]);
+  EXPECT_LT((*foretold)[(Cell{1, 1})], 0.1F);
+  EXPECT_EQ((*foretold)[(Cell{0, 0})], (*foretold)[(Cell{1, 1})]);
+  EXPECT_LT((*foretold)[(Cell{0, 0})], (*foretold)[(Cell{3, 0})]);
 }
 
 TEST(GasWhatIfTest, RefusesCellsOffTheMapAndPrecisionsThatAreNone) {

@@ -36,7 +36,7 @@ TEST(ReadingStoreStaleTest, AgesStaleCellsAloneAndNeverBack) {
   ASSERT_TRUE(store.Place(GridFromArt({".."}), {}).ok());
   EXPECT_EQ(store.TakeChanged().size(), 2U);
   store.AgeStale(3 * kSecond_ns);
-  EXPECT_EQ(store.TakeChanged(), std::vector<AnchorCell>{AnchorCell(0, 0)});
+  EXPECT_EQ(store.TakeChanged(), std::vector<AnchorCell>{(AnchorCell{0, 0})});
   EXPECT_DOUBLE_EQ(store.EvidenceAt({0, 0}).precision, 1.0 / 0.006);
   EXPECT_DOUBLE_EQ(store.EvidenceAt({1, 0}).precision, 10.0);
   EXPECT_NEAR(store.watch().Error(3 * kSecond_ns), 0.05, 1e-12);

@@ -92,7 +92,8 @@ TEST_P(AccumulateTest, GivesTheSameBytesWithAnyInstructionSet) {
   Padded a = RandomPadded(rows, depth, rng);
   Padded b = RandomPadded(depth, columns, rng);
   const Padded c = RandomPadded(rows, columns, rng);
-  const auto result_of = [&](AccumulateFunction accumulate) {
+  const auto result_of = [&, rows = rows, columns = columns,
+                          depth = depth](AccumulateFunction accumulate) {
     Padded result = c;
     accumulate({.a = a.data(),
                 .a_stride = a.stride(),
@@ -141,7 +142,7 @@ TEST_P(AccumulateTest, OverwritesWithTheSameBytesAsItAddsToZero) {
   Padded fresh(rows, columns);  // NaN so far
   Padded sum(rows, columns);
   sum.view().setZero();
-  const auto product_into = [&](Padded& c) {
+  const auto product_into = [&, rows = rows, columns = columns, depth = depth](Padded& c) {
     return Product{.a = a.data(),
                    .a_stride = a.stride(),
                    .b = b.data(),
@@ -170,7 +171,7 @@ TEST_P(AccumulateTest, PassesOverTheZerosOfAnUpperTriangle) {
   Padded b = RandomPadded(depth, columns, rng);
   Padded all = RandomPadded(rows, columns, rng);
   Padded some = all;
-  const auto product_into = [&](Padded& c) {
+  const auto product_into = [&, rows = rows, columns = columns, depth = depth](Padded& c) {
     return Product{.a = a.data(),
                    .a_stride = a.stride(),
                    .b = b.data(),

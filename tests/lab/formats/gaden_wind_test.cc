@@ -57,8 +57,8 @@ TEST_F(GadenWindFile, ReadsTheLayerOfBothForms) {
     const auto wind = Read(bytes, 2);
     ASSERT_TRUE(wind.ok()) << wind.status();
     EXPECT_EQ(wind->u_mps.geometry(), (GridGeometry{-1.0, 2.0, 0.5, 6, 5}));
-    EXPECT_EQ(wind->u_mps[Cell(3, 4)], 3.0F + 6.0F * (4.0F + 5.0F * 2.0F));
-    EXPECT_EQ(wind->v_mps[Cell(3, 4)], (3.0F + 6.0F * (4.0F + 5.0F * 2.0F)) / 2.0F);
+    EXPECT_EQ(wind->u_mps[(Cell{3, 4})], 3.0F + 6.0F * (4.0F + 5.0F * 2.0F));
+    EXPECT_EQ(wind->v_mps[(Cell{3, 4})], (3.0F + 6.0F * (4.0F + 5.0F * 2.0F)) / 2.0F);
   }
 }
 

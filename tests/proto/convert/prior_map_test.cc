@@ -56,9 +56,9 @@ TEST(PriorMapConvertTest, MapsSurviveTheRoundTrip) {
 TEST(PriorMapConvertTest, BytesAreOneACellFromTheSouthWest) {
   const auto map = FromProto(TwoByTwo({0, 1, 2, 1}), "cells");
   ASSERT_TRUE(map.ok()) << map.status();
-  EXPECT_EQ((*map)[Cell(0, 0)], CellState::kUnknown);
-  EXPECT_EQ((*map)[Cell(1, 0)], CellState::kFree);
-  EXPECT_EQ((*map)[Cell(0, 1)], CellState::kOccupied);
+  EXPECT_EQ((*map)[(Cell{0, 0})], CellState::kUnknown);
+  EXPECT_EQ((*map)[(Cell{1, 0})], CellState::kFree);
+  EXPECT_EQ((*map)[(Cell{0, 1})], CellState::kOccupied);
 }
 
 TEST(PriorMapConvertTest, AMapOfMillionsOfCellsFitsARequest) {
