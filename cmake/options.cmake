@@ -41,8 +41,7 @@ if(MOLD_PROGRAM)
   add_link_options(-fuse-ld=mold)
 endif()
 
-# Tests are compiled once and run for seconds: little optimisation pays. What they compare with, dense
-# matrices, wants some of GCC's.
+# Tests are compiled once and run for seconds: little optimisation pays, and less by clang.
 set(PLUMESCOUT_TEST_OPTIONS -O1)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   add_compile_options(-fpch-preprocess)  # ccache asks for it

@@ -54,9 +54,10 @@ endfunction()
 #
 # Builds every *_test.cc in and below tests/core/gas into the program core_gas_tests. CTest has one
 # test for each file, under its path: core/gas/posterior_test. Sources are compiled several at a
-# time, which halves the time: each keeps to a namespace of its own name.
+# time, which halves the time: each keeps to a namespace of its own name. OPTIMISE: what they compare
+# with, dense matrices, would run for minutes without.
 function(plumescout_tests folder)
-  cmake_parse_arguments(ARG "" "PRECOMPILED" "DEPS" ${ARGN})
+  cmake_parse_arguments(ARG "OPTIMISE" "PRECOMPILED" "DEPS" ${ARGN})
   if(NOT folder MATCHES "${PLUMESCOUT_SUITES}")
     return()
   endif()
@@ -68,8 +69,12 @@ function(plumescout_tests folder)
        ${PROJECT_SOURCE_DIR}/tests/${folder}/*_test.cc)
   plumescout_unite(united ${target} ${sources})
   plumescout_program(${target} SOURCES ${united} DEPS ${ARG_DEPS} plumescout::tests_main)
-  target_compile_options(${target} PRIVATE ${PLUMESCOUT_TEST_OPTIONS})
-  plumescout_precompile(${target} ${ARG_PRECOMPILED})
+  if(ARG_OPTIMISE AND NOT PLUMESCOUT_TEST_OPTIONS STREQUAL "-O1")
+    target_compile_options(${target} PRIVATE -O1)
+  else()
+    target_compile_options(${target} PRIVATE ${PLUMESCOUT_TEST_OPTIONS})
+    plumescout_precompile(${target} ${ARG_PRECOMPILED})
+  endif()
   if(TARGET plumescout_tsan_absl)
     add_dependencies(${target} plumescout_tsan_absl)  # preloaded
   endif()

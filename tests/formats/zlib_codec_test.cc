@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+
 #include <string>
 
 #include "absl/strings/string_view.h"
@@ -15,7 +17,7 @@ constexpr std::uint64_t kNoLimit = 1 << 30;
 
 TEST(ZlibCodec, WhatIsPackedComesBack) {
   std::string text;
-  for (int i = 0; i < 200'000; ++i) text += static_cast<char>(i * i / 7);
+  for (int i = 0; i < 200'000; ++i) text += static_cast<char>(std::int64_t{i} * i / 7);
   for (const std::string& bytes : {std::string(), std::string("gas"), text}) {
     for (const int level : {-1, 1, 9}) {
       EXPECT_EQ(DecompressZlib(CompressZlib(bytes, level), kNoLimit).value(), bytes);
