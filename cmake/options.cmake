@@ -20,7 +20,10 @@ add_compile_options(-ffp-contract=off)
 # As protobuf's users are compiled, and precompiled headers must be like their users.
 add_compile_options(-pthread)
 
+# Who hangs is stopped; sanitizers make tests several times slower.
+set(PLUMESCOUT_TEST_TIMEOUT_S 120)
 if(PLUMESCOUT_SANITIZE)
+  set(PLUMESCOUT_TEST_TIMEOUT_S 400)
   add_compile_options(-fsanitize=${PLUMESCOUT_SANITIZE} -fno-sanitize-recover=undefined
                       -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${PLUMESCOUT_SANITIZE})

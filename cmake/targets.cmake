@@ -82,7 +82,7 @@ function(plumescout_tests folder)
     string(REGEX REPLACE "^tests/(.*)\\.cc$" "\\1" name ${source})
     add_test(NAME ${name} COMMAND ${target} --source=${source}
              WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
-    set_tests_properties(${name} PROPERTIES TIMEOUT 120
+    set_tests_properties(${name} PROPERTIES TIMEOUT ${PLUMESCOUT_TEST_TIMEOUT_S}
                          ENVIRONMENT "${PLUMESCOUT_TEST_ENVIRONMENT}")
   endforeach()
   set_property(GLOBAL APPEND PROPERTY PLUMESCOUT_TEST_PROGRAMS ${target})
