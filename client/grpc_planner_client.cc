@@ -10,8 +10,10 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/time/clock.h"
+#include "client/credentials.h"
 #include "client/grpc_observation_stream.h"
 #include "client/grpc_status.h"
+#include "client/request_ids.h"
 #include "core/types/status_macros.h"
 #include "plumescout/v1/ingest_service.grpc.pb.h"
 #include "plumescout/v1/map_service.grpc.pb.h"
@@ -33,11 +35,12 @@ constexpr int kKeepaliveTime_ms = 10'000;
 constexpr int kKeepaliveTimeout_ms = 5'000;
 constexpr int kMinReconnect_ms = 100;
 constexpr int kMaxReconnect_ms = 2'000;
-constexpr int kMaxReceive_bytes = 256 << 20;  // the largest map with three layers, and room
+constexpr int kMaxReceive_bytes = 256 << 20;  // more than any server sends in one part of a map
 constexpr int kMissionsPerPage = 1000;
+constexpr int kMapAttempts = 5;
 constexpr std::int64_t kMaxDuration_s = 315'576'000'000;  // of a google.protobuf.Duration
 
-std::shared_ptr<grpc::Channel> MakeChannel(const std::string& target) {
+grpc::ChannelArguments MakeArguments() {
   grpc::ChannelArguments arguments;
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveTime_ms);
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeout_ms);
@@ -47,7 +50,7 @@ std::shared_ptr<grpc::Channel> MakeChannel(const std::string& target) {
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, kMaxReconnect_ms);
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);  // one connection a client
   arguments.SetMaxReceiveMessageSize(kMaxReceive_bytes);
-  return grpc::CreateCustomChannel(target, grpc::InsecureChannelCredentials(), arguments);
+  return arguments;
 }
 
 // Longer than the wire can say: as long as it can say.
@@ -61,7 +64,7 @@ class GrpcPlannerClient final : public PlannerClient {
  public:
   explicit GrpcPlannerClient(const GrpcClientOptions& options)
       : options_(options),
-        channel_(MakeChannel(options.target)),
+        channel_(MakeChannel(options.target, options.credentials, MakeArguments())),
         missions_(channel_),
         robots_(channel_),
         ingest_(channel_),
@@ -73,7 +76,8 @@ class GrpcPlannerClient final : public PlannerClient {
     request.set_mission_id(mission);
     *request.mutable_options() = ChangesToProto(options);
     v1::CreateMissionResponse response;
-    return Call(missions_, &v1::MissionService::Stub::CreateMission, request, &response);
+    return CallNamed(missions_, &v1::MissionService::Stub::CreateMission, request, &response,
+                     options_.call_timeout);
   }
 
   absl::StatusOr<std::vector<MissionId>> ListMissions() override {
@@ -109,8 +113,8 @@ class GrpcPlannerClient final : public PlannerClient {
     request.set_radius_m(radius_m);
     request.set_take_over(take_over);
     v1::RegisterRobotResponse response;
-    PLUMESCOUT_RETURN_IF_ERROR(
-        Call(robots_, &v1::RobotService::Stub::RegisterRobot, request, &response));
+    PLUMESCOUT_RETURN_IF_ERROR(CallNamed(robots_, &v1::RobotService::Stub::RegisterRobot, request,
+                                         &response, options_.call_timeout));
     const v1::IngestState& state = response.ingest_state();
     return RobotSession{.mission = mission,
                         .robot = robot,
@@ -153,8 +157,8 @@ class GrpcPlannerClient final : public PlannerClient {
     request.set_go_home(query.request.go_home);
     request.set_max_edge_evaluation_count(query.request.max_edge_evaluations);
     v1::NextBestTrajectoryResponse response;
-    PLUMESCOUT_RETURN_IF_ERROR(Call(planning_, &v1::PlanningService::Stub::NextBestTrajectory,
-                                    request, &response, query.timeout));
+    PLUMESCOUT_RETURN_IF_ERROR(CallNamed(planning_, &v1::PlanningService::Stub::NextBestTrajectory,
+                                         request, &response, query.timeout));
     return FromProto(response.plan(), "plan");
   }
 
@@ -170,16 +174,32 @@ class GrpcPlannerClient final : public PlannerClient {
   }
 
   absl::StatusOr<MapSnapshot> GetMap(const MissionId& mission) override {
+    absl::StatusOr<MapSnapshot> map;
+    // The revision of the first part may go while the others are fetched.
+    for (int attempt = 0; attempt < kMapAttempts; ++attempt) {
+      map = GetMapParts(mission);
+      if (!absl::IsAborted(map.status())) break;
+    }
+    return map;
+  }
+
+ private:
+  absl::StatusOr<MapSnapshot> GetMapParts(const MissionId& mission) {
     v1::GetMapRequest request;
     request.set_mission(MissionResource(mission));
     request.set_full_precision(true);
     request.set_fresh_posterior(true);
-    v1::GetMapResponse response;
-    PLUMESCOUT_RETURN_IF_ERROR(Call(maps_, &v1::MapService::Stub::GetMap, request, &response));
-    return FromProto(response);
+    v1::GetMapResponse part;
+    PLUMESCOUT_RETURN_IF_ERROR(Call(maps_, &v1::MapService::Stub::GetMap, request, &part));
+    PLUMESCOUT_ASSIGN_OR_RETURN(MapSnapshot map, FromProto(part));
+    while (!part.next_part_token().empty()) {
+      request.set_part_token(part.next_part_token());
+      PLUMESCOUT_RETURN_IF_ERROR(Call(maps_, &v1::MapService::Stub::GetMap, request, &part));
+      PLUMESCOUT_RETURN_IF_ERROR(AddTiles(part, map));
+    }
+    return map;
   }
 
- private:
   template <typename Stub, typename Method, typename Request, typename Response>
   absl::Status Call(Stub& stub, Method method, const Request& request, Response* response,
                     absl::Duration timeout) {
@@ -197,7 +217,19 @@ class GrpcPlannerClient final : public PlannerClient {
     return Call(stub, method, request, response, options_.call_timeout);
   }
 
+  // The request has a name by which the server knows it again.
+  template <typename Stub, typename Method, typename Request, typename Response>
+  absl::Status CallNamed(Stub& stub, Method method, Request request, Response* response,
+                         absl::Duration timeout) {
+    const std::string content = absl::StrCat(request.GetTypeName(), request.SerializeAsString());
+    request.set_request_id(request_ids_.NameOf(content));
+    const absl::Status status = Call(stub, method, request, response, timeout);
+    request_ids_.NoteEnd(content, request.request_id(), status);
+    return status;
+  }
+
   const GrpcClientOptions options_;
+  RequestIds request_ids_;
   const std::shared_ptr<grpc::Channel> channel_;
   v1::MissionService::Stub missions_;
   v1::RobotService::Stub robots_;

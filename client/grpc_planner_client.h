@@ -6,12 +6,14 @@
 #include <string>
 
 #include "absl/time/time.h"
+#include "client/credentials.h"
 #include "client/planner_client.h"
 
 namespace plumescout::client {
 
 struct GrpcClientOptions {
   std::string target = "127.0.0.1:50551";  // host:port of the server
+  Credentials credentials = {};
   // Of calls that name none. They wait for the link to come up, within this time; kUnavailable if
   // it has not, kDeadlineExceeded if the answer has not come over it.
   absl::Duration call_timeout = absl::Seconds(10);

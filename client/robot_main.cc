@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "client/credentials.h"
 #include "client/grpc_planner_client.h"
 #include "client/line_driver.h"
 #include "client/robot_loop.h"
@@ -78,6 +79,20 @@ struct Flags {
   std::string prior_map;  // empty: none
 };
 
+void AddCredentials(CLI::App& app, Credentials& credentials) {
+  app.add_option("--tls-ca", credentials.tls_ca_file,
+                 "PEM file of the authorities of the server's certificate: speak TLS")
+      ->envname("PLUMESCOUT_TLS_CA");
+  app.add_option("--tls-cert", credentials.tls_certificate_file,
+                 "PEM file of this client's certificate, which says who it is")
+      ->envname("PLUMESCOUT_TLS_CERT");
+  app.add_option("--tls-key", credentials.tls_key_file, "PEM file of its private key")
+      ->envname("PLUMESCOUT_TLS_KEY");
+  app.add_option("--token-file", credentials.token_file,
+                 "file with the bearer token that says who this client is")
+      ->envname("PLUMESCOUT_TOKEN_FILE");
+}
+
 void AddFlags(CLI::App& app, Flags& flags) {
   Participation& participation = flags.loop.participation;
   app.add_option("--server", flags.client.target, "host:port of the server")->capture_default_str();
@@ -112,6 +127,7 @@ void AddFlags(CLI::App& app, Flags& flags) {
 }
 
 absl::Status RunRobot(Flags flags) {
+  PLUMESCOUT_RETURN_IF_ERROR(CheckCredentials(flags.client.credentials));
   if (flags.create_mission) flags.loop.participation.create = MissionOptions{};
   if (!flags.prior_map.empty()) {
     PLUMESCOUT_ASSIGN_OR_RETURN(Grid<CellState> map, ReadMapServer(flags.prior_map));
@@ -145,6 +161,7 @@ int main(int argc, char** argv) {
   CLI::App app(client::kDescription, "plumescout-robot");
   client::Flags flags;
   client::AddFlags(app, flags);
+  client::AddCredentials(app, flags.client.credentials);
   CLI11_PARSE(app, argc, argv);
   const absl::Status status = client::RunRobot(flags);
   if (status.ok()) return EXIT_SUCCESS;

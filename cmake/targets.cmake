@@ -26,7 +26,7 @@ endfunction()
 # plumescout_library(core_gas SOURCES a.cc b.cc DEPS plumescout::core_linalg absl::status)
 #
 # Makes the library plumescout_core_gas with the alias plumescout::core_gas. Includes are relative
-# to the root of the repository. Without SOURCES the library is an INTERFACE (headers only).
+# to the root of the repository. Without sources the library is an INTERFACE (headers only).
 # PRECOMPILED names the headers that are read once, if not `base`. APART: sources among them that are
 # compiled singly, for names of their unnamed namespaces are also those of others.
 function(plumescout_library name)
@@ -34,10 +34,13 @@ function(plumescout_library name)
   if(NOT ARG_PRECOMPILED)
     set(ARG_PRECOMPILED base)
   endif()
-  if(ARG_SOURCES)
+  if(ARG_SOURCES OR ARG_APART)
     file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
-    list(TRANSFORM ARG_SOURCES PREPEND ${folder}/ OUTPUT_VARIABLE sources)
-    plumescout_unite(united ${name} ${sources})
+    set(united)
+    if(ARG_SOURCES)
+      list(TRANSFORM ARG_SOURCES PREPEND ${folder}/ OUTPUT_VARIABLE sources)
+      plumescout_unite(united ${name} ${sources})
+    endif()
     add_library(plumescout_${name} STATIC ${united} ${ARG_APART})
     plumescout_precompile(plumescout_${name} ${ARG_PRECOMPILED})
     target_include_directories(plumescout_${name} PUBLIC ${PROJECT_SOURCE_DIR})

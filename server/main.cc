@@ -1,20 +1,32 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <signal.h>
+#include <unistd.h>
 
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <string>
 
 #include "absl/strings/str_cat.h"
+#include "absl/time/time.h"
+#include "server/base/address.h"
+#include "server/base/descriptor_limit.h"
+#include "server/base/exit_timer.h"
+#include "server/base/grpc_log.h"
 #include "server/base/log.h"
 #include "server/config/command_line.h"
+#include "server/observe/http_endpoints.h"
 #include "server/server.h"
 
 namespace plumescout::server {
 namespace {
 
 constexpr int kExitUsage = 2;
+constexpr int kExitUnreachable = 3;  // whoever watches over the server starts it again
+// How long the end waits for who reads the log.
+constexpr absl::Duration kLogPatience = absl::Milliseconds(200);
 
 // Signals that stop the server are taken by WaitForSignal, whichever thread they would meet.
 sigset_t BlockStopSignals() {
@@ -33,27 +45,76 @@ int WaitForSignal(const sigset_t& signals) {
 }
 
 // Programs that start a server on port 0 read the port from this line.
-void PrintAddress(const ServerConfig& config, int port) {
-  const std::string host = config.listen.substr(0, config.listen.rfind(':'));
-  std::printf("listening on %s:%d\n", host.c_str(), port);
+void PrintAddress(const char* what, const std::string& address, int port) {
+  if (IsUnixAddress(address)) {
+    std::printf("%s on %s\n", what, address.c_str());
+  } else {
+    std::printf("%s on %s:%d\n", what, address.substr(0, address.rfind(':')).c_str(), port);
+  }
   std::fflush(stdout);
 }
 
-int Run(const ServerConfig& config) {
-  const sigset_t signals = BlockStopSignals();  // before the first thread starts
-  auto server = Server::Start(config);
-  if (!server.ok()) {
-    LogWarning("cannot start", {{"why", std::string(server.status().message())}});
-    return EXIT_FAILURE;
+void LogDescriptorLimit() {
+  const auto limit = RaiseDescriptorLimit();
+  if (limit.ok()) {
+    LogInfo("descriptors",
+            {{"limit", absl::StrCat(limit->now)}, {"before", absl::StrCat(limit->before)}});
+  } else {
+    LogWarning("descriptors not raised", {{"why", std::string(limit.status().message())}});
   }
-  PrintAddress(config, (*server)->port());
+}
+
+int FailToStart(const absl::Status& status) {
+  LogError("cannot start", {{"why", std::string(status.message())}});
+  return EXIT_FAILURE;
+}
+
+// Null if there is to be no HTTP.
+absl::StatusOr<std::unique_ptr<HttpEndpoints>> ServeHttp(const ServerConfig& config,
+                                                         const Server& server) {
+  const std::string address = HttpListen(config);
+  if (address.empty()) return nullptr;
+  auto http = HttpEndpoints::Start(address, {[&server] { return server.MetricsText(); },
+                                             [&server] { return !server.draining(); }});
+  if (http.ok()) PrintAddress("metrics", address, (*http)->port());
+  return http;
+}
+
+int Run(const ServerConfig& config) {
+  LogDescriptorLimit();
+  std::atomic<bool> unreachable = false;
+  const auto stop = [] { kill(getpid(), SIGTERM); };  // wakes the wait below
+  auto server = Server::Start(config, {}, {.drain = stop, .unreachable = [&unreachable, stop] {
+                                             unreachable = true;
+                                             stop();
+                                           }});
+  if (!server.ok()) return FailToStart(server.status());
+  auto http = ServeHttp(config, **server);
+  if (!http.ok()) return FailToStart(http.status());
+  PrintAddress("listening", config.listen, (*server)->port());
   LogInfo("serving",
           {{"port", absl::StrCat((*server)->port())}, {"boot_id", (*server)->boot_id()}});
-  const int signal = WaitForSignal(signals);
+  const int signal = WaitForSignal(BlockStopSignals());
   LogInfo("draining", {{"signal", absl::StrCat(signal)}});
+  const int exit_code = unreachable ? kExitUnreachable : EXIT_SUCCESS;
+  const ExitTimer limit(absl::Seconds(config.connection.drain_s) + Server::kStopLimit, exit_code);
   (*server)->Drain();
+  http->reset();
+  server->reset();
   LogInfo("stopped");
-  return EXIT_SUCCESS;
+  return exit_code;
+}
+
+int RunLogged(const ServerConfig& config) {
+  BlockStopSignals();  // before the first thread starts
+  // Who reads our output may go away.
+  signal(SIGPIPE, SIG_IGN);
+  ConfigureLog(
+      {*ParseLogLevel(config.observe.log_level), *ParseLogFormat(config.observe.log_format)});
+  TakeGrpcLog();
+  const int exit_code = Run(config);
+  FlushLog(kLogPatience);
+  return exit_code;
 }
 
 }  // namespace
@@ -70,5 +131,5 @@ int main(int argc, char** argv) {
     std::printf("%s", command_line->print->c_str());
     return EXIT_SUCCESS;
   }
-  return plumescout::server::Run(command_line->config);
+  return plumescout::server::RunLogged(command_line->config);
 }

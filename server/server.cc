@@ -2,19 +2,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/server.h"
 
+#include <grpcpp/ext/channelz_service_plugin.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
+#include <grpcpp/generic/generic_stub.h>
 #include <grpcpp/health_check_service_interface.h>
+#include <grpcpp/impl/server_builder_option.h>
 #include <grpcpp/resource_quota.h>
-#include <grpcpp/security/server_credentials.h>
 #include <grpcpp/server_builder.h>
 
+#include <algorithm>
 #include <chrono>
+#include <future>
 #include <random>
+#include <thread>
 #include <utility>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/synchronization/notification.h"
 #include "core/types/status_macros.h"
+#include "server/access/server_credentials.h"
+#include "server/base/address.h"
 #include "server/base/errors.h"
+#include "server/base/knock.h"
 #include "server/base/log.h"
 
 namespace plumescout::server {
@@ -27,28 +37,56 @@ std::uint64_t RandomBits() {
 
 std::string NewBootId() { return absl::StrCat(absl::Hex(RandomBits(), absl::kZeroPad16)); }
 
-// Far from the tokens of an earlier start, with room to count up for ever.
-std::int64_t FirstLeaseToken() {
-  constexpr int kTokensPerBoot_bits = 20;
-  constexpr std::uint64_t kBootMask = (std::uint64_t{1} << 40) - 1;
-  return static_cast<std::int64_t>((RandomBits() & kBootMask) << kTokensPerBoot_bits) + 1;
+// Times to live are seconds at least.
+constexpr absl::Duration kSweepPeriod = absl::Seconds(1);
+
+RateOptions ToRateOptions(const LimitConfig& limits) {
+  return {.scans_per_s = limits.max_scans_per_s,
+          .gas_readings_per_s = limits.max_gas_readings_per_s,
+          .ingest_bytes_per_s = limits.max_ingest_bytes_per_s,
+          .plans_per_s = limits.max_plans_per_s,
+          .ingest_burst = absl::Seconds(limits.ingest_burst_s)};
 }
 
 RegistryOptions ToRegistryOptions(const ServerConfig& config) {
   RegistryOptions options;
   options.max_missions = config.limits.max_missions;
-  options.max_total_cells = config.limits.max_total_cells;
+  options.memory_budget_bytes = config.limits.memory_budget_bytes;
+  options.mission_memory_budget_bytes = config.limits.mission_memory_budget_bytes;
+  options.max_map_cell_count = config.limits.max_map_cell_count;
+  options.max_beam_count = config.limits.max_beam_count;
+  options.max_range_m = config.limits.max_range_m;
   options.host.max_queued_observations = config.limits.max_queued_observations;
+  options.host.max_queued_bytes = config.limits.max_queued_bytes;
   options.host.max_waiters = config.limits.max_waiting_calls;
+  options.host.max_wait = absl::Seconds(config.limits.max_wait_s);
   options.host.publish_period = absl::Seconds(config.maps.publish_period_s);
   options.host.gas_wait = absl::Seconds(config.maps.gas_wait_s);
+  options.host.max_map_part_bytes = config.maps.max_part_bytes;
   options.host.lease_hold = absl::Seconds(config.connection.lease_hold_s);
-  options.host.first_lease_token = FirstLeaseToken();
+  options.host.first_lease_token = FirstLeaseToken(RandomBits());
+  options.host.max_clock_lead = absl::Seconds(config.limits.max_clock_lead_s);
+  options.host.rates = ToRateOptions(config.limits);
+  return options;
+}
+
+FairPoolOptions ToPlanningPoolOptions(const PlanningConfig& config) {
+  FairPoolOptions options;
+  options.name = "planning";
+  options.threads = config.threads;
+  options.max_queued = config.max_queued;
+  options.max_queued_per_group = config.max_queued_per_mission;
+  options.max_queued_per_member = config.max_queued_per_robot;
+  options.max_running_per_group = config.max_running_per_mission > 0
+                                      ? config.max_running_per_mission
+                                      : std::max(1, config.threads - 1);
   return options;
 }
 
 // Audits are rare and nobody waits for them: one thread does for all missions.
 constexpr int kAuditThreads = 1;
+// Missions are created now and then; those with large known maps take a second, beside the others.
+constexpr int kCreationThreads = 1;
 
 ServiceLimits ToServiceLimits(const ServerConfig& config) {
   ServiceLimits limits;
@@ -61,9 +99,10 @@ ServiceLimits ToServiceLimits(const ServerConfig& config) {
 }
 
 RegistryHooks Complete(RegistryHooks hooks, const ServerConfig& config, WorkerPool* epoch_pool,
-                       WorkerPool* audit_pool) {
+                       WorkerPool* audit_pool, MissionMetrics* metrics) {
   hooks.epoch_pool = epoch_pool;
   hooks.audit_pool = audit_pool;
+  hooks.metrics = metrics;
   if (config.planning.rivals) {
     hooks.make_strategy = [](const PlanningOptions& options) {
       return MakeMissionStrategy(options, Rivals::kOn);
@@ -71,6 +110,9 @@ RegistryHooks Complete(RegistryHooks hooks, const ServerConfig& config, WorkerPo
   }
   return hooks;
 }
+
+constexpr int kHandshakeTimeout_ms = 10'000;  // who connects and says nothing is hung up on
+constexpr absl::Duration kProbeTimeout = absl::Seconds(5);
 
 int Milliseconds(double seconds) {
   return static_cast<int>(absl::ToInt64Milliseconds(absl::Seconds(seconds)));
@@ -87,59 +129,120 @@ void SetArguments(const ServerConfig& config, grpc::ServerBuilder& builder) {
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
   builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
                              Milliseconds(connection.min_client_ping_interval_s));
+  builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kHandshakeTimeout_ms);
   // Two servers must not share a port by accident.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
 }
 
+// gRPC gives its plugins to every server of a process; this takes away what a server is not to
+// have.
+class PluginChoice final : public grpc::ServerBuilderOption {
+ public:
+  explicit PluginChoice(const ObserveConfig& observe) : observe_(observe) {}
+
+  void UpdateArguments(grpc::ChannelArguments*) override {}
+  void UpdatePlugins(std::vector<std::unique_ptr<grpc::ServerBuilderPlugin>>* plugins) override {
+    std::erase_if(*plugins, [&](const auto& plugin) {
+      if (plugin->name() == "proto_server_reflection") return !observe_.reflection;
+      return plugin->name() == "channelz_service" && !observe_.channelz;
+    });
+  }
+
+ private:
+  const ObserveConfig observe_;
+};
+
+void ChoosePlugins(const ObserveConfig& observe, grpc::ServerBuilder& builder) {
+  builder.SetOption(std::make_unique<PluginChoice>(observe));
+}
+
+// Of builders that are made from now on.
+void OfferPlugins() {
+  grpc::EnableDefaultHealthCheckService(true);
+  grpc::reflection::InitProtoReflectionServerBuilderPlugin();
+  grpc::channelz::experimental::InitChannelzService();
+}
+
 }  // namespace
 
-Server::Server(Private, const ServerConfig& config, RegistryHooks hooks)
+Server::Server(Private, const ServerConfig& config, RegistryHooks hooks,
+               std::shared_ptr<const Authenticator> authenticator, ServerEvents events)
     : config_(config),
       epoch_pool_({"epoch", config.epochs.threads, config.epochs.max_queued}),
       audit_pool_({"audit", kAuditThreads, config.limits.max_missions}),
-      registry_(ToRegistryOptions(config),
-                Complete(std::move(hooks), config, &epoch_pool_, &audit_pool_)),
-      planning_pool_({"planning", config.planning.threads, config.planning.max_queued}),
+      registry_(ToRegistryOptions(config), Complete(std::move(hooks), config, &epoch_pool_,
+                                                    &audit_pool_, &metrics_.missions())),
+      planning_pool_(ToPlanningPoolOptions(config.planning)),
       map_pool_({"map", config.maps.threads, config.maps.max_queued}),
-      context_{&registry_,     &planning_pool_,         &map_pool_, &streams_,
-               config.mission, ToServiceLimits(config), NewBootId()},
+      query_pool_({"query", config.maps.query_threads, config.maps.max_queued_queries}),
+      creation_pool_({"creation", kCreationThreads, config.limits.max_missions}),
+      door_([authenticator = std::move(authenticator)](const grpc::CallbackServerContext& call) {
+        return authenticator->Identify(ReadCredentials(call));
+      }),
+      context_{&door_,
+               &registry_,
+               &planning_pool_,
+               &map_pool_,
+               &query_pool_,
+               &creation_pool_,
+               &streams_,
+               config.mission,
+               ToServiceLimits(config),
+               NewBootId(),
+               std::make_shared<RequestMemory>()},
       mission_service_(&context_),
       robot_service_(&context_),
       ingest_service_(&context_),
       planning_service_(&context_),
-      map_service_(&context_) {}
+      map_service_(&context_),
+      system_service_(&context_, &config_, std::move(events.drain)) {
+  door_.AddObserver([this](const CallInfo& info, const CallEnd& end) {
+    metrics_.calls().Note(info.rpc, end.status, end.duration);
+  });
+  door_.AddObserver([log = CallLog(absl::Seconds(config.observe.slow_call_s))](
+                        const CallInfo& info, const CallEnd& end) { log.Note(info, end); });
+}
 
 absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config,
-                                                      RegistryHooks hooks) {
+                                                      RegistryHooks hooks, ServerEvents events) {
   if (config.planning.rivals && !HasRivals()) {
     return absl::InvalidArgumentError(
         "planning.rivals = true needs a server that is built with OMPL");
   }
-  auto server = std::make_unique<Server>(Private(), config, std::move(hooks));
+  PLUMESCOUT_ASSIGN_OR_RETURN(auto authenticator,
+                              Authenticator::Make(config.access, IsLocalAddress(config.listen)));
+  auto unreachable = std::move(events.unreachable);
+  auto server = std::make_unique<Server>(Private(), config, std::move(hooks),
+                                         std::move(authenticator), std::move(events));
   PLUMESCOUT_RETURN_IF_ERROR(server->Listen());
+  server->StartProbe(std::move(unreachable));
   return server;
 }
 
-Server::~Server() { Drain(); }
+Server::~Server() {
+  Drain();
+  registry_.AwaitStopped(SteadyTime::max());
+}
 
 absl::Status Server::Listen() {
-  grpc::EnableDefaultHealthCheckService(true);
-  grpc::reflection::InitProtoReflectionServerBuilderPlugin();
+  OfferPlugins();
   grpc::ServerBuilder builder;
   SetArguments(config_, builder);
-  if (!config_.listen.empty()) {
-    builder.AddListeningPort(config_.listen, grpc::InsecureServerCredentials(), &port_);
-  }
+  ChoosePlugins(config_.observe, builder);
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto credentials, MakeServerCredentials(config_.access));
+  if (!config_.listen.empty()) builder.AddListeningPort(config_.listen, credentials, &port_);
   builder.RegisterService(&mission_service_);
   builder.RegisterService(&robot_service_);
   builder.RegisterService(&ingest_service_);
   builder.RegisterService(&planning_service_);
   builder.RegisterService(&map_service_);
+  builder.RegisterService(&system_service_);
   grpc_server_ = builder.BuildAndStart();
   if (grpc_server_ == nullptr || (!config_.listen.empty() && port_ == 0)) {
     return absl::UnavailableError(absl::StrCat("cannot listen on ", config_.listen));
   }
   grpc_server_->GetHealthCheckService()->SetServingStatus(true);
+  idle_sweeper_ = std::make_unique<IdleSweeper>(&registry_, kSweepPeriod);
   return absl::OkStatus();
 }
 
@@ -147,17 +250,73 @@ std::shared_ptr<grpc::Channel> Server::InProcessChannel() {
   return grpc_server_->InProcessChannel(grpc::ChannelArguments());
 }
 
+absl::Status Server::Probe() {
+  PLUMESCOUT_RETURN_IF_ERROR(Knock(config_.listen, port_, kProbeTimeout));
+  grpc::GenericStub stub(InProcessChannel());
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + absl::ToChronoSeconds(kProbeTimeout));
+  const grpc::Slice whole_server;  // HealthCheckRequest{}
+  const grpc::ByteBuffer request(&whole_server, 1);
+  grpc::ByteBuffer response;
+  std::promise<grpc::Status> answer;
+  stub.UnaryCall(&context, "/grpc.health.v1.Health/Check", {}, &request, &response,
+                 [&](grpc::Status status) { answer.set_value(std::move(status)); });
+  const grpc::Status status = answer.get_future().get();
+  if (status.ok()) return absl::OkStatus();
+  return absl::UnavailableError(absl::StrCat("health: ", status.error_message()));
+}
+
+void Server::StartProbe(std::function<void()> unreachable) {
+  if (config_.listen.empty() || config_.connection.self_probe_period_s == 0.0) return;
+  SelfProbe::Options options;
+  options.period = absl::Seconds(config_.connection.self_probe_period_s);
+  probe_ = std::make_unique<SelfProbe>(
+      options, [this] { return Probe(); },
+      [this, unreachable = std::move(unreachable)](const absl::Status& why) {
+        LogWarning("the server does not reach itself", {{"why", std::string(why.message())}});
+        grpc_server_->GetHealthCheckService()->SetServingStatus(false);
+        if (unreachable) unreachable();
+      });
+}
+
+std::string Server::MetricsText() const {
+  ServerState state;
+  state.missions = &registry_;
+  state.streams = &streams_;
+  state.pools = {planning_pool_.load(), map_pool_.load(),   query_pool_.load(),
+                 creation_pool_.load(), epoch_pool_.load(), audit_pool_.load()};
+  state.boot_id = context_.boot_id;
+  state.began = began_;
+  state.max_missions = config_.limits.max_missions;
+  state.memory_budget_bytes = config_.limits.memory_budget_bytes;
+  state.draining = draining_;
+  return metrics_.Text(state);
+}
+
 void Server::Drain() {
-  if (drained_) return;
-  drained_ = true;
-  if (grpc_server_ != nullptr) {
-    grpc_server_->GetHealthCheckService()->SetServingStatus(false);
-    streams_.EndAll(Draining());
-    grpc_server_->Shutdown(std::chrono::system_clock::now() +
-                           std::chrono::milliseconds(Milliseconds(config_.connection.drain_s)));
-    grpc_server_->Wait();
-  }
+  if (draining_.exchange(true)) return;
+  probe_.reset();
+  const SteadyTime cut = After(SteadyNow(), absl::Seconds(config_.connection.drain_s));
+  if (grpc_server_ != nullptr) EndCalls(cut);
+  idle_sweeper_.reset();
   registry_.StopAll(Draining());
+  registry_.AwaitStopped(After(std::max(cut, SteadyNow()), kStopLimit));
+}
+
+void Server::EndCalls(SteadyTime cut) {
+  grpc_server_->GetHealthCheckService()->SetServingStatus(false);
+  registry_.EndWaits(Draining());
+  streams_.EndAll(Draining());
+  // gRPC waits for the answers that queued commands owe.
+  absl::Notification answered;
+  std::thread cutter([&] {
+    answered.WaitForNotificationWithTimeout(absl::FromChrono(cut - SteadyNow()));
+    registry_.StopAll(Draining());
+  });
+  grpc_server_->Shutdown(std::chrono::system_clock::now() + (cut - SteadyNow()));
+  grpc_server_->Wait();
+  answered.Notify();
+  cutter.join();
 }
 
 }  // namespace plumescout::server

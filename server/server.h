@@ -5,20 +5,36 @@
 #include <grpcpp/channel.h>
 #include <grpcpp/server.h>
 
+#include <atomic>
+#include <functional>
 #include <memory>
 #include <string>
 
 #include "absl/status/statusor.h"
 #include "absl/time/time.h"
+#include "server/access/authenticator.h"
+#include "server/calls/call_log.h"
+#include "server/calls/service_context.h"
 #include "server/config/config.h"
+#include "server/missions/idle_sweeper.h"
+#include "server/self_probe.h"
+#include "server/server_metrics.h"
 #include "server/services/ingest_service.h"
 #include "server/services/map_service.h"
 #include "server/services/mission_service.h"
 #include "server/services/planning_service.h"
 #include "server/services/robot_service.h"
-#include "server/streams/service_context.h"
+#include "server/services/system_service.h"
 
 namespace plumescout::server {
+
+// What a server tells whoever runs it, from any thread. None may block, or drain the server itself.
+struct ServerEvents {
+  // A caller wants it drained; see SystemService. Null: callers cannot.
+  std::function<void()> drain = nullptr;
+  // Nobody can connect to it any more, and its health is NOT_SERVING. Called once at most.
+  std::function<void()> unreachable = nullptr;
+};
 
 // The whole service in one object: missions, pools, gRPC.
 class Server {
@@ -27,10 +43,12 @@ class Server {
   };
 
  public:
-  Server(Private, const ServerConfig& config, RegistryHooks hooks);  // Start makes servers
+  Server(Private, const ServerConfig& config, RegistryHooks hooks,
+         std::shared_ptr<const Authenticator> authenticator, ServerEvents events);  // Start makes
   // kUnavailable if the address cannot be listened on. An empty `listen`: in-process only.
   static absl::StatusOr<std::unique_ptr<Server>> Start(const ServerConfig& config,
-                                                       RegistryHooks hooks = {});
+                                                       RegistryHooks hooks = {},
+                                                       ServerEvents events = {});
   // Drains.
   ~Server();
   Server(const Server&) = delete;
@@ -38,23 +56,39 @@ class Server {
 
   int port() const { return port_; }  // 0 if in-process only
   const std::string& boot_id() const { return context_.boot_id; }
+  bool draining() const { return draining_; }
+  // All metrics in Prometheus' text format. From any thread.
+  std::string MetricsText() const;
   std::shared_ptr<grpc::Channel> InProcessChannel();
 
-  // Turns health to NOT_SERVING, ends all streams with UNAVAILABLE and a time to retry, lets calls
-  // in flight finish for `config.connection.drain_s`, then cancels them; stops the missions.
-  // Returns when all is quiet. Idempotent.
+  // Turns health to NOT_SERVING; ends all streams, and all calls that wait for a belief or a plan,
+  // with UNAVAILABLE and a time to retry; lets other calls in flight finish for
+  // `config.connection.drain_s`, then cancels them, and stops the missions. Returns when every call
+  // has its answer and every mission has stopped, but does not wait for missions longer than
+  // kStopLimit after that time. Idempotent.
   void Drain();
+  static constexpr absl::Duration kStopLimit = absl::Milliseconds(800);
 
  private:
   absl::Status Listen();
+  // Returns when every call has its answer; drops what the missions have queued at `cut`.
+  void EndCalls(SteadyTime cut);
+  // Whether the server takes connections and answers calls.
+  absl::Status Probe();
+  void StartProbe(std::function<void()> unreachable);
 
   const ServerConfig config_;
+  const SteadyTime began_ = SteadyNow();
+  ServerMetrics metrics_;  // before all that counts
   WorkerPool epoch_pool_;  // before the missions that use it, as is the next
   WorkerPool audit_pool_;
   MissionRegistry registry_;
-  WorkerPool planning_pool_;
+  FairPool planning_pool_;
   WorkerPool map_pool_;
+  WorkerPool query_pool_;
+  WorkerPool creation_pool_;
   ActiveStreams streams_;
+  Door door_;
   const ServiceContext context_;
 
   MissionService mission_service_;
@@ -62,10 +96,13 @@ class Server {
   IngestService ingest_service_;
   PlanningService planning_service_;
   MapService map_service_;
+  SystemService system_service_;
+  std::unique_ptr<IdleSweeper> idle_sweeper_;  // while the server serves
 
   int port_ = 0;
-  bool drained_ = false;
+  std::atomic<bool> draining_ = false;
   std::unique_ptr<grpc::Server> grpc_server_;
+  std::unique_ptr<SelfProbe> probe_;  // null: none
 };
 
 }  // namespace plumescout::server

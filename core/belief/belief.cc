@@ -22,12 +22,9 @@ std::vector<Cell> RobotCells(const Belief& belief) {
 
 }  // namespace
 
-MapSnapshot MakeMapSnapshot(const Belief& belief) {
-  MapSnapshot map;
+MapStatus MakeMapStatus(const Belief& belief) {
+  MapStatus map;
   map.revision = belief.revision;
-  map.occupancy = *belief.occupancy;
-  map.gas_mean_ppm = *belief.gas_mean_ppm;
-  map.gas_variance_ppm2 = *belief.gas_variance_ppm2;
   map.gas_counters = belief.gas_counters;
   map.gas_quality = belief.gas_quality;
   map.gas_audits = belief.gas_audits;
@@ -47,6 +44,11 @@ MapSnapshot MakeMapSnapshot(const Belief& belief) {
     map.frontiers.push_back(std::move(frontier));
   }
   return map;
+}
+
+MapSnapshot MakeMapSnapshot(const Belief& belief) {
+  return {MakeMapStatus(belief), *belief.occupancy, *belief.gas_mean_ppm,
+          *belief.gas_variance_ppm2};
 }
 
 }  // namespace plumescout

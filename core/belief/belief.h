@@ -56,7 +56,8 @@ struct RobotRecord {
   PlanId last_plan = 0;               // its latest; 0: none yet
   // Of the latest plan while it is live; null if it has ended, or is to stay.
   std::shared_ptr<const Trajectory> live_trajectory;
-  std::optional<Goal> live_goal;  // where that ends
+  std::optional<Goal> live_goal;     // where that ends
+  std::int64_t live_arrival_ns = 0;  // when it is there by plan, in sample time
 };
 
 // Immutable snapshot of a mission that readers plan on and look at. Rasters are shared between
@@ -88,7 +89,9 @@ struct Belief {
   const GridGeometry& geometry() const { return occupancy->geometry(); }
 };
 
-// The map as watchers see it: rasters copied, frontiers found from all robots.
+// What watchers see beside the rasters: frontiers are found from all robots.
+MapStatus MakeMapStatus(const Belief& belief);
+// The map as watchers see it, with rasters copied.
 MapSnapshot MakeMapSnapshot(const Belief& belief);
 
 }  // namespace plumescout

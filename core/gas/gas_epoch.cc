@@ -36,9 +36,11 @@ void GasEpoch::Recompute() {
   auto engine = std::make_unique<FieldEngine>(static_cast<std::size_t>(inputs_.lattice.width),
                                               static_cast<std::size_t>(inputs_.lattice.height),
                                               inputs_.cells, inputs_.options);
+  if (engine->abandoned()) return;
   drift_ = DriftBetween(inputs_, *engine);
   if (!inputs_.aged.empty()) {
     [[maybe_unused]] const absl::Status status = engine->Apply(inputs_.aged);
+    if (engine->abandoned()) return;
     assert(status.ok());  // cells of this lattice, precisions below those they had
   }
   engine_ = std::move(engine);

@@ -36,7 +36,8 @@ class GasEpoch {
  public:
   explicit GasEpoch(EpochInputs inputs) : inputs_(std::move(inputs)) {}
 
-  // The long part; may run on any thread. Does nothing if it is done.
+  // The long part; may run on any thread. Does nothing if it is done, and comes to nothing if
+  // FieldOptions::stop ends it.
   // Cost: a fresh computation, two with ageing.
   void Recompute();
   bool done() const { return engine_ != nullptr; }

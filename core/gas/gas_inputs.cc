@@ -17,8 +17,28 @@ void SortOnce(std::vector<GasCell>& cells) {
 
 }  // namespace
 
-GasInputs::GasInputs(const GasOptions& options)
-    : factor_(options.lattice_factor), ages_(Ageing(options).enabled()), readings_(options) {}
+GasInputs::GasInputs(const GasOptions& options, double resolution_m)
+    : factor_(options.lattice_factor),
+      ages_(Ageing(options).enabled()),
+      readings_(options, resolution_m) {}
+
+bool GasInputs::HasRoomFor(Point2 position) const {
+  if (readings_.HasRoomFor(position)) return true;
+  if (states_.empty()) return false;
+  const Cell cell = states_.states().geometry().CellAt(position);
+  return states_.states().At(cell, CellState::kUnknown) == CellState::kFree;
+}
+
+bool GasInputs::Coarsen() {
+  constexpr int kTwice = 2;
+  if (!CanCoarsen()) return false;
+  factor_ *= kTwice;
+  if (box_.empty()) return true;
+  const GasCell low = GasCellOf({box_.x0, box_.y0}, kTwice);
+  const GasCell high = GasCellOf({box_.x1 - 1, box_.y1 - 1}, kTwice);
+  box_ = {low.x, low.y, high.x + 1, high.y + 1};
+  return true;
+}
 
 absl::StatusOr<std::vector<GasCell>> GasInputs::Update(const Grid<CellState>& states,
                                                        std::int64_t time_ns) {

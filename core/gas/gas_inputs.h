@@ -21,12 +21,16 @@ namespace plumescout {
 // the readings in them say.
 class GasInputs {
  public:
-  explicit GasInputs(const GasOptions& options);
+  // `resolution_m`: as of ReadingStore.
+  explicit GasInputs(const GasOptions& options, double resolution_m = 0.0);
 
   void Add(std::int64_t time_ns, Point2 position, const GasReading& reading) {
     readings_.Add(time_ns, position, reading);
   }
   const GasCounters& counters() const { return readings_.counters(); }
+  const ReadingStore& readings() const { return readings_; }
+  // Whether a reading there has a free cell, or may wait for one; see ReadingStore::HasRoomFor.
+  bool HasRoomFor(Point2 position) const;
 
   // Takes over the map, places readings on it, and ages those alone that an epoch would age too
   // late (see AgeingWatch). Returns the gas cells of which Of may have changed, ascending, each
@@ -42,6 +46,10 @@ class GasInputs {
   // Holds all gas cells that ever were active.
   const GasCellBox& box() const { return box_; }
   int factor() const { return factor_; }
+  // Doubles the factor, unless it would be beyond kMostLatticeFactor. Returns whether it did. Gas
+  // cells are others then.
+  bool Coarsen();
+  bool CanCoarsen() const { return 2 * factor_ <= kMostLatticeFactor; }
   const AgeingWatch& watch() const { return readings_.watch(); }
   // What Of says of readings, by anchor cell.
   std::vector<CellEvidence> AllEvidence() const { return readings_.AllEvidence(); }

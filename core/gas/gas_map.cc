@@ -42,8 +42,8 @@ std::vector<CellChange> Differences(std::span<const CellInput> inputs, const Fie
 
 }  // namespace
 
-GasMap::GasMap(const GasOptions& options)
-    : options_(options), field_options_(ToFieldOptions(options)), inputs_(options) {
+GasMap::GasMap(const GasOptions& options, double resolution_m)
+    : options_(options), field_options_(ToFieldOptions(options)), inputs_(options, resolution_m) {
   assert(Validate(options).ok());
 }
 
@@ -61,24 +61,35 @@ absl::Status GasMap::Refresh(const Grid<CellState>& states, std::int64_t time_ns
     return absl::OkStatus();
   }
   const bool usable = engine_ != nullptr && !has_failed_ && HasRoom(lattice_, inputs_.box(), 0);
-  return Conclude(usable ? Apply(changed) : Rebuild(time_ns), time_ns);
+  if (!usable) return Conclude(Rebuild(time_ns), time_ns);
+  const Changes changes = ChangesIn(changed);
+  const std::int64_t active = active_cells_ + changes.activated - changes.deactivated;
+  const auto lattice_cells = static_cast<std::int64_t>(lattice_.size());
+  const bool fits = FieldBytes(active, lattice_cells) <= most_field_bytes_;
+  return Conclude(fits || !inputs_.CanCoarsen() ? Apply(changes) : Rebuild(time_ns), time_ns);
 }
 
-absl::Status GasMap::Apply(std::span<const GasCell> changed) {
-  std::vector<CellChange> changes;
-  std::int64_t activity_changes = 0;
+// What the engine has not heard.
+GasMap::Changes GasMap::ChangesIn(std::span<const GasCell> changed) const {
+  Changes changes;
   for (const GasCell gas_cell : changed) {
     if (!lattice_.Contains(gas_cell)) continue;  // beside the first cell that has been free
     const std::size_t index = lattice_.Index(gas_cell);
     const CellInput input = inputs_.Of(gas_cell);
     const CellInput heard = engine_->input(index);
     if (input == heard) continue;
-    if (input.active != heard.active) ++activity_changes;
-    changes.push_back({index, input});
+    if (input.active && !heard.active) ++changes.activated;
+    if (!input.active && heard.active) ++changes.deactivated;
+    changes.cells.push_back({index, input});
   }
-  schedule_.NoteRefresh(activity_changes);
+  return changes;
+}
+
+absl::Status GasMap::Apply(const Changes& changes) {
+  schedule_.NoteRefresh(changes.activated + changes.deactivated);
+  active_cells_ += changes.activated - changes.deactivated;
   const std::int64_t healed = engine_->healed();
-  const absl::Status status = engine_->Apply(changes);
+  const absl::Status status = engine_->Apply(changes.cells);
   quality_.healed += engine_->healed() - healed;
   return status;
 }
@@ -86,11 +97,21 @@ absl::Status GasMap::Apply(std::span<const GasCell> changed) {
 // All here and now: at the first free cell, and when the lattice no longer does.
 absl::Status GasMap::Rebuild(std::int64_t time_ns) {
   epoch_.reset();
+  engine_.reset();  // makes room
   inputs_.AgeTo(time_ns);
-  const GasLattice lattice = RoomyLattice();
-  const std::vector<CellInput> inputs = inputs_.On(lattice);
+  GasLattice lattice = RoomyLattice();
+  std::vector<CellInput> inputs = inputs_.On(lattice);
+  active_cells_ = CountActive(inputs);
+  while (FieldBytes(active_cells_, static_cast<std::int64_t>(lattice.size())) > most_field_bytes_ &&
+         inputs_.Coarsen()) {
+    options_.lattice_factor = inputs_.factor();
+    lattice_ = {};
+    lattice = RoomyLattice();
+    inputs = inputs_.On(lattice);
+    active_cells_ = CountActive(inputs);
+  }
   TakeOver(MakeEngine(lattice, inputs, field_options_), lattice);
-  schedule_.NoteFresh(CountActive(inputs));
+  schedule_.NoteFresh(active_cells_);
   quality_.aged_to_ns = time_ns;
   const absl::Status status = engine_->Apply({});  // whether it is sound
   quality_.healed += engine_->healed();
@@ -152,6 +173,7 @@ absl::Status GasMap::Adopt() {
   }
   epoch_->Recompute();
   const std::shared_ptr<GasEpoch> epoch = std::exchange(epoch_, nullptr);
+  if (!epoch->done()) return Conclude(absl::CancelledError("an epoch is abandoned"), time_ns_);
   inputs_.AgeTo(epoch->time_ns());
   const std::vector<CellInput> inputs = inputs_.On(epoch->lattice());
   std::unique_ptr<FieldEngine> engine = epoch->TakeEngine();
@@ -159,7 +181,8 @@ absl::Status GasMap::Adopt() {
   quality_.healed += engine->healed();
   if (!status.ok()) return Conclude(status, time_ns_);
   TakeOver(std::move(engine), epoch->lattice());
-  schedule_.NoteFresh(CountActive(inputs));
+  active_cells_ = CountActive(inputs);
+  schedule_.NoteFresh(active_cells_);
   quality_.aged_to_ns = epoch->time_ns();
   ++quality_.epochs;
   quality_.drift_mean_ppm = epoch->drift().mean_ppm;
@@ -197,6 +220,7 @@ absl::Status GasMap::Conclude(const absl::Status& computed, std::int64_t time_ns
   has_failed_ = !computed.ok();
   if (has_failed_) {
     epoch_.reset();
+    if (absl::IsCancelled(computed)) return computed;
     ++quality_.failures;
     return absl::InternalError(absl::StrCat("gas map: ", computed.ToString()));
   }

@@ -3,14 +3,17 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "absl/status/status.h"
 #include "core/gas/epoch_schedule.h"
 #include "core/gas/field/field_engine.h"
 #include "core/gas/field_audit.h"
+#include "core/gas/field_bytes.h"
 #include "core/gas/gas_epoch.h"
 #include "core/gas/gas_inputs.h"
 #include "core/gas/gas_lattice.h"
@@ -21,6 +24,7 @@
 #include "core/types/map_snapshot.h"
 #include "core/types/options.h"
 #include "core/types/pose2.h"
+#include "core/types/stop.h"
 
 namespace plumescout {
 
@@ -45,19 +49,38 @@ namespace plumescout {
 // The same calls give the same bytes, wherever Recompute ran. Thread-compatible.
 class GasMap {
  public:
-  // REQUIRES: Validate(options).ok().
-  explicit GasMap(const GasOptions& options);
+  // REQUIRES: Validate(options).ok(). `resolution_m`: as of ReadingStore.
+  explicit GasMap(const GasOptions& options, double resolution_m = 0.0);
+
+  // From now on the field is computed on a lattice so coarse that it takes no more than so many
+  // bytes, by FieldBytes, as far as kMostLatticeFactor goes. One that grows beyond that is made
+  // anew on a lattice of twice the factor.
+  void LimitField(std::int64_t bytes) { most_field_bytes_ = bytes; }
+  int lattice_factor() const { return inputs_.factor(); }
+  // What it holds, by which its memory is reckoned.
+  std::int64_t field_bytes() const {
+    return FieldBytes(active_cells_, static_cast<std::int64_t>(lattice_.size()));
+  }
+  const ReadingStore& readings() const { return inputs_.readings(); }
+
+  // Once `stop` says so, and from then on it has to, whatever runs or is begun ends soon, within
+  // 0.2 s for a million cells, with kCancelled; an epoch that begins later is told as well. The map
+  // is then of no use any more. `stop` is asked on the threads that compute.
+  void AbandonWhen(StopFn stop) { field_options_.stop = std::move(stop); }
 
   // A reading that is not finite, or beyond 1e9 ppm, is counted and waits for ever.
   void Add(std::int64_t time_ns, Point2 position, const GasReading& reading);
+  // Whether it has a free cell, or may wait for one; see ReadingStore::HasRoomFor.
+  bool HasRoomFor(Point2 position) const { return inputs_.HasRoomFor(position); }
 
   // Brings the posterior to `states` and all readings so far. Their precisions are those of the
   // last epoch; where that is too long before `time_ns` for how precise they are, cells are aged
   // to `time_ns` here and now.
   // Errors: kInvalidArgument, with nothing changed, if the lattice of `states` is not that of the
   // first refresh moved by whole cells. kInternal if the field cannot be computed, which would be a
-  // defect: readers then see none until a refresh, which makes all anew, succeeds. Cost at 160x200
-  // cells, rooms: 0.2 ms a reading at worst, 3 ms a scan, anew 23 ms; docs/performance.md.
+  // defect: readers then see none until a refresh, which makes all anew, succeeds. kCancelled as
+  // AbandonWhen says. Cost at 160x200 cells, rooms: 0.2 ms a reading at worst, 3 ms a scan, anew 23
+  // ms; docs/performance.md.
   absl::Status Refresh(const Grid<CellState>& states, std::int64_t time_ns);
 
   // As of the last refresh, on a lattice that covers its states; NaN off free cells, and everywhere
@@ -82,7 +105,7 @@ class GasMap {
   bool adoption_due(std::int64_t time_ns) const;
   // Takes the epoch's field over, after the changes since it began; recomputes it here and now if
   // nobody has. Errors: kFailedPrecondition, with nothing changed, if none is under way; kInternal
-  // as from Refresh.
+  // and kCancelled as from Refresh.
   absl::Status Adopt();
 
   // Whether the epoch adopted last is one after which the field is to be audited.
@@ -95,8 +118,14 @@ class GasMap {
  private:
   friend struct GasMapPeer;  // of the tests
 
+  struct Changes {
+    std::vector<CellChange> cells;
+    std::int64_t activated = 0;
+    std::int64_t deactivated = 0;
+  };
   absl::Status Rebuild(std::int64_t time_ns);
-  absl::Status Apply(std::span<const GasCell> changed);
+  Changes ChangesIn(std::span<const GasCell> changed) const;
+  absl::Status Apply(const Changes& changes);
   GasLattice RoomyLattice() const;
   void TakeOver(std::unique_ptr<FieldEngine> engine, const GasLattice& lattice);
   absl::Status Conclude(const absl::Status& computed, std::int64_t time_ns);
@@ -108,6 +137,8 @@ class GasMap {
   EpochSchedule schedule_;
   GasLattice lattice_;
   std::unique_ptr<FieldEngine> engine_;  // null before there is a free cell
+  std::int64_t active_cells_ = 0;        // of the engine
+  std::int64_t most_field_bytes_ = std::numeric_limits<std::int64_t>::max();
   std::shared_ptr<GasEpoch> epoch_;
   std::int64_t time_ns_ = 0;  // of the last refresh
   bool has_failed_ = false;   // the engine holds no field that may be seen

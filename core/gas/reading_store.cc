@@ -28,8 +28,10 @@ void Insert(const ReadingSite& site, std::vector<ReadingSite>& sites) {
 
 }  // namespace
 
-ReadingStore::ReadingStore(const GasOptions& options)
-    : background_mean_ppm_(options.background_mean_ppm), ageing_(options) {}
+ReadingStore::ReadingStore(const GasOptions& options, double resolution_m)
+    : background_mean_ppm_(options.background_mean_ppm),
+      resolution_m_(resolution_m),
+      ageing_(options) {}
 
 void ReadingStore::Add(std::int64_t time_ns, Point2 position, const GasReading& reading) {
   ++counters_.readings;
@@ -37,6 +39,71 @@ void ReadingStore::Add(std::int64_t time_ns, Point2 position, const GasReading& 
   if (!IsUsable(position, reading)) return;
   arrivals_.push_back({position, BucketOf(time_ns, ageing_.InitialVariance_ppm2(reading),
                                           reading.concentration_ppm - background_mean_ppm_)});
+  if (arrivals_.size() >= kMostArrivals) MergeArrivals();
+}
+
+bool ReadingStore::HasRoomFor(Point2 position) const {
+  if (waiting_sites_ + arrivals() < kMostWaitingSites) return true;
+  const GridGeometry lattice = Lattice();
+  if (lattice.resolution_m == 0.0) return false;
+  const ReadingSite site = SiteOf(position, lattice);
+  return sites_.contains(site) || merged_arrivals_.contains(site);
+}
+
+// By which sites are counted now: before there is an anchor, from (0, 0) of the frame.
+GridGeometry ReadingStore::Lattice() const {
+  return anchor_.size() > 0 ? anchor_ : GridGeometry{0.0, 0.0, resolution_m_, 0, 0};
+}
+
+void ReadingStore::Anchor(const GridGeometry& first) {
+  if (!merged_arrivals_.empty()) {
+    const Cell corner = Lattice().CellAt(first.Center({0, 0}));
+    Sites moved;
+    for (auto& [key, site] : merged_arrivals_) {
+      const AnchorCell cell{key.cell.x - corner.x, key.cell.y - corner.y};
+      moved.emplace_hint(moved.end(), ReadingSite{cell, key.neighbour_order}, std::move(site));
+    }
+    merged_arrivals_ = std::move(moved);
+  }
+  anchor_ = first;
+}
+
+void ReadingStore::MergeArrivals() {
+  const GridGeometry lattice = Lattice();
+  if (lattice.resolution_m == 0.0) return;
+  for (const Arrival& arrival : arrivals_) {
+    Site& site = merged_arrivals_[SiteOf(arrival.position, lattice)];
+    const Site one = SiteOfOne(arrival.reading);
+    ++site.count;
+    site.sums += one.sums;
+    site.buckets.insert(site.buckets.end(), one.buckets.begin(), one.buckets.end());
+    MergeBuckets(site);
+  }
+  arrivals_.clear();
+}
+
+ReadingStore::Site ReadingStore::SiteOfOne(const ReadingBucket& reading) const {
+  Site site;
+  site.count = 1;
+  if (ageing_.enabled()) {
+    site.buckets.push_back(reading);
+  } else {
+    site.sums += EvidenceOf(reading, ageing_, reading.newest_ns);
+  }
+  return site;
+}
+
+// Bounds the buckets of a site that no epoch merges: one that waits, and one whose readings come
+// faster than sample time passes.
+void ReadingStore::MergeBuckets(Site& site) {
+  constexpr std::size_t kMostWaiting = 256;
+  constexpr std::size_t kMostPlaced = 4096;
+  if (site.buckets.size() < (site.placement.cell ? kMostPlaced : kMostWaiting)) return;
+  std::int64_t newest_ns = site.buckets.front().newest_ns;
+  for (const ReadingBucket& bucket : site.buckets) {
+    newest_ns = std::max(newest_ns, bucket.newest_ns);
+  }
+  MergeAlike(newest_ns, ageing_, site.buckets);
 }
 
 absl::Status ReadingStore::Place(const Grid<CellState>& states,
@@ -45,7 +112,7 @@ absl::Status ReadingStore::Place(const Grid<CellState>& states,
   if (is_first && states.size() == 0) return absl::OkStatus();
   PLUMESCOUT_ASSIGN_OR_RETURN(const AnchorCell corner,
                               CornerOf(states.geometry(), is_first ? states.geometry() : anchor_));
-  if (is_first) anchor_ = states.geometry();
+  if (is_first) Anchor(states.geometry());
   const AnchorExtent before =
       std::exchange(extent_, AnchorExtent{corner, states.width(), states.height()});
   if (!extent_.Covers(before) || changed.size() >= sites_.size()) {
@@ -56,7 +123,11 @@ absl::Status ReadingStore::Place(const Grid<CellState>& states,
       PlaceSitesNear({corner.x + cell.x, corner.y + cell.y}, states);
     }
   }
-  for (const Arrival& arrival : arrivals_) PlaceArrival(arrival, states);
+  for (const auto& [key, site] : merged_arrivals_) PlaceReadings(key, site, states);
+  merged_arrivals_.clear();
+  for (const Arrival& arrival : arrivals_) {
+    PlaceReadings(SiteOf(arrival.position, anchor_), SiteOfOne(arrival.reading), states);
+  }
   arrivals_.clear();
   return absl::OkStatus();
 }
@@ -77,23 +148,29 @@ void ReadingStore::PlaceSite(const ReadingSite& key, Site& site, const Grid<Cell
   if (placement == site.placement) return;
   Count(site.placement, -site.count);
   if (site.placement.cell) std::erase(MarkChanged(*site.placement.cell).sites, key);
+  if (site.placement.cell && !placement.cell) ++waiting_sites_;
+  if (!site.placement.cell && placement.cell) --waiting_sites_;
   site.placement = placement;
   Count(site.placement, site.count);
   if (site.placement.cell) Insert(key, MarkChanged(*site.placement.cell).sites);
 }
 
-void ReadingStore::PlaceArrival(const Arrival& arrival, const Grid<CellState>& states) {
-  const auto [it, is_new] = sites_.try_emplace(SiteOf(arrival.position, anchor_));
-  auto& [key, site] = *it;
-  if (is_new) PlaceSite(key, site, states);
-  ++site.count;
-  if (ageing_.enabled()) {
-    site.buckets.push_back(arrival.reading);
-  } else {
-    site.sums += EvidenceOf(arrival.reading, ageing_, arrival.reading.newest_ns);
+void ReadingStore::PlaceReadings(const ReadingSite& key, const Site& news,
+                                 const Grid<CellState>& states) {
+  const auto [it, is_new] = sites_.try_emplace(key);
+  Site& site = it->second;
+  if (is_new) {
+    ++waiting_sites_;
+    PlaceSite(key, site, states);
   }
-  --counters_.waiting;  // as an arrival
-  Count(site.placement, 1);
+  buckets_ -= site.buckets.size();
+  site.count += news.count;
+  site.sums += news.sums;
+  site.buckets.insert(site.buckets.end(), news.buckets.begin(), news.buckets.end());
+  MergeBuckets(site);
+  buckets_ += site.buckets.size();
+  counters_.waiting -= news.count;  // as arrivals
+  Count(site.placement, news.count);
   if (site.placement.cell) MarkChanged(*site.placement.cell);
 }
 
@@ -185,7 +262,11 @@ void ReadingStore::Compact(std::int64_t now_ns) {
   for (auto it = sites_.begin(); it != sites_.end();) {
     it = HasSettled(*it, now_ns) ? MoveToCentre(it) : std::next(it);
   }
-  for (auto& [key, site] : sites_) MergeAlike(now_ns, ageing_, site.buckets);
+  buckets_ = 0;
+  for (auto& [key, site] : sites_) {
+    MergeAlike(now_ns, ageing_, site.buckets);
+    buckets_ += site.buckets.size();
+  }
 }
 
 bool ReadingStore::HasSettled(const Sites::value_type& entry, std::int64_t now_ns) const {
@@ -211,12 +292,6 @@ ReadingStore::Sites::iterator ReadingStore::MoveToCentre(Sites::iterator from) {
   centre.buckets.insert(centre.buckets.end(), site.buckets.begin(), site.buckets.end());
   std::erase(in_cell, key);
   return sites_.erase(from);
-}
-
-std::size_t ReadingStore::buckets() const {
-  std::size_t buckets = 0;
-  for (const auto& [key, site] : sites_) buckets += site.buckets.size();
-  return buckets;
 }
 
 }  // namespace plumescout

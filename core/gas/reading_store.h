@@ -40,16 +40,26 @@ struct CellEvidence {
 //
 // Readings of one site are merged: without ageing into their sums, with it into buckets of like
 // age. Memory and time follow the area that was visited, kSitesPerCell a cell at most, not the
-// length of the mission.
+// length of the mission. Those that wait to be placed are merged likewise once they are many.
 // The evidence of a cell is always summed anew, site by site in a fixed order, and never corrected
 // by differences: readings that came and went leave no trace in it. Thread-compatible.
 class ReadingStore {
  public:
-  explicit ReadingStore(const GasOptions& options);
+  // Readings kept one by one until the next Place; more are merged site by site.
+  static constexpr std::size_t kMostArrivals = 4096;
+  // Sites without a free cell that HasRoomFor lets come about.
+  static constexpr std::size_t kMostWaitingSites = 100'000;
+
+  // `resolution_m`: of the grids to come, whose cell edges then lie on whole multiples of it; so
+  // that readings can be merged before the first. 0: unknown.
+  explicit ReadingStore(const GasOptions& options, double resolution_m = 0.0);
 
   // A reading that is not finite, or whose concentration is absurd, is counted and waits for ever;
-  // any other waits for the next Place. Cost: O(1).
+  // any other waits for the next Place. Cost: O(log sites), amortised.
   void Add(std::int64_t time_ns, Point2 position, const GasReading& reading);
+  // Whether a reading there would not be one site too many of those that wait. Callers who do not
+  // ask have room for any number.
+  bool HasRoomFor(Point2 position) const;
 
   // Places what arrived, and places anew the sites near `changed`: the indices of at least those
   // cells of `states` that became free or ceased to be since the last call; beyond the grid nothing
@@ -91,7 +101,9 @@ class ReadingStore {
   const GridGeometry& anchor() const { return anchor_; }     // no cells: none yet
   const GasCounters& counters() const { return counters_; }  // current at any time
   std::size_t sites() const { return sites_.size(); }
-  std::size_t buckets() const;  // held by all sites. Cost: O(sites)
+  std::size_t buckets() const { return buckets_; }  // held by all sites
+  // Sites that are not placed yet, each reading that is kept alone counted as one.
+  std::size_t arrivals() const { return arrivals_.size() + merged_arrivals_.size(); }
 
  private:
   struct Arrival {
@@ -114,7 +126,12 @@ class ReadingStore {
 
   void PlaceSitesNear(AnchorCell cell, const Grid<CellState>& states);
   void PlaceSite(const ReadingSite& key, Site& site, const Grid<CellState>& states);
-  void PlaceArrival(const Arrival& arrival, const Grid<CellState>& states);
+  void PlaceReadings(const ReadingSite& key, const Site& news, const Grid<CellState>& states);
+  Site SiteOfOne(const ReadingBucket& reading) const;
+  void MergeArrivals();
+  void MergeBuckets(Site& site);
+  GridGeometry Lattice() const;
+  void Anchor(const GridGeometry& first);
   bool HasSettled(const Sites::value_type& entry, std::int64_t now_ns) const;
   Sites::iterator MoveToCentre(Sites::iterator from);
   void Count(const Placement& placement, std::int64_t readings);
@@ -126,13 +143,17 @@ class ReadingStore {
   Evidence SumOver(const PlacedCell& cell, std::int64_t time_ns) const;
 
   double background_mean_ppm_;
+  double resolution_m_;
   Ageing ageing_;
   std::int64_t aged_to_ns_ = 0;
   GasCounters counters_;
   GridGeometry anchor_;
   AnchorExtent extent_;            // of the last grid
   std::vector<Arrival> arrivals_;  // not yet placed, for want of an anchor or of a call
+  Sites merged_arrivals_;          // those before them, on Lattice()
   Sites sites_;
+  std::size_t waiting_sites_ = 0;           // of sites_, those in no cell
+  std::size_t buckets_ = 0;                 // of sites_
   std::map<AnchorCell, PlacedCell> cells_;  // all that ever had a site
   std::vector<AnchorCell> changed_;         // those marked so
   AgeingWatch watch_;                       // over cells_

@@ -110,6 +110,7 @@ void Fleet::EndPlan(Member& member) {
   member.live.reset();
   member.record.live_trajectory = nullptr;
   member.record.live_goal.reset();
+  member.record.live_arrival_ns = 0;
 }
 
 absl::Status Fleet::CheckSequence(const RobotId& robot, const Observation& observation) const {
@@ -193,6 +194,7 @@ absl::StatusOr<PlanId> Fleet::Issue(const Plan& plan, std::int64_t now_ns) {
   member.record.live_trajectory =
       plan.chosen < 0 ? nullptr : std::make_shared<const Trajectory>(plan.trajectory);
   member.record.live_goal = ChosenGoal(plan);
+  member.record.live_arrival_ns = now_ns + Nanoseconds(plan.trajectory.duration_s);
   return member.record.last_plan;
 }
 

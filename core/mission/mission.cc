@@ -19,13 +19,19 @@ namespace {
 
 constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 
-// The field on the geometry of `states`, NaN off its free cells.
+// The field on the geometry of `states`, NaN off its free cells; `prior` on those that are not in
+// the region, which follows `states`.
 std::shared_ptr<const Grid<float>> OnFreeCells(const Grid<float>& field,
-                                               const Grid<CellState>& states) {
+                                               const Grid<CellState>& states,
+                                               const FieldRegion& region, double prior) {
   auto result = std::make_shared<Grid<float>>(states.geometry(), kNoValue);
   if (field.size() > 0) *result = Regridded(field, states.geometry(), kNoValue);
   for (std::size_t i = 0; i < states.size(); ++i) {
-    if (states[i] != CellState::kFree) (*result)[i] = kNoValue;
+    if (states[i] != CellState::kFree) {
+      (*result)[i] = kNoValue;
+    } else if (!region.Contains(states.geometry().CellAtIndex(i))) {
+      (*result)[i] = static_cast<float>(prior);
+    }
   }
   return result;
 }
@@ -35,28 +41,35 @@ absl::Status CheckTime(std::int64_t time_ns) {
   return absl::InvalidArgumentError(absl::StrCat("time_ns = ", time_ns, " must be >= 0"));
 }
 
-// What GasMap could not even begin is no event; what it failed in is one, for a replay to fail too.
+// What GasMap could not even begin is no event, nor what was abandoned; what it failed in is one,
+// for a replay to fail too.
 bool HasChangedNothing(const absl::Status& gas) {
-  return absl::IsInvalidArgument(gas) || absl::IsFailedPrecondition(gas);
+  return absl::IsInvalidArgument(gas) || absl::IsFailedPrecondition(gas) || absl::IsCancelled(gas);
 }
 
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<Mission>> Mission::Create(const MissionOptions& options) {
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options));
-  return std::make_unique<Mission>(options);
+  PLUMESCOUT_ASSIGN_OR_RETURN(const MissionOptions fitted, FitToBudget(options));
+  return std::make_unique<Mission>(fitted);
 }
 
 Mission::Mission(const MissionOptions& options)
     : options_(std::make_shared<const MissionOptions>(options)),
       occupancy_(options.occupancy),
-      gas_(options.gas),
+      region_(options.gas.field_reach_m, options.occupancy.resolution_m),
+      gas_(options.gas, options.occupancy.resolution_m),
       fleet_(options.robot_silence_s),
       goal_memory_(options),
       sampled_cells_(options.occupancy.resolution_m) {
   if (options.prior_map == nullptr) return;
   [[maybe_unused]] const absl::Status learnt = occupancy_.Learn(*options.prior_map);
   assert(learnt.ok());
+  if (CountsAsVisited(options.prior_map->geometry(), options.gas)) {
+    region_.VisitAll(options.prior_map->geometry());
+  }
+  region_.Follow(occupancy_.geometry());
   map_changed_since_refresh_ = true;  // the gas of a known building can be told before any reading
 }
 
@@ -85,24 +98,68 @@ absl::Status Mission::TakeIn(const RobotId& robot, const Observation& observatio
   PLUMESCOUT_RETURN_IF_ERROR(CheckObservation(observation, *options_, sample_time_ns_));
   fleet_.Hear(robot, std::max(sample_time_ns_, observation.sample_time_ns));
   if (const auto* scan = std::get_if<Scan>(&observation.payload)) {
-    PLUMESCOUT_RETURN_IF_ERROR(
-        scan_inserter_.Insert(observation.pose, *scan, fleet_.MasksFor(robot), occupancy_));
-    map_changed_since_refresh_ = true;
-    map_changed_since_snapshot_ = true;
+    PLUMESCOUT_RETURN_IF_ERROR(InsertScan(robot, observation.pose, *scan));
   } else if (const auto* gas = std::get_if<GasReading>(&observation.payload)) {
-    gas_.Add(observation.sample_time_ns, observation.pose.position(), *gas);
-    sampled_since_snapshot_ =
-        sampled_cells_.Add(observation.pose.position()) || sampled_since_snapshot_;
+    PLUMESCOUT_RETURN_IF_ERROR(AddReading(observation, *gas));
   }
   sample_time_ns_ = std::max(sample_time_ns_, observation.sample_time_ns);
   return absl::OkStatus();
+}
+
+absl::Status Mission::InsertScan(const RobotId& robot, const Pose2& pose, const Scan& scan) {
+  PLUMESCOUT_RETURN_IF_ERROR(CheckRoom(pose.position(), 0));
+  const MemoryUse use = Use();
+  occupancy_.LimitCells(use.map_cells +
+                        RoomBesideField_bytes(options_->memory_budget_bytes, use) / kMapCellBytes);
+  PLUMESCOUT_RETURN_IF_ERROR(scan_inserter_.Insert(pose, scan, fleet_.MasksFor(robot), occupancy_));
+  region_.Visit(pose.position());
+  region_.Follow(occupancy_.geometry());
+  map_changed_since_refresh_ = true;
+  map_changed_since_snapshot_ = true;
+  return absl::OkStatus();
+}
+
+absl::Status Mission::AddReading(const Observation& observation, const GasReading& reading) {
+  const Point2 place = observation.pose.position();
+  if (!gas_.HasRoomFor(place)) {
+    return BudgetReached(absl::StrCat("readings at ", ReadingStore::kMostWaitingSites,
+                                      " places wait for their cells to be seen"));
+  }
+  PLUMESCOUT_RETURN_IF_ERROR(CheckRoom(place, kReadingSiteBytes + kReadingBucketBytes));
+  gas_.Add(observation.sample_time_ns, place, reading);
+  region_.Visit(place);
+  sampled_since_snapshot_ = sampled_cells_.Add(place) || sampled_since_snapshot_;
+  return absl::OkStatus();
+}
+
+MemoryUse Mission::Use() const {
+  const ReadingStore& readings = gas_.readings();
+  MemoryUse use;
+  use.map_cells = static_cast<std::int64_t>(occupancy_.geometry().size());
+  use.reading_sites = static_cast<std::int64_t>(readings.sites() + readings.arrivals());
+  use.reading_buckets = static_cast<std::int64_t>(readings.buckets());
+  use.visited_tiles = static_cast<std::int64_t>(region_.visited_tiles());
+  use.field_bytes = gas_.field_bytes();
+  return use;
+}
+
+absl::Status Mission::CheckRoom(Point2 place, std::int64_t bytes) const {
+  if (region_.IsNew(place)) bytes += kVisitedTileBytes;
+  const MemoryUse use = Use();
+  if (bytes == 0 || bytes <= RoomBesideField_bytes(options_->memory_budget_bytes, use)) {
+    return absl::OkStatus();
+  }
+  return BudgetReached(
+      absl::StrCat("the mission holds ", use.Total_bytes(),
+                   " bytes of memory_budget_bytes = ", options_->memory_budget_bytes));
 }
 
 absl::StatusOr<Applied> Mission::Change(const PosteriorRefreshed& refresh) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckTime(refresh.time_ns));
   const bool readings_waited = gas_.stale();
   Applied applied;
-  applied.posterior = gas_.Refresh(occupancy_.States(), refresh.time_ns);
+  gas_.LimitField(RoomForField_bytes(options_->memory_budget_bytes, Use()));
+  applied.posterior = gas_.Refresh(region_.Within(occupancy_.States()), refresh.time_ns);
   if (HasChangedNothing(applied.posterior)) return applied.posterior;
   const bool succeeded = applied.posterior.ok();
   if (succeeded) posterior_time_ns_ = refresh.time_ns;
@@ -179,8 +236,10 @@ void Mission::UpdateRasters() const {
     rasters_.traversable = std::make_shared<const Grid<std::uint8_t>>(std::move(traversable));
   }
   if (map_changed_since_snapshot_ || gas_changed_since_snapshot_) {
-    rasters_.gas_mean_ppm = OnFreeCells(gas_.mean_ppm(), *rasters_.occupancy);
-    rasters_.gas_variance_ppm2 = OnFreeCells(gas_.variance_ppm2(), *rasters_.occupancy);
+    rasters_.gas_mean_ppm = OnFreeCells(gas_.mean_ppm(), *rasters_.occupancy, region_,
+                                        options_->gas.background_mean_ppm);
+    rasters_.gas_variance_ppm2 = OnFreeCells(gas_.variance_ppm2(), *rasters_.occupancy, region_,
+                                             OpenLatticeVariance_ppm2(options_->gas));
   }
   if (map_changed_since_snapshot_ || sampled_since_snapshot_) {
     rasters_.sampled = std::make_shared<const Grid<std::uint8_t>>(

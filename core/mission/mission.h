@@ -5,25 +5,30 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/belief/belief.h"
+#include "core/gas/field_region.h"
 #include "core/gas/gas_epoch.h"
 #include "core/gas/gas_map.h"
 #include "core/mission/fleet.h"
 #include "core/mission/goal_memory.h"
+#include "core/mission/memory_estimate.h"
 #include "core/mission/sampled_cells.h"
 #include "core/occupancy/occupancy_grid.h"
 #include "core/occupancy/scan_inserter.h"
 #include "core/types/event.h"
 #include "core/types/options.h"
+#include "core/types/stop.h"
 
 namespace plumescout {
 
 // What became of an event that was applied. An observation that the mission refuses (out of the
-// map's limits) still counts as applied: `observation` says why, and the robot's log moves on. So
-// does a PosteriorRefreshed or EpochAdopted of which no gas field came: `posterior` says why.
+// map's limits, beyond its memory) still counts as applied: `observation` says why, and the robot's
+// log moves on. So does a PosteriorRefreshed or EpochAdopted of which no gas field came:
+// `posterior` says why.
 struct Applied {
   std::int64_t revision = 0;
   absl::Status observation;
@@ -38,7 +43,8 @@ class Mission {
   // Starts with what options.prior_map says. REQUIRES: Validate(options).ok(); Create checks it.
   explicit Mission(const MissionOptions& options);
 
-  // kInvalidArgument if the options are invalid.
+  // With the options as FitToBudget makes them. kInvalidArgument if they are invalid;
+  // BUDGET_REACHED, before anything is allocated, if their map does not fit.
   static absl::StatusOr<std::unique_ptr<Mission>> Create(const MissionOptions& options);
 
   const MissionOptions& options() const { return *options_; }
@@ -57,6 +63,7 @@ class Mission {
   //                        field, or adopted while none is under way
   //   kAborted             PlanIssued: another robot's live plan claims the goal; plan once more
   //   kResourceExhausted   too many robots
+  //   kCancelled           the mission is abandoned; it is of no use any more
   absl::StatusOr<Applied> Apply(const EventBody& body);
 
   // The state of one robot's log; kNotFound if unknown.
@@ -87,6 +94,16 @@ class Mission {
 
   std::int64_t sample_time_ns() const { return sample_time_ns_; }
 
+  // What it holds, as reckoned; at most options().memory_budget_bytes. Cost: O(1).
+  std::int64_t memory_bytes() const { return Use().Total_bytes(); }
+  // Of the gas field now: that of the options, or a multiple since the map has grown large.
+  int lattice_factor() const { return gas_.lattice_factor(); }
+
+  // Once `stop` says so, and from then on it has to, a refresh or an epoch that runs, here or on
+  // another thread, ends within 0.2 s, and so does each that is begun: with kCancelled. The mission
+  // is not to be used any more then. `stop` is asked on the threads that compute.
+  void AbandonWhen(StopFn stop) { gas_.AbandonWhen(std::move(stop)); }
+
   // The present state, for readers. Cost: O(cells) if the map changed since the last call.
   std::shared_ptr<const Belief> Snapshot() const;
 
@@ -106,6 +123,11 @@ class Mission {
     return {sample_time_ns_, occupancy_.States(), gas_.variance_ppm2()};
   }
   absl::Status TakeIn(const RobotId& robot, const Observation& observation);
+  absl::Status InsertScan(const RobotId& robot, const Pose2& pose, const Scan& scan);
+  absl::Status AddReading(const Observation& observation, const GasReading& reading);
+  MemoryUse Use() const;
+  // BUDGET_REACHED if so many bytes more, and those of a first visit to `place`, are too many.
+  absl::Status CheckRoom(Point2 place, std::int64_t bytes) const;
 
   std::shared_ptr<const MissionOptions> options_;
   std::int64_t revision_ = 0;
@@ -116,6 +138,7 @@ class Mission {
       0;  // of the last one that found readings waiting, or failed
   OccupancyGrid occupancy_;
   ScanInserter scan_inserter_;
+  FieldRegion region_;
   GasMap gas_;
   GasAudits gas_audits_;
   Fleet fleet_;

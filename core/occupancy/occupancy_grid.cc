@@ -8,6 +8,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/grid/padded.h"
+#include "core/types/error_reason.h"
 #include "core/types/map_tiles.h"
 #include "core/types/prior_map.h"
 #include "core/types/status_macros.h"
@@ -73,6 +74,12 @@ absl::Status OccupancyGrid::GrowToContain(Point2 min, Point2 max) {
     return absl::ResourceExhaustedError(
         absl::StrCat("a map of ", x.cells(), " x ", y.cells(), " cells exceeds max_extent_m = ",
                      options_.max_extent_m, " or max_cell_count = ", options_.max_cell_count));
+  }
+  if (x.cells() * y.cells() > cell_limit_) {
+    return TypedError(
+        absl::StatusCode::kResourceExhausted, reason::kBudgetReached,
+        absl::StrCat("a map of ", x.cells(), " x ", y.cells(),
+                     " cells exceeds what memory_budget_bytes leaves, ", cell_limit_, " cells"));
   }
   const double tile_m = kTileCells * resolution_m;
   const GridGeometry grown = {static_cast<double>(x.begin) * tile_m,

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 
 #include "absl/status/status.h"
 #include "core/types/cell_state.h"
@@ -37,9 +39,12 @@ class OccupancyGrid {
 
   // Grows until [min, max] and one more cell on every side are inside, so that each cell seen has
   // all its neighbours: what lies beyond it is an unknown cell, not the end of the map.
-  // Errors, with nothing changed: kResourceExhausted beyond the limits; kInvalidArgument if the
-  // rectangle is not finite or min > max. Cost: O(cells) if it grows, else O(1).
+  // Errors, with nothing changed: kResourceExhausted beyond the limits, BUDGET_REACHED beyond that
+  // of LimitCells; kInvalidArgument if the rectangle is not finite or min > max. Cost: O(cells) if
+  // it grows, else O(1).
   absl::Status GrowToContain(Point2 min, Point2 max);
+  // From now on it grows no further than to so many cells, for want of memory.
+  void LimitCells(std::int64_t cells) { cell_limit_ = cells; }
 
   // Takes over what a map of the building says: its free and occupied cells are as certain as scans
   // can make them, and scans change them like any others.
@@ -69,6 +74,7 @@ class OccupancyGrid {
 
  private:
   OccupancyOptions options_;
+  std::int64_t cell_limit_ = std::numeric_limits<std::int64_t>::max();
   float free_log_odds_;      // at or below: free
   float occupied_log_odds_;  // at or above: occupied
   Grid<float> log_odds_;

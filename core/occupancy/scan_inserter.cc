@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "core/grid/ray.h"
 #include "core/types/status_macros.h"
 
@@ -23,6 +26,13 @@ absl::Status Check(const Pose2& pose, const Scan& scan) {
                   scan.max_range_m > 0.0;
   if (ok) return absl::OkStatus();
   return absl::InvalidArgumentError("scan with a pose, angle or max_range_m that is no number");
+}
+
+// Eight cells at once.
+bool IsUntouched(const std::uint8_t* cells) {
+  std::uint64_t marks = 0;
+  std::memcpy(&marks, cells, sizeof(marks));
+  return marks == 0;
 }
 
 bool IsMasked(Point2 point, const std::vector<MaskDisc>& masks) {
@@ -53,29 +63,42 @@ void ScanInserter::KeepBeams(const Pose2& sensor_pose, const Scan& scan,
   }
 }
 
-void ScanInserter::MarkHit(std::size_t index) {
-  if (touched_[index] == kHit) return;
-  touched_[index] = kHit;
-  hits_.push_back(index);
+// A beam enters as many cells as it crosses columns and rows.
+absl::Status ScanInserter::CheckCrossings(Point2 sensor, double resolution_m) const {
+  double crossings = 0.0;
+  for (const Beam& beam : beams_) {
+    crossings +=
+        (std::abs(beam.end.x_m - sensor.x_m) + std::abs(beam.end.y_m - sensor.y_m)) / resolution_m;
+  }
+  if (crossings <= kMostCrossings) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(
+      "scan.ranges of ", beams_.size(), " beams cross ", std::ceil(crossings), " cells of ",
+      resolution_m, " m, must cross at most ", kMostCrossings, " in all"));
 }
 
 void ScanInserter::MarkPassed(std::size_t index) {
-  if (touched_[index] != kUntouched) return;
-  touched_[index] = kPassed;
-  passes_.push_back(index);
+  touched_[index] = std::max(touched_[index], kPassed);
 }
 
-void ScanInserter::Apply(OccupancyGrid& grid) {
-  for (const std::size_t index : passes_) {
-    grid.Add(index, grid.options().miss_log_odds);
-    touched_[index] = kUntouched;
+void ScanInserter::Apply(Cell first, Cell last, OccupancyGrid& grid) {
+  constexpr std::size_t kAtOnce = sizeof(std::uint64_t);
+  const double miss_log_odds = grid.options().miss_log_odds;
+  const double hit_log_odds = grid.options().hit_log_odds;
+  for (int y = first.y; y <= last.y; ++y) {
+    const std::size_t end = touched_.geometry().Index({last.x, y}) + 1;
+    std::size_t index = touched_.geometry().Index({first.x, y});
+    while (index < end) {
+      const std::size_t next = std::min(index + kAtOnce, end);
+      if (next == index + kAtOnce && IsUntouched(&touched_[index])) {
+        index = next;
+        continue;
+      }
+      for (; index < next; ++index) {
+        const std::uint8_t mark = std::exchange(touched_[index], kUntouched);
+        if (mark != kUntouched) grid.Add(index, mark == kHit ? hit_log_odds : miss_log_odds);
+      }
+    }
   }
-  for (const std::size_t index : hits_) {
-    grid.Add(index, grid.options().hit_log_odds);
-    touched_[index] = kUntouched;
-  }
-  passes_.clear();
-  hits_.clear();
 }
 
 absl::Status ScanInserter::Insert(const Pose2& sensor_pose, const Scan& scan,
@@ -84,6 +107,7 @@ absl::Status ScanInserter::Insert(const Pose2& sensor_pose, const Scan& scan,
   KeepBeams(sensor_pose, scan, masks);
   if (beams_.empty()) return absl::OkStatus();
   const Point2 sensor = sensor_pose.position();
+  PLUMESCOUT_RETURN_IF_ERROR(CheckCrossings(sensor, grid.geometry().resolution_m));
   Point2 low = sensor;
   Point2 high = sensor;
   for (const Beam& beam : beams_) {
@@ -95,7 +119,7 @@ absl::Status ScanInserter::Insert(const Pose2& sensor_pose, const Scan& scan,
   if (touched_.geometry() != geometry) touched_ = Grid<std::uint8_t>(geometry);
   // Hits first: passing beams then leave those cells alone.
   for (const Beam& beam : beams_) {
-    if (beam.hit) MarkHit(geometry.Index(geometry.CellAt(beam.end)));
+    if (beam.hit) touched_[geometry.Index(geometry.CellAt(beam.end))] = kHit;
   }
   MarkPassed(geometry.Index(geometry.CellAt(sensor)));
   for (const Beam& beam : beams_) {
@@ -105,7 +129,10 @@ absl::Status ScanInserter::Insert(const Pose2& sensor_pose, const Scan& scan,
       return true;
     });
   }
-  Apply(grid);
+  // The map has a cell more on every side.
+  const Cell first = geometry.CellAt(low);
+  const Cell last = geometry.CellAt(high);
+  Apply({first.x - 1, first.y - 1}, {last.x + 1, last.y + 1}, grid);
   return absl::OkStatus();
 }
 

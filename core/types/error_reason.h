@@ -18,21 +18,28 @@ namespace reason {
 // Of the conduct of missions.
 inline constexpr absl::string_view kMissionNotFound = "MISSION_NOT_FOUND";
 inline constexpr absl::string_view kMissionExists = "MISSION_EXISTS";
+inline constexpr absl::string_view kMissionPaused = "MISSION_PAUSED";
+inline constexpr absl::string_view kMissionFinished = "MISSION_FINISHED";
 inline constexpr absl::string_view kRobotNotFound = "ROBOT_NOT_FOUND";
 inline constexpr absl::string_view kLeaseHeld = "LEASE_HELD";
 inline constexpr absl::string_view kLeaseSuperseded = "LEASE_SUPERSEDED";
 inline constexpr absl::string_view kStreamReplaced = "STREAM_REPLACED";
 inline constexpr absl::string_view kCreditExceeded = "CREDIT_EXCEEDED";
 inline constexpr absl::string_view kSequenceGap = "SEQUENCE_GAP";
+inline constexpr absl::string_view kBudgetReached = "BUDGET_REACHED";
+inline constexpr absl::string_view kClockAhead = "CLOCK_AHEAD";
 // Of plans.
 inline constexpr absl::string_view kPlanSuperseded = "PLAN_SUPERSEDED";
 inline constexpr absl::string_view kPlanEnded = "PLAN_ENDED";
 inline constexpr absl::string_view kStartOutsideMap = "START_OUTSIDE_MAP";
 inline constexpr absl::string_view kOutsideRegion = "OUTSIDE_REGION";
 inline constexpr absl::string_view kDeadlineBeforeFirstPlan = "DEADLINE_BEFORE_FIRST_PLAN";
+// Of maps.
+inline constexpr absl::string_view kMapPartsGone = "MAP_PARTS_GONE";
 // Of a server that others load or restart.
 inline constexpr absl::string_view kOverloaded = "OVERLOADED";
 inline constexpr absl::string_view kLimitReached = "LIMIT_REACHED";
+inline constexpr absl::string_view kRateExceeded = "RATE_EXCEEDED";
 inline constexpr absl::string_view kDraining = "DRAINING";
 inline constexpr absl::string_view kServerRestarted = "SERVER_RESTARTED";
 

@@ -65,12 +65,9 @@ struct GasAudits {
   friend bool operator==(const GasAudits&, const GasAudits&) = default;
 };
 
-// A whole map as readers see it at one revision. Off the free cells mean and variance are NaN.
-struct MapSnapshot {
+// Everything on a map at one revision but its rasters.
+struct MapStatus {
   std::int64_t revision = 0;
-  Grid<CellState> occupancy;
-  Grid<float> gas_mean_ppm;
-  Grid<float> gas_variance_ppm2;
   double gas_threshold_ppm = 0.0;   // tau_gas of [XIT] Eq. (17)
   std::vector<Frontier> frontiers;  // both kinds
   std::vector<RobotState> robots;
@@ -78,6 +75,13 @@ struct MapSnapshot {
   GasQuality gas_quality;
   GasAudits gas_audits;
   MissionPhase phase = MissionPhase::kExploring;
+};
+
+// A whole map as readers see it. Off the free cells mean and variance are NaN.
+struct MapSnapshot : MapStatus {
+  Grid<CellState> occupancy;
+  Grid<float> gas_mean_ppm;
+  Grid<float> gas_variance_ppm2;
 };
 
 }  // namespace plumescout

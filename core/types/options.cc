@@ -29,7 +29,9 @@ constexpr double kMaxLogOdds = 50.0;       // a certainty of 1 - 2e-22
 constexpr double kMaxWeight = 1e9;         // of a term of a cost: keeps costs finite, in float too
 constexpr double kMaxResolution_m = 50.0;  // outdoors
 constexpr double kMaxExtent_m =
-    20'000.0;                       // six tiles of such cells; max_cell_count bounds the memory
+    20'000.0;  // six tiles of such cells; max_cell_count bounds the memory
+constexpr double kMinBudget_bytes = 32.0 * 1024 * 1024;
+constexpr double kMaxBudget_bytes = 1e12;
 constexpr double kMaxTime_s = 1e9;  // 30 years: added to a time in ns, it stays within int64
 
 }  // namespace
@@ -72,7 +74,8 @@ absl::Status Validate(const GasOptions& options) {
       .InRange("gas.observation_stddev_share", options.observation_stddev_share, 0.0, 10.0)
       .InRange("gas.ageing_half_life_s", ages ? options.ageing_half_life_s : kMaxTime_s,
                kMinHalfLife_s, kMaxTime_s)
-      .InRange("gas.lattice_factor", options.lattice_factor, 1, 16)
+      .InRange("gas.lattice_factor", options.lattice_factor, 1, kMostLatticeFactor)
+      .InRange("gas.field_reach_m", options.field_reach_m, 0.0, 1e6)
       .InRange("gas.refresh_period_s", options.refresh_period_s, 0.01, 3600.0)
       .InRange("gas.audit_period_epochs", options.audit_period_epochs, 0, 1'000'000)
       .status();
@@ -198,6 +201,8 @@ absl::Status Validate(const MissionOptions& options) {
       .InRange("max_concentration_ppm", options.max_concentration_ppm, 1.0, 1e6)
       .InRange("max_robot_count", options.max_robot_count, 1, 1000)
       .InRange("robot_silence_s", options.robot_silence_s, 1.0, 1e9)
+      .InRange("memory_budget_bytes", static_cast<double>(options.memory_budget_bytes),
+               kMinBudget_bytes, kMaxBudget_bytes)
       .InRange("home.x_m", home.x_m, -options.pose_limit_m, options.pose_limit_m)
       .InRange("home.y_m", home.y_m, -options.pose_limit_m, options.pose_limit_m)
       .status();

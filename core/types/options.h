@@ -48,10 +48,16 @@ struct GasOptions {
   // kappa, [0, 10]: a reading z that brings no variance has max(1 / lambda_o, (kappa |z - m_0|)^2),
   // for what gusts do to gas grows with it; 0: 1 / lambda_o whatever it reads. [LHR] section II-A.
   double observation_stddev_share = 0.0;
+  // The field is computed on tiles of 64 occupancy cells no farther than this from one where a
+  // robot has scanned or read, metres, [0, 1e6]; elsewhere it has its prior. 0: everywhere. A known
+  // map at most twice as wide and high counts as visited.
+  double field_reach_m = 25.0;
   // Servers compare the posterior with an independent one after the first epoch and after every so
   // many from then on, [0, 1000000]; 0: never.
   int audit_period_epochs = 30;
 };
+
+inline constexpr int kMostLatticeFactor = 16;
 
 // Occupancy and gas frontiers; [XIT] section V.
 enum class WgfdScope { kReachable, kLocal };
@@ -189,12 +195,19 @@ struct MissionOptions {
   PlanningOptions planning;
   double pose_limit_m = 1000.0;  // |x|, |y| of any pose, > 0
   double max_range_m = 100.0;    // of any lidar, > 0
-  int max_beam_count = 20'000;   // of any scan
+  int max_beam_count = 4096;     // of any scan
   double max_concentration_ppm = 1e6;
   int max_robot_count = 32;
   // A robot that is not heard of while the sample time moves on by this much counts as gone until
   // it is; [1, 1e9].
   double robot_silence_s = 60.0;
+  // What the mission may come to hold, as reckoned by core/mission/memory_estimate.h;
+  // [33554432 (32 MiB), 1e12]. Near it the gas lattice becomes coarser; what would go beyond is
+  // refused with BUDGET_REACHED, and the map stays as it is.
+  std::int64_t memory_budget_bytes = std::int64_t{512} << 20;
+  // A sample whose clock runs too far ahead of the server's is taken with the time of its arrival
+  // instead of being refused. Whoever runs the mission sees to it, for only they have a clock.
+  bool stamp_by_arrival = false;
   std::uint64_t seed = 1;
   // Where nobody may drive, though it is sensed and mapped: at most 64, of 3 to 256 vertices each.
   std::vector<Polygon> keep_out;

@@ -14,4 +14,7 @@ inline StopFn NeverStop() {
   return [] { return false; };
 }
 
+// Whether `stop` says so; an empty one never does.
+inline bool Stops(const StopFn& stop) { return stop && stop(); }
+
 }  // namespace plumescout

@@ -32,7 +32,8 @@ class BenchSummary {
 };
 
 // The main function of a bench: adds the flags `--summary FILE` and `--seed N` to those that `app`
-// has already, runs `body`, writes the summary. Returns the exit code.
+// has already, runs `body`, writes the summary, also of what was measured before `body` failed.
+// Returns the exit code.
 int RunBench(CLI::App& app, int argc, char** argv,
              const std::function<absl::Status(BenchSummary&)>& body);
 

@@ -34,17 +34,6 @@ v1::Frontier ToProto(const Frontier& frontier) {
   return proto;
 }
 
-v1::RobotOnMap ToProto(const RobotState& robot, const MissionId& mission) {
-  v1::RobotOnMap proto;
-  proto.set_robot(RobotResource({mission, robot.id}));
-  proto.set_radius_m(robot.radius_m);
-  if (robot.has_pose) *proto.mutable_pose() = ToProto(robot.pose);
-  proto.set_applied_sequence(robot.applied_sequence);
-  proto.set_rejected_observation_count(robot.rejected_observations);
-  proto.set_silent(robot.silent);
-  return proto;
-}
-
 v1::GasCounters ToProto(const GasCounters& counters) {
   v1::GasCounters proto;
   proto.set_reading_count(counters.readings);
@@ -114,11 +103,6 @@ GasAudits AuditsFromProto(const v1::GasQuality& proto) {
           .alarms = proto.audit_alarm_count()};
 }
 
-v1::MapTile EncodeGas(v1::MapLayer layer, const Grid<float>& values, bool full_precision,
-                      const CellRect& rect) {
-  return full_precision ? EncodeFloats(layer, values, rect) : EncodeScaled(layer, values, rect);
-}
-
 absl::Status ReadLists(const v1::MapStatus& proto, absl::string_view field, MapSnapshot& map) {
   for (int i = 0; i < proto.frontiers_size(); ++i) {
     PLUMESCOUT_ASSIGN_OR_RETURN(Frontier frontier,
@@ -133,12 +117,21 @@ absl::Status ReadLists(const v1::MapStatus& proto, absl::string_view field, MapS
   return absl::OkStatus();
 }
 
-}  // namespace
+absl::Status ReadStatus(const v1::MapStatus& proto, absl::string_view field, MapSnapshot& map) {
+  PLUMESCOUT_RETURN_IF_ERROR(ReadLists(proto, field, map));
+  PLUMESCOUT_ASSIGN_OR_RETURN(map.phase, FromProto(proto.phase(), Join(field, "phase")));
+  PLUMESCOUT_RETURN_IF_ERROR(
+      CheckFinite(Join(field, "gas_threshold_ppm"), proto.gas_threshold_ppm()));
+  map.gas_threshold_ppm = proto.gas_threshold_ppm();
+  map.gas_counters = FromProto(proto.gas_counters());
+  map.gas_quality = FromProto(proto.gas_quality());
+  map.gas_audits = AuditsFromProto(proto.gas_quality());
+  return absl::OkStatus();
+}
 
-absl::StatusOr<MapView> MapViewFromProto(const google::protobuf::RepeatedField<int>& layers,
-                                         bool full_precision, absl::string_view field) {
-  if (layers.empty()) return MapView{.full_precision = full_precision};
-  MapView view{false, false, false, full_precision};
+absl::Status ReadLayers(const google::protobuf::RepeatedField<int>& layers, MapView& view) {
+  if (layers.empty()) return absl::OkStatus();
+  view.occupancy = view.gas_mean = view.gas_variance = false;
   for (int i = 0; i < layers.size(); ++i) {
     switch (layers[i]) {
       case v1::MAP_LAYER_OCCUPANCY:
@@ -151,24 +144,57 @@ absl::StatusOr<MapView> MapViewFromProto(const google::protobuf::RepeatedField<i
         view.gas_variance = true;
         break;
       default:
-        return FieldError(Join("", field, i), layers[i], "is not a layer");
+        return FieldError(Join("", "layers", i), layers[i], "is not a layer");
     }
+  }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<Rectangle> FromProto(const v1::MapRegion& proto, absl::string_view field) {
+  const std::string max_field = Join(field, "max");
+  PLUMESCOUT_RETURN_IF_ERROR(CheckPresent(Join(field, "min"), proto.has_min()));
+  PLUMESCOUT_RETURN_IF_ERROR(CheckPresent(max_field, proto.has_max()));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Point2 min, FromProto(proto.min(), Join(field, "min")));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Point2 max, FromProto(proto.max(), max_field));
+  constexpr absl::string_view kRule = "must not be less than that of min";
+  if (max.x_m < min.x_m) return FieldError(Join(max_field, "x_m"), max.x_m, kRule);
+  if (max.y_m < min.y_m) return FieldError(Join(max_field, "y_m"), max.y_m, kRule);
+  return Rectangle{min, max};
+}
+
+template <typename Request>
+absl::StatusOr<MapView> ReadView(const Request& request) {
+  MapView view;
+  PLUMESCOUT_RETURN_IF_ERROR(ReadLayers(request.layers(), view));
+  view.full_precision = request.full_precision();
+  PLUMESCOUT_RETURN_IF_ERROR(
+      CheckIntRange("level_of_detail", request.level_of_detail(), 0, kMaxLevelOfDetail));
+  view.level_of_detail = request.level_of_detail();
+  if (request.has_region()) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(view.region, FromProto(request.region(), "region"));
   }
   return view;
 }
 
-std::vector<v1::MapTile> EncodeTiles(const MapSnapshot& map, const MapView& view,
-                                     const CellRect& rect) {
-  std::vector<v1::MapTile> tiles;
-  if (view.occupancy) tiles.push_back(EncodeStates(map.occupancy, rect));
-  if (view.gas_mean) {
-    tiles.push_back(EncodeGas(v1::MAP_LAYER_GAS_MEAN, map.gas_mean_ppm, view.full_precision, rect));
-  }
-  if (view.gas_variance) {
-    tiles.push_back(
-        EncodeGas(v1::MAP_LAYER_GAS_VARIANCE, map.gas_variance_ppm2, view.full_precision, rect));
-  }
-  return tiles;
+}  // namespace
+
+absl::StatusOr<MapView> MapViewFromProto(const v1::GetMapRequest& request) {
+  return ReadView(request);
+}
+
+absl::StatusOr<MapView> MapViewFromProto(const v1::WatchMapRequest& request) {
+  return ReadView(request);
+}
+
+v1::RobotOnMap ToProto(const RobotState& robot, const MissionId& mission) {
+  v1::RobotOnMap proto;
+  proto.set_robot(RobotResource({mission, robot.id}));
+  proto.set_radius_m(robot.radius_m);
+  if (robot.has_pose) *proto.mutable_pose() = ToProto(robot.pose);
+  proto.set_applied_sequence(robot.applied_sequence);
+  proto.set_rejected_observation_count(robot.rejected_observations);
+  proto.set_silent(robot.silent);
+  return proto;
 }
 
 v1::GasQuality ToProto(const GasQuality& quality, const GasAudits& audits) {
@@ -190,25 +216,16 @@ v1::GasQuality ToProto(const GasQuality& quality, const GasAudits& audits) {
   return proto;
 }
 
-v1::MapStatus StatusToProto(const MapSnapshot& map, const MissionId& mission) {
+v1::MapStatus ToProto(const MapStatus& status, const GridGeometry& geometry,
+                      const MissionId& mission) {
   v1::MapStatus proto;
-  *proto.mutable_geometry() = ToProto(map.occupancy.geometry());
-  proto.set_gas_threshold_ppm(map.gas_threshold_ppm);
-  for (const Frontier& frontier : map.frontiers) *proto.add_frontiers() = ToProto(frontier);
-  for (const RobotState& robot : map.robots) *proto.add_robots() = ToProto(robot, mission);
-  *proto.mutable_gas_counters() = ToProto(map.gas_counters);
-  *proto.mutable_gas_quality() = ToProto(map.gas_quality, map.gas_audits);
-  proto.set_phase(ToProto(map.phase));
-  return proto;
-}
-
-v1::GetMapResponse ToProto(const MapSnapshot& map, const MissionId& mission, const MapView& view) {
-  v1::GetMapResponse proto;
-  proto.set_revision(map.revision);
-  *proto.mutable_status() = StatusToProto(map, mission);
-  for (v1::MapTile& tile : EncodeTiles(map, view, WholeRaster(map.occupancy.geometry()))) {
-    *proto.add_tiles() = std::move(tile);
-  }
+  *proto.mutable_geometry() = ToProto(geometry);
+  proto.set_gas_threshold_ppm(status.gas_threshold_ppm);
+  for (const Frontier& frontier : status.frontiers) *proto.add_frontiers() = ToProto(frontier);
+  for (const RobotState& robot : status.robots) *proto.add_robots() = ToProto(robot, mission);
+  *proto.mutable_gas_counters() = ToProto(status.gas_counters);
+  *proto.mutable_gas_quality() = ToProto(status.gas_quality, status.gas_audits);
+  proto.set_phase(ToProto(status.phase));
   return proto;
 }
 
@@ -225,31 +242,26 @@ absl::Status DecodeTile(const v1::MapTile& tile, absl::string_view field, MapSna
   }
 }
 
-absl::StatusOr<MapSnapshot> FromProto(const v1::MapStatus& proto, absl::string_view field) {
+absl::StatusOr<MapSnapshot> FromProto(const v1::GetMapResponse& proto) {
   MapSnapshot map;
+  map.revision = proto.revision();
+  PLUMESCOUT_RETURN_IF_ERROR(ReadStatus(proto.status(), "status", map));
   PLUMESCOUT_ASSIGN_OR_RETURN(const GridGeometry geometry,
-                              FromProto(proto.geometry(), Join(field, "geometry")));
-  PLUMESCOUT_RETURN_IF_ERROR(ReadLists(proto, field, map));
-  PLUMESCOUT_ASSIGN_OR_RETURN(map.phase, FromProto(proto.phase(), Join(field, "phase")));
-  PLUMESCOUT_RETURN_IF_ERROR(
-      CheckFinite(Join(field, "gas_threshold_ppm"), proto.gas_threshold_ppm()));
-  map.gas_threshold_ppm = proto.gas_threshold_ppm();
-  map.gas_counters = FromProto(proto.gas_counters());
-  map.gas_quality = FromProto(proto.gas_quality());
-  map.gas_audits = AuditsFromProto(proto.gas_quality());
+                              proto.has_tile_geometry()
+                                  ? FromProto(proto.tile_geometry(), "tile_geometry")
+                                  : FromProto(proto.status().geometry(), "status.geometry"));
   map.occupancy = Grid<CellState>(geometry, CellState::kUnknown);
   map.gas_mean_ppm = Grid<float>(geometry, std::numeric_limits<float>::quiet_NaN());
   map.gas_variance_ppm2 = map.gas_mean_ppm;
+  PLUMESCOUT_RETURN_IF_ERROR(AddTiles(proto, map));
   return map;
 }
 
-absl::StatusOr<MapSnapshot> FromProto(const v1::GetMapResponse& proto) {
-  PLUMESCOUT_ASSIGN_OR_RETURN(MapSnapshot map, FromProto(proto.status(), "status"));
-  map.revision = proto.revision();
-  for (int i = 0; i < proto.tiles_size(); ++i) {
-    PLUMESCOUT_RETURN_IF_ERROR(DecodeTile(proto.tiles(i), Join("", "tiles", i), map));
+absl::Status AddTiles(const v1::GetMapResponse& part, MapSnapshot& map) {
+  for (int i = 0; i < part.tiles_size(); ++i) {
+    PLUMESCOUT_RETURN_IF_ERROR(DecodeTile(part.tiles(i), Join("", "tiles", i), map));
   }
-  return map;
+  return absl::OkStatus();
 }
 
 }  // namespace plumescout

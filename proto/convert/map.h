@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vector>
+#include <optional>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/strings/string_view.h"
 #include "core/types/map_snapshot.h"
+#include "core/types/rectangle.h"
 #include "plumescout/v1/map_service.pb.h"
 #include "proto/convert/raster.h"
 
@@ -18,27 +19,31 @@ struct MapView {
   bool occupancy = true;
   bool gas_mean = true;
   bool gas_variance = true;
-  bool full_precision = false;  // gas layers as float32
+  bool full_precision = false;                     // gas layers as float32
+  int level_of_detail = 0;                         // squares of 2^n by 2^n cells make one
+  std::optional<Rectangle> region = std::nullopt;  // none: all of the map
 
   friend bool operator==(const MapView&, const MapView&) = default;
 };
 
-// No layers: all. Unset and unknown layers are refused.
-absl::StatusOr<MapView> MapViewFromProto(const google::protobuf::RepeatedField<int>& layers,
-                                         bool full_precision, absl::string_view field);
+inline constexpr int kMaxLevelOfDetail = 6;
 
-// The tiles of one rectangle, a layer each.
-std::vector<v1::MapTile> EncodeTiles(const MapSnapshot& map, const MapView& view,
-                                     const CellRect& rect);
+// No layers: all. Unset and unknown layers are refused, as are regions that end before they begin.
+absl::StatusOr<MapView> MapViewFromProto(const v1::GetMapRequest& request);
+absl::StatusOr<MapView> MapViewFromProto(const v1::WatchMapRequest& request);
+
+v1::RobotOnMap ToProto(const RobotState& robot, const MissionId& mission);
 v1::GasQuality ToProto(const GasQuality& quality, const GasAudits& audits);
 // Everything but revision and rasters.
-v1::MapStatus StatusToProto(const MapSnapshot& map, const MissionId& mission);
-v1::GetMapResponse ToProto(const MapSnapshot& map, const MissionId& mission, const MapView& view);
+v1::MapStatus ToProto(const MapStatus& status, const GridGeometry& geometry,
+                      const MissionId& mission);
 
 // Writes a tile into the map's raster of its layer.
 absl::Status DecodeTile(const v1::MapTile& tile, absl::string_view field, MapSnapshot& map);
-// A map with the status' geometry and no tiles yet: all unknown, NaN.
-absl::StatusOr<MapSnapshot> FromProto(const v1::MapStatus& proto, absl::string_view field);
+// The first part of a map, or all of it: rasters are of the tiles' geometry; what no tile covers is
+// unknown, NaN.
 absl::StatusOr<MapSnapshot> FromProto(const v1::GetMapResponse& proto);
+// Adds the tiles of a later part.
+absl::Status AddTiles(const v1::GetMapResponse& part, MapSnapshot& map);
 
 }  // namespace plumescout

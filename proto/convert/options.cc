@@ -42,6 +42,7 @@ void Visit(OneOf<GasOptions> auto& options, auto& field) {
   field("audit_period_epochs", options.audit_period_epochs);
   field("lattice_factor", options.lattice_factor);
   field("observation_stddev_share", options.observation_stddev_share);
+  field("field_reach_m", options.field_reach_m);
 }
 
 void Visit(OneOf<FrontierOptions> auto& options, auto& field) {
@@ -118,6 +119,8 @@ void Visit(OneOf<MissionOptions> auto& options, auto& field) {
   field("max_concentration_ppm", options.max_concentration_ppm);
   field("max_robot_count", options.max_robot_count);
   field("robot_silence_s", options.robot_silence_s);
+  field("memory_budget_bytes", options.memory_budget_bytes);
+  field("stamp_by_arrival", options.stamp_by_arrival);
   field("seed", options.seed);
 }
 

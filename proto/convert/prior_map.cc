@@ -13,7 +13,7 @@ v1::PriorMap ToProto(const Grid<CellState>& map) {
   v1::PriorMap proto;
   v1::KnownCells& cells = *proto.mutable_cells();
   *cells.mutable_geometry() = ToProto(map.geometry());
-  v1::MapTile tile = EncodeStates(map, WholeRaster(map.geometry()));
+  v1::MapTile tile = EncodeStates(map, WholeRaster(map.geometry()), kDenseDeflate);
   cells.set_deflated_data(std::move(*tile.mutable_deflated_data()));
   return proto;
 }

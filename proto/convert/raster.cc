@@ -20,7 +20,6 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "rasters travel as little-endian bytes");
 
-constexpr int kDeflateLevel = 1;  // maps are mostly runs: higher levels cost time for little
 constexpr std::uint16_t kNanCount = 65535;
 constexpr double kSteps = kNanCount - 1;
 
@@ -29,9 +28,9 @@ std::size_t CellCount(const CellRect& rect) {
 }
 
 template <typename T>
-std::string Deflate(const std::vector<T>& cells) {
+std::string Deflate(const std::vector<T>& cells, int level = kFastDeflate) {
   return CompressZlib({reinterpret_cast<const char*>(cells.data()), cells.size() * sizeof(T)},
-                      kDeflateLevel);
+                      level);
 }
 
 // The rectangle's cells, row by row, as one vector.
@@ -115,11 +114,11 @@ CellRect WholeRaster(const GridGeometry& geometry) {
   return {{0, 0}, geometry.width, geometry.height};
 }
 
-v1::MapTile EncodeStates(const Grid<CellState>& states, const CellRect& rect) {
+v1::MapTile EncodeStates(const Grid<CellState>& states, const CellRect& rect, int deflate_level) {
   v1::MapTile tile = MakeTile(v1::MAP_LAYER_OCCUPANCY, rect, v1::MapTile::ENCODING_U8);
   static_assert(sizeof(CellState) == 1);
   const std::vector<CellState> cells = Gather(states, rect);
-  tile.set_deflated_data(Deflate(cells));
+  tile.set_deflated_data(Deflate(cells, deflate_level));
   return tile;
 }
 

@@ -21,10 +21,14 @@ struct CellRect {
 
 CellRect WholeRaster(const GridGeometry& geometry);
 
+inline constexpr int kFastDeflate = 1;   // of maps that change: they are mostly runs
+inline constexpr int kDenseDeflate = 6;  // of maps that are packed once
+
 // One rectangle of one layer, deflated. Scaled tiles map the finite values of the rectangle onto
 // 65535 steps, so a cell is off by at most half of one; NaN stays NaN.
 // REQUIRES: the rectangle lies in the raster.
-v1::MapTile EncodeStates(const Grid<CellState>& states, const CellRect& rect);
+v1::MapTile EncodeStates(const Grid<CellState>& states, const CellRect& rect,
+                         int deflate_level = kFastDeflate);
 v1::MapTile EncodeScaled(v1::MapLayer layer, const Grid<float>& values, const CellRect& rect);
 v1::MapTile EncodeFloats(v1::MapLayer layer, const Grid<float>& values, const CellRect& rect);
 

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proto/convert/status.h"
 
+#include <map>
+#include <optional>
+#include <string>
+
 #include "absl/strings/cord.h"
 #include "absl/strings/str_cat.h"
 #include "google/rpc/error_details.pb.h"
@@ -37,6 +41,13 @@ absl::Status WithReason(absl::Status status, absl::string_view reason,
   return status;
 }
 
+absl::Status WithRequestId(absl::Status status, absl::string_view request_id) {
+  google::rpc::RequestInfo info;
+  info.set_request_id(std::string(request_id));
+  AttachDetail(info, status);
+  return status;
+}
+
 absl::Status WithRetryDelay(absl::Status status, absl::Duration delay) {
   google::rpc::RetryInfo info;
   absl::Duration rest;
@@ -49,6 +60,11 @@ absl::Status WithRetryDelay(absl::Status status, absl::Duration delay) {
 std::string Reason(const absl::Status& status) {
   const auto info = FindDetail<google::rpc::ErrorInfo>(status);
   return info.has_value() && info->domain() == kErrorDomain ? info->reason() : "";
+}
+
+std::string RequestId(const absl::Status& status) {
+  const auto info = FindDetail<google::rpc::RequestInfo>(status);
+  return info.has_value() ? info->request_id() : "";
 }
 
 std::map<std::string, std::string> ReasonMetadata(const absl::Status& status) {
@@ -78,11 +94,16 @@ google::rpc::Status ToProto(const absl::Status& status) {
   google::rpc::Status proto;
   proto.set_code(static_cast<int>(status.code()));
   proto.set_message(std::string(status.message()));
+  // abseil visits them in an order of its own choice; the same status is the same bytes.
+  std::map<std::string, std::string> payloads;
   status.ForEachPayload([&](absl::string_view type_url, const absl::Cord& value) {
-    auto* detail = proto.add_details();
-    detail->set_type_url(std::string(type_url));
-    detail->set_value(std::string(value));
+    payloads.emplace(type_url, value);
   });
+  for (const auto& [type_url, value] : payloads) {
+    auto* detail = proto.add_details();
+    detail->set_type_url(type_url);
+    detail->set_value(value);
+  }
   return proto;
 }
 

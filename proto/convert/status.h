@@ -27,6 +27,8 @@ void AttachDetail(const google::protobuf::Message& detail, absl::Status& status)
 // ErrorInfo: a reason in UPPER_SNAKE that programs may act on, with facts by name.
 absl::Status WithReason(absl::Status status, absl::string_view reason,
                         const std::map<std::string, std::string>& metadata = {});
+// RequestInfo: the number under which logs tell of the request.
+absl::Status WithRequestId(absl::Status status, absl::string_view request_id);
 // RetryInfo: not before this long from now.
 absl::Status WithRetryDelay(absl::Status status, absl::Duration delay);
 
@@ -39,6 +41,7 @@ struct FieldViolation {
 
 // What a status carries; empty if nothing (or nothing readable) is attached.
 std::string Reason(const absl::Status& status);
+std::string RequestId(const absl::Status& status);
 std::map<std::string, std::string> ReasonMetadata(const absl::Status& status);
 std::optional<absl::Duration> RetryDelay(const absl::Status& status);
 std::vector<FieldViolation> FieldViolations(const absl::Status& status);

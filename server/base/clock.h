@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "absl/time/clock.h"
 #include "absl/time/time.h"
 
 namespace plumescout::server {
@@ -15,6 +16,10 @@ using SteadyTime = std::chrono::steady_clock::time_point;
 using SteadyClock = std::function<SteadyTime()>;
 
 inline SteadyTime SteadyNow() { return std::chrono::steady_clock::now(); }
+
+// What the samples of robots are compared with, nanoseconds since the Unix epoch.
+using WallClock = std::function<std::int64_t()>;
+inline std::int64_t WallNow_ns() { return absl::GetCurrentTimeNanos(); }
 
 // `from` + `duration`, saturating at SteadyTime::max().
 inline SteadyTime After(SteadyTime from, absl::Duration duration) {

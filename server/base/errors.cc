@@ -9,7 +9,6 @@
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/strip.h"
-#include "absl/time/time.h"
 #include "core/types/error_reason.h"
 #include "proto/convert/status.h"
 
@@ -41,6 +40,12 @@ absl::Status Overloaded(absl::string_view what) {
 
 absl::Status LimitReached(absl::string_view message) {
   return TypedError(absl::StatusCode::kResourceExhausted, reason::kLimitReached, message);
+}
+
+absl::Status RateExceeded(absl::string_view what, absl::Duration wait) {
+  return WithRetryAfter(
+      TypedError(absl::StatusCode::kResourceExhausted, reason::kRateExceeded, what),
+      absl::ToInt64Nanoseconds(wait));
 }
 
 absl::Status Draining() {

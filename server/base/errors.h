@@ -4,6 +4,7 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/string_view.h"
+#include "absl/time/time.h"
 
 namespace plumescout::server {
 
@@ -13,6 +14,8 @@ namespace plumescout::server {
 absl::Status Overloaded(absl::string_view what);
 // A limit of the server's configuration is reached; waiting does not help.
 absl::Status LimitReached(absl::string_view message);
+// The caller asks for more than its share: worth another try after `wait`. `what` names the limit.
+absl::Status RateExceeded(absl::string_view what, absl::Duration wait);
 absl::Status Draining();
 
 // The same status as the wire tells it. It has an ErrorInfo: the reason of a typed error, or else

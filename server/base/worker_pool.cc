@@ -24,10 +24,17 @@ WorkerPool::~WorkerPool() {
 absl::Status WorkerPool::Submit(std::function<void()> task) {
   absl::MutexLock lock(&mutex_);
   if (tasks_.size() >= static_cast<std::size_t>(options_.max_queued)) {
+    ++refused_;
     return Overloaded(absl::StrCat("the ", options_.name, " queue is full"));
   }
   tasks_.push_back(std::move(task));
   return absl::OkStatus();
+}
+
+PoolLoad WorkerPool::load() const {
+  absl::MutexLock lock(&mutex_);
+  return {options_.name,       options_.threads, busy_, static_cast<int>(tasks_.size()),
+          options_.max_queued, refused_};
 }
 
 void WorkerPool::Run() {
@@ -39,8 +46,12 @@ void WorkerPool::Run() {
       if (tasks_.empty()) return;
       task = std::move(tasks_.front());
       tasks_.pop_front();
+      ++busy_;
     }
     task();
+    task = nullptr;
+    absl::MutexLock lock(&mutex_);
+    --busy_;
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/types/status_macros.h"
+#include "server/base/version.h"
 #include "server/config/config_file.h"
 #include "server/config/option_help.h"
 
@@ -17,6 +18,7 @@ namespace {
 struct Flags {
   std::string config_path;
   std::string listen;
+  std::string log_format;
   std::vector<std::string> settings;  // KEY=VALUE
 };
 
@@ -25,10 +27,12 @@ void Declare(Flags& flags, CLI::App& app) {
       ->type_name("FILE");
   app.add_option("-l,--listen", flags.listen, "address and port to serve on; port 0: any free one")
       ->type_name("HOST:PORT");
+  app.add_option("--log-format", flags.log_format, "how log lines are written")
+      ->type_name("text|json");
   app.add_option("-s,--set", flags.settings, "sets one option, over the file; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  app.set_version_flag("--version", "plumescout-server 0.1.0");
+  app.set_version_flag("--version", absl::StrCat("plumescout-server ", kVersion));
 }
 
 absl::StatusOr<ServerConfig> BuildConfig(const Flags& flags) {
@@ -42,6 +46,9 @@ absl::StatusOr<ServerConfig> BuildConfig(const Flags& flags) {
     PLUMESCOUT_RETURN_IF_ERROR(builder.Set(setting.substr(0, equals), setting.substr(equals + 1)));
   }
   if (!flags.listen.empty()) PLUMESCOUT_RETURN_IF_ERROR(builder.Set("listen", flags.listen));
+  if (!flags.log_format.empty()) {
+    PLUMESCOUT_RETURN_IF_ERROR(builder.Set("observe.log_format", flags.log_format));
+  }
   return builder.Build();
 }
 

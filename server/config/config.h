@@ -11,23 +11,41 @@
 namespace plumescout::server {
 
 struct LimitConfig {
-  int max_missions = 64;
-  std::int64_t max_total_cells = 128'000'000;  // of all missions' maps together
-  int max_receive_bytes = 262'144;             // of one request message
+  int max_missions = 8;
+  // Of all missions together, each counted with all that it may come to hold.
+  std::int64_t memory_budget_bytes = std::int64_t{4} << 30;
+  int max_receive_bytes = 262'144;  // of one request message
   int max_batch_observations = 1024;
   int stream_window_observations = 128;  // in flight on one ingest stream
   int max_queued_observations = 4096;    // of one mission
   int max_waiting_calls = 256;           // of one mission, for a belief
   int max_streams_per_connection = 100;
+  std::int64_t max_queued_bytes = 8'388'608;  // of one mission's observations that wait
+  double max_wait_s = 30.0;                   // for a belief, whatever the caller's deadline
+  // What missions may choose for themselves at most.
+  std::int64_t mission_memory_budget_bytes = std::int64_t{1} << 30;
+  std::int64_t max_map_cell_count = 16'000'000;
+  int max_beam_count = 16'384;
+  double max_range_m = 300.0;
+  // Of one robot; 0: any number.
+  double max_scans_per_s = 50.0;
+  double max_gas_readings_per_s = 1000.0;
+  double max_ingest_bytes_per_s = 4'194'304.0;
+  double max_plans_per_s = 20.0;
+  double ingest_burst_s = 60.0;   // so much time's worth of observations may come at once
+  double max_clock_lead_s = 5.0;  // of a robot's sample; 0: any
 };
 
 struct PlanningConfig {
   int threads = 2;
   int max_queued = 64;
   double default_budget_s = 1.0;
-  double max_budget_s = 60.0;
+  double max_budget_s = 5.0;
   double deadline_margin_s = 0.02;  // kept back from a call's deadline for commit and reply
   bool rivals = false;              // missions may choose the planners of OMPL
+  int max_queued_per_mission = 32;
+  int max_queued_per_robot = 4;
+  int max_running_per_mission = 0;  // 0: all threads but one, but at least one
 };
 
 struct MapConfig {
@@ -35,6 +53,9 @@ struct MapConfig {
   int max_queued = 128;
   double publish_period_s = 0.1;
   double gas_wait_s = 0.06;  // in spite of the period, a reading is seen after this
+  int query_threads = 2;
+  int max_queued_queries = 256;
+  int max_part_bytes = 3 << 20;  // of one message; clients take 4 MiB unless told otherwise
 };
 
 struct EpochConfig {
@@ -47,7 +68,32 @@ struct ConnectionConfig {
   double keepalive_timeout_s = 5.0;
   double min_client_ping_interval_s = 5.0;  // clients that ping more often are sent away
   double lease_hold_s = 10.0;
-  double drain_s = 1.0;  // calls in flight get this long when the server stops
+  double drain_s = 1.0;              // calls in flight get this long when the server stops
+  double self_probe_period_s = 5.0;  // the server knocks at its own door this often; 0: never
+};
+
+// Values of trusted_front that are no names: whoever comes from this machine, or by a Unix socket.
+inline constexpr char kLocalFront[] = "loopback";
+inline constexpr char kUnixFront[] = "unix";
+
+struct AccessConfig {
+  std::string tls_certificate_file = "";  // empty: plaintext, as for those that follow
+  std::string tls_key_file = "";
+  std::string client_ca_file = "";
+  bool require_client_certificate = false;
+  std::string tokens_file = "";
+  bool allow_anonymous = false;
+  bool allow_plaintext = false;
+  std::string trusted_front = "";
+};
+
+struct ObserveConfig {
+  std::string http_listen = "auto";  // of metrics and health; see HttpListen
+  std::string log_level = "info";
+  std::string log_format = "text";
+  double slow_call_s = 1.0;  // calls that take longer are logged with what they waited for
+  bool reflection = true;
+  bool channelz = false;
 };
 
 // Everything that can be set, by file or flag: the fields of plumescout.config.v1.ServerConfig,
@@ -59,10 +105,16 @@ struct ServerConfig {
   MapConfig maps;
   EpochConfig epochs;
   ConnectionConfig connection;
+  AccessConfig access;
+  ObserveConfig observe;
   MissionOptions mission;  // what missions get for fields that their creator leaves unset
 };
 
 // kInvalidArgument naming option, value and range: "planning.threads = 0 must be in [1, 256]".
 absl::Status Validate(const ServerConfig& config);
+
+// Where HTTP is served. For "auto" that is the port after the one of `listen` on loopback, or any
+// free one if `listen` takes any. Empty: nowhere.
+std::string HttpListen(const ServerConfig& config);
 
 }  // namespace plumescout::server

@@ -12,13 +12,25 @@ namespace {
 
 void Visit(OneOf<LimitConfig> auto& limits, auto& field) {
   field("max_missions", limits.max_missions);
-  field("max_total_cells", limits.max_total_cells);
+  field("memory_budget_bytes", limits.memory_budget_bytes);
   field("max_receive_bytes", limits.max_receive_bytes);
   field("max_batch_observations", limits.max_batch_observations);
   field("stream_window_observations", limits.stream_window_observations);
   field("max_queued_observations", limits.max_queued_observations);
   field("max_waiting_calls", limits.max_waiting_calls);
   field("max_streams_per_connection", limits.max_streams_per_connection);
+  field("max_queued_bytes", limits.max_queued_bytes);
+  field("max_wait_s", limits.max_wait_s);
+  field("mission_memory_budget_bytes", limits.mission_memory_budget_bytes);
+  field("max_map_cell_count", limits.max_map_cell_count);
+  field("max_beam_count", limits.max_beam_count);
+  field("max_range_m", limits.max_range_m);
+  field("max_scans_per_s", limits.max_scans_per_s);
+  field("max_gas_readings_per_s", limits.max_gas_readings_per_s);
+  field("max_ingest_bytes_per_s", limits.max_ingest_bytes_per_s);
+  field("max_plans_per_s", limits.max_plans_per_s);
+  field("ingest_burst_s", limits.ingest_burst_s);
+  field("max_clock_lead_s", limits.max_clock_lead_s);
 }
 
 void Visit(OneOf<PlanningConfig> auto& planning, auto& field) {
@@ -28,6 +40,9 @@ void Visit(OneOf<PlanningConfig> auto& planning, auto& field) {
   field("max_budget_s", planning.max_budget_s);
   field("deadline_margin_s", planning.deadline_margin_s);
   field("rivals", planning.rivals);
+  field("max_queued_per_mission", planning.max_queued_per_mission);
+  field("max_queued_per_robot", planning.max_queued_per_robot);
+  field("max_running_per_mission", planning.max_running_per_mission);
 }
 
 void Visit(OneOf<MapConfig> auto& maps, auto& field) {
@@ -35,6 +50,9 @@ void Visit(OneOf<MapConfig> auto& maps, auto& field) {
   field("max_queued", maps.max_queued);
   field("publish_period_s", maps.publish_period_s);
   field("gas_wait_s", maps.gas_wait_s);
+  field("query_threads", maps.query_threads);
+  field("max_queued_queries", maps.max_queued_queries);
+  field("max_part_bytes", maps.max_part_bytes);
 }
 
 void Visit(OneOf<EpochConfig> auto& epochs, auto& field) {
@@ -48,6 +66,27 @@ void Visit(OneOf<ConnectionConfig> auto& connection, auto& field) {
   field("min_client_ping_interval_s", connection.min_client_ping_interval_s);
   field("lease_hold_s", connection.lease_hold_s);
   field("drain_s", connection.drain_s);
+  field("self_probe_period_s", connection.self_probe_period_s);
+}
+
+void Visit(OneOf<AccessConfig> auto& access, auto& field) {
+  field("tls_certificate_file", access.tls_certificate_file);
+  field("tls_key_file", access.tls_key_file);
+  field("client_ca_file", access.client_ca_file);
+  field("require_client_certificate", access.require_client_certificate);
+  field("tokens_file", access.tokens_file);
+  field("allow_anonymous", access.allow_anonymous);
+  field("allow_plaintext", access.allow_plaintext);
+  field("trusted_front", access.trusted_front);
+}
+
+void Visit(OneOf<ObserveConfig> auto& observe, auto& field) {
+  field("http_listen", observe.http_listen);
+  field("log_level", observe.log_level);
+  field("log_format", observe.log_format);
+  field("slow_call_s", observe.slow_call_s);
+  field("reflection", observe.reflection);
+  field("channelz", observe.channelz);
 }
 
 void Visit(OneOf<ServerConfig> auto& config, auto& field) { field("listen", config.listen); }
@@ -73,6 +112,8 @@ config::v1::ServerConfig ToProto(const ServerConfig& config) {
   Write(config.maps, *proto.mutable_maps());
   Write(config.epochs, *proto.mutable_epochs());
   Write(config.connection, *proto.mutable_connection());
+  Write(config.access, *proto.mutable_access());
+  Write(config.observe, *proto.mutable_observe());
   *proto.mutable_mission() = plumescout::ToProto(config.mission);
   return proto;
 }
@@ -85,6 +126,8 @@ absl::StatusOr<ServerConfig> FromProto(const config::v1::ServerConfig& proto) {
   Read(proto.maps(), config.maps);
   Read(proto.epochs(), config.epochs);
   Read(proto.connection(), config.connection);
+  Read(proto.access(), config.access);
+  Read(proto.observe(), config.observe);
   PLUMESCOUT_ASSIGN_OR_RETURN(config.mission,
                               ReadMissionOptions(proto.mission(), config.mission, "mission"));
   PLUMESCOUT_RETURN_IF_ERROR(Validate(config));

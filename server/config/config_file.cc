@@ -4,6 +4,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <fstream>
 #include <functional>
 #include <sstream>
@@ -17,6 +18,9 @@
 
 namespace plumescout::server {
 namespace {
+
+// Beyond the deepest option. An alias may name a mapping that it stands in, which has no end.
+constexpr int kMaxDepth = 8;
 
 std::string Place(absl::string_view name, const YAML::Mark& mark) {
   return absl::StrCat(name, ":", mark.line + 1, ": ");
@@ -47,6 +51,9 @@ class YamlReader {
  private:
   // Sets the scalar under `key`, or every one below it. `mark` is where the key stands.
   absl::Status AddValue(const YAML::Node& value, const YAML::Mark& mark, const std::string& key) {
+    if (std::count(key.begin(), key.end(), '.') >= kMaxDepth) {
+      return At(name_, mark, absl::StrCat(key, " is not an option"));
+    }
     if (value.IsMap()) return AddNode(value, key);
     if (value.IsScalar()) return set_(Place(name_, mark), key, value.Scalar());
     if (!value.IsSequence()) return At(name_, mark, absl::StrCat(key, " has no value"));

@@ -53,7 +53,7 @@ std::string Wrapped(const std::string& text) {
   const std::vector<std::string> words =
       absl::StrSplit(text, absl::ByAnyChar(" \n"), absl::SkipEmpty());
   for (const std::string& word : words) {
-    if (line.size() + word.size() > kColumns) {
+    if (line.size() + 1 + word.size() > kColumns) {
       absl::StrAppend(&wrapped, line, "\n");
       line = kIndent;
     }

@@ -6,18 +6,22 @@
 
 #include "absl/base/thread_annotations.h"
 #include "absl/synchronization/mutex.h"
+#include "server/base/clock.h"
 
 namespace plumescout::server {
 
 // One epoch, recomputed by whoever claims it first.
 class EpochRunner::Task {
  public:
-  explicit Task(std::shared_ptr<GasEpoch> epoch) : epoch_(std::move(epoch)) {}
+  Task(std::shared_ptr<GasEpoch> epoch, MissionMetrics* metrics)
+      : epoch_(std::move(epoch)), metrics_(metrics) {}
 
   // Recomputes, unless somebody else does.
   void Run() {
     if (!Claim()) return;
+    const SteadyTime from = SteadyNow();
     epoch_->Recompute();
+    metrics_->NoteEpoch(absl::FromChrono(SteadyNow() - from));
     absl::MutexLock lock(&mutex_);
     done_ = true;
   }
@@ -33,6 +37,7 @@ class EpochRunner::Task {
 
  private:
   const std::shared_ptr<GasEpoch> epoch_;  // what it points to is the claimant's until done_
+  MissionMetrics* const metrics_;
 
   absl::Mutex mutex_;
   bool claimed_ ABSL_GUARDED_BY(mutex_) = false;
@@ -47,7 +52,7 @@ void EpochRunner::Drop() {
 
 void EpochRunner::Start(std::shared_ptr<GasEpoch> epoch) {
   Drop();
-  task_ = std::make_shared<Task>(std::move(epoch));
+  task_ = std::make_shared<Task>(std::move(epoch), metrics_);
   if (pool_ == nullptr) return;
   // Refused: it waits for Finish.
   pool_->Submit([task = task_] { task->Run(); }).IgnoreError();

@@ -6,6 +6,7 @@
 
 #include "core/gas/gas_epoch.h"
 #include "server/base/worker_pool.h"
+#include "server/observe/mission_metrics.h"
 
 namespace plumescout::server {
 
@@ -15,7 +16,9 @@ namespace plumescout::server {
 class EpochRunner {
  public:
   // `pool` is not owned and outlives the last Start; null: callers of Finish compute.
-  explicit EpochRunner(WorkerPool* pool) : pool_(pool) {}
+  // `metrics` as well; they hear how long recomputations take.
+  explicit EpochRunner(WorkerPool* pool, MissionMetrics* metrics = &MissionMetrics::Unread())
+      : pool_(pool), metrics_(metrics) {}
   // An epoch that runs is left to its end, one that waits never runs.
   ~EpochRunner();
   EpochRunner(const EpochRunner&) = delete;
@@ -34,6 +37,7 @@ class EpochRunner {
   void Drop();
 
   WorkerPool* const pool_;
+  MissionMetrics* const metrics_;
   std::shared_ptr<Task> task_;  // of the epoch started last; null if it is finished
 };
 

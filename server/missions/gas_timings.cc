@@ -39,17 +39,20 @@ void GasTimer::NoteReading(SteadyTime now) {
 void GasTimer::NoteRefresh(SteadyTime from, SteadyTime now) {
   if (!refreshed_since_.has_value()) refreshed_since_ = waiting_since_;
   waiting_since_.reset();
+  metrics_->NoteRefresh(Between(from, now));
   absl::MutexLock lock(&mutex_);
   updates_.Add(Between(from, now));
 }
 
 void GasTimer::NoteAdoption(SteadyTime from, SteadyTime now) {
+  metrics_->NoteAdoption(Between(from, now));
   absl::MutexLock lock(&mutex_);
   updates_.Add(Between(from, now));
 }
 
 void GasTimer::NotePublication(SteadyTime now) {
   if (!refreshed_since_.has_value()) return;
+  metrics_->NoteStaleness(Between(*refreshed_since_, now));
   absl::MutexLock lock(&mutex_);
   stalenesses_.Add(Between(*refreshed_since_, now));
   refreshed_since_.reset();

@@ -11,6 +11,7 @@
 #include "absl/synchronization/mutex.h"
 #include "absl/time/time.h"
 #include "server/base/clock.h"
+#include "server/observe/mission_metrics.h"
 
 namespace plumescout::server {
 
@@ -24,7 +25,8 @@ struct LatencyFigures {
 
 inline constexpr std::size_t kLatencyWindow = 1024;  // at 10 Hz the last minutes
 
-// How long a mission's gas posterior takes, by the wall clock.
+// How long one mission's gas posterior takes, by the wall clock: what GetMission tells to who may
+// see the mission and no metrics.
 struct GasTimings {
   LatencyFigures update;     // the writer's time for a refresh, or for adopting an epoch
   LatencyFigures staleness;  // at each publication: since the first reading that it is the first to
@@ -42,10 +44,12 @@ class LatencyWindow {
   std::int64_t samples_ = 0;
 };
 
-// Follows readings from the acknowledgement through the posterior to a published belief. All calls
-// come from one thread, but for timings().
+// Follows readings of one mission from the acknowledgement through the posterior to a published
+// belief. All calls come from one thread, but for timings().
 class GasTimer {
  public:
+  explicit GasTimer(MissionMetrics* metrics = &MissionMetrics::Unread()) : metrics_(metrics) {}
+
   void NoteReading(SteadyTime now);
   // The posterior was brought up to date with all readings noted, or an epoch was adopted.
   void NoteRefresh(SteadyTime from, SteadyTime now);
@@ -63,6 +67,7 @@ class GasTimer {
   GasTimings timings() const;
 
  private:
+  MissionMetrics* const metrics_;
   std::optional<SteadyTime> waiting_since_;    // the first reading not in the posterior
   std::optional<SteadyTime> refreshed_since_;  // the first that is, but was not published
 

@@ -35,6 +35,22 @@ void LeaseTable::Remove(const RobotId& robot) {
   if (end) end(RobotNotFound(robot));
 }
 
+absl::Status LeaseTable::Release(const RobotId& robot, std::optional<std::int64_t> token) {
+  EndStream end;
+  {
+    absl::MutexLock lock(&mutex_);
+    PLUMESCOUT_ASSIGN_OR_RETURN(const StreamId ended, book_.Release(robot, token));
+    end = TakeEnd(ended);
+  }
+  if (end) end(LeaseSuperseded(robot));
+  return absl::OkStatus();
+}
+
+LeaseStanding LeaseTable::Standing(const RobotId& robot) const {
+  absl::MutexLock lock(&mutex_);
+  return book_.Standing(robot, ToNanoseconds(clock_()));
+}
+
 absl::Status LeaseTable::Use(const RobotId& robot, std::int64_t token) {
   absl::MutexLock lock(&mutex_);
   return book_.Use(robot, token, ToNanoseconds(clock_()));

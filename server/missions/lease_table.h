@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 
 #include "absl/base/thread_annotations.h"
 #include "absl/status/status.h"
@@ -31,6 +32,11 @@ class LeaseTable final : public Leases {
   void Grant(const RobotId& robot, std::int64_t token) override;
   // Its stream ends with ROBOT_NOT_FOUND.
   void Remove(const RobotId& robot) override;
+
+  // Gives up the lease of this token, or whoever's it is; see LeaseBook::Release. Its stream ends
+  // with LEASE_SUPERSEDED.
+  absl::Status Release(const RobotId& robot, std::optional<std::int64_t> token);
+  LeaseStanding Standing(const RobotId& robot) const;
 
   // Counts as a use. ROBOT_NOT_FOUND; LEASE_SUPERSEDED unless `token` is the newest.
   absl::Status Use(const RobotId& robot, std::int64_t token);

@@ -7,75 +7,143 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/mission/conduct/conduct_errors.h"
+#include "proto/convert/prior_map.h"
 #include "server/base/errors.h"
 
 namespace plumescout::server {
+namespace {
+
+constexpr std::int64_t kMaxRememberedBytes = 2 << 20;  // the last plans of some dozens of robots
+
+std::unique_ptr<Mission> AbandonedWith(std::shared_ptr<const std::atomic<bool>> flag,
+                                       std::unique_ptr<Mission> mission) {
+  mission->AbandonWhen([flag = std::move(flag)] { return flag->load(); });
+  return mission;
+}
+
+}  // namespace
 
 MissionHost::MissionHost(Parts parts, const HostOptions& options)
     : id_(std::move(parts.id)),
+      owner_(std::move(parts.owner)),
+      metrics_(*parts.metrics),
       host_options_(options),
       mission_options_(parts.mission->options()),
       strategy_(std::move(parts.strategy)),
       leases_(options.lease_hold, options.first_lease_token, options.clock),
-      writer_(std::move(parts.mission), std::move(parts.sink), parts.epoch_pool, SteadyNow,
-              parts.audit_pool),
+      room_(std::make_shared<IngestRoom>(
+          IngestLoad{options.max_queued_observations, options.max_queued_bytes})),
+      abandoned_(std::make_shared<std::atomic<bool>>(false)),
+      standing_(id_, options.clock),
+      rates_(options.rates, options.clock),
+      requests_(std::make_shared<RequestMemory>(
+          RequestMemoryOptions{.max_bytes = kMaxRememberedBytes, .clock = options.clock})),
+      map_feed_(std::make_shared<MapFeed>(id_, options.max_map_part_bytes)),
       waiters_(options.max_waiters),
+      writer_(AbandonedWith(abandoned_, std::move(parts.mission)), std::move(parts.sink),
+              parts.epoch_pool, SteadyNow, parts.audit_pool, parts.metrics),
+      clock_gate_({options.max_clock_lead, mission_options_.stamp_by_arrival}, options.wall_clock),
       thread_([this] { Run(); }) {}
 
 MissionHost::~MissionHost() { Stop(MissionNotFound(id_)); }
 
-absl::Status MissionHost::Reserve(int observations) {
-  absl::MutexLock lock(&mutex_);
-  if (observations > host_options_.max_queued_observations - reserved_observations_) {
-    return Overloaded(absl::StrCat("the ingest queue of mission ", id_, " is full"));
-  }
-  reserved_observations_ += observations;
-  return absl::OkStatus();
+const v1::PriorMap& MissionHost::prior_map() {
+  absl::call_once(prior_map_packed_, [this] { prior_map_ = ToProto(*mission_options_.prior_map); });
+  return prior_map_;
 }
 
-void MissionHost::Release(int observations) {
+HostLoad MissionHost::load() const {
+  HostLoad load;
+  load.waiting_calls = waiters_.size();
+  load.watchers = map_feed_->reader_count();
+  const SteadyTime since = unpublished_since_;
+  if (load.watchers > 0 && since != SteadyTime::max()) {
+    load.unpublished = absl::FromChrono(SteadyNow() - since);
+  }
+  load.reserved_observations = room_->used().observations;
   absl::MutexLock lock(&mutex_);
-  reserved_observations_ -= observations;
+  load.queued_commands = static_cast<int>(commands_.size());
+  return load;
+}
+
+IngestResult MissionHost::Ingest(MissionWriter& writer, const RobotId& robot,
+                                 std::int64_t lease_token, std::vector<IncomingObservation> batch) {
+  const absl::Status writable = standing_.CheckMayWrite();
+  if (!writable.ok()) {
+    return {writable, writer.conduct().Position(robot).value_or(LogPosition{}), {}};
+  }
+  clock_gate_.Pass(robot, batch);
+  return writer.conduct().Ingest(robot, lease_token, std::move(batch));
 }
 
 absl::Status MissionHost::Post(Command command) {
+  const bool bounded = command.room == nullptr;
   absl::MutexLock lock(&mutex_);
   if (stopping_) return stop_status_;
-  if (commands_.size() >= static_cast<std::size_t>(host_options_.max_queued_commands)) {
+  if (bounded && bounded_commands_ >= host_options_.max_queued_commands) {
     return Overloaded(absl::StrCat("the command queue of mission ", id_, " is full"));
   }
+  if (bounded) ++bounded_commands_;
   commands_.push_back(std::move(command));
   return absl::OkStatus();
 }
 
 absl::Status MissionHost::AwaitBelief(BeliefRequest request, BeliefCallback done) {
-  return Post([this, request = std::move(request), done = std::move(done)](MissionWriter&) {
-    waiters_.Add(request, done);
-  });
+  request.deadline = std::min(request.deadline, After(SteadyNow(), host_options_.max_wait));
+  return Post(
+      [this, request = std::move(request), done](MissionWriter& writer) {
+        waiters_.Add(request, done, writer.conduct(), SteadyNow());
+      },
+      [done](const absl::Status& status) { done(status); });
 }
 
 absl::Status MissionHost::Subscribe(Subscriber subscriber) {
-  return Post([this, subscriber = std::move(subscriber)](MissionWriter& writer) {
-    if (subscribers_.empty()) writer.BeginPublishing();
-    if (subscriber(writer.conduct().Snapshot())) subscribers_.push_back(subscriber);
-  });
+  return Post(
+      [this, subscriber](MissionWriter& writer) {
+        if (subscribers_.empty()) writer.BeginPublishing();
+        if (subscriber(writer.conduct().Snapshot())) subscribers_.push_back(subscriber);
+      },
+      [subscriber](const absl::Status& status) { subscriber(status); });
 }
 
-void MissionHost::Wake() {
-  // A full or stopped queue looks at the waiters anyway.
-  Post([](MissionWriter&) {}).IgnoreError();
+void MissionHost::EndWaits(const absl::Status& status) {
+  waiters_.Close(status);
+  end_listeners_.End(status);
+}
+
+void MissionHost::BeginStop(const absl::Status& status) {
+  absl::MutexLock lock(&mutex_);
+  if (!stopping_) stop_status_ = status;
+  stopping_ = true;
+  *abandoned_ = true;
+}
+
+void MissionHost::DropAll() {
+  std::deque<Command> dropped;
+  absl::Status status;
+  {
+    absl::MutexLock lock(&mutex_);
+    status = stop_status_;
+    dropped.swap(commands_);
+    bounded_commands_ = 0;
+  }
+  // One by one, so that the room of each is free when its caller hears.
+  while (!dropped.empty()) {
+    const OnDropped drop = std::move(dropped.front().drop);
+    dropped.pop_front();
+    if (drop) drop(status);
+  }
+  EndWaits(status);
+  leases_.EndAll(status);
 }
 
 void MissionHost::Stop(const absl::Status& status) {
-  {
-    absl::MutexLock lock(&mutex_);
-    if (!stopping_) stop_status_ = status;
-    stopping_ = true;
-  }
+  BeginStop(status);
+  DropAll();
   if (thread_.joinable()) thread_.join();
 }
 
-bool MissionHost::TakeCommands(SteadyTime until, std::vector<Command>& commands) {
+std::optional<std::size_t> MissionHost::AwaitCommands(SteadyTime until) {
   absl::MutexLock lock(&mutex_);
   const absl::Condition has_work(this, &MissionHost::HasWork);
   if (until == SteadyTime::max()) {
@@ -83,30 +151,41 @@ bool MissionHost::TakeCommands(SteadyTime until, std::vector<Command>& commands)
   } else {
     mutex_.AwaitWithTimeout(has_work, absl::FromChrono(until - SteadyNow()));
   }
-  commands.swap(commands_);
-  return !commands.empty() || !stopping_;
+  if (stopping_) return std::nullopt;
+  return commands_.size();
+}
+
+std::optional<MissionHost::Command> MissionHost::NextCommand() {
+  absl::MutexLock lock(&mutex_);
+  if (stopping_ || commands_.empty()) return std::nullopt;
+  Command command = std::move(commands_.front());
+  commands_.pop_front();
+  if (command.room == nullptr) --bounded_commands_;
+  return command;
 }
 
 void MissionHost::Run() {
-  std::vector<Command> commands;
-  while (TakeCommands(NextWake(), commands)) {
-    for (const Command& command : commands) command(writer_);
-    // Not under the lock: what commands hold may call us when it goes.
-    commands.clear();
+  while (const auto count = AwaitCommands(NextWake())) {
+    for (std::size_t i = 0; i < *count; ++i) {
+      std::optional<Command> command = NextCommand();
+      if (!command.has_value()) break;
+      command->room = nullptr;  // it waits no more
+      command->run(writer_);
+    }
     AfterCommands();
   }
+  DropAll();
   absl::Status status;
   {
     absl::MutexLock lock(&mutex_);
     status = stop_status_;
   }
-  waiters_.FailAll(status);
   Publish(status);
   subscribers_.clear();
-  leases_.EndAll(status);
 }
 
 void MissionHost::AfterCommands() {
+  if (*abandoned_) return;
   writer_.CollectAudit();
   const SteadyTime now = SteadyNow();
   waiters_.Serve(writer_.conduct(), now);
@@ -116,6 +195,7 @@ void MissionHost::AfterCommands() {
     published_revision_ = belief->revision;
     Publish(std::move(belief));
   }
+  unpublished_since_ = writer_.unpublished_since();
 }
 
 SteadyTime MissionHost::next_publication() const {

@@ -2,44 +2,86 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
+#include "absl/base/call_once.h"
 #include "absl/base/thread_annotations.h"
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/synchronization/mutex.h"
 #include "core/belief/belief.h"
 #include "core/plan/strategy.h"
+#include "plumescout/v1/options.pb.h"
 #include "server/base/clock.h"
+#include "server/base/request_memory.h"
+#include "server/maps/map_feed.h"
 #include "server/missions/belief_waiters.h"
+#include "server/missions/clock_gate.h"
+#include "server/missions/end_listeners.h"
+#include "server/missions/ingest_room.h"
 #include "server/missions/lease_table.h"
+#include "server/missions/mission_standing.h"
 #include "server/missions/mission_writer.h"
+#include "server/missions/robot_rates.h"
 
 namespace plumescout::server {
 
+// Whose a mission is.
+struct MissionOwner {
+  std::string name = "anonymous";
+  std::string tenant = {};  // who is of another does not see it
+};
+
 struct HostOptions {
   int max_queued_observations = 4096;
+  std::int64_t max_queued_bytes = std::int64_t{8} * 1024 * 1024;  // of observations
   int max_queued_commands = 4096;
   int max_waiters = 256;
+  absl::Duration max_wait = absl::Seconds(30);  // for a belief, whatever the caller's deadline
   // Watchers see a new belief at most this often; but a reading ...
   absl::Duration publish_period = absl::Milliseconds(100);
   // ... that was acknowledged is in the posterior that they see after this at the latest.
   absl::Duration gas_wait = absl::Milliseconds(60);
+  std::int64_t max_map_part_bytes = std::int64_t{3} << 20;  // of one message of the map
   absl::Duration lease_hold = absl::Seconds(10);
   std::int64_t first_lease_token = 1;
   SteadyClock clock = SteadyNow;
+  WallClock wall_clock = WallNow_ns;
+  absl::Duration max_clock_lead = absl::Seconds(5);  // of samples; see ClockGateOptions
+  RateOptions rates = {};
+};
+
+// How much waits for a mission, and who.
+struct HostLoad {
+  int queued_commands = 0;
+  int reserved_observations = 0;
+  int waiting_calls = 0;  // for a belief
+  int watchers = 0;
+  // How long ago the first reading was acknowledged that watchers do not have; 0: they have all.
+  absl::Duration unpublished;
 };
 
 // Runs one mission: a writer thread that takes commands from a bounded queue, and the belief it
-// publishes. No call blocks but Stop. Callbacks run on the writer's thread and must not block.
-// Thread-safe.
+// publishes. No call blocks but Stop. Callbacks run on the writer's thread, or on one that stops
+// the mission, and must not block. Thread-safe.
 class MissionHost {
  public:
-  using Command = std::function<void(MissionWriter&)>;
+  using Task = std::function<void(MissionWriter&)>;
+  using OnDropped = std::function<void(const absl::Status&)>;
+  // Of a command that was taken, exactly one of the two is called.
+  struct Command {
+    Task run;
+    OnDropped drop = nullptr;         // the mission ends first; null: nobody has to hear of it
+    IngestRoom::Hold room = nullptr;  // held while it waits; there is place for whoever has some
+  };
   // Told of new beliefs until it returns false; an error is the last call.
   using Subscriber = std::function<bool(absl::StatusOr<std::shared_ptr<const Belief>>)>;
 
@@ -50,6 +92,8 @@ class MissionHost {
     EventSink sink;
     WorkerPool* epoch_pool = nullptr;  // of the writer, as is the next; see MissionWriter
     WorkerPool* audit_pool = nullptr;
+    MissionOwner owner = {};
+    MissionMetrics* metrics = &MissionMetrics::Unread();  // not owned; outlives the host
   };
 
   MissionHost(Parts parts, const HostOptions& options);
@@ -59,33 +103,65 @@ class MissionHost {
   MissionHost& operator=(const MissionHost&) = delete;
 
   const MissionId& id() const { return id_; }
+  const std::string& owner() const { return owner_.name; }
+  const std::string& tenant() const { return owner_.tenant; }
   const MissionOptions& options() const { return mission_options_; }
   const Strategy& strategy() const { return *strategy_; }
   LeaseTable& leases() { return leases_; }
+  MissionStanding& standing() { return standing_; }
+  const MissionStanding& standing() const { return standing_; }
+  RobotRates& rates() { return rates_; }
+  // Of the calls that name this mission.
+  const std::shared_ptr<RequestMemory>& requests() const { return requests_; }
+  const std::shared_ptr<MapFeed>& map_feed() const { return map_feed_; }
+  // The map that the mission began with, as cells. The first call packs it: not for reactors.
+  // REQUIRES: there is one.
+  const v1::PriorMap& prior_map();
   MissionSummary summary() const { return writer_.summary(); }
   GasTimings gas_timings() const { return writer_.gas_timings(); }
+  MissionMetrics& metrics() { return metrics_; }
+  HostLoad load() const;
 
-  // Claims room in the queue for observations that will be posted. OVERLOADED if there is none.
-  absl::Status Reserve(int observations);
-  void Release(int observations);
+  // Of observations that wait.
+  IngestRoom& room() { return *room_; }
+  // Hear when the mission ends, or EndWaits does.
+  EndListeners& end_listeners() { return end_listeners_; }
+
+  // Has the writer, on its thread, apply a batch as MissionConduct::Ingest, if the mission takes
+  // any (MISSION_FINISHED) and but for samples whose clock runs ahead (CLOCK_AHEAD).
+  IngestResult Ingest(MissionWriter& writer, const RobotId& robot, std::int64_t lease_token,
+                      std::vector<IncomingObservation> batch);
 
   // The writer runs the command, after all earlier ones. OVERLOADED if too many wait; the status
-  // given to Stop once the host stops.
+  // given to Stop once the host stops. Then neither part of the command is called.
   absl::Status Post(Command command);
+  absl::Status Post(Task run, OnDropped drop = nullptr) {
+    return Post(Command{std::move(run), std::move(drop)});
+  }
+  // Waits no longer than HostOptions::max_wait once the writer has come to it.
   absl::Status AwaitBelief(BeliefRequest request, BeliefCallback done);
   // The present belief at once, then new ones as HostOptions say.
   absl::Status Subscribe(Subscriber subscriber);
   // Looks again whether those who wait still do.
-  void Wake();
+  void Wake() { waiters_.DropAbandoned(); }
 
-  // Runs what is queued, fails who waits, ends all streams with `status`, and joins the writer.
+  // Fails who waits for a belief, now and later, and tells all end_listeners(). Commands go on.
+  void EndWaits(const absl::Status& status);
+  // From now on nothing is taken; what runs ends soon, and the writer after it. Returns at once.
+  // The first status counts.
+  void BeginStop(const absl::Status& status);
+  // As EndWaits; drops what is queued and ends all streams, though something still runs. REQUIRES:
+  // BeginStop was called.
+  void DropAll();
+  // Both, and joins the writer.
   void Stop(const absl::Status& status);
 
  private:
   void Run();
-  // Waits for commands until then. False if the host is to stop and none are left. REQUIRES:
-  // `commands` is empty.
-  bool TakeCommands(SteadyTime until, std::vector<Command>& commands);
+  // Waits for commands until then; returns how many there are, none if the host is to stop.
+  std::optional<std::size_t> AwaitCommands(SteadyTime until);
+  // Nothing if the host is to stop.
+  std::optional<Command> NextCommand();
   bool HasWork() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
     return !commands_.empty() || stopping_;
   }
@@ -95,23 +171,38 @@ class MissionHost {
   SteadyTime NextWake() const;
 
   const MissionId id_;
+  const MissionOwner owner_;
+  MissionMetrics& metrics_;
   const HostOptions host_options_;
   const MissionOptions mission_options_;
   const std::unique_ptr<const Strategy> strategy_;
   LeaseTable leases_;
+  const std::shared_ptr<IngestRoom> room_;
+  EndListeners end_listeners_;
+  // Read by what the mission has running, which may outlive us.
+  const std::shared_ptr<std::atomic<bool>> abandoned_;
+  MissionStanding standing_;
+  RobotRates rates_;
+  const std::shared_ptr<RequestMemory> requests_;
+  const std::shared_ptr<MapFeed> map_feed_;
+  absl::once_flag prior_map_packed_;
+  v1::PriorMap prior_map_;  // once it is packed
 
-  absl::Mutex mutex_;
-  std::vector<Command> commands_ ABSL_GUARDED_BY(mutex_);
-  int reserved_observations_ ABSL_GUARDED_BY(mutex_) = 0;
+  mutable absl::Mutex mutex_;
+  std::deque<Command> commands_ ABSL_GUARDED_BY(mutex_);
+  int bounded_commands_ ABSL_GUARDED_BY(mutex_) = 0;  // those without room of their own
   bool stopping_ ABSL_GUARDED_BY(mutex_) = false;
   absl::Status stop_status_ ABSL_GUARDED_BY(mutex_);
 
+  BeliefWaiters waiters_;
   // Touched by the writer's thread only, but for the writer's summary.
   MissionWriter writer_;
-  BeliefWaiters waiters_;
+  ClockGate clock_gate_;
   std::vector<Subscriber> subscribers_;
   std::int64_t published_revision_ = 0;
   SteadyTime published_at_;
+  // What load() tells of these.
+  std::atomic<SteadyTime> unpublished_since_ = SteadyTime::max();
 
   std::thread thread_;  // last: it uses all of the above
 };

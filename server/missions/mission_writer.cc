@@ -13,7 +13,8 @@ namespace plumescout::server {
 namespace {
 
 MissionSummary SummaryOf(const Mission& mission) {
-  return {mission.revision(), mission.phase(), mission.next_map_update_ns()};
+  return {mission.revision(), mission.phase(), mission.next_map_update_ns(), mission.memory_bytes(),
+          mission.lattice_factor()};
 }
 
 bool IsReadingTakenIn(const Event& event, const Applied& applied) {
@@ -25,11 +26,14 @@ bool IsReadingTakenIn(const Event& event, const Applied& applied) {
 }  // namespace
 
 MissionWriter::MissionWriter(std::unique_ptr<Mission> mission, EventSink sink,
-                             WorkerPool* epoch_pool, SteadyClock clock, WorkerPool* audit_pool)
+                             WorkerPool* epoch_pool, SteadyClock clock, WorkerPool* audit_pool,
+                             MissionMetrics* metrics)
     : sink_(std::move(sink)),
       clock_(std::move(clock)),
-      epoch_runner_(epoch_pool),
+      metrics_(*metrics),
+      epoch_runner_(epoch_pool, metrics),
       audit_runner_(audit_pool),
+      gas_timer_(metrics),
       conduct_(std::move(mission), this),
       summary_(SummaryOf(conduct_.mission())) {}
 
@@ -40,8 +44,16 @@ MissionSummary MissionWriter::summary() const {
 
 void MissionWriter::OnEvent(const Event& event, const Applied& applied) {
   if (sink_) sink_(event);
+  if (std::holds_alternative<ObservationReceived>(event.body)) {
+    metrics_.NoteObservation(applied.observation.ok());
+  }
   if (IsReadingTakenIn(event, applied)) gas_timer_.NoteReading(clock_());
   absl::MutexLock lock(&summary_mutex_);
+  if (summary_.lattice_factor != mission().lattice_factor()) {
+    LogInfo("gas lattice made coarser",
+            {{"lattice_factor", absl::StrCat(mission().lattice_factor())},
+             {"memory_bytes", absl::StrCat(mission().memory_bytes())}});
+  }
   summary_ = SummaryOf(mission());
 }
 
@@ -51,7 +63,9 @@ void MissionWriter::BeforeGasStep(GasStep step) {
 }
 
 void MissionWriter::AfterGasStep(GasStep step, const absl::Status& status) {
+  if (absl::IsCancelled(status)) return;  // the mission ends
   if (!status.ok()) {
+    metrics_.NoteGasFailure();
     return LogWarning("gas posterior not kept up", {{"why", std::string(status.message())}});
   }
   switch (step) {
@@ -71,6 +85,7 @@ void MissionWriter::AfterGasStep(GasStep step, const absl::Status& status) {
 void MissionWriter::CollectAudit() {
   const auto finding = audit_runner_.Take();
   if (!finding) return;
+  metrics_.NoteAudit(*finding);
   if (!finding->ok()) {
     LogWarning("gas posterior not audited", {{"why", std::string(finding->status().message())}});
     return;

@@ -20,6 +20,7 @@
 #include "server/missions/audit_runner.h"
 #include "server/missions/epoch_runner.h"
 #include "server/missions/gas_timings.h"
+#include "server/observe/mission_metrics.h"
 
 namespace plumescout::server {
 
@@ -31,6 +32,8 @@ struct MissionSummary {
   std::int64_t revision = 0;
   MissionPhase phase = MissionPhase::kExploring;
   std::optional<std::int64_t> next_map_update_ns;
+  std::int64_t memory_bytes = 0;  // see Mission::memory_bytes
+  int lattice_factor = 1;         // of the gas field now
 };
 
 // The conduct of one mission on its writer's thread: has epochs recomputed on a pool, takes times,
@@ -40,13 +43,17 @@ class MissionWriter final : private ConductObserver {
  public:
   // `epoch_pool` recomputes the gas posterior at times; null: the writer does. It is not owned and
   // outlives the last call. The events are the same with any pool and clock.
-  // `audit_pool` audits it, null: nobody does; as above.
+  // `audit_pool` audits it, null: nobody does; as above. `metrics` is not owned either.
   MissionWriter(std::unique_ptr<Mission> mission, EventSink sink, WorkerPool* epoch_pool = nullptr,
-                SteadyClock clock = SteadyNow, WorkerPool* audit_pool = nullptr);
+                SteadyClock clock = SteadyNow, WorkerPool* audit_pool = nullptr,
+                MissionMetrics* metrics = &MissionMetrics::Unread());
   MissionWriter(const MissionWriter&) = delete;
   MissionWriter& operator=(const MissionWriter&) = delete;
 
   MissionConduct& conduct() { return conduct_; }
+  MissionMetrics& metrics() { return metrics_; }
+  // Observations that arrived then have been applied.
+  void NoteIngest(SteadyTime arrived) { metrics_.NoteIngest(absl::FromChrono(clock_() - arrived)); }
   const Mission& mission() const { return conduct_.mission(); }
   // From any thread. Never behind an event whose caller has been answered.
   MissionSummary summary() const;
@@ -71,6 +78,7 @@ class MissionWriter final : private ConductObserver {
 
   EventSink sink_;
   const SteadyClock clock_;
+  MissionMetrics& metrics_;
   EpochRunner epoch_runner_;
   AuditRunner audit_runner_;
   GasTimer gas_timer_;

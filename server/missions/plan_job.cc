@@ -9,6 +9,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "server/base/log.h"
+#include "server/missions/mission_registry.h"
 
 namespace plumescout::server {
 namespace {
@@ -19,35 +20,59 @@ absl::Duration ThreadCpuTime() {
   return absl::DurationFromTimespec(time);
 }
 
-absl::Status Cancelled() { return absl::CancelledError("the caller gave up"); }
-
 }  // namespace
 
-void LogPlan(const MissionId& mission, const PlanAnswer& answer) {
+void LogPlan(const MissionId& mission, const PlanAnswer& answer, const std::string& request_id) {
   LogInfo("plan", {{"mission", mission},
                    {"robot", answer.plan.robot},
                    {"plan", absl::StrCat(answer.plan.id)},
                    {"candidates", absl::StrCat(answer.plan.candidates.size())},
                    {"length_m", absl::StrCat(answer.plan.trajectory.length_m)},
-                   {"cpu_ms", absl::StrCat(absl::ToInt64Milliseconds(answer.cpu_time))}});
+                   {"cpu_ms", absl::StrCat(absl::ToInt64Milliseconds(answer.cpu_time))},
+                   {"request_id", request_id}});
+}
+
+void PlanJob::Start() {
+  listener_ = parts_.host->end_listeners().Add([weak = weak_from_this()](const absl::Status& end) {
+    if (const auto self = weak.lock()) self->Finish(end);
+  });
+  // Whoever answered before has not seen the listener.
+  if (answered_) return parts_.host->end_listeners().Remove(listener_);
+  AwaitBelief();
 }
 
 void PlanJob::Cancel() {
-  cancelled_ = true;
+  Finish(absl::CancelledError("the caller gave up"));
   parts_.host->Wake();
 }
 
+void PlanJob::Finish(absl::StatusOr<PlanAnswer> answer) {
+  if (answered_.exchange(true)) return;
+  parts_.host->end_listeners().Remove(listener_);
+  parts_.done(std::move(answer));
+}
+
+void PlanJob::EndStage(Stage stage) {
+  const SteadyTime now = SteadyNow();
+  const absl::Duration time = absl::FromChrono(now - stage_began_);
+  stage_began_ = now;
+  parts_.host->metrics().NotePlanStage(stage, time);
+  if (parts_.stage_times != nullptr) parts_.stage_times->Add(stage, time);
+}
+
 void PlanJob::AwaitBelief() {
+  stage_began_ = SteadyNow();
   const PlanOrder& order = parts_.order;
   BeliefRequest request;
   request.wish.robot = order.request.robot;
   request.wish.min_applied_sequence = order.min_applied_sequence;
   request.wish.lease_token = order.lease_token;
   request.deadline = order.deadline;
-  request.abandoned = [self = shared_from_this()] { return self->cancelled_.load(); };
+  request.abandoned = [self = shared_from_this()] { return self->answered_.load(); };
   const absl::Status posted = parts_.host->AwaitBelief(
       std::move(request),
       [self = shared_from_this()](absl::StatusOr<std::shared_ptr<const Belief>> belief) {
+        self->EndStage(Stage::kBelief);
         if (!belief.ok()) return self->Finish(belief.status());
         self->Enqueue(*std::move(belief));
       });
@@ -55,20 +80,25 @@ void PlanJob::AwaitBelief() {
 }
 
 void PlanJob::Enqueue(std::shared_ptr<const Belief> belief) {
+  const auto self = shared_from_this();
   const absl::Status queued = parts_.pool->Submit(
-      [self = shared_from_this(), belief = std::move(belief)] { self->Search(*belief); });
+      {MissionKey(parts_.host->tenant(), parts_.host->id()), parts_.order.request.robot},
+      {[self, belief = std::move(belief)] { self->Search(*belief); },
+       [self] { return self->answered_.load(); }});
   if (!queued.ok()) Finish(queued);
 }
 
 void PlanJob::Search(const Belief& belief) {
+  EndStage(Stage::kQueue);
   const PlanOrder& order = parts_.order;
   const SteadyTime stop_at = std::min(After(SteadyNow(), order.budget), order.deadline);
   const absl::Duration cpu_before = ThreadCpuTime();
   auto plan = parts_.host->strategy().Plan(
-      belief, order.request, [&] { return cancelled_.load() || SteadyNow() >= stop_at; },
+      belief, order.request, [&] { return answered_.load() || SteadyNow() >= stop_at; },
       parts_.improved);
   cpu_time_ += ThreadCpuTime() - cpu_before;
-  if (cancelled_) return Finish(Cancelled());
+  EndStage(Stage::kSearch);
+  if (answered_) return;
   if (!plan.ok()) return Finish(plan.status());
   Commit(*std::move(plan));
 }
@@ -76,10 +106,14 @@ void PlanJob::Search(const Belief& belief) {
 void PlanJob::Commit(Plan plan) {
   const absl::Status posted = parts_.host->Post(
       [self = shared_from_this(), plan = std::move(plan)](MissionWriter& writer) mutable {
-        if (self->cancelled_) return self->Finish(Cancelled());
+        if (self->answered_) return;
+        const absl::Status allowed = self->parts_.host->standing().CheckMayPlan();
+        if (!allowed.ok()) return self->Finish(allowed);
         const auto id = writer.conduct().Commit(plan, self->parts_.order.lease_token);
+        self->EndStage(Stage::kCommit);
         self->Committed(std::move(plan), id);
-      });
+      },
+      [self = shared_from_this()](const absl::Status& status) { self->Finish(status); });
   if (!posted.ok()) Finish(posted);
 }
 
@@ -88,6 +122,7 @@ void PlanJob::Committed(Plan plan, absl::StatusOr<PlanId> id) {
   if (!id.ok()) return Finish(id.status());
   plan.id = *id;
   plan.cpu_s = absl::ToDoubleSeconds(cpu_time_);
+  parts_.host->metrics().NotePlan(cpu_time_);
   Finish(PlanAnswer{std::move(plan), cpu_time_});
 }
 

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "absl/status/statusor.h"
 #include "absl/time/time.h"
@@ -12,7 +13,8 @@
 #include "core/types/plan.h"
 #include "core/types/plan_request.h"
 #include "server/base/clock.h"
-#include "server/base/worker_pool.h"
+#include "server/base/fair_pool.h"
+#include "server/base/stage_times.h"
 #include "server/missions/mission_host.h"
 
 namespace plumescout::server {
@@ -32,25 +34,27 @@ struct PlanAnswer {
 };
 
 // One line for the server's log.
-void LogPlan(const MissionId& mission, const PlanAnswer& answer);
+void LogPlan(const MissionId& mission, const PlanAnswer& answer, const std::string& request_id);
 
 // One order on its way: wait for the robot's own readings, search on a pool, commit; once more if
-// another robot claimed the goal in the meantime. Keeps itself alive while it runs. Thread-safe.
+// another robot claimed the goal in the meantime. Keeps itself alive while it runs. It ends with
+// its mission, at once, whatever the search does. Thread-safe.
 class PlanJob : public std::enable_shared_from_this<PlanJob> {
  public:
   using Done = std::function<void(absl::StatusOr<PlanAnswer>)>;
 
   struct Parts {
     std::shared_ptr<MissionHost> host;
-    WorkerPool* pool = nullptr;  // not owned; outlives the job
+    FairPool* pool = nullptr;  // not owned; outlives the job
     PlanOrder order;
     Done done;                        // called exactly once, on any thread
     PlanListener improved = nullptr;  // told of plans on the way, on a thread of the pool
+    std::shared_ptr<StageTimes> stage_times = nullptr;  // told what the order waits for
   };
   explicit PlanJob(Parts parts) : parts_(std::move(parts)) {}
 
-  void Start() { AwaitBelief(); }
-  // Stops the search soon; nothing is committed after it.
+  void Start();
+  // Answers at once, and stops the search soon; nothing is committed after it.
   void Cancel();
 
  private:
@@ -59,12 +63,17 @@ class PlanJob : public std::enable_shared_from_this<PlanJob> {
   void Search(const Belief& belief);
   void Commit(Plan plan);
   void Committed(Plan plan, absl::StatusOr<PlanId> id);
-  void Finish(absl::StatusOr<PlanAnswer> answer) { parts_.done(std::move(answer)); }
+  // The stage is over, the next begins.
+  void EndStage(Stage stage);
+  // The first answer counts.
+  void Finish(absl::StatusOr<PlanAnswer> answer);
 
   const Parts parts_;
-  std::atomic<bool> cancelled_ = false;
+  std::atomic<bool> answered_ = false;
+  std::atomic<EndListeners::Id> listener_ = 0;  // at the host
   // Touched by one stage at a time; the queues between the stages order them.
   CommitRace race_;
+  SteadyTime stage_began_;
   absl::Duration cpu_time_;
 };
 

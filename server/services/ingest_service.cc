@@ -4,51 +4,56 @@
 
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "core/types/status_macros.h"
 #include "proto/convert/names.h"
-#include "server/services/unary.h"
+#include "server/base/errors.h"
+#include "server/calls/unary_call.h"
 #include "server/streams/ingest_frames.h"
 #include "server/streams/ingest_stream.h"
 
 namespace plumescout::server {
 
 grpc::ServerBidiReactor<v1::StreamObservationsRequest, v1::StreamObservationsResponse>*
-IngestService::StreamObservations(grpc::CallbackServerContext*) {
-  return IngestStream::Start(&context_);
+IngestService::StreamObservations(grpc::CallbackServerContext* context) {
+  return IngestStream::Start(&context_, context);
 }
 
 absl::Status IngestService::BatchIngest(const v1::BatchIngestObservationsRequest& request,
                                         v1::BatchIngestObservationsResponse* response,
-                                        grpc::ServerUnaryReactor* reactor) {
+                                        const std::shared_ptr<UnaryCall>& call) {
   const int window = context_.limits.max_batch_observations;
   PLUMESCOUT_ASSIGN_OR_RETURN(const RobotName name,
                               ParseRobotName("open.robot", request.open().robot()));
   PLUMESCOUT_ASSIGN_OR_RETURN(auto incoming, ReadBatch(request.batch(), window));
-  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.registry->Find(name.mission));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMissionOf(call->caller(), name));
   const std::int64_t token = request.open().lease_token();
   PLUMESCOUT_RETURN_IF_ERROR(host->leases().Use(name.robot, token));
-  const int count = static_cast<int>(incoming.size());
-  PLUMESCOUT_RETURN_IF_ERROR(host->Reserve(count));
-  const absl::Status posted =
-      host->Post([=, incoming = std::move(incoming)](MissionWriter& writer) mutable {
-        const IngestResult result = writer.conduct().Ingest(name.robot, token, std::move(incoming));
-        host->Release(count);
-        *response->mutable_ingest_state() = ToIngestState(result.position, window);
-        for (const auto& refused : result.refused)
-          *response->add_rejections() = ToRejected(refused);
-        Answer(reactor, result.status);
-      });
-  if (!posted.ok()) host->Release(count);
-  return posted;
+  PLUMESCOUT_RETURN_IF_ERROR(
+      host->rates().AdmitBatch(name.robot, RateLoadOf(incoming, request.batch().ByteSizeLong())));
+  auto room = host->room().TryTake(LoadOf(incoming));
+  if (room == nullptr) {
+    return Overloaded(absl::StrCat("the ingest queue of mission ", host->id(), " is full"));
+  }
+  return host->Post({[=, incoming = std::move(incoming)](MissionWriter& writer) mutable {
+                       const IngestResult result =
+                           host->Ingest(writer, name.robot, token, std::move(incoming));
+                       writer.NoteIngest(call->info().began);
+                       *response->mutable_ingest_state() = ToIngestState(result.position, window);
+                       for (const auto& refused : result.refused)
+                         *response->add_rejections() = ToRejected(refused);
+                       call->Answer(result.status);
+                     },
+                     Refusal(call), std::move(room)});
 }
 
 grpc::ServerUnaryReactor* IngestService::BatchIngestObservations(
-    grpc::CallbackServerContext* call, const v1::BatchIngestObservationsRequest* request,
+    grpc::CallbackServerContext* context, const v1::BatchIngestObservationsRequest* request,
     v1::BatchIngestObservationsResponse* response) {
-  auto* reactor = call->DefaultReactor();
-  const absl::Status started = BatchIngest(*request, response, reactor);
-  if (!started.ok()) Answer(reactor, started);
-  return reactor;
+  return UnaryCall::Start(context_.door, Rpc::kBatchIngestObservations, context,
+                          [&](const std::shared_ptr<UnaryCall>& call) {
+                            return BatchIngest(*request, response, call);
+                          });
 }
 
 }  // namespace plumescout::server

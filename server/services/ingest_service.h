@@ -3,7 +3,8 @@
 #pragma once
 
 #include "plumescout/v1/ingest_service.grpc.pb.h"
-#include "server/streams/service_context.h"
+#include "server/calls/service_context.h"
+#include "server/calls/unary_call.h"
 
 namespace plumescout::server {
 
@@ -12,15 +13,15 @@ class IngestService final : public v1::IngestService::CallbackService {
   explicit IngestService(const ServiceContext* context) : context_(*context) {}
 
   grpc::ServerBidiReactor<v1::StreamObservationsRequest, v1::StreamObservationsResponse>*
-  StreamObservations(grpc::CallbackServerContext* call) override;
+  StreamObservations(grpc::CallbackServerContext* context) override;
   grpc::ServerUnaryReactor* BatchIngestObservations(
-      grpc::CallbackServerContext* call, const v1::BatchIngestObservationsRequest* request,
+      grpc::CallbackServerContext* context, const v1::BatchIngestObservationsRequest* request,
       v1::BatchIngestObservationsResponse* response) override;
 
  private:
   absl::Status BatchIngest(const v1::BatchIngestObservationsRequest& request,
                            v1::BatchIngestObservationsResponse* response,
-                           grpc::ServerUnaryReactor* reactor);
+                           const std::shared_ptr<UnaryCall>& call);
 
   const ServiceContext& context_;
 };

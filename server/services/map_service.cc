@@ -2,47 +2,62 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/services/map_service.h"
 
+#include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "core/belief/belief.h"
 #include "core/belief/gas_query.h"
 #include "core/types/status_macros.h"
+#include "proto/convert/field.h"
 #include "proto/convert/inquiry.h"
 #include "proto/convert/map.h"
 #include "proto/convert/names.h"
-#include "server/services/unary.h"
+#include "server/calls/unary_call.h"
+#include "server/maps/map_feed.h"
+#include "server/maps/wire_message.h"
 #include "server/streams/watch_stream.h"
 
 namespace plumescout::server {
 
-absl::Status MapService::Get(const v1::GetMapRequest& request, v1::GetMapResponse* response,
-                             grpc::ServerUnaryReactor* reactor) {
+absl::Status MapService::Get(const grpc::ByteBuffer& bytes, grpc::ByteBuffer* response,
+                             const std::shared_ptr<UnaryCall>& call) {
+  v1::GetMapRequest request;
+  PLUMESCOUT_RETURN_IF_ERROR(Parse(bytes, request));
   PLUMESCOUT_ASSIGN_OR_RETURN(const MissionId mission,
                               ParseMissionName("mission", request.mission()));
-  PLUMESCOUT_ASSIGN_OR_RETURN(
-      const MapView view, MapViewFromProto(request.layers(), request.full_precision(), "layers"));
-  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.registry->Find(mission));
-  BeliefRequest wanted;
-  wanted.wish.fresh_posterior = request.fresh_posterior();
-  return AnswerFromBelief(*host, context_.map_pool, reactor, std::move(wanted),
+  PLUMESCOUT_ASSIGN_OR_RETURN(const MapView view, MapViewFromProto(request));
+  const std::int64_t max_bytes = request.max_part_bytes();
+  PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative("max_part_bytes", static_cast<double>(max_bytes)));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMission(call->caller(), mission));
+  const std::shared_ptr<MapFeed> feed = host->map_feed();
+  if (!request.part_token().empty()) {
+    return context_.query_pool->Submit([=, token = request.part_token()] {
+      auto part = feed->store().NextPart(token, view, max_bytes);
+      if (part.ok()) response->Swap(&*part);
+      call->Answer(part.status());
+    });
+  }
+  BeliefWish wish;
+  wish.fresh_posterior = request.fresh_posterior();
+  return AnswerFromBelief(host, context_.query_pool, call, std::move(wish),
                           [=](const Belief& belief) {
-                            *response = ToProto(MakeMapSnapshot(belief), mission, view);
+                            *response = feed->store().FirstPart(belief, view, max_bytes);
                             return absl::OkStatus();
                           });
 }
 
 absl::Status MapService::Query(const v1::QueryGasRequest& request, v1::QueryGasResponse* response,
-                               grpc::ServerUnaryReactor* reactor) {
+                               const std::shared_ptr<UnaryCall>& call) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const MissionId mission,
                               ParseMissionName("mission", request.mission()));
-  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.registry->Find(mission));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMission(call->caller(), mission));
   PLUMESCOUT_ASSIGN_OR_RETURN(
       std::vector<Point2> points,
       PointsFromProto(request.points(), host->options().pose_limit_m, "points"));
-  BeliefRequest wanted;
-  wanted.wish.fresh_posterior = request.fresh_posterior();
-  return AnswerFromBelief(*host, context_.map_pool, reactor, std::move(wanted),
+  BeliefWish wish;
+  wish.fresh_posterior = request.fresh_posterior();
+  return AnswerFromBelief(host, context_.query_pool, call, std::move(wish),
                           [response, points = std::move(points)](const Belief& belief) {
                             for (const GasAtPlace& gas : plumescout::QueryGas(belief, points))
                               *response->add_gas() = ToProto(gas);
@@ -54,27 +69,25 @@ absl::Status MapService::Query(const v1::QueryGasRequest& request, v1::QueryGasR
                           });
 }
 
-grpc::ServerUnaryReactor* MapService::GetMap(grpc::CallbackServerContext* call,
-                                             const v1::GetMapRequest* request,
-                                             v1::GetMapResponse* response) {
-  auto* reactor = call->DefaultReactor();
-  const absl::Status started = Get(*request, response, reactor);
-  if (!started.ok()) Answer(reactor, started);
-  return reactor;
+grpc::ServerUnaryReactor* MapService::GetMap(grpc::CallbackServerContext* context,
+                                             const grpc::ByteBuffer* request,
+                                             grpc::ByteBuffer* response) {
+  return UnaryCall::Start(
+      context_.door, Rpc::kGetMap, context,
+      [&](const std::shared_ptr<UnaryCall>& call) { return Get(*request, response, call); });
 }
 
-grpc::ServerUnaryReactor* MapService::QueryGas(grpc::CallbackServerContext* call,
+grpc::ServerUnaryReactor* MapService::QueryGas(grpc::CallbackServerContext* context,
                                                const v1::QueryGasRequest* request,
                                                v1::QueryGasResponse* response) {
-  auto* reactor = call->DefaultReactor();
-  const absl::Status started = Query(*request, response, reactor);
-  if (!started.ok()) Answer(reactor, started);
-  return reactor;
+  return UnaryCall::Start(
+      context_.door, Rpc::kQueryGas, context,
+      [&](const std::shared_ptr<UnaryCall>& call) { return Query(*request, response, call); });
 }
 
-grpc::ServerWriteReactor<v1::WatchMapResponse>* MapService::WatchMap(
-    grpc::CallbackServerContext*, const v1::WatchMapRequest* request) {
-  return WatchStream::Start(&context_, *request);
+grpc::ServerWriteReactor<grpc::ByteBuffer>* MapService::WatchMap(
+    grpc::CallbackServerContext* context, const grpc::ByteBuffer* request) {
+  return WatchStream::Start(&context_, context, *request);
 }
 
 }  // namespace plumescout::server

@@ -3,28 +3,34 @@
 #pragma once
 
 #include "plumescout/v1/map_service.grpc.pb.h"
-#include "server/streams/service_context.h"
+#include "server/calls/service_context.h"
+#include "server/calls/unary_call.h"
 
 namespace plumescout::server {
 
-class MapService final : public v1::MapService::CallbackService {
+// Maps are sent as bytes that their readers share.
+using MapServiceOfBytes =
+    v1::MapService::WithRawCallbackMethod_GetMap<v1::MapService::WithRawCallbackMethod_WatchMap<
+        v1::MapService::WithCallbackMethod_QueryGas<v1::MapService::Service>>>;
+
+class MapService final : public MapServiceOfBytes {
  public:
   explicit MapService(const ServiceContext* context) : context_(*context) {}
 
-  grpc::ServerUnaryReactor* GetMap(grpc::CallbackServerContext* call,
-                                   const v1::GetMapRequest* request,
-                                   v1::GetMapResponse* response) override;
-  grpc::ServerUnaryReactor* QueryGas(grpc::CallbackServerContext* call,
+  grpc::ServerUnaryReactor* GetMap(grpc::CallbackServerContext* context,
+                                   const grpc::ByteBuffer* request,
+                                   grpc::ByteBuffer* response) override;
+  grpc::ServerUnaryReactor* QueryGas(grpc::CallbackServerContext* context,
                                      const v1::QueryGasRequest* request,
                                      v1::QueryGasResponse* response) override;
-  grpc::ServerWriteReactor<v1::WatchMapResponse>* WatchMap(
-      grpc::CallbackServerContext* call, const v1::WatchMapRequest* request) override;
+  grpc::ServerWriteReactor<grpc::ByteBuffer>* WatchMap(grpc::CallbackServerContext* context,
+                                                       const grpc::ByteBuffer* request) override;
 
  private:
-  absl::Status Get(const v1::GetMapRequest& request, v1::GetMapResponse* response,
-                   grpc::ServerUnaryReactor* reactor);
+  absl::Status Get(const grpc::ByteBuffer& bytes, grpc::ByteBuffer* response,
+                   const std::shared_ptr<UnaryCall>& call);
   absl::Status Query(const v1::QueryGasRequest& request, v1::QueryGasResponse* response,
-                     grpc::ServerUnaryReactor* reactor);
+                     const std::shared_ptr<UnaryCall>& call);
 
   const ServiceContext& context_;
 };

@@ -13,12 +13,12 @@
 #include "core/types/status_macros.h"
 #include "proto/convert/enums.h"
 #include "proto/convert/field.h"
+#include "proto/convert/geometry.h"
 #include "proto/convert/inquiry.h"
 #include "proto/convert/names.h"
 #include "proto/convert/observation.h"
 #include "proto/convert/plan.h"
-#include "server/missions/plan_job.h"
-#include "server/services/unary.h"
+#include "server/calls/answer_once.h"
 #include "server/streams/plan_order_from_proto.h"
 #include "server/streams/plan_stream.h"
 
@@ -64,114 +64,104 @@ absl::Status CheckOn(const Belief& belief, const RobotId& robot, const CheckSubj
   return absl::OkStatus();
 }
 
-// A planning call: carries cancellation to the job and its answer back.
-class PlanReactor final : public grpc::ServerUnaryReactor {
- public:
-  explicit PlanReactor(v1::NextBestTrajectoryResponse* response) : response_(response) {}
-
-  // The call owns itself until gRPC is done with it.
-  static PlanReactor* Start(const ServiceContext& context, grpc::CallbackServerContext* call,
-                            const v1::NextBestTrajectoryRequest& request,
-                            v1::NextBestTrajectoryResponse* response) {
-    auto reactor = std::make_shared<PlanReactor>(response);
-    reactor->self_ = reactor;
-    const absl::Status status = reactor->Order(context, call, request);
-    if (!status.ok()) Answer(reactor.get(), status);
-    return reactor.get();
-  }
-
-  void OnCancel() override {
-    if (job_ != nullptr) job_->Cancel();
-  }
-  void OnDone() override {
-    const auto self = std::move(self_);
-    job_.reset();  // it holds this call in turn
-  }
-
- private:
-  absl::Status Order(const ServiceContext& context, grpc::CallbackServerContext* call,
-                     const v1::NextBestTrajectoryRequest& request) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(const RobotName name, ParseRobotName("robot", request.robot()));
-    PLUMESCOUT_ASSIGN_OR_RETURN(PlanOrder order, PlanOrderFromProto(request, context.limits));
-    PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context.registry->Find(name.mission));
-    PLUMESCOUT_RETURN_IF_ERROR(host->leases().Use(name.robot, order.lease_token));
-    order.request.robot = name.robot;
-    order.deadline = After(ToSteady(call->deadline()), -context.limits.deadline_margin);
-    job_ = std::make_shared<PlanJob>(
-        PlanJob::Parts{host, context.planning_pool, std::move(order),
-                       [self = self_, mission = name.mission](absl::StatusOr<PlanAnswer> answer) {
-                         self->Reply(mission, answer);
-                       }});
-    job_->Start();
-    return absl::OkStatus();
-  }
-
-  void Reply(const MissionId& mission, const absl::StatusOr<PlanAnswer>& answer) {
-    if (answer.ok()) {
-      LogPlan(mission, *answer);
-      *response_->mutable_plan() = ToProto(answer->plan, mission);
-    }
-    Answer(this, WithField(answer.status(), ""));
-  }
-
-  v1::NextBestTrajectoryResponse* const response_;
-  std::shared_ptr<PlanReactor> self_;  // until OnDone
-  std::shared_ptr<PlanJob> job_;
-};
+v1::LivePlan LivePlanOf(const RobotRecord& record, const MissionId& mission) {
+  v1::LivePlan proto;
+  proto.set_name(PlanResource({mission, record.last_plan}));
+  proto.set_robot(RobotResource({mission, record.state.id}));
+  proto.set_goal_kind(ToProto(record.live_goal->kind));
+  *proto.mutable_goal() = ToProto(record.live_goal->position);
+  proto.set_arrival_time_ns(record.live_arrival_ns);
+  return proto;
+}
 
 }  // namespace
 
+absl::Status PlanningService::Order(const v1::NextBestTrajectoryRequest& request,
+                                    v1::NextBestTrajectoryResponse* response,
+                                    const std::shared_ptr<UnaryCall>& call) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const RobotName name, ParseRobotName("robot", request.robot()));
+  PLUMESCOUT_ASSIGN_OR_RETURN(PlanOrder order, PlanOrderFromProto(request, context_.limits));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMissionOf(call->caller(), name));
+  order.request.robot = name.robot;
+  return AnswerOnce(host->requests(), request.request_id(), request, response, call,
+                    [this, host, order, response](const std::shared_ptr<UnaryCall>& runner) {
+                      return Search(host, order, response, runner);
+                    });
+}
+
+absl::Status PlanningService::Search(const std::shared_ptr<MissionHost>& host, PlanOrder order,
+                                     v1::NextBestTrajectoryResponse* response,
+                                     const std::shared_ptr<UnaryCall>& call) {
+  const RobotId& robot = order.request.robot;
+  PLUMESCOUT_RETURN_IF_ERROR(host->standing().CheckMayPlan());
+  PLUMESCOUT_RETURN_IF_ERROR(host->leases().Use(robot, order.lease_token));
+  PLUMESCOUT_RETURN_IF_ERROR(host->rates().AdmitPlan(robot));
+  order.deadline = After(call->info().deadline, -context_.limits.deadline_margin);
+  const auto job = std::make_shared<PlanJob>(PlanJob::Parts{
+      host, context_.planning_pool, std::move(order),
+      [call, response, mission = host->id()](const absl::StatusOr<PlanAnswer>& answer) {
+        if (answer.ok()) {
+          LogPlan(mission, *answer, call->info().request_id);
+          *response->mutable_plan() = ToProto(answer->plan, mission);
+        }
+        call->Answer(WithField(answer.status(), ""));
+      },
+      nullptr, call->info().stage_times});
+  call->WhenCancelled([job] { job->Cancel(); });
+  job->Start();
+  return absl::OkStatus();
+}
+
 grpc::ServerUnaryReactor* PlanningService::NextBestTrajectory(
-    grpc::CallbackServerContext* call, const v1::NextBestTrajectoryRequest* request,
+    grpc::CallbackServerContext* context, const v1::NextBestTrajectoryRequest* request,
     v1::NextBestTrajectoryResponse* response) {
-  return PlanReactor::Start(context_, call, *request, response);
+  return UnaryCall::Start(
+      context_.door, Rpc::kNextBestTrajectory, context,
+      [&](const std::shared_ptr<UnaryCall>& call) { return Order(*request, response, call); });
 }
 
 grpc::ServerWriteReactor<v1::StreamNextBestTrajectoryResponse>*
-PlanningService::StreamNextBestTrajectory(grpc::CallbackServerContext* call,
+PlanningService::StreamNextBestTrajectory(grpc::CallbackServerContext* context,
                                           const v1::StreamNextBestTrajectoryRequest* request) {
-  return PlanStream::Start(&context_, call, *request);
+  return PlanStream::Start(&context_, context, *request);
 }
 
-absl::Status PlanningService::Check(const v1::CheckTrajectoryRequest& request, SteadyTime deadline,
+absl::Status PlanningService::Check(const v1::CheckTrajectoryRequest& request,
                                     v1::CheckTrajectoryResponse* response,
-                                    grpc::ServerUnaryReactor* reactor) {
+                                    const std::shared_ptr<UnaryCall>& call) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const RobotName name, ParseRobotName("robot", request.robot()));
   PLUMESCOUT_RETURN_IF_ERROR(
       CheckIntRange("min_applied_sequence", request.min_applied_sequence(), 0, kMaxSequence));
-  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.registry->Find(name.mission));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMissionOf(call->caller(), name));
   PLUMESCOUT_RETURN_IF_ERROR(host->leases().Use(name.robot, request.lease_token()));
   PLUMESCOUT_ASSIGN_OR_RETURN(
       CheckSubject subject, SubjectFromProto(request, name.mission, host->options().pose_limit_m));
-  BeliefRequest wanted{.wish = {.robot = name.robot,
-                                .min_applied_sequence = request.min_applied_sequence(),
-                                .lease_token = request.lease_token(),
-                                .fresh_posterior = false},
-                       .deadline = deadline};
-  return AnswerFromBelief(*host, context_.map_pool, reactor, std::move(wanted),
+  BeliefWish wish{.robot = name.robot,
+                  .min_applied_sequence = request.min_applied_sequence(),
+                  .lease_token = request.lease_token(),
+                  .fresh_posterior = false};
+  return AnswerFromBelief(host, context_.query_pool, call, std::move(wish),
                           [=, subject = std::move(subject)](const Belief& belief) {
                             return CheckOn(belief, name.robot, subject, *response);
                           });
 }
 
 grpc::ServerUnaryReactor* PlanningService::CheckTrajectory(
-    grpc::CallbackServerContext* call, const v1::CheckTrajectoryRequest* request,
+    grpc::CallbackServerContext* context, const v1::CheckTrajectoryRequest* request,
     v1::CheckTrajectoryResponse* response) {
-  auto* reactor = call->DefaultReactor();
-  const SteadyTime deadline = After(ToSteady(call->deadline()), -context_.limits.deadline_margin);
-  const absl::Status started = Check(*request, deadline, response, reactor);
-  if (!started.ok()) Answer(reactor, started);
-  return reactor;
+  return UnaryCall::Start(
+      context_.door, Rpc::kCheckTrajectory, context,
+      [&](const std::shared_ptr<UnaryCall>& call) { return Check(*request, response, call); });
 }
 
 absl::Status PlanningService::List(const v1::ListFrontiersRequest& request,
                                    v1::ListFrontiersResponse* response,
-                                   grpc::ServerUnaryReactor* reactor) {
+                                   const std::shared_ptr<UnaryCall>& call) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const RobotName name, ParseRobotName("robot", request.robot()));
-  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.registry->Find(name.mission));
-  BeliefRequest wanted;
-  wanted.wish.fresh_posterior = false;
-  return AnswerFromBelief(*host, context_.map_pool, reactor, std::move(wanted),
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMissionOf(call->caller(), name));
+  BeliefWish wish;
+  wish.fresh_posterior = false;
+  return AnswerFromBelief(host, context_.query_pool, call, std::move(wish),
                           [response, robot = name.robot](const Belief& belief) -> absl::Status {
                             if (belief.robots.count(robot) == 0) return RobotNotFound(robot);
                             PLUMESCOUT_ASSIGN_OR_RETURN(
@@ -185,18 +175,17 @@ absl::Status PlanningService::List(const v1::ListFrontiersRequest& request,
                           });
 }
 
-grpc::ServerUnaryReactor* PlanningService::ListFrontiers(grpc::CallbackServerContext* call,
+grpc::ServerUnaryReactor* PlanningService::ListFrontiers(grpc::CallbackServerContext* context,
                                                          const v1::ListFrontiersRequest* request,
                                                          v1::ListFrontiersResponse* response) {
-  auto* reactor = call->DefaultReactor();
-  const absl::Status started = List(*request, response, reactor);
-  if (!started.ok()) Answer(reactor, started);
-  return reactor;
+  return UnaryCall::Start(
+      context_.door, Rpc::kListFrontiers, context,
+      [&](const std::shared_ptr<UnaryCall>& call) { return List(*request, response, call); });
 }
 
 absl::Status PlanningService::Report(const v1::ReportProgressRequest& request,
                                      v1::ReportProgressResponse* response,
-                                     grpc::ServerUnaryReactor* reactor) {
+                                     const std::shared_ptr<UnaryCall>& call) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const RobotName name, ParseRobotName("robot", request.robot()));
   PLUMESCOUT_ASSIGN_OR_RETURN(const PlanName plan, ParsePlanName("plan", request.plan()));
   if (plan.mission != name.mission) {
@@ -204,24 +193,54 @@ absl::Status PlanningService::Report(const v1::ReportProgressRequest& request,
   }
   PLUMESCOUT_ASSIGN_OR_RETURN(const ProgressOutcome outcome,
                               FromProto(request.outcome(), "outcome"));
-  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.registry->Find(name.mission));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMissionOf(call->caller(), name));
   const std::int64_t token = request.lease_token();
   PLUMESCOUT_RETURN_IF_ERROR(host->leases().Use(name.robot, token));
   const ProgressReported report{name.robot, plan.plan, outcome};
-  return host->Post([report, token, response, reactor](MissionWriter& writer) {
-    const auto revision = writer.conduct().Report(report, token);
-    if (revision.ok()) response->set_revision(*revision);
-    Answer(reactor, revision.status());
-  });
+  return host->Post(
+      [host, report, token, response, call](MissionWriter& writer) {
+        const absl::Status writable = host->standing().CheckMayWrite();
+        if (!writable.ok()) return call->Answer(writable);
+        const auto revision = writer.conduct().Report(report, token);
+        if (revision.ok()) response->set_revision(*revision);
+        call->Answer(revision.status());
+      },
+      Refusal(call));
 }
 
-grpc::ServerUnaryReactor* PlanningService::ReportProgress(grpc::CallbackServerContext* call,
+grpc::ServerUnaryReactor* PlanningService::ReportProgress(grpc::CallbackServerContext* context,
                                                           const v1::ReportProgressRequest* request,
                                                           v1::ReportProgressResponse* response) {
-  auto* reactor = call->DefaultReactor();
-  const absl::Status started = Report(*request, response, reactor);
-  if (!started.ok()) Answer(reactor, started);
-  return reactor;
+  return UnaryCall::Start(
+      context_.door, Rpc::kReportProgress, context,
+      [&](const std::shared_ptr<UnaryCall>& call) { return Report(*request, response, call); });
+}
+
+absl::Status PlanningService::ListLive(const v1::ListPlansRequest& request,
+                                       v1::ListPlansResponse* response,
+                                       const std::shared_ptr<UnaryCall>& call) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const MissionId mission,
+                              ParseMissionName("mission", request.mission()));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMission(call->caller(), mission));
+  BeliefWish wish;
+  wish.fresh_posterior = false;
+  return AnswerFromBelief(host, context_.query_pool, call, std::move(wish),
+                          [response, mission](const Belief& belief) {
+                            for (const auto& [robot, record] : belief.robots) {
+                              if (!record.live_goal) continue;
+                              *response->add_plans() = LivePlanOf(record, mission);
+                            }
+                            response->set_revision(belief.revision);
+                            return absl::OkStatus();
+                          });
+}
+
+grpc::ServerUnaryReactor* PlanningService::ListPlans(grpc::CallbackServerContext* context,
+                                                     const v1::ListPlansRequest* request,
+                                                     v1::ListPlansResponse* response) {
+  return UnaryCall::Start(
+      context_.door, Rpc::kListPlans, context,
+      [&](const std::shared_ptr<UnaryCall>& call) { return ListLive(*request, response, call); });
 }
 
 }  // namespace plumescout::server

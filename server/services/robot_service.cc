@@ -2,75 +2,190 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/services/robot_service.h"
 
+#include <cstdint>
+#include <iterator>
 #include <optional>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/mission/conduct/conduct_errors.h"
 #include "core/types/status_macros.h"
 #include "proto/convert/field.h"
+#include "proto/convert/map.h"
 #include "proto/convert/names.h"
 #include "server/base/log.h"
-#include "server/services/unary.h"
+#include "server/calls/answer_once.h"
+#include "server/services/paging.h"
 #include "server/streams/ingest_frames.h"
 
 namespace plumescout::server {
+namespace {
+
+// A look at the robots is neither for fresh gas nor for a map.
+BeliefWish JustTheRobots() {
+  BeliefWish wish;
+  wish.fresh_posterior = false;
+  return wish;
+}
+
+v1::Robot Describe(const RobotState& robot, const MissionHost& host, const LeaseStanding& lease) {
+  v1::Robot proto;
+  *proto.mutable_on_map() = ToProto(robot, host.id());
+  proto.set_leased(lease.held);
+  proto.set_streaming(lease.streaming);
+  return proto;
+}
+
+}  // namespace
 
 absl::Status RobotService::Register(const v1::RegisterRobotRequest& request,
                                     v1::RegisterRobotResponse* response,
-                                    grpc::ServerUnaryReactor* reactor) {
+                                    const std::shared_ptr<UnaryCall>& call) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const MissionId mission,
                               ParseMissionName("mission", request.mission()));
   PLUMESCOUT_RETURN_IF_ERROR(WithField(ValidateId("robot_id", request.robot_id()), ""));
-  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.registry->Find(mission));
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      const auto host, context_.FindMissionOf(call->caller(), {mission, request.robot_id()}));
   const Registration wish{request.robot_id(), request.radius_m(), request.take_over()};
-  return host->Post([this, host, wish, response, reactor](MissionWriter& writer) {
-    const auto registered = writer.conduct().Register(wish, host->leases());
-    if (!registered.ok()) return Answer(reactor, WithField(registered.status(), ""));
-    LogInfo("robot registered", {{"mission", host->id()},
-                                 {"robot", wish.robot},
-                                 {"lease", absl::StrCat(registered->lease_token)}});
-    response->set_robot(RobotResource({host->id(), wish.robot}));
-    response->set_lease_token(registered->lease_token);
-    response->set_server_boot_id(context_.boot_id);
-    *response->mutable_ingest_state() =
-        ToIngestState(registered->position, context_.limits.stream_window_observations);
-    Answer(reactor, absl::OkStatus());
-  });
+  return AnswerOnce(host->requests(), request.request_id(), request, response, call,
+                    [this, host, wish, response](const std::shared_ptr<UnaryCall>& runner) {
+                      return Join(host, wish, response, runner);
+                    });
 }
 
-grpc::ServerUnaryReactor* RobotService::RegisterRobot(grpc::CallbackServerContext* call,
+absl::Status RobotService::Join(const std::shared_ptr<MissionHost>& host, const Registration& wish,
+                                v1::RegisterRobotResponse* response,
+                                const std::shared_ptr<UnaryCall>& call) {
+  return host->Post(
+      [this, host, wish, response, call](MissionWriter& writer) {
+        const absl::Status writable = host->standing().CheckMayWrite();
+        if (!writable.ok()) return call->Answer(writable);
+        const auto registered = writer.conduct().Register(wish, host->leases());
+        if (!registered.ok()) return call->Answer(WithField(registered.status(), ""));
+        LogInfo("robot registered", {{"mission", host->id()},
+                                     {"robot", wish.robot},
+                                     {"lease", absl::StrCat(registered->lease_token)},
+                                     {"request_id", call->info().request_id}});
+        response->set_robot(RobotResource({host->id(), wish.robot}));
+        response->set_lease_token(registered->lease_token);
+        response->set_server_boot_id(context_.boot_id);
+        *response->mutable_ingest_state() =
+            ToIngestState(registered->position, context_.limits.stream_window_observations);
+        call->Answer(absl::OkStatus());
+      },
+      Refusal(call));
+}
+
+grpc::ServerUnaryReactor* RobotService::RegisterRobot(grpc::CallbackServerContext* context,
                                                       const v1::RegisterRobotRequest* request,
                                                       v1::RegisterRobotResponse* response) {
-  auto* reactor = call->DefaultReactor();
-  const absl::Status started = Register(*request, response, reactor);
-  if (!started.ok()) Answer(reactor, started);
-  return reactor;
+  return UnaryCall::Start(
+      context_.door, Rpc::kRegisterRobot, context,
+      [&](const std::shared_ptr<UnaryCall>& call) { return Register(*request, response, call); });
 }
 
 absl::Status RobotService::Remove(const v1::RemoveRobotRequest& request,
                                   v1::RemoveRobotResponse* response,
-                                  grpc::ServerUnaryReactor* reactor) {
+                                  const std::shared_ptr<UnaryCall>& call) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const RobotName name, ParseRobotName("robot", request.robot()));
-  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.registry->Find(name.mission));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMissionOf(call->caller(), name));
   Removal wish{name.robot};
   if (!request.force()) wish.lease_token = request.lease_token();
-  return host->Post([host, wish, response, reactor](MissionWriter& writer) {
-    const auto revision = writer.conduct().Remove(wish, host->leases());
-    if (revision.ok()) {
-      LogInfo("robot removed", {{"mission", host->id()}, {"robot", wish.robot}});
-      response->set_revision(*revision);
-    }
-    Answer(reactor, revision.status());
-  });
+  return host->Post(
+      [host, wish, response, call](MissionWriter& writer) {
+        const absl::Status writable = host->standing().CheckMayWrite();
+        if (!writable.ok()) return call->Answer(writable);
+        const auto revision = writer.conduct().Remove(wish, host->leases());
+        if (revision.ok()) {
+          LogInfo("robot removed", {{"mission", host->id()},
+                                    {"robot", wish.robot},
+                                    {"request_id", call->info().request_id}});
+          response->set_revision(*revision);
+        }
+        call->Answer(revision.status());
+      },
+      Refusal(call));
 }
 
-grpc::ServerUnaryReactor* RobotService::RemoveRobot(grpc::CallbackServerContext* call,
+grpc::ServerUnaryReactor* RobotService::RemoveRobot(grpc::CallbackServerContext* context,
                                                     const v1::RemoveRobotRequest* request,
                                                     v1::RemoveRobotResponse* response) {
-  auto* reactor = call->DefaultReactor();
-  const absl::Status started = Remove(*request, response, reactor);
-  if (!started.ok()) Answer(reactor, started);
-  return reactor;
+  return UnaryCall::Start(
+      context_.door, Rpc::kRemoveRobot, context,
+      [&](const std::shared_ptr<UnaryCall>& call) { return Remove(*request, response, call); });
+}
+
+absl::Status RobotService::Get(const v1::GetRobotRequest& request, v1::GetRobotResponse* response,
+                               const std::shared_ptr<UnaryCall>& call) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const RobotName name, ParseRobotName("name", request.name()));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMission(call->caller(), name.mission));
+  return AnswerFromBelief(host, context_.query_pool, call, JustTheRobots(),
+                          [host, response, robot = name.robot](const Belief& belief) {
+                            const auto found = belief.robots.find(robot);
+                            if (found == belief.robots.end()) return RobotNotFound(robot);
+                            *response->mutable_robot() = Describe(found->second.state, *host,
+                                                                  host->leases().Standing(robot));
+                            return absl::OkStatus();
+                          });
+}
+
+grpc::ServerUnaryReactor* RobotService::GetRobot(grpc::CallbackServerContext* context,
+                                                 const v1::GetRobotRequest* request,
+                                                 v1::GetRobotResponse* response) {
+  return UnaryCall::Start(
+      context_.door, Rpc::kGetRobot, context,
+      [&](const std::shared_ptr<UnaryCall>& call) { return Get(*request, response, call); });
+}
+
+absl::Status RobotService::List(const v1::ListRobotsRequest& request,
+                                v1::ListRobotsResponse* response,
+                                const std::shared_ptr<UnaryCall>& call) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const MissionId mission,
+                              ParseMissionName("mission", request.mission()));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Page page, ReadPage(request.page_size(), request.page_token()));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMission(call->caller(), mission));
+  return AnswerFromBelief(
+      host, context_.query_pool, call, JustTheRobots(),
+      [host, response, page](const Belief& belief) {
+        auto next = belief.robots.upper_bound(page.after);
+        for (; next != belief.robots.end() && response->robots_size() < page.size; ++next) {
+          *response->add_robots() =
+              Describe(next->second.state, *host, host->leases().Standing(next->first));
+        }
+        if (next != belief.robots.end()) {
+          response->set_next_page_token(PageTokenAfter(std::prev(next)->first));
+        }
+        return absl::OkStatus();
+      });
+}
+
+grpc::ServerUnaryReactor* RobotService::ListRobots(grpc::CallbackServerContext* context,
+                                                   const v1::ListRobotsRequest* request,
+                                                   v1::ListRobotsResponse* response) {
+  return UnaryCall::Start(
+      context_.door, Rpc::kListRobots, context,
+      [&](const std::shared_ptr<UnaryCall>& call) { return List(*request, response, call); });
+}
+
+absl::Status RobotService::Release(const v1::ReleaseLeaseRequest& request,
+                                   const std::shared_ptr<UnaryCall>& call) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const RobotName name, ParseRobotName("robot", request.robot()));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMissionOf(call->caller(), name));
+  const auto token =
+      request.force() ? std::nullopt : std::optional<std::int64_t>(request.lease_token());
+  PLUMESCOUT_RETURN_IF_ERROR(host->leases().Release(name.robot, token));
+  LogInfo("lease released",
+          {{"mission", host->id()}, {"robot", name.robot}, {"caller", call->caller().name}});
+  call->Answer(absl::OkStatus());
+  return absl::OkStatus();
+}
+
+grpc::ServerUnaryReactor* RobotService::ReleaseLease(grpc::CallbackServerContext* context,
+                                                     const v1::ReleaseLeaseRequest* request,
+                                                     v1::ReleaseLeaseResponse*) {
+  return UnaryCall::Start(
+      context_.door, Rpc::kReleaseLease, context,
+      [&](const std::shared_ptr<UnaryCall>& call) { return Release(*request, call); });
 }
 
 }  // namespace plumescout::server

@@ -3,6 +3,7 @@
 #include "server/streams/ingest_stream.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "core/types/status_macros.h"
@@ -12,16 +13,16 @@
 
 namespace plumescout::server {
 
-IngestStream* IngestStream::Start(const ServiceContext* context) {
+IngestStream* IngestStream::Start(const ServiceContext* context,
+                                  grpc::CallbackServerContext* call) {
   auto stream = std::make_shared<IngestStream>(context);
   stream->self_ = stream;
   context->streams->Add(stream);
+  const absl::Status entered =
+      stream->visit_.Enter(*context->door, Rpc::kStreamObservations, *call);
+  if (!entered.ok()) stream->End(entered);
   stream->Pump();
   return stream.get();
-}
-
-IngestStream::~IngestStream() {
-  if (reserved_) host_->Release(context_.limits.stream_window_observations);
 }
 
 void IngestStream::End(const absl::Status& status) {
@@ -61,8 +62,13 @@ void IngestStream::OnCancel() { End(absl::CancelledError("the caller gave up"));
 
 void IngestStream::OnDone() {
   context_.streams->Remove(this);
-  if (host_ != nullptr) host_->leases().CloseStream(robot_.robot, stream_);
-  self_.reset();
+  if (host_ != nullptr) {
+    host_->leases().CloseStream(robot_.robot, stream_);
+    host_->room().Withdraw(place_);
+  }
+  const auto self = std::move(self_);
+  absl::MutexLock lock(&mutex_);
+  waiting_.reset();
 }
 
 absl::Status IngestStream::HandleFrame() {
@@ -80,44 +86,98 @@ absl::Status IngestStream::HandleFrame() {
 absl::Status IngestStream::Open(const v1::OpenIngest& open) {
   if (host_ != nullptr) return FieldError("open", "must come once, as the first frame");
   PLUMESCOUT_ASSIGN_OR_RETURN(robot_, ParseRobotName("open.robot", open.robot()));
-  PLUMESCOUT_ASSIGN_OR_RETURN(host_, context_.registry->Find(robot_.mission));
+  PLUMESCOUT_ASSIGN_OR_RETURN(host_, context_.FindMissionOf(visit_.caller(), robot_));
+  PLUMESCOUT_RETURN_IF_ERROR(host_->standing().CheckMayWrite());
   lease_token_ = open.lease_token();
-  PLUMESCOUT_RETURN_IF_ERROR(host_->Reserve(context_.limits.stream_window_observations));
-  reserved_ = true;
   const std::weak_ptr<IngestStream> weak = weak_from_this();
   PLUMESCOUT_ASSIGN_OR_RETURN(
       stream_,
       host_->leases().OpenStream(robot_.robot, lease_token_, [weak](const absl::Status& status) {
         if (const auto stream = weak.lock()) stream->End(status);
       }));
-  return host_->Post([self = shared_from_this()](MissionWriter& writer) {
-    const auto position = writer.conduct().Position(self->robot_.robot);
-    if (!position.ok()) return self->End(position.status());
-    self->Opened(*position);
-  });
+  const auto self = shared_from_this();
+  return host_->Post(
+      [self](MissionWriter& writer) {
+        const auto position = writer.conduct().Position(self->robot_.robot);
+        if (!position.ok()) return self->End(position.status());
+        self->Opened(*position);
+      },
+      [self](const absl::Status& status) { self->End(status); });
 }
 
 absl::Status IngestStream::TakeBatch(const v1::ObservationBatch& batch) {
   if (host_ == nullptr) return FieldError("open", "must be the first frame");
   PLUMESCOUT_ASSIGN_OR_RETURN(auto incoming,
                               ReadBatch(batch, context_.limits.max_batch_observations));
-  const int count = static_cast<int>(incoming.size());
+  const IngestLoad load = LoadOf(incoming);
+  const RateLoad rate_load = RateLoadOf(incoming, batch.ByteSizeLong());
   {
     absl::MutexLock lock(&mutex_);
     PLUMESCOUT_RETURN_IF_ERROR(CheckCredit(incoming, credit_sequence_));
-    in_flight_observations_ += count;
+    in_flight_observations_ += load.observations;
+    waiting_ = std::move(incoming);
+    arrived_ = SteadyNow();
   }
-  const absl::Status posted =
-      host_->Post([self = shared_from_this(), count,
-                   incoming = std::move(incoming)](MissionWriter& writer) mutable {
-        self->Ingested(count, writer.conduct().Ingest(self->robot_.robot, self->lease_token_,
-                                                      std::move(incoming)));
-      });
-  if (!posted.ok()) {
+  PauseReading(host_->rates().CountBatch(robot_.robot, rate_load));
+  place_ = host_->room().TakeOrWait(load, [weak = weak_from_this()](IngestRoom::Hold room) {
+    if (const auto self = weak.lock()) self->PostBatch(std::move(room));
+  });
+  return absl::OkStatus();
+}
+
+void IngestStream::PostBatch(IngestRoom::Hold room) {
+  std::vector<IncomingObservation> incoming;
+  SteadyTime arrived;
+  {
     absl::MutexLock lock(&mutex_);
-    in_flight_observations_ -= count;
+    if (!waiting_.has_value()) return;  // the stream is over
+    incoming = *std::exchange(waiting_, std::nullopt);
+    arrived = arrived_;
   }
-  return posted;
+  const int count = static_cast<int>(incoming.size());
+  const auto self = shared_from_this();
+  const absl::Status posted = host_->Post(
+      {[self, count, arrived, incoming = std::move(incoming)](MissionWriter& writer) mutable {
+         IngestResult result = self->host_->Ingest(writer, self->robot_.robot, self->lease_token_,
+                                                   std::move(incoming));
+         writer.NoteIngest(arrived);
+         self->Ingested(count, std::move(result));
+       },
+       [self, count](const absl::Status& status) { self->Dropped(count, status); },
+       std::move(room)});
+  if (!posted.ok()) return Dropped(count, posted);
+  Pump();
+}
+
+void IngestStream::Dropped(int observations, const absl::Status& status) {
+  {
+    absl::MutexLock lock(&mutex_);
+    in_flight_observations_ -= observations;
+    SetEnd(status, /*flush=*/true);
+  }
+  Pump();
+}
+
+void IngestStream::PauseReading(absl::Duration pause) {
+  if (pause <= absl::ZeroDuration()) return;
+  {
+    absl::MutexLock lock(&mutex_);
+    paused_ = true;
+  }
+  // The next frame is read after the alarm only. A new one, for the last may still be ringing.
+  alarm_ = std::make_unique<grpc::Alarm>();
+  alarm_->Set(std::chrono::system_clock::now() + absl::ToChronoMicroseconds(pause),
+              [weak = weak_from_this()](bool) {
+                if (const auto stream = weak.lock()) stream->GoOnReading();
+              });
+}
+
+void IngestStream::GoOnReading() {
+  {
+    absl::MutexLock lock(&mutex_);
+    paused_ = false;
+  }
+  Pump();
 }
 
 void IngestStream::Opened(const LogPosition& position) {
@@ -160,7 +220,10 @@ StreamPump::Operation IngestStream::NextOperation() {
   }
   if (!writing_ && (broken_off || (over && in_flight_observations_ == 0))) {
     finished_ = true;
-    return [this, status = end_.value_or(absl::OkStatus())] { Finish(ToGrpc(status)); };
+    return [this, status = end_.value_or(absl::OkStatus())] {
+      visit_.Leave(status);
+      Finish(ToGrpc(status, visit_.info().request_id));
+    };
   }
   if (MayRead()) {
     reading_ = true;
@@ -193,7 +256,8 @@ bool IngestStream::FillResponse() {
 
 bool IngestStream::MayRead() const {
   const bool opening = host_ != nullptr && !opened_;
-  return !reading_ && !half_closed_ && !end_.has_value() && !opening &&
+  return !reading_ && !paused_ && !half_closed_ && !end_.has_value() && !opening &&
+         !waiting_.has_value() &&
          in_flight_observations_ < context_.limits.stream_window_observations;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <grpcpp/alarm.h>
 #include <grpcpp/support/server_callback.h>
 
 #include <deque>
@@ -13,26 +14,26 @@
 #include "absl/synchronization/mutex.h"
 #include "plumescout/v1/ingest_service.pb.h"
 #include "proto/convert/names.h"
+#include "server/calls/active_streams.h"
+#include "server/calls/service_context.h"
 #include "server/missions/mission_host.h"
-#include "server/streams/active_streams.h"
-#include "server/streams/service_context.h"
 #include "server/streams/stream_pump.h"
 
 namespace plumescout::server {
 
 // One robot's ingest stream: opens, hands batches to the mission's writer, and acknowledges what
 // was applied. One write is in flight at a time, and the acknowledgement that follows is the newest
-// one, however slowly the robot reads. Reading pauses while a window of observations is in flight.
+// one, however slowly the robot reads. Reading pauses while a window of observations is in flight,
+// while a batch waits for room in the mission's queue, and while the robot is above its rates.
 class IngestStream final
     : public grpc::ServerBidiReactor<v1::StreamObservationsRequest, v1::StreamObservationsResponse>,
       public EndableStream,
       public std::enable_shared_from_this<IngestStream> {
  public:
   // The reactor owns itself until gRPC is done with it.
-  static IngestStream* Start(const ServiceContext* context);
+  static IngestStream* Start(const ServiceContext* context, grpc::CallbackServerContext* call);
 
   explicit IngestStream(const ServiceContext* context) : context_(*context) {}
-  ~IngestStream() override;
 
   // The first ending counts. What is due to the robot is not sent any more.
   void End(const absl::Status& status) override;
@@ -46,8 +47,13 @@ class IngestStream final
   absl::Status HandleFrame();
   absl::Status Open(const v1::OpenIngest& open);
   absl::Status TakeBatch(const v1::ObservationBatch& batch);
+  // The batch that waits has room.
+  void PostBatch(IngestRoom::Hold room) ABSL_LOCKS_EXCLUDED(mutex_);
   void Opened(const LogPosition& position);
   void Ingested(int observations, IngestResult result);
+  void Dropped(int observations, const absl::Status& status);
+  void PauseReading(absl::Duration pause);
+  void GoOnReading();
 
   // Starts whatever can start now: a write, a read, the finish.
   void Pump() ABSL_LOCKS_EXCLUDED(mutex_);
@@ -59,20 +65,23 @@ class IngestStream final
 
   const ServiceContext& context_;
   std::shared_ptr<IngestStream> self_;  // until OnDone
+  Visit visit_;
 
   // Touched by the reading reactions only, which gRPC runs one after the other.
   v1::StreamObservationsRequest request_;
   std::shared_ptr<MissionHost> host_;
   RobotName robot_;
   std::int64_t lease_token_ = 0;
-  StreamId stream_ = 0;  // among the mission's
-  bool reserved_ = false;
+  StreamId stream_ = 0;                 // among the mission's
+  IngestRoom::Place place_ = 0;         // of the batch taken last, among those who wait for room
+  std::unique_ptr<grpc::Alarm> alarm_;  // of the last pause
 
   absl::Mutex mutex_;
   StreamPump pump_;
   v1::StreamObservationsResponse response_ ABSL_GUARDED_BY(mutex_);  // in flight if writing_
   bool opened_ ABSL_GUARDED_BY(mutex_) = false;
   bool reading_ ABSL_GUARDED_BY(mutex_) = false;
+  bool paused_ ABSL_GUARDED_BY(mutex_) = false;  // until the alarm
   bool writing_ ABSL_GUARDED_BY(mutex_) = false;
   bool half_closed_ ABSL_GUARDED_BY(mutex_) = false;
   bool finished_ ABSL_GUARDED_BY(mutex_) = false;
@@ -80,7 +89,10 @@ class IngestStream final
   bool ack_due_ ABSL_GUARDED_BY(mutex_) = false;
   bool flush_ ABSL_GUARDED_BY(mutex_) = false;
   std::optional<absl::Status> end_ ABSL_GUARDED_BY(mutex_);
-  int in_flight_observations_ ABSL_GUARDED_BY(mutex_) = 0;
+  // Waits for room.
+  std::optional<std::vector<IncomingObservation>> waiting_ ABSL_GUARDED_BY(mutex_);
+  SteadyTime arrived_ ABSL_GUARDED_BY(mutex_);                // when that came
+  int in_flight_observations_ ABSL_GUARDED_BY(mutex_) = 0;    // with those that wait for room
   std::int64_t credit_sequence_ ABSL_GUARDED_BY(mutex_) = 0;  // as announced
   LogPosition position_ ABSL_GUARDED_BY(mutex_);
   std::deque<RefusedObservation> refused_ ABSL_GUARDED_BY(mutex_);

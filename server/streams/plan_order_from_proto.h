@@ -4,8 +4,8 @@
 
 #include "absl/status/statusor.h"
 #include "plumescout/v1/planning_service.pb.h"
+#include "server/calls/service_context.h"
 #include "server/missions/plan_job.h"
-#include "server/streams/service_context.h"
 
 namespace plumescout::server {
 

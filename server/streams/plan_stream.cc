@@ -20,25 +20,27 @@ PlanStream* PlanStream::Start(const ServiceContext* context, grpc::CallbackServe
   auto stream = std::make_shared<PlanStream>(context);
   stream->self_ = stream;
   context->streams->Add(stream);
-  const absl::Status status = stream->Order(call, request);
+  absl::Status status = stream->visit_.Enter(*context->door, Rpc::kStreamNextBestTrajectory, *call);
+  if (status.ok()) status = stream->Order(request);
   if (!status.ok()) stream->End(status);
   return stream.get();
 }
 
-absl::Status PlanStream::Order(grpc::CallbackServerContext* call,
-                               const v1::StreamNextBestTrajectoryRequest& request) {
+absl::Status PlanStream::Order(const v1::StreamNextBestTrajectoryRequest& request) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const RobotName name, ParseRobotName("robot", request.robot()));
   PLUMESCOUT_ASSIGN_OR_RETURN(PlanOrder order, PlanOrderFromProto(request, context_.limits));
-  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.registry->Find(name.mission));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMissionOf(visit_.caller(), name));
+  PLUMESCOUT_RETURN_IF_ERROR(host->standing().CheckMayPlan());
   PLUMESCOUT_RETURN_IF_ERROR(host->leases().Use(name.robot, order.lease_token));
+  PLUMESCOUT_RETURN_IF_ERROR(host->rates().AdmitPlan(name.robot));
   order.request.robot = name.robot;
-  order.deadline = After(ToSteady(call->deadline()), -context_.limits.deadline_margin);
+  order.deadline = After(visit_.info().deadline, -context_.limits.deadline_margin);
   mission_ = name.mission;
   const auto self = shared_from_this();
   const auto job = std::make_shared<PlanJob>(
       PlanJob::Parts{host, context_.planning_pool, std::move(order),
                      [self](const absl::StatusOr<PlanAnswer>& answer) { self->Conclude(answer); },
-                     [self](const Plan& plan) { self->Offer(plan); }});
+                     [self](const Plan& plan) { self->Offer(plan); }, visit_.info().stage_times});
   {
     absl::MutexLock lock(&mutex_);
     if (end_.has_value()) return *end_;  // the server went down in the meantime
@@ -61,7 +63,7 @@ void PlanStream::Offer(const Plan& plan) {
 
 void PlanStream::Conclude(const absl::StatusOr<PlanAnswer>& answer) {
   if (!answer.ok()) return End(WithField(answer.status(), ""));
-  LogPlan(mission_, *answer);
+  LogPlan(mission_, *answer, visit_.info().request_id);
   v1::StreamNextBestTrajectoryResponse response;
   *response.mutable_plan() = ToProto(answer->plan, mission_);
   {
@@ -120,14 +122,20 @@ StreamPump::Operation PlanStream::NextOperation() {
     in_flight_ = *std::exchange(waiting_, std::nullopt);
     if (end_.has_value()) {
       finished_ = true;
-      return [this] { StartWriteAndFinish(&in_flight_, {}, grpc::Status::OK); };
+      return [this] {
+        visit_.Leave(absl::OkStatus());
+        StartWriteAndFinish(&in_flight_, {}, grpc::Status::OK);
+      };
     }
     writing_ = true;
     return [this] { StartWrite(&in_flight_); };
   }
   if (!end_.has_value()) return nullptr;
   finished_ = true;
-  return [this, status = *end_] { Finish(ToGrpc(status)); };
+  return [this, status = *end_] {
+    visit_.Leave(status);
+    Finish(ToGrpc(status, visit_.info().request_id));
+  };
 }
 
 }  // namespace plumescout::server

@@ -12,9 +12,9 @@
 #include "absl/status/statusor.h"
 #include "absl/synchronization/mutex.h"
 #include "plumescout/v1/planning_service.pb.h"
+#include "server/calls/active_streams.h"
+#include "server/calls/service_context.h"
 #include "server/missions/plan_job.h"
-#include "server/streams/active_streams.h"
-#include "server/streams/service_context.h"
 #include "server/streams/stream_pump.h"
 
 namespace plumescout::server {
@@ -39,8 +39,7 @@ class PlanStream final : public grpc::ServerWriteReactor<v1::StreamNextBestTraje
   void OnDone() override;
 
  private:
-  absl::Status Order(grpc::CallbackServerContext* call,
-                     const v1::StreamNextBestTrajectoryRequest& request);
+  absl::Status Order(const v1::StreamNextBestTrajectoryRequest& request);
   void Offer(const Plan& plan);
   void Conclude(const absl::StatusOr<PlanAnswer>& answer);
   // Starts whatever can start now: a write, or the finish.
@@ -49,6 +48,7 @@ class PlanStream final : public grpc::ServerWriteReactor<v1::StreamNextBestTraje
 
   const ServiceContext& context_;
   std::shared_ptr<PlanStream> self_;  // until OnDone
+  Visit visit_;
   MissionId mission_;
 
   absl::Mutex mutex_;

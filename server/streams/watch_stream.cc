@@ -5,30 +5,34 @@
 #include <utility>
 
 #include "core/types/status_macros.h"
+#include "proto/convert/map.h"
 #include "proto/convert/names.h"
 #include "server/base/grpc_status.h"
-#include "server/streams/map_frames.h"
+#include "server/maps/wire_message.h"
 
 namespace plumescout::server {
 
-WatchStream* WatchStream::Start(const ServiceContext* context, const v1::WatchMapRequest& request) {
+WatchStream* WatchStream::Start(const ServiceContext* context, grpc::CallbackServerContext* call,
+                                const grpc::ByteBuffer& request) {
   auto stream = std::make_shared<WatchStream>(context);
   stream->self_ = stream;
   context->streams->Add(stream);
-  const absl::Status status = stream->Subscribe(request);
+  absl::Status status = stream->visit_.Enter(*context->door, Rpc::kWatchMap, *call);
+  if (status.ok()) status = stream->Subscribe(request);
   if (!status.ok()) stream->End(status);
   return stream.get();
 }
 
-absl::Status WatchStream::Subscribe(const v1::WatchMapRequest& request) {
-  PLUMESCOUT_ASSIGN_OR_RETURN(mission_, ParseMissionName("mission", request.mission()));
-  PLUMESCOUT_ASSIGN_OR_RETURN(
-      view_, MapViewFromProto(request.layers(), request.full_precision(), "layers"));
-  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.registry->Find(mission_));
-  return host->Subscribe([weak = weak_from_this()](absl::StatusOr<BeliefPtr> belief) {
-    const auto stream = weak.lock();
-    return stream != nullptr && stream->Update(std::move(belief));
-  });
+absl::Status WatchStream::Subscribe(const grpc::ByteBuffer& bytes) {
+  v1::WatchMapRequest request;
+  PLUMESCOUT_RETURN_IF_ERROR(Parse(bytes, request));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const MissionId mission,
+                              ParseMissionName("mission", request.mission()));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const MapView view, MapViewFromProto(request));
+  PLUMESCOUT_ASSIGN_OR_RETURN(host_, context_.FindMission(visit_.caller(), mission));
+  feed_ = host_->map_feed();
+  return feed_->Join(shared_from_this(), view, context_.map_pool,
+                     [&](MapFeed::Subscriber told) { return host_->Subscribe(std::move(told)); });
 }
 
 void WatchStream::End(const absl::Status& status) {
@@ -39,11 +43,20 @@ void WatchStream::End(const absl::Status& status) {
   Pump();
 }
 
+void WatchStream::Take(std::shared_ptr<const MapFrames> frames) {
+  {
+    absl::MutexLock lock(&mutex_);
+    frames_ = std::move(frames);
+    written_ = 0;
+  }
+  Pump();
+}
+
 void WatchStream::OnWriteDone(bool ok) {
   {
     absl::MutexLock lock(&mutex_);
     writing_ = false;
-    frames_.pop_front();
+    ++written_;
     if (!ok && !end_.has_value()) end_ = absl::CancelledError("the stream broke");
   }
   Pump();
@@ -51,21 +64,9 @@ void WatchStream::OnWriteDone(bool ok) {
 
 void WatchStream::OnDone() {
   context_.streams->Remove(this);
+  if (feed_ != nullptr) feed_->Leave(this);
+  host_.reset();  // not by the writer, which may be the last to hold this stream
   self_.reset();
-}
-
-bool WatchStream::Update(absl::StatusOr<BeliefPtr> belief) {
-  if (!belief.ok()) {
-    End(belief.status());
-    return false;
-  }
-  {
-    absl::MutexLock lock(&mutex_);
-    if (end_.has_value()) return false;
-    newest_ = *std::move(belief);
-  }
-  Pump();
-  return true;
 }
 
 void WatchStream::Pump() {
@@ -80,33 +81,18 @@ StreamPump::Operation WatchStream::NextOperation() {
   if (finished_ || writing_) return nullptr;
   if (end_.has_value()) {
     finished_ = true;
-    return [this, status = *end_] { Finish(ToGrpc(status)); };
+    return [this, status = *end_] {
+      visit_.Leave(status);
+      Finish(ToGrpc(status, visit_.info().request_id));
+    };
   }
-  if (!frames_.empty()) {
-    writing_ = true;
-    return [this, frame = &frames_.front()] { StartWrite(frame); };
+  if (frames_ == nullptr) return nullptr;
+  if (written_ == frames_->messages.size()) {
+    frames_ = nullptr;
+    return [this] { feed_->Await(this); };
   }
-  if (newest_ == nullptr || making_) return nullptr;
-  making_ = true;
-  return [this, belief = std::exchange(newest_, nullptr)] { StartMaking(belief); };
-}
-
-void WatchStream::StartMaking(BeliefPtr belief) {
-  const absl::Status queued = context_.map_pool->Submit(
-      [self = shared_from_this(), belief = std::move(belief)] { self->MakeFrames(*belief); });
-  if (!queued.ok()) End(queued);
-}
-
-void WatchStream::MakeFrames(const Belief& belief) {
-  auto now = std::make_shared<const MapSnapshot>(MakeMapSnapshot(belief));
-  auto made = FramesBetween(held_.get(), *now, mission_, view_);
-  held_ = std::move(now);
-  {
-    absl::MutexLock lock(&mutex_);
-    making_ = false;
-    for (v1::WatchMapResponse& frame : made) frames_.push_back(std::move(frame));
-  }
-  Pump();
+  writing_ = true;
+  return [this, message = &frames_->messages[written_]] { StartWrite(message); };
 }
 
 }  // namespace plumescout::server

@@ -32,8 +32,9 @@ const Names kCore = {"core/types",         "core/tour",           "core/grid",
                      "core/plan/cost",     "core/plan/goals",     "core/plan/paths",
                      "core/plan/sampling", "core/plan/selection", "core/plan",
                      "core/mission",       "core/mission/conduct"};
-const Names kServer = {"server/base",    "server/config",   "server/missions",
-                       "server/streams", "server/services", "server"};
+const Names kServer = {"server/base",     "server/config",   "server/access", "server/observe",
+                       "server/maps",     "server/missions", "server/calls",  "server/streams",
+                       "server/services", "server"};
 const Names kLab = {"lab/about",   "lab/formats", "lab/rivals", "lab/local",
                     "lab/sim",     "lab/report",  "lab/worlds", "lab/trials",
                     "lab/studies", "lab/bench",   "lab/program"};

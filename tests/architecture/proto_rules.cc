@@ -28,15 +28,20 @@ const std::set<std::string>& PureNumbers() {
       "fallback_limit",          // a count
       "information_penalty",     // [XIT] Eq. (12), of a path
       "lease_token",             // opaque
+      "level_of_detail",         // n: squares of 2^n cells
       "max_batch_observations",  // counts, as the others of the server's configuration
       "max_missions",
       "max_queued",
       "max_queued_observations",
+      "max_queued_per_mission",
+      "max_queued_per_robot",
+      "max_queued_queries",
+      "max_running_per_mission",
       "max_streams_per_connection",
-      "max_total_cells",
       "max_waiting_calls",
-      "mean_ucb",       // in [0, 1], [MIT] Eq. (3)
-      "page_size",      // a count
+      "mean_ucb",   // in [0, 1], [MIT] Eq. (3)
+      "page_size",  // a count
+      "query_threads",
       "revision",       // of a mission
       "reward",         // of sampling sites: its unit follows from which reward it is
       "row",            // of a cell

@@ -6,11 +6,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
 #include <thread>
 #include <utility>
+#include <variant>
 
 #include "absl/strings/str_cat.h"
 #include "absl/synchronization/notification.h"
@@ -33,6 +35,7 @@ using ::testing::IsEmpty;
 std::unique_ptr<server::Server> StartServer(int port, server::RegistryHooks hooks = {}) {
   server::ServerConfig config;
   config.listen = absl::StrCat("127.0.0.1:", port);
+  config.planning.max_budget_s = 60.0;  // enough on any machine
   auto started = server::Server::Start(config, std::move(hooks));
   EXPECT_TRUE(started.ok()) << started.status();
   return started.ok() ? *std::move(started) : nullptr;
@@ -225,6 +228,37 @@ TEST_F(GrpcPlannerClientTest, ACallThatOutlivesItsTimeoutIsGivenUpAndTheLinkLive
   EXPECT_TRUE(absl::IsDeadlineExceeded(status)) << status;
   EXPECT_THAT(*client_->ListMissions(), ElementsAre("house"));
   server_.reset();  // its search may only begin now, and waits for `release`
+}
+
+// The server is too slow for the first call: nobody hears its answer.
+TEST_F(GrpcPlannerClientTest, ARegistrationWhoseAnswerWasLostIsMadeOnce) {
+  absl::Notification release;
+  std::atomic<int> registrations = 0;
+  server::RegistryHooks hooks;
+  hooks.make_event_sink = [&](const MissionId&, const MissionOptions&) {
+    return [&](const Event& event) {
+      release.WaitForNotification();
+      if (std::holds_alternative<RobotRegistered>(event.body)) ++registrations;
+    };
+  };
+  server_ = StartServer(0, hooks);
+  ASSERT_NE(server_, nullptr);
+  ASSERT_TRUE(MakeGrpcPlannerClient(At(server_->port()))->CreateMission("house", {}).ok());
+  GrpcClientOptions options = At(server_->port());
+  options.call_timeout = absl::Milliseconds(150);
+  const auto hasty = MakeGrpcPlannerClient(options);
+
+  const absl::Status lost = hasty->RegisterRobot("house", "scout", 0.2, false).status();
+  release.Notify();
+  auto session = hasty->RegisterRobot("house", "scout", 0.2, false);
+  const absl::Time end = absl::Now() + kPatience;
+  while (IsRetriable(session.status()) && absl::Now() < end) {
+    session = hasty->RegisterRobot("house", "scout", 0.2, false);
+  }
+
+  EXPECT_FALSE(lost.ok());
+  ASSERT_TRUE(session.ok()) << session.status();
+  EXPECT_EQ(registrations, 1);
 }
 
 }  // namespace grpc_planner_client_test

@@ -25,6 +25,7 @@ class GrpcBackend final : public Backend {
   GrpcBackend() {
     server::ServerConfig config;
     config.listen = "127.0.0.1:0";
+    config.planning.max_budget_s = 60.0;  // enough on any machine
     auto started = server::Server::Start(config);
     EXPECT_TRUE(started.ok()) << started.status();
     server_ = *std::move(started);

@@ -81,6 +81,8 @@ class SmokeTest(unittest.TestCase):
     def setUp(self):
         self.client = plumescout_client.Client(self.target)
         self.addCleanup(self.client.close)
+        for mission in self.client.list_missions():  # of the tests before
+            self.client.delete_mission(mission)
 
     def test_a_short_mission_maps_the_room_and_its_gas(self):
         self.client.create_mission("toy", {"planning": {"speedMps": 0.5}})
@@ -135,6 +137,19 @@ class SmokeTest(unittest.TestCase):
         maps = [self.client.get_map(name) for name in ("cells", "files")]
         np.testing.assert_array_equal(maps[0].occupancy, maps[1].occupancy)
         self.assertEqual((maps[0].occupancy == plumescout_client.FREE).sum(), 38 * 58)
+
+        whole = maps[0]
+        coarse = self.client.get_map("cells", level_of_detail=2)
+        self.assertEqual(coarse.occupancy[coarse.cell(3.0, 2.0)], plumescout_client.FREE)
+        self.assertEqual(coarse.occupancy[coarse.cell(0.05, 0.05)], plumescout_client.OCCUPIED)
+        self.assertEqual(coarse.geometry.resolution_m, 4 * whole.geometry.resolution_m)
+        corner = self.client.get_map("cells", region=(-1.0, -1.0, 1.0, 1.0))
+        row, column = whole.cell(1.0, 1.0)
+        np.testing.assert_array_equal(
+            corner.occupancy[:row, :column], whole.occupancy[:row, :column]
+        )
+        nowhere = self.client.get_map("cells", region=(90.0, 90.0, 91.0, 91.0))
+        self.assertTrue((nowhere.occupancy == plumescout_client.UNKNOWN).all())
 
         robot = self.client.register("files", "scout")
         robot.add_gas(1_000_000_000, START, 8.0)

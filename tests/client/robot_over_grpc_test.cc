@@ -22,6 +22,7 @@ constexpr double kTimeLimit_s = 20.0;
 std::unique_ptr<server::Server> StartServer(int port) {
   server::ServerConfig config;
   config.listen = absl::StrCat("127.0.0.1:", port);
+  config.planning.max_budget_s = 60.0;  // enough on any machine
   auto started = server::Server::Start(config);
   EXPECT_TRUE(started.ok()) << started.status();
   return started.ok() ? *std::move(started) : nullptr;

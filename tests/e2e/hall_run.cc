@@ -151,6 +151,12 @@ bool SameMap(const MapSnapshot& a, const MapSnapshot& b) {
 std::unique_ptr<server::Server> StartServer(int port, server::RegistryHooks hooks) {
   server::ServerConfig config;
   config.listen = absl::StrCat("127.0.0.1:", port);
+  config.planning.max_budget_s = 60.0;  // enough on any machine
+  // Simulated time runs faster than the clock that rates go by.
+  config.limits.max_scans_per_s = 0.0;
+  config.limits.max_gas_readings_per_s = 0.0;
+  config.limits.max_ingest_bytes_per_s = 0.0;
+  config.limits.max_plans_per_s = 0.0;
   absl::StatusOr<std::unique_ptr<server::Server>> started =
       server::Server::Start(config, std::move(hooks));
   EXPECT_TRUE(started.ok()) << started.status();

@@ -11,37 +11,15 @@
 #include <set>
 #include <string>
 
+#include "absl/strings/match.h"
+#include "tests/server/bad_input_fixture.h"
+#include "tests/server/bad_map_input.h"
 #include "tests/server/bad_mission_input.h"
 #include "tests/server/bad_robot_input.h"
 #include "tests/server/service_fixture.h"
 
 namespace plumescout::server {
 namespace bad_input_test {
-
-BadInputs BadMap() {
-  return BadInputs()
-      .Rows(BadMissionName("mission"))
-      .ValuesBlaming("layers[0]", "layers", {"0", "99", "-1"});
-}
-
-BadInputs BadQueryGas() {
-  using Request = v1::QueryGasRequest;
-  const auto kInvalid = absl::StatusCode::kInvalidArgument;
-  const std::initializer_list<const char*> off = {"nan", "inf", "-inf", "1001", "-1e300"};
-  return BadInputs()
-      .Rows(BadMissionName("mission"))
-      .Row({"points", "none", [](Message& m) { static_cast<Request&>(m).clear_points(); }, kInvalid,
-            "points"})
-      .Row({"points", "too many",
-            [](Message& m) {
-              while (static_cast<Request&>(m).points_size() <= kMaxPoints) {
-                static_cast<Request&>(m).add_points();
-              }
-            },
-            kInvalid, "points"})
-      .ValuesBlaming("points[0].x_m", "points.x_m", off)
-      .ValuesBlaming("points[0].y_m", "points.y_m", off);
-}
 
 // The rows by the name of the request's type.
 std::map<std::string, BadInputs> AllBadInputs() {
@@ -50,19 +28,27 @@ std::map<std::string, BadInputs> AllBadInputs() {
           {"GetMissionRequest", BadMissionName("name")},
           {"ListMissionsRequest", BadListMissions()},
           {"DeleteMissionRequest", BadMissionName("name")},
+          {"UpdateMissionRequest", BadUpdateMission()},
+          {"PauseMissionRequest", BadMissionName("name")},
+          {"ResumeMissionRequest", BadMissionName("name")},
+          {"FinishMissionRequest", BadMissionName("name")},
           {"RegisterRobotRequest", BadRegisterRobot()},
           {"RemoveRobotRequest", BadRemoveRobot()},
+          {"GetRobotRequest", BadGetRobot()},
+          {"ListRobotsRequest", BadListRobots()},
+          {"ReleaseLeaseRequest", BadRemoveRobot()},
           {"StreamObservationsRequest", ingest},
           {"BatchIngestObservationsRequest", ingest},
-          {"NextBestTrajectoryRequest", BadNextBest()},
+          {"NextBestTrajectoryRequest", BadInputs().Rows(BadNextBest()).Rows(BadRequestId())},
           {"StreamNextBestTrajectoryRequest", BadNextBest()},
           {"CheckTrajectoryRequest", BadCheckTrajectory()},
           {"ListFrontiersRequest",
            BadInputs().Rows(BadRobotName("robot")).Rows(UnknownMission("robot"))},
           {"ReportProgressRequest", BadReportProgress()},
+          {"ListPlansRequest", BadMissionName("mission")},
           {"QueryGasRequest", BadQueryGas()},
-          {"GetMapRequest", BadMap()},
-          {"WatchMapRequest", BadMap()}};
+          {"GetMapRequest", BadGetMap()},
+          {"WatchMapRequest", BadView<v1::WatchMapRequest>()}};
 }
 
 // Fields of which no value is bad, and messages that may be missing.
@@ -73,6 +59,7 @@ std::set<std::string> FreeFields() {
       "NextBestTrajectoryRequest.seed",
       "StreamNextBestTrajectoryRequest.seed",
       // Both values of a bool are good.
+      "CreateMissionRequest.options.stamp_by_arrival",
       "CreateMissionRequest.options.planning.draw_goals",
       "CreateMissionRequest.options.planning.raw_variance",
       "CreateMissionRequest.options.planning.mixture_radius",
@@ -87,6 +74,7 @@ std::set<std::string> FreeFields() {
       "StreamNextBestTrajectoryRequest.go_home",
       "RegisterRobotRequest.take_over",
       "RemoveRobotRequest.force",
+      "ReleaseLeaseRequest.force",
       "GetMapRequest.full_precision",
       "GetMapRequest.fresh_posterior",
       "QueryGasRequest.fresh_posterior",
@@ -99,6 +87,13 @@ std::set<std::string> FreeFields() {
       "CreateMissionRequest.options.planning",
       "CreateMissionRequest.options.planning.sites",
       "CreateMissionRequest.options.home",
+      // Unset: the mission may idle for ever; or it lacks its name, of which there are rows.
+      "CreateMissionRequest.idle_time_to_live",
+      "UpdateMissionRequest.mission.idle_time_to_live",
+      "UpdateMissionRequest.mission",
+      // Unset: all of the map.
+      "GetMapRequest.region",
+      "WatchMapRequest.region",
       // Unset: the robot's latest pose, the server's budget.
       "NextBestTrajectoryRequest.start",
       "StreamNextBestTrajectoryRequest.start",
@@ -121,6 +116,14 @@ std::set<std::string> FreeFields() {
   };
 }
 
+// Of the mission in an update, what no mask may name is not read.
+bool IsRead(const std::string& name) {
+  constexpr absl::string_view kMission = "UpdateMissionRequest.mission.";
+  return !absl::StartsWith(name, kMission) ||
+         absl::StartsWith(name, absl::StrCat(kMission, "name")) ||
+         absl::StartsWith(name, absl::StrCat(kMission, "idle_time_to_live"));
+}
+
 // The requests of all services.
 std::vector<const Descriptor*> RequestTypes() {
   std::vector<const Descriptor*> types;
@@ -136,109 +139,6 @@ std::vector<const Descriptor*> RequestTypes() {
   }
   return types;
 }
-
-class BadInputTest : public ServiceTest {
- protected:
-  using Sender = std::function<absl::Status(const Message&)>;
-
-  // Mission "hall" has a robot with a scan, a reading and a plan, which leaves its posterior fresh.
-  void SetUp() override {
-    ServerConfig config;
-    config.limits.max_total_cells = 3 * config.mission.occupancy.max_cell_count;
-    StartServer(config);
-    lease_ = Lease();
-    ASSERT_TRUE(Ingest(kRobot, lease_, RoomScan(1)).ok());
-    ASSERT_TRUE(Ingest(kRobot, lease_, GasReadings(2, 2)).ok());
-    ASSERT_TRUE(NextBest(PlanFor(lease_)).ok());
-  }
-
-  template <typename Stub, typename Request, typename Response>
-  Sender SenderOf(std::unique_ptr<Stub>& stub,
-                  grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*)) {
-    return [this, &stub, method](const Message& request) {
-      return Call(stub, method, static_cast<const Request&>(request)).status();
-    };
-  }
-  // The refusal of the batch or of its observation.
-  absl::Status SendBatch(const Message& message) {
-    const auto& request = static_cast<const v1::BatchIngestObservationsRequest&>(message);
-    const auto response = Call(ingest_, &v1::IngestService::Stub::BatchIngestObservations, request);
-    if (!response.ok()) return response.status();
-    return response->rejections().empty() ? absl::OkStatus()
-                                          : FromProto(response->rejections(0).status());
-  }
-  absl::Status SendOnStream(const Message& message) {
-    const auto& request = static_cast<const v1::BatchIngestObservationsRequest&>(message);
-    IngestClient stream(*ingest_);
-    stream.Open(request.open().robot(), request.open().lease_token());
-    stream.Send(request.batch());
-    for (auto frame = stream.Read(); frame.frame_case() != 0; frame = stream.Read()) {
-      if (frame.has_rejected()) return FromProto(frame.rejected().status());
-    }
-    return stream.Finish();
-  }
-
-  v1::BatchIngestObservationsRequest GoodBatch() {
-    v1::BatchIngestObservationsRequest request;
-    request.mutable_open()->set_robot(kRobot);
-    request.mutable_open()->set_lease_token(lease_);
-    *request.mutable_batch() = RoomScan(AppliedSequence() + 1);
-    return request;
-  }
-  v1::ReportProgressRequest GoodReport() const {
-    v1::ReportProgressRequest request;
-    request.set_robot(kRobot);
-    request.set_lease_token(lease_);
-    request.set_plan("missions/hall/plans/1");
-    request.set_outcome(v1::ReportProgressRequest::OUTCOME_REACHED);
-    return request;
-  }
-
-  std::int64_t AppliedSequence() { return GetMap()->status().robots(0).applied_sequence(); }
-  // All that a bad request must not change: the map, and which missions there are.
-  std::string State() {
-    auto map = GetMap(/*full_precision=*/true);
-    EXPECT_TRUE(map.ok()) << map.status();
-    if (!map.ok()) return "";
-    map->clear_revision();
-    for (auto& robot : *map->mutable_status()->mutable_robots()) {
-      robot.clear_applied_sequence();
-      robot.clear_rejected_observation_count();
-    }
-    const auto list =
-        Call(missions_, &v1::MissionService::Stub::ListMissions, v1::ListMissionsRequest());
-    return absl::StrCat(map->SerializeAsString(), list->missions_size());
-  }
-
-  // `revisions`: by which a refusal moves the mission.
-  void Check(const BadInputs& inputs, const std::function<std::unique_ptr<Message>()>& good,
-             const Sender& send, int revisions = 0) {
-    for (const BadInput& row : inputs.rows()) {
-      SCOPED_TRACE(absl::StrCat(row.field, ": ", row.what.substr(0, 80)));
-      const std::int64_t revision = Revision();
-      const std::string state = State();
-      const auto request = good();
-      row.spoil(*request);
-      const absl::Status refused = send(*request);
-      if (row.code == absl::StatusCode::kInvalidArgument) {
-        EXPECT_THAT(refused, RefusesField(row.blamed));
-      } else {
-        EXPECT_THAT(refused, Refuses(row.code, row.blamed));
-      }
-      EXPECT_EQ(Revision(), revision + revisions);
-      EXPECT_TRUE(State() == state);  // not EXPECT_EQ: it would print the map
-    }
-  }
-  template <typename Request>
-  static std::function<std::unique_ptr<Message>()> Copies(const Request& request) {
-    return [request] { return std::make_unique<Request>(request); };
-  }
-  std::function<std::unique_ptr<Message>()> GoodBatches() {
-    return [this] { return std::make_unique<v1::BatchIngestObservationsRequest>(GoodBatch()); };
-  }
-
-  std::int64_t lease_ = 0;
-};
 
 TEST_F(BadInputTest, CreateMission) {
   v1::CreateMissionRequest good;
@@ -260,6 +160,40 @@ TEST_F(BadInputTest, ListMissions) {
 TEST_F(BadInputTest, DeleteMission) {
   Check(BadMissionName("name"), Copies(v1::DeleteMissionRequest()),
         SenderOf(missions_, &v1::MissionService::Stub::DeleteMission));
+}
+
+TEST_F(BadInputTest, UpdateMission) {
+  v1::UpdateMissionRequest good;
+  good.mutable_mission()->set_name("missions/hall");
+  good.mutable_update_mask()->add_paths("idle_time_to_live");
+  Check(BadUpdateMission(), Copies(good),
+        SenderOf(missions_, &v1::MissionService::Stub::UpdateMission));
+}
+
+TEST_F(BadInputTest, ChangesOfAMission) {
+  Check(BadMissionName("name"), Copies(v1::PauseMissionRequest()),
+        SenderOf(missions_, &v1::MissionService::Stub::PauseMission));
+  Check(BadMissionName("name"), Copies(v1::ResumeMissionRequest()),
+        SenderOf(missions_, &v1::MissionService::Stub::ResumeMission));
+  Check(BadMissionName("name"), Copies(v1::FinishMissionRequest()),
+        SenderOf(missions_, &v1::MissionService::Stub::FinishMission));
+}
+
+TEST_F(BadInputTest, LooksAtRobotsAndPlans) {
+  v1::ListRobotsRequest list;
+  list.set_mission("missions/hall");
+  Check(BadGetRobot(), Copies(v1::GetRobotRequest()),
+        SenderOf(robots_, &v1::RobotService::Stub::GetRobot));
+  Check(BadListRobots(), Copies(list), SenderOf(robots_, &v1::RobotService::Stub::ListRobots));
+  Check(BadMissionName("mission"), Copies(v1::ListPlansRequest()),
+        SenderOf(planning_, &v1::PlanningService::Stub::ListPlans));
+}
+
+TEST_F(BadInputTest, ReleaseLease) {
+  v1::ReleaseLeaseRequest good;
+  good.set_robot(kRobot);
+  good.set_lease_token(lease_);
+  Check(BadRemoveRobot(), Copies(good), SenderOf(robots_, &v1::RobotService::Stub::ReleaseLease));
 }
 
 TEST_F(BadInputTest, RegisterRobot) {
@@ -291,7 +225,7 @@ TEST_F(BadInputTest, StreamObservations) {
 }
 
 TEST_F(BadInputTest, NextBestTrajectory) {
-  Check(BadNextBest(), Copies(PlanFor(lease_)),
+  Check(BadInputs().Rows(BadNextBest()).Rows(BadRequestId()), Copies(PlanFor(lease_)),
         SenderOf(planning_, &v1::PlanningService::Stub::NextBestTrajectory));
 }
 
@@ -335,15 +269,13 @@ TEST_F(BadInputTest, ReportProgress) {
 }
 
 TEST_F(BadInputTest, GetMap) {
-  v1::GetMapRequest good;
-  good.set_mission("missions/hall");
-  Check(BadMap(), Copies(good), SenderOf(maps_, &v1::MapService::Stub::GetMap));
+  Check(BadGetMap(), Copies(GoodView<v1::GetMapRequest>()),
+        SenderOf(maps_, &v1::MapService::Stub::GetMap));
 }
 
 TEST_F(BadInputTest, WatchMap) {
-  v1::WatchMapRequest good;
-  good.set_mission("missions/hall");
-  Check(BadMap(), Copies(good), [this](const Message& request) {
+  const auto good = GoodView<v1::WatchMapRequest>();
+  Check(BadView<v1::WatchMapRequest>(), Copies(good), [this](const Message& request) {
     WatchClient watch(*maps_, static_cast<const v1::WatchMapRequest&>(request));
     return watch.Finish();
   });
@@ -384,6 +316,7 @@ TEST(BadInputCoverageTest, EveryFieldOfEveryRequestHasARowOrAReason) {
     CollectPaths(*type, "", paths);
     for (const std::string& path : paths) {
       const std::string name = absl::StrCat(type->name(), ".", path);
+      if (!IsRead(name)) continue;
       const bool is_free = free.count(name) > 0;
       if (is_free) known.insert(name);
       EXPECT_NE(covered.count(path) > 0, is_free) << name;

@@ -5,26 +5,11 @@
 #include "plumescout/v1/mission_service.pb.h"
 #include "plumescout/v1/robot_service.pb.h"
 #include "tests/server/bad_input.h"
+#include "tests/server/bad_name_input.h"
 #include "tests/server/bad_prior_map_input.h"
 #include "tests/server/bad_site_input.h"
 
 namespace plumescout::server {
-
-inline BadInputs BadMissionName(const std::string& field) {
-  return BadInputs()
-      .Values(field, {R"("")", R"("hall")", R"("missions")", R"("missions/")", R"("missions/Hall")",
-                      R"("missions/hall/")", R"("missions/hall/robots/r1")", R"("/missions/hall")",
-                      R"("missions/ha\0ll")", R"("plans/hall")"})
-      .Value(field, R"("missions/attic")", absl::StatusCode::kNotFound, "MISSION_NOT_FOUND");
-}
-
-inline BadInputs BadId(const std::string& field) {
-  static const std::string too_long = absl::StrCat("\"", std::string(64, 'a'), "\"");
-  return BadInputs()
-      .Values(field, {R"("")", R"("A")", R"("1a")", R"("-a")", R"("a-")", R"("a b")", R"("a/b")",
-                      R"("a\0b")", R"("ä")"})
-      .Values(field, {too_long.c_str()});
-}
 
 inline BadInputs BadLimits() {
   return BadInputs()
@@ -33,7 +18,8 @@ inline BadInputs BadLimits() {
       .Values("options.max_beam_count", {"-1", "0", "100001"})
       .Values("options.max_concentration_ppm", {"nan", "inf", "-1", "0", "1e7"})
       .Values("options.max_robot_count", {"-1", "0", "1001"})
-      .Values("options.robot_silence_s", {"nan", "inf", "-1", "0", "0.9", "1.1e9"});
+      .Values("options.robot_silence_s", {"nan", "inf", "-1", "0", "0.9", "1.1e9"})
+      .Values("options.memory_budget_bytes", {"-1", "0", "33554431", "1073741825"});
 }
 
 // An area with one bad vertex, and such as are none.
@@ -92,6 +78,7 @@ inline BadInputs BadGasOptions() {
       .Values(g + "ageing_half_life_s", {"nan", "inf", "-1", "1e-300", "1e300"})
       .Values(g + "refresh_period_s", {"nan", "inf", "-1", "0", "1e5"})
       .Values(g + "audit_period_epochs", {"-1", "1000001"})
+      .Values(g + "field_reach_m", {"nan", "inf", "-1", "1.1e6"})
       .Values(g + "observation_stddev_share", {"nan", "inf", "-0.1", "11"})
       .Values(g + "lattice_factor", {"-1", "0", "17"});
 }
@@ -147,6 +134,8 @@ inline BadInputs BadPlanningOptions() {
 inline BadInputs BadCreateMission() {
   return BadInputs()
       .Rows(BadId("mission_id"))
+      .Rows(BadRequestId())
+      .Rows(BadTimeToLive("idle_time_to_live"))
       .Value("mission_id", R"("hall")", absl::StatusCode::kAlreadyExists, "MISSION_EXISTS")
       .Rows(BadLimits())
       .Rows(BadPlaces())
@@ -156,13 +145,10 @@ inline BadInputs BadCreateMission() {
       .Rows(BadFrontierOptions())
       .Rows(BadPlanningOptions())
       .Rows(BadSiteOptions())
-      .Row({"options.occupancy.max_cell_count", "more than the server's memory",
-            [](Message& message) {
-              SetField(message, "options.occupancy.max_cell_count", "16000000");
-              SetField(message, "options.occupancy.max_extent_m", "2000");
-              SetField(message, "options.occupancy.resolution_m", "0.01");
-            },
-            absl::StatusCode::kResourceExhausted, "LIMIT_REACHED"});
+      .Row(
+          {"options.memory_budget_bytes", "more than the server has left",
+           [](Message& message) { SetField(message, "options.memory_budget_bytes", "1073741824"); },
+           absl::StatusCode::kResourceExhausted, "LIMIT_REACHED"});
 }
 
 inline BadInputs BadListMissions() {
@@ -175,6 +161,7 @@ inline BadInputs BadRegisterRobot() {
   return BadInputs()
       .Rows(BadMissionName("mission"))
       .Rows(BadId("robot_id"))
+      .Rows(BadRequestId())
       .Values("radius_m", {"nan", "inf", "-inf", "-1", "0", "6"});
 }
 

@@ -8,6 +8,7 @@
 #include "proto/convert/observation.h"
 #include "server/config/config.h"
 #include "tests/server/bad_input.h"
+#include "tests/server/bad_mission_input.h"
 
 namespace plumescout::server {
 
@@ -30,6 +31,14 @@ inline BadInputs BadLease(const std::string& field) {
     rows.Value(field, token, absl::StatusCode::kFailedPrecondition, "LEASE_SUPERSEDED");
   }
   return rows;
+}
+
+inline BadInputs BadGetRobot() {
+  return BadInputs().Rows(BadRobotName("name")).Rows(UnknownMission("name"));
+}
+
+inline BadInputs BadListRobots() {
+  return BadInputs().Rows(BadMissionName("mission")).Rows(BadListMissions());
 }
 
 inline BadInputs BadRemoveRobot() {

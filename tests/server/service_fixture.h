@@ -5,6 +5,7 @@
 #include <grpcpp/grpcpp.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "plumescout/v1/mission_service.grpc.pb.h"
 #include "plumescout/v1/planning_service.grpc.pb.h"
 #include "plumescout/v1/robot_service.grpc.pb.h"
+#include "plumescout/v1/system_service.grpc.pb.h"
 #include "proto/convert/observation.h"
 #include "server/server.h"
 #include "tests/server/service_clients.h"
@@ -24,13 +26,18 @@
 namespace plumescout::server {
 
 inline constexpr char kRobot[] = "missions/hall/robots/r1";
+inline constexpr int kAmpleBudget_s = 50;  // of a plan
 
 // A server on a loopback port, with one mission, "hall", and calls to it.
 class ServiceTest : public testing::Test {
  protected:
-  void StartServer(ServerConfig config = {}, RegistryHooks hooks = {}) {
+  void StartServer(ServerConfig config = {}, RegistryHooks hooks = {},
+                   std::function<void()> drain = nullptr) {
     config.listen = "127.0.0.1:0";
-    auto server = Server::Start(config, std::move(hooks));
+    if (config.planning.max_budget_s == PlanningConfig().max_budget_s) {
+      config.planning.max_budget_s = kAmpleBudget_s;
+    }
+    auto server = Server::Start(config, std::move(hooks), {.drain = std::move(drain)});
     ASSERT_TRUE(server.ok()) << server.status();
     server_ = *std::move(server);
     channel_ = grpc::CreateChannel(absl::StrCat("127.0.0.1:", server_->port()),
@@ -40,6 +47,7 @@ class ServiceTest : public testing::Test {
     ingest_ = v1::IngestService::NewStub(channel_);
     planning_ = v1::PlanningService::NewStub(channel_);
     maps_ = v1::MapService::NewStub(channel_);
+    system_ = v1::SystemService::NewStub(channel_);
     ASSERT_TRUE(CreateMission("hall").ok());
   }
 
@@ -94,7 +102,6 @@ class ServiceTest : public testing::Test {
   }
   // For robot r1; with time enough for a slow machine, which a search that ends by itself leaves.
   static v1::NextBestTrajectoryRequest PlanFor(std::int64_t lease_token) {
-    constexpr int kAmpleBudget_s = 50;
     v1::NextBestTrajectoryRequest request;
     request.set_robot(kRobot);
     request.set_lease_token(lease_token);
@@ -125,6 +132,7 @@ class ServiceTest : public testing::Test {
   std::unique_ptr<v1::IngestService::Stub> ingest_;
   std::unique_ptr<v1::PlanningService::Stub> planning_;
   std::unique_ptr<v1::MapService::Stub> maps_;
+  std::unique_ptr<v1::SystemService::Stub> system_;
 };
 
 // Gas readings numbered first .. last.

@@ -16,11 +16,12 @@ constexpr double kPassShare = 0.5;
 constexpr double kReadingShare = 0.25;
 
 std::shared_ptr<const SeparatorTree> MakeTree(std::size_t width, std::size_t height,
-                                              std::span<const CellInput> cells) {
+                                              std::span<const CellInput> cells,
+                                              const StopFn& stop) {
   std::vector<std::uint8_t> active;
   active.reserve(cells.size());
   for (const CellInput& cell : cells) active.push_back(cell.active ? 1 : 0);
-  return std::make_shared<SeparatorTree>(width, height, active);
+  return std::make_shared<SeparatorTree>(width, height, active, stop);
 }
 
 absl::Status Check(const CellChange& change, std::size_t cells) {
@@ -32,6 +33,8 @@ absl::Status Check(const CellChange& change, std::size_t cells) {
   return absl::OkStatus();
 }
 
+absl::Status Abandoned() { return absl::CancelledError("the gas field is abandoned"); }
+
 bool HasSameLinks(const CellInput& a, const CellInput& b) {
   return a.linked_east == b.linked_east && a.linked_north == b.linked_north;
 }
@@ -41,7 +44,7 @@ bool HasSameLinks(const CellInput& a, const CellInput& b) {
 FieldEngine::FieldEngine(std::size_t width, std::size_t height, std::span<const CellInput> cells,
                          const FieldOptions& options)
     : options_(options),
-      tree_(MakeTree(width, height, cells)),
+      tree_(MakeTree(width, height, cells, options.stop)),
       cells_(*tree_, cells),
       builder_(*tree_, options.prior),
       factor_(tree_),
@@ -51,6 +54,7 @@ FieldEngine::FieldEngine(std::size_t width, std::size_t height, std::span<const 
 }
 
 absl::Status FieldEngine::Apply(std::span<const CellChange> changes) {
+  if (abandoned_) return Abandoned();
   for (const CellChange& change : changes) {
     const absl::Status status = Check(change, tree_->cells());
     if (!status.ok()) return status;
@@ -124,8 +128,11 @@ void FieldEngine::Recompute() {
 void FieldEngine::Refresh() {
   pending_ = 0;
   reading_share_left_ = 1.0;
-  factor_.Eliminate(dirty_, cells_, builder_);
-  const Marginals::Pass pass = marginals_.Descend(factor_, dirty_, kPassShare * Tolerance());
+  abandoned_ = abandoned_ || !factor_.Eliminate(dirty_, cells_, builder_, options_.stop);
+  if (abandoned_) return;
+  const Marginals::Pass pass =
+      marginals_.Descend(factor_, dirty_, kPassShare * Tolerance(), options_.stop);
+  abandoned_ = pass.stopped;
   shift_ = pass.error;
   healthy_ = healthy_ && pass.healthy;
   largest_mean_ppm_ = marginals_.LargestMean_ppm();
@@ -133,10 +140,12 @@ void FieldEngine::Refresh() {
 }
 
 absl::Status FieldEngine::Heal() {
+  if (abandoned_) return Abandoned();
   if (healthy_) return absl::OkStatus();
   assert(false && "a field is not finite, or a variance not positive");
   ++healed_;
   Recompute();
+  if (abandoned_) return Abandoned();
   return healthy_ ? absl::OkStatus() : absl::InternalError("the gas field cannot be computed");
 }
 

@@ -15,6 +15,7 @@
 #include "core/gas/field/front.h"
 #include "core/gas/field/marginals.h"
 #include "core/gas/field/separator_tree.h"
+#include "core/types/stop.h"
 
 namespace plumescout {
 
@@ -36,6 +37,8 @@ struct FieldOptions {
   FieldTolerance tolerance;
   // Readings that may pass over cells they hardly touch, before a pass for changes sees to those.
   std::size_t max_pending = 16;
+  // Asked at every node, on whatever thread computes. Once it says so the engine is abandoned.
+  StopFn stop = {};
 };
 
 // The posterior of [IPP] Eq. (1)-(6) on a lattice, kept exact while readings arrive and cells
@@ -60,11 +63,14 @@ class FieldEngine {
   // Errors: kInvalidArgument, with nothing changed, for a cell beyond the lattice, a precision that
   // is negative, NaN or beyond kMaxCellPrecision, a deviation that is not finite or beyond it.
   // kInternal if a field is not finite or a variance not positive even after a fresh computation;
-  // the next call tries again.
+  // the next call tries again. kCancelled if the engine is abandoned.
   absl::Status Apply(std::span<const CellChange> changes);
 
   // Everything from scratch; afterwards the fields are exact to rounding.
   void Recompute();
+
+  // FieldOptions::stop ended a computation: fields and factor are of no use, only their size is.
+  bool abandoned() const { return abandoned_; }
 
   // Deviation from m_0 and marginal variance; NaN off the active cells.
   double mean_ppm(std::size_t cell) const { return marginals_.mean_ppm()[tree_->slot(cell)]; }
@@ -114,6 +120,7 @@ class FieldEngine {
   FieldShift shift_;                 // how far the fields were off after it, at most
   double largest_mean_ppm_ = 0.0;    // then
   bool healthy_ = true;
+  bool abandoned_ = false;
   std::int64_t healed_ = 0;
 };
 

@@ -7,15 +7,17 @@
 
 namespace plumescout {
 
-void FieldFactor::Eliminate(std::span<const std::uint8_t> dirty, const FieldCells& cells,
-                            FrontBuilder& builder) {
+bool FieldFactor::Eliminate(std::span<const std::uint8_t> dirty, const FieldCells& cells,
+                            FrontBuilder& builder, const StopFn& stop) {
   for (std::size_t i = 0; i < fronts_.size(); ++i) {
     if (dirty[i] == 0) continue;
+    if (Stops(stop)) return false;
     const SeparatorTree::Node& node = tree_->nodes()[i];
     const Front* const low = node.is_leaf() ? nullptr : fronts_[node.children[0]].get();
     const Front* const high = node.is_leaf() ? nullptr : fronts_[node.children[1]].get();
     fronts_[i] = builder.Build(node, cells, low, high);
   }
+  return true;
 }
 
 double FieldFactor::work() const {

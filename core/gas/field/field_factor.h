@@ -10,6 +10,7 @@
 
 #include "core/gas/field/front_builder.h"
 #include "core/gas/field/separator_tree.h"
+#include "core/types/stop.h"
 
 namespace plumescout {
 
@@ -24,9 +25,10 @@ class FieldFactor {
   const Front& front(std::size_t node) const { return *fronts_[node]; }
 
   // Eliminates the nodes anew whose flag is set. REQUIRES: ancestors of a flagged node are flagged;
-  // at the first call all are.
-  void Eliminate(std::span<const std::uint8_t> dirty, const FieldCells& cells,
-                 FrontBuilder& builder);
+  // at the first call all are. Returns false if `stop`, which is asked at every node, said so: then
+  // this is no factor any more.
+  bool Eliminate(std::span<const std::uint8_t> dirty, const FieldCells& cells,
+                 FrontBuilder& builder, const StopFn& stop = {});
 
   // What each node from the owner of an active cell to the root knows of it; at the root that is
   // its mean and variance. Cost: that of reading the fronts.

@@ -27,14 +27,16 @@ Marginals::Marginals(const SeparatorTree& tree)
       column_(tree.cells()) {}
 
 Marginals::Pass Marginals::Descend(const FieldFactor& factor, std::span<const std::uint8_t> dirty,
-                                   const FieldShift& tolerance) {
+                                   const FieldShift& tolerance, const StopFn& stop) {
   factor_ = &factor;
   dirty_ = dirty;
   tolerance_ = tolerance;
   healthy_ = true;
+  stopped_ = false;
+  stop_ = &stop;
   CollectDebts();
   const FieldShift error = Visit(memories_.size() - 1, 0);
-  return {error, healthy_};
+  return {error, healthy_, stopped_};
 }
 
 // What a node itself has missed shows in the boundary it remembers; what its descendants have does
@@ -64,6 +66,8 @@ void Marginals::PrefetchChildren(const SeparatorTree::Node& node,
 }
 
 FieldShift Marginals::Visit(std::size_t node, std::size_t depth) {
+  stopped_ = stopped_ || Stops(*stop_);
+  if (stopped_) return {};
   const SeparatorTree::Node& place = tree_->nodes()[node];
   PrefetchChildren(place, &BoundaryMemory::PrefetchForMoved);
   const Front& front = factor_->front(node);

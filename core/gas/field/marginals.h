@@ -10,6 +10,7 @@
 #include "core/gas/field/boundary_memory.h"
 #include "core/gas/field/field_factor.h"
 #include "core/gas/field/field_shift.h"
+#include "core/types/stop.h"
 
 namespace plumescout {
 
@@ -38,13 +39,15 @@ class Marginals {
   explicit Marginals(const SeparatorTree& tree);
 
   // Brings the fields to `factor`, whose flagged fronts have changed. Cells that are not active
-  // become NaN. Returns how far off the fields may be, at most `tolerance`.
+  // become NaN. Returns how far off the fields may be, at most `tolerance`. Once `stop`, which is
+  // asked at every node, says so, the rest is left as it is, and the fields are of no use any more.
   struct Pass {
     FieldShift error;
     bool healthy = true;  // all that was computed is finite, variances positive
+    bool stopped = false;
   };
   Pass Descend(const FieldFactor& factor, std::span<const std::uint8_t> dirty,
-               const FieldShift& tolerance);
+               const FieldShift& tolerance, const StopFn& stop = {});
 
   // Brings the fields to what they are after a reading that `factor` has not heard; `steps` are
   // those from its cell. Passes over subtrees that together with earlier readings owe no more than
@@ -104,6 +107,8 @@ class Marginals {
   // Of the present pass.
   const FieldFactor* factor_ = nullptr;
   bool healthy_ = true;
+  bool stopped_ = false;
+  const StopFn* stop_ = nullptr;
   std::span<const std::uint8_t> dirty_;
   FieldShift tolerance_;
   std::vector<Block> blocks_;          // by depth

@@ -38,8 +38,9 @@ double Score(double low, double high, double line) {
 // Builds the tree, children first.
 class Dissection {
  public:
-  Dissection(SeparatorTree& tree, std::size_t height, std::span<const std::uint8_t> active)
-      : tree_(tree), active_(active) {
+  Dissection(SeparatorTree& tree, std::size_t height, std::span<const std::uint8_t> active,
+             const StopFn& stop)
+      : tree_(tree), active_(active), stop_(stop) {
     places_.reserve(active.size());
     const auto width = static_cast<std::int32_t>(tree.width());
     for (std::int32_t y = 0; y < static_cast<std::int32_t>(height); ++y) {
@@ -80,7 +81,7 @@ class Dissection {
   }
 
   std::uint32_t Split(Places part) {
-    if (part.size() <= kLeafCells) {
+    if (part.size() <= kLeafCells || Stops(stop_)) {
       return AddNode(part, {SeparatorTree::kNone, SeparatorTree::kNone});
     }
     const Line line = BestLine(part);
@@ -150,17 +151,18 @@ class Dissection {
 
   SeparatorTree& tree_;
   std::span<const std::uint8_t> active_;
+  const StopFn& stop_;
   std::vector<LatticeCell> places_;  // those of a part side by side
   std::vector<LatticeLines> lines_;
   std::vector<Count> counts_;  // by line; 0 between uses
 };
 
 SeparatorTree::SeparatorTree(std::size_t width, std::size_t height,
-                             std::span<const std::uint8_t> active)
+                             std::span<const std::uint8_t> active, const StopFn& stop)
     : width_(width), slot_of_cell_(width * height) {
   cell_of_slot_.reserve(cells());
   owner_.reserve(cells());
-  Dissection(*this, height, active).Run();
+  Dissection(*this, height, active, stop).Run();
   FindNeighbours();
 }
 

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "core/types/stop.h"
+
 namespace plumescout {
 
 // Place of a lattice cell in the order of elimination.
@@ -35,7 +37,9 @@ class SeparatorTree {
 
   // `active` is by cell index y * width + x. REQUIRES: width, height >= 1, width * height < 2^32 -
   // 1, active.size() == width * height. Cost: O(n log n).
-  SeparatorTree(std::size_t width, std::size_t height, std::span<const std::uint8_t> active);
+  // Once `stop` says so, what is left is not divided any more: a tree, but not one to work with.
+  SeparatorTree(std::size_t width, std::size_t height, std::span<const std::uint8_t> active,
+                const StopFn& stop = {});
 
   std::size_t width() const { return width_; }
   std::size_t cells() const { return slot_of_cell_.size(); }

@@ -22,6 +22,16 @@ absl::Status MissionExists(const MissionId& mission) {
                     absl::StrCat("missions/", mission));
 }
 
+absl::Status MissionPaused(const MissionId& mission) {
+  return TypedError(absl::StatusCode::kFailedPrecondition, reason::kMissionPaused,
+                    absl::StrCat("missions/", mission, " plans nothing until it is resumed"));
+}
+
+absl::Status MissionFinished(const MissionId& mission) {
+  return TypedError(absl::StatusCode::kFailedPrecondition, reason::kMissionFinished,
+                    absl::StrCat("missions/", mission, " can only be read"));
+}
+
 absl::Status RobotNotFound(const RobotId& robot) {
   return TypedError(absl::StatusCode::kNotFound, reason::kRobotNotFound,
                     absl::StrCat("robot \"", robot, "\""));

@@ -14,6 +14,10 @@ namespace plumescout {
 
 absl::Status MissionNotFound(const MissionId& mission);
 absl::Status MissionExists(const MissionId& mission);
+// It plans nothing until it is resumed.
+absl::Status MissionPaused(const MissionId& mission);
+// Nothing changes it any more.
+absl::Status MissionFinished(const MissionId& mission);
 absl::Status RobotNotFound(const RobotId& robot);
 // Tells to try again after `free_in_ns`.
 absl::Status LeaseHeld(const RobotId& robot, std::int64_t free_in_ns);

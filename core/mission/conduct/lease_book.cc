@@ -11,10 +11,17 @@
 
 namespace plumescout {
 
+std::int64_t FirstLeaseToken(std::uint64_t random_bits) {
+  constexpr int kTokensPerLife_bits = 20;
+  constexpr std::uint64_t kLifeMask =
+      (static_cast<std::uint64_t>(kLeaseTokenEnd) >> (kTokensPerLife_bits + 1)) - 1;
+  return static_cast<std::int64_t>((random_bits & kLifeMask) << kTokensPerLife_bits) + 1;
+}
+
 absl::StatusOr<std::int64_t> LeaseBook::Propose(const RobotId& robot, bool take_over,
                                                 std::int64_t now_ns) const {
   const auto found = leases_.find(robot);
-  if (found != leases_.end() && !take_over) {
+  if (found != leases_.end() && !take_over && !found->second.released) {
     const Lease& lease = found->second;
     const std::int64_t idle_ns = now_ns - lease.last_use_ns;
     if (lease.stream != 0) return LeaseHeld(robot, hold_ns_);
@@ -29,6 +36,7 @@ StreamId LeaseBook::Grant(const RobotId& robot, std::int64_t token, std::int64_t
   next_token_ = std::max(next_token_, token + 1);
   lease.token = token;
   lease.last_use_ns = now_ns;
+  lease.released = false;
   return std::exchange(lease.stream, 0);
 }
 
@@ -40,10 +48,29 @@ StreamId LeaseBook::Remove(const RobotId& robot) {
   return ended;
 }
 
+absl::StatusOr<StreamId> LeaseBook::Release(const RobotId& robot,
+                                            std::optional<std::int64_t> token) {
+  const auto found = leases_.find(robot);
+  if (found == leases_.end()) return RobotNotFound(robot);
+  Lease& lease = found->second;
+  if (token && lease.token != *token) return LeaseSuperseded(robot);
+  lease.released = true;
+  return std::exchange(lease.stream, 0);
+}
+
+LeaseStanding LeaseBook::Standing(const RobotId& robot, std::int64_t now_ns) const {
+  const auto found = leases_.find(robot);
+  if (found == leases_.end() || found->second.released) return {};
+  const Lease& lease = found->second;
+  const bool streaming = lease.stream != 0;
+  return {streaming || now_ns - lease.last_use_ns < hold_ns_, streaming};
+}
+
 absl::Status LeaseBook::Check(const RobotId& robot, std::int64_t token) const {
   const auto found = leases_.find(robot);
   if (found == leases_.end()) return RobotNotFound(robot);
-  return found->second.token == token ? absl::OkStatus() : LeaseSuperseded(robot);
+  const Lease& lease = found->second;
+  return lease.token == token && !lease.released ? absl::OkStatus() : LeaseSuperseded(robot);
 }
 
 absl::Status LeaseBook::Use(const RobotId& robot, std::int64_t token, std::int64_t now_ns) {

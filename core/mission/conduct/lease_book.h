@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
@@ -12,6 +13,21 @@
 namespace plumescout {
 
 using StreamId = std::int64_t;  // of one mission; 0: none
+
+// Tokens stay below this, so that clients whose numbers are doubles hold them exactly.
+inline constexpr std::int64_t kLeaseTokenEnd = std::int64_t{1} << 53;
+
+// The first token of a server's life. Random bits set it far from those of other lives, and it is
+// below half of kLeaseTokenEnd: there is room to count up for ever.
+std::int64_t FirstLeaseToken(std::uint64_t random_bits);
+
+// How a robot's lease stands.
+struct LeaseStanding {
+  bool held = false;
+  bool streaming = false;  // a stream is open on it
+
+  friend bool operator==(const LeaseStanding&, const LeaseStanding&) = default;
+};
 
 // What the conduct of a mission needs of its robots' leases.
 class Leases {
@@ -55,7 +71,15 @@ class LeaseBook {
   // As Leases. Returns the stream that it ended.
   StreamId Remove(const RobotId& robot);
 
-  // ROBOT_NOT_FOUND; LEASE_SUPERSEDED unless `token` is the newest.
+  // Gives up a lease: nothing is written under its token any more, and anybody may take a newer one
+  // at once. No token: whichever is the newest. ROBOT_NOT_FOUND, LEASE_SUPERSEDED. Returns the
+  // stream that it ended.
+  absl::StatusOr<StreamId> Release(const RobotId& robot, std::optional<std::int64_t> token);
+
+  // Of a robot that is not there: not held.
+  LeaseStanding Standing(const RobotId& robot, std::int64_t now_ns) const;
+
+  // ROBOT_NOT_FOUND; LEASE_SUPERSEDED unless `token` is the newest, and was not given up.
   absl::Status Check(const RobotId& robot, std::int64_t token) const;
   // As Check, and counts as a use.
   absl::Status Use(const RobotId& robot, std::int64_t token, std::int64_t now_ns);
@@ -76,6 +100,7 @@ class LeaseBook {
     std::int64_t token = 0;
     std::int64_t last_use_ns = 0;
     StreamId stream = 0;
+    bool released = false;
   };
 
   const std::int64_t hold_ns_;

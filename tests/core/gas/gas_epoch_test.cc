@@ -11,7 +11,7 @@ namespace plumescout {
 namespace gas_epoch_test {
 
 constexpr GasLattice kLattice{0, 0, 12, 9};
-constexpr FieldOptions kOptions{
+const FieldOptions kOptions{
     {.prior_precision_per_ppm2 = 3.0, .background_precision_per_ppm2 = 0.001}, {}, 16};
 
 // A map with a wall and some readings, and the fields of an engine that has just been made.

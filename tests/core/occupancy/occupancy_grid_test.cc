@@ -224,5 +224,18 @@ TEST(OccupancyGrid, StatesAreTheStatesOfItsCells) {
   }
 }
 
+TEST(OccupancyGrid, GrowsNoFurtherThanItsMemoryAllows) {
+  OccupancyGrid grid = OneTile();
+  grid.LimitCells(2 * 64 * 64);
+  EXPECT_TRUE(grid.GrowToContain({1.0, 1.0}, {7.0, 2.0}).ok());
+  const OccupancyGrid before = grid;
+  const absl::Status refused = grid.GrowToContain({1.0, 1.0}, {14.0, 2.0});
+  EXPECT_TRUE(absl::IsResourceExhausted(refused));
+  EXPECT_EQ(refused.message().find("BUDGET_REACHED: a map of 192 x 64 cells"), 0U) << refused;
+  EXPECT_EQ(grid.States(), before.States());
+  grid.LimitCells(0);
+  EXPECT_TRUE(grid.GrowToContain({1.0, 1.0}, {7.0, 2.0}).ok()) << "it need not grow";
+}
+
 }  // namespace occupancy_grid_test
 }  // namespace plumescout

@@ -254,5 +254,21 @@ TEST(ScanInserter, EqualsEveryBeamClippedAgainstEveryCellOnRandomScans) {
   }
 }
 
+// Beams of 100 m that differ by a hair: on a fine grid each crosses ten thousand cells.
+TEST(ScanInserter, BeamsThatCrossTooManyCellsAreRefused) {
+  OccupancyOptions options;
+  options.resolution_m = 0.01;
+  OccupancyGrid grid(options);
+  ScanInserter inserter;
+  const Scan scan{0.0, 1e-9, 100.0, std::vector<float>(4096, kNoReturn)};
+  const absl::Status refused = inserter.Insert(kSensor, scan, {}, grid);
+  EXPECT_TRUE(absl::IsInvalidArgument(refused)) << refused;
+  EXPECT_NE(refused.message().find("4096 beams cross"), absl::string_view::npos) << refused;
+  EXPECT_EQ(grid.geometry().size(), 0U) << "nothing changed";
+  const Scan honest{0.0, 2.0 * M_PI / 1440, 95.0, std::vector<float>(1440, kNoReturn)};
+  OccupancyGrid outdoors(kOptions);
+  EXPECT_TRUE(inserter.Insert(kSensor, honest, {}, outdoors).ok());
+}
+
 }  // namespace scan_inserter_test
 }  // namespace plumescout

@@ -10,6 +10,7 @@
 #include <limits>
 #include <string>
 
+#include "proto/convert/geometry.h"
 #include "proto/convert/status.h"
 
 namespace plumescout {
@@ -40,6 +41,23 @@ MapSnapshot TestMap() {
   return map;
 }
 
+// All of a map in one part, a tile a layer.
+v1::GetMapResponse Whole(const MapSnapshot& map, const MapView& view = {}) {
+  v1::GetMapResponse proto;
+  proto.set_revision(map.revision);
+  *proto.mutable_status() = ToProto(map, map.occupancy.geometry(), "hall");
+  const CellRect all = WholeRaster(map.occupancy.geometry());
+  const auto encode = view.full_precision ? EncodeFloats : EncodeScaled;
+  if (view.occupancy) *proto.add_tiles() = EncodeStates(map.occupancy, all);
+  if (view.gas_mean) {
+    *proto.add_tiles() = encode(v1::MAP_LAYER_GAS_MEAN, map.gas_mean_ppm, all);
+  }
+  if (view.gas_variance) {
+    *proto.add_tiles() = encode(v1::MAP_LAYER_GAS_VARIANCE, map.gas_variance_ppm2, all);
+  }
+  return proto;
+}
+
 bool SameBits(const Grid<float>& a, const Grid<float>& b) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (a[i] != b[i] && !(std::isnan(a[i]) && std::isnan(b[i]))) return false;
@@ -49,7 +67,7 @@ bool SameBits(const Grid<float>& a, const Grid<float>& b) {
 
 TEST(MapTest, MapSurvivesTheRoundTripInFullPrecision) {
   const MapSnapshot map = TestMap();
-  const auto back = FromProto(ToProto(map, "hall", {.full_precision = true}));
+  const auto back = FromProto(Whole(map, {.full_precision = true}));
   ASSERT_TRUE(back.ok()) << back.status();
   EXPECT_EQ(back->revision, map.revision);
   EXPECT_EQ(back->occupancy, map.occupancy);
@@ -65,7 +83,7 @@ TEST(MapTest, MapSurvivesTheRoundTripInFullPrecision) {
 
 TEST(MapTest, FrontiersSurviveTheRoundTrip) {
   const MapSnapshot map = TestMap();
-  const MapSnapshot back = FromProto(ToProto(map, "hall", {})).value();
+  const MapSnapshot back = FromProto(Whole(map)).value();
   ASSERT_EQ(back.frontiers.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(back.frontiers[i].kind, map.frontiers[i].kind);
@@ -80,7 +98,7 @@ TEST(MapTest, FrontiersSurviveTheRoundTrip) {
 
 TEST(MapTest, LayersThatWereNotAskedForAreUnknown) {
   const MapView view{.occupancy = true, .gas_mean = false, .gas_variance = false};
-  const v1::GetMapResponse proto = ToProto(TestMap(), "hall", view);
+  const v1::GetMapResponse proto = Whole(TestMap(), view);
   EXPECT_EQ(proto.tiles_size(), 1);
   const MapSnapshot back = FromProto(proto).value();
   EXPECT_EQ(back.occupancy, TestMap().occupancy);
@@ -89,22 +107,65 @@ TEST(MapTest, LayersThatWereNotAskedForAreUnknown) {
 
 TEST(MapTest, MapBeforeTheFirstScanHasNoCells) {
   MapSnapshot map;
-  const auto back = FromProto(ToProto(map, "hall", {}));
+  const auto back = FromProto(Whole(map));
   ASSERT_TRUE(back.ok()) << back.status();
   EXPECT_EQ(back->occupancy.size(), 0u);
 }
 
+TEST(MapTest, TilesLieOnTheirOwnRaster) {
+  v1::GetMapResponse proto;
+  *proto.mutable_status() = ToProto(TestMap(), TestMap().occupancy.geometry(), "hall");
+  const GridGeometry squares{-6.4, 0.0, 0.4, 16, 32};
+  *proto.mutable_tile_geometry() = ToProto(squares);
+  const Grid<CellState> states(squares, CellState::kOccupied);
+  *proto.add_tiles() = EncodeStates(states, WholeRaster(squares));
+  const MapSnapshot back = FromProto(proto).value();
+  EXPECT_EQ(back.occupancy, states);
+  EXPECT_EQ(back.gas_mean_ppm.geometry(), squares);
+}
+
+TEST(MapTest, LaterPartsAddTheirTiles) {
+  v1::GetMapResponse first = Whole(TestMap(), {.full_precision = true});
+  v1::GetMapResponse later;
+  *later.add_tiles() = first.tiles(2);
+  first.mutable_tiles()->RemoveLast();
+  MapSnapshot map = FromProto(first).value();
+  ASSERT_TRUE(AddTiles(later, map).ok());
+  EXPECT_TRUE(SameBits(map.gas_variance_ppm2, TestMap().gas_variance_ppm2));
+  later.mutable_tiles(0)->set_column_count(1000);
+  EXPECT_EQ(FieldViolations(AddTiles(later, map)).at(0).field, "tiles[0].column_count");
+}
+
 TEST(MapTest, ViewNamesLayersOrAll) {
-  google::protobuf::RepeatedField<int> layers;
-  EXPECT_EQ(MapViewFromProto(layers, true, "layers").value(), (MapView{true, true, true, true}));
-  layers.Add(v1::MAP_LAYER_GAS_MEAN);
-  EXPECT_EQ(MapViewFromProto(layers, false, "layers").value(),
-            (MapView{false, true, false, false}));
-  layers.Add(99);
-  EXPECT_EQ(FieldViolations(MapViewFromProto(layers, false, "layers").status()).at(0).field,
-            "layers[1]");
-  layers.Set(1, v1::MAP_LAYER_UNSPECIFIED);
-  EXPECT_FALSE(MapViewFromProto(layers, false, "layers").ok());
+  v1::GetMapRequest request;
+  request.set_full_precision(true);
+  EXPECT_EQ(MapViewFromProto(request).value(), (MapView{true, true, true, true}));
+  request.add_layers(v1::MAP_LAYER_GAS_MEAN);
+  request.set_full_precision(false);
+  EXPECT_EQ(MapViewFromProto(request).value(), (MapView{false, true, false, false}));
+  request.add_layers(static_cast<v1::MapLayer>(99));
+  EXPECT_EQ(FieldViolations(MapViewFromProto(request).status()).at(0).field, "layers[1]");
+  request.set_layers(1, v1::MAP_LAYER_UNSPECIFIED);
+  EXPECT_FALSE(MapViewFromProto(request).ok());
+}
+
+TEST(MapTest, ViewHasItsRegionAndLevel) {
+  v1::WatchMapRequest request;
+  request.set_level_of_detail(6);
+  *request.mutable_region()->mutable_min() = ToProto(Point2{-1.0, 2.0});
+  *request.mutable_region()->mutable_max() = ToProto(Point2{-1.0, 3.0});
+  const MapView view = MapViewFromProto(request).value();
+  EXPECT_EQ(view.level_of_detail, 6);
+  EXPECT_EQ(view.region, (Rectangle{{-1.0, 2.0}, {-1.0, 3.0}}));
+  const auto blamed = [&] { return FieldViolations(MapViewFromProto(request).status()); };
+  request.mutable_region()->mutable_max()->set_y_m(1.9);
+  ASSERT_EQ(blamed().size(), 1u);
+  EXPECT_EQ(blamed()[0].field, "region.max.y_m");
+  request.mutable_region()->clear_min();
+  EXPECT_EQ(blamed().at(0).field, "region.min");
+  request.clear_region();
+  request.set_level_of_detail(7);
+  EXPECT_EQ(blamed().at(0).field, "level_of_detail");
 }
 
 struct BadField {
@@ -141,7 +202,7 @@ TEST(MapTest, WhatAReaderAllocatesByIsChecked) {
       {"tiles[1].deflated_data", [](auto& m) { m.mutable_tiles(1)->clear_deflated_data(); }},
   };
   for (const BadField& bad : kBad) {
-    v1::GetMapResponse proto = ToProto(TestMap(), "hall", {});
+    v1::GetMapResponse proto = Whole(TestMap());
     bad.spoil(proto);
     const auto violations = FieldViolations(FromProto(proto).status());
     ASSERT_EQ(violations.size(), 1u) << bad.field;

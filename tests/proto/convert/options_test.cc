@@ -60,6 +60,9 @@ MissionOptions Unlike() {
                             5};
   options.max_robot_count = 3;
   options.robot_silence_s = 12.5;
+  options.memory_budget_bytes = 100'000'000;
+  options.gas.field_reach_m = 12.0;
+  options.stamp_by_arrival = true;
   options.gas.audit_period_epochs = 7;
   options.keep_out = {{{{1, 2}, {3, 4}, {5, 7}}}, {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}};
   options.home = Point2{-1.0, 2.0};
@@ -76,6 +79,9 @@ TEST(OptionsTest, OptionsSurviveTheRoundTrip) {
   EXPECT_TRUE(MessageDifferencer::Equals(ToProto(*back), proto));
   EXPECT_EQ(back->seed, Unlike().seed);
   EXPECT_EQ(back->robot_silence_s, 12.5);
+  EXPECT_EQ(back->memory_budget_bytes, 100'000'000);
+  EXPECT_EQ(back->gas.field_reach_m, 12.0);
+  EXPECT_TRUE(back->stamp_by_arrival);
   EXPECT_EQ(back->gas.audit_period_epochs, 7);
   EXPECT_EQ(back->frontier.fixed_gas_threshold_ppm, 4.0);
   EXPECT_EQ(back->keep_out, Unlike().keep_out);

@@ -18,6 +18,7 @@ TEST(StatusTest, EveryDetailSurvivesTheWire) {
   absl::Status status = FieldError("pose", "must be set");
   status = WithReason(status, "BAD_POSE", {{"robot", "r1"}});
   status = WithRetryDelay(status, absl::Milliseconds(1250));
+  status = WithRequestId(status, "r7");
 
   const absl::Status back = FromProto(ToProto(status));
 
@@ -25,6 +26,7 @@ TEST(StatusTest, EveryDetailSurvivesTheWire) {
   EXPECT_EQ(Reason(back), "BAD_POSE");
   EXPECT_THAT(ReasonMetadata(back), ElementsAre(Pair("robot", "r1")));
   EXPECT_EQ(RetryDelay(back), absl::Milliseconds(1250));
+  EXPECT_EQ(RequestId(back), "r7");
   EXPECT_THAT(FieldViolations(back), ElementsAre(FieldViolation{"pose", "must be set"}));
 }
 

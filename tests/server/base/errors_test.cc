@@ -61,5 +61,12 @@ TEST(ErrorsTest, ReasonThatIsThereStays) {
   EXPECT_TRUE(WithErrorInfo(absl::OkStatus()).ok());
 }
 
+TEST(ErrorsTest, WhoAsksTooMuchIsToldWhenToAskAgain) {
+  const absl::Status refused = WithErrorInfo(RateExceeded("too many plans", absl::Seconds(2)));
+  EXPECT_TRUE(absl::IsResourceExhausted(refused));
+  EXPECT_EQ(Reason(refused), "RATE_EXCEEDED");
+  EXPECT_EQ(RetryDelay(refused), absl::Seconds(2));
+}
+
 }  // namespace errors_test
 }  // namespace plumescout::server

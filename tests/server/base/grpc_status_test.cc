@@ -32,6 +32,12 @@ TEST(GrpcStatusTest, EveryErrorHasAReason) {
   }
 }
 
+TEST(GrpcStatusTest, RequestIsNamedIfItHasAnId) {
+  const absl::Status status = absl::NotFoundError("x");
+  EXPECT_EQ(RequestId(Details(ToGrpc(status, "r7"))), "r7");
+  EXPECT_EQ(RequestId(Details(ToGrpc(status))), "");
+}
+
 TEST(GrpcStatusTest, OkIsOk) { EXPECT_TRUE(ToGrpc(absl::OkStatus()).ok()); }
 
 }  // namespace grpc_status_test

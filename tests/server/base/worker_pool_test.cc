@@ -35,6 +35,13 @@ TEST(WorkerPoolTest, FullQueueRefusesAndSaysWhenToRetry) {
   const absl::Status refused = pool.Submit([] {});
   EXPECT_TRUE(absl::IsResourceExhausted(refused));
   EXPECT_TRUE(RetryAfter_ns(refused).has_value());
+  const PoolLoad load = pool.load();
+  EXPECT_EQ(load.name, "test");
+  EXPECT_EQ(load.threads, 1);
+  EXPECT_EQ(load.busy_threads, 1);
+  EXPECT_EQ(load.queued, 1);
+  EXPECT_EQ(load.max_queued, 1);
+  EXPECT_EQ(load.refused, 1);
   release.Notify();
 }
 

@@ -34,11 +34,19 @@ TEST(CommandLineTest, FlagsWinOverTheFile) {
   EXPECT_EQ(line->config.mission.seed, 9u);
 }
 
+TEST(CommandLineTest, LogFormatIsAFlag) {
+  const auto line = Read({"--log-format", "json"});
+  ASSERT_TRUE(line.ok()) << line.status();
+  EXPECT_EQ(line->config.observe.log_format, "json");
+  EXPECT_THAT(std::string(Read({"--log-format", "xml"}).status().message()),
+              HasSubstr("must be one of text, json"));
+}
+
 TEST(CommandLineTest, HelpNamesFlagsAndOptions) {
   const auto line = Read({"--help"});
   ASSERT_TRUE(line.ok() && line->print.has_value());
   EXPECT_THAT(*line->print, HasSubstr("--listen"));
-  EXPECT_THAT(*line->print, HasSubstr("limits.max_missions = 64"));
+  EXPECT_THAT(*line->print, HasSubstr("limits.max_missions = 8"));
   EXPECT_THAT(*line->print, HasSubstr("mission.planning.speed_mps = 1.25"));
 }
 

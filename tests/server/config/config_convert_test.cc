@@ -19,12 +19,16 @@ using google::protobuf::util::MessageDifferencer;
 ServerConfig Unlike() {
   ServerConfig config;
   config.listen = "[::]:1";
-  config.limits = {2, 3, 5000, 4, 5, 6, 7, 8};
-  config.planning = {9, 10, 0.5, 11.0, 0.25, true};
-  config.maps = {12, 13, 0.75, 0.125};
+  config.limits = {2,      3'000'000'000, 5000,          4,         5,    6,     7,    8,
+                   10'001, 8.5,           2'000'000'000, 5'000'000, 9000, 250.0, 51.0, 1001.0,
+                   5e6,    21.0,          61.0,          6.0};
+  config.planning = {9, 10, 0.5, 11.0, 0.25, true, 1, 2, 3};
+  config.maps = {12, 13, 0.75, 0.125, 14, 15, 1'000'000};
   config.epochs = {14, 15};
-  config.connection = {16.0, 17.0, 18.0, 19.0, 20.0};
+  config.connection = {16.0, 17.0, 18.0, 19.0, 20.0, 20.5};
+  config.access = {"a", "b", "c", true, "d", true, true, "e"};
   config.mission.seed = 21;
+  config.observe = {"127.0.0.1:1", "debug", "json", 0.5, false, true};
   return config;
 }
 
@@ -34,14 +38,20 @@ TEST(ConfigConvertTest, EveryOptionSurvivesTheRoundTrip) {
   ASSERT_TRUE(back.ok()) << back.status();
   EXPECT_TRUE(MessageDifferencer::Equals(ToProto(*back), proto));
   EXPECT_EQ(back->listen, "[::]:1");
-  EXPECT_EQ(back->limits.max_total_cells, 3);
+  EXPECT_EQ(back->limits.memory_budget_bytes, 3'000'000'000);
   EXPECT_EQ(back->limits.max_streams_per_connection, 8);
   EXPECT_EQ(back->planning.deadline_margin_s, 0.25);
   EXPECT_TRUE(back->planning.rivals);
   EXPECT_EQ(back->maps.gas_wait_s, 0.125);
   EXPECT_EQ(back->epochs.max_queued, 15);
   EXPECT_EQ(back->connection.drain_s, 20.0);
+  EXPECT_EQ(back->connection.self_probe_period_s, 20.5);
+  EXPECT_EQ(back->access.tls_certificate_file, "a");
+  EXPECT_EQ(back->access.tokens_file, "d");
+  EXPECT_TRUE(back->access.allow_plaintext);
   EXPECT_EQ(back->mission.seed, 21u);
+  EXPECT_EQ(back->observe.log_format, "json");
+  EXPECT_TRUE(back->observe.channelz);
 }
 
 // A field that conversion forgot is unset, or keeps its default.

@@ -108,6 +108,11 @@ TEST(ConfigFileTest, ListsOfMappingsAreRead) {
             "test.yaml:3: mission.keep_out[0].corners is not an option");
 }
 
+TEST(ConfigFileTest, AMappingThatHoldsItselfIsRefused) {
+  EXPECT_THAT(ErrorOf("mission: &all\n  gas: *all\n"),
+              ContainsRegex("^test.yaml:2: mission.gas.gas.*is not an option"));
+}
+
 TEST(ConfigFileTest, EmptyFileIsTheDefault) { EXPECT_EQ(ErrorOf(""), ""); }
 
 TEST(ConfigFileTest, MissingFileIsNotFound) {

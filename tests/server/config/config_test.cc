@@ -33,8 +33,32 @@ TEST(ConfigTest, RefusalsNameOptionValueAndRange) {
   config.planning.threads = 0;
   EXPECT_EQ(RefusalOf(config), "planning.threads = 0 must be in [1, 256]");
   config = {};
-  config.limits.max_total_cells = 2'000'000'000'000;
-  EXPECT_EQ(RefusalOf(config), "limits.max_total_cells = 2e+12 must be in [1, 1e+12]");
+  config.limits.memory_budget_bytes = 1000;
+  EXPECT_EQ(RefusalOf(config), "limits.memory_budget_bytes = 1000 must be in [3.35544e+07, 1e+12]");
+}
+
+TEST(ConfigTest, AMissionByDefaultIsOneThatTheServerTakes) {
+  ServerConfig config;
+  config.limits.max_beam_count = config.mission.max_beam_count - 1;
+  EXPECT_THAT(RefusalOf(config), StartsWith("mission.max_beam_count = 4096"));
+  config = {};
+  config.limits.mission_memory_budget_bytes = config.mission.memory_budget_bytes - 1;
+  EXPECT_THAT(RefusalOf(config), StartsWith("mission.memory_budget_bytes"));
+  config = {};
+  config.limits.memory_budget_bytes = config.mission.memory_budget_bytes - 1;
+  EXPECT_THAT(RefusalOf(config), StartsWith("mission.memory_budget_bytes"));
+  config = {};
+  config.limits.max_range_m = config.mission.max_range_m / 2.0;
+  EXPECT_THAT(RefusalOf(config), StartsWith("mission.max_range_m"));
+  config = {};
+  config.limits.max_map_cell_count = config.mission.occupancy.max_cell_count - 1;
+  EXPECT_THAT(RefusalOf(config), StartsWith("mission.occupancy.max_cell_count"));
+}
+
+TEST(ConfigTest, AsManyMissionsAsAreAllowedFitTheBudget) {
+  const ServerConfig config;
+  EXPECT_LE(config.limits.max_missions * config.mission.memory_budget_bytes,
+            config.limits.memory_budget_bytes);
 }
 
 void Set(const FieldDescriptor& field, double value, Message& message) {
@@ -58,6 +82,7 @@ TEST(ConfigTest, EveryNumberHasARange) {
     for (int k = 0; k < part.message_type()->field_count(); ++k) {
       const FieldDescriptor& field = *part.message_type()->field(k);
       if (field.cpp_type() == FieldDescriptor::CPPTYPE_BOOL) continue;
+      if (field.cpp_type() == FieldDescriptor::CPPTYPE_STRING) continue;
       for (const double value : {-1.0, 2e12}) {
         config::v1::ServerConfig proto;
         Set(field, value, *proto.GetReflection()->MutableMessage(&proto, &part));
@@ -68,7 +93,7 @@ TEST(ConfigTest, EveryNumberHasARange) {
       }
     }
   }
-  EXPECT_GE(checked, 2 * 24);
+  EXPECT_GE(checked, 2 * 25);
 }
 
 TEST(ConfigTest, NanIsRefused) {
@@ -84,6 +109,91 @@ TEST(ConfigTest, QueueMustHoldAWindowAndABatch) {
   config = {};
   config.limits.stream_window_observations = config.limits.max_queued_observations + 1;
   EXPECT_THAT(RefusalOf(config), HasSubstr("limits.max_queued_observations = 4096 must hold"));
+}
+
+TEST(ConfigTest, RoomOfAMissionMustHoldARequest) {
+  ServerConfig config;
+  config.limits.max_queued_bytes = config.limits.max_receive_bytes;
+  EXPECT_THAT(RefusalOf(config), HasSubstr("limits.max_queued_bytes = 262144 must hold"));
+}
+
+TEST(ConfigTest, RoomOfAllMissionsMustFitIntoTheBudget) {
+  ServerConfig config;
+  config.limits.max_queued_bytes = config.limits.memory_budget_bytes / config.limits.max_missions;
+  EXPECT_TRUE(Validate(config).ok());
+  ++config.limits.max_queued_bytes;
+  EXPECT_THAT(RefusalOf(config), HasSubstr("must fit into limits.memory_budget_bytes"));
+}
+
+TEST(ConfigTest, FilesOfTlsGoTogether) {
+  ServerConfig config;
+  config.access.tls_certificate_file = "crt";
+  EXPECT_THAT(RefusalOf(config), StartsWith("access.tls_key_file = "));
+  config = {};
+  config.access.client_ca_file = "ca";
+  EXPECT_THAT(RefusalOf(config), StartsWith("access.client_ca_file = ca needs"));
+  config = {};
+  config.access.require_client_certificate = true;
+  EXPECT_THAT(RefusalOf(config), StartsWith("access.require_client_certificate = true needs"));
+  config = {};
+  config.access.trusted_front = "front.example.org";
+  EXPECT_THAT(RefusalOf(config), StartsWith("access.trusted_front = front.example.org must"));
+  for (const char* front : {kLocalFront, kUnixFront}) {
+    config.access.trusted_front = front;
+    EXPECT_EQ(Validate(config), absl::OkStatus());
+  }
+  config.access.allow_anonymous = true;
+  EXPECT_THAT(RefusalOf(config), StartsWith("access.allow_anonymous = true would"));
+}
+
+TEST(ConfigTest, WhatOtherMachinesReachIsEncryptedAndGuardedUnlessAskedFor) {
+  ServerConfig config;
+  config.listen = "0.0.0.0:50551";
+  EXPECT_THAT(RefusalOf(config), HasSubstr("access.allow_plaintext = true"));
+  config.access.allow_plaintext = true;
+  EXPECT_THAT(RefusalOf(config), HasSubstr("access.allow_anonymous = true"));
+  config.access.allow_anonymous = true;
+  EXPECT_EQ(Validate(config), absl::OkStatus());
+  config.access = {};
+  config.access.tls_certificate_file = "crt";
+  config.access.tls_key_file = "key";
+  EXPECT_THAT(RefusalOf(config), StartsWith("listen = 0.0.0.0:50551 "));
+  config.access.tokens_file = "tokens";
+  EXPECT_EQ(Validate(config), absl::OkStatus());
+}
+
+TEST(ConfigTest, WordsAreChecked) {
+  ServerConfig config;
+  config.observe.log_level = "loud";
+  EXPECT_EQ(RefusalOf(config),
+            "observe.log_level = loud must be one of debug, info, warning, error");
+  config = {};
+  config.observe.log_format = "xml";
+  EXPECT_EQ(RefusalOf(config), "observe.log_format = xml must be one of text, json");
+  for (const char* address : {"localhost", "127.0.0.1:", "127.0.0.1:65536", "127.0.0.1:-1"}) {
+    config = {};
+    config.observe.http_listen = address;
+    EXPECT_EQ(RefusalOf(config),
+              absl::StrCat("observe.http_listen = ", address, " must be HOST:PORT, auto or empty"));
+  }
+}
+
+std::string HttpBeside(const std::string& listen, const std::string& http_listen = "auto") {
+  ServerConfig config;
+  config.listen = listen;
+  config.observe.http_listen = http_listen;
+  return HttpListen(config);
+}
+
+TEST(ConfigTest, HttpStandsBesideTheServiceUnlessToldOtherwise) {
+  EXPECT_EQ(HttpListen(ServerConfig()), "127.0.0.1:50552");
+  EXPECT_EQ(HttpBeside("[::]:7000"), "127.0.0.1:7001");
+  EXPECT_EQ(HttpBeside("0.0.0.0:0"), "127.0.0.1:0");
+  EXPECT_EQ(HttpBeside("0.0.0.0:65535"), "127.0.0.1:0");
+  EXPECT_EQ(HttpBeside("unix:/run/plumescout"), "");
+  EXPECT_EQ(HttpBeside(""), "");
+  EXPECT_EQ(HttpBeside("0.0.0.0:1", "0.0.0.0:9"), "0.0.0.0:9");
+  EXPECT_EQ(HttpBeside("0.0.0.0:1", ""), "");
 }
 
 TEST(ConfigTest, OptionsOfMissionsAreChecked) {

@@ -23,7 +23,7 @@ using ::testing::Not;
 TEST(OptionHelpTest, SaysDefaultAndMeaning) {
   const std::string help = OptionHelp();
   EXPECT_THAT(help,
-              HasSubstr("  limits.max_missions = 64\n      Missions at one time, 1 to 1e6.\n"));
+              HasSubstr("  limits.max_missions = 8\n      Missions at one time, 1 to 1e6.\n"));
   EXPECT_THAT(help, HasSubstr("  listen = 127.0.0.1:50551\n"));
   EXPECT_THAT(help, HasSubstr("  mission.gas.refresh_period_s = 0.05\n"));
   EXPECT_THAT(help, HasSubstr("  mission.planning.grid_guard = true\n"));

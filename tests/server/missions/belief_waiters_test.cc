@@ -20,10 +20,13 @@ class BeliefWaitersTest : public testing::Test {
   BeliefWaitersTest() { EXPECT_TRUE(conduct_.Register(RobotRegistered{"r1", 0.2, kLease}).ok()); }
 
   void Wait(BeliefRequest request) {
-    waiters_.Add(std::move(request), [this](absl::StatusOr<std::shared_ptr<const Belief>> belief) {
-      ++answers_;
-      answer_ = belief.status();
-    });
+    waiters_.Add(
+        std::move(request),
+        [this](const absl::StatusOr<std::shared_ptr<const Belief>>& belief) {
+          ++answers_;
+          answer_ = belief.status();
+        },
+        conduct_, now_);
   }
 
   MissionConduct conduct_{std::make_unique<Mission>(MissionOptions{})};
@@ -89,10 +92,65 @@ TEST_F(BeliefWaitersTest, TooManyAreRefusedAtOnce) {
   EXPECT_TRUE(absl::IsResourceExhausted(*answer_));
 }
 
-TEST_F(BeliefWaitersTest, FailAllAnswersEveryone) {
-  for (int i = 0; i < 2; ++i) Wait({.wish = {.robot = "r1", .min_applied_sequence = 3}});
-  waiters_.FailAll(absl::UnavailableError("over"));
+TEST_F(BeliefWaitersTest, WhoIsGoneTakesNobodysPlace) {
+  bool gone = false;
+  const StopFn abandoned = [&] { return gone; };
+  for (int i = 0; i < 2; ++i) {
+    Wait({.wish = {.robot = "r1", .min_applied_sequence = 3}, .abandoned = abandoned});
+  }
+  gone = true;
+  Wait({.wish = {.robot = "r1", .min_applied_sequence = 3}});
   EXPECT_EQ(answers_, 2);
+  EXPECT_TRUE(absl::IsCancelled(*answer_));
+  EXPECT_EQ(waiters_.size(), 1);
+}
+
+TEST_F(BeliefWaitersTest, WhoseTimeIsUpTakesNobodysPlace) {
+  for (int i = 0; i < 2; ++i) {
+    Wait({.wish = {.robot = "r1", .min_applied_sequence = 3},
+          .deadline = now_ + std::chrono::seconds(1)});
+  }
+  now_ += std::chrono::seconds(1);
+  Wait({.wish = {.robot = "r1", .min_applied_sequence = 3}});
+  EXPECT_EQ(answers_, 2);
+  EXPECT_TRUE(absl::IsDeadlineExceeded(*answer_));
+  EXPECT_EQ(waiters_.size(), 1);
+}
+
+TEST_F(BeliefWaitersTest, AbandonedOnesAreDroppedWithoutTheMission) {
+  bool gone = false;
+  Wait({.wish = {.robot = "r1", .min_applied_sequence = 3}, .abandoned = [&] { return gone; }});
+  Wait({.wish = {.robot = "r1", .min_applied_sequence = 3}});
+  waiters_.DropAbandoned();
+  EXPECT_EQ(answers_, 0);
+  gone = true;
+  waiters_.DropAbandoned();
+  EXPECT_EQ(answers_, 1);
+  EXPECT_TRUE(absl::IsCancelled(*answer_));
+  EXPECT_EQ(waiters_.size(), 1);
+}
+
+TEST_F(BeliefWaitersTest, CloseAnswersEveryoneAndThoseWhoComeLater) {
+  Wait({.wish = {.robot = "r1", .min_applied_sequence = 3}});
+  waiters_.Close(absl::UnavailableError("over"));
+  EXPECT_EQ(answers_, 1);
+  EXPECT_TRUE(absl::IsUnavailable(*answer_));
+  waiters_.Close(absl::NotFoundError("over again"));
+  Wait({.wish = {.robot = "r1"}});
+  EXPECT_EQ(answers_, 2);
+  EXPECT_TRUE(absl::IsUnavailable(*answer_));
+}
+
+TEST_F(BeliefWaitersTest, WhoIsFailedWhileOthersAreServedHearsOnce) {
+  waiters_.Add(
+      {.wish = {.robot = "r1"}},
+      [this](const absl::StatusOr<std::shared_ptr<const Belief>>&) {
+        waiters_.Close(absl::UnavailableError("over"));
+      },
+      conduct_, now_);
+  Wait({.wish = {.robot = "r1"}});
+  waiters_.Serve(conduct_, now_);
+  EXPECT_EQ(answers_, 1);
   EXPECT_TRUE(absl::IsUnavailable(*answer_));
 }
 

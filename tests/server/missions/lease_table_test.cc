@@ -102,5 +102,16 @@ TEST_F(LeaseTableTest, EndAllReachesEveryOpenStreamOnce) {
               testing::ElementsAre(absl::UnavailableError("over"), absl::UnavailableError("over")));
 }
 
+TEST_F(LeaseTableTest, AReleasedLeaseEndsItsStreamAndIsFree) {
+  const std::int64_t token = Take("r1");
+  ASSERT_TRUE(table_.OpenStream("r1", token, end_).ok());
+  EXPECT_EQ(table_.Standing("r1"), (LeaseStanding{true, true}));
+  ASSERT_TRUE(table_.Release("r1", token).ok());
+  EXPECT_EQ(ErrorReason(ended_), reason::kLeaseSuperseded);
+  EXPECT_EQ(table_.Standing("r1"), LeaseStanding{});
+  EXPECT_FALSE(Held());
+  EXPECT_TRUE(absl::IsNotFound(table_.Release("r2", std::nullopt)));
+}
+
 }  // namespace lease_table_test
 }  // namespace plumescout::server

@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "absl/synchronization/notification.h"
@@ -154,20 +156,64 @@ TEST(MissionHostTest, StopLeavesAnEpochBehind) {
                       }
                     })
                     .ok());
+    Settle(host);
     host.Stop(absl::NotFoundError("deleted"));
   }
   release.Notify();
 }
 
-TEST(MissionHostTest, QueueRefusesWhatItHasNoRoomFor) {
+// Holds up the writer of a host until Release.
+class BusyWriter {
+ public:
+  explicit BusyWriter(MissionHost& host) {
+    EXPECT_TRUE(host.Post([state = state_](MissionWriter&) {
+                      state->busy.Notify();
+                      state->released.WaitForNotification();
+                    })
+                    .ok());
+    state_->busy.WaitForNotification();
+  }
+  void Release() { state_->released.Notify(); }
+
+ private:
+  struct State {
+    absl::Notification busy;
+    absl::Notification released;
+  };
+  const std::shared_ptr<State> state_ = std::make_shared<State>();
+};
+
+TEST(MissionHostTest, RoomIsTakenWhileObservationsWait) {
   HostOptions options;
   options.max_queued_observations = 10;
   MissionHost host(HostParts(), options);
-  EXPECT_TRUE(host.Reserve(7).ok());
-  EXPECT_TRUE(absl::IsResourceExhausted(host.Reserve(4)));
-  EXPECT_TRUE(host.Reserve(3).ok());
-  host.Release(7);
-  EXPECT_TRUE(host.Reserve(7).ok());
+  BusyWriter writer(host);
+  auto room = host.room().TryTake({10, 1});
+  ASSERT_NE(room, nullptr);
+  ASSERT_TRUE(host.Post({[](MissionWriter&) {}, nullptr, std::move(room)}).ok());
+  EXPECT_EQ(host.room().TryTake({1, 1}), nullptr);
+  writer.Release();
+  Settle(host);
+  EXPECT_NE(host.room().TryTake({10, 1}), nullptr);
+}
+
+TEST(MissionHostTest, CommandsThatHaveRoomAreAlwaysTaken) {
+  HostOptions options;
+  options.max_queued_commands = 1;
+  MissionHost host(HostParts(), options);
+  BusyWriter writer(host);
+  int ran = 0;
+  absl::Notification done;
+  const auto count = [&](MissionWriter&) {
+    if (++ran == 3) done.Notify();
+  };
+  EXPECT_TRUE(host.Post([](MissionWriter&) {}).ok());
+  EXPECT_TRUE(absl::IsResourceExhausted(host.Post([](MissionWriter&) {})));
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(host.Post({count, nullptr, host.room().TryTake({1, 1})}).ok());
+  }
+  writer.Release();
+  done.WaitForNotification();
 }
 
 TEST(MissionHostTest, TooManyCommandsAreRefused) {
@@ -187,32 +233,130 @@ TEST(MissionHostTest, TooManyCommandsAreRefused) {
   release.Notify();
 }
 
-TEST(MissionHostTest, StopRunsWhatIsQueuedAndFailsWhoWaits) {
+TEST(MissionHostTest, NobodyWaitsLongerThanTheMissionAllows) {
+  HostOptions options;
+  options.max_wait = absl::Milliseconds(5);
+  MissionHost host(HostParts(), options);
+  AddRobot(host);
+  absl::Notification dropped;
+  ASSERT_TRUE(host.AwaitBelief({.wish = {.robot = "r1", .min_applied_sequence = 2}},
+                               [&](const absl::StatusOr<std::shared_ptr<const Belief>>& belief) {
+                                 EXPECT_TRUE(absl::IsDeadlineExceeded(belief.status()));
+                                 dropped.Notify();
+                               })
+                  .ok());
+  dropped.WaitForNotification();
+}
+
+TEST(MissionHostTest, StopFailsWhoWaitsAndWhoWatches) {
   MissionHost host(HostParts(), {});
   AddRobot(host);
   std::vector<absl::StatusCode> ends;
-  const auto note = [&](absl::StatusOr<std::shared_ptr<const Belief>> belief) {
+  const auto note = [&](const absl::StatusOr<std::shared_ptr<const Belief>>& belief) {
     if (!belief.ok()) ends.push_back(belief.status().code());
     return true;
   };
   ASSERT_TRUE(host.AwaitBelief({.wish = {.robot = "r1", .min_applied_sequence = 9}}, note).ok());
   ASSERT_TRUE(host.Subscribe(note).ok());
-  bool ran = false;
-  ASSERT_TRUE(host.Post([&](MissionWriter&) { ran = true; }).ok());
+  Settle(host);
   host.Stop(absl::NotFoundError("deleted"));
-  EXPECT_TRUE(ran);
   EXPECT_THAT(ends, testing::ElementsAre(absl::StatusCode::kNotFound, absl::StatusCode::kNotFound));
   EXPECT_TRUE(absl::IsNotFound(host.Post([](MissionWriter&) {})));
 }
 
+TEST(MissionHostTest, WhatIsQueuedIsDroppedThoughTheWriterIsBusy) {
+  MissionHost host(HostParts(), {});
+  BusyWriter writer(host);
+  std::vector<absl::StatusCode> ends;
+  const auto note = [&](const absl::StatusOr<std::shared_ptr<const Belief>>& belief) {
+    ends.push_back(belief.status().code());
+    return false;
+  };
+  bool ran = false;
+  ASSERT_TRUE(host.Post([&](MissionWriter&) { ran = true; },
+                        [&](const absl::Status& status) { ends.push_back(status.code()); })
+                  .ok());
+  ASSERT_TRUE(host.Post([&](MissionWriter&) { ran = true; }).ok());
+  ASSERT_TRUE(host.AwaitBelief({.wish = {.robot = "r1"}}, note).ok());
+  ASSERT_TRUE(host.Subscribe(note).ok());
+  host.BeginStop(absl::NotFoundError("deleted"));
+  host.DropAll();
+  EXPECT_THAT(ends, testing::ElementsAre(absl::StatusCode::kNotFound, absl::StatusCode::kNotFound,
+                                         absl::StatusCode::kNotFound));
+  writer.Release();
+  host.Stop(absl::UnavailableError("too late"));
+  EXPECT_FALSE(ran);
+}
+
+TEST(MissionHostTest, StopEndsRefreshes) {
+  MissionHost host(HostParts(), {});
+  AddRobot(host);
+  absl::Notification refreshing;
+  ASSERT_TRUE(host.Post([&](MissionWriter& writer) {
+                    const auto log = RoomRunBatch();
+                    writer.conduct().Ingest("r1", kLease, log);
+                    EXPECT_TRUE(writer.conduct().Refresh().ok());
+                    refreshing.Notify();
+                    auto next = static_cast<std::int64_t>(log.size());
+                    do {
+                      ++next;
+                      writer.conduct().Ingest("r1", kLease, GasBatch(next, next));
+                    } while (!absl::IsCancelled(writer.conduct().Refresh()));
+                  })
+                  .ok());
+  refreshing.WaitForNotification();
+  host.Stop(absl::NotFoundError("deleted"));  // would hang if refreshes went on
+}
+
+TEST(MissionHostTest, WhoWaitsIsFailedThoughTheWriterIsBusy) {
+  MissionHost host(HostParts(), {});
+  AddRobot(host);
+  absl::Status end;
+  ASSERT_TRUE(host.AwaitBelief({.wish = {.robot = "r1", .min_applied_sequence = 9}},
+                               [&](const absl::StatusOr<std::shared_ptr<const Belief>>& belief) {
+                                 end = belief.status();
+                               })
+                  .ok());
+  Settle(host);
+  BusyWriter writer(host);
+  absl::Status heard;
+  host.end_listeners().Add([&](const absl::Status& status) { heard = status; });
+  host.EndWaits(absl::UnavailableError("draining"));
+  EXPECT_TRUE(absl::IsUnavailable(end));
+  EXPECT_TRUE(absl::IsUnavailable(heard));
+  EXPECT_TRUE(host.Post([](MissionWriter&) {}).ok()) << "commands go on";
+  writer.Release();
+}
+
+TEST(MissionHostTest, WhoGivesUpIsLetGoThoughTheWriterIsBusy) {
+  MissionHost host(HostParts(), {});
+  AddRobot(host);
+  std::atomic<bool> gone = false;
+  absl::Status end;
+  ASSERT_TRUE(host.AwaitBelief({.wish = {.robot = "r1", .min_applied_sequence = 9},
+                                .abandoned = [&] { return gone.load(); }},
+                               [&](const absl::StatusOr<std::shared_ptr<const Belief>>& belief) {
+                                 end = belief.status();
+                               })
+                  .ok());
+  Settle(host);
+  BusyWriter writer(host);
+  gone = true;
+  host.Wake();
+  EXPECT_TRUE(absl::IsCancelled(end));
+  writer.Release();
+}
+
 TEST(MissionHostTest, WhatCommandsHoldMayCallTheHostWhenItGoes) {
   MissionHost host(HostParts(), {});
-  struct Releaser {
-    explicit Releaser(MissionHost& h) : owner(h) { EXPECT_TRUE(owner.Reserve(1).ok()); }
-    ~Releaser() { owner.Release(1); }
+  struct Caller {
+    explicit Caller(MissionHost& h) : owner(h) {}
+    ~Caller() {
+      EXPECT_TRUE(owner.Post([](MissionWriter&) {}).ok());
+    }
     MissionHost& owner;
   };
-  ASSERT_TRUE(host.Post([held = std::make_shared<Releaser>(host)](MissionWriter&) {}).ok());
+  ASSERT_TRUE(host.Post([held = std::make_shared<Caller>(host)](MissionWriter&) {}).ok());
   Settle(host);
   Settle(host);
 }
@@ -221,6 +365,7 @@ TEST(MissionHostTest, SummaryFollowsTheMission) {
   MissionHost host(HostParts(), {});
   AddRobot(host);
   PostGas(host, 1, 3);
+  Settle(host);
   host.Stop(absl::NotFoundError("deleted"));
   EXPECT_EQ(host.summary().revision, 4);
 }

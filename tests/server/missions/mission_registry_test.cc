@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
@@ -23,14 +25,37 @@ std::vector<MissionId> Names(const std::vector<std::shared_ptr<MissionHost>>& ho
   return names;
 }
 
-TEST(MissionRegistryTest, MissionsAreFoundByNameUntilRemoved) {
+// Returns once every command posted before has run.
+void Settle(MissionHost& host) {
+  absl::Notification done;
+  ASSERT_TRUE(host.Post([&](MissionWriter&) { done.Notify(); }).ok());
+  done.WaitForNotification();
+}
+
+TEST(MissionRegistryTest, MissionsAreFoundByNameUntilDeleted) {
   MissionRegistry registry({}, {});
   ASSERT_TRUE(registry.Create("hall", {}).ok());
   EXPECT_EQ(registry.Find("hall").value()->id(), "hall");
   EXPECT_TRUE(absl::IsAlreadyExists(registry.Create("hall", {}).status()));
-  ASSERT_TRUE(registry.Remove("hall").ok());
+  ASSERT_TRUE(registry.Delete("hall").ok());
   EXPECT_TRUE(absl::IsNotFound(registry.Find("hall").status()));
-  EXPECT_TRUE(absl::IsNotFound(registry.Remove("hall").status()));
+  EXPECT_TRUE(absl::IsNotFound(registry.Delete("hall")));
+}
+
+TEST(MissionRegistryTest, EachTenantHasNamesOfItsOwn) {
+  MissionRegistry registry({}, {});
+  ASSERT_TRUE(registry.Create("hall", {}, {"alice", "acme"}).ok());
+  EXPECT_TRUE(absl::IsAlreadyExists(registry.Create("hall", {}, {"ann", "acme"}).status()));
+  EXPECT_TRUE(absl::IsNotFound(registry.Find("hall", "other").status()));
+  ASSERT_TRUE(registry.Create("hall", {}, {"bob", "other"}).ok());
+  EXPECT_EQ(registry.Find("hall", "acme").value()->owner(), "alice");
+  EXPECT_EQ(registry.Find("hall", "other").value()->owner(), "bob");
+  EXPECT_TRUE(absl::IsNotFound(registry.Find("hall").status()));
+  EXPECT_TRUE(absl::IsFailedPrecondition(registry.FindOfAnyTenant("hall").status()));
+  EXPECT_TRUE(absl::IsNotFound(registry.Delete("hall")));
+  ASSERT_TRUE(registry.Delete("hall", "acme").ok());
+  EXPECT_EQ(registry.FindOfAnyTenant("hall").value()->owner(), "bob");
+  EXPECT_TRUE(absl::IsNotFound(registry.FindOfAnyTenant("attic").status()));
 }
 
 TEST(MissionRegistryTest, ListGoesOnAfterAName) {
@@ -50,29 +75,75 @@ TEST(MissionRegistryTest, NumberOfMissionsIsBounded) {
   EXPECT_TRUE(absl::IsResourceExhausted(registry.Create("c", {}).status()));
 }
 
-TEST(MissionRegistryTest, CellsOfAllMissionsTogetherAreBounded) {
+constexpr std::int64_t kMegabyte = 1'000'000;
+
+TEST(MissionRegistryTest, BudgetsOfAllMissionsTogetherAreBounded) {
   RegistryOptions options;
-  options.max_total_cells = 25'000;
+  options.memory_budget_bytes = 100 * kMegabyte;
   MissionRegistry registry(options, {});
   MissionOptions mission;
-  mission.occupancy.max_cell_count = 10'000;
+  mission.memory_budget_bytes = 40 * kMegabyte;
   ASSERT_TRUE(registry.Create("a", mission).ok());
   ASSERT_TRUE(registry.Create("b", mission).ok());
   const absl::Status refused = registry.Create("c", mission).status();
   EXPECT_TRUE(absl::IsResourceExhausted(refused));
-  EXPECT_THAT(std::string(refused.message()), testing::HasSubstr("10000 cells, of 5000 left"));
-  ASSERT_TRUE(registry.Remove("a").ok());
+  EXPECT_THAT(std::string(refused.message()),
+              testing::AllOf(testing::StartsWith("LIMIT_REACHED"),
+                             testing::HasSubstr("40000000, of 20000000")));
+  ASSERT_TRUE(registry.Delete("a").ok());
+  ASSERT_TRUE(registry.AwaitStopped(SteadyTime::max()));
   EXPECT_TRUE(registry.Create("c", mission).ok());
 }
 
-TEST(MissionRegistryTest, ExtentBoundsCellsToo) {
-  OccupancyOptions options;
-  options.max_cell_count = 4'000'000;
-  options.resolution_m = 0.1;
-  options.max_extent_m = 10.0;
-  EXPECT_EQ(CellBound(options), 10'000);
-  options.max_extent_m = 2000.0;
-  EXPECT_EQ(CellBound(options), 4'000'000);
+TEST(MissionRegistryTest, MissionsChooseNothingBeyondTheServersLimits) {
+  RegistryOptions options;
+  options.mission_memory_budget_bytes = 50 * kMegabyte;
+  options.max_map_cell_count = 5000;
+  options.max_beam_count = 100;
+  options.max_range_m = 20.0;
+  MissionRegistry registry(options, {});
+  MissionOptions least;
+  least.memory_budget_bytes = 50 * kMegabyte;
+  least.occupancy.max_cell_count = 5000;
+  least.max_beam_count = 100;
+  least.max_range_m = 20.0;
+  EXPECT_TRUE(registry.Create("least", least).ok());
+  const auto refusal = [&](const auto& change) {
+    MissionOptions mission = least;
+    change(mission);
+    const absl::Status status = registry.Create("more", mission).status();
+    EXPECT_TRUE(absl::IsInvalidArgument(status)) << status;
+    return std::string(status.message());
+  };
+  EXPECT_THAT(refusal([](MissionOptions& m) { ++m.memory_budget_bytes; }),
+              testing::StartsWith("memory_budget_bytes = "));
+  EXPECT_THAT(refusal([](MissionOptions& m) { ++m.occupancy.max_cell_count; }),
+              testing::StartsWith("occupancy.max_cell_count = 5001 must be at most"));
+  EXPECT_THAT(refusal([](MissionOptions& m) { ++m.max_beam_count; }),
+              testing::StartsWith("max_beam_count = 101 must be at most"));
+  EXPECT_THAT(refusal([](MissionOptions& m) { m.max_range_m = 20.5; }),
+              testing::StartsWith("max_range_m = 20.5 must be at most"));
+}
+
+// 8 KB on the wire, for such a map is deflated well.
+TEST(MissionRegistryTest, AKnownMapBeyondTheMissionsBudgetIsRefused) {
+  MissionRegistry registry({}, {});
+  MissionOptions mission;
+  mission.occupancy.max_extent_m = 400.0;
+  mission.occupancy.max_cell_count = 16'000'000;
+  mission.prior_map = std::make_shared<const Grid<CellState>>(
+      GridGeometry{0.0, 0.0, 0.1, 2900, 2900}, CellState::kFree);
+  mission.memory_budget_bytes = 256 * kMegabyte;
+  const absl::Status refused = registry.Create("hall", mission).status();
+  EXPECT_TRUE(absl::IsResourceExhausted(refused)) << refused;
+  EXPECT_THAT(std::string(refused.message()), testing::StartsWith("BUDGET_REACHED: prior_map"));
+  EXPECT_TRUE(absl::IsNotFound(registry.Find("hall").status()));
+  // The whole field at 0.1 m would take more; so its lattice is coarser.
+  mission.gas.field_reach_m = 0.0;
+  mission.memory_budget_bytes = 1000 * kMegabyte;
+  const auto host = registry.Create("hall", mission);
+  ASSERT_TRUE(host.ok()) << host.status();
+  EXPECT_GT((*host)->options().gas.lattice_factor, 1);
 }
 
 TEST(MissionRegistryTest, InvalidOptionsMakeNoMission) {
@@ -81,6 +152,67 @@ TEST(MissionRegistryTest, InvalidOptionsMakeNoMission) {
   options.planning.strategy = "teleport";
   EXPECT_TRUE(absl::IsInvalidArgument(registry.Create("hall", options).status()));
   EXPECT_TRUE(absl::IsNotFound(registry.Find("hall").status()));
+}
+
+// While one mission is being made, others are found and made, and its name is taken.
+TEST(MissionRegistryTest, MakingAMissionHoldsUpNobodyElse) {
+  absl::Notification begun;
+  absl::Notification go_on;
+  RegistryHooks hooks;
+  hooks.make_event_sink = [&](const MissionId& id, const MissionOptions&) -> EventSink {
+    if (id == "slow") {
+      begun.Notify();
+      go_on.WaitForNotification();
+    }
+    return nullptr;
+  };
+  RegistryOptions options;
+  options.max_missions = 3;
+  MissionRegistry registry(options, hooks);
+  ASSERT_TRUE(registry.Create("hall", {}).ok());
+  absl::Status slow;
+  std::thread maker([&] { slow = registry.Create("slow", {}).status(); });
+  begun.WaitForNotification();
+  EXPECT_TRUE(registry.Find("hall").ok());
+  EXPECT_TRUE(absl::IsNotFound(registry.Find("slow").status()));
+  EXPECT_TRUE(absl::IsAlreadyExists(registry.Create("slow", {}).status()));
+  EXPECT_TRUE(registry.Create("attic", {}).ok());
+  EXPECT_TRUE(absl::IsResourceExhausted(registry.Create("yard", {}).status()));
+  go_on.Notify();
+  maker.join();
+  EXPECT_TRUE(slow.ok()) << slow;
+  EXPECT_TRUE(registry.Find("slow").ok());
+}
+
+TEST(MissionRegistryTest, MissionThatIsMadeWhileAllAreStoppedIsStoppedToo) {
+  absl::Notification begun;
+  absl::Notification go_on;
+  RegistryHooks hooks;
+  hooks.make_event_sink = [&](const MissionId&, const MissionOptions&) -> EventSink {
+    begun.Notify();
+    go_on.WaitForNotification();
+    return nullptr;
+  };
+  MissionRegistry registry({}, hooks);
+  absl::Status late;
+  std::thread maker([&] { late = registry.Create("hall", {}).status(); });
+  begun.WaitForNotification();
+  registry.StopAll(absl::UnavailableError("over"));
+  go_on.Notify();
+  maker.join();
+  EXPECT_TRUE(absl::IsUnavailable(late)) << late;
+  EXPECT_TRUE(absl::IsNotFound(registry.Find("hall").status()));
+  EXPECT_TRUE(absl::IsUnavailable(registry.Create("attic", {}).status()));
+}
+
+TEST(MissionRegistryTest, MissionThatCannotBeMadeLeavesItsRoom) {
+  RegistryOptions options;
+  options.max_missions = 1;
+  MissionRegistry registry(options, {});
+  MissionOptions wrong;
+  wrong.planning.strategy = "teleport";
+  EXPECT_FALSE(registry.Create("hall", wrong).ok());
+  EXPECT_TRUE(registry.Create("hall", {}).ok());
 }
 
 TEST(MissionRegistryTest, SinkHearsTheEventsOfItsMission) {
@@ -95,7 +227,9 @@ TEST(MissionRegistryTest, SinkHearsTheEventsOfItsMission) {
                     EXPECT_TRUE(writer.conduct().Register({"r1", 0.2, 1}).ok());
                   })
                   .ok());
+  Settle(*host);
   registry.StopAll(absl::UnavailableError("over"));
+  EXPECT_TRUE(registry.AwaitStopped(SteadyTime::max()));
   EXPECT_THAT(heard, ElementsAre("hall1"));
 }
 
@@ -118,9 +252,78 @@ TEST(MissionRegistryTest, MissionsRecomputeOnThePoolGiven) {
                     EXPECT_TRUE(writer.conduct().Ingest("r1", 1, RoomRunBatch()).status.ok());
                   })
                   .ok());
+  Settle(*host);
   registry.StopAll(absl::UnavailableError("over"));
+  EXPECT_TRUE(registry.AwaitStopped(SteadyTime::max()));
   EXPECT_TRUE(absl::IsResourceExhausted(pool.Submit([] {}))) << "an epoch waits in the queue";
   release.Notify();
+}
+
+TEST(MissionRegistryTest, DeleteWaitsForNobodyAndItsRoomIsFreeWhenTheMissionHasStopped) {
+  absl::Notification busy;
+  absl::Notification release;
+  absl::Notification dropped;
+  absl::Notification stopped;
+  RegistryOptions options;
+  options.max_missions = 1;
+  MissionRegistry registry(options, {});
+  {
+    const auto host = registry.Create("hall", {}).value();
+    ASSERT_TRUE(host->Post([&](MissionWriter&) {
+                      busy.Notify();
+                      release.WaitForNotification();
+                    })
+                    .ok());
+    busy.WaitForNotification();
+    ASSERT_TRUE(host->Post([](MissionWriter&) { ADD_FAILURE() << "it was to be dropped"; },
+                           [&](const absl::Status& status) {
+                             EXPECT_TRUE(absl::IsNotFound(status));
+                             dropped.Notify();
+                           })
+                    .ok());
+  }
+  ASSERT_TRUE(registry.Delete("hall", "", [&] { stopped.Notify(); }).ok());
+  dropped.WaitForNotification();
+  EXPECT_TRUE(absl::IsNotFound(registry.Find("hall").status()));
+  EXPECT_TRUE(absl::IsResourceExhausted(registry.Create("attic", {}).status()));
+  EXPECT_FALSE(stopped.HasBeenNotified());
+  release.Notify();
+  stopped.WaitForNotification();
+  EXPECT_TRUE(registry.Create("attic", {}).ok());
+}
+
+TEST(MissionRegistryTest, NoMissionIsMadeOnceWaitsHaveEnded) {
+  MissionRegistry registry({}, {});
+  const auto host = registry.Create("hall", {}).value();
+  absl::Status heard;
+  host->end_listeners().Add([&](const absl::Status& status) { heard = status; });
+  registry.EndWaits(absl::UnavailableError("draining"));
+  EXPECT_TRUE(absl::IsUnavailable(heard));
+  EXPECT_TRUE(absl::IsUnavailable(registry.Create("attic", {}).status()));
+}
+
+TEST(MissionRegistryTest, MissionsThatNobodyUsesAreRemovedInTime) {
+  SteadyTime now = SteadyTime() + std::chrono::hours(1);
+  RegistryOptions options;
+  options.host.clock = [&] { return now; };
+  MissionRegistry registry(options, {});
+  for (const char* id : {"a", "b", "c"}) {
+    registry.Create(id, {}).value()->standing().set_idle_time_to_live(absl::Seconds(10));
+  }
+  ASSERT_TRUE(registry.Create("d", {}).ok());
+  auto held = registry.Find("b").value();
+  now += std::chrono::seconds(9);
+  registry.Find("c").value()->standing().Touch();
+  EXPECT_TRUE(registry.DeleteIdle().empty());
+  now += std::chrono::seconds(1);
+  EXPECT_THAT(registry.DeleteIdle(), ElementsAre("a"));
+  EXPECT_THAT(Names(registry.List("", 9)), ElementsAre("b", "c", "d"));
+  held.reset();  // it was in use until now
+  now += std::chrono::seconds(9);
+  EXPECT_THAT(registry.DeleteIdle(), ElementsAre("c"));
+  now += std::chrono::seconds(1);
+  EXPECT_THAT(registry.DeleteIdle(), ElementsAre("b"));
+  EXPECT_THAT(Names(registry.List("", 9)), ElementsAre("d"));
 }
 
 }  // namespace mission_registry_test

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "absl/synchronization/blocking_counter.h"
 #include "absl/synchronization/notification.h"
 #include "tests/server/host_parts.h"
@@ -73,14 +74,14 @@ class PlanJobTest : public testing::Test {
     absl::BlockingCounter busy(kPoolThreads);
     for (int i = 0; i < kPoolThreads; ++i) {
       ASSERT_TRUE(pool_
-                      .Submit([&] {
-                        busy.DecrementCount();
-                        release_.WaitForNotification();
-                      })
+                      .Submit({absl::StrCat("busy", i), ""}, {[&] {
+                                busy.DecrementCount();
+                                release_.WaitForNotification();
+                              }})
                       .ok());
     }
     busy.Wait();
-    while (pool_.Submit([] {}).ok()) {
+    for (int i = 0; pool_.Submit({absl::StrCat("queued", i), ""}, {[] {}}).ok(); ++i) {
     }
   }
   const absl::StatusOr<PlanAnswer>& Answer() {
@@ -92,7 +93,7 @@ class PlanJobTest : public testing::Test {
   std::optional<absl::StatusOr<PlanAnswer>> answer_;
   absl::Notification answered_;
   absl::Notification release_;  // of tasks that FillPool holds; outlives the pool
-  WorkerPool pool_{{"planning", kPoolThreads, 4}};
+  FairPool pool_{{.name = "planning", .threads = kPoolThreads, .max_queued = 4}};
 };
 
 ScriptedStrategy::Script DriveTo(double x_m) {
@@ -178,6 +179,49 @@ TEST_F(PlanJobTest, CancelStopsTheSearchAndCommitsNothing) {
   EXPECT_TRUE(absl::IsCancelled(Answer().status()));
   host_->Stop(absl::NotFoundError("over"));
   EXPECT_EQ(host_->summary().revision, 2);  // the two registrations
+}
+
+TEST_F(PlanJobTest, CancelAnswersThoughTheSearchGoesOn) {
+  absl::Notification searching;
+  StartHost([&](const Belief& belief, const PlanRequest& request, const StopFn&) {
+    searching.Notify();
+    release_.WaitForNotification();
+    return PlanTo(belief, request.robot, 1.0);
+  });
+  const auto job = Start({});
+  searching.WaitForNotification();
+  job->Cancel();
+  EXPECT_TRUE(absl::IsCancelled(Answer().status()));
+  release_.Notify();
+}
+
+TEST_F(PlanJobTest, EndOfTheMissionAnswersThoughTheSearchGoesOn) {
+  absl::Notification searching;
+  StartHost([&](const Belief& belief, const PlanRequest& request, const StopFn&) {
+    searching.Notify();
+    release_.WaitForNotification();
+    return PlanTo(belief, request.robot, 1.0);
+  });
+  Start({});
+  searching.WaitForNotification();
+  host_->EndWaits(absl::UnavailableError("draining"));
+  EXPECT_TRUE(absl::IsUnavailable(Answer().status()));
+  release_.Notify();
+}
+
+TEST_F(PlanJobTest, AnsweredJobsListenToNobody) {
+  StartHost(DriveTo(1.0));
+  Start({});
+  ASSERT_TRUE(Answer().ok());
+  EXPECT_EQ(host_->end_listeners().size(), 0);
+  // One that is cancelled before it starts does not begin.
+  int answers = 0;
+  const auto job = std::make_shared<PlanJob>(PlanJob::Parts{
+      host_, &pool_, OrderOf({}), [&](const absl::StatusOr<PlanAnswer>&) { ++answers; }});
+  job->Cancel();
+  job->Start();
+  EXPECT_EQ(answers, 1);
+  EXPECT_EQ(host_->end_listeners().size(), 0);
 }
 
 TEST_F(PlanJobTest, CancelEndsTheWaitForReadings) {

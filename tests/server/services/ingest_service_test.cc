@@ -5,7 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <future>
+
+#include "absl/time/clock.h"
 #include "tests/server/service_fixture.h"
+#include "tests/server/writer_gate.h"
 
 namespace plumescout::server {
 namespace ingest_service_test {
@@ -109,10 +113,81 @@ TEST_F(IngestServiceTest, StreamsAreServedToo) {
 TEST_F(ServiceTest, FullIngestQueueSaysWhenToRetry) {
   ServerConfig config;
   config.limits.max_queued_observations = 2;
-  StartServer(config);
-  const absl::Status refused = Ingest(kRobot, Lease(), GasReadings(1, 3)).status();
+  WriterGate gate;
+  StartServer(config, gate.Hooks());
+  const std::int64_t lease = Lease();
+  auto held = std::async(std::launch::async,
+                         [&] { return Ingest(kRobot, lease, GasReadings(1, 1)).status(); });
+  gate.AwaitHeld();
+  // Whichever comes first waits; there is no room for the other.
+  absl::Status refused;
+  const auto ingest = [&] {
+    const absl::Status status = Ingest(kRobot, lease, GasReadings(2, 3)).status();
+    if (!status.ok()) {
+      refused = status;
+      gate.Release();
+    }
+    return status.ok();
+  };
+  auto one = std::async(std::launch::async, ingest);
+  auto other = std::async(std::launch::async, ingest);
+  EXPECT_NE(one.get(), other.get());
+  EXPECT_TRUE(held.get().ok());
   EXPECT_THAT(refused, Refuses(absl::StatusCode::kResourceExhausted, "OVERLOADED"));
   EXPECT_TRUE(RetryDelay(refused).has_value());
+}
+
+TEST_F(ServiceTest, ABatchAboveTheRatesIsRefusedWhole) {
+  ServerConfig config;
+  config.limits.max_gas_readings_per_s = 0.05;
+  config.limits.ingest_burst_s = 60.0;  // three at once
+  StartServer(config);
+  const std::int64_t lease = Lease();
+  ASSERT_TRUE(Ingest(kRobot, lease, GasReadings(1, 2)).ok());
+  const absl::Status refused = Ingest(kRobot, lease, GasReadings(3, 5)).status();
+  EXPECT_THAT(refused, Refuses(absl::StatusCode::kResourceExhausted, "RATE_EXCEEDED"));
+  EXPECT_GT(RetryDelay(refused).value(), absl::Seconds(1));
+  EXPECT_EQ(Revision(), 3);
+}
+
+// A clock 20 h ahead does not take the time of the mission along.
+TEST_F(ServiceTest, ASampleFromTheFutureIsRefusedAndTheNextOnesCount) {
+  StartServer();
+  const std::int64_t lease = Lease();
+  const std::int64_t now_ns = absl::GetCurrentTimeNanos();
+  v1::ObservationBatch batch = GasReadings(1, 3);
+  for (v1::Observation& reading : *batch.mutable_observations()) {
+    reading.set_sample_time_ns(now_ns);
+  }
+  batch.mutable_observations(1)->set_sample_time_ns(now_ns + 72'000'000'000'000);
+  const auto response = Ingest(kRobot, lease, batch);
+  ASSERT_TRUE(response.ok()) << response.status();
+  EXPECT_EQ(response->ingest_state().applied_sequence(), 3);
+  ASSERT_THAT(response->rejections(), SizeIs(1));
+  EXPECT_EQ(response->rejections(0).sequence(), 2);
+  const absl::Status refused = FromProto(response->rejections(0).status());
+  EXPECT_THAT(refused, Refuses(absl::StatusCode::kInvalidArgument, "CLOCK_AHEAD"));
+  EXPECT_THAT(refused, RefusesField("observation.sample_time_ns"));
+}
+
+TEST_F(ServiceTest, AMissionMayTakeSamplesFromTheFutureAsOfNow) {
+  ServerConfig config;
+  config.mission.stamp_by_arrival = true;
+  StartServer(config);
+  v1::ObservationBatch batch = GasReadings(1, 1);
+  const std::int64_t before_ns = absl::GetCurrentTimeNanos();
+  batch.mutable_observations(0)->set_sample_time_ns(before_ns + 72'000'000'000'000);
+  const auto response = Ingest(kRobot, Lease(), batch);
+  ASSERT_TRUE(response.ok()) << response.status();
+  EXPECT_THAT(response->rejections(), IsEmpty());
+  v1::QueryGasRequest query;
+  query.set_mission("missions/hall");
+  query.add_points();
+  query.set_fresh_posterior(true);
+  const auto gas = Call(maps_, &v1::MapService::Stub::QueryGas, query);
+  ASSERT_TRUE(gas.ok()) << gas.status();
+  EXPECT_GE(gas->posterior_time_ns(), before_ns);
+  EXPECT_LE(gas->posterior_time_ns(), absl::GetCurrentTimeNanos());
 }
 
 }  // namespace ingest_service_test

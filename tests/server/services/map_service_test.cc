@@ -8,6 +8,7 @@
 #include "absl/time/clock.h"
 #include "absl/time/time.h"
 #include "proto/convert/geometry.h"
+#include "proto/convert/map.h"
 #include "tests/server/service_fixture.h"
 #include "tests/support/room_run.h"
 
@@ -25,6 +26,16 @@ class MapServiceTest : public ServiceTest {
     request.set_mission(mission);
     for (const int layer : layers) request.add_layers(static_cast<v1::MapLayer>(layer));
     return Call(maps_, &v1::MapService::Stub::GetMap, request);
+  }
+  // Free cells take three scans.
+  void SeeTheRoom() {
+    const std::int64_t lease = Lease();
+    for (int k = 1; k <= 3; ++k) ASSERT_TRUE(Ingest(kRobot, lease, RoomScan(k)).ok());
+    ASSERT_TRUE(Ingest(kRobot, lease, GasReadings(4, 9)).ok());
+    v1::GetMapRequest request;
+    request.set_mission("missions/hall");
+    request.set_fresh_posterior(true);
+    ASSERT_TRUE(Call(maps_, &v1::MapService::Stub::GetMap, request).ok());
   }
 };
 
@@ -48,10 +59,11 @@ TEST_F(MapServiceTest, MapShowsWhatIsApplied) {
   EXPECT_EQ(map->status().robots(0).robot(), kRobot);
   EXPECT_EQ(map->status().robots(0).applied_sequence(), 3);
   EXPECT_EQ(map->status().gas_counters().reading_count(), 2);
-  ASSERT_EQ(map->tiles_size(), 3);
+  ASSERT_GT(map->tiles_size(), 0);
   EXPECT_EQ(map->tiles(0).layer(), v1::MAP_LAYER_OCCUPANCY);
-  EXPECT_EQ(map->tiles(0).column_count(), map->status().geometry().column_count());
-  EXPECT_GT(map->tiles(0).column_count(), 0);
+  EXPECT_EQ(map->tiles(0).column_count(), 64);
+  EXPECT_EQ(map->tile_geometry().SerializeAsString(), map->status().geometry().SerializeAsString());
+  EXPECT_TRUE(map->next_part_token().empty());
 }
 
 TEST_F(MapServiceTest, FreshPosteriorHasItsQuality) {
@@ -154,20 +166,105 @@ TEST_F(MapServiceTest, ReadingAMapChangesNothing) {
 }
 
 TEST_F(MapServiceTest, OnlyTheLayersAskedForAreSent) {
-  ASSERT_TRUE(Ingest(kRobot, Lease(), RoomScan(1)).ok());
+  SeeTheRoom();
   const auto map = GetMapOf("missions/hall", {v1::MAP_LAYER_GAS_VARIANCE});
   ASSERT_TRUE(map.ok()) << map.status();
-  ASSERT_EQ(map->tiles_size(), 1);
-  EXPECT_EQ(map->tiles(0).layer(), v1::MAP_LAYER_GAS_VARIANCE);
-  EXPECT_EQ(map->tiles(0).encoding(), v1::MapTile::ENCODING_U16_SCALED);
+  ASSERT_GT(map->tiles_size(), 0);
+  for (const v1::MapTile& tile : map->tiles()) {
+    EXPECT_EQ(tile.layer(), v1::MAP_LAYER_GAS_VARIANCE);
+    EXPECT_EQ(tile.encoding(), v1::MapTile::ENCODING_U16_SCALED);
+  }
 }
 
 TEST_F(MapServiceTest, FullPrecisionIsFloat) {
-  ASSERT_TRUE(Ingest(kRobot, Lease(), RoomScan(1)).ok());
+  SeeTheRoom();
   const auto map = GetMap(/*full_precision=*/true);
   ASSERT_TRUE(map.ok()) << map.status();
-  ASSERT_EQ(map->tiles_size(), 3);
-  EXPECT_EQ(map->tiles(1).encoding(), v1::MapTile::ENCODING_F32);
+  ASSERT_GT(map->tiles_size(), 0);
+  const v1::MapTile& last = map->tiles(map->tiles_size() - 1);
+  EXPECT_EQ(last.layer(), v1::MAP_LAYER_GAS_VARIANCE);
+  EXPECT_EQ(last.encoding(), v1::MapTile::ENCODING_F32);
+}
+
+TEST_F(MapServiceTest, PartsMakeTheMap) {
+  SeeTheRoom();
+  const auto whole = GetMap(/*full_precision=*/true);
+  ASSERT_TRUE(whole.ok()) << whole.status();
+  v1::GetMapRequest request;
+  request.set_mission("missions/hall");
+  request.set_full_precision(true);
+  request.set_max_part_bytes(1);
+  auto part = Call(maps_, &v1::MapService::Stub::GetMap, request);
+  ASSERT_TRUE(part.ok()) << part.status();
+  v1::GetMapResponse together = *part;
+  while (!part->next_part_token().empty()) {
+    request.set_part_token(part->next_part_token());
+    part = Call(maps_, &v1::MapService::Stub::GetMap, request);
+    ASSERT_TRUE(part.ok()) << part.status();
+    EXPECT_EQ(part->tiles_size(), 1);
+    EXPECT_FALSE(part->has_status());
+    together.mutable_tiles()->MergeFrom(part->tiles());
+  }
+  together.clear_next_part_token();
+  EXPECT_EQ(together.SerializeAsString(), whole->SerializeAsString());
+}
+
+TEST_F(MapServiceTest, TokenIsForItsRequestAlone) {
+  SeeTheRoom();
+  v1::GetMapRequest request;
+  request.set_mission("missions/hall");
+  request.set_max_part_bytes(1);
+  const auto part = Call(maps_, &v1::MapService::Stub::GetMap, request);
+  ASSERT_TRUE(part.ok()) << part.status();
+  request.set_part_token(part->next_part_token());
+  request.set_level_of_detail(1);
+  EXPECT_THAT(Call(maps_, &v1::MapService::Stub::GetMap, request).status(),
+              RefusesField("part_token"));
+}
+
+TEST_F(MapServiceTest, NoPartIsLargerThanTheServerAllows) {
+  ServerConfig config;
+  config.maps.max_part_bytes = 3000;
+  StartServer(config);
+  SeeTheRoom();
+  const auto part = GetMap(/*full_precision=*/true);
+  ASSERT_TRUE(part.ok()) << part.status();
+  EXPECT_FALSE(part->next_part_token().empty());
+  v1::GetMapRequest request;
+  request.set_mission("missions/hall");
+  request.set_full_precision(true);
+  request.set_max_part_bytes(1'000'000);
+  const auto asked_for_more = Call(maps_, &v1::MapService::Stub::GetMap, request);
+  ASSERT_TRUE(asked_for_more.ok()) << asked_for_more.status();
+  EXPECT_EQ(asked_for_more->SerializeAsString(), part->SerializeAsString());
+}
+
+TEST_F(MapServiceTest, CoarseMapHasLargerSquares) {
+  SeeTheRoom();
+  v1::GetMapRequest request;
+  request.set_mission("missions/hall");
+  request.set_level_of_detail(3);
+  const auto map = Call(maps_, &v1::MapService::Stub::GetMap, request);
+  ASSERT_TRUE(map.ok()) << map.status();
+  EXPECT_EQ(map->tile_geometry().resolution_m(), 0.8);
+  EXPECT_EQ(map->tile_geometry().column_count(), map->status().geometry().column_count() / 8);
+  const auto read = FromProto(*map);
+  ASSERT_TRUE(read.ok()) << read.status();
+  const GridGeometry& squares = read->occupancy.geometry();
+  EXPECT_EQ(read->occupancy[squares.CellAt({2.0, 1.5})], CellState::kFree);
+  EXPECT_EQ(read->occupancy[squares.CellAt({2.0, 4.0})], CellState::kOccupied);
+}
+
+TEST_F(MapServiceTest, RegionOffTheMapHasNoTiles) {
+  SeeTheRoom();
+  v1::GetMapRequest request;
+  request.set_mission("missions/hall");
+  *request.mutable_region()->mutable_min() = ToProto(Point2{500.0, 500.0});
+  *request.mutable_region()->mutable_max() = ToProto(Point2{501.0, 501.0});
+  const auto map = Call(maps_, &v1::MapService::Stub::GetMap, request);
+  ASSERT_TRUE(map.ok()) << map.status();
+  EXPECT_EQ(map->tiles_size(), 0);
+  EXPECT_TRUE(map->has_status());
 }
 
 TEST_F(MapServiceTest, StrangersAndUnknownLayersAreRefused) {

@@ -7,9 +7,11 @@
 
 #include <memory>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
+#include "absl/synchronization/notification.h"
 #include "proto/convert/map.h"
 #include "proto/convert/options.h"
 #include "tests/server/service_fixture.h"
@@ -86,6 +88,50 @@ TEST_F(MissionServiceTest, OnlyGetMissionReturnsThePriorMap) {
   }
 }
 
+// The reactors answer, whatever those who make missions are busy with.
+TEST_F(MissionServiceTest, MakingAMissionHoldsUpNoOtherCall) {
+  absl::Notification begun;
+  absl::Notification go_on;
+  RegistryHooks hooks;
+  hooks.make_event_sink = [&](const MissionId& id, const MissionOptions&) -> EventSink {
+    if (id == "slow") {
+      begun.Notify();
+      go_on.WaitForNotification();
+    }
+    return nullptr;
+  };
+  StartServer({}, hooks);
+  absl::Status slow;
+  std::thread maker([&] { slow = CreateMission("slow").status(); });
+  begun.WaitForNotification();
+  EXPECT_TRUE(Get("missions/hall").ok());
+  EXPECT_THAT(Names(*List(10)), ElementsAre("missions/hall"));
+  EXPECT_THAT(Get("missions/slow").status(), Refuses(kNotFound, "MISSION_NOT_FOUND"));
+  go_on.Notify();
+  maker.join();
+  EXPECT_TRUE(slow.ok()) << slow;
+  EXPECT_TRUE(Get("missions/slow").ok());
+}
+
+TEST_F(MissionServiceTest, OfMissionsOfOneNameOneIsMade) {
+  StartServer();
+  constexpr int kCallers = 8;
+  std::vector<absl::Status> answers(kCallers);
+  std::vector<std::thread> callers;
+  for (absl::Status& answer : answers) {
+    callers.emplace_back([&] { answer = CreateMission("attic", KnowingARoom()).status(); });
+  }
+  for (std::thread& caller : callers) caller.join();
+  int made = 0;
+  for (const absl::Status& answer : answers) {
+    made += answer.ok() ? 1 : 0;
+    if (!answer.ok()) {
+      EXPECT_THAT(answer, Refuses(absl::StatusCode::kAlreadyExists, "MISSION_EXISTS"));
+    }
+  }
+  EXPECT_EQ(made, 1);
+}
+
 TEST_F(MissionServiceTest, KnownBuildingIsOnTheMapBeforeAnyRobotIs) {
   StartServer();
   ASSERT_TRUE(CreateMission("attic", KnowingARoom()).ok());
@@ -148,11 +194,34 @@ TEST_F(MissionServiceTest, DeletedMissionMakesRoom) {
   EXPECT_TRUE(CreateMission("attic").ok());
 }
 
-TEST_F(MissionServiceTest, MapsThatCouldOutgrowTheServerAreRefused) {
+TEST_F(MissionServiceTest, MissionsThatCouldOutgrowTheServerAreRefused) {
   ServerConfig config;
-  config.limits.max_total_cells = 2 * config.mission.occupancy.max_cell_count - 1;
+  config.limits.memory_budget_bytes = 2 * config.mission.memory_budget_bytes - 1;
   StartServer(config);
   EXPECT_THAT(CreateMission("attic").status(), Refuses(kExhausted, "LIMIT_REACHED"));
+}
+
+TEST_F(MissionServiceTest, OptionsDoNotLiftTheServersLimits) {
+  StartServer();
+  v1::MissionOptions options;
+  options.set_max_beam_count(100'000);
+  EXPECT_THAT(CreateMission("attic", options).status(), RefusesField("options.max_beam_count"));
+  options.Clear();
+  options.set_memory_budget_bytes(std::int64_t{1} << 40);
+  EXPECT_THAT(CreateMission("attic", options).status(),
+              RefusesField("options.memory_budget_bytes"));
+}
+
+TEST_F(MissionServiceTest, GetSaysWhatTheMissionHolds) {
+  StartServer();
+  ASSERT_TRUE(Ingest(kRobot, Lease(), GasReadings(1, 2)).ok());
+  const auto response = Get("missions/hall");
+  ASSERT_TRUE(response.ok()) << response.status();
+  const v1::MissionMemory& memory = response->mission().memory();
+  EXPECT_EQ(memory.budget_bytes(), MissionOptions().memory_budget_bytes);
+  EXPECT_GT(memory.used_bytes(), 0);
+  EXPECT_LT(memory.used_bytes(), memory.budget_bytes());
+  EXPECT_EQ(response->mission().options().gas().lattice_factor(), 1);
 }
 
 TEST_F(MissionServiceTest, GetSaysHowTheMissionStands) {
@@ -267,6 +336,15 @@ TEST_F(MissionServiceTest, MissionTellsWhenItsMapIsUpdatedNext) {
   EXPECT_EQ(mission->mission().next_map_update_ns(),
             newest_ns + std::llround(plan.map_update_s() * 1e9));
   EXPECT_EQ(mission->mission().phase(), v1::MISSION_PHASE_SAMPLING);
+}
+
+TEST_F(MissionServiceTest, PlannersThatHoldAThreadForLongAreForServersThatAllowThem) {
+  StartServer();
+  v1::MissionOptions options;
+  options.mutable_planning()->set_paths(v1::PATH_KIND_RRT_STAR);
+  EXPECT_TRUE(absl::IsInvalidArgument(CreateMission("attic", options).status()));
+  options.mutable_planning()->set_paths(v1::PATH_KIND_XIT);
+  EXPECT_TRUE(CreateMission("attic", options).ok());
 }
 
 }  // namespace mission_service_test

@@ -169,6 +169,38 @@ TEST_F(PlanningServiceTest, BudgetBeyondTheServersIsCutToIt) {
   EXPECT_TRUE(response.ok()) << response.status();
 }
 
+TEST_F(PlanningServiceTest, MissionThatSearchesLeavesAThreadToTheOthers) {
+  absl::Notification release;
+  std::atomic<int> searching = 0;
+  Start({}, [&](const Belief& belief, const PlanRequest& request, const StopFn&) {
+    ++searching;
+    if (request.robot != "quick") release.WaitForNotification();
+    return PlanTo(belief, request.robot, request.robot == "r2" ? 5.0 : 1.0);
+  });
+  v1::NextBestTrajectoryRequest second = Order();
+  second.set_robot("missions/hall/robots/r2");
+  second.set_lease_token(Register("r2")->lease_token());
+  auto first_plan = std::async(std::launch::async, [&] { return NextBest(Order()); });
+  auto second_plan = std::async(std::launch::async, [&] { return NextBest(second); });
+  while (searching == 0) {
+  }
+  ASSERT_TRUE(CreateMission("attic").ok());
+  v1::RegisterRobotRequest robot;
+  robot.set_mission("missions/attic");
+  robot.set_robot_id("quick");
+  robot.set_radius_m(0.2);
+  const auto registered = Call(robots_, &v1::RobotService::Stub::RegisterRobot, robot);
+  ASSERT_TRUE(registered.ok()) << registered.status();
+  v1::NextBestTrajectoryRequest quick = Order();
+  quick.set_robot("missions/attic/robots/quick");
+  quick.set_lease_token(registered->lease_token());
+  EXPECT_TRUE(NextBest(quick).ok());
+  EXPECT_EQ(searching, 2) << "one of the hall, one of the attic";
+  release.Notify();
+  EXPECT_TRUE(first_plan.get().ok());
+  EXPECT_TRUE(second_plan.get().ok());
+}
+
 TEST_F(PlanningServiceTest, CancelStopsTheSearchAndCommitsNothing) {
   absl::Notification searching;
   absl::Notification stopped;

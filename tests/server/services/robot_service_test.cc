@@ -146,5 +146,80 @@ TEST_F(RobotServiceTest, OnlyForceRemovesARobotWithoutItsLease) {
               Refuses(kNotFound, "MISSION_NOT_FOUND"));
 }
 
+class RobotsTest : public RobotServiceTest {
+ protected:
+  absl::StatusOr<v1::GetRobotResponse> Get(const std::string& robot) {
+    v1::GetRobotRequest request;
+    request.set_name(robot);
+    return Call(robots_, &v1::RobotService::Stub::GetRobot, request);
+  }
+  absl::StatusOr<v1::ListRobotsResponse> List(int page_size, const std::string& token = "") {
+    v1::ListRobotsRequest request;
+    request.set_mission("missions/hall");
+    request.set_page_size(page_size);
+    request.set_page_token(token);
+    return Call(robots_, &v1::RobotService::Stub::ListRobots, request);
+  }
+  absl::Status Release(const std::string& robot, std::int64_t lease_token, bool force = false) {
+    v1::ReleaseLeaseRequest request;
+    request.set_robot(robot);
+    request.set_lease_token(lease_token);
+    request.set_force(force);
+    return Call(robots_, &v1::RobotService::Stub::ReleaseLease, request).status();
+  }
+};
+
+TEST_F(RobotsTest, ARobotTellsWhereItIsAndWhoWritesItsLog) {
+  StartServer(WithLeaseHold(3600.0));
+  const std::int64_t lease = Lease();
+  ASSERT_TRUE(Ingest(kRobot, lease, GasReadings(1, 3)).ok());
+  const auto robot = Get(kRobot);
+  ASSERT_TRUE(robot.ok()) << robot.status();
+  EXPECT_EQ(robot->robot().on_map().robot(), kRobot);
+  EXPECT_EQ(robot->robot().on_map().pose().x_m(), 2.0);
+  EXPECT_EQ(robot->robot().on_map().applied_sequence(), 3);
+  EXPECT_TRUE(robot->robot().leased());
+  EXPECT_FALSE(robot->robot().streaming());
+  IngestClient stream(*ingest_);
+  ASSERT_TRUE(stream.Open(kRobot, lease));
+  ASSERT_TRUE(stream.Read().has_opened());
+  EXPECT_TRUE(Get(kRobot)->robot().streaming());
+  EXPECT_EQ(Revision(), 4) << "a look changes nothing";
+  EXPECT_THAT(Get("missions/hall/robots/r2").status(), Refuses(kNotFound, "ROBOT_NOT_FOUND"));
+  EXPECT_THAT(Get("missions/attic/robots/r1").status(), Refuses(kNotFound, "MISSION_NOT_FOUND"));
+}
+
+TEST_F(RobotsTest, PagesOfRobotsFollowEachOtherInOrderOfName) {
+  StartServer();
+  EXPECT_EQ(List(2)->robots_size(), 0);
+  for (const char* robot : {"r3", "r1", "r2"}) ASSERT_TRUE(Register(robot).ok());
+  const auto first = List(2);
+  ASSERT_TRUE(first.ok()) << first.status();
+  ASSERT_EQ(first->robots_size(), 2);
+  EXPECT_EQ(first->robots(0).on_map().robot(), "missions/hall/robots/r1");
+  EXPECT_EQ(first->robots(1).on_map().robot(), "missions/hall/robots/r2");
+  const auto last = List(2, first->next_page_token());
+  ASSERT_EQ(last->robots_size(), 1);
+  EXPECT_EQ(last->robots(0).on_map().robot(), "missions/hall/robots/r3");
+  EXPECT_EQ(last->next_page_token(), "");
+}
+
+TEST_F(RobotsTest, AReleasedLeaseIsFreeForTheNextClientAtOnce) {
+  StartServer(WithLeaseHold(3600.0));
+  const std::int64_t lease = Lease();
+  IngestClient stream(*ingest_);
+  ASSERT_TRUE(stream.Open(kRobot, lease));
+  ASSERT_TRUE(stream.Read().has_opened());
+  EXPECT_THAT(Release(kRobot, lease + 1), Refuses(kPrecondition, "LEASE_SUPERSEDED"));
+  ASSERT_TRUE(Release(kRobot, lease).ok());
+  EXPECT_THAT(stream.Finish(), Refuses(kPrecondition, "LEASE_SUPERSEDED"));
+  EXPECT_THAT(Ingest(kRobot, lease, GasReadings(1, 1)).status(),
+              Refuses(kPrecondition, "LEASE_SUPERSEDED"));
+  EXPECT_FALSE(Get(kRobot)->robot().leased());
+  ASSERT_TRUE(Register("r1").ok());
+  EXPECT_TRUE(Release(kRobot, 0, /*force=*/true).ok());
+  EXPECT_TRUE(Register("r1").ok());
+}
+
 }  // namespace robot_service_test
 }  // namespace plumescout::server

@@ -5,7 +5,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <future>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/time/clock.h"
 #include "tests/server/service_fixture.h"
+#include "tests/server/writer_gate.h"
 
 namespace plumescout::server {
 namespace ingest_stream_test {
@@ -156,7 +165,7 @@ TEST_F(IngestStreamTest, HalfCloseEndsTheStreamAfterTheLastAcknowledgement) {
 }
 
 TEST_F(IngestStreamTest, RobotThatDoesNotReadGetsTheNewestAcknowledgementLast) {
-  constexpr int kBatches = 500;
+  constexpr int kBatches = 400;  // within the burst of readings
   const auto stream = OpenStream();
   for (int i = 0; i < kBatches; ++i) ASSERT_TRUE(stream->Send(GasReadings(1, kWindow)));
   stream->HalfClose();
@@ -178,16 +187,86 @@ TEST_F(IngestStreamTest, DeletedMissionEndsTheStream) {
   EXPECT_THAT(stream->Finish(), Refuses(kNotFound, "MISSION_NOT_FOUND"));
 }
 
-TEST_F(ServiceTest, StreamsReserveRoomInTheQueueForTheirWindow) {
+// Robots r0, r1 ... with a stream each.
+std::vector<std::unique_ptr<IngestClient>> OpenStreams(
+    int count, v1::IngestService::Stub& stub,
+    const std::function<std::int64_t(const std::string&)>& lease_of) {
+  std::vector<std::unique_ptr<IngestClient>> streams;
+  for (int i = 0; i < count; ++i) {
+    const std::string robot = absl::StrCat("r", i);
+    streams.push_back(std::make_unique<IngestClient>(stub));
+    EXPECT_TRUE(
+        streams.back()->Open(absl::StrCat("missions/hall/robots/", robot), lease_of(robot)));
+    EXPECT_TRUE(streams.back()->Read().has_opened()) << robot;
+  }
+  return streams;
+}
+
+TEST_F(ServiceTest, StreamsTakeNoRoomBeforeTheySend) {
+  constexpr int kRobots = 200;
+  ServerConfig config;
+  config.mission.max_robot_count = kRobots;
+  config.limits.max_streams_per_connection = 2 * kRobots;
+  StartServer(config);
+  const auto streams = OpenStreams(
+      kRobots, *ingest_, [&](const std::string& robot) { return Register(robot)->lease_token(); });
+  for (const auto& stream : streams) ASSERT_TRUE(stream->Send(GasReadings(1, 1)));
+  for (const auto& stream : streams) EXPECT_EQ(stream->ReadAck(1).applied_sequence(), 1);
+}
+
+TEST_F(ServiceTest, BatchesWaitForRoomAndNoneIsRefused) {
   ServerConfig config;
   config.limits.max_queued_observations = kWindow;
+  WriterGate gate;
+  StartServer(config, gate.Hooks());
+  const auto streams = OpenStreams(
+      5, *ingest_, [&](const std::string& robot) { return Register(robot)->lease_token(); });
+  ASSERT_TRUE(streams[0]->Send(GasReadings(1, 1)));
+  gate.AwaitHeld();
+  for (const auto& stream : streams) {
+    ASSERT_TRUE(stream->Send(GasReadings(1, kWindow / 2)));
+    ASSERT_TRUE(stream->Send(GasReadings(kWindow / 2 + 1, kWindow)));
+  }
+  streams[4]->Cancel();  // who gives up while it waits leaves its place to others
+  EXPECT_TRUE(absl::IsCancelled(streams[4]->Finish()));
+  gate.Release();
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(streams[i]->ReadAck(kWindow).applied_sequence(), kWindow);
+  }
+}
+
+TEST_F(ServiceTest, DeletedMissionEndsStreamsThoughItIsBusy) {
+  WriterGate gate;
+  StartServer({}, gate.Hooks());
+  IngestClient stream(*ingest_);
+  ASSERT_TRUE(stream.Open(kRobot, Lease()));
+  ASSERT_TRUE(stream.Read().has_opened());
+  ASSERT_TRUE(stream.Send(GasReadings(1, 1)));
+  gate.AwaitHeld();
+  ASSERT_TRUE(stream.Send(GasReadings(2, 2)));
+  auto deleted = std::async(std::launch::async, [&] { return DeleteMission("hall"); });
+  EXPECT_THAT(stream.Finish(), Refuses(kNotFound, "MISSION_NOT_FOUND"));
+  gate.Release();
+  EXPECT_TRUE(deleted.get().ok());
+}
+
+TEST_F(ServiceTest, AStreamAboveTheRatesIsReadMoreSlowly) {
+  constexpr int kReadings = 30;
+  constexpr double kRate_per_s = 50.0;
+  constexpr double kBurst_s = 1.0;
+  ServerConfig config;
+  config.limits.max_gas_readings_per_s = kRate_per_s;
+  config.limits.ingest_burst_s = kBurst_s;
   StartServer(config);
-  IngestClient first(*ingest_);
-  ASSERT_TRUE(first.Open(kRobot, Lease()));
-  ASSERT_TRUE(first.Read().has_opened());
-  IngestClient second(*ingest_);
-  ASSERT_TRUE(second.Open("missions/hall/robots/r2", Register("r2")->lease_token()));
-  EXPECT_THAT(second.Finish(), Refuses(absl::StatusCode::kResourceExhausted, "OVERLOADED"));
+  const int burst = static_cast<int>(kRate_per_s * kBurst_s);
+  IngestClient stream(*ingest_);
+  ASSERT_TRUE(stream.Open(kRobot, Lease()));
+  ASSERT_TRUE(stream.Read().has_opened());
+  const absl::Time begun = absl::Now();
+  for (int i = 1; i <= burst + kReadings; ++i) ASSERT_TRUE(stream.Send(GasReadings(i, i)));
+  EXPECT_EQ(stream.ReadAck(burst + kReadings).applied_sequence(), burst + kReadings);
+  // The frame that goes beyond the rate is taken before the pause.
+  EXPECT_GE(absl::Now() - begun, absl::Seconds((kReadings - 1) / kRate_per_s));
 }
 
 }  // namespace ingest_stream_test

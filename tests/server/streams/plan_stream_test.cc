@@ -39,7 +39,6 @@ class PlanStreamTest : public ServiceTest {
     ASSERT_TRUE(Ingest(kRobot, lease_, batch).ok());
   }
   v1::StreamNextBestTrajectoryRequest Order() const {
-    constexpr int kAmpleBudget_s = 50;
     v1::StreamNextBestTrajectoryRequest request;
     request.set_robot(kRobot);
     request.set_lease_token(lease_);

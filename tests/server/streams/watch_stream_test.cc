@@ -3,8 +3,13 @@
 #include "server/streams/watch_stream.h"
 
 #include <gmock/gmock.h>
+#include <grpcpp/generic/generic_stub.h>
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <vector>
+
+#include "absl/synchronization/notification.h"
 #include "tests/server/service_fixture.h"
 
 namespace plumescout::server {
@@ -34,8 +39,89 @@ TEST_F(WatchStreamTest, FirstFrameIsTheWholeMap) {
   const Frame frame = watch.Read();
   EXPECT_EQ(frame.kind(), Frame::KIND_FULL);
   EXPECT_EQ(frame.revision(), 2);
-  EXPECT_EQ(frame.tiles_size(), 3);
-  EXPECT_EQ(frame.tiles(0).column_count(), frame.status().geometry().column_count());
+  EXPECT_FALSE(frame.more_follow());
+  ASSERT_GT(frame.tiles_size(), 0);
+  EXPECT_EQ(frame.tiles(0).layer(), v1::MAP_LAYER_OCCUPANCY);
+  EXPECT_EQ(frame.tile_geometry().SerializeAsString(),
+            frame.status().geometry().SerializeAsString());
+}
+
+TEST_F(WatchStreamTest, LargeFrameComesInSeveralMessages) {
+  ServerConfig config;
+  config.maps.max_part_bytes = 600;  // a status, or a tile
+  StartServer(config);
+  lease_ = Lease();
+  Apply(RoomScan(1));
+  WatchClient watch(*maps_);
+  Frame frame = watch.Read();
+  ASSERT_EQ(frame.kind(), Frame::KIND_FULL);
+  ASSERT_TRUE(frame.more_follow());
+  const std::int64_t revision = frame.revision();
+  int tiles = frame.tiles_size();
+  while (frame.more_follow()) {
+    frame = watch.Read();
+    ASSERT_EQ(frame.kind(), Frame::KIND_DELTA);
+    EXPECT_EQ(frame.base_revision(), revision);
+    EXPECT_EQ(frame.revision(), revision);
+    EXPECT_FALSE(frame.has_status());
+    tiles += frame.tiles_size();
+  }
+  EXPECT_GT(tiles, 1);
+}
+
+TEST_F(WatchStreamTest, ViewIsTheWatchers) {
+  Apply(RoomScan(1));
+  v1::WatchMapRequest request;
+  request.set_mission("missions/hall");
+  request.add_layers(v1::MAP_LAYER_OCCUPANCY);
+  request.set_level_of_detail(2);
+  request.mutable_region()->mutable_min()->set_x_m(1.0);
+  request.mutable_region()->mutable_min()->set_y_m(1.0);
+  *request.mutable_region()->mutable_max() = request.region().min();
+  WatchClient watch(*maps_, request);
+  const Frame frame = watch.Read();
+  EXPECT_EQ(frame.tile_geometry().resolution_m(), 0.4);
+  ASSERT_EQ(frame.tiles_size(), 1);
+  EXPECT_EQ(frame.tiles(0).layer(), v1::MAP_LAYER_OCCUPANCY);
+}
+
+TEST_F(WatchStreamTest, RequestThatIsNoneIsRefused) {
+  grpc::GenericStub stub(channel_);
+  grpc::ClientContext context;
+  SetPatience(context);
+  const grpc::Slice garbage("\xff\xff\xff");
+  const grpc::ByteBuffer request(&garbage, 1);
+  grpc::ByteBuffer response;
+  absl::Notification done;
+  absl::Status status;
+  stub.UnaryCall(&context, "/plumescout.v1.MapService/GetMap", {}, &request, &response,
+                 [&](const grpc::Status& answer) {
+                   status = ToAbsl(answer);
+                   done.Notify();
+                 });
+  done.WaitForNotification();
+  EXPECT_TRUE(absl::IsInvalidArgument(status)) << status;
+}
+
+// More than the pool's queue would hold, were each to take a place in it.
+TEST_F(WatchStreamTest, ManyWatchersOfOneMissionAreAllServed) {
+  ServerConfig config;
+  config.maps.max_queued = 1;
+  config.limits.max_streams_per_connection = 1000;
+  StartServer(config);
+  lease_ = Lease();
+  Apply(RoomScan(1));
+  std::vector<std::unique_ptr<WatchClient>> watchers;
+  for (int i = 0; i < 100; ++i) watchers.push_back(std::make_unique<WatchClient>(*maps_));
+  for (const auto& watch : watchers) ASSERT_EQ(watch->Read().kind(), Frame::KIND_FULL);
+  Apply(GasReadings(2, 2));
+  for (const auto& watch : watchers) {
+    Frame frame = watch->Read();
+    while (frame.status().gas_counters().reading_count() == 0) {
+      ASSERT_NE(frame.kind(), Frame::KIND_UNSPECIFIED) << watch->Finish();
+      frame = watch->Read();
+    }
+  }
 }
 
 TEST_F(WatchStreamTest, MapThatGrewIsForgottenAndSentWhole) {

@@ -36,5 +36,12 @@ TEST(ConductErrors, WhatPassesSaysWhenToTryAgain) {
   EXPECT_FALSE(RetryAfter_ns(LeaseSuperseded("r1")).has_value());
 }
 
+TEST(ConductErrorsTest, MissionsThatDoNotRunSaySo) {
+  EXPECT_EQ(ErrorReason(MissionPaused("hall")), reason::kMissionPaused);
+  EXPECT_EQ(ErrorReason(MissionFinished("hall")), reason::kMissionFinished);
+  EXPECT_TRUE(absl::IsFailedPrecondition(MissionPaused("hall")));
+  EXPECT_TRUE(absl::IsFailedPrecondition(MissionFinished("hall")));
+}
+
 }  // namespace conduct_errors_test
 }  // namespace plumescout

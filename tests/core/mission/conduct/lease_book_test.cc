@@ -153,5 +153,44 @@ TEST_F(LeaseBookTest, BookAtAnInstantIsTheSameBook) {
   EXPECT_EQ(LeasesAt(book_, now_ns_ + kHold_ns).Propose("r1", false).value(), 101);
 }
 
+TEST_F(LeaseBookTest, AReleasedLeaseIsFreeAtOnceAndWritesNothingMore) {
+  const std::int64_t token = Take("r1");
+  const StreamId stream = Open("r1", token);
+  EXPECT_EQ(book_.Standing("r1", now_ns_), (LeaseStanding{true, true}));
+  EXPECT_EQ(ErrorReason(book_.Release("r1", token + 1).status()), reason::kLeaseSuperseded);
+  EXPECT_EQ(book_.Release("r1", token).value(), stream);
+  EXPECT_EQ(book_.Standing("r1", now_ns_), LeaseStanding{});
+  EXPECT_EQ(ErrorReason(book_.Use("r1", token, now_ns_)), reason::kLeaseSuperseded);
+  EXPECT_FALSE(Held());
+  const std::int64_t newer = Take("r1");
+  EXPECT_GT(newer, token);
+  EXPECT_TRUE(book_.Use("r1", newer, now_ns_).ok());
+}
+
+TEST_F(LeaseBookTest, AnybodyMayReleaseTheLeaseOfARobotThatDied) {
+  Take("r1");
+  EXPECT_TRUE(book_.Release("r1", std::nullopt).ok());
+  EXPECT_FALSE(Held());
+  EXPECT_EQ(ErrorReason(book_.Release("r2", std::nullopt).status()), reason::kRobotNotFound);
+}
+
+TEST_F(LeaseBookTest, StandingTellsWhetherALeaseIsHeld) {
+  EXPECT_EQ(book_.Standing("r1", now_ns_), LeaseStanding{});
+  Take("r1");
+  EXPECT_EQ(book_.Standing("r1", now_ns_ + kHold_ns - 1), (LeaseStanding{true, false}));
+  EXPECT_EQ(book_.Standing("r1", now_ns_ + kHold_ns), LeaseStanding{});
+}
+
+TEST(FirstLeaseTokenTest, TokensFitIntoADoubleForEver) {
+  for (const std::uint64_t bits :
+       {std::uint64_t{0}, std::uint64_t{0x1234'5678'9abc'def0}, ~std::uint64_t{0}}) {
+    const std::int64_t token = FirstLeaseToken(bits);
+    EXPECT_GT(token, 0);
+    EXPECT_LE(token, kLeaseTokenEnd / 2);
+    EXPECT_EQ(static_cast<std::int64_t>(static_cast<double>(token)), token);
+  }
+  EXPECT_NE(FirstLeaseToken(1), FirstLeaseToken(2));
+}
+
 }  // namespace lease_book_test
 }  // namespace plumescout

@@ -1,0 +1,255 @@
+# SPDX-FileCopyrightText: PlumeScout contributors
+# SPDX-License-Identifier: Apache-2.0
+"""A connection to a server."""
+
+import time
+import uuid
+
+import grpc
+import numpy as np
+import plumescout_channel
+from google.protobuf import json_format
+
+from plumescout.v1 import ingest_service_pb2_grpc as ingest_grpc
+from plumescout.v1 import map_service_pb2 as map_pb
+from plumescout.v1 import map_service_pb2_grpc as map_grpc
+from plumescout.v1 import mission_service_pb2 as mission_pb
+from plumescout.v1 import mission_service_pb2_grpc as mission_grpc
+from plumescout.v1 import options_pb2 as options_pb
+from plumescout.v1 import planning_service_pb2 as planning_pb
+from plumescout.v1 import planning_service_pb2_grpc as planning_grpc
+from plumescout.v1 import robot_service_pb2 as robot_pb
+from plumescout.v1 import robot_service_pb2_grpc as robot_grpc
+from plumescout.v1 import system_service_pb2 as system_pb
+from plumescout.v1 import system_service_pb2_grpc as system_grpc
+
+from .errors import PlumeScoutError, error_of, is_unavailable
+from .robot import Robot
+from .values import _map_from_proto, _points
+
+_KEEPALIVE_TIME_MS = 10_000  # matches the server's minimum ping interval
+_KEEPALIVE_TIMEOUT_MS = 5_000
+_MAX_RECEIVE_BYTES = 256 << 20  # more than any server sends in one part of a map
+_NAMED_CALL_TRIES = 3
+_MAP_ATTEMPTS = 5
+
+
+def _channel(target, credentials):
+    return plumescout_channel.channel_of(
+        target,
+        options=[
+            ("grpc.keepalive_time_ms", _KEEPALIVE_TIME_MS),
+            ("grpc.keepalive_timeout_ms", _KEEPALIVE_TIMEOUT_MS),
+            ("grpc.max_receive_message_length", _MAX_RECEIVE_BYTES),
+        ],
+        **credentials,
+    )
+
+
+class Client:
+    """One connection to a server. Its calls raise PlumeScoutError."""
+
+    def __init__(self, target="127.0.0.1:50551", timeout_s=10.0, **credentials):
+        """credentials: tls_ca, tls_cert, tls_key, token_file; see plumescout_channel."""
+        self._channel = _channel(target, credentials)
+        self._timeout_s = timeout_s
+        self._limits = None  # asked for when they are needed
+        self._missions = mission_grpc.MissionServiceStub(self._channel)
+        self._robots = robot_grpc.RobotServiceStub(self._channel)
+        self._ingest = ingest_grpc.IngestServiceStub(self._channel)
+        self._planning = planning_grpc.PlanningServiceStub(self._channel)
+        self._maps = map_grpc.MapServiceStub(self._channel)
+        self._system = system_grpc.SystemServiceStub(self._channel)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def close(self):
+        self._channel.close()
+
+    @property
+    def limits(self):
+        """What one call may ask for (plumescout.v1.ServerLimits), as the server says; of a server
+        that does not say, what any takes."""
+        if self._limits is None:
+            try:
+                self._limits = self.server_info().limits
+            except PlumeScoutError as error:
+                if error.code != grpc.StatusCode.UNIMPLEMENTED:
+                    raise
+                self._limits = system_pb.ServerLimits(
+                    max_receive_bytes=256 << 10, max_batch_observation_count=512
+                )
+        return self._limits
+
+    def server_info(self):
+        """The server's version, limits, features, and who it takes the caller for."""
+        return self._call(self._system.GetServerInfo, system_pb.GetServerInfoRequest())
+
+    def drain_server(self):
+        """Takes the server out of service; its process ends."""
+        self._call(self._system.DrainServer, system_pb.DrainServerRequest())
+
+    def create_mission(
+        self, mission, options=None, exist_ok=False, idle_time_to_live_s=None
+    ):
+        """options: nested dict of plumescout.v1.MissionOptions, e.g.
+        {"planning": {"speed_mps": 0.5}}; what is left out takes the server's default. A known
+        building goes under "prior_map", see prior_map and prior_map_of_files. A mission that nobody
+        calls for idle_time_to_live_s is deleted; None: never."""
+        request = mission_pb.CreateMissionRequest(
+            mission_id=mission,
+            options=json_format.ParseDict(options or {}, options_pb.MissionOptions()),
+        )
+        if idle_time_to_live_s is not None:
+            request.idle_time_to_live.FromNanoseconds(round(idle_time_to_live_s * 1e9))
+        try:
+            self._call_named(self._missions.CreateMission, request)
+        except PlumeScoutError as error:
+            if not (exist_ok and error.code == grpc.StatusCode.ALREADY_EXISTS):
+                raise
+
+    def list_missions(self):
+        return [mission.name.removeprefix("missions/") for mission in self.missions()]
+
+    def missions(self):
+        """All missions, as plumescout.v1.Mission; their known buildings are left out."""
+        return self._pages(self._missions.ListMissions, mission_pb.ListMissionsRequest(), "missions")
+
+    def get_mission(self, mission):
+        request = mission_pb.GetMissionRequest(name=f"missions/{mission}")
+        return self._call(self._missions.GetMission, request).mission
+
+    def pause_mission(self, mission):
+        """No new plans until it is resumed; observations are taken as before."""
+        request = mission_pb.PauseMissionRequest(name=f"missions/{mission}")
+        return self._call(self._missions.PauseMission, request).mission
+
+    def resume_mission(self, mission):
+        request = mission_pb.ResumeMissionRequest(name=f"missions/{mission}")
+        return self._call(self._missions.ResumeMission, request).mission
+
+    def finish_mission(self, mission):
+        """Closes a mission for good: its map can be read, nothing changes it any more."""
+        request = mission_pb.FinishMissionRequest(name=f"missions/{mission}")
+        return self._call(self._missions.FinishMission, request).mission
+
+    def set_idle_time_to_live(self, mission, seconds):
+        """A mission that nobody calls for so long is deleted; None: never."""
+        request = mission_pb.UpdateMissionRequest(
+            mission=mission_pb.Mission(name=f"missions/{mission}"),
+            update_mask={"paths": ["idle_time_to_live"]},
+        )
+        if seconds is not None:
+            request.mission.idle_time_to_live.FromNanoseconds(round(seconds * 1e9))
+        return self._call(self._missions.UpdateMission, request).mission
+
+    def delete_mission(self, mission):
+        request = mission_pb.DeleteMissionRequest(name=f"missions/{mission}")
+        self._call(self._missions.DeleteMission, request)
+
+    def register(self, mission, robot, radius_m=0.2, take_over=False, on_rejected=None):
+        """Joins a mission, or comes back to it; returns a Robot.
+
+        on_rejected is called with the Rejection of each observation that the server refuses, from
+        within the call that sent it; default: a warning of the logger "plumescout_client"."""
+        request = robot_pb.RegisterRobotRequest(
+            mission=f"missions/{mission}", robot_id=robot, radius_m=radius_m, take_over=take_over
+        )
+        return Robot(self, self._call_named(self._robots.RegisterRobot, request), on_rejected)
+
+    def robots(self, mission):
+        """The robots of a mission, as plumescout.v1.Robot."""
+        request = robot_pb.ListRobotsRequest(mission=f"missions/{mission}")
+        return self._pages(self._robots.ListRobots, request, "robots")
+
+    def get_robot(self, mission, robot):
+        request = robot_pb.GetRobotRequest(name=f"missions/{mission}/robots/{robot}")
+        return self._call(self._robots.GetRobot, request).robot
+
+    def release_lease(self, mission, robot):
+        """Frees a robot's lease whoever holds it, as of a client that died; see Robot.release."""
+        request = robot_pb.ReleaseLeaseRequest(
+            robot=f"missions/{mission}/robots/{robot}", force=True
+        )
+        self._call(self._robots.ReleaseLease, request)
+
+    def live_plans(self, mission):
+        """Where its robots are on their way to, as plumescout.v1.LivePlan."""
+        request = planning_pb.ListPlansRequest(mission=f"missions/{mission}")
+        return list(self._call(self._planning.ListPlans, request).plans)
+
+    def remove_robot(self, mission, robot):
+        """Removes a robot whoever holds its lease, as one that died; see Robot.leave."""
+        request = robot_pb.RemoveRobotRequest(
+            robot=f"missions/{mission}/robots/{robot}", force=True
+        )
+        self._call(self._robots.RemoveRobot, request)
+
+    def get_map(self, mission, region=None, level_of_detail=0):
+        """The map of a mission.
+
+        region: (min_x_m, min_y_m, max_x_m, max_y_m); what its tiles do not cover stays UNKNOWN and
+        NaN. level_of_detail: squares of 2**n by 2**n cells make one, n up to 6: the worst of their
+        states, their largest values."""
+        request = map_pb.GetMapRequest(
+            mission=f"missions/{mission}",
+            full_precision=True,
+            fresh_posterior=True,
+            level_of_detail=level_of_detail,
+        )
+        if region is not None:
+            corners = _points([region[:2], region[2:]])
+            request.region.CopyFrom(map_pb.MapRegion(min=corners[0], max=corners[1]))
+        for attempt in range(_MAP_ATTEMPTS):
+            request.part_token = ""
+            try:
+                parts = [self._call(self._maps.GetMap, request)]
+                while parts[-1].next_part_token:
+                    request.part_token = parts[-1].next_part_token
+                    parts.append(self._call(self._maps.GetMap, request))
+                return _map_from_proto(parts)
+            except PlumeScoutError as error:  # the map has changed too much between its parts
+                if error.code != grpc.StatusCode.ABORTED or attempt == _MAP_ATTEMPTS - 1:
+                    raise
+
+    def query_gas(self, mission, points):
+        """What the gas field says at points, an array of shape (n, 2): x_m, y_m.
+
+        Returns mean (ppm) and variance (ppm^2), each of shape (n,), NaN off free cells."""
+        request = map_pb.QueryGasRequest(
+            mission=f"missions/{mission}", points=_points(points), fresh_posterior=True
+        )
+        gas = self._call(self._maps.QueryGas, request).gas
+        mean_ppm = [g.mean_ppm if g.HasField("mean_ppm") else np.nan for g in gas]
+        variance_ppm2 = [g.variance_ppm2 if g.HasField("variance_ppm2") else np.nan for g in gas]
+        return np.array(mean_ppm), np.array(variance_ppm2)
+
+    def _call(self, method, request, timeout_s=None):
+        try:
+            return method(request, timeout=timeout_s or self._timeout_s, wait_for_ready=True)
+        except grpc.RpcError as error:
+            raise error_of(error) from None
+
+    def _call_named(self, method, request, timeout_s=None):
+        """A request with a name: made again when its answer is lost, it is carried out once."""
+        request.request_id = uuid.uuid4().hex
+        end_s = time.monotonic() + (timeout_s or self._timeout_s)
+        for tries_left in reversed(range(_NAMED_CALL_TRIES)):
+            try:
+                return self._call(method, request, max(0.001, end_s - time.monotonic()))
+            except PlumeScoutError as error:
+                if tries_left == 0 or not is_unavailable(error):
+                    raise
+
+    def _pages(self, method, request, field):
+        items = []
+        while True:
+            response = self._call(method, request)
+            items += getattr(response, field)
+            request.page_token = response.next_page_token
+            if not request.page_token:
+                return items

@@ -1,0 +1,185 @@
+# SPDX-FileCopyrightText: PlumeScout contributors
+# SPDX-License-Identifier: Apache-2.0
+"""One robot's part in a mission."""
+
+import logging
+
+import grpc
+import numpy as np
+
+from plumescout.v1 import ingest_service_pb2 as ingest_pb
+from plumescout.v1 import planning_service_pb2 as planning_pb
+from plumescout.v1 import robot_service_pb2 as robot_pb
+
+from .errors import error_of
+from .values import Plan, Rejection, _encode_ranges, _pose
+
+_ROOM_FOR_OBSERVATIONS = 0.75  # of a request; the rest is for what goes around them
+_LOG = logging.getLogger("plumescout_client")
+
+
+class Robot:
+    """One robot's part in a mission; made by Client.register. Not thread-safe."""
+
+    def __init__(self, client, registration, on_rejected=None):
+        self._client = client
+        self._on_rejected = on_rejected or self._warn
+        self._open = ingest_pb.OpenIngest(
+            robot=registration.robot, lease_token=registration.lease_token
+        )
+        self._waiting = []  # observations that the server has not applied
+        self.last_sequence = registration.ingest_state.applied_sequence
+        self.rejections = []
+
+    def add_scan(self, time_ns, pose, ranges_m, start_angle_rad, angle_step_rad, max_range_m):
+        """Numbers a scan. ranges_m: array; inf: nothing seen, NaN: the beam says nothing.
+        Returns its number. Nothing is sent before flush or next_best_trajectory."""
+        counts, unit_m = _encode_ranges(np.asarray(ranges_m, dtype=float))
+        return self._add(
+            time_ns,
+            pose,
+            scan=ingest_pb.LaserScan(
+                start_angle_rad=start_angle_rad,
+                angle_step_rad=angle_step_rad,
+                max_range_m=max_range_m,
+                range_unit_m=unit_m,
+                ranges_u16=counts.astype("<u2").tobytes(),
+            ),
+        )
+
+    def add_gas(self, time_ns, pose, concentration_ppm, stddev_ppm=0.0):
+        """Numbers a gas reading; a deviation of 0 means the mission's model. Returns its number."""
+        reading = ingest_pb.GasReading(concentration_ppm=concentration_ppm, stddev_ppm=stddev_ppm)
+        return self._add(time_ns, pose, gas=reading)
+
+    def flush(self):
+        """Sends what waits. Refused observations are added to `rejections`, and on_rejected is told
+        of each."""
+        while self._waiting:
+            request = ingest_pb.BatchIngestObservationsRequest(
+                open=self._open, batch=self._next_batch()
+            )
+            response = self._client._call(
+                self._client._ingest.BatchIngestObservations, request
+            )
+            applied = response.ingest_state.applied_sequence
+            self._waiting = [o for o in self._waiting if o.sequence > applied]
+            rejections = [Rejection(r.sequence, r.status.message) for r in response.rejections]
+            self.rejections += rejections
+            for rejection in rejections:
+                self._on_rejected(rejection)
+
+    def next_best_trajectory(
+        self, start=None, budget_s=1.0, seed=0, timeout_s=None, go_home=False
+    ):
+        """Sends what waits and asks for a plan that knows it: to the next goal, or home.
+
+        start: pose; default: the latest, or where the robot will be (planning_latency_s).
+        """
+        request = planning_pb.NextBestTrajectoryRequest()
+        self._order(request, start, budget_s, seed, go_home)
+        method = self._client._planning.NextBestTrajectory
+        return Plan(self._client._call_named(method, request, timeout_s).plan)
+
+    def stream_trajectories(self, start=None, budget_s=1.0, seed=0, timeout_s=None, go_home=False):
+        """As next_best_trajectory, but yields better and better plans; the last is the one to drive.
+
+        Leaving the loop before its end cancels the search, and nothing is committed."""
+        request = planning_pb.StreamNextBestTrajectoryRequest()
+        self._order(request, start, budget_s, seed, go_home)
+        method = self._client._planning.StreamNextBestTrajectory
+        responses = self._client._call(method, request, timeout_s)
+        try:
+            for response in responses:
+                yield Plan(response.plan)
+        except grpc.RpcError as error:
+            raise error_of(error) from None
+        finally:
+            responses.cancel()
+
+    def check(self, plan):
+        """Sends what waits and asks whether the rest of the robot's latest plan still holds.
+
+        Returns a CheckTrajectoryResponse: blockage and rejected_goal are set if something is
+        wrong with its way or its goal."""
+        self.flush()
+        request = planning_pb.CheckTrajectoryRequest(
+            robot=self._open.robot,
+            lease_token=self._open.lease_token,
+            plan=plan.proto.name,
+            min_applied_sequence=self.last_sequence,
+        )
+        return self._client._call(self._client._planning.CheckTrajectory, request)
+
+    def list_frontiers(self):
+        """Sends what waits; returns FrontierGoals: where this robot could go, and why not."""
+        self.flush()
+        request = planning_pb.ListFrontiersRequest(robot=self._open.robot)
+        response = self._client._call(self._client._planning.ListFrontiers, request)
+        return list(response.frontiers)
+
+    def report(self, plan, outcome="reached"):
+        """Says how a plan ended: "reached", "blocked" or "aborted"."""
+        self.flush()
+        request = planning_pb.ReportProgressRequest(
+            robot=self._open.robot,
+            lease_token=self._open.lease_token,
+            plan=plan.proto.name,
+            outcome=planning_pb.ReportProgressRequest.Outcome.Value(f"OUTCOME_{outcome.upper()}"),
+        )
+        self._client._call(self._client._planning.ReportProgress, request)
+
+    def release(self):
+        """Sends what waits and gives up the lease: another client may take the robot over at once.
+        The robot stays in the mission."""
+        self.flush()
+        request = robot_pb.ReleaseLeaseRequest(
+            robot=self._open.robot, lease_token=self._open.lease_token
+        )
+        self._client._call(self._client._robots.ReleaseLease, request)
+
+    def leave(self):
+        """Sends what waits and leaves the mission; registering again goes on with the log."""
+        self.flush()
+        request = robot_pb.RemoveRobotRequest(
+            robot=self._open.robot, lease_token=self._open.lease_token
+        )
+        self._client._call(self._client._robots.RemoveRobot, request)
+
+    def _warn(self, rejection):
+        _LOG.warning(
+            "%s: observation %d refused: %s",
+            self._open.robot,
+            rejection.sequence,
+            rejection.message,
+        )
+
+    def _order(self, request, start, budget_s, seed, go_home):
+        self.flush()
+        request.robot = self._open.robot
+        request.lease_token = self._open.lease_token
+        request.min_applied_sequence = self.last_sequence
+        request.seed = seed
+        request.go_home = go_home
+        request.planning_budget.FromNanoseconds(round(budget_s * 1e9))
+        if start is not None:
+            request.start.CopyFrom(_pose(start))
+
+    def _add(self, time_ns, pose, **payload):
+        self.last_sequence += 1
+        self._waiting.append(
+            ingest_pb.Observation(
+                sequence=self.last_sequence, sample_time_ns=time_ns, pose=_pose(pose), **payload
+            )
+        )
+        return self.last_sequence
+
+    def _next_batch(self):
+        limits = self._client.limits
+        batch, size = ingest_pb.ObservationBatch(), 0
+        for observation in self._waiting[: limits.max_batch_observation_count]:
+            size += observation.ByteSize()
+            if batch.observations and size > limits.max_receive_bytes * _ROOM_FOR_OBSERVATIONS:
+                break
+            batch.observations.append(observation)
+        return batch

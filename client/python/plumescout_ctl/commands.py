@@ -1,0 +1,98 @@
+# SPDX-FileCopyrightText: PlumeScout contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The commands: each takes a client, the arguments and a Printer."""
+
+import json
+import pathlib
+
+import plumescout_client
+
+from . import map_files, top, words
+
+
+def list_missions(client, _, out):
+    out.messages(client.missions(), words.MISSION_HEADINGS, words.mission_row)
+
+
+def show_mission(client, arguments, out):
+    mission = client.get_mission(arguments.mission)
+    out.message(mission, words.mission_facts(mission))
+
+
+def create_mission(client, arguments, out):
+    options = {}
+    if arguments.options is not None:
+        options = json.loads(pathlib.Path(arguments.options).read_text())
+    if arguments.prior_map is not None:
+        options["prior_map"] = plumescout_client.prior_map_of_files(arguments.prior_map)
+    client.create_mission(
+        arguments.mission, options, arguments.exist_ok, idle_time_to_live_s=arguments.ttl
+    )
+    show_mission(client, arguments, out)
+
+
+def _change_mission(method):
+    def command(client, arguments, out):
+        mission = getattr(client, method)(arguments.mission)
+        out.message(mission, words.mission_facts(mission))
+
+    return command
+
+
+pause_mission = _change_mission("pause_mission")
+resume_mission = _change_mission("resume_mission")
+finish_mission = _change_mission("finish_mission")
+
+
+def delete_mission(client, arguments, out):
+    client.delete_mission(arguments.mission)
+    out.done(f"deleted {arguments.mission}")
+
+
+def set_ttl(client, arguments, out):
+    mission = client.set_idle_time_to_live(arguments.mission, arguments.seconds)
+    out.message(mission, words.mission_facts(mission))
+
+
+def list_robots(client, arguments, out):
+    out.messages(client.robots(arguments.mission), words.ROBOT_HEADINGS, words.robot_row)
+
+
+def show_robot(client, arguments, out):
+    robot = client.get_robot(arguments.mission, arguments.robot)
+    out.message(robot, list(zip(words.ROBOT_HEADINGS, words.robot_row(robot))))
+
+
+def remove_robot(client, arguments, out):
+    client.remove_robot(arguments.mission, arguments.robot)
+    out.done(f"removed {arguments.robot} from {arguments.mission}")
+
+
+def release_lease(client, arguments, out):
+    client.release_lease(arguments.mission, arguments.robot)
+    out.done(f"released the lease of {arguments.robot} in {arguments.mission}")
+
+
+def export_map(client, arguments, out):
+    paths = map_files.write_map(
+        client.get_map(arguments.mission), arguments.file, arguments.layer
+    )
+    out.done(f"wrote {' and '.join(str(path) for path in paths)}")
+
+
+def list_plans(client, arguments, out):
+    out.messages(client.live_plans(arguments.mission), words.PLAN_HEADINGS, words.plan_row)
+
+
+def show_server(client, _, out):
+    info = client.server_info()
+    out.message(info, words.server_facts(info))
+
+
+def drain_server(client, _, out):
+    client.drain_server()
+    out.done("the server drains")
+
+
+def show_top(client, arguments, out):
+    top.follow(client, arguments.interval, arguments.count, out.json)

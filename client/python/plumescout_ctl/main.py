@@ -1,0 +1,205 @@
+# SPDX-FileCopyrightText: PlumeScout contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The command line of plumescoutctl."""
+
+import argparse
+import os
+import sys
+
+import grpc
+import plumescout_client
+from google.protobuf import json_format
+
+from . import commands, completion
+from .map_files import LAYERS
+from .output import Printer
+
+EXIT_REFUSED, EXIT_USAGE, EXIT_UNREACHABLE, EXIT_NOT_FOUND = 1, 2, 3, 4
+_EPILOG = """\
+exit codes: 0 done; 1 the server refused; 2 the command line is wrong; 3 the server cannot be
+reached; 4 no such mission or robot.
+
+examples:
+  plumescoutctl missions list
+  plumescoutctl --output json robots list hall
+  plumescoutctl missions create hall --ttl 3600
+  plumescoutctl map export hall hall.yaml        also writes hall.pgm, for map_server
+  plumescoutctl map export hall gas.csv --layer gas-mean
+  plumescoutctl completion bash > ~/.local/share/bash-completion/completions/plumescoutctl
+"""
+_CODES = {
+    grpc.StatusCode.UNAVAILABLE: EXIT_UNREACHABLE,
+    grpc.StatusCode.DEADLINE_EXCEEDED: EXIT_UNREACHABLE,
+    grpc.StatusCode.NOT_FOUND: EXIT_NOT_FOUND,
+}
+
+
+def main(argv):
+    parser = make_parser()
+    arguments, rest = parser.parse_known_args(argv)
+    if arguments.command is _tokens:
+        return _tokens(rest)
+    if rest:
+        parser.error(f"unrecognized arguments: {' '.join(rest)}")
+    if arguments.command is _completion:
+        print(completion.script(parser, arguments.shell), end="")
+        return 0
+    try:
+        with connect(arguments) as client:
+            arguments.command(client, arguments, Printer(arguments.output))
+    except plumescout_client.PlumeScoutError as error:
+        print(f"plumescoutctl: {error}", file=sys.stderr)
+        return _CODES.get(error.code, EXIT_REFUSED)
+    except (OSError, ValueError, json_format.ParseError) as error:
+        print(f"plumescoutctl: {error}", file=sys.stderr)
+        return EXIT_USAGE
+    except KeyboardInterrupt:
+        pass
+    return 0
+
+
+def connect(arguments):
+    return plumescout_client.Client(
+        arguments.server,
+        arguments.timeout,
+        tls_ca=arguments.tls_ca,
+        tls_cert=arguments.tls_cert,
+        tls_key=arguments.tls_key,
+        token_file=arguments.token_file,
+    )
+
+
+def make_parser():
+    parser = argparse.ArgumentParser(
+        prog="plumescoutctl",
+        description="Looks after a PlumeScout server: its missions, robots, maps and itself.",
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    server = os.environ.get("PLUMESCOUT_SERVER", "127.0.0.1:50551")
+    parser.set_defaults(server=server, timeout=10.0, output="table")
+    parser.set_defaults(tls_ca=None, tls_cert=None, tls_key=None, token_file=None)
+    _add_everywhere(parser)
+    groups = parser.add_subparsers(metavar="COMMAND", required=True)
+    _add_missions(groups)
+    _add_robots(groups)
+    _add_map(groups)
+    plans = _add(groups, "plans", "where the robots of a mission are on their way to")
+    _takes(plans, commands.list_plans, "mission")
+    _takes(_add(groups, "info", "version, limits and features"), commands.show_server)
+    _takes(_add(groups, "drain", "take the server out of service"), commands.drain_server)
+    tokens = groups.add_parser("tokens", help="create, list and revoke tokens", add_help=False)
+    tokens.set_defaults(command=_tokens)
+    top = _takes(_add(groups, "top", "follow all missions"), commands.show_top)
+    top.add_argument("--interval", type=_positive, default=2.0, metavar="S", help="default: 2")
+    top.add_argument("--count", type=int, default=0, metavar="N", help="looks; 0: until Ctrl-C")
+    shell = _add(groups, "completion", "print a completion script")
+    shell.add_argument("shell", choices=("bash", "zsh"))
+    shell.set_defaults(command=_completion)
+    return parser
+
+
+def _add_everywhere(parser):
+    """Options that may stand before and after the command."""
+    absent = argparse.SUPPRESS  # an option before the command is not undone by its absence after it
+    parser.add_argument(
+        "--server",
+        default=absent,
+        metavar="HOST:PORT",
+        help="default: $PLUMESCOUT_SERVER, or 127.0.0.1:50551",
+    )
+    parser.add_argument(
+        "--timeout", type=_positive, default=absent, metavar="S", help="of a call; default: 10"
+    )
+    for name, what in (
+        ("--tls-ca", "PEM file of the server's authority; default: $PLUMESCOUT_TLS_CA, or plaintext"),
+        ("--tls-cert", "PEM file of your certificate; default: $PLUMESCOUT_TLS_CERT"),
+        ("--tls-key", "PEM file of its key; default: $PLUMESCOUT_TLS_KEY"),
+        ("--token-file", "holds your token; default: $PLUMESCOUT_TOKEN_FILE"),
+    ):
+        parser.add_argument(name, default=absent, metavar="FILE", help=what)
+    parser.add_argument(
+        "--output", choices=("table", "json"), default=absent, help="default: table"
+    )
+
+
+def _add_missions(groups):
+    missions = _add(groups, "missions", "list, show, create and change missions")
+    steps = missions.add_subparsers(metavar="COMMAND", required=True)
+    _takes(_add(steps, "list", "all missions"), commands.list_missions)
+    _takes(_add(steps, "show", "one mission"), commands.show_mission, "mission")
+    create = _takes(_add(steps, "create", "make a mission"), commands.create_mission, "mission")
+    create.add_argument(
+        "--options", metavar="FILE", help="JSON of plumescout.v1.MissionOptions"
+    )
+    create.add_argument("--prior-map", metavar="YAML", help="a known building, of map_server")
+    create.add_argument(
+        "--ttl", type=_positive, metavar="S", help="delete it when nobody calls for so long"
+    )
+    create.add_argument("--exist-ok", action="store_true", help="it may be there already")
+    for word, what, command in (
+        ("pause", "no new plans; observations are taken", commands.pause_mission),
+        ("resume", "end a pause", commands.resume_mission),
+        ("finish", "close it for good: it can be read only", commands.finish_mission),
+        ("delete", "delete it and all it holds", commands.delete_mission),
+    ):
+        _takes(_add(steps, word, what), command, "mission")
+    ttl = _takes(_add(steps, "set-ttl", "how long it may idle"), commands.set_ttl, "mission")
+    ttl.add_argument("seconds", type=_seconds_or_never, help='seconds, or "never"')
+
+
+def _add_robots(groups):
+    robots = _add(groups, "robots", "list, show and remove robots")
+    steps = robots.add_subparsers(metavar="COMMAND", required=True)
+    _takes(_add(steps, "list", "robots of a mission"), commands.list_robots, "mission")
+    for word, what, command in (
+        ("show", "one robot", commands.show_robot),
+        ("remove", "take it out of the mission, as one that died", commands.remove_robot),
+        ("release", "free its lease for another client", commands.release_lease),
+    ):
+        _takes(_add(steps, word, what), command, "mission", "robot")
+
+
+def _add_map(groups):
+    maps = _add(groups, "map", "maps as files")
+    steps = maps.add_subparsers(metavar="COMMAND", required=True)
+    export = _takes(_add(steps, "export", "write a map"), commands.export_map, "mission")
+    export.add_argument("file", help=".yaml (map_server, with a .pgm), .npy or .csv")
+    export.add_argument("--layer", choices=LAYERS, help="default: gas-mean; of .yaml: occupancy")
+
+
+def _add(groups, word, what):
+    return groups.add_parser(word, help=what, description=what[0].upper() + what[1:] + ".")
+
+
+def _takes(parser, command, *names):
+    for name in names:
+        parser.add_argument(name)
+    _add_everywhere(parser)
+    parser.set_defaults(command=command)
+    return parser
+
+
+def _tokens(argv):
+    try:
+        import plumescout_tokens
+    except ImportError:
+        print("plumescoutctl: plumescout_tokens.py is not installed beside it", file=sys.stderr)
+        return EXIT_USAGE
+    return plumescout_tokens.main(argv)
+
+
+def _completion(*_):
+    raise AssertionError("main prints the script")
+
+
+def _positive(text):
+    value = float(text)
+    if not 0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text} must be > 0")
+    return value
+
+
+def _seconds_or_never(text):
+    return None if text == "never" else _positive(text)

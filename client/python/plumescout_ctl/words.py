@@ -1,0 +1,125 @@
+# SPDX-FileCopyrightText: PlumeScout contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Messages of the server, in words."""
+
+from plumescout.v1 import mission_service_pb2 as mission_pb
+from plumescout.v1 import types_pb2 as types_pb
+
+MISSION_HEADINGS = ["MISSION", "STATE", "PHASE", "ROBOTS", "REVISION", "MEMORY", "IDLE TTL", "OWNER"]
+ROBOT_HEADINGS = ["ROBOT", "LEASE", "STREAM", "APPLIED", "REFUSED", "POSE"]
+PLAN_HEADINGS = ["PLAN", "ROBOT", "GOAL", "X_M", "Y_M", "ARRIVES"]
+
+
+def last_part(name):
+    """missions/hall/robots/r1 is r1."""
+    return name.rsplit("/", 1)[-1]
+
+
+def enum_word(enum, value, prefix):
+    return enum.Name(value).removeprefix(prefix).lower().replace("_", " ")
+
+
+def duration(proto):
+    """A google.protobuf.Duration, to the tenth."""
+    seconds = proto.ToNanoseconds() / 1e9
+    for unit, length in (("d", 86_400), ("h", 3_600), ("min", 60)):
+        if seconds >= length:
+            return f"{seconds / length:.1f} {unit}"
+    return f"{seconds:.1f} s"
+
+
+def size(byte_count):
+    for unit, length in (("GB", 1e9), ("MB", 1e6), ("kB", 1e3)):
+        if byte_count >= length:
+            return f"{byte_count / length:.1f} {unit}"
+    return f"{byte_count} B"
+
+
+def state(mission):
+    return enum_word(mission_pb.MissionState, mission.state, "MISSION_STATE_")
+
+
+def phase(mission):
+    return enum_word(types_pb.MissionPhase, mission.phase, "MISSION_PHASE_")
+
+
+def idle_time_to_live(mission):
+    if not mission.HasField("idle_time_to_live"):
+        return "never"
+    return duration(mission.idle_time_to_live)
+
+
+def memory(mission):
+    if not mission.HasField("memory"):
+        return "-"
+    return f"{size(mission.memory.used_bytes)} of {size(mission.memory.budget_bytes)}"
+
+
+def mission_row(mission):
+    return [
+        last_part(mission.name),
+        state(mission),
+        phase(mission),
+        mission.robot_count,
+        mission.revision,
+        memory(mission),
+        idle_time_to_live(mission),
+        mission.owner,
+    ]
+
+
+def mission_facts(mission):
+    timings = mission.gas_timings
+    return list(zip(MISSION_HEADINGS, mission_row(mission))) + [
+        ("STRATEGY", mission.options.planning.strategy),
+        ("GAS UPDATE P99", f"{1e3 * timings.update.p99_s:.1f} ms of {timings.update.sample_count}"),
+        ("STALENESS P99", f"{1e3 * timings.staleness.p99_s:.1f} ms"),
+    ]
+
+
+def robot_row(robot):
+    seen = robot.on_map
+    pose = seen.pose
+    place = f"{pose.x_m:.2f} {pose.y_m:.2f} {pose.yaw_rad:.2f}" if seen.HasField("pose") else "-"
+    return [
+        last_part(seen.robot),
+        "held" if robot.leased else "free",
+        "silent" if seen.silent else "open" if robot.streaming else "-",
+        seen.applied_sequence,
+        seen.rejected_observation_count,
+        place,
+    ]
+
+
+def plan_row(plan):
+    return [
+        last_part(plan.name),
+        last_part(plan.robot),
+        enum_word(types_pb.GoalKind, plan.goal_kind, "GOAL_KIND_"),
+        f"{plan.goal.x_m:.2f}",
+        f"{plan.goal.y_m:.2f}",
+        f"{plan.arrival_time_ns / 1e9:.1f}",
+    ]
+
+
+def server_facts(info):
+    limits = info.limits
+    return [
+        ("VERSION", info.version),
+        ("BOOT ID", info.boot_id),
+        ("UPTIME", duration(info.uptime)),
+        ("CALLER", f"{info.caller} ({info.caller_role})"),
+        ("FEATURES", " ".join(info.features) or "-"),
+        ("REQUEST", size(limits.max_receive_bytes)),
+        ("BATCH", f"{limits.max_batch_observation_count} observations"),
+        ("MISSIONS", limits.max_mission_count),
+        ("PLAN BUDGET", duration(limits.max_planning_budget)),
+        ("SCANS", rate(limits.max_scans_per_s)),
+        ("GAS READINGS", rate(limits.max_gas_readings_per_s)),
+        ("PLANS", rate(limits.max_plans_per_s)),
+        ("CLOCK LEAD", duration(limits.max_clock_lead)),
+    ]
+
+
+def rate(per_s):
+    return f"{per_s:g} a second" if per_s > 0 else "any number"

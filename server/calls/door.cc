@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/calls/door.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <random>
+#include <utility>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/str_cat.h"
+#include "core/types/error_reason.h"
+#include "server/base/errors.h"
+
+namespace plumescout::server {
+namespace {
+
+constexpr char kRequestIdKey[] = "x-request-id";
+constexpr std::size_t kMaxRequestIdLength = 64;
+
+std::string NewRequestId() {
+  thread_local std::mt19937_64 bits{std::random_device{}()};
+  return absl::StrCat(absl::Hex(bits(), absl::kZeroPad16));
+}
+
+bool IsWord(const grpc::string_ref& text) {
+  return !text.empty() && text.size() <= kMaxRequestIdLength &&
+         std::all_of(text.begin(), text.end(),
+                     [](char c) { return absl::ascii_isgraph(static_cast<unsigned char>(c)); });
+}
+
+std::string RequestId(const grpc::CallbackServerContext& call) {
+  const auto& metadata = call.client_metadata();
+  const auto found = metadata.find(kRequestIdKey);
+  if (found == metadata.end() || !IsWord(found->second)) return NewRequestId();
+  return {found->second.data(), found->second.size()};
+}
+
+}  // namespace
+
+absl::Status Door::Enter(Rpc rpc, const grpc::CallbackServerContext& call, CallInfo& info) const {
+  info.rpc = rpc;
+  info.request_id = RequestId(call);
+  info.began = SteadyNow();
+  info.deadline = std::max(info.began, ToSteady(call.deadline()));
+  absl::Status status;
+  if (authenticate_) {
+    auto caller = authenticate_(call);
+    status = caller.status();
+    if (caller.ok()) info.caller = *std::move(caller);
+  }
+  if (status.ok() && !IsAllowed(info.caller.role, rpc)) {
+    status = absl::PermissionDeniedError(
+        absl::StrCat(info.caller.name, " may not call ", RowOf(rpc).method));
+  }
+  if (!status.ok()) Leave(info, status);
+  return status;
+}
+
+void Door::Leave(const CallInfo& info, const absl::Status& status) const {
+  const CallEnd end{status, absl::FromChrono(SteadyNow() - info.began)};
+  for (const CallObserver& observer : observers_) observer(info, end);
+}
+
+absl::Status Visit::Enter(const Door& door, Rpc rpc, const grpc::CallbackServerContext& call) {
+  const absl::Status status = door.Enter(rpc, call, info_);
+  if (status.ok()) door_ = &door;
+  return status;
+}
+
+void Visit::Leave(const absl::Status& status) {
+  if (door_ != nullptr) std::exchange(door_, nullptr)->Leave(info_, status);
+}
+
+absl::Status CheckActsFor(const Principal& caller, const RobotName& robot) {
+  if (!caller.own_robot_only || caller.name == robot.robot) return absl::OkStatus();
+  return absl::PermissionDeniedError(
+      absl::StrCat(caller.name, " may not act for robot ", robot.robot));
+}
+
+}  // namespace plumescout::server

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <grpcpp/server_context.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "absl/time/time.h"
+#include "proto/convert/names.h"
+#include "server/access/principal.h"
+#include "server/access/rpc.h"
+#include "server/base/clock.h"
+#include "server/base/stage_times.h"
+
+namespace plumescout::server {
+
+// A call that was let in.
+struct CallInfo {
+  Rpc rpc = Rpc::kGetServerInfo;
+  Principal caller;
+  std::string request_id;  // of log lines and error details: the caller's x-request-id, or made up
+  SteadyTime began;
+  SteadyTime deadline = SteadyTime::max();  // the caller's; no earlier than `began`
+  std::shared_ptr<StageTimes> stage_times = std::make_shared<StageTimes>();
+};
+
+// A call that is over.
+struct CallEnd {
+  absl::Status status;
+  absl::Duration duration;
+};
+
+// Says who calls; kUnauthenticated if that cannot be told.
+using Authenticate = std::function<absl::StatusOr<Principal>(const grpc::CallbackServerContext&)>;
+// Hears of every call, also of those that were not let in. Must not block.
+using CallObserver = std::function<void(const CallInfo&, const CallEnd&)>;
+
+// The one door: every unary and stream handler passes it, in and out. Thread-safe.
+class Door {
+ public:
+  // `authenticate` null: everybody is an anonymous admin.
+  explicit Door(Authenticate authenticate = nullptr) : authenticate_(std::move(authenticate)) {}
+  // REQUIRES: no call has entered.
+  void AddObserver(CallObserver observer) { observers_.push_back(std::move(observer)); }
+
+  // kUnauthenticated, kPermissionDenied. Whoever is let in leaves once. `info` is filled in anyway.
+  absl::Status Enter(Rpc rpc, const grpc::CallbackServerContext& call, CallInfo& info) const;
+  void Leave(const CallInfo& info, const absl::Status& status) const;
+
+ private:
+  const Authenticate authenticate_;
+  std::vector<CallObserver> observers_;
+};
+
+// One call's passage through the door: in, and out again once. Thread-compatible.
+class Visit {
+ public:
+  // As Door::Enter. The door outlives the visit.
+  absl::Status Enter(const Door& door, Rpc rpc, const grpc::CallbackServerContext& call);
+  // No effect for who was not let in, or has left.
+  void Leave(const absl::Status& status);
+
+  // Of who was not let in, too.
+  const CallInfo& info() const { return info_; }
+  const Principal& caller() const { return info_.caller; }
+
+ private:
+  const Door* door_ = nullptr;  // null: not inside
+  CallInfo info_;
+};
+
+// kPermissionDenied unless the caller may act for this robot.
+absl::Status CheckActsFor(const Principal& caller, const RobotName& robot);
+
+}  // namespace plumescout::server

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "absl/time/time.h"
+#include "core/types/options.h"
+#include "server/access/principal.h"
+#include "server/base/fair_pool.h"
+#include "server/base/request_memory.h"
+#include "server/base/worker_pool.h"
+#include "server/calls/active_streams.h"
+#include "server/calls/door.h"
+#include "server/missions/mission_registry.h"
+
+namespace plumescout::server {
+
+// Limits that the services enforce on single calls.
+struct ServiceLimits {
+  int max_batch_observations = 1024;
+  int stream_window_observations = 128;  // in flight on one ingest stream
+  absl::Duration default_planning_budget = absl::Seconds(1);
+  absl::Duration max_planning_budget = absl::Seconds(5);
+  absl::Duration deadline_margin = absl::Milliseconds(20);  // kept back for commit and reply
+};
+
+inline bool MaySee(const Principal& caller, const MissionHost& host) {
+  return caller.role == Role::kAdmin || host.tenant() == caller.tenant;
+}
+
+// What all services work on. Not owned; outlives them.
+struct ServiceContext {
+  const Door* door = nullptr;
+  MissionRegistry* registry = nullptr;
+  FairPool* planning_pool = nullptr;    // by mission and robot
+  WorkerPool* map_pool = nullptr;       // frames for watchers
+  WorkerPool* query_pool = nullptr;     // answers that take time
+  WorkerPool* creation_pool = nullptr;  // of missions
+  ActiveStreams* streams = nullptr;
+  MissionOptions mission_defaults;
+  ServiceLimits limits;
+  std::string boot_id;
+  std::shared_ptr<RequestMemory> requests = nullptr;  // of calls that make missions
+
+  // The mission, if it is there and the caller may see it: the answer is the same otherwise.
+  absl::StatusOr<std::shared_ptr<MissionHost>> FindMission(const Principal& caller,
+                                                           const MissionId& id) const {
+    auto host = registry->Find(id, caller.tenant);
+    if (!host.ok() && caller.role == Role::kAdmin) host = registry->FindOfAnyTenant(id);
+    if (host.ok()) (*host)->standing().Touch();
+    return host;
+  }
+  // The same for whoever acts for a robot.
+  absl::StatusOr<std::shared_ptr<MissionHost>> FindMissionOf(const Principal& caller,
+                                                             const RobotName& robot) const {
+    const absl::Status acts = CheckActsFor(caller, robot);
+    if (!acts.ok()) return acts;
+    return FindMission(caller, robot.mission);
+  }
+};
+
+}  // namespace plumescout::server

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/calls/unary_call.h"
+
+#include <utility>
+
+#include "server/base/grpc_status.h"
+
+namespace plumescout::server {
+
+UnaryCall* UnaryCall::Start(const Door* door, Rpc rpc, grpc::CallbackServerContext* call,
+                            const Handler& handle) {
+  auto unary = std::make_shared<UnaryCall>();
+  unary->self_ = unary;
+  // For those who may answer: when the last of them lets go, nobody will.
+  const std::shared_ptr<UnaryCall> handle_of_call(unary.get(), [unary](UnaryCall* reactor) {
+    reactor->Answer(absl::UnavailableError("the server let go of the call; try again"));
+  });
+  absl::Status status = unary->visit_.Enter(*door, rpc, *call);
+  if (status.ok()) status = handle(handle_of_call);
+  if (!status.ok()) unary->Answer(status);
+  return unary.get();
+}
+
+bool UnaryCall::is_cancelled() const {
+  absl::MutexLock lock(&mutex_);
+  return cancelled_;
+}
+
+void UnaryCall::WhenCancelled(std::function<void()> stop) {
+  {
+    absl::MutexLock lock(&mutex_);
+    if (!cancelled_) {
+      stop_ = std::move(stop);
+      return;
+    }
+  }
+  stop();
+}
+
+void UnaryCall::BeforeAnswer(std::function<void(const absl::Status&)> look) {
+  absl::MutexLock lock(&mutex_);
+  look_ = std::move(look);
+}
+
+void UnaryCall::Answer(const absl::Status& status) {
+  std::function<void(const absl::Status&)> look;
+  {
+    absl::MutexLock lock(&mutex_);
+    if (std::exchange(answered_, true)) return;
+    look.swap(look_);
+  }
+  if (look) look(status);
+  visit_.Leave(status);
+  Finish(ToGrpc(status, info().request_id));
+}
+
+void UnaryCall::OnCancel() {
+  std::function<void()> stop;
+  {
+    absl::MutexLock lock(&mutex_);
+    cancelled_ = true;
+    stop = std::exchange(stop_, nullptr);
+  }
+  if (stop) stop();
+}
+
+void UnaryCall::OnDone() {
+  const auto self = std::move(self_);
+  std::function<void()> stop;  // it may hold this call in turn
+  absl::MutexLock lock(&mutex_);
+  stop.swap(stop_);
+}
+
+absl::Status AnswerFromBelief(const std::shared_ptr<MissionHost>& host, WorkerPool* pool,
+                              const std::shared_ptr<UnaryCall>& call, BeliefWish wish,
+                              std::function<absl::Status(const Belief&)> read) {
+  call->WhenCancelled([host] { host->Wake(); });
+  const auto ended = [call](Stage stage, SteadyTime began) {
+    const SteadyTime now = SteadyNow();
+    call->info().stage_times->Add(stage, absl::FromChrono(now - began));
+    return now;
+  };
+  return host->AwaitBelief(
+      {.wish = std::move(wish),
+       .deadline = call->info().deadline,
+       .abandoned = [call] { return call->is_cancelled(); }},
+      [call, pool, ended, asked = SteadyNow(),
+       read = std::move(read)](absl::StatusOr<std::shared_ptr<const Belief>> belief) {
+        const SteadyTime served = ended(Stage::kBelief, asked);
+        if (!belief.ok()) return call->Answer(belief.status());
+        const absl::Status queued =
+            pool->Submit([call, read, ended, served, belief = *std::move(belief)] {
+              const SteadyTime began = ended(Stage::kQueue, served);
+              if (call->is_cancelled()) {
+                return call->Answer(absl::CancelledError("the caller gave up"));
+              }
+              const absl::Status status = read(*belief);
+              ended(Stage::kRead, began);
+              call->Answer(status);
+            });
+        if (!queued.ok()) call->Answer(queued);
+      });
+}
+
+}  // namespace plumescout::server

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <grpcpp/server_context.h>
+#include <grpcpp/support/server_callback.h>
+
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "absl/base/thread_annotations.h"
+#include "absl/status/status.h"
+#include "absl/synchronization/mutex.h"
+#include "core/belief/belief.h"
+#include "server/base/worker_pool.h"
+#include "server/calls/door.h"
+#include "server/missions/mission_host.h"
+
+namespace plumescout::server {
+
+// A unary call from the door to its answer, now or later, from any thread. The first answer counts.
+// gRPC never stops a server that owes one, so a call that everybody has let go of is answered with
+// UNAVAILABLE: it stood in a queue that is no more.
+class UnaryCall final : public grpc::ServerUnaryReactor {
+ public:
+  // Answers, or sees to it that somebody will; an error is the answer.
+  using Handler = std::function<absl::Status(const std::shared_ptr<UnaryCall>&)>;
+
+  // The reactor owns itself until gRPC is done with it. Requests and responses live until the
+  // answer is given.
+  static UnaryCall* Start(const Door* door, Rpc rpc, grpc::CallbackServerContext* call,
+                          const Handler& handle);
+
+  const CallInfo& info() const { return visit_.info(); }
+  const Principal& caller() const { return visit_.caller(); }
+  bool is_cancelled() const ABSL_LOCKS_EXCLUDED(mutex_);
+
+  // `stop` is called when the caller gives up, at once if it has. Must not block. One at a time.
+  void WhenCancelled(std::function<void()> stop) ABSL_LOCKS_EXCLUDED(mutex_);
+  // `look` is called with the status, once, when the answer is given and the response is whole, on
+  // the thread that gives it. Must not block. One at a time.
+  void BeforeAnswer(std::function<void(const absl::Status&)> look) ABSL_LOCKS_EXCLUDED(mutex_);
+  void Answer(const absl::Status& status) ABSL_LOCKS_EXCLUDED(mutex_);
+
+  void OnCancel() override ABSL_LOCKS_EXCLUDED(mutex_);
+  void OnDone() override;
+
+ private:
+  std::shared_ptr<UnaryCall> self_;  // until OnDone
+  Visit visit_;
+
+  mutable absl::Mutex mutex_;
+  bool cancelled_ ABSL_GUARDED_BY(mutex_) = false;
+  bool answered_ ABSL_GUARDED_BY(mutex_) = false;
+  std::function<void()> stop_ ABSL_GUARDED_BY(mutex_);
+  std::function<void(const absl::Status&)> look_ ABSL_GUARDED_BY(mutex_);
+};
+
+// Answers a call whose command was dropped.
+inline MissionHost::OnDropped Refusal(std::shared_ptr<UnaryCall> call) {
+  return [call = std::move(call)](const absl::Status& status) { call->Answer(status); };
+}
+
+// Answers a call with what `read` makes of a belief. It runs on `pool`: neither the mission's
+// writer nor a search waits for it. The wait for the belief ends with the call. An error is for the
+// caller to answer with.
+absl::Status AnswerFromBelief(const std::shared_ptr<MissionHost>& host, WorkerPool* pool,
+                              const std::shared_ptr<UnaryCall>& call, BeliefWish wish,
+                              std::function<absl::Status(const Belief&)> read);
+
+}  // namespace plumescout::server

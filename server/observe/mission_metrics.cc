@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/observe/mission_metrics.h"
+
+#include <cstddef>
+#include <string>
+
+#include "server/observe/buckets.h"
+
+namespace plumescout::server {
+namespace {
+
+prometheus::Family<prometheus::Counter>& Counters(prometheus::Registry& registry,
+                                                  const std::string& name,
+                                                  const std::string& help) {
+  return prometheus::BuildCounter().Name(name).Help(help).Register(registry);
+}
+
+prometheus::Gauge* MakeGauge(prometheus::Registry& registry, const std::string& name,
+                             const std::string& help) {
+  return &prometheus::BuildGauge().Name(name).Help(help).Register(registry).Add({});
+}
+
+prometheus::Family<prometheus::Histogram>& Times(prometheus::Registry& registry,
+                                                 const std::string& name, const std::string& help) {
+  return prometheus::BuildHistogram().Name(name).Help(help).Register(registry);
+}
+
+prometheus::Histogram* MakeTimes(prometheus::Registry& registry, const std::string& name,
+                                 const std::string& help) {
+  return &Times(registry, name, help).Add({}, DurationBuckets_s());
+}
+
+}  // namespace
+
+MissionMetrics::MissionMetrics(prometheus::Registry& registry) {
+  auto& observations = Counters(registry, "plumescout_observations_total",
+                                "Observations that missions took in or refused.");
+  applied_ = &observations.Add({{"outcome", "applied"}});
+  rejected_ = &observations.Add({{"outcome", "rejected"}});
+  ingest_lag_ = MakeTimes(registry, "plumescout_ingest_lag_seconds",
+                          "Time from the arrival of a batch of observations until it is applied.");
+  refresh_ = MakeTimes(registry, "plumescout_gas_refresh_duration_seconds",
+                       "Time that a mission's writer takes to bring its gas field up to date.");
+  adoption_ = MakeTimes(registry, "plumescout_gas_adoption_duration_seconds",
+                        "Time that a mission's writer takes to adopt a recomputed gas field.");
+  epoch_ = MakeTimes(registry, "plumescout_gas_epoch_duration_seconds",
+                     "Time to recompute a gas field beside its mission.");
+  gas_failures_ = &Counters(registry, "plumescout_gas_failures_total",
+                            "Refreshes, epochs and adoptions that came to nothing.")
+                       .Add({});
+  staleness_ = MakeTimes(registry, "plumescout_belief_staleness_seconds",
+                         "Time from a reading's acknowledgement until watchers have it.");
+  auto& audits = Counters(registry, "plumescout_gas_audits_total",
+                          "Audits of gas fields by an independent computation.");
+  audits_certified_ = &audits.Add({{"outcome", "certified"}});
+  audits_alarmed_ = &audits.Add({{"outcome", "alarm"}});
+  audits_failed_ = &audits.Add({{"outcome", "failed"}});
+  audit_mean_ = MakeGauge(registry, "plumescout_gas_audit_mean_difference_ppm",
+                          "Largest difference of means that the last audit found.");
+  audit_variance_ = MakeGauge(registry, "plumescout_gas_audit_variance_difference_ratio",
+                              "Largest difference of variances that the last audit found.");
+  auto& stages =
+      Times(registry, "plumescout_plan_stage_duration_seconds",
+            "Time of a plan by stage: wait for its belief, for a thread, search, commit.");
+  for (const Stage stage : {Stage::kBelief, Stage::kQueue, Stage::kSearch, Stage::kCommit}) {
+    const auto index = static_cast<std::size_t>(stage);
+    plan_stages_[index] =
+        &stages.Add({{"stage", std::string(kStageNames[index])}}, DurationBuckets_s());
+  }
+  plan_cpu_ = MakeTimes(registry, "plumescout_plan_cpu_seconds",
+                        "CPU time of all searches for a plan that was committed.");
+}
+
+MissionMetrics& MissionMetrics::Unread() {
+  static auto& registry = *new prometheus::Registry();
+  static auto& metrics = *new MissionMetrics(registry);
+  return metrics;
+}
+
+void MissionMetrics::NoteAudit(const absl::StatusOr<AuditFinding>& finding) {
+  if (!finding.ok()) return audits_failed_->Increment();
+  (finding->certified ? audits_certified_ : audits_alarmed_)->Increment();
+  audit_mean_->Set(finding->mean_ppm);
+  audit_variance_->Set(finding->variance_ratio);
+}
+
+void MissionMetrics::NotePlanStage(Stage stage, absl::Duration time) {
+  auto* const histogram = plan_stages_[static_cast<std::size_t>(stage)];
+  if (histogram != nullptr) Observe(*histogram, time);
+}
+
+void MissionMetrics::NotePlan(absl::Duration cpu_time) { Observe(*plan_cpu_, cpu_time); }
+
+}  // namespace plumescout::server

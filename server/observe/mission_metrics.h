@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <prometheus/counter.h>
+#include <prometheus/gauge.h>
+#include <prometheus/histogram.h>
+#include <prometheus/registry.h>
+
+#include <array>
+
+#include "absl/status/statusor.h"
+#include "absl/time/time.h"
+#include "core/gas/field_audit.h"
+#include "server/base/stage_times.h"
+
+namespace plumescout::server {
+
+// Counts and times what missions do, all of them together: the number of series does not follow
+// that of missions. Thread-safe.
+class MissionMetrics {
+ public:
+  // The registry outlives it.
+  explicit MissionMetrics(prometheus::Registry& registry);
+  // Metrics that nobody reads.
+  static MissionMetrics& Unread();
+
+  void NoteObservation(bool applied) { (applied ? applied_ : rejected_)->Increment(); }
+  // From the arrival of a batch until it was applied.
+  void NoteIngest(absl::Duration lag) { Observe(*ingest_lag_, lag); }
+
+  // The writer's time for a step of the gas field.
+  void NoteRefresh(absl::Duration time) { Observe(*refresh_, time); }
+  void NoteAdoption(absl::Duration time) { Observe(*adoption_, time); }
+  // The time to recompute an epoch, whoever did it.
+  void NoteEpoch(absl::Duration time) { Observe(*epoch_, time); }
+  void NoteGasFailure() { gas_failures_->Increment(); }
+  // Between the acknowledgement of a reading and the publication of the first belief with it.
+  void NoteStaleness(absl::Duration time) { Observe(*staleness_, time); }
+  void NoteAudit(const absl::StatusOr<AuditFinding>& finding);
+
+  void NotePlanStage(Stage stage, absl::Duration time);
+  void NotePlan(absl::Duration cpu_time);  // that was committed
+
+ private:
+  static void Observe(prometheus::Histogram& histogram, absl::Duration time) {
+    histogram.Observe(absl::ToDoubleSeconds(time));
+  }
+
+  // Of the registry.
+  prometheus::Counter* applied_ = nullptr;
+  prometheus::Counter* rejected_ = nullptr;
+  prometheus::Histogram* ingest_lag_ = nullptr;
+  prometheus::Histogram* refresh_ = nullptr;
+  prometheus::Histogram* adoption_ = nullptr;
+  prometheus::Histogram* epoch_ = nullptr;
+  prometheus::Counter* gas_failures_ = nullptr;
+  prometheus::Histogram* staleness_ = nullptr;
+  prometheus::Counter* audits_certified_ = nullptr;
+  prometheus::Counter* audits_alarmed_ = nullptr;
+  prometheus::Counter* audits_failed_ = nullptr;
+  prometheus::Gauge* audit_mean_ = nullptr;
+  prometheus::Gauge* audit_variance_ = nullptr;
+  std::array<prometheus::Histogram*, kStageNames.size()> plan_stages_ = {};
+  prometheus::Histogram* plan_cpu_ = nullptr;
+};
+
+}  // namespace plumescout::server

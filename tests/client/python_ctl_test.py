@@ -1,0 +1,231 @@
+# SPDX-FileCopyrightText: PlumeScout contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Runs plumescoutctl against the built server."""
+
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import grpc
+import numpy as np
+import plumescout_client
+
+BUILD_DIR = pathlib.Path(os.environ["PLUMESCOUT_BUILD_DIR"])
+PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "client/python/plumescoutctl"
+PATIENCE_S = 60
+
+
+def start_server(*options):
+    """The process, and where it listens."""
+    server = subprocess.Popen(
+        [BUILD_DIR / "bin/plumescout-server", "--listen", "127.0.0.1:0", *options],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+    )
+    for line in server.stdout:
+        if line.startswith("listening on "):
+            return server, line.split()[-1]
+    raise RuntimeError("the server did not start")
+
+
+def stop_server(server):
+    server.send_signal(signal.SIGTERM)
+    server.wait(timeout=PATIENCE_S)
+    server.stdout.close()
+
+
+def wait_until(condition, what):
+    end_s = time.monotonic() + PATIENCE_S
+    while not condition():
+        if time.monotonic() > end_s:
+            raise AssertionError(f"{what} within {PATIENCE_S} s")
+        time.sleep(0.05)
+
+
+class CtlTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.server, cls.target = start_server()
+
+    @classmethod
+    def tearDownClass(cls):
+        stop_server(cls.server)
+
+    def setUp(self):
+        self.client = plumescout_client.Client(self.target)
+        self.addCleanup(self.client.close)
+        for mission in self.client.list_missions():  # of the tests before
+            self.client.delete_mission(mission)
+
+    def ctl(self, *arguments, code=0, target=None):
+        """Runs the program; returns what it prints."""
+        run = subprocess.run(
+            ["/usr/bin/python3", PROGRAM, *arguments],
+            env=os.environ | {"PLUMESCOUT_SERVER": target or self.target},
+            capture_output=True,
+            text=True,
+            timeout=PATIENCE_S,
+        )
+        self.assertEqual(run.returncode, code, run.stderr)
+        return run.stdout if code == 0 else run.stderr
+
+    def ctl_json(self, *arguments):
+        return json.loads(self.ctl(*arguments, "--output", "json"))
+
+    def drive_in_a_room(self, mission):
+        """A robot that sees a room of 6 m x 4 m and has a plan."""
+        robot = self.client.register(mission, "scout")
+        x_m, y_m = 2.0, 1.5
+        angles = np.arange(180) * 2 * np.pi / 180
+        with np.errstate(divide="ignore"):
+            to_x = np.where(np.cos(angles) > 0, 30 - x_m, -x_m) / np.cos(angles)
+            to_y = np.where(np.sin(angles) > 0, 30 - y_m, -y_m) / np.sin(angles)
+        ranges_m = np.minimum(to_x, to_y)
+        for i in range(4):
+            robot.add_scan(i, (x_m, y_m, 0.0), ranges_m, 0.0, 2 * np.pi / 180, 8.0)
+        robot.add_gas(4, (x_m, y_m, 0.0), 12.0)
+        return robot, robot.next_best_trajectory()
+
+    def test_a_mission_from_its_making_to_its_end(self):
+        self.ctl("missions", "create", "life", "--ttl", "3600")
+        self.assertEqual(self.client.get_mission("life").idle_time_to_live.seconds, 3600)
+        self.assertIn("life", self.ctl("missions", "list"))
+        self.assertEqual(self.ctl_json("missions", "pause", "life")["state"], "MISSION_STATE_PAUSED")
+        self.ctl("missions", "resume", "life")
+        self.ctl("missions", "set-ttl", "life", "never")
+        self.assertFalse(self.client.get_mission("life").HasField("idle_time_to_live"))
+        self.assertIn("finished", self.ctl("missions", "finish", "life"))
+        refused = self.ctl("missions", "pause", "life", code=1)
+        self.assertIn("MISSION_FINISHED", refused)
+        self.ctl("missions", "delete", "life")
+        self.assertNotIn("life", self.client.list_missions())
+        self.ctl("missions", "show", "life", code=4)
+
+    def test_options_of_a_mission_come_from_a_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "options.json")
+            path.write_text('{"planning": {"speed_mps": 0.5}}')
+            shown = self.ctl_json("missions", "create", "slow", "--options", str(path))
+            self.assertEqual(shown["options"]["planning"]["speed_mps"], 0.5)
+            path.write_text('{"planning": {"spede_mps": 0.5}}')
+            self.assertIn("spede_mps", self.ctl("missions", "create", "x", "--options", path, code=2))
+
+    def test_a_mission_that_nobody_calls_for_is_deleted(self):
+        self.ctl("missions", "create", "brief", "--ttl", "1")
+        wait_until(lambda: "brief" not in self.client.list_missions(), "it is not deleted")
+
+    def test_robots_and_their_plans(self):
+        self.client.create_mission("busy")
+        robot, plan = self.drive_in_a_room("busy")
+        shown = self.ctl_json("robots", "list", "busy")
+        self.assertEqual([r["on_map"]["robot"] for r in shown], ["missions/busy/robots/scout"])
+        self.assertTrue(shown[0]["leased"])
+        self.assertEqual(int(shown[0]["on_map"]["applied_sequence"]), robot.last_sequence)
+        plans = self.ctl_json("plans", "busy")
+        self.assertEqual([p["name"] for p in plans], [plan.proto.name])
+        self.assertIn("scout", self.ctl("plans", "busy"))
+
+        self.ctl("robots", "release", "busy", "scout")
+        self.assertFalse(self.ctl_json("robots", "show", "busy", "scout")["leased"])
+        self.client.register("busy", "scout")  # nobody has to be superseded
+        self.ctl("robots", "remove", "busy", "scout")
+        self.assertEqual(self.ctl_json("robots", "list", "busy"), [])
+        self.ctl("robots", "show", "busy", "scout", code=4)
+
+    def test_maps_become_files(self):
+        self.client.create_mission("mapped")
+        self.drive_in_a_room("mapped")
+        found = self.client.get_map("mapped")
+        with tempfile.TemporaryDirectory() as folder:
+            paths = {end: str(pathlib.Path(folder, f"map.{end}")) for end in ("yaml", "npy", "csv")}
+            for path in paths.values():
+                self.ctl("map", "export", "mapped", path)
+            np.testing.assert_array_equal(np.load(paths["npy"]), found.gas_mean_ppm)
+            table = np.loadtxt(paths["csv"], delimiter=",", skiprows=1)
+            self.assertEqual(len(table), np.isfinite(found.gas_mean_ppm).sum())
+            row, column = found.cell(*table[0, :2])
+            self.assertAlmostEqual(table[0, 2], found.gas_mean_ppm[row, column], places=5)
+            # The building survives the way out and in again.
+            self.ctl("missions", "create", "known", "--prior-map", paths["yaml"])
+            again = self.client.get_map("known")
+            self.assertEqual(
+                (again.occupancy == plumescout_client.FREE).sum(),
+                (found.occupancy == plumescout_client.FREE).sum(),
+            )
+            wrong = self.ctl("map", "export", "mapped", str(pathlib.Path(folder, "map.png")), code=2)
+            self.assertIn("must end in", wrong)
+
+    def test_the_server_tells_of_itself(self):
+        info = self.ctl_json("info")
+        self.assertRegex(info["version"], r"^\d+\.\d+\.\d+$")
+        self.assertEqual(info["caller_role"], "admin")
+        self.assertEqual(info["limits"]["max_batch_observation_count"], 1024)
+        self.assertIn("UPTIME", self.ctl("info"))
+
+    def test_top_shows_every_mission(self):
+        self.client.create_mission("seen")
+        shown = self.ctl("top", "--count", "2", "--interval", "0.01")
+        self.assertEqual(shown.count("EVENTS/S"), 2)
+        self.assertEqual(shown.count("seen "), 2)
+
+    def test_completion_knows_the_commands(self):
+        script = self.ctl("completion", "bash")
+        words = 'COMP_WORDS=(plumescoutctl missions p); COMP_CWORD=2; _plumescoutctl; echo "${COMPREPLY[@]}"'
+        run = subprocess.run(["bash", "-c", script + words], capture_output=True, text=True)
+        self.assertEqual(run.stdout.split(), ["pause"], run.stderr)
+        self.assertIn("bashcompinit", self.ctl("completion", "zsh"))
+
+    def test_wrong_command_lines_and_servers_have_their_exit_codes(self):
+        self.assertIn("usage", self.ctl("missions", "make", "x", code=2))
+        self.assertIn("unrecognized", self.ctl("info", "--fast", code=2))
+        self.ctl("info", "--timeout", "0.2", code=3, target="127.0.0.1:1")
+
+    def test_drain_ends_the_server(self):
+        server, target = start_server()
+        self.ctl("drain", target=target)
+        self.assertEqual(server.wait(timeout=PATIENCE_S), 0)
+        server.stdout.close()
+
+
+class RequestIdTest(unittest.TestCase):
+    def test_an_answer_that_was_lost_comes_again(self):
+        server, target = start_server()
+        try:
+            with plumescout_client.Client(target) as client:
+                client.create_mission("lost")
+                method = client._robots.RegisterRobot
+                leases = []
+
+                def lossy(request, **options):
+                    response = method(request, **options)
+                    leases.append(response.lease_token)
+                    if len(leases) == 1:
+                        raise LostAnswer()
+                    return response
+
+                client._robots.RegisterRobot = lossy
+                robot = client.register("lost", "scout")
+                self.assertEqual(leases, [robot._open.lease_token] * 2)
+        finally:
+            stop_server(server)
+
+
+class LostAnswer(grpc.RpcError):
+    def code(self):
+        return grpc.StatusCode.UNAVAILABLE
+
+    def details(self):
+        return "the link broke"
+
+    def trailing_metadata(self):
+        return ()
+
+
+if __name__ == "__main__":
+    unittest.main()

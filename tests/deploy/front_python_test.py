@@ -1,0 +1,310 @@
+# SPDX-FileCopyrightText: PlumeScout contributors
+# SPDX-License-Identifier: Apache-2.0
+"""The shipped HAProxy front before a server: who gets in, as whom, and what floods come to.
+
+Floods come from addresses of their own, for the front counts by address.
+"""
+
+import pathlib
+import socket
+import ssl
+import struct
+import tempfile
+import threading
+import time
+import unittest
+
+import grpc
+
+import plumescout_client
+import running
+from plumescout.v1 import map_service_pb2 as map_pb
+from plumescout.v1 import mission_service_pb2 as mission_pb
+
+MAX_CONNECTIONS_OF_A_SOURCE = 64  # as deploy/haproxy/haproxy.cfg has it
+MAX_CALLS_IN_10_S = 500
+FLOOD_S = 6.0
+HONEST_CALL_S = 1.0  # the longest that an honest call may take beside a flood
+MAX_GROWTH_BYTES = 128 << 20
+
+HEADERS, RST_STREAM, SETTINGS = 1, 3, 4
+END_HEADERS = 4
+CANCEL = 8
+
+
+def frame(kind, flags, stream, payload):
+    return struct.pack(">I", len(payload))[1:] + struct.pack(">BBI", kind, flags, stream) + payload
+
+
+def literal(name_index, value):
+    """A header whose name is of HPACK's static table, without Huffman codes."""
+    index = bytes([name_index]) if name_index < 15 else bytes([15, name_index - 15])
+    return index + bytes([len(value)]) + value
+
+
+# POST, https and a method of the service; 4 is :path, 1 :authority, 31 content-type.
+CALL = (
+    b"\x83\x87"
+    + literal(4, b"/plumescout.v1.MissionService/ListMissions")
+    + literal(1, b"localhost")
+    + literal(31, b"application/grpc")
+)
+PREFACE = b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n" + frame(SETTINGS, 0, 0, b"")
+
+
+def resets(first_stream, count):
+    """Calls that are taken back as soon as they are made."""
+    frames = []
+    for stream in range(first_stream, first_stream + 2 * count, 2):
+        frames.append(frame(HEADERS, END_HEADERS, stream, CALL))
+        frames.append(frame(RST_STREAM, 0, stream, struct.pack(">I", CANCEL)))
+    return b"".join(frames)
+
+
+class FrontTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        cls.strangers = cls.folder / "strangers"
+        for made in (
+            ("authority",),
+            ("server", "front"),
+            ("client", "alice", "operator", "acme"),
+            ("client", "scout", "robot", "acme"),
+            ("client", "busy", "viewer", "acme"),
+            ("client", "norole", "gardener", "acme"),
+            ("client", "late", "operator", "acme", "--days", "-1"),
+        ):
+            running.make_certificate(cls.folder, *made)
+        running.make_certificate(cls.strangers, "authority")
+        running.make_certificate(cls.strangers, "client", "alice", "operator", "acme")
+        cls.server = running.Server("access.trusted_front=loopback")
+        cls.addClassCleanup(cls.server.stop)
+        cls.front = running.Front(cls.folder, cls.server.target)
+        cls.addClassCleanup(cls.front.stop)
+
+    def client(self, name, folder=None, timeout_s=running.PATIENCE_S):
+        folder = folder or self.folder
+        client = plumescout_client.Client(
+            self.front.target,
+            timeout_s=timeout_s,
+            tls_ca=self.folder / "ca.crt",
+            tls_cert=folder / f"{name}.crt" if name else None,
+            tls_key=folder / f"{name}.key" if name else None,
+        )
+        self.addCleanup(client.close)
+        return client
+
+    def connect(self, source):
+        return socket.create_connection(
+            ("127.0.0.1", self.front.port), source_address=(source, 0), timeout=5.0
+        )
+
+    def handshake(self, source, name="alice", versions=()):
+        context = ssl.create_default_context(cafile=self.folder / "ca.crt")
+        if name:
+            context.load_cert_chain(self.folder / f"{name}.crt", self.folder / f"{name}.key")
+        context.set_alpn_protocols(["h2"])
+        if versions:
+            context.set_ciphers("DEFAULT@SECLEVEL=0")  # else this side would not speak old ones
+            context.minimum_version, context.maximum_version = versions
+        link = context.wrap_socket(
+            self.connect(source), server_hostname="localhost", do_handshake_on_connect=False
+        )
+        try:
+            link.do_handshake()
+        except OSError:
+            link.close()
+            raise
+        return link
+
+    def assert_refused(self, code, call, *arguments):
+        with self.assertRaises(plumescout_client.PlumeScoutError) as caught:
+            call(*arguments)
+        self.assertEqual(caught.exception.code, code)
+
+    def owner_of(self, client, mission):
+        request = mission_pb.GetMissionRequest(name=f"missions/{mission}")
+        return client._call(client._missions.GetMission, request).mission.owner
+
+    def test_a_certificate_says_who_calls(self):
+        alice = self.client("alice")
+        alice.create_mission("house")
+        self.assertEqual(self.owner_of(alice, "house"), "alice")
+        scout = self.client("scout")
+        scout.register("house", "scout")
+        self.assert_refused(grpc.StatusCode.PERMISSION_DENIED, scout.register, "house", "rover")
+        self.assert_refused(grpc.StatusCode.PERMISSION_DENIED, scout.create_mission, "attic")
+        self.assert_refused(
+            grpc.StatusCode.UNAUTHENTICATED, self.client("norole").list_missions
+        )
+
+    def test_streams_pass(self):
+        alice = self.client("alice")
+        alice.create_mission("watched")
+        watch = alice._maps.WatchMap(map_pb.WatchMapRequest(mission="missions/watched"))
+        self.assertEqual(next(watch).kind, map_pb.WatchMapResponse.KIND_FULL)
+        watch.cancel()
+
+    def test_nobody_gets_in_without_a_good_certificate(self):
+        for name, folder in ((None, None), ("alice", self.strangers), ("late", None)):
+            client = self.client(name, folder, timeout_s=1.0)  # it would try for ever
+            with self.assertRaises(plumescout_client.PlumeScoutError, msg=name):
+                client.list_missions()
+        with plumescout_client.Client(self.front.target, timeout_s=1.0) as plaintext:
+            with self.assertRaises(plumescout_client.PlumeScoutError):
+                plaintext.list_missions()
+        self.client("alice").list_missions()
+
+    def test_old_versions_of_tls_are_refused(self):
+        for version in (ssl.TLSVersion.TLSv1, ssl.TLSVersion.TLSv1_1):
+            with self.assertRaises(ssl.SSLError) as caught:
+                self.handshake("127.0.0.4", versions=(version, version))
+            self.assertIn("PROTOCOL_VERSION", str(caught.exception))
+        version = ssl.TLSVersion.TLSv1_2
+        self.handshake("127.0.0.4", versions=(version, version)).close()
+
+    def test_what_a_client_says_of_itself_is_not_heard(self):
+        lies = [("x-plumescout-subject", "CN=root,OU=admin")]
+        scout = self.client("scout")
+        with self.assertRaises(grpc.RpcError) as caught:
+            scout._missions.CreateMission(
+                mission_pb.CreateMissionRequest(mission_id="spoof"), metadata=lies * 2
+            )
+        self.assertEqual(caught.exception.code(), grpc.StatusCode.PERMISSION_DENIED)
+        alice = self.client("alice")
+        created = alice._missions.CreateMission(
+            mission_pb.CreateMissionRequest(mission_id="honest"), metadata=lies
+        )
+        self.assertEqual(created.mission.owner, "alice")
+
+    def test_only_the_service_can_be_reached(self):
+        alice = self.client("alice")
+        for method in (
+            "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo",
+            "/grpc.channelz.v1.Channelz/GetServers",
+        ):
+            with self.assertRaises(grpc.RpcError) as caught:
+                alice._channel.unary_unary(method)(b"", timeout=running.PATIENCE_S)
+            self.assertEqual(caught.exception.code(), grpc.StatusCode.UNIMPLEMENTED)  # HTTP 404
+        health = alice._channel.unary_unary("/grpc.health.v1.Health/Check")
+        self.assertEqual(health(b"", timeout=running.PATIENCE_S), b"\x08\x01")  # SERVING
+
+    def test_a_source_has_so_many_connections_and_no_more(self):
+        source = "127.0.0.2"
+        connections = []
+        for _ in range(90):
+            try:
+                connections.append(self.connect(source))
+            except ConnectionResetError:
+                pass  # turned away
+
+        def open_connections():
+            count = 0
+            for connection in connections:
+                connection.settimeout(0.0)
+                try:
+                    connection.recv(1)  # the end, or a reset
+                except BlockingIOError:
+                    count += 1
+                except OSError:
+                    pass
+            return count
+
+        running.await_that(
+            lambda: open_connections() <= MAX_CONNECTIONS_OF_A_SOURCE, "the rest is turned away"
+        )
+        self.assertGreater(open_connections(), MAX_CONNECTIONS_OF_A_SOURCE // 2)
+        began = time.monotonic()
+        self.client("alice").list_missions()
+        self.assertLess(time.monotonic() - began, HONEST_CALL_S)
+        for connection in connections:
+            connection.close()
+
+    def test_calls_beyond_a_rate_are_answered_by_the_front(self):
+        busy = self.client("busy")
+        codes = []
+        for _ in range(MAX_CALLS_IN_10_S + 200):
+            try:
+                busy.list_missions()
+                codes.append(grpc.StatusCode.OK)
+            except plumescout_client.PlumeScoutError as error:
+                codes.append(error.code)
+        self.assertEqual(set(codes), {grpc.StatusCode.OK, grpc.StatusCode.RESOURCE_EXHAUSTED})
+        self.assertEqual(codes[:100], [grpc.StatusCode.OK] * 100)
+        self.client("alice").list_missions()
+
+    def test_resets_of_streams_harm_nobody_else(self):
+        alice = self.client("alice")
+        alice.create_mission("flooded")
+        server_before, front_before = self.server.rss_bytes(), self.front.rss_bytes()
+        end = time.monotonic() + FLOOD_S
+        flood = Flood(lambda: self.handshake("127.0.0.3", "busy"), end)
+        slowest_s, calls = 0.0, 0
+        while time.monotonic() < end:
+            began = time.monotonic()
+            alice.list_missions()
+            slowest_s = max(slowest_s, time.monotonic() - began)
+            calls += 1
+            time.sleep(0.05)  # an honest client's pace
+        flood.join()
+        grown = (self.server.rss_bytes() - server_before, self.front.rss_bytes() - front_before)
+        print(
+            f"\n{flood.resets} resets on {flood.connections} connections, {flood.refused} more "
+            f"refused; {calls} honest calls, slowest {slowest_s * 1e3:.0f} ms; server and front "
+            f"grew by {grown} bytes"
+        )
+        self.assertLess(slowest_s, HONEST_CALL_S)
+        self.assertLess(max(grown), MAX_GROWTH_BYTES)
+        self.assertGreater(flood.resets, 3000)
+        with self.assertRaises(OSError):  # the flood's source is shut out
+            self.handshake("127.0.0.3")
+
+
+class Flood:
+    """Four connections at a time that open streams and reset them, as fast as they can."""
+
+    BATCH = 200
+
+    def __init__(self, handshake, end):
+        self._handshake = handshake
+        self._end = end
+        self.resets = self.connections = self.refused = 0
+        self._lock = threading.Lock()
+        self._threads = [threading.Thread(target=self._run) for _ in range(4)]
+        for thread in self._threads:
+            thread.start()
+
+    def join(self):
+        for thread in self._threads:
+            thread.join()
+
+    def _add(self, **counts):
+        with self._lock:
+            for name, count in counts.items():
+                setattr(self, name, getattr(self, name) + count)
+
+    def _run(self):
+        while time.monotonic() < self._end:
+            try:
+                link = self._handshake()
+            except OSError:
+                self._add(refused=1)
+                continue
+            self._add(connections=1)
+            try:
+                link.sendall(PREFACE)
+                stream = 1
+                while time.monotonic() < self._end:
+                    link.sendall(resets(stream, self.BATCH))
+                    self._add(resets=self.BATCH)
+                    stream += 2 * self.BATCH
+            except OSError:
+                pass  # ended by the front: on with another
+            link.close()
+
+
+if __name__ == "__main__":
+    unittest.main()

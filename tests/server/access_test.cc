@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+// Who may call what, over the wire: every method, by the descriptors of the services.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "server/access/rpc.h"
+#include "tests/server/access_fixture.h"
+
+namespace plumescout::server {
+namespace access_test {
+
+class WhoMayCallTest : public AccessTest {
+ protected:
+  static const RpcRow& RowOfMethod(const Method& method) {
+    for (const RpcRow& row : RpcTable()) {
+      if (row.service == method.service()->name() && row.method == method.name()) return row;
+    }
+    ADD_FAILURE() << ShortName(method) << " has no row";
+    return RpcTable()[0];
+  }
+  // Whether the method names a robot that its caller acts for.
+  static bool ActsForARobot(const Method& method) {
+    for (const char* name : {"robot", "robot_id", "open"}) {
+      if (method.input_type()->FindFieldByName(name) != nullptr) return true;
+    }
+    return false;
+  }
+};
+
+TEST_F(WhoMayCallTest, NoMethodAnswersWhomItDoesNotKnow) {
+  for (const Method* method : methods_) {
+    for (const char* token : {"", "no such token"}) {
+      const Answer answer = Ask(*method, {"ghost"}, token);
+      EXPECT_EQ(answer.code, grpc::StatusCode::UNAUTHENTICATED) << ShortName(*method) << answer;
+      EXPECT_FALSE(answer.responded) << ShortName(*method);
+    }
+  }
+}
+
+TEST_F(WhoMayCallTest, EveryMethodKeepsToTheTable) {
+  const std::map<const char*, Role> callers = {{kAlice, Role::kOperator},
+                                               {kEve, Role::kViewer},
+                                               {kScout, Role::kRobot},
+                                               {kRoot, Role::kAdmin}};
+  int refused = 0;
+  for (const Method* method : methods_) {
+    for (const auto& [token, role] : callers) {
+      const bool allowed = IsAllowed(role, RowOfMethod(*method).rpc);
+      if (allowed && method->name() == "DrainServer") continue;  // the rest needs the server
+      const Answer answer = Ask(*method, {"ghost"}, token);
+      EXPECT_EQ(answer.code != grpc::StatusCode::PERMISSION_DENIED, allowed)
+          << ShortName(*method) << " by " << token << ": " << answer;
+      refused += allowed ? 0 : 1;
+    }
+  }
+  EXPECT_GE(refused, 10);
+}
+
+TEST_F(WhoMayCallTest, ARobotActsForItselfAlone) {
+  int checked = 0;
+  for (const Method* method : methods_) {
+    if (!ActsForARobot(*method)) continue;
+    const Answer other = Ask(*method, {"ghost", "rover"}, kScout);
+    EXPECT_EQ(other.code, grpc::StatusCode::PERMISSION_DENIED) << ShortName(*method) << other;
+    const Answer own = Ask(*method, {"ghost", "scout"}, kScout);
+    EXPECT_EQ(own.code, grpc::StatusCode::NOT_FOUND) << ShortName(*method) << own;
+    ++checked;
+  }
+  EXPECT_GE(checked, 9);
+}
+
+TEST_F(WhoMayCallTest, HealthIsForEverybody) {
+  grpc::GenericStub stub(channel_);
+  grpc::ClientContext context;
+  SetPatience(context);
+  grpc::CompletionQueue queue;
+  const grpc::Slice whole_server;  // HealthCheckRequest{}
+  const grpc::ByteBuffer request(&whole_server, 1);
+  const auto call =
+      stub.PrepareUnaryCall(&context, "/grpc.health.v1.Health/Check", request, &queue);
+  call->StartCall();
+  grpc::ByteBuffer response;
+  grpc::Status status;
+  call->Finish(&response, &status, nullptr);
+  void* tag = nullptr;
+  bool ok = false;
+  ASSERT_TRUE(queue.Next(&tag, &ok));
+  EXPECT_TRUE(status.ok()) << status.error_message();
+}
+
+}  // namespace access_test
+}  // namespace plumescout::server

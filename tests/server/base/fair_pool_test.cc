@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/base/fair_pool.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/synchronization/notification.h"
+#include "core/types/error_reason.h"
+
+namespace plumescout::server {
+namespace fair_pool_test {
+
+using ::testing::ElementsAre;
+
+// A pool of one thread, which "z" holds until Release: what is queued meanwhile shows its order.
+class FairPoolTest : public testing::Test {
+ protected:
+  void Start(FairPoolOptions options) {
+    options.threads = 1;
+    pool_.emplace(options);
+    ASSERT_TRUE(pool_
+                    ->Submit({"z", "z"}, {[this] {
+                               occupied_.Notify();
+                               release_.WaitForNotification();
+                             }})
+                    .ok());
+    occupied_.WaitForNotification();
+  }
+  absl::Status Queue(const std::string& group, const std::string& member,
+                     StopFn abandoned = NeverStop()) {
+    return pool_->Submit({group, member},
+                         {[this, group, member] { ran_.push_back(group + member); }, abandoned});
+  }
+  const std::vector<std::string>& RunAll() {
+    release_.Notify();
+    pool_.reset();
+    return ran_;
+  }
+
+  absl::Notification occupied_;
+  absl::Notification release_;
+  std::vector<std::string> ran_;
+  std::optional<FairPool> pool_;  // goes first: its thread uses the above
+};
+
+TEST_F(FairPoolTest, GroupsTakeTurnsWhateverTheyQueue) {
+  Start({});
+  for (const char* group : {"a", "a", "a", "b", "c"}) ASSERT_TRUE(Queue(group, "1").ok());
+  EXPECT_THAT(RunAll(), ElementsAre("a1", "b1", "c1", "a1", "a1"));
+}
+
+TEST_F(FairPoolTest, MembersOfAGroupTakeTurns) {
+  Start({});
+  for (const char* member : {"1", "1", "1", "2"}) ASSERT_TRUE(Queue("a", member).ok());
+  EXPECT_THAT(RunAll(), ElementsAre("a1", "a2", "a1", "a1"));
+}
+
+TEST_F(FairPoolTest, EachQueueHasItsBound) {
+  Start({.name = "test", .max_queued = 5, .max_queued_per_group = 3, .max_queued_per_member = 2});
+  EXPECT_TRUE(Queue("a", "1").ok());
+  EXPECT_TRUE(Queue("a", "1").ok());
+  const absl::Status refused = Queue("a", "1");
+  EXPECT_EQ(ErrorReason(refused), reason::kOverloaded) << "of a member";
+  EXPECT_TRUE(RetryAfter_ns(refused).has_value());
+  EXPECT_TRUE(Queue("a", "2").ok());
+  EXPECT_EQ(ErrorReason(Queue("a", "3")), reason::kOverloaded) << "of a group";
+  EXPECT_TRUE(Queue("b", "1").ok());
+  EXPECT_TRUE(Queue("c", "1").ok());
+  EXPECT_EQ(ErrorReason(Queue("d", "1")), reason::kOverloaded) << "in all";
+  EXPECT_EQ(RunAll().size(), 5u);
+}
+
+TEST_F(FairPoolTest, WhatNobodyWantsGivesWay) {
+  Start({.name = "test", .max_queued = 3, .max_queued_per_group = 2, .max_queued_per_member = 1});
+  bool gone = false;
+  const auto held = std::make_shared<int>();
+  const StopFn abandoned = [&gone, held] { return gone; };
+  ASSERT_TRUE(Queue("a", "1", abandoned).ok());
+  EXPECT_FALSE(Queue("a", "1").ok());
+  gone = true;
+  EXPECT_TRUE(Queue("a", "1").ok());
+  EXPECT_EQ(pool_->queued(), 1);
+  EXPECT_EQ(held.use_count(), 2) << "the queue let go of it";
+  EXPECT_THAT(RunAll(), ElementsAre("a1"));
+}
+
+TEST_F(FairPoolTest, WhatNobodyWantsIsNotRun) {
+  Start({});
+  ASSERT_TRUE(Queue("a", "1", [] { return true; }).ok());
+  ASSERT_TRUE(Queue("a", "2").ok());
+  EXPECT_THAT(RunAll(), ElementsAre("a2"));
+}
+
+TEST(FairPoolThreadsTest, OneGroupLeavesAThreadToTheOthers) {
+  absl::Notification release;
+  absl::Notification ran;
+  std::atomic<int> running = 0;
+  std::atomic<int> most = 0;
+  const auto hold = [&] {
+    most = std::max<int>(most, ++running);
+    release.WaitForNotification();
+    --running;
+  };
+  FairPool pool({.name = "test", .threads = 2, .max_running_per_group = 1});
+  for (const char* member : {"1", "2", "3"}) {
+    ASSERT_TRUE(pool.Submit({"greedy", member}, {hold}).ok());
+  }
+  ASSERT_TRUE(pool.Submit({"other", "1"}, {[&] { ran.Notify(); }}).ok());
+  ran.WaitForNotification();  // would hang if the first group held both threads
+  EXPECT_EQ(most, 1);
+  release.Notify();
+}
+
+TEST(FairPoolThreadsTest, RunsWhatItIsGivenBeforeItGoes) {
+  std::atomic<int> runs = 0;
+  {
+    FairPool pool({.name = "test",
+                   .threads = 3,
+                   .max_queued = 100,
+                   .max_queued_per_group = 100,
+                   .max_queued_per_member = 100,
+                   .max_running_per_group = 2});
+    for (int i = 0; i < 100; ++i) {
+      ASSERT_TRUE(pool.Submit({i % 2 == 0 ? "a" : "b", "1"}, {[&] { ++runs; }}).ok());
+    }
+  }
+  EXPECT_EQ(runs, 100);
+}
+
+}  // namespace fair_pool_test
+}  // namespace plumescout::server

@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/base/request_memory.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "core/types/error_reason.h"
+
+namespace plumescout::server {
+namespace request_memory_test {
+
+using ::testing::ElementsAre;
+
+const RequestKey kKey{"t/ann", "CreateMission", "id-1"};
+
+class RequestMemoryTest : public testing::Test {
+ protected:
+  RequestMemoryOptions Options() {
+    RequestMemoryOptions options;
+    options.clock = [this] { return now_; };
+    return options;
+  }
+  // Notes what it is told under this name; `there`: what it answers.
+  RequestMemory::Waiter Waiter(const std::string& name, bool there = true) {
+    return [this, name, there](const std::string* answer) {
+      told_.push_back(absl::StrCat(name, ":", answer == nullptr ? "run" : *answer));
+      return there;
+    };
+  }
+  static bool Runs(RequestMemory& memory, const RequestKey& key, std::uint64_t fingerprint = 1) {
+    const auto begun = memory.Begin(key, fingerprint, nullptr);
+    EXPECT_TRUE(begun.ok()) << begun.status();
+    return begun.ok() && begun->run;
+  }
+
+  SteadyTime now_ = SteadyTime() + std::chrono::hours(1);
+  std::vector<std::string> told_;
+};
+
+TEST_F(RequestMemoryTest, TheSameRequestGetsTheSameAnswer) {
+  RequestMemory memory(Options());
+  ASSERT_TRUE(Runs(memory, kKey));
+  memory.Conclude(kKey, "lease 7");
+  const auto again = memory.Begin(kKey, 1, nullptr);
+  ASSERT_TRUE(again.ok());
+  EXPECT_FALSE(again->run);
+  EXPECT_EQ(again->answer, "lease 7");
+}
+
+TEST_F(RequestMemoryTest, CallersMethodsAndIdsAreApart) {
+  RequestMemory memory(Options());
+  ASSERT_TRUE(Runs(memory, kKey));
+  memory.Conclude(kKey, "1");
+  EXPECT_TRUE(Runs(memory, {"t/bob", kKey.method, kKey.request_id}));
+  EXPECT_TRUE(Runs(memory, {kKey.caller, "RegisterRobot", kKey.request_id}));
+  EXPECT_TRUE(Runs(memory, {kKey.caller, kKey.method, "id-2"}));
+}
+
+TEST_F(RequestMemoryTest, AnotherRequestOfTheSameIdIsRefused) {
+  RequestMemory memory(Options());
+  ASSERT_TRUE(Runs(memory, kKey, 1));
+  EXPECT_TRUE(absl::IsInvalidArgument(memory.Begin(kKey, 2, nullptr).status()));
+  memory.Conclude(kKey, "1");
+  EXPECT_TRUE(absl::IsInvalidArgument(memory.Begin(kKey, 2, nullptr).status()));
+}
+
+TEST_F(RequestMemoryTest, WhoComesWhileItRunsWaitsForTheAnswer) {
+  RequestMemory memory(Options());
+  ASSERT_TRUE(Runs(memory, kKey));
+  for (const char* name : {"a", "b"}) {
+    const auto begun = memory.Begin(kKey, 1, Waiter(name));
+    ASSERT_TRUE(begun.ok());
+    EXPECT_FALSE(begun->run || begun->answer.has_value());
+  }
+  EXPECT_TRUE(told_.empty());
+  memory.Conclude(kKey, "7");
+  EXPECT_THAT(told_, ElementsAre("a:7", "b:7"));
+}
+
+TEST_F(RequestMemoryTest, IfItComesToNothingTheNextOneWhoIsThereRuns) {
+  RequestMemory memory(Options());
+  ASSERT_TRUE(Runs(memory, kKey));
+  ASSERT_TRUE(memory.Begin(kKey, 1, Waiter("gone", false)).ok());
+  ASSERT_TRUE(memory.Begin(kKey, 1, Waiter("a")).ok());
+  ASSERT_TRUE(memory.Begin(kKey, 1, Waiter("b")).ok());
+  memory.Conclude(kKey, std::nullopt);
+  EXPECT_THAT(told_, ElementsAre("gone:run", "a:run"));
+  memory.Conclude(kKey, "8");  // of a
+  EXPECT_THAT(told_, ElementsAre("gone:run", "a:run", "b:8"));
+}
+
+TEST_F(RequestMemoryTest, AFailureIsForgotten) {
+  RequestMemory memory(Options());
+  ASSERT_TRUE(Runs(memory, kKey));
+  memory.Conclude(kKey, std::nullopt);
+  EXPECT_TRUE(Runs(memory, kKey, 2));
+}
+
+TEST_F(RequestMemoryTest, TooManyWhoWaitAreRefused) {
+  RequestMemoryOptions options = Options();
+  options.max_waiting = 1;
+  RequestMemory memory(options);
+  ASSERT_TRUE(Runs(memory, kKey));
+  ASSERT_TRUE(memory.Begin(kKey, 1, Waiter("a")).ok());
+  EXPECT_EQ(ErrorReason(memory.Begin(kKey, 1, Waiter("b")).status()), reason::kOverloaded);
+}
+
+TEST_F(RequestMemoryTest, AnswersGrowTooOld) {
+  RequestMemoryOptions options = Options();
+  options.max_age = absl::Minutes(10);
+  RequestMemory memory(options);
+  ASSERT_TRUE(Runs(memory, kKey));
+  memory.Conclude(kKey, "7");
+  now_ += std::chrono::minutes(10) - std::chrono::nanoseconds(1);
+  EXPECT_FALSE(Runs(memory, kKey));
+  now_ += std::chrono::nanoseconds(1);
+  EXPECT_TRUE(Runs(memory, kKey));
+}
+
+TEST_F(RequestMemoryTest, TheOldestGoFirstByNumberAndByBytes) {
+  RequestMemoryOptions options = Options();
+  options.max_answers = 3;
+  options.max_bytes = 100;
+  RequestMemory memory(options);
+  const auto key = [](int i) { return RequestKey{"", "", absl::StrCat(i)}; };
+  for (int i = 0; i < 4; ++i) {
+    ASSERT_TRUE(Runs(memory, key(i)));
+    memory.Conclude(key(i), std::string(10, 'x'));
+  }
+  EXPECT_FALSE(Runs(memory, key(1)));
+  EXPECT_TRUE(Runs(memory, key(0)));
+  memory.Conclude(key(0), std::string(85, 'x'));  // room for one more of the ten
+  EXPECT_FALSE(Runs(memory, key(0)));
+  EXPECT_FALSE(Runs(memory, key(3)));
+  EXPECT_TRUE(Runs(memory, key(2)));
+  memory.Conclude(key(2), std::string(101, 'x'));  // more than all
+  EXPECT_TRUE(Runs(memory, key(2)));
+}
+
+TEST_F(RequestMemoryTest, WhatWasUndoneIsForgottenUnlessItRuns) {
+  RequestMemory memory(Options());
+  ASSERT_TRUE(Runs(memory, kKey));
+  memory.Forget(kKey);
+  ASSERT_TRUE(memory.Begin(kKey, 1, Waiter("a")).ok());
+  memory.Conclude(kKey, "7");
+  EXPECT_THAT(told_, ElementsAre("a:7"));
+  memory.Forget(kKey);
+  EXPECT_TRUE(Runs(memory, kKey));
+}
+
+}  // namespace request_memory_test
+}  // namespace plumescout::server

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/calls/door.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/synchronization/mutex.h"
+
+namespace plumescout::server {
+namespace door_test {
+
+const Principal kScout = {"scout", "acme", Role::kRobot, true};
+
+// What the door says of a call that is let in.
+absl::StatusOr<CallInfo> Enter(const Door& door, Rpc rpc, const grpc::CallbackServerContext& call) {
+  CallInfo info;
+  const absl::Status status = door.Enter(rpc, call, info);
+  if (!status.ok()) return status;
+  return info;
+}
+
+Authenticate AlwaysSay(absl::StatusOr<Principal> caller) {
+  return [caller](const grpc::CallbackServerContext&) { return caller; };
+}
+
+TEST(DoorTest, WithoutAnybodyToAskEverybodyIsAnAnonymousAdmin) {
+  const Door door;
+  const grpc::CallbackServerContext call;
+  const auto info = Enter(door, Rpc::kDrainServer, call);
+  ASSERT_TRUE(info.ok()) << info.status();
+  EXPECT_EQ(info->caller, Principal{});
+  EXPECT_EQ(info->deadline, SteadyTime::max());
+  EXPECT_EQ(info->request_id.size(), 16u);
+  EXPECT_NE(Enter(door, Rpc::kDrainServer, call)->request_id, info->request_id);
+}
+
+TEST(DoorTest, WhoIsNotKnownIsNotLetIn) {
+  const Door door(AlwaysSay(absl::UnauthenticatedError("no token")));
+  const grpc::CallbackServerContext call;
+  for (const RpcRow& row : RpcTable()) {
+    EXPECT_EQ(Enter(door, row.rpc, call).status(), absl::UnauthenticatedError("no token"));
+  }
+}
+
+TEST(DoorTest, RolesOpenWhatTheTableSays) {
+  for (const Role role : {Role::kRobot, Role::kViewer, Role::kOperator, Role::kAdmin}) {
+    const Door door(AlwaysSay(Principal{"who", "acme", role}));
+    const grpc::CallbackServerContext call;
+    for (const RpcRow& row : RpcTable()) {
+      const auto info = Enter(door, row.rpc, call);
+      EXPECT_EQ(info.ok(), IsAllowed(role, row.rpc)) << row.method;
+      if (!info.ok()) {
+        EXPECT_EQ(info.status(),
+                  absl::PermissionDeniedError(absl::StrCat("who may not call ", row.method)));
+      }
+    }
+  }
+}
+
+TEST(DoorTest, ObserversHearOfEveryCallOnce) {
+  std::vector<std::string> heard;
+  Door door(AlwaysSay(kScout));
+  door.AddObserver([&](const CallInfo& info, const CallEnd& end) {
+    EXPECT_GE(end.duration, absl::ZeroDuration());
+    heard.push_back(absl::StrCat(RowOf(info.rpc).method, " ", info.caller.name, " ",
+                                 absl::StatusCodeToString(end.status.code())));
+  });
+  const grpc::CallbackServerContext call;
+  Visit visit;
+  ASSERT_TRUE(visit.Enter(door, Rpc::kGetMap, call).ok());
+  EXPECT_TRUE(heard.empty());
+  visit.Leave(absl::CancelledError(""));
+  visit.Leave(absl::OkStatus());
+  EXPECT_EQ(heard, std::vector<std::string>{"GetMap scout CANCELLED"});
+  Visit refused;
+  EXPECT_FALSE(refused.Enter(door, Rpc::kDrainServer, call).ok());
+  refused.Leave(absl::OkStatus());
+  ASSERT_EQ(heard.size(), 2u);
+  EXPECT_EQ(heard[1], "DrainServer scout PERMISSION_DENIED");
+}
+
+TEST(DoorTest, ManyMayEnterAtOnce) {
+  absl::Mutex mutex;
+  int left = 0;
+  Door door(AlwaysSay(kScout));
+  door.AddObserver([&](const CallInfo&, const CallEnd&) {
+    absl::MutexLock lock(&mutex);
+    ++left;
+  });
+  constexpr int kThreads = 4;
+  constexpr int kCalls = 200;
+  std::vector<std::thread> threads;
+  for (int i = 0; i < kThreads; ++i) {
+    threads.emplace_back([&] {
+      const grpc::CallbackServerContext call;
+      for (int k = 0; k < kCalls; ++k) {
+        Visit visit;
+        EXPECT_TRUE(visit.Enter(door, Rpc::kGetMap, call).ok());
+        visit.Leave(absl::OkStatus());
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(left, kThreads * kCalls);
+}
+
+TEST(DoorTest, ARobotActsForItselfAlone) {
+  EXPECT_TRUE(CheckActsFor(kScout, {"hall", "scout"}).ok());
+  EXPECT_EQ(CheckActsFor(kScout, {"hall", "rover"}),
+            absl::PermissionDeniedError("scout may not act for robot rover"));
+  EXPECT_TRUE(CheckActsFor(Principal{"alice", "acme", Role::kOperator}, {"hall", "rover"}).ok());
+}
+
+}  // namespace door_test
+}  // namespace plumescout::server
