@@ -37,7 +37,18 @@ std::uint64_t RandomBits() {
 
 std::string NewBootId() { return absl::StrCat(absl::Hex(RandomBits(), absl::kZeroPad16)); }
 
-// Times to live are seconds at least.
+absl::StatusOr<Identity> IdentityOf(const std::shared_ptr<const Authenticator>& authenticator,
+                                    const CallCredentials& credentials) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(Principal caller, authenticator->Identify(credentials));
+  return Identity{caller, [authenticator, credentials, caller]() -> absl::Status {
+                    PLUMESCOUT_ASSIGN_OR_RETURN(const auto now,
+                                                authenticator->Identify(credentials));
+                    if (now == caller) return absl::OkStatus();
+                    return absl::UnauthenticatedError("the caller's role or tenant has changed");
+                  }};
+}
+
+// Times to live are seconds at least; who is locked out is so within this.
 constexpr absl::Duration kSweepPeriod = absl::Seconds(1);
 
 RateOptions ToRateOptions(const LimitConfig& limits) {
@@ -177,7 +188,7 @@ Server::Server(Private, const ServerConfig& config, RegistryHooks hooks,
       query_pool_({"query", config.maps.query_threads, config.maps.max_queued_queries}),
       creation_pool_({"creation", kCreationThreads, config.limits.max_missions}),
       door_([authenticator = std::move(authenticator)](const grpc::CallbackServerContext& call) {
-        return authenticator->Identify(ReadCredentials(call));
+        return IdentityOf(authenticator, ReadCredentials(call));
       }),
       context_{&door_,
                &registry_,
@@ -242,8 +253,16 @@ absl::Status Server::Listen() {
     return absl::UnavailableError(absl::StrCat("cannot listen on ", config_.listen));
   }
   grpc_server_->GetHealthCheckService()->SetServingStatus(true);
-  idle_sweeper_ = std::make_unique<IdleSweeper>(&registry_, kSweepPeriod);
+  sweeper_ = std::make_unique<PeriodicTask>(kSweepPeriod, [this] { Sweep(); });
   return absl::OkStatus();
+}
+
+void Server::Sweep() {
+  for (const MissionId& id : registry_.DeleteIdle()) {
+    LogInfo("mission deleted", {{"mission", id}, {"why", "idle"}});
+  }
+  const int ended = streams_.EndLockedOut();
+  if (ended > 0) LogWarning("callers were locked out", {{"streams", absl::StrCat(ended)}});
 }
 
 std::shared_ptr<grpc::Channel> Server::InProcessChannel() {
@@ -298,7 +317,7 @@ void Server::Drain() {
   probe_.reset();
   const SteadyTime cut = After(SteadyNow(), absl::Seconds(config_.connection.drain_s));
   if (grpc_server_ != nullptr) EndCalls(cut);
-  idle_sweeper_.reset();
+  sweeper_.reset();
   registry_.StopAll(Draining());
   registry_.AwaitStopped(After(std::max(cut, SteadyNow()), kStopLimit));
 }

@@ -13,10 +13,10 @@
 #include "absl/status/statusor.h"
 #include "absl/time/time.h"
 #include "server/access/authenticator.h"
+#include "server/base/periodic_task.h"
 #include "server/calls/call_log.h"
 #include "server/calls/service_context.h"
 #include "server/config/config.h"
-#include "server/missions/idle_sweeper.h"
 #include "server/self_probe.h"
 #include "server/server_metrics.h"
 #include "server/services/ingest_service.h"
@@ -71,6 +71,9 @@ class Server {
 
  private:
   absl::Status Listen();
+  // Deletes missions that nobody has called for during their idle time to live, and ends streams
+  // whose callers would not be let in any more.
+  void Sweep();
   // Returns when every call has its answer; drops what the missions have queued at `cut`.
   void EndCalls(SteadyTime cut);
   // Whether the server takes connections and answers calls.
@@ -97,7 +100,7 @@ class Server {
   PlanningService planning_service_;
   MapService map_service_;
   SystemService system_service_;
-  std::unique_ptr<IdleSweeper> idle_sweeper_;  // while the server serves
+  std::unique_ptr<PeriodicTask> sweeper_;  // while the server serves
 
   int port_ = 0;
   std::atomic<bool> draining_ = false;

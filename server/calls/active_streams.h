@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 
@@ -28,11 +29,23 @@ class ActiveStreams {
   void Remove(const EndableStream* stream);
   void EndAll(const absl::Status& status);
 
+  // The stream's caller was let in; `recheck` says whether that still holds (null: for ever). No
+  // effect if the stream is not there.
+  void LetIn(const EndableStream* stream, std::function<absl::Status()> recheck);
+  // Ends streams whose callers would not be let in any more, with what says so; returns how many.
+  // Cost: a recheck for each stream.
+  int EndLockedOut();
+
   int size() const;
 
  private:
+  struct Entry {
+    std::weak_ptr<EndableStream> stream;
+    std::function<absl::Status()> recheck = nullptr;
+  };
+
   mutable absl::Mutex mutex_;
-  std::map<const EndableStream*, std::weak_ptr<EndableStream>> streams_ ABSL_GUARDED_BY(mutex_);
+  std::map<const EndableStream*, Entry> streams_ ABSL_GUARDED_BY(mutex_);
   absl::Status ended_ ABSL_GUARDED_BY(mutex_);  // OK while streams may open
 };
 

@@ -45,9 +45,12 @@ absl::Status Door::Enter(Rpc rpc, const grpc::CallbackServerContext& call, CallI
   info.deadline = std::max(info.began, ToSteady(call.deadline()));
   absl::Status status;
   if (authenticate_) {
-    auto caller = authenticate_(call);
-    status = caller.status();
-    if (caller.ok()) info.caller = *std::move(caller);
+    auto identity = authenticate_(call);
+    status = identity.status();
+    if (identity.ok()) {
+      info.caller = std::move(identity->caller);
+      info.recheck = std::move(identity->recheck);
+    }
   }
   if (status.ok() && !IsAllowed(info.caller.role, rpc)) {
     status = absl::PermissionDeniedError(

@@ -29,6 +29,7 @@ struct CallInfo {
   SteadyTime began;
   SteadyTime deadline = SteadyTime::max();  // the caller's; no earlier than `began`
   std::shared_ptr<StageTimes> stage_times = std::make_shared<StageTimes>();
+  std::function<absl::Status()> recheck;  // as Identity
 };
 
 // A call that is over.
@@ -37,8 +38,16 @@ struct CallEnd {
   absl::Duration duration;
 };
 
+// Who calls.
+struct Identity {
+  Principal caller;
+  // Whether that still holds: kUnauthenticated once a token is revoked, or has expired. From any
+  // thread, while the call lasts and after it. Null: it holds for ever.
+  std::function<absl::Status()> recheck = nullptr;
+};
+
 // Says who calls; kUnauthenticated if that cannot be told.
-using Authenticate = std::function<absl::StatusOr<Principal>(const grpc::CallbackServerContext&)>;
+using Authenticate = std::function<absl::StatusOr<Identity>(const grpc::CallbackServerContext&)>;
 // Hears of every call, also of those that were not let in. Must not block.
 using CallObserver = std::function<void(const CallInfo&, const CallEnd&)>;
 

@@ -21,6 +21,7 @@ IngestStream* IngestStream::Start(const ServiceContext* context,
   const absl::Status entered =
       stream->visit_.Enter(*context->door, Rpc::kStreamObservations, *call);
   if (!entered.ok()) stream->End(entered);
+  context->streams->LetIn(stream.get(), stream->visit_.info().recheck);
   stream->Pump();
   return stream.get();
 }

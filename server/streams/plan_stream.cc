@@ -21,6 +21,7 @@ PlanStream* PlanStream::Start(const ServiceContext* context, grpc::CallbackServe
   stream->self_ = stream;
   context->streams->Add(stream);
   absl::Status status = stream->visit_.Enter(*context->door, Rpc::kStreamNextBestTrajectory, *call);
+  context->streams->LetIn(stream.get(), stream->visit_.info().recheck);
   if (status.ok()) status = stream->Order(request);
   if (!status.ok()) stream->End(status);
   return stream.get();

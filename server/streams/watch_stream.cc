@@ -18,6 +18,7 @@ WatchStream* WatchStream::Start(const ServiceContext* context, grpc::CallbackSer
   stream->self_ = stream;
   context->streams->Add(stream);
   absl::Status status = stream->visit_.Enter(*context->door, Rpc::kWatchMap, *call);
+  context->streams->LetIn(stream.get(), stream->visit_.info().recheck);
   if (status.ok()) status = stream->Subscribe(request);
   if (!status.ok()) stream->End(status);
   return stream.get();

@@ -5,6 +5,7 @@
 #include <grpcpp/grpcpp.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -98,20 +99,25 @@ class AccessTest : public testing::Test {
   static constexpr char kRoot[] = "token-of-root";    // admin
 
   void SetUp() override {
-    const std::string path = folder_.File("tokens");
-    std::ofstream(path) << TokenLine(kAlice, "alice operator acme never")
-                        << TokenLine(kBob, "bob operator other never")
-                        << TokenLine(kEve, "eve viewer acme never")
-                        << TokenLine(kScout, "scout robot acme never")
-                        << TokenLine(kRoot, "root admin - never");
+    WriteTokens(TokenLine(kEve, "eve viewer acme never"));
     ServerConfig config;
     config.listen = "127.0.0.1:0";
-    config.access.tokens_file = path;
+    config.access.tokens_file = tokens_path_;
     auto server = Server::Start(config);
     ASSERT_TRUE(server.ok()) << server.status();
     server_ = *std::move(server);
     channel_ = grpc::CreateChannel(absl::StrCat("127.0.0.1:", server_->port()),
                                    grpc::InsecureChannelCredentials());
+  }
+
+  // The file of tokens, with the line of eve as given.
+  void WriteTokens(const std::string& eve) {
+    const std::string written = folder_.File("tokens.new");
+    std::ofstream(written) << TokenLine(kAlice, "alice operator acme never")
+                           << TokenLine(kBob, "bob operator other never") << eve
+                           << TokenLine(kScout, "scout robot acme never")
+                           << TokenLine(kRoot, "root admin - never");
+    std::filesystem::rename(written, tokens_path_);  // the server never sees half of it
   }
 
   // The answer to `token` asking about that subject.
@@ -132,6 +138,7 @@ class AccessTest : public testing::Test {
   const std::vector<const Method*> methods_ = WireMethods();
   google::protobuf::DynamicMessageFactory messages_;
   TempFolder folder_;
+  const std::string tokens_path_ = folder_.File("tokens");
   std::unique_ptr<Server> server_;
   std::shared_ptr<grpc::Channel> channel_;
 };

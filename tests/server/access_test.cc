@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "plumescout/v1/map_service.grpc.pb.h"
 #include "server/access/rpc.h"
 #include "tests/server/access_fixture.h"
 
@@ -70,6 +71,30 @@ TEST_F(WhoMayCallTest, ARobotActsForItselfAlone) {
     ++checked;
   }
   EXPECT_GE(checked, 9);
+}
+
+TEST_F(WhoMayCallTest, AStreamEndsOnceItsTokenIsRevoked) {
+  ASSERT_EQ(AskFor("MissionService.CreateMission", {"hall"}, kAlice).code, grpc::StatusCode::OK);
+  const auto stub = v1::MapService::NewStub(channel_);
+  const auto watch = [&](grpc::ClientContext& context, const std::string& token) {
+    SetPatience(context);
+    context.AddMetadata("authorization", absl::StrCat("Bearer ", token));
+    v1::WatchMapRequest request;
+    request.set_mission("missions/hall");
+    return stub->WatchMap(&context, request);
+  };
+  grpc::ClientContext of_eve, of_alice;
+  const auto revoked = watch(of_eve, kEve);
+  const auto kept = watch(of_alice, kAlice);
+  v1::WatchMapResponse map;
+  ASSERT_TRUE(revoked->Read(&map));
+  ASSERT_TRUE(kept->Read(&map));
+  WriteTokens("");
+  while (revoked->Read(&map)) {
+  }
+  EXPECT_EQ(revoked->Finish().error_code(), grpc::StatusCode::UNAUTHENTICATED);
+  of_alice.TryCancel();
+  EXPECT_EQ(kept->Finish().error_code(), grpc::StatusCode::CANCELLED);
 }
 
 TEST_F(WhoMayCallTest, HealthIsForEverybody) {

@@ -47,5 +47,27 @@ TEST(ActiveStreamsTest, StreamsThatDiedAreSkipped) {
   EXPECT_EQ(streams.size(), 1);  // until its owner removes it
 }
 
+TEST(ActiveStreamsTest, StreamsOfWhomIsLockedOutEnd) {
+  ActiveStreams streams;
+  const auto revoked = std::make_shared<RecordingStream>();
+  const auto known = std::make_shared<RecordingStream>();
+  const auto anybody = std::make_shared<RecordingStream>();
+  for (const auto& stream : {revoked, known, anybody}) streams.Add(stream);
+  streams.LetIn(revoked.get(), [] { return absl::UnauthenticatedError("revoked"); });
+  streams.LetIn(known.get(), [] { return absl::OkStatus(); });
+  streams.LetIn(anybody.get(), nullptr);
+  EXPECT_EQ(streams.EndLockedOut(), 1);
+  EXPECT_EQ(revoked->ended, absl::UnauthenticatedError("revoked"));
+  EXPECT_TRUE(known->ended.ok());
+  EXPECT_TRUE(anybody->ended.ok());
+}
+
+TEST(ActiveStreamsTest, WhoIsLetInAfterItsEndIsForgotten) {
+  ActiveStreams streams;
+  const auto stream = std::make_shared<RecordingStream>();
+  streams.LetIn(stream.get(), [] { return absl::UnauthenticatedError("revoked"); });
+  EXPECT_EQ(streams.EndLockedOut(), 0);
+}
+
 }  // namespace active_streams_test
 }  // namespace plumescout::server

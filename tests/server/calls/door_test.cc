@@ -24,8 +24,19 @@ absl::StatusOr<CallInfo> Enter(const Door& door, Rpc rpc, const grpc::CallbackSe
   return info;
 }
 
-Authenticate AlwaysSay(absl::StatusOr<Principal> caller) {
-  return [caller](const grpc::CallbackServerContext&) { return caller; };
+Authenticate AlwaysSay(const absl::StatusOr<Principal>& caller) {
+  return [caller](const grpc::CallbackServerContext&) -> absl::StatusOr<Identity> {
+    if (!caller.ok()) return caller.status();
+    return Identity{*caller, [] { return absl::UnauthenticatedError("revoked since"); }};
+  };
+}
+
+TEST(DoorTest, WhoIsLetInCanBeAskedAboutLater) {
+  const Door door(AlwaysSay(kScout));
+  const grpc::CallbackServerContext call;
+  const auto info = Enter(door, Rpc::kGetMap, call);
+  ASSERT_TRUE(info.ok());
+  EXPECT_EQ(info->recheck(), absl::UnauthenticatedError("revoked since"));
 }
 
 TEST(DoorTest, WithoutAnybodyToAskEverybodyIsAnAnonymousAdmin) {
