@@ -54,9 +54,14 @@ function(plumescout_library name)
 endfunction()
 
 # plumescout_program(plumescout-server SOURCES main.cc DEPS plumescout::server)
+#
+# PRECOMPILED: as plumescout_library, if any.
 function(plumescout_program name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS" ${ARGN})
+  cmake_parse_arguments(ARG "" "PRECOMPILED" "SOURCES;DEPS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
+  if(ARG_PRECOMPILED)
+    plumescout_precompile(${name} ${ARG_PRECOMPILED})
+  endif()
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PRIVATE ${ARG_DEPS} plumescout_warnings)
 endfunction()
