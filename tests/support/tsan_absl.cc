@@ -4,7 +4,8 @@
 // Debian's libabsl is not built with ThreadSanitizer, which therefore does not see that its mutexes
 // order anything and calls every guarded access a race. Preloaded before it, these wrappers say so:
 // what happened before a release is visible after the next acquire, and what the library does
-// inside is none of our business.
+// inside is none of our business. Programs that such a test starts have it preloaded as well, and no
+// ThreadSanitizer: hence the weak symbols.
 #include <dlfcn.h>
 
 #include "absl/synchronization/blocking_counter.h"
@@ -12,12 +13,12 @@
 #include "absl/synchronization/notification.h"
 
 extern "C" {
-void __tsan_acquire(void* address);
-void __tsan_release(void* address);
-void AnnotateIgnoreReadsBegin(const char* file, int line);
-void AnnotateIgnoreReadsEnd(const char* file, int line);
-void AnnotateIgnoreWritesBegin(const char* file, int line);
-void AnnotateIgnoreWritesEnd(const char* file, int line);
+[[gnu::weak]] void __tsan_acquire(void* address);
+[[gnu::weak]] void __tsan_release(void* address);
+[[gnu::weak]] void AnnotateIgnoreReadsBegin(const char* file, int line);
+[[gnu::weak]] void AnnotateIgnoreReadsEnd(const char* file, int line);
+[[gnu::weak]] void AnnotateIgnoreWritesBegin(const char* file, int line);
+[[gnu::weak]] void AnnotateIgnoreWritesEnd(const char* file, int line);
 }
 
 namespace {
