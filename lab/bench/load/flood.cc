@@ -84,12 +84,14 @@ void Flood::AskForPlans() {
     order->request.set_robot(RobotResource({session_.mission, session_.robot}));
     order->request.set_lease_token(session_.lease_token);
     ++plans_asked_;
-    stub.async()->NextBestTrajectory(&order->context, &order->request, &order->response,
-                                     [this, order, &mutex, &unanswered](grpc::Status status) {
-                                       if (status.ok()) ++plans_made_;
-                                       absl::MutexLock lock(&mutex);
-                                       --unanswered;
-                                     });
+    stub.async()->NextBestTrajectory(
+        &order->context, &order->request, &order->response,
+        [this, order, &mutex, &unanswered](grpc::Status status) mutable {
+          if (status.ok()) ++plans_made_;
+          order = nullptr;  // it holds the channel that ends with us
+          absl::MutexLock lock(&mutex);
+          --unanswered;
+        });
   }
   absl::MutexLock lock(&mutex);
   mutex.Await(absl::Condition(
