@@ -79,7 +79,7 @@ void Flood::AskForPlans() {
       if (unanswered >= kMaxUnanswered) continue;
       ++unanswered;
     }
-    const auto order = std::make_shared<Order>();
+    auto order = std::make_shared<Order>();
     order->context.set_deadline(std::chrono::system_clock::now() + kCallPatience);
     order->request.set_robot(RobotResource({session_.mission, session_.robot}));
     order->request.set_lease_token(session_.lease_token);
