@@ -4,8 +4,8 @@
 // Debian's libabsl is not built with ThreadSanitizer, which therefore does not see that its mutexes
 // order anything and calls every guarded access a race. Preloaded before it, these wrappers say so:
 // what happened before a release is visible after the next acquire, and what the library does
-// inside is none of our business. Programs that such a test starts have it preloaded as well, and no
-// ThreadSanitizer: hence the weak symbols.
+// inside is none of our business. Programs that such a test starts have it preloaded as well, and
+// no ThreadSanitizer: hence the weak symbols.
 #include <dlfcn.h>
 
 #include "absl/synchronization/blocking_counter.h"
