@@ -32,6 +32,7 @@ class AgeingWatch {
   // A cell that is not stale; returns its entry, for Set.
   std::size_t Add(AnchorCell cell);
   void Set(std::size_t entry, const Staleness& staleness) { entries_[entry].staleness = staleness; }
+  const Staleness& staleness(std::size_t entry) const { return entries_[entry].staleness; }
 
   // By what share true variances may exceed those that the field has heard of: weights that shrink
   // by a factor 1 / (1 + r) or less let no variance grow by more than 1 + r. Cost: O(cells), as of

@@ -20,6 +20,7 @@ class AnchoredStates {
   absl::StatusOr<std::vector<std::size_t>> Update(const Grid<CellState>& states);
 
   bool empty() const { return states_.size() == 0; }
+  const GridGeometry& anchor() const { return anchor_; }  // no cells: none yet
   // Of the last update; if it left out cells that were known before, those too, as unknown.
   const Grid<CellState>& states() const { return states_; }
   AnchorCell At(std::size_t index) const {
@@ -30,6 +31,9 @@ class AnchoredStates {
     return states_.At({cell.x - corner_.x, cell.y - corner_.y}, CellState::kUnknown) ==
            CellState::kFree;
   }
+
+  template <typename Archive, typename Self>
+  static void VisitState(Archive& archive, Self& self);
 
  private:
   GridGeometry anchor_;

@@ -26,6 +26,9 @@ class EpochSchedule {
 
   bool IsDue(const GasLattice& lattice, const GasCellBox& box) const;
 
+  template <typename Archive, typename Self>
+  static void VisitState(Archive& archive, Self& self);
+
  private:
   std::int64_t activity_changes_ = 0;  // since the last fresh field
   std::int64_t active_cells_ = 0;      // of that field

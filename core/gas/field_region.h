@@ -51,6 +51,10 @@ class FieldRegion {
   std::int64_t TilesAround() const;
   std::int64_t WidestAround_cells() const { return (2 * reach_tiles_ + 3) * kTileCells; }
 
+  // Which tiles were visited; the map is to be followed anew after reading.
+  template <typename Archive, typename Self>
+  static void VisitState(Archive& archive, Self& self);
+
  private:
   static constexpr int kTileCells = static_cast<int>(kMapTileCells);
 
@@ -60,6 +64,8 @@ class FieldRegion {
     std::int64_t y = 0;
 
     friend auto operator<=>(const Tile&, const Tile&) = default;
+    template <typename Archive, typename Self>
+    static void VisitState(Archive& archive, Self& self);
   };
 
   Tile TileAt(Point2 place) const;

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "absl/status/status.h"
 
@@ -44,6 +45,13 @@ void GasEpoch::Recompute() {
     assert(status.ok());  // cells of this lattice, precisions below those they had
   }
   engine_ = std::move(engine);
+}
+
+FieldOrigin GasEpoch::TakeOrigin() {
+  FieldOrigin origin;
+  origin.cells = std::move(inputs_.cells);
+  if (!inputs_.aged.empty()) origin.changes.push_back(std::move(inputs_.aged));
+  return origin;
 }
 
 }  // namespace plumescout

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/gas/field/field_engine.h"
+#include "core/gas/field_origin.h"
 #include "core/gas/gas_lattice.h"
 
 namespace plumescout {
@@ -47,6 +48,8 @@ class GasEpoch {
   // REQUIRES: done().
   const FieldDrift& drift() const { return drift_; }
   std::unique_ptr<FieldEngine> TakeEngine() { return std::move(engine_); }
+  // What that was made from. Nothing is left to recompute it.
+  FieldOrigin TakeOrigin();
 
  private:
   EpochInputs inputs_;

@@ -60,6 +60,18 @@ absl::StatusOr<std::vector<GasCell>> GasInputs::Update(const Grid<CellState>& st
   return changed;
 }
 
+bool GasInputs::BoxHoldsFreeCells() const {
+  const Grid<CellState>& states = states_.states();
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (states[i] != CellState::kFree) continue;
+    const GasCell cell = GasCellOf(states_.At(i), factor_);
+    if (cell.x < box_.x0 || cell.x >= box_.x1 || cell.y < box_.y0 || cell.y >= box_.y1) {
+      return false;
+    }
+  }
+  return true;
+}
+
 CellInput GasInputs::Of(GasCell cell) const {
   CellInput input = StructureOf(states_, cell, factor_);
   if (!input.active) return input;

@@ -61,7 +61,11 @@ class GasInputs {
   // EvidenceAsOf(time_ns) it is the same to the bit.
   std::vector<GasCell> AgeTo(std::int64_t time_ns);
 
+  template <typename Archive, typename Self>
+  static void VisitState(Archive& archive, Self& self);
+
  private:
+  bool BoxHoldsFreeCells() const;
   std::map<GasCell, Evidence> SumsOf(std::span<const CellEvidence> cells) const;
   std::vector<GasCell> GasCellsOf(std::span<const AnchorCell> cells) const;
 

@@ -88,6 +88,7 @@ GasMap::Changes GasMap::ChangesIn(std::span<const GasCell> changed) const {
 absl::Status GasMap::Apply(const Changes& changes) {
   schedule_.NoteRefresh(changes.activated + changes.deactivated);
   active_cells_ += changes.activated - changes.deactivated;
+  if (!changes.cells.empty()) origin_.reset();
   const std::int64_t healed = engine_->healed();
   const absl::Status status = engine_->Apply(changes.cells);
   quality_.healed += engine_->healed() - healed;
@@ -98,6 +99,7 @@ absl::Status GasMap::Apply(const Changes& changes) {
 absl::Status GasMap::Rebuild(std::int64_t time_ns) {
   epoch_.reset();
   engine_.reset();  // makes room
+  origin_.reset();
   inputs_.AgeTo(time_ns);
   GasLattice lattice = RoomyLattice();
   std::vector<CellInput> inputs = inputs_.On(lattice);
@@ -110,7 +112,8 @@ absl::Status GasMap::Rebuild(std::int64_t time_ns) {
     inputs = inputs_.On(lattice);
     active_cells_ = CountActive(inputs);
   }
-  TakeOver(MakeEngine(lattice, inputs, field_options_), lattice);
+  auto engine = MakeEngine(lattice, inputs, field_options_);
+  TakeOver(std::move(engine), lattice, {std::move(inputs), {}});
   schedule_.NoteFresh(active_cells_);
   quality_.aged_to_ns = time_ns;
   const absl::Status status = engine_->Apply({});  // whether it is sound
@@ -122,14 +125,16 @@ GasLattice GasMap::RoomyLattice() const {
   return MakeLattice(lattice_, inputs_.box(), EpochSchedule::Margin_cells(inputs_.box()));
 }
 
-void GasMap::TakeOver(std::unique_ptr<FieldEngine> engine, const GasLattice& lattice) {
+void GasMap::TakeOver(std::unique_ptr<FieldEngine> engine, const GasLattice& lattice,
+                      FieldOrigin origin) {
   engine_ = std::move(engine);
+  origin_ = std::move(origin);
   lattice_ = lattice;
   published_ = false;
 }
 
 bool GasMap::epoch_due(std::int64_t time_ns) const {
-  return engine_ != nullptr && epoch_ == nullptr && !has_failed_ &&
+  return epoch_possible() &&
          (schedule_.IsDue(lattice_, inputs_.box()) || inputs_.watch().IsEpochDue(time_ns));
 }
 
@@ -177,10 +182,13 @@ absl::Status GasMap::Adopt() {
   inputs_.AgeTo(epoch->time_ns());
   const std::vector<CellInput> inputs = inputs_.On(epoch->lattice());
   std::unique_ptr<FieldEngine> engine = epoch->TakeEngine();
-  const absl::Status status = engine->Apply(Differences(inputs, *engine));
+  std::vector<CellChange> differences = Differences(inputs, *engine);
+  const absl::Status status = engine->Apply(differences);
   quality_.healed += engine->healed();
   if (!status.ok()) return Conclude(status, time_ns_);
-  TakeOver(std::move(engine), epoch->lattice());
+  FieldOrigin origin = epoch->TakeOrigin();
+  if (!differences.empty()) origin.changes.push_back(std::move(differences));
+  TakeOver(std::move(engine), epoch->lattice(), std::move(origin));
   active_cells_ = CountActive(inputs);
   schedule_.NoteFresh(active_cells_);
   quality_.aged_to_ns = epoch->time_ns();
@@ -220,6 +228,8 @@ absl::Status GasMap::Conclude(const absl::Status& computed, std::int64_t time_ns
   has_failed_ = !computed.ok();
   if (has_failed_) {
     epoch_.reset();
+    origin_.reset();
+    abandoned_ = abandoned_ || absl::IsCancelled(computed);
     if (absl::IsCancelled(computed)) return computed;
     ++quality_.failures;
     return absl::InternalError(absl::StrCat("gas map: ", computed.ToString()));
@@ -228,6 +238,19 @@ absl::Status GasMap::Conclude(const absl::Status& computed, std::int64_t time_ns
   quality_.mean_error_ppm = engine_->error_bound().mean_ppm;
   quality_.variance_error_ratio = engine_->error_bound().variance_ratio;
   quality_.ageing_error_ratio = inputs_.watch().Error(time_ns);
+  return absl::OkStatus();
+}
+
+absl::Status GasMap::MakeFieldAgain() {
+  published_ = false;
+  options_.lattice_factor = inputs_.factor();
+  engine_.reset();
+  if (!origin_) return absl::OkStatus();
+  auto engine = MakeField(*origin_, lattice_, field_options_);
+  if (absl::IsCancelled(engine.status())) return engine.status();
+  if (!engine.ok())
+    return absl::DataLossError(absl::StrCat("gas map: ", engine.status().message()));
+  engine_ = *std::move(engine);
   return absl::OkStatus();
 }
 

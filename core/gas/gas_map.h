@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "core/gas/field/field_engine.h"
 #include "core/gas/field_audit.h"
 #include "core/gas/field_bytes.h"
+#include "core/gas/field_origin.h"
 #include "core/gas/gas_epoch.h"
 #include "core/gas/gas_inputs.h"
 #include "core/gas/gas_lattice.h"
@@ -98,6 +100,8 @@ class GasMap {
   bool stale() const { return stale_ || has_failed_; }
 
   bool epoch_due(std::int64_t time_ns) const;
+  // Whether BeginEpoch would begin one.
+  bool epoch_possible() const { return engine_ != nullptr && epoch_ == nullptr && !has_failed_; }
   // kFailedPrecondition if one is under way or there is no field yet. Cost: O(cells).
   absl::Status BeginEpoch(std::int64_t time_ns);
   std::shared_ptr<GasEpoch> epoch() const { return epoch_; }  // under way, or null
@@ -115,6 +119,17 @@ class GasMap {
   // O(cells).
   std::shared_ptr<const AuditInputs> MakeAudit() const;
 
+  // Whether its state can be written: it is neither abandoned nor within an epoch, and there is no
+  // field, or one that has heard nothing since it was made anew. Always so right after Adopt.
+  bool can_be_written() const {
+    return !abandoned_ && epoch_ == nullptr && (!has_field() || origin_.has_value());
+  }
+  template <typename Archive, typename Self>
+  static void VisitState(Archive& archive, Self& self);
+  // Makes the field of the state that was read; before that there is none. Errors: kDataLoss if
+  // that cannot be; kCancelled as AbandonWhen says. Cost: a fresh computation or two.
+  absl::Status MakeFieldAgain();
+
  private:
   friend struct GasMapPeer;  // of the tests
 
@@ -127,7 +142,8 @@ class GasMap {
   Changes ChangesIn(std::span<const GasCell> changed) const;
   absl::Status Apply(const Changes& changes);
   GasLattice RoomyLattice() const;
-  void TakeOver(std::unique_ptr<FieldEngine> engine, const GasLattice& lattice);
+  void TakeOver(std::unique_ptr<FieldEngine> engine, const GasLattice& lattice, FieldOrigin origin);
+  bool has_field() const { return engine_ != nullptr && !has_failed_; }
   absl::Status Conclude(const absl::Status& computed, std::int64_t time_ns);
   void Publish() const;
 
@@ -137,11 +153,13 @@ class GasMap {
   EpochSchedule schedule_;
   GasLattice lattice_;
   std::unique_ptr<FieldEngine> engine_;  // null before there is a free cell
+  std::optional<FieldOrigin> origin_;    // of the engine while it has heard nothing since
   std::int64_t active_cells_ = 0;        // of the engine
   std::int64_t most_field_bytes_ = std::numeric_limits<std::int64_t>::max();
   std::shared_ptr<GasEpoch> epoch_;
   std::int64_t time_ns_ = 0;  // of the last refresh
   bool has_failed_ = false;   // the engine holds no field that may be seen
+  bool abandoned_ = false;    // and the rest is not what events tell
   bool stale_ = false;
   GasQuality quality_;
 

@@ -14,6 +14,7 @@
 #include "core/gas/ageing.h"
 #include "core/gas/ageing_watch.h"
 #include "core/gas/anchor_cell.h"
+#include "core/gas/anchored_states.h"
 #include "core/gas/information.h"
 #include "core/gas/reading_bucket.h"
 #include "core/gas/reading_site.h"
@@ -105,16 +106,30 @@ class ReadingStore {
   // Sites that are not placed yet, each reading that is kept alone counted as one.
   std::size_t arrivals() const { return arrivals_.size() + merged_arrivals_.size(); }
 
+  // REQUIRES: TakeChanged was called after the last change. What was read is to be placed by
+  // PlaceAgain.
+  template <typename Archive, typename Self>
+  static void VisitState(Archive& archive, Self& self);
+  // Places all sites on the states that they were placed on last, as they were then. Returns
+  // whether they fit these. Cost: O(sites log sites).
+  bool PlaceAgain(const AnchoredStates& states);
+
  private:
   struct Arrival {
     Point2 position;
     ReadingBucket reading;
+
+    template <typename Archive, typename Self>
+    static void VisitState(Archive& archive, Self& self);
   };
   struct Site {
     std::int64_t count = 0;
     Evidence sums;                       // without ageing
     std::vector<ReadingBucket> buckets;  // with ageing
     Placement placement;
+
+    template <typename Archive, typename Self>
+    static void VisitState(Archive& archive, Self& self);
   };
   struct PlacedCell {
     std::vector<ReadingSite> sites;  // ascending
@@ -123,6 +138,15 @@ class ReadingStore {
     std::size_t watched = 0;  // entry of watch_
   };
   using Sites = std::map<ReadingSite, Site>;
+  // What of a PlacedCell and its entry of watch_ does not follow from sites and states.
+  struct AgedCell {
+    AnchorCell cell;
+    std::int64_t aged_alone_to_ns = 0;
+    Staleness staleness;
+
+    template <typename Archive, typename Self>
+    static void VisitState(Archive& archive, Self& self);
+  };
 
   void PlaceSitesNear(AnchorCell cell, const Grid<CellState>& states);
   void PlaceSite(const ReadingSite& key, Site& site, const Grid<CellState>& states);
@@ -141,6 +165,8 @@ class ReadingStore {
   }
   Staleness StalenessOf(const PlacedCell& cell) const;
   Evidence SumOver(const PlacedCell& cell, std::int64_t time_ns) const;
+  std::vector<AgedCell> AgedCells() const;
+  void Watch(const std::vector<AgedCell>& cells);
 
   double background_mean_ppm_;
   double resolution_m_;

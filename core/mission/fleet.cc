@@ -51,6 +51,10 @@ absl::Status Fleet::Register(const RobotRegistered& registration, int max_robot_
   PLUMESCOUT_RETURN_IF_ERROR(ValidateId("robot", registration.robot));
   PLUMESCOUT_RETURN_IF_ERROR(
       Checker().InRangeAbove("radius_m", registration.radius_m, 0.0, kMaxRadius_m).status());
+  if (registration.log_epoch < 0 || registration.log_epoch >= kLogEpochEnd) {
+    return absl::InvalidArgumentError(absl::StrCat("log_epoch = ", registration.log_epoch,
+                                                   " must be in [0, ", kLogEpochEnd, ")"));
+  }
   const auto found = robots_.find(registration.robot);
   const auto present = std::count_if(robots_.begin(), robots_.end(),
                                      [](const auto& entry) { return !entry.second.removed; });
@@ -67,6 +71,7 @@ absl::Status Fleet::Register(const RobotRegistered& registration, int max_robot_
   member.record.state.id = registration.robot;
   member.record.state.radius_m = registration.radius_m;
   member.lease_token = registration.lease_token;
+  if (registration.log_epoch != 0) member.log_epoch = registration.log_epoch;
   member.removed = false;
   return absl::OkStatus();
 }
@@ -251,6 +256,13 @@ absl::StatusOr<std::int64_t> Fleet::LeaseToken(const RobotId& robot) const {
   const Member* const member = Find(robot);
   if (member == nullptr) return UnknownRobot(robot);
   return member->lease_token;
+}
+
+bool Fleet::LogContinues(const RobotId& robot, std::int64_t log_epoch) const {
+  const auto found = robots_.find(robot);
+  if (found == robots_.end() || found->second.record.state.applied_sequence == 0) return true;
+  const std::int64_t known_epoch = found->second.log_epoch;
+  return log_epoch == 0 || known_epoch == 0 || log_epoch == known_epoch;
 }
 
 std::vector<MaskDisc> Fleet::MasksFor(const RobotId& observer) const {

@@ -50,6 +50,9 @@ class Fleet {
 
   absl::StatusOr<std::int64_t> AppliedSequence(const RobotId& robot) const;
   absl::StatusOr<std::int64_t> LeaseToken(const RobotId& robot) const;
+  // Whether the robot's numbers up to the applied one are of the log of that epoch; see
+  // RobotRegistered::log_epoch. So is an empty log, and one of which either side does not say.
+  bool LogContinues(const RobotId& robot, std::int64_t log_epoch) const;
   bool Knows(const RobotId& robot) const { return Find(robot) != nullptr; }
 
   // Discs around the latest poses of all robots but `observer` and the silent, in which beams must
@@ -63,6 +66,10 @@ class Fleet {
   // plan. One that is late is due now, until its claim expires.
   std::optional<std::int64_t> NextMapUpdate_ns(std::int64_t now_ns) const;
 
+  // See core/types/byte_archive.h.
+  template <typename Archive, typename Self>
+  static void VisitState(Archive& archive, Self& self);
+
  private:
   struct LivePlan {
     PlanId id = 0;
@@ -70,15 +77,22 @@ class Fleet {
     std::optional<Goal> goal;  // none: the robot stays where it is, or drives home
     std::int64_t expires_ns = 0;
     std::optional<std::int64_t> map_update_ns;  // of plans that sample sites
+
+    template <typename Archive, typename Self>
+    static void VisitState(Archive& archive, Self& self);
   };
   struct Member {
     RobotRecord record;
     Odometer odometer;
     std::int64_t lease_token = 0;
+    std::int64_t log_epoch = 0;
     std::optional<MissionPhase> last_phase;
     std::optional<LivePlan> live;
     std::optional<std::int64_t> heard_ns;  // none: no time has passed since it registered
     bool removed = false;                  // only its log and its lease are remembered
+
+    template <typename Archive, typename Self>
+    static void VisitState(Archive& archive, Self& self);
   };
 
   const Member* Find(const RobotId& robot) const;  // null if unknown

@@ -107,6 +107,16 @@ bool GoalMemory::Holds(const Entry& entry, const Now& now) const {
          ChangedCells(entry.states_then, now.map, entry.aside.goal.position) < min_changed_cells_;
 }
 
+bool GoalMemory::IsOf(double resolution_m) const {
+  std::size_t near = 0;
+  ForCellsNear({0.0, 0.0, resolution_m, 0, 0}, {}, [&](Cell) { ++near; });
+  const auto fits = [near](const auto& remembered) {
+    return remembered.states_then.size() == near;
+  };
+  return std::all_of(visited_.begin(), visited_.end(), fits) &&
+         std::all_of(set_aside_.begin(), set_aside_.end(), fits);
+}
+
 std::vector<SetAsideGoal> GoalMemory::SetAside(const Now& now) const {
   std::vector<SetAsideGoal> result;
   for (const Entry& entry : set_aside_) {

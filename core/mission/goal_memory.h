@@ -44,6 +44,12 @@ class GoalMemory {
   // Cost: O(goals set aside * cells within kChangeRadius_m).
   std::vector<SetAsideGoal> SetAside(const Now& now) const;
 
+  // See core/types/byte_archive.h.
+  template <typename Archive, typename Self>
+  static void VisitState(Archive& archive, Self& self);
+  // Whether what it remembers was seen on maps of this resolution.
+  bool IsOf(double resolution_m) const;
+
  private:
   struct VisitedGoal {
     Goal goal;
@@ -52,10 +58,16 @@ class GoalMemory {
     // At the last visit: of the map near the goal, and of the gas in its cell, NaN if unknown.
     std::vector<CellState> states_then;
     float variance_then_ppm2 = 0.0F;
+
+    template <typename Archive, typename Self>
+    static void VisitState(Archive& archive, Self& self);
   };
   struct Entry {
     SetAsideGoal aside;
     std::vector<CellState> states_then;  // of the map near the goal
+
+    template <typename Archive, typename Self>
+    static void VisitState(Archive& archive, Self& self);
   };
 
   bool HasNews(const VisitedGoal& visited, const Now& now) const;

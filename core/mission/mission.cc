@@ -213,6 +213,10 @@ absl::StatusOr<std::int64_t> Mission::LeaseToken(const RobotId& robot) const {
   return fleet_.LeaseToken(robot);
 }
 
+bool Mission::LogContinues(const RobotId& robot, std::int64_t log_epoch) const {
+  return fleet_.LogContinues(robot, log_epoch);
+}
+
 bool Mission::posterior_stale() const { return gas_.stale() || map_changed_since_refresh_; }
 
 // A reading does not wait behind a refresh that a scan has just caused.

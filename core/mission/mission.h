@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "absl/strings/string_view.h"
 #include "core/belief/belief.h"
 #include "core/gas/field_region.h"
 #include "core/gas/gas_epoch.h"
@@ -69,6 +71,8 @@ class Mission {
   // The state of one robot's log; kNotFound if unknown.
   absl::StatusOr<std::int64_t> AppliedSequence(const RobotId& robot) const;
   absl::StatusOr<std::int64_t> LeaseToken(const RobotId& robot) const;
+  // See Fleet::LogContinues.
+  bool LogContinues(const RobotId& robot, std::int64_t log_epoch) const;
 
   // Whether readings or free cells changed since the last PosteriorRefreshed, or it failed.
   bool posterior_stale() const;
@@ -83,6 +87,8 @@ class Mission {
   // 3. EpochBegun, at sample_time_ns(). Then somebody may recompute epoch() on another thread.
   bool epoch_due() const { return gas_.epoch_due(sample_time_ns_); }
 
+  // Whether one may begin out of turn.
+  bool epoch_possible() const { return gas_.epoch_possible(); }
   std::shared_ptr<GasEpoch> epoch() const { return gas_.epoch(); }  // under way, or null
 
   // As GasMap. What audits find belongs to this process: it goes with snapshots, but it is no event
@@ -106,6 +112,32 @@ class Mission {
 
   // The present state, for readers. Cost: O(cells) if the map changed since the last call.
   std::shared_ptr<const Belief> Snapshot() const;
+
+  // A hash over all that events determine, means and variances of the gas bit by bit: the same
+  // wherever the same events were applied, live, in a replay or after a Restore. What audits found
+  // is left out. Cost: O(cells + readings); docs/performance.md.
+  std::uint64_t Digest() const;
+
+  // The state as bytes, from which Restore goes on. What the gas field is depends, within its
+  // certificate, on the way it came about, so it is not possible at any revision: before there is
+  // a field, and while it has heard nothing since it was made anew. Hence always right after an
+  // EpochAdopted, which observers of a conduct hear of before anything else is applied; also after
+  // a refresh or adoption that failed, until there is a field again. Never while an epoch is under
+  // way.
+  bool can_be_saved() const { return gas_.can_be_written(); }
+  // kFailedPrecondition if it cannot be saved now. Cost: as of Digest. zlib makes a quarter of the
+  // bytes.
+  absl::StatusOr<std::string> SaveState() const;
+  // The mission that was saved: equal, and equal under all further events, bit by bit. `options` as
+  // they were for Create. `stop` as of AbandonWhen, and asked meanwhile. Errors: those of Create;
+  // kDataLoss, saying what is wrong, for bytes that are not those of SaveState;
+  // kFailedPrecondition, naming it, for a version of theirs that is not known; kCancelled. Cost:
+  // reading, and one or two fresh computations of the field.
+  static absl::StatusOr<std::unique_ptr<Mission>> Restore(const MissionOptions& options,
+                                                          absl::string_view bytes,
+                                                          StopFn stop = {});
+  template <typename Archive, typename Self>
+  static void VisitState(Archive& archive, Self& self);
 
  private:
   friend struct MissionPeer;  // of the tests

@@ -24,6 +24,12 @@ class Odometer {
 
   double travelled_m() const { return travelled_m_; }
 
+  // See core/types/byte_archive.h.
+  template <typename Archive, typename Self>
+  static void VisitState(Archive& archive, Self& self) {
+    archive(self.mark_, self.travelled_m_);
+  }
+
  private:
   static constexpr double kStep_m = 0.1;  // ten times the noise of a good localisation
 

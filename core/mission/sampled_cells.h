@@ -34,6 +34,12 @@ class SampledCells {
     return raster;
   }
 
+  // See core/types/byte_archive.h.
+  template <typename Archive, typename Self>
+  static void VisitState(Archive& archive, Self& self) {
+    archive(self.cells_);
+  }
+
  private:
   std::int64_t Index(double coordinate_m) const {
     return static_cast<std::int64_t>(std::floor(coordinate_m / resolution_m_));

@@ -72,6 +72,10 @@ class OccupancyGrid {
   CellState State(Cell cell) const { return states_.At(cell, CellState::kUnknown); }
   const Grid<CellState>& States() const { return states_; }
 
+  // See core/types/byte_archive.h; what LimitCells was told is no state.
+  template <typename Archive, typename Self>
+  static void VisitState(Archive& archive, Self& self);
+
  private:
   OccupancyOptions options_;
   std::int64_t cell_limit_ = std::numeric_limits<std::int64_t>::max();

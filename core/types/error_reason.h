@@ -42,6 +42,13 @@ inline constexpr absl::string_view kLimitReached = "LIMIT_REACHED";
 inline constexpr absl::string_view kRateExceeded = "RATE_EXCEEDED";
 inline constexpr absl::string_view kDraining = "DRAINING";
 inline constexpr absl::string_view kServerRestarted = "SERVER_RESTARTED";
+// Of what outlives a server.
+inline constexpr absl::string_view kStoreUnavailable = "STORE_UNAVAILABLE";
+inline constexpr absl::string_view kStoreRolledBack = "STORE_ROLLED_BACK";
+inline constexpr absl::string_view kStoreDamaged = "STORE_DAMAGED";
+inline constexpr absl::string_view kRecovering = "RECOVERING";
+inline constexpr absl::string_view kFenced = "FENCED";
+inline constexpr absl::string_view kExportDamaged = "EXPORT_DAMAGED";
 
 }  // namespace reason
 

@@ -18,6 +18,10 @@ struct RobotRegistered {
   RobotId robot;
   double radius_m = 0.2;
   std::int64_t lease_token = 0;
+  // Which log the robot's numbers are of, as its client drew it at random when it began the log; 0:
+  // the client does not say. Another log than before goes on with numbers of its own after the last
+  // one that was applied.
+  std::int64_t log_epoch = 0;
 
   friend bool operator==(const RobotRegistered&, const RobotRegistered&) = default;
 };

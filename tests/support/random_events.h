@@ -23,7 +23,7 @@ class RandomEvents {
     event.number = Int64();
     switch (rng_.Below(std::variant_size_v<decltype(event.body)>)) {
       case 0:
-        event.body = RobotRegistered{Text(), Real(), Int64()};
+        event.body = RobotRegistered{Text(), Real(), Int64(), Int64()};
         break;
       case 1:
         event.body = ObservationReceived{Text(), MakeObservation()};

@@ -11,7 +11,8 @@ namespace plumescout::support {
 // Bitwise equality of rasters: NaN equals NaN.
 template <typename T>
 bool SameBytes(const Grid<T>& a, const Grid<T>& b) {
-  return a.geometry() == b.geometry() &&
+  if (a.geometry() != b.geometry()) return false;
+  return a.size() == 0 ||  // no data to point to
          std::memcmp(a.values().data(), b.values().data(), a.size() * sizeof(T)) == 0;
 }
 

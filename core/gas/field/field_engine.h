@@ -77,6 +77,9 @@ class FieldEngine {
   double variance_ppm2(std::size_t cell) const {
     return marginals_.variance_ppm2()[tree_->slot(cell)];
   }
+  // Of all cells, in an order that the same calls give again.
+  const std::vector<double>& means_ppm() const { return marginals_.mean_ppm(); }
+  const std::vector<double>& variances_ppm2() const { return marginals_.variance_ppm2(); }
   // Within the tolerance, that of the mean being a share of its largest value before the batch.
   FieldDeviation error_bound() const;
 
@@ -84,6 +87,7 @@ class FieldEngine {
   std::size_t cells() const { return tree_->cells(); }
   // What was last told of a cell.
   CellInput input(std::size_t cell) const { return cells_.Get(tree_->slot(cell)); }
+  const FieldCells& heard() const { return cells_; }  // of all of them
   // Fresh computations that became necessary because a field was not finite, or a variance not
   // positive. Each is a defect; builds with assertions stop there.
   std::int64_t healed() const { return healed_; }

@@ -58,6 +58,14 @@ absl::StatusOr<StreamId> LeaseBook::Release(const RobotId& robot,
   return std::exchange(lease.stream, 0);
 }
 
+std::map<RobotId, std::int64_t> LeaseBook::Released() const {
+  std::map<RobotId, std::int64_t> released;
+  for (const auto& [robot, lease] : leases_) {
+    if (lease.released) released[robot] = lease.token;
+  }
+  return released;
+}
+
 LeaseStanding LeaseBook::Standing(const RobotId& robot, std::int64_t now_ns) const {
   const auto found = leases_.find(robot);
   if (found == leases_.end() || found->second.released) return {};

@@ -93,6 +93,9 @@ class LeaseBook {
   void CloseStream(const RobotId& robot, StreamId stream, std::int64_t now_ns);
   void CloseAllStreams();
 
+  // Tokens that were given up and not replaced by newer ones.
+  std::map<RobotId, std::int64_t> Released() const;
+
   int robot_count() const { return static_cast<int>(leases_.size()); }
 
  private:

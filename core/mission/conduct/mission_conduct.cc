@@ -3,6 +3,7 @@
 #include "core/mission/conduct/mission_conduct.h"
 
 #include <utility>
+#include <variant>
 
 #include "absl/strings/str_cat.h"
 #include "core/mission/conduct/conduct_errors.h"
@@ -18,21 +19,25 @@ Observation Unreadable(std::int64_t sequence) {
 
 }  // namespace
 
-MissionConduct::MissionConduct(std::unique_ptr<Mission> mission, ConductObserver* observer)
-    : mission_(std::move(mission)), observer_(observer) {}
+MissionConduct::MissionConduct(std::unique_ptr<Mission> mission, ConductObserver* observer,
+                               const EpochHabit& habit)
+    : mission_(std::move(mission)), observer_(observer), habit_(habit) {}
 
 absl::StatusOr<Applied> MissionConduct::Apply(EventBody body) {
   PLUMESCOUT_ASSIGN_OR_RETURN(Applied applied, mission_->Apply(body));
+  if (std::holds_alternative<EpochAdopted>(body)) habit_.last_revision = applied.revision;
   if (observer_ != nullptr) observer_->OnEvent({applied.revision, std::move(body)}, applied);
   return applied;
 }
 
 absl::StatusOr<Registered> MissionConduct::Register(const Registration& wish, Leases& leases) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::int64_t token, leases.Propose(wish.robot, wish.take_over));
-  PLUMESCOUT_ASSIGN_OR_RETURN(const LogPosition position,
-                              Register(RobotRegistered{wish.robot, wish.radius_m, token}));
+  const bool continues = mission_->LogContinues(wish.robot, wish.log_epoch);
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      const LogPosition position,
+      Register(RobotRegistered{wish.robot, wish.radius_m, token, wish.log_epoch}));
   leases.Grant(wish.robot, token);
-  return Registered{token, position};
+  return Registered{token, position, continues};
 }
 
 absl::StatusOr<LogPosition> MissionConduct::Register(const RobotRegistered& registration) {
@@ -130,7 +135,12 @@ absl::StatusOr<std::shared_ptr<const Belief>> MissionConduct::FreshBelief() {
 void MissionConduct::KeepGasUp() {
   if (mission_->adoption_due()) Take(GasStep::kAdoptEpoch, EpochAdopted{}).IgnoreError();
   if (mission_->refresh_due()) Refresh().IgnoreError();
-  if (mission_->epoch_due()) BeginEpoch().IgnoreError();
+  if (mission_->epoch_due() || IsEpochWanted()) BeginEpoch().IgnoreError();
+}
+
+bool MissionConduct::IsEpochWanted() const {
+  return habit_.events > 0 && mission_->revision() - habit_.last_revision >= habit_.events &&
+         mission_->epoch_possible();
 }
 
 absl::Status MissionConduct::Refresh() {

@@ -23,7 +23,8 @@ namespace plumescout {
 struct Registration {
   RobotId robot;
   double radius_m = 0.0;
-  bool take_over = false;  // although another client holds the lease
+  bool take_over = false;      // although another client holds the lease
+  std::int64_t log_epoch = 0;  // which log it will write, see RobotRegistered; 0: it does not say
 };
 
 // A wish that a robot leave the mission.
@@ -35,6 +36,9 @@ struct Removal {
 struct Registered {
   std::int64_t lease_token = 0;
   LogPosition position;
+  // Whether the numbers up to the position are of the client's log. If not, its first observation
+  // takes the number after that.
+  bool log_continues = true;
 };
 
 // A wish for a belief.
@@ -43,6 +47,14 @@ struct BeliefWish {
   std::int64_t min_applied_sequence = 0;  // up to this number
   std::optional<std::int64_t> lease_token = std::nullopt;  // under which the robot asks, if it does
   bool fresh_posterior = true;  // false: the posterior as it is will do; the mission stays the same
+};
+
+// How often epochs come at the least. After so many events without one being adopted, one begins
+// out of turn: only then can the mission be saved (see Mission::can_be_saved).
+struct EpochHabit {
+  std::int64_t events = 0;  // 0: epochs come when the gas field needs them
+  // Revision at which the last one was adopted, of a mission that was recovered.
+  std::int64_t last_revision = 0;
 };
 
 // Turns commands into numbered events of one mission: what is applied and in which order, when the
@@ -55,7 +67,8 @@ struct BeliefWish {
 class MissionConduct {
  public:
   // The observer, if any, is not owned and outlives the last call.
-  explicit MissionConduct(std::unique_ptr<Mission> mission, ConductObserver* observer = nullptr);
+  explicit MissionConduct(std::unique_ptr<Mission> mission, ConductObserver* observer = nullptr,
+                          const EpochHabit& habit = {});
 
   const Mission& mission() const { return *mission_; }
 
@@ -109,10 +122,12 @@ class MissionConduct {
   // What is due to the gas posterior. After every observation rather than every batch: so the
   // events do not depend on how a log was cut into batches.
   void KeepGasUp();
+  bool IsEpochWanted() const;
   absl::Status Take(GasStep step, EventBody body);
 
   std::unique_ptr<Mission> mission_;
   ConductObserver* const observer_;
+  EpochHabit habit_;
 };
 
 }  // namespace plumescout

@@ -49,6 +49,42 @@ TEST(FleetRegister, RefusesOldLeasesBadRadiiAndTooManyRobots) {
   EXPECT_FALSE(fleet.Knows("b"));
 }
 
+TEST(FleetRegister, RefusesAnEpochThatADoubleWouldNotHold) {
+  Fleet fleet;
+  for (const std::int64_t log_epoch : {std::int64_t{-1}, std::int64_t{1} << 53}) {
+    const absl::Status status = fleet.Register({"a", 0.2, 1, log_epoch}, kMaxRobots);
+    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(std::string(status.message()), testing::HasSubstr("log_epoch = "));
+  }
+  EXPECT_FALSE(fleet.Knows("a"));
+  EXPECT_TRUE(fleet.Register({"a", 0.2, 1, (std::int64_t{1} << 53) - 1}, kMaxRobots).ok());
+}
+
+TEST(FleetLog, ContinuesWhileItIsEmptyOrTheSameOrNobodySays) {
+  Fleet fleet = FleetOf({"a"});
+  EXPECT_TRUE(fleet.LogContinues("nobody", 5));
+  ASSERT_TRUE(fleet.Register({"a", 0.2, 2, 5}, kMaxRobots).ok());
+  EXPECT_TRUE(fleet.LogContinues("a", 6));
+  fleet.Advance("a", Numbered(1), false);
+  EXPECT_TRUE(fleet.LogContinues("a", 5));
+  EXPECT_TRUE(fleet.LogContinues("a", 0));
+  EXPECT_FALSE(fleet.LogContinues("a", 6));
+}
+
+TEST(FleetLog, IsTheOneThatWasNamedLast) {
+  Fleet fleet = FleetOf({"a"});
+  fleet.Advance("a", Numbered(1), false);
+  EXPECT_TRUE(fleet.LogContinues("a", 5));  // of the observation nobody said of which log it is
+  ASSERT_TRUE(fleet.Register({"a", 0.2, 2, 5}, kMaxRobots).ok());
+  ASSERT_TRUE(fleet.Register({"a", 0.2, 3}, kMaxRobots).ok());  // does not say
+  EXPECT_FALSE(fleet.LogContinues("a", 6));
+  ASSERT_TRUE(fleet.Register({"a", 0.2, 4, 6}, kMaxRobots).ok());
+  EXPECT_FALSE(fleet.LogContinues("a", 5));
+  ASSERT_TRUE(fleet.Remove("a").ok());
+  EXPECT_FALSE(fleet.LogContinues("a", 5));  // its log goes on should it come back
+  EXPECT_TRUE(fleet.LogContinues("a", 6));
+}
+
 TEST(FleetSequence, TakesTheNextNumberOnly) {
   Fleet fleet = FleetOf({"a"});
   EXPECT_EQ(fleet.CheckSequence("a", Numbered(0)).code(), absl::StatusCode::kInvalidArgument);

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "core/types/error_reason.h"
 
 namespace plumescout {
@@ -172,6 +174,16 @@ TEST_F(LeaseBookTest, AnybodyMayReleaseTheLeaseOfARobotThatDied) {
   EXPECT_TRUE(book_.Release("r1", std::nullopt).ok());
   EXPECT_FALSE(Held());
   EXPECT_EQ(ErrorReason(book_.Release("r2", std::nullopt).status()), reason::kRobotNotFound);
+}
+
+TEST_F(LeaseBookTest, TokensThatWereGivenUpAreToldUntilThereAreNewer) {
+  Take("r1");
+  const std::int64_t token = Take("r2");
+  EXPECT_TRUE(book_.Released().empty());
+  EXPECT_TRUE(book_.Release("r2", token).ok());
+  EXPECT_EQ(book_.Released(), (std::map<RobotId, std::int64_t>{{"r2", token}}));
+  Take("r2");
+  EXPECT_TRUE(book_.Released().empty());
 }
 
 TEST_F(LeaseBookTest, StandingTellsWhetherALeaseIsHeld) {

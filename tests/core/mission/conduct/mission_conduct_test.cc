@@ -117,6 +117,25 @@ TEST_F(MissionConductTest, RegistrationPutsALeaseInForce) {
   EXPECT_EQ(events_.back().body, EventBody(RobotRegistered{"r2", 0.2, 50}));
 }
 
+TEST_F(MissionConductTest, RegistrationSaysWhetherTheLogGoesOn) {
+  LeaseBook book(/*hold_ns=*/1000, /*first_token=*/50);
+  LeasesAt leases(book, /*now_ns=*/0);
+  const auto join = [&](std::int64_t log_epoch) {
+    return *conduct_.Register(Registration{"r2", 0.2, /*take_over=*/true, log_epoch}, leases);
+  };
+  const Registered first = join(8);
+  EXPECT_TRUE(first.log_continues);
+  EXPECT_EQ(events_.back().body, EventBody(RobotRegistered{"r2", 0.2, 50, 8}));
+  ASSERT_TRUE(conduct_.Ingest("r2", first.lease_token, GasBatch(1, 3)).status.ok());
+  EXPECT_TRUE(join(8).log_continues);
+  EXPECT_TRUE(join(0).log_continues);
+  const Registered other = join(9);
+  EXPECT_FALSE(other.log_continues);
+  EXPECT_EQ(other.position.applied_sequence, 3);
+  EXPECT_TRUE(absl::IsInvalidArgument(
+      conduct_.Register(Registration{"r2", 0.2, true, -1}, leases).status()));
+}
+
 TEST_F(MissionConductTest, RegistrationUnderALeaseThatIsHeldIsNoEvent) {
   LeaseBook book(/*hold_ns=*/1000, /*first_token=*/50);
   LeasesAt leases(book, /*now_ns=*/0);

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/gas/field_origin.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "absl/status/status.h"
+#include "core/types/status_macros.h"
+
+namespace plumescout {
+namespace {
+
+bool IsTakenByFields(const CellInput& input) {
+  return input.precision >= 0.0 && input.precision <= kMaxCellPrecision &&
+         std::abs(input.weighted_deviation) <= kMaxCellPrecision;
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<FieldEngine>> MakeField(const FieldOrigin& origin,
+                                                       const GasLattice& lattice,
+                                                       const FieldOptions& options) {
+  const bool fits = lattice.width > 0 && lattice.height > 0 &&
+                    origin.cells.size() == lattice.size() &&
+                    origin.cells.size() < std::numeric_limits<Slot>::max() &&
+                    std::all_of(origin.cells.begin(), origin.cells.end(), IsTakenByFields);
+  if (!fits) return absl::InvalidArgumentError("a gas field is made from other cells");
+  auto engine = std::make_unique<FieldEngine>(static_cast<std::size_t>(lattice.width),
+                                              static_cast<std::size_t>(lattice.height),
+                                              origin.cells, options);
+  for (const std::vector<CellChange>& changes : origin.changes) {
+    PLUMESCOUT_RETURN_IF_ERROR(engine->Apply(changes));
+  }
+  PLUMESCOUT_RETURN_IF_ERROR(engine->Apply({}));  // whether it is sound
+  return engine;
+}
+
+}  // namespace plumescout

@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+
+#include "core/gas/field_region.h"
+#include "core/gas/gas_map.h"
+#include "core/gas/reading_state.h"
+
+namespace plumescout {
+
+void Visit(auto& archive, ConstOr<CellInput> auto& input) {
+  auto& [active, precision, weighted_deviation, linked_east, linked_north] = input;
+  archive(active, precision, weighted_deviation, linked_east, linked_north);
+}
+inline bool ContinuesRun(const CellInput& a, const CellInput& b) {
+  return a == b && ContinuesRun(a.precision, b.precision) &&
+         ContinuesRun(a.weighted_deviation, b.weighted_deviation);
+}
+void Visit(auto& archive, ConstOr<CellChange> auto& change) {
+  auto& [cell, input] = change;
+  archive(cell, input);
+}
+void Visit(auto& archive, ConstOr<FieldOrigin> auto& origin) {
+  auto& [cells, changes] = origin;
+  archive.Runs(cells);
+  archive(changes);
+}
+void Visit(auto& archive, ConstOr<GasLattice> auto& lattice) {
+  auto& [x0, y0, width, height] = lattice;
+  archive(x0, y0, width, height);
+}
+void Visit(auto& archive, ConstOr<GasCellBox> auto& box) {
+  auto& [x0, y0, x1, y1] = box;
+  archive(x0, y0, x1, y1);
+}
+
+// All that it has been told, and what it made of that.
+template <typename Archive>
+void HashField(Archive& archive, const FieldEngine& field) {
+  const FieldCells& heard = field.heard();
+  archive.Runs(heard.active);
+  archive.Runs(heard.links);
+  archive.Runs(heard.precision);
+  archive.Runs(heard.weighted_deviation);
+  archive(field.means_ppm(), field.variances_ppm2());
+  const FieldDeviation bound = field.error_bound();
+  archive(bound.mean_ppm, bound.variance_ratio);
+}
+
+template <typename Archive, typename Self>
+void FieldRegion::Tile::VisitState(Archive& archive, Self& self) {
+  auto& [x, y] = self;
+  archive(x, y);
+}
+
+template <typename Archive, typename Self>
+void FieldRegion::VisitState(Archive& archive, Self& self) {
+  archive(self.visited_);
+  if constexpr (Archive::kReads) {
+    const auto is_near = [](const Tile& tile) {
+      return IsNearOrigin(tile.x) && IsNearOrigin(tile.y);
+    };
+    archive.Require(std::all_of(self.visited_.begin(), self.visited_.end(), is_near),
+                    "a visited tile lies too far away");
+    self.geometry_ = {};
+    self.corner_ = {};
+    self.width_ = self.height_ = 0;
+    self.inside_.clear();
+    self.inside_count_ = 0;
+  }
+}
+
+template <typename Archive, typename Self>
+void EpochSchedule::VisitState(Archive& archive, Self& self) {
+  archive(self.activity_changes_, self.active_cells_, self.refreshes_);
+}
+
+template <typename Archive, typename Self>
+void GasInputs::VisitState(Archive& archive, Self& self) {
+  archive(self.factor_, self.states_, self.box_, self.readings_);
+  if constexpr (Archive::kReads) {
+    archive.Require(self.factor_ >= 1 && self.factor_ <= kMostLatticeFactor,
+                    "the lattice factor is out of range");
+    if (!archive.ok()) return;
+    const GasCellBox& box = self.box_;
+    archive.Require(IsNearOrigin(box.x0) && IsNearOrigin(box.y0) && IsNearOrigin(box.x1) &&
+                        IsNearOrigin(box.y1) && self.BoxHoldsFreeCells(),
+                    "free cells lie beyond those of the gas field");
+    archive.Require(self.readings_.PlaceAgain(self.states_), "readings lie where none were");
+  }
+}
+
+// The field itself is hashed, but not written: with its origin it can be made again.
+template <typename Archive, typename Self>
+void GasMap::VisitState(Archive& archive, Self& self) {
+  archive(self.inputs_, self.schedule_, self.lattice_, self.active_cells_, self.time_ns_,
+          self.has_failed_, self.stale_, self.quality_);
+  if constexpr (Archive::kHashes) {
+    archive(self.epoch_ != nullptr);
+    if (self.epoch_ != nullptr) archive(self.epoch_->time_ns(), self.epoch_->lattice());
+    archive(self.has_field());
+    if (self.has_field()) HashField(archive, *self.engine_);
+  } else if constexpr (Archive::kReads) {
+    const GasLattice& lattice = self.lattice_;
+    const bool is_lattice = IsNearOrigin(lattice.x0) && IsNearOrigin(lattice.y0) &&
+                            lattice.width >= 0 && IsNearOrigin(lattice.width) &&
+                            lattice.height >= 0 && IsNearOrigin(lattice.height) &&
+                            lattice.size() <= archive.room_bytes() / sizeof(CellInput);
+    const GasCellBox& box = self.inputs_.box();
+    archive.Require(is_lattice && (box.empty() || HasRoom(lattice, box, 0)),
+                    "the gas lattice is out of range");
+    archive(self.origin_);
+    const bool is_whole = self.origin_ ? !self.has_failed_ && lattice.size() > 0
+                                       : self.has_failed_ || lattice.size() == 0;
+    archive.Require(is_whole, "there is a gas field where none can be, or none where one is");
+  } else {
+    archive(self.origin_);
+  }
+}
+
+}  // namespace plumescout

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/gas/anchored_states.h"
+#include "core/gas/reading_store.h"
+#include "core/types/visit_types.h"
+
+namespace plumescout {
+
+void Visit(auto& archive, ConstOr<AnchorCell> auto& cell) {
+  auto& [x, y] = cell;
+  archive(x, y);
+}
+void Visit(auto& archive, ConstOr<ReadingSite> auto& site) {
+  auto& [cell, neighbour_order] = site;
+  archive(cell, neighbour_order);
+}
+void Visit(auto& archive, ConstOr<Evidence> auto& evidence) {
+  auto& [precision, weighted_deviation] = evidence;
+  archive(precision, weighted_deviation);
+}
+void Visit(auto& archive, ConstOr<Staleness> auto& staleness) {
+  auto& [since_ns, share_per_s] = staleness;
+  archive(since_ns, share_per_s);
+}
+void Visit(auto& archive, ConstOr<ReadingBucket> auto& bucket) {
+  auto& [newest_ns, least_variance_ppm2, most_variance_ppm2, count_moments, deviation_moments] =
+      bucket;
+  archive(newest_ns, least_variance_ppm2, most_variance_ppm2, count_moments, deviation_moments);
+}
+
+template <typename Archive, typename Self>
+void AnchoredStates::VisitState(Archive& archive, Self& self) {
+  archive(self.anchor_, self.states_);
+  if constexpr (Archive::kReads) {
+    archive.Require(self.empty() == (self.anchor_.width <= 0 || self.anchor_.height <= 0),
+                    "states have no anchor");
+    self.corner_ = {};
+    if (!archive.ok() || self.empty()) return;
+    const auto corner = CornerOf(self.states_.geometry(), self.anchor_);
+    archive.Require(corner.ok(), "states lie beside their anchor");
+    self.corner_ = corner.value_or(AnchorCell{});
+  }
+}
+
+template <typename Archive, typename Self>
+void ReadingStore::Arrival::VisitState(Archive& archive, Self& self) {
+  auto& [position, reading] = self;
+  archive(position, reading);
+}
+
+template <typename Archive, typename Self>
+void ReadingStore::Site::VisitState(Archive& archive, Self& self) {
+  auto& [count, sums, buckets, placement] = self;  // placed again after reading
+  archive(count, sums, buckets);
+}
+
+template <typename Archive, typename Self>
+void ReadingStore::AgedCell::VisitState(Archive& archive, Self& self) {
+  auto& [cell, aged_alone_to_ns, staleness] = self;
+  archive(cell, aged_alone_to_ns, staleness);
+}
+
+// See PlacementOf: differences of such cells do not overflow.
+inline bool IsCellOfSites(AnchorCell cell) {
+  constexpr int kFarthest_cells = (1 << 30) + 1;
+  return cell.x >= -kFarthest_cells && cell.x <= kFarthest_cells && cell.y >= -kFarthest_cells &&
+         cell.y <= kFarthest_cells;
+}
+
+inline bool IsBucket(const ReadingBucket& bucket) {
+  return bucket.least_variance_ppm2 > 0.0 &&
+         bucket.most_variance_ppm2 >= bucket.least_variance_ppm2;
+}
+
+template <typename Archive, typename Self>
+void ReadingStore::VisitState(Archive& archive, Self& self) {
+  archive(self.aged_to_ns_, self.counters_, self.arrivals_, self.merged_arrivals_, self.sites_);
+  std::vector<AgedCell> aged;
+  if constexpr (!Archive::kReads) aged = self.AgedCells();
+  archive(aged);
+  if constexpr (Archive::kReads) {
+    for (const Sites* sites : {&self.merged_arrivals_, &self.sites_}) {
+      for (const auto& [key, site] : *sites) {
+        archive.Require(IsCellOfSites(key.cell), "a site lies too far away");
+        archive.Require(std::all_of(site.buckets.begin(), site.buckets.end(), IsBucket),
+                        "readings have no variance");
+      }
+    }
+    for (const Arrival& arrival : self.arrivals_) {
+      const Point2 place = arrival.position;
+      archive.Require(std::isfinite(place.x_m) && std::isfinite(place.y_m),
+                      "a reading was taken nowhere");
+      archive.Require(IsBucket(arrival.reading), "a reading has no variance");
+    }
+    for (const AgedCell& cell : aged) {
+      archive.Require(IsCellOfSites(cell.cell), "a cell lies too far away");
+    }
+    if (archive.ok()) self.Watch(aged);
+  }
+}
+
+}  // namespace plumescout

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/belief/belief.h"
+#include "core/mission/fleet.h"
+#include "core/types/visit_types.h"
+
+namespace plumescout {
+
+void Visit(auto& archive, ConstOr<RobotRecord> auto& record) {
+  auto& [state, plans_issued, fruitless_fallbacks, first_place, travelled_m, last_plan,
+         live_trajectory, live_goal, live_arrival_ns] = record;
+  archive(state, plans_issued, fruitless_fallbacks, first_place, travelled_m, last_plan,
+          live_trajectory, live_goal, live_arrival_ns);
+}
+
+template <typename Archive, typename Self>
+void Fleet::LivePlan::VisitState(Archive& archive, Self& self) {
+  auto& [id, phase, goal, expires_ns, map_update_ns] = self;
+  archive(id, phase, goal, expires_ns, map_update_ns);
+}
+
+template <typename Archive, typename Self>
+void Fleet::Member::VisitState(Archive& archive, Self& self) {
+  auto& [record, odometer, lease_token, log_epoch, last_phase, live, heard_ns, removed] = self;
+  archive(record, odometer, lease_token, log_epoch, last_phase, live, heard_ns, removed);
+}
+
+template <typename Archive, typename Self>
+void Fleet::VisitState(Archive& archive, Self& self) {
+  archive(self.robots_, self.next_plan_, self.phase_);
+}
+
+}  // namespace plumescout

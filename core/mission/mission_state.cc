@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+
+// A mission as bytes: version of the format, the state, a hash of both.
+
+#include "core/mission/mission.h"
+
+#include <cstring>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/gas/gas_state.h"
+#include "core/mission/fleet_state.h"
+#include "core/mission/goal_memory_state.h"
+#include "core/occupancy/occupancy_state.h"
+#include "core/types/byte_archive.h"
+#include "core/types/byte_reader.h"
+#include "core/types/status_macros.h"
+
+namespace plumescout {
+namespace {
+
+// Of what SaveState writes. Who changes that counts it up, and reads the old one on.
+constexpr std::uint32_t kStateVersion = 1;
+
+std::uint64_t HashOf(absl::string_view bytes) {
+  Hash64 hash;
+  hash.Add(bytes);
+  return hash.value();
+}
+
+// What stands between version and hash. Every version has both in these places.
+absl::StatusOr<absl::string_view> Unframe(absl::string_view bytes) {
+  std::uint32_t version = 0;
+  std::uint64_t hash = 0;
+  if (bytes.size() < sizeof(version) + sizeof(hash)) {
+    return absl::DataLossError(
+        absl::StrCat("the state of a mission ends after ", bytes.size(), " bytes"));
+  }
+  const absl::string_view hashed = bytes.substr(0, bytes.size() - sizeof(hash));
+  std::memcpy(&hash, bytes.data() + hashed.size(), sizeof(hash));
+  if (hash != HashOf(hashed)) {
+    return absl::DataLossError("the state of a mission is damaged: its hash is another");
+  }
+  std::memcpy(&version, hashed.data(), sizeof(version));
+  if (version != kStateVersion) {
+    return absl::FailedPreconditionError(absl::StrCat("the state of a mission is of version ",
+                                                      version, "; known is ", kStateVersion));
+  }
+  return hashed.substr(sizeof(version));
+}
+
+}  // namespace
+
+template <typename Archive, typename Self>
+void Mission::VisitState(Archive& archive, Self& self) {
+  archive(self.revision_, self.sample_time_ns_, self.posterior_time_ns_, self.refreshed_ns_,
+          self.readings_refreshed_ns_, self.map_changed_since_refresh_);
+  archive(self.occupancy_, self.region_, self.fleet_, self.goal_memory_, self.sampled_cells_,
+          self.gas_);
+  if constexpr (Archive::kReads) {
+    archive.Require(self.goal_memory_.IsOf(self.options_->occupancy.resolution_m),
+                    "goals are remembered from another map");
+    if (archive.ok()) self.region_.Follow(self.occupancy_.geometry());
+  }
+}
+
+std::uint64_t Mission::Digest() const {
+  StateHasher hasher;
+  hasher(*this);
+  return hasher.sink().hash.value();
+}
+
+absl::StatusOr<std::string> Mission::SaveState() const {
+  if (!can_be_saved()) {
+    return absl::FailedPreconditionError(
+        absl::StrCat("the gas field cannot be made again as it is at revision ", revision_));
+  }
+  ByteWriter writer;
+  writer(kStateVersion, *this);
+  std::string& bytes = writer.sink().bytes;
+  writer(HashOf(bytes));
+  return std::move(bytes);
+}
+
+absl::StatusOr<std::unique_ptr<Mission>> Mission::Restore(const MissionOptions& options,
+                                                          absl::string_view bytes, StopFn stop) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const absl::string_view state, Unframe(bytes));
+  PLUMESCOUT_ASSIGN_OR_RETURN(std::unique_ptr<Mission> mission, Create(options));
+  ByteReader reader(state, static_cast<std::size_t>(options.memory_budget_bytes));
+  reader(*mission);
+  if (const absl::Status status = reader.Finish(); !status.ok()) {
+    return absl::DataLossError(
+        absl::StrCat("the state of a mission is damaged: ", status.message()));
+  }
+  mission->AbandonWhen(std::move(stop));
+  PLUMESCOUT_RETURN_IF_ERROR(mission->gas_.MakeFieldAgain());
+  return mission;
+}
+
+}  // namespace plumescout
