@@ -10,8 +10,8 @@
 #include "absl/strings/str_cat.h"
 #include "core/types/status_macros.h"
 #include "formats/file_io.h"
+#include "formats/little_endian.h"
 #include "formats/zlib_codec.h"
-#include "lab/formats/little_endian.h"
 
 namespace plumescout::lab {
 namespace {

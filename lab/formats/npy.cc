@@ -17,7 +17,7 @@
 #include "absl/strings/strip.h"
 #include "core/types/status_macros.h"
 #include "formats/file_io.h"
-#include "lab/formats/little_endian.h"
+#include "formats/little_endian.h"
 
 namespace plumescout::lab {
 namespace {

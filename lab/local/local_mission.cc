@@ -46,6 +46,7 @@ absl::StatusOr<client::RobotSession> LocalMission::Register(const Registration& 
   session.robot = wish.robot;
   session.lease_token = registered.lease_token;
   session.ingest = State(registered.position);
+  session.log_continues = registered.log_continues;
   return session;
 }
 

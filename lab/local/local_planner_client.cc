@@ -27,6 +27,7 @@ class LocalObservationStream final : public client::ObservationStream {
   ~LocalObservationStream() override { mission_->CloseStream(robot_, stream_); }
 
   const client::IngestState& opened() const override { return opened_; }
+  std::string server_boot_id() const override { return kBootId; }
 
   absl::Status Write(const std::vector<Observation>& batch) override {
     if (!ended_.ok()) return ended_;
@@ -100,11 +101,13 @@ absl::Status LocalPlannerClient::DeleteMission(const MissionId& mission) {
 absl::StatusOr<client::RobotSession> LocalPlannerClient::RegisterRobot(const MissionId& mission,
                                                                        const RobotId& robot,
                                                                        double radius_m,
-                                                                       bool take_over) {
+                                                                       bool take_over,
+                                                                       std::int64_t log_epoch) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::shared_ptr<LocalMission> found, Find(mission));
   PLUMESCOUT_ASSIGN_OR_RETURN(
       client::RobotSession session,
-      found->Register({.robot = robot, .radius_m = radius_m, .take_over = take_over}));
+      found->Register(
+          {.robot = robot, .radius_m = radius_m, .take_over = take_over, .log_epoch = log_epoch}));
   session.mission = mission;
   session.server_boot_id = kBootId;
   return session;

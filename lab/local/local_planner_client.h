@@ -23,8 +23,10 @@ class LocalPlannerClient final : public client::PlannerClient {
   absl::Status CreateMission(const MissionId& mission, const MissionOptions& options) override;
   absl::StatusOr<std::vector<MissionId>> ListMissions() override;
   absl::Status DeleteMission(const MissionId& mission) override;
+  using PlannerClient::RegisterRobot;
   absl::StatusOr<client::RobotSession> RegisterRobot(const MissionId& mission, const RobotId& robot,
-                                                     double radius_m, bool take_over) override;
+                                                     double radius_m, bool take_over,
+                                                     std::int64_t log_epoch) override;
   absl::Status RemoveRobot(const MissionId& mission, const RobotId& robot, std::int64_t lease_token,
                            bool force) override;
   absl::StatusOr<std::unique_ptr<client::ObservationStream>> OpenObservationStream(

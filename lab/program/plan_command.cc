@@ -56,8 +56,8 @@ PlanPicture MakePicture(const PlanningStep& step) {
 
 absl::Status DrawPlan(const PlanArguments& arguments) {
   ProgressLine progress(absl::Seconds(2));
-  PLUMESCOUT_ASSIGN_OR_RETURN(const Recording recording, ReadRecording(arguments.belief));
-  std::cerr << Remarks(recording);
+  PLUMESCOUT_ASSIGN_OR_RETURN(Recording recording, Recording::Open(arguments.belief));
+  std::cerr << VersionRemark(recording.code_version());
   constexpr int kSteps = 200;  // of the progress line
   int shown = -1;
   const absl::Time start = absl::Now();
@@ -70,6 +70,7 @@ absl::Status DrawPlan(const PlanArguments& arguments) {
   };
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::unique_ptr<Mission> mission,
                               Replay(recording, arguments.revision, show));
+  std::cerr << EndRemark(recording);
   PLUMESCOUT_ASSIGN_OR_RETURN(const PlanningStep step, TakePlanningStep(*mission, arguments.step));
   progress.Finish(step.plan.explanation);
   PLUMESCOUT_RETURN_IF_ERROR(MakeFolder(arguments.out));

@@ -49,8 +49,9 @@ absl::StatusOr<Recorder> Recorder::Create(const std::string& path, const Mission
   std::filesystem::remove(path, ignored);
   std::filesystem::remove(OptionsPath(path), ignored);
   PLUMESCOUT_ASSIGN_OR_RETURN(
-      EventLogWriter writer,
-      EventLogWriter::Create(path, {CodeVersion(), ToProto(options).SerializeAsString()}));
+      JournalFileWriter writer,
+      JournalFileWriter::Create(path, {.code_version = CodeVersion(),
+                                       .mission_options = ToProto(options).SerializeAsString()}));
   return Recorder(std::move(writer));
 }
 
@@ -58,47 +59,51 @@ void Recorder::Record(const Event& event) {
   if (status_.ok()) status_ = writer_.Append(event);
 }
 
-absl::StatusOr<Recording> ReadRecording(const std::string& path) {
-  Recording recording;
-  PLUMESCOUT_ASSIGN_OR_RETURN(EventLog log, ReadEventLog(path));
-  PLUMESCOUT_ASSIGN_OR_RETURN(recording.options,
-                              log.start ? ParseOptions(log.start->mission_options, path)
-                                        : ReadOptionsFile(OptionsPath(path)));
-  if (log.start) recording.code_version = std::move(log.start->code_version);
-  recording.events = std::move(log.events);
-  recording.end = std::move(log.end);
-  return recording;
+Recording::Recording(JournalFileReader reader, MissionOptions options)
+    : reader_(std::move(reader)),
+      options_(std::move(options)),
+      code_version_(reader_.start() ? reader_.start()->code_version : "") {}
+
+absl::StatusOr<Recording> Recording::Open(const std::string& path) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(JournalFileReader reader, JournalFileReader::Open(path));
+  PLUMESCOUT_ASSIGN_OR_RETURN(MissionOptions options,
+                              reader.start() ? ParseOptions(reader.start()->mission_options, path)
+                                             : ReadOptionsFile(OptionsPath(path)));
+  return Recording(std::move(reader), std::move(options));
 }
 
-std::string Remarks(const Recording& recording) {
-  std::string remarks;
-  if (!recording.end.ok()) absl::StrAppend(&remarks, recording.end.message(), "\n");
-  if (recording.code_version.empty()) {
-    absl::StrAppend(&remarks, "recorded by an older version\n");
-  } else if (recording.code_version != CodeVersion()) {
-    absl::StrAppend(&remarks, "recorded by version ", recording.code_version, ", this is ",
-                    CodeVersion(), "\n");
-  }
-  return remarks;
+std::string VersionRemark(const std::string& code_version) {
+  if (code_version.empty()) return "recorded by an older version\n";
+  if (code_version == CodeVersion()) return "";
+  return absl::StrCat("recorded by version ", code_version, ", this is ", CodeVersion(), "\n");
 }
 
-absl::StatusOr<std::unique_ptr<Mission>> Replay(const Recording& recording, std::int64_t revision,
+std::string EndRemark(const Recording& recording) {
+  return recording.torn_end().empty() ? "" : absl::StrCat(recording.torn_end(), "\n");
+}
+
+absl::StatusOr<std::unique_ptr<Mission>> Replay(Recording& recording, std::int64_t revision,
                                                 const std::function<void(double)>& progress) {
-  const auto last = static_cast<std::int64_t>(recording.events.size());
-  if (revision < 0 || revision > last) {
-    return absl::OutOfRangeError(
-        absl::StrCat("revision ", revision, " is not in the recording, which ends at ", last));
-  }
-  PLUMESCOUT_ASSIGN_OR_RETURN(std::unique_ptr<Mission> mission, Mission::Create(recording.options));
-  const std::int64_t end = revision > 0 ? revision : last;
-  for (std::int64_t i = 0; i < end; ++i) {
-    if (progress) progress(static_cast<double>(i) / static_cast<double>(end));
-    const Event& event = recording.events[static_cast<std::size_t>(i)];
-    const absl::StatusOr<Applied> applied = mission->Apply(event.body);
-    if (!applied.ok() || applied->revision != event.number) {
-      return absl::DataLossError(
-          absl::StrCat("event ", event.number, " does not follow: ", applied.status().message()));
+  PLUMESCOUT_ASSIGN_OR_RETURN(std::unique_ptr<Mission> mission,
+                              Mission::Create(recording.options()));
+  std::optional<Event> event;
+  do {
+    if (progress) {
+      progress(revision > 0
+                   ? static_cast<double>(mission->revision()) / static_cast<double>(revision)
+                   : recording.share_read());
     }
+    PLUMESCOUT_ASSIGN_OR_RETURN(event, recording.Next());
+    if (!event) break;
+    const absl::StatusOr<Applied> applied = mission->Apply(event->body);
+    if (!applied.ok() || applied->revision != event->number) {
+      return absl::DataLossError(
+          absl::StrCat("event ", event->number, " does not follow: ", applied.status().message()));
+    }
+  } while (mission->revision() != revision);
+  if (revision != 0 && mission->revision() != revision) {
+    return absl::OutOfRangeError(absl::StrCat(
+        "revision ", revision, " is not in the recording, which ends at ", mission->revision()));
   }
   return mission;
 }

@@ -5,27 +5,27 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/mission/mission.h"
 #include "core/types/event.h"
 #include "core/types/options.h"
-#include "lab/formats/event_log.h"
+#include "formats/journal/journal_file.h"
 
 namespace plumescout::lab {
 
-// A mission on disk: a log of its events, the first of which holds its options
-// (lab/formats/event_log.h). Of older recordings, the options are in FILE.options.json.
+// A mission on disk: the journal of its events, the first of which holds its options
+// (formats/journal/journal_file.h). Of older recordings, the options are in FILE.options.json.
 
 // Writes a new recording, event by event. Not thread-safe.
 class Recorder {
  public:
   // Replaces a recording of this name. kInvalidArgument if the options are invalid; else as
-  // WriteFile and EventLogWriter::Create.
+  // WriteFile and JournalFileWriter::Create.
   static absl::StatusOr<Recorder> Create(const std::string& path, const MissionOptions& options);
 
   // After an error nothing more is written; see status().
@@ -33,31 +33,46 @@ class Recorder {
   const absl::Status& status() const { return status_; }
 
  private:
-  explicit Recorder(EventLogWriter writer) : writer_(std::move(writer)) {}
+  explicit Recorder(JournalFileWriter writer) : writer_(std::move(writer)) {}
 
-  EventLogWriter writer_;
+  JournalFileWriter writer_;
   absl::Status status_;
 };
 
-struct Recording {
-  std::string code_version;  // of the program that wrote it; empty: of an older recording
-  MissionOptions options;
-  std::vector<Event> events;
-  absl::Status end;  // see EventLog::end
+// Reads a recording, event by event: one that is longer takes no more memory. Not thread-safe.
+class Recording {
+ public:
+  // Errors, naming the file: those of ReadFile and JournalFileReader::Open; kInvalidArgument for
+  // options that are none.
+  static absl::StatusOr<Recording> Open(const std::string& path);
+
+  const MissionOptions& options() const { return options_; }
+  // Of the program that wrote it; empty: of an older recording.
+  const std::string& code_version() const { return code_version_; }
+
+  // As of JournalFileReader.
+  absl::StatusOr<std::optional<Event>> Next() { return reader_.Next(); }
+  const std::string& torn_end() const { return reader_.torn_end(); }
+  double share_read() const { return reader_.share_read(); }
+
+ private:
+  Recording(JournalFileReader reader, MissionOptions options);
+
+  JournalFileReader reader_;
+  MissionOptions options_;
+  std::string code_version_;
 };
 
-// Errors, naming the file: those of ReadFile and ReadEventLog; kInvalidArgument for options that
-// are none.
-absl::StatusOr<Recording> ReadRecording(const std::string& path);
+// What its reader should know, a line each; empty if there is nothing: that another version of the
+// program wrote it; once it is read, that it ends in a torn record.
+std::string VersionRemark(const std::string& code_version);
+std::string EndRemark(const Recording& recording);
 
-// What its reader should know, a sentence a line: that its end is damaged, that another version of
-// the program wrote it. Empty if there is nothing.
-std::string Remarks(const Recording& recording);
-
-// The mission as it was after event number `revision`; 0: after the last. kOutOfRange if there is
-// no such event; kDataLoss if an event cannot be applied, so that it is not that mission's.
-// `progress` is told the share that is done, and may be empty.
-absl::StatusOr<std::unique_ptr<Mission>> Replay(const Recording& recording, std::int64_t revision,
+// The mission as it was after event number `revision`; 0: after the last. Reads no further, so what
+// stands behind may be damaged. kOutOfRange if there is no such event; kDataLoss if an event cannot
+// be read, or cannot be applied, so that it is not that mission's. `progress` is told the share
+// that is done, and may be empty. REQUIRES: no event was read yet.
+absl::StatusOr<std::unique_ptr<Mission>> Replay(Recording& recording, std::int64_t revision,
                                                 const std::function<void(double)>& progress = {});
 
 }  // namespace plumescout::lab

@@ -26,14 +26,15 @@ struct ReplayArguments {
 
 absl::Status ReplayRecording(const ReplayArguments& arguments) {
   ProgressLine progress(absl::Seconds(2));
-  PLUMESCOUT_ASSIGN_OR_RETURN(const Recording recording, ReadRecording(arguments.recording));
-  std::cerr << Remarks(recording);
+  PLUMESCOUT_ASSIGN_OR_RETURN(Recording recording, Recording::Open(arguments.recording));
+  std::cerr << VersionRemark(recording.code_version());
   const absl::Time start = absl::Now();
   PLUMESCOUT_ASSIGN_OR_RETURN(
       const std::unique_ptr<Mission> mission,
       Replay(recording, arguments.revision, [&](double share) {
         progress.Show(absl::StrCat(ProgressWithTimeLeft(share, absl::Now() - start), "  replay"));
       }));
+  std::cerr << EndRemark(recording);
   const MapSnapshot map = MakeMapSnapshot(*mission->Snapshot());
   PLUMESCOUT_RETURN_IF_ERROR(WriteMapFiles(map, arguments.out));
   progress.Finish(absl::StrCat("Replayed ", map.revision, " events of ", map.robots.size(),

@@ -51,6 +51,13 @@ void AddMissionOptions(CLI::App& app, RobotArguments& arguments) {
       ->check(CLI::Range(0, std::numeric_limits<int>::max()));
   app.add_flag("--realtime", arguments.realtime,
                "At the pace of a wall clock instead of in lockstep");
+  CLI::Option* command =
+      app.add_option("--crash-command", arguments.crash_command,
+                     "Shell command that kills the server; somebody has to start it again");
+  app.add_option("--crash-at", arguments.crash_at_s,
+                 "When to run that, seconds of simulated time; in lockstep the world waits")
+      ->check(CLI::PositiveNumber)
+      ->needs(command);
 }
 
 void AddWorldOptions(CLI::App& app, RobotArguments& arguments) {

@@ -44,6 +44,9 @@ struct RobotArguments {
   std::vector<std::string> starts;  // "x,y,yaw", one a robot; empty: near the scene's
   double duration_s = 300.0;
   bool realtime = false;
+  // Once so much simulated time has passed, a command of the shell is run, to kill the server.
+  std::optional<double> crash_at_s;
+  std::string crash_command;
   std::uint64_t seed = 1;
   SceneWorldOptions world;
   double scene_start_s = 0.0;

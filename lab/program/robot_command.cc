@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -69,6 +71,30 @@ class EpisodeDisplay {
   ProgressLine line_{absl::Seconds(2)};
   double plan_ms_ = 0.0;
   MapSnapshot last_map_;
+};
+
+// Kills the server once, as the arguments say.
+class Crash {
+ public:
+  explicit Crash(const RobotArguments& arguments) : arguments_(arguments) {}
+
+  void OnTime(double time_s) {
+    if (happened_s_ || !arguments_.crash_at_s || time_s < *arguments_.crash_at_s) return;
+    happened_s_ = time_s;
+    const int code = std::system(arguments_.crash_command.c_str());
+    if (code != 0) {
+      status_ = absl::UnknownError(
+          absl::StrCat("--crash-command ", arguments_.crash_command, " ended with ", code));
+    }
+  }
+
+  std::optional<double> happened_s() const { return happened_s_; }
+  const absl::Status& status() const { return status_; }
+
+ private:
+  const RobotArguments& arguments_;
+  std::optional<double> happened_s_;
+  absl::Status status_;
 };
 
 // Sums over the robots of a team.
@@ -137,17 +163,21 @@ absl::Status DriveRobots(const RobotArguments& arguments) {
   PLUMESCOUT_ASSIGN_OR_RETURN(PlannedEpisode planned, PlanEpisode(arguments, world));
   const absl::Time start = absl::Now();
   EpisodeDisplay display(arguments.duration_s, start);
+  Crash crash(arguments);
   planned.options.on_plan = [&](const IssuedPlan& plan) { display.OnPlan(plan); };
   planned.options.on_sample = [&](const MetricSample& sample, const MapSnapshot& map) {
     display.OnSample(sample, map);
+    crash.OnTime(sample.time_s);
   };
   PLUMESCOUT_ASSIGN_OR_RETURN(const TeamResult team,
                               RunPlanned(arguments, world, std::move(planned)));
   const double wall_s = absl::ToDoubleSeconds(absl::Now() - start);
   display.line().Finish(Verdict(team, wall_s));
-  PLUMESCOUT_RETURN_IF_ERROR(WriteRunFolder(
-      {world.scene(), team, display.last_map(), arguments.strategy, arguments.seed, wall_s},
-      arguments.out));
+  PLUMESCOUT_RETURN_IF_ERROR(crash.status());
+  PLUMESCOUT_RETURN_IF_ERROR(
+      WriteRunFolder({world.scene(), team, display.last_map(), arguments.strategy, arguments.seed,
+                      wall_s, crash.happened_s()},
+                     arguments.out));
   std::cout << arguments.out << "/report.html\n";
   return absl::OkStatus();
 }

@@ -83,6 +83,7 @@ Summary MakeSummary(const Run& run) {
       {"wall_s", run.wall_s},
   };
   AddTeamFigures(run.team, summary);
+  if (run.server_killed_s) summary.figures.emplace_back("server_killed_at_s", *run.server_killed_s);
   summary.about = AboutThisRun(run.seed);
   summary.about.emplace_back("scene", run.scene.name);
   summary.about.emplace_back("strategy", run.strategy);
@@ -121,6 +122,7 @@ ReportData MakeReport(const Run& run, const Summary& summary) {
     report.metrics.push_back(
         {sample.time_s, m.completeness, m.rmse_ppm, m.rmse_zero_ppm, m.entropy_nats});
   }
+  report.server_killed_s = run.server_killed_s;
   report.key_numbers = LabelledNumbers(summary);
   return report;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "absl/status/status.h"
@@ -20,6 +21,7 @@ struct Run {
   std::string strategy;
   std::uint64_t seed = 0;
   double wall_s = 0.0;
+  std::optional<double> server_killed_s = {};  // of simulated time
 };
 
 // Writes map.pgm + map.yaml, gas_mean.npy and gas_variance.npy into `folder`, which is made if it

@@ -225,10 +225,15 @@ std::vector<Chart> MakeCharts(const ReportData& data) {
   constexpr char kTime[] = "time, s";
   const Stroke solid{kLineColors[0], 2.0};
   const Stroke dashed{kFaintInk, 1.5, 5.0};
-  return {{"Completeness",
-           kTime,
-           kShares,
-           {MetricCurve(data, "completeness", solid, &MetricPoint::completeness)}},
+  std::vector<Curve> completeness = {
+      MetricCurve(data, "completeness", solid, &MetricPoint::completeness)};
+  if (data.server_killed_s) {
+    const double time_s = *data.server_killed_s;
+    completeness.push_back({"server killed",
+                            Stroke{kLineColors[1], 1.5, 5.0},
+                            {{time_s, kShares.low}, {time_s, kShares.high}}});
+  }
+  return {{"Completeness", kTime, kShares, std::move(completeness)},
           {"RMSE, critical cells, ppm",
            kTime,
            std::nullopt,

@@ -37,6 +37,7 @@ constexpr FigureLabel kFigures[] = {
     {"mission_complete", "Mission complete", "", 1.0, true},
     {"robots", "Robots"},
     {"closest_m", "Two robots came as near as", " m"},
+    {"server_killed_at_s", "Server killed, and started again, at", " s"},
 };
 
 constexpr const char* kAbout[][2] = {{"machine", "Processor"}, {"load", "Load of the machine"},

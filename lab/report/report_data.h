@@ -35,6 +35,7 @@ struct ReportData {
   std::vector<Point2> sources;
   std::vector<Point2> starts;  // one per robot
   std::vector<MetricPoint> metrics;
+  std::optional<double> server_killed_s;  // on purpose, at this time of the mission
   std::vector<std::pair<std::string, std::string>> key_numbers;  // name, value with unit
 };
 

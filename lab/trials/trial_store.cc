@@ -11,8 +11,8 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "core/types/status_macros.h"
+#include "formats/crc32c.h"
 #include "formats/file_io.h"
-#include "lab/formats/crc32c.h"
 #include "lab/formats/npy.h"
 #include "proto/convert/options.h"
 

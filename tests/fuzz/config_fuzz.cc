@@ -14,7 +14,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!builder.AddYaml(yaml, "fuzz.yaml").ok()) return 0;
   const auto config = builder.Build();
   // What is valid stays so.
-  if (config.ok() && !plumescout::server::FromProto(plumescout::server::ToProto(*config)).ok()) {
+  if (config.ok() &&
+      !plumescout::server::ServerConfigFromProto(plumescout::server::ServerConfigToProto(*config))
+           .ok()) {
     __builtin_trap();
   }
   return 0;

@@ -11,8 +11,8 @@
 #include "absl/strings/str_cat.h"
 #include "core/types/event.h"
 #include "formats/file_io.h"
+#include "formats/journal/event_codec.h"
 #include "formats/zlib_codec.h"
-#include "lab/formats/event_codec.h"
 #include "lab/formats/scene_json.h"
 #include "lab/formats/zstd_codec.h"
 #include "tests/fuzz/request_steps.h"
@@ -86,11 +86,16 @@ void AddRecordings(Corpus& corpus) {
   std::string all;
   std::int64_t number = 0;
   for (const EventBody& body : bodies) {
-    const std::string event = WithLength(lab::EncodeEvent({++number, body}));
-    corpus.Add("recording", absl::StrCat("event-", number), event);
-    all += event;
+    const std::string event = EncodeEvent({++number, body});
+    corpus.Add("recording", absl::StrCat("record-", number), event);
+    corpus.Add("recording", absl::StrCat("event-", number), WithLength(event));
+    all += WithLength(event);
   }
   corpus.Add("recording", "mission", all);
+  for (const char* version : {"version_3", "version_4", "version_5"}) {
+    corpus.AddFile("recording", version,
+                   absl::StrCat("tests/formats/journal/golden/", version, ".events"));
+  }
 }
 
 void AddMaps(Corpus& corpus) {

@@ -24,13 +24,15 @@ namespace {
 
 const std::map<std::string, Row*>& Rows() {
   static const std::map<std::string, Row*> rows = {
-      {"plans", &PlanRow},  {"ingest", &IngestRow}, {"watchers", &WatcherRow},
-      {"flood", &FloodRow}, {"memory", &MemoryRow}, {"drain", &DrainRow}};
+      {"plans", &PlanRow},      {"ingest", &IngestRow},    {"watchers", &WatcherRow},
+      {"flood", &FloodRow},     {"memory", &MemoryRow},    {"drain", &DrainRow},
+      {"durable", &DurableRow}, {"recovery", &RecoveryRow}};
   return rows;
 }
 
 struct LoadFlags {
-  std::vector<std::string> rows = {"plans", "ingest", "watchers", "flood", "memory", "drain"};
+  std::vector<std::string> rows = {"plans",  "ingest", "watchers", "flood",
+                                   "memory", "drain",  "durable",  "recovery"};
   TeamFlags team;
   bool quick = false;
   bool strict = false;

@@ -55,6 +55,7 @@ class LoadRobot {
 
   // When the observation was taken; nothing for numbers not given yet.
   std::optional<absl::Time> TakenAt(std::int64_t sequence) const;
+  client::IngestStatistics ingest_statistics() const { return ingest_.statistics(); }
   // The plans since the last such call, and where the log stands.
   LoadRobotFigures Take();
   // Stops and waits until what was sent is applied, or until `drain` has gone by.

@@ -21,12 +21,14 @@ struct RowSettings {
 // Each row starts servers of its own.
 using Row = absl::StatusOr<std::vector<Bar>>(const RowSettings&);
 
-Row PlanRow;     // 8 robots that scan, smell and plan, with the default strategy and with xit_gff
-Row IngestRow;   // 32 robots in 8 missions that only send
-Row WatcherRow;  // 300 watchers of one mission, and one robot beside them
-Row FloodRow;    // a robot that asks and sends 100 times what it may, beside 7 others
-Row MemoryRow;   // random legal requests that ask for memory
-Row DrainRow;    // how long a server takes to stop, whatever it is at
+Row PlanRow;      // 8 robots that scan, smell and plan, with the default strategy and with xit_gff
+Row IngestRow;    // 32 robots in 8 missions that only send
+Row WatcherRow;   // 300 watchers of one mission, and one robot beside them
+Row FloodRow;     // a robot that asks and sends 100 times what it may, beside 7 others
+Row MemoryRow;    // random legal requests that ask for memory
+Row DurableRow;   // plans with and without a journal; how long acknowledgements wait for the disk
+Row RecoveryRow;  // 64 missions after a crash
+Row DrainRow;     // how long a server takes to stop, whatever it is at
 
 inline constexpr int kRowWidth = 160;  // of the building in all rows: 16 x 20 m
 inline constexpr int kRowHeight = 200;

@@ -74,7 +74,8 @@ std::vector<std::string> CommandLine(const ServerStart& start) {
   if (start.max_descriptors.has_value()) {
     words = {"/usr/bin/prlimit", absl::StrCat("--nofile=", *start.max_descriptors, ":")};
   }
-  words.insert(words.end(), {start.program, "--listen", "127.0.0.1:0"});
+  words.insert(words.end(),
+               {start.program, "--listen", "127.0.0.1:0", "--set", "store.engine=none"});
   for (const std::string& setting : start.settings) {
     words.insert(words.end(), {"--set", setting});
   }
@@ -141,14 +142,19 @@ absl::StatusOr<absl::Duration> ServerProcess::Stop(absl::Duration patience) {
   kill(pid_, SIGTERM);
   while (IsAlive()) {
     if (absl::Now() - asked > patience) {
-      kill(pid_, SIGKILL);
-      waitpid(pid_, nullptr, 0);
-      ended_ = true;
+      Kill();
       return absl::DeadlineExceededError("the server did not stop");
     }
     absl::SleepFor(kLook);
   }
   return absl::Now() - asked;
+}
+
+void ServerProcess::Kill() {
+  if (!IsAlive()) return;
+  kill(pid_, SIGKILL);
+  waitpid(pid_, nullptr, 0);
+  ended_ = true;
 }
 
 void ServerProcess::HangUpLog() {

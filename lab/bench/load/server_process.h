@@ -53,6 +53,8 @@ class ServerProcess {
   // Asks the server to stop and returns how long it took. After `patience` it is killed:
   // kDeadlineExceeded. kUnavailable if it had ended before.
   absl::StatusOr<absl::Duration> Stop(absl::Duration patience);
+  // Ends it as a crash would.
+  void Kill();
   // Whoever might have read the log is gone.
   void HangUpLog();
 

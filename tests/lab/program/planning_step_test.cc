@@ -4,10 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "core/plan/strategy.h"
 #include "lab/local/local_planner_client.h"
 #include "lab/program/recording.h"
 #include "tests/support/room_run.h"
+#include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
 namespace planning_step_test {
@@ -46,11 +49,14 @@ TEST_F(PlanningStepTest, MakesThePlanThatAStrategyMakes) {
 }
 
 TEST(PlanningStepOfARecording, AtTheRevisionOfAnIssuedPlanIsThatPlan) {
-  Recording recording;
+  const TempFolder folder;
+  const std::string path = folder.File("mission.events");
+  auto recorder = Recorder::Create(path, MissionOptions{});
+  ASSERT_TRUE(recorder.ok()) << recorder.status();
   LocalOptions local;
-  local.on_event = [&](const Event& event) { recording.events.push_back(event); };
+  local.on_event = [&](const Event& event) { recorder->Record(event); };
   LocalPlannerClient planner(local);
-  ASSERT_TRUE(planner.CreateMission("house", recording.options).ok());
+  ASSERT_TRUE(planner.CreateMission("house", MissionOptions{}).ok());
   const auto session = planner.RegisterRobot("house", kRobot, 0.2, false);
   ASSERT_TRUE(session.ok()) << session.status();
   const auto stream = planner.OpenObservationStream(*session);
@@ -66,7 +72,10 @@ TEST(PlanningStepOfARecording, AtTheRevisionOfAnIssuedPlanIsThatPlan) {
   ASSERT_TRUE(issued.ok()) << issued.status();
   ASSERT_TRUE((*stream)->Write({run.begin() + 80, run.begin() + 120}).ok());
 
-  const auto mission = Replay(recording, issued->belief_revision);
+  ASSERT_TRUE(recorder->status().ok()) << recorder->status();
+  auto recording = Recording::Open(path);
+  ASSERT_TRUE(recording.ok()) << recording.status();
+  const auto mission = Replay(*recording, issued->belief_revision);
   ASSERT_TRUE(mission.ok()) << mission.status();
   const auto step = TakePlanningStep(**mission, {});
   ASSERT_TRUE(step.ok()) << step.status();

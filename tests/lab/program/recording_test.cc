@@ -10,10 +10,10 @@
 #include <string>
 
 #include "formats/file_io.h"
+#include "formats/journal/journal_file.h"
 #include "lab/about/about.h"
-#include "lab/formats/event_log.h"
-#include "lab/formats/little_endian.h"
 #include "plumescout/v1/options.pb.h"
+#include "tests/formats/journal/golden_events.h"
 #include "tests/support/room_run.h"
 #include "tests/support/same_bytes.h"
 #include "tests/support/temp_folder.h"
@@ -55,13 +55,12 @@ class RecordingTest : public ::testing::Test {
 
 TEST_F(RecordingTest, ReplaysToTheSameMap) {
   RecordARun();
-  const auto recording = ReadRecording(path_);
+  auto recording = Recording::Open(path_);
   ASSERT_TRUE(recording.ok()) << recording.status();
-  EXPECT_TRUE(recording->end.ok());
-  EXPECT_EQ(recording->options.occupancy.resolution_m, 0.2);
-  EXPECT_EQ(recording->options.planning.alpha_per_m, 0.25);
-  EXPECT_EQ(recording->options.frontier.fixed_gas_threshold_ppm, 7.5);
-  EXPECT_EQ(recording->options.seed, 42u);
+  EXPECT_EQ(recording->options().occupancy.resolution_m, 0.2);
+  EXPECT_EQ(recording->options().planning.alpha_per_m, 0.25);
+  EXPECT_EQ(recording->options().frontier.fixed_gas_threshold_ppm, 7.5);
+  EXPECT_EQ(recording->options().seed, 42u);
 
   const auto again = Replay(*recording, 0);
   ASSERT_TRUE(again.ok()) << again.status();
@@ -88,10 +87,10 @@ TEST_F(RecordingTest, ReplaysAMissionThatKnewItsBuilding) {
     ASSERT_TRUE(applied.ok()) << applied.status();
     recorder->Record({applied->revision, body});
   }
-  const auto recording = ReadRecording(path_);
+  auto recording = Recording::Open(path_);
   ASSERT_TRUE(recording.ok()) << recording.status();
-  ASSERT_NE(recording->options.prior_map, nullptr);
-  EXPECT_EQ(*recording->options.prior_map, map);
+  ASSERT_NE(recording->options().prior_map, nullptr);
+  EXPECT_EQ(*recording->options().prior_map, map);
   const auto again = Replay(*recording, 0);
   ASSERT_TRUE(again.ok()) << again.status();
   const auto before = (*mission)->Snapshot();
@@ -103,19 +102,21 @@ TEST_F(RecordingTest, ReplaysAMissionThatKnewItsBuilding) {
 
 TEST_F(RecordingTest, StopsAtTheRevisionAskedFor) {
   RecordARun();
-  const auto recording = ReadRecording(path_);
+  auto recording = Recording::Open(path_);
   ASSERT_TRUE(recording.ok()) << recording.status();
   const auto early = Replay(*recording, 5);
   ASSERT_TRUE(early.ok()) << early.status();
   EXPECT_EQ((*early)->revision(), 5);
   for (const std::int64_t absent : {std::int64_t{-1}, mission_.revision() + 1}) {
+    recording = Recording::Open(path_);
+    ASSERT_TRUE(recording.ok()) << recording.status();
     EXPECT_EQ(Replay(*recording, absent).status().code(), absl::StatusCode::kOutOfRange);
   }
 }
 
 TEST_F(RecordingTest, TellsHowFarItIs) {
   RecordARun();
-  const auto recording = ReadRecording(path_);
+  auto recording = Recording::Open(path_);
   ASSERT_TRUE(recording.ok()) << recording.status();
   std::vector<double> shares;
   ASSERT_TRUE(Replay(*recording, 4, [&](double share) { shares.push_back(share); }).ok());
@@ -124,9 +125,9 @@ TEST_F(RecordingTest, TellsHowFarItIs) {
 
 TEST_F(RecordingTest, RefusesEventsOfAnotherMission) {
   RecordARun();
-  auto recording = ReadRecording(path_);
+  auto recording = Recording::Open(path_);
   ASSERT_TRUE(recording.ok()) << recording.status();
-  recording->events.erase(recording->events.begin());  // nobody registered the robot
+  ASSERT_TRUE(recording->Next().ok());  // nobody registered the robot
   EXPECT_EQ(Replay(*recording, 0).status().code(), absl::StatusCode::kDataLoss);
 }
 
@@ -134,12 +135,12 @@ TEST_F(RecordingTest, IsOneFileThatKnowsWhoWroteIt) {
   RecordARun();
   const std::filesystem::directory_iterator files(std::filesystem::path(path_).parent_path());
   EXPECT_EQ(std::distance(begin(files), end(files)), 1);
-  auto recording = ReadRecording(path_);
+  auto recording = Recording::Open(path_);
   ASSERT_TRUE(recording.ok()) << recording.status();
-  EXPECT_EQ(recording->code_version, CodeVersion());
-  EXPECT_EQ(Remarks(*recording), "");
-  recording->code_version = "0.0.1";
-  EXPECT_NE(Remarks(*recording).find("0.0.1"), std::string::npos);
+  EXPECT_EQ(recording->code_version(), CodeVersion());
+  EXPECT_EQ(VersionRemark(CodeVersion()), "");
+  EXPECT_NE(VersionRemark("0.0.1").find("0.0.1"), std::string::npos);
+  EXPECT_NE(VersionRemark(""), "");
 }
 
 TEST_F(RecordingTest, OptionsThatAreNoneAreRefused) {
@@ -148,45 +149,85 @@ TEST_F(RecordingTest, OptionsThatAreNoneAreRefused) {
   std::filesystem::create_directories(std::filesystem::path(path_).parent_path());
   for (const std::string& options : {std::string("no message"), out_of_range.SerializeAsString()}) {
     std::filesystem::remove(path_);
-    ASSERT_TRUE(EventLogWriter::Create(path_, {"1.0.0", options}).ok());
-    const absl::Status status = ReadRecording(path_).status();
+    ASSERT_TRUE(
+        JournalFileWriter::Create(path_, {.code_version = "1.0.0", .mission_options = options})
+            .ok());
+    const absl::Status status = Recording::Open(path_).status();
     EXPECT_TRUE(absl::IsInvalidArgument(status)) << status;
     EXPECT_NE(status.message().find(path_), std::string::npos) << status;
   }
 }
 
-// Recordings used to have their options beside them.
-TEST_F(RecordingTest, AnOlderRecordingIsReadWithItsOptionsFile) {
+TEST_F(RecordingTest, ATornEndIsRemarked) {
+  RecordARun();
+  const std::string bytes = *ReadFile(path_, 1 << 28);
+  ASSERT_TRUE(WriteFile(path_, bytes.substr(0, bytes.size() - 1)).ok());
+  auto recording = Recording::Open(path_);
+  ASSERT_TRUE(recording.ok()) << recording.status();
+  const auto again = Replay(*recording, 0);
+  ASSERT_TRUE(again.ok()) << again.status();
+  EXPECT_EQ((*again)->revision(), mission_.revision() - 1);
+  EXPECT_NE(EndRemark(*recording).find("torn"), std::string::npos);
+}
+
+TEST_F(RecordingTest, DamageIsAnErrorUnlessItStandsBehind) {
   RecordARun();
   std::string bytes = *ReadFile(path_, 1 << 28);
-  const auto options_bytes = LoadLittleEndian<std::uint32_t>(bytes.data() + 12);
-  bytes.erase(12, 8 + options_bytes);
-  bytes[8] = 3;
+  bytes.back() = static_cast<char>(bytes.back() ^ 1);
   ASSERT_TRUE(WriteFile(path_, bytes).ok());
-  EXPECT_TRUE(absl::IsNotFound(ReadRecording(path_).status()));
+  auto recording = Recording::Open(path_);
+  ASSERT_TRUE(recording.ok()) << recording.status();
+  const absl::Status status = Replay(*recording, 0).status();
+  EXPECT_TRUE(absl::IsDataLoss(status)) << status;
+  EXPECT_NE(status.message().find(path_), std::string::npos) << status;
+  recording = Recording::Open(path_);
+  ASSERT_TRUE(recording.ok()) << recording.status();
+  EXPECT_TRUE(Replay(*recording, mission_.revision() - 1).ok());
+  EXPECT_EQ(EndRemark(*recording), "");
+}
+
+// Recordings used to have their options beside them.
+TEST_F(RecordingTest, AnOlderRecordingIsReadWithItsOptionsFile) {
+  const std::string bytes = *ReadFile("tests/formats/journal/golden/version_3.events", 1 << 20);
+  ASSERT_TRUE(MakeFolder(folder_.File("below")).ok());
+  ASSERT_TRUE(WriteFile(path_, bytes).ok());
+  EXPECT_TRUE(absl::IsNotFound(Recording::Open(path_).status()));
   ASSERT_TRUE(WriteFile(path_ + ".options.json", "{\"seed\": ").ok());
-  EXPECT_TRUE(absl::IsInvalidArgument(ReadRecording(path_).status()));
+  EXPECT_TRUE(absl::IsInvalidArgument(Recording::Open(path_).status()));
   ASSERT_TRUE(WriteFile(path_ + ".options.json", "{\"occupancy\": {\"resolution_m\": -1}}").ok());
-  EXPECT_TRUE(absl::IsInvalidArgument(ReadRecording(path_).status()));
+  EXPECT_TRUE(absl::IsInvalidArgument(Recording::Open(path_).status()));
   ASSERT_TRUE(WriteFile(path_ + ".options.json",
                         "{\"seed\": \"42\", \"occupancy\": {\"resolution_m\": 0.2}}")
                   .ok());
-  const auto recording = ReadRecording(path_);
+  auto recording = Recording::Open(path_);
   ASSERT_TRUE(recording.ok()) << recording.status();
-  EXPECT_EQ(recording->options.seed, 42u);
-  EXPECT_EQ(recording->code_version, "");
+  EXPECT_EQ(recording->options().seed, 42u);
+  EXPECT_EQ(recording->code_version(), "");
+  Mission mission(recording->options());
+  for (const Event& event : support::GoldenEvents()) ASSERT_TRUE(mission.Apply(event.body).ok());
   const auto again = Replay(*recording, 0);
   ASSERT_TRUE(again.ok()) << again.status();
-  EXPECT_EQ((*again)->Snapshot()->occupancy->values(), mission_.Snapshot()->occupancy->values());
+  EXPECT_EQ((*again)->revision(), mission.revision());
+  EXPECT_EQ((*again)->Snapshot()->occupancy->values(), mission.Snapshot()->occupancy->values());
+}
+
+TEST_F(RecordingTest, ARecordingOfTheVersionBeforeIsRead) {
+  auto recording = Recording::Open("tests/formats/journal/golden/version_4.events");
+  ASSERT_TRUE(recording.ok()) << recording.status();
+  EXPECT_EQ(recording->options().seed, 42u);
+  EXPECT_EQ(recording->code_version(), "0.1.0");
+  const auto mission = Replay(*recording, 0);
+  ASSERT_TRUE(mission.ok()) << mission.status();
+  EXPECT_EQ((*mission)->revision(), 13);
 }
 
 TEST_F(RecordingTest, ANewRecordingReplacesTheOldOne) {
   RecordARun();
   ASSERT_TRUE(Recorder::Create(path_, MissionOptions{}).ok());
-  const auto recording = ReadRecording(path_);
+  auto recording = Recording::Open(path_);
   ASSERT_TRUE(recording.ok()) << recording.status();
-  EXPECT_TRUE(recording->events.empty());
-  EXPECT_EQ(recording->options.seed, MissionOptions{}.seed);
+  EXPECT_FALSE((*recording->Next()).has_value());
+  EXPECT_EQ(recording->options().seed, MissionOptions{}.seed);
 }
 
 TEST_F(RecordingTest, InvalidOptionsAreNotRecorded) {

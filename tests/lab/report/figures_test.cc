@@ -116,5 +116,14 @@ TEST(Figures, ChartsFollowTheMetrics) {
   EXPECT_EQ(charts[2].curves[0].points.back().x, 200.0);
 }
 
+TEST(Figures, WhenTheServerWasKilledIsMarked) {
+  ReportData report = MakeSmallReport();
+  report.server_killed_s = 120.0;
+  const auto charts = MakeCharts(report);
+  ASSERT_THAT(charts[0].curves, SizeIs(2));
+  EXPECT_EQ(charts[0].curves[1].name, "server killed");
+  for (const ChartPoint& point : charts[0].curves[1].points) EXPECT_EQ(point.x, 120.0);
+}
+
 }  // namespace figures_test
 }  // namespace plumescout::lab

@@ -33,9 +33,11 @@ class FakeService final : public client::PlannerClient {
   absl::Status DeleteMission(const MissionId& mission) override {
     return server_.DeleteMission(mission);
   }
+  using PlannerClient::RegisterRobot;
   absl::StatusOr<client::RobotSession> RegisterRobot(const MissionId& mission, const RobotId& robot,
-                                                     double radius_m, bool take_over) override {
-    return server_.RegisterRobot(mission, robot, radius_m, take_over);
+                                                     double radius_m, bool take_over,
+                                                     std::int64_t log_epoch) override {
+    return server_.RegisterRobot(mission, robot, radius_m, take_over, log_epoch);
   }
   absl::Status RemoveRobot(const MissionId& mission, const RobotId& robot, std::int64_t lease_token,
                            bool force) override {

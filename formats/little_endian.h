@@ -6,9 +6,9 @@
 #include <cstring>
 #include <type_traits>
 
-namespace plumescout::lab {
+namespace plumescout {
 
-// All files of this folder are little-endian and are read by copying bytes.
+// Files are little-endian and are read by copying bytes.
 static_assert(std::endian::native == std::endian::little);
 
 // The number stored at `bytes`, which need not be aligned.
@@ -19,4 +19,4 @@ requires std::is_arithmetic_v<T> T LoadLittleEndian(const char* bytes) {
   return value;
 }
 
-}  // namespace plumescout::lab
+}  // namespace plumescout

@@ -1,20 +1,21 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/formats/event_codec.h"
+#include "formats/journal/event_codec_v4.h"
 
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "lab/formats/little_endian.h"
+#include "formats/journal/enumerators.h"
+#include "formats/little_endian.h"
 
-namespace plumescout::lab {
+namespace plumescout {
 namespace {
 
 constexpr std::int64_t kStartNumber = 0;  // events of a mission count from 1
@@ -25,83 +26,8 @@ concept Number = std::is_arithmetic_v<T> && !std::same_as<T, bool>;
 template <typename T>
 concept Enum = std::is_enum_v<T>;
 
-// Whether a stored value is one of the enumerators; another is damage. Each switch names all of
-// them, so that one more does not compile until it is added here.
-constexpr bool IsOne(MissionPhase phase) {
-  switch (phase) {
-    case MissionPhase::kExploring:
-    case MissionPhase::kGasProbing:
-    case MissionPhase::kFallback:
-    case MissionPhase::kComplete:
-    case MissionPhase::kReturning:
-    case MissionPhase::kSurvey:
-    case MissionPhase::kSampling:
-      return true;
-  }
-  return false;
-}
-constexpr bool IsOne(GoalKind kind) {
-  switch (kind) {
-    case GoalKind::kOccupancyFrontier:
-    case GoalKind::kGasFrontier:
-    case GoalKind::kRandomFreeSpace:
-    case GoalKind::kHome:
-    case GoalKind::kInformation:
-    case GoalKind::kSite:
-      return true;
-  }
-  return false;
-}
-constexpr bool IsOne(PathSource source) {
-  switch (source) {
-    case PathSource::kTree:
-    case PathSource::kGridGuard:
-    case PathSource::kGridSearch:
-      return true;
-  }
-  return false;
-}
-constexpr bool IsOne(RejectionReason reason) {
-  switch (reason) {
-    case RejectionReason::kUnreachable:
-    case RejectionReason::kTooSmall:
-    case RejectionReason::kSetAside:
-    case RejectionReason::kClaimed:
-    case RejectionReason::kNotDrawn:
-    case RejectionReason::kTooClose:
-    case RejectionReason::kSearchStopped:
-    case RejectionReason::kOverBudget:
-    case RejectionReason::kKeptOut:
-    case RejectionReason::kGone:
-      return true;
-  }
-  return false;
-}
-constexpr bool IsOne(PlanEnd end) {
-  switch (end) {
-    case PlanEnd::kAllGoalsReached:
-    case PlanEnd::kQueueExhausted:
-    case PlanEnd::kStopped:
-    case PlanEnd::kNoGoals:
-    case PlanEnd::kMissionComplete:
-    case PlanEnd::kStartOccupied:
-    case PlanEnd::kAllGoalsRejected:
-      return true;
-  }
-  return false;
-}
-constexpr bool IsOne(ProgressOutcome outcome) {
-  switch (outcome) {
-    case ProgressOutcome::kReached:
-    case ProgressOutcome::kBlocked:
-    case ProgressOutcome::kAborted:
-      return true;
-  }
-  return false;
-}
-
-// A struct is visited by naming all its members in a structured binding, so that a member added
-// to the struct does not compile until it is added here. The same list serves both directions.
+// The members that the layout has, in its order. A binding names all members of the struct, so that
+// one added since does not compile until it is passed over here.
 template <typename T, typename Struct>
 concept Is = std::same_as<std::remove_const_t<T>, Struct>;
 
@@ -166,7 +92,7 @@ void Visit(auto& archive, Is<Plan> auto& plan) {
           trajectory, effort, field_flat, goal_kept, start_escaped, explanation, cpu_s);
 }
 void Visit(auto& archive, Is<RobotRegistered> auto& event) {
-  auto& [robot, radius_m, lease_token] = event;
+  auto& [robot, radius_m, lease_token, log_epoch] = event;  // log_epoch is younger
   archive(robot, radius_m, lease_token);
 }
 void Visit(auto& archive, Is<ObservationReceived> auto& event) {
@@ -200,49 +126,6 @@ void Visit(auto& archive, Is<Event> auto& event) {
   auto& [number, body] = event;
   archive(number, body);
 }
-
-class Encoder {
- public:
-  explicit Encoder(std::string& bytes) : bytes_(bytes) {}
-
-  template <typename... T>
-  void operator()(const T&... values) {
-    (Put(values), ...);
-  }
-
- private:
-  void Put(Number auto value) {
-    char raw[sizeof(value)];
-    std::memcpy(raw, &value, sizeof(value));
-    bytes_.append(raw, sizeof(value));
-  }
-  void Put(bool value) { Put(static_cast<std::uint8_t>(value)); }
-  void Put(Enum auto value) { Put(static_cast<std::uint8_t>(value)); }
-  void Put(const std::string& text) {
-    Put(static_cast<std::uint32_t>(text.size()));
-    bytes_.append(text);
-  }
-  template <typename T>
-  void Put(const std::vector<T>& list) {
-    Put(static_cast<std::uint32_t>(list.size()));
-    for (const T& element : list) Put(element);
-  }
-  template <typename T>
-  void Put(const std::optional<T>& value) {
-    Put(value.has_value());
-    if (value) Put(*value);
-  }
-  template <typename... T>
-  void Put(const std::variant<T...>& choice) {
-    Put(static_cast<std::uint8_t>(choice.index()));
-    std::visit([this](const auto& value) { this->Put(value); }, choice);
-  }
-  template <typename T>
-  requires std::is_class_v<T>
-  void Put(const T& value) { Visit(*this, value); }
-
-  std::string& bytes_;
-};
 
 // After the first damage every further read does nothing.
 class Decoder {
@@ -279,7 +162,7 @@ class Decoder {
   void Get(T& value) {
     std::uint8_t byte = 0;
     Get(byte);
-    ok_ = ok_ && IsOne(static_cast<T>(byte));
+    ok_ = ok_ && IsEnumerator(static_cast<T>(byte));
     value = ok_ ? static_cast<T>(byte) : T{};
   }
   void Get(std::string& text) {
@@ -322,14 +205,7 @@ class Decoder {
 
 }  // namespace
 
-std::string EncodeEvent(const Event& event) {
-  std::string bytes;
-  Encoder encoder(bytes);
-  encoder(event);
-  return bytes;
-}
-
-absl::StatusOr<Event> DecodeEvent(absl::string_view bytes) {
+absl::StatusOr<Event> DecodeEventV4(absl::string_view bytes) {
   Event event;
   Decoder decoder(bytes);
   decoder(event);
@@ -337,16 +213,9 @@ absl::StatusOr<Event> DecodeEvent(absl::string_view bytes) {
   return event;
 }
 
-std::string EncodeStart(const RecordingStart& start) {
-  std::string bytes;
-  Encoder encoder(bytes);
-  encoder(kStartNumber, start.code_version, start.mission_options);
-  return bytes;
-}
-
-absl::StatusOr<RecordingStart> DecodeStart(absl::string_view bytes) {
+absl::StatusOr<JournalStart> DecodeStartV4(absl::string_view bytes) {
   std::int64_t number = -1;
-  RecordingStart start;
+  JournalStart start;
   Decoder decoder(bytes);
   decoder(number, start.code_version, start.mission_options);
   if (!decoder.Finished() || number != kStartNumber) {
@@ -355,4 +224,4 @@ absl::StatusOr<RecordingStart> DecodeStart(absl::string_view bytes) {
   return start;
 }
 
-}  // namespace plumescout::lab
+}  // namespace plumescout

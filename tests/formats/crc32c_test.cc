@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/formats/crc32c.h"
+#include "formats/crc32c.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-namespace plumescout::lab {
+namespace plumescout {
 namespace crc32c_test {
 
 // The examples of RFC 3720 appendix B.4, as values (the RFC prints bytes, lowest first).
@@ -25,4 +25,4 @@ TEST(Crc32c, NothingHasChecksumZero) { EXPECT_EQ(Crc32c(""), 0U); }
 TEST(Crc32c, PiecesContinue) { EXPECT_EQ(Crc32c("56789", Crc32c("1234")), Crc32c("123456789")); }
 
 }  // namespace crc32c_test
-}  // namespace plumescout::lab
+}  // namespace plumescout

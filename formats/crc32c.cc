@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/formats/crc32c.h"
+#include "formats/crc32c.h"
 
 #include <array>
 
-namespace plumescout::lab {
+namespace plumescout {
 namespace {
 
 constexpr std::uint32_t kPolynomial = 0x82F63B78;
@@ -33,4 +33,4 @@ std::uint32_t Crc32c(absl::string_view bytes, std::uint32_t crc) {
   return ~crc;
 }
 
-}  // namespace plumescout::lab
+}  // namespace plumescout
