@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
+#include <iostream>
 #include <memory>
 #include <string>
 
@@ -19,6 +20,7 @@
 #include "server/config/command_line.h"
 #include "server/observe/http_endpoints.h"
 #include "server/server.h"
+#include "server/store_command.h"
 
 namespace plumescout::server {
 namespace {
@@ -74,8 +76,9 @@ absl::StatusOr<std::unique_ptr<HttpEndpoints>> ServeHttp(const ServerConfig& con
                                                          const Server& server) {
   const std::string address = HttpListen(config);
   if (address.empty()) return nullptr;
-  auto http = HttpEndpoints::Start(address, {[&server] { return server.MetricsText(); },
-                                             [&server] { return !server.draining(); }});
+  auto http = HttpEndpoints::Start(
+      address, {[&server] { return server.MetricsText(); }, [&server] { return server.NotReady(); },
+                [&server] { return server.Trouble(); }});
   if (http.ok()) PrintAddress("metrics", address, (*http)->port());
   return http;
 }
@@ -121,6 +124,9 @@ int RunLogged(const ServerConfig& config) {
 }  // namespace plumescout::server
 
 int main(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "store") {
+    return plumescout::server::RunStoreCommand(argc - 1, argv + 1, std::cout, std::cerr);
+  }
   const auto command_line = plumescout::server::ReadCommandLine(argc, argv);
   if (!command_line.ok()) {
     std::fprintf(stderr, "plumescout-server: %s\n",

@@ -26,6 +26,7 @@
 #include "server/base/errors.h"
 #include "server/base/knock.h"
 #include "server/base/log.h"
+#include "server/open_store.h"
 
 namespace plumescout::server {
 namespace {
@@ -78,6 +79,7 @@ RegistryOptions ToRegistryOptions(const ServerConfig& config) {
   options.host.first_lease_token = FirstLeaseToken(RandomBits());
   options.host.max_clock_lead = absl::Seconds(config.limits.max_clock_lead_s);
   options.host.rates = ToRateOptions(config.limits);
+  options.max_backlog_bytes = config.store.max_backlog_bytes;
   return options;
 }
 
@@ -96,6 +98,8 @@ FairPoolOptions ToPlanningPoolOptions(const PlanningConfig& config) {
 
 // Audits are rare and nobody waits for them: one thread does for all missions.
 constexpr int kAuditThreads = 1;
+// Snapshots are packed in milliseconds, and nobody waits for them.
+constexpr int kSnapshotThreads = 1;
 // Missions are created now and then; those with large known maps take a second, beside the others.
 constexpr int kCreationThreads = 1;
 
@@ -106,11 +110,25 @@ ServiceLimits ToServiceLimits(const ServerConfig& config) {
   limits.default_planning_budget = absl::Seconds(config.planning.default_budget_s);
   limits.max_planning_budget = absl::Seconds(config.planning.max_budget_s);
   limits.deadline_margin = absl::Seconds(config.planning.deadline_margin_s);
+  limits.replay_period = absl::Seconds(config.maps.publish_period_s);
+  limits.import_patience = absl::Seconds(config.limits.max_wait_s);
   return limits;
 }
 
-RegistryHooks Complete(RegistryHooks hooks, const ServerConfig& config, WorkerPool* epoch_pool,
-                       WorkerPool* audit_pool, MissionMetrics* metrics) {
+ImportLimits ToImportLimits(const ServerConfig& config) {
+  ImportLimits limits;
+  limits.max_bytes = config.limits.max_import_bytes;
+  if (config.store.engine == kSqliteStore) {
+    limits.folder = StoreFolder(config.store).value_or("");  // where there should be room
+  }
+  return limits;
+}
+
+RegistryHooks Complete(RegistryHooks hooks, const ServerConfig& config, MissionStore* store,
+                       WorkerPool* epoch_pool, WorkerPool* audit_pool, WorkerPool* snapshot_pool,
+                       MissionMetrics* metrics) {
+  hooks.snapshot_pool = snapshot_pool;
+  hooks.store = store;
   hooks.epoch_pool = epoch_pool;
   hooks.audit_pool = audit_pool;
   hooks.metrics = metrics;
@@ -124,6 +142,9 @@ RegistryHooks Complete(RegistryHooks hooks, const ServerConfig& config, WorkerPo
 
 constexpr int kHandshakeTimeout_ms = 10'000;  // who connects and says nothing is hung up on
 constexpr absl::Duration kProbeTimeout = absl::Seconds(5);
+constexpr absl::Duration kStorePeriod = absl::Seconds(1);
+// What health calls the store; what a server says of the whole of it does not depend on the disk.
+constexpr char kStoreHealth[] = "plumescout.store";
 
 int Milliseconds(double seconds) {
   return static_cast<int>(absl::ToInt64Milliseconds(absl::Seconds(seconds)));
@@ -177,16 +198,24 @@ void OfferPlugins() {
 }  // namespace
 
 Server::Server(Private, const ServerConfig& config, RegistryHooks hooks,
+               std::unique_ptr<MissionStore> store,
                std::shared_ptr<const Authenticator> authenticator, ServerEvents events)
     : config_(config),
+      own_store_(std::move(store)),
+      store_(hooks.store != nullptr ? hooks.store : own_store_.get()),
       epoch_pool_({"epoch", config.epochs.threads, config.epochs.max_queued}),
       audit_pool_({"audit", kAuditThreads, config.limits.max_missions}),
-      registry_(ToRegistryOptions(config), Complete(std::move(hooks), config, &epoch_pool_,
-                                                    &audit_pool_, &metrics_.missions())),
+      snapshot_pool_({"snapshot", kSnapshotThreads, config.limits.max_missions}),
+      registry_(ToRegistryOptions(config),
+                Complete(std::move(hooks), config, store_, &epoch_pool_, &audit_pool_,
+                         &snapshot_pool_, &metrics_.missions())),
       planning_pool_(ToPlanningPoolOptions(config.planning)),
       map_pool_({"map", config.maps.threads, config.maps.max_queued}),
       query_pool_({"query", config.maps.query_threads, config.maps.max_queued_queries}),
       creation_pool_({"creation", kCreationThreads, config.limits.max_missions}),
+      history_(store_ == nullptr
+                   ? nullptr
+                   : std::make_unique<History>(store_, &registry_, ToImportLimits(config))),
       door_([authenticator = std::move(authenticator)](const grpc::CallbackServerContext& call) {
         return IdentityOf(authenticator, ReadCredentials(call));
       }),
@@ -200,12 +229,14 @@ Server::Server(Private, const ServerConfig& config, RegistryHooks hooks,
                config.mission,
                ToServiceLimits(config),
                NewBootId(),
-               std::make_shared<RequestMemory>()},
+               std::make_shared<RequestMemory>(),
+               history_.get()},
       mission_service_(&context_),
       robot_service_(&context_),
       ingest_service_(&context_),
       planning_service_(&context_),
       map_service_(&context_),
+      snapshot_service_(&context_),
       system_service_(&context_, &config_, std::move(events.drain)) {
   door_.AddObserver([this](const CallInfo& info, const CallEnd& end) {
     metrics_.calls().Note(info.rpc, end.status, end.duration);
@@ -223,9 +254,18 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
   PLUMESCOUT_ASSIGN_OR_RETURN(auto authenticator,
                               Authenticator::Make(config.access, IsLocalAddress(config.listen)));
   auto unreachable = std::move(events.unreachable);
-  auto server = std::make_unique<Server>(Private(), config, std::move(hooks),
+  std::unique_ptr<MissionStore> store;
+  if (hooks.store == nullptr) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(store, OpenStore(config.store));
+  }
+  auto server = std::make_unique<Server>(Private(), config, std::move(hooks), std::move(store),
                                          std::move(authenticator), std::move(events));
+  if (server->store_ != nullptr) {
+    PLUMESCOUT_RETURN_IF_ERROR(DropUnfinishedImports(*server->store_));
+  }
+  PLUMESCOUT_RETURN_IF_ERROR(server->registry_.FindStored());
   PLUMESCOUT_RETURN_IF_ERROR(server->Listen());
+  PLUMESCOUT_RETURN_IF_ERROR(server->BeginRecovery());
   server->StartProbe(std::move(unreachable));
   return server;
 }
@@ -247,6 +287,7 @@ absl::Status Server::Listen() {
   builder.RegisterService(&ingest_service_);
   builder.RegisterService(&planning_service_);
   builder.RegisterService(&map_service_);
+  builder.RegisterService(&snapshot_service_);
   builder.RegisterService(&system_service_);
   grpc_server_ = builder.BuildAndStart();
   if (grpc_server_ == nullptr || (!config_.listen.empty() && port_ == 0)) {
@@ -255,6 +296,36 @@ absl::Status Server::Listen() {
   grpc_server_->GetHealthCheckService()->SetServingStatus(true);
   sweeper_ = std::make_unique<PeriodicTask>(kSweepPeriod, [this] { Sweep(); });
   return absl::OkStatus();
+}
+
+absl::Status Server::BeginRecovery() {
+  if (store_ == nullptr) return absl::OkStatus();
+  const int threads = config_.store.recovery_threads;
+  recovery_pool_ = std::make_unique<WorkerPool>(WorkerPoolOptions{"recovery", threads, threads});
+  store_usage_ = std::make_unique<StoreUsage>(store_);
+  grpc::HealthCheckServiceInterface* const health = grpc_server_->GetHealthCheckService();
+  health->SetServingStatus(kStoreHealth, true);
+  store_watch_ = std::make_unique<StoreWatch>(store_, kStorePeriod, [health](bool available) {
+    health->SetServingStatus(kStoreHealth, available);
+  });
+  for (int i = 0; i < threads; ++i) {
+    PLUMESCOUT_RETURN_IF_ERROR(recovery_pool_->Submit([this] {
+      while (registry_.RecoverNext()) {
+      }
+    }));
+  }
+  return absl::OkStatus();
+}
+
+std::string Server::NotReady() const {
+  if (draining_) return "draining";
+  const int recovering = registry_.absent().recovering;
+  return recovering == 0 ? "" : absl::StrCat("recovering ", recovering, " missions");
+}
+
+std::string Server::Trouble() const {
+  if (store_ == nullptr) return "";
+  return std::string(store_->state().status.message());
 }
 
 void Server::Sweep() {
@@ -303,12 +374,17 @@ std::string Server::MetricsText() const {
   state.missions = &registry_;
   state.streams = &streams_;
   state.pools = {planning_pool_.load(), map_pool_.load(),   query_pool_.load(),
-                 creation_pool_.load(), epoch_pool_.load(), audit_pool_.load()};
+                 creation_pool_.load(), epoch_pool_.load(), audit_pool_.load(),
+                 snapshot_pool_.load()};
   state.boot_id = context_.boot_id;
   state.began = began_;
   state.max_missions = config_.limits.max_missions;
   state.memory_budget_bytes = config_.limits.memory_budget_bytes;
   state.draining = draining_;
+  state.store = store_;
+  if (history_ != nullptr) state.pools.push_back(history_->imports.pool().load());
+  if (recovery_pool_ != nullptr) state.pools.push_back(recovery_pool_->load());
+  if (store_usage_ != nullptr) state.mission_disk_bytes = store_usage_->BytesByMission();
   return metrics_.Text(state);
 }
 
@@ -319,7 +395,12 @@ void Server::Drain() {
   if (grpc_server_ != nullptr) EndCalls(cut);
   sweeper_.reset();
   registry_.StopAll(Draining());
-  registry_.AwaitStopped(After(std::max(cut, SteadyNow()), kStopLimit));
+  const SteadyTime limit = After(std::max(cut, SteadyNow()), kStopLimit);
+  const bool stopped = registry_.AwaitStopped(limit);
+  if (!registry_.AwaitStored(limit) || !stopped) {
+    LogWarning("not all that was applied is durable; robots have what is not");
+  }
+  store_watch_.reset();
 }
 
 void Server::EndCalls(SteadyTime cut) {

@@ -17,6 +17,7 @@
 #include "server/calls/call_log.h"
 #include "server/calls/service_context.h"
 #include "server/config/config.h"
+#include "server/history/history.h"
 #include "server/self_probe.h"
 #include "server/server_metrics.h"
 #include "server/services/ingest_service.h"
@@ -24,7 +25,11 @@
 #include "server/services/mission_service.h"
 #include "server/services/planning_service.h"
 #include "server/services/robot_service.h"
+#include "server/services/snapshot_service.h"
 #include "server/services/system_service.h"
+#include "server/store/mission_store.h"
+#include "server/store_usage.h"
+#include "server/store_watch.h"
 
 namespace plumescout::server {
 
@@ -44,8 +49,11 @@ class Server {
 
  public:
   Server(Private, const ServerConfig& config, RegistryHooks hooks,
-         std::shared_ptr<const Authenticator> authenticator, ServerEvents events);  // Start makes
-  // kUnavailable if the address cannot be listened on. An empty `listen`: in-process only.
+         std::unique_ptr<MissionStore> store, std::shared_ptr<const Authenticator> authenticator,
+         ServerEvents events);  // Start makes
+  // Missions of the store are there from then on, and recovered one after the other. kUnavailable
+  // if the address cannot be listened on; see OpenStore for the store, which `hooks` may give
+  // instead. An empty `listen`: in-process only.
   static absl::StatusOr<std::unique_ptr<Server>> Start(const ServerConfig& config,
                                                        RegistryHooks hooks = {},
                                                        ServerEvents events = {});
@@ -57,6 +65,10 @@ class Server {
   int port() const { return port_; }  // 0 if in-process only
   const std::string& boot_id() const { return context_.boot_id; }
   bool draining() const { return draining_; }
+  // Why the server is not ready for all calls: it drains, or has missions to recover. Empty: it is.
+  std::string NotReady() const;
+  // What its operator should know although it is ready: the store takes no data. Empty: nothing.
+  std::string Trouble() const;
   // All metrics in Prometheus' text format. From any thread.
   std::string MetricsText() const;
   std::shared_ptr<grpc::Channel> InProcessChannel();
@@ -65,7 +77,8 @@ class Server {
   // with UNAVAILABLE and a time to retry; lets other calls in flight finish for
   // `config.connection.drain_s`, then cancels them, and stops the missions. Returns when every call
   // has its answer and every mission has stopped, but does not wait for missions longer than
-  // kStopLimit after that time. Idempotent.
+  // kStopLimit after that time. Before it returns, events of the missions are durable, unless that
+  // takes as long. Idempotent.
   void Drain();
   static constexpr absl::Duration kStopLimit = absl::Milliseconds(800);
 
@@ -79,17 +92,22 @@ class Server {
   // Whether the server takes connections and answers calls.
   absl::Status Probe();
   void StartProbe(std::function<void()> unreachable);
+  absl::Status BeginRecovery();
 
   const ServerConfig config_;
   const SteadyTime began_ = SteadyNow();
-  ServerMetrics metrics_;  // before all that counts
+  ServerMetrics metrics_;                          // before all that counts
+  const std::unique_ptr<MissionStore> own_store_;  // before what it keeps; null: none, or another's
+  MissionStore* const store_;                      // null: none
   WorkerPool epoch_pool_;  // before the missions that use it, as is the next
   WorkerPool audit_pool_;
+  WorkerPool snapshot_pool_;
   MissionRegistry registry_;
   FairPool planning_pool_;
   WorkerPool map_pool_;
   WorkerPool query_pool_;
   WorkerPool creation_pool_;
+  const std::unique_ptr<History> history_;  // null without a store
   ActiveStreams streams_;
   Door door_;
   const ServiceContext context_;
@@ -99,8 +117,12 @@ class Server {
   IngestService ingest_service_;
   PlanningService planning_service_;
   MapService map_service_;
+  SnapshotService snapshot_service_;
   SystemService system_service_;
-  std::unique_ptr<PeriodicTask> sweeper_;  // while the server serves
+  std::unique_ptr<WorkerPool> recovery_pool_;  // null without a store, as are the next
+  std::unique_ptr<StoreUsage> store_usage_;
+  std::unique_ptr<StoreWatch> store_watch_;  // while the server serves
+  std::unique_ptr<PeriodicTask> sweeper_;    // as well
 
   int port_ = 0;
   std::atomic<bool> draining_ = false;

@@ -101,6 +101,31 @@ void ReadPools(const ServerState& state, Readings& readings) {
   read(&PoolLoad::refused);
 }
 
+void ReadStore(const ServerState& state, Readings& readings) {
+  if (state.store == nullptr) return;
+  const StoreState store = state.store->state();
+  readings.Gauge("plumescout_store_available", "1 while the store takes data.");
+  readings.Add(store.status.ok() ? 1 : 0);
+  readings.Gauge("plumescout_store_backlog_bytes", "Data that waits to be durable.");
+  readings.Add(store.backlog_bytes);
+  readings.Gauge("plumescout_store_backlog_records", "Events that wait to be durable.");
+  readings.Add(store.backlog_records);
+  readings.Counter("plumescout_store_commits_total", "Commits to disk.");
+  readings.Add(store.commits);
+  readings.Counter("plumescout_store_slow_commits_total",
+                   "Commits that took longer than store.slow_commit_s.");
+  readings.Add(store.slow_commits);
+  readings.Gauge("plumescout_store_last_commit_seconds", "Duration of the last commit.");
+  readings.Add(absl::ToDoubleSeconds(store.last_commit));
+  readings.Gauge("plumescout_store_disk_bytes", "Size of all files of the store.");
+  readings.Add(store.disk_bytes);
+  const AbsentCounts absent = state.missions->absent();
+  readings.Gauge("plumescout_missions_recovering", "Missions that are yet to be recovered.");
+  readings.Add(absent.recovering);
+  readings.Gauge("plumescout_missions_damaged", "Missions that could not be recovered.");
+  readings.Add(absent.damaged);
+}
+
 using Hosts = std::vector<std::shared_ptr<MissionHost>>;
 
 // Missions of different tenants may have the same name.
@@ -133,10 +158,22 @@ void ReadMissionMemory(const ServerState& state, const Hosts& hosts, Readings& r
   }
 }
 
+void ReadMissionsOnDisk(const ServerState& state, const Hosts& hosts, Readings& readings) {
+  if (state.store == nullptr) return;
+  readings.Gauge("plumescout_mission_durable_revision", "Events of the mission that are durable.");
+  for (const auto& host : hosts) readings.Add(host->journal().durable_revision(), LabelsOf(*host));
+  readings.Gauge("plumescout_mission_disk_bytes", "What the store keeps of the mission.");
+  for (const auto& host : hosts) {
+    const auto found = state.mission_disk_bytes.find(MissionKey(host->tenant(), host->id()));
+    if (found != state.mission_disk_bytes.end()) readings.Add(found->second, LabelsOf(*host));
+  }
+}
+
 void ReadMissions(const ServerState& state, Readings& readings) {
   Hosts hosts = state.missions->List("", state.max_missions);
   ReadMissionCounts(state, hosts, readings);
   ReadMissionMemory(state, hosts, readings);
+  ReadMissionsOnDisk(state, hosts, readings);
   std::vector<HostLoad> loads;
   for (const auto& host : hosts) loads.push_back(host->load());
   const auto read = [&](auto HostLoad::*figure) {
@@ -176,6 +213,7 @@ std::string ServerMetrics::Text(const ServerState& state) const {
   ReadServer(state, readings);
   ReadProcess(readings);
   ReadPools(state, readings);
+  ReadStore(state, readings);
   ReadMissions(state, readings);
   return prometheus::TextSerializer().Serialize(families);
 }

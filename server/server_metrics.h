@@ -5,6 +5,7 @@
 #include <prometheus/registry.h>
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "server/missions/mission_registry.h"
 #include "server/observe/call_metrics.h"
 #include "server/observe/mission_metrics.h"
+#include "server/store/mission_store.h"
 
 namespace plumescout::server {
 
@@ -29,6 +31,8 @@ struct ServerState {
   // Missions beyond these, in order of name, have no series: those cost whoever keeps them.
   int max_mission_series = 100;
   bool draining = false;
+  const MissionStore* store = nullptr;                          // null: none
+  std::map<std::string, std::int64_t> mission_disk_bytes = {};  // by key, as they were lately
 };
 
 // All metrics of a server: what was counted and timed so far, and how things stand.

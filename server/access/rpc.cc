@@ -37,6 +37,9 @@ constexpr std::array<RpcRow, kRpcCount> kTable = {{
     {Rpc::kGetMap, "MapService", "GetMap", kYes, kYes, kYes},
     {Rpc::kQueryGas, "MapService", "QueryGas", kYes, kYes, kYes},
     {Rpc::kWatchMap, "MapService", "WatchMap", kYes, kYes, kYes},
+    {Rpc::kExportMission, "SnapshotService", "ExportMission", kNo, kNo, kYes},
+    {Rpc::kImportMission, "SnapshotService", "ImportMission", kNo, kNo, kYes},
+    {Rpc::kGetMissionHistory, "SnapshotService", "GetMissionHistory", kNo, kYes, kYes},
     {Rpc::kGetServerInfo, "SystemService", "GetServerInfo", kYes, kYes, kYes},
     {Rpc::kDrainServer, "SystemService", "DrainServer", kNo, kNo, kNo},
 }};

@@ -35,6 +35,9 @@ enum class Rpc {
   kGetMap,
   kQueryGas,
   kWatchMap,
+  kExportMission,
+  kImportMission,
+  kGetMissionHistory,
   kGetServerInfo,
   kDrainServer,
 };

@@ -17,12 +17,27 @@ namespace {
 
 constexpr std::int64_t kOverloadRetry_ns = 250'000'000;
 constexpr std::int64_t kDrainRetry_ns = 1'000'000'000;  // about the time of a restart
+constexpr std::int64_t kStoreRetry_ns = 1'000'000'000;
+constexpr std::int64_t kRecoveryRetry_ns = 500'000'000;
 
-std::map<std::string, std::string> Facts(absl::string_view message) {
-  if (!absl::ConsumePrefix(&message, absl::StrCat(reason::kSequenceGap, ": expected "))) return {};
-  std::int64_t expected = 0;
-  if (!absl::SimpleAtoi(message.substr(0, message.find(',')), &expected)) return {};
-  return {{"expected", absl::StrCat(expected)}};
+// A number that stands behind the reason and a word that names it.
+struct Fact {
+  absl::string_view reason;
+  absl::string_view name;
+};
+constexpr Fact kFacts[] = {{reason::kSequenceGap, "expected"},
+                           {reason::kStoreRolledBack, "applied_sequence"}};
+
+std::map<std::string, std::string> Facts(const absl::string_view message) {
+  for (const Fact& fact : kFacts) {
+    absl::string_view rest = message;
+    std::int64_t value = 0;
+    if (absl::ConsumePrefix(&rest, absl::StrCat(fact.reason, ": ", fact.name, " ")) &&
+        absl::SimpleAtoi(rest.substr(0, rest.find(',')), &value)) {
+      return {{std::string(fact.name), absl::StrCat(value)}};
+    }
+  }
+  return {};
 }
 
 absl::Status WithRetryInfo(const absl::Status& status) {
@@ -52,6 +67,29 @@ absl::Status Draining() {
   return WithRetryAfter(
       TypedError(absl::StatusCode::kUnavailable, reason::kDraining, "the server is going down"),
       kDrainRetry_ns);
+}
+
+absl::Status StoreTakesNothing(absl::string_view why) {
+  absl::ConsumePrefix(&why, absl::StrCat(reason::kStoreUnavailable, ": "));
+  return WithRetryAfter(TypedError(absl::StatusCode::kUnavailable, reason::kStoreUnavailable, why),
+                        kStoreRetry_ns);
+}
+
+absl::Status StoreRolledBack(std::int64_t applied_sequence, std::int64_t told_sequence) {
+  return TypedError(absl::StatusCode::kFailedPrecondition, reason::kStoreRolledBack,
+                    absl::StrCat("applied_sequence ", applied_sequence, ", though ", told_sequence,
+                                 " was durable: the server's data is an older copy"));
+}
+
+absl::Status MissionDamaged(absl::string_view mission, absl::string_view why) {
+  return TypedError(absl::StatusCode::kDataLoss, reason::kStoreDamaged,
+                    absl::StrCat("missions/", mission, ": ", why));
+}
+
+absl::Status Recovering(absl::string_view mission) {
+  return WithRetryAfter(TypedError(absl::StatusCode::kUnavailable, reason::kRecovering,
+                                   absl::StrCat("missions/", mission, " is read from the disk")),
+                        kRecoveryRetry_ns);
 }
 
 absl::Status WithErrorInfo(const absl::Status& status) {

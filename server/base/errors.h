@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+
 #include "absl/status/status.h"
 #include "absl/strings/string_view.h"
 #include "absl/time/time.h"
@@ -17,10 +19,19 @@ absl::Status LimitReached(absl::string_view message);
 // The caller asks for more than its share: worth another try after `wait`. `what` names the limit.
 absl::Status RateExceeded(absl::string_view what, absl::Duration wait);
 absl::Status Draining();
+// STORE_UNAVAILABLE: nothing can be made durable now; worth another try when the disk is well
+// again. `why` may have the reason already.
+absl::Status StoreTakesNothing(absl::string_view why);
+// The robot was told that more of its log is durable than the server has.
+absl::Status StoreRolledBack(std::int64_t applied_sequence, std::int64_t told_sequence);
+// What the store has of the mission cannot be used.
+absl::Status MissionDamaged(absl::string_view mission, absl::string_view why);
+// The mission is there, but not yet in memory.
+absl::Status Recovering(absl::string_view mission);
 
 // The same status as the wire tells it. It has an ErrorInfo: the reason of a typed error, or else
-// the name of the code. A hole in a robot's log ("SEQUENCE_GAP: expected 7, ...") gets the number
-// as metadata. A time after which to try again becomes a RetryInfo.
+// the name of the code. Numbers that programs act on ("SEQUENCE_GAP: expected 7, ...") are metadata
+// as well. A time after which to try again becomes a RetryInfo.
 absl::Status WithErrorInfo(const absl::Status& status);
 
 }  // namespace plumescout::server

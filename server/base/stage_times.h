@@ -13,10 +13,10 @@
 namespace plumescout::server {
 
 // What calls wait for: a belief that holds what they ask about, a thread of a pool, a search for a
-// plan, the mission's writer to commit it, an answer to be made of a belief.
-enum class Stage { kBelief, kQueue, kSearch, kCommit, kRead };
-inline constexpr std::array<absl::string_view, 5> kStageNames = {"belief", "queue", "search",
-                                                                 "commit", "read"};
+// plan, the mission's writer to commit it, an answer to be made of a belief, the disk.
+enum class Stage { kBelief, kQueue, kSearch, kCommit, kRead, kDurable };
+inline constexpr std::array<absl::string_view, 6> kStageNames = {"belief", "queue", "search",
+                                                                 "commit", "read",  "durable"};
 
 // Where the time of one call went. Thread-safe.
 class StageTimes {

@@ -13,7 +13,7 @@ namespace plumescout::server {
 namespace {
 
 constexpr std::array<absl::string_view, kStageNames.size()> kStageFields = {
-    "belief_ms", "queue_ms", "search_ms", "commit_ms", "read_ms"};
+    "belief_ms", "queue_ms", "search_ms", "commit_ms", "read_ms", "durable_ms"};
 
 std::string Milliseconds(absl::Duration time) {
   return absl::StrCat(absl::ToInt64Milliseconds(time));

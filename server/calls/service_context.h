@@ -5,7 +5,9 @@
 #include <memory>
 #include <string>
 
+#include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "absl/strings/string_view.h"
 #include "absl/time/time.h"
 #include "core/types/options.h"
 #include "server/access/principal.h"
@@ -14,6 +16,7 @@
 #include "server/base/worker_pool.h"
 #include "server/calls/active_streams.h"
 #include "server/calls/door.h"
+#include "server/history/history.h"
 #include "server/missions/mission_registry.h"
 
 namespace plumescout::server {
@@ -25,10 +28,15 @@ struct ServiceLimits {
   absl::Duration default_planning_budget = absl::Seconds(1);
   absl::Duration max_planning_budget = absl::Seconds(5);
   absl::Duration deadline_margin = absl::Milliseconds(20);  // kept back for commit and reply
+  absl::Duration replay_period = absl::Milliseconds(100);   // between frames of a past map
+  absl::Duration import_patience = absl::Seconds(30);       // for the next piece of an import
 };
 
+inline bool MaySeeTenant(const Principal& caller, absl::string_view tenant) {
+  return caller.role == Role::kAdmin || tenant == caller.tenant;
+}
 inline bool MaySee(const Principal& caller, const MissionHost& host) {
-  return caller.role == Role::kAdmin || host.tenant() == caller.tenant;
+  return MaySeeTenant(caller, host.tenant());
 }
 
 // What all services work on. Not owned; outlives them.
@@ -44,12 +52,21 @@ struct ServiceContext {
   ServiceLimits limits;
   std::string boot_id;
   std::shared_ptr<RequestMemory> requests = nullptr;  // of calls that make missions
+  History* history = nullptr;                         // null: the server keeps no journal
+
+  // kFailedPrecondition.
+  absl::Status CheckKeepsHistory() const {
+    if (history != nullptr) return absl::OkStatus();
+    return absl::FailedPreconditionError("this server keeps no journal of its missions");
+  }
 
   // The mission, if it is there and the caller may see it: the answer is the same otherwise.
   absl::StatusOr<std::shared_ptr<MissionHost>> FindMission(const Principal& caller,
                                                            const MissionId& id) const {
     auto host = registry->Find(id, caller.tenant);
-    if (!host.ok() && caller.role == Role::kAdmin) host = registry->FindOfAnyTenant(id);
+    if (absl::IsNotFound(host.status()) && caller.role == Role::kAdmin) {
+      host = registry->FindOfAnyTenant(id);
+    }
     if (host.ok()) (*host)->standing().Touch();
     return host;
   }

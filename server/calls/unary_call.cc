@@ -72,6 +72,15 @@ void UnaryCall::OnDone() {
   stop.swap(stop_);
 }
 
+void AnswerWhenDurable(MissionHost& host, const std::shared_ptr<UnaryCall>& call,
+                       const absl::Status& status) {
+  if (!status.ok()) return call->Answer(status);
+  host.WhenDurable([call, began = SteadyNow()](const absl::Status& durable) {
+    call->info().stage_times->Add(Stage::kDurable, absl::FromChrono(SteadyNow() - began));
+    call->Answer(durable);
+  });
+}
+
 absl::Status AnswerFromBelief(const std::shared_ptr<MissionHost>& host, WorkerPool* pool,
                               const std::shared_ptr<UnaryCall>& call, BeliefWish wish,
                               std::function<absl::Status(const Belief&)> read) {

@@ -62,6 +62,12 @@ inline MissionHost::OnDropped Refusal(std::shared_ptr<UnaryCall> call) {
   return [call = std::move(call)](const absl::Status& status) { call->Answer(status); };
 }
 
+// Answers a call with an error at once; with OK when all that was done to the mission so far is
+// durable, or with an error if it does not become so. A caller that gives up is not waited for
+// less: what is done is remembered for when it asks again. From any thread.
+void AnswerWhenDurable(MissionHost& host, const std::shared_ptr<UnaryCall>& call,
+                       const absl::Status& status);
+
 // Answers a call with what `read` makes of a belief. It runs on `pool`: neither the mission's
 // writer nor a search waits for it. The wait for the belief ends with the call. An error is for the
 // caller to answer with.

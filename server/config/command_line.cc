@@ -19,6 +19,8 @@ struct Flags {
   std::string config_path;
   std::string listen;
   std::string log_format;
+  std::string store;
+  std::string data;
   std::vector<std::string> settings;  // KEY=VALUE
 };
 
@@ -29,6 +31,9 @@ void Declare(Flags& flags, CLI::App& app) {
       ->type_name("HOST:PORT");
   app.add_option("--log-format", flags.log_format, "how log lines are written")
       ->type_name("text|json");
+  app.add_option("--data", flags.data, "folder where missions are kept")->type_name("DIR");
+  app.add_option("--store", flags.store, "how missions are kept; none: in memory only")
+      ->type_name("sqlite|none");
   app.add_option("-s,--set", flags.settings, "sets one option, over the file; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
@@ -37,6 +42,7 @@ void Declare(Flags& flags, CLI::App& app) {
 
 absl::StatusOr<ServerConfig> BuildConfig(const Flags& flags) {
   ConfigBuilder builder;
+  PLUMESCOUT_RETURN_IF_ERROR(builder.Set("store.engine", ProgramDefaults().store.engine));
   if (!flags.config_path.empty()) PLUMESCOUT_RETURN_IF_ERROR(builder.AddFile(flags.config_path));
   for (const std::string& setting : flags.settings) {
     const std::size_t equals = setting.find('=');
@@ -49,6 +55,8 @@ absl::StatusOr<ServerConfig> BuildConfig(const Flags& flags) {
   if (!flags.log_format.empty()) {
     PLUMESCOUT_RETURN_IF_ERROR(builder.Set("observe.log_format", flags.log_format));
   }
+  if (!flags.data.empty()) PLUMESCOUT_RETURN_IF_ERROR(builder.Set("store.folder", flags.data));
+  if (!flags.store.empty()) PLUMESCOUT_RETURN_IF_ERROR(builder.Set("store.engine", flags.store));
   return builder.Build();
 }
 

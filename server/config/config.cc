@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdlib>
 #include <optional>
 
+#include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/string_view.h"
@@ -62,6 +64,8 @@ absl::Status Validate(const LimitConfig& limits) {
           .InRange("limits.max_plans_per_s", limits.max_plans_per_s, 0, kMaxCount)
           .InRange("limits.ingest_burst_s", limits.ingest_burst_s, 1, kDay_s)
           .InRange("limits.max_clock_lead_s", limits.max_clock_lead_s, 0, kDay_s)
+          .InRange("limits.max_import_bytes", static_cast<double>(limits.max_import_bytes), 65536,
+                   kMaxQueuedBytes)
           .status());
   if (limits.stream_window_observations > limits.max_queued_observations ||
       limits.max_batch_observations > limits.max_queued_observations) {
@@ -205,6 +209,18 @@ absl::Status Refuse(absl::string_view option, absl::string_view value, absl::str
   return absl::InvalidArgumentError(absl::StrCat(option, " = ", value, " must be ", rule));
 }
 
+absl::Status Validate(const StoreConfig& store) {
+  if (store.engine != kNoStore && store.engine != kSqliteStore) {
+    return Refuse("store.engine", store.engine, "one of none, sqlite");
+  }
+  return Checker()
+      .InRange("store.max_backlog_bytes", static_cast<double>(store.max_backlog_bytes), 65'536,
+               kMaxQueuedBytes)
+      .InRange("store.recovery_threads", store.recovery_threads, 1, kMaxThreads)
+      .InRange("store.slow_commit_s", store.slow_commit_s, 0.001, 3600)
+      .status();
+}
+
 absl::Status Validate(const ObserveConfig& observe) {
   const std::string& http = observe.http_listen;
   if (!http.empty() && http != kAuto && !PortOf(http).has_value()) {
@@ -220,6 +236,27 @@ absl::Status Validate(const ObserveConfig& observe) {
 }
 
 }  // namespace
+
+ServerConfig ProgramDefaults() {
+  ServerConfig config;
+  config.store.engine = kSqliteStore;
+  return config;
+}
+
+absl::StatusOr<std::string> StoreFolder(const StoreConfig& store) {
+  if (!store.folder.empty()) return store.folder;
+  const auto variable = [](const char* name) -> std::string {
+    const char* const value = std::getenv(name);
+    return value == nullptr ? "" : value;
+  };
+  // What is not absolute is to be ignored, says the specification of these folders.
+  const std::string state = variable("XDG_STATE_HOME");
+  if (absl::StartsWith(state, "/")) return absl::StrCat(state, "/plumescout");
+  const std::string home = variable("HOME");
+  if (absl::StartsWith(home, "/")) return absl::StrCat(home, "/.local/state/plumescout");
+  return absl::InvalidArgumentError(
+      "store.folder must be set: neither XDG_STATE_HOME nor HOME names a folder");
+}
 
 std::string HttpListen(const ServerConfig& config) {
   if (config.observe.http_listen != kAuto) return config.observe.http_listen;
@@ -238,6 +275,7 @@ absl::Status Validate(const ServerConfig& config) {
   PLUMESCOUT_RETURN_IF_ERROR(Validate(config.access));
   PLUMESCOUT_RETURN_IF_ERROR(ValidateReach(config));
   PLUMESCOUT_RETURN_IF_ERROR(Validate(config.observe));
+  PLUMESCOUT_RETURN_IF_ERROR(Validate(config.store));
   return WithField(plumescout::Validate(config.mission), "mission");
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "absl/status/status.h"
+#include "absl/status/statusor.h"
 #include "core/types/options.h"
 
 namespace plumescout::server {
@@ -34,6 +35,7 @@ struct LimitConfig {
   double max_plans_per_s = 20.0;
   double ingest_burst_s = 60.0;   // so much time's worth of observations may come at once
   double max_clock_lead_s = 5.0;  // of a robot's sample; 0: any
+  std::int64_t max_import_bytes = std::int64_t{4} << 30;
 };
 
 struct PlanningConfig {
@@ -96,6 +98,19 @@ struct ObserveConfig {
   bool channelz = false;
 };
 
+// Values of store.engine.
+inline constexpr char kNoStore[] = "none";
+inline constexpr char kSqliteStore[] = "sqlite";
+
+struct StoreConfig {
+  // Whoever makes a server in a process of theirs says where it may write; see ProgramDefaults.
+  std::string engine = kNoStore;
+  std::string folder = "";  // empty: see StoreFolder
+  std::int64_t max_backlog_bytes = 67'108'864;
+  int recovery_threads = 2;
+  double slow_commit_s = 0.1;
+};
+
 // Everything that can be set, by file or flag: the fields of plumescout.config.v1.ServerConfig,
 // where their meaning and range stand. See config_file.h.
 struct ServerConfig {
@@ -107,11 +122,19 @@ struct ServerConfig {
   ConnectionConfig connection;
   AccessConfig access;
   ObserveConfig observe;
+  StoreConfig store;
   MissionOptions mission;  // what missions get for fields that their creator leaves unset
 };
 
+// What plumescout-server begins with: missions are kept.
+ServerConfig ProgramDefaults();
+
 // kInvalidArgument naming option, value and range: "planning.threads = 0 must be in [1, 256]".
 absl::Status Validate(const ServerConfig& config);
+
+// Where missions are kept: store.folder, or else plumescout below the user's folder of state,
+// $XDG_STATE_HOME or ~/.local/state. kInvalidArgument if the user has none.
+absl::StatusOr<std::string> StoreFolder(const StoreConfig& store);
 
 // Where HTTP is served. For "auto" that is the port after the one of `listen` on loopback, or any
 // free one if `listen` takes any. Empty: nowhere.

@@ -31,6 +31,7 @@ void Visit(OneOf<LimitConfig> auto& limits, auto& field) {
   field("max_plans_per_s", limits.max_plans_per_s);
   field("ingest_burst_s", limits.ingest_burst_s);
   field("max_clock_lead_s", limits.max_clock_lead_s);
+  field("max_import_bytes", limits.max_import_bytes);
 }
 
 void Visit(OneOf<PlanningConfig> auto& planning, auto& field) {
@@ -89,6 +90,14 @@ void Visit(OneOf<ObserveConfig> auto& observe, auto& field) {
   field("channelz", observe.channelz);
 }
 
+void Visit(OneOf<StoreConfig> auto& store, auto& field) {
+  field("engine", store.engine);
+  field("folder", store.folder);
+  field("max_backlog_bytes", store.max_backlog_bytes);
+  field("recovery_threads", store.recovery_threads);
+  field("slow_commit_s", store.slow_commit_s);
+}
+
 void Visit(OneOf<ServerConfig> auto& config, auto& field) { field("listen", config.listen); }
 
 void Write(const auto& config, google::protobuf::Message& proto) {
@@ -104,7 +113,7 @@ void Read(const google::protobuf::Message& proto, auto& config) {
 
 }  // namespace
 
-config::v1::ServerConfig ToProto(const ServerConfig& config) {
+config::v1::ServerConfig ServerConfigToProto(const ServerConfig& config) {
   config::v1::ServerConfig proto;
   Write(config, proto);
   Write(config.limits, *proto.mutable_limits());
@@ -114,11 +123,12 @@ config::v1::ServerConfig ToProto(const ServerConfig& config) {
   Write(config.connection, *proto.mutable_connection());
   Write(config.access, *proto.mutable_access());
   Write(config.observe, *proto.mutable_observe());
+  Write(config.store, *proto.mutable_store());
   *proto.mutable_mission() = plumescout::ToProto(config.mission);
   return proto;
 }
 
-absl::StatusOr<ServerConfig> FromProto(const config::v1::ServerConfig& proto) {
+absl::StatusOr<ServerConfig> ServerConfigFromProto(const config::v1::ServerConfig& proto) {
   ServerConfig config;
   Read(proto, config);
   Read(proto.limits(), config.limits);
@@ -128,6 +138,7 @@ absl::StatusOr<ServerConfig> FromProto(const config::v1::ServerConfig& proto) {
   Read(proto.connection(), config.connection);
   Read(proto.access(), config.access);
   Read(proto.observe(), config.observe);
+  Read(proto.store(), config.store);
   PLUMESCOUT_ASSIGN_OR_RETURN(config.mission,
                               ReadMissionOptions(proto.mission(), config.mission, "mission"));
   PLUMESCOUT_RETURN_IF_ERROR(Validate(config));

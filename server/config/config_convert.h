@@ -9,10 +9,10 @@
 namespace plumescout::server {
 
 // Every field set, but those of missions that are off and what there is none of.
-config::v1::ServerConfig ToProto(const ServerConfig& config);
+config::v1::ServerConfig ServerConfigToProto(const ServerConfig& config);
 
 // The defaults with the fields that are set in `proto`. The result is valid; refusals begin with
 // the option's name.
-absl::StatusOr<ServerConfig> FromProto(const config::v1::ServerConfig& proto);
+absl::StatusOr<ServerConfig> ServerConfigFromProto(const config::v1::ServerConfig& proto);
 
 }  // namespace plumescout::server

@@ -110,7 +110,7 @@ absl::Status ConfigBuilder::SetAt(const std::string& place, absl::string_view ke
 }
 
 absl::StatusOr<ServerConfig> ConfigBuilder::Build() const {
-  absl::StatusOr<ServerConfig> config = FromProto(proto_);
+  absl::StatusOr<ServerConfig> config = ServerConfigFromProto(proto_);
   if (config.ok()) return config;
   // Refusals begin with the option's name.
   const absl::string_view message = config.status().message();

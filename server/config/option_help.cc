@@ -109,7 +109,7 @@ void Append(const Comments& comments, const Message& message, const std::string&
 std::string OptionHelp() {
   std::string help =
       "Options of the configuration; deploy/config/plumescout.yaml shows how lists are written:\n";
-  Append(Comments(), ToProto(ServerConfig()), "", help);
+  Append(Comments(), ServerConfigToProto(ProgramDefaults()), "", help);
   return help;
 }
 

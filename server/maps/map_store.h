@@ -55,6 +55,7 @@ class MapStore {
                                             std::int64_t max_bytes) ABSL_LOCKS_EXCLUDED(mutex_);
 
   MapStoreCounts counts() const ABSL_LOCKS_EXCLUDED(mutex_);
+  std::int64_t max_part_bytes() const { return max_part_bytes_; }
 
  private:
   using EncodedPtr = std::shared_ptr<const EncodedMap>;

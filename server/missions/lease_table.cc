@@ -51,6 +51,11 @@ LeaseStanding LeaseTable::Standing(const RobotId& robot) const {
   return book_.Standing(robot, ToNanoseconds(clock_()));
 }
 
+std::map<RobotId, std::int64_t> LeaseTable::Released() const {
+  absl::MutexLock lock(&mutex_);
+  return book_.Released();
+}
+
 absl::Status LeaseTable::Use(const RobotId& robot, std::int64_t token) {
   absl::MutexLock lock(&mutex_);
   return book_.Use(robot, token, ToNanoseconds(clock_()));

@@ -37,6 +37,8 @@ class LeaseTable final : public Leases {
   // with LEASE_SUPERSEDED.
   absl::Status Release(const RobotId& robot, std::optional<std::int64_t> token);
   LeaseStanding Standing(const RobotId& robot) const;
+  // As LeaseBook.
+  std::map<RobotId, std::int64_t> Released() const;
 
   // Counts as a use. ROBOT_NOT_FOUND; LEASE_SUPERSEDED unless `token` is the newest.
   absl::Status Use(const RobotId& robot, std::int64_t token);

@@ -7,6 +7,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/mission/conduct/conduct_errors.h"
+#include "core/types/status_macros.h"
 #include "proto/convert/prior_map.h"
 #include "server/base/errors.h"
 
@@ -19,6 +20,17 @@ std::unique_ptr<Mission> AbandonedWith(std::shared_ptr<const std::atomic<bool>> 
                                        std::unique_ptr<Mission> mission) {
   mission->AbandonWhen([flag = std::move(flag)] { return flag->load(); });
   return mission;
+}
+
+EpochHabit HabitOf(const MissionJournal& journal, const JournalTail& tail) {
+  if (!journal.is_durable()) return {};
+  return {kEventsPerEpoch, tail.last_epoch};
+}
+
+std::unique_ptr<SnapshotTaker> MakeTaker(const std::shared_ptr<MissionJournal>& journal,
+                                         WorkerPool* pool, const JournalTail& tail) {
+  if (!journal->is_durable() || pool == nullptr) return nullptr;
+  return std::make_unique<SnapshotTaker>(journal, pool, tail);
 }
 
 }  // namespace
@@ -35,17 +47,45 @@ MissionHost::MissionHost(Parts parts, const HostOptions& options)
           IngestLoad{options.max_queued_observations, options.max_queued_bytes})),
       abandoned_(std::make_shared<std::atomic<bool>>(false)),
       standing_(id_, options.clock),
+      journal_(parts.journal != nullptr ? std::move(parts.journal)
+                                        : std::make_shared<MissionJournal>()),
+      snapshots_(MakeTaker(journal_, parts.snapshot_pool, parts.tail)),
+      sink_(std::move(parts.sink)),
       rates_(options.rates, options.clock),
       requests_(std::make_shared<RequestMemory>(
           RequestMemoryOptions{.max_bytes = kMaxRememberedBytes, .clock = options.clock})),
       map_feed_(std::make_shared<MapFeed>(id_, options.max_map_part_bytes)),
       waiters_(options.max_waiters),
-      writer_(AbandonedWith(abandoned_, std::move(parts.mission)), std::move(parts.sink),
-              parts.epoch_pool, SteadyNow, parts.audit_pool, parts.metrics),
-      clock_gate_({options.max_clock_lead, mission_options_.stamp_by_arrival}, options.wall_clock),
-      thread_([this] { Run(); }) {}
+      writer_(
+          AbandonedWith(abandoned_, std::move(parts.mission)),
+          [this](const Event& event) { Keep(event); }, parts.epoch_pool, SteadyNow,
+          parts.audit_pool, parts.metrics, HabitOf(*journal_, parts.tail)),
+      clock_gate_({options.max_clock_lead, mission_options_.stamp_by_arrival}, options.wall_clock) {
+  standing_.Restore(parts.standing.state, parts.standing.idle_time_to_live);
+  if (writer_.mission().revision() > 0) RecoverLeases(parts.standing);
+  thread_ = std::thread([this] { Run(); });
+}
 
 MissionHost::~MissionHost() { Stop(MissionNotFound(id_)); }
+
+void MissionHost::Keep(const Event& event) {
+  const std::int64_t bytes = journal_->Add(event);
+  if (snapshots_ != nullptr) snapshots_->NoteEvent(event, bytes, writer_.mission());
+  if (sink_) sink_(event);
+}
+
+void MissionHost::RecoverLeases(const StandingRecord& standing) {
+  const std::shared_ptr<const Belief> belief = writer_.conduct().Snapshot();
+  for (const auto& [robot, record] : belief->robots) {
+    const auto token = writer_.mission().LeaseToken(robot);
+    if (!token.ok()) continue;
+    leases_.Grant(robot, *token);
+    const auto released = standing.released_leases.find(robot);
+    if (released != standing.released_leases.end() && released->second == *token) {
+      leases_.Release(robot, token.value()).IgnoreError();
+    }
+  }
+}
 
 const v1::PriorMap& MissionHost::prior_map() {
   absl::call_once(prior_map_packed_, [this] { prior_map_ = ToProto(*mission_options_.prior_map); });
@@ -68,12 +108,38 @@ HostLoad MissionHost::load() const {
 
 IngestResult MissionHost::Ingest(MissionWriter& writer, const RobotId& robot,
                                  std::int64_t lease_token, std::vector<IncomingObservation> batch) {
-  const absl::Status writable = standing_.CheckMayWrite();
+  const absl::Status writable = CheckMayWrite();
   if (!writable.ok()) {
     return {writable, writer.conduct().Position(robot).value_or(LogPosition{}), {}};
   }
   clock_gate_.Pass(robot, batch);
   return writer.conduct().Ingest(robot, lease_token, std::move(batch));
+}
+
+absl::Status MissionHost::CheckMayWrite() const {
+  PLUMESCOUT_RETURN_IF_ERROR(standing_.CheckMayWrite());
+  return journal_->CheckTakesMore();
+}
+
+absl::Status MissionHost::CheckMayPlan() const {
+  PLUMESCOUT_RETURN_IF_ERROR(standing_.CheckMayPlan());
+  return journal_->CheckTakesMore();
+}
+
+void MissionHost::KeepStanding() {
+  absl::MutexLock lock(&keep_standing_);
+  journal_->PutStanding(
+      EncodeStanding({standing_.state(), standing_.idle_time_to_live(), leases_.Released()}));
+}
+
+void MissionHost::WhenDurable(MissionJournal::Callback done) {
+  const SteadyTime deadline = After(SteadyNow(), host_options_.max_wait);
+  journal_->WhenDurable(summary().revision, deadline, std::move(done));
+  // The writer, which may sleep, has to see to the deadline.
+  const bool waits = journal_->next_deadline() != SteadyTime::max();
+  if (waits && writer_thread_.load() != std::this_thread::get_id()) {
+    Post([](MissionWriter&) {}).IgnoreError();
+  }
 }
 
 absl::Status MissionHost::Post(Command command) {
@@ -135,6 +201,7 @@ void MissionHost::DropAll() {
   }
   EndWaits(status);
   leases_.EndAll(status);
+  journal_->Close(status);
 }
 
 void MissionHost::Stop(const absl::Status& status) {
@@ -165,15 +232,20 @@ std::optional<MissionHost::Command> MissionHost::NextCommand() {
 }
 
 void MissionHost::Run() {
+  writer_thread_ = std::this_thread::get_id();
   while (const auto count = AwaitCommands(NextWake())) {
     for (std::size_t i = 0; i < *count; ++i) {
       std::optional<Command> command = NextCommand();
       if (!command.has_value()) break;
       command->room = nullptr;  // it waits no more
       command->run(writer_);
+      journal_->FlushIfIdle();
     }
+    journal_->Flush();
     AfterCommands();
+    journal_->Flush();
   }
+  journal_->Flush();
   DropAll();
   absl::Status status;
   {
@@ -188,6 +260,7 @@ void MissionHost::AfterCommands() {
   if (*abandoned_) return;
   writer_.CollectAudit();
   const SteadyTime now = SteadyNow();
+  journal_->DropOverdue(now);
   waiters_.Serve(writer_.conduct(), now);
   if (now >= next_publication()) {
     auto belief = writer_.Publish(host_options_.gas_wait);
@@ -210,7 +283,7 @@ void MissionHost::Publish(const absl::StatusOr<std::shared_ptr<const Belief>>& b
 }
 
 SteadyTime MissionHost::NextWake() const {
-  return std::min(waiters_.next_deadline(), next_publication());
+  return std::min({waiters_.next_deadline(), next_publication(), journal_->next_deadline()});
 }
 
 }  // namespace plumescout::server

@@ -28,9 +28,12 @@
 #include "server/missions/end_listeners.h"
 #include "server/missions/ingest_room.h"
 #include "server/missions/lease_table.h"
+#include "server/missions/mission_journal.h"
 #include "server/missions/mission_standing.h"
 #include "server/missions/mission_writer.h"
 #include "server/missions/robot_rates.h"
+#include "server/missions/snapshot_taker.h"
+#include "server/missions/standing_record.h"
 
 namespace plumescout::server {
 
@@ -45,7 +48,8 @@ struct HostOptions {
   std::int64_t max_queued_bytes = std::int64_t{8} * 1024 * 1024;  // of observations
   int max_queued_commands = 4096;
   int max_waiters = 256;
-  absl::Duration max_wait = absl::Seconds(30);  // for a belief, whatever the caller's deadline
+  // For a belief or the disk, whatever the caller's deadline.
+  absl::Duration max_wait = absl::Seconds(30);
   // Watchers see a new belief at most this often; but a reading ...
   absl::Duration publish_period = absl::Milliseconds(100);
   // ... that was acknowledged is in the posterior that they see after this at the latest.
@@ -89,13 +93,18 @@ class MissionHost {
     MissionId id;
     std::unique_ptr<Mission> mission;
     std::unique_ptr<const Strategy> strategy;
-    EventSink sink;
+    EventSink sink = nullptr;
     WorkerPool* epoch_pool = nullptr;  // of the writer, as is the next; see MissionWriter
     WorkerPool* audit_pool = nullptr;
     MissionOwner owner = {};
     MissionMetrics* metrics = &MissionMetrics::Unread();  // not owned; outlives the host
+    std::shared_ptr<MissionJournal> journal = nullptr;    // null: the mission is not kept
+    StandingRecord standing = {};                         // of a mission that is recovered
+    JournalTail tail = {};                                // as well
+    WorkerPool* snapshot_pool = nullptr;                  // null: no snapshots are taken
   };
 
+  // Robots that the mission knows go on with their leases, which are held as if used just now.
   MissionHost(Parts parts, const HostOptions& options);
   // REQUIRES: not called on the writer's thread, or after Stop.
   ~MissionHost();
@@ -110,6 +119,17 @@ class MissionHost {
   LeaseTable& leases() { return leases_; }
   MissionStanding& standing() { return standing_; }
   const MissionStanding& standing() const { return standing_; }
+  // Whether anything may change the mission, or plan: MISSION_FINISHED, MISSION_PAUSED, and what
+  // MissionJournal::CheckTakesMore says.
+  absl::Status CheckMayWrite() const;
+  absl::Status CheckMayPlan() const;
+  MissionJournal& journal() { return *journal_; }
+  const std::shared_ptr<MissionJournal>& shared_journal() const { return journal_; }
+  // Has the journal keep what became of standing() and leases().
+  void KeepStanding();
+  // `done` hears once all that was done to the mission so far is durable; an error after
+  // HostOptions::max_wait, or if the mission ends. From any thread.
+  void WhenDurable(MissionJournal::Callback done);
   RobotRates& rates() { return rates_; }
   // Of the calls that name this mission.
   const std::shared_ptr<RequestMemory>& requests() const { return requests_; }
@@ -128,7 +148,7 @@ class MissionHost {
   EndListeners& end_listeners() { return end_listeners_; }
 
   // Has the writer, on its thread, apply a batch as MissionConduct::Ingest, if the mission takes
-  // any (MISSION_FINISHED) and but for samples whose clock runs ahead (CLOCK_AHEAD).
+  // any (CheckMayWrite) and but for samples whose clock runs ahead (CLOCK_AHEAD).
   IngestResult Ingest(MissionWriter& writer, const RobotId& robot, std::int64_t lease_token,
                       std::vector<IncomingObservation> batch);
 
@@ -147,7 +167,8 @@ class MissionHost {
 
   // Fails who waits for a belief, now and later, and tells all end_listeners(). Commands go on.
   void EndWaits(const absl::Status& status);
-  // From now on nothing is taken; what runs ends soon, and the writer after it. Returns at once.
+  // From now on nothing is taken; what runs ends soon, and the writer after it, when it has handed
+  // its events to the journal. Returns at once.
   // The first status counts.
   void BeginStop(const absl::Status& status);
   // As EndWaits; drops what is queued and ends all streams, though something still runs. REQUIRES:
@@ -165,6 +186,9 @@ class MissionHost {
   bool HasWork() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
     return !commands_.empty() || stopping_;
   }
+  // Of every event, on the writer's thread.
+  void Keep(const Event& event);
+  void RecoverLeases(const StandingRecord& standing);
   void AfterCommands();
   SteadyTime next_publication() const;  // max() if there is nothing new or nobody to tell
   void Publish(const absl::StatusOr<std::shared_ptr<const Belief>>& belief);
@@ -182,6 +206,10 @@ class MissionHost {
   // Read by what the mission has running, which may outlive us.
   const std::shared_ptr<std::atomic<bool>> abandoned_;
   MissionStanding standing_;
+  const std::shared_ptr<MissionJournal> journal_;
+  const std::unique_ptr<SnapshotTaker> snapshots_;  // the writer's; null: none are taken
+  const EventSink sink_;
+  absl::Mutex keep_standing_;  // its records leave in the order in which they are made
   RobotRates rates_;
   const std::shared_ptr<RequestMemory> requests_;
   const std::shared_ptr<MapFeed> map_feed_;
@@ -204,7 +232,8 @@ class MissionHost {
   // What load() tells of these.
   std::atomic<SteadyTime> unpublished_since_ = SteadyTime::max();
 
-  std::thread thread_;  // last: it uses all of the above
+  std::atomic<std::thread::id> writer_thread_;
+  std::thread thread_;  // starts last: it uses all of the above
 };
 
 }  // namespace plumescout::server

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/missions/mission_reaper.h"
 
+#include <malloc.h>
+
 #include <utility>
 
 #include "absl/time/time.h"
@@ -46,6 +48,9 @@ void MissionReaper::Run() {
     }
     next.host->Stop(next.status);
     next.host = nullptr;
+    // Every thread's arena keeps what is freed in it: 220 MiB after 24 missions of 8 robots, of
+    // which none was left.
+    malloc_trim(0);
     next.stopped();
     absl::MutexLock lock(&mutex_);
     ++reaped_;

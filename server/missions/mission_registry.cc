@@ -6,62 +6,78 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/mission/conduct/conduct_errors.h"
-#include "core/types/checker.h"
 #include "core/types/status_macros.h"
 #include "server/base/errors.h"
+#include "server/base/log.h"
 
 namespace plumescout::server {
 
-std::string MissionKey(absl::string_view tenant, const MissionId& id) {
-  return tenant.empty() ? id : absl::StrCat(tenant, "/", id);  // no id has a slash
+namespace {
+
+// What is said of a mission that could not be recovered.
+absl::Status HeldWith(const std::string& key, const absl::Status& why) {
+  return absl::IsUnavailable(why) ? why : MissionDamaged(MissionIdOf(key), why.message());
 }
+
+// `host`: null if it was not recovered.
+void LogRecovery(const std::string& key, const MissionHost* host, const absl::Status& status,
+                 SteadyTime::duration time) {
+  if (host != nullptr) {
+    LogInfo("mission recovered",
+            {{"mission", key},
+             {"revision", absl::StrCat(host->summary().revision)},
+             {"took_ms", absl::StrCat(absl::ToInt64Milliseconds(absl::FromChrono(time)))}});
+  } else if (!absl::IsCancelled(status)) {
+    LogError("mission not recovered", {{"mission", key}, {"why", std::string(status.message())}});
+  }
+}
+
+}  // namespace
 
 MissionRegistry::MissionRegistry(const RegistryOptions& options, RegistryHooks hooks)
-    : options_(options), hooks_(std::move(hooks)) {}
-
-absl::Status MissionRegistry::CheckChoices(const MissionOptions& options) const {
-  const auto must_be_at_most = [](auto limit, absl::string_view option) {
-    return absl::StrCat("must be at most the server's ", option, " = ", limit);
-  };
-  return Checker()
-      .Require(options.memory_budget_bytes <= options_.mission_memory_budget_bytes,
-               "memory_budget_bytes", static_cast<double>(options.memory_budget_bytes),
-               must_be_at_most(options_.mission_memory_budget_bytes,
-                               "limits.mission_memory_budget_bytes"))
-      .Require(options.occupancy.max_cell_count <= options_.max_map_cell_count,
-               "occupancy.max_cell_count", static_cast<double>(options.occupancy.max_cell_count),
-               must_be_at_most(options_.max_map_cell_count, "limits.max_map_cell_count"))
-      .Require(options.max_beam_count <= options_.max_beam_count, "max_beam_count",
-               options.max_beam_count,
-               must_be_at_most(options_.max_beam_count, "limits.max_beam_count"))
-      .Require(options.max_range_m <= options_.max_range_m, "max_range_m", options.max_range_m,
-               must_be_at_most(options_.max_range_m, "limits.max_range_m"))
-      .status();
-}
+    : options_(options), store_(hooks.store), maker_(options, std::move(hooks)) {}
 
 absl::Status MissionRegistry::CheckRoom(const MissionId& id, const std::string& key,
                                         std::int64_t bytes) const {
   if (!closed_.ok()) return closed_;
-  if (hosts_.contains(key) || being_made_.contains(key)) return MissionExists(id);
-  const int held = static_cast<int>(hosts_.size() + being_made_.size()) + stopping_missions_;
-  if (held >= options_.max_missions) {
+  if (hosts_.contains(key) || being_made_.contains(key) || absent_.Contains(key)) {
+    return MissionExists(id);
+  }
+  if (held_missions() >= options_.max_missions) {
     return LimitReached(absl::StrCat("the server holds ", options_.max_missions, " missions"));
   }
-  if (bytes > options_.memory_budget_bytes - reserved_bytes_) {
-    return LimitReached(absl::StrCat("the mission may come to hold memory_budget_bytes = ", bytes,
-                                     ", of ", options_.memory_budget_bytes - reserved_bytes_,
-                                     " that limits.memory_budget_bytes has left"));
-  }
-  return absl::OkStatus();
+  return CheckMemory("the mission", bytes);
+}
+
+absl::Status MissionRegistry::CheckMemory(absl::string_view what, std::int64_t bytes) const {
+  const std::int64_t left_bytes = options_.memory_budget_bytes - reserved_bytes_;
+  if (bytes <= left_bytes) return absl::OkStatus();
+  return LimitReached(absl::StrCat(what, " may come to hold memory_budget_bytes = ", bytes, ", of ",
+                                   left_bytes, " that limits.memory_budget_bytes has left"));
+}
+
+absl::StatusOr<std::shared_ptr<void>> MissionRegistry::HoldRoom(std::int64_t bytes) {
+  absl::MutexLock lock(&mutex_);
+  PLUMESCOUT_RETURN_IF_ERROR(CheckMemory("the mission as it was", bytes));
+  reserved_bytes_ += bytes;
+  return std::shared_ptr<void>(nullptr, [this, bytes](void*) {
+    absl::MutexLock release(&mutex_);
+    reserved_bytes_ -= bytes;
+  });
+}
+
+int MissionRegistry::held_missions() const {
+  return static_cast<int>(hosts_.size() + being_made_.size()) + stopping_missions_ +
+         absent_.waiting() + absent_.held();
 }
 
 absl::StatusOr<std::shared_ptr<MissionHost>> MissionRegistry::Create(const MissionId& id,
                                                                      const MissionOptions& options,
                                                                      const MissionOwner& owner) {
-  PLUMESCOUT_RETURN_IF_ERROR(CheckChoices(options));
+  PLUMESCOUT_RETURN_IF_ERROR(maker_.CheckChoices(options));
   const std::string key = MissionKey(owner.tenant, id);
   PLUMESCOUT_RETURN_IF_ERROR(Reserve(id, key, options.memory_budget_bytes));
-  auto host = Make(id, options, owner);
+  auto host = maker_.Make(id, options, owner);
   absl::Status status = host.status();
   {
     absl::MutexLock lock(&mutex_);
@@ -86,31 +102,102 @@ absl::Status MissionRegistry::Reserve(const MissionId& id, const std::string& ke
   return absl::OkStatus();
 }
 
-absl::StatusOr<std::shared_ptr<MissionHost>> MissionRegistry::Make(
-    const MissionId& id, const MissionOptions& options, const MissionOwner& owner) const {
-  PLUMESCOUT_ASSIGN_OR_RETURN(auto strategy, hooks_.make_strategy(options.planning));
-  PLUMESCOUT_ASSIGN_OR_RETURN(auto mission, Mission::Create(options));
-  const MissionOptions fitted = mission->options();
-  MissionHost::Parts parts{id,      std::move(mission), std::move(strategy),
-                           nullptr, hooks_.epoch_pool,  hooks_.audit_pool,
-                           owner,   hooks_.metrics};
-  if (hooks_.make_event_sink) parts.sink = hooks_.make_event_sink(id, fitted);
-  return std::make_shared<MissionHost>(std::move(parts), options_.host);
+absl::Status MissionRegistry::FindStored() {
+  if (store_ == nullptr) return absl::OkStatus();
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<StoredMission> stored, store_->List());
+  absl::MutexLock lock(&mutex_);
+  for (const StoredMission& mission : stored) {
+    if (!hosts_.contains(mission.key)) absent_.Add(mission);
+  }
+  return absl::OkStatus();
+}
+
+bool MissionRegistry::RecoverNext() {
+  std::optional<std::string> key;
+  {
+    absl::MutexLock lock(&mutex_);
+    if (!closed_.ok()) return false;
+    key = absent_.Next();
+  }
+  if (!key.has_value()) return false;
+  Recover(*key).IgnoreError();  // it is logged, and told to whoever calls for the mission
+  return true;
+}
+
+absl::Status MissionRegistry::CheckRecovery(const std::string& key) const {
+  if (!closed_.ok()) return closed_;
+  if (hosts_.contains(key) || being_made_.contains(key)) return MissionExists(MissionIdOf(key));
+  if (absent_.Contains(key) || held_missions() < options_.max_missions) return absl::OkStatus();
+  return LimitReached(absl::StrCat("the server holds ", options_.max_missions, " missions"));
+}
+
+absl::Status MissionRegistry::Recover(const std::string& key) {
+  if (store_ == nullptr) return absl::FailedPreconditionError("the server keeps no missions");
+  bool is_new = false;
+  {
+    absl::MutexLock lock(&mutex_);
+    PLUMESCOUT_RETURN_IF_ERROR(CheckRecovery(key));
+    is_new = !absent_.Contains(key);
+    if (is_new) being_made_.insert(key);
+  }
+  const SteadyTime began = SteadyNow();
+  auto host = maker_.Revive(key, [closing = closing_] { return closing->load(); });
+  absl::Status status = host.status();
+  {
+    absl::MutexLock lock(&mutex_);
+    being_made_.erase(key);
+    status.Update(closed_);
+    if (status.ok()) {
+      absent_.Erase(key);
+      hosts_.emplace(key, *host);
+      reserved_bytes_ += (*host)->options().memory_budget_bytes;
+    } else if (closed_.ok() && !is_new) {
+      absent_.Hold(key, HeldWith(key, status));
+    }
+  }
+  LogRecovery(key, host.ok() ? host->get() : nullptr, status, SteadyNow() - began);
+  return status;
+}
+
+std::vector<AbsentMission> MissionRegistry::ListAbsent(const std::string& after) const {
+  absl::MutexLock lock(&mutex_);
+  return absent_.After(after);
+}
+
+AbsentCounts MissionRegistry::absent() const {
+  absl::MutexLock lock(&mutex_);
+  return {absent_.waiting(), absent_.held()};
+}
+
+bool MissionRegistry::AwaitStored(SteadyTime deadline) {
+  std::vector<std::shared_ptr<MissionJournal>> journals;
+  {
+    absl::MutexLock lock(&mutex_);
+    journals = journals_;
+  }
+  bool all = true;
+  for (const auto& journal : journals) all = journal->AwaitStored(deadline) && all;
+  return all;
 }
 
 absl::StatusOr<std::shared_ptr<MissionHost>> MissionRegistry::Find(const MissionId& id,
                                                                    absl::string_view tenant) const {
   absl::MutexLock lock(&mutex_);
-  const auto found = hosts_.find(MissionKey(tenant, id));
-  if (found == hosts_.end()) return MissionNotFound(id);
-  return found->second;
+  const std::string key = MissionKey(tenant, id);
+  const auto found = hosts_.find(key);
+  if (found != hosts_.end()) return found->second;
+  PLUMESCOUT_RETURN_IF_ERROR(absent_.CallFor(key));
+  return MissionNotFound(id);
 }
 
 absl::StatusOr<std::shared_ptr<MissionHost>> MissionRegistry::FindOfAnyTenant(
     const MissionId& id) const {
   const auto found = List("", 2, [&id](const MissionHost& host) { return host.id() == id; });
-  if (found.empty()) return MissionNotFound(id);
-  if (found.size() == 1) return found[0];
+  std::vector<AbsentMission> absent = ListAbsent("");
+  std::erase_if(absent, [&](const AbsentMission& other) { return MissionIdOf(other.key) != id; });
+  if (found.empty() && absent.empty()) return MissionNotFound(id);
+  if (found.size() == 1 && absent.empty()) return found[0];
+  if (found.empty() && absent.size() == 1) return Find(id, TenantOf(absent[0].key));
   return absl::FailedPreconditionError(
       absl::StrCat("missions/", id, " is the name of several tenants' missions"));
 }
@@ -128,11 +215,25 @@ std::vector<std::shared_ptr<MissionHost>> MissionRegistry::List(
 }
 
 absl::Status MissionRegistry::Delete(const MissionId& id, absl::string_view tenant,
-                                     std::function<void()> stopped) {
+                                     MissionJournal::Callback removed) {
   absl::MutexLock lock(&mutex_);
   const auto found = hosts_.find(MissionKey(tenant, id));
   if (found == hosts_.end()) return MissionNotFound(id);
-  Reap(found, std::move(stopped));
+  Reap(found, std::move(removed));
+  return absl::OkStatus();
+}
+
+absl::Status MissionRegistry::Discard(const std::string& key, MissionJournal::Callback removed) {
+  {
+    absl::MutexLock lock(&mutex_);
+    if (!absl::IsDataLoss(absent_.CallFor(key))) return MissionNotFound(MissionIdOf(key));
+  }
+  PLUMESCOUT_ASSIGN_OR_RETURN(const AcquiredMission stored, store_->Peek(key));
+  {
+    absl::MutexLock lock(&mutex_);
+    absent_.Erase(key);
+  }
+  store_->Remove(key, stored.epoch, std::move(removed));
   return absl::OkStatus();
 }
 
@@ -145,29 +246,31 @@ std::vector<MissionId> MissionRegistry::DeleteIdle() {
       here->second->standing().Touch();
     } else if (here->second->standing().has_outlived_its_use()) {
       deleted.push_back(here->second->id());
-      Reap(here, [] {});
+      Reap(here, [](const absl::Status&) {});
     }
   }
   return deleted;
 }
 
-void MissionRegistry::Reap(Hosts::iterator found, std::function<void()> stopped) {
+void MissionRegistry::Reap(Hosts::iterator found, MissionJournal::Callback removed) {
   auto host = std::move(found->second);
   hosts_.erase(found);
   ++stopping_missions_;
   const std::int64_t bytes = host->options().memory_budget_bytes;
   const absl::Status status = MissionNotFound(host->id());
-  reaper_.Take(std::move(host), status, [this, bytes, stopped = std::move(stopped)] {
+  const auto journal = host->shared_journal();
+  reaper_.Take(std::move(host), status, [this, bytes, journal, removed = std::move(removed)] {
     {
       absl::MutexLock lock(&mutex_);
       reserved_bytes_ -= bytes;
       --stopping_missions_;
     }
-    stopped();
+    journal->Remove(removed);
   });
 }
 
 void MissionRegistry::EndWaits(const absl::Status& status) {
+  *closing_ = true;
   std::vector<std::shared_ptr<MissionHost>> hosts;
   {
     absl::MutexLock lock(&mutex_);
@@ -178,11 +281,15 @@ void MissionRegistry::EndWaits(const absl::Status& status) {
 }
 
 void MissionRegistry::StopAll(const absl::Status& status) {
+  *closing_ = true;
   std::map<std::string, std::shared_ptr<MissionHost>> hosts;
   {
     absl::MutexLock lock(&mutex_);
     hosts.swap(hosts_);
-    for (const auto& [id, host] : hosts) reserved_bytes_ -= host->options().memory_budget_bytes;
+    for (const auto& [id, host] : hosts) {
+      reserved_bytes_ -= host->options().memory_budget_bytes;
+      journals_.push_back(host->shared_journal());
+    }
     if (closed_.ok()) closed_ = status;
   }
   for (const auto& [id, host] : hosts) host->BeginStop(status);

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <map>
 #include <memory>
 #include <set>
@@ -18,45 +18,22 @@
 #include "absl/synchronization/mutex.h"
 #include "core/types/options.h"
 #include "server/missions/mission_host.h"
+#include "server/missions/mission_maker.h"
 #include "server/missions/mission_reaper.h"
-#include "server/missions/mission_strategy.h"
+#include "server/missions/recovery_list.h"
+#include "server/store/mission_store.h"
 
 namespace plumescout::server {
 
-struct RegistryOptions {
-  int max_missions = 64;
-  // Of all missions together, each counted with all that it may come to hold.
-  std::int64_t memory_budget_bytes = std::numeric_limits<std::int64_t>::max();
-  // What missions may choose for themselves at most.
-  std::int64_t mission_memory_budget_bytes = std::numeric_limits<std::int64_t>::max();
-  std::int64_t max_map_cell_count = std::numeric_limits<std::int64_t>::max();
-  int max_beam_count = std::numeric_limits<int>::max();
-  double max_range_m = std::numeric_limits<double>::infinity();
-  HostOptions host;
+// How many missions of the store do not run.
+struct AbsentCounts {
+  int recovering = 0;
+  int damaged = 0;  // or not to be recovered for another reason
 };
 
-// What a registry makes missions of; tests put their own here.
-struct RegistryHooks {
-  std::function<absl::StatusOr<std::unique_ptr<const Strategy>>(const PlanningOptions&)>
-      make_strategy =
-          [](const PlanningOptions& options) { return MakeMissionStrategy(options, Rivals::kOff); };
-  // The sink of a new mission's events; may be empty.
-  std::function<EventSink(const MissionId&, const MissionOptions&)> make_event_sink;
-  // Recomputes gas posteriors; outlives the missions. Null: their writers do.
-  WorkerPool* epoch_pool = nullptr;
-  // Audits them; as above. Null: nobody does.
-  WorkerPool* audit_pool = nullptr;
-  // Hear of what missions do; outlive them.
-  MissionMetrics* metrics = &MissionMetrics::Unread();
-};
-
-// A mission's name among those of all tenants. Each tenant has names of its own, so that nobody
-// learns of another's missions by the names that are taken.
-std::string MissionKey(absl::string_view tenant, const MissionId& id);
-
-// All missions of a server, by key. Thread-safe; only AwaitStopped blocks. Missions are made
-// outside the lock: a name and its room are reserved first, and nobody finds the mission before it
-// is made.
+// All missions of a server, by key. Thread-safe; what makes, recovers and awaits missions blocks,
+// the rest does not. Missions are made outside the lock: a name and its room are reserved first,
+// and nobody finds the mission before it is made.
 class MissionRegistry {
  public:
   MissionRegistry(const RegistryOptions& options, RegistryHooks hooks);
@@ -68,6 +45,11 @@ class MissionRegistry {
   absl::StatusOr<std::shared_ptr<MissionHost>> Create(const MissionId& id,
                                                       const MissionOptions& options,
                                                       const MissionOwner& owner = {});
+  // kInvalidArgument naming the option if one is beyond what missions may choose.
+  absl::Status CheckChoices(const MissionOptions& options) const {
+    return maker_.CheckChoices(options);
+  }
+  // RECOVERING or STORE_DAMAGED of a mission that the store has and that does not run.
   absl::StatusOr<std::shared_ptr<MissionHost>> Find(const MissionId& id,
                                                     absl::string_view tenant = {}) const;
   // The one of this name, whosever it is; kFailedPrecondition if several tenants have one.
@@ -80,9 +62,31 @@ class MissionRegistry {
         return true;
       }) const;
   // The mission is off the list and ends with MISSION_NOT_FOUND. Its room is free once it has
-  // stopped; then `stopped` is called, on another thread. On error it is not.
+  // stopped; `removed` hears, on another thread, when the store has forgotten it too. On error it
+  // is not called.
   absl::Status Delete(
-      const MissionId& id, absl::string_view tenant = {}, std::function<void()> stopped = [] {});
+      const MissionId& id, absl::string_view tenant = {},
+      MissionJournal::Callback removed = [](const absl::Status&) {});
+
+  // The store forgets a mission that cannot be recovered; `removed` hears as of Delete.
+  // MISSION_NOT_FOUND unless it is one. Reads the disk.
+  absl::Status Discard(const std::string& key, MissionJournal::Callback removed);
+
+  // From now on the missions that the store has are there, if only to be recovered.
+  absl::Status FindStored();
+  // Recovers the one of them that is wanted most. False if none waits, or nothing is to be made any
+  // more.
+  bool RecoverNext();
+  // Takes over a mission that the store has, such as an import has put there. MISSION_EXISTS if it
+  // runs, LIMIT_REACHED, and what RecoverMission says.
+  absl::Status Recover(const std::string& key);
+  // Those that do not run, whose keys come after this one, in order of key.
+  std::vector<AbsentMission> ListAbsent(const std::string& after) const;
+  AbsentCounts absent() const;
+
+  // Room for what takes memory like a mission and is none, until the hold is let go; the registry
+  // outlives it. LIMIT_REACHED.
+  absl::StatusOr<std::shared_ptr<void>> HoldRoom(std::int64_t bytes) ABSL_LOCKS_EXCLUDED(mutex_);
 
   // Deletes those that have outlived their use, and that nobody but the registry holds: whoever
   // holds a mission uses it. Returns their names.
@@ -94,23 +98,26 @@ class MissionRegistry {
   void StopAll(const absl::Status& status);
   // For those that were deleted too. False if some still run by then.
   bool AwaitStopped(SteadyTime deadline) { return reaper_.AwaitAll(deadline); }
+  // For the events of those that StopAll stopped to be durable. False if some are not by then.
+  bool AwaitStored(SteadyTime deadline);
 
  private:
   using Hosts = std::map<std::string, std::shared_ptr<MissionHost>>;
 
-  void Reap(Hosts::iterator found, std::function<void()> stopped)
+  void Reap(Hosts::iterator found, MissionJournal::Callback removed)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  absl::Status CheckChoices(const MissionOptions& options) const;
   absl::Status CheckRoom(const MissionId& id, const std::string& key, std::int64_t bytes) const
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  absl::Status CheckMemory(absl::string_view what, std::int64_t bytes) const
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status Reserve(const MissionId& id, const std::string& key, std::int64_t bytes)
       ABSL_LOCKS_EXCLUDED(mutex_);
-  absl::StatusOr<std::shared_ptr<MissionHost>> Make(const MissionId& id,
-                                                    const MissionOptions& options,
-                                                    const MissionOwner& owner) const;
+  absl::Status CheckRecovery(const std::string& key) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  int held_missions() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
   const RegistryOptions options_;
-  const RegistryHooks hooks_;
+  MissionStore* const store_;  // null: none
+  const MissionMaker maker_;
 
   mutable absl::Mutex mutex_;
   Hosts hosts_ ABSL_GUARDED_BY(mutex_);
@@ -118,6 +125,10 @@ class MissionRegistry {
   std::int64_t reserved_bytes_ ABSL_GUARDED_BY(mutex_) = 0;  // of all of them
   int stopping_missions_ ABSL_GUARDED_BY(mutex_) = 0;        // deleted, but still there
   absl::Status closed_ ABSL_GUARDED_BY(mutex_);              // OK while missions may be made
+  mutable RecoveryList absent_ ABSL_GUARDED_BY(mutex_);
+  std::vector<std::shared_ptr<MissionJournal>> journals_ ABSL_GUARDED_BY(mutex_);  // of StopAll
+  // Seen by what is recovered; epochs of it may outlive us.
+  const std::shared_ptr<std::atomic<bool>> closing_ = std::make_shared<std::atomic<bool>>(false);
 
   MissionReaper reaper_;  // goes first: what it calls uses the above
 };

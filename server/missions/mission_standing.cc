@@ -50,6 +50,12 @@ void MissionStanding::set_idle_time_to_live(absl::Duration duration) {
   idle_time_to_live_ = duration;
 }
 
+void MissionStanding::Restore(MissionState state, absl::Duration idle_time_to_live) {
+  absl::MutexLock lock(&mutex_);
+  state_ = state;
+  idle_time_to_live_ = idle_time_to_live;
+}
+
 void MissionStanding::Touch() {
   absl::MutexLock lock(&mutex_);
   last_use_ = clock_();

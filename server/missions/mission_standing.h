@@ -32,6 +32,8 @@ class MissionStanding {
   // How long nobody need call for the mission before it may go; infinite: it may never.
   absl::Duration idle_time_to_live() const;
   void set_idle_time_to_live(absl::Duration duration);
+  // As it was when the mission was recovered.
+  void Restore(MissionState state, absl::Duration idle_time_to_live);
   // Somebody calls for it, or has it in use.
   void Touch();
   bool has_outlived_its_use() const;

@@ -27,15 +27,18 @@ bool IsReadingTakenIn(const Event& event, const Applied& applied) {
 
 MissionWriter::MissionWriter(std::unique_ptr<Mission> mission, EventSink sink,
                              WorkerPool* epoch_pool, SteadyClock clock, WorkerPool* audit_pool,
-                             MissionMetrics* metrics)
+                             MissionMetrics* metrics, const EpochHabit& habit)
     : sink_(std::move(sink)),
       clock_(std::move(clock)),
       metrics_(*metrics),
       epoch_runner_(epoch_pool, metrics),
       audit_runner_(audit_pool),
       gas_timer_(metrics),
-      conduct_(std::move(mission), this),
-      summary_(SummaryOf(conduct_.mission())) {}
+      conduct_(std::move(mission), this, habit),
+      summary_(SummaryOf(conduct_.mission())) {
+  // A mission that is recovered may be in the middle of one.
+  if (conduct_.mission().epoch() != nullptr) epoch_runner_.Start(conduct_.mission().epoch());
+}
 
 MissionSummary MissionWriter::summary() const {
   absl::MutexLock lock(&summary_mutex_);

@@ -43,10 +43,11 @@ class MissionWriter final : private ConductObserver {
  public:
   // `epoch_pool` recomputes the gas posterior at times; null: the writer does. It is not owned and
   // outlives the last call. The events are the same with any pool and clock.
-  // `audit_pool` audits it, null: nobody does; as above. `metrics` is not owned either.
+  // `audit_pool` audits it, null: nobody does; as above. `metrics` is not owned either. `habit`: as
+  // MissionConduct.
   MissionWriter(std::unique_ptr<Mission> mission, EventSink sink, WorkerPool* epoch_pool = nullptr,
                 SteadyClock clock = SteadyNow, WorkerPool* audit_pool = nullptr,
-                MissionMetrics* metrics = &MissionMetrics::Unread());
+                MissionMetrics* metrics = &MissionMetrics::Unread(), const EpochHabit& habit = {});
   MissionWriter(const MissionWriter&) = delete;
   MissionWriter& operator=(const MissionWriter&) = delete;
 

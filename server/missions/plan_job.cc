@@ -107,7 +107,7 @@ void PlanJob::Commit(Plan plan) {
   const absl::Status posted = parts_.host->Post(
       [self = shared_from_this(), plan = std::move(plan)](MissionWriter& writer) mutable {
         if (self->answered_) return;
-        const absl::Status allowed = self->parts_.host->standing().CheckMayPlan();
+        const absl::Status allowed = self->parts_.host->CheckMayPlan();
         if (!allowed.ok()) return self->Finish(allowed);
         const auto id = writer.conduct().Commit(plan, self->parts_.order.lease_token);
         self->EndStage(Stage::kCommit);
@@ -123,7 +123,13 @@ void PlanJob::Committed(Plan plan, absl::StatusOr<PlanId> id) {
   plan.id = *id;
   plan.cpu_s = absl::ToDoubleSeconds(cpu_time_);
   parts_.host->metrics().NotePlan(cpu_time_);
-  Finish(PlanAnswer{std::move(plan), cpu_time_});
+  // After a crash the next plan must not get its number.
+  parts_.host->WhenDurable(
+      [self = shared_from_this(), plan = std::move(plan)](const absl::Status& durable) mutable {
+        self->EndStage(Stage::kDurable);
+        if (!durable.ok()) return self->Finish(durable);
+        self->Finish(PlanAnswer{std::move(plan), self->cpu_time_});
+      });
 }
 
 }  // namespace plumescout::server

@@ -36,9 +36,9 @@ struct PlanAnswer {
 // One line for the server's log.
 void LogPlan(const MissionId& mission, const PlanAnswer& answer, const std::string& request_id);
 
-// One order on its way: wait for the robot's own readings, search on a pool, commit; once more if
-// another robot claimed the goal in the meantime. Keeps itself alive while it runs. It ends with
-// its mission, at once, whatever the search does. Thread-safe.
+// One order on its way: wait for the robot's own readings, search on a pool, commit, wait for the
+// disk; once more if another robot claimed the goal in the meantime. Keeps itself alive while it
+// runs. It ends with its mission, at once, whatever the search does. Thread-safe.
 class PlanJob : public std::enable_shared_from_this<PlanJob> {
  public:
   using Done = std::function<void(absl::StatusOr<PlanAnswer>)>;

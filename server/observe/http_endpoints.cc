@@ -179,8 +179,10 @@ std::string HttpEndpoints::Answer(const std::string& request) const {
   if (path == "/metrics") return Response("200 OK", kMetricsText, sources_.metrics());
   if (path == "/healthz") return Response("200 OK", kText, "ok\n");
   if (path != "/readyz") return Response("404 Not Found", kText, "/metrics, /healthz, /readyz\n");
-  return sources_.ready() ? Response("200 OK", kText, "ok\n")
-                          : Response("503 Service Unavailable", kText, "draining\n");
+  const std::string why = sources_.not_ready();
+  if (!why.empty()) return Response("503 Service Unavailable", kText, absl::StrCat(why, "\n"));
+  const std::string trouble = sources_.trouble();
+  return Response("200 OK", kText, absl::StrCat("ok\n", trouble, trouble.empty() ? "" : "\n"));
 }
 
 }  // namespace plumescout::server

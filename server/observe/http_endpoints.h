@@ -16,7 +16,10 @@ namespace plumescout::server {
 // What HTTP tells. Called on its thread, until the endpoints are gone.
 struct HttpSources {
   std::function<std::string()> metrics;  // in Prometheus' text format
-  std::function<bool()> ready;           // calls are served, and will be
+  // Why calls are not served, or will not be for long; empty: they are.
+  std::function<std::string()> not_ready;
+  // What is amiss though they are; empty: nothing.
+  std::function<std::string()> trouble = [] { return std::string(); };
 };
 
 // GET /metrics; GET /healthz, 200 as long as the process lives; GET /readyz, 200 or 503. One thread

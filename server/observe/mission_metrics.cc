@@ -38,6 +38,9 @@ MissionMetrics::MissionMetrics(prometheus::Registry& registry) {
                                 "Observations that missions took in or refused.");
   applied_ = &observations.Add({{"outcome", "applied"}});
   rejected_ = &observations.Add({{"outcome", "rejected"}});
+  rollbacks_ = &Counters(registry, "plumescout_store_rollbacks_total",
+                         "Robots that were told more is durable than the server has now.")
+                    .Add({});
   ingest_lag_ = MakeTimes(registry, "plumescout_ingest_lag_seconds",
                           "Time from the arrival of a batch of observations until it is applied.");
   refresh_ = MakeTimes(registry, "plumescout_gas_refresh_duration_seconds",
@@ -62,8 +65,9 @@ MissionMetrics::MissionMetrics(prometheus::Registry& registry) {
                               "Largest difference of variances that the last audit found.");
   auto& stages =
       Times(registry, "plumescout_plan_stage_duration_seconds",
-            "Time of a plan by stage: wait for its belief, for a thread, search, commit.");
-  for (const Stage stage : {Stage::kBelief, Stage::kQueue, Stage::kSearch, Stage::kCommit}) {
+            "Time of a plan by stage: wait for its belief, for a thread, search, commit, disk.");
+  for (const Stage stage :
+       {Stage::kBelief, Stage::kQueue, Stage::kSearch, Stage::kCommit, Stage::kDurable}) {
     const auto index = static_cast<std::size_t>(stage);
     plan_stages_[index] =
         &stages.Add({{"stage", std::string(kStageNames[index])}}, DurationBuckets_s());

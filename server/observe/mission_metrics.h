@@ -25,6 +25,8 @@ class MissionMetrics {
   // Metrics that nobody reads.
   static MissionMetrics& Unread();
 
+  // A robot was told that more of its log is durable than the mission has.
+  void NoteRollback() { rollbacks_->Increment(); }
   void NoteObservation(bool applied) { (applied ? applied_ : rejected_)->Increment(); }
   // From the arrival of a batch until it was applied.
   void NoteIngest(absl::Duration lag) { Observe(*ingest_lag_, lag); }
@@ -50,6 +52,7 @@ class MissionMetrics {
   // Of the registry.
   prometheus::Counter* applied_ = nullptr;
   prometheus::Counter* rejected_ = nullptr;
+  prometheus::Counter* rollbacks_ = nullptr;
   prometheus::Histogram* ingest_lag_ = nullptr;
   prometheus::Histogram* refresh_ = nullptr;
   prometheus::Histogram* adoption_ = nullptr;

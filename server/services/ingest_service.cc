@@ -29,22 +29,34 @@ absl::Status IngestService::BatchIngest(const v1::BatchIngestObservationsRequest
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMissionOf(call->caller(), name));
   const std::int64_t token = request.open().lease_token();
   PLUMESCOUT_RETURN_IF_ERROR(host->leases().Use(name.robot, token));
+  PLUMESCOUT_RETURN_IF_ERROR(host->CheckMayWrite());
   PLUMESCOUT_RETURN_IF_ERROR(
       host->rates().AdmitBatch(name.robot, RateLoadOf(incoming, request.batch().ByteSizeLong())));
   auto room = host->room().TryTake(LoadOf(incoming));
   if (room == nullptr) {
     return Overloaded(absl::StrCat("the ingest queue of mission ", host->id(), " is full"));
   }
-  return host->Post({[=, incoming = std::move(incoming)](MissionWriter& writer) mutable {
-                       const IngestResult result =
-                           host->Ingest(writer, name.robot, token, std::move(incoming));
-                       writer.NoteIngest(call->info().began);
-                       *response->mutable_ingest_state() = ToIngestState(result.position, window);
-                       for (const auto& refused : result.refused)
-                         *response->add_rejections() = ToRejected(refused);
-                       call->Answer(result.status);
-                     },
-                     Refusal(call), std::move(room)});
+  return host->Post(
+      {[=, &open = request.open(), incoming = std::move(incoming)](MissionWriter& writer) mutable {
+         const auto position = writer.conduct().Position(name.robot);
+         const absl::Status fits = position.ok()
+                                       ? CheckNotRolledBack(open, *position, writer.metrics())
+                                       : position.status();
+         if (!fits.ok()) return call->Answer(fits);
+         const IngestResult result = host->Ingest(writer, name.robot, token, std::move(incoming));
+         writer.NoteIngest(call->info().began);
+         for (const auto& refused : result.refused) {
+           *response->add_rejections() = ToRejected(refused);
+         }
+         if (!result.status.ok()) return call->Answer(result.status);
+         // Who sends a batch wants to forget it.
+         host->WhenDurable([=, position = result.position](const absl::Status& durable) {
+           *response->mutable_ingest_state() =
+               ToIngestState(position, name.robot, host->journal(), window);
+           call->Answer(durable);
+         });
+       },
+       Refusal(call), std::move(room)});
 }
 
 grpc::ServerUnaryReactor* IngestService::BatchIngestObservations(

@@ -13,6 +13,7 @@
 #include "proto/convert/inquiry.h"
 #include "proto/convert/map.h"
 #include "proto/convert/names.h"
+#include "server/calls/call_stop.h"
 #include "server/calls/unary_call.h"
 #include "server/maps/map_feed.h"
 #include "server/maps/wire_message.h"
@@ -30,6 +31,11 @@ absl::Status MapService::Get(const grpc::ByteBuffer& bytes, grpc::ByteBuffer* re
   const std::int64_t max_bytes = request.max_part_bytes();
   PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative("max_part_bytes", static_cast<double>(max_bytes)));
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMission(call->caller(), mission));
+  PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative("revision", static_cast<double>(request.revision())));
+  if (request.revision() > 0) {
+    return GetPast(host, {request.revision(), view, request.part_token(), max_bytes}, response,
+                   call);
+  }
   const std::shared_ptr<MapFeed> feed = host->map_feed();
   if (!request.part_token().empty()) {
     return context_.query_pool->Submit([=, token = request.part_token()] {
@@ -45,6 +51,18 @@ absl::Status MapService::Get(const grpc::ByteBuffer& bytes, grpc::ByteBuffer* re
                             *response = feed->store().FirstPart(belief, view, max_bytes);
                             return absl::OkStatus();
                           });
+}
+
+absl::Status MapService::GetPast(const std::shared_ptr<MissionHost>& host, const PastMapWish& wish,
+                                 grpc::ByteBuffer* response,
+                                 const std::shared_ptr<UnaryCall>& call) {
+  PLUMESCOUT_RETURN_IF_ERROR(context_.CheckKeepsHistory());
+  return context_.query_pool->Submit([=, maps = &context_.history->past_maps] {
+    const CallStop stop(call, host);
+    auto part = maps->Part(host, wish, [&stop] { return stop.stops(); });
+    if (part.ok()) response->Swap(&*part);
+    call->Answer(stop.AnswerOf(part.status()));
+  });
 }
 
 absl::Status MapService::Query(const v1::QueryGasRequest& request, v1::QueryGasResponse* response,

@@ -5,6 +5,7 @@
 #include "plumescout/v1/map_service.grpc.pb.h"
 #include "server/calls/service_context.h"
 #include "server/calls/unary_call.h"
+#include "server/history/past_maps.h"
 
 namespace plumescout::server {
 
@@ -29,6 +30,9 @@ class MapService final : public MapServiceOfBytes {
  private:
   absl::Status Get(const grpc::ByteBuffer& bytes, grpc::ByteBuffer* response,
                    const std::shared_ptr<UnaryCall>& call);
+  // As the map was.
+  absl::Status GetPast(const std::shared_ptr<MissionHost>& host, const PastMapWish& wish,
+                       grpc::ByteBuffer* response, const std::shared_ptr<UnaryCall>& call);
   absl::Status Query(const v1::QueryGasRequest& request, v1::QueryGasResponse* response,
                      const std::shared_ptr<UnaryCall>& call);
 

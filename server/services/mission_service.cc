@@ -2,47 +2,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/services/mission_service.h"
 
+#include <map>
 #include <string>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "core/types/status_macros.h"
-#include "proto/convert/enums.h"
 #include "proto/convert/field.h"
 #include "proto/convert/names.h"
-#include "proto/convert/options.h"
 #include "server/base/errors.h"
 #include "server/base/log.h"
 #include "server/calls/answer_once.h"
 #include "server/config/mission_options.h"
+#include "server/services/mission_message.h"
 #include "server/services/mission_update.h"
 #include "server/services/paging.h"
 
 namespace plumescout::server {
 namespace {
-
-using plumescout::ToProto;  // the one below overloads these rather than hide them
-
-v1::Latency ToProto(const LatencyFigures& figures) {
-  v1::Latency proto;
-  proto.set_sample_count(figures.samples);
-  proto.set_median_s(absl::ToDoubleSeconds(figures.median));
-  proto.set_p99_s(absl::ToDoubleSeconds(figures.p99));
-  proto.set_max_s(absl::ToDoubleSeconds(figures.max));
-  return proto;
-}
-
-v1::MissionState ToProto(MissionState state) {
-  switch (state) {
-    case MissionState::kRunning:
-      return v1::MISSION_STATE_RUNNING;
-    case MissionState::kPaused:
-      return v1::MISSION_STATE_PAUSED;
-    case MissionState::kFinished:
-      return v1::MISSION_STATE_FINISHED;
-  }
-  return v1::MISSION_STATE_UNSPECIFIED;
-}
 
 // The last readings are in the posterior that stays, if there can be one: the writer says if not.
 absl::Status Finish(MissionHost& host, MissionWriter& writer) {
@@ -53,30 +30,16 @@ absl::Status Finish(MissionHost& host, MissionWriter& writer) {
   return absl::OkStatus();
 }
 
-MissionOptions WithoutPriorMap(MissionOptions options) {
-  options.prior_map = nullptr;
-  return options;
-}
-
-v1::Mission Describe(MissionHost& host, const MissionOptions& options) {
-  const MissionSummary summary = host.summary();
-  v1::Mission proto;
-  proto.set_name(MissionResource(host.id()));
-  *proto.mutable_options() = ToProto(options);
-  proto.mutable_options()->mutable_gas()->set_lattice_factor(summary.lattice_factor);
-  proto.mutable_memory()->set_used_bytes(summary.memory_bytes);
-  proto.mutable_memory()->set_budget_bytes(options.memory_budget_bytes);
-  proto.set_owner(host.owner());
-  proto.set_state(ToProto(host.standing().state()));
-  SetIdleTimeToLive(host.standing().idle_time_to_live(), proto);
-  proto.set_revision(summary.revision);
-  proto.set_phase(ToProto(summary.phase));
-  if (summary.next_map_update_ns) proto.set_next_map_update_ns(*summary.next_map_update_ns);
-  proto.set_robot_count(host.leases().robot_count());
-  const GasTimings timings = host.gas_timings();
-  *proto.mutable_gas_timings()->mutable_update() = ToProto(timings.update);
-  *proto.mutable_gas_timings()->mutable_staleness() = ToProto(timings.staleness);
-  return proto;
+// The disk may take long, and the server goes down only when callers have their answers.
+MissionJournal::Callback AnswerOnceDeleted(const MissionId& id,
+                                           const std::shared_ptr<UnaryCall>& call) {
+  call->WhenCancelled([call] { call->Answer(absl::CancelledError("the caller gave up")); });
+  return [id, call](const absl::Status& removed) {
+    LogInfo("mission deleted", {{"mission", id},
+                                {"code", absl::StatusCodeToString(removed.code())},
+                                {"request_id", call->info().request_id}});
+    call->Answer(removed);
+  };
 }
 
 }  // namespace
@@ -95,26 +58,32 @@ absl::Status MissionService::Make(const v1::CreateMissionRequest& request, v1::M
   }
   // A known map is unpacked and taken in: not in a reactor.
   return context_.creation_pool->Submit([this, &request, &mission, call, idle_time_to_live] {
-    call->Answer(MakeNow(request, *call, idle_time_to_live, mission));
+    const absl::Status made = MakeNow(request, idle_time_to_live, mission, call);
+    if (!made.ok()) call->Answer(made);
   });
 }
 
-absl::Status MissionService::MakeNow(const v1::CreateMissionRequest& request, const UnaryCall& call,
-                                     absl::Duration idle_time_to_live, v1::Mission& mission) {
+absl::Status MissionService::MakeNow(const v1::CreateMissionRequest& request,
+                                     absl::Duration idle_time_to_live, v1::Mission& mission,
+                                     const std::shared_ptr<UnaryCall>& call) {
   PLUMESCOUT_ASSIGN_OR_RETURN(
       const MissionOptions options,
       ReadMissionOptions(request.options(), context_.mission_defaults, "options"));
   const auto host = context_.registry->Create(request.mission_id(), options,
-                                              {call.caller().name, call.caller().tenant});
+                                              {call->caller().name, call->caller().tenant});
   PLUMESCOUT_RETURN_IF_ERROR(WithField(host.status(), "options"));
-  (*host)->standing().set_idle_time_to_live(idle_time_to_live);
+  if (idle_time_to_live != absl::InfiniteDuration()) {
+    (*host)->standing().set_idle_time_to_live(idle_time_to_live);
+    (*host)->KeepStanding();
+  }
   LogInfo("mission created",
           {{"mission", request.mission_id()},
            {"memory_budget_bytes", absl::StrCat(options.memory_budget_bytes)},
            {"lattice_factor", absl::StrCat((*host)->options().gas.lattice_factor)},
            {"strategy", options.planning.strategy},
-           {"request_id", call.info().request_id}});
-  mission = Describe(**host, WithoutPriorMap((*host)->options()));
+           {"request_id", call->info().request_id}});
+  mission = DescribeMission(**host, WithoutPriorMap((*host)->options()));
+  AnswerWhenDurable(**host, call, absl::OkStatus());
   return absl::OkStatus();
 }
 
@@ -122,7 +91,7 @@ absl::Status MissionService::Create(const v1::CreateMissionRequest* request,
                                     v1::CreateMissionResponse* response,
                                     const std::shared_ptr<UnaryCall>& call) {
   // A mission that is gone again was not made, whatever was answered then.
-  if (!context_.FindMission(call->caller(), request->mission_id()).ok()) {
+  if (absl::IsNotFound(context_.FindMission(call->caller(), request->mission_id()).status())) {
     context_.requests->Forget(KeyOf(*call, request->request_id()));
   }
   return AnswerOnce(context_.requests, request->request_id(), *request, response, call,
@@ -135,7 +104,7 @@ absl::Status MissionService::Get(const v1::GetMissionRequest& request, v1::Missi
                                  const std::shared_ptr<UnaryCall>& call) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const MissionId id, ParseMissionName("name", request.name()));
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMission(call->caller(), id));
-  mission = Describe(*host, WithoutPriorMap(host->options()));
+  mission = DescribeMission(*host, WithoutPriorMap(host->options()));
   if (host->options().prior_map == nullptr) {
     call->Answer(absl::OkStatus());
     return absl::OkStatus();
@@ -158,26 +127,52 @@ absl::Status MissionService::List(const v1::ListMissionsRequest& request,
 
 void MissionService::Fill(const Page& page, const Principal& caller,
                           v1::ListMissionsResponse& response) {
-  // One more than the page tells whether there is a next.
-  auto hosts = context_.registry->List(
-      page.after, page.size + 1, [&](const MissionHost& host) { return MaySee(caller, host); });
-  if (hosts.size() > static_cast<std::size_t>(page.size)) {
-    hosts.pop_back();
-    response.set_next_page_token(
-        PageTokenAfter(MissionKey(hosts.back()->tenant(), hosts.back()->id())));
+  std::map<std::string, v1::Mission> missions;  // by key
+  std::string last_key;
+  // Before the others: what is recovered in between stands with both, and then it runs.
+  for (const AbsentMission& absent : context_.registry->ListAbsent(page.after)) {
+    if (MaySeeTenant(caller, TenantOf(absent.key))) missions[absent.key] = DescribeMission(absent);
   }
+  // One more than the page tells whether there is a next.
+  const auto hosts = context_.registry->List(
+      page.after, page.size + 1, [&](const MissionHost& host) { return MaySee(caller, host); });
   for (const auto& host : hosts) {
-    *response.add_missions() = Describe(*host, WithoutPriorMap(host->options()));
+    missions[MissionKey(host->tenant(), host->id())] =
+        DescribeMission(*host, WithoutPriorMap(host->options()));
+  }
+  for (auto& [key, mission] : missions) {
+    if (response.missions_size() == page.size) {
+      response.set_next_page_token(PageTokenAfter(last_key));
+      return;
+    }
+    *response.add_missions() = std::move(mission);
+    last_key = key;
   }
 }
 
 absl::Status MissionService::Delete(const v1::DeleteMissionRequest& request,
                                     const std::shared_ptr<UnaryCall>& call) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const MissionId id, ParseMissionName("name", request.name()));
-  PLUMESCOUT_ASSIGN_OR_RETURN(const auto found, context_.FindMission(call->caller(), id));
-  return context_.registry->Delete(id, found->tenant(), [id, call] {
-    LogInfo("mission deleted", {{"mission", id}, {"request_id", call->info().request_id}});
-    call->Answer(absl::OkStatus());
+  const auto found = context_.FindMission(call->caller(), id);
+  if (absl::IsDataLoss(found.status())) return Discard(id, call);
+  PLUMESCOUT_RETURN_IF_ERROR(found.status());
+  // What is damaged may go; but that the disk takes nothing now is said at once.
+  const absl::Status takes = (*found)->journal().CheckTakesMore();
+  if (absl::IsUnavailable(takes)) return takes;
+  return context_.registry->Delete(id, (*found)->tenant(), AnswerOnceDeleted(id, call));
+}
+
+absl::Status MissionService::Discard(const MissionId& id, const std::shared_ptr<UnaryCall>& call) {
+  const std::string own_key = MissionKey(call->caller().tenant, id);
+  std::string key;
+  for (const AbsentMission& absent : context_.registry->ListAbsent("")) {
+    const bool is_it = MissionIdOf(absent.key) == id && absl::IsDataLoss(absent.status) &&
+                       MaySeeTenant(call->caller(), TenantOf(absent.key));
+    if (is_it && key != own_key) key = absent.key;
+  }
+  return context_.creation_pool->Submit([this, key, id, call] {
+    const absl::Status status = context_.registry->Discard(key, AnswerOnceDeleted(id, call));
+    if (!status.ok()) call->Answer(status);
   });
 }
 
@@ -186,12 +181,14 @@ absl::Status MissionService::Update(const v1::UpdateMissionRequest& request, v1:
   PLUMESCOUT_ASSIGN_OR_RETURN(const MissionUpdate update, MissionUpdateFromProto(request));
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host,
                               context_.FindMission(call->caller(), update.mission));
+  PLUMESCOUT_RETURN_IF_ERROR(host->journal().CheckTakesMore());
   host->standing().set_idle_time_to_live(update.idle_time_to_live);
+  host->KeepStanding();
   LogInfo("mission updated",
           {{"mission", update.mission},
            {"idle_time_to_live", absl::FormatDuration(update.idle_time_to_live)}});
-  mission = Describe(*host, WithoutPriorMap(host->options()));
-  call->Answer(absl::OkStatus());
+  mission = DescribeMission(*host, WithoutPriorMap(host->options()));
+  AnswerWhenDurable(*host, call, absl::OkStatus());
   return absl::OkStatus();
 }
 
@@ -203,14 +200,16 @@ absl::Status MissionService::Change(const std::string& name, v1::Mission& missio
   // it.
   return host->Post(
       [host, step, call, &mission](MissionWriter& writer) {
-        const absl::Status changed = step(*host, writer);
+        absl::Status changed = host->journal().CheckTakesMore();
+        if (changed.ok()) changed = step(*host, writer);
         if (changed.ok()) {
-          mission = Describe(*host, WithoutPriorMap(host->options()));
+          host->KeepStanding();
+          mission = DescribeMission(*host, WithoutPriorMap(host->options()));
           LogInfo("mission state", {{"mission", host->id()},
                                     {"state", v1::MissionState_Name(mission.state())},
                                     {"caller", call->caller().name}});
         }
-        call->Answer(changed);
+        AnswerWhenDurable(*host, call, changed);
       },
       Refusal(call));
 }

@@ -50,8 +50,8 @@ class MissionService final : public v1::MissionService::CallbackService {
   absl::Status Make(const v1::CreateMissionRequest& request, v1::Mission& mission,
                     const std::shared_ptr<UnaryCall>& call);
   // The mission itself, which may take long.
-  absl::Status MakeNow(const v1::CreateMissionRequest& request, const UnaryCall& call,
-                       absl::Duration idle_time_to_live, v1::Mission& mission);
+  absl::Status MakeNow(const v1::CreateMissionRequest& request, absl::Duration idle_time_to_live,
+                       v1::Mission& mission, const std::shared_ptr<UnaryCall>& call);
   absl::Status Get(const v1::GetMissionRequest& request, v1::Mission& mission,
                    const std::shared_ptr<UnaryCall>& call);
   absl::Status List(const v1::ListMissionsRequest& request, v1::ListMissionsResponse& response,
@@ -59,6 +59,8 @@ class MissionService final : public v1::MissionService::CallbackService {
   void Fill(const Page& page, const Principal& caller, v1::ListMissionsResponse& response);
   absl::Status Delete(const v1::DeleteMissionRequest& request,
                       const std::shared_ptr<UnaryCall>& call);
+  // A mission that cannot be recovered.
+  absl::Status Discard(const MissionId& id, const std::shared_ptr<UnaryCall>& call);
   absl::Status Update(const v1::UpdateMissionRequest& request, v1::Mission& mission,
                       const std::shared_ptr<UnaryCall>& call);
   absl::Status Change(const std::string& name, v1::Mission& mission,

@@ -93,7 +93,7 @@ absl::Status PlanningService::Search(const std::shared_ptr<MissionHost>& host, P
                                      v1::NextBestTrajectoryResponse* response,
                                      const std::shared_ptr<UnaryCall>& call) {
   const RobotId& robot = order.request.robot;
-  PLUMESCOUT_RETURN_IF_ERROR(host->standing().CheckMayPlan());
+  PLUMESCOUT_RETURN_IF_ERROR(host->CheckMayPlan());
   PLUMESCOUT_RETURN_IF_ERROR(host->leases().Use(robot, order.lease_token));
   PLUMESCOUT_RETURN_IF_ERROR(host->rates().AdmitPlan(robot));
   order.deadline = After(call->info().deadline, -context_.limits.deadline_margin);
@@ -199,11 +199,11 @@ absl::Status PlanningService::Report(const v1::ReportProgressRequest& request,
   const ProgressReported report{name.robot, plan.plan, outcome};
   return host->Post(
       [host, report, token, response, call](MissionWriter& writer) {
-        const absl::Status writable = host->standing().CheckMayWrite();
+        const absl::Status writable = host->CheckMayWrite();
         if (!writable.ok()) return call->Answer(writable);
         const auto revision = writer.conduct().Report(report, token);
         if (revision.ok()) response->set_revision(*revision);
-        call->Answer(revision.status());
+        AnswerWhenDurable(*host, call, revision.status());
       },
       Refusal(call));
 }

@@ -46,7 +46,8 @@ absl::Status RobotService::Register(const v1::RegisterRobotRequest& request,
   PLUMESCOUT_RETURN_IF_ERROR(WithField(ValidateId("robot_id", request.robot_id()), ""));
   PLUMESCOUT_ASSIGN_OR_RETURN(
       const auto host, context_.FindMissionOf(call->caller(), {mission, request.robot_id()}));
-  const Registration wish{request.robot_id(), request.radius_m(), request.take_over()};
+  const Registration wish{request.robot_id(), request.radius_m(), request.take_over(),
+                          request.log_epoch()};
   return AnswerOnce(host->requests(), request.request_id(), request, response, call,
                     [this, host, wish, response](const std::shared_ptr<UnaryCall>& runner) {
                       return Join(host, wish, response, runner);
@@ -58,7 +59,7 @@ absl::Status RobotService::Join(const std::shared_ptr<MissionHost>& host, const 
                                 const std::shared_ptr<UnaryCall>& call) {
   return host->Post(
       [this, host, wish, response, call](MissionWriter& writer) {
-        const absl::Status writable = host->standing().CheckMayWrite();
+        const absl::Status writable = host->CheckMayWrite();
         if (!writable.ok()) return call->Answer(writable);
         const auto registered = writer.conduct().Register(wish, host->leases());
         if (!registered.ok()) return call->Answer(WithField(registered.status(), ""));
@@ -68,10 +69,12 @@ absl::Status RobotService::Join(const std::shared_ptr<MissionHost>& host, const 
                                      {"request_id", call->info().request_id}});
         response->set_robot(RobotResource({host->id(), wish.robot}));
         response->set_lease_token(registered->lease_token);
+        response->set_log_continues(registered->log_continues);
         response->set_server_boot_id(context_.boot_id);
         *response->mutable_ingest_state() =
-            ToIngestState(registered->position, context_.limits.stream_window_observations);
-        call->Answer(absl::OkStatus());
+            ToIngestState(registered->position, wish.robot, host->journal(),
+                          context_.limits.stream_window_observations);
+        AnswerWhenDurable(*host, call, absl::OkStatus());
       },
       Refusal(call));
 }
@@ -93,7 +96,7 @@ absl::Status RobotService::Remove(const v1::RemoveRobotRequest& request,
   if (!request.force()) wish.lease_token = request.lease_token();
   return host->Post(
       [host, wish, response, call](MissionWriter& writer) {
-        const absl::Status writable = host->standing().CheckMayWrite();
+        const absl::Status writable = host->CheckMayWrite();
         if (!writable.ok()) return call->Answer(writable);
         const auto revision = writer.conduct().Remove(wish, host->leases());
         if (revision.ok()) {
@@ -102,7 +105,7 @@ absl::Status RobotService::Remove(const v1::RemoveRobotRequest& request,
                                     {"request_id", call->info().request_id}});
           response->set_revision(*revision);
         }
-        call->Answer(revision.status());
+        AnswerWhenDurable(*host, call, revision.status());
       },
       Refusal(call));
 }
@@ -173,10 +176,12 @@ absl::Status RobotService::Release(const v1::ReleaseLeaseRequest& request,
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMissionOf(call->caller(), name));
   const auto token =
       request.force() ? std::nullopt : std::optional<std::int64_t>(request.lease_token());
+  PLUMESCOUT_RETURN_IF_ERROR(host->journal().CheckTakesMore());
   PLUMESCOUT_RETURN_IF_ERROR(host->leases().Release(name.robot, token));
+  host->KeepStanding();
   LogInfo("lease released",
           {{"mission", host->id()}, {"robot", name.robot}, {"caller", call->caller().name}});
-  call->Answer(absl::OkStatus());
+  AnswerWhenDurable(*host, call, absl::OkStatus());
   return absl::OkStatus();
 }
 

@@ -11,6 +11,7 @@
 #include "proto/convert/observation.h"
 #include "proto/convert/status.h"
 #include "server/base/errors.h"
+#include "server/base/log.h"
 
 namespace plumescout::server {
 namespace {
@@ -19,13 +20,25 @@ constexpr char kObservation[] = "observation";
 
 }  // namespace
 
-v1::IngestState ToIngestState(const LogPosition& position, int window) {
+v1::IngestState ToIngestState(const LogPosition& position, const RobotId& robot,
+                              const MissionJournal& journal, int window) {
   v1::IngestState proto;
   proto.set_applied_sequence(position.applied_sequence);
-  proto.set_durable_sequence(0);  // missions live in memory: nothing survives a crash
-  proto.set_credit_sequence(CreditSequence(position, window));
+  proto.set_durable_sequence(journal.DurableSequence(robot, position.applied_sequence));
+  proto.set_credit_sequence(CreditSequence(position, journal.WindowNow(window)));
   proto.set_revision(position.revision);
   return proto;
+}
+
+absl::Status CheckNotRolledBack(const v1::OpenIngest& open, const LogPosition& position,
+                                MissionMetrics& metrics) {
+  if (open.durable_sequence() <= position.applied_sequence) return absl::OkStatus();
+  metrics.NoteRollback();
+  LogWarning("the data of the server is older than what it told a robot",
+             {{"robot", open.robot()},
+              {"applied_sequence", absl::StrCat(position.applied_sequence)},
+              {"durable_sequence", absl::StrCat(open.durable_sequence())}});
+  return StoreRolledBack(position.applied_sequence, open.durable_sequence());
 }
 
 v1::ObservationRejected ToRejected(const RefusedObservation& refused) {

@@ -88,7 +88,7 @@ absl::Status IngestStream::Open(const v1::OpenIngest& open) {
   if (host_ != nullptr) return FieldError("open", "must come once, as the first frame");
   PLUMESCOUT_ASSIGN_OR_RETURN(robot_, ParseRobotName("open.robot", open.robot()));
   PLUMESCOUT_ASSIGN_OR_RETURN(host_, context_.FindMissionOf(visit_.caller(), robot_));
-  PLUMESCOUT_RETURN_IF_ERROR(host_->standing().CheckMayWrite());
+  PLUMESCOUT_RETURN_IF_ERROR(host_->CheckMayWrite());
   lease_token_ = open.lease_token();
   const std::weak_ptr<IngestStream> weak = weak_from_this();
   PLUMESCOUT_ASSIGN_OR_RETURN(
@@ -98,9 +98,11 @@ absl::Status IngestStream::Open(const v1::OpenIngest& open) {
       }));
   const auto self = shared_from_this();
   return host_->Post(
-      [self](MissionWriter& writer) {
+      [self, open](MissionWriter& writer) {
         const auto position = writer.conduct().Position(self->robot_.robot);
         if (!position.ok()) return self->End(position.status());
+        const absl::Status fits = CheckNotRolledBack(open, *position, writer.metrics());
+        if (!fits.ok()) return self->End(fits);
         self->Opened(*position);
       },
       [self](const absl::Status& status) { self->End(status); });
@@ -182,16 +184,20 @@ void IngestStream::GoOnReading() {
 }
 
 void IngestStream::Opened(const LogPosition& position) {
+  bool await = false;
   {
     absl::MutexLock lock(&mutex_);
     opened_ = true;
     greeting_due_ = true;
     position_ = position;
+    await = BeginAwaitDurable();
   }
+  if (await) AwaitDurable();
   Pump();
 }
 
 void IngestStream::Ingested(int observations, IngestResult result) {
+  bool await = false;
   {
     absl::MutexLock lock(&mutex_);
     in_flight_observations_ -= observations;
@@ -199,7 +205,39 @@ void IngestStream::Ingested(int observations, IngestResult result) {
     ack_due_ = true;
     std::move(result.refused.begin(), result.refused.end(), std::back_inserter(refused_));
     if (!result.status.ok()) SetEnd(result.status, /*flush=*/true);
+    await = BeginAwaitDurable();
   }
+  if (await) AwaitDurable();
+  Pump();
+}
+
+bool IngestStream::BeginAwaitDurable() {
+  const MissionJournal& journal = host_->journal();
+  const std::int64_t applied = position_.applied_sequence;
+  if (!journal.is_durable() || awaits_durable_ || end_.has_value() ||
+      journal.DurableSequence(robot_.robot, applied) == applied) {
+    return false;
+  }
+  awaits_durable_ = true;
+  return true;
+}
+
+void IngestStream::AwaitDurable() {
+  host_->WhenDurable([weak = weak_from_this()](const absl::Status& status) {
+    if (const auto self = weak.lock()) self->BecameDurable(status);
+  });
+}
+
+void IngestStream::BecameDurable(const absl::Status& status) {
+  bool await = false;
+  {
+    absl::MutexLock lock(&mutex_);
+    awaits_durable_ = false;
+    ack_due_ = true;
+    if (!status.ok()) SetEnd(status, /*flush=*/true);
+    await = BeginAwaitDurable();
+  }
+  if (await) AwaitDurable();
   Pump();
 }
 
@@ -214,7 +252,8 @@ void IngestStream::Pump() {
 StreamPump::Operation IngestStream::NextOperation() {
   if (finished_) return nullptr;
   const bool broken_off = end_.has_value() && !flush_;
-  const bool over = end_.has_value() || half_closed_;
+  // Who says that it has sent everything hears that it is durable.
+  const bool over = end_.has_value() || (half_closed_ && !awaits_durable_);
   if (!writing_ && !broken_off && FillResponse()) {
     writing_ = true;
     return [this, response = &response_] { StartWrite(response); };
@@ -235,21 +274,20 @@ StreamPump::Operation IngestStream::NextOperation() {
 
 bool IngestStream::FillResponse() {
   response_.Clear();
-  const v1::IngestState state =
-      ToIngestState(position_, context_.limits.stream_window_observations);
-  if (greeting_due_) {
-    greeting_due_ = false;
-    *response_.mutable_opened()->mutable_ingest_state() = state;
-    response_.mutable_opened()->set_server_boot_id(context_.boot_id);
-  } else if (!refused_.empty()) {
+  if (!greeting_due_ && !refused_.empty()) {
     *response_.mutable_rejected() = ToRejected(refused_.front());
     refused_.pop_front();
     return true;
-  } else if (ack_due_) {
+  }
+  if (!greeting_due_ && !ack_due_) return false;
+  const v1::IngestState state = ToIngestState(position_, robot_.robot, host_->journal(),
+                                              context_.limits.stream_window_observations);
+  if (std::exchange(greeting_due_, false)) {
+    *response_.mutable_opened()->mutable_ingest_state() = state;
+    response_.mutable_opened()->set_server_boot_id(context_.boot_id);
+  } else {
     ack_due_ = false;
     *response_.mutable_ack() = state;
-  } else {
-    return false;
   }
   credit_sequence_ = std::max(credit_sequence_, state.credit_sequence());
   return true;

@@ -22,9 +22,10 @@
 namespace plumescout::server {
 
 // One robot's ingest stream: opens, hands batches to the mission's writer, and acknowledges what
-// was applied. One write is in flight at a time, and the acknowledgement that follows is the newest
-// one, however slowly the robot reads. Reading pauses while a window of observations is in flight,
-// while a batch waits for room in the mission's queue, and while the robot is above its rates.
+// was applied, and again what has become durable. One write is in flight at a time, and the
+// acknowledgement that follows is the newest one, however slowly the robot reads. Reading pauses
+// while a window of observations is in flight, while a batch waits for room in the mission's queue,
+// and while the robot is above its rates.
 class IngestStream final
     : public grpc::ServerBidiReactor<v1::StreamObservationsRequest, v1::StreamObservationsResponse>,
       public EndableStream,
@@ -52,6 +53,11 @@ class IngestStream final
   void Opened(const LogPosition& position);
   void Ingested(int observations, IngestResult result);
   void Dropped(int observations, const absl::Status& status);
+  // Whether somebody has to AwaitDurable: not all that is applied is durable, and nobody does.
+  bool BeginAwaitDurable() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  // The robot will hear when what is applied now is durable.
+  void AwaitDurable() ABSL_LOCKS_EXCLUDED(mutex_);
+  void BecameDurable(const absl::Status& status);
   void PauseReading(absl::Duration pause);
   void GoOnReading();
 
@@ -87,6 +93,7 @@ class IngestStream final
   bool finished_ ABSL_GUARDED_BY(mutex_) = false;
   bool greeting_due_ ABSL_GUARDED_BY(mutex_) = false;
   bool ack_due_ ABSL_GUARDED_BY(mutex_) = false;
+  bool awaits_durable_ ABSL_GUARDED_BY(mutex_) = false;
   bool flush_ ABSL_GUARDED_BY(mutex_) = false;
   std::optional<absl::Status> end_ ABSL_GUARDED_BY(mutex_);
   // Waits for room.

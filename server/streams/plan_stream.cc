@@ -31,7 +31,7 @@ absl::Status PlanStream::Order(const v1::StreamNextBestTrajectoryRequest& reques
   PLUMESCOUT_ASSIGN_OR_RETURN(const RobotName name, ParseRobotName("robot", request.robot()));
   PLUMESCOUT_ASSIGN_OR_RETURN(PlanOrder order, PlanOrderFromProto(request, context_.limits));
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMissionOf(visit_.caller(), name));
-  PLUMESCOUT_RETURN_IF_ERROR(host->standing().CheckMayPlan());
+  PLUMESCOUT_RETURN_IF_ERROR(host->CheckMayPlan());
   PLUMESCOUT_RETURN_IF_ERROR(host->leases().Use(name.robot, order.lease_token));
   PLUMESCOUT_RETURN_IF_ERROR(host->rates().AdmitPlan(name.robot));
   order.request.robot = name.robot;

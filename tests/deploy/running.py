@@ -39,7 +39,7 @@ class Server:
     """A plumescout-server on a loopback port. descriptors: its soft and hard limit."""
 
     def __init__(self, *settings, listen="127.0.0.1:0", descriptors=None):
-        command = [BUILD_DIR / "bin/plumescout-server", "--listen", listen]
+        command = [BUILD_DIR / "bin/plumescout-server", "--listen", listen, "--store", "none"]
         for setting in settings:
             command += ["--set", setting]
 

@@ -130,7 +130,13 @@ class TokensTest(unittest.TestCase):
     def test_a_server_with_a_spoilt_file_does_not_start(self):
         self.file.write_text("rubbish\n")
         result = subprocess.run(
-            [running.BUILD_DIR / "bin/plumescout-server", "--listen", "127.0.0.1:0"]
+            [
+                running.BUILD_DIR / "bin/plumescout-server",
+                "--listen",
+                "127.0.0.1:0",
+                "--store",
+                "none",
+            ]
             + ["--set", f"access.tokens_file={self.file}"],
             capture_output=True,
             text=True,

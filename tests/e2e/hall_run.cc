@@ -57,6 +57,7 @@ class TappedStream final : public client::ObservationStream {
   absl::StatusOr<client::IngestReply> Read(absl::Duration timeout) override {
     return inner_->Read(timeout);
   }
+  std::string server_boot_id() const override { return inner_->server_boot_id(); }
   absl::Status Finish() override { return inner_->Finish(); }
 
  private:
@@ -76,9 +77,11 @@ class TappedClient final : public client::PlannerClient {
   absl::Status DeleteMission(const MissionId& mission) override {
     return inner_.DeleteMission(mission);
   }
+  using PlannerClient::RegisterRobot;
   absl::StatusOr<client::RobotSession> RegisterRobot(const MissionId& mission, const RobotId& robot,
-                                                     double radius_m, bool take_over) override {
-    return inner_.RegisterRobot(mission, robot, radius_m, take_over);
+                                                     double radius_m, bool take_over,
+                                                     std::int64_t log_epoch) override {
+    return inner_.RegisterRobot(mission, robot, radius_m, take_over, log_epoch);
   }
   absl::Status RemoveRobot(const MissionId& mission, const RobotId& robot, std::int64_t lease_token,
                            bool force) override {

@@ -20,7 +20,9 @@
 namespace plumescout::e2e {
 
 ServerProgram::ServerProgram(std::vector<std::string> arguments, int stderr_fd) {
-  arguments.insert(arguments.begin(), {PLUMESCOUT_SERVER_PROGRAM, "--listen", "127.0.0.1:0"});
+  // Missions are kept only where a test says.
+  arguments.insert(arguments.begin(), {PLUMESCOUT_SERVER_PROGRAM, "--listen", "127.0.0.1:0",
+                                       "--set", "store.engine=none"});
   std::vector<char*> words;
   for (std::string& argument : arguments) words.push_back(argument.data());
   words.push_back(nullptr);

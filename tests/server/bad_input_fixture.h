@@ -23,7 +23,7 @@ class BadInputTest : public ServiceTest {
   void SetUp() override {
     ServerConfig config;
     config.limits.memory_budget_bytes = 3 * config.mission.memory_budget_bytes - 1;
-    StartServer(config);
+    StartServerWithStore(config);
     lease_ = Lease();
     ASSERT_TRUE(Ingest(kRobot, lease_, RoomScan(1)).ok());
     ASSERT_TRUE(Ingest(kRobot, lease_, GasReadings(2, 2)).ok());
@@ -54,6 +54,15 @@ class BadInputTest : public ServiceTest {
       if (frame.has_rejected()) return FromProto(frame.rejected().status());
     }
     return stream.Finish();
+  }
+
+  // Opens an import before other parts.
+  absl::Status SendImport(const Message& message) {
+    const auto& request = static_cast<const v1::ImportMissionRequest&>(message);
+    ImportClient import(*snapshots_);
+    if (!request.has_start()) import.Open("attic");
+    import.Send(request);
+    return import.Finish().status();
   }
 
   v1::BatchIngestObservationsRequest GoodBatch() {

@@ -16,6 +16,7 @@
 #include "tests/server/bad_map_input.h"
 #include "tests/server/bad_mission_input.h"
 #include "tests/server/bad_robot_input.h"
+#include "tests/server/bad_snapshot_input.h"
 #include "tests/server/service_fixture.h"
 
 namespace plumescout::server {
@@ -48,7 +49,10 @@ std::map<std::string, BadInputs> AllBadInputs() {
           {"ListPlansRequest", BadMissionName("mission")},
           {"QueryGasRequest", BadQueryGas()},
           {"GetMapRequest", BadGetMap()},
-          {"WatchMapRequest", BadView<v1::WatchMapRequest>()}};
+          {"WatchMapRequest", BadWatchMap()},
+          {"ExportMissionRequest", BadMissionName("mission")},
+          {"ImportMissionRequest", BadImport()},
+          {"GetMissionHistoryRequest", BadHistory()}};
 }
 
 // Fields of which no value is bad, and messages that may be missing.
@@ -58,6 +62,10 @@ std::set<std::string> FreeFields() {
       "CreateMissionRequest.options.seed",
       "NextBestTrajectoryRequest.seed",
       "StreamNextBestTrajectoryRequest.seed",
+      // What the client was told by some server; of one that says too much there is a test of
+      // recovery.
+      "BatchIngestObservationsRequest.open.durable_sequence",
+      "StreamObservationsRequest.open.durable_sequence",
       // Both values of a bool are good.
       "CreateMissionRequest.options.stamp_by_arrival",
       "CreateMissionRequest.options.planning.draw_goals",
@@ -106,6 +114,11 @@ std::set<std::string> FreeFields() {
       "StreamObservationsRequest.frame",
       "StreamObservationsRequest.open",
       "StreamObservationsRequest.batch",
+      // The parts of an import, of which there are rows; those out of order have a test below.
+      "ImportMissionRequest.part",
+      "ImportMissionRequest.start",
+      "ImportMissionRequest.piece",
+      "ImportMissionRequest.end",
       // Parts of the payload, of which there is a row.
       "BatchIngestObservationsRequest.batch.observations.scan",
       "BatchIngestObservationsRequest.batch.observations.gas",
@@ -129,7 +142,8 @@ std::vector<const Descriptor*> RequestTypes() {
   std::vector<const Descriptor*> types;
   for (const Descriptor* member :
        {v1::Mission::descriptor(), v1::RegisterRobotRequest::descriptor(),
-        v1::IngestState::descriptor(), v1::Plan::descriptor(), v1::MapTile::descriptor()}) {
+        v1::IngestState::descriptor(), v1::Plan::descriptor(), v1::MapTile::descriptor(),
+        v1::MissionEvent::descriptor()}) {
     const auto& file = *member->file();
     for (int i = 0; i < file.service_count(); ++i) {
       for (int j = 0; j < file.service(i)->method_count(); ++j) {
@@ -275,10 +289,46 @@ TEST_F(BadInputTest, GetMap) {
 
 TEST_F(BadInputTest, WatchMap) {
   const auto good = GoodView<v1::WatchMapRequest>();
-  Check(BadView<v1::WatchMapRequest>(), Copies(good), [this](const Message& request) {
+  Check(BadWatchMap(), Copies(good), [this](const Message& request) {
     WatchClient watch(*maps_, static_cast<const v1::WatchMapRequest&>(request));
     return watch.Finish();
   });
+}
+
+TEST_F(BadInputTest, ExportMission) {
+  Check(BadMissionName("mission"), Copies(v1::ExportMissionRequest()),
+        [this](const Message& request) {
+          return ExportClient(*snapshots_,
+                              static_cast<const v1::ExportMissionRequest&>(request).mission())
+              .Finish();
+        });
+}
+
+TEST_F(BadInputTest, ImportMission) {
+  Check(BadImport(), Copies(v1::ImportMissionRequest()),
+        [this](const Message& request) { return SendImport(request); });
+}
+
+TEST_F(BadInputTest, GetMissionHistory) {
+  v1::GetMissionHistoryRequest good;
+  good.set_mission("missions/hall");
+  Check(BadHistory(), Copies(good),
+        SenderOf(snapshots_, &v1::SnapshotService::Stub::GetMissionHistory));
+}
+
+TEST_F(BadInputTest, PartsOfAnImportOutOfOrderAndOfNothing) {
+  const std::string state = State();
+  ImportClient unopened(*snapshots_);
+  unopened.Send(v1::MissionFilePiece());
+  EXPECT_THAT(unopened.Finish().status(), RefusesField("start"));
+  ImportClient twice(*snapshots_);
+  twice.Open("attic");
+  twice.Open("attic");
+  EXPECT_THAT(twice.Finish().status(), RefusesField("start"));
+  ImportClient nothing(*snapshots_);
+  nothing.Send(v1::ImportMissionRequest());
+  EXPECT_THAT(nothing.Finish().status(), RefusesField("part"));
+  EXPECT_EQ(State(), state);
 }
 
 TEST_F(BadInputTest, FramesOutOfOrderAndOfNothing) {

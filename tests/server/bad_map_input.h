@@ -43,10 +43,17 @@ Request GoodView() {
   return request;
 }
 
+inline BadInputs BadWatchMap() {
+  return BadView<v1::WatchMapRequest>()
+      .Values("from_revision", {"-1", "9223372036854775807"})
+      .Values("speed_ratio", {"nan", "inf", "-1", "0.0001", "1e7"});
+}
+
 inline BadInputs BadGetMap() {
   return BadView<v1::GetMapRequest>()
       .Values("part_token", {"\"x\"", "\"!\"", "\"MSAx\""})
-      .Values("max_part_bytes", {"-1"});
+      .Values("max_part_bytes", {"-1"})
+      .Values("revision", {"-1", "9223372036854775807"});
 }
 
 inline BadInputs BadQueryGas() {

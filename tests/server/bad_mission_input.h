@@ -162,7 +162,8 @@ inline BadInputs BadRegisterRobot() {
       .Rows(BadMissionName("mission"))
       .Rows(BadId("robot_id"))
       .Rows(BadRequestId())
-      .Values("radius_m", {"nan", "inf", "-inf", "-1", "0", "6"});
+      .Values("radius_m", {"nan", "inf", "-inf", "-1", "0", "6"})
+      .Values("log_epoch", {"-1", "9007199254740992"});
 }
 
 }  // namespace plumescout::server

@@ -73,7 +73,7 @@ TEST_F(ServerTest, ReadinessOverHttpEndsWithTheDrainAndHttpDoesNot) {
   WriterGate gate;
   StartServer(WithDrain(60.0), gate.Hooks());
   const auto http = HttpEndpoints::Start("127.0.0.1:0", {[this] { return server_->MetricsText(); },
-                                                         [this] { return !server_->draining(); }});
+                                                         [this] { return server_->NotReady(); }});
   ASSERT_TRUE(http.ok()) << http.status();
   EXPECT_EQ(HttpGet((*http)->port(), "/readyz").code, 200);
   HealthWatch health(channel_);
@@ -319,7 +319,8 @@ TEST_F(ServerTest, SlowCallsAreLogged) {
                                  "caller=anonymous code=OK duration_ms=[0-9]+ request_id="));
   EXPECT_THAT(log, ContainsRegex("WARNING slow call method=PlanningService/NextBestTrajectory "
                                  "caller=anonymous code=OK duration_ms=[0-9]+ belief_ms=[0-9]+ "
-                                 "queue_ms=[0-9]+ search_ms=[0-9]+ commit_ms=[0-9]+ request_id="));
+                                 "queue_ms=[0-9]+ search_ms=[0-9]+ commit_ms=[0-9]+ "
+                                 "durable_ms=[0-9]+ request_id="));
   EXPECT_THAT(log, ContainsRegex("INFO plan mission=hall robot=r1 .* request_id="));
 }
 

@@ -11,9 +11,11 @@
 #include <vector>
 
 #include "absl/status/status.h"
+#include "absl/status/statusor.h"
 #include "plumescout/v1/ingest_service.grpc.pb.h"
 #include "plumescout/v1/map_service.grpc.pb.h"
 #include "plumescout/v1/planning_service.grpc.pb.h"
+#include "plumescout/v1/snapshot_service.grpc.pb.h"
 #include "proto/convert/status.h"
 
 namespace plumescout::server {
@@ -128,6 +130,72 @@ class WatchClient {
 
   grpc::ClientContext context_;
   std::unique_ptr<grpc::ClientReader<v1::WatchMapResponse>> stream_;
+};
+
+// A mission that is sent to a server.
+class ImportClient {
+ public:
+  explicit ImportClient(v1::SnapshotService::Stub& stub) {
+    SetPatience(context_);
+    stream_ = stub.ImportMission(&context_, &response_);
+  }
+  bool Send(const v1::ImportMissionRequest& request) { return stream_->Write(request); }
+  bool Open(const std::string& mission_id) {
+    v1::ImportMissionRequest request;
+    request.mutable_start()->set_mission_id(mission_id);
+    return Send(request);
+  }
+  bool Send(const v1::MissionFilePiece& piece) {
+    v1::ImportMissionRequest request;
+    *request.mutable_piece() = piece;
+    return Send(request);
+  }
+  bool Send(const v1::MissionFileEnd& end) {
+    v1::ImportMissionRequest request;
+    *request.mutable_end() = end;
+    return Send(request);
+  }
+  void Cancel() { context_.TryCancel(); }
+  // Without having said that no more comes.
+  absl::Status AwaitEnd() { return ToAbsl(stream_->Finish()); }
+  absl::StatusOr<v1::ImportMissionResponse> Finish() {
+    stream_->WritesDone();
+    const absl::Status status = ToAbsl(stream_->Finish());
+    if (!status.ok()) return status;
+    return response_;
+  }
+
+ private:
+  grpc::ClientContext context_;
+  v1::ImportMissionResponse response_;
+  std::unique_ptr<grpc::ClientWriter<v1::ImportMissionRequest>> stream_;
+};
+
+// A mission that comes from a server.
+class ExportClient {
+ public:
+  ExportClient(v1::SnapshotService::Stub& stub, const std::string& mission) {
+    SetPatience(context_);
+    v1::ExportMissionRequest request;
+    request.set_mission(mission);
+    stream_ = stub.ExportMission(&context_, request);
+  }
+  // A message of nothing once the stream has ended.
+  v1::ExportMissionResponse Read() {
+    v1::ExportMissionResponse response;
+    stream_->Read(&response);
+    return response;
+  }
+  void Cancel() { context_.TryCancel(); }
+  absl::Status Finish() {
+    while (Read().part_case() != v1::ExportMissionResponse::PART_NOT_SET) {
+    }
+    return ToAbsl(stream_->Finish());
+  }
+
+ private:
+  grpc::ClientContext context_;
+  std::unique_ptr<grpc::ClientReader<v1::ExportMissionResponse>> stream_;
 };
 
 // A robot that hears of better and better plans.

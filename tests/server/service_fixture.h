@@ -17,9 +17,11 @@
 #include "plumescout/v1/mission_service.grpc.pb.h"
 #include "plumescout/v1/planning_service.grpc.pb.h"
 #include "plumescout/v1/robot_service.grpc.pb.h"
+#include "plumescout/v1/snapshot_service.grpc.pb.h"
 #include "plumescout/v1/system_service.grpc.pb.h"
 #include "proto/convert/observation.h"
 #include "server/server.h"
+#include "server/store/memory_store.h"
 #include "tests/server/service_clients.h"
 #include "tests/support/box_room.h"
 
@@ -40,15 +42,27 @@ class ServiceTest : public testing::Test {
     auto server = Server::Start(config, std::move(hooks), {.drain = std::move(drain)});
     ASSERT_TRUE(server.ok()) << server.status();
     server_ = *std::move(server);
-    channel_ = grpc::CreateChannel(absl::StrCat("127.0.0.1:", server_->port()),
-                                   grpc::InsecureChannelCredentials());
+    Connect(absl::StrCat("127.0.0.1:", server_->port()));
+    ASSERT_TRUE(CreateMission("hall").ok());
+  }
+  void Connect(const std::string& target) {
+    channel_ = grpc::CreateChannel(target, grpc::InsecureChannelCredentials());
     missions_ = v1::MissionService::NewStub(channel_);
     robots_ = v1::RobotService::NewStub(channel_);
     ingest_ = v1::IngestService::NewStub(channel_);
     planning_ = v1::PlanningService::NewStub(channel_);
     maps_ = v1::MapService::NewStub(channel_);
+    snapshots_ = v1::SnapshotService::NewStub(channel_);
     system_ = v1::SystemService::NewStub(channel_);
-    ASSERT_TRUE(CreateMission("hall").ok());
+  }
+
+  // The same, and its missions have journals.
+  void StartServerWithStore(const ServerConfig& config = {}) {
+    server_ = nullptr;
+    store_ = std::make_unique<MemoryStore>(/*is_durable=*/true);
+    RegistryHooks hooks;
+    hooks.store = store_.get();
+    StartServer(config, hooks);
   }
 
   template <typename Stub, typename Request, typename Response>
@@ -125,6 +139,7 @@ class ServiceTest : public testing::Test {
     return response.ok() ? response->mission().revision() : -1;
   }
 
+  std::unique_ptr<MemoryStore> store_;  // null: of StartServer
   std::unique_ptr<Server> server_;
   std::shared_ptr<grpc::Channel> channel_;
   std::unique_ptr<v1::MissionService::Stub> missions_;
@@ -132,6 +147,7 @@ class ServiceTest : public testing::Test {
   std::unique_ptr<v1::IngestService::Stub> ingest_;
   std::unique_ptr<v1::PlanningService::Stub> planning_;
   std::unique_ptr<v1::MapService::Stub> maps_;
+  std::unique_ptr<v1::SnapshotService::Stub> snapshots_;
   std::unique_ptr<v1::SystemService::Stub> system_;
 };
 

@@ -14,6 +14,7 @@
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_split.h"
+#include "tests/server/held_store.h"
 #include "tests/server/service_fixture.h"
 
 namespace plumescout::server {
@@ -58,8 +59,16 @@ void CollectQueries(const nlohmann::json& json, std::vector<std::string>& querie
 
 class ShippedDashboardsTest : public ServiceTest {
  protected:
+  ~ShippedDashboardsTest() override { server_.reset(); }
+
+  // On a store: only then is there something to tell of it.
+  void StartStoredServer() {
+    RegistryHooks hooks;
+    hooks.store = &store_;
+    StartServer({}, hooks);
+  }
   void ExpectKnown(const std::vector<std::string>& queries) {
-    StartServer();
+    StartStoredServer();
     const std::set<std::string> known = NamesIn(server_->MetricsText());
     for (const std::string& query : queries) {
       const std::vector<std::string> names = MetricsOf(query);
@@ -67,6 +76,8 @@ class ShippedDashboardsTest : public ServiceTest {
       for (const std::string& name : names) EXPECT_THAT(known, Contains(name)) << query;
     }
   }
+
+  HeldStore store_;
 };
 
 TEST_F(ShippedDashboardsTest, NamesAreTold) {

@@ -15,6 +15,7 @@
 #include "plumescout/v1/mission_service.pb.h"
 #include "plumescout/v1/planning_service.pb.h"
 #include "plumescout/v1/robot_service.pb.h"
+#include "plumescout/v1/snapshot_service.pb.h"
 #include "plumescout/v1/system_service.pb.h"
 
 namespace plumescout::server {
@@ -28,6 +29,7 @@ inline std::vector<const google::protobuf::MethodDescriptor*> WireMethods() {
   EXPECT_NE(v1::Mission::descriptor(), nullptr);
   EXPECT_NE(v1::Plan::descriptor(), nullptr);
   EXPECT_NE(v1::RegisterRobotRequest::descriptor(), nullptr);
+  EXPECT_NE(v1::MissionEvent::descriptor(), nullptr);
   EXPECT_NE(v1::GetServerInfoRequest::descriptor(), nullptr);
   std::vector<const google::protobuf::MethodDescriptor*> methods;
   for (const auto& entry : std::filesystem::directory_iterator("proto/plumescout/v1")) {
@@ -41,7 +43,7 @@ inline std::vector<const google::protobuf::MethodDescriptor*> WireMethods() {
       }
     }
   }
-  EXPECT_GE(methods.size(), 26u);
+  EXPECT_GE(methods.size(), 29u);
   return methods;
 }
 

@@ -50,6 +50,30 @@ TEST(ErrorsTest, HoleInALogTellsTheNumberExpected) {
   EXPECT_THAT(ReasonMetadata(status), ElementsAre(Pair("expected", "7")));
 }
 
+TEST(ErrorsTest, AServerThatWasSetBackTellsWhereItStands) {
+  const absl::Status status = WithErrorInfo(StoreRolledBack(12, 40));
+  EXPECT_TRUE(absl::IsFailedPrecondition(status));
+  EXPECT_EQ(Reason(status), "STORE_ROLLED_BACK");
+  EXPECT_THAT(ReasonMetadata(status), ElementsAre(Pair("applied_sequence", "12")));
+}
+
+TEST(ErrorsTest, WhatIsOverSoonSaysWhen) {
+  for (const absl::Status& status :
+       {WithErrorInfo(StoreTakesNothing("STORE_UNAVAILABLE: missions.db: disk full")),
+        WithErrorInfo(StoreTakesNothing("missions.db: disk full"))}) {
+    EXPECT_TRUE(absl::IsUnavailable(status));
+    EXPECT_EQ(Reason(status), "STORE_UNAVAILABLE");
+    EXPECT_EQ(status.message(), "STORE_UNAVAILABLE: missions.db: disk full");
+    EXPECT_TRUE(RetryDelay(status).has_value());
+  }
+  EXPECT_EQ(Reason(WithErrorInfo(Recovering("hall"))), "RECOVERING");
+  EXPECT_TRUE(RetryDelay(WithErrorInfo(Recovering("hall"))).has_value());
+  const absl::Status damaged = WithErrorInfo(MissionDamaged("hall", "event 3"));
+  EXPECT_TRUE(absl::IsDataLoss(damaged));
+  EXPECT_EQ(Reason(damaged), "STORE_DAMAGED");
+  EXPECT_FALSE(RetryDelay(damaged).has_value());
+}
+
 TEST(ErrorsTest, OtherErrorsAreNamedAfterTheirCode) {
   EXPECT_EQ(Reason(WithErrorInfo(absl::InternalError("Oops: it broke"))), "INTERNAL");
   EXPECT_EQ(Reason(WithErrorInfo(FieldError("pose", "must be set"))), "INVALID_ARGUMENT");

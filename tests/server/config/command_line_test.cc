@@ -42,11 +42,21 @@ TEST(CommandLineTest, LogFormatIsAFlag) {
               HasSubstr("must be one of text, json"));
 }
 
+TEST(CommandLineTest, MissionsAreKeptUnlessToldOtherwise) {
+  EXPECT_EQ(Read({})->config.store.engine, kSqliteStore);
+  EXPECT_EQ(Read({"--data", "d"})->config.store.folder, "d");
+  EXPECT_EQ(Read({"--store", "none"})->config.store.engine, kNoStore);
+  EXPECT_EQ(Read({"--set", "store.engine=none"})->config.store.engine, kNoStore);
+  EXPECT_THAT(std::string(Read({"--store", "floppy"}).status().message()),
+              HasSubstr("store.engine = floppy must be one of none, sqlite"));
+}
+
 TEST(CommandLineTest, HelpNamesFlagsAndOptions) {
   const auto line = Read({"--help"});
   ASSERT_TRUE(line.ok() && line->print.has_value());
   EXPECT_THAT(*line->print, HasSubstr("--listen"));
   EXPECT_THAT(*line->print, HasSubstr("limits.max_missions = 8"));
+  EXPECT_THAT(*line->print, HasSubstr("store.engine = sqlite"));
   EXPECT_THAT(*line->print, HasSubstr("mission.planning.speed_mps = 1.25"));
 }
 

@@ -19,9 +19,9 @@ using google::protobuf::util::MessageDifferencer;
 ServerConfig Unlike() {
   ServerConfig config;
   config.listen = "[::]:1";
-  config.limits = {2,      3'000'000'000, 5000,          4,         5,    6,     7,    8,
-                   10'001, 8.5,           2'000'000'000, 5'000'000, 9000, 250.0, 51.0, 1001.0,
-                   5e6,    21.0,          61.0,          6.0};
+  config.limits = {2,      3'000'000'000, 5000,          4,         5,         6,     7,    8,
+                   10'001, 8.5,           2'000'000'000, 5'000'000, 9000,      250.0, 51.0, 1001.0,
+                   5e6,    21.0,          61.0,          6.0,       70'000'000};
   config.planning = {9, 10, 0.5, 11.0, 0.25, true, 1, 2, 3};
   config.maps = {12, 13, 0.75, 0.125, 14, 15, 1'000'000};
   config.epochs = {14, 15};
@@ -29,14 +29,15 @@ ServerConfig Unlike() {
   config.access = {"a", "b", "c", true, "d", true, true, "e"};
   config.mission.seed = 21;
   config.observe = {"127.0.0.1:1", "debug", "json", 0.5, false, true};
+  config.store = {kSqliteStore, "f", 1'000'000, 3, 0.5};
   return config;
 }
 
 TEST(ConfigConvertTest, EveryOptionSurvivesTheRoundTrip) {
-  const config::v1::ServerConfig proto = ToProto(Unlike());
-  const auto back = FromProto(proto);
+  const config::v1::ServerConfig proto = ServerConfigToProto(Unlike());
+  const auto back = ServerConfigFromProto(proto);
   ASSERT_TRUE(back.ok()) << back.status();
-  EXPECT_TRUE(MessageDifferencer::Equals(ToProto(*back), proto));
+  EXPECT_TRUE(MessageDifferencer::Equals(ServerConfigToProto(*back), proto));
   EXPECT_EQ(back->listen, "[::]:1");
   EXPECT_EQ(back->limits.memory_budget_bytes, 3'000'000'000);
   EXPECT_EQ(back->limits.max_streams_per_connection, 8);
@@ -52,6 +53,8 @@ TEST(ConfigConvertTest, EveryOptionSurvivesTheRoundTrip) {
   EXPECT_EQ(back->mission.seed, 21u);
   EXPECT_EQ(back->observe.log_format, "json");
   EXPECT_TRUE(back->observe.channelz);
+  EXPECT_EQ(back->store.engine, kSqliteStore);
+  EXPECT_EQ(back->store.recovery_threads, 3);
 }
 
 // A field that conversion forgot is unset, or keeps its default.
@@ -72,27 +75,31 @@ void ExpectEveryFieldUnlike(const Message& defaults, const Message& message) {
 }
 
 TEST(ConfigConvertTest, EveryFieldIsConverted) {
-  ExpectEveryFieldUnlike(ToProto(ServerConfig()), ToProto(*FromProto(ToProto(Unlike()))));
+  ExpectEveryFieldUnlike(
+      ServerConfigToProto(ServerConfig()),
+      ServerConfigToProto(*ServerConfigFromProto(ServerConfigToProto(Unlike()))));
 }
 
 TEST(ConfigConvertTest, FieldsThatAreUnsetKeepTheirDefaults) {
-  EXPECT_TRUE(MessageDifferencer::Equals(ToProto(*FromProto({})), ToProto(ServerConfig())));
+  EXPECT_TRUE(MessageDifferencer::Equals(ServerConfigToProto(*ServerConfigFromProto({})),
+                                         ServerConfigToProto(ServerConfig())));
 }
 
 TEST(ConfigConvertTest, AStrategySetsThePartsOfItsRow) {
   config::v1::ServerConfig proto;
   proto.mutable_mission()->mutable_planning()->set_strategy("xit_f");
-  EXPECT_EQ(FromProto(proto)->mission.planning.goal_policy, GoalPolicy::kOccupancyOnly);
+  EXPECT_EQ(ServerConfigFromProto(proto)->mission.planning.goal_policy, GoalPolicy::kOccupancyOnly);
 }
 
 TEST(ConfigConvertTest, RefusalsBeginWithTheOption) {
   config::v1::ServerConfig proto;
   proto.mutable_mission()->mutable_gas()->set_lattice_factor(17);
-  EXPECT_EQ(FromProto(proto).status().message(),
+  EXPECT_EQ(ServerConfigFromProto(proto).status().message(),
             "mission.gas.lattice_factor = 17 must be in [1, 16]");
   proto.clear_mission();
   proto.mutable_epochs()->set_threads(0);
-  EXPECT_EQ(FromProto(proto).status().message(), "epochs.threads = 0 must be in [1, 256]");
+  EXPECT_EQ(ServerConfigFromProto(proto).status().message(),
+            "epochs.threads = 0 must be in [1, 256]");
 }
 
 }  // namespace config_convert_test

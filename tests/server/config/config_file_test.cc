@@ -34,12 +34,12 @@ std::string ErrorOf(const std::string& yaml) {
   return std::string(added.ok() ? builder.Build().status().message() : added.message());
 }
 
-TEST(ConfigFileTest, ShippedFileHoldsTheDefaults) {
+TEST(ConfigFileTest, ShippedFileHoldsTheDefaultsOfTheProgram) {
   ConfigBuilder builder;
   const absl::Status added = builder.AddFile(kShipped);
   ASSERT_TRUE(added.ok()) << added;
-  EXPECT_TRUE(google::protobuf::util::MessageDifferencer::Equals(ToProto(*builder.Build()),
-                                                                 ToProto(ServerConfig())));
+  EXPECT_TRUE(google::protobuf::util::MessageDifferencer::Equals(
+      ServerConfigToProto(*builder.Build()), ServerConfigToProto(ProgramDefaults())));
 }
 
 // Expects a line "name:" of each field, commented out or not.

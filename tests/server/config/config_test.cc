@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 #include <string>
 
@@ -86,7 +87,7 @@ TEST(ConfigTest, EveryNumberHasARange) {
       for (const double value : {-1.0, 2e12}) {
         config::v1::ServerConfig proto;
         Set(field, value, *proto.GetReflection()->MutableMessage(&proto, &part));
-        const auto config = FromProto(proto);
+        const auto config = ServerConfigFromProto(proto);
         EXPECT_THAT(std::string(config.status().message()),
                     StartsWith(absl::StrCat(part.name(), ".", field.name(), " = ")));
         ++checked;
@@ -194,6 +195,33 @@ TEST(ConfigTest, HttpStandsBesideTheServiceUnlessToldOtherwise) {
   EXPECT_EQ(HttpBeside(""), "");
   EXPECT_EQ(HttpBeside("0.0.0.0:1", "0.0.0.0:9"), "0.0.0.0:9");
   EXPECT_EQ(HttpBeside("0.0.0.0:1", ""), "");
+}
+
+TEST(ConfigTest, WhereMissionsAreKeptIsChecked) {
+  ServerConfig config;
+  EXPECT_EQ(config.store.engine, kNoStore) << "whoever makes a server says where it may write";
+  EXPECT_EQ(ProgramDefaults().store.engine, kSqliteStore);
+  config.store.engine = "floppy";
+  EXPECT_EQ(RefusalOf(config), "store.engine = floppy must be one of none, sqlite");
+  config.store = StoreConfig();
+  config.store.recovery_threads = 0;
+  EXPECT_THAT(RefusalOf(config), StartsWith("store.recovery_threads = 0 "));
+}
+
+// The variables are the user's; a test that sets them must be alone in its process.
+TEST(ConfigTest, MissionsAreKeptInTheUsersFolderOfState) {
+  StoreConfig store;
+  store.folder = "here";
+  EXPECT_EQ(StoreFolder(store).value(), "here");
+  store.folder = "";
+  setenv("HOME", "/home/ann", 1);
+  setenv("XDG_STATE_HOME", "/state", 1);
+  EXPECT_EQ(StoreFolder(store).value(), "/state/plumescout");
+  setenv("XDG_STATE_HOME", "not/absolute", 1);
+  EXPECT_EQ(StoreFolder(store).value(), "/home/ann/.local/state/plumescout");
+  unsetenv("XDG_STATE_HOME");
+  unsetenv("HOME");
+  EXPECT_TRUE(absl::IsInvalidArgument(StoreFolder(store).status()));
 }
 
 TEST(ConfigTest, OptionsOfMissionsAreChecked) {

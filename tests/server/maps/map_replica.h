@@ -26,7 +26,7 @@ class MapReplica {
       case v1::WatchMapResponse::KIND_FULL:
         ASSERT_TRUE(forgotten_ || revision_ == kHoldsNothing);
         forgotten_ = false;
-        Clear(plumescout::FromProto(frame.tile_geometry(), "tile_geometry").value());
+        Clear(FromProto(frame.tile_geometry(), "tile_geometry").value());
         break;
       default:
         ASSERT_FALSE(forgotten_);

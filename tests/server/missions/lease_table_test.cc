@@ -110,6 +110,7 @@ TEST_F(LeaseTableTest, AReleasedLeaseEndsItsStreamAndIsFree) {
   EXPECT_EQ(ErrorReason(ended_), reason::kLeaseSuperseded);
   EXPECT_EQ(table_.Standing("r1"), LeaseStanding{});
   EXPECT_FALSE(Held());
+  EXPECT_EQ(table_.Released().at("r1"), token);
   EXPECT_TRUE(absl::IsNotFound(table_.Release("r2", std::nullopt)));
 }
 

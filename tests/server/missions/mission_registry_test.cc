@@ -282,7 +282,7 @@ TEST(MissionRegistryTest, DeleteWaitsForNobodyAndItsRoomIsFreeWhenTheMissionHasS
                            })
                     .ok());
   }
-  ASSERT_TRUE(registry.Delete("hall", "", [&] { stopped.Notify(); }).ok());
+  ASSERT_TRUE(registry.Delete("hall", "", [&](const absl::Status&) { stopped.Notify(); }).ok());
   dropped.WaitForNotification();
   EXPECT_TRUE(absl::IsNotFound(registry.Find("hall").status()));
   EXPECT_TRUE(absl::IsResourceExhausted(registry.Create("attic", {}).status()));

@@ -35,6 +35,12 @@ TEST_F(MissionStandingTest, AFinishedMissionStaysSo) {
   EXPECT_EQ(standing_.state(), MissionState::kFinished);
 }
 
+TEST_F(MissionStandingTest, ARecoveredMissionIsAsItWas) {
+  standing_.Restore(MissionState::kPaused, absl::Seconds(5));
+  EXPECT_EQ(standing_.state(), MissionState::kPaused);
+  EXPECT_EQ(standing_.idle_time_to_live(), absl::Seconds(5));
+}
+
 TEST_F(MissionStandingTest, ItOutlivesItsUseByItsTimeToLive) {
   now_ += std::chrono::hours(10'000);
   EXPECT_FALSE(standing_.has_outlived_its_use());

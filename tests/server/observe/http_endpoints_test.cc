@@ -21,8 +21,8 @@ using ::testing::HasSubstr;
 class HttpEndpointsTest : public testing::Test {
  protected:
   void SetUp() override {
-    auto http = HttpEndpoints::Start(
-        "127.0.0.1:0", {[] { return "a_metric 1\n"; }, [this] { return ready_.load(); }});
+    auto http = HttpEndpoints::Start("127.0.0.1:0", {[] { return "a_metric 1\n"; },
+                                                     [this] { return ready_ ? "" : "draining"; }});
     ASSERT_TRUE(http.ok()) << http.status();
     http_ = *std::move(http);
   }
@@ -82,7 +82,7 @@ TEST_F(HttpEndpointsTest, RequestMayComeInParts) {
 }
 
 TEST_F(HttpEndpointsTest, AddressThatCannotBeHadIsAnError) {
-  const HttpSources sources{[] { return ""; }, [] { return true; }};
+  const HttpSources sources{[] { return ""; }, [] { return ""; }};
   for (const std::string& address :
        {absl::StrCat("127.0.0.1:", port()), std::string("no such host:1")}) {
     const absl::Status refused = HttpEndpoints::Start(address, sources).status();

@@ -13,8 +13,8 @@
 namespace plumescout::server {
 namespace ingest_frames_test {
 
-TEST(IngestFramesTest, StateOffersAWindowAndNoDurability) {
-  const v1::IngestState state = ToIngestState({40, 55}, 128);
+TEST(IngestFramesTest, StateOffersAWindowAndWithoutAStoreNoDurability) {
+  const v1::IngestState state = ToIngestState({40, 55}, "r1", MissionJournal(), 128);
   EXPECT_EQ(state.applied_sequence(), 40);
   EXPECT_EQ(state.credit_sequence(), 168);
   EXPECT_EQ(state.durable_sequence(), 0);

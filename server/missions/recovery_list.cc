@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/missions/recovery_list.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "server/base/errors.h"
+
+namespace plumescout::server {
+
+void RecoveryList::Add(const StoredMission& mission) {
+  missions_[mission.key] = Entry{.head = mission.head};
+}
+
+std::optional<std::string> RecoveryList::Next() {
+  const auto urgency = [](const Entry& entry) {
+    return std::pair(entry.is_called_for, entry.head);
+  };
+  auto next = missions_.end();
+  for (auto it = missions_.begin(); it != missions_.end(); ++it) {
+    if (it->second.has_begun) continue;
+    if (next == missions_.end() || urgency(it->second) > urgency(next->second)) next = it;
+  }
+  if (next == missions_.end()) return std::nullopt;
+  next->second.has_begun = true;
+  return next->first;
+}
+
+void RecoveryList::Hold(const std::string& key, const absl::Status& status) {
+  Entry& entry = missions_[key];
+  entry.has_begun = true;
+  entry.held = status;
+}
+
+absl::Status RecoveryList::CallFor(const std::string& key) {
+  const auto found = missions_.find(key);
+  if (found == missions_.end()) return absl::OkStatus();
+  found->second.is_called_for = true;
+  return StatusOf(key, found->second);
+}
+
+absl::Status RecoveryList::StatusOf(const std::string& key, const Entry& entry) {
+  return entry.held.ok() ? Recovering(MissionIdOf(key)) : entry.held;
+}
+
+std::vector<AbsentMission> RecoveryList::After(const std::string& key) const {
+  std::vector<AbsentMission> absent;
+  for (auto it = missions_.upper_bound(key); it != missions_.end(); ++it) {
+    absent.push_back({it->first, StatusOf(it->first, it->second)});
+  }
+  return absent;
+}
+
+int RecoveryList::waiting() const { return static_cast<int>(missions_.size()) - held(); }
+
+int RecoveryList::held() const {
+  return static_cast<int>(std::count_if(missions_.begin(), missions_.end(),
+                                        [](const auto& entry) { return !entry.second.held.ok(); }));
+}
+
+std::string MissionIdOf(const std::string& key) { return key.substr(key.rfind('/') + 1); }
+
+std::string TenantOf(const std::string& key) {
+  const std::size_t slash = key.rfind('/');
+  return slash == std::string::npos ? "" : key.substr(0, slash);
+}
+
+}  // namespace plumescout::server

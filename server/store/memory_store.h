@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "server/store/committed_store.h"
+
+namespace plumescout::server {
+
+// Keeps missions as long as it lives: for servers without a folder, and for tests.
+class MemoryStore final : public CommittedStore {
+ public:
+  // `is_durable`: what it says of itself. Tests of what outlives a server keep the store instead.
+  explicit MemoryStore(bool is_durable = false);
+
+  absl::StatusOr<std::unique_ptr<JournalReader>> Read(const std::string& key,
+                                                      std::int64_t first_number) override;
+  absl::StatusOr<AcquiredMission> Peek(const std::string& key) override;
+  absl::StatusOr<std::vector<StoredMission>> List() override;
+  bool is_durable() const override { return is_durable_; }
+
+ private:
+  class Shelf;
+
+  MemoryStore(bool is_durable, std::shared_ptr<Shelf> shelf);
+
+  const bool is_durable_;
+  const std::shared_ptr<Shelf> shelf_;  // with readers
+};
+
+}  // namespace plumescout::server

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "absl/status/status.h"
+#include "absl/strings/string_view.h"
+
+namespace plumescout::server {
+
+// Errors that all engines of a MissionStore give in the same words.
+
+absl::Status NotStored(absl::string_view key);
+absl::Status AlreadyStored(absl::string_view key);
+// Somebody who acquired the mission later is writing.
+absl::Status FencedByEpoch(absl::string_view key, std::int64_t epoch, std::int64_t newest);
+// Records would leave a gap, or stand twice.
+absl::Status FencedByHead(absl::string_view key, std::int64_t first_number, std::int64_t head);
+// A snapshot of what is not in the journal yet.
+absl::Status SnapshotAhead(absl::string_view key, std::int64_t revision, std::int64_t head);
+
+// Records count from 1.
+absl::Status BadFirstNumber(std::int64_t first_number);
+
+// What is kept is not what was written; `what` names file and record.
+absl::Status StoreDamaged(absl::string_view what);
+// The disk does not take or give it now; `what` names the file.
+absl::Status StoreUnavailable(absl::string_view what);
+
+}  // namespace plumescout::server

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <thread>
+
+#include "absl/base/thread_annotations.h"
+#include "absl/status/status.h"
+#include "absl/synchronization/mutex.h"
+#include "absl/time/time.h"
+#include "server/store/mission_store.h"
+
+namespace plumescout::server {
+
+// Looks now and then whether the store takes data. The store is not owned and outlives it.
+class StoreWatch {
+ public:
+  // Told when that has changed, on the thread of the watch. It does at first.
+  using Changed = std::function<void(bool available)>;
+
+  // Looks every `period`.
+  StoreWatch(const MissionStore* store, absl::Duration period, Changed changed);
+  ~StoreWatch();
+  StoreWatch(const StoreWatch&) = delete;
+  StoreWatch& operator=(const StoreWatch&) = delete;
+
+ private:
+  void Run();
+  void Look();
+
+  const MissionStore* const store_;
+  const absl::Duration period_;
+  const Changed changed_;
+  // Of the thread.
+  bool available_ = true;
+
+  absl::Mutex mutex_;
+  bool stopping_ ABSL_GUARDED_BY(mutex_) = false;
+
+  std::thread thread_;  // last: it uses all of the above
+};
+
+}  // namespace plumescout::server

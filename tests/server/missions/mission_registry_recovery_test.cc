@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+// Of the mission registry: missions that outlive it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "absl/synchronization/notification.h"
+#include "core/types/error_reason.h"
+#include "server/missions/mission_registry.h"
+#include "tests/server/held_store.h"
+#include "tests/server/host_parts.h"
+#include "tests/server/stored_run.h"
+
+namespace plumescout::server {
+namespace mission_registry_recovery_test {
+
+class MissionRegistryRecoveryTest : public testing::Test {
+ protected:
+  MissionRegistryRecoveryTest() { Restart(); }
+
+  // Another registry on the same store, which knows its missions.
+  void Restart() {
+    if (registry_ != nullptr) {
+      registry_->StopAll(absl::UnavailableError("over"));
+      EXPECT_TRUE(registry_->AwaitStopped(SteadyTime::max()));
+      EXPECT_TRUE(registry_->AwaitStored(SteadyTime::max()));
+    }
+    RegistryHooks hooks;
+    hooks.store = &store_;
+    registry_ = std::make_unique<MissionRegistry>(RegistryOptions{}, hooks);
+    const absl::Status found = registry_->FindStored();
+    EXPECT_TRUE(found.ok()) << found;
+  }
+  void RecoverAll() {
+    while (registry_->RecoverNext()) {
+    }
+  }
+  // Runs on the writer's thread; returns when what it did is durable.
+  absl::Status Do(MissionHost& host, const std::function<void(MissionWriter&)>& work) {
+    absl::Notification durable;
+    absl::Status result;
+    EXPECT_TRUE(host.Post([&](MissionWriter& writer) {
+                      work(writer);
+                      host.WhenDurable([&](const absl::Status& status) {
+                        result = status;
+                        durable.Notify();
+                      });
+                    })
+                    .ok());
+    durable.WaitForNotification();
+    return result;
+  }
+
+  HeldStore store_;
+  std::unique_ptr<MissionRegistry> registry_;
+};
+
+TEST_F(MissionRegistryRecoveryTest, MissionsComeBackAsTheyWere) {
+  std::shared_ptr<const Belief> before;
+  std::int64_t token = 0;
+  PlanId plan = 0;
+  {
+    const auto host = registry_->Create("hall", support::FastAgeing(), {"ann", "acme"}).value();
+    EXPECT_TRUE(Do(*host, [&](MissionWriter& writer) {
+                  token = writer.conduct().Register({"r1", 0.2}, host->leases())->lease_token;
+                  EXPECT_TRUE(writer.conduct().Ingest("r1", token, RoomRunBatch()).status.ok());
+                  plan = *writer.conduct().Commit(PlanTo(*writer.conduct().Snapshot(), "r1", 1.0),
+                                                  token);
+                  before = writer.conduct().Snapshot();
+                }).ok());
+    ASSERT_TRUE(host->standing().Pause().ok());
+    host->standing().set_idle_time_to_live(absl::Hours(1));
+    host->KeepStanding();
+    EXPECT_EQ(host->journal().durable_revision(), before->revision);
+  }
+  EXPECT_EQ(plan, 1);
+  Restart();
+  EXPECT_EQ(ErrorReason(registry_->Find("hall", "acme").status()), reason::kRecovering);
+  EXPECT_EQ(ErrorReason(registry_->FindOfAnyTenant("hall").status()), reason::kRecovering);
+  EXPECT_TRUE(
+      absl::IsAlreadyExists(registry_->Create("hall", MissionOptions{}, {"ann", "acme"}).status()));
+  EXPECT_EQ(registry_->absent().recovering, 1);
+  RecoverAll();
+  EXPECT_EQ(registry_->absent().recovering, 0);
+  const auto host = registry_->Find("hall", "acme");
+  ASSERT_TRUE(host.ok()) << host.status();
+  EXPECT_EQ((*host)->owner(), "ann");
+  EXPECT_EQ((*host)->standing().state(), MissionState::kPaused);
+  EXPECT_EQ((*host)->standing().idle_time_to_live(), absl::Hours(1));
+  EXPECT_TRUE((*host)->leases().Use("r1", token).ok()) << "the robot goes on as before";
+  EXPECT_EQ((*host)->leases().Standing("r1"), (LeaseStanding{true, false}));
+  EXPECT_TRUE(
+      Do(**host, [&](MissionWriter& writer) {
+        ExpectSameMission(*writer.conduct().Snapshot(), *before);
+        EXPECT_EQ(*writer.conduct().Commit(PlanTo(*writer.conduct().Snapshot(), "r1", 1.0), token),
+                  plan + 1);
+        const auto newer = writer.conduct().Register({"r1", 0.2, true}, (*host)->leases());
+        EXPECT_GT(newer->lease_token, token);
+        EXPECT_LT(newer->lease_token, kLeaseTokenEnd);
+      }).ok());
+}
+
+TEST_F(MissionRegistryRecoveryTest, ALeaseThatWasGivenUpStaysSo) {
+  std::int64_t token = 0;
+  {
+    const auto host = registry_->Create("hall", {}).value();
+    EXPECT_TRUE(Do(*host, [&](MissionWriter& writer) {
+                  token = writer.conduct().Register({"r1", 0.2}, host->leases())->lease_token;
+                }).ok());
+    ASSERT_TRUE(host->leases().Release("r1", token).ok());
+    host->KeepStanding();
+  }
+  Restart();
+  RecoverAll();
+  const auto host = registry_->Find("hall").value();
+  EXPECT_EQ(ErrorReason(host->leases().Use("r1", token)), reason::kLeaseSuperseded);
+  EXPECT_EQ(host->leases().Standing("r1"), LeaseStanding{});
+}
+
+TEST_F(MissionRegistryRecoveryTest, ADamagedMissionIsHeldAndOthersGoOn) {
+  PutMission(store_, "acme/bad", {}, {{1, RobotRemoved{"r1"}}});  // who was never there
+  ASSERT_TRUE(registry_->Create("good", {}).ok());
+  Restart();
+  RecoverAll();
+  EXPECT_TRUE(registry_->Find("good").ok());
+  const absl::Status held = registry_->Find("bad", "acme").status();
+  EXPECT_TRUE(absl::IsDataLoss(held));
+  EXPECT_EQ(ErrorReason(held), reason::kStoreDamaged);
+  EXPECT_THAT(std::string(held.message()), testing::HasSubstr("event 1"));
+  EXPECT_EQ(registry_->absent().damaged, 1);
+  ASSERT_EQ(registry_->ListAbsent("").size(), 1U);
+  EXPECT_EQ(registry_->ListAbsent("")[0].status, held);
+  EXPECT_TRUE(registry_->ListAbsent("acme/bad").empty());
+}
+
+TEST_F(MissionRegistryRecoveryTest, WhatIsPutIntoTheStoreCanBeRecoveredByName) {
+  PutMission(store_, "hall", {}, {{1, RobotRegistered{"r1", 0.2, 7}}});
+  EXPECT_TRUE(absl::IsNotFound(registry_->Find("hall").status()));
+  ASSERT_TRUE(registry_->Recover("hall").ok());
+  EXPECT_EQ(registry_->Find("hall").value()->summary().revision, 1);
+  EXPECT_TRUE(absl::IsAlreadyExists(registry_->Recover("hall")));
+  EXPECT_TRUE(absl::IsNotFound(registry_->Recover("attic")));
+  EXPECT_TRUE(absl::IsNotFound(registry_->Find("attic").status()));
+}
+
+TEST_F(MissionRegistryRecoveryTest, DeletedMissionsDoNotComeBack) {
+  ASSERT_TRUE(registry_->Create("hall", {}).ok());
+  absl::Notification removed;
+  ASSERT_TRUE(registry_
+                  ->Delete("hall", "",
+                           [&](const absl::Status& status) {
+                             EXPECT_TRUE(status.ok()) << status;
+                             removed.Notify();
+                           })
+                  .ok());
+  removed.WaitForNotification();
+  Restart();
+  EXPECT_EQ(registry_->absent().recovering, 0);
+  EXPECT_TRUE(registry_->Create("hall", {}).ok());
+}
+
+TEST_F(MissionRegistryRecoveryTest, AMissionThatAnotherServerHasEndsAsFenced) {
+  const auto host = registry_->Create("hall", {}).value();
+  ASSERT_TRUE(store_.Acquire("hall").ok());
+  const absl::Status fenced = Do(*host, [](MissionWriter& writer) {
+    EXPECT_TRUE(writer.conduct().Register({"r1", 0.2, 1}).ok());
+  });
+  EXPECT_EQ(ErrorReason(fenced), reason::kFenced);
+  EXPECT_EQ(ErrorReason(host->CheckMayWrite()), reason::kFenced);
+  absl::Notification ended;
+  host->end_listeners().Add([&](const absl::Status& status) {
+    EXPECT_EQ(ErrorReason(status), reason::kFenced);
+    ended.Notify();
+  });
+  ended.WaitForNotification();
+  EXPECT_EQ(ErrorReason(host->Post([](MissionWriter&) {})), reason::kFenced);
+}
+
+TEST_F(MissionRegistryRecoveryTest, NobodyIsRecoveredOnceAllAreStopped) {
+  ASSERT_TRUE(registry_->Create("hall", {}).ok());
+  Restart();
+  registry_->EndWaits(absl::UnavailableError("over"));
+  EXPECT_FALSE(registry_->RecoverNext());
+  EXPECT_TRUE(absl::IsUnavailable(registry_->Recover("hall")));
+}
+
+TEST_F(MissionRegistryRecoveryTest, WhatWasAppliedIsStoredWhenAllAreStopped) {
+  const auto host = registry_->Create("hall", {}).value();
+  store_.Hold();
+  ASSERT_TRUE(host->Post([](MissionWriter& writer) {
+                    EXPECT_TRUE(writer.conduct().Register({"r1", 0.2, 1}).ok());
+                  })
+                  .ok());
+  store_.AwaitHeld(1);
+  registry_->StopAll(absl::UnavailableError("over"));
+  EXPECT_TRUE(registry_->AwaitStopped(SteadyTime::max()));
+  EXPECT_FALSE(registry_->AwaitStored(SteadyNow()));
+  store_.Release();
+  EXPECT_TRUE(registry_->AwaitStored(SteadyTime::max()));
+  EXPECT_EQ(store_.Peek("hall")->head, 1);
+}
+
+}  // namespace mission_registry_recovery_test
+}  // namespace plumescout::server
