@@ -8,9 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
 #include "absl/time/clock.h"
-#include "client/error_reason.h"
 #include "client/grpc_status.h"
 #include "core/types/status_macros.h"
 #include "proto/convert/names.h"
@@ -47,6 +45,7 @@ class GrpcObservationStream final : public ObservationStream {
   absl::Status Open(v1::IngestService::Stub& stub, const RobotSession& session);
 
   const IngestState& opened() const override { return opened_; }
+  std::string server_boot_id() const override { return server_boot_id_; }
   absl::Status Write(const std::vector<Observation>& batch) override;
   absl::StatusOr<IngestReply> Read(absl::Duration timeout) override;
   absl::Status Finish() override;
@@ -58,7 +57,7 @@ class GrpcObservationStream final : public ObservationStream {
   bool RunOne(absl::Time deadline);
   void OnRead(bool ok);
   absl::Status WriteFrame(const v1::StreamObservationsRequest& frame);
-  absl::Status AwaitOpened(const RobotSession& session);
+  absl::Status TakeOpened();
   // Ends the call, if it has not ended, and says why it did. Never OK.
   absl::Status EndedStatus();
   absl::Status AwaitFinish(absl::Time deadline);
@@ -72,6 +71,7 @@ class GrpcObservationStream final : public ObservationStream {
       grpc::ClientAsyncReaderWriter<v1::StreamObservationsRequest, v1::StreamObservationsResponse>>
       call_;
   IngestState opened_;
+  std::string server_boot_id_;
 
   v1::StreamObservationsResponse incoming_;
   std::deque<v1::StreamObservationsResponse> replies_;
@@ -103,24 +103,21 @@ absl::Status GrpcObservationStream::Open(v1::IngestService::Stub& stub,
   v1::StreamObservationsRequest frame;
   frame.mutable_open()->set_robot(RobotResource({session.mission, session.robot}));
   frame.mutable_open()->set_lease_token(session.lease_token);
+  frame.mutable_open()->set_durable_sequence(session.durable_sequence);
   PLUMESCOUT_RETURN_IF_ERROR(WriteFrame(frame));
   while (replies_.empty() && !reads_ended_ && RunOne(deadline)) {
   }
-  return AwaitOpened(session);
+  return TakeOpened();
 }
 
-absl::Status GrpcObservationStream::AwaitOpened(const RobotSession& session) {
+absl::Status GrpcObservationStream::TakeOpened() {
   if (replies_.empty()) return EndedStatus();
   const v1::StreamObservationsResponse first = std::move(replies_.front());
   replies_.pop_front();
   if (!first.has_opened()) {
     return Broken(absl::InternalError("the server's first frame is not IngestOpened"));
   }
-  if (first.opened().server_boot_id() != session.server_boot_id) {
-    return Broken(absl::FailedPreconditionError(absl::StrCat(kServerRestarted, ": boot id is ",
-                                                             first.opened().server_boot_id(),
-                                                             ", not ", session.server_boot_id)));
-  }
+  server_boot_id_ = first.opened().server_boot_id();
   opened_ = StateFromProto(first.opened().ingest_state());
   return absl::OkStatus();
 }

@@ -17,7 +17,6 @@ struct StreamTimeouts {
 };
 
 // Opens an ingest stream and waits for the server's answer. `stub` must outlive the stream.
-// SERVER_RESTARTED if the server is not the one that the session is with.
 absl::StatusOr<std::unique_ptr<ObservationStream>> OpenGrpcObservationStream(
     v1::IngestService::Stub& stub, const RobotSession& session, const StreamTimeouts& timeouts);
 

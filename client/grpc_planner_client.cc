@@ -34,7 +34,9 @@ namespace {
 constexpr int kKeepaliveTime_ms = 10'000;
 constexpr int kKeepaliveTimeout_ms = 5'000;
 constexpr int kMinReconnect_ms = 100;
-constexpr int kMaxReconnect_ms = 2'000;
+constexpr int kMaxReconnect_ms = 500;
+// How long opening a stream waits for a link: longer than an attempt and the pause before it.
+constexpr absl::Duration kLinkPatience = absl::Milliseconds(600);
 constexpr int kMaxReceive_bytes = 256 << 20;  // more than any server sends in one part of a map
 constexpr int kMissionsPerPage = 1000;
 constexpr int kMapAttempts = 5;
@@ -106,12 +108,14 @@ class GrpcPlannerClient final : public PlannerClient {
   }
 
   absl::StatusOr<RobotSession> RegisterRobot(const MissionId& mission, const RobotId& robot,
-                                             double radius_m, bool take_over) override {
+                                             double radius_m, bool take_over,
+                                             std::int64_t log_epoch) override {
     v1::RegisterRobotRequest request;
     request.set_mission(MissionResource(mission));
     request.set_robot_id(robot);
     request.set_radius_m(radius_m);
     request.set_take_over(take_over);
+    request.set_log_epoch(log_epoch);
     v1::RegisterRobotResponse response;
     PLUMESCOUT_RETURN_IF_ERROR(CallNamed(robots_, &v1::RobotService::Stub::RegisterRobot, request,
                                          &response, options_.call_timeout));
@@ -123,7 +127,8 @@ class GrpcPlannerClient final : public PlannerClient {
                         .ingest = {.applied_sequence = state.applied_sequence(),
                                    .durable_sequence = state.durable_sequence(),
                                    .credit_sequence = state.credit_sequence(),
-                                   .revision = state.revision()}};
+                                   .revision = state.revision()},
+                        .log_continues = response.log_continues()};
   }
 
   absl::Status RemoveRobot(const MissionId& mission, const RobotId& robot, std::int64_t lease_token,
@@ -138,6 +143,7 @@ class GrpcPlannerClient final : public PlannerClient {
 
   absl::StatusOr<std::unique_ptr<ObservationStream>> OpenObservationStream(
       const RobotSession& session) override {
+    AwaitLink();
     return OpenGrpcObservationStream(
         ingest_, session,
         {.open = options_.stream_open_timeout, .write = options_.stream_write_timeout});
@@ -227,6 +233,10 @@ class GrpcPlannerClient final : public PlannerClient {
     request_ids_.NoteEnd(content, request.request_id(), status);
     return status;
   }
+
+  // Between calls that fail at once nobody drives the channel's attempts to connect, and gRPC looks
+  // at them every five seconds only. Whoever waits for the channel drives them.
+  void AwaitLink() { channel_->WaitForConnected(absl::ToChronoTime(absl::Now() + kLinkPatience)); }
 
   const GrpcClientOptions options_;
   RequestIds request_ids_;

@@ -10,7 +10,7 @@ absl::StatusOr<RobotSession> Join(PlannerClient& client, const Participation& pa
     if (!created.ok() && !absl::IsAlreadyExists(created)) return created;
   }
   return client.RegisterRobot(participation.mission, participation.robot, participation.radius_m,
-                              participation.take_over);
+                              participation.take_over, participation.log_epoch);
 }
 
 }  // namespace plumescout::client

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "absl/status/statusor.h"
@@ -17,6 +18,7 @@ struct Participation {
   RobotId robot;
   double radius_m = 0.2;
   bool take_over = false;                               // supersede a lease that is still held
+  std::int64_t log_epoch = 0;                           // see RobotRegistered
   std::optional<MissionOptions> create = std::nullopt;  // create the mission if it is not there
 };
 

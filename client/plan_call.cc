@@ -43,7 +43,6 @@ PlanReply RunPlanCall(PlannerClient& client, IngestSession& ingest, PlanCall job
 }
 
 bool MayAskAgain(const absl::Status& status) {
-  if (ErrorReason(status) == kLeaseSuperseded) return false;
   return IsRetriable(status) || absl::IsNotFound(status) || absl::IsFailedPrecondition(status);
 }
 

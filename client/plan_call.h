@@ -42,7 +42,9 @@ absl::Status MakeReport(PlannerClient& client, const RobotSession& session,
 // next.
 PlanReply RunPlanCall(PlannerClient& client, IngestSession& ingest, PlanCall job);
 
-// Whether asking again may help: the link is down, the server restarted or has no pose yet.
+// Whether asking again may help: the link is down, the server restarted or has no pose yet. A lease
+// that is not in force (LEASE_SUPERSEDED) is for the ingest session to judge: it may have a newer
+// one by now, or have ended.
 bool MayAskAgain(const absl::Status& status);
 
 }  // namespace plumescout::client

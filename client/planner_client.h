@@ -35,8 +35,14 @@ struct RobotSession {
   MissionId mission;
   RobotId robot;
   std::int64_t lease_token = 0;
-  std::string server_boot_id;  // changes when the server restarts: resend from durable + 1
+  std::string server_boot_id;  // changes when the server restarts
   IngestState ingest;
+  // Whether numbers up to ingest.applied_sequence are of this client's log. If not, its first
+  // observation takes the number after that.
+  bool log_continues = true;
+  // Up to which number this client was ever told that the log is durable: what it opens streams
+  // with. 0: it was not told.
+  std::int64_t durable_sequence = 0;
 };
 
 struct ObservationRejected {
@@ -53,6 +59,8 @@ class ObservationStream {
 
   // State at opening: send opened().applied_sequence + 1 next.
   virtual const IngestState& opened() const = 0;
+  // Of the server that answers. One that restarted with its data serves the leases it gave before.
+  virtual std::string server_boot_id() const = 0;
   // Hands over consecutive observations, in order, within the credit.
   virtual absl::Status Write(const std::vector<Observation>& batch) = 0;
   // The next acknowledgement or rejection. kDeadlineExceeded if none came (the stream lives on).
@@ -84,13 +92,21 @@ class PlannerClient {
   virtual absl::Status DeleteMission(const MissionId& mission) = 0;
 
   // Joins a mission or comes back to it. `take_over` supersedes a lease that is still held.
+  // `log_epoch`: which log it will send, see RobotRegistered.
   virtual absl::StatusOr<RobotSession> RegisterRobot(const MissionId& mission, const RobotId& robot,
-                                                     double radius_m, bool take_over) = 0;
+                                                     double radius_m, bool take_over,
+                                                     std::int64_t log_epoch) = 0;
+  // The same without saying which log.
+  absl::StatusOr<RobotSession> RegisterRobot(const MissionId& mission, const RobotId& robot,
+                                             double radius_m, bool take_over) {
+    return RegisterRobot(mission, robot, radius_m, take_over, /*log_epoch=*/0);
+  }
   // The robot leaves: it masks no beam, claims no goal, keeps no mission from completing. Only its
   // newest lease may have it so, or anybody by `force`, for a robot that died. Its log goes on
   // should it register again. kNotFound (ROBOT_NOT_FOUND), LEASE_SUPERSEDED.
   virtual absl::Status RemoveRobot(const MissionId& mission, const RobotId& robot,
                                    std::int64_t lease_token, bool force) = 0;
+  // STORE_ROLLED_BACK if the server holds less than session.durable_sequence; see RolledBackTo.
   virtual absl::StatusOr<std::unique_ptr<ObservationStream>> OpenObservationStream(
       const RobotSession& session) = 0;
   virtual absl::StatusOr<Plan> NextBestTrajectory(const MissionId& mission,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "absl/time/clock.h"
 #include "client/error_reason.h"
 #include "core/types/checker.h"
@@ -30,6 +31,12 @@ std::int64_t ToNanoseconds(double duration_s) {
 
 absl::Status Validate(const RobotLoopOptions& options) {
   const GasSampling& gas_sampling = options.gas_sampling;
+  const std::int64_t least_epoch = options.ingest.store.folder.empty() ? 0 : 1;
+  if (options.new_log_epoch < least_epoch || options.new_log_epoch >= kLogEpochEnd) {
+    return absl::InvalidArgumentError(absl::StrCat("new_log_epoch = ", options.new_log_epoch,
+                                                   " must be in [", least_epoch, ", ", kLogEpochEnd,
+                                                   ")"));
+  }
   return Checker()
       .Positive("tick_s", options.tick_s)
       .Positive("radius_m", options.participation.radius_m)
@@ -54,6 +61,7 @@ RobotLoop::RobotLoop(PlannerClient& client, RobotDriver& driver, const RobotLoop
 absl::StatusOr<RobotResult> RobotLoop::Run(const StopFn& stop) {
   stop_ = stop;
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options_));
+  PLUMESCOUT_RETURN_IF_ERROR(OpenLogOnDisk());
   PLUMESCOUT_RETURN_IF_ERROR(JoinMission());
   if (!over_) {
     StartSensing();
@@ -63,6 +71,18 @@ absl::StatusOr<RobotResult> RobotLoop::Run(const StopFn& stop) {
     PLUMESCOUT_RETURN_IF_ERROR(finished);
   }
   return result_;
+}
+
+absl::Status RobotLoop::OpenLogOnDisk() {
+  Participation& participation = options_.participation;
+  participation.log_epoch = options_.new_log_epoch;
+  const LogStoreOptions& store = options_.ingest.store;
+  if (store.folder.empty()) return absl::OkStatus();
+  PLUMESCOUT_ASSIGN_OR_RETURN(opened_log_, OpenLog(store, participation.mission,
+                                                   participation.robot, options_.new_log_epoch));
+  participation.log_epoch = opened_log_.log.epoch;
+  for (const absl::Status& damage : opened_log_.damage) observer_.OnDisk(damage);
+  return absl::OkStatus();
 }
 
 absl::Status RobotLoop::JoinMission() {
@@ -78,7 +98,7 @@ absl::Status RobotLoop::JoinMission() {
         IsRetriable(joined.status()) || ErrorReason(joined.status()) == kLeaseHeld;
     if (!may_pass || absl::Now() > give_up) return joined.status();
     observer_.OnLink(joined.status());
-    absl::SleepFor(backoff.Next());
+    absl::SleepFor(std::max(backoff.Next(), RetryDelayOf(joined.status())));
   }
   return absl::OkStatus();
 }
@@ -90,8 +110,20 @@ void RobotLoop::StartSensing() {
   IngestCallbacks callbacks{
       .rejoin = [this] { return Join(client_, options_.participation); },
       .on_rejected = [this](const ObservationRejected& r) { observer_.OnRejected(r); },
-      .on_link = [this](const absl::Status& status) { observer_.OnLink(status); }};
-  ingest_.emplace(client_, *std::move(joined_), std::move(callbacks), options_.ingest);
+      .on_link = [this](const absl::Status& status) { observer_.OnLink(status); },
+      .reclaim =
+          [this] {
+            Participation participation = options_.participation;
+            participation.take_over = false;
+            return Join(client_, participation);
+          },
+      .on_rolled_back =
+          [this](std::int64_t applied_sequence, std::int64_t forgotten) {
+            observer_.OnRolledBack(applied_sequence, forgotten);
+          },
+      .on_disk = [this](const absl::Status& status) { observer_.OnDisk(status); }};
+  ingest_.emplace(client_, *std::move(joined_), std::move(callbacks), options_.ingest,
+                  std::move(opened_log_));
   bridge_.emplace(
       driver_, options_.rates, options_.gas_sampling,
       [this](std::int64_t time_ns, const Pose2& pose, std::variant<Scan, GasReading> payload) {
@@ -119,6 +151,10 @@ absl::Status RobotLoop::Finish() {
   if (leg_.has_value()) status.Update(EndLeg(ProgressOutcome::kAborted));
   DropPending();
   const bool drained = AwaitApplied(options_.drain_timeout);
+  // What is not durable by now shows in the statistics; a log on disk keeps it.
+  if (drained) {
+    ingest_->WaitSafe(ingest_->statistics().last_sequence, options_.drain_timeout).IgnoreError();
+  }
   if (report_.has_value() && drained) {
     status.Update(MakeReport(client_, ingest_->session(), *report_));
   }
@@ -215,10 +251,11 @@ absl::Status RobotLoop::AskInLockstep() {
     observer_.OnPlanFailure(status);
     PLUMESCOUT_RETURN_IF_ERROR(ingest_->health());
     if (!MayAskAgain(status) || absl::Now() > give_up) return status;
-    if (absl::IsFailedPrecondition(status)) {  // the belief lacks something that readings bring
+    const bool homeless = ErrorReason(status) == kLeaseSuperseded;
+    if (absl::IsFailedPrecondition(status) && !homeless) {  // the belief lacks what readings bring
       return Stand(options_.stand_before_retry_s);
     }
-    absl::SleepFor(backoff.Next());  // the world waits
+    absl::SleepFor(std::max(backoff.Next(), RetryDelayOf(status)));  // the world waits
   }
   return absl::OkStatus();
 }

@@ -40,6 +40,9 @@ struct RobotLoopOptions {
   FollowerOptions follower;  // its tick_s is set from the one below
   BlockageOptions blockage;  // its radius is set from the participation
   IngestOptions ingest;
+  // Of a log that begins here, drawn at random by who runs the loop: in [0, 2^53). 0: the server is
+  // not told which log it is; with a log on disk it has to be.
+  std::int64_t new_log_epoch = 0;
   double tick_s = 0.1;          // between commands, > 0
   double look_around_s = 0.5;   // standing before the first plan: a cell takes 3 beams to be free
   double plan_latency_s = 0.1;  // lockstep only: robot time that a plan costs, >= 0
@@ -71,15 +74,17 @@ struct RobotResult {
 
 // A whole robot: joins a mission, sends what its sensors say, and drives where the planner sends
 // it until the mission is complete, the time is up or `stop` says so. While the link is down it
-// goes on following its last path and keeps its readings.
+// goes on following its last path and keeps its readings; with a folder for its log (ingest.store)
+// also when it, or the server, or both, are killed.
 class RobotLoop {
  public:
   // All references must outlive the loop.
   RobotLoop(PlannerClient& client, RobotDriver& driver, const RobotLoopOptions& options,
             RobotObserver& observer);
 
-  // Call once. Errors: kInvalidArgument (options); what the driver returned; LEASE_SUPERSEDED; a
-  // link that stayed broken beyond link_patience. The robot is told to stand still in any case.
+  // Call once. Errors: kInvalidArgument (options); what OpenLog or the driver returned;
+  // LEASE_SUPERSEDED; a link that stayed broken beyond link_patience. The robot is told to stand
+  // still in any case.
   absl::StatusOr<RobotResult> Run(const StopFn& stop);
 
  private:
@@ -90,6 +95,7 @@ class RobotLoop {
     std::int64_t deadline_ns = 0;  // given up after this
   };
 
+  absl::Status OpenLogOnDisk();
   absl::Status JoinMission();
   void StartSensing();
   absl::Status Explore();
@@ -128,6 +134,7 @@ class RobotLoop {
   std::int64_t asked_ns_ = 0;
   Pose2 asked_pose_;
 
+  OpenedLog opened_log_;
   std::optional<RobotSession> joined_;
   std::optional<IngestSession> ingest_;
   std::optional<SensorBridge> bridge_;

@@ -7,14 +7,18 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <random>
 #include <string>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "absl/time/time.h"
 #include "client/credentials.h"
 #include "client/grpc_planner_client.h"
 #include "client/line_driver.h"
@@ -67,6 +71,16 @@ class Narrator final : public RobotObserver {
     Say(status.ok() ? "link is up" : absl::StrCat("link: ", status.ToString()));
   }
 
+  void OnRolledBack(std::int64_t applied_sequence, std::int64_t forgotten) override {
+    Say(absl::StrCat("the server was set back: it has ", applied_sequence,
+                     " observations of this robot, although it had more; the rest is sent again",
+                     forgotten > 0 ? absl::StrCat(", but for ", forgotten, " that are gone") : ""));
+  }
+  void OnDisk(const absl::Status& status) override {
+    Say(status.ok() ? "the log is written to disk again"
+                    : absl::StrCat("log on disk: ", status.message()));
+  }
+
   static void Say(const std::string& text) {
     std::fprintf(stderr, "plumescout-robot: %s\n", text.c_str());
   }
@@ -77,6 +91,7 @@ struct Flags {
   RobotLoopOptions loop;
   bool create_mission = false;
   std::string prior_map;  // empty: none
+  double log_sync_period_s = absl::ToDoubleSeconds(LogStoreOptions().sync_period);
 };
 
 void AddCredentials(CLI::App& app, Credentials& credentials) {
@@ -124,6 +139,24 @@ void AddFlags(CLI::App& app, Flags& flags) {
   app.add_option("--time-limit", flags.loop.time_limit_s,
                  "end after so many seconds of the robot's clock; 0: never")
       ->capture_default_str();
+  app.add_option("--log-dir", flags.loop.ingest.store.folder,
+                 "folder in which observations are kept until the server has them on disk, so that "
+                 "none is lost when the robot's computer, the server, or both restart; one for "
+                 "each robot and mission");
+  app.add_option("--log-sync-period", flags.log_sync_period_s,
+                 "seconds of observations that a loss of power may take from that folder; 0: sync "
+                 "each, inf: sync at the end alone")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+}
+
+// An epoch for a log that begins now: 53 random bits, but not 0.
+std::int64_t DrawLogEpoch() {
+  constexpr int kLogEpoch_bits = 53;
+  static_assert(std::int64_t{1} << kLogEpoch_bits == kLogEpochEnd);
+  std::random_device device;
+  const std::uint64_t bits = std::uint64_t{device()} << 32 | device();
+  return std::max<std::int64_t>(static_cast<std::int64_t>(bits >> (64 - kLogEpoch_bits)), 1);
 }
 
 absl::Status RunRobot(Flags flags) {
@@ -135,6 +168,8 @@ absl::Status RunRobot(Flags flags) {
     StartWith(std::make_shared<const Grid<CellState>>(std::move(map)), mission);
     PLUMESCOUT_RETURN_IF_ERROR(Validate(mission));
   }
+  flags.loop.ingest.store.sync_period = absl::Seconds(flags.log_sync_period_s);
+  flags.loop.new_log_epoch = DrawLogEpoch();
   LineDriver driver({.on_bad_line = [](const absl::Status& status) {
     Narrator::Say(absl::StrCat("bad line: ", status.message()));
   }});
@@ -146,7 +181,8 @@ absl::Status RunRobot(Flags flags) {
   if (!result.ok()) return result.status();
   Narrator::Say(absl::StrCat("done after ", result->elapsed_s, " s: ", result->plans, " plans, ",
                              result->distance_m, " m, ", result->ingest.applied_sequence, " of ",
-                             result->ingest.last_sequence, " observations applied"));
+                             result->ingest.last_sequence, " observations applied, ",
+                             result->ingest.durable_sequence, " durable"));
   return absl::OkStatus();
 }
 

@@ -45,6 +45,13 @@ class RobotObserver {
   // On the ingest session's thread.
   virtual void OnRejected(const ObservationRejected&) {}
   virtual void OnLink(const absl::Status&) {}  // OK: a stream is open; else why it ended
+  // The server holds the log up to this number only, although it once held more durably; so many
+  // of those that follow are forgotten here too.
+  virtual void OnRolledBack(std::int64_t /*applied_sequence*/, std::int64_t /*forgotten*/) {}
+
+  // On a thread of the log's own, or before all others: what of a log on disk could not be read,
+  // or why it cannot be written; OK once it can again.
+  virtual void OnDisk(const absl::Status&) {}
 };
 
 }  // namespace plumescout::client

@@ -6,16 +6,25 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "client/error_reason.h"
 #include "core/types/status_macros.h"
+#include "proto/convert/status.h"
 
 namespace plumescout::client {
 
 class FakePlannerClient::Stream final : public ObservationStream {
  public:
-  Stream(FakePlannerClient& server, std::int64_t lease, int generation, const IngestState& opened)
-      : server_(server), lease_(lease), generation_(generation), opened_(opened) {}
+  Stream(FakePlannerClient& server, std::int64_t lease, int generation, int link,
+         const IngestState& opened, std::string boot_id)
+      : server_(server),
+        lease_(lease),
+        generation_(generation),
+        link_(link),
+        opened_(opened),
+        boot_id_(std::move(boot_id)) {}
 
   const IngestState& opened() const override { return opened_; }
+  std::string server_boot_id() const override { return boot_id_; }
 
   absl::Status Write(const std::vector<Observation>& batch) override {
     absl::MutexLock lock(&server_.mutex_);
@@ -49,6 +58,7 @@ class FakePlannerClient::Stream final : public ObservationStream {
  private:
   absl::Status Alive() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(server_.mutex_) {
     PLUMESCOUT_RETURN_IF_ERROR(server_.LinkStatus());
+    if (link_ != server_.links_) return absl::UnavailableError("the link was broken");
     PLUMESCOUT_RETURN_IF_ERROR(server_.LeaseStatus(lease_));
     if (generation_ != server_.generation_) return absl::UnavailableError("stream is gone");
     return absl::OkStatus();
@@ -57,7 +67,9 @@ class FakePlannerClient::Stream final : public ObservationStream {
   FakePlannerClient& server_;
   const std::int64_t lease_;
   const int generation_;
+  const int link_;
   const IngestState opened_;
+  const std::string boot_id_;
   std::deque<IngestReply> replies_;
 };
 
@@ -77,9 +89,11 @@ void FakePlannerClient::set_credit_window(std::int64_t window) {
   credit_window_ = window;
 }
 
-void FakePlannerClient::set_durable(bool durable) {
+void FakePlannerClient::set_durable(bool durable, std::int64_t lag) {
   absl::MutexLock lock(&mutex_);
+  durable_sequence_ = DurableSequence();
   durable_ = durable;
+  durable_lag_ = lag;
 }
 
 void FakePlannerClient::set_report_answer(absl::Status answer) {
@@ -92,36 +106,73 @@ void FakePlannerClient::RefuseObservation(std::int64_t sequence) {
   refused_.insert(sequence);
 }
 
-void FakePlannerClient::BreakLink() {
+void FakePlannerClient::BreakLink() { BreakLink(absl::UnavailableError("link is down")); }
+
+void FakePlannerClient::BreakLink(absl::Status status) {
   absl::MutexLock lock(&mutex_);
-  link_up_ = false;
-  ++generation_;
+  link_ = std::move(status);
+  ++links_;
 }
 
 void FakePlannerClient::MendLink() {
   absl::MutexLock lock(&mutex_);
-  link_up_ = true;
+  link_ = absl::OkStatus();
 }
 
 void FakePlannerClient::Restart() {
   absl::MutexLock lock(&mutex_);
-  ++generation_;
+  ++links_;
   ++boot_;
   mission_exists_ = registered_ = false;
-  applied_ = 0;
+  applied_ = log_epoch_ = durable_sequence_ = preloaded_ = 0;
   received_.clear();
+}
+
+void FakePlannerClient::Crash() {
+  absl::MutexLock lock(&mutex_);
+  FallBackTo(DurableSequence());
+}
+
+void FakePlannerClient::SetBack(std::int64_t applied, bool forget_lease) {
+  absl::MutexLock lock(&mutex_);
+  FallBackTo(applied);
+  if (forget_lease) lease_ += 1000;  // of another life
+}
+
+void FakePlannerClient::FallBackTo(std::int64_t applied) {
+  ++links_;
+  ++boot_;
+  while (!received_.empty() && LastSequence(received_.back()) > applied) received_.pop_back();
+  applied_ = received_.empty() ? std::min(applied, preloaded_) : LastSequence(received_.back());
+  durable_sequence_ = applied_;
 }
 
 void FakePlannerClient::SupersedeLease() {
   absl::MutexLock lock(&mutex_);
   ++generation_;
   ++lease_;
+  held_by_other_ = true;
+}
+
+void FakePlannerClient::LetGoOfLease() {
+  absl::MutexLock lock(&mutex_);
+  held_by_other_ = false;
+}
+
+void FakePlannerClient::Intrude(std::int64_t log_epoch, int observations) {
+  absl::MutexLock lock(&mutex_);
+  ++generation_;
+  ++lease_;
+  log_epoch_ = log_epoch;
+  for (int i = 0; i < observations; ++i) {
+    received_.push_back({.sequence = ++applied_, .sample_time_ns = -1, .pose = {}, .payload = {}});
+  }
 }
 
 void FakePlannerClient::Preload(std::int64_t applied) {
   absl::MutexLock lock(&mutex_);
   mission_exists_ = true;
-  applied_ = applied;
+  applied_ = preloaded_ = applied;
 }
 
 std::vector<Observation> FakePlannerClient::received() const {
@@ -170,13 +221,19 @@ absl::Status FakePlannerClient::DeleteMission(const MissionId&) { return absl::O
 
 absl::StatusOr<RobotSession> FakePlannerClient::RegisterRobot(const MissionId& mission,
                                                               const RobotId& robot, double radius_m,
-                                                              bool take_over) {
+                                                              bool take_over,
+                                                              std::int64_t log_epoch) {
   absl::MutexLock lock(&mutex_);
   PLUMESCOUT_RETURN_IF_ERROR(LinkStatus());
   if (!mission_exists_) return absl::NotFoundError("mission");
+  if (held_by_other_ && !take_over) return absl::FailedPreconditionError("LEASE_HELD: by another");
+  held_by_other_ = false;
   registered_ = true;
-  registrations_.push_back({mission, robot, radius_m, take_over});
-  return RobotSession{mission, robot, ++lease_, absl::StrCat("boot-", boot_), State()};
+  registrations_.push_back({mission, robot, radius_m, take_over, log_epoch});
+  const bool continues =
+      applied_ == 0 || log_epoch == 0 || log_epoch_ == 0 || log_epoch == log_epoch_;
+  if (log_epoch != 0) log_epoch_ = log_epoch;
+  return RobotSession{mission, robot, ++lease_, BootId(), State(), continues};
 }
 
 absl::Status FakePlannerClient::RemoveRobot(const MissionId&, const RobotId&,
@@ -193,8 +250,14 @@ absl::StatusOr<std::unique_ptr<ObservationStream>> FakePlannerClient::OpenObserv
   absl::MutexLock lock(&mutex_);
   PLUMESCOUT_RETURN_IF_ERROR(LinkStatus());
   PLUMESCOUT_RETURN_IF_ERROR(LeaseStatus(session.lease_token));
+  if (session.durable_sequence > applied_) {
+    return WithReason(
+        TypedError(absl::StatusCode::kFailedPrecondition, kStoreRolledBack, "set back"),
+        kStoreRolledBack, {{"applied_sequence", absl::StrCat(applied_)}});
+  }
   ++streams_opened_;
-  return std::make_unique<Stream>(*this, session.lease_token, generation_, State());
+  return std::make_unique<Stream>(*this, session.lease_token, generation_, links_, State(),
+                                  BootId());
 }
 
 absl::StatusOr<Plan> FakePlannerClient::NextBestTrajectory(const MissionId&,
@@ -227,9 +290,7 @@ absl::Status FakePlannerClient::ReportProgress(const RobotSession& session, Plan
 
 absl::StatusOr<MapSnapshot> FakePlannerClient::GetMap(const MissionId&) { return MapSnapshot{}; }
 
-absl::Status FakePlannerClient::LinkStatus() const {
-  return link_up_ ? absl::OkStatus() : absl::UnavailableError("link is down");
-}
+absl::Status FakePlannerClient::LinkStatus() const { return link_; }
 
 absl::Status FakePlannerClient::LeaseStatus(std::int64_t lease) const {
   if (!registered_) return absl::NotFoundError("robot");
@@ -239,10 +300,16 @@ absl::Status FakePlannerClient::LeaseStatus(std::int64_t lease) const {
 
 IngestState FakePlannerClient::State() const {
   return {.applied_sequence = applied_,
-          .durable_sequence = durable_ ? applied_ : 0,
+          .durable_sequence = DurableSequence(),
           .credit_sequence = applied_ + credit_window_,
           .revision = applied_};
 }
+
+std::int64_t FakePlannerClient::DurableSequence() const {
+  return durable_ ? std::max(durable_sequence_, applied_ - durable_lag_) : 0;
+}
+
+std::string FakePlannerClient::BootId() const { return absl::StrCat("boot-", boot_); }
 
 absl::Status FakePlannerClient::Take(const Observation& observation,
                                      std::deque<IngestReply>& replies) {

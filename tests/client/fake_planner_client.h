@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "absl/base/thread_annotations.h"
@@ -33,6 +34,7 @@ class FakePlannerClient final : public PlannerClient {
     RobotId robot;
     double radius_m = 0.0;
     bool take_over = false;
+    std::int64_t log_epoch = 0;
 
     friend bool operator==(const Registration&, const Registration&) = default;
   };
@@ -41,7 +43,8 @@ class FakePlannerClient final : public PlannerClient {
   // The default script says that the mission is complete.
   void set_script(PlanScript script);
   void set_credit_window(std::int64_t window);
-  void set_durable(bool durable);
+  // Whether it keeps its data, and how many observations it is behind with that.
+  void set_durable(bool durable, std::int64_t lag = 0);
   // What ReportProgress answers to reports that it would take.
   void set_report_answer(absl::Status answer);
   void RefuseObservation(std::int64_t sequence);
@@ -49,10 +52,20 @@ class FakePlannerClient final : public PlannerClient {
   // Every call fails and every stream is dead until the link is mended.
   void BreakLink();
   void MendLink();
+  // Likewise, with this error.
+  void BreakLink(absl::Status status);
   // Streams die and everything is forgotten, missions and robots too.
   void Restart();
-  // Another client takes the lease.
+  // Streams die; what was durable stays, leases too.
+  void Crash();
+  // As after a start from a copy of its data that ends with this observation; also the lease is
+  // then an older one, if told so.
+  void SetBack(std::int64_t applied, bool forget_lease = false);
+  // Another client takes the lease, and holds it until it lets it go.
   void SupersedeLease();
+  void LetGoOfLease();
+  // Another client, which writes another log, takes the robot for a while: it adds observations.
+  void Intrude(std::int64_t log_epoch, int observations);
   // A robot that was here before: its log up to `applied` is in the mission.
   void Preload(std::int64_t applied);
 
@@ -66,8 +79,10 @@ class FakePlannerClient final : public PlannerClient {
   absl::Status CreateMission(const MissionId&, const MissionOptions&) override;
   absl::StatusOr<std::vector<MissionId>> ListMissions() override;
   absl::Status DeleteMission(const MissionId&) override;
+  using PlannerClient::RegisterRobot;
   absl::StatusOr<RobotSession> RegisterRobot(const MissionId& mission, const RobotId& robot,
-                                             double radius_m, bool take_over) override;
+                                             double radius_m, bool take_over,
+                                             std::int64_t log_epoch) override;
   absl::Status RemoveRobot(const MissionId&, const RobotId&, std::int64_t lease_token,
                            bool force) override;
   absl::StatusOr<std::unique_ptr<ObservationStream>> OpenObservationStream(
@@ -83,17 +98,26 @@ class FakePlannerClient final : public PlannerClient {
   absl::Status LinkStatus() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status LeaseStatus(std::int64_t lease) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   IngestState State() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  std::int64_t DurableSequence() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  std::string BootId() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void FallBackTo(std::int64_t applied) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status Take(const Observation& observation, std::deque<IngestReply>& replies)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
   mutable absl::Mutex mutex_;
   PlanScript script_ ABSL_GUARDED_BY(mutex_) = [](const PlanQuery&) { return CompletePlan(); };
   absl::Status report_answer_ ABSL_GUARDED_BY(mutex_);
-  bool link_up_ ABSL_GUARDED_BY(mutex_) = true;
+  absl::Status link_ ABSL_GUARDED_BY(mutex_);  // OK: it is up
   bool mission_exists_ ABSL_GUARDED_BY(mutex_) = false;
   bool registered_ ABSL_GUARDED_BY(mutex_) = false;
+  bool held_by_other_ ABSL_GUARDED_BY(mutex_) = false;
   bool durable_ ABSL_GUARDED_BY(mutex_) = false;
+  std::int64_t durable_lag_ ABSL_GUARDED_BY(mutex_) = 0;
+  std::int64_t durable_sequence_ ABSL_GUARDED_BY(mutex_) = 0;  // at least
+  std::int64_t log_epoch_ ABSL_GUARDED_BY(mutex_) = 0;
+  std::int64_t preloaded_ ABSL_GUARDED_BY(mutex_) = 0;
   int boot_ ABSL_GUARDED_BY(mutex_) = 1;
+  int links_ ABSL_GUARDED_BY(mutex_) = 0;       // streams over an earlier one are dead
   int generation_ ABSL_GUARDED_BY(mutex_) = 0;  // of streams: older ones are dead
   int streams_opened_ ABSL_GUARDED_BY(mutex_) = 0;
   int largest_batch_ ABSL_GUARDED_BY(mutex_) = 0;

@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "absl/synchronization/notification.h"
-#include "client/error_reason.h"
 #include "tests/client/ingest_traffic.h"
 
 namespace plumescout::client {
@@ -61,6 +60,7 @@ class ScriptedServer final : public v1::IngestService::Service {
     session.robot = "scout";
     session.lease_token = kLease;
     session.server_boot_id = kBootId;
+    session.durable_sequence = 17;
     return OpenGrpcObservationStream(*stub_, session, timeouts);
   }
 
@@ -102,10 +102,11 @@ TEST(GrpcObservationStreamTest, TheFirstFrameNamesRobotAndLease) {
   ASSERT_TRUE(stream.ok()) << stream.status();
   EXPECT_EQ(first.open().robot(), "missions/house/robots/scout");
   EXPECT_EQ(first.open().lease_token(), kLease);
+  EXPECT_EQ(first.open().durable_sequence(), 17);
   EXPECT_EQ((*stream)->opened().credit_sequence, 256);
 }
 
-TEST(GrpcObservationStreamTest, AServerThatHasRestartedIsNotTakenForTheOldOne) {
+TEST(GrpcObservationStreamTest, AServerThatHasRestartedWithItsDataIsKnownByItsBoot) {
   ScriptedServer server([](ServerStream& stream) {
     v1::StreamObservationsResponse frame = Opened();
     frame.mutable_opened()->set_server_boot_id("boot-2");
@@ -113,7 +114,9 @@ TEST(GrpcObservationStreamTest, AServerThatHasRestartedIsNotTakenForTheOldOne) {
     return Listen(stream);
   });
 
-  EXPECT_EQ(ErrorReason(server.Open(kPatient).status()), kServerRestarted);
+  const auto stream = server.Open(kPatient);
+  ASSERT_TRUE(stream.ok()) << stream.status();
+  EXPECT_EQ((*stream)->server_boot_id(), "boot-2");
 }
 
 TEST(GrpcObservationStreamTest, ARefusalToOpenIsPassedOn) {

@@ -5,69 +5,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <memory>
 #include <thread>
+#include <vector>
 
 #include "absl/time/clock.h"
 #include "client/error_reason.h"
-#include "client/join.h"
-#include "tests/client/fake_planner_client.h"
+#include "proto/convert/status.h"
+#include "tests/client/ingest_session_fixture.h"
 
 namespace plumescout::client {
 namespace ingest_session_test {
 
 using ::testing::ElementsAre;
 
-// Long enough for a loaded machine; never waited out by a passing test.
-constexpr absl::Duration kPatience = absl::Seconds(20);
-
-IngestOptions QuickOptions() {
-  IngestOptions options;
-  options.backoff = {.initial = absl::Milliseconds(1), .maximum = absl::Milliseconds(5)};
-  options.read_slice = absl::Milliseconds(1);
-  options.idle_check = absl::Milliseconds(2);
-  return options;
-}
-
-class IngestSessionTest : public ::testing::Test {
- protected:
-  IngestSession& Start(const IngestOptions& options = QuickOptions()) {
-    IngestCallbacks callbacks;
-    callbacks.rejoin = [this] { return Join(server_, participation_); };
-    callbacks.on_rejected = [this](const ObservationRejected& rejected) {
-      absl::MutexLock lock(&mutex_);
-      rejected_.push_back(rejected.sequence);
-    };
-    session_ = std::make_unique<IngestSession>(server_, *Join(server_, participation_),
-                                               std::move(callbacks), options);
-    return *session_;
-  }
-
-  void Append(int count) {
-    for (int i = 0; i < count; ++i) last_ = session_->Append(i, {}, GasReading{});
-  }
-  absl::Status WaitForAll() { return session_->WaitApplied(last_, kPatience); }
-
-  std::vector<std::int64_t> ReceivedNumbers() const {
-    std::vector<std::int64_t> numbers;
-    for (const Observation& observation : server_.received()) {
-      numbers.push_back(observation.sequence);
-    }
-    return numbers;
-  }
-  static std::vector<std::int64_t> Range(std::int64_t first, std::int64_t last) {
-    std::vector<std::int64_t> numbers;
-    for (std::int64_t n = first; n <= last; ++n) numbers.push_back(n);
-    return numbers;
-  }
-
-  FakePlannerClient server_;
-  Participation participation_{.mission = "m", .robot = "r", .create = MissionOptions{}};
-  std::int64_t last_ = 0;
-  absl::Mutex mutex_;
-  std::vector<std::int64_t> rejected_;
-  std::unique_ptr<IngestSession> session_;
-};
+class IngestSessionTest : public IngestSessionFixture {};
 
 TEST_F(IngestSessionTest, WhatIsAppendedIsAppliedOnceAndInOrder) {
   Start();
@@ -195,6 +146,61 @@ TEST_F(IngestSessionTest, AReturningRobotGoesOnWhereTheServersLogEnds) {
 
   ASSERT_TRUE(WaitForAll().ok());
   EXPECT_EQ(ReceivedNumbers(), Range(42, 43));
+}
+
+TEST_F(IngestSessionTest, ALeaseThatAnotherTookMeanwhileIsReclaimedOnceItIsFree) {
+  Start();
+  Append(10);
+  ASSERT_TRUE(WaitForAll().ok());
+
+  server_.BreakLink();
+  server_.SupersedeLease();
+  server_.MendLink();
+  while (session_->statistics().reconnects < 3) absl::SleepFor(absl::Milliseconds(1));
+  server_.LetGoOfLease();
+  Append(1);
+
+  ASSERT_TRUE(WaitForAll().ok());
+  EXPECT_EQ(ReceivedNumbers(), Range(1, 11));
+}
+
+TEST_F(IngestSessionTest, ALeaseThatAnotherHoldsOnEndsTheSession) {
+  IngestOptions options = QuickOptions();
+  options.lease_patience = absl::Milliseconds(20);
+  Start(options);
+  Append(1);
+  ASSERT_TRUE(WaitForAll().ok());
+  server_.BreakLink();
+  server_.SupersedeLease();
+  server_.MendLink();
+  Append(1);
+
+  EXPECT_EQ(ErrorReason(session_->WaitApplied(last_, kPatience)), kLeaseSuperseded);
+}
+
+TEST_F(IngestSessionTest, TroubleThatPassesIsWaitedForAsLongAsItTakes) {
+  Start();
+  for (const char* trouble :
+       {"STORE_UNAVAILABLE: the disk is full", "RECOVERING: 5 missions", "OVERLOADED: later"}) {
+    server_.BreakLink(absl::UnavailableError(trouble));
+    const std::int64_t before = session_->statistics().reconnects;
+    Append(10);
+    while (session_->statistics().reconnects < before + 20) absl::SleepFor(absl::Milliseconds(1));
+    EXPECT_EQ(session_->health(), absl::OkStatus());
+    server_.MendLink();
+    ASSERT_TRUE(WaitForAll().ok());
+  }
+}
+
+TEST_F(IngestSessionTest, TheServersDelayIsKeptTo) {
+  Start();
+  server_.BreakLink(WithRetryDelay(absl::UnavailableError("RECOVERING"), absl::Hours(1)));
+  while (session_->statistics().reconnects == 0) absl::SleepFor(absl::Milliseconds(1));
+  server_.MendLink();
+  Append(1);
+
+  EXPECT_TRUE(absl::IsDeadlineExceeded(session_->WaitApplied(1, absl::Milliseconds(30))));
+  session_.reset();  // at once
 }
 
 TEST_F(IngestSessionTest, ASupersededLeaseEndsTheSessionForGood) {

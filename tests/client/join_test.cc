@@ -38,10 +38,12 @@ TEST(JoinTest, TheRobotRegistersAsItIs) {
   server.Preload(0);
 
   ASSERT_TRUE(
-      Join(server, {.mission = "m", .robot = "r", .radius_m = 0.35, .take_over = true}).ok());
+      Join(server,
+           {.mission = "m", .robot = "r", .radius_m = 0.35, .take_over = true, .log_epoch = 77})
+          .ok());
 
   EXPECT_THAT(server.registrations(),
-              ElementsAre(FakePlannerClient::Registration{"m", "r", 0.35, true}));
+              ElementsAre(FakePlannerClient::Registration{"m", "r", 0.35, true, 77}));
 }
 
 TEST(JoinTest, ABrokenLinkIsReportedAndNobodyRegisters) {

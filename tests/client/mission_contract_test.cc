@@ -61,6 +61,30 @@ TEST_P(MissionContract, AFreshRobotStartsWithAnEmptyLogAndSomeCredit) {
   EXPECT_GT(stream->opened().credit_sequence, 0);
 }
 
+TEST_P(MissionContract, ARobotHearsWhetherItsLogGoesOn) {
+  const auto join = [this](std::int64_t log_epoch) {
+    auto session = client().RegisterRobot("house", "scout", kRadius_m, true, log_epoch);
+    EXPECT_TRUE(session.ok()) << session.status();
+    return session.ok() ? *session : RobotSession{};
+  };
+  const RobotSession first = join(8);
+  EXPECT_TRUE(first.log_continues);
+  ASSERT_TRUE(SendAll(*Open(first), GasRange(1, 3)).ok());
+
+  EXPECT_TRUE(join(8).log_continues);
+  EXPECT_TRUE(join(0).log_continues);
+  const RobotSession other = join(9);
+  EXPECT_FALSE(other.log_continues);
+  EXPECT_EQ(other.ingest.applied_sequence, 3);
+  EXPECT_TRUE(absl::IsInvalidArgument(
+      client().RegisterRobot("house", "scout", kRadius_m, true, -1).status()));
+}
+
+TEST_P(MissionContract, AStreamSaysWhichServerAnswers) {
+  const RobotSession session = Register();
+  EXPECT_EQ(Open(session)->server_boot_id(), session.server_boot_id);
+}
+
 TEST_P(MissionContract, ALeaseInUseIsNotGivenAwayUnlessTakenOver) {
   const RobotSession first = Register();
   const auto stream = Open(first);

@@ -135,10 +135,13 @@ TEST(MayAskAgainTest, AfterWhatMayPassByItself) {
   EXPECT_TRUE(MayAskAgain(absl::DeadlineExceededError("slow")));
   EXPECT_TRUE(MayAskAgain(absl::NotFoundError("ROBOT_NOT_FOUND: the server restarted")));
   EXPECT_TRUE(MayAskAgain(absl::FailedPreconditionError("no pose yet")));
+  EXPECT_TRUE(MayAskAgain(absl::UnavailableError("STORE_UNAVAILABLE: the disk is full")));
+  EXPECT_TRUE(MayAskAgain(absl::UnavailableError("RECOVERING: 3 missions to go")));
+  // The ingest session may have a newer lease by now; if not, it has ended.
+  EXPECT_TRUE(MayAskAgain(absl::FailedPreconditionError("LEASE_SUPERSEDED: by another")));
 }
 
-TEST(MayAskAgainTest, NotAfterALostLeaseOrAMistake) {
-  EXPECT_FALSE(MayAskAgain(absl::FailedPreconditionError("LEASE_SUPERSEDED: by another")));
+TEST(MayAskAgainTest, NotAfterAMistake) {
   EXPECT_FALSE(MayAskAgain(absl::InvalidArgumentError("start.x_m = nan")));
   EXPECT_FALSE(MayAskAgain(absl::PermissionDeniedError("not yours")));
 }

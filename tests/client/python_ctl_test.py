@@ -14,16 +14,19 @@ import unittest
 import grpc
 import numpy as np
 import plumescout_client
+from plumescout_ctl import output
 
 BUILD_DIR = pathlib.Path(os.environ["PLUMESCOUT_BUILD_DIR"])
 PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "client/python/plumescoutctl"
 PATIENCE_S = 60
 
 
-def start_server(*options):
-    """The process, and where it listens."""
+def start_server(*options, store="none"):
+    """The process, and where it listens. store: how it keeps missions."""
+    options = ("--store", store, *options)
     server = subprocess.Popen(
-        [BUILD_DIR / "bin/plumescout-server", "--listen", "127.0.0.1:0", *options],
+        [BUILD_DIR / "bin/plumescout-server", "--listen", "127.0.0.1:0"]
+        + ["--set", "store.engine=none", *options],
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
         text=True,
@@ -67,7 +70,11 @@ class CtlTest(unittest.TestCase):
         """Runs the program; returns what it prints."""
         run = subprocess.run(
             ["/usr/bin/python3", PROGRAM, *arguments],
-            env=os.environ | {"PLUMESCOUT_SERVER": target or self.target},
+            env=os.environ
+            | {
+                "PLUMESCOUT_SERVER": target or self.target,
+                "PLUMESCOUT_SERVER_PROGRAM": str(BUILD_DIR / "bin/plumescout-server"),
+            },
             capture_output=True,
             text=True,
             timeout=PATIENCE_S,
@@ -191,6 +198,114 @@ class CtlTest(unittest.TestCase):
         self.ctl("drain", target=target)
         self.assertEqual(server.wait(timeout=PATIENCE_S), 0)
         server.stdout.close()
+
+
+class KeptMissionsTest(unittest.TestCase):
+    """What takes a server that keeps its missions."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.data = str(self.folder / "data")
+        self.server, self.target = start_server("--data", self.data, store="sqlite")
+        self.addCleanup(self.stop)
+        self.client = plumescout_client.Client(self.target)
+        self.addCleanup(self.client.close)
+        self.client.create_mission("hall")
+        self.robot = self.client.register("hall", "scout")
+        self.robot.add_gas(1_000_000_000, (1.0, 1.0, 0.0), 12.0)
+        for second in range(2, 6):  # free cells take some scans
+            time_ns = second * 1_000_000_000
+            self.robot.add_scan(time_ns, (1.0, 1.0, 0.0), np.full(90, 2.0), 0.0, 0.07, 8.0)
+        self.robot.flush()
+
+    def stop(self):
+        if self.server is not None:
+            stop_server(self.server)
+            self.server = None
+
+    ctl = CtlTest.ctl
+    ctl_json = CtlTest.ctl_json
+
+    def test_a_mission_goes_out_and_comes_in_again(self):
+        path = self.folder / "hall.journal"
+        revision = self.client.get_mission("hall").revision
+        told = self.ctl("missions", "export", "hall", str(path))
+        self.assertIn(f"up to event {revision}", told)
+        self.assertEqual(list(self.folder.glob("*.part")), [])
+        taken = self.ctl("missions", "import", str(path), code=1)
+        self.assertIn("MISSION_EXISTS", taken)
+        copy = self.ctl_json("missions", "import", str(path), "--name", "copy")
+        self.assertEqual((copy["name"], copy["revision"]), ("missions/copy", str(revision)))
+        np.testing.assert_array_equal(
+            self.client.get_map("copy").occupancy, self.client.get_map("hall").occupancy
+        )
+        self.ctl("missions", "delete", "hall")
+        self.assertIn("hall", self.ctl("missions", "import", str(path)))
+
+    def test_a_file_that_is_not_whole_is_refused_by_name(self):
+        path = self.folder / "hall.journal"
+        self.ctl("missions", "export", "hall", str(path))
+        whole = path.read_bytes()
+        for damaged, what in (
+            (whole[:-1], "ends after event"),
+            (whole[:8] + b"\x63" + whole[9:], "version 99"),
+            (whole[:-3] + bytes([whole[-3] ^ 1]) + whole[-2:], "checksum"),
+            (b"nothing", "no journal"),
+        ):
+            path.write_bytes(damaged)
+            refused = self.ctl("missions", "import", str(path), "--name", "copy", code=1)
+            self.assertIn(what, refused)
+            self.assertIn(str(path), refused)
+        self.ctl("missions", "import", str(self.folder / "nowhere"), code=2)
+        self.assertEqual(self.client.list_missions(), ["hall"])
+
+    def test_the_history_tells_what_happened(self):
+        lines = self.ctl("missions", "history", "hall").splitlines()
+        self.assertEqual(len(lines), self.client.get_mission("hall").revision)
+        self.assertIn("joins", lines[0])
+        self.assertRegex(lines[1], r"2 +1970-01-01 00:00:01.000 +gas reading +scout +gas reading 1, 12 ppm")
+        scans = self.ctl_json("missions", "history", "hall", "--kind", "scan")
+        self.assertEqual(len(scans), 4)
+        self.assertEqual(scans[0]["summary"], "scan 2, 90 beams at (1.00, 1.00)")
+        self.assertEqual(self.ctl_json("missions", "history", "hall", "--kind", "plan"), [])
+        last = self.ctl_json("missions", "history", "hall", "--first", "2", "--count", "1")
+        self.assertEqual([event["number"] for event in last], ["2"])
+        self.ctl("missions", "history", "attic", code=4)
+        self.ctl("missions", "history", "hall", "--kind", "wonder", code=2)
+
+    def test_maps_can_be_had_as_they_were(self):
+        path = str(self.folder / "then.npy")
+        self.ctl("map", "export", "hall", path, "--layer", "occupancy", "--revision", "2")
+        self.assertEqual((np.load(path) != plumescout_client.UNKNOWN).sum(), 0)
+        now = str(self.client.get_mission("hall").revision)
+        self.ctl("map", "export", "hall", path, "--layer", "occupancy", "--revision", now)
+        self.assertGreater((np.load(path) != plumescout_client.UNKNOWN).sum(), 0)
+        self.assertIn("revision", self.ctl("map", "export", "hall", path, "--revision", "99", code=1))
+
+    def test_what_was_kept_can_be_listed_and_verified(self):
+        in_use = self.ctl("store", "verify", "--data", self.data, code=1)
+        self.assertIn(self.data, in_use)
+        revision = self.client.get_mission("hall").revision
+        self.stop()
+        self.assertIn("is whole", self.ctl("store", "verify", "--data", self.data))
+        missions = self.ctl_json("store", "list", "--data", self.data)
+        self.assertEqual([(m["mission"], m["events"]) for m in missions], [("hall", revision)])
+        self.ctl("store", "verify", "--data", str(self.folder / "nowhere"), code=1)
+
+
+class ProgressTest(unittest.TestCase):
+    def test_who_waits_is_told_how_much_is_done(self):
+        with tempfile.TemporaryFile("w+") as told:
+            progress = output.Progress("export of hall", silence_s=0.0, file=told)
+            with progress:
+                progress(1_000_000, 4_000_000)
+                wait_until(lambda: told.tell() > 0, "nothing is told")
+                progress(4_000_000, 4_000_000)
+            told.seek(0)
+            self.assertIn("export of hall: ", told.read())
+            self.assertIn("waiting for the server", progress.text())
 
 
 class RequestIdTest(unittest.TestCase):

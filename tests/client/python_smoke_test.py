@@ -61,7 +61,7 @@ class SmokeTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.server = subprocess.Popen(
-            [BUILD_DIR / "bin/plumescout-server", "--listen", "127.0.0.1:0"],
+            [BUILD_DIR / "bin/plumescout-server", "--listen", "127.0.0.1:0", "--store", "none"],
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
             text=True,

@@ -111,7 +111,7 @@ TEST(RobotLog, OneObservationIsReadHoweverLong) {
 }
 
 TEST(RobotLog, AppliedEntriesAreKeptUntilDurable) {
-  RobotLog log({});
+  RobotLog log({.max_durable_bytes = 0});
   AppendGas(log, 6);
 
   log.Acknowledge(4, 2);
@@ -204,7 +204,7 @@ TEST(RobotLog, ABoundOfZeroEntriesStillHoldsOne) {
 }
 
 TEST(RobotLog, MemoryIsGivenBackWhenEntriesBecomeDurable) {
-  RobotLog log({});
+  RobotLog log({.max_durable_bytes = 0});
   AppendGas(log, 100);
 
   log.Acknowledge(100, 100);
@@ -212,6 +212,99 @@ TEST(RobotLog, MemoryIsGivenBackWhenEntriesBecomeDurable) {
   EXPECT_THAT(log, SizeIs(0));
   EXPECT_EQ(log.MemoryBytes(), 0U);
   EXPECT_EQ(log.first_held_sequence(), 101);
+}
+
+TEST(RobotLog, DurableEntriesStayWithinTheirBound) {
+  RobotLog log({.max_durable_bytes = 3 * sizeof(Observation)});
+  AppendGas(log, 10);
+
+  log.Acknowledge(10, 8);
+  EXPECT_EQ(log.first_held_sequence(), 6);  // 6, 7 and 8 are durable
+  EXPECT_EQ(log.durable_sequence(), 8);
+
+  log.Acknowledge(6, 6);  // a server that was set back
+  EXPECT_THAT(Sequences(log.Read(7, kEverything)), ElementsAre(7, 8, 9, 10));
+  log.Acknowledge(10, 10);
+  EXPECT_EQ(log.first_held_sequence(), 8);
+  EXPECT_EQ(log.MemoryBytes(), 3 * sizeof(Observation));
+  EXPECT_EQ(log.lost_observations(), 0);
+}
+
+TEST(RobotLog, AServerThatLacksWhatIsForgottenIsToldSoWithoutANewEntry) {
+  RobotLog log({.max_durable_bytes = 0});
+  AppendGas(log, 10);
+  log.Acknowledge(10, 10);
+
+  const std::vector<Observation> batch = log.Read(4, kEverything);
+
+  ASSERT_THAT(Sequences(batch), ElementsAre(4));
+  EXPECT_EQ(GapOf(batch[0]), (SequenceGap{4, 10}));
+  EXPECT_EQ(batch[0].sample_time_ns, 1010);
+}
+
+TEST(RobotLog, WhatIsNotAppliedFollowsAnotherLog) {
+  RobotLog log({});
+  AppendGas(log, 6);
+  log.Acknowledge(4, 0);
+
+  EXPECT_EQ(log.RebaseAfter(100), (Renumbering{5, 101}));
+
+  EXPECT_EQ(log.applied_sequence(), 100);
+  EXPECT_EQ(log.last_sequence(), 102);
+  const std::vector<Observation> batch = log.Read(101, kEverything);
+  ASSERT_THAT(Sequences(batch), ElementsAre(101, 102));
+  EXPECT_EQ(batch[0].sample_time_ns, 1005);
+  EXPECT_EQ(log.Append(0, {}, GasReading{}), 103);
+  EXPECT_EQ(log.lost_observations(), 0);
+}
+
+TEST(RobotLog, NumbersMayFallWithAnotherLogToo) {
+  RobotLog log({}, 50);
+  AppendGas(log, 3);
+
+  EXPECT_EQ(log.RebaseAfter(2), (Renumbering{51, 3}));
+
+  EXPECT_THAT(Sequences(log.Read(3, kEverything)), ElementsAre(3, 4, 5));
+}
+
+TEST(RobotLog, AnEmptyLogGoesOnAfterAnother) {
+  RobotLog log({});
+  EXPECT_EQ(log.RebaseAfter(41), (Renumbering{1, 42}));
+  EXPECT_EQ(log.Append(0, {}, GasReading{}), 42);
+}
+
+TEST(RobotLog, NumbersThatArePassedOverAreAGap) {
+  RobotLog log({});
+  AppendGas(log, 2);
+  log.SkipTo(5);
+  log.SkipTo(3);  // is behind
+  AppendGas(log, 1);
+
+  const std::vector<Observation> batch = log.Read(1, kEverything);
+
+  ASSERT_THAT(Sequences(batch), ElementsAre(1, 2, 3, 6));
+  EXPECT_EQ(GapOf(batch[2]), (SequenceGap{3, 5}));
+  EXPECT_EQ(GapOf(log.Read(4, kEverything)[0]), (SequenceGap{4, 5}));  // the rest of it
+  EXPECT_EQ(log.lost_observations(), 0);
+}
+
+TEST(RobotLog, AKeptLogGoesOnAsItWas) {
+  KeptLog kept{.epoch = 7, .last_sequence = 9, .applied_sequence = 4, .durable_sequence = 4};
+  for (const std::int64_t number : {3, 4, 5, 8}) {
+    kept.entries.push_back(
+        {.sequence = number, .sample_time_ns = number, .pose = {}, .payload = GasReading{}});
+  }
+  RobotLog log({.max_durable_bytes = sizeof(Observation)});
+
+  log.Restore(std::move(kept));
+
+  EXPECT_EQ(log.first_held_sequence(), 4);
+  EXPECT_EQ(log.applied_sequence(), 4);
+  const std::vector<Observation> batch = log.Read(5, kEverything);
+  ASSERT_THAT(Sequences(batch), ElementsAre(5, 6, 8, 9));
+  EXPECT_EQ(GapOf(batch[1]), (SequenceGap{6, 7}));
+  EXPECT_EQ(GapOf(batch[3]), (SequenceGap{9, 9}));
+  EXPECT_EQ(log.Append(0, {}, GasReading{}), 10);
 }
 
 // Whatever is appended, acknowledged and dropped, a reader that starts anywhere sees every number

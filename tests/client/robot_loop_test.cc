@@ -12,6 +12,8 @@
 #include "client/error_reason.h"
 #include "tests/client/fake_driver.h"
 #include "tests/client/fake_planner_client.h"
+#include "tests/client/ingest_session_fixture.h"
+#include "tests/support/temp_folder.h"
 
 namespace plumescout::client {
 namespace robot_loop_test {
@@ -64,9 +66,7 @@ RobotLoopOptions Options(Pacing pacing, Following following) {
   options.pacing = pacing;
   options.following = following;
   options.time_limit_s = 600.0;
-  options.ingest.backoff = {.initial = absl::Milliseconds(1), .maximum = absl::Milliseconds(5)};
-  options.ingest.read_slice = absl::Milliseconds(1);
-  options.ingest.idle_check = absl::Milliseconds(1);
+  options.ingest = QuickOptions();
   return options;
 }
 
@@ -351,6 +351,59 @@ TEST_F(RobotLoopTest, ALeaseTakenByAnotherClientEndsTheRun) {
   EXPECT_EQ(ErrorReason(result.status()), kLeaseSuperseded) << result.status();
 }
 
+TEST_F(RobotLoopTest, APlanIsAskedForAgainUnderTheLeaseOfAServerThatWasSetBack) {
+  server_.set_durable(true);
+  auto tour = Tour({{1, 0}, {1, 2}});
+  bool set_back = false;
+  server_.set_script([&](const PlanQuery& query) {
+    if (!set_back && query.request.start->x_m > 0.5) {
+      set_back = true;
+      server_.BreakLink();
+      server_.SetBack(3, /*forget_lease=*/true);
+      server_.MendLink();
+      return absl::StatusOr<Plan>(absl::FailedPreconditionError("LEASE_SUPERSEDED: by none"));
+    }
+    return tour(query);
+  });
+
+  const absl::StatusOr<RobotResult> result = RunInLockstep();
+
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_EQ(result->reached, 2);
+  EXPECT_EQ(server_.applied(), result->ingest.last_sequence);
+  EXPECT_EQ(result->ingest.durable_sequence, result->ingest.last_sequence);
+}
+
+TEST_F(RobotLoopTest, ALogOnDiskIsGoneOnWith) {
+  const TempFolder folder;
+  RobotLoopOptions options = Options(Pacing::kLockstep, Following::kIdeal);
+  options.ingest.store.folder = folder.File("log");
+  options.new_log_epoch = 8;
+  ASSERT_TRUE(Run(options).ok());
+  const std::int64_t first_life = server_.applied();
+  options.new_log_epoch = 9;
+
+  server_.Restart();  // and has forgotten all
+  const absl::StatusOr<RobotResult> result = Run(options);
+
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_GT(result->ingest.last_sequence, first_life);
+  EXPECT_EQ(server_.received().front().sequence, 1);
+  EXPECT_EQ(static_cast<std::int64_t>(server_.received().size()), result->ingest.last_sequence);
+  EXPECT_EQ(server_.registrations().back().log_epoch, 8);
+}
+
+TEST_F(RobotLoopTest, ALogOfAnotherRobotStopsTheStart) {
+  const TempFolder folder;
+  RobotLoopOptions options = Options(Pacing::kLockstep, Following::kIdeal);
+  options.ingest.store.folder = folder.File("log");
+  options.new_log_epoch = 8;
+  ASSERT_TRUE(Run(options).ok());
+
+  options.participation.robot = "other";
+  EXPECT_TRUE(absl::IsFailedPrecondition(Run(options).status()));
+}
+
 TEST_F(RobotLoopTest, ABrokenDriverEndsTheRunWithItsError) {
   driver_.advance_status = absl::InternalError("motors off");
 
@@ -385,6 +438,12 @@ TEST(RobotLoopOptionsTest, NonsenseIsRefusedByName) {
   options = {};
   options.rates.gas_hz = std::nan("");
   EXPECT_THAT(std::string(Validate(options).message()), ::testing::HasSubstr("gas_hz"));
+  options = {};
+  options.new_log_epoch = kLogEpochEnd;
+  EXPECT_THAT(std::string(Validate(options).message()), ::testing::HasSubstr("new_log_epoch"));
+  options = {};
+  options.ingest.store.folder = "somewhere";  // needs an epoch
+  EXPECT_THAT(std::string(Validate(options).message()), ::testing::HasSubstr("new_log_epoch"));
 }
 
 }  // namespace robot_loop_test

@@ -81,7 +81,8 @@ class RobotMainTest : public ::testing::Test {
 TEST_F(RobotMainTest, SaysHowItIsUsed) {
   EXPECT_EQ(Run("--help"), EXIT_SUCCESS);
   const std::string help = Read(out_);
-  for (const char* word : {"--server", "--mission", "--robot", R"("type":"scan")", "twist"}) {
+  for (const char* word :
+       {"--server", "--mission", "--robot", "--log-dir", R"("type":"scan")", "twist"}) {
     EXPECT_TRUE(absl::StrContains(help, word)) << word;
   }
 }
@@ -209,6 +210,38 @@ TEST_F(RobotMainTest, RefusesAPriorMapThatIsNone) {
   EXPECT_EQ(Run("--mission room --robot scout --prior-map " + folder_.File("room.yaml")),
             EXIT_FAILURE);
   EXPECT_TRUE(absl::StrContains(Read(err_), "room.yaml: ")) << Read(err_);
+}
+
+TEST_F(RobotMainWithServerTest, GoesOnWithItsLogWhenItIsKilled) {
+  const std::string log_dir = absl::StrCat(" --log-dir ", folder_.File("log"));
+  Start(log_dir);
+  constexpr int kFirstLife = 20;
+  for (int step = 1; step <= kFirstLife; ++step) Write(LinesAt(step * kStep_ns));
+  EXPECT_TRUE(applied_.Await((kFirstLife - 5) * kStep_ns));
+  EXPECT_EQ(End(), EXIT_FAILURE);
+  Start(absl::StrCat(log_dir, " --take-over --time-limit 1"));
+  for (int step = kFirstLife + 1; step <= 2 * kFirstLife; ++step) Write(LinesAt(step * kStep_ns));
+  EXPECT_EQ(End(), EXIT_SUCCESS);
+
+  const auto map = MakeGrpcPlannerClient({.target = address_})->GetMap("room");
+  ASSERT_TRUE(map.ok()) << map.status();
+  ASSERT_EQ(map->robots.size(), 1U);
+  // Both lives are in one log without a hole: all that the second knows of, the server has.
+  EXPECT_TRUE(absl::StrContains(
+      Read(err_), absl::StrCat(map->robots[0].applied_sequence, " of ",
+                               map->robots[0].applied_sequence, " observations applied")))
+      << Read(err_);
+}
+
+TEST_F(RobotMainTest, RefusesAFolderThatIsNoneForItsLog) {
+  ASSERT_TRUE(WriteFile(folder_.File("log"), "a file").ok());
+  const std::string pose = folder_.File("pose");
+  ASSERT_TRUE(WriteFile(pose, LinesAt(kStep_ns)).ok());
+  const std::string arguments =
+      absl::StrCat("--mission room --robot scout --log-dir ", folder_.File("log"));
+  EXPECT_EQ(WEXITSTATUS(std::system(Command(arguments, absl::StrCat("< ", pose)).c_str())),
+            EXIT_FAILURE);
+  EXPECT_TRUE(absl::StrContains(Read(err_), folder_.File("log"))) << Read(err_);
 }
 
 TEST_F(RobotMainWithServerTest, SaysWhatItDidWhenItsTimeIsOver) {

@@ -12,8 +12,9 @@
         robot.report(plan, "reached")
         gas_ppm = client.get_map("house").gas_mean_ppm
 
-Poses are (x_m, y_m, yaw_rad) in frame map. Observations are kept until the server has applied them;
-a robot that must outlive a restart of the server is better served by the program plumescout-robot.
+Poses are (x_m, y_m, yaw_rad) in frame map. Observations are kept in memory until the server has them
+on its disk, or has applied them if it keeps nothing there; a robot that must outlive restarts of its
+own is better served by the program plumescout-robot.
 The generated stubs (plumescout.v1, google.rpc) must be on PYTHONPATH: build/release/python.
 """
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A connection to a server."""
 
+import secrets
 import time
 import uuid
 
@@ -20,10 +21,13 @@ from plumescout.v1 import planning_service_pb2 as planning_pb
 from plumescout.v1 import planning_service_pb2_grpc as planning_grpc
 from plumescout.v1 import robot_service_pb2 as robot_pb
 from plumescout.v1 import robot_service_pb2_grpc as robot_grpc
+from plumescout.v1 import snapshot_service_pb2 as snapshot_pb
+from plumescout.v1 import snapshot_service_pb2_grpc as snapshot_grpc
 from plumescout.v1 import system_service_pb2 as system_pb
 from plumescout.v1 import system_service_pb2_grpc as system_grpc
 
-from .errors import PlumeScoutError, error_of, is_unavailable
+from . import mission_file
+from .errors import PlumeScoutError, error_of, is_unavailable, passes_by_itself
 from .robot import Robot
 from .values import _map_from_proto, _points
 
@@ -32,6 +36,8 @@ _KEEPALIVE_TIMEOUT_MS = 5_000
 _MAX_RECEIVE_BYTES = 256 << 20  # more than any server sends in one part of a map
 _NAMED_CALL_TRIES = 3
 _MAP_ATTEMPTS = 5
+_LOG_EPOCH_END = 1 << 53
+_RETRY_AFTER_S = 0.5  # unless the server says how long
 
 
 def _channel(target, credentials):
@@ -59,6 +65,7 @@ class Client:
         self._ingest = ingest_grpc.IngestServiceStub(self._channel)
         self._planning = planning_grpc.PlanningServiceStub(self._channel)
         self._maps = map_grpc.MapServiceStub(self._channel)
+        self._snapshots = snapshot_grpc.SnapshotServiceStub(self._channel)
         self._system = system_grpc.SystemServiceStub(self._channel)
 
     def __enter__(self):
@@ -157,7 +164,11 @@ class Client:
         on_rejected is called with the Rejection of each observation that the server refuses, from
         within the call that sent it; default: a warning of the logger "plumescout_client"."""
         request = robot_pb.RegisterRobotRequest(
-            mission=f"missions/{mission}", robot_id=robot, radius_m=radius_m, take_over=take_over
+            mission=f"missions/{mission}",
+            robot_id=robot,
+            radius_m=radius_m,
+            take_over=take_over,
+            log_epoch=1 + secrets.randbelow(_LOG_EPOCH_END - 1),
         )
         return Robot(self, self._call_named(self._robots.RegisterRobot, request), on_rejected)
 
@@ -189,8 +200,46 @@ class Client:
         )
         self._call(self._robots.RemoveRobot, request)
 
-    def get_map(self, mission, region=None, level_of_detail=0):
-        """The map of a mission.
+    def export_mission(self, mission, path, progress=lambda done, expected: None):
+        """Writes a mission to a file: all its events so far. The file is there once it is whole.
+        Returns a plumescout.v1.MissionFileStart.
+
+        progress: called now and then with how many bytes have come, and how many will, about."""
+        request = snapshot_pb.ExportMissionRequest(mission=f"missions/{mission}")
+        try:
+            responses = self._snapshots.ExportMission(request, wait_for_ready=True)
+            return mission_file.write(responses, path, progress)
+        except grpc.RpcError as error:
+            raise error_of(error) from None
+        except mission_file.DamagedExport as error:
+            raise PlumeScoutError(grpc.StatusCode.DATA_LOSS, str(error)) from None
+
+    def import_mission(self, path, mission=None, progress=lambda done, expected: None):
+        """Makes a mission of an exported one, under this name or else that in the file. Returns it
+        once it is durable and its events were applied, which may take as long as they took the server
+        that it comes from. progress: as of export_mission."""
+        with open(path, "rb") as file:
+            parts = mission_file.requests(file, mission, self.limits.max_receive_bytes, progress)
+            try:
+                return self._snapshots.ImportMission(parts, wait_for_ready=True).mission
+            except grpc.RpcError as error:
+                raise error_of(error) from None
+
+    def mission_history(self, mission, kinds=(), first_number=0):
+        """What happened, as plumescout.v1.MissionEvent, one after the other. kinds: values of
+        MissionEventKind; none: all."""
+        request = snapshot_pb.GetMissionHistoryRequest(
+            mission=f"missions/{mission}", kinds=kinds, first_number=first_number, page_size=1000
+        )
+        while True:
+            response = self._call(self._snapshots.GetMissionHistory, request)
+            yield from response.events
+            request.page_token = response.next_page_token
+            if not request.page_token:
+                return
+
+    def get_map(self, mission, region=None, level_of_detail=0, revision=0):
+        """The map of a mission, as it is, or as it was at a revision.
 
         region: (min_x_m, min_y_m, max_x_m, max_y_m); what its tiles do not cover stays UNKNOWN and
         NaN. level_of_detail: squares of 2**n by 2**n cells make one, n up to 6: the worst of their
@@ -200,6 +249,7 @@ class Client:
             full_precision=True,
             fresh_posterior=True,
             level_of_detail=level_of_detail,
+            revision=revision,
         )
         if region is not None:
             corners = _points([region[:2], region[2:]])
@@ -229,10 +279,18 @@ class Client:
         return np.array(mean_ppm), np.array(variance_ppm2)
 
     def _call(self, method, request, timeout_s=None):
-        try:
-            return method(request, timeout=timeout_s or self._timeout_s, wait_for_ready=True)
-        except grpc.RpcError as error:
-            raise error_of(error) from None
+        """Within its time, a call waits for a server that recovers or has no room on its disk."""
+        end_s = time.monotonic() + (timeout_s or self._timeout_s)
+        while True:
+            left_s = max(0.001, end_s - time.monotonic())
+            try:
+                return method(request, timeout=left_s, wait_for_ready=True)
+            except grpc.RpcError as grpc_error:
+                error = error_of(grpc_error)
+            wait_s = error.retry_after_s or _RETRY_AFTER_S
+            if not passes_by_itself(error) or time.monotonic() + wait_s > end_s:
+                raise error
+            time.sleep(wait_s)
 
     def _call_named(self, method, request, timeout_s=None):
         """A request with a name: made again when its answer is lost, it is carried out once."""

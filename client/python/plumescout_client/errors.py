@@ -11,11 +11,12 @@ _DETAILS_KEY = "grpc-status-details-bin"
 class PlumeScoutError(Exception):
     """An error of the server: code is a grpc.StatusCode, reason an UPPER_SNAKE word or ''."""
 
-    def __init__(self, code, message, reason="", retry_after_s=None):
+    def __init__(self, code, message, reason="", retry_after_s=None, metadata=None):
         super().__init__(f"{code.name}: {message}")
         self.code = code
         self.reason = reason
         self.retry_after_s = retry_after_s  # the server's advice, if it gave any
+        self.metadata = metadata or {}  # facts by name, as strings
 
 
 def error_of(error):
@@ -30,9 +31,17 @@ def error_of(error):
         detail.Unpack(info)
         if detail.Unpack(retry):
             retry_after_s = retry.retry_delay.ToNanoseconds() / 1e9
-    return PlumeScoutError(error.code(), error.details(), info.reason, retry_after_s)
+    return PlumeScoutError(
+        error.code(), error.details(), info.reason, retry_after_s, dict(info.metadata)
+    )
 
 
 def is_unavailable(error):
     """Whether the link broke, or the server is not there: the call may or may not have been made."""
     return error.code == grpc.StatusCode.UNAVAILABLE
+
+
+def passes_by_itself(error):
+    """Whether the server has not made the call, and will once it has recovered its missions or its
+    disk has room."""
+    return is_unavailable(error) and error.reason in ("RECOVERING", "STORE_UNAVAILABLE")

@@ -11,7 +11,7 @@ from plumescout.v1 import ingest_service_pb2 as ingest_pb
 from plumescout.v1 import planning_service_pb2 as planning_pb
 from plumescout.v1 import robot_service_pb2 as robot_pb
 
-from .errors import error_of
+from .errors import PlumeScoutError, error_of
 from .values import Plan, Rejection, _encode_ranges, _pose
 
 _ROOM_FOR_OBSERVATIONS = 0.75  # of a request; the rest is for what goes around them
@@ -27,8 +27,12 @@ class Robot:
         self._open = ingest_pb.OpenIngest(
             robot=registration.robot, lease_token=registration.lease_token
         )
-        self._waiting = []  # observations that the server has not applied
+        # Observations that the server has not got, or not on its disk if it keeps anything there.
+        self._kept = []
+        # The log is a new one: it begins after whatever the server has of this robot.
         self.last_sequence = registration.ingest_state.applied_sequence
+        self.applied_sequence = self.last_sequence
+        self.durable_sequence = 0
         self.rejections = []
 
     def add_scan(self, time_ns, pose, ranges_m, start_angle_rad, angle_step_rad, max_range_m):
@@ -54,16 +58,20 @@ class Robot:
 
     def flush(self):
         """Sends what waits. Refused observations are added to `rejections`, and on_rejected is told
-        of each."""
-        while self._waiting:
+        of each. A server that lost what it had not on its disk, or was set back to older data, is
+        told again what this client still has; what is gone is declared as a gap."""
+        while self.applied_sequence < self.last_sequence:
             request = ingest_pb.BatchIngestObservationsRequest(
                 open=self._open, batch=self._next_batch()
             )
-            response = self._client._call(
-                self._client._ingest.BatchIngestObservations, request
-            )
-            applied = response.ingest_state.applied_sequence
-            self._waiting = [o for o in self._waiting if o.sequence > applied]
+            try:
+                response = self._client._call(
+                    self._client._ingest.BatchIngestObservations, request
+                )
+            except PlumeScoutError as error:
+                self._go_back(self._position_after(error))
+                continue
+            self._note_state(response.ingest_state)
             rejections = [Rejection(r.sequence, r.status.message) for r in response.rejections]
             self.rejections += rejections
             for rejection in rejections:
@@ -146,6 +154,42 @@ class Robot:
         )
         self._client._call(self._client._robots.RemoveRobot, request)
 
+    def _note_state(self, state):
+        self.applied_sequence = state.applied_sequence
+        self.durable_sequence = state.durable_sequence
+        self._open.durable_sequence = max(self._open.durable_sequence, state.durable_sequence)
+        # A server that keeps nothing on disk never calls anything durable.
+        forget = state.durable_sequence or state.applied_sequence
+        self._kept = [o for o in self._kept if _last_sequence(o) > forget]
+
+    def _position_after(self, error):
+        """What the server has of the log if that is less than it had; raises `error` otherwise."""
+        if error.reason == "STORE_ROLLED_BACK":
+            return int(error.metadata.get("applied_sequence", 0))
+        if error.reason == "SEQUENCE_GAP":  # or what it never called durable is gone
+            request = ingest_pb.BatchIngestObservationsRequest(open=self._open)
+            method = self._client._ingest.BatchIngestObservations
+            applied = self._client._call(method, request).ingest_state.applied_sequence
+            if applied < self.applied_sequence:
+                return applied
+        raise error
+
+    def _go_back(self, applied_sequence):
+        _LOG.warning(
+            "%s: the server has gone back to observation %d",
+            self._open.robot,
+            applied_sequence,
+        )
+        self.applied_sequence = self.durable_sequence = applied_sequence
+        self._open.durable_sequence = applied_sequence
+        self._kept = [o for o in self._kept if o.sequence > applied_sequence]
+        first = self._kept[0].sequence if self._kept else self.last_sequence + 1
+        if first > applied_sequence + 1:  # they are gone
+            gap = ingest_pb.SequenceGap(
+                first_sequence=applied_sequence + 1, last_sequence=first - 1
+            )
+            self._kept.insert(0, ingest_pb.Observation(sequence=gap.first_sequence, gap=gap))
+
     def _warn(self, rejection):
         _LOG.warning(
             "%s: observation %d refused: %s",
@@ -167,7 +211,7 @@ class Robot:
 
     def _add(self, time_ns, pose, **payload):
         self.last_sequence += 1
-        self._waiting.append(
+        self._kept.append(
             ingest_pb.Observation(
                 sequence=self.last_sequence, sample_time_ns=time_ns, pose=_pose(pose), **payload
             )
@@ -177,9 +221,17 @@ class Robot:
     def _next_batch(self):
         limits = self._client.limits
         batch, size = ingest_pb.ObservationBatch(), 0
-        for observation in self._waiting[: limits.max_batch_observation_count]:
+        waiting = [o for o in self._kept if _last_sequence(o) > self.applied_sequence]
+        for observation in waiting[: limits.max_batch_observation_count]:
             size += observation.ByteSize()
             if batch.observations and size > limits.max_receive_bytes * _ROOM_FOR_OBSERVATIONS:
                 break
             batch.observations.append(observation)
         return batch
+
+
+def _last_sequence(observation):
+    """The last number that an entry of the log stands for."""
+    if observation.HasField("gap"):
+        return observation.gap.last_sequence
+    return observation.sequence

@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """The commands: each takes a client, the arguments and a Printer."""
 
+import itertools
 import json
 import pathlib
 
 import plumescout_client
 
 from . import map_files, top, words
+from .output import Progress
 
 
 def list_missions(client, _, out):
@@ -54,6 +56,30 @@ def set_ttl(client, arguments, out):
     out.message(mission, words.mission_facts(mission))
 
 
+def export_mission(client, arguments, out):
+    with Progress(f"export of {arguments.mission}") as progress:
+        start = client.export_mission(arguments.mission, arguments.file, progress)
+    out.done(f"wrote {arguments.file}: {arguments.mission} up to event {start.revision}")
+
+
+def import_mission(client, arguments, out):
+    try:
+        with Progress(f"import of {arguments.file}") as progress:
+            mission = client.import_mission(arguments.file, arguments.name, progress)
+    except plumescout_client.PlumeScoutError as error:
+        error.args = (f"{arguments.file}: {error}",)
+        raise
+    out.message(mission, words.mission_facts(mission))
+
+
+def show_history(client, arguments, out):
+    kinds = [words.EVENT_KINDS[kind] for kind in arguments.kind or ()]
+    events = client.mission_history(arguments.mission, kinds, arguments.first)
+    if arguments.count:
+        events = itertools.islice(events, arguments.count)
+    out.lines(events, words.event_line)
+
+
 def list_robots(client, arguments, out):
     out.messages(client.robots(arguments.mission), words.ROBOT_HEADINGS, words.robot_row)
 
@@ -75,7 +101,9 @@ def release_lease(client, arguments, out):
 
 def export_map(client, arguments, out):
     paths = map_files.write_map(
-        client.get_map(arguments.mission), arguments.file, arguments.layer
+        client.get_map(arguments.mission, revision=arguments.revision),
+        arguments.file,
+        arguments.layer,
     )
     out.done(f"wrote {' and '.join(str(path) for path in paths)}")
 

@@ -10,7 +10,7 @@ import grpc
 import plumescout_client
 from google.protobuf import json_format
 
-from . import commands, completion
+from . import commands, completion, store, words
 from .map_files import LAYERS
 from .output import Printer
 
@@ -25,6 +25,9 @@ examples:
   plumescoutctl missions create hall --ttl 3600
   plumescoutctl map export hall hall.yaml        also writes hall.pgm, for map_server
   plumescoutctl map export hall gas.csv --layer gas-mean
+  plumescoutctl missions export hall hall.journal
+  plumescoutctl missions history hall --kind plan
+  plumescoutctl store verify --data /var/lib/plumescout
   plumescoutctl completion bash > ~/.local/share/bash-completion/completions/plumescoutctl
 """
 _CODES = {
@@ -37,8 +40,8 @@ _CODES = {
 def main(argv):
     parser = make_parser()
     arguments, rest = parser.parse_known_args(argv)
-    if arguments.command is _tokens:
-        return _tokens(rest)
+    if arguments.command in (_tokens, store.run):
+        return arguments.command(rest)
     if rest:
         parser.error(f"unrecognized arguments: {' '.join(rest)}")
     if arguments.command is _completion:
@@ -91,6 +94,10 @@ def make_parser():
     _takes(_add(groups, "drain", "take the server out of service"), commands.drain_server)
     tokens = groups.add_parser("tokens", help="create, list and revoke tokens", add_help=False)
     tokens.set_defaults(command=_tokens)
+    kept = groups.add_parser(
+        "store", help="list and verify what a server that is down has kept", add_help=False
+    )
+    kept.set_defaults(command=store.run)
     top = _takes(_add(groups, "top", "follow all missions"), commands.show_top)
     top.add_argument("--interval", type=_positive, default=2.0, metavar="S", help="default: 2")
     top.add_argument("--count", type=int, default=0, metavar="N", help="looks; 0: until Ctrl-C")
@@ -145,6 +152,26 @@ def _add_missions(groups):
         ("delete", "delete it and all it holds", commands.delete_mission),
     ):
         _takes(_add(steps, word, what), command, "mission")
+    export = _takes(
+        _add(steps, "export", "write a mission to a file"), commands.export_mission, "mission"
+    )
+    export.add_argument("file", help="a journal, which plumescout-lab replay reads too")
+    imported = _takes(
+        _add(steps, "import", "make a mission of an exported one"), commands.import_mission, "file"
+    )
+    imported.add_argument("--name", metavar="MISSION", help="default: that in the file")
+    history = _takes(
+        _add(steps, "history", "what happened, a line for each event"),
+        commands.show_history,
+        "mission",
+    )
+    history.add_argument(
+        "--kind", action="append", choices=sorted(words.EVENT_KINDS), help="may be repeated"
+    )
+    history.add_argument(
+        "--first", type=_count, default=0, metavar="N", help="from the event of this number on"
+    )
+    history.add_argument("--count", type=_count, default=0, metavar="N", help="events; 0: all")
     ttl = _takes(_add(steps, "set-ttl", "how long it may idle"), commands.set_ttl, "mission")
     ttl.add_argument("seconds", type=_seconds_or_never, help='seconds, or "never"')
 
@@ -167,6 +194,9 @@ def _add_map(groups):
     export = _takes(_add(steps, "export", "write a map"), commands.export_map, "mission")
     export.add_argument("file", help=".yaml (map_server, with a .pgm), .npy or .csv")
     export.add_argument("--layer", choices=LAYERS, help="default: gas-mean; of .yaml: occupancy")
+    export.add_argument(
+        "--revision", type=_count, default=0, metavar="N", help="as it was after event N"
+    )
 
 
 def _add(groups, word, what):
@@ -198,6 +228,13 @@ def _positive(text):
     value = float(text)
     if not 0 < value < float("inf"):
         raise argparse.ArgumentTypeError(f"{text} must be > 0")
+    return value
+
+
+def _count(text):
+    value = int(text)
+    if value < 0:
+        raise argparse.ArgumentTypeError(f"{text} must be >= 0")
     return value
 
 

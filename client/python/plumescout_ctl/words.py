@@ -2,12 +2,22 @@
 # SPDX-License-Identifier: Apache-2.0
 """Messages of the server, in words."""
 
+import datetime
+
 from plumescout.v1 import mission_service_pb2 as mission_pb
+from plumescout.v1 import snapshot_service_pb2 as snapshot_pb
 from plumescout.v1 import types_pb2 as types_pb
 
 MISSION_HEADINGS = ["MISSION", "STATE", "PHASE", "ROBOTS", "REVISION", "MEMORY", "IDLE TTL", "OWNER"]
 ROBOT_HEADINGS = ["ROBOT", "LEASE", "STREAM", "APPLIED", "REFUSED", "POSE"]
 PLAN_HEADINGS = ["PLAN", "ROBOT", "GOAL", "X_M", "Y_M", "ARRIVES"]
+
+_KIND_PREFIX = "MISSION_EVENT_KIND_"
+EVENT_KINDS = {  # robot-registered, scan, plan ...
+    name.removeprefix(_KIND_PREFIX).lower().replace("_", "-"): value
+    for name, value in snapshot_pb.MissionEventKind.items()
+    if value != snapshot_pb.MISSION_EVENT_KIND_UNSPECIFIED
+}
 
 
 def last_part(name):
@@ -100,6 +110,21 @@ def plan_row(plan):
         f"{plan.goal.y_m:.2f}",
         f"{plan.arrival_time_ns / 1e9:.1f}",
     ]
+
+
+def event_line(event):
+    """When it was, by the robots' clocks, is in UTC."""
+    time = ""
+    if event.HasField("sample_time_ns"):
+        seconds, rest_ns = divmod(event.sample_time_ns, 1_000_000_000)
+        try:
+            day = datetime.datetime.fromtimestamp(seconds, datetime.timezone.utc)
+            time = f"{day:%Y-%m-%d %H:%M:%S}.{rest_ns // 1_000_000:03d}"
+        except (OverflowError, ValueError):  # a clock that nobody has set
+            time = f"{event.sample_time_ns / 1e9:.3f} s"
+    kind = enum_word(snapshot_pb.MissionEventKind, event.kind, _KIND_PREFIX)
+    robot = last_part(event.robot) or "-"
+    return f"{event.number:>8}  {time:<23}  {kind:<16}  {robot:<12}  {event.summary}"
 
 
 def server_facts(info):
