@@ -105,6 +105,9 @@ TEST(IncludeRules, PlatformHeadersOutOfPlaceAreFound) {
       {"core/plan/a.cc", "#include <ompl/base/Planner.h>\n"},
       {"ompl_planners/a.h", "#include <ompl/base/Planner.h>\n"},
       {"tests/ompl_planners/a_test.cc", "#include <ompl/base/Planner.h>\n"},
+      {"server/missions/a.cc", "#include <sqlite3.h>\n"},
+      {"server/store/a.h", "#include <sqlite3.h>\n"},
+      {"lab/bench/a.cc", "#include <sqlite3.h>\n"},
       {"proto/convert/a.cc", "#include <grpcpp/grpcpp.h>\n"},
       {"lab/sim/a.h", "#include <grpcpp/grpcpp.h>\n"},
   };
@@ -117,6 +120,12 @@ TEST(IncludeRules, OmplIsIncludedWhereItBelongs) {
   EXPECT_THAT(
       CheckPlatformHeaders(Tree({{"ompl_planners/a.cc", "#include <ompl/base/Planner.h>\n"}})),
       IsEmpty());
+}
+
+TEST(IncludeRules, SqliteIsIncludedWhereItBelongs) {
+  EXPECT_THAT(CheckPlatformHeaders(Tree({{"server/store/a.cc", "#include <sqlite3.h>\n"},
+                                         {"server/store/b.cc", "#include <sqlite3.h>\n"}})),
+              IsEmpty());
 }
 
 TEST(IncludeRules, ASecondUserOfCholmodIsFound) {

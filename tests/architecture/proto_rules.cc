@@ -24,10 +24,12 @@ const std::set<std::string>& PureNumbers() {
   static const std::set<std::string> names = {
       "beta",                    // weight, [XIT] Eq. (8)
       "column",                  // of a cell
+      "crc32",                   // a checksum
       "cost",                    // J, [XIT] Eq. (13): its unit follows from the strategy
       "fallback_limit",          // a count
       "information_penalty",     // [XIT] Eq. (12), of a path
       "lease_token",             // opaque
+      "log_epoch",               // opaque
       "level_of_detail",         // n: squares of 2^n cells
       "max_batch_observations",  // counts, as the others of the server's configuration
       "max_missions",
@@ -39,9 +41,12 @@ const std::set<std::string>& PureNumbers() {
       "max_running_per_mission",
       "max_streams_per_connection",
       "max_waiting_calls",
-      "mean_ucb",   // in [0, 1], [MIT] Eq. (3)
+      "mean_ucb",  // in [0, 1], [MIT] Eq. (3)
+      "number",    // of an event
+      "first_number",
       "page_size",  // a count
       "query_threads",
+      "recovery_threads",
       "revision",       // of a mission
       "reward",         // of sampling sites: its unit follows from which reward it is
       "row",            // of a cell
