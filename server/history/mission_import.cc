@@ -108,8 +108,14 @@ absl::Status MissionImport::Store(const CheckedJournal& journal, const std::stri
   if (absl::IsAlreadyExists(epoch.status())) return MissionExists(wish.mission);
   PLUMESCOUT_RETURN_IF_ERROR(epoch.status());
   const absl::Status filled = Fill(key, *epoch, stop);
-  if (!filled.ok()) store_.Remove(key, *epoch, [](const absl::Status&) {});
+  if (!filled.ok()) Remove(key, *epoch);
   return filled;
+}
+
+// Returns once it is gone: whoever hears of the failure finds nothing.
+void MissionImport::Remove(const std::string& key, std::int64_t epoch) {
+  AwaitStore([&](MissionStore::Done done) { store_.Remove(key, epoch, std::move(done)); }, nullptr)
+      .IgnoreError();
 }
 
 absl::Status MissionImport::Fill(const std::string& key, std::int64_t epoch, const StopFn& stop) {
@@ -148,7 +154,7 @@ absl::StatusOr<std::shared_ptr<MissionHost>> MissionImport::Revive(const Checked
   if (!recovered.ok()) {
     // Who recovers takes the mission over: it is no longer ours to remove.
     const auto acquired = store_.Acquire(key);
-    if (acquired.ok()) store_.Remove(key, acquired->epoch, [](const absl::Status&) {});
+    if (acquired.ok()) Remove(key, acquired->epoch);
     return recovered;
   }
   PLUMESCOUT_ASSIGN_OR_RETURN(auto host, registry_.Find(wish.mission, wish.owner.tenant));
@@ -173,7 +179,13 @@ absl::StatusOr<std::shared_ptr<MissionHost>> MissionImport::Revive(const Checked
   if (status.ok() && Stops(stop)) status = absl::CancelledError("the import was given up");
   if (status.ok()) return host;
   host = nullptr;
-  registry_.Delete(wish.mission, wish.owner.tenant).IgnoreError();
+  AwaitStore(
+      [&](const MissionStore::Done& done) {
+        const absl::Status begun = registry_.Delete(wish.mission, wish.owner.tenant, done);
+        if (!begun.ok()) done(begun);
+      },
+      nullptr)
+      .IgnoreError();
   return status;
 }
 

@@ -63,6 +63,7 @@ class MissionImport {
   absl::Status CheckEnd(const v1::MissionFileEnd& end);
   absl::Status Store(const CheckedJournal& journal, const std::string& key, const ImportWish& wish,
                      const StopFn& stop);
+  void Remove(const std::string& key, std::int64_t epoch);
   absl::Status Fill(const std::string& key, std::int64_t epoch, const StopFn& stop);
   absl::StatusOr<std::shared_ptr<MissionHost>> Revive(const CheckedJournal& journal,
                                                       const std::string& key,

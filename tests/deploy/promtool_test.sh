@@ -10,7 +10,7 @@ promtool="$1" server="$2"
 "$promtool" test rules tests/deploy/alerts_test.yml
 
 output="$(mktemp -d)"
-"$server" --listen 127.0.0.1:0 > "$output/stdout" 2> "$output/stderr" &
+"$server" --listen 127.0.0.1:0 --store none > "$output/stdout" 2> "$output/stderr" &
 pid=$!
 trap 'kill "$pid"; wait "$pid" || true; rm -r "$output"' EXIT
 for _ in $(seq 100); do
