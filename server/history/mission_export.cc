@@ -32,6 +32,11 @@ absl::StatusOr<std::unique_ptr<MissionExport>> MissionExport::Begin(MissionStore
   PLUMESCOUT_ASSIGN_OR_RETURN(const AcquiredMission stored, store.Peek(key));
   PLUMESCOUT_ASSIGN_OR_RETURN(JournalStart start, DecodeStart(stored.header));
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::int64_t bytes, BytesOf(store, key));
+  if (stored.first > 1) {
+    return absl::FailedPreconditionError(
+        absl::StrCat("mission ", key, " keeps no events up to ", stored.first - 1,
+                     " any more (event_retention), and an export needs them all"));
+  }
   start.last_number = point.revision;
   start.last_digest = point.digest;
   std::unique_ptr<JournalReader> reader;

@@ -68,10 +68,11 @@ absl::StatusOr<v1::GetMissionHistoryResponse> ReadHistory(MissionStore& store,
   v1::GetMissionHistoryResponse response;
   PLUMESCOUT_ASSIGN_OR_RETURN(const AcquiredMission stored, store.Peek(key));
   response.set_head_revision(stored.head);
-  if (page.first_number > stored.head) return response;
-  PLUMESCOUT_ASSIGN_OR_RETURN(const std::unique_ptr<JournalReader> reader,
-                              store.Read(key, page.first_number));
-  std::int64_t next = page.first_number;
+  response.set_first_number(stored.first);
+  const std::int64_t first = std::max(page.first_number, stored.first);
+  if (first > stored.head) return response;
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::unique_ptr<JournalReader> reader, store.Read(key, first));
+  std::int64_t next = first;
   for (int looked_at = 0; next <= stored.head; ++looked_at) {
     if (looked_at == kMaxEventsLookedAt || response.events_size() == page.size) {
       response.set_next_page_token(TokenFrom(next));

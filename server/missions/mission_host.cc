@@ -61,7 +61,9 @@ MissionHost::MissionHost(Parts parts, const HostOptions& options)
           [this](const Event& event) { Keep(event); }, parts.epoch_pool, SteadyNow,
           parts.audit_pool, parts.metrics, HabitOf(*journal_, parts.tail)),
       clock_gate_({options.max_clock_lead, mission_options_.stamp_by_arrival}, options.wall_clock) {
-  standing_.Restore(parts.standing.state, parts.standing.idle_time_to_live);
+  standing_.Restore(parts.standing.state, parts.standing.idle_time_to_live,
+                    parts.standing.event_retention);
+  journal_->set_trims(parts.standing.event_retention == EventRetention::kSinceSnapshot);
   if (writer_.mission().revision() > 0) RecoverLeases(parts.standing);
   thread_ = std::thread([this] { Run(); });
 }
@@ -128,8 +130,10 @@ absl::Status MissionHost::CheckMayPlan() const {
 
 void MissionHost::KeepStanding() {
   absl::MutexLock lock(&keep_standing_);
-  journal_->PutStanding(
-      EncodeStanding({standing_.state(), standing_.idle_time_to_live(), leases_.Released()}));
+  const EventRetention retention = standing_.event_retention();
+  journal_->PutStanding(EncodeStanding(
+      {standing_.state(), standing_.idle_time_to_live(), leases_.Released(), retention}));
+  journal_->set_trims(retention == EventRetention::kSinceSnapshot);
 }
 
 void MissionHost::WhenDurable(MissionJournal::Callback done) {

@@ -86,7 +86,12 @@ void MissionJournal::PutStanding(std::string standing) {
 
 void MissionJournal::PutSnapshot(StoredSnapshot snapshot, Callback done) {
   if (home_.store == nullptr) return done(absl::OkStatus());
-  home_.store->PutSnapshot(home_.key, home_.epoch, std::move(snapshot), std::move(done));
+  home_.store->PutSnapshot(
+      home_.key, home_.epoch, std::move(snapshot),
+      [self = shared_from_this(), done = std::move(done)](const absl::Status& status) {
+        if (!status.ok() || !self->trims_) return done(status);
+        self->home_.store->Trim(self->home_.key, self->home_.epoch, done);
+      });
 }
 
 void MissionJournal::EventsStored(std::int64_t last, const absl::Status& status) {

@@ -60,6 +60,8 @@ class MissionJournal : public std::enable_shared_from_this<MissionJournal> {
 
   // Of a revision that is durable. `done` hears what becomes of it.
   void PutSnapshot(StoredSnapshot snapshot, Callback done);
+  // Whether events go, from the next snapshot on, that no recovery needs any more.
+  void set_trims(bool trims) { trims_ = trims; }
 
   std::int64_t durable_revision() const { return durable_revision_; }
   // How far a robot's log is durable that was applied up to `applied_sequence`; 0 if nothing is.
@@ -122,6 +124,7 @@ class MissionJournal : public std::enable_shared_from_this<MissionJournal> {
   const JournalHome home_;
   const bool is_durable_;
   std::atomic<std::int64_t> durable_revision_;
+  std::atomic<bool> trims_ = false;
   std::atomic<int> events_in_flight_ = 0;  // batches
 
   // Of the writer.

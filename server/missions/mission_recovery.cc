@@ -45,6 +45,7 @@ absl::StatusOr<bool> ApplyRecord(const std::string& key, const JournalRecord& re
 struct Rebuilt {
   std::unique_ptr<Mission> mission;
   JournalTail tail;
+  std::int64_t first_kept = 1;  // number of an event
 };
 
 // The events after the mission's revision, up to `revision`.
@@ -53,6 +54,13 @@ absl::Status Replay(MissionStore& store, const std::string& key, std::int64_t re
   Mission& mission = *rebuilt.mission;
   if (mission.revision() >= revision) return absl::OkStatus();
   mission.AbandonWhen(stop);
+  if (mission.revision() + 1 < rebuilt.first_kept) {
+    // Of what was before no snapshot serves.
+    return revision == kNow
+               ? Unusable(key, rebuilt.first_kept - 1, "is not kept any more")
+               : absl::OutOfRangeError(absl::StrCat("mission ", key, " keeps no events up to ",
+                                                    rebuilt.first_kept - 1, " any more"));
+  }
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto reader, store.Read(key, mission.revision() + 1));
   while (mission.revision() < revision) {
     if (stop()) return absl::CancelledError("the server goes down");
@@ -94,6 +102,7 @@ absl::StatusOr<Rebuilt> Rebuild(MissionStore& store, const std::string& key,
   PLUMESCOUT_ASSIGN_OR_RETURN(const MissionOptions options, OptionsOf(start));
   PLUMESCOUT_ASSIGN_OR_RETURN(Rebuilt rebuilt,
                               BeginWith(key, options, kept.snapshots, revision, stop));
+  rebuilt.first_kept = kept.first;
   PLUMESCOUT_RETURN_IF_ERROR(Replay(store, key, revision, stop, rebuilt));
   if (revision != kNow && rebuilt.mission->revision() < revision) {
     return absl::OutOfRangeError(absl::StrCat("mission ", key, " has events up to ",

@@ -24,8 +24,9 @@ absl::StatusOr<MissionOptions> OptionsOf(const JournalStart& start);
 
 // The mission as it was after this event: of the newest snapshot before it that makes the mission
 // it was taken of, or else from the first event on. max(): as the store has it now. kNotFound;
-// kOutOfRange if there is no such event yet; kDataLoss, naming the record, if one cannot be read or
-// applied; kCancelled soon after `stop` says so. Takes as long as the events took the mission.
+// kOutOfRange if there is no such event yet, or it is not kept any more; kDataLoss, naming the
+// record, if one cannot be read or applied; kCancelled soon after `stop` says so. Takes as long as
+// the events took the mission.
 absl::StatusOr<std::unique_ptr<Mission>> MissionAt(MissionStore& store, const std::string& key,
                                                    std::int64_t revision, const StopFn& stop);
 

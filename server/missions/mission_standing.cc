@@ -50,10 +50,22 @@ void MissionStanding::set_idle_time_to_live(absl::Duration duration) {
   idle_time_to_live_ = duration;
 }
 
-void MissionStanding::Restore(MissionState state, absl::Duration idle_time_to_live) {
+EventRetention MissionStanding::event_retention() const {
+  absl::MutexLock lock(&mutex_);
+  return event_retention_;
+}
+
+void MissionStanding::set_event_retention(EventRetention retention) {
+  absl::MutexLock lock(&mutex_);
+  event_retention_ = retention;
+}
+
+void MissionStanding::Restore(MissionState state, absl::Duration idle_time_to_live,
+                              EventRetention retention) {
   absl::MutexLock lock(&mutex_);
   state_ = state;
   idle_time_to_live_ = idle_time_to_live;
+  event_retention_ = retention;
 }
 
 void MissionStanding::Touch() {

@@ -13,6 +13,9 @@ namespace plumescout::server {
 
 enum class MissionState { kRunning, kPaused, kFinished };
 
+// Which of a mission's events are kept: all, or what a recovery needs.
+enum class EventRetention { kAll, kSinceSnapshot };
+
 // What operators have done to a mission, apart from its events, and when somebody called for it
 // last. Thread-safe.
 class MissionStanding {
@@ -32,8 +35,10 @@ class MissionStanding {
   // How long nobody need call for the mission before it may go; infinite: it may never.
   absl::Duration idle_time_to_live() const;
   void set_idle_time_to_live(absl::Duration duration);
+  EventRetention event_retention() const;
+  void set_event_retention(EventRetention retention);
   // As it was when the mission was recovered.
-  void Restore(MissionState state, absl::Duration idle_time_to_live);
+  void Restore(MissionState state, absl::Duration idle_time_to_live, EventRetention retention);
   // Somebody calls for it, or has it in use.
   void Touch();
   bool has_outlived_its_use() const;
@@ -47,6 +52,7 @@ class MissionStanding {
   mutable absl::Mutex mutex_;
   MissionState state_ ABSL_GUARDED_BY(mutex_) = MissionState::kRunning;
   absl::Duration idle_time_to_live_ ABSL_GUARDED_BY(mutex_) = absl::InfiniteDuration();
+  EventRetention event_retention_ ABSL_GUARDED_BY(mutex_) = EventRetention::kAll;
   SteadyTime last_use_ ABSL_GUARDED_BY(mutex_);
 };
 

@@ -18,6 +18,8 @@ constexpr char kVersionKey[] = "version";
 constexpr char kStateKey[] = "state";
 constexpr char kIdleKey[] = "idle_time_to_live_ns";
 constexpr char kReleasedKey[] = "released_leases";
+constexpr char kRetentionKey[] = "event_retention";
+constexpr char kSinceSnapshot[] = "since_snapshot";
 
 constexpr std::pair<MissionState, const char*> kStateNames[] = {
     {MissionState::kRunning, "running"},
@@ -49,6 +51,9 @@ std::string EncodeStanding(const StandingRecord& record) {
   if (record.idle_time_to_live != absl::InfiniteDuration()) {
     json[kIdleKey] = absl::ToInt64Nanoseconds(record.idle_time_to_live);
   }
+  if (record.event_retention == EventRetention::kSinceSnapshot) {
+    json[kRetentionKey] = kSinceSnapshot;
+  }
   for (const auto& [robot, token] : record.released_leases) json[kReleasedKey][robot] = token;
   return json.dump();
 }
@@ -71,6 +76,10 @@ absl::StatusOr<StandingRecord> DecodeStanding(absl::string_view bytes) {
   if (json.contains(kIdleKey)) {
     if (!json[kIdleKey].is_number_integer()) return NoStanding("no idle_time_to_live_ns");
     record.idle_time_to_live = absl::Nanoseconds(json[kIdleKey].get<std::int64_t>());
+  }
+  if (json.contains(kRetentionKey)) {
+    if (json[kRetentionKey] != kSinceSnapshot) return NoStanding("no event_retention");
+    record.event_retention = EventRetention::kSinceSnapshot;
   }
   const Json released = json.value(kReleasedKey, Json::object());
   if (!released.is_object()) return NoStanding("no released_leases");

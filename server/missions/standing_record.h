@@ -19,6 +19,7 @@ struct StandingRecord {
   MissionState state = MissionState::kRunning;
   absl::Duration idle_time_to_live = absl::InfiniteDuration();
   std::map<RobotId, std::int64_t> released_leases = {};  // tokens that were given up
+  EventRetention event_retention = EventRetention::kAll;
 
   friend bool operator==(const StandingRecord&, const StandingRecord&) = default;
 };

@@ -15,7 +15,6 @@
 #include "server/calls/answer_once.h"
 #include "server/config/mission_options.h"
 #include "server/services/mission_message.h"
-#include "server/services/mission_update.h"
 #include "server/services/paging.h"
 
 namespace plumescout::server {
@@ -28,6 +27,13 @@ absl::Status Finish(MissionHost& host, MissionWriter& writer) {
   host.standing().Finish();
   host.leases().EndAll(MissionFinished(host.id()));
   return absl::OkStatus();
+}
+
+void Apply(const MissionUpdate& update, MissionHost& host) {
+  if (!update.idle_time_to_live && !update.event_retention) return;
+  if (update.idle_time_to_live) host.standing().set_idle_time_to_live(*update.idle_time_to_live);
+  if (update.event_retention) host.standing().set_event_retention(*update.event_retention);
+  host.KeepStanding();
 }
 
 // The disk may take long, and the server goes down only when callers have their answers.
@@ -46,25 +52,30 @@ MissionJournal::Callback AnswerOnceDeleted(const MissionId& id,
 
 absl::Status MissionService::Make(const v1::CreateMissionRequest& request, v1::Mission& mission,
                                   const std::shared_ptr<UnaryCall>& call) {
-  absl::Duration idle_time_to_live = absl::InfiniteDuration();
+  MissionUpdate wishes;
   PLUMESCOUT_RETURN_IF_ERROR(WithField(ValidateId("mission_id", request.mission_id()), ""));
   if (request.has_idle_time_to_live()) {
     PLUMESCOUT_ASSIGN_OR_RETURN(
-        idle_time_to_live,
+        wishes.idle_time_to_live,
         IdleTimeToLiveFromProto(request.idle_time_to_live(), "idle_time_to_live"));
+  }
+  if (request.event_retention() != v1::EVENT_RETENTION_UNSPECIFIED) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(
+        wishes.event_retention,
+        EventRetentionFromProto(request.event_retention(), "event_retention"));
   }
   if (context_.registry->Find(request.mission_id(), call->caller().tenant).ok()) {
     return MissionExists(request.mission_id());
   }
   // A known map is unpacked and taken in: not in a reactor.
-  return context_.creation_pool->Submit([this, &request, &mission, call, idle_time_to_live] {
-    const absl::Status made = MakeNow(request, idle_time_to_live, mission, call);
+  return context_.creation_pool->Submit([this, &request, &mission, call, wishes] {
+    const absl::Status made = MakeNow(request, wishes, mission, call);
     if (!made.ok()) call->Answer(made);
   });
 }
 
 absl::Status MissionService::MakeNow(const v1::CreateMissionRequest& request,
-                                     absl::Duration idle_time_to_live, v1::Mission& mission,
+                                     const MissionUpdate& wishes, v1::Mission& mission,
                                      const std::shared_ptr<UnaryCall>& call) {
   PLUMESCOUT_ASSIGN_OR_RETURN(
       const MissionOptions options,
@@ -72,10 +83,7 @@ absl::Status MissionService::MakeNow(const v1::CreateMissionRequest& request,
   const auto host = context_.registry->Create(request.mission_id(), options,
                                               {call->caller().name, call->caller().tenant});
   PLUMESCOUT_RETURN_IF_ERROR(WithField(host.status(), "options"));
-  if (idle_time_to_live != absl::InfiniteDuration()) {
-    (*host)->standing().set_idle_time_to_live(idle_time_to_live);
-    (*host)->KeepStanding();
-  }
+  Apply(wishes, **host);
   LogInfo("mission created",
           {{"mission", request.mission_id()},
            {"memory_budget_bytes", absl::StrCat(options.memory_budget_bytes)},
@@ -182,11 +190,12 @@ absl::Status MissionService::Update(const v1::UpdateMissionRequest& request, v1:
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host,
                               context_.FindMission(call->caller(), update.mission));
   PLUMESCOUT_RETURN_IF_ERROR(host->journal().CheckTakesMore());
-  host->standing().set_idle_time_to_live(update.idle_time_to_live);
-  host->KeepStanding();
-  LogInfo("mission updated",
-          {{"mission", update.mission},
-           {"idle_time_to_live", absl::FormatDuration(update.idle_time_to_live)}});
+  Apply(update, *host);
+  LogInfo(
+      "mission updated",
+      {{"mission", update.mission},
+       {"idle_time_to_live", absl::FormatDuration(host->standing().idle_time_to_live())},
+       {"event_retention", v1::EventRetention_Name(ToProto(host->standing().event_retention()))}});
   mission = DescribeMission(*host, WithoutPriorMap(host->options()));
   AnswerWhenDurable(*host, call, absl::OkStatus());
   return absl::OkStatus();

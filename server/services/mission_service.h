@@ -8,6 +8,7 @@
 #include "plumescout/v1/mission_service.grpc.pb.h"
 #include "server/calls/service_context.h"
 #include "server/calls/unary_call.h"
+#include "server/services/mission_update.h"
 #include "server/services/paging.h"
 
 namespace plumescout::server {
@@ -50,7 +51,7 @@ class MissionService final : public v1::MissionService::CallbackService {
   absl::Status Make(const v1::CreateMissionRequest& request, v1::Mission& mission,
                     const std::shared_ptr<UnaryCall>& call);
   // The mission itself, which may take long.
-  absl::Status MakeNow(const v1::CreateMissionRequest& request, absl::Duration idle_time_to_live,
+  absl::Status MakeNow(const v1::CreateMissionRequest& request, const MissionUpdate& wishes,
                        v1::Mission& mission, const std::shared_ptr<UnaryCall>& call);
   absl::Status Get(const v1::GetMissionRequest& request, v1::Mission& mission,
                    const std::shared_ptr<UnaryCall>& call);

@@ -66,6 +66,10 @@ void CommittedStore::PutSnapshot(const std::string& key, std::int64_t epoch,
   committer_.Submit(std::move(write));
 }
 
+void CommittedStore::Trim(const std::string& key, std::int64_t epoch, Done done) {
+  committer_.Submit(MakeWrite(Kind::kTrim, key, epoch, std::move(done)));
+}
+
 void CommittedStore::Remove(const std::string& key, std::int64_t epoch, Done done) {
   committer_.Submit(MakeWrite(Kind::kRemove, key, epoch, std::move(done)));
 }

@@ -26,6 +26,7 @@ class CommittedStore : public MissionStore {
                    Done done) override;
   void PutSnapshot(const std::string& key, std::int64_t epoch, StoredSnapshot snapshot,
                    Done done) override;
+  void Trim(const std::string& key, std::int64_t epoch, Done done) override;
   void Remove(const std::string& key, std::int64_t epoch, Done done) override;
   StoreState state() const override;
 

@@ -55,6 +55,14 @@ absl::Status KeepSnapshot(const StoreWrite& write, AcquiredMission& known) {
 
 }  // namespace
 
+void TrimRecords(ShelvedMission& mission) {
+  AcquiredMission& known = mission.known;
+  if (known.snapshots.size() < kKeptSnapshots) return;
+  const std::int64_t first = std::max(known.first, known.snapshots.back().revision + 1);
+  mission.records.erase(mission.records.begin(), mission.records.begin() + (first - known.first));
+  known.first = first;
+}
+
 // The missions. Thread-safe.
 class MemoryStore::Shelf {
  public:
@@ -91,9 +99,11 @@ class MemoryStore::Shelf {
     return mission.known;
   }
 
-  std::string RecordOf(const ShelvedMission& mission, std::int64_t number) const {
+  // Nothing if it was trimmed.
+  std::optional<std::string> RecordOf(const ShelvedMission& mission, std::int64_t number) const {
     absl::MutexLock lock(&mutex_);
-    return mission.records[static_cast<std::size_t>(number - 1)];
+    if (number < mission.known.first) return std::nullopt;
+    return mission.records[static_cast<std::size_t>(number - mission.known.first)];
   }
 
   std::vector<StoredMission> List() const {
@@ -124,6 +134,7 @@ class MemoryStore::Shelf {
     if (write.kind == StoreWrite::Kind::kAppend) return AppendRecords(write, mission);
     if (write.kind == StoreWrite::Kind::kSnapshot) return KeepSnapshot(write, known);
     if (write.kind == StoreWrite::Kind::kStanding) known.standing = write.bytes;
+    if (write.kind == StoreWrite::Kind::kTrim) TrimRecords(mission);
     return absl::OkStatus();
   }
 
@@ -138,21 +149,24 @@ template <typename Shelf>
 class ShelfReader final : public JournalReader {
  public:
   ShelfReader(std::shared_ptr<Shelf> shelf, std::shared_ptr<const ShelvedMission> mission,
-              std::int64_t first)
+              std::string key, std::int64_t first)
       : shelf_(std::move(shelf)),
         mission_(std::move(mission)),
+        key_(std::move(key)),
         next_(first),
         last_(shelf_->Known(*mission_).head) {}
 
   absl::StatusOr<std::optional<JournalRecord>> Next() override {
     if (next_ > last_) return std::optional<JournalRecord>();
-    const std::int64_t number = next_++;
-    return std::optional<JournalRecord>({number, shelf_->RecordOf(*mission_, number)});
+    std::optional<std::string> bytes = shelf_->RecordOf(*mission_, next_);
+    if (!bytes.has_value()) return NotKept(key_, shelf_->Known(*mission_).first - 1);
+    return std::optional<JournalRecord>({next_++, *std::move(bytes)});
   }
 
  private:
   const std::shared_ptr<Shelf> shelf_;
   const std::shared_ptr<const ShelvedMission> mission_;
+  const std::string key_;
   std::int64_t next_;
   const std::int64_t last_;
 };
@@ -185,7 +199,9 @@ absl::StatusOr<std::unique_ptr<JournalReader>> MemoryStore::Read(const std::stri
   auto mission = shelf_->Find(key);
   if (mission == nullptr) return NotStored(key);
   if (first_number < 1) return BadFirstNumber(first_number);
-  return std::make_unique<ShelfReader<Shelf>>(shelf_, std::move(mission), first_number);
+  const std::int64_t first_kept = shelf_->Known(*mission).first;
+  if (first_number < first_kept) return NotKept(key, first_kept - 1);
+  return std::make_unique<ShelfReader<Shelf>>(shelf_, std::move(mission), key, first_number);
 }
 
 absl::StatusOr<AcquiredMission> MemoryStore::Peek(const std::string& key) {

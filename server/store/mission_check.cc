@@ -33,6 +33,7 @@ absl::Status CheckAgainstMark(MissionRows& rows, const MissionRow& row, const Kn
     return StoreDamaged(absl::StrCat(rows.file(), " ends at ", Extent(row), " of ", name, ", but ",
                                      known.file, " knows of ", Extent(*mark)));
   }
+  if (mark->head < row.base) return absl::OkStatus();  // it went by since
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::uint32_t chain, rows.ChainAt(row, mark->head));
   if (chain == mark->chain) return absl::OkStatus();
   return StoreDamaged(absl::StrCat(rows.file(), ": record ", mark->head, " of ", name,
@@ -54,6 +55,7 @@ absl::StatusOr<CheckedMission> LoadMission(MissionRows& rows, const KnownHead& k
   mission.row = *row;
   mission.known.epoch = row->epoch;
   mission.known.head = row->head;
+  mission.known.first = row->base + 1;
   PLUMESCOUT_ASSIGN_OR_RETURN(mission.known.header, rows.Header(*row));
   PLUMESCOUT_ASSIGN_OR_RETURN(mission.known.standing, rows.Standing(*row));
   PLUMESCOUT_ASSIGN_OR_RETURN(mission.known.snapshots, rows.Snapshots(*row));

@@ -21,6 +21,8 @@ std::uint32_t RowChecksum(const MissionRow& row) {
       .Add(row.epoch)
       .Add(row.head)
       .Add(std::int64_t{row.chain})
+      .Add(row.base)
+      .Add(std::int64_t{row.base_chain})
       .Add(row.bytes)
       .Add(std::int64_t{row.standing_crc})
       .Add(row.writes)
@@ -38,8 +40,8 @@ std::uint32_t SnapshotChecksum(std::int64_t mission, const StoredSnapshot& snaps
 
 std::int64_t SizeOf(const std::string& bytes) { return static_cast<std::int64_t>(bytes.size()); }
 
-// Of the columns id, epoch, head, chain, bytes, standing_crc, writes, crc. Nothing if it is
-// damaged.
+// Of the columns id, epoch, head, chain, base, base_chain, bytes, standing_crc, writes, crc.
+// Nothing if it is damaged.
 std::optional<MissionRow> RowOf(const Query& query, const std::string& key) {
   MissionRow row;
   row.key = key;
@@ -47,10 +49,12 @@ std::optional<MissionRow> RowOf(const Query& query, const std::string& key) {
   row.epoch = query.Int(1);
   row.head = query.Int(2);
   row.chain = static_cast<std::uint32_t>(query.Int(3));
-  row.bytes = query.Int(4);
-  row.standing_crc = static_cast<std::uint32_t>(query.Int(5));
-  row.writes = query.Int(6);
-  if (query.Int(7) != RowChecksum(row)) return std::nullopt;
+  row.base = query.Int(4);
+  row.base_chain = static_cast<std::uint32_t>(query.Int(5));
+  row.bytes = query.Int(6);
+  row.standing_crc = static_cast<std::uint32_t>(query.Int(7));
+  row.writes = query.Int(8);
+  if (query.Int(9) != RowChecksum(row)) return std::nullopt;
   return row;
 }
 
@@ -78,7 +82,8 @@ absl::Status MissionRows::Damaged(const MissionRow& row, absl::string_view what)
 
 absl::StatusOr<std::optional<MissionRow>> MissionRows::Find(const std::string& key) {
   Query query = database_->Use(
-      "SELECT m.id, p.epoch, p.head, p.chain, p.bytes, p.standing_crc, p.writes, p.crc "
+      "SELECT m.id, p.epoch, p.head, p.chain, p.base, p.base_chain, p.bytes, p.standing_crc, "
+      "p.writes, p.crc "
       "FROM mission m LEFT JOIN progress p ON p.mission = m.id WHERE m.key = ?");
   PLUMESCOUT_ASSIGN_OR_RETURN(const bool is_there, query.BindText(key).Next());
   if (!is_there) return std::optional<MissionRow>();
@@ -93,14 +98,15 @@ absl::StatusOr<std::optional<MissionRow>> MissionRows::Find(const std::string& k
 
 absl::StatusOr<std::vector<MissionRow>> MissionRows::List() {
   Query query = database_->Use(
-      "SELECT m.id, p.epoch, p.head, p.chain, p.bytes, p.standing_crc, p.writes, p.crc, m.key "
+      "SELECT m.id, p.epoch, p.head, p.chain, p.base, p.base_chain, p.bytes, p.standing_crc, "
+      "p.writes, p.crc, m.key "
       "FROM mission m LEFT JOIN progress p ON p.mission = m.id ORDER BY m.key");
   std::vector<MissionRow> rows;
   while (true) {
     PLUMESCOUT_ASSIGN_OR_RETURN(const bool has_row, query.Next());
     if (!has_row) return rows;
     MissionRow damaged;
-    damaged.key = query.Bytes(8);
+    damaged.key = query.Bytes(10);
     rows.push_back(RowOf(query, damaged.key).value_or(damaged));
   }
 }
@@ -124,6 +130,7 @@ absl::StatusOr<std::string> MissionRows::Standing(const MissionRow& row) {
 }
 
 absl::StatusOr<std::uint32_t> MissionRows::ChainAt(const MissionRow& row, std::int64_t number) {
+  if (number == row.base && row.base > 0) return row.base_chain;
   if (number == 0) {
     Query query = database_->Use("SELECT crc FROM mission WHERE id = ?");
     PLUMESCOUT_ASSIGN_OR_RETURN(const bool is_there, query.Bind(row.id).Next());
@@ -180,12 +187,14 @@ absl::Status MissionRows::Save(MissionRow& row) {
   ++row.writes;
   return database_
       ->Use(
-          "REPLACE INTO progress(mission, epoch, head, chain, bytes, standing_crc, writes, "
-          "crc) VALUES(?, ?, ?, ?, ?, ?, ?, ?)")
+          "REPLACE INTO progress(mission, epoch, head, chain, base, base_chain, bytes, "
+          "standing_crc, writes, crc) VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
       .Bind(row.id)
       .Bind(row.epoch)
       .Bind(row.head)
       .Bind(row.chain)
+      .Bind(row.base)
+      .Bind(row.base_chain)
       .Bind(row.bytes)
       .Bind(row.standing_crc)
       .Bind(row.writes)
@@ -261,6 +270,25 @@ absl::Status MissionRows::PutSnapshot(MissionRow& row, const StoredSnapshot& sna
       .Run();
 }
 
+absl::Status MissionRows::Trim(MissionRow& row) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<StoredSnapshot> snapshots, Snapshots(row));
+  if (snapshots.size() < kKeptSnapshots) return absl::OkStatus();
+  const std::int64_t last = snapshots.back().revision;
+  if (last <= row.base) return absl::OkStatus();
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::uint32_t chain, ChainAt(row, last));
+  {
+    Query query = database_->Use(
+        "SELECT sum(length(bytes)) FROM record "
+        "WHERE mission = ? AND number > ? AND number <= ?");
+    query.Bind(row.id).Bind(row.base).Bind(last);
+    PLUMESCOUT_ASSIGN_OR_RETURN(const bool is_there, query.Next());
+    if (is_there) row.bytes -= query.Int(0);
+  }
+  row.base = last;
+  row.base_chain = chain;
+  return absl::OkStatus();
+}
+
 absl::Status MissionRows::Delete(const MissionRow& row) {
   for (const char* sql :
        {"DELETE FROM mission WHERE id = ?", "DELETE FROM progress WHERE mission = ?",
@@ -298,10 +326,20 @@ absl::StatusOr<bool> MissionRows::PurgeRemoved(int max_records) {
   return true;
 }
 
+absl::StatusOr<bool> MissionRows::PurgeTrimmed(int max_records) {
+  PLUMESCOUT_RETURN_IF_ERROR(
+      database_
+          ->Use("DELETE FROM record WHERE id IN (SELECT r.id FROM progress p "
+                "CROSS JOIN record r ON r.mission = p.mission AND r.number <= p.base LIMIT ?)")
+          .Bind(max_records)
+          .Run());
+  return database_->changes() > 0;
+}
+
 absl::StatusOr<bool> MissionRows::HoldsRecords(const MissionRow& row, std::int64_t first_number,
                                                std::span<const std::string> records) {
   const std::int64_t last = first_number + static_cast<std::int64_t>(records.size()) - 1;
-  if (first_number < 1 || last > row.head) return false;
+  if (first_number <= row.base || last > row.head) return false;
   PLUMESCOUT_ASSIGN_OR_RETURN(std::uint32_t chain, ChainAt(row, first_number - 1));
   std::int64_t number = first_number;
   for (const std::string& record : records) chain = ChainChecksum(chain, number++, record);

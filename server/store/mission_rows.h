@@ -21,8 +21,10 @@ struct MissionRow {
   std::int64_t id = 0;
   std::int64_t epoch = 0;
   std::int64_t head = 0;
-  std::uint32_t chain = 0;  // checksum of all records up to the head, see checksum.h
-  std::int64_t bytes = 0;   // of header, standing, records and snapshots
+  std::uint32_t chain = 0;       // checksum of all records up to the head, see checksum.h
+  std::int64_t base = 0;         // the last record that was trimmed; 0: none was
+  std::uint32_t base_chain = 0;  // checksum of all records up to that one
+  std::int64_t bytes = 0;        // of header, standing, records and snapshots
   std::uint32_t standing_crc = 0;
   std::int64_t writes = 0;  // grows with every Save
 };
@@ -41,7 +43,7 @@ class MissionRows {
 
   absl::StatusOr<std::string> Header(const MissionRow& row);
   absl::StatusOr<std::string> Standing(const MissionRow& row);
-  // Of the records up to this one; 0 is the header.
+  // Of the records up to this one; 0 is the header. REQUIRES: number >= row.base.
   absl::StatusOr<std::uint32_t> ChainAt(const MissionRow& row, std::int64_t number);
   // Newest first. A damaged one is left out: what it held, the records tell too.
   absl::StatusOr<std::vector<StoredSnapshot>> Snapshots(const MissionRow& row);
@@ -54,10 +56,14 @@ class MissionRows {
   absl::Status AddRecords(MissionRow& row, std::span<const std::string> records);
   absl::Status PutStanding(MissionRow& row, const std::string& standing);
   absl::Status PutSnapshot(MissionRow& row, const StoredSnapshot& snapshot);
+  // Records up to the older one of two whole snapshots count no more, and stay for PurgeTrimmed.
+  absl::Status Trim(MissionRow& row);
   // Its records stay for PurgeRemoved.
   absl::Status Delete(const MissionRow& row);
   // Deletes at most so many records of missions that were deleted. Whether some are left.
   absl::StatusOr<bool> PurgeRemoved(int max_records);
+  // The same of records that were trimmed.
+  absl::StatusOr<bool> PurgeTrimmed(int max_records);
 
   // Whether exactly these records stand behind the others of their numbers.
   absl::StatusOr<bool> HoldsRecords(const MissionRow& row, std::int64_t first_number,

@@ -62,6 +62,7 @@ struct StoredMission {
 struct AcquiredMission {
   std::int64_t epoch = 0;
   std::int64_t head = 0;
+  std::int64_t first = 1;  // number of the first record that is kept; see Trim
   std::string header;
   std::string standing;
   std::vector<StoredSnapshot> snapshots;  // newest first, at most two
@@ -95,7 +96,8 @@ class MissionStore {
   // damaged, or shorter than it is known to have been. Blocks.
   virtual absl::StatusOr<AcquiredMission> Acquire(const std::string& key) = 0;
 
-  // The records from this number on, up to the head as it is now. kNotFound. Takes nothing over.
+  // The records from this number on, up to the head as it is now. kNotFound; kOutOfRange, here or
+  // from the reader, if that one is not kept any more. Takes nothing over.
   virtual absl::StatusOr<std::unique_ptr<JournalReader>> Read(const std::string& key,
                                                               std::int64_t first_number) = 0;
   // Header and standing without taking over. kNotFound.
@@ -114,6 +116,10 @@ class MissionStore {
   // REQUIRES: snapshot.revision is at most the head.
   virtual void PutSnapshot(const std::string& key, std::int64_t epoch, StoredSnapshot snapshot,
                            Done done) = 0;
+
+  // Records that the older one of two snapshots stands for are gone, durably; none, as long as
+  // there are not two that are whole. As PutSnapshot.
+  virtual void Trim(const std::string& key, std::int64_t epoch, Done done) = 0;
 
   // The mission and all that was kept of it are gone, durably. As Append.
   virtual void Remove(const std::string& key, std::int64_t epoch, Done done) = 0;

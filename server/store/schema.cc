@@ -29,8 +29,9 @@ constexpr const char* kTables[] = {
     "CREATE TABLE mission(id INTEGER PRIMARY KEY AUTOINCREMENT, key TEXT NOT NULL UNIQUE, "
     "header BLOB NOT NULL, crc INTEGER NOT NULL)",
     "CREATE TABLE progress(mission INTEGER PRIMARY KEY, epoch INTEGER NOT NULL, "
-    "head INTEGER NOT NULL, chain INTEGER NOT NULL, bytes INTEGER NOT NULL, "
-    "standing_crc INTEGER NOT NULL, writes INTEGER NOT NULL, crc INTEGER NOT NULL)",
+    "head INTEGER NOT NULL, chain INTEGER NOT NULL, base INTEGER NOT NULL, "
+    "base_chain INTEGER NOT NULL, bytes INTEGER NOT NULL, standing_crc INTEGER NOT NULL, "
+    "writes INTEGER NOT NULL, crc INTEGER NOT NULL)",
     "CREATE TABLE standing(mission INTEGER PRIMARY KEY, bytes BLOB NOT NULL)",
     "CREATE TABLE record(id INTEGER PRIMARY KEY, mission INTEGER NOT NULL, "
     "number INTEGER NOT NULL, crc INTEGER NOT NULL, bytes BLOB NOT NULL, UNIQUE(mission, number))",

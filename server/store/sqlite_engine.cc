@@ -137,6 +137,7 @@ absl::Status SqliteEngine::Apply(StoreWrite& write) {
     case Kind::kAppend:
     case Kind::kStanding:
     case Kind::kSnapshot:
+    case Kind::kTrim:
     case Kind::kRemove:
       break;
   }
@@ -158,6 +159,11 @@ absl::Status SqliteEngine::ApplyTo(MissionRow& row, StoreWrite& write) {
   if (write.kind == Kind::kRemove) return Remove(row);
   if (write.kind == Kind::kStanding) {
     PLUMESCOUT_RETURN_IF_ERROR(rows_->PutStanding(row, write.bytes));
+    return Save(row);
+  }
+  if (write.kind == Kind::kTrim) {
+    PLUMESCOUT_RETURN_IF_ERROR(rows_->Trim(row));
+    has_chores_ = true;
     return Save(row);
   }
   if (write.snapshot.revision > row.head) {
@@ -239,6 +245,9 @@ absl::Status SqliteEngine::Compact(StoreWrite& write) {
 absl::Status SqliteEngine::DoChore() {
   if (has_chores_) {
     PLUMESCOUT_ASSIGN_OR_RETURN(has_chores_, rows_->PurgeRemoved(kPurgedRecords));
+    if (!has_chores_) {
+      PLUMESCOUT_ASSIGN_OR_RETURN(has_chores_, rows_->PurgeTrimmed(kPurgedRecords));
+    }
   }
   if (has_chores_) return absl::OkStatus();
   return database_->Use("UPDATE probe SET count = count + 1").Run();

@@ -43,6 +43,7 @@ absl::Status SqliteReader::Begin(const std::string& key, std::int64_t first_numb
   PLUMESCOUT_RETURN_IF_ERROR(CheckAgainstMark(rows_, *row, known));
   row_ = *row;
   next_ = first_number;
+  if (next_ <= row_.base) return NotKept(key, row_.base);
   if (next_ > row_.head) return absl::OkStatus();
   PLUMESCOUT_ASSIGN_OR_RETURN(chain_, rows_.ChainAt(row_, next_ - 1));
   return absl::OkStatus();
@@ -84,6 +85,7 @@ absl::Status SqliteReader::FetchPage() {
 absl::Status SqliteReader::Damaged(std::int64_t number) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::optional<MissionRow> row, rows_.Find(row_.key));
   if (!row.has_value() || row->id != row_.id) return NotStored(row_.key);
+  if (number <= row->base) return NotKept(row_.key, row->base);
   return StoreDamaged(absl::StrCat(database_->path(), ": record ", number, " of mission ",
                                    absl::CHexEscape(row_.key), " is not what was written"));
 }

@@ -44,6 +44,11 @@ absl::Status SnapshotAhead(absl::string_view key, std::int64_t revision, std::in
                                                  " has record ", head, " last"));
 }
 
+absl::Status NotKept(absl::string_view key, std::int64_t last_gone) {
+  return absl::OutOfRangeError(absl::StrCat("mission ", absl::CHexEscape(key),
+                                            " keeps no events up to ", last_gone, " any more"));
+}
+
 absl::Status BadFirstNumber(std::int64_t first_number) {
   return absl::InvalidArgumentError(absl::StrCat("first_number = ", first_number, " is not > 0"));
 }

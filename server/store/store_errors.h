@@ -20,6 +20,8 @@ absl::Status FencedByHead(absl::string_view key, std::int64_t first_number, std:
 // A snapshot of what is not in the journal yet.
 absl::Status SnapshotAhead(absl::string_view key, std::int64_t revision, std::int64_t head);
 
+// Records up to this one were trimmed.
+absl::Status NotKept(absl::string_view key, std::int64_t last_gone);
 // Records count from 1.
 absl::Status BadFirstNumber(std::int64_t first_number);
 

@@ -23,6 +23,7 @@ struct StoreWrite {
     kAppend,
     kStanding,
     kSnapshot,
+    kTrim,
     kRemove,
     kCompact  // a bounded step
   };
@@ -48,7 +49,7 @@ struct StoreWrite {
   // Answered with an error when the disk refuses it, instead of being tried again.
   bool is_impatient() const {
     return kind == Kind::kCreate || kind == Kind::kAcquire || kind == Kind::kSnapshot ||
-           kind == Kind::kCompact;
+           kind == Kind::kTrim || kind == Kind::kCompact;
   }
   std::int64_t payload_bytes() const {
     std::size_t sum = bytes.size() + snapshot.bytes.size();

@@ -32,7 +32,8 @@ absl::Status VerifyMission(const std::string& file, MissionRows& rows, const Hea
   report.bytes = mission.row.bytes;
   report.snapshots = static_cast<int>(mission.known.snapshots.size());
   PLUMESCOUT_ASSIGN_OR_RETURN(report.damaged_snapshots, rows.CountDamagedSnapshots(mission.row));
-  PLUMESCOUT_ASSIGN_OR_RETURN(const auto reader, SqliteReader::Open(file, report.key, 1));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto reader,
+                              SqliteReader::Open(file, report.key, mission.known.first));
   while (true) {
     PLUMESCOUT_ASSIGN_OR_RETURN(const std::optional<JournalRecord> record, reader->Next());
     if (!record.has_value()) return absl::OkStatus();

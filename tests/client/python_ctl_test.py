@@ -107,6 +107,9 @@ class CtlTest(unittest.TestCase):
         self.ctl("missions", "resume", "life")
         self.ctl("missions", "set-ttl", "life", "never")
         self.assertFalse(self.client.get_mission("life").HasField("idle_time_to_live"))
+        self.assertIn("KEEPS EVENTS", self.ctl("missions", "set-keep", "life", "since-snapshot"))
+        kept = self.ctl_json("missions", "show", "life")["event_retention"]
+        self.assertEqual(kept, "EVENT_RETENTION_SINCE_SNAPSHOT")
         self.assertIn("finished", self.ctl("missions", "finish", "life"))
         refused = self.ctl("missions", "pause", "life", code=1)
         self.assertIn("MISSION_FINISHED", refused)
@@ -118,7 +121,10 @@ class CtlTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "options.json")
             path.write_text('{"planning": {"speed_mps": 0.5}}')
-            shown = self.ctl_json("missions", "create", "slow", "--options", str(path))
+            shown = self.ctl_json(
+                "missions", "create", "slow", "--options", str(path), "--keep", "since-snapshot"
+            )
+            self.assertEqual(shown["event_retention"], "EVENT_RETENTION_SINCE_SNAPSHOT")
             self.assertEqual(shown["options"]["planning"]["speed_mps"], 0.5)
             path.write_text('{"planning": {"spede_mps": 0.5}}')
             self.assertIn("spede_mps", self.ctl("missions", "create", "x", "--options", path, code=2))

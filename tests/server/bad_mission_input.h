@@ -136,6 +136,7 @@ inline BadInputs BadCreateMission() {
       .Rows(BadId("mission_id"))
       .Rows(BadRequestId())
       .Rows(BadTimeToLive("idle_time_to_live"))
+      .Values("event_retention", {"-1", "9"})
       .Value("mission_id", R"("hall")", absl::StatusCode::kAlreadyExists, "MISSION_EXISTS")
       .Rows(BadLimits())
       .Rows(BadPlaces())

@@ -47,6 +47,13 @@ inline BadInputs BadUpdateMission() {
   return BadInputs()
       .Rows(BadMissionName("mission.name"))
       .Rows(BadTimeToLive("mission.idle_time_to_live"))
+      .Row({"mission.event_retention", "9",
+            [](Message& message) {
+              SetField(message, "mission.event_retention", "9");
+              static_cast<v1::UpdateMissionRequest&>(message).mutable_update_mask()->add_paths(
+                  "event_retention");
+            },
+            absl::StatusCode::kInvalidArgument, "mission.event_retention"})
       .Row({"update_mask", "none",
             [](Message& message) {
               static_cast<v1::UpdateMissionRequest&>(message).clear_update_mask();

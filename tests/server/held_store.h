@@ -86,6 +86,9 @@ class HeldStore final : public MissionStore {
                    Done done) override {
     Write([=, this] { store_.PutSnapshot(key, epoch, snapshot, done); });
   }
+  void Trim(const std::string& key, std::int64_t epoch, Done done) override {
+    Write([=, this] { store_.Trim(key, epoch, done); });
+  }
   void Remove(const std::string& key, std::int64_t epoch, Done done) override {
     Write([=, this] { store_.Remove(key, epoch, done); });
   }

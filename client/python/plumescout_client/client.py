@@ -52,6 +52,12 @@ def _channel(target, credentials):
     )
 
 
+def _retention(keep_all):
+    if keep_all:
+        return mission_pb.EVENT_RETENTION_ALL
+    return mission_pb.EVENT_RETENTION_SINCE_SNAPSHOT
+
+
 class Client:
     """One connection to a server. Its calls raise PlumeScoutError."""
 
@@ -101,18 +107,26 @@ class Client:
         self._call(self._system.DrainServer, system_pb.DrainServerRequest())
 
     def create_mission(
-        self, mission, options=None, exist_ok=False, idle_time_to_live_s=None
+        self,
+        mission,
+        options=None,
+        exist_ok=False,
+        idle_time_to_live_s=None,
+        keep_all_events=True,
     ):
         """options: nested dict of plumescout.v1.MissionOptions, e.g.
         {"planning": {"speed_mps": 0.5}}; what is left out takes the server's default. A known
         building goes under "prior_map", see prior_map and prior_map_of_files. A mission that nobody
-        calls for idle_time_to_live_s is deleted; None: never."""
+        calls for idle_time_to_live_s is deleted; None: never. Without keep_all_events the server
+        keeps those on its disk that a recovery needs: no exports, no look at the past."""
         request = mission_pb.CreateMissionRequest(
             mission_id=mission,
             options=json_format.ParseDict(options or {}, options_pb.MissionOptions()),
         )
         if idle_time_to_live_s is not None:
             request.idle_time_to_live.FromNanoseconds(round(idle_time_to_live_s * 1e9))
+        if not keep_all_events:
+            request.event_retention = _retention(keep_all_events)
         try:
             self._call_named(self._missions.CreateMission, request)
         except PlumeScoutError as error:
@@ -152,6 +166,17 @@ class Client:
         )
         if seconds is not None:
             request.mission.idle_time_to_live.FromNanoseconds(round(seconds * 1e9))
+        return self._call(self._missions.UpdateMission, request).mission
+
+    def set_keep_all_events(self, mission, keep_all):
+        """Whether all of a mission's events stay on the server's disk, or those that a recovery
+        needs; the others go with its next snapshots."""
+        request = mission_pb.UpdateMissionRequest(
+            mission=mission_pb.Mission(
+                name=f"missions/{mission}", event_retention=_retention(keep_all)
+            ),
+            update_mask={"paths": ["event_retention"]},
+        )
         return self._call(self._missions.UpdateMission, request).mission
 
     def delete_mission(self, mission):

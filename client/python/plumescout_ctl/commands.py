@@ -28,7 +28,11 @@ def create_mission(client, arguments, out):
     if arguments.prior_map is not None:
         options["prior_map"] = plumescout_client.prior_map_of_files(arguments.prior_map)
     client.create_mission(
-        arguments.mission, options, arguments.exist_ok, idle_time_to_live_s=arguments.ttl
+        arguments.mission,
+        options,
+        arguments.exist_ok,
+        idle_time_to_live_s=arguments.ttl,
+        keep_all_events=arguments.keep == "all",
     )
     show_mission(client, arguments, out)
 
@@ -53,6 +57,11 @@ def delete_mission(client, arguments, out):
 
 def set_ttl(client, arguments, out):
     mission = client.set_idle_time_to_live(arguments.mission, arguments.seconds)
+    out.message(mission, words.mission_facts(mission))
+
+
+def set_keep(client, arguments, out):
+    mission = client.set_keep_all_events(arguments.mission, arguments.events == "all")
     out.message(mission, words.mission_facts(mission))
 
 

@@ -131,6 +131,9 @@ def _add_everywhere(parser):
     )
 
 
+KEPT_EVENTS = ("all", "since-snapshot")
+
+
 def _add_missions(groups):
     missions = _add(groups, "missions", "list, show, create and change missions")
     steps = missions.add_subparsers(metavar="COMMAND", required=True)
@@ -143,6 +146,9 @@ def _add_missions(groups):
     create.add_argument("--prior-map", metavar="YAML", help="a known building, of map_server")
     create.add_argument(
         "--ttl", type=_positive, metavar="S", help="delete it when nobody calls for so long"
+    )
+    create.add_argument(
+        "--keep", choices=KEPT_EVENTS, default="all", help="events on the disk; default: all"
     )
     create.add_argument("--exist-ok", action="store_true", help="it may be there already")
     for word, what, command in (
@@ -174,6 +180,10 @@ def _add_missions(groups):
     history.add_argument("--count", type=_count, default=0, metavar="N", help="events; 0: all")
     ttl = _takes(_add(steps, "set-ttl", "how long it may idle"), commands.set_ttl, "mission")
     ttl.add_argument("seconds", type=_seconds_or_never, help='seconds, or "never"')
+    keep = _takes(
+        _add(steps, "set-keep", "which events stay on the disk"), commands.set_keep, "mission"
+    )
+    keep.add_argument("events", choices=KEPT_EVENTS, help="since-snapshot: what recovery needs")
 
 
 def _add_robots(groups):

@@ -59,6 +59,10 @@ def idle_time_to_live(mission):
     return duration(mission.idle_time_to_live)
 
 
+def kept_events(mission):
+    return enum_word(mission_pb.EventRetention, mission.event_retention, "EVENT_RETENTION_")
+
+
 def memory(mission):
     if not mission.HasField("memory"):
         return "-"
@@ -81,6 +85,7 @@ def mission_row(mission):
 def mission_facts(mission):
     timings = mission.gas_timings
     return list(zip(MISSION_HEADINGS, mission_row(mission))) + [
+        ("KEEPS EVENTS", kept_events(mission)),
         ("STRATEGY", mission.options.planning.strategy),
         ("GAS UPDATE P99", f"{1e3 * timings.update.p99_s:.1f} ms of {timings.update.sample_count}"),
         ("STALENESS P99", f"{1e3 * timings.staleness.p99_s:.1f} ms"),

@@ -10,6 +10,7 @@
 #include "server/store/memory_store.h"
 #include "tests/server/history/past_run.h"
 #include "tests/server/service_clients.h"
+#include "tests/server/store/store_work.h"
 
 namespace plumescout::server {
 namespace mission_history_test {
@@ -89,6 +90,17 @@ TEST_F(MissionHistoryTest, WhatIsWrongIsNamed) {
 
 TEST_F(MissionHistoryTest, EndsWithItsCall) {
   EXPECT_TRUE(absl::IsCancelled(Read({}, [] { return true; }).status()));
+}
+
+TEST_F(MissionHistoryTest, BeginsWithTheFirstEventThatIsKept) {
+  for (const std::int64_t revision : {10, 20}) {
+    ASSERT_TRUE(PutSnapshotNow(store_, "hall", 1, {revision, 0, ""}).ok());
+  }
+  ASSERT_TRUE(TrimNow(store_, "hall", 1).ok());
+  const auto page = Read({});
+  ASSERT_TRUE(page.ok()) << page.status();
+  EXPECT_EQ(page->first_number(), 11);
+  EXPECT_EQ(page->events(0).number(), 11);
 }
 
 }  // namespace mission_history_test

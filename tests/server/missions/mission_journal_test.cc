@@ -276,5 +276,24 @@ TEST(VolatileJournalTest, AStoreThatIsNotDurableIsNotWaitedFor) {
   EXPECT_EQ(journal->DurableSequence("r1", 1), 0);
 }
 
+TEST_F(MissionJournalTest, EventsGoWithTheSecondSnapshotIfTold) {
+  store_.Release();
+  for (const std::int64_t sequence : {1, 2, 3, 4}) AddGas("r1", sequence);
+  journal_->Flush();
+  Settle();
+  const auto put = [this](std::int64_t revision) {
+    Waiting waiting;
+    journal_->PutSnapshot({revision, 0, "state"}, waiting.Callback());
+    EXPECT_TRUE(waiting.Await().ok());
+    return store_.Peek(kKey)->first;
+  };
+  EXPECT_EQ(put(1), 1);
+  EXPECT_EQ(put(2), 1) << "all are kept unless told otherwise";
+  journal_->set_trims(true);
+  EXPECT_EQ(put(3), 3);
+  journal_->set_trims(false);
+  EXPECT_EQ(put(4), 3);
+}
+
 }  // namespace mission_journal_test
 }  // namespace plumescout::server

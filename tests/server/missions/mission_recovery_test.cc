@@ -8,10 +8,13 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "absl/synchronization/notification.h"
+#include "server/missions/mission_snapshot.h"
 #include "server/store/memory_store.h"
+#include "tests/server/store/store_work.h"
 #include "tests/server/stored_run.h"
 
 namespace plumescout::server {
@@ -102,6 +105,42 @@ TEST(MissionRecoveryTest, StopsWhenTold) {
   MemoryStore store(/*is_durable=*/true);
   PutMission(store, kKey, {}, {{1, RobotRegistered{"r1", 0.2, 7}}});
   EXPECT_TRUE(absl::IsCancelled(RecoverMission(store, kKey, [] { return true; }).status()));
+}
+
+TEST(MissionRecoveryTest, TheMissionStandsThereAlsoIfEventsWereTrimmed) {
+  const MissionOptions options = support::FastAgeing();
+  const std::vector<Event> events = RoomRunEvents(options);
+  MemoryStore store(/*is_durable=*/true);
+  PutMission(store, kKey, options, events);
+  Mission straight(options);
+  std::vector<std::int64_t> saved;
+  for (const Event& event : events) {
+    ASSERT_TRUE(straight.Apply(event.body).ok());
+    if (!std::holds_alternative<EpochAdopted>(event.body) || !straight.can_be_saved()) continue;
+    saved.push_back(straight.revision());
+    const auto state = straight.SaveState();
+    ASSERT_TRUE(state.ok()) << state.status();
+    ASSERT_TRUE(
+        PutSnapshotNow(store, kKey, 1, PackSnapshot(straight.revision(), straight.Digest(), *state))
+            .ok());
+  }
+  ASSERT_GE(saved.size(), 2U);
+  ASSERT_TRUE(TrimNow(store, kKey, 1).ok());
+  const std::int64_t older = saved[saved.size() - 2];
+  ASSERT_EQ(store.Peek(kKey)->first, older + 1);
+
+  EXPECT_EQ(MissionAt(store, kKey, older, NeverStop()).value()->revision(), older);
+  EXPECT_TRUE(absl::IsOutOfRange(MissionAt(store, kKey, older - 1, NeverStop()).status()));
+  const auto recovered = RecoverMission(store, kKey, NeverStop());
+  ASSERT_TRUE(recovered.ok()) << recovered.status();
+  EXPECT_EQ(recovered->mission->Digest(), straight.Digest());
+
+  // Without a snapshot that serves there is no way back.
+  const std::int64_t epoch = recovered->epoch;
+  for (const std::int64_t revision : {saved.back(), saved.back() + 1}) {
+    ASSERT_TRUE(PutSnapshotNow(store, kKey, epoch, {revision, 0, "rubbish"}).ok());
+  }
+  EXPECT_TRUE(absl::IsDataLoss(RecoverMission(store, kKey, NeverStop()).status()));
 }
 
 }  // namespace mission_recovery_test

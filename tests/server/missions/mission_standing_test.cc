@@ -36,7 +36,9 @@ TEST_F(MissionStandingTest, AFinishedMissionStaysSo) {
 }
 
 TEST_F(MissionStandingTest, ARecoveredMissionIsAsItWas) {
-  standing_.Restore(MissionState::kPaused, absl::Seconds(5));
+  EXPECT_EQ(standing_.event_retention(), EventRetention::kAll);
+  standing_.Restore(MissionState::kPaused, absl::Seconds(5), EventRetention::kSinceSnapshot);
+  EXPECT_EQ(standing_.event_retention(), EventRetention::kSinceSnapshot);
   EXPECT_EQ(standing_.state(), MissionState::kPaused);
   EXPECT_EQ(standing_.idle_time_to_live(), absl::Seconds(5));
 }

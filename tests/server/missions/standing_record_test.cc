@@ -13,7 +13,10 @@ namespace standing_record_test {
 TEST(StandingRecordTest, SurvivesTheRoundTrip) {
   for (const MissionState state :
        {MissionState::kRunning, MissionState::kPaused, MissionState::kFinished}) {
-    const StandingRecord record{state, absl::Milliseconds(1500), {{"r1", 1LL << 52}, {"r2", 7}}};
+    const StandingRecord record{state,
+                                absl::Milliseconds(1500),
+                                {{"r1", 1LL << 52}, {"r2", 7}},
+                                EventRetention::kSinceSnapshot};
     const auto back = DecodeStanding(EncodeStanding(record));
     ASSERT_TRUE(back.ok()) << back.status();
     EXPECT_EQ(*back, record);
@@ -29,6 +32,7 @@ TEST(StandingRecordTest, WhatIsNoneIsDataLoss) {
   for (const char* bytes : {"paused", "[]", "{}", R"({"version":"1"})", R"({"version":1})",
                             R"({"version":1,"state":"asleep"})",
                             R"({"version":1,"state":"paused","idle_time_to_live_ns":"long"})",
+                            R"({"version":1,"state":"paused","event_retention":"none"})",
                             R"({"version":1,"state":"paused","released_leases":[1]})",
                             R"({"version":1,"state":"paused","released_leases":{"r1":"x"}})"}) {
     EXPECT_TRUE(absl::IsDataLoss(DecodeStanding(bytes).status())) << bytes;

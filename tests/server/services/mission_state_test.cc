@@ -145,6 +145,24 @@ TEST_F(MissionStateTest, TheTimeToLiveIsSetAndShown) {
   EXPECT_EQ(created->mission().owner(), "anonymous");
 }
 
+TEST_F(MissionStateTest, TheRetentionOfEventsIsSetAndShown) {
+  StartServer();
+  EXPECT_EQ(Get().event_retention(), v1::EVENT_RETENTION_ALL);
+  v1::UpdateMissionRequest update;
+  update.mutable_mission()->set_name("missions/hall");
+  update.mutable_mission()->set_event_retention(v1::EVENT_RETENTION_SINCE_SNAPSHOT);
+  update.mutable_update_mask()->add_paths("event_retention");
+  const auto updated = Call(missions_, &v1::MissionService::Stub::UpdateMission, update);
+  ASSERT_TRUE(updated.ok()) << updated.status();
+  EXPECT_EQ(updated->mission().event_retention(), v1::EVENT_RETENTION_SINCE_SNAPSHOT);
+  EXPECT_EQ(Get().event_retention(), v1::EVENT_RETENTION_SINCE_SNAPSHOT);
+  v1::CreateMissionRequest create;
+  create.set_mission_id("attic");
+  create.set_event_retention(v1::EVENT_RETENTION_SINCE_SNAPSHOT);
+  const auto created = Call(missions_, &v1::MissionService::Stub::CreateMission, create);
+  EXPECT_EQ(created->mission().event_retention(), v1::EVENT_RETENTION_SINCE_SNAPSHOT);
+}
+
 // The watcher is all that keeps it.
 TEST_F(MissionStateTest, AMissionThatNobodyCallsForIsDeleted) {
   StartServer();

@@ -65,5 +65,22 @@ TEST(MissionUpdateTest, ATimeToLiveSurvivesTheRoundTrip) {
             absl::Milliseconds(90'250));
 }
 
+TEST(MissionUpdateTest, TheRetentionOfEventsIsRead) {
+  v1::UpdateMissionRequest request;
+  request.mutable_mission()->set_name("missions/hall");
+  request.mutable_update_mask()->add_paths("event_retention");
+  for (const EventRetention retention : {EventRetention::kAll, EventRetention::kSinceSnapshot}) {
+    request.mutable_mission()->set_event_retention(ToProto(retention));
+    const auto update = MissionUpdateFromProto(request);
+    ASSERT_TRUE(update.ok()) << update.status();
+    EXPECT_EQ(update->event_retention, retention);
+    EXPECT_FALSE(update->idle_time_to_live.has_value()) << "it is not in the mask";
+  }
+  request.mutable_mission()->clear_event_retention();
+  EXPECT_EQ(MissionUpdateFromProto(request)->event_retention, EventRetention::kAll);
+  request.mutable_mission()->set_event_retention(static_cast<v1::EventRetention>(9));
+  EXPECT_EQ(Blamed(MissionUpdateFromProto(request).status()), "mission.event_retention");
+}
+
 }  // namespace mission_update_test
 }  // namespace plumescout::server

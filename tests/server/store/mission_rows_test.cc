@@ -128,5 +128,25 @@ TEST_F(MissionRowsTest, RecordsOfRemovedMissionsGoInPieces) {
   EXPECT_GT(rows_->Insert("house", "").value().id, other.id);
 }
 
+TEST_F(MissionRowsTest, TrimmedRecordsGoInPieces) {
+  MissionRow other = rows_->Insert("mill", "").value();
+  ASSERT_TRUE(rows_->AddRecords(other, Records("mill", 1, 3)).ok());
+  ASSERT_TRUE(rows_->Save(other).ok());
+  const std::int64_t bytes = row_.bytes;
+  for (const std::int64_t revision : {6, 8}) {
+    ASSERT_TRUE(rows_->PutSnapshot(row_, {revision, 0, ""}).ok());
+  }
+  ASSERT_TRUE(rows_->Trim(row_).ok());
+  ASSERT_TRUE(rows_->Trim(row_).ok()) << "again, to no effect";
+  ASSERT_TRUE(rows_->Save(row_).ok());
+  EXPECT_EQ(row_.base, 6);
+  EXPECT_LT(row_.bytes, bytes);
+  int pieces = 0;
+  while (*rows_->PurgeTrimmed(4)) ++pieces;
+  EXPECT_EQ(pieces, 2);  // of 4 and 2 records
+  EXPECT_EQ(*database_->GetInt("SELECT count(*) FROM record"), 4 + 3);
+  EXPECT_EQ(rows_->Find("house").value()->base, 6);
+}
+
 }  // namespace mission_rows_test
 }  // namespace plumescout::server

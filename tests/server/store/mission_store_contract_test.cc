@@ -65,7 +65,8 @@ TEST_P(MissionStoreContract, WhatIsNotThereIsNotFound) {
        {store().Acquire("house").status(), store().Peek("house").status(),
         store().Read("house", 1).status(), AppendNow(store(), "house", 1, 1, {"a"}),
         PutStandingNow(store(), "house", 1, "paused"),
-        PutSnapshotNow(store(), "house", 1, {0, 0, ""}), RemoveNow(store(), "house", 1)}) {
+        PutSnapshotNow(store(), "house", 1, {0, 0, ""}), TrimNow(store(), "house", 1),
+        RemoveNow(store(), "house", 1)}) {
     EXPECT_TRUE(absl::IsNotFound(status)) << status;
     EXPECT_EQ(ErrorReason(status), reason::kMissionNotFound);
   }
@@ -101,6 +102,44 @@ TEST_P(MissionStoreContract, AReaderEndsWhereTheJournalEndedWhenItBegan) {
   EXPECT_EQ((**(*reader)->Next()).number, 3);
   EXPECT_FALSE((*reader)->Next()->has_value());
   EXPECT_FALSE((*reader)->Next()->has_value());
+}
+
+TEST_P(MissionStoreContract, RecordsGoThatTwoSnapshotsStandFor) {
+  Fill("house", 10);
+  Fill("mill", 10);
+  const std::int64_t whole_bytes = store().List()->front().bytes;
+  ASSERT_TRUE(PutSnapshotNow(store(), "house", 1, {4, 0, "four"}).ok());
+  ASSERT_TRUE(TrimNow(store(), "house", 1).ok());
+  EXPECT_EQ(store().Peek("house")->first, 1) << "one snapshot may turn out to be damaged";
+
+  ASSERT_TRUE(PutSnapshotNow(store(), "house", 1, {7, 0, "seven"}).ok());
+  for (int times = 0; times < 2; ++times) {
+    ASSERT_TRUE(TrimNow(store(), "house", 1).ok());
+    EXPECT_EQ(store().Peek("house")->first, 5);
+    EXPECT_TRUE(absl::IsOutOfRange(store().Read("house", 1).status()));
+    EXPECT_TRUE(absl::IsOutOfRange(store().Read("house", 4).status()));
+    EXPECT_EQ(*ReadAll(store(), "house", 5), Numbered("house", 5, 6));
+    EXPECT_EQ(store().List()->front().bytes, whole_bytes - 4 * 40 + 9);
+  }
+  EXPECT_EQ(*ReadAll(store(), "mill"), Numbered("mill", 1, 10));
+
+  ASSERT_TRUE(AppendNow(store(), "house", 1, 11, {RecordBytes("house", 11)}).ok());
+  EXPECT_EQ(store().Acquire("house")->first, 5);
+  EXPECT_EQ(*ReadAll(store(), "house", 8), Numbered("house", 8, 4));
+  EXPECT_EQ(ErrorReason(TrimNow(store(), "house", 1)), reason::kFenced);
+}
+
+TEST_P(MissionStoreContract, AReaderHearsThatWhatItHasNotReadYetIsTrimmed) {
+  Fill("house", 1000);
+  const auto reader = store().Read("house", 1).value();
+  ASSERT_TRUE(PutSnapshotNow(store(), "house", 1, {900, 0, ""}).ok());
+  ASSERT_TRUE(PutSnapshotNow(store(), "house", 1, {950, 0, ""}).ok());
+  ASSERT_TRUE(TrimNow(store(), "house", 1).ok());
+  // They are deleted step by step, in turn with what is asked for.
+  for (int i = 0; i < 8; ++i) ASSERT_TRUE(PutStandingNow(store(), "house", 1, "").ok());
+  absl::Status end;
+  for (int i = 0; i < 1000 && end.ok(); ++i) end = reader->Next().status();
+  EXPECT_TRUE(absl::IsOutOfRange(end)) << end;
 }
 
 TEST_P(MissionStoreContract, GapsAndRepetitionsAreRefused) {

@@ -59,6 +59,12 @@ inline absl::Status PutSnapshotNow(MissionStore& store, const std::string& key, 
   return answer.Wait();
 }
 
+inline absl::Status TrimNow(MissionStore& store, const std::string& key, std::int64_t epoch) {
+  Told answer;
+  store.Trim(key, epoch, answer.done());
+  return answer.Wait();
+}
+
 inline absl::Status RemoveNow(MissionStore& store, const std::string& key, std::int64_t epoch) {
   Told answer;
   store.Remove(key, epoch, answer.done());

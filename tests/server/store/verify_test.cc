@@ -106,5 +106,23 @@ TEST_F(VerifyTest, ARunningServerAndAnEmptyFolderAreRefused) {
   EXPECT_TRUE(absl::IsFailedPrecondition(status)) << status;
 }
 
+TEST_F(VerifyTest, ATrimmedMissionIsWholeFromItsFirstRecordOn) {
+  {
+    const auto store = SqliteStore::Open(InFolder(folder_.path())).value();
+    ASSERT_TRUE(PutSnapshotNow(*store, "house", 1, {250, 8, "state"}).ok());
+    ASSERT_TRUE(TrimNow(*store, "house", 1).ok());
+  }
+  const auto report = VerifyStore(folder_.path());
+  ASSERT_TRUE(report.ok()) << report.status();
+  EXPECT_TRUE(report->is_whole());
+  EXPECT_EQ(report->missions[0].records, 100);
+
+  Change("UPDATE record SET bytes = x'00' WHERE number = 201 AND mission = 1");
+  EXPECT_THAT(std::string(VerifyStore(folder_.path())->missions[0].status.message()),
+              HasSubstr("record 201 "));
+  Change("UPDATE progress SET base = 199 WHERE mission = 1");
+  EXPECT_FALSE(VerifyStore(folder_.path())->is_whole());
+}
+
 }  // namespace verify_test
 }  // namespace plumescout::server
