@@ -101,6 +101,12 @@ bool Mutex::AwaitWithTimeout(const Condition& condition, Duration timeout) {
   return CallReleased(this, real, this, &condition, timeout);
 }
 
+bool Mutex::AwaitWithDeadline(const Condition& condition, Time deadline) {
+  static auto* const real = Real<bool, Mutex*, const Condition*, Time>(
+      "_ZN4absl7debian35Mutex17AwaitWithDeadlineERKNS0_9ConditionENS0_4TimeE");
+  return CallReleased(this, real, this, &condition, deadline);
+}
+
 void CondVar::Wait(Mutex* mutex) {
   static auto* const real =
       Real<void, CondVar*, Mutex*>("_ZN4absl7debian37CondVar4WaitEPNS0_5MutexE");
@@ -127,6 +133,21 @@ void Notification::WaitForNotification() const {
       Real<void, const Notification*>("_ZNK4absl7debian312Notification19WaitForNotificationEv");
   Call(real, this);
   __tsan_acquire(const_cast<Notification*>(this));
+}
+
+bool Notification::WaitForNotificationWithTimeout(Duration timeout) const {
+  static auto* const real = Real<bool, const Notification*, Duration>(
+      "_ZNK4absl7debian312Notification30WaitForNotificationWithTimeoutENS0_8DurationE");
+  const bool notified = Call(real, this, timeout);
+  if (notified) __tsan_acquire(const_cast<Notification*>(this));
+  return notified;
+}
+bool Notification::WaitForNotificationWithDeadline(Time deadline) const {
+  static auto* const real = Real<bool, const Notification*, Time>(
+      "_ZNK4absl7debian312Notification31WaitForNotificationWithDeadlineENS0_4TimeE");
+  const bool notified = Call(real, this, deadline);
+  if (notified) __tsan_acquire(const_cast<Notification*>(this));
+  return notified;
 }
 
 bool BlockingCounter::DecrementCount() {
