@@ -18,6 +18,7 @@
 #include "proto/convert/plan.h"
 #include "proto/convert/status.h"
 #include "server/config/mission_options.h"
+#include "server/missions/mission_journal.h"
 #include "server/missions/mission_strategy.h"
 #include "server/streams/ingest_frames.h"
 #include "server/streams/plan_order_from_proto.h"
@@ -118,7 +119,7 @@ void SmallService::Take(const std::string& robot, std::int64_t lease_token,
   if (!name.ok() || !incoming.ok()) return;
   if (!leases_->Use(name->robot, lease_token, now_ns_).ok()) return;
   const IngestResult result = conduct_->Ingest(name->robot, lease_token, *std::move(incoming));
-  server::ToIngestState(result.position, kMaxBatch);
+  server::ToIngestState(result.position, name->robot, server::MissionJournal(), kMaxBatch);
   for (const RefusedObservation& refused : result.refused) server::ToRejected(refused);
 }
 
