@@ -3,37 +3,12 @@
 #pragma once
 
 #include "core/types/event.h"
+#include "core/types/visit_types.h"
 
 namespace plumescout {
 
-// Whether a stored value is one of the enumerators; another is damage. Each switch names all of
-// them, so that one more does not compile until it is added here.
-constexpr bool IsEnumerator(MissionPhase phase) {
-  switch (phase) {
-    case MissionPhase::kExploring:
-    case MissionPhase::kGasProbing:
-    case MissionPhase::kFallback:
-    case MissionPhase::kComplete:
-    case MissionPhase::kReturning:
-    case MissionPhase::kSurvey:
-    case MissionPhase::kSampling:
-      return true;
-  }
-  return false;
-}
-constexpr bool IsEnumerator(GoalKind kind) {
-  switch (kind) {
-    case GoalKind::kOccupancyFrontier:
-    case GoalKind::kGasFrontier:
-    case GoalKind::kRandomFreeSpace:
-    case GoalKind::kHome:
-    case GoalKind::kInformation:
-    case GoalKind::kSite:
-      return true;
-  }
-  return false;
-}
-constexpr bool IsEnumerator(PathSource source) {
+// As in core/types/visit_types.h, of the enumerations that only journals hold.
+constexpr bool IsOne(PathSource source) {
   switch (source) {
     case PathSource::kTree:
     case PathSource::kGridGuard:
@@ -42,7 +17,7 @@ constexpr bool IsEnumerator(PathSource source) {
   }
   return false;
 }
-constexpr bool IsEnumerator(RejectionReason reason) {
+constexpr bool IsOne(RejectionReason reason) {
   switch (reason) {
     case RejectionReason::kUnreachable:
     case RejectionReason::kTooSmall:
@@ -58,7 +33,7 @@ constexpr bool IsEnumerator(RejectionReason reason) {
   }
   return false;
 }
-constexpr bool IsEnumerator(PlanEnd end) {
+constexpr bool IsOne(PlanEnd end) {
   switch (end) {
     case PlanEnd::kAllGoalsReached:
     case PlanEnd::kQueueExhausted:
@@ -71,7 +46,7 @@ constexpr bool IsEnumerator(PlanEnd end) {
   }
   return false;
 }
-constexpr bool IsEnumerator(ProgressOutcome outcome) {
+constexpr bool IsOne(ProgressOutcome outcome) {
   switch (outcome) {
     case ProgressOutcome::kReached:
     case ProgressOutcome::kBlocked:

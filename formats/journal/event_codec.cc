@@ -157,7 +157,7 @@ class Decoder {
   template <Enum T>
   void Get(T& value) {
     const std::uint8_t byte = GetByte();
-    ok_ = ok_ && IsEnumerator(static_cast<T>(byte));
+    ok_ = ok_ && IsOne(static_cast<T>(byte));
     value = ok_ ? static_cast<T>(byte) : T{};
   }
   template <std::floating_point T>

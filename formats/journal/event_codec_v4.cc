@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "formats/journal/enumerators.h"
+#include "formats/journal/event_members.h"
 #include "formats/little_endian.h"
 
 namespace plumescout {
@@ -26,103 +27,14 @@ concept Number = std::is_arithmetic_v<T> && !std::same_as<T, bool>;
 template <typename T>
 concept Enum = std::is_enum_v<T>;
 
-// The members that the layout has, in its order. A binding names all members of the struct, so that
-// one added since does not compile until it is passed over here.
-template <typename T, typename Struct>
-concept Is = std::same_as<std::remove_const_t<T>, Struct>;
-
-void Visit(auto& archive, Is<Cell> auto& cell) {
-  auto& [x, y] = cell;
-  archive(x, y);
-}
-void Visit(auto& archive, Is<Point2> auto& point) {
-  auto& [x_m, y_m] = point;
-  archive(x_m, y_m);
-}
-void Visit(auto& archive, Is<Pose2> auto& pose) {
-  auto& [x_m, y_m, yaw_rad] = pose;
-  archive(x_m, y_m, yaw_rad);
-}
-void Visit(auto& archive, Is<Scan> auto& scan) {
-  auto& [start_angle_rad, angle_step_rad, max_range_m, ranges_m] = scan;
-  archive(start_angle_rad, angle_step_rad, max_range_m, ranges_m);
-}
-void Visit(auto& archive, Is<GasReading> auto& reading) {
-  auto& [concentration_ppm, variance_ppm2] = reading;
-  archive(concentration_ppm, variance_ppm2);
-}
-void Visit(auto& archive, Is<SequenceGap> auto& gap) {
-  auto& [first_sequence, last_sequence] = gap;
-  archive(first_sequence, last_sequence);
-}
-void Visit(auto& archive, Is<Observation> auto& observation) {
-  auto& [sequence, sample_time_ns, pose, payload] = observation;
-  archive(sequence, sample_time_ns, pose, payload);
-}
-void Visit(auto& archive, Is<Waypoint> auto& waypoint) {
-  auto& [pose, arrival_time_s, dwell_s, speed_mps] = waypoint;
-  archive(pose, arrival_time_s, dwell_s, speed_mps);
-}
-void Visit(auto& archive, Is<Trajectory> auto& trajectory) {
-  auto& [waypoints, length_m, duration_s] = trajectory;
-  archive(waypoints, length_m, duration_s);
-}
-void Visit(auto& archive, Is<Goal> auto& goal) {
-  auto& [kind, cell, position, centroid, frontier_cells] = goal;
-  archive(kind, cell, position, centroid, frontier_cells);
-}
-void Visit(auto& archive, Is<Candidate> auto& candidate) {
-  auto& [goal, path, source, cost, penalty, length_m, mean_ucb, mean_ppm, duration_s,
-         information_nats, reward, stops] = candidate;
-  archive(goal, path, source, cost, penalty, length_m, mean_ucb, mean_ppm, duration_s,
-          information_nats, reward, stops);
-}
-void Visit(auto& archive, Is<RejectedGoal> auto& rejected) {
-  auto& [goal, reason, detail] = rejected;
-  archive(goal, reason, detail);
-}
-void Visit(auto& archive, Is<PlanEffort> auto& effort) {
-  auto& [samples, vertices, edges_evaluated, goals_by_guard, batches] = effort;
-  archive(samples, vertices, edges_evaluated, goals_by_guard, batches);
-}
-void Visit(auto& archive, Is<Plan> auto& plan) {
-  auto& [id, robot, strategy, belief_revision, seed, phase, end, chosen, candidates, rejected,
-         trajectory, effort, field_flat, goal_kept, start_escaped, explanation, cpu_s] = plan;
-  archive(id, robot, strategy, belief_revision, seed, phase, end, chosen, candidates, rejected,
-          trajectory, effort, field_flat, goal_kept, start_escaped, explanation, cpu_s);
-}
-void Visit(auto& archive, Is<RobotRegistered> auto& event) {
+// The members that the layout has, in its order: those of the newest one, but for what is younger.
+// A struct that changes in event_members.h gets the list that it had here; the golden files tell.
+void VisitOld(auto& archive, auto& value) { journal::VisitMembers(archive, value); }
+void VisitOld(auto& archive, RobotRegistered& event) {
   auto& [robot, radius_m, lease_token, log_epoch] = event;  // log_epoch is younger
   archive(robot, radius_m, lease_token);
 }
-void Visit(auto& archive, Is<ObservationReceived> auto& event) {
-  auto& [robot, observation] = event;
-  archive(robot, observation);
-}
-void Visit(auto& archive, Is<PosteriorRefreshed> auto& event) {
-  auto& [time_ns] = event;
-  archive(time_ns);
-}
-void Visit(auto& archive, Is<PlanIssued> auto& event) {
-  auto& [plan] = event;
-  archive(plan);
-}
-void Visit(auto& archive, Is<ProgressReported> auto& event) {
-  auto& [robot, plan_id, outcome] = event;
-  archive(robot, plan_id, outcome);
-}
-void Visit(auto& archive, Is<EpochBegun> auto& event) {
-  auto& [time_ns] = event;
-  archive(time_ns);
-}
-void Visit(auto&, Is<EpochAdopted> auto&) {
-  static_assert(std::is_empty_v<EpochAdopted>);  // no members, so no binding to name them in
-}
-void Visit(auto& archive, Is<RobotRemoved> auto& event) {
-  auto& [robot] = event;
-  archive(robot);
-}
-void Visit(auto& archive, Is<Event> auto& event) {
+void VisitOld(auto& archive, Event& event) {
   auto& [number, body] = event;
   archive(number, body);
 }
@@ -162,7 +74,7 @@ class Decoder {
   void Get(T& value) {
     std::uint8_t byte = 0;
     Get(byte);
-    ok_ = ok_ && IsEnumerator(static_cast<T>(byte));
+    ok_ = ok_ && IsOne(static_cast<T>(byte));
     value = ok_ ? static_cast<T>(byte) : T{};
   }
   void Get(std::string& text) {
@@ -197,7 +109,7 @@ class Decoder {
   }
   template <typename T>
   requires std::is_class_v<T>
-  void Get(T& value) { Visit(*this, value); }
+  void Get(T& value) { VisitOld(*this, value); }
 
   absl::string_view rest_;
   bool ok_ = true;

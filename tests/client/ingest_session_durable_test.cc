@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "absl/time/clock.h"
 #include "client/ingest_session.h"
 #include "tests/client/ingest_session_fixture.h"
 #include "tests/support/temp_folder.h"
@@ -78,7 +77,7 @@ TEST_F(IngestSessionDurableTest, WhatIsForgottenIsDeclaredToAServerThatWasSetBac
   ASSERT_TRUE(session_->WaitSafe(last_, kPatience).ok());
 
   server_.SetBack(40);
-  while (session_->statistics().rollbacks == 0) absl::SleepFor(absl::Milliseconds(1));
+  ASSERT_TRUE(AwaitAtLeast(&IngestStatistics::rollbacks, 1));
   ASSERT_TRUE(WaitForAll().ok());
   Append(1);
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "absl/synchronization/mutex.h"
+#include "absl/time/clock.h"
 #include "absl/time/time.h"
 #include "client/ingest_session.h"
 #include "client/join.h"
@@ -35,6 +36,11 @@ class IngestSessionFixture : public ::testing::Test {
     callbacks.on_rolled_back = [this](std::int64_t applied_sequence, std::int64_t forgotten) {
       absl::MutexLock lock(&mutex_);
       rolled_back_.emplace_back(applied_sequence, forgotten);
+      ++news_;
+    };
+    callbacks.on_link = [this](const absl::Status&) {
+      absl::MutexLock lock(&mutex_);
+      ++news_;
     };
     callbacks.on_rejected = [this](const ObservationRejected& rejected) {
       absl::MutexLock lock(&mutex_);
@@ -57,6 +63,20 @@ class IngestSessionFixture : public ::testing::Test {
       appended_times_.push_back(time_ns);
       last_ = session_->Append(time_ns, {}, GasReading{});
     }
+  }
+  // Until one of the statistics that change with the link is so large. False if that takes too
+  // long.
+  bool AwaitAtLeast(std::int64_t IngestStatistics::*figure, std::int64_t least) {
+    const absl::Time deadline = absl::Now() + kPatience;
+    absl::MutexLock lock(&mutex_);
+    while (session_->statistics().*figure < least) {
+      const auto is_new = [this, seen = news_] {
+        mutex_.AssertHeld();
+        return news_ != seen;
+      };
+      if (!mutex_.AwaitWithDeadline(absl::Condition(&is_new), deadline)) return false;
+    }
+    return true;
   }
   absl::Status WaitForAll() { return session_->WaitApplied(last_, kPatience); }
 
@@ -81,6 +101,7 @@ class IngestSessionFixture : public ::testing::Test {
   absl::Mutex mutex_;
   std::vector<std::pair<std::int64_t, std::int64_t>> rolled_back_;
   std::vector<std::int64_t> rejected_;
+  std::int64_t news_ = 0;  // of the link, each after the statistics have it
   std::unique_ptr<IngestSession> session_;
 };
 

@@ -8,7 +8,6 @@
 #include <thread>
 #include <vector>
 
-#include "absl/time/clock.h"
 #include "client/error_reason.h"
 #include "proto/convert/status.h"
 #include "tests/client/ingest_session_fixture.h"
@@ -85,7 +84,7 @@ TEST_F(IngestSessionTest, ARestartedServerIsToldEverythingAgain) {
   server_.Restart();
   Append(1);
 
-  while (session_->statistics().server_restarts == 0) absl::SleepFor(absl::Milliseconds(1));
+  ASSERT_TRUE(AwaitAtLeast(&IngestStatistics::server_restarts, 1));
   ASSERT_TRUE(WaitForAll().ok());
   EXPECT_EQ(ReceivedNumbers(), Range(1, 101));
   EXPECT_EQ(session_->session().server_boot_id, "boot-2");
@@ -101,7 +100,7 @@ TEST_F(IngestSessionTest, NumbersDroppedFromAFullLogReachARestartedServerAsAGap)
   ASSERT_TRUE(WaitForAll().ok());
 
   server_.Restart();
-  while (session_->statistics().server_restarts == 0) absl::SleepFor(absl::Milliseconds(1));
+  ASSERT_TRUE(AwaitAtLeast(&IngestStatistics::server_restarts, 1));
 
   ASSERT_TRUE(WaitForAll().ok());
   const std::vector<Observation> received = server_.received();
@@ -156,7 +155,7 @@ TEST_F(IngestSessionTest, ALeaseThatAnotherTookMeanwhileIsReclaimedOnceItIsFree)
   server_.BreakLink();
   server_.SupersedeLease();
   server_.MendLink();
-  while (session_->statistics().reconnects < 3) absl::SleepFor(absl::Milliseconds(1));
+  ASSERT_TRUE(AwaitAtLeast(&IngestStatistics::reconnects, 3));
   server_.LetGoOfLease();
   Append(1);
 
@@ -185,7 +184,7 @@ TEST_F(IngestSessionTest, TroubleThatPassesIsWaitedForAsLongAsItTakes) {
     server_.BreakLink(absl::UnavailableError(trouble));
     const std::int64_t before = session_->statistics().reconnects;
     Append(10);
-    while (session_->statistics().reconnects < before + 20) absl::SleepFor(absl::Milliseconds(1));
+    ASSERT_TRUE(AwaitAtLeast(&IngestStatistics::reconnects, before + 20));
     EXPECT_EQ(session_->health(), absl::OkStatus());
     server_.MendLink();
     ASSERT_TRUE(WaitForAll().ok());
@@ -195,7 +194,7 @@ TEST_F(IngestSessionTest, TroubleThatPassesIsWaitedForAsLongAsItTakes) {
 TEST_F(IngestSessionTest, TheServersDelayIsKeptTo) {
   Start();
   server_.BreakLink(WithRetryDelay(absl::UnavailableError("RECOVERING"), absl::Hours(1)));
-  while (session_->statistics().reconnects == 0) absl::SleepFor(absl::Milliseconds(1));
+  ASSERT_TRUE(AwaitAtLeast(&IngestStatistics::reconnects, 1));
   server_.MendLink();
   Append(1);
 
