@@ -118,7 +118,7 @@ void ReadStore(const ServerState& state, Readings& readings) {
   readings.Gauge("plumescout_store_last_commit_seconds", "Duration of the last commit.");
   readings.Add(absl::ToDoubleSeconds(store.last_commit));
   readings.Gauge("plumescout_store_disk_bytes", "Size of all files of the store.");
-  readings.Add(store.disk_bytes);
+  readings.Add(state.store->disk_bytes());
   const AbsentCounts absent = state.missions->absent();
   readings.Gauge("plumescout_missions_recovering", "Missions that are yet to be recovered.");
   readings.Add(absent.recovering);

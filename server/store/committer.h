@@ -44,7 +44,6 @@ class Committer {
   // Not from a callback.
   absl::Status SubmitAndWait(StoreWrite write);
 
-  // All but disk_bytes.
   StoreState state() const;
 
  private:

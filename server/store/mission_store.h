@@ -76,7 +76,6 @@ struct StoreState {
   std::int64_t commits = 0;       // so far
   std::int64_t slow_commits = 0;  // of them, longer than StoreOptions::slow_commit
   absl::Duration last_commit;     // how long it took
-  std::int64_t disk_bytes = 0;    // of all files
 };
 
 // Thread-safe. Callbacks run on a thread of the store's and must not block; each is called exactly
@@ -128,6 +127,8 @@ class MissionStore {
   virtual absl::StatusOr<std::vector<StoredMission>> List() = 0;
 
   virtual StoreState state() const = 0;
+  // Of all files, which it looks at.
+  virtual std::int64_t disk_bytes() const { return 0; }
   // Whether what it keeps survives the process.
   virtual bool is_durable() const = 0;
 };

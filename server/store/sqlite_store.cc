@@ -106,11 +106,7 @@ absl::StatusOr<std::vector<StoredMission>> SqliteStore::List() {
   return listed;
 }
 
-StoreState SqliteStore::state() const {
-  StoreState state = CommittedStore::state();
-  state.disk_bytes = StoreDiskBytes(folder_);
-  return state;
-}
+std::int64_t SqliteStore::disk_bytes() const { return StoreDiskBytes(folder_); }
 
 absl::Status SqliteStore::Compact() {
   std::int64_t left = 1;

@@ -45,7 +45,7 @@ class SqliteStore final : public CommittedStore {
   absl::StatusOr<AcquiredMission> Peek(const std::string& key) override;
   // Also those that the database has lost: Acquire says so.
   absl::StatusOr<std::vector<StoredMission>> List() override;
-  StoreState state() const override;
+  std::int64_t disk_bytes() const override;
   bool is_durable() const override { return true; }
 
   // Gives the room of removed missions back to the system, in small steps between commits. Blocks.
