@@ -1,4 +1,4 @@
-# Sets `united` to sources that include those given, by paths relative to the root, eight at a time:
+# Sets `united` to sources that include those given, by paths relative to the root, sixteen at a time:
 # most of the time that a source takes is for what it includes. Names of unnamed namespaces must not
 # meet within a library; each test keeps to a namespace of its own. (CMake's UNITY_BUILD names sources
 # by absolute paths, which no compiler cache of another clone knows.)
@@ -11,7 +11,7 @@ function(plumescout_unite united target)
   set(made)
   set(left ${ARGN})
   while(left)
-    list(SUBLIST left 0 8 batch)
+    list(SUBLIST left 0 16 batch)
     list(REMOVE_ITEM left ${batch})
     list(LENGTH made number)
     set(file ${CMAKE_CURRENT_BINARY_DIR}/${target}_${number}.cc)

@@ -52,7 +52,7 @@ v1::Mission DescribeMission(MissionHost& host, const MissionOptions& options) {
   proto.set_owner(host.owner());
   proto.set_state(ToProto(host.standing().state()));
   SetIdleTimeToLive(host.standing().idle_time_to_live(), proto);
-  proto.set_event_retention(server::ToProto(host.standing().event_retention()));
+  proto.set_event_retention(server::EventRetentionToProto(host.standing().event_retention()));
   proto.set_revision(summary.revision);
   proto.set_phase(ToProto(summary.phase));
   if (summary.next_map_update_ns) proto.set_next_map_update_ns(*summary.next_map_update_ns);

@@ -191,11 +191,11 @@ absl::Status MissionService::Update(const v1::UpdateMissionRequest& request, v1:
                               context_.FindMission(call->caller(), update.mission));
   PLUMESCOUT_RETURN_IF_ERROR(host->journal().CheckTakesMore());
   Apply(update, *host);
-  LogInfo(
-      "mission updated",
-      {{"mission", update.mission},
-       {"idle_time_to_live", absl::FormatDuration(host->standing().idle_time_to_live())},
-       {"event_retention", v1::EventRetention_Name(ToProto(host->standing().event_retention()))}});
+  LogInfo("mission updated",
+          {{"mission", update.mission},
+           {"idle_time_to_live", absl::FormatDuration(host->standing().idle_time_to_live())},
+           {"event_retention",
+            v1::EventRetention_Name(EventRetentionToProto(host->standing().event_retention()))}});
   mission = DescribeMission(*host, WithoutPriorMap(host->options()));
   AnswerWhenDurable(*host, call, absl::OkStatus());
   return absl::OkStatus();

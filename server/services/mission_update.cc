@@ -45,7 +45,7 @@ absl::StatusOr<EventRetention> EventRetentionFromProto(v1::EventRetention proto,
   }
 }
 
-v1::EventRetention ToProto(EventRetention retention) {
+v1::EventRetention EventRetentionToProto(EventRetention retention) {
   return retention == EventRetention::kAll ? v1::EVENT_RETENTION_ALL
                                            : v1::EVENT_RETENTION_SINCE_SNAPSHOT;
 }

@@ -23,7 +23,7 @@ void SetIdleTimeToLive(absl::Duration duration, v1::Mission& mission);
 // Unset: all.
 absl::StatusOr<EventRetention> EventRetentionFromProto(v1::EventRetention proto,
                                                        absl::string_view field);
-v1::EventRetention ToProto(EventRetention retention);
+v1::EventRetention EventRetentionToProto(EventRetention retention);
 
 // What an UpdateMissionRequest asks for; what is absent stays as it is.
 struct MissionUpdate {

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "absl/synchronization/mutex.h"
 #include "absl/synchronization/notification.h"
 #include "tests/server/host_parts.h"
 
@@ -251,8 +252,10 @@ TEST(MissionHostTest, NobodyWaitsLongerThanTheMissionAllows) {
 TEST(MissionHostTest, StopFailsWhoWaitsAndWhoWatches) {
   MissionHost host(HostParts(), {});
   AddRobot(host);
+  absl::Mutex mutex;  // who stops it fails the one, its writer the other
   std::vector<absl::StatusCode> ends;
   const auto note = [&](const absl::StatusOr<std::shared_ptr<const Belief>>& belief) {
+    absl::MutexLock lock(&mutex);
     if (!belief.ok()) ends.push_back(belief.status().code());
     return true;
   };

@@ -70,7 +70,7 @@ TEST(MissionUpdateTest, TheRetentionOfEventsIsRead) {
   request.mutable_mission()->set_name("missions/hall");
   request.mutable_update_mask()->add_paths("event_retention");
   for (const EventRetention retention : {EventRetention::kAll, EventRetention::kSinceSnapshot}) {
-    request.mutable_mission()->set_event_retention(ToProto(retention));
+    request.mutable_mission()->set_event_retention(EventRetentionToProto(retention));
     const auto update = MissionUpdateFromProto(request);
     ASSERT_TRUE(update.ok()) << update.status();
     EXPECT_EQ(update->event_retention, retention);
