@@ -134,7 +134,8 @@ void IngestStream::PostBatch(IngestRoom::Hold room) {
   {
     absl::MutexLock lock(&mutex_);
     if (!waiting_.has_value()) return;  // the stream is over
-    incoming = *std::exchange(waiting_, std::nullopt);
+    // It stays in place until it is posted: the next batch must not be read, and overtake it.
+    incoming = std::move(*waiting_);
     arrived = arrived_;
   }
   const int count = static_cast<int>(incoming.size());
@@ -148,6 +149,10 @@ void IngestStream::PostBatch(IngestRoom::Hold room) {
        },
        [self, count](const absl::Status& status) { self->Dropped(count, status); },
        std::move(room)});
+  {
+    absl::MutexLock lock(&mutex_);
+    waiting_.reset();
+  }
   if (!posted.ok()) return Dropped(count, posted);
   Pump();
 }

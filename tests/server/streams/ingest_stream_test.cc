@@ -235,6 +235,33 @@ TEST_F(ServiceTest, BatchesWaitForRoomAndNoneIsRefused) {
   }
 }
 
+// Room is given by whichever thread gives some back, while the stream's own threads go on.
+TEST_F(ServiceTest, BatchesThatWaitForRoomKeepTheirOrder) {
+  constexpr int kRobots = 6;
+  constexpr int kRounds = 5;
+  ServerConfig config;
+  config.limits.max_queued_observations = 2;
+  StartServer(config);
+  const auto streams = OpenStreams(
+      kRobots, *ingest_, [&](const std::string& robot) { return Register(robot)->lease_token(); });
+  std::vector<std::future<std::int64_t>> applied;
+  for (const auto& stream : streams) {
+    applied.push_back(std::async(std::launch::async, [&stream] {
+      std::int64_t applied_sequence = 0;
+      for (int last = kWindow; last <= kRounds * kWindow; last += kWindow) {
+        for (int i = last - kWindow + 1; i <= last; ++i) stream->Send(GasReadings(i, i));
+        applied_sequence = stream->ReadAck(last).applied_sequence();
+        if (applied_sequence < last) break;
+      }
+      return applied_sequence;
+    }));
+  }
+  for (int i = 0; i < kRobots; ++i) {
+    EXPECT_EQ(applied[static_cast<std::size_t>(i)].get(), kRounds * kWindow)
+        << streams[static_cast<std::size_t>(i)]->Finish();
+  }
+}
+
 TEST_F(ServiceTest, DeletedMissionEndsStreamsThoughItIsBusy) {
   WriterGate gate;
   StartServer({}, gate.Hooks());
