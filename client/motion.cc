@@ -12,12 +12,21 @@ constexpr double kSecondsPerNanosecond = 1e-9;
 class IdealMotion final : public Motion {
  public:
   IdealMotion(const Trajectory& trajectory, std::int64_t departure_ns)
-      : trajectory_(trajectory), departure_ns_(departure_ns) {}
+      : trajectory_(trajectory), departure_ns_(departure_ns), stepped_ns_(departure_ns) {}
 
+  // While another robot is in the way no time of the trajectory goes by.
   absl::Status Step(RobotDriver& driver) override {
-    elapsed_s_ = static_cast<double>(driver.now_ns() - departure_ns_) * kSecondsPerNanosecond;
+    const std::int64_t now_ns = driver.now_ns();
+    const double elapsed_s = static_cast<double>(now_ns - departure_ns_) * kSecondsPerNanosecond;
+    const absl::Status placed = driver.PlaceAt(PoseAt(trajectory_, elapsed_s));
+    if (absl::IsUnavailable(placed)) {
+      departure_ns_ += now_ns - stepped_ns_;
+    } else {
+      elapsed_s_ = elapsed_s;
+    }
+    stepped_ns_ = now_ns;
     stepped_ = true;
-    return driver.PlaceAt(PoseAt(trajectory_, elapsed_s_));
+    return absl::IsUnavailable(placed) ? absl::OkStatus() : placed;
   }
 
   bool done() const override {
@@ -44,7 +53,8 @@ class IdealMotion final : public Motion {
 
  private:
   const Trajectory trajectory_;
-  const std::int64_t departure_ns_;
+  std::int64_t departure_ns_;
+  std::int64_t stepped_ns_;  // of the latest Step
   double elapsed_s_ = 0.0;
   bool stepped_ = false;
 };

@@ -36,7 +36,7 @@ class RobotDriver {
 
   virtual absl::Status Drive(const Twist& twist) = 0;
   // Ideal following: stand exactly here now. Simulated robots only; real ones return
-  // kUnimplemented.
+  // kUnimplemented. kUnavailable: another robot is in the way, this one stays where it is.
   virtual absl::Status PlaceAt(const Pose2& pose) = 0;
 
   // Lets `duration_s` go by: a simulation steps its world, a real robot waits.

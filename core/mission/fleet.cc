@@ -20,6 +20,9 @@ constexpr double kClaimGrace_s = 30.0;
 // Poses and beams err a little: the disc is wider than the robot by this much.
 constexpr double kMaskMargin_m = 0.15;
 constexpr double kMaxRadius_m = 5.0;
+// A robot whose way is blocked sees what blocks it within a metre ahead; both have driven on since
+// their latest poses came.
+constexpr double kMeeting_m = 1.5;
 
 std::int64_t Nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
 
@@ -203,7 +206,7 @@ absl::StatusOr<PlanId> Fleet::Issue(const Plan& plan, std::int64_t now_ns) {
   return member.record.last_plan;
 }
 
-absl::StatusOr<std::optional<Goal>> Fleet::Report(const ProgressReported& report) {
+absl::StatusOr<EndedPlan> Fleet::Report(const ProgressReported& report) {
   Member* const reporter = Find(report.robot);
   if (reporter == nullptr) return UnknownRobot(report.robot);
   Member& member = *reporter;
@@ -223,7 +226,18 @@ absl::StatusOr<std::optional<Goal>> Fleet::Report(const ProgressReported& report
   // A place that was not reached says nothing of what can be seen from there.
   const bool reached = report.outcome == ProgressOutcome::kReached;
   if (live.phase == MissionPhase::kFallback && reached) ++member.record.fruitless_fallbacks;
-  return live.goal;
+  return EndedPlan{live.goal, OthersNear(member)};
+}
+
+// Bodies nearer than kMeeting_m, the silent ones' too.
+bool Fleet::OthersNear(const Member& member) const {
+  const RobotState& state = member.record.state;
+  return std::any_of(robots_.begin(), robots_.end(), [&](const auto& entry) {
+    const RobotState& other = entry.second.record.state;
+    return other.id != state.id && state.has_pose && other.has_pose &&
+           Distance_m(state.pose.position(), other.pose.position()) <
+               state.radius_m + other.radius_m + kMeeting_m;
+  });
 }
 
 void Fleet::UpdatePhase(MissionPhase latest) {

@@ -18,6 +18,12 @@
 
 namespace plumescout {
 
+// The plan that a report ended.
+struct EndedPlan {
+  std::optional<Goal> goal;  // none: the robot stayed where it was, or drove home
+  bool others_near = false;  // another robot was so near that it may have been what was in the way
+};
+
 // The robots of a mission: leases, logs, live plans, and how far each has driven.
 //
 // Invariants: 1. a robot has at most one live plan. 2. no two live, unexpired plans of different
@@ -45,8 +51,8 @@ class Fleet {
   // Gives the plan its number and makes it the robot's live plan. kAborted if another robot's live
   // plan claims the goal.
   absl::StatusOr<PlanId> Issue(const Plan& plan, std::int64_t now_ns);
-  // Ends the robot's live plan. Returns the goal it had, if that was another than home.
-  absl::StatusOr<std::optional<Goal>> Report(const ProgressReported& report);
+  // Ends the robot's live plan.
+  absl::StatusOr<EndedPlan> Report(const ProgressReported& report);
 
   absl::StatusOr<std::int64_t> AppliedSequence(const RobotId& robot) const;
   absl::StatusOr<std::int64_t> LeaseToken(const RobotId& robot) const;
@@ -100,6 +106,7 @@ class Fleet {
     return const_cast<Member*>(std::as_const(*this).Find(robot));
   }
   static void EndPlan(Member& member);
+  bool OthersNear(const Member& member) const;
   void FallSilent(Member& member);
   void UpdatePhase(MissionPhase latest);
   void CompleteIfAllAre();

@@ -3,6 +3,7 @@
 #include "lab/sim/company.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace plumescout::lab {
@@ -33,6 +34,30 @@ void Company::Stand(int robot, const Body& body) {
     if (i == index || !members_[i].body) continue;
     closest_m_ = std::min(closest_m_, Distance_m(body.center, members_[i].body->center));
   }
+}
+
+bool Company::MayMoveTo(int robot, Point2 center, std::int64_t now_ns) {
+  absl::MutexLock lock(&mutex_);
+  Member& me = members_[static_cast<std::size_t>(robot)];
+  if (now_ns < me.held_until_ns) return false;
+  if (!me.body) return true;
+  for (Member& other : members_) {
+    if (&other == &me || !other.body) continue;
+    const double next_m = Distance_m(center, other.body->center);
+    const bool nearer = next_m < Distance_m(me.body->center, other.body->center);
+    if (!nearer || next_m >= me.body->radius_m + other.body->radius_m) continue;
+    constexpr double kNanosecondsPerSecond = 1e9;
+    me.held_until_ns = now_ns + std::llround(kContactPause_s * kNanosecondsPerSecond);
+    other.held_until_ns = me.held_until_ns;
+    ++contacts_;
+    return false;
+  }
+  return true;
+}
+
+int Company::contacts() const {
+  absl::MutexLock lock(&mutex_);
+  return contacts_;
 }
 
 std::vector<Body> Company::Others(int robot) const {

@@ -110,6 +110,8 @@ absl::StatusOr<EpisodeResult> RunRobot(SimulatedRobot& robot, const EpisodeOptio
   result.simulated_s = ran.elapsed_s;
   result.distance_m = ran.distance_m;
   result.collisions = robot.collisions();
+  result.legs = ran.reached + ran.blocked + ran.aborted;
+  result.blocked_legs = ran.blocked;
   result.completed = ran.end == client::RobotEnd::kMissionComplete;
   return std::move(result);
 }
@@ -210,6 +212,7 @@ absl::StatusOr<TeamResult> RunTeamEpisode(client::PlannerClient& planner, const 
   PLUMESCOUT_RETURN_IF_ERROR(judge.Take(end_s, applied));
   team.samples = judge.samples();
   team.closest_m = company.closest_m();
+  team.contacts = company.contacts();
   return team;
 }
 

@@ -72,6 +72,8 @@ struct EpisodeResult {
   double simulated_s = 0.0;
   double distance_m = 0.0;
   int collisions = 0;
+  int legs = 0;            // that have ended
+  int blocked_legs = 0;    // of those, for something stood in the way
   bool completed = false;  // the planner said so; else the time was up or `stop` said so
 };
 
@@ -92,10 +94,11 @@ struct TeamResult {
   std::vector<EpisodeResult> robots;  // in the order of the options; their samples are empty
   std::vector<MetricSample> samples;  // of the map that they share
   double closest_m = 0.0;             // that two of them ever came, centre to centre
+  int contacts = 0;                   // of bodies
 };
 
 // Several robots that share a mission and a world: the one of `options` and `teammates`, who are
-// like it but for name, start and seed. Robots see each other and may drive through each other.
+// like it but for name, start and seed. Robots see each other and block each other's ways.
 // In lockstep they take turns in the order of simulated time, so that the episode is repeatable;
 // `stop`, on_sample and on_plan are called by one robot at a time. In real time each goes its own
 // way, and `stop` must be thread-safe. An error of one ends the episode for all.

@@ -131,6 +131,7 @@ absl::Status SimulatedRobot::PlaceAt(const Pose2& pose) {
     ++collisions_;
     return absl::OkStatus();
   }
+  if (!MayMoveTo(truth.position())) return absl::UnavailableError("another robot is in the way");
   pose_ = truth;
   pose_.yaw_rad = WrapAngle_rad(truth.yaw_rad);
   ShowBody();
@@ -166,13 +167,21 @@ void SimulatedRobot::Move(double duration_s) {
   if (mean_speed_mps == 0.0 && twist_.turn_rad_per_s == 0.0) return;
   const Pose2 next = AlongArc(pose_, {mean_speed_mps, twist_.turn_rad_per_s}, duration_s);
   const bool turns_on_the_spot = next.position() == pose_.position();
-  if (!turns_on_the_spot && world_->Collides(next.position(), options_.body_radius_m)) {
-    ++collisions_;
+  const bool hits_wall =
+      !turns_on_the_spot && world_->Collides(next.position(), options_.body_radius_m);
+  if (hits_wall) ++collisions_;
+  if (hits_wall || (!turns_on_the_spot && !MayMoveTo(next.position()))) {
     twist_ = {};
     speed_mps_ = 0.0;
     return;
   }
   pose_ = next;
+}
+
+bool SimulatedRobot::MayMoveTo(Point2 place) const {
+  const Companion& companion = options_.companion;
+  return companion.company == nullptr ||
+         companion.company->MayMoveTo(companion.robot, place, now_ns_);
 }
 
 // As near to the command as the acceleration lets it come; without a limit there at once.

@@ -27,7 +27,7 @@ struct SimulatedRobotOptions {
   // Touching a wall stops the robot, [0, 5]. Far less than its real radius: plans keep the centres
   // of cells 0.2 m apart, in a map that still grows, and come as near as 0.06 m to true walls.
   double body_radius_m = 0.05;
-  double seen_radius_m = 0.2;  // of the body that beams of others meet, [0, 5]
+  double seen_radius_m = 0.2;  // of the body that other robots and their beams meet, [0, 5]
   LidarOptions lidar = {};
   GasSensorOptions gas_sensor = {};
   PoseErrorOptions pose_error = {};
@@ -35,8 +35,7 @@ struct SimulatedRobotOptions {
   std::int64_t start_time_ns = 1'700'000'000'000'000'000;  // of the clock, at its start; >= 0
   bool realtime = false;                                   // Advance takes as long as it says
   std::uint64_t seed = 1;
-  // Others in the same world, who see this robot's body as it sees theirs. They are no walls: it
-  // may drive through them.
+  // Others in the same world, who see this robot's body as it sees theirs, and block its way.
   Companion companion = {};
 };
 
@@ -62,12 +61,13 @@ class SimulatedRobot : public client::RobotDriver {
   absl::Status Drive(const client::Twist& twist) override;
   // Where the robot holds itself to be: drift of its localisation sets it off. A pose that collides
   // is not taken: the robot stays, as if it had bumped into something. kInvalidArgument if not
-  // finite.
+  // finite. kUnavailable while another robot is in the way; see Company::MayMoveTo.
   absl::Status PlaceAt(const Pose2& pose) override;
   // In steps of at most kStep_s. kInvalidArgument unless 0 <= duration_s <= 3600.
   absl::Status Advance(double duration_s) override;
 
-  // Moves that a wall prevented. The robot then stands until the next command.
+  // Moves that a wall prevented. The robot then stands until the next command, as it does when
+  // another robot is in the way.
   int collisions() const { return collisions_; }
 
  private:
@@ -75,6 +75,7 @@ class SimulatedRobot : public client::RobotDriver {
 
   void Move(double duration_s);
   double NextSpeed_mps(double duration_s) const;
+  bool MayMoveTo(Point2 place) const;
   void ShowBody();
   void Pace(double duration_s);
   double scene_time_s() const;

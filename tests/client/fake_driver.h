@@ -42,8 +42,8 @@ class FakeDriver final : public RobotDriver {
     return absl::OkStatus();
   }
   absl::Status PlaceAt(const Pose2& pose) override {
-    pose_ = pose;
-    return absl::OkStatus();
+    if (place_status.ok()) pose_ = pose;
+    return place_status;
   }
   absl::Status Advance(double duration_s) override {
     constexpr int kSubsteps = 20;
@@ -67,6 +67,7 @@ class FakeDriver final : public RobotDriver {
   absl::Status scan_status;
   absl::Status gas_status;
   absl::Status advance_status;
+  absl::Status place_status;
   std::function<void()> on_advance;
 
  private:

@@ -133,6 +133,25 @@ TEST(SteeredMotionTest, KeepsToTheLimitsOfTheRobot) {
   EXPECT_EQ(fastest_rad_per_s, 0.7);
 }
 
+TEST(IdealMotionTest, WaitsWhileAnotherRobotIsInTheWay) {
+  FakeDriver driver;
+  const auto motion = Start(Following::kIdeal, driver);
+  const auto tick = [&] {
+    ASSERT_TRUE(motion->Step(driver).ok());
+    ASSERT_TRUE(driver.Advance(kTick_s).ok());
+  };
+  for (int i = 0; i < 5; ++i) tick();
+  const Pose2 there = driver.pose();
+  driver.place_status = absl::UnavailableError("another robot is in the way");
+  for (int i = 0; i < 30; ++i) tick();
+  EXPECT_EQ(driver.pose(), there);
+  EXPECT_FALSE(motion->done());
+  driver.place_status = absl::OkStatus();
+  tick();
+  EXPECT_NEAR(Distance_m(driver.pose().position(), there.position()), kTick_s, 1e-9)
+      << "it goes on at 1 m/s from where it stood";
+}
+
 TEST(SteeredMotionTest, ThePathAheadBeginsAtTheRobot) {
   FakeDriver driver;
   driver.set_pose({0.5, 0.2, 0.0});

@@ -175,10 +175,11 @@ TEST(FleetReport, CountsNoFallbackThatDidNotReachItsPlace) {
 TEST(FleetReport, SaysWhichGoalThePlanHad) {
   Fleet fleet = FleetOf({"a"});
   const PlanId plan = *fleet.Issue(PlanTo("a", {1.0, 2.0}), 0);
-  const auto goal = fleet.Report({"a", plan, ProgressOutcome::kBlocked});
-  ASSERT_TRUE(goal.ok());
-  ASSERT_TRUE(goal->has_value());
-  EXPECT_EQ((*goal)->position, (Point2{1.0, 2.0}));
+  const auto ended = fleet.Report({"a", plan, ProgressOutcome::kBlocked});
+  ASSERT_TRUE(ended.ok());
+  ASSERT_TRUE(ended->goal.has_value());
+  EXPECT_EQ(ended->goal->position, (Point2{1.0, 2.0}));
+  EXPECT_FALSE(ended->others_near);
 }
 
 TEST(FleetIssue, NobodyClaimsHomeAndNoMemoryKeepsFromIt) {
@@ -186,7 +187,7 @@ TEST(FleetIssue, NobodyClaimsHomeAndNoMemoryKeepsFromIt) {
   const PlanId plan = *fleet.Issue(PlanTo("a", {1.0, 1.0}, GoalKind::kHome), 0);
   EXPECT_TRUE(fleet.Claims(0).empty());
   EXPECT_TRUE(fleet.Issue(PlanTo("b", {1.0, 1.0}, GoalKind::kHome), 0).ok());
-  EXPECT_EQ(*fleet.Report({"a", plan, ProgressOutcome::kBlocked}), std::nullopt);
+  EXPECT_EQ(fleet.Report({"a", plan, ProgressOutcome::kBlocked})->goal, std::nullopt);
 }
 
 TEST(FleetRecords, HoldTheFirstPlaceAndTheWaySinceThen) {

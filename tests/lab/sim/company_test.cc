@@ -72,5 +72,31 @@ TEST(CompanyTest, RemembersHowCloseTheyCame) {
   EXPECT_EQ(company.closest_m(), 1.5);
 }
 
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+TEST(CompanyTest, BodiesBlockEachOther) {
+  Company company(3, true);
+  EXPECT_TRUE(company.MayMoveTo(0, {0.0, 0.0}, 0)) << "it has no body yet";
+  company.Stand(0, {{0.0, 0.0}, 0.2});
+  company.Stand(1, {{1.0, 0.0}, 0.3});
+  EXPECT_TRUE(company.MayMoveTo(0, {0.5, 0.0}, 0)) << "they touch and no more";
+  EXPECT_EQ(company.contacts(), 0);
+  EXPECT_FALSE(company.MayMoveTo(0, {0.51, 0.0}, kSecond_ns));
+  EXPECT_EQ(company.contacts(), 1);
+  for (const int robot : {0, 1}) {
+    EXPECT_FALSE(company.MayMoveTo(robot, {-3.0, 3.0}, 2 * kSecond_ns - 1)) << robot;
+    EXPECT_TRUE(company.MayMoveTo(robot, {-3.0, 3.0}, 2 * kSecond_ns)) << robot;
+  }
+  EXPECT_EQ(company.contacts(), 1) << "who is held runs into nobody";
+}
+
+TEST(CompanyTest, BodiesThatOverlapMayPart) {
+  Company company(2, true);
+  company.Stand(0, {{0.0, 0.0}, 0.3});
+  company.Stand(1, {{0.4, 0.0}, 0.3});
+  EXPECT_TRUE(company.MayMoveTo(0, {-0.1, 0.0}, 0));
+  EXPECT_FALSE(company.MayMoveTo(0, {0.1, 0.0}, 0));
+}
+
 }  // namespace company_test
 }  // namespace plumescout::lab

@@ -307,6 +307,28 @@ TEST_F(SimulatedRobotTest, RobotsSeeEachOther) {
   EXPECT_NEAR(company.closest_m(), 2.0, kRounding);
 }
 
+TEST_F(SimulatedRobotTest, RobotsBlockEachOther) {
+  Company company(2, false);
+  SimulatedRobotOptions options;
+  options.companion = {&company, 0};
+  SimulatedRobot west = Make(options);
+  options.start = Pose2{west.pose().x_m + 1.0, west.pose().y_m, 0.0};
+  options.companion.robot = 1;
+  SimulatedRobot east = Make(options);
+  ASSERT_TRUE(east.Drive({-1.0, 0.0}).ok());
+  ASSERT_TRUE(east.Advance(2.0).ok());
+  EXPECT_NEAR(Distance_m(east.pose().position(), west.pose().position()), 0.4, 0.03);
+  EXPECT_EQ(company.contacts(), 1);
+  EXPECT_EQ(east.collisions(), 0);
+  const Pose2 before = east.pose();
+  EXPECT_TRUE(absl::IsUnavailable(east.PlaceAt(west.pose())));
+  EXPECT_EQ(east.pose(), before);
+  ASSERT_TRUE(east.Advance(kContactPause_s).ok());
+  ASSERT_TRUE(east.Drive({1.0, 0.0}).ok());
+  ASSERT_TRUE(east.Advance(1.0).ok());
+  EXPECT_NEAR(Distance_m(east.pose().position(), west.pose().position()), 1.4, 0.03);
+}
+
 TEST_F(SimulatedRobotTest, RejectsNewerOptionsOutOfRange) {
   ExpectInvalid({.max_acceleration_mps2 = 0.0}, "robot.max_acceleration_mps2 = 0");
   ExpectInvalid({.max_acceleration_mps2 = std::nan("")}, "robot.max_acceleration_mps2 = nan");
