@@ -181,8 +181,10 @@ absl::StatusOr<Applied> Mission::Change(const PlanIssued& issued) {
 }
 
 absl::StatusOr<Applied> Mission::Change(const ProgressReported& report) {
-  PLUMESCOUT_ASSIGN_OR_RETURN(const std::optional<Goal> goal, fleet_.Report(report));
-  if (goal) goal_memory_.Remember(*goal, report.outcome, Present());
+  PLUMESCOUT_ASSIGN_OR_RETURN(const EndedPlan ended, fleet_.Report(report));
+  // A robot drives on, so what it was in the way of can be reached a moment later.
+  const bool met = report.outcome == ProgressOutcome::kBlocked && ended.others_near;
+  if (ended.goal && !met) goal_memory_.Remember(*ended.goal, report.outcome, Present());
   return Applied{};
 }
 
@@ -211,6 +213,14 @@ absl::StatusOr<std::int64_t> Mission::AppliedSequence(const RobotId& robot) cons
 
 absl::StatusOr<std::int64_t> Mission::LeaseToken(const RobotId& robot) const {
   return fleet_.LeaseToken(robot);
+}
+
+std::optional<Meeting> Mission::FindMeeting(const Plan& plan, double clearance_m) const {
+  const PlanningOptions& planning = options_->planning;
+  if (!planning.yield_to_robots || !fleet_.Knows(plan.robot)) return std::nullopt;
+  return Traffic(fleet_.Records(), plan.robot, std::min(clearance_m, planning.robot_clearance_m),
+                 sample_time_ns_)
+      .FirstMeeting(plan.trajectory);
 }
 
 bool Mission::LogContinues(const RobotId& robot, std::int64_t log_epoch) const {

@@ -16,6 +16,7 @@
 #include "core/plan/goals/goal_offer.h"
 #include "core/plan/goals/travel_budget.h"
 #include "core/plan/plan_start.h"
+#include "core/plan/right_of_way.h"
 #include "core/plan/selection/choice.h"
 #include "core/plan/trajectory_timing.h"
 #include "core/types/rng.h"
@@ -49,10 +50,14 @@ PlanEffort Sum(const PlanEffort& a, const PlanEffort& b) {
           a.goals_by_guard + b.goals_by_guard, a.batches + b.batches};
 }
 
-bool HasOverBudget(const Plan& plan) {
-  return std::any_of(plan.rejected.begin(), plan.rejected.end(), [](const RejectedGoal& goal) {
-    return goal.reason == RejectionReason::kOverBudget;
-  });
+// Every goal that could be reached is too far away for the travel budget.
+bool IsBudgetSpent(const Plan& plan) {
+  const auto is_rejected_for = [&](RejectionReason reason) {
+    return std::any_of(plan.rejected.begin(), plan.rejected.end(),
+                       [reason](const RejectedGoal& goal) { return goal.reason == reason; });
+  };
+  return plan.candidates.empty() && is_rejected_for(RejectionReason::kOverBudget) &&
+         !is_rejected_for(RejectionReason::kTraffic);
 }
 
 }  // namespace
@@ -67,7 +72,7 @@ absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
     if (request.go_home) plan.phase = MissionPhase::kReturning;
     const Call call = {belief, request, stop, improved};
     PLUMESCOUT_RETURN_IF_ERROR(PlanFrom(*start.departure, call, plan));
-    if (plan.candidates.empty() && HasOverBudget(plan)) {
+    if (IsBudgetSpent(plan)) {
       PLUMESCOUT_RETURN_IF_ERROR(PlanLastWayHome(*start.departure, call, plan));
     }
   }
@@ -80,7 +85,7 @@ void ComposedStrategy::Conclude(double start_yaw_rad, const PlanningOptions& opt
   if (plan.chosen >= 0) {
     const Candidate& chosen = plan.candidates[static_cast<std::size_t>(plan.chosen)];
     plan.phase = PhaseOf(chosen.goal.kind);
-    plan.trajectory = TimeTrajectory(chosen.path, start_yaw_rad, options);
+    plan.trajectory = TrajectoryOf(chosen, start_yaw_rad, options);
   }
   plan.explanation = Explain(plan, options);
 }
@@ -145,6 +150,7 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
   TakeResults(judging, result, plan);
   const bool stopped_empty = plan.end == PlanEnd::kStopped && plan.candidates.empty();
   RejectOverBudget(query, plan);
+  if (!plan.candidates.empty()) YieldToRobots(belief, departure.yaw_rad, options_, plan);
   Choose(belief, options_, stop, plan);
   const bool budget_spent = request.max_edge_evaluations > 0 &&
                             plan.effort.edges_evaluated >= request.max_edge_evaluations;
@@ -161,6 +167,7 @@ plumescout::Plan ComposedStrategy::Incumbent(const Judging& judging, PathResult 
   }
   TakeResults(judging, result, plan);
   RejectOverBudget(judging.query, plan);
+  YieldToRobots(judging.query.belief, judging.departure.yaw_rad, options_, plan);
   Choose(judging.query.belief, options, NeverStop(), plan);
   Conclude(judging.departure.yaw_rad, options, plan);
   return plan;

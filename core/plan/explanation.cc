@@ -7,6 +7,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "core/plan/right_of_way.h"
 #include "core/plan/selection/selection.h"
 
 namespace plumescout {
@@ -68,6 +69,10 @@ std::string Choice(const Plan& plan, const PlanningOptions& options) {
       plan.candidates.size());
   if (Rejects(plan, RejectionReason::kOverBudget) && chosen.goal.kind == GoalKind::kHome) {
     absl::StrAppend(&text, "; every other goal is beyond the travel budget");
+  }
+  if (const double wait_s = WaitOf_s(plan.trajectory); wait_s > options.dwell_s) {
+    absl::StrAppend(&text,
+                    absl::StrFormat("; %.1f s from now, when other robots have passed", wait_s));
   }
   if (plan.start_escaped) absl::StrAppend(&text, "; first out of the margin around obstacles");
   if (plan.field_flat) absl::StrAppend(&text, "; the information map is flat");

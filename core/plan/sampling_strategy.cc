@@ -14,6 +14,7 @@
 #include "core/plan/cost/information_map.h"
 #include "core/plan/explanation.h"
 #include "core/plan/goals/travel_budget.h"
+#include "core/plan/right_of_way.h"
 #include "core/plan/sampling/site_lattice.h"
 #include "core/plan/sampling/ways.h"
 #include "core/plan/selection/candidate_terms.h"
@@ -91,7 +92,8 @@ absl::StatusOr<plumescout::Plan> SamplingStrategy::Plan(const Belief& belief,
   }
   PLUMESCOUT_RETURN_IF_ERROR(PlanFrom(belief, stop, start));
   // Before its mission is complete, or when its budget is spent, the robot drives home.
-  const bool is_spent = HasReason(start.plan, RejectionReason::kOverBudget);
+  const bool is_spent = HasReason(start.plan, RejectionReason::kOverBudget) &&
+                        !HasReason(start.plan, RejectionReason::kTraffic);
   const bool is_done = start.plan.end == PlanEnd::kMissionComplete;
   if (start.plan.chosen < 0 && (is_spent || (is_done && options_.return_home))) {
     PlanRequest way_home = request;
@@ -143,6 +145,7 @@ absl::Status SamplingStrategy::PlanFrom(const Belief& belief, const StopFn& stop
     plan.candidates.push_back(std::move(candidate));
   }
   RejectOverBudget(query, plan);
+  YieldToRobots(belief, departure.yaw_rad, options_, plan);
   Conclude(choice, start);
   return absl::OkStatus();
 }
@@ -154,12 +157,13 @@ void SamplingStrategy::Conclude(const SamplingChoice& choice, PlanStart& start) 
     plan.chosen = 0;
     plan.phase = choice.phase;
     plan.end = PlanEnd::kAllGoalsReached;
-    plan.trajectory = TimeTrajectory(chosen.path, chosen.stops, start.pose.yaw_rad, options_);
+    plan.trajectory = TrajectoryOf(chosen, start.pose.yaw_rad, options_);
     plan.explanation = Describe(plan, choice.merit);
     return;
   }
-  // What another robot is about to sample may still be to do.
-  const bool waits = HasReason(plan, RejectionReason::kClaimed);
+  // What another robot is about to sample, or in the way of, may still be to do.
+  const bool waits =
+      HasReason(plan, RejectionReason::kClaimed) || HasReason(plan, RejectionReason::kTraffic);
   plan.end = waits ? PlanEnd::kAllGoalsRejected : PlanEnd::kMissionComplete;
   plan.phase = waits ? choice.phase : MissionPhase::kComplete;
   plan.explanation =

@@ -172,6 +172,13 @@ struct PlanningOptions {
   bool fallback_to_unobserved = true;
   int fallback_limit = 2;  // random places reached in vain that end the mission, [1, 1000]
 
+  // A robot waits until its way is clear of the live plans of others (core/traffic), or takes
+  // another way; false: robots are on their own (ours).
+  bool yield_to_robots = true;
+  // Beside both radii, between a robot on its way and others on theirs, [0, 10]: what keeping to a
+  // trajectory and poses err by, 2.5 sigma of 5 cm each.
+  double robot_clearance_m = 0.25;
+
   // How trajectories are timed. 0: no limit; else [0.001, 100]. With either limit the robot stops
   // at every corner and turns on the spot.
   double max_acceleration_mps2 = 0.0;    // along the path, of speeding up and of braking

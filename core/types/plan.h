@@ -78,6 +78,7 @@ enum class RejectionReason {
   kOverBudget,     // too little of the travel budget would be left to drive home
   kKeptOut,        // in an area where nobody may drive
   kGone,           // of a check: no such goal is left
+  kTraffic,        // another robot is on the way to it for longer than one would wait
 };
 
 struct RejectedGoal {

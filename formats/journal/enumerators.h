@@ -29,6 +29,7 @@ constexpr bool IsOne(RejectionReason reason) {
     case RejectionReason::kOverBudget:
     case RejectionReason::kKeptOut:
     case RejectionReason::kGone:
+    case RejectionReason::kTraffic:
       return true;
   }
   return false;

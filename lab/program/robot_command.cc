@@ -128,8 +128,8 @@ std::string Verdict(const TeamResult& team, double wall_s) {
       100.0 * metrics.completeness, metrics.rmse_ppm, metrics.rmse_zero_ppm, sums.plans,
       sums.distance_m, sums.applied, sums.sent);
   if (team.robots.size() > 1) {
-    absl::StrAppend(&verdict, absl::StrFormat(", %d robots never nearer than %.2f m",
-                                              team.robots.size(), team.closest_m));
+    absl::StrAppend(&verdict, absl::StrFormat(", %d robots never nearer than %.2f m, %d contacts",
+                                              team.robots.size(), team.closest_m, team.contacts));
   }
   return verdict;
 }

@@ -60,6 +60,9 @@ void AddTeamFigures(const TeamResult& team, Summary& summary) {
   add("mission_complete", complete ? 1.0 : 0.0);
   add("robots", static_cast<double>(team.robots.size()));
   add("closest_m", team.closest_m);
+  add("contacts", team.contacts);
+  add("legs", Sum(team, [](const EpisodeResult& r) { return r.legs; }));
+  add("blocked_legs", Sum(team, [](const EpisodeResult& r) { return r.blocked_legs; }));
 }
 
 Summary MakeSummary(const Run& run) {

@@ -37,6 +37,9 @@ constexpr FigureLabel kFigures[] = {
     {"mission_complete", "Mission complete", "", 1.0, true},
     {"robots", "Robots"},
     {"closest_m", "Two robots came as near as", " m"},
+    {"contacts", "Robots ran into each other", " times"},
+    {"legs", "Legs driven"},
+    {"blocked_legs", "Legs ended by something in the way"},
     {"server_killed_at_s", "Server killed, and started again, at", " s"},
 };
 

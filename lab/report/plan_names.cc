@@ -64,6 +64,8 @@ const char* NameOf(RejectionReason reason) {
       return "in a keep-out area";
     case RejectionReason::kGone:
       return "gone";
+    case RejectionReason::kTraffic:
+      return "another robot in the way";
   }
   return "unknown";
 }

@@ -65,7 +65,7 @@ absl::StatusOr<TrialPlan> MakePlan(const ExperimentOptions& options) {
   };
   PLUMESCOUT_ASSIGN_OR_RETURN(
       plan.scenes,
-      GeneratedScenes(making, kFirstBuilding, options.quick ? 1 : kBuildings, plan.duration_s));
+      GeneratedScenes(making, {kFirstBuilding, options.quick ? 1 : kBuildings}, plan.duration_s));
   plan.trials = options.trials.value_or(1);
   plan.first_seed = options.seed;
   plan.peer = kPeer;

@@ -254,7 +254,7 @@ absl::StatusOr<Study> RunOwnStrategy(const ExperimentOptions& options) {
   const double duration_s = options.quick ? kQuickDuration_s : kDuration_s;
   PLUMESCOUT_ASSIGN_OR_RETURN(
       std::vector<std::string> scenes,
-      GeneratedScenes(making, kFirstBuilding, options.quick ? kQuickBuildings : kBuildings,
+      GeneratedScenes(making, {kFirstBuilding, options.quick ? kQuickBuildings : kBuildings},
                       duration_s));
   PLUMESCOUT_ASSIGN_OR_RETURN(TrialPlan plan, MakePlan(options, std::move(scenes)));
   plan.progress = part(kScenesShare, 1.0 - kOracleShare);

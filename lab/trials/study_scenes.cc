@@ -72,21 +72,22 @@ absl::StatusOr<std::vector<std::string>> HallScene(const ExperimentOptions& opti
 }
 
 absl::StatusOr<std::vector<std::string>> GeneratedScenes(const ExperimentOptions& options,
-                                                         std::uint64_t first_seed, int count,
+                                                         const GeneratedBuildings& buildings,
                                                          double duration_s) {
   if (!options.scenes.empty()) return options.scenes;
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::string root, SceneRoot(options));
   std::vector<std::string> folders;
-  for (int i = 0; i < count; ++i) {
-    const std::string name = absl::StrCat("building_", first_seed + static_cast<std::uint64_t>(i));
+  for (int i = 0; i < buildings.count; ++i) {
+    const std::string name =
+        absl::StrCat(buildings.name, "_", buildings.first_seed + static_cast<std::uint64_t>(i));
     folders.push_back(SceneFolder(root, name, options.quick));
   }
   PLUMESCOUT_RETURN_IF_ERROR(RunTasks(
       folders.size(), options.jobs,
       [&](std::size_t i) {
-        const std::uint64_t seed = first_seed + i;
-        return MakeUnlessThere(GenerateLayout(seed), SceneOptions(options.quick, duration_s, seed),
-                               folders[i]);
+        const std::uint64_t seed = buildings.first_seed + i;
+        return MakeUnlessThere(GenerateLayout(seed, buildings.generator),
+                               SceneOptions(options.quick, duration_s, seed), folders[i]);
       },
       options.progress));
   return folders;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "lab/sim/layout_generator.h"
 #include "lab/trials/study.h"
 
 namespace plumescout::lab {
@@ -19,10 +20,17 @@ namespace plumescout::lab {
 absl::StatusOr<std::vector<std::string>> HallScene(const ExperimentOptions& options,
                                                    double duration_s);
 
-// Buildings of GenerateLayout with seeds first_seed, first_seed + 1, ...; made options.jobs at
-// once. Progress goes from 0 to 1.
+// Buildings of GenerateLayout with seeds first_seed, first_seed + 1, ...
+struct GeneratedBuildings {
+  std::uint64_t first_seed = 1;
+  int count = 1;
+  const char* name = "building";  // of their folders, before the seed
+  GeneratorOptions generator = {};
+};
+
+// Made options.jobs at once. Progress goes from 0 to 1.
 absl::StatusOr<std::vector<std::string>> GeneratedScenes(const ExperimentOptions& options,
-                                                         std::uint64_t first_seed, int count,
+                                                         const GeneratedBuildings& buildings,
                                                          double duration_s);
 
 }  // namespace plumescout::lab

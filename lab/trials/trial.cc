@@ -10,9 +10,11 @@
 
 #include "absl/time/time.h"
 #include "core/types/event.h"
+#include "core/types/quantile.h"
 #include "core/types/status_macros.h"
 #include "lab/local/local_planner_client.h"
 #include "lab/sim/episode.h"
+#include "lab/sim/team_starts.h"
 #include "ompl_planners/ompl_planner.h"
 
 namespace plumescout::lab {
@@ -61,6 +63,64 @@ absl::StatusOr<double> PeerError_ppm(const Scene& scene, const KernelDmvOptions&
   return cells > 0.0 ? std::sqrt(squares / cells) : 0.0;
 }
 
+double DistanceNow_m(const std::vector<DrivenPose>& a, std::size_t i,
+                     const std::vector<DrivenPose>& b, std::size_t& j) {
+  while (j + 1 < b.size() && b[j + 1].time_s <= a[i].time_s) ++j;
+  return Distance_m(a[i].pose.position(), b[j].pose.position());
+}
+
+// Each time that two come near, once for both.
+int Encounters(const std::vector<DrivenPose>& a, const std::vector<DrivenPose>& b, double near_m) {
+  int encounters = 0;
+  bool are_near = false;
+  std::size_t j = 0;
+  for (std::size_t i = 0; i < a.size() && !b.empty(); ++i) {
+    const bool near_now = DistanceNow_m(a, i, b, j) < near_m;
+    if (near_now && !are_near) ++encounters;
+    are_near = near_now;
+  }
+  return encounters;
+}
+
+TeamRecord MakeTeamRecord(const TeamResult& team, double radius_m) {
+  TeamRecord record;
+  std::vector<double> walls_s;
+  const std::vector<EpisodeResult>& robots = team.robots;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    record.legs += robots[i].legs;
+    record.blocked_legs += robots[i].blocked_legs;
+    record.robot_s += robots[i].simulated_s;
+    for (const IssuedPlan& issued : robots[i].plans) {
+      walls_s.push_back(absl::ToDoubleSeconds(issued.rpc_wall));
+      const std::vector<Waypoint>& waypoints = issued.plan.trajectory.waypoints;
+      if (!waypoints.empty()) record.waiting_s += waypoints.front().dwell_s;
+    }
+    for (std::size_t j = i + 1; j < robots.size(); ++j) {
+      record.encounters +=
+          Encounters(robots[i].path, robots[j].path, 2.0 * radius_m + kEncounterMargin_m);
+    }
+  }
+  record.contacts = team.contacts;
+  if (robots.size() > 1) record.closest_m = team.closest_m;
+  constexpr double kMedian = 0.5;
+  record.plan_wall_s = walls_s.empty() ? 0.0 : Quantile(walls_s, kMedian);
+  return record;
+}
+
+absl::StatusOr<std::vector<Teammate>> MakeTeammates(const Trial& trial,
+                                                    const EpisodeOptions& options) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      const std::vector<Pose2> starts,
+      TeamStarts(*trial.world, trial.robots, options.simulated.body_radius_m));
+  const std::vector<RobotId> names = TeamNames(options.robot, trial.robots);
+  std::vector<Teammate> teammates;
+  for (std::size_t i = 1; i < starts.size(); ++i) {
+    constexpr std::uint64_t kApart = 1000;  // seeds of teammates from those of other trials
+    teammates.push_back({names[i], starts[i], trial.seed + kApart * i});
+  }
+  return teammates;
+}
+
 EpisodeOptions MakeEpisodeOptions(const Trial& trial, TrialRecord& record) {
   EpisodeOptions options;
   options.mission = kMission;
@@ -94,12 +154,18 @@ absl::StatusOr<TrialRecord> RunTrial(const Trial& trial) {
     if (trial.peer) readings.push_back(*gas);
   };
   LocalPlannerClient planner(local);
-  PLUMESCOUT_ASSIGN_OR_RETURN(const EpisodeResult episode,
-                              RunEpisode(planner, *trial.world, MakeEpisodeOptions(trial, record)));
-  record.distance_m = episode.distance_m;
-  record.plans = static_cast<int>(episode.plans.size());
-  record.collisions = episode.collisions;
-  record.completed = episode.completed;
+  const EpisodeOptions options = MakeEpisodeOptions(trial, record);
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<Teammate> teammates, MakeTeammates(trial, options));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const TeamResult team,
+                              RunTeamEpisode(planner, *trial.world, options, teammates));
+  record.completed = true;
+  for (const EpisodeResult& robot : team.robots) {
+    record.distance_m += robot.distance_m;
+    record.plans += static_cast<int>(robot.plans.size());
+    record.collisions += robot.collisions;
+    record.completed = record.completed && robot.completed;
+  }
+  record.team = MakeTeamRecord(team, options.simulated.seen_radius_m);
   if (trial.peer) {
     PLUMESCOUT_ASSIGN_OR_RETURN(record.peer_rmse_ppm,
                                 PeerError_ppm(trial.world->scene(), *trial.peer, readings));

@@ -15,11 +15,12 @@
 
 namespace plumescout::lab {
 
-// One robot, one building, one way to plan.
+// One robot or several, one building, one way to plan.
 struct Trial {
   const MissionOptions* mission = nullptr;  // its seed is the trial's
   const SceneWorld* world = nullptr;
-  std::uint64_t seed = 1;             // of planner and sensors
+  int robots = 1;                     // that share the mission, from TeamStarts, >= 1
+  std::uint64_t seed = 1;             // of planner and of the first robot's sensors
   double duration_s = 300.0;          // simulated, [XIT] section VI-B
   std::vector<double> map_times_s{};  // when the gas map is kept, ascending
   // Also map the same readings by Kernel DM+V, over the whole building, and tell its error.
@@ -31,6 +32,19 @@ struct CurvePoint {
   MapMetrics metrics;
 };
 
+// How robots of one team got on with each other.
+struct TeamRecord {
+  int legs = 0;              // that ended
+  int blocked_legs = 0;      // of those, for something stood in the way
+  int contacts = 0;          // of two bodies
+  int encounters = 0;        // of two robots nearer than their radii and kEncounterMargin_m
+  double closest_m = 0.0;    // two centres ever came; 0: there was one robot
+  double waiting_s = 0.0;    // that plans had robots stand before they went
+  double robot_s = 0.0;      // of all robots together
+  double plan_wall_s = 0.0;  // median from asking to answer; differs from run to run
+};
+inline constexpr double kEncounterMargin_m = 0.1;
+
 struct TrialRecord {
   std::vector<CurvePoint> curve;      // at 0, every 5 s, and at the end
   std::vector<Grid<float>> mean_ppm;  // at the map times, on the scene's grid; NaN: not estimated
@@ -40,11 +54,12 @@ struct TrialRecord {
   int collisions = 0;
   bool completed = false;               // the planner said so before the time was up
   std::optional<double> peer_rmse_ppm;  // of Kernel DM+V in critical cells, at the end
+  TeamRecord team;
 };
 
-// Drives the robot through the building, planned in this process, in lockstep: the same trial gives
-// the same record on any machine. The posterior is brought up to date where plans and metrics ask
-// for it. Errors: as RunEpisode.
+// Drives the robots through the building, planned in this process, in lockstep: the same trial
+// gives the same record on any machine. The posterior is brought up to date where plans and metrics
+// ask for it. Errors: as RunEpisode.
 absl::StatusOr<TrialRecord> RunTrial(const Trial& trial);
 
 }  // namespace plumescout::lab

@@ -45,6 +45,26 @@ CurvePoint CurvePointFrom(const json& value) {
   return point;
 }
 
+json ToJson(const TeamRecord& team) {
+  return {{"legs", team.legs},           {"blocked_legs", team.blocked_legs},
+          {"contacts", team.contacts},   {"encounters", team.encounters},
+          {"closest_m", team.closest_m}, {"waiting_s", team.waiting_s},
+          {"robot_s", team.robot_s},     {"plan_wall_s", team.plan_wall_s}};
+}
+
+TeamRecord TeamRecordFrom(const json& value) {
+  TeamRecord team;
+  value.at("legs").get_to(team.legs);
+  value.at("blocked_legs").get_to(team.blocked_legs);
+  value.at("contacts").get_to(team.contacts);
+  value.at("encounters").get_to(team.encounters);
+  value.at("closest_m").get_to(team.closest_m);
+  value.at("waiting_s").get_to(team.waiting_s);
+  value.at("robot_s").get_to(team.robot_s);
+  value.at("plan_wall_s").get_to(team.plan_wall_s);
+  return team;
+}
+
 TrialRecord RecordFrom(const json& value) {
   TrialRecord record;
   for (const json& point : value.at("curve")) record.curve.push_back(CurvePointFrom(point));
@@ -53,6 +73,7 @@ TrialRecord RecordFrom(const json& value) {
   record.plans = value.at("plans").get<int>();
   record.collisions = value.at("collisions").get<int>();
   record.completed = value.at("completed").get<bool>();
+  record.team = TeamRecordFrom(value.at("team"));
   if (value.contains("peer_rmse_ppm")) {
     record.peer_rmse_ppm = value.at("peer_rmse_ppm").get<double>();
   }
@@ -112,7 +133,8 @@ absl::Status TrialStore::Keep(const std::string& name, const std::string& finger
   json value = {{"fingerprint", fingerprint},      {"gas_readings", record.gas_readings},
                 {"distance_m", record.distance_m}, {"plans", record.plans},
                 {"collisions", record.collisions}, {"completed", record.completed},
-                {"maps", record.mean_ppm.size()},  {"curve", json::array()}};
+                {"maps", record.mean_ppm.size()},  {"curve", json::array()},
+                {"team", ToJson(record.team)}};
   if (record.peer_rmse_ppm) value["peer_rmse_ppm"] = *record.peer_rmse_ppm;
   for (const CurvePoint& point : record.curve) value["curve"].push_back(ToJson(point));
   return WriteFile(JsonPath(name), value.dump());  // last: it says that the maps are there
@@ -135,9 +157,9 @@ std::string Fingerprint(const Trial& trial, std::uint32_t scene_checksum) {
     absl::StrAppend(&times, " peer ", trial.peer->kernel_width_m, " ",
                     trial.peer->confidence_scale);
   }
-  return absl::StrFormat("mission %08x scene %08x seed %d duration %g maps%s",
+  return absl::StrFormat("mission %08x scene %08x robots %d seed %d duration %g maps%s",
                          Crc32c(ToProto(*trial.mission).SerializeAsString()), scene_checksum,
-                         trial.seed, trial.duration_s, times);
+                         trial.robots, trial.seed, trial.duration_s, times);
 }
 
 }  // namespace plumescout::lab

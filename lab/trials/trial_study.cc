@@ -60,6 +60,7 @@ class SceneStudy {
     trial.mission = &missions_[row];
     trial.peer = plan_.peer;
     trial.world = &world_;
+    trial.robots = plan_.rows[row].robots;
     trial.seed = plan_.first_seed + number;
     trial.duration_s = plan_.duration_s;
     trial.map_times_s = plan_.map_times_s;

@@ -21,6 +21,7 @@ struct StudyRow {
   bool knows_map = false;  // the building's map is the mission's prior map
   // The region that is sampled, of strategies that stop at sites, is the building.
   bool samples_building = false;
+  int robots = 1;
 };
 
 // A strategy of the table, driving until the time is up. As the paper: goals are drawn at random

@@ -52,6 +52,7 @@ constexpr Row<RejectionReason, v1::RejectedGoal::Reason> kRejectionReasons[] = {
     {RejectionReason::kOverBudget, v1::RejectedGoal::REASON_OVER_BUDGET},
     {RejectionReason::kKeptOut, v1::RejectedGoal::REASON_KEPT_OUT},
     {RejectionReason::kGone, v1::RejectedGoal::REASON_GONE},
+    {RejectionReason::kTraffic, v1::RejectedGoal::REASON_TRAFFIC},
 };
 constexpr Row<std::optional<CellState>, v1::CellState> kCellStates[] = {
     {CellState::kUnknown, v1::CELL_STATE_UNKNOWN},

@@ -104,6 +104,8 @@ void Visit(OneOf<PlanningOptions> auto& options, auto& field) {
   field("set_aside_s", options.set_aside_s);
   field("fallback_to_unobserved", options.fallback_to_unobserved);
   field("fallback_limit", options.fallback_limit);
+  field("yield_to_robots", options.yield_to_robots);
+  field("robot_clearance_m", options.robot_clearance_m);
   field("max_acceleration_mps2", options.max_acceleration_mps2);
   field("max_turn_rate_rad_per_s", options.max_turn_rate_rad_per_s);
   field("travel_budget_m", options.travel_budget_m);

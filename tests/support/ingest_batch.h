@@ -11,12 +11,13 @@
 
 namespace plumescout::support {
 
-// Entries first .. last of a robot's log: gas readings at the origin.
-inline std::vector<IncomingObservation> GasBatch(std::int64_t first, std::int64_t last) {
+// Entries first .. last of a robot's log: gas readings at one place.
+inline std::vector<IncomingObservation> GasBatch(std::int64_t first, std::int64_t last,
+                                                 const Pose2& pose = {0.5, 0.5, 0.0}) {
   std::vector<IncomingObservation> batch;
   for (std::int64_t sequence = first; sequence <= last; ++sequence) {
-    batch.push_back({{sequence, sequence * 1'000'000, {0.5, 0.5, 0.0}, GasReading{1.0, 0.0}},
-                     absl::OkStatus()});
+    batch.push_back(
+        {{sequence, sequence * 1'000'000, pose, GasReading{1.0, 0.0}}, absl::OkStatus()});
   }
   return batch;
 }

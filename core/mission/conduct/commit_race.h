@@ -6,8 +6,9 @@
 
 namespace plumescout {
 
-// Planning works on a snapshot, so robots may come to want the same goal; the first to commit gets
-// it. Who loses that race searches once more, on a newer belief; who loses again is told so.
+// Planning works on a snapshot, so robots may come to want the same goal, or ways that meet; the
+// first to commit gets them. Who loses that race searches again, on a newer belief; who loses too
+// often is told so.
 class CommitRace {
  public:
   // Whether to ask for a fresh belief and to search again, after a commit that ended so.
@@ -16,7 +17,7 @@ class CommitRace {
   }
 
  private:
-  static constexpr int kMaxConflicts = 1;
+  static constexpr int kMaxConflicts = 3;
 
   int conflicts_ = 0;
 };

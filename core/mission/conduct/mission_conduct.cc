@@ -17,6 +17,9 @@ Observation Unreadable(std::int64_t sequence) {
   return {.sequence = sequence, .sample_time_ns = 0, .pose = {}, .payload = Scan{}};
 }
 
+// Of ways that were searched for on a belief of a moment ago, which gave them more.
+constexpr double kLeastClearance_m = 0.1;
+
 }  // namespace
 
 MissionConduct::MissionConduct(std::unique_ptr<Mission> mission, ConductObserver* observer,
@@ -95,6 +98,10 @@ absl::Status MissionConduct::IngestOne(const RobotId& robot, IncomingObservation
 
 absl::StatusOr<PlanId> MissionConduct::Commit(const Plan& plan, std::int64_t lease_token) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckLease(plan.robot, lease_token));
+  if (const auto meeting = mission_->FindMeeting(plan, kLeastClearance_m)) {
+    return absl::AbortedError(
+        absl::StrCat("the way meets robot \"", meeting->robot, "\" in ", meeting->time_s, " s"));
+  }
   PLUMESCOUT_ASSIGN_OR_RETURN(const Applied applied, Apply(PlanIssued{plan}));
   return applied.plan_id;
 }

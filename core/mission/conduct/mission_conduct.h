@@ -90,7 +90,8 @@ class MissionConduct {
   IngestResult Ingest(const RobotId& robot, std::int64_t lease_token,
                       std::vector<IncomingObservation> batch);
 
-  // Commits a plan; returns its number. kAborted if another robot claims the goal; see CommitRace.
+  // Commits a plan; returns its number. kAborted, see CommitRace, if another robot claims the goal
+  // or, since the plan was searched for, has been given a way that this one runs into.
   absl::StatusOr<PlanId> Commit(const Plan& plan, std::int64_t lease_token);
   // Returns the revision that includes the report; a repeated report changes nothing.
   absl::StatusOr<std::int64_t> Report(const ProgressReported& report, std::int64_t lease_token);

@@ -99,5 +99,36 @@ TEST(MissionPlaces, ForgetsThatAGoalWasBlockedWhenTheMapThereChanges) {
   EXPECT_TRUE(mission->Snapshot()->set_aside.empty());
 }
 
+TEST(MissionPlaces, DoesNotSetAsideAGoalThatARobotStoodBefore) {
+  const auto mission = MissionOfRobotA();
+  ASSERT_TRUE(mission->Apply(RobotRegistered{"b", 0.2, 1}).ok());
+  const Pose2 pose{1.0, 1.5, 0.0};
+  const Scan room = support::ScanInBox(pose, 4.0, 3.0);
+  ASSERT_TRUE(mission->Apply(ObservationReceived{"a", {1, kSecond_ns, pose, room}}).ok());
+  const auto end = [&](ProgressOutcome outcome) {
+    Plan plan;
+    plan.robot = "a";
+    plan.candidates = {Candidate{}};
+    plan.candidates[0].goal.position = {3.0, 1.5};
+    plan.chosen = 0;
+    const auto issued = mission->Apply(PlanIssued{plan});
+    ASSERT_TRUE(issued.ok()) << issued.status();
+    ASSERT_TRUE(mission->Apply(ProgressReported{"a", issued->plan_id, outcome}).ok());
+  };
+  const auto put_b = [&](std::int64_t sequence, double x_m) {
+    const Observation there{sequence, kSecond_ns, {x_m, 1.5, 0.0}, GasReading{1.0, 0.0}};
+    ASSERT_TRUE(mission->Apply(ObservationReceived{"b", there}).ok());
+  };
+  put_b(1, 2.8);  // 1.8 m away: two radii of 0.2 m and 1.4 m
+  end(ProgressOutcome::kBlocked);
+  EXPECT_TRUE(mission->Snapshot()->set_aside.empty());
+  end(ProgressOutcome::kReached);
+  end(ProgressOutcome::kReached);
+  EXPECT_EQ(mission->Snapshot()->set_aside.size(), 1u) << "visited twice without change";
+  put_b(2, 3.0);
+  end(ProgressOutcome::kBlocked);
+  EXPECT_EQ(mission->Snapshot()->set_aside.size(), 2u) << "b is far enough away";
+}
+
 }  // namespace mission_places_test
 }  // namespace plumescout

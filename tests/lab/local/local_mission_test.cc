@@ -159,7 +159,7 @@ TEST_F(LocalMissionTest, APlannerThatInsistsOnATakenGoalIsGivenUp) {
   const absl::Status status = mission_->NextPlan(Query("scout", Join("scout"))).status();
 
   EXPECT_TRUE(absl::IsAborted(status)) << status;
-  EXPECT_EQ(asked, 2);
+  EXPECT_EQ(asked, 4);
 }
 
 TEST_F(LocalMissionTest, TheBudgetStopsTheSearchAndATimeoutWithinItToo) {

@@ -26,7 +26,7 @@ TEST(StudyScenes, AreThoseThatAreGiven) {
   ExperimentOptions options;
   options.scenes = {"a", "b"};
   EXPECT_THAT(HallScene(options, 10.0).value(), ElementsAre("a", "b"));
-  EXPECT_THAT(GeneratedScenes(options, 1, 5, 10.0).value(), ElementsAre("a", "b"));
+  EXPECT_THAT(GeneratedScenes(options, {1, 5}, 10.0).value(), ElementsAre("a", "b"));
 }
 
 TEST(StudyScenes, NeedAFolder) {
@@ -36,14 +36,14 @@ TEST(StudyScenes, NeedAFolder) {
 
 TEST(StudyScenes, AreMadeOnceWithGasForTheTimeAsked) {
   const TempFolder folder;
-  const auto scenes = GeneratedScenes(QuickIn(folder), 5, 1, 4.0);
+  const auto scenes = GeneratedScenes(QuickIn(folder), {5, 1}, 4.0);
   ASSERT_TRUE(scenes.ok()) << scenes.status();
   ASSERT_THAT(*scenes, ElementsAre(folder.File("scenes/building_5_quick")));
   const auto scene = ReadScene(scenes->front());
   ASSERT_TRUE(scene.ok()) << scene.status();
   EXPECT_EQ(scene->series.frames, 8);  // 4 s at 2 Hz
   const auto made = std::filesystem::last_write_time(scenes->front() + "/scene.json");
-  ASSERT_TRUE(GeneratedScenes(QuickIn(folder), 5, 1, 4.0).ok());
+  ASSERT_TRUE(GeneratedScenes(QuickIn(folder), {5, 1}, 4.0).ok());
   EXPECT_EQ(std::filesystem::last_write_time(scenes->front() + "/scene.json"), made);
 }
 

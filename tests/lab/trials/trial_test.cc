@@ -96,5 +96,23 @@ TEST(Trial, MapsTheSameReadingsByAPeer) {
   EXPECT_TRUE(absl::IsInvalidArgument(RunTrial(trial).status()));
 }
 
+TEST(Trial, TeamsShareTheMission) {
+  const SceneWorld world(SmallScene());
+  const MissionOptions mission = MissionBy("plumescout");
+  Trial trial = SmallTrial(mission, world);
+  const auto alone = RunTrial(trial);
+  trial.robots = 2;
+  const auto team = RunTrial(trial);
+  ASSERT_TRUE(alone.ok() && team.ok()) << team.status();
+  EXPECT_EQ(team->gas_readings, 2 * alone->gas_readings);
+  EXPECT_NEAR(team->team.robot_s, 24.0, 0.5);
+  EXPECT_EQ(alone->team.closest_m, 0.0);
+  EXPECT_GE(team->team.closest_m, 0.4) << "bodies of 0.2 m block each other";
+  EXPECT_LE(team->team.closest_m, 0.6) << "they start so near";
+  EXPECT_GE(team->team.legs, 2);
+  EXPECT_LE(team->team.blocked_legs, team->team.legs);
+  EXPECT_GT(team->team.plan_wall_s, 0.0);
+}
+
 }  // namespace trial_test
 }  // namespace plumescout::lab

@@ -36,6 +36,8 @@ MissionOptions Unlike() {
   options.planning.straighten = false;
   options.planning.reading_rate_hz = 4.0;
   options.planning.commitment_margin_share = 0.25;
+  options.planning.yield_to_robots = false;
+  options.planning.robot_clearance_m = 0.5;
   options.planning.selection_rule = SelectionRule::kMeanUcb;
   options.planning.sampling = SamplingKind::kIid;
   options.planning.sample_count = 77;

@@ -243,7 +243,7 @@ TEST_F(PlanJobTest, ClaimedGoalIsPlannedOnceMore) {
   EXPECT_EQ(Answer()->plan.candidates[0].goal.position.x_m, 5.0);
 }
 
-TEST_F(PlanJobTest, SecondLostRaceIsTheCallersToRetry) {
+TEST_F(PlanJobTest, AFourthLostRaceIsTheCallersToRetry) {
   StartHost(DriveTo(1.0));
   TakeGoalForTheOtherRobot();
   Start({});

@@ -186,6 +186,25 @@ TEST_F(MissionConductTest, GoalClaimedByAnotherRobotAborts) {
   EXPECT_EQ(conduct_.Commit(PlanFor("r2", 5.0), kLease + 1).value(), 2);
 }
 
+TEST_F(MissionConductTest, AWayThatMeetsOneThatWasGivenMeanwhileAborts) {
+  ASSERT_TRUE(Join("r2", kLease + 1).ok());
+  conduct_.Ingest("r1", kLease, GasBatch(1, 1));
+  conduct_.Ingest("r2", kLease + 1, GasBatch(1, 1, {4.0, 0.0, 0.0}));
+  const auto drive = [&](const RobotId& robot, Point2 from, Point2 to) {
+    Plan plan = PlanFor(robot, to.x_m);
+    plan.trajectory.waypoints = {{{from.x_m, from.y_m, 0.0}, 0.0}, {{to.x_m, to.y_m, 0.0}, 4.0}};
+    plan.trajectory.duration_s = 4.0;
+    return plan;
+  };
+  const Plan east = drive("r1", {0.0, 0.0}, {3.0, 3.0});
+  const Plan north = drive("r2", {4.0, 0.0}, {2.0, 3.0});
+  EXPECT_TRUE(conduct_.Commit(east, kLease).ok());
+  const absl::Status status = conduct_.Commit(north, kLease + 1).status();
+  EXPECT_TRUE(absl::IsAborted(status));
+  EXPECT_THAT(std::string(status.message()), testing::HasSubstr("robot \"r1\""));
+  EXPECT_TRUE(conduct_.Commit(drive("r2", {4.0, 0.0}, {4.0, -3.0}), kLease + 1).ok());
+}
+
 TEST_F(MissionConductTest, RepeatedReportChangesNothing) {
   ASSERT_TRUE(conduct_.Commit(PlanFor("r1", 1.0), kLease).ok());
   const auto first = conduct_.Report({"r1", 1, ProgressOutcome::kReached}, kLease);

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/right_of_way.h"
+
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_format.h"
+#include "core/plan/trajectory_timing.h"
+#include "core/traffic/traffic.h"
+
+namespace plumescout {
+namespace {
+
+// Of strategies that sample sites the robot stands at those alone.
+Trajectory Timed(const Candidate& candidate, double start_yaw_rad, const PlanningOptions& options) {
+  return candidate.stops.empty()
+             ? TimeTrajectory(candidate.path, start_yaw_rad, options)
+             : TimeTrajectory(candidate.path, candidate.stops, start_yaw_rad, options);
+}
+
+RejectedGoal InTraffic(const Candidate& candidate, const Meeting& meeting) {
+  return {candidate.goal, RejectionReason::kTraffic,
+          absl::StrFormat("it would meet robot \"%s\" at (%.1f, %.1f) in %.1f s", meeting.robot,
+                          meeting.place.x_m, meeting.place.y_m, meeting.time_s)};
+}
+
+}  // namespace
+
+void YieldToRobots(const Belief& belief, double start_yaw_rad, const PlanningOptions& options,
+                   Plan& plan) {
+  if (!options.yield_to_robots || belief.robots.size() < 2) return;
+  const Traffic traffic(belief.robots, plan.robot, options.robot_clearance_m,
+                        belief.sample_time_ns);
+  std::vector<Candidate> clear;
+  for (Candidate& candidate : plan.candidates) {
+    const Trajectory trajectory = Timed(candidate, start_yaw_rad, options);
+    if (const auto departure = traffic.FindDeparture(trajectory)) {
+      candidate.duration_s += departure->wait_s;
+      clear.push_back(std::move(candidate));
+    } else {
+      plan.rejected.push_back(InTraffic(candidate, *traffic.FirstMeeting(trajectory)));
+    }
+  }
+  plan.candidates = std::move(clear);
+  if (plan.candidates.empty() && !plan.rejected.empty()) plan.end = PlanEnd::kAllGoalsRejected;
+}
+
+Trajectory TrajectoryOf(const Candidate& candidate, double start_yaw_rad,
+                        const PlanningOptions& options) {
+  Trajectory trajectory = Timed(candidate, start_yaw_rad, options);
+  const double wait_s = candidate.duration_s - trajectory.duration_s;
+  constexpr double kRounding_s = 1e-6;
+  if (wait_s > kRounding_s) WaitAtStart(wait_s, trajectory);
+  return trajectory;
+}
+
+}  // namespace plumescout

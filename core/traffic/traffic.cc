@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/traffic/traffic.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumescout {
+namespace {
+
+constexpr double kStep_s = 0.25;
+constexpr double kEarly_s = 0.5;
+constexpr double kEarlyShare = 0.05;
+constexpr double kLate_s = 1.0;
+constexpr double kLateShare = 0.1;
+// After its end a way holds its place until the robot has another plan.
+constexpr double kStandAtEnd_s = 3.0;
+// Who is nearer than it should be may not come nearer by more than this.
+constexpr double kTolerance_m = 0.05;
+// Bodies nearer than this touch by what poses err.
+constexpr double kTouch_m = 0.02;
+
+std::size_t StepsIn(double time_s) { return static_cast<std::size_t>(std::ceil(time_s / kStep_s)); }
+
+// The most steps that another robot is late by.
+std::size_t MostLate() {
+  return StepsIn(kLate_s + kLateShare * (Traffic::kHorizon_s + Traffic::kMaxWait_s));
+}
+
+double Fastest_m(const std::vector<Point2>& places) {
+  double fastest_m = 0.0;
+  for (std::size_t k = 1; k < places.size(); ++k) {
+    fastest_m = std::max(fastest_m, Distance_m(places[k - 1], places[k]));
+  }
+  return fastest_m;
+}
+
+}  // namespace
+
+double Progress_s(const RobotRecord& record, std::int64_t now_ns) {
+  constexpr double kSecondsPerNanosecond = 1e-9;
+  const Trajectory& way = *record.live_trajectory;
+  const double left_s =
+      static_cast<double>(record.live_arrival_ns - now_ns) * kSecondsPerNanosecond;
+  const double elapsed_s = way.duration_s - left_s;
+  const double there_s = FindNearest(way, record.state.pose.position())->time_s;
+  for (const Waypoint& waypoint : way.waypoints) {
+    const double leaves_s = waypoint.arrival_time_s + waypoint.dwell_s;
+    if (waypoint.dwell_s > 0.0 && there_s >= waypoint.arrival_time_s && there_s <= leaves_s) {
+      return std::clamp(elapsed_s, waypoint.arrival_time_s, leaves_s);
+    }
+  }
+  return there_s;
+}
+
+void WaitAtStart(double wait_s, Trajectory& trajectory) {
+  trajectory.waypoints.front().dwell_s += wait_s;
+  for (std::size_t i = 1; i < trajectory.waypoints.size(); ++i) {
+    trajectory.waypoints[i].arrival_time_s += wait_s;
+  }
+  trajectory.duration_s += wait_s;
+}
+
+Point2 Traffic::Steps::At(std::size_t step, std::size_t waited) const {
+  return places[std::min(step - std::min(step, waited), places.size() - 1)];
+}
+
+Traffic::Traffic(const std::map<RobotId, RobotRecord>& robots, const RobotId& robot,
+                 double clearance_m, std::int64_t now_ns)
+    : clearance_m_(clearance_m) {
+  const double radius_m = robots.at(robot).state.radius_m;
+  for (const auto& [id, record] : robots) {
+    if (id == robot || !record.state.has_pose) continue;
+    Other other{id, radius_m + record.state.radius_m, {record.state.pose.position()}};
+    if (record.live_trajectory != nullptr && !record.live_trajectory->waypoints.empty()) {
+      const double progress_s = Progress_s(record, now_ns);
+      const std::size_t last = StepsIn(kHorizon_s) + MostLate();
+      for (std::size_t k = 1; k <= last; ++k) {
+        other.places.push_back(
+            PoseAt(*record.live_trajectory, progress_s + kStep_s * static_cast<double>(k))
+                .position());
+      }
+      other.fastest_m = Fastest_m(other.places);
+    }
+    others_.push_back(std::move(other));
+  }
+}
+
+Traffic::Steps Traffic::StepsOf(const Trajectory& trajectory) {
+  Steps steps;
+  const std::size_t last = StepsIn(std::min(trajectory.duration_s, kHorizon_s));
+  for (std::size_t k = 0; k <= last; ++k) {
+    steps.places.push_back(PoseAt(trajectory, kStep_s * static_cast<double>(k)).position());
+  }
+  steps.fastest_m = Fastest_m(steps.places);
+  return steps;
+}
+
+std::optional<Meeting> Traffic::FirstMeeting(const Trajectory& trajectory) const {
+  if (trajectory.waypoints.empty()) return std::nullopt;
+  return FirstMeeting(StepsOf(trajectory), 0);
+}
+
+std::optional<ClearDeparture> Traffic::FindDeparture(const Trajectory& trajectory) const {
+  ClearDeparture departure;
+  if (trajectory.waypoints.empty()) return departure;
+  const Steps steps = StepsOf(trajectory);
+  constexpr std::size_t kStride = 2;
+  for (std::size_t waited = 0; waited <= StepsIn(kMaxWait_s); waited += kStride) {
+    const std::optional<Meeting> meeting = FirstMeeting(steps, waited);
+    departure.wait_s = static_cast<double>(waited) * kStep_s;
+    if (!meeting) return departure;
+    departure.robot = meeting->robot;
+  }
+  return std::nullopt;
+}
+
+std::optional<Meeting> Traffic::FirstMeeting(const Steps& steps, std::size_t waited) const {
+  std::optional<Meeting> first;
+  for (const Other& other : others_) {
+    const std::optional<std::size_t> step = MeetingStep(other, steps, waited);
+    if (!step) continue;
+    const double time_s = kStep_s * static_cast<double>(*step);
+    if (first && first->time_s <= time_s) continue;
+    first = Meeting{other.robot, time_s, steps.At(*step, waited)};
+  }
+  return first;
+}
+
+std::optional<std::size_t> Traffic::MeetingStep(const Other& other, const Steps& steps,
+                                                std::size_t waited) const {
+  const auto place = [&](std::size_t k) {
+    return other.places[std::min(k, other.places.size() - 1)];
+  };
+  const double now_m = Distance_m(steps.places.front(), place(0));
+  const double nearer_m = std::max(std::min(now_m, other.reach_m + kTouch_m), now_m - kTolerance_m);
+  const double limit_m = std::min(other.reach_m + clearance_m_, nearer_m);
+  const std::size_t last =
+      std::min(StepsIn(kHorizon_s), waited + steps.places.size() + StepsIn(kStandAtEnd_s));
+  for (std::size_t k = 0; k <= last;) {
+    const Point2 mine = steps.At(k, waited);
+    const double time_s = kStep_s * static_cast<double>(k);
+    const std::size_t early = std::min(k, StepsIn(kEarly_s + kEarlyShare * time_s));
+    const std::size_t late = StepsIn(kLate_s + kLateShare * time_s);
+    double nearest_m = Distance_m(mine, place(k));
+    for (std::size_t j = k - early; j <= k + late; ++j) {
+      nearest_m = std::min(nearest_m, Distance_m(mine, place(j)));
+    }
+    if (nearest_m < limit_m) return k;
+    // In a step both come nearer by their own way, and the window grows by a share of a step, which
+    // may round up to a whole one.
+    constexpr double kGrowth = 1.0 + kLateShare + kEarlyShare;
+    const double closing_m = steps.fastest_m + kGrowth * other.fastest_m;
+    if (!(closing_m > 0.0)) return std::nullopt;
+    const double slack_m = std::max(0.0, nearest_m - limit_m - other.fastest_m);
+    k += std::max<std::size_t>(1, static_cast<std::size_t>(slack_m / closing_m));
+  }
+  return std::nullopt;
+}
+
+}  // namespace plumescout

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "core/belief/belief.h"
+#include "core/types/ids.h"
+#include "core/types/pose2.h"
+#include "core/types/trajectory.h"
+
+namespace plumescout {
+
+// Where a way comes too near to another robot, for the first time.
+struct Meeting {
+  RobotId robot;
+  double time_s = 0.0;  // from now
+  Point2 place;         // of the robot whose way it is
+};
+
+// A departure that meets nobody.
+struct ClearDeparture {
+  double wait_s = 0.0;
+  RobotId robot;  // whom the robot waits for; empty: nobody
+};
+
+// Where the other robots of a mission will be: on their live plans, from where they are along them,
+// or where they stand. Prioritised planning in the order of commitment: a live plan is never
+// changed for another robot, and who comes later waits, goes elsewhere or stays.
+//
+// A robot is early or late by a little, and by more the farther ahead: it is reckoned with at every
+// place of its way from 0.5 s + 5 % before to 1 s + 10 % after its time there. Beyond kHorizon_s
+// nothing is foreseen.
+class Traffic {
+ public:
+  static constexpr double kHorizon_s = 20.0;
+  static constexpr double kMaxWait_s = 8.0;
+
+  // For `robot`, one of `robots`, that keeps `clearance_m` and both radii between centres. Two that
+  // are nearer already meet only if they come nearer still. Cost: O(robots * waypoints).
+  Traffic(const std::map<RobotId, RobotRecord>& robots, const RobotId& robot, double clearance_m,
+          std::int64_t now_ns);
+
+  // Of a way that is begun now. Cost: O(others * kHorizon_s), less where they are far.
+  std::optional<Meeting> FirstMeeting(const Trajectory& trajectory) const;
+  // The shortest time to stand at the start of the way, up to kMaxWait_s, so that nobody is met
+  // there, on the way, and for a moment at its end. None: there is no such time.
+  std::optional<ClearDeparture> FindDeparture(const Trajectory& trajectory) const;
+
+ private:
+  // Another robot's centre at the times k * kStep_s from now.
+  struct Other {
+    RobotId robot;
+    double reach_m = 0.0;  // of both radii
+    std::vector<Point2> places;
+    double fastest_m = 0.0;  // in one step
+  };
+  // A way in the same steps.
+  struct Steps {
+    std::vector<Point2> places;
+    double fastest_m = 0.0;
+
+    Point2 At(std::size_t step, std::size_t waited) const;
+  };
+
+  static Steps StepsOf(const Trajectory& trajectory);
+  std::optional<Meeting> FirstMeeting(const Steps& steps, std::size_t waited) const;
+  std::optional<std::size_t> MeetingStep(const Other& other, const Steps& steps,
+                                         std::size_t waited) const;
+
+  double clearance_m_;
+  std::vector<Other> others_;
+};
+
+// Has the robot stand for so long before it leaves. REQUIRES: waypoints not empty, wait_s >= 0.
+void WaitAtStart(double wait_s, Trajectory& trajectory);
+
+// How far along its live plan a robot is, in seconds of the trajectory: by its latest pose, for it
+// may be late; while it stands at a waypoint by the time. REQUIRES: a live trajectory, a pose.
+double Progress_s(const RobotRecord& record, std::int64_t now_ns);
+
+}  // namespace plumescout

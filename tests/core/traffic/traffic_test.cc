@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/traffic/traffic.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/types/rng.h"
+#include "gtest/gtest.h"
+
+namespace plumescout {
+namespace traffic_test {
+
+constexpr double kRadius_m = 0.2;
+constexpr double kClearance_m = 0.25;
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr std::int64_t kNow_ns = 100 * kSecond_ns;
+
+// At 1 m/s, without turns and ramps.
+Trajectory Along(const std::vector<Point2>& path) {
+  Trajectory trajectory;
+  for (const Point2 vertex : path) {
+    if (!trajectory.waypoints.empty()) {
+      trajectory.length_m += Distance_m(trajectory.waypoints.back().pose.position(), vertex);
+    }
+    trajectory.waypoints.push_back({{vertex.x_m, vertex.y_m, 0.0}, trajectory.length_m});
+  }
+  trajectory.duration_s = trajectory.length_m;
+  return trajectory;
+}
+
+RobotRecord Standing(const RobotId& robot, Point2 place) {
+  RobotRecord record;
+  record.state.id = robot;
+  record.state.radius_m = kRadius_m;
+  record.state.has_pose = true;
+  record.state.pose = {place.x_m, place.y_m, 0.0};
+  return record;
+}
+
+// Where the way begins, departing now.
+RobotRecord Driving(const RobotId& robot, Trajectory way) {
+  RobotRecord record = Standing(robot, way.waypoints.front().pose.position());
+  record.live_arrival_ns = kNow_ns + std::llround(way.duration_s * 1e9);
+  record.live_trajectory = std::make_shared<const Trajectory>(std::move(way));
+  return record;
+}
+
+Traffic TrafficFor(const Trajectory& mine, const RobotRecord& other) {
+  return Traffic({{"a", Standing("a", mine.waypoints.front().pose.position())}, {"b", other}}, "a",
+                 kClearance_m, kNow_ns);
+}
+
+TEST(Traffic, ARobotThatStandsIsInTheWayForGood) {
+  const Trajectory way = Along({{0.0, 0.0}, {10.0, 0.0}});
+  const Traffic blocked = TrafficFor(way, Standing("b", {5.0, 0.3}));
+  const auto meeting = blocked.FirstMeeting(way);
+  ASSERT_TRUE(meeting.has_value());
+  EXPECT_EQ(meeting->robot, "b");
+  EXPECT_NEAR(meeting->place.x_m, 5.0 - std::sqrt(0.65 * 0.65 - 0.3 * 0.3), 0.25);
+  EXPECT_NEAR(meeting->time_s, meeting->place.x_m, 1e-9);
+  EXPECT_FALSE(blocked.FindDeparture(way).has_value());
+  EXPECT_FALSE(TrafficFor(way, Standing("b", {5.0, 0.66})).FirstMeeting(way).has_value());
+  EXPECT_EQ(TrafficFor(way, Standing("b", {5.0, 0.66})).FindDeparture(way)->wait_s, 0.0);
+}
+
+TEST(Traffic, WhoCrossesIsWaitedFor) {
+  const Trajectory way = Along({{0.0, 0.0}, {6.0, 0.0}});
+  const Traffic traffic = TrafficFor(way, Driving("b", Along({{3.0, -3.0}, {3.0, 9.0}})));
+  EXPECT_TRUE(traffic.FirstMeeting(way).has_value());
+  const auto departure = traffic.FindDeparture(way);
+  ASSERT_TRUE(departure.has_value());
+  EXPECT_EQ(departure->robot, "b");
+  EXPECT_GE(departure->wait_s, 1.0);
+  EXPECT_LE(departure->wait_s, 4.0);
+}
+
+TEST(Traffic, WhoComesHeadOnInACorridorIsNotWaitedFor) {
+  const Trajectory way = Along({{0.0, 0.0}, {8.0, 0.0}});
+  const Traffic traffic = TrafficFor(way, Driving("b", Along({{8.0, 0.0}, {0.5, 0.0}})));
+  EXPECT_FALSE(traffic.FindDeparture(way).has_value());
+}
+
+TEST(Traffic, OneMayFollowAnother) {
+  const Trajectory way = Along({{0.0, 0.0}, {8.0, 0.0}});
+  const Traffic traffic = TrafficFor(way, Driving("b", Along({{1.0, 0.0}, {20.0, 0.0}})));
+  const auto departure = traffic.FindDeparture(way);
+  ASSERT_TRUE(departure.has_value());
+  EXPECT_LE(departure->wait_s, 3.0);
+}
+
+TEST(Traffic, RobotsThatStandTooNearMayPart) {
+  const Trajectory away = Along({{0.0, 0.0}, {-5.0, 0.0}});
+  const Trajectory through = Along({{0.0, 0.0}, {5.0, 0.0}});
+  const Traffic traffic = TrafficFor(away, Standing("b", {0.5, 0.0}));
+  EXPECT_EQ(traffic.FindDeparture(away)->wait_s, 0.0);
+  EXPECT_FALSE(traffic.FindDeparture(through).has_value());
+}
+
+TEST(Traffic, WhoHasNoPoseIsNotThere) {
+  const Trajectory way = Along({{0.0, 0.0}, {5.0, 0.0}});
+  RobotRecord unseen = Standing("b", {2.0, 0.0});
+  unseen.state.has_pose = false;
+  EXPECT_FALSE(TrafficFor(way, unseen).FirstMeeting(way).has_value());
+  EXPECT_FALSE(TrafficFor(way, Standing("b", {2.0, 0.0})).FirstMeeting(Trajectory()).has_value());
+}
+
+// Sampled finely and without windows: who is let go meets nobody who is on time.
+TEST(Traffic, NobodyIsMetByRobotsOnTime) {
+  Rng rng(7);
+  int departures = 0;
+  int waits = 0;
+  for (int i = 0; i < 300; ++i) {
+    const auto place = [&] { return Point2{rng.Uniform(0.0, 8.0), rng.Uniform(0.0, 8.0)}; };
+    Trajectory mine = Along({place(), place(), place()});
+    const RobotRecord other = Driving("b", Along({place(), place(), place()}));
+    const double apart_m =
+        Distance_m(mine.waypoints.front().pose.position(), other.state.pose.position());
+    const auto departure = TrafficFor(mine, other).FindDeparture(mine);
+    if (!departure || apart_m < 0.7) continue;
+    ++departures;
+    if (departure->wait_s > 0.0) ++waits;
+    WaitAtStart(departure->wait_s, mine);
+    double nearest_m = apart_m;
+    for (double time_s = 0.0; time_s < std::min(Traffic::kHorizon_s, mine.duration_s);
+         time_s += 0.01) {
+      nearest_m =
+          std::min(nearest_m, Distance_m(PoseAt(mine, time_s).position(),
+                                         PoseAt(*other.live_trajectory, time_s).position()));
+    }
+    EXPECT_GE(nearest_m, 2 * kRadius_m + kClearance_m - 0.1) << i;
+  }
+  EXPECT_GT(departures, 150);
+  EXPECT_GT(waits, 20);
+}
+
+TEST(Traffic, ProgressGoesByThePoseAndWhileStandingByTheTime) {
+  Trajectory way = Along({{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}});
+  WaitAtStart(3.0, way);
+  EXPECT_EQ(way.duration_s, 11.0);
+  RobotRecord record = Driving("b", way);
+  EXPECT_EQ(Progress_s(record, kNow_ns), 0.0);
+  EXPECT_EQ(Progress_s(record, kNow_ns + 2 * kSecond_ns), 2.0);
+  EXPECT_EQ(Progress_s(record, kNow_ns + 9 * kSecond_ns), 3.0) << "it has not left yet";
+  record.state.pose = {2.0, 0.1, 0.0};
+  EXPECT_NEAR(Progress_s(record, kNow_ns + 9 * kSecond_ns), 5.0, 1e-9) << "it is late";
+}
+
+}  // namespace traffic_test
+}  // namespace plumescout
