@@ -229,12 +229,12 @@ absl::StatusOr<EndedPlan> Fleet::Report(const ProgressReported& report) {
   return EndedPlan{live.goal, OthersNear(member)};
 }
 
-// Bodies nearer than kMeeting_m, the silent ones' too.
+// Bodies nearer than kMeeting_m. Who is silent counts as gone: its body, if it is there, is a wall.
 bool Fleet::OthersNear(const Member& member) const {
   const RobotState& state = member.record.state;
   return std::any_of(robots_.begin(), robots_.end(), [&](const auto& entry) {
     const RobotState& other = entry.second.record.state;
-    return other.id != state.id && state.has_pose && other.has_pose &&
+    return other.id != state.id && state.has_pose && other.has_pose && !other.silent &&
            Distance_m(state.pose.position(), other.pose.position()) <
                state.radius_m + other.radius_m + kMeeting_m;
   });

@@ -217,9 +217,10 @@ absl::StatusOr<std::int64_t> Mission::LeaseToken(const RobotId& robot) const {
 
 std::optional<Meeting> Mission::FindMeeting(const Plan& plan, double clearance_m) const {
   const PlanningOptions& planning = options_->planning;
-  if (!planning.yield_to_robots || !fleet_.Knows(plan.robot)) return std::nullopt;
+  const bool yields = planning.yield_to_robots && !plan.trajectory.waypoints.empty();
+  if (!yields || !fleet_.Knows(plan.robot)) return std::nullopt;
   return Traffic(fleet_.Records(), plan.robot, std::min(clearance_m, planning.robot_clearance_m),
-                 sample_time_ns_)
+                 sample_time_ns_, Traffic::Others::kOnTime)
       .FirstMeeting(plan.trajectory);
 }
 

@@ -72,8 +72,8 @@ class Mission {
   // The state of one robot's log; kNotFound if unknown.
   absl::StatusOr<std::int64_t> AppliedSequence(const RobotId& robot) const;
   absl::StatusOr<std::int64_t> LeaseToken(const RobotId& robot) const;
-  // Where the plan's way meets the other robots as they drive now, with its options' clearance or
-  // `clearance_m` if that is less; none if it meets nobody or does not yield to robots.
+  // Where the plan's way meets the other robots if they drive on time, with the options' clearance
+  // or `clearance_m` if that is less; none if it meets nobody or plans do not yield to robots.
   std::optional<Meeting> FindMeeting(const Plan& plan, double clearance_m) const;
   // See Fleet::LogContinues.
   bool LogContinues(const RobotId& robot, std::int64_t log_epoch) const;

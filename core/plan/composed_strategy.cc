@@ -50,14 +50,15 @@ PlanEffort Sum(const PlanEffort& a, const PlanEffort& b) {
           a.goals_by_guard + b.goals_by_guard, a.batches + b.batches};
 }
 
+bool IsRejectedFor(RejectionReason reason, const Plan& plan) {
+  return std::any_of(plan.rejected.begin(), plan.rejected.end(),
+                     [reason](const RejectedGoal& goal) { return goal.reason == reason; });
+}
+
 // Every goal that could be reached is too far away for the travel budget.
 bool IsBudgetSpent(const Plan& plan) {
-  const auto is_rejected_for = [&](RejectionReason reason) {
-    return std::any_of(plan.rejected.begin(), plan.rejected.end(),
-                       [reason](const RejectedGoal& goal) { return goal.reason == reason; });
-  };
-  return plan.candidates.empty() && is_rejected_for(RejectionReason::kOverBudget) &&
-         !is_rejected_for(RejectionReason::kTraffic);
+  return plan.candidates.empty() && IsRejectedFor(RejectionReason::kOverBudget, plan) &&
+         !IsRejectedFor(RejectionReason::kTraffic, plan);
 }
 
 }  // namespace
@@ -101,7 +102,7 @@ absl::Status ComposedStrategy::PlanLastWayHome(const Departure& departure, const
   plan.effort = Sum(before, plan.effort);
   const bool searched = plan.end == PlanEnd::kAllGoalsReached ||
                         plan.end == PlanEnd::kQueueExhausted || plan.end == PlanEnd::kStopped;
-  if (!searched) {
+  if (!searched && !IsRejectedFor(RejectionReason::kTraffic, plan)) {
     plan.end = PlanEnd::kMissionComplete;
     plan.phase = MissionPhase::kComplete;
   }

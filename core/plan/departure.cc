@@ -10,6 +10,7 @@
 #include "core/grid/escape.h"
 #include "core/grid/flood.h"
 #include "core/plan/paths/shortcut.h"
+#include "core/traffic/traffic.h"
 #include "core/types/error_reason.h"
 
 namespace plumescout {
@@ -20,12 +21,12 @@ namespace {
 constexpr double kOffTrajectory_m = 0.5;
 
 // The pose `latency_s` after the robot's latest.
-Pose2 ExpectedPose(const RobotRecord& robot, double latency_s) {
+Pose2 ExpectedPose(const RobotRecord& robot, double latency_s, std::int64_t now_ns) {
   if (latency_s == 0.0 || robot.live_trajectory == nullptr) return robot.state.pose;
   const std::optional<NearestTime> now =
       FindNearest(*robot.live_trajectory, robot.state.pose.position());
   if (!now || !(now->distance_m <= kOffTrajectory_m)) return robot.state.pose;
-  return PoseAt(*robot.live_trajectory, now->time_s + latency_s);
+  return PoseAt(*robot.live_trajectory, Progress_s(robot, now_ns) + latency_s);
 }
 
 }  // namespace
@@ -36,8 +37,9 @@ absl::StatusOr<Pose2> StartPose(const Belief& belief, const PlanRequest& request
     return absl::FailedPreconditionError(
         absl::StrCat("robot \"", request.robot, "\" has no pose yet"));
   }
-  const Pose2 pose =
-      request.start ? *request.start : ExpectedPose(robot, options.planning_latency_s);
+  const Pose2 pose = request.start
+                         ? *request.start
+                         : ExpectedPose(robot, options.planning_latency_s, belief.sample_time_ns);
   const bool finite =
       std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad);
   const std::string place =

@@ -70,7 +70,7 @@ std::string Choice(const Plan& plan, const PlanningOptions& options) {
   if (Rejects(plan, RejectionReason::kOverBudget) && chosen.goal.kind == GoalKind::kHome) {
     absl::StrAppend(&text, "; every other goal is beyond the travel budget");
   }
-  if (const double wait_s = WaitOf_s(plan.trajectory); wait_s > options.dwell_s) {
+  if (const double wait_s = WaitOf_s(plan.trajectory); wait_s > 0.0) {
     absl::StrAppend(&text,
                     absl::StrFormat("; %.1f s from now, when other robots have passed", wait_s));
   }

@@ -100,7 +100,7 @@ absl::StatusOr<plumescout::Plan> SamplingStrategy::Plan(const Belief& belief,
     way_home.go_home = true;
     PLUMESCOUT_ASSIGN_OR_RETURN(plumescout::Plan plan,
                                 home_->Plan(belief, way_home, stop, improved));
-    if (plan.chosen >= 0) return plan;
+    if (plan.chosen >= 0 || HasReason(plan, RejectionReason::kTraffic)) return plan;
     start.plan.end = PlanEnd::kMissionComplete;
     start.plan.phase = MissionPhase::kComplete;
     start.plan.explanation = plan.explanation;

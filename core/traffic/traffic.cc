@@ -22,9 +22,27 @@ constexpr double kTouch_m = 0.02;
 
 std::size_t StepsIn(double time_s) { return static_cast<std::size_t>(std::ceil(time_s / kStep_s)); }
 
-// The most steps that another robot is late by.
-std::size_t MostLate() {
-  return StepsIn(kLate_s + kLateShare * (Traffic::kHorizon_s + Traffic::kMaxWait_s));
+// Several times what followers stray, and less than the width of a corridor.
+constexpr double kOffTrajectory_m = 0.5;
+// Less than that a robot is at a waypoint.
+constexpr double kAtWaypoint_m = 0.15;
+// A way that should have ended so long ago, beside its own duration, is driven no more.
+constexpr double kPatience_s = 30.0;
+constexpr double kSecondsPerNanosecond = 1e-9;
+
+// The most steps that another robot is early by.
+std::size_t MostEarly() { return StepsIn(kEarly_s + kEarlyShare * Traffic::kHorizon_s); }
+
+double Elapsed_s(const RobotRecord& record, std::int64_t now_ns) {
+  return record.live_trajectory->duration_s -
+         static_cast<double>(record.live_arrival_ns - now_ns) * kSecondsPerNanosecond;
+}
+
+bool IsOnItsWay(const RobotRecord& record, std::int64_t now_ns) {
+  const Trajectory* const way = record.live_trajectory.get();
+  if (way == nullptr || way->waypoints.empty()) return false;
+  return Elapsed_s(record, now_ns) <= 2.0 * way->duration_s + kPatience_s &&
+         FindNearest(*way, record.state.pose.position())->distance_m <= kOffTrajectory_m;
 }
 
 double Fastest_m(const std::vector<Point2>& places) {
@@ -38,17 +56,18 @@ double Fastest_m(const std::vector<Point2>& places) {
 }  // namespace
 
 double Progress_s(const RobotRecord& record, std::int64_t now_ns) {
-  constexpr double kSecondsPerNanosecond = 1e-9;
+  constexpr double kNear_s = 1.0;  // of two passes of one place, the one it is at
   const Trajectory& way = *record.live_trajectory;
-  const double left_s =
-      static_cast<double>(record.live_arrival_ns - now_ns) * kSecondsPerNanosecond;
-  const double elapsed_s = way.duration_s - left_s;
-  const double there_s = FindNearest(way, record.state.pose.position())->time_s;
+  const Point2 place = record.state.pose.position();
+  const double elapsed_s = Elapsed_s(record, now_ns);
+  const double there_s = FindNearest(way, place)->time_s;
   for (const Waypoint& waypoint : way.waypoints) {
     const double leaves_s = waypoint.arrival_time_s + waypoint.dwell_s;
-    if (waypoint.dwell_s > 0.0 && there_s >= waypoint.arrival_time_s && there_s <= leaves_s) {
-      return std::clamp(elapsed_s, waypoint.arrival_time_s, leaves_s);
-    }
+    const bool stands = waypoint.dwell_s > 0.0 && elapsed_s < leaves_s &&
+                        there_s > waypoint.arrival_time_s - kNear_s &&
+                        there_s < leaves_s + kNear_s &&
+                        Distance_m(place, waypoint.pose.position()) < kAtWaypoint_m;
+    if (stands) return std::max(elapsed_s, waypoint.arrival_time_s);
   }
   return there_s;
 }
@@ -66,15 +85,15 @@ Point2 Traffic::Steps::At(std::size_t step, std::size_t waited) const {
 }
 
 Traffic::Traffic(const std::map<RobotId, RobotRecord>& robots, const RobotId& robot,
-                 double clearance_m, std::int64_t now_ns)
-    : clearance_m_(clearance_m) {
+                 double clearance_m, std::int64_t now_ns, Others others)
+    : clearance_m_(clearance_m), on_time_(others == Others::kOnTime) {
   const double radius_m = robots.at(robot).state.radius_m;
   for (const auto& [id, record] : robots) {
-    if (id == robot || !record.state.has_pose) continue;
+    if (id == robot || !record.state.has_pose || record.state.silent) continue;
     Other other{id, radius_m + record.state.radius_m, {record.state.pose.position()}};
-    if (record.live_trajectory != nullptr && !record.live_trajectory->waypoints.empty()) {
+    if (IsOnItsWay(record, now_ns)) {
       const double progress_s = Progress_s(record, now_ns);
-      const std::size_t last = StepsIn(kHorizon_s) + MostLate();
+      const std::size_t last = StepsIn(kHorizon_s) + MostEarly();
       for (std::size_t k = 1; k <= last; ++k) {
         other.places.push_back(
             PoseAt(*record.live_trajectory, progress_s + kStep_s * static_cast<double>(k))
@@ -140,10 +159,11 @@ std::optional<std::size_t> Traffic::MeetingStep(const Other& other, const Steps&
   for (std::size_t k = 0; k <= last;) {
     const Point2 mine = steps.At(k, waited);
     const double time_s = kStep_s * static_cast<double>(k);
-    const std::size_t early = std::min(k, StepsIn(kEarly_s + kEarlyShare * time_s));
-    const std::size_t late = StepsIn(kLate_s + kLateShare * time_s);
+    // Who is late now is where it was to be a while ago.
+    const std::size_t late = on_time_ ? 0 : StepsIn(kLate_s + kLateShare * time_s);
+    const std::size_t early = on_time_ ? 0 : StepsIn(kEarly_s + kEarlyShare * time_s);
     double nearest_m = Distance_m(mine, place(k));
-    for (std::size_t j = k - early; j <= k + late; ++j) {
+    for (std::size_t j = k - std::min(k, late); j <= k + early; ++j) {
       nearest_m = std::min(nearest_m, Distance_m(mine, place(j)));
     }
     if (nearest_m < limit_m) return k;

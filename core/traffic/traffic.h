@@ -33,17 +33,21 @@ struct ClearDeparture {
 // changed for another robot, and who comes later waits, goes elsewhere or stays.
 //
 // A robot is early or late by a little, and by more the farther ahead: it is reckoned with at every
-// place of its way from 0.5 s + 5 % before to 1 s + 10 % after its time there. Beyond kHorizon_s
-// nothing is foreseen.
+// place of its way from 0.5 s + 5 % before to 1 s + 10 % after its time there. Who has strayed from
+// its way, or should have ended it long ago, stands where it is. Who is silent is not there: beams
+// meet its body, if it has one. Beyond kHorizon_s nothing is foreseen. Steps are made for robots of
+// up to 2 m/s.
 class Traffic {
  public:
   static constexpr double kHorizon_s = 20.0;
   static constexpr double kMaxWait_s = 8.0;
 
+  enum class Others { kEarlyOrLate, kOnTime };
+
   // For `robot`, one of `robots`, that keeps `clearance_m` and both radii between centres. Two that
   // are nearer already meet only if they come nearer still. Cost: O(robots * waypoints).
   Traffic(const std::map<RobotId, RobotRecord>& robots, const RobotId& robot, double clearance_m,
-          std::int64_t now_ns);
+          std::int64_t now_ns, Others others = Others::kEarlyOrLate);
 
   // Of a way that is begun now. Cost: O(others * kHorizon_s), less where they are far.
   std::optional<Meeting> FirstMeeting(const Trajectory& trajectory) const;
@@ -73,6 +77,7 @@ class Traffic {
                                          std::size_t waited) const;
 
   double clearance_m_;
+  bool on_time_;
   std::vector<Other> others_;
 };
 
@@ -80,7 +85,8 @@ class Traffic {
 void WaitAtStart(double wait_s, Trajectory& trajectory);
 
 // How far along its live plan a robot is, in seconds of the trajectory: by its latest pose, for it
-// may be late; while it stands at a waypoint by the time. REQUIRES: a live trajectory, a pose.
+// may be late; while it stands at a waypoint, or poses err by less than 0.15 m from there, by the
+// time. REQUIRES: a live trajectory with waypoints, a pose.
 double Progress_s(const RobotRecord& record, std::int64_t now_ns);
 
 }  // namespace plumescout

@@ -190,7 +190,7 @@ TextTable MakeTextTable(const SizeResult& result) {
                    "nearest, m",
                    "encounters per robot and minute",
                    "legs blocked",
-                   "time waiting",
+                   "planned waits, share of time",
                    "plan, ms"};
   for (std::size_t row = 0; row < result.plan.rows.size(); ++row) {
     const Speedup speedup = SpeedupOf(result.records, row);

@@ -17,7 +17,8 @@ Observation Unreadable(std::int64_t sequence) {
   return {.sequence = sequence, .sample_time_ns = 0, .pose = {}, .payload = Scan{}};
 }
 
-// Of ways that were searched for on a belief of a moment ago, which gave them more.
+// Of ways that were searched for on a belief of a moment ago, with more, and time to spare for who
+// is early or late: what that found clear is so still, unless somebody was given another way since.
 constexpr double kLeastClearance_m = 0.1;
 
 }  // namespace

@@ -74,7 +74,7 @@ TEST(YieldToRobots, RejectsAWayThatARobotStandsOn) {
   EXPECT_EQ(plan.end, PlanEnd::kAllGoalsRejected);
   ASSERT_EQ(plan.rejected.size(), 1u);
   EXPECT_EQ(plan.rejected[0].reason, RejectionReason::kTraffic);
-  EXPECT_THAT(plan.rejected[0].detail, testing::HasSubstr("robot \"b\" at (2."));
+  EXPECT_THAT(plan.rejected[0].detail, ::testing::HasSubstr("robot \"b\" at (2."));
 }
 
 TEST(YieldToRobots, IsAnOption) {

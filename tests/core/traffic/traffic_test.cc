@@ -105,8 +105,33 @@ TEST(Traffic, WhoHasNoPoseIsNotThere) {
   EXPECT_FALSE(TrafficFor(way, Standing("b", {2.0, 0.0})).FirstMeeting(Trajectory()).has_value());
 }
 
-// Sampled finely and without windows: who is let go meets nobody who is on time.
-TEST(Traffic, NobodyIsMetByRobotsOnTime) {
+TEST(Traffic, WhoIsSilentIsNotThereAndWhoStrayedStandsWhereItIs) {
+  const Trajectory way = Along({{0.0, 0.0}, {10.0, 0.0}});
+  RobotRecord silent = Standing("b", {5.0, 0.3});
+  silent.state.silent = true;
+  EXPECT_FALSE(TrafficFor(way, silent).FirstMeeting(way).has_value());
+  RobotRecord strayed = Driving("b", Along({{3.0, -5.0}, {3.0, -9.0}}));
+  EXPECT_FALSE(TrafficFor(way, strayed).FirstMeeting(way).has_value());
+  strayed.state.pose = {5.0, 0.2, 0.0};
+  EXPECT_FALSE(TrafficFor(way, strayed).FindDeparture(way).has_value());
+  RobotRecord stuck = Driving("b", Along({{5.0, 0.0}, {5.0, -9.0}}));
+  EXPECT_TRUE(TrafficFor(way, stuck).FindDeparture(way).has_value());
+  stuck.live_arrival_ns -= 60 * kSecond_ns;
+  EXPECT_FALSE(TrafficFor(way, stuck).FindDeparture(way).has_value()) << "it does not come";
+}
+
+TEST(Traffic, OnTimeIsAnotherQuestion) {
+  const Trajectory way = Along({{0.0, 0.0}, {6.0, 0.0}});
+  const RobotRecord ahead = Driving("b", Along({{3.0, -1.8}, {3.0, 9.0}}));  // 1.2 s before
+  EXPECT_TRUE(TrafficFor(way, ahead).FirstMeeting(way).has_value());
+  const Traffic on_time({{"a", Standing("a", {0.0, 0.0})}, {"b", ahead}}, "a", 0.1, kNow_ns,
+                        Traffic::Others::kOnTime);
+  EXPECT_FALSE(on_time.FirstMeeting(way).has_value());
+}
+
+// Sampled finely: who is let go meets nobody who is on time, or early or late by the least of what
+// is reckoned with.
+TEST(Traffic, NobodyIsMetByRobotsThatKeepToTheirTimes) {
   Rng rng(7);
   int departures = 0;
   int waits = 0;
@@ -121,14 +146,16 @@ TEST(Traffic, NobodyIsMetByRobotsOnTime) {
     ++departures;
     if (departure->wait_s > 0.0) ++waits;
     WaitAtStart(departure->wait_s, mine);
-    double nearest_m = apart_m;
-    for (double time_s = 0.0; time_s < std::min(Traffic::kHorizon_s, mine.duration_s);
-         time_s += 0.01) {
-      nearest_m =
-          std::min(nearest_m, Distance_m(PoseAt(mine, time_s).position(),
-                                         PoseAt(*other.live_trajectory, time_s).position()));
+    for (const double early_s : {0.0, 0.4, -0.9}) {
+      double nearest_m = apart_m;
+      for (double time_s = 0.0; time_s < std::min(Traffic::kHorizon_s, mine.duration_s);
+           time_s += 0.01) {
+        nearest_m = std::min(
+            nearest_m, Distance_m(PoseAt(mine, time_s).position(),
+                                  PoseAt(*other.live_trajectory, time_s + early_s).position()));
+      }
+      EXPECT_GE(nearest_m, 2 * kRadius_m + kClearance_m - 0.1) << i << " early by " << early_s;
     }
-    EXPECT_GE(nearest_m, 2 * kRadius_m + kClearance_m - 0.1) << i;
   }
   EXPECT_GT(departures, 150);
   EXPECT_GT(waits, 20);
@@ -142,6 +169,8 @@ TEST(Traffic, ProgressGoesByThePoseAndWhileStandingByTheTime) {
   EXPECT_EQ(Progress_s(record, kNow_ns), 0.0);
   EXPECT_EQ(Progress_s(record, kNow_ns + 2 * kSecond_ns), 2.0);
   EXPECT_EQ(Progress_s(record, kNow_ns + 9 * kSecond_ns), 3.0) << "it has not left yet";
+  record.state.pose = {0.1, 0.05, 0.0};
+  EXPECT_EQ(Progress_s(record, kNow_ns + 2 * kSecond_ns), 2.0) << "poses err a little";
   record.state.pose = {2.0, 0.1, 0.0};
   EXPECT_NEAR(Progress_s(record, kNow_ns + 9 * kSecond_ns), 5.0, 1e-9) << "it is late";
 }

@@ -91,6 +91,28 @@ TEST(FindHome, BehindWallsOrOffTheMapIsNotReachable) {
   }
 }
 
+TEST(FindHome, IsBesideARobotThatStandsThere) {
+  GoalCase c(kHall);
+  const Point2 home = CentreOf(c, {3, 1});
+  c.belief.robots["r"].first_place = home;
+  const double cell_m = c.belief.geometry().resolution_m;
+  RobotRecord& parked = c.belief.robots["s"];
+  parked.state.id = "s";
+  parked.state.radius_m = 1.5 * cell_m;
+  parked.state.has_pose = true;
+  parked.state.pose = {home.x_m, home.y_m, 0.0};
+  c.belief.robots["r"].state.radius_m = cell_m;
+  c.options.robot_clearance_m = 0.0;
+  const GoalQuery query = c.Query();
+  EXPECT_NEAR(Distance_m(FindHome(query).goal.position, home), 3.0 * cell_m, cell_m);
+  EXPECT_GE(Distance_m(FindHome(query).goal.position, home), 2.5 * cell_m);
+  parked.live_trajectory = std::make_shared<const Trajectory>();
+  EXPECT_EQ(FindHome(query).goal.cell, (Cell{3, 1})) << "it is about to leave";
+  parked.live_trajectory = nullptr;
+  parked.state.silent = true;
+  EXPECT_EQ(FindHome(query).goal.cell, (Cell{3, 1}));
+}
+
 TEST(FindHome, IsNotKeptFromByMemoryOrClaims) {
   GoalCase c(kHall);
   c.belief.robots["r"].first_place = CentreOf(c, {3, 1});
