@@ -197,11 +197,11 @@ TEST_F(MissionConductTest, AWayThatMeetsOneThatWasGivenMeanwhileAborts) {
     return plan;
   };
   const Plan east = drive("r1", {0.0, 0.0}, {3.0, 3.0});
-  const Plan north = drive("r2", {4.0, 0.0}, {3.0, 2.8});
+  const Plan north = drive("r2", {4.0, 0.0}, {2.9, 2.8});
   EXPECT_TRUE(conduct_.Commit(east, kLease).ok());
   const absl::Status status = conduct_.Commit(north, kLease + 1).status();
   EXPECT_TRUE(absl::IsAborted(status));
-  EXPECT_THAT(std::string(status.message()), ::testing::HasSubstr("robot \"r1\""));
+  EXPECT_THAT(std::string(status.message()), ::testing::HasSubstr("meets robot \"r1\""));
   EXPECT_TRUE(conduct_.Commit(drive("r2", {4.0, 0.0}, {4.0, -3.0}), kLease + 1).ok());
 }
 
