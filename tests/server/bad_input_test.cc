@@ -77,6 +77,7 @@ std::set<std::string> FreeFields() {
       "CreateMissionRequest.options.planning.informed_heuristic",
       "CreateMissionRequest.options.planning.straighten",
       "CreateMissionRequest.options.planning.return_home",
+      "CreateMissionRequest.options.planning.yield_to_robots",
       "CreateMissionRequest.options.planning.sites.survey",
       "NextBestTrajectoryRequest.go_home",
       "StreamNextBestTrajectoryRequest.go_home",

@@ -29,6 +29,7 @@ TrialRecord SomeRecord() {
   record.distance_m = 1.0 / 3.0;
   record.plans = 4;
   record.collisions = 1;
+  record.team = {.legs = 9, .blocked_legs = 2, .contacts = 3, .encounters = 4, .closest_m = 0.41};
   record.completed = true;
   return record;
 }
@@ -50,6 +51,11 @@ TEST(TrialStore, GivesBackWhatItKept) {
   EXPECT_EQ(found->gas_readings, 11);
   EXPECT_EQ(found->plans, 4);
   EXPECT_EQ(found->collisions, 1);
+  EXPECT_EQ(found->team.legs, 9);
+  EXPECT_EQ(found->team.blocked_legs, 2);
+  EXPECT_EQ(found->team.contacts, 3);
+  EXPECT_EQ(found->team.encounters, 4);
+  EXPECT_EQ(found->team.closest_m, 0.41);
   EXPECT_TRUE(found->completed);
   ASSERT_EQ(found->mean_ppm.size(), 1u);
   EXPECT_TRUE(std::isnan(found->mean_ppm[0][0]));
@@ -101,8 +107,9 @@ TEST(Fingerprint, KeepsItsForm) {
   trial.seed = 7;
   trial.duration_s = 60.0;
   trial.map_times_s = {2.5, 60.0};
-  EXPECT_THAT(Fingerprint(trial, 0xbeef),
-              MatchesRegex("mission [0-9a-f]{8} scene 0000beef seed 7 duration 60 maps 2.5 60"));
+  EXPECT_THAT(
+      Fingerprint(trial, 0xbeef),
+      MatchesRegex("mission [0-9a-f]{8} scene 0000beef robots 1 seed 7 duration 60 maps 2.5 60"));
 }
 
 TEST(SceneChecksum, IsOfMapGasStartAndThreshold) {
