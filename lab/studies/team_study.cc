@@ -55,6 +55,7 @@ constexpr GeneratorOptions kSmall = {.min_size_m = 16, .max_size_x_m = 21, .max_
 constexpr GeneratorOptions kLarge = {.min_size_m = 34, .max_size_x_m = 40, .max_size_y_m = 40};
 constexpr Size kSizes[] = {{"small", "16 to 23 m", {500, 6, "small_building", kSmall}},
                            {"large", "34 to 40 m", {550, 3, "large_building", kLarge}}};
+constexpr Size kGiven = {"given", "scenes given", {}};
 
 // All trials in buildings of one size.
 struct SizeResult {
@@ -179,8 +180,7 @@ Traffic TrafficOf(const std::vector<SceneRecords>& records, std::size_t row) {
 
 TextTable MakeTextTable(const SizeResult& result) {
   TextTable table;
-  table.title =
-      absl::StrFormat("%d buildings of %s", result.plan.scenes.size(), result.size->label);
+  table.title = absl::StrFormat("%d buildings: %s", result.plan.scenes.size(), result.size->label);
   table.columns = {"team",
                    "sooner at 80 % of one robot's gain in entropy",
                    "… in RMSE",
@@ -201,7 +201,7 @@ TextTable MakeTextTable(const SizeResult& result) {
                           absl::StrFormat("%.2f", speedup.rmse),
                           absl::StrFormat("%.2f", speedup.map), absl::StrCat(speedup.censored),
                           absl::StrCat(traffic.sums.contacts),
-                          absl::StrFormat("%.2f", traffic.sums.closest_m),
+                          row == 0 ? "–" : absl::StrFormat("%.2f", traffic.sums.closest_m),
                           absl::StrFormat("%.2f", traffic.encounters_per_robot_minute()),
                           absl::StrFormat("%.0f %%", kPercent * traffic.blocked_share()),
                           absl::StrFormat("%.1f %%", kPercent * traffic.waiting_share()),
@@ -241,9 +241,8 @@ void AddCharts(const SizeResult& result, Study& study) {
     if (kTeams[row].yields) styles.push_back({kTeams[row].label, kTeams[row].color});
   }
   const auto add = [&](const char* title, MetricFn metric) {
-    study.figures.charts.push_back(
-        MakeMetricChart(result.records, styles,
-                        absl::StrCat(title, ", buildings of ", result.size->label), metric));
+    study.figures.charts.push_back(MakeMetricChart(
+        result.records, styles, absl::StrCat(title, ": ", result.size->label), metric));
   };
   add("Entropy, nats per critical cell", EntropyPerCell_nats);
   add("Completeness", Completeness);
@@ -257,14 +256,13 @@ void AddRows(const SizeResult& result, CsvTable& table) {
   std::move(part.rows.begin(), part.rows.end(), std::back_inserter(table.rows));
 }
 
-std::vector<std::string> MakeNotes(const TrialPlan& plan) {
+std::vector<std::string> MakeNotes(const TrialPlan& plan, bool given) {
   return {
       absl::StrFormat("Teams of robots of 0.2 m radius and 1.25 m/s, 0.6 m apart at one door, map "
                       "for %.0f s with the strategy plumescout, planned in turn as they ask. They "
                       "follow their trajectories exactly; bodies block each other, and two that "
-                      "run into each other stand for a second. None of the buildings was used for "
-                      "tuning.",
-                      plan.duration_s),
+                      "run into each other stand for a second.%s",
+                      plan.duration_s, given ? "" : " None of the buildings was used for tuning."),
       "Sooner by: one robot's time to a level over the team's, geometric mean over buildings. The "
       "level is 80 % of what one robot gains in its whole run, and a time counts from when the "
       "level is kept. A run that does not get there counts with its duration.",
@@ -279,17 +277,18 @@ std::vector<std::string> MakeNotes(const TrialPlan& plan) {
 absl::StatusOr<Study> RunTeamStudy(const ExperimentOptions& options) {
   Study study;
   study.figures.title = "Robots that share a mission";
-  double before = 0.0;
-  for (const Size& size : kSizes) {
-    if (options.quick && before > 0.0) break;
+  const bool given = !options.scenes.empty();
+  std::vector<Size> sizes(std::begin(kSizes), std::end(kSizes));
+  if (given) sizes = {kGiven};
+  if (options.quick) sizes.resize(1);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const double of_all = 1.0 / static_cast<double>(sizes.size());
     ExperimentOptions part = options;
-    constexpr double kShare = 1.0 / std::size(kSizes);
-    part.progress = [&options, before](double share) {
-      if (options.progress) options.progress(before + kShare * share);
+    part.progress = [&options, i, of_all](double share) {
+      if (options.progress) options.progress(of_all * (static_cast<double>(i) + share));
     };
-    PLUMESCOUT_ASSIGN_OR_RETURN(const SizeResult result, RunSize(part, size));
-    before += kShare;
-    if (study.figures.notes.empty()) study.figures.notes = MakeNotes(result.plan);
+    PLUMESCOUT_ASSIGN_OR_RETURN(const SizeResult result, RunSize(part, sizes[i]));
+    if (study.figures.notes.empty()) study.figures.notes = MakeNotes(result.plan, given);
     study.figures.tables.push_back(MakeTextTable(result));
     AddCharts(result, study);
     AddNumbers(result, study);

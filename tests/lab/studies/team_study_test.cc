@@ -25,8 +25,8 @@ TEST(TeamStudy, ComparesTeamsWithOneRobot) {
     EXPECT_EQ(row.size(), study->figures.tables[0].columns.size());
   }
   EXPECT_THAT(study->table.rows, SizeIs(2));
-  EXPECT_THAT(study->summary.figures, Contains(Key("small_k2_speedup_entropy80")));
-  EXPECT_THAT(study->summary.figures, Contains(Key("small_k2_contacts")));
+  EXPECT_THAT(study->summary.figures, Contains(Key("given_k2_speedup_entropy80")));
+  EXPECT_THAT(study->summary.figures, Contains(Key("given_k2_contacts")));
 }
 
 }  // namespace team_study_test
