@@ -62,8 +62,7 @@ std::set<std::string> FreeFields() {
       "CreateMissionRequest.options.seed",
       "NextBestTrajectoryRequest.seed",
       "StreamNextBestTrajectoryRequest.seed",
-      // What the client was told by some server; of one that says too much there is a test of
-      // recovery.
+      // What a server told the client; of one that says too much there is a test of recovery.
       "BatchIngestObservationsRequest.open.durable_sequence",
       "StreamObservationsRequest.open.durable_sequence",
       // Both values of a bool are good.
