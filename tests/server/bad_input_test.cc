@@ -55,17 +55,9 @@ std::map<std::string, BadInputs> AllBadInputs() {
           {"GetMissionHistoryRequest", BadHistory()}};
 }
 
-// Fields of which no value is bad, and messages that may be missing.
-std::set<std::string> FreeFields() {
+// Both values of a bool are good.
+std::set<std::string> BoolFields() {
   return {
-      // Every number is a seed; 0 has a meaning of its own.
-      "CreateMissionRequest.options.seed",
-      "NextBestTrajectoryRequest.seed",
-      "StreamNextBestTrajectoryRequest.seed",
-      // What a server told the client; of one that says too much there is a test of recovery.
-      "BatchIngestObservationsRequest.open.durable_sequence",
-      "StreamObservationsRequest.open.durable_sequence",
-      // Both values of a bool are good.
       "CreateMissionRequest.options.stamp_by_arrival",
       "CreateMissionRequest.options.planning.draw_goals",
       "CreateMissionRequest.options.planning.raw_variance",
@@ -87,6 +79,19 @@ std::set<std::string> FreeFields() {
       "GetMapRequest.fresh_posterior",
       "QueryGasRequest.fresh_posterior",
       "WatchMapRequest.full_precision",
+  };
+}
+
+// Fields of which no value is bad, and messages that may be missing.
+std::set<std::string> FreeFields() {
+  std::set<std::string> fields = {
+      // Every number is a seed; 0 has a meaning of its own.
+      "CreateMissionRequest.options.seed",
+      "NextBestTrajectoryRequest.seed",
+      "StreamNextBestTrajectoryRequest.seed",
+      // What a server told the client; of one that says too much there is a test of recovery.
+      "BatchIngestObservationsRequest.open.durable_sequence",
+      "StreamObservationsRequest.open.durable_sequence",
       // Unset options are the server's.
       "CreateMissionRequest.options",
       "CreateMissionRequest.options.occupancy",
@@ -127,6 +132,8 @@ std::set<std::string> FreeFields() {
       "StreamObservationsRequest.batch.observations.gas",
       "StreamObservationsRequest.batch.observations.gap",
   };
+  fields.merge(BoolFields());
+  return fields;
 }
 
 // Of the mission in an update, what no mask may name is not read.
