@@ -34,6 +34,7 @@ class Check {
   Check& operator=(const Check&) = delete;
 
   void Cancel() { context_.TryCancel(); }
+  bool ended() const { return done_.HasBeenNotified(); }
   absl::Status Await() {
     done_.WaitForNotification();
     return ToAbsl(status_);
@@ -63,11 +64,6 @@ class UnaryCallTest : public ServiceTest {
   // Of a call that needs not wait.
   absl::Status CheckNow() {
     return Call(planning_, &v1::PlanningService::Stub::CheckTrajectory, request_).status();
-  }
-  // Returns once as many calls wait as may. Whatever else comes of the probe is not for this test.
-  void AwaitFull() {
-    while (!absl::IsResourceExhausted(CheckNow())) {
-    }
   }
 
   v1::CheckTrajectoryRequest request_;
@@ -105,10 +101,16 @@ TEST_F(UnaryCallTest, WaitEndsWithTheServerAndSaysWhenToRetry) {
   config.connection.drain_s = 60.0;
   Start(config);
   const v1::CheckTrajectoryRequest request = BeyondTheLog();
-  Check call(*planning_, request);
-  AwaitFull();
+  Check first(*planning_, request);
+  Check second(*planning_, request);
+  // Who is refused found the other one waiting.
+  while (!first.ended() && !second.ended()) {
+  }
+  Check& refused = first.ended() ? first : second;
+  Check& waiting = first.ended() ? second : first;
+  EXPECT_TRUE(absl::IsResourceExhausted(refused.Await()));
   server_->Drain();
-  const absl::Status ended = call.Await();
+  const absl::Status ended = waiting.Await();
   EXPECT_THAT(ended, Refuses(kUnavailable, "DRAINING"));
   EXPECT_TRUE(RetryDelay(ended).has_value());
 }
