@@ -219,7 +219,7 @@ std::optional<ProgressOutcome> RobotLoop::LegOutcome() const {
   if (!leg_.has_value()) return std::nullopt;
   if (leg_->motion->done()) return ProgressOutcome::kReached;
   if (driver_.now_ns() > leg_->deadline_ns) return ProgressOutcome::kAborted;
-  // Who stands by plan, perhaps for another robot to pass, is in nobody's way yet.
+  // Who stands by plan, perhaps for another robot to pass, drives into nothing yet.
   const std::optional<Scan>& scan = bridge_->latest_scan();
   const bool blocked = !leg_->motion->standing() && scan.has_value() &&
                        PathBlocked(*scan, bridge_->latest_scan_pose(),

@@ -74,6 +74,7 @@ class Mission {
   absl::StatusOr<std::int64_t> LeaseToken(const RobotId& robot) const;
   // Where the plan's way meets the other robots if they drive on time, with the options' clearance
   // or `clearance_m` if that is less; none if it meets nobody or plans do not yield to robots.
+  // Cost: that of Traffic::FirstMeeting, and of a copy of the robots' records.
   std::optional<Meeting> FindMeeting(const Plan& plan, double clearance_m) const;
   // See Fleet::LogContinues.
   bool LogContinues(const RobotId& robot, std::int64_t log_epoch) const;

@@ -151,7 +151,7 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
   TakeResults(judging, result, plan);
   const bool stopped_empty = plan.end == PlanEnd::kStopped && plan.candidates.empty();
   RejectOverBudget(query, plan);
-  if (!plan.candidates.empty()) YieldToRobots(belief, departure.yaw_rad, options_, plan);
+  YieldToRobots(belief, departure.yaw_rad, options_, plan);
   Choose(belief, options_, stop, plan);
   const bool budget_spent = request.max_edge_evaluations > 0 &&
                             plan.effort.edges_evaluated >= request.max_edge_evaluations;

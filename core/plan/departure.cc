@@ -16,10 +16,6 @@
 namespace plumescout {
 namespace {
 
-// Farther than this from its trajectory a robot is not following it: several times what followers
-// stray, and less than the width of a corridor.
-constexpr double kOffTrajectory_m = 0.5;
-
 // The pose `latency_s` after the robot's latest.
 Pose2 ExpectedPose(const RobotRecord& robot, double latency_s, std::int64_t now_ns) {
   if (latency_s == 0.0 || robot.live_trajectory == nullptr) return robot.state.pose;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plan/right_of_way.h"
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -29,21 +30,21 @@ RejectedGoal InTraffic(const Candidate& candidate, const Meeting& meeting) {
 
 void YieldToRobots(const Belief& belief, double start_yaw_rad, const PlanningOptions& options,
                    Plan& plan) {
-  if (!options.yield_to_robots || belief.robots.size() < 2) return;
+  if (!options.yield_to_robots || belief.robots.size() < 2 || plan.candidates.empty()) return;
   const Traffic traffic(belief.robots, plan.robot, options.robot_clearance_m,
                         belief.sample_time_ns);
   std::vector<Candidate> clear;
   for (Candidate& candidate : plan.candidates) {
     const Trajectory trajectory = Timed(candidate, start_yaw_rad, options);
-    if (const auto departure = traffic.FindDeparture(trajectory)) {
-      candidate.duration_s += departure->wait_s;
+    if (const std::optional<double> wait_s = traffic.LeastWait_s(trajectory)) {
+      candidate.duration_s += *wait_s;
       clear.push_back(std::move(candidate));
     } else {
       plan.rejected.push_back(InTraffic(candidate, *traffic.FirstMeeting(trajectory)));
     }
   }
   plan.candidates = std::move(clear);
-  if (plan.candidates.empty() && !plan.rejected.empty()) plan.end = PlanEnd::kAllGoalsRejected;
+  if (plan.candidates.empty()) plan.end = PlanEnd::kAllGoalsRejected;
 }
 
 Trajectory TrajectoryOf(const Candidate& candidate, double start_yaw_rad,

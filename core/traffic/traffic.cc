@@ -22,8 +22,6 @@ constexpr double kTouch_m = 0.02;
 
 std::size_t StepsIn(double time_s) { return static_cast<std::size_t>(std::ceil(time_s / kStep_s)); }
 
-// Several times what followers stray, and less than the width of a corridor.
-constexpr double kOffTrajectory_m = 0.5;
 // Less than that a robot is at a waypoint.
 constexpr double kAtWaypoint_m = 0.15;
 // A way that should have ended so long ago, beside its own duration, is driven no more.
@@ -120,16 +118,12 @@ std::optional<Meeting> Traffic::FirstMeeting(const Trajectory& trajectory) const
   return FirstMeeting(StepsOf(trajectory), 0);
 }
 
-std::optional<ClearDeparture> Traffic::FindDeparture(const Trajectory& trajectory) const {
-  ClearDeparture departure;
-  if (trajectory.waypoints.empty()) return departure;
+std::optional<double> Traffic::LeastWait_s(const Trajectory& trajectory) const {
+  if (trajectory.waypoints.empty()) return 0.0;
   const Steps steps = StepsOf(trajectory);
-  constexpr std::size_t kStride = 2;
+  constexpr std::size_t kStride = 2;  // half a second
   for (std::size_t waited = 0; waited <= StepsIn(kMaxWait_s); waited += kStride) {
-    const std::optional<Meeting> meeting = FirstMeeting(steps, waited);
-    departure.wait_s = static_cast<double>(waited) * kStep_s;
-    if (!meeting) return departure;
-    departure.robot = meeting->robot;
+    if (!FirstMeeting(steps, waited)) return static_cast<double>(waited) * kStep_s;
   }
   return std::nullopt;
 }

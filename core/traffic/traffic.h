@@ -22,11 +22,9 @@ struct Meeting {
   Point2 place;         // of the robot whose way it is
 };
 
-// A departure that meets nobody.
-struct ClearDeparture {
-  double wait_s = 0.0;
-  RobotId robot;  // whom the robot waits for; empty: nobody
-};
+// Farther than this from its trajectory a robot is not following it: several times what followers
+// stray, and less than the width of a corridor.
+inline constexpr double kOffTrajectory_m = 0.5;
 
 // Where the other robots of a mission will be: on their live plans, from where they are along them,
 // or where they stand. Prioritised planning in the order of commitment: a live plan is never
@@ -52,8 +50,9 @@ class Traffic {
   // Of a way that is begun now. Cost: O(others * kHorizon_s), less where they are far.
   std::optional<Meeting> FirstMeeting(const Trajectory& trajectory) const;
   // The shortest time to stand at the start of the way, up to kMaxWait_s, so that nobody is met
-  // there, on the way, and for a moment at its end. None: there is no such time.
-  std::optional<ClearDeparture> FindDeparture(const Trajectory& trajectory) const;
+  // there, on the way, and for a moment at its end. None: there is no such time. Cost: that of a
+  // FirstMeeting for every half second.
+  std::optional<double> LeastWait_s(const Trajectory& trajectory) const;
 
  private:
   // Another robot's centre at the times k * kStep_s from now.

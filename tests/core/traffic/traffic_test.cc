@@ -59,42 +59,41 @@ TEST(Traffic, ARobotThatStandsIsInTheWayForGood) {
   EXPECT_EQ(meeting->robot, "b");
   EXPECT_NEAR(meeting->place.x_m, 5.0 - std::sqrt(0.65 * 0.65 - 0.3 * 0.3), 0.25);
   EXPECT_NEAR(meeting->time_s, meeting->place.x_m, 1e-9);
-  EXPECT_FALSE(blocked.FindDeparture(way).has_value());
+  EXPECT_FALSE(blocked.LeastWait_s(way).has_value());
   EXPECT_FALSE(TrafficFor(way, Standing("b", {5.0, 0.66})).FirstMeeting(way).has_value());
-  EXPECT_EQ(TrafficFor(way, Standing("b", {5.0, 0.66})).FindDeparture(way)->wait_s, 0.0);
+  EXPECT_EQ(TrafficFor(way, Standing("b", {5.0, 0.66})).LeastWait_s(way).value(), 0.0);
 }
 
 TEST(Traffic, WhoCrossesIsWaitedFor) {
   const Trajectory way = Along({{0.0, 0.0}, {6.0, 0.0}});
   const Traffic traffic = TrafficFor(way, Driving("b", Along({{3.0, -3.0}, {3.0, 9.0}})));
   EXPECT_TRUE(traffic.FirstMeeting(way).has_value());
-  const auto departure = traffic.FindDeparture(way);
-  ASSERT_TRUE(departure.has_value());
-  EXPECT_EQ(departure->robot, "b");
-  EXPECT_GE(departure->wait_s, 1.0);
-  EXPECT_LE(departure->wait_s, 4.0);
+  const std::optional<double> wait_s = traffic.LeastWait_s(way);
+  ASSERT_TRUE(wait_s.has_value());
+  EXPECT_GE(*wait_s, 1.0);
+  EXPECT_LE(*wait_s, 4.0);
 }
 
 TEST(Traffic, WhoComesHeadOnInACorridorIsNotWaitedFor) {
   const Trajectory way = Along({{0.0, 0.0}, {8.0, 0.0}});
   const Traffic traffic = TrafficFor(way, Driving("b", Along({{8.0, 0.0}, {0.5, 0.0}})));
-  EXPECT_FALSE(traffic.FindDeparture(way).has_value());
+  EXPECT_FALSE(traffic.LeastWait_s(way).has_value());
 }
 
 TEST(Traffic, OneMayFollowAnother) {
   const Trajectory way = Along({{0.0, 0.0}, {8.0, 0.0}});
   const Traffic traffic = TrafficFor(way, Driving("b", Along({{1.0, 0.0}, {20.0, 0.0}})));
-  const auto departure = traffic.FindDeparture(way);
-  ASSERT_TRUE(departure.has_value());
-  EXPECT_LE(departure->wait_s, 3.0);
+  const std::optional<double> wait_s = traffic.LeastWait_s(way);
+  ASSERT_TRUE(wait_s.has_value());
+  EXPECT_LE(*wait_s, 3.0);
 }
 
 TEST(Traffic, RobotsThatStandTooNearMayPart) {
   const Trajectory away = Along({{0.0, 0.0}, {-5.0, 0.0}});
   const Trajectory through = Along({{0.0, 0.0}, {5.0, 0.0}});
   const Traffic traffic = TrafficFor(away, Standing("b", {0.5, 0.0}));
-  EXPECT_EQ(traffic.FindDeparture(away)->wait_s, 0.0);
-  EXPECT_FALSE(traffic.FindDeparture(through).has_value());
+  EXPECT_EQ(traffic.LeastWait_s(away).value(), 0.0);
+  EXPECT_FALSE(traffic.LeastWait_s(through).has_value());
 }
 
 TEST(Traffic, WhoHasNoPoseIsNotThere) {
@@ -113,11 +112,11 @@ TEST(Traffic, WhoIsSilentIsNotThereAndWhoStrayedStandsWhereItIs) {
   RobotRecord strayed = Driving("b", Along({{3.0, -5.0}, {3.0, -9.0}}));
   EXPECT_FALSE(TrafficFor(way, strayed).FirstMeeting(way).has_value());
   strayed.state.pose = {5.0, 0.2, 0.0};
-  EXPECT_FALSE(TrafficFor(way, strayed).FindDeparture(way).has_value());
+  EXPECT_FALSE(TrafficFor(way, strayed).LeastWait_s(way).has_value());
   RobotRecord stuck = Driving("b", Along({{5.0, 0.0}, {5.0, -9.0}}));
-  EXPECT_TRUE(TrafficFor(way, stuck).FindDeparture(way).has_value());
+  EXPECT_TRUE(TrafficFor(way, stuck).LeastWait_s(way).has_value());
   stuck.live_arrival_ns -= 60 * kSecond_ns;
-  EXPECT_FALSE(TrafficFor(way, stuck).FindDeparture(way).has_value()) << "it does not come";
+  EXPECT_FALSE(TrafficFor(way, stuck).LeastWait_s(way).has_value()) << "it does not come";
 }
 
 TEST(Traffic, OnTimeIsAnotherQuestion) {
@@ -141,11 +140,11 @@ TEST(Traffic, NobodyIsMetByRobotsThatKeepToTheirTimes) {
     const RobotRecord other = Driving("b", Along({place(), place(), place()}));
     const double apart_m =
         Distance_m(mine.waypoints.front().pose.position(), other.state.pose.position());
-    const auto departure = TrafficFor(mine, other).FindDeparture(mine);
-    if (!departure || apart_m < 0.7) continue;
+    const std::optional<double> wait_s = TrafficFor(mine, other).LeastWait_s(mine);
+    if (!wait_s || apart_m < 0.7) continue;
     ++departures;
-    if (departure->wait_s > 0.0) ++waits;
-    WaitAtStart(departure->wait_s, mine);
+    if (*wait_s > 0.0) ++waits;
+    WaitAtStart(*wait_s, mine);
     for (const double early_s : {0.0, 0.4, -0.9}) {
       double nearest_m = apart_m;
       for (double time_s = 0.0; time_s < std::min(Traffic::kHorizon_s, mine.duration_s);
