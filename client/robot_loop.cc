@@ -20,6 +20,11 @@ constexpr double kNanosecondsPerSecond = 1e9;
 // A leg is given up after this multiple of its planned time, and a little for the first turn.
 constexpr double kLegPatienceFactor = 3.0;
 constexpr double kLegPatience_s = 10.0;
+// A robot that is to drive and does not move by so much in such a time stands against something
+// that its beams do not see in its way.
+constexpr double kStuck_s = 3.0;
+constexpr double kMoved_m = 0.02;
+constexpr double kMoved_rad = 0.05;
 // Remainders of a wait below this are rounding.
 constexpr double kTimeRounding_s = 1e-6;
 
@@ -205,6 +210,7 @@ void RobotLoop::NoteProgress() {
   if (now_ns == last_tick_ns_) return;
   last_tick_ns_ = now_ns;
   const Pose2 pose = driver_.pose();
+  NoteMotion(pose, now_ns);
   result_.distance_m += Distance_m(last_position_, pose.position());
   last_position_ = pose.position();
   observer_.OnTick({.time_ns = now_ns,
@@ -214,11 +220,22 @@ void RobotLoop::NoteProgress() {
                     .ingest = ingest_->statistics()});
 }
 
+void RobotLoop::NoteMotion(const Pose2& pose, std::int64_t now_ns) {
+  if (!leg_.has_value()) return;
+  const Pose2& before = leg_->moved_to;
+  const bool moved = Distance_m(before.position(), pose.position()) >= kMoved_m ||
+                     std::abs(WrapAngle_rad(pose.yaw_rad - before.yaw_rad)) >= kMoved_rad;
+  if (!moved && !leg_->motion->standing()) return;
+  leg_->moved_to = pose;
+  leg_->moved_ns = now_ns;
+}
+
 // How the leg has ended; nothing while it goes on, or without one.
 std::optional<ProgressOutcome> RobotLoop::LegOutcome() const {
   if (!leg_.has_value()) return std::nullopt;
   if (leg_->motion->done()) return ProgressOutcome::kReached;
   if (driver_.now_ns() > leg_->deadline_ns) return ProgressOutcome::kAborted;
+  if (driver_.now_ns() - leg_->moved_ns > ToNanoseconds(kStuck_s)) return ProgressOutcome::kBlocked;
   // Who stands by plan, perhaps for another robot to pass, drives into nothing yet.
   const std::optional<Scan>& scan = bridge_->latest_scan();
   const bool blocked = !leg_->motion->standing() && scan.has_value() &&
@@ -315,7 +332,9 @@ absl::Status RobotLoop::Depart(const Plan& plan) {
   const double patience_s = kLegPatience_s + kLegPatienceFactor * plan.trajectory.duration_s;
   leg_ = Leg{.plan = plan.id,
              .motion = StartMotion(options_.following, plan.trajectory, options_.follower, now_ns),
-             .deadline_ns = now_ns + ToNanoseconds(patience_s)};
+             .deadline_ns = now_ns + ToNanoseconds(patience_s),
+             .moved_to = driver_.pose(),
+             .moved_ns = now_ns};
   return absl::OkStatus();
 }
 

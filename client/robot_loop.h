@@ -93,6 +93,8 @@ class RobotLoop {
     PlanId plan = 0;
     std::unique_ptr<Motion> motion;
     std::int64_t deadline_ns = 0;  // given up after this
+    Pose2 moved_to;                // where it was when it last had moved
+    std::int64_t moved_ns = 0;
   };
 
   absl::Status OpenLogOnDisk();
@@ -106,6 +108,7 @@ class RobotLoop {
   absl::Status Stand(double duration_s);
   bool AwaitApplied(absl::Duration timeout);
   void NoteProgress();
+  void NoteMotion(const Pose2& pose, std::int64_t now_ns);
   std::optional<ProgressOutcome> LegOutcome() const;
   absl::Status EndLeg(ProgressOutcome outcome);
 

@@ -10,86 +10,13 @@
 #include "absl/synchronization/notification.h"
 #include "absl/time/clock.h"
 #include "client/error_reason.h"
-#include "tests/client/fake_driver.h"
-#include "tests/client/fake_planner_client.h"
-#include "tests/client/ingest_session_fixture.h"
+#include "tests/client/robot_loop_fixture.h"
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::client {
 namespace robot_loop_test {
 
-using ::testing::ElementsAre;
-using ::testing::Field;
 using ::testing::SizeIs;
-
-constexpr double kSpeed_mps = 1.0;
-
-Plan PlanTo(PlanId id, const PlanQuery& query, Point2 goal) {
-  const Pose2 start = *query.request.start;
-  const double length_m = Distance_m(start.position(), goal);
-  const double yaw_rad = std::atan2(goal.y_m - start.y_m, goal.x_m - start.x_m);
-  Plan plan;
-  plan.id = id;
-  plan.chosen = 0;
-  plan.trajectory.waypoints = {
-      {.pose = {start.x_m, start.y_m, yaw_rad}},
-      {.pose = {goal.x_m, goal.y_m, yaw_rad}, .arrival_time_s = length_m / kSpeed_mps}};
-  plan.trajectory.length_m = length_m;
-  plan.trajectory.duration_s = length_m / kSpeed_mps;
-  return plan;
-}
-
-// Sends the robot through `goals`, then says that the mission is complete.
-FakePlannerClient::PlanScript Tour(std::vector<Point2> goals) {
-  const auto next = std::make_shared<std::size_t>(0);
-  return [goals, next](const PlanQuery& query) -> absl::StatusOr<Plan> {
-    if (*next == goals.size()) return CompletePlan();
-    const Point2 goal = goals[(*next)++];
-    return PlanTo(static_cast<PlanId>(*next), query, goal);
-  };
-}
-
-class Recorder final : public RobotObserver {
- public:
-  void OnTick(const RobotTick& tick) override { ticks.push_back(tick); }
-  void OnPlan(const PlanArrival& plan) override { plan_times_s.push_back(plan.elapsed_s); }
-  void OnPlanFailure(const absl::Status& status) override { failures.push_back(status); }
-
-  std::vector<RobotTick> ticks;
-  std::vector<double> plan_times_s;
-  std::vector<absl::Status> failures;
-};
-
-RobotLoopOptions Options(Pacing pacing, Following following) {
-  RobotLoopOptions options;
-  options.participation = {.mission = "m", .robot = "r", .create = MissionOptions{}};
-  options.pacing = pacing;
-  options.following = following;
-  options.time_limit_s = 600.0;
-  options.ingest = QuickOptions();
-  return options;
-}
-
-class RobotLoopTest : public ::testing::Test {
- protected:
-  absl::StatusOr<RobotResult> Run(const RobotLoopOptions& options,
-                                  const StopFn& stop = NeverStop()) {
-    RobotLoop loop(server_, driver_, options, recorder_);
-    return loop.Run(stop);
-  }
-  absl::StatusOr<RobotResult> RunInLockstep() {
-    return Run(Options(Pacing::kLockstep, Following::kIdeal));
-  }
-  // A free-running robot whose world goes on at a pace that leaves threads some time.
-  absl::StatusOr<RobotResult> RunFreely() {
-    driver_.on_advance = [] { absl::SleepFor(absl::Milliseconds(1)); };
-    return Run(Options(Pacing::kFreeRunning, Following::kProportional));
-  }
-
-  FakePlannerClient server_;
-  FakeDriver driver_;
-  Recorder recorder_;
-};
 
 TEST_F(RobotLoopTest, InLockstepItVisitsEveryGoalAndEndsWithTheMission) {
   server_.set_script(Tour({{1, 0}, {1, 2}}));
@@ -185,20 +112,6 @@ TEST_F(RobotLoopTest, SteeredWheelsReachTheGoalsToo) {
   EXPECT_EQ(driver_.twist().forward_mps, 0.0);
 }
 
-TEST_F(RobotLoopTest, AnObstacleOnThePathIsReportedAndPlannedAround) {
-  driver_.posts = {{2.0, 0.0}};
-  server_.set_script(Tour({{4, 0}, {0, 2}}));
-
-  const absl::StatusOr<RobotResult> result = RunInLockstep();
-
-  ASSERT_TRUE(result.ok());
-  EXPECT_EQ(result->blocked, 1);
-  EXPECT_EQ(result->reached, 1);
-  EXPECT_THAT(server_.reports(),
-              ElementsAre(Field(&FakePlannerClient::Report::outcome, ProgressOutcome::kBlocked),
-                          Field(&FakePlannerClient::Report::outcome, ProgressOutcome::kReached)));
-}
-
 TEST_F(RobotLoopTest, TheTimeLimitEndsTheRunMidwayAndReleasesThePlan) {
   server_.set_script(Tour({{4, 0}}));
   RobotLoopOptions options = Options(Pacing::kLockstep, Following::kIdeal);
@@ -222,32 +135,6 @@ TEST_F(RobotLoopTest, StopsWhenTold) {
 
   ASSERT_TRUE(result.ok());
   EXPECT_EQ(result->end, RobotEnd::kStopped);
-}
-
-TEST_F(RobotLoopTest, WithNowhereToGoItStandsAndAsksAgain) {
-  int asked = 0;
-  server_.set_script([&asked](const PlanQuery&) -> absl::StatusOr<Plan> {
-    return ++asked < 4 ? Plan{} : CompletePlan();
-  });
-
-  const absl::StatusOr<RobotResult> result = RunInLockstep();
-
-  ASSERT_TRUE(result.ok());
-  EXPECT_EQ(result->plans, 4);
-  EXPECT_NEAR(result->elapsed_s, 0.5 + 4 * 0.1 + 3 * 1.0, 1e-6);
-  EXPECT_EQ(result->distance_m, 0.0);
-}
-
-TEST_F(RobotLoopTest, ARobotThatCannotMoveGivesThePlanUp) {
-  server_.set_script(Tour({{1, 0}}));
-  driver_.on_advance = [this] { driver_.set_pose({}); };
-
-  const absl::StatusOr<RobotResult> result =
-      Run(Options(Pacing::kLockstep, Following::kProportional));
-
-  ASSERT_TRUE(result.ok());
-  EXPECT_EQ(result->aborted, 1);
-  EXPECT_EQ(result->end, RobotEnd::kMissionComplete);
 }
 
 TEST_F(RobotLoopTest, InLockstepTheWorldWaitsForARestartedServer) {
