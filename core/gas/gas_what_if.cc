@@ -4,6 +4,9 @@
 
 #include <cstddef>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "absl/status/status.h"
@@ -14,22 +17,46 @@ namespace plumescout {
 
 absl::StatusOr<Grid<float>> GasWhatIf::VarianceIfRead(std::span<const Cell> cells,
                                                       double precision) const {
-  const Grid<CellState>& states = states_.states();
   std::vector<std::size_t> read;
   for (const Cell cell : cells) {
-    if (!states.Contains(cell)) {
-      return absl::InvalidArgumentError(
-          absl::StrCat("cell (", cell.x, ", ", cell.y, ") lies off the map"));
-    }
-    const std::size_t index = geometry().Index(cell);
-    if (states[index] == CellState::kFree) read.push_back(FieldIndex(index));
+    PLUMESCOUT_ASSIGN_OR_RETURN(const std::optional<std::size_t> index, FreeIndex(cell));
+    if (index) read.push_back(*index);
   }
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<double> variance_ppm2,
                               field_.VarianceIfRead(read, precision));
+  return OnMap(variance_ppm2);
+}
+
+absl::StatusOr<std::shared_ptr<const GasWhatIf>> GasWhatIf::Given(
+    std::span<const ForeseenCell> readings) const {
+  std::vector<ForeseenReading> read;
+  for (const ForeseenCell& reading : readings) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(const std::optional<std::size_t> index, FreeIndex(reading.cell));
+    if (index) read.push_back({*index, reading.precision_per_ppm2});
+  }
+  PLUMESCOUT_ASSIGN_OR_RETURN(FieldSnapshot field, field_.Given(read));
+  auto given = std::make_shared<GasWhatIf>(*this);
+  given->field_ = std::move(field);
+  return given;
+}
+
+absl::StatusOr<std::optional<std::size_t>> GasWhatIf::FreeIndex(Cell cell) const {
+  const Grid<CellState>& states = states_.states();
+  if (!states.Contains(cell)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("cell (", cell.x, ", ", cell.y, ") lies off the map"));
+  }
+  const std::size_t index = geometry().Index(cell);
+  if (states[index] != CellState::kFree) return std::nullopt;
+  return FieldIndex(index);
+}
+
+Grid<float> GasWhatIf::OnMap(const std::vector<double>& by_lattice_cell) const {
+  const Grid<CellState>& states = states_.states();
   Grid<float> result(geometry(), std::numeric_limits<float>::quiet_NaN());
   for (std::size_t i = 0; i < result.size(); ++i) {
     if (states[i] == CellState::kFree) {
-      result[i] = static_cast<float>(variance_ppm2[FieldIndex(i)]);
+      result[i] = static_cast<float>(by_lattice_cell[FieldIndex(i)]);
     }
   }
   return result;

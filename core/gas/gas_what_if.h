@@ -3,8 +3,11 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "core/gas/field/field_snapshot.h"
@@ -13,6 +16,12 @@
 #include "core/types/grid.h"
 
 namespace plumescout {
+
+// A reading that may be taken in a cell of the map.
+struct ForeseenCell {
+  Cell cell;
+  double precision_per_ppm2 = 0.0;
+};
 
 // What readings would tell before they are taken, on the field of one moment. Shares the factor of
 // the live field, which goes on without changing it. Immutable: may be read from any thread.
@@ -32,7 +41,19 @@ class GasWhatIf {
   // not finite. Cost: O(k) passes over the factor for k cells, 1.5 ms for 16 at 160x200.
   absl::StatusOr<Grid<float>> VarianceIfRead(std::span<const Cell> cells, double precision) const;
 
+  // The same once these readings have been taken, whatever they say: others are then worth what
+  // they tell beside them. For cells and errors see VarianceIfRead. Cost: that, and for each
+  // reading a copy of what lies on the way from its cell to the root of the factor.
+  absl::StatusOr<std::shared_ptr<const GasWhatIf>> Given(
+      std::span<const ForeseenCell> readings) const;
+
+  // Marginal variance of every free cell now, ppm^2; NaN off those. Cost: O(cells).
+  Grid<float> variance_ppm2() const { return OnMap(field_.variance_ppm2()); }
+
  private:
+  // In the lattice; none of a cell that is not free. Errors: kInvalidArgument off the map.
+  absl::StatusOr<std::optional<std::size_t>> FreeIndex(Cell cell) const;
+  Grid<float> OnMap(const std::vector<double>& by_lattice_cell) const;
   // In the lattice, of a free cell.
   std::size_t FieldIndex(std::size_t index) const {
     return lattice_.Index(GasCellOf(states_.At(index), factor_));

@@ -6,21 +6,40 @@
 #include "core/gas/field/cell_input.h"
 #include "core/gas/field/inverse_columns.h"
 #include "core/linalg/dense_kernel.h"
+#include "core/types/status_macros.h"
 
 namespace plumescout {
 namespace {
 
-// diag(Z_C (1 / precision + Z_CC)^-1 Z_C^T) for the cells C in `slots`: with L L^T the matrix in
-// the middle, the rows of Z_C L^-T squared and summed. Mixed before they are continued off the
-// paths, the columns need no product over all cells.
-void SubtractGain(InverseColumns columns, std::span<const Slot> slots, double precision,
-                  double limit_ppm2, std::vector<double>& variance_ppm2) {
-  const std::size_t size = slots.size();
+// Readings of active cells.
+struct Foreseen {
+  std::vector<Slot> slots;
+  std::vector<double> noise_ppm2;  // 1 / precision of each
+};
+
+absl::Status CheckReading(const SeparatorTree& tree, const ForeseenReading& reading) {
+  if (!(reading.precision > 0.0) || reading.precision > kMaxCellPrecision) {
+    return absl::InvalidArgumentError("the precision of a reading is out of range");
+  }
+  if (reading.cell >= tree.cells()) {
+    return absl::InvalidArgumentError("a cell lies beyond the lattice");
+  }
+  return absl::OkStatus();
+}
+
+// diag(Z_C (N + Z_CC)^-1 Z_C^T) for the cells C that are read and the noise N: with L L^T the
+// matrix in the middle, the rows of Z_C L^-T squared and summed. Mixed before they are continued
+// off the paths, the columns need no product over all cells.
+void SubtractGain(InverseColumns columns, const Foreseen& readings, double limit_ppm2,
+                  std::vector<double>& variance_ppm2) {
+  const std::size_t size = readings.slots.size();
   const std::size_t stride = PaddedRows(size);
   std::vector<double> matrix(stride * size, 0.0);
   for (std::size_t j = 0; j < size; ++j) {
-    for (std::size_t i = j; i < size; ++i) matrix[j * stride + i] = columns.At(slots[i], j);
-    matrix[j * stride + j] += 1.0 / precision;
+    for (std::size_t i = j; i < size; ++i) {
+      matrix[j * stride + i] = columns.At(readings.slots[i], j);
+    }
+    matrix[j * stride + j] += readings.noise_ppm2[j];
   }
   FactorizeFront(matrix.data(), stride, size, size);
   std::vector<double> inverse(stride * size, 0.0);
@@ -33,24 +52,52 @@ void SubtractGain(InverseColumns columns, std::span<const Slot> slots, double pr
 
 absl::StatusOr<std::vector<double>> FieldSnapshot::VarianceIfRead(
     std::span<const std::size_t> cells, double precision) const {
+  std::vector<ForeseenReading> readings;
+  for (const std::size_t cell : cells) readings.push_back({cell, precision});
+  if (readings.empty()) PLUMESCOUT_RETURN_IF_ERROR(CheckReading(factor_.tree(), {0, precision}));
+  return VarianceAfter(readings);
+}
+
+absl::StatusOr<std::vector<double>> FieldSnapshot::VarianceAfter(
+    std::span<const ForeseenReading> readings) const {
   const SeparatorTree& tree = factor_.tree();
-  if (!(precision > 0.0) || precision > kMaxCellPrecision) {
-    return absl::InvalidArgumentError("the precision of a reading is out of range");
+  Foreseen foreseen;
+  for (const ForeseenReading& reading : readings) {
+    PLUMESCOUT_RETURN_IF_ERROR(CheckReading(tree, reading));
+    const Slot slot = tree.slot(reading.cell);
+    if (!IsActive(slot)) continue;
+    foreseen.slots.push_back(slot);
+    foreseen.noise_ppm2.push_back(1.0 / reading.precision);
   }
-  std::vector<Slot> slots;
-  for (const std::size_t cell : cells) {
-    if (cell >= tree.cells()) return absl::InvalidArgumentError("a cell lies beyond the lattice");
-    const Slot slot = tree.slot(cell);
-    if (variance_ppm2_[slot] > 0.0) slots.push_back(slot);  // not NaN: active
+  std::vector<double> variance = variance_ppm2();
+  if (!foreseen.slots.empty()) {
+    SubtractGain(InverseColumns(factor_, foreseen.slots), foreseen, tolerance_ppm2_, variance);
   }
-  std::vector<double> variance_ppm2(tree.cells());
-  for (Slot slot = 0; slot < variance_ppm2.size(); ++slot) {
-    variance_ppm2[tree.cell(slot)] = variance_ppm2_[slot];
+  return variance;
+}
+
+absl::StatusOr<FieldSnapshot> FieldSnapshot::Given(
+    std::span<const ForeseenReading> readings) const {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<double> variance, VarianceAfter(readings));
+  FieldSnapshot given = *this;
+  for (Slot slot = 0; slot < variance.size(); ++slot) {
+    given.variance_ppm2_[slot] = variance[factor_.tree().cell(slot)];
   }
-  if (!slots.empty()) {
-    SubtractGain(InverseColumns(factor_, slots), slots, precision, tolerance_ppm2_, variance_ppm2);
+  for (const ForeseenReading& reading : readings) {
+    const Slot slot = factor_.tree().slot(reading.cell);
+    if (!IsActive(slot)) continue;
+    given.factor_.AddReading(given.factor_.StepsFrom(slot), reading.precision, 0.0);
   }
-  return variance_ppm2;
+  return given;
+}
+
+std::vector<double> FieldSnapshot::variance_ppm2() const {
+  const SeparatorTree& tree = factor_.tree();
+  std::vector<double> by_cell(tree.cells());
+  for (Slot slot = 0; slot < by_cell.size(); ++slot) {
+    by_cell[tree.cell(slot)] = variance_ppm2_[slot];
+  }
+  return by_cell;
 }
 
 }  // namespace plumescout

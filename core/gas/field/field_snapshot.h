@@ -11,6 +11,12 @@
 
 namespace plumescout {
 
+// A reading that may be taken in a cell of the lattice.
+struct ForeseenReading {
+  std::size_t cell = 0;
+  double precision = 0.0;  // ppm^-2
+};
+
 // The field at one moment, for planning. Shares all its nodes with the engine that made it, which
 // goes on without changing them. Immutable, so it may be read from any thread.
 class FieldSnapshot {
@@ -32,7 +38,19 @@ class FieldSnapshot {
   absl::StatusOr<std::vector<double>> VarianceIfRead(std::span<const std::size_t> cells,
                                                      double precision) const;
 
+  // The snapshot of a field that has heard these readings besides; what they say is not known, so
+  // it has variances only. Errors and cost: those of VarianceIfRead, and a copy of the fronts on
+  // the path of each cell. Tolerances add up.
+  absl::StatusOr<FieldSnapshot> Given(std::span<const ForeseenReading> readings) const;
+
+  // Marginal variance by cell index; NaN off the active cells. Cost: O(cells).
+  std::vector<double> variance_ppm2() const;
+
  private:
+  bool IsActive(Slot slot) const { return variance_ppm2_[slot] > 0.0; }  // not NaN
+  absl::StatusOr<std::vector<double>> VarianceAfter(
+      std::span<const ForeseenReading> readings) const;
+
   FieldFactor factor_;
   std::vector<double> variance_ppm2_;  // by slot
   double tolerance_ppm2_;

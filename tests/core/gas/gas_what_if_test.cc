@@ -77,6 +77,34 @@ TEST(GasWhatIfTest, CellsThatAreNotFreeTellNothing) {
   EXPECT_TRUE(std::isnan((*foretold)[(Cell{2, 0})]));
 }
 
+TEST(GasWhatIfTest, GivenSomeReadingsOthersAreWorthWhatTheyTellBesides) {
+  Rng rng(6);
+  const Grid<CellState> states = testing::RandomStates(14, 11, 0.2, rng);
+  std::vector<DenseReading> readings = testing::RandomReadings(states, 12, rng);
+  const GasMap map = MapOf(states, readings);
+  std::vector<ForeseenCell> promised;
+  for (const DenseReading& r : testing::RandomReadings(states, 7, rng)) {
+    promised.push_back({r.cell, 0.5 + rng.Uniform01()});
+    readings.push_back({r.cell, promised.back().precision_per_ppm2, 0.0});
+  }
+  const auto given = map.what_if()->Given(promised);
+  ASSERT_TRUE(given.ok()) << given.status();
+  const auto expect = [&](const Grid<float>& variance_ppm2) {
+    const DenseField oracle(states, readings, GasOptions());
+    for (std::size_t k = 0; k < oracle.cells().size(); ++k) {
+      EXPECT_FLOAT_EQ(variance_ppm2[oracle.cells()[k]],
+                      static_cast<float>(oracle.variance_ppm2()(static_cast<Eigen::Index>(k))));
+    }
+  };
+  expect((*given)->variance_ppm2());
+  std::vector<Cell> cells;
+  for (const DenseReading& r : testing::RandomReadings(states, 9, rng)) {
+    cells.push_back(r.cell);
+    readings.push_back({r.cell, 4.0, 0.0});
+  }
+  expect((*given)->VarianceIfRead(cells, 4.0).value());
+}
+
 TEST(GasWhatIfTest, AllCellsOfACoarseCellHearTheReading) {
   GasOptions options;
   options.lattice_factor = 2;
@@ -93,6 +121,8 @@ TEST(GasWhatIfTest, RefusesCellsOffTheMapAndPrecisionsThatAreNone) {
   const GasMap map = MapOf(GridFromArt({".."}), {});
   const std::vector<Cell> inside = {{0, 0}};
   const std::vector<Cell> outside = {{0, 0}, {2, 0}};
+  const std::vector<ForeseenCell> promised = {{{2, 0}, 1.0}};
+  EXPECT_TRUE(absl::IsInvalidArgument(map.what_if()->Given(promised).status()));
   EXPECT_TRUE(absl::IsInvalidArgument(map.what_if()->VarianceIfRead(outside, 10.0).status()));
   for (const double precision : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
                                  std::numeric_limits<double>::infinity()}) {

@@ -133,6 +133,37 @@ TEST(FieldSnapshotTest, OutlivesItsEngine) {
   ExpectVariances(c, {3, 50}, *variance);
 }
 
+TEST(FieldSnapshotTest, GivenReadingsItIsThatOfTheFieldThatHasHeardThem) {
+  Rng rng(8);
+  FieldCase c = RandomFieldCase(19, 23, 0.25, rng);
+  const FieldSnapshot now = EngineOf(c).Snapshot();
+  std::vector<ForeseenReading> promised;
+  for (const std::size_t cell : RandomCells(c, 21, rng)) {
+    promised.push_back({cell, 0.1 + 20.0 * rng.Uniform01()});
+    c.cells[cell].precision += promised.back().precision;
+  }
+  const auto given = now.Given(promised);
+  ASSERT_TRUE(given.ok()) << given.status();
+  ExpectVariances(c, {}, given->variance_ppm2());
+  const std::vector<std::size_t> cells = RandomCells(c, 9, rng);
+  const auto then = given->VarianceIfRead(cells, kPrecision);
+  ASSERT_TRUE(then.ok());
+  ExpectVariances(c, cells, *then);
+  const auto given_twice = given->Given(std::vector<ForeseenReading>{{cells[0], kPrecision}});
+  ASSERT_TRUE(given_twice.ok());
+  ExpectVariances(c, {cells[0]}, given_twice->variance_ppm2());
+}
+
+TEST(FieldSnapshotTest, GivenNothingItIsTheSame) {
+  Rng rng(9);
+  const FieldCase c = RandomFieldCase(12, 12, 0.2, rng);
+  const FieldSnapshot now = EngineOf(c).Snapshot();
+  const auto given = now.Given({});
+  ASSERT_TRUE(given.ok());
+  ExpectVariances(c, {}, given->variance_ppm2());
+  ExpectVariances(c, {}, now.variance_ppm2());
+}
+
 TEST(FieldSnapshotTest, RefusesCellsBeyondTheLatticeAndSenselessPrecisions) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   Rng rng(6);
@@ -143,6 +174,8 @@ TEST(FieldSnapshotTest, RefusesCellsBeyondTheLatticeAndSenselessPrecisions) {
   EXPECT_EQ(code(100, 1.0), absl::StatusCode::kInvalidArgument);
   for (const double precision : {0.0, -1.0, kNaN, 2.0 * kMaxCellPrecision}) {
     EXPECT_EQ(code(0, precision), absl::StatusCode::kInvalidArgument);
+    const std::vector<ForeseenReading> promised = {{0, precision}};
+    EXPECT_EQ(snapshot.Given(promised).status().code(), absl::StatusCode::kInvalidArgument);
   }
 }
 
