@@ -19,11 +19,15 @@
 
 namespace plumescout {
 
-// Goals of one kind nearer to each other than this are one errand: one robot is enough for both.
+// Goals nearer to each other than this are one errand: one robot is enough for both.
 inline constexpr double kClaimRadius_m = 0.5;
 // And nearer than this they are one place. A frontier that a visit has pushed on by more is new.
 inline constexpr double kSamePlaceRadius_m = 0.15;
 
+// Whatever they are for.
+inline bool IsSameErrand(const Goal& claimed, const Goal& goal) {
+  return Distance_m(claimed.position, goal.position) < kClaimRadius_m;
+}
 inline bool ClaimCovers(const Goal& claimed, const Goal& goal) {
   return claimed.kind == goal.kind && Distance_m(claimed.position, goal.position) < kClaimRadius_m;
 }

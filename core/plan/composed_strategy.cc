@@ -10,6 +10,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/grid/flood.h"
+#include "core/plan/anticipation.h"
 #include "core/plan/cost/edge_cost.h"
 #include "core/plan/cost/information_map.h"
 #include "core/plan/explanation.h"
@@ -19,6 +20,7 @@
 #include "core/plan/right_of_way.h"
 #include "core/plan/selection/choice.h"
 #include "core/plan/trajectory_timing.h"
+#include "core/plan/way_round.h"
 #include "core/types/rng.h"
 #include "core/types/status_macros.h"
 
@@ -55,6 +57,11 @@ bool IsRejectedFor(RejectionReason reason, const Plan& plan) {
                      [reason](const RejectedGoal& goal) { return goal.reason == reason; });
 }
 
+// Whether it holds goals that are there for what there is to learn.
+bool HasWork(const GoalOffer& offer) {
+  return !offer.fallback && !offer.goals.empty() && offer.goals.front().kind != GoalKind::kHome;
+}
+
 // Every goal that could be reached is too far away for the travel budget.
 bool IsBudgetSpent(const Plan& plan) {
   return plan.candidates.empty() && IsRejectedFor(RejectionReason::kOverBudget, plan) &&
@@ -71,7 +78,12 @@ absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
   plumescout::Plan& plan = start.plan;
   if (start.departure) {
     if (request.go_home) plan.phase = MissionPhase::kReturning;
-    const Call call = {belief, request, stop, improved};
+    const bool priced = options_.selection_rule == SelectionRule::kInformationRate;
+    std::optional<Belief> ahead;
+    if (options_.anticipate_robots && priced && !request.go_home) {
+      ahead = Anticipate(belief, request.robot, options_);
+    }
+    const Call call = {belief, ahead ? *ahead : belief, request, stop, improved};
     PLUMESCOUT_RETURN_IF_ERROR(PlanFrom(*start.departure, call, plan));
     if (IsBudgetSpent(plan)) {
       PLUMESCOUT_RETURN_IF_ERROR(PlanLastWayHome(*start.departure, call, plan));
@@ -98,7 +110,7 @@ absl::Status ComposedStrategy::PlanLastWayHome(const Departure& departure, const
   plan.phase = MissionPhase::kReturning;
   const PlanEffort before = std::exchange(plan.effort, {});
   PLUMESCOUT_RETURN_IF_ERROR(
-      PlanFrom(departure, {call.belief, request, call.stop, call.improved}, plan));
+      PlanFrom(departure, {call.belief, call.belief, request, call.stop, call.improved}, plan));
   plan.effort = Sum(before, plan.effort);
   const bool searched = plan.end == PlanEnd::kAllGoalsReached ||
                         plan.end == PlanEnd::kQueueExhausted || plan.end == PlanEnd::kStopped;
@@ -111,7 +123,7 @@ absl::Status ComposedStrategy::PlanLastWayHome(const Departure& departure, const
 
 absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& call,
                                         plumescout::Plan& plan) const {
-  const auto& [belief, request, stop, improved] = call;
+  const auto& [now, belief, request, stop, improved] = call;
   const MissionOptions& mission = *belief.options;
   const InformationMap information =
       MakeInformationMap({*belief.traversable, *belief.gas_mean_ppm, *belief.gas_variance_ppm2,
@@ -122,10 +134,9 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
   const Grid<std::uint8_t> reachable = ReachableCells(*belief.traversable, {start_cell});
   if (stop()) return StoppedBeforeAnyPath();
 
-  Rng rng(plan.seed ^ kGoalStream);
   const GoalQuery query = {
       belief, belief.robots.at(request.robot), start_cell, reachable, options_, request.go_home};
-  GoalOffer goals = FindGoals(query, rng);
+  GoalOffer goals = OfferGoals(call, query, plan.seed ^ kGoalStream);
   std::move(goals.rejected.begin(), goals.rejected.end(), std::back_inserter(plan.rejected));
   if (goals.goals.empty()) {
     plan.end = goals.complete          ? PlanEnd::kMissionComplete
@@ -145,17 +156,35 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
     if (incumbent.chosen >= 0) call.improved(incumbent);
   };
   const EdgeCost cost(information, options_.cost, options_.alpha_per_m);
-  const PathResult result =
-      paths_->FindPaths({cost, reachable, departure.start, goals.goals, plan.seed,
-                         request.max_edge_evaluations, stop, improved ? &tell : nullptr});
+  const PathProblem problem = {cost,
+                               reachable,
+                               departure.start,
+                               goals.goals,
+                               plan.seed,
+                               request.max_edge_evaluations,
+                               stop,
+                               improved ? &tell : nullptr};
+  const PathResult result = paths_->FindPaths(problem);
   TakeResults(judging, result, plan);
   const bool stopped_empty = plan.end == PlanEnd::kStopped && plan.candidates.empty();
+  LeadRound({belief, departure, problem, judge, options_}, plan);
   RejectOverBudget(query, plan);
   YieldToRobots(belief, departure.yaw_rad, options_, plan);
   Choose(belief, options_, stop, plan);
   const bool budget_spent = request.max_edge_evaluations > 0 &&
                             plan.effort.edges_evaluated >= request.max_edge_evaluations;
   return stopped_empty && !budget_spent ? StoppedBeforeAnyPath() : absl::OkStatus();
+}
+
+GoalOffer ComposedStrategy::OfferGoals(const Call& call, const GoalQuery& query,
+                                       std::uint64_t seed) const {
+  Rng rng(seed);
+  GoalOffer offer = FindGoals(query, rng);
+  if (&call.ahead == &call.belief || HasWork(offer)) return offer;
+  const GoalQuery now = {call.belief,     query.robot,   query.start,
+                         query.reachable, query.options, query.go_home};
+  Rng again(seed);
+  return FindGoals(now, again);
 }
 
 plumescout::Plan ComposedStrategy::Incumbent(const Judging& judging, PathResult result,

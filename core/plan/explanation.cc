@@ -103,7 +103,9 @@ std::string Explain(const Plan& plan, const PlanningOptions& options) {
     case PlanEnd::kStartOccupied:
       return "Stay: there is no way out from where the robot stands.";
     case PlanEnd::kAllGoalsRejected:
-      return absl::StrCat("Stay: all of ", plan.rejected.size(), " goals were rejected.");
+      return absl::StrCat(
+          "Stay: all of ", plan.rejected.size(), " goals were rejected",
+          Rejects(plan, RejectionReason::kTraffic) ? "; other robots are to pass first." : ".");
     case PlanEnd::kAllGoalsReached:
     case PlanEnd::kQueueExhausted:
       break;

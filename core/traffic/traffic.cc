@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace plumescout {
 namespace {
@@ -13,8 +14,6 @@ constexpr double kEarly_s = 0.5;
 constexpr double kEarlyShare = 0.05;
 constexpr double kLate_s = 1.0;
 constexpr double kLateShare = 0.1;
-// After its end a way holds its place until the robot has another plan.
-constexpr double kStandAtEnd_s = 3.0;
 // Who is nearer than it should be may not come nearer by more than this.
 constexpr double kTolerance_m = 0.05;
 // Bodies nearer than this touch by what poses err.
@@ -36,13 +35,6 @@ double Elapsed_s(const RobotRecord& record, std::int64_t now_ns) {
          static_cast<double>(record.live_arrival_ns - now_ns) * kSecondsPerNanosecond;
 }
 
-bool IsOnItsWay(const RobotRecord& record, std::int64_t now_ns) {
-  const Trajectory* const way = record.live_trajectory.get();
-  if (way == nullptr || way->waypoints.empty()) return false;
-  return Elapsed_s(record, now_ns) <= 2.0 * way->duration_s + kPatience_s &&
-         FindNearest(*way, record.state.pose.position())->distance_m <= kOffTrajectory_m;
-}
-
 double Fastest_m(const std::vector<Point2>& places) {
   double fastest_m = 0.0;
   for (std::size_t k = 1; k < places.size(); ++k) {
@@ -52,6 +44,17 @@ double Fastest_m(const std::vector<Point2>& places) {
 }
 
 }  // namespace
+
+bool IsOnItsWay(const RobotRecord& record, std::int64_t now_ns) {
+  const Trajectory* const way = record.live_trajectory.get();
+  if (way == nullptr || way->waypoints.empty()) return false;
+  return Elapsed_s(record, now_ns) <= 2.0 * way->duration_s + kPatience_s &&
+         FindNearest(*way, record.state.pose.position())->distance_m <= kOffTrajectory_m;
+}
+
+double Lateness_s(const RobotRecord& record, std::int64_t now_ns) {
+  return std::max(0.0, Elapsed_s(record, now_ns) - Progress_s(record, now_ns));
+}
 
 double Progress_s(const RobotRecord& record, std::int64_t now_ns) {
   constexpr double kNear_s = 1.0;  // of two passes of one place, the one it is at
@@ -113,6 +116,19 @@ Traffic::Steps Traffic::StepsOf(const Trajectory& trajectory) {
   return steps;
 }
 
+std::vector<Traffic::Hold> Traffic::Holds() const {
+  std::vector<Hold> holds;
+  for (const Other& other : others_) {
+    const double apart_m = other.reach_m + clearance_m_;
+    for (std::size_t k = 0; k + 1 < other.places.size(); ++k) {
+      const double time_s = kStep_s * static_cast<double>(k + 1);
+      holds.push_back({other.places[k], apart_m, time_s + kLate_s + kLateShare * time_s});
+    }
+    holds.push_back({other.places.back(), apart_m, std::numeric_limits<double>::infinity()});
+  }
+  return holds;
+}
+
 std::optional<Meeting> Traffic::FirstMeeting(const Trajectory& trajectory) const {
   if (trajectory.waypoints.empty()) return std::nullopt;
   return FirstMeeting(StepsOf(trajectory), 0);
@@ -148,8 +164,8 @@ std::optional<std::size_t> Traffic::MeetingStep(const Other& other, const Steps&
   const double now_m = Distance_m(steps.places.front(), place(0));
   const double nearer_m = std::max(std::min(now_m, other.reach_m + kTouch_m), now_m - kTolerance_m);
   const double limit_m = std::min(other.reach_m + clearance_m_, nearer_m);
-  const std::size_t last =
-      std::min(StepsIn(kHorizon_s), waited + steps.places.size() + StepsIn(kStandAtEnd_s));
+  // Who has come to its end stands there until it has another plan.
+  const std::size_t last = StepsIn(kHorizon_s);
   for (std::size_t k = 0; k <= last;) {
     const Point2 mine = steps.At(k, waited);
     const double time_s = kStep_s * static_cast<double>(k);

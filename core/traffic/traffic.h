@@ -37,7 +37,7 @@ inline constexpr double kOffTrajectory_m = 0.5;
 // up to 2 m/s.
 class Traffic {
  public:
-  static constexpr double kHorizon_s = 20.0;
+  static constexpr double kHorizon_s = 30.0;
   static constexpr double kMaxWait_s = 8.0;
 
   enum class Others { kEarlyOrLate, kOnTime };
@@ -50,9 +50,19 @@ class Traffic {
   // Of a way that is begun now. Cost: O(others * kHorizon_s), less where they are far.
   std::optional<Meeting> FirstMeeting(const Trajectory& trajectory) const;
   // The shortest time to stand at the start of the way, up to kMaxWait_s, so that nobody is met
-  // there, on the way, and for a moment at its end. None: there is no such time. Cost: that of a
+  // there, on the way, and at its end. None: there is no such time. Cost: that of a
   // FirstMeeting for every half second.
   std::optional<double> LeastWait_s(const Trajectory& trajectory) const;
+
+  // Where another robot will be: how far to keep from there, and until when, in seconds from now;
+  // it may be infinity.
+  struct Hold {
+    Point2 place;
+    double apart_m = 0.0;
+    double until_s = 0.0;
+  };
+  // On the ways of all others for kHorizon_s, a fraction of a second apart.
+  std::vector<Hold> Holds() const;
 
  private:
   // Another robot's centre at the times k * kStep_s from now.
@@ -83,9 +93,15 @@ class Traffic {
 // Has the robot stand for so long before it leaves. REQUIRES: waypoints not empty, wait_s >= 0.
 void WaitAtStart(double wait_s, Trajectory& trajectory);
 
+// Whether a robot follows its live plan: it is near that, and should not have ended it long ago.
+// REQUIRES: a pose.
+bool IsOnItsWay(const RobotRecord& record, std::int64_t now_ns);
+
 // How far along its live plan a robot is, in seconds of the trajectory: by its latest pose, for it
 // may be late; while it stands at a waypoint, or poses err by less than 0.15 m from there, by the
 // time. REQUIRES: a live trajectory with waypoints, a pose.
 double Progress_s(const RobotRecord& record, std::int64_t now_ns);
+// By how much it has fallen behind the plan's times. REQUIRES: as Progress_s.
+double Lateness_s(const RobotRecord& record, std::int64_t now_ns);
 
 }  // namespace plumescout

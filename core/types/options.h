@@ -179,6 +179,10 @@ struct PlanningOptions {
   // trajectory and poses err by, 2.5 sigma of 5 cm each.
   double robot_clearance_m = 0.25;
 
+  // Where information is priced, what the live plans of other robots are about to tell counts as
+  // told (core/plan/anticipation.h, ours); false: it is priced again.
+  bool anticipate_robots = true;
+
   // How trajectories are timed. 0: no limit; else [0.001, 100]. With either limit the robot stops
   // at every corner and turns on the spot.
   double max_acceleration_mps2 = 0.0;    // along the path, of speeding up and of braking

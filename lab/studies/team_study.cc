@@ -29,19 +29,22 @@ constexpr double kMostOfTheMap = 0.95;
 
 struct Team {
   int robots;
-  bool yields;  // plans wait for the ways of others
+  bool yields;       // plans wait for the ways of others
+  bool anticipates;  // and leave out what those will tell
   const char* name;
   const char* label;
   Rgb color;
 };
 // One robot first: what the others are compared with.
 constexpr Team kTeams[] = {
-    {1, true, "k1", "1 robot", {36, 99, 201}},
-    {2, true, "k2", "2 robots", {20, 130, 90}},
-    {4, true, "k4", "4 robots", {238, 128, 22}},
-    {8, true, "k8", "8 robots", {206, 30, 60}},
-    {4, false, "k4_own_ways", "4, each its own way", {245, 190, 120}},
-    {8, false, "k8_own_ways", "8, each its own way", {235, 140, 160}},
+    {1, true, true, "k1", "1 robot", {36, 99, 201}},
+    {2, true, true, "k2", "2 robots", {20, 130, 90}},
+    {4, true, true, "k4", "4 robots", {238, 128, 22}},
+    {8, true, true, "k8", "8 robots", {206, 30, 60}},
+    {4, true, false, "k4_own_prices", "4, each its own price", {240, 160, 70}},
+    {8, true, false, "k8_own_prices", "8, each its own price", {220, 85, 110}},
+    {4, false, false, "k4_own_ways", "4, each its own way and price", {245, 190, 120}},
+    {8, false, false, "k8_own_ways", "8, each its own way and price", {235, 140, 160}},
 };
 constexpr int kQuickTeams = 2;
 
@@ -73,6 +76,7 @@ absl::StatusOr<TrialPlan> MakePlan(const ExperimentOptions& options,
                                 MakeStudyRow(team.name, "plumescout", /*as_the_paper=*/false));
     row.robots = team.robots;
     row.mission.planning.yield_to_robots = team.yields;
+    row.mission.planning.anticipate_robots = team.anticipates;
     plan.rows.push_back(std::move(row));
   }
   plan.scenes = std::move(scenes);
@@ -238,7 +242,7 @@ void AddNumbers(const SizeResult& result, Study& study) {
 void AddCharts(const SizeResult& result, Study& study) {
   std::vector<RowStyle> styles;
   for (std::size_t row = 0; row < result.plan.rows.size(); ++row) {
-    if (kTeams[row].yields) styles.push_back({kTeams[row].label, kTeams[row].color});
+    if (kTeams[row].anticipates) styles.push_back({kTeams[row].label, kTeams[row].color});
   }
   const auto add = [&](const char* title, MetricFn metric) {
     study.figures.charts.push_back(MakeMetricChart(

@@ -69,6 +69,7 @@ std::set<std::string> BoolFields() {
       "CreateMissionRequest.options.planning.straighten",
       "CreateMissionRequest.options.planning.return_home",
       "CreateMissionRequest.options.planning.yield_to_robots",
+      "CreateMissionRequest.options.planning.anticipate_robots",
       "CreateMissionRequest.options.planning.sites.survey",
       "NextBestTrajectoryRequest.go_home",
       "StreamNextBestTrajectoryRequest.go_home",

@@ -117,7 +117,7 @@ std::optional<RejectedGoal> RejectedByMemory(const GoalQuery& query, const Goal&
   }
   for (const GoalClaim& claim : belief.claims) {
     if (claim.robot != query.robot.state.id && claim.expires_ns > belief.sample_time_ns &&
-        ClaimCovers(claim.goal, goal)) {
+        IsSameErrand(claim.goal, goal)) {
       return RejectedGoal{goal, RejectionReason::kClaimed,
                           absl::StrCat("by robot \"", claim.robot, "\"")};
     }

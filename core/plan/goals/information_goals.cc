@@ -83,8 +83,9 @@ bool Clear(Point2 place, Grid<double>& merits) {
 std::vector<Goal> PlacesInMemory(const Belief& belief) {
   std::vector<Goal> places;
   for (const GoalClaim& claim : belief.claims) places.push_back(claim.goal);
-  for (const SetAsideGoal& aside : belief.set_aside) places.push_back(aside.goal);
-  std::erase_if(places, [](const Goal& goal) { return goal.kind != GoalKind::kInformation; });
+  for (const SetAsideGoal& aside : belief.set_aside) {
+    if (aside.goal.kind == GoalKind::kInformation) places.push_back(aside.goal);
+  }
   return places;
 }
 

@@ -68,7 +68,10 @@ TEST(Explain, SaysWhyThereIsNoWayOn) {
   plan.end = PlanEnd::kAllGoalsRejected;
   plan.rejected.resize(3);
   EXPECT_THAT(Explain(plan, By(SelectionRule::kLeastCost)),
-              HasSubstr("all of 3 goals were rejected"));
+              HasSubstr("all of 3 goals were rejected."));
+  plan.rejected[2].reason = RejectionReason::kTraffic;
+  EXPECT_THAT(Explain(plan, By(SelectionRule::kLeastCost)),
+              HasSubstr("rejected; other robots are to pass first."));
 }
 
 TEST(Explain, SaysWhenNoFrontierIsLeft) {

@@ -80,6 +80,33 @@ TEST(Traffic, WhoComesHeadOnInACorridorIsNotWaitedFor) {
   EXPECT_FALSE(traffic.LeastWait_s(way).has_value());
 }
 
+TEST(Traffic, NobodyStopsWhereAnotherIsToPassLater) {
+  const Trajectory way = Along({{0.0, 0.0}, {2.0, 0.0}});
+  const Trajectory beside = Along({{0.0, 0.0}, {0.0, 2.0}});
+  const Traffic traffic = TrafficFor(way, Driving("b", Along({{14.0, 0.0}, {1.0, 0.0}})));
+  EXPECT_FALSE(traffic.LeastWait_s(way).has_value());
+  ASSERT_TRUE(traffic.FirstMeeting(way).has_value());
+  EXPECT_GT(traffic.FirstMeeting(way)->time_s, 6.0) << "it stands there since 2 s";
+  EXPECT_EQ(traffic.LeastWait_s(beside).value(), 0.0);
+}
+
+TEST(Traffic, HoldsAreWhereOthersWillBeAndUntilWhen) {
+  const Trajectory way = Along({{0.0, 0.0}, {2.0, 0.0}});
+  const auto holds = TrafficFor(way, Driving("b", Along({{5.0, 0.0}, {5.0, 4.0}}))).Holds();
+  ASSERT_GT(holds.size(), 16U);
+  EXPECT_EQ(holds.front().place, (Point2{5.0, 0.0}));
+  EXPECT_DOUBLE_EQ(holds.front().apart_m, 2.0 * kRadius_m + kClearance_m);
+  for (std::size_t i = 1; i + 1 < holds.size(); ++i) {
+    EXPECT_GE(holds[i].place.y_m, holds[i - 1].place.y_m);
+    EXPECT_GT(holds[i].until_s, holds[i].place.y_m + 1.0);
+  }
+  EXPECT_EQ(holds.back().place, (Point2{5.0, 4.0}));
+  EXPECT_TRUE(std::isinf(holds.back().until_s));
+  const auto standing = TrafficFor(way, Standing("b", {5.0, 1.0})).Holds();
+  ASSERT_EQ(standing.size(), 1U);
+  EXPECT_TRUE(std::isinf(standing[0].until_s));
+}
+
 TEST(Traffic, OneMayFollowAnother) {
   const Trajectory way = Along({{0.0, 0.0}, {8.0, 0.0}});
   const Traffic traffic = TrafficFor(way, Driving("b", Along({{1.0, 0.0}, {20.0, 0.0}})));

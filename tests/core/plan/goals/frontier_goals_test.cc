@@ -129,6 +129,8 @@ TEST(FrontierGoals, RejectWhatAnotherRobotIsOnItsWayTo) {
   c.belief.claims = {{"other", 7, near_by, 1000}};
   EXPECT_EQ(OnlyRejection(c), RejectionReason::kClaimed);
   EXPECT_THAT(FindFrontierGoals(c.Query()).rejected.at(0).detail, HasSubstr("\"other\""));
+  c.belief.claims[0].goal.kind = GoalKind::kInformation;
+  EXPECT_EQ(OnlyRejection(c), RejectionReason::kClaimed) << "one place, whatever it is for";
   c.belief.sample_time_ns = 1000;  // the claim has run out
   EXPECT_THAT(FindFrontierGoals(c.Query()).occupancy, SizeIs(1));
 }

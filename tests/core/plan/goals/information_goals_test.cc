@@ -310,18 +310,22 @@ TEST(InformationGoals, AreTheBestOfWhatClaimsLeave) {
   }
 }
 
-TEST(InformationGoals, AreNotKeptApartFromGoalsOfOtherKinds) {
+TEST(InformationGoals, KeepApartFromClaimsOfAnyKindAndFromWhatIsSetAsideOfTheirs) {
   GoalCase c = RandomHall(5);
   const std::vector<Goal> alone = Find(c);
   Goal frontier = alone[0];
   frontier.kind = GoalKind::kOccupancyFrontier;
-  c.belief.claims = {{"other", 1, frontier, 1000}};
   c.belief.set_aside = {{frontier, "visited without change", 1000}};
   std::vector<RejectedGoal> rejected;
-  const std::vector<Goal> goals = Find(c, rejected);
+  EXPECT_EQ(Find(c, rejected)[0].cell, alone[0].cell);
   EXPECT_THAT(rejected, IsEmpty());
-  ASSERT_EQ(goals.size(), alone.size());
-  EXPECT_EQ(goals[0].cell, alone[0].cell);
+  c.belief.set_aside.clear();
+  c.belief.claims = {{"other", 1, frontier, 1000}};
+  for (const Goal& goal : Find(c, rejected)) {
+    EXPECT_GE(Distance_m(goal.position, frontier.position), 1.5);
+  }
+  ASSERT_EQ(rejected.size(), 1U);
+  EXPECT_EQ(rejected[0].reason, RejectionReason::kClaimed);
 }
 
 TEST(InformationGoals, RejectPlacesOnlyIfSomethingIsLeftToTellAround) {

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/anticipation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <utility>
+
+#include "core/traffic/traffic.h"
+
+namespace plumescout {
+namespace {
+
+constexpr double kFullTrust_s = 10.0;
+constexpr double kTrustFades_s = 20.0;
+
+struct PromisedReading {
+  Point2 place;
+  double precision_per_ppm2 = 0.0;
+};
+using PromisedWay = std::vector<PromisedReading>;
+
+double Trust(double ahead_s) {
+  return std::exp(-std::max(0.0, ahead_s - kFullTrust_s) / kTrustFades_s);
+}
+
+// The readings of one robot from where it is now, in their order.
+PromisedWay ReadingsOf(const RobotRecord& record, const Belief& belief,
+                       const PlanningOptions& options) {
+  const Trajectory& way = *record.live_trajectory;
+  const double precision = belief.options->gas.observation_precision_per_ppm2;
+  const double progress_s = Progress_s(record, belief.sample_time_ns);
+  const double late_s = Lateness_s(record, belief.sample_time_ns);
+  const double period_s = 1.0 / options.reading_rate_hz;
+  PromisedWay readings;
+  for (double ahead_s = period_s; progress_s + ahead_s <= way.duration_s; ahead_s += period_s) {
+    readings.push_back(
+        {PoseAt(way, progress_s + ahead_s).position(), Trust(late_s + ahead_s) * precision});
+  }
+  return readings;
+}
+
+void AddReadings(const PromisedWay& way, std::size_t together, const GridGeometry& geometry,
+                 std::vector<ForeseenCell>& readings) {
+  for (std::size_t first = 0; first < way.size(); first += together) {
+    const std::size_t end = std::min(first + together, way.size());
+    ForeseenCell reading{geometry.CellAt(way[first + (end - first) / 2].place), 0.0};
+    for (std::size_t i = first; i < end; ++i) {
+      reading.precision_per_ppm2 += way[i].precision_per_ppm2;
+    }
+    readings.push_back(reading);
+  }
+}
+
+}  // namespace
+
+std::vector<ForeseenCell> PromisedReadings(const Belief& belief, const RobotId& robot,
+                                           const PlanningOptions& options) {
+  std::vector<PromisedWay> ways;
+  std::size_t count = 0;
+  for (const auto& [id, record] : belief.robots) {
+    const bool drives = id != robot && record.state.has_pose && !record.state.silent &&
+                        IsOnItsWay(record, belief.sample_time_ns);
+    if (!drives) continue;
+    ways.push_back(ReadingsOf(record, belief, options));
+    count += ways.back().size();
+  }
+  // Each way may end with fewer than the others.
+  const std::size_t most = kMostPromised - std::min(kMostPromised - 1, ways.size());
+  const std::size_t together = std::max<std::size_t>(1, (count + most - 1) / most);
+  std::vector<ForeseenCell> readings;
+  for (const PromisedWay& way : ways) AddReadings(way, together, belief.geometry(), readings);
+  return readings;
+}
+
+std::optional<Belief> Anticipate(const Belief& belief, const RobotId& robot,
+                                 const PlanningOptions& options) {
+  if (belief.gas_what_if == nullptr) return std::nullopt;
+  // The map may have grown since the gas field was computed.
+  const GridGeometry& then_geometry = belief.gas_what_if->geometry();
+  const Cell shift = belief.geometry().CellAt(then_geometry.Center({0, 0}));
+  std::vector<ForeseenCell> inside;
+  for (ForeseenCell reading : PromisedReadings(belief, robot, options)) {
+    reading.cell = {reading.cell.x - shift.x, reading.cell.y - shift.y};
+    if (then_geometry.Contains(reading.cell)) inside.push_back(reading);
+  }
+  if (inside.empty()) return std::nullopt;
+  auto given = belief.gas_what_if->Given(inside);
+  if (!given.ok()) return std::nullopt;
+  Belief ahead = belief;
+  ahead.gas_what_if = *std::move(given);
+  const Grid<float> then = ahead.gas_what_if->variance_ppm2();
+  auto variance = std::make_shared<Grid<float>>(*belief.gas_variance_ppm2);
+  for (int y = 0; y < then_geometry.height; ++y) {
+    for (int x = 0; x < then_geometry.width; ++x) {
+      float& known = (*variance)[Cell{x + shift.x, y + shift.y}];
+      const float after = then[Cell{x, y}];
+      if (after < known) known = after;  // NaN off free cells
+    }
+  }
+  ahead.gas_variance_ppm2 = std::move(variance);
+  return ahead;
+}
+
+}  // namespace plumescout
