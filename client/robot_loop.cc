@@ -20,16 +20,23 @@ constexpr double kNanosecondsPerSecond = 1e9;
 // A leg is given up after this multiple of its planned time, and a little for the first turn.
 constexpr double kLegPatienceFactor = 3.0;
 constexpr double kLegPatience_s = 10.0;
-// A robot that is to drive and does not move by so much in such a time stands against something
-// that its beams do not see in its way.
+// A robot that is to drive and does not come on by so much, which is more than poses err, in such a
+// time or share of the leg's stands against something that its beams do not see in its way.
 constexpr double kStuck_s = 3.0;
-constexpr double kMoved_m = 0.02;
-constexpr double kMoved_rad = 0.05;
+constexpr double kStuckShare = 0.1;
+constexpr double kProgress_m = 0.1;
+constexpr double kProgress_rad = 0.2;
 // Remainders of a wait below this are rounding.
 constexpr double kTimeRounding_s = 1e-6;
 
 std::int64_t ToNanoseconds(double duration_s) {
   return std::llround(duration_s * kNanosecondsPerSecond);
+}
+
+double LengthOf_m(const std::vector<Point2>& path) {
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) length_m += Distance_m(path[i - 1], path[i]);
+  return length_m;
 }
 
 }  // namespace
@@ -210,7 +217,7 @@ void RobotLoop::NoteProgress() {
   if (now_ns == last_tick_ns_) return;
   last_tick_ns_ = now_ns;
   const Pose2 pose = driver_.pose();
-  NoteMotion(pose, now_ns);
+  NoteProgressOfLeg(pose, now_ns);
   result_.distance_m += Distance_m(last_position_, pose.position());
   last_position_ = pose.position();
   observer_.OnTick({.time_ns = now_ns,
@@ -220,14 +227,18 @@ void RobotLoop::NoteProgress() {
                     .ingest = ingest_->statistics()});
 }
 
-void RobotLoop::NoteMotion(const Pose2& pose, std::int64_t now_ns) {
+void RobotLoop::NoteProgressOfLeg(const Pose2& pose, std::int64_t now_ns) {
   if (!leg_.has_value()) return;
-  const Pose2& before = leg_->moved_to;
-  const bool moved = Distance_m(before.position(), pose.position()) >= kMoved_m ||
-                     std::abs(WrapAngle_rad(pose.yaw_rad - before.yaw_rad)) >= kMoved_rad;
-  if (!moved && !leg_->motion->standing()) return;
-  leg_->moved_to = pose;
-  leg_->moved_ns = now_ns;
+  const double left_m = LengthOf_m(leg_->motion->PathAhead(pose));
+  const bool comes_on = leg_->left_m - left_m >= kProgress_m;
+  const bool turns = std::abs(WrapAngle_rad(pose.yaw_rad - leg_->yaw_rad)) >= kProgress_rad;
+  if (comes_on) was_stuck_ = false;
+  if (comes_on || turns || leg_->motion->standing()) {
+    leg_->progressed_ns = now_ns;
+    leg_->left_m = left_m;
+    leg_->yaw_rad = pose.yaw_rad;
+  }
+  leg_->stuck = now_ns - leg_->progressed_ns > leg_->patience_ns;
 }
 
 // How the leg has ended; nothing while it goes on, or without one.
@@ -235,7 +246,8 @@ std::optional<ProgressOutcome> RobotLoop::LegOutcome() const {
   if (!leg_.has_value()) return std::nullopt;
   if (leg_->motion->done()) return ProgressOutcome::kReached;
   if (driver_.now_ns() > leg_->deadline_ns) return ProgressOutcome::kAborted;
-  if (driver_.now_ns() - leg_->moved_ns > ToNanoseconds(kStuck_s)) return ProgressOutcome::kBlocked;
+  // Stuck twice without having come on: what is in the way is not on the way to the goal.
+  if (leg_->stuck) return was_stuck_ ? ProgressOutcome::kAborted : ProgressOutcome::kBlocked;
   // Who stands by plan, perhaps for another robot to pass, drives into nothing yet.
   const std::optional<Scan>& scan = bridge_->latest_scan();
   const bool blocked = !leg_->motion->standing() && scan.has_value() &&
@@ -246,6 +258,7 @@ std::optional<ProgressOutcome> RobotLoop::LegOutcome() const {
 
 absl::Status RobotLoop::EndLeg(ProgressOutcome outcome) {
   report_ = PlanReport{.plan = leg_->plan, .outcome = outcome};
+  was_stuck_ = was_stuck_ || leg_->stuck;
   leg_.reset();
   int& count = outcome == ProgressOutcome::kReached   ? result_.reached
                : outcome == ProgressOutcome::kBlocked ? result_.blocked
@@ -330,11 +343,14 @@ absl::Status RobotLoop::Depart(const Plan& plan) {
   }
   const std::int64_t now_ns = driver_.now_ns();
   const double patience_s = kLegPatience_s + kLegPatienceFactor * plan.trajectory.duration_s;
-  leg_ = Leg{.plan = plan.id,
-             .motion = StartMotion(options_.following, plan.trajectory, options_.follower, now_ns),
-             .deadline_ns = now_ns + ToNanoseconds(patience_s),
-             .moved_to = driver_.pose(),
-             .moved_ns = now_ns};
+  leg_ = Leg{
+      .plan = plan.id,
+      .motion = StartMotion(options_.following, plan.trajectory, options_.follower, now_ns),
+      .deadline_ns = now_ns + ToNanoseconds(patience_s),
+      .progressed_ns = now_ns,
+      .yaw_rad = driver_.pose().yaw_rad,
+      .patience_ns = ToNanoseconds(std::max(kStuck_s, kStuckShare * plan.trajectory.duration_s))};
+  leg_->left_m = LengthOf_m(leg_->motion->PathAhead(driver_.pose()));
   return absl::OkStatus();
 }
 

@@ -93,8 +93,12 @@ class RobotLoop {
     PlanId plan = 0;
     std::unique_ptr<Motion> motion;
     std::int64_t deadline_ns = 0;  // given up after this
-    Pose2 moved_to;                // where it was when it last had moved
-    std::int64_t moved_ns = 0;
+    // When the robot last had come on, and what was left of its path then.
+    std::int64_t progressed_ns = 0;
+    double left_m = 0.0;
+    double yaw_rad = 0.0;
+    std::int64_t patience_ns = 0;  // with no progress
+    bool stuck = false;
   };
 
   absl::Status OpenLogOnDisk();
@@ -108,7 +112,7 @@ class RobotLoop {
   absl::Status Stand(double duration_s);
   bool AwaitApplied(absl::Duration timeout);
   void NoteProgress();
-  void NoteMotion(const Pose2& pose, std::int64_t now_ns);
+  void NoteProgressOfLeg(const Pose2& pose, std::int64_t now_ns);
   std::optional<ProgressOutcome> LegOutcome() const;
   absl::Status EndLeg(ProgressOutcome outcome);
 
@@ -133,6 +137,7 @@ class RobotLoop {
   std::int64_t last_tick_ns_ = 0;
   Point2 last_position_;
   std::optional<Leg> leg_;
+  bool was_stuck_ = false;            // on the leg before, and it has not come on since
   std::optional<PlanReport> report_;  // not yet told
   std::int64_t asked_ns_ = 0;
   Pose2 asked_pose_;

@@ -24,9 +24,11 @@ inline constexpr double kClaimRadius_m = 0.5;
 // And nearer than this they are one place. A frontier that a visit has pushed on by more is new.
 inline constexpr double kSamePlaceRadius_m = 0.15;
 
-// Whatever they are for.
+// Whatever they are for, but that one who drives about at random does nobody's errand.
 inline bool IsSameErrand(const Goal& claimed, const Goal& goal) {
-  return Distance_m(claimed.position, goal.position) < kClaimRadius_m;
+  const bool at_random = claimed.kind == GoalKind::kRandomFreeSpace;
+  return at_random == (goal.kind == GoalKind::kRandomFreeSpace) &&
+         Distance_m(claimed.position, goal.position) < kClaimRadius_m;
 }
 inline bool ClaimCovers(const Goal& claimed, const Goal& goal) {
   return claimed.kind == goal.kind && Distance_m(claimed.position, goal.position) < kClaimRadius_m;

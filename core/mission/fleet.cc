@@ -31,7 +31,9 @@ absl::Status UnknownRobot(const RobotId& robot) {
 }
 
 std::optional<Goal> ChosenGoal(const Plan& plan) {
-  if (plan.chosen < 0) return std::nullopt;
+  if (plan.chosen < 0 || plan.chosen >= static_cast<int>(plan.candidates.size())) {
+    return std::nullopt;
+  }
   return plan.candidates[static_cast<std::size_t>(plan.chosen)].goal;
 }
 
@@ -162,6 +164,15 @@ void Fleet::Advance(const RobotId& robot, const Observation& observation, bool r
     member.record.travelled_m = member.odometer.travelled_m();
     if (!member.record.first_place) member.record.first_place = observation.pose.position();
   }
+}
+
+std::optional<GoalClaim> Fleet::FindClaim(const Plan& plan, std::int64_t now_ns) const {
+  const std::optional<Goal> goal = GoalToClaim(plan);
+  if (!goal) return std::nullopt;
+  for (const GoalClaim& claim : Claims(now_ns)) {
+    if (claim.robot != plan.robot && IsSameErrand(claim.goal, *goal)) return claim;
+  }
+  return std::nullopt;
 }
 
 absl::StatusOr<PlanId> Fleet::Issue(const Plan& plan, std::int64_t now_ns) {

@@ -51,6 +51,8 @@ class Fleet {
   // Gives the plan its number and makes it the robot's live plan. kAborted if another robot's live
   // plan claims the goal.
   absl::StatusOr<PlanId> Issue(const Plan& plan, std::int64_t now_ns);
+  // The live plan of another robot that ends where this one does, whatever for (IsSameErrand).
+  std::optional<GoalClaim> FindClaim(const Plan& plan, std::int64_t now_ns) const;
   // Ends the robot's live plan.
   absl::StatusOr<EndedPlan> Report(const ProgressReported& report);
 

@@ -76,6 +76,11 @@ class Mission {
   // or `clearance_m` if that is less; none if it meets nobody or plans do not yield to robots.
   // Cost: that of Traffic::FirstMeeting, and of a copy of the robots' records.
   std::optional<Meeting> FindMeeting(const Plan& plan, double clearance_m) const;
+  // The live plan of another robot that ends where this one does, whatever for; PlanIssued is
+  // refused for those of its kind alone.
+  std::optional<GoalClaim> FindClaim(const Plan& plan) const {
+    return fleet_.FindClaim(plan, sample_time_ns_);
+  }
   // See Fleet::LogContinues.
   bool LogContinues(const RobotId& robot, std::int64_t log_epoch) const;
 

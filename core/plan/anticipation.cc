@@ -15,6 +15,8 @@ namespace {
 
 constexpr double kFullTrust_s = 10.0;
 constexpr double kTrustFades_s = 20.0;
+constexpr double kLeastTrust = 0.01;
+constexpr double kLeastPeriod_s = 0.25;  // readings more frequent than that are put together
 
 struct PromisedReading {
   Point2 place;
@@ -33,13 +35,23 @@ PromisedWay ReadingsOf(const RobotRecord& record, const Belief& belief,
   const double precision = belief.options->gas.observation_precision_per_ppm2;
   const double progress_s = Progress_s(record, belief.sample_time_ns);
   const double late_s = Lateness_s(record, belief.sample_time_ns);
-  const double period_s = 1.0 / options.reading_rate_hz;
+  const double period_s = std::max(kLeastPeriod_s, 1.0 / options.reading_rate_hz);
+  const double at_once = period_s * options.reading_rate_hz;
   PromisedWay readings;
   for (double ahead_s = period_s; progress_s + ahead_s <= way.duration_s; ahead_s += period_s) {
-    readings.push_back(
-        {PoseAt(way, progress_s + ahead_s).position(), Trust(late_s + ahead_s) * precision});
+    const double trust = Trust(late_s + ahead_s);
+    if (trust < kLeastTrust) break;
+    readings.push_back({PoseAt(way, progress_s + ahead_s).position(), trust * at_once * precision});
   }
   return readings;
+}
+
+// A reading costs more the larger the field.
+std::size_t MostPromised(const GridGeometry& geometry) {
+  constexpr std::size_t kLarge_cells = 100'000;
+  constexpr std::size_t kFewest = 8;
+  const auto cells = static_cast<std::size_t>(geometry.width) * geometry.height;
+  return std::max(kFewest, kMostPromised * kLarge_cells / std::max(kLarge_cells, cells));
 }
 
 void AddReadings(const PromisedWay& way, std::size_t together, const GridGeometry& geometry,
@@ -68,10 +80,12 @@ std::vector<ForeseenCell> PromisedReadings(const Belief& belief, const RobotId& 
     count += ways.back().size();
   }
   // Each way may end with fewer than the others.
-  const std::size_t most = kMostPromised - std::min(kMostPromised - 1, ways.size());
+  const std::size_t room = MostPromised(belief.geometry());
+  const std::size_t most = room - std::min(room - 1, ways.size());
   const std::size_t together = std::max<std::size_t>(1, (count + most - 1) / most);
   std::vector<ForeseenCell> readings;
   for (const PromisedWay& way : ways) AddReadings(way, together, belief.geometry(), readings);
+  readings.resize(std::min(readings.size(), room));
   return readings;
 }
 

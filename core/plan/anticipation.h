@@ -15,9 +15,9 @@ namespace plumescout {
 // Readings that the other robots of a mission are about to take on what is left of their live
 // plans, as cells of the belief's map. A promise far ahead, or of a robot that has fallen behind
 // its plan, has less precision: the full one for 10 s, then e times less every 20 s. Who is silent,
-// has strayed or is long overdue promises nothing. At most kMostPromised: where there are more,
-// neighbours on one way are put together in the middle of them, with the sum of their precisions.
-// Cost: O(readings).
+// has strayed or is long overdue promises nothing. At most kMostPromised, and fewer on a map of
+// more than 100,000 cells, where each costs more: neighbours on one way are put together in the
+// middle of them, with the sum of their precisions. Cost: O(readings).
 inline constexpr std::size_t kMostPromised = 64;
 std::vector<ForeseenCell> PromisedReadings(const Belief& belief, const RobotId& robot,
                                            const PlanningOptions& options);

@@ -83,8 +83,15 @@ absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
     if (options_.anticipate_robots && priced && !request.go_home) {
       ahead = Anticipate(belief, request.robot, options_);
     }
-    const Call call = {belief, ahead ? *ahead : belief, request, stop, improved};
-    PLUMESCOUT_RETURN_IF_ERROR(PlanFrom(*start.departure, call, plan));
+    const plumescout::Plan blank = plan;
+    const Call call = {belief, nullptr, request, stop, improved};
+    Call foreseen = call;
+    foreseen.ahead = ahead ? &*ahead : nullptr;
+    PLUMESCOUT_RETURN_IF_ERROR(PlanFrom(*start.departure, foreseen, plan));
+    if (ahead && IsBudgetSpent(plan)) {
+      plan = blank;
+      PLUMESCOUT_RETURN_IF_ERROR(PlanFrom(*start.departure, call, plan));
+    }
     if (IsBudgetSpent(plan)) {
       PLUMESCOUT_RETURN_IF_ERROR(PlanLastWayHome(*start.departure, call, plan));
     }
@@ -110,7 +117,7 @@ absl::Status ComposedStrategy::PlanLastWayHome(const Departure& departure, const
   plan.phase = MissionPhase::kReturning;
   const PlanEffort before = std::exchange(plan.effort, {});
   PLUMESCOUT_RETURN_IF_ERROR(
-      PlanFrom(departure, {call.belief, call.belief, request, call.stop, call.improved}, plan));
+      PlanFrom(departure, {call.belief, nullptr, request, call.stop, call.improved}, plan));
   plan.effort = Sum(before, plan.effort);
   const bool searched = plan.end == PlanEnd::kAllGoalsReached ||
                         plan.end == PlanEnd::kQueueExhausted || plan.end == PlanEnd::kStopped;
@@ -123,10 +130,11 @@ absl::Status ComposedStrategy::PlanLastWayHome(const Departure& departure, const
 
 absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& call,
                                         plumescout::Plan& plan) const {
-  const auto& [now, belief, request, stop, improved] = call;
+  const auto& [belief, ahead, request, stop, improved] = call;
+  const Belief& foreseen = ahead != nullptr ? *ahead : belief;
   const MissionOptions& mission = *belief.options;
   const InformationMap information =
-      MakeInformationMap({*belief.traversable, *belief.gas_mean_ppm, *belief.gas_variance_ppm2,
+      MakeInformationMap({*belief.traversable, *belief.gas_mean_ppm, *foreseen.gas_variance_ppm2,
                           mission.gas, mission.frontier},
                          options_);
   plan.field_flat = information.flat;
@@ -134,9 +142,14 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
   const Grid<std::uint8_t> reachable = ReachableCells(*belief.traversable, {start_cell});
   if (stop()) return StoppedBeforeAnyPath();
 
+  Rng rng(plan.seed ^ kGoalStream);
   const GoalQuery query = {
-      belief, belief.robots.at(request.robot), start_cell, reachable, options_, request.go_home};
-  GoalOffer goals = OfferGoals(call, query, plan.seed ^ kGoalStream);
+      belief, belief.robots.at(request.robot), start_cell, reachable, options_, request.go_home,
+      ahead};
+  GoalOffer goals = FindGoals(query, rng);
+  if (ahead != nullptr && !HasWork(goals)) {
+    return PlanFrom(departure, {belief, nullptr, request, stop, improved}, plan);
+  }
   std::move(goals.rejected.begin(), goals.rejected.end(), std::back_inserter(plan.rejected));
   if (goals.goals.empty()) {
     plan.end = goals.complete          ? PlanEnd::kMissionComplete
@@ -167,24 +180,13 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
   const PathResult result = paths_->FindPaths(problem);
   TakeResults(judging, result, plan);
   const bool stopped_empty = plan.end == PlanEnd::kStopped && plan.candidates.empty();
-  LeadRound({belief, departure, problem, judge, options_}, plan);
   RejectOverBudget(query, plan);
+  LeadRound({query, departure, problem, judge}, plan);
   YieldToRobots(belief, departure.yaw_rad, options_, plan);
-  Choose(belief, options_, stop, plan);
+  Choose(foreseen, options_, stop, plan);
   const bool budget_spent = request.max_edge_evaluations > 0 &&
                             plan.effort.edges_evaluated >= request.max_edge_evaluations;
   return stopped_empty && !budget_spent ? StoppedBeforeAnyPath() : absl::OkStatus();
-}
-
-GoalOffer ComposedStrategy::OfferGoals(const Call& call, const GoalQuery& query,
-                                       std::uint64_t seed) const {
-  Rng rng(seed);
-  GoalOffer offer = FindGoals(query, rng);
-  if (&call.ahead == &call.belief || HasWork(offer)) return offer;
-  const GoalQuery now = {call.belief,     query.robot,   query.start,
-                         query.reachable, query.options, query.go_home};
-  Rng again(seed);
-  return FindGoals(now, again);
 }
 
 plumescout::Plan ComposedStrategy::Incumbent(const Judging& judging, PathResult result,

@@ -31,8 +31,8 @@ class ComposedStrategy : public Strategy {
  private:
   // What Plan was called with.
   struct Call {
-    const Belief& belief;  // as it is
-    const Belief& ahead;   // as it is to be once others have driven their ways, or the same
+    const Belief& belief;
+    const Belief* ahead;  // see GoalQuery
     const PlanRequest& request;
     const StopFn& stop;
     const PlanListener& improved;
@@ -45,12 +45,10 @@ class ComposedStrategy : public Strategy {
     const CandidateJudge& judge;
   };
 
-  // Everything from a place to start to the candidates and the choice. The error is
+  // Everything from a place to start to the candidates and the choice. If nothing is left beside
+  // what other robots are about to learn, as if they promised nothing. The error is
   // kDeadlineExceeded.
   absl::Status PlanFrom(const Departure& departure, const Call& call, plumescout::Plan& plan) const;
-  // Where to go beside what other robots are about to learn; if that is nowhere, as if there were
-  // none of them.
-  GoalOffer OfferGoals(const Call& call, const GoalQuery& query, std::uint64_t seed) const;
   // PlanFrom home, for the travel budget is spent. The plan keeps its rejected goals; it is
   // complete if the robot is home, or there is no way.
   absl::Status PlanLastWayHome(const Departure& departure, const Call& call,

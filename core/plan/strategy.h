@@ -37,7 +37,8 @@ class Strategy {
   //
   // `improved`, if not null, is told of each better plan that an anytime search has on the way;
   // other searches have none. The cost of no candidate is above that of an earlier plan, provided
-  // that the selection cost is that of the search. Goals without a path so far are kSearchStopped.
+  // that the selection cost is that of the search and that it need not lead round other robots
+  // (core/plan/way_round.h). Goals without a path so far are kSearchStopped.
   // Expected information is not priced: the choice is by cost where the rule asks for it.
   virtual absl::StatusOr<plumescout::Plan> Plan(const Belief& belief, const PlanRequest& request,
                                                 const StopFn& stop,

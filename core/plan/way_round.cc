@@ -3,12 +3,14 @@
 #include "core/plan/way_round.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "core/plan/goals/travel_budget.h"
 #include "core/plan/paths/grid_exact.h"
 #include "core/plan/plan_start.h"
 #include "core/plan/trajectory_timing.h"
@@ -17,69 +19,108 @@
 namespace plumescout {
 namespace {
 
+constexpr float kBlocked = std::numeric_limits<float>::infinity();
+
+// A candidate that would have to stand.
+struct Standing {
+  std::size_t candidate = 0;
+  double arrival_s = 0.0;  // with the wait; infinite if no wait does
+};
+
 // How long a way takes, with the wait before it; infinite if there is none that is clear.
 double Arrival_s(const Traffic& traffic, const Candidate& candidate, const SearchedWays& ways) {
   const Trajectory trajectory =
-      TimeTrajectory(candidate.path, ways.departure.yaw_rad, ways.options);
+      TimeTrajectory(candidate.path, ways.departure.yaw_rad, ways.query.options);
   const std::optional<double> wait_s = traffic.LeastWait_s(trajectory);
   return wait_s ? candidate.duration_s + *wait_s : std::numeric_limits<double>::infinity();
 }
 
-// Without the cells that are nearer to where another robot will be than one has to keep, unless it
-// is gone from there before the robot can come. Where the robot stands too near already it is
-// without those that are nearer still.
-InformationMap KeptClear(const Traffic& traffic, const SearchedWays& ways) {
-  InformationMap information = ways.problem.cost.information();
-  const GridGeometry& geometry = information.penalty.geometry();
-  for (const Traffic::Hold& hold : traffic.Holds()) {
-    const double way_m = Distance_m(hold.place, ways.problem.start);
-    if ((way_m - hold.apart_m) / ways.options.speed_mps > hold.until_s) continue;
-    const double reach_m = std::min(hold.apart_m, way_m);
-    const Cell low = geometry.CellAt({hold.place.x_m - reach_m, hold.place.y_m - reach_m});
-    const Cell high = geometry.CellAt({hold.place.x_m + reach_m, hold.place.y_m + reach_m});
-    for (int y = low.y; y <= high.y; ++y) {
-      for (int x = low.x; x <= high.x; ++x) {
-        const Cell cell{x, y};
-        if (!geometry.Contains(cell)) continue;
-        if (Distance_m(geometry.Center(cell), hold.place) >= reach_m) continue;
-        information.penalty[cell] = std::numeric_limits<float>::infinity();
-      }
+std::vector<Standing> FindStanding(const Traffic& traffic, const SearchedWays& ways,
+                                   const Plan& plan) {
+  const bool by_time = ways.query.options.selection_rule == SelectionRule::kInformationRate;
+  std::vector<Standing> standing;
+  for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
+    const double arrival_s = Arrival_s(traffic, plan.candidates[i], ways);
+    const bool stands = arrival_s >= plan.candidates[i].duration_s + kWorthAWayRound_s;
+    if (stands && (by_time || std::isinf(arrival_s))) standing.push_back({i, arrival_s});
+  }
+  return standing;
+}
+
+void BlockDisc(Point2 center, double radius_m, Grid<float>& penalty) {
+  const GridGeometry& geometry = penalty.geometry();
+  const Cell low = geometry.CellAt({center.x_m - radius_m, center.y_m - radius_m});
+  const Cell high = geometry.CellAt({center.x_m + radius_m, center.y_m + radius_m});
+  for (int y = std::max(0, low.y); y <= std::min(geometry.height - 1, high.y); ++y) {
+    for (int x = std::max(0, low.x); x <= std::min(geometry.width - 1, high.x); ++x) {
+      const Cell cell{x, y};
+      if (Distance_m(geometry.Center(cell), center) < radius_m) penalty[cell] = kBlocked;
     }
   }
+}
+
+// Without the cells that touch where another robot will be, unless it is gone from there before the
+// robot can come. Where the robot stands too near already, without those that are nearer still.
+InformationMap KeptClear(const Traffic& traffic, const SearchedWays& ways) {
+  InformationMap information = ways.problem.cost.information();
+  const double half_diagonal_m = information.penalty.geometry().resolution_m / std::sqrt(2.0);
+  for (const Traffic::Hold& hold : traffic.Holds()) {
+    const double way_m = Distance_m(hold.place, ways.problem.start);
+    if ((way_m - hold.apart_m) / ways.query.options.speed_mps > hold.until_s) continue;
+    BlockDisc(hold.place, std::min(hold.apart_m + half_diagonal_m, way_m - half_diagonal_m),
+              information.penalty);
+  }
   return information;
+}
+
+// Ways to the goals of those that stand, as candidates.
+std::vector<Candidate> FindRounds(const InformationMap& clear, const SearchedWays& ways,
+                                  const std::vector<Standing>& standing, Plan& plan) {
+  std::vector<Goal> goals;
+  for (const Standing& one : standing) {
+    const Goal& goal = plan.candidates[one.candidate].goal;
+    if (clear.penalty.At(goal.cell, kBlocked) < kBlocked) goals.push_back(goal);
+  }
+  const std::int64_t most = ways.problem.max_edge_evaluations;
+  const std::int64_t left = most - plan.effort.edges_evaluated;
+  if (goals.empty() || (most > 0 && left <= 0)) return {};
+  const EdgeCost cost(clear, ways.query.options.cost, ways.query.options.alpha_per_m);
+  const PathResult result =
+      GridExactPlanner().FindPaths({cost, ways.problem.reachable, ways.problem.start, goals,
+                                    ways.problem.seed, most > 0 ? left : 0, ways.problem.stop});
+  plan.effort.edges_evaluated += result.effort.edges_evaluated;
+  std::vector<Candidate> rounds;
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    const std::optional<FoundPath>& path = result.paths[i];
+    if (!path) continue;
+    Candidate& round =
+        rounds.emplace_back(MakeCandidate(goals[i], path->vertices, path->source, ways.judge));
+    PutBefore(ways.departure.way_out, round);
+    round.duration_s =
+        TimeTrajectory(round.path, ways.departure.yaw_rad, ways.query.options).duration_s;
+  }
+  return rounds;
 }
 
 }  // namespace
 
 void LeadRound(const SearchedWays& ways, Plan& plan) {
-  if (!ways.options.yield_to_robots || ways.belief.robots.size() < 2) return;
-  const Traffic traffic(ways.belief.robots, plan.robot, ways.options.robot_clearance_m,
-                        ways.belief.sample_time_ns);
-  std::vector<Goal> goals;
-  std::vector<std::size_t> stand;  // which candidates
-  std::vector<double> arrivals_s;
-  for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
-    const Candidate& candidate = plan.candidates[i];
-    const double arrival_s = Arrival_s(traffic, candidate, ways);
-    if (arrival_s < candidate.duration_s + kWorthAWayRound_s) continue;
-    goals.push_back(candidate.goal);
-    stand.push_back(i);
-    arrivals_s.push_back(arrival_s);
-  }
-  if (goals.empty()) return;
-  const InformationMap clear = KeptClear(traffic, ways);
-  const EdgeCost cost(clear, ways.options.cost, ways.options.alpha_per_m);
-  const PathResult result = GridExactPlanner().FindPaths(
-      {cost, ways.problem.reachable, ways.problem.start, goals, plan.seed,
-       ways.problem.max_edge_evaluations, ways.problem.stop});
-  for (std::size_t k = 0; k < stand.size(); ++k) {
-    if (!result.paths[k]) continue;
-    Candidate round =
-        MakeCandidate(goals[k], result.paths[k]->vertices, result.paths[k]->source, ways.judge);
-    PutBefore(ways.departure.way_out, round);
-    round.duration_s = TimeTrajectory(round.path, ways.departure.yaw_rad, ways.options).duration_s;
-    if (Arrival_s(traffic, round, ways) < arrivals_s[k]) {
-      plan.candidates[stand[k]] = std::move(round);
+  const Belief& belief = ways.query.belief;
+  const PlanningOptions& options = ways.query.options;
+  if (!options.yield_to_robots || belief.robots.size() < 2) return;
+  const Traffic traffic(belief.robots, plan.robot, options.robot_clearance_m,
+                        belief.sample_time_ns);
+  const std::vector<Standing> standing = FindStanding(traffic, ways, plan);
+  if (standing.empty()) return;
+  Plan rounds;
+  rounds.candidates = FindRounds(KeptClear(traffic, ways), ways, standing, plan);
+  RejectOverBudget(ways.query, rounds);
+  for (Candidate& round : rounds.candidates) {
+    for (const Standing& one : standing) {
+      Candidate& candidate = plan.candidates[one.candidate];
+      if (!(candidate.goal == round.goal)) continue;
+      if (Arrival_s(traffic, round, ways) < one.arrival_s) candidate = std::move(round);
+      break;
     }
   }
 }

@@ -121,6 +121,7 @@ std::vector<Traffic::Hold> Traffic::Holds() const {
   for (const Other& other : others_) {
     const double apart_m = other.reach_m + clearance_m_;
     for (std::size_t k = 0; k + 1 < other.places.size(); ++k) {
+      if (other.places[k] == other.places[k + 1]) continue;  // the later one holds it for longer
       const double time_s = kStep_s * static_cast<double>(k + 1);
       holds.push_back({other.places[k], apart_m, time_s + kLate_s + kLateShare * time_s});
     }

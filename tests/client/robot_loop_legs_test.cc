@@ -33,7 +33,9 @@ TEST_F(RobotLoopLegsTest, ARobotThatCannotMoveIsBlocked) {
     server_.set_script(Tour({{1, 0}}));
     const std::int64_t start_ns = driver_.now_ns();
     driver_.place_status = absl::UnavailableError("something is in the way");
-    driver_.on_advance = [this] { driver_.set_pose({}); };
+    driver_.on_advance = [this] {  // poses err
+      driver_.set_pose({0.0, driver_.pose().y_m < 0.01 ? 0.05 : 0.0, 0.0});
+    };
 
     const absl::StatusOr<RobotResult> result = Run(Options(Pacing::kLockstep, following));
 
@@ -44,11 +46,20 @@ TEST_F(RobotLoopLegsTest, ARobotThatCannotMoveIsBlocked) {
   }
 }
 
-TEST_F(RobotLoopLegsTest, ARobotThatDoesNotGetThereGivesThePlanUp) {
+TEST_F(RobotLoopLegsTest, ItIsNotTheGoalsFaultIfARobotIsStuckAgain) {
+  server_.set_script(Tour({{1, 0}, {0, 1}, {-1, 0}}));
+  driver_.place_status = absl::UnavailableError("something is in the way");
+
+  const absl::StatusOr<RobotResult> result = RunInLockstep();
+
+  ASSERT_TRUE(result.ok());
+  EXPECT_EQ(result->blocked, 1);
+  EXPECT_EQ(result->aborted, 2);
+}
+
+TEST_F(RobotLoopLegsTest, ARobotThatOnlyTurnsGivesThePlanUp) {
   server_.set_script(Tour({{1, 0}}));
-  driver_.on_advance = [this] {
-    driver_.set_pose({0.0, driver_.pose().y_m < 0.01 ? 0.05 : 0.0, 0.0});
-  };
+  driver_.on_advance = [this] { driver_.set_pose({0.0, 0.0, driver_.pose().yaw_rad + 0.3}); };
 
   const absl::StatusOr<RobotResult> result =
       Run(Options(Pacing::kLockstep, Following::kProportional));

@@ -103,6 +103,10 @@ absl::StatusOr<PlanId> MissionConduct::Commit(const Plan& plan, std::int64_t lea
     return absl::AbortedError(
         absl::StrCat("the way meets robot \"", meeting->robot, "\" in ", meeting->time_s, " s"));
   }
+  if (const auto claim = mission_->FindClaim(plan)) {
+    return absl::AbortedError(absl::StrCat("the goal is claimed by robot \"", claim->robot,
+                                           "\" with plan ", claim->plan));
+  }
   PLUMESCOUT_ASSIGN_OR_RETURN(const Applied applied, Apply(PlanIssued{plan}));
   return applied.plan_id;
 }

@@ -67,6 +67,14 @@ Goal GoalOf(const Frontier& frontier, const GridGeometry& geometry) {
   return goal;
 }
 
+// Whether another robot is about to take readings that make it no frontier any more.
+bool WillBeObserved(const GoalQuery& query, const Goal& goal) {
+  if (query.ahead == nullptr || goal.kind != GoalKind::kGasFrontier) return false;
+  const MissionOptions& mission = *query.belief.options;
+  const auto variance_ppm2 = static_cast<double>((*query.ahead->gas_variance_ppm2)[goal.cell]);
+  return variance_ppm2 <= ObservedVariance_ppm2(mission.frontier, mission.gas);
+}
+
 std::optional<RejectedGoal> Rejected(const GoalQuery& query, const Frontier& frontier,
                                      const Goal& goal, const Grid<std::uint8_t>& kept_out) {
   if (frontier.too_small) {
@@ -81,6 +89,9 @@ std::optional<RejectedGoal> Rejected(const GoalQuery& query, const Frontier& fro
     return RejectedGoal{goal, RejectionReason::kUnreachable, "no traversable way"};
   }
   if (std::optional<RejectedGoal> rejected = RejectedByMemory(query, goal)) return rejected;
+  if (WillBeObserved(query, goal)) {
+    return RejectedGoal{goal, RejectionReason::kClaimed, "on another robot's way"};
+  }
   if (frontier.travel_m < query.options.min_goal_distance_m) {
     return RejectedGoal{goal, RejectionReason::kTooClose,
                         absl::StrFormat("%.2f m away", frontier.travel_m)};

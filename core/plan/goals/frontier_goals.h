@@ -26,7 +26,8 @@ struct FrontierGoals {
 
 // Finds frontiers from query.start and judges each: too small, kept out (all its
 // cells in keep-out areas), unreachable, set aside (SamePlace of
-// core/belief/belief.h), claimed by another robot (ClaimCovers), or too close, in this order; the
+// core/belief/belief.h), claimed by another robot (IsSameErrand, or a gas
+// frontier that query.ahead has observed), or too close, in this order; the
 // rest are offered. The goal of a gas frontier is one of its own cells, for only a reading taken
 // there resolves it; one without a cell to stand on is unreachable. Gas frontiers are not sought
 // under GoalPolicy::kOccupancyOnly. Those of gas come first.

@@ -19,6 +19,9 @@ struct GoalQuery {
   const Grid<std::uint8_t>& reachable;  // 1: traversable and connected to `start`
   const PlanningOptions& options;
   bool go_home = false;  // home is the only goal
+  // As the belief is to be once other robots have driven their ways; null if they drive none. What
+  // they will have observed by then is no goal.
+  const Belief* ahead = nullptr;
 };
 
 struct GoalOffer {

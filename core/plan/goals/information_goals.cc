@@ -47,7 +47,7 @@ Grid<float> LeftToTell(const Belief& belief) {
 Grid<double> Merits(const GoalQuery& query) {
   const GridGeometry& geometry = query.belief.geometry();
   const int reach_cells = static_cast<int>(std::lround(kWindowReach_m / geometry.resolution_m));
-  const Grid<float> left = LeftToTell(query.belief);
+  const Grid<float> left = LeftToTell(query.ahead != nullptr ? *query.ahead : query.belief);
   const Grid<float> around = WindowSums(left, reach_cells);
   const Grid<double> travel_m = TravelDistances_m(query.reachable, std::vector<Cell>{query.start});
   const double reading_m = query.options.speed_mps / query.options.reading_rate_hz;
@@ -82,7 +82,10 @@ bool Clear(Point2 place, Grid<double>& merits) {
 // nothing more.
 std::vector<Goal> PlacesInMemory(const Belief& belief) {
   std::vector<Goal> places;
-  for (const GoalClaim& claim : belief.claims) places.push_back(claim.goal);
+  for (const GoalClaim& claim : belief.claims) {
+    // Who drives about at random does not go there to learn.
+    if (claim.goal.kind != GoalKind::kRandomFreeSpace) places.push_back(claim.goal);
+  }
   for (const SetAsideGoal& aside : belief.set_aside) {
     if (aside.goal.kind == GoalKind::kInformation) places.push_back(aside.goal);
   }

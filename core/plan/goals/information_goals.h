@@ -20,9 +20,10 @@ namespace plumescout {
 // length of an average errand, that ranks places; the best are taken that are not too near to each
 // other or nearer than one reading to the robot. The cell itself must have something left to tell:
 // it is where the reading is taken, so every visit brings the end nearer, which it would not for
-// the sake of cells beyond a wall. Places of this kind that are set aside, or claimed by another
-// robot, keep goals at the same distance, and are added to `rejected` if that leaves any out. None
-// before the first reading. Deterministic. Cost: O(cells).
+// the sake of cells beyond a wall. Places of this kind that are set aside, and those that
+// other robots are on their way to for whatever there is to learn, keep goals at the same distance,
+// and are added to `rejected` if that leaves any out. None before the first reading. Deterministic.
+// Cost: O(cells).
 std::vector<Goal> InformationGoals(const GoalQuery& query, std::vector<RejectedGoal>& rejected);
 
 }  // namespace plumescout

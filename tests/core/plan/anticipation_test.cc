@@ -124,6 +124,30 @@ TEST(PromisedReadings, ArePutTogetherWhereThereAreMany) {
               1e-6);
 }
 
+TEST(PromisedReadings, AreBoundedWhateverTheOptionsSay) {
+  Belief belief = Hall();
+  AddRobot("b", {{0.5, 0.5}, {15.5, 0.5}}, belief);  // 12 s
+  PlanningOptions often;
+  often.reading_rate_hz = 1000.0;
+  const Promises promises = PromisedReadings(belief, "r", often);
+  EXPECT_LE(promises.size(), kMostPromised);
+  EXPECT_NEAR(PrecisionSum(promises), 12'000 * belief.options->gas.observation_precision_per_ppm2,
+              500.0 * 10.0);
+  for (int k = 0; k < 100; ++k) {
+    AddRobot("c" + std::to_string(k), {{0.5, 0.5}, {12.5, 0.5}}, belief);
+  }
+  EXPECT_LE(Promised(belief).size(), kMostPromised);
+  RobotRecord& slow = belief.robots["b"];
+  Trajectory crawl = *slow.live_trajectory;
+  for (Waypoint& waypoint : crawl.waypoints) waypoint.arrival_time_s *= 1e5;
+  crawl.duration_s *= 1e5;
+  slow.live_arrival_ns = kNow_ns + std::llround(crawl.duration_s * 1e9);
+  slow.live_trajectory = std::make_shared<const Trajectory>(crawl);
+  for (const ForeseenCell& reading : Promised(belief)) {
+    EXPECT_GT(reading.precision_per_ppm2, 0.0);
+  }
+}
+
 TEST(Anticipate, PricesTheUnionLessWhatIsPromised) {
   Belief belief = Hall();
   AddRobot("b", {{2.0, 2.0}, {7.0, 2.0}}, belief);

@@ -13,6 +13,7 @@
 #include "core/plan/right_of_way.h"
 #include "core/plan/trajectory_timing.h"
 #include "core/traffic/traffic.h"
+#include "core/types/rng.h"
 #include "tests/support/plan_map.h"
 
 namespace plumescout {
@@ -34,14 +35,16 @@ RobotRecord At(const RobotId& robot, Point2 place) {
 // A corridor along x in which robot "a" stands at the west end, with a plan to its east end.
 class Corridor {
  public:
-  explicit Corridor(double width_m)
+  // The robot stands so far beside the centre of its cell.
+  explicit Corridor(double width_m, double beside_x_m = 0.0, double beside_y_m = 0.0)
       : geometry_{0.0, 0.0, 0.1, 120, static_cast<int>(std::lround(width_m / 0.1))},
         middle_m_(geometry_.Center({0, geometry_.height / 2}).y_m),
+        start_{1.05 + beside_x_m, middle_m_ + beside_y_m},
         reachable_(geometry_, 1),
         mean_ppm_(geometry_, 0.0F) {
     belief_.sample_time_ns = kNow_ns;
     belief_.options = std::make_shared<const MissionOptions>();
-    belief_.robots["a"] = At("a", {1.05, middle_m_});
+    belief_.robots["a"] = At("a", start_);
     information_.value = Grid<float>(geometry_, 0.5F);
     information_.penalty = Grid<float>(geometry_, 0.5F);
     information_.min_penalty = 0.5F;
@@ -59,7 +62,7 @@ class Corridor {
   Candidate Straight() const {
     Candidate candidate;
     candidate.goal = goal_;
-    candidate.path = {{1.05, middle_m_}, goal_.position};
+    candidate.path = {start_, goal_.position};
     candidate.length_m = Distance_m(candidate.path[0], candidate.path[1]);
     candidate.duration_s = TimeTrajectory(candidate.path, 0.0, {}).duration_s;
     return candidate;
@@ -72,12 +75,13 @@ class Corridor {
     const EdgeCost cost(information_, CostKind::kUcb, 0.0);
     const std::vector<Goal> goals = {goal_};
     const StopFn never = NeverStop();
-    const Departure departure = {{}, {1.05, middle_m_}, 0.0};
-    LeadRound({belief_,
+    const Departure departure = {{}, start_, 0.0};
+    const GoalQuery query = {belief_, belief_.robots.at("a"), geometry_.CellAt(start_), reachable_,
+                             options};
+    LeadRound({query,
                departure,
                {cost, reachable_, departure.start, goals, 1, 0, never},
-               {cost, mean_ppm_, 0.0},
-               options},
+               {cost, mean_ppm_, 0.0}},
               plan);
     YieldToRobots(belief_, 0.0, options, plan);
     return plan;
@@ -86,6 +90,7 @@ class Corridor {
  private:
   GridGeometry geometry_;
   double middle_m_;
+  Point2 start_;
   Belief belief_;
   Grid<std::uint8_t> reachable_;
   Grid<float> mean_ppm_;
@@ -107,6 +112,20 @@ TEST(LeadRound, RobotsPassEachOtherWhereThereIsRoom) {
     widest_m = std::max(widest_m, std::abs(vertex.y_m - wide.middle_m()));
   }
   EXPECT_GE(widest_m, 0.6);
+}
+
+TEST(LeadRound, ItDoesNotMatterWhereInTheirCellsRobotsAre) {
+  Rng rng(1);
+  for (int k = 0; k < 40; ++k) {
+    const auto within = [&rng] { return rng.Uniform(-0.049, 0.049); };
+    Corridor wide(3.0, within(), within());
+    if (k % 2 == 0) {
+      wide.Stands({6.0 + within(), wide.middle_m() + within()});
+    } else {
+      wide.Drives({{11.5 + within(), wide.middle_m() + within()}, {0.5, wide.middle_m()}});
+    }
+    EXPECT_THAT(wide.Planned().candidates, SizeIs(1)) << k;
+  }
 }
 
 TEST(LeadRound, RobotsThatStandAreDrivenRound) {
@@ -139,13 +158,29 @@ TEST(LeadRound, AWayThatNeedNotWaitStaysAsItIs) {
 }
 
 TEST(LeadRound, AShortWaitIsBetterThanALongWay) {
-  Corridor wide(6.0);
-  const double y_m = wide.middle_m();
-  wide.Drives({{5.0, y_m - 2.0}, {5.0, y_m + 2.6}});
-  const Plan plan = wide.Planned();
+  Corridor narrow(1.6);
+  const double y_m = narrow.middle_m();
+  narrow.Drives({{5.0, y_m - 0.6}, {5.0, y_m + 5.0}});
+  const Plan plan = narrow.Planned();
   ASSERT_THAT(plan.candidates, SizeIs(1));
-  Candidate waiting = wide.Straight();
-  EXPECT_LT(plan.candidates[0].duration_s, waiting.duration_s + 4.0);
+  EXPECT_EQ(plan.candidates[0].path, narrow.Straight().path);
+}
+
+TEST(LeadRound, OnlyBlockedWaysChangeWhereTimeDoesNotCount) {
+  Corridor wide(3.0);
+  PlanningOptions by_cost;
+  by_cost.selection_rule = SelectionRule::kLeastCost;
+  wide.Drives({{4.0, wide.middle_m()},
+               {6.0, wide.middle_m()},
+               {4.0, wide.middle_m()},
+               {4.0, wide.middle_m() + 1.4}});
+  const Plan waits = wide.Planned(by_cost);
+  ASSERT_THAT(waits.candidates, SizeIs(1));
+  EXPECT_EQ(waits.candidates[0].path, wide.Straight().path);
+  EXPECT_GT(waits.candidates[0].duration_s, wide.Straight().duration_s + kWorthAWayRound_s);
+  EXPECT_NE(wide.Planned().candidates[0].path, wide.Straight().path);
+  wide.Stands({6.0, wide.middle_m()});
+  EXPECT_NE(wide.Planned(by_cost).candidates[0].path, wide.Straight().path);
 }
 
 }  // namespace way_round_test

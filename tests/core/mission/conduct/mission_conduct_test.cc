@@ -183,6 +183,9 @@ TEST_F(MissionConductTest, GoalClaimedByAnotherRobotAborts) {
   ASSERT_TRUE(Join("r2", kLease + 1).ok());
   EXPECT_EQ(conduct_.Commit(PlanFor("r1", 1.0), kLease).value(), 1);
   EXPECT_TRUE(absl::IsAborted(conduct_.Commit(PlanFor("r2", 1.0), kLease + 1).status()));
+  Plan for_something_else = PlanFor("r2", 1.0);
+  for_something_else.candidates[0].goal.kind = GoalKind::kInformation;
+  EXPECT_TRUE(absl::IsAborted(conduct_.Commit(for_something_else, kLease + 1).status()));
   EXPECT_EQ(conduct_.Commit(PlanFor("r2", 5.0), kLease + 1).value(), 2);
 }
 

@@ -83,6 +83,28 @@ TEST(FrontierGoals, OfGasHaveTheirGoalAmongTheirOwnCells) {
   EXPECT_NEAR(found.gas[0].travel_m, straight_m + diagonal_m, 1e-6);
 }
 
+TEST(FrontierGoals, OfGasAreLeftToWhoIsAboutToReadThere) {
+  const testing::GridArt art = {"########",  //
+                                "#ggg...#",  //
+                                "#gSg...#",  //
+                                "#ggg...#",  //
+                                "########"};
+  GoalCase c(art);
+  c.AddGas(art, 50.0F);
+  Belief ahead = c.belief;
+  GoalQuery query = c.Query();
+  query.ahead = &ahead;
+  ASSERT_THAT(FindFrontierGoals(query).gas, SizeIs(1)) << "nobody reads anything";
+  auto variance = std::make_shared<Grid<float>>(*c.belief.gas_variance_ppm2);
+  for (int y = 1; y <= 3; ++y) (*variance)[Cell{4, y}] = 0.01F;
+  ahead.gas_variance_ppm2 = variance;
+  const FrontierGoals found = FindFrontierGoals(query);
+  EXPECT_THAT(found.gas, IsEmpty()) << "and the rim beyond is none before it is read";
+  ASSERT_THAT(found.rejected, SizeIs(1));
+  EXPECT_EQ(found.rejected[0].reason, RejectionReason::kClaimed);
+  EXPECT_EQ(found.rejected[0].goal.cell.x, 4);
+}
+
 TEST(FrontierGoals, OfGasAreUnreachableWithoutACellToStandOn) {
   const testing::GridArt art = {"######",  //
                                 "#gggi#",  //
@@ -131,6 +153,8 @@ TEST(FrontierGoals, RejectWhatAnotherRobotIsOnItsWayTo) {
   EXPECT_THAT(FindFrontierGoals(c.Query()).rejected.at(0).detail, HasSubstr("\"other\""));
   c.belief.claims[0].goal.kind = GoalKind::kInformation;
   EXPECT_EQ(OnlyRejection(c), RejectionReason::kClaimed) << "one place, whatever it is for";
+  c.belief.claims[0].goal.kind = GoalKind::kRandomFreeSpace;
+  EXPECT_THAT(FindFrontierGoals(c.Query()).occupancy, SizeIs(1)) << "it only happens to go there";
   c.belief.sample_time_ns = 1000;  // the claim has run out
   EXPECT_THAT(FindFrontierGoals(c.Query()).occupancy, SizeIs(1));
 }

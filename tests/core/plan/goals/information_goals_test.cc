@@ -326,6 +326,8 @@ TEST(InformationGoals, KeepApartFromClaimsOfAnyKindAndFromWhatIsSetAsideOfTheirs
   }
   ASSERT_EQ(rejected.size(), 1U);
   EXPECT_EQ(rejected[0].reason, RejectionReason::kClaimed);
+  c.belief.claims[0].goal.kind = GoalKind::kRandomFreeSpace;
+  EXPECT_EQ(Find(c)[0].cell, alone[0].cell) << "who drives about at random";
 }
 
 TEST(InformationGoals, RejectPlacesOnlyIfSomethingIsLeftToTellAround) {
