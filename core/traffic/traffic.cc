@@ -21,8 +21,6 @@ constexpr double kTouch_m = 0.02;
 
 std::size_t StepsIn(double time_s) { return static_cast<std::size_t>(std::ceil(time_s / kStep_s)); }
 
-// Less than that a robot is at a waypoint.
-constexpr double kAtWaypoint_m = 0.15;
 // A way that should have ended so long ago, beside its own duration, is driven no more.
 constexpr double kPatience_s = 30.0;
 constexpr double kSecondsPerNanosecond = 1e-9;
@@ -67,7 +65,7 @@ double Progress_s(const RobotRecord& record, std::int64_t now_ns) {
     const bool stands = waypoint.dwell_s > 0.0 && elapsed_s < leaves_s &&
                         there_s > waypoint.arrival_time_s - kNear_s &&
                         there_s < leaves_s + kNear_s &&
-                        Distance_m(place, waypoint.pose.position()) < kAtWaypoint_m;
+                        Distance_m(place, waypoint.pose.position()) < kOffTrajectory_m;
     if (stands) return std::max(elapsed_s, waypoint.arrival_time_s);
   }
   return there_s;

@@ -98,8 +98,8 @@ void WaitAtStart(double wait_s, Trajectory& trajectory);
 bool IsOnItsWay(const RobotRecord& record, std::int64_t now_ns);
 
 // How far along its live plan a robot is, in seconds of the trajectory: by its latest pose, for it
-// may be late; while it stands at a waypoint, or poses err by less than 0.15 m from there, by the
-// time. REQUIRES: a live trajectory with waypoints, a pose.
+// may be late; while it is to stand at a waypoint and is near, by the time: its latest pose may be
+// from before it came there. REQUIRES: a live trajectory with waypoints, a pose.
 double Progress_s(const RobotRecord& record, std::int64_t now_ns);
 // By how much it has fallen behind the plan's times. REQUIRES: as Progress_s.
 double Lateness_s(const RobotRecord& record, std::int64_t now_ns);

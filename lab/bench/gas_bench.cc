@@ -45,6 +45,7 @@ constexpr Size kSizes[] = {{160, 200, 1, 9}, {320, 400, 2, 3}, {700, 700, 8, 1}}
 
 constexpr int kReadingsBetweenScans = 2;  // as of four robots: 2 Hz each, scans at 10 Hz
 constexpr std::size_t kWhatIfCells = 16;
+constexpr std::size_t kPromised = 64;
 constexpr int kScans = 60;
 
 double Cpu_ms(const std::function<void()>& run) {
@@ -128,7 +129,7 @@ absl::Status MeasureOnline(const Size& size, bool open, const GasCase& c, BenchS
   GasEvents events(static_cast<std::size_t>(size.width_cells), std::move(inputs), summary.seed());
   FieldEngine field = events.Fresh();
   absl::Status status;
-  std::vector<double> reading_ms, scan_ms, what_if_ms;
+  std::vector<double> reading_ms, scan_ms, what_if_ms, given_ms;
   for (int scan = 0; scan < kScans; ++scan) {
     for (int k = 0; k < kReadingsBetweenScans; ++k) {
       const std::vector<CellChange> reading = events.Reading(size.robots);
@@ -141,10 +142,14 @@ absl::Status MeasureOnline(const Size& size, bool open, const GasCase& c, BenchS
     const double precision = GasOptions().observation_precision_per_ppm2;
     what_if_ms.push_back(
         Cpu_ms([&] { status.Update(field.Snapshot().VarianceIfRead(cells, precision).status()); }));
+    std::vector<ForeseenReading> promised;
+    while (promised.size() < kPromised) promised.push_back({events.ActiveCell(), precision});
+    given_ms.push_back(Cpu_ms([&] { status.Update(field.Snapshot().Given(promised).status()); }));
   }
   summary.Set(size.Name("reading", open, "ms"), Median(reading_ms));
   summary.Set(size.Name("scan", open, "ms"), Median(scan_ms));
   summary.Set(size.Name("whatif16", open, "ms"), Median(what_if_ms));
+  summary.Set(size.Name("given64", open, "ms"), Median(given_ms));
   return status;
 }
 

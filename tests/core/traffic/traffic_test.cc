@@ -197,6 +197,8 @@ TEST(Traffic, ProgressGoesByThePoseAndWhileStandingByTheTime) {
   EXPECT_EQ(Progress_s(record, kNow_ns + 9 * kSecond_ns), 3.0) << "it has not left yet";
   record.state.pose = {0.1, 0.05, 0.0};
   EXPECT_EQ(Progress_s(record, kNow_ns + 2 * kSecond_ns), 2.0) << "poses err a little";
+  record.state.pose = {0.2, -0.15, 0.0};
+  EXPECT_NEAR(Progress_s(record, kNow_ns + kSecond_ns / 10), 0.1, 1e-9) << "it has just come";
   record.state.pose = {2.0, 0.1, 0.0};
   EXPECT_NEAR(Progress_s(record, kNow_ns + 9 * kSecond_ns), 5.0, 1e-9) << "it is late";
 }
