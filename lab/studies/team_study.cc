@@ -270,9 +270,9 @@ std::vector<std::string> MakeNotes(const TrialPlan& plan, bool given) {
       "Sooner by: one robot's time to a level over the team's, geometric mean over buildings. The "
       "level is 80 % of what one robot gains in its whole run, and a time counts from when the "
       "level is kept. A run that does not get there counts with its duration.",
-      "Each its own way: planning.yield_to_robots is off, so robots find each other in the way "
-      "only "
-      "when their beams meet.",
+      "Each its own price: planning.anticipate_robots is off, so what others are about to tell is "
+      "paid for again. Each its own way: planning.yield_to_robots is off too, so robots find each "
+      "other in the way only when their beams meet.",
   };
 }
 
