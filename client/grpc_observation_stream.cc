@@ -5,6 +5,7 @@
 #include <grpcpp/grpcpp.h>
 
 #include <deque>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -64,7 +65,10 @@ class GrpcObservationStream final : public ObservationStream {
   absl::Status Broken(absl::Status status);
   void StartRead();
 
+  absl::Status WriteBatch(v1::StreamObservationsRequest& frame);
+
   const StreamTimeouts timeouts_;
+  std::function<std::int64_t()> robot_clock_ns_;  // see RobotSession
   grpc::ClientContext context_;
   grpc::CompletionQueue queue_;
   std::unique_ptr<
@@ -96,6 +100,7 @@ GrpcObservationStream::~GrpcObservationStream() {
 absl::Status GrpcObservationStream::Open(v1::IngestService::Stub& stub,
                                          const RobotSession& session) {
   const absl::Time deadline = absl::Now() + timeouts_.open;
+  robot_clock_ns_ = session.robot_clock_ns;
   call_ = stub.PrepareAsyncStreamObservations(&context_, &queue_);
   call_->StartCall(TagOf(Op::kStart));
   if (!Await(Op::kStart, deadline)) return EndedStatus();
@@ -130,14 +135,19 @@ absl::Status GrpcObservationStream::Write(const std::vector<Observation>& batch)
     v1::Observation proto = ToProto(observation);
     const std::size_t bytes = proto.ByteSizeLong();
     if (frame_bytes > 0 && frame_bytes + bytes > kMaxFrame_bytes) {
-      PLUMESCOUT_RETURN_IF_ERROR(WriteFrame(frame));
+      PLUMESCOUT_RETURN_IF_ERROR(WriteBatch(frame));
       frame.Clear();
       frame_bytes = 0;
     }
     *frame.mutable_batch()->add_observations() = std::move(proto);
     frame_bytes += bytes;
   }
-  return frame_bytes > 0 ? WriteFrame(frame) : absl::OkStatus();
+  return frame_bytes > 0 ? WriteBatch(frame) : absl::OkStatus();
+}
+
+absl::Status GrpcObservationStream::WriteBatch(v1::StreamObservationsRequest& frame) {
+  if (robot_clock_ns_) frame.mutable_batch()->set_sent_time_ns(robot_clock_ns_());
+  return WriteFrame(frame);
 }
 
 absl::StatusOr<IngestReply> GrpcObservationStream::Read(absl::Duration timeout) {

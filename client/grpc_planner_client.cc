@@ -12,6 +12,7 @@
 #include "absl/time/clock.h"
 #include "client/credentials.h"
 #include "client/grpc_observation_stream.h"
+#include "client/grpc_robot_watch.h"
 #include "client/grpc_status.h"
 #include "client/request_ids.h"
 #include "core/types/status_macros.h"
@@ -26,6 +27,8 @@
 #include "proto/convert/names.h"
 #include "proto/convert/options.h"
 #include "proto/convert/plan.h"
+#include "proto/convert/robot.h"
+#include "proto/convert/robot_frame.h"
 
 namespace plumescout::client {
 namespace {
@@ -109,13 +112,16 @@ class GrpcPlannerClient final : public PlannerClient {
 
   absl::StatusOr<RobotSession> RegisterRobot(const MissionId& mission, const RobotId& robot,
                                              double radius_m, bool take_over,
-                                             std::int64_t log_epoch) override {
+                                             std::int64_t log_epoch,
+                                             const RobotOutfit& outfit) override {
     v1::RegisterRobotRequest request;
     request.set_mission(MissionResource(mission));
     request.set_robot_id(robot);
     request.set_radius_m(radius_m);
     request.set_take_over(take_over);
     request.set_log_epoch(log_epoch);
+    if (outfit.frame != RobotFrame()) *request.mutable_frame() = ToProto(outfit.frame);
+    ToProto(outfit.sensors, request);
     v1::RegisterRobotResponse response;
     PLUMESCOUT_RETURN_IF_ERROR(CallNamed(robots_, &v1::RobotService::Stub::RegisterRobot, request,
                                          &response, options_.call_timeout));
@@ -177,6 +183,10 @@ class GrpcPlannerClient final : public PlannerClient {
     request.set_outcome(ToProto(outcome));
     v1::ReportProgressResponse response;
     return Call(planning_, &v1::PlanningService::Stub::ReportProgress, request, &response);
+  }
+
+  absl::StatusOr<std::unique_ptr<RobotWatch>> WatchRobot(const RobotSession& session) override {
+    return OpenGrpcRobotWatch(robots_, session);
   }
 
   absl::StatusOr<MapSnapshot> GetMap(const MissionId& mission) override {

@@ -65,7 +65,7 @@ IngestSession::~IngestSession() {
 }
 
 std::int64_t IngestSession::Append(std::int64_t sample_time_ns, const Pose2& pose,
-                                   std::variant<Scan, GasReading> payload) {
+                                   ObservationPayload payload) {
   absl::MutexLock lock(&mutex_);
   return log_.Append(sample_time_ns, pose, std::move(payload));
 }
@@ -148,6 +148,7 @@ absl::Status IngestSession::ServeOneStream() {
     absl::MutexLock lock(&mutex_);
     standing.durable_sequence = durable_sequence_;
   }
+  standing.robot_clock_ns = options_.robot_clock_ns;
   stream_opened_ = false;
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::unique_ptr<ObservationStream> stream,
                               client_.OpenObservationStream(standing));

@@ -38,6 +38,7 @@ struct IngestOptions {
   // A lease that is not in force although nobody is known to have taken it, as after a server was
   // set back: how long another may hold it meanwhile. More than servers hold leases of the dead.
   absl::Duration lease_patience = absl::Seconds(15);
+  std::function<std::int64_t()> robot_clock_ns = nullptr;  // see RobotSession
 };
 
 // Called on the session's own thread; they must not call back into the session.
@@ -89,8 +90,7 @@ class IngestSession {
   IngestSession& operator=(const IngestSession&) = delete;
 
   // Numbers an observation and leaves it to the session. Returns its number.
-  std::int64_t Append(std::int64_t sample_time_ns, const Pose2& pose,
-                      std::variant<Scan, GasReading> payload);
+  std::int64_t Append(std::int64_t sample_time_ns, const Pose2& pose, ObservationPayload payload);
 
   // Waits until the server has applied the log up to `sequence`. kDeadlineExceeded if it has not in
   // time; kFailedPrecondition once the session has ended for good: another client has the lease

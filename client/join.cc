@@ -10,7 +10,8 @@ absl::StatusOr<RobotSession> Join(PlannerClient& client, const Participation& pa
     if (!created.ok() && !absl::IsAlreadyExists(created)) return created;
   }
   return client.RegisterRobot(participation.mission, participation.robot, participation.radius_m,
-                              participation.take_over, participation.log_epoch);
+                              participation.take_over, participation.log_epoch,
+                              {participation.frame, participation.sensors});
 }
 
 }  // namespace plumescout::client

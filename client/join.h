@@ -7,6 +7,7 @@
 
 #include "absl/status/statusor.h"
 #include "client/planner_client.h"
+#include "core/types/gas_sensor.h"
 #include "core/types/ids.h"
 #include "core/types/options.h"
 
@@ -19,6 +20,8 @@ struct Participation {
   double radius_m = 0.2;
   bool take_over = false;                               // supersede a lease that is still held
   std::int64_t log_epoch = 0;                           // see RobotRegistered
+  RobotFrame frame = {};                                // of the robot's poses
+  std::vector<GasSensor> sensors = {};                  // none: one, calibrated, at its pose
   std::optional<MissionOptions> create = std::nullopt;  // create the mission if it is not there
 };
 

@@ -18,7 +18,9 @@
 namespace plumescout::client {
 namespace {
 
+constexpr std::size_t kMostCorrections = 64;  // that wait to be sent
 constexpr double kNanosecondsPerSecond = 1e9;
+constexpr std::int64_t kClockStep_ns = 1'000'000'000;
 // A scan of 100 000 beams takes about a megabyte; a longer line is no line of ours.
 constexpr std::size_t kMaxLine_bytes = std::size_t{4} << 20;
 constexpr std::size_t kReadBlock_bytes = std::size_t{1} << 16;
@@ -44,6 +46,13 @@ absl::StatusOr<Scan> LineDriver::TakeScan() { return Take(scan_); }
 
 absl::StatusOr<GasReading> LineDriver::ReadGas() { return Take(gas_); }
 
+std::optional<PoseCorrection> LineDriver::TakeCorrection() {
+  if (corrections_.empty()) return std::nullopt;
+  PoseCorrection first = std::move(corrections_.front());
+  corrections_.pop_front();
+  return first;
+}
+
 absl::Status LineDriver::Drive(const Twist& twist) {
   const std::string line = FormatTwistLine(twist);
   std::size_t written = 0;
@@ -61,8 +70,13 @@ absl::Status LineDriver::PlaceAt(const Pose2&) {
 }
 
 absl::Status LineDriver::Advance(double duration_s) {
-  const std::int64_t until_ns = now_ns_ + std::llround(duration_s * kNanosecondsPerSecond);
-  while (now_ns_ < until_ns) PLUMESCOUT_RETURN_IF_ERROR(TakeInLine());
+  const std::int64_t duration_ns = std::llround(duration_s * kNanosecondsPerSecond);
+  std::int64_t until_ns = now_ns_ + duration_ns;
+  while (now_ns_ < until_ns) {
+    const std::int64_t before_ns = now_ns_;
+    PLUMESCOUT_RETURN_IF_ERROR(TakeInLine());
+    if (now_ns_ < before_ns) until_ns = now_ns_ + duration_ns;
+  }
   return absl::OkStatus();
 }
 
@@ -78,13 +92,28 @@ absl::Status LineDriver::TakeInLine() {
 }
 
 absl::Status LineDriver::Digest(RobotLine line) {
+  if (const auto* status = std::get_if<RobotStatus>(&line.reading)) {
+    status_ = *status;
+    return absl::OkStatus();
+  }
   if (line.pose.has_value()) pose_ = line.pose;
   if (!pose_.has_value()) return absl::FailedPreconditionError("a reading before the first pose");
-  now_ns_ = std::max(now_ns_, line.time_ns);
+  // Lines of two sensors may come in another order than they were measured; a clock that was set
+  // back goes on from there.
+  const bool was_set_back = line.time_ns < now_ns_ - kClockStep_ns;
+  now_ns_ = was_set_back ? line.time_ns : std::max(now_ns_, line.time_ns);
   if (auto* scan = std::get_if<Scan>(&line.reading)) {
     scan_ = {.time_ns = line.time_ns, .pose = *pose_, .reading = std::move(*scan)};
   } else if (const auto* gas = std::get_if<GasReading>(&line.reading)) {
     gas_ = {.time_ns = line.time_ns, .pose = *pose_, .reading = *gas};
+  } else if (auto* correction = std::get_if<PoseCorrection>(&line.reading)) {
+    if (corrections_.size() >= kMostCorrections) {
+      return absl::ResourceExhaustedError("corrections come faster than they are sent");
+    }
+    corrections_.push_back(std::move(*correction));
+    // What was not taken yet was measured at a pose that was wrong.
+    scan_.reset();
+    gas_.reset();
   }
   return absl::OkStatus();
 }

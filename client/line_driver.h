@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "absl/time/time.h"
 #include "client/line_messages.h"
@@ -31,7 +33,8 @@ struct LineSample {
 };
 
 // A robot behind a pair of pipes: any program that writes poses, scans and gas readings as lines of
-// JSON and takes velocity commands back. Its clock is that of the lines: time goes by as they come.
+// JSON and takes velocity commands back. Its clock is that of the lines: time goes by as they come,
+// and goes back only if that clock is set back.
 class LineDriver final : public RobotDriver {
  public:
   explicit LineDriver(const LineDriverOptions& options) : options_(options) {}
@@ -44,8 +47,11 @@ class LineDriver final : public RobotDriver {
   // The newest reading that has not been taken yet.
   absl::StatusOr<Scan> TakeScan() override;
   absl::StatusOr<GasReading> ReadGas() override;
+  std::optional<RobotStatus> TakeStatus() override { return std::exchange(status_, std::nullopt); }
   std::int64_t sample_time_ns() const override { return sample_time_ns_; }
   Pose2 sample_pose() const override { return sample_pose_; }
+
+  std::optional<PoseCorrection> TakeCorrection() override;
 
   absl::Status Drive(const Twist& twist) override;
   absl::Status PlaceAt(const Pose2& pose) override;
@@ -69,6 +75,8 @@ class LineDriver final : public RobotDriver {
   std::optional<Pose2> pose_;
   std::optional<LineSample<Scan>> scan_;
   std::optional<LineSample<GasReading>> gas_;
+  std::deque<PoseCorrection> corrections_;  // each changes poses that the one before left
+  std::optional<RobotStatus> status_;
   std::int64_t sample_time_ns_ = 0;
   Pose2 sample_pose_;
   std::int64_t bad_lines_ = 0;

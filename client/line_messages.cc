@@ -15,6 +15,8 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr int kSensorEnd = 1000;  // no robot has so many
+
 absl::StatusOr<double> Number(const Json& object, const char* field) {
   const auto found = object.find(field);
   if (found == object.end() || !found->is_number()) {
@@ -80,7 +82,40 @@ absl::StatusOr<GasReading> ReadGas(const Json& object) {
     PLUMESCOUT_ASSIGN_OR_RETURN(const double stddev_ppm, Number(object, "stddev_ppm"));
     reading.variance_ppm2 = stddev_ppm * stddev_ppm;
   }
+  if (object.contains("sensor")) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(const double sensor, Number(object, "sensor"));
+    if (!(sensor >= 0.0 && sensor < kSensorEnd) || sensor != std::floor(sensor)) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("sensor = ", sensor, " must be a whole number in [0, ", kSensorEnd, ")"));
+    }
+    reading.sensor = static_cast<int>(sensor);
+  }
   return reading;
+}
+
+absl::StatusOr<PoseCorrection> ReadCorrection(const Json& object) {
+  const auto found = object.find("anchors");
+  if (found == object.end() || !found->is_array() || found->empty()) {
+    return absl::InvalidArgumentError("anchors must be an array of at least one");
+  }
+  PoseCorrection correction;
+  for (const Json& anchor : *found) {
+    if (!anchor.is_object()) return absl::InvalidArgumentError("anchors must hold objects");
+    PLUMESCOUT_ASSIGN_OR_RETURN(const std::int64_t time_ns, Time_ns(anchor));
+    PLUMESCOUT_ASSIGN_OR_RETURN(const Pose2 pose, ReadPose(anchor));
+    correction.anchors.push_back({time_ns, pose});
+  }
+  return correction;
+}
+
+absl::StatusOr<RobotStatus> ReadStatus(const Json& object) {
+  RobotStatus status;
+  PLUMESCOUT_ASSIGN_OR_RETURN(status.battery_share, Number(object, "battery_share"));
+  if (status.battery_share < 0.0 || status.battery_share > 1.0) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("battery_share = ", status.battery_share, " must be in [0, 1]"));
+  }
+  return status;
 }
 
 absl::Status ReadReading(const Json& object, absl::string_view type, RobotLine& line) {
@@ -91,6 +126,10 @@ absl::Status ReadReading(const Json& object, absl::string_view type, RobotLine& 
     PLUMESCOUT_ASSIGN_OR_RETURN(line.reading, ReadScan(object));
   } else if (type == "gas") {
     PLUMESCOUT_ASSIGN_OR_RETURN(line.reading, ReadGas(object));
+  } else if (type == "correction") {
+    PLUMESCOUT_ASSIGN_OR_RETURN(line.reading, ReadCorrection(object));
+  } else if (type == "status") {
+    PLUMESCOUT_ASSIGN_OR_RETURN(line.reading, ReadStatus(object));
   } else {
     return absl::InvalidArgumentError(absl::StrCat("type \"", type, "\" is not known"));
   }

@@ -11,6 +11,7 @@
 #include "absl/strings/string_view.h"
 #include "client/robot_driver.h"
 #include "core/types/gas_reading.h"
+#include "core/types/observation.h"
 #include "core/types/pose2.h"
 #include "core/types/scan.h"
 
@@ -20,7 +21,7 @@ namespace plumescout::client {
 struct RobotLine {
   std::int64_t time_ns = 0;   // robot clock, nanoseconds since the Unix epoch
   std::optional<Pose2> pose;  // at that time; lines of type pose have nothing else
-  std::variant<std::monostate, Scan, GasReading> reading;
+  std::variant<std::monostate, Scan, GasReading, PoseCorrection, RobotStatus> reading;
 };
 
 // Reads one line of JSON; the format is in docs/robots.md. kInvalidArgument naming what is wrong.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <variant>
@@ -12,11 +13,14 @@
 #include "absl/status/statusor.h"
 #include "absl/time/time.h"
 #include "core/types/event.h"
+#include "core/types/gas_sensor.h"
 #include "core/types/map_snapshot.h"
 #include "core/types/observation.h"
 #include "core/types/options.h"
 #include "core/types/plan.h"
 #include "core/types/plan_request.h"
+#include "core/types/robot_frame.h"
+#include "core/types/robot_notice.h"
 
 namespace plumescout::client {
 
@@ -28,6 +32,14 @@ struct IngestState {
   std::int64_t revision = 0;          // mission revision that includes applied_sequence
 
   friend bool operator==(const IngestState&, const IngestState&) = default;
+};
+
+// What a robot tells of itself when it registers.
+struct RobotOutfit {
+  RobotFrame frame = {};                // of the poses of its observations
+  std::vector<GasSensor> sensors = {};  // see RobotRegistered
+
+  friend bool operator==(const RobotOutfit&, const RobotOutfit&) = default;
 };
 
 // A robot's standing in a mission, from RegisterRobot.
@@ -43,6 +55,9 @@ struct RobotSession {
   // Up to which number this client was ever told that the log is durable: what it opens streams
   // with. 0: it was not told.
   std::int64_t durable_sequence = 0;
+  // The robot's clock now, from any thread: batches say when they were sent by it, so that the
+  // server learns how far it is off. Null: they do not, and its sample times are taken as they are.
+  std::function<std::int64_t()> robot_clock_ns = nullptr;
 };
 
 struct ObservationRejected {
@@ -67,6 +82,21 @@ class ObservationStream {
   virtual absl::StatusOr<IngestReply> Read(absl::Duration timeout) = 0;
   // Half-closes and waits for the server's final status.
   virtual absl::Status Finish() = 0;
+};
+
+// What the service tells a robot without having been asked. Not thread-safe, but for Cancel. After
+// any error but kDeadlineExceeded it is dead: open another.
+class RobotWatch {
+ public:
+  virtual ~RobotWatch() = default;
+
+  // The next notice; kDeadlineExceeded if none came (the watch lives on). The first is a
+  // RobotStanding.
+  virtual absl::StatusOr<RobotNotice> Read(absl::Duration timeout) = 0;
+  // What is there by now.
+  absl::StatusOr<RobotNotice> TryRead() { return Read(absl::ZeroDuration()); }
+  // A Read that waits, and each after it, is kCancelled.
+  virtual void Cancel() = 0;
 };
 
 struct PlanQuery {
@@ -95,8 +125,15 @@ class PlannerClient {
   // `log_epoch`: which log it will send, see RobotRegistered.
   virtual absl::StatusOr<RobotSession> RegisterRobot(const MissionId& mission, const RobotId& robot,
                                                      double radius_m, bool take_over,
-                                                     std::int64_t log_epoch) = 0;
-  // The same without saying which log.
+                                                     std::int64_t log_epoch,
+                                                     const RobotOutfit& outfit) = 0;
+  // The same in the mission's frame, with one calibrated sensor.
+  absl::StatusOr<RobotSession> RegisterRobot(const MissionId& mission, const RobotId& robot,
+                                             double radius_m, bool take_over,
+                                             std::int64_t log_epoch) {
+    return RegisterRobot(mission, robot, radius_m, take_over, log_epoch, RobotOutfit());
+  }
+  // And without saying which log.
   absl::StatusOr<RobotSession> RegisterRobot(const MissionId& mission, const RobotId& robot,
                                              double radius_m, bool take_over) {
     return RegisterRobot(mission, robot, radius_m, take_over, /*log_epoch=*/0);
@@ -113,6 +150,11 @@ class PlannerClient {
                                                   const PlanQuery& query) = 0;
   virtual absl::Status ReportProgress(const RobotSession& session, PlanId plan,
                                       ProgressOutcome outcome) = 0;
+  // Returns at once; errors come from the watch, LEASE_SUPERSEDED among them. kUnimplemented: the
+  // service tells nothing unasked.
+  virtual absl::StatusOr<std::unique_ptr<RobotWatch>> WatchRobot(const RobotSession&) {
+    return absl::UnimplementedError("robots are not watched here");
+  }
   // With the posterior brought up to date.
   virtual absl::StatusOr<MapSnapshot> GetMap(const MissionId& mission) = 0;
 };

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/types/gas_reading.h"
+#include "core/types/observation.h"
 #include "core/types/pose2.h"
 #include "core/types/scan.h"
 
@@ -25,7 +27,7 @@ class RobotDriver {
   virtual ~RobotDriver() = default;
 
   virtual std::int64_t now_ns() const = 0;  // robot clock, nanoseconds since the Unix epoch
-  virtual Pose2 pose() const = 0;           // localised, frame map
+  virtual Pose2 pose() const = 0;           // localised, in the frame that it registers with
   // kUnavailable: nothing new to say, ask again when the next reading is due.
   virtual absl::StatusOr<Scan> TakeScan() = 0;
   virtual absl::StatusOr<GasReading> ReadGas() = 0;
@@ -33,6 +35,13 @@ class RobotDriver {
   // hands on what it was told a moment ago.
   virtual std::int64_t sample_time_ns() const { return now_ns(); }
   virtual Pose2 sample_pose() const { return pose(); }
+
+  // Poses that it gave before and that were wrong, known since the last call: after a loop closure
+  // or a relocalisation. pose() and what is sensed from now on are right. Anchors are best of times
+  // at which something was sensed. None: they are as they were.
+  virtual std::optional<PoseCorrection> TakeCorrection() { return std::nullopt; }
+  // What there is to tell of the robot itself; none: nothing new.
+  virtual std::optional<RobotStatus> TakeStatus() { return std::nullopt; }
 
   virtual absl::Status Drive(const Twist& twist) = 0;
   // Ideal following: stand exactly here now. Simulated robots only; real ones return

@@ -9,8 +9,12 @@ namespace plumescout::client {
 namespace {
 
 std::size_t Footprint_bytes(const Observation& observation) {
-  const auto* scan = std::get_if<Scan>(&observation.payload);
-  const std::size_t heap_bytes = scan != nullptr ? scan->ranges_m.capacity() * sizeof(float) : 0;
+  std::size_t heap_bytes = 0;
+  if (const auto* scan = std::get_if<Scan>(&observation.payload)) {
+    heap_bytes = scan->ranges_m.capacity() * sizeof(float);
+  } else if (const auto* correction = std::get_if<PoseCorrection>(&observation.payload)) {
+    heap_bytes = correction->anchors.capacity() * sizeof(PoseAnchor);
+  }
   return sizeof(Observation) + heap_bytes;
 }
 
@@ -58,14 +62,11 @@ void RobotLog::Restore(KeptLog kept) {
 }
 
 std::int64_t RobotLog::Append(std::int64_t sample_time_ns, const Pose2& pose,
-                              std::variant<Scan, GasReading> payload) {
-  Observation entry{.sequence = last_sequence_ + 1,
-                    .sample_time_ns = sample_time_ns,
-                    .pose = pose,
-                    .payload = {}};
-  std::visit([&entry](auto&& seen) { entry.payload = std::forward<decltype(seen)>(seen); },
-             std::move(payload));
-  Push(std::move(entry));
+                              ObservationPayload payload) {
+  Push({.sequence = last_sequence_ + 1,
+        .sample_time_ns = sample_time_ns,
+        .pose = pose,
+        .payload = std::move(payload)});
   while (Full()) DropOldest();
   return last_sequence_;
 }

@@ -48,8 +48,7 @@ class RobotLog {
   void Restore(KeptLog kept);
 
   // Numbers and stores one observation. Cost: O(1) amortised.
-  std::int64_t Append(std::int64_t sample_time_ns, const Pose2& pose,
-                      std::variant<Scan, GasReading> payload);
+  std::int64_t Append(std::int64_t sample_time_ns, const Pose2& pose, ObservationPayload payload);
 
   // What the server says. Durable entries may be forgotten; both numbers fall when a server was
   // restarted or set back.

@@ -10,7 +10,6 @@
 #include "absl/strings/str_cat.h"
 #include "absl/time/clock.h"
 #include "client/error_reason.h"
-#include "core/types/checker.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout::client {
@@ -41,31 +40,13 @@ double LengthOf_m(const std::vector<Point2>& path) {
 
 }  // namespace
 
-absl::Status Validate(const RobotLoopOptions& options) {
-  const GasSampling& gas_sampling = options.gas_sampling;
-  const std::int64_t least_epoch = options.ingest.store.folder.empty() ? 0 : 1;
-  if (options.new_log_epoch < least_epoch || options.new_log_epoch >= kLogEpochEnd) {
-    return absl::InvalidArgumentError(absl::StrCat("new_log_epoch = ", options.new_log_epoch,
-                                                   " must be in [", least_epoch, ", ", kLogEpochEnd,
-                                                   ")"));
-  }
-  return Checker()
-      .Positive("tick_s", options.tick_s)
-      .Positive("radius_m", options.participation.radius_m)
-      .Positive("stand_before_retry_s", options.stand_before_retry_s)
-      .NotNegative("look_around_s", options.look_around_s)
-      .NotNegative("plan_latency_s", options.plan_latency_s)
-      .NotNegative("time_limit_s", options.time_limit_s)
-      .NotNegative("rates.scan_hz", options.rates.scan_hz)
-      .NotNegative("rates.gas_hz", options.rates.gas_hz)
-      .NotNegative("gas_sampling.time_constant_s", gas_sampling.time_constant_s)
-      .NotNegative("gas_sampling.settling_s", gas_sampling.settling_s)
-      .status();
-}
-
 RobotLoop::RobotLoop(PlannerClient& client, RobotDriver& driver, const RobotLoopOptions& options,
                      RobotObserver& observer)
-    : client_(client), driver_(driver), options_(options), observer_(observer) {
+    : client_(client),
+      driver_(driver),
+      options_(options),
+      observer_(observer),
+      notices_(client, options.ingest.backoff, options.watch) {
   options_.follower.tick_s = options_.tick_s;
   options_.blockage.radius_m = options_.participation.radius_m;
 }
@@ -134,21 +115,29 @@ void RobotLoop::StartSensing() {
             observer_.OnRolledBack(applied_sequence, forgotten);
           },
       .on_disk = [this](const absl::Status& status) { observer_.OnDisk(status); }};
+  if (options_.real_clock) {
+    clock_.Note(start_ns_);
+    options_.ingest.robot_clock_ns = [this] { return clock_.Now_ns(); };
+  }
   ingest_.emplace(client_, *std::move(joined_), std::move(callbacks), options_.ingest,
                   std::move(opened_log_));
-  bridge_.emplace(
-      driver_, options_.rates, options_.gas_sampling,
-      [this](std::int64_t time_ns, const Pose2& pose, std::variant<Scan, GasReading> payload) {
-        ingest_->Append(time_ns, pose, std::move(payload));
-      });
+  bridge_.emplace(driver_, options_.rates, options_.gas_sampling,
+                  [this](std::int64_t time_ns, const Pose2& pose, ObservationPayload payload) {
+                    ingest_->Append(time_ns, pose, std::move(payload));
+                  });
 }
 
 absl::Status RobotLoop::Explore() {
   PLUMESCOUT_RETURN_IF_ERROR(Stand(options_.look_around_s));
   while (!Over()) {
-    PLUMESCOUT_RETURN_IF_ERROR(ingest_->health());
+    const absl::Status health = ingest_->health();
+    if (ErrorReason(health) == reason::kMissionFinished) EndRun(RobotEnd::kMissionFinished);
+    if (over_) break;
+    PLUMESCOUT_RETURN_IF_ERROR(health);
     if (leg_.has_value()) {
       PLUMESCOUT_RETURN_IF_ERROR(Tick(options_.tick_s));
+    } else if (notices_.standing().paused && !pending_.valid()) {
+      PLUMESCOUT_RETURN_IF_ERROR(Stand(options_.tick_s));
     } else if (options_.pacing == Pacing::kLockstep) {
       PLUMESCOUT_RETURN_IF_ERROR(AskInLockstep());
     } else {
@@ -175,11 +164,6 @@ absl::Status RobotLoop::Finish() {
   return status;
 }
 
-// Whether all that was sensed so far is applied; what is missing shows in the statistics.
-bool RobotLoop::AwaitApplied(absl::Duration timeout) {
-  return ingest_->WaitApplied(ingest_->statistics().last_sequence, timeout).ok();
-}
-
 // A plan that comes too late to be driven is given up, or its goal would stay claimed.
 void RobotLoop::DropPending() {
   if (!pending_.valid()) return;
@@ -195,9 +179,14 @@ void RobotLoop::DropPending() {
 absl::Status RobotLoop::Tick(double duration_s) {
   if (leg_.has_value()) PLUMESCOUT_RETURN_IF_ERROR(leg_->motion->Step(driver_));
   const bool standing = !leg_.has_value() || leg_->motion->standing();
+  if (options_.real_clock) clock_.Note(driver_.now_ns());
   PLUMESCOUT_RETURN_IF_ERROR(bridge_->Poll(standing));
+  if (const auto status = status_reports_.Take(driver_.TakeStatus(), driver_.now_ns())) {
+    ingest_->Append(driver_.now_ns(), driver_.pose(), *status);
+  }
   if (options_.pacing == Pacing::kLockstep) AwaitApplied(options_.link_patience);
   NoteProgress();
+  HeedNotices();
   if (const auto outcome = LegOutcome(); outcome.has_value()) return EndLeg(*outcome);
   return driver_.Advance(duration_s);
 }
@@ -210,6 +199,11 @@ absl::Status RobotLoop::Stand(double duration_s) {
     left_s -= step_s;
   }
   return absl::OkStatus();
+}
+
+void RobotLoop::HeedNotices() {
+  notices_.Poll(ingest_->session(), absl::Now());
+  if (notices_.standing().finished) EndRun(RobotEnd::kMissionFinished);
 }
 
 void RobotLoop::NoteProgress() {
@@ -245,7 +239,10 @@ void RobotLoop::NoteProgressOfLeg(const Pose2& pose, std::int64_t now_ns) {
 std::optional<ProgressOutcome> RobotLoop::LegOutcome() const {
   if (!leg_.has_value()) return std::nullopt;
   if (leg_->motion->done()) return ProgressOutcome::kReached;
-  if (driver_.now_ns() > leg_->deadline_ns) return ProgressOutcome::kAborted;
+  if (IsToldToStop()) return ProgressOutcome::kAborted;
+  // A clock that was set back says nothing of how long the leg has taken.
+  const std::int64_t now_ns = driver_.now_ns();
+  if (now_ns > leg_->deadline_ns || now_ns < leg_->begun_ns) return ProgressOutcome::kAborted;
   // Stuck twice without having come on: what is in the way is not on the way to the goal.
   if (leg_->stuck) return was_stuck_ ? ProgressOutcome::kAborted : ProgressOutcome::kBlocked;
   // Who stands by plan, perhaps for another robot to pass, drives into nothing yet.
@@ -259,6 +256,7 @@ std::optional<ProgressOutcome> RobotLoop::LegOutcome() const {
 absl::Status RobotLoop::EndLeg(ProgressOutcome outcome) {
   report_ = PlanReport{.plan = leg_->plan, .outcome = outcome};
   was_stuck_ = was_stuck_ || leg_->stuck;
+  if (outcome == ProgressOutcome::kAborted && IsToldToStop()) ++result_.invalidated;
   leg_.reset();
   int& count = outcome == ProgressOutcome::kReached   ? result_.reached
                : outcome == ProgressOutcome::kBlocked ? result_.blocked
@@ -311,9 +309,10 @@ absl::Status RobotLoop::AskWhileRunning() {
 PlanCall RobotLoop::NextJob() {
   asked_ns_ = driver_.now_ns();
   asked_pose_ = driver_.pose();
+  asked_homeward_ = notices_.standing().ordered_home;
   PlanCall job{.report = report_, .query = {}};
   job.query.request.robot = options_.participation.robot;
-  job.query.request.start = asked_pose_;
+  job.query.request.start = InMission(options_.participation.frame, asked_pose_);
   job.query.request.max_edge_evaluations = options_.max_edge_evaluations;
   job.query.min_applied_sequence = ingest_->statistics().last_sequence;
   job.query.budget = options_.plan_budget;
@@ -330,8 +329,7 @@ absl::Status RobotLoop::Digest(PlanReply answer) {
                     .plan = plan,
                     .rpc_wall = answer.rpc_wall});
   if (plan.phase == MissionPhase::kComplete) {
-    result_.end = RobotEnd::kMissionComplete;
-    over_ = true;
+    EndRun(RobotEnd::kMissionComplete);
     return absl::OkStatus();
   }
   return Depart(plan);
@@ -345,13 +343,23 @@ absl::Status RobotLoop::Depart(const Plan& plan) {
   const double patience_s = kLegPatience_s + kLegPatienceFactor * plan.trajectory.duration_s;
   leg_ = Leg{
       .plan = plan.id,
-      .motion = StartMotion(options_.following, plan.trajectory, options_.follower, now_ns),
+      .motion =
+          StartMotion(options_.following, InOwnFrame(plan.trajectory), options_.follower, now_ns),
+      .begun_ns = now_ns,
       .deadline_ns = now_ns + ToNanoseconds(patience_s),
       .progressed_ns = now_ns,
       .yaw_rad = driver_.pose().yaw_rad,
-      .patience_ns = ToNanoseconds(std::max(kStuck_s, kStuckShare * plan.trajectory.duration_s))};
+      .patience_ns = ToNanoseconds(std::max(kStuck_s, kStuckShare * plan.trajectory.duration_s)),
+      .homeward = asked_homeward_};
   leg_->left_m = LengthOf_m(leg_->motion->PathAhead(driver_.pose()));
   return absl::OkStatus();
+}
+
+Trajectory RobotLoop::InOwnFrame(Trajectory trajectory) const {
+  for (Waypoint& waypoint : trajectory.waypoints) {
+    waypoint.pose = InRobot(options_.participation.frame, waypoint.pose);
+  }
+  return trajectory;
 }
 
 // Latches: a run that is over stays over.

@@ -10,56 +10,22 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/time/time.h"
-#include "client/blockage.h"
 #include "client/ingest_session.h"
-#include "client/join.h"
 #include "client/motion.h"
+#include "client/notice_reader.h"
 #include "client/plan_call.h"
 #include "client/planner_client.h"
 #include "client/robot_driver.h"
+#include "client/robot_loop_options.h"
 #include "client/robot_observer.h"
+#include "client/running_clock.h"
 #include "client/sensor_bridge.h"
+#include "client/status_reports.h"
 #include "core/types/stop.h"
 
 namespace plumescout::client {
 
-enum class Pacing {
-  // The world waits for acknowledgements and plans, so that a run is repeatable and may be faster
-  // than real time; planning costs plan_latency_s of the robot's time.
-  kLockstep,
-  // The robot goes on while it asks.
-  kFreeRunning,
-};
-
-struct RobotLoopOptions {
-  Participation participation;
-  Pacing pacing = Pacing::kFreeRunning;
-  Following following = Following::kProportional;
-  SensorRates rates;  // no more than one reading of a sensor is taken in a tick
-  GasSampling gas_sampling;
-  FollowerOptions follower;  // its tick_s is set from the one below
-  BlockageOptions blockage;  // its radius is set from the participation
-  IngestOptions ingest;
-  // Of a log that begins here, drawn at random by who runs the loop: in [0, 2^53). 0: the server is
-  // not told which log it is; with a log on disk it has to be.
-  std::int64_t new_log_epoch = 0;
-  double tick_s = 0.1;          // between commands, > 0
-  double look_around_s = 0.5;   // standing before the first plan: a cell takes 3 beams to be free
-  double plan_latency_s = 0.1;  // lockstep only: robot time that a plan costs, >= 0
-  double stand_before_retry_s = 1.0;      // when there was nowhere to go, > 0
-  double time_limit_s = 0.0;              // of the robot's clock; 0: none
-  std::int64_t max_edge_evaluations = 0;  // of each plan; for repeatable runs, see PlanRequest
-  absl::Duration plan_budget = absl::Seconds(1);
-  absl::Duration plan_timeout = absl::Seconds(10);
-  // For joining, and in lockstep for each plan: how long a broken link is put up with.
-  absl::Duration link_patience = absl::Seconds(60);
-  absl::Duration drain_timeout = absl::Seconds(10);  // for the last acknowledgements
-};
-
-// kInvalidArgument naming the field.
-absl::Status Validate(const RobotLoopOptions& options);
-
-enum class RobotEnd { kMissionComplete, kTimeLimit, kStopped };
+enum class RobotEnd { kMissionComplete, kTimeLimit, kStopped, kMissionFinished };
 
 struct RobotResult {
   RobotEnd end = RobotEnd::kStopped;
@@ -68,7 +34,8 @@ struct RobotResult {
   int plans = 0;            // received
   int reached = 0;
   int blocked = 0;
-  int aborted = 0;  // not reached in a multiple of the planned time, or cut short by the end
+  int aborted = 0;      // not reached in a multiple of the planned time, or cut short
+  int invalidated = 0;  // of those: because the service said so
   IngestStatistics ingest;
 };
 
@@ -92,6 +59,7 @@ class RobotLoop {
   struct Leg {
     PlanId plan = 0;
     std::unique_ptr<Motion> motion;
+    std::int64_t begun_ns = 0;
     std::int64_t deadline_ns = 0;  // given up after this
     // When the robot last had come on, and what was left of its path then.
     std::int64_t progressed_ns = 0;
@@ -99,6 +67,7 @@ class RobotLoop {
     double yaw_rad = 0.0;
     std::int64_t patience_ns = 0;  // with no progress
     bool stuck = false;
+    bool homeward = false;  // the robot knew when it asked that it is ordered home
   };
 
   absl::Status OpenLogOnDisk();
@@ -110,7 +79,16 @@ class RobotLoop {
 
   absl::Status Tick(double duration_s);
   absl::Status Stand(double duration_s);
-  bool AwaitApplied(absl::Duration timeout);
+  // Whether all that was sensed so far is applied; what is missing shows in the statistics.
+  bool AwaitApplied(absl::Duration timeout) {
+    return ingest_->WaitApplied(ingest_->statistics().last_sequence, timeout).ok();
+  }
+  void HeedNotices();
+  void EndRun(RobotEnd end) {
+    result_.end = end;
+    over_ = true;
+  }
+  bool IsToldToStop() const { return notices_.TellsToStop(leg_->plan, leg_->homeward); }
   void NoteProgress();
   void NoteProgressOfLeg(const Pose2& pose, std::int64_t now_ns);
   std::optional<ProgressOutcome> LegOutcome() const;
@@ -121,6 +99,7 @@ class RobotLoop {
   PlanCall NextJob();
   absl::Status Digest(PlanReply answer);
   absl::Status Depart(const Plan& plan);
+  Trajectory InOwnFrame(Trajectory trajectory) const;  // from the mission's
 
   bool Over();
   double elapsed_s() const;
@@ -131,8 +110,11 @@ class RobotLoop {
   RobotObserver& observer_;
   StopFn stop_;
 
+  NoticeReader notices_;
   RobotResult result_;
   bool over_ = false;
+  RunningClock clock_;
+  StatusReports status_reports_;
   std::int64_t start_ns_ = 0;
   std::int64_t last_tick_ns_ = 0;
   Point2 last_position_;
@@ -141,6 +123,7 @@ class RobotLoop {
   std::optional<PlanReport> report_;  // not yet told
   std::int64_t asked_ns_ = 0;
   Pose2 asked_pose_;
+  bool asked_homeward_ = false;
 
   OpenedLog opened_log_;
   std::optional<RobotSession> joined_;

@@ -16,6 +16,7 @@
 #include <random>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/time/time.h"
@@ -23,6 +24,7 @@
 #include "client/grpc_planner_client.h"
 #include "client/line_driver.h"
 #include "client/robot_loop.h"
+#include "client/sensor_arguments.h"
 #include "core/types/prior_map.h"
 #include "core/types/status_macros.h"
 #include "formats/map_server.h"
@@ -34,11 +36,13 @@ constexpr char kDescription[] =
     R"(Puts a robot into a mission of a PlumeScout server.
 
 The robot is any program at the other end of standard input and output. It writes one JSON object a
-line, in frame map, metres and radians, with the time of its own clock:
+line, in its own frame, metres and radians, with the time of its own clock:
   {"type":"pose","time_ns":0,"x_m":0,"y_m":0,"yaw_rad":0}
   {"type":"scan","time_ns":0,"start_angle_rad":-3.14,"angle_step_rad":0.0175,"max_range_m":8,
    "ranges_m":[1.5,null,8]}          (null: beam unknown; max_range_m or more: nothing was hit)
   {"type":"gas","time_ns":0,"concentration_ppm":3.2,"stddev_ppm":0.1}       (stddev_ppm: optional)
+  {"type":"correction","time_ns":0,"pose":{..},"anchors":[{"time_ns":0,"x_m":0,"y_m":0,"yaw_rad":0}]}
+                                     (poses of before were wrong; that of this line is right)
 Scans and gas readings may carry "pose":{"x_m":..,"y_m":..,"yaw_rad":..}, the pose at which they were
 taken; otherwise the latest pose counts. Each object is one line. It reads velocities to hold:
   {"type":"twist","forward_mps":0.2,"turn_rad_per_s":-0.1}
@@ -91,6 +95,7 @@ struct Flags {
   RobotLoopOptions loop;
   bool create_mission = false;
   std::string prior_map;  // empty: none
+  std::vector<std::string> gas_sensors;
   double log_sync_period_s = absl::ToDoubleSeconds(LogStoreOptions().sync_period);
 };
 
@@ -108,6 +113,29 @@ void AddCredentials(CLI::App& app, Credentials& credentials) {
       ->envname("PLUMESCOUT_TOKEN_FILE");
 }
 
+void AddOutfit(CLI::App& app, Participation& participation, std::vector<std::string>& gas_sensors) {
+  RobotFrame& frame = participation.frame;
+  app.add_option("--frame-x", frame.mission_from_robot.x_m,
+                 "where the origin of this robot's frame lies in the mission's, metres east")
+      ->capture_default_str();
+  app.add_option("--frame-y", frame.mission_from_robot.y_m, "likewise, metres north")
+      ->capture_default_str();
+  app.add_option("--frame-yaw", frame.mission_from_robot.yaw_rad,
+                 "by how much its frame is turned against the mission's, radians")
+      ->capture_default_str();
+  app.add_option("--frame-position-stddev", frame.position_stddev_m,
+                 "standard deviation of where it lies, metres: others keep so much farther off")
+      ->capture_default_str();
+  app.add_option("--frame-heading-stddev", frame.heading_stddev_rad,
+                 "standard deviation of its heading, radians")
+      ->capture_default_str();
+  app.add_option(
+      "--gas-sensor", gas_sensors,
+      "a gas sensor as ID,AHEAD,LEFT,STDDEV,OFFSET_STDDEV: where it sits, metres, and the "
+      "standard deviations of its noise and its unknown offset, ppm (0: the mission's "
+      "model; calibrated); once for each, in the order in which readings name them");
+}
+
 void AddFlags(CLI::App& app, Flags& flags) {
   Participation& participation = flags.loop.participation;
   app.add_option("--server", flags.client.target, "host:port of the server")->capture_default_str();
@@ -123,6 +151,7 @@ void AddFlags(CLI::App& app, Flags& flags) {
                "supersede another client that writes as this robot");
   app.add_option("--radius", participation.radius_m, "radius of the robot's footprint, metres")
       ->capture_default_str();
+  AddOutfit(app, participation, flags.gas_sensors);
   app.add_option("--max-speed", flags.loop.follower.max_forward_mps,
                  "greatest speed, metres a second; plans may ask for less")
       ->capture_default_str();
@@ -169,7 +198,9 @@ absl::Status RunRobot(Flags flags) {
     PLUMESCOUT_RETURN_IF_ERROR(Validate(mission));
   }
   flags.loop.ingest.store.sync_period = absl::Seconds(flags.log_sync_period_s);
+  PLUMESCOUT_ASSIGN_OR_RETURN(flags.loop.participation.sensors, ReadSensors(flags.gas_sensors));
   flags.loop.new_log_epoch = DrawLogEpoch();
+  flags.loop.real_clock = true;
   LineDriver driver({.on_bad_line = [](const absl::Status& status) {
     Narrator::Say(absl::StrCat("bad line: ", status.message()));
   }});

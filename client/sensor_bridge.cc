@@ -62,11 +62,22 @@ SensorBridge::SensorBridge(RobotDriver& driver, const SensorRates& rates,
 
 absl::Status SensorBridge::Poll(bool standing) {
   const std::int64_t now_ns = driver_.now_ns();
+  PollCorrection();
   if (gas_sampling_.settling_s > 0.0) NoteStanding(standing, now_ns);
   lag_correction_.NotePose(now_ns, driver_.pose());
   if (scan_schedule_.Due(now_ns)) PLUMESCOUT_RETURN_IF_ERROR(PollScan());
   if (gas_schedule_.Due(now_ns)) PLUMESCOUT_RETURN_IF_ERROR(PollGas());
   return absl::OkStatus();
+}
+
+// What was remembered of the way before lies elsewhere now: lags are undone from anew.
+void SensorBridge::PollCorrection() {
+  std::optional<PoseCorrection> correction = driver_.TakeCorrection();
+  if (!correction || correction->anchors.empty()) return;
+  const double time_constant_s =
+      gas_sampling_.settling_s > 0.0 ? 0.0 : gas_sampling_.time_constant_s;
+  lag_correction_ = LagCorrection(time_constant_s);
+  sink_(driver_.now_ns(), driver_.pose(), *std::move(correction));
 }
 
 absl::Status SensorBridge::PollScan() {

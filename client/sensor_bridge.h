@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <variant>
 
 #include "absl/status/status.h"
 #include "client/lag_correction.h"
 #include "client/robot_driver.h"
 #include "core/types/gas_reading.h"
+#include "core/types/observation.h"
 #include "core/types/pose2.h"
 #include "core/types/scan.h"
 
@@ -52,10 +52,11 @@ class SampleSchedule {
 
 // Reads a robot's sensors when they are due and hands every reading, with the pose and the time at
 // which it was taken, to a sink (normally the robot's log). The lag of the gas sensor is undone.
+// Corrections of past poses come before what is sensed after them.
 class SensorBridge {
  public:
   using Sink = std::function<void(std::int64_t sample_time_ns, const Pose2& pose,
-                                  std::variant<Scan, GasReading> payload)>;
+                                  ObservationPayload payload)>;
 
   // Both sensors are due at once. `driver` must outlive the bridge.
   SensorBridge(RobotDriver& driver, const SensorRates& rates, const GasSampling& gas_sampling,
@@ -72,6 +73,7 @@ class SensorBridge {
   std::int64_t readings_missed() const { return readings_missed_; }
 
  private:
+  void PollCorrection();
   absl::Status PollScan();
   absl::Status PollGas();
   void NoteStanding(bool standing, std::int64_t now_ns);

@@ -197,6 +197,11 @@ void ReadMissions(const ServerState& state, Readings& readings) {
   for (std::size_t i = 0; i < hosts.size(); ++i) {
     readings.Add(absl::ToDoubleSeconds(loads[i].unpublished), LabelsOf(*hosts[i]));
   }
+  readings.Gauge("plumescout_mission_worst_clock_offset_seconds",
+                 "The farthest that the clock of one of its robots is off, either way.");
+  for (const auto& host : hosts) {
+    readings.Add(absl::ToDoubleSeconds(host->robot_clocks().WorstOffset()), LabelsOf(*host));
+  }
   readings.Gauge("plumescout_mission_revision", "Events of the mission.");
   for (const auto& host : hosts) readings.Add(host->summary().revision, LabelsOf(*host));
   readings.Gauge("plumescout_mission_robots", "Robots registered in the mission.");

@@ -28,6 +28,7 @@ MapStatus MakeMapStatus(const Belief& belief) {
   map.gas_counters = belief.gas_counters;
   map.gas_quality = belief.gas_quality;
   map.gas_audits = belief.gas_audits;
+  map.sensor_offsets = belief.sensor_offsets;
   map.phase = belief.phase;
   for (const auto& [id, record] : belief.robots) map.robots.push_back(record.state);
 

@@ -64,7 +64,19 @@ struct RobotRecord {
   std::shared_ptr<const Trajectory> live_trajectory;
   std::optional<Goal> live_goal;     // where that ends
   std::int64_t live_arrival_ns = 0;  // when it is there by plan, in sample time
+  bool battery_low = false;          // since it fell below return_home_below_battery_share
+  std::int64_t heard_ns = 0;         // sample time when it was last heard of; 0: never
+  PlanId assigned_plan = 0;  // the live one, if others ordered it for the robot; 0: it did itself
+  // Where it would go if others were not in the way: of a latest plan that has it stay or make way
+  // the first goal that was rejected as kTraffic.
+  std::optional<Goal> wanted_goal;
+  std::int64_t wanted_since_ns = 0;  // since when one or another such goal, in sample time
 };
+
+// Whether home is where it drives, whatever it asks for.
+inline bool IsSentHome(const RobotRecord& record) {
+  return record.state.ordered_home || record.battery_low;
+}
 
 // Immutable snapshot of a mission that readers plan on and look at. Rasters are shared between
 // snapshots while they do not change. All rasters have the geometry of `occupancy`.
@@ -83,6 +95,7 @@ struct Belief {
   GasCounters gas_counters;
   GasQuality gas_quality;
   GasAudits gas_audits;
+  std::vector<SensorOffset> sensor_offsets;
 
   std::map<RobotId, RobotRecord> robots;
   std::vector<GoalClaim> claims;

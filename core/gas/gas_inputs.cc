@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "core/types/status_macros.h"
 
@@ -18,9 +19,14 @@ void SortOnce(std::vector<GasCell>& cells) {
 }  // namespace
 
 GasInputs::GasInputs(const GasOptions& options, double resolution_m)
+    : GasInputs(options, ReadingStore(options, resolution_m),
+                SensorOffsets(options, resolution_m)) {}
+
+GasInputs::GasInputs(const GasOptions& options, ReadingStore readings, SensorOffsets sensors)
     : factor_(options.lattice_factor),
       ages_(Ageing(options).enabled()),
-      readings_(options, resolution_m) {}
+      readings_(std::move(readings)),
+      sensors_(std::move(sensors)) {}
 
 bool GasInputs::HasRoomFor(Point2 position) const {
   if (readings_.HasRoomFor(position)) return true;
@@ -44,6 +50,7 @@ absl::StatusOr<std::vector<GasCell>> GasInputs::Update(const Grid<CellState>& st
                                                        std::int64_t time_ns) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<std::size_t> freed, states_.Update(states));
   PLUMESCOUT_RETURN_IF_ERROR(readings_.Place(states_.states(), freed));
+  PLUMESCOUT_RETURN_IF_ERROR(sensors_.Place(states_.states(), freed));
   std::vector<GasCell> changed = GasCellsOf(readings_.TakeChanged());
   readings_.AgeStale(time_ns);
   for (const GasCell cell : GasCellsOf(readings_.TakeChanged())) changed.push_back(cell);

@@ -13,6 +13,7 @@
 #include "core/gas/field/cell_input.h"
 #include "core/gas/gas_lattice.h"
 #include "core/gas/reading_store.h"
+#include "core/gas/sensor_offsets.h"
 #include "core/types/options.h"
 
 namespace plumescout {
@@ -23,10 +24,19 @@ class GasInputs {
  public:
   // `resolution_m`: as of ReadingStore.
   explicit GasInputs(const GasOptions& options, double resolution_m = 0.0);
+  // With readings that are not placed yet.
+  GasInputs(const GasOptions& options, ReadingStore readings, SensorOffsets sensors);
 
   void Add(std::int64_t time_ns, Point2 position, const GasReading& reading) {
     readings_.Add(time_ns, position, reading);
   }
+  // The same of a sensor in a mission in which some have unknown offsets.
+  void AddFrom(const ReadingSource& source, std::int64_t time_ns, Point2 position,
+               const GasReading& reading) {
+    Add(time_ns, position, reading);
+    sensors_.Add(source, time_ns, position, reading, readings_.anchor());
+  }
+  const SensorOffsets& sensors() const { return sensors_; }
   const GasCounters& counters() const { return readings_.counters(); }
   const ReadingStore& readings() const { return readings_; }
   // Whether a reading there has a free cell, or may wait for one; see ReadingStore::HasRoomFor.
@@ -72,6 +82,7 @@ class GasInputs {
   int factor_;
   bool ages_;
   ReadingStore readings_;
+  SensorOffsets sensors_;
   AnchoredStates states_;
   GasCellBox box_;
 };

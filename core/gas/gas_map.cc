@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -52,9 +53,31 @@ void GasMap::Add(std::int64_t time_ns, Point2 position, const GasReading& readin
   stale_ = true;
 }
 
+void GasMap::ReplaceReadings(ReadingStore readings, SensorOffsets sensors) {
+  epoch_.reset();
+  engine_.reset();
+  origin_.reset();
+  options_.lattice_factor = inputs_.factor();
+  inputs_ = GasInputs(options_, std::move(readings), std::move(sensors));
+  lattice_ = {};
+  active_cells_ = 0;
+  schedule_ = {};
+  has_failed_ = false;
+  stale_ = true;
+  replaced_ = true;
+  published_ = false;
+}
+
+void GasMap::AddFrom(const ReadingSource& source, std::int64_t time_ns, Point2 position,
+                     const GasReading& reading) {
+  inputs_.AddFrom(source, time_ns, position, reading);
+  stale_ = true;
+}
+
 absl::Status GasMap::Refresh(const Grid<CellState>& states, std::int64_t time_ns) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<GasCell> changed, inputs_.Update(states, time_ns));
   stale_ = false;
+  replaced_ = false;
   ++quality_.refreshes;
   if (inputs_.box().empty()) {
     published_ = false;
@@ -262,14 +285,53 @@ void GasMap::Publish() const {
   variance_ppm2_ = mean_ppm_;
   what_if_ = nullptr;
   published_ = true;
+  sensor_offsets_ = inputs_.sensors().Known();
   if (engine_ == nullptr || has_failed_) return;
+  OffsetEstimate beside;
+  if (inputs_.sensors().HasColumns()) beside = EstimateSensors();
+  const bool is_beside = !beside.mean_ppm.empty();
   for (std::size_t i = 0; i < known.states().size(); ++i) {
     if (known.states()[i] != CellState::kFree) continue;
     const std::size_t index = lattice_.Index(GasCellOf(known.At(i), inputs_.factor()));
-    mean_ppm_[i] = static_cast<float>(options_.background_mean_ppm + engine_->mean_ppm(index));
-    variance_ppm2_[i] = static_cast<float>(engine_->variance_ppm2(index));
+    double mean_ppm = engine_->mean_ppm(index);
+    double variance_ppm2 = engine_->variance_ppm2(index);
+    if (is_beside) {
+      mean_ppm += beside.mean_ppm[index];
+      variance_ppm2 += beside.variance_ppm2[index];
+    }
+    mean_ppm_[i] = static_cast<float>(options_.background_mean_ppm + mean_ppm);
+    variance_ppm2_[i] = static_cast<float>(variance_ppm2);
   }
-  what_if_ = std::make_shared<const GasWhatIf>(engine_->Snapshot(), lattice_, inputs_);
+  what_if_ = std::make_shared<const GasWhatIf>(engine_->Snapshot(), lattice_, inputs_,
+                                               std::move(beside.variance_ppm2));
+}
+
+// Fills in sensor_offsets_.
+OffsetEstimate GasMap::EstimateSensors() const {
+  const std::vector<SensorOffsets::Column> sensors = inputs_.sensors().Columns();
+  std::vector<OffsetColumn> columns;
+  for (const SensorOffsets::Column& sensor : sensors) {
+    std::map<std::size_t, Evidence> by_cell;
+    for (const CellEvidence& e : sensor.cells) {
+      by_cell[lattice_.Index(GasCellOf(e.cell, inputs_.factor()))] += e.evidence;
+    }
+    OffsetColumn& column = columns.emplace_back();
+    column.prior_precision_per_ppm2 = sensor.prior_precision_per_ppm2;
+    for (const auto& [cell, evidence] : by_cell) column.cells.push_back({cell, evidence});
+  }
+  OffsetEstimate estimate = EstimateOffsets(*engine_, columns);
+  for (std::size_t k = 0; k < sensors.size(); ++k) {
+    SensorOffset& known = sensor_offsets_[sensors[k].sensor];
+    known.offset_ppm = estimate.offset_ppm[k];
+    known.stddev_ppm = estimate.stddev_ppm[k];
+    known.estimated = true;
+  }
+  return estimate;
+}
+
+const std::vector<SensorOffset>& GasMap::sensor_offsets() const {
+  Publish();
+  return sensor_offsets_;
 }
 
 const Grid<float>& GasMap::mean_ppm() const {

@@ -20,6 +20,7 @@
 #include "core/gas/gas_inputs.h"
 #include "core/gas/gas_lattice.h"
 #include "core/gas/gas_what_if.h"
+#include "core/gas/offset_estimate.h"
 #include "core/types/cell_state.h"
 #include "core/types/gas_reading.h"
 #include "core/types/grid.h"
@@ -72,8 +73,20 @@ class GasMap {
 
   // A reading that is not finite, or beyond 1e9 ppm, is counted and waits for ever.
   void Add(std::int64_t time_ns, Point2 position, const GasReading& reading);
+  // The same of a sensor in a mission in which some have unknown offsets. From the refresh after it
+  // has met others often enough its offset is estimated, and what readers see is the field with
+  // that as a further unknown. REQUIRES: options without ageing.
+  void AddFrom(const ReadingSource& source, std::int64_t time_ns, Point2 position,
+               const GasReading& reading);
   // Whether it has a free cell, or may wait for one; see ReadingStore::HasRoomFor.
   bool HasRoomFor(Point2 position) const { return inputs_.HasRoomFor(position); }
+
+  // From now on these are all readings, none of them placed yet (see ReadingStore::Unplaced); there
+  // is no field until the next refresh, which makes it anew. An epoch that is under way comes to
+  // nothing.
+  // `sensors`: those of them that are known to be of certain sensors, see AddFrom.
+  void ReplaceReadings(ReadingStore readings, SensorOffsets sensors);
+  bool replaced() const { return replaced_; }  // and not refreshed since
 
   // Brings the posterior to `states` and all readings so far. Their precisions are those of the
   // last epoch; where that is too long before `time_ns` for how precise they are, cells are aged
@@ -93,6 +106,10 @@ class GasMap {
   // Cost: one number per cell, one pointer per node of the factor, at the first call after a
   // change.
   std::shared_ptr<const GasWhatIf> what_if() const;
+
+  // Of the sensors whose offset was not known. Cost: that of mean_ppm().
+  const std::vector<SensorOffset>& sensor_offsets() const;
+  const SensorOffsets& sensors() const { return inputs_.sensors(); }
 
   const GasCounters& counters() const { return inputs_.counters(); }
   const GasQuality& quality() const { return quality_; }
@@ -146,6 +163,7 @@ class GasMap {
   bool has_field() const { return engine_ != nullptr && !has_failed_; }
   absl::Status Conclude(const absl::Status& computed, std::int64_t time_ns);
   void Publish() const;
+  OffsetEstimate EstimateSensors() const;
 
   GasOptions options_;
   FieldOptions field_options_;
@@ -161,12 +179,14 @@ class GasMap {
   bool has_failed_ = false;   // the engine holds no field that may be seen
   bool abandoned_ = false;    // and the rest is not what events tell
   bool stale_ = false;
+  bool replaced_ = false;
   GasQuality quality_;
 
   // What readers see; made when they look.
   mutable Grid<float> mean_ppm_;
   mutable Grid<float> variance_ppm2_;
   mutable std::shared_ptr<const GasWhatIf> what_if_;
+  mutable std::vector<SensorOffset> sensor_offsets_;
   mutable bool published_ = true;
 };
 

@@ -77,6 +77,44 @@ void EpochSchedule::VisitState(Archive& archive, Self& self) {
   archive(self.activity_changes_, self.active_cells_, self.refreshes_);
 }
 
+inline void Visit(auto& archive, ConstOr<ReadingSource> auto& source) {
+  auto& [robot, sensor, offset_stddev_ppm] = source;
+  archive(robot, sensor, offset_stddev_ppm);
+}
+
+template <typename Archive, typename Self>
+void SensorCrossings::Recent::VisitState(Archive& archive, Self& self) {
+  auto& [time_ns, position, concentration_ppm] = self;
+  archive(time_ns, position, concentration_ppm);
+}
+
+template <typename Archive, typename Self>
+void SensorCrossings::Pair::VisitState(Archive& archive, Self& self) {
+  auto& [crossings, latest_ppm, mean_ppm, squares_ppm2] = self;
+  archive(crossings, latest_ppm, mean_ppm, squares_ppm2);
+}
+
+template <typename Archive, typename Self>
+void SensorCrossings::VisitState(Archive& archive, Self& self) {
+  archive(self.recent_, self.pairs_);
+}
+
+template <typename Archive, typename Self>
+void SensorOffsets::VisitState(Archive& archive, Self& self) {
+  auto count = static_cast<std::uint32_t>(self.sensors_.size());
+  archive(count);
+  if constexpr (Archive::kReads) self.sensors_.clear();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if constexpr (Archive::kReads) {
+      if (!archive.ok()) return;
+      self.sensors_.push_back({{}, ReadingStore(self.options_, self.resolution_m_)});
+    }
+    auto& [source, readings] = self.sensors_[i];
+    archive(source, readings);
+  }
+  archive(self.crossings_);
+}
+
 template <typename Archive, typename Self>
 void GasInputs::VisitState(Archive& archive, Self& self) {
   archive(self.factor_, self.states_, self.box_, self.readings_);
@@ -90,6 +128,11 @@ void GasInputs::VisitState(Archive& archive, Self& self) {
                     "free cells lie beyond those of the gas field");
     archive.Require(self.readings_.PlaceAgain(self.states_), "readings lie where none were");
   }
+  archive.Since(2, self.sensors_);
+  if constexpr (Archive::kReads) {
+    archive.Require(archive.ok() && self.sensors_.PlaceAgain(self.states_),
+                    "readings of a sensor lie where none were");
+  }
 }
 
 // The field itself is hashed, but not written: with its origin it can be made again.
@@ -97,6 +140,7 @@ template <typename Archive, typename Self>
 void GasMap::VisitState(Archive& archive, Self& self) {
   archive(self.inputs_, self.schedule_, self.lattice_, self.active_cells_, self.time_ns_,
           self.has_failed_, self.stale_, self.quality_);
+  archive.Since(2, self.replaced_);
   if constexpr (Archive::kHashes) {
     archive(self.epoch_ != nullptr);
     if (self.epoch_ != nullptr) archive(self.epoch_->time_ns(), self.epoch_->lattice());

@@ -55,9 +55,10 @@ Grid<float> GasWhatIf::OnMap(const std::vector<double>& by_lattice_cell) const {
   const Grid<CellState>& states = states_.states();
   Grid<float> result(geometry(), std::numeric_limits<float>::quiet_NaN());
   for (std::size_t i = 0; i < result.size(); ++i) {
-    if (states[i] == CellState::kFree) {
-      result[i] = static_cast<float>(by_lattice_cell[FieldIndex(i)]);
-    }
+    if (states[i] != CellState::kFree) continue;
+    const std::size_t index = FieldIndex(i);
+    const double beside_ppm2 = beside_ppm2_.empty() ? 0.0 : beside_ppm2_[index];
+    result[i] = static_cast<float>(by_lattice_cell[index] + beside_ppm2);
   }
   return result;
 }

@@ -68,6 +68,34 @@ void ReadingStore::Anchor(const GridGeometry& first) {
   anchor_ = first;
 }
 
+ReadingStore ReadingStore::Unplaced() const {
+  ReadingStore store = *this;
+  store.anchor_ = {};
+  store.extent_ = {};
+  store.sites_.clear();
+  store.merged_arrivals_.clear();
+  store.waiting_sites_ = 0;
+  store.buckets_ = 0;
+  store.cells_.clear();
+  store.changed_.clear();
+  store.watch_ = {};
+  store.aged_to_ns_ = 0;
+  store.counters_ = {};
+  store.counters_.readings = store.counters_.waiting = counters_.readings;
+  Cell corner;
+  if (anchor_.size() > 0) corner = store.Lattice().CellAt(anchor_.Center({0, 0}));
+  for (const Sites* sites : {&sites_, &merged_arrivals_}) {
+    for (const auto& [key, site] : *sites) {
+      const AnchorCell cell{key.cell.x + corner.x, key.cell.y + corner.y};
+      Site& merged = store.merged_arrivals_[ReadingSite{cell, key.neighbour_order}];
+      merged.count += site.count;
+      merged.sums += site.sums;
+      merged.buckets.insert(merged.buckets.end(), site.buckets.begin(), site.buckets.end());
+    }
+  }
+  return store;
+}
+
 void ReadingStore::MergeArrivals() {
   const GridGeometry lattice = Lattice();
   if (lattice.resolution_m == 0.0) return;

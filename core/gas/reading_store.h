@@ -99,6 +99,10 @@ class ReadingStore {
   // as changed. Without ageing nothing happens. Cost: O(buckets log buckets).
   void Compact(std::int64_t now_ns);
 
+  // The same readings, to be placed on another map as if none had been placed. REQUIRES: a
+  // resolution. Cost: O(sites).
+  ReadingStore Unplaced() const;
+
   const GridGeometry& anchor() const { return anchor_; }     // no cells: none yet
   const GasCounters& counters() const { return counters_; }  // current at any time
   std::size_t sites() const { return sites_.size(); }

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/mission/plan_goals.h"
+#include "core/mission/sensor_check.h"
 #include "core/types/checker.h"
 #include "core/types/error_reason.h"
 #include "core/types/status_macros.h"
@@ -30,29 +32,27 @@ absl::Status UnknownRobot(const RobotId& robot) {
   return absl::NotFoundError(absl::StrCat("robot \"", robot, "\" is not registered"));
 }
 
-std::optional<Goal> ChosenGoal(const Plan& plan) {
-  if (plan.chosen < 0 || plan.chosen >= static_cast<int>(plan.candidates.size())) {
-    return std::nullopt;
+void Want(const std::optional<Goal>& goal, std::int64_t now_ns, RobotRecord& record) {
+  if (!goal) {
+    record.wanted_since_ns = 0;
+  } else if (!record.wanted_goal) {
+    record.wanted_since_ns = now_ns;
   }
-  return plan.candidates[static_cast<std::size_t>(plan.chosen)].goal;
-}
-
-// The goal that others must not be sent to meanwhile. There is room for all at home.
-std::optional<Goal> GoalToClaim(const Plan& plan) {
-  const std::optional<Goal> goal = ChosenGoal(plan);
-  return goal && goal->kind != GoalKind::kHome ? goal : std::nullopt;
+  record.wanted_goal = goal;
 }
 
 }  // namespace
 
-Fleet::Fleet(double robot_silence_s) : silence_ns_(Nanoseconds(robot_silence_s)) {}
+Fleet::Fleet(double robot_silence_s, double low_battery_share)
+    : silence_ns_(Nanoseconds(robot_silence_s)), low_battery_share_(low_battery_share) {}
 
 const Fleet::Member* Fleet::Find(const RobotId& robot) const {
   const auto found = robots_.find(robot);
   return found == robots_.end() || found->second.removed ? nullptr : &found->second;
 }
 
-absl::Status Fleet::Register(const RobotRegistered& registration, int max_robot_count) {
+absl::Status Fleet::Register(const RobotRegistered& registration, int max_robot_count,
+                             double pose_limit_m) {
   PLUMESCOUT_RETURN_IF_ERROR(ValidateId("robot", registration.robot));
   PLUMESCOUT_RETURN_IF_ERROR(
       Checker().InRangeAbove("radius_m", registration.radius_m, 0.0, kMaxRadius_m).status());
@@ -60,6 +60,8 @@ absl::Status Fleet::Register(const RobotRegistered& registration, int max_robot_
     return absl::InvalidArgumentError(absl::StrCat("log_epoch = ", registration.log_epoch,
                                                    " must be in [0, ", kLogEpochEnd, ")"));
   }
+  PLUMESCOUT_RETURN_IF_ERROR(Validate(registration.frame, pose_limit_m));
+  PLUMESCOUT_RETURN_IF_ERROR(CheckSensors(registration.sensors));
   const auto found = robots_.find(registration.robot);
   const auto present = std::count_if(robots_.begin(), robots_.end(),
                                      [](const auto& entry) { return !entry.second.removed; });
@@ -75,10 +77,25 @@ absl::Status Fleet::Register(const RobotRegistered& registration, int max_robot_
   Member& member = robots_[registration.robot];
   member.record.state.id = registration.robot;
   member.record.state.radius_m = registration.radius_m;
+  member.record.state.frame = registration.frame;
+  member.sensors = registration.sensors;
+  for (const GasSensor& sensor : member.sensors) {
+    has_offsets_ = has_offsets_ || sensor.offset_stddev_ppm > 0.0;
+  }
   member.lease_token = registration.lease_token;
   if (registration.log_epoch != 0) member.log_epoch = registration.log_epoch;
   member.removed = false;
   return absl::OkStatus();
+}
+
+absl::StatusOr<GasSensor> Fleet::SensorOf(const RobotId& robot, int sensor) const {
+  const std::vector<GasSensor>& sensors = robots_.at(robot).sensors;
+  const int count = std::max(1, static_cast<int>(sensors.size()));
+  if (sensor < 0 || sensor >= count) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("gas.sensor = ", sensor, " must be in [0, ", count, ")"));
+  }
+  return sensors.empty() ? GasSensor() : sensors[static_cast<std::size_t>(sensor)];
 }
 
 absl::Status Fleet::Remove(const RobotId& robot) {
@@ -89,7 +106,11 @@ absl::Status Fleet::Remove(const RobotId& robot) {
   member->last_phase.reset();
   member->record.state.has_pose = false;
   member->record.state.silent = false;
+  member->record.state.battery_share.reset();
+  member->record.state.ordered_home = false;
+  member->record.battery_low = false;
   EndPlan(*member);
+  Want(std::nullopt, 0, member->record);
   CompleteIfAllAre();
   return absl::OkStatus();
 }
@@ -112,6 +133,7 @@ void Fleet::Hear(const RobotId& robot, std::int64_t now_ns) {
 void Fleet::FallSilent(Member& member) {
   member.record.state.silent = true;
   EndPlan(member);
+  Want(std::nullopt, 0, member.record);
   if (member.last_phase != MissionPhase::kComplete) member.last_phase.reset();
   CompleteIfAllAre();
 }
@@ -121,6 +143,7 @@ void Fleet::EndPlan(Member& member) {
   member.record.live_trajectory = nullptr;
   member.record.live_goal.reset();
   member.record.live_arrival_ns = 0;
+  member.record.assigned_plan = 0;
 }
 
 absl::Status Fleet::CheckSequence(const RobotId& robot, const Observation& observation) const {
@@ -150,19 +173,28 @@ absl::Status Fleet::CheckSequence(const RobotId& robot, const Observation& obser
   return absl::OkStatus();
 }
 
+Pose2 Fleet::InMission(const RobotId& robot, const Pose2& pose) const {
+  return plumescout::InMission(robots_.at(robot).record.state.frame, pose);
+}
+
 void Fleet::Advance(const RobotId& robot, const Observation& observation, bool refused) {
   Member& member = robots_.at(robot);
   RobotState& state = member.record.state;
   state.applied_sequence = LastSequence(observation);
   if (refused) {
     ++state.rejected_observations;
+  } else if (const auto* status = std::get_if<RobotStatus>(&observation.payload)) {
+    TakeStatus(*status, member);
   } else if (!std::holds_alternative<SequenceGap>(observation.payload)) {
-    state.pose = observation.pose;
-    state.pose.yaw_rad = WrapAngle_rad(observation.pose.yaw_rad);
+    state.pose = plumescout::InMission(state.frame, observation.pose);
+    state.pose.yaw_rad = WrapAngle_rad(state.pose.yaw_rad);
     state.has_pose = true;
-    member.odometer.Pass(observation.pose.position());
+    if (std::holds_alternative<PoseCorrection>(observation.payload)) {
+      member.odometer.GoOnFrom(state.pose.position());
+    }
+    member.odometer.Pass(state.pose.position());
     member.record.travelled_m = member.odometer.travelled_m();
-    if (!member.record.first_place) member.record.first_place = observation.pose.position();
+    if (!member.record.first_place) member.record.first_place = state.pose.position();
   }
 }
 
@@ -175,7 +207,7 @@ std::optional<GoalClaim> Fleet::FindClaim(const Plan& plan, std::int64_t now_ns)
   return std::nullopt;
 }
 
-absl::StatusOr<PlanId> Fleet::Issue(const Plan& plan, std::int64_t now_ns) {
+absl::StatusOr<PlanId> Fleet::Issue(const Plan& plan, std::int64_t now_ns, bool assigned) {
   Member* const planner = Find(plan.robot);
   if (planner == nullptr) return UnknownRobot(plan.robot);
   if (plan.chosen < -1 || plan.chosen >= static_cast<int>(plan.candidates.size())) {
@@ -185,6 +217,7 @@ absl::StatusOr<PlanId> Fleet::Issue(const Plan& plan, std::int64_t now_ns) {
   LivePlan live{next_plan_, plan.phase, GoalToClaim(plan),
                 now_ns + Nanoseconds(plan.trajectory.duration_s * kClaimSlack + kClaimGrace_s),
                 std::nullopt};
+  live.handed_back = IsSentHome(planner->record);
   if (SamplesSites(plan)) live.map_update_ns = now_ns + Nanoseconds(plan.trajectory.duration_s);
   if (live.goal) {
     for (const GoalClaim& claim : Claims(now_ns)) {
@@ -194,7 +227,7 @@ absl::StatusOr<PlanId> Fleet::Issue(const Plan& plan, std::int64_t now_ns) {
       }
     }
   }
-  Hear(plan.robot, now_ns);
+  if (!assigned) Hear(plan.robot, now_ns);
   Member& member = *planner;
   ++next_plan_;
   ++member.record.plans_issued;
@@ -202,9 +235,12 @@ absl::StatusOr<PlanId> Fleet::Issue(const Plan& plan, std::int64_t now_ns) {
   if (plan.phase == MissionPhase::kExploring || plan.phase == MissionPhase::kGasProbing) {
     member.record.fruitless_fallbacks = 0;
   }
-  // Who is sent home when all is done takes nothing up again.
-  const bool stays_complete =
-      plan.phase == MissionPhase::kReturning && member.last_phase == MissionPhase::kComplete;
+  // Who is sent home when all is done, or makes way, takes nothing up again.
+  const bool all_done = IsSentHome(member.record) ? phase_ == MissionPhase::kComplete
+                                                  : member.last_phase == MissionPhase::kComplete;
+  const std::optional<Goal> chosen = ChosenGoal(plan);
+  const bool stays_complete = (plan.phase == MissionPhase::kReturning && all_done) ||
+                              (MakesWay(chosen) && member.last_phase == MissionPhase::kComplete);
   if (!stays_complete) {
     member.last_phase = plan.phase;
     UpdatePhase(plan.phase);
@@ -212,8 +248,10 @@ absl::StatusOr<PlanId> Fleet::Issue(const Plan& plan, std::int64_t now_ns) {
   member.live = std::move(live);
   member.record.live_trajectory =
       plan.chosen < 0 ? nullptr : std::make_shared<const Trajectory>(plan.trajectory);
-  member.record.live_goal = ChosenGoal(plan);
+  member.record.live_goal = chosen;
   member.record.live_arrival_ns = now_ns + Nanoseconds(plan.trajectory.duration_s);
+  member.record.assigned_plan = assigned ? member.record.last_plan : 0;
+  Want(WantedGoal(plan), now_ns, member.record);
   return member.record.last_plan;
 }
 
@@ -233,9 +271,11 @@ absl::StatusOr<EndedPlan> Fleet::Report(const ProgressReported& report) {
     return absl::AlreadyExistsError(absl::StrCat("plan ", report.plan_id, " has ended already"));
   }
   const LivePlan live = *member.live;
+  // A place that was not reached says nothing of what can be seen from there, and who made way did
+  // not look.
+  const bool reached =
+      report.outcome == ProgressOutcome::kReached && !MakesWay(member.record.live_goal);
   EndPlan(member);
-  // A place that was not reached says nothing of what can be seen from there.
-  const bool reached = report.outcome == ProgressOutcome::kReached;
   if (live.phase == MissionPhase::kFallback && reached) ++member.record.fruitless_fallbacks;
   return EndedPlan{live.goal, OthersNear(member)};
 }
@@ -260,11 +300,11 @@ void Fleet::UpdatePhase(MissionPhase latest) {
 }
 
 // The mission is complete when every robot that ever planned, and has neither left nor fallen
-// silent since, was told so last.
+// silent nor been sent home since, was told so last.
 void Fleet::CompleteIfAllAre() {
   bool any = false;
   for (const auto& [id, member] : robots_) {
-    if (!member.last_phase) continue;
+    if (!member.last_phase || IsSentHome(member.record)) continue;
     if (*member.last_phase != MissionPhase::kComplete) return;
     any = true;
   }
@@ -303,9 +343,19 @@ std::vector<MaskDisc> Fleet::MasksFor(const RobotId& observer) const {
 std::map<RobotId, RobotRecord> Fleet::Records() const {
   std::map<RobotId, RobotRecord> records;
   for (const auto& [id, member] : robots_) {
-    if (!member.removed) records[id] = member.record;
+    if (member.removed) continue;
+    RobotRecord& record = records[id] = member.record;
+    record.heard_ns = member.heard_ns.value_or(0);
   }
   return records;
+}
+
+std::vector<RobotId> Fleet::Ids() const {
+  std::vector<RobotId> ids;
+  for (const auto& [id, member] : robots_) {
+    if (!member.removed) ids.push_back(id);
+  }
+  return ids;
 }
 
 std::optional<std::int64_t> Fleet::NextMapUpdate_ns(std::int64_t now_ns) const {
@@ -322,6 +372,7 @@ std::vector<GoalClaim> Fleet::Claims(std::int64_t now_ns) const {
   std::vector<GoalClaim> claims;
   for (const auto& [id, member] : robots_) {
     if (!member.live || !member.live->goal || member.live->expires_ns <= now_ns) continue;
+    if (member.live->handed_back) continue;
     claims.push_back({id, member.live->id, *member.live->goal, member.live->expires_ns});
   }
   return claims;

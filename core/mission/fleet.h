@@ -33,24 +33,45 @@ struct EndedPlan {
 // no more when it is heard of again; its plan has ended then.
 class Fleet {
  public:
-  explicit Fleet(double robot_silence_s = MissionOptions().robot_silence_s);
+  // `low_battery_share`: see MissionOptions::return_home_below_battery_share.
+  explicit Fleet(double robot_silence_s = MissionOptions().robot_silence_s,
+                 double low_battery_share = MissionOptions().return_home_below_battery_share);
 
-  absl::Status Register(const RobotRegistered& registration, int max_robot_count);
+  // `pose_limit_m`: of the place of its frame.
+  absl::Status Register(const RobotRegistered& registration, int max_robot_count,
+                        double pose_limit_m = MissionOptions().pose_limit_m);
 
   // The robot leaves: it is unknown until it registers again, and then goes on with its log.
   absl::Status Remove(const RobotId& robot);
+
+  // From its frame to frame map. REQUIRES: Knows(robot).
+  Pose2 InMission(const RobotId& robot, const Pose2& pose) const;
+  // REQUIRES: Knows(robot).
+  const RobotState& StateOf(const RobotId& robot) const { return robots_.at(robot).record.state; }
+  void Suspect(const RobotId& robot, bool suspect) {
+    robots_.at(robot).record.state.frame_suspect = suspect;
+  }
+
+  // How far the mission's time is ahead of the robot's clock from now on; kInvalidArgument beyond
+  // kMaxClockOffset_ns.
+  absl::Status NoteClock(const ClockOffsetNoted& noted);
+  // A robot that is sent home claims no goal, and no mission waits for it to be complete. Its live
+  // plan stays until it reports or has another: it drives there still.
+  absl::Status OrderHome(const HomeOrdered& order);
 
   // The robot was heard of at the latest sample time; who was not for too long falls silent.
   void Hear(const RobotId& robot, std::int64_t now_ns);
 
   // Checks that the observation is the next of the robot's log; see Mission::Apply for the errors.
   absl::Status CheckSequence(const RobotId& robot, const Observation& observation) const;
-  // Moves the robot's log past the observation. REQUIRES: CheckSequence was OK.
+  // Moves the robot's log past the observation, whose pose is in the robot's frame. REQUIRES:
+  // CheckSequence was OK.
   void Advance(const RobotId& robot, const Observation& observation, bool refused);
 
   // Gives the plan its number and makes it the robot's live plan. kAborted if another robot's live
   // plan claims the goal.
-  absl::StatusOr<PlanId> Issue(const Plan& plan, std::int64_t now_ns);
+  // `assigned`: others ordered it.
+  absl::StatusOr<PlanId> Issue(const Plan& plan, std::int64_t now_ns, bool assigned = false);
   // The live plan of another robot that ends where this one does, whatever for (IsSameErrand).
   std::optional<GoalClaim> FindClaim(const Plan& plan, std::int64_t now_ns) const;
   // Ends the robot's live plan.
@@ -61,7 +82,13 @@ class Fleet {
   // Whether the robot's numbers up to the applied one are of the log of that epoch; see
   // RobotRegistered::log_epoch. So is an empty log, and one of which either side does not say.
   bool LogContinues(const RobotId& robot, std::int64_t log_epoch) const;
+  // As it registered; kInvalidArgument naming the field if the robot has no such sensor. REQUIRES:
+  // the robot is known.
+  absl::StatusOr<GasSensor> SensorOf(const RobotId& robot, int sensor) const;
+  // Whether any robot ever registered a sensor whose offset is not known.
+  bool has_offsets() const { return has_offsets_; }
   bool Knows(const RobotId& robot) const { return Find(robot) != nullptr; }
+  std::vector<RobotId> Ids() const;
 
   // Discs around the latest poses of all robots but `observer` and the silent, in which beams must
   // not end.
@@ -85,6 +112,7 @@ class Fleet {
     std::optional<Goal> goal;  // none: the robot stays where it is, or drives home
     std::int64_t expires_ns = 0;
     std::optional<std::int64_t> map_update_ns;  // of plans that sample sites
+    bool handed_back = false;                   // the goal is free for others
 
     template <typename Archive, typename Self>
     static void VisitState(Archive& archive, Self& self);
@@ -97,7 +125,8 @@ class Fleet {
     std::optional<MissionPhase> last_phase;
     std::optional<LivePlan> live;
     std::optional<std::int64_t> heard_ns;  // none: no time has passed since it registered
-    bool removed = false;                  // only its log and its lease are remembered
+    std::vector<GasSensor> sensors;
+    bool removed = false;  // only its log and its lease are remembered
 
     template <typename Archive, typename Self>
     static void VisitState(Archive& archive, Self& self);
@@ -108,14 +137,18 @@ class Fleet {
     return const_cast<Member*>(std::as_const(*this).Find(robot));
   }
   static void EndPlan(Member& member);
+  void HandBackClaim(Member& member);
+  void TakeStatus(const RobotStatus& status, Member& member);
   bool OthersNear(const Member& member) const;
   void FallSilent(Member& member);
   void UpdatePhase(MissionPhase latest);
   void CompleteIfAllAre();
 
   std::int64_t silence_ns_;
+  double low_battery_share_;
   std::map<RobotId, Member> robots_;
   PlanId next_plan_ = 1;
+  bool has_offsets_ = false;
   MissionPhase phase_ = MissionPhase::kExploring;
 };
 

@@ -10,26 +10,33 @@ namespace plumescout {
 
 void Visit(auto& archive, ConstOr<RobotRecord> auto& record) {
   auto& [state, plans_issued, fruitless_fallbacks, first_place, travelled_m, last_plan,
-         live_trajectory, live_goal, live_arrival_ns] = record;
+         live_trajectory, live_goal, live_arrival_ns, battery_low, heard_ns, assigned_plan,
+         wanted_goal, wanted_since_ns] = record;
   archive(state, plans_issued, fruitless_fallbacks, first_place, travelled_m, last_plan,
           live_trajectory, live_goal, live_arrival_ns);
+  // heard_ns is of the fleet
+  archive.Since(2, battery_low, assigned_plan, wanted_goal, wanted_since_ns);
 }
 
 template <typename Archive, typename Self>
 void Fleet::LivePlan::VisitState(Archive& archive, Self& self) {
-  auto& [id, phase, goal, expires_ns, map_update_ns] = self;
+  auto& [id, phase, goal, expires_ns, map_update_ns, handed_back] = self;
   archive(id, phase, goal, expires_ns, map_update_ns);
+  archive.Since(2, handed_back);
 }
 
 template <typename Archive, typename Self>
 void Fleet::Member::VisitState(Archive& archive, Self& self) {
-  auto& [record, odometer, lease_token, log_epoch, last_phase, live, heard_ns, removed] = self;
+  auto& [record, odometer, lease_token, log_epoch, last_phase, live, heard_ns, sensors, removed] =
+      self;
   archive(record, odometer, lease_token, log_epoch, last_phase, live, heard_ns, removed);
+  archive.Since(2, sensors);
 }
 
 template <typename Archive, typename Self>
 void Fleet::VisitState(Archive& archive, Self& self) {
   archive(self.robots_, self.next_plan_, self.phase_);
+  archive.Since(2, self.has_offsets_);
 }
 
 }  // namespace plumescout

@@ -10,6 +10,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/belief/regrid.h"
 #include "core/mission/observation_check.h"
+#include "core/mission/sensor_check.h"
 #include "core/occupancy/free_space.h"
 #include "core/occupancy/keep_out.h"
 #include "core/types/status_macros.h"
@@ -60,9 +61,10 @@ Mission::Mission(const MissionOptions& options)
       occupancy_(options.occupancy),
       region_(options.gas.field_reach_m, options.occupancy.resolution_m),
       gas_(options.gas, options.occupancy.resolution_m),
-      fleet_(options.robot_silence_s),
+      fleet_(options.robot_silence_s, options.return_home_below_battery_share),
       goal_memory_(options),
-      sampled_cells_(options.occupancy.resolution_m) {
+      sampled_cells_(options.occupancy.resolution_m),
+      history_(options) {
   if (options.prior_map == nullptr) return;
   [[maybe_unused]] const absl::Status learnt = occupancy_.Learn(*options.prior_map);
   assert(learnt.ok());
@@ -81,7 +83,15 @@ absl::StatusOr<Applied> Mission::Apply(const EventBody& body) {
 }
 
 absl::StatusOr<Applied> Mission::Change(const RobotRegistered& registration) {
-  PLUMESCOUT_RETURN_IF_ERROR(fleet_.Register(registration, options_->max_robot_count));
+  const bool is_elsewhere = !fleet_.Knows(registration.robot) ||
+                            fleet_.StateOf(registration.robot).frame != registration.frame;
+  PLUMESCOUT_RETURN_IF_ERROR(CheckOffsets(registration.sensors, options_->gas));
+  PLUMESCOUT_RETURN_IF_ERROR(
+      fleet_.Register(registration, options_->max_robot_count, options_->pose_limit_m));
+  if (is_elsewhere) {
+    history_.DropQuarantined(registration.robot);
+    TrustAgain(registration.robot);
+  }
   return Applied{};
 }
 
@@ -89,29 +99,46 @@ absl::StatusOr<Applied> Mission::Change(const ObservationReceived& received) {
   const Observation& observation = received.observation;
   PLUMESCOUT_RETURN_IF_ERROR(fleet_.CheckSequence(received.robot, observation));
   Applied applied;
-  applied.observation = TakeIn(received.robot, observation);
+  applied.observation = TakeIn(received.robot, observation, applied.turned_suspect);
   fleet_.Advance(received.robot, observation, !applied.observation.ok());
   return applied;
 }
 
-absl::Status Mission::TakeIn(const RobotId& robot, const Observation& observation) {
-  PLUMESCOUT_RETURN_IF_ERROR(CheckObservation(observation, *options_, sample_time_ns_));
-  fleet_.Hear(robot, std::max(sample_time_ns_, observation.sample_time_ns));
+absl::Status Mission::TakeIn(const RobotId& robot, const Observation& observation,
+                             bool& turned_suspect) {
+  const std::int64_t clock_offset_ns = fleet_.StateOf(robot).clock_offset_ns;
+  const std::int64_t time_ns = MissionTime_ns(observation, clock_offset_ns);
+  PLUMESCOUT_RETURN_IF_ERROR(
+      CheckObservation(observation, *options_, sample_time_ns_, clock_offset_ns));
+  const Pose2 pose = fleet_.InMission(robot, observation.pose);
+  PLUMESCOUT_RETURN_IF_ERROR(CheckPlace(pose, options_->pose_limit_m));
+  fleet_.Hear(robot, std::max(sample_time_ns_, time_ns));
   if (const auto* scan = std::get_if<Scan>(&observation.payload)) {
-    PLUMESCOUT_RETURN_IF_ERROR(InsertScan(robot, observation.pose, *scan));
+    PLUMESCOUT_RETURN_IF_ERROR(TakeScan(robot, time_ns, pose, *scan, turned_suspect));
   } else if (const auto* gas = std::get_if<GasReading>(&observation.payload)) {
-    PLUMESCOUT_RETURN_IF_ERROR(AddReading(observation, *gas));
+    PLUMESCOUT_RETURN_IF_ERROR(TakeReading(robot, time_ns, pose, *gas));
+  } else if (const auto* correction = std::get_if<PoseCorrection>(&observation.payload)) {
+    PLUMESCOUT_RETURN_IF_ERROR(TakeCorrection(robot, observation, *correction));
   }
-  sample_time_ns_ = std::max(sample_time_ns_, observation.sample_time_ns);
+  sample_time_ns_ = std::max(sample_time_ns_, time_ns);
+  TrimHistory();
   return absl::OkStatus();
 }
 
-absl::Status Mission::InsertScan(const RobotId& robot, const Pose2& pose, const Scan& scan) {
+absl::Status Mission::TakeScan(const RobotId& robot, std::int64_t time_ns, const Pose2& pose,
+                               const Scan& scan, bool& turned_suspect) {
+  const std::vector<MaskDisc> masks = fleet_.MasksFor(robot);
+  const bool doubtful = IsInDoubt(robot, time_ns, pose, scan, masks, turned_suspect);
+  if (!doubtful) PLUMESCOUT_RETURN_IF_ERROR(InsertScan(pose, scan, masks));
+  history_.AddScan(robot, time_ns, pose, scan, masks, doubtful);
+  return absl::OkStatus();
+}
+
+absl::Status Mission::InsertScan(const Pose2& pose, const Scan& scan,
+                                 const std::vector<MaskDisc>& masks) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckRoom(pose.position(), 0));
-  const MemoryUse use = Use();
-  occupancy_.LimitCells(use.map_cells +
-                        RoomBesideField_bytes(options_->memory_budget_bytes, use) / kMapCellBytes);
-  PLUMESCOUT_RETURN_IF_ERROR(scan_inserter_.Insert(pose, scan, fleet_.MasksFor(robot), occupancy_));
+  occupancy_.LimitCells(MostMapCells());
+  PLUMESCOUT_RETURN_IF_ERROR(scan_inserter_.Insert(pose, scan, masks, occupancy_));
   region_.Visit(pose.position());
   region_.Follow(occupancy_.geometry());
   map_changed_since_refresh_ = true;
@@ -119,25 +146,50 @@ absl::Status Mission::InsertScan(const RobotId& robot, const Pose2& pose, const 
   return absl::OkStatus();
 }
 
-absl::Status Mission::AddReading(const Observation& observation, const GasReading& reading) {
-  const Point2 place = observation.pose.position();
+absl::Status Mission::TakeReading(const RobotId& robot, std::int64_t time_ns, const Pose2& pose,
+                                  GasReading reading) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const GasSensor sensor, fleet_.SensorOf(robot, reading.sensor));
+  if (reading.variance_ppm2 == 0.0) reading.variance_ppm2 = sensor.stddev_ppm * sensor.stddev_ppm;
+  const Point2 place = PlaceOnRobot(pose, sensor.robot_from_sensor);
+  const bool suspect = fleet_.StateOf(robot).frame_suspect;
+  if (!suspect) {
+    PLUMESCOUT_RETURN_IF_ERROR(
+        AddReading({robot, sensor.id, sensor.offset_stddev_ppm}, time_ns, place, reading));
+  }
+  history_.AddReading(robot, time_ns, pose, reading, suspect, sensor);
+  return absl::OkStatus();
+}
+
+absl::Status Mission::AddReading(const ReadingSource& source, std::int64_t time_ns, Point2 place,
+                                 const GasReading& reading) {
   if (!gas_.HasRoomFor(place)) {
     return BudgetReached(absl::StrCat("readings at ", ReadingStore::kMostWaitingSites,
                                       " places wait for their cells to be seen"));
   }
   PLUMESCOUT_RETURN_IF_ERROR(CheckRoom(place, kReadingSiteBytes + kReadingBucketBytes));
-  gas_.Add(observation.sample_time_ns, place, reading);
+  if (fleet_.has_offsets()) {
+    gas_.AddFrom(source, time_ns, place, reading);
+  } else {
+    gas_.Add(time_ns, place, reading);
+  }
   region_.Visit(place);
   sampled_since_snapshot_ = sampled_cells_.Add(place) || sampled_since_snapshot_;
   return absl::OkStatus();
+}
+
+std::int64_t Mission::MostMapCells() const {
+  const MemoryUse use = Use();
+  return use.map_cells + RoomBesideField_bytes(options_->memory_budget_bytes, use) / kMapCellBytes;
 }
 
 MemoryUse Mission::Use() const {
   const ReadingStore& readings = gas_.readings();
   MemoryUse use;
   use.map_cells = static_cast<std::int64_t>(occupancy_.geometry().size());
-  use.reading_sites = static_cast<std::int64_t>(readings.sites() + readings.arrivals());
-  use.reading_buckets = static_cast<std::int64_t>(readings.buckets());
+  const SensorOffsets& sensors = gas_.sensors();
+  use.reading_sites =
+      static_cast<std::int64_t>(readings.sites() + readings.arrivals() + sensors.sites());
+  use.reading_buckets = static_cast<std::int64_t>(readings.buckets() + sensors.buckets());
   use.visited_tiles = static_cast<std::int64_t>(region_.visited_tiles());
   use.field_bytes = gas_.field_bytes();
   return use;
@@ -176,7 +228,8 @@ absl::StatusOr<Applied> Mission::Change(const PlanIssued& issued) {
         "belief_revision = ", issued.plan.belief_revision, " must be in [0, ", revision_, "]"));
   }
   Applied applied;
-  PLUMESCOUT_ASSIGN_OR_RETURN(applied.plan_id, fleet_.Issue(issued.plan, sample_time_ns_));
+  PLUMESCOUT_ASSIGN_OR_RETURN(applied.plan_id,
+                              fleet_.Issue(issued.plan, sample_time_ns_, issued.assigned));
   return applied;
 }
 
@@ -207,8 +260,23 @@ absl::StatusOr<Applied> Mission::Change(const RobotRemoved& removal) {
   return Applied{};
 }
 
+absl::StatusOr<Applied> Mission::Change(const ClockOffsetNoted& noted) {
+  PLUMESCOUT_RETURN_IF_ERROR(fleet_.NoteClock(noted));
+  return Applied{};
+}
+
+absl::StatusOr<Applied> Mission::Change(const HomeOrdered& order) {
+  PLUMESCOUT_RETURN_IF_ERROR(fleet_.OrderHome(order));
+  return Applied{};
+}
+
 absl::StatusOr<std::int64_t> Mission::AppliedSequence(const RobotId& robot) const {
   return fleet_.AppliedSequence(robot);
+}
+
+absl::StatusOr<RobotState> Mission::StateOf(const RobotId& robot) const {
+  PLUMESCOUT_RETURN_IF_ERROR(fleet_.AppliedSequence(robot).status());
+  return fleet_.StateOf(robot);
 }
 
 absl::StatusOr<std::int64_t> Mission::LeaseToken(const RobotId& robot) const {
@@ -232,7 +300,7 @@ bool Mission::posterior_stale() const { return gas_.stale() || map_changed_since
 
 // A reading does not wait behind a refresh that a scan has just caused.
 bool Mission::refresh_due() const {
-  return (posterior_stale() && PeriodHasPassedSince(refreshed_ns_)) ||
+  return gas_.replaced() || (posterior_stale() && PeriodHasPassedSince(refreshed_ns_)) ||
          (gas_.stale() && PeriodHasPassedSince(readings_refreshed_ns_));
 }
 
@@ -281,6 +349,7 @@ std::shared_ptr<const Belief> Mission::Snapshot() const {
   belief->gas_counters = gas_.counters();
   belief->gas_quality = gas_.quality();
   belief->gas_audits = gas_audits_;
+  belief->sensor_offsets = gas_.sensor_offsets();
   belief->robots = fleet_.Records();
   belief->claims = fleet_.Claims(sample_time_ns_);
   belief->set_aside = goal_memory_.SetAside(Present());

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
@@ -17,8 +18,11 @@
 #include "core/gas/gas_map.h"
 #include "core/mission/fleet.h"
 #include "core/mission/goal_memory.h"
+#include "core/mission/jump_watch.h"
+#include "core/mission/map_rebuild.h"
 #include "core/mission/memory_estimate.h"
 #include "core/mission/sampled_cells.h"
+#include "core/mission/way_history.h"
 #include "core/occupancy/occupancy_grid.h"
 #include "core/occupancy/scan_inserter.h"
 #include "core/traffic/traffic.h"
@@ -36,7 +40,9 @@ struct Applied {
   std::int64_t revision = 0;
   absl::Status observation;
   absl::Status posterior;
-  PlanId plan_id = 0;  // of a PlanIssued: the number the mission gave it
+  absl::Status map;             // of a MapRebuilt: why the map stays as it was
+  bool turned_suspect = false;  // the observation's robot, see RobotState::frame_suspect
+  PlanId plan_id = 0;           // of a PlanIssued: the number the mission gave it
 };
 
 // A mission is a deterministic state machine: state' = Apply(state, event). The same events give
@@ -63,7 +69,7 @@ class Mission {
   //   kAlreadyExists       observation sequence <= applied: ignore and acknowledge again
   //   kFailedPrecondition  a hole in the sequence ("SEQUENCE_GAP: expected N"), a stale plan or
   //                        lease, an epoch begun while one is under way or there is no
-  //                        field, or adopted while none is under way
+  //                        field, or adopted while none is under way; the same of rebuilt maps
   //   kAborted             PlanIssued: another robot's live plan claims the goal; plan once more
   //   kResourceExhausted   too many robots
   //   kCancelled           the mission is abandoned; it is of no use any more
@@ -72,6 +78,8 @@ class Mission {
   // The state of one robot's log; kNotFound if unknown.
   absl::StatusOr<std::int64_t> AppliedSequence(const RobotId& robot) const;
   absl::StatusOr<std::int64_t> LeaseToken(const RobotId& robot) const;
+  absl::StatusOr<RobotState> StateOf(const RobotId& robot) const;
+  std::vector<RobotId> RobotIds() const { return fleet_.Ids(); }  // in order of name
   // Where the plan's way meets the other robots if they drive on time, with the options' clearance
   // or `clearance_m` if that is less; none if it meets nobody or plans do not yield to robots.
   // Cost: that of Traffic::FirstMeeting, and of a copy of the robots' records.
@@ -94,8 +102,23 @@ class Mission {
   // 2. PosteriorRefreshed, to sample_time_ns(): a reading waits and refresh_period_s has gone by
   // since the last refresh that found one, or the map changed and as much since any refresh.
   bool refresh_due() const;
+  // A refresh is due at once when readings were placed anew.
   // 3. EpochBegun, at sample_time_ns(). Then somebody may recompute epoch() on another thread.
   bool epoch_due() const { return gas_.epoch_due(sample_time_ns_); }
+
+  // Before these, what the map needs when poses were corrected, or found to be wrong:
+  // MapRebuilt, for which rebuild() is then best recomputed beforehand, and MapRebuildBegun, after
+  // which somebody may recompute rebuild() on another thread.
+  bool rebuilt_map_due() const {
+    return rebuild_ != nullptr && sample_time_ns_ >= rebuild_->due_ns();
+  }
+  // Not at once after another, so that corrections that come one after the other do not keep the
+  // history from being trimmed or the mission from being saved.
+  bool rebuild_due() const {
+    return rebuild_wanted_ && rebuild_ == nullptr &&
+           sample_time_ns_ - rebuilt_ns_ >= kRebuildPause_ns;
+  }
+  std::shared_ptr<MapRebuild> rebuild() const { return rebuild_; }  // under way, or null
 
   // Whether one may begin out of turn.
   bool epoch_possible() const { return gas_.epoch_possible(); }
@@ -111,14 +134,17 @@ class Mission {
   std::int64_t sample_time_ns() const { return sample_time_ns_; }
 
   // What it holds, as reckoned; at most options().memory_budget_bytes. Cost: O(1).
-  std::int64_t memory_bytes() const { return Use().Total_bytes(); }
+  std::int64_t memory_bytes() const { return Use().Total_bytes() + history_.bytes(); }
   // Of the gas field now: that of the options, or a multiple since the map has grown large.
   int lattice_factor() const { return gas_.lattice_factor(); }
 
   // Once `stop` says so, and from then on it has to, a refresh or an epoch that runs, here or on
   // another thread, ends within 0.2 s, and so does each that is begun: with kCancelled. The mission
   // is not to be used any more then. `stop` is asked on the threads that compute.
-  void AbandonWhen(StopFn stop) { gas_.AbandonWhen(std::move(stop)); }
+  void AbandonWhen(StopFn stop) {
+    stop_ = stop;
+    gas_.AbandonWhen(std::move(stop));
+  }
 
   // The present state, for readers. Cost: O(cells) if the map changed since the last call.
   std::shared_ptr<const Belief> Snapshot() const;
@@ -132,9 +158,9 @@ class Mission {
   // certificate, on the way it came about, so it is not possible at any revision: before there is
   // a field, and while it has heard nothing since it was made anew. Hence always right after an
   // EpochAdopted, which observers of a conduct hear of before anything else is applied; also after
-  // a refresh or adoption that failed, until there is a field again. Never while an epoch is under
-  // way.
-  bool can_be_saved() const { return gas_.can_be_written(); }
+  // a refresh or adoption that failed, until there is a field again. Never while an epoch or a
+  // rebuild of the map is under way.
+  bool can_be_saved() const { return gas_.can_be_written() && rebuild_ == nullptr; }
   // kFailedPrecondition if it cannot be saved now. Cost: as of Digest. zlib makes a quarter of the
   // bytes.
   absl::StatusOr<std::string> SaveState() const;
@@ -150,6 +176,8 @@ class Mission {
   static void VisitState(Archive& archive, Self& self);
 
  private:
+  static constexpr std::int64_t kRebuildPause_ns = 5'000'000'000;
+
   friend struct MissionPeer;  // of the tests
 
   absl::StatusOr<Applied> Change(const RobotRegistered& registration);
@@ -160,13 +188,31 @@ class Mission {
   absl::StatusOr<Applied> Change(const EpochBegun& begun);
   absl::StatusOr<Applied> Change(const EpochAdopted& adopted);
   absl::StatusOr<Applied> Change(const RobotRemoved& removal);
+  absl::StatusOr<Applied> Change(const ClockOffsetNoted& noted);
+  absl::StatusOr<Applied> Change(const HomeOrdered& order);
+  absl::StatusOr<Applied> Change(const MapRebuildBegun& begun);
+  absl::StatusOr<Applied> Change(const MapRebuilt& rebuilt);
   bool PeriodHasPassedSince(std::int64_t time_ns) const;
   GoalMemory::Now Present() const {
     return {sample_time_ns_, occupancy_.States(), gas_.variance_ppm2()};
   }
-  absl::Status TakeIn(const RobotId& robot, const Observation& observation);
-  absl::Status InsertScan(const RobotId& robot, const Pose2& pose, const Scan& scan);
-  absl::Status AddReading(const Observation& observation, const GasReading& reading);
+  absl::Status TakeIn(const RobotId& robot, const Observation& observation, bool& turned_suspect);
+  absl::Status TakeScan(const RobotId& robot, std::int64_t time_ns, const Pose2& pose,
+                        const Scan& scan, bool& turned_suspect);
+  absl::Status InsertScan(const Pose2& pose, const Scan& scan, const std::vector<MaskDisc>& masks);
+  absl::Status TakeReading(const RobotId& robot, std::int64_t time_ns, const Pose2& pose,
+                           GasReading reading);
+  absl::Status AddReading(const ReadingSource& source, std::int64_t time_ns, Point2 place,
+                          const GasReading& reading);
+  absl::Status TakeCorrection(const RobotId& robot, const Observation& observation,
+                              const PoseCorrection& correction);
+  bool IsInDoubt(const RobotId& robot, std::int64_t time_ns, const Pose2& pose, const Scan& scan,
+                 const std::vector<MaskDisc>& masks, bool& turned);
+  void TrustAgain(const RobotId& robot);
+  void PlaceReadingsAgain();
+  SensorOffsets Sensors() const;
+  void TrimHistory();
+  std::int64_t MostMapCells() const;
   MemoryUse Use() const;
   // BUDGET_REACHED if so many bytes more, and those of a first visit to `place`, are too many.
   absl::Status CheckRoom(Point2 place, std::int64_t bytes) const;
@@ -186,6 +232,12 @@ class Mission {
   Fleet fleet_;
   GoalMemory goal_memory_;
   SampledCells sampled_cells_;
+  WayHistory history_;
+  JumpWatch jump_watch_;
+  bool rebuild_wanted_ = false;
+  std::int64_t rebuilt_ns_ = 0;          // sample time at which a rebuilt map was last adopted
+  std::shared_ptr<MapRebuild> rebuild_;  // under way, or null
+  StopFn stop_;
   bool map_changed_since_refresh_ = false;
 
   // Rasters of the last snapshot, shared with it until they change.

@@ -12,6 +12,7 @@
 #include "core/gas/gas_state.h"
 #include "core/mission/fleet_state.h"
 #include "core/mission/goal_memory_state.h"
+#include "core/mission/way_history_state.h"
 #include "core/occupancy/occupancy_state.h"
 #include "core/types/byte_archive.h"
 #include "core/types/byte_reader.h"
@@ -21,7 +22,9 @@ namespace plumescout {
 namespace {
 
 // Of what SaveState writes. Who changes that counts it up, and reads the old one on.
-constexpr std::uint32_t kStateVersion = 1;
+constexpr std::uint32_t kStateVersion = 2;
+constexpr std::uint32_t kOldestStateVersion = 1;
+constexpr std::uint32_t kVersionWithHistory = 2;
 
 std::uint64_t HashOf(absl::string_view bytes) {
   Hash64 hash;
@@ -30,7 +33,11 @@ std::uint64_t HashOf(absl::string_view bytes) {
 }
 
 // What stands between version and hash. Every version has both in these places.
-absl::StatusOr<absl::string_view> Unframe(absl::string_view bytes) {
+struct Unframed {
+  std::uint32_t version = 0;
+  absl::string_view state;
+};
+absl::StatusOr<Unframed> Unframe(absl::string_view bytes) {
   std::uint32_t version = 0;
   std::uint64_t hash = 0;
   if (bytes.size() < sizeof(version) + sizeof(hash)) {
@@ -43,11 +50,12 @@ absl::StatusOr<absl::string_view> Unframe(absl::string_view bytes) {
     return absl::DataLossError("the state of a mission is damaged: its hash is another");
   }
   std::memcpy(&version, hashed.data(), sizeof(version));
-  if (version != kStateVersion) {
+  if (version < kOldestStateVersion || version > kStateVersion) {
     return absl::FailedPreconditionError(absl::StrCat("the state of a mission is of version ",
-                                                      version, "; known is ", kStateVersion));
+                                                      version, "; known are ", kOldestStateVersion,
+                                                      " to ", kStateVersion));
   }
-  return hashed.substr(sizeof(version));
+  return Unframed{version, hashed.substr(sizeof(version))};
 }
 
 }  // namespace
@@ -58,6 +66,19 @@ void Mission::VisitState(Archive& archive, Self& self) {
           self.readings_refreshed_ns_, self.map_changed_since_refresh_);
   archive(self.occupancy_, self.region_, self.fleet_, self.goal_memory_, self.sampled_cells_,
           self.gas_);
+  if constexpr (Archive::kHashes) {
+    // Until something was corrected, or doubted, the history tells nothing more than the rest does,
+    // and missions of before it was kept have the hash that they had.
+    if (self.history_.was_used()) {
+      archive(self.history_, self.jump_watch_, self.rebuild_wanted_, self.rebuilt_ns_,
+              self.rebuild_ != nullptr);
+      if (self.rebuild_ != nullptr) {
+        archive(self.rebuild_->time_ns(), self.rebuild_->last_number());
+      }
+    }
+  } else {
+    archive.Since(2, self.history_, self.jump_watch_, self.rebuild_wanted_, self.rebuilt_ns_);
+  }
   if constexpr (Archive::kReads) {
     archive.Require(self.goal_memory_.IsOf(self.options_->occupancy.resolution_m),
                     "goals are remembered from another map");
@@ -85,13 +106,18 @@ absl::StatusOr<std::string> Mission::SaveState() const {
 
 absl::StatusOr<std::unique_ptr<Mission>> Mission::Restore(const MissionOptions& options,
                                                           absl::string_view bytes, StopFn stop) {
-  PLUMESCOUT_ASSIGN_OR_RETURN(const absl::string_view state, Unframe(bytes));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Unframed unframed, Unframe(bytes));
   PLUMESCOUT_ASSIGN_OR_RETURN(std::unique_ptr<Mission> mission, Create(options));
-  ByteReader reader(state, static_cast<std::size_t>(options.memory_budget_bytes));
+  ByteReader reader(unframed.state, static_cast<std::size_t>(options.memory_budget_bytes),
+                    unframed.version);
   reader(*mission);
   if (const absl::Status status = reader.Finish(); !status.ok()) {
     return absl::DataLossError(
         absl::StrCat("the state of a mission is damaged: ", status.message()));
+  }
+  if (unframed.version < kVersionWithHistory) {
+    mission->history_.BeginWith(mission->occupancy_, mission->gas_.readings(),
+                                mission->sampled_cells_, mission->sample_time_ns_);
   }
   mission->AbandonWhen(std::move(stop));
   PLUMESCOUT_RETURN_IF_ERROR(mission->gas_.MakeFieldAgain());

@@ -2,9 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/mission/observation_check.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/string_view.h"
 #include "core/types/checker.h"
 #include "core/types/status_macros.h"
 
@@ -15,14 +21,15 @@ constexpr double kMaxAngle_rad = 1000.0;  // turns may add up, but not without e
 constexpr std::int64_t kMaxClockLeap_ns = 86'400'000'000'000;  // one day
 // Of the first observation too, so that all sums of times stay within 64 bits.
 constexpr std::int64_t kMaxSampleTime_ns = (std::int64_t{1} << 62) - 1;
+constexpr std::size_t kMostAnchors = 4096;  // an hour of keyframes a second apart
 constexpr double kMinVariance_ppm2 = 1e-9;  // keeps precisions within Validate's
 constexpr double kMaxVariance_ppm2 = 1e12;
 
-absl::Status CheckPose(const Pose2& pose, double limit_m) {
+absl::Status CheckPose(const Pose2& pose, double limit_m, absl::string_view parent = "") {
   return Checker()
-      .InRange("pose.x_m", pose.x_m, -limit_m, limit_m)
-      .InRange("pose.y_m", pose.y_m, -limit_m, limit_m)
-      .InRange("pose.yaw_rad", pose.yaw_rad, -kMaxAngle_rad, kMaxAngle_rad)
+      .InRange(absl::StrCat(parent, "pose.x_m"), pose.x_m, -limit_m, limit_m)
+      .InRange(absl::StrCat(parent, "pose.y_m"), pose.y_m, -limit_m, limit_m)
+      .InRange(absl::StrCat(parent, "pose.yaw_rad"), pose.yaw_rad, -kMaxAngle_rad, kMaxAngle_rad)
       .status();
 }
 
@@ -55,23 +62,62 @@ absl::Status CheckPayload(const GasReading& gas, const MissionOptions& options) 
 
 absl::Status CheckPayload(const SequenceGap&, const MissionOptions&) { return absl::OkStatus(); }
 
+absl::Status CheckPayload(const PoseCorrection& correction, const MissionOptions& options) {
+  const std::vector<PoseAnchor>& anchors = correction.anchors;
+  if (anchors.empty() || anchors.size() > kMostAnchors) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("correction has ", anchors.size(), " anchors, must have 1 to ", kMostAnchors));
+  }
+  for (std::size_t i = 0; i < anchors.size(); ++i) {
+    const std::int64_t time_ns = anchors[i].sample_time_ns;
+    const std::int64_t earlier_ns = i == 0 ? -1 : anchors[i - 1].sample_time_ns;
+    if (time_ns <= earlier_ns || time_ns > kMaxSampleTime_ns) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("correction.anchors[", i, "].sample_time_ns = ", time_ns,
+                       " must be after the one before, ", earlier_ns, ", and below 2^62"));
+    }
+    PLUMESCOUT_RETURN_IF_ERROR(CheckPose(anchors[i].pose, options.pose_limit_m,
+                                         absl::StrCat("correction.anchors[", i, "].")));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckPayload(const RobotStatus& status, const MissionOptions&) {
+  return Checker().InRange("status.battery_share", status.battery_share, 0.0, 1.0).status();
+}
+
 }  // namespace
 
+absl::Status CheckPlace(const Pose2& in_mission, double limit_m) {
+  return Checker()
+      .InRange("pose.x_m in frame map", in_mission.x_m, -limit_m, limit_m)
+      .InRange("pose.y_m in frame map", in_mission.y_m, -limit_m, limit_m)
+      .status();
+}
+
+std::int64_t MissionTime_ns(const Observation& observation, std::int64_t clock_offset_ns) {
+  const std::int64_t time_ns = observation.sample_time_ns;
+  if (time_ns < 0 || time_ns > kMaxSampleTime_ns) return time_ns;
+  const std::int64_t mapped_ns = time_ns + clock_offset_ns;
+  const bool is_gap = std::holds_alternative<SequenceGap>(observation.payload);
+  return is_gap ? std::clamp<std::int64_t>(mapped_ns, 0, kMaxSampleTime_ns) : mapped_ns;
+}
+
 absl::Status CheckObservation(const Observation& observation, const MissionOptions& options,
-                              std::int64_t newest_sample_time_ns) {
-  if (observation.sample_time_ns < 0) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("sample_time_ns = ", observation.sample_time_ns, " must be >= 0"));
-  }
-  if (observation.sample_time_ns > kMaxSampleTime_ns) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("sample_time_ns = ", observation.sample_time_ns, " must be below 2^62"));
-  }
-  if (newest_sample_time_ns > 0 &&
-      observation.sample_time_ns - newest_sample_time_ns > kMaxClockLeap_ns) {
-    return absl::InvalidArgumentError(absl::StrCat(
-        "sample_time_ns = ", observation.sample_time_ns,
-        " must not be more than a day after the mission's newest, ", newest_sample_time_ns));
+                              std::int64_t newest_sample_time_ns, std::int64_t clock_offset_ns) {
+  const std::int64_t time_ns = MissionTime_ns(observation, clock_offset_ns);
+  const auto refused = [&](const auto&... limit) {
+    const std::string by_mission =
+        time_ns == observation.sample_time_ns
+            ? std::string()
+            : absl::StrCat(" of the robot's clock, ", time_ns, " of the mission's,");
+    return absl::InvalidArgumentError(absl::StrCat("sample_time_ns = ", observation.sample_time_ns,
+                                                   by_mission, " must ", limit...));
+  };
+  if (time_ns < 0) return refused("be >= 0");
+  if (time_ns > kMaxSampleTime_ns) return refused("be below 2^62");
+  if (newest_sample_time_ns > 0 && time_ns - newest_sample_time_ns > kMaxClockLeap_ns) {
+    return refused("not be more than a day after the mission's newest, ", newest_sample_time_ns);
   }
   PLUMESCOUT_RETURN_IF_ERROR(CheckPose(observation.pose, options.pose_limit_m));
   return std::visit([&](const auto& payload) { return CheckPayload(payload, options); },

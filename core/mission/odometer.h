@@ -22,6 +22,11 @@ class Odometer {
     mark_ = place;
   }
 
+  // It holds itself to be elsewhere now, and has not driven there.
+  void GoOnFrom(Point2 place) {
+    if (mark_) mark_ = place;
+  }
+
   double travelled_m() const { return travelled_m_; }
 
   // See core/types/byte_archive.h.

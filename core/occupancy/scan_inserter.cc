@@ -35,13 +35,13 @@ bool IsUntouched(const std::uint8_t* cells) {
   return marks == 0;
 }
 
+}  // namespace
+
 bool IsMasked(Point2 point, const std::vector<MaskDisc>& masks) {
   return std::any_of(masks.begin(), masks.end(), [point](const MaskDisc& disc) {
     return Distance_m(point, disc.center) <= disc.radius_m;
   });
 }
-
-}  // namespace
 
 void ScanInserter::KeepBeams(const Pose2& sensor_pose, const Scan& scan,
                              const std::vector<MaskDisc>& masks) {
@@ -80,10 +80,10 @@ void ScanInserter::MarkPassed(std::size_t index) {
   touched_[index] = std::max(touched_[index], kPassed);
 }
 
-void ScanInserter::Apply(Cell first, Cell last, OccupancyGrid& grid) {
+void ScanInserter::Apply(Cell first, Cell last, OccupancyGrid& grid, int times) {
   constexpr std::size_t kAtOnce = sizeof(std::uint64_t);
-  const double miss_log_odds = grid.options().miss_log_odds;
-  const double hit_log_odds = grid.options().hit_log_odds;
+  const double miss_log_odds = times * grid.options().miss_log_odds;
+  const double hit_log_odds = times * grid.options().hit_log_odds;
   for (int y = first.y; y <= last.y; ++y) {
     const std::size_t end = touched_.geometry().Index({last.x, y}) + 1;
     std::size_t index = touched_.geometry().Index({first.x, y});
@@ -102,7 +102,8 @@ void ScanInserter::Apply(Cell first, Cell last, OccupancyGrid& grid) {
 }
 
 absl::Status ScanInserter::Insert(const Pose2& sensor_pose, const Scan& scan,
-                                  const std::vector<MaskDisc>& masks, OccupancyGrid& grid) {
+                                  const std::vector<MaskDisc>& masks, OccupancyGrid& grid,
+                                  int times) {
   PLUMESCOUT_RETURN_IF_ERROR(Check(sensor_pose, scan));
   KeepBeams(sensor_pose, scan, masks);
   if (beams_.empty()) return absl::OkStatus();
@@ -132,7 +133,7 @@ absl::Status ScanInserter::Insert(const Pose2& sensor_pose, const Scan& scan,
   // The map has a cell more on every side.
   const Cell first = geometry.CellAt(low);
   const Cell last = geometry.CellAt(high);
-  Apply({first.x - 1, first.y - 1}, {last.x + 1, last.y + 1}, grid);
+  Apply({first.x - 1, first.y - 1}, {last.x + 1, last.y + 1}, grid, times);
   return absl::OkStatus();
 }
 

@@ -17,13 +17,19 @@ namespace plumescout {
 struct MaskDisc {
   Point2 center;
   double radius_m = 0.0;
+
+  friend bool operator==(const MaskDisc&, const MaskDisc&) = default;
 };
+
+// Whether the point lies in one of them.
+bool IsMasked(Point2 point, const std::vector<MaskDisc>& masks);
 
 // Inserts a scan taken at `sensor_pose` (frame map). Each cell changes once per scan; a cell in
 // which a beam ends counts as hit even if other beams pass it; the cell under the sensor is passed.
 // Beams without return clear up to max_range_m. NaN, non-positive and too long ranges are dropped
 // one by one. A beam that ends in a mask disc is dropped whole. A scan of dropped beams is no scan:
-// nothing changes.
+// nothing changes. A scan may stand for several of the same place, `times` >= 1: as if it had been
+// inserted so often.
 //
 // Errors, with nothing changed: kResourceExhausted if any beam would make the grid grow beyond its
 // limits; kInvalidArgument if the pose, an angle or max_range_m is not finite, or that not > 0, or
@@ -35,7 +41,7 @@ class ScanInserter {
   static constexpr double kMostCrossings = 2e6;
 
   absl::Status Insert(const Pose2& sensor_pose, const Scan& scan,
-                      const std::vector<MaskDisc>& masks, OccupancyGrid& grid);
+                      const std::vector<MaskDisc>& masks, OccupancyGrid& grid, int times = 1);
 
  private:
   struct Beam {
@@ -49,7 +55,7 @@ class ScanInserter {
   void MarkPassed(std::size_t index);
   // Changes the cells that are marked in [first, last], and unmarks them. Row by row: in the order
   // of memory it takes a fraction of the time.
-  void Apply(Cell first, Cell last, OccupancyGrid& grid);
+  void Apply(Cell first, Cell last, OccupancyGrid& grid, int times);
 
   std::vector<Beam> beams_;
   Grid<std::uint8_t> touched_;  // 0 no, 1 passed, 2 hit; all 0 between calls

@@ -16,6 +16,8 @@
 #include "core/plan/explanation.h"
 #include "core/plan/goals/goal_offer.h"
 #include "core/plan/goals/travel_budget.h"
+#include "core/plan/home_orders.h"
+#include "core/plan/make_way.h"
 #include "core/plan/plan_start.h"
 #include "core/plan/right_of_way.h"
 #include "core/plan/selection/choice.h"
@@ -42,6 +44,7 @@ MissionPhase PhaseOf(GoalKind kind) {
     case GoalKind::kSite:
       return MissionPhase::kSampling;
     case GoalKind::kRandomFreeSpace:
+    case GoalKind::kMakeWay:
       break;
   }
   return MissionPhase::kFallback;
@@ -71,9 +74,10 @@ bool IsBudgetSpent(const Plan& plan) {
 }  // namespace
 
 absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
-                                                        const PlanRequest& request,
+                                                        const PlanRequest& asked,
                                                         const StopFn& stop,
                                                         const PlanListener& improved) const {
+  const PlanRequest request = WithOrders(belief, asked);
   PLUMESCOUT_ASSIGN_OR_RETURN(PlanStart start, BeginPlan(belief, request, options_));
   plumescout::Plan& plan = start.plan;
   if (start.departure) {
@@ -97,6 +101,8 @@ absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
     }
   }
   Conclude(start.pose.yaw_rad, options_, plan);
+  plan.explanation += WhySentHome(belief, request.robot);
+  if (start.departure) MakeWay(belief, *start.departure, options_, stop, plan);
   return std::move(plan);
 }
 

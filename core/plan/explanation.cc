@@ -27,6 +27,8 @@ std::string Destination(const Goal& goal) {
       return "home";
     case GoalKind::kSite:
       return "a sampling site";
+    case GoalKind::kMakeWay:
+      return "where it is in nobody's way";
   }
   return "";
 }

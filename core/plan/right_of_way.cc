@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plan/right_of_way.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -34,14 +35,22 @@ void YieldToRobots(const Belief& belief, double start_yaw_rad, const PlanningOpt
   const Traffic traffic(belief.robots, plan.robot, options.robot_clearance_m,
                         belief.sample_time_ns);
   std::vector<Candidate> clear;
+  std::vector<Candidate> blocked;
   for (Candidate& candidate : plan.candidates) {
     const Trajectory trajectory = Timed(candidate, start_yaw_rad, options);
     if (const std::optional<double> wait_s = traffic.LeastWait_s(trajectory)) {
       candidate.duration_s += *wait_s;
       clear.push_back(std::move(candidate));
     } else {
-      plan.rejected.push_back(InTraffic(candidate, *traffic.FirstMeeting(trajectory)));
+      blocked.push_back(std::move(candidate));
     }
+  }
+  std::stable_sort(blocked.begin(), blocked.end(), [](const Candidate& a, const Candidate& b) {
+    return a.duration_s < b.duration_s;
+  });
+  for (const Candidate& candidate : blocked) {
+    const Trajectory trajectory = Timed(candidate, start_yaw_rad, options);
+    plan.rejected.push_back(InTraffic(candidate, *traffic.FirstMeeting(trajectory)));
   }
   plan.candidates = std::move(clear);
   if (plan.candidates.empty()) plan.end = PlanEnd::kAllGoalsRejected;

@@ -11,8 +11,8 @@ namespace plumescout {
 
 // Others go first whose plans are live: each candidate waits at its start until its way is clear of
 // theirs, which adds to its duration_s; one that would have to wait longer than kMaxWait_s is
-// rejected (kTraffic). Nothing if options.yield_to_robots is false. REQUIRES: duration_s of all
-// candidates. Cost: that of Traffic::LeastWait_s for each candidate.
+// rejected (kTraffic), the soonest reached first. Nothing if options.yield_to_robots is false.
+// REQUIRES: duration_s of all candidates. Cost: that of Traffic::LeastWait_s for each candidate.
 void YieldToRobots(const Belief& belief, double start_yaw_rad, const PlanningOptions& options,
                    Plan& plan);
 

@@ -14,6 +14,8 @@
 #include "core/plan/cost/information_map.h"
 #include "core/plan/explanation.h"
 #include "core/plan/goals/travel_budget.h"
+#include "core/plan/home_orders.h"
+#include "core/plan/make_way.h"
 #include "core/plan/right_of_way.h"
 #include "core/plan/sampling/site_lattice.h"
 #include "core/plan/sampling/ways.h"
@@ -80,9 +82,10 @@ bool HasReason(const Plan& plan, RejectionReason reason) {
 }  // namespace
 
 absl::StatusOr<plumescout::Plan> SamplingStrategy::Plan(const Belief& belief,
-                                                        const PlanRequest& request,
+                                                        const PlanRequest& asked,
                                                         const StopFn& stop,
                                                         const PlanListener& improved) const {
+  const PlanRequest request = WithOrders(belief, asked);
   if (request.go_home) return home_->Plan(belief, request, stop, improved);
   PLUMESCOUT_ASSIGN_OR_RETURN(PlanStart start, BeginPlan(belief, request, options_));
   PLUMESCOUT_RETURN_IF_ERROR(CheckInside(request.robot, start.pose.position()));
@@ -105,6 +108,7 @@ absl::StatusOr<plumescout::Plan> SamplingStrategy::Plan(const Belief& belief,
     start.plan.phase = MissionPhase::kComplete;
     start.plan.explanation = plan.explanation;
   }
+  MakeWay(belief, *start.departure, options_, stop, start.plan);
   return std::move(start.plan);
 }
 

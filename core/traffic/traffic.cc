@@ -33,12 +33,30 @@ double Elapsed_s(const RobotRecord& record, std::int64_t now_ns) {
          static_cast<double>(record.live_arrival_ns - now_ns) * kSecondsPerNanosecond;
 }
 
+// By then who looks its way has mapped its body, which nobody masks since it is silent.
+bool IsGone(const RobotRecord& record, std::int64_t now_ns) {
+  const double unheard_s = static_cast<double>(now_ns - record.heard_ns) * kSecondsPerNanosecond;
+  return record.state.silent && unheard_s > Traffic::kSilentBody_s;
+}
+
 double Fastest_m(const std::vector<Point2>& places) {
   double fastest_m = 0.0;
   for (std::size_t k = 1; k < places.size(); ++k) {
     fastest_m = std::max(fastest_m, Distance_m(places[k - 1], places[k]));
   }
   return fastest_m;
+}
+
+// How far two robots may be nearer than it seems, for their frames lie where they do more or less.
+// A heading is the more doubt the farther the robot is from the origin of its frame.
+double Doubt_m(const RobotState& a, const RobotState& b) {
+  constexpr double kSigmas = 2.5;
+  const auto stddev_m = [](const RobotState& robot) {
+    const Point2 origin = robot.frame.mission_from_robot.position();
+    return std::hypot(robot.frame.position_stddev_m,
+                      robot.frame.heading_stddev_rad * Distance_m(robot.pose.position(), origin));
+  };
+  return kSigmas * std::hypot(stddev_m(a), stddev_m(b));
 }
 
 }  // namespace
@@ -86,10 +104,12 @@ Point2 Traffic::Steps::At(std::size_t step, std::size_t waited) const {
 Traffic::Traffic(const std::map<RobotId, RobotRecord>& robots, const RobotId& robot,
                  double clearance_m, std::int64_t now_ns, Others others)
     : clearance_m_(clearance_m), on_time_(others == Others::kOnTime) {
-  const double radius_m = robots.at(robot).state.radius_m;
+  const RobotState& self = robots.at(robot).state;
   for (const auto& [id, record] : robots) {
-    if (id == robot || !record.state.has_pose || record.state.silent) continue;
-    Other other{id, radius_m + record.state.radius_m, {record.state.pose.position()}};
+    if (id == robot || !record.state.has_pose || IsGone(record, now_ns)) continue;
+    const double doubt_m = std::max(0.0, Doubt_m(self, record.state) - clearance_m);
+    Other other{
+        id, self.radius_m + record.state.radius_m + doubt_m, {record.state.pose.position()}};
     if (IsOnItsWay(record, now_ns)) {
       const double progress_s = Progress_s(record, now_ns);
       const std::size_t last = StepsIn(kHorizon_s) + MostEarly();
@@ -104,11 +124,13 @@ Traffic::Traffic(const std::map<RobotId, RobotRecord>& robots, const RobotId& ro
   }
 }
 
-Traffic::Steps Traffic::StepsOf(const Trajectory& trajectory) {
+Traffic::Steps Traffic::StepsOf(const Trajectory& trajectory, double from_s) {
   Steps steps;
-  const std::size_t last = StepsIn(std::min(trajectory.duration_s, kHorizon_s));
+  const double left_s = std::max(0.0, trajectory.duration_s - from_s);
+  const std::size_t last = StepsIn(std::min(left_s, kHorizon_s));
   for (std::size_t k = 0; k <= last; ++k) {
-    steps.places.push_back(PoseAt(trajectory, kStep_s * static_cast<double>(k)).position());
+    const double time_s = from_s + kStep_s * static_cast<double>(k);
+    steps.places.push_back(PoseAt(trajectory, time_s).position());
   }
   steps.fastest_m = Fastest_m(steps.places);
   return steps;
@@ -129,8 +151,12 @@ std::vector<Traffic::Hold> Traffic::Holds() const {
 }
 
 std::optional<Meeting> Traffic::FirstMeeting(const Trajectory& trajectory) const {
+  return FirstMeeting(trajectory, 0.0);
+}
+
+std::optional<Meeting> Traffic::FirstMeeting(const Trajectory& trajectory, double from_s) const {
   if (trajectory.waypoints.empty()) return std::nullopt;
-  return FirstMeeting(StepsOf(trajectory), 0);
+  return FindMeeting(StepsOf(trajectory, from_s), 0);
 }
 
 std::optional<double> Traffic::LeastWait_s(const Trajectory& trajectory) const {
@@ -138,12 +164,12 @@ std::optional<double> Traffic::LeastWait_s(const Trajectory& trajectory) const {
   const Steps steps = StepsOf(trajectory);
   constexpr std::size_t kStride = 2;  // half a second
   for (std::size_t waited = 0; waited <= StepsIn(kMaxWait_s); waited += kStride) {
-    if (!FirstMeeting(steps, waited)) return static_cast<double>(waited) * kStep_s;
+    if (!FindMeeting(steps, waited)) return static_cast<double>(waited) * kStep_s;
   }
   return std::nullopt;
 }
 
-std::optional<Meeting> Traffic::FirstMeeting(const Steps& steps, std::size_t waited) const {
+std::optional<Meeting> Traffic::FindMeeting(const Steps& steps, std::size_t waited) const {
   std::optional<Meeting> first;
   for (const Other& other : others_) {
     const std::optional<std::size_t> step = MeetingStep(other, steps, waited);

@@ -32,23 +32,27 @@ inline constexpr double kOffTrajectory_m = 0.5;
 //
 // A robot is early or late by a little, and by more the farther ahead: it is reckoned with at every
 // place of its way from 0.5 s + 5 % before to 1 s + 10 % after its time there. Who has strayed from
-// its way, or should have ended it long ago, stands where it is. Who is silent is not there: beams
-// meet its body, if it has one. Beyond kHorizon_s nothing is foreseen. Steps are made for robots of
-// up to 2 m/s.
+// its way, or should have ended it long ago, stands where it is. So does who is silent, for
+// kSilentBody_s after it was last heard of: then beams have met its body, if it is there. Beyond
+// kHorizon_s nothing is foreseen. Steps are made for robots of up to 2 m/s.
 class Traffic {
  public:
   static constexpr double kHorizon_s = 30.0;
   static constexpr double kMaxWait_s = 8.0;
+  static constexpr double kSilentBody_s = 120.0;
 
   enum class Others { kEarlyOrLate, kOnTime };
 
-  // For `robot`, one of `robots`, that keeps `clearance_m` and both radii between centres. Two that
+  // For `robot`, one of `robots`, that keeps `clearance_m`, or 2.5 standard deviations of how their
+  // frames lie to each other if that is more, and both radii between centres. Two that
   // are nearer already meet only if they come nearer still. Cost: O(robots * waypoints).
   Traffic(const std::map<RobotId, RobotRecord>& robots, const RobotId& robot, double clearance_m,
           std::int64_t now_ns, Others others = Others::kEarlyOrLate);
 
   // Of a way that is begun now. Cost: O(others * kHorizon_s), less where they are far.
   std::optional<Meeting> FirstMeeting(const Trajectory& trajectory) const;
+  // Of what is left of a way that is driven, from a time along it on.
+  std::optional<Meeting> FirstMeeting(const Trajectory& trajectory, double from_s) const;
   // The shortest time to stand at the start of the way, up to kMaxWait_s, so that nobody is met
   // there, on the way, and at its end. None: there is no such time. Cost: that of a
   // FirstMeeting for every half second.
@@ -80,8 +84,8 @@ class Traffic {
     Point2 At(std::size_t step, std::size_t waited) const;
   };
 
-  static Steps StepsOf(const Trajectory& trajectory);
-  std::optional<Meeting> FirstMeeting(const Steps& steps, std::size_t waited) const;
+  static Steps StepsOf(const Trajectory& trajectory, double from_s = 0.0);
+  std::optional<Meeting> FindMeeting(const Steps& steps, std::size_t waited) const;
   std::optional<std::size_t> MeetingStep(const Other& other, const Steps& steps,
                                          std::size_t waited) const;
 

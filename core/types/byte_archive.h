@@ -94,6 +94,13 @@ class StateWalker {
   void operator()(const T&... values) {
     (Put(values), ...);
   }
+  // For members that version `version` of the state brought. A reader of an older one leaves them
+  // as they are; a hash passes over those that have no value, so that it is what it was before.
+  template <typename... T>
+  void Since(std::uint32_t version, const T&... values) {
+    std::uint32_t place = 0;
+    (PutSince(version, ++place, values), ...);
+  }
   // For lists in which the same value often comes several times in a row.
   template <typename T>
   void Runs(const std::vector<T>& values) {
@@ -111,6 +118,23 @@ class StateWalker {
   Sink& sink() { return sink_; }
 
  private:
+  template <typename T>
+  static bool SaysNothing(const T& value) {
+    if constexpr (requires { value.empty(); }) {
+      return value.empty();
+    } else {
+      return value == T{};
+    }
+  }
+  template <typename T>
+  void PutSince(std::uint32_t version, std::uint32_t place, const T& value) {
+    if constexpr (kHashes) {
+      if (SaysNothing(value)) return;
+      Put(version);
+      Put(place);
+    }
+    Put(value);
+  }
   void Put(ArchivedNumber auto value) { sink_.Add(value); }
   void Put(bool value) { Put(static_cast<std::uint8_t>(value)); }
   void Put(ArchivedEnum auto value) { Put(static_cast<std::uint8_t>(value)); }

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -29,12 +30,19 @@ class ByteReader {
   static constexpr bool kReads = true;
   static constexpr bool kHashes = false;
 
-  ByteReader(absl::string_view bytes, std::size_t most_bytes)
-      : rest_(bytes), room_bytes_(most_bytes) {}
+  // `version`: of the state, see Since.
+  ByteReader(absl::string_view bytes, std::size_t most_bytes,
+             std::uint32_t version = std::numeric_limits<std::uint32_t>::max())
+      : rest_(bytes), room_bytes_(most_bytes), version_(version) {}
 
   template <typename... T>
   void operator()(T&... values) {
     (Get(values), ...);
+  }
+  // As StateWalker: nothing to read if the state is older.
+  template <typename... T>
+  void Since(std::uint32_t version, T&... values) {
+    if (version_ >= version) (Get(values), ...);
   }
   template <typename T>
   void Runs(std::vector<T>& values) {
@@ -183,6 +191,7 @@ class ByteReader {
 
   absl::string_view rest_;
   std::size_t room_bytes_;
+  std::uint32_t version_;
   std::string what_;  // is damaged
 };
 

@@ -28,6 +28,7 @@ inline constexpr absl::string_view kCreditExceeded = "CREDIT_EXCEEDED";
 inline constexpr absl::string_view kSequenceGap = "SEQUENCE_GAP";
 inline constexpr absl::string_view kBudgetReached = "BUDGET_REACHED";
 inline constexpr absl::string_view kClockAhead = "CLOCK_AHEAD";
+inline constexpr absl::string_view kHistoryTrimmed = "HISTORY_TRIMMED";
 // Of plans.
 inline constexpr absl::string_view kPlanSuperseded = "PLAN_SUPERSEDED";
 inline constexpr absl::string_view kPlanEnded = "PLAN_ENDED";

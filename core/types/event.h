@@ -7,9 +7,11 @@
 #include <variant>
 #include <vector>
 
+#include "core/types/gas_sensor.h"
 #include "core/types/ids.h"
 #include "core/types/observation.h"
 #include "core/types/plan.h"
+#include "core/types/robot_frame.h"
 
 namespace plumescout {
 
@@ -22,6 +24,10 @@ struct RobotRegistered {
   // the client does not say. Another log than before goes on with numbers of its own after the last
   // one that was applied.
   std::int64_t log_epoch = 0;
+  RobotFrame frame = {};  // of the poses of its observations
+  // Its gas sensors, to which readings refer by their place. None: it has one, which is calibrated
+  // and sits at the pose of the robot.
+  std::vector<GasSensor> sensors = {};
 
   friend bool operator==(const RobotRegistered&, const RobotRegistered&) = default;
 };
@@ -42,6 +48,7 @@ struct PosteriorRefreshed {
 
 struct PlanIssued {
   Plan plan;
+  bool assigned = false;  // the robot did not ask for it and has yet to fetch it
 
   friend bool operator==(const PlanIssued&, const PlanIssued&) = default;
 };
@@ -77,10 +84,38 @@ struct RobotRemoved {
   friend bool operator==(const RobotRemoved&, const RobotRemoved&) = default;
 };
 
+// How far the mission's time is ahead of a robot's clock: sample times of the observations that
+// follow are later by this much for the mission.
+struct ClockOffsetNoted {
+  RobotId robot;
+  std::int64_t offset_ns = 0;
+
+  friend bool operator==(const ClockOffsetNoted&, const ClockOffsetNoted&) = default;
+};
+
+// An operator sends a robot home, or takes that back.
+struct HomeOrdered {
+  RobotId robot;
+  bool home = true;
+
+  friend bool operator==(const HomeOrdered&, const HomeOrdered&) = default;
+};
+
+// The map began to be rebuilt from kept scans with corrected poses, beside the mission.
+struct MapRebuildBegun {
+  friend bool operator==(const MapRebuildBegun&, const MapRebuildBegun&) = default;
+};
+
+// What was rebuilt took the place of the map. Scans that came in between are in it too.
+struct MapRebuilt {
+  friend bool operator==(const MapRebuilt&, const MapRebuilt&) = default;
+};
+
 // Everything that changes a mission. Recorded events know their kind by its place in this list: new
 // kinds come last.
 using EventBody = std::variant<RobotRegistered, ObservationReceived, PosteriorRefreshed, PlanIssued,
-                               ProgressReported, EpochBegun, EpochAdopted, RobotRemoved>;
+                               ProgressReported, EpochBegun, EpochAdopted, RobotRemoved,
+                               ClockOffsetNoted, HomeOrdered, MapRebuildBegun, MapRebuilt>;
 
 // Numbered 1, 2, 3 ...: the number of the last applied event is the mission's revision.
 struct Event {

@@ -3,14 +3,17 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/types/cell_state.h"
 #include "core/types/frontier.h"
+#include "core/types/gas_sensor.h"
 #include "core/types/grid.h"
 #include "core/types/ids.h"
 #include "core/types/plan.h"
 #include "core/types/pose2.h"
+#include "core/types/robot_frame.h"
 
 namespace plumescout {
 
@@ -24,6 +27,12 @@ struct RobotState {
   // Not heard of for robot_silence_s while others were: it masks no beam, claims no goal and keeps
   // no mission from completing until it is.
   bool silent = false;
+  RobotFrame frame = {};             // of the poses that it reports; `pose` above is in frame map
+  std::int64_t clock_offset_ns = 0;  // see ClockOffsetNoted
+  std::optional<double> battery_share = std::nullopt;  // none: it did not tell
+  bool ordered_home = false;
+  // Its scans contradict the map, which does not take them until its poses are corrected.
+  bool frame_suspect = false;
 
   friend bool operator==(const RobotState&, const RobotState&) = default;
 };
@@ -74,6 +83,7 @@ struct MapStatus {
   GasCounters gas_counters;
   GasQuality gas_quality;
   GasAudits gas_audits;
+  std::vector<SensorOffset> sensor_offsets;  // of sensors whose offset was not known
   MissionPhase phase = MissionPhase::kExploring;
 };
 

@@ -202,6 +202,7 @@ absl::Status Validate(const MissionOptions& options) {
       .InRange("max_concentration_ppm", options.max_concentration_ppm, 1.0, 1e6)
       .InRange("max_robot_count", options.max_robot_count, 1, 1000)
       .InRange("robot_silence_s", options.robot_silence_s, 1.0, 1e9)
+      .InRange("return_home_below_battery_share", options.return_home_below_battery_share, 0.0, 1.0)
       .InRange("memory_budget_bytes", static_cast<double>(options.memory_budget_bytes),
                kMinBudget_bytes, kMaxBudget_bytes)
       .InRange("home.x_m", home.x_m, -options.pose_limit_m, options.pose_limit_m)

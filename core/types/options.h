@@ -212,6 +212,9 @@ struct MissionOptions {
   // A robot that is not heard of while the sample time moves on by this much counts as gone until
   // it is; [1, 1e9].
   double robot_silence_s = 60.0;
+  // A robot that tells of less than this of a full battery is sent home, until it has 0.1 more than
+  // this, or is full; [0, 1]; 0: none is.
+  double return_home_below_battery_share = 0.0;
   // What the mission may come to hold, as reckoned by core/mission/memory_estimate.h;
   // [33554432 (32 MiB), 1e12]. Near it the gas lattice becomes coarser; what would go beyond is
   // refused with BUDGET_REACHED, and the map stays as it is.
@@ -219,6 +222,9 @@ struct MissionOptions {
   // A sample whose clock runs too far ahead of the server's is taken with the time of its arrival
   // instead of being refused. Whoever runs the mission sees to it, for only they have a clock.
   bool stamp_by_arrival = false;
+  // Whether scans and readings are kept, in up to a quarter of the budget, so that poses can be
+  // corrected later (PoseCorrection) and robots that lose their place are told. False: neither.
+  bool keep_scans = true;
   std::uint64_t seed = 1;
   // Where nobody may drive, though it is sensed and mapped: at most 64, of 3 to 256 vertices each.
   std::vector<Polygon> keep_out;

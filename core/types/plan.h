@@ -30,7 +30,8 @@ enum class GoalKind {
   kRandomFreeSpace,
   kHome,
   kInformation,
-  kSite,  // where the robot stops and samples
+  kSite,     // where the robot stops and samples
+  kMakeWay,  // out of another robot's way
 };
 
 // A place worth going to, as the goal policy hands it to the path planner.

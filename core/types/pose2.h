@@ -32,4 +32,25 @@ inline double WrapAngle_rad(double angle_rad) {
   return wrapped <= -M_PI ? M_PI : wrapped;
 }
 
+// Poses as transforms: what `b` is in the frame in which `a` is given, if `b` is given in the frame
+// whose origin is `a`.
+inline Pose2 Compose(const Pose2& a, const Pose2& b) {
+  const double cos = std::cos(a.yaw_rad);
+  const double sin = std::sin(a.yaw_rad);
+  return {a.x_m + cos * b.x_m - sin * b.y_m, a.y_m + sin * b.x_m + cos * b.y_m,
+          WrapAngle_rad(a.yaw_rad + b.yaw_rad)};
+}
+
+// Where something is that is so far ahead and to the left of what has the pose.
+inline Point2 PlaceOnRobot(const Pose2& pose, Point2 robot_from_place) {
+  return Compose(pose, {robot_from_place.x_m, robot_from_place.y_m, 0.0}).position();
+}
+
+// Compose(a, Inverse(a)) is the pose at the origin, but for rounding.
+inline Pose2 Inverse(const Pose2& a) {
+  const double cos = std::cos(a.yaw_rad);
+  const double sin = std::sin(a.yaw_rad);
+  return {-cos * a.x_m - sin * a.y_m, sin * a.x_m - cos * a.y_m, WrapAngle_rad(-a.yaw_rad)};
+}
+
 }  // namespace plumescout

@@ -46,6 +46,7 @@ constexpr bool IsOne(GoalKind kind) {
     case GoalKind::kHome:
     case GoalKind::kInformation:
     case GoalKind::kSite:
+    case GoalKind::kMakeWay:
       return true;
   }
   return false;
@@ -79,9 +80,19 @@ void Visit(auto& archive, ConstOr<Goal> auto& goal) {
   auto& [kind, cell, position, centroid, frontier_cells] = goal;
   archive(kind, cell, position, centroid, frontier_cells);
 }
+void Visit(auto& archive, ConstOr<GasSensor> auto& sensor) {
+  auto& [id, robot_from_sensor, stddev_ppm, offset_stddev_ppm] = sensor;
+  archive(id, robot_from_sensor, stddev_ppm, offset_stddev_ppm);
+}
+void Visit(auto& archive, ConstOr<RobotFrame> auto& frame) {
+  auto& [mission_from_robot, position_stddev_m, heading_stddev_rad] = frame;
+  archive(mission_from_robot, position_stddev_m, heading_stddev_rad);
+}
 void Visit(auto& archive, ConstOr<RobotState> auto& robot) {
-  auto& [id, radius_m, has_pose, pose, applied_sequence, rejected_observations, silent] = robot;
+  auto& [id, radius_m, has_pose, pose, applied_sequence, rejected_observations, silent, frame,
+         clock_offset_ns, battery_share, ordered_home, frame_suspect] = robot;
   archive(id, radius_m, has_pose, pose, applied_sequence, rejected_observations, silent);
+  archive.Since(2, frame, clock_offset_ns, battery_share, ordered_home, frame_suspect);
 }
 void Visit(auto& archive, ConstOr<GasCounters> auto& counters) {
   auto& [readings, in_posterior, moved_to_neighbour, waiting] = counters;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "formats/journal/event_codec.h"
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -28,14 +29,22 @@ constexpr std::int64_t kStartNumber = 0;  // events of a mission count from 1
 
 // What a record begins with: its version, its kind.
 constexpr std::size_t kHeadBytes = 2;
-constexpr std::uint8_t kVersion = 1;              // of every kind, so far, but for ...
-constexpr std::uint8_t kStartWithEndVersion = 2;  // ... starts that say where the journal ends
+constexpr std::uint8_t kVersion = 1;  // of every kind, so far, but for ...
+// ... starts that say where the journal ends, robots that tell of their frame or their sensors,
+// plans that were assigned, readings of other sensors than the first, and observations of kinds
+// that came later.
+constexpr std::uint8_t kSecondVersion = 2;
 constexpr std::uint8_t kStartKind = 0;
 constexpr std::uint8_t kFirstEventKind = 1;  // then in the order of EventBody
+constexpr std::size_t kRegisteredKind = 1;
+constexpr std::size_t kObservationKind = 2;
+constexpr std::size_t kPlanKind = 4;
+constexpr std::size_t kFirstNewPayload = 3;
 constexpr const char* kKindNames[] = {
-    "JournalStart",       "RobotRegistered", "ObservationReceived",
-    "PosteriorRefreshed", "PlanIssued",      "ProgressReported",
-    "EpochBegun",         "EpochAdopted",    "RobotRemoved"};
+    "JournalStart", "RobotRegistered",  "ObservationReceived", "PosteriorRefreshed",
+    "PlanIssued",   "ProgressReported", "EpochBegun",          "EpochAdopted",
+    "RobotRemoved", "ClockOffsetNoted", "HomeOrdered",         "MapRebuildBegun",
+    "MapRebuilt"};
 static_assert(std::size(kKindNames) == kFirstEventKind + std::variant_size_v<EventBody>);
 
 template <typename T>
@@ -209,8 +218,47 @@ std::string Head(std::size_t kind, std::uint8_t version = kVersion) {
 
 bool SaysEnd(const JournalStart& start) { return start.last_number != 0 || start.last_digest != 0; }
 
-// The kind of the record at the front of `bytes`, which move behind its head.
-absl::StatusOr<std::size_t> TakeHead(absl::string_view& bytes) {
+std::uint8_t VersionOf(const EventBody& body) {
+  if (const auto* registered = std::get_if<RobotRegistered>(&body)) {
+    const bool is_plain = registered->frame == RobotFrame() && registered->sensors.empty();
+    return is_plain ? kVersion : kSecondVersion;
+  }
+  if (const auto* received = std::get_if<ObservationReceived>(&body)) {
+    const auto& payload = received->observation.payload;
+    const auto* reading = std::get_if<GasReading>(&payload);
+    const bool is_new =
+        payload.index() >= kFirstNewPayload || (reading != nullptr && reading->sensor != 0);
+    return is_new ? kSecondVersion : kVersion;
+  }
+  if (const auto* issued = std::get_if<PlanIssued>(&body)) {
+    return issued->assigned ? kSecondVersion : kVersion;
+  }
+  return kVersion;
+}
+
+// What only records of the second version hold, behind what all hold.
+void VisitSecond(auto& archive, auto& body) {
+  if (auto* registered = std::get_if<RobotRegistered>(&body)) {
+    archive(registered->frame, registered->sensors);
+  } else if (auto* received = std::get_if<ObservationReceived>(&body)) {
+    auto* reading = std::get_if<GasReading>(&received->observation.payload);
+    if (reading != nullptr) archive(reading->sensor);
+  } else if (auto* issued = std::get_if<PlanIssued>(&body)) {
+    archive(issued->assigned);
+  }
+}
+
+bool HasSecondVersion(std::size_t kind) {
+  return kind == kStartKind || kind == kRegisteredKind || kind == kObservationKind ||
+         kind == kPlanKind;
+}
+
+// What a record begins with, taken from the front of `bytes`.
+struct RecordHead {
+  std::size_t kind = 0;
+  bool second = false;  // of the second version
+};
+absl::StatusOr<RecordHead> TakeHead(absl::string_view& bytes) {
   if (bytes.size() < kHeadBytes) return absl::DataLossError("the record has no version and kind");
   const auto version = static_cast<std::uint8_t>(bytes[0]);
   const std::size_t kind = static_cast<std::uint8_t>(bytes[1]);
@@ -219,11 +267,10 @@ absl::StatusOr<std::size_t> TakeHead(absl::string_view& bytes) {
     return absl::DataLossError(
         absl::StrCat("a record of version ", version, " and the unknown kind ", kind));
   }
-  const bool is_known =
-      version == kVersion || (version == kStartWithEndVersion && kind == kStartKind);
-  if (is_known) return kind;
+  const std::uint8_t newest = HasSecondVersion(kind) ? kSecondVersion : kVersion;
+  if (version >= kVersion && version <= newest) return RecordHead{kind, version == kSecondVersion};
   return absl::DataLossError(absl::StrCat("a record ", kKindNames[kind], " of version ", version,
-                                          ", this program reads version ", kVersion));
+                                          ", this program reads version ", newest));
 }
 
 absl::Status DoesNotDecode(std::size_t kind) {
@@ -237,7 +284,11 @@ Plan ForReplay(Plan plan) {
     plan.chosen = 0;
   }
   plan.candidates = std::move(kept);
-  plan.rejected.clear();
+  const auto wanted = std::find_if(
+      plan.rejected.begin(), plan.rejected.end(),
+      [](const RejectedGoal& goal) { return goal.reason == RejectionReason::kTraffic; });
+  plan.rejected = wanted == plan.rejected.end() ? std::vector<RejectedGoal>()
+                                                : std::vector<RejectedGoal>{std::move(*wanted)};
   return plan;
 }
 
@@ -246,28 +297,32 @@ Plan ForReplay(Plan plan) {
 std::string EncodeEvent(const Event& event, PlanDetail detail) {
   if (const auto* issued = std::get_if<PlanIssued>(&event.body);
       issued != nullptr && detail == PlanDetail::kForReplay) {
-    return EncodeEvent({event.number, PlanIssued{ForReplay(issued->plan)}}, PlanDetail::kWhole);
+    return EncodeEvent({event.number, PlanIssued{ForReplay(issued->plan), issued->assigned}},
+                       PlanDetail::kWhole);
   }
-  std::string bytes = Head(kFirstEventKind + event.body.index());
+  const std::uint8_t version = VersionOf(event.body);
+  std::string bytes = Head(kFirstEventKind + event.body.index(), version);
   Encoder encoder(bytes);
   encoder(event.number);
   std::visit([&encoder](const auto& body) { encoder(body); }, event.body);
+  if (version == kSecondVersion) VisitSecond(encoder, event.body);
   return bytes;
 }
 
 absl::StatusOr<Event> DecodeEvent(absl::string_view bytes) {
-  PLUMESCOUT_ASSIGN_OR_RETURN(const std::size_t kind, TakeHead(bytes));
-  if (kind < kFirstEventKind) return absl::DataLossError("a start where an event belongs");
+  PLUMESCOUT_ASSIGN_OR_RETURN(const RecordHead head, TakeHead(bytes));
+  if (head.kind < kFirstEventKind) return absl::DataLossError("a start where an event belongs");
   Event event;
   Decoder decoder(bytes);
   decoder(event.number);
-  decoder.GetAlternative(event.body, kind - kFirstEventKind);
-  if (!decoder.Finished()) return DoesNotDecode(kind);
+  decoder.GetAlternative(event.body, head.kind - kFirstEventKind);
+  if (head.second) VisitSecond(decoder, event.body);
+  if (!decoder.Finished()) return DoesNotDecode(head.kind);
   return event;
 }
 
 std::string EncodeStart(const JournalStart& start) {
-  std::string bytes = Head(kStartKind, SaysEnd(start) ? kStartWithEndVersion : kVersion);
+  std::string bytes = Head(kStartKind, SaysEnd(start) ? kSecondVersion : kVersion);
   Encoder encoder(bytes);
   encoder(kStartNumber, start);
   if (SaysEnd(start)) encoder(start.last_number, start.last_digest);
@@ -275,15 +330,14 @@ std::string EncodeStart(const JournalStart& start) {
 }
 
 absl::StatusOr<JournalStart> DecodeStart(absl::string_view bytes) {
-  const bool says_end = !bytes.empty() && bytes[0] == kStartWithEndVersion;
-  PLUMESCOUT_ASSIGN_OR_RETURN(const std::size_t kind, TakeHead(bytes));
-  if (kind != kStartKind) return absl::DataLossError("an event where the start belongs");
+  PLUMESCOUT_ASSIGN_OR_RETURN(const RecordHead head, TakeHead(bytes));
+  if (head.kind != kStartKind) return absl::DataLossError("an event where the start belongs");
   std::int64_t number = -1;
   JournalStart start;
   Decoder decoder(bytes);
   decoder(number, start);
-  if (says_end) decoder(start.last_number, start.last_digest);
-  if (!decoder.Finished() || number != kStartNumber) return DoesNotDecode(kind);
+  if (head.second) decoder(start.last_number, start.last_digest);
+  if (!decoder.Finished() || number != kStartNumber) return DoesNotDecode(head.kind);
   return start;
 }
 

@@ -32,7 +32,7 @@ struct JournalStart {
 enum class PlanDetail {
   kWhole,
   kForReplay,  // what a mission and its fleet need: the chosen candidate, but not those it was
-               // chosen from, nor those that were rejected
+               // chosen from; of the rejected goals only the first that others were in the way of
 };
 
 // Events as bytes. Whatever a mission reads of an event survives bit by bit, so a replay of decoded

@@ -31,7 +31,8 @@ concept Enum = std::is_enum_v<T>;
 // A struct that changes in event_members.h gets the list that it had here; the golden files tell.
 void VisitOld(auto& archive, auto& value) { journal::VisitMembers(archive, value); }
 void VisitOld(auto& archive, RobotRegistered& event) {
-  auto& [robot, radius_m, lease_token, log_epoch] = event;  // log_epoch is younger
+  auto& [robot, radius_m, lease_token, log_epoch, frame, sensors] =
+      event;  // the last three are younger
   archive(robot, radius_m, lease_token);
 }
 void VisitOld(auto& archive, Event& event) {

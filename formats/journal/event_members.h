@@ -33,12 +33,25 @@ void VisitMembers(auto& archive, Is<Scan> auto& scan) {
   archive(start_angle_rad, angle_step_rad, max_range_m, ranges_m);
 }
 void VisitMembers(auto& archive, Is<GasReading> auto& reading) {
-  auto& [concentration_ppm, variance_ppm2] = reading;
+  auto& [concentration_ppm, variance_ppm2, sensor] = reading;
+  // The sensor is in records of other than the first only: see event_codec.cc.
   archive(concentration_ppm, variance_ppm2);
 }
 void VisitMembers(auto& archive, Is<SequenceGap> auto& gap) {
   auto& [first_sequence, last_sequence] = gap;
   archive(first_sequence, last_sequence);
+}
+void VisitMembers(auto& archive, Is<PoseAnchor> auto& anchor) {
+  auto& [sample_time_ns, pose] = anchor;
+  archive(sample_time_ns, pose);
+}
+void VisitMembers(auto& archive, Is<PoseCorrection> auto& correction) {
+  auto& [anchors] = correction;
+  archive(anchors);
+}
+void VisitMembers(auto& archive, Is<RobotStatus> auto& status) {
+  auto& [battery_share] = status;
+  archive(battery_share);
 }
 void VisitMembers(auto& archive, Is<Observation> auto& observation) {
   auto& [sequence, sample_time_ns, pose, payload] = observation;
@@ -76,8 +89,17 @@ void VisitMembers(auto& archive, Is<Plan> auto& plan) {
   archive(id, robot, strategy, belief_revision, seed, phase, end, chosen, candidates, rejected,
           trajectory, effort, field_flat, goal_kept, start_escaped, explanation, cpu_s);
 }
+void VisitMembers(auto& archive, Is<RobotFrame> auto& frame) {
+  auto& [mission_from_robot, position_stddev_m, heading_stddev_rad] = frame;
+  archive(mission_from_robot, position_stddev_m, heading_stddev_rad);
+}
+void VisitMembers(auto& archive, Is<GasSensor> auto& sensor) {
+  auto& [id, robot_from_sensor, stddev_ppm, offset_stddev_ppm] = sensor;
+  archive(id, robot_from_sensor, stddev_ppm, offset_stddev_ppm);
+}
 void VisitMembers(auto& archive, Is<RobotRegistered> auto& event) {
-  auto& [robot, radius_m, lease_token, log_epoch] = event;
+  auto& [robot, radius_m, lease_token, log_epoch, frame, sensors] = event;
+  // The last two are in records that have them only: see event_codec.cc.
   archive(robot, radius_m, lease_token, log_epoch);
 }
 void VisitMembers(auto& archive, Is<ObservationReceived> auto& event) {
@@ -89,7 +111,8 @@ void VisitMembers(auto& archive, Is<PosteriorRefreshed> auto& event) {
   archive(time_ns);
 }
 void VisitMembers(auto& archive, Is<PlanIssued> auto& event) {
-  auto& [plan] = event;
+  auto& [plan, assigned] = event;
+  // Whether it was assigned is in records of plans that were only.
   archive(plan);
 }
 void VisitMembers(auto& archive, Is<ProgressReported> auto& event) {
@@ -107,6 +130,18 @@ void VisitMembers(auto& archive, Is<RobotRemoved> auto& event) {
   auto& [robot] = event;
   archive(robot);
 }
+void VisitMembers(auto& archive, Is<ClockOffsetNoted> auto& event) {
+  auto& [robot, offset_ns] = event;
+  archive(robot, offset_ns);
+}
+void VisitMembers(auto& archive, Is<HomeOrdered> auto& event) {
+  auto& [robot, home] = event;
+  archive(robot, home);
+}
+void VisitMembers(auto&, Is<MapRebuildBegun> auto&) {
+  static_assert(std::is_empty_v<MapRebuildBegun>);
+}
+void VisitMembers(auto&, Is<MapRebuilt> auto&) { static_assert(std::is_empty_v<MapRebuilt>); }
 void VisitMembers(auto& archive, Is<JournalStart> auto& start) {
   auto& [code_version, mission_options, mission, owner, tenant, created_ns, last_number,
          last_digest] = start;

@@ -8,6 +8,7 @@
 
 #include "core/mission/conduct/commit_race.h"
 #include "core/mission/conduct/ingest.h"
+#include "core/plan/team/assigned_plan.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout::lab {
@@ -116,6 +117,9 @@ absl::StatusOr<Plan> LocalMission::NextPlan(const client::PlanQuery& query) {
   for (CommitRace race;;) {
     PLUMESCOUT_ASSIGN_OR_RETURN(const std::shared_ptr<const Belief> belief,
                                 BeliefFor(query, deadline));
+    if (std::optional<Plan> assigned = AssignedPlan(*belief, query.request)) {
+      return *std::move(assigned);
+    }
     const absl::Time stop_at = std::min(options_.clock() + budget, deadline);
     PLUMESCOUT_ASSIGN_OR_RETURN(Plan plan, strategy_->Plan(*belief, query.request, [&] {
       return options_.clock() >= stop_at;
@@ -128,6 +132,18 @@ absl::StatusOr<Plan> LocalMission::NextPlan(const client::PlanQuery& query) {
     plan.id = *id;
     return plan;
   }
+}
+
+absl::StatusOr<CommittedTeam> LocalMission::PlanForTeam(const TeamRequest& request,
+                                                        absl::Duration budget) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::shared_ptr<const Belief> belief, FreshBelief());
+  const absl::Time stop_at =
+      options_.clock() + (budget > absl::ZeroDuration() ? budget : options_.default_budget);
+  PLUMESCOUT_ASSIGN_OR_RETURN(TeamPlan team, PlanTeam(*strategy_, *belief, request,
+                                                      [&] { return options_.clock() >= stop_at; }));
+  absl::MutexLock lock(&mutex_);
+  PLUMESCOUT_RETURN_IF_ERROR(closed_);
+  return CommitTeam(std::move(team), conduct_);
 }
 
 absl::StatusOr<std::shared_ptr<const Belief>> LocalMission::BeliefFor(
@@ -152,6 +168,50 @@ absl::Status LocalMission::Report(const ProgressReported& report, std::int64_t l
   absl::MutexLock lock(&mutex_);
   PLUMESCOUT_RETURN_IF_ERROR(UseLease(report.robot, lease_token));
   return conduct_.Report(report, lease_token).status();
+}
+
+absl::StatusOr<RobotNews> LocalMission::NewsOf(const RobotId& robot, std::int64_t lease_token) {
+  absl::MutexLock lock(&mutex_);
+  PLUMESCOUT_RETURN_IF_ERROR(closed_);
+  PLUMESCOUT_RETURN_IF_ERROR(leases_.Check(robot, lease_token));
+  LookAtPlans();
+  RobotNews news = news_[robot];
+  news.revision = conduct_.mission().revision();
+  if (!news.standing) news.standing.emplace();
+  news.standing->leased = true;
+  return news;
+}
+
+bool LocalMission::AwaitChange(std::int64_t revision, absl::Time deadline,
+                               const std::atomic<bool>& cancelled) {
+  absl::MutexLock lock(&mutex_);
+  const auto changed = [&]() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
+    return !closed_.ok() || cancelled || conduct_.mission().revision() != revision;
+  };
+  return mutex_.AwaitWithDeadline(absl::Condition(&changed), deadline);
+}
+
+void LocalMission::LookAtPlans() {
+  const std::int64_t now_ns = conduct_.mission().sample_time_ns();
+  const bool due =
+      !looked_at_ns_ || static_cast<double>(now_ns - *looked_at_ns_) * 1e-9 >= kLookPeriod_s;
+  if (!due) return;
+  looked_at_ns_ = now_ns;
+  const std::shared_ptr<const Belief> belief = conduct_.Snapshot();
+  for (const auto& [robot, record] : belief->robots) {
+    RobotNews& news = news_[robot];
+    const RobotState& state = record.state;
+    news.standing = RobotStanding{.ordered_home = state.ordered_home,
+                                  .frame_suspect = state.frame_suspect,
+                                  .silent = state.silent};
+    if (news.invalidated && news.invalidated->plan != record.last_plan) news.invalidated.reset();
+    if (news.assigned && news.assigned->plan != record.last_plan) news.assigned.reset();
+  }
+  for (PlanWatch::News& told : plan_watch_.Look(*belief)) {
+    RobotNews& news = news_[told.robot];
+    if (auto* one = std::get_if<PlanInvalidated>(&told.notice)) news.invalidated = std::move(*one);
+    if (auto* one = std::get_if<PlanAssigned>(&told.notice)) news.assigned = *one;
+  }
 }
 
 absl::StatusOr<std::shared_ptr<const Belief>> LocalMission::FreshBelief() {

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "absl/base/thread_annotations.h"
@@ -17,10 +20,14 @@
 #include "core/mission/conduct/conduct_observer.h"
 #include "core/mission/conduct/lease_book.h"
 #include "core/mission/conduct/mission_conduct.h"
+#include "core/mission/conduct/team_commit.h"
 #include "core/mission/mission.h"
 #include "core/plan/paths/path_planners.h"
+#include "core/plan/plan_watch.h"
 #include "core/plan/strategy.h"
+#include "core/plan/team/team_plan.h"
 #include "core/types/event.h"
+#include "core/types/robot_notice.h"
 
 namespace plumescout::lab {
 
@@ -32,6 +39,14 @@ struct LocalOptions {
   PathPlannerFactory path_planners = nullptr;        // of planners that core does not have
   // Told of every event of every mission, once it is applied; may be empty.
   std::function<void(const Event&)> on_event = nullptr;
+};
+
+// What there is to tell a robot unasked.
+struct RobotNews {
+  std::int64_t revision = 0;  // of the mission
+  std::optional<RobotStanding> standing;
+  std::optional<PlanInvalidated> invalidated;  // of its latest plan
+  std::optional<PlanAssigned> assigned;        // the same
 };
 
 // The conduct of one mission and its leases, behind one mutex; searches for plans run outside it,
@@ -67,7 +82,16 @@ class LocalMission final : private ConductObserver {
                       std::vector<client::ObservationRejected>& rejected);
 
   absl::StatusOr<Plan> NextPlan(const client::PlanQuery& query);
+  // For robots that are free, or named; they fetch it as their next plan. `budget` 0: the default.
+  absl::StatusOr<CommittedTeam> PlanForTeam(const TeamRequest& request, absl::Duration budget);
   absl::Status Report(const ProgressReported& report, std::int64_t lease_token);
+  // Looks at the live plans first, if they were not for kLookPeriod_s of sample time. The lease has
+  // to be in force.
+  absl::StatusOr<RobotNews> NewsOf(const RobotId& robot, std::int64_t lease_token);
+  // Waits until the mission has another revision, has ended or is woken with `cancelled` set; false
+  // after the deadline.
+  bool AwaitChange(std::int64_t revision, absl::Time deadline, const std::atomic<bool>& cancelled);
+  void Wake() { absl::MutexLock lock(&mutex_); }
   // With the posterior brought up to date.
   absl::StatusOr<std::shared_ptr<const Belief>> FreshBelief();
   std::shared_ptr<const Belief> Snapshot() const;
@@ -76,6 +100,9 @@ class LocalMission final : private ConductObserver {
   void Close(const absl::Status& status);
 
  private:
+  static constexpr double kLookPeriod_s = 0.5;
+
+  void LookAtPlans() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void OnEvent(const Event& event, const Applied& applied) override;
 
   std::int64_t Now_ns() const { return absl::ToUnixNanos(options_.clock()); }
@@ -94,6 +121,9 @@ class LocalMission final : private ConductObserver {
   MissionConduct conduct_ ABSL_GUARDED_BY(mutex_);
   LeaseBook leases_ ABSL_GUARDED_BY(mutex_);
   absl::Status closed_ ABSL_GUARDED_BY(mutex_);  // OK: it is open
+  PlanWatch plan_watch_ ABSL_GUARDED_BY(mutex_);
+  std::optional<std::int64_t> looked_at_ns_ ABSL_GUARDED_BY(mutex_);  // in sample time
+  std::map<RobotId, RobotNews> news_ ABSL_GUARDED_BY(mutex_);         // but for revision and lease
 };
 
 }  // namespace plumescout::lab

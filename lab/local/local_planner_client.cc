@@ -8,6 +8,7 @@
 
 #include "core/mission/conduct/conduct_errors.h"
 #include "core/types/status_macros.h"
+#include "lab/local/local_robot_watch.h"
 
 namespace plumescout::lab {
 namespace {
@@ -98,16 +99,17 @@ absl::Status LocalPlannerClient::DeleteMission(const MissionId& mission) {
   return absl::OkStatus();
 }
 
-absl::StatusOr<client::RobotSession> LocalPlannerClient::RegisterRobot(const MissionId& mission,
-                                                                       const RobotId& robot,
-                                                                       double radius_m,
-                                                                       bool take_over,
-                                                                       std::int64_t log_epoch) {
+absl::StatusOr<client::RobotSession> LocalPlannerClient::RegisterRobot(
+    const MissionId& mission, const RobotId& robot, double radius_m, bool take_over,
+    std::int64_t log_epoch, const client::RobotOutfit& outfit) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::shared_ptr<LocalMission> found, Find(mission));
-  PLUMESCOUT_ASSIGN_OR_RETURN(
-      client::RobotSession session,
-      found->Register(
-          {.robot = robot, .radius_m = radius_m, .take_over = take_over, .log_epoch = log_epoch}));
+  PLUMESCOUT_ASSIGN_OR_RETURN(client::RobotSession session,
+                              found->Register({.robot = robot,
+                                               .radius_m = radius_m,
+                                               .take_over = take_over,
+                                               .log_epoch = log_epoch,
+                                               .frame = outfit.frame,
+                                               .sensors = outfit.sensors}));
   session.mission = mission;
   session.server_boot_id = kBootId;
   return session;
@@ -135,11 +137,24 @@ absl::StatusOr<Plan> LocalPlannerClient::NextBestTrajectory(const MissionId& mis
   return found->NextPlan(query);
 }
 
+absl::StatusOr<CommittedTeam> LocalPlannerClient::PlanTeam(const MissionId& mission,
+                                                           const TeamRequest& request,
+                                                           absl::Duration budget) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::shared_ptr<LocalMission> found, Find(mission));
+  return found->PlanForTeam(request, budget);
+}
+
 absl::Status LocalPlannerClient::ReportProgress(const client::RobotSession& session, PlanId plan,
                                                 ProgressOutcome outcome) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::shared_ptr<LocalMission> found, Find(session.mission));
   return found->Report({.robot = session.robot, .plan_id = plan, .outcome = outcome},
                        session.lease_token);
+}
+
+absl::StatusOr<std::unique_ptr<client::RobotWatch>> LocalPlannerClient::WatchRobot(
+    const client::RobotSession& session) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(std::shared_ptr<LocalMission> found, Find(session.mission));
+  return std::make_unique<LocalRobotWatch>(std::move(found), session);
 }
 
 absl::StatusOr<MapSnapshot> LocalPlannerClient::GetMap(const MissionId& mission) {

@@ -26,7 +26,8 @@ class LocalPlannerClient final : public client::PlannerClient {
   using PlannerClient::RegisterRobot;
   absl::StatusOr<client::RobotSession> RegisterRobot(const MissionId& mission, const RobotId& robot,
                                                      double radius_m, bool take_over,
-                                                     std::int64_t log_epoch) override;
+                                                     std::int64_t log_epoch,
+                                                     const client::RobotOutfit& outfit) override;
   absl::Status RemoveRobot(const MissionId& mission, const RobotId& robot, std::int64_t lease_token,
                            bool force) override;
   absl::StatusOr<std::unique_ptr<client::ObservationStream>> OpenObservationStream(
@@ -35,7 +36,13 @@ class LocalPlannerClient final : public client::PlannerClient {
                                           const client::PlanQuery& query) override;
   absl::Status ReportProgress(const client::RobotSession& session, PlanId plan,
                               ProgressOutcome outcome) override;
+  absl::StatusOr<std::unique_ptr<client::RobotWatch>> WatchRobot(
+      const client::RobotSession& session) override;
   absl::StatusOr<MapSnapshot> GetMap(const MissionId& mission) override;
+
+  // PlanningService.PlanTeam. Robots fetch what was assigned with NextBestTrajectory.
+  absl::StatusOr<CommittedTeam> PlanTeam(const MissionId& mission, const TeamRequest& request,
+                                         absl::Duration budget);
 
   // What studies compare with the truth, without the copies that GetMap makes.
   absl::StatusOr<std::shared_ptr<const Belief>> GetBelief(const MissionId& mission) const;

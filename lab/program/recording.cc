@@ -28,7 +28,7 @@ absl::StatusOr<MissionOptions> ReadOptionsFile(const std::string& path) {
   v1::MissionOptions proto;
   const auto read = google::protobuf::util::JsonStringToMessage(json, &proto);
   if (!read.ok()) return absl::InvalidArgumentError(absl::StrCat(path, ": ", read.ToString()));
-  return FromProto(proto, MissionOptions{}, path);
+  return FromProto(proto, RecordedDefaults(), path);
 }
 
 absl::StatusOr<MissionOptions> ParseOptions(const std::string& bytes, const std::string& path) {

@@ -141,6 +141,8 @@ absl::StatusOr<TeamResult> RunPlanned(const RobotArguments& arguments, const Sce
   if (arguments.record.empty()) {
     client::GrpcClientOptions link;
     link.target = arguments.server;
+    // A server looks at plans by its own clock, and lockstep is to be repeatable.
+    options.watch = options.realtime;
     return RunTeamEpisode(*client::MakeGrpcPlannerClient(link), world, options, planned.teammates);
   }
   PLUMESCOUT_RETURN_IF_ERROR(ApplyStrategyRow(options.create->planning));  // as servers do

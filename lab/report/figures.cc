@@ -193,6 +193,7 @@ Rgb GoalColor(GoalKind kind) {
     case GoalKind::kHome:
       return kStartColor;
     case GoalKind::kRandomFreeSpace:
+    case GoalKind::kMakeWay:
       break;
   }
   return kRandomGoalColor;

@@ -38,6 +38,8 @@ const char* NameOf(GoalKind kind) {
       return "home";
     case GoalKind::kSite:
       return "sampling site";
+    case GoalKind::kMakeWay:
+      return "making way";
   }
   return "unknown";
 }

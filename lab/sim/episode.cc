@@ -50,6 +50,7 @@ client::RobotLoopOptions LoopOptions(const EpisodeOptions& options) {
   loop.time_limit_s = options.duration_s;
   loop.max_edge_evaluations = options.max_edge_evaluations;
   loop.plan_budget = options.plan_budget;
+  loop.watch = options.watch;
   return loop;
 }
 
@@ -112,6 +113,7 @@ absl::StatusOr<EpisodeResult> RunRobot(SimulatedRobot& robot, const EpisodeOptio
   result.collisions = robot.collisions();
   result.legs = ran.reached + ran.blocked + ran.aborted;
   result.blocked_legs = ran.blocked;
+  result.invalidated_legs = ran.invalidated;
   result.completed = ran.end == client::RobotEnd::kMissionComplete;
   return std::move(result);
 }
@@ -127,6 +129,7 @@ std::vector<EpisodeOptions> OptionsOfAll(const EpisodeOptions& options,
     one.simulated.seed = teammate.seed;
     all.push_back(std::move(one));
   }
+  all.front().watch = options.watch && all.size() > 1;
   return all;
 }
 

@@ -52,6 +52,9 @@ struct EpisodeOptions {
   // repeatable bound the work and set an infinite time.
   std::int64_t max_edge_evaluations = 0;
   absl::Duration plan_budget = absl::Seconds(1);
+  // Robots of a team heed what the service tells unasked. One that is alone knows what that could
+  // tell.
+  bool watch = true;
   SimulatedRobotOptions simulated;  // its `realtime` is set from the one above
   double metrics_period_s = 5.0;    // > 0
   // Where the map has no estimate, see MapEvaluator.
@@ -72,9 +75,10 @@ struct EpisodeResult {
   double simulated_s = 0.0;
   double distance_m = 0.0;
   int collisions = 0;
-  int legs = 0;            // that have ended
-  int blocked_legs = 0;    // of those, for something stood in the way
-  bool completed = false;  // the planner said so; else the time was up or `stop` said so
+  int legs = 0;              // that have ended
+  int blocked_legs = 0;      // of those, for something stood in the way
+  int invalidated_legs = 0;  // for the service said that the plan does not stand
+  bool completed = false;    // the planner said so; else the time was up or `stop` said so
 };
 
 // Runs a simulated robot against a planning service until the mission is complete or the time is

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/types/checker.h"
+#include "core/types/status_macros.h"
 
 namespace plumescout::lab {
 namespace {
@@ -22,6 +23,7 @@ Pose2 Sum(const Pose2& pose, const Pose2& drift, const Pose2& noise) {
 }  // namespace
 
 absl::Status Validate(const PoseErrorOptions& options) {
+  if (options.jump) PLUMESCOUT_RETURN_IF_ERROR(Validate(*options.jump));
   return Checker()
       .InRange("pose_error.position_sigma_m", options.position_sigma_m, 0.0, kMaxPosition_m)
       .InRange("pose_error.yaw_sigma_rad", options.yaw_sigma_rad, 0.0, kMaxYaw_rad)

@@ -3,20 +3,23 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "absl/status/status.h"
 #include "core/types/pose2.h"
 #include "core/types/rng.h"
+#include "lab/sim/pose_jump.h"
 
 namespace plumescout::lab {
 
 // How far localisation is off: fresh noise at every instant, and drift that nothing takes back, a
 // random walk whose standard deviation grows with the square root of time. 0: exact.
 struct PoseErrorOptions {
-  double position_sigma_m = 0.0;      // of each coordinate, [0, 10]
-  double yaw_sigma_rad = 0.0;         // [0, 3.2]
-  double drift_m_per_sqrt_s = 0.0;    // of each coordinate, [0, 10]
-  double drift_rad_per_sqrt_s = 0.0;  // [0, 3.2]
+  double position_sigma_m = 0.0;                       // of each coordinate, [0, 10]
+  double yaw_sigma_rad = 0.0;                          // [0, 3.2]
+  double drift_m_per_sqrt_s = 0.0;                     // of each coordinate, [0, 10]
+  double drift_rad_per_sqrt_s = 0.0;                   // [0, 3.2]
+  std::optional<PoseJumpOptions> jump = std::nullopt;  // on top of these; see PoseJump
 
   friend bool operator==(const PoseErrorOptions&, const PoseErrorOptions&) = default;
 };

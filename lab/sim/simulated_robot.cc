@@ -100,6 +100,7 @@ SimulatedRobot::SimulatedRobot(const SceneWorld& world, const SimulatedRobotOpti
       gas_sensor_(options.gas_sensor, options.seed ^ kGasStream, world.ambient_ppm()),
       now_ns_(options.start_time_ns),
       pose_error_(options.pose_error, options.seed ^ kPoseStream),
+      pose_jump_(options.pose_error.jump),
       pose_(options.start.value_or(world.scene().start_pose)),
       due_(std::chrono::steady_clock::now()) {}
 
@@ -126,7 +127,7 @@ absl::Status SimulatedRobot::Drive(const client::Twist& twist) {
 
 absl::Status SimulatedRobot::PlaceAt(const Pose2& pose) {
   if (!IsFinite(pose)) return absl::InvalidArgumentError("pose must be finite");
-  const Pose2 truth = pose_error_.TrueFor(pose);
+  const Pose2 truth = pose_error_.TrueFor(pose_jump_.Held(pose));
   if (world_->Collides(truth.position(), options_.body_radius_m)) {
     ++collisions_;
     return absl::OkStatus();
@@ -152,6 +153,8 @@ absl::Status SimulatedRobot::Advance(double duration_s) {
     gas_sensor_.Step(world_->Concentration_ppm(pose_.position(), scene_time_s()), step_s);
   }
   pose_error_.Advance(duration_s);
+  const auto elapsed_ns = static_cast<double>(now_ns_ - options_.start_time_ns);
+  pose_jump_.Pass(elapsed_ns / kNanosecondsPerSecond, now_ns_, pose_error_.Told(pose_));
   ShowBody();
   if (options_.realtime) Pace(duration_s);
   const Companion& companion = options_.companion;

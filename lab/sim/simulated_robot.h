@@ -13,6 +13,7 @@
 #include "lab/sim/gas_sensor.h"
 #include "lab/sim/lidar.h"
 #include "lab/sim/pose_error.h"
+#include "lab/sim/pose_jump.h"
 #include "lab/sim/scene_world.h"
 
 namespace plumescout::lab {
@@ -52,10 +53,12 @@ class SimulatedRobot : public client::RobotDriver {
                                                const SimulatedRobotOptions& options);
 
   std::int64_t now_ns() const override { return now_ns_; }
-  Pose2 pose() const override { return pose_error_.Told(pose_); }
+  Pose2 pose() const override { return pose_jump_.Told(pose_error_.Told(pose_)); }
   const Pose2& true_pose() const { return pose_; }
   absl::StatusOr<Scan> TakeScan() override;
   absl::StatusOr<GasReading> ReadGas() override;
+
+  std::optional<PoseCorrection> TakeCorrection() override { return pose_jump_.TakeCorrection(); }
 
   // Commands beyond the limits are cut to them. kInvalidArgument if not finite.
   absl::Status Drive(const client::Twist& twist) override;
@@ -86,6 +89,7 @@ class SimulatedRobot : public client::RobotDriver {
   GasSensor gas_sensor_;
   std::int64_t now_ns_;
   PoseError pose_error_;
+  PoseJump pose_jump_;
   Pose2 pose_;           // true
   client::Twist twist_;  // as commanded
   double speed_mps_ = 0.0;

@@ -65,6 +65,7 @@ std::string GoalText(const FrontierStep& step) {
       return "to a fallback goal";
     case GoalKind::kHome:
     case GoalKind::kSite:
+    case GoalKind::kMakeWay:
       break;
   }
   return "home";

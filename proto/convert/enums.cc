@@ -31,6 +31,7 @@ constexpr Row<GoalKind, v1::GoalKind> kGoalKinds[] = {
     {GoalKind::kHome, v1::GOAL_KIND_HOME},
     {GoalKind::kInformation, v1::GOAL_KIND_INFORMATION},
     {GoalKind::kSite, v1::GOAL_KIND_SITE},
+    {GoalKind::kMakeWay, v1::GOAL_KIND_MAKE_WAY},
 };
 constexpr Row<FrontierKind, v1::GoalKind> kFrontierKinds[] = {
     {FrontierKind::kOccupancy, v1::GOAL_KIND_OCCUPANCY_FRONTIER},
@@ -53,6 +54,13 @@ constexpr Row<RejectionReason, v1::RejectedGoal::Reason> kRejectionReasons[] = {
     {RejectionReason::kKeptOut, v1::RejectedGoal::REASON_KEPT_OUT},
     {RejectionReason::kGone, v1::RejectedGoal::REASON_GONE},
     {RejectionReason::kTraffic, v1::RejectedGoal::REASON_TRAFFIC},
+};
+constexpr Row<InvalidationReason, v1::PlanInvalidated::Reason> kInvalidationReasons[] = {
+    {InvalidationReason::kMeetsRobot, v1::PlanInvalidated::REASON_MEETS_ROBOT},
+    {InvalidationReason::kWayBlocked, v1::PlanInvalidated::REASON_WAY_BLOCKED},
+    {InvalidationReason::kKeptOut, v1::PlanInvalidated::REASON_KEPT_OUT},
+    {InvalidationReason::kSuperseded, v1::PlanInvalidated::REASON_SUPERSEDED},
+    {InvalidationReason::kLapsed, v1::PlanInvalidated::REASON_LAPSED},
 };
 constexpr Row<std::optional<CellState>, v1::CellState> kCellStates[] = {
     {CellState::kUnknown, v1::CELL_STATE_UNKNOWN},
@@ -147,6 +155,9 @@ v1::GoalKind ToProto(FrontierKind value) { return Find(kFrontierKinds, value); }
 v1::Candidate::PathSource ToProto(PathSource value) { return Find(kPathSources, value); }
 v1::RejectedGoal::Reason ToProto(RejectionReason value) { return Find(kRejectionReasons, value); }
 v1::Plan::End ToProto(PlanEnd value) { return Find(kPlanEnds, value); }
+v1::PlanInvalidated::Reason ToProto(InvalidationReason value) {
+  return Find(kInvalidationReasons, value);
+}
 v1::ReportProgressRequest::Outcome ToProto(ProgressOutcome value) { return Find(kOutcomes, value); }
 v1::WgfdScope ToProto(WgfdScope value) { return Find(kWgfdScopes, value); }
 v1::GoalPolicy ToProto(GoalPolicy value) { return Find(kGoalPolicies, value); }
@@ -174,6 +185,10 @@ absl::StatusOr<RejectionReason> FromProto(v1::RejectedGoal::Reason proto, absl::
 }
 absl::StatusOr<PlanEnd> FromProto(v1::Plan::End proto, absl::string_view field) {
   return Find(kPlanEnds, proto, field);
+}
+absl::StatusOr<InvalidationReason> FromProto(v1::PlanInvalidated::Reason proto,
+                                             absl::string_view field) {
+  return Find(kInvalidationReasons, proto, field);
 }
 absl::StatusOr<ProgressOutcome> FromProto(v1::ReportProgressRequest::Outcome proto,
                                           absl::string_view field) {

@@ -11,8 +11,10 @@
 #include "core/types/frontier.h"
 #include "core/types/options.h"
 #include "core/types/plan.h"
+#include "core/types/robot_notice.h"
 #include "plumescout/v1/options.pb.h"
 #include "plumescout/v1/planning_service.pb.h"
+#include "plumescout/v1/robot_service.pb.h"
 #include "plumescout/v1/types.pb.h"
 
 namespace plumescout {
@@ -23,6 +25,7 @@ v1::GoalKind ToProto(FrontierKind value);
 v1::Candidate::PathSource ToProto(PathSource value);
 v1::RejectedGoal::Reason ToProto(RejectionReason value);
 v1::Plan::End ToProto(PlanEnd value);
+v1::PlanInvalidated::Reason ToProto(InvalidationReason value);
 v1::ReportProgressRequest::Outcome ToProto(ProgressOutcome value);
 v1::WgfdScope ToProto(WgfdScope value);
 v1::GoalPolicy ToProto(GoalPolicy value);
@@ -40,6 +43,8 @@ absl::StatusOr<FrontierKind> FrontierKindFromProto(v1::GoalKind proto, absl::str
 absl::StatusOr<PathSource> FromProto(v1::Candidate::PathSource proto, absl::string_view field);
 absl::StatusOr<RejectionReason> FromProto(v1::RejectedGoal::Reason proto, absl::string_view field);
 absl::StatusOr<PlanEnd> FromProto(v1::Plan::End proto, absl::string_view field);
+absl::StatusOr<InvalidationReason> FromProto(v1::PlanInvalidated::Reason proto,
+                                             absl::string_view field);
 absl::StatusOr<ProgressOutcome> FromProto(v1::ReportProgressRequest::Outcome proto,
                                           absl::string_view field);
 absl::StatusOr<WgfdScope> FromProto(v1::WgfdScope proto, absl::string_view field);

@@ -75,6 +75,7 @@ absl::StatusOr<RobotState> FromProto(const v1::RobotOnMap& proto, absl::string_v
   robot.applied_sequence = proto.applied_sequence();
   robot.rejected_observations = proto.rejected_observation_count();
   robot.silent = proto.silent();
+  robot.frame_suspect = proto.frame_suspect();
   return robot;
 }
 
@@ -117,6 +118,32 @@ absl::Status ReadLists(const v1::MapStatus& proto, absl::string_view field, MapS
   return absl::OkStatus();
 }
 
+absl::StatusOr<SensorOffset> FromProto(const v1::SensorOffset& proto, absl::string_view field) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const RobotName name,
+                              ParseRobotName(Join(field, "robot"), proto.robot()));
+  PLUMESCOUT_RETURN_IF_ERROR(CheckFinite(Join(field, "offset_ppm"), proto.offset_ppm()));
+  PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative(Join(field, "stddev_ppm"), proto.stddev_ppm()));
+  return SensorOffset{.robot = name.robot,
+                      .sensor = proto.sensor(),
+                      .offset_ppm = proto.offset_ppm(),
+                      .stddev_ppm = proto.stddev_ppm(),
+                      .crossings = proto.crossing_count(),
+                      .estimated = proto.estimated(),
+                      .drifting = proto.drifting()};
+}
+
+v1::SensorOffset ToProto(const SensorOffset& offset, const MissionId& mission) {
+  v1::SensorOffset proto;
+  proto.set_robot(RobotResource({mission, offset.robot}));
+  proto.set_sensor(offset.sensor);
+  proto.set_offset_ppm(offset.offset_ppm);
+  proto.set_stddev_ppm(offset.stddev_ppm);
+  proto.set_crossing_count(offset.crossings);
+  proto.set_estimated(offset.estimated);
+  proto.set_drifting(offset.drifting);
+  return proto;
+}
+
 absl::Status ReadStatus(const v1::MapStatus& proto, absl::string_view field, MapSnapshot& map) {
   PLUMESCOUT_RETURN_IF_ERROR(ReadLists(proto, field, map));
   PLUMESCOUT_ASSIGN_OR_RETURN(map.phase, FromProto(proto.phase(), Join(field, "phase")));
@@ -126,6 +153,11 @@ absl::Status ReadStatus(const v1::MapStatus& proto, absl::string_view field, Map
   map.gas_counters = FromProto(proto.gas_counters());
   map.gas_quality = FromProto(proto.gas_quality());
   map.gas_audits = AuditsFromProto(proto.gas_quality());
+  for (int i = 0; i < proto.sensor_offsets_size(); ++i) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(
+        SensorOffset offset, FromProto(proto.sensor_offsets(i), Join(field, "sensor_offsets", i)));
+    map.sensor_offsets.push_back(std::move(offset));
+  }
   return absl::OkStatus();
 }
 
@@ -194,6 +226,7 @@ v1::RobotOnMap ToProto(const RobotState& robot, const MissionId& mission) {
   proto.set_applied_sequence(robot.applied_sequence);
   proto.set_rejected_observation_count(robot.rejected_observations);
   proto.set_silent(robot.silent);
+  proto.set_frame_suspect(robot.frame_suspect);
   return proto;
 }
 
@@ -225,6 +258,9 @@ v1::MapStatus ToProto(const MapStatus& status, const GridGeometry& geometry,
   for (const RobotState& robot : status.robots) *proto.add_robots() = ToProto(robot, mission);
   *proto.mutable_gas_counters() = ToProto(status.gas_counters);
   *proto.mutable_gas_quality() = ToProto(status.gas_quality, status.gas_audits);
+  for (const SensorOffset& offset : status.sensor_offsets) {
+    *proto.add_sensor_offsets() = ToProto(offset, mission);
+  }
   proto.set_phase(ToProto(status.phase));
   return proto;
 }

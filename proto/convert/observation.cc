@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "absl/strings/str_cat.h"
 #include "core/types/status_macros.h"
 #include "proto/convert/field.h"
 #include "proto/convert/geometry.h"
@@ -49,6 +50,7 @@ v1::GasReading ToProto(const GasReading& reading) {
   v1::GasReading proto;
   proto.set_concentration_ppm(reading.concentration_ppm);
   proto.set_stddev_ppm(std::sqrt(reading.variance_ppm2));
+  proto.set_sensor_index(reading.sensor);
   return proto;
 }
 
@@ -57,6 +59,43 @@ v1::SequenceGap ToProto(const SequenceGap& gap) {
   proto.set_first_sequence(gap.first_sequence);
   proto.set_last_sequence(gap.last_sequence);
   return proto;
+}
+
+v1::PoseCorrection ToProto(const PoseCorrection& correction) {
+  v1::PoseCorrection proto;
+  for (const PoseAnchor& anchor : correction.anchors) {
+    v1::PoseAnchor& added = *proto.add_anchors();
+    added.set_sample_time_ns(anchor.sample_time_ns);
+    *added.mutable_pose() = ToProto(anchor.pose);
+  }
+  return proto;
+}
+
+v1::RobotStatus ToProto(const RobotStatus& status) {
+  v1::RobotStatus proto;
+  proto.set_battery_share(status.battery_share);
+  return proto;
+}
+
+absl::StatusOr<PoseCorrection> FromProto(const v1::PoseCorrection& proto, absl::string_view field) {
+  PoseCorrection correction;
+  correction.anchors.reserve(static_cast<std::size_t>(proto.anchors_size()));
+  for (int i = 0; i < proto.anchors_size(); ++i) {
+    const v1::PoseAnchor& anchor = proto.anchors(i);
+    const std::string name = absl::StrCat(Join(field, "anchors"), "[", i, "]");
+    PLUMESCOUT_RETURN_IF_ERROR(
+        CheckIntRange(Join(name, "sample_time_ns"), anchor.sample_time_ns(), 0, kMaxTime_ns));
+    PLUMESCOUT_RETURN_IF_ERROR(CheckPresent(Join(name, "pose"), anchor.has_pose()));
+    PLUMESCOUT_ASSIGN_OR_RETURN(const Pose2 pose, FromProto(anchor.pose(), Join(name, "pose")));
+    correction.anchors.push_back({anchor.sample_time_ns(), pose});
+  }
+  return correction;
+}
+
+absl::StatusOr<RobotStatus> FromProto(const v1::RobotStatus& proto, absl::string_view field) {
+  PLUMESCOUT_RETURN_IF_ERROR(
+      CheckRange(Join(field, "battery_share"), proto.battery_share(), 0.0, 1.0));
+  return RobotStatus{proto.battery_share()};
 }
 
 absl::StatusOr<GasReading> FromProto(const v1::GasReading& proto, absl::string_view field) {
@@ -68,7 +107,7 @@ absl::StatusOr<GasReading> FromProto(const v1::GasReading& proto, absl::string_v
   const bool squared_well =
       std::isfinite(variance_ppm2) && (variance_ppm2 > 0.0) == (proto.stddev_ppm() > 0.0);
   if (!squared_well) return FieldError(stddev, proto.stddev_ppm(), "has no square in a double");
-  return GasReading{proto.concentration_ppm(), variance_ppm2};
+  return GasReading{proto.concentration_ppm(), variance_ppm2, proto.sensor_index()};
 }
 
 absl::StatusOr<SequenceGap> FromProto(const v1::SequenceGap& proto, std::int64_t sequence,
@@ -97,10 +136,20 @@ absl::Status ReadPayload(const v1::Observation& proto, absl::string_view field,
                                   FromProto(proto.gap(), observation.sequence, Join(field, "gap")));
       return absl::OkStatus();
     }
+    case v1::Observation::kCorrection: {
+      PLUMESCOUT_ASSIGN_OR_RETURN(observation.payload,
+                                  FromProto(proto.correction(), Join(field, "correction")));
+      return absl::OkStatus();
+    }
+    case v1::Observation::kStatus: {
+      PLUMESCOUT_ASSIGN_OR_RETURN(observation.payload,
+                                  FromProto(proto.status(), Join(field, "status")));
+      return absl::OkStatus();
+    }
     case v1::Observation::PAYLOAD_NOT_SET:
       break;
   }
-  return FieldError(Join(field, "payload"), "must be one of scan, gas, gap");
+  return FieldError(Join(field, "payload"), "must be one of scan, gas, gap, correction, status");
 }
 
 }  // namespace
@@ -133,6 +182,10 @@ v1::Observation ToProto(const Observation& observation) {
     *proto.mutable_gas() = ToProto(*gas);
   } else if (const auto* gap = std::get_if<SequenceGap>(&observation.payload)) {
     *proto.mutable_gap() = ToProto(*gap);
+  } else if (const auto* correction = std::get_if<PoseCorrection>(&observation.payload)) {
+    *proto.mutable_correction() = ToProto(*correction);
+  } else if (const auto* status = std::get_if<RobotStatus>(&observation.payload)) {
+    *proto.mutable_status() = ToProto(*status);
   }
   return proto;
 }
@@ -174,7 +227,8 @@ absl::StatusOr<Observation> FromProto(const v1::Observation& proto, absl::string
   observation.sequence = proto.sequence();
   observation.sample_time_ns = proto.sample_time_ns();
   const std::string pose = Join(field, "pose");
-  PLUMESCOUT_RETURN_IF_ERROR(CheckPresent(pose, proto.has_pose() || proto.has_gap()));
+  PLUMESCOUT_RETURN_IF_ERROR(
+      CheckPresent(pose, proto.has_pose() || proto.has_gap() || proto.has_status()));
   PLUMESCOUT_ASSIGN_OR_RETURN(observation.pose, FromProto(proto.pose(), pose));
   PLUMESCOUT_RETURN_IF_ERROR(ReadPayload(proto, field, observation));
   return observation;
@@ -182,7 +236,8 @@ absl::StatusOr<Observation> FromProto(const v1::Observation& proto, absl::string
 
 absl::Status RefusalFromCore(const absl::Status& refusal, absl::string_view field) {
   constexpr FieldName kRenamed[] = {{"scan.ranges", "scan.ranges_u16"},
-                                    {"gas.variance_ppm2", "gas.stddev_ppm"}};
+                                    {"gas.variance_ppm2", "gas.stddev_ppm"},
+                                    {"gas.sensor", "gas.sensor_index"}};
   return WithField(refusal, field, kRenamed);
 }
 

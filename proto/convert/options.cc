@@ -122,8 +122,10 @@ void Visit(OneOf<MissionOptions> auto& options, auto& field) {
   field("max_concentration_ppm", options.max_concentration_ppm);
   field("max_robot_count", options.max_robot_count);
   field("robot_silence_s", options.robot_silence_s);
+  field("return_home_below_battery_share", options.return_home_below_battery_share);
   field("memory_budget_bytes", options.memory_budget_bytes);
   field("stamp_by_arrival", options.stamp_by_arrival);
+  field("keep_scans", options.keep_scans);
   field("seed", options.seed);
 }
 
@@ -257,6 +259,12 @@ absl::StatusOr<MissionOptions> FromProto(const v1::MissionOptions& proto,
     PLUMESCOUT_RETURN_IF_ERROR(ReadPriorMap(proto.prior_map(), Join(field, "prior_map"), options));
   }
   PLUMESCOUT_RETURN_IF_ERROR(WithField(Validate(options), field));
+  return options;
+}
+
+MissionOptions RecordedDefaults() {
+  MissionOptions options;
+  options.keep_scans = false;
   return options;
 }
 

@@ -22,4 +22,8 @@ v1::MissionOptions ChangesToProto(const MissionOptions& options);
 absl::StatusOr<MissionOptions> FromProto(const v1::MissionOptions& proto,
                                          const MissionOptions& defaults, absl::string_view field);
 
+// For options that a journal does not name: its events were made by a version that did not know
+// them, and acted so.
+MissionOptions RecordedDefaults();
+
 }  // namespace plumescout

@@ -19,7 +19,9 @@ std::string Milliseconds(absl::Duration time) {
   return absl::StrCat(absl::ToInt64Milliseconds(time));
 }
 
-bool LastsAsItLikes(Rpc rpc) { return rpc == Rpc::kStreamObservations || rpc == Rpc::kWatchMap; }
+bool LastsAsItLikes(Rpc rpc) {
+  return rpc == Rpc::kStreamObservations || rpc == Rpc::kWatchMap || rpc == Rpc::kWatchRobot;
+}
 
 bool IsOurFault(absl::StatusCode code) {
   return code == absl::StatusCode::kInternal || code == absl::StatusCode::kUnknown ||

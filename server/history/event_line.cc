@@ -25,28 +25,38 @@ std::string At(Point2 place) { return absl::StrFormat("(%.2f, %.2f)", place.x_m,
 std::string At(const Pose2& pose) { return At(Point2{pose.x_m, pose.y_m}); }
 
 v1::MissionEventKind KindOfPayload(const Observation& observation) {
-  return std::visit(Cases{[](const Scan&) { return v1::MISSION_EVENT_KIND_SCAN; },
-                          [](const GasReading&) { return v1::MISSION_EVENT_KIND_GAS_READING; },
-                          [](const SequenceGap&) { return v1::MISSION_EVENT_KIND_SEQUENCE_GAP; }},
-                    observation.payload);
+  return std::visit(
+      Cases{[](const Scan&) { return v1::MISSION_EVENT_KIND_SCAN; },
+            [](const GasReading&) { return v1::MISSION_EVENT_KIND_GAS_READING; },
+            [](const SequenceGap&) { return v1::MISSION_EVENT_KIND_SEQUENCE_GAP; },
+            [](const PoseCorrection&) { return v1::MISSION_EVENT_KIND_POSE_CORRECTION; },
+            [](const RobotStatus&) { return v1::MISSION_EVENT_KIND_ROBOT_STATUS; }},
+      observation.payload);
 }
 
 std::string LineOfObservation(const Observation& observation) {
   const std::string place = At(observation.pose);
-  return std::visit(Cases{[&](const Scan& scan) {
-                            return absl::StrCat("scan ", observation.sequence, ", ",
-                                                scan.ranges_m.size(), " beams at ", place);
-                          },
-                          [&](const GasReading& reading) {
-                            return absl::StrFormat("gas reading %d, %.6g ppm at %s",
-                                                   observation.sequence, reading.concentration_ppm,
-                                                   place);
-                          },
-                          [](const SequenceGap& gap) {
-                            return absl::StrCat("observations ", gap.first_sequence, " to ",
-                                                gap.last_sequence, " are lost");
-                          }},
-                    observation.payload);
+  return std::visit(
+      Cases{[&](const Scan& scan) {
+              return absl::StrCat("scan ", observation.sequence, ", ", scan.ranges_m.size(),
+                                  " beams at ", place);
+            },
+            [&](const GasReading& reading) {
+              return absl::StrFormat("gas reading %d, %.6g ppm at %s", observation.sequence,
+                                     reading.concentration_ppm, place);
+            },
+            [](const SequenceGap& gap) {
+              return absl::StrCat("observations ", gap.first_sequence, " to ", gap.last_sequence,
+                                  " are lost");
+            },
+            [](const PoseCorrection& correction) {
+              return absl::StrCat("corrects its past poses by ", correction.anchors.size(),
+                                  " anchors");
+            },
+            [](const RobotStatus& status) {
+              return absl::StrFormat("battery at %.0f %%", 100.0 * status.battery_share);
+            }},
+      observation.payload);
 }
 
 const char* NameOf(GoalKind kind) {
@@ -63,6 +73,8 @@ const char* NameOf(GoalKind kind) {
       return "where readings tell much";
     case GoalKind::kSite:
       return "a site";
+    case GoalKind::kMakeWay:
+      return "where it is in nobody's way";
   }
   return "a goal";
 }
@@ -116,6 +128,8 @@ std::string RobotOf(const EventBody& body) {
                           [](const PosteriorRefreshed&) { return RobotId(); },
                           [](const EpochBegun&) { return RobotId(); },
                           [](const EpochAdopted&) { return RobotId(); },
+                          [](const MapRebuildBegun&) { return RobotId(); },
+                          [](const MapRebuilt&) { return RobotId(); },
                           [](const auto& of_robot) { return of_robot.robot; }},
                     body);
 }
@@ -143,7 +157,11 @@ v1::MissionEventKind KindOf(const EventBody& body) {
             [](const ProgressReported&) { return v1::MISSION_EVENT_KIND_REPORT; },
             [](const EpochBegun&) { return v1::MISSION_EVENT_KIND_EPOCH_BEGUN; },
             [](const EpochAdopted&) { return v1::MISSION_EVENT_KIND_EPOCH_ADOPTED; },
-            [](const RobotRemoved&) { return v1::MISSION_EVENT_KIND_ROBOT_REMOVED; }},
+            [](const RobotRemoved&) { return v1::MISSION_EVENT_KIND_ROBOT_REMOVED; },
+            [](const ClockOffsetNoted&) { return v1::MISSION_EVENT_KIND_CLOCK_OFFSET; },
+            [](const HomeOrdered&) { return v1::MISSION_EVENT_KIND_HOME_ORDERED; },
+            [](const MapRebuildBegun&) { return v1::MISSION_EVENT_KIND_MAP_REBUILD_BEGUN; },
+            [](const MapRebuilt&) { return v1::MISSION_EVENT_KIND_MAP_REBUILT; }},
       body);
 }
 
@@ -162,7 +180,18 @@ std::string LineOf(const EventBody& body) {
             },
             [](const EpochBegun&) { return std::string("gas field is made anew"); },
             [](const EpochAdopted&) { return std::string("gas field made anew is adopted"); },
-            [](const RobotRemoved&) { return std::string("leaves"); }},
+            [](const RobotRemoved&) { return std::string("leaves"); },
+            [](const ClockOffsetNoted& noted) {
+              return absl::StrFormat("the mission's time is its clock and %.3f s",
+                                     1e-9 * static_cast<double>(noted.offset_ns));
+            },
+            [](const HomeOrdered& order) {
+              return std::string(order.home ? "is sent home" : "need not go home any more");
+            },
+            [](const MapRebuildBegun&) {
+              return std::string("map begins to be rebuilt with corrected poses");
+            },
+            [](const MapRebuilt&) { return std::string("rebuilt map is adopted"); }},
       body);
 }
 

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "absl/strings/str_cat.h"
+#include "core/mission/observation_check.h"
 #include "core/types/error_reason.h"
 #include "core/types/status_macros.h"
 #include "formats/journal/event_codec.h"
@@ -174,7 +175,9 @@ absl::StatusOr<bool> MapReplay::ReadNext() {
 absl::Duration MapReplay::WaitFor(const EventBody& body) {
   const auto* received = std::get_if<ObservationReceived>(&body);
   if (received == nullptr) return absl::ZeroDuration();
-  const std::int64_t time_ns = received->observation.sample_time_ns;
+  const auto robot = past_.mission->StateOf(received->robot);
+  const std::int64_t time_ns =
+      MissionTime_ns(received->observation, robot.ok() ? robot->clock_offset_ns : 0);
   if (!origin_ns_.has_value()) {
     origin_ns_ = time_ns;
     began_ = SteadyNow();

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "absl/strings/str_cat.h"
+#include "core/mission/observation_check.h"
 #include "core/types/error_reason.h"
 
 namespace plumescout::server {
@@ -42,27 +43,29 @@ std::int64_t ClockGate::NewestOfOthers_ns(const RobotId& robot) const {
   return newest_ns;
 }
 
-void ClockGate::Pass(const RobotId& robot, std::vector<IncomingObservation>& batch) {
+void ClockGate::Pass(const RobotId& robot, std::vector<IncomingObservation>& batch,
+                     const std::optional<Mapped>& mapped) {
   if (options_.max_lead <= absl::ZeroDuration()) return;
-  const std::int64_t now_ns = wall_clock_();
+  const std::int64_t offset_ns = mapped ? mapped->offset_ns : 0;
+  const std::int64_t now_ns = mapped ? mapped->now_ns : wall_clock_();
   const std::int64_t latest_ns = now_ns + absl::ToInt64Nanoseconds(options_.max_lead);
-  const std::int64_t reference_ns = std::max(now_ns, NewestOfOthers_ns(robot));
+  const std::int64_t reference_ns = mapped ? now_ns : std::max(now_ns, NewestOfOthers_ns(robot));
   for (IncomingObservation& incoming : batch) {
     if (!incoming.unreadable.ok()) continue;
     Observation& observation = incoming.observation;
-    const absl::Duration lead = Lead(observation.sample_time_ns, reference_ns);
+    const absl::Duration lead = Lead(MissionTime_ns(observation, offset_ns), reference_ns);
     if (lead > options_.max_lead) {
       if (std::holds_alternative<SequenceGap>(observation.payload)) {
         observation.sample_time_ns = 0;
       } else if (options_.stamp_by_arrival) {
-        observation.sample_time_ns = now_ns;
+        observation.sample_time_ns = std::max<std::int64_t>(0, now_ns - offset_ns);
       } else {
         incoming.unreadable = ClockAhead(observation.sample_time_ns, lead, options_.max_lead);
         continue;
       }
     }
     std::int64_t& newest_ns = newest_ns_[robot];
-    newest_ns = std::max(newest_ns, std::min(observation.sample_time_ns, latest_ns));
+    newest_ns = std::max(newest_ns, std::min(MissionTime_ns(observation, offset_ns), latest_ns));
   }
 }
 

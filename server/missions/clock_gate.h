@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "absl/time/time.h"
@@ -29,9 +30,16 @@ class ClockGate {
  public:
   ClockGate(ClockGateOptions options, WallClock wall_clock);
 
+  // How times of a robot are taken whose batches say when they were sent.
+  struct Mapped {
+    std::int64_t offset_ns = 0;  // see RobotState::clock_offset_ns
+    std::int64_t now_ns = 0;     // of the mission's clock
+  };
   // Marks entries that are ahead as refused (CLOCK_AHEAD), or stamps them anew. A gap that is ahead
-  // loses its time only, of which it says nothing anyway.
-  void Pass(const RobotId& robot, std::vector<IncomingObservation>& batch);
+  // loses its time only, of which it says nothing anyway. Times that are mapped are compared with
+  // the mission's clock alone: the other robots are no excuse.
+  void Pass(const RobotId& robot, std::vector<IncomingObservation>& batch,
+            const std::optional<Mapped>& mapped = std::nullopt);
 
  private:
   // The least number there is if no other robot has sent a sample.

@@ -56,6 +56,11 @@ std::map<RobotId, std::int64_t> LeaseTable::Released() const {
   return book_.Released();
 }
 
+absl::Status LeaseTable::Check(const RobotId& robot, std::int64_t token) const {
+  absl::MutexLock lock(&mutex_);
+  return book_.Check(robot, token);
+}
+
 absl::Status LeaseTable::Use(const RobotId& robot, std::int64_t token) {
   absl::MutexLock lock(&mutex_);
   return book_.Use(robot, token, ToNanoseconds(clock_()));

@@ -40,6 +40,8 @@ class LeaseTable final : public Leases {
   // As LeaseBook.
   std::map<RobotId, std::int64_t> Released() const;
 
+  // As LeaseBook.
+  absl::Status Check(const RobotId& robot, std::int64_t token) const;
   // Counts as a use. ROBOT_NOT_FOUND; LEASE_SUPERSEDED unless `token` is the newest.
   absl::Status Use(const RobotId& robot, std::int64_t token);
 

@@ -3,10 +3,13 @@
 #include "server/missions/mission_host.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
+#include <variant>
 
 #include "absl/strings/str_cat.h"
 #include "core/mission/conduct/conduct_errors.h"
+#include "core/mission/observation_check.h"
 #include "core/types/status_macros.h"
 #include "proto/convert/prior_map.h"
 #include "server/base/errors.h"
@@ -55,12 +58,14 @@ MissionHost::MissionHost(Parts parts, const HostOptions& options)
       requests_(std::make_shared<RequestMemory>(
           RequestMemoryOptions{.max_bytes = kMaxRememberedBytes, .clock = options.clock})),
       map_feed_(std::make_shared<MapFeed>(id_, options.max_map_part_bytes)),
+      robot_notices_(std::make_shared<RobotNotices>(parts.metrics)),
       waiters_(options.max_waiters),
       writer_(
           AbandonedWith(abandoned_, std::move(parts.mission)),
           [this](const Event& event) { Keep(event); }, parts.epoch_pool, SteadyNow,
           parts.audit_pool, parts.metrics, HabitOf(*journal_, parts.tail)),
-      clock_gate_({options.max_clock_lead, mission_options_.stamp_by_arrival}, options.wall_clock) {
+      clock_gate_({options.max_clock_lead, mission_options_.stamp_by_arrival}, options.wall_clock),
+      mission_clock_(options.wall_clock, options.clock) {
   standing_.Restore(parts.standing.state, parts.standing.idle_time_to_live,
                     parts.standing.event_retention);
   journal_->set_trims(parts.standing.event_retention == EventRetention::kSinceSnapshot);
@@ -109,13 +114,53 @@ HostLoad MissionHost::load() const {
 }
 
 IngestResult MissionHost::Ingest(MissionWriter& writer, const RobotId& robot,
-                                 std::int64_t lease_token, std::vector<IncomingObservation> batch) {
-  const absl::Status writable = CheckMayWrite();
-  if (!writable.ok()) {
-    return {writable, writer.conduct().Position(robot).value_or(LogPosition{}), {}};
+                                 std::int64_t lease_token, std::vector<IncomingObservation> batch,
+                                 std::int64_t sent_time_ns) {
+  MissionConduct& conduct = writer.conduct();
+  const auto refuse = [&](const absl::Status& status) {
+    return IngestResult{status, conduct.Position(robot).value_or(LogPosition{}), {}};
+  };
+  if (const absl::Status writable = CheckMayWrite(); !writable.ok()) return refuse(writable);
+  const absl::Status leased = conduct.CheckLease(robot, lease_token);
+  if (!leased.ok()) return refuse(leased);
+  const std::int64_t in_force_ns = writer.mission().StateOf(robot).value().clock_offset_ns;
+  const std::int64_t now_ns = mission_clock_.now_ns();
+  const auto [offset_ns, was_set] = robot_clocks_.Reckon(robot, sent_time_ns, now_ns, in_force_ns);
+  IngestResult result;
+  if (was_set) {
+    result = IngestMapped(writer, robot, lease_token,
+                          TakeMadeBefore(in_force_ns - offset_ns, sent_time_ns, batch),
+                          ClockGate::Mapped{in_force_ns, now_ns});
+    if (!result.status.ok()) return result;
   }
-  clock_gate_.Pass(robot, batch);
-  return writer.conduct().Ingest(robot, lease_token, std::move(batch));
+  const absl::Status noted = conduct.NoteClock({robot, offset_ns}, lease_token);
+  if (!noted.ok()) return refuse(noted);
+  const auto mapped =
+      sent_time_ns == 0
+          ? std::nullopt
+          : std::optional(ClockGate::Mapped{.offset_ns = offset_ns, .now_ns = now_ns});
+  IngestResult rest = IngestMapped(writer, robot, lease_token, std::move(batch), mapped);
+  rest.refused.insert(rest.refused.begin(), std::make_move_iterator(result.refused.begin()),
+                      std::make_move_iterator(result.refused.end()));
+  return rest;
+}
+
+IngestResult MissionHost::IngestMapped(MissionWriter& writer, const RobotId& robot,
+                                       std::int64_t lease_token,
+                                       std::vector<IncomingObservation> batch,
+                                       const std::optional<ClockGate::Mapped>& mapped) {
+  clock_gate_.Pass(robot, batch, mapped);
+  std::optional<std::int64_t> newest_ns;
+  for (const IncomingObservation& incoming : batch) {
+    const bool has_time = mapped && incoming.unreadable.ok() &&
+                          !std::holds_alternative<SequenceGap>(incoming.observation.payload);
+    if (has_time) newest_ns = MissionTime_ns(incoming.observation, mapped->offset_ns);
+  }
+  IngestResult result = writer.conduct().Ingest(robot, lease_token, std::move(batch));
+  robot_clocks_.NoteBatch(robot, {.heard_ns = mission_clock_.now_ns(),
+                                  .newest_sample_ns = newest_ns,
+                                  .offset_ns = mapped ? mapped->offset_ns : 0});
+  return result;
 }
 
 absl::Status MissionHost::CheckMayWrite() const {
@@ -134,6 +179,7 @@ void MissionHost::KeepStanding() {
   journal_->PutStanding(EncodeStanding(
       {standing_.state(), standing_.idle_time_to_live(), leases_.Released(), retention}));
   journal_->set_trims(retention == EventRetention::kSinceSnapshot);
+  robot_notices_->Follow(leases_, standing_.state());
 }
 
 void MissionHost::WhenDurable(MissionJournal::Callback done) {
@@ -273,6 +319,10 @@ void MissionHost::AfterCommands() {
     Publish(std::move(belief));
   }
   unpublished_since_ = writer_.unpublished_since();
+  robot_notices_->Follow(leases_, standing_.state());
+  if (now >= robot_notices_->next_look(writer_.mission().revision())) {
+    robot_notices_->Look(writer_.conduct().Snapshot(), now);
+  }
 }
 
 SteadyTime MissionHost::next_publication() const {
@@ -287,7 +337,8 @@ void MissionHost::Publish(const absl::StatusOr<std::shared_ptr<const Belief>>& b
 }
 
 SteadyTime MissionHost::NextWake() const {
-  return std::min({waiters_.next_deadline(), next_publication(), journal_->next_deadline()});
+  return std::min({waiters_.next_deadline(), next_publication(), journal_->next_deadline(),
+                   robot_notices_->next_look(writer_.mission().revision())});
 }
 
 }  // namespace plumescout::server

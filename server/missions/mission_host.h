@@ -31,6 +31,8 @@
 #include "server/missions/mission_journal.h"
 #include "server/missions/mission_standing.h"
 #include "server/missions/mission_writer.h"
+#include "server/missions/robot_clocks.h"
+#include "server/missions/robot_notices.h"
 #include "server/missions/robot_rates.h"
 #include "server/missions/snapshot_taker.h"
 #include "server/missions/standing_record.h"
@@ -134,6 +136,7 @@ class MissionHost {
   // Of the calls that name this mission.
   const std::shared_ptr<RequestMemory>& requests() const { return requests_; }
   const std::shared_ptr<MapFeed>& map_feed() const { return map_feed_; }
+  const std::shared_ptr<RobotNotices>& robot_notices() const { return robot_notices_; }
   // The map that the mission began with, as cells. The first call packs it: not for reactors.
   // REQUIRES: there is one.
   const v1::PriorMap& prior_map();
@@ -148,9 +151,14 @@ class MissionHost {
   EndListeners& end_listeners() { return end_listeners_; }
 
   // Has the writer, on its thread, apply a batch as MissionConduct::Ingest, if the mission takes
-  // any (CheckMayWrite) and but for samples whose clock runs ahead (CLOCK_AHEAD).
+  // any (CheckMayWrite) and but for samples whose clock runs ahead (CLOCK_AHEAD). `sent_time_ns`:
+  // when it was sent by the robot's clock, which the offset of that clock is learnt from before
+  // the batch is applied; 0: it does not say, and its times are taken as they are.
   IngestResult Ingest(MissionWriter& writer, const RobotId& robot, std::int64_t lease_token,
-                      std::vector<IncomingObservation> batch);
+                      std::vector<IncomingObservation> batch, std::int64_t sent_time_ns = 0);
+  // The mission's clock, and what is known of its robots'.
+  const MissionClock& clock() const { return mission_clock_; }
+  const RobotClocks& robot_clocks() const { return robot_clocks_; }
 
   // The writer runs the command, after all earlier ones. OVERLOADED if too many wait; the status
   // given to Stop once the host stops. Then neither part of the command is called.
@@ -188,6 +196,9 @@ class MissionHost {
   }
   // Of every event, on the writer's thread.
   void Keep(const Event& event);
+  IngestResult IngestMapped(MissionWriter& writer, const RobotId& robot, std::int64_t lease_token,
+                            std::vector<IncomingObservation> batch,
+                            const std::optional<ClockGate::Mapped>& mapped);
   void RecoverLeases(const StandingRecord& standing);
   void AfterCommands();
   SteadyTime next_publication() const;  // max() if there is nothing new or nobody to tell
@@ -213,6 +224,7 @@ class MissionHost {
   RobotRates rates_;
   const std::shared_ptr<RequestMemory> requests_;
   const std::shared_ptr<MapFeed> map_feed_;
+  const std::shared_ptr<RobotNotices> robot_notices_;
   absl::once_flag prior_map_packed_;
   v1::PriorMap prior_map_;  // once it is packed
 
@@ -226,6 +238,8 @@ class MissionHost {
   // Touched by the writer's thread only, but for the writer's summary.
   MissionWriter writer_;
   ClockGate clock_gate_;
+  const MissionClock mission_clock_;
+  RobotClocks robot_clocks_;
   std::vector<Subscriber> subscribers_;
   std::int64_t published_revision_ = 0;
   SteadyTime published_at_;

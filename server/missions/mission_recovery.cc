@@ -123,7 +123,7 @@ absl::StatusOr<MissionOptions> OptionsOf(const JournalStart& start) {
   if (!proto.ParseFromString(start.mission_options)) {
     return absl::DataLossError("the options of the mission cannot be read");
   }
-  const auto options = FromProto(proto, MissionOptions{}, "options");
+  const auto options = FromProto(proto, RecordedDefaults(), "options");
   if (options.ok()) return options;
   return absl::DataLossError(options.status().message());
 }

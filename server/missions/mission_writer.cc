@@ -32,12 +32,14 @@ MissionWriter::MissionWriter(std::unique_ptr<Mission> mission, EventSink sink,
       clock_(std::move(clock)),
       metrics_(*metrics),
       epoch_runner_(epoch_pool, metrics),
+      map_work_(epoch_pool),
       audit_runner_(audit_pool),
       gas_timer_(metrics),
       conduct_(std::move(mission), this, habit),
       summary_(SummaryOf(conduct_.mission())) {
   // A mission that is recovered may be in the middle of one.
   if (conduct_.mission().epoch() != nullptr) epoch_runner_.Start(conduct_.mission().epoch());
+  if (conduct_.mission().rebuild() != nullptr) AfterMapRebuildBegun();
 }
 
 MissionSummary MissionWriter::summary() const {
@@ -50,6 +52,11 @@ void MissionWriter::OnEvent(const Event& event, const Applied& applied) {
   if (std::holds_alternative<ObservationReceived>(event.body)) {
     metrics_.NoteObservation(applied.observation.ok());
   }
+  if (applied.turned_suspect) {
+    LogWarning("robot has lost its place: its scans contradict the map",
+               {{"robot", std::get<ObservationReceived>(event.body).robot},
+                {"revision", absl::StrCat(applied.revision)}});
+  }
   if (IsReadingTakenIn(event, applied)) gas_timer_.NoteReading(clock_());
   absl::MutexLock lock(&summary_mutex_);
   if (summary_.lattice_factor != mission().lattice_factor()) {
@@ -58,6 +65,10 @@ void MissionWriter::OnEvent(const Event& event, const Applied& applied) {
              {"memory_bytes", absl::StrCat(mission().memory_bytes())}});
   }
   summary_ = SummaryOf(mission());
+}
+
+void MissionWriter::AfterMapRebuildBegun() {
+  map_work_.Start([rebuild = mission().rebuild()] { rebuild->Recompute(); });
 }
 
 void MissionWriter::BeforeGasStep(GasStep step) {

@@ -20,6 +20,7 @@
 #include "server/missions/audit_runner.h"
 #include "server/missions/epoch_runner.h"
 #include "server/missions/gas_timings.h"
+#include "server/missions/side_work.h"
 #include "server/observe/mission_metrics.h"
 
 namespace plumescout::server {
@@ -41,9 +42,9 @@ struct MissionSummary {
 // gas_timings().
 class MissionWriter final : private ConductObserver {
  public:
-  // `epoch_pool` recomputes the gas posterior at times; null: the writer does. It is not owned and
-  // outlives the last call. The events are the same with any pool and clock.
-  // `audit_pool` audits it, null: nobody does; as above. `metrics` is not owned either. `habit`: as
+  // `epoch_pool` recomputes the gas posterior at times, and maps; null: the writer does. It is not
+  // owned and outlives the last call. The events are the same with any pool and clock. `audit_pool`
+  // audits it, null: nobody does; as above. `metrics` is not owned either. `habit`: as
   // MissionConduct.
   MissionWriter(std::unique_ptr<Mission> mission, EventSink sink, WorkerPool* epoch_pool = nullptr,
                 SteadyClock clock = SteadyNow, WorkerPool* audit_pool = nullptr,
@@ -76,11 +77,14 @@ class MissionWriter final : private ConductObserver {
   void OnEvent(const Event& event, const Applied& applied) override;
   void BeforeGasStep(GasStep step) override;
   void AfterGasStep(GasStep step, const absl::Status& status) override;
+  void BeforeMapRebuilt() override { map_work_.Finish(); }
+  void AfterMapRebuildBegun() override;
 
   EventSink sink_;
   const SteadyClock clock_;
   MissionMetrics& metrics_;
   EpochRunner epoch_runner_;
+  SideWork map_work_;
   AuditRunner audit_runner_;
   GasTimer gas_timer_;
   SteadyTime gas_step_from_;

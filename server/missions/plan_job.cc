@@ -5,9 +5,11 @@
 #include <time.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/plan/team/assigned_plan.h"
 #include "server/base/log.h"
 #include "server/missions/mission_registry.h"
 
@@ -91,6 +93,9 @@ void PlanJob::Enqueue(std::shared_ptr<const Belief> belief) {
 void PlanJob::Search(const Belief& belief) {
   EndStage(Stage::kQueue);
   const PlanOrder& order = parts_.order;
+  if (std::optional<Plan> assigned = AssignedPlan(belief, order.request)) {
+    return AnswerOnceDurable(*std::move(assigned));
+  }
   const SteadyTime stop_at = std::min(After(SteadyNow(), order.budget), order.deadline);
   const absl::Duration cpu_before = ThreadCpuTime();
   auto plan = parts_.host->strategy().Plan(
@@ -123,7 +128,11 @@ void PlanJob::Committed(Plan plan, absl::StatusOr<PlanId> id) {
   plan.id = *id;
   plan.cpu_s = absl::ToDoubleSeconds(cpu_time_);
   parts_.host->metrics().NotePlan(cpu_time_);
-  // After a crash the next plan must not get its number.
+  AnswerOnceDurable(std::move(plan));
+}
+
+// After a crash the next plan must not get its number.
+void PlanJob::AnswerOnceDurable(Plan plan) {
   parts_.host->WhenDurable(
       [self = shared_from_this(), plan = std::move(plan)](const absl::Status& durable) mutable {
         self->EndStage(Stage::kDurable);

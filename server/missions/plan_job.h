@@ -37,8 +37,9 @@ struct PlanAnswer {
 void LogPlan(const MissionId& mission, const PlanAnswer& answer, const std::string& request_id);
 
 // One order on its way: wait for the robot's own readings, search on a pool, commit, wait for the
-// disk; once more if another robot claimed the goal in the meantime. Keeps itself alive while it
-// runs. It ends with its mission, at once, whatever the search does. Thread-safe.
+// disk; once more if another robot claimed the goal in the meantime. A plan that was assigned to
+// the robot is answered instead, and nothing is committed. Keeps itself alive while it runs. It
+// ends with its mission, at once, whatever the search does. Thread-safe.
 class PlanJob : public std::enable_shared_from_this<PlanJob> {
  public:
   using Done = std::function<void(absl::StatusOr<PlanAnswer>)>;
@@ -63,6 +64,7 @@ class PlanJob : public std::enable_shared_from_this<PlanJob> {
   void Search(const Belief& belief);
   void Commit(Plan plan);
   void Committed(Plan plan, absl::StatusOr<PlanId> id);
+  void AnswerOnceDurable(Plan plan);
   // The stage is over, the next begins.
   void EndStage(Stage stage);
   // The first answer counts.

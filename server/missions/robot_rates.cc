@@ -13,6 +13,8 @@
 namespace plumescout::server {
 namespace {
 
+// A correction has the field made anew and the map rebuilt.
+constexpr double kScansOfCorrection = 20.0;
 constexpr absl::Duration kPlanBurst = absl::Seconds(5);
 // Beyond so many robots, those that have not called for long are forgotten.
 constexpr std::size_t kMaxRemembered = 256;
@@ -27,6 +29,9 @@ RateLoad RateLoadOf(const std::vector<IncomingObservation>& batch, std::size_t b
   RateLoad load{.bytes = static_cast<double>(bytes)};
   for (const IncomingObservation& incoming : batch) {
     if (std::holds_alternative<Scan>(incoming.observation.payload)) load.scans += 1.0;
+    if (std::holds_alternative<PoseCorrection>(incoming.observation.payload)) {
+      load.scans += kScansOfCorrection;
+    }
     if (std::holds_alternative<GasReading>(incoming.observation.payload)) load.gas_readings += 1.0;
   }
   return load;

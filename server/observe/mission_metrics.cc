@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 
 #include "server/observe/buckets.h"
 
@@ -30,6 +31,14 @@ prometheus::Histogram* MakeTimes(prometheus::Registry& registry, const std::stri
                                  const std::string& help) {
   return &Times(registry, name, help).Add({}, DurationBuckets_s());
 }
+
+constexpr std::pair<InvalidationReason, const char*> kReasonNames[] = {
+    {InvalidationReason::kMeetsRobot, "meets_robot"},
+    {InvalidationReason::kWayBlocked, "way_blocked"},
+    {InvalidationReason::kKeptOut, "kept_out"},
+    {InvalidationReason::kSuperseded, "superseded"},
+    {InvalidationReason::kLapsed, "lapsed"},
+};
 
 }  // namespace
 
@@ -74,6 +83,11 @@ MissionMetrics::MissionMetrics(prometheus::Registry& registry) {
   }
   plan_cpu_ = MakeTimes(registry, "plumescout_plan_cpu_seconds",
                         "CPU time of all searches for a plan that was committed.");
+  auto& invalidated = Counters(registry, "plumescout_plans_invalidated_total",
+                               "Plans that robots were told not to drive any farther.");
+  for (const auto& [reason, name] : kReasonNames) {
+    plans_invalidated_[reason] = &invalidated.Add({{"reason", name}});
+  }
 }
 
 MissionMetrics& MissionMetrics::Unread() {
@@ -92,6 +106,10 @@ void MissionMetrics::NoteAudit(const absl::StatusOr<AuditFinding>& finding) {
 void MissionMetrics::NotePlanStage(Stage stage, absl::Duration time) {
   auto* const histogram = plan_stages_[static_cast<std::size_t>(stage)];
   if (histogram != nullptr) Observe(*histogram, time);
+}
+
+void MissionMetrics::NotePlanInvalidated(InvalidationReason reason) {
+  plans_invalidated_.at(reason)->Increment();
 }
 
 void MissionMetrics::NotePlan(absl::Duration cpu_time) { Observe(*plan_cpu_, cpu_time); }

@@ -8,10 +8,12 @@
 #include <prometheus/registry.h>
 
 #include <array>
+#include <map>
 
 #include "absl/status/statusor.h"
 #include "absl/time/time.h"
 #include "core/gas/field_audit.h"
+#include "core/types/robot_notice.h"
 #include "server/base/stage_times.h"
 
 namespace plumescout::server {
@@ -43,6 +45,7 @@ class MissionMetrics {
 
   void NotePlanStage(Stage stage, absl::Duration time);
   void NotePlan(absl::Duration cpu_time);  // that was committed
+  void NotePlanInvalidated(InvalidationReason reason);
 
  private:
   static void Observe(prometheus::Histogram& histogram, absl::Duration time) {
@@ -66,6 +69,7 @@ class MissionMetrics {
   prometheus::Gauge* audit_variance_ = nullptr;
   std::array<prometheus::Histogram*, kStageNames.size()> plan_stages_ = {};
   prometheus::Histogram* plan_cpu_ = nullptr;
+  std::map<InvalidationReason, prometheus::Counter*> plans_invalidated_;
 };
 
 }  // namespace plumescout::server

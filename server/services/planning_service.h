@@ -6,6 +6,7 @@
 #include "server/calls/service_context.h"
 #include "server/calls/unary_call.h"
 #include "server/missions/plan_job.h"
+#include "server/missions/team_job.h"
 
 namespace plumescout::server {
 
@@ -32,6 +33,10 @@ class PlanningService final : public v1::PlanningService::CallbackService {
                                       const v1::ListPlansRequest* request,
                                       v1::ListPlansResponse* response) override;
 
+  grpc::ServerUnaryReactor* PlanTeam(grpc::CallbackServerContext* context,
+                                     const v1::PlanTeamRequest* request,
+                                     v1::PlanTeamResponse* response) override;
+
  private:
   absl::Status Order(const v1::NextBestTrajectoryRequest& request,
                      v1::NextBestTrajectoryResponse* response,
@@ -47,6 +52,10 @@ class PlanningService final : public v1::PlanningService::CallbackService {
                       v1::ReportProgressResponse* response, const std::shared_ptr<UnaryCall>& call);
   absl::Status ListLive(const v1::ListPlansRequest& request, v1::ListPlansResponse* response,
                         const std::shared_ptr<UnaryCall>& call);
+  absl::Status OrderTeam(const v1::PlanTeamRequest& request, v1::PlanTeamResponse* response,
+                         const std::shared_ptr<UnaryCall>& call);
+  absl::Status SearchTeam(const std::shared_ptr<MissionHost>& host, TeamOrder order,
+                          v1::PlanTeamResponse* response, const std::shared_ptr<UnaryCall>& call);
 
   const ServiceContext& context_;
 };

@@ -11,12 +11,15 @@
 #include "core/mission/conduct/conduct_errors.h"
 #include "core/types/status_macros.h"
 #include "proto/convert/field.h"
-#include "proto/convert/map.h"
 #include "proto/convert/names.h"
+#include "proto/convert/robot.h"
+#include "proto/convert/robot_frame.h"
 #include "server/base/log.h"
 #include "server/calls/answer_once.h"
 #include "server/services/paging.h"
+#include "server/services/robot_message.h"
 #include "server/streams/ingest_frames.h"
+#include "server/streams/robot_watch_stream.h"
 
 namespace plumescout::server {
 namespace {
@@ -26,14 +29,6 @@ BeliefWish JustTheRobots() {
   BeliefWish wish;
   wish.fresh_posterior = false;
   return wish;
-}
-
-v1::Robot Describe(const RobotState& robot, const MissionHost& host, const LeaseStanding& lease) {
-  v1::Robot proto;
-  *proto.mutable_on_map() = ToProto(robot, host.id());
-  proto.set_leased(lease.held);
-  proto.set_streaming(lease.streaming);
-  return proto;
 }
 
 }  // namespace
@@ -46,8 +41,10 @@ absl::Status RobotService::Register(const v1::RegisterRobotRequest& request,
   PLUMESCOUT_RETURN_IF_ERROR(WithField(ValidateId("robot_id", request.robot_id()), ""));
   PLUMESCOUT_ASSIGN_OR_RETURN(
       const auto host, context_.FindMissionOf(call->caller(), {mission, request.robot_id()}));
-  const Registration wish{request.robot_id(), request.radius_m(), request.take_over(),
-                          request.log_epoch()};
+  PLUMESCOUT_ASSIGN_OR_RETURN(const RobotFrame frame, FromProto(request.frame(), "frame"));
+  const Registration wish{
+      request.robot_id(),       request.radius_m(), request.take_over(), request.log_epoch(), frame,
+      SensorsFromProto(request)};
   return AnswerOnce(host->requests(), request.request_id(), request, response, call,
                     [this, host, wish, response](const std::shared_ptr<UnaryCall>& runner) {
                       return Join(host, wish, response, runner);
@@ -126,8 +123,8 @@ absl::Status RobotService::Get(const v1::GetRobotRequest& request, v1::GetRobotR
                           [host, response, robot = name.robot](const Belief& belief) {
                             const auto found = belief.robots.find(robot);
                             if (found == belief.robots.end()) return RobotNotFound(robot);
-                            *response->mutable_robot() = Describe(found->second.state, *host,
-                                                                  host->leases().Standing(robot));
+                            *response->mutable_robot() =
+                                DescribeRobot(found->second, belief, *host);
                             return absl::OkStatus();
                           });
 }
@@ -152,8 +149,7 @@ absl::Status RobotService::List(const v1::ListRobotsRequest& request,
       [host, response, page](const Belief& belief) {
         auto next = belief.robots.upper_bound(page.after);
         for (; next != belief.robots.end() && response->robots_size() < page.size; ++next) {
-          *response->add_robots() =
-              Describe(next->second.state, *host, host->leases().Standing(next->first));
+          *response->add_robots() = DescribeRobot(next->second, belief, *host);
         }
         if (next != belief.robots.end()) {
           response->set_next_page_token(PageTokenAfter(std::prev(next)->first));
@@ -191,6 +187,47 @@ grpc::ServerUnaryReactor* RobotService::ReleaseLease(grpc::CallbackServerContext
   return UnaryCall::Start(
       context_.door, Rpc::kReleaseLease, context,
       [&](const std::shared_ptr<UnaryCall>& call) { return Release(*request, call); });
+}
+
+absl::Status RobotService::Order(const v1::OrderHomeRequest& request,
+                                 v1::OrderHomeResponse* response,
+                                 const std::shared_ptr<UnaryCall>& call) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const RobotName name, ReadHomeOrder(request));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMission(call->caller(), name.mission));
+  const auto run = [host, name, response,
+                    home = request.home()](const std::shared_ptr<UnaryCall>& runner) {
+    return host->Post(
+        [host, name, home, response, runner](MissionWriter& writer) {
+          const absl::Status writable = host->CheckMayWrite();
+          if (!writable.ok()) return runner->Answer(writable);
+          const auto robots =
+              name.robot.empty() ? writer.mission().RobotIds() : std::vector<RobotId>{name.robot};
+          const auto revision = writer.conduct().OrderHome(robots, home);
+          if (revision.ok()) {
+            LogInfo(home ? "robots sent home" : "robots called back to work",
+                    {{"mission", host->id()},
+                     {"robot", name.robot.empty() ? "all" : name.robot},
+                     {"caller", runner->caller().name}});
+            response->set_revision(*revision);
+          }
+          AnswerWhenDurable(*host, runner, revision.status());
+        },
+        Refusal(runner));
+  };
+  return AnswerOnce(host->requests(), request.request_id(), request, response, call, run);
+}
+
+grpc::ServerUnaryReactor* RobotService::OrderHome(grpc::CallbackServerContext* context,
+                                                  const v1::OrderHomeRequest* request,
+                                                  v1::OrderHomeResponse* response) {
+  return UnaryCall::Start(
+      context_.door, Rpc::kOrderHome, context,
+      [&](const std::shared_ptr<UnaryCall>& call) { return Order(*request, response, call); });
+}
+
+grpc::ServerWriteReactor<v1::WatchRobotResponse>* RobotService::WatchRobot(
+    grpc::CallbackServerContext* context, const v1::WatchRobotRequest* request) {
+  return RobotWatchStream::Start(&context_, context, *request);
 }
 
 }  // namespace plumescout::server

@@ -28,8 +28,15 @@ class RobotService final : public v1::RobotService::CallbackService {
   grpc::ServerUnaryReactor* ReleaseLease(grpc::CallbackServerContext* context,
                                          const v1::ReleaseLeaseRequest* request,
                                          v1::ReleaseLeaseResponse* response) override;
+  grpc::ServerUnaryReactor* OrderHome(grpc::CallbackServerContext* context,
+                                      const v1::OrderHomeRequest* request,
+                                      v1::OrderHomeResponse* response) override;
+  grpc::ServerWriteReactor<v1::WatchRobotResponse>* WatchRobot(
+      grpc::CallbackServerContext* context, const v1::WatchRobotRequest* request) override;
 
  private:
+  absl::Status Order(const v1::OrderHomeRequest& request, v1::OrderHomeResponse* response,
+                     const std::shared_ptr<UnaryCall>& call);
   absl::Status Remove(const v1::RemoveRobotRequest& request, v1::RemoveRobotResponse* response,
                       const std::shared_ptr<UnaryCall>& call);
   absl::Status Register(const v1::RegisterRobotRequest& request,

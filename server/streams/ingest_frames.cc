@@ -54,6 +54,8 @@ absl::StatusOr<std::vector<IncomingObservation>> ReadBatch(const v1::Observation
     return FieldError("batch.observations", batch.observations_size(),
                       absl::StrCat("entries; must be 1 to ", max_observations));
   }
+  PLUMESCOUT_RETURN_IF_ERROR(
+      CheckIntRange("batch.sent_time_ns", batch.sent_time_ns(), 0, kMaxTime_ns));
   std::vector<IncomingObservation> incoming;
   incoming.reserve(static_cast<std::size_t>(batch.observations_size()));
   for (int i = 0; i < batch.observations_size(); ++i) {

@@ -120,6 +120,7 @@ absl::Status IngestStream::TakeBatch(const v1::ObservationBatch& batch) {
     in_flight_observations_ += load.observations;
     waiting_ = std::move(incoming);
     arrived_ = SteadyNow();
+    sent_time_ns_ = batch.sent_time_ns();
   }
   PauseReading(host_->rates().CountBatch(robot_.robot, rate_load));
   place_ = host_->room().TakeOrWait(load, [weak = weak_from_this()](IngestRoom::Hold room) {
@@ -131,24 +132,28 @@ absl::Status IngestStream::TakeBatch(const v1::ObservationBatch& batch) {
 void IngestStream::PostBatch(IngestRoom::Hold room) {
   std::vector<IncomingObservation> incoming;
   SteadyTime arrived;
+  std::int64_t sent_time_ns = 0;
   {
     absl::MutexLock lock(&mutex_);
     if (!waiting_.has_value()) return;  // the stream is over
     // It stays in place until it is posted: the next batch must not be read, and overtake it.
     incoming = std::move(*waiting_);
     arrived = arrived_;
+    sent_time_ns = sent_time_ns_;
   }
   const int count = static_cast<int>(incoming.size());
   const auto self = shared_from_this();
-  const absl::Status posted = host_->Post(
-      {[self, count, arrived, incoming = std::move(incoming)](MissionWriter& writer) mutable {
-         IngestResult result = self->host_->Ingest(writer, self->robot_.robot, self->lease_token_,
-                                                   std::move(incoming));
-         writer.NoteIngest(arrived);
-         self->Ingested(count, std::move(result));
-       },
-       [self, count](const absl::Status& status) { self->Dropped(count, status); },
-       std::move(room)});
+  const absl::Status posted =
+      host_->Post({[self, count, arrived, sent_time_ns,
+                    incoming = std::move(incoming)](MissionWriter& writer) mutable {
+                     IngestResult result =
+                         self->host_->Ingest(writer, self->robot_.robot, self->lease_token_,
+                                             std::move(incoming), sent_time_ns);
+                     writer.NoteIngest(arrived);
+                     self->Ingested(count, std::move(result));
+                   },
+                   [self, count](const absl::Status& status) { self->Dropped(count, status); },
+                   std::move(room)});
   {
     absl::MutexLock lock(&mutex_);
     waiting_.reset();

@@ -99,6 +99,7 @@ class IngestStream final
   // Waits for room.
   std::optional<std::vector<IncomingObservation>> waiting_ ABSL_GUARDED_BY(mutex_);
   SteadyTime arrived_ ABSL_GUARDED_BY(mutex_);                // when that came
+  std::int64_t sent_time_ns_ ABSL_GUARDED_BY(mutex_) = 0;     // as it says
   int in_flight_observations_ ABSL_GUARDED_BY(mutex_) = 0;    // with those that wait for room
   std::int64_t credit_sequence_ ABSL_GUARDED_BY(mutex_) = 0;  // as announced
   LogPosition position_ ABSL_GUARDED_BY(mutex_);

@@ -60,4 +60,34 @@ absl::StatusOr<PlanOrder> PlanOrderFromProto(const v1::StreamNextBestTrajectoryR
   return ReadOrder(request, limits);
 }
 
+absl::StatusOr<TeamOrder> TeamOrderFromProto(const v1::PlanTeamRequest& request,
+                                             const MissionId& mission,
+                                             const ServiceLimits& limits) {
+  TeamOrder order;
+  PLUMESCOUT_RETURN_IF_ERROR(
+      CheckIntRange("robots.size", request.robots_size(), 0, kMostTeamRobots));
+  for (const std::string& robot : request.robots()) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(const RobotName name, ParseRobotName("robots", robot));
+    if (name.mission != mission) return FieldError("robots", robot, "must be of the mission");
+    const auto& before = order.request.robots;
+    if (std::find(before.begin(), before.end(), name.robot) != before.end()) {
+      return FieldError("robots", robot, "must be named once");
+    }
+    order.request.robots.push_back(name.robot);
+  }
+  PLUMESCOUT_ASSIGN_OR_RETURN(order.budget, ReadBudget(request, limits));
+  PLUMESCOUT_RETURN_IF_ERROR(
+      CheckIntRange("max_order_count", request.max_order_count(), 0, kMostTeamOrders));
+  constexpr int kUsualOrders = 3;
+  order.request.max_order_count =
+      request.max_order_count() == 0 ? kUsualOrders : request.max_order_count();
+  order.request.go_home = request.go_home();
+  order.request.seed = static_cast<std::uint64_t>(request.seed());
+  PLUMESCOUT_RETURN_IF_ERROR(CheckIntRange("max_edge_evaluation_count",
+                                           request.max_edge_evaluation_count(), 0,
+                                           std::numeric_limits<std::int64_t>::max()));
+  order.request.max_edge_evaluations = request.max_edge_evaluation_count();
+  return order;
+}
+
 }  // namespace plumescout::server

@@ -6,6 +6,7 @@
 #include "plumescout/v1/planning_service.pb.h"
 #include "server/calls/service_context.h"
 #include "server/missions/plan_job.h"
+#include "server/missions/team_job.h"
 
 namespace plumescout::server {
 
@@ -14,5 +15,9 @@ absl::StatusOr<PlanOrder> PlanOrderFromProto(const v1::NextBestTrajectoryRequest
                                              const ServiceLimits& limits);
 absl::StatusOr<PlanOrder> PlanOrderFromProto(const v1::StreamNextBestTrajectoryRequest& request,
                                              const ServiceLimits& limits);
+
+// Likewise, but the mission. Errors: a robot of another mission, too many of them.
+absl::StatusOr<TeamOrder> TeamOrderFromProto(const v1::PlanTeamRequest& request,
+                                             const MissionId& mission, const ServiceLimits& limits);
 
 }  // namespace plumescout::server

@@ -26,12 +26,25 @@ struct Room {
 };
 
 // Each may include those before it.
-const Names kCore = {"core/types",      "core/tour",          "core/grid",
-                     "core/occupancy",  "core/linalg",        "core/gas/field",
-                     "core/gas",        "core/frontier",      "core/belief",
-                     "core/traffic",    "core/plan/cost",     "core/plan/goals",
-                     "core/plan/paths", "core/plan/sampling", "core/plan/selection",
-                     "core/plan",       "core/mission",       "core/mission/conduct"};
+const Names kCore = {"core/types",
+                     "core/tour",
+                     "core/grid",
+                     "core/occupancy",
+                     "core/linalg",
+                     "core/gas/field",
+                     "core/gas",
+                     "core/frontier",
+                     "core/belief",
+                     "core/traffic",
+                     "core/plan/cost",
+                     "core/plan/goals",
+                     "core/plan/paths",
+                     "core/plan/sampling",
+                     "core/plan/selection",
+                     "core/plan",
+                     "core/plan/team",
+                     "core/mission",
+                     "core/mission/conduct"};
 const Names kServer = {"server/base",  "server/config",  "server/access",   "server/observe",
                        "server/store", "server/maps",    "server/missions", "server/history",
                        "server/calls", "server/streams", "server/services", "server"};

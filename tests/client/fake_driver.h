@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "client/robot_driver.h"
@@ -37,6 +39,13 @@ class FakeDriver final : public RobotDriver {
     return GasReading{.concentration_ppm = 1.0};
   }
 
+  std::optional<PoseCorrection> TakeCorrection() override {
+    return std::exchange(correction, std::nullopt);
+  }
+  std::optional<RobotStatus> TakeStatus() override {
+    return status ? status(now_ns_) : std::nullopt;
+  }
+
   absl::Status Drive(const Twist& twist) override {
     twist_ = twist;
     return absl::OkStatus();
@@ -66,9 +75,11 @@ class FakeDriver final : public RobotDriver {
   std::vector<Point2> posts;
   absl::Status scan_status;
   absl::Status gas_status;
+  std::optional<PoseCorrection> correction;  // taken once
   absl::Status advance_status;
   absl::Status place_status;
   std::function<void()> on_advance;
+  std::function<std::optional<RobotStatus>(std::int64_t now_ns)> status;
 
  private:
   double Range_m(double angle_rad) const {

@@ -185,6 +185,22 @@ std::int64_t FakePlannerClient::applied() const {
   return applied_;
 }
 
+bool FakePlannerClient::AwaitApplied(std::int64_t sequence, absl::Duration timeout) const {
+  const auto is_applied = [&]() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
+    return applied_ >= sequence;
+  };
+  absl::MutexLock lock(&mutex_);
+  return mutex_.AwaitWithTimeout(absl::Condition(&is_applied), timeout);
+}
+
+bool FakePlannerClient::AwaitPlans(std::size_t count, absl::Duration timeout) const {
+  const auto are_given = [&]() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
+    return plans_given_ >= count;
+  };
+  absl::MutexLock lock(&mutex_);
+  return mutex_.AwaitWithTimeout(absl::Condition(&are_given), timeout);
+}
+
 std::vector<FakePlannerClient::Report> FakePlannerClient::reports() const {
   absl::MutexLock lock(&mutex_);
   return reports_;
@@ -222,14 +238,15 @@ absl::Status FakePlannerClient::DeleteMission(const MissionId&) { return absl::O
 absl::StatusOr<RobotSession> FakePlannerClient::RegisterRobot(const MissionId& mission,
                                                               const RobotId& robot, double radius_m,
                                                               bool take_over,
-                                                              std::int64_t log_epoch) {
+                                                              std::int64_t log_epoch,
+                                                              const RobotOutfit& outfit) {
   absl::MutexLock lock(&mutex_);
   PLUMESCOUT_RETURN_IF_ERROR(LinkStatus());
   if (!mission_exists_) return absl::NotFoundError("mission");
   if (held_by_other_ && !take_over) return absl::FailedPreconditionError("LEASE_HELD: by another");
   held_by_other_ = false;
   registered_ = true;
-  registrations_.push_back({mission, robot, radius_m, take_over, log_epoch});
+  registrations_.push_back({mission, robot, radius_m, take_over, log_epoch, outfit});
   const bool continues =
       applied_ == 0 || log_epoch == 0 || log_epoch_ == 0 || log_epoch == log_epoch_;
   if (log_epoch != 0) log_epoch_ = log_epoch;
@@ -245,6 +262,11 @@ absl::Status FakePlannerClient::RemoveRobot(const MissionId&, const RobotId&,
   return absl::OkStatus();
 }
 
+std::int64_t FakePlannerClient::robot_clock_ns() const {
+  absl::MutexLock lock(&mutex_);
+  return robot_clock_ns_;
+}
+
 absl::StatusOr<std::unique_ptr<ObservationStream>> FakePlannerClient::OpenObservationStream(
     const RobotSession& session) {
   absl::MutexLock lock(&mutex_);
@@ -256,6 +278,7 @@ absl::StatusOr<std::unique_ptr<ObservationStream>> FakePlannerClient::OpenObserv
         kStoreRolledBack, {{"applied_sequence", absl::StrCat(applied_)}});
   }
   ++streams_opened_;
+  robot_clock_ns_ = session.robot_clock_ns ? session.robot_clock_ns() : 0;
   return std::make_unique<Stream>(*this, session.lease_token, generation_, links_, State(),
                                   BootId());
 }
@@ -275,7 +298,10 @@ absl::StatusOr<Plan> FakePlannerClient::NextBestTrajectory(const MissionId&,
     }
     script = script_;
   }
-  return script(query);
+  absl::StatusOr<Plan> plan = script(query);
+  absl::MutexLock lock(&mutex_);
+  ++plans_given_;
+  return plan;
 }
 
 absl::Status FakePlannerClient::ReportProgress(const RobotSession& session, PlanId plan,
@@ -286,6 +312,61 @@ absl::Status FakePlannerClient::ReportProgress(const RobotSession& session, Plan
   PLUMESCOUT_RETURN_IF_ERROR(report_answer_);
   reports_.push_back({plan, outcome, applied_});
   return absl::OkStatus();
+}
+
+// Begins with what is told after it opened.
+class FakePlannerClient::Watch final : public RobotWatch {
+ public:
+  Watch(FakePlannerClient* server, int link, std::size_t next)
+      : server_(*server), link_(link), next_(next) {}
+
+  absl::StatusOr<RobotNotice> Read(absl::Duration timeout) override {
+    absl::MutexLock lock(&server_.mutex_);
+    const auto ready = [this]() ABSL_EXCLUSIVE_LOCKS_REQUIRED(server_.mutex_) {
+      return cancelled_ || link_ != server_.links_ || next_ < server_.notices_.size();
+    };
+    if (!server_.mutex_.AwaitWithTimeout(absl::Condition(&ready), timeout)) {
+      return absl::DeadlineExceededError("no notice yet");
+    }
+    if (cancelled_) return absl::CancelledError("the watch was cancelled");
+    if (link_ != server_.links_) return absl::UnavailableError("the link broke");
+    return server_.notices_[next_++];
+  }
+  void Cancel() override {
+    absl::MutexLock lock(&server_.mutex_);
+    cancelled_ = true;
+  }
+
+ private:
+  FakePlannerClient& server_;
+  const int link_;
+  std::size_t next_;
+  bool cancelled_ = false;
+};
+
+void FakePlannerClient::set_watched(bool watched) {
+  absl::MutexLock lock(&mutex_);
+  watched_ = watched;
+}
+
+void FakePlannerClient::Notify(RobotNotice notice) {
+  absl::MutexLock lock(&mutex_);
+  notices_.push_back(std::move(notice));
+}
+
+int FakePlannerClient::watches_opened() const {
+  absl::MutexLock lock(&mutex_);
+  return watches_opened_;
+}
+
+absl::StatusOr<std::unique_ptr<RobotWatch>> FakePlannerClient::WatchRobot(
+    const RobotSession& session) {
+  absl::MutexLock lock(&mutex_);
+  if (!watched_) return absl::UnimplementedError("robots are not watched here");
+  if (absl::Status status = LinkStatus(); !status.ok()) return status;
+  if (absl::Status status = LeaseStatus(session.lease_token); !status.ok()) return status;
+  ++watches_opened_;
+  return std::make_unique<Watch>(this, links_, notices_.size());
 }
 
 absl::StatusOr<MapSnapshot> FakePlannerClient::GetMap(const MissionId&) { return MapSnapshot{}; }

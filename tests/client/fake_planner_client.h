@@ -35,6 +35,7 @@ class FakePlannerClient final : public PlannerClient {
     double radius_m = 0.0;
     bool take_over = false;
     std::int64_t log_epoch = 0;
+    RobotOutfit outfit = {};
 
     friend bool operator==(const Registration&, const Registration&) = default;
   };
@@ -48,6 +49,12 @@ class FakePlannerClient final : public PlannerClient {
   // What ReportProgress answers to reports that it would take.
   void set_report_answer(absl::Status answer);
   void RefuseObservation(std::int64_t sequence);
+
+  // Whether it knows of watches; else they are kUnimplemented.
+  void set_watched(bool watched);
+  // What open watches are told.
+  void Notify(RobotNotice notice);
+  int watches_opened() const;
 
   // Every call fails and every stream is dead until the link is mended.
   void BreakLink();
@@ -71,10 +78,14 @@ class FakePlannerClient final : public PlannerClient {
 
   std::vector<Observation> received() const;
   std::int64_t applied() const;
+  // Whether it has applied the log up to there, or given so many plans, before the time is up.
+  bool AwaitApplied(std::int64_t sequence, absl::Duration timeout) const;
+  bool AwaitPlans(std::size_t count, absl::Duration timeout) const;
   std::vector<Report> reports() const;
   std::vector<Registration> registrations() const;
   int streams_opened() const;
   int largest_batch() const;
+  std::int64_t robot_clock_ns() const;  // when the latest stream was opened; 0: it was not said
 
   absl::Status CreateMission(const MissionId&, const MissionOptions&) override;
   absl::StatusOr<std::vector<MissionId>> ListMissions() override;
@@ -82,7 +93,8 @@ class FakePlannerClient final : public PlannerClient {
   using PlannerClient::RegisterRobot;
   absl::StatusOr<RobotSession> RegisterRobot(const MissionId& mission, const RobotId& robot,
                                              double radius_m, bool take_over,
-                                             std::int64_t log_epoch) override;
+                                             std::int64_t log_epoch,
+                                             const RobotOutfit& outfit) override;
   absl::Status RemoveRobot(const MissionId&, const RobotId&, std::int64_t lease_token,
                            bool force) override;
   absl::StatusOr<std::unique_ptr<ObservationStream>> OpenObservationStream(
@@ -90,10 +102,12 @@ class FakePlannerClient final : public PlannerClient {
   absl::StatusOr<Plan> NextBestTrajectory(const MissionId&, const PlanQuery& query) override;
   absl::Status ReportProgress(const RobotSession& session, PlanId plan,
                               ProgressOutcome outcome) override;
+  absl::StatusOr<std::unique_ptr<RobotWatch>> WatchRobot(const RobotSession& session) override;
   absl::StatusOr<MapSnapshot> GetMap(const MissionId&) override;
 
  private:
   class Stream;
+  class Watch;
 
   absl::Status LinkStatus() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status LeaseStatus(std::int64_t lease) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
@@ -121,13 +135,18 @@ class FakePlannerClient final : public PlannerClient {
   int generation_ ABSL_GUARDED_BY(mutex_) = 0;  // of streams: older ones are dead
   int streams_opened_ ABSL_GUARDED_BY(mutex_) = 0;
   int largest_batch_ ABSL_GUARDED_BY(mutex_) = 0;
+  std::int64_t robot_clock_ns_ ABSL_GUARDED_BY(mutex_) = 0;
   std::int64_t lease_ ABSL_GUARDED_BY(mutex_) = 0;
   std::int64_t applied_ ABSL_GUARDED_BY(mutex_) = 0;
+  std::size_t plans_given_ ABSL_GUARDED_BY(mutex_) = 0;
   std::int64_t credit_window_ ABSL_GUARDED_BY(mutex_) = 100;
   std::set<std::int64_t> refused_ ABSL_GUARDED_BY(mutex_);
   std::vector<Observation> received_ ABSL_GUARDED_BY(mutex_);
   std::vector<Report> reports_ ABSL_GUARDED_BY(mutex_);
   std::vector<Registration> registrations_ ABSL_GUARDED_BY(mutex_);
+  bool watched_ ABSL_GUARDED_BY(mutex_) = false;
+  int watches_opened_ ABSL_GUARDED_BY(mutex_) = 0;
+  std::vector<RobotNotice> notices_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace plumescout::client

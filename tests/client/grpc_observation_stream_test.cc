@@ -54,8 +54,10 @@ class ScriptedServer final : public v1::IngestService::Service {
   }
   ~ScriptedServer() override { server_->Shutdown(std::chrono::system_clock::now()); }
 
-  absl::StatusOr<std::unique_ptr<ObservationStream>> Open(const StreamTimeouts& timeouts) {
+  absl::StatusOr<std::unique_ptr<ObservationStream>> Open(
+      const StreamTimeouts& timeouts, std::function<std::int64_t()> robot_clock_ns = nullptr) {
     RobotSession session;
+    session.robot_clock_ns = std::move(robot_clock_ns);
     session.mission = "house";
     session.robot = "scout";
     session.lease_token = kLease;
@@ -104,6 +106,28 @@ TEST(GrpcObservationStreamTest, TheFirstFrameNamesRobotAndLease) {
   EXPECT_EQ(first.open().lease_token(), kLease);
   EXPECT_EQ(first.open().durable_sequence(), 17);
   EXPECT_EQ((*stream)->opened().credit_sequence, 256);
+}
+
+TEST(GrpcObservationStreamTest, BatchesSayWhenTheyWereSentIfThereIsAClock) {
+  for (const std::int64_t now_ns : {0, 1234}) {
+    std::int64_t sent_time_ns = -1;
+    absl::Notification heard;
+    ScriptedServer server([&](ServerStream& stream) {
+      Greet(stream);
+      v1::StreamObservationsRequest frame;
+      stream.Read(&frame);
+      sent_time_ns = frame.batch().sent_time_ns();
+      heard.Notify();
+      return Listen(stream);
+    });
+    std::function<std::int64_t()> clock;
+    if (now_ns != 0) clock = [now_ns] { return now_ns; };
+    const auto stream = server.Open(kPatient, clock);
+    ASSERT_TRUE(stream.ok()) << stream.status();
+    ASSERT_TRUE((*stream)->Write({{1, 5, {}, GasReading{1.0}}}).ok());
+    heard.WaitForNotification();
+    EXPECT_EQ(sent_time_ns, now_ns);
+  }
 }
 
 TEST(GrpcObservationStreamTest, AServerThatHasRestartedWithItsDataIsKnownByItsBoot) {

@@ -37,13 +37,18 @@ TEST(JoinTest, TheRobotRegistersAsItIs) {
   FakePlannerClient server;
   server.Preload(0);
 
-  ASSERT_TRUE(
-      Join(server,
-           {.mission = "m", .robot = "r", .radius_m = 0.35, .take_over = true, .log_epoch = 77})
-          .ok());
+  ASSERT_TRUE(Join(server, {.mission = "m",
+                            .robot = "r",
+                            .radius_m = 0.35,
+                            .take_over = true,
+                            .log_epoch = 77,
+                            .frame = {{1.0, 2.0, 0.5}, 0.1, 0.02},
+                            .sensors = {{"pid", {0.1, 0.0}, 0.5, 2.0}}})
+                  .ok());
 
+  const RobotOutfit outfit = {{{1.0, 2.0, 0.5}, 0.1, 0.02}, {{"pid", {0.1, 0.0}, 0.5, 2.0}}};
   EXPECT_THAT(server.registrations(),
-              ElementsAre(FakePlannerClient::Registration{"m", "r", 0.35, true, 77}));
+              ElementsAre(FakePlannerClient::Registration{"m", "r", 0.35, true, 77, outfit}));
 }
 
 TEST(JoinTest, ABrokenLinkIsReportedAndNobodyRegisters) {

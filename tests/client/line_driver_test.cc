@@ -144,6 +144,27 @@ TEST_F(LineDriverTest, TheClockNeverRunsBackwards) {
   EXPECT_EQ(driver.now_ns(), 10 * kTenth_ns);
 }
 
+TEST_F(LineDriverTest, AClockThatIsSetBackGoesOnFromThere) {
+  LineDriver driver = MakeDriver();
+  Say(PoseLine(100 * kTenth_ns, 1.0) + PoseLine(50 * kTenth_ns, 2.0) +
+      PoseLine(51 * kTenth_ns, 3.0));
+  ASSERT_TRUE(driver.AwaitPose().ok());
+
+  ASSERT_TRUE(driver.Advance(0.1).ok());
+
+  EXPECT_EQ(driver.now_ns(), 51 * kTenth_ns);
+}
+
+TEST_F(LineDriverTest, StatusIsTakenOnceAndNeedsNoPose) {
+  LineDriver driver = MakeDriver();
+  Say("{\"type\":\"status\",\"time_ns\":1,\"battery_share\":0.5}\n" + PoseLine(7, 3.0));
+  ASSERT_TRUE(driver.AwaitPose().ok());
+
+  EXPECT_EQ(driver.TakeStatus(), RobotStatus{0.5});
+  EXPECT_FALSE(driver.TakeStatus().has_value());
+  EXPECT_EQ(driver.bad_lines(), 0);
+}
+
 TEST_F(LineDriverTest, CommandsAreLines) {
   LineDriver driver = MakeDriver();
 

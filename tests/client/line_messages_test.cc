@@ -54,6 +54,13 @@ TEST(ParseRobotLine, ReadsGasWithItsOwnPoseAndDeviation) {
   EXPECT_EQ(std::get<GasReading>(line->reading), (GasReading{3.0, 0.25}));
 }
 
+TEST(ParseRobotLine, ReadsStatus) {
+  const auto line = ParseRobotLine(R"({"type":"status","time_ns":9,"battery_share":0.25})");
+
+  ASSERT_TRUE(line.ok()) << line.status();
+  EXPECT_EQ(std::get<RobotStatus>(line->reading), RobotStatus{0.25});
+}
+
 TEST(ParseRobotLine, RefusesWhatItCannotUseAndNamesIt) {
   const std::pair<const char*, const char*> cases[] = {
       {"", "JSON"},
@@ -69,6 +76,9 @@ TEST(ParseRobotLine, RefusesWhatItCannotUseAndNamesIt) {
       {R"({"type":"pose","time_ns":1,"x_m":0,"y_m":0})", "yaw_rad"},
       {R"({"type":"gas","time_ns":1,"concentration_ppm":1,"pose":{"x_m":1}})", "y_m"},
       {R"({"type":"gas","time_ns":1,"concentration_ppm":1,"pose":5})", "x_m"},
+      {R"({"type":"status","time_ns":1})", "battery_share"},
+      {R"({"type":"status","time_ns":1,"battery_share":2})", "battery_share = 2"},
+      {R"({"type":"status","time_ns":1,"battery_share":null})", "battery_share"},
       {R"({"type":"scan","time_ns":1,"start_angle_rad":0,"angle_step_rad":1,"max_range_m":8,)"
        R"("ranges_m":["far"]})",
        "ranges_m"},
@@ -85,6 +95,20 @@ TEST(ParseRobotLine, RefusesWhatItCannotUseAndNamesIt) {
 TEST(FormatTwistLine, IsOneLineOfJson) {
   EXPECT_EQ(FormatTwistLine({.forward_mps = 0.25, .turn_rad_per_s = -0.5}),
             "{\"forward_mps\":0.25,\"turn_rad_per_s\":-0.5,\"type\":\"twist\"}\n");
+}
+
+TEST(ParseRobotLine, ReadsACorrection) {
+  const auto line = ParseRobotLine(
+      R"({"type":"correction","time_ns":9,"pose":{"x_m":1,"y_m":2,"yaw_rad":0},"anchors":)"
+      R"([{"time_ns":3,"x_m":0.5,"y_m":0,"yaw_rad":0},{"time_ns":7,"x_m":1,"y_m":2,"yaw_rad":1}]})");
+
+  ASSERT_TRUE(line.ok()) << line.status();
+  EXPECT_EQ(line->pose, (Pose2{1.0, 2.0, 0.0}));
+  EXPECT_EQ(std::get<PoseCorrection>(line->reading),
+            (PoseCorrection{{{3, {0.5, 0.0, 0.0}}, {7, {1.0, 2.0, 1.0}}}}));
+  EXPECT_FALSE(ParseRobotLine(R"({"type":"correction","time_ns":9,"anchors":[]})").ok());
+  EXPECT_FALSE(ParseRobotLine(R"({"type":"correction","time_ns":9,"anchors":[3]})").ok());
+  EXPECT_FALSE(ParseRobotLine(R"({"type":"correction","time_ns":9})").ok());
 }
 
 }  // namespace line_messages_test

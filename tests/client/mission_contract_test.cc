@@ -61,6 +61,40 @@ TEST_P(MissionContract, AFreshRobotStartsWithAnEmptyLogAndSomeCredit) {
   EXPECT_GT(stream->opened().credit_sequence, 0);
 }
 
+// Its frame lies at (10, 5) of the mission, turned by a quarter.
+TEST_P(MissionContract, ARobotSendsInItsOwnFrameAndCorrectsWhatItSent) {
+  const RobotFrame frame{{10.0, 5.0, M_PI / 2}, 0.1, 0.01};
+  const auto session = client().RegisterRobot("house", "scout", kRadius_m, false, 0, {frame, {}});
+  ASSERT_TRUE(session.ok()) << session.status();
+  const auto stream = Open(*session);
+  std::vector<Observation> batch;
+  for (std::int64_t sequence = 1; sequence <= 5; ++sequence) batch.push_back(GasAt(sequence, 2.0));
+  Observation correction = GasAt(6, 3.0);
+  correction.payload = PoseCorrection{{{batch[0].sample_time_ns, {3.0, 0.0, 0.0}}}};
+  batch.push_back(correction);
+  Observation never_seen = GasAt(7, 3.0);
+  never_seen.payload = PoseCorrection{{{1, {3.0, 0.0, 0.0}}}};
+  batch.push_back(never_seen);
+
+  const auto sent = SendAll(*stream, batch);
+
+  ASSERT_TRUE(sent.ok()) << sent.status();
+  ASSERT_EQ(sent->refused.size(), 1U);
+  EXPECT_EQ(sent->refused[0].sequence, 7);
+  EXPECT_TRUE(absl::IsInvalidArgument(sent->refused[0].status)) << sent->refused[0].status;
+  const auto map = client().GetMap("house");
+  ASSERT_TRUE(map.ok()) << map.status();
+  ASSERT_EQ(map->robots.size(), 1U);
+  EXPECT_NEAR(map->robots[0].pose.x_m, 10.0, 1e-9);
+  EXPECT_NEAR(map->robots[0].pose.y_m, 8.0, 1e-9);
+  EXPECT_FALSE(map->robots[0].frame_suspect);
+  EXPECT_EQ(map->gas_counters.readings, 5);
+  RobotFrame tilted = frame;
+  tilted.mission_from_robot.x_m = std::nan("");
+  EXPECT_TRUE(absl::IsInvalidArgument(
+      client().RegisterRobot("house", "second", kRadius_m, false, 0, {tilted, {}}).status()));
+}
+
 TEST_P(MissionContract, ARobotHearsWhetherItsLogGoesOn) {
   const auto join = [this](std::int64_t log_epoch) {
     auto session = client().RegisterRobot("house", "scout", kRadius_m, true, log_epoch);

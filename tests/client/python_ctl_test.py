@@ -144,6 +144,23 @@ class CtlTest(unittest.TestCase):
         self.assertEqual([p["name"] for p in plans], [plan.proto.name])
         self.assertIn("scout", self.ctl("plans", "busy"))
 
+        self.assertEqual(shown[0]["link"], "ROBOT_LINK_IDLE")
+        self.assertEqual(shown[0]["live_plan"], plan.proto.name)
+        self.assertIn("PROGRESS", self.ctl("robots", "show", "busy", "scout"))
+
+        self.ctl("robots", "home", "busy", "scout")
+        self.assertTrue(self.ctl_json("robots", "show", "busy", "scout")["ordered_home"])
+        self.assertIn("ordered", self.ctl("robots", "list", "busy"))
+        self.ctl("robots", "cancel-home", "busy", "--all")
+        self.assertNotIn("ordered", self.ctl("robots", "list", "busy"))
+        self.ctl("robots", "home", "busy", code=2)
+        self.ctl("robots", "home", "busy", "nobody", code=4)
+
+        watched = self.ctl_json("robots", "watch", "busy", "scout", "--count", "1")
+        self.assertFalse(watched[0]["standing"].get("finished", False))
+        self.assertIn("standing:", self.ctl("robots", "watch", "busy", "scout", "--count", "1"))
+        self.assertTrue(next(robot.watch()).HasField("standing"))
+
         self.ctl("robots", "release", "busy", "scout")
         self.assertFalse(self.ctl_json("robots", "show", "busy", "scout")["leased"])
         self.client.register("busy", "scout")  # nobody has to be superseded

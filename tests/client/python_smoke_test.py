@@ -6,6 +6,7 @@ import os
 import pathlib
 import subprocess
 import tempfile
+import time
 import unittest
 
 import grpc
@@ -119,6 +120,26 @@ class SmokeTest(unittest.TestCase):
         self.assertTrue(np.isnan(mean_ppm[1]))
         self.assertIsInstance(robot.list_frontiers(), list)
         self.assertEqual(room.status.robots[0].applied_sequence, robot.last_sequence)
+
+    def test_a_clock_that_is_an_hour_ahead_is_learnt(self):
+        def clock_ns():
+            return time.time_ns() + 3_600_000_000_000
+
+        self.client.create_mission("clocks")
+        robot = self.client.register("clocks", "scout", clock_ns=clock_ns)
+        robot.add_gas(clock_ns(), START, 1.0)
+        robot.add_status(clock_ns(), 0.5)
+        robot.flush()
+        self.assertEqual(robot.rejections, [])
+        shown = self.client.get_robot("clocks", "scout")
+        self.assertLess(abs(shown.clock_offset_s + 3600), 60)
+        self.assertLess(abs(shown.ingest_lag_s), 60)
+        self.assertEqual(shown.battery_share, 0.5)
+        untold = self.client.register("clocks", "other", clock_ns=None)
+        untold.add_gas(1, START, 1.0)
+        untold.flush()
+        shown = self.client.get_robot("clocks", "other")
+        self.assertFalse(shown.HasField("clock_offset_s"))
 
     def test_a_known_building_is_planned_in_without_a_scan(self):
         cells = np.full((40, 60), plumescout_client.OCCUPIED)

@@ -6,11 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
 
-#include "absl/time/clock.h"
+#include "absl/time/time.h"
 #include "client/robot_loop.h"
 #include "tests/client/fake_driver.h"
 #include "tests/client/fake_planner_client.h"
@@ -75,9 +76,18 @@ class RobotLoopTest : public ::testing::Test {
   absl::StatusOr<RobotResult> RunInLockstep() {
     return Run(Options(Pacing::kLockstep, Following::kIdeal));
   }
-  // A free-running robot whose world goes on at a pace that leaves threads some time.
+  // A free-running robot whose world goes on once the server has applied what the robot said, and,
+  // while it stands, has given it a plan if it asked for one.
   absl::StatusOr<RobotResult> RunFreely() {
-    driver_.on_advance = [] { absl::SleepFor(absl::Milliseconds(1)); };
+    driver_.on_advance = [this, before = driver_.on_advance] {
+      if (before) before();
+      if (recorder_.ticks.empty()) return;
+      const RobotTick& tick = recorder_.ticks.back();
+      EXPECT_TRUE(server_.AwaitApplied(tick.ingest.last_sequence, absl::Seconds(10)));
+      if (tick.plan == 0) {
+        server_.AwaitPlans(recorder_.plan_times_s.size() + 1, absl::Milliseconds(50));
+      }
+    };
     return Run(Options(Pacing::kFreeRunning, Following::kProportional));
   }
 

@@ -99,5 +99,34 @@ TEST_F(RobotLoopLegsTest, WithNowhereToGoItStandsAndAsksAgain) {
   EXPECT_EQ(result->distance_m, 0.0);
 }
 
+// Its frame lies at (10, 5) of the mission, turned by a quarter: where it holds itself to be at
+// (x, y), the mission has it at (10 - y, 5 + x).
+TEST_F(RobotLoopLegsTest, ARobotWorksInItsOwnFrameAndAsksInTheMissions) {
+  std::vector<Pose2> starts;
+  const auto tour = Tour({{10, 7}, {9, 7}});
+  server_.set_script([&](const PlanQuery& query) {
+    starts.push_back(*query.request.start);
+    return tour(query);
+  });
+  RobotLoopOptions options = Options(Pacing::kLockstep, Following::kIdeal);
+  options.participation.frame.mission_from_robot = {10.0, 5.0, M_PI / 2};
+
+  const absl::StatusOr<RobotResult> result = Run(options);
+
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_EQ(result->reached, 2);
+  EXPECT_NEAR(driver_.pose().x_m, 2.0, 0.05);
+  EXPECT_NEAR(driver_.pose().y_m, 1.0, 0.05);
+  ASSERT_EQ(starts.size(), 3U);
+  EXPECT_NEAR(starts[0].x_m, 10.0, 1e-9);
+  EXPECT_NEAR(starts[0].y_m, 5.0, 1e-9);
+  EXPECT_NEAR(starts[2].x_m, 9.0, 0.05);
+  EXPECT_NEAR(starts[2].y_m, 7.0, 0.05);
+  for (const Observation& observation : server_.received()) {
+    EXPECT_LT(std::abs(observation.pose.y_m), 1.5) << "sent as the robot has it";
+  }
+  EXPECT_EQ(server_.registrations().back().outfit.frame, options.participation.frame);
+}
+
 }  // namespace robot_loop_legs_test
 }  // namespace plumescout::client

@@ -100,6 +100,37 @@ TEST_F(RobotLoopTest, TwoRunsInLockstepSendTheSameBytes) {
   EXPECT_EQ(server_.reports(), again.reports());
 }
 
+TEST_F(RobotLoopTest, StatusIsToldWhenItChangedAndNotTooOften) {
+  const std::int64_t start_ns = driver_.now_ns();
+  driver_.status = [start_ns](std::int64_t now_ns) {  // a percent in 4 s
+    return RobotStatus{1.0 - 0.01 * static_cast<double>((now_ns - start_ns) / 4'000'000'000)};
+  };
+  server_.set_script(Tour({{4, 0}, {-4, 0}, {4, 0}, {-4, 0}}));
+  ASSERT_TRUE(RunInLockstep().ok());
+  std::vector<Observation> told;
+  for (const Observation& observation : server_.received()) {
+    if (std::holds_alternative<RobotStatus>(observation.payload)) told.push_back(observation);
+  }
+  ASSERT_GE(told.size(), 3U);
+  EXPECT_EQ(std::get<RobotStatus>(told[0].payload), RobotStatus{1.0});
+  for (std::size_t i = 1; i < told.size(); ++i) {
+    EXPECT_NE(told[i].payload, told[i - 1].payload);
+    EXPECT_GE(told[i].sample_time_ns - told[i - 1].sample_time_ns, 10'000'000'000);
+  }
+}
+
+TEST_F(RobotLoopTest, OnlyARealClockIsHandedToTheLink) {
+  ASSERT_TRUE(RunInLockstep().ok());
+  EXPECT_EQ(server_.robot_clock_ns(), 0);
+}
+
+TEST_F(RobotLoopTest, ARealClockIsHandedToTheLink) {
+  RobotLoopOptions options = Options(Pacing::kLockstep, Following::kIdeal);
+  options.real_clock = true;
+  ASSERT_TRUE(Run(options).ok());
+  EXPECT_GE(server_.robot_clock_ns(), 1'000'000'000'000);
+}
+
 TEST_F(RobotLoopTest, SteeredWheelsReachTheGoalsToo) {
   server_.set_script(Tour({{1, 0}, {1, 2}, {-1, -1}}));
 
@@ -314,23 +345,6 @@ TEST_F(RobotLoopTest, TicksAreReportedOnceForEachInstant) {
   for (std::size_t i = 1; i < recorder_.ticks.size(); ++i) {
     EXPECT_GT(recorder_.ticks[i].time_ns, recorder_.ticks[i - 1].time_ns);
   }
-}
-
-TEST(RobotLoopOptionsTest, NonsenseIsRefusedByName) {
-  RobotLoopOptions options;
-  EXPECT_TRUE(Validate(options).ok());
-
-  options.tick_s = 0.0;
-  EXPECT_THAT(std::string(Validate(options).message()), ::testing::HasSubstr("tick_s"));
-  options = {};
-  options.rates.gas_hz = std::nan("");
-  EXPECT_THAT(std::string(Validate(options).message()), ::testing::HasSubstr("gas_hz"));
-  options = {};
-  options.new_log_epoch = kLogEpochEnd;
-  EXPECT_THAT(std::string(Validate(options).message()), ::testing::HasSubstr("new_log_epoch"));
-  options = {};
-  options.ingest.store.folder = "somewhere";  // needs an epoch
-  EXPECT_THAT(std::string(Validate(options).message()), ::testing::HasSubstr("new_log_epoch"));
 }
 
 }  // namespace robot_loop_test

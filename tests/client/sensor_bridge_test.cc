@@ -24,10 +24,9 @@ struct Sample {
 };
 
 SensorBridge::Sink Into(std::vector<Sample>& samples) {
-  return
-      [&samples](std::int64_t time_ns, const Pose2& pose, std::variant<Scan, GasReading> payload) {
-        samples.push_back({time_ns, pose, std::holds_alternative<Scan>(payload)});
-      };
+  return [&samples](std::int64_t time_ns, const Pose2& pose, ObservationPayload payload) {
+    samples.push_back({time_ns, pose, std::holds_alternative<Scan>(payload)});
+  };
 }
 
 std::ptrdiff_t CountScans(const std::vector<Sample>& samples) {
@@ -168,6 +167,25 @@ TEST(SensorBridge, OnlySettledReadingsCountIfTheSensorIsSlow) {
 TEST(SensorBridge, ARobotThatNeverStandsLongEnoughHasNoSettledReading) {
   FakeDriver driver;
   EXPECT_THAT(StopAndSample(driver, {.settling_s = 4.0}, 2.3, 6.2), SizeIs(0));
+}
+
+TEST(SensorBridge, ACorrectionComesBeforeWhatIsSensedAfterIt) {
+  FakeDriver driver;
+  std::vector<ObservationPayload> payloads;
+  SensorBridge bridge(driver, SensorRates{}, GasSampling{},
+                      [&payloads](std::int64_t, const Pose2&, ObservationPayload payload) {
+                        payloads.push_back(std::move(payload));
+                      });
+  driver.correction = PoseCorrection{{{driver.now_ns(), {1.0, 0.0, 0.0}}}};
+  const PoseCorrection correction = *driver.correction;
+
+  ASSERT_TRUE(bridge.Poll().ok());
+
+  ASSERT_THAT(payloads, SizeIs(3));
+  EXPECT_EQ(payloads[0], ObservationPayload(correction));
+  ASSERT_TRUE(driver.Advance(1.0).ok());
+  ASSERT_TRUE(bridge.Poll().ok());
+  EXPECT_THAT(payloads, SizeIs(5));
 }
 
 }  // namespace sensor_bridge_test

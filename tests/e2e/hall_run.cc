@@ -80,8 +80,9 @@ class TappedClient final : public client::PlannerClient {
   using PlannerClient::RegisterRobot;
   absl::StatusOr<client::RobotSession> RegisterRobot(const MissionId& mission, const RobotId& robot,
                                                      double radius_m, bool take_over,
-                                                     std::int64_t log_epoch) override {
-    return inner_.RegisterRobot(mission, robot, radius_m, take_over, log_epoch);
+                                                     std::int64_t log_epoch,
+                                                     const client::RobotOutfit& outfit) override {
+    return inner_.RegisterRobot(mission, robot, radius_m, take_over, log_epoch, outfit);
   }
   absl::Status RemoveRobot(const MissionId& mission, const RobotId& robot, std::int64_t lease_token,
                            bool force) override {

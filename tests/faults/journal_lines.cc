@@ -73,6 +73,14 @@ std::string Tell(const RobotRemoved& body) { return absl::StrCat("removed\t", bo
 std::string Tell(const PosteriorRefreshed&) { return "refreshed"; }
 std::string Tell(const EpochBegun&) { return "epoch_begun"; }
 std::string Tell(const EpochAdopted&) { return "epoch_adopted"; }
+std::string Tell(const ClockOffsetNoted& noted) {
+  return absl::StrCat("clock_offset\t", noted.robot, "\t", noted.offset_ns);
+}
+std::string Tell(const HomeOrdered& order) {
+  return absl::StrCat("home_ordered\t", order.robot, "\t", order.home ? 1 : 0);
+}
+std::string Tell(const MapRebuildBegun&) { return "map_rebuild_begun"; }
+std::string Tell(const MapRebuilt&) { return "map_rebuilt"; }
 
 absl::Status TellMission(server::MissionStore& store, const server::StoredMission& mission,
                          std::int64_t first) {

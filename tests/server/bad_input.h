@@ -47,7 +47,10 @@ inline void SetField(Message& message, absl::string_view path, const std::string
       ASSERT_TRUE(google::protobuf::TextFormat::ParseFieldValueFromString(value, field, part))
           << path << " = " << value;
     } else if (field->is_repeated()) {
-      part = part->GetReflection()->MutableRepeatedMessage(part, field, 0);
+      const auto* reflection = part->GetReflection();
+      part = reflection->FieldSize(*part, field) == 0
+                 ? reflection->AddMessage(part, field)
+                 : reflection->MutableRepeatedMessage(part, field, 0);
     } else {
       part = part->GetReflection()->MutableMessage(part, field);
     }

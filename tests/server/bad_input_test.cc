@@ -12,11 +12,15 @@
 #include <string>
 
 #include "absl/strings/match.h"
+#include "tests/server/bad_home_input.h"
+#include "tests/server/bad_ingest_input.h"
 #include "tests/server/bad_input_fixture.h"
 #include "tests/server/bad_map_input.h"
 #include "tests/server/bad_mission_input.h"
+#include "tests/server/bad_registration_input.h"
 #include "tests/server/bad_robot_input.h"
 #include "tests/server/bad_snapshot_input.h"
+#include "tests/server/robot_watch_client.h"
 #include "tests/server/service_fixture.h"
 
 namespace plumescout::server {
@@ -38,6 +42,8 @@ std::map<std::string, BadInputs> AllBadInputs() {
           {"GetRobotRequest", BadGetRobot()},
           {"ListRobotsRequest", BadListRobots()},
           {"ReleaseLeaseRequest", BadRemoveRobot()},
+          {"OrderHomeRequest", BadInputs().Rows(BadOrderHome()).Rows(BadRequestId())},
+          {"WatchRobotRequest", BadWatchRobot()},
           {"StreamObservationsRequest", ingest},
           {"BatchIngestObservationsRequest", ingest},
           {"NextBestTrajectoryRequest", BadInputs().Rows(BadNextBest()).Rows(BadRequestId())},
@@ -47,6 +53,7 @@ std::map<std::string, BadInputs> AllBadInputs() {
            BadInputs().Rows(BadRobotName("robot")).Rows(UnknownMission("robot"))},
           {"ReportProgressRequest", BadReportProgress()},
           {"ListPlansRequest", BadMissionName("mission")},
+          {"PlanTeamRequest", BadPlanTeam()},
           {"QueryGasRequest", BadQueryGas()},
           {"GetMapRequest", BadGetMap()},
           {"WatchMapRequest", BadWatchMap()},
@@ -59,6 +66,7 @@ std::map<std::string, BadInputs> AllBadInputs() {
 std::set<std::string> BoolFields() {
   return {
       "CreateMissionRequest.options.stamp_by_arrival",
+      "CreateMissionRequest.options.keep_scans",
       "CreateMissionRequest.options.planning.draw_goals",
       "CreateMissionRequest.options.planning.raw_variance",
       "CreateMissionRequest.options.planning.mixture_radius",
@@ -73,9 +81,11 @@ std::set<std::string> BoolFields() {
       "CreateMissionRequest.options.planning.sites.survey",
       "NextBestTrajectoryRequest.go_home",
       "StreamNextBestTrajectoryRequest.go_home",
+      "PlanTeamRequest.go_home",
       "RegisterRobotRequest.take_over",
       "RemoveRobotRequest.force",
       "ReleaseLeaseRequest.force",
+      "OrderHomeRequest.home",
       "GetMapRequest.full_precision",
       "GetMapRequest.fresh_posterior",
       "QueryGasRequest.fresh_posterior",
@@ -90,6 +100,7 @@ std::set<std::string> FreeFields() {
       "CreateMissionRequest.options.seed",
       "NextBestTrajectoryRequest.seed",
       "StreamNextBestTrajectoryRequest.seed",
+      "PlanTeamRequest.seed",
       // What a server told the client; of one that says too much there is a test of recovery.
       "BatchIngestObservationsRequest.open.durable_sequence",
       "StreamObservationsRequest.open.durable_sequence",
@@ -113,6 +124,11 @@ std::set<std::string> FreeFields() {
       "StreamNextBestTrajectoryRequest.start",
       "NextBestTrajectoryRequest.planning_budget",
       "StreamNextBestTrajectoryRequest.planning_budget",
+      "PlanTeamRequest.planning_budget",
+      // Unset: the mission's frame, the robot's pose.
+      "RegisterRobotRequest.frame",
+      "RegisterRobotRequest.frame.mission_from_robot",
+      "RegisterRobotRequest.gas_sensors.robot_from_sensor",
       // Unset, they lack a name or observations, of which there are rows.
       "BatchIngestObservationsRequest.open",
       "BatchIngestObservationsRequest.batch",
@@ -125,14 +141,13 @@ std::set<std::string> FreeFields() {
       "ImportMissionRequest.start",
       "ImportMissionRequest.piece",
       "ImportMissionRequest.end",
-      // Parts of the payload, of which there is a row.
-      "BatchIngestObservationsRequest.batch.observations.scan",
-      "BatchIngestObservationsRequest.batch.observations.gas",
-      "BatchIngestObservationsRequest.batch.observations.gap",
-      "StreamObservationsRequest.batch.observations.scan",
-      "StreamObservationsRequest.batch.observations.gas",
-      "StreamObservationsRequest.batch.observations.gap",
   };
+  // Parts of the payload, of which there is a row.
+  for (const char* payload : {"scan", "gas", "gap", "status", "correction"}) {
+    for (const char* request : {"BatchIngestObservationsRequest", "StreamObservationsRequest"}) {
+      fields.insert(absl::StrCat(request, ".batch.observations.", payload));
+    }
+  }
   fields.merge(BoolFields());
   return fields;
 }
@@ -209,6 +224,9 @@ TEST_F(BadInputTest, LooksAtRobotsAndPlans) {
   Check(BadListRobots(), Copies(list), SenderOf(robots_, &v1::RobotService::Stub::ListRobots));
   Check(BadMissionName("mission"), Copies(v1::ListPlansRequest()),
         SenderOf(planning_, &v1::PlanningService::Stub::ListPlans));
+  v1::PlanTeamRequest team;
+  team.set_mission("missions/hall");
+  Check(BadPlanTeam(), Copies(team), SenderOf(planning_, &v1::PlanningService::Stub::PlanTeam));
 }
 
 TEST_F(BadInputTest, ReleaseLease) {
@@ -216,6 +234,23 @@ TEST_F(BadInputTest, ReleaseLease) {
   good.set_robot(kRobot);
   good.set_lease_token(lease_);
   Check(BadRemoveRobot(), Copies(good), SenderOf(robots_, &v1::RobotService::Stub::ReleaseLease));
+}
+
+TEST_F(BadInputTest, OrderHome) {
+  v1::OrderHomeRequest good;
+  good.set_robot(kRobot);
+  Check(BadInputs().Rows(BadOrderHome()).Rows(BadRequestId()), Copies(good),
+        SenderOf(robots_, &v1::RobotService::Stub::OrderHome));
+}
+
+TEST_F(BadInputTest, WatchRobot) {
+  v1::WatchRobotRequest good;
+  good.set_robot(kRobot);
+  good.set_lease_token(lease_);
+  Check(BadWatchRobot(), Copies(good), [this](const Message& message) {
+    const auto& request = static_cast<const v1::WatchRobotRequest&>(message);
+    return RobotWatchClient(*robots_, request.robot(), request.lease_token()).Finish();
+  });
 }
 
 TEST_F(BadInputTest, RegisterRobot) {

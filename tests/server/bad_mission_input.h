@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "absl/strings/str_cat.h"
 #include "plumescout/v1/mission_service.pb.h"
-#include "plumescout/v1/robot_service.pb.h"
 #include "tests/server/bad_input.h"
 #include "tests/server/bad_name_input.h"
 #include "tests/server/bad_prior_map_input.h"
@@ -19,6 +19,7 @@ inline BadInputs BadLimits() {
       .Values("options.max_concentration_ppm", {"nan", "inf", "-1", "0", "1e7"})
       .Values("options.max_robot_count", {"-1", "0", "1001"})
       .Values("options.robot_silence_s", {"nan", "inf", "-1", "0", "0.9", "1.1e9"})
+      .Values("options.return_home_below_battery_share", {"nan", "inf", "-0.1", "1.1"})
       .Values("options.memory_budget_bytes", {"-1", "0", "33554431", "1073741825"});
 }
 
@@ -157,15 +158,6 @@ inline BadInputs BadListMissions() {
   return BadInputs()
       .Values("page_size", {"-1", "-2147483648"})
       .Values("page_token", {R"("hall")", R"("!")", R"("AAAA")"});
-}
-
-inline BadInputs BadRegisterRobot() {
-  return BadInputs()
-      .Rows(BadMissionName("mission"))
-      .Rows(BadId("robot_id"))
-      .Rows(BadRequestId())
-      .Values("radius_m", {"nan", "inf", "-inf", "-1", "0", "6"})
-      .Values("log_epoch", {"-1", "9007199254740992"});
 }
 
 }  // namespace plumescout::server

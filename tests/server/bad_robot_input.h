@@ -2,11 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plumescout/v1/ingest_service.pb.h"
 #include "plumescout/v1/planning_service.pb.h"
 #include "proto/convert/inquiry.h"
-#include "proto/convert/observation.h"
-#include "server/config/config.h"
 #include "tests/server/bad_input.h"
 #include "tests/server/bad_mission_input.h"
 
@@ -48,94 +45,13 @@ inline BadInputs BadRemoveRobot() {
       .Rows(BadLease("lease_token"));
 }
 
-inline v1::Observation& FirstObservation(Message& request) {
-  return *static_cast<v1::BatchIngestObservationsRequest&>(request)
-              .mutable_batch()
-              ->mutable_observations(0);
-}
-
-// A scan of so many beams.
-inline std::function<void(Message&)> Beams(std::size_t beams) {
-  return [beams](Message& request) {
-    FirstObservation(request).mutable_scan()->mutable_ranges_u16()->assign(2 * beams, '\x01');
-  };
-}
-
-// A gap from its sequence on.
-inline std::function<void(Message&)> GapUpTo(std::int64_t last) {
-  return [last](Message& request) {
-    v1::Observation& observation = FirstObservation(request);
-    observation.mutable_gap()->set_first_sequence(observation.sequence());
-    observation.mutable_gap()->set_last_sequence(last);
-  };
-}
-
-// Batches that are refused whole: nothing of them enters the log.
-inline BadInputs BadBatch() {
-  using Request = v1::BatchIngestObservationsRequest;
-  const auto kInvalid = absl::StatusCode::kInvalidArgument;
-  return BadInputs()
-      .Rows(BadRobotName("open.robot"))
-      .Rows(UnknownMission("open.robot"))
-      .Rows(BadLease("open.lease_token"))
-      .Row({"batch.observations", "none",
-            [](Message& m) { static_cast<Request&>(m).mutable_batch()->clear_observations(); },
-            kInvalid, "batch.observations"})
-      .Row({"batch.observations", "more than the server takes at once",
-            [](Message& m) {
-              FirstObservation(m).mutable_gas();  // many of which still make a small message
-              auto& observations =
-                  *static_cast<Request&>(m).mutable_batch()->mutable_observations();
-              const v1::Observation first = observations.Get(0);
-              while (observations.size() <= LimitConfig{}.max_batch_observations) {
-                *observations.Add() = first;
-              }
-            },
-            kInvalid, "batch.observations"})
-      .ValuesBlaming(
-          "batch.observations[0].sequence", "batch.observations.sequence",
-          {"-1", "0", "2305843009213693953", "9223372036854775807", "-9223372036854775808"})
-      .Row(
-          {"batch.observations.sequence", "a hole",
-           [](Message& m) { FirstObservation(m).set_sequence(FirstObservation(m).sequence() + 1); },
-           absl::StatusCode::kFailedPrecondition, "SEQUENCE_GAP"})
-      .Row({"batch.observations.scan.ranges_u16", "a million beams", Beams(1'000'000),
-            absl::StatusCode::kResourceExhausted, ""});
-}
-
-// Observations that are refused singly, and counted in the log.
-inline BadInputs BadObservation() {
-  const auto kInvalid = absl::StatusCode::kInvalidArgument;
-  const std::string o = "batch.observations.";
-  BadInputs rows;
-  const auto values = [&](const std::string& field, std::initializer_list<const char*> values) {
-    rows.ValuesBlaming("observation." + field, o + field, values);
-  };
-  values("sample_time_ns", {"-1", "9223372036854775807", "4611686018427387904"});
-  values("pose.x_m", {"nan", "inf", "-inf", "1001", "-1001", "1e300"});
-  values("pose.y_m", {"nan", "inf", "-inf", "1001", "-1001", "1e300"});
-  values("pose.yaw_rad", {"nan", "inf", "-inf"});
-  values("scan.start_angle_rad", {"nan", "inf", "-inf", "7", "-7"});
-  values("scan.angle_step_rad", {"nan", "inf", "-inf", "0", "7", "-7"});
-  values("scan.max_range_m", {"nan", "inf", "-1", "0", "101", "1e300"});
-  values("scan.range_unit_m", {"nan", "inf", "-1", "0", "2", "1e300"});
-  values("scan.ranges_u16", {R"("")", R"("x")"});
-  values("gas.concentration_ppm", {"nan", "inf", "-inf", "-1", "1e7"});
-  values("gas.stddev_ppm", {"nan", "inf", "-1", "1e300", "1e-300", "1e7", "1e-6"});
-  values("gap.first_sequence", {"-1", "0", "9223372036854775807"});
-  return rows
-      .Row({o + "pose", "missing", [](Message& m) { FirstObservation(m).clear_pose(); }, kInvalid,
-            "observation.pose"})
-      .Row({o + "payload", "missing", [](Message& m) { FirstObservation(m).clear_payload(); },
-            kInvalid, "observation.payload"})
-      .Row({o + "scan.ranges_u16", "more beams than the mission allows", Beams(20'001), kInvalid,
-            "observation.scan.ranges_u16"})
-      .Row({o + "scan.ranges_u16", "more beams than any mission allows", Beams(100'001), kInvalid,
-            "observation.scan.ranges_u16"})
-      .Row({o + "gap.last_sequence", "before the first", GapUpTo(0), kInvalid,
-            "observation.gap.last_sequence"})
-      .Row({o + "gap.last_sequence", "beyond all numbers", GapUpTo(kMaxSequence + 1), kInvalid,
-            "observation.gap.last_sequence"});
+// No token at all is an operator's.
+inline BadInputs BadWatchRobot() {
+  BadInputs rows = BadInputs().Rows(BadRobotName("robot")).Rows(UnknownMission("robot"));
+  for (const char* token : {"1", "-1", "9223372036854775807"}) {
+    rows.Value("lease_token", token, absl::StatusCode::kFailedPrecondition, "LEASE_SUPERSEDED");
+  }
+  return rows;
 }
 
 inline BadInputs BadNextBest() {
@@ -151,6 +67,33 @@ inline BadInputs BadNextBest() {
       .Values("min_applied_sequence", {"-1", "2305843009213693953"})
       .Values("planning_budget.seconds", {"-1", "315576000001", "9223372036854775807"})
       .Values("planning_budget.nanos", {"-1", "1000000000"})
+      .Values("max_edge_evaluation_count", {"-1"});
+}
+
+inline BadInputs BadPlanTeam() {
+  return BadInputs()
+      .Rows(BadMissionName("mission"))
+      .Rows(BadRequestId())
+      .Values("robots", {R"("")", R"("r1")", R"("missions/hall")", R"("missions/hall/robots/R1")",
+                         R"("missions/attic/robots/r1")"})
+      .Row({"robots", "named twice",
+            [](Message& message) {
+              SetField(message, "robots", R"("missions/hall/robots/r1")");
+              SetField(message, "robots", R"("missions/hall/robots/r1")");
+            },
+            absl::StatusCode::kInvalidArgument, "robots"})
+      .Row({"robots", "a team of 33",
+            [](Message& message) {
+              for (int i = 0; i < 33; ++i) {
+                SetField(message, "robots", absl::StrCat("\"missions/hall/robots/t", i, "\""));
+              }
+            },
+            absl::StatusCode::kInvalidArgument, "robots.size"})
+      .Value("robots", R"("missions/hall/robots/r9")", absl::StatusCode::kNotFound,
+             "ROBOT_NOT_FOUND")
+      .Values("planning_budget.seconds", {"-1", "315576000001", "9223372036854775807"})
+      .Values("planning_budget.nanos", {"-1", "1000000000"})
+      .Values("max_order_count", {"-1", "35"})
       .Values("max_edge_evaluation_count", {"-1"});
 }
 

@@ -15,6 +15,7 @@
 #include "plumescout/v1/ingest_service.grpc.pb.h"
 #include "plumescout/v1/map_service.grpc.pb.h"
 #include "plumescout/v1/planning_service.grpc.pb.h"
+#include "plumescout/v1/robot_service.grpc.pb.h"
 #include "plumescout/v1/snapshot_service.grpc.pb.h"
 #include "proto/convert/status.h"
 

@@ -23,7 +23,7 @@ class RandomEvents {
     event.number = Int64();
     switch (rng_.Below(std::variant_size_v<decltype(event.body)>)) {
       case 0:
-        event.body = RobotRegistered{Text(), Real(), Int64(), Int64()};
+        event.body = MakeRegistration();
         break;
       case 1:
         event.body = ObservationReceived{Text(), MakeObservation()};
@@ -32,7 +32,7 @@ class RandomEvents {
         event.body = PosteriorRefreshed{Int64()};
         break;
       case 3:
-        event.body = PlanIssued{MakePlan()};
+        event.body = PlanIssued{MakePlan(), Bool()};
         break;
       case 4:
         event.body = ProgressReported{Text(), Int64(), Choice<ProgressOutcome>(3)};
@@ -43,8 +43,20 @@ class RandomEvents {
       case 6:
         event.body = EpochAdopted{};
         break;
-      default:
+      case 7:
         event.body = RobotRemoved{Text()};
+        break;
+      case 8:
+        event.body = ClockOffsetNoted{Text(), Int64()};
+        break;
+      case 9:
+        event.body = HomeOrdered{Text(), Bool()};
+        break;
+      case 10:
+        event.body = MapRebuildBegun{};
+        break;
+      default:
+        event.body = MapRebuilt{};
     }
     return event;
   }
@@ -84,14 +96,28 @@ class RandomEvents {
   }
   Point2 MakePoint() { return {Real(), Real()}; }
   Pose2 MakePose() { return {Real(), Real(), Real()}; }
+  // Every other one is that of a robot that gives none.
+  RobotFrame MakeFrame() { return Bool() ? RobotFrame() : RobotFrame{MakePose(), Real(), Real()}; }
+  RobotRegistered MakeRegistration() {
+    return {Text(), Real(), Int64(), Int64(), MakeFrame(), List([this] { return MakeSensor(); })};
+  }
+  GasSensor MakeSensor() { return {Text(), MakePoint(), Real(), Real()}; }
   Observation MakeObservation() {
     Observation observation{Int64(), Int64(), MakePose(), {}};
-    switch (rng_.Below(3)) {
+    switch (rng_.Below(5)) {
       case 0:
         observation.payload = Scan{Real(), Real(), Real(), List([this] { return Float(); })};
         break;
       case 1:
-        observation.payload = GasReading{Real(), Real()};
+        observation.payload = GasReading{Real(), Real(), Bool() ? 0 : Int()};
+        break;
+      case 2:
+        observation.payload = PoseCorrection{List([this] {
+          return PoseAnchor{Int64(), MakePose()};
+        })};
+        break;
+      case 3:
+        observation.payload = RobotStatus{Real()};
         break;
       default:
         observation.payload = SequenceGap{Int64(), Int64()};

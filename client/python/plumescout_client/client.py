@@ -183,8 +183,30 @@ class Client:
         request = mission_pb.DeleteMissionRequest(name=f"missions/{mission}")
         self._call(self._missions.DeleteMission, request)
 
-    def register(self, mission, robot, radius_m=0.2, take_over=False, on_rejected=None):
+    def register(
+        self,
+        mission,
+        robot,
+        radius_m=0.2,
+        take_over=False,
+        on_rejected=None,
+        frame=None,
+        frame_stddev=(0.0, 0.0),
+        clock_ns=time.time_ns,
+        gas_sensors=(),
+    ):
         """Joins a mission, or comes back to it; returns a Robot.
+
+        frame: (x_m, y_m, yaw_rad) of the origin of the robot's own frame in the mission's, for its
+        observations are in that, and standard deviations in metres and radians. Starts and plans
+        are in the mission's frame.
+
+        gas_sensors: plumescout.v1.GasSensor of each sensor, to which readings refer by their place;
+        none: one, calibrated, at the robot's pose.
+
+        clock_ns tells the robot's time now, by the clock that its samples have their times of: the
+        server learns from it how far that clock is off. None: it is taken as it is, as of
+        simulations that do not keep real time.
 
         on_rejected is called with the Rejection of each observation that the server refuses, from
         within the call that sent it; default: a warning of the logger "plumescout_client"."""
@@ -194,8 +216,15 @@ class Client:
             radius_m=radius_m,
             take_over=take_over,
             log_epoch=1 + secrets.randbelow(_LOG_EPOCH_END - 1),
+            gas_sensors=gas_sensors,
         )
-        return Robot(self, self._call_named(self._robots.RegisterRobot, request), on_rejected)
+        if frame is not None:
+            x_m, y_m, yaw_rad = frame
+            origin = request.frame.mission_from_robot
+            origin.x_m, origin.y_m, origin.yaw_rad = x_m, y_m, yaw_rad
+            request.frame.position_stddev_m, request.frame.heading_stddev_rad = frame_stddev
+        registration = self._call_named(self._robots.RegisterRobot, request)
+        return Robot(self, registration, on_rejected, clock_ns)
 
     def robots(self, mission):
         """The robots of a mission, as plumescout.v1.Robot."""
@@ -206,6 +235,21 @@ class Client:
         request = robot_pb.GetRobotRequest(name=f"missions/{mission}/robots/{robot}")
         return self._call(self._robots.GetRobot, request).robot
 
+    def watch_robot(self, mission, robot):
+        """Yields what there is to tell of a robot, as plumescout.v1.WatchRobotResponse, whoever holds
+        its lease; see Robot.watch."""
+        return self._watch(f"missions/{mission}/robots/{robot}", lease_token=0)
+
+    def _watch(self, robot, lease_token):
+        request = robot_pb.WatchRobotRequest(robot=robot, lease_token=lease_token)
+        responses = self._robots.WatchRobot(request)
+        try:
+            yield from responses
+        except grpc.RpcError as error:
+            raise error_of(error) from None
+        finally:
+            responses.cancel()
+
     def release_lease(self, mission, robot):
         """Frees a robot's lease whoever holds it, as of a client that died; see Robot.release."""
         request = robot_pb.ReleaseLeaseRequest(
@@ -213,10 +257,33 @@ class Client:
         )
         self._call(self._robots.ReleaseLease, request)
 
+    def order_home(self, mission, robot=None, home=True):
+        """Sends a robot home, or all of the mission; home=False: they need not go any more."""
+        if robot is None:
+            request = robot_pb.OrderHomeRequest(mission=f"missions/{mission}", home=home)
+        else:
+            name = f"missions/{mission}/robots/{robot}"
+            request = robot_pb.OrderHomeRequest(robot=name, home=home)
+        self._call_named(self._robots.OrderHome, request)
+
     def live_plans(self, mission):
         """Where its robots are on their way to, as plumescout.v1.LivePlan."""
         request = planning_pb.ListPlansRequest(mission=f"missions/{mission}")
         return list(self._call(self._planning.ListPlans, request).plans)
+
+    def plan_team(self, mission, robots=(), go_home=False, budget_s=None, max_orders=0, seed=0):
+        """Plans for several robots at once, by default for all that are free, which then fetch
+        them with next_best_trajectory; returns a plumescout.v1.PlanTeamResponse."""
+        request = planning_pb.PlanTeamRequest(
+            mission=f"missions/{mission}",
+            robots=[f"missions/{mission}/robots/{robot}" for robot in robots],
+            go_home=go_home,
+            max_order_count=max_orders,
+            seed=seed,
+        )
+        if budget_s is not None:
+            request.planning_budget.FromNanoseconds(round(budget_s * 1e9))
+        return self._call_named(self._planning.PlanTeam, request)
 
     def remove_robot(self, mission, robot):
         """Removes a robot whoever holds its lease, as one that died; see Robot.leave."""

@@ -21,8 +21,9 @@ _LOG = logging.getLogger("plumescout_client")
 class Robot:
     """One robot's part in a mission; made by Client.register. Not thread-safe."""
 
-    def __init__(self, client, registration, on_rejected=None):
+    def __init__(self, client, registration, on_rejected=None, clock_ns=None):
         self._client = client
+        self._clock_ns = clock_ns
         self._on_rejected = on_rejected or self._warn
         self._open = ingest_pb.OpenIngest(
             robot=registration.robot, lease_token=registration.lease_token
@@ -51,10 +52,26 @@ class Robot:
             ),
         )
 
-    def add_gas(self, time_ns, pose, concentration_ppm, stddev_ppm=0.0):
-        """Numbers a gas reading; a deviation of 0 means the mission's model. Returns its number."""
-        reading = ingest_pb.GasReading(concentration_ppm=concentration_ppm, stddev_ppm=stddev_ppm)
+    def add_gas(self, time_ns, pose, concentration_ppm, stddev_ppm=0.0, sensor=0):
+        """Numbers a gas reading; a deviation of 0 means that of the sensor, or the mission's model.
+        sensor: its place among those that the robot registered. Returns its number."""
+        reading = ingest_pb.GasReading(
+            concentration_ppm=concentration_ppm, stddev_ppm=stddev_ppm, sensor_index=sensor
+        )
         return self._add(time_ns, pose, gas=reading)
+
+    def add_correction(self, time_ns, pose, anchors):
+        """Says that poses of before were wrong, as after a loop closure. anchors: (time_ns, pose)
+        in order of time, of times at which something was observed; between them poses are
+        interpolated, beyond them the way is moved rigidly. `pose` and those after it are right.
+        Returns its number."""
+        correction = ingest_pb.PoseCorrection()
+        for anchor_time_ns, anchor_pose in anchors:
+            correction.anchors.add(sample_time_ns=anchor_time_ns, pose=_pose(anchor_pose))
+        return self._add(time_ns, pose, correction=correction)
+    def add_status(self, time_ns, battery_share):
+        """Numbers what the robot tells of itself: its battery, of a full one. Returns its number."""
+        return self._add(time_ns, None, status=ingest_pb.RobotStatus(battery_share=battery_share))
 
     def flush(self):
         """Sends what waits. Refused observations are added to `rejections`, and on_rejected is told
@@ -64,6 +81,8 @@ class Robot:
             request = ingest_pb.BatchIngestObservationsRequest(
                 open=self._open, batch=self._next_batch()
             )
+            if self._clock_ns is not None:
+                request.batch.sent_time_ns = self._clock_ns()
             try:
                 response = self._client._call(
                     self._client._ingest.BatchIngestObservations, request
@@ -136,6 +155,12 @@ class Robot:
             outcome=planning_pb.ReportProgressRequest.Outcome.Value(f"OUTCOME_{outcome.upper()}"),
         )
         self._client._call(self._client._planning.ReportProgress, request)
+
+    def watch(self):
+        """Yields what the robot has to know without having asked, as plumescout.v1.WatchRobotResponse:
+        how it stands, that its plan does not stand, that it was given another. Blocks in between: give
+        it a thread. It ends with an error; leaving the loop before cancels it."""
+        return self._client._watch(self._open.robot, self._open.lease_token)
 
     def release(self):
         """Sends what waits and gives up the lease: another client may take the robot over at once.
@@ -211,11 +236,12 @@ class Robot:
 
     def _add(self, time_ns, pose, **payload):
         self.last_sequence += 1
-        self._kept.append(
-            ingest_pb.Observation(
-                sequence=self.last_sequence, sample_time_ns=time_ns, pose=_pose(pose), **payload
-            )
+        observation = ingest_pb.Observation(
+            sequence=self.last_sequence, sample_time_ns=time_ns, **payload
         )
+        if pose is not None:
+            observation.pose.CopyFrom(_pose(pose))
+        self._kept.append(observation)
         return self.last_sequence
 
     def _next_batch(self):

@@ -95,7 +95,28 @@ def list_robots(client, arguments, out):
 
 def show_robot(client, arguments, out):
     robot = client.get_robot(arguments.mission, arguments.robot)
-    out.message(robot, list(zip(words.ROBOT_HEADINGS, words.robot_row(robot))))
+    out.message(robot, words.robot_facts(robot))
+
+
+def _order_home(is_home, done):
+    def command(client, arguments, out):
+        if (arguments.robot is None) != arguments.all:
+            raise ValueError("name one ROBOT, or give --all")
+        client.order_home(arguments.mission, arguments.robot, is_home)
+        out.done(f"{done}: {arguments.robot or 'all robots'} of {arguments.mission}")
+
+    return command
+
+
+send_home = _order_home(True, "sent home")
+cancel_home = _order_home(False, "back to work")
+
+
+def watch_robot(client, arguments, out):
+    notices = client.watch_robot(arguments.mission, arguments.robot)
+    if arguments.count:
+        notices = itertools.islice(notices, arguments.count)
+    out.lines(notices, words.notice_line)
 
 
 def remove_robot(client, arguments, out):
@@ -119,6 +140,11 @@ def export_map(client, arguments, out):
 
 def list_plans(client, arguments, out):
     out.messages(client.live_plans(arguments.mission), words.PLAN_HEADINGS, words.plan_row)
+
+
+def plan_team(client, arguments, out):
+    team = client.plan_team(arguments.mission, arguments.robots, arguments.go_home)
+    out.message(team, words.team_facts(team))
 
 
 def show_server(client, _, out):

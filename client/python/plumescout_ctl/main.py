@@ -90,6 +90,11 @@ def make_parser():
     _add_map(groups)
     plans = _add(groups, "plans", "where the robots of a mission are on their way to")
     _takes(plans, commands.list_plans, "mission")
+    team = _takes(
+        _add(groups, "plan-team", "plan for several robots at once"), commands.plan_team, "mission"
+    )
+    team.add_argument("robots", nargs="*", help="default: all that are free")
+    team.add_argument("--go-home", action="store_true", help="plan their ways home")
     _takes(_add(groups, "info", "version, limits and features"), commands.show_server)
     _takes(_add(groups, "drain", "take the server out of service"), commands.drain_server)
     tokens = groups.add_parser("tokens", help="create, list and revoke tokens", add_help=False)
@@ -187,7 +192,7 @@ def _add_missions(groups):
 
 
 def _add_robots(groups):
-    robots = _add(groups, "robots", "list, show and remove robots")
+    robots = _add(groups, "robots", "list, show, send home and remove robots")
     steps = robots.add_subparsers(metavar="COMMAND", required=True)
     _takes(_add(steps, "list", "robots of a mission"), commands.list_robots, "mission")
     for word, what, command in (
@@ -196,6 +201,17 @@ def _add_robots(groups):
         ("release", "free its lease for another client", commands.release_lease),
     ):
         _takes(_add(steps, word, what), command, "mission", "robot")
+    for word, what, command in (
+        ("home", "send one, or all, home", commands.send_home),
+        ("cancel-home", "they need not go home any more", commands.cancel_home),
+    ):
+        order = _takes(_add(steps, word, what), command, "mission")
+        order.add_argument("robot", nargs="?")
+        order.add_argument("--all", action="store_true", help="all robots of the mission")
+    watch = _takes(
+        _add(steps, "watch", "what it is told unasked"), commands.watch_robot, "mission", "robot"
+    )
+    watch.add_argument("--count", type=_count, default=0, metavar="N", help="notices; 0: all")
 
 
 def _add_map(groups):

@@ -91,9 +91,9 @@ class Printer:
         separator = "["
         for message in messages:
             if self.json:
-                print(separator + json.dumps(as_dict(message)))
+                print(separator + json.dumps(as_dict(message)), flush=True)
             else:
-                print(line(message))
+                print(line(message), flush=True)
             separator = ","
         if self.json:
             print("[]" if separator == "[" else "]")

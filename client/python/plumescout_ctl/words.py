@@ -5,11 +5,25 @@
 import datetime
 
 from plumescout.v1 import mission_service_pb2 as mission_pb
+from plumescout.v1 import robot_service_pb2 as robot_pb
 from plumescout.v1 import snapshot_service_pb2 as snapshot_pb
 from plumescout.v1 import types_pb2 as types_pb
 
 MISSION_HEADINGS = ["MISSION", "STATE", "PHASE", "ROBOTS", "REVISION", "MEMORY", "IDLE TTL", "OWNER"]
-ROBOT_HEADINGS = ["ROBOT", "LEASE", "STREAM", "APPLIED", "REFUSED", "POSE"]
+ROBOT_HEADINGS = [
+    "ROBOT",
+    "LINK",
+    "HEARD",
+    "LAG",
+    "CLOCK",
+    "BATTERY",
+    "HOME",
+    "PLAN",
+    "LATE",
+    "APPLIED",
+    "REFUSED",
+    "POSE",
+]
 PLAN_HEADINGS = ["PLAN", "ROBOT", "GOAL", "X_M", "Y_M", "ARRIVES"]
 
 _KIND_PREFIX = "MISSION_EVENT_KIND_"
@@ -27,6 +41,20 @@ def last_part(name):
 
 def enum_word(enum, value, prefix):
     return enum.Name(value).removeprefix(prefix).lower().replace("_", " ")
+
+
+def notice_line(notice):
+    """A plumescout.v1.WatchRobotResponse."""
+    kind = notice.WhichOneof("notice")
+    if kind == "standing":
+        fields = notice.standing.DESCRIPTOR.fields_by_name
+        told = [name.replace("_", " ") for name in fields if getattr(notice.standing, name)]
+        return f"standing: {', '.join(told) or 'nothing to tell'}"
+    if kind == "plan_invalidated":
+        told = notice.plan_invalidated
+        reason = enum_word(robot_pb.PlanInvalidated.Reason, told.reason, "REASON_")
+        return f"plan {last_part(told.plan)} does not stand: {reason}: {told.detail}"
+    return f"plan {last_part(notice.plan_assigned.plan)} was given to it"
 
 
 def duration(proto):
@@ -92,18 +120,49 @@ def mission_facts(mission):
     ]
 
 
+def _seconds(message, field):
+    return f"{getattr(message, field):.1f} s" if message.HasField(field) else "-"
+
+
+def link(robot):
+    return enum_word(robot_pb.RobotLink, robot.link, "ROBOT_LINK_")
+
+
+def home(robot):
+    return "ordered" if robot.ordered_home else "battery" if robot.battery_low else "-"
+
+
 def robot_row(robot):
+    """CLOCK: by how much the mission's time is ahead of the robot's clock."""
     seen = robot.on_map
     pose = seen.pose
     place = f"{pose.x_m:.2f} {pose.y_m:.2f} {pose.yaw_rad:.2f}" if seen.HasField("pose") else "-"
     return [
         last_part(seen.robot),
-        "held" if robot.leased else "free",
-        "silent" if seen.silent else "open" if robot.streaming else "-",
+        link(robot),
+        _seconds(robot, "last_heard_age_s"),
+        _seconds(robot, "ingest_lag_s"),
+        f"{robot.clock_offset_s:+.2f} s" if robot.HasField("clock_offset_s") else "-",
+        f"{100 * robot.battery_share:.0f} %" if robot.HasField("battery_share") else "-",
+        home(robot),
+        last_part(robot.live_plan) or "-",
+        f"{robot.lateness_s:.1f} s" if robot.live_plan else "-",
         seen.applied_sequence,
         seen.rejected_observation_count,
         place,
     ]
+
+
+def robot_facts(robot):
+    facts = list(zip(ROBOT_HEADINGS, robot_row(robot)))
+    facts.insert(1, ("LEASE", "held" if robot.leased else "free"))
+    if robot.live_plan:
+        facts.append(("PROGRESS", f"{robot.progress_s:.1f} s of its plan"))
+        facts.append(("ARRIVES", f"{robot.arrival_time_ns / 1e9:.1f}"))
+    if robot.HasField("frame"):
+        origin = robot.frame.mission_from_robot
+        facts.append(("FRAME", f"{origin.x_m:.2f} {origin.y_m:.2f} {origin.yaw_rad:.2f}"))
+    return facts
 
 
 def plan_row(plan):
@@ -117,8 +176,14 @@ def plan_row(plan):
     ]
 
 
+def team_facts(team):
+    facts = [(last_part(plan.robot), plan.explanation) for plan in team.plans]
+    facts += [(last_part(one.robot), f"left out: {one.reason}") for one in team.left_out]
+    return facts or [("robots", "none is free")]
+
+
 def event_line(event):
-    """When it was, by the robots' clocks, is in UTC."""
+    """When it was is in UTC: of observations by the robot's own clock, else by the mission's time."""
     time = ""
     if event.HasField("sample_time_ns"):
         seconds, rest_ns = divmod(event.sample_time_ns, 1_000_000_000)

@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/gas/field/field_solve.h"
+
 namespace plumescout {
 namespace {
 
@@ -167,6 +169,19 @@ FieldDeviation FieldEngine::error_bound() const {
 double FieldEngine::VarianceRatioOfShift() const {
   constexpr double kNeighbours = 4.0;
   return kNeighbours * options_.prior.prior_precision_per_ppm2;
+}
+
+std::vector<double> FieldEngine::Solve(std::span<const double> right_side) const {
+  std::vector<double> by_slot(tree_->cells());
+  for (std::size_t cell = 0; cell < by_slot.size(); ++cell) {
+    by_slot[tree_->slot(cell)] = right_side[cell];
+  }
+  by_slot = SolveField(factor_, by_slot);
+  std::vector<double> by_cell(by_slot.size());
+  for (std::size_t cell = 0; cell < by_cell.size(); ++cell) {
+    by_cell[cell] = by_slot[tree_->slot(cell)];
+  }
+  return by_cell;
 }
 
 }  // namespace plumescout

@@ -95,6 +95,10 @@ class FieldEngine {
   // Cost: O(nodes).
   double work() const { return factor_.work(); }
 
+  // H^-1 g, exactly, for a right-hand side g by cell; both 0 off the active cells. Cost: as of
+  // SolveField.
+  std::vector<double> Solve(std::span<const double> right_side) const;
+
   // Cost: one pointer per node and one number per cell.
   FieldSnapshot Snapshot() const {
     return {factor_, marginals_.variance_ppm2(), Tolerance().covariance_ppm2};

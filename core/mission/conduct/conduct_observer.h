@@ -26,6 +26,11 @@ class ConductObserver {
   // somebody may recompute it, on any thread.
   virtual void BeforeGasStep(GasStep) {}
   virtual void AfterGasStep(GasStep, const absl::Status&) {}
+
+  // The same of the map when it is rebuilt: before a MapRebuilt nobody else may touch the mission's
+  // rebuild any more; after a MapRebuildBegun somebody may recompute it, on any thread.
+  virtual void BeforeMapRebuilt() {}
+  virtual void AfterMapRebuildBegun() {}
 };
 
 }  // namespace plumescout

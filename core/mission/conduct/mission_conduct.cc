@@ -37,9 +37,13 @@ absl::StatusOr<Applied> MissionConduct::Apply(EventBody body) {
 absl::StatusOr<Registered> MissionConduct::Register(const Registration& wish, Leases& leases) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::int64_t token, leases.Propose(wish.robot, wish.take_over));
   const bool continues = mission_->LogContinues(wish.robot, wish.log_epoch);
-  PLUMESCOUT_ASSIGN_OR_RETURN(
-      const LogPosition position,
-      Register(RobotRegistered{wish.robot, wish.radius_m, token, wish.log_epoch}));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const LogPosition position,
+                              Register(RobotRegistered{.robot = wish.robot,
+                                                       .radius_m = wish.radius_m,
+                                                       .lease_token = token,
+                                                       .log_epoch = wish.log_epoch,
+                                                       .frame = wish.frame,
+                                                       .sensors = wish.sensors}));
   leases.Grant(wish.robot, token);
   return Registered{token, position, continues};
 }
@@ -56,6 +60,27 @@ absl::StatusOr<std::int64_t> MissionConduct::Remove(const Removal& wish, Leases&
   PLUMESCOUT_RETURN_IF_ERROR(applied.status());
   leases.Remove(wish.robot);
   return applied->revision;
+}
+
+absl::Status MissionConduct::NoteClock(const ClockOffsetNoted& noted, std::int64_t lease_token) {
+  PLUMESCOUT_RETURN_IF_ERROR(CheckLease(noted.robot, lease_token));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const RobotState state, mission_->StateOf(noted.robot));
+  if (state.clock_offset_ns == noted.offset_ns) return absl::OkStatus();
+  return Apply(noted).status();
+}
+
+absl::StatusOr<std::int64_t> MissionConduct::OrderHome(const std::vector<RobotId>& robots,
+                                                       bool home) {
+  std::vector<RobotId> untold;
+  for (const RobotId& robot : robots) {
+    const auto state = mission_->StateOf(robot);
+    if (!state.ok()) return RobotNotFound(robot);
+    if (state->ordered_home != home) untold.push_back(robot);
+  }
+  for (const RobotId& robot : untold) {
+    PLUMESCOUT_RETURN_IF_ERROR(Apply(HomeOrdered{robot, home}).status());
+  }
+  return mission_->revision();
 }
 
 absl::StatusOr<LogPosition> MissionConduct::Position(const RobotId& robot) const {
@@ -93,11 +118,13 @@ absl::Status MissionConduct::IngestOne(const RobotId& robot, IncomingObservation
   if (!applied->observation.ok()) {
     result.refused.push_back({sequence, readable ? applied->observation : incoming.unreadable});
   }
+  KeepMapUp();
   KeepGasUp();
   return absl::OkStatus();
 }
 
-absl::StatusOr<PlanId> MissionConduct::Commit(const Plan& plan, std::int64_t lease_token) {
+absl::StatusOr<PlanId> MissionConduct::Commit(const Plan& plan, std::int64_t lease_token,
+                                              bool assigned) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckLease(plan.robot, lease_token));
   if (const auto meeting = mission_->FindMeeting(plan, kLeastClearance_m)) {
     return absl::AbortedError(
@@ -107,7 +134,7 @@ absl::StatusOr<PlanId> MissionConduct::Commit(const Plan& plan, std::int64_t lea
     return absl::AbortedError(absl::StrCat("the goal is claimed by robot \"", claim->robot,
                                            "\" with plan ", claim->plan));
   }
-  PLUMESCOUT_ASSIGN_OR_RETURN(const Applied applied, Apply(PlanIssued{plan}));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Applied applied, Apply(PlanIssued{plan, assigned}));
   return applied.plan_id;
 }
 
@@ -142,6 +169,15 @@ absl::Status MissionConduct::WaitedInVain(const BeliefWish& wish) const {
 absl::StatusOr<std::shared_ptr<const Belief>> MissionConduct::FreshBelief() {
   if (mission_->posterior_stale()) PLUMESCOUT_RETURN_IF_ERROR(Refresh());
   return Snapshot();
+}
+
+void MissionConduct::KeepMapUp() {
+  if (mission_->rebuilt_map_due()) {
+    if (observer_ != nullptr) observer_->BeforeMapRebuilt();
+    Apply(MapRebuilt{}).IgnoreError();  // abandoned: the mission ends
+  }
+  if (!mission_->rebuild_due() || !Apply(MapRebuildBegun{}).ok()) return;
+  if (observer_ != nullptr) observer_->AfterMapRebuildBegun();
 }
 
 void MissionConduct::KeepGasUp() {

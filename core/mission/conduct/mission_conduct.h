@@ -25,6 +25,8 @@ struct Registration {
   double radius_m = 0.0;
   bool take_over = false;      // although another client holds the lease
   std::int64_t log_epoch = 0;  // which log it will write, see RobotRegistered; 0: it does not say
+  RobotFrame frame = {};       // of its poses
+  std::vector<GasSensor> sensors = {};
 };
 
 // A wish that a robot leave the mission.
@@ -80,6 +82,14 @@ class MissionConduct {
   // Returns the revision that includes it. ROBOT_NOT_FOUND, LEASE_SUPERSEDED.
   absl::StatusOr<std::int64_t> Remove(const Removal& wish, Leases& leases);
 
+  // The offset of a robot's clock under its lease, before the observations that it is for. No event
+  // if it is in force already. Errors: those of CheckLease; kInvalidArgument.
+  absl::Status NoteClock(const ClockOffsetNoted& noted, std::int64_t lease_token);
+
+  // Sends robots home, or takes that back; no event for who has been told the same already. All or
+  // none: ROBOT_NOT_FOUND. Returns the revision that includes it.
+  absl::StatusOr<std::int64_t> OrderHome(const std::vector<RobotId>& robots, bool home);
+
   absl::StatusOr<LogPosition> Position(const RobotId& robot) const;
   // Whether writes under this token are applied now, whatever any book of leases says.
   absl::Status CheckLease(const RobotId& robot, std::int64_t lease_token) const;
@@ -92,7 +102,8 @@ class MissionConduct {
 
   // Commits a plan; returns its number. kAborted, see CommitRace, if another robot claims the goal
   // or, since the plan was searched for, has been given a way that this one runs into.
-  absl::StatusOr<PlanId> Commit(const Plan& plan, std::int64_t lease_token);
+  // `assigned`: the robot did not ask for it and will fetch it.
+  absl::StatusOr<PlanId> Commit(const Plan& plan, std::int64_t lease_token, bool assigned = false);
   // Returns the revision that includes the report; a repeated report changes nothing.
   absl::StatusOr<std::int64_t> Report(const ProgressReported& report, std::int64_t lease_token);
 
@@ -123,6 +134,7 @@ class MissionConduct {
   // What is due to the gas posterior. After every observation rather than every batch: so the
   // events do not depend on how a log was cut into batches.
   void KeepGasUp();
+  void KeepMapUp();
   bool IsEpochWanted() const;
   absl::Status Take(GasStep step, EventBody body);
 

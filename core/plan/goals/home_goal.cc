@@ -23,8 +23,10 @@ Point2 HomeOf(const GoalQuery& query) {
   return query.robot.first_place.value_or(query.belief.geometry().Center(query.start));
 }
 
-// Whether the robot could stand there beside those that stand.
+// Whether the robot could stand there beside those that stand, and be led there round them: ways
+// round keep off by half a cell more (way_round.h).
 bool HasRoom(const GoalQuery& query, Point2 place) {
+  const double half_diagonal_m = query.belief.geometry().resolution_m / std::sqrt(2.0);
   return std::none_of(
       query.belief.robots.begin(), query.belief.robots.end(), [&](const auto& entry) {
         const RobotState& other = entry.second.state;
@@ -32,7 +34,8 @@ bool HasRoom(const GoalQuery& query, Point2 place) {
             other.has_pose && !other.silent && entry.second.live_trajectory == nullptr;
         return other.id != query.robot.state.id && stands &&
                Distance_m(place, other.pose.position()) <
-                   query.robot.state.radius_m + other.radius_m + query.options.robot_clearance_m;
+                   query.robot.state.radius_m + other.radius_m + query.options.robot_clearance_m +
+                       half_diagonal_m;
       });
 }
 

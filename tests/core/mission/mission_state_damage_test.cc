@@ -88,9 +88,10 @@ std::uint64_t DigestAfterAnEpoch(Mission& mission, std::int64_t time_ns) {
 // With a hash that fits, damage comes to the decoder. Whatever that takes, it is refused, or makes
 // a mission that is not taken for the one that was saved, or makes no difference: evidence that the
 // field was made from, and that it was told otherwise before it was saved. And nothing crashes, now
-// or later.
+// or later. What is kept for corrections is hashed only once it was used, so here nothing is.
 TEST(MissionStateDamage, WhatIsReadIsHashedToo) {
-  for (const MissionOptions& options : {MissionOptions(), Ageing()}) {
+  for (MissionOptions options : {MissionOptions(), Ageing()}) {
+    options.keep_scans = false;
     const auto mission = RichMission(options);
     const std::uint64_t digest = mission->Digest();
     const std::string state = mission->SaveState().value();

@@ -58,5 +58,14 @@ TEST(Odometer, IsLittleShorterThanATightCircle) {
   EXPECT_GT(odometer.travelled_m(), 2.0 * M_PI * kRadius_m * 0.998 - 0.1);
 }
 
+TEST(Odometer, WhoFindsItselfElsewhereHasNotDrivenThere) {
+  Odometer odometer;
+  odometer.Pass({0.0, 0.0});
+  odometer.Pass({1.0, 0.0});
+  odometer.GoOnFrom({5.0, 5.0});
+  odometer.Pass({5.0, 6.0});
+  EXPECT_DOUBLE_EQ(odometer.travelled_m(), 2.0);
+}
+
 }  // namespace odometer_test
 }  // namespace plumescout

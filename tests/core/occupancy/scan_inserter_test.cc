@@ -270,5 +270,16 @@ TEST(ScanInserter, BeamsThatCrossTooManyCellsAreRefused) {
   EXPECT_TRUE(inserter.Insert(kSensor, honest, {}, outdoors).ok());
 }
 
+TEST(ScanInserter, AScanThatStandsForSeveralIsAsGoodAsThose) {
+  const Pose2 pose{1.0, 1.5, 0.2};
+  const Scan scan{-M_PI, 0.1, 8.0, std::vector<float>(62, 1.0F)};
+  OccupancyGrid at_once((OccupancyOptions()));
+  OccupancyGrid one_by_one((OccupancyOptions()));
+  ScanInserter inserter;
+  ASSERT_TRUE(inserter.Insert(pose, scan, {}, at_once, 4).ok());
+  for (int i = 0; i < 4; ++i) ASSERT_TRUE(inserter.Insert(pose, scan, {}, one_by_one).ok());
+  EXPECT_EQ(at_once.States().values(), one_by_one.States().values());
+}
+
 }  // namespace scan_inserter_test
 }  // namespace plumescout

@@ -51,6 +51,16 @@ TEST(StrategyReturn, DrivesHomeOnRequest) {
   EXPECT_THAT(plan->explanation, HasSubstr("to home"));
 }
 
+TEST(StrategyReturn, DrivesHomeByOrderAndSaysWhy) {
+  Belief belief = FromTheEast();
+  belief.robots["r"].state.ordered_home = true;
+  const absl::StatusOr<Plan> plan = TryPlan(belief, For("r"));
+  ASSERT_TRUE(plan.ok()) << plan.status();
+  EXPECT_EQ(plan->phase, MissionPhase::kReturning);
+  EXPECT_EQ(Chosen(*plan).goal.kind, GoalKind::kHome);
+  EXPECT_THAT(plan->explanation, HasSubstr("ordered the robot home"));
+}
+
 TEST(StrategyReturn, StaysIfItIsHomeOrHasNoWay) {
   Belief belief = SmallBelief(kRoom);
   PlanRequest request = For("r");

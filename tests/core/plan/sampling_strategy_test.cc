@@ -238,6 +238,16 @@ TEST(SamplingStrategy, DrivesHomeOnRequestWithoutAStop) {
   }
 }
 
+TEST(SamplingStrategy, DrivesHomeByOrderAndSaysWhy) {
+  Belief belief = SiteBelief(OpenArt(20, 10, {15, 5}));
+  belief.robots["r"].first_place = belief.geometry().Center({2, 2});
+  belief.robots["r"].state.ordered_home = true;
+  const auto plan = TryPlan(belief, For("r"), SiteOptionsOf("lhr", belief.geometry()));
+  ASSERT_TRUE(plan.ok()) << plan.status();
+  EXPECT_EQ(Chosen(*plan).goal.kind, GoalKind::kHome);
+  EXPECT_NE(plan->explanation.find("ordered the robot home"), std::string::npos);
+}
+
 TEST(SamplingStrategy, DrivesHomeFromOutsideTheRegion) {
   Belief belief = SiteBelief(OpenArt(20, 10));
   belief.robots["r"].first_place = belief.geometry().Center({9, 2});

@@ -131,11 +131,20 @@ TEST(Traffic, WhoHasNoPoseIsNotThere) {
   EXPECT_FALSE(TrafficFor(way, Standing("b", {2.0, 0.0})).FirstMeeting(Trajectory()).has_value());
 }
 
-TEST(Traffic, WhoIsSilentIsNotThereAndWhoStrayedStandsWhereItIs) {
+TEST(Traffic, WhoIsSilentStandsWhereItWasForAWhile) {
   const Trajectory way = Along({{0.0, 0.0}, {10.0, 0.0}});
   RobotRecord silent = Standing("b", {5.0, 0.3});
   silent.state.silent = true;
+  silent.heard_ns = kNow_ns - 119 * kSecond_ns;
+  EXPECT_FALSE(TrafficFor(way, silent).LeastWait_s(way).has_value());
+  silent.heard_ns = kNow_ns - 121 * kSecond_ns;
   EXPECT_FALSE(TrafficFor(way, silent).FirstMeeting(way).has_value());
+  silent.state.silent = false;
+  EXPECT_FALSE(TrafficFor(way, silent).LeastWait_s(way).has_value()) << "nobody else was heard";
+}
+
+TEST(Traffic, WhoStrayedStandsWhereItIs) {
+  const Trajectory way = Along({{0.0, 0.0}, {10.0, 0.0}});
   RobotRecord strayed = Driving("b", Along({{3.0, -5.0}, {3.0, -9.0}}));
   EXPECT_FALSE(TrafficFor(way, strayed).FirstMeeting(way).has_value());
   strayed.state.pose = {5.0, 0.2, 0.0};
@@ -201,6 +210,27 @@ TEST(Traffic, ProgressGoesByThePoseAndWhileStandingByTheTime) {
   EXPECT_NEAR(Progress_s(record, kNow_ns + kSecond_ns / 10), 0.1, 1e-9) << "it has just come";
   record.state.pose = {2.0, 0.1, 0.0};
   EXPECT_NEAR(Progress_s(record, kNow_ns + 9 * kSecond_ns), 5.0, 1e-9) << "it is late";
+}
+
+TEST(Traffic, KeepsFartherFromRobotsWhoseFramesAreDoubtful) {
+  const Trajectory mine = Along({{0, 0}, {6, 0}});
+  RobotRecord other = Standing("b", {3.0, 0.9});
+  EXPECT_FALSE(TrafficFor(mine, other).FirstMeeting(mine).has_value());
+  other.state.frame.position_stddev_m = 0.09;  // 2.5 of them are less than the clearance
+  EXPECT_FALSE(TrafficFor(mine, other).FirstMeeting(mine).has_value());
+  other.state.frame.position_stddev_m = 0.3;
+  EXPECT_TRUE(TrafficFor(mine, other).FirstMeeting(mine).has_value());
+}
+
+TEST(Traffic, OfAWayThatIsDrivenTheRestCounts) {
+  const Trajectory way = Along({{0.0, 0.0}, {10.0, 0.0}});
+  const Traffic traffic = TrafficFor(way, Standing("b", {5.0, 0.0}));
+  const auto meeting = traffic.FirstMeeting(way, 3.0);
+  ASSERT_TRUE(meeting.has_value());
+  EXPECT_LT(meeting->time_s, 2.0);
+  EXPECT_NEAR(meeting->place.x_m, 3.0 + meeting->time_s, 1e-9);
+  EXPECT_FALSE(traffic.FirstMeeting(way, 6.0).has_value());
+  EXPECT_FALSE(traffic.FirstMeeting(way, 20.0).has_value());
 }
 
 }  // namespace traffic_test

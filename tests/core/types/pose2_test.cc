@@ -27,5 +27,17 @@ TEST(WrapAngle, MapsBothHalfTurnsToPlusPi) {
   EXPECT_DOUBLE_EQ(WrapAngle_rad(M_PI), M_PI);
 }
 
+TEST(Compose, TurnsAndMoves) {
+  const Pose2 frame{1.0, 2.0, M_PI / 2};
+  const Pose2 pose = Compose(frame, {3.0, 0.5, 0.25});
+  EXPECT_NEAR(pose.x_m, 0.5, 1e-12);
+  EXPECT_NEAR(pose.y_m, 5.0, 1e-12);
+  EXPECT_NEAR(pose.yaw_rad, M_PI / 2 + 0.25, 1e-12);
+  const Pose2 none = Compose(frame, Inverse(frame));
+  EXPECT_NEAR(none.x_m, 0.0, 1e-12);
+  EXPECT_NEAR(none.y_m, 0.0, 1e-12);
+  EXPECT_NEAR(none.yaw_rad, 0.0, 1e-12);
+}
+
 }  // namespace pose2_test
 }  // namespace plumescout

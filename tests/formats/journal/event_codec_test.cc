@@ -90,10 +90,10 @@ TEST(EventCodec, UnknownEnumeratorsAreDataLoss) {
 
 TEST(EventCodec, UnknownKindsAndVersionsAreNamed) {
   std::string bytes = EncodeEvent(MakeRefresh());
-  bytes[1] = 9;  // eight kinds of events: 1 to 8
+  bytes[1] = 13;  // twelve kinds of events: 1 to 12
   absl::Status status = DecodeEvent(bytes).status();
   EXPECT_EQ(status.code(), absl::StatusCode::kDataLoss);
-  EXPECT_THAT(std::string(status.message()), HasSubstr("kind 9"));
+  EXPECT_THAT(std::string(status.message()), HasSubstr("kind 13"));
   bytes = EncodeEvent(MakeRefresh());
   bytes[0] = 2;
   status = DecodeEvent(bytes).status();
@@ -116,7 +116,7 @@ TEST(EventCodec, ANumberThatDoesNotFitIsDataLoss) {
 TEST(EventCodec, PlansToEveryKindOfGoalComeBack) {
   for (const GoalKind kind :
        {GoalKind::kOccupancyFrontier, GoalKind::kGasFrontier, GoalKind::kRandomFreeSpace,
-        GoalKind::kHome, GoalKind::kInformation}) {
+        GoalKind::kHome, GoalKind::kInformation, GoalKind::kSite, GoalKind::kMakeWay}) {
     Event event{1, PlanIssued{}};
     RejectedGoal rejected;
     rejected.goal.kind = kind;
@@ -234,8 +234,73 @@ TEST(EventCodec, ForReplayAPlanWithoutAChoiceHasNoCandidates) {
   }
 }
 
+TEST(EventCodec, ForReplayAPlanKeepsTheFirstGoalThatOthersAreInTheWayOf) {
+  Plan plan;
+  plan.rejected.resize(4);
+  plan.rejected[1] = {{GoalKind::kHome, {1, 0}, {}, {}, 0}, RejectionReason::kTraffic, "first"};
+  plan.rejected[2] = {{GoalKind::kHome, {2, 0}, {}, {}, 0}, RejectionReason::kTraffic, "second"};
+  Plan expected = plan;
+  expected.rejected = {plan.rejected[1]};
+  EXPECT_EQ(DecodedForReplay(plan), expected);
+  EXPECT_EQ(DecodedForReplay(expected), expected);
+}
+
+TEST(EventCodec, AnAssignedPlanIsOfTheSecondVersionAndOthersAreAsBefore) {
+  Plan plan;
+  plan.robot = "r1";
+  const Event asked{3, PlanIssued{plan}};
+  const Event assigned{3, PlanIssued{plan, true}};
+  EXPECT_EQ(EncodeEvent(asked)[0], 1);
+  EXPECT_EQ(EncodeEvent(assigned)[0], 2);
+  EXPECT_EQ(EncodeEvent(assigned).size(), EncodeEvent(asked).size() + 1);
+  for (const PlanDetail detail : {PlanDetail::kWhole, PlanDetail::kForReplay}) {
+    EXPECT_EQ(DecodeEvent(EncodeEvent(asked, detail)).value(), asked);
+    EXPECT_EQ(DecodeEvent(EncodeEvent(assigned, detail)).value(), assigned);
+  }
+}
+
 TEST(EventCodec, ForReplayOtherEventsAreWhole) {
   EXPECT_EQ(EncodeEvent(MakeRefresh(), PlanDetail::kForReplay), EncodeEvent(MakeRefresh()));
+}
+
+TEST(EventCodec, ARobotOfTheMissionsFrameIsWrittenAsBefore) {
+  RobotRegistered registered{"r1", 0.25, 7, 9};
+  const std::string before = EncodeEvent({5, registered});
+  EXPECT_EQ(before[0], 1);
+  registered.frame = {{1.5, -2.0, 0.75}, 0.1, 0.02};
+  const std::string framed = EncodeEvent({5, registered});
+  EXPECT_EQ(framed[0], 2);
+  EXPECT_EQ(framed.substr(1, before.size() - 1), before.substr(1)) << "the frame comes last";
+  const auto decoded = DecodeEvent(framed);
+  ASSERT_TRUE(decoded.ok()) << decoded.status();
+  EXPECT_EQ(*decoded, (Event{5, registered}));
+  EXPECT_EQ(DecodeEvent(before)->body, EventBody(RobotRegistered{"r1", 0.25, 7, 9}));
+}
+
+TEST(EventCodec, ACorrectionComesBack) {
+  const Event event = {
+      8, ObservationReceived{"r1",
+                             {3,
+                              40,
+                              {1.0, 2.0, 0.5},
+                              PoseCorrection{{{10, {1.0, 2.0, 3.0}}, {20, {-1.0, 0.5, 0.0}}}}}}};
+  const std::string bytes = EncodeEvent(event);
+  EXPECT_EQ(bytes[0], 2);
+  const auto decoded = DecodeEvent(bytes);
+  ASSERT_TRUE(decoded.ok()) << decoded.status();
+  EXPECT_EQ(*decoded, event);
+  const Event reading = {8, ObservationReceived{"r1", {3, 40, {}, GasReading{1.0, 0.0}}}};
+  EXPECT_EQ(EncodeEvent(reading)[0], 1);
+}
+
+TEST(EventCodec, RebuildsOfTheMapComeBack) {
+  for (const EventBody& body : {EventBody(MapRebuildBegun{}), EventBody(MapRebuilt{})}) {
+    const auto decoded = DecodeEvent(EncodeEvent({4, body}));
+    ASSERT_TRUE(decoded.ok()) << decoded.status();
+    EXPECT_EQ(*decoded, (Event{4, body}));
+  }
+  EXPECT_EQ(EncodeEvent({1, MapRebuildBegun{}})[1], 11);
+  EXPECT_EQ(EncodeEvent({1, MapRebuilt{}})[1], 12);
 }
 
 }  // namespace event_codec_test

@@ -147,6 +147,26 @@ TEST_F(LocalMissionTest, APlanThatLosesTheRaceForItsGoalIsMadeOnceMore) {
   EXPECT_EQ(mission_->Snapshot()->claims.size(), 2U);
 }
 
+TEST_F(LocalMissionTest, RobotsFetchWhatATeamPlanAssignsThem) {
+  Create([](const Belief& belief, const PlanRequest& request, const StopFn&) {
+    Plan plan = PlanTo(belief, request.robot, request.robot == "a" ? 1.0 : 9.0);
+    plan.trajectory.waypoints.resize(1);
+    return plan;
+  });
+  const std::int64_t lease = Join("a");
+  Join("b");
+  const auto team = mission_->PlanForTeam({.robots = {"a", "b"}}, absl::ZeroDuration());
+  ASSERT_TRUE(team.ok()) << team.status();
+  ASSERT_EQ(team->plans.size(), 2U);
+  client::PlanQuery query = Query("a", lease);
+  query.request.start = Pose2{};
+  const auto fetched = mission_->NextPlan(query);
+  ASSERT_TRUE(fetched.ok()) << fetched.status();
+  EXPECT_EQ(fetched->id, team->plans[0].id);
+  query.request.start = Pose2{3.0, 0.0, 0.0};
+  EXPECT_GT(mission_->NextPlan(query)->id, team->plans[1].id) << "it has driven on";
+}
+
 TEST_F(LocalMissionTest, APlannerThatInsistsOnATakenGoalIsGivenUp) {
   int asked = 0;
   Create([&](const Belief& belief, const PlanRequest& request, const StopFn&) {

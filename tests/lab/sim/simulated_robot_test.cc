@@ -251,6 +251,28 @@ TEST_F(SimulatedRobotTest, DriftOfItsPoseLeadsItAstray) {
   ExpectPose(robot.true_pose(), 5.0 - (told.x_m - 2.0), 6.0 - (told.y_m - 3.0), 0.0);
 }
 
+TEST_F(SimulatedRobotTest, LosesItsPlaceAndFindsIt) {
+  SimulatedRobotOptions options;
+  options.pose_error.jump = PoseJumpOptions{1.0, 0.5, 0.25, 0.0, 2.0};
+  SimulatedRobot robot = Make(options);
+  ASSERT_TRUE(robot.Advance(0.5).ok());
+  ExpectPose(robot.pose(), 2.0, 3.0, 0.0);
+  ASSERT_TRUE(robot.Advance(0.5).ok());
+  ExpectPose(robot.pose(), 2.5, 3.25, 0.0);
+  ExpectPose(robot.true_pose(), 2.0, 3.0, 0.0);
+  ASSERT_TRUE(robot.PlaceAt({5.5, 6.25, 0.0}).ok());
+  ExpectPose(robot.true_pose(), 5.0, 6.0, 0.0);
+  ASSERT_TRUE(robot.Advance(1.0).ok());
+  EXPECT_FALSE(robot.TakeCorrection().has_value());
+  ASSERT_TRUE(robot.Advance(1.0).ok());
+  ExpectPose(robot.pose(), 5.0, 6.0, 0.0);
+  const auto correction = robot.TakeCorrection();
+  ASSERT_TRUE(correction.has_value());
+  ASSERT_EQ(correction->anchors.size(), 3U);
+  ExpectPose(correction->anchors[0].pose, 2.0, 3.0, 0.0);
+  EXPECT_EQ(correction->anchors[2].sample_time_ns, robot.now_ns());
+}
+
 TEST_F(SimulatedRobotTest, CollidesWhereItTrulyIs) {
   SimulatedRobotOptions options;
   options.pose_error.position_sigma_m = 1.0;

@@ -41,6 +41,7 @@ TEST(EnumsTest, EveryTableIsCompleteAndRefusesTheRest) {
   ExpectTableIsComplete<v1::GoalKind>();
   ExpectTableIsComplete<v1::Candidate::PathSource>();
   ExpectTableIsComplete<v1::RejectedGoal::Reason>();
+  ExpectTableIsComplete<v1::PlanInvalidated::Reason>();
   ExpectTableIsComplete<v1::Plan::End>();
   ExpectTableIsComplete<v1::ReportProgressRequest::Outcome>();
   ExpectTableIsComplete<v1::WgfdScope>();

@@ -20,7 +20,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 Scan TestScan(std::vector<float> ranges_m) { return {-1.5, 0.01, 30.0, std::move(ranges_m)}; }
 
-Observation TestObservation(std::variant<Scan, GasReading, SequenceGap> payload) {
+Observation TestObservation(decltype(Observation::payload) payload) {
   return {7, 1'700'000'000'000'000'000, {1.0, -2.0, 0.5}, std::move(payload)};
 }
 
@@ -31,8 +31,21 @@ std::string RefusedField(const v1::Observation& proto) {
 
 TEST(ObservationTest, GasAndGapSurviveTheRoundTrip) {
   for (const Observation& observation :
-       {TestObservation(GasReading{12.5, 0.25}), TestObservation(SequenceGap{7, 90})}) {
+       {TestObservation(GasReading{12.5, 0.25}), TestObservation(SequenceGap{7, 90}),
+        TestObservation(RobotStatus{0.5})}) {
     EXPECT_EQ(FromProto(ToProto(observation), "observation").value(), observation);
+  }
+}
+
+TEST(ObservationTest, StatusNeedsNoPoseAndAShare) {
+  v1::Observation proto = ToProto(TestObservation(RobotStatus{0.5}));
+  proto.clear_pose();
+  const auto status = FromProto(proto, "observation");
+  ASSERT_TRUE(status.ok()) << status.status();
+  EXPECT_EQ(status->pose, Pose2{});
+  for (const double share : {-0.1, 2.0, kInfinity * 1.0, kNan * 1.0}) {
+    proto.mutable_status()->set_battery_share(share);
+    EXPECT_EQ(RefusedField(proto), "observation.status.battery_share");
   }
 }
 

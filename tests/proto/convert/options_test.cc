@@ -63,9 +63,11 @@ MissionOptions Unlike() {
                             5};
   options.max_robot_count = 3;
   options.robot_silence_s = 12.5;
+  options.return_home_below_battery_share = 0.25;
   options.memory_budget_bytes = 100'000'000;
   options.gas.field_reach_m = 12.0;
   options.stamp_by_arrival = true;
+  options.keep_scans = false;
   options.gas.audit_period_epochs = 7;
   options.keep_out = {{{{1, 2}, {3, 4}, {5, 7}}}, {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}};
   options.home = Point2{-1.0, 2.0};
@@ -82,9 +84,11 @@ TEST(OptionsTest, OptionsSurviveTheRoundTrip) {
   EXPECT_TRUE(MessageDifferencer::Equals(ToProto(*back), proto));
   EXPECT_EQ(back->seed, Unlike().seed);
   EXPECT_EQ(back->robot_silence_s, 12.5);
+  EXPECT_EQ(back->return_home_below_battery_share, 0.25);
   EXPECT_EQ(back->memory_budget_bytes, 100'000'000);
   EXPECT_EQ(back->gas.field_reach_m, 12.0);
   EXPECT_TRUE(back->stamp_by_arrival);
+  EXPECT_FALSE(back->keep_scans);
   EXPECT_EQ(back->gas.audit_period_epochs, 7);
   EXPECT_EQ(back->frontier.fixed_gas_threshold_ppm, 4.0);
   EXPECT_EQ(back->keep_out, Unlike().keep_out);
@@ -250,6 +254,12 @@ TEST(OptionsTest, MoreSamplesThanCandidatesAreNamedAsOnTheWire) {
   const auto options = FromProto(proto, MissionOptions{}, "options");
   EXPECT_EQ(FieldViolations(options.status()).at(0).field,
             "options.planning.sites.cycle_sample_count");
+}
+
+// Else scans of old journals would be doubted, which events that follow know nothing of.
+TEST(OptionsTest, JournalsThatDoNotNameKeptScansKeptNone) {
+  EXPECT_FALSE(FromProto(v1::MissionOptions(), RecordedDefaults(), "options")->keep_scans);
+  EXPECT_TRUE(FromProto(ToProto(MissionOptions()), RecordedDefaults(), "options")->keep_scans);
 }
 
 }  // namespace options_test

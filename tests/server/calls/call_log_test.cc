@@ -51,6 +51,7 @@ TEST(CallLogTest, QuickCallsAreForDebugging) {
 
 TEST(CallLogTest, StreamsMayLast) {
   EXPECT_THAT(LogOfCall(Call(Rpc::kWatchMap), absl::Hours(1), absl::OkStatus()), IsEmpty());
+  EXPECT_THAT(LogOfCall(Call(Rpc::kWatchRobot), absl::Hours(1), absl::OkStatus()), IsEmpty());
   EXPECT_THAT(LogOfCall(Call(Rpc::kStreamNextBestTrajectory), absl::Hours(1), absl::OkStatus()),
               Not(IsEmpty()));
 }

@@ -27,15 +27,22 @@ TEST(EventLineTest, EveryKindHasItsWords) {
       {ProgressReported{"r1", 3, ProgressOutcome::kBlocked}, "plan 3 blocked"},
       {EpochBegun{1}, "gas field is made anew"},
       {EpochAdopted{}, "gas field made anew is adopted"},
-      {RobotRemoved{"r1"}, "leaves"}};
+      {RobotRemoved{"r1"}, "leaves"},
+      {Seen(RobotStatus{0.5}), "battery at 50 %"},
+      {ClockOffsetNoted{"r1", -1'500'000'000}, "the mission's time is its clock and -1.500 s"},
+      {HomeOrdered{"r1", true}, "is sent home"}};
   std::set<int> kinds;
   for (const auto& [body, line] : cases) {
     EXPECT_EQ(LineOf(body), line);
     kinds.insert(KindOf(body));
   }
   kinds.insert(KindOf(PlanIssued{}));
-  EXPECT_EQ(kinds.size(), 10u);
+  EXPECT_EQ(kinds.size(), 13u);
   EXPECT_EQ(kinds.count(v1::MISSION_EVENT_KIND_UNSPECIFIED), 0u);
+}
+
+TEST(EventLineTest, AnOrderThatIsTakenBackSaysSo) {
+  EXPECT_EQ(LineOf(HomeOrdered{"r1", false}), "need not go home any more");
 }
 
 TEST(EventLineTest, PlansTellWhereTheyLead) {

@@ -97,5 +97,35 @@ TEST_F(ClockGateTest, ZeroLetsEverythingPass) {
   EXPECT_TRUE(Pass(gate, "r1", 2 * kNow_ns).unreadable.ok());
 }
 
+TEST_F(ClockGateTest, AClockThatIsAnHourOffPassesByMappedTime) {
+  ClockGate gate = Gate();
+  for (const std::int64_t offset_ns : {3600 * kSecond_ns, -3600 * kSecond_ns}) {
+    std::vector<IncomingObservation> batch;
+    batch.push_back({{1, kNow_ns - offset_ns, {}, GasReading{}}, absl::OkStatus()});
+    batch.push_back({{2, kNow_ns - offset_ns + 6 * kSecond_ns, {}, GasReading{}}, {}});
+    gate.Pass("r1", batch, ClockGate::Mapped{offset_ns, kNow_ns});
+    EXPECT_TRUE(batch[0].unreadable.ok());
+    EXPECT_EQ(batch[0].observation.sample_time_ns, kNow_ns - offset_ns) << "the robot's own";
+    EXPECT_EQ(ErrorReason(batch[1].unreadable), reason::kClockAhead);
+  }
+}
+
+TEST_F(ClockGateTest, OthersAreNoExcuseForWhoSaysWhenItSent) {
+  ClockGate gate = Gate();
+  ASSERT_TRUE(Pass(gate, "r1", kNow_ns + 4 * kSecond_ns).unreadable.ok());
+  std::vector<IncomingObservation> batch;
+  batch.push_back({{1, kNow_ns + 6 * kSecond_ns, {}, GasReading{}}, absl::OkStatus()});
+  gate.Pass("r2", batch, ClockGate::Mapped{0, kNow_ns});
+  EXPECT_FALSE(batch[0].unreadable.ok());
+}
+
+TEST_F(ClockGateTest, ByArrivalAMappedSampleHasTheTimeOfTheServer) {
+  ClockGate gate = Gate({.stamp_by_arrival = true});
+  std::vector<IncomingObservation> batch;
+  batch.push_back({{1, kNow_ns + 60 * kSecond_ns, {}, GasReading{}}, absl::OkStatus()});
+  gate.Pass("r1", batch, ClockGate::Mapped{-7 * kSecond_ns, kNow_ns});
+  EXPECT_EQ(batch[0].observation.sample_time_ns, kNow_ns + 7 * kSecond_ns);
+}
+
 }  // namespace clock_gate_test
 }  // namespace plumescout::server

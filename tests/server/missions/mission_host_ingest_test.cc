@@ -4,6 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -12,6 +17,8 @@
 #include "core/types/error_reason.h"
 #include "server/missions/mission_host.h"
 #include "tests/server/host_parts.h"
+#include "tests/support/box_room.h"
+#include "tests/support/same_bytes.h"
 
 namespace plumescout::server {
 namespace mission_host_ingest_test {
@@ -78,6 +85,187 @@ TEST(MissionHostIngestTest, ASampleOfAClockThatRunsAheadIsAnEventThatARefusalFol
   for (const Event& event : events) EXPECT_TRUE(replay.Apply(event.body).ok());
   EXPECT_EQ(replay.sample_time_ns(), 3'000'000);
   EXPECT_EQ(replay.AppliedSequence("r1").value(), 3);
+}
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr std::int64_t kHour_ns = 3600 * kSecond_ns;
+constexpr std::int64_t kNow_ns = 1'800'000'000 * kSecond_ns;
+
+// A host whose clocks a test moves, with a robot for each clock.
+class ClocksTest : public testing::Test {
+ protected:
+  void Start(const std::map<RobotId, std::int64_t>& offsets_ns) {
+    offsets_ns_ = offsets_ns;
+    HostOptions options;
+    options.wall_clock = [] { return kNow_ns; };
+    options.clock = [this] { return SteadyTime() + std::chrono::nanoseconds(elapsed_ns_.load()); };
+    host_ = std::make_unique<MissionHost>(
+        HostParts(nullptr, [this](const Event& event) { events_.push_back(event); }), options);
+    Run([this](MissionWriter& writer) {
+      for (const auto& [robot, offset_ns] : offsets_ns_) {
+        EXPECT_TRUE(writer.conduct().Register({robot, 0.2, kLease + 1 + lease_++}).ok());
+        leases_[robot] = kLease + lease_;
+      }
+    });
+  }
+  void Run(std::function<void(MissionWriter&)> task) {
+    ASSERT_TRUE(host_->Post(std::move(task)).ok());
+    Settle(*host_);
+  }
+  // A scan and a reading of now, by the robot's clock; sent now.
+  IngestResult Send(const RobotId& robot, std::int64_t age_ns = 0, bool says_when = true) {
+    IngestResult result;
+    Run([&](MissionWriter& writer) {
+      const std::int64_t robot_ns = kNow_ns + elapsed_ns_ - offsets_ns_.at(robot);
+      const std::int64_t next = writer.mission().AppliedSequence(robot).value() + 1;
+      const double x_m = 1.0 + 0.01 * static_cast<double>(next);
+      const Pose2 pose{x_m, 2.0, 0.0};
+      std::vector<IncomingObservation> batch;
+      batch.push_back(
+          {{next, robot_ns - age_ns, pose, support::ScanInBox(pose, 6.0, 4.0)}, absl::OkStatus()});
+      batch.push_back({{next + 1, robot_ns - age_ns, pose, GasReading{10.0 * x_m}}, {}});
+      result = host_->Ingest(writer, robot, leases_.at(robot), std::move(batch),
+                             says_when ? robot_ns : 0);
+    });
+    EXPECT_TRUE(result.status.ok()) << result.status;
+    return result;
+  }
+  void Wait(double duration_s) { elapsed_ns_ += std::llround(duration_s * 1e9); }
+  std::shared_ptr<const Belief> Fresh() {
+    std::shared_ptr<const Belief> belief;
+    Run([&](MissionWriter& writer) { belief = writer.conduct().BeliefFor({}).value(); });
+    return belief;
+  }
+  std::int64_t OffsetOf(const RobotId& robot) {
+    return Fresh()->robots.at(robot).state.clock_offset_ns;
+  }
+  std::int64_t time_ns() { return Fresh()->sample_time_ns; }
+
+  std::map<RobotId, std::int64_t> offsets_ns_;
+  std::atomic<std::int64_t> elapsed_ns_ = 0;
+  std::vector<Event> events_;
+  std::unique_ptr<MissionHost> host_;
+  std::map<RobotId, std::int64_t> leases_;
+  std::int64_t lease_ = 0;
+};
+
+TEST_F(ClocksTest, WrongClocksMakeTheFieldOfRightOnesAndTheReplayIsExact) {
+  std::shared_ptr<const Belief> fields[2];
+  for (const bool wrong : {false, true}) {
+    events_.clear();
+    leases_.clear();
+    elapsed_ns_ = 0;
+    Start({{"a", wrong ? kHour_ns : 0}, {"b", 0}, {"c", wrong ? -kHour_ns : 0}});
+    for (int k = 0; k < 10; ++k) {
+      Wait(1.0);
+      for (const char* robot : {"a", "b", "c"}) EXPECT_TRUE(Send(robot).refused.empty());
+    }
+    fields[wrong ? 1 : 0] = Fresh();
+    std::uint64_t digest = 0;
+    Run([&](MissionWriter& writer) { digest = writer.mission().Digest(); });
+    host_->Stop(absl::NotFoundError("over"));
+    Mission replay{MissionOptions{}};
+    for (const Event& event : events_) ASSERT_TRUE(replay.Apply(event.body).ok());
+    EXPECT_EQ(replay.Digest(), digest);
+  }
+  EXPECT_EQ(fields[0]->sample_time_ns, kNow_ns + 10 * kSecond_ns);
+  EXPECT_EQ(fields[1]->sample_time_ns, kNow_ns + 10 * kSecond_ns);
+  EXPECT_TRUE(support::SameBytes(*fields[0]->gas_mean_ppm, *fields[1]->gas_mean_ppm));
+  EXPECT_TRUE(support::SameBytes(*fields[0]->gas_variance_ppm2, *fields[1]->gas_variance_ppm2));
+}
+
+TEST_F(ClocksTest, TheOffsetIsAnEventBeforeTheFirstObservation) {
+  Start({{"a", -kHour_ns}});
+  Send("a");
+  ASSERT_GE(events_.size(), 3U);
+  const auto* noted = std::get_if<ClockOffsetNoted>(&events_[1].body);
+  ASSERT_NE(noted, nullptr);
+  EXPECT_EQ(noted->offset_ns, -kHour_ns);
+  const auto* received = std::get_if<ObservationReceived>(&events_[2].body);
+  ASSERT_NE(received, nullptr);
+  EXPECT_EQ(received->observation.sample_time_ns, kNow_ns + kHour_ns) << "by its own clock";
+}
+
+TEST_F(ClocksTest, AClockThatIsRightIsNoEvent) {
+  Start({{"a", 0}});
+  Send("a");
+  for (const Event& event : events_) {
+    EXPECT_FALSE(std::holds_alternative<ClockOffsetNoted>(event.body));
+  }
+}
+
+TEST_F(ClocksTest, AClockThatIsSetInMidMissionHarmsNobody) {
+  for (const std::int64_t step_ns : {kHour_ns, -kHour_ns}) {
+    events_.clear();
+    leases_.clear();
+    elapsed_ns_ = 0;
+    Start({{"a", 0}, {"b", 0}});
+    for (int k = 0; k < 3; ++k) {
+      Wait(1.0);
+      Send("a");
+      Send("b");
+    }
+    offsets_ns_["a"] = step_ns;
+    for (int k = 0; k < 3; ++k) {
+      Wait(1.0);
+      EXPECT_TRUE(Send("a").refused.empty());
+      EXPECT_TRUE(Send("b").refused.empty());
+      EXPECT_EQ(time_ns(), kNow_ns + elapsed_ns_);
+    }
+    EXPECT_EQ(OffsetOf("a"), step_ns);
+    EXPECT_EQ(OffsetOf("b"), 0);
+    host_->Stop(absl::NotFoundError("over"));
+  }
+}
+
+TEST_F(ClocksTest, ABacklogKeepsItsAge) {
+  Start({{"a", kHour_ns}});
+  Send("a");
+  Wait(600.0);
+  Send("a", 590 * kSecond_ns);
+  EXPECT_EQ(time_ns(), kNow_ns + 10 * kSecond_ns);
+  EXPECT_EQ(OffsetOf("a"), kHour_ns);
+}
+
+TEST_F(ClocksTest, NobodyCanHurryTheMission) {
+  Start({{"a", 0}});
+  const IngestResult result = Send("a", -6 * kSecond_ns);
+  ASSERT_EQ(result.refused.size(), 2U);
+  EXPECT_EQ(ErrorReason(result.refused[0].status), reason::kClockAhead);
+  Send("a", -4 * kSecond_ns);
+  EXPECT_EQ(time_ns(), kNow_ns + 4 * kSecond_ns);
+}
+
+TEST_F(ClocksTest, WhoSaysNothingOfItsClockIsTakenAsItIs) {
+  Start({{"a", kHour_ns}});
+  Send("a", 0, /*says_when=*/false);
+  EXPECT_EQ(time_ns(), kNow_ns - kHour_ns);
+  Send("a");
+  EXPECT_EQ(OffsetOf("a"), kHour_ns);
+  Send("a", 0, /*says_when=*/false);
+  EXPECT_EQ(OffsetOf("a"), 0);
+}
+
+TEST_F(ClocksTest, WhoHasNoLeaseTellsNothingOfAClock) {
+  Start({{"a", 0}});
+  Send("a");
+  Run([&](MissionWriter& writer) {
+    const IngestResult result =
+        host_->Ingest(writer, "a", kLease - 1, GasBatch(3, 3), kNow_ns + kHour_ns);
+    EXPECT_EQ(ErrorReason(result.status), reason::kLeaseSuperseded);
+    EXPECT_EQ(result.position.applied_sequence, 2);
+  });
+  EXPECT_EQ(OffsetOf("a"), 0);
+}
+
+TEST_F(ClocksTest, LinksTellHowOldTheNewestSampleIs) {
+  Start({{"a", kHour_ns}, {"b", 0}});
+  Send("a", 2 * kSecond_ns);
+  const auto link = host_->robot_clocks().LinkOf("a");
+  ASSERT_TRUE(link.has_value());
+  EXPECT_EQ(link->newest_sample_ns, kNow_ns - 2 * kSecond_ns);
+  EXPECT_EQ(host_->robot_clocks().WorstOffset(), absl::Hours(1));
+  EXPECT_FALSE(host_->robot_clocks().LinkOf("b").has_value());
 }
 
 }  // namespace mission_host_ingest_test

@@ -221,5 +221,75 @@ TEST_F(RobotsTest, AReleasedLeaseIsFreeForTheNextClientAtOnce) {
   EXPECT_TRUE(Register("r1").ok());
 }
 
+class OrderHomeTest : public RobotsTest {
+ protected:
+  absl::StatusOr<v1::OrderHomeResponse> Order(const std::string& robot, bool home,
+                                              const std::string& request_id = "") {
+    v1::OrderHomeRequest request;
+    request.set_robot(robot);
+    request.set_home(home);
+    request.set_request_id(request_id);
+    return Call(robots_, &v1::RobotService::Stub::OrderHome, request);
+  }
+  absl::StatusOr<v1::OrderHomeResponse> OrderAll(bool home) {
+    v1::OrderHomeRequest request;
+    request.set_mission("missions/hall");
+    request.set_home(home);
+    return Call(robots_, &v1::RobotService::Stub::OrderHome, request);
+  }
+};
+
+TEST_F(OrderHomeTest, PlansLeadHomeUntilItIsTakenBack) {
+  StartServer();
+  const std::int64_t lease = Lease();
+  for (int i = 1; i <= 4; ++i) ASSERT_TRUE(Ingest(kRobot, lease, RoomScan(i)).ok());
+  ASSERT_TRUE(Ingest(kRobot, lease, RoomScan(5, {4.0, 1.5, 0.0})).ok());
+  const auto ordered = Order(kRobot, true);
+  ASSERT_TRUE(ordered.ok()) << ordered.status();
+  EXPECT_EQ(ordered->revision(), Revision());
+  EXPECT_TRUE(Get(kRobot)->robot().ordered_home());
+  const auto homeward = NextBest(PlanFor(lease));
+  ASSERT_TRUE(homeward.ok()) << homeward.status();
+  EXPECT_EQ(homeward->plan().phase(), v1::MISSION_PHASE_RETURNING);
+  EXPECT_THAT(homeward->plan().explanation(), testing::HasSubstr("ordered the robot home"));
+  ASSERT_TRUE(Order(kRobot, false).ok());
+  const auto onward = NextBest(PlanFor(lease));
+  ASSERT_TRUE(onward.ok()) << onward.status();
+  EXPECT_NE(onward->plan().phase(), v1::MISSION_PHASE_RETURNING);
+}
+
+TEST_F(OrderHomeTest, AllAreOrderedAtOnce) {
+  StartServer();
+  for (const char* robot : {"r1", "r2"}) ASSERT_TRUE(Register(robot).ok());
+  for (const bool home : {true, false}) {
+    ASSERT_TRUE(OrderAll(home).ok());
+    const auto listed = List(0);
+    ASSERT_TRUE(listed.ok()) << listed.status();
+    EXPECT_EQ(listed->robots_size(), 2);
+    for (const v1::Robot& robot : listed->robots()) EXPECT_EQ(robot.ordered_home(), home);
+  }
+}
+
+TEST_F(OrderHomeTest, ARequestIsCarriedOutOnce) {
+  StartServer();
+  ASSERT_TRUE(Register("r1").ok());
+  const auto first = Order(kRobot, true, "once");
+  ASSERT_TRUE(first.ok()) << first.status();
+  ASSERT_TRUE(Order(kRobot, false).ok());
+  EXPECT_EQ(Order(kRobot, true, "once")->revision(), first->revision());
+  EXPECT_FALSE(Get(kRobot)->robot().ordered_home());
+}
+
+TEST_F(OrderHomeTest, SaysWhoIsNotThere) {
+  StartServer();
+  EXPECT_THAT(Order("r1", true).status(), RefusesField("robot"));
+  EXPECT_THAT(Order(kRobot, true).status(), Refuses(kNotFound, "ROBOT_NOT_FOUND"));
+  EXPECT_THAT(Order("missions/attic/robots/r1", true).status(),
+              Refuses(kNotFound, "MISSION_NOT_FOUND"));
+  const v1::OrderHomeRequest nobody;
+  EXPECT_THAT(Call(robots_, &v1::RobotService::Stub::OrderHome, nobody).status(),
+              RefusesField("target"));
+}
+
 }  // namespace robot_service_test
 }  // namespace plumescout::server

@@ -6,6 +6,7 @@
 
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "proto/convert/status.h"
 
@@ -72,6 +73,26 @@ TEST(PlanOrderFromProtoTest, BadFieldsAreNamed) {
   request.mutable_planning_budget()->set_seconds(0);
   request.mutable_planning_budget()->set_nanos(-1);
   EXPECT_EQ(RefusedField(request), "planning_budget.nanos");
+}
+
+TEST(TeamOrderFromProtoTest, EveryFieldIsTaken) {
+  v1::PlanTeamRequest request;
+  request.add_robots("missions/hall/robots/b");
+  request.add_robots("missions/hall/robots/a");
+  request.mutable_planning_budget()->set_nanos(300'000'000);
+  request.set_seed(5);
+  request.set_max_order_count(7);
+  request.set_go_home(true);
+  request.set_max_edge_evaluation_count(1000);
+  const TeamOrder order = TeamOrderFromProto(request, "hall", {}).value();
+  EXPECT_EQ(order.request.robots, (std::vector<RobotId>{"b", "a"}));
+  EXPECT_EQ(order.budget, absl::Milliseconds(300));
+  EXPECT_EQ(order.request.seed, 5U);
+  EXPECT_EQ(order.request.max_order_count, 7);
+  EXPECT_TRUE(order.request.go_home);
+  EXPECT_EQ(order.request.max_edge_evaluations, 1000);
+  EXPECT_EQ(TeamOrderFromProto({}, "hall", {})->request.max_order_count, 3);
+  EXPECT_FALSE(TeamOrderFromProto(request, "attic", {}).ok());
 }
 
 }  // namespace plan_order_from_proto_test

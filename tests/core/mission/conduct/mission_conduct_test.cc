@@ -291,5 +291,27 @@ TEST_F(MissionConductTest, ARobotLeavesByItsOwnLeaseOrByForce) {
   EXPECT_TRUE(conduct_.Remove({"r2"}, leases).ok());
 }
 
+TEST_F(MissionConductTest, AnOffsetIsNotedUnderTheLeaseAndOnce) {
+  EXPECT_TRUE(conduct_.NoteClock({"r1", 5}, kLease).ok());
+  EXPECT_TRUE(conduct_.NoteClock({"r1", 5}, kLease).ok());
+  EXPECT_EQ(revision(), 2);
+  EXPECT_EQ(conduct_.mission().StateOf("r1")->clock_offset_ns, 5);
+  EXPECT_EQ(ErrorReason(conduct_.NoteClock({"r1", 6}, kLease - 1)), reason::kLeaseSuperseded);
+  EXPECT_EQ(ErrorReason(conduct_.NoteClock({"r9", 6}, kLease)), reason::kRobotNotFound);
+  EXPECT_TRUE(absl::IsInvalidArgument(conduct_.NoteClock({"r1", INT64_MAX}, kLease)));
+  EXPECT_EQ(revision(), 2);
+}
+
+TEST_F(MissionConductTest, HomeIsOrderedOfAllOrNone) {
+  ASSERT_TRUE(Join("r2", kLease + 1).ok());
+  EXPECT_EQ(ErrorReason(conduct_.OrderHome({"r1", "r9"}, true).status()), reason::kRobotNotFound);
+  EXPECT_EQ(revision(), 2);
+  EXPECT_EQ(conduct_.OrderHome({"r1"}, true).value(), 3);
+  EXPECT_EQ(conduct_.OrderHome({"r1", "r2"}, true).value(), 4) << "r1 knows";
+  EXPECT_EQ(conduct_.OrderHome({"r1", "r2"}, true).value(), 4);
+  EXPECT_EQ(conduct_.OrderHome({"r1", "r2"}, false).value(), 6);
+  EXPECT_FALSE(conduct_.mission().StateOf("r1")->ordered_home);
+}
+
 }  // namespace mission_conduct_test
 }  // namespace plumescout

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+
+// Of the fleet: what robots tell of themselves, and who is sent home.
+
+#include <algorithm>
+
+#include "absl/strings/str_cat.h"
+#include "core/mission/fleet.h"
+#include "core/mission/observation_check.h"
+
+namespace plumescout {
+namespace {
+
+// A robot with a low battery takes work up again when it has so much more than would be low: what a
+// battery tells goes up and down with what is drawn from it.
+constexpr double kChargedShare = 0.1;
+
+absl::Status NotRegistered(const RobotId& robot) {
+  return absl::NotFoundError(absl::StrCat("robot \"", robot, "\" is not registered"));
+}
+
+}  // namespace
+
+absl::Status Fleet::NoteClock(const ClockOffsetNoted& noted) {
+  Member* const member = Find(noted.robot);
+  if (member == nullptr) return NotRegistered(noted.robot);
+  if (noted.offset_ns < -kMaxClockOffset_ns || noted.offset_ns > kMaxClockOffset_ns) {
+    return absl::InvalidArgumentError(absl::StrCat("offset_ns = ", noted.offset_ns, " must be in [",
+                                                   -kMaxClockOffset_ns, ", ", kMaxClockOffset_ns,
+                                                   "]"));
+  }
+  member->record.state.clock_offset_ns = noted.offset_ns;
+  return absl::OkStatus();
+}
+
+absl::Status Fleet::OrderHome(const HomeOrdered& order) {
+  Member* const member = Find(order.robot);
+  if (member == nullptr) return NotRegistered(order.robot);
+  member->record.state.ordered_home = order.home;
+  if (order.home) HandBackClaim(*member);
+  return absl::OkStatus();
+}
+
+void Fleet::TakeStatus(const RobotStatus& status, Member& member) {
+  RobotRecord& record = member.record;
+  record.state.battery_share = status.battery_share;
+  if (status.battery_share < low_battery_share_) {
+    record.battery_low = true;
+    HandBackClaim(member);
+  } else if (status.battery_share >= std::min(1.0, low_battery_share_ + kChargedShare)) {
+    record.battery_low = false;
+  }
+}
+
+void Fleet::HandBackClaim(Member& member) {
+  if (member.live) member.live->handed_back = true;
+  CompleteIfAllAre();
+}
+
+}  // namespace plumescout

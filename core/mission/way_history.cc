@@ -1,0 +1,381 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/mission/way_history.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/mission/memory_estimate.h"
+#include "core/types/error_reason.h"
+#include "core/types/status_macros.h"
+
+namespace plumescout {
+namespace {
+
+constexpr double kKeyDistance_m = 0.1;
+constexpr double kKeyTurn_rad = 5.0 * M_PI / 180.0;
+constexpr std::int64_t kKeyTime_ns = 1'000'000'000;
+constexpr int kMostTimes = 9;  // by then log-odds have come to their clamp
+constexpr std::int64_t kReadingBytes = 136;
+constexpr std::int64_t kScanBytes = 104;
+constexpr std::int64_t kBaseCellBytes = 5;
+// Doubt begins with the last scan that fitted, a little before a jump and its first anchor.
+constexpr std::int64_t kDoubtBefore_ns = 10'000'000'000;
+constexpr std::int64_t kMergedParts = 8;  // an eighth of the entries at a time
+
+bool IsAnother(const WayPoint& key, std::int64_t time_ns, const Pose2& pose) {
+  return time_ns >= key.time_ns && time_ns - key.time_ns < kKeyTime_ns &&
+         Distance_m(key.pose.position(), pose.position()) < kKeyDistance_m &&
+         std::abs(WrapAngle_rad(pose.yaw_rad - key.pose.yaw_rad)) < kKeyTurn_rad;
+}
+
+bool IsWithin(const Pose2& pose, double limit_m) {
+  return std::abs(pose.x_m) <= limit_m && std::abs(pose.y_m) <= limit_m;
+}
+
+}  // namespace
+
+WayHistory::WayHistory(const MissionOptions& options)
+    : keeps_(options.keep_scans),
+      occupancy_(options.occupancy),
+      gas_(options.gas),
+      pose_limit_m_(options.pose_limit_m),
+      prior_map_(options.prior_map),
+      base_readings_(options.gas, options.occupancy.resolution_m),
+      base_sampled_(options.occupancy.resolution_m) {}
+
+void WayHistory::BeginWith(const OccupancyGrid& map, const ReadingStore& readings,
+                           const SampledCells& sampled, std::int64_t time_ns) {
+  if (!keeps_) return;
+  base_map_ = map;
+  base_readings_ = readings.Unplaced();
+  base_sampled_ = sampled;
+  merged_ns_ = time_ns;
+}
+
+WayHistory::Way& WayHistory::WayOf(const RobotId& robot) {
+  const auto [found, is_new] = ways_.try_emplace(robot);
+  if (is_new) found->second.merged_ns = merged_ns_;
+  return found->second;
+}
+
+void WayHistory::AddReading(const RobotId& robot, std::int64_t time_ns, const Pose2& pose,
+                            const GasReading& reading, bool quarantined, const GasSensor& sensor) {
+  if (!keeps_) return;
+  Way& way = WayOf(robot);
+  way.readings.push_back({next_number_++, time_ns, pose, reading, quarantined,
+                          sensor.robot_from_sensor, sensor.id, sensor.offset_stddev_ppm});
+  way.latest = {time_ns, pose};
+  bytes_ += kReadingBytes;
+}
+
+void WayHistory::AddScan(const RobotId& robot, std::int64_t time_ns, const Pose2& pose,
+                         const Scan& scan, const std::vector<MaskDisc>& masks, bool quarantined) {
+  if (!keeps_) return;
+  Way& way = WayOf(robot);
+  const std::int64_t number = next_number_++;
+  way.latest = {time_ns, pose};
+  if (!way.scans.empty() && !way.key_scan_closed) {
+    KeptScan& last = way.scans.back();
+    if (last.quarantined == quarantined && IsAnother({last.time_ns, last.pose}, time_ns, pose)) {
+      last.times = std::min(last.times + 1, kMostTimes);
+      last.last = way.latest;
+      return;
+    }
+  }
+  auto packed = std::make_shared<const PackedScan>(Pack(scan, masks));
+  bytes_ += kScanBytes + packed->bytes();
+  way.scans.push_back({number, time_ns, pose, 1, way.latest, quarantined, std::move(packed)});
+  way.key_scan_closed = false;
+}
+
+void WayHistory::Quarantine(const RobotId& robot, std::int64_t from_number) {
+  const auto found = ways_.find(robot);
+  if (found == ways_.end()) return;
+  const auto put = [&](auto& entries) {
+    for (auto& entry : entries) entry.quarantined |= entry.number >= from_number;
+  };
+  put(found->second.readings);
+  put(found->second.scans);
+  used_ = true;
+}
+
+void WayHistory::DropQuarantined(const RobotId& robot) {
+  const auto found = ways_.find(robot);
+  if (found == ways_.end()) return;
+  Way& way = found->second;
+  std::erase_if(way.readings, [this](const KeptReading& entry) {
+    if (entry.quarantined) bytes_ -= kReadingBytes;
+    return entry.quarantined;
+  });
+  std::erase_if(way.scans, [this](const KeptScan& entry) {
+    if (entry.quarantined) bytes_ -= kScanBytes + entry.scan->bytes();
+    return entry.quarantined;
+  });
+  way.key_scan_closed = true;
+}
+
+bool WayHistory::HasQuarantined(const RobotId& robot) const {
+  const auto found = ways_.find(robot);
+  if (found == ways_.end()) return false;
+  const auto is_in = [](const auto& entry) { return entry.quarantined; };
+  return std::any_of(found->second.readings.begin(), found->second.readings.end(), is_in) ||
+         std::any_of(found->second.scans.begin(), found->second.scans.end(), is_in);
+}
+
+std::vector<WayPoint> WayHistory::PointsOf(const Way& way) const {
+  std::vector<WayPoint> points;
+  points.reserve(way.readings.size() + 2 * way.scans.size() + 1);
+  for (const KeptReading& entry : way.readings) points.push_back({entry.time_ns, entry.pose});
+  for (const KeptScan& entry : way.scans) {
+    points.push_back({entry.time_ns, entry.pose});
+    points.push_back(entry.last);
+  }
+  points.push_back(way.latest);
+  std::stable_sort(points.begin(), points.end(),
+                   [](const WayPoint& a, const WayPoint& b) { return a.time_ns < b.time_ns; });
+  return points;
+}
+
+absl::Status WayHistory::CheckAnchors(const RobotId& robot, const Way& way,
+                                      const std::vector<WayPoint>& points,
+                                      const std::vector<PoseAnchor>& anchors) const {
+  const std::int64_t first_ns = anchors.front().sample_time_ns;
+  if (first_ns <= way.merged_ns) {
+    return TypedError(absl::StatusCode::kFailedPrecondition, reason::kHistoryTrimmed,
+                      absl::StrCat("correction.anchors[0].sample_time_ns = ", first_ns,
+                                   " is before what is kept of robot \"", robot, "\", from after ",
+                                   way.merged_ns));
+  }
+  if (first_ns < points.front().time_ns) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("correction.anchors[0].sample_time_ns = ", first_ns,
+                     " is before the robot's first observation, ", points.front().time_ns));
+  }
+  for (std::size_t i = 0; i < anchors.size(); ++i) {
+    if (IsWithin(anchors[i].pose, pose_limit_m_)) continue;
+    return absl::InvalidArgumentError(absl::StrCat(
+        "correction.anchors[", i, "].pose = (", anchors[i].pose.x_m, ", ", anchors[i].pose.y_m,
+        ") in frame map must be within pose_limit_m = ", pose_limit_m_));
+  }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<bool> WayHistory::Correct(const RobotId& robot, std::int64_t time_ns,
+                                         const std::vector<PoseAnchor>& anchors,
+                                         std::int64_t doubtful_from) {
+  if (!keeps_) {
+    return absl::FailedPreconditionError(
+        "keep_scans = false, or memory is too short: the mission keeps nothing that could be "
+        "corrected");
+  }
+  const auto found = ways_.find(robot);
+  if (found == ways_.end()) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("correction.anchors[0].sample_time_ns = ", anchors.front().sample_time_ns,
+                     " is of a time of which no scan or reading is kept"));
+  }
+  Way corrected = found->second;
+  const std::vector<WayPoint> points = PointsOf(corrected);
+  PLUMESCOUT_RETURN_IF_ERROR(CheckAnchors(robot, corrected, points, anchors));
+  const WayCorrection correction(points, anchors);
+  // When what is in quarantine begins, of the present doubt and of earlier ones.
+  std::int64_t present_ns = std::numeric_limits<std::int64_t>::max();
+  std::int64_t earlier_ns = present_ns;
+  bool within = true;
+  const auto correct = [&](auto& entries) {
+    for (auto& entry : entries) {
+      std::int64_t& begin_ns = entry.number < doubtful_from ? earlier_ns : present_ns;
+      if (entry.quarantined) begin_ns = std::min(begin_ns, entry.time_ns);
+      if (entry.time_ns > time_ns) continue;
+      entry.pose = correction.Corrected(entry.time_ns, entry.pose);
+      within = within && IsWithin(entry.pose, pose_limit_m_);
+    }
+  };
+  correct(corrected.readings);
+  correct(corrected.scans);
+  for (KeptScan& entry : corrected.scans) {
+    if (entry.last.time_ns > time_ns) continue;
+    entry.last.pose = correction.Corrected(entry.last.time_ns, entry.last.pose);
+  }
+  if (corrected.latest.time_ns <= time_ns) {
+    corrected.latest.pose = correction.Corrected(corrected.latest.time_ns, corrected.latest.pose);
+  }
+  if (!within) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        "correction.anchors move the robot's way beyond pose_limit_m = ", pose_limit_m_));
+  }
+  const bool covers = anchors.back().sample_time_ns >= present_ns;
+  const bool covers_earlier = anchors.back().sample_time_ns >= earlier_ns;
+  const std::int64_t from_ns = anchors.front().sample_time_ns - kDoubtBefore_ns;
+  const auto release = [&](auto& entries) {
+    for (auto& entry : entries) {
+      const bool covered = entry.number < doubtful_from ? covers_earlier : covers;
+      if (covered && entry.time_ns >= from_ns) entry.quarantined = false;
+    }
+  };
+  release(corrected.readings);
+  release(corrected.scans);
+  corrected.key_scan_closed = true;
+  found->second = std::move(corrected);
+  used_ = true;
+  return covers;
+}
+
+std::vector<WayHistory::Heard> WayHistory::HeardReadings() const {
+  std::vector<Heard> heard;
+  for (const auto& [robot, way] : ways_) {
+    for (const KeptReading& entry : way.readings) {
+      if (entry.quarantined) continue;
+      heard.push_back({{robot, entry.sensor, entry.offset_stddev_ppm},
+                       entry.number,
+                       entry.time_ns,
+                       entry.place(),
+                       entry.reading});
+    }
+  }
+  std::sort(heard.begin(), heard.end(),
+            [](const Heard& a, const Heard& b) { return a.number < b.number; });
+  return heard;
+}
+
+ReadingStore WayHistory::Readings() const {
+  ReadingStore store = base_readings_;
+  for (const Heard& heard : HeardReadings()) {
+    store.Add(heard.time_ns, heard.place, heard.reading);
+  }
+  return store;
+}
+
+std::vector<Point2> WayHistory::ReadingPlaces() const {
+  std::vector<Point2> places;
+  for (const Heard& heard : HeardReadings()) places.push_back(heard.place);
+  return places;
+}
+
+SampledCells WayHistory::Sampled() const {
+  SampledCells sampled = base_sampled_;
+  for (const Point2 place : ReadingPlaces()) sampled.Add(place);
+  return sampled;
+}
+
+std::vector<PlacedScan> WayHistory::ScansFrom(std::int64_t number) const {
+  std::vector<std::pair<std::int64_t, PlacedScan>> entries;
+  for (const auto& [robot, way] : ways_) {
+    for (const KeptScan& entry : way.scans) {
+      if (entry.quarantined || entry.number < number) continue;
+      entries.push_back({entry.number, {entry.pose, entry.times, entry.scan}});
+    }
+  }
+  std::sort(entries.begin(), entries.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<PlacedScan> scans;
+  scans.reserve(entries.size());
+  for (auto& [at, scan] : entries) scans.push_back(std::move(scan));
+  return scans;
+}
+
+OccupancyGrid WayHistory::Base() const {
+  if (base_map_) return *base_map_;
+  OccupancyGrid grid(occupancy_);
+  if (prior_map_ != nullptr) grid.Learn(*prior_map_).IgnoreError();  // it was learnt before
+  return grid;
+}
+
+void WayHistory::CloseKeyScans() {
+  for (auto& [robot, way] : ways_) way.key_scan_closed = true;
+}
+
+std::int64_t WayHistory::base_bytes() const {
+  if (!base_map_) return 0;
+  return kBaseCellBytes * static_cast<std::int64_t>(base_map_->geometry().size()) +
+         kReadingSiteBytes *
+             static_cast<std::int64_t>(base_readings_.sites() + base_readings_.arrivals());
+}
+
+std::int64_t WayHistory::BytesOf(const Way& way) {
+  std::int64_t bytes = kReadingBytes * static_cast<std::int64_t>(way.readings.size());
+  for (const KeptScan& entry : way.scans) bytes += kScanBytes + entry.scan->bytes();
+  return bytes;
+}
+
+bool WayHistory::IsWhole() const {
+  const auto is_entry = [this](const auto& entry) {
+    return entry.number >= 1 && entry.number < next_number_ && entry.time_ns >= 0 &&
+           IsWithin(entry.pose, pose_limit_m_) && std::isfinite(entry.pose.yaw_rad);
+  };
+  const auto is_scan = [&](const KeptScan& entry) {
+    return is_entry(entry) && entry.times >= 1 && entry.times <= kMostTimes &&
+           entry.scan != nullptr;
+  };
+  return std::all_of(ways_.begin(), ways_.end(), [&](const auto& named) {
+    const Way& way = named.second;
+    return std::all_of(way.readings.begin(), way.readings.end(), is_entry) &&
+           std::all_of(way.scans.begin(), way.scans.end(), is_scan);
+  });
+}
+
+std::int64_t WayHistory::OldestNumber() const {
+  std::int64_t oldest = next_number_;
+  for (const auto& [robot, way] : ways_) {
+    if (!way.readings.empty()) oldest = std::min(oldest, way.readings.front().number);
+    if (!way.scans.empty()) oldest = std::min(oldest, way.scans.front().number);
+  }
+  return oldest;
+}
+
+void WayHistory::Trim(std::int64_t most_bytes) {
+  while (bytes_ > 0 && bytes() > most_bytes) {
+    const std::int64_t oldest = OldestNumber();
+    Merge(oldest + 1 + (next_number_ - oldest) / kMergedParts);
+  }
+  if (bytes() > most_bytes) GiveUp();
+}
+
+// What was merged is too much as well.
+void WayHistory::GiveUp() {
+  keeps_ = false;
+  bytes_ = 0;
+  ways_.clear();
+  base_map_.reset();
+  base_readings_ = ReadingStore(gas_, occupancy_.resolution_m);
+  base_sampled_ = SampledCells(occupancy_.resolution_m);
+}
+
+// What is in quarantine is lost.
+void WayHistory::Merge(std::int64_t below_number) {
+  if (!base_map_) base_map_ = Base();
+  std::vector<std::pair<std::int64_t, PlacedScan>> scans;
+  for (auto& [robot, way] : ways_) {
+    std::int64_t& merged_ns = way.merged_ns;
+    std::erase_if(way.readings, [&](const KeptReading& entry) {
+      if (entry.number >= below_number) return false;
+      merged_ns = std::max(merged_ns, entry.time_ns);
+      bytes_ -= kReadingBytes;
+      if (entry.quarantined) return true;
+      base_readings_.Add(entry.time_ns, entry.place(), entry.reading);
+      base_sampled_.Add(entry.place());
+      return true;
+    });
+    std::erase_if(way.scans, [&](const KeptScan& entry) {
+      if (entry.number >= below_number) return false;
+      merged_ns = std::max(merged_ns, entry.time_ns);
+      bytes_ -= kScanBytes + entry.scan->bytes();
+      if (!entry.quarantined)
+        scans.push_back({entry.number, {entry.pose, entry.times, entry.scan}});
+      return true;
+    });
+    if (way.scans.empty()) way.key_scan_closed = true;
+  }
+  std::sort(scans.begin(), scans.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<PlacedScan> placed;
+  placed.reserve(scans.size());
+  for (auto& [at, scan] : scans) placed.push_back(std::move(scan));
+  InsertAll(placed, StopFn(), *base_map_);
+}
+
+}  // namespace plumescout

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/home_orders.h"
+
+#include "absl/strings/str_format.h"
+
+namespace plumescout {
+
+PlanRequest WithOrders(const Belief& belief, PlanRequest request) {
+  const auto found = belief.robots.find(request.robot);
+  if (found != belief.robots.end() && IsSentHome(found->second)) request.go_home = true;
+  return request;
+}
+
+std::string WhySentHome(const Belief& belief, const RobotId& robot) {
+  const auto found = belief.robots.find(robot);
+  if (found == belief.robots.end() || !IsSentHome(found->second)) return "";
+  if (found->second.state.ordered_home) return " An operator ordered the robot home.";
+  return absl::StrFormat(" Its battery, at %.0f %%, has been below %.0f %%: it goes home.",
+                         100.0 * found->second.state.battery_share.value_or(0.0),
+                         100.0 * belief.options->return_home_below_battery_share);
+}
+
+}  // namespace plumescout

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/belief/belief.h"
+#include "core/plan/strategy.h"
+#include "core/types/ids.h"
+#include "core/types/plan.h"
+#include "core/types/stop.h"
+
+namespace plumescout {
+
+inline constexpr int kMostTeamRobots = 32;
+inline constexpr int kMostTeamOrders = kMostTeamRobots + 2;
+
+// A wish for plans for several robots at once.
+struct TeamRequest {
+  std::vector<RobotId> robots = {};  // empty: all that are free (team_belief.h)
+  bool go_home = false;
+  std::uint64_t seed = 0;  // 0: each plan's is derived from the mission's
+  // Orders of the robots that are tried, at most their number + 2 of which are different. >= 1
+  int max_order_count = 1;
+  std::int64_t max_edge_evaluations = 0;  // of each search; 0: no bound
+};
+
+// What a combination of plans is worth: how many robots have something to do, and then the sum of
+// their merits: what a way tells per second, or how soon it ends if that is not priced.
+struct TeamValue {
+  int busy = 0;
+  double merit = 0.0;
+
+  friend auto operator<=>(const TeamValue&, const TeamValue&) = default;
+};
+TeamValue ValueOf(const std::vector<Plan>& plans, const PlanningOptions& options);
+
+struct TeamPlan {
+  // One for each robot, in an order in which each keeps clear of those before it; to be committed
+  // in this order.
+  std::vector<Plan> plans;
+  TeamValue value;
+  int order_count = 0;   // that were tried to the end
+  int search_count = 0;  // plans that were searched for
+};
+
+// Plans for a team: robots choose one after the other, each knowing the plans of those before it as
+// if they were live. First the one whose plan is best, of those left each time (lazily: a plan that
+// was searched for before others chose is taken to promise the most that it can). Then other orders
+// are tried, that one turned round and those in which another goes first, and the best is kept.
+//
+// By *value*, robots that choose one after the other in any order have at least half of what the
+// best combination of the ways on their lists tells, for what is told is submodular (see
+// anticipation.h). They choose by value per second here, as for single robots, and keep clear of
+// each other: then there is no such bound, and the orders are what it is replaced by.
+//
+// Deterministic in belief, request and counts; `stop` ends the search with the best of the orders
+// tried so far. Errors: kInvalidArgument for more than kMostTeamRobots robots or one named twice,
+// or an order count below 1; kDeadlineExceeded if not even the first order came to its end; those
+// of Strategy::Plan. Cost: for k robots some 2 k searches, at most k (k + 1) / 2, and k for each
+// further order.
+absl::StatusOr<TeamPlan> PlanTeam(const Strategy& strategy, const Belief& belief,
+                                  const TeamRequest& request, const StopFn& stop);
+
+}  // namespace plumescout

@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/missions/robot_notices.h"
+
+#include <utility>
+
+#include "core/mission/conduct/conduct_errors.h"
+#include "core/types/status_macros.h"
+
+namespace plumescout::server {
+namespace {
+
+constexpr std::int64_t kNoLease = 0;  // tokens are above it
+
+}  // namespace
+
+absl::Status RobotNotices::Join(const std::shared_ptr<RobotWatcher>& watcher, const RobotId& robot,
+                                std::optional<std::int64_t> lease_token, WorkerPool* pool,
+                                const Belief& belief, const LeaseTable& leases,
+                                MissionState state) {
+  const auto found = belief.robots.find(robot);
+  if (found == belief.robots.end()) return RobotNotFound(robot);
+  if (lease_token) PLUMESCOUT_RETURN_IF_ERROR(leases.Check(robot, *lease_token));
+  absl::MutexLock lock(&mutex_);
+  state_ = state;
+  robots_[robot] = found->second.state;
+  leased_[robot] = leases.Standing(robot).held;
+  Place place{watcher, robot, lease_token, pool, {}};
+  place.standing = StandingOf(place);
+  ForgetEnded(belief);
+  const auto latest = latest_.find(robot);
+  if (latest != latest_.end()) {
+    place.invalidated = latest->second.invalidated;
+    place.assigned = latest->second.assigned;
+  }
+  places_[watcher.get()] = std::move(place);
+  return absl::OkStatus();
+}
+
+void RobotNotices::Leave(const RobotWatcher* watcher) {
+  absl::MutexLock lock(&mutex_);
+  places_.erase(watcher);
+}
+
+std::optional<RobotNotice> RobotNotices::Next(const RobotWatcher* watcher) {
+  absl::MutexLock lock(&mutex_);
+  const auto found = places_.find(watcher);
+  if (found == places_.end()) return std::nullopt;
+  Place& place = found->second;
+  if (std::exchange(place.standing_is_news, false)) return place.standing;
+  if (place.invalidated) return *std::exchange(place.invalidated, std::nullopt);
+  if (place.assigned) return *std::exchange(place.assigned, std::nullopt);
+  return std::nullopt;
+}
+
+int RobotNotices::watcher_count() const {
+  absl::MutexLock lock(&mutex_);
+  return static_cast<int>(places_.size());
+}
+
+void RobotNotices::Follow(const LeaseTable& leases, MissionState state) {
+  Woken woken;
+  std::vector<std::pair<std::shared_ptr<RobotWatcher>, absl::Status>> ended;
+  {
+    absl::MutexLock lock(&mutex_);
+    state_ = state;
+    for (auto place = places_.begin(); place != places_.end();) {
+      const RobotId& robot = place->second.robot;
+      const std::optional<std::int64_t> token = place->second.lease_token;
+      const absl::Status status = leases.Check(robot, token.value_or(kNoLease));
+      leased_[robot] = leases.Standing(robot).held;
+      if (status.ok() || (!token && !absl::IsNotFound(status))) {
+        ++place;
+        continue;
+      }
+      if (auto watcher = place->second.watcher.lock()) ended.emplace_back(watcher, status);
+      place = places_.erase(place);
+    }
+    UpdateStandings(woken);
+  }
+  for (const auto& [watcher, status] : ended) watcher->End(status);
+  for (const auto& watcher : woken) watcher->Wake();
+}
+
+SteadyTime RobotNotices::next_look(std::int64_t revision) const {
+  absl::MutexLock lock(&mutex_);
+  const bool idle = places_.empty() || revision == looked_at_;
+  return idle ? SteadyTime::max() : next_look_;
+}
+
+void RobotNotices::Look(BeliefPtr belief, SteadyTime now) {
+  Woken woken;
+  {
+    absl::MutexLock lock(&mutex_);
+    if (places_.empty()) return;
+    looked_at_ = belief->revision;
+    next_look_ = After(now, kLookPeriod);
+    robots_.clear();
+    for (const auto& [robot, record] : belief->robots) robots_[robot] = record.state;
+    UpdateStandings(woken);
+    ForgetEnded(*belief);
+    if (!is_looking_) {
+      WorkerPool& pool = *places_.begin()->second.pool;
+      is_looking_ =
+          pool.Submit([self = shared_from_this(), belief] { self->LookAtPlans(belief); }).ok();
+    }
+  }
+  for (const auto& watcher : woken) watcher->Wake();
+}
+
+void RobotNotices::LookAtPlans(const BeliefPtr& belief) {
+  const std::vector<PlanWatch::News> news = plan_watch_.Look(*belief);
+  Tell(news);
+  absl::MutexLock lock(&mutex_);
+  is_looking_ = false;
+}
+
+void RobotNotices::Tell(const std::vector<PlanWatch::News>& news) {
+  Woken woken;
+  {
+    absl::MutexLock lock(&mutex_);
+    for (const PlanWatch::News& one : news) {
+      const auto* invalidated = std::get_if<PlanInvalidated>(&one.notice);
+      const auto* assigned = std::get_if<PlanAssigned>(&one.notice);
+      Latest& latest = latest_[one.robot];
+      if (invalidated != nullptr) {
+        metrics_.NotePlanInvalidated(invalidated->reason);
+        latest.invalidated = *invalidated;
+      }
+      if (assigned != nullptr) latest.assigned = *assigned;
+      for (auto& [key, place] : places_) {
+        if (place.robot != one.robot) continue;
+        if (invalidated != nullptr) place.invalidated = *invalidated;
+        if (assigned != nullptr) place.assigned = *assigned;
+        if (auto watcher = place.watcher.lock()) woken.push_back(std::move(watcher));
+      }
+    }
+  }
+  for (const auto& watcher : woken) watcher->Wake();
+}
+
+RobotStanding RobotNotices::StandingOf(const Place& place) const {
+  RobotStanding standing{.paused = state_ == MissionState::kPaused,
+                         .finished = state_ == MissionState::kFinished};
+  const auto leased = leased_.find(place.robot);
+  standing.leased = leased != leased_.end() && leased->second;
+  const auto found = robots_.find(place.robot);
+  if (found == robots_.end()) return standing;
+  standing.ordered_home = found->second.ordered_home;
+  standing.frame_suspect = found->second.frame_suspect;
+  standing.silent = found->second.silent;
+  return standing;
+}
+
+void RobotNotices::UpdateStandings(Woken& woken) {
+  for (auto& [key, place] : places_) {
+    const RobotStanding standing = StandingOf(place);
+    if (standing == place.standing) continue;
+    place.standing = standing;
+    place.standing_is_news = true;
+    if (auto watcher = place.watcher.lock()) woken.push_back(std::move(watcher));
+  }
+}
+
+void RobotNotices::ForgetEnded(const Belief& belief) {
+  std::erase_if(latest_, [&](const auto& entry) { return belief.robots.count(entry.first) == 0; });
+  for (auto& [robot, latest] : latest_) {
+    const PlanId plan = belief.robots.at(robot).last_plan;
+    if (latest.invalidated && latest.invalidated->plan != plan) latest.invalidated.reset();
+    if (latest.assigned && latest.assigned->plan != plan) latest.assigned.reset();
+  }
+}
+
+}  // namespace plumescout::server

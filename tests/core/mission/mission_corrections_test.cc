@@ -1,0 +1,303 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+
+// Robots that join with a frame, that lose their place, and that correct their poses.
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/mission/conduct/mission_conduct.h"
+#include "core/mission/mission.h"
+#include "gmock/gmock.h"
+#include "gtest/gtest.h"
+#include "tests/support/box_room.h"
+#include "tests/support/same_bytes.h"
+
+namespace plumescout {
+namespace mission_corrections_test {
+
+using ::testing::HasSubstr;
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr double kWall_m = 0.05;  // walls stand in the middle of cells, not between two
+
+Scan RoomFrom(const Pose2& pose) {
+  return support::ScanInBox({pose.x_m - kWall_m, pose.y_m - kWall_m, pose.yaw_rad}, 7.1, 5.1);
+}
+
+class Recorder final : public ConductObserver {
+ public:
+  void OnEvent(const Event& event, const Applied& applied) override {
+    events.push_back(event.body);
+    suspicions += applied.turned_suspect ? 1 : 0;
+  }
+  std::vector<EventBody> events;
+  int suspicions = 0;
+};
+
+// Robot "a" drives a circle in a room, in steps of 0.1 s, and holds itself to be where Told says.
+class MissionCorrectionsTest : public testing::Test {
+ protected:
+  explicit MissionCorrectionsTest(const MissionOptions& options = {}) : options_(options) {
+    conduct_ = std::make_unique<MissionConduct>(*Mission::Create(options), &recorder_);
+    EXPECT_TRUE(conduct_->Register(RobotRegistered{"a", 0.2, 1}).ok());
+  }
+
+  Pose2 TruthAt(int step) const {
+    const double angle_rad = 0.02 * step;
+    return {3.5 + 1.5 * std::cos(angle_rad), 2.5 + 1.2 * std::sin(angle_rad), angle_rad};
+  }
+  absl::Status Send(std::int64_t time_ns, const Pose2& pose, ObservationPayload payload) {
+    std::vector<IncomingObservation> batch(1);
+    batch[0].observation = {++sequence_, time_ns, pose, std::move(payload)};
+    IngestResult result = conduct_->Ingest("a", 1, std::move(batch));
+    EXPECT_TRUE(result.status.ok()) << result.status;
+    return result.refused.empty() ? absl::OkStatus() : result.refused[0].status;
+  }
+  static std::int64_t TimeOf(int step) { return kSecond_ns + step * kSecond_ns / 10; }
+  void Drive(int steps, const Pose2& frame = {}) {
+    for (int i = 0; i < steps; ++i, ++step_) {
+      const Pose2 truth = TruthAt(step_);
+      const Pose2 told = frame == Pose2{} ? truth : Compose(frame, truth);
+      EXPECT_TRUE(Send(TimeOf(step_), told, RoomFrom(truth)).ok());
+      if (step_ % 5 == 0) {
+        EXPECT_TRUE(Send(TimeOf(step_), told, GasReading{10.0 * truth.x_m, 0.0}).ok());
+      }
+    }
+  }
+  RobotState State() const { return conduct_->Snapshot()->robots.at("a").state; }
+  int Occupied() const {
+    const auto belief = conduct_->Snapshot();
+    return static_cast<int>(std::count(belief->occupancy->values().begin(),
+                                       belief->occupancy->values().end(), CellState::kOccupied));
+  }
+  std::vector<EventBody> Rebuilds() const {
+    std::vector<EventBody> rebuilds;
+    for (const EventBody& body : recorder_.events) {
+      if (std::holds_alternative<MapRebuilt>(body)) rebuilds.push_back(body);
+    }
+    return rebuilds;
+  }
+  // The correction of a way that jumped at that step.
+  PoseCorrection Back(int jumped) const {
+    PoseCorrection correction;
+    for (const int step : {jumped - 1, jumped, step_ - 1}) {
+      correction.anchors.push_back({TimeOf(step), TruthAt(step)});
+    }
+    return correction;
+  }
+  void ExpectReplays() const {
+    const auto replay = *Mission::Create(options_);
+    for (const EventBody& body : recorder_.events) ASSERT_TRUE(replay->Apply(body).ok());
+    EXPECT_EQ(replay->Digest(), conduct_->mission().Digest());
+  }
+
+  const MissionOptions options_;
+  Recorder recorder_;
+  std::unique_ptr<MissionConduct> conduct_;
+  std::int64_t sequence_ = 0;
+  int step_ = 0;
+};
+
+// About the robot, which was at the step's place.
+Pose2 JumpAbout(const Pose2& place, double dx_m, double dy_m, double dyaw_rad) {
+  const Pose2 after{place.x_m + dx_m, place.y_m + dy_m, place.yaw_rad + dyaw_rad};
+  return Compose(after, Inverse(place));
+}
+
+TEST_F(MissionCorrectionsTest, AFrameIsTakenOffWhatTheRobotSends) {
+  const RobotFrame frame{{2.0, -1.0, 0.5}, 0.1, 0.01};
+  RobotRegistered registration{"a", 0.2, 2};
+  registration.frame = frame;
+  const auto other = *Mission::Create({});
+  const auto plain = *Mission::Create({});
+  ASSERT_TRUE(other->Apply(registration).ok());
+  ASSERT_TRUE(plain->Apply(RobotRegistered{"a", 0.2, 2}).ok());
+  for (int step = 0; step < 20; ++step) {
+    const Pose2 truth = TruthAt(step);
+    const Scan scan = RoomFrom(truth);
+    const Pose2 told = InRobot(frame, truth);
+    ASSERT_TRUE(other->Apply(ObservationReceived{"a", {step + 1, TimeOf(step), told, scan}}).ok());
+    ASSERT_TRUE(plain->Apply(ObservationReceived{"a", {step + 1, TimeOf(step), truth, scan}}).ok());
+  }
+  const RobotRecord a = other->Snapshot()->robots.at("a");
+  const RobotRecord b = plain->Snapshot()->robots.at("a");
+  EXPECT_NEAR(a.state.pose.x_m, b.state.pose.x_m, 1e-9);
+  EXPECT_NEAR(a.state.pose.yaw_rad, b.state.pose.yaw_rad, 1e-9);
+  EXPECT_NEAR(a.travelled_m, b.travelled_m, 1e-9);
+  EXPECT_EQ(a.state.frame, frame);
+  registration.lease_token = 3;
+  registration.frame.mission_from_robot.x_m = NAN;
+  EXPECT_THAT(std::string(other->Apply(registration).status().message()),
+              HasSubstr("frame.mission_from_robot.x_m"));
+  registration.frame.mission_from_robot.x_m = 1000.0;
+  ASSERT_TRUE(other->Apply(registration).ok());
+  const auto beyond =
+      other->Apply(ObservationReceived{"a", {21, TimeOf(21), {5.0, 0, 0}, GasReading{1.0, 0.0}}});
+  EXPECT_THAT(std::string(beyond->observation.message()), HasSubstr("in frame map"));
+}
+
+TEST_F(MissionCorrectionsTest, AJumpPutsTheRobotUnderSuspicionAndLeavesTheMapAsItWas) {
+  Drive(100);
+  const int walls = Occupied();
+  const auto counters = conduct_->Snapshot()->gas_counters;
+  const Pose2 jump = JumpAbout(TruthAt(step_), 0.6, 0.3, 0.1);
+  Drive(50, jump);
+  EXPECT_TRUE(State().frame_suspect);
+  EXPECT_EQ(recorder_.suspicions, 1);
+  EXPECT_EQ(Rebuilds().size(), 1u) << "without what came before it was noticed";
+  EXPECT_NEAR(Occupied(), walls, walls / 20);
+  EXPECT_EQ(conduct_->Snapshot()->gas_counters.readings, counters.readings);
+  ExpectReplays();
+}
+
+TEST_F(MissionCorrectionsTest, ACorrectionBringsInWhatWasInQuarantine) {
+  Drive(100);
+  const int jumped = step_;
+  const Pose2 jump = JumpAbout(TruthAt(step_), 1.2, -0.8, 0.35);
+  Drive(80, jump);
+  ASSERT_TRUE(State().frame_suspect);
+  ASSERT_TRUE(Send(TimeOf(step_ - 1), TruthAt(step_ - 1), Back(jumped)).ok());
+  EXPECT_FALSE(State().frame_suspect);
+  EXPECT_EQ(conduct_->Snapshot()->gas_counters.readings, 36);
+  const Pose2 end = State().pose;
+  EXPECT_NEAR(Distance_m(end.position(), TruthAt(step_ - 1).position()), 0.0, 1e-9);
+  Drive(30);
+  EXPECT_FALSE(State().frame_suspect);
+  EXPECT_EQ(Rebuilds().size(), 2u);
+  ExpectReplays();
+
+  // As if it had not happened.
+  MissionConduct without(*Mission::Create({}));
+  ASSERT_TRUE(without.Register(RobotRegistered{"a", 0.2, 1}).ok());
+  std::int64_t sequence = 0;
+  for (int step = 0; step < step_; ++step) {
+    const Pose2 truth = TruthAt(step);
+    std::vector<IncomingObservation> batch(1);
+    batch[0].observation = {++sequence, TimeOf(step), truth, RoomFrom(truth)};
+    if (step % 5 == 0) {
+      batch.emplace_back().observation = {++sequence, TimeOf(step), truth,
+                                          GasReading{10.0 * truth.x_m, 0.0}};
+    }
+    ASSERT_TRUE(without.Ingest("a", 1, std::move(batch)).status.ok());
+  }
+  const auto right = *without.FreshBelief();
+  const auto mended = *conduct_->FreshBelief();
+  EXPECT_EQ(mended->gas_counters, right->gas_counters);
+  int differ = 0;
+  double worst_ppm = 0.0;
+  for (std::size_t i = 0; i < right->occupancy->size(); ++i) {
+    const Point2 at = right->geometry().Center(right->geometry().CellAtIndex(i));
+    const Cell cell = mended->geometry().CellAt(at);
+    const CellState state = mended->occupancy->At(cell, CellState::kUnknown);
+    differ += state != (*right->occupancy)[i] ? 1 : 0;
+    if (state != CellState::kFree || (*right->occupancy)[i] != CellState::kFree) continue;
+    worst_ppm = std::max(worst_ppm, std::abs(static_cast<double>((*right->gas_mean_ppm)[i]) -
+                                             static_cast<double>((*mended->gas_mean_ppm)[cell])));
+  }
+  EXPECT_LE(differ, 5);
+  EXPECT_LT(worst_ppm, 0.5);
+}
+
+TEST_F(MissionCorrectionsTest, ScansThatFitAgainEndTheSuspicionWithoutTheStretch) {
+  Drive(100);
+  const std::int64_t readings = conduct_->Snapshot()->gas_counters.readings;
+  Drive(40, JumpAbout(TruthAt(step_), 0.8, 0.5, 0.2));
+  ASSERT_TRUE(State().frame_suspect);
+  Drive(20);
+  EXPECT_TRUE(State().frame_suspect);
+  Drive(30);
+  EXPECT_FALSE(State().frame_suspect);
+  EXPECT_LT(conduct_->Snapshot()->gas_counters.readings, readings + 8);
+  ExpectReplays();
+}
+
+TEST_F(MissionCorrectionsTest, AnotherFrameEndsTheSuspicionTheSameDoesNot) {
+  Drive(100);
+  Drive(40, JumpAbout(TruthAt(step_), 0.8, 0.5, 0.2));
+  ASSERT_TRUE(State().frame_suspect);
+  RobotRegistered again{"a", 0.2, 2};
+  ASSERT_TRUE(conduct_->Register(again).ok());
+  EXPECT_TRUE(State().frame_suspect);
+  again.lease_token = 3;
+  again.frame.mission_from_robot = {0.1, 0.0, 0.0};
+  ASSERT_TRUE(conduct_->Register(again).ok());
+  EXPECT_FALSE(State().frame_suspect);
+}
+
+TEST_F(MissionCorrectionsTest, RefusalsNameFieldAndValueAndChangeNothing) {
+  Drive(20);
+  const auto before = conduct_->Snapshot()->gas_counters;
+  const auto refuse = [&](const PoseCorrection& correction) {
+    const absl::Status status = Send(TimeOf(step_), TruthAt(step_), correction);
+    EXPECT_FALSE(status.ok());
+    return std::string(status.message());
+  };
+  EXPECT_THAT(refuse({}), HasSubstr("correction has 0 anchors"));
+  EXPECT_THAT(refuse({{{TimeOf(3), {}}, {TimeOf(2), {}}}}), HasSubstr("anchors[1].sample_time_ns"));
+  EXPECT_THAT(refuse({{{TimeOf(3), {NAN, 0, 0}}}}), HasSubstr("anchors[0].pose.x_m"));
+  EXPECT_THAT(refuse({{{TimeOf(step_ + 1), {}}}}), HasSubstr("must not be after"));
+  EXPECT_THAT(refuse({{{5, {}}}}), HasSubstr("before the robot's first observation"));
+  EXPECT_EQ(State().rejected_observations, 5);
+  EXPECT_EQ(conduct_->Snapshot()->gas_counters, before);
+  EXPECT_EQ(conduct_->mission().rebuild(), nullptr);
+  EXPECT_FALSE(conduct_->mission().rebuild_due());
+  EXPECT_TRUE(
+      absl::IsFailedPrecondition(Mission::Create({}).value()->Apply(MapRebuilt{}).status()));
+  ExpectReplays();
+}
+
+TEST_F(MissionCorrectionsTest, ASavedMissionGoesOnAsTheOneThatWasSaved) {
+  Drive(100);
+  const int jumped = step_;
+  Drive(40, JumpAbout(TruthAt(step_), 1.0, 0.5, 0.2));
+  ASSERT_TRUE(conduct_->BeginEpoch().ok());
+  Drive(20, JumpAbout(TruthAt(jumped), 1.0, 0.5, 0.2));
+  const Mission& mission = conduct_->mission();
+  std::unique_ptr<Mission> replay = *Mission::Create({});
+  std::unique_ptr<Mission> restored;
+  std::size_t saved_at = 0;
+  for (std::size_t i = 0; i < recorder_.events.size(); ++i) {
+    ASSERT_TRUE(replay->Apply(recorder_.events[i]).ok());
+    if (replay->rebuild() != nullptr) {
+      EXPECT_FALSE(replay->can_be_saved());
+    }
+    if (!std::holds_alternative<EpochAdopted>(recorder_.events[i])) continue;
+    if (!replay->can_be_saved()) continue;
+    restored = *Mission::Restore({}, *replay->SaveState());
+    saved_at = i + 1;
+  }
+  ASSERT_NE(restored, nullptr);
+  ASSERT_TRUE(Send(TimeOf(step_ - 1), TruthAt(step_ - 1), Back(jumped)).ok());
+  Drive(30);
+  for (std::size_t i = saved_at; i < recorder_.events.size(); ++i) {
+    ASSERT_TRUE(restored->Apply(recorder_.events[i]).ok());
+  }
+  EXPECT_EQ(restored->Digest(), mission.Digest());
+  ExpectReplays();
+}
+
+class MissionWithoutScansKept : public MissionCorrectionsTest {
+ protected:
+  static MissionOptions Options() {
+    MissionOptions options;
+    options.keep_scans = false;
+    return options;
+  }
+  MissionWithoutScansKept() : MissionCorrectionsTest(Options()) {}
+};
+
+TEST_F(MissionWithoutScansKept, RefusesCorrectionsAndDoubtsNobody) {
+  Drive(50);
+  Drive(20, JumpAbout(TruthAt(step_), 1.0, 0.5, 0.2));
+  EXPECT_FALSE(State().frame_suspect);
+  const absl::Status status = Send(TimeOf(step_ - 1), {}, Back(50));
+  EXPECT_EQ(status.code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_THAT(std::string(status.message()), HasSubstr("keep_scans"));
+}
+
+}  // namespace mission_corrections_test
+}  // namespace plumescout

@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/mission/way_history.h"
+
+#include "core/types/error_reason.h"
+#include "gmock/gmock.h"
+#include "gtest/gtest.h"
+#include "tests/support/box_room.h"
+
+namespace plumescout {
+namespace way_history_test {
+
+using ::testing::HasSubstr;
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+class WayHistoryTest : public testing::Test {
+ protected:
+  void Scan(double x_m, std::int64_t time_ns, bool quarantined = false) {
+    const Pose2 pose{x_m, 1.5, 0.0};
+    history_.AddScan("a", time_ns, pose, support::ScanInBox(pose, 6, 3), {}, quarantined);
+  }
+  void Read(double x_m, std::int64_t time_ns, bool quarantined = false) {
+    history_.AddReading("a", time_ns, {x_m, 1.5, 0.0}, {2.0, 0.0}, quarantined);
+  }
+
+  WayHistory history_{MissionOptions()};
+};
+
+TEST_F(WayHistoryTest, KeepsKeyScansAndCountsTheOthers) {
+  for (int i = 0; i < 5; ++i) Scan(1.0 + 0.01 * i, i * kSecond_ns / 10);
+  Scan(1.2, kSecond_ns / 2);
+  Scan(1.2, 2 * kSecond_ns);
+  const std::vector<PlacedScan> scans = history_.ScansFrom(0);
+  ASSERT_EQ(scans.size(), 3u);
+  EXPECT_EQ(scans[0].times, 5);
+  EXPECT_EQ(scans[0].pose.x_m, 1.0);
+  EXPECT_EQ(scans[1].times, 1) << "moved";
+  EXPECT_EQ(scans[2].times, 1) << "stood for a second";
+  EXPECT_EQ(history_.bytes(), 3 * (104 + 160 + 720));
+  history_.CloseKeyScans();
+  Scan(1.2, 2 * kSecond_ns);
+  EXPECT_EQ(history_.ScansFrom(0).size(), 4u);
+  EXPECT_EQ(history_.ScansFrom(history_.next_number() - 1).size(), 1u);
+}
+
+TEST_F(WayHistoryTest, WhatIsInQuarantineCountsForNothing) {
+  Read(1.0, 0);
+  const std::int64_t from = history_.next_number();
+  Read(2.0, kSecond_ns);
+  Scan(2.0, kSecond_ns);
+  EXPECT_FALSE(history_.was_used());
+  history_.Quarantine("a", from);
+  EXPECT_TRUE(history_.was_used());
+  EXPECT_TRUE(history_.HasQuarantined("a"));
+  EXPECT_EQ(history_.Readings().counters().readings, 1);
+  EXPECT_TRUE(history_.ScansFrom(0).empty());
+  history_.DropQuarantined("a");
+  EXPECT_FALSE(history_.HasQuarantined("a"));
+  EXPECT_EQ(history_.bytes(), 136);
+}
+
+TEST_F(WayHistoryTest, ACorrectionThatCoversTheQuarantineEndsIt) {
+  for (int t = 0; t < 10; ++t) Read(1.0 + t, t * kSecond_ns, /*quarantined=*/t >= 5);
+  const auto before = history_.Correct("a", 10 * kSecond_ns, {{2 * kSecond_ns, {3.0, 2.0, 0.0}}});
+  ASSERT_TRUE(before.ok()) << before.status();
+  EXPECT_FALSE(*before);
+  EXPECT_EQ(history_.ReadingPlaces().size(), 5u);
+  const auto covers = history_.Correct(
+      "a", 10 * kSecond_ns, {{4 * kSecond_ns, {5.0, 2.0, 0.0}}, {5 * kSecond_ns, {6.0, 4.0, 0.0}}});
+  ASSERT_TRUE(covers.ok()) << covers.status();
+  EXPECT_TRUE(*covers);
+  const std::vector<Point2> places = history_.ReadingPlaces();
+  ASSERT_EQ(places.size(), 10u);
+  EXPECT_NEAR(places[3].y_m, 2.0, 1e-9);
+  EXPECT_NEAR(places[9].x_m, 10.0, 1e-9);
+  EXPECT_NEAR(places[9].y_m, 4.0, 1e-9);
+}
+
+TEST_F(WayHistoryTest, ACorrectionOfAnEarlierDoubtLeavesThePresentOne) {
+  for (int t = 0; t < 30; ++t) Read(1.0, t * kSecond_ns, /*quarantined=*/t < 3 || t >= 25);
+  const std::int64_t present = history_.next_number() - 5;
+  const auto covers =
+      history_.Correct("a", 30 * kSecond_ns, {{2 * kSecond_ns, {1.0, 2.0, 0.0}}}, present);
+  ASSERT_TRUE(covers.ok()) << covers.status();
+  EXPECT_FALSE(*covers);
+  EXPECT_EQ(history_.ReadingPlaces().size(), 25u);
+}
+
+TEST_F(WayHistoryTest, WhatCameAfterTheCorrectionIsRight) {
+  Read(1.0, kSecond_ns);
+  Read(2.0, 3 * kSecond_ns);
+  ASSERT_TRUE(history_.Correct("a", 2 * kSecond_ns, {{kSecond_ns, {1.0, 2.5, 0.0}}}).ok());
+  const std::vector<Point2> places = history_.ReadingPlaces();
+  EXPECT_EQ(places[0], (Point2{1.0, 2.5}));
+  EXPECT_EQ(places[1], (Point2{2.0, 1.5}));
+}
+
+TEST_F(WayHistoryTest, RefusesWhatItCannotCorrect) {
+  Read(1.0, kSecond_ns);
+  const auto message = [&](std::vector<PoseAnchor> anchors, const char* robot = "a") {
+    const auto corrected = history_.Correct(robot, 9 * kSecond_ns, anchors);
+    EXPECT_EQ(corrected.status().code(), absl::StatusCode::kInvalidArgument);
+    return std::string(corrected.status().message());
+  };
+  EXPECT_THAT(message({{5, {}}}), HasSubstr("anchors[0].sample_time_ns = 5 is before"));
+  EXPECT_THAT(message({{5, {}}}, "b"), HasSubstr("anchors[0].sample_time_ns = 5"));
+  EXPECT_THAT(message({{kSecond_ns, {1001.0, 0.0, 0.0}}}), HasSubstr("anchors[0].pose"));
+  EXPECT_EQ(history_.ReadingPlaces()[0], (Point2{1.0, 1.5}));
+  Read(999.0, 2 * kSecond_ns);
+  EXPECT_THAT(message({{kSecond_ns, {900.0, 0.0, 0.0}}}), HasSubstr("beyond pose_limit_m"));
+  EXPECT_EQ(history_.ReadingPlaces()[0], (Point2{1.0, 1.5}));
+  MissionOptions without;
+  without.keep_scans = false;
+  WayHistory none(without);
+  none.AddReading("a", 5, {}, {}, false);
+  const auto refused = none.Correct("a", 9, {{5, {}}});
+  EXPECT_EQ(refused.status().code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_THAT(std::string(refused.status().message()), HasSubstr("keep_scans"));
+}
+
+TEST_F(WayHistoryTest, WhatIsTrimmedStaysInTheMapButCannotBeCorrected) {
+  constexpr int kCount = 300;
+  for (int t = 0; t < kCount; ++t) {
+    Scan(1.0 + 0.1 * (t % 40), t * kSecond_ns);
+    Read(1.0 + 0.1 * (t % 40), t * kSecond_ns);
+  }
+  OccupancyGrid whole = history_.Base();
+  InsertAll(history_.ScansFrom(0), {}, whole);
+  const std::int64_t all_bytes = history_.bytes();
+  history_.Trim(all_bytes);
+  EXPECT_EQ(history_.bytes(), all_bytes);
+  // All of it merged: the map, and the readings.
+  history_.Trim(5 * static_cast<std::int64_t>(whole.geometry().size()) + kCount * 500);
+  EXPECT_TRUE(history_.ScansFrom(0).empty());
+  EXPECT_EQ(history_.Readings().counters().readings, kCount);
+  EXPECT_EQ(history_.Base().States().values(), whole.States().values());
+  const auto corrected = history_.Correct("a", 400 * kSecond_ns, {{5 * kSecond_ns, {}}});
+  EXPECT_EQ(corrected.status().code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_EQ(ErrorReason(corrected.status()), reason::kHistoryTrimmed);
+  ASSERT_TRUE(history_.keeps());
+  history_.Trim(history_.bytes() - 1);
+  EXPECT_FALSE(history_.keeps()) << "what was merged is too much as well";
+  EXPECT_EQ(history_.bytes(), 0);
+}
+
+}  // namespace way_history_test
+}  // namespace plumescout

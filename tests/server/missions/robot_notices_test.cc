@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/missions/robot_notices.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <utility>
+
+#include "absl/synchronization/blocking_counter.h"
+#include "absl/synchronization/notification.h"
+#include "core/mission/conduct/mission_conduct.h"
+#include "core/types/error_reason.h"
+
+namespace plumescout::server {
+namespace robot_notices_test {
+
+class Watcher final : public RobotWatcher {
+ public:
+  void Wake() override { ++wakes; }
+  void End(const absl::Status& status) override { end = status; }
+
+  int wakes = 0;
+  absl::Status end;
+};
+
+class RobotNoticesTest : public ::testing::Test {
+ protected:
+  RobotNoticesTest() {
+    auto belief = std::make_shared<Belief>(*Mission(MissionOptions{}).Snapshot());
+    belief->revision = 1;
+    belief_ = belief;
+    for (const char* robot : {"r1", "r2"}) {
+      belief->robots[robot].state.id = robot;
+      leases_.Grant(robot, kLease);
+    }
+  }
+  absl::Status Join(const std::shared_ptr<Watcher>& watcher, const RobotId& robot = "r1",
+                    std::optional<std::int64_t> lease = kLease) {
+    return notices_->Join(watcher, robot, lease, &pool_, *belief_, leases_, state_);
+  }
+  // A watcher that has heard how its robot stands.
+  std::shared_ptr<Watcher> Joined(const RobotId& robot = "r1") {
+    auto watcher = std::make_shared<Watcher>();
+    EXPECT_TRUE(Join(watcher, robot).ok());
+    EXPECT_TRUE(notices_->Next(watcher.get()).has_value());
+    return watcher;
+  }
+  // The mission goes on to a next revision, at which there is a look.
+  void Look(const std::function<void(Belief&)>& change) {
+    auto belief = std::make_shared<Belief>(*belief_);
+    ++belief->revision;
+    change(*belief);
+    belief_ = belief;
+    now_ = After(now_, absl::Seconds(1));
+    notices_->Look(belief_, now_);
+    absl::Notification done;  // the pool has one thread
+    ASSERT_TRUE(pool_.Submit([&] { done.Notify(); }).ok());
+    done.WaitForNotification();
+  }
+  // Robot r1 has a plan that it did not ask for.
+  static void Assign(Belief& belief, PlanId plan) {
+    RobotRecord& record = belief.robots["r1"];
+    record.last_plan = record.assigned_plan = plan;
+    Trajectory way;
+    way.waypoints = {{{0.0, 0.0, 0.0}}, {{1.0, 0.0, 0.0}, 1.0}};
+    way.duration_s = 1.0;
+    record.live_trajectory = std::make_shared<const Trajectory>(way);
+  }
+
+  static constexpr std::int64_t kLease = 7;
+
+  WorkerPool pool_{{"looks", 1, 100}};
+  LeaseTable leases_{absl::Hours(1), 1, SteadyNow};
+  MissionState state_ = MissionState::kRunning;
+  std::shared_ptr<const Belief> belief_;
+  SteadyTime now_ = SteadyNow();
+  std::shared_ptr<RobotNotices> notices_ =
+      std::make_shared<RobotNotices>(&MissionMetrics::Unread());
+};
+
+TEST_F(RobotNoticesTest, TheFirstNoticeSaysHowTheRobotStands) {
+  const auto watcher = std::make_shared<Watcher>();
+  ASSERT_TRUE(Join(watcher).ok());
+  EXPECT_EQ(notices_->Next(watcher.get()), RobotNotice(RobotStanding{.leased = true}));
+  EXPECT_EQ(notices_->Next(watcher.get()), std::nullopt);
+  EXPECT_EQ(notices_->watcher_count(), 1);
+  notices_->Leave(watcher.get());
+  EXPECT_EQ(notices_->watcher_count(), 0);
+}
+
+TEST_F(RobotNoticesTest, WhoMayNotWatchDoesNotJoin) {
+  const auto watcher = std::make_shared<Watcher>();
+  EXPECT_EQ(ErrorReason(Join(watcher, "r9")), "ROBOT_NOT_FOUND");
+  EXPECT_EQ(ErrorReason(Join(watcher, "r1", kLease - 1)), "LEASE_SUPERSEDED");
+  EXPECT_EQ(notices_->watcher_count(), 0);
+  EXPECT_TRUE(Join(watcher, "r1", std::nullopt).ok());
+}
+
+TEST_F(RobotNoticesTest, ChangesOfTheMissionsStateAreToldAtOnce) {
+  const auto watcher = Joined();
+  notices_->Follow(leases_, MissionState::kPaused);
+  EXPECT_EQ(watcher->wakes, 1);
+  EXPECT_EQ(notices_->Next(watcher.get()),
+            RobotNotice(RobotStanding{.paused = true, .leased = true}));
+  notices_->Follow(leases_, MissionState::kPaused);
+  EXPECT_EQ(watcher->wakes, 1);
+  notices_->Follow(leases_, MissionState::kFinished);
+  EXPECT_EQ(notices_->Next(watcher.get()),
+            RobotNotice(RobotStanding{.finished = true, .leased = true}));
+}
+
+TEST_F(RobotNoticesTest, ASlowWatcherGetsTheNewestOfEachKind) {
+  const auto watcher = Joined();
+  Look([](Belief& belief) { Assign(belief, 1); });
+  notices_->Follow(leases_, MissionState::kPaused);
+  Look([](Belief& belief) { Assign(belief, 2); });
+  notices_->Follow(leases_, MissionState::kRunning);
+  Look([](Belief& belief) {
+    Assign(belief, 3);
+    belief.robots["r1"].state.ordered_home = true;
+  });
+  EXPECT_EQ(notices_->Next(watcher.get()),
+            RobotNotice(RobotStanding{.ordered_home = true, .leased = true}));
+  const auto invalidated = notices_->Next(watcher.get());
+  ASSERT_TRUE(invalidated.has_value());
+  EXPECT_EQ(std::get<PlanInvalidated>(*invalidated).plan, 2);
+  EXPECT_EQ(notices_->Next(watcher.get()), RobotNotice(PlanAssigned{3}));
+  EXPECT_EQ(notices_->Next(watcher.get()), std::nullopt);
+}
+
+TEST_F(RobotNoticesTest, WhoComesLaterIsToldWhatStillHolds) {
+  const auto first = Joined("r2");  // looks are for watchers
+  Look([](Belief& belief) { Assign(belief, 1); });
+  EXPECT_EQ(notices_->Next(first.get()), std::nullopt);  // of another robot
+  const auto second = Joined();
+  EXPECT_EQ(notices_->Next(second.get()), RobotNotice(PlanAssigned{1}));
+  Look([](Belief& belief) { belief.robots["r1"].last_plan = 2; });
+  const auto third = Joined();
+  EXPECT_EQ(notices_->Next(third.get()), std::nullopt);
+}
+
+TEST_F(RobotNoticesTest, WhoseLeaseIsTakenHearsNoMore) {
+  const auto of_r1 = Joined();
+  const auto of_r2 = Joined("r2");
+  const auto overseer = std::make_shared<Watcher>();
+  ASSERT_TRUE(Join(overseer, "r1", std::nullopt).ok());
+  leases_.Grant("r1", kLease + 1);
+  notices_->Follow(leases_, state_);
+  EXPECT_EQ(ErrorReason(of_r1->end), "LEASE_SUPERSEDED");
+  EXPECT_TRUE(of_r2->end.ok());
+  EXPECT_TRUE(overseer->end.ok());
+  EXPECT_EQ(notices_->watcher_count(), 2);
+  leases_.Remove("r1");
+  notices_->Follow(leases_, state_);
+  EXPECT_EQ(ErrorReason(overseer->end), "ROBOT_NOT_FOUND");
+}
+
+TEST_F(RobotNoticesTest, LooksAreForNewsAndForWatchersAndNotTooOften) {
+  EXPECT_EQ(notices_->next_look(2), SteadyTime::max());
+  const auto watcher = Joined();
+  EXPECT_LE(notices_->next_look(2), now_);
+  Look([](Belief&) {});
+  EXPECT_EQ(notices_->next_look(belief_->revision), SteadyTime::max());
+  EXPECT_EQ(notices_->next_look(belief_->revision + 1), After(now_, RobotNotices::kLookPeriod));
+}
+
+}  // namespace robot_notices_test
+}  // namespace plumescout::server
