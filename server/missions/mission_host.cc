@@ -115,7 +115,7 @@ HostLoad MissionHost::load() const {
 
 IngestResult MissionHost::Ingest(MissionWriter& writer, const RobotId& robot,
                                  std::int64_t lease_token, std::vector<IncomingObservation> batch,
-                                 std::int64_t sent_time_ns) {
+                                 const BatchTimes& times) {
   MissionConduct& conduct = writer.conduct();
   const auto refuse = [&](const absl::Status& status) {
     return IngestResult{status, conduct.Position(robot).value_or(LogPosition{}), {}};
@@ -124,21 +124,20 @@ IngestResult MissionHost::Ingest(MissionWriter& writer, const RobotId& robot,
   const absl::Status leased = conduct.CheckLease(robot, lease_token);
   if (!leased.ok()) return refuse(leased);
   const std::int64_t in_force_ns = writer.mission().StateOf(robot).value().clock_offset_ns;
-  const std::int64_t now_ns = mission_clock_.now_ns();
-  const auto [offset_ns, was_set] = robot_clocks_.Reckon(robot, sent_time_ns, now_ns, in_force_ns);
+  const auto [offset_ns, was_set] = robot_clocks_.Reckon(robot, times, in_force_ns);
   IngestResult result;
   if (was_set) {
     result = IngestMapped(writer, robot, lease_token,
-                          TakeMadeBefore(in_force_ns - offset_ns, sent_time_ns, batch),
-                          ClockGate::Mapped{in_force_ns, now_ns});
+                          TakeMadeBefore(in_force_ns - offset_ns, times.sent_ns, batch),
+                          ClockGate::Mapped{in_force_ns, times.arrived_ns});
     if (!result.status.ok()) return result;
   }
   const absl::Status noted = conduct.NoteClock({robot, offset_ns}, lease_token);
   if (!noted.ok()) return refuse(noted);
   const auto mapped =
-      sent_time_ns == 0
+      times.sent_ns == 0
           ? std::nullopt
-          : std::optional(ClockGate::Mapped{.offset_ns = offset_ns, .now_ns = now_ns});
+          : std::optional(ClockGate::Mapped{.offset_ns = offset_ns, .now_ns = times.arrived_ns});
   IngestResult rest = IngestMapped(writer, robot, lease_token, std::move(batch), mapped);
   rest.refused.insert(rest.refused.begin(), std::make_move_iterator(result.refused.begin()),
                       std::make_move_iterator(result.refused.end()));

@@ -151,11 +151,11 @@ class MissionHost {
   EndListeners& end_listeners() { return end_listeners_; }
 
   // Has the writer, on its thread, apply a batch as MissionConduct::Ingest, if the mission takes
-  // any (CheckMayWrite) and but for samples whose clock runs ahead (CLOCK_AHEAD). `sent_time_ns`:
-  // when it was sent by the robot's clock, which the offset of that clock is learnt from before
-  // the batch is applied; 0: it does not say, and its times are taken as they are.
+  // any (CheckMayWrite) and but for samples whose clock runs ahead (CLOCK_AHEAD). From `times` the
+  // offset of the robot's clock is learnt before the batch is applied; if it does not say when it
+  // was sent, its samples are taken to be of the times that they bear.
   IngestResult Ingest(MissionWriter& writer, const RobotId& robot, std::int64_t lease_token,
-                      std::vector<IncomingObservation> batch, std::int64_t sent_time_ns = 0);
+                      std::vector<IncomingObservation> batch, const BatchTimes& times = {});
   // The mission's clock, and what is known of its robots'.
   const MissionClock& clock() const { return mission_clock_; }
   const RobotClocks& robot_clocks() const { return robot_clocks_; }
