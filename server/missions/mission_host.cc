@@ -181,6 +181,12 @@ void MissionHost::KeepStanding() {
   robot_notices_->Follow(leases_, standing_.state());
 }
 
+void MissionHost::CloseStream(const RobotId& robot, StreamId stream) {
+  leases_.CloseStream(robot, stream);
+  // The writer, which may sleep, has to see when the lease runs out.
+  if (robot_notices_->watcher_count() > 0) Post([](MissionWriter&) {}).IgnoreError();
+}
+
 void MissionHost::WhenDurable(MissionJournal::Callback done) {
   const SteadyTime deadline = After(SteadyNow(), host_options_.max_wait);
   journal_->WhenDurable(summary().revision, deadline, std::move(done));
@@ -337,7 +343,8 @@ void MissionHost::Publish(const absl::StatusOr<std::shared_ptr<const Belief>>& b
 
 SteadyTime MissionHost::NextWake() const {
   return std::min({waiters_.next_deadline(), next_publication(), journal_->next_deadline(),
-                   robot_notices_->next_look(writer_.mission().revision())});
+                   robot_notices_->next_look(writer_.mission().revision()),
+                   robot_notices_->next_follow(leases_, SteadyNow())});
 }
 
 }  // namespace plumescout::server

@@ -119,6 +119,8 @@ class MissionHost {
   const MissionOptions& options() const { return mission_options_; }
   const Strategy& strategy() const { return *strategy_; }
   LeaseTable& leases() { return leases_; }
+  // As of leases(); who watches the robot hears when its lease runs out.
+  void CloseStream(const RobotId& robot, StreamId stream);
   MissionStanding& standing() { return standing_; }
   const MissionStanding& standing() const { return standing_; }
   // Whether anything may change the mission, or plan: MISSION_FINISHED, MISSION_PAUSED, and what

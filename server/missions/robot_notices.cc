@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/missions/robot_notices.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/mission/conduct/conduct_errors.h"
@@ -82,6 +83,18 @@ void RobotNotices::Follow(const LeaseTable& leases, MissionState state) {
   for (const auto& watcher : woken) watcher->Wake();
 }
 
+SteadyTime RobotNotices::next_follow(const LeaseTable& leases, SteadyTime now) const {
+  absl::MutexLock lock(&mutex_);
+  absl::Duration left = absl::InfiniteDuration();
+  for (const auto& [key, place] : places_) {
+    const auto leased = leased_.find(place.robot);
+    if (leased == leased_.end() || !leased->second) continue;
+    const bool is_held = leases.Standing(place.robot).held;
+    left = std::min(left, is_held ? leases.TimeLeft(place.robot) : absl::ZeroDuration());
+  }
+  return After(now, left);
+}
+
 SteadyTime RobotNotices::next_look(std::int64_t revision) const {
   absl::MutexLock lock(&mutex_);
   const bool idle = places_.empty() || revision == looked_at_;
@@ -93,7 +106,6 @@ void RobotNotices::Look(BeliefPtr belief, SteadyTime now) {
   {
     absl::MutexLock lock(&mutex_);
     if (places_.empty()) return;
-    looked_at_ = belief->revision;
     next_look_ = After(now, kLookPeriod);
     robots_.clear();
     for (const auto& [robot, record] : belief->robots) robots_[robot] = record.state;
@@ -103,6 +115,7 @@ void RobotNotices::Look(BeliefPtr belief, SteadyTime now) {
       WorkerPool& pool = *places_.begin()->second.pool;
       is_looking_ =
           pool.Submit([self = shared_from_this(), belief] { self->LookAtPlans(belief); }).ok();
+      if (is_looking_) looked_at_ = belief->revision;
     }
   }
   for (const auto& watcher : woken) watcher->Wake();

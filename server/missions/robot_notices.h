@@ -37,7 +37,8 @@ class RobotWatcher {
 // What those who watch the robots of one mission are to be told. Of each kind of notice a watcher
 // has the newest to fetch, so a slow one costs no more than a quick one. Live plans are looked at
 // on the watchers' pool, one look at a time, and only while there are watchers; if the pool is
-// full, that look falls out. Thread-safe; nothing blocks.
+// full, or the look before is not over, that look is made up for later. Thread-safe; nothing
+// blocks.
 class RobotNotices : public std::enable_shared_from_this<RobotNotices> {
  public:
   using BeliefPtr = std::shared_ptr<const Belief>;
@@ -61,6 +62,11 @@ class RobotNotices : public std::enable_shared_from_this<RobotNotices> {
   // Leases and the mission's state may have changed: ends watchers whose leases are not in force,
   // tells the others. Cost: O(watchers).
   void Follow(const LeaseTable& leases, MissionState state) ABSL_LOCKS_EXCLUDED(mutex_);
+
+  // When Follow will have something to tell though nobody does anything: a lease runs out. Cost: as
+  // Follow.
+  SteadyTime next_follow(const LeaseTable& leases, SteadyTime now) const
+      ABSL_LOCKS_EXCLUDED(mutex_);
 
   // When a look is due at a mission of this revision; max(): there is nothing new, or nobody to
   // tell.
@@ -102,7 +108,7 @@ class RobotNotices : public std::enable_shared_from_this<RobotNotices> {
   std::map<RobotId, bool> leased_ ABSL_GUARDED_BY(mutex_);
   MissionState state_ ABSL_GUARDED_BY(mutex_) = MissionState::kRunning;
   std::map<RobotId, Latest> latest_ ABSL_GUARDED_BY(mutex_);
-  std::int64_t looked_at_ ABSL_GUARDED_BY(mutex_) = 0;  // the revision
+  std::int64_t looked_at_ ABSL_GUARDED_BY(mutex_) = 0;  // the revision of the last look
   SteadyTime next_look_ ABSL_GUARDED_BY(mutex_);
   bool is_looking_ ABSL_GUARDED_BY(mutex_) = false;
 

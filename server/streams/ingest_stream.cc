@@ -64,7 +64,7 @@ void IngestStream::OnCancel() { End(absl::CancelledError("the caller gave up"));
 void IngestStream::OnDone() {
   context_.streams->Remove(this);
   if (host_ != nullptr) {
-    host_->leases().CloseStream(robot_.robot, stream_);
+    host_->CloseStream(robot_.robot, stream_);
     host_->room().Withdraw(place_);
   }
   const auto self = std::move(self_);

@@ -68,6 +68,27 @@ TEST_F(RobotWatchStreamTest, TellsOfAPauseOfItsEndAndOfTheMissions) {
   EXPECT_TRUE(watch.Read().standing().finished());
 }
 
+// Nothing happens in the mission meanwhile: the writer sleeps.
+TEST_F(RobotWatchStreamTest, TellsWhenALeaseRunsOut) {
+  ServerConfig config;
+  config.connection.lease_hold_s = 0.2;
+  for (const bool streams : {false, true}) {
+    StartServer(config);
+    lease_ = Lease();
+    RobotWatchClient watch(*robots_, kRobot, lease_);
+    IngestClient stream(*ingest_);
+    if (streams) {
+      ASSERT_TRUE(stream.Open(kRobot, lease_));
+      ASSERT_TRUE(stream.Read().has_opened());
+    }
+    stream.Cancel();
+    v1::WatchRobotResponse notice = watch.Read();
+    while (notice.has_standing() && notice.standing().leased()) notice = watch.Read();
+    EXPECT_TRUE(notice.has_standing()) << "the stream has ended";
+    EXPECT_FALSE(notice.standing().leased());
+  }
+}
+
 TEST_F(RobotWatchStreamTest, AnotherClientsLeaseEndsIt) {
   RobotWatchClient watch(*robots_, kRobot, lease_);
   watch.Read();
