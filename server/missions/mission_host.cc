@@ -58,7 +58,7 @@ MissionHost::MissionHost(Parts parts, const HostOptions& options)
       requests_(std::make_shared<RequestMemory>(
           RequestMemoryOptions{.max_bytes = kMaxRememberedBytes, .clock = options.clock})),
       map_feed_(std::make_shared<MapFeed>(id_, options.max_map_part_bytes)),
-      robot_notices_(std::make_shared<RobotNotices>(parts.metrics)),
+      robot_notices_(std::make_shared<RobotNotices>(parts.metrics, options.max_watchers_per_robot)),
       waiters_(options.max_waiters),
       writer_(
           AbandonedWith(abandoned_, std::move(parts.mission)),

@@ -50,6 +50,7 @@ struct HostOptions {
   std::int64_t max_queued_bytes = std::int64_t{8} * 1024 * 1024;  // of observations
   int max_queued_commands = 4096;
   int max_waiters = 256;
+  int max_watchers_per_robot = 64;  // see RobotNotices
   // For a belief or the disk, whatever the caller's deadline.
   absl::Duration max_wait = absl::Seconds(30);
   // Watchers see a new belief at most this often; but a reading ...

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "core/mission/conduct/conduct_errors.h"
 #include "core/types/status_macros.h"
+#include "server/base/errors.h"
 
 namespace plumescout::server {
 namespace {
@@ -23,6 +25,7 @@ absl::Status RobotNotices::Join(const std::shared_ptr<RobotWatcher>& watcher, co
   if (found == belief.robots.end()) return RobotNotFound(robot);
   if (lease_token) PLUMESCOUT_RETURN_IF_ERROR(leases.Check(robot, *lease_token));
   absl::MutexLock lock(&mutex_);
+  PLUMESCOUT_RETURN_IF_ERROR(CheckRoom(robot, lease_token.has_value()));
   state_ = state;
   robots_[robot] = found->second.state;
   leased_[robot] = leases.Standing(robot).held;
@@ -36,6 +39,16 @@ absl::Status RobotNotices::Join(const std::shared_ptr<RobotWatcher>& watcher, co
   }
   places_[watcher.get()] = std::move(place);
   return absl::OkStatus();
+}
+
+absl::Status RobotNotices::CheckRoom(const RobotId& robot, bool has_lease) const {
+  const auto count = std::count_if(places_.begin(), places_.end(), [&](const auto& entry) {
+    return entry.second.robot == robot && entry.second.lease_token.has_value() == has_lease;
+  });
+  if (count < max_per_robot_) return absl::OkStatus();
+  return LimitReached(absl::StrCat(
+      "robot ", robot, " is watched by limits.max_watchers_per_robot = ", max_per_robot_,
+      " streams with", has_lease ? "" : "out", " its lease"));
 }
 
 void RobotNotices::Leave(const RobotWatcher* watcher) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -45,12 +46,15 @@ class RobotNotices : public std::enable_shared_from_this<RobotNotices> {
   // Between looks at the plans.
   static constexpr absl::Duration kLookPeriod = absl::Milliseconds(500);
 
-  // Not owned; outlives the last look.
-  explicit RobotNotices(MissionMetrics* metrics) : metrics_(*metrics) {}
+  // `metrics` is not owned and outlives the last look. `max_per_robot`: watchers that come with its
+  // lease; as many may come without.
+  explicit RobotNotices(MissionMetrics* metrics,
+                        int max_per_robot = std::numeric_limits<int>::max())
+      : metrics_(*metrics), max_per_robot_(max_per_robot) {}
 
   // The robot's standing, and what is the matter with its plan, are there for the watcher at once.
   // `lease_token`: none: whoever holds it. `pool` outlives the watchers. ROBOT_NOT_FOUND,
-  // LEASE_SUPERSEDED.
+  // LEASE_SUPERSEDED, LIMIT_REACHED. Cost: O(watchers).
   absl::Status Join(const std::shared_ptr<RobotWatcher>& watcher, const RobotId& robot,
                     std::optional<std::int64_t> lease_token, WorkerPool* pool, const Belief& belief,
                     const LeaseTable& leases, MissionState state) ABSL_LOCKS_EXCLUDED(mutex_);
@@ -100,7 +104,11 @@ class RobotNotices : public std::enable_shared_from_this<RobotNotices> {
   // Forgets of plans that are not the robots' latest.
   void ForgetEnded(const Belief& belief) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
+  absl::Status CheckRoom(const RobotId& robot, bool has_lease) const
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+
   MissionMetrics& metrics_;
+  const int max_per_robot_;
 
   mutable absl::Mutex mutex_;
   std::map<const RobotWatcher*, Place> places_ ABSL_GUARDED_BY(mutex_);

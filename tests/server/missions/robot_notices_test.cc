@@ -99,6 +99,24 @@ TEST_F(RobotNoticesTest, WhoMayNotWatchDoesNotJoin) {
   EXPECT_TRUE(Join(watcher, "r1", std::nullopt).ok());
 }
 
+TEST_F(RobotNoticesTest, OneRobotHasSoManyWatchersWithItsLeaseAndAsManyWithout) {
+  notices_ = std::make_shared<RobotNotices>(&MissionMetrics::Unread(), 1);
+  const auto own = Joined();
+  const auto overseer = std::make_shared<Watcher>();
+  ASSERT_TRUE(Join(overseer, "r1", std::nullopt).ok());
+  const auto late = std::make_shared<Watcher>();
+  for (const std::optional<std::int64_t> lease :
+       {std::optional(kLease), std::optional<std::int64_t>()}) {
+    const absl::Status refused = Join(late, "r1", lease);
+    EXPECT_TRUE(absl::IsResourceExhausted(refused)) << refused;
+    EXPECT_EQ(ErrorReason(refused), "LIMIT_REACHED");
+  }
+  EXPECT_EQ(notices_->watcher_count(), 2);
+  EXPECT_TRUE(Join(late, "r2").ok());
+  notices_->Leave(own.get());
+  EXPECT_TRUE(Join(std::make_shared<Watcher>(), "r1").ok());
+}
+
 TEST_F(RobotNoticesTest, ChangesOfTheMissionsStateAreToldAtOnce) {
   const auto watcher = Joined();
   notices_->Follow(leases_, MissionState::kPaused);

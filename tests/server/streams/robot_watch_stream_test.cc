@@ -162,6 +162,24 @@ TEST_F(RobotWatchStreamTest, ManyWatchersOfOneRobotAreAllTold) {
   for (const auto& watch : watchers) EXPECT_TRUE(watch->Read().standing().paused());
 }
 
+TEST_F(RobotWatchStreamTest, StrangersCannotFillARobotsPlacesNorTheRobotTheirs) {
+  ServerConfig config;
+  config.limits.max_watchers_per_robot = 2;
+  StartServer(config);
+  lease_ = Lease();
+  std::vector<std::unique_ptr<RobotWatchClient>> watchers;
+  for (const std::int64_t token : {std::int64_t{0}, lease_}) {
+    for (int i = 0; i < 2; ++i) {
+      watchers.push_back(std::make_unique<RobotWatchClient>(*robots_, kRobot, token));
+      EXPECT_TRUE(watchers.back()->Read().has_standing());
+    }
+    EXPECT_THAT(RobotWatchClient(*robots_, kRobot, token).Finish(),
+                Refuses(absl::StatusCode::kResourceExhausted, "LIMIT_REACHED"));
+  }
+  Steer(&v1::MissionService::Stub::PauseMission);
+  for (const auto& watch : watchers) EXPECT_TRUE(watch->Read().standing().paused());
+}
+
 // A robot drives away from where another comes to stand, by a plan that the server made.
 class PlansOfSeveralTest : public RobotWatchStreamTest {
  protected:
