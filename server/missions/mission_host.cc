@@ -76,6 +76,9 @@ MissionHost::MissionHost(Parts parts, const HostOptions& options)
 MissionHost::~MissionHost() { Stop(MissionNotFound(id_)); }
 
 void MissionHost::Keep(const Event& event) {
+  if (const auto* removed = std::get_if<RobotRemoved>(&event.body)) {
+    robot_clocks_.Forget(removed->robot);
+  }
   const std::int64_t bytes = journal_->Add(event);
   if (snapshots_ != nullptr) snapshots_->NoteEvent(event, bytes, writer_.mission());
   if (sink_) sink_(event);

@@ -29,6 +29,12 @@ void RobotClocks::NoteBatch(const RobotId& robot, const LinkTimes& link) {
   links_[robot] = link;
 }
 
+void RobotClocks::Forget(const RobotId& robot) {
+  estimators_.erase(robot);
+  absl::MutexLock lock(&mutex_);
+  links_.erase(robot);
+}
+
 absl::Duration RobotClocks::WorstOffset() const {
   std::int64_t worst_ns = 0;
   absl::MutexLock lock(&mutex_);

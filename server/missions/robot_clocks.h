@@ -63,6 +63,8 @@ class RobotClocks {
   Reckoning Reckon(const RobotId& robot, const BatchTimes& times, std::int64_t in_force_ns);
   // A batch was applied.
   void NoteBatch(const RobotId& robot, const LinkTimes& link);
+  // The robot has left the mission: should it come back, its clock may be another.
+  void Forget(const RobotId& robot);
 
   std::optional<LinkTimes> LinkOf(const RobotId& robot) const;
   // The farthest that a clock is off, either way.

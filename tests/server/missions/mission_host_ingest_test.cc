@@ -274,6 +274,18 @@ TEST_F(ClocksTest, WhoHasNoLeaseTellsNothingOfAClock) {
   EXPECT_EQ(OffsetOf("a"), 0);
 }
 
+TEST_F(ClocksTest, ARobotThatLeavesTakesItsClockAlong) {
+  Start({{"a", kHour_ns}, {"b", 0}});
+  Send("a");
+  Send("b");
+  Run([&](MissionWriter& writer) {
+    EXPECT_TRUE(writer.conduct().Remove({"a"}, host_->leases()).ok());
+  });
+  EXPECT_FALSE(host_->robot_clocks().LinkOf("a").has_value());
+  EXPECT_TRUE(host_->robot_clocks().LinkOf("b").has_value());
+  EXPECT_EQ(host_->robot_clocks().WorstOffset(), absl::ZeroDuration());
+}
+
 TEST_F(ClocksTest, LinksTellHowOldTheNewestSampleIs) {
   Start({{"a", kHour_ns}, {"b", 0}});
   Send("a", 2 * kSecond_ns);

@@ -79,6 +79,19 @@ TEST(RobotClocksTest, RemembersTheLatestBatchAndTheWorstOffset) {
   EXPECT_EQ(clocks.WorstOffset(), absl::Hours(1));
 }
 
+TEST(RobotClocksTest, ARobotThatLeavesTakesItsClockAlong) {
+  RobotClocks clocks;
+  clocks.Reckon("r1", {kNow_ns + kHour_ns, kNow_ns}, 0);
+  clocks.NoteBatch("r1", {kNow_ns, kNow_ns, -kHour_ns});
+  clocks.NoteBatch("r2", {kNow_ns, kNow_ns, 7});
+  clocks.Forget("r1");
+  EXPECT_FALSE(clocks.LinkOf("r1").has_value());
+  EXPECT_EQ(clocks.WorstOffset(), absl::Nanoseconds(7));
+  const auto back = clocks.Reckon("r1", {kNow_ns - kHour_ns, kNow_ns}, 0);
+  EXPECT_EQ(back.offset_ns, kHour_ns);
+  EXPECT_FALSE(back.was_set) << "it comes with a clock";
+}
+
 TEST(TakeMadeBeforeTest, ALeapInTimeIsWhereTheClockWasSet) {
   const std::int64_t later_ns = kNow_ns + kHour_ns;
   auto batch = BatchAt({kNow_ns, kNow_ns + 1, later_ns + 2, later_ns + 3});
