@@ -222,7 +222,9 @@ def _add_robots(groups):
         order = _takes(_add(steps, word, what), command, "mission")
         order.add_argument("robot", nargs="?", help=_NAMES["robot"])
         order.add_argument("--all", action="store_true", help="all robots of the mission")
-    watch = _add(steps, "watch", "follow what a robot is told unasked: how it stands, news of its plan")
+    watch = _add(
+        steps, "watch", "follow what a robot is told unasked: how it stands, news of its plan"
+    )
     _takes(watch, commands.watch_robot, "mission", "robot")
     watch.add_argument(
         "--count", type=_count, default=0, metavar="N", help="notices; 0: until Ctrl-C"
