@@ -3,23 +3,11 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
-#include "absl/time/time.h"
-#include "client/credentials.h"
+#include "client/grpc_client_options.h"
 #include "client/planner_client.h"
 
 namespace plumescout::client {
-
-struct GrpcClientOptions {
-  std::string target = "127.0.0.1:50551";  // host:port of the server
-  Credentials credentials = {};
-  // Of calls that name none. They wait for the link to come up, within this time; kUnavailable if
-  // it has not, kDeadlineExceeded if the answer has not come over it.
-  absl::Duration call_timeout = absl::Seconds(10);
-  absl::Duration stream_open_timeout = absl::Seconds(5);
-  absl::Duration stream_write_timeout = absl::Seconds(10);  // a server that stops reading is gone
-};
 
 // The planning service over one HTTP/2 connection, opened at the first call and again whenever it
 // breaks.

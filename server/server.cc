@@ -71,6 +71,7 @@ RegistryOptions ToRegistryOptions(const ServerConfig& config) {
   options.host.max_queued_observations = config.limits.max_queued_observations;
   options.host.max_queued_bytes = config.limits.max_queued_bytes;
   options.host.max_waiters = config.limits.max_waiting_calls;
+  options.host.max_watchers_per_robot = config.limits.max_watchers_per_robot;
   options.host.max_wait = absl::Seconds(config.limits.max_wait_s);
   options.host.publish_period = absl::Seconds(config.maps.publish_period_s);
   options.host.gas_wait = absl::Seconds(config.maps.gas_wait_s);

@@ -63,22 +63,6 @@ absl::StatusOr<Frontier> FromProto(const v1::Frontier& proto, absl::string_view 
   return frontier;
 }
 
-absl::StatusOr<RobotState> FromProto(const v1::RobotOnMap& proto, absl::string_view field) {
-  RobotState robot;
-  PLUMESCOUT_ASSIGN_OR_RETURN(const RobotName name,
-                              ParseRobotName(Join(field, "robot"), proto.robot()));
-  robot.id = name.robot;
-  PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative(Join(field, "radius_m"), proto.radius_m()));
-  robot.radius_m = proto.radius_m();
-  robot.has_pose = proto.has_pose();
-  PLUMESCOUT_ASSIGN_OR_RETURN(robot.pose, FromProto(proto.pose(), Join(field, "pose")));
-  robot.applied_sequence = proto.applied_sequence();
-  robot.rejected_observations = proto.rejected_observation_count();
-  robot.silent = proto.silent();
-  robot.frame_suspect = proto.frame_suspect();
-  return robot;
-}
-
 GasCounters FromProto(const v1::GasCounters& proto) {
   return {proto.reading_count(), proto.in_posterior_count(), proto.moved_count(),
           proto.waiting_count()};
@@ -216,6 +200,22 @@ absl::StatusOr<MapView> MapViewFromProto(const v1::GetMapRequest& request) {
 
 absl::StatusOr<MapView> MapViewFromProto(const v1::WatchMapRequest& request) {
   return ReadView(request);
+}
+
+absl::StatusOr<RobotState> FromProto(const v1::RobotOnMap& proto, absl::string_view field) {
+  RobotState robot;
+  PLUMESCOUT_ASSIGN_OR_RETURN(const RobotName name,
+                              ParseRobotName(Join(field, "robot"), proto.robot()));
+  robot.id = name.robot;
+  PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative(Join(field, "radius_m"), proto.radius_m()));
+  robot.radius_m = proto.radius_m();
+  robot.has_pose = proto.has_pose();
+  PLUMESCOUT_ASSIGN_OR_RETURN(robot.pose, FromProto(proto.pose(), Join(field, "pose")));
+  robot.applied_sequence = proto.applied_sequence();
+  robot.rejected_observations = proto.rejected_observation_count();
+  robot.silent = proto.silent();
+  robot.frame_suspect = proto.frame_suspect();
+  return robot;
 }
 
 v1::RobotOnMap ToProto(const RobotState& robot, const MissionId& mission) {

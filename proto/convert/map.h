@@ -33,6 +33,8 @@ absl::StatusOr<MapView> MapViewFromProto(const v1::GetMapRequest& request);
 absl::StatusOr<MapView> MapViewFromProto(const v1::WatchMapRequest& request);
 
 v1::RobotOnMap ToProto(const RobotState& robot, const MissionId& mission);
+// kInvalidArgument naming fields below `field`.
+absl::StatusOr<RobotState> FromProto(const v1::RobotOnMap& proto, absl::string_view field);
 v1::GasQuality ToProto(const GasQuality& quality, const GasAudits& audits);
 // Everything but revision and rasters.
 v1::MapStatus ToProto(const MapStatus& status, const GridGeometry& geometry,

@@ -66,6 +66,7 @@ absl::Status Validate(const LimitConfig& limits) {
           .InRange("limits.max_clock_lead_s", limits.max_clock_lead_s, 0, kDay_s)
           .InRange("limits.max_import_bytes", static_cast<double>(limits.max_import_bytes), 65536,
                    kMaxQueuedBytes)
+          .InRange("limits.max_watchers_per_robot", limits.max_watchers_per_robot, 1, kMaxCount)
           .status());
   if (limits.stream_window_observations > limits.max_queued_observations ||
       limits.max_batch_observations > limits.max_queued_observations) {

@@ -36,6 +36,7 @@ struct LimitConfig {
   double ingest_burst_s = 60.0;   // so much time's worth of observations may come at once
   double max_clock_lead_s = 5.0;  // of a robot's sample; 0: any
   std::int64_t max_import_bytes = std::int64_t{4} << 30;
+  int max_watchers_per_robot = 64;  // with its lease, and as many without
 };
 
 struct PlanningConfig {

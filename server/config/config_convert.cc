@@ -32,6 +32,7 @@ void Visit(OneOf<LimitConfig> auto& limits, auto& field) {
   field("ingest_burst_s", limits.ingest_burst_s);
   field("max_clock_lead_s", limits.max_clock_lead_s);
   field("max_import_bytes", limits.max_import_bytes);
+  field("max_watchers_per_robot", limits.max_watchers_per_robot);
 }
 
 void Visit(OneOf<PlanningConfig> auto& planning, auto& field) {

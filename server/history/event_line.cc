@@ -174,7 +174,9 @@ std::string LineOf(const EventBody& body) {
               return LineOfObservation(received.observation);
             },
             [](const PosteriorRefreshed&) { return std::string("gas field refreshed"); },
-            [](const PlanIssued& issued) { return LineOfPlan(issued.plan); },
+            [](const PlanIssued& issued) {
+              return absl::StrCat(issued.assigned ? "assigned " : "", LineOfPlan(issued.plan));
+            },
             [](const ProgressReported& report) {
               return absl::StrCat("plan ", report.plan_id, " ", NameOf(report.outcome));
             },

@@ -15,8 +15,15 @@ constexpr std::int64_t kPatience_ns = 3'000'000'000;
 
 }  // namespace
 
-std::int64_t ClockEstimator::Note(std::int64_t sent_ns, std::int64_t arrived_ns) {
+std::int64_t ClockEstimator::Note(std::int64_t sent_ns, std::int64_t arrived_ns,
+                                  bool at_the_latest) {
   const std::int64_t difference_ns = arrived_ns - sent_ns;
+  const bool tells_nothing = at_the_latest && !buckets_.empty() &&
+                             sent_ns >= last_sent_ns_ - kStep_ns && difference_ns >= Least_ns();
+  if (tells_nothing) {
+    last_sent_ns_ = sent_ns;
+    return Least_ns();
+  }
   std::int64_t least_ns = difference_ns;
   if (!buckets_.empty() && WasSet(sent_ns, difference_ns, arrived_ns)) {
     if (late_) least_ns = std::min(least_ns, late_->least_ns);
@@ -25,7 +32,7 @@ std::int64_t ClockEstimator::Note(std::int64_t sent_ns, std::int64_t arrived_ns)
   }
   last_sent_ns_ = sent_ns;
   const std::int64_t span = arrived_ns / kSpan_ns;
-  if (buckets_.empty() || buckets_.back().span != span) {
+  if (buckets_.empty() || buckets_.back().span < span) {
     buckets_.push_back({span, least_ns});
   }
   buckets_.back().least_ns = std::min(buckets_.back().least_ns, least_ns);

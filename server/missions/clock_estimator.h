@@ -26,8 +26,10 @@ class ClockEstimator {
   // Delays vary by less, and so do clocks that nobody sets.
   static constexpr std::int64_t kStep_ns = 1'000'000'000;
 
-  // Takes note of a batch; arrivals come in order. Returns the estimate.
-  std::int64_t Note(std::int64_t sent_ns, std::int64_t arrived_ns);
+  // Takes note of a batch; arrivals come in order, or nearly so. `at_the_latest`: it arrived then,
+  // or any time before, since nobody looked; such a batch never makes the offset greater. Returns
+  // the estimate.
+  std::int64_t Note(std::int64_t sent_ns, std::int64_t arrived_ns, bool at_the_latest = false);
 
  private:
   // The least of a span of time.

@@ -33,7 +33,7 @@ class ClockGate {
   // How times of a robot are taken whose batches say when they were sent.
   struct Mapped {
     std::int64_t offset_ns = 0;  // see RobotState::clock_offset_ns
-    std::int64_t now_ns = 0;     // of the mission's clock
+    std::int64_t now_ns = 0;     // by the mission's clock, when the batch arrived
   };
   // Marks entries that are ahead as refused (CLOCK_AHEAD), or stamps them anew. A gap that is ahead
   // loses its time only, of which it says nothing anyway. Times that are mapped are compared with

@@ -51,6 +51,12 @@ LeaseStanding LeaseTable::Standing(const RobotId& robot) const {
   return book_.Standing(robot, ToNanoseconds(clock_()));
 }
 
+absl::Duration LeaseTable::TimeLeft(const RobotId& robot) const {
+  absl::MutexLock lock(&mutex_);
+  const auto left_ns = book_.TimeLeft_ns(robot, ToNanoseconds(clock_()));
+  return left_ns ? absl::Nanoseconds(*left_ns) : absl::InfiniteDuration();
+}
+
 std::map<RobotId, std::int64_t> LeaseTable::Released() const {
   absl::MutexLock lock(&mutex_);
   return book_.Released();

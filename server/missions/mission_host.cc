@@ -58,7 +58,7 @@ MissionHost::MissionHost(Parts parts, const HostOptions& options)
       requests_(std::make_shared<RequestMemory>(
           RequestMemoryOptions{.max_bytes = kMaxRememberedBytes, .clock = options.clock})),
       map_feed_(std::make_shared<MapFeed>(id_, options.max_map_part_bytes)),
-      robot_notices_(std::make_shared<RobotNotices>(parts.metrics)),
+      robot_notices_(std::make_shared<RobotNotices>(parts.metrics, options.max_watchers_per_robot)),
       waiters_(options.max_waiters),
       writer_(
           AbandonedWith(abandoned_, std::move(parts.mission)),
@@ -76,6 +76,9 @@ MissionHost::MissionHost(Parts parts, const HostOptions& options)
 MissionHost::~MissionHost() { Stop(MissionNotFound(id_)); }
 
 void MissionHost::Keep(const Event& event) {
+  if (const auto* removed = std::get_if<RobotRemoved>(&event.body)) {
+    robot_clocks_.Forget(removed->robot);
+  }
   const std::int64_t bytes = journal_->Add(event);
   if (snapshots_ != nullptr) snapshots_->NoteEvent(event, bytes, writer_.mission());
   if (sink_) sink_(event);
@@ -115,7 +118,7 @@ HostLoad MissionHost::load() const {
 
 IngestResult MissionHost::Ingest(MissionWriter& writer, const RobotId& robot,
                                  std::int64_t lease_token, std::vector<IncomingObservation> batch,
-                                 std::int64_t sent_time_ns) {
+                                 const BatchTimes& times) {
   MissionConduct& conduct = writer.conduct();
   const auto refuse = [&](const absl::Status& status) {
     return IngestResult{status, conduct.Position(robot).value_or(LogPosition{}), {}};
@@ -124,21 +127,20 @@ IngestResult MissionHost::Ingest(MissionWriter& writer, const RobotId& robot,
   const absl::Status leased = conduct.CheckLease(robot, lease_token);
   if (!leased.ok()) return refuse(leased);
   const std::int64_t in_force_ns = writer.mission().StateOf(robot).value().clock_offset_ns;
-  const std::int64_t now_ns = mission_clock_.now_ns();
-  const auto [offset_ns, was_set] = robot_clocks_.Reckon(robot, sent_time_ns, now_ns, in_force_ns);
+  const auto [offset_ns, was_set] = robot_clocks_.Reckon(robot, times, in_force_ns);
   IngestResult result;
   if (was_set) {
     result = IngestMapped(writer, robot, lease_token,
-                          TakeMadeBefore(in_force_ns - offset_ns, sent_time_ns, batch),
-                          ClockGate::Mapped{in_force_ns, now_ns});
+                          TakeMadeBefore(in_force_ns - offset_ns, times.sent_ns, batch),
+                          ClockGate::Mapped{in_force_ns, times.arrived_ns});
     if (!result.status.ok()) return result;
   }
   const absl::Status noted = conduct.NoteClock({robot, offset_ns}, lease_token);
   if (!noted.ok()) return refuse(noted);
   const auto mapped =
-      sent_time_ns == 0
+      times.sent_ns == 0
           ? std::nullopt
-          : std::optional(ClockGate::Mapped{.offset_ns = offset_ns, .now_ns = now_ns});
+          : std::optional(ClockGate::Mapped{.offset_ns = offset_ns, .now_ns = times.arrived_ns});
   IngestResult rest = IngestMapped(writer, robot, lease_token, std::move(batch), mapped);
   rest.refused.insert(rest.refused.begin(), std::make_move_iterator(result.refused.begin()),
                       std::make_move_iterator(result.refused.end()));
@@ -180,6 +182,12 @@ void MissionHost::KeepStanding() {
       {standing_.state(), standing_.idle_time_to_live(), leases_.Released(), retention}));
   journal_->set_trims(retention == EventRetention::kSinceSnapshot);
   robot_notices_->Follow(leases_, standing_.state());
+}
+
+void MissionHost::CloseStream(const RobotId& robot, StreamId stream) {
+  leases_.CloseStream(robot, stream);
+  // The writer, which may sleep, has to see when the lease runs out.
+  if (robot_notices_->watcher_count() > 0) Post([](MissionWriter&) {}).IgnoreError();
 }
 
 void MissionHost::WhenDurable(MissionJournal::Callback done) {
@@ -338,7 +346,8 @@ void MissionHost::Publish(const absl::StatusOr<std::shared_ptr<const Belief>>& b
 
 SteadyTime MissionHost::NextWake() const {
   return std::min({waiters_.next_deadline(), next_publication(), journal_->next_deadline(),
-                   robot_notices_->next_look(writer_.mission().revision())});
+                   robot_notices_->next_look(writer_.mission().revision()),
+                   robot_notices_->next_follow(leases_, SteadyNow())});
 }
 
 }  // namespace plumescout::server

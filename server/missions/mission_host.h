@@ -50,6 +50,7 @@ struct HostOptions {
   std::int64_t max_queued_bytes = std::int64_t{8} * 1024 * 1024;  // of observations
   int max_queued_commands = 4096;
   int max_waiters = 256;
+  int max_watchers_per_robot = 64;  // see RobotNotices
   // For a belief or the disk, whatever the caller's deadline.
   absl::Duration max_wait = absl::Seconds(30);
   // Watchers see a new belief at most this often; but a reading ...
@@ -119,6 +120,8 @@ class MissionHost {
   const MissionOptions& options() const { return mission_options_; }
   const Strategy& strategy() const { return *strategy_; }
   LeaseTable& leases() { return leases_; }
+  // As of leases(); who watches the robot hears when its lease runs out.
+  void CloseStream(const RobotId& robot, StreamId stream);
   MissionStanding& standing() { return standing_; }
   const MissionStanding& standing() const { return standing_; }
   // Whether anything may change the mission, or plan: MISSION_FINISHED, MISSION_PAUSED, and what
@@ -151,11 +154,11 @@ class MissionHost {
   EndListeners& end_listeners() { return end_listeners_; }
 
   // Has the writer, on its thread, apply a batch as MissionConduct::Ingest, if the mission takes
-  // any (CheckMayWrite) and but for samples whose clock runs ahead (CLOCK_AHEAD). `sent_time_ns`:
-  // when it was sent by the robot's clock, which the offset of that clock is learnt from before
-  // the batch is applied; 0: it does not say, and its times are taken as they are.
+  // any (CheckMayWrite) and but for samples whose clock runs ahead (CLOCK_AHEAD). From `times` the
+  // offset of the robot's clock is learnt before the batch is applied; if it does not say when it
+  // was sent, its samples are taken to be of the times that they bear.
   IngestResult Ingest(MissionWriter& writer, const RobotId& robot, std::int64_t lease_token,
-                      std::vector<IncomingObservation> batch, std::int64_t sent_time_ns = 0);
+                      std::vector<IncomingObservation> batch, const BatchTimes& times = {});
   // The mission's clock, and what is known of its robots'.
   const MissionClock& clock() const { return mission_clock_; }
   const RobotClocks& robot_clocks() const { return robot_clocks_; }

@@ -75,6 +75,8 @@ absl::StatusOr<std::shared_ptr<MissionHost>> MissionMaker::Make(const MissionId&
 std::shared_ptr<MissionHost> MissionMaker::MakeHost(MissionHost::Parts parts,
                                                     JournalHome home) const {
   HostOptions options = options_.host;
+  if (hooks_.clock) options.clock = hooks_.clock;
+  if (hooks_.wall_clock) options.wall_clock = hooks_.wall_clock;
   if (hooks_.store != nullptr && hooks_.store->is_durable()) {
     // Of each life of the mission, which its robots' leases outlive, greater than of the one
     // before.

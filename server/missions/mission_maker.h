@@ -50,6 +50,9 @@ struct RegistryHooks {
   WorkerPool* snapshot_pool = nullptr;
   // Keeps the missions, and outlives them. Null: they end with the process.
   MissionStore* store = nullptr;
+  // What time it is in them; null: as RegistryOptions::host says.
+  SteadyClock clock = nullptr;
+  WallClock wall_clock = nullptr;
 };
 
 // A mission's name among those of all tenants. Each tenant has names of its own, so that nobody

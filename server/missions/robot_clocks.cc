@@ -10,14 +10,15 @@
 
 namespace plumescout::server {
 
-RobotClocks::Reckoning RobotClocks::Reckon(const RobotId& robot, std::int64_t sent_ns,
-                                           std::int64_t now_ns, std::int64_t in_force_ns) {
-  if (sent_ns == 0) {
+RobotClocks::Reckoning RobotClocks::Reckon(const RobotId& robot, const BatchTimes& times,
+                                           std::int64_t in_force_ns) {
+  if (times.sent_ns == 0) {
     estimators_.erase(robot);
     return {};
   }
   const bool is_known = estimators_.contains(robot);
-  const std::int64_t estimate_ns = estimators_[robot].Note(sent_ns, now_ns);
+  const std::int64_t estimate_ns =
+      estimators_[robot].Note(times.sent_ns, times.arrived_ns, times.at_the_latest);
   const std::int64_t change_ns = std::abs(estimate_ns - in_force_ns);
   if (change_ns <= ClockEstimator::kTolerance_ns) return {in_force_ns, false};
   return {estimate_ns, is_known && change_ns > ClockEstimator::kStep_ns};
@@ -26,6 +27,12 @@ RobotClocks::Reckoning RobotClocks::Reckon(const RobotId& robot, std::int64_t se
 void RobotClocks::NoteBatch(const RobotId& robot, const LinkTimes& link) {
   absl::MutexLock lock(&mutex_);
   links_[robot] = link;
+}
+
+void RobotClocks::Forget(const RobotId& robot) {
+  estimators_.erase(robot);
+  absl::MutexLock lock(&mutex_);
+  links_.erase(robot);
 }
 
 absl::Duration RobotClocks::WorstOffset() const {

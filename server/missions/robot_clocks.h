@@ -36,6 +36,13 @@ class MissionClock {
   const std::int64_t began_ns_;
 };
 
+// When a batch was sent, by the robot's clock, and came, by the mission's.
+struct BatchTimes {
+  std::int64_t sent_ns = 0;  // 0: it does not say, and the others do not matter
+  std::int64_t arrived_ns = 0;
+  bool at_the_latest = false;  // it came then, or earlier and nobody read it
+};
+
 // What the batches of a robot told of its link, since the server began to run its mission.
 struct LinkTimes {
   std::int64_t heard_ns = 0;  // when the latest batch was applied, by the mission's clock
@@ -52,11 +59,12 @@ class RobotClocks {
     std::int64_t offset_ns = 0;  // to put in force
     bool was_set = false;        // the robot's clock, since the batch before
   };
-  // Of one that was sent then (0: it does not say) and has arrived now, if `in_force_ns` is.
-  Reckoning Reckon(const RobotId& robot, std::int64_t sent_ns, std::int64_t now_ns,
-                   std::int64_t in_force_ns);
+  // While `in_force_ns` is.
+  Reckoning Reckon(const RobotId& robot, const BatchTimes& times, std::int64_t in_force_ns);
   // A batch was applied.
   void NoteBatch(const RobotId& robot, const LinkTimes& link);
+  // The robot has left the mission: should it come back, its clock may be another.
+  void Forget(const RobotId& robot);
 
   std::optional<LinkTimes> LinkOf(const RobotId& robot) const;
   // The farthest that a clock is off, either way.

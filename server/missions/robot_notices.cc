@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/missions/robot_notices.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "core/mission/conduct/conduct_errors.h"
 #include "core/types/status_macros.h"
+#include "server/base/errors.h"
 
 namespace plumescout::server {
 namespace {
@@ -22,6 +25,7 @@ absl::Status RobotNotices::Join(const std::shared_ptr<RobotWatcher>& watcher, co
   if (found == belief.robots.end()) return RobotNotFound(robot);
   if (lease_token) PLUMESCOUT_RETURN_IF_ERROR(leases.Check(robot, *lease_token));
   absl::MutexLock lock(&mutex_);
+  PLUMESCOUT_RETURN_IF_ERROR(CheckRoom(robot, lease_token.has_value()));
   state_ = state;
   robots_[robot] = found->second.state;
   leased_[robot] = leases.Standing(robot).held;
@@ -35,6 +39,16 @@ absl::Status RobotNotices::Join(const std::shared_ptr<RobotWatcher>& watcher, co
   }
   places_[watcher.get()] = std::move(place);
   return absl::OkStatus();
+}
+
+absl::Status RobotNotices::CheckRoom(const RobotId& robot, bool has_lease) const {
+  const auto count = std::count_if(places_.begin(), places_.end(), [&](const auto& entry) {
+    return entry.second.robot == robot && entry.second.lease_token.has_value() == has_lease;
+  });
+  if (count < max_per_robot_) return absl::OkStatus();
+  return LimitReached(absl::StrCat(
+      "robot ", robot, " is watched by limits.max_watchers_per_robot = ", max_per_robot_,
+      " streams with", has_lease ? "" : "out", " its lease"));
 }
 
 void RobotNotices::Leave(const RobotWatcher* watcher) {
@@ -82,6 +96,18 @@ void RobotNotices::Follow(const LeaseTable& leases, MissionState state) {
   for (const auto& watcher : woken) watcher->Wake();
 }
 
+SteadyTime RobotNotices::next_follow(const LeaseTable& leases, SteadyTime now) const {
+  absl::MutexLock lock(&mutex_);
+  absl::Duration left = absl::InfiniteDuration();
+  for (const auto& [key, place] : places_) {
+    const auto leased = leased_.find(place.robot);
+    if (leased == leased_.end() || !leased->second) continue;
+    const bool is_held = leases.Standing(place.robot).held;
+    left = std::min(left, is_held ? leases.TimeLeft(place.robot) : absl::ZeroDuration());
+  }
+  return After(now, left);
+}
+
 SteadyTime RobotNotices::next_look(std::int64_t revision) const {
   absl::MutexLock lock(&mutex_);
   const bool idle = places_.empty() || revision == looked_at_;
@@ -93,7 +119,6 @@ void RobotNotices::Look(BeliefPtr belief, SteadyTime now) {
   {
     absl::MutexLock lock(&mutex_);
     if (places_.empty()) return;
-    looked_at_ = belief->revision;
     next_look_ = After(now, kLookPeriod);
     robots_.clear();
     for (const auto& [robot, record] : belief->robots) robots_[robot] = record.state;
@@ -103,6 +128,7 @@ void RobotNotices::Look(BeliefPtr belief, SteadyTime now) {
       WorkerPool& pool = *places_.begin()->second.pool;
       is_looking_ =
           pool.Submit([self = shared_from_this(), belief] { self->LookAtPlans(belief); }).ok();
+      if (is_looking_) looked_at_ = belief->revision;
     }
   }
   for (const auto& watcher : woken) watcher->Wake();

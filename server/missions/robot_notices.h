@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -37,19 +38,23 @@ class RobotWatcher {
 // What those who watch the robots of one mission are to be told. Of each kind of notice a watcher
 // has the newest to fetch, so a slow one costs no more than a quick one. Live plans are looked at
 // on the watchers' pool, one look at a time, and only while there are watchers; if the pool is
-// full, that look falls out. Thread-safe; nothing blocks.
+// full, or the look before is not over, that look is made up for later. Thread-safe; nothing
+// blocks.
 class RobotNotices : public std::enable_shared_from_this<RobotNotices> {
  public:
   using BeliefPtr = std::shared_ptr<const Belief>;
   // Between looks at the plans.
   static constexpr absl::Duration kLookPeriod = absl::Milliseconds(500);
 
-  // Not owned; outlives the last look.
-  explicit RobotNotices(MissionMetrics* metrics) : metrics_(*metrics) {}
+  // `metrics` is not owned and outlives the last look. `max_per_robot`: watchers that come with its
+  // lease; as many may come without.
+  explicit RobotNotices(MissionMetrics* metrics,
+                        int max_per_robot = std::numeric_limits<int>::max())
+      : metrics_(*metrics), max_per_robot_(max_per_robot) {}
 
   // The robot's standing, and what is the matter with its plan, are there for the watcher at once.
   // `lease_token`: none: whoever holds it. `pool` outlives the watchers. ROBOT_NOT_FOUND,
-  // LEASE_SUPERSEDED.
+  // LEASE_SUPERSEDED, LIMIT_REACHED. Cost: O(watchers).
   absl::Status Join(const std::shared_ptr<RobotWatcher>& watcher, const RobotId& robot,
                     std::optional<std::int64_t> lease_token, WorkerPool* pool, const Belief& belief,
                     const LeaseTable& leases, MissionState state) ABSL_LOCKS_EXCLUDED(mutex_);
@@ -61,6 +66,11 @@ class RobotNotices : public std::enable_shared_from_this<RobotNotices> {
   // Leases and the mission's state may have changed: ends watchers whose leases are not in force,
   // tells the others. Cost: O(watchers).
   void Follow(const LeaseTable& leases, MissionState state) ABSL_LOCKS_EXCLUDED(mutex_);
+
+  // When Follow will have something to tell though nobody does anything: a lease runs out. Cost: as
+  // Follow.
+  SteadyTime next_follow(const LeaseTable& leases, SteadyTime now) const
+      ABSL_LOCKS_EXCLUDED(mutex_);
 
   // When a look is due at a mission of this revision; max(): there is nothing new, or nobody to
   // tell.
@@ -94,7 +104,11 @@ class RobotNotices : public std::enable_shared_from_this<RobotNotices> {
   // Forgets of plans that are not the robots' latest.
   void ForgetEnded(const Belief& belief) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
+  absl::Status CheckRoom(const RobotId& robot, bool has_lease) const
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+
   MissionMetrics& metrics_;
+  const int max_per_robot_;
 
   mutable absl::Mutex mutex_;
   std::map<const RobotWatcher*, Place> places_ ABSL_GUARDED_BY(mutex_);
@@ -102,7 +116,7 @@ class RobotNotices : public std::enable_shared_from_this<RobotNotices> {
   std::map<RobotId, bool> leased_ ABSL_GUARDED_BY(mutex_);
   MissionState state_ ABSL_GUARDED_BY(mutex_) = MissionState::kRunning;
   std::map<RobotId, Latest> latest_ ABSL_GUARDED_BY(mutex_);
-  std::int64_t looked_at_ ABSL_GUARDED_BY(mutex_) = 0;  // the revision
+  std::int64_t looked_at_ ABSL_GUARDED_BY(mutex_) = 0;  // the revision of the last look
   SteadyTime next_look_ ABSL_GUARDED_BY(mutex_);
   bool is_looking_ ABSL_GUARDED_BY(mutex_) = false;
 

@@ -28,7 +28,7 @@ absl::Status IngestService::BatchIngest(const v1::BatchIngestObservationsRequest
   PLUMESCOUT_ASSIGN_OR_RETURN(auto incoming, ReadBatch(request.batch(), window));
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMissionOf(call->caller(), name));
   const std::int64_t token = request.open().lease_token();
-  const std::int64_t sent_time_ns = request.batch().sent_time_ns();
+  const BatchTimes times{request.batch().sent_time_ns(), host->clock().now_ns()};
   PLUMESCOUT_RETURN_IF_ERROR(host->leases().Use(name.robot, token));
   PLUMESCOUT_RETURN_IF_ERROR(host->CheckMayWrite());
   PLUMESCOUT_RETURN_IF_ERROR(
@@ -45,7 +45,7 @@ absl::Status IngestService::BatchIngest(const v1::BatchIngestObservationsRequest
                                        : position.status();
          if (!fits.ok()) return call->Answer(fits);
          const IngestResult result =
-             host->Ingest(writer, name.robot, token, std::move(incoming), sent_time_ns);
+             host->Ingest(writer, name.robot, token, std::move(incoming), times);
          writer.NoteIngest(call->info().began);
          for (const auto& refused : result.refused) {
            *response->add_rejections() = ToRejected(refused);

@@ -7,19 +7,14 @@
 #include "absl/strings/str_cat.h"
 #include "core/types/status_macros.h"
 #include "proto/convert/names.h"
-#include "server/base/grpc_status.h"
 #include "server/base/log.h"
 
 namespace plumescout::server {
 
 ExportStream* ExportStream::Start(const ServiceContext* context, grpc::CallbackServerContext* call,
                                   const v1::ExportMissionRequest& request) {
-  auto stream = std::make_shared<ExportStream>(context);
-  stream->self_ = stream;
-  context->streams->Add(stream);
-  absl::Status status = stream->visit_.Enter(*context->door, Rpc::kExportMission, *call);
-  if (status.ok()) status = stream->Begin(request);
-  if (!status.ok()) stream->End(status);
+  const auto stream = std::make_shared<ExportStream>(context);
+  stream->Run(Rpc::kExportMission, *call, [&] { return stream->Begin(request); });
   return stream.get();
 }
 
@@ -28,25 +23,24 @@ absl::Status ExportStream::Begin(const v1::ExportMissionRequest& request) {
                               ParseMissionName("mission", request.mission()));
   PLUMESCOUT_ASSIGN_OR_RETURN(host_, context_.FindMission(visit_.caller(), mission));
   PLUMESCOUT_RETURN_IF_ERROR(context_.CheckKeepsHistory());
-  const std::weak_ptr<ExportStream> weak = weak_from_this();
-  listener_ = host_->end_listeners().Add([weak](const absl::Status& status) {
+  listener_ = host_->end_listeners().Add([weak = weak_from_this()](const absl::Status& status) {
     if (const auto stream = weak.lock()) stream->End(status);
   });
   // What the mission is now, as soon as that is durable.
   const auto self = shared_from_this();
   return host_->Post(
-      [self](MissionWriter& writer) {
+      [this, self](MissionWriter& writer) {
         const ExportPoint point{writer.mission().revision(), writer.mission().Digest()};
-        self->host_->WhenDurable([self, point](const absl::Status& status) {
-          self->BeginAt(status.ok() ? absl::StatusOr<ExportPoint>(point) : status);
+        host_->WhenDurable([this, self, point](const absl::Status& status) {
+          BeginAt(status.ok() ? absl::StatusOr<ExportPoint>(point) : status);
         });
       },
-      [self](const absl::Status& status) { self->BeginAt(status); });
+      [self](const absl::Status& status) { self->End(status); });
 }
 
 void ExportStream::BeginAt(const absl::StatusOr<ExportPoint>& point) {
   if (!point.ok()) return End(point.status());
-  Submit([self = shared_from_this(), point = *point] { self->Open(point); });
+  Submit([this, self = shared_from_this(), point = *point] { Open(point); });
 }
 
 void ExportStream::Open(const ExportPoint& point) {
@@ -63,7 +57,7 @@ void ExportStream::Open(const ExportPoint& point) {
 void ExportStream::MakeNext() {
   {
     absl::MutexLock lock(&mutex_);
-    if (end_.has_value()) return;
+    if (has_ended()) return;
   }
   auto next = export_->Next();
   if (!next.ok()) return End(next.status());
@@ -71,6 +65,7 @@ void ExportStream::MakeNext() {
   message_ = **std::move(next);
   {
     absl::MutexLock lock(&mutex_);
+    making_ = false;
     has_message_ = true;
   }
   Pump();
@@ -81,52 +76,18 @@ void ExportStream::Submit(std::function<void()> task) {
   if (!queued.ok()) End(queued);
 }
 
-void ExportStream::End(const absl::Status& status) {
-  {
-    absl::MutexLock lock(&mutex_);
-    if (!end_.has_value()) end_ = status;
-  }
-  Pump();
-}
-
-void ExportStream::OnWriteDone(bool ok) {
-  const auto self = shared_from_this();  // the finish may end us
-  {
-    absl::MutexLock lock(&mutex_);
-    writing_ = false;
-    if (!ok && !end_.has_value()) end_ = absl::CancelledError("the stream broke");
-  }
-  Pump();
-  if (ok) Submit([self] { self->MakeNext(); });
-}
-
-void ExportStream::OnDone() {
-  context_.streams->Remove(this);
+void ExportStream::LetGo() {
   if (host_ != nullptr) host_->end_listeners().Remove(listener_);
-  self_.reset();
-}
-
-void ExportStream::Pump() {
-  const auto self = shared_from_this();  // as above
-  pump_.Run(mutex_, [this] {
-    mutex_.AssertHeld();
-    return NextOperation();
-  });
 }
 
 StreamPump::Operation ExportStream::NextOperation() {
-  if (finished_ || writing_) return nullptr;
-  if (end_.has_value()) {
-    finished_ = true;
-    return [this, status = *end_] {
-      visit_.Leave(status);
-      Finish(ToGrpc(status, visit_.info().request_id));
-    };
+  if (making_) return nullptr;
+  if (has_message_) {
+    has_message_ = false;
+    return Write(&message_);
   }
-  if (!has_message_) return nullptr;
-  has_message_ = false;
-  writing_ = true;
-  return [this] { StartWrite(&message_); };
+  making_ = true;
+  return [this] { Submit([this, self = shared_from_this()] { MakeNext(); }); };
 }
 
 }  // namespace plumescout::server

@@ -19,6 +19,7 @@ ImportStream* ImportStream::Start(const ServiceContext* context, grpc::CallbackS
   stream->self_ = stream;
   context->streams->Add(stream);
   absl::Status status = stream->visit_.Enter(*context->door, Rpc::kImportMission, *call);
+  context->streams->LetIn(stream.get(), stream->visit_.info().recheck);
   if (status.ok()) status = context->CheckKeepsHistory();
   if (!status.ok()) stream->End(status);
   stream->Pump();

@@ -64,7 +64,7 @@ void IngestStream::OnCancel() { End(absl::CancelledError("the caller gave up"));
 void IngestStream::OnDone() {
   context_.streams->Remove(this);
   if (host_ != nullptr) {
-    host_->leases().CloseStream(robot_.robot, stream_);
+    host_->CloseStream(robot_.robot, stream_);
     host_->room().Withdraw(place_);
   }
   const auto self = std::move(self_);
@@ -110,6 +110,8 @@ absl::Status IngestStream::Open(const v1::OpenIngest& open) {
 
 absl::Status IngestStream::TakeBatch(const v1::ObservationBatch& batch) {
   if (host_ == nullptr) return FieldError("open", "must be the first frame");
+  const SteadyTime arrived = SteadyNow();
+  const std::int64_t arrived_ns = host_->clock().now_ns();
   PLUMESCOUT_ASSIGN_OR_RETURN(auto incoming,
                               ReadBatch(batch, context_.limits.max_batch_observations));
   const IngestLoad load = LoadOf(incoming);
@@ -119,8 +121,8 @@ absl::Status IngestStream::TakeBatch(const v1::ObservationBatch& batch) {
     PLUMESCOUT_RETURN_IF_ERROR(CheckCredit(incoming, credit_sequence_));
     in_flight_observations_ += load.observations;
     waiting_ = std::move(incoming);
-    arrived_ = SteadyNow();
-    sent_time_ns_ = batch.sent_time_ns();
+    arrived_ = arrived;
+    times_ = {batch.sent_time_ns(), arrived_ns, read_late_};
   }
   PauseReading(host_->rates().CountBatch(robot_.robot, rate_load));
   place_ = host_->room().TakeOrWait(load, [weak = weak_from_this()](IngestRoom::Hold room) {
@@ -132,23 +134,23 @@ absl::Status IngestStream::TakeBatch(const v1::ObservationBatch& batch) {
 void IngestStream::PostBatch(IngestRoom::Hold room) {
   std::vector<IncomingObservation> incoming;
   SteadyTime arrived;
-  std::int64_t sent_time_ns = 0;
+  BatchTimes times;
   {
     absl::MutexLock lock(&mutex_);
     if (!waiting_.has_value()) return;  // the stream is over
     // It stays in place until it is posted: the next batch must not be read, and overtake it.
     incoming = std::move(*waiting_);
     arrived = arrived_;
-    sent_time_ns = sent_time_ns_;
+    times = times_;
   }
   const int count = static_cast<int>(incoming.size());
   const auto self = shared_from_this();
   const absl::Status posted =
-      host_->Post({[self, count, arrived, sent_time_ns,
+      host_->Post({[self, count, arrived, times,
                     incoming = std::move(incoming)](MissionWriter& writer) mutable {
                      IngestResult result =
                          self->host_->Ingest(writer, self->robot_.robot, self->lease_token_,
-                                             std::move(incoming), sent_time_ns);
+                                             std::move(incoming), times);
                      writer.NoteIngest(arrived);
                      self->Ingested(count, std::move(result));
                    },
@@ -275,8 +277,10 @@ StreamPump::Operation IngestStream::NextOperation() {
       Finish(ToGrpc(status, visit_.info().request_id));
     };
   }
+  if (!reading_ && HoldsBack()) held_back_ = true;
   if (MayRead()) {
     reading_ = true;
+    read_late_ = std::exchange(held_back_, false);
     return [this] { StartRead(&request_); };
   }
   return nullptr;
@@ -305,9 +309,12 @@ bool IngestStream::FillResponse() {
 
 bool IngestStream::MayRead() const {
   const bool opening = host_ != nullptr && !opened_;
-  return !reading_ && !paused_ && !half_closed_ && !end_.has_value() && !opening &&
-         !waiting_.has_value() &&
-         in_flight_observations_ < context_.limits.stream_window_observations;
+  return !reading_ && !half_closed_ && !end_.has_value() && !opening && !HoldsBack();
+}
+
+bool IngestStream::HoldsBack() const {
+  return paused_ || waiting_.has_value() ||
+         in_flight_observations_ >= context_.limits.stream_window_observations;
 }
 
 }  // namespace plumescout::server

@@ -66,6 +66,8 @@ class IngestStream final
   StreamPump::Operation NextOperation() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   bool FillResponse() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   bool MayRead() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  // Whether the next frame is left on the wire for now, if there is one.
+  bool HoldsBack() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   // `flush`: the robot first hears what became of its batches.
   void SetEnd(const absl::Status& status, bool flush) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
@@ -87,7 +89,9 @@ class IngestStream final
   v1::StreamObservationsResponse response_ ABSL_GUARDED_BY(mutex_);  // in flight if writing_
   bool opened_ ABSL_GUARDED_BY(mutex_) = false;
   bool reading_ ABSL_GUARDED_BY(mutex_) = false;
-  bool paused_ ABSL_GUARDED_BY(mutex_) = false;  // until the alarm
+  bool paused_ ABSL_GUARDED_BY(mutex_) = false;     // until the alarm
+  bool held_back_ ABSL_GUARDED_BY(mutex_) = false;  // since the frame read last
+  bool read_late_ ABSL_GUARDED_BY(mutex_) = false;  // before that frame
   bool writing_ ABSL_GUARDED_BY(mutex_) = false;
   bool half_closed_ ABSL_GUARDED_BY(mutex_) = false;
   bool finished_ ABSL_GUARDED_BY(mutex_) = false;
@@ -99,7 +103,7 @@ class IngestStream final
   // Waits for room.
   std::optional<std::vector<IncomingObservation>> waiting_ ABSL_GUARDED_BY(mutex_);
   SteadyTime arrived_ ABSL_GUARDED_BY(mutex_);                // when that came
-  std::int64_t sent_time_ns_ ABSL_GUARDED_BY(mutex_) = 0;     // as it says
+  BatchTimes times_ ABSL_GUARDED_BY(mutex_);                  // of it, too
   int in_flight_observations_ ABSL_GUARDED_BY(mutex_) = 0;    // with those that wait for room
   std::int64_t credit_sequence_ ABSL_GUARDED_BY(mutex_) = 0;  // as announced
   LogPosition position_ ABSL_GUARDED_BY(mutex_);

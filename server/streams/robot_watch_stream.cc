@@ -7,7 +7,6 @@
 #include "core/types/status_macros.h"
 #include "proto/convert/names.h"
 #include "proto/convert/robot_notice.h"
-#include "server/base/grpc_status.h"
 #include "server/base/log.h"
 
 namespace plumescout::server {
@@ -15,13 +14,8 @@ namespace plumescout::server {
 RobotWatchStream* RobotWatchStream::Start(const ServiceContext* context,
                                           grpc::CallbackServerContext* call,
                                           const v1::WatchRobotRequest& request) {
-  auto stream = std::make_shared<RobotWatchStream>(context);
-  stream->self_ = stream;
-  context->streams->Add(stream);
-  absl::Status status = stream->visit_.Enter(*context->door, Rpc::kWatchRobot, *call);
-  context->streams->LetIn(stream.get(), stream->visit_.info().recheck);
-  if (status.ok()) status = stream->Subscribe(request);
-  if (!status.ok()) stream->End(status);
+  const auto stream = std::make_shared<RobotWatchStream>(context);
+  stream->Run(Rpc::kWatchRobot, *call, [&] { return stream->Subscribe(request); });
   return stream.get();
 }
 
@@ -41,8 +35,8 @@ absl::Status RobotWatchStream::Subscribe(const v1::WatchRobotRequest& request) {
     if (const auto stream = weak.lock()) stream->End(status);
   });
   const auto self = shared_from_this();
-  return host->Post([self, robot = name.robot, lease_token](
-                        MissionWriter& writer) { self->Join(robot, lease_token, writer); },
+  return host->Post([this, self, robot = name.robot,
+                     lease_token](MissionWriter& writer) { Join(robot, lease_token, writer); },
                     [self](const absl::Status& status) { self->End(status); });
 }
 
@@ -56,7 +50,7 @@ void RobotWatchStream::Join(const RobotId& robot, std::optional<std::int64_t> le
   if (host == nullptr) return;  // the caller has left meanwhile
   RobotNotices& notices = *host->robot_notices();
   const absl::Status status =
-      notices.Join(shared_from_this(), robot, lease_token, context_.query_pool,
+      notices.Join({shared_from_this(), this}, robot, lease_token, context_.query_pool,
                    *writer.conduct().Snapshot(), host->leases(), host->standing().state());
   if (!status.ok()) return End(status);
   bool left = false;
@@ -68,25 +62,7 @@ void RobotWatchStream::Join(const RobotId& robot, std::optional<std::int64_t> le
   Pump();
 }
 
-void RobotWatchStream::End(const absl::Status& status) {
-  {
-    absl::MutexLock lock(&mutex_);
-    if (!end_.has_value()) end_ = status;
-  }
-  Pump();
-}
-
-void RobotWatchStream::OnWriteDone(bool ok) {
-  {
-    absl::MutexLock lock(&mutex_);
-    writing_ = false;
-    if (!ok && !end_.has_value()) end_ = absl::CancelledError("the stream broke");
-  }
-  Pump();
-}
-
-void RobotWatchStream::OnDone() {
-  context_.streams->Remove(this);
+void RobotWatchStream::LetGo() {
   std::shared_ptr<MissionHost> host;  // not let go by the writer, which may be the last to hold us
   {
     absl::MutexLock lock(&mutex_);
@@ -96,26 +72,9 @@ void RobotWatchStream::OnDone() {
     host->end_listeners().Remove(listener_);
     host->robot_notices()->Leave(this);
   }
-  self_.reset();
-}
-
-void RobotWatchStream::Pump() {
-  const auto self = shared_from_this();  // the finish may end us
-  pump_.Run(mutex_, [this] {
-    mutex_.AssertHeld();
-    return NextOperation();
-  });
 }
 
 StreamPump::Operation RobotWatchStream::NextOperation() {
-  if (finished_ || writing_) return nullptr;
-  if (end_.has_value()) {
-    finished_ = true;
-    return [this, status = *end_] {
-      visit_.Leave(status);
-      Finish(ToGrpc(status, visit_.info().request_id));
-    };
-  }
   if (host_ == nullptr) return nullptr;
   const std::optional<RobotNotice> notice = host_->robot_notices()->Next(this);
   if (!notice) return nullptr;
@@ -127,8 +86,7 @@ StreamPump::Operation RobotWatchStream::NextOperation() {
                                  {"detail", told.detail()},
                                  {"request_id", visit_.info().request_id}});
   }
-  writing_ = true;
-  return [this] { StartWrite(&in_flight_); };
+  return Write(&in_flight_);
 }
 
 }  // namespace plumescout::server

@@ -8,7 +8,6 @@
 #include "proto/convert/field.h"
 #include "proto/convert/map.h"
 #include "proto/convert/names.h"
-#include "server/base/grpc_status.h"
 #include "server/maps/wire_message.h"
 
 namespace plumescout::server {
@@ -27,13 +26,8 @@ absl::StatusOr<double> SpeedOf(const v1::WatchMapRequest& request) {
 
 WatchStream* WatchStream::Start(const ServiceContext* context, grpc::CallbackServerContext* call,
                                 const grpc::ByteBuffer& request) {
-  auto stream = std::make_shared<WatchStream>(context);
-  stream->self_ = stream;
-  context->streams->Add(stream);
-  absl::Status status = stream->visit_.Enter(*context->door, Rpc::kWatchMap, *call);
-  context->streams->LetIn(stream.get(), stream->visit_.info().recheck);
-  if (status.ok()) status = stream->Subscribe(request);
-  if (!status.ok()) stream->End(status);
+  const auto stream = std::make_shared<WatchStream>(context);
+  stream->Run(Rpc::kWatchMap, *call, [&] { return stream->Subscribe(request); });
   return stream.get();
 }
 
@@ -59,7 +53,7 @@ absl::Status WatchStream::GoLive() {
   if (host == nullptr) return absl::OkStatus();
   is_live_ = true;
   PLUMESCOUT_RETURN_IF_ERROR(
-      feed_->Join(shared_from_this(), view_, context_.map_pool,
+      feed_->Join(reader(), view_, context_.map_pool,
                   [&](MapFeed::Subscriber told) { return host->Subscribe(std::move(told)); }));
   if (this->host() == nullptr) feed_->Leave(this);  // the caller has left meanwhile
   return absl::OkStatus();
@@ -77,15 +71,15 @@ absl::Status WatchStream::BeginReplay(const std::shared_ptr<MissionHost>& host,
     absl::MutexLock lock(&mutex_);
     replay_ = replay;
   }
-  const std::weak_ptr<WatchStream> weak = weak_from_this();
+  const auto weak = weak_from_this();
   listener_ = host->end_listeners().Add([weak](const absl::Status& status) {
     if (const auto stream = weak.lock()) stream->End(status);
   });
-  return replay->Begin(shared_from_this(), [weak] {
+  return replay->Begin(reader(), [this, weak] {
     const auto stream = weak.lock();
     if (stream == nullptr) return;
-    const absl::Status status = stream->GoLive();
-    if (!status.ok()) stream->End(status);
+    const absl::Status status = GoLive();
+    if (!status.ok()) End(status);
   });
 }
 
@@ -105,35 +99,21 @@ void WatchStream::AwaitFrames() {
 }
 
 void WatchStream::End(const absl::Status& status) {
-  {
-    absl::MutexLock lock(&mutex_);
-    if (!end_.has_value()) end_ = status;
-  }
-  if (const auto past = replay()) past->Stop();
-  Pump();
+  const auto past = replay();
+  WriteStream::End(status);
+  if (past != nullptr) past->Stop();
 }
 
 void WatchStream::Take(std::shared_ptr<const MapFrames> frames) {
   {
     absl::MutexLock lock(&mutex_);
     frames_ = std::move(frames);
-    written_ = 0;
+    begun_ = 0;
   }
   Pump();
 }
 
-void WatchStream::OnWriteDone(bool ok) {
-  {
-    absl::MutexLock lock(&mutex_);
-    writing_ = false;
-    ++written_;
-    if (!ok && !end_.has_value()) end_ = absl::CancelledError("the stream broke");
-  }
-  Pump();
-}
-
-void WatchStream::OnDone() {
-  context_.streams->Remove(this);
+void WatchStream::LetGo() {
   std::shared_ptr<MissionHost> host;  // not let go by the writer, which may be the last to hold us
   std::shared_ptr<MapReplay> past;
   {
@@ -146,33 +126,15 @@ void WatchStream::OnDone() {
     host->end_listeners().Remove(listener_);
   }
   if (feed_ != nullptr) feed_->Leave(this);
-  self_.reset();
-}
-
-void WatchStream::Pump() {
-  const auto self = shared_from_this();  // the finish may end us
-  pump_.Run(mutex_, [this] {
-    mutex_.AssertHeld();
-    return NextOperation();
-  });
 }
 
 StreamPump::Operation WatchStream::NextOperation() {
-  if (finished_ || writing_) return nullptr;
-  if (end_.has_value()) {
-    finished_ = true;
-    return [this, status = *end_] {
-      visit_.Leave(status);
-      Finish(ToGrpc(status, visit_.info().request_id));
-    };
-  }
   if (frames_ == nullptr) return nullptr;
-  if (written_ == frames_->messages.size()) {
+  if (begun_ == frames_->messages.size()) {
     frames_ = nullptr;
     return [this] { AwaitFrames(); };
   }
-  writing_ = true;
-  return [this, message = &frames_->messages[written_]] { StartWrite(message); };
+  return Write(&frames_->messages[begun_++]);
 }
 
 }  // namespace plumescout::server

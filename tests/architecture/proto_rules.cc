@@ -41,6 +41,7 @@ const std::set<std::string>& PureNumbers() {
       "max_running_per_mission",
       "max_streams_per_connection",
       "max_waiting_calls",
+      "max_watchers_per_robot",
       "mean_ucb",  // in [0, 1], [MIT] Eq. (3)
       "number",    // of an event
       "first_number",

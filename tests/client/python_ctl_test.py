@@ -14,7 +14,9 @@ import unittest
 import grpc
 import numpy as np
 import plumescout_client
-from plumescout_ctl import output
+from plumescout_ctl import output, words
+
+from plumescout.v1 import robot_service_pb2 as robot_pb
 
 BUILD_DIR = pathlib.Path(os.environ["PLUMESCOUT_BUILD_DIR"])
 PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "client/python/plumescoutctl"
@@ -148,6 +150,13 @@ class CtlTest(unittest.TestCase):
         self.assertEqual(shown[0]["live_plan"], plan.proto.name)
         self.assertIn("PROGRESS", self.ctl("robots", "show", "busy", "scout"))
 
+        self.assertIn("none is free", self.ctl("plan-team", "busy"))
+        team = self.ctl_json("plan-team", "busy", "scout")
+        told = [one["robot"] for one in team["plans"] + team["left_out"]]
+        self.assertEqual(told, ["missions/busy/robots/scout"])
+        self.ctl("plan-team", "busy", "nobody", code=4)
+        self.assertIn("scout", self.ctl("plan-team", "busy", "scout", "--go-home"))
+
         self.ctl("robots", "home", "busy", "scout")
         self.assertTrue(self.ctl_json("robots", "show", "busy", "scout")["ordered_home"])
         self.assertIn("ordered", self.ctl("robots", "list", "busy"))
@@ -213,6 +222,7 @@ class CtlTest(unittest.TestCase):
 
     def test_wrong_command_lines_and_servers_have_their_exit_codes(self):
         self.assertIn("usage", self.ctl("missions", "make", "x", code=2))
+        self.assertIn("CLOCK", self.ctl("robots", "list", "--help"))
         self.assertIn("unrecognized", self.ctl("info", "--fast", code=2))
         self.ctl("info", "--timeout", "0.2", code=3, target="127.0.0.1:1")
 
@@ -316,6 +326,24 @@ class KeptMissionsTest(unittest.TestCase):
         missions = self.ctl_json("store", "list", "--data", self.data)
         self.assertEqual([(m["mission"], m["events"]) for m in missions], [("hall", revision)])
         self.ctl("store", "verify", "--data", str(self.folder / "nowhere"), code=1)
+
+
+class WordsTest(unittest.TestCase):
+    def test_a_robot_that_lost_its_place_is_marked(self):
+        robot = robot_pb.Robot()
+        robot.on_map.robot = "missions/hall/robots/r1"
+        robot.on_map.pose.x_m = 1.5
+        row = dict(zip(words.ROBOT_HEADINGS, words.robot_row(robot)))
+        self.assertEqual((row["ROBOT"], row["POSE"]), ("r1", "1.50 0.00 0.00"))
+        robot.on_map.frame_suspect = True
+        row = dict(zip(words.ROBOT_HEADINGS, words.robot_row(robot)))
+        self.assertEqual(row["POSE"], "1.50 0.00 0.00 doubted")
+        for heading in ("LINK", "HEARD", "LAG", "CLOCK", "PLAN", "LATE", "APPLIED", "REFUSED"):
+            self.assertIn(heading, words.ROBOT_COLUMNS)
+
+    def test_an_instant_is_a_time_of_day_if_there_is_one(self):
+        self.assertEqual(words.instant(1_700_000_000_250_000_000), "2023-11-14 22:13:20.250")
+        self.assertEqual(words.instant(1 << 62), "2116-02-20 23:53:38.427")
 
 
 class ProgressTest(unittest.TestCase):

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a robot of the Python client keeps, and tells a server that lost or does not take it."""
 
+import itertools
 import types
 import unittest
 
@@ -37,7 +38,9 @@ class FakeServer:
         self.log = self.log[:count]
         self.durable = self.applied
 
-    def _call(self, method, request):
+    def _call(self, method, request, before_try=None):
+        if before_try is not None:
+            before_try(request)
         return method(request)
 
     def take(self, request):
@@ -149,6 +152,34 @@ class WaitingTest(unittest.TestCase):
     def test_nothing_is_waited_for_longer_than_the_call_may_take(self):
         with self.assertRaises(plumescout_client.PlumeScoutError):
             self.call([self.trouble("RECOVERING", retry_after_s=60.0)])
+
+    def test_a_batch_bears_the_time_of_the_try_that_gets_through(self):
+        client = plumescout_client.Client("127.0.0.1:1", timeout_s=5.0)
+        self.addCleanup(client.close)
+        client._limits = types.SimpleNamespace(
+            max_batch_observation_count=4, max_receive_bytes=1 << 20
+        )
+        errors = [self.trouble("STORE_UNAVAILABLE"), self.trouble("STORE_UNAVAILABLE")]
+        stamps_ns = []
+
+        def take(request, timeout, wait_for_ready):
+            stamps_ns.append(request.batch.sent_time_ns)
+            if errors:
+                raise errors.pop(0)
+            response = ingest_pb.BatchIngestObservationsResponse()
+            response.ingest_state.applied_sequence = 1
+            return response
+
+        client._ingest = types.SimpleNamespace(BatchIngestObservations=take)
+        ticks_ns = itertools.count(100)
+        robot = plumescout_client.Robot(
+            client,
+            robot_pb.RegisterRobotResponse(robot="missions/m/robots/r"),
+            clock_ns=lambda: next(ticks_ns),
+        )
+        robot.add_gas(1, POSE, 1.0)
+        robot.flush()
+        self.assertEqual(stamps_ns, [100, 101, 102])
 
     def test_other_trouble_is_the_callers(self):
         with self.assertRaises(plumescout_client.PlumeScoutError) as caught:

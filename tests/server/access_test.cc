@@ -5,9 +5,13 @@
 
 #include <map>
 #include <string>
+#include <thread>
 
+#include "absl/strings/match.h"
 #include "plumescout/v1/map_service.grpc.pb.h"
+#include "plumescout/v1/snapshot_service.grpc.pb.h"
 #include "server/access/rpc.h"
+#include "server/store/memory_store.h"
 #include "tests/server/access_fixture.h"
 
 namespace plumescout::server {
@@ -95,6 +99,33 @@ TEST_F(WhoMayCallTest, AStreamEndsOnceItsTokenIsRevoked) {
   EXPECT_EQ(revoked->Finish().error_code(), grpc::StatusCode::UNAUTHENTICATED);
   of_alice.TryCancel();
   EXPECT_EQ(kept->Finish().error_code(), grpc::StatusCode::CANCELLED);
+}
+
+TEST_F(WhoMayCallTest, AnImportEndsOnceItsTokenIsRevoked) {
+  WriteTokens(TokenLine(kEve, "eve operator acme never"));
+  MemoryStore store(/*is_durable=*/true);
+  ServerConfig config;
+  config.listen = "127.0.0.1:0";
+  config.access.tokens_file = tokens_path_;
+  RegistryHooks hooks;
+  hooks.store = &store;
+  const auto server = Server::Start(config, hooks);
+  ASSERT_TRUE(server.ok()) << server.status();
+  const auto stub = v1::SnapshotService::NewStub(grpc::CreateChannel(
+      absl::StrCat("127.0.0.1:", (*server)->port()), grpc::InsecureChannelCredentials()));
+  grpc::ClientContext context;
+  SetPatience(context);
+  context.AddMetadata("authorization", absl::StrCat("Bearer ", kEve));
+  v1::ImportMissionResponse response;
+  const auto import = stub->ImportMission(&context, &response);
+  v1::ImportMissionRequest part;
+  part.mutable_start()->set_mission_id("hall");
+  ASSERT_TRUE(import->Write(part));
+  while (!absl::StrContains((*server)->MetricsText(), "\nplumescout_open_streams 1\n")) {
+    std::this_thread::yield();
+  }
+  WriteTokens("");
+  EXPECT_EQ(import->Finish().error_code(), grpc::StatusCode::UNAUTHENTICATED);
 }
 
 TEST_F(WhoMayCallTest, HealthIsForEverybody) {

@@ -370,11 +370,15 @@ class Client:
         variance_ppm2 = [g.variance_ppm2 if g.HasField("variance_ppm2") else np.nan for g in gas]
         return np.array(mean_ppm), np.array(variance_ppm2)
 
-    def _call(self, method, request, timeout_s=None):
-        """Within its time, a call waits for a server that recovers or has no room on its disk."""
+    def _call(self, method, request, timeout_s=None, before_try=None):
+        """Within its time, a call waits for a server that recovers or has no room on its disk.
+
+        before_try is given the request before it goes out, each time that it does."""
         end_s = time.monotonic() + (timeout_s or self._timeout_s)
         while True:
             left_s = max(0.001, end_s - time.monotonic())
+            if before_try is not None:
+                before_try(request)
             try:
                 return method(request, timeout=left_s, wait_for_ready=True)
             except grpc.RpcError as grpc_error:

@@ -69,6 +69,7 @@ class Robot:
         for anchor_time_ns, anchor_pose in anchors:
             correction.anchors.add(sample_time_ns=anchor_time_ns, pose=_pose(anchor_pose))
         return self._add(time_ns, pose, correction=correction)
+
     def add_status(self, time_ns, battery_share):
         """Numbers what the robot tells of itself: its battery, of a full one. Returns its number."""
         return self._add(time_ns, None, status=ingest_pb.RobotStatus(battery_share=battery_share))
@@ -81,12 +82,9 @@ class Robot:
             request = ingest_pb.BatchIngestObservationsRequest(
                 open=self._open, batch=self._next_batch()
             )
-            if self._clock_ns is not None:
-                request.batch.sent_time_ns = self._clock_ns()
+            method = self._client._ingest.BatchIngestObservations
             try:
-                response = self._client._call(
-                    self._client._ingest.BatchIngestObservations, request
-                )
+                response = self._client._call(method, request, before_try=self._stamp)
             except PlumeScoutError as error:
                 self._go_back(self._position_after(error))
                 continue
@@ -178,6 +176,10 @@ class Robot:
             robot=self._open.robot, lease_token=self._open.lease_token
         )
         self._client._call(self._client._robots.RemoveRobot, request)
+
+    def _stamp(self, request):
+        if self._clock_ns is not None:
+            request.batch.sent_time_ns = self._clock_ns()
 
     def _note_state(self, state):
         self.applied_sequence = state.applied_sequence

@@ -5,6 +5,7 @@
 import itertools
 import json
 import pathlib
+import time
 
 import plumescout_client
 
@@ -116,7 +117,7 @@ def watch_robot(client, arguments, out):
     notices = client.watch_robot(arguments.mission, arguments.robot)
     if arguments.count:
         notices = itertools.islice(notices, arguments.count)
-    out.lines(notices, words.notice_line)
+    out.lines(notices, lambda notice: f"{time.strftime('%H:%M:%S')}  {words.notice_line(notice)}")
 
 
 def remove_robot(client, arguments, out):

@@ -27,6 +27,9 @@ examples:
   plumescoutctl map export hall gas.csv --layer gas-mean
   plumescoutctl missions export hall hall.journal
   plumescoutctl missions history hall --kind plan
+  plumescoutctl plan-team hall                   a plan for every robot that has none
+  plumescoutctl robots home hall --all
+  plumescoutctl robots watch hall r1
   plumescoutctl store verify --data /var/lib/plumescout
   plumescoutctl completion bash > ~/.local/share/bash-completion/completions/plumescoutctl
 """
@@ -88,12 +91,20 @@ def make_parser():
     _add_missions(groups)
     _add_robots(groups)
     _add_map(groups)
-    plans = _add(groups, "plans", "where the robots of a mission are on their way to")
+    plans = _add(groups, "plans", "where the robots of a mission drive now, and when they arrive")
     _takes(plans, commands.list_plans, "mission")
-    team = _takes(
-        _add(groups, "plan-team", "plan for several robots at once"), commands.plan_team, "mission"
+    team = _add(
+        groups,
+        "plan-team",
+        "plan for several robots at once; each drives its plan when it asks for the next",
     )
-    team.add_argument("robots", nargs="*", help="default: all that are free")
+    _takes(team, commands.plan_team, "mission")
+    team.add_argument(
+        "robots",
+        nargs="*",
+        metavar="robot",
+        help="its live plan is replaced; default: all robots that have none",
+    )
     team.add_argument("--go-home", action="store_true", help="plan their ways home")
     _takes(_add(groups, "info", "version, limits and features"), commands.show_server)
     _takes(_add(groups, "drain", "take the server out of service"), commands.drain_server)
@@ -194,24 +205,30 @@ def _add_missions(groups):
 def _add_robots(groups):
     robots = _add(groups, "robots", "list, show, send home and remove robots")
     steps = robots.add_subparsers(metavar="COMMAND", required=True)
-    _takes(_add(steps, "list", "robots of a mission"), commands.list_robots, "mission")
+    listed = _takes(_add(steps, "list", "robots of a mission"), commands.list_robots, "mission")
+    shown = _takes(_add(steps, "show", "one robot"), commands.show_robot, "mission", "robot")
+    for parser in (listed, shown):
+        parser.epilog = words.ROBOT_COLUMNS
+        parser.formatter_class = argparse.RawDescriptionHelpFormatter
     for word, what, command in (
-        ("show", "one robot", commands.show_robot),
         ("remove", "take it out of the mission, as one that died", commands.remove_robot),
         ("release", "free its lease for another client", commands.release_lease),
     ):
         _takes(_add(steps, word, what), command, "mission", "robot")
     for word, what, command in (
-        ("home", "send one, or all, home", commands.send_home),
-        ("cancel-home", "they need not go home any more", commands.cancel_home),
+        ("home", "send one robot, or all, home with the next plan", commands.send_home),
+        ("cancel-home", "take that back", commands.cancel_home),
     ):
         order = _takes(_add(steps, word, what), command, "mission")
-        order.add_argument("robot", nargs="?")
+        order.add_argument("robot", nargs="?", help=_NAMES["robot"])
         order.add_argument("--all", action="store_true", help="all robots of the mission")
-    watch = _takes(
-        _add(steps, "watch", "what it is told unasked"), commands.watch_robot, "mission", "robot"
+    watch = _add(
+        steps, "watch", "follow what a robot is told unasked: how it stands, news of its plan"
     )
-    watch.add_argument("--count", type=_count, default=0, metavar="N", help="notices; 0: all")
+    _takes(watch, commands.watch_robot, "mission", "robot")
+    watch.add_argument(
+        "--count", type=_count, default=0, metavar="N", help="notices; 0: until Ctrl-C"
+    )
 
 
 def _add_map(groups):
@@ -229,9 +246,16 @@ def _add(groups, word, what):
     return groups.add_parser(word, help=what, description=what[0].upper() + what[1:] + ".")
 
 
+_NAMES = {
+    "mission": "its name, as in missions list",
+    "robot": "its name, as in robots list",
+    "file": "to read",
+}
+
+
 def _takes(parser, command, *names):
     for name in names:
-        parser.add_argument(name)
+        parser.add_argument(name, help=_NAMES[name])
     _add_everywhere(parser)
     parser.set_defaults(command=command)
     return parser

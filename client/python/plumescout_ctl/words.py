@@ -132,11 +132,27 @@ def home(robot):
     return "ordered" if robot.ordered_home else "battery" if robot.battery_low else "-"
 
 
+ROBOT_COLUMNS = """\
+columns:
+  LINK     streaming; idle: no stream is open; silent: not heard of while others are; gone: nobody
+           holds its lease
+  HEARD    since its latest batch was applied
+  LAG      age of the newest reading or scan of that batch
+  CLOCK    by how much the mission's time is ahead of the robot's clock
+  HOME     whether it was ordered home, or is sent there for its battery
+  PLAN     number of its live plan, and LATE: by how much it is behind that
+  APPLIED  observations of its log that were taken, REFUSED ones among them
+  POSE     x and y in metres, yaw in radians; doubted: its scans contradict the map, which does not
+           take them until the robot corrects its poses
+"""
+
+
 def robot_row(robot):
-    """CLOCK: by how much the mission's time is ahead of the robot's clock."""
     seen = robot.on_map
     pose = seen.pose
     place = f"{pose.x_m:.2f} {pose.y_m:.2f} {pose.yaw_rad:.2f}" if seen.HasField("pose") else "-"
+    if seen.frame_suspect:
+        place += " doubted"
     return [
         last_part(seen.robot),
         link(robot),
@@ -158,7 +174,7 @@ def robot_facts(robot):
     facts.insert(1, ("LEASE", "held" if robot.leased else "free"))
     if robot.live_plan:
         facts.append(("PROGRESS", f"{robot.progress_s:.1f} s of its plan"))
-        facts.append(("ARRIVES", f"{robot.arrival_time_ns / 1e9:.1f}"))
+        facts.append(("ARRIVES", instant(robot.arrival_time_ns)))
     if robot.HasField("frame"):
         origin = robot.frame.mission_from_robot
         facts.append(("FRAME", f"{origin.x_m:.2f} {origin.y_m:.2f} {origin.yaw_rad:.2f}"))
@@ -172,7 +188,7 @@ def plan_row(plan):
         enum_word(types_pb.GoalKind, plan.goal_kind, "GOAL_KIND_"),
         f"{plan.goal.x_m:.2f}",
         f"{plan.goal.y_m:.2f}",
-        f"{plan.arrival_time_ns / 1e9:.1f}",
+        instant(plan.arrival_time_ns),
     ]
 
 
@@ -182,16 +198,19 @@ def team_facts(team):
     return facts or [("robots", "none is free")]
 
 
+def instant(time_ns):
+    """In UTC, to the millisecond."""
+    seconds, rest_ns = divmod(time_ns, 1_000_000_000)
+    try:
+        day = datetime.datetime.fromtimestamp(seconds, datetime.timezone.utc)
+        return f"{day:%Y-%m-%d %H:%M:%S}.{rest_ns // 1_000_000:03d}"
+    except (OverflowError, ValueError):  # a clock that nobody has set
+        return f"{time_ns / 1e9:.3f} s"
+
+
 def event_line(event):
-    """When it was is in UTC: of observations by the robot's own clock, else by the mission's time."""
-    time = ""
-    if event.HasField("sample_time_ns"):
-        seconds, rest_ns = divmod(event.sample_time_ns, 1_000_000_000)
-        try:
-            day = datetime.datetime.fromtimestamp(seconds, datetime.timezone.utc)
-            time = f"{day:%Y-%m-%d %H:%M:%S}.{rest_ns // 1_000_000:03d}"
-        except (OverflowError, ValueError):  # a clock that nobody has set
-            time = f"{event.sample_time_ns / 1e9:.3f} s"
+    """When it was: of observations by the robot's own clock, else by the mission's time."""
+    time = instant(event.sample_time_ns) if event.HasField("sample_time_ns") else ""
     kind = enum_word(snapshot_pb.MissionEventKind, event.kind, _KIND_PREFIX)
     robot = last_part(event.robot) or "-"
     return f"{event.number:>8}  {time:<23}  {kind:<16}  {robot:<12}  {event.summary}"

@@ -74,6 +74,13 @@ LeaseStanding LeaseBook::Standing(const RobotId& robot, std::int64_t now_ns) con
   return {streaming || now_ns - lease.last_use_ns < hold_ns_, streaming};
 }
 
+std::optional<std::int64_t> LeaseBook::TimeLeft_ns(const RobotId& robot,
+                                                   std::int64_t now_ns) const {
+  const LeaseStanding standing = Standing(robot, now_ns);
+  if (!standing.held || standing.streaming) return std::nullopt;
+  return leases_.at(robot).last_use_ns + hold_ns_ - now_ns;
+}
+
 absl::Status LeaseBook::Check(const RobotId& robot, std::int64_t token) const {
   const auto found = leases_.find(robot);
   if (found == leases_.end()) return RobotNotFound(robot);

@@ -79,6 +79,10 @@ class LeaseBook {
   // Of a robot that is not there: not held.
   LeaseStanding Standing(const RobotId& robot, std::int64_t now_ns) const;
 
+  // How long the lease is held if nobody uses it; none: it is not held, or while its stream is
+  // open.
+  std::optional<std::int64_t> TimeLeft_ns(const RobotId& robot, std::int64_t now_ns) const;
+
   // ROBOT_NOT_FOUND; LEASE_SUPERSEDED unless `token` is the newest, and was not given up.
   absl::Status Check(const RobotId& robot, std::int64_t token) const;
   // As Check, and counts as a use.

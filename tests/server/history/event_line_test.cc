@@ -58,6 +58,9 @@ TEST(EventLineTest, PlansTellWhereTheyLead) {
   issued.plan.trajectory.length_m = 4.25;
   issued.plan.trajectory.duration_s = 9.0;
   EXPECT_EQ(LineOf(issued), "plan to a gas frontier at (4.00, 1.00), 4.2 m in 9.0 s");
+  issued.assigned = true;
+  EXPECT_EQ(LineOf(issued), "assigned plan to a gas frontier at (4.00, 1.00), 4.2 m in 9.0 s");
+  issued.assigned = false;
   issued.plan.candidates.clear();  // a journal need not keep them
   EXPECT_EQ(LineOf(issued), "plan to (4.00, 1.00), 4.2 m in 9.0 s");
 }

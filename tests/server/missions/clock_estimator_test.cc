@@ -114,6 +114,30 @@ TEST(ClockEstimatorTest, ALinkThatIsSlowForAMomentIsNoClockThatWasSet) {
   EXPECT_EQ(link.Run(1.0, 0), 5 * kMillisecond_ns);
 }
 
+TEST(ClockEstimatorTest, AnArrivalThatNobodySawNeverMakesTheOffsetGreater) {
+  ClockEstimator estimator;
+  constexpr std::int64_t kDelay_ns = 5 * kMillisecond_ns;
+  EXPECT_EQ(estimator.Note(kBegin_ns, kBegin_ns + kDelay_ns, true), kDelay_ns) << "the first tells";
+  for (int k = 1; k <= 100; ++k) {
+    const std::int64_t sent_ns = kBegin_ns + k * kSecond_ns;
+    EXPECT_EQ(estimator.Note(sent_ns, sent_ns + 4 * kSecond_ns, true), kDelay_ns) << k;
+  }
+  const std::int64_t sent_ns = kBegin_ns + 101 * kSecond_ns;
+  EXPECT_EQ(estimator.Note(sent_ns, sent_ns + kMillisecond_ns, true), kMillisecond_ns);
+  EXPECT_EQ(estimator.Note(sent_ns - kHour_ns, sent_ns, true), kHour_ns) << "it was set back";
+}
+
+// Calls of one robot side by side may change places.
+TEST(ClockEstimatorTest, ArrivalsOutOfOrderForgetNothing) {
+  ClockEstimator estimator;
+  EXPECT_EQ(estimator.Note(kBegin_ns, kBegin_ns + kMillisecond_ns), kMillisecond_ns);
+  static_assert(kBegin_ns % (5 * kSecond_ns) == 0, "where a span begins");
+  for (int k = 0; k < 100; ++k) {
+    const std::int64_t arrived_ns = kBegin_ns + 5 * kSecond_ns - (k % 2) * kMillisecond_ns;
+    EXPECT_EQ(estimator.Note(arrived_ns - 900 * kMillisecond_ns, arrived_ns), kMillisecond_ns) << k;
+  }
+}
+
 TEST(ClockEstimatorTest, TimesWithoutSenseDoNoHarm) {
   ClockEstimator estimator;
   constexpr std::int64_t kLast_ns = std::int64_t{1} << 62;

@@ -40,6 +40,15 @@ TEST_F(LeaseTableTest, LeaseIsHeldByTheServersClock) {
   EXPECT_FALSE(Held());
 }
 
+TEST_F(LeaseTableTest, TimeIsLeftUntilTheLeaseRunsOut) {
+  EXPECT_EQ(table_.TimeLeft("r1"), absl::InfiniteDuration()) << "nobody has one";
+  const std::int64_t token = Take("r1");
+  now_ += std::chrono::seconds(3);
+  EXPECT_EQ(table_.TimeLeft("r1"), absl::Seconds(7));
+  ASSERT_TRUE(table_.OpenStream("r1", token, end_).ok());
+  EXPECT_EQ(table_.TimeLeft("r1"), absl::InfiniteDuration());
+}
+
 TEST_F(LeaseTableTest, RemovedRobotIsUnknownAndItsStreamEnds) {
   const std::int64_t token = Take("r1");
   ASSERT_TRUE(table_.OpenStream("r1", token, end_).ok());

@@ -112,11 +112,14 @@ class ClocksTest : public testing::Test {
     ASSERT_TRUE(host_->Post(std::move(task)).ok());
     Settle(*host_);
   }
-  // A scan and a reading of now, by the robot's clock; sent now.
-  IngestResult Send(const RobotId& robot, std::int64_t age_ns = 0, bool says_when = true) {
+  // A scan and a reading of now, by the robot's clock; sent now, and it waits in the queue.
+  IngestResult Send(const RobotId& robot, std::int64_t age_ns = 0, bool says_when = true,
+                    double queued_s = 0.0) {
     IngestResult result;
+    const std::int64_t arrived_ns = host_->clock().now_ns();
+    const std::int64_t robot_ns = arrived_ns - offsets_ns_.at(robot);
+    Wait(queued_s);
     Run([&](MissionWriter& writer) {
-      const std::int64_t robot_ns = kNow_ns + elapsed_ns_ - offsets_ns_.at(robot);
       const std::int64_t next = writer.mission().AppliedSequence(robot).value() + 1;
       const double x_m = 1.0 + 0.01 * static_cast<double>(next);
       const Pose2 pose{x_m, 2.0, 0.0};
@@ -125,7 +128,7 @@ class ClocksTest : public testing::Test {
           {{next, robot_ns - age_ns, pose, support::ScanInBox(pose, 6.0, 4.0)}, absl::OkStatus()});
       batch.push_back({{next + 1, robot_ns - age_ns, pose, GasReading{10.0 * x_m}}, {}});
       result = host_->Ingest(writer, robot, leases_.at(robot), std::move(batch),
-                             says_when ? robot_ns : 0);
+                             {says_when ? robot_ns : 0, arrived_ns});
     });
     EXPECT_TRUE(result.status.ok()) << result.status;
     return result;
@@ -227,6 +230,19 @@ TEST_F(ClocksTest, ABacklogKeepsItsAge) {
   EXPECT_EQ(OffsetOf("a"), kHour_ns);
 }
 
+TEST_F(ClocksTest, TimeInTheQueueIsNoDelayOfTheLink) {
+  Start({{"a", kHour_ns}, {"b", 0}});
+  for (int k = 1; k <= 5; ++k) {
+    Send("a", 0, /*says_when=*/true, /*queued_s=*/2.0);
+    EXPECT_EQ(OffsetOf("a"), kHour_ns);
+    EXPECT_EQ(time_ns(), kNow_ns + elapsed_ns_ - 2 * kSecond_ns);
+  }
+  // What lies ahead is that at the arrival, too.
+  const IngestResult result = Send("b", -6 * kSecond_ns, /*says_when=*/true, /*queued_s=*/2.0);
+  ASSERT_EQ(result.refused.size(), 2U);
+  EXPECT_EQ(ErrorReason(result.refused[0].status), reason::kClockAhead);
+}
+
 TEST_F(ClocksTest, NobodyCanHurryTheMission) {
   Start({{"a", 0}});
   const IngestResult result = Send("a", -6 * kSecond_ns);
@@ -251,11 +267,23 @@ TEST_F(ClocksTest, WhoHasNoLeaseTellsNothingOfAClock) {
   Send("a");
   Run([&](MissionWriter& writer) {
     const IngestResult result =
-        host_->Ingest(writer, "a", kLease - 1, GasBatch(3, 3), kNow_ns + kHour_ns);
+        host_->Ingest(writer, "a", kLease - 1, GasBatch(3, 3), {kNow_ns + kHour_ns, kNow_ns});
     EXPECT_EQ(ErrorReason(result.status), reason::kLeaseSuperseded);
     EXPECT_EQ(result.position.applied_sequence, 2);
   });
   EXPECT_EQ(OffsetOf("a"), 0);
+}
+
+TEST_F(ClocksTest, ARobotThatLeavesTakesItsClockAlong) {
+  Start({{"a", kHour_ns}, {"b", 0}});
+  Send("a");
+  Send("b");
+  Run([&](MissionWriter& writer) {
+    EXPECT_TRUE(writer.conduct().Remove({"a"}, host_->leases()).ok());
+  });
+  EXPECT_FALSE(host_->robot_clocks().LinkOf("a").has_value());
+  EXPECT_TRUE(host_->robot_clocks().LinkOf("b").has_value());
+  EXPECT_EQ(host_->robot_clocks().WorstOffset(), absl::ZeroDuration());
 }
 
 TEST_F(ClocksTest, LinksTellHowOldTheNewestSampleIs) {

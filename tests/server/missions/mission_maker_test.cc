@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <string>
 
 #include "core/types/error_reason.h"
@@ -51,6 +52,17 @@ TEST(MissionMakerTest, LeasesOfEachLifeAreGreaterThanThoseOfTheLifeBefore) {
   ASSERT_TRUE(second.ok()) << second.status();
   EXPECT_GT(*(*second)->leases().Propose("r1", false), token);
   EXPECT_TRUE(absl::IsNotFound(maker.Revive("attic", NeverStop()).status()));
+}
+
+TEST(MissionMakerTest, MissionsLiveByTheClocksThatTheyAreGiven) {
+  SteadyTime steady;
+  RegistryHooks hooks;
+  hooks.clock = [&] { return steady; };
+  hooks.wall_clock = [] { return std::int64_t{1000}; };
+  const MissionMaker maker({}, hooks);
+  const auto host = maker.Make("hall", {}, {}).value();
+  steady += std::chrono::nanoseconds(7);
+  EXPECT_EQ(host->clock().now_ns(), 1007);
 }
 
 TEST(MissionMakerTest, WithoutAStoreLeasesBeginWhereTheServerSays) {

@@ -34,26 +34,38 @@ TEST(MissionClockTest, GoesOnThoughTheWallClockIsSet) {
 
 TEST(RobotClocksTest, SmallDifferencesLeaveTheOffsetThatIsInForce) {
   RobotClocks clocks;
-  EXPECT_EQ(clocks.Reckon("r1", kNow_ns, kNow_ns + 20'000'000, 0).offset_ns, 0);
-  EXPECT_EQ(clocks.Reckon("r2", kNow_ns, kNow_ns + 20'000'001, 0).offset_ns, 20'000'001);
+  EXPECT_EQ(clocks.Reckon("r1", {kNow_ns, kNow_ns + 20'000'000}, 0).offset_ns, 0);
+  EXPECT_EQ(clocks.Reckon("r2", {kNow_ns, kNow_ns + 20'000'001}, 0).offset_ns, 20'000'001);
 }
 
 TEST(RobotClocksTest, TheFirstOffsetIsNoClockThatWasSetALaterOneIs) {
   RobotClocks clocks;
-  const auto first = clocks.Reckon("r1", kNow_ns + kHour_ns, kNow_ns, 0);
+  const auto first = clocks.Reckon("r1", {kNow_ns + kHour_ns, kNow_ns}, 0);
   EXPECT_EQ(first.offset_ns, -kHour_ns);
   EXPECT_FALSE(first.was_set);
-  const auto second = clocks.Reckon("r1", kNow_ns + kSecond_ns, kNow_ns + kSecond_ns, -kHour_ns);
+  const auto second = clocks.Reckon("r1", {kNow_ns + kSecond_ns, kNow_ns + kSecond_ns}, -kHour_ns);
   EXPECT_EQ(second.offset_ns, 0);
   EXPECT_TRUE(second.was_set);
 }
 
 TEST(RobotClocksTest, WhoDoesNotSayIsTakenAsItIs) {
   RobotClocks clocks;
-  clocks.Reckon("r1", kNow_ns + kHour_ns, kNow_ns, 0);
-  const auto reckoning = clocks.Reckon("r1", 0, kNow_ns, -kHour_ns);
+  clocks.Reckon("r1", {kNow_ns + kHour_ns, kNow_ns}, 0);
+  const auto reckoning = clocks.Reckon("r1", {0, kNow_ns}, -kHour_ns);
   EXPECT_EQ(reckoning.offset_ns, 0);
   EXPECT_FALSE(reckoning.was_set);
+}
+
+// As of a backlog that is read as fast as the rates allow.
+TEST(RobotClocksTest, BatchesThatWaitedToBeReadAreOfNoClockThatWasSet) {
+  RobotClocks clocks;
+  clocks.Reckon("r1", {kNow_ns, kNow_ns}, 0);
+  for (int k = 1; k <= 10; ++k) {
+    const std::int64_t sent_ns = kNow_ns + k * kSecond_ns;
+    const auto reckoning = clocks.Reckon("r1", {sent_ns, sent_ns + 2 * kSecond_ns, true}, 0);
+    EXPECT_EQ(reckoning.offset_ns, 0);
+    EXPECT_FALSE(reckoning.was_set);
+  }
 }
 
 TEST(RobotClocksTest, RemembersTheLatestBatchAndTheWorstOffset) {
@@ -65,6 +77,19 @@ TEST(RobotClocksTest, RemembersTheLatestBatchAndTheWorstOffset) {
   EXPECT_EQ(clocks.LinkOf("r1")->newest_sample_ns, kNow_ns - 5);
   EXPECT_EQ(clocks.LinkOf("r2")->heard_ns, kNow_ns);
   EXPECT_EQ(clocks.WorstOffset(), absl::Hours(1));
+}
+
+TEST(RobotClocksTest, ARobotThatLeavesTakesItsClockAlong) {
+  RobotClocks clocks;
+  clocks.Reckon("r1", {kNow_ns + kHour_ns, kNow_ns}, 0);
+  clocks.NoteBatch("r1", {kNow_ns, kNow_ns, -kHour_ns});
+  clocks.NoteBatch("r2", {kNow_ns, kNow_ns, 7});
+  clocks.Forget("r1");
+  EXPECT_FALSE(clocks.LinkOf("r1").has_value());
+  EXPECT_EQ(clocks.WorstOffset(), absl::Nanoseconds(7));
+  const auto back = clocks.Reckon("r1", {kNow_ns - kHour_ns, kNow_ns}, 0);
+  EXPECT_EQ(back.offset_ns, kHour_ns);
+  EXPECT_FALSE(back.was_set) << "it comes with a clock";
 }
 
 TEST(TakeMadeBeforeTest, ALeapInTimeIsWhereTheClockWasSet) {

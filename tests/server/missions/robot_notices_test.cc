@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <thread>
 #include <utility>
 
 #include "absl/synchronization/blocking_counter.h"
@@ -69,9 +70,10 @@ class RobotNoticesTest : public ::testing::Test {
   }
 
   static constexpr std::int64_t kLease = 7;
+  static constexpr absl::Duration kHold = absl::Hours(1);
 
   WorkerPool pool_{{"looks", 1, 100}};
-  LeaseTable leases_{absl::Hours(1), 1, SteadyNow};
+  LeaseTable leases_{kHold, 1, [this] { return now_; }};
   MissionState state_ = MissionState::kRunning;
   std::shared_ptr<const Belief> belief_;
   SteadyTime now_ = SteadyNow();
@@ -95,6 +97,24 @@ TEST_F(RobotNoticesTest, WhoMayNotWatchDoesNotJoin) {
   EXPECT_EQ(ErrorReason(Join(watcher, "r1", kLease - 1)), "LEASE_SUPERSEDED");
   EXPECT_EQ(notices_->watcher_count(), 0);
   EXPECT_TRUE(Join(watcher, "r1", std::nullopt).ok());
+}
+
+TEST_F(RobotNoticesTest, OneRobotHasSoManyWatchersWithItsLeaseAndAsManyWithout) {
+  notices_ = std::make_shared<RobotNotices>(&MissionMetrics::Unread(), 1);
+  const auto own = Joined();
+  const auto overseer = std::make_shared<Watcher>();
+  ASSERT_TRUE(Join(overseer, "r1", std::nullopt).ok());
+  const auto late = std::make_shared<Watcher>();
+  for (const std::optional<std::int64_t> lease :
+       {std::optional(kLease), std::optional<std::int64_t>()}) {
+    const absl::Status refused = Join(late, "r1", lease);
+    EXPECT_TRUE(absl::IsResourceExhausted(refused)) << refused;
+    EXPECT_EQ(ErrorReason(refused), "LIMIT_REACHED");
+  }
+  EXPECT_EQ(notices_->watcher_count(), 2);
+  EXPECT_TRUE(Join(late, "r2").ok());
+  notices_->Leave(own.get());
+  EXPECT_TRUE(Join(std::make_shared<Watcher>(), "r1").ok());
 }
 
 TEST_F(RobotNoticesTest, ChangesOfTheMissionsStateAreToldAtOnce) {
@@ -154,6 +174,72 @@ TEST_F(RobotNoticesTest, WhoseLeaseIsTakenHearsNoMore) {
   leases_.Remove("r1");
   notices_->Follow(leases_, state_);
   EXPECT_EQ(ErrorReason(overseer->end), "ROBOT_NOT_FOUND");
+}
+
+TEST_F(RobotNoticesTest, ALeaseThatRunsOutIsTold) {
+  const auto watcher = Joined();
+  EXPECT_EQ(notices_->next_follow(leases_, now_), After(now_, kHold));
+  now_ = After(now_, kHold);
+  EXPECT_EQ(notices_->next_follow(leases_, now_), now_);
+  notices_->Follow(leases_, state_);
+  EXPECT_EQ(notices_->Next(watcher.get()), RobotNotice(RobotStanding{.leased = false}));
+  EXPECT_EQ(notices_->next_follow(leases_, now_), SteadyTime::max()) << "it was told";
+}
+
+TEST_F(RobotNoticesTest, ALeaseRunsOutOnceItsStreamIsClosed) {
+  const auto watcher = Joined();
+  const auto stream = leases_.OpenStream("r1", kLease, nullptr);
+  ASSERT_TRUE(stream.ok());
+  EXPECT_EQ(notices_->next_follow(leases_, now_), SteadyTime::max());
+  now_ = After(now_, 2 * kHold);
+  leases_.CloseStream("r1", *stream);
+  EXPECT_EQ(notices_->next_follow(leases_, now_), After(now_, kHold));
+}
+
+TEST_F(RobotNoticesTest, ALookForWhichThereWasNoRoomIsMadeUpFor) {
+  WorkerPool full({"full", 1, 1});
+  absl::Notification busy;
+  absl::Notification go_on;
+  ASSERT_TRUE(full.Submit([&] {
+                    busy.Notify();
+                    go_on.WaitForNotification();
+                  })
+                  .ok());
+  busy.WaitForNotification();
+  ASSERT_TRUE(full.Submit([] {}).ok());
+  const auto watcher = std::make_shared<Watcher>();
+  ASSERT_TRUE(notices_->Join(watcher, "r1", kLease, &full, *belief_, leases_, state_).ok());
+  ASSERT_TRUE(notices_->Next(watcher.get()).has_value());
+  auto belief = std::make_shared<Belief>(*belief_);
+  ++belief->revision;
+  Assign(*belief, 1);
+  notices_->Look(belief, now_);
+  EXPECT_EQ(notices_->next_look(belief->revision), After(now_, RobotNotices::kLookPeriod));
+  go_on.Notify();
+  absl::Notification drained;
+  while (!full.Submit([&] { drained.Notify(); }).ok()) std::this_thread::yield();
+  drained.WaitForNotification();
+  notices_->Look(belief, After(now_, RobotNotices::kLookPeriod));
+  EXPECT_EQ(notices_->next_look(belief->revision), SteadyTime::max());
+  absl::Notification looked;
+  while (!full.Submit([&] { looked.Notify(); }).ok()) std::this_thread::yield();
+  looked.WaitForNotification();
+  EXPECT_EQ(notices_->Next(watcher.get()), RobotNotice(PlanAssigned{1}));
+}
+
+TEST_F(RobotNoticesTest, ALookDuringALookIsMadeUpFor) {
+  absl::Notification go_on;
+  ASSERT_TRUE(pool_.Submit([&] { go_on.WaitForNotification(); }).ok());
+  const auto watcher = Joined();
+  auto later = std::make_shared<Belief>(*belief_);
+  later->revision = belief_->revision + 1;
+  notices_->Look(belief_, now_);  // waits for the pool
+  notices_->Look(later, now_);
+  EXPECT_EQ(notices_->next_look(later->revision), After(now_, RobotNotices::kLookPeriod));
+  go_on.Notify();
+  absl::Notification done;
+  ASSERT_TRUE(pool_.Submit([&] { done.Notify(); }).ok());
+  done.WaitForNotification();
 }
 
 TEST_F(RobotNoticesTest, LooksAreForNewsAndForWatchersAndNotTooOften) {

@@ -9,8 +9,10 @@
 #include <future>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/time/clock.h"
 #include "tests/server/service_fixture.h"
@@ -260,6 +262,30 @@ TEST_F(ServiceTest, BatchesThatWaitForRoomKeepTheirOrder) {
     EXPECT_EQ(applied[static_cast<std::size_t>(i)].get(), kRounds * kWindow)
         << streams[static_cast<std::size_t>(i)]->Finish();
   }
+}
+
+TEST_F(ServiceTest, ABatchHasArrivedWhenItsFrameHasThoughTheWriterIsBusy) {
+  WriterGate gate;
+  StartServer({}, gate.Hooks());
+  const auto streams = OpenStreams(
+      2, *ingest_, [&](const std::string& robot) { return Register(robot)->lease_token(); });
+  ASSERT_TRUE(streams[0]->Send(GasReadings(1, 1)));
+  gate.AwaitHeld();
+  v1::ObservationBatch batch = GasReadings(1, 1);
+  const absl::Time sent = absl::Now() - absl::Hours(1);  // by a clock that is slow
+  batch.set_sent_time_ns(absl::ToUnixNanos(sent));
+  ASSERT_TRUE(streams[1]->Send(batch));
+  constexpr char kQueued[] = "\nplumescout_mission_reserved_observations{mission=\"hall\"} 1\n";
+  while (!absl::StrContains(server_->MetricsText(), kQueued)) std::this_thread::yield();
+  const absl::Time queued = absl::Now();
+  gate.Release();
+  EXPECT_EQ(streams[1]->ReadAck(1).applied_sequence(), 1);
+  v1::GetRobotRequest request;
+  request.set_name("missions/hall/robots/r1");
+  const auto robot = Call(robots_, &v1::RobotService::Stub::GetRobot, request);
+  ASSERT_TRUE(robot.ok()) << robot.status();
+  EXPECT_GE(robot->robot().clock_offset_s(), absl::ToDoubleSeconds(absl::Hours(1)));
+  EXPECT_LE(robot->robot().clock_offset_s(), absl::ToDoubleSeconds(queued - sent));
 }
 
 TEST_F(ServiceTest, DeletedMissionEndsStreamsThoughItIsBusy) {

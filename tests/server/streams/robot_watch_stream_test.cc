@@ -68,6 +68,27 @@ TEST_F(RobotWatchStreamTest, TellsOfAPauseOfItsEndAndOfTheMissions) {
   EXPECT_TRUE(watch.Read().standing().finished());
 }
 
+// Nothing happens in the mission meanwhile: the writer sleeps.
+TEST_F(RobotWatchStreamTest, TellsWhenALeaseRunsOut) {
+  ServerConfig config;
+  config.connection.lease_hold_s = 0.2;
+  for (const bool streams : {false, true}) {
+    StartServer(config);
+    lease_ = Lease();
+    RobotWatchClient watch(*robots_, kRobot, lease_);
+    IngestClient stream(*ingest_);
+    if (streams) {
+      ASSERT_TRUE(stream.Open(kRobot, lease_));
+      ASSERT_TRUE(stream.Read().has_opened());
+    }
+    stream.Cancel();
+    v1::WatchRobotResponse notice = watch.Read();
+    while (notice.has_standing() && notice.standing().leased()) notice = watch.Read();
+    EXPECT_TRUE(notice.has_standing()) << "the stream has ended";
+    EXPECT_FALSE(notice.standing().leased());
+  }
+}
+
 TEST_F(RobotWatchStreamTest, AnotherClientsLeaseEndsIt) {
   RobotWatchClient watch(*robots_, kRobot, lease_);
   watch.Read();
@@ -137,6 +158,24 @@ TEST_F(RobotWatchStreamTest, ManyWatchersOfOneRobotAreAllTold) {
     watchers.push_back(std::make_unique<RobotWatchClient>(*robots_, kRobot, lease_));
   }
   for (const auto& watch : watchers) EXPECT_TRUE(watch->Read().has_standing());
+  Steer(&v1::MissionService::Stub::PauseMission);
+  for (const auto& watch : watchers) EXPECT_TRUE(watch->Read().standing().paused());
+}
+
+TEST_F(RobotWatchStreamTest, StrangersCannotFillARobotsPlacesNorTheRobotTheirs) {
+  ServerConfig config;
+  config.limits.max_watchers_per_robot = 2;
+  StartServer(config);
+  lease_ = Lease();
+  std::vector<std::unique_ptr<RobotWatchClient>> watchers;
+  for (const std::int64_t token : {std::int64_t{0}, lease_}) {
+    for (int i = 0; i < 2; ++i) {
+      watchers.push_back(std::make_unique<RobotWatchClient>(*robots_, kRobot, token));
+      EXPECT_TRUE(watchers.back()->Read().has_standing());
+    }
+    EXPECT_THAT(RobotWatchClient(*robots_, kRobot, token).Finish(),
+                Refuses(absl::StatusCode::kResourceExhausted, "LIMIT_REACHED"));
+  }
   Steer(&v1::MissionService::Stub::PauseMission);
   for (const auto& watch : watchers) EXPECT_TRUE(watch->Read().standing().paused());
 }

@@ -59,6 +59,20 @@ TEST_F(LeaseBookTest, LeaseIsHeldForAWhileAfterItsLastUse) {
   EXPECT_FALSE(Held());
 }
 
+TEST_F(LeaseBookTest, TimeIsLeftUntilItRunsOutUnlessAStreamHoldsIt) {
+  EXPECT_EQ(book_.TimeLeft_ns("r1", now_ns_), std::nullopt);
+  const std::int64_t token = Take("r1");
+  EXPECT_EQ(book_.TimeLeft_ns("r1", now_ns_), kHold_ns);
+  const StreamId stream = Open("r1", token);
+  EXPECT_EQ(book_.TimeLeft_ns("r1", now_ns_), std::nullopt);
+  now_ns_ += 7;
+  book_.CloseStream("r1", stream, now_ns_);
+  now_ns_ += kHold_ns - 1;
+  EXPECT_EQ(book_.TimeLeft_ns("r1", now_ns_), 1);
+  now_ns_ += 1;
+  EXPECT_EQ(book_.TimeLeft_ns("r1", now_ns_), std::nullopt);
+}
+
 TEST_F(LeaseBookTest, LookingIsNoUse) {
   const std::int64_t token = Take("r1");
   now_ns_ += kHold_ns;

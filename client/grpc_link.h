@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <google/protobuf/duration.pb.h>
+#include <grpcpp/channel.h>
+#include <grpcpp/client_context.h>
+#include <grpcpp/support/status.h>
+
+#include <memory>
+#include <string>
+
+#include "absl/status/status.h"
+#include "absl/strings/str_cat.h"
+#include "absl/time/time.h"
+#include "client/grpc_client_options.h"
+#include "client/request_ids.h"
+
+namespace plumescout::client {
+
+// One connection to a server, opened at the first call and again whenever it breaks, and the calls
+// that are answered once. Thread-safe.
+class GrpcLink {
+ public:
+  explicit GrpcLink(const GrpcClientOptions& options);
+
+  const GrpcClientOptions& options() const { return options_; }
+  // What stubs are made of.
+  const std::shared_ptr<grpc::Channel>& channel() const { return channel_; }
+
+  // `method` of a generated stub. As GrpcClientOptions::call_timeout says of `timeout`.
+  template <typename Stub, typename Method, typename Request, typename Response>
+  absl::Status Call(Stub& stub, Method method, const Request& request, Response* response,
+                    absl::Duration timeout) const {
+    grpc::ClientContext context;
+    Prepare(context, timeout);
+    return Judge((stub.*method)(&context, request, response), timeout);
+  }
+  template <typename Stub, typename Method, typename Request, typename Response>
+  absl::Status Call(Stub& stub, Method method, const Request& request, Response* response) const {
+    return Call(stub, method, request, response, options_.call_timeout);
+  }
+
+  // The request has a name, by which the server knows it again when it is made again because its
+  // answer was lost.
+  template <typename Stub, typename Method, typename Request, typename Response>
+  absl::Status CallNamed(Stub& stub, Method method, Request request, Response* response,
+                         absl::Duration timeout) {
+    const std::string content = absl::StrCat(request.GetTypeName(), request.SerializeAsString());
+    request.set_request_id(request_ids_.NameOf(content));
+    const absl::Status status = Call(stub, method, request, response, timeout);
+    request_ids_.NoteEnd(content, request.request_id(), status);
+    return status;
+  }
+  template <typename Stub, typename Method, typename Request, typename Response>
+  absl::Status CallNamed(Stub& stub, Method method, const Request& request, Response* response) {
+    return CallNamed(stub, method, request, response, options_.call_timeout);
+  }
+
+  // Waits for a link for as long as an attempt takes, and the pause before it. Between calls that
+  // fail at once nobody drives the channel's attempts, and gRPC looks at them every five seconds
+  // only; whoever waits for the channel drives them.
+  void AwaitLink() const;
+
+ private:
+  static void Prepare(grpc::ClientContext& context, absl::Duration timeout);
+  // What a call that took so long at most has come to.
+  absl::Status Judge(const grpc::Status& status, absl::Duration timeout) const;
+
+  const GrpcClientOptions options_;
+  RequestIds request_ids_;
+  const std::shared_ptr<grpc::Channel> channel_;
+};
+
+// What is longer than the wire can say becomes as long as it can say.
+void SetDuration(absl::Duration duration, google::protobuf::Duration* proto);
+
+}  // namespace plumescout::client

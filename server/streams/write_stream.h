@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <grpcpp/support/server_callback.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "absl/base/thread_annotations.h"
+#include "absl/status/status.h"
+#include "absl/synchronization/mutex.h"
+#include "server/base/grpc_status.h"
+#include "server/calls/active_streams.h"
+#include "server/calls/service_context.h"
+#include "server/streams/stream_pump.h"
+
+namespace plumescout::server {
+
+// A stream on which only the server writes: one message is in flight at a time, and the first
+// ending counts. What is to be written, and when, is for the classes that derive from it. It owns
+// itself until gRPC is done with it.
+template <typename Message>
+class WriteStream : public grpc::ServerWriteReactor<Message>,
+                    public EndableStream,
+                    public std::enable_shared_from_this<WriteStream<Message>> {
+ public:
+  void End(const absl::Status& status) override {
+    {
+      absl::MutexLock lock(&mutex_);
+      if (!end_.has_value()) end_ = status;
+    }
+    Pump();
+  }
+
+  void OnWriteDone(bool ok) final {
+    {
+      absl::MutexLock lock(&mutex_);
+      writing_ = false;
+      if (!ok && !end_.has_value()) end_ = absl::CancelledError("the stream broke");
+    }
+    Pump();
+  }
+  void OnCancel() final { End(absl::CancelledError("the caller gave up")); }
+  void OnDone() final {
+    context_.streams->Remove(this);
+    LetGo();
+    self_.reset();
+  }
+
+ protected:
+  explicit WriteStream(const ServiceContext* context) : context_(*context) {}
+
+  // Has the caller let in, and then the stream begin; an error ends it. REQUIRES: called once, by
+  // who holds the stream.
+  void Run(Rpc rpc, grpc::CallbackServerContext& call, const std::function<absl::Status()>& begin) {
+    self_ = this->shared_from_this();
+    context_.streams->Add(self_);
+    absl::Status status = visit_.Enter(*context_.door, rpc, call);
+    context_.streams->LetIn(this, visit_.info().recheck);
+    if (status.ok()) status = begin();
+    if (!status.ok()) End(status);
+  }
+
+  // Starts whatever can start now.
+  void Pump() ABSL_LOCKS_EXCLUDED(mutex_) {
+    const auto self = this->shared_from_this();  // the finish may end us
+    pump_.Run(mutex_, [this] {
+      mutex_.AssertHeld();
+      return Next();
+    });
+  }
+  // What to start, while the stream goes on and nothing is being written; null: nothing now.
+  virtual StreamPump::Operation NextOperation() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) = 0;
+  // Of this message, which stays until nothing is being written.
+  StreamPump::Operation Write(const Message* message) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
+    writing_ = true;
+    return [this, message] { this->StartWrite(message); };
+  }
+  bool has_ended() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) { return end_.has_value(); }
+  // gRPC is done with the stream: lets go of what it works on.
+  virtual void LetGo() = 0;
+
+  const ServiceContext& context_;
+  Visit visit_;
+  absl::Mutex mutex_;
+
+ private:
+  StreamPump::Operation Next() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
+    if (finished_ || writing_) return nullptr;
+    if (!end_.has_value()) return NextOperation();
+    finished_ = true;
+    return [this, status = *end_] {
+      visit_.Leave(status);
+      this->Finish(ToGrpc(status, visit_.info().request_id));
+    };
+  }
+
+  StreamPump pump_;
+  std::shared_ptr<WriteStream> self_;  // until OnDone
+  bool writing_ ABSL_GUARDED_BY(mutex_) = false;
+  bool finished_ ABSL_GUARDED_BY(mutex_) = false;
+  std::optional<absl::Status> end_ ABSL_GUARDED_BY(mutex_);
+};
+
+}  // namespace plumescout::server
