@@ -88,6 +88,11 @@ class Fleet {
   // Whether any robot ever registered a sensor whose offset is not known.
   bool has_offsets() const { return has_offsets_; }
   bool Knows(const RobotId& robot) const { return Find(robot) != nullptr; }
+  // Whether it has a live plan that leads somewhere.
+  bool HasWay(const RobotId& robot) const {
+    const Member* const member = Find(robot);
+    return member != nullptr && member->record.live_trajectory != nullptr;
+  }
   std::vector<RobotId> Ids() const;
 
   // Discs around the latest poses of all robots but `observer` and the silent, in which beams must
