@@ -61,6 +61,10 @@ double Doubt_m(const RobotState& a, const RobotState& b) {
 
 }  // namespace
 
+double Reach_m(const RobotState& a, const RobotState& b, double clearance_m) {
+  return a.radius_m + b.radius_m + std::max(0.0, Doubt_m(a, b) - clearance_m);
+}
+
 bool IsOnItsWay(const RobotRecord& record, std::int64_t now_ns) {
   const Trajectory* const way = record.live_trajectory.get();
   if (way == nullptr || way->waypoints.empty()) return false;
@@ -107,9 +111,7 @@ Traffic::Traffic(const std::map<RobotId, RobotRecord>& robots, const RobotId& ro
   const RobotState& self = robots.at(robot).state;
   for (const auto& [id, record] : robots) {
     if (id == robot || !record.state.has_pose || IsGone(record, now_ns)) continue;
-    const double doubt_m = std::max(0.0, Doubt_m(self, record.state) - clearance_m);
-    Other other{
-        id, self.radius_m + record.state.radius_m + doubt_m, {record.state.pose.position()}};
+    Other other{id, Reach_m(self, record.state, clearance_m), {record.state.pose.position()}};
     if (IsOnItsWay(record, now_ns)) {
       const double progress_s = Progress_s(record, now_ns);
       const std::size_t last = StepsIn(kHorizon_s) + MostEarly();

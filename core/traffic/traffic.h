@@ -22,6 +22,11 @@ struct Meeting {
   Point2 place;         // of the robot whose way it is
 };
 
+// How far apart the centres of two robots have to be beside the clearance that they keep: by both
+// radii, and by what 2.5 standard deviations of how their frames lie to each other are more than
+// the clearance.
+double Reach_m(const RobotState& a, const RobotState& b, double clearance_m);
+
 // Farther than this from its trajectory a robot is not following it: several times what followers
 // stray, and less than the width of a corridor.
 inline constexpr double kOffTrajectory_m = 0.5;
@@ -43,8 +48,7 @@ class Traffic {
 
   enum class Others { kEarlyOrLate, kOnTime };
 
-  // For `robot`, one of `robots`, that keeps `clearance_m`, or 2.5 standard deviations of how their
-  // frames lie to each other if that is more, and both radii between centres. Two that
+  // For `robot`, one of `robots`, that keeps Reach_m and `clearance_m` between centres. Two that
   // are nearer already meet only if they come nearer still. Cost: O(robots * waypoints).
   Traffic(const std::map<RobotId, RobotRecord>& robots, const RobotId& robot, double clearance_m,
           std::int64_t now_ns, Others others = Others::kEarlyOrLate);
@@ -72,7 +76,7 @@ class Traffic {
   // Another robot's centre at the times k * kStep_s from now.
   struct Other {
     RobotId robot;
-    double reach_m = 0.0;  // of both radii
+    double reach_m = 0.0;  // Reach_m
     std::vector<Point2> places;
     double fastest_m = 0.0;  // in one step
   };
