@@ -27,10 +27,10 @@ void Fleet::LivePlan::VisitState(Archive& archive, Self& self) {
 
 template <typename Archive, typename Self>
 void Fleet::Member::VisitState(Archive& archive, Self& self) {
-  auto& [record, odometer, lease_token, log_epoch, last_phase, live, heard_ns, sensors, removed] =
-      self;
+  auto& [record, odometer, lease_token, log_epoch, last_phase, live, heard_ns, sensors, removed,
+         first_ns] = self;
   archive(record, odometer, lease_token, log_epoch, last_phase, live, heard_ns, removed);
-  archive.Since(2, sensors);
+  archive.Since(2, sensors, first_ns);
 }
 
 template <typename Archive, typename Self>

@@ -96,6 +96,18 @@ TEST_F(WayHistoryTest, WhatCameAfterTheCorrectionIsRight) {
   EXPECT_EQ(places[1], (Point2{2.0, 1.5}));
 }
 
+TEST_F(WayHistoryTest, TheStartOfAWayMovesWithIt) {
+  Read(1.0, kSecond_ns);
+  Read(2.0, 3 * kSecond_ns);
+  WayPoint start{kSecond_ns, {1.0, 1.5, 0.0}};
+  WayPoint later{4 * kSecond_ns, {2.0, 1.5, 0.0}};
+  const std::vector<PoseAnchor> up = {{kSecond_ns, {1.0, 2.5, 0.0}}};
+  ASSERT_TRUE(history_.Correct("a", 3 * kSecond_ns, up, 0, &start).ok());
+  EXPECT_EQ(start.pose.position(), (Point2{1.0, 2.5}));
+  ASSERT_TRUE(history_.Correct("a", 3 * kSecond_ns, up, 0, &later).ok());
+  EXPECT_EQ(later.pose.position(), (Point2{2.0, 1.5})) << "it was taken after the correction";
+}
+
 TEST_F(WayHistoryTest, RefusesWhatItCannotCorrect) {
   Read(1.0, kSecond_ns);
   const auto message = [&](std::vector<PoseAnchor> anchors, const char* robot = "a") {
