@@ -32,24 +32,6 @@ namespace {
 // Draws of goals and of samples must not follow each other's numbers.
 constexpr std::uint64_t kGoalStream = 0x676F616C73ULL;
 
-MissionPhase PhaseOf(GoalKind kind) {
-  switch (kind) {
-    case GoalKind::kGasFrontier:
-    case GoalKind::kInformation:
-      return MissionPhase::kGasProbing;
-    case GoalKind::kOccupancyFrontier:
-      return MissionPhase::kExploring;
-    case GoalKind::kHome:
-      return MissionPhase::kReturning;
-    case GoalKind::kSite:
-      return MissionPhase::kSampling;
-    case GoalKind::kRandomFreeSpace:
-    case GoalKind::kMakeWay:
-      break;
-  }
-  return MissionPhase::kFallback;
-}
-
 PlanEffort Sum(const PlanEffort& a, const PlanEffort& b) {
   return {a.samples + b.samples, a.vertices + b.vertices, a.edges_evaluated + b.edges_evaluated,
           a.goals_by_guard + b.goals_by_guard, a.batches + b.batches};
@@ -110,7 +92,7 @@ void ComposedStrategy::Conclude(double start_yaw_rad, const PlanningOptions& opt
                                 plumescout::Plan& plan) {
   if (plan.chosen >= 0) {
     const Candidate& chosen = plan.candidates[static_cast<std::size_t>(plan.chosen)];
-    plan.phase = PhaseOf(chosen.goal.kind);
+    plan.phase = PhaseToward(chosen.goal.kind);
     plan.trajectory = TrajectoryOf(chosen, start_yaw_rad, options);
   }
   plan.explanation = Explain(plan, options);
@@ -187,8 +169,10 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
   TakeResults(judging, result, plan);
   const bool stopped_empty = plan.end == PlanEnd::kStopped && plan.candidates.empty();
   RejectOverBudget(query, plan);
-  LeadRound({query, departure, problem, judge}, plan);
-  YieldToRobots(belief, departure.yaw_rad, options_, plan);
+  if (std::optional<Waits> waits = FindWaits(belief, departure.yaw_rad, options_, plan)) {
+    LeadRound({query, departure, problem, judge}, *waits, plan);
+    YieldToRobots(*waits, departure.yaw_rad, options_, plan);
+  }
   Choose(foreseen, options_, stop, plan);
   const bool budget_spent = request.max_edge_evaluations > 0 &&
                             plan.effort.edges_evaluated >= request.max_edge_evaluations;
