@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "absl/strings/str_format.h"
+#include "core/plan/precedence.h"
 #include "core/plan/trajectory_timing.h"
 #include "core/traffic/traffic.h"
 
@@ -37,6 +38,9 @@ std::optional<Waits> FindWaits(const Belief& belief, double start_yaw_rad,
   }
   Waits waits{Traffic(belief.robots, plan.robot, options.robot_clearance_m, belief.sample_time_ns),
               {}};
+  for (const KeptWay& kept : KeptWays(belief, plan.robot, options)) {
+    waits.traffic.KeepWay(belief.robots.at(kept.robot).state, kept.trajectory);
+  }
   for (const Candidate& candidate : plan.candidates) {
     waits.waits_s.push_back(waits.traffic.LeastWait_s(Timed(candidate, start_yaw_rad, options)));
   }

@@ -21,14 +21,16 @@ struct Waits {
 };
 
 // None if nobody is yielded to: robots are not, by options.yield_to_robots, or there is no other,
-// or no candidate. REQUIRES: plan.robot. Cost: that of Traffic::LeastWait_s for each candidate.
+// or no candidate. REQUIRES: plan.robot. Cost: that of KeptWays, and of Traffic::LeastWait_s for
+// each candidate.
 std::optional<Waits> FindWaits(const Belief& belief, double start_yaw_rad,
                                const PlanningOptions& options, const Plan& plan);
 
-// Others go first whose plans are live: each candidate waits at its start until its way is clear of
-// theirs, which adds to its duration_s; one that would have to wait longer than kMaxWait_s is
-// rejected (kTraffic), the soonest reached first. REQUIRES: duration_s of all candidates; `waits`
-// are theirs. Cost: that of Traffic::FirstMeeting for each that is rejected.
+// Others go first whose plans are live, and who have waited for long (precedence.h): each candidate
+// waits at its start until its way is clear of theirs, which adds to its duration_s; one that would
+// have to wait longer than kMaxWait_s is rejected (kTraffic), the soonest reached first. REQUIRES:
+// duration_s of all candidates; `waits` are theirs. Cost: that of Traffic::FirstMeeting for each
+// that is rejected.
 void YieldToRobots(const Waits& waits, double start_yaw_rad, const PlanningOptions& options,
                    Plan& plan);
 // By FindWaits.
