@@ -33,7 +33,9 @@ class Recorder final : public ConductObserver {
   void OnEvent(const Event& event, const Applied& applied) override {
     events.push_back(event.body);
     suspicions += applied.turned_suspect ? 1 : 0;
+    if (!applied.map.ok()) kept_maps.push_back(applied.map);
   }
+  std::vector<absl::Status> kept_maps;
   std::vector<EventBody> events;
   int suspicions = 0;
 };
@@ -216,38 +218,6 @@ TEST_F(MissionCorrectionsTest, WhereARobotCameFromIsMovedWithItsWay) {
   ExpectReplays();
 }
 
-TEST_F(MissionCorrectionsTest, ARobotWhoseFrameIsPutElsewhereTellsAnewWhereItIs) {
-  const auto mission = *Mission::Create({});
-  RobotRegistered registration{"a", 0.2, 1};
-  ASSERT_TRUE(mission->Apply(registration).ok());
-  const auto read_at = [&](std::int64_t sequence, double x_m) {
-    const Observation reading{sequence, sequence * kSecond_ns, {x_m, 0, 0}, GasReading{1.0, 0.0}};
-    const auto applied = mission->Apply(ObservationReceived{"a", reading});
-    return applied.ok() && applied->observation.ok();
-  };
-  ASSERT_TRUE(read_at(1, 0.0) && read_at(2, 1.0));
-  Plan plan;
-  plan.robot = "a";
-  plan.candidates.resize(1);
-  plan.chosen = 0;
-  ASSERT_TRUE(mission->Apply(PlanIssued{plan}).ok());
-  registration.lease_token = 2;
-  registration.frame.position_stddev_m = 0.1;
-  ASSERT_TRUE(mission->Apply(registration).ok());
-  EXPECT_TRUE(mission->Snapshot()->robots.at("a").state.has_pose) << "it is where it was";
-  EXPECT_TRUE(mission->HasWay("a"));
-  registration.lease_token = 3;
-  registration.frame.mission_from_robot = {10.0, 0.0, 0.0};
-  ASSERT_TRUE(mission->Apply(registration).ok());
-  EXPECT_FALSE(mission->Snapshot()->robots.at("a").state.has_pose);
-  EXPECT_FALSE(mission->HasWay("a"));
-  ASSERT_TRUE(read_at(3, 1.0));
-  const RobotRecord record = mission->Snapshot()->robots.at("a");
-  EXPECT_EQ(record.state.pose.position(), (Point2{11.0, 0.0}));
-  EXPECT_EQ(record.travelled_m, 1.0) << "it did not drive from frame to frame";
-  EXPECT_EQ(record.first_place, (Point2{0.0, 0.0}));
-}
-
 TEST_F(MissionCorrectionsTest, ScansThatFitAgainEndTheSuspicionWithoutTheStretch) {
   Drive(100);
   const std::int64_t readings = conduct_->Snapshot()->gas_counters.readings;
@@ -323,6 +293,36 @@ TEST_F(MissionCorrectionsTest, ASavedMissionGoesOnAsTheOneThatWasSaved) {
     ASSERT_TRUE(restored->Apply(recorder_.events[i]).ok());
   }
   EXPECT_EQ(restored->Digest(), mission.Digest());
+  ExpectReplays();
+}
+
+class MissionInASmallWorld : public MissionCorrectionsTest {
+ protected:
+  static MissionOptions Options() {
+    MissionOptions options;
+    options.occupancy.max_extent_m = 20.0;
+    return options;
+  }
+  MissionInASmallWorld() : MissionCorrectionsTest(Options()) {}
+};
+
+TEST_F(MissionInASmallWorld, ARebuiltMapWithoutRoomBesideTheOldOneIsToldOf) {
+  Drive(20);
+  const int walls = Occupied();
+  const auto elsewhere = [this](int step) {
+    const Pose2 truth = TruthAt(step);
+    return Pose2{truth.x_m + 12.8, truth.y_m, truth.yaw_rad};
+  };
+  const int last = step_ - 1;
+  const PoseCorrection all{{{TimeOf(0), elsewhere(0)}, {TimeOf(last), elsewhere(last)}}};
+  ASSERT_TRUE(Send(TimeOf(last), elsewhere(last), all).ok());
+  for (int i = 1; i <= 50; ++i) {
+    ASSERT_TRUE(Send(TimeOf(last + i), elsewhere(last), GasReading{1.0, 0.0}).ok());
+  }
+  EXPECT_EQ(Rebuilds().size(), 1u);
+  ASSERT_EQ(recorder_.kept_maps.size(), 1u);
+  EXPECT_THAT(std::string(recorder_.kept_maps[0].message()), HasSubstr("max_extent_m"));
+  EXPECT_EQ(Occupied(), walls);
   ExpectReplays();
 }
 
