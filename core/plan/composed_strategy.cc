@@ -22,6 +22,7 @@
 #include "core/plan/right_of_way.h"
 #include "core/plan/selection/choice.h"
 #include "core/plan/trajectory_timing.h"
+#include "core/plan/wait_place.h"
 #include "core/plan/way_round.h"
 #include "core/types/rng.h"
 #include "core/types/status_macros.h"
@@ -83,6 +84,7 @@ absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
     }
   }
   Conclude(start.pose.yaw_rad, options_, plan);
+  if (WaitOutOfTheWay(belief, options_, plan)) plan.explanation = Explain(plan, options_);
   plan.explanation += WhySentHome(belief, request.robot);
   if (start.departure) MakeWay(belief, *start.departure, options_, stop, plan);
   return std::move(plan);

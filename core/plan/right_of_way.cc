@@ -31,16 +31,20 @@ RejectedGoal InTraffic(const Candidate& candidate, const Meeting& meeting) {
 
 }  // namespace
 
+Traffic TrafficAround(const Belief& belief, const RobotId& robot, const PlanningOptions& options) {
+  Traffic traffic(belief.robots, robot, options.robot_clearance_m, belief.sample_time_ns);
+  for (const KeptWay& kept : KeptWays(belief, robot, options)) {
+    traffic.KeepWay(belief.robots.at(kept.robot).state, kept.trajectory);
+  }
+  return traffic;
+}
+
 std::optional<Waits> FindWaits(const Belief& belief, double start_yaw_rad,
                                const PlanningOptions& options, const Plan& plan) {
   if (!options.yield_to_robots || belief.robots.size() < 2 || plan.candidates.empty()) {
     return std::nullopt;
   }
-  Waits waits{Traffic(belief.robots, plan.robot, options.robot_clearance_m, belief.sample_time_ns),
-              {}};
-  for (const KeptWay& kept : KeptWays(belief, plan.robot, options)) {
-    waits.traffic.KeepWay(belief.robots.at(kept.robot).state, kept.trajectory);
-  }
+  Waits waits{TrafficAround(belief, plan.robot, options), {}};
   for (const Candidate& candidate : plan.candidates) {
     waits.waits_s.push_back(waits.traffic.LeastWait_s(Timed(candidate, start_yaw_rad, options)));
   }

@@ -13,7 +13,11 @@
 
 namespace plumescout {
 
-// Where the other robots will be, and what that makes of the candidates of a plan.
+// Where the others will be for a robot that plans now, those who go before it (precedence.h)
+// included. Cost: that of Traffic and of KeptWays.
+Traffic TrafficAround(const Belief& belief, const RobotId& robot, const PlanningOptions& options);
+
+// That, and what it makes of the candidates of a plan.
 struct Waits {
   Traffic traffic;
   // Of each candidate before it leaves (Traffic::LeastWait_s); none: no wait would do.
