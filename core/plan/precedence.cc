@@ -51,6 +51,23 @@ std::optional<Trajectory> WantedWay(const Belief& belief,
   return TimeTrajectory(vertices, pose.yaw_rad, options);
 }
 
+std::optional<Trajectory> KeptWayOf(const Belief& belief, const RobotRecord& record,
+                                    const RobotId& planner, const PlanningOptions& options) {
+  std::map<RobotId, RobotRecord> robots = belief.robots;
+  robots.at(planner).live_trajectory = nullptr;  // it is to have another
+  std::optional<double> wait_s;
+  std::optional<Trajectory> way = WantedWay(belief, robots, record, options);
+  if (way) {
+    wait_s = Traffic(robots, record.state.id, options.robot_clearance_m, belief.sample_time_ns)
+                 .LeastWait_s(*way, Traffic::kHorizon_s);
+  } else {
+    robots.erase(planner);
+    way = WantedWay(belief, robots, record, options);
+  }
+  if (way) WaitAtStart(wait_s.value_or(Traffic::kHorizon_s), *way);
+  return way;
+}
+
 }  // namespace
 
 std::vector<KeptWay> KeptWays(const Belief& belief, const RobotId& robot,
@@ -62,14 +79,7 @@ std::vector<KeptWay> KeptWays(const Belief& belief, const RobotId& robot,
   for (const auto& [id, record] : belief.robots) {
     if (id == robot || !GoesFirst(record, now_ns)) continue;
     if (own_goes_first && IsBefore(own, record)) continue;
-    std::map<RobotId, RobotRecord> others = belief.robots;
-    others.erase(robot);  // it is the one that is to make room
-    std::optional<Trajectory> way = WantedWay(belief, others, record, options);
-    if (!way) continue;
-    const Traffic traffic(others, id, options.robot_clearance_m, now_ns);
-    const std::optional<double> wait_s = traffic.LeastWait_s(*way, Traffic::kHorizon_s);
-    WaitAtStart(wait_s.value_or(Traffic::kHorizon_s), *way);
-    ways.push_back({id, *std::move(way)});
+    if (auto way = KeptWayOf(belief, record, robot, options)) ways.push_back({id, *std::move(way)});
   }
   return ways;
 }

@@ -20,7 +20,7 @@ inline constexpr double kPrecedenceAfter_s = 15.0;
 inline constexpr double kPrecedenceFor_s = 30.0;
 
 // The way to what a robot wants, with the wait at its start that live plans ask for; kHorizon_s of
-// traffic if none does.
+// traffic, beyond which nobody is foreseen to meet it, if none does.
 struct KeptWay {
   RobotId robot;
   Trajectory trajectory;
@@ -29,9 +29,10 @@ struct KeptWay {
 // The ways that are kept free for those who go before this robot: none of them is live, and what it
 // plans is to keep clear of them as if they were, and not to end on them (Traffic::KeepWay). Of two
 // that have waited for so long the one that began earlier goes first, the first by id of equals.
-// Nobody goes first where one that stands, other than this robot, leaves no way (see make_way.h).
-// In the order of ids. Cost: for each such robot a flood, a grid search and a
-// Traffic::LeastWait_s; else O(robots).
+// If this robot stands in the only such way it may drive off as it likes, along it too, and only
+// not end on it; where another stands in it nothing is kept (see make_way.h). In the order of ids.
+// Cost: for each such robot a flood, a grid search and a Traffic::LeastWait_s, or two of each; else
+// O(robots).
 std::vector<KeptWay> KeptWays(const Belief& belief, const RobotId& robot,
                               const PlanningOptions& options);
 

@@ -125,8 +125,7 @@ TEST(FindHome, IsFartherFromARobotWhosePlaceIsInDoubt) {
   parked.state.pose = {home.x_m, home.y_m, 0.0};
   c.belief.robots["r"].state.radius_m = cell_m;
   c.options.robot_clearance_m = 0.0;
-  // Beside both radii, 2.5 cells, and half a diagonal.
-  parked.state.frame.position_stddev_m = 2.5 * cell_m / 2.5;
+  parked.state.frame.position_stddev_m = cell_m;  // 2.5 cells beside both radii
   EXPECT_EQ(FindHome(c.Query()).goal.cell, (Cell{9, 3})) << "no other cell is 5.7 cells away";
 }
 
