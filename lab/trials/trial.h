@@ -39,7 +39,7 @@ struct TeamRecord {
   int contacts = 0;          // of two bodies
   int encounters = 0;        // of two robots nearer than their radii and kEncounterMargin_m
   double closest_m = 0.0;    // two centres ever came; 0: there was one robot
-  double waiting_s = 0.0;    // that plans had robots stand for others
+  double waiting_s = 0.0;    // that plans had robots stand before they went
   double robot_s = 0.0;      // of all robots together
   double plan_wall_s = 0.0;  // median from asking to answer; differs from run to run
 };
