@@ -295,10 +295,7 @@ void WayHistory::CloseKeyScans() {
 std::int64_t WayHistory::base_bytes() const {
   if (!base_map_) return 0;
   return kBaseCellBytes * static_cast<std::int64_t>(base_map_->geometry().size()) +
-         kReadingSiteBytes *
-             static_cast<std::int64_t>(base_readings_.sites() + base_readings_.arrivals()) +
-         kReadingBucketBytes *
-             static_cast<std::int64_t>(base_readings_.buckets() + base_readings_.arrival_buckets());
+         ReadingBytes(base_readings_);
 }
 
 std::int64_t WayHistory::BytesOf(const Way& way) {
