@@ -102,6 +102,7 @@ void ReadingStore::VisitState(Archive& archive, Self& self) {
       archive.Require(IsCellOfSites(cell.cell), "a cell lies too far away");
     }
     if (archive.ok()) self.Watch(aged);
+    self.CountArrivalBuckets();
   }
 }
 

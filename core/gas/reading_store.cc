@@ -93,7 +93,13 @@ ReadingStore ReadingStore::Unplaced() const {
       merged.buckets.insert(merged.buckets.end(), site.buckets.begin(), site.buckets.end());
     }
   }
+  store.CountArrivalBuckets();
   return store;
+}
+
+void ReadingStore::CountArrivalBuckets() {
+  arrival_buckets_ = 0;
+  for (const auto& [key, site] : merged_arrivals_) arrival_buckets_ += site.buckets.size();
 }
 
 void ReadingStore::MergeArrivals() {
@@ -104,8 +110,10 @@ void ReadingStore::MergeArrivals() {
     const Site one = SiteOfOne(arrival.reading);
     ++site.count;
     site.sums += one.sums;
+    arrival_buckets_ -= site.buckets.size();
     site.buckets.insert(site.buckets.end(), one.buckets.begin(), one.buckets.end());
     MergeBuckets(site);
+    arrival_buckets_ += site.buckets.size();
   }
   arrivals_.clear();
 }
@@ -153,6 +161,7 @@ absl::Status ReadingStore::Place(const Grid<CellState>& states,
   }
   for (const auto& [key, site] : merged_arrivals_) PlaceReadings(key, site, states);
   merged_arrivals_.clear();
+  arrival_buckets_ = 0;
   for (const Arrival& arrival : arrivals_) {
     PlaceReadings(SiteOf(arrival.position, anchor_), SiteOfOne(arrival.reading), states);
   }

@@ -109,6 +109,8 @@ class ReadingStore {
   std::size_t buckets() const { return buckets_; }  // held by all sites
   // Sites that are not placed yet, each reading that is kept alone counted as one.
   std::size_t arrivals() const { return arrivals_.size() + merged_arrivals_.size(); }
+  // Held by those of them that are merged.
+  std::size_t arrival_buckets() const { return arrival_buckets_; }
 
   // REQUIRES: TakeChanged was called after the last change. What was read is to be placed by
   // PlaceAgain.
@@ -157,6 +159,7 @@ class ReadingStore {
   void PlaceReadings(const ReadingSite& key, const Site& news, const Grid<CellState>& states);
   Site SiteOfOne(const ReadingBucket& reading) const;
   void MergeArrivals();
+  void CountArrivalBuckets();
   void MergeBuckets(Site& site);
   GridGeometry Lattice() const;
   void Anchor(const GridGeometry& first);
@@ -184,6 +187,7 @@ class ReadingStore {
   Sites sites_;
   std::size_t waiting_sites_ = 0;           // of sites_, those in no cell
   std::size_t buckets_ = 0;                 // of sites_
+  std::size_t arrival_buckets_ = 0;         // of merged_arrivals_
   std::map<AnchorCell, PlacedCell> cells_;  // all that ever had a site
   std::vector<AnchorCell> changed_;         // those marked so
   AgeingWatch watch_;                       // over cells_

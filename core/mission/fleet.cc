@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/mission/observation_check.h"
 #include "core/mission/plan_goals.h"
 #include "core/mission/sensor_check.h"
 #include "core/types/checker.h"
@@ -77,6 +78,11 @@ absl::Status Fleet::Register(const RobotRegistered& registration, int max_robot_
   Member& member = robots_[registration.robot];
   member.record.state.id = registration.robot;
   member.record.state.radius_m = registration.radius_m;
+  if (member.record.state.frame.mission_from_robot != registration.frame.mission_from_robot) {
+    member.record.state.has_pose = false;
+    member.odometer.Forget();
+    EndPlan(member);
+  }
   member.record.state.frame = registration.frame;
   member.sensors = registration.sensors;
   for (const GasSensor& sensor : member.sensors) {
@@ -194,7 +200,10 @@ void Fleet::Advance(const RobotId& robot, const Observation& observation, bool r
     }
     member.odometer.Pass(state.pose.position());
     member.record.travelled_m = member.odometer.travelled_m();
-    if (!member.record.first_place) member.record.first_place = state.pose.position();
+    if (!member.record.first_place) {
+      member.record.first_place = state.pose.position();
+      member.first_ns = MissionTime_ns(observation, state.clock_offset_ns);
+    }
   }
 }
 

@@ -12,6 +12,7 @@
 #include "absl/status/statusor.h"
 #include "core/belief/belief.h"
 #include "core/mission/odometer.h"
+#include "core/mission/way_correction.h"
 #include "core/occupancy/scan_inserter.h"
 #include "core/types/event.h"
 #include "core/types/options.h"
@@ -37,7 +38,8 @@ class Fleet {
   explicit Fleet(double robot_silence_s = MissionOptions().robot_silence_s,
                  double low_battery_share = MissionOptions().return_home_below_battery_share);
 
-  // `pose_limit_m`: of the place of its frame.
+  // `pose_limit_m`: of the place of its frame. A robot whose frame is put elsewhere has no pose
+  // until it tells one, and its live plan, made from where it was taken to be, ends.
   absl::Status Register(const RobotRegistered& registration, int max_robot_count,
                         double pose_limit_m = MissionOptions().pose_limit_m);
 
@@ -50,6 +52,14 @@ class Fleet {
   const RobotState& StateOf(const RobotId& robot) const { return robots_.at(robot).record.state; }
   void Suspect(const RobotId& robot, bool suspect) {
     robots_.at(robot).record.state.frame_suspect = suspect;
+  }
+
+  // Where its first observation was taken, and when; none before there is one. REQUIRES:
+  // Knows(robot).
+  std::optional<WayPoint> StartOf(const RobotId& robot) const;
+  // That was elsewhere. REQUIRES: StartOf(robot).
+  void MoveStart(const RobotId& robot, Point2 place) {
+    robots_.at(robot).record.first_place = place;
   }
 
   // How far the mission's time is ahead of the robot's clock from now on; kInvalidArgument beyond
@@ -88,6 +98,11 @@ class Fleet {
   // Whether any robot ever registered a sensor whose offset is not known.
   bool has_offsets() const { return has_offsets_; }
   bool Knows(const RobotId& robot) const { return Find(robot) != nullptr; }
+  // Whether it has a live plan that leads somewhere.
+  bool HasWay(const RobotId& robot) const {
+    const Member* const member = Find(robot);
+    return member != nullptr && member->record.live_trajectory != nullptr;
+  }
   std::vector<RobotId> Ids() const;
 
   // Discs around the latest poses of all robots but `observer` and the silent, in which beams must
@@ -126,7 +141,8 @@ class Fleet {
     std::optional<LivePlan> live;
     std::optional<std::int64_t> heard_ns;  // none: no time has passed since it registered
     std::vector<GasSensor> sensors;
-    bool removed = false;  // only its log and its lease are remembered
+    bool removed = false;       // only its log and its lease are remembered
+    std::int64_t first_ns = 0;  // when its first observation was taken
 
     template <typename Archive, typename Self>
     static void VisitState(Archive& archive, Self& self);

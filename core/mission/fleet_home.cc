@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 
-// Of the fleet: what robots tell of themselves, and who is sent home.
+// Of the fleet: what robots tell of themselves, where home is, and who is sent there.
 
 #include <algorithm>
 
@@ -21,6 +21,13 @@ absl::Status NotRegistered(const RobotId& robot) {
 }
 
 }  // namespace
+
+std::optional<WayPoint> Fleet::StartOf(const RobotId& robot) const {
+  const Member& member = robots_.at(robot);
+  if (!member.record.first_place) return std::nullopt;
+  return WayPoint{member.first_ns,
+                  {member.record.first_place->x_m, member.record.first_place->y_m, 0.0}};
+}
 
 absl::Status Fleet::NoteClock(const ClockOffsetNoted& noted) {
   Member* const member = Find(noted.robot);

@@ -58,6 +58,12 @@ std::int64_t BytesOn(const FirstCells& full, int factor) {
 
 }  // namespace
 
+std::int64_t ReadingBytes(const ReadingStore& readings) {
+  return kReadingSiteBytes * static_cast<std::int64_t>(readings.sites() + readings.arrivals()) +
+         kReadingBucketBytes *
+             static_cast<std::int64_t>(readings.buckets() + readings.arrival_buckets());
+}
+
 std::int64_t RoomForField_bytes(std::int64_t budget_bytes, const MemoryUse& use) {
   return std::min(budget_bytes / kEighths * kFieldEighths, budget_bytes - use.BesideField_bytes());
 }

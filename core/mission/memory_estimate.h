@@ -7,6 +7,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/strings/string_view.h"
+#include "core/gas/reading_store.h"
 #include "core/types/options.h"
 
 namespace plumescout {
@@ -34,6 +35,9 @@ struct MemoryUse {
   }
   std::int64_t Total_bytes() const { return BesideField_bytes() + field_bytes; }
 };
+
+// What readings take that are kept beside the field, in the same units. Cost: O(1).
+std::int64_t ReadingBytes(const ReadingStore& readings);
 
 // How a budget is shared. The field may take five eighths of it, or what the rest leaves; a coarser
 // lattice always does with less.

@@ -84,6 +84,7 @@ class Mission {
   // or `clearance_m` if that is less; none if it meets nobody or plans do not yield to robots.
   // Cost: that of Traffic::FirstMeeting, and of a copy of the robots' records.
   std::optional<Meeting> FindMeeting(const Plan& plan, double clearance_m) const;
+  bool HasWay(const RobotId& robot) const { return fleet_.HasWay(robot); }
   // The live plan of another robot that ends where this one does, whatever for; PlanIssued is
   // refused for those of its kind alone.
   std::optional<GoalClaim> FindClaim(const Plan& plan) const {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -39,8 +40,11 @@ absl::Status Mission::TakeCorrection(const RobotId& robot, const Observation& ob
   }
   const std::int64_t doubtful_from =
       jump_watch_.IsSuspect(robot) ? jump_watch_.DoubtfulFrom(robot) : history_.next_number();
-  PLUMESCOUT_ASSIGN_OR_RETURN(const bool covers_doubt,
-                              history_.Correct(robot, time_ns, anchors, doubtful_from));
+  std::optional<WayPoint> start = fleet_.StartOf(robot);
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      const bool covers_doubt,
+      history_.Correct(robot, time_ns, anchors, doubtful_from, start ? &*start : nullptr));
+  if (start) fleet_.MoveStart(robot, start->pose.position());
   if (covers_doubt || !jump_watch_.IsSuspect(robot)) TrustAgain(robot);
   PlaceReadingsAgain();
   rebuild_wanted_ = true;

@@ -27,6 +27,10 @@ class Odometer {
     if (mark_) mark_ = place;
   }
 
+  // Nobody knows where it holds itself to be until it passes the next place; it has not driven
+  // there.
+  void Forget() { mark_.reset(); }
+
   double travelled_m() const { return travelled_m_; }
 
   // See core/types/byte_archive.h.

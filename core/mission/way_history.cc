@@ -166,7 +166,7 @@ absl::Status WayHistory::CheckAnchors(const RobotId& robot, const Way& way,
 
 absl::StatusOr<bool> WayHistory::Correct(const RobotId& robot, std::int64_t time_ns,
                                          const std::vector<PoseAnchor>& anchors,
-                                         std::int64_t doubtful_from) {
+                                         std::int64_t doubtful_from, WayPoint* start) {
   if (!keeps_) {
     return absl::FailedPreconditionError(
         "keep_scans = false, or memory is too short: the mission keeps nothing that could be "
@@ -220,6 +220,9 @@ absl::StatusOr<bool> WayHistory::Correct(const RobotId& robot, std::int64_t time
   release(corrected.readings);
   release(corrected.scans);
   corrected.key_scan_closed = true;
+  if (start != nullptr && start->time_ns <= time_ns && start->time_ns > corrected.merged_ns) {
+    start->pose = correction.Corrected(start->time_ns, start->pose);
+  }
   found->second = std::move(corrected);
   used_ = true;
   return covers;
@@ -292,8 +295,7 @@ void WayHistory::CloseKeyScans() {
 std::int64_t WayHistory::base_bytes() const {
   if (!base_map_) return 0;
   return kBaseCellBytes * static_cast<std::int64_t>(base_map_->geometry().size()) +
-         kReadingSiteBytes *
-             static_cast<std::int64_t>(base_readings_.sites() + base_readings_.arrivals());
+         ReadingBytes(base_readings_);
 }
 
 std::int64_t WayHistory::BytesOf(const Way& way) {

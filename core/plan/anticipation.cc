@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/plan/cost/field_window.h"
 #include "core/traffic/traffic.h"
 
 namespace plumescout {
@@ -92,13 +93,11 @@ std::vector<ForeseenCell> PromisedReadings(const Belief& belief, const RobotId& 
 std::optional<Belief> Anticipate(const Belief& belief, const RobotId& robot,
                                  const PlanningOptions& options) {
   if (belief.gas_what_if == nullptr) return std::nullopt;
-  // The map may have grown since the gas field was computed.
-  const GridGeometry& then_geometry = belief.gas_what_if->geometry();
-  const Cell shift = belief.geometry().CellAt(then_geometry.Center({0, 0}));
+  const FieldWindow window(belief.geometry(), belief.gas_what_if->geometry());
   std::vector<ForeseenCell> inside;
-  for (ForeseenCell reading : PromisedReadings(belief, robot, options)) {
-    reading.cell = {reading.cell.x - shift.x, reading.cell.y - shift.y};
-    if (then_geometry.Contains(reading.cell)) inside.push_back(reading);
+  for (const ForeseenCell& reading : PromisedReadings(belief, robot, options)) {
+    const std::optional<Cell> cell = window.InField(reading.cell);
+    if (cell) inside.push_back({*cell, reading.precision_per_ppm2});
   }
   if (inside.empty()) return std::nullopt;
   auto given = belief.gas_what_if->Given(inside);
@@ -107,13 +106,10 @@ std::optional<Belief> Anticipate(const Belief& belief, const RobotId& robot,
   ahead.gas_what_if = *std::move(given);
   const Grid<float> then = ahead.gas_what_if->variance_ppm2();
   auto variance = std::make_shared<Grid<float>>(*belief.gas_variance_ppm2);
-  for (int y = 0; y < then_geometry.height; ++y) {
-    for (int x = 0; x < then_geometry.width; ++x) {
-      float& known = (*variance)[Cell{x + shift.x, y + shift.y}];
-      const float after = then[Cell{x, y}];
-      if (after < known) known = after;  // NaN off free cells
-    }
-  }
+  window.ForEachCell([&](std::size_t in_map, std::size_t in_field) {
+    float& known = (*variance)[in_map];
+    if (then[in_field] < known) known = then[in_field];  // NaN off free cells
+  });
   ahead.gas_variance_ppm2 = std::move(variance);
   return ahead;
 }

@@ -109,12 +109,13 @@ bool StandsStill(const RobotRecord& record, std::int64_t now_ns) {
   return !IsOnItsWay(record, now_ns) || Lateness_s(record, now_ns) >= kStuck_s;
 }
 
-void CloseAround(const RobotState& standing, double radius_m, Point2 from,
+void CloseAround(const RobotState& standing, const RobotState& mover, Point2 from,
                  const PlanningOptions& options, Grid<std::uint8_t>& open) {
   const GridGeometry& geometry = open.geometry();
   const Point2 center = standing.pose.position();
   const double half_diagonal_m = geometry.resolution_m / std::sqrt(2.0);
-  const double apart_m = radius_m + standing.radius_m + options.robot_clearance_m;
+  const double apart_m =
+      Reach_m(mover, standing, options.robot_clearance_m) + options.robot_clearance_m;
   // As ways round robots keep off (way_round.h): what they find no way to is not open.
   const double limit_m =
       std::min(apart_m + half_diagonal_m, Distance_m(center, from) - half_diagonal_m);
@@ -132,10 +133,10 @@ void CloseAround(const RobotState& standing, double radius_m, Point2 from,
 Grid<std::uint8_t> OpenTo(const Belief& belief, const std::map<RobotId, RobotRecord>& robots,
                           const RobotId& robot, Point2 from, const PlanningOptions& options) {
   Grid<std::uint8_t> open = *belief.traversable;
-  const double radius_m = robots.at(robot).state.radius_m;
+  const RobotState& mover = robots.at(robot).state;
   for (const auto& [id, record] : robots) {
     if (id == robot || !StandsStill(record, belief.sample_time_ns)) continue;
-    CloseAround(record.state, radius_m, from, options, open);
+    CloseAround(record.state, mover, from, options, open);
   }
   return open;
 }
@@ -155,7 +156,7 @@ std::vector<BlockedRobot> FindBlockedRobots(const Belief& belief,
                        {}, wish->waits_s};
     if (found.way.empty()) continue;
     for (const auto& [other_id, other] : robots) {
-      const double apart_m = record.state.radius_m + other.state.radius_m +
+      const double apart_m = Reach_m(record.state, other.state, options.robot_clearance_m) +
                              options.robot_clearance_m + half_diagonal_m;
       if (other_id != id && StandsStill(other, belief.sample_time_ns) &&
           IsInTheWay(other.state, found.way, apart_m)) {

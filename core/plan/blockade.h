@@ -31,7 +31,7 @@ struct BlockedRobot {
 };
 
 // Of those robots that stand and want to go somewhere (wanted_goal, or the goal of the plan that
-// they are stuck on), the ones that have no way round those that stand. Robots keep both radii and
+// they are stuck on), the ones that have no way round those that stand. Robots keep Reach_m and
 // options.robot_clearance_m apart, and half a cell, or are no nearer than they are. In the order of
 // ids. Cost: for each of them that of a flood and a grid search.
 std::vector<BlockedRobot> FindBlockedRobots(const Belief& belief,
@@ -42,9 +42,9 @@ std::vector<BlockedRobot> FindBlockedRobots(const Belief& belief,
 // waits for nobody that, in the end, waits for it.
 std::vector<BlockedRobot> FindRing(const std::vector<BlockedRobot>& blocked, const RobotId& robot);
 
-// Closes the cells that the robot cannot stand in beside one that stands: nearer than both radii
-// and the clearance, or than it is now, to that one. Those where the robot `from` is remain open.
-void CloseAround(const RobotState& standing, double radius_m, Point2 from,
+// Closes the cells that the robot cannot stand in beside one that stands: nearer than Reach_m and
+// the clearance, or than it is now, to that one. Those where the robot `from` is remain open.
+void CloseAround(const RobotState& standing, const RobotState& mover, Point2 from,
                  const PlanningOptions& options, Grid<std::uint8_t>& open);
 
 // The traversable cells that are open to a robot at `from` beside all others that stand.

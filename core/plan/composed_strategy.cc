@@ -22,6 +22,7 @@
 #include "core/plan/right_of_way.h"
 #include "core/plan/selection/choice.h"
 #include "core/plan/trajectory_timing.h"
+#include "core/plan/wait_place.h"
 #include "core/plan/way_round.h"
 #include "core/types/rng.h"
 #include "core/types/status_macros.h"
@@ -31,24 +32,6 @@ namespace {
 
 // Draws of goals and of samples must not follow each other's numbers.
 constexpr std::uint64_t kGoalStream = 0x676F616C73ULL;
-
-MissionPhase PhaseOf(GoalKind kind) {
-  switch (kind) {
-    case GoalKind::kGasFrontier:
-    case GoalKind::kInformation:
-      return MissionPhase::kGasProbing;
-    case GoalKind::kOccupancyFrontier:
-      return MissionPhase::kExploring;
-    case GoalKind::kHome:
-      return MissionPhase::kReturning;
-    case GoalKind::kSite:
-      return MissionPhase::kSampling;
-    case GoalKind::kRandomFreeSpace:
-    case GoalKind::kMakeWay:
-      break;
-  }
-  return MissionPhase::kFallback;
-}
 
 PlanEffort Sum(const PlanEffort& a, const PlanEffort& b) {
   return {a.samples + b.samples, a.vertices + b.vertices, a.edges_evaluated + b.edges_evaluated,
@@ -101,6 +84,7 @@ absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
     }
   }
   Conclude(start.pose.yaw_rad, options_, plan);
+  if (WaitOutOfTheWay(belief, options_, plan)) plan.explanation = Explain(plan, options_);
   plan.explanation += WhySentHome(belief, request.robot);
   if (start.departure) MakeWay(belief, *start.departure, options_, stop, plan);
   return std::move(plan);
@@ -110,7 +94,7 @@ void ComposedStrategy::Conclude(double start_yaw_rad, const PlanningOptions& opt
                                 plumescout::Plan& plan) {
   if (plan.chosen >= 0) {
     const Candidate& chosen = plan.candidates[static_cast<std::size_t>(plan.chosen)];
-    plan.phase = PhaseOf(chosen.goal.kind);
+    plan.phase = PhaseToward(chosen.goal.kind);
     plan.trajectory = TrajectoryOf(chosen, start_yaw_rad, options);
   }
   plan.explanation = Explain(plan, options);
@@ -187,8 +171,10 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
   TakeResults(judging, result, plan);
   const bool stopped_empty = plan.end == PlanEnd::kStopped && plan.candidates.empty();
   RejectOverBudget(query, plan);
-  LeadRound({query, departure, problem, judge}, plan);
-  YieldToRobots(belief, departure.yaw_rad, options_, plan);
+  if (std::optional<Waits> waits = FindWaits(belief, departure.yaw_rad, options_, plan)) {
+    LeadRound({query, departure, problem, judge}, *waits, plan);
+    YieldToRobots(*waits, departure.yaw_rad, options_, plan);
+  }
   Choose(foreseen, options_, stop, plan);
   const bool budget_spent = request.max_edge_evaluations > 0 &&
                             plan.effort.edges_evaluated >= request.max_edge_evaluations;

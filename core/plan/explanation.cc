@@ -62,6 +62,17 @@ bool IsWithoutWayHome(const Plan& plan) {
   });
 }
 
+// Of a trajectory that is to stop for nothing else.
+std::string WaitOnTheWay(const Trajectory& trajectory) {
+  for (std::size_t i = 1; i + 1 < trajectory.waypoints.size(); ++i) {
+    const Waypoint& stop = trajectory.waypoints[i];
+    if (stop.dwell_s == 0.0) continue;
+    return absl::StrFormat("; waiting %.1f s at (%.1f, %.1f) until other robots have passed",
+                           stop.dwell_s, stop.pose.x_m, stop.pose.y_m);
+  }
+  return "";
+}
+
 std::string Choice(const Plan& plan, const PlanningOptions& options) {
   const Candidate& chosen = plan.candidates[static_cast<std::size_t>(plan.chosen)];
   std::string text = absl::StrFormat(
@@ -76,6 +87,7 @@ std::string Choice(const Plan& plan, const PlanningOptions& options) {
     absl::StrAppend(&text,
                     absl::StrFormat("; %.1f s from now, when other robots have passed", wait_s));
   }
+  if (options.dwell_s == 0.0 && chosen.stops.empty()) text += WaitOnTheWay(plan.trajectory);
   if (plan.start_escaped) absl::StrAppend(&text, "; first out of the margin around obstacles");
   if (plan.field_flat) absl::StrAppend(&text, "; the information map is flat");
   if (plan.end == PlanEnd::kStopped) absl::StrAppend(&text, "; the search was stopped early");

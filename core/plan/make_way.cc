@@ -106,7 +106,7 @@ class Retreats {
     for (const Point2 point : other.way) {
       passing.pose = {point.x_m, point.y_m, 0.0};
       constexpr double kFar_m = std::numeric_limits<double>::infinity();
-      CloseAround(passing, robots_.at(robot).state.radius_m, {kFar_m, kFar_m}, options_, off);
+      CloseAround(passing, robots_.at(robot).state, {kFar_m, kFar_m}, options_, off);
     }
   }
   // Nobody else is about to do something there, and a robot that samples a region stays in it.

@@ -3,11 +3,13 @@
 #include "core/plan/right_of_way.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "absl/strings/str_format.h"
+#include "core/plan/precedence.h"
 #include "core/plan/trajectory_timing.h"
 #include "core/traffic/traffic.h"
 
@@ -29,16 +31,39 @@ RejectedGoal InTraffic(const Candidate& candidate, const Meeting& meeting) {
 
 }  // namespace
 
+Traffic TrafficAround(const Belief& belief, const RobotId& robot, const PlanningOptions& options) {
+  Traffic traffic(belief.robots, robot, options.robot_clearance_m, belief.sample_time_ns);
+  for (const KeptWay& kept : KeptWays(belief, robot, options)) {
+    traffic.KeepWay(belief.robots.at(kept.robot).state, kept.trajectory);
+  }
+  return traffic;
+}
+
+std::optional<Waits> FindWaits(const Belief& belief, double start_yaw_rad,
+                               const PlanningOptions& options, const Plan& plan) {
+  if (!options.yield_to_robots || belief.robots.size() < 2 || plan.candidates.empty()) {
+    return std::nullopt;
+  }
+  Waits waits{TrafficAround(belief, plan.robot, options), {}};
+  for (const Candidate& candidate : plan.candidates) {
+    waits.waits_s.push_back(waits.traffic.LeastWait_s(Timed(candidate, start_yaw_rad, options)));
+  }
+  return waits;
+}
+
 void YieldToRobots(const Belief& belief, double start_yaw_rad, const PlanningOptions& options,
                    Plan& plan) {
-  if (!options.yield_to_robots || belief.robots.size() < 2 || plan.candidates.empty()) return;
-  const Traffic traffic(belief.robots, plan.robot, options.robot_clearance_m,
-                        belief.sample_time_ns);
+  const std::optional<Waits> waits = FindWaits(belief, start_yaw_rad, options, plan);
+  if (waits) YieldToRobots(*waits, start_yaw_rad, options, plan);
+}
+
+void YieldToRobots(const Waits& waits, double start_yaw_rad, const PlanningOptions& options,
+                   Plan& plan) {
   std::vector<Candidate> clear;
   std::vector<Candidate> blocked;
-  for (Candidate& candidate : plan.candidates) {
-    const Trajectory trajectory = Timed(candidate, start_yaw_rad, options);
-    if (const std::optional<double> wait_s = traffic.LeastWait_s(trajectory)) {
+  for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
+    Candidate& candidate = plan.candidates[i];
+    if (const std::optional<double> wait_s = waits.waits_s[i]) {
       candidate.duration_s += *wait_s;
       clear.push_back(std::move(candidate));
     } else {
@@ -50,7 +75,7 @@ void YieldToRobots(const Belief& belief, double start_yaw_rad, const PlanningOpt
   });
   for (const Candidate& candidate : blocked) {
     const Trajectory trajectory = Timed(candidate, start_yaw_rad, options);
-    plan.rejected.push_back(InTraffic(candidate, *traffic.FirstMeeting(trajectory)));
+    plan.rejected.push_back(InTraffic(candidate, *waits.traffic.FirstMeeting(trajectory)));
   }
   plan.candidates = std::move(clear);
   if (plan.candidates.empty()) plan.end = PlanEnd::kAllGoalsRejected;

@@ -2,17 +2,42 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "core/belief/belief.h"
+#include "core/traffic/traffic.h"
 #include "core/types/options.h"
 #include "core/types/plan.h"
 #include "core/types/trajectory.h"
 
 namespace plumescout {
 
-// Others go first whose plans are live: each candidate waits at its start until its way is clear of
-// theirs, which adds to its duration_s; one that would have to wait longer than kMaxWait_s is
-// rejected (kTraffic), the soonest reached first. Nothing if options.yield_to_robots is false.
-// REQUIRES: duration_s of all candidates. Cost: that of Traffic::LeastWait_s for each candidate.
+// Where the others will be for a robot that plans now, those who go before it (precedence.h)
+// included. Cost: that of Traffic and of KeptWays.
+Traffic TrafficAround(const Belief& belief, const RobotId& robot, const PlanningOptions& options);
+
+// That, and what it makes of the candidates of a plan.
+struct Waits {
+  Traffic traffic;
+  // Of each candidate before it leaves (Traffic::LeastWait_s); none: no wait would do.
+  std::vector<std::optional<double>> waits_s;
+};
+
+// None if nobody is yielded to: robots are not, by options.yield_to_robots, or there is no other,
+// or no candidate. REQUIRES: plan.robot. Cost: that of KeptWays, and of Traffic::LeastWait_s for
+// each candidate.
+std::optional<Waits> FindWaits(const Belief& belief, double start_yaw_rad,
+                               const PlanningOptions& options, const Plan& plan);
+
+// Others go first whose plans are live, and who have waited for long (precedence.h): each candidate
+// waits at its start until its way is clear of theirs, which adds to its duration_s; one that would
+// have to wait longer than kMaxWait_s is rejected (kTraffic), the soonest reached first. REQUIRES:
+// duration_s of all candidates; `waits` are theirs. Cost: that of Traffic::FirstMeeting for each
+// that is rejected.
+void YieldToRobots(const Waits& waits, double start_yaw_rad, const PlanningOptions& options,
+                   Plan& plan);
+// By FindWaits.
 void YieldToRobots(const Belief& belief, double start_yaw_rad, const PlanningOptions& options,
                    Plan& plan);
 

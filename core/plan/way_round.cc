@@ -27,20 +27,16 @@ struct Standing {
   double arrival_s = 0.0;  // with the wait; infinite if no wait does
 };
 
-// How long a way takes, with the wait before it; infinite if there is none that is clear.
-double Arrival_s(const Traffic& traffic, const Candidate& candidate, const SearchedWays& ways) {
-  const Trajectory trajectory =
-      TimeTrajectory(candidate.path, ways.departure.yaw_rad, ways.query.options);
-  const std::optional<double> wait_s = traffic.LeastWait_s(trajectory);
+// When a way is at its end, with the wait before it; infinite if there is none that is clear.
+double Arrival_s(const Candidate& candidate, std::optional<double> wait_s) {
   return wait_s ? candidate.duration_s + *wait_s : std::numeric_limits<double>::infinity();
 }
 
-std::vector<Standing> FindStanding(const Traffic& traffic, const SearchedWays& ways,
-                                   const Plan& plan) {
+std::vector<Standing> FindStanding(const Waits& waits, const SearchedWays& ways, const Plan& plan) {
   const bool by_time = ways.query.options.selection_rule == SelectionRule::kInformationRate;
   std::vector<Standing> standing;
   for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
-    const double arrival_s = Arrival_s(traffic, plan.candidates[i], ways);
+    const double arrival_s = Arrival_s(plan.candidates[i], waits.waits_s[i]);
     const bool stands = arrival_s >= plan.candidates[i].duration_s + kWorthAWayRound_s;
     if (stands && (by_time || std::isinf(arrival_s))) standing.push_back({i, arrival_s});
   }
@@ -104,22 +100,22 @@ std::vector<Candidate> FindRounds(const InformationMap& clear, const SearchedWay
 
 }  // namespace
 
-void LeadRound(const SearchedWays& ways, Plan& plan) {
-  const Belief& belief = ways.query.belief;
-  const PlanningOptions& options = ways.query.options;
-  if (!options.yield_to_robots || belief.robots.size() < 2) return;
-  const Traffic traffic(belief.robots, plan.robot, options.robot_clearance_m,
-                        belief.sample_time_ns);
-  const std::vector<Standing> standing = FindStanding(traffic, ways, plan);
+void LeadRound(const SearchedWays& ways, Waits& waits, Plan& plan) {
+  const std::vector<Standing> standing = FindStanding(waits, ways, plan);
   if (standing.empty()) return;
   Plan rounds;
-  rounds.candidates = FindRounds(KeptClear(traffic, ways), ways, standing, plan);
+  rounds.candidates = FindRounds(KeptClear(waits.traffic, ways), ways, standing, plan);
   RejectOverBudget(ways.query, rounds);
   for (Candidate& round : rounds.candidates) {
     for (const Standing& one : standing) {
       Candidate& candidate = plan.candidates[one.candidate];
       if (!(candidate.goal == round.goal)) continue;
-      if (Arrival_s(traffic, round, ways) < one.arrival_s) candidate = std::move(round);
+      const std::optional<double> wait_s = waits.traffic.LeastWait_s(
+          TimeTrajectory(round.path, ways.departure.yaw_rad, ways.query.options));
+      if (Arrival_s(round, wait_s) < one.arrival_s) {
+        candidate = std::move(round);
+        waits.waits_s[one.candidate] = wait_s;
+      }
       break;
     }
   }

@@ -5,6 +5,7 @@
 #include "core/plan/departure.h"
 #include "core/plan/goals/goal_offer.h"
 #include "core/plan/paths/path_planner.h"
+#include "core/plan/right_of_way.h"
 #include "core/plan/selection/candidate_terms.h"
 #include "core/types/plan.h"
 
@@ -23,10 +24,10 @@ struct SearchedWays {
 // those robots will be, if with its own wait it is the sooner end: robots pass each other in a
 // room, or take another door. Where candidates are not compared by their time, only those that
 // could not be gone do. What is left of the plan's edge evaluations bounds the search, which adds
-// to them. Nothing if options.yield_to_robots is false. REQUIRES: duration_s of all candidates,
-// without waits. Cost: that of Traffic::LeastWait_s for each candidate; if one is to stand, a
-// search of the grid (see GridExactPlanner).
+// to them. REQUIRES: duration_s of all candidates, without waits; `waits` are theirs, and stay so.
+// Cost: if one is to stand, a search of the grid (see GridExactPlanner), and Traffic::LeastWait_s
+// for each that was.
 inline constexpr double kWorthAWayRound_s = 1.0;
-void LeadRound(const SearchedWays& ways, Plan& plan);
+void LeadRound(const SearchedWays& ways, Waits& waits, Plan& plan);
 
 }  // namespace plumescout

@@ -61,6 +61,10 @@ double Doubt_m(const RobotState& a, const RobotState& b) {
 
 }  // namespace
 
+double Reach_m(const RobotState& a, const RobotState& b, double clearance_m) {
+  return a.radius_m + b.radius_m + std::max(0.0, Doubt_m(a, b) - clearance_m);
+}
+
 bool IsOnItsWay(const RobotRecord& record, std::int64_t now_ns) {
   const Trajectory* const way = record.live_trajectory.get();
   if (way == nullptr || way->waypoints.empty()) return false;
@@ -103,25 +107,33 @@ Point2 Traffic::Steps::At(std::size_t step, std::size_t waited) const {
 
 Traffic::Traffic(const std::map<RobotId, RobotRecord>& robots, const RobotId& robot,
                  double clearance_m, std::int64_t now_ns, Others others)
-    : clearance_m_(clearance_m), on_time_(others == Others::kOnTime) {
-  const RobotState& self = robots.at(robot).state;
+    : self_(robots.at(robot).state),
+      clearance_m_(clearance_m),
+      on_time_(others == Others::kOnTime) {
   for (const auto& [id, record] : robots) {
     if (id == robot || !record.state.has_pose || IsGone(record, now_ns)) continue;
-    const double doubt_m = std::max(0.0, Doubt_m(self, record.state) - clearance_m);
-    Other other{
-        id, self.radius_m + record.state.radius_m + doubt_m, {record.state.pose.position()}};
+    Other other{id, Reach_m(self_, record.state, clearance_m), {record.state.pose.position()}};
     if (IsOnItsWay(record, now_ns)) {
-      const double progress_s = Progress_s(record, now_ns);
-      const std::size_t last = StepsIn(kHorizon_s) + MostEarly();
-      for (std::size_t k = 1; k <= last; ++k) {
-        other.places.push_back(
-            PoseAt(*record.live_trajectory, progress_s + kStep_s * static_cast<double>(k))
-                .position());
-      }
-      other.fastest_m = Fastest_m(other.places);
+      GoOn(*record.live_trajectory, Progress_s(record, now_ns), other);
     }
     others_.push_back(std::move(other));
   }
+}
+
+void Traffic::GoOn(const Trajectory& way, double from_s, Other& other) {
+  const std::size_t last = StepsIn(kHorizon_s) + MostEarly();
+  for (std::size_t k = 1; k <= last; ++k) {
+    other.places.push_back(PoseAt(way, from_s + kStep_s * static_cast<double>(k)).position());
+  }
+  other.fastest_m = Fastest_m(other.places);
+}
+
+void Traffic::KeepWay(const RobotState& other, const Trajectory& way) {
+  const double reach_m = Reach_m(self_, other, clearance_m_);
+  Other going{other.id, reach_m, {way.waypoints.front().pose.position()}};
+  GoOn(way, 0.0, going);
+  others_.push_back(std::move(going));
+  kept_ways_.push_back({other.id, reach_m, way});
 }
 
 Traffic::Steps Traffic::StepsOf(const Trajectory& trajectory, double from_s) {
@@ -133,6 +145,7 @@ Traffic::Steps Traffic::StepsOf(const Trajectory& trajectory, double from_s) {
     steps.places.push_back(PoseAt(trajectory, time_s).position());
   }
   steps.fastest_m = Fastest_m(steps.places);
+  steps.ends = left_s <= kHorizon_s;
   return steps;
 }
 
@@ -159,11 +172,11 @@ std::optional<Meeting> Traffic::FirstMeeting(const Trajectory& trajectory, doubl
   return FindMeeting(StepsOf(trajectory, from_s), 0);
 }
 
-std::optional<double> Traffic::LeastWait_s(const Trajectory& trajectory) const {
+std::optional<double> Traffic::LeastWait_s(const Trajectory& trajectory, double most_s) const {
   if (trajectory.waypoints.empty()) return 0.0;
   const Steps steps = StepsOf(trajectory);
   constexpr std::size_t kStride = 2;  // half a second
-  for (std::size_t waited = 0; waited <= StepsIn(kMaxWait_s); waited += kStride) {
+  for (std::size_t waited = 0; waited <= StepsIn(most_s); waited += kStride) {
     if (!FindMeeting(steps, waited)) return static_cast<double>(waited) * kStep_s;
   }
   return std::nullopt;
@@ -178,7 +191,19 @@ std::optional<Meeting> Traffic::FindMeeting(const Steps& steps, std::size_t wait
     if (first && first->time_s <= time_s) continue;
     first = Meeting{other.robot, time_s, steps.At(*step, waited)};
   }
-  return first;
+  return first ? first : FindEnd(steps, waited);
+}
+
+// Where it ends on a way that is kept free.
+std::optional<Meeting> Traffic::FindEnd(const Steps& steps, std::size_t waited) const {
+  if (!steps.ends) return std::nullopt;
+  const Point2 end = steps.places.back();
+  for (const KeptWay& kept : kept_ways_) {
+    if (FindNearest(kept.way, end)->distance_m >= kept.reach_m + clearance_m_) continue;
+    const std::size_t step = steps.places.size() - 1 + waited;
+    return Meeting{kept.robot, kStep_s * static_cast<double>(step), end};
+  }
+  return std::nullopt;
 }
 
 std::optional<std::size_t> Traffic::MeetingStep(const Other& other, const Steps& steps,

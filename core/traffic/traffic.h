@@ -22,6 +22,11 @@ struct Meeting {
   Point2 place;         // of the robot whose way it is
 };
 
+// How far apart the centres of two robots have to be beside the clearance that they keep: by both
+// radii, and by what 2.5 standard deviations of how their frames lie to each other are more than
+// the clearance.
+double Reach_m(const RobotState& a, const RobotState& b, double clearance_m);
+
 // Farther than this from its trajectory a robot is not following it: several times what followers
 // stray, and less than the width of a corridor.
 inline constexpr double kOffTrajectory_m = 0.5;
@@ -43,20 +48,24 @@ class Traffic {
 
   enum class Others { kEarlyOrLate, kOnTime };
 
-  // For `robot`, one of `robots`, that keeps `clearance_m`, or 2.5 standard deviations of how their
-  // frames lie to each other if that is more, and both radii between centres. Two that
+  // For `robot`, one of `robots`, that keeps Reach_m and `clearance_m` between centres. Two that
   // are nearer already meet only if they come nearer still. Cost: O(robots * waypoints).
   Traffic(const std::map<RobotId, RobotRecord>& robots, const RobotId& robot, double clearance_m,
           std::int64_t now_ns, Others others = Others::kEarlyOrLate);
+
+  // Keeps a way free that another of the robots is to go on, beside the place where it stands: as
+  // if it were a live plan of its that begins now, and no way may end on it. REQUIRES: waypoints
+  // not empty. Cost: O(waypoints + kHorizon_s), and O(waypoints) more for each FirstMeeting.
+  void KeepWay(const RobotState& other, const Trajectory& way);
 
   // Of a way that is begun now. Cost: O(others * kHorizon_s), less where they are far.
   std::optional<Meeting> FirstMeeting(const Trajectory& trajectory) const;
   // Of what is left of a way that is driven, from a time along it on.
   std::optional<Meeting> FirstMeeting(const Trajectory& trajectory, double from_s) const;
-  // The shortest time to stand at the start of the way, up to kMaxWait_s, so that nobody is met
-  // there, on the way, and at its end. None: there is no such time. Cost: that of a
+  // The shortest time to stand at the start of the way, up to `most_s`, at most kHorizon_s, so that
+  // nobody is met there, on the way, and at its end. None: there is no such time. Cost: that of a
   // FirstMeeting for every half second.
-  std::optional<double> LeastWait_s(const Trajectory& trajectory) const;
+  std::optional<double> LeastWait_s(const Trajectory& trajectory, double most_s = kMaxWait_s) const;
 
   // Where another robot will be: how far to keep from there, and until when, in seconds from now;
   // it may be infinity.
@@ -72,26 +81,36 @@ class Traffic {
   // Another robot's centre at the times k * kStep_s from now.
   struct Other {
     RobotId robot;
-    double reach_m = 0.0;  // of both radii
+    double reach_m = 0.0;  // Reach_m
     std::vector<Point2> places;
     double fastest_m = 0.0;  // in one step
+  };
+  struct KeptWay {
+    RobotId robot;
+    double reach_m = 0.0;
+    Trajectory way;
   };
   // A way in the same steps.
   struct Steps {
     std::vector<Point2> places;
     double fastest_m = 0.0;
+    bool ends = false;  // with the last of them; else it goes on beyond the horizon
 
     Point2 At(std::size_t step, std::size_t waited) const;
   };
 
+  static void GoOn(const Trajectory& way, double from_s, Other& other);
   static Steps StepsOf(const Trajectory& trajectory, double from_s = 0.0);
   std::optional<Meeting> FindMeeting(const Steps& steps, std::size_t waited) const;
+  std::optional<Meeting> FindEnd(const Steps& steps, std::size_t waited) const;
   std::optional<std::size_t> MeetingStep(const Other& other, const Steps& steps,
                                          std::size_t waited) const;
 
+  RobotState self_;
   double clearance_m_;
   bool on_time_;
   std::vector<Other> others_;
+  std::vector<KeptWay> kept_ways_;
 };
 
 // Has the robot stand for so long before it leaves. REQUIRES: waypoints not empty, wait_s >= 0.

@@ -33,6 +33,7 @@ inline constexpr absl::string_view kHistoryTrimmed = "HISTORY_TRIMMED";
 inline constexpr absl::string_view kPlanSuperseded = "PLAN_SUPERSEDED";
 inline constexpr absl::string_view kPlanEnded = "PLAN_ENDED";
 inline constexpr absl::string_view kStartOutsideMap = "START_OUTSIDE_MAP";
+inline constexpr absl::string_view kTeamTooLarge = "TEAM_TOO_LARGE";
 inline constexpr absl::string_view kOutsideRegion = "OUTSIDE_REGION";
 inline constexpr absl::string_view kDeadlineBeforeFirstPlan = "DEADLINE_BEFORE_FIRST_PLAN";
 // Of maps.

@@ -45,6 +45,25 @@ struct Goal {
   friend bool operator==(const Goal&, const Goal&) = default;
 };
 
+// What a robot does that drives to such a goal.
+inline MissionPhase PhaseToward(GoalKind kind) {
+  switch (kind) {
+    case GoalKind::kGasFrontier:
+    case GoalKind::kInformation:
+      return MissionPhase::kGasProbing;
+    case GoalKind::kOccupancyFrontier:
+      return MissionPhase::kExploring;
+    case GoalKind::kHome:
+      return MissionPhase::kReturning;
+    case GoalKind::kSite:
+      return MissionPhase::kSampling;
+    case GoalKind::kRandomFreeSpace:
+    case GoalKind::kMakeWay:
+      break;
+  }
+  return MissionPhase::kFallback;
+}
+
 enum class PathSource { kTree, kGridGuard, kGridSearch };
 
 // A goal with the path to it and every term of its price.

@@ -93,7 +93,10 @@ TeamRecord MakeTeamRecord(const TeamResult& team, double radius_m) {
     for (const IssuedPlan& issued : robots[i].plans) {
       walls_s.push_back(absl::ToDoubleSeconds(issued.rpc_wall));
       const std::vector<Waypoint>& waypoints = issued.plan.trajectory.waypoints;
-      if (!waypoints.empty()) record.waiting_s += waypoints.front().dwell_s;
+      // At the end of their ways robots stand aside, which is no wait.
+      for (std::size_t k = 0; k + 1 < waypoints.size(); ++k) {
+        record.waiting_s += waypoints[k].dwell_s;
+      }
     }
     for (std::size_t j = i + 1; j < robots.size(); ++j) {
       record.encounters +=

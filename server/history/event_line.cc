@@ -193,7 +193,9 @@ std::string LineOf(const EventBody& body) {
             [](const MapRebuildBegun&) {
               return std::string("map begins to be rebuilt with corrected poses");
             },
-            [](const MapRebuilt&) { return std::string("rebuilt map is adopted"); }},
+            [](const MapRebuilt&) {
+              return std::string("rebuilt map is adopted, if there is room for it");
+            }},
       body);
 }
 

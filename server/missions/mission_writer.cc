@@ -57,6 +57,11 @@ void MissionWriter::OnEvent(const Event& event, const Applied& applied) {
                {{"robot", std::get<ObservationReceived>(event.body).robot},
                 {"revision", absl::StrCat(applied.revision)}});
   }
+  if (!applied.map.ok()) {
+    LogWarning("a map rebuilt with corrected poses is not taken: the old one stays",
+               {{"why", std::string(applied.map.message())},
+                {"revision", absl::StrCat(applied.revision)}});
+  }
   if (IsReadingTakenIn(event, applied)) gas_timer_.NoteReading(clock_());
   absl::MutexLock lock(&summary_mutex_);
   if (summary_.lattice_factor != mission().lattice_factor()) {

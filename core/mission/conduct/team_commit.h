@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "core/mission/conduct/mission_conduct.h"
@@ -10,19 +9,16 @@
 
 namespace plumescout {
 
-// A robot of a team that got no plan.
-struct LeftOut {
-  RobotId robot;
-  std::string why;  // what its plan to stay says, or what its commit was refused for
-};
-
 struct CommittedTeam {
   std::vector<Plan> plans;  // with their numbers, in the order in which they were committed
   std::vector<LeftOut> left_out;
   int order_count = 0;
 };
 
-// Commits one plan after the other, under the lease that its robot has now, and assigns them.
+// Commits one plan after the other, under the lease that its robot has now, and assigns them. None
+// of them yields to what it replaces: robots of the team that follow a plan are first given one to
+// stay. So who is left out with a plan to stay, or since its commit was refused, stays; who is left
+// out since no plan was found follows the one that it has.
 CommittedTeam CommitTeam(TeamPlan team, MissionConduct& conduct);
 
 }  // namespace plumescout

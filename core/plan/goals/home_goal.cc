@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/grid/escape.h"
+#include "core/traffic/traffic.h"
 
 namespace plumescout {
 namespace {
@@ -27,6 +28,9 @@ Point2 HomeOf(const GoalQuery& query) {
 // round keep off by half a cell more (way_round.h).
 bool HasRoom(const GoalQuery& query, Point2 place) {
   const double half_diagonal_m = query.belief.geometry().resolution_m / std::sqrt(2.0);
+  const double clearance_m = query.options.robot_clearance_m;
+  RobotState there = query.robot.state;
+  there.pose = {place.x_m, place.y_m, 0.0};
   return std::none_of(
       query.belief.robots.begin(), query.belief.robots.end(), [&](const auto& entry) {
         const RobotState& other = entry.second.state;
@@ -34,8 +38,7 @@ bool HasRoom(const GoalQuery& query, Point2 place) {
             other.has_pose && !other.silent && entry.second.live_trajectory == nullptr;
         return other.id != query.robot.state.id && stands &&
                Distance_m(place, other.pose.position()) <
-                   query.robot.state.radius_m + other.radius_m + query.options.robot_clearance_m +
-                       half_diagonal_m;
+                   Reach_m(there, other, clearance_m) + clearance_m + half_diagonal_m;
       });
 }
 

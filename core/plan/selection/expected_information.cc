@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/plan/cost/field_window.h"
 #include "core/plan/cost/relevance.h"
 
 namespace plumescout {
@@ -63,28 +64,21 @@ ExpectedInformation::ExpectedInformation(const Belief& belief)
 
 std::optional<double> ExpectedInformation::Of(const std::vector<Cell>& readings) const {
   if (belief_.gas_what_if == nullptr) return std::nullopt;
-  // The map may have grown since the gas field was computed.
-  const GridGeometry& then_geometry = belief_.gas_what_if->geometry();
-  const Cell shift = belief_.geometry().CellAt(then_geometry.Center({0, 0}));
+  const FieldWindow window(belief_.geometry(), belief_.gas_what_if->geometry());
   std::vector<Cell> inside;
-  for (const Cell cell : readings) {
-    const Cell shifted{cell.x - shift.x, cell.y - shift.y};
-    if (then_geometry.Contains(shifted)) inside.push_back(shifted);
+  for (const Cell reading : readings) {
+    if (const std::optional<Cell> cell = window.InField(reading)) inside.push_back(*cell);
   }
   const double precision = belief_.options->gas.observation_precision_per_ppm2;
   const auto then = belief_.gas_what_if->VarianceIfRead(inside, precision);
   if (!then.ok()) return std::nullopt;
   double sum = 0.0;
-  for (int y = 0; y < then_geometry.height; ++y) {
-    const std::size_t row = belief_.geometry().Index({shift.x, y + shift.y});
-    for (int x = 0; x < then_geometry.width; ++x) {
-      const float after = (*then)[Cell{x, y}];
-      const float before = (*belief_.gas_variance_ppm2)[row + static_cast<std::size_t>(x)];
-      if (!(after < before)) continue;  // NaN off free cells
-      const float relevance = relevance_[row + static_cast<std::size_t>(x)];
-      sum += static_cast<double>(relevance * std::log(before / after));
-    }
-  }
+  window.ForEachCell([&](std::size_t in_map, std::size_t in_field) {
+    const float after = (*then)[in_field];
+    const float before = (*belief_.gas_variance_ppm2)[in_map];
+    if (!(after < before)) return;  // NaN off free cells
+    sum += static_cast<double>(relevance_[in_map] * std::log(before / after));
+  });
   constexpr double kEntropyShare = 0.5;
   return kEntropyShare * sum;
 }

@@ -7,24 +7,6 @@
 namespace plumescout {
 namespace {
 
-MissionPhase PhaseToward(GoalKind kind) {
-  switch (kind) {
-    case GoalKind::kGasFrontier:
-    case GoalKind::kInformation:
-      return MissionPhase::kGasProbing;
-    case GoalKind::kOccupancyFrontier:
-      return MissionPhase::kExploring;
-    case GoalKind::kHome:
-      return MissionPhase::kReturning;
-    case GoalKind::kSite:
-      return MissionPhase::kSampling;
-    case GoalKind::kRandomFreeSpace:
-    case GoalKind::kMakeWay:
-      break;
-  }
-  return MissionPhase::kFallback;
-}
-
 Candidate CandidateOf(const Goal& goal, const Trajectory& trajectory) {
   Candidate candidate;
   candidate.goal = goal;

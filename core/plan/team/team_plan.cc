@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -12,6 +13,7 @@
 #include "core/plan/plan_start.h"
 #include "core/plan/selection/selection.h"
 #include "core/plan/team/team_belief.h"
+#include "core/types/error_reason.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
@@ -19,22 +21,32 @@ namespace {
 
 constexpr double kLeast_s = 1e-3;  // a way takes this long at least
 
-absl::Status CheckTeam(const std::vector<RobotId>& robots, const TeamRequest& request) {
-  if (robots.size() > kMostTeamRobots) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("robots = ", robots.size(), " must be at most ", kMostTeamRobots));
-  }
-  std::set<RobotId> names;
-  for (const RobotId& robot : robots) {
-    if (!names.insert(robot).second) {
-      return absl::InvalidArgumentError(absl::StrCat("robots names \"", robot, "\" twice"));
-    }
-  }
+absl::StatusOr<std::vector<RobotId>> TeamOf(const Belief& belief, const TeamRequest& request) {
   if (request.max_order_count < 1) {
     return absl::InvalidArgumentError(
         absl::StrCat("max_order_count = ", request.max_order_count, " must be >= 1"));
   }
-  return absl::OkStatus();
+  if (request.robots.empty()) {
+    std::vector<RobotId> free = FreeRobots(belief);
+    if (free.size() <= kMostTeamRobots) return free;
+    return TypedError(absl::StatusCode::kFailedPrecondition, reason::kTeamTooLarge,
+                      absl::StrCat(free.size(), " robots are free, a team has at most ",
+                                   kMostTeamRobots, ": name those that are to be planned for"));
+  }
+  if (request.robots.size() > kMostTeamRobots) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("robots = ", request.robots.size(), " must be at most ", kMostTeamRobots));
+  }
+  std::set<RobotId> names;
+  for (const RobotId& robot : request.robots) {
+    if (!names.insert(robot).second) {
+      return absl::InvalidArgumentError(absl::StrCat("robots names \"", robot, "\" twice"));
+    }
+    if (!belief.robots.contains(robot)) {
+      return absl::NotFoundError(absl::StrCat("robot \"", robot, "\" is not registered"));
+    }
+  }
+  return request.robots;
 }
 
 // A plan that was searched for when so many others had chosen.
@@ -42,6 +54,18 @@ struct Draft {
   Plan plan;
   TeamValue value;
   std::size_t known = 0;
+};
+
+// Plans of the order in which the best goes first, and whose search failed.
+struct FirstOrder {
+  std::vector<Plan> plans;
+  std::vector<LeftOut> left_out;
+  absl::Status stopped = absl::OkStatus();
+
+  void LeaveOut(const RobotId& robot, const absl::Status& status) {
+    left_out.push_back({robot, std::string(status.message())});
+    if (absl::IsDeadlineExceeded(status)) stopped = status;
+  }
 };
 
 // Searches plans one after the other.
@@ -67,26 +91,34 @@ class TeamSearch {
   }
 
   // The best goes first, lazily.
-  absl::StatusOr<std::vector<Plan>> BestFirst(Belief belief, const std::vector<RobotId>& robots) {
+  FirstOrder BestFirst(Belief belief, const std::vector<RobotId>& robots) {
+    FirstOrder order;
     std::vector<Draft> left;
     for (const RobotId& robot : robots) {
-      PLUMESCOUT_ASSIGN_OR_RETURN(Draft draft, Search(belief, robot, 0));
-      left.push_back(std::move(draft));
+      absl::StatusOr<Draft> draft = Search(belief, robot, 0);
+      if (draft.ok()) left.push_back(*std::move(draft));
+      if (!draft.ok()) order.LeaveOut(robot, draft.status());
     }
-    std::vector<Plan> plans;
+    std::vector<Plan>& plans = order.plans;
     while (!left.empty()) {
       const auto best =
           std::max_element(left.begin(), left.end(),
                            [](const Draft& a, const Draft& b) { return a.value < b.value; });
       if (best->known < plans.size()) {
-        PLUMESCOUT_ASSIGN_OR_RETURN(*best, Search(belief, best->plan.robot, plans.size()));
+        absl::StatusOr<Draft> draft = Search(belief, best->plan.robot, plans.size());
+        if (draft.ok()) {
+          *best = *std::move(draft);
+        } else {
+          order.LeaveOut(best->plan.robot, draft.status());
+          left.erase(best);
+        }
         continue;
       }
       belief = WithPlan(belief, best->plan);
       plans.push_back(std::move(best->plan));
       left.erase(best);
     }
-    return plans;
+    return order;
   }
 
   absl::StatusOr<std::vector<Plan>> InOrder(Belief belief, const std::vector<RobotId>& robots) {
@@ -125,6 +157,18 @@ std::vector<std::vector<RobotId>> OtherOrders(const std::vector<RobotId>& first)
   return orders;
 }
 
+// Who gets no plan keeps the one that it has, and others have to reckon with that. Returns whether
+// there is such a robot.
+bool TakeOut(const std::vector<LeftOut>& left_out, const Belief& belief,
+             std::vector<RobotId>& robots) {
+  bool keeps_plan = false;
+  for (const LeftOut& one : left_out) {
+    if (std::erase(robots, one.robot) == 0) continue;
+    keeps_plan = keeps_plan || belief.robots.at(one.robot).live_trajectory != nullptr;
+  }
+  return keeps_plan;
+}
+
 std::vector<RobotId> OrderOf(const std::vector<Plan>& plans) {
   std::vector<RobotId> order;
   for (const Plan& plan : plans) order.push_back(plan.robot);
@@ -148,20 +192,28 @@ TeamValue ValueOf(const std::vector<Plan>& plans, const PlanningOptions& options
 
 absl::StatusOr<TeamPlan> PlanTeam(const Strategy& strategy, const Belief& belief,
                                   const TeamRequest& request, const StopFn& stop) {
-  const std::vector<RobotId> robots = request.robots.empty() ? FreeRobots(belief) : request.robots;
-  PLUMESCOUT_RETURN_IF_ERROR(CheckTeam(robots, request));
+  PLUMESCOUT_ASSIGN_OR_RETURN(std::vector<RobotId> robots, TeamOf(belief, request));
   const PlanningOptions& options = belief.options->planning;
-  const Belief start = WithoutPlans(belief, robots);
   TeamSearch search(strategy, belief, request, stop);
   TeamPlan team;
-  PLUMESCOUT_ASSIGN_OR_RETURN(team.plans, search.BestFirst(start, robots));
+  Belief start = WithoutPlans(belief, robots);
+  FirstOrder first = search.BestFirst(start, robots);
+  while (first.stopped.ok() && TakeOut(first.left_out, belief, robots)) {
+    std::vector<LeftOut> before = std::move(first.left_out);
+    start = WithoutPlans(belief, robots);
+    first = search.BestFirst(start, robots);
+    first.left_out.insert(first.left_out.begin(), before.begin(), before.end());
+  }
+  if (first.plans.empty()) PLUMESCOUT_RETURN_IF_ERROR(first.stopped);
+  team.plans = std::move(first.plans);
+  team.left_out = std::move(first.left_out);
   team.value = ValueOf(team.plans, options);
-  team.order_count = 1;
+  team.order_count = first.stopped.ok() ? 1 : 0;
   for (const std::vector<RobotId>& order : OtherOrders(OrderOf(team.plans))) {
     if (team.order_count >= request.max_order_count) break;
     auto plans = search.InOrder(start, order);
     if (absl::IsDeadlineExceeded(plans.status())) break;
-    PLUMESCOUT_RETURN_IF_ERROR(plans.status());
+    if (!plans.ok()) continue;
     const TeamValue value = ValueOf(*plans, options);
     ++team.order_count;
     if (value > team.value) {

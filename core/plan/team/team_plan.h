@@ -4,6 +4,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -38,12 +39,21 @@ struct TeamValue {
 };
 TeamValue ValueOf(const std::vector<Plan>& plans, const PlanningOptions& options);
 
+// A robot of a team that got no plan.
+struct LeftOut {
+  RobotId robot;
+  std::string why;  // what its plan to stay says, what its search failed with, or its commit
+
+  friend bool operator==(const LeftOut&, const LeftOut&) = default;
+};
+
 struct TeamPlan {
   // One for each robot, in an order in which each keeps clear of those before it; to be committed
   // in this order.
   std::vector<Plan> plans;
+  std::vector<LeftOut> left_out;  // whose search failed
   TeamValue value;
-  int order_count = 0;   // that were tried to the end
+  int order_count = 0;   // that were tried to the end; 0: who is left out had no time
   int search_count = 0;  // plans that were searched for
 };
 
@@ -57,11 +67,15 @@ struct TeamPlan {
 // anticipation.h). They choose by value per second here, as for single robots, and keep clear of
 // each other: then there is no such bound, and the orders are what it is replaced by.
 //
-// Deterministic in belief, request and counts; `stop` ends the search with the best of the orders
-// tried so far. Errors: kInvalidArgument for more than kMostTeamRobots robots or one named twice,
-// or an order count below 1; kDeadlineExceeded if not even the first order came to its end; those
-// of Strategy::Plan. Cost: for k robots some 2 k searches, at most k (k + 1) / 2, and k for each
-// further order.
+// A robot whose search fails is left out, with the error of Strategy::Plan; if it follows a plan
+// the others reckon with that. Deterministic in belief, request and counts; `stop` ends the search
+// with the best of the orders tried so far, and in the first order with those who have chosen.
+//
+// Errors: kInvalidArgument for more than kMostTeamRobots robots or one named twice, or an order
+// count below 1; kNotFound for one that is named and not known; kFailedPrecondition TEAM_TOO_LARGE
+// if none are named and more are free; kDeadlineExceeded if not even one has chosen. Cost: for k
+// robots some 2 k searches, at most k (k + 1) / 2, and k for each further order; those of the first
+// order again for each time that robots which follow a plan are left out.
 absl::StatusOr<TeamPlan> PlanTeam(const Strategy& strategy, const Belief& belief,
                                   const TeamRequest& request, const StopFn& stop);
 

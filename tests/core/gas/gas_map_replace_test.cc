@@ -8,6 +8,7 @@
 
 #include "core/gas/gas_map.h"
 #include "core/types/rng.h"
+#include "tests/core/gas/timed_readings.h"
 #include "tests/support/grid_art.h"
 #include "tests/support/same_bytes.h"
 
@@ -16,26 +17,9 @@ namespace gas_map_replace_test {
 
 using ::plumescout::testing::GridArt;
 using ::plumescout::testing::GridFromArt;
-
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
-
-struct TimedReading {
-  std::int64_t time_ns;
-  Point2 position;
-  GasReading reading;
-};
-
-std::vector<TimedReading> RandomTimedReadings(const Grid<CellState>& states, int count, Rng& rng) {
-  const double width_m = states.width() * states.geometry().resolution_m;
-  const double height_m = states.height() * states.geometry().resolution_m;
-  std::vector<TimedReading> readings;
-  for (int k = 0; k < count; ++k) {
-    readings.push_back({k * kSecond_ns,
-                        {rng.Uniform(0.0, width_m), rng.Uniform(0.0, height_m)},
-                        {rng.Uniform(0.0, 40.0), k % 3 == 0 ? rng.Uniform(0.1, 2.0) : 0.0}});
-  }
-  return readings;
-}
+using ::plumescout::testing::kSecond_ns;
+using ::plumescout::testing::RandomTimedReadings;
+using ::plumescout::testing::TimedReading;
 
 TEST(GasMapReplaceTest, OtherReadingsMakeTheFieldAnew) {
   Rng rng(11);

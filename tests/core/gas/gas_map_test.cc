@@ -12,6 +12,7 @@
 #include "tests/core/gas/dense_field.h"
 #include "tests/core/gas/field/field_case.h"
 #include "tests/core/gas/gas_map_peer.h"
+#include "tests/core/gas/timed_readings.h"
 #include "tests/support/grid_art.h"
 #include "tests/support/same_bytes.h"
 
@@ -22,29 +23,13 @@ using ::plumescout::testing::DenseField;
 using ::plumescout::testing::DenseReading;
 using ::plumescout::testing::GridArt;
 using ::plumescout::testing::GridFromArt;
+using ::plumescout::testing::kSecond_ns;
+using ::plumescout::testing::RandomTimedReadings;
+using ::plumescout::testing::TimedReading;
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 // Rounding to float comes on top of what is certified.
 constexpr double kFloat = 1e-7;
 constexpr double kLargest_ppm = 40.0;  // of the readings below
-
-struct TimedReading {
-  std::int64_t time_ns;
-  Point2 position;
-  GasReading reading;
-};
-
-std::vector<TimedReading> RandomTimedReadings(const Grid<CellState>& states, int count, Rng& rng) {
-  const double width_m = states.width() * states.geometry().resolution_m;
-  const double height_m = states.height() * states.geometry().resolution_m;
-  std::vector<TimedReading> readings;
-  for (int k = 0; k < count; ++k) {
-    readings.push_back({k * kSecond_ns,
-                        {rng.Uniform(0.0, width_m), rng.Uniform(0.0, height_m)},
-                        {rng.Uniform(0.0, 40.0), k % 3 == 0 ? rng.Uniform(0.1, 2.0) : 0.0}});
-  }
-  return readings;
-}
 
 GasMap MapOf(const std::vector<TimedReading>& readings, const Grid<CellState>& states,
              std::int64_t time_ns, const GasOptions& options = {}) {

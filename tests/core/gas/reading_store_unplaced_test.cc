@@ -51,7 +51,9 @@ TEST(ReadingStoreUnplacedTest, UnplacedReadingsCanBePlacedElsewhere) {
     }
     ReadingStore again = store.Unplaced();
     EXPECT_EQ(again.counters(), (GasCounters{.readings = 40, .waiting = 40}));
+    EXPECT_EQ(again.arrival_buckets(), half_life_s > 0.0 ? 21u : 0u) << "of those placed before";
     ASSERT_TRUE(PlaceAll(again, states).ok());
+    EXPECT_EQ(again.arrival_buckets(), 0u);
     ASSERT_TRUE(PlaceAll(fresh, states).ok());
     EXPECT_EQ(again.counters(), fresh.counters());
     const auto evidence = again.AllEvidence();

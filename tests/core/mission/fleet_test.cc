@@ -6,36 +6,18 @@
 
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
+#include "tests/core/mission/fleet_case.h"
 
 namespace plumescout {
 namespace fleet_test {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
-constexpr int kMaxRobots = 3;
-
-Fleet FleetOf(std::initializer_list<std::string> robots) {
-  Fleet fleet;
-  for (const std::string& robot : robots) {
-    EXPECT_TRUE(fleet.Register({robot, 0.2, 1}, kMaxRobots).ok());
-  }
-  return fleet;
-}
+using support::FleetOf;
+using support::kMaxRobots;
+using support::kSecond_ns;
+using support::PlanTo;
 
 Observation Numbered(std::int64_t sequence) {
   return {sequence, kSecond_ns, {1.0, 2.0, 0.0}, GasReading{1.0, 0.0}};
-}
-
-Plan PlanTo(const RobotId& robot, Point2 position, GoalKind kind = GoalKind::kOccupancyFrontier) {
-  Plan plan;
-  plan.robot = robot;
-  Candidate candidate;
-  candidate.goal = {kind, {}, position, position, 10};
-  plan.candidates = {candidate};
-  plan.chosen = 0;
-  plan.phase =
-      kind == GoalKind::kRandomFreeSpace ? MissionPhase::kFallback : MissionPhase::kExploring;
-  plan.trajectory.duration_s = 10.0;
-  return plan;
 }
 
 TEST(FleetRegister, RefusesOldLeasesBadRadiiAndTooManyRobots) {

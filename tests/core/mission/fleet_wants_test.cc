@@ -6,33 +6,15 @@
 #include <string>
 
 #include "core/mission/fleet.h"
+#include "tests/core/mission/fleet_case.h"
 
 namespace plumescout {
 namespace fleet_wants_test {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
-constexpr int kMaxRobots = 3;
-
-Fleet FleetOf(std::initializer_list<std::string> robots) {
-  Fleet fleet;
-  for (const std::string& robot : robots) {
-    EXPECT_TRUE(fleet.Register({robot, 0.2, 1}, kMaxRobots).ok());
-  }
-  return fleet;
-}
-
-Plan PlanTo(const RobotId& robot, Point2 position, GoalKind kind = GoalKind::kOccupancyFrontier) {
-  Plan plan;
-  plan.robot = robot;
-  Candidate candidate;
-  candidate.goal = {kind, {}, position, position, 10};
-  plan.candidates = {candidate};
-  plan.chosen = 0;
-  plan.phase =
-      kind == GoalKind::kRandomFreeSpace ? MissionPhase::kFallback : MissionPhase::kExploring;
-  plan.trajectory.duration_s = 10.0;
-  return plan;
-}
+using support::FleetOf;
+using support::kMaxRobots;
+using support::kSecond_ns;
+using support::PlanTo;
 
 Plan ToStay(const RobotId& robot, double wants_m) {
   Plan plan;

@@ -33,7 +33,9 @@ class Recorder final : public ConductObserver {
   void OnEvent(const Event& event, const Applied& applied) override {
     events.push_back(event.body);
     suspicions += applied.turned_suspect ? 1 : 0;
+    if (!applied.map.ok()) kept_maps.push_back(applied.map);
   }
+  std::vector<absl::Status> kept_maps;
   std::vector<EventBody> events;
   int suspicions = 0;
 };
@@ -202,6 +204,20 @@ TEST_F(MissionCorrectionsTest, ACorrectionBringsInWhatWasInQuarantine) {
   EXPECT_LT(worst_ppm, 0.5);
 }
 
+TEST_F(MissionCorrectionsTest, WhereARobotCameFromIsMovedWithItsWay) {
+  Drive(20);
+  ASSERT_EQ(conduct_->Snapshot()->robots.at("a").first_place, TruthAt(0).position());
+  const auto moved = [this](int step) {
+    const Pose2 truth = TruthAt(step);
+    return Pose2{truth.x_m + 0.2, truth.y_m - 0.1, truth.yaw_rad};
+  };
+  const PoseCorrection all{{{TimeOf(0), moved(0)}, {TimeOf(step_ - 1), moved(step_ - 1)}}};
+  ASSERT_TRUE(Send(TimeOf(step_ - 1), moved(step_ - 1), all).ok());
+  const Point2 home = *conduct_->Snapshot()->robots.at("a").first_place;
+  EXPECT_NEAR(Distance_m(home, moved(0).position()), 0.0, 1e-9);
+  ExpectReplays();
+}
+
 TEST_F(MissionCorrectionsTest, ScansThatFitAgainEndTheSuspicionWithoutTheStretch) {
   Drive(100);
   const std::int64_t readings = conduct_->Snapshot()->gas_counters.readings;
@@ -277,6 +293,36 @@ TEST_F(MissionCorrectionsTest, ASavedMissionGoesOnAsTheOneThatWasSaved) {
     ASSERT_TRUE(restored->Apply(recorder_.events[i]).ok());
   }
   EXPECT_EQ(restored->Digest(), mission.Digest());
+  ExpectReplays();
+}
+
+class MissionInASmallWorld : public MissionCorrectionsTest {
+ protected:
+  static MissionOptions Options() {
+    MissionOptions options;
+    options.occupancy.max_extent_m = 20.0;
+    return options;
+  }
+  MissionInASmallWorld() : MissionCorrectionsTest(Options()) {}
+};
+
+TEST_F(MissionInASmallWorld, ARebuiltMapWithoutRoomBesideTheOldOneIsToldOf) {
+  Drive(20);
+  const int walls = Occupied();
+  const auto elsewhere = [this](int step) {
+    const Pose2 truth = TruthAt(step);
+    return Pose2{truth.x_m + 12.8, truth.y_m, truth.yaw_rad};
+  };
+  const int last = step_ - 1;
+  const PoseCorrection all{{{TimeOf(0), elsewhere(0)}, {TimeOf(last), elsewhere(last)}}};
+  ASSERT_TRUE(Send(TimeOf(last), elsewhere(last), all).ok());
+  for (int i = 1; i <= 50; ++i) {
+    ASSERT_TRUE(Send(TimeOf(last + i), elsewhere(last), GasReading{1.0, 0.0}).ok());
+  }
+  EXPECT_EQ(Rebuilds().size(), 1u);
+  ASSERT_EQ(recorder_.kept_maps.size(), 1u);
+  EXPECT_THAT(std::string(recorder_.kept_maps[0].message()), HasSubstr("max_extent_m"));
+  EXPECT_EQ(Occupied(), walls);
   ExpectReplays();
 }
 

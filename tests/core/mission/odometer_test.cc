@@ -67,5 +67,15 @@ TEST(Odometer, WhoFindsItselfElsewhereHasNotDrivenThere) {
   EXPECT_DOUBLE_EQ(odometer.travelled_m(), 2.0);
 }
 
+TEST(Odometer, WhatWasForgottenWasNotDrivenFrom) {
+  Odometer odometer;
+  odometer.Pass({0.0, 0.0});
+  odometer.Pass({1.0, 0.0});
+  odometer.Forget();
+  odometer.Pass({9.0, 0.0});
+  odometer.Pass({9.5, 0.0});
+  EXPECT_EQ(odometer.travelled_m(), 1.5);
+}
+
 }  // namespace odometer_test
 }  // namespace plumescout

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/mission/way_history.h"
 
+#include "core/mission/memory_estimate.h"
 #include "core/types/error_reason.h"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
@@ -96,6 +97,18 @@ TEST_F(WayHistoryTest, WhatCameAfterTheCorrectionIsRight) {
   EXPECT_EQ(places[1], (Point2{2.0, 1.5}));
 }
 
+TEST_F(WayHistoryTest, TheStartOfAWayMovesWithIt) {
+  Read(1.0, kSecond_ns);
+  Read(2.0, 3 * kSecond_ns);
+  WayPoint start{kSecond_ns, {1.0, 1.5, 0.0}};
+  WayPoint later{4 * kSecond_ns, {2.0, 1.5, 0.0}};
+  const std::vector<PoseAnchor> up = {{kSecond_ns, {1.0, 2.5, 0.0}}};
+  ASSERT_TRUE(history_.Correct("a", 3 * kSecond_ns, up, 0, &start).ok());
+  EXPECT_EQ(start.pose.position(), (Point2{1.0, 2.5}));
+  ASSERT_TRUE(history_.Correct("a", 3 * kSecond_ns, up, 0, &later).ok());
+  EXPECT_EQ(later.pose.position(), (Point2{2.0, 1.5})) << "it was taken after the correction";
+}
+
 TEST_F(WayHistoryTest, RefusesWhatItCannotCorrect) {
   Read(1.0, kSecond_ns);
   const auto message = [&](std::vector<PoseAnchor> anchors, const char* robot = "a") {
@@ -142,6 +155,23 @@ TEST_F(WayHistoryTest, WhatIsTrimmedStaysInTheMapButCannotBeCorrected) {
   history_.Trim(history_.bytes() - 1);
   EXPECT_FALSE(history_.keeps()) << "what was merged is too much as well";
   EXPECT_EQ(history_.bytes(), 0);
+}
+
+TEST_F(WayHistoryTest, ReadingsThatAgeTakeMemoryWhenTheyAreMergedToo) {
+  MissionOptions options;
+  options.gas.ageing_half_life_s = 60.0;
+  history_ = WayHistory(options);
+  constexpr auto kCount = static_cast<int>(ReadingStore::kMostArrivals);  // then they are one site
+  for (int t = 0; t < kCount; ++t) Read(1.0, t * kSecond_ns);
+  history_.Trim(60'000);  // a site and its 255 buckets at most
+  ASSERT_TRUE(history_.keeps());
+  ASSERT_TRUE(history_.HeardReadings().empty());
+  const ReadingStore merged = history_.Readings();
+  EXPECT_EQ(merged.arrivals(), 1u);
+  EXPECT_GT(merged.arrival_buckets(), 0u);
+  EXPECT_EQ(history_.bytes(),
+            kReadingSiteBytes +
+                kReadingBucketBytes * static_cast<std::int64_t>(merged.arrival_buckets()));
 }
 
 }  // namespace way_history_test

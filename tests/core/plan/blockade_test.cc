@@ -50,6 +50,18 @@ TEST(FindBlockedRobots, WhoIsBehindOrBesideTheWayOrGoneDoesNot) {
   EXPECT_THAT(Blocked(team), IsEmpty()) << "nobody knows where it is";
 }
 
+TEST(FindBlockedRobots, WhosePlaceIsInDoubtTakesMoreRoom) {
+  CorridorTeam team;
+  team.Stands("a", 1.0);
+  team.Wants("a", 9.0, 3.0);
+  team.Stands("b", 6.0, 1.8);
+  RobotFrame& frame = team.belief.robots["b"].state.frame;
+  frame.position_stddev_m = 0.1;
+  EXPECT_THAT(Blocked(team), IsEmpty()) << "2.5 of them are no more than the clearance";
+  frame.position_stddev_m = 0.8;
+  EXPECT_THAT(Blocked(team), SizeIs(1)) << "it may as well stand in the corridor";
+}
+
 TEST(FindBlockedRobots, WhoFollowsItsPlanNeitherBlocksNorIsBlocked) {
   CorridorTeam team;
   team.Stands("a", 1.0);

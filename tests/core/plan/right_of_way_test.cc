@@ -77,6 +77,29 @@ TEST(YieldToRobots, RejectsAWayThatARobotStandsOn) {
   EXPECT_THAT(plan.rejected[0].detail, ::testing::HasSubstr("robot \"b\" at (2."));
 }
 
+TEST(FindWaits, AreThoseOfTheCandidatesOneByOne) {
+  const PlanningOptions options;
+  Plan plan = PlanOf({Way({5.0, 0.0}), Way({-5.0, 0.0}), Way({3.0, 0.0})});
+  Belief belief = CrossedBelief();
+  belief.robots["c"] = At("c", {3.0, 0.4});
+  const std::optional<Waits> waits = FindWaits(belief, 0.0, options, plan);
+  ASSERT_TRUE(waits.has_value());
+  ASSERT_EQ(waits->waits_s.size(), 3u);
+  EXPECT_FALSE(waits->waits_s[0].has_value()) << "\"c\" stands there";
+  EXPECT_EQ(waits->waits_s[1], 0.0);
+  EXPECT_FALSE(waits->waits_s[2].has_value());
+  YieldToRobots(*waits, 0.0, options, plan);
+  ASSERT_EQ(plan.candidates.size(), 1u);
+  EXPECT_EQ(plan.rejected.size(), 2u);
+}
+
+TEST(FindWaits, OfARobotThatIsAloneAreNone) {
+  Belief belief = CrossedBelief();
+  belief.robots.erase("b");
+  EXPECT_FALSE(FindWaits(belief, 0.0, {}, PlanOf({Way({5.0, 0.0})})).has_value());
+  EXPECT_FALSE(FindWaits(CrossedBelief(), 0.0, {}, PlanOf({})).has_value());
+}
+
 TEST(YieldToRobots, IsAnOption) {
   PlanningOptions options;
   options.yield_to_robots = false;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/plan/right_of_way.h"
@@ -78,12 +79,16 @@ class Corridor {
     const Departure departure = {{}, start_, 0.0};
     const GoalQuery query = {belief_, belief_.robots.at("a"), geometry_.CellAt(start_), reachable_,
                              options};
+    std::optional<Waits> waits = FindWaits(belief_, 0.0, options, plan);
+    if (!waits) return plan;
     LeadRound({query,
                departure,
                {cost, reachable_, departure.start, goals, 1, 0, never},
                {cost, mean_ppm_, 0.0}},
-              plan);
-    YieldToRobots(belief_, 0.0, options, plan);
+              *waits, plan);
+    const Trajectory way = TimeTrajectory(plan.candidates[0].path, 0.0, options);
+    EXPECT_EQ(waits->waits_s[0], waits->traffic.LeastWait_s(way)) << "of the way that was kept";
+    YieldToRobots(*waits, 0.0, options, plan);
     return plan;
   }
 

@@ -74,6 +74,42 @@ TEST(Traffic, WhoCrossesIsWaitedFor) {
   EXPECT_LE(*wait_s, 4.0);
 }
 
+TEST(Traffic, AWayThatIsKeptIsWaitedForAndNoWayEndsOnIt) {
+  const Trajectory way = Along({{0.0, 0.0}, {6.0, 0.0}});
+  const RobotRecord waiting = Standing("b", {3.0, -3.0});
+  Traffic traffic = TrafficFor(way, waiting);
+  EXPECT_EQ(traffic.LeastWait_s(way), 0.0) << "it stands";
+  traffic.KeepWay(waiting.state, Along({{3.0, -3.0}, {3.0, 9.0}}));
+  const std::optional<double> wait_s = traffic.LeastWait_s(way);
+  ASSERT_TRUE(wait_s.has_value());
+  EXPECT_GE(*wait_s, 1.0);
+  EXPECT_LE(*wait_s, 4.0);
+  const Trajectory onto_it = Along({{0.0, 0.0}, {3.0, 0.0}});
+  EXPECT_FALSE(traffic.LeastWait_s(onto_it).has_value()) << "though it is past by then";
+  Traffic later = TrafficFor(way, waiting);
+  Trajectory in_a_minute = Along({{3.0, -3.0}, {3.0, 9.0}});
+  WaitAtStart(60.0, in_a_minute);
+  later.KeepWay(waiting.state, in_a_minute);
+  EXPECT_EQ(later.LeastWait_s(way), 0.0);
+  const auto meeting = later.FirstMeeting(onto_it);
+  ASSERT_TRUE(meeting.has_value());
+  EXPECT_EQ(meeting->robot, "b");
+  EXPECT_DOUBLE_EQ(meeting->time_s, 3.0);
+  EXPECT_EQ(meeting->place, (Point2{3.0, 0.0}));
+}
+
+TEST(Traffic, AWaitMayBeLongerIfItIsAskedFor) {
+  const Trajectory way = Along({{0.0, 0.0}, {6.0, 0.0}});
+  const Trajectory to_and_fro = Along(
+      {{3.0, -1.0}, {3.0, 1.0}, {3.0, -1.0}, {3.0, 1.0}, {3.0, -1.0}, {3.0, 1.0}, {3.0, 30.0}});
+  const Traffic traffic = TrafficFor(way, Driving("b", to_and_fro));
+  EXPECT_FALSE(traffic.LeastWait_s(way).has_value());
+  const std::optional<double> wait_s = traffic.LeastWait_s(way, Traffic::kHorizon_s);
+  ASSERT_TRUE(wait_s.has_value());
+  EXPECT_GT(*wait_s, Traffic::kMaxWait_s);
+  EXPECT_LE(*wait_s, 13.0);
+}
+
 TEST(Traffic, WhoComesHeadOnInACorridorIsNotWaitedFor) {
   const Trajectory way = Along({{0.0, 0.0}, {8.0, 0.0}});
   const Traffic traffic = TrafficFor(way, Driving("b", Along({{8.0, 0.0}, {0.5, 0.0}})));

@@ -8,19 +8,23 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "absl/synchronization/notification.h"
 #include "tests/core/mission/mission_peer.h"
+#include "tests/server/captured_log.h"
 #include "tests/server/host_parts.h"
+#include "tests/support/box_room.h"
 #include "tests/support/same_bytes.h"
 
 namespace plumescout::server {
 namespace mission_writer_test {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 constexpr std::int64_t kLease = 7;
@@ -95,6 +99,31 @@ TEST(MissionWriterEpochs, EventsAndBytesAreTheSameWhoeverRecomputes) {
   EXPECT_EQ(refused.events, alone.events);
   ExpectSame(*beside.belief, *alone.belief);
   ExpectSame(*refused.belief, *alone.belief);
+}
+
+TEST(MissionWriterMap, ARebuiltMapThatIsNotTakenIsLogged) {
+  constexpr std::int64_t kStep_ns = 100'000'000;
+  MissionOptions options;
+  options.occupancy.max_extent_m = 20.0;
+  MissionWriter writer(std::make_unique<Mission>(options), nullptr);
+  ASSERT_TRUE(writer.conduct().Register({"r1", 0.2, kLease}).ok());
+  std::int64_t sequence = 0;
+  const auto send = [&](const Pose2& pose, ObservationPayload payload) {
+    ++sequence;
+    std::vector<IncomingObservation> batch(1);
+    batch[0].observation = {sequence, (9 + sequence) * kStep_ns, pose, std::move(payload)};
+    const IngestResult result = writer.conduct().Ingest("r1", kLease, std::move(batch));
+    EXPECT_TRUE(result.status.ok() && result.refused.empty()) << sequence;
+  };
+  const Pose2 held{3.5, 2.5, 0.0};
+  const Pose2 right{16.3, 2.5, 0.0};  // the room there and here is wider than the map may be
+  const std::string log = LogOf([&] {
+    for (int i = 0; i < 10; ++i) send(held, support::ScanInBox(held, 7.0, 5.0));
+    send(right, PoseCorrection{{{10 * kStep_ns, right}}});
+    for (int i = 0; i < 70; ++i) send(right, GasReading{1.0, 0.0});
+  });
+  EXPECT_THAT(log, HasSubstr("not taken: the old one stays"));
+  EXPECT_THAT(log, HasSubstr("max_extent_m"));
 }
 
 TEST(MissionWriterAudit, FindsCountsAndMendsAFieldThatWasMisled) {

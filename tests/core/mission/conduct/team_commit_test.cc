@@ -42,5 +42,47 @@ TEST(CommitTeam, WhatIsRefusedOrToStayIsLeftOutAndTheOthersAreAssigned) {
   EXPECT_EQ(committed.left_out[2].robot, "gone");
 }
 
+TEST(CommitTeam, PlansThatAreReplacedKeepNobodyFromTheirGoals) {
+  MissionConduct conduct(std::make_unique<Mission>(MissionOptions{}));
+  for (const char* const robot : {"a", "b", "c"}) {
+    ASSERT_TRUE(conduct.Register({robot, 0.2, 3}).ok());
+  }
+  ASSERT_TRUE(conduct.Commit(To("a", 1.0), 3).ok());
+  ASSERT_TRUE(conduct.Commit(To("b", 9.0), 3).ok());
+  ASSERT_TRUE(conduct.Commit(To("c", 20.0), 3).ok());
+  TeamPlan team;
+  team.plans = {To("a", 9.0), To("b", 20.0), To("c", 1.0)};
+  team.plans[2].chosen = -1;
+  team.plans[2].explanation = "Stay.";
+  const CommittedTeam committed = CommitTeam(team, conduct);
+  ASSERT_EQ(committed.plans.size(), 2U);
+  EXPECT_EQ(committed.plans[0].robot, "a");
+  EXPECT_EQ(committed.plans[1].robot, "b");
+  ASSERT_EQ(committed.left_out.size(), 1U);
+  EXPECT_EQ(committed.left_out[0].robot, "c");
+  const auto belief = conduct.Snapshot();
+  EXPECT_EQ(belief->robots.at("a").live_goal->position, (Point2{9.0, 0.0}));
+  EXPECT_EQ(belief->robots.at("b").live_goal->position, (Point2{20.0, 0.0}));
+  EXPECT_EQ(belief->robots.at("c").live_trajectory, nullptr) << "it was planned to stay";
+  EXPECT_EQ(belief->robots.at("c").assigned_plan, belief->robots.at("c").last_plan);
+}
+
+TEST(CommitTeam, WhoseSearchFailedGoesOnWithThePlanThatItHas) {
+  MissionConduct conduct(std::make_unique<Mission>(MissionOptions{}));
+  for (const char* const robot : {"a", "b"}) {
+    ASSERT_TRUE(conduct.Register({robot, 0.2, 3}).ok());
+  }
+  ASSERT_TRUE(conduct.Commit(To("b", 9.0), 3).ok());
+  TeamPlan team;
+  team.plans = {To("a", 9.0)};
+  team.left_out = {{"b", "it has no pose"}};
+  const CommittedTeam committed = CommitTeam(team, conduct);
+  EXPECT_TRUE(committed.plans.empty());
+  ASSERT_EQ(committed.left_out.size(), 2U);
+  EXPECT_EQ(committed.left_out[0], (LeftOut{"b", "it has no pose"}));
+  EXPECT_THAT(committed.left_out[1].why, HasSubstr("claimed by robot \"b\""));
+  EXPECT_EQ(conduct.Snapshot()->robots.at("b").last_plan, 1);
+}
+
 }  // namespace team_commit_test
 }  // namespace plumescout

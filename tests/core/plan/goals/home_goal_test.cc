@@ -113,6 +113,22 @@ TEST(FindHome, IsBesideARobotThatStandsThere) {
   EXPECT_EQ(FindHome(query).goal.cell, (Cell{3, 1}));
 }
 
+TEST(FindHome, IsFartherFromARobotWhosePlaceIsInDoubt) {
+  GoalCase c(kHall);
+  const Point2 home = CentreOf(c, {3, 1});
+  c.belief.robots["r"].first_place = home;
+  const double cell_m = c.belief.geometry().resolution_m;
+  RobotRecord& parked = c.belief.robots["s"];
+  parked.state.id = "s";
+  parked.state.radius_m = 1.5 * cell_m;
+  parked.state.has_pose = true;
+  parked.state.pose = {home.x_m, home.y_m, 0.0};
+  c.belief.robots["r"].state.radius_m = cell_m;
+  c.options.robot_clearance_m = 0.0;
+  parked.state.frame.position_stddev_m = cell_m;  // 2.5 cells beside both radii
+  EXPECT_EQ(FindHome(c.Query()).goal.cell, (Cell{9, 3})) << "no other cell is 5.7 cells away";
+}
+
 TEST(FindHome, IsNotKeptFromByMemoryOrClaims) {
   GoalCase c(kHall);
   c.belief.robots["r"].first_place = CentreOf(c, {3, 1});

@@ -20,6 +20,7 @@ using testing::CorridorTeam;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
 struct Prize {
   double x_m;
@@ -66,6 +67,24 @@ class Prizes : public Strategy {
 
  private:
   std::vector<Prize> prizes_;
+};
+
+// As Prizes, but that one robot cannot be planned for.
+class PrizesBut : public Prizes {
+ public:
+  PrizesBut(RobotId robot, std::vector<Prize> prizes)
+      : Prizes(std::move(prizes)), robot_(std::move(robot)) {}
+
+  using Strategy::Plan;
+  absl::StatusOr<plumescout::Plan> Plan(const Belief& belief, const PlanRequest& request,
+                                        const StopFn& stop,
+                                        const PlanListener& improved) const override {
+    if (request.robot == robot_) return absl::FailedPreconditionError("it has no pose");
+    return Prizes::Plan(belief, request, stop, improved);
+  }
+
+ private:
+  RobotId robot_;
 };
 
 double GoalOf(const Plan& plan) { return plan.candidates.at(0).goal.position.x_m; }
@@ -131,6 +150,56 @@ TEST(PlanTeam, NobodyFreeIsNoError) {
   const auto planned = PlanTeam(Prizes(kTwoPrizes), team.belief, {}, NeverStop());
   ASSERT_TRUE(planned.ok());
   EXPECT_THAT(planned->plans, IsEmpty());
+}
+
+TEST(PlanTeam, WhoCannotBePlannedForIsLeftOutAndTheOthersGetTheirs) {
+  CorridorTeam three = Two();
+  three.Stands("c", 8.5);
+  const auto team = PlanTeam(PrizesBut("c", kTwoPrizes), three.belief, {}, NeverStop());
+  ASSERT_TRUE(team.ok()) << team.status();
+  ASSERT_EQ(team->plans.size(), 2U);
+  EXPECT_EQ(GoalOf(team->plans[0]), 4.0);
+  EXPECT_EQ(GoalOf(team->plans[1]), 7.0);
+  EXPECT_THAT(team->left_out, ElementsAre(LeftOut{"c", "it has no pose"}));
+  EXPECT_EQ(team->order_count, 1);
+}
+
+TEST(PlanTeam, WhoIsLeftOutKeepsItsPlanAndItsGoal) {
+  CorridorTeam three = Two();
+  three.Stands("c", 8.5);
+  three.Drives("c", 4.0);
+  const Point2 first_prize = CorridorTeam::At(4.0);
+  three.belief.claims = {{"c", 1, {GoalKind::kInformation, {}, first_prize, first_prize, 0}, 0}};
+  TeamRequest request;
+  request.robots = {"a", "b", "c"};
+  const auto team = PlanTeam(PrizesBut("c", kTwoPrizes), three.belief, request, NeverStop());
+  ASSERT_TRUE(team.ok()) << team.status();
+  ASSERT_EQ(team->plans.size(), 2U);
+  EXPECT_EQ(team->plans[0].robot, "b") << "it is nearer to what \"c\" leaves";
+  EXPECT_EQ(GoalOf(team->plans[0]), 7.0);
+  EXPECT_EQ(team->plans[1].chosen, -1);
+  EXPECT_THAT(team->left_out, ElementsAre(LeftOut{"c", "it has no pose"}));
+}
+
+TEST(PlanTeam, MoreFreeRobotsThanATeamHasAreCounted) {
+  CorridorTeam crowd;
+  for (int i = 0; i <= kMostTeamRobots; ++i) crowd.Stands(absl::StrCat("r", i), 5.0);
+  const absl::Status refused = PlanTeam(Prizes(kTwoPrizes), crowd.belief, {}, NeverStop()).status();
+  EXPECT_TRUE(absl::IsFailedPrecondition(refused)) << refused;
+  EXPECT_THAT(std::string(refused.message()), StartsWith("TEAM_TOO_LARGE: 33 robots are free"));
+}
+
+TEST(PlanTeam, WhenTheFirstOrderIsStoppedWhoHasChosenGoes) {
+  int polls = 0;
+  const StopFn before_the_second = [&polls] { return ++polls > 4; };
+  const auto team = PlanTeam(Prizes(kTwoPrizes), Two().belief, {}, before_the_second);
+  ASSERT_TRUE(team.ok()) << team.status();
+  ASSERT_EQ(team->plans.size(), 1U);
+  EXPECT_EQ(team->plans[0].robot, "b");
+  ASSERT_EQ(team->left_out.size(), 1U);
+  EXPECT_EQ(team->left_out[0].robot, "a");
+  EXPECT_THAT(team->left_out[0].why, StartsWith("DEADLINE_BEFORE_FIRST_PLAN"));
+  EXPECT_EQ(team->order_count, 0);
 }
 
 TEST(PlanTeam, BadRequestsAreRefused) {

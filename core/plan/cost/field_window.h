@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "core/types/cell.h"
+#include "core/types/grid_geometry.h"
+
+namespace plumescout {
+
+// Where the raster of a gas field lies on the map: that may have grown since the field was
+// computed, and never becomes smaller.
+class FieldWindow {
+ public:
+  // REQUIRES: `map` covers `field`, by whole cells.
+  FieldWindow(const GridGeometry& map, const GridGeometry& field)
+      : map_(map), field_(field), corner_(map.CellAt(field.Center({0, 0}))) {}
+
+  // The cell of the map as one of the field; none if the field has it not.
+  std::optional<Cell> InField(Cell cell) const {
+    const Cell inside{cell.x - corner_.x, cell.y - corner_.y};
+    return field_.Contains(inside) ? std::optional<Cell>(inside) : std::nullopt;
+  }
+
+  // Calls visit(index in the map, index in the field) for all cells of the field.
+  template <typename Visit>
+  void ForEachCell(const Visit& visit) const {
+    for (int y = 0; y < field_.height; ++y) {
+      std::size_t in_map = map_.Index({corner_.x, corner_.y + y});
+      std::size_t in_field = field_.Index({0, y});
+      for (int x = 0; x < field_.width; ++x) visit(in_map++, in_field++);
+    }
+  }
+
+ private:
+  GridGeometry map_;
+  GridGeometry field_;
+  Cell corner_;
+};
+
+}  // namespace plumescout

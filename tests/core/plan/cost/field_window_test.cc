@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/cost/field_window.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <utility>
+#include <vector>
+
+namespace plumescout {
+namespace field_window_test {
+
+using ::testing::ElementsAre;
+using ::testing::Pair;
+
+// The map has grown by two columns to the west and by one row to the south since.
+const GridGeometry kField{0.0, 0.0, 0.1, 3, 2};
+const GridGeometry kMap{-0.2, -0.1, 0.1, 6, 4};
+
+TEST(FieldWindow, CellsOfTheMapAreThoseOfTheFieldOrNone) {
+  const FieldWindow window(kMap, kField);
+  EXPECT_EQ(window.InField({2, 1}), (Cell{0, 0}));
+  EXPECT_EQ(window.InField({4, 2}), (Cell{2, 1}));
+  EXPECT_FALSE(window.InField({1, 1}).has_value());
+  EXPECT_FALSE(window.InField({2, 0}).has_value());
+  EXPECT_FALSE(window.InField({5, 1}).has_value());
+  EXPECT_FALSE(window.InField({2, 3}).has_value());
+}
+
+TEST(FieldWindow, EveryCellOfTheFieldIsVisitedWhereItLies) {
+  std::vector<std::pair<std::size_t, std::size_t>> visited;
+  FieldWindow(kMap, kField).ForEachCell([&](std::size_t in_map, std::size_t in_field) {
+    visited.emplace_back(in_map, in_field);
+  });
+  EXPECT_THAT(visited, ElementsAre(Pair(8, 0), Pair(9, 1), Pair(10, 2),  // row 1 of the map
+                                   Pair(14, 3), Pair(15, 4), Pair(16, 5)));
+}
+
+}  // namespace field_window_test
+}  // namespace plumescout
