@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -35,6 +36,7 @@ struct AuditFinding {
   double mean_ppm = 0.0;        // largest
   double variance_ratio = 0.0;  // largest, as share of the independent one
   bool certified = true;        // neither is more than the certificate and rounding allow
+  std::size_t species = 0;      // of whose field, by place among the mission's gases
 };
 
 // Computes means and variances of the whole map once more, independently of core/gas/field: the
