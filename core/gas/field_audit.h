@@ -17,6 +17,7 @@ namespace plumescout {
 
 // A gas map at one moment: what it was told, and what it made of that.
 struct AuditInputs {
+  std::size_t species = 0;  // its place among the mission's gases
   GasOptions options;
   Grid<CellState> states;
   AnchorCell corner;                   // of cell (0, 0) of `states`

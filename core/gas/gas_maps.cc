@@ -11,8 +11,8 @@ namespace plumescout {
 
 GasMaps::GasMaps(const MissionOptions& options) {
   fields_.reserve(SpeciesCount(options));
-  for (std::size_t i = 0; i < SpeciesCount(options); ++i) {
-    fields_.emplace_back(GasOptionsOf(options, i), options.occupancy.resolution_m);
+  for (const GasOptions& gas : GasOptionsOfAll(options)) {
+    fields_.emplace_back(gas, options.occupancy.resolution_m);
   }
 }
 

@@ -128,7 +128,7 @@ class Mission {
   bool audit_due() const { return gas_.audit_due(); }
   // `species`: a place among the mission's gases.
   std::shared_ptr<const AuditInputs> MakeAudit(std::size_t species = 0) const {
-    return gas_[species].MakeAudit();
+    return gas_[species].MakeAudit(species);
   }
   void NoteAudits(const GasAudits& audits, std::size_t species = 0) {
     gas_audits_[species] = audits;

@@ -37,18 +37,12 @@ bool IsWithin(const Pose2& pose, double limit_m) {
   return std::abs(pose.x_m) <= limit_m && std::abs(pose.y_m) <= limit_m;
 }
 
-std::vector<GasOptions> GasesOf(const MissionOptions& options) {
-  std::vector<GasOptions> gases;
-  for (std::size_t i = 0; i < SpeciesCount(options); ++i) gases.push_back(GasOptionsOf(options, i));
-  return gases;
-}
-
 }  // namespace
 
 WayHistory::WayHistory(const MissionOptions& options)
     : keeps_(options.keep_scans),
       occupancy_(options.occupancy),
-      gases_(GasesOf(options)),
+      gases_(GasOptionsOfAll(options)),
       pose_limit_m_(options.pose_limit_m),
       prior_map_(options.prior_map),
       base_readings_(NoReadings()),

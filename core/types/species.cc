@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
@@ -76,6 +75,12 @@ GasOptions GasOptionsOf(const MissionOptions& options, std::size_t species) {
       own.background_precision_per_ppm2.value_or(gas.background_precision_per_ppm2);
   gas.background_mean_ppm = own.background_mean_ppm.value_or(gas.background_mean_ppm);
   return gas;
+}
+
+std::vector<GasOptions> GasOptionsOfAll(const MissionOptions& options) {
+  std::vector<GasOptions> gases;
+  for (std::size_t i = 0; i < SpeciesCount(options); ++i) gases.push_back(GasOptionsOf(options, i));
+  return gases;
 }
 
 absl::Status ValidateSpecies(const MissionOptions& options) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "absl/status/status.h"
 #include "absl/strings/string_view.h"
@@ -28,6 +29,8 @@ std::string SpeciesNames(const MissionOptions& options);
 // The model of its field: that of options.gas with what the species says otherwise. REQUIRES:
 // species < SpeciesCount(options).
 GasOptions GasOptionsOf(const MissionOptions& options, std::size_t species);
+// Of all, in their order.
+std::vector<GasOptions> GasOptionsOfAll(const MissionOptions& options);
 
 // kInvalidArgument naming field and value: too many, a name that is none or comes twice, a value
 // out of range, a first one with a model of its own.
