@@ -133,6 +133,7 @@ TEST_F(MapSpeciesTest, WatchersAndThePastAreServedToo) {
   EXPECT_EQ(frame.kind(), v1::WatchMapResponse::KIND_FULL);
   ASSERT_GT(frame.tiles_size(), 0);
   for (const v1::MapTile& tile : frame.tiles()) EXPECT_EQ(tile.species(), kSecond);
+  ASSERT_TRUE(Ingest(kReader, lease_, RoomScan(13, {5.0, 3.0, 0.0})).ok());
   v1::GetMapRequest request = MapOf(kSecond);
   request.set_revision(now->revision());
   const auto then = Get(request);
