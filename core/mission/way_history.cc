@@ -48,12 +48,6 @@ WayHistory::WayHistory(const MissionOptions& options)
       base_readings_(NoReadings()),
       base_sampled_(options.occupancy.resolution_m) {}
 
-std::vector<ReadingStore> WayHistory::NoReadings() const {
-  std::vector<ReadingStore> stores;
-  for (const GasOptions& gas : gases_) stores.emplace_back(gas, occupancy_.resolution_m);
-  return stores;
-}
-
 void WayHistory::BeginWith(const OccupancyGrid& map, const ReadingStore& readings,
                            const SampledCells& sampled, std::int64_t time_ns) {
   if (!keeps_) return;

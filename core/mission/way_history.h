@@ -154,7 +154,11 @@ class WayHistory {
   void GiveUp();
   std::int64_t OldestNumber() const;
   std::int64_t base_bytes() const;
-  std::vector<ReadingStore> NoReadings() const;  // by species
+  std::vector<ReadingStore> NoReadings() const {  // by species
+    std::vector<ReadingStore> stores;
+    for (const GasOptions& gas : gases_) stores.emplace_back(gas, occupancy_.resolution_m);
+    return stores;
+  }
   static std::int64_t BytesOf(const Way& way);
   bool IsWhole() const;  // of what was read
 
