@@ -170,6 +170,10 @@ class GrpcPlannerClient final : public PlannerClient {
     request.set_fresh_posterior(true);
     v1::GetMapResponse part;
     PLUMESCOUT_RETURN_IF_ERROR(link_.Call(maps_, &v1::MapService::Stub::GetMap, request, &part));
+    if (part.status().gases_size() > 1) {  // it has the layers of the first
+      for (const v1::GasStatus& gas : part.status().gases()) request.add_species(gas.species());
+      PLUMESCOUT_RETURN_IF_ERROR(link_.Call(maps_, &v1::MapService::Stub::GetMap, request, &part));
+    }
     PLUMESCOUT_ASSIGN_OR_RETURN(MapSnapshot map, FromProto(part));
     while (!part.next_part_token().empty()) {
       request.set_part_token(part.next_part_token());

@@ -155,7 +155,7 @@ class PlannerClient {
   virtual absl::StatusOr<std::unique_ptr<RobotWatch>> WatchRobot(const RobotSession&) {
     return absl::UnimplementedError("robots are not watched here");
   }
-  // With the posterior brought up to date.
+  // Of all gases, with the posterior brought up to date.
   virtual absl::StatusOr<MapSnapshot> GetMap(const MissionId& mission) = 0;
 };
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "client/sensor_arguments.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <iterator>
 
@@ -19,13 +20,15 @@ absl::StatusOr<std::vector<GasSensor>> ReadSensors(const std::vector<std::string
     sensor.id = parts[0];
     double* const numbers[] = {&sensor.robot_from_sensor.x_m, &sensor.robot_from_sensor.y_m,
                                &sensor.stddev_ppm, &sensor.offset_stddev_ppm};
-    bool is_sensor = parts.size() <= 1 + std::size(numbers);
-    for (std::size_t i = 1; is_sensor && i < parts.size(); ++i) {
+    constexpr std::size_t kSpecies = 1 + std::size(numbers);  // its place among the parts
+    bool is_sensor = parts.size() <= kSpecies + 1;
+    for (std::size_t i = 1; is_sensor && i < std::min(parts.size(), kSpecies); ++i) {
       is_sensor = absl::SimpleAtod(parts[i], numbers[i - 1]);
     }
+    if (is_sensor && parts.size() > kSpecies) sensor.species = parts[kSpecies];
     if (!is_sensor) {
-      return absl::InvalidArgumentError(
-          absl::StrCat("--gas-sensor = \"", text, "\" must be ID,AHEAD,LEFT,STDDEV,OFFSET_STDDEV"));
+      return absl::InvalidArgumentError(absl::StrCat(
+          "--gas-sensor = \"", text, "\" must be ID,AHEAD,LEFT,STDDEV,OFFSET_STDDEV,SPECIES"));
     }
   }
   return sensors;

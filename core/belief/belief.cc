@@ -6,6 +6,7 @@
 
 #include "core/frontier/gas_frontier.h"
 #include "core/frontier/occupancy_frontier.h"
+#include "core/types/species.h"
 
 namespace plumescout {
 namespace {
@@ -33,6 +34,10 @@ MapStatus MakeMapStatus(const Belief& belief) {
   for (const auto& [id, record] : belief.robots) map.robots.push_back(record.state);
 
   const MissionOptions& options = *belief.options;
+  for (std::size_t i = 0; i < options.gas_species.size(); ++i) {
+    const GasField gas = belief.Gas(i);
+    map.gases.push_back({SpeciesName(options, i), gas.counters, gas.quality, gas.audits});
+  }
   const std::vector<Cell> starts = RobotCells(belief);
   const GasFrontierInput gas{*belief.occupancy, *belief.traversable, *belief.gas_mean_ppm,
                              *belief.gas_variance_ppm2};
@@ -48,8 +53,14 @@ MapStatus MakeMapStatus(const Belief& belief) {
 }
 
 MapSnapshot MakeMapSnapshot(const Belief& belief) {
-  return {MakeMapStatus(belief), *belief.occupancy, *belief.gas_mean_ppm,
-          *belief.gas_variance_ppm2};
+  MapSnapshot map{MakeMapStatus(belief), *belief.occupancy, *belief.gas_mean_ppm,
+                  *belief.gas_variance_ppm2};
+  for (std::size_t i = 1; i <= belief.further_gases.size(); ++i) {
+    const GasField gas = belief.Gas(i);
+    map.further_gases.push_back(
+        {SpeciesName(*belief.options, i), *gas.mean_ppm, *gas.variance_ppm2});
+  }
+  return map;
 }
 
 }  // namespace plumescout

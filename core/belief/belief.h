@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -78,6 +79,15 @@ inline bool IsSentHome(const RobotRecord& record) {
   return record.state.ordered_home || record.battery_low;
 }
 
+// What a mission knows of one of its gases.
+struct GasField {
+  std::shared_ptr<const Grid<float>> mean_ppm;       // NaN off free cells
+  std::shared_ptr<const Grid<float>> variance_ppm2;  // NaN off free cells
+  GasCounters counters;
+  GasQuality quality;
+  GasAudits audits;
+};
+
 // Immutable snapshot of a mission that readers plan on and look at. Rasters are shared between
 // snapshots while they do not change. All rasters have the geometry of `occupancy`.
 struct Belief {
@@ -95,7 +105,9 @@ struct Belief {
   GasCounters gas_counters;
   GasQuality gas_quality;
   GasAudits gas_audits;
-  std::vector<SensorOffset> sensor_offsets;
+  // Of the gases beside the first, of which the above is, in the order of the options.
+  std::vector<GasField> further_gases;
+  std::vector<SensorOffset> sensor_offsets;  // of all gases
 
   std::map<RobotId, RobotRecord> robots;
   std::vector<GoalClaim> claims;
@@ -106,6 +118,11 @@ struct Belief {
   std::optional<std::int64_t> next_map_update_ns;
 
   const GridGeometry& geometry() const { return occupancy->geometry(); }
+  // By place among the mission's gases. REQUIRES: there is one.
+  GasField Gas(std::size_t species) const {
+    if (species > 0) return further_gases[species - 1];
+    return {gas_mean_ppm, gas_variance_ppm2, gas_counters, gas_quality, gas_audits};
+  }
 };
 
 // What watchers see beside the rasters: frontiers are found from all robots.

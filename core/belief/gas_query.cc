@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/frontier/gas_frontier.h"
+#include "core/types/species.h"
 
 namespace plumescout {
 namespace {
@@ -16,8 +17,11 @@ std::optional<double> IfKnown(float value) {
 
 }  // namespace
 
-std::vector<GasAtPlace> QueryGas(const Belief& belief, const std::vector<Point2>& places) {
-  const double observed_ppm2 = ObservedVariance_ppm2(belief.options->frontier, belief.options->gas);
+std::vector<GasAtPlace> QueryGas(const Belief& belief, const std::vector<Point2>& places,
+                                 std::size_t species) {
+  const GasField field = belief.Gas(species);
+  const double observed_ppm2 =
+      ObservedVariance_ppm2(belief.options->frontier, GasOptionsOf(*belief.options, species));
   std::vector<GasAtPlace> answers;
   answers.reserve(places.size());
   for (const Point2 place : places) {
@@ -25,8 +29,8 @@ std::vector<GasAtPlace> QueryGas(const Belief& belief, const std::vector<Point2>
     const Cell cell = belief.geometry().CellAt(place);
     if (!belief.occupancy->Contains(cell)) continue;
     gas.state = (*belief.occupancy)[cell];
-    gas.mean_ppm = IfKnown((*belief.gas_mean_ppm)[cell]);
-    gas.variance_ppm2 = IfKnown((*belief.gas_variance_ppm2)[cell]);
+    gas.mean_ppm = IfKnown((*field.mean_ppm)[cell]);
+    gas.variance_ppm2 = IfKnown((*field.variance_ppm2)[cell]);
     gas.observed = gas.variance_ppm2 && *gas.variance_ppm2 <= observed_ppm2;
   }
   return answers;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "core/belief/belief.h"
@@ -10,7 +11,9 @@
 
 namespace plumescout {
 
-// In the order of `places`. REQUIRES: they are finite. Cost: O(places).
-std::vector<GasAtPlace> QueryGas(const Belief& belief, const std::vector<Point2>& places);
+// In the order of `places`. `species`: the gas by its place among the mission's. REQUIRES: they are
+// finite, and there is such a gas. Cost: O(places).
+std::vector<GasAtPlace> QueryGas(const Belief& belief, const std::vector<Point2>& places,
+                                 std::size_t species = 0);
 
 }  // namespace plumescout

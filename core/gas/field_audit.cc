@@ -50,6 +50,7 @@ std::vector<Evidence> EvidenceOn(const GmrfGraph& graph, const AuditInputs& inpu
 
 AuditFinding Compare(const GmrfGraph& graph, const Posterior& truth, const AuditInputs& inputs) {
   AuditFinding finding;
+  finding.species = inputs.species;
   const GasCell first = FirstGasCell(inputs);
   double largest_mean_ppm = 0.0;
   for (std::size_t i = 0; i < truth.mean_ppm.size(); ++i) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -16,6 +17,7 @@ namespace plumescout {
 
 // A gas map at one moment: what it was told, and what it made of that.
 struct AuditInputs {
+  std::size_t species = 0;  // its place among the mission's gases
   GasOptions options;
   Grid<CellState> states;
   AnchorCell corner;                   // of cell (0, 0) of `states`
@@ -35,6 +37,7 @@ struct AuditFinding {
   double mean_ppm = 0.0;        // largest
   double variance_ratio = 0.0;  // largest, as share of the independent one
   bool certified = true;        // neither is more than the certificate and rounding allow
+  std::size_t species = 0;      // of whose field, by place among the mission's gases
 };
 
 // Computes means and variances of the whole map once more, independently of core/gas/field: the

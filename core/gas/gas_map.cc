@@ -226,9 +226,10 @@ bool GasMap::audit_due() const {
   return period > 0 && quality_.epochs > 0 && (quality_.epochs - 1) % period == 0;
 }
 
-std::shared_ptr<const AuditInputs> GasMap::MakeAudit() const {
+std::shared_ptr<const AuditInputs> GasMap::MakeAudit(std::size_t species) const {
   if (engine_ == nullptr || has_failed_ || epoch_ != nullptr) return nullptr;
   auto audit = std::make_shared<AuditInputs>();
+  audit->species = species;
   audit->options = options_;
   audit->states = inputs_.states().states();
   audit->corner = inputs_.states().At(0);

@@ -132,9 +132,9 @@ class GasMap {
   // Whether the epoch adopted last is one after which the field is to be audited.
   bool audit_due() const;
   // Copies what an audit compares; RunAudit may then run on any thread. Null if there is no field,
-  // or an epoch under way: that merges readings which the field has heard one by one. Cost:
-  // O(cells).
-  std::shared_ptr<const AuditInputs> MakeAudit() const;
+  // or an epoch under way: that merges readings which the field has heard one by one. `species`:
+  // for the finding, see AuditFinding. Cost: O(cells).
+  std::shared_ptr<const AuditInputs> MakeAudit(std::size_t species = 0) const;
 
   // Whether its state can be written: it is neither abandoned nor within an epoch, and there is no
   // field, or one that has heard nothing since it was made anew. Always so right after Adopt.

@@ -6,6 +6,7 @@
 
 #include "core/gas/field_region.h"
 #include "core/gas/gas_map.h"
+#include "core/gas/gas_maps.h"
 #include "core/gas/reading_state.h"
 
 namespace plumescout {
@@ -162,6 +163,12 @@ void GasMap::VisitState(Archive& archive, Self& self) {
   } else {
     archive(self.origin_);
   }
+}
+
+// How many there are follows from the mission's options.
+template <typename Archive, typename Self>
+void GasMaps::VisitState(Archive& archive, Self& self) {
+  for (auto& field : self.fields_) archive(field);
 }
 
 }  // namespace plumescout

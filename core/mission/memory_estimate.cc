@@ -11,6 +11,7 @@
 #include "core/types/error_reason.h"
 #include "core/types/map_tiles.h"
 #include "core/types/prior_map.h"
+#include "core/types/species.h"
 
 namespace plumescout {
 namespace {
@@ -87,6 +88,7 @@ absl::StatusOr<MissionOptions> FitToBudget(const MissionOptions& options) {
   if (options.prior_map == nullptr) return options;
   const std::int64_t budget_bytes = options.memory_budget_bytes;
   MemoryUse use;
+  use.species = static_cast<std::int64_t>(SpeciesCount(options));
   use.map_cells = MapCells(*options.prior_map, options.occupancy.resolution_m);
   if (RoomBesideField_bytes(budget_bytes, use) < 0) {
     return BudgetReached(absl::StrCat("prior_map takes ", use.BesideField_bytes(),
@@ -97,7 +99,7 @@ absl::StatusOr<MissionOptions> FitToBudget(const MissionOptions& options) {
   MissionOptions fitted = options;
   const FirstCells full = FirstField(options);
   int& factor = fitted.gas.lattice_factor;
-  const std::int64_t room_bytes = RoomForField_bytes(budget_bytes, use);
+  const std::int64_t room_bytes = RoomForField_bytes(budget_bytes, use) / use.species;  // for each
   while (BytesOn(full, factor) > room_bytes && 2 * factor <= kMostLatticeFactor) factor *= 2;
   if (BytesOn(full, factor) <= room_bytes) return fitted;
   return BudgetReached(absl::StrCat("the gas field of prior_map takes ", BytesOn(full, factor),

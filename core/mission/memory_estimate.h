@@ -16,6 +16,8 @@ namespace plumescout {
 // snapshots of it that readers keep, and what is needed for a moment while it changes.
 inline constexpr std::int64_t kMissionBytes = std::int64_t{8} << 20;  // with its queues
 inline constexpr std::int64_t kMapCellBytes = 64;
+// Of every gas beside the first: rasters of its mean and variance, and those of snapshots.
+inline constexpr std::int64_t kFurtherGasCellBytes = 32;
 inline constexpr std::int64_t kReadingSiteBytes = 500;
 inline constexpr std::int64_t kReadingBucketBytes = 210;
 inline constexpr std::int64_t kVisitedTileBytes = 80;
@@ -27,10 +29,12 @@ struct MemoryUse {
   std::int64_t reading_sites = 0;
   std::int64_t reading_buckets = 0;
   std::int64_t visited_tiles = 0;
-  std::int64_t field_bytes = 0;  // see core/gas/field_bytes.h
+  std::int64_t field_bytes = 0;  // of all fields; see core/gas/field_bytes.h
+  std::int64_t species = 1;      // gases that are mapped
 
+  std::int64_t CellBytes() const { return kMapCellBytes + kFurtherGasCellBytes * (species - 1); }
   std::int64_t BesideField_bytes() const {
-    return kMissionBytes + kMapCellBytes * map_cells + kReadingSiteBytes * reading_sites +
+    return kMissionBytes + CellBytes() * map_cells + kReadingSiteBytes * reading_sites +
            kReadingBucketBytes * reading_buckets + kVisitedTileBytes * visited_tiles;
   }
   std::int64_t Total_bytes() const { return BesideField_bytes() + field_bytes; }
@@ -39,8 +43,8 @@ struct MemoryUse {
 // What readings take that are kept beside the field, in the same units. Cost: O(1).
 std::int64_t ReadingBytes(const ReadingStore& readings);
 
-// How a budget is shared. The field may take five eighths of it, or what the rest leaves; a coarser
-// lattice always does with less.
+// How a budget is shared. The field, or all of them together, may take five eighths of it, or what
+// the rest leaves; a coarser lattice always does with less.
 std::int64_t RoomForField_bytes(std::int64_t budget_bytes, const MemoryUse& use);
 // What may be added beside the field: seven eighths of the budget are for the rest at most, so that
 // a coarse field always has room.

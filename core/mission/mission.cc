@@ -13,6 +13,7 @@
 #include "core/mission/sensor_check.h"
 #include "core/occupancy/free_space.h"
 #include "core/occupancy/keep_out.h"
+#include "core/types/species.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
@@ -60,7 +61,8 @@ Mission::Mission(const MissionOptions& options)
     : options_(std::make_shared<const MissionOptions>(options)),
       occupancy_(options.occupancy),
       region_(options.gas.field_reach_m, options.occupancy.resolution_m),
-      gas_(options.gas, options.occupancy.resolution_m),
+      gas_(options),
+      gas_audits_(gas_.count()),
       fleet_(options.robot_silence_s, options.return_home_below_battery_share),
       goal_memory_(options),
       sampled_cells_(options.occupancy.resolution_m),
@@ -86,6 +88,7 @@ absl::StatusOr<Applied> Mission::Change(const RobotRegistered& registration) {
   const bool is_elsewhere = !fleet_.Knows(registration.robot) ||
                             fleet_.StateOf(registration.robot).frame != registration.frame;
   PLUMESCOUT_RETURN_IF_ERROR(CheckOffsets(registration.sensors, options_->gas));
+  PLUMESCOUT_RETURN_IF_ERROR(CheckSpecies(registration.sensors, *options_));
   PLUMESCOUT_RETURN_IF_ERROR(
       fleet_.Register(registration, options_->max_robot_count, options_->pose_limit_m));
   if (is_elsewhere) {
@@ -150,46 +153,48 @@ absl::Status Mission::TakeReading(const RobotId& robot, std::int64_t time_ns, co
                                   GasReading reading) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const GasSensor sensor, fleet_.SensorOf(robot, reading.sensor));
   if (reading.variance_ppm2 == 0.0) reading.variance_ppm2 = sensor.stddev_ppm * sensor.stddev_ppm;
+  const std::size_t species = FindSpecies(*options_, sensor.species).value_or(0);
   const Point2 place = PlaceOnRobot(pose, sensor.robot_from_sensor);
   const bool suspect = fleet_.StateOf(robot).frame_suspect;
   if (!suspect) {
     PLUMESCOUT_RETURN_IF_ERROR(
-        AddReading({robot, sensor.id, sensor.offset_stddev_ppm}, time_ns, place, reading));
+        AddReading(species, {robot, sensor.id, sensor.offset_stddev_ppm}, time_ns, place, reading));
   }
-  history_.AddReading(robot, time_ns, pose, reading, suspect, sensor);
+  history_.AddReading(robot, time_ns, pose, reading, suspect, sensor, species);
   return absl::OkStatus();
 }
 
-absl::Status Mission::AddReading(const ReadingSource& source, std::int64_t time_ns, Point2 place,
-                                 const GasReading& reading) {
-  if (!gas_.HasRoomFor(place)) {
+absl::Status Mission::AddReading(std::size_t species, const ReadingSource& source,
+                                 std::int64_t time_ns, Point2 place, const GasReading& reading) {
+  GasMap& gas = gas_[species];
+  if (!gas.HasRoomFor(place)) {
     return BudgetReached(absl::StrCat("readings at ", ReadingStore::kMostWaitingSites,
                                       " places wait for their cells to be seen"));
   }
   PLUMESCOUT_RETURN_IF_ERROR(CheckRoom(place, kReadingSiteBytes + kReadingBucketBytes));
   if (fleet_.has_offsets()) {
-    gas_.AddFrom(source, time_ns, place, reading);
+    gas.AddFrom(source, time_ns, place, reading);
   } else {
-    gas_.Add(time_ns, place, reading);
+    gas.Add(time_ns, place, reading);
   }
   region_.Visit(place);
-  sampled_since_snapshot_ = sampled_cells_.Add(place) || sampled_since_snapshot_;
+  const bool counts = species == 0;  // for plans
+  sampled_since_snapshot_ = (counts && sampled_cells_.Add(place)) || sampled_since_snapshot_;
   return absl::OkStatus();
 }
 
 std::int64_t Mission::MostMapCells() const {
   const MemoryUse use = Use();
-  return use.map_cells + RoomBesideField_bytes(options_->memory_budget_bytes, use) / kMapCellBytes;
+  return use.map_cells +
+         RoomBesideField_bytes(options_->memory_budget_bytes, use) / use.CellBytes();
 }
 
 MemoryUse Mission::Use() const {
-  const ReadingStore& readings = gas_.readings();
   MemoryUse use;
   use.map_cells = static_cast<std::int64_t>(occupancy_.geometry().size());
-  const SensorOffsets& sensors = gas_.sensors();
-  use.reading_sites =
-      static_cast<std::int64_t>(readings.sites() + readings.arrivals() + sensors.sites());
-  use.reading_buckets = static_cast<std::int64_t>(readings.buckets() + sensors.buckets());
+  use.species = static_cast<std::int64_t>(gas_.count());
+  use.reading_sites = gas_.reading_sites();
+  use.reading_buckets = gas_.reading_buckets();
   use.visited_tiles = static_cast<std::int64_t>(region_.visited_tiles());
   use.field_bytes = gas_.field_bytes();
   return use;
@@ -210,7 +215,7 @@ absl::StatusOr<Applied> Mission::Change(const PosteriorRefreshed& refresh) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckTime(refresh.time_ns));
   const bool readings_waited = gas_.stale();
   Applied applied;
-  gas_.LimitField(RoomForField_bytes(options_->memory_budget_bytes, Use()));
+  gas_.LimitFields(RoomForField_bytes(options_->memory_budget_bytes, Use()));
   applied.posterior = gas_.Refresh(region_.Within(occupancy_.States()), refresh.time_ns);
   if (HasChangedNothing(applied.posterior)) return applied.posterior;
   const bool succeeded = applied.posterior.ok();
@@ -319,10 +324,14 @@ void Mission::UpdateRasters() const {
     rasters_.traversable = std::make_shared<const Grid<std::uint8_t>>(std::move(traversable));
   }
   if (map_changed_since_snapshot_ || gas_changed_since_snapshot_) {
-    rasters_.gas_mean_ppm = OnFreeCells(gas_.mean_ppm(), *rasters_.occupancy, region_,
-                                        options_->gas.background_mean_ppm);
-    rasters_.gas_variance_ppm2 = OnFreeCells(gas_.variance_ppm2(), *rasters_.occupancy, region_,
-                                             OpenLatticeVariance_ppm2(options_->gas));
+    rasters_.gas.resize(gas_.count());
+    for (std::size_t i = 0; i < gas_.count(); ++i) {
+      const GasOptions options = GasOptionsOf(*options_, i);
+      rasters_.gas[i].mean_ppm = OnFreeCells(gas_[i].mean_ppm(), *rasters_.occupancy, region_,
+                                             options.background_mean_ppm);
+      rasters_.gas[i].variance_ppm2 = OnFreeCells(gas_[i].variance_ppm2(), *rasters_.occupancy,
+                                                  region_, OpenLatticeVariance_ppm2(options));
+    }
   }
   if (map_changed_since_snapshot_ || sampled_since_snapshot_) {
     rasters_.sampled = std::make_shared<const Grid<std::uint8_t>>(
@@ -331,6 +340,17 @@ void Mission::UpdateRasters() const {
   sampled_since_snapshot_ = false;
   map_changed_since_snapshot_ = false;
   gas_changed_since_snapshot_ = false;
+}
+
+std::vector<SensorOffset> Mission::Offsets() const {
+  std::vector<SensorOffset> offsets;
+  for (std::size_t i = 0; i < gas_.count(); ++i) {
+    for (SensorOffset offset : gas_[i].sensor_offsets()) {
+      offset.species = SpeciesName(*options_, i);
+      offsets.push_back(std::move(offset));
+    }
+  }
+  return offsets;
 }
 
 std::shared_ptr<const Belief> Mission::Snapshot() const {
@@ -342,14 +362,18 @@ std::shared_ptr<const Belief> Mission::Snapshot() const {
   belief->options = options_;
   belief->occupancy = rasters_.occupancy;
   belief->traversable = rasters_.traversable;
-  belief->gas_mean_ppm = rasters_.gas_mean_ppm;
-  belief->gas_variance_ppm2 = rasters_.gas_variance_ppm2;
-  belief->gas_what_if = gas_.what_if();
+  belief->gas_mean_ppm = rasters_.gas[0].mean_ppm;
+  belief->gas_variance_ppm2 = rasters_.gas[0].variance_ppm2;
+  belief->gas_what_if = gas_.first().what_if();
   belief->sampled = rasters_.sampled;
-  belief->gas_counters = gas_.counters();
-  belief->gas_quality = gas_.quality();
-  belief->gas_audits = gas_audits_;
-  belief->sensor_offsets = gas_.sensor_offsets();
+  belief->gas_counters = gas_.first().counters();
+  belief->gas_quality = gas_.first().quality();
+  belief->gas_audits = gas_audits_[0];
+  for (std::size_t i = 1; i < gas_.count(); ++i) {
+    belief->further_gases.push_back({rasters_.gas[i].mean_ppm, rasters_.gas[i].variance_ppm2,
+                                     gas_[i].counters(), gas_[i].quality(), gas_audits_[i]});
+  }
+  belief->sensor_offsets = Offsets();
   belief->robots = fleet_.Records();
   belief->claims = fleet_.Claims(sample_time_ns_);
   belief->set_aside = goal_memory_.SetAside(Present());

@@ -14,8 +14,7 @@
 #include "absl/strings/string_view.h"
 #include "core/belief/belief.h"
 #include "core/gas/field_region.h"
-#include "core/gas/gas_epoch.h"
-#include "core/gas/gas_map.h"
+#include "core/gas/gas_maps.h"
 #include "core/mission/fleet.h"
 #include "core/mission/goal_memory.h"
 #include "core/mission/jump_watch.h"
@@ -123,14 +122,20 @@ class Mission {
 
   // Whether one may begin out of turn.
   bool epoch_possible() const { return gas_.epoch_possible(); }
-  std::shared_ptr<GasEpoch> epoch() const { return gas_.epoch(); }  // under way, or null
+  std::shared_ptr<GasEpochs> epoch() const { return gas_.epoch(); }  // under way, or null
 
   // As GasMap. What audits find belongs to this process: it goes with snapshots, but it is no event
   // and changes nothing that an event could tell.
   bool audit_due() const { return gas_.audit_due(); }
-  std::shared_ptr<const AuditInputs> MakeAudit() const { return gas_.MakeAudit(); }
-  void NoteAudits(const GasAudits& audits) { gas_audits_ = audits; }
-  const GasAudits& gas_audits() const { return gas_audits_; }
+  // `species`: a place among the mission's gases.
+  std::shared_ptr<const AuditInputs> MakeAudit(std::size_t species = 0) const {
+    return gas_[species].MakeAudit(species);
+  }
+  void NoteAudits(const GasAudits& audits, std::size_t species = 0) {
+    gas_audits_[species] = audits;
+  }
+  const GasAudits& gas_audits(std::size_t species = 0) const { return gas_audits_[species]; }
+  std::size_t species_count() const { return gas_.count(); }
 
   std::int64_t sample_time_ns() const { return sample_time_ns_; }
 
@@ -143,8 +148,8 @@ class Mission {
   // another thread, ends within 0.2 s, and so does each that is begun: with kCancelled. The mission
   // is not to be used any more then. `stop` is asked on the threads that compute.
   void AbandonWhen(StopFn stop) {
-    stop_ = stop;
-    gas_.AbandonWhen(std::move(stop));
+    stop_ = std::move(stop);
+    gas_.AbandonWhen(stop_);
   }
 
   // The present state, for readers. Cost: O(cells) if the map changed since the last call.
@@ -195,7 +200,7 @@ class Mission {
   absl::StatusOr<Applied> Change(const MapRebuilt& rebuilt);
   bool PeriodHasPassedSince(std::int64_t time_ns) const;
   GoalMemory::Now Present() const {
-    return {sample_time_ns_, occupancy_.States(), gas_.variance_ppm2()};
+    return {sample_time_ns_, occupancy_.States(), gas_.first().variance_ppm2()};
   }
   absl::Status TakeIn(const RobotId& robot, const Observation& observation, bool& turned_suspect);
   absl::Status TakeScan(const RobotId& robot, std::int64_t time_ns, const Pose2& pose,
@@ -203,15 +208,16 @@ class Mission {
   absl::Status InsertScan(const Pose2& pose, const Scan& scan, const std::vector<MaskDisc>& masks);
   absl::Status TakeReading(const RobotId& robot, std::int64_t time_ns, const Pose2& pose,
                            GasReading reading);
-  absl::Status AddReading(const ReadingSource& source, std::int64_t time_ns, Point2 place,
-                          const GasReading& reading);
+  absl::Status AddReading(std::size_t species, const ReadingSource& source, std::int64_t time_ns,
+                          Point2 place, const GasReading& reading);
   absl::Status TakeCorrection(const RobotId& robot, const Observation& observation,
                               const PoseCorrection& correction);
   bool IsInDoubt(const RobotId& robot, std::int64_t time_ns, const Pose2& pose, const Scan& scan,
                  const std::vector<MaskDisc>& masks, bool& turned);
   void TrustAgain(const RobotId& robot);
   void PlaceReadingsAgain();
-  SensorOffsets Sensors() const;
+  SensorOffsets Sensors(std::size_t species) const;
+  std::vector<SensorOffset> Offsets() const;
   void TrimHistory();
   std::int64_t MostMapCells() const;
   MemoryUse Use() const;
@@ -228,8 +234,8 @@ class Mission {
   OccupancyGrid occupancy_;
   ScanInserter scan_inserter_;
   FieldRegion region_;
-  GasMap gas_;
-  GasAudits gas_audits_;
+  GasMaps gas_;
+  std::vector<GasAudits> gas_audits_;  // by species
   Fleet fleet_;
   GoalMemory goal_memory_;
   SampledCells sampled_cells_;
@@ -245,8 +251,7 @@ class Mission {
   struct Rasters {
     std::shared_ptr<const Grid<CellState>> occupancy;
     std::shared_ptr<const Grid<std::uint8_t>> traversable;
-    std::shared_ptr<const Grid<float>> gas_mean_ppm;
-    std::shared_ptr<const Grid<float>> gas_variance_ppm2;
+    std::vector<GasField> gas;  // by species: rasters only
     std::shared_ptr<const Grid<std::uint8_t>> sampled;
   };
   void UpdateRasters() const;

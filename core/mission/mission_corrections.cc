@@ -10,6 +10,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/mission/mission.h"
+#include "core/types/species.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
@@ -58,7 +59,9 @@ void Mission::TrustAgain(const RobotId& robot) {
 
 // Where a way now leads the gas field is computed, too.
 void Mission::PlaceReadingsAgain() {
-  gas_.ReplaceReadings(history_.Readings(), Sensors());
+  for (std::size_t i = 0; i < gas_.count(); ++i) {
+    gas_[i].ReplaceReadings(history_.Readings(i), Sensors(i));
+  }
   sampled_cells_ = history_.Sampled();
   sampled_since_snapshot_ = true;
   gas_changed_since_snapshot_ = true;
@@ -67,10 +70,11 @@ void Mission::PlaceReadingsAgain() {
 
 // What each sensor with an unknown offset read, and where it met others; what was merged is of no
 // sensor any more.
-SensorOffsets Mission::Sensors() const {
-  SensorOffsets sensors(options_->gas, options_->occupancy.resolution_m);
+SensorOffsets Mission::Sensors(std::size_t species) const {
+  SensorOffsets sensors(GasOptionsOf(*options_, species), options_->occupancy.resolution_m);
   if (!fleet_.has_offsets()) return sensors;
   for (const WayHistory::Heard& heard : history_.HeardReadings()) {
+    if (heard.species != species) continue;
     sensors.Add(heard.source, heard.time_ns, heard.place, heard.reading, GridGeometry());
   }
   return sensors;

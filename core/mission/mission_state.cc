@@ -116,11 +116,11 @@ absl::StatusOr<std::unique_ptr<Mission>> Mission::Restore(const MissionOptions& 
         absl::StrCat("the state of a mission is damaged: ", status.message()));
   }
   if (unframed.version < kVersionWithHistory) {
-    mission->history_.BeginWith(mission->occupancy_, mission->gas_.readings(),
+    mission->history_.BeginWith(mission->occupancy_, mission->gas_.first().readings(),
                                 mission->sampled_cells_, mission->sample_time_ns_);
   }
   mission->AbandonWhen(std::move(stop));
-  PLUMESCOUT_RETURN_IF_ERROR(mission->gas_.MakeFieldAgain());
+  PLUMESCOUT_RETURN_IF_ERROR(mission->gas_.MakeFieldsAgain());
   return mission;
 }
 

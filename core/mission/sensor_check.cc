@@ -5,9 +5,11 @@
 #include <set>
 #include <string>
 
+#include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "core/types/checker.h"
 #include "core/types/ids.h"
+#include "core/types/species.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
@@ -55,6 +57,19 @@ absl::Status CheckOffsets(const std::vector<GasSensor>& sensors, const GasOption
     return absl::InvalidArgumentError(
         absl::StrCat("gas_sensors[", i, "].offset_stddev_ppm = ", sensors[i].offset_stddev_ppm,
                      " must be 0 in a mission with ageing_half_life_s = ", gas.ageing_half_life_s));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckSpecies(const std::vector<GasSensor>& sensors, const MissionOptions& options) {
+  constexpr std::size_t kMostQuoted = 80;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    const std::string& species = sensors[i].species;
+    if (FindSpecies(options, species)) continue;
+    const std::string names = SpeciesNames(options);
+    return absl::InvalidArgumentError(absl::StrCat(
+        "gas_sensors[", i, "].species = \"", absl::CHexEscape(species.substr(0, kMostQuoted)),
+        "\" must be empty", names.empty() ? ": the mission names no gas" : " or one of ", names));
   }
   return absl::OkStatus();
 }

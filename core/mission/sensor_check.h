@@ -19,5 +19,7 @@ inline constexpr std::size_t kMostSensors = 16;
 absl::Status CheckSensors(const std::vector<GasSensor>& sensors);
 // Likewise, for an unknown offset in a mission whose readings age: it is not told apart from those.
 absl::Status CheckOffsets(const std::vector<GasSensor>& sensors, const GasOptions& gas);
+// Likewise, for a sensor of a gas that the mission does not map.
+absl::Status CheckSpecies(const std::vector<GasSensor>& sensors, const MissionOptions& options);
 
 }  // namespace plumescout

@@ -10,6 +10,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/mission/memory_estimate.h"
 #include "core/types/error_reason.h"
+#include "core/types/species.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
@@ -41,17 +42,17 @@ bool IsWithin(const Pose2& pose, double limit_m) {
 WayHistory::WayHistory(const MissionOptions& options)
     : keeps_(options.keep_scans),
       occupancy_(options.occupancy),
-      gas_(options.gas),
+      gases_(GasOptionsOfAll(options)),
       pose_limit_m_(options.pose_limit_m),
       prior_map_(options.prior_map),
-      base_readings_(options.gas, options.occupancy.resolution_m),
+      base_readings_(NoReadings()),
       base_sampled_(options.occupancy.resolution_m) {}
 
 void WayHistory::BeginWith(const OccupancyGrid& map, const ReadingStore& readings,
                            const SampledCells& sampled, std::int64_t time_ns) {
   if (!keeps_) return;
   base_map_ = map;
-  base_readings_ = readings.Unplaced();
+  base_readings_.front() = readings.Unplaced();
   base_sampled_ = sampled;
   merged_ns_ = time_ns;
 }
@@ -63,11 +64,13 @@ WayHistory::Way& WayHistory::WayOf(const RobotId& robot) {
 }
 
 void WayHistory::AddReading(const RobotId& robot, std::int64_t time_ns, const Pose2& pose,
-                            const GasReading& reading, bool quarantined, const GasSensor& sensor) {
+                            const GasReading& reading, bool quarantined, const GasSensor& sensor,
+                            std::size_t species) {
   if (!keeps_) return;
   Way& way = WayOf(robot);
   way.readings.push_back({next_number_++, time_ns, pose, reading, quarantined,
-                          sensor.robot_from_sensor, sensor.id, sensor.offset_stddev_ppm});
+                          static_cast<std::uint8_t>(species), sensor.robot_from_sensor, sensor.id,
+                          sensor.offset_stddev_ppm});
   way.latest = {time_ns, pose};
   bytes_ += kReadingBytes;
 }
@@ -237,7 +240,8 @@ std::vector<WayHistory::Heard> WayHistory::HeardReadings() const {
                        entry.number,
                        entry.time_ns,
                        entry.place(),
-                       entry.reading});
+                       entry.reading,
+                       entry.species});
     }
   }
   std::sort(heard.begin(), heard.end(),
@@ -245,10 +249,10 @@ std::vector<WayHistory::Heard> WayHistory::HeardReadings() const {
   return heard;
 }
 
-ReadingStore WayHistory::Readings() const {
-  ReadingStore store = base_readings_;
+ReadingStore WayHistory::Readings(std::size_t species) const {
+  ReadingStore store = base_readings_[species];
   for (const Heard& heard : HeardReadings()) {
-    store.Add(heard.time_ns, heard.place, heard.reading);
+    if (heard.species == species) store.Add(heard.time_ns, heard.place, heard.reading);
   }
   return store;
 }
@@ -261,7 +265,9 @@ std::vector<Point2> WayHistory::ReadingPlaces() const {
 
 SampledCells WayHistory::Sampled() const {
   SampledCells sampled = base_sampled_;
-  for (const Point2 place : ReadingPlaces()) sampled.Add(place);
+  for (const Heard& heard : HeardReadings()) {
+    if (heard.species == 0) sampled.Add(heard.place);
+  }
   return sampled;
 }
 
@@ -294,8 +300,9 @@ void WayHistory::CloseKeyScans() {
 
 std::int64_t WayHistory::base_bytes() const {
   if (!base_map_) return 0;
-  return kBaseCellBytes * static_cast<std::int64_t>(base_map_->geometry().size()) +
-         ReadingBytes(base_readings_);
+  std::int64_t bytes = kBaseCellBytes * static_cast<std::int64_t>(base_map_->geometry().size());
+  for (const ReadingStore& readings : base_readings_) bytes += ReadingBytes(readings);
+  return bytes;
 }
 
 std::int64_t WayHistory::BytesOf(const Way& way) {
@@ -309,13 +316,16 @@ bool WayHistory::IsWhole() const {
     return entry.number >= 1 && entry.number < next_number_ && entry.time_ns >= 0 &&
            IsWithin(entry.pose, pose_limit_m_) && std::isfinite(entry.pose.yaw_rad);
   };
+  const auto is_reading = [&](const KeptReading& entry) {
+    return is_entry(entry) && entry.species < gases_.size();
+  };
   const auto is_scan = [&](const KeptScan& entry) {
     return is_entry(entry) && entry.times >= 1 && entry.times <= kMostTimes &&
            entry.scan != nullptr;
   };
   return std::all_of(ways_.begin(), ways_.end(), [&](const auto& named) {
     const Way& way = named.second;
-    return std::all_of(way.readings.begin(), way.readings.end(), is_entry) &&
+    return std::all_of(way.readings.begin(), way.readings.end(), is_reading) &&
            std::all_of(way.scans.begin(), way.scans.end(), is_scan);
   });
 }
@@ -343,7 +353,7 @@ void WayHistory::GiveUp() {
   bytes_ = 0;
   ways_.clear();
   base_map_.reset();
-  base_readings_ = ReadingStore(gas_, occupancy_.resolution_m);
+  base_readings_ = NoReadings();
   base_sampled_ = SampledCells(occupancy_.resolution_m);
 }
 
@@ -358,8 +368,8 @@ void WayHistory::Merge(std::int64_t below_number) {
       merged_ns = std::max(merged_ns, entry.time_ns);
       bytes_ -= kReadingBytes;
       if (entry.quarantined) return true;
-      base_readings_.Add(entry.time_ns, entry.place(), entry.reading);
-      base_sampled_.Add(entry.place());
+      base_readings_[entry.species].Add(entry.time_ns, entry.place(), entry.reading);
+      if (entry.species == 0) base_sampled_.Add(entry.place());
       return true;
     });
     std::erase_if(way.scans, [&](const KeptScan& entry) {

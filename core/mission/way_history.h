@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -48,7 +49,8 @@ class WayHistory {
   std::int64_t next_number() const { return next_number_; }
 
   void AddReading(const RobotId& robot, std::int64_t time_ns, const Pose2& pose,
-                  const GasReading& reading, bool quarantined, const GasSensor& sensor = {});
+                  const GasReading& reading, bool quarantined, const GasSensor& sensor = {},
+                  std::size_t species = 0);
   void AddScan(const RobotId& robot, std::int64_t time_ns, const Pose2& pose, const Scan& scan,
                const std::vector<MaskDisc>& masks, bool quarantined);
 
@@ -76,9 +78,12 @@ class WayHistory {
     std::int64_t time_ns = 0;
     Point2 place;  // of the sensor
     GasReading reading;
+    std::size_t species = 0;  // place among the mission's gases
   };
   std::vector<Heard> HeardReadings() const;
-  ReadingStore Readings() const;
+  // Of one gas.
+  ReadingStore Readings(std::size_t species = 0) const;
+  // Of the first gas, as all that plans go by.
   SampledCells Sampled() const;
   std::vector<Point2> ReadingPlaces() const;
   // Scans from that number on. Cost: O(entries).
@@ -106,6 +111,7 @@ class WayHistory {
     Pose2 pose;
     GasReading reading;
     bool quarantined = false;
+    std::uint8_t species = 0;
     Point2 robot_from_sensor;
     std::string sensor;
     double offset_stddev_ppm = 0.0;
@@ -143,16 +149,23 @@ class WayHistory {
   absl::Status CheckAnchors(const RobotId& robot, const Way& way,
                             const std::vector<WayPoint>& points,
                             const std::vector<PoseAnchor>& anchors) const;
+  template <typename Archive, typename Self>
+  static void VisitSpecies(Archive& archive, Self& self);
   void Merge(std::int64_t below_number);
   void GiveUp();
   std::int64_t OldestNumber() const;
   std::int64_t base_bytes() const;
+  std::vector<ReadingStore> NoReadings() const {  // by species
+    std::vector<ReadingStore> stores;
+    for (const GasOptions& gas : gases_) stores.emplace_back(gas, occupancy_.resolution_m);
+    return stores;
+  }
   static std::int64_t BytesOf(const Way& way);
   bool IsWhole() const;  // of what was read
 
   bool keeps_;
   OccupancyOptions occupancy_;
-  GasOptions gas_;
+  std::vector<GasOptions> gases_;
   double pose_limit_m_;
   std::shared_ptr<const Grid<CellState>> prior_map_;
 
@@ -161,8 +174,8 @@ class WayHistory {
   bool used_ = false;
   std::int64_t merged_ns_ = -1;  // of robots that are not known yet
   std::map<RobotId, Way> ways_;
-  std::optional<OccupancyGrid> base_map_;  // none: the known map
-  ReadingStore base_readings_;
+  std::optional<OccupancyGrid> base_map_;    // none: the known map
+  std::vector<ReadingStore> base_readings_;  // by species
   SampledCells base_sampled_;
 };
 

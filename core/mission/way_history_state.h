@@ -23,8 +23,9 @@ void Visit(auto& archive, ConstOr<WayPoint> auto& point) {
 
 template <typename Archive, typename Self>
 void WayHistory::KeptReading::VisitState(Archive& archive, Self& self) {
-  auto& [number, time_ns, pose, reading, quarantined, robot_from_sensor, sensor,
+  auto& [number, time_ns, pose, reading, quarantined, species, robot_from_sensor, sensor,
          offset_stddev_ppm] = self;
+  // The species is written for missions of several only, see below.
   archive(number, time_ns, pose, reading, quarantined, robot_from_sensor, sensor,
           offset_stddev_ppm);
 }
@@ -41,6 +42,15 @@ void WayHistory::Way::VisitState(Archive& archive, Self& self) {
   archive(readings, scans, latest, merged_ns, key_scan_closed);
 }
 
+// What only missions of several gases have.
+template <typename Archive, typename Self>
+void WayHistory::VisitSpecies(Archive& archive, Self& self) {
+  for (std::size_t i = 1; i < self.base_readings_.size(); ++i) archive(self.base_readings_[i]);
+  for (auto& [robot, way] : self.ways_) {
+    for (auto& entry : way.readings) archive(entry.species);
+  }
+}
+
 template <typename Archive, typename Self>
 void WayHistory::VisitState(Archive& archive, Self& self) {
   archive(self.keeps_, self.next_number_, self.used_, self.merged_ns_, self.ways_);
@@ -51,11 +61,12 @@ void WayHistory::VisitState(Archive& archive, Self& self) {
     if (has_base) self.base_map_.emplace(self.occupancy_);
   }
   if (self.base_map_) archive(*self.base_map_);
-  archive(self.base_readings_, self.base_sampled_);
+  archive(self.base_readings_.front(), self.base_sampled_);
+  if (self.base_readings_.size() > 1) VisitSpecies(archive, self);
   if constexpr (Archive::kReads) {
     archive.Require(self.IsWhole(), "what is kept of robots' ways is damaged");
     if (!archive.ok()) return;
-    self.base_readings_ = self.base_readings_.Unplaced();
+    for (ReadingStore& readings : self.base_readings_) readings = readings.Unplaced();
     self.bytes_ = 0;
     for (const auto& [robot, way] : self.ways_) {
       self.bytes_ += self.BytesOf(way);

@@ -17,6 +17,7 @@ struct GasSensor {
   double stddev_ppm = 0.0;   // of readings that bring none; 0: the mission's model
   // Of the unknown offset that all its readings have, from its data sheet; 0: it is calibrated.
   double offset_stddev_ppm = 0.0;
+  std::string species = {};  // what it reads, by name; empty: the mission's first gas
 
   friend bool operator==(const GasSensor&, const GasSensor&) = default;
 };
@@ -30,6 +31,7 @@ struct SensorOffset {
   std::int64_t crossings = 0;  // readings of it that were taken where and when another sensor read
   bool estimated = false;      // those are enough; if not, its readings are taken as they are
   bool drifting = false;       // it reads other than it did, beside the same other sensor
+  std::string species = {};    // what it reads; empty: the mission names no gas
 
   friend bool operator==(const SensorOffset&, const SensorOffset&) = default;
 };

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/types/cell_state.h"
@@ -74,7 +75,17 @@ struct GasAudits {
   friend bool operator==(const GasAudits&, const GasAudits&) = default;
 };
 
-// Everything on a map at one revision but its rasters.
+// How the field of one gas stands.
+struct GasStatus {
+  std::string species;  // empty: the mission names no gas
+  GasCounters counters;
+  GasQuality quality;
+  GasAudits audits;
+
+  friend bool operator==(const GasStatus&, const GasStatus&) = default;
+};
+
+// Everything on a map at one revision but its rasters. What it says of gas is of the first one.
 struct MapStatus {
   std::int64_t revision = 0;
   double gas_threshold_ppm = 0.0;   // tau_gas of [XIT] Eq. (17)
@@ -84,7 +95,15 @@ struct MapStatus {
   GasQuality gas_quality;
   GasAudits gas_audits;
   std::vector<SensorOffset> sensor_offsets;  // of sensors whose offset was not known
+  std::vector<GasStatus> gases;  // of a mission that names its gases: all, the first first
   MissionPhase phase = MissionPhase::kExploring;
+};
+
+// The rasters of one gas. Off the free cells they are NaN.
+struct GasLayers {
+  std::string species;
+  Grid<float> mean_ppm;
+  Grid<float> variance_ppm2;
 };
 
 // A whole map as readers see it. Off the free cells mean and variance are NaN.
@@ -92,6 +111,7 @@ struct MapSnapshot : MapStatus {
   Grid<CellState> occupancy;
   Grid<float> gas_mean_ppm;
   Grid<float> gas_variance_ppm2;
+  std::vector<GasLayers> further_gases = {};  // beside the first
 };
 
 }  // namespace plumescout

@@ -8,6 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/types/checker.h"
 #include "core/types/prior_map.h"
+#include "core/types/species.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
@@ -191,6 +192,7 @@ absl::Status Validate(const MissionOptions& options) {
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options.frontier));
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options.planning));
   PLUMESCOUT_RETURN_IF_ERROR(ValidateKeepOut(options.keep_out));
+  PLUMESCOUT_RETURN_IF_ERROR(ValidateSpecies(options));
   if (options.prior_map != nullptr) {
     PLUMESCOUT_RETURN_IF_ERROR(ValidatePriorMap(*options.prior_map, options.occupancy));
   }

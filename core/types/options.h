@@ -59,6 +59,18 @@ struct GasOptions {
 
 inline constexpr int kMostLatticeFactor = 16;
 
+// A gas of a mission that maps several, each with a field of its own (core/types/species.h).
+// Numbers that it has are its field's in place of those of GasOptions; the first has none.
+struct GasSpecies {
+  std::string name;  // the alphabet of RobotId
+  std::optional<double> prior_precision_per_ppm2;
+  std::optional<double> observation_precision_per_ppm2;
+  std::optional<double> background_precision_per_ppm2;
+  std::optional<double> background_mean_ppm;
+
+  friend bool operator==(const GasSpecies&, const GasSpecies&) = default;
+};
+
 // Occupancy and gas frontiers; [XIT] section V.
 enum class WgfdScope { kReachable, kLocal };
 struct FrontierOptions {
@@ -228,6 +240,8 @@ struct MissionOptions {
   std::uint64_t seed = 1;
   // Where nobody may drive, though it is sensed and mapped: at most 64, of 3 to 256 vertices each.
   std::vector<Polygon> keep_out;
+  // At most 4, of different names; plans go by the first. None: one gas, without a name.
+  std::vector<GasSpecies> gas_species;
   std::optional<Point2> home;  // of every robot, within pose_limit_m; none: its own first pose
   // What is known of the building before the first scan (see core/types/prior_map.h); null:
   // nothing.

@@ -81,8 +81,9 @@ void Visit(auto& archive, ConstOr<Goal> auto& goal) {
   archive(kind, cell, position, centroid, frontier_cells);
 }
 void Visit(auto& archive, ConstOr<GasSensor> auto& sensor) {
-  auto& [id, robot_from_sensor, stddev_ppm, offset_stddev_ppm] = sensor;
+  auto& [id, robot_from_sensor, stddev_ppm, offset_stddev_ppm, species] = sensor;
   archive(id, robot_from_sensor, stddev_ppm, offset_stddev_ppm);
+  archive.Since(2, species);
 }
 void Visit(auto& archive, ConstOr<RobotFrame> auto& frame) {
   auto& [mission_from_robot, position_stddev_m, heading_stddev_rad] = frame;

@@ -142,6 +142,12 @@ absl::Status WriteMapFiles(const MapSnapshot& map, const std::string& folder) {
   PLUMESCOUT_RETURN_IF_ERROR(MakeFolder(folder));
   PLUMESCOUT_RETURN_IF_ERROR(WriteMapServer(map.occupancy, absl::StrCat(folder, "/map.yaml")));
   PLUMESCOUT_RETURN_IF_ERROR(WriteField(map.gas_mean_ppm, absl::StrCat(folder, "/gas_mean.npy")));
+  for (const GasLayers& gas : map.further_gases) {
+    const std::string of = absl::StrCat("_", gas.species, ".npy");
+    PLUMESCOUT_RETURN_IF_ERROR(WriteField(gas.mean_ppm, absl::StrCat(folder, "/gas_mean", of)));
+    PLUMESCOUT_RETURN_IF_ERROR(
+        WriteField(gas.variance_ppm2, absl::StrCat(folder, "/gas_variance", of)));
+  }
   return WriteField(map.gas_variance_ppm2, absl::StrCat(folder, "/gas_variance.npy"));
 }
 

@@ -25,7 +25,7 @@ struct Run {
 };
 
 // Writes map.pgm + map.yaml, gas_mean.npy and gas_variance.npy into `folder`, which is made if it
-// is not there. The same map gives the same bytes.
+// is not there; of further gases gas_mean_ozone.npy and so on. The same map gives the same bytes.
 absl::Status WriteMapFiles(const MapSnapshot& map, const std::string& folder);
 
 // Writes report.html, report.png, metrics.csv, summary.json and the files of the map into `folder`,

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proto/convert/map.h"
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <utility>
 
+#include "core/types/species.h"
 #include "core/types/status_macros.h"
 #include "proto/convert/enums.h"
 #include "proto/convert/field.h"
@@ -113,7 +115,8 @@ absl::StatusOr<SensorOffset> FromProto(const v1::SensorOffset& proto, absl::stri
                       .stddev_ppm = proto.stddev_ppm(),
                       .crossings = proto.crossing_count(),
                       .estimated = proto.estimated(),
-                      .drifting = proto.drifting()};
+                      .drifting = proto.drifting(),
+                      .species = proto.species()};
 }
 
 v1::SensorOffset ToProto(const SensorOffset& offset, const MissionId& mission) {
@@ -125,6 +128,7 @@ v1::SensorOffset ToProto(const SensorOffset& offset, const MissionId& mission) {
   proto.set_crossing_count(offset.crossings);
   proto.set_estimated(offset.estimated);
   proto.set_drifting(offset.drifting);
+  proto.set_species(offset.species);
   return proto;
 }
 
@@ -141,6 +145,10 @@ absl::Status ReadStatus(const v1::MapStatus& proto, absl::string_view field, Map
     PLUMESCOUT_ASSIGN_OR_RETURN(
         SensorOffset offset, FromProto(proto.sensor_offsets(i), Join(field, "sensor_offsets", i)));
     map.sensor_offsets.push_back(std::move(offset));
+  }
+  for (const v1::GasStatus& gas : proto.gases()) {
+    map.gases.push_back({gas.species(), FromProto(gas.gas_counters()), FromProto(gas.gas_quality()),
+                         AuditsFromProto(gas.gas_quality())});
   }
   return absl::OkStatus();
 }
@@ -178,6 +186,28 @@ absl::StatusOr<Rectangle> FromProto(const v1::MapRegion& proto, absl::string_vie
   return Rectangle{min, max};
 }
 
+// A tile of another gas than the first.
+absl::Status DecodeFurther(const v1::MapTile& tile, absl::string_view field, MapSnapshot& map) {
+  std::vector<GasLayers>& gases = map.further_gases;
+  auto found = std::find_if(gases.begin(), gases.end(),
+                            [&](const GasLayers& gas) { return gas.species == tile.species(); });
+  if (found == gases.end()) {
+    if (gases.size() + 1 >= kMostSpecies) {
+      return FieldError(Join(field, "species"), tile.species(), "is one gas too many");
+    }
+    const Grid<float> nothing(map.occupancy.geometry(), std::numeric_limits<float>::quiet_NaN());
+    found = gases.insert(gases.end(), {tile.species(), nothing, nothing});
+  }
+  switch (tile.layer()) {
+    case v1::MAP_LAYER_GAS_MEAN:
+      return DecodeValues(tile, field, found->mean_ppm);
+    case v1::MAP_LAYER_GAS_VARIANCE:
+      return DecodeValues(tile, field, found->variance_ppm2);
+    default:
+      return FieldError(Join(field, "layer"), tile.layer(), "is not a gas layer");
+  }
+}
+
 template <typename Request>
 absl::StatusOr<MapView> ReadView(const Request& request) {
   MapView view;
@@ -189,6 +219,7 @@ absl::StatusOr<MapView> ReadView(const Request& request) {
   if (request.has_region()) {
     PLUMESCOUT_ASSIGN_OR_RETURN(view.region, FromProto(request.region(), "region"));
   }
+  view.species = {request.species().begin(), request.species().end()};
   return view;
 }
 
@@ -261,11 +292,18 @@ v1::MapStatus ToProto(const MapStatus& status, const GridGeometry& geometry,
   for (const SensorOffset& offset : status.sensor_offsets) {
     *proto.add_sensor_offsets() = ToProto(offset, mission);
   }
+  for (const GasStatus& gas : status.gases) {
+    v1::GasStatus& added = *proto.add_gases();
+    added.set_species(gas.species);
+    *added.mutable_gas_counters() = ToProto(gas.counters);
+    *added.mutable_gas_quality() = ToProto(gas.quality, gas.audits);
+  }
   proto.set_phase(ToProto(status.phase));
   return proto;
 }
 
 absl::Status DecodeTile(const v1::MapTile& tile, absl::string_view field, MapSnapshot& map) {
+  if (!tile.species().empty()) return DecodeFurther(tile, field, map);
   switch (tile.layer()) {
     case v1::MAP_LAYER_OCCUPANCY:
       return DecodeStates(tile, field, map.occupancy);

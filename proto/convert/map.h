@@ -3,6 +3,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
@@ -22,6 +24,7 @@ struct MapView {
   bool full_precision = false;                     // gas layers as float32
   int level_of_detail = 0;                         // squares of 2^n by 2^n cells make one
   std::optional<Rectangle> region = std::nullopt;  // none: all of the map
+  std::vector<std::string> species = {};           // of gas layers; none: the first
 
   friend bool operator==(const MapView&, const MapView&) = default;
 };
@@ -29,6 +32,7 @@ struct MapView {
 inline constexpr int kMaxLevelOfDetail = 6;
 
 // No layers: all. Unset and unknown layers are refused, as are regions that end before they begin.
+// Whether the mission has such gases is for CheckSpecies to say.
 absl::StatusOr<MapView> MapViewFromProto(const v1::GetMapRequest& request);
 absl::StatusOr<MapView> MapViewFromProto(const v1::WatchMapRequest& request);
 

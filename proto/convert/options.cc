@@ -45,6 +45,14 @@ void Visit(OneOf<GasOptions> auto& options, auto& field) {
   field("field_reach_m", options.field_reach_m);
 }
 
+void Visit(OneOf<GasSpecies> auto& species, auto& field) {
+  field("name", species.name);
+  field("prior_precision_per_ppm2", species.prior_precision_per_ppm2);
+  field("observation_precision_per_ppm2", species.observation_precision_per_ppm2);
+  field("background_precision_per_ppm2", species.background_precision_per_ppm2);
+  field("background_mean_ppm", species.background_mean_ppm);
+}
+
 void Visit(OneOf<FrontierOptions> auto& options, auto& field) {
   field("min_occupancy_cell_count", options.min_occupancy_cell_count);
   field("min_gas_cell_count", options.min_gas_cell_count);
@@ -183,6 +191,17 @@ absl::Status ReadPlaces(const v1::MissionOptions& proto, absl::string_view field
   return absl::OkStatus();
 }
 
+// As its own areas do, so do its gases.
+absl::Status ReadSpecies(const v1::MissionOptions& proto, absl::string_view field,
+                         MissionOptions& options) {
+  if (proto.gas_species_size() > 0) options.gas_species.clear();
+  for (int i = 0; i < proto.gas_species_size(); ++i) {
+    PLUMESCOUT_RETURN_IF_ERROR(Read(proto.gas_species(i), Join(field, "gas_species", i),
+                                    options.gas_species.emplace_back()));
+  }
+  return absl::OkStatus();
+}
+
 absl::Status ReadPriorMap(const v1::PriorMap& proto, absl::string_view field,
                           MissionOptions& options) {
   if (proto.has_cells()) {
@@ -234,6 +253,7 @@ v1::MissionOptions ToProto(const MissionOptions& options) {
     v1::Polygon& added = *proto.add_keep_out();
     for (const Point2 vertex : polygon.vertices) *added.add_vertices() = ToProto(vertex);
   }
+  for (const GasSpecies& species : options.gas_species) Write(species, *proto.add_gas_species());
   if (options.home) *proto.mutable_home() = ToProto(*options.home);
   if (options.prior_map) *proto.mutable_prior_map() = ToProto(*options.prior_map);
   return proto;
@@ -255,6 +275,7 @@ absl::StatusOr<MissionOptions> FromProto(const v1::MissionOptions& proto,
       ReadPlanning(proto.planning(), Join(field, "planning"), options.planning));
   PLUMESCOUT_RETURN_IF_ERROR(Read(proto, field, options));
   PLUMESCOUT_RETURN_IF_ERROR(ReadPlaces(proto, field, options));
+  PLUMESCOUT_RETURN_IF_ERROR(ReadSpecies(proto, field, options));
   if (proto.has_prior_map()) {
     PLUMESCOUT_RETURN_IF_ERROR(ReadPriorMap(proto.prior_map(), Join(field, "prior_map"), options));
   }

@@ -11,7 +11,8 @@ std::vector<GasSensor> SensorsFromProto(const v1::RegisterRobotRequest& request)
         {.id = sensor.id(),
          .robot_from_sensor = {sensor.robot_from_sensor().x_m(), sensor.robot_from_sensor().y_m()},
          .stddev_ppm = sensor.stddev_ppm(),
-         .offset_stddev_ppm = sensor.offset_stddev_ppm()});
+         .offset_stddev_ppm = sensor.offset_stddev_ppm(),
+         .species = sensor.species()});
   }
   return sensors;
 }
@@ -24,6 +25,7 @@ void ToProto(const std::vector<GasSensor>& sensors, v1::RegisterRobotRequest& re
     added.mutable_robot_from_sensor()->set_y_m(sensor.robot_from_sensor.y_m);
     added.set_stddev_ppm(sensor.stddev_ppm);
     added.set_offset_stddev_ppm(sensor.offset_stddev_ppm);
+    added.set_species(sensor.species);
   }
 }
 

@@ -18,8 +18,13 @@ namespace {
 
 int TilesAlong(int squares) { return (squares + kTileSquares - 1) / kTileSquares; }
 
-const DatedRaster<float>& GasOf(const MapRasters& rasters, v1::MapLayer layer) {
-  return layer == v1::MAP_LAYER_GAS_MEAN ? rasters.gas_mean_ppm : rasters.gas_variance_ppm2;
+// REQUIRES: a gas layer, of a gas that there is.
+const DatedRaster<float>& GasOf(const MapRasters& rasters, const LayerForm& form) {
+  const bool is_mean = form.layer == v1::MAP_LAYER_GAS_MEAN;
+  for (const GasRasters& gas : rasters.further_gases) {
+    if (gas.species == form.species) return is_mean ? gas.mean_ppm : gas.variance_ppm2;
+  }
+  return is_mean ? rasters.gas_mean_ppm : rasters.gas_variance_ppm2;
 }
 
 // Bytes, not values: a NaN that stays is no change.
@@ -41,8 +46,10 @@ grpc::Slice Place(v1::MapTile tile, Cell min) {
 
 v1::MapTile EncodeValues(const LayerForm& form, const Grid<float>& values) {
   const CellRect all = WholeRaster(values.geometry());
-  return form.full_precision ? EncodeFloats(form.layer, values, all)
-                             : EncodeScaled(form.layer, values, all);
+  v1::MapTile tile = form.full_precision ? EncodeFloats(form.layer, values, all)
+                                         : EncodeScaled(form.layer, values, all);
+  tile.set_species(form.species);
+  return tile;
 }
 
 bool SameBytes(const grpc::Slice& a, const grpc::Slice& b) {
@@ -73,12 +80,11 @@ const StoredTile& LayerTiles::At(Cell tile, const MapRasters& rasters) {
   Slot& slot = slots_[static_cast<std::size_t>(tile.y) * static_cast<std::size_t>(column_count_) +
                       static_cast<std::size_t>(tile.x)];
   const bool is_gas = form_.layer != v1::MAP_LAYER_OCCUPANCY;
-  const std::int64_t raster_since =
-      is_gas ? GasOf(rasters, form_.layer).since : rasters.occupancy.since;
+  const std::int64_t raster_since = is_gas ? GasOf(rasters, form_).since : rasters.occupancy.since;
   if (slot.checked >= raster_since) return slot.tile;
   const CellRect rect = RectOf(tile);
   const CellRect cells = CellsOf(rect, form_.level_of_detail, rasters.occupancy.raster->geometry());
-  const std::size_t hash = is_gas ? HashOf(*GasOf(rasters, form_.layer).raster, cells)
+  const std::size_t hash = is_gas ? HashOf(*GasOf(rasters, form_).raster, cells)
                                   : HashOf(*rasters.occupancy.raster, cells);
   const bool is_new = slot.checked < 0;
   slot.checked = rasters.revision;
@@ -96,8 +102,7 @@ grpc::Slice LayerTiles::Encode(const CellRect& rect, const MapRasters& rasters) 
     if (AllOf(states, [](CellState state) { return state == CellState::kUnknown; })) return {};
     return Place(EncodeStates(states, WholeRaster(states.geometry())), rect.min);
   }
-  const auto values =
-      LargestValues(*GasOf(rasters, form_.layer).raster, form_.level_of_detail, rect);
+  const auto values = LargestValues(*GasOf(rasters, form_).raster, form_.level_of_detail, rect);
   if (AllOf(values, [](float value) { return std::isnan(value); })) return {};
   return Place(EncodeValues(form_, values), rect.min);
 }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/types/cell_state.h"
@@ -24,6 +25,7 @@ struct LayerForm {
   v1::MapLayer layer = v1::MAP_LAYER_OCCUPANCY;
   bool full_precision = false;  // of gas
   int level_of_detail = 0;
+  std::string species = {};  // of gas: as in v1::MapTile
 
   friend auto operator<=>(const LayerForm&, const LayerForm&) = default;
 };
@@ -35,12 +37,20 @@ struct DatedRaster {
   std::int64_t since = 0;
 };
 
+// Of a gas beside the first.
+struct GasRasters {
+  std::string species;
+  DatedRaster<float> mean_ppm;
+  DatedRaster<float> variance_ppm2;
+};
+
 // The rasters of a map at one revision. All have the geometry of `occupancy`.
 struct MapRasters {
   std::int64_t revision = 0;
   DatedRaster<CellState> occupancy;
   DatedRaster<float> gas_mean_ppm;
   DatedRaster<float> gas_variance_ppm2;
+  std::vector<GasRasters> further_gases;
 };
 
 // A v1::MapTile, encoded once for all revisions in which its cells are the same.

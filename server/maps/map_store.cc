@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "core/types/error_reason.h"
+#include "core/types/species.h"
 #include "core/types/status_macros.h"
 #include "proto/convert/field.h"
 #include "server/maps/level_of_detail.h"
@@ -33,6 +35,24 @@ template <typename T>
 void Share(T item, std::deque<T>& items) {
   items.push_back(std::move(item));
   if (items.size() > kMaxShared) items.pop_front();
+}
+
+std::int64_t AuditsOf(const Belief& belief) {
+  std::int64_t audits = belief.gas_audits.audits;
+  for (const GasField& gas : belief.further_gases) audits += gas.audits.audits;
+  return audits;
+}
+
+// The gases that a view is of, as tiles name them: the first is not named.
+std::vector<std::string> SpeciesOf(const MapView& view, const MapRasters& rasters) {
+  if (view.species.empty()) return {""};
+  std::vector<std::string> species;
+  for (const std::string& name : view.species) {
+    const bool is_further = std::any_of(rasters.further_gases.begin(), rasters.further_gases.end(),
+                                        [&](const GasRasters& gas) { return gas.species == name; });
+    species.push_back(is_further ? name : "");
+  }
+  return species;
 }
 
 // Large maps have long frontiers. The geometry and the robots stay whatever they take.
@@ -79,9 +99,8 @@ std::size_t Bytes(const EncodedMap& map) {
 }  // namespace
 
 void MapStore::Advance(const Belief& belief) {
-  const bool is_later =
-      belief.revision > rasters_.revision ||
-      (belief.revision == rasters_.revision && belief.gas_audits.audits > audits_);
+  const bool is_later = belief.revision > rasters_.revision ||
+                        (belief.revision == rasters_.revision && AuditsOf(belief) > audits_);
   if (has_map_ && !is_later) return;
   if (!has_map_ || rasters_.occupancy.raster->geometry() != belief.geometry()) {
     layers_.clear();
@@ -89,10 +108,17 @@ void MapStore::Advance(const Belief& belief) {
   }
   has_map_ = true;
   rasters_.revision = belief.revision;
-  audits_ = belief.gas_audits.audits;
+  audits_ = AuditsOf(belief);
   Renew(belief.occupancy, belief.revision, rasters_.occupancy);
   Renew(belief.gas_mean_ppm, belief.revision, rasters_.gas_mean_ppm);
   Renew(belief.gas_variance_ppm2, belief.revision, rasters_.gas_variance_ppm2);
+  rasters_.further_gases.resize(belief.further_gases.size());
+  for (std::size_t i = 0; i < belief.further_gases.size(); ++i) {
+    GasRasters& gas = rasters_.further_gases[i];
+    gas.species = SpeciesName(*belief.options, i + 1);
+    Renew(belief.further_gases[i].mean_ppm, belief.revision, gas.mean_ppm);
+    Renew(belief.further_gases[i].variance_ppm2, belief.revision, gas.variance_ppm2);
+  }
   status_ = SerialiseStatus(ToProto(MakeMapStatus(belief), belief.geometry(), mission_),
                             max_part_bytes_ / 2);
   encoded_.clear();
@@ -125,8 +151,11 @@ MapStore::EncodedPtr MapStore::EncodeNow(const MapView& view) {
   map->status = status_;
   const int level = view.level_of_detail;
   if (view.occupancy) AddLayer({v1::MAP_LAYER_OCCUPANCY, false, level}, *map);
-  if (view.gas_mean) AddLayer({v1::MAP_LAYER_GAS_MEAN, view.full_precision, level}, *map);
-  if (view.gas_variance) AddLayer({v1::MAP_LAYER_GAS_VARIANCE, view.full_precision, level}, *map);
+  for (const std::string& species : SpeciesOf(view, rasters_)) {
+    const bool full = view.full_precision;
+    if (view.gas_mean) AddLayer({v1::MAP_LAYER_GAS_MEAN, full, level, species}, *map);
+    if (view.gas_variance) AddLayer({v1::MAP_LAYER_GAS_VARIANCE, full, level, species}, *map);
+  }
   Share(EncodedPtr(map), encoded_);
   return map;
 }

@@ -22,6 +22,7 @@ std::string Describe(const MissionId& mission, const MapView& view) {
     absl::StrAppendFormat(&text, "/%a/%a/%a/%a", view.region->min.x_m, view.region->min.y_m,
                           view.region->max.x_m, view.region->max.y_m);
   }
+  for (const std::string& species : view.species) absl::StrAppend(&text, "/", species);
   return text;
 }
 

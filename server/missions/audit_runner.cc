@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/missions/audit_runner.h"
 
+#include <deque>
 #include <utility>
 
 #include "absl/base/thread_annotations.h"
@@ -11,48 +12,57 @@ namespace plumescout::server {
 
 class AuditRunner::Task {
  public:
-  explicit Task(std::shared_ptr<const AuditInputs> inputs) : inputs_(std::move(inputs)) {}
+  explicit Task(std::vector<std::shared_ptr<const AuditInputs>> inputs)
+      : inputs_(std::move(inputs)) {}
 
   void Run() {
-    {
+    for (const std::shared_ptr<const AuditInputs>& inputs : inputs_) {
+      {
+        absl::MutexLock lock(&mutex_);
+        if (dropped_) return;
+      }
+      absl::StatusOr<AuditFinding> finding = RunAudit(*inputs);
       absl::MutexLock lock(&mutex_);
-      if (dropped_) return;
+      findings_.push_back(std::move(finding));
     }
-    absl::StatusOr<AuditFinding> finding = RunAudit(*inputs_);
-    absl::MutexLock lock(&mutex_);
-    finding_ = std::move(finding);
   }
   void Drop() {
     absl::MutexLock lock(&mutex_);
     dropped_ = true;
   }
-  std::optional<absl::StatusOr<AuditFinding>> finding() const {
+  std::optional<absl::StatusOr<AuditFinding>> Take() {
     absl::MutexLock lock(&mutex_);
-    return finding_;
+    if (findings_.empty()) return std::nullopt;
+    absl::StatusOr<AuditFinding> finding = std::move(findings_.front());
+    findings_.pop_front();
+    return finding;
   }
 
  private:
-  const std::shared_ptr<const AuditInputs> inputs_;
+  const std::vector<std::shared_ptr<const AuditInputs>> inputs_;
 
-  mutable absl::Mutex mutex_;
+  absl::Mutex mutex_;
   bool dropped_ ABSL_GUARDED_BY(mutex_) = false;
-  std::optional<absl::StatusOr<AuditFinding>> finding_ ABSL_GUARDED_BY(mutex_);
+  std::deque<absl::StatusOr<AuditFinding>> findings_ ABSL_GUARDED_BY(mutex_);  // not taken yet
 };
 
 AuditRunner::~AuditRunner() {
   if (task_ != nullptr) task_->Drop();
 }
 
-void AuditRunner::Start(std::shared_ptr<const AuditInputs> inputs) {
-  if (!is_free()) return;
+void AuditRunner::Start(std::vector<std::shared_ptr<const AuditInputs>> inputs) {
+  if (!is_free() || inputs.empty()) return;
+  const std::size_t count = inputs.size();
   auto task = std::make_shared<Task>(std::move(inputs));
-  if (pool_->Submit([task] { task->Run(); }).ok()) task_ = std::move(task);
+  if (!pool_->Submit([task] { task->Run(); }).ok()) return;
+  task_ = std::move(task);
+  to_be_taken_ = count;
 }
 
 std::optional<absl::StatusOr<AuditFinding>> AuditRunner::Take() {
   if (task_ == nullptr) return std::nullopt;
-  std::optional<absl::StatusOr<AuditFinding>> finding = task_->finding();
-  if (finding) task_ = nullptr;
+  std::optional<absl::StatusOr<AuditFinding>> finding = task_->Take();
+  if (finding && --to_be_taken_ == 0) task_ = nullptr;
   return finding;
 }
 

@@ -8,7 +8,7 @@
 
 namespace plumescout::server {
 
-void EpochRunner::Start(std::shared_ptr<GasEpoch> epoch) {
+void EpochRunner::Start(std::shared_ptr<GasEpochs> epoch) {
   work_.Start([epoch = std::move(epoch), metrics = metrics_] {
     const SteadyTime from = SteadyNow();
     epoch->Recompute();

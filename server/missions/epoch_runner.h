@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "core/gas/gas_epoch.h"
+#include "core/gas/gas_maps.h"
 #include "server/base/worker_pool.h"
 #include "server/missions/side_work.h"
 #include "server/observe/mission_metrics.h"
@@ -19,7 +19,7 @@ class EpochRunner {
       : work_(pool), metrics_(metrics) {}
 
   // The epoch is not to be touched until Finish has returned.
-  void Start(std::shared_ptr<GasEpoch> epoch);
+  void Start(std::shared_ptr<GasEpochs> epoch);
   // Blocks until the epoch given to Start, if any, is recomputed.
   void Finish() { work_.Finish(); }
 

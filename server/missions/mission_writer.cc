@@ -5,8 +5,10 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "core/types/species.h"
 #include "server/base/log.h"
 
 namespace plumescout::server {
@@ -15,6 +17,15 @@ namespace {
 MissionSummary SummaryOf(const Mission& mission) {
   return {mission.revision(), mission.phase(), mission.next_map_update_ns(), mission.memory_bytes(),
           mission.lattice_factor()};
+}
+
+// Of all fields that there are.
+std::vector<std::shared_ptr<const AuditInputs>> MakeAudits(const Mission& mission) {
+  std::vector<std::shared_ptr<const AuditInputs>> audits;
+  for (std::size_t i = 0; i < mission.species_count(); ++i) {
+    if (auto audit = mission.MakeAudit(i)) audits.push_back(std::move(audit));
+  }
+  return audits;
 }
 
 bool IsReadingTakenIn(const Event& event, const Applied& applied) {
@@ -91,7 +102,7 @@ void MissionWriter::AfterGasStep(GasStep step, const absl::Status& status) {
     case GasStep::kAdoptEpoch:
       gas_timer_.NoteAdoption(gas_step_from_, clock_());
       if (mission().audit_due() && audit_runner_.is_free()) {
-        audit_runner_.Start(mission().MakeAudit());
+        audit_runner_.Start(MakeAudits(mission()));
       }
       return;
     case GasStep::kRefresh:
@@ -102,18 +113,22 @@ void MissionWriter::AfterGasStep(GasStep step, const absl::Status& status) {
 }
 
 void MissionWriter::CollectAudit() {
-  const auto finding = audit_runner_.Take();
-  if (!finding) return;
-  metrics_.NoteAudit(*finding);
-  if (!finding->ok()) {
-    LogWarning("gas posterior not audited", {{"why", std::string(finding->status().message())}});
-    return;
+  while (const auto finding = audit_runner_.Take()) {
+    metrics_.NoteAudit(*finding);
+    if (finding->ok()) {
+      TakeFinding(**finding);
+    } else {
+      LogWarning("gas posterior not audited", {{"why", std::string(finding->status().message())}});
+    }
   }
-  const AuditFinding& found = **finding;
+}
+
+void MissionWriter::TakeFinding(const AuditFinding& found) {
   if (!found.certified) {
     LogWarning("gas posterior is not what it should be, and is made anew",
                {{"mean_ppm", absl::StrCat(found.mean_ppm)},
-                {"variance_ratio", absl::StrCat(found.variance_ratio)}});
+                {"variance_ratio", absl::StrCat(found.variance_ratio)},
+                {"species", SpeciesName(mission().options(), found.species)}});
   }
   conduct_.TakeFinding(found);
 }

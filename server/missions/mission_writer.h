@@ -79,6 +79,7 @@ class MissionWriter final : private ConductObserver {
   void AfterGasStep(GasStep step, const absl::Status& status) override;
   void BeforeMapRebuilt() override { map_work_.Finish(); }
   void AfterMapRebuildBegun() override;
+  void TakeFinding(const AuditFinding& found);
 
   EventSink sink_;
   const SteadyClock clock_;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/services/map_service.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "proto/convert/inquiry.h"
 #include "proto/convert/map.h"
 #include "proto/convert/names.h"
+#include "proto/convert/species.h"
 #include "server/calls/call_stop.h"
 #include "server/calls/unary_call.h"
 #include "server/maps/map_feed.h"
@@ -31,6 +33,7 @@ absl::Status MapService::Get(const grpc::ByteBuffer& bytes, grpc::ByteBuffer* re
   const std::int64_t max_bytes = request.max_part_bytes();
   PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative("max_part_bytes", static_cast<double>(max_bytes)));
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMission(call->caller(), mission));
+  PLUMESCOUT_RETURN_IF_ERROR(CheckSpecies(view.species, host->options(), "species"));
   PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative("revision", static_cast<double>(request.revision())));
   if (request.revision() > 0) {
     return GetPast(host, {request.revision(), view, request.part_token(), max_bytes}, response,
@@ -73,18 +76,22 @@ absl::Status MapService::Query(const v1::QueryGasRequest& request, v1::QueryGasR
   PLUMESCOUT_ASSIGN_OR_RETURN(
       std::vector<Point2> points,
       PointsFromProto(request.points(), host->options().pose_limit_m, "points"));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::size_t species,
+                              SpeciesFromProto(request.species(), host->options(), "species"));
   BeliefWish wish;
   wish.fresh_posterior = request.fresh_posterior();
-  return AnswerFromBelief(host, context_.query_pool, call, std::move(wish),
-                          [response, points = std::move(points)](const Belief& belief) {
-                            for (const GasAtPlace& gas : plumescout::QueryGas(belief, points))
-                              *response->add_gas() = ToProto(gas);
-                            response->set_revision(belief.revision);
-                            response->set_posterior_time_ns(belief.posterior_time_ns);
-                            *response->mutable_gas_quality() =
-                                ToProto(belief.gas_quality, belief.gas_audits);
-                            return absl::OkStatus();
-                          });
+  return AnswerFromBelief(
+      host, context_.query_pool, call, std::move(wish),
+      [response, species, points = std::move(points)](const Belief& belief) {
+        for (const GasAtPlace& gas : plumescout::QueryGas(belief, points, species)) {
+          *response->add_gas() = ToProto(gas);
+        }
+        const GasField field = belief.Gas(species);
+        response->set_revision(belief.revision);
+        response->set_posterior_time_ns(belief.posterior_time_ns);
+        *response->mutable_gas_quality() = ToProto(field.quality, field.audits);
+        return absl::OkStatus();
+      });
 }
 
 grpc::ServerUnaryReactor* MapService::GetMap(grpc::CallbackServerContext* context,

@@ -8,6 +8,8 @@
 #include "proto/convert/field.h"
 #include "proto/convert/map.h"
 #include "proto/convert/names.h"
+#include "proto/convert/species.h"
+#include "server/base/grpc_status.h"
 #include "server/maps/wire_message.h"
 
 namespace plumescout::server {
@@ -39,6 +41,7 @@ absl::Status WatchStream::Subscribe(const grpc::ByteBuffer& bytes) {
   PLUMESCOUT_ASSIGN_OR_RETURN(view_, MapViewFromProto(request));
   PLUMESCOUT_ASSIGN_OR_RETURN(const double speed_ratio, SpeedOf(request));
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMission(visit_.caller(), mission));
+  PLUMESCOUT_RETURN_IF_ERROR(CheckSpecies(view_.species, host->options(), "species"));
   feed_ = host->map_feed();
   {
     absl::MutexLock lock(&mutex_);

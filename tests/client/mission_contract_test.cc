@@ -95,6 +95,30 @@ TEST_P(MissionContract, ARobotSendsInItsOwnFrameAndCorrectsWhatItSent) {
       client().RegisterRobot("house", "second", kRadius_m, false, 0, {tilted, {}}).status()));
 }
 
+TEST_P(MissionContract, ReadingsAreOfTheGasOfTheirSensor) {
+  MissionOptions options;
+  options.gas_species.emplace_back().name = "methane";
+  options.gas_species.emplace_back().name = "ozone";
+  ASSERT_TRUE(client().CreateMission("plant", options).ok());
+  std::vector<GasSensor> sensors = {{"pid", {}, 0.0, 0.0}, {"ox", {}, 0.0, 0.0, "ozone"}};
+  const auto session = client().RegisterRobot("plant", "scout", kRadius_m, false, 0, {{}, sensors});
+  ASSERT_TRUE(session.ok()) << session.status();
+  std::vector<Observation> batch;
+  for (std::int64_t sequence = 1; sequence <= 5; ++sequence) batch.push_back(GasAt(sequence, 2.0));
+  std::get<GasReading>(batch[4].payload).sensor = 1;
+  ASSERT_TRUE(SendAll(*Open(*session), batch).ok());
+  const auto map = client().GetMap("plant");
+  ASSERT_TRUE(map.ok()) << map.status();
+  EXPECT_EQ(map->gas_counters.readings, 4);
+  ASSERT_EQ(map->gases.size(), 2U);
+  EXPECT_EQ(map->gases[0].counters.readings, 4);
+  EXPECT_EQ(map->gases[1].species, "ozone");
+  EXPECT_EQ(map->gases[1].counters.readings, 1);
+  sensors[1].species = "xenon";
+  EXPECT_TRUE(absl::IsInvalidArgument(
+      client().RegisterRobot("plant", "other", kRadius_m, false, 0, {{}, sensors}).status()));
+}
+
 TEST_P(MissionContract, ARobotHearsWhetherItsLogGoesOn) {
   const auto join = [this](std::int64_t log_epoch) {
     auto session = client().RegisterRobot("house", "scout", kRadius_m, true, log_epoch);

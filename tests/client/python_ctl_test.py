@@ -197,6 +197,7 @@ class CtlTest(unittest.TestCase):
                 (again.occupancy == plumescout_client.FREE).sum(),
                 (found.occupancy == plumescout_client.FREE).sum(),
             )
+            self.ctl("map", "export", "mapped", paths["npy"], "--species", "ozone", code=1)
             wrong = self.ctl("map", "export", "mapped", str(pathlib.Path(folder, "map.png")), code=2)
             self.assertIn("must end in", wrong)
 

@@ -13,6 +13,7 @@ import grpc
 import numpy as np
 
 import plumescout_client
+from plumescout.v1 import robot_service_pb2 as robot_pb
 
 BUILD_DIR = pathlib.Path(os.environ["PLUMESCOUT_BUILD_DIR"])
 ROOM_M = (6.0, 4.0)  # x and y from 0 to here
@@ -120,6 +121,32 @@ class SmokeTest(unittest.TestCase):
         self.assertTrue(np.isnan(mean_ppm[1]))
         self.assertIsInstance(robot.list_frontiers(), list)
         self.assertEqual(room.status.robots[0].applied_sequence, robot.last_sequence)
+
+    def test_each_gas_of_a_mission_has_a_map(self):
+        gases = [{"name": "methane"}, {"name": "ozone", "background_mean_ppm": 0.05}]
+        self.client.create_mission("gases", {"gas_species": gases})
+        sensors = [robot_pb.GasSensor(id="pid"), robot_pb.GasSensor(id="ox", species="ozone")]
+        robot = self.client.register("gases", "scout", gas_sensors=sensors)
+        pose, time_ns = (1.05, 1.05, 0.0), 1_000_000_000_000
+        for i in range(SCANS_A_STOP):
+            ranges_m = ranges_in_room(pose)
+            robot.add_scan(time_ns + i, pose, ranges_m, 0.0, 2 * np.pi / BEAMS, 8.0)
+        robot.add_gas(time_ns + 10, pose, 30.0)
+        robot.add_gas(time_ns + 11, pose, 1.0, sensor=1)
+        robot.flush()
+        self.assertEqual(robot.rejections, [])
+        methane = self.client.get_map("gases")
+        ozone = self.client.get_map("gases", species="ozone")
+        there = methane.cell(*pose[:2])
+        self.assertGreater(methane.gas_mean_ppm[there], 10.0)
+        self.assertLess(ozone.gas_mean_ppm[there], 1.0)
+        self.assertGreater(ozone.gas_mean_ppm[there], 0.5)
+        mean_ppm, _ = self.client.query_gas("gases", [pose[:2]], species="ozone")
+        self.assertAlmostEqual(mean_ppm[0], ozone.gas_mean_ppm[there], places=5)
+        counts = [(gas.species, gas.gas_counters.reading_count) for gas in ozone.status.gases]
+        self.assertEqual(counts, [("methane", 1), ("ozone", 1)])
+        with self.assertRaises(plumescout_client.PlumeScoutError):
+            self.client.get_map("gases", species="xenon")
 
     def test_a_clock_that_is_an_hour_ahead_is_learnt(self):
         def clock_ns():

@@ -16,8 +16,14 @@ TEST(SensorArgumentsTest, WhatIsLeftOutIsNone) {
   EXPECT_TRUE(ReadSensors({})->empty());
 }
 
+TEST(SensorArgumentsTest, TheLastPartIsTheGas) {
+  const auto sensors = ReadSensors({"ec,0,0,0,0,hydrogen-sulfide"});
+  ASSERT_TRUE(sensors.ok()) << sensors.status();
+  EXPECT_THAT(*sensors, ::testing::ElementsAre(GasSensor{"ec", {}, 0.0, 0.0, "hydrogen-sulfide"}));
+}
+
 TEST(SensorArgumentsTest, OthersAreQuoted) {
-  for (const char* text : {"pid,ahead", "pid,1,2,3,4,5", "pid,"}) {
+  for (const char* text : {"pid,ahead", "pid,1,2,3,4,methane,6", "pid,"}) {
     const auto refused = ReadSensors({text});
     EXPECT_TRUE(absl::IsInvalidArgument(refused.status()));
     EXPECT_THAT(refused.status().message(), ::testing::HasSubstr(text));

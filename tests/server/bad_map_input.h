@@ -26,6 +26,13 @@ BadInputs BadView() {
       .Row({"region.max", "unset",
             [](Message& m) { static_cast<Request&>(m).mutable_region()->clear_max(); }, kInvalid,
             "region.max"})
+      .ValuesBlaming("species[0]", "species", {R"("ozone")"})
+      .Row({"species", "twice the first",
+            [](Message& m) {
+              static_cast<Request&>(m).add_species("");
+              static_cast<Request&>(m).add_species("");
+            },
+            kInvalid, "species[1]"})
       .Values("region.min.x_m", off)
       .Values("region.min.y_m", off)
       .Values("region.max.x_m", before)
@@ -72,7 +79,8 @@ inline BadInputs BadQueryGas() {
             },
             kInvalid, "points"})
       .ValuesBlaming("points[0].x_m", "points.x_m", off)
-      .ValuesBlaming("points[0].y_m", "points.y_m", off);
+      .ValuesBlaming("points[0].y_m", "points.y_m", off)
+      .Values("species", {R"("ozone")"});
 }
 
 }  // namespace plumescout::server

@@ -8,6 +8,7 @@
 #include "tests/server/bad_name_input.h"
 #include "tests/server/bad_prior_map_input.h"
 #include "tests/server/bad_site_input.h"
+#include "tests/server/bad_species_input.h"
 
 namespace plumescout::server {
 
@@ -143,6 +144,7 @@ inline BadInputs BadCreateMission() {
       .Rows(BadLimits())
       .Rows(BadPlaces())
       .Rows(BadPriorMap())
+      .Rows(BadGasSpecies())
       .Rows(BadOccupancyOptions())
       .Rows(BadGasOptions())
       .Rows(BadFrontierOptions())

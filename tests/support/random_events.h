@@ -101,7 +101,7 @@ class RandomEvents {
   RobotRegistered MakeRegistration() {
     return {Text(), Real(), Int64(), Int64(), MakeFrame(), List([this] { return MakeSensor(); })};
   }
-  GasSensor MakeSensor() { return {Text(), MakePoint(), Real(), Real()}; }
+  GasSensor MakeSensor() { return {Text(), MakePoint(), Real(), Real(), Text()}; }
   Observation MakeObservation() {
     Observation observation{Int64(), Int64(), MakePose(), {}};
     switch (rng_.Below(5)) {

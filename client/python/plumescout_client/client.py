@@ -330,18 +330,20 @@ class Client:
             if not request.page_token:
                 return
 
-    def get_map(self, mission, region=None, level_of_detail=0, revision=0):
+    def get_map(self, mission, region=None, level_of_detail=0, revision=0, species=None):
         """The map of a mission, as it is, or as it was at a revision.
 
         region: (min_x_m, min_y_m, max_x_m, max_y_m); what its tiles do not cover stays UNKNOWN and
         NaN. level_of_detail: squares of 2**n by 2**n cells make one, n up to 6: the worst of their
-        states, their largest values."""
+        states, their largest values. species: which of the mission's gases, by name; default: the
+        first."""
         request = map_pb.GetMapRequest(
             mission=f"missions/{mission}",
             full_precision=True,
             fresh_posterior=True,
             level_of_detail=level_of_detail,
             revision=revision,
+            species=[species] if species else [],
         )
         if region is not None:
             corners = _points([region[:2], region[2:]])
@@ -358,12 +360,16 @@ class Client:
                 if error.code != grpc.StatusCode.ABORTED or attempt == _MAP_ATTEMPTS - 1:
                     raise
 
-    def query_gas(self, mission, points):
-        """What the gas field says at points, an array of shape (n, 2): x_m, y_m.
+    def query_gas(self, mission, points, species=None):
+        """What the gas field says at points, an array of shape (n, 2): x_m, y_m. species: as of
+        get_map.
 
         Returns mean (ppm) and variance (ppm^2), each of shape (n,), NaN off free cells."""
         request = map_pb.QueryGasRequest(
-            mission=f"missions/{mission}", points=_points(points), fresh_posterior=True
+            mission=f"missions/{mission}",
+            points=_points(points),
+            fresh_posterior=True,
+            species=species or "",
         )
         gas = self._call(self._maps.QueryGas, request).gas
         mean_ppm = [g.mean_ppm if g.HasField("mean_ppm") else np.nan for g in gas]

@@ -67,8 +67,8 @@ class Map:
     status: map_pb.MapStatus  # of the map in full detail: geometry, frontiers, robots, phase ...
     geometry: types_pb.GridGeometry  # of the arrays
     occupancy: np.ndarray  # uint8: UNKNOWN, FREE or OCCUPIED
-    gas_mean_ppm: np.ndarray  # float32, NaN off free cells
-    gas_variance_ppm2: np.ndarray  # float32, NaN off free cells
+    gas_mean_ppm: np.ndarray  # float32, NaN off free cells; of the gas that was asked for
+    gas_variance_ppm2: np.ndarray  # likewise
 
     def cell(self, x_m, y_m):
         """(row, column) of a point; it may lie outside the arrays."""

@@ -132,7 +132,9 @@ def release_lease(client, arguments, out):
 
 def export_map(client, arguments, out):
     paths = map_files.write_map(
-        client.get_map(arguments.mission, revision=arguments.revision),
+        client.get_map(
+            arguments.mission, revision=arguments.revision, species=arguments.species
+        ),
         arguments.file,
         arguments.layer,
     )

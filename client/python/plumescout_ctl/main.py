@@ -240,6 +240,7 @@ def _add_map(groups):
     export.add_argument(
         "--revision", type=_count, default=0, metavar="N", help="as it was after event N"
     )
+    export.add_argument("--species", metavar="NAME", help="of which gas; default: the first")
 
 
 def _add(groups, word, what):

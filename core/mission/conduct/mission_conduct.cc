@@ -200,12 +200,12 @@ absl::Status MissionConduct::BeginEpoch() {
 }
 
 void MissionConduct::TakeFinding(const AuditFinding& finding) {
-  GasAudits audits = mission_->gas_audits();
+  GasAudits audits = mission_->gas_audits(finding.species);
   ++audits.audits;
   audits.mean_ppm = finding.mean_ppm;
   audits.variance_ratio = finding.variance_ratio;
   if (!finding.certified) ++audits.alarms;
-  mission_->NoteAudits(audits);
+  mission_->NoteAudits(audits, finding.species);
   if (!finding.certified && mission_->epoch() == nullptr) BeginEpoch().IgnoreError();
 }
 

@@ -45,6 +45,25 @@ TEST(QueryGas, TellsMeasuredPlacesFromOthers) {
   EXPECT_GT(*answers[1].variance_ppm2, *answers[0].variance_ppm2);
 }
 
+TEST(QueryGas, TellsOfTheGasThatIsAskedFor) {
+  Belief belief = Row();
+  MissionOptions options;
+  options.gas_species.resize(2);
+  options.gas_species[0].name = "methane";
+  options.gas_species[1].name = "ozone";
+  options.gas_species[1].prior_precision_per_ppm2 = 1000.0;  // variances are judged by that
+  belief.options = std::make_shared<const MissionOptions>(options);
+  GasField ozone;
+  ozone.mean_ppm = std::make_shared<const Grid<float>>(belief.geometry(), 0.5F);
+  ozone.variance_ppm2 = belief.gas_variance_ppm2;
+  belief.further_gases = {ozone};
+  const auto answers = QueryGas(belief, {{0.05, 0.05}}, 1);
+  ASSERT_EQ(answers.size(), 1u);
+  EXPECT_EQ(answers[0].mean_ppm, 0.5);
+  EXPECT_FALSE(answers[0].observed);
+  EXPECT_TRUE(QueryGas(belief, {{0.05, 0.05}})[0].observed);
+}
+
 TEST(QueryGas, HasNoValuesOffFreeCells) {
   const auto answers = QueryGas(Row(), {{0.25, 0.05}, {0.35, 0.05}});
   ASSERT_EQ(answers.size(), 2u);

@@ -60,6 +60,22 @@ TEST(MemoryEstimateTest, ReadingsTakeSitesAndBuckets) {
   }
 }
 
+TEST(MemoryEstimateTest, EveryFurtherGasTakesRastersAndItsShareOfTheRoom) {
+  MemoryUse use;
+  use.map_cells = 1000;
+  const std::int64_t one_gas_bytes = use.BesideField_bytes();
+  use.species = 3;
+  EXPECT_EQ(use.BesideField_bytes(), one_gas_bytes + 2 * 1000 * kFurtherGasCellBytes);
+  // Room for the field of one gas on the full lattice; two have half the lattice each.
+  const std::int64_t field_bytes = FieldBytes(500 * 500, 624 * 624);
+  MissionOptions options = Knowing(500, (field_bytes / 5 + 1) * 8);
+  EXPECT_EQ(FitToBudget(options)->gas.lattice_factor, 1);
+  options.gas_species.resize(2);
+  options.gas_species[0].name = "methane";
+  options.gas_species[1].name = "ozone";
+  EXPECT_EQ(FitToBudget(options)->gas.lattice_factor, 2);
+}
+
 TEST(MemoryEstimateTest, WithoutAKnownMapOptionsStayAsTheyAre) {
   MissionOptions options;
   options.memory_budget_bytes = 40 * kMegabyte;

@@ -8,7 +8,7 @@
 namespace plumescout {
 
 struct MissionPeer {
-  static GasMap& Gas(Mission& mission) { return mission.gas_; }
+  static GasMap& Gas(Mission& mission) { return mission.gas_[0]; }
 };
 
 }  // namespace plumescout

@@ -57,5 +57,22 @@ TEST(SensorCheckTest, OffsetsAreForReadingsThatDoNotAge) {
   EXPECT_THAT(status.message(), ::testing::HasSubstr("offset_stddev_ppm = 1"));
 }
 
+TEST(SensorCheckTest, SensorsReadWhatTheMissionMaps) {
+  MissionOptions options;
+  std::vector<GasSensor> sensors = {{"pid", {}, 0.0, 0.0}};
+  EXPECT_TRUE(CheckSpecies(sensors, options).ok());
+  sensors[0].species = "methane";
+  EXPECT_THAT(CheckSpecies(sensors, options).message(),
+              ::testing::HasSubstr("gas_sensors[0].species = \"methane\" must be empty: the "
+                                   "mission names no gas"));
+  options.gas_species.resize(1);
+  options.gas_species[0].name = "methane";
+  EXPECT_TRUE(CheckSpecies(sensors, options).ok());
+  sensors[0].species = "Methane";
+  const absl::Status status = CheckSpecies(sensors, options);
+  EXPECT_TRUE(absl::IsInvalidArgument(status));
+  EXPECT_THAT(status.message(), ::testing::HasSubstr("must be empty or one of \"methane\""));
+}
+
 }  // namespace sensor_check_test
 }  // namespace plumescout

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/mission/way_history.h"
 
+#include <algorithm>
+
 #include "core/mission/memory_estimate.h"
 #include "core/types/error_reason.h"
 #include "gmock/gmock.h"
@@ -43,6 +45,35 @@ TEST_F(WayHistoryTest, KeepsKeyScansAndCountsTheOthers) {
   Scan(1.2, 2 * kSecond_ns);
   EXPECT_EQ(history_.ScansFrom(0).size(), 4u);
   EXPECT_EQ(history_.ScansFrom(history_.next_number() - 1).size(), 1u);
+}
+
+// Also once they are merged.
+TEST(WayHistoryOfGases, TellsReadingsOfGasesApart) {
+  MissionOptions options;
+  options.gas_species.resize(2);
+  options.gas_species[0].name = "methane";
+  options.gas_species[1].name = "ozone";
+  WayHistory history(options);
+  for (int i = 0; i < 6; ++i) {
+    const std::size_t species = i < 2 ? 0 : 1;
+    history.AddReading("a", i * kSecond_ns, {1.0 + i, 1.5, 0.0}, {2.0, 0.0}, false, {}, species);
+  }
+  EXPECT_EQ(history.bytes(), 6 * 136);
+  for (int t = 0; t < 300; ++t) {
+    const Pose2 pose{1.0 + 0.1 * (t % 40), 1.5, 0.0};
+    history.AddScan("a", (10 + t) * kSecond_ns, pose, support::ScanInBox(pose, 6, 3), {}, false);
+  }
+  OccupancyGrid whole = history.Base();
+  InsertAll(history.ScansFrom(0), {}, whole);
+  for (const bool merged : {false, true}) {
+    // Room for the map and six readings.
+    if (merged) history.Trim(5 * static_cast<std::int64_t>(whole.geometry().size()) + 6 * 500);
+    EXPECT_EQ(history.ScansFrom(0).empty(), merged);
+    EXPECT_EQ(history.Readings(0).counters().readings, 2) << merged;
+    EXPECT_EQ(history.Readings(1).counters().readings, 4) << merged;
+    const Grid<std::uint8_t> sampled = history.Sampled().On({0.0, 0.0, 0.1, 80, 20});
+    EXPECT_EQ(std::count(sampled.values().begin(), sampled.values().end(), 1), 2) << merged;
+  }
 }
 
 TEST_F(WayHistoryTest, WhatIsInQuarantineCountsForNothing) {

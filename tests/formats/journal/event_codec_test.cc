@@ -277,6 +277,14 @@ TEST(EventCodec, ARobotOfTheMissionsFrameIsWrittenAsBefore) {
   EXPECT_EQ(DecodeEvent(before)->body, EventBody(RobotRegistered{"r1", 0.25, 7, 9}));
 }
 
+TEST(EventCodec, WhatASensorReadsComesBack) {
+  RobotRegistered registered{"r1", 0.25, 7, 9};
+  registered.sensors = {{"pid", {0.1, 0.0}, 0.5, 0.0}, {"ec", {}, 0.0, 0.0, "hydrogen-sulfide"}};
+  const auto decoded = DecodeEvent(EncodeEvent({5, registered}));
+  ASSERT_TRUE(decoded.ok()) << decoded.status();
+  EXPECT_EQ(*decoded, (Event{5, registered}));
+}
+
 TEST(EventCodec, ACorrectionComesBack) {
   const Event event = {
       8, ObservationReceived{"r1",

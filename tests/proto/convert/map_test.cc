@@ -38,6 +38,9 @@ MapSnapshot TestMap() {
   map.gas_counters = {10, 7, 2, 3};
   map.gas_quality = {1e-4, 1e-5, 1'700'000'000'000'000'000, 0.02, 900, 8, 2, 1, 2e-4, 3e-5};
   map.gas_audits = {5, 2e-5, 4e-6, 1};
+  map.gases = {{"methane", map.gas_counters, map.gas_quality, map.gas_audits},
+               {"ozone", {3, 1, 0, 2}, {}, {2, 1e-5, 0.0, 0}}};
+  map.sensor_offsets = {{"r1", "pid", 0.5, 0.1, 30, true, false, "ozone"}};
   map.phase = MissionPhase::kGasProbing;
   return map;
 }
@@ -79,7 +82,35 @@ TEST(MapTest, MapSurvivesTheRoundTripInFullPrecision) {
   EXPECT_EQ(back->gas_counters, map.gas_counters);
   EXPECT_EQ(back->gas_quality, map.gas_quality);
   EXPECT_EQ(back->gas_audits, map.gas_audits);
+  EXPECT_EQ(back->gases, map.gases);
+  EXPECT_EQ(back->sensor_offsets, map.sensor_offsets);
   EXPECT_EQ(back->phase, map.phase);
+}
+
+TEST(MapTest, TilesOfFurtherGasesAreToldApart) {
+  const MapSnapshot map = TestMap();
+  const CellRect all = WholeRaster(map.occupancy.geometry());
+  v1::GetMapResponse proto = Whole(map, {.full_precision = true});
+  const auto add = [&](const char* species, v1::MapLayer layer, const Grid<float>& values) {
+    *proto.add_tiles() = EncodeFloats(layer, values, all);
+    proto.mutable_tiles(proto.tiles_size() - 1)->set_species(species);
+  };
+  add("ozone", v1::MAP_LAYER_GAS_MEAN, map.gas_variance_ppm2);
+  add("ozone", v1::MAP_LAYER_GAS_VARIANCE, map.gas_mean_ppm);
+  const auto back = FromProto(proto);
+  ASSERT_TRUE(back.ok()) << back.status();
+  EXPECT_TRUE(SameBits(back->gas_mean_ppm, map.gas_mean_ppm));
+  ASSERT_EQ(back->further_gases.size(), 1u);
+  EXPECT_EQ(back->further_gases[0].species, "ozone");
+  EXPECT_TRUE(SameBits(back->further_gases[0].mean_ppm, map.gas_variance_ppm2));
+  EXPECT_TRUE(SameBits(back->further_gases[0].variance_ppm2, map.gas_mean_ppm));
+  add("ammonia", v1::MAP_LAYER_OCCUPANCY, map.gas_mean_ppm);
+  EXPECT_FALSE(FromProto(proto).ok()) << "walls are of no gas";
+  proto.mutable_tiles(proto.tiles_size() - 1)->set_layer(v1::MAP_LAYER_GAS_MEAN);
+  add("argon", v1::MAP_LAYER_GAS_MEAN, map.gas_mean_ppm);
+  EXPECT_EQ(FromProto(proto)->further_gases.size(), 3u);
+  add("xenon", v1::MAP_LAYER_GAS_MEAN, map.gas_mean_ppm);
+  EXPECT_FALSE(FromProto(proto).ok()) << "no mission has five";
 }
 
 TEST(MapTest, FrontiersSurviveTheRoundTrip) {

@@ -70,6 +70,7 @@ MissionOptions Unlike() {
   options.keep_scans = false;
   options.gas.audit_period_epochs = 7;
   options.keep_out = {{{{1, 2}, {3, 4}, {5, 7}}}, {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}};
+  options.gas_species = {{"methane", {}, {}, {}, {}}, {"ozone", 30.0, {}, 0.5, 0.25}};
   options.home = Point2{-1.0, 2.0};
   options.prior_map =
       std::make_shared<const Grid<CellState>>(GridGeometry{-0.4, 0.2, 0.2, 7, 5}, CellState::kFree);
@@ -92,9 +93,22 @@ TEST(OptionsTest, OptionsSurviveTheRoundTrip) {
   EXPECT_EQ(back->gas.audit_period_epochs, 7);
   EXPECT_EQ(back->frontier.fixed_gas_threshold_ppm, 4.0);
   EXPECT_EQ(back->keep_out, Unlike().keep_out);
+  EXPECT_EQ(back->gas_species, Unlike().gas_species);
   EXPECT_EQ(back->home, Unlike().home);
   EXPECT_EQ(back->planning.sites.region, Unlike().planning.sites.region);
   EXPECT_EQ(back->planning.sites.reward, SamplingReward::kConcentrationPerTime);
+}
+
+TEST(OptionsTest, AMissionsOwnGasesTakeThePlaceOfTheDefaults) {
+  v1::MissionOptions proto;
+  EXPECT_EQ(FromProto(proto, Unlike(), "options")->gas_species.size(), 2u);
+  proto.add_gas_species()->set_name("ammonia");
+  const auto own = FromProto(proto, Unlike(), "options");
+  ASSERT_TRUE(own.ok()) << own.status();
+  EXPECT_EQ(own->gas_species, (std::vector<GasSpecies>{{"ammonia", {}, {}, {}, {}}}));
+  proto.add_gas_species()->set_name("ammonia");
+  const absl::Status twice = FromProto(proto, MissionOptions(), "options").status();
+  EXPECT_EQ(FieldViolations(twice).at(0).field, "options.gas_species[1].name");
 }
 
 TEST(OptionsTest, ChangesAreAllThatDiffersFromTheDefaults) {

@@ -10,10 +10,12 @@ namespace plumescout {
 namespace robot_test {
 
 TEST(RobotTest, SensorsComeBackAsTheyWere) {
-  const std::vector<GasSensor> sensors = {{"pid", {0.1, -0.2}, 0.5, 1.5}, {"mox", {}, 0.0, 0.0}};
+  const std::vector<GasSensor> sensors = {{"pid", {0.1, -0.2}, 0.5, 1.5},
+                                          {"mox", {}, 0.0, 0.0, "methane"}};
   v1::RegisterRobotRequest request;
   ToProto(sensors, request);
   EXPECT_EQ(request.gas_sensors(0).offset_stddev_ppm(), 1.5);
+  EXPECT_EQ(request.gas_sensors(1).species(), "methane");
   EXPECT_EQ(SensorsFromProto(request), sensors);
   EXPECT_TRUE(SensorsFromProto(v1::RegisterRobotRequest()).empty());
 }

@@ -233,6 +233,55 @@ TEST(MapStoreTest, AuditsAreNewsWithoutARevision) {
   EXPECT_EQ(store.counts().tiles, 3);
 }
 
+// A map on which a second gas is what the first is not.
+TEST(MapStoreTest, GasesAreToldToThoseWhoAskForThem) {
+  Rng rng(11);
+  const GridGeometry geometry{0.0, 0.0, 0.1, 128, 64};
+  const RandomMap first = MakeRandomMap(geometry, rng);
+  RandomMap second = first;
+  for (float& value : second.values.values()) value += 1000.0F;
+  Belief belief = *BeliefOf(3, first);
+  MissionOptions options;
+  options.gas_species.emplace_back().name = "methane";
+  options.gas_species.emplace_back().name = "ozone";
+  belief.options = std::make_shared<const MissionOptions>(options);
+  GasField ozone;
+  ozone.mean_ppm = std::make_shared<const Grid<float>>(second.values);
+  ozone.variance_ppm2 = ozone.mean_ppm;
+  ozone.counters.readings = 7;
+  belief.further_gases = {ozone};
+  MapStore store("hall", kAmple_bytes);
+  const MapView plain{.full_precision = true};
+  const auto of_first = Fetch(store, belief, plain, 0);
+  ASSERT_TRUE(of_first.ok()) << of_first.status();
+  EXPECT_TRUE(of_first->further_gases.empty());
+  ASSERT_EQ(of_first->gases.size(), 2u);
+  EXPECT_EQ(of_first->gases[1].species, "ozone");
+  EXPECT_EQ(of_first->gases[1].counters.readings, 7);
+  ExpectLike(*of_first, first, plain);
+  EXPECT_EQ(store.counts().tiles, 6);
+  MapView both = plain;
+  both.species = {"ozone", "methane"};
+  auto of_both = Fetch(store, belief, both, 1);
+  ASSERT_TRUE(of_both.ok()) << of_both.status();
+  EXPECT_EQ(store.counts().tiles, 10) << "the first was encoded before";
+  ExpectLike(*of_both, first, plain);
+  ASSERT_EQ(of_both->further_gases.size(), 1u);
+  EXPECT_EQ(of_both->further_gases[0].species, "ozone");
+  of_both->gas_mean_ppm = of_both->further_gases[0].mean_ppm;
+  of_both->gas_variance_ppm2 = of_both->further_gases[0].variance_ppm2;
+  ExpectLike(*of_both, second, plain);
+  // Only what has changed is told of the second either.
+  second.values[Cell{100, 10}] = second.states[Cell{100, 10}] == CellState::kFree ? 5.0F : NAN;
+  const bool changes = second.states[Cell{100, 10}] == CellState::kFree;
+  belief.revision = 4;
+  belief.further_gases[0].mean_ppm = std::make_shared<const Grid<float>>(second.values);
+  MapView ozone_only = both;
+  ozone_only.species = {"ozone"};
+  store.FramesSince(3, belief, ozone_only);
+  EXPECT_EQ(store.counts().tiles, changes ? 11 : 10);
+}
+
 TEST(MapStoreTest, WorkIsSharedByAllWhoWantTheSame) {
   Rng rng(9);
   RandomMap map = MakeRandomMap({0.0, 0.0, 0.1, 128, 128}, rng);

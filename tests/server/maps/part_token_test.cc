@@ -24,7 +24,8 @@ TEST(PartTokenTest, TokensOfOtherMapsAndOtherTextsAreRefused) {
   for (const MapView& wrong :
        {MapView{}, other, MapView{.full_precision = true, .region = view.region},
         MapView{.gas_mean = false, .region = view.region},
-        MapView{.level_of_detail = 1, .region = view.region}}) {
+        MapView{.level_of_detail = 1, .region = view.region},
+        MapView{.region = view.region, .species = {"ozone"}}}) {
     EXPECT_FALSE(ReadPartToken(token, "hall", wrong).ok());
   }
   EXPECT_FALSE(ReadPartToken(token, "hal", view).ok());

@@ -26,7 +26,7 @@ TEST(AuditRunnerTest, GivesWhatItFoundOnce) {
   AuditRunner runner(&*pool);
   EXPECT_TRUE(runner.is_free());
   EXPECT_FALSE(runner.Take().has_value());
-  runner.Start(Moment());
+  runner.Start({Moment()});
   EXPECT_FALSE(runner.is_free());
   pool.reset();  // having run what was queued
   const auto finding = runner.Take();
@@ -37,12 +37,33 @@ TEST(AuditRunnerTest, GivesWhatItFoundOnce) {
   EXPECT_FALSE(runner.Take().has_value());
 }
 
+TEST(AuditRunnerTest, GivesWhatItFoundOfEachFieldInTheirOrder) {
+  std::optional<WorkerPool> pool(std::in_place, WorkerPoolOptions{"test", 1, 1});
+  AuditRunner runner(&*pool);
+  auto second = std::make_shared<AuditInputs>(*Moment());
+  second->species = 1;
+  runner.Start({Moment(), second});
+  pool.reset();
+  const auto first = runner.Take();
+  ASSERT_TRUE(first.has_value() && first->ok());
+  EXPECT_EQ((*first)->species, 0U);
+  EXPECT_FALSE(runner.is_free()) << "a finding waits";
+  const auto last = runner.Take();
+  ASSERT_TRUE(last.has_value() && last->ok());
+  EXPECT_EQ((*last)->species, 1U);
+  EXPECT_TRUE((*last)->certified);
+  EXPECT_TRUE(runner.is_free());
+  EXPECT_FALSE(runner.Take().has_value());
+  runner.Start({});
+  EXPECT_TRUE(runner.is_free()) << "nothing to audit";
+}
+
 TEST(AuditRunnerTest, SaysWhenNothingCouldBeFound) {
   std::optional<WorkerPool> pool(std::in_place, WorkerPoolOptions{"test", 1, 1});
   AuditRunner runner(&*pool);
   auto broken = std::make_shared<AuditInputs>(*Moment());
   broken->options.prior_precision_per_ppm2 = std::nan("");
-  runner.Start(broken);
+  runner.Start({broken});
   pool.reset();
   const auto finding = runner.Take();
   ASSERT_TRUE(finding.has_value());
@@ -60,8 +81,8 @@ TEST(AuditRunnerTest, OneAtATimeAndNoneThatThePoolHasNoRoomFor) {
   occupied.WaitForNotification();
   AuditRunner first(&*pool);
   AuditRunner second(&*pool);
-  first.Start(Moment());
-  second.Start(Moment());
+  first.Start({Moment()});
+  second.Start({Moment()});
   EXPECT_FALSE(first.is_free());
   EXPECT_TRUE(second.is_free()) << "passed over";
   EXPECT_FALSE(first.Take().has_value()) << "it waits";
@@ -82,7 +103,7 @@ TEST(AuditRunnerTest, AnAuditThatWaitsIsDroppedWithItsRunner) {
   occupied.WaitForNotification();
   {
     AuditRunner runner(&*pool);
-    runner.Start(moment);
+    runner.Start({moment});
   }
   release.Notify();
   pool.reset();
@@ -92,7 +113,7 @@ TEST(AuditRunnerTest, AnAuditThatWaitsIsDroppedWithItsRunner) {
 TEST(AuditRunnerTest, NothingIsAuditedWithoutAPool) {
   AuditRunner runner(nullptr);
   EXPECT_FALSE(runner.is_free());
-  runner.Start(Moment());
+  runner.Start({Moment()});
   EXPECT_FALSE(runner.Take().has_value());
 }
 

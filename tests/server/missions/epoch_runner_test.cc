@@ -4,21 +4,23 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "absl/synchronization/notification.h"
-#include "core/gas/gas_map.h"
+#include "core/gas/gas_maps.h"
 
 namespace plumescout::server {
 namespace epoch_runner_test {
 
-std::shared_ptr<GasEpoch> MakeEpoch() {
+std::shared_ptr<GasEpochs> MakeEpoch() {
   const Grid<CellState> states({0.0, 0.0, 0.1, 64, 64}, CellState::kFree);
   GasMap gas{GasOptions{}};
   gas.Add(1, {1.0, 1.0}, {5.0, 0.0});
   EXPECT_TRUE(gas.Refresh(states, 1).ok());
   EXPECT_TRUE(gas.BeginEpoch(2).ok());
-  return gas.epoch();
+  return std::make_shared<GasEpochs>(std::vector<std::shared_ptr<GasEpoch>>{gas.epoch()});
 }
 
 class EpochRunnerTest : public testing::Test {
@@ -35,7 +37,7 @@ class EpochRunnerTest : public testing::Test {
     occupied_.WaitForNotification();
   }
 
-  const std::shared_ptr<GasEpoch> epoch_ = MakeEpoch();
+  const std::shared_ptr<GasEpochs> epoch_ = MakeEpoch();
   absl::Notification occupied_;
   absl::Notification release_;
   std::optional<WorkerPool> pool_;  // goes first: its threads use the above
