@@ -36,15 +36,15 @@ struct MemoryUse {
   std::int64_t Total_bytes() const { return BesideField_bytes() + field_bytes; }
 };
 
-// What readings take that are kept beside the field, in the same units. Cost: O(1).
-std::int64_t ReadingBytes(const ReadingStore& readings);
-
 // How a budget is shared. The field may take five eighths of it, or what the rest leaves; a coarser
 // lattice always does with less.
 std::int64_t RoomForField_bytes(std::int64_t budget_bytes, const MemoryUse& use);
 // What may be added beside the field: seven eighths of the budget are for the rest at most, so that
 // a coarse field always has room.
 std::int64_t RoomBesideField_bytes(std::int64_t budget_bytes, const MemoryUse& use);
+
+// What readings take that are kept beside the field, in the same units. Cost: O(1).
+std::int64_t ReadingBytes(const ReadingStore& readings);
 
 // BUDGET_REACHED, kResourceExhausted.
 absl::Status BudgetReached(absl::string_view message);

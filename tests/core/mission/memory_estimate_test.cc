@@ -45,21 +45,6 @@ TEST(MemoryEstimateTest, FieldAndRestShareTheBudget) {
                                    kVisitedTileBytes);
 }
 
-TEST(MemoryEstimateTest, ReadingsTakeSitesAndBuckets) {
-  GasOptions ageing;
-  ageing.ageing_half_life_s = 60.0;
-  for (const GasOptions& options : {GasOptions(), ageing}) {
-    ReadingStore store(options, 0.1);
-    for (int i = 0; i < 3; ++i) store.Add(i, {0.05, 0.05}, {1.0, 0.0});
-    EXPECT_EQ(ReadingBytes(store), 3 * kReadingSiteBytes) << "each by itself until it is placed";
-    const Grid<CellState> states(GridGeometry{0.0, 0.0, 0.1, 4, 4}, CellState::kFree);
-    ASSERT_TRUE(store.Place(states, {}).ok());
-    const std::int64_t buckets = options.ageing_half_life_s > 0.0 ? 3 : 0;
-    EXPECT_EQ(ReadingBytes(store), kReadingSiteBytes + buckets * kReadingBucketBytes);
-    EXPECT_EQ(ReadingBytes(store.Unplaced()), ReadingBytes(store));
-  }
-}
-
 TEST(MemoryEstimateTest, WithoutAKnownMapOptionsStayAsTheyAre) {
   MissionOptions options;
   options.memory_budget_bytes = 40 * kMegabyte;
@@ -96,6 +81,21 @@ TEST(MemoryEstimateTest, AMapBeyondTheBudgetIsRefused) {
   EXPECT_EQ(ErrorReason(refused), reason::kBudgetReached);
   EXPECT_TRUE(absl::IsResourceExhausted(refused));
   EXPECT_THAT(std::string(refused.message()), ::testing::HasSubstr("memory_budget_bytes"));
+}
+
+TEST(MemoryEstimateTest, ReadingsTakeSitesAndBuckets) {
+  GasOptions ageing;
+  ageing.ageing_half_life_s = 60.0;
+  for (const GasOptions& options : {GasOptions(), ageing}) {
+    ReadingStore store(options, 0.1);
+    for (int i = 0; i < 3; ++i) store.Add(i, {0.05, 0.05}, {1.0, 0.0});
+    EXPECT_EQ(ReadingBytes(store), 3 * kReadingSiteBytes) << "each by itself until it is placed";
+    const Grid<CellState> states(GridGeometry{0.0, 0.0, 0.1, 4, 4}, CellState::kFree);
+    ASSERT_TRUE(store.Place(states, {}).ok());
+    const std::int64_t buckets = options.ageing_half_life_s > 0.0 ? 3 : 0;
+    EXPECT_EQ(ReadingBytes(store), kReadingSiteBytes + buckets * kReadingBucketBytes);
+    EXPECT_EQ(ReadingBytes(store.Unplaced()), ReadingBytes(store));
+  }
 }
 
 }  // namespace memory_estimate_test
