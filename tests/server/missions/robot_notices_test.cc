@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <memory>
 #include <thread>
 #include <utility>
@@ -21,7 +22,7 @@ class Watcher final : public RobotWatcher {
   void Wake() override { ++wakes; }
   void End(const absl::Status& status) override { end = status; }
 
-  int wakes = 0;
+  std::atomic<int> wakes = 0;
   absl::Status end;
 };
 
