@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <future>
+#include <thread>
 
+#include "absl/strings/match.h"
 #include "absl/time/clock.h"
 #include "tests/server/service_fixture.h"
 #include "tests/server/writer_gate.h"
@@ -135,6 +137,34 @@ TEST_F(ServiceTest, FullIngestQueueSaysWhenToRetry) {
   EXPECT_TRUE(held.get().ok());
   EXPECT_THAT(refused, Refuses(absl::StatusCode::kResourceExhausted, "OVERLOADED"));
   EXPECT_TRUE(RetryDelay(refused).has_value());
+}
+
+TEST_F(ServiceTest, ABatchHasArrivedWithItsCallThoughTheWriterIsBusy) {
+  WriterGate gate;
+  StartServer({}, gate.Hooks());
+  const std::int64_t lease = Lease();
+  const auto other = Register("r2");
+  ASSERT_TRUE(other.ok()) << other.status();
+  auto held =
+      std::async(std::launch::async, [&] { return Ingest(kRobot, lease, GasReadings(1, 1)); });
+  gate.AwaitHeld();
+  v1::ObservationBatch batch = GasReadings(1, 1);
+  const absl::Time sent = absl::Now() - absl::Hours(1);  // by a clock that is slow
+  batch.set_sent_time_ns(absl::ToUnixNanos(sent));
+  auto waiting = std::async(std::launch::async,
+                            [&] { return Ingest(other->robot(), other->lease_token(), batch); });
+  constexpr char kQueued[] = "\nplumescout_mission_reserved_observations{mission=\"hall\"} 1\n";
+  while (!absl::StrContains(server_->MetricsText(), kQueued)) std::this_thread::yield();
+  const absl::Time queued = absl::Now();
+  gate.Release();
+  EXPECT_TRUE(held.get().ok());
+  EXPECT_TRUE(waiting.get().ok());
+  v1::GetRobotRequest request;
+  request.set_name(other->robot());
+  const auto robot = Call(robots_, &v1::RobotService::Stub::GetRobot, request);
+  ASSERT_TRUE(robot.ok()) << robot.status();
+  EXPECT_GE(robot->robot().clock_offset_s(), absl::ToDoubleSeconds(absl::Hours(1)));
+  EXPECT_LE(robot->robot().clock_offset_s(), absl::ToDoubleSeconds(queued - sent));
 }
 
 TEST_F(ServiceTest, ABatchAboveTheRatesIsRefusedWhole) {
