@@ -55,9 +55,7 @@ void AddTeamFigures(const TeamResult& team, Summary& summary) {
   add("readings_applied", Sum(team, [](const EpisodeResult& r) { return r.readings_applied; }));
   add("distance_m", Sum(team, [](const EpisodeResult& r) { return r.distance_m; }));
   add("collisions", Sum(team, [](const EpisodeResult& r) { return r.collisions; }));
-  const bool complete = std::all_of(team.robots.begin(), team.robots.end(),
-                                    [](const EpisodeResult& r) { return r.completed; });
-  add("mission_complete", complete ? 1.0 : 0.0);
+  add("mission_complete", IsComplete(team) ? 1.0 : 0.0);
   add("robots", static_cast<double>(team.robots.size()));
   add("closest_m", team.closest_m);
   add("contacts", team.contacts);
