@@ -27,6 +27,7 @@
 #include "lab/report/plan_names.h"
 #include "lab/sim/episode.h"
 #include "lab/sim/scene_world.h"
+#include "lab/sim/team_starts.h"
 #include "ompl_planners/ompl_planner.h"
 
 namespace plumescout::lab {
@@ -179,10 +180,16 @@ absl::Status DriveRobots(const RobotArguments& arguments) {
   const double wall_s = absl::ToDoubleSeconds(absl::Now() - start);
   display.line().Finish(Verdict(team, wall_s));
   PLUMESCOUT_RETURN_IF_ERROR(crash.status());
-  PLUMESCOUT_RETURN_IF_ERROR(
-      WriteRunFolder({world.scene(), team, display.last_map(), arguments.strategy, arguments.seed,
-                      wall_s, crash.happened_s()},
-                     arguments.out));
+  const Run run{.world = world,
+                .team = team,
+                .final_map = display.last_map(),
+                .strategy = arguments.strategy,
+                .seed = arguments.seed,
+                .wall_s = wall_s,
+                .server_killed_s = crash.happened_s(),
+                .robots = TeamNames(arguments.robot, arguments.robots),
+                .lidar_range_m = arguments.lidar.max_range_m};
+  PLUMESCOUT_RETURN_IF_ERROR(WriteRunFolder(run, arguments.out));
   std::cout << arguments.out << "/report.html\n";
   return absl::OkStatus();
 }

@@ -12,7 +12,7 @@ namespace plumescout::lab {
 namespace {
 
 constexpr double kMost_s = 1e6;
-constexpr double kTimeRounding_s = 1e-6;
+constexpr double kOutageRounding_s = 1e-6;
 
 }  // namespace
 
@@ -52,6 +52,6 @@ const Outage* NextAbsence(const std::vector<Outage>& outages, double time_s) {
   return next == outages.end() ? nullptr : &*next;
 }
 
-bool HasCome(double due_s, double time_s) { return time_s >= due_s - kTimeRounding_s; }
+bool HasCome(double due_s, double time_s) { return time_s >= due_s - kOutageRounding_s; }
 
 }  // namespace plumescout::lab

@@ -15,7 +15,7 @@ constexpr double kMostLate_s = 60.0;
 constexpr double kHeldShare = 0.3;
 // The top speed is kept over so long: moves come in ticks.
 constexpr double kSpeedWindow_s = 0.25;
-constexpr double kTimeRounding_s = 1e-6;
+constexpr double kReadyRounding_s = 1e-6;
 
 }  // namespace
 
@@ -46,7 +46,7 @@ bool Pace::MayMove(double move_m, double now_s) {
     return false;
   }
   if (!options_.top_speed_mps) return true;
-  if (now_s < ready_s_ - kTimeRounding_s) return false;
+  if (now_s < ready_s_ - kReadyRounding_s) return false;
   ready_s_ = std::max(ready_s_, now_s - kSpeedWindow_s) + move_m / *options_.top_speed_mps;
   return true;
 }
