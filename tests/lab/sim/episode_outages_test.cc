@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <memory>
-#include <tuple>
 #include <utility>
 #include <vector>
 

@@ -26,7 +26,8 @@ TrialRecord RunOf(double faster) {
 }
 
 TEST(TeamFigures, SpeedupIsOfTimesToLevels) {
-  const std::vector<SceneRecords> records = {{{RunOf(1.0)}, {RunOf(2.0)}}, {{RunOf(1.0)}, {RunOf(2.0)}}};
+  const std::vector<SceneRecords> records = {{{RunOf(1.0)}, {RunOf(2.0)}},
+                                             {{RunOf(1.0)}, {RunOf(2.0)}}};
   const Speedup speedup = SpeedupOf(records, 1, 0);
   EXPECT_DOUBLE_EQ(speedup.entropy, 80.0 / 40.0);
   EXPECT_DOUBLE_EQ(speedup.rmse, 80.0 / 40.0);
