@@ -136,7 +136,7 @@ absl::Status RobotLoop::Explore() {
     PLUMESCOUT_RETURN_IF_ERROR(health);
     if (leg_.has_value()) {
       PLUMESCOUT_RETURN_IF_ERROR(Tick(options_.tick_s));
-    } else if (notices_.standing().paused && !pending_.valid()) {
+    } else if ((notices_.standing().paused && !pending_.valid()) || GoesOnWithoutLink()) {
       PLUMESCOUT_RETURN_IF_ERROR(Stand(options_.tick_s));
     } else if (options_.pacing == Pacing::kLockstep) {
       PLUMESCOUT_RETURN_IF_ERROR(AskInLockstep());
@@ -184,7 +184,8 @@ absl::Status RobotLoop::Tick(double duration_s) {
   if (const auto status = status_reports_.Take(driver_.TakeStatus(), driver_.now_ns())) {
     ingest_->Append(driver_.now_ns(), driver_.pose(), *status);
   }
-  if (options_.pacing == Pacing::kLockstep) AwaitApplied(options_.link_patience);
+  const bool world_waits = options_.pacing == Pacing::kLockstep && !GoesOnWithoutLink();
+  if (world_waits) AwaitApplied(options_.link_patience);
   NoteProgress();
   HeedNotices();
   if (const auto outcome = LegOutcome(); outcome.has_value()) return EndLeg(*outcome);

@@ -88,6 +88,9 @@ class RobotLoop {
     result_.end = end;
     over_ = true;
   }
+  bool GoesOnWithoutLink() const {
+    return options_.pacing == Pacing::kLockstep && options_.link_is_down && options_.link_is_down();
+  }
   bool IsToldToStop() const { return notices_.TellsToStop(leg_->plan, leg_->homeward); }
   void NoteProgress();
   void NoteProgressOfLeg(const Pose2& pose, std::int64_t now_ns);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "absl/status/status.h"
 #include "absl/time/time.h"
@@ -42,6 +43,9 @@ struct RobotLoopOptions {
   double plan_latency_s = 0.1;  // lockstep only: robot time that a plan costs, >= 0
   double stand_before_retry_s = 1.0;  // when there was nowhere to go, > 0
   double time_limit_s = 0.0;          // of the robot's clock; 0: none
+  // Lockstep only: while it says so the world does not wait for acknowledgements, and the robot
+  // stands when it would ask for a plan. Null: links that break are waited for.
+  std::function<bool()> link_is_down = nullptr;
   // Heeds what the service tells unasked: that a plan does not stand, that the mission is paused or
   // finished, that the robot is to go home. Else it finds out when it asks.
   bool watch = true;

@@ -32,6 +32,7 @@ namespace {
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kStep_ns = kSecond_ns / 5;  // five scans a second
 constexpr double kStep_m = 0.12;                   // 0.6 m/s
+constexpr double kClear_m = 0.4;                   // ahead of a step, to walls
 constexpr int kStepsBetweenReadings = 3;
 constexpr int kRobots = 4;
 constexpr int kPeople = 2;
@@ -62,25 +63,6 @@ double Gas_ppm(Point2 place) {
   return 20.0 * std::exp(-dx * dx / 18.0 - dy * dy / 8.0);
 }
 
-// Straight on, and another way where a wall comes.
-void Drive(const Grid<std::uint8_t>& walls, double step_m, Rng& rng, Pose2& pose) {
-  constexpr int kMostTurns = 50;
-  for (int turn = 0; turn < kMostTurns; ++turn) {
-    bool blocked = false;
-    for (double ahead_m = 0.1; ahead_m < step_m + 0.4; ahead_m += 0.1) {
-      const Point2 place{pose.x_m + ahead_m * std::cos(pose.yaw_rad),
-                         pose.y_m + ahead_m * std::sin(pose.yaw_rad)};
-      blocked = blocked || walls.At(walls.geometry().CellAt(place), 1) != 0;
-    }
-    if (!blocked) {
-      pose.x_m += step_m * std::cos(pose.yaw_rad);
-      pose.y_m += step_m * std::sin(pose.yaw_rad);
-      return;
-    }
-    pose.yaw_rad = rng.Uniform(-M_PI, M_PI);
-  }
-}
-
 Sensed Sense(const Grid<std::uint8_t>& walls, const Pose2& pose, const std::vector<Body>& bodies,
              Rng& rng) {
   Sensed sensed{pose, pose, ScanBuilding(walls, pose), Gas_ppm(pose.position())};
@@ -103,7 +85,7 @@ Journey MakeJourney(std::uint64_t seed, int seconds) {
   Rng rng(seed);
   const auto steps = static_cast<std::size_t>(seconds * kSecond_ns / kStep_ns);
   for (std::size_t step = 0; step < steps; ++step) {
-    for (Pose2& pose : poses) Drive(journey.walls, kStep_m, rng, pose);
+    for (Pose2& pose : poses) DriveOn(journey.walls, kStep_m, kClear_m, rng, pose);
     std::vector<Sensed>& sensed = journey.steps.emplace_back();
     for (std::size_t i = 0; i < kRobots; ++i) {
       std::vector<Body> bodies;

@@ -36,7 +36,8 @@ constexpr int kWidth_cells = 160;
 constexpr int kHeight_cells = 200;
 constexpr int kReadings = 600;  // of each robot, two a second
 constexpr std::int64_t kPeriod_ns = 500'000'000;
-constexpr double kStep_m = 0.3;  // between readings
+constexpr double kStep_m = 0.3;   // between readings
+constexpr double kClear_m = 0.2;  // ahead of a step, to walls
 constexpr double kNoise_ppm = 0.3;
 constexpr double kBackground_ppm = 10.0;  // above what offsets take off
 
@@ -64,23 +65,6 @@ Grid<std::uint8_t> Quartered(Grid<std::uint8_t> walls) {
 
 bool IsFree(const Grid<std::uint8_t>& walls, Point2 place) {
   return walls.At(walls.geometry().CellAt(place), 1) == 0;
-}
-
-// Straight on, and another way where a wall comes.
-void Drive(const Grid<std::uint8_t>& walls, Rng& rng, Pose2& pose) {
-  constexpr int kMostTurns = 50;
-  for (int turn = 0; turn < kMostTurns; ++turn) {
-    bool free = true;
-    for (double ahead_m = 0.1; ahead_m < kStep_m + 0.2; ahead_m += 0.1) {
-      free = free && IsFree(walls, PlaceOnRobot(pose, {ahead_m, 0.0}));
-    }
-    if (free) {
-      const Point2 next = PlaceOnRobot(pose, {kStep_m, 0.0});
-      pose = {next.x_m, next.y_m, pose.yaw_rad};
-      return;
-    }
-    pose.yaw_rad = rng.Uniform(-M_PI, M_PI);
-  }
 }
 
 // Where robot `robot` begins: one of many free places, in its quarter of the building.
@@ -117,7 +101,7 @@ Case MakeCase(std::uint64_t seed, bool cross) {
     Pose2 pose = StartOf(driven, robot, seed);
     std::vector<Reading>& readings = c.readings.emplace_back();
     for (int i = 0; i < kReadings; ++i) {
-      Drive(driven, rng, pose);
+      DriveOn(driven, kStep_m, kClear_m, rng, pose);
       readings.push_back({pose, Gas_ppm(pose.position()) + kNoise_ppm * rng.Gaussian()});
     }
   }

@@ -60,27 +60,9 @@ class Recorder final : public ConductObserver {
   const Mission* mission_ = nullptr;
 };
 
-// Straight on, and another way where a wall comes.
-void Drive(const Grid<std::uint8_t>& walls, double step_m, Rng& rng, Pose2& pose) {
-  constexpr int kMostTurns = 50;
-  for (int turn = 0; turn < kMostTurns; ++turn) {
-    bool blocked = false;
-    for (double ahead_m = 0.1; ahead_m < step_m + 0.3; ahead_m += 0.1) {
-      const Point2 place{pose.x_m + ahead_m * std::cos(pose.yaw_rad),
-                         pose.y_m + ahead_m * std::sin(pose.yaw_rad)};
-      blocked = blocked || walls.At(walls.geometry().CellAt(place), 1) != 0;
-    }
-    if (!blocked) {
-      pose.x_m += step_m * std::cos(pose.yaw_rad);
-      pose.y_m += step_m * std::sin(pose.yaw_rad);
-      return;
-    }
-    pose.yaw_rad = rng.Uniform(-M_PI, M_PI);
-  }
-}
-
 absl::Status RunMission(const Case& c, std::uint64_t seed, MissionConduct& conduct) {
-  constexpr double kStep_m = 0.5;  // 1 m/s
+  constexpr double kStep_m = 0.5;   // 1 m/s
+  constexpr double kClear_m = 0.3;  // ahead of a step, to walls
   const Grid<std::uint8_t> walls = MakeBuilding(c.width_cells, c.height_cells, seed);
   std::vector<Pose2> poses = FreePoses(walls, kRobots, seed);
   std::vector<std::int64_t> sequences(kRobots, 0);
@@ -93,7 +75,7 @@ absl::Status RunMission(const Case& c, std::uint64_t seed, MissionConduct& condu
     // So that one is adopted at the end.
     if (half == 2 * c.seconds - 4) conduct.BeginEpoch().IgnoreError();
     for (std::size_t i = 0; i < kRobots; ++i) {
-      Drive(walls, kStep_m, rng, poses[i]);
+      DriveOn(walls, kStep_m, kClear_m, rng, poses[i]);
       const std::int64_t now_ns = (half + 1) * kSecond_ns / 2;
       std::vector<IncomingObservation> batch(1);
       batch[0].observation = {++sequences[i], now_ns, poses[i],

@@ -3,6 +3,7 @@
 #include "lab/local/local_mission.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <optional>
 #include <utility>
 
@@ -16,6 +17,7 @@ namespace {
 
 // The process never restarts under its clients: tokens may start anywhere.
 constexpr std::int64_t kFirstLeaseToken = 1;
+constexpr std::int64_t kClockTolerance_ns = 20'000'000;
 
 }  // namespace
 
@@ -73,6 +75,18 @@ absl::StatusOr<client::IngestState> LocalMission::StreamState(const RobotId& rob
   PLUMESCOUT_RETURN_IF_ERROR(CheckStream(robot, lease_token, stream));
   PLUMESCOUT_ASSIGN_OR_RETURN(const LogPosition position, conduct_.Position(robot));
   return State(position);
+}
+
+absl::Status LocalMission::NoteClock(const RobotId& robot, std::int64_t lease_token,
+                                     std::int64_t sent_ns) {
+  if (!options_.mission_clock_ns) return absl::OkStatus();
+  const std::int64_t offset_ns = options_.mission_clock_ns() - sent_ns;
+  absl::MutexLock lock(&mutex_);
+  PLUMESCOUT_RETURN_IF_ERROR(closed_);
+  PLUMESCOUT_RETURN_IF_ERROR(leases_.Check(robot, lease_token));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const RobotState state, conduct_.mission().StateOf(robot));
+  if (std::abs(offset_ns - state.clock_offset_ns) <= kClockTolerance_ns) return absl::OkStatus();
+  return conduct_.NoteClock({robot, offset_ns}, lease_token);
 }
 
 void LocalMission::CloseStream(const RobotId& robot, StreamId stream) {

@@ -36,7 +36,10 @@ struct LocalOptions {
   absl::Duration lease_hold = absl::Seconds(10);     // after the last use
   absl::Duration default_budget = absl::Seconds(1);  // of plans that ask for none
   std::function<absl::Time()> clock = absl::Now;     // for leases and deadlines
-  PathPlannerFactory path_planners = nullptr;        // of planners that core does not have
+  // The time of missions, from any thread: robots that say by their own clocks when they send are
+  // then known to be off. Null: their sample times are taken as they are.
+  std::function<std::int64_t()> mission_clock_ns = nullptr;
+  PathPlannerFactory path_planners = nullptr;  // of planners that core does not have
   // Told of every event of every mission, once it is applied; may be empty.
   std::function<void(const Event&)> on_event = nullptr;
 };
@@ -75,6 +78,11 @@ class LocalMission final : private ConductObserver {
   // Waits until the stream has ended; kDeadlineExceeded if it has not in time.
   absl::Status AwaitStreamEnd(const RobotId& robot, std::int64_t lease_token, StreamId stream,
                               absl::Duration timeout);
+
+  // A batch of the robot is sent when its clock says `sent_ns`. Nothing comes between in this
+  // process, so the difference to the mission's clock is how far the robot's is off; a change of
+  // less than 20 ms, as servers have it, is none.
+  absl::Status NoteClock(const RobotId& robot, std::int64_t lease_token, std::int64_t sent_ns);
 
   // Applies a batch in order; observations that the mission refuses are added to `rejected`.
   absl::Status Ingest(const RobotId& robot, std::int64_t lease_token, StreamId stream,

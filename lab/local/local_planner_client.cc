@@ -3,6 +3,7 @@
 #include "lab/local/local_planner_client.h"
 
 #include <deque>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -24,6 +25,7 @@ class LocalObservationStream final : public client::ObservationStream {
         robot_(session.robot),
         lease_token_(session.lease_token),
         stream_(stream),
+        robot_clock_ns_(session.robot_clock_ns),
         opened_(opened) {}
   ~LocalObservationStream() override { mission_->CloseStream(robot_, stream_); }
 
@@ -31,6 +33,9 @@ class LocalObservationStream final : public client::ObservationStream {
   std::string server_boot_id() const override { return kBootId; }
 
   absl::Status Write(const std::vector<Observation>& batch) override {
+    if (ended_.ok() && robot_clock_ns_) {
+      ended_ = mission_->NoteClock(robot_, lease_token_, robot_clock_ns_());
+    }
     if (!ended_.ok()) return ended_;
     std::vector<client::ObservationRejected> rejected;
     ended_ = mission_->Ingest(robot_, lease_token_, stream_, batch, rejected);
@@ -65,6 +70,7 @@ class LocalObservationStream final : public client::ObservationStream {
   const RobotId robot_;
   const std::int64_t lease_token_;
   const StreamId stream_;
+  const std::function<std::int64_t()> robot_clock_ns_;  // null: it does not say
   const client::IngestState opened_;
   std::deque<client::IngestReply> replies_;
   absl::Status ended_;

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/program/robot_arguments.h"
 
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <memory>
@@ -11,6 +14,8 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
+#include "absl/time/clock.h"
+#include "absl/time/time.h"
 #include "core/plan/sampling/site_lattice.h"
 #include "core/plan/strategy.h"
 #include "core/types/prior_map.h"
@@ -129,6 +134,8 @@ void AddMotionOptions(CLI::App& app, RobotArguments& arguments) {
   app.add_option("--following", arguments.following, "How paths are followed")
       ->transform(CLI::CheckedTransformer(followings))
       ->default_str("ideal");
+  app.add_option("--late", arguments.most_late_s,
+                 "Ideal following: each leg falls behind by up to so many seconds");
   app.add_option("--speed", arguments.speed_mps,
                  "Speed of robot and plans, metres a second (1.25)");
   app.add_option("--max-turn", arguments.max_turn_rad_per_s,
@@ -143,6 +150,9 @@ void AddMotionOptions(CLI::App& app, RobotArguments& arguments) {
                  "Random walk of that pose, metres/sqrt(s)");
   app.add_option("--yaw-drift", pose.drift_rad_per_sqrt_s,
                  "Random walk of its heading, rad/sqrt(s)");
+  app.add_option("--loop-closure", pose.closed_every_s,
+                 "Every so many seconds a robot knows again where it is and was, and corrects what "
+                 "these walks did to its poses (never)");
 }
 
 GasSensorOptions SensorOf(const RobotArguments& arguments) {
@@ -181,6 +191,10 @@ absl::StatusOr<MissionOptions> MissionOf(const RobotArguments& arguments, const 
     planning.sites.region =
         RegionOver(world.scene().geometry(), arguments.site_spacing_m, arguments.survey_stride);
   }
+  const std::vector<double>& speeds_mps = arguments.team.speeds_mps;
+  if (!speeds_mps.empty()) {
+    planning.speed_mps = *std::max_element(speeds_mps.begin(), speeds_mps.end());
+  }
   planning.speed_mps = arguments.speed_mps.value_or(planning.speed_mps);
   planning.max_turn_rate_rad_per_s = arguments.max_turn_rad_per_s.value_or(0.0);
   planning.max_acceleration_mps2 = arguments.max_acceleration_mps2.value_or(0.0);
@@ -199,6 +213,8 @@ SimulatedRobotOptions RobotOf(const RobotArguments& arguments) {
   robot.lidar = arguments.lidar;
   robot.gas_sensor = SensorOf(arguments);
   robot.pose_error = arguments.pose_error;
+  robot.pace.most_late_s = arguments.most_late_s;
+  if (arguments.realtime) robot.start_time_ns = absl::ToUnixNanos(absl::Now());
   robot.scene_start_s = arguments.scene_start_s;
   robot.seed = arguments.seed;
   return robot;
@@ -229,6 +245,15 @@ absl::StatusOr<std::vector<Pose2>> StartsOf(const RobotArguments& arguments,
   return starts;
 }
 
+// A server measures clocks by its own, which in lockstep goes slower or faster than the world.
+absl::Status CheckClocks(const RobotArguments& arguments) {
+  const bool are_measured = !arguments.record.empty() || arguments.realtime;
+  if (are_measured || !HasWrongClocks(arguments.team)) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      "--clock-offset and --clock-drift are for --record or --realtime: over gRPC in lockstep "
+      "nobody could find out");
+}
+
 }  // namespace
 
 void AddRobotOptions(CLI::App& app, RobotArguments& arguments) {
@@ -238,6 +263,7 @@ void AddRobotOptions(CLI::App& app, RobotArguments& arguments) {
   AddLidarOptions(app, arguments);
   AddGasOptions(app, arguments);
   AddMotionOptions(app, arguments);
+  AddTeamOptions(app, arguments.team);
 }
 
 absl::StatusOr<PlannedEpisode> PlanEpisode(const RobotArguments& arguments,
@@ -258,8 +284,17 @@ absl::StatusOr<PlannedEpisode> PlanEpisode(const RobotArguments& arguments,
   const std::vector<RobotId> names = TeamNames(arguments.robot, arguments.robots);
   options.robot = names.front();
   options.simulated.start = starts.front();
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<RobotTraits> traits,
+                              MakeTraits(arguments.team, arguments.robots));
+  options.traits = traits.front();
   for (std::size_t i = 1; i < names.size(); ++i) {
-    planned.teammates.push_back({names[i], starts[i], arguments.seed + i});
+    planned.teammates.push_back({names[i], starts[i], arguments.seed + i, traits[i]});
+  }
+  PLUMESCOUT_RETURN_IF_ERROR(CheckClocks(arguments));
+  const bool in_lockstep_here = !arguments.record.empty() && !arguments.realtime;
+  if (in_lockstep_here && HasWrongClocks(arguments.team)) {
+    options.world_time_ns =
+        std::make_shared<std::atomic<std::int64_t>>(options.simulated.start_time_ns);
   }
   return planned;
 }

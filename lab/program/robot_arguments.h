@@ -12,6 +12,7 @@
 #include "client/motion.h"
 #include "client/sensor_bridge.h"
 #include "core/types/options.h"
+#include "lab/program/team_arguments.h"
 #include "lab/sim/episode.h"
 #include "lab/sim/scene_world.h"
 
@@ -61,6 +62,8 @@ struct RobotArguments {
   double site_spacing_m = SiteOptions{}.spacing_m;
   int survey_stride = 3;  // of rooms; the papers' 10 is for fields
   PoseErrorOptions pose_error;
+  double most_late_s = 0.0;
+  TeamArguments team;
   client::Following following = client::Following::kIdeal;
   std::optional<double> speed_mps;
   std::optional<double> max_turn_rad_per_s;
@@ -77,7 +80,8 @@ struct PlannedEpisode {
 };
 
 // kInvalidArgument, naming the argument and its value: what does not parse, a wrong number of
-// starts, no room for so many robots, a prior map that does not fit; else as ReadMapServer.
+// starts, no room for so many robots, a prior map that does not fit, clocks that are wrong where
+// nobody finds out; else as ReadMapServer and MakeTraits.
 absl::StatusOr<PlannedEpisode> PlanEpisode(const RobotArguments& arguments,
                                            const SceneWorld& world);
 

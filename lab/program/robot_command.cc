@@ -27,6 +27,7 @@
 #include "lab/report/plan_names.h"
 #include "lab/sim/episode.h"
 #include "lab/sim/scene_world.h"
+#include "lab/sim/team_starts.h"
 #include "ompl_planners/ompl_planner.h"
 
 namespace plumescout::lab {
@@ -99,7 +100,6 @@ class Crash {
 
 // Sums over the robots of a team.
 struct TeamSums {
-  bool completed = true;  // for all of them
   int plans = 0;
   double distance_m = 0.0;
   std::int64_t sent = 0;
@@ -109,7 +109,6 @@ struct TeamSums {
 TeamSums SumsOf(const TeamResult& team) {
   TeamSums sums;
   for (const EpisodeResult& robot : team.robots) {
-    sums.completed = sums.completed && robot.completed;
     sums.plans += static_cast<int>(robot.plans.size());
     sums.distance_m += robot.distance_m;
     sums.sent += robot.readings_sent;
@@ -124,7 +123,7 @@ std::string Verdict(const TeamResult& team, double wall_s) {
   std::string verdict = absl::StrFormat(
       "%s after %.0f s simulated (%.1f s wall): map %.1f %% complete, RMSE %.2f ppm (clean air: "
       "%.2f), %d plans, %.0f m driven, %d of %d readings applied",
-      sums.completed ? "Mission complete" : "Time is up", team.samples.back().time_s, wall_s,
+      IsComplete(team) ? "Mission complete" : "Time is up", team.samples.back().time_s, wall_s,
       100.0 * metrics.completeness, metrics.rmse_ppm, metrics.rmse_zero_ppm, sums.plans,
       sums.distance_m, sums.applied, sums.sent);
   if (team.robots.size() > 1) {
@@ -151,6 +150,11 @@ absl::StatusOr<TeamResult> RunPlanned(const RobotArguments& arguments, const Sce
   LocalOptions local;
   local.path_planners = MakeOmplPlanner;
   local.on_event = [&recorder](const Event& event) { recorder.Record(event); };
+  if (options.realtime) {
+    local.mission_clock_ns = [] { return absl::ToUnixNanos(absl::Now()); };
+  } else if (options.world_time_ns) {
+    local.mission_clock_ns = [time_ns = options.world_time_ns] { return time_ns->load(); };
+  }
   LocalPlannerClient planner(local);
   PLUMESCOUT_ASSIGN_OR_RETURN(TeamResult team,
                               RunTeamEpisode(planner, world, options, planned.teammates));
@@ -176,10 +180,16 @@ absl::Status DriveRobots(const RobotArguments& arguments) {
   const double wall_s = absl::ToDoubleSeconds(absl::Now() - start);
   display.line().Finish(Verdict(team, wall_s));
   PLUMESCOUT_RETURN_IF_ERROR(crash.status());
-  PLUMESCOUT_RETURN_IF_ERROR(
-      WriteRunFolder({world.scene(), team, display.last_map(), arguments.strategy, arguments.seed,
-                      wall_s, crash.happened_s()},
-                     arguments.out));
+  const Run run{.world = world,
+                .team = team,
+                .final_map = display.last_map(),
+                .strategy = arguments.strategy,
+                .seed = arguments.seed,
+                .wall_s = wall_s,
+                .server_killed_s = crash.happened_s(),
+                .robots = TeamNames(arguments.robot, arguments.robots),
+                .lidar_range_m = arguments.lidar.max_range_m};
+  PLUMESCOUT_RETURN_IF_ERROR(WriteRunFolder(run, arguments.out));
   std::cout << arguments.out << "/report.html\n";
   return absl::OkStatus();
 }

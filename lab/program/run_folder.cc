@@ -18,6 +18,8 @@
 #include "lab/formats/summary.h"
 #include "lab/report/number_labels.h"
 #include "lab/report/report.h"
+#include "lab/report/team_panels.h"
+#include "lab/sim/team_shares.h"
 
 namespace plumescout::lab {
 namespace {
@@ -55,9 +57,7 @@ void AddTeamFigures(const TeamResult& team, Summary& summary) {
   add("readings_applied", Sum(team, [](const EpisodeResult& r) { return r.readings_applied; }));
   add("distance_m", Sum(team, [](const EpisodeResult& r) { return r.distance_m; }));
   add("collisions", Sum(team, [](const EpisodeResult& r) { return r.collisions; }));
-  const bool complete = std::all_of(team.robots.begin(), team.robots.end(),
-                                    [](const EpisodeResult& r) { return r.completed; });
-  add("mission_complete", complete ? 1.0 : 0.0);
+  add("mission_complete", IsComplete(team) ? 1.0 : 0.0);
   add("robots", static_cast<double>(team.robots.size()));
   add("closest_m", team.closest_m);
   add("contacts", team.contacts);
@@ -88,7 +88,7 @@ Summary MakeSummary(const Run& run) {
   AddTeamFigures(run.team, summary);
   if (run.server_killed_s) summary.figures.emplace_back("server_killed_at_s", *run.server_killed_s);
   summary.about = AboutThisRun(run.seed);
-  summary.about.emplace_back("scene", run.scene.name);
+  summary.about.emplace_back("scene", run.world.scene().name);
   summary.about.emplace_back("strategy", run.strategy);
   return summary;
 }
@@ -104,13 +104,42 @@ CsvTable MakeMetricsTable(const TeamResult& team) {
   return table;
 }
 
+// The plans that a robot set out on, each until its leg ended or the next one came.
+std::vector<TimedWay> WaysOf(const EpisodeResult& robot) {
+  std::vector<TimedWay> ways;
+  for (const IssuedPlan& issued : robot.plans) {
+    if (!ways.empty()) ways.back().end_s = std::min(ways.back().end_s, issued.time_s);
+    if (issued.plan.trajectory.waypoints.empty()) continue;
+    ways.push_back({issued.time_s, robot.simulated_s, issued.plan.trajectory});
+    for (const EndedLeg& leg : robot.legs_ended) {
+      if (leg.plan == issued.plan.id) ways.back().end_s = leg.time_s;
+    }
+  }
+  return ways;
+}
+
+TeamPicture PictureOf(const Run& run) {
+  const std::vector<RobotShares> shares = SharesOf(run.team, run.world, run.lidar_range_m);
+  TeamPicture picture{{}, run.radius_m + run.clearance_m};
+  for (std::size_t i = 0; i < run.team.robots.size(); ++i) {
+    const EpisodeResult& robot = run.team.robots[i];
+    TeamMember member{run.robots[i],      {},           WaysOf(robot), shares[i].area,
+                      shares[i].readings, shares[i].way};
+    for (const DrivenPose& at : robot.path) {
+      member.driven.push_back({at.time_s, at.pose.position()});
+    }
+    picture.members.push_back(std::move(member));
+  }
+  return picture;
+}
+
 ReportData MakeReport(const Run& run, const Summary& summary) {
   ReportData report;
-  report.title = absl::StrCat("Gas leak in ", run.scene.name);
-  report.true_gas_ppm = run.scene.conc_mean_ppm;
-  report.truth = run.scene.occupancy;
+  report.title = absl::StrCat("Gas leak in ", run.world.scene().name);
+  report.true_gas_ppm = run.world.scene().conc_mean_ppm;
+  report.truth = run.world.scene().occupancy;
   report.map = run.final_map;
-  for (const GasSource& source : run.scene.sources) {
+  for (const GasSource& source : run.world.scene().sources) {
     report.sources.push_back({source.x_m, source.y_m});
   }
   for (const IssuedPlan* plan : PlansOf(run.team)) report.plans.push_back(plan->plan);
@@ -125,6 +154,8 @@ ReportData MakeReport(const Run& run, const Summary& summary) {
     report.metrics.push_back(
         {sample.time_s, m.completeness, m.rmse_ppm, m.rmse_zero_ppm, m.entropy_nats});
   }
+  const bool is_team = run.team.robots.size() > 1 && run.robots.size() == run.team.robots.size();
+  if (is_team) report.team = PictureOf(run);
   report.server_killed_s = run.server_killed_s;
   report.key_numbers = LabelledNumbers(summary);
   return report;

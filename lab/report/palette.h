@@ -30,4 +30,14 @@ inline constexpr Rgb kStartColor{22, 150, 84};
 inline constexpr std::array<Rgb, 6> kLineColors = {
     {{36, 99, 201}, {222, 120, 20}, {20, 140, 140}, {142, 68, 173}, {120, 85, 40}, {90, 96, 110}}};
 
+// Robots of a team, the first as kLineColors has it.
+inline constexpr std::array<Rgb, 8> kTeamColors = {{{36, 99, 201},
+                                                    {222, 120, 20},
+                                                    {20, 140, 90},
+                                                    {142, 68, 173},
+                                                    {206, 30, 60},
+                                                    {20, 160, 190},
+                                                    {150, 130, 20},
+                                                    {225, 90, 170}}};
+
 }  // namespace plumescout::lab

@@ -33,7 +33,8 @@ absl::Status Validate(const ReportData& data) {
 
 absl::Status WriteReport(const ReportData& data, const std::string& folder) {
   PLUMESCOUT_RETURN_IF_ERROR(Validate(data));
-  const ReportFigures figures{data.title, data.key_numbers, MakeMapPanels(data), MakeCharts(data)};
+  ReportFigures figures{data.title, data.key_numbers, MakeMapPanels(data), MakeCharts(data)};
+  if (data.team) figures.bar_charts.push_back(ShareChart(*data.team));
   const std::filesystem::path path(folder);
   PLUMESCOUT_RETURN_IF_ERROR(MakeFolder(folder));
   PLUMESCOUT_RETURN_IF_ERROR(WriteFile((path / "report.html").string(), MakeHtmlPage(figures)));

@@ -71,6 +71,18 @@ std::vector<Body> Company::Others(int robot) const {
   return others;
 }
 
+double Company::Nearest_m(int robot) const {
+  absl::MutexLock lock(&mutex_);
+  const auto index = static_cast<std::size_t>(robot);
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (i == index || !members_[i].body || !members_[index].body) continue;
+    nearest_m =
+        std::min(nearest_m, Distance_m(members_[index].body->center, members_[i].body->center));
+  }
+  return nearest_m;
+}
+
 double Company::closest_m() const {
   absl::MutexLock lock(&mutex_);
   return closest_m_;

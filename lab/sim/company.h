@@ -38,6 +38,8 @@ class Company {
   int contacts() const;  // so far
   // All that stand but this one, in the order of the robots.
   std::vector<Body> Others(int robot) const;
+  // From this one's centre to the nearest other one's; +infinity without one.
+  double Nearest_m(int robot) const;
   // The least distance of two centres so far; +infinity with less than two robots.
   double closest_m() const;
 

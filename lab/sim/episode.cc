@@ -15,6 +15,7 @@
 #include "client/robot_observer.h"
 #include "core/types/status_macros.h"
 #include "lab/sim/company.h"
+#include "lab/sim/faulty_link.h"
 
 namespace plumescout::lab {
 namespace {
@@ -28,6 +29,7 @@ absl::Status Validate(const EpisodeOptions& options) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckPositive("duration_s", options.duration_s));
   PLUMESCOUT_RETURN_IF_ERROR(CheckPositive("metrics_period_s", options.metrics_period_s));
   PLUMESCOUT_RETURN_IF_ERROR(CheckPositive("prior_variance_ppm2", options.prior_variance_ppm2));
+  PLUMESCOUT_RETURN_IF_ERROR(Validate(options.traits.outages));
   const bool settles = options.gas_settling_s == 0.0 || !options.create ||
                        options.gas_settling_s < options.create->planning.dwell_s;
   if (settles) return absl::OkStatus();
@@ -47,7 +49,7 @@ client::RobotLoopOptions LoopOptions(const EpisodeOptions& options) {
     loop.gas_sampling.time_constant_s = options.simulated.gas_sensor.time_constant_s;
   }
   loop.gas_sampling.settling_s = options.gas_settling_s;
-  loop.time_limit_s = options.duration_s;
+  loop.real_clock = options.realtime;
   loop.max_edge_evaluations = options.max_edge_evaluations;
   loop.plan_budget = options.plan_budget;
   loop.watch = options.watch;
@@ -60,6 +62,13 @@ absl::StatusOr<SimulatedRobot> MakeRobot(const SceneWorld& world, const EpisodeO
   SimulatedRobotOptions simulated = options.simulated;
   simulated.realtime = options.realtime;
   simulated.companion = companion;
+  const RobotTraits& traits = options.traits;
+  if (traits.top_speed_mps) {
+    simulated.max_forward_mps = *traits.top_speed_mps;
+    simulated.pace.top_speed_mps = *traits.top_speed_mps;
+  }
+  simulated.clock = traits.clock;
+  if (traits.jump) simulated.pose_error.jump = traits.jump;
   return SimulatedRobot::Create(world, simulated);
 }
 
@@ -67,27 +76,41 @@ absl::StatusOr<SimulatedRobot> MakeRobot(const SceneWorld& world, const EpisodeO
 struct Stage {
   client::PlannerClient& planner;
   MapJudge& judge;
-  absl::Mutex& telling;  // held while on_plan is called
+  const Company& company;
+  absl::Mutex& telling;  // held while a listener is called
   const StopFn& stop;
 };
 
 // Writes down what one robot does, and has the map judged now and then.
 class EpisodeRecorder : public client::RobotObserver {
  public:
-  EpisodeRecorder(const Stage& stage, const EpisodeOptions& options)
-      : stage_(stage), options_(options) {}
+  EpisodeRecorder(const Stage& stage, const EpisodeOptions& options, int index)
+      : stage_(stage), options_(options), index_(index) {}
+
+  // The robot registers, now or again.
+  void BeginAt(double time_s) { begun_s_ = time_s; }
 
   void OnTick(const client::RobotTick& tick) override {
-    result_.path.push_back({tick.elapsed_s, tick.pose});
+    now_s_ = begun_s_ + tick.elapsed_s;
+    result_.path.push_back({now_s_, tick.pose});
     // In lockstep the world waits, so that the map does not depend on who is faster.
-    const std::int64_t least = options_.realtime ? 0 : tick.ingest.last_sequence;
-    stage_.judge.TakeIfDue(tick.elapsed_s, {{options_.robot, least}});
+    const std::int64_t least = options_.realtime ? 0 : tick.ingest.applied_sequence;
+    stage_.judge.TakeIfDue(now_s_, {{options_.robot, least}});
+    const absl::MutexLock lock(&stage_.telling);
+    if (options_.on_time) options_.on_time(now_s_);
   }
 
   void OnPlan(const client::PlanArrival& arrival) override {
-    result_.plans.push_back({arrival.elapsed_s, arrival.rpc_wall, arrival.plan});
+    result_.plans.push_back({begun_s_ + arrival.elapsed_s, arrival.rpc_wall, arrival.plan});
     const absl::MutexLock lock(&stage_.telling);
     if (options_.on_plan) options_.on_plan(result_.plans.back());
+  }
+
+  void OnReport(PlanId plan, ProgressOutcome outcome) override {
+    result_.legs_ended.push_back(
+        {now_s_, options_.robot, plan, outcome, stage_.company.Nearest_m(index_)});
+    const absl::MutexLock lock(&stage_.telling);
+    if (options_.on_leg) options_.on_leg(result_.legs_ended.back());
   }
 
   EpisodeResult& result() { return result_; }
@@ -95,28 +118,108 @@ class EpisodeRecorder : public client::RobotObserver {
  private:
   const Stage& stage_;
   const EpisodeOptions& options_;
+  const int index_;
+  double begun_s_ = 0.0;
+  double now_s_ = 0.0;
   EpisodeResult result_;
 };
 
-absl::StatusOr<EpisodeResult> RunRobot(SimulatedRobot& robot, const EpisodeOptions& options,
-                                       const Stage& stage) {
-  EpisodeRecorder recorder(stage, options);
-  client::RobotLoop loop(stage.planner, robot, LoopOptions(options), recorder);
+// One robot's part in an episode: it joins, and joins again after each absence.
+class RobotLife {
+ public:
+  RobotLife(SimulatedRobot& robot, const EpisodeOptions& options, const Stage& stage, int index)
+      : robot_(robot),
+        options_(options),
+        stage_(stage),
+        link_(stage.planner),
+        recorder_(stage, options, index) {
+    robot_.set_listener([this] { NoteTime(); });
+    NoteTime();
+  }
+  ~RobotLife() { robot_.set_listener(nullptr); }
+  RobotLife(const RobotLife&) = delete;
+  RobotLife& operator=(const RobotLife&) = delete;
+
+  absl::StatusOr<EpisodeResult> Run() {
+    while (true) {
+      const double begun_s = robot_.elapsed_s();
+      const Outage* absence = NextAbsence(options_.traits.outages, begun_s);
+      PLUMESCOUT_RETURN_IF_ERROR(TakePart(begun_s, absence));
+      const bool goes_away = absence != nullptr && !recorder_.result().completed &&
+                             HasCome(absence->at_s, robot_.elapsed_s());
+      if (!goes_away) return std::move(recorder_.result());
+      PLUMESCOUT_ASSIGN_OR_RETURN(const bool is_back, BeAbsent(*absence));
+      if (!is_back) return std::move(recorder_.result());
+    }
+  }
+
+ private:
+  // Whatever happens to link and clocks happens here, when it is the robot's turn.
+  void NoteTime() {
+    link_.Set(LinkAt(options_.traits.outages, robot_.elapsed_s()));
+    own_time_ns_ = robot_.now_ns();
+    if (options_.world_time_ns) *options_.world_time_ns = robot_.world_time_ns();
+  }
+
   // A map that cannot be had ends the episode: its samples are what it is for.
-  const auto stop_or_failed = [&] { return stage.stop() || !stage.judge.status().ok(); };
-  PLUMESCOUT_ASSIGN_OR_RETURN(const client::RobotResult ran, loop.Run(stop_or_failed));
-  EpisodeResult& result = recorder.result();
-  result.readings_sent = ran.ingest.last_sequence;
-  result.readings_applied = ran.ingest.applied_sequence;
-  result.simulated_s = ran.elapsed_s;
-  result.distance_m = ran.distance_m;
-  result.collisions = robot.collisions();
-  result.legs = ran.reached + ran.blocked + ran.aborted;
-  result.blocked_legs = ran.blocked;
-  result.invalidated_legs = ran.invalidated;
-  result.completed = ran.end == client::RobotEnd::kMissionComplete;
-  return std::move(result);
-}
+  bool IsStopped() const { return stage_.stop() || !stage_.judge.status().ok(); }
+
+  client::RobotLoopOptions OptionsFrom(double begun_s, const Outage* absence) {
+    client::RobotLoopOptions loop = LoopOptions(options_);
+    loop.time_limit_s = options_.duration_s - begun_s;
+    loop.link_is_down = [this] { return link_.state() != LinkState::kUp; };
+    loop.participation.take_over = begun_s > 0.0;  // from its own former life
+    if (options_.world_time_ns) loop.ingest.robot_clock_ns = [this] { return own_time_ns_.load(); };
+    // Nobody hears what a robot that was switched off has left to say.
+    const bool falls_silent = absence != nullptr && absence->kind == OutageKind::kSilent;
+    if (falls_silent) loop.drain_timeout = absl::Seconds(1);
+    return loop;
+  }
+
+  absl::Status TakePart(double begun_s, const Outage* absence) {
+    recorder_.BeginAt(begun_s);
+    client::RobotLoop loop(link_, robot_, OptionsFrom(begun_s, absence), recorder_);
+    PLUMESCOUT_ASSIGN_OR_RETURN(const client::RobotResult ran, loop.Run([&] {
+      return IsStopped() || (absence != nullptr && HasCome(absence->at_s, robot_.elapsed_s()));
+    }));
+    EpisodeResult& result = recorder_.result();
+    result.readings_sent = std::max(result.readings_sent, ran.ingest.last_sequence);
+    result.readings_applied = std::max(result.readings_applied, ran.ingest.applied_sequence);
+    result.simulated_s = begun_s + ran.elapsed_s;
+    result.distance_m += ran.distance_m;
+    result.collisions = robot_.collisions();
+    result.legs += ran.reached + ran.blocked + ran.aborted;
+    result.blocked_legs += ran.blocked;
+    result.invalidated_legs += ran.invalidated;
+    result.completed = ran.end == client::RobotEnd::kMissionComplete;
+    return absl::OkStatus();
+  }
+
+  // Whether the robot comes back.
+  absl::StatusOr<bool> BeAbsent(const Outage& absence) {
+    constexpr double kTick_s = 0.1;
+    recorder_.result().absent = true;
+    if (absence.kind == OutageKind::kLeaves) {
+      PLUMESCOUT_RETURN_IF_ERROR(
+          stage_.planner.RemoveRobot(options_.mission, options_.robot, 0, /*force=*/true));
+    }
+    if (HasCome(options_.duration_s, absence.end_s())) return false;
+    while (!IsStopped() && !HasCome(absence.end_s(), robot_.elapsed_s())) {
+      PLUMESCOUT_RETURN_IF_ERROR(
+          robot_.Advance(std::min(kTick_s, absence.end_s() - robot_.elapsed_s())));
+      stage_.judge.TakeIfDue(robot_.elapsed_s(), {});
+    }
+    recorder_.result().absent = IsStopped();
+    return !IsStopped();
+  }
+
+  SimulatedRobot& robot_;
+  const EpisodeOptions& options_;
+  const Stage& stage_;
+  FaultyLink link_;
+  std::atomic<std::int64_t> own_time_ns_ = 0;
+  EpisodeRecorder recorder_;
+};
 
 // The options of every robot, the first one's first.
 std::vector<EpisodeOptions> OptionsOfAll(const EpisodeOptions& options,
@@ -127,6 +230,7 @@ std::vector<EpisodeOptions> OptionsOfAll(const EpisodeOptions& options,
     one.robot = teammate.robot;
     one.simulated.start = teammate.start;
     one.simulated.seed = teammate.seed;
+    one.traits = teammate.traits;
     all.push_back(std::move(one));
   }
   all.front().watch = options.watch && all.size() > 1;
@@ -151,14 +255,14 @@ std::vector<absl::StatusOr<EpisodeResult>> RunTogether(std::vector<SimulatedRobo
                                                        Company& company, const Stage& stage) {
   std::atomic<bool> failed = false;
   const StopFn stop = [&] { return failed || stage.stop(); };
-  const Stage guarded{stage.planner, stage.judge, stage.telling, stop};
+  const Stage guarded{stage.planner, stage.judge, stage.company, stage.telling, stop};
   std::vector<absl::StatusOr<EpisodeResult>> results(robots.size());
   std::vector<std::thread> threads;
   for (std::size_t i = 0; i < robots.size(); ++i) {
     threads.emplace_back([&, i] {
       const int index = static_cast<int>(i);
-      company.AwaitTurn(index, robots[i].now_ns());
-      results[i] = RunRobot(robots[i], options[i], guarded);
+      company.AwaitTurn(index, robots[i].world_time_ns());
+      results[i] = RobotLife(robots[i], options[i], guarded, index).Run();
       if (!results[i].ok()) failed = true;
       company.Leave(index);
     });
@@ -184,12 +288,19 @@ absl::StatusOr<EpisodeResult> RunEpisode(client::PlannerClient& planner, const S
   return result;
 }
 
+bool IsComplete(const TeamResult& team) {
+  const auto is_done = [](const EpisodeResult& robot) { return robot.completed || robot.absent; };
+  const auto is_absent = [](const EpisodeResult& robot) { return robot.absent; };
+  return std::all_of(team.robots.begin(), team.robots.end(), is_done) &&
+         !std::all_of(team.robots.begin(), team.robots.end(), is_absent);
+}
+
 absl::StatusOr<TeamResult> RunTeamEpisode(client::PlannerClient& planner, const SceneWorld& world,
                                           const EpisodeOptions& options,
                                           const std::vector<Teammate>& teammates,
                                           const StopFn& stop) {
-  PLUMESCOUT_RETURN_IF_ERROR(Validate(options));
   const std::vector<EpisodeOptions> all = OptionsOfAll(options, teammates);
+  for (const EpisodeOptions& one : all) PLUMESCOUT_RETURN_IF_ERROR(Validate(one));
   PLUMESCOUT_RETURN_IF_ERROR(CheckNames(all));
   Company company(static_cast<int>(all.size()), !options.realtime);
   std::vector<SimulatedRobot> robots;
@@ -200,14 +311,15 @@ absl::StatusOr<TeamResult> RunTeamEpisode(client::PlannerClient& planner, const 
   }
   MapJudge judge = MakeJudge(planner, world, options);
   absl::Mutex telling;
-  auto results = RunTogether(robots, all, company, {planner, judge, telling, stop});
+  auto results = RunTogether(robots, all, company, {planner, judge, company, telling, stop});
 
   TeamResult team;
   AppliedSequences applied;
   double end_s = 0.0;
   for (std::size_t i = 0; i < results.size(); ++i) {
     PLUMESCOUT_RETURN_IF_ERROR(results[i].status());
-    applied[all[i].robot] = results[i]->readings_applied;
+    // Of who is not there any more nothing is waited for.
+    if (!results[i]->absent) applied[all[i].robot] = results[i]->readings_applied;
     end_s = std::max(end_s, results[i]->simulated_s);
     team.robots.push_back(*std::move(results[i]));
   }

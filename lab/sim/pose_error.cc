@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "absl/strings/str_cat.h"
 #include "core/types/checker.h"
 #include "core/types/status_macros.h"
 
@@ -12,6 +13,8 @@ namespace {
 
 constexpr double kMaxPosition_m = 10.0;
 constexpr double kMaxYaw_rad = 3.2;
+constexpr double kMinClosing_s = 1.0;
+constexpr double kMaxClosing_s = 3600.0;
 
 // Without an error the pose stays as it is, to the last bit.
 Pose2 Sum(const Pose2& pose, const Pose2& drift, const Pose2& noise) {
@@ -24,7 +27,14 @@ Pose2 Sum(const Pose2& pose, const Pose2& drift, const Pose2& noise) {
 
 absl::Status Validate(const PoseErrorOptions& options) {
   if (options.jump) PLUMESCOUT_RETURN_IF_ERROR(Validate(*options.jump));
+  if (options.jump && options.closed_every_s) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("pose_error.closed_every_s = ", *options.closed_every_s,
+                     " must be unset with pose_error.jump"));
+  }
   return Checker()
+      .InRange("pose_error.closed_every_s", options.closed_every_s.value_or(kMinClosing_s),
+               kMinClosing_s, kMaxClosing_s)
       .InRange("pose_error.position_sigma_m", options.position_sigma_m, 0.0, kMaxPosition_m)
       .InRange("pose_error.yaw_sigma_rad", options.yaw_sigma_rad, 0.0, kMaxYaw_rad)
       .InRange("pose_error.drift_m_per_sqrt_s", options.drift_m_per_sqrt_s, 0.0, kMaxPosition_m)

@@ -12,14 +12,18 @@
 
 namespace plumescout::lab {
 
-// How far localisation is off: fresh noise at every instant, and drift that nothing takes back, a
-// random walk whose standard deviation grows with the square root of time. 0: exact.
+// How far localisation is off: fresh noise at every instant, and drift, a random walk whose
+// standard deviation grows with the square root of time until a loop is closed. 0: exact.
 struct PoseErrorOptions {
-  double position_sigma_m = 0.0;                       // of each coordinate, [0, 10]
-  double yaw_sigma_rad = 0.0;                          // [0, 3.2]
-  double drift_m_per_sqrt_s = 0.0;                     // of each coordinate, [0, 10]
-  double drift_rad_per_sqrt_s = 0.0;                   // [0, 3.2]
-  std::optional<PoseJumpOptions> jump = std::nullopt;  // on top of these; see PoseJump
+  double position_sigma_m = 0.0;      // of each coordinate, [0, 10]
+  double yaw_sigma_rad = 0.0;         // [0, 3.2]
+  double drift_m_per_sqrt_s = 0.0;    // of each coordinate, [0, 10]
+  double drift_rad_per_sqrt_s = 0.0;  // [0, 3.2]
+  // The drift is taken back every so many seconds, [1, 3600], with a correction of the way since
+  // the last time; none: never. See LoopClosure.
+  std::optional<double> closed_every_s = std::nullopt;
+  // On top of these, see PoseJump; not with closures.
+  std::optional<PoseJumpOptions> jump = std::nullopt;
 
   friend bool operator==(const PoseErrorOptions&, const PoseErrorOptions&) = default;
 };
@@ -35,6 +39,9 @@ class PoseError {
 
   // `duration_s` goes by: drift grows, noise is drawn anew. Without drift or noise nothing is.
   void Advance(double duration_s);
+
+  // A loop is closed: there is no drift so far.
+  void Close() { drift_ = {}; }
 
   // What the robot holds its true pose for.
   Pose2 Told(const Pose2& truth) const;

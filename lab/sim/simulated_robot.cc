@@ -24,6 +24,7 @@ constexpr double kStraight_rad_per_s = 1e-6;
 constexpr std::uint64_t kLidarStream = 0x6C69646172;
 constexpr std::uint64_t kGasStream = 0x676173;
 constexpr std::uint64_t kPoseStream = 0x706F7365;
+constexpr std::uint64_t kPaceStream = 0x70616365;
 
 bool IsFinite(const Pose2& pose) {
   return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad);
@@ -55,8 +56,13 @@ absl::Status Validate(const SimulatedRobotOptions& options) {
   if (!(options.scene_start_s >= 0.0 && options.scene_start_s <= kMaxSceneStart_s)) {
     return OutOfRange("scene_start_s", options.scene_start_s, "in [0, 1e6]");
   }
-  if (options.start_time_ns < 0) {
-    return absl::InvalidArgumentError("robot.start_time_ns must be >= 0");
+  PLUMESCOUT_RETURN_IF_ERROR(lab::Validate(options.pace));
+  PLUMESCOUT_RETURN_IF_ERROR(lab::Validate(options.clock));
+  const bool after_epoch =
+      options.start_time_ns >= 0 &&
+      ToldTime_ns(options.clock, options.start_time_ns, options.start_time_ns) >= 0;
+  if (!after_epoch) {
+    return absl::InvalidArgumentError("robot.start_time_ns must be >= 0, with its clock's offset");
   }
   PLUMESCOUT_RETURN_IF_ERROR(lab::Validate(options.lidar));
   PLUMESCOUT_RETURN_IF_ERROR(lab::Validate(options.pose_error));
@@ -100,7 +106,9 @@ SimulatedRobot::SimulatedRobot(const SceneWorld& world, const SimulatedRobotOpti
       gas_sensor_(options.gas_sensor, options.seed ^ kGasStream, world.ambient_ppm()),
       now_ns_(options.start_time_ns),
       pose_error_(options.pose_error, options.seed ^ kPoseStream),
+      loop_closure_(options.pose_error.closed_every_s),
       pose_jump_(options.pose_error.jump),
+      pace_(options.pace, options.seed ^ kPaceStream),
       pose_(options.start.value_or(world.scene().start_pose)),
       due_(std::chrono::steady_clock::now()) {}
 
@@ -118,6 +126,7 @@ absl::Status SimulatedRobot::Drive(const client::Twist& twist) {
   if (!std::isfinite(twist.forward_mps) || !std::isfinite(twist.turn_rad_per_s)) {
     return absl::InvalidArgumentError("twist must be finite");
   }
+  if (twist.forward_mps == 0.0 && twist.turn_rad_per_s == 0.0) pace_.BeginLeg();
   const double forward = options_.max_forward_mps;
   const double turn = options_.max_turn_rad_per_s;
   twist_ = {std::clamp(twist.forward_mps, -forward, forward),
@@ -131,6 +140,9 @@ absl::Status SimulatedRobot::PlaceAt(const Pose2& pose) {
   if (world_->Collides(truth.position(), options_.body_radius_m)) {
     ++collisions_;
     return absl::OkStatus();
+  }
+  if (!pace_.MayMove(Distance_m(pose_.position(), truth.position()), elapsed_s())) {
+    return absl::UnavailableError("the robot is slower than its path");
   }
   if (!MayMoveTo(truth.position())) return absl::UnavailableError("another robot is in the way");
   pose_ = truth;
@@ -153,13 +165,19 @@ absl::Status SimulatedRobot::Advance(double duration_s) {
     gas_sensor_.Step(world_->Concentration_ppm(pose_.position(), scene_time_s()), step_s);
   }
   pose_error_.Advance(duration_s);
-  const auto elapsed_ns = static_cast<double>(now_ns_ - options_.start_time_ns);
-  pose_jump_.Pass(elapsed_ns / kNanosecondsPerSecond, now_ns_, pose_error_.Told(pose_));
+  if (loop_closure_.Pass(elapsed_s(), now_ns(), pose_)) pose_error_.Close();
+  pose_jump_.Pass(elapsed_s(), now_ns(), pose_error_.Told(pose_));
   ShowBody();
-  if (options_.realtime) Pace(duration_s);
+  if (options_.realtime) AwaitRealTime(duration_s);
   const Companion& companion = options_.companion;
   if (companion.company != nullptr) companion.company->AwaitTurn(companion.robot, now_ns_);
+  if (listener_) listener_();
   return absl::OkStatus();
+}
+
+std::optional<PoseCorrection> SimulatedRobot::TakeCorrection() {
+  if (auto correction = loop_closure_.TakeCorrection()) return correction;
+  return pose_jump_.TakeCorrection();
 }
 
 void SimulatedRobot::Move(double duration_s) {
@@ -201,7 +219,7 @@ void SimulatedRobot::ShowBody() {
 }
 
 // Sleeps until the stretch is over. Time lost elsewhere (a slow plan) is not caught up.
-void SimulatedRobot::Pace(double duration_s) {
+void SimulatedRobot::AwaitRealTime(double duration_s) {
   using Seconds = std::chrono::duration<double>;
   due_ += std::chrono::duration_cast<std::chrono::steady_clock::duration>(Seconds(duration_s));
   const auto now = std::chrono::steady_clock::now();
@@ -212,9 +230,10 @@ void SimulatedRobot::Pace(double duration_s) {
   }
 }
 
-double SimulatedRobot::scene_time_s() const {
-  return options_.scene_start_s +
-         static_cast<double>(now_ns_ - options_.start_time_ns) / kNanosecondsPerSecond;
+double SimulatedRobot::elapsed_s() const {
+  return static_cast<double>(now_ns_ - options_.start_time_ns) / kNanosecondsPerSecond;
 }
+
+double SimulatedRobot::scene_time_s() const { return options_.scene_start_s + elapsed_s(); }
 
 }  // namespace plumescout::lab

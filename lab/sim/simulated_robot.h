@@ -4,14 +4,19 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <utility>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "client/robot_driver.h"
+#include "lab/sim/clock_error.h"
 #include "lab/sim/company.h"
 #include "lab/sim/gas_sensor.h"
 #include "lab/sim/lidar.h"
+#include "lab/sim/loop_closure.h"
+#include "lab/sim/pace.h"
 #include "lab/sim/pose_error.h"
 #include "lab/sim/pose_jump.h"
 #include "lab/sim/scene_world.h"
@@ -32,9 +37,12 @@ struct SimulatedRobotOptions {
   LidarOptions lidar = {};
   GasSensorOptions gas_sensor = {};
   PoseErrorOptions pose_error = {};
-  double scene_start_s = 0.0;  // of the scene's time, at which the robot's begins, [0, 1e6]
-  std::int64_t start_time_ns = 1'700'000'000'000'000'000;  // of the clock, at its start; >= 0
-  bool realtime = false;                                   // Advance takes as long as it says
+  PaceOptions pace = {};         // of a robot that is placed
+  ClockErrorOptions clock = {};  // of its own
+  double scene_start_s = 0.0;    // of the scene's time, at which the robot's begins, [0, 1e6]
+  // Of the world's clock, at its start; >= 0, and so is its own.
+  std::int64_t start_time_ns = 1'700'000'000'000'000'000;
+  bool realtime = false;  // Advance takes as long as it says
   std::uint64_t seed = 1;
   // Others in the same world, who see this robot's body as it sees theirs, and block its way.
   Companion companion = {};
@@ -52,22 +60,30 @@ class SimulatedRobot : public client::RobotDriver {
   static absl::StatusOr<SimulatedRobot> Create(const SceneWorld& world,
                                                const SimulatedRobotOptions& options);
 
-  std::int64_t now_ns() const override { return now_ns_; }
+  // Of its own clock.
+  std::int64_t now_ns() const override {
+    return ToldTime_ns(options_.clock, options_.start_time_ns, now_ns_);
+  }
+  std::int64_t world_time_ns() const { return now_ns_; }
+  double elapsed_s() const;  // of the world's time, since its start
   Pose2 pose() const override { return pose_jump_.Told(pose_error_.Told(pose_)); }
   const Pose2& true_pose() const { return pose_; }
   absl::StatusOr<Scan> TakeScan() override;
   absl::StatusOr<GasReading> ReadGas() override;
 
-  std::optional<PoseCorrection> TakeCorrection() override { return pose_jump_.TakeCorrection(); }
+  std::optional<PoseCorrection> TakeCorrection() override;
 
   // Commands beyond the limits are cut to them. kInvalidArgument if not finite.
   absl::Status Drive(const client::Twist& twist) override;
   // Where the robot holds itself to be: drift of its localisation sets it off. A pose that collides
   // is not taken: the robot stays, as if it had bumped into something. kInvalidArgument if not
-  // finite. kUnavailable while another robot is in the way; see Company::MayMoveTo.
+  // finite. kUnavailable while another robot is in the way, see Company::MayMoveTo, and when its
+  // pace does not take it there yet.
   absl::Status PlaceAt(const Pose2& pose) override;
   // In steps of at most kStep_s. kInvalidArgument unless 0 <= duration_s <= 3600.
   absl::Status Advance(double duration_s) override;
+  // Called at the end of every Advance, when it is this robot's turn; none: nobody is.
+  void set_listener(std::function<void()> listener) { listener_ = std::move(listener); }
 
   // Moves that a wall prevented. The robot then stands until the next command, as it does when
   // another robot is in the way.
@@ -80,16 +96,19 @@ class SimulatedRobot : public client::RobotDriver {
   double NextSpeed_mps(double duration_s) const;
   bool MayMoveTo(Point2 place) const;
   void ShowBody();
-  void Pace(double duration_s);
+  void AwaitRealTime(double duration_s);
   double scene_time_s() const;
 
   const SceneWorld* world_;
   SimulatedRobotOptions options_;
   Lidar lidar_;
   GasSensor gas_sensor_;
-  std::int64_t now_ns_;
+  std::int64_t now_ns_;  // of the world's clock
   PoseError pose_error_;
+  LoopClosure loop_closure_;
   PoseJump pose_jump_;
+  Pace pace_;
+  std::function<void()> listener_;
   Pose2 pose_;           // true
   client::Twist twist_;  // as commanded
   double speed_mps_ = 0.0;

@@ -74,6 +74,15 @@ absl::StatusOr<std::vector<std::string>> HallScene(const ExperimentOptions& opti
 absl::StatusOr<std::vector<std::string>> GeneratedScenes(const ExperimentOptions& options,
                                                          const GeneratedBuildings& buildings,
                                                          double duration_s) {
+  const auto layout_of = [&buildings](std::uint64_t seed) {
+    return GenerateLayout(seed, buildings.generator);
+  };
+  return LayoutScenes(options, buildings, layout_of, duration_s);
+}
+
+absl::StatusOr<std::vector<std::string>> LayoutScenes(
+    const ExperimentOptions& options, const GeneratedBuildings& buildings,
+    const std::function<Layout(std::uint64_t seed)>& layout_of, double duration_s) {
   if (!options.scenes.empty()) return options.scenes;
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::string root, SceneRoot(options));
   std::vector<std::string> folders;
@@ -86,8 +95,8 @@ absl::StatusOr<std::vector<std::string>> GeneratedScenes(const ExperimentOptions
       folders.size(), options.jobs,
       [&](std::size_t i) {
         const std::uint64_t seed = buildings.first_seed + i;
-        return MakeUnlessThere(GenerateLayout(seed, buildings.generator),
-                               SceneOptions(options.quick, duration_s, seed), folders[i]);
+        return MakeUnlessThere(layout_of(seed), SceneOptions(options.quick, duration_s, seed),
+                               folders[i]);
       },
       options.progress));
   return folders;

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "lab/sim/layout.h"
 #include "lab/sim/layout_generator.h"
 #include "lab/trials/study.h"
 
@@ -27,6 +29,12 @@ struct GeneratedBuildings {
   const char* name = "building";  // of their folders, before the seed
   GeneratorOptions generator = {};
 };
+
+// The same of layouts that `layout_of` makes from those seeds; the generator's options are not
+// looked at.
+absl::StatusOr<std::vector<std::string>> LayoutScenes(
+    const ExperimentOptions& options, const GeneratedBuildings& buildings,
+    const std::function<Layout(std::uint64_t seed)>& layout_of, double duration_s);
 
 // Made options.jobs at once. Progress goes from 0 to 1.
 absl::StatusOr<std::vector<std::string>> GeneratedScenes(const ExperimentOptions& options,

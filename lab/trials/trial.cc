@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <utility>
 #include <variant>
 
@@ -15,6 +16,7 @@
 #include "lab/local/local_planner_client.h"
 #include "lab/sim/episode.h"
 #include "lab/sim/team_starts.h"
+#include "lab/trials/team_watch.h"
 #include "ompl_planners/ompl_planner.h"
 
 namespace plumescout::lab {
@@ -133,6 +135,7 @@ EpisodeOptions MakeEpisodeOptions(const Trial& trial, TrialRecord& record) {
   options.duration_s = trial.duration_s;
   options.plan_budget = absl::InfiniteDuration();
   options.simulated.seed = trial.seed;
+  options.simulated.pace.most_late_s = trial.most_late_s;
   options.prior_variance_ppm2 = OpenLatticeVariance_ppm2(trial.mission->gas);
   options.on_sample = [&trial, &record](const MetricSample& sample, const MapSnapshot& map) {
     record.curve.push_back({sample.time_s, sample.metrics});
@@ -141,6 +144,26 @@ EpisodeOptions MakeEpisodeOptions(const Trial& trial, TrialRecord& record) {
     record.mean_ppm.push_back(OnSceneGrid(map.gas_mean_ppm, trial.world->scene().geometry()));
   };
   return options;
+}
+
+// Has the watch look on, once a second and whenever there is something to tell.
+void LetWatch(TeamWatch& watch, const LocalPlannerClient& planner, EpisodeOptions& options) {
+  const auto tell = [&planner](const auto& told) {
+    const auto belief = planner.GetBelief(kMission);
+    if (belief.ok()) told(**belief);
+  };
+  const auto next_s = std::make_shared<double>(0.0);  // of all robots
+  options.on_time = [&watch, tell, next_s](double time_s) {
+    constexpr double kPeriod_s = 1.0;
+    if (time_s < *next_s) return;
+    *next_s = time_s + kPeriod_s;
+    tell([&watch](const Belief& belief) { watch.OnTime(belief); });
+  };
+  options.on_plan = [&watch, tell](const IssuedPlan& issued) {
+    tell([&](const Belief& belief) { watch.OnPlan(belief, issued.plan); });
+  };
+  const double radius_m = options.simulated.seen_radius_m;
+  options.on_leg = [&watch, radius_m](const EndedLeg& leg) { watch.OnLeg(leg, radius_m); };
 }
 
 }  // namespace
@@ -157,7 +180,9 @@ absl::StatusOr<TrialRecord> RunTrial(const Trial& trial) {
     if (trial.peer) readings.push_back(*gas);
   };
   LocalPlannerClient planner(local);
-  const EpisodeOptions options = MakeEpisodeOptions(trial, record);
+  EpisodeOptions options = MakeEpisodeOptions(trial, record);
+  TeamWatch watch;
+  if (trial.robots > 1) LetWatch(watch, planner, options);
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<Teammate> teammates, MakeTeammates(trial, options));
   PLUMESCOUT_ASSIGN_OR_RETURN(const TeamResult team,
                               RunTeamEpisode(planner, *trial.world, options, teammates));
@@ -169,6 +194,7 @@ absl::StatusOr<TrialRecord> RunTrial(const Trial& trial) {
     record.completed = record.completed && robot.completed;
   }
   record.team = MakeTeamRecord(team, options.simulated.seen_radius_m);
+  record.team.findings = watch.findings();
   if (trial.peer) {
     PLUMESCOUT_ASSIGN_OR_RETURN(record.peer_rmse_ppm,
                                 PeerError_ppm(trial.world->scene(), *trial.peer, readings));

@@ -12,6 +12,7 @@
 #include "lab/rivals/kernel_dmv.h"
 #include "lab/sim/metrics.h"
 #include "lab/sim/scene_world.h"
+#include "lab/trials/team_watch.h"
 
 namespace plumescout::lab {
 
@@ -22,6 +23,7 @@ struct Trial {
   int robots = 1;                     // that share the mission, from TeamStarts, >= 1
   std::uint64_t seed = 1;             // of planner and of the first robot's sensors
   double duration_s = 300.0;          // simulated, [XIT] section VI-B
+  double most_late_s = 0.0;           // legs fall behind by up to this, see PaceOptions
   std::vector<double> map_times_s{};  // when the gas map is kept, ascending
   // Also map the same readings by Kernel DM+V, over the whole building, and tell its error.
   std::optional<KernelDmvOptions> peer{};
@@ -34,14 +36,15 @@ struct CurvePoint {
 
 // How robots of one team got on with each other.
 struct TeamRecord {
-  int legs = 0;              // that ended
-  int blocked_legs = 0;      // of those, for something stood in the way
-  int contacts = 0;          // of two bodies
-  int encounters = 0;        // of two robots nearer than their radii and kEncounterMargin_m
-  double closest_m = 0.0;    // two centres ever came; 0: there was one robot
-  double waiting_s = 0.0;    // that plans had robots stand before they went
-  double robot_s = 0.0;      // of all robots together
-  double plan_wall_s = 0.0;  // median from asking to answer; differs from run to run
+  int legs = 0;                // that ended
+  int blocked_legs = 0;        // of those, for something stood in the way
+  int contacts = 0;            // of two bodies
+  int encounters = 0;          // of two robots nearer than their radii and kEncounterMargin_m
+  double closest_m = 0.0;      // two centres ever came; 0: there was one robot
+  double waiting_s = 0.0;      // that plans had robots stand before they went
+  double robot_s = 0.0;        // of all robots together
+  double plan_wall_s = 0.0;    // median from asking to answer; differs from run to run
+  TeamFindings findings = {};  // nothing of one robot
 };
 inline constexpr double kEncounterMargin_m = 0.1;
 

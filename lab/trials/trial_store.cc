@@ -46,10 +46,20 @@ CurvePoint CurvePointFrom(const json& value) {
 }
 
 json ToJson(const TeamRecord& team) {
-  return {{"legs", team.legs},           {"blocked_legs", team.blocked_legs},
-          {"contacts", team.contacts},   {"encounters", team.encounters},
-          {"closest_m", team.closest_m}, {"waiting_s", team.waiting_s},
-          {"robot_s", team.robot_s},     {"plan_wall_s", team.plan_wall_s}};
+  return {{"legs", team.legs},
+          {"blocked_legs", team.blocked_legs},
+          {"contacts", team.contacts},
+          {"encounters", team.encounters},
+          {"closest_m", team.closest_m},
+          {"waiting_s", team.waiting_s},
+          {"robot_s", team.robot_s},
+          {"plan_wall_s", team.plan_wall_s},
+          {"blocked_by_robot", team.findings.blocked_by_robot},
+          {"set_aside_for_robot", team.findings.set_aside_for_robot},
+          {"deadlocks", team.findings.deadlocks},
+          {"held_up", team.findings.held_up},
+          {"alone_nats", team.findings.alone_nats},
+          {"besides_nats", team.findings.besides_nats}};
 }
 
 TeamRecord TeamRecordFrom(const json& value) {
@@ -62,6 +72,13 @@ TeamRecord TeamRecordFrom(const json& value) {
   value.at("waiting_s").get_to(team.waiting_s);
   value.at("robot_s").get_to(team.robot_s);
   value.at("plan_wall_s").get_to(team.plan_wall_s);
+  TeamFindings& findings = team.findings;
+  value.at("blocked_by_robot").get_to(findings.blocked_by_robot);
+  value.at("set_aside_for_robot").get_to(findings.set_aside_for_robot);
+  value.at("deadlocks").get_to(findings.deadlocks);
+  value.at("held_up").get_to(findings.held_up);
+  value.at("alone_nats").get_to(findings.alone_nats);
+  value.at("besides_nats").get_to(findings.besides_nats);
   return team;
 }
 
@@ -157,6 +174,7 @@ std::string Fingerprint(const Trial& trial, std::uint32_t scene_checksum) {
     absl::StrAppend(&times, " peer ", trial.peer->kernel_width_m, " ",
                     trial.peer->confidence_scale);
   }
+  if (trial.most_late_s > 0.0) absl::StrAppend(&times, " late ", trial.most_late_s);
   return absl::StrFormat("mission %08x scene %08x robots %d seed %d duration %g maps%s",
                          Crc32c(ToProto(*trial.mission).SerializeAsString()), scene_checksum,
                          trial.robots, trial.seed, trial.duration_s, times);

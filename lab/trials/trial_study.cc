@@ -61,6 +61,7 @@ class SceneStudy {
     trial.peer = plan_.peer;
     trial.world = &world_;
     trial.robots = plan_.rows[row].robots;
+    trial.most_late_s = plan_.rows[row].most_late_s;
     trial.seed = plan_.first_seed + number;
     trial.duration_s = plan_.duration_s;
     trial.map_times_s = plan_.map_times_s;

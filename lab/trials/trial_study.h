@@ -22,6 +22,7 @@ struct StudyRow {
   // The region that is sampled, of strategies that stop at sites, is the building.
   bool samples_building = false;
   int robots = 1;
+  double most_late_s = 0.0;  // see Trial
 };
 
 // A strategy of the table, driving until the time is up. As the paper: goals are drawn at random

@@ -87,4 +87,23 @@ std::vector<Pose2> FreePoses(const Grid<std::uint8_t>& walls, int count, std::ui
   return poses;
 }
 
+void DriveOn(const Grid<std::uint8_t>& walls, double step_m, double clear_m, Rng& rng,
+             Pose2& pose) {
+  constexpr int kMostTurns = 50;
+  constexpr double kLook_m = 0.1;
+  for (int turn = 0; turn < kMostTurns; ++turn) {
+    bool blocked = false;
+    for (double ahead_m = kLook_m; ahead_m < step_m + clear_m; ahead_m += kLook_m) {
+      const Point2 place = PlaceOnRobot(pose, {ahead_m, 0.0});
+      blocked = blocked || walls.At(walls.geometry().CellAt(place), 1) != 0;
+    }
+    if (!blocked) {
+      const Point2 next = PlaceOnRobot(pose, {step_m, 0.0});
+      pose = {next.x_m, next.y_m, pose.yaw_rad};
+      return;
+    }
+    pose.yaw_rad = rng.Uniform(-M_PI, M_PI);
+  }
+}
+
 }  // namespace plumescout::lab

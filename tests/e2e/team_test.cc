@@ -145,6 +145,28 @@ TEST(TeamTest, ItsEventsReplayToTheSameMap) {
   }
 }
 
+TEST(TeamTest, OverGrpcRobotsComeBackFromOutages) {
+  const auto server = StartServer();
+  const auto planner = ClientOf(*server);
+  EpisodeOptions options = WestRobot();
+  options.duration_s = 10.0;
+  options.watch = false;
+  std::vector<Teammate> others = Others(3);
+  others[0].traits.outages = {{OutageKind::kLinkLost, 3.0, 3.0}};
+  others[1].traits.outages = {{OutageKind::kSilent, 3.0, 2.0}, {OutageKind::kLeaves, 7.0, 1.0}};
+  const auto team = RunTeamEpisode(*planner, GasHall(), options, others);
+  ASSERT_TRUE(team.ok()) << team.status();
+  for (const EpisodeResult& robot : team->robots) {
+    EXPECT_FALSE(robot.absent);
+    EXPECT_NEAR(robot.simulated_s, options.duration_s, 0.2);
+    EXPECT_EQ(robot.readings_applied, robot.readings_sent);
+  }
+  const EpisodeResult& east = team->robots[1];
+  EXPECT_NEAR(static_cast<double>(east.readings_sent), 12.0 * options.duration_s, 4.0)
+      << "without a link it senses on";
+  EXPECT_LT(team->robots[2].readings_sent, east.readings_sent - 25) << "it was off";
+}
+
 TEST(TeamTest, AnErrorOfOneEndsTheEpisodeForAll) {
   LocalPlannerClient planner;
   EpisodeOptions options = WestRobot();

@@ -63,6 +63,29 @@ TEST_F(LocalMissionTest, BadOptionsMakeNoMission) {
   EXPECT_TRUE(absl::IsInvalidArgument(LocalMission::Create(options, {}).status()));
 }
 
+TEST_F(LocalMissionTest, ClocksAreComparedWithTheMissionsIfItHasOne) {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  const auto offset_ns = [this] {
+    return mission_->Snapshot()->robots.at("scout").state.clock_offset_ns;
+  };
+  Create();
+  std::int64_t lease = Join("scout");
+  ASSERT_TRUE(mission_->NoteClock("scout", lease, 5 * kSecond_ns).ok());
+  EXPECT_EQ(offset_ns(), 0) << "there is none";
+
+  LocalOptions options;
+  options.mission_clock_ns = [] { return 100 * kSecond_ns; };
+  Create(nullptr, options);
+  lease = Join("scout");
+  ASSERT_TRUE(mission_->NoteClock("scout", lease, 130 * kSecond_ns).ok());
+  EXPECT_EQ(offset_ns(), -30 * kSecond_ns);
+  ASSERT_TRUE(mission_->NoteClock("scout", lease, 130 * kSecond_ns + 20'000'000).ok());
+  EXPECT_EQ(offset_ns(), -30 * kSecond_ns) << "as good as the same";
+  ASSERT_TRUE(mission_->NoteClock("scout", lease, 130 * kSecond_ns + 20'000'001).ok());
+  EXPECT_EQ(offset_ns(), -30 * kSecond_ns - 20'000'001);
+  EXPECT_EQ(ErrorReason(mission_->NoteClock("scout", lease + 1, 0)), client::kLeaseSuperseded);
+}
+
 TEST_F(LocalMissionTest, ALeaseIsHeldForAWhileAfterItsLastUse) {
   LocalOptions options;
   options.lease_hold = absl::Seconds(10);

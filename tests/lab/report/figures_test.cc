@@ -41,6 +41,15 @@ TEST(Figures, FourMapsIfTheTruthIsKnownElseThree) {
   EXPECT_THAT(MakeMapPanels(data), SizeIs(3));
 }
 
+TEST(Figures, ATeamHasTwoPanelsMore) {
+  ReportData data = MakeSmallReport();
+  data.team = TeamPicture{{{"a", {}, {}}, {"b", {}, {}}}};
+  const auto panels = MakeMapPanels(data);
+  ASSERT_THAT(panels, SizeIs(6));
+  EXPECT_EQ(panels[4].title, "Live plans as tubes, 0 s");
+  EXPECT_EQ(panels[5].legend.size(), 2u);
+}
+
 TEST(Figures, CellsWithoutAValueShowTheBackground) {
   const auto panels = MakeMapPanels(MakeSmallReport());
   for (const std::size_t field : {std::size_t{1}, std::size_t{2}}) {

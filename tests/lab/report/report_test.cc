@@ -39,6 +39,14 @@ TEST(Report, TheSameDataGiveTheSameBytes) {
   }
 }
 
+TEST(Report, OfATeamHasItsShares) {
+  const TempFolder folder;
+  ReportData data = MakeSmallReport();
+  data.team = TeamPicture{{{"a", {}, {}}, {"b", {}, {}}}};
+  ASSERT_TRUE(WriteReport(data, folder.path()).ok());
+  EXPECT_THAT(*ReadFile(folder.File("report.html"), kNoLimit), HasSubstr("Shares of the robots"));
+}
+
 TEST(Report, AMissionThatNeverStartedStillHasAReport) {
   const TempFolder folder;
   ReportData data;

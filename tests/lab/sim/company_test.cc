@@ -60,6 +60,8 @@ TEST(CompanyTest, KnowsWhereTheOthersStand) {
   company.Stand(0, {{0.0, 0.0}, 0.1});
   EXPECT_EQ(company.Others(1), (std::vector<Body>{{{0.0, 0.0}, 0.1}, {{2.0, 0.0}, 0.3}}));
   EXPECT_EQ(company.Others(0), (std::vector<Body>{{{2.0, 0.0}, 0.3}}));
+  EXPECT_EQ(company.Nearest_m(0), 2.0);
+  EXPECT_EQ(company.Nearest_m(1), std::numeric_limits<double>::infinity()) << "it has no body yet";
 }
 
 TEST(CompanyTest, RemembersHowCloseTheyCame) {

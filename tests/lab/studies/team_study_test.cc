@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "tests/lab/studies/small_study.h"
 #include "tests/support/temp_folder.h"
 
@@ -19,14 +21,18 @@ TEST(TeamStudy, ComparesTeamsWithOneRobot) {
   const TempFolder folder;
   const auto study = RunTeamStudy(SmallStudy(folder));
   ASSERT_TRUE(study.ok()) << study.status();
-  ASSERT_THAT(study->figures.tables, SizeIs(1));
-  ASSERT_THAT(study->figures.tables[0].rows, SizeIs(2));  // one robot and two
-  for (const auto& row : study->figures.tables[0].rows) {
-    EXPECT_EQ(row.size(), study->figures.tables[0].columns.size());
+  ASSERT_THAT(study->figures.tables, SizeIs(2));
+  EXPECT_THAT(study->figures.tables[0].rows, SizeIs(2));  // one robot and two
+  EXPECT_THAT(study->figures.tables[1].rows, SizeIs(1));  // two: who is in whose way
+  for (const TextTable& table : study->figures.tables) {
+    for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
   }
   EXPECT_THAT(study->table.rows, SizeIs(2));
   EXPECT_THAT(study->summary.figures, Contains(Key("given_k2_speedup_entropy80")));
-  EXPECT_THAT(study->summary.figures, Contains(Key("given_k2_contacts")));
+  for (const char* name : {"contacts", "deadlocks_unresolved", "blocked_by_robot_share",
+                           "set_aside_by_robot", "promised_share", "plan_wall_ratio"}) {
+    EXPECT_THAT(study->summary.figures, Contains(Key(std::string("given_k2_") + name)));
+  }
 }
 
 }  // namespace team_study_test

@@ -30,6 +30,12 @@ TrialRecord SomeRecord() {
   record.plans = 4;
   record.collisions = 1;
   record.team = {.legs = 9, .blocked_legs = 2, .contacts = 3, .encounters = 4, .closest_m = 0.41};
+  record.team.findings = {.blocked_by_robot = 1,
+                          .set_aside_for_robot = 2,
+                          .deadlocks = 3,
+                          .held_up = 4,
+                          .alone_nats = 5.5,
+                          .besides_nats = 4.5};
   record.completed = true;
   return record;
 }
@@ -56,6 +62,7 @@ TEST(TrialStore, GivesBackWhatItKept) {
   EXPECT_EQ(found->team.contacts, 3);
   EXPECT_EQ(found->team.encounters, 4);
   EXPECT_EQ(found->team.closest_m, 0.41);
+  EXPECT_EQ(found->team.findings, kept.team.findings);
   EXPECT_TRUE(found->completed);
   ASSERT_EQ(found->mean_ppm.size(), 1u);
   EXPECT_TRUE(std::isnan(found->mean_ppm[0][0]));

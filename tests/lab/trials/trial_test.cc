@@ -112,6 +112,23 @@ TEST(Trial, TeamsShareTheMission) {
   EXPECT_GE(team->team.legs, 2);
   EXPECT_LE(team->team.blocked_legs, team->team.legs);
   EXPECT_GT(team->team.plan_wall_s, 0.0);
+  EXPECT_EQ(alone->team.findings, TeamFindings{});
+  const TeamFindings& findings = team->team.findings;
+  EXPECT_LE(findings.blocked_by_robot, team->team.blocked_legs);
+  EXPECT_GT(findings.alone_nats, 0.0);
+  EXPECT_GT(findings.besides_nats, 0.0);
+  EXPECT_LE(findings.besides_nats, findings.alone_nats * (1.0 + 1e-3));
+}
+
+TEST(Trial, FollowersMayBeLate) {
+  const SceneWorld world(SmallScene());
+  const MissionOptions mission = MissionBy("xit_gff");
+  Trial trial = SmallTrial(mission, world);
+  const auto prompt = RunTrial(trial);
+  trial.most_late_s = 1.0;
+  const auto late = RunTrial(trial);
+  ASSERT_TRUE(prompt.ok() && late.ok());
+  EXPECT_NE(prompt->curve.back().metrics.rmse_ppm, late->curve.back().metrics.rmse_ppm);
 }
 
 }  // namespace trial_test

@@ -44,5 +44,30 @@ TEST(BenchWorld, ScansEndAtWallsOrNowhere) {
   }
 }
 
+TEST(BenchWorld, DrivesOnKeepOffWalls) {
+  const Grid<std::uint8_t> walls = MakeBuilding(kWidth, kHeight, kSeed);
+  constexpr double kStep_m = 0.3;
+  Rng rng(kSeed);
+  Pose2 pose = FreePoses(walls, 1, kSeed).front();
+  int moves = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Pose2 before = pose;
+    DriveOn(walls, kStep_m, 0.2, rng, pose);
+    EXPECT_EQ(walls.At(walls.geometry().CellAt(pose.position()), 1), 0);
+    if (pose.position() == before.position()) continue;
+    EXPECT_NEAR(Distance_m(before.position(), pose.position()), kStep_m, 1e-9);
+    ++moves;
+  }
+  EXPECT_GT(moves, 150);
+}
+
+TEST(BenchWorld, DrivesOnStayWhereThereIsNoWay) {
+  const Grid<std::uint8_t> walls(GridGeometry{0.0, 0.0, 0.1, 10, 10}, 1);
+  Rng rng(kSeed);
+  Pose2 pose{0.55, 0.55, 0.0};
+  DriveOn(walls, 0.3, 0.2, rng, pose);
+  EXPECT_EQ(pose.position(), (Point2{0.55, 0.55}));
+}
+
 }  // namespace bench_world_test
 }  // namespace plumescout::lab

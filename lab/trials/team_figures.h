@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "lab/trials/trial.h"
+#include "lab/trials/trial_study.h"
+
+namespace plumescout::lab {
+
+// What a study tells of all trials of one row of teams, beside those of another row with the same
+// buildings and seeds.
+
+// How many times sooner the row is there; geometric means.
+struct Speedup {
+  double entropy = 1.0;  // at 80 % of what the other row gains in its whole run
+  double rmse = 1.0;     // likewise
+  double map = 1.0;      // at 95 % of the map
+  double half_rmse = 1.0;
+  int censored = 0;  // runs that did not get to one of the first three; they count with their ends
+};
+Speedup SpeedupOf(const std::vector<SceneRecords>& records, std::size_t row, std::size_t other_row);
+
+// Sums over all trials of a row.
+struct Traffic {
+  TeamRecord sums;
+  double plan_wall_s = 0.0;  // mean of medians
+  int missions = 0;
+  int deadlocked_missions = 0;
+
+  double blocked_share() const;           // of legs
+  double blocked_by_robot_share() const;  // of legs
+  double encounters_per_robot_minute() const;
+  double waiting_share() const;  // of robots' time, by plan
+  // Of what chosen ways tell: promised by live plans of others already.
+  double promised_share() const;
+};
+Traffic TrafficOf(const std::vector<SceneRecords>& records, std::size_t row);
+
+}  // namespace plumescout::lab
