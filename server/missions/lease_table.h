@@ -37,7 +37,7 @@ class LeaseTable final : public Leases {
   // with LEASE_SUPERSEDED.
   absl::Status Release(const RobotId& robot, std::optional<std::int64_t> token);
   LeaseStanding Standing(const RobotId& robot) const;
-  // How long the lease is held if nobody uses it; infinite: nothing ends it by itself.
+  // As LeaseBook; infinite until its stream closes.
   absl::Duration TimeLeft(const RobotId& robot) const;
   // As LeaseBook.
   std::map<RobotId, std::int64_t> Released() const;

@@ -101,9 +101,8 @@ SteadyTime RobotNotices::next_follow(const LeaseTable& leases, SteadyTime now) c
   absl::Duration left = absl::InfiniteDuration();
   for (const auto& [key, place] : places_) {
     const auto leased = leased_.find(place.robot);
-    if (leased == leased_.end() || !leased->second) continue;
-    const bool is_held = leases.Standing(place.robot).held;
-    left = std::min(left, is_held ? leases.TimeLeft(place.robot) : absl::ZeroDuration());
+    const bool was_told = leased == leased_.end() || !leased->second;
+    if (!was_told) left = std::min(left, leases.TimeLeft(place.robot));
   }
   return After(now, left);
 }

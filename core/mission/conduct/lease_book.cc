@@ -77,7 +77,8 @@ LeaseStanding LeaseBook::Standing(const RobotId& robot, std::int64_t now_ns) con
 std::optional<std::int64_t> LeaseBook::TimeLeft_ns(const RobotId& robot,
                                                    std::int64_t now_ns) const {
   const LeaseStanding standing = Standing(robot, now_ns);
-  if (!standing.held || standing.streaming) return std::nullopt;
+  if (standing.streaming) return std::nullopt;
+  if (!standing.held) return 0;
   return leases_.at(robot).last_use_ns + hold_ns_ - now_ns;
 }
 

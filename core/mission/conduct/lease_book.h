@@ -79,8 +79,7 @@ class LeaseBook {
   // Of a robot that is not there: not held.
   LeaseStanding Standing(const RobotId& robot, std::int64_t now_ns) const;
 
-  // How long the lease is held if nobody uses it; none: it is not held, or while its stream is
-  // open.
+  // How long the lease is held if nobody uses it: 0 if it is not; none: until its stream closes.
   std::optional<std::int64_t> TimeLeft_ns(const RobotId& robot, std::int64_t now_ns) const;
 
   // ROBOT_NOT_FOUND; LEASE_SUPERSEDED unless `token` is the newest, and was not given up.

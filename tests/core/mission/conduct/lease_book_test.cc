@@ -60,7 +60,7 @@ TEST_F(LeaseBookTest, LeaseIsHeldForAWhileAfterItsLastUse) {
 }
 
 TEST_F(LeaseBookTest, TimeIsLeftUntilItRunsOutUnlessAStreamHoldsIt) {
-  EXPECT_EQ(book_.TimeLeft_ns("r1", now_ns_), std::nullopt);
+  EXPECT_EQ(book_.TimeLeft_ns("r1", now_ns_), 0);
   const std::int64_t token = Take("r1");
   EXPECT_EQ(book_.TimeLeft_ns("r1", now_ns_), kHold_ns);
   const StreamId stream = Open("r1", token);
@@ -70,7 +70,7 @@ TEST_F(LeaseBookTest, TimeIsLeftUntilItRunsOutUnlessAStreamHoldsIt) {
   now_ns_ += kHold_ns - 1;
   EXPECT_EQ(book_.TimeLeft_ns("r1", now_ns_), 1);
   now_ns_ += 1;
-  EXPECT_EQ(book_.TimeLeft_ns("r1", now_ns_), std::nullopt);
+  EXPECT_EQ(book_.TimeLeft_ns("r1", now_ns_), 0);
 }
 
 TEST_F(LeaseBookTest, LookingIsNoUse) {
