@@ -27,7 +27,6 @@
 #include "lab/report/plan_names.h"
 #include "lab/sim/episode.h"
 #include "lab/sim/scene_world.h"
-#include "lab/sim/team_starts.h"
 #include "ompl_planners/ompl_planner.h"
 
 namespace plumescout::lab {
@@ -187,8 +186,7 @@ absl::Status DriveRobots(const RobotArguments& arguments) {
                 .seed = arguments.seed,
                 .wall_s = wall_s,
                 .server_killed_s = crash.happened_s(),
-                .robots = TeamNames(arguments.robot, arguments.robots),
-                .lidar_range_m = arguments.lidar.max_range_m};
+                .look = {.lidar_range_m = arguments.lidar.max_range_m}};
   PLUMESCOUT_RETURN_IF_ERROR(WriteRunFolder(run, arguments.out));
   std::cout << arguments.out << "/report.html\n";
   return absl::OkStatus();

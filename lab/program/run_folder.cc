@@ -18,8 +18,7 @@
 #include "lab/formats/summary.h"
 #include "lab/report/number_labels.h"
 #include "lab/report/report.h"
-#include "lab/report/team_panels.h"
-#include "lab/sim/team_shares.h"
+#include "lab/trials/team_picture.h"
 
 namespace plumescout::lab {
 namespace {
@@ -104,35 +103,6 @@ CsvTable MakeMetricsTable(const TeamResult& team) {
   return table;
 }
 
-// The plans that a robot set out on, each until its leg ended or the next one came.
-std::vector<TimedWay> WaysOf(const EpisodeResult& robot) {
-  std::vector<TimedWay> ways;
-  for (const IssuedPlan& issued : robot.plans) {
-    if (!ways.empty()) ways.back().end_s = std::min(ways.back().end_s, issued.time_s);
-    if (issued.plan.trajectory.waypoints.empty()) continue;
-    ways.push_back({issued.time_s, robot.simulated_s, issued.plan.trajectory});
-    for (const EndedLeg& leg : robot.legs_ended) {
-      if (leg.plan == issued.plan.id) ways.back().end_s = leg.time_s;
-    }
-  }
-  return ways;
-}
-
-TeamPicture PictureOf(const Run& run) {
-  const std::vector<RobotShares> shares = SharesOf(run.team, run.world, run.lidar_range_m);
-  TeamPicture picture{{}, run.radius_m + run.clearance_m};
-  for (std::size_t i = 0; i < run.team.robots.size(); ++i) {
-    const EpisodeResult& robot = run.team.robots[i];
-    TeamMember member{run.robots[i],      {},           WaysOf(robot), shares[i].area,
-                      shares[i].readings, shares[i].way};
-    for (const DrivenPose& at : robot.path) {
-      member.driven.push_back({at.time_s, at.pose.position()});
-    }
-    picture.members.push_back(std::move(member));
-  }
-  return picture;
-}
-
 ReportData MakeReport(const Run& run, const Summary& summary) {
   ReportData report;
   report.title = absl::StrCat("Gas leak in ", run.world.scene().name);
@@ -154,8 +124,7 @@ ReportData MakeReport(const Run& run, const Summary& summary) {
     report.metrics.push_back(
         {sample.time_s, m.completeness, m.rmse_ppm, m.rmse_zero_ppm, m.entropy_nats});
   }
-  const bool is_team = run.team.robots.size() > 1 && run.robots.size() == run.team.robots.size();
-  if (is_team) report.team = PictureOf(run);
+  if (run.team.robots.size() > 1) report.team = MakeTeamPicture(run.team, run.world, run.look);
   report.server_killed_s = run.server_killed_s;
   report.key_numbers = LabelledNumbers(summary);
   return report;

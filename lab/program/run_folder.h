@@ -5,14 +5,12 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "absl/status/status.h"
 #include "core/types/map_snapshot.h"
-#include "core/types/options.h"
 #include "lab/sim/episode.h"
-#include "lab/sim/lidar.h"
 #include "lab/sim/scene_world.h"
+#include "lab/trials/team_picture.h"
 
 namespace plumescout::lab {
 
@@ -25,11 +23,7 @@ struct Run {
   std::uint64_t seed = 0;
   double wall_s = 0.0;
   std::optional<double> server_killed_s = {};  // of simulated time
-  // Of a team: its robots, how far they see, and how far from others they keep.
-  std::vector<RobotId> robots = {};
-  double lidar_range_m = LidarOptions().max_range_m;
-  double radius_m = SimulatedRobotOptions().seen_radius_m;
-  double clearance_m = PlanningOptions().robot_clearance_m;
+  TeamLook look = {};                          // of several robots
 };
 
 // Writes map.pgm + map.yaml, gas_mean.npy and gas_variance.npy into `folder`, which is made if it

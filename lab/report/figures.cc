@@ -115,7 +115,7 @@ std::vector<MapMark> SourceMarks(const ReportData& data) {
 std::vector<MapLine> PathLines(const ReportData& data) {
   std::vector<MapLine> lines;
   for (std::size_t i = 0; i < data.driven_paths.size(); ++i) {
-    lines.push_back({data.driven_paths[i], {kLineColors[i % kLineColors.size()], 1.8}});
+    lines.push_back({data.driven_paths[i], {kTeamColors[i % kTeamColors.size()], 1.8}});
   }
   return lines;
 }
@@ -129,7 +129,7 @@ MapPanel OccupancyPanel(const ReportData& data, const Rectangle& region) {
                  .color_bar = std::nullopt,
                  .legend = {{"occupied", MarkShape::kSwatch, kOccupiedColor},
                             {"unknown", MarkShape::kSwatch, kUnknownColor},
-                            {"driven path", MarkShape::kLine, kLineColors[0]},
+                            {"driven path", MarkShape::kLine, kTeamColors[0]},
                             {"occupancy frontier", MarkShape::kSwatch, kOccupancyFrontierColor},
                             {"gas frontier", MarkShape::kSwatch, kGasFrontierColor},
                             {"start", MarkShape::kDisc, kStartColor},

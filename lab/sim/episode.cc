@@ -85,7 +85,9 @@ struct Stage {
 class EpisodeRecorder : public client::RobotObserver {
  public:
   EpisodeRecorder(const Stage& stage, const EpisodeOptions& options, int index)
-      : stage_(stage), options_(options), index_(index) {}
+      : stage_(stage), options_(options), index_(index) {
+    result_.robot = options.robot;
+  }
 
   // The robot registers, now or again.
   void BeginAt(double time_s) { begun_s_ = time_s; }

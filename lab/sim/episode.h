@@ -95,6 +95,7 @@ struct EpisodeOptions {
 };
 
 struct EpisodeResult {
+  RobotId robot;
   std::vector<MetricSample>
       samples;  // at 0, every period, and at the end with all readings applied
   std::vector<IssuedPlan> plans;

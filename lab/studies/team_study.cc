@@ -13,10 +13,13 @@
 #include "absl/strings/str_format.h"
 #include "core/types/status_macros.h"
 #include "lab/about/about.h"
+#include "lab/formats/scene_folder.h"
 #include "lab/report/palette.h"
+#include "lab/sim/scene_world.h"
 #include "lab/trials/row_figures.h"
 #include "lab/trials/study_scenes.h"
 #include "lab/trials/team_figures.h"
+#include "lab/trials/team_picture.h"
 #include "lab/trials/trial_study.h"
 #include "lab/worlds/one_lane_layout.h"
 
@@ -262,6 +265,21 @@ void AddCostOfClearance(const SizeResult& result, Study& study) {
   }
 }
 
+// Four robots, or two if quick, in the first building, for as long as a picture can show.
+absl::Status AddPicture(const SizeResult& result, Study& study) {
+  constexpr double kPictured_s = 120.0;
+  const std::size_t row = std::min<std::size_t>(2, result.teams.size() - 1);
+  PLUMESCOUT_ASSIGN_OR_RETURN(Scene scene, ReadScene(result.plan.scenes.front()));
+  const SceneWorld world(std::move(scene));
+  Trial trial;
+  trial.mission = &result.plan.rows[row].mission;
+  trial.world = &world;
+  trial.robots = result.teams[row].robots;
+  trial.seed = result.plan.first_seed;
+  trial.duration_s = std::min(kPictured_s, result.plan.duration_s);
+  return AddTeamPicture(trial, study.figures);
+}
+
 // Teams in buildings in which they are in each other's way wherever they go: not how fast they are,
 // but whether they get stuck.
 absl::StatusOr<SizeResult> RunTight(const ExperimentOptions& options) {
@@ -350,7 +368,10 @@ absl::StatusOr<Study> RunTeamStudy(const ExperimentOptions& options) {
   };
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     PLUMESCOUT_ASSIGN_OR_RETURN(const SizeResult result, RunSize(part_of(i), sizes[i]));
-    if (study.figures.notes.empty()) study.figures.notes = MakeNotes(result.plan, given);
+    if (i == 0) {
+      study.figures.notes = MakeNotes(result.plan, given);
+      PLUMESCOUT_RETURN_IF_ERROR(AddPicture(result, study));
+    }
     study.figures.tables.push_back(SpeedTable(result));
     study.figures.tables.push_back(TrafficTable(result));
     AddCharts(result, study);

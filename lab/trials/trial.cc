@@ -195,6 +195,10 @@ absl::StatusOr<TrialRecord> RunTrial(const Trial& trial) {
   }
   record.team = MakeTeamRecord(team, options.simulated.seen_radius_m);
   record.team.findings = watch.findings();
+  if (trial.on_end) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(const MapSnapshot map, planner.GetMap(kMission));
+    trial.on_end(team, map);
+  }
   if (trial.peer) {
     PLUMESCOUT_ASSIGN_OR_RETURN(record.peer_rmse_ppm,
                                 PeerError_ppm(trial.world->scene(), *trial.peer, readings));

@@ -3,13 +3,16 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "absl/status/statusor.h"
 #include "core/types/grid.h"
+#include "core/types/map_snapshot.h"
 #include "core/types/options.h"
 #include "lab/rivals/kernel_dmv.h"
+#include "lab/sim/episode.h"
 #include "lab/sim/metrics.h"
 #include "lab/sim/scene_world.h"
 #include "lab/trials/team_watch.h"
@@ -27,6 +30,8 @@ struct Trial {
   std::vector<double> map_times_s{};  // when the gas map is kept, ascending
   // Also map the same readings by Kernel DM+V, over the whole building, and tell its error.
   std::optional<KernelDmvOptions> peer{};
+  // Told what the robots did, and the map at the end; may be empty.
+  std::function<void(const TeamResult&, const MapSnapshot&)> on_end{};
 };
 
 struct CurvePoint {

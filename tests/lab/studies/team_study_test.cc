@@ -28,6 +28,8 @@ TEST(TeamStudy, ComparesTeamsWithOneRobot) {
     for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
   }
   EXPECT_THAT(study->table.rows, SizeIs(2));
+  EXPECT_THAT(study->figures.panels, SizeIs(2));  // tubes, and ways
+  EXPECT_THAT(study->figures.bar_charts, SizeIs(1));
   EXPECT_THAT(study->summary.figures, Contains(Key("given_k2_speedup_entropy80")));
   for (const char* name : {"contacts", "deadlocks_unresolved", "blocked_by_robot_share",
                            "set_aside_by_robot", "promised_share", "plan_wall_ratio"}) {
