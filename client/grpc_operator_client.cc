@@ -22,7 +22,6 @@ namespace {
 
 constexpr int kRobotsPerPage = 1000;
 constexpr double kMostOffset_s = 9e9;  // what nanoseconds can say
-constexpr double kNanosecondsPerSecond = 1e9;
 
 absl::StatusOr<RobotLink> LinkFromProto(v1::RobotLink link) {
   switch (link) {
@@ -43,6 +42,7 @@ absl::StatusOr<RobotState> StateFromProto(const v1::Robot& proto) {
   PLUMESCOUT_ASSIGN_OR_RETURN(RobotState state, FromProto(proto.on_map(), "robot.on_map"));
   PLUMESCOUT_RETURN_IF_ERROR(
       CheckRange("robot.clock_offset_s", proto.clock_offset_s(), -kMostOffset_s, kMostOffset_s));
+  constexpr double kNanosecondsPerSecond = 1e9;
   state.clock_offset_ns = std::llround(proto.clock_offset_s() * kNanosecondsPerSecond);
   if (proto.has_frame()) {
     PLUMESCOUT_ASSIGN_OR_RETURN(state.frame, FromProto(proto.frame(), "robot.frame"));
