@@ -214,7 +214,7 @@ double SimulatedRobot::NextSpeed_mps(double duration_s) const {
 
 void SimulatedRobot::ShowBody() {
   const Companion& companion = options_.companion;
-  if (companion.company == nullptr) return;
+  if (companion.company == nullptr || !options_.has_body) return;
   companion.company->Stand(companion.robot, {pose_.position(), options_.seen_radius_m});
 }
 

@@ -34,6 +34,7 @@ struct SimulatedRobotOptions {
   // of cells 0.2 m apart, in a map that still grows, and come as near as 0.06 m to true walls.
   double body_radius_m = 0.05;
   double seen_radius_m = 0.2;  // of the body that other robots and their beams meet, [0, 5]
+  bool has_body = true;        // false: a ghost, whom others neither see nor run into
   LidarOptions lidar = {};
   GasSensorOptions gas_sensor = {};
   PoseErrorOptions pose_error = {};

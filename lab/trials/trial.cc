@@ -106,7 +106,7 @@ TeamRecord MakeTeamRecord(const TeamResult& team, double radius_m) {
     }
   }
   record.contacts = team.contacts;
-  if (robots.size() > 1) record.closest_m = team.closest_m;
+  if (std::isfinite(team.closest_m)) record.closest_m = team.closest_m;
   constexpr double kMedian = 0.5;
   record.plan_wall_s = walls_s.empty() ? 0.0 : Quantile(walls_s, kMedian);
   return record;
@@ -136,6 +136,7 @@ EpisodeOptions MakeEpisodeOptions(const Trial& trial, TrialRecord& record) {
   options.plan_budget = absl::InfiniteDuration();
   options.simulated.seed = trial.seed;
   options.simulated.pace.most_late_s = trial.most_late_s;
+  options.simulated.has_body = !trial.ghosts;
   options.prior_variance_ppm2 = OpenLatticeVariance_ppm2(trial.mission->gas);
   options.on_sample = [&trial, &record](const MetricSample& sample, const MapSnapshot& map) {
     record.curve.push_back({sample.time_s, sample.metrics});

@@ -28,6 +28,7 @@ struct Trial {
   double duration_s = 300.0;          // simulated, [XIT] section VI-B
   double most_late_s = 0.0;           // legs fall behind by up to this, see PaceOptions
   std::vector<double> map_times_s{};  // when the gas map is kept, ascending
+  bool ghosts = false;                // robots neither see each other nor run into each other
   // Also map the same readings by Kernel DM+V, over the whole building, and tell its error.
   std::optional<KernelDmvOptions> peer{};
   // Told what the robots did, and the map at the end; may be empty.
@@ -45,7 +46,7 @@ struct TeamRecord {
   int blocked_legs = 0;        // of those, for something stood in the way
   int contacts = 0;            // of two bodies
   int encounters = 0;          // of two robots nearer than their radii and kEncounterMargin_m
-  double closest_m = 0.0;      // two centres ever came; 0: there was one robot
+  double closest_m = 0.0;      // two centres ever came; 0: one robot, or ghosts
   double waiting_s = 0.0;      // that plans had robots stand before they went
   double robot_s = 0.0;        // of all robots together
   double plan_wall_s = 0.0;    // median from asking to answer; differs from run to run

@@ -62,6 +62,7 @@ class SceneStudy {
     trial.world = &world_;
     trial.robots = plan_.rows[row].robots;
     trial.most_late_s = plan_.rows[row].most_late_s;
+    trial.ghosts = plan_.rows[row].ghosts;
     trial.seed = plan_.first_seed + number;
     trial.duration_s = plan_.duration_s;
     trial.map_times_s = plan_.map_times_s;

@@ -23,6 +23,7 @@ struct StudyRow {
   bool samples_building = false;
   int robots = 1;
   double most_late_s = 0.0;  // see Trial
+  bool ghosts = false;       // likewise
 };
 
 // A strategy of the table, driving until the time is up. As the paper: goals are drawn at random

@@ -60,6 +60,20 @@ TEST(SimulatedRobotFaults, AClosedLoopTakesDriftBack) {
   EXPECT_EQ(correction->anchors.size(), 6u);
 }
 
+TEST(SimulatedRobotFaults, AGhostIsInNobodysWay) {
+  Company company(2, false);
+  SimulatedRobotOptions options;
+  options.companion = {&company, 0};
+  options.has_body = false;
+  SimulatedRobot ghost = Make(options);
+  ASSERT_TRUE(ghost.Advance(0.1).ok());
+  EXPECT_TRUE(company.Others(1).empty());
+  options.companion.robot = 1;
+  SimulatedRobot other = Make(options);
+  EXPECT_TRUE(other.PlaceAt(ghost.pose()).ok());
+  EXPECT_EQ(company.contacts(), 0);
+}
+
 TEST(SimulatedRobotFaults, ListenersAreToldOfEveryAdvance) {
   SimulatedRobot robot = Make({});
   int told = 0;

@@ -104,6 +104,12 @@ TEST(Fingerprint, TellsSettingsBuildingsSeedsAndTimesApart) {
   other = trial;
   other.map_times_s = {5.0};
   EXPECT_NE(Fingerprint(other, 1), print);
+  other = trial;
+  other.most_late_s = 1.0;
+  EXPECT_NE(Fingerprint(other, 1), print);
+  other = trial;
+  other.ghosts = true;
+  EXPECT_NE(Fingerprint(other, 1), print);
 }
 
 // Finished trials are found by it: another form would have them all driven again.

@@ -120,6 +120,19 @@ TEST(Trial, TeamsShareTheMission) {
   EXPECT_LE(findings.besides_nats, findings.alone_nats * (1.0 + 1e-3));
 }
 
+TEST(Trial, GhostsAreNotInEachOthersWay) {
+  const SceneWorld world(SmallScene());
+  MissionOptions mission = MissionBy("plumescout");
+  mission.planning.yield_to_robots = false;
+  Trial trial = SmallTrial(mission, world);
+  trial.robots = 3;
+  trial.ghosts = true;
+  const auto team = RunTrial(trial);
+  ASSERT_TRUE(team.ok()) << team.status();
+  EXPECT_EQ(team->team.contacts, 0);
+  EXPECT_EQ(team->team.findings.blocked_by_robot, 0);
+}
+
 TEST(Trial, FollowersMayBeLate) {
   const SceneWorld world(SmallScene());
   const MissionOptions mission = MissionBy("xit_gff");
