@@ -37,8 +37,8 @@ std::int64_t GasMaps::reading_sites() const {
 std::int64_t GasMaps::reading_buckets() const {
   std::size_t buckets = 0;
   for (const GasMap& field : fields_) {
-    buckets += field.readings().buckets() + field.readings().arrival_buckets() +
-               field.sensors().buckets();
+    buckets +=
+        field.readings().buckets() + field.readings().arrival_buckets() + field.sensors().buckets();
   }
   return static_cast<std::int64_t>(buckets);
 }

@@ -46,10 +46,11 @@ class MapSpeciesTest : public ServiceTest {
     ASSERT_TRUE(ingested.ok()) << ingested.status();
     ASSERT_EQ(ingested->rejections_size(), 0);
   }
-  absl::StatusOr<v1::RegisterRobotResponse> Join(const std::string& second) {
+  absl::StatusOr<v1::RegisterRobotResponse> Join(const std::string& second,
+                                                 const std::string& robot = "r1") {
     v1::RegisterRobotRequest request;
     request.set_mission(kMission);
-    request.set_robot_id("r1");
+    request.set_robot_id(robot);
     request.set_radius_m(0.2);
     request.add_gas_sensors()->set_id("pid");
     request.add_gas_sensors()->set_id("ec");
@@ -146,7 +147,7 @@ TEST_F(MapSpeciesTest, WatchersAndThePastAreServedToo) {
 
 TEST_F(MapSpeciesTest, GasesThatAreNotMappedAreRefused) {
   EXPECT_THAT(Get(MapOf("ozone")).status(), RefusesField("species[0]"));
-  EXPECT_THAT(Join("ozone").status(), RefusesField("gas_sensors[1].species"));
+  EXPECT_THAT(Join("ozone", "r2").status(), RefusesField("gas_sensors[1].species"));
   v1::WatchMapRequest watch;
   watch.set_mission(kMission);
   watch.add_species("methane");
