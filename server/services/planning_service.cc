@@ -71,7 +71,18 @@ v1::LivePlan LivePlanOf(const RobotRecord& record, const MissionId& mission) {
   proto.set_goal_kind(ToProto(record.live_goal->kind));
   *proto.mutable_goal() = ToProto(record.live_goal->position);
   proto.set_arrival_time_ns(record.live_arrival_ns);
+  if (record.live_trajectory != nullptr) {
+    *proto.mutable_trajectory() = ToProto(*record.live_trajectory);
+  }
   return proto;
+}
+
+// Those of robots that are in the mission still.
+void WriteLatest(const LatestPlans& plans, const Belief& belief, const MissionId& mission,
+                 v1::ListPlansResponse& response) {
+  for (const LatestPlans::PlanPtr& plan : plans.All()) {
+    if (belief.robots.count(plan->robot) > 0) *response.add_latest() = ToProto(*plan, mission);
+  }
 }
 
 }  // namespace
@@ -225,10 +236,13 @@ absl::Status PlanningService::ListLive(const v1::ListPlansRequest& request,
   BeliefWish wish;
   wish.fresh_posterior = false;
   return AnswerFromBelief(host, context_.query_pool, call, std::move(wish),
-                          [response, mission](const Belief& belief) {
+                          [=, with_latest = request.with_latest()](const Belief& belief) {
                             for (const auto& [robot, record] : belief.robots) {
                               if (!record.live_goal) continue;
                               *response->add_plans() = LivePlanOf(record, mission);
+                            }
+                            if (with_latest) {
+                              WriteLatest(host->latest_plans(), belief, mission, *response);
                             }
                             response->set_revision(belief.revision);
                             return absl::OkStatus();
