@@ -53,6 +53,7 @@ absl::StatusOr<CheckSubject> SubjectFromProto(const v1::CheckTrajectoryRequest& 
 
 absl::Status CheckOn(const Belief& belief, const RobotId& robot, const CheckSubject& subject,
                      v1::CheckTrajectoryResponse& response) {
+  if (belief.robots.count(robot) == 0) return RobotNotFound(robot);
   IntendedPath path;
   if (subject.plan) {
     PLUMESCOUT_ASSIGN_OR_RETURN(path, RestOfPlan(belief, robot, *subject.plan));
@@ -144,13 +145,16 @@ absl::Status PlanningService::Check(const v1::CheckTrajectoryRequest& request,
   PLUMESCOUT_RETURN_IF_ERROR(
       CheckIntRange("min_applied_sequence", request.min_applied_sequence(), 0, kMaxSequence));
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMissionOf(call->caller(), name));
-  PLUMESCOUT_RETURN_IF_ERROR(host->leases().Use(name.robot, request.lease_token()));
-  PLUMESCOUT_ASSIGN_OR_RETURN(
-      CheckSubject subject, SubjectFromProto(request, name.mission, host->options().pose_limit_m));
   BeliefWish wish{.robot = name.robot,
                   .min_applied_sequence = request.min_applied_sequence(),
-                  .lease_token = request.lease_token(),
+                  .lease_token = std::nullopt,
                   .fresh_posterior = false};
+  if (request.lease_token() != 0 || call->caller().role == Role::kRobot) {
+    PLUMESCOUT_RETURN_IF_ERROR(host->leases().Use(name.robot, request.lease_token()));
+    wish.lease_token = request.lease_token();
+  }
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      CheckSubject subject, SubjectFromProto(request, name.mission, host->options().pose_limit_m));
   return AnswerFromBelief(host, context_.query_pool, call, std::move(wish),
                           [=, subject = std::move(subject)](const Belief& belief) {
                             return CheckOn(belief, name.robot, subject, *response);
