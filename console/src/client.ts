@@ -38,6 +38,12 @@ export const planning = createClient(PlanningService, transport);
 export const snapshots = createClient(SnapshotService, transport);
 export const system = createClient(SystemService, transport);
 
+// Names a request, so that it has its effect once. crypto.randomUUID is for secure origins alone.
+export function requestId(): string {
+  return Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) =>
+    byte.toString(16).padStart(2, '0')).join('');
+}
+
 // Of calls that people wait for.
 export const PATIENCE = { timeoutMs: 15_000 };
 
@@ -50,13 +56,14 @@ export type Trouble = {
 
 // What went wrong, in words that say how to go on.
 export function troubleOf(error: unknown): Trouble {
-  const connect = ConnectError.from(error);
+  if (!(error instanceof ConnectError)) {
+    return { text: error instanceof Error ? error.message : String(error), advice: '', code: Code.Unknown,
+             reason: '' };
+  }
+  const connect = error;
   const info = connect.findDetails(ErrorInfoSchema)[0];
   const bad = connect.findDetails(BadRequestSchema)[0]?.fieldViolations[0];
-  const unreachable = info === undefined && (connect.code === Code.Unknown ||
-    connect.code === Code.Unavailable || connect.code === Code.Internal) &&
-    !(connect.cause instanceof ConnectError) && connect.cause !== undefined;
-  if (unreachable) {
+  if (connect.cause instanceof TypeError) { // of fetch: there was no answer
     return {
       text: 'The server does not answer.',
       advice: 'It may have stopped, or the link is down. The console tries again by itself.',

@@ -35,6 +35,8 @@ export type Scene = {
   asked: Place | null; // the place that was clicked on
 };
 
+// What the buttons above the map take of it, pixels.
+const TOOLS_HEIGHT = 40;
 const ROBOT_HUES = [20, 230, 150, 320, 80, 275, 190, 0];
 
 function theme(name: string): string {
@@ -110,7 +112,7 @@ export class MapView {
     const box = this.box();
     if (box === null) return;
     this.fitted = true;
-    this.view.fit(box);
+    this.view.fit(box, TOOLS_HEIGHT);
     this.draw();
   }
   forget(): void {
@@ -135,6 +137,9 @@ export class MapView {
     }
     this.draw();
   }
+  figuresChanged(): void {
+    if (this.of !== null && !this.rescale()) this.draw();
+  }
   setCells(cells: CellLayer, log = this.log): void {
     this.cells = cells;
     this.log = log;
@@ -153,9 +158,8 @@ export class MapView {
     }
     return hue;
   }
-  // Dark enough on light ground, light enough on dark ground.
   colourOf(robot: string): string {
-    return `hsl(${this.hueOf(robot)} 85% 45%)`;
+    return `hsl(${this.hueOf(robot)} 90% 55%)`;
   }
 
   // Moves the ends of the scale; false if all cells need to be painted again.
@@ -312,11 +316,11 @@ export class MapView {
     }
   }
   // A line that is seen on any ground: its colour on a rim.
-  private strokeTwice(colour: string, width: number): void {
+  private strokeTwice(colour: string, width: number, rim = 2.5): void {
     const c = this.context;
     c.lineJoin = c.lineCap = 'round';
     c.strokeStyle = theme('--map-rim');
-    c.lineWidth = width + 2.5;
+    c.lineWidth = width + rim;
     c.stroke();
     c.strokeStyle = colour;
     c.lineWidth = width;
@@ -350,11 +354,8 @@ export class MapView {
   private drawTrails(): void {
     for (const [robot, trail] of this.scene.trails) {
       this.path(trail.points.map(([xM, yM]) => ({ xM, yM })));
-      this.context.globalAlpha = 0.75;
-      this.context.lineJoin = 'round';
-      this.context.strokeStyle = this.colourOf(robot);
-      this.context.lineWidth = 1.5;
-      this.context.stroke();
+      this.context.globalAlpha = 0.9;
+      this.strokeTwice(this.colourOf(robot), 1.75, 1);
       this.context.globalAlpha = 1;
     }
   }

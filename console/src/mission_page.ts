@@ -2,7 +2,7 @@
 import { PATIENCE, missions, planning, robots as robotCalls, sentence } from './client.ts';
 import type { Trouble } from './client.ts';
 import { ChartPanel } from './chart_panel.ts';
-import { ticksOf } from './colours.ts';
+import { shareOf, ticksOf } from './colours.ts';
 import { fill, fillIfChanged, h, notice } from './dom.ts';
 import { MapView, SWITCHES } from './map_view.ts';
 import type { CellLayer, Scene, Switch } from './map_view.ts';
@@ -130,7 +130,8 @@ export class MissionPage {
     this.scene.status = status;
     if (this.past === null) {
       this.head_revision = revision;
-      this.slider.max = this.slider.value = String(revision);
+      this.slider.max = String(revision);
+      this.slider.value = String(revision);
       this.moment.textContent = `live, revision ${revision}`;
     } else {
       this.past = revision;
@@ -171,7 +172,10 @@ export class MissionPage {
   }
 
   private showPastBanner(): void {
-    if (this.past === null) return fillIfChanged(this.banner, 'live', () => []);
+    if (this.past === null) {
+      const empty = this.scene.status !== null && this.scene.raster === null;
+      return fill(this.banner, empty ? 'No map yet: no robot has sent a scan.' : null);
+    }
     fill(this.banner, this.playing ? 'What was, played' : `As it was at revision ${this.past}`,
       h('button', { onclick: () => this.goLive() }, 'Back to live'));
   }
@@ -259,6 +263,7 @@ export class MissionPage {
         this.scene.home = this.mission.options?.home;
         if (this.mission.revision > this.head_revision) this.head_revision = this.mission.revision;
         this.slider.max = String(this.head_revision);
+        if (this.past === null) this.slider.value = this.slider.max;
       }
       if (this.past === null) {
         this.scene.plans = live.plans;
@@ -277,6 +282,7 @@ export class MissionPage {
     if (!this.figuresDue || this.scene.raster === null) return;
     this.figuresDue = false;
     this.scene.figures = figuresOf(this.scene.raster, this.scene.status?.gasThresholdPpm ?? 0);
+    this.map.figuresChanged();
     this.showLegend();
   }
 
@@ -437,7 +443,11 @@ export class MissionPage {
       bar.getContext('2d')!.putImageData(image, 0, 0);
       return [
         ...(cells === 'none' ? [] : [h('div', {}, title), bar, h('div', { class: 'ticks' },
-          ...ticksOf(scale).map((value, i) => h('span', {}, (i === 0 && scale.log ? '≤ ' : '') + figure(value))))]),
+          ...ticksOf(scale).map((value) => {
+            const tick = h('span', {}, figure(value, 2));
+            tick.style.left = `${100 * shareOf(scale, value)}%`;
+            return tick;
+          }))]),
         h('div', { class: 'marks' }, h('span', { class: 'mark m-wall' }, 'wall'), h('span', { class: 'mark m-unknown' }, 'unknown'),
           h('span', { class: 'mark gas m-gas' }, 'gas frontier'), h('span', { class: 'mark m-occupancy' }, 'map frontier'))];
     });

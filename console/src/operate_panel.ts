@@ -1,5 +1,5 @@
 // What an operator does to a mission and its robots, and what leaves it as files.
-import { PATIENCE, missions, robots, sentence, snapshots } from './client.ts';
+import { PATIENCE, missions, requestId, robots, sentence, snapshots } from './client.ts';
 import { ask, fillIfChanged, h, notice, saveFile } from './dom.ts';
 import { mapYamlOf, npyOf, pgmOf } from './export.ts';
 import type { Raster } from './raster.ts';
@@ -48,7 +48,7 @@ export class OperatePanel {
     };
     const order = (home: boolean) => attempt(home ? 'All robots drive home.' : 'No robot has to go home.',
       () => robots.orderHome({ target: { case: 'mission', value: name }, home,
-                               requestId: crypto.randomUUID() }, PATIENCE));
+                               requestId: requestId() }, PATIENCE));
     return h('section', { class: 'card' }, h('h2', {}, 'Mission'), h('div', { class: 'row' },
       state === MissionState.PAUSED
         ? h('button', { class: 'primary', onclick: () => void attempt(`${id} goes on.`,
@@ -86,7 +86,7 @@ export class OperatePanel {
           h('button', { disabled: finished, 'aria-label': one.orderedHome ? `${id} goes on` : `Send ${id} home`,
             onclick: () => void attempt(one.orderedHome ? `${id} goes on.` : `${id} drives home.`,
               () => robots.orderHome({ target: { case: 'robot', value: robot }, home: !one.orderedHome,
-                                       requestId: crypto.randomUUID() }, PATIENCE)) },
+                                       requestId: requestId() }, PATIENCE)) },
             one.orderedHome ? 'Go on' : 'Home'),
           one.leased ? h('button', { 'aria-label': `Release the lease of ${id}`, onclick: () => void release(robot) }, 'Release …') : null,
           h('button', { class: 'danger', disabled: finished, 'aria-label': `Remove ${id}`,
@@ -111,7 +111,7 @@ export class OperatePanel {
       h('button', { onclick: () => npy('gas-mean', (raster) => raster.mean_ppm) }, 'Gas mean (npy)'),
       h('button', { onclick: () => npy('gas-variance', (raster) => raster.variance_ppm2) }, 'Gas variance (npy)'),
       mayOperate() ? h('button', { onclick: () => void this.exportMission() }, 'Whole mission') : null,
-      h('button', { onclick: () => void navigator.clipboard.writeText(this.link())
+      h('button', { onclick: () => void Promise.resolve(navigator.clipboard?.writeText(this.link()) ?? Promise.reject())
         .then(() => notice('The link to this moment is copied.'), () => notice(this.link())) }, 'Link to this moment')));
   }
 

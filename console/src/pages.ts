@@ -1,10 +1,10 @@
 // The pages beside that of a mission: all missions, a new one, the service.
-import { PATIENCE, missions, sentence, token, troubleOf } from './client.ts';
+import { PATIENCE, missions, requestId, sentence, token, troubleOf } from './client.ts';
 import { ask, fill, fillIfChanged, h, notice } from './dom.ts';
 import { optionsForm } from './options_form.ts';
 import { mayOperate, refreshSession, session } from './session.ts';
 import { MissionState } from './wire/plumescout/v1/mission_service_pb.ts';
-import type { Mission } from './wire/plumescout/v1/mission_service_pb.ts';
+import type { Latency, Mission } from './wire/plumescout/v1/mission_service_pb.ts';
 import { bytes, duration, figure, missionState, phase, shortName } from './words.ts';
 
 export type Page = { element: HTMLElement; leave(): void };
@@ -82,7 +82,7 @@ export function listPage(): Page {
   const body = h('div', {}, h('p', { class: 'empty' }, 'Loading missions …'));
   const element = h('main', { class: 'sheet' },
     h('div', { class: 'row' }, h('h1', {}, 'Missions'), h('span', { class: 'spring' }),
-      h('a', { href: '#/new' }, 'New mission'), h('a', { href: '#/service' }, 'Service')), body);
+      h('a', { href: '#/new' }, 'New mission')), body);
   const stop = every(1500, async () => {
     try {
       if (session.info === null) await refreshSession();
@@ -111,7 +111,7 @@ export function newPage(): Page {
     fill(failed);
     try {
       const made = await missions.createMission({
-        missionId: id.value, options: options.read(), requestId: crypto.randomUUID() }, PATIENCE);
+        missionId: id.value, options: options.read(), requestId: requestId() }, PATIENCE);
       location.hash = `#/${made.mission?.name ?? ''}`;
     } catch (error) {
       fill(failed, trouble(error));
@@ -129,6 +129,10 @@ export function newPage(): Page {
 function facts(pairs: [string, string | number][]): HTMLElement {
   return h('dl', { class: 'facts' },
     ...pairs.flatMap(([name, value]) => [h('dt', {}, name), h('dd', {}, value)]));
+}
+
+function latency(of: Latency | undefined, value_s: number | undefined): string {
+  return of === undefined || of.sampleCount === 0n ? '–' : `${figure(1000 * (value_s ?? NaN))} ms`;
 }
 
 export function servicePage(): Page {
@@ -169,8 +173,8 @@ export function servicePage(): Page {
               h('th', { class: 'n' }, 'Reading to watcher, median'), h('th', { class: 'n' }, 'of 100, 99 below'))),
             h('tbody', {}, ...list.map((one) => h('tr', {}, h('td', {}, shortName(one.name)),
               ...[one.gasTimings?.update, one.gasTimings?.staleness].flatMap((time) => [
-                h('td', { class: 'n' }, `${figure(1000 * (time?.medianS ?? NaN))} ms`),
-                h('td', { class: 'n' }, `${figure(1000 * (time?.p99S ?? NaN))} ms`)])))))));
+                h('td', { class: 'n' }, latency(time, time?.medianS)),
+                h('td', { class: 'n' }, latency(time, time?.p99S))])))))));
     } catch (error) {
       fill(body, trouble(error));
     }

@@ -19,8 +19,9 @@ export type Geometry = {
 // A rectangle of cells, `to` not included.
 export type CellRect = { fromColumn: number; fromRow: number; toColumn: number; toRow: number };
 
+// None of a map that has no cells yet.
 export function geometryOf(proto: GridGeometry | undefined): Geometry | null {
-  if (proto === undefined) return null;
+  if (proto === undefined || proto.columnCount === 0 || proto.rowCount === 0) return null;
   return {
     x_m: proto.origin?.xM ?? 0,
     y_m: proto.origin?.yM ?? 0,

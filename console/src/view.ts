@@ -34,12 +34,13 @@ export class View {
     const [nowX, nowY] = this.toPixel(x_m, y_m);
     this.pan(x - nowX, y - nowY);
   }
-  fit(box: Box, margin = 28): void {
+  // All of the box, below `top` pixels that something else covers.
+  fit(box: Box, top = 0, margin = 24): void {
     const width = Math.max(box.maxX - box.minX, 0.5), height = Math.max(box.maxY - box.minY, 0.5);
     this.scale = Math.min(MAX_SCALE, Math.max(MIN_SCALE, Math.min(
       Math.max(this.width - 2 * margin, 40) / width,
-      Math.max(this.height - 2 * margin, 40) / height)));
+      Math.max(this.height - top - 2 * margin, 40) / height)));
     this.centreX_m = (box.minX + box.maxX) / 2;
-    this.centreY_m = (box.minY + box.maxY) / 2;
+    this.centreY_m = (box.minY + box.maxY) / 2 + top / 2 / this.scale;
   }
 }

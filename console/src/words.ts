@@ -48,7 +48,8 @@ export function figure(value: number, digits = 3): string {
   if (!Number.isFinite(value)) return '–';
   if (value === 0) return '0';
   const size = Math.abs(value);
-  if (size >= 10_000 || size < 0.001) return value.toExponential(1);
+  if (size >= 1000 && size < 1e7) return String(Math.round(value));
+  if (size >= 1e7 || size < 0.001) return value.toExponential(1);
   return String(Number(value.toPrecision(digits)));
 }
 

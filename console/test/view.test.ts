@@ -28,8 +28,10 @@ test('zoom keeps the place under the pointer', () => {
 
 test('fit shows all of the box', () => {
   const v = view();
-  v.fit({ minX: -5, minY: 0, maxX: 15, maxY: 4 });
-  for (const [x, y] of [v.toPixel(-5, 0), v.toPixel(15, 4)]) {
-    assert.ok(x >= 0 && x <= 400 && y >= 0 && y <= 300);
+  for (const box of [{ minX: -5, minY: 0, maxX: 15, maxY: 4 }, { minX: 0, minY: 0, maxX: 1, maxY: 9 }]) {
+    v.fit(box, 50);
+    for (const [x, y] of [v.toPixel(box.minX, box.minY), v.toPixel(box.maxX, box.maxY)]) {
+      assert.ok(x >= 0 && x <= 400 && y >= 50 && y <= 300);
+    }
   }
 });
