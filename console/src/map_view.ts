@@ -1,8 +1,9 @@
 // The map on a canvas: cells as a picture of their own, drawn scaled, and what lies on them as lines.
-import { CHANGE, GAS, UNCERTAINTY, roundUp, shareOf } from './colours.ts';
-import type { Colours, Rgb, Scale } from './colours.ts';
-import { FREE, OCCUPIED, changeOf } from './raster.ts';
-import type { CellRect, Raster, RasterFigures } from './raster.ts';
+import { CellPicture } from './cell_picture.ts';
+import type { CellLayer, Cells } from './cell_picture.ts';
+import { roundUp } from './colours.ts';
+import type { CellRect, Raster } from './raster.ts';
+import { theme } from './theme.ts';
 import { View } from './view.ts';
 import type { Box } from './view.ts';
 import type { MapStatus } from './wire/plumescout/v1/map_service_pb.ts';
@@ -12,7 +13,6 @@ import type { Point2D } from './wire/plumescout/v1/types_pb.ts';
 import type { Polygon } from './wire/plumescout/v1/options_pb.ts';
 import { shortName } from './words.ts';
 
-export type CellLayer = 'mean' | 'uncertainty' | 'change' | 'none';
 export const SWITCHES = ['frontiers', 'ways', 'trails', 'claims', 'names', 'areas', 'why'] as const;
 export type Switch = (typeof SWITCHES)[number];
 
@@ -20,10 +20,7 @@ export type Trail = { points: [number, number][] };
 export type Place = { x_m: number; y_m: number };
 
 // Whatever lies on the map.
-export type Scene = {
-  raster: Raster | null;
-  then: Raster | null; // of the instant to compare with
-  figures: RasterFigures | null;
+export type Scene = Cells & {
   status: MapStatus | null;
   plans: LivePlan[];
   why: Plan | null; // of the robot that is looked at
@@ -39,29 +36,13 @@ export type Scene = {
 const TOOLS_HEIGHT = 40;
 const ROBOT_HUES = [20, 230, 150, 320, 80, 275, 190, 0];
 
-function theme(name: string): string {
-  return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-}
-
-function rgbOf(css: string): Rgb {
-  const hex = css.replace('#', '');
-  return [0, 2, 4].map((i) => parseInt(hex.slice(i, i + 2), 16)) as Rgb;
-}
-
 export class MapView {
   readonly view = new View();
-  cells: CellLayer = 'mean';
-  log = true;
+  readonly picture: CellPicture;
   readonly on = new Set<Switch>(SWITCHES);
   follow = false;
-  scale: Scale = { min: 0.1, max: 100, log: true };
 
   private readonly context: CanvasRenderingContext2D;
-  private readonly picture = document.createElement('canvas');
-  private image: ImageData | null = null;
-  private of: Raster | null = null;
-  private change: Float32Array | null = null;
-  private key = '';
   private scheduled = false;
   private fitted = false;
   private robotHues = new Map<string, number>();
@@ -69,6 +50,7 @@ export class MapView {
 
   constructor(private readonly canvas: HTMLCanvasElement, private readonly scene: Scene) {
     this.context = canvas.getContext('2d')!;
+    this.picture = new CellPicture(() => scene);
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.resize();
   }
@@ -115,39 +97,26 @@ export class MapView {
     this.view.fit(box, TOOLS_HEIGHT);
     this.draw();
   }
-  forget(): void {
-    this.fitted = false;
-    this.untouched = true;
-    this.of = null;
-    this.draw();
-  }
-
   // The raster, or all of it, is new.
   replaced(): void {
-    this.of = null;
+    this.picture.forget();
     if (!this.fitted || this.untouched) this.fit();
     this.draw();
   }
   cellsChanged(rects: CellRect[]): void {
-    if (this.image === null || this.of !== this.scene.raster || this.cells === 'change') {
-      this.of = null;
-    } else if (this.rescale()) {
-      for (const rect of rects) this.paint(rect);
-      if (this.untouched) this.fit();
-    }
+    this.picture.update(rects);
+    if (this.untouched) this.fit();
     this.draw();
   }
   figuresChanged(): void {
-    if (this.of !== null && !this.rescale()) this.draw();
-  }
-  setCells(cells: CellLayer, log = this.log): void {
-    this.cells = cells;
-    this.log = log;
-    this.of = null;
+    this.picture.rescaleIfNeeded();
     this.draw();
   }
-  colours(): Colours {
-    return this.cells === 'uncertainty' ? UNCERTAINTY : this.cells === 'change' ? CHANGE : GAS;
+  setCells(layer: CellLayer, log = this.picture.log): void {
+    this.picture.layer = layer;
+    this.picture.log = log;
+    this.picture.forget();
+    this.draw();
   }
 
   hueOf(robot: string): number {
@@ -160,79 +129,6 @@ export class MapView {
   }
   colourOf(robot: string): string {
     return `hsl(${this.hueOf(robot)} 90% 55%)`;
-  }
-
-  // Moves the ends of the scale; false if all cells need to be painted again.
-  private rescale(): boolean {
-    const { figures, status } = this.scene;
-    let scale: Scale;
-    if (this.cells === 'uncertainty') {
-      scale = { min: 0, max: roundUp(figures?.max_stddev_ppm ?? 1), log: false };
-    } else if (this.cells === 'change') {
-      let max = 0;
-      for (const value of this.change ?? []) if (Math.abs(value) > max) max = Math.abs(value);
-      scale = { min: -roundUp(max), max: roundUp(max), log: false };
-    } else {
-      const max = roundUp(Math.max(figures?.max_ppm ?? 1, status?.gasThresholdPpm ?? 0, 0.1));
-      scale = { min: this.log ? max / 1000 : 0, max, log: this.log };
-    }
-    const key = JSON.stringify([scale, this.cells, document.documentElement.dataset.theme]);
-    const same = key === this.key;
-    this.scale = scale;
-    this.key = key;
-    if (!same) this.of = null;
-    return same;
-  }
-
-  private repaint(): void {
-    const { raster, then } = this.scene;
-    if (raster === null) return;
-    const { columns, rows } = raster.geometry;
-    this.change = this.cells === 'change' && then !== null ? changeOf(raster, then) : null;
-    this.rescale();
-    if (this.image === null || this.image.width !== columns || this.image.height !== rows) {
-      this.picture.width = columns;
-      this.picture.height = rows;
-      this.image = new ImageData(columns, rows);
-    }
-    this.of = raster;
-    this.paint({ fromColumn: 0, fromRow: 0, toColumn: columns, toRow: rows });
-  }
-
-  private values(): Float32Array | null {
-    const { raster } = this.scene;
-    if (raster === null || this.cells === 'none') return null;
-    if (this.cells === 'change') return this.change;
-    return this.cells === 'mean' ? raster.mean_ppm : raster.variance_ppm2;
-  }
-
-  // Colours of one rectangle of cells.
-  private paint(rect: CellRect): void {
-    const raster = this.scene.raster!;
-    const { columns, rows } = raster.geometry;
-    const data = new Uint32Array(this.image!.data.buffer);
-    const pack = ([r, g, b]: Rgb, a = 255) => ((a << 24) | (b << 16) | (g << 8) | r) >>> 0;
-    const free = pack(rgbOf(theme('--map-free')));
-    const wall = pack(rgbOf(theme('--map-wall')));
-    const lookup = this.colours().map((colour) => pack(colour));
-    const values = this.values();
-    const root = this.cells === 'uncertainty';
-    for (let row = rect.fromRow; row < rect.toRow; ++row) {
-      const to = (rows - 1 - row) * columns;
-      for (let column = rect.fromColumn; column < rect.toColumn; ++column) {
-        const i = row * columns + column;
-        const state = raster.occupancy[i];
-        let colour = state === OCCUPIED ? wall : state === FREE ? free : 0;
-        if (state === FREE && values !== null) {
-          const value = root ? Math.sqrt(values[i]) : values[i];
-          if (value === value) colour = lookup[(shareOf(this.scale, value) * 255) | 0];
-        }
-        data[to + column] = colour;
-      }
-    }
-    const width = rect.toColumn - rect.fromColumn, height = rect.toRow - rect.fromRow;
-    this.picture.getContext('2d')!.putImageData(this.image!, 0, 0, rect.fromColumn,
-                                                rows - rect.toRow, width, height);
   }
 
   draw(): void {
@@ -253,7 +149,7 @@ export class MapView {
     c.fillStyle = theme('--map-unknown');
     c.fillRect(0, 0, view.width, view.height);
     if (scene.raster === null) return;
-    if (this.of !== scene.raster) this.repaint();
+    this.picture.prepare();
     if (this.follow) this.centreOnRobot();
     this.drawGrid();
     this.drawCells(scene.raster);
@@ -302,7 +198,7 @@ export class MapView {
     const [x, y] = this.view.toPixel(x_m, y_m + rows * resolution_m);
     const size = this.view.scale * resolution_m;
     this.context.imageSmoothingEnabled = size < 1;
-    this.context.drawImage(this.picture, x, y, columns * size, rows * size);
+    this.context.drawImage(this.picture.canvas, x, y, columns * size, rows * size);
   }
 
   private path(points: Iterable<{ xM: number; yM: number }>): void {

@@ -1,11 +1,12 @@
 // One mission: the map, and beside it robots, reasons, figures and what can be done.
 import { PATIENCE, missions, planning, robots as robotCalls, sentence } from './client.ts';
 import type { Trouble } from './client.ts';
+import type { CellLayer } from './cell_picture.ts';
 import { ChartPanel } from './chart_panel.ts';
 import { shareOf, ticksOf } from './colours.ts';
 import { fill, fillIfChanged, h, notice } from './dom.ts';
 import { MapView, SWITCHES } from './map_view.ts';
-import type { CellLayer, Scene, Switch } from './map_view.ts';
+import type { Scene, Switch } from './map_view.ts';
 import { OperatePanel } from './operate_panel.ts';
 import { every, stateClass } from './pages.ts';
 import { FREE, OCCUPIED, figuresOf } from './raster.ts';
@@ -33,7 +34,7 @@ export class MissionPage {
   readonly element: HTMLElement;
   readonly head: HTMLElement[];
   private readonly scene: Scene = {
-    raster: null, then: null, figures: null, status: null, plans: [], why: null, candidate: -1,
+    raster: null, then: null, figures: null, threshold_ppm: 0, status: null, plans: [], why: null, candidate: -1,
     trails: new Map(), keepOut: [], home: undefined, robot: '', asked: null };
   private readonly canvas = h('canvas', { tabindex: 0, role: 'img',
     'aria-label': 'Map of the mission. Drag or use the arrow keys to pan, + and − to zoom.' });
@@ -128,6 +129,7 @@ export class MissionPage {
 
   private onStatus(status: MapStatus, revision: bigint): void {
     this.scene.status = status;
+    this.scene.threshold_ppm = status.gasThresholdPpm;
     if (this.past === null) {
       this.head_revision = revision;
       this.slider.max = String(revision);
@@ -381,7 +383,7 @@ export class MissionPage {
 
   // --- The map.
 
-  private setCells(cells: CellLayer, log = this.map.log): void {
+  private setCells(cells: CellLayer, log = this.map.picture.log): void {
     if (cells === 'change' && this.scene.then === null) {
       notice('Pin a moment first: “Pin to compare” below the map.', 'bad');
       return;
@@ -395,10 +397,10 @@ export class MissionPage {
     const { map } = this;
     const open = this.tools.querySelector('details')?.open ?? false;
     fill(this.tools,
-      ...LAYERS.map(([cells, name]) => h('button', { 'aria-pressed': String(map.cells === cells),
+      ...LAYERS.map(([cells, name]) => h('button', { 'aria-pressed': String(map.picture.layer === cells),
         onclick: () => this.setCells(cells) }, name)),
-      h('button', { 'aria-pressed': String(map.log), disabled: map.cells !== 'mean',
-        onclick: () => this.setCells('mean', !map.log) }, 'Log'),
+      h('button', { 'aria-pressed': String(map.picture.log), disabled: map.picture.layer !== 'mean',
+        onclick: () => this.setCells('mean', !map.picture.log) }, 'Log'),
       h('details', { open }, h('summary', {}, 'Layers'), h('div', {}, ...SWITCHES.map((one) => {
         const box = h('input', { type: 'checkbox', checked: map.on.has(one), onchange: () => {
           if (box.checked) map.on.add(one);
@@ -432,14 +434,14 @@ export class MissionPage {
   }
 
   private showLegend(): void {
-    const { cells, scale } = this.map;
+    const { layer: cells, scale } = this.map.picture;
     const title = cells === 'uncertainty' ? 'Uncertainty, one σ, ppm' : cells === 'change'
       ? `Change of the gas mean since revision ${this.then_revision}, ppm`
-      : `Gas mean, ppm${this.map.log ? ' (logarithmic)' : ''}`;
+      : `Gas mean, ppm${this.map.picture.log ? ' (logarithmic)' : ''}`;
     fillIfChanged(this.legend, JSON.stringify([title, scale, cells]), () => {
       const bar = h('canvas', { width: 256, height: 1, role: 'img', 'aria-label': `${title}: ${scale.min} to ${scale.max}` });
       const image = new ImageData(256, 1);
-      this.map.colours().forEach((colour, i) => image.data.set([...colour, 255], 4 * i));
+      this.map.picture.colours().forEach((colour, i) => image.data.set([...colour, 255], 4 * i));
       bar.getContext('2d')!.putImageData(image, 0, 0);
       return [
         ...(cells === 'none' ? [] : [h('div', {}, title), bar, h('div', { class: 'ticks' },
@@ -525,7 +527,7 @@ export class MissionPage {
       this.setPlaying(false);
       this.togglePlay();
     });
-    const themed = () => this.map.setCells(this.map.cells);
+    const themed = () => this.map.setCells(this.map.picture.layer);
     window.addEventListener('themechange', themed);
     this.stops.push(() => window.removeEventListener('themechange', themed));
   }
@@ -561,7 +563,7 @@ export class MissionPage {
     if (key === ' ' && target.closest('button, summary, a') !== null) return false;
     const actions: Record<string, () => void> = {
       f: () => this.fit(), '+': () => this.zoom(1.4), '=': () => this.zoom(1.4), '-': () => this.zoom(1 / 1.4),
-      c: () => this.toggleFollow(), g: () => this.setCells('mean', !this.map.log), l: () => this.goLive(),
+      c: () => this.toggleFollow(), g: () => this.setCells('mean', !this.map.picture.log), l: () => this.goLive(),
       ' ': () => this.togglePlay(),
       1: () => this.setCells('mean'), 2: () => this.setCells('uncertainty'), 3: () => this.setCells('change'),
       4: () => this.setCells('none') };
