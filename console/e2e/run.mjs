@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
 // Clicks through the whole console, in Debian's Chromium, against a server with simulated robots.
 //
 //   node e2e/run.mjs [--out DIR] [--scene DIR]
@@ -130,6 +132,10 @@ async function liveMap(origin) {
     await until('a newer revision', async () => await revision() > before);
     await see('streaming');
     await see('robot-2');
+    await until('a picture', async () => await map().evaluate((canvas) => {
+      const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+      return new Set(new Uint32Array(data.buffer)).size > 20;
+    }));
   });
   await step('cells tell what they hold', async () => {
     const box = await map().boundingBox();

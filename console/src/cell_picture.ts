@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
 // The cells of a map as a picture, a pixel each, north up; repainted where they change.
 import { CHANGE, GAS, UNCERTAINTY, roundUp, shareOf } from './colours.ts';
 import type { Colours, Rgb, Scale } from './colours.ts';

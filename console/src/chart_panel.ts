@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
 // Figures of a mission since the page was opened.
 import { Series, drawChart } from './charts.ts';
 import type { Line } from './charts.ts';

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
 // Small lines over time.
 import { figure } from './words.ts';
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
 // Maps of values to colours that can be told apart with any colour vision: lightness rises evenly in
 // Oklab, and hue only helps. https://bottosson.github.io/posts/oklab/
 

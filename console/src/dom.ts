@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
 // Elements by a call each: h('button', {class: 'danger', onclick: f}, 'Delete').
 
 type Child = Node | string | number | null | undefined | false;

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
 // Maps as files that other programs read.
 import { FREE, OCCUPIED } from './raster.ts';
 import type { Raster } from './raster.ts';

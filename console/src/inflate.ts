@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
 // RFC 1950 and 1951. Tiles are small and many, and the browser's own inflater answers each in a turn
 // of its own: this one answers at once.
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
 import { h, fill } from './dom.ts';
 import { MissionPage } from './mission_page.ts';
 import { listPage, newPage, servicePage } from './pages.ts';

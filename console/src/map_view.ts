@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
 // The map on a canvas: cells as a picture of their own, drawn scaled, and what lies on them as lines.
 import { CellPicture } from './cell_picture.ts';
 import type { CellLayer, Cells } from './cell_picture.ts';

@@ -1,51 +1,41 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
 // One mission: the map, and beside it robots, reasons, figures and what can be done.
 import { PATIENCE, missions, planning, robots as robotCalls, sentence } from './client.ts';
 import type { Trouble } from './client.ts';
-import type { CellLayer } from './cell_picture.ts';
 import { ChartPanel } from './chart_panel.ts';
-import { shareOf, ticksOf } from './colours.ts';
-import { fill, fillIfChanged, h, notice } from './dom.ts';
-import { MapView, SWITCHES } from './map_view.ts';
-import type { Scene, Switch } from './map_view.ts';
+import { fill, h, notice } from './dom.ts';
+import { MapPanel } from './map_panel.ts';
+import type { Place, Scene } from './map_view.ts';
 import { OperatePanel } from './operate_panel.ts';
 import { every, stateClass } from './pages.ts';
-import { FREE, OCCUPIED, figuresOf } from './raster.ts';
+import { figuresOf } from './raster.ts';
 import type { CellRect } from './raster.ts';
+import { RobotsPanel } from './robots_panel.ts';
 import { refreshSession, session } from './session.ts';
 import { Watch, fetchMap } from './watch.ts';
 import type { LinkState } from './watch.ts';
 import type { MapStatus } from './wire/plumescout/v1/map_service_pb.ts';
 import type { Mission } from './wire/plumescout/v1/mission_service_pb.ts';
 import type { Robot } from './wire/plumescout/v1/robot_service_pb.ts';
-import { duration, figure, link, missionState, phase, shortName } from './words.ts';
+import { figure, missionState, phase } from './words.ts';
 import { WhyPanel } from './why_panel.ts';
 
 const MAX_TRAIL_POINTS = 4000;
 const TRAIL_STEP_M = 0.05;
 const TABS = ['Robots', 'Why', 'Charts', 'Operate'] as const;
 type Tab = (typeof TABS)[number];
-const LAYERS: [CellLayer, string][] = [['mean', 'Gas'], ['uncertainty', 'Uncertainty'],
-  ['change', 'Change'], ['none', 'Walls']];
-const SWITCH_NAMES: Record<Switch, string> = {
-  frontiers: 'frontiers', ways: 'ways of robots', trails: 'trails', claims: 'claimed goals', names: 'names',
-  areas: 'keep-out and home', why: 'candidates of the plan' };
-
 export class MissionPage {
   readonly element: HTMLElement;
   readonly head: HTMLElement[];
   private readonly scene: Scene = {
     raster: null, then: null, figures: null, threshold_ppm: 0, status: null, plans: [], why: null, candidate: -1,
     trails: new Map(), keepOut: [], home: undefined, robot: '', asked: null };
-  private readonly canvas = h('canvas', { tabindex: 0, role: 'img',
-    'aria-label': 'Map of the mission. Drag or use the arrow keys to pan, + and − to zoom.' });
-  private readonly map: MapView;
+  private readonly panel: MapPanel;
+  private readonly robotsPanel: RobotsPanel;
   private readonly why: WhyPanel;
   private readonly charts: ChartPanel;
   private readonly operate: OperatePanel;
-  private readonly robotTab = h('div', {}, h('p', { class: 'empty' }, 'Loading …'));
-  private readonly legend = h('div', { class: 'legend' });
-  private readonly readout = h('div', { class: 'readout' });
-  private readonly banner = h('div', { class: 'banner', role: 'status' });
   private readonly statePill = h('span', { class: 'pill' }, '…');
   private readonly linkPill = h('span', { class: 'pill', role: 'status' }, 'connecting');
   private readonly slider = h('input', { type: 'range', min: 0, max: 1, value: 1, 'aria-label': 'Revision to look at' });
@@ -54,7 +44,6 @@ export class MissionPage {
     ...[1, 5, 10, 30, 60].map((times) => h('option', { value: times, selected: times === 10 }, `${times}×`)));
   private readonly playButton = h('button', { onclick: () => this.togglePlay() }, '▶ Play');
   private readonly pinButton = h('button', { onclick: () => this.pin() }, 'Pin to compare');
-  private readonly tools = h('div', { class: 'tools', role: 'toolbar', 'aria-label': 'Map' });
   private readonly tabBar = h('div', { class: 'tabs', role: 'tablist' });
   private readonly tabBox = h('div', { class: 'tab', role: 'tabpanel' });
 
@@ -63,7 +52,6 @@ export class MissionPage {
   private playing = false;
   private fetching: AbortController | null = null;
   private head_revision = 0n;
-  private then_revision = -1n;
   private tab: Tab = 'Robots';
   private mission: Mission | null = null;
   private robots: Robot[] = [];
@@ -72,23 +60,23 @@ export class MissionPage {
 
   constructor(private readonly name: string, revision: bigint | null) {
     this.head = [this.statePill, this.linkPill];
+    this.panel = new MapPanel(this.scene, (robot) => this.choose(robot), (place) => this.ask(place));
+    const colourOf = (robot: string) => this.panel.map.colourOf(robot);
+    this.robotsPanel = new RobotsPanel((robot) => this.choose(robot), colourOf);
+    this.charts = new ChartPanel(colourOf);
     this.element = h('main', { class: 'mission' },
-      h('section', { class: 'stage', 'aria-label': 'Map' }, this.canvas, this.tools, this.banner, this.readout, this.legend),
+      this.panel.element,
       h('aside', { class: 'side', 'aria-label': 'Details' }, this.tabBar, this.tabBox),
       h('footer', { class: 'time', 'aria-label': 'Time' }, this.playButton, this.speed, this.slider, this.moment,
         this.pinButton, h('button', { onclick: () => this.goLive() }, 'Live')));
-    this.map = new MapView(this.canvas, this.scene);
     this.why = new WhyPanel((candidate) => {
       this.scene.candidate = candidate;
-      this.map.draw();
+      this.panel.map.draw();
     });
-    this.charts = new ChartPanel((robot) => this.map.colourOf(robot));
     this.operate = new OperatePanel(name, () => this.scene.raster, () => this.link());
     this.listen();
-    this.showTools();
     this.showTab('Robots');
-    this.showLegend();
-    fill(this.banner, 'Waiting for the map …');
+    fill(this.panel.banner, 'Waiting for the map …');
     if (revision === null || revision === 0n) this.goLive();
     else void this.goTo(revision);
     this.stops.push(every(1000, () => this.poll()));
@@ -113,8 +101,8 @@ export class MissionPage {
         this.scene.raster = raster;
         this.figuresDue = true;
         this.refreshFigures();
-        this.map.replaced();
-        this.showLegend();
+        this.panel.map.replaced();
+        this.panel.showLegend();
       },
       changed: (rects) => this.changed(rects),
       status: (status, revision) => this.onStatus(status, revision),
@@ -124,7 +112,7 @@ export class MissionPage {
 
   private changed(rects: CellRect[]): void {
     this.figuresDue = true;
-    this.map.cellsChanged(rects);
+    this.panel.map.cellsChanged(rects);
   }
 
   private onStatus(status: MapStatus, revision: bigint): void {
@@ -142,7 +130,7 @@ export class MissionPage {
     }
     for (const robot of status.robots) this.extendTrail(robot.robot, robot.pose?.xM, robot.pose?.yM);
     if (this.scene.robot === '' && status.robots.length > 0) this.choose(status.robots[0].robot);
-    this.map.draw();
+    this.panel.map.draw();
   }
 
   private extendTrail(robot: string, x_m: number | undefined, y_m: number | undefined): void {
@@ -167,7 +155,7 @@ export class MissionPage {
     [this.linkPill.textContent, this.linkPill.className] = words[state];
     if (state === 'live') return this.showPastBanner();
     if (state === 'waiting' || state === 'ended') {
-      fill(this.banner, trouble === null ? 'The stream has ended.' : `${trouble.text} ${trouble.advice}`,
+      fill(this.panel.banner, trouble === null ? 'The stream has ended.' : `${trouble.text} ${trouble.advice}`,
         state === 'waiting' ? h('button', { onclick: () => this.watch?.retry() }, 'Try now')
           : h('a', { href: '#/' }, 'All missions'));
     }
@@ -176,9 +164,9 @@ export class MissionPage {
   private showPastBanner(): void {
     if (this.past === null) {
       const empty = this.scene.status !== null && this.scene.raster === null;
-      return fill(this.banner, empty ? 'No map yet: no robot has sent a scan.' : null);
+      return fill(this.panel.banner, empty ? 'No map yet: no robot has sent a scan.' : null);
     }
-    fill(this.banner, this.playing ? 'What was, played' : `As it was at revision ${this.past}`,
+    fill(this.panel.banner, this.playing ? 'What was, played' : `As it was at revision ${this.past}`,
       h('button', { onclick: () => this.goLive() }, 'Back to live'));
   }
 
@@ -203,7 +191,7 @@ export class MissionPage {
     this.scene.why = null;
     this.scene.trails.clear();
     [this.linkPill.textContent, this.linkPill.className] = ['looking back', 'pill warn'];
-    fill(this.banner, `Making the map of revision ${revision} …`);
+    fill(this.panel.banner, `Making the map of revision ${revision} …`);
     try {
       const { raster, status } = await fetchMap(this.name, revision, mine.signal);
       if (mine.signal.aborted) return;
@@ -211,13 +199,13 @@ export class MissionPage {
       this.onStatus(status, revision);
       this.figuresDue = true;
       this.refreshFigures();
-      this.map.replaced();
-      this.showLegend();
+      this.panel.map.replaced();
+      this.panel.showLegend();
       this.showPastBanner();
       history.replaceState(null, '', `#/${this.name}@${revision}`);
     } catch (error) {
       if (mine.signal.aborted) return;
-      fill(this.banner, sentence(error), h('button', { onclick: () => this.goLive() }, 'Back to live'));
+      fill(this.panel.banner, sentence(error), h('button', { onclick: () => this.goLive() }, 'Back to live'));
     }
   }
 
@@ -241,9 +229,9 @@ export class MissionPage {
   private pin(): void {
     if (this.scene.raster === null) return;
     this.scene.then = this.scene.raster.copy();
-    this.then_revision = this.past ?? this.head_revision;
-    notice(`Revision ${this.then_revision} is pinned: “Change” shows what the gas mean did since.`);
-    this.setCells('change');
+    this.panel.thenRevision = this.past ?? this.head_revision;
+    notice(`Revision ${this.panel.thenRevision} is pinned: “Change” shows what the gas mean did since.`);
+    this.panel.setCells('change');
   }
 
   // --- What is polled.
@@ -277,15 +265,15 @@ export class MissionPage {
       return; // the stream's banner says what is the matter
     }
     this.showSide();
-    this.map.draw();
+    this.panel.map.draw();
   }
 
   private refreshFigures(): void {
     if (!this.figuresDue || this.scene.raster === null) return;
     this.figuresDue = false;
     this.scene.figures = figuresOf(this.scene.raster, this.scene.status?.gasThresholdPpm ?? 0);
-    this.map.figuresChanged();
-    this.showLegend();
+    this.panel.map.figuresChanged();
+    this.panel.showLegend();
   }
 
   private sample(cpu: [string, number][]): void {
@@ -309,13 +297,13 @@ export class MissionPage {
     this.tab = tab;
     fill(this.tabBar, ...TABS.map((one) => h('button', { role: 'tab', 'aria-selected': String(one === tab),
       onclick: () => this.showTab(one) }, one)));
-    fill(this.tabBox, { Robots: this.robotTab, Why: this.why.element, Charts: this.charts.element,
+    fill(this.tabBox, { Robots: this.robotsPanel.element, Why: this.why.element, Charts: this.charts.element,
                         Operate: this.operate.element }[tab]);
     this.showSide();
   }
 
   private showSide(): void {
-    if (this.tab === 'Robots') this.showRobots();
+    if (this.tab === 'Robots') this.robotsPanel.show(this.mission, this.robots, this.scene);
     if (this.tab === 'Why') this.why.show(this.scene.robot, this.scene.why);
     if (this.tab === 'Charts') this.charts.draw();
     if (this.tab === 'Operate') this.operate.show(this.mission, this.robots);
@@ -328,195 +316,10 @@ export class MissionPage {
     this.why.clear();
     this.scene.asked = null;
     this.showSide();
-    this.map.draw();
-  }
-
-  private showRobots(): void {
-    if (this.mission === null) return;
-    if (this.robots.length === 0) {
-      return fill(this.robotTab, h('p', { class: 'empty' }, 'No robot has registered yet. ',
-        'A robot joins with RegisterRobot: see docs/robots.md.'));
-    }
-    fill(this.robotTab, ...this.robots.map((robot) => {
-      const name = robot.onMap?.robot ?? '';
-      const facts: [string, string][] = [
-        ['link', link(robot.link)], ['last heard', robot.lastHeardAgeS === undefined ? 'never' : `${duration(robot.lastHeardAgeS)} ago`],
-        ['log applied', String(robot.onMap?.appliedSequence ?? 0)]];
-      if ((robot.onMap?.rejectedObservationCount ?? 0n) > 0n) facts.push(['refused', String(robot.onMap?.rejectedObservationCount)]);
-      if (robot.ingestLagS !== undefined) facts.push(['newest sample', `${duration(robot.ingestLagS)} old`]);
-      if (robot.batteryShare !== undefined) facts.push(['battery', `${figure(100 * robot.batteryShare)} %`]);
-      if (robot.livePlan !== '') {
-        facts.push(['plan', shortName(robot.livePlan)], ['on its way', `${figure(robot.progressS)} s, late by ${figure(Math.max(0, robot.latenessS))} s`]);
-      } else {
-        facts.push(['plan', 'none']);
-      }
-      return h('div', { class: name === this.scene.robot ? 'robot chosen' : 'robot' },
-        h('div', { class: 'row' }, this.swatch(name),
-          h('strong', { class: 'spring' }, shortName(name)),
-          robot.orderedHome ? h('span', { class: 'pill warn' }, 'sent home') : null,
-          robot.onMap?.frameSuspect ? h('span', { class: 'pill bad' }, 'lost') : null,
-          robot.onMap?.silent ? h('span', { class: 'pill bad' }, 'silent') : null,
-          h('button', { 'aria-pressed': String(name === this.scene.robot), 'aria-label': `Look at ${shortName(name)}`,
-                        onclick: () => this.choose(name) }, name === this.scene.robot ? 'looked at' : 'look at')),
-        h('dl', { class: 'facts' }, ...facts.flatMap(([key, value]) => [h('dt', {}, key), h('dd', {}, value)])));
-    }), this.missionFacts());
-  }
-
-  private swatch(robot: string): HTMLElement {
-    const swatch = h('span', { class: 'swatch' });
-    swatch.style.background = this.map.colourOf(robot);
-    return swatch;
-  }
-
-  private missionFacts(): HTMLElement {
-    const { figures, status } = this.scene;
-    const frontiers = status?.frontiers.filter((one) => !one.tooSmall).length ?? 0;
-    const pairs: [string, string][] = [
-      ['known', `${figure(figures?.known_m2 ?? NaN)} m²`], ['free', `${figure(figures?.free_m2 ?? NaN)} m²`],
-      ['largest gas mean', `${figure(figures?.max_ppm ?? NaN)} ppm`],
-      ['plume', `${figure(figures?.plume_m2 ?? NaN)} m² above ${figure(status?.gasThresholdPpm ?? NaN)} ppm`],
-      ['readings', `${status?.gasCounters?.inPosteriorCount ?? 0n} of ${status?.gasCounters?.readingCount ?? 0n} in the posterior`],
-      ['frontiers', String(frontiers)], ['strategy', this.mission?.options?.planning?.strategy ?? '–']];
-    return h('section', {}, h('h3', {}, 'Mission'), h('dl', { class: 'facts' },
-      ...pairs.flatMap(([key, value]) => [h('dt', {}, key), h('dd', {}, value)])));
-  }
-
-  // --- The map.
-
-  private setCells(cells: CellLayer, log = this.map.picture.log): void {
-    if (cells === 'change' && this.scene.then === null) {
-      notice('Pin a moment first: “Pin to compare” below the map.', 'bad');
-      return;
-    }
-    this.map.setCells(cells, log);
-    this.showTools();
-    this.showLegend();
-  }
-
-  private showTools(): void {
-    const { map } = this;
-    const open = this.tools.querySelector('details')?.open ?? false;
-    fill(this.tools,
-      ...LAYERS.map(([cells, name]) => h('button', { 'aria-pressed': String(map.picture.layer === cells),
-        onclick: () => this.setCells(cells) }, name)),
-      h('button', { 'aria-pressed': String(map.picture.log), disabled: map.picture.layer !== 'mean',
-        onclick: () => this.setCells('mean', !map.picture.log) }, 'Log'),
-      h('details', { open }, h('summary', {}, 'Layers'), h('div', {}, ...SWITCHES.map((one) => {
-        const box = h('input', { type: 'checkbox', checked: map.on.has(one), onchange: () => {
-          if (box.checked) map.on.add(one);
-          else map.on.delete(one);
-          map.draw();
-        } });
-        return h('label', {}, box, ` ${SWITCH_NAMES[one]}`);
-      }))),
-      h('button', { onclick: () => this.fit() }, 'Fit'),
-      h('button', { 'aria-label': 'Zoom in', onclick: () => this.zoom(1.4) }, '+'),
-      h('button', { 'aria-label': 'Zoom out', onclick: () => this.zoom(1 / 1.4) }, '−'),
-      h('button', { 'aria-pressed': String(map.follow), onclick: () => this.toggleFollow() }, 'Follow'));
-  }
-
-  private fit(): void {
-    this.map.follow = false;
-    this.map.untouched = true;
-    this.map.fit();
-    this.showTools();
-  }
-  private zoom(factor: number, x?: number, y?: number): void {
-    this.map.untouched = false;
-    this.map.view.zoom(factor, x, y);
-    this.map.draw();
-  }
-  private toggleFollow(): void {
-    this.map.follow = !this.map.follow;
-    this.map.untouched = false;
-    this.showTools();
-    this.map.draw();
-  }
-
-  private showLegend(): void {
-    const { layer: cells, scale } = this.map.picture;
-    const title = cells === 'uncertainty' ? 'Uncertainty, one σ, ppm' : cells === 'change'
-      ? `Change of the gas mean since revision ${this.then_revision}, ppm`
-      : `Gas mean, ppm${this.map.picture.log ? ' (logarithmic)' : ''}`;
-    fillIfChanged(this.legend, JSON.stringify([title, scale, cells]), () => {
-      const bar = h('canvas', { width: 256, height: 1, role: 'img', 'aria-label': `${title}: ${scale.min} to ${scale.max}` });
-      const image = new ImageData(256, 1);
-      this.map.picture.colours().forEach((colour, i) => image.data.set([...colour, 255], 4 * i));
-      bar.getContext('2d')!.putImageData(image, 0, 0);
-      return [
-        ...(cells === 'none' ? [] : [h('div', {}, title), bar, h('div', { class: 'ticks' },
-          ...ticksOf(scale).map((value) => {
-            const tick = h('span', {}, figure(value, 2));
-            tick.style.left = `${100 * shareOf(scale, value)}%`;
-            return tick;
-          }))]),
-        h('div', { class: 'marks' }, h('span', { class: 'mark m-wall' }, 'wall'), h('span', { class: 'mark m-unknown' }, 'unknown'),
-          h('span', { class: 'mark gas m-gas' }, 'gas frontier'), h('span', { class: 'mark m-occupancy' }, 'map frontier'))];
-    });
-  }
-
-  private hover(x: number, y: number): void {
-    const { raster } = this.scene;
-    const [x_m, y_m] = this.map.view.toPlace(x, y);
-    const cell = raster?.cellAt(x_m, y_m) ?? -1;
-    const parts = [`${x_m.toFixed(2)}, ${y_m.toFixed(2)} m`];
-    if (raster === null || cell < 0) {
-      parts.push('off the map');
-    } else {
-      const state = raster.occupancy[cell];
-      parts.push(state === OCCUPIED ? 'occupied' : state === FREE ? 'free' : 'unknown');
-      if (!Number.isNaN(raster.mean_ppm[cell])) {
-        parts.push(`${figure(raster.mean_ppm[cell])} ± ${figure(Math.sqrt(raster.variance_ppm2[cell]))} ppm`);
-      }
-    }
-    this.readout.textContent = parts.join('  ·  ');
+    this.panel.map.draw();
   }
 
   private listen(): void {
-    const { canvas } = this;
-    const pointers = new Map<number, [number, number]>();
-    let moved = 0;
-    const place = (event: { clientX: number; clientY: number }): [number, number] => {
-      const box = canvas.getBoundingClientRect();
-      return [event.clientX - box.left, event.clientY - box.top];
-    };
-    canvas.addEventListener('pointerdown', (event) => {
-      canvas.setPointerCapture(event.pointerId);
-      pointers.set(event.pointerId, place(event));
-      moved = 0;
-    });
-    canvas.addEventListener('pointermove', (event) => {
-      const now = place(event);
-      this.hover(...now);
-      const before = pointers.get(event.pointerId);
-      if (before === undefined) return;
-      const other = [...pointers].find(([id]) => id !== event.pointerId)?.[1];
-      const [dx, dy] = [now[0] - before[0], now[1] - before[1]];
-      moved += Math.hypot(dx, dy);
-      if (moved > 4) {
-        this.map.untouched = false;
-        if (other === undefined) {
-          this.map.follow = false;
-          this.map.view.pan(dx, dy);
-        } else {
-          const spread = (p: [number, number]) => Math.hypot(p[0] - other[0], p[1] - other[1]) + 1;
-          this.map.view.zoom(spread(now) / spread(before), (now[0] + other[0]) / 2, (now[1] + other[1]) / 2);
-        }
-        this.map.draw();
-      }
-      pointers.set(event.pointerId, now);
-    });
-    const end = (event: PointerEvent) => {
-      if (!pointers.delete(event.pointerId) || event.type === 'pointercancel' || moved > 4) return;
-      this.click(...place(event));
-    };
-    canvas.addEventListener('pointerup', end);
-    canvas.addEventListener('pointercancel', end);
-    canvas.addEventListener('pointerleave', () => { this.readout.textContent = ''; });
-    canvas.addEventListener('wheel', (event) => {
-      event.preventDefault();
-      this.zoom(Math.exp(-event.deltaY * 0.0015), ...place(event));
-    }, { passive: false });
     this.slider.addEventListener('input', () => { this.moment.textContent = `revision ${this.slider.value}`; });
     this.slider.addEventListener('change', () => {
       if (BigInt(this.slider.value) >= this.head_revision) this.goLive();
@@ -527,48 +330,31 @@ export class MissionPage {
       this.setPlaying(false);
       this.togglePlay();
     });
-    const themed = () => this.map.setCells(this.map.picture.layer);
+    const themed = () => this.panel.repaint();
     window.addEventListener('themechange', themed);
     this.stops.push(() => window.removeEventListener('themechange', themed));
   }
 
-  private click(x: number, y: number): void {
-    const robots = this.scene.status?.robots ?? [];
-    const hit = robots.find((one) => {
-      if (one.pose === undefined) return false;
-      const [px, py] = this.map.view.toPixel(one.pose.xM, one.pose.yM);
-      return Math.hypot(px - x, py - y) < 14;
-    });
-    if (hit !== undefined) return this.choose(hit.robot);
-    const [x_m, y_m] = this.map.view.toPlace(x, y);
-    this.scene.asked = { x_m, y_m };
-    this.map.draw();
+  // Why the robot does not go there.
+  private ask(place: Place): void {
+    this.scene.asked = place;
+    this.panel.map.draw();
     this.showTab('Why');
-    const pose = robots.find((one) => one.robot === this.scene.robot)?.pose;
-    void this.why.ask(this.scene.robot, pose, this.scene.asked, this.scene.why);
+    const pose = this.scene.status?.robots.find((one) => one.robot === this.scene.robot)?.pose;
+    void this.why.ask(this.scene.robot, pose, place, this.scene.why);
   }
 
   // Whether it was a key of ours.
   onKey(key: string, target: HTMLElement): boolean {
-    const pan: Record<string, [number, number]> = {
-      ArrowLeft: [60, 0], ArrowRight: [-60, 0], ArrowUp: [0, 60], ArrowDown: [0, -60] };
-    if (key in pan) {
-      if (target !== this.canvas && target !== document.body) return false;
-      this.map.untouched = false;
-      this.map.follow = false;
-      this.map.view.pan(...pan[key]);
-      this.map.draw();
+    if (key === 'l') {
+      this.goLive();
       return true;
     }
-    if (key === ' ' && target.closest('button, summary, a') !== null) return false;
-    const actions: Record<string, () => void> = {
-      f: () => this.fit(), '+': () => this.zoom(1.4), '=': () => this.zoom(1.4), '-': () => this.zoom(1 / 1.4),
-      c: () => this.toggleFollow(), g: () => this.setCells('mean', !this.map.picture.log), l: () => this.goLive(),
-      ' ': () => this.togglePlay(),
-      1: () => this.setCells('mean'), 2: () => this.setCells('uncertainty'), 3: () => this.setCells('change'),
-      4: () => this.setCells('none') };
-    if (!(key in actions)) return false;
-    actions[key]();
-    return true;
+    if (key === ' ') {
+      if (target.closest('button, summary, a') !== null) return false;
+      this.togglePlay();
+      return true;
+    }
+    return this.panel.onKey(key, target);
   }
 }

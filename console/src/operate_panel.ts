@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
 // What an operator does to a mission and its robots, and what leaves it as files.
 import { PATIENCE, missions, requestId, robots, sentence, snapshots } from './client.ts';
 import { ask, fillIfChanged, h, notice, saveFile } from './dom.ts';

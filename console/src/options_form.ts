@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
 // A form for the options of a mission, made from the wire's own description of them.
 import { ScalarType, fromJson } from '@bufbuild/protobuf';
 import type { DescField, DescMessage, JsonObject } from '@bufbuild/protobuf';

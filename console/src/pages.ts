@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
 // The pages beside that of a mission: all missions, a new one, the service.
 import { PATIENCE, missions, requestId, sentence, token, troubleOf } from './client.ts';
 import { ask, fill, fillIfChanged, h, notice } from './dom.ts';

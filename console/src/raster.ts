@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
 import { inflate } from './inflate.ts';
 import { MapLayer, MapTile_Encoding } from './wire/plumescout/v1/map_service_pb.ts';
 import type { MapTile } from './wire/plumescout/v1/map_service_pb.ts';

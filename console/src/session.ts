@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
 // What the page knows of the server and of who looks on.
 import { PATIENCE, system } from './client.ts';
 import type { GetServerInfoResponse } from './wire/plumescout/v1/system_service_pb.ts';

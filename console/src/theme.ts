@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
 // Colours of the style sheet, for what is drawn on canvases. Looked up once a theme.
 const known = new Map<string, string>();
 let knownOf: string | undefined;

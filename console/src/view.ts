@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
 // What part of the plane the canvas shows: y points north, so rows of pixels run the other way.
 export type Box = { minX: number; minY: number; maxX: number; maxY: number };
 

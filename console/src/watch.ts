@@ -1,11 +1,14 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
 // A mission's map as it changes: one stream, opened again whenever it ends.
 import { Code } from '@connectrpc/connect';
 import { maps, troubleOf } from './client.ts';
 import type { Trouble } from './client.ts';
-import { Raster, geometryOf, sameGeometry } from './raster.ts';
+import { MapCopy, levelFor } from './map_copy.ts';
+import { Raster, geometryOf } from './raster.ts';
 import type { CellRect, Geometry } from './raster.ts';
-import { MapLayer, WatchMapResponse_Kind } from './wire/plumescout/v1/map_service_pb.ts';
-import type { MapStatus, WatchMapResponse } from './wire/plumescout/v1/map_service_pb.ts';
+import { MapLayer } from './wire/plumescout/v1/map_service_pb.ts';
+import type { MapStatus } from './wire/plumescout/v1/map_service_pb.ts';
 
 export type LinkState = 'connecting' | 'live' | 'waiting' | 'hidden' | 'ended';
 
@@ -19,53 +22,10 @@ export type WatchEvents = {
 };
 
 const ALL_LAYERS = [MapLayer.OCCUPANCY, MapLayer.GAS_MEAN, MapLayer.GAS_VARIANCE];
-// Of larger maps squares of cells are shown: four million take 60 MB.
-const MAX_CELLS = 4_000_000;
 const FIRST_PAUSE_S = 0.5;
 const LONGEST_PAUSE_S = 10;
 // Streams of a tab that nobody sees are given up after this.
 const HIDDEN_PATIENCE_MS = 5_000;
-
-// The level of detail at which so many cells are few enough.
-export function levelFor(cells: number): number {
-  let level = 0;
-  while (cells / 4 ** level > MAX_CELLS && level < 6) ++level;
-  return level;
-}
-
-// Applies frames to a copy of the map; no network, no clock.
-export class MapCopy {
-  raster: Raster | null = null;
-  revision = -1n;
-
-  // Returns what to draw: all, some cells, or nothing.
-  apply(frame: WatchMapResponse): 'all' | CellRect[] {
-    const kind = frame.kind;
-    if (kind === WatchMapResponse_Kind.RESET) {
-      this.raster = null;
-      this.revision = -1n;
-      return [];
-    }
-    let all = false;
-    const geometry = geometryOf(frame.tileGeometry) ?? geometryOf(frame.status?.geometry);
-    if (kind === WatchMapResponse_Kind.FULL) {
-      this.raster = geometry === null ? null : new Raster(geometry);
-      all = true;
-    } else if (kind === WatchMapResponse_Kind.DELTA) {
-      if (this.raster === null || frame.baseRevision !== this.revision ||
-          (geometry !== null && !sameGeometry(geometry, this.raster.geometry))) {
-        throw new Error('a change of a map that is not here');
-      }
-    }
-    const rects: CellRect[] = [];
-    for (const tile of frame.tiles) {
-      if (this.raster === null) throw new Error('a tile of a map that is not here');
-      rects.push(this.raster.apply(tile));
-    }
-    this.revision = frame.revision;
-    return all ? 'all' : rects;
-  }
-}
 
 export type Replay = { fromRevision: bigint; speed: number };
 

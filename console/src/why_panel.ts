@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
 // Why a robot drives where it does, and not elsewhere.
 import { PATIENCE, planning, sentence } from './client.ts';
 import { fill, fillIfChanged, h } from './dom.ts';

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
 // Names of things, and figures, as people read them.
 import { Candidate_PathSource, Plan_End, RejectedGoal_Reason } from './wire/plumescout/v1/planning_service_pb.ts';
 import { RobotLink } from './wire/plumescout/v1/robot_service_pb.ts';

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { CHANGE, GAS, UNCERTAINTY, lightnessOf, roundUp, shareOf, ticksOf } from '../src/colours.ts';

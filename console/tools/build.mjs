@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
 // Makes the pages in dist/: index.html, and script and style with a hash of their content in their
 // names. `--watch` is not there on purpose: a build takes less than a second.
 import { mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';

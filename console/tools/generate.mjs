@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
 // Makes src/wire from ../proto: messages and services in TypeScript, and what the comments of the
 // options say, which forms show as help. Needs protoc.
 import { execFileSync } from 'node:child_process';
