@@ -89,7 +89,10 @@ export function troubleOf(error: unknown): Trouble {
   };
 }
 
+export function inWords({ text, advice }: Trouble): string {
+  return advice === '' ? text : `${text}${/[.!?]$/.test(text) ? '' : '.'} ${advice}`;
+}
+
 export function sentence(error: unknown): string {
-  const trouble = troubleOf(error);
-  return trouble.advice === '' ? trouble.text : `${trouble.text} ${trouble.advice}`;
+  return inWords(troubleOf(error));
 }

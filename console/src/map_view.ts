@@ -10,6 +10,7 @@ import { View } from './view.ts';
 import type { Box } from './view.ts';
 import type { MapStatus } from './wire/plumescout/v1/map_service_pb.ts';
 import type { LivePlan, Plan } from './wire/plumescout/v1/planning_service_pb.ts';
+import { RejectedGoal_Reason } from './wire/plumescout/v1/planning_service_pb.ts';
 import { GoalKind } from './wire/plumescout/v1/types_pb.ts';
 import type { Point2D } from './wire/plumescout/v1/types_pb.ts';
 import type { Polygon } from './wire/plumescout/v1/options_pb.ts';
@@ -26,6 +27,7 @@ export type Scene = Cells & {
   status: MapStatus | null;
   plans: LivePlan[];
   why: Plan | null; // of the robot that is looked at
+  asksWhy: boolean; // whether that is looked into
   candidate: number; // of it, pointed at; -1: none
   trails: Map<string, Trail>;
   keepOut: Polygon[];
@@ -158,9 +160,11 @@ export class MapView {
     if (this.on.has('areas')) this.drawAreas();
     if (this.on.has('trails')) this.drawTrails();
     if (this.on.has('frontiers')) this.drawFrontiers(scene.raster);
-    if (this.on.has('why')) this.drawWhy();
+    const why = scene.asksWhy && this.on.has('why') ? scene.why : null;
+    if (why !== null) this.drawCandidates(why);
     if (this.on.has('ways')) this.drawWays();
     if (this.on.has('claims')) this.drawClaims();
+    if (why !== null) this.drawGoals(why);
     this.drawRobots();
     this.drawAsked();
     this.drawScaleBar();
@@ -291,10 +295,8 @@ export class MapView {
     }
   }
 
-  private drawWhy(): void {
+  private drawCandidates(plan: Plan): void {
     const { context: c, scene } = this;
-    const plan = scene.why;
-    if (plan === null) return;
     plan.candidates.forEach((candidate, i) => {
       if (i === plan.chosenIndex) return;
       this.path(candidate.path);
@@ -302,6 +304,10 @@ export class MapView {
       this.strokeTwice(theme('--map-ink'), i === scene.candidate ? 3 : 1);
       c.setLineDash([]);
     });
+  }
+
+  private drawGoals(plan: Plan): void {
+    const c = this.context;
     plan.candidates.forEach((candidate, i) => {
       if (candidate.goal?.position !== undefined) {
         this.label(candidate.goal.position, String(i + 1), i === plan.chosenIndex);
@@ -309,7 +315,8 @@ export class MapView {
     });
     for (const rejected of plan.rejectedGoals) {
       const at = rejected.goal?.position;
-      if (at === undefined) continue;
+      // Specks of frontiers are many, and nobody asks why not.
+      if (at === undefined || rejected.reason === RejectedGoal_Reason.TOO_SMALL) continue;
       const [x, y] = this.view.toPixel(at.xM, at.yM);
       c.beginPath();
       c.moveTo(x - 4, y - 4);

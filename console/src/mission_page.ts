@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // One mission: the map, and beside it robots, reasons, figures and what can be done.
-import { PATIENCE, missions, planning, robots as robotCalls, sentence } from './client.ts';
+import { PATIENCE, inWords, missions, planning, robots as robotCalls, sentence } from './client.ts';
 import type { Trouble } from './client.ts';
 import { ChartPanel } from './chart_panel.ts';
 import { fill, h, notice } from './dom.ts';
@@ -29,7 +29,7 @@ export class MissionPage {
   readonly element: HTMLElement;
   readonly head: HTMLElement[];
   private readonly scene: Scene = {
-    raster: null, then: null, figures: null, threshold_ppm: 0, status: null, plans: [], why: null, candidate: -1,
+    raster: null, then: null, figures: null, threshold_ppm: 0, status: null, plans: [], why: null, asksWhy: false, candidate: -1,
     trails: new Map(), keepOut: [], home: undefined, robot: '', asked: null };
   private readonly panel: MapPanel;
   private readonly robotsPanel: RobotsPanel;
@@ -103,6 +103,7 @@ export class MissionPage {
         this.refreshFigures();
         this.panel.map.replaced();
         this.panel.showLegend();
+        this.showSide();
       },
       changed: (rects) => this.changed(rects),
       status: (status, revision) => this.onStatus(status, revision),
@@ -155,7 +156,7 @@ export class MissionPage {
     [this.linkPill.textContent, this.linkPill.className] = words[state];
     if (state === 'live') return this.showPastBanner();
     if (state === 'waiting' || state === 'ended') {
-      fill(this.panel.banner, trouble === null ? 'The stream has ended.' : `${trouble.text} ${trouble.advice}`,
+      fill(this.panel.banner, trouble === null ? 'The stream has ended.' : inWords(trouble),
         state === 'waiting' ? h('button', { onclick: () => this.watch?.retry() }, 'Try now')
           : h('a', { href: '#/' }, 'All missions'));
     }
@@ -295,6 +296,8 @@ export class MissionPage {
 
   private showTab(tab: Tab): void {
     this.tab = tab;
+    this.scene.asksWhy = tab === 'Why';
+    this.panel.map.draw();
     fill(this.tabBar, ...TABS.map((one) => h('button', { role: 'tab', 'aria-selected': String(one === tab),
       onclick: () => this.showTab(one) }, one)));
     fill(this.tabBox, { Robots: this.robotsPanel.element, Why: this.why.element, Charts: this.charts.element,

@@ -4,7 +4,7 @@
 import { PATIENCE, planning, sentence } from './client.ts';
 import { fill, fillIfChanged, h } from './dom.ts';
 import type { Place } from './map_view.ts';
-import type { CheckTrajectoryResponse, FrontierGoal, Plan } from './wire/plumescout/v1/planning_service_pb.ts';
+import type { CheckTrajectoryResponse, FrontierGoal, Plan, RejectedGoal } from './wire/plumescout/v1/planning_service_pb.ts';
 import { RejectedGoal_Reason } from './wire/plumescout/v1/planning_service_pb.ts';
 import { CellState, GoalKind } from './wire/plumescout/v1/types_pb.ts';
 import type { Pose2D } from './wire/plumescout/v1/types_pb.ts';
@@ -79,11 +79,15 @@ export class WhyPanel {
   }
 
   private rejected(plan: Plan): HTMLElement {
+    const groups = new Map<RejectedGoal_Reason, RejectedGoal[]>();
+    for (const one of plan.rejectedGoals) groups.set(one.reason, [...groups.get(one.reason) ?? [], one]);
     return h('div', {}, h('h3', {}, `${plan.rejectedGoals.length} goals left out`),
-      h('div', { class: 'scroll' }, h('table', {}, h('tbody', {}, ...plan.rejectedGoals.map((one) =>
-        h('tr', {}, h('td', {}, goalKind(one.goal?.kind ?? GoalKind.UNSPECIFIED)),
+      ...[...groups].map(([why, goals]) => h('details', { open: goals.length <= 3 },
+        h('summary', {}, `${goals.length} × ${reason(why)}`),
+        h('table', {}, h('tbody', {}, ...goals.map((one) => h('tr', {},
+          h('td', {}, goalKind(one.goal?.kind ?? GoalKind.UNSPECIFIED)),
           h('td', { class: 'n' }, `${figure(one.goal?.position?.xM ?? NaN)}, ${figure(one.goal?.position?.yM ?? NaN)}`),
-          h('td', {}, one.detail === '' ? reason(one.reason) : `${reason(one.reason)}: ${one.detail}`)))))));
+          h('td', {}, one.detail))))))));
   }
 
   clear(): void {
