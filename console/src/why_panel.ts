@@ -155,8 +155,9 @@ function frontierAnswer(frontier: FrontierGoal, plan: Plan | null): (Node | stri
   const [mine, chosen] = [plan.candidates[index], plan.candidates[plan.chosenIndex]];
   const rate = (one: typeof mine) => (one.expectedInformationNats ?? NaN) / one.durationS;
   return [what, h('strong', {}, `It is candidate ${index + 1}; number ${plan.chosenIndex + 1} was better` +
-    (chosen === undefined || !Number.isFinite(rate(mine)) ? '.'
-      : `: ${figure(rate(chosen))} against ${figure(rate(mine))} nats a second.`))];
+    (chosen !== undefined && rate(chosen) > rate(mine)
+      ? `: ${figure(rate(chosen))} against ${figure(rate(mine))} nats a second.`
+      : ', counting also what is unseen behind it, or what else the strategy weighs.'))];
 }
 
 const STATES: Record<number, string> = {
