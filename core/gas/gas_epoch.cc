@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/gas/gas_epoch.h"
 
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -40,9 +39,12 @@ void GasEpoch::Recompute() {
   if (engine->abandoned()) return;
   drift_ = DriftBetween(inputs_, *engine);
   if (!inputs_.aged.empty()) {
-    [[maybe_unused]] const absl::Status status = engine->Apply(inputs_.aged);
+    absl::Status status = engine->Apply(inputs_.aged);
     if (engine->abandoned()) return;
-    assert(status.ok());  // cells of this lattice, precisions below those they had
+    if (!status.ok()) {
+      failure_ = std::move(status);
+      return;
+    }
   }
   engine_ = std::move(engine);
 }

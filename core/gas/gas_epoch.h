@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "absl/status/status.h"
 #include "core/gas/field/field_engine.h"
 #include "core/gas/field_origin.h"
 #include "core/gas/gas_lattice.h"
@@ -38,10 +39,12 @@ class GasEpoch {
   explicit GasEpoch(EpochInputs inputs) : inputs_(std::move(inputs)) {}
 
   // The long part; may run on any thread. Does nothing if it is done, and comes to nothing if
-  // FieldOptions::stop ends it.
+  // FieldOptions::stop ends it, or if evidence is none (of a damaged saved state).
   // Cost: a fresh computation, two with ageing.
   void Recompute();
   bool done() const { return engine_ != nullptr; }
+  // Why it is not done.
+  const absl::Status& failure() const { return failure_; }
 
   std::int64_t time_ns() const { return inputs_.time_ns; }
   const GasLattice& lattice() const { return inputs_.lattice; }
@@ -55,6 +58,7 @@ class GasEpoch {
   EpochInputs inputs_;
   FieldDrift drift_;
   std::unique_ptr<FieldEngine> engine_;
+  absl::Status failure_ = absl::CancelledError("an epoch is abandoned");
 };
 
 }  // namespace plumescout

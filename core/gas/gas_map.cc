@@ -201,7 +201,7 @@ absl::Status GasMap::Adopt() {
   }
   epoch_->Recompute();
   const std::shared_ptr<GasEpoch> epoch = std::exchange(epoch_, nullptr);
-  if (!epoch->done()) return Conclude(absl::CancelledError("an epoch is abandoned"), time_ns_);
+  if (!epoch->done()) return Conclude(epoch->failure(), time_ns_);
   inputs_.AgeTo(epoch->time_ns());
   const std::vector<CellInput> inputs = inputs_.On(epoch->lattice());
   std::unique_ptr<FieldEngine> engine = epoch->TakeEngine();

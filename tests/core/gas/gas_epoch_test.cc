@@ -88,6 +88,17 @@ TEST(GasEpochTest, TakesTheAgedEvidence) {
   }
 }
 
+TEST(GasEpochTest, EvidenceThatIsNoneIsSaid) {
+  EpochInputs inputs = Inputs();
+  CellInput aged = inputs.cells[14];
+  aged.precision = std::numeric_limits<double>::quiet_NaN();
+  inputs.aged.push_back({14, aged});
+  GasEpoch epoch(std::move(inputs));
+  epoch.Recompute();
+  EXPECT_FALSE(epoch.done());
+  EXPECT_EQ(epoch.failure().code(), absl::StatusCode::kInvalidArgument);
+}
+
 TEST(GasEpochTest, RecomputesOnce) {
   GasEpoch epoch(Inputs());
   epoch.Recompute();

@@ -135,7 +135,7 @@ TEST(MissionState, RestoredMissionsGoOnTheSame) {
     Course run{MissionOptions()};
     run.ApplyRandom(seed, 300, 5.0, 4.0);
     EXPECT_GT(run.epochs(), 1);
-    run.ExpectAllRestored(8);
+    run.ExpectAllRestored(20);
   }
 }
 
@@ -147,7 +147,7 @@ TEST(MissionState, ReadingsThatAgeDoSoAfterwards) {
     Course run(options);
     run.ApplyRandom(11, 300, 4.0, 4.0);
     EXPECT_GT(run.epochs(), 3);
-    run.ExpectAllRestored(8);
+    run.ExpectAllRestored(20);
   }
 }
 
@@ -158,7 +158,7 @@ TEST(MissionState, HoldsTheRegionOfTheField) {
   options.robot_silence_s = 5.0;
   Course run(options);
   run.ApplyRandom(21, 250, 20.0, 14.0);
-  run.ExpectAllRestored(8);
+  run.ExpectAllRestored(20);
 }
 
 TEST(MissionState, HoldsWhatBecameOfAKnownMap) {
@@ -172,7 +172,7 @@ TEST(MissionState, HoldsWhatBecameOfAKnownMap) {
     Course run(options);
     run.Apply(PosteriorRefreshed{kSecond_ns});
     run.ApplyRandom(31, 150, 5.0, 5.0);
-    run.ExpectAllRestored(10);
+    run.ExpectAllRestored(20);
   }
 }
 
@@ -182,7 +182,7 @@ TEST(MissionState, HoldsALatticeThatGrewCoarse) {
   Course run(options);
   run.ApplyRandom(41, 200, 13.0, 12.0);
   EXPECT_GT(run.mission().lattice_factor(), 1);
-  run.ExpectAllRestored(8);
+  run.ExpectAllRestored(20);
 }
 
 // Which the events decide, whoever applies them.

@@ -221,17 +221,10 @@ TEST(MissionHostTest, TooManyCommandsAreRefused) {
   HostOptions options;
   options.max_queued_commands = 1;
   MissionHost host(HostParts(), options);
-  absl::Notification started;
-  absl::Notification release;
-  ASSERT_TRUE(host.Post([&](MissionWriter&) {
-                    started.Notify();
-                    release.WaitForNotification();
-                  })
-                  .ok());
-  started.WaitForNotification();
+  BusyWriter writer(host);
   EXPECT_TRUE(host.Post([](MissionWriter&) {}).ok());
   EXPECT_TRUE(absl::IsResourceExhausted(host.Post([](MissionWriter&) {})));
-  release.Notify();
+  writer.Release();
 }
 
 TEST(MissionHostTest, NobodyWaitsLongerThanTheMissionAllows) {
