@@ -9,9 +9,11 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "absl/time/time.h"
+#include "core/types/status_macros.h"
 #include "server/base/address.h"
 #include "server/base/descriptor_limit.h"
 #include "server/base/exit_timer.h"
@@ -21,6 +23,8 @@
 #include "server/observe/http_endpoints.h"
 #include "server/server.h"
 #include "server/store_command.h"
+#include "server/web/static_files.h"
+#include "server/web/web_server.h"
 
 namespace plumescout::server {
 namespace {
@@ -83,6 +87,22 @@ absl::StatusOr<std::unique_ptr<HttpEndpoints>> ServeHttp(const ServerConfig& con
   return http;
 }
 
+// Null if there is to be no console.
+absl::StatusOr<std::unique_ptr<WebServer>> ServeConsole(const ServerConfig& config,
+                                                        Server& server) {
+  const ConsoleConfig& console = config.console;
+  if (console.listen.empty()) return nullptr;
+  WebOptions options;
+  options.max_message_bytes = static_cast<std::size_t>(config.limits.max_receive_bytes);
+  options.max_streams = console.max_streams;
+  if (!console.folder.empty()) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(options.files, StaticFiles::Load(console.folder));
+  }
+  auto web = WebServer::Start(console.listen, server.InProcessChannel(), std::move(options));
+  if (web.ok()) PrintAddress("console", console.listen, (*web)->port());
+  return web;
+}
+
 int Run(const ServerConfig& config) {
   LogDescriptorLimit();
   std::atomic<bool> unreachable = false;
@@ -94,6 +114,8 @@ int Run(const ServerConfig& config) {
   if (!server.ok()) return FailToStart(server.status());
   auto http = ServeHttp(config, **server);
   if (!http.ok()) return FailToStart(http.status());
+  auto web = ServeConsole(config, **server);
+  if (!web.ok()) return FailToStart(web.status());
   PrintAddress("listening", config.listen, (*server)->port());
   LogInfo("serving",
           {{"port", absl::StrCat((*server)->port())}, {"boot_id", (*server)->boot_id()}});
@@ -102,6 +124,7 @@ int Run(const ServerConfig& config) {
   const int exit_code = unreachable ? kExitUnreachable : EXIT_SUCCESS;
   const ExitTimer limit(absl::Seconds(config.connection.drain_s) + Server::kStopLimit, exit_code);
   (*server)->Drain();
+  web->reset();
   http->reset();
   server->reset();
   LogInfo("stopped");

@@ -252,8 +252,10 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
     return absl::InvalidArgumentError(
         "planning.rivals = true needs a server that is built with OMPL");
   }
-  PLUMESCOUT_ASSIGN_OR_RETURN(auto authenticator,
-                              Authenticator::Make(config.access, IsLocalAddress(config.listen)));
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      auto authenticator,
+      Authenticator::Make(config.access,
+                          IsLocalAddress(config.listen) && IsLocalAddress(config.console.listen)));
   auto unreachable = std::move(events.unreachable);
   std::unique_ptr<MissionStore> store;
   if (hooks.store == nullptr) {
@@ -338,7 +340,9 @@ void Server::Sweep() {
 }
 
 std::shared_ptr<grpc::Channel> Server::InProcessChannel() {
-  return grpc_server_->InProcessChannel(grpc::ChannelArguments());
+  grpc::ChannelArguments arguments;
+  arguments.SetMaxReceiveMessageSize(-1);  // what we send ourselves we take
+  return grpc_server_->InProcessChannel(arguments);
 }
 
 absl::Status Server::Probe() {

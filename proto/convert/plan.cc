@@ -22,20 +22,6 @@ using plumescout::ToProto;
 
 constexpr double kNanosecondsPerSecond = 1e9;
 
-v1::Trajectory ToProto(const Trajectory& trajectory) {
-  v1::Trajectory proto;
-  for (const Waypoint& waypoint : trajectory.waypoints) {
-    v1::Waypoint& added = *proto.add_waypoints();
-    *added.mutable_pose() = ToProto(waypoint.pose);
-    added.set_arrival_time_s(waypoint.arrival_time_s);
-    added.set_dwell_s(waypoint.dwell_s);
-    added.set_speed_mps(waypoint.speed_mps);
-  }
-  proto.set_length_m(trajectory.length_m);
-  proto.set_duration_s(trajectory.duration_s);
-  return proto;
-}
-
 v1::PlanEffort ToProto(const PlanEffort& effort) {
   v1::PlanEffort proto;
   proto.set_sample_count(effort.samples);
@@ -172,6 +158,20 @@ absl::Status ReadGoals(const v1::Plan& proto, absl::string_view field, Plan& pla
 }
 
 }  // namespace
+
+v1::Trajectory ToProto(const Trajectory& trajectory) {
+  v1::Trajectory proto;
+  for (const Waypoint& waypoint : trajectory.waypoints) {
+    v1::Waypoint& added = *proto.add_waypoints();
+    *added.mutable_pose() = ToProto(waypoint.pose);
+    added.set_arrival_time_s(waypoint.arrival_time_s);
+    added.set_dwell_s(waypoint.dwell_s);
+    added.set_speed_mps(waypoint.speed_mps);
+  }
+  proto.set_length_m(trajectory.length_m);
+  proto.set_duration_s(trajectory.duration_s);
+  return proto;
+}
 
 v1::Goal ToProto(const Goal& goal) {
   v1::Goal proto;

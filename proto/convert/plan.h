@@ -12,6 +12,7 @@ namespace plumescout {
 v1::Goal ToProto(const Goal& goal);
 v1::Candidate ToProto(const Candidate& candidate);
 v1::RejectedGoal ToProto(const RejectedGoal& rejected);
+v1::Trajectory ToProto(const Trajectory& trajectory);
 
 // Resource names are built below `mission`; a plan that is not committed (id 0) has no name.
 v1::Plan ToProto(const Plan& plan, const MissionId& mission);

@@ -21,6 +21,8 @@ struct Flags {
   std::string log_format;
   std::string store;
   std::string data;
+  std::string http;
+  std::string http_root;
   std::vector<std::string> settings;  // KEY=VALUE
 };
 
@@ -34,6 +36,9 @@ void Declare(Flags& flags, CLI::App& app) {
   app.add_option("--data", flags.data, "folder where missions are kept")->type_name("DIR");
   app.add_option("--store", flags.store, "how missions are kept; none: in memory only")
       ->type_name("sqlite|none");
+  app.add_option("--http", flags.http, "address and port of the console; port 0: any free one")
+      ->type_name("HOST:PORT");
+  app.add_option("--http-root", flags.http_root, "folder of the console's pages")->type_name("DIR");
   app.add_option("-s,--set", flags.settings, "sets one option, over the file; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
@@ -57,6 +62,10 @@ absl::StatusOr<ServerConfig> BuildConfig(const Flags& flags) {
   }
   if (!flags.data.empty()) PLUMESCOUT_RETURN_IF_ERROR(builder.Set("store.folder", flags.data));
   if (!flags.store.empty()) PLUMESCOUT_RETURN_IF_ERROR(builder.Set("store.engine", flags.store));
+  if (!flags.http.empty()) PLUMESCOUT_RETURN_IF_ERROR(builder.Set("console.listen", flags.http));
+  if (!flags.http_root.empty()) {
+    PLUMESCOUT_RETURN_IF_ERROR(builder.Set("console.folder", flags.http_root));
+  }
   return builder.Build();
 }
 

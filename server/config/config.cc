@@ -193,6 +193,19 @@ absl::Status ValidateReach(const ServerConfig& config) {
               "access.client_ca_file, or access.allow_anonymous = true to make everybody an admin");
 }
 
+// The console speaks plaintext: TLS is for a front before it.
+absl::Status ValidateReach(const ConsoleConfig& console, const AccessConfig& access) {
+  if (IsLocalAddress(console.listen)) return absl::OkStatus();
+  PLUMESCOUT_RETURN_IF_ERROR(Need(
+      access.allow_plaintext, "console.listen", console.listen,
+      "can be reached from other machines: keep it on loopback behind a front that speaks TLS, "
+      "or set access.allow_plaintext = true on a trusted network"));
+  return Need(!access.tokens_file.empty() || access.allow_anonymous, "console.listen",
+              console.listen,
+              "can be reached from other machines: set access.tokens_file, or "
+              "access.allow_anonymous = true to make everybody an admin");
+}
+
 constexpr char kAuto[] = "auto";
 constexpr int kMaxPort = 65'535;
 
@@ -208,6 +221,14 @@ std::optional<int> PortOf(absl::string_view address) {
 
 absl::Status Refuse(absl::string_view option, absl::string_view value, absl::string_view rule) {
   return absl::InvalidArgumentError(absl::StrCat(option, " = ", value, " must be ", rule));
+}
+
+absl::Status Validate(const ConsoleConfig& console) {
+  if (!console.listen.empty() && (IsUnixAddress(console.listen) || !PortOf(console.listen))) {
+    return Refuse("console.listen", console.listen, "HOST:PORT or empty");
+  }
+  constexpr int kMaxStreams = 10'000;
+  return Checker().InRange("console.max_streams", console.max_streams, 1, kMaxStreams).status();
 }
 
 absl::Status Validate(const StoreConfig& store) {
@@ -277,6 +298,8 @@ absl::Status Validate(const ServerConfig& config) {
   PLUMESCOUT_RETURN_IF_ERROR(ValidateReach(config));
   PLUMESCOUT_RETURN_IF_ERROR(Validate(config.observe));
   PLUMESCOUT_RETURN_IF_ERROR(Validate(config.store));
+  PLUMESCOUT_RETURN_IF_ERROR(Validate(config.console));
+  PLUMESCOUT_RETURN_IF_ERROR(ValidateReach(config.console, config.access));
   return WithField(plumescout::Validate(config.mission), "mission");
 }
 

@@ -99,6 +99,12 @@ struct ObserveConfig {
   bool channelz = false;
 };
 
+struct ConsoleConfig {
+  std::string listen = "";  // empty: there is none
+  std::string folder = "";  // of its pages; empty: calls alone are served
+  int max_streams = 64;     // of all pages, at one time
+};
+
 // Values of store.engine.
 inline constexpr char kNoStore[] = "none";
 inline constexpr char kSqliteStore[] = "sqlite";
@@ -124,6 +130,7 @@ struct ServerConfig {
   AccessConfig access;
   ObserveConfig observe;
   StoreConfig store;
+  ConsoleConfig console;
   MissionOptions mission;  // what missions get for fields that their creator leaves unset
 };
 

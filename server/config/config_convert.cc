@@ -99,6 +99,12 @@ void Visit(OneOf<StoreConfig> auto& store, auto& field) {
   field("slow_commit_s", store.slow_commit_s);
 }
 
+void Visit(OneOf<ConsoleConfig> auto& console, auto& field) {
+  field("listen", console.listen);
+  field("folder", console.folder);
+  field("max_streams", console.max_streams);
+}
+
 void Visit(OneOf<ServerConfig> auto& config, auto& field) { field("listen", config.listen); }
 
 void Write(const auto& config, google::protobuf::Message& proto) {
@@ -125,6 +131,7 @@ config::v1::ServerConfig ServerConfigToProto(const ServerConfig& config) {
   Write(config.access, *proto.mutable_access());
   Write(config.observe, *proto.mutable_observe());
   Write(config.store, *proto.mutable_store());
+  Write(config.console, *proto.mutable_console());
   *proto.mutable_mission() = plumescout::ToProto(config.mission);
   return proto;
 }
@@ -140,6 +147,7 @@ absl::StatusOr<ServerConfig> ServerConfigFromProto(const config::v1::ServerConfi
   Read(proto.access(), config.access);
   Read(proto.observe(), config.observe);
   Read(proto.store(), config.store);
+  Read(proto.console(), config.console);
   PLUMESCOUT_ASSIGN_OR_RETURN(config.mission,
                               ReadMissionOptions(proto.mission(), config.mission, "mission"));
   PLUMESCOUT_RETURN_IF_ERROR(Validate(config));

@@ -27,6 +27,7 @@
 #include "server/missions/clock_gate.h"
 #include "server/missions/end_listeners.h"
 #include "server/missions/ingest_room.h"
+#include "server/missions/latest_plans.h"
 #include "server/missions/lease_table.h"
 #include "server/missions/mission_journal.h"
 #include "server/missions/mission_standing.h"
@@ -140,6 +141,7 @@ class MissionHost {
   const std::shared_ptr<RequestMemory>& requests() const { return requests_; }
   const std::shared_ptr<MapFeed>& map_feed() const { return map_feed_; }
   const std::shared_ptr<RobotNotices>& robot_notices() const { return robot_notices_; }
+  LatestPlans& latest_plans() { return latest_plans_; }
   // The map that the mission began with, as cells. The first call packs it: not for reactors.
   // REQUIRES: there is one.
   const v1::PriorMap& prior_map();
@@ -228,6 +230,7 @@ class MissionHost {
   const std::shared_ptr<RequestMemory> requests_;
   const std::shared_ptr<MapFeed> map_feed_;
   const std::shared_ptr<RobotNotices> robot_notices_;
+  LatestPlans latest_plans_;
   absl::once_flag prior_map_packed_;
   v1::PriorMap prior_map_;  // once it is packed
 

@@ -128,6 +128,7 @@ void PlanJob::Committed(Plan plan, absl::StatusOr<PlanId> id) {
   plan.id = *id;
   plan.cpu_s = absl::ToDoubleSeconds(cpu_time_);
   parts_.host->metrics().NotePlan(cpu_time_);
+  parts_.host->latest_plans().Note(plan);
   AnswerOnceDurable(std::move(plan));
 }
 

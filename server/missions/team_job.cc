@@ -72,6 +72,7 @@ void TeamJob::Commit(TeamPlan team) {
         const absl::Status allowed = self->parts_.host->CheckMayPlan();
         if (!allowed.ok()) return self->Finish(allowed);
         CommittedTeam answer = CommitTeam(std::move(team), writer.conduct());
+        for (const Plan& plan : answer.plans) self->parts_.host->latest_plans().Note(plan);
         self->parts_.host->WhenDurable(
             [self, answer = std::move(answer)](const absl::Status& durable) mutable {
               if (!durable.ok()) return self->Finish(durable);

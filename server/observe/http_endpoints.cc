@@ -3,8 +3,6 @@
 #include "server/observe/http_endpoints.h"
 
 #include <errno.h>
-#include <netdb.h>
-#include <netinet/in.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
@@ -20,7 +18,8 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
 #include "absl/strings/string_view.h"
-#include "absl/strings/strip.h"
+#include "core/types/status_macros.h"
+#include "server/base/tcp_listener.h"
 
 namespace plumescout::server {
 namespace {
@@ -38,29 +37,6 @@ std::string Response(absl::string_view status, absl::string_view type, absl::str
   return absl::StrCat("HTTP/1.1 ", status, "\r\nContent-Type: ", type,
                       "\r\nContent-Length: ", body.size(),
                       "\r\nCache-Control: no-store\r\nConnection: close", kHeadEnd, body);
-}
-
-// A socket that listens there, or -1.
-int Listen(const std::string& address) {
-  const std::size_t colon = address.rfind(':');
-  if (colon == std::string::npos) return -1;
-  absl::string_view host = absl::string_view(address).substr(0, colon);
-  if (absl::ConsumePrefix(&host, "[")) absl::ConsumeSuffix(&host, "]");
-  addrinfo hints{};
-  hints.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV | AI_PASSIVE;
-  hints.ai_socktype = SOCK_STREAM;
-  addrinfo* found = nullptr;
-  const std::string port = address.substr(colon + 1);
-  if (getaddrinfo(std::string(host).c_str(), port.c_str(), &hints, &found) != 0) return -1;
-  int fd = socket(found->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-  const int yes = 1;
-  setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
-  if (fd >= 0 && (bind(fd, found->ai_addr, found->ai_addrlen) != 0 || listen(fd, SOMAXCONN) != 0)) {
-    close(fd);
-    fd = -1;
-  }
-  freeaddrinfo(found);
-  return fd;
 }
 
 }  // namespace
@@ -82,19 +58,11 @@ HttpEndpoints::~HttpEndpoints() {
 
 absl::StatusOr<std::unique_ptr<HttpEndpoints>> HttpEndpoints::Start(const std::string& address,
                                                                     HttpSources sources) {
-  const int listener = Listen(address);
-  if (listener < 0) {
-    return absl::UnavailableError(absl::StrCat("cannot listen on ", address, " for HTTP"));
-  }
+  PLUMESCOUT_ASSIGN_OR_RETURN(const int listener, ListenOnTcp(address));
   return std::make_unique<HttpEndpoints>(Private(), listener, std::move(sources));
 }
 
-int HttpEndpoints::port() const {
-  sockaddr_in6 address{};  // whose port stands where that of sockaddr_in does
-  socklen_t size = sizeof(address);
-  if (getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size) != 0) return 0;
-  return ntohs(address.sin6_port);
-}
+int HttpEndpoints::port() const { return ListenerPort(listener_); }
 
 void HttpEndpoints::Run() {
   while (Await()) {

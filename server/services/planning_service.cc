@@ -53,6 +53,7 @@ absl::StatusOr<CheckSubject> SubjectFromProto(const v1::CheckTrajectoryRequest& 
 
 absl::Status CheckOn(const Belief& belief, const RobotId& robot, const CheckSubject& subject,
                      v1::CheckTrajectoryResponse& response) {
+  if (belief.robots.count(robot) == 0) return RobotNotFound(robot);
   IntendedPath path;
   if (subject.plan) {
     PLUMESCOUT_ASSIGN_OR_RETURN(path, RestOfPlan(belief, robot, *subject.plan));
@@ -71,7 +72,18 @@ v1::LivePlan LivePlanOf(const RobotRecord& record, const MissionId& mission) {
   proto.set_goal_kind(ToProto(record.live_goal->kind));
   *proto.mutable_goal() = ToProto(record.live_goal->position);
   proto.set_arrival_time_ns(record.live_arrival_ns);
+  if (record.live_trajectory != nullptr) {
+    *proto.mutable_trajectory() = ToProto(*record.live_trajectory);
+  }
   return proto;
+}
+
+// Those of robots that are in the mission still.
+void WriteLatest(const LatestPlans& plans, const Belief& belief, const MissionId& mission,
+                 v1::ListPlansResponse& response) {
+  for (const LatestPlans::PlanPtr& plan : plans.All()) {
+    if (belief.robots.count(plan->robot) > 0) *response.add_latest() = ToProto(*plan, mission);
+  }
 }
 
 }  // namespace
@@ -133,13 +145,16 @@ absl::Status PlanningService::Check(const v1::CheckTrajectoryRequest& request,
   PLUMESCOUT_RETURN_IF_ERROR(
       CheckIntRange("min_applied_sequence", request.min_applied_sequence(), 0, kMaxSequence));
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMissionOf(call->caller(), name));
-  PLUMESCOUT_RETURN_IF_ERROR(host->leases().Use(name.robot, request.lease_token()));
-  PLUMESCOUT_ASSIGN_OR_RETURN(
-      CheckSubject subject, SubjectFromProto(request, name.mission, host->options().pose_limit_m));
   BeliefWish wish{.robot = name.robot,
                   .min_applied_sequence = request.min_applied_sequence(),
-                  .lease_token = request.lease_token(),
+                  .lease_token = std::nullopt,
                   .fresh_posterior = false};
+  if (request.lease_token() != 0 || call->caller().role == Role::kRobot) {
+    PLUMESCOUT_RETURN_IF_ERROR(host->leases().Use(name.robot, request.lease_token()));
+    wish.lease_token = request.lease_token();
+  }
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      CheckSubject subject, SubjectFromProto(request, name.mission, host->options().pose_limit_m));
   return AnswerFromBelief(host, context_.query_pool, call, std::move(wish),
                           [=, subject = std::move(subject)](const Belief& belief) {
                             return CheckOn(belief, name.robot, subject, *response);
@@ -225,10 +240,13 @@ absl::Status PlanningService::ListLive(const v1::ListPlansRequest& request,
   BeliefWish wish;
   wish.fresh_posterior = false;
   return AnswerFromBelief(host, context_.query_pool, call, std::move(wish),
-                          [response, mission](const Belief& belief) {
+                          [=, with_latest = request.with_latest()](const Belief& belief) {
                             for (const auto& [robot, record] : belief.robots) {
                               if (!record.live_goal) continue;
                               *response->add_plans() = LivePlanOf(record, mission);
+                            }
+                            if (with_latest) {
+                              WriteLatest(host->latest_plans(), belief, mission, *response);
                             }
                             response->set_revision(belief.revision);
                             return absl::OkStatus();

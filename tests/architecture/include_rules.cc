@@ -47,7 +47,8 @@ const Names kCore = {"core/types",
                      "core/mission/conduct"};
 const Names kServer = {"server/base",  "server/config",  "server/access",   "server/observe",
                        "server/store", "server/maps",    "server/missions", "server/history",
-                       "server/calls", "server/streams", "server/services", "server"};
+                       "server/calls", "server/streams", "server/services", "server/web",
+                       "server"};
 const Names kLab = {"lab/about",   "lab/formats", "lab/rivals", "lab/local",
                     "lab/sim",     "lab/report",  "lab/worlds", "lab/trials",
                     "lab/studies", "lab/bench",   "lab/program"};

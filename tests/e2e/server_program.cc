@@ -56,6 +56,8 @@ void ServerProgram::ReadAddresses(int stdout_fd) {
     absl::string_view address = line;
     if (absl::ConsumePrefix(&address, "metrics on ")) {
       EXPECT_TRUE(absl::SimpleAtoi(address.substr(address.rfind(':') + 1), &http_port_)) << line;
+    } else if (absl::ConsumePrefix(&address, "console on ")) {
+      EXPECT_TRUE(absl::SimpleAtoi(address.substr(address.rfind(':') + 1), &console_port_)) << line;
     } else if (absl::ConsumePrefix(&address, "listening on ")) {
       target_ = std::string(address);
     }

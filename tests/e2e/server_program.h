@@ -26,6 +26,7 @@ class ServerProgram {
   bool listens() const { return !target_.empty(); }
   const std::string& target() const { return target_; }  // host:port
   int http_port() const { return http_port_; }           // 0: none
+  int console_port() const { return console_port_; }     // 0: none
 
   void Terminate();  // by SIGTERM
   // Its exit code once it has ended, -1 if a signal ended it; nothing if it has not by then.
@@ -37,6 +38,7 @@ class ServerProgram {
   pid_t pid_ = 0;
   std::string target_;
   int http_port_ = 0;
+  int console_port_ = 0;
 };
 
 }  // namespace plumescout::e2e

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -23,11 +24,14 @@
 #include "absl/time/clock.h"
 #include "plumescout/v1/mission_service.grpc.pb.h"
 #include "tests/server/http_client.h"
+#include "tests/support/temp_folder.h"
 
 namespace plumescout::e2e {
 namespace server_program_test {
 
+using server::HttpExchange;
 using server::HttpGet;
+using ::testing::EndsWith;
 
 // Many times what a drain takes, on any machine.
 constexpr absl::Duration kDrain = absl::Seconds(30);
@@ -122,6 +126,22 @@ TEST(ServerProgramTest, NoAddressNoHttp) {
   ServerProgram program({"--set", "observe.http_listen="}, log.ends[1]);
   EXPECT_TRUE(program.listens());
   EXPECT_EQ(program.http_port(), 0);
+}
+
+TEST(ServerProgramTest, ConsoleIsServedIfAskedFor) {
+  const TempFolder pages;
+  std::ofstream(pages.File("index.html")) << "<p>console";
+  LogPipe log;
+  ServerProgram program({"--http", "127.0.0.1:0", "--http-root", pages.path()}, log.ends[1]);
+  ASSERT_TRUE(program.listens());
+  ASSERT_GT(program.console_port(), 0);
+  EXPECT_THAT(HttpExchange(program.console_port(),
+                           "GET / HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"),
+              EndsWith("<p>console"));
+  program.Terminate();
+  EXPECT_EQ(program.AwaitExit(kDrain), 0);
+  ServerProgram without({"--http", "127.0.0.1:0", "--http-root", pages.File("none")}, log.ends[1]);
+  EXPECT_EQ(without.AwaitExit(absl::Seconds(60)), 1);
 }
 
 TEST(ServerProgramTest, HttpAddressInUseIsAnError) {

@@ -80,6 +80,7 @@ std::set<std::string> BoolFields() {
       "CreateMissionRequest.options.planning.anticipate_robots",
       "CreateMissionRequest.options.planning.sites.survey",
       "NextBestTrajectoryRequest.go_home",
+      "ListPlansRequest.with_latest",
       "StreamNextBestTrajectoryRequest.go_home",
       "PlanTeamRequest.go_home",
       "RegisterRobotRequest.take_over",

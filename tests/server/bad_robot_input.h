@@ -45,13 +45,20 @@ inline BadInputs BadRemoveRobot() {
       .Rows(BadLease("lease_token"));
 }
 
-// No token at all is an operator's.
-inline BadInputs BadWatchRobot() {
-  BadInputs rows = BadInputs().Rows(BadRobotName("robot")).Rows(UnknownMission("robot"));
+// Of calls that operators may make without a lease: no token at all is theirs.
+inline BadInputs BadLeaseIfAny() {
+  BadInputs rows;
   for (const char* token : {"1", "-1", "9223372036854775807"}) {
     rows.Value("lease_token", token, absl::StatusCode::kFailedPrecondition, "LEASE_SUPERSEDED");
   }
   return rows;
+}
+
+inline BadInputs BadWatchRobot() {
+  return BadInputs()
+      .Rows(BadRobotName("robot"))
+      .Rows(UnknownMission("robot"))
+      .Rows(BadLeaseIfAny());
 }
 
 inline BadInputs BadNextBest() {
@@ -105,7 +112,7 @@ inline BadInputs BadCheckTrajectory() {
   return BadInputs()
       .Rows(BadRobotName("robot"))
       .Rows(UnknownMission("robot"))
-      .Rows(BadLease("lease_token"))
+      .Rows(BadLeaseIfAny())
       .Values("min_applied_sequence", {"-1", "2305843009213693953"})
       .Row({"subject", "none", [](Message& m) { static_cast<Request&>(m).clear_subject(); },
             kInvalid, "subject"})

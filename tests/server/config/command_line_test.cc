@@ -45,6 +45,8 @@ TEST(CommandLineTest, LogFormatIsAFlag) {
 TEST(CommandLineTest, MissionsAreKeptUnlessToldOtherwise) {
   EXPECT_EQ(Read({})->config.store.engine, kSqliteStore);
   EXPECT_EQ(Read({"--data", "d"})->config.store.folder, "d");
+  EXPECT_EQ(Read({"--http", "127.0.0.1:8080"})->config.console.listen, "127.0.0.1:8080");
+  EXPECT_EQ(Read({"--http-root", "d"})->config.console.folder, "d");
   EXPECT_EQ(Read({"--store", "none"})->config.store.engine, kNoStore);
   EXPECT_EQ(Read({"--set", "store.engine=none"})->config.store.engine, kNoStore);
   EXPECT_THAT(std::string(Read({"--store", "floppy"}).status().message()),

@@ -30,6 +30,7 @@ ServerConfig Unlike() {
   config.mission.seed = 21;
   config.observe = {"127.0.0.1:1", "debug", "json", 0.5, false, true};
   config.store = {kSqliteStore, "f", 1'000'000, 3, 0.5};
+  config.console = {"127.0.0.1:2", "g", 5};
   return config;
 }
 
@@ -55,6 +56,7 @@ TEST(ConfigConvertTest, EveryOptionSurvivesTheRoundTrip) {
   EXPECT_TRUE(back->observe.channelz);
   EXPECT_EQ(back->store.engine, kSqliteStore);
   EXPECT_EQ(back->store.recovery_threads, 3);
+  EXPECT_EQ(back->console.folder, "g");
 }
 
 // A field that conversion forgot is unset, or keeps its default.

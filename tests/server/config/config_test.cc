@@ -163,6 +163,31 @@ TEST(ConfigTest, WhatOtherMachinesReachIsEncryptedAndGuardedUnlessAskedFor) {
   EXPECT_EQ(Validate(config), absl::OkStatus());
 }
 
+TEST(ConfigTest, ConsoleThatOtherMachinesReachIsGuardedUnlessAskedFor) {
+  ServerConfig config;
+  config.console.listen = "127.0.0.1:8080";
+  EXPECT_EQ(Validate(config), absl::OkStatus());
+  config.console.listen = "0.0.0.0:8080";
+  EXPECT_THAT(RefusalOf(config), StartsWith("console.listen = 0.0.0.0:8080 "));
+  EXPECT_THAT(RefusalOf(config), HasSubstr("access.allow_plaintext = true"));
+  config.access.allow_plaintext = true;
+  EXPECT_THAT(RefusalOf(config), HasSubstr("access.tokens_file"));
+  config.access.tokens_file = "tokens";
+  EXPECT_EQ(Validate(config), absl::OkStatus());
+}
+
+TEST(ConfigTest, ConsoleHasAnAddressAndRoomForStreams) {
+  for (const char* address : {"localhost", "127.0.0.1:", "unix:/run/console"}) {
+    ServerConfig config;
+    config.console.listen = address;
+    EXPECT_EQ(RefusalOf(config),
+              absl::StrCat("console.listen = ", address, " must be HOST:PORT or empty"));
+  }
+  ServerConfig config;
+  config.console.max_streams = 0;
+  EXPECT_THAT(RefusalOf(config), StartsWith("console.max_streams = 0 "));
+}
+
 TEST(ConfigTest, WordsAreChecked) {
   ServerConfig config;
   config.observe.log_level = "loud";

@@ -60,8 +60,33 @@ TEST_F(LivePlansTest, LivePlansAreListedUntilTheyEnd) {
   const std::int64_t newest_ns = RoomScan(4).observations(0).sample_time_ns();
   EXPECT_NEAR(static_cast<double>(found.arrival_time_ns() - newest_ns) * 1e-9,
               plan.trajectory().duration_s(), 1e-6);
+  EXPECT_EQ(found.trajectory().SerializeAsString(), plan.trajectory().SerializeAsString());
   ASSERT_TRUE(Report(1).ok());
   EXPECT_EQ(live()->plans_size(), 0);
+}
+
+TEST_F(LivePlansTest, LatestPlanIsToldWithItsReasonsAfterItHasEnded) {
+  Start();
+  const auto latest = [this] {
+    v1::ListPlansRequest request;
+    request.set_mission("missions/hall");
+    request.set_with_latest(true);
+    return Call(planning_, &v1::PlanningService::Stub::ListPlans, request);
+  };
+  ASSERT_TRUE(latest().ok()) << latest().status();
+  EXPECT_EQ(latest()->latest_size(), 0);
+  const auto planned = NextBest(Order());
+  ASSERT_TRUE(planned.ok()) << planned.status();
+  ASSERT_TRUE(Report(1).ok());
+  const auto listed = latest();
+  EXPECT_EQ(listed->plans_size(), 0);
+  ASSERT_EQ(listed->latest_size(), 1);
+  EXPECT_EQ(listed->latest(0).SerializeAsString(), planned->plan().SerializeAsString());
+  v1::RemoveRobotRequest removal;
+  removal.set_robot(kRobot);
+  removal.set_force(true);
+  ASSERT_TRUE(Call(robots_, &v1::RobotService::Stub::RemoveRobot, removal).ok());
+  EXPECT_EQ(latest()->latest_size(), 0);
 }
 
 TEST_F(LivePlansTest, WhoAsksForTooManyPlansIsToldWhenToAskAgain) {

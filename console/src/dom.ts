@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+// Elements by a call each: h('button', {class: 'danger', onclick: f}, 'Delete').
+
+type Child = Node | string | number | null | undefined | false;
+type Attributes = Record<string, string | number | boolean | null | undefined | ((event: never) => void)>;
+
+export function h<K extends keyof HTMLElementTagNameMap>(
+  name: K, attributes: Attributes = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
+  const element = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) {
+    if (value === null || value === undefined || value === false) continue;
+    if (typeof value === 'function') {
+      element.addEventListener(key.slice(2), value as EventListener);
+    } else {
+      element.setAttribute(key, value === true ? '' : String(value));
+    }
+  }
+  fill(element, ...children);
+  return element;
+}
+
+export function fill(element: Element, ...children: Child[]): void {
+  element.replaceChildren(...children
+    .filter((child) => child !== null && child !== undefined && child !== false)
+    .map((child) => (child instanceof Node ? child : String(child))));
+}
+
+// Shows `key`'s worth of content, and leaves the element alone while that does not change, so that
+// what people point at and type into stays.
+const shown = new WeakMap<Element, string>();
+export function fillIfChanged(element: Element, key: string, make: () => Child[]): void {
+  if (shown.get(element) === key) return;
+  shown.set(element, key);
+  fill(element, ...make());
+}
+
+export function saveFile(name: string, parts: BlobPart[], type = 'application/octet-stream'): void {
+  const url = URL.createObjectURL(new Blob(parts, { type }));
+  const link = h('a', { href: url, download: name });
+  document.body.append(link);
+  link.click();
+  link.remove();
+  setTimeout(() => URL.revokeObjectURL(url), 10_000);
+}
+
+// Asks before something that cannot be undone.
+export function ask(title: string, text: string, verb: string): Promise<boolean> {
+  return new Promise((resolve) => {
+    const close = (answer: boolean) => {
+      dialog.close();
+      dialog.remove();
+      resolve(answer);
+    };
+    const dialog = h('dialog', { class: 'ask', 'aria-label': title, oncancel: () => close(false) },
+      h('h2', {}, title),
+      h('p', {}, text),
+      h('div', { class: 'row end' },
+        h('button', { onclick: () => close(false) }, 'Cancel'),
+        h('button', { class: 'danger', onclick: () => close(true) }, verb)));
+    document.body.append(dialog);
+    dialog.showModal();
+  });
+}
+
+let noticeTimer = 0;
+export function notice(text: string, kind: 'good' | 'bad' = 'good'): void {
+  const box = document.getElementById('notice')!;
+  box.className = `notice ${kind}`;
+  box.textContent = text;
+  clearTimeout(noticeTimer);
+  noticeTimer = window.setTimeout(() => { box.textContent = ''; box.className = 'notice'; },
+                                  kind === 'bad' ? 9000 : 4000);
+}

@@ -1,0 +1,223 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+// The map with what stands around it: buttons, legend, what the pointer is at; and the hands on it.
+import type { CellLayer } from './cell_picture.ts';
+import { shareOf, ticksOf } from './colours.ts';
+import { fill, fillIfChanged, h, notice } from './dom.ts';
+import { MapView, SWITCHES } from './map_view.ts';
+import type { Place, Scene, Switch } from './map_view.ts';
+import { FREE, OCCUPIED } from './raster.ts';
+import { figure } from './words.ts';
+
+const LAYERS: [CellLayer, string][] = [['mean', 'Gas'], ['uncertainty', 'Uncertainty'],
+  ['change', 'Change'], ['none', 'Walls']];
+const SWITCH_NAMES: Record<Switch, string> = {
+  frontiers: 'frontiers', ways: 'ways of robots', trails: 'trails', claims: 'claimed goals', names: 'names',
+  areas: 'keep-out and home', why: 'candidates of the plan' };
+// A pointer that moves farther, pixels, drags.
+const DRAG = 4;
+// A click this near, pixels, means the robot.
+const NEAR_ROBOT = 14;
+const ZOOM_STEP = 1.4;
+
+export class MapPanel {
+  readonly element: HTMLElement;
+  readonly banner = h('div', { class: 'banner', role: 'status' });
+  readonly map: MapView;
+  thenRevision = -1n; // of scene.then
+
+  private readonly canvas = h('canvas', { tabindex: 0, role: 'img',
+    'aria-label': 'Map of the mission. Drag or use the arrow keys to pan, + and − to zoom.' });
+  private readonly legend = h('div', { class: 'legend' });
+  private readonly readout = h('div', { class: 'readout' });
+  private readonly tools = h('div', { class: 'tools', role: 'toolbar', 'aria-label': 'Map' });
+
+  constructor(private readonly scene: Scene, private readonly onRobot: (robot: string) => void,
+              private readonly onPlace: (place: Place) => void) {
+    this.map = new MapView(this.canvas, scene);
+    this.element = h('section', { class: 'stage', 'aria-label': 'Map' },
+      this.canvas, this.tools, this.banner, this.readout, this.legend);
+    this.listen();
+    this.showTools();
+    this.showLegend();
+  }
+
+  setCells(layer: CellLayer, log = this.map.picture.log): void {
+    if (layer === 'change' && this.scene.then === null) {
+      notice('Pin a moment first: “Pin to compare” below the map.', 'bad');
+      return;
+    }
+    this.map.setCells(layer, log);
+    this.showTools();
+    this.showLegend();
+  }
+  repaint(): void {
+    this.map.setCells(this.map.picture.layer);
+  }
+
+  showLegend(): void {
+    const { layer, scale, log } = this.map.picture;
+    const title = layer === 'uncertainty' ? 'Uncertainty, one σ, ppm'
+      : layer === 'change' ? `Change of the gas mean since revision ${this.thenRevision}, ppm`
+        : `Gas mean, ppm${log ? ' (logarithmic)' : ''}`;
+    fillIfChanged(this.legend, JSON.stringify([title, scale, layer]), () => [
+      ...(layer === 'none' ? [] : [h('div', {}, title), this.bar(title), h('div', { class: 'ticks' },
+        ...ticksOf(scale).map((value) => {
+          const tick = h('span', {}, figure(value, 2));
+          tick.style.left = `${100 * shareOf(scale, value)}%`;
+          return tick;
+        }))]),
+      h('div', { class: 'marks' },
+        h('span', { class: 'mark m-wall' }, 'wall'), h('span', { class: 'mark m-unknown' }, 'unknown'),
+        h('span', { class: 'mark gas m-gas' }, 'gas frontier'),
+        h('span', { class: 'mark m-occupancy' }, 'map frontier'))]);
+  }
+
+  private bar(title: string): HTMLElement {
+    const colours = this.map.picture.colours();
+    const { scale } = this.map.picture;
+    const bar = h('canvas', { width: colours.length, height: 1, role: 'img',
+                              'aria-label': `${title}: ${scale.min} to ${scale.max}` });
+    const image = new ImageData(colours.length, 1);
+    colours.forEach((colour, i) => image.data.set([...colour, 255], 4 * i));
+    bar.getContext('2d')!.putImageData(image, 0, 0);
+    return bar;
+  }
+
+  private showTools(): void {
+    const { map } = this;
+    const open = this.tools.querySelector('details')?.open ?? false;
+    fill(this.tools,
+      ...LAYERS.map(([layer, name]) => h('button', { 'aria-pressed': String(map.picture.layer === layer),
+        onclick: () => this.setCells(layer) }, name)),
+      h('button', { 'aria-pressed': String(map.picture.log), disabled: map.picture.layer !== 'mean',
+        onclick: () => this.setCells('mean', !map.picture.log) }, 'Log'),
+      h('details', { open }, h('summary', {}, 'Layers'), h('div', {}, ...SWITCHES.map((one) => this.switchOf(one)))),
+      h('button', { onclick: () => this.fit() }, 'Fit'),
+      h('button', { 'aria-label': 'Zoom in', onclick: () => this.zoom(ZOOM_STEP) }, '+'),
+      h('button', { 'aria-label': 'Zoom out', onclick: () => this.zoom(1 / ZOOM_STEP) }, '−'),
+      h('button', { 'aria-pressed': String(map.follow), onclick: () => this.toggleFollow() }, 'Follow'));
+  }
+
+  private switchOf(one: Switch): HTMLElement {
+    const { map } = this;
+    const box = h('input', { type: 'checkbox', checked: map.on.has(one), onchange: () => {
+      if (box.checked) map.on.add(one);
+      else map.on.delete(one);
+      map.draw();
+    } });
+    return h('label', {}, box, ` ${SWITCH_NAMES[one]}`);
+  }
+
+  private fit(): void {
+    this.map.follow = false;
+    this.map.untouched = true;
+    this.map.fit();
+    this.showTools();
+  }
+  private zoom(factor: number, x?: number, y?: number): void {
+    this.map.untouched = false;
+    this.map.view.zoom(factor, x, y);
+    this.map.draw();
+  }
+  private pan(dx: number, dy: number): void {
+    this.map.untouched = false;
+    if (this.map.follow) this.toggleFollow();
+    this.map.view.pan(dx, dy);
+    this.map.draw();
+  }
+  private toggleFollow(): void {
+    this.map.follow = !this.map.follow;
+    this.map.untouched = false;
+    this.showTools();
+    this.map.draw();
+  }
+
+  private hover(x: number, y: number): void {
+    const { raster } = this.scene;
+    const [x_m, y_m] = this.map.view.toPlace(x, y);
+    const cell = raster?.cellAt(x_m, y_m) ?? -1;
+    const parts = [`${x_m.toFixed(2)}, ${y_m.toFixed(2)} m`];
+    if (raster === null || cell < 0) {
+      parts.push('off the map');
+    } else {
+      const state = raster.occupancy[cell];
+      parts.push(state === OCCUPIED ? 'occupied' : state === FREE ? 'free' : 'unknown');
+      if (!Number.isNaN(raster.mean_ppm[cell])) {
+        parts.push(`${figure(raster.mean_ppm[cell])} ± ${figure(Math.sqrt(raster.variance_ppm2[cell]))} ppm`);
+      }
+    }
+    this.readout.textContent = parts.join(' · ');
+  }
+
+  private listen(): void {
+    const { canvas } = this;
+    const pointers = new Map<number, [number, number]>();
+    let moved = 0;
+    const place = (event: { clientX: number; clientY: number }): [number, number] => {
+      const box = canvas.getBoundingClientRect();
+      return [event.clientX - box.left, event.clientY - box.top];
+    };
+    canvas.addEventListener('pointerdown', (event) => {
+      canvas.setPointerCapture(event.pointerId);
+      pointers.set(event.pointerId, place(event));
+      moved = 0;
+    });
+    canvas.addEventListener('pointermove', (event) => {
+      const now = place(event);
+      this.hover(...now);
+      const before = pointers.get(event.pointerId);
+      if (before === undefined) return;
+      const other = [...pointers].find(([id]) => id !== event.pointerId)?.[1];
+      moved += Math.hypot(now[0] - before[0], now[1] - before[1]);
+      if (moved > DRAG && other === undefined) {
+        this.pan(now[0] - before[0], now[1] - before[1]);
+      } else if (other !== undefined) {
+        const spread = (p: [number, number]) => Math.hypot(p[0] - other[0], p[1] - other[1]) + 1;
+        this.zoom(spread(now) / spread(before), (now[0] + other[0]) / 2, (now[1] + other[1]) / 2);
+      }
+      pointers.set(event.pointerId, now);
+    });
+    const end = (event: PointerEvent) => {
+      if (!pointers.delete(event.pointerId) || event.type === 'pointercancel' || moved > DRAG) return;
+      this.click(...place(event));
+    };
+    canvas.addEventListener('pointerup', end);
+    canvas.addEventListener('pointercancel', end);
+    canvas.addEventListener('pointerleave', () => { this.readout.textContent = ''; });
+    canvas.addEventListener('wheel', (event) => {
+      event.preventDefault();
+      this.zoom(Math.exp(-event.deltaY * 0.0015), ...place(event));
+    }, { passive: false });
+  }
+
+  private click(x: number, y: number): void {
+    for (const { pose, robot } of this.scene.status?.robots ?? []) {
+      if (pose === undefined) continue;
+      const [px, py] = this.map.view.toPixel(pose.xM, pose.yM);
+      if (Math.hypot(px - x, py - y) < NEAR_ROBOT) return this.onRobot(robot);
+    }
+    const [x_m, y_m] = this.map.view.toPlace(x, y);
+    this.onPlace({ x_m, y_m });
+  }
+
+  // Whether it was a key of the map.
+  onKey(key: string, target: HTMLElement): boolean {
+    const pans: Record<string, [number, number]> = {
+      ArrowLeft: [60, 0], ArrowRight: [-60, 0], ArrowUp: [0, 60], ArrowDown: [0, -60] };
+    if (key in pans) {
+      if (target !== this.canvas && target !== document.body) return false;
+      this.pan(...pans[key]);
+      return true;
+    }
+    const actions: Record<string, () => void> = {
+      f: () => this.fit(), '+': () => this.zoom(ZOOM_STEP), '=': () => this.zoom(ZOOM_STEP),
+      '-': () => this.zoom(1 / ZOOM_STEP), c: () => this.toggleFollow(),
+      g: () => this.setCells('mean', !this.map.picture.log),
+      1: () => this.setCells('mean'), 2: () => this.setCells('uncertainty'),
+      3: () => this.setCells('change'), 4: () => this.setCells('none') };
+    if (!(key in actions)) return false;
+    actions[key]();
+    return true;
+  }
+}

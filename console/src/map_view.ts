@@ -1,0 +1,437 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+// The map on a canvas: cells as a picture of their own, drawn scaled, and what lies on them as lines.
+import { CellPicture } from './cell_picture.ts';
+import type { CellLayer, Cells } from './cell_picture.ts';
+import { roundUp } from './colours.ts';
+import type { CellRect, Raster } from './raster.ts';
+import { theme } from './theme.ts';
+import { View } from './view.ts';
+import type { Box } from './view.ts';
+import type { MapStatus } from './wire/plumescout/v1/map_service_pb.ts';
+import type { LivePlan, Plan } from './wire/plumescout/v1/planning_service_pb.ts';
+import { RejectedGoal_Reason } from './wire/plumescout/v1/planning_service_pb.ts';
+import { GoalKind } from './wire/plumescout/v1/types_pb.ts';
+import type { Point2D } from './wire/plumescout/v1/types_pb.ts';
+import type { Polygon } from './wire/plumescout/v1/options_pb.ts';
+import { shortName } from './words.ts';
+
+export const SWITCHES = ['frontiers', 'ways', 'trails', 'claims', 'names', 'areas', 'why'] as const;
+export type Switch = (typeof SWITCHES)[number];
+
+export type Trail = { points: [number, number][] };
+export type Place = { x_m: number; y_m: number };
+
+// Whatever lies on the map.
+export type Scene = Cells & {
+  status: MapStatus | null;
+  plans: LivePlan[];
+  why: Plan | null; // of the robot that is looked at
+  asksWhy: boolean; // whether that is looked into
+  candidate: number; // of it, pointed at; -1: none
+  trails: Map<string, Trail>;
+  keepOut: Polygon[];
+  home: Point2D | undefined;
+  robot: string; // that is looked at
+  asked: Place | null; // the place that was clicked on
+};
+
+// What the buttons above the map take of it, pixels.
+const TOOLS_HEIGHT = 40;
+const ROBOT_HUES = [20, 230, 150, 320, 80, 275, 190, 0];
+
+export class MapView {
+  readonly view = new View();
+  readonly picture: CellPicture;
+  readonly on = new Set<Switch>(SWITCHES);
+  follow = false;
+
+  private readonly context: CanvasRenderingContext2D;
+  private scheduled = false;
+  private fitted = false;
+  private robotHues = new Map<string, number>();
+  lastDraw_ms = 0;
+
+  constructor(private readonly canvas: HTMLCanvasElement, private readonly scene: Scene) {
+    this.context = canvas.getContext('2d')!;
+    this.picture = new CellPicture(() => scene);
+    new ResizeObserver(() => this.resize()).observe(canvas);
+    this.resize();
+  }
+
+  private resize(): void {
+    const ratio = window.devicePixelRatio || 1;
+    const { clientWidth, clientHeight } = this.canvas;
+    if (clientWidth === 0 || clientHeight === 0) return;
+    this.canvas.width = Math.round(clientWidth * ratio);
+    this.canvas.height = Math.round(clientHeight * ratio);
+    this.view.width = clientWidth;
+    this.view.height = clientHeight;
+    if (!this.fitted || this.untouched) this.fit();
+    this.draw();
+  }
+  // Nobody has panned or zoomed yet.
+  untouched = true;
+
+  // Of the known part of the map.
+  box(): Box | null {
+    const { raster } = this.scene;
+    if (raster === null) return null;
+    const { columns, rows, resolution_m, x_m, y_m } = raster.geometry;
+    let minX = columns, minY = rows, maxX = 0, maxY = 0;
+    for (let row = 0; row < rows; ++row) {
+      for (let column = 0; column < columns; ++column) {
+        if (raster.occupancy[row * columns + column] === 0) continue;
+        minX = Math.min(minX, column);
+        maxX = Math.max(maxX, column + 1);
+        minY = Math.min(minY, row);
+        maxY = row + 1;
+      }
+    }
+    if (maxX === 0) return null;
+    return {
+      minX: x_m + minX * resolution_m, maxX: x_m + maxX * resolution_m,
+      minY: y_m + minY * resolution_m, maxY: y_m + maxY * resolution_m,
+    };
+  }
+  fit(): void {
+    const box = this.box();
+    if (box === null) return;
+    this.fitted = true;
+    this.view.fit(box, TOOLS_HEIGHT);
+    this.draw();
+  }
+  // The raster, or all of it, is new.
+  replaced(): void {
+    this.picture.forget();
+    if (!this.fitted || this.untouched) this.fit();
+    this.draw();
+  }
+  cellsChanged(rects: CellRect[]): void {
+    this.picture.update(rects);
+    if (this.untouched) this.fit();
+    this.draw();
+  }
+  figuresChanged(): void {
+    this.picture.rescaleIfNeeded();
+    this.draw();
+  }
+  setCells(layer: CellLayer, log = this.picture.log): void {
+    this.picture.layer = layer;
+    this.picture.log = log;
+    this.picture.forget();
+    this.draw();
+  }
+
+  hueOf(robot: string): number {
+    let hue = this.robotHues.get(robot);
+    if (hue === undefined) {
+      hue = ROBOT_HUES[this.robotHues.size % ROBOT_HUES.length];
+      this.robotHues.set(robot, hue);
+    }
+    return hue;
+  }
+  colourOf(robot: string): string {
+    return `hsl(${this.hueOf(robot)} 90% 55%)`;
+  }
+
+  draw(): void {
+    if (this.scheduled) return;
+    this.scheduled = true;
+    requestAnimationFrame(() => {
+      this.scheduled = false;
+      const began = performance.now();
+      this.drawNow();
+      this.lastDraw_ms = performance.now() - began;
+    });
+  }
+
+  private drawNow(): void {
+    const { context: c, view, scene } = this;
+    const ratio = this.canvas.width / Math.max(1, view.width);
+    c.setTransform(ratio, 0, 0, ratio, 0, 0);
+    c.fillStyle = theme('--map-unknown');
+    c.fillRect(0, 0, view.width, view.height);
+    if (scene.raster === null) return;
+    this.picture.prepare();
+    if (this.follow) this.centreOnRobot();
+    this.drawGrid();
+    this.drawCells(scene.raster);
+    if (this.on.has('areas')) this.drawAreas();
+    if (this.on.has('trails')) this.drawTrails();
+    if (this.on.has('frontiers')) this.drawFrontiers(scene.raster);
+    const why = scene.asksWhy && this.on.has('why') ? scene.why : null;
+    if (why !== null) this.drawCandidates(why);
+    if (this.on.has('ways')) this.drawWays();
+    if (this.on.has('claims')) this.drawClaims();
+    if (why !== null) this.drawGoals(why);
+    this.drawRobots();
+    this.drawAsked();
+    this.drawScaleBar();
+  }
+
+  private centreOnRobot(): void {
+    const robots = this.scene.status?.robots ?? [];
+    const robot = robots.find((one) => one.robot === this.scene.robot) ?? robots[0];
+    if (robot?.pose === undefined) return;
+    this.view.centreX_m = robot.pose.xM;
+    this.view.centreY_m = robot.pose.yM;
+  }
+
+  // Metres, or tens of them: what is unknown is a plane too.
+  private drawGrid(): void {
+    const { context: c, view } = this;
+    const step = roundUp(40 / view.scale);
+    const [left, top] = view.toPlace(0, 0), [right, bottom] = view.toPlace(view.width, view.height);
+    c.strokeStyle = theme('--map-grid');
+    c.lineWidth = 1;
+    c.beginPath();
+    for (let x = Math.ceil(left / step) * step; x < right; x += step) {
+      const px = Math.round(view.toPixel(x, 0)[0]) + 0.5;
+      c.moveTo(px, 0);
+      c.lineTo(px, view.height);
+    }
+    for (let y = Math.ceil(bottom / step) * step; y < top; y += step) {
+      const py = Math.round(view.toPixel(0, y)[1]) + 0.5;
+      c.moveTo(0, py);
+      c.lineTo(view.width, py);
+    }
+    c.stroke();
+  }
+
+  private drawCells(raster: Raster): void {
+    const { x_m, y_m, columns, rows, resolution_m } = raster.geometry;
+    const [x, y] = this.view.toPixel(x_m, y_m + rows * resolution_m);
+    const size = this.view.scale * resolution_m;
+    this.context.imageSmoothingEnabled = size < 1;
+    this.context.drawImage(this.picture.canvas, x, y, columns * size, rows * size);
+  }
+
+  private path(points: Iterable<{ xM: number; yM: number }>): void {
+    let first = true;
+    this.context.beginPath();
+    for (const point of points) {
+      const [x, y] = this.view.toPixel(point.xM, point.yM);
+      if (first) this.context.moveTo(x, y);
+      else this.context.lineTo(x, y);
+      first = false;
+    }
+  }
+  // A line that is seen on any ground: its colour on a rim.
+  private strokeTwice(colour: string, width: number, rim = 2.5): void {
+    const c = this.context;
+    c.lineJoin = c.lineCap = 'round';
+    c.strokeStyle = theme('--map-rim');
+    c.lineWidth = width + rim;
+    c.stroke();
+    c.strokeStyle = colour;
+    c.lineWidth = width;
+    c.stroke();
+  }
+
+  private drawAreas(): void {
+    const { context: c, scene, view } = this;
+    for (const area of scene.keepOut) {
+      this.path(area.vertices);
+      c.closePath();
+      c.fillStyle = theme('--map-keep-out');
+      c.fill();
+      c.setLineDash([6, 4]);
+      this.strokeTwice(theme('--bad'), 1.5);
+      c.setLineDash([]);
+    }
+    if (scene.home === undefined) return;
+    const [x, y] = view.toPixel(scene.home.xM, scene.home.yM);
+    c.beginPath();
+    c.moveTo(x - 8, y);
+    c.lineTo(x, y - 8);
+    c.lineTo(x + 8, y);
+    c.moveTo(x - 5, y - 2);
+    c.lineTo(x - 5, y + 7);
+    c.lineTo(x + 5, y + 7);
+    c.lineTo(x + 5, y - 2);
+    this.strokeTwice(theme('--map-ink'), 2);
+  }
+
+  private drawTrails(): void {
+    for (const [robot, trail] of this.scene.trails) {
+      this.path(trail.points.map(([xM, yM]) => ({ xM, yM })));
+      this.context.globalAlpha = 0.9;
+      this.strokeTwice(this.colourOf(robot), 1.75, 1);
+      this.context.globalAlpha = 1;
+    }
+  }
+
+  private drawFrontiers(raster: Raster): void {
+    const { context: c, view } = this;
+    const full = this.scene.status?.geometry;
+    const size_m = full?.resolutionM ?? raster.geometry.resolution_m;
+    const x_m = full?.origin?.xM ?? raster.geometry.x_m, y_m = full?.origin?.yM ?? raster.geometry.y_m;
+    const size = Math.max(2, view.scale * size_m);
+    for (const frontier of this.scene.status?.frontiers ?? []) {
+      const gas = frontier.kind === GoalKind.GAS_FRONTIER;
+      c.fillStyle = theme(gas ? '--frontier-gas' : '--frontier-occupancy');
+      c.globalAlpha = frontier.tooSmall || !frontier.reachable ? 0.4 : 0.95;
+      for (let i = 0; i < frontier.cellColumns.length; ++i) {
+        const [x, y] = view.toPixel(x_m + (frontier.cellColumns[i] + 0.5) * size_m,
+                                    y_m + (frontier.cellRows[i] + 0.5) * size_m);
+        c.fillRect(x - size / 2, y - size / 2, size, size);
+      }
+      c.globalAlpha = 1;
+      if (frontier.centroid === undefined || frontier.tooSmall) continue;
+      const [x, y] = view.toPixel(frontier.centroid.xM, frontier.centroid.yM);
+      c.beginPath();
+      // The kinds differ in shape, too.
+      if (gas) {
+        c.moveTo(x, y - 6);
+        c.lineTo(x + 6, y);
+        c.lineTo(x, y + 6);
+        c.lineTo(x - 6, y);
+        c.closePath();
+      } else {
+        c.rect(x - 4.5, y - 4.5, 9, 9);
+      }
+      this.strokeTwice(theme(gas ? '--frontier-gas' : '--frontier-occupancy'), 2);
+    }
+  }
+
+  private drawCandidates(plan: Plan): void {
+    const { context: c, scene } = this;
+    plan.candidates.forEach((candidate, i) => {
+      if (i === plan.chosenIndex) return;
+      this.path(candidate.path);
+      c.setLineDash(i === scene.candidate ? [] : [3, 4]);
+      this.strokeTwice(theme('--map-ink'), i === scene.candidate ? 3 : 1);
+      c.setLineDash([]);
+    });
+  }
+
+  private drawGoals(plan: Plan): void {
+    const c = this.context;
+    plan.candidates.forEach((candidate, i) => {
+      if (candidate.goal?.position !== undefined) {
+        this.label(candidate.goal.position, String(i + 1), i === plan.chosenIndex);
+      }
+    });
+    for (const rejected of plan.rejectedGoals) {
+      const at = rejected.goal?.position;
+      // Specks of frontiers are many, and nobody asks why not.
+      if (at === undefined || rejected.reason === RejectedGoal_Reason.TOO_SMALL) continue;
+      const [x, y] = this.view.toPixel(at.xM, at.yM);
+      c.beginPath();
+      c.moveTo(x - 4, y - 4);
+      c.lineTo(x + 4, y + 4);
+      c.moveTo(x + 4, y - 4);
+      c.lineTo(x - 4, y + 4);
+      this.strokeTwice(theme('--bad'), 1.5);
+    }
+  }
+
+  private label(at: Point2D, text: string, strong: boolean): void {
+    const c = this.context;
+    const [x, y] = this.view.toPixel(at.xM, at.yM);
+    c.beginPath();
+    c.arc(x, y, 9, 0, 2 * Math.PI);
+    c.fillStyle = theme(strong ? '--map-ink' : '--map-rim');
+    c.fill();
+    c.strokeStyle = theme('--map-ink');
+    c.lineWidth = 1.2;
+    c.stroke();
+    c.fillStyle = theme(strong ? '--map-rim' : '--map-ink');
+    c.font = '600 11px system-ui, sans-serif';
+    c.textAlign = 'center';
+    c.textBaseline = 'middle';
+    c.fillText(text, x, y + 0.5);
+  }
+
+  private drawWays(): void {
+    const { scene } = this;
+    for (const plan of scene.plans) {
+      const points = plan.trajectory?.waypoints.flatMap((one) => one.pose ?? []) ?? [];
+      if (points.length < 2) continue;
+      this.path(points);
+      this.strokeTwice(this.colourOf(plan.robot), plan.robot === scene.robot ? 3.5 : 2.5);
+    }
+  }
+
+  private drawClaims(): void {
+    const { context: c } = this;
+    for (const plan of this.scene.plans) {
+      if (plan.goal === undefined) continue;
+      const [x, y] = this.view.toPixel(plan.goal.xM, plan.goal.yM);
+      c.beginPath();
+      c.arc(x, y, 7, 0, 2 * Math.PI);
+      this.strokeTwice(this.colourOf(plan.robot), 2.5);
+    }
+  }
+
+  private drawRobots(): void {
+    const { context: c, view, scene } = this;
+    for (const robot of scene.status?.robots ?? []) {
+      if (robot.pose === undefined) continue;
+      const [x, y] = view.toPixel(robot.pose.xM, robot.pose.yM);
+      const radius = Math.max(7, robot.radiusM * view.scale);
+      const yaw = -robot.pose.yawRad;
+      c.globalAlpha = robot.silent ? 0.5 : 1;
+      c.beginPath();
+      c.arc(x, y, radius, yaw + 0.6, yaw - 0.6 + 2 * Math.PI);
+      c.lineTo(x + 1.75 * radius * Math.cos(yaw), y + 1.75 * radius * Math.sin(yaw));
+      c.closePath();
+      c.fillStyle = this.colourOf(robot.robot);
+      c.fill();
+      c.strokeStyle = theme(robot.robot === scene.robot ? '--map-ink' : '--map-rim');
+      c.lineWidth = robot.robot === scene.robot ? 2.5 : 1.5;
+      c.stroke();
+      if (this.on.has('names')) {
+        const text = shortName(robot.robot) + (robot.silent ? ' (silent)' : robot.frameSuspect ? ' (lost)' : '');
+        c.font = '600 12px system-ui, sans-serif';
+        c.textAlign = 'left';
+        c.textBaseline = 'middle';
+        c.lineWidth = 3.5;
+        c.strokeStyle = theme('--map-rim');
+        c.strokeText(text, x + 1.9 * radius, y - radius);
+        c.fillStyle = theme('--map-ink');
+        c.fillText(text, x + 1.9 * radius, y - radius);
+      }
+      c.globalAlpha = 1;
+    }
+  }
+
+  private drawAsked(): void {
+    const asked = this.scene.asked;
+    if (asked === null) return;
+    const [x, y] = this.view.toPixel(asked.x_m, asked.y_m);
+    const c = this.context;
+    c.beginPath();
+    c.moveTo(x - 10, y);
+    c.lineTo(x - 3, y);
+    c.moveTo(x + 3, y);
+    c.lineTo(x + 10, y);
+    c.moveTo(x, y - 10);
+    c.lineTo(x, y - 3);
+    c.moveTo(x, y + 3);
+    c.lineTo(x, y + 10);
+    this.strokeTwice(theme('--map-ink'), 2);
+  }
+
+  private drawScaleBar(): void {
+    const { context: c, view } = this;
+    const length_m = roundUp(60 / view.scale);
+    const length = length_m * view.scale;
+    const x = view.width - length - 16, y = view.height - 14;
+    c.beginPath();
+    c.moveTo(x, y - 5);
+    c.lineTo(x, y);
+    c.lineTo(x + length, y);
+    c.lineTo(x + length, y - 5);
+    this.strokeTwice(theme('--map-ink'), 1.5);
+    c.font = '12px system-ui, sans-serif';
+    c.textAlign = 'center';
+    c.textBaseline = 'bottom';
+    c.lineWidth = 3.5;
+    c.strokeStyle = theme('--map-rim');
+    c.strokeText(`${length_m} m`, x + length / 2, y - 3);
+    c.fillStyle = theme('--map-ink');
+    c.fillText(`${length_m} m`, x + length / 2, y - 3);
+  }
+}

@@ -1,0 +1,363 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+// One mission: the map, and beside it robots, reasons, figures and what can be done.
+import { PATIENCE, inWords, missions, planning, robots as robotCalls, sentence } from './client.ts';
+import type { Trouble } from './client.ts';
+import { ChartPanel } from './chart_panel.ts';
+import { fill, h, notice } from './dom.ts';
+import { MapPanel } from './map_panel.ts';
+import type { Place, Scene } from './map_view.ts';
+import { OperatePanel } from './operate_panel.ts';
+import { every, stateClass } from './pages.ts';
+import { figuresOf } from './raster.ts';
+import type { CellRect } from './raster.ts';
+import { RobotsPanel } from './robots_panel.ts';
+import { refreshSession, session } from './session.ts';
+import { Watch, fetchMap } from './watch.ts';
+import type { LinkState } from './watch.ts';
+import type { MapStatus } from './wire/plumescout/v1/map_service_pb.ts';
+import type { Mission } from './wire/plumescout/v1/mission_service_pb.ts';
+import type { Robot } from './wire/plumescout/v1/robot_service_pb.ts';
+import { figure, missionState, phase } from './words.ts';
+import { WhyPanel } from './why_panel.ts';
+
+const MAX_TRAIL_POINTS = 4000;
+const TRAIL_STEP_M = 0.05;
+const TABS = ['Robots', 'Why', 'Charts', 'Operate'] as const;
+type Tab = (typeof TABS)[number];
+export class MissionPage {
+  readonly element: HTMLElement;
+  readonly head: HTMLElement[];
+  private readonly scene: Scene = {
+    raster: null, then: null, figures: null, threshold_ppm: 0, status: null, plans: [], why: null, asksWhy: false, candidate: -1,
+    trails: new Map(), keepOut: [], home: undefined, robot: '', asked: null };
+  private readonly panel: MapPanel;
+  private readonly robotsPanel: RobotsPanel;
+  private readonly why: WhyPanel;
+  private readonly charts: ChartPanel;
+  private readonly operate: OperatePanel;
+  private readonly statePill = h('span', { class: 'pill' }, '…');
+  private readonly linkPill = h('span', { class: 'pill', role: 'status' }, 'connecting');
+  private readonly slider = h('input', { type: 'range', min: 0, max: 1, value: 1, 'aria-label': 'Revision to look at' });
+  private readonly moment = h('span', { class: 'quiet' }, 'live');
+  private readonly speed = h('select', { 'aria-label': 'Speed' },
+    ...[1, 5, 10, 30, 60].map((times) => h('option', { value: times, selected: times === 10 }, `${times}×`)));
+  private readonly playButton = h('button', { onclick: () => this.togglePlay() }, '▶ Play');
+  private readonly pinButton = h('button', { onclick: () => this.pin() }, 'Pin to compare');
+  private readonly tabBar = h('div', { class: 'tabs', role: 'tablist' });
+  private readonly tabBox = h('div', { class: 'tab', role: 'tabpanel' });
+
+  private watch: Watch | null = null;
+  private past: bigint | null = null; // the revision that is looked at; null: live
+  private playing = false;
+  private fetching: AbortController | null = null;
+  private head_revision = 0n;
+  private tab: Tab = 'Robots';
+  private mission: Mission | null = null;
+  private robots: Robot[] = [];
+  private figuresDue = true;
+  private readonly stops: (() => void)[] = [];
+
+  constructor(private readonly name: string, revision: bigint | null) {
+    this.head = [this.statePill, this.linkPill];
+    this.panel = new MapPanel(this.scene, (robot) => this.choose(robot), (place) => this.ask(place));
+    const colourOf = (robot: string) => this.panel.map.colourOf(robot);
+    this.robotsPanel = new RobotsPanel((robot) => this.choose(robot), colourOf);
+    this.charts = new ChartPanel(colourOf);
+    this.element = h('main', { class: 'mission' },
+      this.panel.element,
+      h('aside', { class: 'side', 'aria-label': 'Details' }, this.tabBar, this.tabBox),
+      h('footer', { class: 'time', 'aria-label': 'Time' }, this.playButton, this.speed, this.slider, this.moment,
+        this.pinButton, h('button', { onclick: () => this.goLive() }, 'Live')));
+    this.why = new WhyPanel((candidate) => {
+      this.scene.candidate = candidate;
+      this.panel.map.draw();
+    });
+    this.operate = new OperatePanel(name, () => this.scene.raster, () => this.link());
+    this.listen();
+    this.showTab('Robots');
+    fill(this.panel.banner, 'Waiting for the map …');
+    if (revision === null || revision === 0n) this.goLive();
+    else void this.goTo(revision);
+    this.stops.push(every(1000, () => this.poll()));
+  }
+
+  leave(): void {
+    this.watch?.stop();
+    this.fetching?.abort();
+    for (const stop of this.stops) stop();
+  }
+
+  private link(): string {
+    return `${location.origin}/#/${this.name}@${this.past ?? this.head_revision}`;
+  }
+
+  // --- Where the map comes from: live, a moment, or a replay.
+
+  private startWatch(replay: { fromRevision: bigint; speed: number } | null): void {
+    this.watch?.stop();
+    this.watch = new Watch(this.name, {
+      replaced: (raster) => {
+        this.scene.raster = raster;
+        this.figuresDue = true;
+        this.refreshFigures();
+        this.panel.map.replaced();
+        this.panel.showLegend();
+        this.showSide();
+      },
+      changed: (rects) => this.changed(rects),
+      status: (status, revision) => this.onStatus(status, revision),
+      link: (state, trouble, again_s) => this.onLink(state, trouble, again_s),
+    }, replay);
+  }
+
+  private changed(rects: CellRect[]): void {
+    this.figuresDue = true;
+    this.panel.map.cellsChanged(rects);
+  }
+
+  private onStatus(status: MapStatus, revision: bigint): void {
+    this.scene.status = status;
+    this.scene.threshold_ppm = status.gasThresholdPpm;
+    if (this.past === null) {
+      this.head_revision = revision;
+      this.slider.max = String(revision);
+      this.slider.value = String(revision);
+      this.moment.textContent = `live, revision ${revision}`;
+    } else {
+      this.past = revision;
+      this.slider.value = String(revision);
+      this.moment.textContent = `revision ${revision} of ${this.head_revision}`;
+    }
+    for (const robot of status.robots) this.extendTrail(robot.robot, robot.pose?.xM, robot.pose?.yM);
+    if (this.scene.robot === '' && status.robots.length > 0) this.choose(status.robots[0].robot);
+    this.panel.map.draw();
+  }
+
+  private extendTrail(robot: string, x_m: number | undefined, y_m: number | undefined): void {
+    if (x_m === undefined || y_m === undefined) return;
+    let trail = this.scene.trails.get(robot);
+    if (trail === undefined) {
+      trail = { points: [] };
+      this.scene.trails.set(robot, trail);
+    }
+    const last = trail.points.at(-1);
+    if (last !== undefined && Math.hypot(last[0] - x_m, last[1] - y_m) < TRAIL_STEP_M) return;
+    trail.points.push([x_m, y_m]);
+    if (trail.points.length > MAX_TRAIL_POINTS) trail.points.shift();
+  }
+
+  private onLink(state: LinkState, trouble: Trouble | null, again_s: number): void {
+    const words: Record<LinkState, [string, string]> = {
+      connecting: ['connecting', 'pill warn'],
+      live: this.past === null ? ['live', 'pill good'] : ['playing', 'pill warn'],
+      waiting: [`connection lost, again in ${figure(again_s)} s`, 'pill bad'],
+      hidden: ['asleep while hidden', 'pill'], ended: ['ended', 'pill bad'] };
+    [this.linkPill.textContent, this.linkPill.className] = words[state];
+    if (state === 'live') return this.showPastBanner();
+    if (state === 'waiting' || state === 'ended') {
+      fill(this.panel.banner, trouble === null ? 'The stream has ended.' : inWords(trouble),
+        state === 'waiting' ? h('button', { onclick: () => this.watch?.retry() }, 'Try now')
+          : h('a', { href: '#/' }, 'All missions'));
+    }
+  }
+
+  private showPastBanner(): void {
+    if (this.past === null) {
+      const empty = this.scene.status !== null && this.scene.raster === null;
+      return fill(this.panel.banner, empty ? 'No map yet: no robot has sent a scan.' : null);
+    }
+    fill(this.panel.banner, this.playing ? 'What was, played' : `As it was at revision ${this.past}`,
+      h('button', { onclick: () => this.goLive() }, 'Back to live'));
+  }
+
+  private goLive(): void {
+    this.fetching?.abort();
+    this.past = null;
+    this.setPlaying(false);
+    this.scene.trails.clear();
+    this.startWatch(null);
+    this.showPastBanner();
+    if (location.hash.includes('@')) history.replaceState(null, '', `#/${this.name}`);
+  }
+
+  private async goTo(revision: bigint): Promise<void> {
+    this.watch?.stop();
+    this.watch = null;
+    this.setPlaying(false);
+    this.fetching?.abort();
+    const mine = this.fetching = new AbortController();
+    this.past = revision;
+    this.scene.plans = [];
+    this.scene.why = null;
+    this.scene.trails.clear();
+    [this.linkPill.textContent, this.linkPill.className] = ['looking back', 'pill warn'];
+    fill(this.panel.banner, `Making the map of revision ${revision} …`);
+    try {
+      const { raster, status } = await fetchMap(this.name, revision, mine.signal);
+      if (mine.signal.aborted) return;
+      this.scene.raster = raster;
+      this.onStatus(status, revision);
+      this.figuresDue = true;
+      this.refreshFigures();
+      this.panel.map.replaced();
+      this.panel.showLegend();
+      this.showPastBanner();
+      history.replaceState(null, '', `#/${this.name}@${revision}`);
+    } catch (error) {
+      if (mine.signal.aborted) return;
+      fill(this.panel.banner, sentence(error), h('button', { onclick: () => this.goLive() }, 'Back to live'));
+    }
+  }
+
+  private setPlaying(playing: boolean): void {
+    this.playing = playing;
+    this.playButton.textContent = playing ? '■ Stop' : '▶ Play';
+  }
+
+  private togglePlay(): void {
+    if (this.playing) return void this.goTo(this.past ?? this.head_revision);
+    this.fetching?.abort();
+    const from = this.past !== null && this.past < this.head_revision ? this.past : 0n;
+    this.past = from;
+    this.scene.plans = [];
+    this.scene.why = null;
+    this.scene.trails.clear();
+    this.setPlaying(true);
+    this.startWatch({ fromRevision: from, speed: Number(this.speed.value) });
+  }
+
+  private pin(): void {
+    if (this.scene.raster === null) return;
+    this.scene.then = this.scene.raster.copy();
+    this.panel.thenRevision = this.past ?? this.head_revision;
+    notice(`Revision ${this.panel.thenRevision} is pinned: “Change” shows what the gas mean did since.`);
+    this.panel.setCells('change');
+  }
+
+  // --- What is polled.
+
+  private async poll(): Promise<void> {
+    this.refreshFigures();
+    try {
+      if (session.info === null) await refreshSession();
+      const [got, listed, live] = await Promise.all([
+        missions.getMission({ name: this.name }, PATIENCE),
+        robotCalls.listRobots({ mission: this.name }, PATIENCE),
+        planning.listPlans({ mission: this.name, withLatest: true }, PATIENCE)]);
+      this.mission = got.mission ?? null;
+      this.robots = listed.robots;
+      if (this.mission !== null) {
+        this.statePill.className = stateClass(this.mission.state);
+        this.statePill.textContent = `${missionState(this.mission.state)} · ${phase(this.mission.phase)}`;
+        this.scene.keepOut = this.mission.options?.keepOut ?? [];
+        this.scene.home = this.mission.options?.home;
+        if (this.mission.revision > this.head_revision) this.head_revision = this.mission.revision;
+        this.slider.max = String(this.head_revision);
+        if (this.past === null) this.slider.value = this.slider.max;
+      }
+      if (this.past === null) {
+        this.scene.plans = live.plans;
+        this.scene.why = live.latest.find((plan) => plan.robot === this.scene.robot) ?? null;
+        this.sample(live.latest.map((plan) => [plan.robot,
+          Number(plan.cpuDuration?.seconds ?? 0) + (plan.cpuDuration?.nanos ?? 0) * 1e-9]));
+      }
+    } catch {
+      return; // the stream's banner says what is the matter
+    }
+    this.showSide();
+    this.panel.map.draw();
+  }
+
+  private refreshFigures(): void {
+    if (!this.figuresDue || this.scene.raster === null) return;
+    this.figuresDue = false;
+    this.scene.figures = figuresOf(this.scene.raster, this.scene.status?.gasThresholdPpm ?? 0);
+    this.panel.map.figuresChanged();
+    this.panel.showLegend();
+  }
+
+  private sample(cpu: [string, number][]): void {
+    const { figures, status } = this.scene;
+    if (figures === null || status === null) return;
+    const add = (title: string, unit: string, value: number, line = '') => this.charts.add(title, unit, line, value);
+    add('Known area', 'm²', figures.known_m2);
+    add('Largest gas mean', 'ppm', figures.max_ppm);
+    add(`Plume (above ${figure(status.gasThresholdPpm)} ppm)`, 'm²', figures.plume_m2);
+    add('Mean entropy of the gas field', 'nats', figures.mean_entropy_nats);
+    add('Readings in the posterior', '', Number(status.gasCounters?.inPosteriorCount ?? 0));
+    for (const [robot, cpu_s] of cpu) add('CPU time of the latest plan', 'ms', 1000 * cpu_s, robot);
+    for (const robot of this.robots) {
+      if (robot.ingestLagS !== undefined) add('Age of the newest sample', 's', robot.ingestLagS, robot.onMap?.robot);
+    }
+  }
+
+  // --- The side.
+
+  private showTab(tab: Tab): void {
+    this.tab = tab;
+    this.scene.asksWhy = tab === 'Why';
+    this.panel.map.draw();
+    fill(this.tabBar, ...TABS.map((one) => h('button', { role: 'tab', 'aria-selected': String(one === tab),
+      onclick: () => this.showTab(one) }, one)));
+    fill(this.tabBox, { Robots: this.robotsPanel.element, Why: this.why.element, Charts: this.charts.element,
+                        Operate: this.operate.element }[tab]);
+    this.showSide();
+  }
+
+  private showSide(): void {
+    if (this.tab === 'Robots') this.robotsPanel.show(this.mission, this.robots, this.scene);
+    if (this.tab === 'Why') this.why.show(this.scene.robot, this.scene.why);
+    if (this.tab === 'Charts') this.charts.draw();
+    if (this.tab === 'Operate') this.operate.show(this.mission, this.robots);
+  }
+
+  private choose(robot: string): void {
+    this.scene.robot = robot;
+    this.scene.why = null;
+    this.scene.candidate = -1;
+    this.why.clear();
+    this.scene.asked = null;
+    this.showSide();
+    this.panel.map.draw();
+  }
+
+  private listen(): void {
+    this.slider.addEventListener('input', () => { this.moment.textContent = `revision ${this.slider.value}`; });
+    this.slider.addEventListener('change', () => {
+      if (BigInt(this.slider.value) >= this.head_revision) this.goLive();
+      else void this.goTo(BigInt(this.slider.value));
+    });
+    this.speed.addEventListener('change', () => {
+      if (!this.playing) return;
+      this.setPlaying(false);
+      this.togglePlay();
+    });
+    const themed = () => this.panel.repaint();
+    window.addEventListener('themechange', themed);
+    this.stops.push(() => window.removeEventListener('themechange', themed));
+  }
+
+  // Why the robot does not go there.
+  private ask(place: Place): void {
+    this.scene.asked = place;
+    this.panel.map.draw();
+    this.showTab('Why');
+    const pose = this.scene.status?.robots.find((one) => one.robot === this.scene.robot)?.pose;
+    void this.why.ask(this.scene.robot, pose, place, this.scene.why);
+  }
+
+  // Whether it was a key of ours.
+  onKey(key: string, target: HTMLElement): boolean {
+    if (key === 'l') {
+      this.goLive();
+      return true;
+    }
+    if (key === ' ') {
+      if (target.closest('button, summary, a') !== null) return false;
+      this.togglePlay();
+      return true;
+    }
+    return this.panel.onKey(key, target);
+  }
+}

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+// What an operator does to a mission and its robots, and what leaves it as files.
+import { PATIENCE, missions, requestId, robots, sentence, snapshots } from './client.ts';
+import { ask, fillIfChanged, h, notice, saveFile } from './dom.ts';
+import { mapYamlOf, npyOf, pgmOf } from './export.ts';
+import type { Raster } from './raster.ts';
+import { mayOperate } from './session.ts';
+import { MissionState } from './wire/plumescout/v1/mission_service_pb.ts';
+import type { Mission } from './wire/plumescout/v1/mission_service_pb.ts';
+import type { Robot } from './wire/plumescout/v1/robot_service_pb.ts';
+import { bytes, shortName } from './words.ts';
+
+async function attempt(what: string, task: () => Promise<unknown>): Promise<void> {
+  try {
+    await task();
+    notice(what);
+  } catch (error) {
+    notice(sentence(error), 'bad');
+  }
+}
+
+export class OperatePanel {
+  readonly element = h('div', {});
+
+  constructor(private readonly mission: string, private readonly raster: () => Raster | null,
+              private readonly link: () => string) {}
+
+  show(mission: Mission | null, list: Robot[]): void {
+    if (mission === null) return;
+    const key = JSON.stringify([mayOperate(), mission.state, list.map((one) =>
+      [one.onMap?.robot, one.orderedHome, one.leased])]);
+    fillIfChanged(this.element, key, () => [
+      mayOperate() ? this.missionActions(mission)
+        : h('p', { class: 'card' }, 'You look on: your role may not change missions.'),
+      mayOperate() ? this.robotActions(mission, list) : null,
+      this.exports(),
+      this.options(mission)]);
+  }
+
+  private missionActions(mission: Mission): HTMLElement {
+    const name = mission.name;
+    const id = shortName(name);
+    const { state } = mission;
+    const finish = async () => {
+      if (await ask(`Finish ${id}?`, 'Its map can be read from then on, but nothing changes it any more, ' +
+                    'and no robot gets a plan. This cannot be taken back.', 'Finish')) {
+        await attempt(`${id} is finished.`, () => missions.finishMission({ name }, PATIENCE));
+      }
+    };
+    const order = (home: boolean) => attempt(home ? 'All robots drive home.' : 'No robot has to go home.',
+      () => robots.orderHome({ target: { case: 'mission', value: name }, home,
+                               requestId: requestId() }, PATIENCE));
+    return h('section', { class: 'card' }, h('h2', {}, 'Mission'), h('div', { class: 'row' },
+      state === MissionState.PAUSED
+        ? h('button', { class: 'primary', onclick: () => void attempt(`${id} goes on.`,
+            () => missions.resumeMission({ name }, PATIENCE)) }, 'Resume')
+        : h('button', { disabled: state !== MissionState.RUNNING,
+            onclick: () => void attempt(`${id} pauses: no new plans.`,
+              () => missions.pauseMission({ name }, PATIENCE)) }, 'Pause'),
+      h('button', { disabled: state === MissionState.FINISHED, onclick: () => void order(true) }, 'All home'),
+      h('button', { disabled: state === MissionState.FINISHED, onclick: () => void order(false) }, 'Not home any more'),
+      h('button', { class: 'danger', disabled: state === MissionState.FINISHED, onclick: () => void finish() }, 'Finish …')));
+  }
+
+  private robotActions(mission: Mission, list: Robot[]): HTMLElement {
+    const remove = async (robot: string) => {
+      const id = shortName(robot);
+      if (await ask(`Remove ${id}?`, `${id} leaves the mission, whoever holds its lease. What it measured stays. ` +
+                    'If it is alive, it has to register again.', 'Remove')) {
+        await attempt(`${id} is removed.`, () => robots.removeRobot({ robot, force: true }, PATIENCE));
+      }
+    };
+    const release = async (robot: string) => {
+      const id = shortName(robot);
+      if (await ask(`Release the lease of ${id}?`, 'Whoever drives it now is sent away, and another client ' +
+                    'may register it at once.', 'Release')) {
+        await attempt(`The lease of ${id} is free.`, () => robots.releaseLease({ robot, force: true }, PATIENCE));
+      }
+    };
+    const finished = mission.state === MissionState.FINISHED;
+    return h('section', { class: 'card' }, h('h2', {}, 'Robots'),
+      list.length === 0 ? h('p', { class: 'quiet' }, 'No robot has registered yet.') : null,
+      ...list.map((one) => {
+        const robot = one.onMap?.robot ?? '';
+        const id = shortName(robot);
+        return h('div', { class: 'row' }, h('strong', { class: 'spring' }, id),
+          h('button', { disabled: finished, 'aria-label': one.orderedHome ? `${id} goes on` : `Send ${id} home`,
+            onclick: () => void attempt(one.orderedHome ? `${id} goes on.` : `${id} drives home.`,
+              () => robots.orderHome({ target: { case: 'robot', value: robot }, home: !one.orderedHome,
+                                       requestId: requestId() }, PATIENCE)) },
+            one.orderedHome ? 'Go on' : 'Home'),
+          one.leased ? h('button', { 'aria-label': `Release the lease of ${id}`, onclick: () => void release(robot) }, 'Release …') : null,
+          h('button', { class: 'danger', disabled: finished, 'aria-label': `Remove ${id}`,
+                        onclick: () => void remove(robot) }, 'Remove …'));
+      }));
+  }
+
+  private exports(): HTMLElement {
+    const id = shortName(this.mission);
+    const save = (write: (raster: Raster) => void) => {
+      const raster = this.raster();
+      if (raster === null) notice('There is no map yet.', 'bad');
+      else write(raster);
+    };
+    const npy = (name: string, layer: (raster: Raster) => Float32Array) => save((raster) =>
+      saveFile(`${id}-${name}.npy`, [npyOf(layer(raster), raster.geometry.rows, raster.geometry.columns).buffer as ArrayBuffer]));
+    return h('section', { class: 'card' }, h('h2', {}, 'Take away'), h('div', { class: 'row' },
+      h('button', { onclick: () => save((raster) => {
+        saveFile(`${id}.pgm`, [pgmOf(raster).buffer as ArrayBuffer]);
+        saveFile(`${id}.yaml`, [mapYamlOf(raster, `${id}.pgm`)]);
+      }) }, 'Map (map_server)'),
+      h('button', { onclick: () => npy('gas-mean', (raster) => raster.mean_ppm) }, 'Gas mean (npy)'),
+      h('button', { onclick: () => npy('gas-variance', (raster) => raster.variance_ppm2) }, 'Gas variance (npy)'),
+      mayOperate() ? h('button', { onclick: () => void this.exportMission() }, 'Whole mission') : null,
+      h('button', { onclick: () => void Promise.resolve(navigator.clipboard?.writeText(this.link()) ?? Promise.reject())
+        .then(() => notice('The link to this moment is copied.'), () => notice(this.link())) }, 'Link to this moment')));
+  }
+
+  private async exportMission(): Promise<void> {
+    const parts: Uint8Array[] = [];
+    try {
+      let size = 0;
+      for await (const { part } of snapshots.exportMission({ mission: this.mission })) {
+        if (part.case === 'start') notice(`About ${bytes(part.value.expectedBytes)} are on their way …`);
+        if (part.case === 'piece') {
+          parts.push(part.value.data);
+          size += part.value.data.length;
+        }
+        if (part.case !== 'end') continue;
+        if (BigInt(size) !== part.value.totalBytes) throw new Error('the file is not whole');
+        saveFile(`${shortName(this.mission)}.plumescout`, parts as BlobPart[]);
+        notice(`The mission is saved: ${bytes(size)}.`);
+      }
+    } catch (error) {
+      notice(sentence(error), 'bad');
+    }
+  }
+
+  private options(mission: Mission): HTMLElement {
+    const text = JSON.stringify(mission.options ?? {}, (key, value) =>
+      key.startsWith('$') || key === 'priorMap' ? undefined : typeof value === 'bigint' ? Number(value) : value, 2);
+    return h('details', { class: 'group' }, h('summary', {}, 'Options in force'), h('pre', { class: 'scroll' }, text));
+  }
+}

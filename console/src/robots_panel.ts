@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+// The robots of a mission, and what is known of it all.
+import { fill, h } from './dom.ts';
+import type { Scene } from './map_view.ts';
+import type { Mission } from './wire/plumescout/v1/mission_service_pb.ts';
+import type { Robot } from './wire/plumescout/v1/robot_service_pb.ts';
+import { duration, figure, link, shortName } from './words.ts';
+
+type Facts = [string, string][];
+
+function list(facts: Facts): HTMLElement {
+  return h('dl', { class: 'facts' },
+    ...facts.flatMap(([key, value]) => [h('dt', {}, key), h('dd', {}, value)]));
+}
+
+function factsOf(robot: Robot): Facts {
+  const facts: Facts = [['link', link(robot.link)],
+    ['last heard', robot.lastHeardAgeS === undefined ? 'never' : `${duration(robot.lastHeardAgeS)} ago`],
+    ['log applied', String(robot.onMap?.appliedSequence ?? 0)]];
+  const refused = robot.onMap?.rejectedObservationCount ?? 0n;
+  if (refused > 0n) facts.push(['refused', String(refused)]);
+  if (robot.ingestLagS !== undefined) facts.push(['newest sample', `${duration(robot.ingestLagS)} old`]);
+  if (robot.batteryShare !== undefined) facts.push(['battery', `${figure(100 * robot.batteryShare)} %`]);
+  if (robot.livePlan === '') return [...facts, ['plan', 'none']];
+  const late = figure(Math.max(0, robot.latenessS), 2);
+  return [...facts, ['plan', shortName(robot.livePlan)],
+    ['on its way', `${figure(robot.progressS)} s, late by ${late} s`]];
+}
+
+function missionFacts(mission: Mission, { figures, status }: Scene): Facts {
+  const gas = status?.gasCounters;
+  return [['known', `${figure(figures?.known_m2 ?? NaN)} m²`], ['free', `${figure(figures?.free_m2 ?? NaN)} m²`],
+    ['largest gas mean', `${figure(figures?.max_ppm ?? NaN)} ppm`],
+    ['plume', `${figure(figures?.plume_m2 ?? NaN)} m² above ${figure(status?.gasThresholdPpm ?? NaN)} ppm`],
+    ['readings', `${gas?.inPosteriorCount ?? 0n} of ${gas?.readingCount ?? 0n} in the posterior`],
+    ['frontiers', String(status?.frontiers.filter((one) => !one.tooSmall).length ?? 0)],
+    ['strategy', mission.options?.planning?.strategy ?? '–']];
+}
+
+export class RobotsPanel {
+  readonly element = h('div', {}, h('p', { class: 'empty' }, 'Loading …'));
+
+  constructor(private readonly choose: (robot: string) => void,
+              private readonly colourOf: (robot: string) => string) {}
+
+  show(mission: Mission | null, robots: Robot[], scene: Scene): void {
+    if (mission === null) return;
+    // A button that is pointed at, or about to be pressed, stays where it is.
+    const focused = this.element.contains(document.activeElement)
+      ? document.activeElement?.getAttribute('aria-label') : null;
+    if (robots.length === 0) {
+      return fill(this.element, h('p', { class: 'empty' }, 'No robot has registered yet. ',
+        'A robot joins with RegisterRobot: see docs/robots.md.'));
+    }
+    fill(this.element, ...robots.map((robot) => this.robot(robot, scene.robot)),
+      h('section', {}, h('h3', {}, 'Mission'), list(missionFacts(mission, scene))));
+    if (focused !== null && focused !== undefined) {
+      this.element.querySelector<HTMLElement>(`[aria-label="${CSS.escape(focused)}"]`)?.focus();
+    }
+  }
+
+  private robot(robot: Robot, chosen: string): HTMLElement {
+    const name = robot.onMap?.robot ?? '';
+    const looked = name === chosen;
+    const swatch = h('span', { class: 'swatch' });
+    swatch.style.background = this.colourOf(name);
+    return h('div', { class: looked ? 'robot chosen' : 'robot' },
+      h('div', { class: 'row' }, swatch, h('strong', { class: 'spring' }, shortName(name)),
+        robot.orderedHome ? h('span', { class: 'pill warn' }, 'sent home') : null,
+        robot.onMap?.frameSuspect ? h('span', { class: 'pill bad' }, 'lost') : null,
+        robot.onMap?.silent ? h('span', { class: 'pill bad' }, 'silent') : null,
+        h('button', { 'aria-pressed': String(looked), 'aria-label': `Look at ${shortName(name)}`,
+                      onclick: () => this.choose(name) }, looked ? 'looked at' : 'look at')),
+      list(factsOf(robot)));
+  }
+}

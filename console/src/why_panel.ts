@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+// Why a robot drives where it does, and not elsewhere.
+import { PATIENCE, planning, sentence } from './client.ts';
+import { fill, fillIfChanged, h } from './dom.ts';
+import type { Place } from './map_view.ts';
+import type { CheckTrajectoryResponse, FrontierGoal, Plan, RejectedGoal } from './wire/plumescout/v1/planning_service_pb.ts';
+import { RejectedGoal_Reason } from './wire/plumescout/v1/planning_service_pb.ts';
+import { CellState, GoalKind } from './wire/plumescout/v1/types_pb.ts';
+import type { Pose2D } from './wire/plumescout/v1/types_pb.ts';
+import { duration, figure, goalKind, phase, reason, searchEnd, shortName, source } from './words.ts';
+
+// A click means a frontier this near.
+const NEAR_M = 0.8;
+
+export class WhyPanel {
+  readonly element: HTMLElement;
+  private readonly answer = h('div', { 'aria-live': 'polite' });
+  private readonly plan = h('div', {});
+  private asked = 0;
+
+  constructor(private readonly pointAt: (candidate: number) => void) {
+    this.element = h('div', {},
+      h('p', { class: 'quiet' }, 'Click a frontier or a place on the map to ask why the robot does not go there.'),
+      this.answer, this.plan);
+  }
+
+  // The latest plan of the robot that is looked at; null: the server knows of none.
+  show(robot: string, plan: Plan | null): void {
+    const key = `${robot} ${plan?.name ?? ''} ${plan?.chosenIndex ?? ''} ${plan?.beliefRevision ?? ''}`;
+    fillIfChanged(this.plan, key, () => {
+      if (robot === '') return [h('p', { class: 'empty' }, 'No robot yet.')];
+      if (plan === null) {
+        return [h('p', { class: 'empty' },
+          `${shortName(robot)} has not been given a plan since the server started.`)];
+      }
+      return this.planContent(plan);
+    });
+  }
+
+  private planContent(plan: Plan): HTMLElement[] {
+    const cpu_s = Number(plan.cpuDuration?.seconds ?? 0) + (plan.cpuDuration?.nanos ?? 0) * 1e-9;
+    const parts: HTMLElement[] = [
+      h('h2', {}, `Plan ${shortName(plan.name)} of ${shortName(plan.robot)}`),
+      h('p', {}, plan.explanation),
+      h('p', { class: 'quiet' }, `${phase(plan.phase)} · ${plan.strategy} · search ended: ` +
+        `${searchEnd(plan.end)} · ${duration(cpu_s)} of CPU · revision ${plan.beliefRevision}` +
+        (plan.goalKept ? ' · it keeps its goal: no other is better by the margin' : '')),
+    ];
+    if (plan.candidates.length > 0) parts.push(this.candidates(plan));
+    if (plan.rejectedGoals.length > 0) parts.push(this.rejected(plan));
+    return parts;
+  }
+
+  private candidates(plan: Plan): HTMLElement {
+    const priced = plan.candidates.some((one) => one.expectedInformationNats !== undefined);
+    const rewarded = plan.candidates.some((one) => one.reward !== undefined);
+    const n = { class: 'n' };
+    return h('div', {}, h('h3', {}, `${plan.candidates.length} goals it could drive to`),
+      h('div', { class: 'scroll' }, h('table', {},
+        h('thead', {}, h('tr', {}, h('th', {}, '#'), h('th', {}, 'goal'), h('th', n, 'm'), h('th', n, 's'),
+          priced ? h('th', n, 'nats') : null, priced ? h('th', n, 'nats/s') : null,
+          rewarded ? h('th', n, 'reward') : null, h('th', n, 'cost'), h('th', n, 'ppm'))),
+        h('tbody', {}, ...plan.candidates.map((one, i) => {
+          const nats = one.expectedInformationNats;
+          return h('tr', {
+            class: i === plan.chosenIndex ? 'pick chosen' : 'pick',
+            title: `by ${source(one.pathSource)}; mean information ${figure(one.meanUcb)}, ` +
+              `information penalty ${figure(one.informationPenalty)} cells`,
+            onmouseenter: () => this.pointAt(i), onmouseleave: () => this.pointAt(-1),
+          }, h('td', {}, i + 1, i === plan.chosenIndex ? ' ✓' : ''),
+            h('td', {}, goalKind(one.goal?.kind ?? GoalKind.UNSPECIFIED)),
+            h('td', n, figure(one.lengthM)), h('td', n, figure(one.durationS)),
+            priced ? h('td', n, figure(nats ?? NaN)) : null,
+            priced ? h('td', n, figure((nats ?? NaN) / one.durationS)) : null,
+            rewarded ? h('td', n, figure(one.reward ?? NaN)) : null,
+            h('td', n, figure(one.cost)), h('td', n, figure(one.meanConcentrationPpm)));
+        })))));
+  }
+
+  private rejected(plan: Plan): HTMLElement {
+    const groups = new Map<RejectedGoal_Reason, RejectedGoal[]>();
+    for (const one of plan.rejectedGoals) groups.set(one.reason, [...groups.get(one.reason) ?? [], one]);
+    return h('div', {}, h('h3', {}, `${plan.rejectedGoals.length} goals left out`),
+      ...[...groups].map(([why, goals]) => h('details', { open: goals.length <= 3 },
+        h('summary', {}, `${goals.length} × ${reason(why)}`),
+        h('table', {}, h('tbody', {}, ...goals.map((one) => h('tr', {},
+          h('td', {}, goalKind(one.goal?.kind ?? GoalKind.UNSPECIFIED)),
+          h('td', { class: 'n' }, `${figure(one.goal?.position?.xM ?? NaN)}, ${figure(one.goal?.position?.yM ?? NaN)}`),
+          h('td', {}, one.detail))))))));
+  }
+
+  clear(): void {
+    ++this.asked;
+    fill(this.answer);
+  }
+
+  // Why `robot`, which stands at `pose`, does not go there.
+  async ask(robot: string, pose: Pose2D | undefined, at: Place, plan: Plan | null): Promise<void> {
+    const mine = ++this.asked;
+    const say = (...what: (Node | string)[]) => {
+      if (mine !== this.asked) return;
+      fill(this.answer, h('div', { class: 'card' },
+        h('h3', {}, `Why not ${figure(at.x_m)}, ${figure(at.y_m)}?`), ...what));
+    };
+    if (robot === '' || pose === undefined) return say('No robot has told where it is.');
+    say('Asking the server …');
+    try {
+      const { frontiers } = await planning.listFrontiers({ robot }, PATIENCE);
+      const near = nearestFrontier(frontiers, at);
+      if (near !== null) return say(...frontierAnswer(near, plan));
+      const check = await planning.checkTrajectory({ robot, subject: { case: 'path', value: {
+        vertices: [{ xM: pose.xM, yM: pose.yM }, { xM: at.x_m, yM: at.y_m }],
+        goalKind: GoalKind.RANDOM_FREE_SPACE } } }, PATIENCE);
+      say(...placeAnswer(check));
+    } catch (error) {
+      say(sentence(error));
+    }
+  }
+}
+
+export function nearestFrontier(frontiers: FrontierGoal[], at: Place): FrontierGoal | null {
+  let best: FrontierGoal | null = null;
+  let least = NEAR_M;
+  for (const frontier of frontiers) {
+    for (const point of [frontier.goal?.centroid, frontier.goal?.position]) {
+      if (point === undefined) continue;
+      const distance = Math.hypot(point.xM - at.x_m, point.yM - at.y_m);
+      if (distance >= least) continue;
+      least = distance;
+      best = frontier;
+    }
+  }
+  return best;
+}
+
+function samePlace(a: FrontierGoal, plan: Plan, i: number): boolean {
+  const [p, q] = [a.goal?.position, plan.candidates[i].goal?.position];
+  return p !== undefined && q !== undefined && Math.hypot(p.xM - q.xM, p.yM - q.yM) < 0.5;
+}
+
+function frontierAnswer(frontier: FrontierGoal, plan: Plan | null): (Node | string)[] {
+  const way = frontier.travelM === undefined ? 'no way leads there' : `${figure(frontier.travelM)} m to drive`;
+  const what = h('p', {}, `A ${goalKind(frontier.goal?.kind ?? GoalKind.UNSPECIFIED)} of ` +
+    `${frontier.goal?.frontierCellCount ?? 0} cells; ${way}.`);
+  if (frontier.reason !== RejectedGoal_Reason.UNSPECIFIED) {
+    return [what, h('strong', {}, `It is no goal now: ${reason(frontier.reason)}` +
+      (frontier.detail === '' ? '.' : ` (${frontier.detail}).`))];
+  }
+  const index = plan?.candidates.findIndex((_, i) => samePlace(frontier, plan, i)) ?? -1;
+  if (plan === null || index < 0) {
+    return [what, h('strong', {}, 'It could be a goal; the latest plan did not consider it.')];
+  }
+  if (index === plan.chosenIndex) return [what, h('strong', {}, 'It is where the robot drives.')];
+  const [mine, chosen] = [plan.candidates[index], plan.candidates[plan.chosenIndex]];
+  const rate = (one: typeof mine) => (one.expectedInformationNats ?? NaN) / one.durationS;
+  return [what, h('strong', {}, `It is candidate ${index + 1}; number ${plan.chosenIndex + 1} was better` +
+    (chosen !== undefined && rate(chosen) > rate(mine)
+      ? `: ${figure(rate(chosen))} against ${figure(rate(mine))} nats a second.`
+      : ', counting also what is unseen behind it, or what else the strategy weighs.'))];
+}
+
+const STATES: Record<number, string> = {
+  [CellState.UNKNOWN]: 'a cell that is not known yet',
+  [CellState.OCCUPIED]: 'something that stands there',
+  [CellState.OFF_MAP]: 'the edge of the map',
+  [CellState.FREE]: 'free space too near an obstacle, or kept out',
+};
+
+function placeAnswer(check: CheckTrajectoryResponse): (Node | string)[] {
+  const parts: (Node | string)[] = [h('p', {}, 'No frontier is near. The straight way there:')];
+  if (check.blockage !== undefined) {
+    parts.push(h('strong', {}, `after ${figure(check.blockage.distanceM)} m it meets ` +
+      `${STATES[check.blockage.state] ?? 'an obstacle'}. `));
+  } else if (check.rest !== undefined) {
+    parts.push(h('strong', {}, `free: ${figure(check.rest.lengthM)} m, ${figure(check.rest.durationS)} s` +
+      (check.rest.expectedInformationNats === undefined ? '. '
+        : `, ${figure(check.rest.expectedInformationNats)} nats to be learnt on it. `)));
+  }
+  if (check.rejectedGoal !== undefined) {
+    parts.push(`As a goal: ${check.rejectedGoal.detail || reason(check.rejectedGoal.reason)}.`);
+  }
+  return parts;
+}

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+// Names of things, and figures, as people read them.
+import { Candidate_PathSource, Plan_End, RejectedGoal_Reason } from './wire/plumescout/v1/planning_service_pb.ts';
+import { RobotLink } from './wire/plumescout/v1/robot_service_pb.ts';
+import { GoalKind, MissionPhase } from './wire/plumescout/v1/types_pb.ts';
+import { MissionState } from './wire/plumescout/v1/mission_service_pb.ts';
+
+// GAS_FRONTIER: gas frontier.
+function plain(name: string | undefined): string {
+  return (name ?? 'unknown').toLowerCase().replaceAll('_', ' ');
+}
+
+export const goalKind = (kind: GoalKind) => plain(GoalKind[kind]);
+export const phase = (value: MissionPhase) => plain(MissionPhase[value]);
+export const missionState = (state: MissionState) => plain(MissionState[state]);
+export const link = (value: RobotLink) => plain(RobotLink[value]);
+export const source = (value: Candidate_PathSource) => plain(Candidate_PathSource[value]);
+
+const ENDS: Record<number, string> = {
+  [Plan_End.ALL_GOALS_REACHED]: 'every goal has a path',
+  [Plan_End.QUEUE_EXHAUSTED]: 'the samples ran out before every goal had a path',
+  [Plan_End.STOPPED]: 'its time was up',
+  [Plan_End.NO_GOALS]: 'there was no goal to go to',
+  [Plan_End.MISSION_COMPLETE]: 'the mission is complete',
+  [Plan_End.START_OCCUPIED]: 'there is no way out from where the robot stands',
+  [Plan_End.ALL_GOALS_REJECTED]: 'every goal was left out for a reason',
+};
+export const searchEnd = (end: Plan_End) => ENDS[end] ?? 'unknown';
+
+const REASONS: Record<number, string> = {
+  [RejectedGoal_Reason.UNREACHABLE]: 'no way leads there',
+  [RejectedGoal_Reason.TOO_SMALL]: 'too few cells',
+  [RejectedGoal_Reason.SET_ASIDE]: 'failed before, or visited without change',
+  [RejectedGoal_Reason.CLAIMED]: 'another robot is on its way there',
+  [RejectedGoal_Reason.NOT_DRAWN]: 'more goals than the limit',
+  [RejectedGoal_Reason.TOO_CLOSE]: 'nearer than the minimum distance',
+  [RejectedGoal_Reason.SEARCH_STOPPED]: 'time was up before a path was found',
+  [RejectedGoal_Reason.OVER_BUDGET]: 'too little travel would be left to drive home',
+  [RejectedGoal_Reason.KEPT_OUT]: 'in an area where nobody may drive',
+  [RejectedGoal_Reason.GONE]: 'there is no such goal any more',
+  [RejectedGoal_Reason.TRAFFIC]: 'another robot is on the way to it for too long',
+};
+export const reason = (value: RejectedGoal_Reason) => REASONS[value] ?? 'could be a goal';
+
+// Last part of a resource name.
+export const shortName = (name: string) => name.slice(name.lastIndexOf('/') + 1);
+
+export function figure(value: number, digits = 3): string {
+  if (!Number.isFinite(value)) return '–';
+  if (value === 0) return '0';
+  const size = Math.abs(value);
+  if (size >= 1000 && size < 1e7) return String(Math.round(value));
+  if (size >= 1e7 || size < 0.001) return value.toExponential(1);
+  return String(Number(value.toPrecision(digits)));
+}
+
+export function bytes(count: bigint | number): string {
+  const value = Number(count);
+  if (value >= 1 << 30) return `${figure(value / (1 << 30))} GiB`;
+  if (value >= 1 << 20) return `${figure(value / (1 << 20))} MiB`;
+  return value >= 1024 ? `${figure(value / 1024)} kiB` : `${value} B`;
+}
+
+export function duration(seconds: number): string {
+  if (!Number.isFinite(seconds)) return '–';
+  if (seconds < 1) return `${Math.round(1000 * seconds)} ms`;
+  if (seconds < 120) return `${figure(seconds)} s`;
+  if (seconds < 7200) return `${Math.floor(seconds / 60)} min ${Math.round(seconds % 60)} s`;
+  return `${Math.floor(seconds / 3600)} h ${Math.round((seconds % 3600) / 60)} min`;
+}

@@ -1,0 +1,242 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/web/web_server.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "server/web/grpc_web.h"
+#include "tests/server/http_client.h"
+#include "tests/server/service_fixture.h"
+#include "tests/server/token_line.h"
+#include "tests/support/temp_folder.h"
+
+namespace plumescout::server {
+namespace web_server_test {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr char kListMissions[] = "/plumescout.v1.MissionService/ListMissions";
+constexpr char kWatchMap[] = "/plumescout.v1.MapService/WatchMap";
+constexpr char kClose[] = "Connection: close\r\n";
+
+std::string Post(const std::string& path, const std::string& message,
+                 const std::string& headers = kClose) {
+  const std::string body = MessageFrame(message);
+  return absl::StrCat("POST ", path, " HTTP/1.1\r\nHost: localhost\r\nContent-Type: ", kGrpcWebType,
+                      "\r\nContent-Length: ", body.size(), "\r\n", headers, "\r\n", body);
+}
+
+// A connection that reads when it is told to.
+class Client {
+ public:
+  explicit Client(int port) : fd_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(connect(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
+  }
+  ~Client() { close(fd_); }
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
+
+  void Send(const std::string& text) const {
+    EXPECT_EQ(send(fd_, text.data(), text.size(), MSG_NOSIGNAL), static_cast<ssize_t>(text.size()));
+  }
+  // Until this comes, or the other side closes.
+  std::string ReadTo(const std::string& end) const {
+    std::string received;
+    std::array<char, 4096> part{};
+    while (received.find(end) == std::string::npos) {
+      const ssize_t count = recv(fd_, part.data(), part.size(), 0);
+      if (count <= 0) break;
+      received.append(part.data(), static_cast<std::size_t>(count));
+    }
+    return received;
+  }
+
+ private:
+  const int fd_;
+};
+
+class WebServerTest : public ServiceTest {
+ protected:
+  void Serve(WebOptions options = {}, const ServerConfig& config = {}) {
+    StartServer(config);
+    ServeWeb(std::move(options));
+  }
+  void ServeWeb(WebOptions options) {
+    auto web = WebServer::Start("127.0.0.1:0", server_->InProcessChannel(), std::move(options));
+    ASSERT_TRUE(web.ok()) << web.status();
+    web_ = *std::move(web);
+  }
+  std::string Exchange(const std::string& request) const {
+    return HttpExchange(web_->port(), request);
+  }
+  static std::string WatchHall() {
+    v1::WatchMapRequest request;
+    request.set_mission("missions/hall");
+    return Post(kWatchMap, request.SerializeAsString(), "");
+  }
+
+  std::unique_ptr<WebServer> web_;
+};
+
+TEST_F(WebServerTest, CallsAreAnswered) {
+  Serve();
+  const std::string answer = Exchange(Post(kListMissions, ""));
+  EXPECT_THAT(answer, StartsWith("HTTP/1.1 200 OK\r\nContent-Type: application/grpc-web+proto"));
+  EXPECT_THAT(answer, HasSubstr("missions/hall"));
+  EXPECT_THAT(answer, ::testing::EndsWith("grpc-status: 0\r\n\r\n0\r\n\r\n"));
+}
+
+TEST_F(WebServerTest, OneConnectionCarriesSeveralRequests) {
+  Serve();
+  const std::string answers =
+      Exchange(Post(kListMissions, "", "") + Post(kListMissions, "", "") + Post(kListMissions, ""));
+  std::size_t count = 0;
+  for (std::size_t at = answers.find("HTTP/1.1 200"); at != std::string::npos;
+       at = answers.find("HTTP/1.1 200", at + 1)) {
+    ++count;
+  }
+  EXPECT_EQ(count, 3U);
+}
+
+TEST_F(WebServerTest, OnlyItsOwnPagesMayCall) {
+  Serve();
+  const auto with = [&](const std::string& headers) {
+    return Exchange(Post(kListMissions, "", headers + kClose));
+  };
+  EXPECT_THAT(with("Origin: http://localhost\r\n"), StartsWith("HTTP/1.1 200"));
+  for (const char* origin : {"http://evil.example", "null", "http://localhost:1"}) {
+    EXPECT_THAT(with(absl::StrCat("Origin: ", origin, "\r\n")), StartsWith("HTTP/1.1 403"));
+  }
+  // A name of another host that leads here.
+  for (const char* host : {"evil.example", "unix:1", "10.0.0.1"}) {
+    EXPECT_THAT(Exchange(absl::StrCat("GET / HTTP/1.1\r\nHost: ", host, "\r\n", kClose, "\r\n")),
+                StartsWith("HTTP/1.1 403"));
+  }
+}
+
+TEST_F(WebServerTest, WhatIsNoCallIsRefused) {
+  Serve();
+  EXPECT_THAT(Exchange("POST / HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"),
+              StartsWith("HTTP/1.1 415"));
+  EXPECT_THAT(Exchange(Post("/grpc.health.v1.Health/Check", "")), HasSubstr("grpc-status: 12\r\n"));
+  EXPECT_THAT(Exchange("PUT / HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"),
+              StartsWith("HTTP/1.1 405"));
+  EXPECT_THAT(Exchange("nonsense\r\n\r\n"), StartsWith("HTTP/1.1 400"));
+  EXPECT_THAT(Exchange(Post(kListMissions, "", "Authorization: \xff\r\nConnection: close\r\n")),
+              HasSubstr("grpc-status: 3\r\n"));
+}
+
+TEST_F(WebServerTest, MessagesAreBounded) {
+  WebOptions options;
+  options.max_message_bytes = 100;
+  Serve(std::move(options));
+  EXPECT_THAT(Exchange(Post(kListMissions, std::string(101, 'x'))), StartsWith("HTTP/1.1 413"));
+}
+
+TEST_F(WebServerTest, CallsHaveTheIdentityOfTheirTokens) {
+  const TempFolder folder;
+  const std::string path = folder.File("tokens");
+  std::ofstream(path) << TokenLine("secret", "lena viewer acme never");
+  ServerConfig config;
+  config.access.tokens_file = path;
+  config.listen = "127.0.0.1:0";
+  auto server = Server::Start(config);
+  ASSERT_TRUE(server.ok()) << server.status();
+  server_ = *std::move(server);
+  ServeWeb({});
+  EXPECT_THAT(Exchange(Post(kListMissions, "")), HasSubstr("grpc-status: 16\r\n"));
+  const std::string who = absl::StrCat("Authorization: Bearer secret\r\n", kClose);
+  EXPECT_THAT(Exchange(Post(kListMissions, "", who)), HasSubstr("grpc-status: 0\r\n"));
+  EXPECT_THAT(Exchange(Post("/plumescout.v1.MissionService/CreateMission", "", who)),
+              HasSubstr("grpc-status: 7\r\n"));
+}
+
+TEST_F(WebServerTest, TooManyStreamsAreRefusedUntilOneEnds) {
+  WebOptions options;
+  options.max_streams = 1;
+  Serve(std::move(options));
+  auto first = std::make_unique<Client>(web_->port());
+  first->Send(WatchHall());
+  first->ReadTo("\r\n\r\n");
+  const Client second(web_->port());
+  second.Send(WatchHall());
+  EXPECT_THAT(second.ReadTo("grpc-message"), HasSubstr("grpc-status: 8\r\n"));
+  EXPECT_THAT(Exchange(Post(kListMissions, "")), HasSubstr("grpc-status: 0\r\n"));
+  first = nullptr;
+  // The server hears of that before, or in the same turn as, of what comes later.
+  const Client third(web_->port());
+  third.Send(WatchHall());
+  EXPECT_THAT(third.ReadTo("\r\n\r\n"), HasSubstr("Transfer-Encoding: chunked"));
+}
+
+TEST_F(WebServerTest, StreamsEndWhenTheServerDrains) {
+  Serve();
+  const Client client(web_->port());
+  client.Send(WatchHall());
+  client.ReadTo("\r\n\r\n");
+  server_->Drain();
+  EXPECT_THAT(client.ReadTo("grpc-status"), HasSubstr("grpc-status"));
+}
+
+// A folder with this page.
+StaticFiles PageOf(const std::string& content) {
+  const TempFolder folder;
+  std::ofstream(folder.File("index.html")) << content;
+  const auto files = StaticFiles::Load(folder.path());
+  EXPECT_TRUE(files.ok()) << files.status();
+  return files.ok() ? *files : StaticFiles();
+}
+
+constexpr char kGetPage[] = "GET / HTTP/1.1\r\nHost: 127.0.0.1:8080\r\nConnection: close\r\n\r\n";
+
+TEST_F(WebServerTest, PagesAreServed) {
+  WebOptions options;
+  options.files = PageOf("<p>console");
+  Serve(std::move(options));
+  const std::string get = kGetPage;
+  EXPECT_THAT(Exchange(get), ::testing::EndsWith("\r\n\r\n<p>console"));
+  EXPECT_THAT(Exchange("HEAD" + get.substr(3)), ::testing::EndsWith("Content-Length: 10\r\n\r\n"));
+  EXPECT_THAT(Exchange("GET /x" + get.substr(5)), StartsWith("HTTP/1.1 404"));
+}
+
+TEST_F(WebServerTest, WhoDoesNotReadHoldsUpNobody) {
+  const std::string large(std::size_t{16} << 20, 'x');  // more than sockets hold
+  WebOptions options;
+  options.files = PageOf(large);
+  Serve(std::move(options));
+  const Client stalled(web_->port());
+  stalled.Send(kGetPage);
+  EXPECT_THAT(Exchange(Post(kListMissions, "")), HasSubstr("grpc-status: 0\r\n"));
+  EXPECT_THAT(Exchange(kGetPage), ::testing::EndsWith(large));
+}
+
+TEST_F(WebServerTest, WithoutPagesItSaysSo) {
+  Serve();
+  EXPECT_THAT(Exchange("GET / HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"),
+              HasSubstr("--http-root"));
+}
+
+TEST_F(WebServerTest, AddressThatCannotBeHadIsAnError) {
+  Serve();
+  const absl::Status refused =
+      WebServer::Start(absl::StrCat("127.0.0.1:", web_->port()), server_->InProcessChannel(), {})
+          .status();
+  EXPECT_TRUE(absl::IsUnavailable(refused)) << refused;
+}
+
+}  // namespace web_server_test
+}  // namespace plumescout::server
