@@ -252,10 +252,8 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
     return absl::InvalidArgumentError(
         "planning.rivals = true needs a server that is built with OMPL");
   }
-  PLUMESCOUT_ASSIGN_OR_RETURN(
-      auto authenticator,
-      Authenticator::Make(config.access,
-                          IsLocalAddress(config.listen) && IsLocalAddress(config.console.listen)));
+  const bool local = IsLocalAddress(config.listen) && IsLocalAddress(config.console.listen);
+  PLUMESCOUT_ASSIGN_OR_RETURN(auto authenticator, Authenticator::Make(config.access, local));
   auto unreachable = std::move(events.unreachable);
   std::unique_ptr<MissionStore> store;
   if (hooks.store == nullptr) {

@@ -53,17 +53,6 @@ class PlanningServiceTest : public ServiceTest {
     change(request);
     return NextBest(request);
   }
-  v1::CheckTrajectoryRequest CheckOrder() const {
-    v1::CheckTrajectoryRequest request;
-    request.set_robot(kRobot);
-    request.set_lease_token(lease_);
-    return request;
-  }
-  absl::StatusOr<v1::CheckTrajectoryResponse> CheckPlan(std::int64_t plan) {
-    v1::CheckTrajectoryRequest request = CheckOrder();
-    request.set_plan(absl::StrCat("missions/hall/plans/", plan));
-    return Call(planning_, &v1::PlanningService::Stub::CheckTrajectory, request);
-  }
   absl::StatusOr<v1::ReportProgressResponse> Report(
       std::int64_t plan,
       const std::function<void(v1::ReportProgressRequest&)>& change = [](auto&) {}) {
@@ -302,60 +291,6 @@ TEST_F(PlanningServiceTest, StrangersAndOldLeasesGetNoPlan) {
               RefusesField("robot"));
   ASSERT_TRUE(Register("r1", /*take_over=*/true).ok());
   EXPECT_THAT(NextBest(Order()).status(), Refuses(kPrecondition, "LEASE_SUPERSEDED"));
-}
-
-TEST_F(PlanningServiceTest, APlanJustMadeStillHolds) {
-  Start();
-  const auto planned = NextBest(Order());
-  ASSERT_TRUE(planned.ok()) << planned.status();
-  const v1::Plan& plan = planned->plan();
-  const auto check = CheckPlan(1);
-  ASSERT_TRUE(check.ok()) << check.status();
-  EXPECT_FALSE(check->has_blockage());
-  EXPECT_FALSE(check->has_rejected_goal()) << check->rejected_goal().detail();
-  EXPECT_NEAR(check->rest().length_m(), plan.trajectory().length_m(), 1e-9);
-  EXPECT_NEAR(check->rest().cost(), plan.candidates(plan.chosen_index()).cost(), 1e-9);
-  EXPECT_EQ(check->revision(), Revision());
-}
-
-TEST_F(PlanningServiceTest, APathIntoTheDarkIsBlocked) {
-  Start();
-  const std::int64_t revision = Revision();
-  v1::CheckTrajectoryRequest request = CheckOrder();
-  *request.mutable_path()->add_vertices() = ToProto(Point2{2.0, 1.5});
-  *request.mutable_path()->add_vertices() = ToProto(Point2{900.0, 1.5});
-  request.mutable_path()->set_goal_kind(v1::GOAL_KIND_OCCUPANCY_FRONTIER);
-  const auto check = Call(planning_, &v1::PlanningService::Stub::CheckTrajectory, request);
-  ASSERT_TRUE(check.ok()) << check.status();
-  ASSERT_TRUE(check->has_blockage());
-  EXPECT_GT(check->blockage().distance_m(), 1.0);
-  EXPECT_NEAR(check->blockage().position().x_m(), 2.0 + check->blockage().distance_m(), 1e-9);
-  EXPECT_EQ(check->rejected_goal().reason(), v1::RejectedGoal::REASON_GONE);
-  EXPECT_FALSE(check->has_rest());
-  EXPECT_EQ(Revision(), revision) << "a question changes nothing";
-}
-
-TEST_F(PlanningServiceTest, OperatorsCheckWaysWithoutALease) {
-  Start();
-  v1::CheckTrajectoryRequest request = CheckOrder();
-  request.clear_lease_token();
-  *request.mutable_path()->add_vertices() = ToProto(Point2{2.0, 1.5});
-  request.mutable_path()->set_goal_kind(v1::GOAL_KIND_RANDOM_FREE_SPACE);
-  const auto check = Call(planning_, &v1::PlanningService::Stub::CheckTrajectory, request);
-  ASSERT_TRUE(check.ok()) << check.status();
-  EXPECT_EQ(check->revision(), Revision());
-  request.set_robot("missions/hall/robots/nobody");
-  EXPECT_THAT(Call(planning_, &v1::PlanningService::Stub::CheckTrajectory, request).status(),
-              Refuses(absl::StatusCode::kNotFound, "ROBOT_NOT_FOUND"));
-}
-
-TEST_F(PlanningServiceTest, ChecksOfOtherPlansAreRefused) {
-  Start({}, DriveEast);
-  EXPECT_THAT(CheckPlan(1).status(), Refuses(kNotFound, "NOT_FOUND"));
-  ASSERT_TRUE(NextBest(Order()).ok());
-  EXPECT_THAT(CheckPlan(1).status(), Refuses(kPrecondition, "PLAN_ENDED")) << "it has no waypoints";
-  ASSERT_TRUE(NextBest(Order()).ok());
-  EXPECT_THAT(CheckPlan(1).status(), Refuses(kPrecondition, "PLAN_SUPERSEDED"));
 }
 
 TEST_F(PlanningServiceTest, FrontiersAreListedAsThePlanSawThem) {
