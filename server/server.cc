@@ -251,10 +251,8 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
     return absl::InvalidArgumentError(
         "planning.rivals = true needs a server that is built with OMPL");
   }
-  PLUMESCOUT_ASSIGN_OR_RETURN(
-      auto authenticator,
-      Authenticator::Make(config.access,
-                          IsLocalAddress(config.listen) && IsLocalAddress(config.console.listen)));
+  PLUMESCOUT_ASSIGN_OR_RETURN(auto authenticator,
+                              Authenticator::Make(config.access, IsServedLocally(config)));
   auto unreachable = std::move(events.unreachable);
   std::unique_ptr<MissionStore> store;
   if (hooks.store == nullptr) {

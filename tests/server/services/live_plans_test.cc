@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "proto/convert/geometry.h"
 #include "server/services/planning_service.h"
 #include "tests/server/host_parts.h"
 #include "tests/server/service_fixture.h"
@@ -87,6 +88,20 @@ TEST_F(LivePlansTest, LatestPlanIsToldWithItsReasonsAfterItHasEnded) {
   removal.set_force(true);
   ASSERT_TRUE(Call(robots_, &v1::RobotService::Stub::RemoveRobot, removal).ok());
   EXPECT_EQ(latest()->latest_size(), 0);
+}
+
+TEST_F(LivePlansTest, OperatorsCheckWaysWithoutALease) {
+  Start();
+  v1::CheckTrajectoryRequest request;
+  request.set_robot(kRobot);
+  *request.mutable_path()->add_vertices() = ToProto(Point2{2.0, 1.5});
+  request.mutable_path()->set_goal_kind(v1::GOAL_KIND_RANDOM_FREE_SPACE);
+  const auto check = Call(planning_, &v1::PlanningService::Stub::CheckTrajectory, request);
+  ASSERT_TRUE(check.ok()) << check.status();
+  EXPECT_EQ(check->revision(), Revision());
+  request.set_robot("missions/hall/robots/nobody");
+  EXPECT_THAT(Call(planning_, &v1::PlanningService::Stub::CheckTrajectory, request).status(),
+              Refuses(absl::StatusCode::kNotFound, "ROBOT_NOT_FOUND"));
 }
 
 TEST_F(LivePlansTest, WhoAsksForTooManyPlansIsToldWhenToAskAgain) {

@@ -335,20 +335,6 @@ TEST_F(PlanningServiceTest, APathIntoTheDarkIsBlocked) {
   EXPECT_EQ(Revision(), revision) << "a question changes nothing";
 }
 
-TEST_F(PlanningServiceTest, OperatorsCheckWaysWithoutALease) {
-  Start();
-  v1::CheckTrajectoryRequest request = CheckOrder();
-  request.clear_lease_token();
-  *request.mutable_path()->add_vertices() = ToProto(Point2{2.0, 1.5});
-  request.mutable_path()->set_goal_kind(v1::GOAL_KIND_RANDOM_FREE_SPACE);
-  const auto check = Call(planning_, &v1::PlanningService::Stub::CheckTrajectory, request);
-  ASSERT_TRUE(check.ok()) << check.status();
-  EXPECT_EQ(check->revision(), Revision());
-  request.set_robot("missions/hall/robots/nobody");
-  EXPECT_THAT(Call(planning_, &v1::PlanningService::Stub::CheckTrajectory, request).status(),
-              Refuses(absl::StatusCode::kNotFound, "ROBOT_NOT_FOUND"));
-}
-
 TEST_F(PlanningServiceTest, ChecksOfOtherPlansAreRefused) {
   Start({}, DriveEast);
   EXPECT_THAT(CheckPlan(1).status(), Refuses(kNotFound, "NOT_FOUND"));
