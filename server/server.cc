@@ -22,7 +22,6 @@
 #include "absl/synchronization/notification.h"
 #include "core/types/status_macros.h"
 #include "server/access/server_credentials.h"
-#include "server/base/address.h"
 #include "server/base/errors.h"
 #include "server/base/knock.h"
 #include "server/base/log.h"
