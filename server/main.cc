@@ -94,7 +94,7 @@ absl::StatusOr<std::unique_ptr<WebServer>> ServeConsole(const ServerConfig& conf
   if (console.listen.empty()) return nullptr;
   WebOptions options;
   options.max_message_bytes = static_cast<std::size_t>(config.limits.max_receive_bytes);
-  options.max_streams = console.max_streams;
+  options.max_streams = console.max_stream_count;
   if (!console.folder.empty()) {
     PLUMESCOUT_ASSIGN_OR_RETURN(options.files, StaticFiles::Load(console.folder));
   }

@@ -22,7 +22,6 @@
 #include "absl/synchronization/notification.h"
 #include "core/types/status_macros.h"
 #include "server/access/server_credentials.h"
-#include "server/base/address.h"
 #include "server/base/errors.h"
 #include "server/base/knock.h"
 #include "server/base/log.h"
@@ -252,8 +251,8 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
     return absl::InvalidArgumentError(
         "planning.rivals = true needs a server that is built with OMPL");
   }
-  const bool local = IsLocalAddress(config.listen) && IsLocalAddress(config.console.listen);
-  PLUMESCOUT_ASSIGN_OR_RETURN(auto authenticator, Authenticator::Make(config.access, local));
+  PLUMESCOUT_ASSIGN_OR_RETURN(auto authenticator,
+                              Authenticator::Make(config.access, IsServedLocally(config)));
   auto unreachable = std::move(events.unreachable);
   std::unique_ptr<MissionStore> store;
   if (hooks.store == nullptr) {

@@ -228,7 +228,9 @@ absl::Status Validate(const ConsoleConfig& console) {
     return Refuse("console.listen", console.listen, "HOST:PORT or empty");
   }
   constexpr int kMaxStreams = 10'000;
-  return Checker().InRange("console.max_streams", console.max_streams, 1, kMaxStreams).status();
+  return Checker()
+      .InRange("console.max_stream_count", console.max_stream_count, 1, kMaxStreams)
+      .status();
 }
 
 absl::Status Validate(const StoreConfig& store) {
@@ -278,6 +280,10 @@ absl::StatusOr<std::string> StoreFolder(const StoreConfig& store) {
   if (absl::StartsWith(home, "/")) return absl::StrCat(home, "/.local/state/plumescout");
   return absl::InvalidArgumentError(
       "store.folder must be set: neither XDG_STATE_HOME nor HOME names a folder");
+}
+
+bool IsServedLocally(const ServerConfig& config) {
+  return IsLocalAddress(config.listen) && IsLocalAddress(config.console.listen);
 }
 
 std::string HttpListen(const ServerConfig& config) {

@@ -100,9 +100,9 @@ struct ObserveConfig {
 };
 
 struct ConsoleConfig {
-  std::string listen = "";  // empty: there is none
-  std::string folder = "";  // of its pages; empty: calls alone are served
-  int max_streams = 64;     // of all pages, at one time
+  std::string listen = "";    // empty: there is none
+  std::string folder = "";    // of its pages; empty: calls alone are served
+  int max_stream_count = 64;  // of all pages, at one time
 };
 
 // Values of store.engine.
@@ -143,6 +143,9 @@ absl::Status Validate(const ServerConfig& config);
 // Where missions are kept: store.folder, or else plumescout below the user's folder of state,
 // $XDG_STATE_HOME or ~/.local/state. kInvalidArgument if the user has none.
 absl::StatusOr<std::string> StoreFolder(const StoreConfig& store);
+
+// Whether callers of this machine alone reach the server, by gRPC or through the console.
+bool IsServedLocally(const ServerConfig& config);
 
 // Where HTTP is served. For "auto" that is the port after the one of `listen` on loopback, or any
 // free one if `listen` takes any. Empty: nowhere.

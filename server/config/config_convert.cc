@@ -102,7 +102,7 @@ void Visit(OneOf<StoreConfig> auto& store, auto& field) {
 void Visit(OneOf<ConsoleConfig> auto& console, auto& field) {
   field("listen", console.listen);
   field("folder", console.folder);
-  field("max_streams", console.max_streams);
+  field("max_stream_count", console.max_stream_count);
 }
 
 void Visit(OneOf<ServerConfig> auto& config, auto& field) { field("listen", config.listen); }

@@ -39,7 +39,6 @@ const std::set<std::string>& PureNumbers() {
       "max_queued_per_robot",
       "max_queued_queries",
       "max_running_per_mission",
-      "max_streams",
       "max_streams_per_connection",
       "max_waiting_calls",
       "max_watchers_per_robot",

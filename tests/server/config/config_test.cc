@@ -174,6 +174,8 @@ TEST(ConfigTest, ConsoleThatOtherMachinesReachIsGuardedUnlessAskedFor) {
   EXPECT_THAT(RefusalOf(config), HasSubstr("access.tokens_file"));
   config.access.tokens_file = "tokens";
   EXPECT_EQ(Validate(config), absl::OkStatus());
+  EXPECT_FALSE(IsServedLocally(config));
+  EXPECT_TRUE(IsServedLocally(ServerConfig()));
 }
 
 TEST(ConfigTest, ConsoleHasAnAddressAndRoomForStreams) {
@@ -184,8 +186,8 @@ TEST(ConfigTest, ConsoleHasAnAddressAndRoomForStreams) {
               absl::StrCat("console.listen = ", address, " must be HOST:PORT or empty"));
   }
   ServerConfig config;
-  config.console.max_streams = 0;
-  EXPECT_THAT(RefusalOf(config), StartsWith("console.max_streams = 0 "));
+  config.console.max_stream_count = 0;
+  EXPECT_THAT(RefusalOf(config), StartsWith("console.max_stream_count = 0 "));
 }
 
 TEST(ConfigTest, WordsAreChecked) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "proto/convert/geometry.h"
 #include "server/services/planning_service.h"
 #include "tests/server/host_parts.h"
 #include "tests/server/service_fixture.h"
