@@ -207,11 +207,13 @@ void Fleet::Advance(const RobotId& robot, const Observation& observation, bool r
   }
 }
 
-std::optional<GoalClaim> Fleet::FindClaim(const Plan& plan, std::int64_t now_ns) const {
+std::optional<GoalClaim> Fleet::FindClaim(const Plan& plan, std::int64_t now_ns,
+                                          const std::set<RobotId>& stopped) const {
   const std::optional<Goal> goal = GoalToClaim(plan);
   if (!goal) return std::nullopt;
   for (const GoalClaim& claim : Claims(now_ns)) {
-    if (claim.robot != plan.robot && IsSameErrand(claim.goal, *goal)) return claim;
+    if (claim.robot == plan.robot || stopped.contains(claim.robot)) continue;
+    if (IsSameErrand(claim.goal, *goal)) return claim;
   }
   return std::nullopt;
 }
