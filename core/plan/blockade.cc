@@ -29,14 +29,14 @@ struct Wish {
 };
 
 std::optional<Wish> WishOf(const RobotRecord& record, std::int64_t now_ns) {
-  if (!StandsStill(record, now_ns)) return std::nullopt;
-  if (record.live_trajectory != nullptr) {
-    if (!record.live_goal || record.live_goal->kind == GoalKind::kMakeWay) return std::nullopt;
-    return Wish{*record.live_goal, Lateness_s(record, now_ns)};
+  if (StandsAndWants(record)) {
+    return Wish{*record.wanted_goal,
+                static_cast<double>(now_ns - record.wanted_since_ns) * kSecondsPerNanosecond};
   }
-  if (!record.wanted_goal) return std::nullopt;
-  return Wish{*record.wanted_goal,
-              static_cast<double>(now_ns - record.wanted_since_ns) * kSecondsPerNanosecond};
+  const bool is_stuck = record.live_trajectory != nullptr && StandsStill(record, now_ns);
+  if (!is_stuck || !record.live_goal || record.live_goal->kind == GoalKind::kMakeWay)
+    return std::nullopt;
+  return Wish{*record.live_goal, Lateness_s(record, now_ns)};
 }
 
 std::vector<Point2> InSteps(const std::vector<Point2>& vertices) {
@@ -107,6 +107,11 @@ bool HasAWay(const Belief& belief, const Grid<std::uint8_t>& open, Point2 from, 
 bool StandsStill(const RobotRecord& record, std::int64_t now_ns) {
   if (!record.state.has_pose || record.state.silent) return false;
   return !IsOnItsWay(record, now_ns) || Lateness_s(record, now_ns) >= kStuck_s;
+}
+
+bool StandsAndWants(const RobotRecord& record) {
+  return record.state.has_pose && !record.state.silent && record.live_trajectory == nullptr &&
+         record.wanted_goal.has_value();
 }
 
 void CloseAround(const RobotState& standing, const RobotState& mover, Point2 from,

@@ -19,6 +19,9 @@ inline constexpr double kStuck_s = 10.0;
 // Whether the robot stands, for all that is known: it has no plan that it follows, or is stuck.
 bool StandsStill(const RobotRecord& record, std::int64_t now_ns);
 
+// Whether it stands without a plan that leads somewhere, and would go somewhere (wanted_goal).
+bool StandsAndWants(const RobotRecord& record);
+
 // A robot that cannot go where it wants to, or was to go, for as long as others stand where they
 // do.
 struct BlockedRobot {

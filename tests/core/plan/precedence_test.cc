@@ -56,6 +56,24 @@ TEST(KeptWays, WhoBeganToWaitEarlierGoesFirst) {
   EXPECT_THAT(KeptFrom(team, "a"), IsEmpty());
 }
 
+TEST(KeptWays, OfThoseWhoBeganTogetherAnotherGoesFirstInTheNextTurn) {
+  CorridorTeam team = Waiting(61.0);
+  team.Wants("b", 3.0, 61.0);
+  EXPECT_THAT(KeptFrom(team, "b"), IsEmpty()) << "\"a\" made nothing of its turn";
+  EXPECT_THAT(KeptFrom(team, "a"), SizeIs(1));
+  team.Wants("a", 9.0, 106.0);
+  team.Wants("b", 3.0, 106.0);
+  EXPECT_THAT(KeptFrom(team, "a"), IsEmpty());
+  EXPECT_THAT(KeptFrom(team, "b"), SizeIs(1));
+}
+
+TEST(KeptWays, WhoHasHadFewerTurnsGoesFirst) {
+  CorridorTeam team = Waiting(61.0);
+  team.Wants("b", 3.0, 20.0);
+  EXPECT_THAT(KeptFrom(team, "b"), IsEmpty());
+  EXPECT_THAT(KeptFrom(team, "a"), SizeIs(1));
+}
+
 TEST(KeptWays, WhoDrivesOrIsSilentOrCannotPassHasNone) {
   CorridorTeam team = Waiting(16.0);
   team.Stands("c", 4.0);
