@@ -49,7 +49,7 @@ Records RecordsNow(const Belief& belief, const Departure& departure, const Plan&
     own.wanted_goal.reset();
     return robots;
   }
-  if (!own.wanted_goal) own.wanted_since_ns = belief.sample_time_ns;
+  if (!own.wanted_goal && own.wanted_since_ns == 0) own.wanted_since_ns = belief.sample_time_ns;
   own.wanted_goal = wanted->goal;
   return robots;
 }
