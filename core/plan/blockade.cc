@@ -116,11 +116,13 @@ bool StandsAndWants(const RobotRecord& record) {
 
 void CloseAround(const RobotState& standing, const RobotState& mover, Point2 from,
                  const PlanningOptions& options, Grid<std::uint8_t>& open) {
+  CloseDisc(standing.pose.position(), Apart_m(mover, standing, options.robot_clearance_m), from,
+            open);
+}
+
+void CloseDisc(Point2 center, double apart_m, Point2 from, Grid<std::uint8_t>& open) {
   const GridGeometry& geometry = open.geometry();
-  const Point2 center = standing.pose.position();
   const double half_diagonal_m = geometry.resolution_m / std::sqrt(2.0);
-  const double apart_m =
-      Reach_m(mover, standing, options.robot_clearance_m) + options.robot_clearance_m;
   // As ways round robots keep off (way_round.h): what they find no way to is not open.
   const double limit_m =
       std::min(apart_m + half_diagonal_m, Distance_m(center, from) - half_diagonal_m);
@@ -161,8 +163,8 @@ std::vector<BlockedRobot> FindBlockedRobots(const Belief& belief,
                        {}, wish->waits_s};
     if (found.way.empty()) continue;
     for (const auto& [other_id, other] : robots) {
-      const double apart_m = Reach_m(record.state, other.state, options.robot_clearance_m) +
-                             options.robot_clearance_m + half_diagonal_m;
+      const double apart_m =
+          Apart_m(record.state, other.state, options.robot_clearance_m) + half_diagonal_m;
       if (other_id != id && StandsStill(other, belief.sample_time_ns) &&
           IsInTheWay(other.state, found.way, apart_m)) {
         found.by.push_back(other_id);

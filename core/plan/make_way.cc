@@ -101,12 +101,16 @@ class Retreats {
   }
 
  private:
+  // By the doubt of its heading where it is, as traffic has it, and by that on the way.
   void CloseWay(const BlockedRobot& other, const RobotId& robot, Grid<std::uint8_t>& off) const {
+    const RobotState& self = robots_.at(robot).state;
     RobotState passing = robots_.at(other.robot).state;
+    const double here_m = Apart_m(self, passing, options_.robot_clearance_m);
     for (const Point2 point : other.way) {
       passing.pose = {point.x_m, point.y_m, 0.0};
       constexpr double kFar_m = std::numeric_limits<double>::infinity();
-      CloseAround(passing, robots_.at(robot).state, {kFar_m, kFar_m}, options_, off);
+      const double there_m = Apart_m(self, passing, options_.robot_clearance_m);
+      CloseDisc(point, std::max(here_m, there_m), {kFar_m, kFar_m}, off);
     }
   }
   // Nobody else is about to do something there, and a robot that samples a region stays in it.

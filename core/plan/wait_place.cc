@@ -36,9 +36,9 @@ std::vector<WayOfOther> WaysBlockedBy(const Belief& belief, const PlanningOption
   std::vector<WayOfOther> ways;
   for (BlockedRobot& other : FindBlockedRobots(belief, robots, options)) {
     if (std::count(other.by.begin(), other.by.end(), plan.robot) == 0) continue;
-    const double reach_m =
-        Reach_m(own.state, robots.at(other.robot).state, options.robot_clearance_m);
-    ways.push_back({std::move(other.way), reach_m + options.robot_clearance_m + half_diagonal_m});
+    const double apart_m =
+        Apart_m(own.state, robots.at(other.robot).state, options.robot_clearance_m);
+    ways.push_back({std::move(other.way), apart_m + half_diagonal_m});
   }
   return ways;
 }

@@ -26,6 +26,10 @@ struct Meeting {
 // radii, and by what 2.5 standard deviations of how their frames lie to each other are more than
 // the clearance.
 double Reach_m(const RobotState& a, const RobotState& b, double clearance_m);
+// With the clearance.
+inline double Apart_m(const RobotState& a, const RobotState& b, double clearance_m) {
+  return Reach_m(a, b, clearance_m) + clearance_m;
+}
 
 // Farther than this from its trajectory a robot is not following it: several times what followers
 // stray, and less than the width of a corridor.
