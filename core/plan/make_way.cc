@@ -214,8 +214,7 @@ Candidate WayTo(const Belief& belief, const Departure& departure, const Grid<std
 std::optional<Candidate> FindClearWay(const Belief& belief, const Departure& departure,
                                       const Grid<std::uint8_t>& open,
                                       const std::vector<Retreat>& retreats,
-                                      const PlanningOptions& options, const RobotId& robot) {
-  const Traffic traffic(belief.robots, robot, options.robot_clearance_m, belief.sample_time_ns);
+                                      const PlanningOptions& options, const Traffic& traffic) {
   for (const Retreat& retreat : retreats) {
     Candidate candidate = WayTo(belief, departure, open, retreat.cell, options);
     if (candidate.path.size() < 2) continue;
@@ -257,12 +256,20 @@ void MakeWay(const Belief& belief, const Departure& departure, const PlanningOpt
   if (!reason) return;
   constexpr std::size_t kMostPlaces = 10;
   const Grid<std::uint8_t> open = retreats.OpenFor(plan.robot);
-  for (const bool by_robot_only : {false, true}) {
-    const std::vector<Retreat> places =
-        retreats.Find(plan.robot, OthersOf(blocked, plan.robot, by_robot_only), kMostPlaces);
-    std::optional<Candidate> way =
-        FindClearWay(belief, departure, open, places, options, plan.robot);
-    if (way) return Take(*std::move(way), *reason, departure.yaw_rad, options, plan);
+  // If there is no place off the ways that are kept for others, better one on them than none.
+  std::vector<Traffic> traffics = {TrafficAround(belief, plan.robot, options)};
+  if (traffics.front().keeps_ways()) {
+    traffics.emplace_back(belief.robots, plan.robot, options.robot_clearance_m,
+                          belief.sample_time_ns);
+  }
+  for (const Traffic& traffic : traffics) {
+    for (const bool by_robot_only : {false, true}) {
+      const std::vector<Retreat> places =
+          retreats.Find(plan.robot, OthersOf(blocked, plan.robot, by_robot_only), kMostPlaces);
+      std::optional<Candidate> way =
+          FindClearWay(belief, departure, open, places, options, traffic);
+      if (way) return Take(*std::move(way), *reason, departure.yaw_rad, options, plan);
+    }
   }
 }
 

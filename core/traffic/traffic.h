@@ -61,6 +61,7 @@ class Traffic {
   // if it were a live plan of its that begins now, and no way may end on it. REQUIRES: waypoints
   // not empty. Cost: O(waypoints + kHorizon_s), and O(waypoints) more for each FirstMeeting.
   void KeepWay(const RobotState& other, const Trajectory& way);
+  bool keeps_ways() const { return !kept_ways_.empty(); }
 
   // Of a way that is begun now. Cost: O(others * kHorizon_s), less where they are far.
   std::optional<Meeting> FirstMeeting(const Trajectory& trajectory) const;
