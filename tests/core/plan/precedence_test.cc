@@ -126,5 +126,17 @@ TEST(YieldToRobots, NoWayEndsWhereSomebodyHasWaitedToPass) {
   EXPECT_THAT(plan.candidates, SizeIs(1)) << "it stays in the bay";
 }
 
+TEST(YieldToRobots, NoWaysAreKeptFreeFromWhoGoesHome) {
+  Plan plan = PlanTo(CorridorTeam::At(8.0));
+  plan.phase = MissionPhase::kReturning;
+  YieldToRobots(Waiting(20.0).belief, 0.0, PlanningOptions(), plan);
+  EXPECT_THAT(plan.candidates, SizeIs(1)) << "asked to, or for the last time";
+  CorridorTeam team = Waiting(20.0);
+  team.belief.robots["b"].battery_low = true;
+  plan = PlanTo(CorridorTeam::At(8.0));
+  YieldToRobots(team.belief, 0.0, PlanningOptions(), plan);
+  EXPECT_THAT(plan.candidates, SizeIs(1)) << "sent there";
+}
+
 }  // namespace precedence_test
 }  // namespace plumescout
