@@ -71,7 +71,9 @@ struct RobotRecord {
   // Where it would go if others were not in the way: of a latest plan that has it stay or make way
   // the first goal that was rejected as kTraffic.
   std::optional<Goal> wanted_goal;
-  std::int64_t wanted_since_ns = 0;  // since when one or another such goal, in sample time
+  // Since when it has wanted one or another such goal without a plan that led to one, in sample
+  // time, though it may want none for now; 0: it has not.
+  std::int64_t wanted_since_ns = 0;
 };
 
 // Whether home is where it drives, whatever it asks for.

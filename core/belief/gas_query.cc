@@ -15,13 +15,20 @@ std::optional<double> IfKnown(float value) {
   return static_cast<double>(value);
 }
 
+// A variance in the options is on the scale of the first gas.
+FrontierOptions JudgingBy(const MissionOptions& options, std::size_t species) {
+  FrontierOptions frontier = options.frontier;
+  if (species > 0) frontier.observed_variance_ppm2.reset();
+  return frontier;
+}
+
 }  // namespace
 
 std::vector<GasAtPlace> QueryGas(const Belief& belief, const std::vector<Point2>& places,
                                  std::size_t species) {
   const GasField field = belief.Gas(species);
-  const double observed_ppm2 =
-      ObservedVariance_ppm2(belief.options->frontier, GasOptionsOf(*belief.options, species));
+  const double observed_ppm2 = ObservedVariance_ppm2(JudgingBy(*belief.options, species),
+                                                     GasOptionsOf(*belief.options, species));
   std::vector<GasAtPlace> answers;
   answers.reserve(places.size());
   for (const Point2 place : places) {

@@ -61,7 +61,7 @@ absl::Status GasMaps::Refresh(const Grid<CellState>& states, std::int64_t time_n
   for (GasMap& field : fields_) {
     const absl::Status status = field.Refresh(states, time_ns);
     if (absl::IsInvalidArgument(status) || absl::IsCancelled(status)) return status;
-    first.Update(status);
+    if (&field == &fields_.front()) first = status;
   }
   return first;
 }
@@ -113,7 +113,7 @@ absl::Status GasMaps::Adopt() {
     if (field.epoch() == nullptr) continue;
     const absl::Status status = field.Adopt();
     if (absl::IsCancelled(status)) return status;
-    first.Update(status);
+    if (&field == &fields_.front()) first = status;
   }
   return first;
 }

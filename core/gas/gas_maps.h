@@ -67,8 +67,9 @@ class GasMaps {
 
   bool stale() const;
   bool replaced() const;
-  // Those of GasMap::Refresh, the first that a field meets; the others are refreshed all the same,
-  // unless nothing has changed.
+  // Errors of GasMap::Refresh: kInvalidArgument and kCancelled of any field, with which nothing has
+  // changed; else those of the first, which plans go by. All are refreshed, whichever of them fail,
+  // and the failures of each are in its quality.
   absl::Status Refresh(const Grid<CellState>& states, std::int64_t time_ns);
 
   // Those of some fields begin and end with those of all. One that is without a field takes no
@@ -78,7 +79,7 @@ class GasMaps {
   absl::Status BeginEpoch(std::int64_t time_ns);
   std::shared_ptr<GasEpochs> epoch() const;  // under way, or null
   bool adoption_due(std::int64_t time_ns) const;
-  absl::Status Adopt();
+  absl::Status Adopt();  // errors as those of Refresh
   bool audit_due() const;
 
   bool can_be_written() const;

@@ -34,12 +34,13 @@ absl::Status UnknownRobot(const RobotId& robot) {
 }
 
 void Want(const std::optional<Goal>& goal, std::int64_t now_ns, RobotRecord& record) {
-  if (!goal) {
-    record.wanted_since_ns = 0;
-  } else if (!record.wanted_goal) {
-    record.wanted_since_ns = now_ns;
-  }
+  if (goal && !record.wanted_goal && record.wanted_since_ns == 0) record.wanted_since_ns = now_ns;
   record.wanted_goal = goal;
+}
+
+void WantNothing(RobotRecord& record) {
+  record.wanted_goal.reset();
+  record.wanted_since_ns = 0;
 }
 
 }  // namespace
@@ -82,6 +83,7 @@ absl::Status Fleet::Register(const RobotRegistered& registration, int max_robot_
     member.record.state.has_pose = false;
     member.odometer.Forget();
     EndPlan(member);
+    WantNothing(member.record);
   }
   member.record.state.frame = registration.frame;
   member.sensors = registration.sensors;
@@ -116,7 +118,7 @@ absl::Status Fleet::Remove(const RobotId& robot) {
   member->record.state.ordered_home = false;
   member->record.battery_low = false;
   EndPlan(*member);
-  Want(std::nullopt, 0, member->record);
+  WantNothing(member->record);
   CompleteIfAllAre();
   return absl::OkStatus();
 }
@@ -139,7 +141,7 @@ void Fleet::Hear(const RobotId& robot, std::int64_t now_ns) {
 void Fleet::FallSilent(Member& member) {
   member.record.state.silent = true;
   EndPlan(member);
-  Want(std::nullopt, 0, member.record);
+  WantNothing(member.record);
   if (member.last_phase != MissionPhase::kComplete) member.last_phase.reset();
   CompleteIfAllAre();
 }
@@ -207,11 +209,13 @@ void Fleet::Advance(const RobotId& robot, const Observation& observation, bool r
   }
 }
 
-std::optional<GoalClaim> Fleet::FindClaim(const Plan& plan, std::int64_t now_ns) const {
+std::optional<GoalClaim> Fleet::FindClaim(const Plan& plan, std::int64_t now_ns,
+                                          const std::set<RobotId>& stopped) const {
   const std::optional<Goal> goal = GoalToClaim(plan);
   if (!goal) return std::nullopt;
   for (const GoalClaim& claim : Claims(now_ns)) {
-    if (claim.robot != plan.robot && IsSameErrand(claim.goal, *goal)) return claim;
+    if (claim.robot == plan.robot || stopped.contains(claim.robot)) continue;
+    if (IsSameErrand(claim.goal, *goal)) return claim;
   }
   return std::nullopt;
 }
@@ -260,6 +264,7 @@ absl::StatusOr<PlanId> Fleet::Issue(const Plan& plan, std::int64_t now_ns, bool 
   member.record.live_goal = chosen;
   member.record.live_arrival_ns = now_ns + Nanoseconds(plan.trajectory.duration_s);
   member.record.assigned_plan = assigned ? member.record.last_plan : 0;
+  if (chosen && !MakesWay(chosen)) WantNothing(member.record);
   Want(WantedGoal(plan), now_ns, member.record);
   return member.record.last_plan;
 }

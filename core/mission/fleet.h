@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -82,8 +83,10 @@ class Fleet {
   // plan claims the goal.
   // `assigned`: others ordered it.
   absl::StatusOr<PlanId> Issue(const Plan& plan, std::int64_t now_ns, bool assigned = false);
-  // The live plan of another robot that ends where this one does, whatever for (IsSameErrand).
-  std::optional<GoalClaim> FindClaim(const Plan& plan, std::int64_t now_ns) const;
+  // The live plan of another robot that ends where this one does, whatever for (IsSameErrand);
+  // those of `stopped` are passed over.
+  std::optional<GoalClaim> FindClaim(const Plan& plan, std::int64_t now_ns,
+                                     const std::set<RobotId>& stopped = {}) const;
   // Ends the robot's live plan.
   absl::StatusOr<EndedPlan> Report(const ProgressReported& report);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -288,11 +289,16 @@ absl::StatusOr<std::int64_t> Mission::LeaseToken(const RobotId& robot) const {
   return fleet_.LeaseToken(robot);
 }
 
-std::optional<Meeting> Mission::FindMeeting(const Plan& plan, double clearance_m) const {
+std::optional<Meeting> Mission::FindMeeting(const Plan& plan, double clearance_m,
+                                            const std::set<RobotId>& stopped) const {
   const PlanningOptions& planning = options_->planning;
   const bool yields = planning.yield_to_robots && !plan.trajectory.waypoints.empty();
   if (!yields || !fleet_.Knows(plan.robot)) return std::nullopt;
-  return Traffic(fleet_.Records(), plan.robot, std::min(clearance_m, planning.robot_clearance_m),
+  std::map<RobotId, RobotRecord> robots = fleet_.Records();
+  for (auto& [id, record] : robots) {
+    if (stopped.contains(id)) record.live_trajectory = nullptr;
+  }
+  return Traffic(robots, plan.robot, std::min(clearance_m, planning.robot_clearance_m),
                  sample_time_ns_, Traffic::Others::kOnTime)
       .FirstMeeting(plan.trajectory);
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -81,13 +82,16 @@ class Mission {
   std::vector<RobotId> RobotIds() const { return fleet_.Ids(); }  // in order of name
   // Where the plan's way meets the other robots if they drive on time, with the options' clearance
   // or `clearance_m` if that is less; none if it meets nobody or plans do not yield to robots.
-  // Cost: that of Traffic::FirstMeeting, and of a copy of the robots' records.
-  std::optional<Meeting> FindMeeting(const Plan& plan, double clearance_m) const;
+  // `stopped` are taken to stand where they are. Cost: that of Traffic::FirstMeeting, and of a copy
+  // of the robots' records.
+  std::optional<Meeting> FindMeeting(const Plan& plan, double clearance_m,
+                                     const std::set<RobotId>& stopped = {}) const;
   bool HasWay(const RobotId& robot) const { return fleet_.HasWay(robot); }
   // The live plan of another robot that ends where this one does, whatever for; PlanIssued is
-  // refused for those of its kind alone.
-  std::optional<GoalClaim> FindClaim(const Plan& plan) const {
-    return fleet_.FindClaim(plan, sample_time_ns_);
+  // refused for those of its kind alone. `stopped` are taken to have none.
+  std::optional<GoalClaim> FindClaim(const Plan& plan,
+                                     const std::set<RobotId>& stopped = {}) const {
+    return fleet_.FindClaim(plan, sample_time_ns_, stopped);
   }
   // See Fleet::LogContinues.
   bool LogContinues(const RobotId& robot, std::int64_t log_epoch) const;

@@ -29,14 +29,14 @@ struct Wish {
 };
 
 std::optional<Wish> WishOf(const RobotRecord& record, std::int64_t now_ns) {
-  if (!StandsStill(record, now_ns)) return std::nullopt;
-  if (record.live_trajectory != nullptr) {
-    if (!record.live_goal || record.live_goal->kind == GoalKind::kMakeWay) return std::nullopt;
-    return Wish{*record.live_goal, Lateness_s(record, now_ns)};
+  if (StandsAndWants(record)) {
+    return Wish{*record.wanted_goal,
+                static_cast<double>(now_ns - record.wanted_since_ns) * kSecondsPerNanosecond};
   }
-  if (!record.wanted_goal) return std::nullopt;
-  return Wish{*record.wanted_goal,
-              static_cast<double>(now_ns - record.wanted_since_ns) * kSecondsPerNanosecond};
+  const bool is_stuck = record.live_trajectory != nullptr && StandsStill(record, now_ns);
+  if (!is_stuck || !record.live_goal || record.live_goal->kind == GoalKind::kMakeWay)
+    return std::nullopt;
+  return Wish{*record.live_goal, Lateness_s(record, now_ns)};
 }
 
 std::vector<Point2> InSteps(const std::vector<Point2>& vertices) {
@@ -109,13 +109,20 @@ bool StandsStill(const RobotRecord& record, std::int64_t now_ns) {
   return !IsOnItsWay(record, now_ns) || Lateness_s(record, now_ns) >= kStuck_s;
 }
 
+bool StandsAndWants(const RobotRecord& record) {
+  return record.state.has_pose && !record.state.silent && record.live_trajectory == nullptr &&
+         record.wanted_goal.has_value();
+}
+
 void CloseAround(const RobotState& standing, const RobotState& mover, Point2 from,
                  const PlanningOptions& options, Grid<std::uint8_t>& open) {
+  CloseDisc(standing.pose.position(), Apart_m(mover, standing, options.robot_clearance_m), from,
+            open);
+}
+
+void CloseDisc(Point2 center, double apart_m, Point2 from, Grid<std::uint8_t>& open) {
   const GridGeometry& geometry = open.geometry();
-  const Point2 center = standing.pose.position();
   const double half_diagonal_m = geometry.resolution_m / std::sqrt(2.0);
-  const double apart_m =
-      Reach_m(mover, standing, options.robot_clearance_m) + options.robot_clearance_m;
   // As ways round robots keep off (way_round.h): what they find no way to is not open.
   const double limit_m =
       std::min(apart_m + half_diagonal_m, Distance_m(center, from) - half_diagonal_m);
@@ -156,8 +163,8 @@ std::vector<BlockedRobot> FindBlockedRobots(const Belief& belief,
                        {}, wish->waits_s};
     if (found.way.empty()) continue;
     for (const auto& [other_id, other] : robots) {
-      const double apart_m = Reach_m(record.state, other.state, options.robot_clearance_m) +
-                             options.robot_clearance_m + half_diagonal_m;
+      const double apart_m =
+          Apart_m(record.state, other.state, options.robot_clearance_m) + half_diagonal_m;
       if (other_id != id && StandsStill(other, belief.sample_time_ns) &&
           IsInTheWay(other.state, found.way, apart_m)) {
         found.by.push_back(other_id);

@@ -19,6 +19,9 @@ inline constexpr double kStuck_s = 10.0;
 // Whether the robot stands, for all that is known: it has no plan that it follows, or is stuck.
 bool StandsStill(const RobotRecord& record, std::int64_t now_ns);
 
+// Whether it stands without a plan that leads somewhere, and would go somewhere (wanted_goal).
+bool StandsAndWants(const RobotRecord& record);
+
 // A robot that cannot go where it wants to, or was to go, for as long as others stand where they
 // do.
 struct BlockedRobot {
@@ -31,9 +34,9 @@ struct BlockedRobot {
 };
 
 // Of those robots that stand and want to go somewhere (wanted_goal, or the goal of the plan that
-// they are stuck on), the ones that have no way round those that stand. Robots keep Reach_m and
-// options.robot_clearance_m apart, and half a cell, or are no nearer than they are. In the order of
-// ids. Cost: for each of them that of a flood and a grid search.
+// they are stuck on), the ones that have no way round those that stand. Robots keep Apart_m apart,
+// and half a cell, or are no nearer than they are. In the order of ids. Cost: for each of them that
+// of a flood and a grid search.
 std::vector<BlockedRobot> FindBlockedRobots(const Belief& belief,
                                             const std::map<RobotId, RobotRecord>& robots,
                                             const PlanningOptions& options);
@@ -42,10 +45,12 @@ std::vector<BlockedRobot> FindBlockedRobots(const Belief& belief,
 // waits for nobody that, in the end, waits for it.
 std::vector<BlockedRobot> FindRing(const std::vector<BlockedRobot>& blocked, const RobotId& robot);
 
-// Closes the cells that the robot cannot stand in beside one that stands: nearer than Reach_m and
-// the clearance, or than it is now, to that one. Those where the robot `from` is remain open.
+// Closes the cells that the robot cannot stand in beside one that stands: nearer than Apart_m,
+// or than it is now, to that one. Those where the robot `from` is remain open.
 void CloseAround(const RobotState& standing, const RobotState& mover, Point2 from,
                  const PlanningOptions& options, Grid<std::uint8_t>& open);
+// The same of a robot at `center` that has to be kept `apart_m` from.
+void CloseDisc(Point2 center, double apart_m, Point2 from, Grid<std::uint8_t>& open);
 
 // The traversable cells that are open to a robot at `from` beside all others that stand.
 Grid<std::uint8_t> OpenTo(const Belief& belief, const std::map<RobotId, RobotRecord>& robots,

@@ -49,7 +49,7 @@ Records RecordsNow(const Belief& belief, const Departure& departure, const Plan&
     own.wanted_goal.reset();
     return robots;
   }
-  if (!own.wanted_goal) own.wanted_since_ns = belief.sample_time_ns;
+  if (!own.wanted_goal && own.wanted_since_ns == 0) own.wanted_since_ns = belief.sample_time_ns;
   own.wanted_goal = wanted->goal;
   return robots;
 }
@@ -101,12 +101,16 @@ class Retreats {
   }
 
  private:
+  // By the doubt of its heading where it is, as traffic has it, and by that on the way.
   void CloseWay(const BlockedRobot& other, const RobotId& robot, Grid<std::uint8_t>& off) const {
+    const RobotState& self = robots_.at(robot).state;
     RobotState passing = robots_.at(other.robot).state;
+    const double here_m = Apart_m(self, passing, options_.robot_clearance_m);
     for (const Point2 point : other.way) {
       passing.pose = {point.x_m, point.y_m, 0.0};
       constexpr double kFar_m = std::numeric_limits<double>::infinity();
-      CloseAround(passing, robots_.at(robot).state, {kFar_m, kFar_m}, options_, off);
+      const double there_m = Apart_m(self, passing, options_.robot_clearance_m);
+      CloseDisc(point, std::max(here_m, there_m), {kFar_m, kFar_m}, off);
     }
   }
   // Nobody else is about to do something there, and a robot that samples a region stays in it.
@@ -210,8 +214,7 @@ Candidate WayTo(const Belief& belief, const Departure& departure, const Grid<std
 std::optional<Candidate> FindClearWay(const Belief& belief, const Departure& departure,
                                       const Grid<std::uint8_t>& open,
                                       const std::vector<Retreat>& retreats,
-                                      const PlanningOptions& options, const RobotId& robot) {
-  const Traffic traffic(belief.robots, robot, options.robot_clearance_m, belief.sample_time_ns);
+                                      const PlanningOptions& options, const Traffic& traffic) {
   for (const Retreat& retreat : retreats) {
     Candidate candidate = WayTo(belief, departure, open, retreat.cell, options);
     if (candidate.path.size() < 2) continue;
@@ -253,12 +256,20 @@ void MakeWay(const Belief& belief, const Departure& departure, const PlanningOpt
   if (!reason) return;
   constexpr std::size_t kMostPlaces = 10;
   const Grid<std::uint8_t> open = retreats.OpenFor(plan.robot);
-  for (const bool by_robot_only : {false, true}) {
-    const std::vector<Retreat> places =
-        retreats.Find(plan.robot, OthersOf(blocked, plan.robot, by_robot_only), kMostPlaces);
-    std::optional<Candidate> way =
-        FindClearWay(belief, departure, open, places, options, plan.robot);
-    if (way) return Take(*std::move(way), *reason, departure.yaw_rad, options, plan);
+  // If there is no place off the ways that are kept for others, better one on them than none.
+  std::vector<Traffic> traffics = {TrafficAround(belief, plan.robot, options)};
+  if (traffics.front().keeps_ways()) {
+    traffics.emplace_back(belief.robots, plan.robot, options.robot_clearance_m,
+                          belief.sample_time_ns);
+  }
+  for (const Traffic& traffic : traffics) {
+    for (const bool by_robot_only : {false, true}) {
+      const std::vector<Retreat> places =
+          retreats.Find(plan.robot, OthersOf(blocked, plan.robot, by_robot_only), kMostPlaces);
+      std::optional<Candidate> way =
+          FindClearWay(belief, departure, open, places, options, traffic);
+      if (way) return Take(*std::move(way), *reason, departure.yaw_rad, options, plan);
+    }
   }
 }
 

@@ -19,7 +19,8 @@ inline constexpr double kStandAside_s = 3.0;
 // Gives a robot that would stay a way (GoalKind::kMakeWay) off the ways of those for whom it is in
 // the way (core/plan/blockade.h): to the nearest place, by the way to it, that keeps off the
 // shortest ways of all who are blocked, or else of those whom the robot blocks, is no other robot's
-// goal, and can be gone to without meeting anybody.
+// goal, and can be gone to without meeting anybody; off the ways that are kept for others
+// (precedence.h) if there is such a place.
 //
 // A robot that wants nothing does so at once; one that wants to go somewhere itself, if it alone is
 // in the way of somebody it does not wait for, who has waited for kRingPatience_s. Of robots that

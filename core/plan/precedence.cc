@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plan/precedence.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "core/plan/blockade.h"
@@ -16,18 +19,38 @@
 namespace plumescout {
 namespace {
 
-bool GoesFirst(const RobotRecord& record, std::int64_t now_ns) {
+constexpr double kTurn_s = kPrecedenceAfter_s + kPrecedenceFor_s;
+
+double Waited_s(const RobotRecord& record, std::int64_t now_ns) {
   constexpr double kSecondsPerNanosecond = 1e-9;
-  const bool stands =
-      record.state.has_pose && !record.state.silent && record.live_trajectory == nullptr;
-  if (!stands || !record.wanted_goal) return false;
-  const double waited_s =
-      static_cast<double>(now_ns - record.wanted_since_ns) * kSecondsPerNanosecond;
-  return std::fmod(waited_s, kPrecedenceAfter_s + kPrecedenceFor_s) >= kPrecedenceAfter_s;
+  return static_cast<double>(now_ns - record.wanted_since_ns) * kSecondsPerNanosecond;
 }
 
-bool IsBefore(const RobotRecord& a, const RobotRecord& b) {
-  return std::pair(a.wanted_since_ns, a.state.id) < std::pair(b.wanted_since_ns, b.state.id);
+bool GoesFirst(const RobotRecord& record, std::int64_t now_ns) {
+  return StandsAndWants(record) &&
+         std::fmod(Waited_s(record, now_ns), kTurn_s) >= kPrecedenceAfter_s;
+}
+
+// Who goes before others, the first of all first.
+std::vector<RobotId> Precedence(const Belief& belief) {
+  using Turn = std::tuple<std::int64_t, std::int64_t, RobotId>;  // turns that it has had
+  std::vector<Turn> turns;
+  for (const auto& [id, record] : belief.robots) {
+    if (!GoesFirst(record, belief.sample_time_ns)) continue;
+    const double had = std::floor(Waited_s(record, belief.sample_time_ns) / kTurn_s);
+    turns.emplace_back(static_cast<std::int64_t>(had), record.wanted_since_ns, id);
+  }
+  std::sort(turns.begin(), turns.end());
+  for (auto begin = turns.begin(); begin != turns.end();) {
+    const std::int64_t had = std::get<0>(*begin);
+    const auto end = std::find_if(begin, turns.end(),
+                                  [&](const Turn& turn) { return std::get<0>(turn) != had; });
+    std::rotate(begin, begin + had % (end - begin), end);
+    begin = end;
+  }
+  std::vector<RobotId> order;
+  for (const Turn& turn : turns) order.push_back(std::get<2>(turn));
+  return order;
 }
 
 // From where it stands to what it wants, round those that stand; none if there is no such way.
@@ -72,14 +95,13 @@ std::optional<Trajectory> KeptWayOf(const Belief& belief, const RobotRecord& rec
 
 std::vector<KeptWay> KeptWays(const Belief& belief, const RobotId& robot,
                               const PlanningOptions& options) {
-  const std::int64_t now_ns = belief.sample_time_ns;
-  const RobotRecord& own = belief.robots.at(robot);
-  const bool own_goes_first = GoesFirst(own, now_ns);
+  std::vector<RobotId> before = Precedence(belief);
+  before.erase(std::find(before.begin(), before.end(), robot), before.end());
+  std::sort(before.begin(), before.end());
   std::vector<KeptWay> ways;
-  for (const auto& [id, record] : belief.robots) {
-    if (id == robot || !GoesFirst(record, now_ns)) continue;
-    if (own_goes_first && IsBefore(own, record)) continue;
-    if (auto way = KeptWayOf(belief, record, robot, options)) ways.push_back({id, *std::move(way)});
+  for (const RobotId& id : before) {
+    auto way = KeptWayOf(belief, belief.robots.at(id), robot, options);
+    if (way) ways.push_back({id, *std::move(way)});
   }
   return ways;
 }

@@ -27,8 +27,10 @@ struct KeptWay {
 };
 
 // The ways that are kept free for those who go before this robot: none of them is live, and what it
-// plans is to keep clear of them as if they were, and not to end on them (Traffic::KeepWay). Of two
-// that have waited for so long the one that began earlier goes first, the first by id of equals.
+// plans is to keep clear of them as if they were, and not to end on them (Traffic::KeepWay). Of
+// those who have waited for so long who has had the fewest turns goes first, then who began
+// earlier, the first by id of equals. Of those who have had as many turns another begins each time,
+// so that one that makes nothing of its turns does not keep them from the others.
 // If this robot stands in the only such way it may drive off as it likes, along it too, and only
 // not end on it; where another stands in it nothing is kept (see make_way.h). In the order of ids.
 // Cost: for each such robot a flood, a grid search and a Traffic::LeastWait_s, or two of each; else

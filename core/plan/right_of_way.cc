@@ -39,12 +39,19 @@ Traffic TrafficAround(const Belief& belief, const RobotId& robot, const Planning
   return traffic;
 }
 
+Traffic TrafficFor(const Belief& belief, const Plan& plan, const PlanningOptions& options) {
+  const bool goes_home =
+      plan.phase == MissionPhase::kReturning || IsSentHome(belief.robots.at(plan.robot));
+  if (!goes_home) return TrafficAround(belief, plan.robot, options);
+  return {belief.robots, plan.robot, options.robot_clearance_m, belief.sample_time_ns};
+}
+
 std::optional<Waits> FindWaits(const Belief& belief, double start_yaw_rad,
                                const PlanningOptions& options, const Plan& plan) {
   if (!options.yield_to_robots || belief.robots.size() < 2 || plan.candidates.empty()) {
     return std::nullopt;
   }
-  Waits waits{TrafficAround(belief, plan.robot, options), {}};
+  Waits waits{TrafficFor(belief, plan, options), {}};
   for (const Candidate& candidate : plan.candidates) {
     waits.waits_s.push_back(waits.traffic.LeastWait_s(Timed(candidate, start_yaw_rad, options)));
   }

@@ -17,6 +17,11 @@ namespace plumescout {
 // included. Cost: that of Traffic and of KeptWays.
 Traffic TrafficAround(const Belief& belief, const RobotId& robot, const PlanningOptions& options);
 
+// For the robot of a plan. Who goes home, since it is sent there or has no budget for anything
+// else, or asks to, may have no time: no ways are kept free from it, and live plans are all it
+// yields to.
+Traffic TrafficFor(const Belief& belief, const Plan& plan, const PlanningOptions& options);
+
 // That, and what it makes of the candidates of a plan.
 struct Waits {
   Traffic traffic;

@@ -22,23 +22,42 @@ struct WayOfOther {
   double apart_m = 0.0;
 };
 
+// The robots as they are when this one stands there, for whatever comes.
+std::map<RobotId, RobotRecord> RobotsWith(const Belief& belief, const RobotId& robot,
+                                          const Pose2& pose) {
+  std::map<RobotId, RobotRecord> robots = belief.robots;
+  RobotRecord& own = robots.at(robot);
+  own.state.has_pose = true;
+  own.state.silent = false;
+  own.state.pose = pose;
+  own.live_trajectory = nullptr;
+  own.wanted_goal.reset();
+  return robots;
+}
+
+// Those whom it is in the way of there.
+std::vector<BlockedRobot> BlockedFrom(const Belief& belief, const PlanningOptions& options,
+                                      const RobotId& robot, const Pose2& pose) {
+  std::vector<BlockedRobot> blocked =
+      FindBlockedRobots(belief, RobotsWith(belief, robot, pose), options);
+  std::erase_if(blocked, [&](const BlockedRobot& other) {
+    return std::count(other.by.begin(), other.by.end(), robot) == 0;
+  });
+  return blocked;
+}
+
 // Of those whom the robot is in the way of where its trajectory begins.
 std::vector<WayOfOther> WaysBlockedBy(const Belief& belief, const PlanningOptions& options,
                                       const Plan& plan) {
-  std::map<RobotId, RobotRecord> robots = belief.robots;
-  RobotRecord& own = robots.at(plan.robot);
-  own.state.has_pose = true;
-  own.state.silent = false;
-  own.state.pose = plan.trajectory.waypoints.front().pose;
-  own.live_trajectory = nullptr;
-  own.wanted_goal.reset();
+  const Pose2& start = plan.trajectory.waypoints.front().pose;
+  RobotState own = belief.robots.at(plan.robot).state;
+  own.pose = start;
   const double half_diagonal_m = belief.geometry().resolution_m / std::sqrt(2.0);
   std::vector<WayOfOther> ways;
-  for (BlockedRobot& other : FindBlockedRobots(belief, robots, options)) {
-    if (std::count(other.by.begin(), other.by.end(), plan.robot) == 0) continue;
-    const double reach_m =
-        Reach_m(own.state, robots.at(other.robot).state, options.robot_clearance_m);
-    ways.push_back({std::move(other.way), reach_m + options.robot_clearance_m + half_diagonal_m});
+  for (BlockedRobot& other : BlockedFrom(belief, options, plan.robot, start)) {
+    const double apart_m =
+        Apart_m(own, belief.robots.at(other.robot).state, options.robot_clearance_m);
+    ways.push_back({std::move(other.way), apart_m + half_diagonal_m});
   }
   return ways;
 }
@@ -65,13 +84,14 @@ bool WaitOutOfTheWay(const Belief& belief, const PlanningOptions& options, Plan&
   if (!waits || belief.robots.size() < 2) return false;
   const std::vector<WayOfOther> ways = WaysBlockedBy(belief, options, plan);
   if (ways.empty()) return false;
-  const Traffic traffic = TrafficAround(belief, plan.robot, options);
+  const Traffic traffic = TrafficFor(belief, plan, options);
   const std::vector<Waypoint>& waypoints = plan.trajectory.waypoints;
   for (std::size_t stop = waypoints.size() - 1; stop-- > 1;) {
     const Waypoint& waypoint = waypoints[stop];
     if (waypoint.speed_mps != 0.0 || !IsOff(waypoint.pose.position(), ways)) continue;
     Trajectory moved = WithWaitAt(stop, plan.trajectory);
     if (traffic.FirstMeeting(moved)) continue;
+    if (!BlockedFrom(belief, options, plan.robot, waypoint.pose).empty()) continue;
     plan.trajectory = std::move(moved);
     return true;
   }

@@ -26,6 +26,10 @@ struct Meeting {
 // radii, and by what 2.5 standard deviations of how their frames lie to each other are more than
 // the clearance.
 double Reach_m(const RobotState& a, const RobotState& b, double clearance_m);
+// With the clearance.
+inline double Apart_m(const RobotState& a, const RobotState& b, double clearance_m) {
+  return Reach_m(a, b, clearance_m) + clearance_m;
+}
 
 // Farther than this from its trajectory a robot is not following it: several times what followers
 // stray, and less than the width of a corridor.
@@ -57,6 +61,7 @@ class Traffic {
   // if it were a live plan of its that begins now, and no way may end on it. REQUIRES: waypoints
   // not empty. Cost: O(waypoints + kHorizon_s), and O(waypoints) more for each FirstMeeting.
   void KeepWay(const RobotState& other, const Trajectory& way);
+  bool keeps_ways() const { return !kept_ways_.empty(); }
 
   // Of a way that is begun now. Cost: O(others * kHorizon_s), less where they are far.
   std::optional<Meeting> FirstMeeting(const Trajectory& trajectory) const;

@@ -138,6 +138,15 @@ absl::StatusOr<PlanId> MissionConduct::Commit(const Plan& plan, std::int64_t lea
   return applied.plan_id;
 }
 
+std::optional<RobotId> MissionConduct::InTheWayOf(const Plan& plan,
+                                                  const std::set<RobotId>& stopped) const {
+  if (const auto meeting = mission_->FindMeeting(plan, kLeastClearance_m, stopped)) {
+    return meeting->robot;
+  }
+  const auto claim = mission_->FindClaim(plan, stopped);
+  return claim ? std::optional<RobotId>(claim->robot) : std::nullopt;
+}
+
 absl::StatusOr<std::int64_t> MissionConduct::Report(const ProgressReported& report,
                                                     std::int64_t lease_token) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckLease(report.robot, lease_token));

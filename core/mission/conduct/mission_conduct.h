@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "absl/status/status.h"
@@ -104,6 +105,9 @@ class MissionConduct {
   // or, since the plan was searched for, has been given a way that this one runs into.
   // `assigned`: the robot did not ask for it and will fetch it.
   absl::StatusOr<PlanId> Commit(const Plan& plan, std::int64_t lease_token, bool assigned = false);
+  // Whom a commit of the plan would be refused for, one of several; `stopped` are taken to stand
+  // where they are, and to claim nothing.
+  std::optional<RobotId> InTheWayOf(const Plan& plan, const std::set<RobotId>& stopped = {}) const;
   // Returns the revision that includes the report; a repeated report changes nothing.
   absl::StatusOr<std::int64_t> Report(const ProgressReported& report, std::int64_t lease_token);
 

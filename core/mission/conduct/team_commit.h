@@ -16,9 +16,10 @@ struct CommittedTeam {
 };
 
 // Commits one plan after the other, under the lease that its robot has now, and assigns them. None
-// of them yields to what it replaces: robots of the team that follow a plan are first given one to
-// stay. So who is left out with a plan to stay, or since its commit was refused, stays; who is left
-// out since no plan was found follows the one that it has.
+// yields to what those after it replace: a robot of the team that is in the way with the plan that
+// it follows is first given one to stay, if that is all it takes. So who is left out since its
+// commit was refused follows the plan that it has unless that was in another's way, and who is left
+// out since no plan was found always does; who is left out with a plan to stay stays.
 CommittedTeam CommitTeam(TeamPlan team, MissionConduct& conduct);
 
 }  // namespace plumescout

@@ -25,7 +25,8 @@ Point2 HomeOf(const GoalQuery& query) {
 }
 
 // Whether the robot could stand there beside those that stand, and be led there round them: ways
-// round keep off by half a cell more (way_round.h).
+// round keep off by half a cell more (way_round.h). By its doubt where it is, as traffic has it,
+// and by that there.
 bool HasRoom(const GoalQuery& query, Point2 place) {
   const double half_diagonal_m = query.belief.geometry().resolution_m / std::sqrt(2.0);
   const double clearance_m = query.options.robot_clearance_m;
@@ -38,7 +39,9 @@ bool HasRoom(const GoalQuery& query, Point2 place) {
             other.has_pose && !other.silent && entry.second.live_trajectory == nullptr;
         return other.id != query.robot.state.id && stands &&
                Distance_m(place, other.pose.position()) <
-                   Reach_m(there, other, clearance_m) + clearance_m + half_diagonal_m;
+                   std::max(Apart_m(there, other, clearance_m),
+                            Apart_m(query.robot.state, other, clearance_m)) +
+                       half_diagonal_m;
       });
 }
 

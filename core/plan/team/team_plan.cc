@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "core/plan/plan_start.h"
 #include "core/plan/selection/selection.h"
 #include "core/plan/team/team_belief.h"
+#include "core/traffic/traffic.h"
 #include "core/types/error_reason.h"
 #include "core/types/status_macros.h"
 
@@ -175,6 +177,60 @@ std::vector<RobotId> OrderOf(const std::vector<Plan>& plans) {
   return order;
 }
 
+// Whether the plan, made as if the robot had none, runs into its live plan or takes its goal.
+bool IsAgainst(const RobotRecord& record, const Plan& plan, const Belief& belief) {
+  if (plan.chosen < 0 || record.live_trajectory == nullptr) return false;
+  const PlanningOptions& options = belief.options->planning;
+  const RobotId& robot = record.state.id;
+  const std::map<RobotId, RobotRecord> both = {{plan.robot, belief.robots.at(plan.robot)},
+                                               {robot, record}};
+  const bool meets = options.yield_to_robots &&
+                     Traffic(both, plan.robot, options.robot_clearance_m, belief.sample_time_ns)
+                         .FirstMeeting(plan.trajectory);
+  const Goal& goal = plan.candidates[static_cast<std::size_t>(plan.chosen)].goal;
+  const bool claims = goal.kind != GoalKind::kHome && goal.kind != GoalKind::kMakeWay;
+  return meets ||
+         (claims &&
+          std::any_of(belief.claims.begin(), belief.claims.end(), [&](const GoalClaim& claim) {
+            return claim.robot == robot && IsSameErrand(claim.goal, goal);
+          }));
+}
+
+// Of an order that there was no time to repeat those plans that can be driven beside the plans of
+// who is left out; whose plan goes is left out too.
+void KeepClearOfLeftOut(const Belief& belief, FirstOrder& order) {
+  for (std::size_t i = 0; i < order.left_out.size(); ++i) {
+    const auto known = belief.robots.find(order.left_out[i].robot);
+    if (known == belief.robots.end()) continue;
+    for (auto plan = order.plans.begin(); plan != order.plans.end();) {
+      if (IsAgainst(known->second, *plan, belief)) {
+        order.left_out.push_back({plan->robot, absl::StrCat("its plan is against that of robot \"",
+                                                            known->first, "\", which keeps it")});
+        plan = order.plans.erase(plan);
+      } else {
+        ++plan;
+      }
+    }
+  }
+}
+
+// The first order, again without those who keep their plans, or what of it stands if time is up.
+// `robots` is then without them.
+FirstOrder FindFirstOrder(const Belief& belief, TeamSearch& search, std::vector<RobotId>& robots) {
+  FirstOrder order = search.BestFirst(WithoutPlans(belief, robots), robots);
+  while (order.stopped.ok() && TakeOut(order.left_out, belief, robots)) {
+    FirstOrder again = search.BestFirst(WithoutPlans(belief, robots), robots);
+    if (again.stopped.ok()) {
+      again.left_out.insert(again.left_out.begin(), order.left_out.begin(), order.left_out.end());
+      order = std::move(again);
+    } else {
+      order.stopped = again.stopped;
+    }
+  }
+  if (!order.stopped.ok()) KeepClearOfLeftOut(belief, order);
+  return order;
+}
+
 }  // namespace
 
 TeamValue ValueOf(const std::vector<Plan>& plans, const PlanningOptions& options) {
@@ -196,21 +252,15 @@ absl::StatusOr<TeamPlan> PlanTeam(const Strategy& strategy, const Belief& belief
   const PlanningOptions& options = belief.options->planning;
   TeamSearch search(strategy, belief, request, stop);
   TeamPlan team;
-  Belief start = WithoutPlans(belief, robots);
-  FirstOrder first = search.BestFirst(start, robots);
-  while (first.stopped.ok() && TakeOut(first.left_out, belief, robots)) {
-    std::vector<LeftOut> before = std::move(first.left_out);
-    start = WithoutPlans(belief, robots);
-    first = search.BestFirst(start, robots);
-    first.left_out.insert(first.left_out.begin(), before.begin(), before.end());
-  }
+  FirstOrder first = FindFirstOrder(belief, search, robots);
   if (first.plans.empty()) PLUMESCOUT_RETURN_IF_ERROR(first.stopped);
   team.plans = std::move(first.plans);
   team.left_out = std::move(first.left_out);
   team.value = ValueOf(team.plans, options);
   team.order_count = first.stopped.ok() ? 1 : 0;
+  const Belief start = WithoutPlans(belief, robots);
   for (const std::vector<RobotId>& order : OtherOrders(OrderOf(team.plans))) {
-    if (team.order_count >= request.max_order_count) break;
+    if (team.order_count == 0 || team.order_count >= request.max_order_count) break;
     auto plans = search.InOrder(start, order);
     if (absl::IsDeadlineExceeded(plans.status())) break;
     if (!plans.ok()) continue;

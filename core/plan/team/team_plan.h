@@ -69,11 +69,12 @@ struct TeamPlan {
 //
 // A robot whose search fails is left out, with the error of Strategy::Plan; if it follows a plan
 // the others reckon with that. Deterministic in belief, request and counts; `stop` ends the search
-// with the best of the orders tried so far, and in the first order with those who have chosen.
+// with the best of the orders tried so far, and in the first order with those who have chosen and
+// are clear of the plans and goals that the others keep.
 //
 // Errors: kInvalidArgument for more than kMostTeamRobots robots or one named twice, or an order
 // count below 1; kNotFound for one that is named and not known; kFailedPrecondition TEAM_TOO_LARGE
-// if none are named and more are free; kDeadlineExceeded if not even one has chosen. Cost: for k
+// if none are named and more are free; kDeadlineExceeded if not even one such has. Cost: for k
 // robots some 2 k searches, at most k (k + 1) / 2, and k for each further order; those of the first
 // order again for each time that robots which follow a plan are left out.
 absl::StatusOr<TeamPlan> PlanTeam(const Strategy& strategy, const Belief& belief,

@@ -64,6 +64,22 @@ TEST(QueryGas, TellsOfTheGasThatIsAskedFor) {
   EXPECT_TRUE(QueryGas(belief, {{0.05, 0.05}})[0].observed);
 }
 
+TEST(QueryGas, AVarianceInTheOptionsIsForTheFirstGasAlone) {
+  Belief belief = Row();
+  MissionOptions options;
+  options.gas_species.resize(2);
+  options.frontier.observed_variance_ppm2 = 1e9;
+  belief.options = std::make_shared<const MissionOptions>(options);
+  GasField other;
+  other.mean_ppm = belief.gas_mean_ppm;
+  other.variance_ppm2 = belief.gas_variance_ppm2;
+  belief.further_gases = {other};
+  const Point2 measured_less = {0.15, 0.05};
+  EXPECT_TRUE(QueryGas(belief, {measured_less}, 0)[0].observed);
+  EXPECT_FALSE(QueryGas(belief, {measured_less}, 1)[0].observed);
+  EXPECT_TRUE(QueryGas(belief, {{0.05, 0.05}}, 1)[0].observed);
+}
+
 TEST(QueryGas, HasNoValuesOffFreeCells) {
   const auto answers = QueryGas(Row(), {{0.25, 0.05}, {0.35, 0.05}});
   ASSERT_EQ(answers.size(), 2u);

@@ -124,6 +124,18 @@ TEST(GasMapsTest, AFieldThatFailsLeavesTheOthers) {
   EXPECT_TRUE(maps.can_be_written());
 }
 
+TEST(GasMapsTest, AFurtherFieldThatFailsIsCountedAndKeepsNobodyFromTheFirst) {
+  if (GasMapPeer::kStopsAtDefects) return;
+  GasMaps maps(Three());
+  ASSERT_TRUE(maps.Refresh(Hall(20), kSecond_ns).ok());
+  GasMapPeer::LosePrior(maps[1]);
+  for (std::size_t i = 0; i < 2; ++i) maps[i].Add(kSecond_ns, {1.05, 1.05}, {9.0, 0.0});
+  EXPECT_TRUE(maps.Refresh(Hall(20 + 400), 2 * kSecond_ns).ok());
+  EXPECT_EQ(maps[0].quality().failures, 0);
+  EXPECT_EQ(maps[0].counters().in_posterior, 1);
+  EXPECT_EQ(maps[1].quality().failures, 1);
+}
+
 TEST(GasMapsTest, TheyShareWhatFieldsMayTake) {
   GasMaps maps(Three());
   GasMap alone(GasOptions(), 0.1);

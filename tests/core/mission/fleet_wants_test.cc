@@ -40,6 +40,33 @@ TEST(FleetWants, WhatOthersAreInTheWayOfIsRememberedSinceTheFirstTime) {
   EXPECT_EQ(record.wanted_since_ns, 0);
 }
 
+TEST(FleetWants, WhoStaysAWhileForAnotherReasonHasWaitedSinceTheFirstTime) {
+  Fleet fleet = FleetOf({"a"});
+  ASSERT_TRUE(fleet.Issue(ToStay("a", 3.0), 5 * kSecond_ns).ok());
+  Plan stay = ToStay("a", 3.0);
+  stay.rejected.clear();
+  ASSERT_TRUE(fleet.Issue(stay, 9 * kSecond_ns).ok());
+  EXPECT_FALSE(fleet.Records().at("a").wanted_goal.has_value());
+  ASSERT_TRUE(fleet.Issue(PlanTo("a", {1.0, 1.0}, GoalKind::kMakeWay), 12 * kSecond_ns).ok());
+  ASSERT_TRUE(fleet.Issue(ToStay("a", 3.0), 15 * kSecond_ns).ok());
+  const RobotRecord record = fleet.Records().at("a");
+  EXPECT_TRUE(record.wanted_goal.has_value());
+  EXPECT_EQ(record.wanted_since_ns, 5 * kSecond_ns);
+}
+
+TEST(FleetWants, WhoseFrameIsPutElsewhereWantsNothing) {
+  Fleet fleet = FleetOf({"a"});
+  ASSERT_TRUE(fleet.Issue(ToStay("a", 3.0), 5 * kSecond_ns).ok());
+  RobotRegistered again = {"a", 0.2, 2};
+  ASSERT_TRUE(fleet.Register(again, kMaxRobots).ok());
+  EXPECT_TRUE(fleet.Records().at("a").wanted_goal.has_value()) << "its frame is where it was";
+  again.lease_token = 3;
+  again.frame.mission_from_robot = {1.0, 0.0, 0.0};
+  ASSERT_TRUE(fleet.Register(again, kMaxRobots).ok());
+  EXPECT_FALSE(fleet.Records().at("a").wanted_goal.has_value());
+  EXPECT_EQ(fleet.Records().at("a").wanted_since_ns, 0);
+}
+
 TEST(FleetWants, WhoIsGoneWantsNothing) {
   Fleet fleet = FleetOf({"a", "b"});
   ASSERT_TRUE(fleet.Issue(ToStay("a", 3.0), 0).ok());

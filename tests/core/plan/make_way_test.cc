@@ -62,6 +62,32 @@ TEST(MakeWay, WhoHasNothingToDoDrivesIntoTheBay) {
   EXPECT_THAT(plan.explanation, HasSubstr("to make way for \"a\""));
 }
 
+TEST(MakeWay, TheWayIsKeptFromByTheDoubtOfWhereTheOtherIsNow) {
+  CorridorTeam team = Waiting(0.0);
+  team.Stands("b", 4.0);
+  RobotFrame& frame = team.belief.robots["a"].state.frame;
+  frame.mission_from_robot = {6.0, CorridorTeam::kMiddle_m, 0.0};  // before the bay it is sure
+  frame.heading_stddev_rad = 0.03;                                 // 5 m from there
+  const Plan plan = Planned(team, "b");
+  ASSERT_EQ(plan.chosen, 0);
+  const double off_m = plan.candidates[0].goal.position.y_m - CorridorTeam::kMiddle_m;
+  EXPECT_GE(off_m, 0.4 + 2.5 * 0.03 * 5.0);
+}
+
+TEST(MakeWay, NoRetreatEndsOnAWayThatIsKeptForAnother) {
+  CorridorTeam team = Waiting(0.0);
+  team.Wants("a", 4.5, 0.0);
+  team.Stands("b", 4.0);
+  team.Stands("c", 9.5);
+  Plan plan = Planned(team, "b");
+  ASSERT_EQ(plan.chosen, 0);
+  EXPECT_LT(plan.candidates[0].goal.position.y_m, 0.7) << "the corridor before the bay is nearest";
+  team.Wants("c", 5.3, 16.0);
+  plan = Planned(team, "b");
+  ASSERT_EQ(plan.chosen, 0);
+  EXPECT_GT(plan.candidates[0].goal.position.y_m, 0.7) << "it goes into the bay";
+}
+
 TEST(MakeWay, WhoIsInNobodysWayStays) {
   CorridorTeam team = Waiting(60.0);
   team.Stands("b", 6.0, 1.8);

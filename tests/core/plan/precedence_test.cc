@@ -56,6 +56,24 @@ TEST(KeptWays, WhoBeganToWaitEarlierGoesFirst) {
   EXPECT_THAT(KeptFrom(team, "a"), IsEmpty());
 }
 
+TEST(KeptWays, OfThoseWhoBeganTogetherAnotherGoesFirstInTheNextTurn) {
+  CorridorTeam team = Waiting(61.0);
+  team.Wants("b", 3.0, 61.0);
+  EXPECT_THAT(KeptFrom(team, "b"), IsEmpty()) << "\"a\" made nothing of its turn";
+  EXPECT_THAT(KeptFrom(team, "a"), SizeIs(1));
+  team.Wants("a", 9.0, 106.0);
+  team.Wants("b", 3.0, 106.0);
+  EXPECT_THAT(KeptFrom(team, "a"), IsEmpty());
+  EXPECT_THAT(KeptFrom(team, "b"), SizeIs(1));
+}
+
+TEST(KeptWays, WhoHasHadFewerTurnsGoesFirst) {
+  CorridorTeam team = Waiting(61.0);
+  team.Wants("b", 3.0, 20.0);
+  EXPECT_THAT(KeptFrom(team, "b"), IsEmpty());
+  EXPECT_THAT(KeptFrom(team, "a"), SizeIs(1));
+}
+
 TEST(KeptWays, WhoDrivesOrIsSilentOrCannotPassHasNone) {
   CorridorTeam team = Waiting(16.0);
   team.Stands("c", 4.0);
@@ -106,6 +124,18 @@ TEST(YieldToRobots, NoWayEndsWhereSomebodyHasWaitedToPass) {
   plan.candidates[0].path = {{6.0, 1.8}, {5.5, 1.8}};
   YieldToRobots(Waiting(20.0).belief, 0.0, PlanningOptions(), plan);
   EXPECT_THAT(plan.candidates, SizeIs(1)) << "it stays in the bay";
+}
+
+TEST(YieldToRobots, NoWaysAreKeptFreeFromWhoGoesHome) {
+  Plan plan = PlanTo(CorridorTeam::At(8.0));
+  plan.phase = MissionPhase::kReturning;
+  YieldToRobots(Waiting(20.0).belief, 0.0, PlanningOptions(), plan);
+  EXPECT_THAT(plan.candidates, SizeIs(1)) << "asked to, or for the last time";
+  CorridorTeam team = Waiting(20.0);
+  team.belief.robots["b"].battery_low = true;
+  plan = PlanTo(CorridorTeam::At(8.0));
+  YieldToRobots(team.belief, 0.0, PlanningOptions(), plan);
+  EXPECT_THAT(plan.candidates, SizeIs(1)) << "sent there";
 }
 
 }  // namespace precedence_test

@@ -78,6 +78,23 @@ TEST(WaitOutOfTheWay, WhoIsInTheOnlyWayOfAnotherGoesOnFirst) {
   EXPECT_THAT(Explain(plan, PlanningOptions()), HasSubstr("s at (5.5, 1.8) until other robots"));
 }
 
+TEST(WaitOutOfTheWay, NobodyElseWhoWaitsIsBlockedInstead) {
+  CorridorTeam team = Leaving();
+  team.Stands("x", 1.0);
+  team.Wants("x", 8.0, 5.0);
+  team.Stands("y", 9.2);
+  const Point2 behind_the_stop = {5.5, 2.0};
+  Plan plan = PlanOf(team);
+  ASSERT_GT(WaitOf_s(plan.trajectory), 0.0);
+  Plan moved = plan;
+  EXPECT_TRUE(WaitOutOfTheWay(team.belief, PlanningOptions(), moved)) << "\"y\" wants nothing";
+  team.Wants("y", 5.5, 5.0);
+  team.belief.robots["y"].wanted_goal->position = behind_the_stop;
+  const Plan before = plan;
+  EXPECT_FALSE(WaitOutOfTheWay(team.belief, PlanningOptions(), plan));
+  EXPECT_EQ(plan, before);
+}
+
 TEST(WaitOutOfTheWay, StopsThatAreForSamplesAreLeftAlone) {
   CorridorTeam team = Leaving();
   team.Stands("x", 1.0);

@@ -84,5 +84,56 @@ TEST(CommitTeam, WhoseSearchFailedGoesOnWithThePlanThatItHas) {
   EXPECT_EQ(conduct.Snapshot()->robots.at("b").last_plan, 1);
 }
 
+// "c", which is not of the team, goes to 1 m.
+void CommitForAll(MissionConduct& conduct) {
+  for (const char* const robot : {"a", "b", "c"}) {
+    ASSERT_TRUE(conduct.Register({robot, 0.2, 3}).ok());
+  }
+  ASSERT_TRUE(conduct.Commit(To("c", 1.0), 3).ok());
+  ASSERT_TRUE(conduct.Commit(To("a", 9.0), 3).ok());
+}
+
+TEST(CommitTeam, WhoseNewPlanIsRefusedGoesOnWithTheOneThatItHas) {
+  MissionConduct conduct(std::make_unique<Mission>(MissionOptions{}));
+  CommitForAll(conduct);
+  TeamPlan team;
+  team.plans = {To("b", 20.0), To("a", 1.0)};
+  const CommittedTeam committed = CommitTeam(team, conduct);
+  EXPECT_EQ(committed.plans.size(), 1U);
+  ASSERT_EQ(committed.left_out.size(), 1U);
+  EXPECT_THAT(committed.left_out[0].why, HasSubstr("claimed by robot \"c\""));
+  const auto belief = conduct.Snapshot();
+  EXPECT_EQ(belief->robots.at("a").last_plan, 2);
+  EXPECT_NE(belief->robots.at("a").live_trajectory, nullptr);
+}
+
+TEST(CommitTeam, WhoIsStoppedForAnotherWantsNothingThatItsSearchRejected) {
+  MissionConduct conduct(std::make_unique<Mission>(MissionOptions{}));
+  CommitForAll(conduct);
+  TeamPlan team;
+  team.plans = {To("b", 9.0), To("a", 1.0)};
+  team.plans[1].rejected = {{Goal{}, RejectionReason::kTraffic, ""}};
+  const CommittedTeam committed = CommitTeam(team, conduct);
+  ASSERT_EQ(committed.plans.size(), 1U);
+  EXPECT_EQ(committed.plans[0].robot, "b");
+  const auto belief = conduct.Snapshot();
+  EXPECT_EQ(belief->robots.at("a").live_trajectory, nullptr);
+  EXPECT_FALSE(belief->robots.at("a").wanted_goal.has_value());
+}
+
+TEST(CommitTeam, NobodyIsStoppedForAPlanThatIsRefusedAllTheSame) {
+  MissionConduct conduct(std::make_unique<Mission>(MissionOptions{}));
+  CommitForAll(conduct);
+  TeamPlan team;
+  // "b" would go to less than a claim's radius from the goals of both.
+  ASSERT_TRUE(conduct.Commit(To("a", 1.7), 3).ok());
+  team.plans = {To("b", 1.4), To("a", 30.0)};
+  team.plans[1].chosen = 1;  // of one: no mission takes it
+  const CommittedTeam committed = CommitTeam(team, conduct);
+  EXPECT_TRUE(committed.plans.empty());
+  EXPECT_EQ(committed.left_out.size(), 2U);
+  EXPECT_EQ(conduct.Snapshot()->robots.at("a").last_plan, 3);
+}
+
 }  // namespace team_commit_test
 }  // namespace plumescout

@@ -129,6 +129,27 @@ TEST(FindHome, IsFartherFromARobotWhosePlaceIsInDoubt) {
   EXPECT_EQ(FindHome(c.Query()).goal.cell, (Cell{9, 3})) << "no other cell is 5.7 cells away";
 }
 
+TEST(FindHome, IsAsFarFromOthersAsTheRobotsOwnDoubtWhereItIsNow) {
+  GoalCase c(kHall);
+  const Point2 home = CentreOf(c, {3, 1});
+  const Point2 start = CentreOf(c, {9, 3});
+  RobotRecord& own = c.belief.robots["r"];
+  const double cell_m = c.belief.geometry().resolution_m;
+  own.first_place = home;
+  own.state.radius_m = cell_m;
+  own.state.has_pose = true;
+  own.state.pose = {start.x_m, start.y_m, 0.0};
+  own.state.frame.mission_from_robot = {home.x_m, home.y_m, 0.0};
+  own.state.frame.heading_stddev_rad = cell_m / Distance_m(start, home);  // a cell, and less there
+  RobotRecord& parked = c.belief.robots["s"];
+  parked.state.id = "s";
+  parked.state.radius_m = 1.5 * cell_m;
+  parked.state.has_pose = true;
+  parked.state.pose = {home.x_m, home.y_m, 0.0};
+  c.options.robot_clearance_m = 0.0;
+  EXPECT_EQ(FindHome(c.Query()).goal.cell, (Cell{9, 3})) << "no other cell is 5.7 cells away";
+}
+
 TEST(FindHome, IsNotKeptFromByMemoryOrClaims) {
   GoalCase c(kHall);
   c.belief.robots["r"].first_place = CentreOf(c, {3, 1});

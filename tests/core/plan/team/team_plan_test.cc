@@ -202,6 +202,53 @@ TEST(PlanTeam, WhenTheFirstOrderIsStoppedWhoHasChosenGoes) {
   EXPECT_EQ(team->order_count, 0);
 }
 
+GoalClaim ClaimOf(const RobotId& robot, double x_m) {
+  const Point2 at = CorridorTeam::At(x_m);
+  return {robot, 1, {GoalKind::kInformation, {}, at, at, 0}, 0};
+}
+
+TEST(PlanTeam, WhoHasChosenWhatOneWithoutTimeHasYetIsLeftOutToo) {
+  CorridorTeam three = Two();
+  three.Stands("c", 8.5);
+  three.Drives("a", 4.0);
+  three.belief.claims = {ClaimOf("a", 4.0)};
+  TeamRequest request;
+  request.robots = {"a", "b", "c"};
+  // Three searches, and those of "a" and "c" after "b" has chosen: each asks twice.
+  int polls = 0;
+  const StopFn before_the_last = [&polls] { return ++polls > 10; };
+  const auto team = PlanTeam(Prizes(kTwoPrizes), three.belief, request, before_the_last);
+  ASSERT_TRUE(team.ok()) << team.status();
+  ASSERT_EQ(team->plans.size(), 1U);
+  EXPECT_EQ(team->plans[0].robot, "c");
+  EXPECT_EQ(GoalOf(team->plans[0]), 7.0);
+  ASSERT_EQ(team->left_out.size(), 2U);
+  EXPECT_EQ(team->left_out[0].robot, "a");
+  EXPECT_EQ(team->left_out[1].robot, "b");
+  EXPECT_THAT(team->left_out[1].why, HasSubstr("against that of robot \"a\""));
+}
+
+TEST(PlanTeam, WithoutTimeForAnotherFirstOrderWhatStandsOfTheOneBeforeGoes) {
+  CorridorTeam three = Two();
+  three.Stands("c", 8.5);
+  three.Drives("c", 7.0);
+  three.belief.claims = {ClaimOf("c", 7.0)};
+  TeamRequest request;
+  request.robots = {"a", "b", "c"};
+  // "a" and "b" ask twice, "c" once, and "a" twice more.
+  int polls = 0;
+  const StopFn before_the_next = [&polls] { return ++polls > 7; };
+  const auto team = PlanTeam(PrizesBut("c", kTwoPrizes), three.belief, request, before_the_next);
+  ASSERT_TRUE(team.ok()) << team.status();
+  ASSERT_EQ(team->plans.size(), 1U);
+  EXPECT_EQ(team->plans[0].robot, "b");
+  EXPECT_EQ(GoalOf(team->plans[0]), 4.0);
+  ASSERT_EQ(team->left_out.size(), 2U);
+  EXPECT_EQ(team->left_out[0], (LeftOut{"c", "it has no pose"}));
+  EXPECT_EQ(team->left_out[1].robot, "a") << "it would go where \"c\" goes";
+  EXPECT_EQ(team->order_count, 0);
+}
+
 TEST(PlanTeam, BadRequestsAreRefused) {
   const auto refused = [](const TeamRequest& request) {
     return PlanTeam(Prizes(kTwoPrizes), Two().belief, request, NeverStop()).status();
