@@ -23,7 +23,7 @@ namespace {
 constexpr int kRobotsPerPage = 1000;
 constexpr double kMostOffset_s = 9e9;  // what nanoseconds can say
 
-absl::StatusOr<RobotLink> LinkFromProto(v1::RobotLink link) {
+RobotLink LinkFromProto(v1::RobotLink link) {
   switch (link) {
     case v1::ROBOT_LINK_STREAMING:
       return RobotLink::kStreaming;
@@ -34,16 +34,12 @@ absl::StatusOr<RobotLink> LinkFromProto(v1::RobotLink link) {
     case v1::ROBOT_LINK_GONE:
       return RobotLink::kGone;
     default:
-      return FieldError("robot.link", link, "is not known");
+      return RobotLink::kUnknown;  // of a newer server
   }
 }
 
 absl::StatusOr<RobotState> StateFromProto(const v1::Robot& proto) {
   PLUMESCOUT_ASSIGN_OR_RETURN(RobotState state, FromProto(proto.on_map(), "robot.on_map"));
-  PLUMESCOUT_RETURN_IF_ERROR(
-      CheckRange("robot.clock_offset_s", proto.clock_offset_s(), -kMostOffset_s, kMostOffset_s));
-  constexpr double kNanosecondsPerSecond = 1e9;
-  state.clock_offset_ns = std::llround(proto.clock_offset_s() * kNanosecondsPerSecond);
   if (proto.has_frame()) {
     PLUMESCOUT_ASSIGN_OR_RETURN(state.frame, FromProto(proto.frame(), "robot.frame"));
   }
@@ -55,7 +51,14 @@ absl::StatusOr<RobotState> StateFromProto(const v1::Robot& proto) {
 absl::StatusOr<RobotDetails> DetailsFromProto(const v1::Robot& proto) {
   RobotDetails details;
   PLUMESCOUT_ASSIGN_OR_RETURN(details.state, StateFromProto(proto));
-  PLUMESCOUT_ASSIGN_OR_RETURN(details.link, LinkFromProto(proto.link()));
+  if (proto.has_clock_offset_s()) {
+    PLUMESCOUT_RETURN_IF_ERROR(
+        CheckRange("robot.clock_offset_s", proto.clock_offset_s(), -kMostOffset_s, kMostOffset_s));
+    constexpr double kNanosecondsPerSecond = 1e9;
+    details.state.clock_offset_ns = std::llround(proto.clock_offset_s() * kNanosecondsPerSecond);
+    details.clock_offset_ns = details.state.clock_offset_ns;
+  }
+  details.link = LinkFromProto(proto.link());
   details.leased = proto.leased();
   if (proto.has_last_heard_age_s()) details.last_heard_age_s = proto.last_heard_age_s();
   if (proto.has_ingest_lag_s()) details.ingest_lag_s = proto.ingest_lag_s();
@@ -81,6 +84,13 @@ absl::StatusOr<TeamPlans> TeamFromProto(const v1::PlanTeamResponse& proto) {
   }
   team.order_count = proto.order_count();
   return team;
+}
+
+// It is the server, not the caller, who is to blame for an answer that cannot be read.
+template <typename T>
+absl::StatusOr<T> FromServer(absl::StatusOr<T> read) {
+  if (read.ok()) return read;
+  return absl::InternalError(read.status().message());
 }
 
 class GrpcOperatorClient final : public OperatorClient {
@@ -118,7 +128,7 @@ class GrpcOperatorClient final : public OperatorClient {
     v1::GetRobotResponse response;
     PLUMESCOUT_RETURN_IF_ERROR(
         link_.Call(robots_, &v1::RobotService::Stub::GetRobot, request, &response));
-    return DetailsFromProto(response.robot());
+    return FromServer(DetailsFromProto(response.robot()));
   }
 
   absl::StatusOr<std::vector<RobotDetails>> ListRobots(const MissionId& mission) override {
@@ -131,7 +141,7 @@ class GrpcOperatorClient final : public OperatorClient {
       PLUMESCOUT_RETURN_IF_ERROR(
           link_.Call(robots_, &v1::RobotService::Stub::ListRobots, request, &response));
       for (const v1::Robot& robot : response.robots()) {
-        PLUMESCOUT_ASSIGN_OR_RETURN(RobotDetails details, DetailsFromProto(robot));
+        PLUMESCOUT_ASSIGN_OR_RETURN(RobotDetails details, FromServer(DetailsFromProto(robot)));
         robots.push_back(std::move(details));
       }
       request.set_page_token(response.next_page_token());
@@ -182,7 +192,7 @@ class GrpcOperatorClient final : public OperatorClient {
     v1::PlanTeamResponse response;
     PLUMESCOUT_RETURN_IF_ERROR(link_.CallNamed(planning_, &v1::PlanningService::Stub::PlanTeam,
                                                request, &response, query.timeout));
-    return TeamFromProto(response);
+    return FromServer(TeamFromProto(response));
   }
 
   absl::StatusOr<std::unique_ptr<RobotWatch>> WatchRobot(const MissionId& mission,

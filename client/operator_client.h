@@ -24,6 +24,7 @@ enum class RobotLink {
   kIdle,       // no stream is open; a client holds its lease
   kSilent,     // its mission has not heard of it while others were heard
   kGone,       // nobody holds its lease
+  kUnknown,    // the server says what this client does not know
 };
 
 // How far a robot has come on its live plan.
@@ -41,6 +42,8 @@ struct RobotDetails {
   RobotState state;
   RobotLink link = RobotLink::kGone;
   bool leased = false;  // a client holds its lease
+  // RobotState::clock_offset_ns; none if its clock is taken as it is, and the state then has 0.
+  std::optional<std::int64_t> clock_offset_ns = std::nullopt;
   // Since its latest batch was applied; none before the first.
   std::optional<double> last_heard_age_s = std::nullopt;
   // Age of the newest sample of that; none unless its batches say when they were sent.
@@ -75,7 +78,8 @@ struct TeamPlans {
 };
 
 // What operators ask of a server; no lease is needed for it. Errors: kNotFound (MISSION_NOT_FOUND,
-// ROBOT_NOT_FOUND), kPermissionDenied, MISSION_FINISHED. Thread-safe.
+// ROBOT_NOT_FOUND), kPermissionDenied, MISSION_FINISHED; kInternal if an answer cannot be read.
+// Thread-safe.
 class OperatorClient {
  public:
   virtual ~OperatorClient() = default;

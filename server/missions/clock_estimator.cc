@@ -18,6 +18,7 @@ constexpr std::int64_t kPatience_ns = 3'000'000'000;
 std::int64_t ClockEstimator::Note(std::int64_t sent_ns, std::int64_t arrived_ns,
                                   bool at_the_latest) {
   const std::int64_t difference_ns = arrived_ns - sent_ns;
+  lowered_itself_ = false;
   const bool tells_nothing = at_the_latest && !buckets_.empty() &&
                              sent_ns >= last_sent_ns_ - kStep_ns && difference_ns >= Least_ns();
   if (tells_nothing) {
@@ -25,10 +26,13 @@ std::int64_t ClockEstimator::Note(std::int64_t sent_ns, std::int64_t arrived_ns,
     return Least_ns();
   }
   std::int64_t least_ns = difference_ns;
-  if (!buckets_.empty() && WasSet(sent_ns, difference_ns, arrived_ns)) {
+  if (buckets_.empty() || WasSet(sent_ns, difference_ns, arrived_ns)) {
     if (late_) least_ns = std::min(least_ns, late_->least_ns);
     late_.reset();
     buckets_.clear();
+    is_provisional_ = at_the_latest;
+  } else if (!at_the_latest && !late_) {
+    is_provisional_ = false;
   }
   last_sent_ns_ = sent_ns;
   const std::int64_t span = arrived_ns / kSpan_ns;
@@ -52,7 +56,8 @@ bool ClockEstimator::WasSet(std::int64_t sent_ns, std::int64_t difference_ns,
   const bool is_early = difference_ns < least_ns - kStep_ns;
   if (went_back || is_early) {
     late_.reset();
-    return true;
+    lowered_itself_ = is_provisional_ && !went_back;
+    return !lowered_itself_;
   }
   if (difference_ns <= least_ns + kStep_ns) {
     late_.reset();

@@ -17,11 +17,14 @@ RobotClocks::Reckoning RobotClocks::Reckon(const RobotId& robot, const BatchTime
     return {};
   }
   const bool is_known = estimators_.contains(robot);
+  ClockEstimator& estimator = estimators_[robot];
   const std::int64_t estimate_ns =
-      estimators_[robot].Note(times.sent_ns, times.arrived_ns, times.at_the_latest);
+      estimator.Note(times.sent_ns, times.arrived_ns, times.at_the_latest);
   const std::int64_t change_ns = std::abs(estimate_ns - in_force_ns);
   if (change_ns <= ClockEstimator::kTolerance_ns) return {in_force_ns, false};
-  return {estimate_ns, is_known && change_ns > ClockEstimator::kStep_ns};
+  const bool was_set =
+      is_known && change_ns > ClockEstimator::kStep_ns && !estimator.lowered_itself();
+  return {estimate_ns, was_set};
 }
 
 void RobotClocks::NoteBatch(const RobotId& robot, const LinkTimes& link) {

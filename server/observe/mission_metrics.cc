@@ -17,9 +17,15 @@ prometheus::Family<prometheus::Counter>& Counters(prometheus::Registry& registry
   return prometheus::BuildCounter().Name(name).Help(help).Register(registry);
 }
 
-prometheus::Gauge* MakeGauge(prometheus::Registry& registry, const std::string& name,
-                             const std::string& help) {
-  return &prometheus::BuildGauge().Name(name).Help(help).Register(registry).Add({});
+prometheus::Labels OfSpecies(std::size_t species) { return {{"species", std::to_string(species)}}; }
+
+// With the first gas, which every mission has; others come with their first audit.
+prometheus::Family<prometheus::Gauge>* MakeGaugesOfSpecies(prometheus::Registry& registry,
+                                                           const std::string& name,
+                                                           const std::string& help) {
+  auto& family = prometheus::BuildGauge().Name(name).Help(help).Register(registry);
+  family.Add(OfSpecies(0));
+  return &family;
 }
 
 prometheus::Family<prometheus::Histogram>& Times(prometheus::Registry& registry,
@@ -68,10 +74,12 @@ MissionMetrics::MissionMetrics(prometheus::Registry& registry) {
   audits_certified_ = &audits.Add({{"outcome", "certified"}});
   audits_alarmed_ = &audits.Add({{"outcome", "alarm"}});
   audits_failed_ = &audits.Add({{"outcome", "failed"}});
-  audit_mean_ = MakeGauge(registry, "plumescout_gas_audit_mean_difference_ppm",
-                          "Largest difference of means that the last audit found.");
-  audit_variance_ = MakeGauge(registry, "plumescout_gas_audit_variance_difference_ratio",
-                              "Largest difference of variances that the last audit found.");
+  audit_mean_ =
+      MakeGaugesOfSpecies(registry, "plumescout_gas_audit_mean_difference_ppm",
+                          "Largest difference of means that the last audit of such a gas found.");
+  audit_variance_ = MakeGaugesOfSpecies(
+      registry, "plumescout_gas_audit_variance_difference_ratio",
+      "Largest difference of variances that the last audit of such a gas found.");
   auto& stages =
       Times(registry, "plumescout_plan_stage_duration_seconds",
             "Time of a plan by stage: wait for its belief, for a thread, search, commit, disk.");
@@ -99,8 +107,9 @@ MissionMetrics& MissionMetrics::Unread() {
 void MissionMetrics::NoteAudit(const absl::StatusOr<AuditFinding>& finding) {
   if (!finding.ok()) return audits_failed_->Increment();
   (finding->certified ? audits_certified_ : audits_alarmed_)->Increment();
-  audit_mean_->Set(finding->mean_ppm);
-  audit_variance_->Set(finding->variance_ratio);
+  const prometheus::Labels species = OfSpecies(finding->species);
+  audit_mean_->Add(species).Set(finding->mean_ppm);
+  audit_variance_->Add(species).Set(finding->variance_ratio);
 }
 
 void MissionMetrics::NotePlanStage(Stage stage, absl::Duration time) {

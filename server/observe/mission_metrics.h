@@ -3,6 +3,7 @@
 #pragma once
 
 #include <prometheus/counter.h>
+#include <prometheus/family.h>
 #include <prometheus/gauge.h>
 #include <prometheus/histogram.h>
 #include <prometheus/registry.h>
@@ -65,8 +66,9 @@ class MissionMetrics {
   prometheus::Counter* audits_certified_ = nullptr;
   prometheus::Counter* audits_alarmed_ = nullptr;
   prometheus::Counter* audits_failed_ = nullptr;
-  prometheus::Gauge* audit_mean_ = nullptr;
-  prometheus::Gauge* audit_variance_ = nullptr;
+  // By the gas's place among its mission's.
+  prometheus::Family<prometheus::Gauge>* audit_mean_ = nullptr;
+  prometheus::Family<prometheus::Gauge>* audit_variance_ = nullptr;
   std::array<prometheus::Histogram*, kStageNames.size()> plan_stages_ = {};
   prometheus::Histogram* plan_cpu_ = nullptr;
   std::map<InvalidationReason, prometheus::Counter*> plans_invalidated_;

@@ -308,12 +308,12 @@ bool IngestStream::FillResponse() {
 }
 
 bool IngestStream::MayRead() const {
-  const bool opening = host_ != nullptr && !opened_;
-  return !reading_ && !half_closed_ && !end_.has_value() && !opening && !HoldsBack();
+  return !reading_ && !half_closed_ && !end_.has_value() && !HoldsBack();
 }
 
 bool IngestStream::HoldsBack() const {
-  return paused_ || waiting_.has_value() ||
+  const bool opening = host_ != nullptr && !opened_;
+  return opening || paused_ || waiting_.has_value() ||
          in_flight_observations_ >= context_.limits.stream_window_observations;
 }
 

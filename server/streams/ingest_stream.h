@@ -66,7 +66,7 @@ class IngestStream final
   StreamPump::Operation NextOperation() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   bool FillResponse() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   bool MayRead() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  // Whether the next frame is left on the wire for now, if there is one.
+  // Whether the next frame is left on the wire for now, if there is one. No read is in flight.
   bool HoldsBack() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   // `flush`: the robot first hears what became of its batches.
   void SetEnd(const absl::Status& status, bool flush) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "client/grpc_operator_client.h"
 
+#include <grpcpp/grpcpp.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -17,6 +19,7 @@
 #include "client/grpc_planner_client.h"
 #include "core/plan/trajectory_timing.h"
 #include "core/types/error_reason.h"
+#include "plumescout/v1/robot_service.grpc.pb.h"
 #include "server/server.h"
 #include "tests/client/ingest_traffic.h"
 #include "tests/server/host_parts.h"
@@ -103,6 +106,7 @@ TEST_F(GrpcOperatorClientTest, ARobotIsToldWithItsLinkItsFrameAndItsClock) {
   EXPECT_TRUE(details.leased);
   EXPECT_FALSE(details.state.has_pose);
   EXPECT_EQ(details.state.frame, outfit.frame);
+  EXPECT_EQ(details.clock_offset_ns, std::nullopt);
   EXPECT_EQ(details.last_heard_age_s, std::nullopt);
   EXPECT_EQ(details.ingest_lag_s, std::nullopt);
   EXPECT_EQ(details.live_plan, std::nullopt);
@@ -116,6 +120,7 @@ TEST_F(GrpcOperatorClientTest, ARobotIsToldWithItsLinkItsFrameAndItsClock) {
   EXPECT_NEAR(details.state.pose.x_m, 1.0, 1e-12) << "in the mission's frame";
   EXPECT_NEAR(static_cast<double>(details.state.clock_offset_ns), -static_cast<double>(kHour_ns),
               1e9 * absl::ToDoubleSeconds(kPatience));
+  EXPECT_EQ(details.clock_offset_ns, details.state.clock_offset_ns);
   EXPECT_TRUE(details.last_heard_age_s.has_value());
   EXPECT_TRUE(details.ingest_lag_s.has_value());
 }
@@ -213,6 +218,68 @@ TEST_F(GrpcOperatorClientTest, ALeaseIsFreedAndARobotRemovedWhoeverHoldsIt) {
   EXPECT_GT(Register("scout").lease_token, first.lease_token);
   ASSERT_EQ(operator_->RemoveRobot("house", "scout"), absl::OkStatus());
   EXPECT_TRUE(operator_->ListRobots("house")->empty());
+}
+
+// Tells of one robot whatever it is given.
+class OtherRobots final : public v1::RobotService::Service {
+ public:
+  OtherRobots() {
+    robot.mutable_on_map()->set_robot("missions/house/robots/scout");
+    robot.set_link(v1::ROBOT_LINK_IDLE);
+    grpc::ServerBuilder builder;
+    builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port_);
+    builder.RegisterService(this);
+    server_ = builder.BuildAndStart();
+  }
+  ~OtherRobots() override { server_->Shutdown(std::chrono::system_clock::now()); }
+
+  grpc::Status GetRobot(grpc::ServerContext*, const v1::GetRobotRequest*,
+                        v1::GetRobotResponse* response) override {
+    *response->mutable_robot() = robot;
+    return {};
+  }
+  grpc::Status ListRobots(grpc::ServerContext*, const v1::ListRobotsRequest*,
+                          v1::ListRobotsResponse* response) override {
+    *response->add_robots() = robot;
+    return {};
+  }
+  std::unique_ptr<OperatorClient> Client() const {
+    return MakeGrpcOperatorClient(
+        {.target = absl::StrCat("127.0.0.1:", port_), .call_timeout = kPatience});
+  }
+
+  v1::Robot robot;
+
+ private:
+  int port_ = 0;
+  std::unique_ptr<grpc::Server> server_;
+};
+
+TEST(GrpcOperatorClientOfOthersTest, ALinkThatIsNotKnownFailsNoList) {
+  OtherRobots server;
+  constexpr int kOfAnotherDay = 99;
+  server.robot.set_link(static_cast<v1::RobotLink>(kOfAnotherDay));
+  const auto robots = server.Client()->ListRobots("house");
+  ASSERT_TRUE(robots.ok()) << robots.status();
+  ASSERT_EQ(robots->size(), 1U);
+  EXPECT_EQ(robots->front().link, RobotLink::kUnknown);
+  EXPECT_EQ(robots->front().clock_offset_ns, std::nullopt);
+}
+
+TEST(GrpcOperatorClientOfOthersTest, AnOffsetOfNothingIsAnOffset) {
+  OtherRobots server;
+  server.robot.set_clock_offset_s(0.0);
+  const auto details = server.Client()->GetRobot("house", "scout");
+  ASSERT_TRUE(details.ok()) << details.status();
+  EXPECT_EQ(details->clock_offset_ns, 0);
+}
+
+TEST(GrpcOperatorClientOfOthersTest, AnAnswerThatCannotBeReadIsTheServersFault) {
+  OtherRobots server;
+  server.robot.set_clock_offset_s(1e12);
+  EXPECT_EQ(server.Client()->GetRobot("house", "scout").status().code(),
+            absl::StatusCode::kInternal);
+  EXPECT_EQ(server.Client()->ListRobots("house").status().code(), absl::StatusCode::kInternal);
 }
 
 }  // namespace grpc_operator_client_test

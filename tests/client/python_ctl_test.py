@@ -167,7 +167,10 @@ class CtlTest(unittest.TestCase):
 
         watched = self.ctl_json("robots", "watch", "busy", "scout", "--count", "1")
         self.assertFalse(watched[0]["standing"].get("finished", False))
-        self.assertIn("standing:", self.ctl("robots", "watch", "busy", "scout", "--count", "1"))
+        self.assertRegex(
+            self.ctl("robots", "watch", "busy", "scout", "--count", "1"),
+            r"(?m)^\d{4}-\d\d-\d\d \d\d:\d\d:\d\d\.\d{3}Z  standing: ",
+        )
         self.assertTrue(next(robot.watch()).HasField("standing"))
 
         self.ctl("robots", "release", "busy", "scout")
@@ -299,7 +302,7 @@ class KeptMissionsTest(unittest.TestCase):
         lines = self.ctl("missions", "history", "hall").splitlines()
         self.assertEqual(len(lines), self.client.get_mission("hall").revision)
         self.assertIn("joins", lines[0])
-        self.assertRegex(lines[1], r"2 +1970-01-01 00:00:01.000 +gas reading +scout +gas reading 1, 12 ppm")
+        self.assertRegex(lines[1], r"2 +1970-01-01 00:00:01.000Z +gas reading +scout +gas reading 1, 12 ppm")
         scans = self.ctl_json("missions", "history", "hall", "--kind", "scan")
         self.assertEqual(len(scans), 4)
         self.assertEqual(scans[0]["summary"], "scan 2, 90 beams at (1.00, 1.00)")
@@ -343,8 +346,8 @@ class WordsTest(unittest.TestCase):
             self.assertIn(heading, words.ROBOT_COLUMNS)
 
     def test_an_instant_is_a_time_of_day_if_there_is_one(self):
-        self.assertEqual(words.instant(1_700_000_000_250_000_000), "2023-11-14 22:13:20.250")
-        self.assertEqual(words.instant(1 << 62), "2116-02-20 23:53:38.427")
+        self.assertEqual(words.instant(1_700_000_000_250_000_000), "2023-11-14 22:13:20.250Z")
+        self.assertEqual(words.instant(1 << 62), "2116-02-20 23:53:38.427Z")
 
 
 class ProgressTest(unittest.TestCase):

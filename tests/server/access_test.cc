@@ -5,14 +5,13 @@
 
 #include <map>
 #include <string>
-#include <thread>
 
-#include "absl/strings/match.h"
 #include "plumescout/v1/map_service.grpc.pb.h"
 #include "plumescout/v1/snapshot_service.grpc.pb.h"
 #include "server/access/rpc.h"
 #include "server/store/memory_store.h"
 #include "tests/server/access_fixture.h"
+#include "tests/server/await_metric.h"
 
 namespace plumescout::server {
 namespace access_test {
@@ -121,9 +120,7 @@ TEST_F(WhoMayCallTest, AnImportEndsOnceItsTokenIsRevoked) {
   v1::ImportMissionRequest part;
   part.mutable_start()->set_mission_id("hall");
   ASSERT_TRUE(import->Write(part));
-  while (!absl::StrContains((*server)->MetricsText(), "\nplumescout_open_streams 1\n")) {
-    std::this_thread::yield();
-  }
+  EXPECT_TRUE(AwaitMetric(**server, "plumescout_open_streams 1"));
   WriteTokens("");
   EXPECT_EQ(import->Finish().error_code(), grpc::StatusCode::UNAUTHENTICATED);
 }

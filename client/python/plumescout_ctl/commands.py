@@ -117,7 +117,9 @@ def watch_robot(client, arguments, out):
     notices = client.watch_robot(arguments.mission, arguments.robot)
     if arguments.count:
         notices = itertools.islice(notices, arguments.count)
-    out.lines(notices, lambda notice: f"{time.strftime('%H:%M:%S')}  {words.notice_line(notice)}")
+    out.lines(
+        notices, lambda notice: f"{words.instant(time.time_ns())}  {words.notice_line(notice)}"
+    )
 
 
 def remove_robot(client, arguments, out):

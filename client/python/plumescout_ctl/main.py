@@ -223,7 +223,9 @@ def _add_robots(groups):
         order.add_argument("robot", nargs="?", help=_NAMES["robot"])
         order.add_argument("--all", action="store_true", help="all robots of the mission")
     watch = _add(
-        steps, "watch", "follow what a robot is told unasked: how it stands, news of its plan"
+        steps,
+        "watch",
+        "follow what a robot is told unasked, with when each line came: how it stands, its plan",
     )
     _takes(watch, commands.watch_robot, "mission", "robot")
     watch.add_argument(

@@ -200,11 +200,11 @@ def team_facts(team):
 
 
 def instant(time_ns):
-    """In UTC, to the millisecond."""
+    """In UTC, which the Z says, to the millisecond."""
     seconds, rest_ns = divmod(time_ns, 1_000_000_000)
     try:
         day = datetime.datetime.fromtimestamp(seconds, datetime.timezone.utc)
-        return f"{day:%Y-%m-%d %H:%M:%S}.{rest_ns // 1_000_000:03d}"
+        return f"{day:%Y-%m-%d %H:%M:%S}.{rest_ns // 1_000_000:03d}Z"
     except (OverflowError, ValueError):  # a clock that nobody has set
         return f"{time_ns / 1e9:.3f} s"
 
@@ -214,7 +214,7 @@ def event_line(event):
     time = instant(event.sample_time_ns) if event.HasField("sample_time_ns") else ""
     kind = enum_word(snapshot_pb.MissionEventKind, event.kind, _KIND_PREFIX)
     robot = last_part(event.robot) or "-"
-    return f"{event.number:>8}  {time:<23}  {kind:<16}  {robot:<12}  {event.summary}"
+    return f"{event.number:>8}  {time:<24}  {kind:<16}  {robot:<12}  {event.summary}"
 
 
 def server_facts(info):

@@ -127,6 +127,24 @@ TEST(ClockEstimatorTest, AnArrivalThatNobodySawNeverMakesTheOffsetGreater) {
   EXPECT_EQ(estimator.Note(sent_ns - kHour_ns, sent_ns, true), kHour_ns) << "it was set back";
 }
 
+TEST(ClockEstimatorTest, ATimeOnTheWireIsTakenOffByTheNextBatchAndIsNoClockThatWasSet) {
+  ClockEstimator estimator;
+  constexpr std::int64_t kDelay_ns = 5 * kMillisecond_ns;
+  estimator.Note(kBegin_ns, kBegin_ns + kDelay_ns);
+  const std::int64_t set_back_ns = kBegin_ns - kHour_ns;
+  EXPECT_EQ(estimator.Note(set_back_ns, kBegin_ns + 3 * kSecond_ns, true),
+            kHour_ns + 3 * kSecond_ns);
+  EXPECT_FALSE(estimator.lowered_itself()) << "the clock was set";
+  EXPECT_EQ(estimator.Note(set_back_ns + kSecond_ns, kBegin_ns + 3 * kSecond_ns, true),
+            kHour_ns + 2 * kSecond_ns);
+  EXPECT_EQ(estimator.Note(set_back_ns + 4 * kSecond_ns, kBegin_ns + 4 * kSecond_ns + kDelay_ns),
+            kHour_ns + kDelay_ns);
+  EXPECT_TRUE(estimator.lowered_itself());
+  EXPECT_EQ(estimator.Note(kBegin_ns + 5 * kSecond_ns, kBegin_ns + 5 * kSecond_ns + kDelay_ns),
+            kDelay_ns);
+  EXPECT_FALSE(estimator.lowered_itself()) << "it was set once more";
+}
+
 // Calls of one robot side by side may change places.
 TEST(ClockEstimatorTest, ArrivalsOutOfOrderForgetNothing) {
   ClockEstimator estimator;

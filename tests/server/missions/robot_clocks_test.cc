@@ -68,6 +68,20 @@ TEST(RobotClocksTest, BatchesThatWaitedToBeReadAreOfNoClockThatWasSet) {
   }
 }
 
+TEST(RobotClocksTest, AClockThatWasSetBeforeABatchThatWaitedWasSetOnce) {
+  RobotClocks clocks;
+  clocks.Reckon("r1", {kNow_ns, kNow_ns}, 0);
+  const std::int64_t set_back_ns = kNow_ns - kHour_ns;
+  const auto waited =
+      clocks.Reckon("r1", {set_back_ns + kSecond_ns, kNow_ns + 3 * kSecond_ns, true}, 0);
+  EXPECT_EQ(waited.offset_ns, kHour_ns + 2 * kSecond_ns);
+  EXPECT_TRUE(waited.was_set);
+  const auto prompt = clocks.Reckon("r1", {set_back_ns + 4 * kSecond_ns, kNow_ns + 4 * kSecond_ns},
+                                    waited.offset_ns);
+  EXPECT_EQ(prompt.offset_ns, kHour_ns);
+  EXPECT_FALSE(prompt.was_set);
+}
+
 TEST(RobotClocksTest, RemembersTheLatestBatchAndTheWorstOffset) {
   RobotClocks clocks;
   EXPECT_FALSE(clocks.LinkOf("r1").has_value());

@@ -12,6 +12,7 @@ namespace plumescout::server {
 namespace mission_metrics_test {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class MissionMetricsTest : public testing::Test {
  protected:
@@ -64,8 +65,23 @@ TEST_F(MissionMetricsTest, AuditsAreCountedAndTheLastOnesDifferencesKept) {
     EXPECT_THAT(text, HasSubstr("plumescout_gas_audits_total{outcome=\"" + std::string(outcome) +
                                 "\"} 1\n"));
   }
-  EXPECT_THAT(text, HasSubstr("plumescout_gas_audit_mean_difference_ppm 0.125\n"));
-  EXPECT_THAT(text, HasSubstr("plumescout_gas_audit_variance_difference_ratio 0.0625\n"));
+  EXPECT_THAT(text, HasSubstr("plumescout_gas_audit_mean_difference_ppm{species=\"0\"} 0.125\n"));
+  EXPECT_THAT(text,
+              HasSubstr("plumescout_gas_audit_variance_difference_ratio{species=\"0\"} 0.0625\n"));
+}
+
+TEST_F(MissionMetricsTest, AuditsOfSeveralGasesAreApart) {
+  EXPECT_THAT(Text(), HasSubstr("plumescout_gas_audit_mean_difference_ppm{species=\"0\"} 0\n"));
+  EXPECT_THAT(Text(), Not(HasSubstr("species=\"1\"")));
+  metrics_.NoteAudit(AuditFinding{0.5, 0.25, false, 0});
+  metrics_.NoteAudit(AuditFinding{0.125, 0.0625, true, 1});
+  const std::string text = Text();
+  for (const char* line :
+       {"mean_difference_ppm{species=\"0\"} 0.5\n", "mean_difference_ppm{species=\"1\"} 0.125\n",
+        "variance_difference_ratio{species=\"0\"} 0.25\n",
+        "variance_difference_ratio{species=\"1\"} 0.0625\n"}) {
+    EXPECT_THAT(text, HasSubstr("plumescout_gas_audit_" + std::string(line)));
+  }
 }
 
 TEST(UnreadMissionMetricsTest, AreThereForWhoHasNone) {

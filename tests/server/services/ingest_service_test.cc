@@ -6,10 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <future>
-#include <thread>
 
-#include "absl/strings/match.h"
 #include "absl/time/clock.h"
+#include "tests/server/await_metric.h"
 #include "tests/server/service_fixture.h"
 #include "tests/server/writer_gate.h"
 
@@ -153,8 +152,8 @@ TEST_F(ServiceTest, ABatchHasArrivedWithItsCallThoughTheWriterIsBusy) {
   batch.set_sent_time_ns(absl::ToUnixNanos(sent));
   auto waiting = std::async(std::launch::async,
                             [&] { return Ingest(other->robot(), other->lease_token(), batch); });
-  constexpr char kQueued[] = "\nplumescout_mission_reserved_observations{mission=\"hall\"} 1\n";
-  while (!absl::StrContains(server_->MetricsText(), kQueued)) std::this_thread::yield();
+  EXPECT_TRUE(
+      AwaitMetric(*server_, "plumescout_mission_reserved_observations{mission=\"hall\"} 1"));
   const absl::Time queued = absl::Now();
   gate.Release();
   EXPECT_TRUE(held.get().ok());

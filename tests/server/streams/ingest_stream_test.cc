@@ -9,12 +9,11 @@
 #include <future>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
-#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/time/clock.h"
+#include "tests/server/await_metric.h"
 #include "tests/server/service_fixture.h"
 #include "tests/server/writer_gate.h"
 
@@ -275,8 +274,8 @@ TEST_F(ServiceTest, ABatchHasArrivedWhenItsFrameHasThoughTheWriterIsBusy) {
   const absl::Time sent = absl::Now() - absl::Hours(1);  // by a clock that is slow
   batch.set_sent_time_ns(absl::ToUnixNanos(sent));
   ASSERT_TRUE(streams[1]->Send(batch));
-  constexpr char kQueued[] = "\nplumescout_mission_reserved_observations{mission=\"hall\"} 1\n";
-  while (!absl::StrContains(server_->MetricsText(), kQueued)) std::this_thread::yield();
+  EXPECT_TRUE(
+      AwaitMetric(*server_, "plumescout_mission_reserved_observations{mission=\"hall\"} 1"));
   const absl::Time queued = absl::Now();
   gate.Release();
   EXPECT_EQ(streams[1]->ReadAck(1).applied_sequence(), 1);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -36,6 +37,13 @@ class RobotWatchStreamTest : public ServiceTest {
     request.set_name("missions/hall");
     const auto response = Call(missions_, method, request);
     ASSERT_TRUE(response.ok()) << response.status();
+  }
+  v1::Robot Get() {
+    v1::GetRobotRequest request;
+    request.set_name(kRobot);
+    const auto response = Call(robots_, &v1::RobotService::Stub::GetRobot, request);
+    EXPECT_TRUE(response.ok()) << response.status();
+    return response.ok() ? response->robot() : v1::Robot();
   }
   absl::Status Remove() {
     v1::RemoveRobotRequest request;
@@ -72,16 +80,29 @@ TEST_F(RobotWatchStreamTest, TellsOfAPauseOfItsEndAndOfTheMissions) {
 TEST_F(RobotWatchStreamTest, TellsWhenALeaseRunsOut) {
   ServerConfig config;
   config.connection.lease_hold_s = 0.2;
+  static constexpr std::chrono::seconds kBeyondTheHold{1};
   for (const bool streams : {false, true}) {
-    StartServer(config);
+    // Where the server's clock stands, until it goes: the hold is over when the test says so.
+    const auto stands = std::make_shared<std::atomic<SteadyTime>>(SteadyNow());
+    RegistryHooks hooks;
+    hooks.clock = [stands] {
+      const SteadyTime at = stands->load();
+      return at == SteadyTime::max() ? SteadyNow() + kBeyondTheHold : at;
+    };
+    StartServer(config, hooks);
     lease_ = Lease();
     RobotWatchClient watch(*robots_, kRobot, lease_);
+    const v1::WatchRobotResponse first = watch.Read();
+    EXPECT_TRUE(first.standing().leased());
     IngestClient stream(*ingest_);
     if (streams) {
       ASSERT_TRUE(stream.Open(kRobot, lease_));
       ASSERT_TRUE(stream.Read().has_opened());
+      stands->store(stands->load() + kBeyondTheHold);
+      EXPECT_TRUE(Get().leased()) << "as long as the stream is open";
     }
     stream.Cancel();
+    stands->store(SteadyTime::max());
     v1::WatchRobotResponse notice = watch.Read();
     while (notice.has_standing() && notice.standing().leased()) notice = watch.Read();
     EXPECT_TRUE(notice.has_standing()) << "the stream has ended";
