@@ -20,6 +20,8 @@
 namespace plumescout::lab {
 namespace {
 
+constexpr double kIdleTick_s = 0.1;  // of who takes no part
+
 absl::Status CheckPositive(const char* field, double value) {
   if (value > 0.0 && std::isfinite(value)) return absl::OkStatus();
   return absl::InvalidArgumentError(absl::StrCat(field, " = ", value, " must be > 0 and finite"));
@@ -144,6 +146,8 @@ class RobotLife {
 
   absl::StatusOr<EpisodeResult> Run() {
     while (true) {
+      PLUMESCOUT_ASSIGN_OR_RETURN(const bool can_join, AwaitLink());
+      if (!can_join) return std::move(recorder_.result());
       const double begun_s = robot_.elapsed_s();
       const Outage* absence = NextAbsence(options_.traits.outages, begun_s);
       PLUMESCOUT_RETURN_IF_ERROR(TakePart(begun_s, absence));
@@ -197,9 +201,25 @@ class RobotLife {
     return absl::OkStatus();
   }
 
+  // Who comes back while it has no link cannot join yet, and the world does not wait for it.
+  // Whether there is a link before the time is up.
+  absl::StatusOr<bool> AwaitLink() {
+    while (!IsStopped() && link_.state() != LinkState::kUp &&
+           !HasCome(options_.duration_s, robot_.elapsed_s())) {
+      PLUMESCOUT_RETURN_IF_ERROR(BeIdle(kIdleTick_s));
+    }
+    recorder_.result().absent = link_.state() != LinkState::kUp;
+    return !recorder_.result().absent;
+  }
+
+  absl::Status BeIdle(double duration_s) {
+    PLUMESCOUT_RETURN_IF_ERROR(robot_.Advance(duration_s));
+    stage_.judge.TakeIfDue(robot_.elapsed_s(), {});
+    return absl::OkStatus();
+  }
+
   // Whether the robot comes back.
   absl::StatusOr<bool> BeAbsent(const Outage& absence) {
-    constexpr double kTick_s = 0.1;
     recorder_.result().absent = true;
     if (absence.kind == OutageKind::kLeaves) {
       PLUMESCOUT_RETURN_IF_ERROR(
@@ -208,8 +228,7 @@ class RobotLife {
     if (HasCome(options_.duration_s, absence.end_s())) return false;
     while (!IsStopped() && !HasCome(absence.end_s(), robot_.elapsed_s())) {
       PLUMESCOUT_RETURN_IF_ERROR(
-          robot_.Advance(std::min(kTick_s, absence.end_s() - robot_.elapsed_s())));
-      stage_.judge.TakeIfDue(robot_.elapsed_s(), {});
+          BeIdle(std::min(kIdleTick_s, absence.end_s() - robot_.elapsed_s())));
     }
     recorder_.result().absent = IsStopped();
     return !IsStopped();
