@@ -199,7 +199,7 @@ TextTable TrafficTable(const SizeResult& result) {
     table.rows.push_back(
         {result.teams[row].label, absl::StrCat(traffic.missions),
          absl::StrCat(traffic.sums.contacts),
-         result.teams[row].ghosts ? "–" : absl::StrFormat("%.2f", traffic.sums.closest_m),
+         traffic.sums.closest_m ? absl::StrFormat("%.2f", *traffic.sums.closest_m) : "–",
          absl::StrFormat("%.2f", traffic.encounters_per_robot_minute()),
          Percent(traffic.blocked_share()), Percent(traffic.blocked_by_robot_share()),
          absl::StrCat(findings.set_aside_for_robot), absl::StrCat(findings.deadlocks),
@@ -217,7 +217,7 @@ void AddTrafficNumbers(const SizeResult& result, std::size_t row, Study& study) 
   };
   add("missions", traffic.missions);
   add("contacts", traffic.sums.contacts);
-  add("min_separation_m", traffic.sums.closest_m);
+  if (traffic.sums.closest_m) add("min_separation_m", *traffic.sums.closest_m);
   add("encounters_per_robot_minute", traffic.encounters_per_robot_minute());
   add("blocked_share", traffic.blocked_share());
   add("blocked_by_robot_share", traffic.blocked_by_robot_share());
@@ -262,10 +262,14 @@ void AddCostOfClearance(const SizeResult& result, Study& study) {
     const int robots = result.teams[pair.row].robots;
     const std::string prefix = absl::StrFormat("%s_k%d_clearance_cost_", result.size->name, robots);
     study.summary.figures.emplace_back(prefix + "complete95_share", map_share);
+    study.summary.figures.emplace_back(prefix + "complete95_pairs", sooner.map_pairs);
     study.summary.figures.emplace_back(prefix + "half_rmse_share", error_share);
+    study.summary.figures.emplace_back(prefix + "half_rmse_pairs", sooner.half_rmse_pairs);
     study.figures.key_numbers.emplace_back(
         absl::StrFormat("%d robots, %s: later for keeping clear by", robots, result.size->label),
-        absl::StrFormat("%s (map), %s (half the error)", Percent(map_share), Percent(error_share)));
+        absl::StrFormat("%s (map, %d of %d pairs reached), %s (half the error, %d of %d)",
+                        Percent(map_share), sooner.map_pairs, sooner.pairs, Percent(error_share),
+                        sooner.half_rmse_pairs, sooner.pairs));
   }
 }
 
@@ -349,7 +353,8 @@ std::vector<std::string> MakeNotes(const TrialPlan& plan, bool given) {
       "other, "
       "found once a second. Ghosts neither see each other nor run into each other: later for "
       "keeping clear is beside them, in the time to 95 % of the map and to half of the first "
-      "error.",
+      "error. Pairs reached: both got there, a run and that of its ghosts. Who did not counts with "
+      "the end of the run, so where few did the cost says nothing.",
   };
 }
 

@@ -106,7 +106,7 @@ TEST(Trial, TeamsShareTheMission) {
   ASSERT_TRUE(alone.ok() && team.ok()) << team.status();
   EXPECT_EQ(team->gas_readings, 2 * alone->gas_readings);
   EXPECT_NEAR(team->team.robot_s, 24.0, 0.5);
-  EXPECT_EQ(alone->team.closest_m, 0.0);
+  EXPECT_EQ(alone->team.closest_m, std::nullopt);
   EXPECT_GE(team->team.closest_m, 0.4) << "bodies of 0.2 m block each other";
   EXPECT_LE(team->team.closest_m, 0.75) << "they start nearly so near";
   EXPECT_GE(team->team.legs, 2);
