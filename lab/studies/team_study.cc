@@ -76,13 +76,14 @@ struct Size {
   const char* name;
   const char* label;
   GeneratedBuildings buildings;
+  bool is_tight = false;  // all doors and lanes are for one: do robots get stuck?
 };
 constexpr GeneratorOptions kSmall = {.min_size_m = 16, .max_size_x_m = 21, .max_size_y_m = 23};
 constexpr GeneratorOptions kLarge = {.min_size_m = 34, .max_size_x_m = 40, .max_size_y_m = 40};
 constexpr Size kSizes[] = {{"small", "16 to 23 m", {500, 6, "small_building", kSmall}},
                            {"large", "34 to 40 m", {550, 3, "large_building", kLarge}}};
 constexpr Size kGiven = {"given", "scenes given", {}};
-constexpr Size kTight = {"tight", "doors and lanes of 0.8 m", {580, 10, "one_lane", {}}};
+constexpr Size kTight = {"tight", "doors and lanes of 0.8 m", {580, 10, "one_lane", {}}, true};
 
 // All trials in buildings of one size.
 struct SizeResult {
@@ -106,12 +107,22 @@ absl::StatusOr<TrialPlan> MakePlan(const ExperimentOptions& options, const std::
     plan.rows.push_back(std::move(row));
   }
   plan.scenes = std::move(scenes);
-  plan.trials = options.trials.value_or(1);
   plan.first_seed = options.seed;
-  plan.duration_s = options.quick ? kQuickDuration_s : kDuration_s;
   plan.folder = absl::StrCat(options.folder, "/trials");
   plan.jobs = options.jobs;
   return plan;
+}
+
+std::vector<Team> TeamsIn(const Size& size, bool quick) {
+  if (size.is_tight) return {std::begin(kTightTeams), std::end(kTightTeams)};
+  std::vector<Team> teams(std::begin(kTeams), std::end(kTeams));
+  if (quick) teams.resize(kQuickTeams, kTeams[0]);
+  return teams;
+}
+
+double DurationIn_s(const Size& size, bool quick) {
+  if (size.is_tight) return kTightDuration_s;
+  return quick ? kQuickDuration_s : kDuration_s;
 }
 
 absl::StatusOr<SizeResult> RunSize(const ExperimentOptions& options, const Size& size) {
@@ -122,12 +133,15 @@ absl::StatusOr<SizeResult> RunSize(const ExperimentOptions& options, const Size&
   };
   GeneratedBuildings buildings = size.buildings;
   if (options.quick) buildings.count = 1;
-  const double duration_s = options.quick ? kQuickDuration_s : kDuration_s;
+  const double duration_s = DurationIn_s(size, options.quick);
   PLUMESCOUT_ASSIGN_OR_RETURN(std::vector<std::string> scenes,
-                              GeneratedScenes(making, buildings, duration_s));
-  SizeResult result{&size, {std::begin(kTeams), std::end(kTeams)}, {}, {}};
-  if (options.quick) result.teams.resize(kQuickTeams, kTeams[0]);
+                              size.is_tight
+                                  ? LayoutScenes(making, buildings, OneLaneLayout, duration_s)
+                                  : GeneratedScenes(making, buildings, duration_s));
+  SizeResult result{&size, TeamsIn(size, options.quick), {}, {}};
   PLUMESCOUT_ASSIGN_OR_RETURN(result.plan, MakePlan(options, result.teams, std::move(scenes)));
+  result.plan.trials = options.trials.value_or(size.is_tight ? kTightTrials : 1);
+  result.plan.duration_s = duration_s;
   result.plan.progress = [&options](double share) {
     if (options.progress) options.progress(kScenesShare + (1.0 - kScenesShare) * share);
   };
@@ -180,7 +194,8 @@ TextTable SpeedTable(const SizeResult& result) {
 
 TextTable TrafficTable(const SizeResult& result) {
   TextTable table;
-  table.title = absl::StrFormat("In each other's way: %s", result.size->label);
+  table.title = absl::StrFormat("In each other's way: %s, %.0f s", result.size->label,
+                                result.plan.duration_s);
   table.columns = {"team",
                    "missions",
                    "contacts",
@@ -288,28 +303,6 @@ absl::Status AddPicture(const SizeResult& result, Study& study) {
   return AddTeamPicture(trial, study.figures);
 }
 
-// Teams in buildings in which they are in each other's way wherever they go: not how fast they are,
-// but whether they get stuck.
-absl::StatusOr<SizeResult> RunTight(const ExperimentOptions& options) {
-  constexpr double kScenesShare = 0.1;  // of the time, for the progress line
-  ExperimentOptions making = options;
-  making.progress = [&options](double share) {
-    if (options.progress) options.progress(kScenesShare * share);
-  };
-  PLUMESCOUT_ASSIGN_OR_RETURN(
-      std::vector<std::string> scenes,
-      LayoutScenes(making, kTight.buildings, OneLaneLayout, kTightDuration_s));
-  SizeResult result{&kTight, {std::begin(kTightTeams), std::end(kTightTeams)}, {}, {}};
-  PLUMESCOUT_ASSIGN_OR_RETURN(result.plan, MakePlan(options, result.teams, std::move(scenes)));
-  result.plan.trials = options.trials.value_or(kTightTrials);
-  result.plan.duration_s = kTightDuration_s;
-  result.plan.progress = [&options](double share) {
-    if (options.progress) options.progress(kScenesShare + (1.0 - kScenesShare) * share);
-  };
-  PLUMESCOUT_ASSIGN_OR_RETURN(result.records, RunTrials(result.plan));
-  return result;
-}
-
 void AddCharts(const SizeResult& result, Study& study) {
   std::vector<RowStyle> styles;
   // The first rows: styles are those of as many.
@@ -358,6 +351,15 @@ std::vector<std::string> MakeNotes(const TrialPlan& plan, bool given) {
   };
 }
 
+std::string MakeTightNote(const TrialPlan& plan) {
+  return absl::StrFormat(
+      "Doors and lanes of 0.8 m: %d drawn buildings of dead-end rooms on a corridor, in which two "
+      "robots cannot pass each other in any door or lane; %d missions of %.0f s in each for every "
+      "row. Robots start near each other in one of the rooms. There is no row of one robot, and "
+      "how fast they are is not compared: only whether they get stuck.",
+      plan.scenes.size(), plan.trials, plan.duration_s);
+}
+
 }  // namespace
 
 absl::StatusOr<Study> RunTeamStudy(const ExperimentOptions& options) {
@@ -390,8 +392,9 @@ absl::StatusOr<Study> RunTeamStudy(const ExperimentOptions& options) {
     AddRows(result, study.table);
   }
   if (with_tight) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(const SizeResult result, RunTight(part_of(sizes.size())));
+    PLUMESCOUT_ASSIGN_OR_RETURN(const SizeResult result, RunSize(part_of(sizes.size()), kTight));
     study.figures.tables.push_back(TrafficTable(result));
+    study.figures.notes.push_back(MakeTightNote(result.plan));
     for (std::size_t row = 0; row < result.teams.size(); ++row) {
       AddTrafficNumbers(result, row, study);
     }
