@@ -234,6 +234,12 @@ double SimulatedRobot::elapsed_s() const {
   return static_cast<double>(now_ns_ - options_.start_time_ns) / kNanosecondsPerSecond;
 }
 
+double SimulatedRobot::ElapsedAt_s(std::int64_t told_ns) const {
+  const std::int64_t start_ns = options_.start_time_ns;
+  return static_cast<double>(WorldTime_ns(options_.clock, start_ns, told_ns) - start_ns) /
+         kNanosecondsPerSecond;
+}
+
 double SimulatedRobot::scene_time_s() const { return options_.scene_start_s + elapsed_s(); }
 
 }  // namespace plumescout::lab

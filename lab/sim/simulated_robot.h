@@ -67,6 +67,8 @@ class SimulatedRobot : public client::RobotDriver {
   }
   std::int64_t world_time_ns() const { return now_ns_; }
   double elapsed_s() const;  // of the world's time, since its start
+  // That when its own clock said so.
+  double ElapsedAt_s(std::int64_t told_ns) const;
   Pose2 pose() const override { return pose_jump_.Told(pose_error_.Told(pose_)); }
   const Pose2& true_pose() const { return pose_; }
   absl::StatusOr<Scan> TakeScan() override;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -191,6 +192,25 @@ TEST(EpisodeOutages, AWrongClockIsFoundOut) {
               -3600.0, 1e-3);
   EXPECT_NEAR(Seconds(run.belief->sample_time_ns), 12.0, 2 * kTick_s);
   EXPECT_GT(TimesOf(kOther, run.events).front(), 3599.0) << "recorded as it was sent";
+}
+
+TEST(EpisodeOutages, SecondsOfARunAreTheWorldsAndNotOfAWrongClock) {
+  RobotTraits traits;
+  traits.clock = {.offset_s = 0.0, .drift_ppm = 10'000.0};  // 0.12 s in 12 s
+  const TeamRun run = RunTwo(traits);
+  ASSERT_EQ(run.team.robots.size(), 2u);
+  const EpisodeResult& right = run.team.robots[0];
+  const EpisodeResult& wrong = run.team.robots[1];
+  EXPECT_NEAR(wrong.simulated_s, right.simulated_s, 1e-6);
+  ASSERT_FALSE(right.path.empty() || wrong.path.empty() || wrong.plans.empty());
+  EXPECT_NEAR(wrong.path.back().time_s, right.path.back().time_s, 1e-6);
+  EXPECT_EQ(wrong.path.size(), right.path.size());
+  const auto is_of_path = [&](double time_s) {
+    return std::any_of(wrong.path.begin(), wrong.path.end(), [time_s](const DrivenPose& at) {
+      return std::abs(at.time_s - time_s) < 1e-6;
+    });
+  };
+  for (const IssuedPlan& plan : wrong.plans) EXPECT_TRUE(is_of_path(plan.time_s)) << plan.time_s;
 }
 
 TEST(EpisodeOutages, ASlowRobotFallsBehindItsPlans) {
