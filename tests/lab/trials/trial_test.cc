@@ -127,10 +127,15 @@ TEST(Trial, GhostsAreNotInEachOthersWay) {
   Trial trial = SmallTrial(mission, world);
   trial.robots = 3;
   trial.ghosts = true;
-  const auto team = RunTrial(trial);
-  ASSERT_TRUE(team.ok()) << team.status();
-  EXPECT_EQ(team->team.contacts, 0);
-  EXPECT_EQ(team->team.findings.blocked_by_robot, 0);
+  const auto ghosts = RunTrial(trial);
+  trial.ghosts = false;
+  const auto bodies = RunTrial(trial);
+  ASSERT_TRUE(ghosts.ok() && bodies.ok()) << ghosts.status() << bodies.status();
+  EXPECT_EQ(ghosts->team.contacts, 0);
+  EXPECT_EQ(ghosts->team.findings.blocked_by_robot, 0);
+  EXPECT_EQ(ghosts->team.closest_m, std::nullopt);
+  EXPECT_GE(bodies->team.closest_m, 0.4);
+  EXPECT_NE(bodies->distance_m, ghosts->distance_m) << "bodies are seen, and stood in the way";
 }
 
 TEST(Trial, FollowersMayBeLate) {
