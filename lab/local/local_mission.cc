@@ -17,7 +17,6 @@ namespace {
 
 // The process never restarts under its clients: tokens may start anywhere.
 constexpr std::int64_t kFirstLeaseToken = 1;
-constexpr std::int64_t kClockTolerance_ns = 20'000'000;
 
 }  // namespace
 

@@ -81,7 +81,8 @@ class LocalMission final : private ConductObserver {
 
   // A batch of the robot is sent when its clock says `sent_ns`. Nothing comes between in this
   // process, so the difference to the mission's clock is how far the robot's is off; a change of
-  // less than 20 ms, as servers have it, is none.
+  // up to kClockTolerance_ns, as servers have it, is none.
+  static constexpr std::int64_t kClockTolerance_ns = 20'000'000;
   absl::Status NoteClock(const RobotId& robot, std::int64_t lease_token, std::int64_t sent_ns);
 
   // Applies a batch in order; observations that the mission refuses are added to `rejected`.

@@ -87,6 +87,9 @@ void AddExperimentCommand(CLI::App& app, absl::Status& status) {
   options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::vector<std::string> names = ExperimentNames();
   names.emplace_back(kAll);
+  experiment->footer(
+      "On two cores xit_table3 takes some seven minutes, and team_study one to two hours: 108 "
+      "missions of teams of up to eight, and 200 in one-lane buildings (20 with --trials 1).");
   experiment->add_option("name", arguments->name, "Which one, or all")
       ->required()
       ->check(CLI::IsMember(names));
@@ -95,7 +98,11 @@ void AddExperimentCommand(CLI::App& app, absl::Status& status) {
                          "each there, and go on from what they find");
   experiment->add_option("--summary", arguments->summary,
                          "Write the figures to this JSON file too; of all, NAME_ before each");
-  experiment->add_option("--trials", options.trials, "Trials of each row (default: the paper's)")
+  experiment
+      ->add_option(
+          "--trials", options.trials,
+          "Trials of each row in each building (default: the paper's; of team_study 1, and "
+          "10 where all doors are for one)")
       ->check(CLI::PositiveNumber);
   experiment
       ->add_option("--scenes", options.scenes,

@@ -254,6 +254,14 @@ absl::Status CheckClocks(const RobotArguments& arguments) {
       "nobody could find out");
 }
 
+// Only who is placed on its path falls behind by so much; wheels do what they do.
+absl::Status CheckLateness(const RobotArguments& arguments) {
+  const bool is_placed = arguments.following == client::Following::kIdeal;
+  if (is_placed || arguments.most_late_s == 0.0) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat("--late ", arguments.most_late_s,
+                                                 " is for --following ideal, not proportional"));
+}
+
 }  // namespace
 
 void AddRobotOptions(CLI::App& app, RobotArguments& arguments) {
@@ -291,6 +299,7 @@ absl::StatusOr<PlannedEpisode> PlanEpisode(const RobotArguments& arguments,
     planned.teammates.push_back({names[i], starts[i], arguments.seed + i, traits[i]});
   }
   PLUMESCOUT_RETURN_IF_ERROR(CheckClocks(arguments));
+  PLUMESCOUT_RETURN_IF_ERROR(CheckLateness(arguments));
   const bool in_lockstep_here = !arguments.record.empty() && !arguments.realtime;
   if (in_lockstep_here && HasWrongClocks(arguments.team)) {
     options.world_time_ns =

@@ -81,7 +81,7 @@ struct PlannedEpisode {
 
 // kInvalidArgument, naming the argument and its value: what does not parse, a wrong number of
 // starts, no room for so many robots, a prior map that does not fit, clocks that are wrong where
-// nobody finds out; else as ReadMapServer and MakeTraits.
+// nobody finds out, lateness of robots that steer; else as ReadMapServer and MakeTraits.
 absl::StatusOr<PlannedEpisode> PlanEpisode(const RobotArguments& arguments,
                                            const SceneWorld& world);
 

@@ -100,7 +100,8 @@ void AddTeamOptions(CLI::App& app, TeamArguments& arguments) {
       "from 1; times in seconds)");
   app.add_option("--speeds", arguments.speeds_mps,
                  "Top speeds, metres a second, as 1.25,0.5. Plans are timed for the greatest, or "
-                 "for --speed: slower robots fall behind them")
+                 "for --speed: slower robots fall behind them. A leg is given up after 3 times "
+                 "its planned time and 10 s, so robots of less than a third give up long ones")
       ->delimiter(',')
       ->check(CLI::PositiveNumber)
       ->default_str("");

@@ -40,16 +40,18 @@ struct TeamMember {
 
 struct TeamPicture {
   std::vector<TeamMember> members;
-  double reach_m = 0.25;  // half the width of a tube: a robot's radius and its clearance
+  // Half the width of a tube: a robot's radius and half the clearance that two keep, so that tubes
+  // overlap where they would be too near.
+  double reach_m = 0.25;
 };
 
 // The moment at which most robots are on their ways; of those the one with most of them ahead. 0 if
 // there are no ways.
 double BusiestMoment_s(const TeamPicture& team);
 
-// Live plans as tubes, as wide as each robot and the clearance it keeps, in the robots' colours:
-// full where they are at that time, paler the later they come there. Where tubes cross, the sooner
-// is on top.
+// Live plans as tubes, as wide as each robot and its half of the clearance on either side, in the
+// robots' colours: full where they are at that time, paler the later they come there. Where tubes
+// cross, the sooner is on top.
 MapPanel TubesPanel(const TeamPicture& team, const Grid<CellState>& map, const Rectangle& region,
                     double time_s);
 

@@ -39,4 +39,14 @@ inline std::int64_t ToldTime_ns(const ClockErrorOptions& options, std::int64_t s
                                options.drift_ppm * kPerMillion * gone_ns);
 }
 
+// What the world's clock says then; the other way round, to the nanosecond but for rounding.
+inline std::int64_t WorldTime_ns(const ClockErrorOptions& options, std::int64_t start_ns,
+                                 std::int64_t told_ns) {
+  constexpr double kNanosecondsPerSecond = 1e9;
+  constexpr double kPerMillion = 1e-6;
+  const auto gone_ns =
+      static_cast<double>(told_ns - start_ns) - options.offset_s * kNanosecondsPerSecond;
+  return start_ns + std::llround(gone_ns / (1.0 + options.drift_ppm * kPerMillion));
+}
+
 }  // namespace plumescout::lab

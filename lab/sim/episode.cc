@@ -20,6 +20,8 @@
 namespace plumescout::lab {
 namespace {
 
+constexpr double kIdleTick_s = 0.1;  // of who takes no part
+
 absl::Status CheckPositive(const char* field, double value) {
   if (value > 0.0 && std::isfinite(value)) return absl::OkStatus();
   return absl::InvalidArgumentError(absl::StrCat(field, " = ", value, " must be > 0 and finite"));
@@ -84,16 +86,14 @@ struct Stage {
 // Writes down what one robot does, and has the map judged now and then.
 class EpisodeRecorder : public client::RobotObserver {
  public:
-  EpisodeRecorder(const Stage& stage, const EpisodeOptions& options, int index)
-      : stage_(stage), options_(options), index_(index) {
+  EpisodeRecorder(const Stage& stage, const SimulatedRobot& robot, const EpisodeOptions& options,
+                  int index)
+      : stage_(stage), robot_(robot), options_(options), index_(index) {
     result_.robot = options.robot;
   }
 
-  // The robot registers, now or again.
-  void BeginAt(double time_s) { begun_s_ = time_s; }
-
   void OnTick(const client::RobotTick& tick) override {
-    now_s_ = begun_s_ + tick.elapsed_s;
+    now_s_ = robot_.elapsed_s();  // the robot's own clock may be wrong
     result_.path.push_back({now_s_, tick.pose});
     // In lockstep the world waits, so that the map does not depend on who is faster.
     const std::int64_t least = options_.realtime ? 0 : tick.ingest.applied_sequence;
@@ -103,7 +103,7 @@ class EpisodeRecorder : public client::RobotObserver {
   }
 
   void OnPlan(const client::PlanArrival& arrival) override {
-    result_.plans.push_back({begun_s_ + arrival.elapsed_s, arrival.rpc_wall, arrival.plan});
+    result_.plans.push_back({robot_.ElapsedAt_s(arrival.time_ns), arrival.rpc_wall, arrival.plan});
     const absl::MutexLock lock(&stage_.telling);
     if (options_.on_plan) options_.on_plan(result_.plans.back());
   }
@@ -119,9 +119,9 @@ class EpisodeRecorder : public client::RobotObserver {
 
  private:
   const Stage& stage_;
+  const SimulatedRobot& robot_;
   const EpisodeOptions& options_;
   const int index_;
-  double begun_s_ = 0.0;
   double now_s_ = 0.0;
   EpisodeResult result_;
 };
@@ -134,7 +134,7 @@ class RobotLife {
         options_(options),
         stage_(stage),
         link_(stage.planner),
-        recorder_(stage, options, index) {
+        recorder_(stage, robot, options, index) {
     robot_.set_listener([this] { NoteTime(); });
     NoteTime();
   }
@@ -144,6 +144,8 @@ class RobotLife {
 
   absl::StatusOr<EpisodeResult> Run() {
     while (true) {
+      PLUMESCOUT_ASSIGN_OR_RETURN(const bool can_join, AwaitLink());
+      if (!can_join) return std::move(recorder_.result());
       const double begun_s = robot_.elapsed_s();
       const Outage* absence = NextAbsence(options_.traits.outages, begun_s);
       PLUMESCOUT_RETURN_IF_ERROR(TakePart(begun_s, absence));
@@ -168,7 +170,6 @@ class RobotLife {
 
   client::RobotLoopOptions OptionsFrom(double begun_s, const Outage* absence) {
     client::RobotLoopOptions loop = LoopOptions(options_);
-    loop.time_limit_s = options_.duration_s - begun_s;
     loop.link_is_down = [this] { return link_.state() != LinkState::kUp; };
     loop.participation.take_over = begun_s > 0.0;  // from its own former life
     if (options_.world_time_ns) loop.ingest.robot_clock_ns = [this] { return own_time_ns_.load(); };
@@ -179,15 +180,15 @@ class RobotLife {
   }
 
   absl::Status TakePart(double begun_s, const Outage* absence) {
-    recorder_.BeginAt(begun_s);
     client::RobotLoop loop(link_, robot_, OptionsFrom(begun_s, absence), recorder_);
     PLUMESCOUT_ASSIGN_OR_RETURN(const client::RobotResult ran, loop.Run([&] {
-      return IsStopped() || (absence != nullptr && HasCome(absence->at_s, robot_.elapsed_s()));
+      return IsStopped() || HasCome(options_.duration_s, robot_.elapsed_s()) ||
+             (absence != nullptr && HasCome(absence->at_s, robot_.elapsed_s()));
     }));
     EpisodeResult& result = recorder_.result();
     result.readings_sent = std::max(result.readings_sent, ran.ingest.last_sequence);
     result.readings_applied = std::max(result.readings_applied, ran.ingest.applied_sequence);
-    result.simulated_s = begun_s + ran.elapsed_s;
+    result.simulated_s = robot_.elapsed_s();
     result.distance_m += ran.distance_m;
     result.collisions = robot_.collisions();
     result.legs += ran.reached + ran.blocked + ran.aborted;
@@ -197,9 +198,25 @@ class RobotLife {
     return absl::OkStatus();
   }
 
+  // Who comes back while it has no link cannot join yet, and the world does not wait for it.
+  // Whether there is a link before the time is up.
+  absl::StatusOr<bool> AwaitLink() {
+    while (!IsStopped() && link_.state() != LinkState::kUp &&
+           !HasCome(options_.duration_s, robot_.elapsed_s())) {
+      PLUMESCOUT_RETURN_IF_ERROR(BeIdle(kIdleTick_s));
+    }
+    recorder_.result().absent = link_.state() != LinkState::kUp;
+    return !recorder_.result().absent;
+  }
+
+  absl::Status BeIdle(double duration_s) {
+    PLUMESCOUT_RETURN_IF_ERROR(robot_.Advance(duration_s));
+    stage_.judge.TakeIfDue(robot_.elapsed_s(), {});
+    return absl::OkStatus();
+  }
+
   // Whether the robot comes back.
   absl::StatusOr<bool> BeAbsent(const Outage& absence) {
-    constexpr double kTick_s = 0.1;
     recorder_.result().absent = true;
     if (absence.kind == OutageKind::kLeaves) {
       PLUMESCOUT_RETURN_IF_ERROR(
@@ -208,8 +225,7 @@ class RobotLife {
     if (HasCome(options_.duration_s, absence.end_s())) return false;
     while (!IsStopped() && !HasCome(absence.end_s(), robot_.elapsed_s())) {
       PLUMESCOUT_RETURN_IF_ERROR(
-          robot_.Advance(std::min(kTick_s, absence.end_s() - robot_.elapsed_s())));
-      stage_.judge.TakeIfDue(robot_.elapsed_s(), {});
+          BeIdle(std::min(kIdleTick_s, absence.end_s() - robot_.elapsed_s())));
     }
     recorder_.result().absent = IsStopped();
     return !IsStopped();

@@ -21,7 +21,7 @@ absl::Status Validate(const std::vector<Outage>& outages) {
   for (const Outage& outage : outages) {
     PLUMESCOUT_RETURN_IF_ERROR(
         Checker()
-            .InRangeAbove("outage.at_s", outage.at_s, 0.0, kMost_s)
+            .InRangeAbove("outage.at_s", outage.at_s, kOutageRounding_s, kMost_s)
             .InRangeAbove("outage.for_s", outage.for_s.value_or(kMost_s), 0.0, kMost_s)
             .status());
     if (outage.kind == OutageKind::kLinkLost && !outage.for_s) {

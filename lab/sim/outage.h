@@ -21,7 +21,7 @@ enum class OutageKind {
 // comes back by registering again.
 struct Outage {
   OutageKind kind = OutageKind::kLinkLost;
-  double at_s = 0.0;                           // of the world's time, (0, 1e6]
+  double at_s = 0.0;                           // of the world's time, (1e-6, 1e6]
   std::optional<double> for_s = std::nullopt;  // (0, 1e6]; none, but not of a lost link: for good
 
   double end_s() const { return for_s ? at_s + *for_s : std::numeric_limits<double>::infinity(); }

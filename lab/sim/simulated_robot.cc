@@ -218,20 +218,30 @@ void SimulatedRobot::ShowBody() {
   companion.company->Stand(companion.robot, {pose_.position(), options_.seen_radius_m});
 }
 
-// Sleeps until the stretch is over. Time lost elsewhere (a slow plan) is not caught up.
+// Sleeps until the stretch is over. Time lost elsewhere (joining a mission, a slow scan) has gone
+// by for the world and its clocks too; the robot stood.
 void SimulatedRobot::AwaitRealTime(double duration_s) {
   using Seconds = std::chrono::duration<double>;
   due_ += std::chrono::duration_cast<std::chrono::steady_clock::duration>(Seconds(duration_s));
   const auto now = std::chrono::steady_clock::now();
-  if (due_ < now) {
-    due_ = now;
-  } else {
+  if (due_ >= now) {
     std::this_thread::sleep_until(due_);
+    return;
   }
+  const double lost_s = Seconds(now - due_).count();
+  due_ = now;
+  now_ns_ += std::llround(lost_s * kNanosecondsPerSecond);
+  gas_sensor_.Step(world_->Concentration_ppm(pose_.position(), scene_time_s()), lost_s);
 }
 
 double SimulatedRobot::elapsed_s() const {
   return static_cast<double>(now_ns_ - options_.start_time_ns) / kNanosecondsPerSecond;
+}
+
+double SimulatedRobot::ElapsedAt_s(std::int64_t told_ns) const {
+  const std::int64_t start_ns = options_.start_time_ns;
+  return static_cast<double>(WorldTime_ns(options_.clock, start_ns, told_ns) - start_ns) /
+         kNanosecondsPerSecond;
 }
 
 double SimulatedRobot::scene_time_s() const { return options_.scene_start_s + elapsed_s(); }

@@ -43,7 +43,8 @@ struct SimulatedRobotOptions {
   double scene_start_s = 0.0;    // of the scene's time, at which the robot's begins, [0, 1e6]
   // Of the world's clock, at its start; >= 0, and so is its own.
   std::int64_t start_time_ns = 1'700'000'000'000'000'000;
-  bool realtime = false;  // Advance takes as long as it says
+  bool realtime =
+      false;  // Advance takes as long as it says, or longer by time that was lost before
   std::uint64_t seed = 1;
   // Others in the same world, who see this robot's body as it sees theirs, and block its way.
   Companion companion = {};
@@ -67,6 +68,8 @@ class SimulatedRobot : public client::RobotDriver {
   }
   std::int64_t world_time_ns() const { return now_ns_; }
   double elapsed_s() const;  // of the world's time, since its start
+  // That when its own clock said so.
+  double ElapsedAt_s(std::int64_t told_ns) const;
   Pose2 pose() const override { return pose_jump_.Told(pose_error_.Told(pose_)); }
   const Pose2& true_pose() const { return pose_; }
   absl::StatusOr<Scan> TakeScan() override;
@@ -81,7 +84,8 @@ class SimulatedRobot : public client::RobotDriver {
   // finite. kUnavailable while another robot is in the way, see Company::MayMoveTo, and when its
   // pace does not take it there yet.
   absl::Status PlaceAt(const Pose2& pose) override;
-  // In steps of at most kStep_s. kInvalidArgument unless 0 <= duration_s <= 3600.
+  // In steps of at most kStep_s. In real time the world is then where the wall clock is, however
+  // late the call came. kInvalidArgument unless 0 <= duration_s <= 3600.
   absl::Status Advance(double duration_s) override;
   // Called at the end of every Advance, when it is this robot's turn; none: nobody is.
   void set_listener(std::function<void()> listener) { listener_ = std::move(listener); }

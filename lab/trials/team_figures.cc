@@ -16,14 +16,16 @@ constexpr double kShareOfGain = 0.8;
 constexpr double kMostOfTheMap = 0.95;
 constexpr double kHalf = 0.5;
 
-void AddTeamRecord(const TeamRecord& team, bool is_first, TeamRecord& sums) {
+void AddTeamRecord(const TeamRecord& team, TeamRecord& sums) {
   sums.legs += team.legs;
   sums.blocked_legs += team.blocked_legs;
   sums.contacts += team.contacts;
   sums.encounters += team.encounters;
   sums.waiting_s += team.waiting_s;
   sums.robot_s += team.robot_s;
-  sums.closest_m = is_first ? team.closest_m : std::min(sums.closest_m, team.closest_m);
+  if (team.closest_m) {
+    sums.closest_m = std::min(sums.closest_m.value_or(*team.closest_m), *team.closest_m);
+  }
   sums.findings.blocked_by_robot += team.findings.blocked_by_robot;
   sums.findings.set_aside_for_robot += team.findings.set_aside_for_robot;
   sums.findings.deadlocks += team.findings.deadlocks;
@@ -37,6 +39,7 @@ void AddTeamRecord(const TeamRecord& team, bool is_first, TeamRecord& sums) {
 Speedup SpeedupOf(const std::vector<SceneRecords>& records, std::size_t row,
                   std::size_t other_row) {
   std::vector<double> ratios[4];
+  int both[4] = {};
   Speedup speedup;
   constexpr MetricFn kFalling[] = {EntropyPerCell_nats, Rmse_ppm};
   for (const SceneRecords& scene : records) {
@@ -46,8 +49,10 @@ Speedup SpeedupOf(const std::vector<SceneRecords>& records, std::size_t row,
       const auto compare = [&](std::size_t figure, const ReachedAt& a, const ReachedAt& b) {
         constexpr double kLeast_s = 1.0;
         ratios[figure].push_back(std::max(kLeast_s, a.time_s) / std::max(kLeast_s, b.time_s));
+        if (a.reached && b.reached) ++both[figure];
         return b.reached;
       };
+      ++speedup.pairs;
       bool reached = true;
       for (std::size_t i = 0; i < std::size(kFalling); ++i) {
         const double level = LevelAtShare(other, kFalling[i], kShareOfGain);
@@ -65,6 +70,8 @@ Speedup SpeedupOf(const std::vector<SceneRecords>& records, std::size_t row,
   speedup.rmse = GeometricMean(ratios[1]);
   speedup.map = GeometricMean(ratios[2]);
   speedup.half_rmse = GeometricMean(ratios[3]);
+  speedup.map_pairs = both[2];
+  speedup.half_rmse_pairs = both[3];
   return speedup;
 }
 
@@ -93,7 +100,7 @@ Traffic TrafficOf(const std::vector<SceneRecords>& records, std::size_t row) {
   std::vector<double> walls_s;
   for (const SceneRecords& scene : records) {
     for (const TrialRecord& trial : scene[row]) {
-      AddTeamRecord(trial.team, walls_s.empty(), traffic.sums);
+      AddTeamRecord(trial.team, traffic.sums);
       walls_s.push_back(trial.team.plan_wall_s);
       ++traffic.missions;
       if (trial.team.findings.deadlocks > 0) ++traffic.deadlocked_missions;

@@ -20,12 +20,16 @@ struct Speedup {
   double map = 1.0;      // at 95 % of the map
   double half_rmse = 1.0;
   int censored = 0;  // runs that did not get to one of the first three; they count with their ends
+  int pairs = 0;     // of runs that were compared
+  // Of those, in how many both got there. Where few did, a figure near 1 says nothing.
+  int map_pairs = 0;
+  int half_rmse_pairs = 0;
 };
 Speedup SpeedupOf(const std::vector<SceneRecords>& records, std::size_t row, std::size_t other_row);
 
 // Sums over all trials of a row.
 struct Traffic {
-  TeamRecord sums;
+  TeamRecord sums;           // but of closest_m the least
   double plan_wall_s = 0.0;  // mean of medians
   int missions = 0;
   int deadlocked_missions = 0;

@@ -30,7 +30,7 @@ std::vector<TimedWay> WaysOf(const EpisodeResult& robot) {
 
 TeamPicture MakeTeamPicture(const TeamResult& team, const SceneWorld& world, const TeamLook& look) {
   const std::vector<RobotShares> shares = SharesOf(team, world, look.lidar_range_m);
-  TeamPicture picture{{}, look.radius_m + look.clearance_m};
+  TeamPicture picture{{}, look.radius_m + 0.5 * look.clearance_m};
   for (std::size_t i = 0; i < team.robots.size(); ++i) {
     const EpisodeResult& robot = team.robots[i];
     TeamMember member{robot.robot,        {},           WaysOf(robot), shares[i].area,

@@ -17,6 +17,16 @@ namespace {
 constexpr double kNear_m = 1.5;
 constexpr char kReportedBlocked[] = "reported blocked";
 
+// The belief without the promises that were made after the plan: ids of a mission's plans rise.
+// What later plans have taken the place of by now is missing too.
+Belief WhenMade(const Belief& belief, const Plan& plan) {
+  Belief then = belief;
+  for (auto& [id, record] : then.robots) {
+    if (record.last_plan > plan.id) record.live_trajectory = nullptr;
+  }
+  return then;
+}
+
 }  // namespace
 
 int TeamWatch::Plight::Note(const std::set<RobotId>& robots, double now_s) {
@@ -83,7 +93,7 @@ void TeamWatch::Price(const Belief& belief, const Plan& plan) {
   const std::vector<Cell> readings = ReadingCells(chosen.path, belief.geometry(), options);
   const std::optional<double> alone_nats = ExpectedInformation(belief).Of(readings);
   if (!alone_nats) return;
-  const std::optional<Belief> ahead = Anticipate(belief, plan.robot, options);
+  const std::optional<Belief> ahead = Anticipate(WhenMade(belief, plan), plan.robot, options);
   const std::optional<double> besides_nats =
       ahead ? ExpectedInformation(*ahead).Of(readings) : alone_nats;
   if (!besides_nats) return;

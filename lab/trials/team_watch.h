@@ -22,7 +22,7 @@ struct TeamFindings {
   int deadlocks = 0;
   int held_up = 0;
   // Of all chosen ways: what their readings tell, and what they tell beside those that live plans
-  // of others promise (see core/plan/anticipation.h).
+  // of others promised before (see core/plan/anticipation.h).
   double alone_nats = 0.0;
   double besides_nats = 0.0;
 
@@ -36,7 +36,8 @@ class TeamWatch {
 
   // Every second or so of sample time. Cost: that of FindBlockedRobots.
   void OnTime(const Belief& belief);
-  // As a plan arrives, committed. Cost: that of Anticipate and of pricing its way twice.
+  // As a plan arrives, committed; others may have been since. Cost: that of Anticipate and of
+  // pricing its way twice.
   void OnPlan(const Belief& belief, const Plan& plan);
   // As a leg ends, not reported yet. Robots have this radius.
   void OnLeg(const EndedLeg& leg, double radius_m);

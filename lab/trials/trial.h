@@ -42,15 +42,15 @@ struct CurvePoint {
 
 // How robots of one team got on with each other.
 struct TeamRecord {
-  int legs = 0;                // that ended
-  int blocked_legs = 0;        // of those, for something stood in the way
-  int contacts = 0;            // of two bodies
-  int encounters = 0;          // of two robots nearer than their radii and kEncounterMargin_m
-  double closest_m = 0.0;      // two centres ever came; 0: one robot, or ghosts
-  double waiting_s = 0.0;      // that plans had robots stand before they went
-  double robot_s = 0.0;        // of all robots together
-  double plan_wall_s = 0.0;    // median from asking to answer; differs from run to run
-  TeamFindings findings = {};  // nothing of one robot
+  int legs = 0;          // that ended
+  int blocked_legs = 0;  // of those, for something stood in the way
+  int contacts = 0;      // of two bodies
+  int encounters = 0;    // of two robots nearer than their radii and kEncounterMargin_m
+  std::optional<double> closest_m{};  // two centres ever came; none of one robot, or of ghosts
+  double waiting_s = 0.0;             // that plans had robots stand before they went
+  double robot_s = 0.0;               // of all robots together
+  double plan_wall_s = 0.0;           // median from asking to answer; differs from run to run
+  TeamFindings findings = {};         // nothing of one robot
 };
 inline constexpr double kEncounterMargin_m = 0.1;
 

@@ -50,7 +50,7 @@ json ToJson(const TeamRecord& team) {
           {"blocked_legs", team.blocked_legs},
           {"contacts", team.contacts},
           {"encounters", team.encounters},
-          {"closest_m", team.closest_m},
+          {"closest_m", team.closest_m ? json(*team.closest_m) : json()},
           {"waiting_s", team.waiting_s},
           {"robot_s", team.robot_s},
           {"plan_wall_s", team.plan_wall_s},
@@ -68,7 +68,9 @@ TeamRecord TeamRecordFrom(const json& value) {
   value.at("blocked_legs").get_to(team.blocked_legs);
   value.at("contacts").get_to(team.contacts);
   value.at("encounters").get_to(team.encounters);
-  value.at("closest_m").get_to(team.closest_m);
+  if (const json& closest_m = value.at("closest_m"); !closest_m.is_null()) {
+    team.closest_m = closest_m.get<double>();
+  }
   value.at("waiting_s").get_to(team.waiting_s);
   value.at("robot_s").get_to(team.robot_s);
   value.at("plan_wall_s").get_to(team.plan_wall_s);

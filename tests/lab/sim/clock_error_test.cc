@@ -23,6 +23,13 @@ TEST(ClockError, AClockIsAheadAndGainsOnTheWorlds) {
             kStart_ns - 2600 * kSecond_ns + kSecond_ns / 10);
 }
 
+TEST(ClockError, IsUndone) {
+  EXPECT_EQ(WorldTime_ns({}, kStart_ns, kStart_ns + 7), kStart_ns + 7);
+  const ClockErrorOptions options{.offset_s = -3600.0, .drift_ppm = 100.0};
+  const std::int64_t then_ns = kStart_ns + 1'000'000'000'000;
+  EXPECT_EQ(WorldTime_ns(options, kStart_ns, ToldTime_ns(options, kStart_ns, then_ns)), then_ns);
+}
+
 TEST(ClockError, NamesWhatIsOutOfRange) {
   EXPECT_TRUE(Validate(ClockErrorOptions{}).ok());
   EXPECT_FALSE(Validate(ClockErrorOptions{.offset_s = 1.1e6}).ok());

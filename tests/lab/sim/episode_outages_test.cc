@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -59,6 +60,13 @@ RobotTraits With(const Outage& outage) {
   return traits;
 }
 
+// Silent from 4 s to 5 s, and then without a link for so long.
+RobotTraits BackWithoutALink(double for_s) {
+  RobotTraits traits;
+  traits.outages = {{OutageKind::kSilent, 4.0, 1.0}, {OutageKind::kLinkLost, 5.0, for_s}};
+  return traits;
+}
+
 double Seconds(std::int64_t time_ns) {
   return 1e-9 * static_cast<double>(time_ns - SimulatedRobotOptions{}.start_time_ns);
 }
@@ -101,6 +109,29 @@ TEST(EpisodeOutages, WhoFellSilentComesBackByRegisteringAgain) {
   EXPECT_EQ(other.readings_applied, static_cast<std::int64_t>(times_s.size()));
   EXPECT_EQ(other.readings_sent, other.readings_applied);
   for (const DrivenPose& at : other.path) EXPECT_FALSE(at.time_s > 4.05 && at.time_s < 6.95);
+}
+
+TEST(EpisodeOutages, WhoComesBackWithoutALinkJoinsOnceItHasOne) {
+  const TeamRun run = RunTwo(BackWithoutALink(2.0));
+  ASSERT_EQ(run.team.robots.size(), 2u);
+  EXPECT_EQ(CountOf<RobotRegistered>(kOther, run.events), 2);
+  const EpisodeResult& other = run.team.robots[1];
+  EXPECT_FALSE(other.absent);
+  EXPECT_NEAR(other.simulated_s, 12.0, 2 * kTick_s);
+  EXPECT_EQ(other.readings_sent, other.readings_applied);
+  for (const double time_s : TimesOf(kOther, run.events)) {
+    EXPECT_FALSE(time_s > 4.0 - kTick_s / 2 && time_s < 7.0 - kTick_s / 2) << time_s;
+  }
+  EXPECT_GT(TimesOf(kOther, run.events).back(), 11.5);
+}
+
+TEST(EpisodeOutages, WhoHasNoLinkUntilTheEndIsAbsent) {
+  const TeamRun run = RunTwo(BackWithoutALink(20.0));
+  ASSERT_EQ(run.team.robots.size(), 2u);
+  EXPECT_EQ(CountOf<RobotRegistered>(kOther, run.events), 1);
+  EXPECT_TRUE(run.team.robots[1].absent);
+  EXPECT_FALSE(run.team.robots[0].absent);
+  EXPECT_NEAR(run.team.robots[0].simulated_s, 12.0, 2 * kTick_s);
 }
 
 TEST(EpisodeOutages, WhoLeavesForGoodIsNotWaitedFor) {
@@ -161,6 +192,25 @@ TEST(EpisodeOutages, AWrongClockIsFoundOut) {
               -3600.0, 1e-3);
   EXPECT_NEAR(Seconds(run.belief->sample_time_ns), 12.0, 2 * kTick_s);
   EXPECT_GT(TimesOf(kOther, run.events).front(), 3599.0) << "recorded as it was sent";
+}
+
+TEST(EpisodeOutages, SecondsOfARunAreTheWorldsAndNotOfAWrongClock) {
+  RobotTraits traits;
+  traits.clock = {.offset_s = 0.0, .drift_ppm = 10'000.0};  // 0.12 s in 12 s
+  const TeamRun run = RunTwo(traits);
+  ASSERT_EQ(run.team.robots.size(), 2u);
+  const EpisodeResult& right = run.team.robots[0];
+  const EpisodeResult& wrong = run.team.robots[1];
+  EXPECT_NEAR(wrong.simulated_s, right.simulated_s, 1e-6);
+  ASSERT_FALSE(right.path.empty() || wrong.path.empty() || wrong.plans.empty());
+  EXPECT_NEAR(wrong.path.back().time_s, right.path.back().time_s, 1e-6);
+  EXPECT_EQ(wrong.path.size(), right.path.size());
+  const auto is_of_path = [&](double time_s) {
+    return std::any_of(wrong.path.begin(), wrong.path.end(), [time_s](const DrivenPose& at) {
+      return std::abs(at.time_s - time_s) < 1e-6;
+    });
+  };
+  for (const IssuedPlan& plan : wrong.plans) EXPECT_TRUE(is_of_path(plan.time_s)) << plan.time_s;
 }
 
 TEST(EpisodeOutages, ASlowRobotFallsBehindItsPlans) {

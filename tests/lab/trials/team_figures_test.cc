@@ -41,6 +41,18 @@ TEST(TeamFigures, RunsThatDoNotGetThereAreCounted) {
   const Speedup speedup = SpeedupOf(records, 1, 0);
   EXPECT_EQ(speedup.censored, 1);
   EXPECT_DOUBLE_EQ(speedup.map, 95.0 / 100.0) << "it counts with its end";
+  EXPECT_EQ(speedup.pairs, 1);
+  EXPECT_EQ(speedup.map_pairs, 0);
+}
+
+TEST(TeamFigures, PairsOfWhichEitherDoesNotGetThereAreTold) {
+  // By 100 s the slow ones know half of the map, and have 5.5 ppm of 8 left.
+  const std::vector<SceneRecords> records = {
+      {{RunOf(1.0)}, {RunOf(2.0)}}, {{RunOf(0.5)}, {RunOf(1.0)}}, {{RunOf(1.0)}, {RunOf(0.5)}}};
+  const Speedup speedup = SpeedupOf(records, 1, 0);
+  EXPECT_EQ(speedup.pairs, 3);
+  EXPECT_EQ(speedup.map_pairs, 1);
+  EXPECT_EQ(speedup.half_rmse_pairs, 1);
 }
 
 TEST(TeamFigures, TrafficIsSummed) {
@@ -72,6 +84,8 @@ TEST(TeamFigures, TrafficIsSummed) {
                  .findings = {}};
   second.team.findings.alone_nats = 4.0;
   second.team.findings.besides_nats = 3.0;
+  const SceneRecords unmeasured(1, {TrialRecord()});  // of one robot, or of ghosts
+  EXPECT_EQ(TrafficOf({unmeasured}, 0).sums.closest_m, std::nullopt);
   const std::vector<SceneRecords> records = {{{first}}, {{second}}};
   const Traffic traffic = TrafficOf(records, 0);
   EXPECT_EQ(traffic.missions, 2);

@@ -113,14 +113,18 @@ TEST(TeamWatch, FindsGoalsThatWereSetAsideForARobot) {
   EXPECT_EQ(watch.findings().set_aside_for_robot, 1);
 }
 
-TEST(TeamWatch, PricesWhatOthersHavePromised) {
-  CorridorTeam team;
+void AddGasField(Belief& belief) {
   GasMap gas{GasOptions()};
   gas.Add(0, CorridorTeam::At(9.5), {1.0, {}});
-  ASSERT_TRUE(gas.Refresh(*team.belief.occupancy, 0).ok());
-  team.belief.gas_mean_ppm = std::make_shared<const Grid<float>>(gas.mean_ppm());
-  team.belief.gas_variance_ppm2 = std::make_shared<const Grid<float>>(gas.variance_ppm2());
-  team.belief.gas_what_if = gas.what_if();
+  ASSERT_TRUE(gas.Refresh(*belief.occupancy, 0).ok());
+  belief.gas_mean_ppm = std::make_shared<const Grid<float>>(gas.mean_ppm());
+  belief.gas_variance_ppm2 = std::make_shared<const Grid<float>>(gas.variance_ppm2());
+  belief.gas_what_if = gas.what_if();
+}
+
+TEST(TeamWatch, PricesWhatOthersHavePromised) {
+  CorridorTeam team;
+  ASSERT_NO_FATAL_FAILURE(AddGasField(team.belief));
   team.Stands("a", 2.0);
   team.Stands("b", 2.0, 1.0);
   const Plan plan = PlanOfA(CorridorTeam::At(6.0));
@@ -135,6 +139,26 @@ TEST(TeamWatch, PricesWhatOthersHavePromised) {
   EXPECT_DOUBLE_EQ(watch.findings().alone_nats, 2.0 * alone_nats);
   EXPECT_LT(watch.findings().besides_nats, 1.95 * alone_nats) << "the same way";
   EXPECT_GT(watch.findings().besides_nats, alone_nats);
+}
+
+TEST(TeamWatch, WhatIsPromisedAfterAPlanWasNotBefore) {
+  CorridorTeam team;
+  ASSERT_NO_FATAL_FAILURE(AddGasField(team.belief));
+  team.Stands("a", 2.0);
+  team.Stands("b", 2.0);
+  team.Drives("b", 6.0);
+  Plan plan = PlanOfA(CorridorTeam::At(6.0));
+  plan.id = 4;
+  team.belief.robots["b"].last_plan = 5;
+  TeamWatch later;
+  later.OnPlan(team.belief, plan);
+  EXPECT_GT(later.findings().alone_nats, 0.0);
+  EXPECT_EQ(later.findings().besides_nats, later.findings().alone_nats);
+  team.belief.robots["b"].last_plan = 3;
+  TeamWatch before;
+  before.OnPlan(team.belief, plan);
+  EXPECT_EQ(before.findings().alone_nats, later.findings().alone_nats);
+  EXPECT_LT(before.findings().besides_nats, before.findings().alone_nats);
 }
 
 }  // namespace team_watch_test

@@ -69,6 +69,18 @@ TEST(TrialStore, GivesBackWhatItKept) {
   EXPECT_EQ(found->mean_ppm[0][1], 1.5F);
 }
 
+TEST(TrialStore, KeepsThatNobodyWasNear) {
+  const TempFolder folder;
+  const auto store = TrialStore::Open(folder.path());
+  ASSERT_TRUE(store.ok());
+  TrialRecord kept = SomeRecord();
+  kept.team.closest_m = std::nullopt;
+  ASSERT_TRUE(store->Keep("a-1", "print", kept).ok());
+  const auto found = store->Find("a-1", "print", kGeometry);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->team.closest_m, std::nullopt);
+}
+
 TEST(TrialStore, FindsNothingOfOtherSettingsOrDamaged) {
   const TempFolder folder;
   const auto store = TrialStore::Open(folder.path());

@@ -106,7 +106,7 @@ TEST(Trial, TeamsShareTheMission) {
   ASSERT_TRUE(alone.ok() && team.ok()) << team.status();
   EXPECT_EQ(team->gas_readings, 2 * alone->gas_readings);
   EXPECT_NEAR(team->team.robot_s, 24.0, 0.5);
-  EXPECT_EQ(alone->team.closest_m, 0.0);
+  EXPECT_EQ(alone->team.closest_m, std::nullopt);
   EXPECT_GE(team->team.closest_m, 0.4) << "bodies of 0.2 m block each other";
   EXPECT_LE(team->team.closest_m, 0.75) << "they start nearly so near";
   EXPECT_GE(team->team.legs, 2);
@@ -127,10 +127,15 @@ TEST(Trial, GhostsAreNotInEachOthersWay) {
   Trial trial = SmallTrial(mission, world);
   trial.robots = 3;
   trial.ghosts = true;
-  const auto team = RunTrial(trial);
-  ASSERT_TRUE(team.ok()) << team.status();
-  EXPECT_EQ(team->team.contacts, 0);
-  EXPECT_EQ(team->team.findings.blocked_by_robot, 0);
+  const auto ghosts = RunTrial(trial);
+  trial.ghosts = false;
+  const auto bodies = RunTrial(trial);
+  ASSERT_TRUE(ghosts.ok() && bodies.ok()) << ghosts.status() << bodies.status();
+  EXPECT_EQ(ghosts->team.contacts, 0);
+  EXPECT_EQ(ghosts->team.findings.blocked_by_robot, 0);
+  EXPECT_EQ(ghosts->team.closest_m, std::nullopt);
+  EXPECT_GE(bodies->team.closest_m, 0.4);
+  EXPECT_NE(bodies->distance_m, ghosts->distance_m) << "bodies are seen, and stood in the way";
 }
 
 TEST(Trial, FollowersMayBeLate) {
