@@ -100,12 +100,14 @@ TEST_F(FairPoolTest, WhatNobodyWantsIsNotRun) {
 }
 
 TEST(FairPoolThreadsTest, OneGroupLeavesAThreadToTheOthers) {
+  absl::Notification held;
   absl::Notification release;
   absl::Notification ran;
   std::atomic<int> running = 0;
   std::atomic<int> most = 0;
   const auto hold = [&] {
     most = std::max<int>(most, ++running);
+    if (!held.HasBeenNotified()) held.Notify();
     release.WaitForNotification();
     --running;
   };
@@ -114,6 +116,7 @@ TEST(FairPoolThreadsTest, OneGroupLeavesAThreadToTheOthers) {
     ASSERT_TRUE(pool.Submit({"greedy", member}, {hold}).ok());
   }
   ASSERT_TRUE(pool.Submit({"other", "1"}, {[&] { ran.Notify(); }}).ok());
+  held.WaitForNotification();
   ran.WaitForNotification();  // would hang if the first group held both threads
   EXPECT_EQ(most, 1);
   release.Notify();
