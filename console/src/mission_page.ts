@@ -85,6 +85,7 @@ export class MissionPage {
   leave(): void {
     this.watch?.stop();
     this.fetching?.abort();
+    this.operate.leave();
     for (const stop of this.stops) stop();
   }
 
