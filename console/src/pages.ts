@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // The pages beside that of a mission: all missions, a new one, the service.
-import { PATIENCE, missions, requestId, sentence, token, troubleOf } from './client.ts';
+import { create, toBinary } from '@bufbuild/protobuf';
+import { PATIENCE, checkSize, missions, requestId, sentence, token, troubleOf } from './client.ts';
 import { ask, fill, fillIfChanged, h, notice } from './dom.ts';
 import { optionsForm } from './options_form.ts';
 import { mayOperate, refreshSession, session } from './session.ts';
-import { MissionState } from './wire/plumescout/v1/mission_service_pb.ts';
+import { CreateMissionRequestSchema, MissionState } from './wire/plumescout/v1/mission_service_pb.ts';
 import type { Latency, Mission } from './wire/plumescout/v1/mission_service_pb.ts';
 import { bytes, duration, figure, missionState, phase, shortName } from './words.ts';
 
@@ -112,8 +113,11 @@ export function newPage(): Page {
     event.preventDefault();
     fill(failed);
     try {
-      const made = await missions.createMission({
-        missionId: id.value, options: options.read(), requestId: requestId() }, PATIENCE);
+      const request = create(CreateMissionRequestSchema, {
+        missionId: id.value, options: options.read(), requestId: requestId() });
+      const info = session.info ?? await refreshSession();
+      checkSize(toBinary(CreateMissionRequestSchema, request).length, Number(info.limits?.maxReceiveBytes ?? 0));
+      const made = await missions.createMission(request, PATIENCE);
       location.hash = `#/${made.mission?.name ?? ''}`;
     } catch (error) {
       fill(failed, trouble(error));
