@@ -83,19 +83,21 @@ function missionTable(list: Mission[]): HTMLElement {
 
 export function listPage(): Page {
   const body = h('div', {}, h('p', { class: 'empty' }, 'Loading missions …'));
+  const newLink = h('a', { href: '#/new' }, 'New mission');
+  newLink.hidden = !mayOperate();
   const element = h('main', { class: 'sheet' },
-    h('div', { class: 'row' }, h('h1', {}, 'Missions'), h('span', { class: 'spring' }),
-      h('a', { href: '#/new' }, 'New mission')), body);
+    h('div', { class: 'row' }, h('h1', {}, 'Missions'), h('span', { class: 'spring' }), newLink), body);
   const stop = every(1500, async () => {
     try {
       if (session.info === null) await refreshSession();
+      newLink.hidden = !mayOperate();
       const list = await allMissions();
       const key = JSON.stringify([mayOperate(), list.map((one) => [one.name, one.state, one.phase,
         one.robotCount, String(one.revision), String(one.memory?.usedBytes)])]);
       fillIfChanged(body, key, () => [list.length > 0 ? missionTable(list)
         : h('div', { class: 'card empty' }, h('p', {}, 'No mission yet.'),
-            h('p', {}, 'Make one with ', h('a', { href: '#/new' }, 'New mission'),
-              ', or let scripts/demo --console drive a simulated robot.'))]);
+            mayOperate() ? h('p', {}, 'Make one with ', h('a', { href: '#/new' }, 'New mission'),
+              ', or let scripts/demo --console drive a simulated robot.') : null)]);
     } catch (error) {
       fillIfChanged(body, sentence(error), () => [trouble(error)]);
     }
