@@ -10,6 +10,7 @@ import { PlanningService } from './wire/plumescout/v1/planning_service_pb.ts';
 import { RobotService } from './wire/plumescout/v1/robot_service_pb.ts';
 import { SnapshotService } from './wire/plumescout/v1/snapshot_service_pb.ts';
 import { SystemService } from './wire/plumescout/v1/system_service_pb.ts';
+import { bytes } from './words.ts';
 
 const TOKEN_KEY = 'plumescout.token';
 
@@ -56,6 +57,14 @@ export type Trouble = {
   reason: string; // MISSION_PAUSED; may be empty
 };
 
+const SMALLER = 'Choose a map of fewer cells, or raise limits.max_receive_bytes of the server.';
+
+// An error if a request of so many bytes is more than the server takes; a limit of 0 is not known.
+export function checkSize(size_bytes: number, limit_bytes: number): void {
+  if (limit_bytes === 0 || size_bytes <= limit_bytes) return;
+  throw new Error(`The request is ${bytes(size_bytes)}, and the server takes ${bytes(limit_bytes)} at most. ${SMALLER}`);
+}
+
 // What went wrong, in words that say how to go on.
 export function troubleOf(error: unknown): Trouble {
   if (!(error instanceof ConnectError)) {
@@ -71,6 +80,10 @@ export function troubleOf(error: unknown): Trouble {
       advice: 'It may have stopped, or the link is down. The console tries again by itself.',
       code: Code.Unavailable, reason: '',
     };
+  }
+  if (connect.rawMessage === 'HTTP 413') { // told before the server reads it, so not as a status
+    return { text: 'The request is larger than the server takes.', advice: SMALLER,
+             code: Code.ResourceExhausted, reason: '' };
   }
   const advice: Partial<Record<Code, string>> = {
     [Code.Unauthenticated]: 'Enter a token under Service.',

@@ -17,6 +17,7 @@ import { Watch, fetchMap } from './watch.ts';
 import type { LinkState } from './watch.ts';
 import type { MapStatus } from './wire/plumescout/v1/map_service_pb.ts';
 import type { Mission } from './wire/plumescout/v1/mission_service_pb.ts';
+import type { Plan } from './wire/plumescout/v1/planning_service_pb.ts';
 import type { Robot } from './wire/plumescout/v1/robot_service_pb.ts';
 import { figure, missionState, phase } from './words.ts';
 import { WhyPanel } from './why_panel.ts';
@@ -55,6 +56,8 @@ export class MissionPage {
   private tab: Tab = 'Robots';
   private mission: Mission | null = null;
   private robots: Robot[] = [];
+  // The latest plan of each robot with all its candidates; null: not asked for, as nothing shows it.
+  private latest: Plan[] | null = null;
   private figuresDue = true;
   private readonly stops: (() => void)[] = [];
 
@@ -85,6 +88,7 @@ export class MissionPage {
   leave(): void {
     this.watch?.stop();
     this.fetching?.abort();
+    this.operate.leave();
     for (const stop of this.stops) stop();
   }
 
@@ -189,7 +193,7 @@ export class MissionPage {
     const mine = this.fetching = new AbortController();
     this.past = revision;
     this.scene.plans = [];
-    this.scene.why = null;
+    this.setLatest(null);
     this.scene.trails.clear();
     [this.linkPill.textContent, this.linkPill.className] = ['looking back', 'pill warn'];
     fill(this.panel.banner, `Making the map of revision ${revision} …`);
@@ -221,7 +225,7 @@ export class MissionPage {
     const from = this.past !== null && this.past < this.head_revision ? this.past : 0n;
     this.past = from;
     this.scene.plans = [];
-    this.scene.why = null;
+    this.setLatest(null);
     this.scene.trails.clear();
     this.setPlaying(true);
     this.startWatch({ fromRevision: from, speed: Number(this.speed.value) });
@@ -239,12 +243,13 @@ export class MissionPage {
 
   private async poll(): Promise<void> {
     this.refreshFigures();
+    const withLatest = this.showsLatest();
     try {
       if (session.info === null) await refreshSession();
       const [got, listed, live] = await Promise.all([
         missions.getMission({ name: this.name }, PATIENCE),
         robotCalls.listRobots({ mission: this.name }, PATIENCE),
-        planning.listPlans({ mission: this.name, withLatest: true }, PATIENCE)]);
+        planning.listPlans({ mission: this.name, withLatest }, PATIENCE)]);
       this.mission = got.mission ?? null;
       this.robots = listed.robots;
       if (this.mission !== null) {
@@ -258,7 +263,7 @@ export class MissionPage {
       }
       if (this.past === null) {
         this.scene.plans = live.plans;
-        this.scene.why = live.latest.find((plan) => plan.robot === this.scene.robot) ?? null;
+        if (withLatest && this.showsLatest()) this.setLatest(live.latest);
         this.sample(live.latest.map((plan) => [plan.robot,
           Number(plan.cpuDuration?.seconds ?? 0) + (plan.cpuDuration?.nanos ?? 0) * 1e-9]));
       }
@@ -267,6 +272,26 @@ export class MissionPage {
     }
     this.showSide();
     this.panel.map.draw();
+  }
+
+  private showsLatest(): boolean {
+    return this.past === null && (this.tab === 'Why' || this.tab === 'Charts');
+  }
+
+  private setLatest(plans: Plan[] | null): void {
+    this.latest = plans;
+    this.scene.why = plans?.find((plan) => plan.robot === this.scene.robot) ?? null;
+  }
+
+  // The latest plan of the robot that is looked at, without waiting for the next poll.
+  private async latestPlan(): Promise<Plan | null> {
+    if (this.latest === null && this.showsLatest()) {
+      const { latest } = await planning.listPlans({ mission: this.name, withLatest: true }, PATIENCE);
+      if (this.showsLatest()) this.setLatest(latest);
+      this.showSide();
+      this.panel.map.draw();
+    }
+    return this.scene.why;
   }
 
   private refreshFigures(): void {
@@ -297,24 +322,28 @@ export class MissionPage {
   private showTab(tab: Tab): void {
     this.tab = tab;
     this.scene.asksWhy = tab === 'Why';
+    if (!this.showsLatest()) this.setLatest(null);
     this.panel.map.draw();
     fill(this.tabBar, ...TABS.map((one) => h('button', { role: 'tab', 'aria-selected': String(one === tab),
       onclick: () => this.showTab(one) }, one)));
     fill(this.tabBox, { Robots: this.robotsPanel.element, Why: this.why.element, Charts: this.charts.element,
                         Operate: this.operate.element }[tab]);
     this.showSide();
+    if (tab === 'Why') this.latestPlan().catch(() => {}); // the next poll asks again
   }
 
   private showSide(): void {
     if (this.tab === 'Robots') this.robotsPanel.show(this.mission, this.robots, this.scene);
-    if (this.tab === 'Why') this.why.show(this.scene.robot, this.scene.why);
+    if (this.tab === 'Why') {
+      this.why.show(this.scene.robot, this.scene.why, this.latest !== null || this.past !== null);
+    }
     if (this.tab === 'Charts') this.charts.draw();
     if (this.tab === 'Operate') this.operate.show(this.mission, this.robots);
   }
 
   private choose(robot: string): void {
     this.scene.robot = robot;
-    this.scene.why = null;
+    this.setLatest(this.latest);
     this.scene.candidate = -1;
     this.why.clear();
     this.scene.asked = null;
@@ -344,7 +373,7 @@ export class MissionPage {
     this.panel.map.draw();
     this.showTab('Why');
     const pose = this.scene.status?.robots.find((one) => one.robot === this.scene.robot)?.pose;
-    void this.why.ask(this.scene.robot, pose, place, this.scene.why);
+    void this.why.ask(this.scene.robot, pose, place, () => this.latestPlan());
   }
 
   // Whether it was a key of ours.

@@ -11,6 +11,9 @@ import type { Mission } from './wire/plumescout/v1/mission_service_pb.ts';
 import type { Robot } from './wire/plumescout/v1/robot_service_pb.ts';
 import { bytes, shortName } from './words.ts';
 
+// Of a whole mission, which may be gigabytes.
+const EXPORT_PATIENCE_MS = 600_000;
+
 async function attempt(what: string, task: () => Promise<unknown>): Promise<void> {
   try {
     await task();
@@ -22,9 +25,14 @@ async function attempt(what: string, task: () => Promise<unknown>): Promise<void
 
 export class OperatePanel {
   readonly element = h('div', {});
+  private exporting: AbortController | null = null;
 
   constructor(private readonly mission: string, private readonly raster: () => Raster | null,
               private readonly link: () => string) {}
+
+  leave(): void {
+    this.exporting?.abort();
+  }
 
   show(mission: Mission | null, list: Robot[]): void {
     if (mission === null) return;
@@ -118,10 +126,13 @@ export class OperatePanel {
   }
 
   private async exportMission(): Promise<void> {
+    if (this.exporting !== null) return notice('The mission is on its way already.');
+    const { signal } = this.exporting = new AbortController();
     const parts: Uint8Array[] = [];
     try {
       let size = 0;
-      for await (const { part } of snapshots.exportMission({ mission: this.mission })) {
+      for await (const { part } of snapshots.exportMission(
+        { mission: this.mission }, { signal, timeoutMs: EXPORT_PATIENCE_MS })) {
         if (part.case === 'start') notice(`About ${bytes(part.value.expectedBytes)} are on their way …`);
         if (part.case === 'piece') {
           parts.push(part.value.data);
@@ -133,7 +144,9 @@ export class OperatePanel {
         notice(`The mission is saved: ${bytes(size)}.`);
       }
     } catch (error) {
-      notice(sentence(error), 'bad');
+      if (!signal.aborted) notice(sentence(error), 'bad');
+    } finally {
+      this.exporting = null;
     }
   }
 

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // The pages beside that of a mission: all missions, a new one, the service.
-import { PATIENCE, missions, requestId, sentence, token, troubleOf } from './client.ts';
+import { create, toBinary } from '@bufbuild/protobuf';
+import { PATIENCE, checkSize, missions, requestId, sentence, token, troubleOf } from './client.ts';
 import { ask, fill, fillIfChanged, h, notice } from './dom.ts';
 import { optionsForm } from './options_form.ts';
 import { mayOperate, refreshSession, session } from './session.ts';
-import { MissionState } from './wire/plumescout/v1/mission_service_pb.ts';
+import { CreateMissionRequestSchema, MissionState } from './wire/plumescout/v1/mission_service_pb.ts';
 import type { Latency, Mission } from './wire/plumescout/v1/mission_service_pb.ts';
 import { bytes, duration, figure, missionState, phase, shortName } from './words.ts';
 
@@ -82,19 +83,21 @@ function missionTable(list: Mission[]): HTMLElement {
 
 export function listPage(): Page {
   const body = h('div', {}, h('p', { class: 'empty' }, 'Loading missions …'));
+  const newLink = h('a', { href: '#/new' }, 'New mission');
+  newLink.hidden = !mayOperate();
   const element = h('main', { class: 'sheet' },
-    h('div', { class: 'row' }, h('h1', {}, 'Missions'), h('span', { class: 'spring' }),
-      h('a', { href: '#/new' }, 'New mission')), body);
+    h('div', { class: 'row' }, h('h1', {}, 'Missions'), h('span', { class: 'spring' }), newLink), body);
   const stop = every(1500, async () => {
     try {
       if (session.info === null) await refreshSession();
+      newLink.hidden = !mayOperate();
       const list = await allMissions();
       const key = JSON.stringify([mayOperate(), list.map((one) => [one.name, one.state, one.phase,
         one.robotCount, String(one.revision), String(one.memory?.usedBytes)])]);
       fillIfChanged(body, key, () => [list.length > 0 ? missionTable(list)
         : h('div', { class: 'card empty' }, h('p', {}, 'No mission yet.'),
-            h('p', {}, 'Make one with ', h('a', { href: '#/new' }, 'New mission'),
-              ', or let scripts/demo --console drive a simulated robot.'))]);
+            mayOperate() ? h('p', {}, 'Make one with ', h('a', { href: '#/new' }, 'New mission'),
+              ', or let scripts/demo --console drive a simulated robot.') : null)]);
     } catch (error) {
       fillIfChanged(body, sentence(error), () => [trouble(error)]);
     }
@@ -112,8 +115,11 @@ export function newPage(): Page {
     event.preventDefault();
     fill(failed);
     try {
-      const made = await missions.createMission({
-        missionId: id.value, options: options.read(), requestId: requestId() }, PATIENCE);
+      const request = create(CreateMissionRequestSchema, {
+        missionId: id.value, options: options.read(), requestId: requestId() });
+      const info = session.info ?? await refreshSession();
+      checkSize(toBinary(CreateMissionRequestSchema, request).length, Number(info.limits?.maxReceiveBytes ?? 0));
+      const made = await missions.createMission(request, PATIENCE);
       location.hash = `#/${made.mission?.name ?? ''}`;
     } catch (error) {
       fill(failed, trouble(error));

@@ -33,7 +33,7 @@ export class Watch {
   private stopped = false;
   private abort = new AbortController();
   private hiddenTimer = 0;
-  private hidden = false;
+  private hidden = document.hidden; // for so long that no stream is held
   private level = 0;
   private wake: () => void = () => {};
 
@@ -46,7 +46,7 @@ export class Watch {
   stop(): void {
     this.stopped = true;
     document.removeEventListener('visibilitychange', this.onVisibility);
-    clearTimeout(this.hiddenTimer);
+    window.clearTimeout(this.hiddenTimer);
     this.abort.abort();
     this.wake();
   }
@@ -56,12 +56,12 @@ export class Watch {
   }
 
   private readonly onVisibility = () => {
-    clearTimeout(this.hiddenTimer);
+    window.clearTimeout(this.hiddenTimer);
     if (document.hidden) {
       this.hiddenTimer = window.setTimeout(() => {
         this.hidden = true;
         this.abort.abort();
-        this.events.link('hidden', null, 0);
+        this.events.link('hidden', null, 0); // at once, if this is in a pause
       }, HIDDEN_PATIENCE_MS);
     } else if (this.hidden) {
       this.hidden = false;
@@ -73,7 +73,7 @@ export class Watch {
     return new Promise((resolve) => {
       const timer = window.setTimeout(resolve, seconds * 1000);
       this.wake = () => {
-        clearTimeout(timer);
+        window.clearTimeout(timer);
         resolve();
       };
     });
@@ -82,20 +82,21 @@ export class Watch {
   private async run(): Promise<void> {
     let pause_s = FIRST_PAUSE_S;
     while (!this.stopped) {
+      if (this.hidden) {
+        this.events.link('hidden', null, 0);
+        await this.pause(1e6);
+        continue;
+      }
       this.abort = new AbortController();
       this.events.link('connecting', null, 0);
       let trouble: Trouble | null = null;
       try {
         await this.read(() => { pause_s = FIRST_PAUSE_S; });
       } catch (error) {
-        if (!this.stopped && !this.hidden) trouble = troubleOf(error);
+        trouble = troubleOf(error);
       }
       if (this.stopped) return;
-      if (this.hidden) {
-        await this.pause(1e6);
-        continue;
-      }
-      if (this.abort.signal.aborted) continue; // it begins again at another level
+      if (this.abort.signal.aborted) continue; // hidden, or it begins again at another level
       if (trouble?.code === Code.NotFound || trouble?.code === Code.PermissionDenied ||
           trouble?.code === Code.Unauthenticated || trouble?.code === Code.OutOfRange) {
         this.events.link('ended', trouble, 0);

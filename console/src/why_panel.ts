@@ -25,11 +25,12 @@ export class WhyPanel {
       this.answer, this.plan);
   }
 
-  // The latest plan of the robot that is looked at; null: the server knows of none.
-  show(robot: string, plan: Plan | null): void {
-    const key = `${robot} ${plan?.name ?? ''} ${plan?.chosenIndex ?? ''} ${plan?.beliefRevision ?? ''}`;
+  // The latest plan of the robot that is looked at; null: the server knows of none, if it `answered`.
+  show(robot: string, plan: Plan | null, answered: boolean): void {
+    const key = `${robot} ${answered} ${plan?.name ?? ''} ${plan?.chosenIndex ?? ''} ${plan?.beliefRevision ?? ''}`;
     fillIfChanged(this.plan, key, () => {
       if (robot === '') return [h('p', { class: 'empty' }, 'No robot yet.')];
+      if (!answered) return [h('p', { class: 'empty' }, 'Asking the server …')];
       if (plan === null) {
         return [h('p', { class: 'empty' },
           `${shortName(robot)} has not been given a plan since the server started.`)];
@@ -96,7 +97,8 @@ export class WhyPanel {
   }
 
   // Why `robot`, which stands at `pose`, does not go there.
-  async ask(robot: string, pose: Pose2D | undefined, at: Place, plan: Plan | null): Promise<void> {
+  async ask(robot: string, pose: Pose2D | undefined, at: Place,
+            latestPlan: () => Promise<Plan | null>): Promise<void> {
     const mine = ++this.asked;
     const say = (...what: (Node | string)[]) => {
       if (mine !== this.asked) return;
@@ -108,7 +110,7 @@ export class WhyPanel {
     try {
       const { frontiers } = await planning.listFrontiers({ robot }, PATIENCE);
       const near = nearestFrontier(frontiers, at);
-      if (near !== null) return say(...frontierAnswer(near, plan));
+      if (near !== null) return say(...frontierAnswer(near, await latestPlan()));
       const check = await planning.checkTrajectory({ robot, subject: { case: 'path', value: {
         vertices: [{ xM: pose.xM, yM: pose.yM }, { xM: at.x_m, yM: at.y_m }],
         goalKind: GoalKind.RANDOM_FREE_SPACE } } }, PATIENCE);
