@@ -27,6 +27,8 @@ namespace plumescout::server {
 namespace {
 
 constexpr std::size_t kReadBytes = 65'536;
+// Of requests and messages of one connection before the others have their turn.
+constexpr int kMaxStepsOfTurn = 32;
 // How long to wait after a connection could not be taken, for want of descriptors perhaps.
 constexpr absl::Duration kAcceptPause = absl::Milliseconds(100);
 constexpr char kNoStore[] = "no-store";
@@ -118,6 +120,7 @@ void WebServer::Run() {
 bool WebServer::Await() {
   std::vector<pollfd> wanted = {{bell_->fd(), POLLIN, 0}};
   SteadyTime until = SteadyTime::max();
+  bool has_more = false;
   if (SteadyNow() < accept_after_) {
     until = accept_after_;
   } else {
@@ -130,8 +133,9 @@ bool WebServer::Await() {
     const int out = connection.out.empty() ? 0 : POLLOUT;
     wanted.push_back({connection.fd, static_cast<short>(in | out), 0});
     until = std::min(until, connection.deadline);
+    has_more = has_more || connection.has_more;
   }
-  poll(wanted.data(), wanted.size(), static_cast<int>(ToPollTimeout(until)));
+  poll(wanted.data(), wanted.size(), has_more ? 0 : static_cast<int>(ToPollTimeout(until)));
   bell_->Silence();
   return !bell_->stop;
 }
@@ -162,7 +166,8 @@ bool WebServer::Advance(Connection& connection) {
   if (SteadyNow() >= connection.deadline) return false;
   pollfd hung_up{connection.fd, POLLRDHUP, 0};
   if (connection.call != nullptr && poll(&hung_up, 1, 0) > 0) return false;
-  while (true) {
+  connection.has_more = false;
+  for (int step = 0; step < kMaxStepsOfTurn; ++step) {
     if (!Send(connection)) return false;
     if (!connection.out.empty()) return true;
     if (connection.call != nullptr) {
@@ -171,10 +176,15 @@ bool WebServer::Advance(Connection& connection) {
       continue;
     }
     if (connection.close_after) return false;
+    // More is received only once all that came is answered: what waits here is bounded.
+    Answer(connection);
+    if (!connection.out.empty()) continue;
     if (!Receive(connection)) return false;
     Answer(connection);
     if (connection.out.empty()) return true;
   }
+  connection.has_more = true;
+  return true;
 }
 
 bool WebServer::Receive(Connection& connection) const {
@@ -198,9 +208,11 @@ bool WebServer::Send(Connection& connection) const {
   if (connection.out.empty()) return true;
   connection.out.clear();
   connection.sent = 0;
-  connection.deadline = connection.call != nullptr
-                            ? SteadyTime::max()  // calls have deadlines of their own, or none
-                            : After(SteadyNow(), options_.idle_patience);
+  connection.deadline =
+      connection.call != nullptr
+          ? SteadyTime::max()  // calls have deadlines of their own, or none
+          : After(SteadyNow(),
+                  connection.received.empty() ? options_.idle_patience : options_.request_patience);
   return true;
 }
 

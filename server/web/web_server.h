@@ -70,6 +70,7 @@ class WebServer {
     std::shared_ptr<WebCall> call = nullptr;  // whose answer is on its way
     bool is_stream = false;
     bool close_after = false;  // once `out` is sent
+    bool has_more = false;     // to do at once: others came first
 
     bool is_idle() const { return call == nullptr && out.empty() && received.empty(); }
   };

@@ -5,15 +5,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <fstream>
 #include <memory>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "server/web/grpc_web.h"
+#include "server/web/http_message.h"
 #include "tests/server/http_client.h"
 #include "tests/server/service_fixture.h"
 #include "tests/server/token_line.h"
@@ -50,8 +54,21 @@ class Client {
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
 
-  void Send(const std::string& text) const {
-    EXPECT_EQ(send(fd_, text.data(), text.size(), MSG_NOSIGNAL), static_cast<ssize_t>(text.size()));
+  void Send(const std::string& text) const { EXPECT_TRUE(TrySend(text)); }
+  // False if the other side does not take all of it.
+  bool TrySend(const std::string& text) const {
+    return send(fd_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
+  }
+  void EndSending() const { shutdown(fd_, SHUT_WR); }
+  // Bytes until the other side closes.
+  std::size_t CountToEnd() const {
+    std::size_t received = 0;
+    std::array<char, 65'536> part{};
+    for (ssize_t count = 1; count > 0;
+         received += static_cast<std::size_t>(std::max<ssize_t>(count, 0))) {
+      count = recv(fd_, part.data(), part.size(), 0);
+    }
+    return received;
   }
   // Until this comes, or the other side closes.
   std::string ReadTo(const std::string& end) const {
@@ -222,6 +239,73 @@ TEST_F(WebServerTest, WhoDoesNotReadHoldsUpNobody) {
   stalled.Send(kGetPage);
   EXPECT_THAT(Exchange(Post(kListMissions, "")), HasSubstr("grpc-status: 0\r\n"));
   EXPECT_THAT(Exchange(kGetPage), ::testing::EndsWith(large));
+}
+
+// Sends requests without waiting for their answers, and does not end by itself.
+class Flood {
+ public:
+  explicit Flood(int port)
+      : client_(port),
+        reader_([this] { answered_bytes_ = client_.CountToEnd(); }),
+        sender_([this] { Send(); }) {}
+  ~Flood() { End(); }
+  Flood(const Flood&) = delete;
+  Flood& operator=(const Flood&) = delete;
+
+  void AwaitMegabyte() const {
+    for (std::int64_t sent = 0; sent < kMegabyte / kSize;) {
+      sent_.wait(sent);
+      sent = sent_;
+    }
+  }
+  void End() {
+    ended_ = true;
+    if (sender_.joinable()) sender_.join();
+    if (reader_.joinable()) reader_.join();
+  }
+  std::int64_t sent() const { return sent_; }
+  std::size_t answered_bytes() const { return answered_bytes_; }
+
+  static constexpr char kGet[] = "GET /nothing HTTP/1.1\r\nHost: localhost\r\n\r\n";
+
+ private:
+  static constexpr std::int64_t kMegabyte = 1 << 20;
+  static constexpr std::int64_t kSize = sizeof(kGet) - 1;
+  static constexpr int kBatch = 1000;
+
+  void Send() {
+    std::string batch;
+    for (int i = 0; i < kBatch; ++i) batch += kGet;
+    while (!ended_ && client_.TrySend(batch)) {
+      sent_ += kBatch;
+      sent_.notify_all();
+    }
+    client_.EndSending();
+  }
+
+  const Client client_;
+  std::atomic<bool> ended_ = false;
+  std::atomic<std::int64_t> sent_ = 0;
+  std::size_t answered_bytes_ = 0;
+  std::thread reader_;  // last: they use all of the above
+  std::thread sender_;
+};
+
+TEST_F(WebServerTest, WhoAsksWithoutEndHoldsUpNobody) {
+  Serve();
+  const std::string answer = HttpRefusal(404, "no such file");
+  Flood flood(web_->port());
+  flood.AwaitMegabyte();
+  EXPECT_THAT(Exchange(Post(kListMissions, "")), HasSubstr("grpc-status: 0\r\n"));
+  flood.End();
+  EXPECT_EQ(flood.answered_bytes(), static_cast<std::size_t>(flood.sent()) * answer.size());
+}
+
+TEST_F(WebServerTest, WhoAsksWithoutEndDoesNotKeepItFromStopping) {
+  Serve();
+  const Flood flood(web_->port());
+  flood.AwaitMegabyte();
+  web_ = nullptr;
 }
 
 TEST_F(WebServerTest, WithoutPagesItSaysSo) {
