@@ -3,6 +3,8 @@
 #include "server/web/web_server.h"
 
 #include <errno.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
@@ -45,6 +47,25 @@ std::int64_t ToPollTimeout(SteadyTime until) {
   if (until == SteadyTime::max()) return kForEver;
   const auto left = std::max(until - SteadyNow(), SteadyTime::duration::zero());
   return absl::ToInt64Milliseconds(absl::FromChrono(left)) + kRoundUp_ms;
+}
+
+// Ends connections, and with them streams, of hosts that vanished without a word, in about a
+// minute; and lets small messages go at once.
+void WatchPeer(int fd) {
+  struct Option {
+    int level;
+    int name;
+    int value;
+  };
+  constexpr std::array<Option, 6> kOptions = {{{SOL_SOCKET, SO_KEEPALIVE, 1},
+                                               {IPPROTO_TCP, TCP_KEEPIDLE, 30},   // s
+                                               {IPPROTO_TCP, TCP_KEEPINTVL, 10},  // s
+                                               {IPPROTO_TCP, TCP_KEEPCNT, 3},
+                                               {IPPROTO_TCP, TCP_USER_TIMEOUT, 60'000},  // ms
+                                               {IPPROTO_TCP, TCP_NODELAY, 1}}};
+  for (const Option& option : kOptions) {
+    setsockopt(fd, option.level, option.name, &option.value, sizeof(option.value));
+  }
 }
 
 }  // namespace
@@ -159,6 +180,7 @@ void WebServer::Accept() {
     close(idle->fd);
     connections_.erase(idle);
   }
+  WatchPeer(fd);
   connections_.push_back({fd, After(SteadyNow(), options_.request_patience)});
 }
 

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <netinet/tcp.h>
 
 #include <algorithm>
 #include <array>
@@ -59,6 +60,22 @@ class Client {
   bool TrySend(const std::string& text) const {
     return send(fd_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
   }
+  // An option of the socket at the other side, which is in this process; -1: there is none.
+  int OptionOfPeer(int level, int name) const {
+    sockaddr_in here{};
+    socklen_t size = sizeof(here);
+    getsockname(fd_, reinterpret_cast<sockaddr*>(&here), &size);
+    for (int fd = 0; fd < kMaxDescriptor; ++fd) {
+      sockaddr_in peer{};
+      size = sizeof(peer);
+      if (getpeername(fd, reinterpret_cast<sockaddr*>(&peer), &size) != 0) continue;
+      if (peer.sin_family != AF_INET || peer.sin_port != here.sin_port) continue;
+      int value = -1;
+      size = sizeof(value);
+      return getsockopt(fd, level, name, &value, &size) == 0 ? value : -1;
+    }
+    return -1;
+  }
   void EndSending() const { shutdown(fd_, SHUT_WR); }
   // Bytes until the other side closes.
   std::size_t CountToEnd() const {
@@ -83,6 +100,8 @@ class Client {
   }
 
  private:
+  static constexpr int kMaxDescriptor = 1024;
+
   const int fd_;
 };
 
@@ -207,6 +226,18 @@ TEST_F(WebServerTest, StreamsEndWhenTheServerDrains) {
   client.ReadTo("\r\n\r\n");
   server_->Drain();
   EXPECT_THAT(client.ReadTo("grpc-status"), HasSubstr("grpc-status"));
+}
+
+TEST_F(WebServerTest, VanishedPeersAreNoticed) {
+  Serve();
+  const Client client(web_->port());
+  client.Send(WatchHall());
+  client.ReadTo("\r\n\r\n");  // it was accepted
+  EXPECT_EQ(client.OptionOfPeer(SOL_SOCKET, SO_KEEPALIVE), 1);
+  EXPECT_EQ(client.OptionOfPeer(IPPROTO_TCP, TCP_KEEPIDLE), 30);
+  EXPECT_EQ(client.OptionOfPeer(IPPROTO_TCP, TCP_KEEPCNT), 3);
+  EXPECT_EQ(client.OptionOfPeer(IPPROTO_TCP, TCP_USER_TIMEOUT), 60'000);
+  EXPECT_EQ(client.OptionOfPeer(IPPROTO_TCP, TCP_NODELAY), 1);
 }
 
 // A folder with this page.
