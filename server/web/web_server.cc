@@ -33,6 +33,8 @@ constexpr std::size_t kReadBytes = 65'536;
 constexpr int kMaxStepsOfTurn = 32;
 // How long to wait after a connection could not be taken, for want of descriptors perhaps.
 constexpr absl::Duration kAcceptPause = absl::Milliseconds(100);
+// Of a request that was refused.
+constexpr std::size_t kMaxDroppedBytes = std::size_t{64} << 20;
 constexpr char kNoStore[] = "no-store";
 // What a browser's call brings along that calls may have.
 constexpr std::array<const char*, 2> kMetadata = {"authorization", "x-request-id"};
@@ -197,7 +199,11 @@ bool WebServer::Advance(Connection& connection) {
       if (connection.out.empty()) return true;
       continue;
     }
-    if (connection.close_after) return false;
+    if (connection.said_all) return Drop(connection);
+    if (connection.close_after) {
+      EndAnswers(connection);
+      continue;
+    }
     // More is received only once all that came is answered: what waits here is bounded.
     Answer(connection);
     if (!connection.out.empty()) continue;
@@ -217,6 +223,22 @@ bool WebServer::Receive(Connection& connection) const {
   connection.received.append(part.data(), static_cast<std::size_t>(count));
   if (was_idle) connection.deadline = After(SteadyNow(), options_.request_patience);
   return true;
+}
+
+// Closed at once while more comes, TCP would throw away the answer that is on its way.
+void WebServer::EndAnswers(Connection& connection) const {
+  shutdown(connection.fd, SHUT_WR);
+  connection.received.clear();
+  connection.said_all = true;
+  connection.deadline = After(SteadyNow(), options_.request_patience);
+}
+
+bool WebServer::Drop(Connection& connection) const {
+  std::array<char, kReadBytes> part;
+  const ssize_t count = recv(connection.fd, part.data(), part.size(), 0);
+  if (count <= 0) return count < 0 && (errno == EAGAIN || errno == EINTR);
+  connection.dropped_bytes += static_cast<std::size_t>(count);
+  return connection.dropped_bytes <= kMaxDroppedBytes;
 }
 
 bool WebServer::Send(Connection& connection) const {

@@ -71,6 +71,8 @@ class WebServer {
     bool is_stream = false;
     bool close_after = false;  // once `out` is sent
     bool has_more = false;     // to do at once: others came first
+    bool said_all = false;     // what comes is dropped until the other side closes
+    std::size_t dropped_bytes = 0;
 
     bool is_idle() const { return call == nullptr && out.empty() && received.empty(); }
   };
@@ -84,6 +86,9 @@ class WebServer {
   // Each false if the connection is at its end.
   bool Receive(Connection& connection) const;
   bool Send(Connection& connection) const;
+  bool Drop(Connection& connection) const;
+  // After the last answer.
+  void EndAnswers(Connection& connection) const;
   // Puts what the call has to say behind what is sent; hands the connection back after the last of
   // it.
   void TakeFrames(Connection& connection);

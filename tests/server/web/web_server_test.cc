@@ -183,6 +183,15 @@ TEST_F(WebServerTest, MessagesAreBounded) {
   EXPECT_THAT(Exchange(Post(kListMissions, std::string(101, 'x'))), StartsWith("HTTP/1.1 413"));
 }
 
+TEST_F(WebServerTest, RefusalsArriveWhateverIsStillOnItsWay) {
+  WebOptions options;
+  options.max_message_bytes = 100;
+  Serve(std::move(options));
+  const std::string answer = Exchange(Post(kListMissions, std::string(1 << 20, 'x')));
+  EXPECT_THAT(answer, StartsWith("HTTP/1.1 413"));
+  EXPECT_THAT(answer, ::testing::EndsWith("the body is too large\n"));
+}
+
 TEST_F(WebServerTest, CallsHaveTheIdentityOfTheirTokens) {
   const TempFolder folder;
   const std::string path = folder.File("tokens");
