@@ -171,7 +171,8 @@ void WebServer::Accept() {
     }
     return;
   }
-  if (connections_.size() >= static_cast<std::size_t>(options_.max_connections)) {
+  const int limit = options_.max_streams + options_.max_calls + options_.max_spare_connections;
+  if (connections_.size() >= static_cast<std::size_t>(limit)) {
     // Browsers keep connections open that they have no use for.
     const auto idle = std::find_if(connections_.begin(), connections_.end(),
                                    [](const Connection& other) { return other.is_idle(); });
@@ -247,11 +248,13 @@ bool WebServer::Send(Connection& connection) const {
                                connection.out.size() - connection.sent, MSG_NOSIGNAL);
     if (count < 0) return errno == EAGAIN || errno == EINTR;
     connection.sent += static_cast<std::size_t>(count);
-    connection.deadline = After(SteadyNow(), options_.reader_patience);
+    connection.deadline =
+        std::min(After(SteadyNow(), options_.reader_patience), connection.answer_deadline);
   }
   if (connection.out.empty()) return true;
   connection.out.clear();
   connection.sent = 0;
+  connection.answer_deadline = SteadyTime::max();
   connection.deadline =
       connection.call != nullptr
           ? SteadyTime::max()  // calls have deadlines of their own, or none
@@ -294,6 +297,9 @@ void WebServer::Answer(Connection& connection) {
     connection.out = AnswerFile(request);
   } else {
     connection.out = HttpRefusal(405, "GET, HEAD and POST only");
+  }
+  if (connection.call == nullptr) {
+    connection.answer_deadline = After(SteadyNow(), options_.answer_patience);
   }
 }
 

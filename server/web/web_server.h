@@ -24,12 +24,15 @@ struct WebOptions {
   std::size_t max_message_bytes = 262'144;  // of a request
   int max_streams = 64;                     // at one time, of all pages
   int max_calls = 64;                       // that are no streams, at one time
-  int max_connections = 256;
+  // Beside those of streams and calls: for files, and those that browsers keep without a use.
+  int max_spare_connections = 128;
   absl::Duration request_patience =
       absl::Seconds(10);                             // from the first byte of a request to its last
   absl::Duration idle_patience = absl::Seconds(60);  // between requests of a connection
   // Whoever takes no byte of an answer for so long is hung up on.
   absl::Duration reader_patience = absl::Seconds(20);
+  // From the first byte of an answer that is no call's to its last.
+  absl::Duration answer_patience = absl::Seconds(60);
   absl::Duration call_patience = absl::Seconds(60);  // of calls that are no streams
 };
 
@@ -67,7 +70,8 @@ class WebServer {
     std::string received = {};
     std::string out = {};
     std::size_t sent = 0;
-    std::shared_ptr<WebCall> call = nullptr;  // whose answer is on its way
+    SteadyTime answer_deadline = SteadyTime::max();  // of `out`, however it goes on
+    std::shared_ptr<WebCall> call = nullptr;         // whose answer is on its way
     bool is_stream = false;
     bool close_after = false;  // once `out` is sent
     bool has_more = false;     // to do at once: others came first

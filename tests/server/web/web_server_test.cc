@@ -281,6 +281,35 @@ TEST_F(WebServerTest, WhoDoesNotReadHoldsUpNobody) {
   EXPECT_THAT(Exchange(kGetPage), ::testing::EndsWith(large));
 }
 
+TEST_F(WebServerTest, AnswersHaveOneTimeLimitHoweverTheyAreRead) {
+  const std::string large(std::size_t{16} << 20, 'x');  // more than sockets hold
+  WebOptions options;
+  options.files = PageOf(large);
+  options.answer_patience = absl::ZeroDuration();
+  options.reader_patience = absl::InfiniteDuration();
+  Serve(std::move(options));
+  const Client slow(web_->port());
+  slow.Send(kGetPage);
+  // Each comes to its turn after the page has had one.
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_THAT(Exchange(Post(kListMissions, "")), HasSubstr("grpc-status: 0\r\n"));
+  }
+  EXPECT_LT(slow.CountToEnd(), large.size());
+}
+
+TEST_F(WebServerTest, ThereAreAsManyConnectionsAsStreamsAndCalls) {
+  WebOptions options;
+  options.max_streams = 1;
+  options.max_calls = 0;
+  options.max_spare_connections = 0;
+  Serve(std::move(options));
+  const Client stream(web_->port());
+  stream.Send(WatchHall());
+  EXPECT_THAT(stream.ReadTo("\r\n\r\n"), HasSubstr("200 OK"));
+  const Client other(web_->port());
+  EXPECT_EQ(other.CountToEnd(), 0U);
+}
+
 // Sends requests without waiting for their answers, and does not end by itself.
 class Flood {
  public:
