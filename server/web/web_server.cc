@@ -43,6 +43,12 @@ std::string RefusedCall(const grpc::Status& status) {
   return HttpAnswerOf(200, kGrpcWebType, kNoStore, TrailerFrame(status));
 }
 
+// All of an answer but its body.
+std::string HeadOf(const std::string& answer) {
+  constexpr char kHeadEnd[] = "\r\n\r\n";
+  return answer.substr(0, answer.find(kHeadEnd) + sizeof(kHeadEnd) - 1);
+}
+
 std::int64_t ToPollTimeout(SteadyTime until) {
   constexpr int kForEver = -1;
   constexpr std::int64_t kRoundUp_ms = 1;
@@ -298,6 +304,7 @@ void WebServer::Answer(Connection& connection) {
   } else {
     connection.out = HttpRefusal(405, "GET, HEAD and POST only");
   }
+  if (request.method == "HEAD") connection.out = HeadOf(connection.out);
   if (connection.call == nullptr) {
     connection.answer_deadline = After(SteadyNow(), options_.answer_patience);
   }
@@ -324,11 +331,7 @@ std::string WebServer::AnswerFile(const HttpRequest& request) const {
                                 ? "no console here: start the server with --http-root FOLDER"
                                 : "no such file");
   }
-  if (request.method == "GET") {
-    return HttpAnswerOf(200, file->type, file->caching, file->content);
-  }
-  return HttpHead(200, file->type, file->caching,
-                  absl::StrCat("Content-Length: ", file->content.size()));
+  return HttpAnswerOf(200, file->type, file->caching, file->content);
 }
 
 int WebServer::CountCalls(bool streams) const {

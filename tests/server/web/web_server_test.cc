@@ -268,6 +268,8 @@ TEST_F(WebServerTest, PagesAreServed) {
   EXPECT_THAT(Exchange(get), ::testing::EndsWith("\r\n\r\n<p>console"));
   EXPECT_THAT(Exchange("HEAD" + get.substr(3)), ::testing::EndsWith("Content-Length: 10\r\n\r\n"));
   EXPECT_THAT(Exchange("GET /x" + get.substr(5)), StartsWith("HTTP/1.1 404"));
+  EXPECT_THAT(Exchange("HEAD /x" + get.substr(5)),
+              ::testing::EndsWith("Content-Length: 13\r\n\r\n"));  // no such file, and a line end
 }
 
 TEST_F(WebServerTest, WhoDoesNotReadHoldsUpNobody) {
