@@ -20,6 +20,7 @@
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/strip.h"
 #include "core/types/status_macros.h"
 #include "server/base/address.h"
 #include "server/base/tcp_listener.h"
@@ -310,15 +311,23 @@ void WebServer::Answer(Connection& connection) {
   }
 }
 
+bool WebServer::IsNameOfFront(absl::string_view host) const {
+  return std::find(options_.hosts.begin(), options_.hosts.end(), host) != options_.hosts.end();
+}
+
 std::string WebServer::Suspicion(const HttpRequest& request) const {
   const absl::string_view host = request.Header("host");
   if (host.empty()) return "no Host";
-  if (local_ && (IsUnixAddress(host) || !IsLocalAddress(host))) {
-    return "the console is served to this machine alone";
+  const bool any_name = !local_ && options_.hosts.empty();
+  const bool of_loopback = !IsUnixAddress(host) && IsLocalAddress(host);
+  if (!any_name && !of_loopback && !IsNameOfFront(host)) {
+    return local_ ? "the console is served to this machine alone"
+                  : "the console has other names: console.hosts";
   }
-  const absl::string_view origin = request.Header("origin");
-  if (origin.empty() || origin == absl::StrCat("http://", host) ||
-      origin == absl::StrCat("https://", host)) {
+  absl::string_view origin = request.Header("origin");
+  if (origin.empty()) return "";
+  if ((absl::ConsumePrefix(&origin, "https://") || absl::ConsumePrefix(&origin, "http://")) &&
+      (origin == host || IsNameOfFront(origin))) {
     return "";
   }
   return "pages of other hosts may not call";

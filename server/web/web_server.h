@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "absl/time/time.h"
@@ -21,6 +22,7 @@ namespace plumescout::server {
 
 struct WebOptions {
   StaticFiles files = {};
+  std::vector<std::string> hosts = {};      // names of a front, as they stand in addresses
   std::size_t max_message_bytes = 262'144;  // of a request
   int max_streams = 64;                     // at one time, of all pages
   int max_calls = 64;                       // that are no streams, at one time
@@ -40,7 +42,8 @@ struct WebOptions {
 // pass the same door as all calls. One thread moves bytes between sockets and calls and waits for
 // nobody: a page that does not read costs its connection and one message. Only pages that this
 // server gave out may call (the header Origin), and where it listens on loopback, only by names of
-// loopback (the header Host): pages of other hosts cannot act for whoever looks at them.
+// loopback or of the front (the header Host): pages of other hosts cannot act for whoever looks at
+// them.
 class WebServer {
   struct Private {
     explicit Private() = default;
@@ -99,6 +102,7 @@ class WebServer {
   // Of the request at the front of what was received, if it is whole.
   void Answer(Connection& connection);
   std::string AnswerFile(const HttpRequest& request) const;
+  bool IsNameOfFront(absl::string_view host) const;
   // Why the page may not ask this; empty: it may.
   std::string Suspicion(const HttpRequest& request) const;
   void StartCall(const HttpRequest& request, Connection& connection);

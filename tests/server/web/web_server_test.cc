@@ -164,6 +164,26 @@ TEST_F(WebServerTest, OnlyItsOwnPagesMayCall) {
   }
 }
 
+TEST_F(WebServerTest, PagesOfAFrontMayCall) {
+  WebOptions options;
+  options.hosts = {"console.example"};
+  Serve(std::move(options));
+  const auto with = [&](const std::string& origin) {
+    return Exchange(Post(kListMissions, "", absl::StrCat("Origin: ", origin, "\r\n", kClose)));
+  };
+  EXPECT_THAT(with("https://console.example"), StartsWith("HTTP/1.1 200"));
+  EXPECT_THAT(with("http://localhost"), StartsWith("HTTP/1.1 200"));
+  for (const char* origin : {"https://console.example:1", "https://x.console.example",
+                             "https://console.example.evil", "console.example"}) {
+    EXPECT_THAT(with(origin), StartsWith("HTTP/1.1 403")) << origin;
+  }
+  const auto at = [&](const std::string& host) {
+    return Exchange(absl::StrCat("GET /x HTTP/1.1\r\nHost: ", host, "\r\n", kClose, "\r\n"));
+  };
+  EXPECT_THAT(at("console.example"), StartsWith("HTTP/1.1 404"));
+  EXPECT_THAT(at("evil.example"), StartsWith("HTTP/1.1 403"));
+}
+
 TEST_F(WebServerTest, WhatIsNoCallIsRefused) {
   Serve();
   EXPECT_THAT(Exchange("POST / HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"),
