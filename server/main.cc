@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
 #include "absl/time/time.h"
 #include "core/types/status_macros.h"
 #include "server/base/address.h"
@@ -95,6 +96,7 @@ absl::StatusOr<std::unique_ptr<WebServer>> ServeConsole(const ServerConfig& conf
   WebOptions options;
   options.max_message_bytes = static_cast<std::size_t>(config.limits.max_receive_bytes);
   options.max_streams = console.max_stream_count;
+  options.hosts = absl::StrSplit(console.hosts, ',', absl::SkipEmpty());
   if (!console.folder.empty()) {
     PLUMESCOUT_ASSIGN_OR_RETURN(options.files, StaticFiles::Load(console.folder));
   }

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
@@ -226,6 +227,12 @@ absl::Status Refuse(absl::string_view option, absl::string_view value, absl::str
 absl::Status Validate(const ConsoleConfig& console) {
   if (!console.listen.empty() && (IsUnixAddress(console.listen) || !PortOf(console.listen))) {
     return Refuse("console.listen", console.listen, "HOST:PORT or empty");
+  }
+  if (!std::all_of(console.hosts.begin(), console.hosts.end(), [](char c) {
+        return absl::ascii_isalnum(static_cast<unsigned char>(c)) || absl::StrContains(".-:[],", c);
+      })) {
+    return Refuse("console.hosts", console.hosts,
+                  "HOST or HOST:PORT, with commas between, or empty");
   }
   constexpr int kMaxStreams = 10'000;
   return Checker()

@@ -103,6 +103,7 @@ struct ConsoleConfig {
   std::string listen = "";    // empty: there is none
   std::string folder = "";    // of its pages; empty: calls alone are served
   int max_stream_count = 64;  // of all pages, at one time
+  std::string hosts = "";     // names of a front, with commas between
 };
 
 // Values of store.engine.

@@ -103,6 +103,7 @@ void Visit(OneOf<ConsoleConfig> auto& console, auto& field) {
   field("listen", console.listen);
   field("folder", console.folder);
   field("max_stream_count", console.max_stream_count);
+  field("hosts", console.hosts);
 }
 
 void Visit(OneOf<ServerConfig> auto& config, auto& field) { field("listen", config.listen); }

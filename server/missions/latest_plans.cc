@@ -18,6 +18,11 @@ void LatestPlans::Note(Plan plan) {
       [](const auto& a, const auto& b) { return a.second.noted < b.second.noted; }));
 }
 
+void LatestPlans::Forget(const RobotId& robot) {
+  const absl::MutexLock lock(&mutex_);
+  entries_.erase(robot);
+}
+
 std::vector<LatestPlans::PlanPtr> LatestPlans::All() const {
   const absl::MutexLock lock(&mutex_);
   std::vector<PlanPtr> plans;

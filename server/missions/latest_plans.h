@@ -25,6 +25,8 @@ class LatestPlans {
 
   // The plan was committed and has its number.
   void Note(Plan plan) ABSL_LOCKS_EXCLUDED(mutex_);
+  // The robot was removed. Nothing if it has no plan here.
+  void Forget(const RobotId& robot) ABSL_LOCKS_EXCLUDED(mutex_);
   // By robot.
   std::vector<PlanPtr> All() const ABSL_LOCKS_EXCLUDED(mutex_);
 

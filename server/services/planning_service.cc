@@ -236,6 +236,10 @@ absl::Status PlanningService::ListLive(const v1::ListPlansRequest& request,
                                        const std::shared_ptr<UnaryCall>& call) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const MissionId mission,
                               ParseMissionName("mission", request.mission()));
+  if (request.with_latest() && call->caller().role == Role::kRobot) {
+    return absl::PermissionDeniedError(
+        "with_latest: robots may not read what other robots were told");
+  }
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMission(call->caller(), mission));
   BeliefWish wish;
   wish.fresh_posterior = false;

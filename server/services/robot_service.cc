@@ -97,6 +97,7 @@ absl::Status RobotService::Remove(const v1::RemoveRobotRequest& request,
         if (!writable.ok()) return call->Answer(writable);
         const auto revision = writer.conduct().Remove(wish, host->leases());
         if (revision.ok()) {
+          host->latest_plans().Forget(wish.robot);
           LogInfo("robot removed", {{"mission", host->id()},
                                     {"robot", wish.robot},
                                     {"request_id", call->info().request_id}});

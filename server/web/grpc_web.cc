@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/web/grpc_web.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -53,6 +54,25 @@ bool TakesOneRequest(const RpcRow& row, bool& is_stream) {
   return true;
 }
 
+std::optional<absl::Duration> UnitOfTimeout(char letter) {
+  switch (letter) {
+    case 'H':
+      return absl::Hours(1);
+    case 'M':
+      return absl::Minutes(1);
+    case 'S':
+      return absl::Seconds(1);
+    case 'm':
+      return absl::Milliseconds(1);
+    case 'u':
+      return absl::Microseconds(1);
+    case 'n':
+      return absl::Nanoseconds(1);
+    default:
+      return std::nullopt;
+  }
+}
+
 }  // namespace
 
 std::optional<WebMethod> FindWebMethod(absl::string_view path) {
@@ -94,22 +114,9 @@ std::optional<absl::Duration> ParseGrpcTimeout(absl::string_view text) {
   if (text.size() < 2 || text.size() > kMaxTimeoutDigits + 1) return std::nullopt;
   std::int64_t count = 0;
   if (!absl::SimpleAtoi(text.substr(0, text.size() - 1), &count) || count < 0) return std::nullopt;
-  switch (text.back()) {
-    case 'H':
-      return absl::Hours(count);
-    case 'M':
-      return absl::Minutes(count);
-    case 'S':
-      return absl::Seconds(count);
-    case 'm':
-      return absl::Milliseconds(count);
-    case 'u':
-      return absl::Microseconds(count);
-    case 'n':
-      return absl::Nanoseconds(count);
-    default:
-      return std::nullopt;
-  }
+  const std::optional<absl::Duration> unit = UnitOfTimeout(text.back());
+  if (!unit) return std::nullopt;
+  return std::min(count * *unit, kMaxGrpcTimeout);
 }
 
 }  // namespace plumescout::server

@@ -31,7 +31,10 @@ std::string MessageFrame(absl::string_view message);
 // What ends an answer, with the details of an error.
 std::string TrailerFrame(const grpc::Status& status);
 
-// A value of the header grpc-timeout, "1500m"; none if it is not one.
+// The longest that is taken: clocks have no room for all that can be written.
+inline constexpr absl::Duration kMaxGrpcTimeout = absl::Hours(24);
+// A value of the header grpc-timeout, "1500m", or the longest if it is longer; none if it is not
+// one.
 std::optional<absl::Duration> ParseGrpcTimeout(absl::string_view text);
 
 }  // namespace plumescout::server

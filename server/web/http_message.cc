@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/web/http_message.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -62,12 +63,19 @@ absl::string_view Phrase(int code) {
   }
 }
 
+// Tabs do not count.
+bool HasControls(absl::string_view text) {
+  return std::any_of(text.begin(), text.end(), [](char c) {
+    return absl::ascii_iscntrl(static_cast<unsigned char>(c)) && c != '\t';
+  });
+}
+
 // False if a line is no header, or a header that matters comes twice.
 bool ReadHeaders(absl::string_view lines, HttpRequest& request) {
   for (const absl::string_view line : absl::StrSplit(lines, kLineEnd, absl::SkipEmpty())) {
     const std::pair<absl::string_view, absl::string_view> field =
         absl::StrSplit(line, absl::MaxSplits(':', 1));
-    if (field.first.size() == line.size() || field.first.empty()) return false;
+    if (field.first.size() == line.size() || field.first.empty() || HasControls(line)) return false;
     if (field.first.find_first_of(" \t") != absl::string_view::npos) return false;
     const bool is_new = request.headers
                             .emplace(absl::AsciiStrToLower(field.first),
@@ -79,6 +87,7 @@ bool ReadHeaders(absl::string_view lines, HttpRequest& request) {
 }
 
 bool ReadRequestLine(absl::string_view line, HttpRequest& request) {
+  if (HasControls(line)) return false;
   const std::vector<absl::string_view> words = absl::StrSplit(line, ' ');
   if (words.size() != 3 || words[2] != "HTTP/1.1" || words[1].empty() || words[1][0] != '/') {
     return false;
@@ -86,6 +95,12 @@ bool ReadRequestLine(absl::string_view line, HttpRequest& request) {
   request.method = std::string(words[0]);
   request.path = std::string(words[1].substr(0, words[1].find('?')));
   return true;
+}
+
+// Digits alone: whoever else reads the request must find the same end of it.
+bool ReadLength(absl::string_view text, std::size_t& length) {
+  return std::all_of(text.begin(), text.end(), absl::ascii_isdigit) &&
+         absl::SimpleAtoi(text, &length);
 }
 
 }  // namespace
@@ -110,12 +125,14 @@ HttpParse ParseHttp(absl::string_view received, std::size_t max_body_bytes) {
       !ReadHeaders(lines, parse.request)) {
     return Bad(400, "no HTTP/1.1 request");
   }
-  if (!parse.request.Header("transfer-encoding").empty()) {
+  if (parse.request.headers.count("transfer-encoding") > 0) {
     return Bad(411, "bodies need a Content-Length");
   }
   std::size_t length = 0;
-  const absl::string_view given = parse.request.Header("content-length");
-  if (!given.empty() && !absl::SimpleAtoi(given, &length)) return Bad(400, "bad Content-Length");
+  if (parse.request.headers.count("content-length") > 0 &&
+      !ReadLength(parse.request.Header("content-length"), length)) {
+    return Bad(400, "bad Content-Length");
+  }
   if (length > max_body_bytes) return Bad(413, "the body is too large");
   parse.size = head_end + sizeof(kHeadEnd) - 1 + length;
   if (received.size() < parse.size) return HttpParse();

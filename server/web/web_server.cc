@@ -3,6 +3,8 @@
 #include "server/web/web_server.h"
 
 #include <errno.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
@@ -18,6 +20,7 @@
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/strip.h"
 #include "core/types/status_macros.h"
 #include "server/base/address.h"
 #include "server/base/tcp_listener.h"
@@ -27,8 +30,12 @@ namespace plumescout::server {
 namespace {
 
 constexpr std::size_t kReadBytes = 65'536;
+// Of requests and messages of one connection before the others have their turn.
+constexpr int kMaxStepsOfTurn = 32;
 // How long to wait after a connection could not be taken, for want of descriptors perhaps.
 constexpr absl::Duration kAcceptPause = absl::Milliseconds(100);
+// Of a request that was refused.
+constexpr std::size_t kMaxDroppedBytes = std::size_t{64} << 20;
 constexpr char kNoStore[] = "no-store";
 // What a browser's call brings along that calls may have.
 constexpr std::array<const char*, 2> kMetadata = {"authorization", "x-request-id"};
@@ -37,12 +44,37 @@ std::string RefusedCall(const grpc::Status& status) {
   return HttpAnswerOf(200, kGrpcWebType, kNoStore, TrailerFrame(status));
 }
 
+// All of an answer but its body.
+std::string HeadOf(const std::string& answer) {
+  constexpr char kHeadEnd[] = "\r\n\r\n";
+  return answer.substr(0, answer.find(kHeadEnd) + sizeof(kHeadEnd) - 1);
+}
+
 std::int64_t ToPollTimeout(SteadyTime until) {
   constexpr int kForEver = -1;
   constexpr std::int64_t kRoundUp_ms = 1;
   if (until == SteadyTime::max()) return kForEver;
   const auto left = std::max(until - SteadyNow(), SteadyTime::duration::zero());
   return absl::ToInt64Milliseconds(absl::FromChrono(left)) + kRoundUp_ms;
+}
+
+// Ends connections, and with them streams, of hosts that vanished without a word, in about a
+// minute; and lets small messages go at once.
+void WatchPeer(int fd) {
+  struct Option {
+    int level;
+    int name;
+    int value;
+  };
+  constexpr std::array<Option, 6> kOptions = {{{SOL_SOCKET, SO_KEEPALIVE, 1},
+                                               {IPPROTO_TCP, TCP_KEEPIDLE, 30},   // s
+                                               {IPPROTO_TCP, TCP_KEEPINTVL, 10},  // s
+                                               {IPPROTO_TCP, TCP_KEEPCNT, 3},
+                                               {IPPROTO_TCP, TCP_USER_TIMEOUT, 60'000},  // ms
+                                               {IPPROTO_TCP, TCP_NODELAY, 1}}};
+  for (const Option& option : kOptions) {
+    setsockopt(fd, option.level, option.name, &option.value, sizeof(option.value));
+  }
 }
 
 }  // namespace
@@ -118,6 +150,7 @@ void WebServer::Run() {
 bool WebServer::Await() {
   std::vector<pollfd> wanted = {{bell_->fd(), POLLIN, 0}};
   SteadyTime until = SteadyTime::max();
+  bool has_more = false;
   if (SteadyNow() < accept_after_) {
     until = accept_after_;
   } else {
@@ -130,8 +163,9 @@ bool WebServer::Await() {
     const int out = connection.out.empty() ? 0 : POLLOUT;
     wanted.push_back({connection.fd, static_cast<short>(in | out), 0});
     until = std::min(until, connection.deadline);
+    has_more = has_more || connection.has_more;
   }
-  poll(wanted.data(), wanted.size(), static_cast<int>(ToPollTimeout(until)));
+  poll(wanted.data(), wanted.size(), has_more ? 0 : static_cast<int>(ToPollTimeout(until)));
   bell_->Silence();
   return !bell_->stop;
 }
@@ -144,7 +178,8 @@ void WebServer::Accept() {
     }
     return;
   }
-  if (connections_.size() >= static_cast<std::size_t>(options_.max_connections)) {
+  const int limit = options_.max_streams + options_.max_calls + options_.max_spare_connections;
+  if (connections_.size() >= static_cast<std::size_t>(limit)) {
     // Browsers keep connections open that they have no use for.
     const auto idle = std::find_if(connections_.begin(), connections_.end(),
                                    [](const Connection& other) { return other.is_idle(); });
@@ -155,6 +190,7 @@ void WebServer::Accept() {
     close(idle->fd);
     connections_.erase(idle);
   }
+  WatchPeer(fd);
   connections_.push_back({fd, After(SteadyNow(), options_.request_patience)});
 }
 
@@ -162,7 +198,8 @@ bool WebServer::Advance(Connection& connection) {
   if (SteadyNow() >= connection.deadline) return false;
   pollfd hung_up{connection.fd, POLLRDHUP, 0};
   if (connection.call != nullptr && poll(&hung_up, 1, 0) > 0) return false;
-  while (true) {
+  connection.has_more = false;
+  for (int step = 0; step < kMaxStepsOfTurn; ++step) {
     if (!Send(connection)) return false;
     if (!connection.out.empty()) return true;
     if (connection.call != nullptr) {
@@ -170,11 +207,20 @@ bool WebServer::Advance(Connection& connection) {
       if (connection.out.empty()) return true;
       continue;
     }
-    if (connection.close_after) return false;
+    if (connection.said_all) return Drop(connection);
+    if (connection.close_after) {
+      EndAnswers(connection);
+      continue;
+    }
+    // More is received only once all that came is answered: what waits here is bounded.
+    Answer(connection);
+    if (!connection.out.empty()) continue;
     if (!Receive(connection)) return false;
     Answer(connection);
     if (connection.out.empty()) return true;
   }
+  connection.has_more = true;
+  return true;
 }
 
 bool WebServer::Receive(Connection& connection) const {
@@ -187,20 +233,40 @@ bool WebServer::Receive(Connection& connection) const {
   return true;
 }
 
+// Closed at once while more comes, TCP would throw away the answer that is on its way.
+void WebServer::EndAnswers(Connection& connection) const {
+  shutdown(connection.fd, SHUT_WR);
+  connection.received.clear();
+  connection.said_all = true;
+  connection.deadline = After(SteadyNow(), options_.request_patience);
+}
+
+bool WebServer::Drop(Connection& connection) const {
+  std::array<char, kReadBytes> part;
+  const ssize_t count = recv(connection.fd, part.data(), part.size(), 0);
+  if (count <= 0) return count < 0 && (errno == EAGAIN || errno == EINTR);
+  connection.dropped_bytes += static_cast<std::size_t>(count);
+  return connection.dropped_bytes <= kMaxDroppedBytes;
+}
+
 bool WebServer::Send(Connection& connection) const {
   while (connection.sent < connection.out.size()) {
     const ssize_t count = send(connection.fd, connection.out.data() + connection.sent,
                                connection.out.size() - connection.sent, MSG_NOSIGNAL);
     if (count < 0) return errno == EAGAIN || errno == EINTR;
     connection.sent += static_cast<std::size_t>(count);
-    connection.deadline = After(SteadyNow(), options_.reader_patience);
+    connection.deadline =
+        std::min(After(SteadyNow(), options_.reader_patience), connection.answer_deadline);
   }
   if (connection.out.empty()) return true;
   connection.out.clear();
   connection.sent = 0;
-  connection.deadline = connection.call != nullptr
-                            ? SteadyTime::max()  // calls have deadlines of their own, or none
-                            : After(SteadyNow(), options_.idle_patience);
+  connection.answer_deadline = SteadyTime::max();
+  connection.deadline =
+      connection.call != nullptr
+          ? SteadyTime::max()  // calls have deadlines of their own, or none
+          : After(SteadyNow(),
+                  connection.received.empty() ? options_.idle_patience : options_.request_patience);
   return true;
 }
 
@@ -239,17 +305,29 @@ void WebServer::Answer(Connection& connection) {
   } else {
     connection.out = HttpRefusal(405, "GET, HEAD and POST only");
   }
+  if (request.method == "HEAD") connection.out = HeadOf(connection.out);
+  if (connection.call == nullptr) {
+    connection.answer_deadline = After(SteadyNow(), options_.answer_patience);
+  }
+}
+
+bool WebServer::IsNameOfFront(absl::string_view host) const {
+  return std::find(options_.hosts.begin(), options_.hosts.end(), host) != options_.hosts.end();
 }
 
 std::string WebServer::Suspicion(const HttpRequest& request) const {
   const absl::string_view host = request.Header("host");
   if (host.empty()) return "no Host";
-  if (local_ && (IsUnixAddress(host) || !IsLocalAddress(host))) {
-    return "the console is served to this machine alone";
+  const bool any_name = !local_ && options_.hosts.empty();
+  const bool of_loopback = !IsUnixAddress(host) && IsLocalAddress(host);
+  if (!any_name && !of_loopback && !IsNameOfFront(host)) {
+    return local_ ? "the console is served to this machine alone"
+                  : "the console has other names: console.hosts";
   }
-  const absl::string_view origin = request.Header("origin");
-  if (origin.empty() || origin == absl::StrCat("http://", host) ||
-      origin == absl::StrCat("https://", host)) {
+  absl::string_view origin = request.Header("origin");
+  if (origin.empty()) return "";
+  if ((absl::ConsumePrefix(&origin, "https://") || absl::ConsumePrefix(&origin, "http://")) &&
+      (origin == host || IsNameOfFront(origin))) {
     return "";
   }
   return "pages of other hosts may not call";
@@ -262,11 +340,7 @@ std::string WebServer::AnswerFile(const HttpRequest& request) const {
                                 ? "no console here: start the server with --http-root FOLDER"
                                 : "no such file");
   }
-  if (request.method == "GET") {
-    return HttpAnswerOf(200, file->type, file->caching, file->content);
-  }
-  return HttpHead(200, file->type, file->caching,
-                  absl::StrCat("Content-Length: ", file->content.size()));
+  return HttpAnswerOf(200, file->type, file->caching, file->content);
 }
 
 int WebServer::CountCalls(bool streams) const {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "absl/time/time.h"
@@ -21,15 +22,19 @@ namespace plumescout::server {
 
 struct WebOptions {
   StaticFiles files = {};
+  std::vector<std::string> hosts = {};      // names of a front, as they stand in addresses
   std::size_t max_message_bytes = 262'144;  // of a request
   int max_streams = 64;                     // at one time, of all pages
   int max_calls = 64;                       // that are no streams, at one time
-  int max_connections = 256;
+  // Beside those of streams and calls: for files, and those that browsers keep without a use.
+  int max_spare_connections = 128;
   absl::Duration request_patience =
       absl::Seconds(10);                             // from the first byte of a request to its last
   absl::Duration idle_patience = absl::Seconds(60);  // between requests of a connection
   // Whoever takes no byte of an answer for so long is hung up on.
   absl::Duration reader_patience = absl::Seconds(20);
+  // From the first byte of an answer that is no call's to its last.
+  absl::Duration answer_patience = absl::Seconds(60);
   absl::Duration call_patience = absl::Seconds(60);  // of calls that are no streams
 };
 
@@ -37,7 +42,8 @@ struct WebOptions {
 // pass the same door as all calls. One thread moves bytes between sockets and calls and waits for
 // nobody: a page that does not read costs its connection and one message. Only pages that this
 // server gave out may call (the header Origin), and where it listens on loopback, only by names of
-// loopback (the header Host): pages of other hosts cannot act for whoever looks at them.
+// loopback or of the front (the header Host): pages of other hosts cannot act for whoever looks at
+// them.
 class WebServer {
   struct Private {
     explicit Private() = default;
@@ -67,9 +73,13 @@ class WebServer {
     std::string received = {};
     std::string out = {};
     std::size_t sent = 0;
-    std::shared_ptr<WebCall> call = nullptr;  // whose answer is on its way
+    SteadyTime answer_deadline = SteadyTime::max();  // of `out`, however it goes on
+    std::shared_ptr<WebCall> call = nullptr;         // whose answer is on its way
     bool is_stream = false;
     bool close_after = false;  // once `out` is sent
+    bool has_more = false;     // to do at once: others came first
+    bool said_all = false;     // what comes is dropped until the other side closes
+    std::size_t dropped_bytes = 0;
 
     bool is_idle() const { return call == nullptr && out.empty() && received.empty(); }
   };
@@ -83,12 +93,16 @@ class WebServer {
   // Each false if the connection is at its end.
   bool Receive(Connection& connection) const;
   bool Send(Connection& connection) const;
+  bool Drop(Connection& connection) const;
+  // After the last answer.
+  void EndAnswers(Connection& connection) const;
   // Puts what the call has to say behind what is sent; hands the connection back after the last of
   // it.
   void TakeFrames(Connection& connection);
   // Of the request at the front of what was received, if it is whole.
   void Answer(Connection& connection);
   std::string AnswerFile(const HttpRequest& request) const;
+  bool IsNameOfFront(absl::string_view host) const;
   // Why the page may not ask this; empty: it may.
   std::string Suspicion(const HttpRequest& request) const;
   void StartCall(const HttpRequest& request, Connection& connection);

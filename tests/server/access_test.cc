@@ -7,6 +7,7 @@
 #include <string>
 
 #include "plumescout/v1/map_service.grpc.pb.h"
+#include "plumescout/v1/planning_service.grpc.pb.h"
 #include "plumescout/v1/snapshot_service.grpc.pb.h"
 #include "server/access/rpc.h"
 #include "server/store/memory_store.h"
@@ -74,6 +75,20 @@ TEST_F(WhoMayCallTest, ARobotActsForItselfAlone) {
     ++checked;
   }
   EXPECT_GE(checked, 9);
+}
+
+TEST_F(WhoMayCallTest, ARobotIsNotToldWhatOthersWereTold) {
+  v1::ListPlansRequest request;
+  request.set_mission("missions/ghost");
+  const auto ask = [&](const std::string& token) {
+    const Method& method = *google::protobuf::DescriptorPool::generated_pool()->FindMethodByName(
+        "plumescout.v1.PlanningService.ListPlans");
+    return AnyCall(channel_, method, token).Make(request).code;
+  };
+  EXPECT_EQ(ask(kScout), grpc::StatusCode::NOT_FOUND);
+  request.set_with_latest(true);
+  EXPECT_EQ(ask(kScout), grpc::StatusCode::PERMISSION_DENIED);
+  EXPECT_EQ(ask(kEve), grpc::StatusCode::NOT_FOUND);
 }
 
 TEST_F(WhoMayCallTest, AStreamEndsOnceItsTokenIsRevoked) {

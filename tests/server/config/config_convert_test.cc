@@ -30,7 +30,7 @@ ServerConfig Unlike() {
   config.mission.seed = 21;
   config.observe = {"127.0.0.1:1", "debug", "json", 0.5, false, true};
   config.store = {kSqliteStore, "f", 1'000'000, 3, 0.5};
-  config.console = {"127.0.0.1:2", "g", 5};
+  config.console = {"127.0.0.1:2", "g", 5, "h"};
   return config;
 }
 

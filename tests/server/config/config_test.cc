@@ -188,6 +188,11 @@ TEST(ConfigTest, ConsoleHasAnAddressAndRoomForStreams) {
   ServerConfig config;
   config.console.max_stream_count = 0;
   EXPECT_THAT(RefusalOf(config), StartsWith("console.max_stream_count = 0 "));
+  config = {};
+  config.console.hosts = "console.example,[::1]:8080";
+  EXPECT_EQ(Validate(config), absl::OkStatus());
+  config.console.hosts = "https://console.example";
+  EXPECT_THAT(RefusalOf(config), StartsWith("console.hosts = https://console.example must be "));
 }
 
 TEST(ConfigTest, WordsAreChecked) {

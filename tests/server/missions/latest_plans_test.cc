@@ -39,6 +39,15 @@ TEST(LatestPlans, EachRobotHasItsLatest) {
   EXPECT_THAT(Names(plans), ElementsAre("r1 2", "r2 3"));
 }
 
+TEST(LatestPlans, RemovedRobotsAreForgotten) {
+  LatestPlans plans;
+  plans.Note(PlanOf("r1", 1));
+  plans.Note(PlanOf("r2", 2));
+  plans.Forget("r1");
+  plans.Forget("unknown");
+  EXPECT_THAT(Names(plans), ElementsAre("r2 2"));
+}
+
 TEST(LatestPlans, OldestAreForgottenBeyondTheLimit) {
   LatestPlans plans;
   PlanId id = 0;

@@ -66,6 +66,10 @@ TEST(GrpcWeb, TimeoutsHaveUnits) {
   EXPECT_EQ(ParseGrpcTimeout("1H"), absl::Hours(1));
   EXPECT_EQ(ParseGrpcTimeout("7u"), absl::Microseconds(7));
   EXPECT_EQ(ParseGrpcTimeout("99999999n"), absl::Nanoseconds(99'999'999));
+  EXPECT_EQ(ParseGrpcTimeout("24H"), absl::Hours(24));
+  for (const char* text : {"25H", "99999999H", "99999999M", "86401S"}) {
+    EXPECT_EQ(ParseGrpcTimeout(text), absl::Hours(24)) << text;
+  }
   for (const char* text : {"", "m", "1", "-1S", "1.5S", "1s", "999999999n"}) {
     EXPECT_EQ(ParseGrpcTimeout(text), std::nullopt) << text;
   }

@@ -40,11 +40,25 @@ TEST(HttpMessage, WhatIsNoRequestIsBad) {
         "GET / HTTP/1.1\r\nno header\r\n\r\n", "GET / HTTP/1.1\r\n: x\r\n\r\n",
         "GET / HTTP/1.1\r\na : x\r\n\r\n", "GET / HTTP/1.1\r\na: 1\r\nA: 2\r\n\r\n",
         "GET / HTTP/1.1\r\nContent-Length: -1\r\n\r\n",
-        "GET / HTTP/1.1\r\nContent-Length: 1x\r\n\r\n"}) {
+        "GET / HTTP/1.1\r\nContent-Length: 1x\r\n\r\n",
+        "GET / HTTP/1.1\r\nContent-Length: +5\r\n\r\n",
+        "GET / HTTP/1.1\r\nContent-Length: 1 1\r\n\r\n",
+        "GET / HTTP/1.1\r\nContent-Length:\r\n\r\n", "GET / HTTP/1.1\r\na: x\nb: y\r\n\r\n",
+        "GET / HTTP/1.1\r\na: x\ry\r\n\r\n", "GET / HTTP/1.1\r\na: \x01\r\n\r\n",
+        "GET / HTTP/1.1\r\na: \x7f\r\n\r\n", "GET /\x01 HTTP/1.1\r\n\r\n"}) {
     const HttpParse parse = ParseHttp(text, kMaxBody);
     EXPECT_EQ(parse.state, State::kBad) << text;
     EXPECT_EQ(parse.code, 400) << text;
   }
+}
+
+TEST(HttpMessage, NulIsNoPartOfARequest) {
+  const std::string text("GET / HTTP/1.1\r\na: x\0y\r\n\r\n", 26);
+  EXPECT_EQ(ParseHttp(text, kMaxBody).code, 400);
+}
+
+TEST(HttpMessage, TabsMayStandInHeaders) {
+  EXPECT_EQ(ParseHttp("GET / HTTP/1.1\r\na:\tx\ty\r\n\r\n", kMaxBody).request.Header("a"), "x\ty");
 }
 
 TEST(HttpMessage, BodiesAreBounded) {
@@ -52,6 +66,7 @@ TEST(HttpMessage, BodiesAreBounded) {
             State::kPartial);
   EXPECT_EQ(ParseHttp("POST / HTTP/1.1\r\nContent-Length: 11\r\n\r\n", kMaxBody).code, 413);
   EXPECT_EQ(ParseHttp("POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n", kMaxBody).code, 411);
+  EXPECT_EQ(ParseHttp("POST / HTTP/1.1\r\nTransfer-Encoding:\r\n\r\n", kMaxBody).code, 411);
 }
 
 TEST(HttpMessage, HeadsAreBounded) {

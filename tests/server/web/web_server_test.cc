@@ -4,16 +4,21 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <netinet/tcp.h>
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <fstream>
 #include <memory>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "server/web/grpc_web.h"
+#include "server/web/http_message.h"
 #include "tests/server/http_client.h"
 #include "tests/server/service_fixture.h"
 #include "tests/server/token_line.h"
@@ -50,8 +55,37 @@ class Client {
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
 
-  void Send(const std::string& text) const {
-    EXPECT_EQ(send(fd_, text.data(), text.size(), MSG_NOSIGNAL), static_cast<ssize_t>(text.size()));
+  void Send(const std::string& text) const { EXPECT_TRUE(TrySend(text)); }
+  // False if the other side does not take all of it.
+  bool TrySend(const std::string& text) const {
+    return send(fd_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
+  }
+  // An option of the socket at the other side, which is in this process; -1: there is none.
+  int OptionOfPeer(int level, int name) const {
+    sockaddr_in here{};
+    socklen_t size = sizeof(here);
+    getsockname(fd_, reinterpret_cast<sockaddr*>(&here), &size);
+    for (int fd = 0; fd < kMaxDescriptor; ++fd) {
+      sockaddr_in peer{};
+      size = sizeof(peer);
+      if (getpeername(fd, reinterpret_cast<sockaddr*>(&peer), &size) != 0) continue;
+      if (peer.sin_family != AF_INET || peer.sin_port != here.sin_port) continue;
+      int value = -1;
+      size = sizeof(value);
+      return getsockopt(fd, level, name, &value, &size) == 0 ? value : -1;
+    }
+    return -1;
+  }
+  void EndSending() const { shutdown(fd_, SHUT_WR); }
+  // Bytes until the other side closes.
+  std::size_t CountToEnd() const {
+    std::size_t received = 0;
+    std::array<char, 65'536> part{};
+    for (ssize_t count = 1; count > 0;
+         received += static_cast<std::size_t>(std::max<ssize_t>(count, 0))) {
+      count = recv(fd_, part.data(), part.size(), 0);
+    }
+    return received;
   }
   // Until this comes, or the other side closes.
   std::string ReadTo(const std::string& end) const {
@@ -66,6 +100,8 @@ class Client {
   }
 
  private:
+  static constexpr int kMaxDescriptor = 1024;
+
   const int fd_;
 };
 
@@ -128,6 +164,26 @@ TEST_F(WebServerTest, OnlyItsOwnPagesMayCall) {
   }
 }
 
+TEST_F(WebServerTest, PagesOfAFrontMayCall) {
+  WebOptions options;
+  options.hosts = {"console.example"};
+  Serve(std::move(options));
+  const auto with = [&](const std::string& origin) {
+    return Exchange(Post(kListMissions, "", absl::StrCat("Origin: ", origin, "\r\n", kClose)));
+  };
+  EXPECT_THAT(with("https://console.example"), StartsWith("HTTP/1.1 200"));
+  EXPECT_THAT(with("http://localhost"), StartsWith("HTTP/1.1 200"));
+  for (const char* origin : {"https://console.example:1", "https://x.console.example",
+                             "https://console.example.evil", "console.example"}) {
+    EXPECT_THAT(with(origin), StartsWith("HTTP/1.1 403")) << origin;
+  }
+  const auto at = [&](const std::string& host) {
+    return Exchange(absl::StrCat("GET /x HTTP/1.1\r\nHost: ", host, "\r\n", kClose, "\r\n"));
+  };
+  EXPECT_THAT(at("console.example"), StartsWith("HTTP/1.1 404"));
+  EXPECT_THAT(at("evil.example"), StartsWith("HTTP/1.1 403"));
+}
+
 TEST_F(WebServerTest, WhatIsNoCallIsRefused) {
   Serve();
   EXPECT_THAT(Exchange("POST / HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"),
@@ -145,6 +201,15 @@ TEST_F(WebServerTest, MessagesAreBounded) {
   options.max_message_bytes = 100;
   Serve(std::move(options));
   EXPECT_THAT(Exchange(Post(kListMissions, std::string(101, 'x'))), StartsWith("HTTP/1.1 413"));
+}
+
+TEST_F(WebServerTest, RefusalsArriveWhateverIsStillOnItsWay) {
+  WebOptions options;
+  options.max_message_bytes = 100;
+  Serve(std::move(options));
+  const std::string answer = Exchange(Post(kListMissions, std::string(1 << 20, 'x')));
+  EXPECT_THAT(answer, StartsWith("HTTP/1.1 413"));
+  EXPECT_THAT(answer, ::testing::EndsWith("the body is too large\n"));
 }
 
 TEST_F(WebServerTest, CallsHaveTheIdentityOfTheirTokens) {
@@ -192,6 +257,18 @@ TEST_F(WebServerTest, StreamsEndWhenTheServerDrains) {
   EXPECT_THAT(client.ReadTo("grpc-status"), HasSubstr("grpc-status"));
 }
 
+TEST_F(WebServerTest, VanishedPeersAreNoticed) {
+  Serve();
+  const Client client(web_->port());
+  client.Send(WatchHall());
+  client.ReadTo("\r\n\r\n");  // it was accepted
+  EXPECT_EQ(client.OptionOfPeer(SOL_SOCKET, SO_KEEPALIVE), 1);
+  EXPECT_EQ(client.OptionOfPeer(IPPROTO_TCP, TCP_KEEPIDLE), 30);
+  EXPECT_EQ(client.OptionOfPeer(IPPROTO_TCP, TCP_KEEPCNT), 3);
+  EXPECT_EQ(client.OptionOfPeer(IPPROTO_TCP, TCP_USER_TIMEOUT), 60'000);
+  EXPECT_EQ(client.OptionOfPeer(IPPROTO_TCP, TCP_NODELAY), 1);
+}
+
 // A folder with this page.
 StaticFiles PageOf(const std::string& content) {
   const TempFolder folder;
@@ -211,6 +288,8 @@ TEST_F(WebServerTest, PagesAreServed) {
   EXPECT_THAT(Exchange(get), ::testing::EndsWith("\r\n\r\n<p>console"));
   EXPECT_THAT(Exchange("HEAD" + get.substr(3)), ::testing::EndsWith("Content-Length: 10\r\n\r\n"));
   EXPECT_THAT(Exchange("GET /x" + get.substr(5)), StartsWith("HTTP/1.1 404"));
+  EXPECT_THAT(Exchange("HEAD /x" + get.substr(5)),
+              ::testing::EndsWith("Content-Length: 13\r\n\r\n"));  // no such file, and a line end
 }
 
 TEST_F(WebServerTest, WhoDoesNotReadHoldsUpNobody) {
@@ -222,6 +301,102 @@ TEST_F(WebServerTest, WhoDoesNotReadHoldsUpNobody) {
   stalled.Send(kGetPage);
   EXPECT_THAT(Exchange(Post(kListMissions, "")), HasSubstr("grpc-status: 0\r\n"));
   EXPECT_THAT(Exchange(kGetPage), ::testing::EndsWith(large));
+}
+
+TEST_F(WebServerTest, AnswersHaveOneTimeLimitHoweverTheyAreRead) {
+  const std::string large(std::size_t{16} << 20, 'x');  // more than sockets hold
+  WebOptions options;
+  options.files = PageOf(large);
+  options.answer_patience = absl::ZeroDuration();
+  options.reader_patience = absl::InfiniteDuration();
+  Serve(std::move(options));
+  const Client slow(web_->port());
+  slow.Send(kGetPage);
+  // Each comes to its turn after the page has had one.
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_THAT(Exchange(Post(kListMissions, "")), HasSubstr("grpc-status: 0\r\n"));
+  }
+  EXPECT_LT(slow.CountToEnd(), large.size());
+}
+
+TEST_F(WebServerTest, ThereAreAsManyConnectionsAsStreamsAndCalls) {
+  WebOptions options;
+  options.max_streams = 1;
+  options.max_calls = 0;
+  options.max_spare_connections = 0;
+  Serve(std::move(options));
+  const Client stream(web_->port());
+  stream.Send(WatchHall());
+  EXPECT_THAT(stream.ReadTo("\r\n\r\n"), HasSubstr("200 OK"));
+  const Client other(web_->port());
+  EXPECT_EQ(other.CountToEnd(), 0U);
+}
+
+// Sends requests without waiting for their answers, and does not end by itself.
+class Flood {
+ public:
+  explicit Flood(int port)
+      : client_(port),
+        reader_([this] { answered_bytes_ = client_.CountToEnd(); }),
+        sender_([this] { Send(); }) {}
+  ~Flood() { End(); }
+  Flood(const Flood&) = delete;
+  Flood& operator=(const Flood&) = delete;
+
+  void AwaitMegabyte() const {
+    for (std::int64_t sent = 0; sent < kMegabyte / kSize;) {
+      sent_.wait(sent);
+      sent = sent_;
+    }
+  }
+  void End() {
+    ended_ = true;
+    if (sender_.joinable()) sender_.join();
+    if (reader_.joinable()) reader_.join();
+  }
+  std::int64_t sent() const { return sent_; }
+  std::size_t answered_bytes() const { return answered_bytes_; }
+
+  static constexpr char kGet[] = "GET /nothing HTTP/1.1\r\nHost: localhost\r\n\r\n";
+
+ private:
+  static constexpr std::int64_t kMegabyte = 1 << 20;
+  static constexpr std::int64_t kSize = sizeof(kGet) - 1;
+  static constexpr int kBatch = 1000;
+
+  void Send() {
+    std::string batch;
+    for (int i = 0; i < kBatch; ++i) batch += kGet;
+    while (!ended_ && client_.TrySend(batch)) {
+      sent_ += kBatch;
+      sent_.notify_all();
+    }
+    client_.EndSending();
+  }
+
+  const Client client_;
+  std::atomic<bool> ended_ = false;
+  std::atomic<std::int64_t> sent_ = 0;
+  std::size_t answered_bytes_ = 0;
+  std::thread reader_;  // last: they use all of the above
+  std::thread sender_;
+};
+
+TEST_F(WebServerTest, WhoAsksWithoutEndHoldsUpNobody) {
+  Serve();
+  const std::string answer = HttpRefusal(404, "no such file");
+  Flood flood(web_->port());
+  flood.AwaitMegabyte();
+  EXPECT_THAT(Exchange(Post(kListMissions, "")), HasSubstr("grpc-status: 0\r\n"));
+  flood.End();
+  EXPECT_EQ(flood.answered_bytes(), static_cast<std::size_t>(flood.sent()) * answer.size());
+}
+
+TEST_F(WebServerTest, WhoAsksWithoutEndDoesNotKeepItFromStopping) {
+  Serve();
+  const Flood flood(web_->port());
+  flood.AwaitMegabyte();
+  web_ = nullptr;
 }
 
 TEST_F(WebServerTest, WithoutPagesItSaysSo) {
