@@ -3,9 +3,10 @@
 // The map on a canvas: cells as a picture of their own, drawn scaled, and what lies on them as lines.
 import { CellPicture } from './cell_picture.ts';
 import type { CellLayer, Cells } from './cell_picture.ts';
-import { roundUp } from './colours.ts';
+import { MapPen } from './map_pen.ts';
 import type { CellRect, Raster } from './raster.ts';
 import { theme } from './theme.ts';
+import type { Trails } from './trails.ts';
 import { View } from './view.ts';
 import type { Box } from './view.ts';
 import type { MapStatus } from './wire/plumescout/v1/map_service_pb.ts';
@@ -19,7 +20,6 @@ import { shortName } from './words.ts';
 export const SWITCHES = ['frontiers', 'ways', 'trails', 'claims', 'names', 'areas', 'why'] as const;
 export type Switch = (typeof SWITCHES)[number];
 
-export type Trail = { points: [number, number][] };
 export type Place = { x_m: number; y_m: number };
 
 // Whatever lies on the map.
@@ -29,7 +29,7 @@ export type Scene = Cells & {
   why: Plan | null; // of the robot that is looked at
   asksWhy: boolean; // whether that is looked into
   candidate: number; // of it, pointed at; -1: none
-  trails: Map<string, Trail>;
+  trails: Trails;
   keepOut: Polygon[];
   home: Point2D | undefined;
   robot: string; // that is looked at
@@ -47,6 +47,7 @@ export class MapView {
   follow = false;
 
   private readonly context: CanvasRenderingContext2D;
+  private readonly pen: MapPen;
   private scheduled = false;
   private fitted = false;
   private robotHues = new Map<string, number>();
@@ -54,6 +55,7 @@ export class MapView {
 
   constructor(private readonly canvas: HTMLCanvasElement, private readonly scene: Scene) {
     this.context = canvas.getContext('2d')!;
+    this.pen = new MapPen(this.context, this.view);
     this.picture = new CellPicture(() => scene);
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.resize();
@@ -155,7 +157,7 @@ export class MapView {
     if (scene.raster === null) return;
     this.picture.prepare();
     if (this.follow) this.centreOnRobot();
-    this.drawGrid();
+    this.pen.grid();
     this.drawCells(scene.raster);
     if (this.on.has('areas')) this.drawAreas();
     if (this.on.has('trails')) this.drawTrails();
@@ -167,7 +169,7 @@ export class MapView {
     if (why !== null) this.drawGoals(why);
     this.drawRobots();
     this.drawAsked();
-    this.drawScaleBar();
+    this.pen.scaleBar();
   }
 
   private centreOnRobot(): void {
@@ -178,27 +180,6 @@ export class MapView {
     this.view.centreY_m = robot.pose.yM;
   }
 
-  // Metres, or tens of them: what is unknown is a plane too.
-  private drawGrid(): void {
-    const { context: c, view } = this;
-    const step = roundUp(40 / view.scale);
-    const [left, top] = view.toPlace(0, 0), [right, bottom] = view.toPlace(view.width, view.height);
-    c.strokeStyle = theme('--map-grid');
-    c.lineWidth = 1;
-    c.beginPath();
-    for (let x = Math.ceil(left / step) * step; x < right; x += step) {
-      const px = Math.round(view.toPixel(x, 0)[0]) + 0.5;
-      c.moveTo(px, 0);
-      c.lineTo(px, view.height);
-    }
-    for (let y = Math.ceil(bottom / step) * step; y < top; y += step) {
-      const py = Math.round(view.toPixel(0, y)[1]) + 0.5;
-      c.moveTo(0, py);
-      c.lineTo(view.width, py);
-    }
-    c.stroke();
-  }
-
   private drawCells(raster: Raster): void {
     const { x_m, y_m, columns, rows, resolution_m } = raster.geometry;
     const [x, y] = this.view.toPixel(x_m, y_m + rows * resolution_m);
@@ -207,37 +188,15 @@ export class MapView {
     this.context.drawImage(this.picture.canvas, x, y, columns * size, rows * size);
   }
 
-  private path(points: Iterable<{ xM: number; yM: number }>): void {
-    let first = true;
-    this.context.beginPath();
-    for (const point of points) {
-      const [x, y] = this.view.toPixel(point.xM, point.yM);
-      if (first) this.context.moveTo(x, y);
-      else this.context.lineTo(x, y);
-      first = false;
-    }
-  }
-  // A line that is seen on any ground: its colour on a rim.
-  private strokeTwice(colour: string, width: number, rim = 2.5): void {
-    const c = this.context;
-    c.lineJoin = c.lineCap = 'round';
-    c.strokeStyle = theme('--map-rim');
-    c.lineWidth = width + rim;
-    c.stroke();
-    c.strokeStyle = colour;
-    c.lineWidth = width;
-    c.stroke();
-  }
-
   private drawAreas(): void {
     const { context: c, scene, view } = this;
     for (const area of scene.keepOut) {
-      this.path(area.vertices);
+      this.pen.path(area.vertices);
       c.closePath();
       c.fillStyle = theme('--map-keep-out');
       c.fill();
       c.setLineDash([6, 4]);
-      this.strokeTwice(theme('--bad'), 1.5);
+      this.pen.strokeTwice(theme('--bad'), 1.5);
       c.setLineDash([]);
     }
     if (scene.home === undefined) return;
@@ -250,14 +209,14 @@ export class MapView {
     c.lineTo(x - 5, y + 7);
     c.lineTo(x + 5, y + 7);
     c.lineTo(x + 5, y - 2);
-    this.strokeTwice(theme('--map-ink'), 2);
+    this.pen.strokeTwice(theme('--map-ink'), 2);
   }
 
   private drawTrails(): void {
     for (const [robot, trail] of this.scene.trails) {
-      this.path(trail.points.map(([xM, yM]) => ({ xM, yM })));
+      this.pen.path(trail.points.map(([xM, yM]) => ({ xM, yM })));
       this.context.globalAlpha = 0.9;
-      this.strokeTwice(this.colourOf(robot), 1.75, 1);
+      this.pen.strokeTwice(this.colourOf(robot), 1.75, 1);
       this.context.globalAlpha = 1;
     }
   }
@@ -291,7 +250,7 @@ export class MapView {
       } else {
         c.rect(x - 4.5, y - 4.5, 9, 9);
       }
-      this.strokeTwice(theme(gas ? '--frontier-gas' : '--frontier-occupancy'), 2);
+      this.pen.strokeTwice(theme(gas ? '--frontier-gas' : '--frontier-occupancy'), 2);
     }
   }
 
@@ -299,9 +258,9 @@ export class MapView {
     const { context: c, scene } = this;
     plan.candidates.forEach((candidate, i) => {
       if (i === plan.chosenIndex) return;
-      this.path(candidate.path);
+      this.pen.path(candidate.path);
       c.setLineDash(i === scene.candidate ? [] : [3, 4]);
-      this.strokeTwice(theme('--map-ink'), i === scene.candidate ? 3 : 1);
+      this.pen.strokeTwice(theme('--map-ink'), i === scene.candidate ? 3 : 1);
       c.setLineDash([]);
     });
   }
@@ -310,7 +269,7 @@ export class MapView {
     const c = this.context;
     plan.candidates.forEach((candidate, i) => {
       if (candidate.goal?.position !== undefined) {
-        this.label(candidate.goal.position, String(i + 1), i === plan.chosenIndex);
+        this.pen.disc(candidate.goal.position, String(i + 1), i === plan.chosenIndex);
       }
     });
     for (const rejected of plan.rejectedGoals) {
@@ -323,25 +282,8 @@ export class MapView {
       c.lineTo(x + 4, y + 4);
       c.moveTo(x + 4, y - 4);
       c.lineTo(x - 4, y + 4);
-      this.strokeTwice(theme('--bad'), 1.5);
+      this.pen.strokeTwice(theme('--bad'), 1.5);
     }
-  }
-
-  private label(at: Point2D, text: string, strong: boolean): void {
-    const c = this.context;
-    const [x, y] = this.view.toPixel(at.xM, at.yM);
-    c.beginPath();
-    c.arc(x, y, 9, 0, 2 * Math.PI);
-    c.fillStyle = theme(strong ? '--map-ink' : '--map-rim');
-    c.fill();
-    c.strokeStyle = theme('--map-ink');
-    c.lineWidth = 1.2;
-    c.stroke();
-    c.fillStyle = theme(strong ? '--map-rim' : '--map-ink');
-    c.font = '600 11px system-ui, sans-serif';
-    c.textAlign = 'center';
-    c.textBaseline = 'middle';
-    c.fillText(text, x, y + 0.5);
   }
 
   private drawWays(): void {
@@ -349,8 +291,8 @@ export class MapView {
     for (const plan of scene.plans) {
       const points = plan.trajectory?.waypoints.flatMap((one) => one.pose ?? []) ?? [];
       if (points.length < 2) continue;
-      this.path(points);
-      this.strokeTwice(this.colourOf(plan.robot), plan.robot === scene.robot ? 3.5 : 2.5);
+      this.pen.path(points);
+      this.pen.strokeTwice(this.colourOf(plan.robot), plan.robot === scene.robot ? 3.5 : 2.5);
     }
   }
 
@@ -361,7 +303,7 @@ export class MapView {
       const [x, y] = this.view.toPixel(plan.goal.xM, plan.goal.yM);
       c.beginPath();
       c.arc(x, y, 7, 0, 2 * Math.PI);
-      this.strokeTwice(this.colourOf(plan.robot), 2.5);
+      this.pen.strokeTwice(this.colourOf(plan.robot), 2.5);
     }
   }
 
@@ -411,27 +353,6 @@ export class MapView {
     c.lineTo(x, y - 3);
     c.moveTo(x, y + 3);
     c.lineTo(x, y + 10);
-    this.strokeTwice(theme('--map-ink'), 2);
-  }
-
-  private drawScaleBar(): void {
-    const { context: c, view } = this;
-    const length_m = roundUp(60 / view.scale);
-    const length = length_m * view.scale;
-    const x = view.width - length - 16, y = view.height - 14;
-    c.beginPath();
-    c.moveTo(x, y - 5);
-    c.lineTo(x, y);
-    c.lineTo(x + length, y);
-    c.lineTo(x + length, y - 5);
-    this.strokeTwice(theme('--map-ink'), 1.5);
-    c.font = '12px system-ui, sans-serif';
-    c.textAlign = 'center';
-    c.textBaseline = 'bottom';
-    c.lineWidth = 3.5;
-    c.strokeStyle = theme('--map-rim');
-    c.strokeText(`${length_m} m`, x + length / 2, y - 3);
-    c.fillStyle = theme('--map-ink');
-    c.fillText(`${length_m} m`, x + length / 2, y - 3);
+    this.pen.strokeTwice(theme('--map-ink'), 2);
   }
 }

@@ -13,6 +13,7 @@ import { figuresOf } from './raster.ts';
 import type { CellRect } from './raster.ts';
 import { RobotsPanel } from './robots_panel.ts';
 import { refreshSession, session } from './session.ts';
+import { extendTrail } from './trails.ts';
 import { Watch, fetchMap } from './watch.ts';
 import type { LinkState } from './watch.ts';
 import type { MapStatus } from './wire/plumescout/v1/map_service_pb.ts';
@@ -22,10 +23,9 @@ import type { Robot } from './wire/plumescout/v1/robot_service_pb.ts';
 import { figure, missionState, phase } from './words.ts';
 import { WhyPanel } from './why_panel.ts';
 
-const MAX_TRAIL_POINTS = 4000;
-const TRAIL_STEP_M = 0.05;
 const TABS = ['Robots', 'Why', 'Charts', 'Operate'] as const;
 type Tab = (typeof TABS)[number];
+
 export class MissionPage {
   readonly element: HTMLElement;
   readonly head: HTMLElement[];
@@ -133,22 +133,9 @@ export class MissionPage {
       this.slider.value = String(revision);
       this.moment.textContent = `revision ${revision} of ${this.head_revision}`;
     }
-    for (const robot of status.robots) this.extendTrail(robot.robot, robot.pose?.xM, robot.pose?.yM);
+    for (const robot of status.robots) extendTrail(this.scene.trails, robot.robot, robot.pose);
     if (this.scene.robot === '' && status.robots.length > 0) this.choose(status.robots[0].robot);
     this.panel.map.draw();
-  }
-
-  private extendTrail(robot: string, x_m: number | undefined, y_m: number | undefined): void {
-    if (x_m === undefined || y_m === undefined) return;
-    let trail = this.scene.trails.get(robot);
-    if (trail === undefined) {
-      trail = { points: [] };
-      this.scene.trails.set(robot, trail);
-    }
-    const last = trail.points.at(-1);
-    if (last !== undefined && Math.hypot(last[0] - x_m, last[1] - y_m) < TRAIL_STEP_M) return;
-    trail.points.push([x_m, y_m]);
-    if (trail.points.length > MAX_TRAIL_POINTS) trail.points.shift();
   }
 
   private onLink(state: LinkState, trouble: Trouble | null, again_s: number): void {

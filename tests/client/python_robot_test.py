@@ -8,7 +8,7 @@ import unittest
 
 import grpc
 import plumescout_client
-from plumescout_client import client as client_module
+from plumescout_client import calls as calls_module
 
 from plumescout.v1 import ingest_service_pb2 as ingest_pb
 from plumescout.v1 import robot_service_pb2 as robot_pb
@@ -133,9 +133,9 @@ class WaitingTest(unittest.TestCase):
 
     def setUp(self):
         # The errors of gRPC have no public constructor: what error_of makes of them is given.
-        original = client_module.error_of
-        client_module.error_of = lambda error: error.told
-        self.addCleanup(setattr, client_module, "error_of", original)
+        original = calls_module.error_of
+        calls_module.error_of = lambda error: error.told
+        self.addCleanup(setattr, calls_module, "error_of", original)
 
     @staticmethod
     def trouble(reason, retry_after_s=0.001):

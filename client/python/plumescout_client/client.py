@@ -4,11 +4,9 @@
 
 import secrets
 import time
-import uuid
 
 import grpc
 import numpy as np
-import plumescout_channel
 from google.protobuf import json_format
 
 from plumescout.v1 import ingest_service_pb2_grpc as ingest_grpc
@@ -27,29 +25,13 @@ from plumescout.v1 import system_service_pb2 as system_pb
 from plumescout.v1 import system_service_pb2_grpc as system_grpc
 
 from . import mission_file
-from .errors import PlumeScoutError, error_of, is_unavailable, passes_by_itself
+from .calls import Calls
+from .errors import PlumeScoutError, error_of
 from .robot import Robot
 from .values import _map_from_proto, _points
 
-_KEEPALIVE_TIME_MS = 10_000  # matches the server's minimum ping interval
-_KEEPALIVE_TIMEOUT_MS = 5_000
-_MAX_RECEIVE_BYTES = 256 << 20  # more than any server sends in one part of a map
-_NAMED_CALL_TRIES = 3
 _MAP_ATTEMPTS = 5
 _LOG_EPOCH_END = 1 << 53
-_RETRY_AFTER_S = 0.5  # unless the server says how long
-
-
-def _channel(target, credentials):
-    return plumescout_channel.channel_of(
-        target,
-        options=[
-            ("grpc.keepalive_time_ms", _KEEPALIVE_TIME_MS),
-            ("grpc.keepalive_timeout_ms", _KEEPALIVE_TIMEOUT_MS),
-            ("grpc.max_receive_message_length", _MAX_RECEIVE_BYTES),
-        ],
-        **credentials,
-    )
 
 
 def _retention(keep_all):
@@ -58,13 +40,12 @@ def _retention(keep_all):
     return mission_pb.EVENT_RETENTION_SINCE_SNAPSHOT
 
 
-class Client:
+class Client(Calls):
     """One connection to a server. Its calls raise PlumeScoutError."""
 
     def __init__(self, target="127.0.0.1:50551", timeout_s=10.0, **credentials):
         """credentials: tls_ca, tls_cert, tls_key, token_file; see plumescout_channel."""
-        self._channel = _channel(target, credentials)
-        self._timeout_s = timeout_s
+        super().__init__(target, timeout_s, credentials)
         self._limits = None  # asked for when they are needed
         self._missions = mission_grpc.MissionServiceStub(self._channel)
         self._robots = robot_grpc.RobotServiceStub(self._channel)
@@ -73,15 +54,6 @@ class Client:
         self._maps = map_grpc.MapServiceStub(self._channel)
         self._snapshots = snapshot_grpc.SnapshotServiceStub(self._channel)
         self._system = system_grpc.SystemServiceStub(self._channel)
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.close()
-
-    def close(self):
-        self._channel.close()
 
     @property
     def limits(self):
@@ -375,41 +347,3 @@ class Client:
         mean_ppm = [g.mean_ppm if g.HasField("mean_ppm") else np.nan for g in gas]
         variance_ppm2 = [g.variance_ppm2 if g.HasField("variance_ppm2") else np.nan for g in gas]
         return np.array(mean_ppm), np.array(variance_ppm2)
-
-    def _call(self, method, request, timeout_s=None, before_try=None):
-        """Within its time, a call waits for a server that recovers or has no room on its disk.
-
-        before_try is given the request before it goes out, each time that it does."""
-        end_s = time.monotonic() + (timeout_s or self._timeout_s)
-        while True:
-            left_s = max(0.001, end_s - time.monotonic())
-            if before_try is not None:
-                before_try(request)
-            try:
-                return method(request, timeout=left_s, wait_for_ready=True)
-            except grpc.RpcError as grpc_error:
-                error = error_of(grpc_error)
-            wait_s = error.retry_after_s or _RETRY_AFTER_S
-            if not passes_by_itself(error) or time.monotonic() + wait_s > end_s:
-                raise error
-            time.sleep(wait_s)
-
-    def _call_named(self, method, request, timeout_s=None):
-        """A request with a name: made again when its answer is lost, it is carried out once."""
-        request.request_id = uuid.uuid4().hex
-        end_s = time.monotonic() + (timeout_s or self._timeout_s)
-        for tries_left in reversed(range(_NAMED_CALL_TRIES)):
-            try:
-                return self._call(method, request, max(0.001, end_s - time.monotonic()))
-            except PlumeScoutError as error:
-                if tries_left == 0 or not is_unavailable(error):
-                    raise
-
-    def _pages(self, method, request, field):
-        items = []
-        while True:
-            response = self._call(method, request)
-            items += getattr(response, field)
-            request.page_token = response.next_page_token
-            if not request.page_token:
-                return items
