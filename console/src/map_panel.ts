@@ -24,7 +24,8 @@ export class MapPanel {
   readonly element: HTMLElement;
   readonly banner = h('div', { class: 'banner', role: 'status' });
   readonly map: MapView;
-  thenRevision = -1n; // of scene.then
+  // What the change of the gas mean from scene.then to now is called.
+  private change = { name: 'Change', title: 'Change of the gas mean' };
 
   private readonly canvas = h('canvas', { tabindex: 0, role: 'img',
     'aria-label': 'Map of the mission. Drag or use the arrow keys to pan, + and − to zoom.' });
@@ -54,11 +55,16 @@ export class MapPanel {
   repaint(): void {
     this.map.setCells(this.map.picture.layer);
   }
+  callChange(name: string, title: string): void {
+    this.change = { name, title };
+    this.showTools();
+    this.showLegend();
+  }
 
   showLegend(): void {
     const { layer, scale, log } = this.map.picture;
     const title = layer === 'uncertainty' ? 'Uncertainty, one σ, ppm'
-      : layer === 'change' ? `Change of the gas mean since revision ${this.thenRevision}, ppm`
+      : layer === 'change' ? `${this.change.title}, ppm`
         : `Gas mean, ppm${log ? ' (logarithmic)' : ''}`;
     fillIfChanged(this.legend, JSON.stringify([title, scale, layer]), () => [
       ...(layer === 'none' ? [] : [h('div', {}, title), this.bar(title), h('div', { class: 'ticks' },
@@ -89,7 +95,7 @@ export class MapPanel {
     const open = this.tools.querySelector('details')?.open ?? false;
     fill(this.tools,
       ...LAYERS.map(([layer, name]) => h('button', { 'aria-pressed': String(map.picture.layer === layer),
-        onclick: () => this.setCells(layer) }, name)),
+        onclick: () => this.setCells(layer) }, layer === 'change' ? this.change.name : name)),
       h('button', { 'aria-pressed': String(map.picture.log), disabled: map.picture.layer !== 'mean',
         onclick: () => this.setCells('mean', !map.picture.log) }, 'Log'),
       h('details', { open }, h('summary', {}, 'Layers'), h('div', {}, ...SWITCHES.map((one) => this.switchOf(one)))),

@@ -52,6 +52,16 @@ export class MapPen {
     c.stroke();
   }
 
+  cross(at: { x_m: number; y_m: number }, colour: string, size = 6, width = 2.5): void {
+    const c = this.context;
+    const [x, y] = this.view.toPixel(at.x_m, at.y_m);
+    c.beginPath();
+    c.moveTo(x - size, y - size);
+    c.lineTo(x + size, y + size);
+    c.moveTo(x + size, y - size);
+    c.lineTo(x - size, y + size);
+    this.strokeTwice(colour, width);
+  }
   // A number in a circle.
   disc(at: Point2D, text: string, strong: boolean): void {
     const c = this.context;

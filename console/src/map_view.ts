@@ -34,6 +34,7 @@ export type Scene = Cells & {
   home: Point2D | undefined;
   robot: string; // that is looked at
   asked: Place | null; // the place that was clicked on
+  sources: Place[]; // of gas, if somebody knows
 };
 
 // What the buttons above the map take of it, pixels.
@@ -169,6 +170,7 @@ export class MapView {
     if (why !== null) this.drawGoals(why);
     this.drawRobots();
     this.drawAsked();
+    for (const source of scene.sources) this.pen.cross(source, theme('--bad'));
     this.pen.scaleBar();
   }
 
@@ -266,7 +268,6 @@ export class MapView {
   }
 
   private drawGoals(plan: Plan): void {
-    const c = this.context;
     plan.candidates.forEach((candidate, i) => {
       if (candidate.goal?.position !== undefined) {
         this.pen.disc(candidate.goal.position, String(i + 1), i === plan.chosenIndex);
@@ -276,13 +277,7 @@ export class MapView {
       const at = rejected.goal?.position;
       // Specks of frontiers are many, and nobody asks why not.
       if (at === undefined || rejected.reason === RejectedGoal_Reason.TOO_SMALL) continue;
-      const [x, y] = this.view.toPixel(at.xM, at.yM);
-      c.beginPath();
-      c.moveTo(x - 4, y - 4);
-      c.lineTo(x + 4, y + 4);
-      c.moveTo(x + 4, y - 4);
-      c.lineTo(x - 4, y + 4);
-      this.pen.strokeTwice(theme('--bad'), 1.5);
+      this.pen.cross({ x_m: at.xM, y_m: at.yM }, theme('--bad'), 4, 1.5);
     }
   }
 

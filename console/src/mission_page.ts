@@ -31,7 +31,8 @@ export class MissionPage {
   readonly head: HTMLElement[];
   private readonly scene: Scene = {
     raster: null, then: null, figures: null, threshold_ppm: 0, status: null, plans: [], why: null, asksWhy: false, candidate: -1,
-    trails: new Map(), keepOut: [], home: undefined, robot: '', asked: null };
+    trails: new Map(), keepOut: [], home: undefined, robot: '', asked: null,
+    sources: [] };
   private readonly panel: MapPanel;
   private readonly robotsPanel: RobotsPanel;
   private readonly why: WhyPanel;
@@ -221,8 +222,9 @@ export class MissionPage {
   private pin(): void {
     if (this.scene.raster === null) return;
     this.scene.then = this.scene.raster.copy();
-    this.panel.thenRevision = this.past ?? this.head_revision;
-    notice(`Revision ${this.panel.thenRevision} is pinned: “Change” shows what the gas mean did since.`);
+    const revision = this.past ?? this.head_revision;
+    this.panel.callChange('Change', `Change of the gas mean since revision ${revision}`);
+    notice(`Revision ${revision} is pinned: “Change” shows what the gas mean did since.`);
     this.panel.setCells('change');
   }
 

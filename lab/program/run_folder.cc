@@ -16,6 +16,7 @@
 #include "lab/formats/csv.h"
 #include "lab/formats/npy.h"
 #include "lab/formats/summary.h"
+#include "lab/program/explorer.h"
 #include "lab/report/number_labels.h"
 #include "lab/report/report.h"
 #include "lab/trials/team_picture.h"
@@ -127,6 +128,7 @@ ReportData MakeReport(const Run& run, const Summary& summary) {
   if (run.team.robots.size() > 1) report.team = MakeTeamPicture(run.team, run.world, run.look);
   report.server_killed_s = run.server_killed_s;
   report.key_numbers = LabelledNumbers(summary);
+  report.explorer = MakeExplorer(ReadExplorerPage(), run);
   return report;
 }
 

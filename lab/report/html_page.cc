@@ -38,6 +38,20 @@ th { padding: .2rem .6rem .2rem 0; text-align: left; }
 .numbers { width: 100%; max-width: 40rem; }
 .numbers td:first-child { color: #6b7280; }
 .numbers td:last-child { text-align: right; }
+@page { size: A4 landscape; margin: 8mm; }
+@media print {
+  body { padding: 0; font-size: 9px; }
+  h1 { margin: 0 0 .4rem; font-size: 1.2rem; }
+  .headline { gap: .2rem 2rem; margin: 0 0 .5rem; }
+  .headline strong { font-size: 1.1rem; }
+  .figures { gap: .5rem 1rem; margin: 0 0 .5rem; }
+  .panels { grid-template-columns: repeat(var(--columns), minmax(0, 1fr)); }
+  .charts { grid-template-columns: repeat(3, minmax(0, 1fr)); }
+  .panels img { max-height: 75mm; width: auto; max-width: 100%; }
+  .numbers { max-width: none; }
+  .numbers tbody { columns: 4; }
+  .numbers tr { display: flex; justify-content: space-between; }
+}
 )";
 
 std::string EscapeMarkup(absl::string_view text) {
@@ -138,7 +152,7 @@ std::string MakeHtmlPage(const ReportFigures& figures) {
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width\">\n<title>",
       title, "</title>\n<style>", kStyle, "</style>\n</head>\n<body>\n<h1>", title, "</h1>\n",
-      MakeNotes(figures), MakeHeadline(figures));
+      MakeNotes(figures), MakeHeadline(figures), figures.explorer);
   for (const TextTable& table : figures.tables) html += MakeTextTable(table);
   absl::StrAppend(&html, "<div class=\"figures panels\" style=\"--columns: ", PanelsPerRow(figures),
                   "\">\n");

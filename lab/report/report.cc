@@ -34,6 +34,7 @@ absl::Status Validate(const ReportData& data) {
 absl::Status WriteReport(const ReportData& data, const std::string& folder) {
   PLUMESCOUT_RETURN_IF_ERROR(Validate(data));
   ReportFigures figures{data.title, data.key_numbers, MakeMapPanels(data), MakeCharts(data)};
+  figures.explorer = data.explorer;
   if (data.team) figures.bar_charts.push_back(ShareChart(*data.team));
   const std::filesystem::path path(folder);
   PLUMESCOUT_RETURN_IF_ERROR(MakeFolder(folder));

@@ -39,6 +39,7 @@ struct ReportData {
   std::optional<TeamPicture> team = {};   // of several robots
   std::optional<double> server_killed_s;  // on purpose, at this time of the mission
   std::vector<std::pair<std::string, std::string>> key_numbers;  // name, value with unit
+  std::string explorer = {};  // HTML of the mission to look around in, for the page only
 };
 
 }  // namespace plumescout::lab

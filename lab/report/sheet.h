@@ -29,6 +29,7 @@ struct ReportFigures {
   // Under the first key numbers; the sheet has the first table if it is not too wide.
   std::vector<TextTable> tables = {};
   std::optional<std::size_t> panels_per_row = {};  // default: see PanelsPerRow
+  std::string explorer = {};                       // HTML under the headline of the page
 };
 
 // Sizes that page and sheet share.

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+// A plan in words and tables: what it was chosen from, and what was left out.
+import { h } from './dom.ts';
+import type { Plan, RejectedGoal } from './wire/plumescout/v1/planning_service_pb.ts';
+import { RejectedGoal_Reason } from './wire/plumescout/v1/planning_service_pb.ts';
+import { GoalKind } from './wire/plumescout/v1/types_pb.ts';
+import { duration, figure, goalKind, phase, reason, searchEnd, shortName, source } from './words.ts';
+
+// `pointAt` is told which candidate the pointer is on; -1: none.
+export function planContent(plan: Plan, pointAt: (candidate: number) => void): HTMLElement[] {
+  const cpu_s = Number(plan.cpuDuration?.seconds ?? 0) + (plan.cpuDuration?.nanos ?? 0) * 1e-9;
+  const parts: HTMLElement[] = [
+    h('h2', {}, `Plan ${shortName(plan.name)} of ${shortName(plan.robot)}`),
+    h('p', {}, plan.explanation),
+    h('p', { class: 'quiet' }, `${phase(plan.phase)} · ${plan.strategy} · search ended: ` +
+      `${searchEnd(plan.end)} · ${duration(cpu_s)} of CPU · revision ${plan.beliefRevision}` +
+      (plan.goalKept ? ' · it keeps its goal: no other is better by the margin' : '')),
+  ];
+  if (plan.candidates.length > 0) parts.push(candidates(plan, pointAt));
+  if (plan.rejectedGoals.length > 0) parts.push(rejected(plan));
+  return parts;
+}
+
+function candidates(plan: Plan, pointAt: (candidate: number) => void): HTMLElement {
+  const priced = plan.candidates.some((one) => one.expectedInformationNats !== undefined);
+  const rewarded = plan.candidates.some((one) => one.reward !== undefined);
+  const n = { class: 'n' };
+  return h('div', {}, h('h3', {}, `${plan.candidates.length} goals it could drive to`),
+    h('div', { class: 'scroll' }, h('table', {},
+      h('thead', {}, h('tr', {}, h('th', {}, '#'), h('th', {}, 'goal'), h('th', n, 'm'), h('th', n, 's'),
+        priced ? h('th', n, 'nats') : null, priced ? h('th', n, 'nats/s') : null,
+        rewarded ? h('th', n, 'reward') : null, h('th', n, 'cost'), h('th', n, 'ppm'))),
+      h('tbody', {}, ...plan.candidates.map((one, i) => {
+        const nats = one.expectedInformationNats;
+        return h('tr', {
+          class: i === plan.chosenIndex ? 'pick chosen' : 'pick',
+          title: `by ${source(one.pathSource)}; mean information ${figure(one.meanUcb)}, ` +
+            `information penalty ${figure(one.informationPenalty)} cells`,
+          onmouseenter: () => pointAt(i), onmouseleave: () => pointAt(-1),
+        }, h('td', {}, i + 1, i === plan.chosenIndex ? ' ✓' : ''),
+          h('td', {}, goalKind(one.goal?.kind ?? GoalKind.UNSPECIFIED)),
+          h('td', n, figure(one.lengthM)), h('td', n, figure(one.durationS)),
+          priced ? h('td', n, figure(nats ?? NaN)) : null,
+          priced ? h('td', n, figure((nats ?? NaN) / one.durationS)) : null,
+          rewarded ? h('td', n, figure(one.reward ?? NaN)) : null,
+          h('td', n, figure(one.cost)), h('td', n, figure(one.meanConcentrationPpm)));
+      })))));
+}
+
+function rejected(plan: Plan): HTMLElement {
+  const groups = new Map<RejectedGoal_Reason, RejectedGoal[]>();
+  for (const one of plan.rejectedGoals) groups.set(one.reason, [...groups.get(one.reason) ?? [], one]);
+  return h('div', {}, h('h3', {}, `${plan.rejectedGoals.length} goals left out`),
+    ...[...groups].map(([why, goals]) => h('details', { open: goals.length <= 3 },
+      h('summary', {}, `${goals.length} × ${reason(why)}`),
+      h('table', {}, h('tbody', {}, ...goals.map((one) => h('tr', {},
+        h('td', {}, goalKind(one.goal?.kind ?? GoalKind.UNSPECIFIED)),
+        h('td', { class: 'n' }, `${figure(one.goal?.position?.xM ?? NaN)}, ${figure(one.goal?.position?.yM ?? NaN)}`),
+        h('td', {}, one.detail))))))));
+}
