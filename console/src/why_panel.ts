@@ -4,10 +4,10 @@
 import { PATIENCE, planning, sentence } from './client.ts';
 import { fill, fillIfChanged, h } from './dom.ts';
 import type { Place } from './map_view.ts';
-import type { CheckTrajectoryResponse, FrontierGoal, Plan, RejectedGoal } from './wire/plumescout/v1/planning_service_pb.ts';
-import { RejectedGoal_Reason } from './wire/plumescout/v1/planning_service_pb.ts';
-import { CellState, GoalKind } from './wire/plumescout/v1/types_pb.ts';
-import type { Pose2D } from './wire/plumescout/v1/types_pb.ts';
+import type { CheckTrajectoryResponse, FrontierGoal, Plan, RejectedGoal } from '@plumescout/client/wire';
+import { RejectedGoal_Reason } from '@plumescout/client/wire';
+import { CellState, GoalKind } from '@plumescout/client/wire';
+import type { Pose2D } from '@plumescout/client/wire';
 import { duration, figure, goalKind, phase, reason, searchEnd, shortName, source } from './words.ts';
 
 // A click means a frontier this near.
