@@ -3,8 +3,8 @@
 // The cells of a map as a picture, a pixel each, north up; repainted where they change.
 import { CHANGE, GAS, UNCERTAINTY, roundUp, shareOf } from './colours.ts';
 import type { Colours, Rgb, Scale } from './colours.ts';
-import { FREE, OCCUPIED, changeOf } from './raster.ts';
-import type { CellRect, Raster, RasterFigures } from './raster.ts';
+import { FREE, OCCUPIED, changeOf } from '@plumescout/client';
+import type { CellRect, Raster, RasterFigures } from '@plumescout/client';
 import { theme } from './theme.ts';
 
 export type CellLayer = 'mean' | 'uncertainty' | 'change' | 'none';

@@ -1,16 +1,10 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-import { Code, ConnectError, createClient } from '@connectrpc/connect';
-import type { Interceptor } from '@connectrpc/connect';
-import { createGrpcWebTransport } from '@connectrpc/connect-web';
-import { ErrorInfoSchema, BadRequestSchema } from './wire/google/rpc/error_details_pb.ts';
-import { MapService } from './wire/plumescout/v1/map_service_pb.ts';
-import { MissionService } from './wire/plumescout/v1/mission_service_pb.ts';
-import { PlanningService } from './wire/plumescout/v1/planning_service_pb.ts';
-import { RobotService } from './wire/plumescout/v1/robot_service_pb.ts';
-import { SnapshotService } from './wire/plumescout/v1/snapshot_service_pb.ts';
-import { SystemService } from './wire/plumescout/v1/system_service_pb.ts';
+import { Code, connect, errorOf, requestId } from '@plumescout/client';
+import type { CallError } from '@plumescout/client';
 import { bytes } from './words.ts';
+
+export { requestId };
 
 const TOKEN_KEY = 'plumescout.token';
 
@@ -23,29 +17,9 @@ export const token = {
   },
 };
 
-const identify: Interceptor = (next) => (request) => {
-  const value = token.get();
-  if (value !== '') request.header.set('authorization', `Bearer ${value}`);
-  return next(request);
-};
-
-const transport = createGrpcWebTransport({
-  baseUrl: location.origin,
-  interceptors: [identify],
-});
-
-export const missions = createClient(MissionService, transport);
-export const robots = createClient(RobotService, transport);
-export const maps = createClient(MapService, transport);
-export const planning = createClient(PlanningService, transport);
-export const snapshots = createClient(SnapshotService, transport);
-export const system = createClient(SystemService, transport);
-
-// Names a request, so that it has its effect once. crypto.randomUUID is for secure origins alone.
-export function requestId(): string {
-  return Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) =>
-    byte.toString(16).padStart(2, '0')).join('');
-}
+// Pages ask again by themselves, and say at once what is the matter.
+export const client = connect(location.origin, { token: token.get, retries: false });
+export const { missions, robots, maps, planning, snapshots, system } = client;
 
 // Of calls that people wait for.
 export const PATIENCE = { timeoutMs: 15_000 };
@@ -67,21 +41,18 @@ export function checkSize(size_bytes: number, limit_bytes: number): void {
 
 // What went wrong, in words that say how to go on.
 export function troubleOf(error: unknown): Trouble {
-  if (!(error instanceof ConnectError)) {
-    return { text: error instanceof Error ? error.message : String(error), advice: '', code: Code.Unknown,
-             reason: '' };
-  }
-  const connect = error;
-  const info = connect.findDetails(ErrorInfoSchema)[0];
-  const bad = connect.findDetails(BadRequestSchema)[0]?.fieldViolations[0];
-  if (connect.cause instanceof TypeError) { // of fetch: there was no answer
+  return troubleOfCall(errorOf(error));
+}
+
+export function troubleOfCall({ code, reason, message, field, unanswered }: CallError): Trouble {
+  if (unanswered) {
     return {
       text: 'The server does not answer.',
       advice: 'It may have stopped, or the link is down. The console tries again by itself.',
       code: Code.Unavailable, reason: '',
     };
   }
-  if (connect.rawMessage === 'HTTP 413') { // told before the server reads it, so not as a status
+  if (message === 'HTTP 413') { // told before the server reads it, so not as a status
     return { text: 'The request is larger than the server takes.', advice: SMALLER,
              code: Code.ResourceExhausted, reason: '' };
   }
@@ -94,11 +65,10 @@ export function troubleOf(error: unknown): Trouble {
     [Code.DeadlineExceeded]: 'That took too long. Try again in a moment.',
   };
   return {
-    text: bad !== undefined && bad.field !== '' && !connect.rawMessage.includes(bad.field)
-      ? `${bad.field}: ${connect.rawMessage}` : connect.rawMessage,
-    advice: advice[connect.code] ?? '',
-    code: connect.code,
-    reason: info?.reason ?? '',
+    text: field !== '' && !message.includes(field) ? `${field}: ${message}` : message,
+    advice: advice[code] ?? '',
+    code,
+    reason,
   };
 }
 

@@ -6,7 +6,7 @@ import { shareOf, ticksOf } from './colours.ts';
 import { fill, fillIfChanged, h, notice } from './dom.ts';
 import { MapView, SWITCHES } from './map_view.ts';
 import type { Place, Scene, Switch } from './map_view.ts';
-import { FREE, OCCUPIED } from './raster.ts';
+import { FREE, OCCUPIED } from '@plumescout/client';
 import { figure } from './words.ts';
 
 const LAYERS: [CellLayer, string][] = [['mean', 'Gas'], ['uncertainty', 'Uncertainty'],

@@ -4,7 +4,7 @@
 import { roundUp } from './colours.ts';
 import { theme } from './theme.ts';
 import type { View } from './view.ts';
-import type { Point2D } from './wire/plumescout/v1/types_pb.ts';
+import type { Point2D } from '@plumescout/client/wire';
 
 export class MapPen {
   constructor(private readonly context: CanvasRenderingContext2D, private readonly view: View) {}

@@ -4,17 +4,17 @@
 import { CellPicture } from './cell_picture.ts';
 import type { CellLayer, Cells } from './cell_picture.ts';
 import { MapPen } from './map_pen.ts';
-import type { CellRect, Raster } from './raster.ts';
+import type { CellRect, Raster } from '@plumescout/client';
 import { theme } from './theme.ts';
 import type { Trails } from './trails.ts';
 import { View } from './view.ts';
 import type { Box } from './view.ts';
-import type { MapStatus } from './wire/plumescout/v1/map_service_pb.ts';
-import type { LivePlan, Plan } from './wire/plumescout/v1/planning_service_pb.ts';
-import { RejectedGoal_Reason } from './wire/plumescout/v1/planning_service_pb.ts';
-import { GoalKind } from './wire/plumescout/v1/types_pb.ts';
-import type { Point2D } from './wire/plumescout/v1/types_pb.ts';
-import type { Polygon } from './wire/plumescout/v1/options_pb.ts';
+import type { MapStatus } from '@plumescout/client/wire';
+import type { LivePlan, Plan } from '@plumescout/client/wire';
+import { RejectedGoal_Reason } from '@plumescout/client/wire';
+import { GoalKind } from '@plumescout/client/wire';
+import type { Point2D } from '@plumescout/client/wire';
+import type { Polygon } from '@plumescout/client/wire';
 import { shortName } from './words.ts';
 
 export const SWITCHES = ['frontiers', 'ways', 'trails', 'claims', 'names', 'areas', 'why'] as const;

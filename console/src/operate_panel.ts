@@ -1,18 +1,15 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // What an operator does to a mission and its robots, and what leaves it as files.
-import { PATIENCE, missions, requestId, robots, sentence, snapshots } from './client.ts';
+import { PATIENCE, client, missions, requestId, robots, sentence } from './client.ts';
 import { ask, fillIfChanged, h, notice, saveFile } from './dom.ts';
-import { mapYamlOf, npyOf, pgmOf } from './export.ts';
-import type { Raster } from './raster.ts';
+import { exportMission, mapYamlOf, npyOf, pgmOf } from '@plumescout/client';
+import type { Raster } from '@plumescout/client';
 import { mayOperate } from './session.ts';
-import { MissionState } from './wire/plumescout/v1/mission_service_pb.ts';
-import type { Mission } from './wire/plumescout/v1/mission_service_pb.ts';
-import type { Robot } from './wire/plumescout/v1/robot_service_pb.ts';
+import { MissionState } from '@plumescout/client/wire';
+import type { Mission } from '@plumescout/client/wire';
+import type { Robot } from '@plumescout/client/wire';
 import { bytes, shortName } from './words.ts';
-
-// Of a whole mission, which may be gigabytes.
-const EXPORT_PATIENCE_MS = 600_000;
 
 async function attempt(what: string, task: () => Promise<unknown>): Promise<void> {
   try {
@@ -131,18 +128,13 @@ export class OperatePanel {
     const parts: Uint8Array[] = [];
     try {
       let size = 0;
-      for await (const { part } of snapshots.exportMission(
-        { mission: this.mission }, { signal, timeoutMs: EXPORT_PATIENCE_MS })) {
-        if (part.case === 'start') notice(`About ${bytes(part.value.expectedBytes)} are on their way …`);
-        if (part.case === 'piece') {
-          parts.push(part.value.data);
-          size += part.value.data.length;
-        }
-        if (part.case !== 'end') continue;
-        if (BigInt(size) !== part.value.totalBytes) throw new Error('the file is not whole');
-        saveFile(`${shortName(this.mission)}.plumescout`, parts as BlobPart[]);
-        notice(`The mission is saved: ${bytes(size)}.`);
+      for await (const { data, done_bytes, expected_bytes } of exportMission(client, this.mission, { signal })) {
+        if (size === 0) notice(`About ${bytes(expected_bytes)} are on their way …`);
+        parts.push(data);
+        size = done_bytes;
       }
+      saveFile(`${shortName(this.mission)}.plumescout`, parts as BlobPart[]);
+      notice(`The mission is saved: ${bytes(size)}.`);
     } catch (error) {
       if (!signal.aborted) notice(sentence(error), 'bad');
     } finally {

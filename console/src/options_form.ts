@@ -4,9 +4,9 @@
 import { ScalarType, fromJson } from '@bufbuild/protobuf';
 import type { DescField, DescMessage, JsonObject } from '@bufbuild/protobuf';
 import { h } from './dom.ts';
-import { OPTION_HELP } from './wire/option_help.ts';
-import { MissionOptionsSchema } from './wire/plumescout/v1/options_pb.ts';
-import type { MissionOptions } from './wire/plumescout/v1/options_pb.ts';
+import { OPTION_HELP } from '@plumescout/client/option-help';
+import { MissionOptionsSchema } from '@plumescout/client/wire';
+import type { MissionOptions } from '@plumescout/client/wire';
 
 type Field = { element: HTMLElement; read: () => unknown }; // undefined: the server's default
 const DEFAULT = 'server’s default';

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pages beside that of a mission: all missions, a new one, the service.
 import { create, toBinary } from '@bufbuild/protobuf';
+import { all } from '@plumescout/client';
 import { PATIENCE, checkSize, missions, requestId, sentence, token, troubleOf } from './client.ts';
 import { ask, fill, fillIfChanged, h, notice } from './dom.ts';
 import { optionsForm } from './options_form.ts';
 import { mayOperate, refreshSession, session } from './session.ts';
-import { CreateMissionRequestSchema, MissionState } from './wire/plumescout/v1/mission_service_pb.ts';
-import type { Latency, Mission } from './wire/plumescout/v1/mission_service_pb.ts';
+import { CreateMissionRequestSchema, MissionState } from '@plumescout/client/wire';
+import type { Latency, Mission } from '@plumescout/client/wire';
 import { bytes, duration, figure, missionState, phase, shortName } from './words.ts';
 
 export type Page = { element: HTMLElement; leave(): void };
@@ -38,16 +39,8 @@ export function stateClass(state: MissionState): string {
   return state === MissionState.DAMAGED ? 'pill bad' : 'pill warn';
 }
 
-async function allMissions(): Promise<Mission[]> {
-  const all: Mission[] = [];
-  let pageToken = '';
-  do {
-    const page = await missions.listMissions({ pageToken }, PATIENCE);
-    all.push(...page.missions);
-    pageToken = page.nextPageToken;
-  } while (pageToken !== '');
-  return all;
-}
+const allMissions = () => all(
+  (pageToken) => missions.listMissions({ pageToken }, PATIENCE), (page) => page.missions);
 
 async function deleteMission(name: string): Promise<void> {
   const sure = await ask(`Delete ${shortName(name)}?`,

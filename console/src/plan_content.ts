@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A plan in words and tables: what it was chosen from, and what was left out.
 import { h } from './dom.ts';
-import type { Plan, RejectedGoal } from './wire/plumescout/v1/planning_service_pb.ts';
-import { RejectedGoal_Reason } from './wire/plumescout/v1/planning_service_pb.ts';
-import { GoalKind } from './wire/plumescout/v1/types_pb.ts';
+import type { Plan, RejectedGoal } from '@plumescout/client/wire';
+import { GoalKind, RejectedGoal_Reason } from '@plumescout/client/wire';
 import { duration, figure, goalKind, phase, reason, searchEnd, shortName, source } from './words.ts';
 
 // `pointAt` is told which candidate the pointer is on; -1: none.

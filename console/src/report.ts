@@ -2,19 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // A mission after its end, without a server: the console's map with the truth beside it, and every
 // plan with what it was chosen from. plumescout-lab writes what is drawn into the page.
-import { fromBinary } from '@bufbuild/protobuf';
+import { create, fromBinary } from '@bufbuild/protobuf';
 import type { Message } from '@bufbuild/protobuf';
 import type { GenMessage } from '@bufbuild/protobuf/codegenv2';
+import { Raster, figuresOf, geometryOf } from '@plumescout/client';
+import type { GetMapResponse, LivePlan, Plan } from '@plumescout/client/wire';
+import { GetMapResponseSchema, LivePlanSchema, PlanSchema } from '@plumescout/client/wire';
 import { fill, h } from './dom.ts';
 import { MapPanel } from './map_panel.ts';
 import type { Scene } from './map_view.ts';
 import { planContent } from './plan_content.ts';
-import { Raster, figuresOf, geometryOf } from './raster.ts';
-import { GetMapResponseSchema } from './wire/plumescout/v1/map_service_pb.ts';
-import type { GetMapResponse } from './wire/plumescout/v1/map_service_pb.ts';
-import { LivePlanSchema, PlanSchema } from './wire/plumescout/v1/planning_service_pb.ts';
-import type { LivePlan, Plan } from './wire/plumescout/v1/planning_service_pb.ts';
-import { create } from '@bufbuild/protobuf';
 import { duration, shortName } from './words.ts';
 
 type Mission = {

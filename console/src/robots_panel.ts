@@ -3,8 +3,8 @@
 // The robots of a mission, and what is known of it all.
 import { fill, h } from './dom.ts';
 import type { Scene } from './map_view.ts';
-import type { Mission } from './wire/plumescout/v1/mission_service_pb.ts';
-import type { Robot } from './wire/plumescout/v1/robot_service_pb.ts';
+import type { Mission } from '@plumescout/client/wire';
+import type { Robot } from '@plumescout/client/wire';
 import { duration, figure, link, shortName } from './words.ts';
 
 type Facts = [string, string][];

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the page knows of the server and of who looks on.
 import { PATIENCE, system } from './client.ts';
-import type { GetServerInfoResponse } from './wire/plumescout/v1/system_service_pb.ts';
+import type { GetServerInfoResponse } from '@plumescout/client/wire';
 
 export const session: { info: GetServerInfoResponse | null } = { info: null };
 

@@ -1,14 +1,11 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-// A mission's map as it changes: one stream, opened again whenever it ends.
-import { Code } from '@connectrpc/connect';
-import { maps, troubleOf } from './client.ts';
+// A mission's map as it changes, for as long as anybody sees the page.
+import { getMap, watchMap } from '@plumescout/client';
+import type { CellRect, Raster } from '@plumescout/client';
+import type { MapStatus } from '@plumescout/client/wire';
+import { client, troubleOf, troubleOfCall } from './client.ts';
 import type { Trouble } from './client.ts';
-import { MapCopy, levelFor } from './map_copy.ts';
-import { Raster, geometryOf } from './raster.ts';
-import type { CellRect, Geometry } from './raster.ts';
-import { MapLayer } from './wire/plumescout/v1/map_service_pb.ts';
-import type { MapStatus } from './wire/plumescout/v1/map_service_pb.ts';
 
 export type LinkState = 'connecting' | 'live' | 'waiting' | 'hidden' | 'ended';
 
@@ -21,9 +18,6 @@ export type WatchEvents = {
   link(state: LinkState, trouble: Trouble | null, again_s: number): void;
 };
 
-const ALL_LAYERS = [MapLayer.OCCUPANCY, MapLayer.GAS_MEAN, MapLayer.GAS_VARIANCE];
-const FIRST_PAUSE_S = 0.5;
-const LONGEST_PAUSE_S = 10;
 // Streams of a tab that nobody sees are given up after this.
 const HIDDEN_PATIENCE_MS = 5_000;
 
@@ -34,7 +28,6 @@ export class Watch {
   private abort = new AbortController();
   private hiddenTimer = 0;
   private hidden = document.hidden; // for so long that no stream is held
-  private level = 0;
   private wake: () => void = () => {};
 
   constructor(private readonly mission: string, private readonly events: WatchEvents,
@@ -52,7 +45,7 @@ export class Watch {
   }
   // Does not wait for the end of a pause.
   retry(): void {
-    this.wake();
+    this.abort.abort();
   }
 
   private readonly onVisibility = () => {
@@ -69,75 +62,40 @@ export class Watch {
     }
   };
 
-  private pause(seconds: number): Promise<void> {
-    return new Promise((resolve) => {
-      const timer = window.setTimeout(resolve, seconds * 1000);
-      this.wake = () => {
-        window.clearTimeout(timer);
-        resolve();
-      };
-    });
+  // Until somebody looks, or it is stopped.
+  private seen(): Promise<void> {
+    return new Promise((resolve) => { this.wake = resolve; });
   }
 
   private async run(): Promise<void> {
-    let pause_s = FIRST_PAUSE_S;
     while (!this.stopped) {
       if (this.hidden) {
         this.events.link('hidden', null, 0);
-        await this.pause(1e6);
+        await this.seen();
         continue;
       }
       this.abort = new AbortController();
-      this.events.link('connecting', null, 0);
-      let trouble: Trouble | null = null;
       try {
-        await this.read(() => { pause_s = FIRST_PAUSE_S; });
+        await this.read();
       } catch (error) {
-        trouble = troubleOf(error);
-      }
-      if (this.stopped) return;
-      if (this.abort.signal.aborted) continue; // hidden, or it begins again at another level
-      if (trouble?.code === Code.NotFound || trouble?.code === Code.PermissionDenied ||
-          trouble?.code === Code.Unauthenticated || trouble?.code === Code.OutOfRange) {
-        this.events.link('ended', trouble, 0);
+        if (!this.stopped) this.events.link('ended', troubleOf(error), 0);
         return;
       }
-      this.events.link('waiting', trouble, pause_s);
-      await this.pause(pause_s);
-      pause_s = Math.min(2 * pause_s, LONGEST_PAUSE_S);
     }
   }
 
-  private async read(received: () => void): Promise<void> {
-    const copy = new MapCopy();
-    const stream = maps.watchMap({
-      mission: this.mission,
-      layers: ALL_LAYERS,
-      levelOfDetail: this.level,
-      ...(this.replay === null ? {}
-        : { fromRevision: this.replay.fromRevision, speedRatio: this.replay.speed }),
-    }, { signal: this.abort.signal });
-    let rects: CellRect[] = [];
-    let all = false;
-    for await (const frame of stream) {
-      received();
-      if (this.stopped) return;
-      const geometry: Geometry | null = geometryOf(frame.status?.geometry);
-      if (geometry !== null && levelFor(geometry.columns * geometry.rows) > this.level) {
-        this.level = levelFor(geometry.columns * geometry.rows);
-        this.abort.abort();
-        return;
-      }
-      const drawn = copy.apply(frame);
-      if (drawn === 'all') all = true;
-      else rects.push(...drawn);
-      if (frame.status !== undefined) this.events.status(frame.status, frame.revision);
-      if (frame.moreFollow) continue;
-      if (all && copy.raster !== null) this.events.replaced(copy.raster);
-      else if (rects.length > 0) this.events.changed(rects);
-      all = false;
-      rects = [];
-      this.events.link('live', null, 0);
+  private async read(): Promise<void> {
+    const { signal } = this.abort;
+    const replay = this.replay === null ? {}
+      : { fromRevision: this.replay.fromRevision, speedRatio: this.replay.speed };
+    const updates = watchMap(client, this.mission, { ...replay, signal, onLink: (state, error, again_s) => {
+      if (!signal.aborted) this.events.link(state, error === null ? null : troubleOfCall(error), again_s);
+    } });
+    for await (const { raster, status, revision, changed } of updates) {
+      if (signal.aborted) return;
+      this.events.status(status, revision);
+      if (changed === 'all' && raster !== null) this.events.replaced(raster);
+      else if (changed !== 'all' && changed.length > 0) this.events.changed(changed);
     }
   }
 }
@@ -145,17 +103,7 @@ export class Watch {
 // The map as it was, or as it is (revision 0).
 export async function fetchMap(mission: string, revision: bigint,
                                signal: AbortSignal): Promise<{ raster: Raster; status: MapStatus }> {
-  let raster: Raster | null = null;
-  let status: MapStatus | undefined;
-  let partToken = '';
-  do {
-    const part = await maps.getMap({ mission, layers: ALL_LAYERS, revision, partToken }, { signal });
-    status ??= part.status;
-    const geometry = geometryOf(part.tileGeometry) ?? geometryOf(part.status?.geometry);
-    if (raster === null && geometry !== null) raster = new Raster(geometry);
-    if (raster !== null) for (const tile of part.tiles) raster.apply(tile);
-    partToken = part.nextPartToken;
-  } while (partToken !== '');
-  if (raster === null || status === undefined) throw new Error('the mission had no map yet');
+  const { raster, status } = await getMap(client, mission, { revision, signal });
+  if (raster === null) throw new Error('the mission had no map yet');
   return { raster, status };
 }

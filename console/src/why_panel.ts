@@ -5,10 +5,8 @@ import { PATIENCE, planning, sentence } from './client.ts';
 import { fill, fillIfChanged, h } from './dom.ts';
 import type { Place } from './map_view.ts';
 import { planContent } from './plan_content.ts';
-import type { CheckTrajectoryResponse, FrontierGoal, Plan } from './wire/plumescout/v1/planning_service_pb.ts';
-import { RejectedGoal_Reason } from './wire/plumescout/v1/planning_service_pb.ts';
-import { CellState, GoalKind } from './wire/plumescout/v1/types_pb.ts';
-import type { Pose2D } from './wire/plumescout/v1/types_pb.ts';
+import type { CheckTrajectoryResponse, FrontierGoal, Plan, Pose2D } from '@plumescout/client/wire';
+import { CellState, GoalKind, RejectedGoal_Reason } from '@plumescout/client/wire';
 import { figure, goalKind, reason, shortName } from './words.ts';
 
 // A click means a frontier this near.

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // Names of things, and figures, as people read them.
-import { Candidate_PathSource, Plan_End, RejectedGoal_Reason } from './wire/plumescout/v1/planning_service_pb.ts';
-import { RobotLink } from './wire/plumescout/v1/robot_service_pb.ts';
-import { GoalKind, MissionPhase } from './wire/plumescout/v1/types_pb.ts';
-import { MissionState } from './wire/plumescout/v1/mission_service_pb.ts';
+import { Candidate_PathSource, Plan_End, RejectedGoal_Reason } from '@plumescout/client/wire';
+import { RobotLink } from '@plumescout/client/wire';
+import { GoalKind, MissionPhase } from '@plumescout/client/wire';
+import { MissionState } from '@plumescout/client/wire';
 
 // GAS_FRONTIER: gas frontier.
 function plain(name: string | undefined): string {

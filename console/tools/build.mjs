@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // Makes the pages in dist/: index.html, and script and style with a hash of their content in their
-// names. `--watch` is not there on purpose: a build takes less than a second.
+// names; and report.html, all in one, for what plumescout-lab writes. `--watch` is not there on
+// purpose: a build takes less than a second.
 import { mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { basename } from 'node:path';
 import { gzipSync } from 'node:zlib';
@@ -9,18 +10,16 @@ import { build } from 'esbuild';
 
 const MAX_GZIP_BYTES = 200_000;
 
+const OPTIONS = {
+  bundle: true, minify: true, format: 'esm', target: 'es2022', legalComments: 'linked', metafile: true };
+
 rmSync('dist', { recursive: true, force: true });
 mkdirSync('dist', { recursive: true });
 const result = await build({
+  ...OPTIONS,
   entryPoints: ['src/main.ts', 'src/style.css'],
   outdir: 'dist/assets',
   entryNames: '[name]-[hash]',
-  bundle: true,
-  minify: true,
-  format: 'esm',
-  target: 'es2022',
-  legalComments: 'linked',
-  metafile: true,
 });
 const outputs = Object.keys(result.metafile.outputs);
 const find = (ending) => `/assets/${basename(outputs.find((name) => name.endsWith(ending)))}`;
@@ -34,3 +33,15 @@ if (bytes > MAX_GZIP_BYTES || statSync('dist/index.html').size === 0) {
   console.error(`more than ${MAX_GZIP_BYTES} bytes`);
   process.exit(1);
 }
+
+// The page of reports, where plumescout-lab writes a mission in place of @mission@.
+const parts = await build({
+  ...OPTIONS,
+  entryPoints: ['src/report.ts', 'src/style.css'],
+  outdir: 'dist',
+  legalComments: 'inline',
+  write: false,
+});
+const textOf = (ending) => parts.outputFiles.find(({ path }) => path.endsWith(ending)).text.trim();
+writeFileSync('dist/report.html', readFileSync('src/report.html', 'utf8')
+  .replace('@style@', () => textOf('.css')).replace('@script@', () => textOf('.js')));

@@ -5,7 +5,7 @@ import { test } from 'node:test';
 import { deflateSync } from 'node:zlib';
 import { create } from '@bufbuild/protobuf';
 import { FREE, OCCUPIED, Raster, changeOf, figuresOf } from '../src/raster.ts';
-import { MapLayer, MapTileSchema, MapTile_Encoding } from '../src/wire/plumescout/v1/map_service_pb.ts';
+import { MapLayer, MapTileSchema, MapTile_Encoding } from '../src/wire/index.ts';
 
 const geometry = { x_m: -1, y_m: 2, resolution_m: 0.5, columns: 4, rows: 3 };
 

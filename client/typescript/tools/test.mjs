@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-// Runs the unit tests: bundles each of test/ for Node, and hands them to node --test.
+// Runs the unit tests of the package in whose folder it is called: bundles each of test/ for Node, and
+// hands them to node --test. Arguments are conditions of imports: browser.
 import { spawnSync } from 'node:child_process';
 import { readdirSync, rmSync } from 'node:fs';
 import { build } from 'esbuild';
@@ -14,6 +15,7 @@ await build({
   outExtension: { '.js': '.mjs' },
   bundle: true,
   platform: 'node',
+  conditions: process.argv.slice(2),
   format: 'esm',
   sourcemap: 'inline',
 });

@@ -3,16 +3,16 @@
 // A reader's copy of a map, kept by frames; no network, no clock.
 import { Raster, geometryOf, sameGeometry } from './raster.ts';
 import type { CellRect } from './raster.ts';
-import { WatchMapResponse_Kind } from './wire/plumescout/v1/map_service_pb.ts';
-import type { WatchMapResponse } from './wire/plumescout/v1/map_service_pb.ts';
+import { WatchMapResponse_Kind } from './wire/index.ts';
+import type { WatchMapResponse } from './wire/index.ts';
 
 // Of larger maps squares of cells are shown: four million take 60 MB.
-const MAX_CELLS = 4_000_000;
+export const MAX_CELLS = 4_000_000;
 
 // The level of detail at which so many cells are few enough.
-export function levelFor(cells: number): number {
+export function levelFor(cells: number, max_cells = MAX_CELLS): number {
   let level = 0;
-  while (cells / 4 ** level > MAX_CELLS && level < 6) ++level;
+  while (cells / 4 ** level > max_cells && level < 6) ++level;
   return level;
 }
 

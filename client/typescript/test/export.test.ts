@@ -4,7 +4,6 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { mapYamlOf, npyOf, pgmOf } from '../src/export.ts';
 import { FREE, OCCUPIED, Raster } from '../src/raster.ts';
-import { pointsOf } from '../src/options_form.ts';
 
 test('npy has a header of a multiple of 64 bytes, then the values', () => {
   const bytes = npyOf(Float32Array.of(1, 2, 3, 4, 5, NaN), 2, 3);
@@ -23,10 +22,4 @@ test('images of maps begin in the north-west', () => {
   const bytes = pgmOf(raster);
   assert.deepEqual([...bytes.subarray(-4)], [205, 254, 254, 0]);
   assert.match(mapYamlOf(raster, 'm.pgm'), /image: m.pgm\n[^]*origin: \[-1, 2, 0\]/);
-});
-
-test('corners are read, and what is none is named', () => {
-  assert.deepEqual(pointsOf(' 1,2  -3.5,4 ', 'area'), [{ xM: 1, yM: 2 }, { xM: -3.5, yM: 4 }]);
-  assert.throws(() => pointsOf('1,2 3', 'area'), /area: “3” is not x,y/);
-  assert.throws(() => pointsOf('1,2,3', 'area'), /“1,2,3”/);
 });

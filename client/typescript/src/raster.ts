@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 import { inflate } from './inflate.ts';
-import { MapLayer, MapTile_Encoding } from './wire/plumescout/v1/map_service_pb.ts';
-import type { MapTile } from './wire/plumescout/v1/map_service_pb.ts';
-import type { GridGeometry } from './wire/plumescout/v1/types_pb.ts';
+import { MapLayer, MapTile_Encoding } from './wire/index.ts';
+import type { MapTile } from './wire/index.ts';
+import type { GridGeometry } from './wire/index.ts';
 
 export const UNKNOWN = 0;
 export const FREE = 1;

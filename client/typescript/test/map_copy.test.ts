@@ -7,7 +7,7 @@ import { create } from '@bufbuild/protobuf';
 import { MapCopy, levelFor } from '../src/map_copy.ts';
 import {
   MapLayer, MapTileSchema, MapTile_Encoding, WatchMapResponseSchema, WatchMapResponse_Kind as Kind,
-} from '../src/wire/plumescout/v1/map_service_pb.ts';
+} from '../src/wire/index.ts';
 
 function frame(kind: Kind, base: bigint, revision: bigint, cells: number[], columns = 2) {
   return create(WatchMapResponseSchema, {
