@@ -38,8 +38,11 @@ th { padding: .2rem .6rem .2rem 0; text-align: left; }
 .numbers { width: 100%; max-width: 40rem; }
 .numbers td:first-child { color: #6b7280; }
 .numbers td:last-child { text-align: right; }
+.explorer { width: 100%; height: min(46rem, 85vh); border: 1px solid #e2e5ea; border-radius: 8px;
+            margin: 0 0 2rem; }
 @page { size: A4 landscape; margin: 8mm; }
 @media print {
+  .explorer { display: none; }
   body { padding: 0; font-size: 9px; }
   h1 { margin: 0 0 .4rem; font-size: 1.2rem; }
   .headline { gap: .2rem 2rem; margin: 0 0 .5rem; }
@@ -68,6 +71,14 @@ std::string MakeHeadline(const ReportFigures& figures) {
                     "</strong></div>\n");
   }
   return html + "</div>\n";
+}
+
+// A page in the page: neither has a say in how the other looks.
+std::string MakeExplorer(const ReportFigures& figures) {
+  if (figures.explorer.empty()) return "";
+  return absl::StrCat(
+      "<iframe class=\"explorer\" title=\"The mission to look around in\" srcdoc=\"",
+      EscapeMarkup(figures.explorer), "\"></iframe>\n");
 }
 
 std::string MakeNotes(const ReportFigures& figures) {
@@ -152,7 +163,7 @@ std::string MakeHtmlPage(const ReportFigures& figures) {
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width\">\n<title>",
       title, "</title>\n<style>", kStyle, "</style>\n</head>\n<body>\n<h1>", title, "</h1>\n",
-      MakeNotes(figures), MakeHeadline(figures), figures.explorer);
+      MakeNotes(figures), MakeHeadline(figures), MakeExplorer(figures));
   for (const TextTable& table : figures.tables) html += MakeTextTable(table);
   absl::StrAppend(&html, "<div class=\"figures panels\" style=\"--columns: ", PanelsPerRow(figures),
                   "\">\n");
