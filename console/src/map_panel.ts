@@ -62,6 +62,7 @@ export class MapPanel {
   }
 
   showLegend(): void {
+    this.map.picture.prepare(); // the ends of the scale
     const { layer, scale, log } = this.map.picture;
     const title = layer === 'uncertainty' ? 'Uncertainty, one σ, ppm'
       : layer === 'change' ? `${this.change.title}, ppm`

@@ -74,7 +74,7 @@ Json WayOf(const EpisodeResult& robot) {
   return way;
 }
 
-Json PlansOf(const TeamResult& team) {
+Json PlanEntries(const TeamResult& team) {
   Json plans = Json::array();
   for (const EpisodeResult& robot : team.robots) {
     for (const IssuedPlan& issued : robot.plans) {
@@ -102,7 +102,7 @@ std::string MakeExplorer(absl::string_view page, const Run& run) {
   if (place == absl::string_view::npos) return "";
   Json mission = {{"map", EstimateOf(run.final_map)},
                   {"truth", TruthOf(run.world.scene())},
-                  {"plans", PlansOf(run.team)},
+                  {"plans", PlanEntries(run.team)},
                   {"ways", Json::array()},
                   {"sources_m", Json::array()}};
   for (const EpisodeResult& robot : run.team.robots) mission["ways"].push_back(WayOf(robot));

@@ -14,6 +14,8 @@
 namespace plumescout::lab {
 namespace {
 
+constexpr std::size_t kPrintedColumns = 6;  // of panels, where a mission is on one sheet
+
 constexpr char kStyle[] = R"(
 body { margin: 0 auto; padding: 2rem; max-width: 120rem; color: #1f2430; background: #fff;
        font: 16px/1.5 system-ui, sans-serif; }
@@ -48,12 +50,14 @@ th { padding: .2rem .6rem .2rem 0; text-align: left; }
   .headline { gap: .2rem 2rem; margin: 0 0 .5rem; }
   .headline strong { font-size: 1.1rem; }
   .figures { gap: .5rem 1rem; margin: 0 0 .5rem; }
-  .panels { grid-template-columns: repeat(var(--columns), minmax(0, 1fr)); }
-  .charts { grid-template-columns: repeat(3, minmax(0, 1fr)); }
-  .panels img { max-height: 75mm; width: auto; max-width: 100%; }
-  .numbers { max-width: none; }
+  .panels { grid-template-columns: repeat(var(--printed-columns), minmax(0, 1fr)); }
+  .charts { grid-template-columns: repeat(4, minmax(0, 1fr)); }
+  .panels img { max-height: 90mm; width: auto; max-width: 100%; }
+  .numbers, .numbers tbody { display: block; width: auto; max-width: none; }
+  .numbers { font-size: inherit; }
   .numbers tbody { columns: 4; }
-  .numbers tr { display: flex; justify-content: space-between; }
+  .numbers tr { display: flex; justify-content: space-between; break-inside: avoid; }
+  .numbers td { padding: .05rem .6rem .05rem 0; }
 }
 )";
 
@@ -166,6 +170,7 @@ std::string MakeHtmlPage(const ReportFigures& figures) {
       MakeNotes(figures), MakeHeadline(figures), MakeExplorer(figures));
   for (const TextTable& table : figures.tables) html += MakeTextTable(table);
   absl::StrAppend(&html, "<div class=\"figures panels\" style=\"--columns: ", PanelsPerRow(figures),
+                  "; --printed-columns: ", std::min(kPrintedColumns, figures.panels.size()),
                   "\">\n");
   absl::StrAppend(&html, MakePanels(figures), "</div>\n", MakeCharts(figures),
                   MakeOtherNumbers(figures), "</body>\n</html>\n");

@@ -51,6 +51,14 @@ TEST(HtmlPage, ANumberStandsOnce) {
   EXPECT_THAT(page, HasSubstr("<td>number 6</td><td>value</td>"));
 }
 
+TEST(HtmlPage, TheExplorerIsAPageOfItsOwn) {
+  ReportFigures figures;
+  EXPECT_THAT(MakeHtmlPage(figures), Not(HasSubstr("<iframe")));
+  figures.explorer = "<p class=\"a\">map & all</p>";
+  EXPECT_THAT(MakeHtmlPage(figures),
+              HasSubstr("srcdoc=\"&lt;p class=&quot;a&quot;&gt;map &amp; all&lt;/p&gt;\""));
+}
+
 TEST(HtmlPage, ALegendThatAllChartsShareStandsOnce) {
   ReportFigures figures;
   const Chart chart{"a", "", {}, {{"ours", {}, {{0, 1}}}, {"theirs", {}, {{0, 2}}}}};
