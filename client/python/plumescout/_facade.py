@@ -31,6 +31,7 @@ OPTIONS = (
     ("grpc.min_reconnect_backoff_ms", 100),
     ("grpc.max_reconnect_backoff_ms", 2_000),
 )
+StrPath = str | os.PathLike[str]
 Metadata = tuple[tuple[str, str], ...]
 
 
@@ -43,10 +44,10 @@ class Credentials:
 
     def __init__(
         self,
-        tls_ca: str | None = None,
-        tls_cert: str | None = None,
-        tls_key: str | None = None,
-        token_file: str | None = None,
+        tls_ca: StrPath | None = None,
+        tls_cert: StrPath | None = None,
+        tls_key: StrPath | None = None,
+        token_file: StrPath | None = None,
     ) -> None:
         self._ca = tls_ca or os.environ.get("PLUMESCOUT_TLS_CA")
         self._cert = tls_cert or os.environ.get("PLUMESCOUT_TLS_CERT")

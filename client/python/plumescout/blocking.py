@@ -22,6 +22,7 @@ from ._facade import (
     BaseRobot,
     Credentials,
     Metadata,
+    StrPath,
     presents,
 )
 from ._operation import (
@@ -218,10 +219,10 @@ class Client:
         self,
         target: str = DEFAULT_TARGET,
         timeout_s: float = DEFAULT_TIMEOUT_S,
-        tls_ca: str | None = None,
-        tls_cert: str | None = None,
-        tls_key: str | None = None,
-        token_file: str | None = None,
+        tls_ca: StrPath | None = None,
+        tls_cert: StrPath | None = None,
+        tls_key: StrPath | None = None,
+        token_file: StrPath | None = None,
     ) -> None:
         """target: HOST:PORT. timeout_s: of a call, waiting for the server included. The rest says
         how the connection is protected; default: environment variables PLUMESCOUT_TLS_CA and so on,
