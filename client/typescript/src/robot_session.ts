@@ -251,7 +251,7 @@ export class RobotSession {
         ...(start === undefined ? {} : { start: poseOf(start) }),
       },
       call: {
-        timeoutMs: Math.max(1, 1000 * timeout_s - (performance.now() - begun_ms)),
+        timeoutMs: Math.max(1, Math.ceil(1000 * timeout_s - (performance.now() - begun_ms))),
         ...(signal === undefined ? {} : { signal }),
       },
     };
