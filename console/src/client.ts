@@ -44,7 +44,8 @@ export function troubleOf(error: unknown): Trouble {
   return troubleOfCall(errorOf(error));
 }
 
-export function troubleOfCall({ code, reason, message, field, unanswered }: CallError): Trouble {
+export function troubleOfCall({ code, reason, message, fields, unanswered }: CallError): Trouble {
+  const field = fields[0] ?? '';
   if (unanswered) {
     return {
       text: 'The server does not answer.',

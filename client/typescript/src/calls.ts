@@ -63,7 +63,7 @@ export function patient(transport: Transport, { timeout_s = 10, retries = true }
       const backoff = new Backoff(LINK_BACKOFF);
       const request = named(method, input);
       for (;;) {
-        const left_ms = Math.max(1, end_ms - performance.now());
+        const left_ms = Math.max(1, Math.ceil(end_ms - performance.now())); // whole, for the wire
         try {
           return await transport.unary(method, signal, left_ms, header, request, contextValues);
         } catch (failed) {

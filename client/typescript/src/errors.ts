@@ -10,25 +10,32 @@ export type CallError = {
   code: Code;
   reason: string; // that programs act on, as LEASE_HELD; may be empty
   message: string; // in the server's words
-  field: string; // of the request that is wrong; may be empty
+  fields: string[]; // of the request that are wrong
   metadata: Record<string, string>; // facts by name
   retryAfter_s: number; // how long the server asks to be left alone; 0: it does not say
-  unanswered: boolean; // a browser's call that met no server
+  unanswered: boolean; // the link broke, or nobody is there; the code is Unavailable then
 };
+
+// Browsers say so with a TypeError of fetch, Node with an error of the system or a stream that was reset.
+function isOfLink({ cause, rawMessage }: ConnectError): boolean {
+  return cause instanceof TypeError || typeof (cause as { code?: unknown } | undefined)?.code === 'string' ||
+    rawMessage.startsWith('http/2 stream closed with error code CANCEL');
+}
 
 // Of anything that is thrown; what is no error of a call has code Unknown.
 export function errorOf(error: unknown): CallError {
   const call = error instanceof ConnectError ? error : null;
   const info = call?.findDetails(ErrorInfoSchema)[0];
   const delay = call?.findDetails(RetryInfoSchema)[0]?.retryDelay;
+  const unanswered = call !== null && isOfLink(call);
   return {
-    code: call?.code ?? Code.Unknown,
+    code: unanswered ? Code.Unavailable : call?.code ?? Code.Unknown,
     reason: info?.reason ?? '',
     message: call?.rawMessage ?? (error instanceof Error ? error.message : String(error)),
-    field: call?.findDetails(BadRequestSchema)[0]?.fieldViolations[0]?.field ?? '',
+    fields: call?.findDetails(BadRequestSchema)[0]?.fieldViolations.map(({ field }) => field) ?? [],
     metadata: info?.metadata ?? {},
     retryAfter_s: delay === undefined ? 0 : Number(delay.seconds) + delay.nanos * 1e-9,
-    unanswered: call?.cause instanceof TypeError, // of fetch
+    unanswered,
   };
 }
 

@@ -15,8 +15,10 @@ export type {
 export { exportMission } from './mission_file.ts';
 export { planOf } from './plan.ts';
 export type { Plan } from './plan.ts';
+export { encodeRanges } from './ranges.ts';
 export {
   FREE, OCCUPIED, Raster, UNKNOWN, changeOf, figuresOf, geometryOf, sameGeometry,
 } from './raster.ts';
 export type { CellRect, Geometry, RasterFigures } from './raster.ts';
 export { watchRobot } from './watch_robot.ts';
+export type { RobotNotice } from './watch_robot.ts';

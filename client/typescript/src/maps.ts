@@ -47,6 +47,7 @@ function requestOf(mission: string, options: MapOptions) {
 export type GetMapOptions = MapOptions & {
   revision?: bigint; // the map as it was then
   freshPosterior?: boolean; // bring the gas up to date first
+  maxPartBytes?: number; // of tiles in one message; as many as the server sends
 };
 
 // The map of missions/{mission}. Errors are those of MapService.GetMap.
@@ -63,7 +64,7 @@ export async function getMap(client: Client, mission: string, options: GetMapOpt
 async function getParts(client: Client, mission: string, options: GetMapOptions): Promise<DecodedMap> {
   const call = options.signal === undefined ? {} : { signal: options.signal };
   const request = { ...requestOf(mission, options), revision: options.revision ?? 0n,
-                    freshPosterior: options.freshPosterior ?? false };
+                    freshPosterior: options.freshPosterior ?? false, maxPartBytes: options.maxPartBytes ?? 0 };
   let map: DecodedMap | null = null;
   let partToken = '';
   do {

@@ -9,6 +9,11 @@ import { Client } from './client.ts';
 
 export * from './index.ts';
 export { importMission } from './import_mission.ts';
+export { RobotSession } from './robot_session.ts';
+export type {
+  BatterySample, GasSample, LogOptions, PlanOptions, Pose, PoseFix, Refusal, RegisterOptions, ScanSample,
+  SessionStatistics,
+} from './robot_session.ts';
 
 // Files are PEM.
 export type ConnectOptions = CallOptions & {

@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+// Brings a robot's log to the server and keeps it there, whatever the link does.
+import type { MessageInitShape } from '@bufbuild/protobuf';
+import { OwnAbort } from './abort.ts';
+import { Backoff, pause } from './backoff.ts';
+import { LINK_BACKOFF } from './calls.ts';
+import type { Client } from './client.ts';
+import { errorOf, isFinal } from './errors.ts';
+import type { CallError } from './errors.ts';
+import { lastSequenceOf } from './robot_log.ts';
+import type { RobotLog } from './robot_log.ts';
+import type { IngestState, ObservationRejected, StreamObservationsRequestSchema } from './wire/index.ts';
+
+const MAX_BATCH_OBSERVATIONS = 64;
+const MAX_BATCH_BYTES = 1 << 17; // half of what servers receive unless they are told otherwise
+
+export type IngestOptions = {
+  robot: string; // missions/{mission}/robots/{robot}
+  leaseToken: bigint;
+  clock_ns: (() => bigint) | null; // the robot's, now; null: it is taken as it is
+  onRejected: (rejected: ObservationRejected) => void;
+  onLink: (up: boolean, error: CallError | null) => void;
+};
+
+// Wakes all who wait.
+class Bell {
+  private rung!: Promise<void>;
+  private resolve!: () => void;
+  constructor() {
+    this.ring();
+  }
+  ring(): void {
+    const resolve = this.resolve as (() => void) | undefined;
+    this.rung = new Promise((done) => { this.resolve = done; });
+    resolve?.();
+  }
+  heard(): Promise<void> {
+    return this.rung;
+  }
+}
+
+// One stream at a time, opened again with growing waits; it goes on where the server says. Adding to
+// the log never waits: call noteAdded.
+export class IngestLoop {
+  applied: number;
+  durable = 0; // 0 of a server that keeps nothing on disk
+  reconnects = 0;
+  failure: unknown = null; // why it ended for good
+  private next: number; // to send, on the present stream
+  private credit = 0;
+  private keeps = 0; // durable as any server told
+  private readonly bell = new Bell();
+  private readonly abort = new OwnAbort();
+  private readonly backoff = new Backoff(LINK_BACKOFF);
+
+  constructor(private readonly client: Client, private readonly log: RobotLog,
+              private readonly options: IngestOptions) {
+    this.applied = log.lastSequence;
+    this.next = this.applied + 1;
+    void this.run();
+  }
+
+  noteAdded(): void {
+    this.bell.ring();
+  }
+  close(): void {
+    this.abort.end();
+    this.bell.ring();
+  }
+
+  // Until it holds, or `signal` says so. Throws why the loop ended, if it did.
+  async until(holds: () => boolean, signal: AbortSignal): Promise<boolean> {
+    const wake = () => this.bell.ring();
+    signal.addEventListener('abort', wake);
+    try {
+      while (!holds()) {
+        if (this.failure !== null) throw this.failure;
+        if (this.abort.signal.aborted) throw new Error('the session is closed');
+        if (signal.aborted) return false;
+        await this.bell.heard();
+      }
+      return true;
+    } finally {
+      signal.removeEventListener('abort', wake);
+    }
+  }
+
+  private async run(): Promise<void> {
+    const { signal } = this.abort;
+    while (!signal.aborted) {
+      let error: CallError | null = null;
+      try {
+        await this.serveOneStream();
+      } catch (failed) {
+        error = errorOf(failed);
+        if (signal.aborted) return;
+        if (error.reason === 'STORE_ROLLED_BACK') {
+          this.keeps = Number(error.metadata['applied_sequence'] ?? 0);
+        } else if (isFinal(error) || ['LEASE_SUPERSEDED', 'MISSION_FINISHED'].includes(error.reason)) {
+          this.failure = failed;
+          this.options.onLink(false, error);
+          return this.bell.ring();
+        }
+      }
+      if (signal.aborted) return;
+      ++this.reconnects;
+      this.options.onLink(false, error);
+      await pause(Math.max(this.backoff.next_s(), error?.retryAfter_s ?? 0), signal);
+    }
+  }
+
+  private async serveOneStream(): Promise<void> {
+    const stream = new OwnAbort(this.abort.signal);
+    this.credit = 0;
+    try {
+      const responses = this.client.ingest.streamObservations(this.requests(stream.signal), { signal: stream.signal });
+      for await (const { frame } of responses) {
+        if (frame.case === 'opened') {
+          const state = frame.value.ingestState;
+          if (state === undefined) continue;
+          this.open(Number(state.appliedSequence));
+          this.noteState(state);
+          this.options.onLink(true, null);
+        } else if (frame.case === 'ack') {
+          this.backoff.reset();
+          this.noteState(frame.value);
+        } else if (frame.case === 'rejected') {
+          this.options.onRejected(frame.value);
+        }
+      }
+    } finally {
+      stream.end();
+      this.bell.ring();
+    }
+  }
+
+  private open(applied: number): void {
+    if (applied > this.log.lastSequence) {
+      this.failure = new Error(`the server holds ${applied} observations of this robot, its own log only ` +
+                               `${this.log.lastSequence}`);
+      throw this.failure;
+    }
+    this.applied = applied; // less than before, if the server lost some
+    this.next = applied + 1;
+  }
+
+  private noteState(state: IngestState): void {
+    this.applied = Math.max(this.applied, Number(state.appliedSequence));
+    this.durable = Number(state.durableSequence);
+    this.keeps = Math.max(this.keeps, this.durable);
+    this.credit = Math.max(this.credit, Number(state.creditSequence));
+    this.log.acknowledge(this.applied, this.durable);
+    this.bell.ring();
+  }
+
+  private async* requests(signal: AbortSignal): AsyncGenerator<MessageInitShape<typeof StreamObservationsRequestSchema>> {
+    const { robot, leaseToken, clock_ns } = this.options;
+    yield { frame: { case: 'open', value: { robot, leaseToken, durableSequence: BigInt(this.keeps) } } };
+    while (!signal.aborted) {
+      const observations = this.log.read(this.next, this.credit, MAX_BATCH_OBSERVATIONS, MAX_BATCH_BYTES);
+      if (observations.length === 0) {
+        await this.bell.heard();
+        continue;
+      }
+      this.next = lastSequenceOf(observations.at(-1)!) + 1;
+      yield { frame: { case: 'batch', value: { observations, sentTimeNs: clock_ns?.() ?? 0n } } };
+    }
+  }
+}
