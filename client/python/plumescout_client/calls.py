@@ -59,7 +59,7 @@ class Calls:
             except grpc.RpcError as grpc_error:
                 error = error_of(grpc_error)
             wait_s = error.retry_after_s or _RETRY_AFTER_S
-            if not passes_by_itself(error) or time.monotonic() + wait_s > end_s:
+            if not is_unavailable(error) or error.reason not in ("", "RECOVERING", "STORE_UNAVAILABLE") or time.monotonic() + wait_s > end_s:
                 raise error
             time.sleep(wait_s)
 

@@ -11,12 +11,13 @@ _DETAILS_KEY = "grpc-status-details-bin"
 class PlumeScoutError(Exception):
     """An error of the server: code is a grpc.StatusCode, reason an UPPER_SNAKE word or ''."""
 
-    def __init__(self, code, message, reason="", retry_after_s=None, metadata=None):
+    def __init__(self, code, message, reason="", retry_after_s=None, metadata=None, fields=()):
         super().__init__(f"{code.name}: {message}")
         self.code = code
         self.reason = reason
         self.retry_after_s = retry_after_s  # the server's advice, if it gave any
         self.metadata = metadata or {}  # facts by name, as strings
+        self.fields = list(fields)  # names of bad fields
 
 
 def error_of(error):
@@ -26,13 +27,16 @@ def error_of(error):
         if key == _DETAILS_KEY:
             details.ParseFromString(value)
     info, retry = error_details_pb2.ErrorInfo(), error_details_pb2.RetryInfo()
+    bad = error_details_pb2.BadRequest()
     retry_after_s = None
     for detail in details.details:
         detail.Unpack(info)
+        detail.Unpack(bad)
         if detail.Unpack(retry):
             retry_after_s = retry.retry_delay.ToNanoseconds() / 1e9
     return PlumeScoutError(
-        error.code(), error.details(), info.reason, retry_after_s, dict(info.metadata)
+        error.code(), error.details(), info.reason, retry_after_s, dict(info.metadata),
+        [violation.field for violation in bad.field_violations],
     )
 
 

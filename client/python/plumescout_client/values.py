@@ -154,10 +154,16 @@ def _map_from_proto(parts):
     )
 
 
+_DTYPES = {
+    map_pb.MapTile.ENCODING_U8: np.dtype("u1"),
+    map_pb.MapTile.ENCODING_F32: np.dtype("<f4"),
+    map_pb.MapTile.ENCODING_U16_SCALED: np.dtype("<u2"),
+}
+
+
 def _decode_tile(tile):
-    dtype = {
-        map_pb.MapTile.ENCODING_U8: np.dtype("u1"),
-        map_pb.MapTile.ENCODING_F32: np.dtype("<f4"),
-    }[tile.encoding]  # the only ones that get_map asks for
-    cells = np.frombuffer(zlib.decompress(tile.deflated_data), dtype)
+    cells = np.frombuffer(zlib.decompress(tile.deflated_data), _DTYPES[tile.encoding])
+    if tile.encoding == map_pb.MapTile.ENCODING_U16_SCALED:
+        values = tile.value_offset + tile.value_scale * cells
+        cells = np.where(cells == 65535, np.nan, values).astype(np.float32)
     return cells.reshape(tile.row_count, tile.column_count)

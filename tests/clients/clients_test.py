@@ -1,0 +1,137 @@
+# SPDX-FileCopyrightText: PlumeScout contributors
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the scenario of the clients with the runners given, each against a server of its own.
+
+clients_test.py [RUNNER ARGUMENT ...]: see README.md. Without a runner, the one of Python alone.
+"""
+
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import bed
+from google.protobuf import descriptor_pb2
+
+HERE = pathlib.Path(__file__).resolve().parent
+SCENARIO = HERE / "scenario.json"
+RUNNER = sys.argv[1:]
+PYTHON_RUNNER = [sys.executable, str(HERE / "run_python.py")]
+
+
+def rpcs():
+    """The RPCs of the services in the tree, as kinds of steps."""
+    proto = HERE.parents[1] / "proto"
+    with tempfile.NamedTemporaryFile() as file:
+        sources = sorted(str(path) for path in proto.glob("plumescout/v1/*_service.proto"))
+        subprocess.run(
+            ["protoc", f"-I{proto}", f"--descriptor_set_out={file.name}", *sources], check=True
+        )
+        files = descriptor_pb2.FileDescriptorSet.FromString(file.read())
+    return {
+        re.sub(r"(?<!^)(?=[A-Z])", "_", method.name).lower()
+        for source in files.file
+        for service in source.service
+        for method in service.method
+    }
+
+
+def run(runner):
+    """The lines that a runner prints, parsed, of a run against a new server."""
+    with tempfile.TemporaryDirectory(prefix="plumescout-clients-") as folder:
+        folder = pathlib.Path(folder)
+        work = folder / "work"
+        work.mkdir()
+        (work / "damaged.journal").write_bytes(b"this was never a mission")
+        server = bed.Server(folder)
+        server.start()
+        process = subprocess.Popen(
+            [*runner, server.target, str(SCENARIO)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+            cwd=work,
+        )
+        try:
+            return list(_lines(process, server))
+        finally:
+            process.kill()
+            process.communicate()
+            server.kill()
+
+
+def _lines(process, server):
+    for line in process.stdout:
+        told = json.loads(line)
+        yield told
+        if told["do"] == "restart":
+            server.kill()
+            server.start()
+            process.stdin.write("restarted\n")
+            process.stdin.flush()
+    code = process.wait(timeout=bed.PATIENCE_S)
+    if code != 0:
+        raise AssertionError(f"{process.args[0]} ended with {code}")
+
+
+class ClientsTest(unittest.TestCase):
+    maxDiff = None
+
+    @classmethod
+    def setUpClass(cls):
+        cls.steps = json.loads(SCENARIO.read_text())["steps"]
+        cls.python = run(PYTHON_RUNNER)
+
+    def check(self, lines):
+        """Whether each step brought what the scenario says."""
+        for number, (step, told) in enumerate(zip(self.steps, lines), start=1):
+            with self.subTest(step=number, do=step["do"], name=step.get("name", "")):
+                self.assertEqual(told["do"], step["do"])
+                kind = "error" if "error" in step else "result"
+                self.assertIn(kind, told, told)
+                expected = step.get("error", step.get("expect", {}))
+                self.assertEqual({key: told[kind].get(key) for key in expected}, expected)
+        self.assertEqual(len(lines), len(self.steps), "steps that were done")
+
+    def test_every_rpc_has_a_step(self):
+        kinds = {step["do"] for step in self.steps} - {"restart"}
+        self.assertEqual(sorted(rpcs() - kinds), [], "RPCs that no step calls")
+        self.assertEqual(sorted(kinds - rpcs()), [], "steps that are no RPC")
+
+    def test_the_python_client_gets_what_the_scenario_says(self):
+        self.check(self.python)
+
+    def test_maps_are_the_same_to_the_byte_wherever_they_come_from(self):
+        maps = {
+            step.get("name", ""): told["result"]
+            for step, told in zip(self.steps, self.python)
+            if step["do"] == "get_map" and "result" in told
+        }
+        self.assertEqual(maps["the copy"], maps["the original"])
+        whole = next(
+            told["result"]
+            for step, told in zip(self.steps, self.python)
+            if step["do"] == "get_map"
+        )
+        self.assertEqual(maps["in parts"], whole)
+        watched = next(
+            told["result"]
+            for step, told in zip(self.steps, self.python)
+            if step["do"] == "watch_map" and "during" in step["with"]
+        )
+        self.assertEqual(maps["as watched"]["occupancy_sha256"], watched["occupancy_sha256"])
+
+    @unittest.skipUnless(RUNNER, "no runner is given")
+    def test_the_client_gets_what_the_scenario_says_and_python_got(self):
+        lines = run(RUNNER)
+        self.check(lines)
+        for number, (told, python) in enumerate(zip(lines, self.python), start=1):
+            with self.subTest(step=number, do=python["do"]):
+                self.assertEqual(told, python)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -1,0 +1,172 @@
+# SPDX-FileCopyrightText: PlumeScout contributors
+# SPDX-License-Identifier: Apache-2.0
+"""What a runner prints of what came back; see README.md."""
+
+import hashlib
+import struct
+
+import numpy as np
+
+from plumescout.v1 import mission_service_pb2 as mission_pb
+from plumescout.v1 import planning_service_pb2 as planning_pb
+from plumescout.v1 import snapshot_service_pb2 as snapshot_pb
+from plumescout.v1 import types_pb2 as types_pb
+
+_LAYERS = ("occupancy", "gas_mean", "gas_variance")
+
+
+def last_part(name):
+    return name.rsplit("/", 1)[-1]
+
+
+def word(enum, value, prefix):
+    return enum.Name(value).removeprefix(prefix)
+
+
+def state(value):
+    return word(types_pb.CellState, value, "CELL_STATE_")
+
+
+def phase(value):
+    return word(types_pb.MissionPhase, value, "MISSION_PHASE_")
+
+
+def goal_kind(value):
+    return word(types_pb.GoalKind, value, "GOAL_KIND_")
+
+
+def reason(value):
+    name = word(planning_pb.RejectedGoal.Reason, value, "REASON_")
+    return None if name == "UNSPECIFIED" else name
+
+
+def mission(message):
+    idle = message.idle_time_to_live.ToNanoseconds() / 1e9
+    return {
+        "mission": last_part(message.name),
+        "state": word(mission_pb.MissionState, message.state, "MISSION_STATE_"),
+        "phase": phase(message.phase),
+        "robot_count": message.robot_count,
+        "event_retention": word(
+            mission_pb.EventRetention, message.event_retention, "EVENT_RETENTION_"
+        ),
+        "idle_time_to_live_s": idle if message.HasField("idle_time_to_live") else None,
+    }
+
+
+def plan(message):
+    """Of a plumescout.v1.Plan."""
+    waypoints = message.trajectory.waypoints
+    numbers = b"".join(
+        struct.pack(
+            "<6d",
+            *(point.pose.x_m, point.pose.y_m, point.pose.yaw_rad),
+            *(point.arrival_time_s, point.dwell_s, point.speed_mps),
+        )
+        for point in waypoints
+    )
+    chosen = message.chosen_index
+    return {
+        "named": bool(message.name),
+        "end": word(planning_pb.Plan.End, message.end, "END_"),
+        "phase": phase(message.phase),
+        "goal_kind": goal_kind(message.candidates[chosen].goal.kind) if chosen >= 0 else None,
+        "length_m": message.trajectory.length_m,
+        "duration_s": message.trajectory.duration_s,
+        "waypoints": len(waypoints),
+        "sha256": hashlib.sha256(numbers).hexdigest(),
+    }
+
+
+def check(message):
+    rejected = message.rejected_goal.reason if message.HasField("rejected_goal") else 0
+    return {
+        "blocked": state(message.blockage.state) if message.HasField("blockage") else None,
+        "rejected": reason(rejected),
+        "length_m": message.rest.length_m if message.HasField("rest") else None,
+    }
+
+
+def frontier(message):
+    return {
+        "kind": goal_kind(message.goal.kind),
+        "reason": reason(message.reason),
+        "travel_m": message.travel_m if message.HasField("travel_m") else None,
+        "x_m": message.goal.position.x_m,
+        "y_m": message.goal.position.y_m,
+        "cells": message.goal.frontier_cell_count,
+    }
+
+
+def live_plan(message):
+    return {
+        "robot": last_part(message.robot),
+        "goal_kind": goal_kind(message.goal_kind),
+        "x_m": message.goal.x_m,
+        "y_m": message.goal.y_m,
+        "waypoints": len(message.trajectory.waypoints),
+    }
+
+
+def team(message):
+    return {
+        "plans": [{"robot": last_part(one.robot), **plan(one)} for one in message.plans],
+        "left_out": [last_part(one.robot) for one in message.left_out],
+    }
+
+
+def robot(message):
+    seen = message.on_map
+    pose = [seen.pose.x_m, seen.pose.y_m, seen.pose.yaw_rad]
+    return {
+        "robot": last_part(seen.robot),
+        "leased": message.leased,
+        "applied_sequence": seen.applied_sequence,
+        "rejected_count": seen.rejected_observation_count,
+        "battery_share": message.battery_share if message.HasField("battery_share") else None,
+        "ordered_home": message.ordered_home,
+        "live_plan": bool(message.live_plan),
+        "pose": pose if seen.HasField("pose") else None,
+    }
+
+
+def standing(notice):
+    flags = notice.standing.DESCRIPTOR.fields_by_name
+    return {"standing": [name for name in flags if getattr(notice.standing, name)]}
+
+
+def event(message):
+    return {
+        "kind": word(snapshot_pb.MissionEventKind, message.kind, "MISSION_EVENT_KIND_"),
+        "robot": last_part(message.robot) or None,
+    }
+
+
+def area(found, layers):
+    """Of a map of the client; layers: names in lower case; none: all."""
+    geometry, status = found.geometry, found.status
+    result = {
+        "rows": geometry.row_count,
+        "columns": geometry.column_count,
+        "resolution_m": geometry.resolution_m,
+        "origin": [geometry.origin.x_m, geometry.origin.y_m],
+        "robots": [last_part(one.robot) for one in status.robots],
+        "reading_count": status.gas_counters.reading_count,
+        "frontier_count": len(status.frontiers),
+        "phase": phase(status.phase),
+    }
+    arrays = (found.occupancy, found.gas_mean_ppm, found.gas_variance_ppm2)
+    for layer, cells in zip(_LAYERS, arrays):
+        if not layers or layer in layers:
+            result[f"{layer}_sha256"] = _digest(cells)
+    return result
+
+
+def numbers(values):
+    return [None if np.isnan(value) else float(value) for value in values]
+
+
+def _digest(cells):
+    if cells.dtype != np.uint8:
+        cells = np.where(np.isnan(cells), np.float32(np.nan), cells).astype("<f4")
+    return hashlib.sha256(cells.tobytes()).hexdigest()
