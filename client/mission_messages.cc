@@ -61,7 +61,7 @@ LatencySummary LatencyFromProto(const v1::Latency& proto) {
 
 }  // namespace
 
-absl::StatusOr<MissionDetails> DetailsFromProto(const v1::Mission& proto, absl::string_view field) {
+absl::StatusOr<MissionDetails> DetailsFromProto(const v1::Mission& proto) {
   MissionDetails mission;
   PLUMESCOUT_ASSIGN_OR_RETURN(mission.id, ParseMissionName("mission.name", proto.name()));
   mission.state = StateFromProto(proto.state());
