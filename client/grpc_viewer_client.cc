@@ -167,6 +167,7 @@ class GrpcViewerClient final : public ViewerClient {
     ToProto(query.view, request);
     request.set_fresh_posterior(query.fresh_posterior);
     request.set_revision(query.revision);
+    request.set_max_part_bytes(query.max_part_bytes);
     return FetchMap(*link_, maps_, request);
   }
 

@@ -108,7 +108,7 @@ class RobotWatch {
 };
 
 struct PlanQuery {
-  PlanRequest request;
+  PlanRequest request = {};
   std::int64_t lease_token = 0;
   std::int64_t min_applied_sequence =
       0;  // wait until this much of the robot's log is in the belief

@@ -29,6 +29,7 @@ struct MapQuery {
   // The posterior brought up to date first; else it may be refresh_period_s of sample time old.
   bool fresh_posterior = false;
   std::int64_t revision = 0;  // the map as it was then, at most the last durable one; 0: as it is
+  int max_part_bytes = 0;     // of one message, about; 0: as the server has it
 };
 
 struct MapWatchQuery {
@@ -56,9 +57,9 @@ class MapWatch {
 };
 
 struct GasQuery {
-  std::vector<Point2> points;    // frame map; 1 to 4096
-  std::string species = {};      // empty: the first
-  bool fresh_posterior = false;  // as in MapQuery
+  std::vector<Point2> points = {};  // frame map; 1 to 4096
+  std::string species = {};         // empty: the first
+  bool fresh_posterior = false;     // as in MapQuery
 };
 
 struct GasAnswer {
