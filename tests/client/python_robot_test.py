@@ -7,8 +7,8 @@ import types
 import unittest
 
 import grpc
-import plumescout_client
-from plumescout_client import calls as calls_module
+import plumescout
+from plumescout import calls as calls_module
 
 from plumescout.v1 import ingest_service_pb2 as ingest_pb
 from plumescout.v1 import robot_service_pb2 as robot_pb
@@ -45,7 +45,7 @@ class FakeServer:
 
     def take(self, request):
         if request.open.durable_sequence > self.applied:
-            raise plumescout_client.PlumeScoutError(
+            raise plumescout.PlumeScoutError(
                 grpc.StatusCode.FAILED_PRECONDITION,
                 "set back",
                 "STORE_ROLLED_BACK",
@@ -53,7 +53,7 @@ class FakeServer:
             )
         for observation in request.batch.observations:
             if observation.sequence > self.applied + 1:
-                raise plumescout_client.PlumeScoutError(
+                raise plumescout.PlumeScoutError(
                     grpc.StatusCode.FAILED_PRECONDITION, "a hole", "SEQUENCE_GAP"
                 )
             gap = observation.gap if observation.HasField("gap") else None
@@ -71,7 +71,7 @@ class FakeServer:
 class RobotTest(unittest.TestCase):
     def setUp(self):
         self.server = FakeServer()
-        self.robot = plumescout_client.Robot(
+        self.robot = plumescout.Robot(
             self.server, robot_pb.RegisterRobotResponse(robot="missions/m/robots/r")
         )
 
@@ -96,14 +96,14 @@ class RobotTest(unittest.TestCase):
         self.server.lag = 3
         self.send(10)
         self.server.fall_back_to(7)
-        with self.assertLogs("plumescout_client", "WARNING"):
+        with self.assertLogs("plumescout", "WARNING"):
             self.send(1)
         self.assertEqual(self.server.log, list(range(1, 12)))
 
     def test_a_server_that_was_set_back_hears_what_is_gone(self):
         self.send(10)
         self.server.fall_back_to(4)
-        with self.assertLogs("plumescout_client", "WARNING"):
+        with self.assertLogs("plumescout", "WARNING"):
             self.send(2)
         self.assertEqual(self.server.log, [1, 2, 3, 4, (5, 10), 11, 12])
         self.assertEqual(self.robot.applied_sequence, 12)
@@ -112,7 +112,7 @@ class RobotTest(unittest.TestCase):
         self.robot.add_gas(1, POSE, 1.0)
         self.robot.add_gas(1, POSE, 1.0)
         del self.robot._kept[0]
-        with self.assertRaises(plumescout_client.PlumeScoutError) as caught:
+        with self.assertRaises(plumescout.PlumeScoutError) as caught:
             self.robot.flush()
         self.assertEqual(caught.exception.reason, "SEQUENCE_GAP")
 
@@ -120,7 +120,7 @@ class RobotTest(unittest.TestCase):
 class WaitingTest(unittest.TestCase):
     def call(self, errors, timeout_s=5.0):
         """Calls a method that fails so often before it answers."""
-        client = plumescout_client.Client("127.0.0.1:1", timeout_s=timeout_s)
+        client = plumescout.Client("127.0.0.1:1", timeout_s=timeout_s)
         self.addCleanup(client.close)
 
         def method(_request, timeout, wait_for_ready):
@@ -140,7 +140,7 @@ class WaitingTest(unittest.TestCase):
     @staticmethod
     def trouble(reason, retry_after_s=0.001):
         error = grpc.RpcError()
-        error.told = plumescout_client.PlumeScoutError(
+        error.told = plumescout.PlumeScoutError(
             grpc.StatusCode.UNAVAILABLE, "later", reason, retry_after_s
         )
         return error
@@ -150,11 +150,11 @@ class WaitingTest(unittest.TestCase):
         self.assertEqual(self.call(errors), "answer")
 
     def test_nothing_is_waited_for_longer_than_the_call_may_take(self):
-        with self.assertRaises(plumescout_client.PlumeScoutError):
+        with self.assertRaises(plumescout.PlumeScoutError):
             self.call([self.trouble("RECOVERING", retry_after_s=60.0)])
 
     def test_a_batch_bears_the_time_of_the_try_that_gets_through(self):
-        client = plumescout_client.Client("127.0.0.1:1", timeout_s=5.0)
+        client = plumescout.Client("127.0.0.1:1", timeout_s=5.0)
         self.addCleanup(client.close)
         client._limits = types.SimpleNamespace(
             max_batch_observation_count=4, max_receive_bytes=1 << 20
@@ -172,7 +172,7 @@ class WaitingTest(unittest.TestCase):
 
         client._ingest = types.SimpleNamespace(BatchIngestObservations=take)
         ticks_ns = itertools.count(100)
-        robot = plumescout_client.Robot(
+        robot = plumescout.Robot(
             client,
             robot_pb.RegisterRobotResponse(robot="missions/m/robots/r"),
             clock_ns=lambda: next(ticks_ns),
@@ -182,7 +182,7 @@ class WaitingTest(unittest.TestCase):
         self.assertEqual(stamps_ns, [100, 101, 102])
 
     def test_other_trouble_is_the_callers(self):
-        with self.assertRaises(plumescout_client.PlumeScoutError) as caught:
+        with self.assertRaises(plumescout.PlumeScoutError) as caught:
             self.call([self.trouble("OVERLOADED")])
         self.assertEqual(caught.exception.reason, "OVERLOADED")
 
