@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "absl/strings/numbers.h"
 #include "proto/convert/status.h"
@@ -46,6 +47,14 @@ std::int64_t RolledBackTo(const absl::Status& status) {
   std::int64_t applied_sequence = 0;
   if (found == metadata.end() || !absl::SimpleAtoi(found->second, &applied_sequence)) return 0;
   return std::max<std::int64_t>(applied_sequence, 0);
+}
+
+std::vector<std::string> RefusedFields(const absl::Status& status) {
+  std::vector<std::string> fields;
+  for (FieldViolation& violation : FieldViolations(status)) {
+    fields.push_back(std::move(violation.field));
+  }
+  return fields;
 }
 
 }  // namespace plumescout::client

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "absl/status/status.h"
 #include "absl/time/time.h"
@@ -29,5 +31,9 @@ absl::Duration RetryDelayOf(const absl::Status& status);
 // What a server that was set back (STORE_ROLLED_BACK) holds of the robot's log: that many
 // observations. 0 if it does not say.
 std::int64_t RolledBackTo(const absl::Status& status);
+
+// The fields that a server refused, as it names them: "options.planning.speed_mps". None of an
+// error that is about no field.
+std::vector<std::string> RefusedFields(const absl::Status& status);
 
 }  // namespace plumescout::client

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "absl/time/time.h"
@@ -18,5 +19,10 @@ struct GrpcClientOptions {
   absl::Duration stream_open_timeout = absl::Seconds(5);
   absl::Duration stream_write_timeout = absl::Seconds(10);  // a server that stops reading is gone
 };
+
+// A connection to a server, opened at the first call and again whenever it breaks. Clients may
+// share one; each keeps it alive. See client/grpc_link.h.
+class GrpcLink;
+std::shared_ptr<GrpcLink> MakeGrpcLink(const GrpcClientOptions& options);
 
 }  // namespace plumescout::client

@@ -41,6 +41,10 @@ GrpcLink::GrpcLink(const GrpcClientOptions& options)
     : options_(options),
       channel_(MakeChannel(options.target, options.credentials, MakeArguments())) {}
 
+std::shared_ptr<GrpcLink> MakeGrpcLink(const GrpcClientOptions& options) {
+  return std::make_shared<GrpcLink>(options);
+}
+
 void GrpcLink::Prepare(grpc::ClientContext& context, absl::Duration timeout) {
   context.set_deadline(absl::ToChronoTime(absl::Now() + timeout));
   context.set_wait_for_ready(true);

@@ -11,8 +11,8 @@
 
 #include "absl/time/clock.h"
 #include "client/grpc_status.h"
+#include "client/ingest_messages.h"
 #include "core/types/status_macros.h"
-#include "proto/convert/names.h"
 #include "proto/convert/observation.h"
 #include "proto/convert/status.h"
 
@@ -23,13 +23,6 @@ namespace {
 constexpr std::size_t kMaxFrame_bytes = std::size_t{192} << 10;
 // How long a failed call is given to say why before it is cancelled.
 constexpr absl::Duration kEndGrace = absl::Milliseconds(200);
-
-IngestState StateFromProto(const v1::IngestState& proto) {
-  return {.applied_sequence = proto.applied_sequence(),
-          .durable_sequence = proto.durable_sequence(),
-          .credit_sequence = proto.credit_sequence(),
-          .revision = proto.revision()};
-}
 
 // An operation on the call; its value is the completion queue's tag.
 enum class Op : std::intptr_t { kStart = 1, kRead, kWrite, kWritesDone, kFinish };
@@ -106,9 +99,7 @@ absl::Status GrpcObservationStream::Open(v1::IngestService::Stub& stub,
   if (!Await(Op::kStart, deadline)) return EndedStatus();
   StartRead();
   v1::StreamObservationsRequest frame;
-  frame.mutable_open()->set_robot(RobotResource({session.mission, session.robot}));
-  frame.mutable_open()->set_lease_token(session.lease_token);
-  frame.mutable_open()->set_durable_sequence(session.durable_sequence);
+  *frame.mutable_open() = OpeningOf(session);
   PLUMESCOUT_RETURN_IF_ERROR(WriteFrame(frame));
   while (replies_.empty() && !reads_ended_ && RunOne(deadline)) {
   }

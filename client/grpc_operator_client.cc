@@ -2,75 +2,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "client/grpc_operator_client.h"
 
-#include <cmath>
 #include <utility>
 
 #include "client/grpc_link.h"
 #include "client/grpc_robot_watch.h"
+#include "client/grpc_status.h"
+#include "client/mission_file.h"
+#include "client/mission_messages.h"
 #include "core/types/status_macros.h"
 #include "plumescout/v1/mission_service.grpc.pb.h"
 #include "plumescout/v1/planning_service.grpc.pb.h"
 #include "plumescout/v1/robot_service.grpc.pb.h"
+#include "plumescout/v1/snapshot_service.grpc.pb.h"
+#include "plumescout/v1/system_service.grpc.pb.h"
 #include "proto/convert/field.h"
-#include "proto/convert/map.h"
 #include "proto/convert/names.h"
 #include "proto/convert/plan.h"
-#include "proto/convert/robot_frame.h"
 
 namespace plumescout::client {
 namespace {
-
-constexpr int kRobotsPerPage = 1000;
-constexpr double kMostOffset_s = 9e9;  // what nanoseconds can say
-
-RobotLink LinkFromProto(v1::RobotLink link) {
-  switch (link) {
-    case v1::ROBOT_LINK_STREAMING:
-      return RobotLink::kStreaming;
-    case v1::ROBOT_LINK_IDLE:
-      return RobotLink::kIdle;
-    case v1::ROBOT_LINK_SILENT:
-      return RobotLink::kSilent;
-    case v1::ROBOT_LINK_GONE:
-      return RobotLink::kGone;
-    default:
-      return RobotLink::kUnknown;  // of a newer server
-  }
-}
-
-absl::StatusOr<RobotState> StateFromProto(const v1::Robot& proto) {
-  PLUMESCOUT_ASSIGN_OR_RETURN(RobotState state, FromProto(proto.on_map(), "robot.on_map"));
-  if (proto.has_frame()) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(state.frame, FromProto(proto.frame(), "robot.frame"));
-  }
-  if (proto.has_battery_share()) state.battery_share = proto.battery_share();
-  state.ordered_home = proto.ordered_home();
-  return state;
-}
-
-absl::StatusOr<RobotDetails> DetailsFromProto(const v1::Robot& proto) {
-  RobotDetails details;
-  PLUMESCOUT_ASSIGN_OR_RETURN(details.state, StateFromProto(proto));
-  if (proto.has_clock_offset_s()) {
-    PLUMESCOUT_RETURN_IF_ERROR(
-        CheckRange("robot.clock_offset_s", proto.clock_offset_s(), -kMostOffset_s, kMostOffset_s));
-    constexpr double kNanosecondsPerSecond = 1e9;
-    details.state.clock_offset_ns = std::llround(proto.clock_offset_s() * kNanosecondsPerSecond);
-    details.clock_offset_ns = details.state.clock_offset_ns;
-  }
-  details.link = LinkFromProto(proto.link());
-  details.leased = proto.leased();
-  if (proto.has_last_heard_age_s()) details.last_heard_age_s = proto.last_heard_age_s();
-  if (proto.has_ingest_lag_s()) details.ingest_lag_s = proto.ingest_lag_s();
-  if (!proto.live_plan().empty()) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(const PlanName plan,
-                                ParsePlanName("robot.live_plan", proto.live_plan()));
-    details.live_plan =
-        PlanProgress{plan.plan, proto.progress_s(), proto.lateness_s(), proto.arrival_time_ns()};
-  }
-  details.battery_low = proto.battery_low();
-  return details;
-}
 
 absl::StatusOr<TeamPlans> TeamFromProto(const v1::PlanTeamResponse& proto) {
   TeamPlans team;
@@ -86,67 +36,35 @@ absl::StatusOr<TeamPlans> TeamFromProto(const v1::PlanTeamResponse& proto) {
   return team;
 }
 
-// It is the server, not the caller, who is to blame for an answer that cannot be read.
-template <typename T>
-absl::StatusOr<T> FromServer(absl::StatusOr<T> read) {
-  if (read.ok()) return read;
-  return absl::InternalError(read.status().message());
-}
-
 class GrpcOperatorClient final : public OperatorClient {
  public:
-  explicit GrpcOperatorClient(const GrpcClientOptions& options)
-      : link_(options),
-        missions_(link_.channel()),
-        robots_(link_.channel()),
-        planning_(link_.channel()) {}
+  explicit GrpcOperatorClient(std::shared_ptr<GrpcLink> link)
+      : link_(std::move(link)),
+        missions_(link_->channel()),
+        robots_(link_->channel()),
+        planning_(link_->channel()),
+        snapshots_(link_->channel()),
+        system_(link_->channel()) {}
 
   absl::Status PauseMission(const MissionId& mission) override {
     v1::PauseMissionRequest request;
     request.set_name(MissionResource(mission));
     v1::PauseMissionResponse response;
-    return link_.Call(missions_, &v1::MissionService::Stub::PauseMission, request, &response);
+    return link_->Call(missions_, &v1::MissionService::Stub::PauseMission, request, &response);
   }
 
   absl::Status ResumeMission(const MissionId& mission) override {
     v1::ResumeMissionRequest request;
     request.set_name(MissionResource(mission));
     v1::ResumeMissionResponse response;
-    return link_.Call(missions_, &v1::MissionService::Stub::ResumeMission, request, &response);
+    return link_->Call(missions_, &v1::MissionService::Stub::ResumeMission, request, &response);
   }
 
   absl::Status FinishMission(const MissionId& mission) override {
     v1::FinishMissionRequest request;
     request.set_name(MissionResource(mission));
     v1::FinishMissionResponse response;
-    return link_.Call(missions_, &v1::MissionService::Stub::FinishMission, request, &response);
-  }
-
-  absl::StatusOr<RobotDetails> GetRobot(const MissionId& mission, const RobotId& robot) override {
-    v1::GetRobotRequest request;
-    request.set_name(RobotResource({mission, robot}));
-    v1::GetRobotResponse response;
-    PLUMESCOUT_RETURN_IF_ERROR(
-        link_.Call(robots_, &v1::RobotService::Stub::GetRobot, request, &response));
-    return FromServer(DetailsFromProto(response.robot()));
-  }
-
-  absl::StatusOr<std::vector<RobotDetails>> ListRobots(const MissionId& mission) override {
-    std::vector<RobotDetails> robots;
-    v1::ListRobotsRequest request;
-    request.set_mission(MissionResource(mission));
-    request.set_page_size(kRobotsPerPage);
-    do {
-      v1::ListRobotsResponse response;
-      PLUMESCOUT_RETURN_IF_ERROR(
-          link_.Call(robots_, &v1::RobotService::Stub::ListRobots, request, &response));
-      for (const v1::Robot& robot : response.robots()) {
-        PLUMESCOUT_ASSIGN_OR_RETURN(RobotDetails details, FromServer(DetailsFromProto(robot)));
-        robots.push_back(std::move(details));
-      }
-      request.set_page_token(response.next_page_token());
-    } while (!request.page_token().empty());
-    return robots;
+    return link_->Call(missions_, &v1::MissionService::Stub::FinishMission, request, &response);
   }
 
   absl::Status RemoveRobot(const MissionId& mission, const RobotId& robot) override {
@@ -154,7 +72,7 @@ class GrpcOperatorClient final : public OperatorClient {
     request.set_robot(RobotResource({mission, robot}));
     request.set_force(true);
     v1::RemoveRobotResponse response;
-    return link_.Call(robots_, &v1::RobotService::Stub::RemoveRobot, request, &response);
+    return link_->Call(robots_, &v1::RobotService::Stub::RemoveRobot, request, &response);
   }
 
   absl::Status ReleaseLease(const MissionId& mission, const RobotId& robot) override {
@@ -162,7 +80,7 @@ class GrpcOperatorClient final : public OperatorClient {
     request.set_robot(RobotResource({mission, robot}));
     request.set_force(true);
     v1::ReleaseLeaseResponse response;
-    return link_.Call(robots_, &v1::RobotService::Stub::ReleaseLease, request, &response);
+    return link_->Call(robots_, &v1::RobotService::Stub::ReleaseLease, request, &response);
   }
 
   absl::Status OrderHome(const MissionId& mission, const std::optional<RobotId>& robot,
@@ -175,7 +93,39 @@ class GrpcOperatorClient final : public OperatorClient {
     }
     request.set_home(home);
     v1::OrderHomeResponse response;
-    return link_.CallNamed(robots_, &v1::RobotService::Stub::OrderHome, request, &response);
+    return link_->CallNamed(robots_, &v1::RobotService::Stub::OrderHome, request, &response);
+  }
+
+  absl::Status UpdateMission(const MissionId& mission, const MissionUpdate& update) override {
+    v1::UpdateMissionRequest request;
+    request.mutable_mission()->set_name(MissionResource(mission));
+    if (update.idle_time_to_live) {
+      request.mutable_update_mask()->add_paths("idle_time_to_live");
+      if (*update.idle_time_to_live != absl::InfiniteDuration()) {
+        SetDuration(*update.idle_time_to_live,
+                    request.mutable_mission()->mutable_idle_time_to_live());
+      }
+    }
+    if (update.event_retention) {
+      request.mutable_update_mask()->add_paths("event_retention");
+      request.mutable_mission()->set_event_retention(ToProto(*update.event_retention));
+    }
+    v1::UpdateMissionResponse response;
+    return link_->Call(missions_, &v1::MissionService::Stub::UpdateMission, request, &response);
+  }
+
+  absl::StatusOr<ExportedMission> ExportMission(const MissionId& mission,
+                                                const MissionFileSink& sink) override {
+    link_->AwaitLink();
+    return ReceiveMissionFile(snapshots_, mission, sink);
+  }
+
+  absl::StatusOr<MissionId> ImportMission(const MissionId& mission,
+                                          const MissionFileSource& source) override {
+    v1::GetServerInfoResponse info;
+    PLUMESCOUT_RETURN_IF_ERROR(link_->Call(system_, &v1::SystemService::Stub::GetServerInfo,
+                                           v1::GetServerInfoRequest(), &info));
+    return SendMissionFile(snapshots_, mission, source, info.limits().max_receive_bytes());
   }
 
   absl::StatusOr<TeamPlans> PlanTeam(const MissionId& mission, const TeamQuery& query) override {
@@ -190,8 +140,8 @@ class GrpcOperatorClient final : public OperatorClient {
     request.set_go_home(query.go_home);
     request.set_max_edge_evaluation_count(query.max_edge_evaluations);
     v1::PlanTeamResponse response;
-    PLUMESCOUT_RETURN_IF_ERROR(link_.CallNamed(planning_, &v1::PlanningService::Stub::PlanTeam,
-                                               request, &response, query.timeout));
+    PLUMESCOUT_RETURN_IF_ERROR(link_->CallNamed(planning_, &v1::PlanningService::Stub::PlanTeam,
+                                                request, &response, query.timeout));
     return FromServer(TeamFromProto(response));
   }
 
@@ -204,16 +154,22 @@ class GrpcOperatorClient final : public OperatorClient {
   }
 
  private:
-  GrpcLink link_;
+  const std::shared_ptr<GrpcLink> link_;
   v1::MissionService::Stub missions_;
   v1::RobotService::Stub robots_;
   v1::PlanningService::Stub planning_;
+  v1::SnapshotService::Stub snapshots_;
+  v1::SystemService::Stub system_;
 };
 
 }  // namespace
 
+std::unique_ptr<OperatorClient> MakeGrpcOperatorClient(std::shared_ptr<GrpcLink> link) {
+  return std::make_unique<GrpcOperatorClient>(std::move(link));
+}
+
 std::unique_ptr<OperatorClient> MakeGrpcOperatorClient(const GrpcClientOptions& options) {
-  return std::make_unique<GrpcOperatorClient>(options);
+  return MakeGrpcOperatorClient(MakeGrpcLink(options));
 }
 
 }  // namespace plumescout::client

@@ -9,7 +9,9 @@
 
 namespace plumescout::client {
 
-// As MakeGrpcPlannerClient, with a connection of its own.
+// What operators do, over HTTP/2.
+std::unique_ptr<OperatorClient> MakeGrpcOperatorClient(std::shared_ptr<GrpcLink> link);
+// Over a connection of its own.
 std::unique_ptr<OperatorClient> MakeGrpcOperatorClient(const GrpcClientOptions& options);
 
 }  // namespace plumescout::client

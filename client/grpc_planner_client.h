@@ -9,8 +9,9 @@
 
 namespace plumescout::client {
 
-// The planning service over one HTTP/2 connection, opened at the first call and again whenever it
-// breaks.
+// The planning service over HTTP/2.
+std::unique_ptr<PlannerClient> MakeGrpcPlannerClient(std::shared_ptr<GrpcLink> link);
+// Over a connection of its own.
 std::unique_ptr<PlannerClient> MakeGrpcPlannerClient(const GrpcClientOptions& options);
 
 }  // namespace plumescout::client

@@ -45,9 +45,9 @@ struct IngestOptions {
 struct IngestCallbacks {
   // The server does not know the robot (any more): create the mission if need be and register.
   std::function<absl::StatusOr<RobotSession>()> rejoin;
-  std::function<void(const ObservationRejected&)> on_rejected;  // may be empty
+  std::function<void(const ObservationRejected&)> on_rejected = nullptr;  // may be empty
   // OK when a stream has opened, otherwise why it ended. May be empty.
-  std::function<void(const absl::Status&)> on_link;
+  std::function<void(const absl::Status&)> on_link = nullptr;
   // Registers without taking over a lease that another holds: for a robot whose lease is not in
   // force when it comes back. Empty: then the session has ended.
   std::function<absl::StatusOr<RobotSession>()> reclaim = nullptr;

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,47 +12,14 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "absl/strings/string_view.h"
 #include "absl/time/time.h"
+#include "client/mission_details.h"
 #include "client/planner_client.h"
 #include "core/types/ids.h"
-#include "core/types/map_snapshot.h"
 #include "core/types/plan.h"
 
 namespace plumescout::client {
-
-// How a robot is linked to the server.
-enum class RobotLink {
-  kStreaming,  // its ingest stream is open
-  kIdle,       // no stream is open; a client holds its lease
-  kSilent,     // its mission has not heard of it while others were heard
-  kGone,       // nobody holds its lease
-  kUnknown,    // the server says what this client does not know
-};
-
-// How far a robot has come on its live plan.
-struct PlanProgress {
-  PlanId plan = 0;
-  double progress_s = 0.0;           // of its trajectory
-  double lateness_s = 0.0;           // behind its times
-  std::int64_t arrival_time_ns = 0;  // in the mission's time
-
-  friend bool operator==(const PlanProgress&, const PlanProgress&) = default;
-};
-
-// A robot as its operator sees it.
-struct RobotDetails {
-  RobotState state;
-  RobotLink link = RobotLink::kGone;
-  bool leased = false;  // a client holds its lease
-  // RobotState::clock_offset_ns; none if its clock is taken as it is, and the state then has 0.
-  std::optional<std::int64_t> clock_offset_ns = std::nullopt;
-  // Since its latest batch was applied; none before the first.
-  std::optional<double> last_heard_age_s = std::nullopt;
-  // Age of the newest sample of that; none unless its batches say when they were sent.
-  std::optional<double> ingest_lag_s = std::nullopt;
-  std::optional<PlanProgress> live_plan = std::nullopt;  // none, too, if it is to stay
-  bool battery_low = false;                              // it is sent home for that
-};
 
 // Which robots to plan for at once, and how.
 struct TeamQuery {
@@ -77,7 +46,32 @@ struct TeamPlans {
   int order_count = 0;  // that were tried to the end
 };
 
-// What operators ask of a server; no lease is needed for it. Errors: kNotFound (MISSION_NOT_FOUND,
+// How a mission is kept. What has no value stays as it is.
+struct MissionUpdate {
+  // A mission that nobody calls for so long is deleted; infinite: never.
+  std::optional<absl::Duration> idle_time_to_live = std::nullopt;
+  std::optional<EventRetention> event_retention = std::nullopt;
+};
+
+// A part of a mission's file, which comes in order and without gaps.
+struct MissionFilePiece {
+  absl::string_view bytes;
+  std::int64_t offset_bytes = 0;    // of the file before it
+  std::int64_t expected_bytes = 0;  // about how long the file will be; for who shows progress
+};
+// Takes the pieces of an export. An error ends it.
+using MissionFileSink = std::function<absl::Status(const MissionFilePiece&)>;
+// Gives at least one and at most so many of the next bytes of a file; none at its end. An error
+// ends the import, which then has changed nothing.
+using MissionFileSource = std::function<absl::StatusOr<std::string>(std::size_t max_bytes)>;
+
+// What an export gave.
+struct ExportedMission {
+  std::int64_t revision = 0;  // last event in the file
+  std::int64_t size_bytes = 0;
+};
+
+// What operators do to missions; no lease is needed for it. Errors: kNotFound (MISSION_NOT_FOUND,
 // ROBOT_NOT_FOUND), kPermissionDenied, MISSION_FINISHED; kInternal if an answer cannot be read.
 // Thread-safe.
 class OperatorClient {
@@ -89,10 +83,18 @@ class OperatorClient {
   virtual absl::Status ResumeMission(const MissionId& mission) = 0;
   // Closes it for good: it can be read, nothing changes it any more.
   virtual absl::Status FinishMission(const MissionId& mission) = 0;
+  virtual absl::Status UpdateMission(const MissionId& mission, const MissionUpdate& update) = 0;
 
-  virtual absl::StatusOr<RobotDetails> GetRobot(const MissionId& mission, const RobotId& robot) = 0;
-  // In order of their names.
-  virtual absl::StatusOr<std::vector<RobotDetails>> ListRobots(const MissionId& mission) = 0;
+  // The mission as a file, with its events up to the last one that is durable now. What the sink
+  // got is the file only if this is OK: its sums were compared, kDataLoss if they differ. Takes as
+  // long as it takes, and one piece of memory.
+  virtual absl::StatusOr<ExportedMission> ExportMission(const MissionId& mission,
+                                                        const MissionFileSink& sink) = 0;
+  // Makes a mission of such a file, under this name or, if it is empty, that in the file; returns
+  // its name once it is durable. MISSION_EXISTS, EXPORT_DAMAGED. Time and memory as of an export.
+  virtual absl::StatusOr<MissionId> ImportMission(const MissionId& mission,
+                                                  const MissionFileSource& source) = 0;
+
   // Whoever holds its lease, as of a robot or a client that died. See PlannerClient::RemoveRobot.
   virtual absl::Status RemoveRobot(const MissionId& mission, const RobotId& robot) = 0;
   // Another client may register the robot at once.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -21,6 +22,7 @@
 #include "core/types/plan_request.h"
 #include "core/types/robot_frame.h"
 #include "core/types/robot_notice.h"
+#include "core/types/trajectory_verdict.h"
 
 namespace plumescout::client {
 
@@ -67,6 +69,12 @@ struct ObservationRejected {
 
 using IngestReply = std::variant<IngestState, ObservationRejected>;
 
+// What became of a batch that was sent by itself.
+struct BatchReply {
+  IngestState state;
+  std::vector<ObservationRejected> rejected = {};
+};
+
 // One open ingest stream. Not thread-safe. After any error it is dead: open another.
 class ObservationStream {
  public:
@@ -100,7 +108,7 @@ class RobotWatch {
 };
 
 struct PlanQuery {
-  PlanRequest request;
+  PlanRequest request = {};
   std::int64_t lease_token = 0;
   std::int64_t min_applied_sequence =
       0;  // wait until this much of the robot's log is in the belief
@@ -108,9 +116,39 @@ struct PlanQuery {
   absl::Duration timeout = absl::Seconds(10);  // of the whole call
 };
 
+// Plans that get better until the last, which is the robot's. Not thread-safe, but for Cancel.
+// After any error but kDeadlineExceeded it is dead.
+class PlanStream {
+ public:
+  virtual ~PlanStream() = default;
+
+  // The next plan; none after the last. Only the last is committed and has an id.
+  // kDeadlineExceeded if none came (the stream lives on).
+  virtual absl::StatusOr<std::optional<Plan>> Read(absl::Duration timeout) = 0;
+  // A Read that waits, and each after it, is kCancelled. Nothing is committed if it comes in time.
+  virtual void Cancel() = 0;
+};
+
+// A path that a robot means to drive.
+struct IntendedPath {
+  std::vector<Point2> vertices;  // frame map, from where the robot is, or will be; 1 to 4096
+  GoalKind goal_kind = GoalKind::kOccupancyFrontier;  // what waits at its end
+};
+
+struct TrajectoryQuery {
+  // The robot's latest plan, the rest of it; or a path, whole.
+  std::variant<PlanId, IntendedPath> subject;
+  std::int64_t min_applied_sequence = 0;  // as in PlanQuery
+};
+
+struct TrajectoryCheck {
+  std::int64_t revision = 0;  // of the mission that was looked at
+  TrajectoryVerdict verdict;
+};
+
 // The planning service as robots and studies see it. The same interface is served over gRPC
 // (grpc_planner_client.h) and within one process (lab/local/), so callers and tests run on either.
-// Thread-safe.
+// What only some services offer is kUnimplemented by default. Thread-safe.
 class PlannerClient {
  public:
   virtual ~PlannerClient() = default;
@@ -154,6 +192,26 @@ class PlannerClient {
   // service tells nothing unasked.
   virtual absl::StatusOr<std::unique_ptr<RobotWatch>> WatchRobot(const RobotSession&) {
     return absl::UnimplementedError("robots are not watched here");
+  }
+  // Another client may register the robot at once.
+  virtual absl::Status ReleaseLease(const RobotSession&) {
+    return absl::UnimplementedError("leases are not released here");
+  }
+  // A batch without a stream, for back-fill: consecutive, within the credit. It may be sent again.
+  virtual absl::StatusOr<BatchReply> IngestBatch(const RobotSession&,
+                                                 const std::vector<Observation>&) {
+    return absl::UnimplementedError("observations come by streams here");
+  }
+  // As NextBestTrajectory, with what is found on the way. Returns at once; errors come from the
+  // stream, which ends after query.timeout at the latest.
+  virtual absl::StatusOr<std::unique_ptr<PlanStream>> StreamNextBestTrajectory(const MissionId&,
+                                                                               const PlanQuery&) {
+    return absl::UnimplementedError("plans do not come in a stream here");
+  }
+  // Whether a way still holds, on the present map. Operators ask with a session without a lease.
+  virtual absl::StatusOr<TrajectoryCheck> CheckTrajectory(const RobotSession&,
+                                                          const TrajectoryQuery&) {
+    return absl::UnimplementedError("trajectories are not checked here");
   }
   // Of all gases, with the posterior brought up to date.
   virtual absl::StatusOr<MapSnapshot> GetMap(const MissionId& mission) = 0;

@@ -43,8 +43,9 @@ function(plumescout_library name)
     endif()
     add_library(plumescout_${name} STATIC ${united} ${ARG_APART})
     plumescout_precompile(plumescout_${name} ${ARG_PRECOMPILED})
-    target_include_directories(plumescout_${name} PUBLIC ${PROJECT_SOURCE_DIR})
-    target_link_libraries(plumescout_${name} PUBLIC ${ARG_DEPS} PRIVATE plumescout_warnings)
+    target_include_directories(plumescout_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+    target_link_libraries(plumescout_${name} PUBLIC ${ARG_DEPS}
+                          PRIVATE $<BUILD_INTERFACE:plumescout_warnings>)
   else()
     add_library(plumescout_${name} INTERFACE)
     target_include_directories(plumescout_${name} INTERFACE ${PROJECT_SOURCE_DIR})
@@ -55,10 +56,13 @@ endfunction()
 
 # plumescout_program(plumescout-server SOURCES main.cc DEPS plumescout::server)
 #
-# PRECOMPILED: as plumescout_library, if any.
+# PRECOMPILED: as plumescout_library, if any. COMPONENT: of the installation, if it is installed.
 function(plumescout_program name)
-  cmake_parse_arguments(ARG "" "PRECOMPILED" "SOURCES;DEPS" ${ARGN})
+  cmake_parse_arguments(ARG "" "PRECOMPILED;COMPONENT" "SOURCES;DEPS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
+  if(ARG_COMPONENT)
+    install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${ARG_COMPONENT})
+  endif()
   if(ARG_PRECOMPILED)
     plumescout_precompile(${name} ${ARG_PRECOMPILED})
   endif()

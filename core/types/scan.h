@@ -14,7 +14,7 @@ struct Scan {
   double start_angle_rad = 0.0;
   double angle_step_rad = 0.0;
   double max_range_m = 0.0;
-  std::vector<float> ranges_m;
+  std::vector<float> ranges_m = {};
 
   friend bool operator==(const Scan&, const Scan&) = default;
 };

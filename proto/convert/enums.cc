@@ -215,5 +215,8 @@ absl::StatusOr<SamplingReward> FromProto(v1::SamplingReward proto, absl::string_
 absl::StatusOr<PathKind> FromProto(v1::PathKind proto, absl::string_view field) {
   return Find(kPathKinds, proto, field);
 }
+absl::StatusOr<std::optional<CellState>> FromProto(v1::CellState proto, absl::string_view field) {
+  return Find(kCellStates, proto, field);
+}
 
 }  // namespace plumescout

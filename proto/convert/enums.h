@@ -54,5 +54,7 @@ absl::StatusOr<SamplingKind> FromProto(v1::SamplingKind proto, absl::string_view
 absl::StatusOr<SelectionRule> FromProto(v1::SelectionRule proto, absl::string_view field);
 absl::StatusOr<SamplingReward> FromProto(v1::SamplingReward proto, absl::string_view field);
 absl::StatusOr<PathKind> FromProto(v1::PathKind proto, absl::string_view field);
+// None: off the map.
+absl::StatusOr<std::optional<CellState>> FromProto(v1::CellState proto, absl::string_view field);
 
 }  // namespace plumescout

@@ -12,6 +12,23 @@
 #include "proto/convert/plan.h"
 
 namespace plumescout {
+namespace {
+
+// The one below overloads these rather than hides them.
+using plumescout::FromProto;
+
+absl::StatusOr<Blockage> FromProto(const v1::Blockage& proto, absl::string_view field) {
+  Blockage blockage;
+  blockage.cell = FromProto(proto.cell());
+  PLUMESCOUT_ASSIGN_OR_RETURN(blockage.position,
+                              FromProto(proto.position(), Join(field, "position")));
+  PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative(Join(field, "distance_m"), proto.distance_m()));
+  blockage.distance_m = proto.distance_m();
+  PLUMESCOUT_ASSIGN_OR_RETURN(blockage.state, FromProto(proto.state(), Join(field, "state")));
+  return blockage;
+}
+
+}  // namespace
 
 absl::StatusOr<std::vector<Point2>> PointsFromProto(
     const google::protobuf::RepeatedPtrField<v1::Point2D>& points, double limit_m,
@@ -63,6 +80,53 @@ v1::GasAtPoint ToProto(const GasAtPlace& gas) {
   if (gas.variance_ppm2) proto.set_variance_ppm2(*gas.variance_ppm2);
   proto.set_observed(gas.observed);
   return proto;
+}
+
+absl::StatusOr<TrajectoryVerdict> FromProto(const v1::CheckTrajectoryResponse& proto) {
+  TrajectoryVerdict verdict;
+  if (proto.has_blockage()) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(verdict.blockage, FromProto(proto.blockage(), "blockage"));
+  }
+  if (proto.has_rejected_goal()) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(verdict.rejection,
+                                FromProto(proto.rejected_goal(), "rejected_goal"));
+  }
+  if (proto.has_rest()) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(verdict.rest, FromProto(proto.rest(), "rest"));
+  }
+  return verdict;
+}
+
+absl::StatusOr<JudgedFrontier> FromProto(const v1::FrontierGoal& proto, absl::string_view field) {
+  JudgedFrontier frontier;
+  PLUMESCOUT_ASSIGN_OR_RETURN(frontier.goal, FromProto(proto.goal(), Join(field, "goal")));
+  if (proto.has_travel_m()) {
+    PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative(Join(field, "travel_m"), proto.travel_m()));
+    frontier.travel_m = proto.travel_m();
+  }
+  if (proto.reason() != v1::RejectedGoal::REASON_UNSPECIFIED) {
+    frontier.rejection.emplace();
+    frontier.rejection->goal = frontier.goal;
+    frontier.rejection->detail = proto.detail();
+    PLUMESCOUT_ASSIGN_OR_RETURN(frontier.rejection->reason,
+                                FromProto(proto.reason(), Join(field, "reason")));
+  }
+  return frontier;
+}
+
+absl::StatusOr<GasAtPlace> FromProto(const v1::GasAtPoint& proto, absl::string_view field) {
+  GasAtPlace gas;
+  PLUMESCOUT_ASSIGN_OR_RETURN(gas.state, FromProto(proto.state(), Join(field, "state")));
+  if (proto.has_mean_ppm()) {
+    PLUMESCOUT_RETURN_IF_ERROR(CheckFinite(Join(field, "mean_ppm"), proto.mean_ppm()));
+    gas.mean_ppm = proto.mean_ppm();
+  }
+  if (proto.has_variance_ppm2()) {
+    PLUMESCOUT_RETURN_IF_ERROR(CheckFinite(Join(field, "variance_ppm2"), proto.variance_ppm2()));
+    gas.variance_ppm2 = proto.variance_ppm2();
+  }
+  gas.observed = proto.observed();
+  return gas;
 }
 
 }  // namespace plumescout

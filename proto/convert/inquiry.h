@@ -29,4 +29,9 @@ v1::CheckTrajectoryResponse ToProto(const TrajectoryVerdict& check);
 v1::FrontierGoal ToProto(const JudgedFrontier& frontier);
 v1::GasAtPoint ToProto(const GasAtPlace& gas);
 
+// kInvalidArgument naming the field of the answer.
+absl::StatusOr<TrajectoryVerdict> FromProto(const v1::CheckTrajectoryResponse& proto);
+absl::StatusOr<JudgedFrontier> FromProto(const v1::FrontierGoal& proto, absl::string_view field);
+absl::StatusOr<GasAtPlace> FromProto(const v1::GasAtPoint& proto, absl::string_view field);
+
 }  // namespace plumescout

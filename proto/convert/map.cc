@@ -70,27 +70,7 @@ GasCounters FromProto(const v1::GasCounters& proto) {
           proto.waiting_count()};
 }
 
-GasQuality FromProto(const v1::GasQuality& proto) {
-  return {.mean_error_ppm = proto.mean_error_ppm(),
-          .variance_error_ratio = proto.variance_error_ratio(),
-          .aged_to_ns = proto.aged_to_ns(),
-          .ageing_error_ratio = proto.ageing_error_ratio(),
-          .refreshes = proto.refresh_count(),
-          .epochs = proto.epoch_count(),
-          .healed = proto.healed_count(),
-          .failures = proto.failure_count(),
-          .drift_mean_ppm = proto.drift_mean_ppm(),
-          .drift_variance_ratio = proto.drift_variance_ratio()};
-}
-
-GasAudits AuditsFromProto(const v1::GasQuality& proto) {
-  return {.audits = proto.audit_count(),
-          .mean_ppm = proto.audit_mean_ppm(),
-          .variance_ratio = proto.audit_variance_ratio(),
-          .alarms = proto.audit_alarm_count()};
-}
-
-absl::Status ReadLists(const v1::MapStatus& proto, absl::string_view field, MapSnapshot& map) {
+absl::Status ReadLists(const v1::MapStatus& proto, absl::string_view field, MapStatus& map) {
   for (int i = 0; i < proto.frontiers_size(); ++i) {
     PLUMESCOUT_ASSIGN_OR_RETURN(Frontier frontier,
                                 FromProto(proto.frontiers(i), Join(field, "frontiers", i)));
@@ -130,27 +110,6 @@ v1::SensorOffset ToProto(const SensorOffset& offset, const MissionId& mission) {
   proto.set_drifting(offset.drifting);
   proto.set_species(offset.species);
   return proto;
-}
-
-absl::Status ReadStatus(const v1::MapStatus& proto, absl::string_view field, MapSnapshot& map) {
-  PLUMESCOUT_RETURN_IF_ERROR(ReadLists(proto, field, map));
-  PLUMESCOUT_ASSIGN_OR_RETURN(map.phase, FromProto(proto.phase(), Join(field, "phase")));
-  PLUMESCOUT_RETURN_IF_ERROR(
-      CheckFinite(Join(field, "gas_threshold_ppm"), proto.gas_threshold_ppm()));
-  map.gas_threshold_ppm = proto.gas_threshold_ppm();
-  map.gas_counters = FromProto(proto.gas_counters());
-  map.gas_quality = FromProto(proto.gas_quality());
-  map.gas_audits = AuditsFromProto(proto.gas_quality());
-  for (int i = 0; i < proto.sensor_offsets_size(); ++i) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(
-        SensorOffset offset, FromProto(proto.sensor_offsets(i), Join(field, "sensor_offsets", i)));
-    map.sensor_offsets.push_back(std::move(offset));
-  }
-  for (const v1::GasStatus& gas : proto.gases()) {
-    map.gases.push_back({gas.species(), FromProto(gas.gas_counters()), FromProto(gas.gas_quality()),
-                         AuditsFromProto(gas.gas_quality())});
-  }
-  return absl::OkStatus();
 }
 
 absl::Status ReadLayers(const google::protobuf::RepeatedField<int>& layers, MapView& view) {
@@ -223,6 +182,20 @@ absl::StatusOr<MapView> ReadView(const Request& request) {
   return view;
 }
 
+template <typename Request>
+void WriteView(const MapView& view, Request& request) {
+  if (view.occupancy) request.add_layers(v1::MAP_LAYER_OCCUPANCY);
+  if (view.gas_mean) request.add_layers(v1::MAP_LAYER_GAS_MEAN);
+  if (view.gas_variance) request.add_layers(v1::MAP_LAYER_GAS_VARIANCE);
+  request.set_full_precision(view.full_precision);
+  request.set_level_of_detail(view.level_of_detail);
+  if (view.region) {
+    *request.mutable_region()->mutable_min() = ToProto(view.region->min);
+    *request.mutable_region()->mutable_max() = ToProto(view.region->max);
+  }
+  request.mutable_species()->Assign(view.species.begin(), view.species.end());
+}
+
 }  // namespace
 
 absl::StatusOr<MapView> MapViewFromProto(const v1::GetMapRequest& request) {
@@ -232,6 +205,10 @@ absl::StatusOr<MapView> MapViewFromProto(const v1::GetMapRequest& request) {
 absl::StatusOr<MapView> MapViewFromProto(const v1::WatchMapRequest& request) {
   return ReadView(request);
 }
+
+void ToProto(const MapView& view, v1::GetMapRequest& request) { WriteView(view, request); }
+
+void ToProto(const MapView& view, v1::WatchMapRequest& request) { WriteView(view, request); }
 
 absl::StatusOr<RobotState> FromProto(const v1::RobotOnMap& proto, absl::string_view field) {
   RobotState robot;
@@ -259,6 +236,26 @@ v1::RobotOnMap ToProto(const RobotState& robot, const MissionId& mission) {
   proto.set_silent(robot.silent);
   proto.set_frame_suspect(robot.frame_suspect);
   return proto;
+}
+
+GasQuality FromProto(const v1::GasQuality& proto) {
+  return {.mean_error_ppm = proto.mean_error_ppm(),
+          .variance_error_ratio = proto.variance_error_ratio(),
+          .aged_to_ns = proto.aged_to_ns(),
+          .ageing_error_ratio = proto.ageing_error_ratio(),
+          .refreshes = proto.refresh_count(),
+          .epochs = proto.epoch_count(),
+          .healed = proto.healed_count(),
+          .failures = proto.failure_count(),
+          .drift_mean_ppm = proto.drift_mean_ppm(),
+          .drift_variance_ratio = proto.drift_variance_ratio()};
+}
+
+GasAudits AuditsFromProto(const v1::GasQuality& proto) {
+  return {.audits = proto.audit_count(),
+          .mean_ppm = proto.audit_mean_ppm(),
+          .variance_ratio = proto.audit_variance_ratio(),
+          .alarms = proto.audit_alarm_count()};
 }
 
 v1::GasQuality ToProto(const GasQuality& quality, const GasAudits& audits) {
@@ -302,6 +299,35 @@ v1::MapStatus ToProto(const MapStatus& status, const GridGeometry& geometry,
   return proto;
 }
 
+absl::StatusOr<MapStatus> FromProto(const v1::MapStatus& proto, absl::string_view field) {
+  MapStatus map;
+  PLUMESCOUT_RETURN_IF_ERROR(ReadLists(proto, field, map));
+  PLUMESCOUT_ASSIGN_OR_RETURN(map.phase, FromProto(proto.phase(), Join(field, "phase")));
+  PLUMESCOUT_RETURN_IF_ERROR(
+      CheckFinite(Join(field, "gas_threshold_ppm"), proto.gas_threshold_ppm()));
+  map.gas_threshold_ppm = proto.gas_threshold_ppm();
+  map.gas_counters = FromProto(proto.gas_counters());
+  map.gas_quality = FromProto(proto.gas_quality());
+  map.gas_audits = AuditsFromProto(proto.gas_quality());
+  for (int i = 0; i < proto.sensor_offsets_size(); ++i) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(
+        SensorOffset offset, FromProto(proto.sensor_offsets(i), Join(field, "sensor_offsets", i)));
+    map.sensor_offsets.push_back(std::move(offset));
+  }
+  for (const v1::GasStatus& gas : proto.gases()) {
+    map.gases.push_back({gas.species(), FromProto(gas.gas_counters()), FromProto(gas.gas_quality()),
+                         AuditsFromProto(gas.gas_quality())});
+  }
+  return map;
+}
+
+void ClearMap(const GridGeometry& geometry, MapSnapshot& map) {
+  map.occupancy = Grid<CellState>(geometry, CellState::kUnknown);
+  map.gas_mean_ppm = Grid<float>(geometry, std::numeric_limits<float>::quiet_NaN());
+  map.gas_variance_ppm2 = map.gas_mean_ppm;
+  map.further_gases.clear();
+}
+
 absl::Status DecodeTile(const v1::MapTile& tile, absl::string_view field, MapSnapshot& map) {
   if (!tile.species().empty()) return DecodeFurther(tile, field, map);
   switch (tile.layer()) {
@@ -318,15 +344,13 @@ absl::Status DecodeTile(const v1::MapTile& tile, absl::string_view field, MapSna
 
 absl::StatusOr<MapSnapshot> FromProto(const v1::GetMapResponse& proto) {
   MapSnapshot map;
+  PLUMESCOUT_ASSIGN_OR_RETURN(static_cast<MapStatus&>(map), FromProto(proto.status(), "status"));
   map.revision = proto.revision();
-  PLUMESCOUT_RETURN_IF_ERROR(ReadStatus(proto.status(), "status", map));
   PLUMESCOUT_ASSIGN_OR_RETURN(const GridGeometry geometry,
                               proto.has_tile_geometry()
                                   ? FromProto(proto.tile_geometry(), "tile_geometry")
                                   : FromProto(proto.status().geometry(), "status.geometry"));
-  map.occupancy = Grid<CellState>(geometry, CellState::kUnknown);
-  map.gas_mean_ppm = Grid<float>(geometry, std::numeric_limits<float>::quiet_NaN());
-  map.gas_variance_ppm2 = map.gas_mean_ppm;
+  ClearMap(geometry, map);
   PLUMESCOUT_RETURN_IF_ERROR(AddTiles(proto, map));
   return map;
 }

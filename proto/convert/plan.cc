@@ -32,16 +32,6 @@ v1::PlanEffort ToProto(const PlanEffort& effort) {
   return proto;
 }
 
-absl::StatusOr<Goal> FromProto(const v1::Goal& proto, absl::string_view field) {
-  Goal goal;
-  PLUMESCOUT_ASSIGN_OR_RETURN(goal.kind, FromProto(proto.kind(), Join(field, "kind")));
-  goal.cell = FromProto(proto.cell());
-  PLUMESCOUT_ASSIGN_OR_RETURN(goal.position, FromProto(proto.position(), Join(field, "position")));
-  PLUMESCOUT_ASSIGN_OR_RETURN(goal.centroid, FromProto(proto.centroid(), Join(field, "centroid")));
-  goal.frontier_cells = proto.frontier_cell_count();
-  return goal;
-}
-
 absl::Status CheckPrice(const v1::Candidate& proto, absl::string_view field) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckFinite(Join(field, "cost"), proto.cost()));
   PLUMESCOUT_RETURN_IF_ERROR(
@@ -55,43 +45,6 @@ absl::Status CheckPrice(const v1::Candidate& proto, absl::string_view field) {
   return CheckFinite(Join(field, "mean_concentration_ppm"), proto.mean_concentration_ppm());
 }
 
-absl::StatusOr<Candidate> FromProto(const v1::Candidate& proto, absl::string_view field) {
-  Candidate candidate;
-  PLUMESCOUT_RETURN_IF_ERROR(CheckPrice(proto, field));
-  PLUMESCOUT_ASSIGN_OR_RETURN(candidate.goal, FromProto(proto.goal(), Join(field, "goal")));
-  for (int i = 0; i < proto.path_size(); ++i) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(const Point2 point,
-                                FromProto(proto.path(i), Join(field, "path", i)));
-    candidate.path.push_back(point);
-  }
-  PLUMESCOUT_ASSIGN_OR_RETURN(candidate.path_source,
-                              FromProto(proto.path_source(), Join(field, "path_source")));
-  candidate.cost = proto.cost();
-  candidate.information_penalty = proto.information_penalty();
-  candidate.length_m = proto.length_m();
-  candidate.mean_ucb = proto.mean_ucb();
-  candidate.mean_concentration_ppm = proto.mean_concentration_ppm();
-  candidate.duration_s = proto.duration_s();
-  if (proto.has_expected_information_nats()) {
-    candidate.expected_information_nats = proto.expected_information_nats();
-  }
-  if (proto.has_reward()) candidate.reward = proto.reward();
-  for (int i = 0; i < proto.stops_size(); ++i) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(const Point2 stop,
-                                FromProto(proto.stops(i), Join(field, "stops", i)));
-    candidate.stops.push_back(stop);
-  }
-  return candidate;
-}
-
-absl::StatusOr<RejectedGoal> FromProto(const v1::RejectedGoal& proto, absl::string_view field) {
-  RejectedGoal rejected;
-  PLUMESCOUT_ASSIGN_OR_RETURN(rejected.goal, FromProto(proto.goal(), Join(field, "goal")));
-  PLUMESCOUT_ASSIGN_OR_RETURN(rejected.reason, FromProto(proto.reason(), Join(field, "reason")));
-  rejected.detail = proto.detail();
-  return rejected;
-}
-
 absl::StatusOr<Waypoint> FromProto(const v1::Waypoint& proto, absl::string_view field) {
   Waypoint waypoint;
   PLUMESCOUT_ASSIGN_OR_RETURN(waypoint.pose, FromProto(proto.pose(), Join(field, "pose")));
@@ -103,25 +56,6 @@ absl::StatusOr<Waypoint> FromProto(const v1::Waypoint& proto, absl::string_view 
   waypoint.dwell_s = proto.dwell_s();
   waypoint.speed_mps = proto.speed_mps();
   return waypoint;
-}
-
-absl::StatusOr<Trajectory> FromProto(const v1::Trajectory& proto, absl::string_view field) {
-  Trajectory trajectory;
-  for (int i = 0; i < proto.waypoints_size(); ++i) {
-    const std::string waypoint_field = Join(field, "waypoints", i);
-    PLUMESCOUT_ASSIGN_OR_RETURN(const Waypoint waypoint,
-                                FromProto(proto.waypoints(i), waypoint_field));
-    if (i > 0 && waypoint.arrival_time_s < trajectory.waypoints.back().arrival_time_s) {
-      return FieldError(Join(waypoint_field, "arrival_time_s"), waypoint.arrival_time_s,
-                        "is before the waypoint before it");
-    }
-    trajectory.waypoints.push_back(waypoint);
-  }
-  PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative(Join(field, "length_m"), proto.length_m()));
-  PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative(Join(field, "duration_s"), proto.duration_s()));
-  trajectory.length_m = proto.length_m();
-  trajectory.duration_s = proto.duration_s();
-  return trajectory;
 }
 
 PlanEffort FromProto(const v1::PlanEffort& proto) {
@@ -234,6 +168,72 @@ v1::Plan ToProto(const Plan& plan, const MissionId& mission) {
   proto.mutable_cpu_duration()->set_nanos(
       static_cast<std::int32_t>(cpu_ns % std::llround(kNanosecondsPerSecond)));
   return proto;
+}
+
+absl::StatusOr<Goal> FromProto(const v1::Goal& proto, absl::string_view field) {
+  Goal goal;
+  PLUMESCOUT_ASSIGN_OR_RETURN(goal.kind, FromProto(proto.kind(), Join(field, "kind")));
+  goal.cell = FromProto(proto.cell());
+  PLUMESCOUT_ASSIGN_OR_RETURN(goal.position, FromProto(proto.position(), Join(field, "position")));
+  PLUMESCOUT_ASSIGN_OR_RETURN(goal.centroid, FromProto(proto.centroid(), Join(field, "centroid")));
+  goal.frontier_cells = proto.frontier_cell_count();
+  return goal;
+}
+
+absl::StatusOr<Candidate> FromProto(const v1::Candidate& proto, absl::string_view field) {
+  Candidate candidate;
+  PLUMESCOUT_RETURN_IF_ERROR(CheckPrice(proto, field));
+  PLUMESCOUT_ASSIGN_OR_RETURN(candidate.goal, FromProto(proto.goal(), Join(field, "goal")));
+  for (int i = 0; i < proto.path_size(); ++i) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(const Point2 point,
+                                FromProto(proto.path(i), Join(field, "path", i)));
+    candidate.path.push_back(point);
+  }
+  PLUMESCOUT_ASSIGN_OR_RETURN(candidate.path_source,
+                              FromProto(proto.path_source(), Join(field, "path_source")));
+  candidate.cost = proto.cost();
+  candidate.information_penalty = proto.information_penalty();
+  candidate.length_m = proto.length_m();
+  candidate.mean_ucb = proto.mean_ucb();
+  candidate.mean_concentration_ppm = proto.mean_concentration_ppm();
+  candidate.duration_s = proto.duration_s();
+  if (proto.has_expected_information_nats()) {
+    candidate.expected_information_nats = proto.expected_information_nats();
+  }
+  if (proto.has_reward()) candidate.reward = proto.reward();
+  for (int i = 0; i < proto.stops_size(); ++i) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(const Point2 stop,
+                                FromProto(proto.stops(i), Join(field, "stops", i)));
+    candidate.stops.push_back(stop);
+  }
+  return candidate;
+}
+
+absl::StatusOr<RejectedGoal> FromProto(const v1::RejectedGoal& proto, absl::string_view field) {
+  RejectedGoal rejected;
+  PLUMESCOUT_ASSIGN_OR_RETURN(rejected.goal, FromProto(proto.goal(), Join(field, "goal")));
+  PLUMESCOUT_ASSIGN_OR_RETURN(rejected.reason, FromProto(proto.reason(), Join(field, "reason")));
+  rejected.detail = proto.detail();
+  return rejected;
+}
+
+absl::StatusOr<Trajectory> FromProto(const v1::Trajectory& proto, absl::string_view field) {
+  Trajectory trajectory;
+  for (int i = 0; i < proto.waypoints_size(); ++i) {
+    const std::string waypoint_field = Join(field, "waypoints", i);
+    PLUMESCOUT_ASSIGN_OR_RETURN(const Waypoint waypoint,
+                                FromProto(proto.waypoints(i), waypoint_field));
+    if (i > 0 && waypoint.arrival_time_s < trajectory.waypoints.back().arrival_time_s) {
+      return FieldError(Join(waypoint_field, "arrival_time_s"), waypoint.arrival_time_s,
+                        "is before the waypoint before it");
+    }
+    trajectory.waypoints.push_back(waypoint);
+  }
+  PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative(Join(field, "length_m"), proto.length_m()));
+  PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative(Join(field, "duration_s"), proto.duration_s()));
+  trajectory.length_m = proto.length_m();
+  trajectory.duration_s = proto.duration_s();
+  return trajectory;
 }
 
 absl::StatusOr<Plan> FromProto(const v1::Plan& proto, absl::string_view field) {

@@ -17,8 +17,12 @@ v1::Trajectory ToProto(const Trajectory& trajectory);
 // Resource names are built below `mission`; a plan that is not committed (id 0) has no name.
 v1::Plan ToProto(const Plan& plan, const MissionId& mission);
 
-// Checks that every number is finite, that the choice is one of the candidates and that the
+// These check that every number is finite, that the choice is one of the candidates and that the
 // trajectory does not go back in time.
+absl::StatusOr<Goal> FromProto(const v1::Goal& proto, absl::string_view field);
+absl::StatusOr<Candidate> FromProto(const v1::Candidate& proto, absl::string_view field);
+absl::StatusOr<RejectedGoal> FromProto(const v1::RejectedGoal& proto, absl::string_view field);
+absl::StatusOr<Trajectory> FromProto(const v1::Trajectory& proto, absl::string_view field);
 absl::StatusOr<Plan> FromProto(const v1::Plan& proto, absl::string_view field);
 
 }  // namespace plumescout

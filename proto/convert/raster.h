@@ -6,18 +6,12 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/string_view.h"
+#include "core/types/cell_rect.h"
 #include "core/types/cell_state.h"
 #include "core/types/grid.h"
 #include "plumescout/v1/map_service.pb.h"
 
 namespace plumescout {
-
-// Cells [min, min + (width, height)) of a raster.
-struct CellRect {
-  Cell min;
-  int width = 0;
-  int height = 0;
-};
 
 CellRect WholeRaster(const GridGeometry& geometry);
 

@@ -8,10 +8,10 @@
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "formats/file_sum.h"
 #include "formats/journal/event_codec.h"
 #include "formats/journal/journal_file_encoder.h"
 #include "plumescout/v1/snapshot_service.pb.h"
-#include "server/history/file_sum.h"
 #include "server/store/mission_store.h"
 
 namespace plumescout::server {

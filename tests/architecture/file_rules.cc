@@ -27,7 +27,7 @@ constexpr StandIn kStandIns[] = {
 // Programs and what only they are made of are tried as a whole: by end-to-end tests, or by being
 // measured.
 bool IsProgram(const std::string& path) {
-  for (const char* folder : {"lab/bench/", "lab/program/", "tests/"}) {
+  for (const char* folder : {"client/examples/", "lab/bench/", "lab/program/", "tests/"}) {
     if (absl::StartsWith(path, folder)) return true;
   }
   return absl::EndsWith(path, "/main.cc") || absl::EndsWith(path, "_main.cc");

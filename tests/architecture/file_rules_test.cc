@@ -35,6 +35,7 @@ TEST(FileRules, SourcesWithoutTestAreFound) {
                                          ParseSource("tests/core/plan/untested_test.cc", ""),
                                          ParseSource("core/gas/only_header.h", ""),
                                          ParseSource("server/main.cc", ""),
+                                         ParseSource("client/examples/cpp/toy.cc", ""),
                                          ParseSource("lab/bench/gas_bench.cc", "")};
   EXPECT_THAT(CheckMirror(files), ElementsAre("core/gas/untested.cc has no test of its name"));
 }

@@ -13,8 +13,9 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-// Programs, and the headers that the client library is published by.
+// Programs, examples, and the headers that the client library is published by.
 bool IsRoot(const SourceFile& file) {
+  if (absl::StartsWith(file.path, "client/examples/")) return true;
   if (file.path == "server/main.cc" || file.path == "client/robot_main.cc") return true;
   return file.folder() == "client" && file.is_header();
 }

@@ -57,5 +57,9 @@ TEST(ReachRules, TheClientLibraryIsPublished) {
               IsEmpty());
 }
 
+TEST(ReachRules, ExamplesNeedNobody) {
+  EXPECT_THAT(CheckReachability({ParseSource("client/examples/cpp/toy.cc", "")}), IsEmpty());
+}
+
 }  // namespace reach_rules_test
 }  // namespace plumescout

@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
+#include "proto/convert/field.h"
 #include "proto/convert/status.h"
 
 namespace plumescout::client {
@@ -34,6 +38,12 @@ TEST(RolledBackTo, IsInTheErrorsMetadata) {
   EXPECT_EQ(RolledBackTo(WithReason(error, kStoreRolledBack, {{"applied_sequence", "41"}})), 41);
   EXPECT_EQ(RolledBackTo(WithReason(error, kStoreRolledBack, {{"applied_sequence", "-3"}})), 0);
   EXPECT_EQ(RolledBackTo(WithReason(error, kStoreRolledBack, {{"applied_sequence", "x"}})), 0);
+}
+
+TEST(RefusedFields, AreThoseThatTheServerNames) {
+  EXPECT_TRUE(RefusedFields(absl::InvalidArgumentError("radius_m")).empty());
+  EXPECT_EQ(RefusedFields(FieldError("options.seed", 3.0, "is taken")),
+            std::vector<std::string>{"options.seed"});
 }
 
 }  // namespace error_reason_test

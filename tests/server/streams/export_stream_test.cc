@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "server/history/file_sum.h"
+#include "formats/file_sum.h"
 #include "tests/server/service_fixture.h"
 
 namespace plumescout::server {

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "server/history/file_sum.h"
+#include "formats/file_sum.h"
 
 #include <openssl/evp.h>
 #include <openssl/sha.h>
 #include <zlib.h>
 
-namespace plumescout::server {
+namespace plumescout {
 
 FileSum::FileSum() : sha256_(EVP_MD_CTX_new()) {
   EVP_DigestInit_ex(sha256_.get(), EVP_sha256(), nullptr);
@@ -27,4 +27,4 @@ std::string FileSum::TakeSha256() {
   return digest;
 }
 
-}  // namespace plumescout::server
+}  // namespace plumescout

@@ -10,7 +10,7 @@
 
 struct evp_md_ctx_st;  // of OpenSSL
 
-namespace plumescout::server {
+namespace plumescout {
 
 // What vouches for the bytes of a file as they pass by: their number, CRC-32 (zlib's) and SHA-256.
 // Single-threaded.
@@ -35,4 +35,4 @@ class FileSum {
   const std::unique_ptr<evp_md_ctx_st, Freer> sha256_;
 };
 
-}  // namespace plumescout::server
+}  // namespace plumescout

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "server/history/file_sum.h"
+#include "formats/file_sum.h"
 
 #include <gtest/gtest.h>
 
 #include "absl/strings/escaping.h"
 
-namespace plumescout::server {
+namespace plumescout {
 namespace file_sum_test {
 
 TEST(FileSumTest, IsThatOfAllBytesHoweverTheyCame) {
@@ -28,4 +28,4 @@ TEST(FileSumTest, NothingHasASumToo) {
 }
 
 }  // namespace file_sum_test
-}  // namespace plumescout::server
+}  // namespace plumescout
