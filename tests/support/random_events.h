@@ -55,8 +55,13 @@ class RandomEvents {
       case 10:
         event.body = MapRebuildBegun{};
         break;
-      default:
+      case 11:
         event.body = MapRebuilt{};
+        break;
+      default:
+        event.body = KeepOutChanged{List([this] { return Text(); }), List([this] {
+                                      return Polygon{List([this] { return MakePoint(); }), Text()};
+                                    })};
     }
     return event;
   }
