@@ -59,9 +59,7 @@ class RandomEvents {
         event.body = MapRebuilt{};
         break;
       default:
-        event.body = KeepOutChanged{List([this] { return Text(); }), List([this] {
-                                      return Polygon{List([this] { return MakePoint(); }), Text()};
-                                    })};
+        event.body = MakeKeepOut();
     }
     return event;
   }
@@ -100,6 +98,12 @@ class RandomEvents {
     return list;
   }
   Point2 MakePoint() { return {Real(), Real()}; }
+  Polygon MakeArea() {
+    return {List([this] { return MakePoint(); }), Text()};
+  }
+  KeepOutChanged MakeKeepOut() {
+    return {List([this] { return Text(); }), List([this] { return MakeArea(); })};
+  }
   Pose2 MakePose() { return {Real(), Real(), Real()}; }
   // Every other one is that of a robot that gives none.
   RobotFrame MakeFrame() { return Bool() ? RobotFrame() : RobotFrame{MakePose(), Real(), Real()}; }

@@ -130,6 +130,17 @@ class Client(Calls):
         request = mission_pb.FinishMissionRequest(name=f"missions/{mission}")
         return self._call(self._missions.FinishMission, request).mission
 
+    def change_keep_out_areas(self, mission, added=None, deleted=()):
+        """Closes areas to robots and opens them again, all or none: those of the names `deleted` go,
+        then `added` come, {name: [(x_m, y_m), ...]} by their corners, in the mission's frame. Returns
+        all areas as they are now, plumescout.v1.Polygon each."""
+        request = mission_pb.ChangeKeepOutAreasRequest(name=f"missions/{mission}", deleted=deleted)
+        for name, corners in (added or {}).items():
+            area = request.added.add(name=name)
+            for x_m, y_m in corners:
+                area.vertices.add(x_m=x_m, y_m=y_m)
+        return list(self._call_named(self._missions.ChangeKeepOutAreas, request).areas)
+
     def set_idle_time_to_live(self, mission, seconds):
         """A mission that nobody calls for so long is deleted; None: never."""
         request = mission_pb.UpdateMissionRequest(
