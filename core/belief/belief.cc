@@ -31,6 +31,7 @@ MapStatus MakeMapStatus(const Belief& belief) {
   map.gas_audits = belief.gas_audits;
   map.sensor_offsets = belief.sensor_offsets;
   map.phase = belief.phase;
+  map.keep_out = belief.options->keep_out;
   for (const auto& [id, record] : belief.robots) map.robots.push_back(record.state);
 
   const MissionOptions& options = *belief.options;

@@ -14,6 +14,7 @@
 #include "core/mission/sensor_check.h"
 #include "core/occupancy/free_space.h"
 #include "core/occupancy/keep_out.h"
+#include "core/types/keep_out.h"
 #include "core/types/species.h"
 #include "core/types/status_macros.h"
 
@@ -39,6 +40,11 @@ std::shared_ptr<const Grid<float>> OnFreeCells(const Grid<float>& field,
   return result;
 }
 
+std::shared_ptr<const MissionOptions> InForce(MissionOptions options) {
+  options.keep_out = WithNames(std::move(options.keep_out));
+  return std::make_shared<const MissionOptions>(std::move(options));
+}
+
 absl::Status CheckTime(std::int64_t time_ns) {
   if (time_ns >= 0) return absl::OkStatus();
   return absl::InvalidArgumentError(absl::StrCat("time_ns = ", time_ns, " must be >= 0"));
@@ -59,7 +65,7 @@ absl::StatusOr<std::unique_ptr<Mission>> Mission::Create(const MissionOptions& o
 }
 
 Mission::Mission(const MissionOptions& options)
-    : options_(std::make_shared<const MissionOptions>(options)),
+    : options_(InForce(options)),
       occupancy_(options.occupancy),
       region_(options.gas.field_reach_m, options.occupancy.resolution_m),
       gas_(options),

@@ -56,7 +56,9 @@ class Mission {
   // BUDGET_REACHED, before anything is allocated, if their map does not fit.
   static absl::StatusOr<std::unique_ptr<Mission>> Create(const MissionOptions& options);
 
+  // As they are in force: with the keep-out areas of now, all of which have names.
   const MissionOptions& options() const { return *options_; }
+  std::shared_ptr<const MissionOptions> shared_options() const { return options_; }
   std::int64_t revision() const { return revision_; }
   MissionPhase phase() const { return fleet_.Phase(); }
   std::optional<std::int64_t> next_map_update_ns() const {
@@ -72,6 +74,8 @@ class Mission {
   //                        field, or adopted while none is under way; the same of rebuilt maps
   //   kAborted             PlanIssued: another robot's live plan claims the goal; plan once more
   //   kResourceExhausted   too many robots
+  //   of a KeepOutChanged  those of AfterChange (core/types/keep_out.h); KEEP_OUT_COVERS_HOME, a
+  //                        kFailedPrecondition, if no robot could come home any more
   //   kCancelled           the mission is abandoned; it is of no use any more
   absl::StatusOr<Applied> Apply(const EventBody& body);
 
@@ -86,6 +90,9 @@ class Mission {
   // of the robots' records.
   std::optional<Meeting> FindMeeting(const Plan& plan, double clearance_m,
                                      const std::set<RobotId>& stopped = {}) const;
+  // Where the plan leads through a keep-out area, if areas have changed since the belief that it
+  // was made on; see FirstKeptOut. Cost: that of KeptOutCells, if they have.
+  std::optional<Point2> FindKeptOut(const Plan& plan) const;
   bool HasWay(const RobotId& robot) const { return fleet_.HasWay(robot); }
   // The live plan of another robot that ends where this one does, whatever for; PlanIssued is
   // refused for those of its kind alone. `stopped` are taken to have none.
@@ -202,6 +209,9 @@ class Mission {
   absl::StatusOr<Applied> Change(const HomeOrdered& order);
   absl::StatusOr<Applied> Change(const MapRebuildBegun& begun);
   absl::StatusOr<Applied> Change(const MapRebuilt& rebuilt);
+  absl::StatusOr<Applied> Change(const KeepOutChanged& change);
+  bool CoversHomes(const std::vector<Polygon>& areas) const;
+  void KeepOutOf(std::vector<Polygon> areas);
   bool PeriodHasPassedSince(std::int64_t time_ns) const;
   GoalMemory::Now Present() const {
     return {sample_time_ns_, occupancy_.States(), gas_.first().variance_ppm2()};
@@ -229,6 +239,9 @@ class Mission {
   absl::Status CheckRoom(Point2 place, std::int64_t bytes) const;
 
   std::shared_ptr<const MissionOptions> options_;
+  // Those of options_ once they were changed; none: as the mission began.
+  std::optional<std::vector<Polygon>> changed_keep_out_;
+  std::int64_t keep_out_revision_ = 0;  // of the last change in this process
   std::int64_t revision_ = 0;
   std::int64_t sample_time_ns_ = 0;
   std::int64_t posterior_time_ns_ = 0;  // of the last refresh that succeeded

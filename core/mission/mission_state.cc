@@ -16,6 +16,7 @@
 #include "core/occupancy/occupancy_state.h"
 #include "core/types/byte_archive.h"
 #include "core/types/byte_reader.h"
+#include "core/types/keep_out.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
@@ -79,9 +80,14 @@ void Mission::VisitState(Archive& archive, Self& self) {
   } else {
     archive.Since(2, self.history_, self.jump_watch_, self.rebuild_wanted_, self.rebuilt_ns_);
   }
+  archive.Since(2, self.changed_keep_out_);
   if constexpr (Archive::kReads) {
     archive.Require(self.goal_memory_.IsOf(self.options_->occupancy.resolution_m),
                     "goals are remembered from another map");
+    if (self.changed_keep_out_) {
+      archive.Require(ValidateKeepOut(*self.changed_keep_out_).ok(), "a keep-out area is none");
+      if (archive.ok()) self.KeepOutOf(*self.changed_keep_out_);
+    }
     if (archive.ok()) self.region_.Follow(self.occupancy_.geometry());
   }
 }

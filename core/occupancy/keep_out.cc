@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/grid/ray.h"
+
 namespace plumescout {
 namespace {
 
@@ -66,6 +68,38 @@ Grid<std::uint8_t> KeptOutCells(const std::vector<Polygon>& areas, const GridGeo
   Grid<std::uint8_t> cells(geometry);
   Fill(areas, 1, cells);
   return cells;
+}
+
+bool IsKeptOut(const std::vector<Polygon>& areas, Point2 place) {
+  std::vector<double> crossings_m;
+  return std::any_of(areas.begin(), areas.end(), [&](const Polygon& area) {
+    FindCrossings_m(area, place.y_m, crossings_m);
+    const auto beyond = std::upper_bound(crossings_m.begin(), crossings_m.end(), place.x_m);
+    return (beyond - crossings_m.begin()) % 2 != 0;
+  });
+}
+
+std::optional<Cell> FirstKeptOut(const Grid<std::uint8_t>& kept_out,
+                                 const std::vector<Point2>& way) {
+  if (way.empty()) return std::nullopt;
+  const GridGeometry& geometry = kept_out.geometry();
+  const auto is_kept_out = [&](Cell cell) { return kept_out.At(cell, 0) != 0; };
+  bool has_left = !is_kept_out(geometry.CellAt(way.front()));
+  std::optional<Cell> entered;
+  const auto enter = [&](Cell cell, double) {
+    if (!is_kept_out(cell)) {
+      has_left = true;
+    } else if (has_left) {
+      entered = cell;
+    }
+    return !entered.has_value();
+  };
+  for (std::size_t i = 1; i < way.size() && !entered; ++i) {
+    WalkSegment(geometry, way[i - 1], way[i], enter);
+  }
+  const Cell end = geometry.CellAt(way.back());
+  if (!entered && is_kept_out(end)) entered = end;
+  return entered;
 }
 
 }  // namespace plumescout

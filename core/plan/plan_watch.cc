@@ -27,38 +27,49 @@ bool Drives(const RobotRecord& record, std::int64_t now_ns) {
          IsOnItsWay(record, now_ns);
 }
 
-// The first place of the way where something stands, or nobody may drive; it may begin in such a
-// place.
-std::optional<PlanInvalidated> FindBarrier(const Belief& belief, const RobotRecord& record) {
-  const auto path = RestOfPlan(belief, record.state.id, record.last_plan);
-  if (!path.ok()) return std::nullopt;
+PlanInvalidated Barrier(const RobotRecord& record, InvalidationReason reason, Point2 place,
+                        const char* what) {
+  return {.plan = record.last_plan,
+          .reason = reason,
+          .place = place,
+          .detail = absl::StrFormat("%s at (%.1f, %.1f)", what, place.x_m, place.y_m)};
+}
+
+// The first place of the way where something stands; it may begin in such a place.
+std::optional<Point2> FindObstacle(const Belief& belief, const std::vector<Point2>& way) {
   const GridGeometry& geometry = belief.geometry();
-  std::optional<Grid<std::uint8_t>> kept_out;
-  if (!belief.options->keep_out.empty()) {
-    kept_out = KeptOutCells(belief.options->keep_out, geometry);
-  }
-  std::optional<PlanInvalidated> found;
+  std::optional<Point2> found;
   bool has_left = false;  // the cells in which it began
   const auto enter = [&](Cell cell, double) {
     if (belief.traversable->At(cell, 0) != 0) {
       has_left = true;
     } else if (has_left &&
                belief.occupancy->At(cell, CellState::kUnknown) == CellState::kOccupied) {
-      found = PlanInvalidated{.reason = InvalidationReason::kWayBlocked};
-    } else if (has_left && kept_out && kept_out->At(cell, 0) != 0) {
-      found = PlanInvalidated{.reason = InvalidationReason::kKeptOut};
+      found = geometry.Center(cell);
     }
-    if (!found) return true;
-    const Point2 place = geometry.Center(cell);
-    found->plan = record.last_plan;
-    found->place = place;
-    const char* const what =
-        found->reason == InvalidationReason::kKeptOut ? "nobody may drive" : "something stands";
-    found->detail = absl::StrFormat("%s at (%.1f, %.1f)", what, place.x_m, place.y_m);
-    return false;
+    return !found.has_value();
   };
-  for (std::size_t i = 1; i < path->vertices.size() && !found; ++i) {
-    WalkSegment(geometry, path->vertices[i - 1], path->vertices[i], enter);
+  for (std::size_t i = 1; i < way.size() && !found; ++i) {
+    WalkSegment(geometry, way[i - 1], way[i], enter);
+  }
+  return found;
+}
+
+// Where the rest of the way cannot be driven.
+std::vector<PlanInvalidated> FindBarriers(const Belief& belief, const RobotRecord& record) {
+  std::vector<PlanInvalidated> found;
+  const auto path = RestOfPlan(belief, record.state.id, record.last_plan);
+  if (!path.ok()) return found;
+  const std::vector<Polygon>& areas = belief.options->keep_out;
+  if (!areas.empty()) {
+    const auto cell = FirstKeptOut(KeptOutCells(areas, belief.geometry()), path->vertices);
+    if (cell) {
+      found.push_back(Barrier(record, InvalidationReason::kKeptOut, belief.geometry().Center(*cell),
+                              "nobody may drive"));
+    }
+  }
+  if (const auto place = FindObstacle(belief, path->vertices)) {
+    found.push_back(Barrier(record, InvalidationReason::kWayBlocked, *place, "something stands"));
   }
   return found;
 }
@@ -71,6 +82,8 @@ std::vector<PlanWatch::News> PlanWatch::Look(const Belief& belief) {
   std::erase_if(known_, has_left);
   std::erase_if(spots_, has_left);
   NoteStanding(belief);
+  areas_are_new_ = options_seen_ != belief.options;
+  options_seen_ = belief.options;
   for (const auto& [id, record] : belief.robots) {
     Known& known = known_[id];
     if (const auto ended = NoteEnd(record, known)) news.push_back({id, *ended});
@@ -79,7 +92,7 @@ std::vector<PlanWatch::News> PlanWatch::Look(const Belief& belief) {
     known.assigned = assigned;
     std::vector<PlanInvalidated> found;
     if (known.live && Drives(record, belief.sample_time_ns)) {
-      if (const auto barrier = FindBarrier(belief, record)) found.push_back(*barrier);
+      found = FindBarriers(belief, record);
       if (const auto meeting = FindMeeting(belief, record)) found.push_back(*meeting);
     }
     for (PlanInvalidated& ripe : Ripe(std::move(found), belief.sample_time_ns, known)) {
@@ -152,6 +165,7 @@ std::vector<PlanInvalidated> PlanWatch::Ripe(std::vector<PlanInvalidated> found,
     since_ns[cause] = first_ns;
     const bool lasts =
         Seconds(now_ns - first_ns) >= options_.patience_s ||
+        (one.reason == InvalidationReason::kKeptOut && areas_are_new_) ||
         (one.reason == InvalidationReason::kMeetsRobot && standing_.count(one.robot) > 0);
     if (lasts && known.told.insert(cause).second) ripe.push_back(std::move(one));
   }

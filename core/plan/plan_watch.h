@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <utility>
@@ -19,7 +20,7 @@ struct PlanWatchOptions {
   // Meetings farther ahead are left to later looks: who is late may catch up.
   double horizon_s = 10.0;
   // What is in the way has to be there at every look for so long before somebody is told: robots
-  // move on, and cells flicker.
+  // move on, and cells flicker. Areas that were just closed do not.
   double patience_s = 1.0;
   // Who has not moved by so much for patience_s, and should have driven on for as long, stands
   // where it is, whatever its plan says.
@@ -76,6 +77,9 @@ class PlanWatch {
   std::map<RobotId, Known> known_;
   std::map<RobotId, Spot> spots_;
   std::set<RobotId> standing_;  // of the present look
+  // Of the look before. A mission's options change with its keep-out areas, and with nothing else.
+  std::shared_ptr<const MissionOptions> options_seen_;
+  bool areas_are_new_ = false;  // since then
 };
 
 }  // namespace plumescout

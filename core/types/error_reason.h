@@ -29,6 +29,9 @@ inline constexpr absl::string_view kSequenceGap = "SEQUENCE_GAP";
 inline constexpr absl::string_view kBudgetReached = "BUDGET_REACHED";
 inline constexpr absl::string_view kClockAhead = "CLOCK_AHEAD";
 inline constexpr absl::string_view kHistoryTrimmed = "HISTORY_TRIMMED";
+inline constexpr absl::string_view kKeepOutAreaNotFound = "KEEP_OUT_AREA_NOT_FOUND";
+inline constexpr absl::string_view kKeepOutAreaExists = "KEEP_OUT_AREA_EXISTS";
+inline constexpr absl::string_view kKeepOutCoversHome = "KEEP_OUT_COVERS_HOME";
 // Of plans.
 inline constexpr absl::string_view kPlanSuperseded = "PLAN_SUPERSEDED";
 inline constexpr absl::string_view kPlanEnded = "PLAN_ENDED";

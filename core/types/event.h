@@ -11,6 +11,7 @@
 #include "core/types/ids.h"
 #include "core/types/observation.h"
 #include "core/types/plan.h"
+#include "core/types/polygon.h"
 #include "core/types/robot_frame.h"
 
 namespace plumescout {
@@ -111,11 +112,21 @@ struct MapRebuilt {
   friend bool operator==(const MapRebuilt&, const MapRebuilt&) = default;
 };
 
+// An operator closes areas to robots, or opens them again: first those of the names `deleted` go,
+// then `added` come.
+struct KeepOutChanged {
+  std::vector<std::string> deleted;
+  std::vector<Polygon> added;
+
+  friend bool operator==(const KeepOutChanged&, const KeepOutChanged&) = default;
+};
+
 // Everything that changes a mission. Recorded events know their kind by its place in this list: new
 // kinds come last.
-using EventBody = std::variant<RobotRegistered, ObservationReceived, PosteriorRefreshed, PlanIssued,
-                               ProgressReported, EpochBegun, EpochAdopted, RobotRemoved,
-                               ClockOffsetNoted, HomeOrdered, MapRebuildBegun, MapRebuilt>;
+using EventBody =
+    std::variant<RobotRegistered, ObservationReceived, PosteriorRefreshed, PlanIssued,
+                 ProgressReported, EpochBegun, EpochAdopted, RobotRemoved, ClockOffsetNoted,
+                 HomeOrdered, MapRebuildBegun, MapRebuilt, KeepOutChanged>;
 
 // Numbered 1, 2, 3 ...: the number of the last applied event is the mission's revision.
 struct Event {

@@ -13,6 +13,7 @@
 #include "core/types/grid.h"
 #include "core/types/ids.h"
 #include "core/types/plan.h"
+#include "core/types/polygon.h"
 #include "core/types/pose2.h"
 #include "core/types/robot_frame.h"
 
@@ -96,6 +97,7 @@ struct MapStatus {
   GasAudits gas_audits;
   std::vector<SensorOffset> sensor_offsets;  // of sensors whose offset was not known
   std::vector<GasStatus> gases;  // of a mission that names its gases: all, the first first
+  std::vector<Polygon> keep_out;  // where nobody may drive
   MissionPhase phase = MissionPhase::kExploring;
 };
 

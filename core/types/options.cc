@@ -7,6 +7,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/types/checker.h"
+#include "core/types/keep_out.h"
 #include "core/types/prior_map.h"
 #include "core/types/species.h"
 #include "core/types/status_macros.h"
@@ -154,37 +155,6 @@ absl::Status Validate(const PlanningOptions& options) {
       .InRange("planning.planning_latency_s", options.planning_latency_s, 0.0, 60.0)
       .status();
 }
-
-namespace {
-
-absl::Status Validate(const Polygon& polygon, const std::string& field) {
-  constexpr double kMaxVertices = 256;
-  constexpr double kMaxCoordinate_m = 1e6;
-  Checker checker;
-  checker.InRange(absl::StrCat(field, ".vertices"), static_cast<double>(polygon.vertices.size()), 3,
-                  kMaxVertices);
-  for (std::size_t i = 0; i < polygon.vertices.size(); ++i) {
-    const std::string vertex = absl::StrCat(field, ".vertices[", i, "]");
-    checker
-        .InRange(absl::StrCat(vertex, ".x_m"), polygon.vertices[i].x_m, -kMaxCoordinate_m,
-                 kMaxCoordinate_m)
-        .InRange(absl::StrCat(vertex, ".y_m"), polygon.vertices[i].y_m, -kMaxCoordinate_m,
-                 kMaxCoordinate_m);
-  }
-  return checker.status();
-}
-
-absl::Status ValidateKeepOut(const std::vector<Polygon>& keep_out) {
-  constexpr double kMaxAreas = 64;
-  PLUMESCOUT_RETURN_IF_ERROR(
-      Checker().InRange("keep_out", static_cast<double>(keep_out.size()), 0, kMaxAreas).status());
-  for (std::size_t i = 0; i < keep_out.size(); ++i) {
-    PLUMESCOUT_RETURN_IF_ERROR(Validate(keep_out[i], absl::StrCat("keep_out[", i, "]")));
-  }
-  return absl::OkStatus();
-}
-
-}  // namespace
 
 absl::Status Validate(const MissionOptions& options) {
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options.occupancy));

@@ -238,7 +238,7 @@ struct MissionOptions {
   // corrected later (PoseCorrection) and robots that lose their place are told. False: neither.
   bool keep_scans = true;
   std::uint64_t seed = 1;
-  // Where nobody may drive, though it is sensed and mapped: at most 64, of 3 to 256 vertices each.
+  // Where nobody may drive when the mission begins; see core/types/keep_out.h.
   std::vector<Polygon> keep_out;
   // At most 4, of different names; plans go by the first. None: one gas, without a name.
   std::vector<GasSpecies> gas_species;

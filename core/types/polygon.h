@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/types/pose2.h"
@@ -12,6 +13,7 @@ namespace plumescout {
 // the first. What it holds is by the even-odd rule, so it may cross itself and run either way.
 struct Polygon {
   std::vector<Point2> vertices;
+  std::string name = {};  // of a keep-out area, as of core/types/keep_out.h
 
   friend bool operator==(const Polygon&, const Polygon&) = default;
 };

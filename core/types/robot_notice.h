@@ -26,7 +26,7 @@ struct RobotStanding {
 enum class InvalidationReason {
   kMeetsRobot,  // another robot is not where it was to be
   kWayBlocked,  // something was seen to stand on the way
-  kKeptOut,     // the way leads through an area where nobody may drive
+  kKeptOut,     // the way leads into an area where nobody may drive
   kSuperseded,  // the robot was given another
   kLapsed,      // it was not heard of for so long that the mission ended its plan
 };

@@ -8,6 +8,7 @@
 #include "core/types/grid_geometry.h"
 #include "core/types/map_snapshot.h"
 #include "core/types/plan.h"
+#include "core/types/polygon.h"
 #include "core/types/pose2.h"
 #include "core/types/trajectory.h"
 
@@ -59,6 +60,10 @@ void Visit(auto& archive, ConstOr<Cell> auto& cell) {
 void Visit(auto& archive, ConstOr<Point2> auto& point) {
   auto& [x_m, y_m] = point;
   archive(x_m, y_m);
+}
+void Visit(auto& archive, ConstOr<Polygon> auto& polygon) {
+  auto& [vertices, name] = polygon;
+  archive(vertices, name);
 }
 void Visit(auto& archive, ConstOr<Pose2> auto& pose) {
   auto& [x_m, y_m, yaw_rad] = pose;

@@ -44,7 +44,7 @@ constexpr const char* kKindNames[] = {
     "JournalStart", "RobotRegistered",  "ObservationReceived", "PosteriorRefreshed",
     "PlanIssued",   "ProgressReported", "EpochBegun",          "EpochAdopted",
     "RobotRemoved", "ClockOffsetNoted", "HomeOrdered",         "MapRebuildBegun",
-    "MapRebuilt"};
+    "MapRebuilt",   "KeepOutChanged"};
 static_assert(std::size(kKindNames) == kFirstEventKind + std::variant_size_v<EventBody>);
 
 template <typename T>

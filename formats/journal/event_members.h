@@ -24,6 +24,10 @@ void VisitMembers(auto& archive, Is<Point2> auto& point) {
   auto& [x_m, y_m] = point;
   archive(x_m, y_m);
 }
+void VisitMembers(auto& archive, Is<Polygon> auto& polygon) {
+  auto& [vertices, name] = polygon;
+  archive(vertices, name);
+}
 void VisitMembers(auto& archive, Is<Pose2> auto& pose) {
   auto& [x_m, y_m, yaw_rad] = pose;
   archive(x_m, y_m, yaw_rad);
@@ -142,6 +146,10 @@ void VisitMembers(auto&, Is<MapRebuildBegun> auto&) {
   static_assert(std::is_empty_v<MapRebuildBegun>);
 }
 void VisitMembers(auto&, Is<MapRebuilt> auto&) { static_assert(std::is_empty_v<MapRebuilt>); }
+void VisitMembers(auto& archive, Is<KeepOutChanged> auto& event) {
+  auto& [deleted, added] = event;
+  archive(deleted, added);
+}
 void VisitMembers(auto& archive, Is<JournalStart> auto& start) {
   auto& [code_version, mission_options, mission, owner, tenant, created_ns, last_number,
          last_digest] = start;

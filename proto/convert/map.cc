@@ -12,6 +12,7 @@
 #include "proto/convert/enums.h"
 #include "proto/convert/field.h"
 #include "proto/convert/geometry.h"
+#include "proto/convert/keep_out.h"
 #include "proto/convert/names.h"
 
 namespace plumescout {
@@ -81,6 +82,7 @@ absl::Status ReadLists(const v1::MapStatus& proto, absl::string_view field, MapS
                                 FromProto(proto.robots(i), Join(field, "robots", i)));
     map.robots.push_back(std::move(robot));
   }
+  PLUMESCOUT_ASSIGN_OR_RETURN(map.keep_out, FromProto(proto.keep_out(), Join(field, "keep_out")));
   return absl::OkStatus();
 }
 
@@ -295,6 +297,7 @@ v1::MapStatus ToProto(const MapStatus& status, const GridGeometry& geometry,
     *added.mutable_gas_counters() = ToProto(gas.counters);
     *added.mutable_gas_quality() = ToProto(gas.quality, gas.audits);
   }
+  *proto.mutable_keep_out() = ToProto(status.keep_out);
   proto.set_phase(ToProto(status.phase));
   return proto;
 }

@@ -12,6 +12,7 @@
 #include "google/protobuf/util/message_differencer.h"
 #include "proto/convert/field.h"
 #include "proto/convert/geometry.h"
+#include "proto/convert/keep_out.h"
 #include "proto/convert/option_binding.h"
 #include "proto/convert/prior_map.h"
 
@@ -174,16 +175,9 @@ absl::Status ReadPlanning(const v1::PlanningOptions& proto, absl::string_view fi
 // A mission's own areas take the place of the defaults, not a place among them.
 absl::Status ReadPlaces(const v1::MissionOptions& proto, absl::string_view field,
                         MissionOptions& options) {
-  if (proto.keep_out_size() > 0) options.keep_out.clear();
-  for (int i = 0; i < proto.keep_out_size(); ++i) {
-    const std::string area = Join(field, "keep_out", i);
-    Polygon polygon;
-    for (int k = 0; k < proto.keep_out(i).vertices_size(); ++k) {
-      PLUMESCOUT_ASSIGN_OR_RETURN(
-          const Point2 vertex, FromProto(proto.keep_out(i).vertices(k), Join(area, "vertices", k)));
-      polygon.vertices.push_back(vertex);
-    }
-    options.keep_out.push_back(std::move(polygon));
+  if (proto.keep_out_size() > 0) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(options.keep_out,
+                                FromProto(proto.keep_out(), Join(field, "keep_out")));
   }
   if (proto.has_home()) {
     PLUMESCOUT_ASSIGN_OR_RETURN(options.home, FromProto(proto.home(), Join(field, "home")));
@@ -249,10 +243,7 @@ v1::MissionOptions ToProto(const MissionOptions& options) {
     *sites.mutable_region()->mutable_min() = ToProto(options.planning.sites.region->min);
     *sites.mutable_region()->mutable_max() = ToProto(options.planning.sites.region->max);
   }
-  for (const Polygon& polygon : options.keep_out) {
-    v1::Polygon& added = *proto.add_keep_out();
-    for (const Point2 vertex : polygon.vertices) *added.add_vertices() = ToProto(vertex);
-  }
+  *proto.mutable_keep_out() = ToProto(options.keep_out);
   for (const GasSpecies& species : options.gas_species) Write(species, *proto.add_gas_species());
   if (options.home) *proto.mutable_home() = ToProto(*options.home);
   if (options.prior_map) *proto.mutable_prior_map() = ToProto(*options.prior_map);

@@ -20,6 +20,7 @@ constexpr std::array<RpcRow, kRpcCount> kTable = {{
     {Rpc::kPauseMission, "MissionService", "PauseMission", kNo, kNo, kYes},
     {Rpc::kResumeMission, "MissionService", "ResumeMission", kNo, kNo, kYes},
     {Rpc::kFinishMission, "MissionService", "FinishMission", kNo, kNo, kYes},
+    {Rpc::kChangeKeepOutAreas, "MissionService", "ChangeKeepOutAreas", kNo, kNo, kYes},
     {Rpc::kRegisterRobot, "RobotService", "RegisterRobot", kYes, kNo, kYes},
     {Rpc::kRemoveRobot, "RobotService", "RemoveRobot", kYes, kNo, kYes},
     {Rpc::kGetRobot, "RobotService", "GetRobot", kYes, kYes, kYes},

@@ -19,6 +19,7 @@ enum class Rpc {
   kPauseMission,
   kResumeMission,
   kFinishMission,
+  kChangeKeepOutAreas,
   kRegisterRobot,
   kRemoveRobot,
   kGetRobot,

@@ -5,10 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <variant>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
 #include "proto/convert/names.h"
 
 namespace plumescout::server {
@@ -123,6 +126,17 @@ const char* NameOf(ProgressOutcome outcome) {
   return "ended";
 }
 
+std::string LineOfAreas(const KeepOutChanged& change) {
+  std::vector<std::string> closed;
+  for (const Polygon& area : change.added) closed.push_back(area.name);
+  std::vector<std::string> parts;
+  if (!change.deleted.empty()) {
+    parts.push_back(absl::StrCat(absl::StrJoin(change.deleted, ", "), " opened"));
+  }
+  if (!closed.empty()) parts.push_back(absl::StrCat(absl::StrJoin(closed, ", "), " closed"));
+  return absl::StrCat("keep-out areas: ", absl::StrJoin(parts, "; "));
+}
+
 std::string RobotOf(const EventBody& body) {
   return std::visit(Cases{[](const PlanIssued& issued) { return issued.plan.robot; },
                           [](const PosteriorRefreshed&) { return RobotId(); },
@@ -130,6 +144,7 @@ std::string RobotOf(const EventBody& body) {
                           [](const EpochAdopted&) { return RobotId(); },
                           [](const MapRebuildBegun&) { return RobotId(); },
                           [](const MapRebuilt&) { return RobotId(); },
+                          [](const KeepOutChanged&) { return RobotId(); },
                           [](const auto& of_robot) { return of_robot.robot; }},
                     body);
 }
@@ -161,7 +176,8 @@ v1::MissionEventKind KindOf(const EventBody& body) {
             [](const ClockOffsetNoted&) { return v1::MISSION_EVENT_KIND_CLOCK_OFFSET; },
             [](const HomeOrdered&) { return v1::MISSION_EVENT_KIND_HOME_ORDERED; },
             [](const MapRebuildBegun&) { return v1::MISSION_EVENT_KIND_MAP_REBUILD_BEGUN; },
-            [](const MapRebuilt&) { return v1::MISSION_EVENT_KIND_MAP_REBUILT; }},
+            [](const MapRebuilt&) { return v1::MISSION_EVENT_KIND_MAP_REBUILT; },
+            [](const KeepOutChanged&) { return v1::MISSION_EVENT_KIND_KEEP_OUT_CHANGED; }},
       body);
 }
 
@@ -195,7 +211,8 @@ std::string LineOf(const EventBody& body) {
             },
             [](const MapRebuilt&) {
               return std::string("rebuilt map is adopted, if there is room for it");
-            }},
+            },
+            [](const KeepOutChanged& change) { return LineOfAreas(change); }},
       body);
 }
 

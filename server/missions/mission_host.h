@@ -118,6 +118,7 @@ class MissionHost {
   const MissionId& id() const { return id_; }
   const std::string& owner() const { return owner_.name; }
   const std::string& tenant() const { return owner_.tenant; }
+  // As the mission began; its keep-out areas of now are in summary().options.
   const MissionOptions& options() const { return mission_options_; }
   const Strategy& strategy() const { return *strategy_; }
   LeaseTable& leases() { return leases_; }

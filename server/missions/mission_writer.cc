@@ -15,8 +15,8 @@ namespace plumescout::server {
 namespace {
 
 MissionSummary SummaryOf(const Mission& mission) {
-  return {mission.revision(), mission.phase(), mission.next_map_update_ns(), mission.memory_bytes(),
-          mission.lattice_factor()};
+  return {mission.revision(),     mission.phase(),          mission.next_map_update_ns(),
+          mission.memory_bytes(), mission.lattice_factor(), mission.shared_options()};
 }
 
 // Of all fields that there are.

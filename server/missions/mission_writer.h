@@ -33,8 +33,9 @@ struct MissionSummary {
   std::int64_t revision = 0;
   MissionPhase phase = MissionPhase::kExploring;
   std::optional<std::int64_t> next_map_update_ns;
-  std::int64_t memory_bytes = 0;  // see Mission::memory_bytes
-  int lattice_factor = 1;         // of the gas field now
+  std::int64_t memory_bytes = 0;                  // see Mission::memory_bytes
+  int lattice_factor = 1;                         // of the gas field now
+  std::shared_ptr<const MissionOptions> options;  // in force
 };
 
 // The conduct of one mission on its writer's thread: has epochs recomputed on a pool, takes times,

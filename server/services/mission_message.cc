@@ -5,6 +5,7 @@
 #include "core/types/error_reason.h"
 #include "proto/convert/enums.h"
 #include "proto/convert/names.h"
+#include "proto/convert/keep_out.h"
 #include "proto/convert/options.h"
 #include "server/services/mission_update.h"
 
@@ -46,6 +47,7 @@ v1::Mission DescribeMission(MissionHost& host, const MissionOptions& options) {
   v1::Mission proto;
   proto.set_name(MissionResource(host.id()));
   *proto.mutable_options() = ToProto(options);
+  *proto.mutable_options()->mutable_keep_out() = ToProto(summary.options->keep_out);
   proto.mutable_options()->mutable_gas()->set_lattice_factor(summary.lattice_factor);
   proto.mutable_memory()->set_used_bytes(summary.memory_bytes);
   proto.mutable_memory()->set_budget_bytes(options.memory_budget_bytes);

@@ -9,6 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/types/status_macros.h"
 #include "proto/convert/field.h"
+#include "proto/convert/keep_out.h"
 #include "proto/convert/names.h"
 #include "server/base/errors.h"
 #include "server/base/log.h"
@@ -292,6 +293,41 @@ grpc::ServerUnaryReactor* MissionService::FinishMission(grpc::CallbackServerCont
       context_.door, Rpc::kFinishMission, context, [&](const std::shared_ptr<UnaryCall>& call) {
         return Change(request->name(), *response->mutable_mission(), call, Finish);
       });
+}
+
+absl::Status MissionService::KeepOut(const v1::ChangeKeepOutAreasRequest& request,
+                                     v1::ChangeKeepOutAreasResponse* response,
+                                     const std::shared_ptr<UnaryCall>& call) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const MissionId id, ParseMissionName("name", request.name()));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMission(call->caller(), id));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const KeepOutChanged change, FromProto(request));
+  const auto run = [host, change, response](const std::shared_ptr<UnaryCall>& runner) {
+    return host->Post(
+        [host, change, response, runner](MissionWriter& writer) {
+          const absl::Status writable = host->CheckMayWrite();
+          if (!writable.ok()) return runner->Answer(writable);
+          const auto revision = writer.conduct().ChangeKeepOut(change);
+          if (revision.ok()) {
+            LogInfo("keep-out areas changed", {{"mission", host->id()},
+                                               {"added", absl::StrCat(change.added.size())},
+                                               {"deleted", absl::StrCat(change.deleted.size())},
+                                               {"caller", runner->caller().name}});
+            *response->mutable_areas() = ToProto(writer.mission().options().keep_out);
+            response->set_revision(*revision);
+          }
+          AnswerWhenDurable(*host, runner, WithField(revision.status(), ""));
+        },
+        Refusal(runner));
+  };
+  return AnswerOnce(host->requests(), request.request_id(), request, response, call, run);
+}
+
+grpc::ServerUnaryReactor* MissionService::ChangeKeepOutAreas(
+    grpc::CallbackServerContext* context, const v1::ChangeKeepOutAreasRequest* request,
+    v1::ChangeKeepOutAreasResponse* response) {
+  return UnaryCall::Start(
+      context_.door, Rpc::kChangeKeepOutAreas, context,
+      [&](const std::shared_ptr<UnaryCall>& call) { return KeepOut(*request, response, call); });
 }
 
 }  // namespace plumescout::server

@@ -41,6 +41,9 @@ class MissionService final : public v1::MissionService::CallbackService {
   grpc::ServerUnaryReactor* FinishMission(grpc::CallbackServerContext* context,
                                           const v1::FinishMissionRequest* request,
                                           v1::FinishMissionResponse* response) override;
+  grpc::ServerUnaryReactor* ChangeKeepOutAreas(grpc::CallbackServerContext* context,
+                                               const v1::ChangeKeepOutAreasRequest* request,
+                                               v1::ChangeKeepOutAreasResponse* response) override;
 
  private:
   // What an operator does to a mission, on its writer's thread.
@@ -66,6 +69,9 @@ class MissionService final : public v1::MissionService::CallbackService {
                       const std::shared_ptr<UnaryCall>& call);
   absl::Status Change(const std::string& name, v1::Mission& mission,
                       const std::shared_ptr<UnaryCall>& call, Step step);
+  absl::Status KeepOut(const v1::ChangeKeepOutAreasRequest& request,
+                       v1::ChangeKeepOutAreasResponse* response,
+                       const std::shared_ptr<UnaryCall>& call);
 
   const ServiceContext& context_;
 };

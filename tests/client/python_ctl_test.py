@@ -100,6 +100,20 @@ class CtlTest(unittest.TestCase):
         robot.add_gas(4, (x_m, y_m, 0.0), 12.0)
         return robot, robot.next_best_trajectory()
 
+    def test_areas_are_closed_and_opened_again(self):
+        self.ctl("missions", "create", "yard")
+        self.assertIn("2,1 3,1 3,2 2,2", self.ctl("missions", "close", "yard", "spill", "2,1 3,2"))
+        areas = self.ctl_json("missions", "close", "yard", "ramp", "-2,1 3,1 3,-2.5")
+        self.assertEqual([area["name"] for area in areas], ["spill", "ramp"])
+        self.assertEqual(areas[1]["vertices"][2], {"x_m": 3.0, "y_m": -2.5})
+        self.ctl("missions", "close", "yard", "ramp", "0,0 1,1", code=1)  # there is one
+        self.ctl("missions", "close", "yard", "pit", "0,0 1", code=2)
+        self.ctl("missions", "close", "yard", "pit", "0,0", code=1)  # one corner is no area
+        self.assertNotIn("spill", self.ctl("missions", "open", "yard", "spill"))
+        self.ctl("missions", "open", "yard", "spill", code=4)
+        kept = self.client.get_mission("yard").options.keep_out
+        self.assertEqual([area.name for area in kept], ["ramp"])
+
     def test_a_mission_from_its_making_to_its_end(self):
         self.ctl("missions", "create", "life", "--ttl", "3600")
         self.assertEqual(self.client.get_mission("life").idle_time_to_live.seconds, 3600)

@@ -81,6 +81,9 @@ std::string Tell(const HomeOrdered& order) {
 }
 std::string Tell(const MapRebuildBegun&) { return "map_rebuild_begun"; }
 std::string Tell(const MapRebuilt&) { return "map_rebuilt"; }
+std::string Tell(const KeepOutChanged& change) {
+  return absl::StrCat("keep_out_changed\t", change.deleted.size(), "\t", change.added.size());
+}
 
 absl::Status TellMission(server::MissionStore& store, const server::StoredMission& mission,
                          std::int64_t first) {

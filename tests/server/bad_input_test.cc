@@ -15,6 +15,7 @@
 #include "tests/server/bad_home_input.h"
 #include "tests/server/bad_ingest_input.h"
 #include "tests/server/bad_input_fixture.h"
+#include "tests/server/bad_keep_out_input.h"
 #include "tests/server/bad_map_input.h"
 #include "tests/server/bad_mission_input.h"
 #include "tests/server/bad_registration_input.h"
@@ -37,6 +38,7 @@ std::map<std::string, BadInputs> AllBadInputs() {
           {"PauseMissionRequest", BadMissionName("name")},
           {"ResumeMissionRequest", BadMissionName("name")},
           {"FinishMissionRequest", BadMissionName("name")},
+          {"ChangeKeepOutAreasRequest", BadKeepOut()},
           {"RegisterRobotRequest", BadRegisterRobot()},
           {"RemoveRobotRequest", BadRemoveRobot()},
           {"GetRobotRequest", BadGetRobot()},
@@ -242,6 +244,13 @@ TEST_F(BadInputTest, OrderHome) {
   good.set_robot(kRobot);
   Check(BadInputs().Rows(BadOrderHome()).Rows(BadRequestId()), Copies(good),
         SenderOf(robots_, &v1::RobotService::Stub::OrderHome));
+}
+
+TEST_F(BadInputTest, ChangeKeepOutAreas) {
+  v1::ChangeKeepOutAreasRequest good;
+  good.set_name("missions/hall");
+  Check(BadKeepOut(), Copies(good),
+        SenderOf(missions_, &v1::MissionService::Stub::ChangeKeepOutAreas));
 }
 
 TEST_F(BadInputTest, WatchRobot) {

@@ -5,6 +5,7 @@
 #include "absl/strings/str_cat.h"
 #include "plumescout/v1/mission_service.pb.h"
 #include "tests/server/bad_input.h"
+#include "tests/server/bad_keep_out_input.h"
 #include "tests/server/bad_name_input.h"
 #include "tests/server/bad_prior_map_input.h"
 #include "tests/server/bad_site_input.h"
@@ -24,36 +25,11 @@ inline BadInputs BadLimits() {
       .Values("options.memory_budget_bytes", {"-1", "0", "33554431", "1073741825"});
 }
 
-// An area with one bad vertex, and such as are none.
 inline BadInputs BadPlaces() {
-  BadInputs rows;
-  for (const char* axis : {"x_m", "y_m"}) {
-    rows.Values(absl::StrCat("options.home.", axis), {"nan", "inf", "-1e300", "1001"});
-    const std::string vertices = "options.keep_out.vertices";
-    for (const char* value : {"nan", "-inf", "1e300"}) {
-      const auto spoil = [=](Message& message) {
-        SetField(message, "options.keep_out", "{vertices {} vertices {} vertices {}}");
-        SetField(message, absl::StrCat(vertices, ".", axis), value);
-      };
-      rows.Row({absl::StrCat(vertices, ".", axis), value, spoil, absl::StatusCode::kInvalidArgument,
-                absl::StrCat("options.keep_out[0].vertices[0].", axis)});
-    }
-  }
-  static const std::string many = [] {
-    constexpr int kTooMany = 257;
-    std::string text = "{";
-    for (int i = 0; i < kTooMany; ++i) text += "vertices {} ";
-    return text + "}";
-  }();
-  rows.ValuesBlaming("options.keep_out[0].vertices", "options.keep_out",
-                     {"{}", "{vertices {} vertices {}}", many.c_str()});
-  rows.Row({"options.keep_out.vertices", "one",
-            [](Message& message) {
-              SetField(message, "options.keep_out", "{}");
-              SetField(message, "options.keep_out.vertices", "{x_m: 1}");
-            },
-            absl::StatusCode::kInvalidArgument, "options.keep_out[0].vertices"});
-  return rows;
+  return BadInputs()
+      .Values("options.home.x_m", {"nan", "inf", "-1e300", "1001"})
+      .Values("options.home.y_m", {"nan", "inf", "-1e300", "1001"})
+      .Rows(BadAreas("options.keep_out"));
 }
 
 inline BadInputs BadOccupancyOptions() {

@@ -55,8 +55,11 @@ class RandomEvents {
       case 10:
         event.body = MapRebuildBegun{};
         break;
-      default:
+      case 11:
         event.body = MapRebuilt{};
+        break;
+      default:
+        event.body = MakeKeepOut();
     }
     return event;
   }
@@ -95,6 +98,12 @@ class RandomEvents {
     return list;
   }
   Point2 MakePoint() { return {Real(), Real()}; }
+  Polygon MakeArea() {
+    return {List([this] { return MakePoint(); }), Text()};
+  }
+  KeepOutChanged MakeKeepOut() {
+    return {List([this] { return Text(); }), List([this] { return MakeArea(); })};
+  }
   Pose2 MakePose() { return {Real(), Real(), Real()}; }
   // Every other one is that of a robot that gives none.
   RobotFrame MakeFrame() { return Bool() ? RobotFrame() : RobotFrame{MakePose(), Real(), Real()}; }

@@ -114,6 +114,22 @@ class MissionOperations(Calls):
         request = mission_pb.FinishMissionRequest(name=mission_name(mission))
         return (yield from self.call(rpcs.FINISH_MISSION, request)).mission
 
+    def change_keep_out_areas(
+        self,
+        mission: str,
+        added: Mapping[str, Sequence[tuple[float, float]]] | None = None,
+        deleted: Sequence[str] = (),
+    ) -> Operation[list[options_pb.Polygon]]:
+        """Closes areas to robots and opens them again, all or none: those of the names `deleted`
+        go, then `added` come, {name: [(x_m, y_m), ...]} by their corners, in the mission's frame.
+        All areas as they are now."""
+        request = mission_pb.ChangeKeepOutAreasRequest(name=mission_name(mission), deleted=deleted)
+        for name, corners in (added or {}).items():
+            area = request.added.add(name=name)
+            for x_m, y_m in corners:
+                area.vertices.add(x_m=x_m, y_m=y_m)
+        return list((yield from self.call(rpcs.CHANGE_KEEP_OUT_AREAS, request)).areas)
+
     def update_mission(
         self,
         mission: str,

@@ -254,6 +254,7 @@ class Client:
     pause_mission = _client_call(Operations.pause_mission)
     resume_mission = _client_call(Operations.resume_mission)
     finish_mission = _client_call(Operations.finish_mission)
+    change_keep_out_areas = _client_call(Operations.change_keep_out_areas)
     update_mission = _client_call(Operations.update_mission)
     delete_mission = _client_call(Operations.delete_mission)
     mission_history = _client_stream(Operations.mission_history, snapshot_pb.MissionEvent)

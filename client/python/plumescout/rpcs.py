@@ -55,6 +55,9 @@ UPDATE_MISSION = Rpc(_MISSIONS, missions.UpdateMissionRequest, missions.UpdateMi
 PAUSE_MISSION = Rpc(_MISSIONS, missions.PauseMissionRequest, missions.PauseMissionResponse)
 RESUME_MISSION = Rpc(_MISSIONS, missions.ResumeMissionRequest, missions.ResumeMissionResponse)
 FINISH_MISSION = Rpc(_MISSIONS, missions.FinishMissionRequest, missions.FinishMissionResponse)
+CHANGE_KEEP_OUT_AREAS = Rpc(
+    _MISSIONS, missions.ChangeKeepOutAreasRequest, missions.ChangeKeepOutAreasResponse
+)
 
 _ROBOTS = "RobotService"
 REGISTER_ROBOT = Rpc(_ROBOTS, robots.RegisterRobotRequest, robots.RegisterRobotResponse)

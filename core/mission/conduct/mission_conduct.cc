@@ -83,6 +83,12 @@ absl::StatusOr<std::int64_t> MissionConduct::OrderHome(const std::vector<RobotId
   return mission_->revision();
 }
 
+absl::StatusOr<std::int64_t> MissionConduct::ChangeKeepOut(const KeepOutChanged& change) {
+  const bool changes = !change.deleted.empty() || !change.added.empty();
+  if (changes) PLUMESCOUT_RETURN_IF_ERROR(Apply(change).status());
+  return mission_->revision();
+}
+
 absl::StatusOr<LogPosition> MissionConduct::Position(const RobotId& robot) const {
   const auto applied = mission_->AppliedSequence(robot);
   if (!applied.ok()) return RobotNotFound(robot);
@@ -126,6 +132,10 @@ absl::Status MissionConduct::IngestOne(const RobotId& robot, IncomingObservation
 absl::StatusOr<PlanId> MissionConduct::Commit(const Plan& plan, std::int64_t lease_token,
                                               bool assigned) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckLease(plan.robot, lease_token));
+  if (const auto place = mission_->FindKeptOut(plan)) {
+    return absl::AbortedError(absl::StrCat("the way leads through (", place->x_m, ", ", place->y_m,
+                                           "), which was closed"));
+  }
   if (const auto meeting = mission_->FindMeeting(plan, kLeastClearance_m)) {
     return absl::AbortedError(
         absl::StrCat("the way meets robot \"", meeting->robot, "\" in ", meeting->time_s, " s"));

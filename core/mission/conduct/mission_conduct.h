@@ -91,6 +91,10 @@ class MissionConduct {
   // none: ROBOT_NOT_FOUND. Returns the revision that includes it.
   absl::StatusOr<std::int64_t> OrderHome(const std::vector<RobotId>& robots, bool home);
 
+  // No event if nothing changes. Errors: those of Mission::Apply. Returns the revision that
+  // includes it.
+  absl::StatusOr<std::int64_t> ChangeKeepOut(const KeepOutChanged& change);
+
   absl::StatusOr<LogPosition> Position(const RobotId& robot) const;
   // Whether writes under this token are applied now, whatever any book of leases says.
   absl::Status CheckLease(const RobotId& robot, std::int64_t lease_token) const;
@@ -102,7 +106,8 @@ class MissionConduct {
                       std::vector<IncomingObservation> batch);
 
   // Commits a plan; returns its number. kAborted, see CommitRace, if another robot claims the goal
-  // or, since the plan was searched for, has been given a way that this one runs into.
+  // or, since the plan was searched for, has been given a way that this one runs into, or an area
+  // that it leads through was closed.
   // `assigned`: the robot did not ask for it and will fetch it.
   absl::StatusOr<PlanId> Commit(const Plan& plan, std::int64_t lease_token, bool assigned = false);
   // Whom a commit of the plan would be refused for, one of several; `stopped` are taken to stand

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "core/types/rng.h"
 
@@ -80,6 +82,38 @@ TEST(CloseKeptOut, ClosesCellsAndOpensNone) {
   CloseKeptOut({Box(0.0, 0.0, 0.3, 0.2)}, traversable);
   EXPECT_EQ(Count(traversable), 600 - 1 - 6);
   EXPECT_EQ(traversable[kGeometry.CellAt({0.15, 0.15})], 0);
+}
+
+TEST(IsKeptOut, AgreesWithTheCells) {
+  Rng rng(5);
+  for (int trial = 0; trial < 50; ++trial) {
+    std::vector<Polygon> areas(2);
+    for (Polygon& area : areas) {
+      for (int i = 0; i < 5; ++i) {
+        area.vertices.push_back({rng.Uniform(-1.5, 2.5), rng.Uniform(-1.0, 2.0)});
+      }
+    }
+    const Grid<std::uint8_t> cells = KeptOutCells(areas, kGeometry);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const Point2 centre = kGeometry.Center(kGeometry.CellAtIndex(i));
+      ASSERT_EQ(IsKeptOut(areas, centre), cells[i] != 0) << trial;
+    }
+  }
+  EXPECT_FALSE(IsKeptOut({}, {0.0, 0.0}));
+}
+
+// Columns 10 to 12 of row 5 to 6 are closed.
+TEST(FirstKeptOut, IsWhereTheWayEntersAnAreaOrWhereItEndsInOne) {
+  const Grid<std::uint8_t> closed = KeptOutCells({Box(0.0, 0.0, 0.3, 0.2)}, kGeometry);
+  const auto at = [](int x) { return kGeometry.Center({x, 5}); };
+  EXPECT_EQ(FirstKeptOut(closed, {at(5), at(20)}), (Cell{10, 5}));
+  EXPECT_EQ(FirstKeptOut(closed, {at(20), at(15), at(5)}), (Cell{12, 5}));
+  EXPECT_EQ(FirstKeptOut(closed, {at(11), at(20)}), std::nullopt) << "out of it";
+  EXPECT_EQ(FirstKeptOut(closed, {at(11), at(20), at(5)}), (Cell{12, 5})) << "and in again";
+  EXPECT_EQ(FirstKeptOut(closed, {at(11), at(10)}), (Cell{10, 5})) << "it stays there";
+  EXPECT_EQ(FirstKeptOut(closed, {at(11)}), (Cell{11, 5}));
+  EXPECT_EQ(FirstKeptOut(closed, {at(5), at(9)}), std::nullopt);
+  EXPECT_EQ(FirstKeptOut(closed, {}), std::nullopt);
 }
 
 }  // namespace keep_out_test

@@ -71,6 +71,19 @@ class PlanWatchTest : public ::testing::Test {
     record.live_arrival_ns = belief_.sample_time_ns + std::llround(way.duration_s * 1e9);
     record.live_trajectory = std::make_shared<const Trajectory>(way);
   }
+  // Nobody may drive in the cell of the place.
+  void CloseAround(Point2 middle) {
+    auto options = std::make_shared<MissionOptions>(*belief_.options);
+    constexpr double kHalf_m = 0.4 * kCell_m;
+    options->keep_out.push_back({{{middle.x_m - kHalf_m, middle.y_m - kHalf_m},
+                                  {middle.x_m + kHalf_m, middle.y_m - kHalf_m},
+                                  {middle.x_m + kHalf_m, middle.y_m + kHalf_m},
+                                  {middle.x_m - kHalf_m, middle.y_m + kHalf_m}}});
+    belief_.options = options;
+    Grid<std::uint8_t> traversable = *belief_.traversable;
+    traversable[belief_.geometry().CellAt(middle)] = 0;
+    belief_.traversable = std::make_shared<const Grid<std::uint8_t>>(traversable);
+  }
   void End(const RobotId& robot) {
     belief_.robots[robot].live_trajectory = nullptr;
     belief_.robots[robot].live_goal.reset();
@@ -229,18 +242,30 @@ TEST_F(PlanWatchTest, ACellThatIsOnlyNearAWallBlocksNothing) {
   EXPECT_THAT(Run(3.0), IsEmpty());
 }
 
+TEST_F(PlanWatchTest, AWayThroughAnAreaThatWasJustClosedIsToldOfAtOnce) {
+  Depart("b", 1, At(1), At(12));
+  EXPECT_THAT(Run(1.0), IsEmpty());
+  CloseAround(At(9));
+  const auto told = watch_.Look(belief_);
+  ASSERT_THAT(told, SizeIs(1));
+  EXPECT_EQ(Invalidated(told[0]).reason, InvalidationReason::kKeptOut);
+  EXPECT_EQ(Invalidated(told[0]).place, belief_.geometry().Center({9, 2}));
+  EXPECT_THAT(Run(1.0), IsEmpty()) << "once";
+}
+
+TEST_F(PlanWatchTest, AWayOutOfAnAreaStandsButNotOneThatEndsThere) {
+  Depart("a", 1, At(2), At(8));
+  Depart("b", 2, At(10), At(12));
+  EXPECT_THAT(Run(0.5), IsEmpty());
+  CloseAround(At(2));   // where a is
+  CloseAround(At(12));  // where b goes
+  const auto told = watch_.Look(belief_);
+  ASSERT_THAT(told, SizeIs(1));
+  EXPECT_EQ(told[0].robot, "b");
+}
+
 TEST_F(PlanWatchTest, AWayThroughAClosedAreaIsToldOf) {
-  auto options = std::make_shared<MissionOptions>(*belief_.options);
-  constexpr double kHalf_m = 0.4 * kCell_m;
-  const Point2 middle = At(9);
-  options->keep_out.push_back({{{middle.x_m - kHalf_m, middle.y_m - kHalf_m},
-                                {middle.x_m + kHalf_m, middle.y_m - kHalf_m},
-                                {middle.x_m + kHalf_m, middle.y_m + kHalf_m},
-                                {middle.x_m - kHalf_m, middle.y_m + kHalf_m}}});
-  belief_.options = options;
-  Grid<std::uint8_t> traversable = *belief_.traversable;
-  traversable[belief_.geometry().CellAt(middle)] = 0;
-  belief_.traversable = std::make_shared<const Grid<std::uint8_t>>(traversable);
+  CloseAround(At(9));
   Depart("b", 1, At(1), At(12));
   const auto told = Run(3.0);
   ASSERT_THAT(told, SizeIs(1));

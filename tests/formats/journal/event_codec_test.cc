@@ -311,5 +311,16 @@ TEST(EventCodec, RebuildsOfTheMapComeBack) {
   EXPECT_EQ(EncodeEvent({1, MapRebuilt{}})[1], 12);
 }
 
+TEST(EventCodec, ChangesOfKeepOutAreasComeBack) {
+  const Event event = {5,
+                       KeepOutChanged{{"ramp", "spill"}, {{{{0, 0}, {1, 0.5}, {0, 1}}, "spill"}}}};
+  const std::string bytes = EncodeEvent(event);
+  EXPECT_EQ(bytes[0], 1);
+  EXPECT_EQ(bytes[1], 13);
+  const auto decoded = DecodeEvent(bytes);
+  ASSERT_TRUE(decoded.ok()) << decoded.status();
+  EXPECT_EQ(*decoded, event);
+}
+
 }  // namespace event_codec_test
 }  // namespace plumescout

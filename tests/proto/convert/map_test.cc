@@ -41,6 +41,7 @@ MapSnapshot TestMap() {
   map.gases = {{"methane", map.gas_counters, map.gas_quality, map.gas_audits},
                {"ozone", {3, 1, 0, 2}, {}, {2, 1e-5, 0.0, 0}}};
   map.sensor_offsets = {{"r1", "pid", 0.5, 0.1, 30, true, false, "ozone"}};
+  map.keep_out = {{{{1, 2}, {3, 4}, {5, 7}}, "spill"}};
   map.phase = MissionPhase::kGasProbing;
   return map;
 }
@@ -84,6 +85,7 @@ TEST(MapTest, MapSurvivesTheRoundTripInFullPrecision) {
   EXPECT_EQ(back->gas_audits, map.gas_audits);
   EXPECT_EQ(back->gases, map.gases);
   EXPECT_EQ(back->sensor_offsets, map.sensor_offsets);
+  EXPECT_EQ(back->keep_out, map.keep_out);
   EXPECT_EQ(back->phase, map.phase);
 }
 

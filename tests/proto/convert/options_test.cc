@@ -69,7 +69,7 @@ MissionOptions Unlike() {
   options.stamp_by_arrival = true;
   options.keep_scans = false;
   options.gas.audit_period_epochs = 7;
-  options.keep_out = {{{{1, 2}, {3, 4}, {5, 7}}}, {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}};
+  options.keep_out = {{{{1, 2}, {3, 4}, {5, 7}}, "spill"}, {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}};
   options.gas_species = {{"methane", {}, {}, {}, {}}, {"ozone", 30.0, {}, 0.5, 0.25}};
   options.home = Point2{-1.0, 2.0};
   options.prior_map =

@@ -30,14 +30,16 @@ TEST(EventLineTest, EveryKindHasItsWords) {
       {RobotRemoved{"r1"}, "leaves"},
       {Seen(RobotStatus{0.5}), "battery at 50 %"},
       {ClockOffsetNoted{"r1", -1'500'000'000}, "the mission's time is its clock and -1.500 s"},
-      {HomeOrdered{"r1", true}, "is sent home"}};
+      {HomeOrdered{"r1", true}, "is sent home"},
+      {KeepOutChanged{{"ramp"}, {{{}, "spill"}, {{}, "pit"}}},
+       "keep-out areas: ramp opened; spill, pit closed"}};
   std::set<int> kinds;
   for (const auto& [body, line] : cases) {
     EXPECT_EQ(LineOf(body), line);
     kinds.insert(KindOf(body));
   }
   kinds.insert(KindOf(PlanIssued{}));
-  EXPECT_EQ(kinds.size(), 13u);
+  EXPECT_EQ(kinds.size(), 14u);
   EXPECT_EQ(kinds.count(v1::MISSION_EVENT_KIND_UNSPECIFIED), 0u);
 }
 

@@ -51,6 +51,23 @@ resume_mission = _change_mission("resume_mission")
 finish_mission = _change_mission("finish_mission")
 
 
+def close_area(client, arguments, out):
+    corners = arguments.corners
+    if len(corners) == 2:
+        (x0_m, y0_m), (x1_m, y1_m) = corners
+        corners = [(x0_m, y0_m), (x1_m, y0_m), (x1_m, y1_m), (x0_m, y1_m)]
+    areas = client.change_keep_out_areas(arguments.mission, {arguments.area: corners})
+    _print_areas(areas, out)
+
+
+def open_area(client, arguments, out):
+    _print_areas(client.change_keep_out_areas(arguments.mission, deleted=[arguments.area]), out)
+
+
+def _print_areas(areas, out):
+    out.messages(areas, words.AREA_HEADINGS, words.area_row)
+
+
 def delete_mission(client, arguments, out):
     client.delete_mission(arguments.mission)
     out.done(f"deleted {arguments.mission}")

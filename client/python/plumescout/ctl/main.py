@@ -30,6 +30,7 @@ examples:
   plumescoutctl missions history hall --kind plan
   plumescoutctl plan-team hall                   a plan for every robot that has none
   plumescoutctl robots home hall --all
+  plumescoutctl missions close hall spill "2,1 3,2"
   plumescoutctl robots watch hall r1
   plumescoutctl store verify --data /var/lib/plumescout
   plumescoutctl completion bash > ~/.local/share/bash-completion/completions/plumescoutctl
@@ -177,6 +178,13 @@ def _add_missions(groups):
         ("delete", "delete it and all it holds", commands.delete_mission),
     ):
         _takes(_add(steps, word, what), command, "mission")
+    close = _takes(
+        _add(steps, "close", "close an area to robots"), commands.close_area, "mission", "area"
+    )
+    close.add_argument(
+        "corners", type=_corners, help='"x,y x,y ...", metres; two are those of a rectangle'
+    )
+    _takes(_add(steps, "open", "open it again"), commands.open_area, "mission", "area")
     export = _takes(
         _add(steps, "export", "write a mission to a file"), commands.export_mission, "mission"
     )
@@ -255,6 +263,7 @@ def _add(groups, word, what):
 _NAMES = {
     "mission": "its name, as in missions list",
     "robot": "its name, as in robots list",
+    "area": "name of a keep-out area",
     "file": "to read",
 }
 
@@ -276,6 +285,14 @@ def _positive(text):
     if not 0 < value < float("inf"):
         raise argparse.ArgumentTypeError(f"{text} must be > 0")
     return value
+
+
+def _corners(text):
+    """"1,2 3,4" as [(1.0, 2.0), (3.0, 4.0)]."""
+    try:
+        return [(float(x_m), float(y_m)) for x_m, y_m in (c.split(",") for c in text.split())]
+    except ValueError:
+        raise argparse.ArgumentTypeError(f'"{text}" is not "x,y x,y ..."') from None
 
 
 def _count(text):

@@ -182,6 +182,13 @@ def robot_facts(robot):
     return facts
 
 
+AREA_HEADINGS = ["AREA", "CORNERS"]
+
+
+def area_row(area):
+    return [area.name, " ".join(f"{p.x_m:g},{p.y_m:g}" for p in area.vertices)]
+
+
 def plan_row(plan):
     return [
         last_part(plan.name),

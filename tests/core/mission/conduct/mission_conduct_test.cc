@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/types/error_reason.h"
+#include "tests/support/box_room.h"
 #include "tests/support/ingest_batch.h"
 #include "tests/support/scripted_strategy.h"
 
@@ -311,6 +312,33 @@ TEST_F(MissionConductTest, HomeIsOrderedOfAllOrNone) {
   EXPECT_EQ(conduct_.OrderHome({"r1", "r2"}, true).value(), 4);
   EXPECT_EQ(conduct_.OrderHome({"r1", "r2"}, false).value(), 6);
   EXPECT_FALSE(conduct_.mission().StateOf("r1")->ordered_home);
+}
+
+TEST_F(MissionConductTest, AreasChangeByOneEventOrNone) {
+  EXPECT_EQ(conduct_.ChangeKeepOut({}).value(), 1);
+  EXPECT_EQ(events_.size(), 1u);
+  const Polygon spill{{{5.0, 5.0}, {6.0, 5.0}, {6.0, 6.0}}, "spill"};
+  EXPECT_EQ(conduct_.ChangeKeepOut({{}, {spill}}).value(), 2);
+  EXPECT_EQ(conduct_.mission().options().keep_out, std::vector<Polygon>{spill});
+  EXPECT_EQ(ErrorReason(conduct_.ChangeKeepOut({{}, {spill}}).status()),
+            reason::kKeepOutAreaExists);
+  EXPECT_EQ(revision(), 2);
+}
+
+TEST_F(MissionConductTest, AWayThroughAnAreaThatWasJustClosedIsSearchedForAgain) {
+  const Pose2 pose{1.0, 1.5, 0.0};
+  for (std::int64_t sequence = 1; sequence <= 3; ++sequence) {
+    const Scan scan = support::ScanInBox(pose, 4.0, 3.0);
+    const Observation seen{sequence, sequence * 1'000'000'000, pose, scan};
+    ASSERT_TRUE(conduct_.Ingest("r1", kLease, {{seen, absl::OkStatus()}}).refused.empty());
+  }
+  Plan plan = PlanFor("r1", 3.5);
+  plan.trajectory.waypoints = {{pose}, {{3.5, 1.5, 0.0}}};
+  const Polygon spill{{{2.0, 1.0}, {3.0, 1.0}, {3.0, 2.0}, {2.0, 2.0}}, "spill"};
+  ASSERT_TRUE(conduct_.ChangeKeepOut({{}, {spill}}).ok());
+  EXPECT_TRUE(absl::IsAborted(conduct_.Commit(plan, kLease).status()));
+  plan.belief_revision = revision();
+  EXPECT_TRUE(conduct_.Commit(plan, kLease).ok()) << "whoever planned on it kept out";
 }
 
 }  // namespace mission_conduct_test
