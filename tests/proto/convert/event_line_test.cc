@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "server/history/event_line.h"
+#include "proto/convert/event_line.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-namespace plumescout::server {
+namespace plumescout {
 namespace event_line_test {
 
 EventBody Seen(decltype(Observation::payload) payload) {
@@ -76,4 +76,4 @@ TEST(EventLineTest, EventsNameRobotAndTimeWhereTheyHaveThem) {
 }
 
 }  // namespace event_line_test
-}  // namespace plumescout::server
+}  // namespace plumescout
