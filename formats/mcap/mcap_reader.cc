@@ -224,14 +224,15 @@ absl::Status McapReader::OpenChunk() {
   if (chunk.uncompressed_bytes > kMcapMaxRecordBytes) {
     return Damage(absl::StrCat("a chunk of ", chunk.uncompressed_bytes, " bytes"));
   }
+  std::string records;
   if (chunk.compression == "zstd") {
-    chunk_.resize(chunk.uncompressed_bytes);
-    const absl::Status unpacked = DecompressZstd(chunk.records, chunk_.data(), chunk_.size());
+    records.resize(chunk.uncompressed_bytes);
+    const absl::Status unpacked = DecompressZstd(chunk.records, records.data(), records.size());
     if (!unpacked.ok()) return Damage(unpacked.message());
   } else if (chunk.compression.empty()) {
-    chunk_.assign(chunk.records.data(), chunk.records.size());
-    if (chunk_.size() != chunk.uncompressed_bytes) {
-      return Damage(absl::StrCat("a chunk has ", chunk_.size(), " bytes, and says ",
+    records.assign(chunk.records.data(), chunk.records.size());
+    if (records.size() != chunk.uncompressed_bytes) {
+      return Damage(absl::StrCat("a chunk has ", records.size(), " bytes, and says ",
                                  chunk.uncompressed_bytes));
     }
   } else {
@@ -239,9 +240,10 @@ absl::Status McapReader::OpenChunk() {
                                                  " is packed by \"", chunk.compression,
                                                  "\"; this program reads zstd"));
   }
-  if (chunk.uncompressed_crc != 0 && McapCrc(chunk_) != chunk.uncompressed_crc) {
+  if (chunk.uncompressed_crc != 0 && McapCrc(records) != chunk.uncompressed_crc) {
     return Damage("checksum mismatch of a chunk");
   }
+  chunk_ = std::move(records);
   chunk_at_ = record_at_;
   chunk_done_ = 0;
   chunks_[record_at_] = buffer_.size();
