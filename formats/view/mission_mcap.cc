@@ -164,6 +164,7 @@ absl::Status MissionMcap::ShowObservation(const ObservationReceived& received, M
 absl::Status MissionMcap::ShowPlan(const Plan& issued, PlanId id, McapTimes times) {
   Plan plan = issued;
   plan.id = id;
+  if (plan.chosen >= static_cast<int>(plan.candidates.size())) plan.chosen = -1;  // not kept
   PLUMESCOUT_RETURN_IF_ERROR(channels_.Add("/plans", ToProto(plan, mission_id_), times));
   const std::string way = WayOf(plan.robot);
   return channels_.Add("/scene/plans",
@@ -195,7 +196,8 @@ absl::Status MissionMcap::ShowMap() {
   const std::vector<GasSpecies>& species = belief->options->gas_species;
   for (std::size_t i = 0; i <= belief->further_gases.size(); ++i) {
     const GasField gas = belief->Gas(i);
-    const std::string topic = species.size() < 2 ? "/map/gas" : absl::StrCat("/map/gas/", species[i].name);
+    const std::string topic =
+        species.size() < 2 ? "/map/gas" : absl::StrCat("/map/gas/", species[i].name);
     PLUMESCOUT_RETURN_IF_ERROR(
         channels_.Add(topic + "/mean", FoxgloveGrid(*gas.mean_ppm, "mean_ppm", now_ns_), times));
     PLUMESCOUT_RETURN_IF_ERROR(channels_.Add(

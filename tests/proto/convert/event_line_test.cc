@@ -12,7 +12,9 @@ namespace plumescout {
 namespace event_line_test {
 
 EventBody Seen(decltype(Observation::payload) payload) {
-  return ObservationReceived{"r1", {12, 5'000'000, {2.0, 1.5, 0.0}, std::move(payload)}};
+  ObservationReceived received{"r1", {12, 5'000'000, {2.0, 1.5, 0.0}, {}}};
+  received.observation.payload = std::move(payload);
+  return received;
 }
 
 TEST(EventLineTest, EveryKindHasItsWords) {
