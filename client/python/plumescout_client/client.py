@@ -264,12 +264,19 @@ class Client(Calls):
         )
         self._call(self._robots.RemoveRobot, request)
 
-    def export_mission(self, mission, path, progress=lambda done, expected: None):
+    def export_mission(self, mission, path, progress=lambda done, expected: None, mcap=False):
         """Writes a mission to a file: all its events so far. The file is there once it is whole.
         Returns a plumescout.v1.MissionFileStart.
 
-        progress: called now and then with how many bytes have come, and how many will, about."""
-        request = snapshot_pb.ExportMissionRequest(mission=f"missions/{mission}")
+        progress: called now and then with how many bytes have come, and how many will, about.
+        mcap: an MCAP file, which Foxglove shows, instead of a journal, which import_mission takes.
+        """
+        request = snapshot_pb.ExportMissionRequest(
+            mission=f"missions/{mission}",
+            format=snapshot_pb.MISSION_FILE_FORMAT_MCAP
+            if mcap
+            else snapshot_pb.MISSION_FILE_FORMAT_JOURNAL,
+        )
         try:
             responses = self._snapshots.ExportMission(request, wait_for_ready=True)
             return mission_file.write(responses, path, progress)
