@@ -19,7 +19,7 @@
 #include "formats/map_server.h"
 #include "lab/formats/npy.h"
 #include "lab/formats/scene_json.h"
-#include "lab/formats/zstd_codec.h"
+#include "formats/zstd_codec.h"
 
 namespace plumescout::lab {
 namespace {

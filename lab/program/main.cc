@@ -8,6 +8,7 @@
 #include "CLI/CLI.hpp"
 #include "absl/status/status.h"
 #include "lab/program/experiment_command.h"
+#include "lab/program/export_command.h"
 #include "lab/program/plan_command.h"
 #include "lab/program/replay_command.h"
 #include "lab/program/robot_command.h"
@@ -20,6 +21,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   absl::Status status;
   plumescout::lab::AddExperimentCommand(app, status);
+  plumescout::lab::AddExportCommand(app, status);
   plumescout::lab::AddPlanCommand(app, status);
   plumescout::lab::AddReplayCommand(app, status);
   plumescout::lab::AddRobotCommand(app, status);

@@ -59,17 +59,38 @@ void Recorder::Record(const Event& event) {
   if (status_.ok()) status_ = writer_.Append(event);
 }
 
-Recording::Recording(JournalFileReader reader, MissionOptions options)
-    : reader_(std::move(reader)),
-      options_(std::move(options)),
-      code_version_(reader_.start() ? reader_.start()->code_version : "") {}
+Recording::Recording(Reader reader, MissionOptions options)
+    : reader_(std::move(reader)), options_(std::move(options)) {
+  const std::optional<JournalStart> start =
+      std::visit([](const auto& of) { return of.start(); }, reader_);
+  start_ = start ? *start : JournalStart{.mission_options = ToProto(options_).SerializeAsString()};
+}
+
+absl::StatusOr<Recording::Reader> Recording::OpenReader(const std::string& path) {
+  if (McapReader::IsMcap(path)) return McapJournalReader::Open(path);
+  return JournalFileReader::Open(path);
+}
 
 absl::StatusOr<Recording> Recording::Open(const std::string& path) {
-  PLUMESCOUT_ASSIGN_OR_RETURN(JournalFileReader reader, JournalFileReader::Open(path));
-  PLUMESCOUT_ASSIGN_OR_RETURN(MissionOptions options,
-                              reader.start() ? ParseOptions(reader.start()->mission_options, path)
-                                             : ReadOptionsFile(OptionsPath(path)));
+  PLUMESCOUT_ASSIGN_OR_RETURN(Reader reader, OpenReader(path));
+  const std::optional<JournalStart> start =
+      std::visit([](const auto& of) { return of.start(); }, reader);
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      MissionOptions options,
+      start ? ParseOptions(start->mission_options, path) : ReadOptionsFile(OptionsPath(path)));
   return Recording(std::move(reader), std::move(options));
+}
+
+absl::StatusOr<std::optional<Event>> Recording::Next() {
+  return std::visit([](auto& of) { return of.Next(); }, reader_);
+}
+
+const std::string& Recording::torn_end() const {
+  return std::visit([](const auto& of) -> const std::string& { return of.torn_end(); }, reader_);
+}
+
+double Recording::share_read() const {
+  return std::visit([](const auto& of) { return of.share_read(); }, reader_);
 }
 
 std::string VersionRemark(const std::string& code_version) {

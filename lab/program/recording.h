@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
@@ -15,11 +16,13 @@
 #include "core/types/event.h"
 #include "core/types/options.h"
 #include "formats/journal/journal_file.h"
+#include "formats/mcap/mcap_journal.h"
 
 namespace plumescout::lab {
 
-// A mission on disk: the journal of its events, the first of which holds its options
-// (formats/journal/journal_file.h). Of older recordings, the options are in FILE.options.json.
+// A mission on disk: the journal of its events, the first of which holds its options, as a file of
+// its own (formats/journal/journal_file.h) or in one of MCAP (formats/mcap/mcap_journal.h). Of
+// older recordings, the options are in FILE.options.json.
 
 // Writes a new recording, event by event. Not thread-safe.
 class Recorder {
@@ -42,25 +45,30 @@ class Recorder {
 // Reads a recording, event by event: one that is longer takes no more memory. Not thread-safe.
 class Recording {
  public:
-  // Errors, naming the file: those of ReadFile and JournalFileReader::Open; kInvalidArgument for
-  // options that are none.
+  // Errors, naming the file: those of ReadFile, and of the Open of JournalFileReader or
+  // McapJournalReader; kInvalidArgument for options that are none.
   static absl::StatusOr<Recording> Open(const std::string& path);
 
   const MissionOptions& options() const { return options_; }
+  // Of an older recording it has the options alone.
+  const JournalStart& start() const { return start_; }
   // Of the program that wrote it; empty: of an older recording.
-  const std::string& code_version() const { return code_version_; }
+  const std::string& code_version() const { return start_.code_version; }
 
-  // As of JournalFileReader.
-  absl::StatusOr<std::optional<Event>> Next() { return reader_.Next(); }
-  const std::string& torn_end() const { return reader_.torn_end(); }
-  double share_read() const { return reader_.share_read(); }
+  // As of JournalFileReader or McapJournalReader.
+  absl::StatusOr<std::optional<Event>> Next();
+  const std::string& torn_end() const;
+  double share_read() const;
 
  private:
-  Recording(JournalFileReader reader, MissionOptions options);
+  using Reader = std::variant<JournalFileReader, McapJournalReader>;
 
-  JournalFileReader reader_;
+  Recording(Reader reader, MissionOptions options);
+  static absl::StatusOr<Reader> OpenReader(const std::string& path);
+
+  Reader reader_;
   MissionOptions options_;
-  std::string code_version_;
+  JournalStart start_;
 };
 
 // What its reader should know, a line each; empty if there is nothing: that another version of the

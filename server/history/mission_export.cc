@@ -9,12 +9,16 @@
 #include "core/types/error_reason.h"
 #include "core/types/status_macros.h"
 #include "proto/convert/names.h"
+#include "server/base/clock.h"
 
 namespace plumescout::server {
 namespace {
 
 // Beside the event itself, a file has lengths and checksums.
 constexpr std::int64_t kBytesBesideRecord = 12;
+// A call ends after so much: others wait for the pool's thread.
+constexpr absl::Duration kMaxTimeAtOnce = absl::Milliseconds(100);
+constexpr double kMapPeriod_s = 10.0;
 
 absl::StatusOr<std::int64_t> BytesOf(MissionStore& store, const std::string& key) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto missions, store.List());
@@ -28,7 +32,8 @@ absl::StatusOr<std::int64_t> BytesOf(MissionStore& store, const std::string& key
 
 absl::StatusOr<std::unique_ptr<MissionExport>> MissionExport::Begin(MissionStore& store,
                                                                     const std::string& key,
-                                                                    const ExportPoint& point) {
+                                                                    const ExportPoint& point,
+                                                                    const MakePast& make_past) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const AcquiredMission stored, store.Peek(key));
   PLUMESCOUT_ASSIGN_OR_RETURN(JournalStart start, DecodeStart(stored.header));
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::int64_t bytes, BytesOf(store, key));
@@ -43,12 +48,25 @@ absl::StatusOr<std::unique_ptr<MissionExport>> MissionExport::Begin(MissionStore
   if (point.revision > 0) {
     PLUMESCOUT_ASSIGN_OR_RETURN(reader, store.Read(key, 1));
   }
-  return std::unique_ptr<MissionExport>(new MissionExport(start, point, bytes, std::move(reader)));
+  PastMission past;
+  if (make_past) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(past, make_past());
+  }
+  return std::unique_ptr<MissionExport>(
+      new MissionExport(start, point, bytes, std::move(reader), std::move(past)));
 }
 
 MissionExport::MissionExport(const JournalStart& start, const ExportPoint& point,
-                             std::int64_t expected_bytes, std::unique_ptr<JournalReader> reader)
-    : start_(start), point_(point), expected_bytes_(expected_bytes), reader_(std::move(reader)) {}
+                             std::int64_t expected_bytes, std::unique_ptr<JournalReader> reader,
+                             PastMission past)
+    : start_(start),
+      point_(point),
+      expected_bytes_(expected_bytes),
+      reader_(std::move(reader)),
+      room_(std::move(past.room)),
+      mcap_(past.mission == nullptr
+                ? nullptr
+                : std::make_unique<MissionMcap>(start, std::move(past.mission), kMapPeriod_s)) {}
 
 absl::StatusOr<std::optional<v1::ExportMissionResponse>> MissionExport::Next() {
   std::optional<v1::ExportMissionResponse> response(std::in_place);
@@ -58,14 +76,14 @@ absl::StatusOr<std::optional<v1::ExportMissionResponse>> MissionExport::Next() {
       start.set_mission(MissionResource(start_.mission));
       start.set_revision(point_.revision);
       start.set_expected_bytes(expected_bytes_);
-      buffer_ = encoder_.Begin(start_);
+      if (mcap_ == nullptr) buffer_ = encoder_.Begin(start_);
       stage_ = Stage::kPieces;
       return response;
     }
     case Stage::kPieces:
       PLUMESCOUT_RETURN_IF_ERROR(Fill());
-      *response = TakePiece();
-      if (buffer_.empty() && revision_ == point_.revision) stage_ = Stage::kEnd;
+      if (!buffer_.empty()) *response = TakePiece();
+      if (buffer_.empty() && closed_) stage_ = Stage::kEnd;
       return response;
     case Stage::kEnd:
       response->mutable_end()->set_total_bytes(sum_.bytes());
@@ -79,17 +97,45 @@ absl::StatusOr<std::optional<v1::ExportMissionResponse>> MissionExport::Next() {
 }
 
 absl::Status MissionExport::Fill() {
-  while (buffer_.size() < kPieceBytes && revision_ < point_.revision) {
+  const SteadyTime until = After(SteadyNow(), kMaxTimeAtOnce);
+  while (buffer_.size() < kPieceBytes && revision_ < point_.revision && SteadyNow() < until) {
     PLUMESCOUT_ASSIGN_OR_RETURN(const std::optional<JournalRecord> record, reader_->Next());
     if (!record.has_value() || record->number != revision_ + 1) {
-      return TypedError(absl::StatusCode::kDataLoss, reason::kStoreDamaged,
-                        absl::StrCat("event ", revision_ + 1, " of mission ", start_.mission,
-                                     " is missing in the journal"));
+      return Damaged(revision_ + 1, " is missing in the journal");
     }
-    buffer_ += encoder_.Record(record->bytes);
+    PLUMESCOUT_RETURN_IF_ERROR(Add(*record));
     ++revision_;
   }
+  return revision_ == point_.revision && !closed_ ? Close() : absl::OkStatus();
+}
+
+absl::Status MissionExport::Add(const JournalRecord& record) {
+  if (mcap_ == nullptr) {
+    buffer_ += encoder_.Record(record.bytes);
+    return absl::OkStatus();
+  }
+  const absl::StatusOr<Event> event = DecodeEvent(record.bytes);
+  if (!event.ok()) return Damaged(record.number, absl::StrCat(": ", event.status().message()));
+  const absl::Status added = mcap_->Add(*event, record.bytes);
+  if (absl::IsDataLoss(added)) return Damaged(record.number, absl::StrCat(": ", added.message()));
+  buffer_ += mcap_->Take();
+  return added;
+}
+
+absl::Status MissionExport::Close() {
+  closed_ = true;
+  if (mcap_ == nullptr) return absl::OkStatus();
+  if (point_.digest != 0 && mcap_->mission().Digest() != point_.digest) {
+    return Damaged(revision_, ": replayed, this is another mission");
+  }
+  PLUMESCOUT_RETURN_IF_ERROR(mcap_->Finish());
+  buffer_ += mcap_->Take();
   return absl::OkStatus();
+}
+
+absl::Status MissionExport::Damaged(std::int64_t number, absl::string_view why) const {
+  return TypedError(absl::StatusCode::kDataLoss, reason::kStoreDamaged,
+                    absl::StrCat("event ", number, " of mission ", start_.mission, why));
 }
 
 v1::ExportMissionResponse MissionExport::TakePiece() {

@@ -12,7 +12,7 @@
 #include "core/types/status_macros.h"
 #include "formats/journal/event_codec.h"
 #include "proto/convert/field.h"
-#include "server/history/event_line.h"
+#include "proto/convert/event_line.h"
 
 namespace plumescout::server {
 namespace {

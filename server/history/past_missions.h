@@ -22,7 +22,7 @@
 namespace plumescout::server {
 
 // What a past state is made for. Of each, a mission has one at a time.
-enum class PastUse { kMap, kReplay };
+enum class PastUse { kMap, kReplay, kExport };
 
 // A mission as it was, beside the one that goes on.
 struct PastMission {

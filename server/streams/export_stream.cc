@@ -6,6 +6,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/types/status_macros.h"
+#include "proto/convert/field.h"
 #include "proto/convert/names.h"
 #include "server/base/log.h"
 
@@ -21,6 +22,10 @@ ExportStream* ExportStream::Start(const ServiceContext* context, grpc::CallbackS
 absl::Status ExportStream::Begin(const v1::ExportMissionRequest& request) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const MissionId mission,
                               ParseMissionName("mission", request.mission()));
+  if (!v1::MissionFileFormat_IsValid(request.format())) {
+    return FieldError("format", request.format(), "is unknown");
+  }
+  as_mcap_ = request.format() == v1::MISSION_FILE_FORMAT_MCAP;
   PLUMESCOUT_ASSIGN_OR_RETURN(host_, context_.FindMission(visit_.caller(), mission));
   PLUMESCOUT_RETURN_IF_ERROR(context_.CheckKeepsHistory());
   listener_ = host_->end_listeners().Add([weak = weak_from_this()](const absl::Status& status) {
@@ -44,7 +49,17 @@ void ExportStream::BeginAt(const absl::StatusOr<ExportPoint>& point) {
 }
 
 void ExportStream::Open(const ExportPoint& point) {
-  auto opened = MissionExport::Begin(context_.history->store, KeyOf(*host_), point);
+  MissionExport::MakePast make_past;
+  if (as_mcap_) {
+    make_past = [this] {
+      const StopFn stop = [weak = weak_from_this()] {
+        const auto self = weak.lock();
+        return self == nullptr || static_cast<ExportStream&>(*self).HasEnded();
+      };
+      return context_.history->past_missions.Make(*host_, 0, "mission", PastUse::kExport, stop);
+    };
+  }
+  auto opened = MissionExport::Begin(context_.history->store, KeyOf(*host_), point, make_past);
   if (!opened.ok()) return End(opened.status());
   export_ = *std::move(opened);
   LogInfo("mission exported", {{"mission", host_->id()},
@@ -54,14 +69,19 @@ void ExportStream::Open(const ExportPoint& point) {
   MakeNext();
 }
 
+bool ExportStream::HasEnded() {
+  absl::MutexLock lock(&mutex_);
+  return has_ended();
+}
+
 void ExportStream::MakeNext() {
-  {
-    absl::MutexLock lock(&mutex_);
-    if (has_ended()) return;
-  }
+  if (HasEnded()) return;
   auto next = export_->Next();
   if (!next.ok()) return End(next.status());
   if (!next->has_value()) return End(absl::OkStatus());
+  if ((*next)->part_case() == v1::ExportMissionResponse::PART_NOT_SET) {
+    return Submit([this, self = shared_from_this()] { MakeNext(); });
+  }
   message_ = **std::move(next);
   {
     absl::MutexLock lock(&mutex_);

@@ -29,12 +29,14 @@ class ExportStream final : public WriteStream<v1::ExportMissionResponse> {
   // On the pool, one at a time.
   void Open(const ExportPoint& point);
   void MakeNext();
+  bool HasEnded() ABSL_LOCKS_EXCLUDED(mutex_);
   void Submit(std::function<void()> task);
 
   StreamPump::Operation NextOperation() override ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void LetGo() override;
 
   std::shared_ptr<MissionHost> host_;      // set before anything else begins
+  bool as_mcap_ = false;                   // as above
   EndListeners::Id listener_ = 0;          // of the mission's end
   std::unique_ptr<MissionExport> export_;  // of the pool's task
   v1::ExportMissionResponse message_;      // of who makes it, then of who writes it

@@ -294,6 +294,16 @@ class KeptMissionsTest(unittest.TestCase):
         self.ctl("missions", "delete", "hall")
         self.assertIn("hall", self.ctl("missions", "import", str(path)))
 
+    def test_a_mission_goes_out_as_mcap(self):
+        path = self.folder / "hall.mcap"
+        self.assertIn("up to event", self.ctl("missions", "export", "hall", str(path)))
+        magic = b"\x89MCAP0\r\n"
+        data = path.read_bytes()
+        self.assertTrue(data.startswith(magic) and data.endswith(magic))
+        for topic in (b"/journal", b"/map/occupancy", b"/map/gas/mean", b"/log"):
+            self.assertIn(topic, data)
+        self.assertIn("EXPORT_DAMAGED", self.ctl("missions", "import", str(path), code=1))
+
     def test_a_file_that_is_not_whole_is_refused_by_name(self):
         path = self.folder / "hall.journal"
         self.ctl("missions", "export", "hall", str(path))

@@ -14,7 +14,7 @@
 #include "formats/journal/event_codec.h"
 #include "formats/zlib_codec.h"
 #include "lab/formats/scene_json.h"
-#include "lab/formats/zstd_codec.h"
+#include "formats/zstd_codec.h"
 #include "tests/fuzz/request_steps.h"
 #include "tests/fuzz/small_service.h"
 #include "tests/support/box_room.h"
@@ -108,7 +108,7 @@ void AddMaps(Corpus& corpus) {
   const std::string cells("\x03\x02\x00\x01\x02\x02\x01\x00", 8);
   corpus.Add("packed", "cells", cells);
   corpus.Add("packed", "zlib", CompressZlib(cells));
-  const auto zstd = lab::CompressZstd(std::string(4096, 'a'));
+  const auto zstd = CompressZstd(std::string(4096, 'a'));
   if (zstd.ok()) corpus.Add("packed", "zstd", *zstd);
 }
 

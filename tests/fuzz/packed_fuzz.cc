@@ -7,7 +7,7 @@
 #include <string>
 
 #include "formats/zlib_codec.h"
-#include "lab/formats/zstd_codec.h"
+#include "formats/zstd_codec.h"
 #include "proto/convert/prior_map.h"
 
 namespace {
@@ -33,7 +33,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto inflated = plumescout::DecompressZlib(bytes, kRoom_bytes);
   if (inflated.ok() && inflated->size() > kRoom_bytes) __builtin_trap();
   std::string room(kRoom_bytes, '\0');
-  plumescout::lab::DecompressZstd(bytes, room.data(), room.size()).IgnoreError();
+  plumescout::DecompressZstd(bytes, room.data(), room.size()).IgnoreError();
   ReadMap(bytes);
   return 0;
 }

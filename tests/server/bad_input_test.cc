@@ -59,7 +59,7 @@ std::map<std::string, BadInputs> AllBadInputs() {
           {"QueryGasRequest", BadQueryGas()},
           {"GetMapRequest", BadGetMap()},
           {"WatchMapRequest", BadWatchMap()},
-          {"ExportMissionRequest", BadMissionName("mission")},
+          {"ExportMissionRequest", BadExport()},
           {"ImportMissionRequest", BadImport()},
           {"GetMissionHistoryRequest", BadHistory()}};
 }
@@ -349,12 +349,12 @@ TEST_F(BadInputTest, WatchMap) {
 }
 
 TEST_F(BadInputTest, ExportMission) {
-  Check(BadMissionName("mission"), Copies(v1::ExportMissionRequest()),
-        [this](const Message& request) {
-          return ExportClient(*snapshots_,
-                              static_cast<const v1::ExportMissionRequest&>(request).mission())
-              .Finish();
-        });
+  v1::ExportMissionRequest good;
+  good.set_mission("missions/hall");
+  Check(BadExport(), Copies(good), [this](const Message& request) {
+    return ExportClient(*snapshots_, static_cast<const v1::ExportMissionRequest&>(request))
+        .Finish();
+  });
 }
 
 TEST_F(BadInputTest, ImportMission) {

@@ -17,6 +17,10 @@ inline BadInputs BadHistory() {
       .Values("page_token", {"\"x\"", "\"!\"", "\"MQ==\""});
 }
 
+inline BadInputs BadExport() {
+  return BadInputs().Rows(BadMissionName("mission")).Values("format", {"3", "-1"});
+}
+
 inline BadInputs BadImport() {
   return BadInputs()
       .Values("start.mission_id", {"\"Attic\"", "\"-\"", "\"missions/attic\"", "\" \""})

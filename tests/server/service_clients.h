@@ -175,12 +175,12 @@ class ImportClient {
 // A mission that comes from a server.
 class ExportClient {
  public:
-  ExportClient(v1::SnapshotService::Stub& stub, const std::string& mission) {
+  ExportClient(v1::SnapshotService::Stub& stub, const v1::ExportMissionRequest& request) {
     SetPatience(context_);
-    v1::ExportMissionRequest request;
-    request.set_mission(mission);
     stream_ = stub.ExportMission(&context_, request);
   }
+  ExportClient(v1::SnapshotService::Stub& stub, const std::string& mission)
+      : ExportClient(stub, RequestOf(mission)) {}
   // A message of nothing once the stream has ended.
   v1::ExportMissionResponse Read() {
     v1::ExportMissionResponse response;
@@ -195,6 +195,12 @@ class ExportClient {
   }
 
  private:
+  static v1::ExportMissionRequest RequestOf(const std::string& mission) {
+    v1::ExportMissionRequest request;
+    request.set_mission(mission);
+    return request;
+  }
+
   grpc::ClientContext context_;
   std::unique_ptr<grpc::ClientReader<v1::ExportMissionResponse>> stream_;
 };

@@ -175,11 +175,19 @@ class MissionOperations(Calls):
         mission: str,
         path: str | pathlib.Path,
         progress: _mission_file.Progress = _NO_PROGRESS,
+        mcap: bool = False,
     ) -> Operation[snapshot_pb.MissionFileStart]:
         """Writes a mission to a file: all its events so far. The file is there once it is whole.
 
-        progress: called now and then with how many bytes have come, and how many will, about."""
-        request = snapshot_pb.ExportMissionRequest(mission=mission_name(mission))
+        progress: called now and then with how many bytes have come, and how many will, about.
+        mcap: an MCAP file, which Foxglove shows, instead of a journal, which import_mission takes.
+        """
+        request = snapshot_pb.ExportMissionRequest(
+            mission=mission_name(mission),
+            format=snapshot_pb.MISSION_FILE_FORMAT_MCAP
+            if mcap
+            else snapshot_pb.MISSION_FILE_FORMAT_JOURNAL,
+        )
         stream = yield Open(rpcs.EXPORT_MISSION, request)
         try:
             with _mission_file.Writer(path, progress) as writer:

@@ -22,9 +22,10 @@ struct ExportedFile {
 };
 
 inline ExportedFile ExportFile(MissionStore& store, const std::string& key,
-                               const ExportPoint& point) {
+                               const ExportPoint& point,
+                               const MissionExport::MakePast& make_past = {}) {
   ExportedFile file;
-  auto exported = MissionExport::Begin(store, key, point);
+  auto exported = MissionExport::Begin(store, key, point, make_past);
   file.status = exported.status();
   while (file.status.ok()) {
     const auto next = (*exported)->Next();

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "formats/mcap/mcap_journal.h"
 #include "server/store/memory_store.h"
 #include "tests/server/history/exported_file.h"
 #include "tests/server/history/past_run.h"
@@ -80,6 +81,47 @@ TEST(MissionExportTest, JournalThatIsTooShortHasNoEnd) {
   const ExportedFile file = ExportFile(store, "hall", {run.revision() + 1, 0});
   EXPECT_TRUE(absl::IsDataLoss(file.status)) << file.status;
   EXPECT_TRUE(absl::IsNotFound(ExportFile(store, "attic", {1, 0}).status));
+}
+
+// Of default options.
+absl::StatusOr<PastMission> MakePast() {
+  PastMission past;
+  past.mission = std::make_unique<Mission>(MissionOptions());
+  return past;
+}
+
+TEST(MissionExportTest, AMissionAsMcapReplaysToTheSameState) {
+  MemoryStore store;
+  const PastRun run = StoreRun(store);
+  const ExportedFile file = ExportFile(store, "hall", {run.revision(), run.digest}, MakePast);
+  ASSERT_TRUE(file.status.ok()) << file.status;
+  EXPECT_EQ(file.start.revision(), run.revision());
+  EXPECT_EQ(file.end.total_bytes(), static_cast<std::int64_t>(file.bytes.size()));
+  const TempFolder folder;
+  std::ofstream(folder.File("mcap"), std::ios::binary) << file.bytes;
+  auto reader = McapJournalReader::Open(folder.File("mcap"));
+  ASSERT_TRUE(reader.ok()) << reader.status();
+  EXPECT_EQ(reader->start()->mission, "hall");
+  Mission mission{MissionOptions()};
+  auto event = reader->Next();
+  for (; event.ok() && *event; event = reader->Next()) {
+    ASSERT_TRUE(mission.Apply((*event)->body).ok());
+  }
+  EXPECT_TRUE(event.ok()) << event.status();
+  EXPECT_EQ(reader->torn_end(), "");
+  EXPECT_EQ(mission.Digest(), run.digest);
+}
+
+TEST(MissionExportTest, AMissionThatIsAnotherHasNoEnd) {
+  MemoryStore store;
+  const PastRun run = StoreRun(store);
+  const ExportedFile file = ExportFile(store, "hall", {run.revision(), run.digest + 1}, MakePast);
+  EXPECT_TRUE(absl::IsDataLoss(file.status)) << file.status;
+  const auto refuse = []() -> absl::StatusOr<PastMission> {
+    return absl::ResourceExhaustedError("no room");
+  };
+  EXPECT_TRUE(absl::IsResourceExhausted(
+      ExportFile(store, "hall", {run.revision(), run.digest}, refuse).status));
 }
 
 }  // namespace mission_export_test

@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "absl/strings/match.h"
 #include "formats/file_sum.h"
+#include "formats/mcap/mcap_records.h"
 #include "tests/server/service_fixture.h"
 
 namespace plumescout::server {
@@ -57,6 +59,29 @@ TEST_F(ExportStreamTest, CallerMayLeave) {
   client.Cancel();
   client.Finish().IgnoreError();
   EXPECT_TRUE(ExportClient(*snapshots_, "missions/hall").Finish().ok());
+}
+
+TEST_F(ExportStreamTest, AMissionComesAsMcapToo) {
+  Send(1, 500);
+  v1::ExportMissionRequest request;
+  request.set_mission("missions/hall");
+  request.set_format(v1::MISSION_FILE_FORMAT_MCAP);
+  ExportClient client(*snapshots_, request);
+  ASSERT_EQ(client.Read().start().revision(), Revision());
+  std::string bytes;
+  FileSum sum;
+  auto part = client.Read();
+  for (; part.has_piece(); part = client.Read()) {
+    bytes += part.piece().data();
+    sum.Add(part.piece().data());
+    EXPECT_EQ(part.piece().crc32(), sum.crc32());
+  }
+  ASSERT_TRUE(part.has_end());
+  EXPECT_EQ(part.end().sha256(), sum.TakeSha256());
+  EXPECT_TRUE(client.Finish().ok());
+  EXPECT_TRUE(absl::StartsWith(bytes, kMcapMagic) && absl::EndsWith(bytes, kMcapMagic));
+  // What it held is free again for the next.
+  EXPECT_TRUE(ExportClient(*snapshots_, request).Finish().ok());
 }
 
 TEST_F(ExportStreamTest, StrangersAreRefused) {

@@ -87,7 +87,8 @@ def set_keep(client, arguments, out):
 
 def export_mission(client, arguments, out):
     with Progress(f"export of {arguments.mission}") as progress:
-        start = client.export_mission(arguments.mission, arguments.file, progress)
+        mcap = arguments.file.endswith(".mcap")
+        start = client.export_mission(arguments.mission, arguments.file, progress, mcap)
     out.done(f"wrote {arguments.file}: {arguments.mission} up to event {start.revision}")
 
 

@@ -27,6 +27,7 @@ examples:
   plumescoutctl map export hall hall.yaml        also writes hall.pgm, for map_server
   plumescoutctl map export hall gas.csv --layer gas-mean
   plumescoutctl missions export hall hall.journal
+  plumescoutctl missions export hall hall.mcap   to look at in Foxglove
   plumescoutctl missions history hall --kind plan
   plumescoutctl plan-team hall                   a plan for every robot that has none
   plumescoutctl robots home hall --all
@@ -188,7 +189,11 @@ def _add_missions(groups):
     export = _takes(
         _add(steps, "export", "write a mission to a file"), commands.export_mission, "mission"
     )
-    export.add_argument("file", help="a journal, which plumescout-lab replay reads too")
+    export.add_argument(
+        "file",
+        help=".mcap: MCAP, which Foxglove shows; else a journal, which missions import takes. "
+        "plumescout-lab replay reads both",
+    )
     imported = _takes(
         _add(steps, "import", "make a mission of an exported one"), commands.import_mission, "file"
     )

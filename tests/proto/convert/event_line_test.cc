@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "server/history/event_line.h"
+#include "proto/convert/event_line.h"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,13 @@
 #include <string>
 #include <utility>
 
-namespace plumescout::server {
+namespace plumescout {
 namespace event_line_test {
 
 EventBody Seen(decltype(Observation::payload) payload) {
-  return ObservationReceived{"r1", {12, 5'000'000, {2.0, 1.5, 0.0}, std::move(payload)}};
+  ObservationReceived received{"r1", {12, 5'000'000, {2.0, 1.5, 0.0}, {}}};
+  received.observation.payload = std::move(payload);
+  return received;
 }
 
 TEST(EventLineTest, EveryKindHasItsWords) {
@@ -78,4 +80,4 @@ TEST(EventLineTest, EventsNameRobotAndTimeWhereTheyHaveThem) {
 }
 
 }  // namespace event_line_test
-}  // namespace plumescout::server
+}  // namespace plumescout

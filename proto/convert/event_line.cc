@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "server/history/event_line.h"
+#include "proto/convert/event_line.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +14,7 @@
 #include "absl/strings/str_join.h"
 #include "proto/convert/names.h"
 
-namespace plumescout::server {
+namespace plumescout {
 namespace {
 
 template <typename... Case>
@@ -227,4 +227,4 @@ v1::MissionEvent ToProto(const Event& event, const MissionId& mission) {
   return proto;
 }
 
-}  // namespace plumescout::server
+}  // namespace plumescout

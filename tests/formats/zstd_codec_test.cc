@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/formats/zstd_codec.h"
+#include "formats/zstd_codec.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "core/types/rng.h"
 
-namespace plumescout::lab {
+namespace plumescout {
 namespace zstd_codec_test {
 
 std::string RandomText(std::size_t size) {
@@ -51,4 +51,4 @@ TEST(ZstdCodec, EveryTruncationIsDataLoss) {
 }
 
 }  // namespace zstd_codec_test
-}  // namespace plumescout::lab
+}  // namespace plumescout

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/formats/zstd_codec.h"
+#include "formats/zstd_codec.h"
 
 #include <zstd.h>
 
 #include "absl/strings/str_cat.h"
 
-namespace plumescout::lab {
+namespace plumescout {
 
 absl::StatusOr<std::string> CompressZstd(absl::string_view bytes) {
   std::string frame(ZSTD_compressBound(bytes.size()), '\0');
@@ -32,4 +32,4 @@ absl::Status DecompressZstd(absl::string_view frame, char* out, std::size_t size
   return absl::OkStatus();
 }
 
-}  // namespace plumescout::lab
+}  // namespace plumescout

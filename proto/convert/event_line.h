@@ -8,7 +8,7 @@
 #include "core/types/ids.h"
 #include "plumescout/v1/snapshot_service.pb.h"
 
-namespace plumescout::server {
+namespace plumescout {
 
 v1::MissionEventKind KindOf(const EventBody& body);
 
@@ -18,4 +18,4 @@ std::string LineOf(const EventBody& body);
 // The event as histories tell it.
 v1::MissionEvent ToProto(const Event& event, const MissionId& mission);
 
-}  // namespace plumescout::server
+}  // namespace plumescout

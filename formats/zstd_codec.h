@@ -9,7 +9,7 @@
 #include "absl/status/statusor.h"
 #include "absl/strings/string_view.h"
 
-namespace plumescout::lab {
+namespace plumescout {
 
 // One zstd frame that holds `bytes`. kInternal if the library fails.
 absl::StatusOr<std::string> CompressZstd(absl::string_view bytes);
@@ -18,4 +18,4 @@ absl::StatusOr<std::string> CompressZstd(absl::string_view bytes);
 // or holds another number of bytes.
 absl::Status DecompressZstd(absl::string_view frame, char* out, std::size_t size);
 
-}  // namespace plumescout::lab
+}  // namespace plumescout
