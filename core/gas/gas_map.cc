@@ -303,8 +303,7 @@ void GasMap::Publish() const {
     mean_ppm_[i] = static_cast<float>(options_.background_mean_ppm + mean_ppm);
     variance_ppm2_[i] = static_cast<float>(variance_ppm2);
   }
-  what_if_ = std::make_shared<const GasWhatIf>(engine_->Snapshot(), lattice_, inputs_,
-                                               std::move(beside.variance_ppm2));
+  beside_ppm2_ = std::move(beside.variance_ppm2);
 }
 
 // Fills in sensor_offsets_.
@@ -347,6 +346,11 @@ const Grid<float>& GasMap::variance_ppm2() const {
 
 std::shared_ptr<const GasWhatIf> GasMap::what_if() const {
   Publish();
+  // Nothing of what it is made from changes without a Publish after it.
+  if (what_if_ == nullptr && has_field()) {
+    what_if_ = std::make_shared<const GasWhatIf>(engine_->Snapshot(), lattice_, inputs_,
+                                                 std::move(beside_ppm2_));
+  }
   return what_if_;
 }
 

@@ -104,7 +104,7 @@ class GasMap {
   const Grid<float>& variance_ppm2() const;
   // The same moment, to ask what further readings would tell. Null if there is no field.
   // Cost: one number per cell, one pointer per node of the factor, at the first call after a
-  // change.
+  // change; nothing where nobody calls it.
   std::shared_ptr<const GasWhatIf> what_if() const;
 
   // Of the sensors whose offset was not known. Cost: that of mean_ppm().
@@ -186,6 +186,7 @@ class GasMap {
   mutable Grid<float> mean_ppm_;
   mutable Grid<float> variance_ppm2_;
   mutable std::shared_ptr<const GasWhatIf> what_if_;
+  mutable std::vector<double> beside_ppm2_;  // see GasWhatIf, until there is one
   mutable std::vector<SensorOffset> sensor_offsets_;
   mutable bool published_ = true;
 };

@@ -230,7 +230,7 @@ class Mission {
                  const std::vector<MaskDisc>& masks, bool& turned);
   void TrustAgain(const RobotId& robot);
   void PlaceReadingsAgain();
-  SensorOffsets Sensors(std::size_t species) const;
+  std::vector<SensorOffsets> Sensors(const std::vector<WayHistory::Heard>& heard) const;
   std::vector<SensorOffset> Offsets() const;
   void TrimHistory();
   std::int64_t MostMapCells() const;

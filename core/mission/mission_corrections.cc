@@ -59,23 +59,28 @@ void Mission::TrustAgain(const RobotId& robot) {
 
 // Where a way now leads the gas field is computed, too.
 void Mission::PlaceReadingsAgain() {
+  const std::vector<WayHistory::Heard> heard = history_.HeardReadings();
+  std::vector<ReadingStore> readings = history_.Readings(heard);
+  std::vector<SensorOffsets> sensors = Sensors(heard);
   for (std::size_t i = 0; i < gas_.count(); ++i) {
-    gas_[i].ReplaceReadings(history_.Readings(i), Sensors(i));
+    gas_[i].ReplaceReadings(std::move(readings[i]), std::move(sensors[i]));
   }
-  sampled_cells_ = history_.Sampled();
+  sampled_cells_ = history_.Sampled(heard);
   sampled_since_snapshot_ = true;
   gas_changed_since_snapshot_ = true;
-  for (const Point2 place : history_.ReadingPlaces()) region_.Visit(place);
+  for (const WayHistory::Heard& one : heard) region_.Visit(one.place);
 }
 
 // What each sensor with an unknown offset read, and where it met others; what was merged is of no
 // sensor any more.
-SensorOffsets Mission::Sensors(std::size_t species) const {
-  SensorOffsets sensors(GasOptionsOf(*options_, species), options_->occupancy.resolution_m);
+std::vector<SensorOffsets> Mission::Sensors(const std::vector<WayHistory::Heard>& heard) const {
+  std::vector<SensorOffsets> sensors;
+  for (const GasOptions& gas : GasOptionsOfAll(*options_)) {
+    sensors.emplace_back(gas, options_->occupancy.resolution_m);
+  }
   if (!fleet_.has_offsets()) return sensors;
-  for (const WayHistory::Heard& heard : history_.HeardReadings()) {
-    if (heard.species != species) continue;
-    sensors.Add(heard.source, heard.time_ns, heard.place, heard.reading, GridGeometry());
+  for (const WayHistory::Heard& one : heard) {
+    sensors[one.species].Add(one.source, one.time_ns, one.place, one.reading, GridGeometry());
   }
   return sensors;
 }

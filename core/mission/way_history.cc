@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "core/mission/memory_estimate.h"
 #include "core/types/error_reason.h"
 #include "core/types/species.h"
 #include "core/types/status_macros.h"
@@ -20,12 +19,8 @@ constexpr double kKeyDistance_m = 0.1;
 constexpr double kKeyTurn_rad = 5.0 * M_PI / 180.0;
 constexpr std::int64_t kKeyTime_ns = 1'000'000'000;
 constexpr int kMostTimes = 9;  // by then log-odds have come to their clamp
-constexpr std::int64_t kReadingBytes = 136;
-constexpr std::int64_t kScanBytes = 104;
-constexpr std::int64_t kBaseCellBytes = 5;
 // Doubt begins with the last scan that fitted, a little before a jump and its first anchor.
 constexpr std::int64_t kDoubtBefore_ns = 10'000'000'000;
-constexpr std::int64_t kMergedParts = 8;  // an eighth of the entries at a time
 
 bool IsAnother(const WayPoint& key, std::int64_t time_ns, const Pose2& pose) {
   return time_ns >= key.time_ns && time_ns - key.time_ns < kKeyTime_ns &&
@@ -249,24 +244,16 @@ std::vector<WayHistory::Heard> WayHistory::HeardReadings() const {
   return heard;
 }
 
-ReadingStore WayHistory::Readings(std::size_t species) const {
-  ReadingStore store = base_readings_[species];
-  for (const Heard& heard : HeardReadings()) {
-    if (heard.species == species) store.Add(heard.time_ns, heard.place, heard.reading);
-  }
-  return store;
+std::vector<ReadingStore> WayHistory::Readings(const std::vector<Heard>& heard) const {
+  std::vector<ReadingStore> stores = base_readings_;
+  for (const Heard& one : heard) stores[one.species].Add(one.time_ns, one.place, one.reading);
+  return stores;
 }
 
-std::vector<Point2> WayHistory::ReadingPlaces() const {
-  std::vector<Point2> places;
-  for (const Heard& heard : HeardReadings()) places.push_back(heard.place);
-  return places;
-}
-
-SampledCells WayHistory::Sampled() const {
+SampledCells WayHistory::Sampled(const std::vector<Heard>& heard) const {
   SampledCells sampled = base_sampled_;
-  for (const Heard& heard : HeardReadings()) {
-    if (heard.species == 0) sampled.Add(heard.place);
+  for (const Heard& one : heard) {
+    if (one.species == 0) sampled.Add(one.place);
   }
   return sampled;
 }
@@ -298,19 +285,6 @@ void WayHistory::CloseKeyScans() {
   for (auto& [robot, way] : ways_) way.key_scan_closed = true;
 }
 
-std::int64_t WayHistory::base_bytes() const {
-  if (!base_map_) return 0;
-  std::int64_t bytes = kBaseCellBytes * static_cast<std::int64_t>(base_map_->geometry().size());
-  for (const ReadingStore& readings : base_readings_) bytes += ReadingBytes(readings);
-  return bytes;
-}
-
-std::int64_t WayHistory::BytesOf(const Way& way) {
-  std::int64_t bytes = kReadingBytes * static_cast<std::int64_t>(way.readings.size());
-  for (const KeptScan& entry : way.scans) bytes += kScanBytes + entry.scan->bytes();
-  return bytes;
-}
-
 bool WayHistory::IsWhole() const {
   const auto is_entry = [this](const auto& entry) {
     return entry.number >= 1 && entry.number < next_number_ && entry.time_ns >= 0 &&
@@ -328,66 +302,6 @@ bool WayHistory::IsWhole() const {
     return std::all_of(way.readings.begin(), way.readings.end(), is_reading) &&
            std::all_of(way.scans.begin(), way.scans.end(), is_scan);
   });
-}
-
-std::int64_t WayHistory::OldestNumber() const {
-  std::int64_t oldest = next_number_;
-  for (const auto& [robot, way] : ways_) {
-    if (!way.readings.empty()) oldest = std::min(oldest, way.readings.front().number);
-    if (!way.scans.empty()) oldest = std::min(oldest, way.scans.front().number);
-  }
-  return oldest;
-}
-
-void WayHistory::Trim(std::int64_t most_bytes) {
-  while (bytes_ > 0 && bytes() > most_bytes) {
-    const std::int64_t oldest = OldestNumber();
-    Merge(oldest + 1 + (next_number_ - oldest) / kMergedParts);
-  }
-  if (bytes() > most_bytes) GiveUp();
-}
-
-// What was merged is too much as well.
-void WayHistory::GiveUp() {
-  keeps_ = false;
-  bytes_ = 0;
-  ways_.clear();
-  base_map_.reset();
-  base_readings_ = NoReadings();
-  base_sampled_ = SampledCells(occupancy_.resolution_m);
-}
-
-// What is in quarantine is lost.
-void WayHistory::Merge(std::int64_t below_number) {
-  if (!base_map_) base_map_ = Base();
-  std::vector<std::pair<std::int64_t, PlacedScan>> scans;
-  for (auto& [robot, way] : ways_) {
-    std::int64_t& merged_ns = way.merged_ns;
-    std::erase_if(way.readings, [&](const KeptReading& entry) {
-      if (entry.number >= below_number) return false;
-      merged_ns = std::max(merged_ns, entry.time_ns);
-      bytes_ -= kReadingBytes;
-      if (entry.quarantined) return true;
-      base_readings_[entry.species].Add(entry.time_ns, entry.place(), entry.reading);
-      if (entry.species == 0) base_sampled_.Add(entry.place());
-      return true;
-    });
-    std::erase_if(way.scans, [&](const KeptScan& entry) {
-      if (entry.number >= below_number) return false;
-      merged_ns = std::max(merged_ns, entry.time_ns);
-      bytes_ -= kScanBytes + entry.scan->bytes();
-      if (!entry.quarantined)
-        scans.push_back({entry.number, {entry.pose, entry.times, entry.scan}});
-      return true;
-    });
-    if (way.scans.empty()) way.key_scan_closed = true;
-  }
-  std::sort(scans.begin(), scans.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<PlacedScan> placed;
-  placed.reserve(scans.size());
-  for (auto& [at, scan] : scans) placed.push_back(std::move(scan));
-  InsertAll(placed, StopFn(), *base_map_);
 }
 
 }  // namespace plumescout

@@ -71,7 +71,7 @@ class WayHistory {
                                std::int64_t doubtful_from = 0, WayPoint* start = nullptr);
 
   // Of all that is not in quarantine, in the order in which it came; what was merged is in
-  // Readings() only. Cost: O(readings * log).
+  // Readings and Sampled only. Cost: O(readings * log).
   struct Heard {
     ReadingSource source;
     std::int64_t number = 0;
@@ -81,11 +81,10 @@ class WayHistory {
     std::size_t species = 0;  // place among the mission's gases
   };
   std::vector<Heard> HeardReadings() const;
-  // Of one gas.
-  ReadingStore Readings(std::size_t species = 0) const;
+  // By gas, of what HeardReadings gave.
+  std::vector<ReadingStore> Readings(const std::vector<Heard>& heard) const;
   // Of the first gas, as all that plans go by.
-  SampledCells Sampled() const;
-  std::vector<Point2> ReadingPlaces() const;
+  SampledCells Sampled(const std::vector<Heard>& heard) const;
   // Scans from that number on. Cost: O(entries).
   std::vector<PlacedScan> ScansFrom(std::int64_t number) const;
   // What they are to be inserted into. Cost: O(cells).
@@ -105,6 +104,9 @@ class WayHistory {
   static void VisitState(Archive& archive, Self& self);
 
  private:
+  static constexpr std::int64_t kReadingBytes = 136;
+  static constexpr std::int64_t kScanBytes = 104;  // beside the packed scan
+
   struct KeptReading {
     std::int64_t number = 0;
     std::int64_t time_ns = 0;

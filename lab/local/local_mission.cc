@@ -25,6 +25,9 @@ absl::StatusOr<std::shared_ptr<LocalMission>> LocalMission::Create(const Mission
   PLUMESCOUT_ASSIGN_OR_RETURN(std::unique_ptr<Mission> state, Mission::Create(mission));
   PLUMESCOUT_ASSIGN_OR_RETURN(std::unique_ptr<const Strategy> strategy,
                               MakeStrategy(mission.planning, options.path_planners));
+  if (options.replace_strategy) {
+    strategy = options.replace_strategy(mission.planning, std::move(strategy));
+  }
   return std::make_shared<LocalMission>(std::move(state), std::move(strategy), options);
 }
 

@@ -40,6 +40,10 @@ struct LocalOptions {
   // then known to be off. Null: their sample times are taken as they are.
   std::function<std::int64_t()> mission_clock_ns = nullptr;
   PathPlannerFactory path_planners = nullptr;  // of planners that core does not have
+  // Puts another strategy in the place of a mission's, or round it; null: none is.
+  std::function<std::unique_ptr<const Strategy>(const PlanningOptions&,
+                                                std::unique_ptr<const Strategy>)>
+      replace_strategy = nullptr;
   // Told of every event of every mission, once it is applied; may be empty.
   std::function<void(const Event&)> on_event = nullptr;
 };

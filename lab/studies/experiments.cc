@@ -11,6 +11,7 @@
 #include "lab/studies/lhr_table2.h"
 #include "lab/studies/mit_table1.h"
 #include "lab/studies/own_strategy.h"
+#include "lab/studies/team_rivals.h"
 #include "lab/studies/team_study.h"
 #include "lab/studies/wind_validation.h"
 #include "lab/studies/xit_episode.h"
@@ -35,6 +36,7 @@ constexpr Experiment kExperiments[] = {
     {"lhr_table2", RunLhrTable2},
     {"mit_table1", RunMitTable1},
     {"own_strategy", RunOwnStrategy},
+    {"team_rivals", RunTeamRivals},
     {"team_study", RunTeamStudy},
     {"wind_validation", RunWindValidation},
     {"xit_episode", RunXitEpisode},

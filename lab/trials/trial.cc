@@ -173,6 +173,12 @@ absl::StatusOr<TrialRecord> RunTrial(const Trial& trial) {
   TrialRecord record;
   LocalOptions local;
   local.path_planners = MakeOmplPlanner;
+  if (trial.rule) {
+    local.replace_strategy = [&trial](const PlanningOptions& planning,
+                                      std::unique_ptr<const Strategy> frontiers) {
+      return MakeTeamRival(*trial.rule, planning, std::move(frontiers));
+    };
+  }
   std::vector<Observation> readings;
   local.on_event = [&](const Event& event) {
     const Observation* gas = GasObservation(event);

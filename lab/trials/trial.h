@@ -12,6 +12,7 @@
 #include "core/types/map_snapshot.h"
 #include "core/types/options.h"
 #include "lab/rivals/kernel_dmv.h"
+#include "lab/rivals/team_rival.h"
 #include "lab/sim/episode.h"
 #include "lab/sim/metrics.h"
 #include "lab/sim/scene_world.h"
@@ -29,6 +30,7 @@ struct Trial {
   double most_late_s = 0.0;           // legs fall behind by up to this, see PaceOptions
   std::vector<double> map_times_s{};  // when the gas map is kept, ascending
   bool ghosts = false;                // robots neither see each other nor run into each other
+  std::optional<TeamRule> rule{};     // of others, that chooses among the mission's frontiers
   // Also map the same readings by Kernel DM+V, over the whole building, and tell its error.
   std::optional<KernelDmvOptions> peer{};
   // Told what the robots did, and the map at the end; may be empty.

@@ -178,6 +178,7 @@ std::string Fingerprint(const Trial& trial, std::uint32_t scene_checksum) {
   }
   if (trial.most_late_s > 0.0) absl::StrAppend(&times, " late ", trial.most_late_s);
   if (trial.ghosts) absl::StrAppend(&times, " ghosts");
+  if (trial.rule) absl::StrAppend(&times, " rule ", NameOf(*trial.rule));
   return absl::StrFormat("mission %08x scene %08x robots %d seed %d duration %g maps%s",
                          Crc32c(ToProto(*trial.mission).SerializeAsString()), scene_checksum,
                          trial.robots, trial.seed, trial.duration_s, times);

@@ -63,6 +63,7 @@ class SceneStudy {
     trial.robots = plan_.rows[row].robots;
     trial.most_late_s = plan_.rows[row].most_late_s;
     trial.ghosts = plan_.rows[row].ghosts;
+    trial.rule = plan_.rows[row].rule;
     trial.seed = plan_.first_seed + number;
     trial.duration_s = plan_.duration_s;
     trial.map_times_s = plan_.map_times_s;

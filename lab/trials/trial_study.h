@@ -22,8 +22,9 @@ struct StudyRow {
   // The region that is sampled, of strategies that stop at sites, is the building.
   bool samples_building = false;
   int robots = 1;
-  double most_late_s = 0.0;  // see Trial
-  bool ghosts = false;       // likewise
+  double most_late_s = 0.0;           // see Trial
+  bool ghosts = false;                // likewise
+  std::optional<TeamRule> rule = {};  // likewise
 };
 
 // A strategy of the table, driving until the time is up. As the paper: goals are drawn at random

@@ -231,6 +231,16 @@ FirstOrder FindFirstOrder(const Belief& belief, TeamSearch& search, std::vector<
   return order;
 }
 
+// Why nobody has a plan for want of time: what became of each robot that got one.
+absl::Status NobodyInTime(const FirstOrder& order) {
+  std::string message = "planning was stopped before any robot had a plan";
+  for (const LeftOut& one : order.left_out) {
+    if (one.why == order.stopped.message()) continue;
+    absl::StrAppend(&message, "; robot \"", one.robot, "\": ", one.why);
+  }
+  return TypedError(absl::StatusCode::kDeadlineExceeded, reason::kDeadlineBeforeFirstPlan, message);
+}
+
 }  // namespace
 
 TeamValue ValueOf(const std::vector<Plan>& plans, const PlanningOptions& options) {
@@ -253,7 +263,7 @@ absl::StatusOr<TeamPlan> PlanTeam(const Strategy& strategy, const Belief& belief
   TeamSearch search(strategy, belief, request, stop);
   TeamPlan team;
   FirstOrder first = FindFirstOrder(belief, search, robots);
-  if (first.plans.empty()) PLUMESCOUT_RETURN_IF_ERROR(first.stopped);
+  if (first.plans.empty() && !first.stopped.ok()) return NobodyInTime(first);
   team.plans = std::move(first.plans);
   team.left_out = std::move(first.left_out);
   team.value = ValueOf(team.plans, options);

@@ -74,7 +74,8 @@ struct TeamPlan {
 //
 // Errors: kInvalidArgument for more than kMostTeamRobots robots or one named twice, or an order
 // count below 1; kNotFound for one that is named and not known; kFailedPrecondition TEAM_TOO_LARGE
-// if none are named and more are free; kDeadlineExceeded if not even one such has. Cost: for k
+// if none are named and more are free; kDeadlineExceeded DEADLINE_BEFORE_FIRST_PLAN if
+// not even one such has, saying whose plan went for whose. Cost: for k
 // robots some 2 k searches, at most k (k + 1) / 2, and k for each further order; those of the first
 // order again for each time that robots which follow a plan are left out.
 absl::StatusOr<TeamPlan> PlanTeam(const Strategy& strategy, const Belief& belief,

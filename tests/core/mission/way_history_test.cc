@@ -4,10 +4,9 @@
 
 #include <algorithm>
 
-#include "core/mission/memory_estimate.h"
-#include "core/types/error_reason.h"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
+#include "tests/core/mission/kept_way.h"
 #include "tests/support/box_room.h"
 
 namespace plumescout {
@@ -15,20 +14,9 @@ namespace way_history_test {
 
 using ::testing::HasSubstr;
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
+using support::kSecond_ns;
 
-class WayHistoryTest : public testing::Test {
- protected:
-  void Scan(double x_m, std::int64_t time_ns, bool quarantined = false) {
-    const Pose2 pose{x_m, 1.5, 0.0};
-    history_.AddScan("a", time_ns, pose, support::ScanInBox(pose, 6, 3), {}, quarantined);
-  }
-  void Read(double x_m, std::int64_t time_ns, bool quarantined = false) {
-    history_.AddReading("a", time_ns, {x_m, 1.5, 0.0}, {2.0, 0.0}, quarantined);
-  }
-
-  WayHistory history_{MissionOptions()};
-};
+class WayHistoryTest : public support::KeptWay {};
 
 TEST_F(WayHistoryTest, KeepsKeyScansAndCountsTheOthers) {
   for (int i = 0; i < 5; ++i) Scan(1.0 + 0.01 * i, i * kSecond_ns / 10);
@@ -69,9 +57,11 @@ TEST(WayHistoryOfGases, TellsReadingsOfGasesApart) {
     // Room for the map and six readings.
     if (merged) history.Trim(5 * static_cast<std::int64_t>(whole.geometry().size()) + 6 * 500);
     EXPECT_EQ(history.ScansFrom(0).empty(), merged);
-    EXPECT_EQ(history.Readings(0).counters().readings, 2) << merged;
-    EXPECT_EQ(history.Readings(1).counters().readings, 4) << merged;
-    const Grid<std::uint8_t> sampled = history.Sampled().On({0.0, 0.0, 0.1, 80, 20});
+    const std::vector<WayHistory::Heard> heard = history.HeardReadings();
+    const std::vector<ReadingStore> readings = history.Readings(heard);
+    EXPECT_EQ(readings[0].counters().readings, 2) << merged;
+    EXPECT_EQ(readings[1].counters().readings, 4) << merged;
+    const Grid<std::uint8_t> sampled = history.Sampled(heard).On({0.0, 0.0, 0.1, 80, 20});
     EXPECT_EQ(std::count(sampled.values().begin(), sampled.values().end(), 1), 2) << merged;
   }
 }
@@ -85,7 +75,7 @@ TEST_F(WayHistoryTest, WhatIsInQuarantineCountsForNothing) {
   history_.Quarantine("a", from);
   EXPECT_TRUE(history_.was_used());
   EXPECT_TRUE(history_.HasQuarantined("a"));
-  EXPECT_EQ(history_.Readings().counters().readings, 1);
+  EXPECT_EQ(Readings().counters().readings, 1);
   EXPECT_TRUE(history_.ScansFrom(0).empty());
   history_.DropQuarantined("a");
   EXPECT_FALSE(history_.HasQuarantined("a"));
@@ -97,12 +87,12 @@ TEST_F(WayHistoryTest, ACorrectionThatCoversTheQuarantineEndsIt) {
   const auto before = history_.Correct("a", 10 * kSecond_ns, {{2 * kSecond_ns, {3.0, 2.0, 0.0}}});
   ASSERT_TRUE(before.ok()) << before.status();
   EXPECT_FALSE(*before);
-  EXPECT_EQ(history_.ReadingPlaces().size(), 5u);
+  EXPECT_EQ(Places().size(), 5u);
   const auto covers = history_.Correct(
       "a", 10 * kSecond_ns, {{4 * kSecond_ns, {5.0, 2.0, 0.0}}, {5 * kSecond_ns, {6.0, 4.0, 0.0}}});
   ASSERT_TRUE(covers.ok()) << covers.status();
   EXPECT_TRUE(*covers);
-  const std::vector<Point2> places = history_.ReadingPlaces();
+  const std::vector<Point2> places = Places();
   ASSERT_EQ(places.size(), 10u);
   EXPECT_NEAR(places[3].y_m, 2.0, 1e-9);
   EXPECT_NEAR(places[9].x_m, 10.0, 1e-9);
@@ -116,14 +106,14 @@ TEST_F(WayHistoryTest, ACorrectionOfAnEarlierDoubtLeavesThePresentOne) {
       history_.Correct("a", 30 * kSecond_ns, {{2 * kSecond_ns, {1.0, 2.0, 0.0}}}, present);
   ASSERT_TRUE(covers.ok()) << covers.status();
   EXPECT_FALSE(*covers);
-  EXPECT_EQ(history_.ReadingPlaces().size(), 25u);
+  EXPECT_EQ(Places().size(), 25u);
 }
 
 TEST_F(WayHistoryTest, WhatCameAfterTheCorrectionIsRight) {
   Read(1.0, kSecond_ns);
   Read(2.0, 3 * kSecond_ns);
   ASSERT_TRUE(history_.Correct("a", 2 * kSecond_ns, {{kSecond_ns, {1.0, 2.5, 0.0}}}).ok());
-  const std::vector<Point2> places = history_.ReadingPlaces();
+  const std::vector<Point2> places = Places();
   EXPECT_EQ(places[0], (Point2{1.0, 2.5}));
   EXPECT_EQ(places[1], (Point2{2.0, 1.5}));
 }
@@ -150,10 +140,10 @@ TEST_F(WayHistoryTest, RefusesWhatItCannotCorrect) {
   EXPECT_THAT(message({{5, {}}}), HasSubstr("anchors[0].sample_time_ns = 5 is before"));
   EXPECT_THAT(message({{5, {}}}, "b"), HasSubstr("anchors[0].sample_time_ns = 5"));
   EXPECT_THAT(message({{kSecond_ns, {1001.0, 0.0, 0.0}}}), HasSubstr("anchors[0].pose"));
-  EXPECT_EQ(history_.ReadingPlaces()[0], (Point2{1.0, 1.5}));
+  EXPECT_EQ(Places()[0], (Point2{1.0, 1.5}));
   Read(999.0, 2 * kSecond_ns);
   EXPECT_THAT(message({{kSecond_ns, {900.0, 0.0, 0.0}}}), HasSubstr("beyond pose_limit_m"));
-  EXPECT_EQ(history_.ReadingPlaces()[0], (Point2{1.0, 1.5}));
+  EXPECT_EQ(Places()[0], (Point2{1.0, 1.5}));
   MissionOptions without;
   without.keep_scans = false;
   WayHistory none(without);
@@ -161,48 +151,6 @@ TEST_F(WayHistoryTest, RefusesWhatItCannotCorrect) {
   const auto refused = none.Correct("a", 9, {{5, {}}});
   EXPECT_EQ(refused.status().code(), absl::StatusCode::kFailedPrecondition);
   EXPECT_THAT(std::string(refused.status().message()), HasSubstr("keep_scans"));
-}
-
-TEST_F(WayHistoryTest, WhatIsTrimmedStaysInTheMapButCannotBeCorrected) {
-  constexpr int kCount = 300;
-  for (int t = 0; t < kCount; ++t) {
-    Scan(1.0 + 0.1 * (t % 40), t * kSecond_ns);
-    Read(1.0 + 0.1 * (t % 40), t * kSecond_ns);
-  }
-  OccupancyGrid whole = history_.Base();
-  InsertAll(history_.ScansFrom(0), {}, whole);
-  const std::int64_t all_bytes = history_.bytes();
-  history_.Trim(all_bytes);
-  EXPECT_EQ(history_.bytes(), all_bytes);
-  // All of it merged: the map, and the readings.
-  history_.Trim(5 * static_cast<std::int64_t>(whole.geometry().size()) + kCount * 500);
-  EXPECT_TRUE(history_.ScansFrom(0).empty());
-  EXPECT_EQ(history_.Readings().counters().readings, kCount);
-  EXPECT_EQ(history_.Base().States().values(), whole.States().values());
-  const auto corrected = history_.Correct("a", 400 * kSecond_ns, {{5 * kSecond_ns, {}}});
-  EXPECT_EQ(corrected.status().code(), absl::StatusCode::kFailedPrecondition);
-  EXPECT_EQ(ErrorReason(corrected.status()), reason::kHistoryTrimmed);
-  ASSERT_TRUE(history_.keeps());
-  history_.Trim(history_.bytes() - 1);
-  EXPECT_FALSE(history_.keeps()) << "what was merged is too much as well";
-  EXPECT_EQ(history_.bytes(), 0);
-}
-
-TEST_F(WayHistoryTest, ReadingsThatAgeTakeMemoryWhenTheyAreMergedToo) {
-  MissionOptions options;
-  options.gas.ageing_half_life_s = 60.0;
-  history_ = WayHistory(options);
-  constexpr auto kCount = static_cast<int>(ReadingStore::kMostArrivals);  // then they are one site
-  for (int t = 0; t < kCount; ++t) Read(1.0, t * kSecond_ns);
-  history_.Trim(60'000);  // a site and its 255 buckets at most
-  ASSERT_TRUE(history_.keeps());
-  ASSERT_TRUE(history_.HeardReadings().empty());
-  const ReadingStore merged = history_.Readings();
-  EXPECT_EQ(merged.arrivals(), 1u);
-  EXPECT_GT(merged.arrival_buckets(), 0u);
-  EXPECT_EQ(history_.bytes(),
-            kReadingSiteBytes +
-                kReadingBucketBytes * static_cast<std::int64_t>(merged.arrival_buckets()));
 }
 
 }  // namespace way_history_test

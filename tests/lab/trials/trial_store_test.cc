@@ -122,6 +122,12 @@ TEST(Fingerprint, TellsSettingsBuildingsSeedsAndTimesApart) {
   other = trial;
   other.ghosts = true;
   EXPECT_NE(Fingerprint(other, 1), print);
+  other = trial;
+  other.rule = TeamRule::kBurgard;
+  const std::string by_rule = Fingerprint(other, 1);
+  EXPECT_NE(by_rule, print);
+  other.rule = TeamRule::kMatching;
+  EXPECT_NE(Fingerprint(other, 1), by_rule);
 }
 
 // Finished trials are found by it: another form would have them all driven again.

@@ -20,6 +20,7 @@ using testing::CorridorTeam;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 struct Prize {
@@ -226,6 +227,24 @@ TEST(PlanTeam, WhoHasChosenWhatOneWithoutTimeHasYetIsLeftOutToo) {
   EXPECT_EQ(team->left_out[0].robot, "a");
   EXPECT_EQ(team->left_out[1].robot, "b");
   EXPECT_THAT(team->left_out[1].why, HasSubstr("against that of robot \"a\""));
+}
+
+TEST(PlanTeam, IfNobodyIsLeftWithAPlanItSaysWhoStoodInTheWay) {
+  CorridorTeam two = Two();
+  two.Drives("a", 4.0);
+  two.belief.claims = {ClaimOf("a", 4.0)};
+  TeamRequest request;
+  request.robots = {"a", "b"};
+  // Two searches, in which "b" gets the goal of "a"; none of "a" after that.
+  int polls = 0;
+  const StopFn before_the_second = [&polls] { return ++polls > 4; };
+  const absl::Status status =
+      PlanTeam(Prizes(kTwoPrizes), two.belief, request, before_the_second).status();
+  EXPECT_TRUE(absl::IsDeadlineExceeded(status));
+  EXPECT_THAT(std::string(status.message()), StartsWith("DEADLINE_BEFORE_FIRST_PLAN"));
+  EXPECT_THAT(std::string(status.message()),
+              HasSubstr("robot \"b\": its plan is against that of robot \"a\""));
+  EXPECT_THAT(std::string(status.message()), Not(HasSubstr("robot \"a\": DEADLINE")));
 }
 
 TEST(PlanTeam, WithoutTimeForAnotherFirstOrderWhatStandsOfTheOneBeforeGoes) {
