@@ -112,13 +112,12 @@ absl::Status MeasureMissions(const std::string& only, BenchSummary& summary) {
         MissionSize{"30x30m", 300, 300, 1, 40}, MissionSize{"16x20m_8_robots", 160, 200, 8, 12},
         MissionSize{"96x120m", 960, 1200, 1, 12}}) {
     if (!only.empty() && only != size.name) continue;
-    PLUMESCOUT_ASSIGN_OR_RETURN(
-        const std::vector<PlanMoment> moments,
-        RunToMidMission({.width_cells = size.width_cells,
-                         .height_cells = size.height_cells,
-                         .robots = size.robots,
-                         .rounds = size.rounds,
-                         .seed = summary.seed()}));
+    PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<PlanMoment> moments,
+                                RunToMidMission({.width_cells = size.width_cells,
+                                                 .height_cells = size.height_cells,
+                                                 .robots = size.robots,
+                                                 .rounds = size.rounds,
+                                                 .seed = summary.seed()}));
     std::vector<double> times_ms;
     double candidates = 0.0;
     for (const PlanMoment& moment : moments) {

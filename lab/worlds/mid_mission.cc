@@ -41,8 +41,7 @@ class Plumes {
   Plumes(const GridGeometry& geometry, Rng& rng) {
     constexpr int kPlumes = 3;
     for (int i = 0; i < kPlumes; ++i) {
-      sources_.push_back(
-          geometry.Center(geometry.CellAtIndex(rng.Below(geometry.size()))));
+      sources_.push_back(geometry.Center(geometry.CellAtIndex(rng.Below(geometry.size()))));
     }
   }
 
@@ -122,9 +121,8 @@ class MidMission {
       batch.emplace_back().observation = {++driver.sequence, now_ns_, driver.pose,
                                           ScanBuilding(walls_, driver.pose)};
     }
-    batch.emplace_back().observation = {
-        ++driver.sequence, now_ns_, driver.pose,
-        GasReading{plumes_.At_ppm(driver.pose.position()), 0.0}};
+    batch.emplace_back().observation = {++driver.sequence, now_ns_, driver.pose,
+                                        GasReading{plumes_.At_ppm(driver.pose.position()), 0.0}};
     return conduct_.Ingest(driver.id, kLease, std::move(batch)).status;
   }
 
@@ -152,8 +150,7 @@ class MidMission {
 }  // namespace
 
 absl::StatusOr<std::vector<PlanMoment>> RunToMidMission(const MidMissionOptions& options) {
-  Grid<std::uint8_t> walls =
-      MakeBuilding(options.width_cells, options.height_cells, options.seed);
+  Grid<std::uint8_t> walls = MakeBuilding(options.width_cells, options.height_cells, options.seed);
   MissionOptions mission_options;
   const auto cells = static_cast<std::int64_t>(walls.size());
   const double extent_m = walls.geometry().resolution_m * (walls.width() + walls.height());
