@@ -17,14 +17,25 @@ namespace plumescout {
 
 absl::StatusOr<Grid<float>> GasWhatIf::VarianceIfRead(std::span<const Cell> cells,
                                                       double precision) const {
-  std::vector<std::size_t> read;
-  for (const Cell cell : cells) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(const std::optional<std::size_t> index, FreeIndex(cell));
-    if (index) read.push_back(*index);
-  }
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<std::size_t> read, FreeIndices(cells));
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<double> variance_ppm2,
                               field_.VarianceIfRead(read, precision));
   return OnMap(variance_ppm2);
+}
+
+absl::StatusOr<std::optional<InverseColumns>> GasWhatIf::ColumnsIfRead(std::span<const Cell> cells,
+                                                                       double precision) const {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<std::size_t> read, FreeIndices(cells));
+  return field_.ColumnsIfRead(read, precision);
+}
+
+EntropyFall GasWhatIf::FallOf(std::span<const float> weights) const {
+  const Grid<CellState>& states = states_.states();
+  std::vector<double> by_lattice_cell(lattice_.size(), 0.0);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (states[i] == CellState::kFree) by_lattice_cell[FieldIndex(i)] += weights[i];
+  }
+  return field_.FallOf(by_lattice_cell, beside_ppm2_);
 }
 
 absl::StatusOr<std::shared_ptr<const GasWhatIf>> GasWhatIf::Given(
@@ -49,6 +60,15 @@ absl::StatusOr<std::optional<std::size_t>> GasWhatIf::FreeIndex(Cell cell) const
   const std::size_t index = geometry().Index(cell);
   if (states[index] != CellState::kFree) return std::nullopt;
   return FieldIndex(index);
+}
+
+absl::StatusOr<std::vector<std::size_t>> GasWhatIf::FreeIndices(std::span<const Cell> cells) const {
+  std::vector<std::size_t> indices;
+  for (const Cell cell : cells) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(const std::optional<std::size_t> index, FreeIndex(cell));
+    if (index) indices.push_back(*index);
+  }
+  return indices;
 }
 
 Grid<float> GasWhatIf::OnMap(const std::vector<double>& by_lattice_cell) const {

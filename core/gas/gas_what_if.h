@@ -45,7 +45,13 @@ class GasWhatIf {
   // not finite. Cost: O(k) passes over the factor for k cells, 1.5 ms for 16 at 160x200.
   absl::StatusOr<Grid<float>> VarianceIfRead(std::span<const Cell> cells, double precision) const;
 
-  // The same once these readings have been taken, whatever they say: others are then worth what
+  // For EntropyFall: the columns of such readings, none if no cell is free, and what the free cells
+  // of geometry() weigh. Both refer to this object. Errors: those of VarianceIfRead.
+  absl::StatusOr<std::optional<InverseColumns>> ColumnsIfRead(std::span<const Cell> cells,
+                                                              double precision) const;
+  EntropyFall FallOf(std::span<const float> weights) const;
+
+  // Itself once these readings have been taken, whatever they say: others are then worth what
   // they tell beside them. For cells and errors see VarianceIfRead. Cost: that, and for each
   // reading a copy of what lies on the way from its cell to the root of the factor.
   absl::StatusOr<std::shared_ptr<const GasWhatIf>> Given(
@@ -57,6 +63,8 @@ class GasWhatIf {
  private:
   // In the lattice; none of a cell that is not free. Errors: kInvalidArgument off the map.
   absl::StatusOr<std::optional<std::size_t>> FreeIndex(Cell cell) const;
+  // Those of cells that are free.
+  absl::StatusOr<std::vector<std::size_t>> FreeIndices(std::span<const Cell> cells) const;
   Grid<float> OnMap(const std::vector<double>& by_lattice_cell) const;
   // In the lattice, of a free cell.
   std::size_t FieldIndex(std::size_t index) const {

@@ -27,6 +27,7 @@
 #include "lab/bench/planner_registry.h"
 #include "lab/worlds/grid_oracle.h"
 #include "lab/worlds/known_building.h"
+#include "lab/worlds/mid_mission.h"
 #include "lab/worlds/random_world.h"
 
 namespace plumescout::lab {
@@ -90,6 +91,50 @@ absl::Status MeasureWholePlans(int worlds, BenchSummary& summary) {
   summary.Set("whole_plan_ms", Median(times_ms));
   summary.Set("whole_plan_worst_ms", *std::max_element(times_ms.begin(), times_ms.end()));
   return status;
+}
+
+struct MissionSize {
+  std::string name;
+  int width_cells = 0;
+  int height_cells = 0;
+  int robots = 1;
+  int rounds = 12;
+};
+
+// Whole plans of the default strategy in missions under way: frontiers, information map, search,
+// pricing.
+absl::Status MeasureMissions(const std::string& only, BenchSummary& summary) {
+  constexpr int kRepeats = 5;
+  const PlanningOptions options;
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto strategy, MakeStrategy(options));
+  for (const MissionSize& size :
+       {MissionSize{"16x20m", 160, 200, 1, 24}, MissionSize{"24x18m", 240, 180, 1, 24},
+        MissionSize{"30x30m", 300, 300, 1, 40}, MissionSize{"16x20m_8_robots", 160, 200, 8, 12},
+        MissionSize{"96x120m", 960, 1200, 1, 12}}) {
+    if (!only.empty() && only != size.name) continue;
+    PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<PlanMoment> moments,
+                                RunToMidMission({.width_cells = size.width_cells,
+                                                 .height_cells = size.height_cells,
+                                                 .robots = size.robots,
+                                                 .rounds = size.rounds,
+                                                 .seed = summary.seed()}));
+    std::vector<double> times_ms;
+    double candidates = 0.0;
+    for (const PlanMoment& moment : moments) {
+      PlanRequest request;
+      request.robot = moment.robot;
+      absl::StatusOr<Plan> plan;
+      times_ms.push_back(MedianCpu_ms(
+          kRepeats, [&] { plan = strategy->Plan(*moment.belief, request, kNeverStop); }));
+      PLUMESCOUT_RETURN_IF_ERROR(plan.status());
+      candidates += static_cast<double>(plan->candidates.size());
+    }
+    const std::string name = "mission_plan_" + size.name;
+    summary.Set(name + "_ms", Median(times_ms));
+    summary.Set(name + "_worst_ms", *std::max_element(times_ms.begin(), times_ms.end()));
+    summary.Set(name + "_candidates", candidates / static_cast<double>(moments.size()));
+  }
+  return absl::OkStatus();
 }
 
 // Every planner to the same five goals of the same halls.
@@ -209,6 +254,7 @@ absl::Status MeasureScaling(int worlds, BenchSummary& summary) {
 }
 
 absl::Status Measure(int worlds, int buildings, BenchSummary& summary) {
+  PLUMESCOUT_RETURN_IF_ERROR(MeasureMissions("", summary));
   summary.Set("worlds", worlds);
   PLUMESCOUT_RETURN_IF_ERROR(MeasureWholePlans(worlds, summary));
   MeasureAnytime(worlds, summary);
@@ -228,7 +274,10 @@ int main(int argc, char** argv) {
   app.add_option("--worlds", worlds, "random halls")->check(CLI::PositiveNumber);
   app.add_option("--buildings", buildings, "large buildings of each size")
       ->check(CLI::PositiveNumber);
+  std::string mission;
+  app.add_option("--mission", mission, "only whole plans of this mission, as 16x20m");
   return plumescout::lab::RunBench(app, argc, argv, [&](plumescout::lab::BenchSummary& summary) {
+    if (!mission.empty()) return plumescout::lab::MeasureMissions(mission, summary);
     return plumescout::lab::Measure(worlds, buildings, summary);
   });
 }

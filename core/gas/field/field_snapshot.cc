@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/gas/field/field_snapshot.h"
 
+#include <utility>
+
 #include "absl/status/status.h"
 #include "core/gas/field/cell_input.h"
-#include "core/gas/field/inverse_columns.h"
 #include "core/linalg/dense_kernel.h"
 #include "core/types/status_macros.h"
 
@@ -30,8 +31,8 @@ absl::Status CheckReading(const SeparatorTree& tree, const ForeseenReading& read
 // diag(Z_C (N + Z_CC)^-1 Z_C^T) for the cells C that are read and the noise N: with L L^T the
 // matrix in the middle, the rows of Z_C L^-T squared and summed. Mixed before they are continued
 // off the paths, the columns need no product over all cells.
-void SubtractGain(InverseColumns columns, const Foreseen& readings, double limit_ppm2,
-                  std::vector<double>& variance_ppm2) {
+InverseColumns GainColumns(const FieldFactor& factor, const Foreseen& readings) {
+  InverseColumns columns(factor, readings.slots);
   const std::size_t size = readings.slots.size();
   const std::size_t stride = PaddedRows(size);
   std::vector<double> matrix(stride * size, 0.0);
@@ -45,20 +46,29 @@ void SubtractGain(InverseColumns columns, const Foreseen& readings, double limit
   std::vector<double> inverse(stride * size, 0.0);
   InvertLower(matrix.data(), stride, size, inverse.data(), stride);
   columns.Mix(inverse.data(), stride);
-  columns.SubtractSquares(limit_ppm2, variance_ppm2);
+  return columns;
 }
 
 }  // namespace
 
 absl::StatusOr<std::vector<double>> FieldSnapshot::VarianceIfRead(
     std::span<const std::size_t> cells, double precision) const {
+  PLUMESCOUT_ASSIGN_OR_RETURN(std::optional<InverseColumns> columns,
+                              ColumnsIfRead(cells, precision));
+  std::vector<double> variance = variance_ppm2();
+  if (columns) columns->SubtractSquares(tolerance_ppm2_, variance);
+  return variance;
+}
+
+absl::StatusOr<std::optional<InverseColumns>> FieldSnapshot::ColumnsIfRead(
+    std::span<const std::size_t> cells, double precision) const {
   std::vector<ForeseenReading> readings;
   for (const std::size_t cell : cells) readings.push_back({cell, precision});
   if (readings.empty()) PLUMESCOUT_RETURN_IF_ERROR(CheckReading(factor_.tree(), {0, precision}));
-  return VarianceAfter(readings);
+  return ColumnsAfter(readings);
 }
 
-absl::StatusOr<std::vector<double>> FieldSnapshot::VarianceAfter(
+absl::StatusOr<std::optional<InverseColumns>> FieldSnapshot::ColumnsAfter(
     std::span<const ForeseenReading> readings) const {
   const SeparatorTree& tree = factor_.tree();
   Foreseen foreseen;
@@ -69,11 +79,28 @@ absl::StatusOr<std::vector<double>> FieldSnapshot::VarianceAfter(
     foreseen.slots.push_back(slot);
     foreseen.noise_ppm2.push_back(1.0 / reading.precision);
   }
+  if (foreseen.slots.empty()) return std::nullopt;
+  return GainColumns(factor_, foreseen);
+}
+
+absl::StatusOr<std::vector<double>> FieldSnapshot::VarianceAfter(
+    std::span<const ForeseenReading> readings) const {
+  PLUMESCOUT_ASSIGN_OR_RETURN(std::optional<InverseColumns> columns, ColumnsAfter(readings));
   std::vector<double> variance = variance_ppm2();
-  if (!foreseen.slots.empty()) {
-    SubtractGain(InverseColumns(factor_, foreseen.slots), foreseen, tolerance_ppm2_, variance);
-  }
+  if (columns) columns->SubtractSquares(tolerance_ppm2_, variance);
   return variance;
+}
+
+EntropyFall FieldSnapshot::FallOf(std::span<const double> weights,
+                                  std::span<const double> beside_ppm2) const {
+  const SeparatorTree& tree = factor_.tree();
+  std::vector<double> variance_ppm2 = variance_ppm2_;
+  std::vector<double> by_slot(variance_ppm2.size());
+  for (Slot slot = 0; slot < by_slot.size(); ++slot) {
+    by_slot[slot] = weights[tree.cell(slot)];
+    if (!beside_ppm2.empty()) variance_ppm2[slot] += beside_ppm2[tree.cell(slot)];
+  }
+  return {factor_, std::move(variance_ppm2), std::move(by_slot), tolerance_ppm2_};
 }
 
 absl::StatusOr<FieldSnapshot> FieldSnapshot::Given(

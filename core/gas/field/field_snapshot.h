@@ -3,11 +3,14 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "core/gas/field/entropy_fall.h"
 #include "core/gas/field/field_factor.h"
+#include "core/gas/field/inverse_columns.h"
 
 namespace plumescout {
 
@@ -38,6 +41,15 @@ class FieldSnapshot {
   absl::StatusOr<std::vector<double>> VarianceIfRead(std::span<const std::size_t> cells,
                                                      double precision) const;
 
+  // Columns of which |x|^2 is by how much that would lower the variance of each cell; none if no
+  // cell is active. They refer to this snapshot. Errors: those of VarianceIfRead. Cost: that of the
+  // paths of the cells.
+  absl::StatusOr<std::optional<InverseColumns>> ColumnsIfRead(std::span<const std::size_t> cells,
+                                                              double precision) const;
+  // For such columns. `weights` >= 0, and what each variance has beside that of the field, by cell
+  // index. Refers to this snapshot.
+  EntropyFall FallOf(std::span<const double> weights, std::span<const double> beside_ppm2) const;
+
   // The snapshot of a field that has heard these readings besides; what they say is not known, so
   // it has variances only. Errors and cost: those of VarianceIfRead, and a copy of the fronts on
   // the path of each cell. Tolerances add up.
@@ -48,6 +60,8 @@ class FieldSnapshot {
 
  private:
   bool IsActive(Slot slot) const { return variance_ppm2_[slot] > 0.0; }  // not NaN
+  absl::StatusOr<std::optional<InverseColumns>> ColumnsAfter(
+      std::span<const ForeseenReading> readings) const;
   absl::StatusOr<std::vector<double>> VarianceAfter(
       std::span<const ForeseenReading> readings) const;
 

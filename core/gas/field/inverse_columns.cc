@@ -88,11 +88,31 @@ void InverseColumns::Mix(const double* matrix, std::size_t stride) {
 }
 
 void InverseColumns::SubtractSquares(double limit, std::vector<double>& by_cell) {
-  SubtractBelow(factor_->tree().nodes().size() - 1, 0, limit, by_cell);
+  class Subtraction final : public Visitor {
+   public:
+    Subtraction(const SeparatorTree& tree, double limit, std::vector<double>& by_cell)
+        : tree_(tree), limit_(limit), by_cell_(by_cell) {}
+    bool Enter(std::size_t, std::span<const double> squares) override {
+      return *std::max_element(squares.begin(), squares.end()) > limit_;
+    }
+    void Take(std::span<const Slot> own, std::span<const double> squares) override {
+      for (std::size_t i = 0; i < own.size(); ++i) by_cell_[tree_.cell(own[i])] -= squares[i];
+    }
+
+   private:
+    const SeparatorTree& tree_;
+    const double limit_;
+    std::vector<double>& by_cell_;
+  };
+  Subtraction subtraction(factor_->tree(), limit, by_cell);
+  Descend(subtraction);
 }
 
-void InverseColumns::SubtractBelow(std::size_t node, std::size_t depth, double limit,
-                                   std::vector<double>& by_cell) {
+void InverseColumns::Descend(Visitor& visitor) {
+  DescendBelow(factor_->tree().nodes().size() - 1, 0, visitor);
+}
+
+void InverseColumns::DescendBelow(std::size_t node, std::size_t depth, Visitor& visitor) {
   GatherBoundary(node, depth);
   const SeparatorTree& tree = factor_->tree();
   const Front& front = factor_->front(node);
@@ -100,24 +120,21 @@ void InverseColumns::SubtractBelow(std::size_t node, std::size_t depth, double l
   if (const std::size_t first = FirstOf(node); first != kOffPaths) {
     std::copy_n(path_rows_.data() + first, front.own * stride_, block.rows.data());
   } else {
-    double most = 0.0;
-    for (std::size_t i = front.own; i < front.cells.size(); ++i) {
-      most = std::max(most, block.squares[i]);
-    }
-    if (most <= limit) return;
+    if (front.boundary() == 0) return;
+    if (!visitor.Enter(node, {block.squares.data() + front.own, front.boundary()})) return;
     Continue(front, block);
   }
   for (std::size_t i = 0; i < front.own; ++i) {
     const double* const row = block.rows.data() + i * stride_;
     block.squares[i] = Dot(row, row, stride_);
-    by_cell[tree.cell(front.cells[i])] -= block.squares[i];
   }
+  visitor.Take(front.own_cells(), {block.squares.data(), front.own});
   if (tree.nodes()[node].is_leaf()) return;
   for (const std::uint32_t child : tree.nodes()[node].children) {
     factor_->front(child).Prefetch();
   }
   for (const std::uint32_t child : tree.nodes()[node].children) {
-    SubtractBelow(child, depth + 1, limit, by_cell);
+    DescendBelow(child, depth + 1, visitor);
   }
 }
 

@@ -27,6 +27,19 @@ class InverseColumns {
   // `stride` >= PaddedRows(columns) apart and are 0 beyond its rows.
   void Mix(const double* matrix, std::size_t stride);
 
+  // Told of |x|^2 for the rows x, from the root down.
+  class Visitor {
+   public:
+    virtual ~Visitor() = default;
+    // Whether to go on into a node off the paths, by the squares on its boundary, which is not
+    // empty.
+    virtual bool Enter(std::size_t node, std::span<const double> squares) = 0;
+    // Those of the own cells of a node on a path, or that was entered.
+    virtual void Take(std::span<const Slot> own, std::span<const double> squares) = 0;
+  };
+  // Cost: all weights of the nodes that are visited.
+  void Descend(Visitor& visitor);
+
   // by_cell[cell] -= |x|^2 for the row x of each active cell, but for subtrees off the paths on
   // whose boundary that is at most `limit`: with W >= 0 and row sums of at most 1, no row inside is
   // longer than the longest there. Cost: all weights of the others.
@@ -45,8 +58,7 @@ class InverseColumns {
   // Where the rows of the own cells of a node begin in path_rows_; kOffPaths if it has none there.
   std::size_t FirstOf(std::size_t node) const;
   void CompletePath(std::size_t node, std::size_t depth);
-  void SubtractBelow(std::size_t node, std::size_t depth, double limit,
-                     std::vector<double>& by_cell);
+  void DescendBelow(std::size_t node, std::size_t depth, Visitor& visitor);
   void GatherBoundary(std::size_t node, std::size_t depth);
   void Continue(const Front& front, Block& block);
 

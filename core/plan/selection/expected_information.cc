@@ -59,28 +59,40 @@ std::vector<Cell> ReadingCells(const std::vector<Point2>& path, const GridGeomet
   return cells;
 }
 
-ExpectedInformation::ExpectedInformation(const Belief& belief)
-    : belief_(belief), relevance_(Relevance(*belief.gas_mean_ppm, *belief.options)) {}
+ExpectedInformation::ExpectedInformation(const Belief& belief) : belief_(belief) {
+  if (belief.gas_what_if == nullptr) return;
+  const std::vector<float> relevance = Relevance(*belief.gas_mean_ppm, *belief.options);
+  const GridGeometry& field = belief.gas_what_if->geometry();
+  std::vector<float> weights(field.size());
+  FieldWindow(belief.geometry(), field).ForEachCell([&](std::size_t in_map, std::size_t in_field) {
+    weights[in_field] = relevance[in_map];
+  });
+  fall_ = belief.gas_what_if->FallOf(weights);
+}
 
-std::optional<double> ExpectedInformation::Of(const std::vector<Cell>& readings) const {
-  if (belief_.gas_what_if == nullptr) return std::nullopt;
+std::optional<double> ExpectedInformation::Of(const std::vector<Cell>& readings,
+                                              const StopFn& stop) const {
+  return Ask(&EntropyFall::Of, readings, stop);
+}
+
+std::optional<double> ExpectedInformation::AtMost(const std::vector<Cell>& readings,
+                                                  const StopFn& stop) const {
+  return Ask(&EntropyFall::AtMost, readings, stop);
+}
+
+std::optional<double> ExpectedInformation::Ask(Measure measure, const std::vector<Cell>& readings,
+                                               const StopFn& stop) const {
+  if (!fall_) return std::nullopt;
   const FieldWindow window(belief_.geometry(), belief_.gas_what_if->geometry());
   std::vector<Cell> inside;
   for (const Cell reading : readings) {
     if (const std::optional<Cell> cell = window.InField(reading)) inside.push_back(*cell);
   }
   const double precision = belief_.options->gas.observation_precision_per_ppm2;
-  const auto then = belief_.gas_what_if->VarianceIfRead(inside, precision);
-  if (!then.ok()) return std::nullopt;
-  double sum = 0.0;
-  window.ForEachCell([&](std::size_t in_map, std::size_t in_field) {
-    const float after = (*then)[in_field];
-    const float before = (*belief_.gas_variance_ppm2)[in_map];
-    if (!(after < before)) return;  // NaN off free cells
-    sum += static_cast<double>(relevance_[in_map] * std::log(before / after));
-  });
-  constexpr double kEntropyShare = 0.5;
-  return kEntropyShare * sum;
+  auto columns = belief_.gas_what_if->ColumnsIfRead(inside, precision);
+  if (!columns.ok()) return std::nullopt;
+  if (!columns->has_value()) return 0.0;
+  return ((*fall_).*measure)(**columns, stop);
 }
 
 }  // namespace plumescout

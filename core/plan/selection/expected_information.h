@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "core/belief/belief.h"
+#include "core/gas/field/entropy_fall.h"
 #include "core/types/options.h"
 #include "core/types/pose2.h"
+#include "core/types/stop.h"
 
 namespace plumescout {
 
@@ -25,17 +27,23 @@ std::vector<Cell> ReadingCells(const std::vector<Point2>& path, const GridGeomet
 // Ours.
 class ExpectedInformation {
  public:
-  // Holds references to the belief. Cost: O(cells).
+  // Holds references to the belief. Cost: O(cells), and that of EntropyFall.
   explicit ExpectedInformation(const Belief& belief);
 
   // The sum over free cells of relevance (core/plan/cost/relevance.h) times 1/2 ln(variance now /
-  // variance then), in nats. None if the belief has no gas field yet. Cost: that of
-  // GasWhatIf::VarianceIfRead and O(cells).
-  std::optional<double> Of(const std::vector<Cell>& readings) const;
+  // variance then), in nats. None if the belief has no gas field yet, or `stop` said so. Cost: that
+  // of EntropyFall::Of.
+  std::optional<double> Of(const std::vector<Cell>& readings, const StopFn& stop = {}) const;
+  // No less, for less: that of EntropyFall::AtMost.
+  std::optional<double> AtMost(const std::vector<Cell>& readings, const StopFn& stop = {}) const;
 
  private:
+  using Measure = std::optional<double> (EntropyFall::*)(InverseColumns&, const StopFn&) const;
+  std::optional<double> Ask(Measure measure, const std::vector<Cell>& readings,
+                            const StopFn& stop) const;
+
   const Belief& belief_;
-  std::vector<float> relevance_;  // by cell
+  std::optional<EntropyFall> fall_;
 };
 
 }  // namespace plumescout

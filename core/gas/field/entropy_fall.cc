@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/gas/field/entropy_fall.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include "core/linalg/dense_kernel.h"
+
+namespace plumescout {
+namespace {
+
+constexpr double kEntropyShare = 0.5;
+
+// -1/2 ln(1 - share). Far from the readings shares are small, and the logarithm takes long.
+double Nats(double share) {
+  constexpr double kSmall = 1.0 / 512.0;
+  if (share < kSmall) {  // the next term is below 1e-14 of the first
+    double series = 1.0 / 5.0;
+    for (const double term : {1.0 / 4.0, 1.0 / 3.0, 1.0 / 2.0, 1.0}) series = series * share + term;
+    return kEntropyShare * share * series;
+  }
+  constexpr double kMostShare = 1.0 - 1e-12;  // what rounding leaves of a variance
+  return -kEntropyShare * std::log1p(-std::min(share, kMostShare));
+}
+
+}  // namespace
+
+// Adds up, node by node, what readings take away.
+class EntropyFall::Sum final : public InverseColumns::Visitor {
+ public:
+  // Subtrees whose cells lose no greater share of their variance than this are bounded.
+  Sum(const EntropyFall& fall, double bounded_share, const StopFn& stop)
+      : fall_(fall), bounded_share_(bounded_share), stop_(stop) {}
+
+  bool Enter(std::size_t node, std::span<const double> squares) override {
+    if (stopped_ || (++asked_ % kNodesPerStop == 0 && Stops(stop_))) {
+      stopped_ = true;
+      return false;
+    }
+    const double most = *std::max_element(squares.begin(), squares.end());
+    if (most <= fall_.tolerance_ppm2_) return false;
+    const Bound& bound = fall_.bounds_[node];
+    const double share = bound.greatest_share * most;
+    if (share >= bounded_share_) return true;
+    if (share == 0.0) return false;  // nothing in it has a weight
+    const double chord = Nats(share) / share;
+    nats_ +=
+        chord * Dot(fall_.boundary_weights_.data() + bound.first, squares.data(), squares.size());
+    return false;
+  }
+
+  void Take(std::span<const Slot> own, std::span<const double> squares) override {
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      const double weight = fall_.weights_[own[i]];
+      if (weight == 0.0) continue;
+      nats_ += weight * Nats(squares[i] / fall_.variance_ppm2_[own[i]]);
+    }
+  }
+
+  std::optional<double> nats() const {
+    return stopped_ ? std::nullopt : std::optional<double>(nats_);
+  }
+
+ private:
+  static constexpr int kNodesPerStop = 16;
+
+  const EntropyFall& fall_;
+  const double bounded_share_;
+  const StopFn& stop_;
+  double nats_ = 0.0;
+  int asked_ = 0;
+  bool stopped_ = false;
+};
+
+EntropyFall::EntropyFall(const FieldFactor& factor, std::vector<double> variance_ppm2,
+                         std::vector<double> weights, double tolerance_ppm2)
+    : factor_(&factor),
+      variance_ppm2_(std::move(variance_ppm2)),
+      weights_(std::move(weights)),
+      tolerance_ppm2_(tolerance_ppm2) {
+  const std::size_t nodes = factor.tree().nodes().size();
+  bounds_.resize(nodes);
+  for (std::size_t node = 0; node < nodes; ++node) FindBound(node);
+}
+
+void EntropyFall::FindBound(std::size_t node) {
+  const Front& front = factor_->front(node);
+  const SeparatorTree::Node& place = factor_->tree().nodes()[node];
+  Bound& bound = bounds_[node];
+  bound.first = boundary_weights_.size();
+  if (front.boundary() == 0) return;  // never bounded
+  slopes_.assign(front.cells.size(), 0.0);
+  for (std::size_t i = 0; i < front.own; ++i) {
+    slopes_[i] = weights_[front.cells[i]] / variance_ppm2_[front.cells[i]];
+  }
+  if (!place.is_leaf()) {
+    for (const std::uint32_t child : place.children) {
+      const Front& below = factor_->front(child);
+      FindPlaces(below.boundary_cells(), front.cells, places_);
+      const double* const added = boundary_weights_.data() + bounds_[child].first;
+      for (std::size_t i = 0; i < places_.size(); ++i) slopes_[places_[i]] += added[i];
+      bound.greatest_share = std::max(bound.greatest_share, bounds_[child].greatest_share);
+    }
+  }
+  const std::vector<double> ones(front.boundary(), 1.0);
+  row_sums_.assign(front.own, 0.0);
+  front.AddWeighted(ones, scratch_, row_sums_.data());
+  for (std::size_t i = 0; i < front.own; ++i) {
+    if (weights_[front.cells[i]] > 0.0) {
+      const double share = row_sums_[i] * row_sums_[i] / variance_ppm2_[front.cells[i]];
+      bound.greatest_share = std::max(bound.greatest_share, share);
+    }
+    slopes_[i] *= row_sums_[i];
+  }
+  PathStep step;
+  Condition(front, slopes_, step);  // W^T, for one
+  boundary_weights_.insert(boundary_weights_.end(), step.boundary.begin(), step.boundary.end());
+}
+
+std::optional<double> EntropyFall::Of(InverseColumns& columns, const StopFn& stop) const {
+  Sum sum(*this, 0.0, stop);
+  columns.Descend(sum);
+  return sum.nats();
+}
+
+std::optional<double> EntropyFall::AtMost(InverseColumns& columns, const StopFn& stop) const {
+  constexpr double kBoundedShare = 0.3;  // there the chord is off by a fifth at most
+  constexpr double kRounding = 1.0 + 1e-9;
+  Sum sum(*this, kBoundedShare, stop);
+  columns.Descend(sum);
+  const std::optional<double> nats = sum.nats();
+  return nats ? std::optional<double>(kRounding * *nats) : std::nullopt;
+}
+
+}  // namespace plumescout
