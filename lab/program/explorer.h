@@ -9,8 +9,9 @@
 
 namespace plumescout::lab {
 
-// Where a page of the console's stands that draws one mission without a server: beside this program,
-// in ../share/plumescout/report.html, where scripts/console puts it. Empty if it is not there.
+// Where a page of the console's stands that draws one mission without a server: beside this
+// program, in ../share/plumescout/report.html, where scripts/console puts it. Empty if it is not
+// there.
 std::string ReadExplorerPage();
 
 // The page with what it draws: the map at the end and the truth, the ways that robots drove, and
