@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: PlumeScout contributors
 # SPDX-License-Identifier: Apache-2.0
-"""The Python client beside other things: several at a time, left early, and when the server goes."""
+"""The Python client beside other things: several at a time, left early, and when the server
+goes."""
 
 import asyncio
 import math
@@ -113,8 +114,7 @@ class BlockingTest(unittest.TestCase):
                 timeout_s=0.2,
             )
         self.assertIn(
-            caught.exception.code,
-            (grpc.StatusCode.DEADLINE_EXCEEDED, grpc.StatusCode.UNAVAILABLE),
+            caught.exception.code, (grpc.StatusCode.DEADLINE_EXCEEDED, grpc.StatusCode.UNAVAILABLE)
         )
 
 

@@ -12,10 +12,9 @@
         robot.report(plan, "reached")
         gas_ppm = client.get_map("house").gas_mean_ppm
 
-plumescout.aio has the same for asyncio. Poses are (x_m, y_m, yaw_rad) in frame map. Observations are
-kept in memory until the server has them on its disk; a robot that must outlive restarts of its own is
-better served by the program plumescout-robot. Messages of the wire are in plumescout.v1.
-"""
+plumescout.aio has the same for asyncio. Poses are (x_m, y_m, yaw_rad) in frame map. Observations
+are kept in memory until the server has them on its disk; a robot that must outlive restarts of its
+own is better served by the program plumescout-robot. Messages of the wire are in plumescout.v1. """
 
 import pathlib
 import pkgutil
