@@ -3,7 +3,8 @@
 """What a client does, apart from how it waits.
 
 An operation is a generator: it yields what is to be done (an Effect) and is sent what came of it,
-or thrown a PlumeScoutError. It is written once; blocking.py and aio.py carry it out. """
+or thrown a PlumeScoutError. It is written once; blocking.py and aio.py carry it out.
+"""
 
 from __future__ import annotations
 
