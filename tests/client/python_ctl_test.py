@@ -11,10 +11,9 @@ import tempfile
 import time
 import unittest
 
-import grpc
 import numpy as np
-import plumescout_client
-from plumescout_ctl import output, words
+import plumescout
+from plumescout.ctl import output, words
 
 from plumescout.v1 import robot_service_pb2 as robot_pb
 
@@ -63,7 +62,7 @@ class CtlTest(unittest.TestCase):
         stop_server(cls.server)
 
     def setUp(self):
-        self.client = plumescout_client.Client(self.target)
+        self.client = plumescout.Client(self.target)
         self.addCleanup(self.client.close)
         for mission in self.client.list_missions():  # of the tests before
             self.client.delete_mission(mission)
@@ -141,7 +140,7 @@ class CtlTest(unittest.TestCase):
         shown = self.ctl_json("robots", "list", "busy")
         self.assertEqual([r["on_map"]["robot"] for r in shown], ["missions/busy/robots/scout"])
         self.assertTrue(shown[0]["leased"])
-        self.assertEqual(int(shown[0]["on_map"]["applied_sequence"]), robot.last_sequence)
+        self.assertEqual(int(shown[0]["on_map"]["applied_sequence"]), robot.log.last_sequence)
         plans = self.ctl_json("plans", "busy")
         self.assertEqual([p["name"] for p in plans], [plan.proto.name])
         self.assertIn("scout", self.ctl("plans", "busy"))
@@ -197,8 +196,8 @@ class CtlTest(unittest.TestCase):
             self.ctl("missions", "create", "known", "--prior-map", paths["yaml"])
             again = self.client.get_map("known")
             self.assertEqual(
-                (again.occupancy == plumescout_client.FREE).sum(),
-                (found.occupancy == plumescout_client.FREE).sum(),
+                (again.occupancy == plumescout.FREE).sum(),
+                (found.occupancy == plumescout.FREE).sum(),
             )
             self.ctl("map", "export", "mapped", paths["npy"], "--species", "ozone", code=1)
             wrong = self.ctl("map", "export", "mapped", str(pathlib.Path(folder, "map.png")), code=2)
@@ -247,7 +246,7 @@ class KeptMissionsTest(unittest.TestCase):
         self.data = str(self.folder / "data")
         self.server, self.target = start_server("--data", self.data, store="sqlite")
         self.addCleanup(self.stop)
-        self.client = plumescout_client.Client(self.target)
+        self.client = plumescout.Client(self.target)
         self.addCleanup(self.client.close)
         self.client.create_mission("hall")
         self.robot = self.client.register("hall", "scout")
@@ -315,10 +314,10 @@ class KeptMissionsTest(unittest.TestCase):
     def test_maps_can_be_had_as_they_were(self):
         path = str(self.folder / "then.npy")
         self.ctl("map", "export", "hall", path, "--layer", "occupancy", "--revision", "2")
-        self.assertEqual((np.load(path) != plumescout_client.UNKNOWN).sum(), 0)
+        self.assertEqual((np.load(path) != plumescout.UNKNOWN).sum(), 0)
         now = str(self.client.get_mission("hall").revision)
         self.ctl("map", "export", "hall", path, "--layer", "occupancy", "--revision", now)
-        self.assertGreater((np.load(path) != plumescout_client.UNKNOWN).sum(), 0)
+        self.assertGreater((np.load(path) != plumescout.UNKNOWN).sum(), 0)
         self.assertIn("revision", self.ctl("map", "export", "hall", path, "--revision", "99", code=1))
 
     def test_what_was_kept_can_be_listed_and_verified(self):
@@ -361,40 +360,6 @@ class ProgressTest(unittest.TestCase):
             told.seek(0)
             self.assertIn("export of hall: ", told.read())
             self.assertIn("waiting for the server", progress.text())
-
-
-class RequestIdTest(unittest.TestCase):
-    def test_an_answer_that_was_lost_comes_again(self):
-        server, target = start_server()
-        try:
-            with plumescout_client.Client(target) as client:
-                client.create_mission("lost")
-                method = client._robots.RegisterRobot
-                leases = []
-
-                def lossy(request, **options):
-                    response = method(request, **options)
-                    leases.append(response.lease_token)
-                    if len(leases) == 1:
-                        raise LostAnswer()
-                    return response
-
-                client._robots.RegisterRobot = lossy
-                robot = client.register("lost", "scout")
-                self.assertEqual(leases, [robot._open.lease_token] * 2)
-        finally:
-            stop_server(server)
-
-
-class LostAnswer(grpc.RpcError):
-    def code(self):
-        return grpc.StatusCode.UNAVAILABLE
-
-    def details(self):
-        return "the link broke"
-
-    def trailing_metadata(self):
-        return ()
 
 
 if __name__ == "__main__":

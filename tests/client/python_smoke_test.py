@@ -12,7 +12,7 @@ import unittest
 import grpc
 import numpy as np
 
-import plumescout_client
+import plumescout
 from plumescout.v1 import robot_service_pb2 as robot_pb
 
 BUILD_DIR = pathlib.Path(os.environ["PLUMESCOUT_BUILD_DIR"])
@@ -81,7 +81,7 @@ class SmokeTest(unittest.TestCase):
         cls.server.stdout.close()
 
     def setUp(self):
-        self.client = plumescout_client.Client(self.target)
+        self.client = plumescout.Client(self.target)
         self.addCleanup(self.client.close)
         for mission in self.client.list_missions():  # of the tests before
             self.client.delete_mission(mission)
@@ -107,8 +107,8 @@ class SmokeTest(unittest.TestCase):
         self.assertGreater(plans, 0)
         self.assertEqual(robot.rejections, [])
         room = self.client.get_map("toy")
-        free = room.occupancy == plumescout_client.FREE
-        cells_in_room = ROOM_M[0] * ROOM_M[1] / room.status.geometry.resolution_m**2
+        free = room.occupancy == plumescout.FREE
+        cells_in_room = ROOM_M[0] * ROOM_M[1] / room.resolution_m**2
         self.assertGreater(free.sum(), 0.9 * cells_in_room)
         self.assertTrue(np.isfinite(room.gas_mean_ppm[free]).all())
         self.assertTrue(np.isnan(room.gas_mean_ppm[~free]).all())
@@ -120,7 +120,7 @@ class SmokeTest(unittest.TestCase):
         self.assertGreater(variance_ppm2[0], 0)
         self.assertTrue(np.isnan(mean_ppm[1]))
         self.assertIsInstance(robot.list_frontiers(), list)
-        self.assertEqual(room.status.robots[0].applied_sequence, robot.last_sequence)
+        self.assertEqual(room.status.robots[0].applied_sequence, robot.log.last_sequence)
 
     def test_each_gas_of_a_mission_has_a_map(self):
         gases = [{"name": "methane"}, {"name": "ozone", "background_mean_ppm": 0.05}]
@@ -145,7 +145,7 @@ class SmokeTest(unittest.TestCase):
         self.assertAlmostEqual(mean_ppm[0], ozone.gas_mean_ppm[there], places=5)
         counts = [(gas.species, gas.gas_counters.reading_count) for gas in ozone.status.gases]
         self.assertEqual(counts, [("methane", 1), ("ozone", 1)])
-        with self.assertRaises(plumescout_client.PlumeScoutError):
+        with self.assertRaises(plumescout.PlumeScoutError):
             self.client.get_map("gases", species="xenon")
 
     def test_a_clock_that_is_an_hour_ahead_is_learnt(self):
@@ -169,9 +169,9 @@ class SmokeTest(unittest.TestCase):
         self.assertFalse(shown.HasField("clock_offset_s"))
 
     def test_a_known_building_is_planned_in_without_a_scan(self):
-        cells = np.full((40, 60), plumescout_client.OCCUPIED)
-        cells[1:-1, 1:-1] = plumescout_client.FREE
-        pgm = np.where(cells == plumescout_client.FREE, 254, 0).astype(np.uint8)[::-1]
+        cells = np.full((40, 60), plumescout.OCCUPIED)
+        cells[1:-1, 1:-1] = plumescout.FREE
+        pgm = np.where(cells == plumescout.FREE, 254, 0).astype(np.uint8)[::-1]
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "map.yaml")
             path.write_text(
@@ -179,25 +179,25 @@ class SmokeTest(unittest.TestCase):
                 "occupied_thresh: 0.65\nfree_thresh: 0.196\n"
             )
             path.with_suffix(".pgm").write_bytes(b"P5 60 40 255\n" + pgm.tobytes())
-            files = plumescout_client.prior_map_of_files(path)
-        self.client.create_mission("cells", {"prior_map": plumescout_client.prior_map(cells, 0.1)})
+            files = plumescout.prior_map_of_files(path)
+        self.client.create_mission("cells", {"prior_map": plumescout.prior_map(cells, 0.1)})
         self.client.create_mission("files", {"prior_map": files})
         maps = [self.client.get_map(name) for name in ("cells", "files")]
         np.testing.assert_array_equal(maps[0].occupancy, maps[1].occupancy)
-        self.assertEqual((maps[0].occupancy == plumescout_client.FREE).sum(), 38 * 58)
+        self.assertEqual((maps[0].occupancy == plumescout.FREE).sum(), 38 * 58)
 
         whole = maps[0]
         coarse = self.client.get_map("cells", level_of_detail=2)
-        self.assertEqual(coarse.occupancy[coarse.cell(3.0, 2.0)], plumescout_client.FREE)
-        self.assertEqual(coarse.occupancy[coarse.cell(0.05, 0.05)], plumescout_client.OCCUPIED)
-        self.assertEqual(coarse.geometry.resolution_m, 4 * whole.geometry.resolution_m)
+        self.assertEqual(coarse.occupancy[coarse.cell(3.0, 2.0)], plumescout.FREE)
+        self.assertEqual(coarse.occupancy[coarse.cell(0.05, 0.05)], plumescout.OCCUPIED)
+        self.assertEqual(coarse.resolution_m, 4 * whole.resolution_m)
         corner = self.client.get_map("cells", region=(-1.0, -1.0, 1.0, 1.0))
         row, column = whole.cell(1.0, 1.0)
         np.testing.assert_array_equal(
             corner.occupancy[:row, :column], whole.occupancy[:row, :column]
         )
         nowhere = self.client.get_map("cells", region=(90.0, 90.0, 91.0, 91.0))
-        self.assertTrue((nowhere.occupancy == plumescout_client.UNKNOWN).all())
+        self.assertTrue((nowhere.occupancy == plumescout.UNKNOWN).all())
 
         robot = self.client.register("files", "scout")
         robot.add_gas(1_000_000_000, START, 8.0)
@@ -220,7 +220,7 @@ class SmokeTest(unittest.TestCase):
         ranges = np.array([np.inf, np.nan, 0.004, 2.0, 400.0, -1.0])
         robot.add_scan(1, START, ranges, 0.0, 1.0, 500.0)
         robot.add_scan(2, START, ranges[:4], 0.0, 1.0, 50.0)
-        with self.assertLogs("plumescout_client", "WARNING"):
+        with self.assertLogs("plumescout", "WARNING"):
             robot.flush()
 
         self.assertEqual([r.sequence for r in robot.rejections], [1])  # beyond the mission's range
@@ -231,7 +231,7 @@ class SmokeTest(unittest.TestCase):
         robot = self.client.register("logged", "scout")
         robot.add_gas(1, START, 1.0)
         robot.add_gas(2, START, -5.0)
-        with self.assertLogs("plumescout_client", "WARNING") as logs:
+        with self.assertLogs("plumescout", "WARNING") as logs:
             robot.flush()
 
         self.assertEqual(len(logs.output), 1)
@@ -246,7 +246,7 @@ class SmokeTest(unittest.TestCase):
         robot.add_gas(1, START, -5.0)
         robot.add_gas(2, START, 1.0)
         robot.add_gas(3, START, float("nan"))
-        with self.assertNoLogs("plumescout_client"):
+        with self.assertNoLogs("plumescout"):
             robot.flush()
 
         self.assertEqual([r.sequence for r in told], [1, 3])
@@ -267,7 +267,7 @@ class SmokeTest(unittest.TestCase):
 
     def test_errors_carry_code_and_reason(self):
         self.client.create_mission("errors")
-        with self.assertRaises(plumescout_client.PlumeScoutError) as caught:
+        with self.assertRaises(plumescout.PlumeScoutError) as caught:
             self.client.create_mission("errors")
         self.assertEqual(caught.exception.code, grpc.StatusCode.ALREADY_EXISTS)
         self.client.create_mission("errors", exist_ok=True)
@@ -275,7 +275,7 @@ class SmokeTest(unittest.TestCase):
         old = self.client.register("errors", "scout")
         self.client.register("errors", "scout", take_over=True)
         old.add_gas(1, START, 1.0)
-        with self.assertRaises(plumescout_client.PlumeScoutError) as caught:
+        with self.assertRaises(plumescout.PlumeScoutError) as caught:
             old.flush()
         self.assertEqual(caught.exception.reason, "LEASE_SUPERSEDED")
 
@@ -303,7 +303,7 @@ class SmokeTest(unittest.TestCase):
         back = self.client.register("leaving", "scout")
         self.assertEqual(back.add_gas(2, START, 1.0), 2)
         self.client.remove_robot("leaving", "scout")
-        with self.assertRaises(plumescout_client.PlumeScoutError) as caught:
+        with self.assertRaises(plumescout.PlumeScoutError) as caught:
             back.flush()
         self.assertEqual(caught.exception.reason, "ROBOT_NOT_FOUND")
 

@@ -3,16 +3,16 @@
 """What a runner prints of what came back; see README.md."""
 
 import hashlib
-import struct
 
 import numpy as np
+from plumescout.plans import plan_of
 
 from plumescout.v1 import mission_service_pb2 as mission_pb
 from plumescout.v1 import planning_service_pb2 as planning_pb
 from plumescout.v1 import snapshot_service_pb2 as snapshot_pb
 from plumescout.v1 import types_pb2 as types_pb
 
-_LAYERS = ("occupancy", "gas_mean", "gas_variance")
+_LAYERS = ("occupancy", "gas-mean", "gas-variance")
 
 
 def last_part(name):
@@ -54,27 +54,19 @@ def mission(message):
     }
 
 
-def plan(message):
-    """Of a plumescout.v1.Plan."""
-    waypoints = message.trajectory.waypoints
-    numbers = b"".join(
-        struct.pack(
-            "<6d",
-            *(point.pose.x_m, point.pose.y_m, point.pose.yaw_rad),
-            *(point.arrival_time_s, point.dwell_s, point.speed_mps),
-        )
-        for point in waypoints
-    )
-    chosen = message.chosen_index
+def plan(found):
+    """Of a plumescout.Plan."""
+    columns = (found.poses, found.arrival_s, found.dwell_s, found.speed_mps)
+    numbers = np.column_stack(columns).astype("<f8")
     return {
-        "named": bool(message.name),
-        "end": word(planning_pb.Plan.End, message.end, "END_"),
-        "phase": phase(message.phase),
-        "goal_kind": goal_kind(message.candidates[chosen].goal.kind) if chosen >= 0 else None,
-        "length_m": message.trajectory.length_m,
-        "duration_s": message.trajectory.duration_s,
-        "waypoints": len(waypoints),
-        "sha256": hashlib.sha256(numbers).hexdigest(),
+        "named": bool(found.name),
+        "end": found.end.upper(),
+        "phase": found.phase.upper(),
+        "goal_kind": found.goal_kind.upper() or None,
+        "length_m": found.length_m,
+        "duration_s": found.duration_s,
+        "waypoints": len(found.poses),
+        "sha256": hashlib.sha256(numbers.tobytes()).hexdigest(),
     }
 
 
@@ -110,7 +102,7 @@ def live_plan(message):
 
 def team(message):
     return {
-        "plans": [{"robot": last_part(one.robot), **plan(one)} for one in message.plans],
+        "plans": [{"robot": last_part(one.robot), **plan(plan_of(one))} for one in message.plans],
         "left_out": [last_part(one.robot) for one in message.left_out],
     }
 
@@ -143,13 +135,13 @@ def event(message):
 
 
 def area(found, layers):
-    """Of a map of the client; layers: names in lower case; none: all."""
-    geometry, status = found.geometry, found.status
+    """Of a plumescout.Map; layers: those that were asked for, none: all."""
+    status = found.status
     result = {
-        "rows": geometry.row_count,
-        "columns": geometry.column_count,
-        "resolution_m": geometry.resolution_m,
-        "origin": [geometry.origin.x_m, geometry.origin.y_m],
+        "rows": found.shape[0],
+        "columns": found.shape[1],
+        "resolution_m": found.resolution_m,
+        "origin": list(found.origin_m),
         "robots": [last_part(one.robot) for one in status.robots],
         "reading_count": status.gas_counters.reading_count,
         "frontier_count": len(status.frontiers),
@@ -158,7 +150,7 @@ def area(found, layers):
     arrays = (found.occupancy, found.gas_mean_ppm, found.gas_variance_ppm2)
     for layer, cells in zip(_LAYERS, arrays):
         if not layers or layer in layers:
-            result[f"{layer}_sha256"] = _digest(cells)
+            result[f"{layer.replace('-', '_')}_sha256"] = _digest(cells)
     return result
 
 

@@ -1,301 +1,289 @@
 # SPDX-FileCopyrightText: PlumeScout contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the scenario with the Python client: run_python.py TARGET SCENARIO; see README.md."""
+"""Runs the scenario with the Python client: run_python.py [--asyncio] TARGET SCENARIO; see README.md."""
 
+import asyncio
+import inspect
 import json
+import math
 import pathlib
 import sys
-import threading
 
-import numpy as np
-import plumescout_client
+import plumescout
+import plumescout.aio
 import reduce
-from plumescout_client.values import _map_from_proto, _points, _pose, _decode_tile
-from google.protobuf import json_format
 
-from plumescout.v1 import ingest_service_pb2 as ingest_pb
-from plumescout.v1 import map_service_pb2 as map_pb
-from plumescout.v1 import mission_service_pb2 as mission_pb
-from plumescout.v1 import options_pb2 as options_pb
-from plumescout.v1 import planning_service_pb2 as planning_pb
 from plumescout.v1 import robot_service_pb2 as robot_pb
 from plumescout.v1 import snapshot_service_pb2 as snapshot_pb
 from plumescout.v1 import types_pb2 as types_pb
-import grpc
-from google.rpc import error_details_pb2, status_pb2
-import zlib
+
+TIMEOUT_S = 60.0
+
+
+async def get(result):
+    """What a call of either client comes to."""
+    return await result if inspect.isawaitable(result) else result
+
+
+async def items(stream):
+    """The items of a stream of either client."""
+    if hasattr(stream, "__aiter__"):
+        async for item in stream:
+            yield item
+        return
+    for item in stream:
+        yield item
+
+
+async def first_of(stream):
+    async for item in items(stream):
+        return item
 
 
 class Runner:
+    """One method for each kind of step."""
+
     def __init__(self, client, scenario):
         self.client = client
         self.scenario = scenario
         self.sessions = {}
         self.plans = {}
 
-    # Missions.
-    def get_server_info(self):
-        info = self.client.server_info()
+    # The server and its missions.
+
+    async def get_server_info(self):
+        info = await get(self.client.server_info())
         return {
             "features": list(info.features),
             "max_receive_bytes": info.limits.max_receive_bytes,
         }
 
-    def drain_server(self):
-        self.client.drain_server()
+    async def drain_server(self):
+        await get(self.client.drain_server())
 
-    def list_missions(self):
-        return {"missions": self.client.list_missions()}
+    async def list_missions(self):
+        return {"missions": await get(self.client.list_missions())}
 
-    def create_mission(self, mission, options=None, idle_time_to_live_s=None, event_retention="ALL"):
-        request = mission_pb.CreateMissionRequest(
-            mission_id=mission,
-            options=json_format.ParseDict(options or {}, options_pb.MissionOptions()),
-            event_retention=mission_pb.EventRetention.Value("EVENT_RETENTION_" + event_retention),
-        )
-        if idle_time_to_live_s is not None:
-            request.idle_time_to_live.FromSeconds(idle_time_to_live_s)
+    async def create_mission(
+        self, mission, options=None, idle_time_to_live_s=None, event_retention="ALL"
+    ):
+        keep_all_events = event_retention == "ALL"
         return reduce.mission(
-            self.client._call_named(self.client._missions.CreateMission, request).mission
+            await get(
+                self.client.create_mission(
+                    mission,
+                    options,
+                    idle_time_to_live_s=idle_time_to_live_s,
+                    keep_all_events=keep_all_events,
+                )
+            )
         )
 
-    def get_mission(self, mission):
-        return reduce.mission(self.client.get_mission(mission))
+    async def get_mission(self, mission):
+        return reduce.mission(await get(self.client.get_mission(mission)))
 
-    def pause_mission(self, mission):
-        return reduce.mission(self.client.pause_mission(mission))
+    async def pause_mission(self, mission):
+        return reduce.mission(await get(self.client.pause_mission(mission)))
 
-    def resume_mission(self, mission):
-        return reduce.mission(self.client.resume_mission(mission))
+    async def resume_mission(self, mission):
+        return reduce.mission(await get(self.client.resume_mission(mission)))
 
-    def finish_mission(self, mission):
-        return reduce.mission(self.client.finish_mission(mission))
+    async def finish_mission(self, mission):
+        return reduce.mission(await get(self.client.finish_mission(mission)))
 
-    def update_mission(self, mission, **changes):
-        if "idle_time_to_live_s" in changes:
-            changed = self.client.set_idle_time_to_live(mission, changes["idle_time_to_live_s"])
+    async def update_mission(self, mission, **changes):
         if "event_retention" in changes:
-            keep_all = changes["event_retention"] == "ALL"
-            changed = self.client.set_keep_all_events(mission, keep_all)
-        return reduce.mission(changed)
+            changes["keep_all_events"] = changes.pop("event_retention") == "ALL"
+        return reduce.mission(await get(self.client.update_mission(mission, **changes)))
 
-    def delete_mission(self, mission):
-        self.client.delete_mission(mission)
+    async def delete_mission(self, mission):
+        await get(self.client.delete_mission(mission))
+
+    async def export_mission(self, mission, file):
+        start = await get(self.client.export_mission(mission, file))
+        return {"mission": reduce.last_part(start.mission)}
+
+    async def import_mission(self, file, mission):
+        return reduce.mission(await get(self.client.import_mission(file, mission)))
+
+    async def get_mission_history(self, mission, kinds):
+        values = [
+            snapshot_pb.MissionEventKind.Value("MISSION_EVENT_KIND_" + kind) for kind in kinds
+        ]
+        events = items(self.client.mission_history(mission, values))
+        return {"events": [reduce.event(event) async for event in events]}
 
     # Robots.
-    def register_robot(self, session, mission, robot, radius_m, take_over=False, gas_sensors=()):
+
+    async def register_robot(
+        self, session, mission, robot, radius_m, take_over=False, gas_sensors=()
+    ):
         sensors = [
             robot_pb.GasSensor(
-                id=s["id"],
-                robot_from_sensor=types_pb.Point2D(x_m=s["ahead_m"], y_m=s["left_m"]),
-                stddev_ppm=s["stddev_ppm"],
+                id=sensor["id"],
+                robot_from_sensor=types_pb.Point2D(
+                    x_m=sensor["ahead_m"], y_m=sensor["left_m"]
+                ),
+                stddev_ppm=sensor["stddev_ppm"],
             )
-            for s in gas_sensors
+            for sensor in gas_sensors
         ]
-        self.sessions[session] = self.client.register(
+        registered = self.client.register(
             mission, robot, radius_m, take_over, clock_ns=None, gas_sensors=sensors
         )
-        return {"applied_sequence": self.sessions[session].applied_sequence}
+        self.sessions[session] = await get(registered)
+        return {"applied_sequence": self.sessions[session].log.applied_sequence}
 
-    def batch_ingest_observations(self, session, observations):
+    async def stream_observations(self, session, observations):
+        return await self._send(session, observations, stream=True)
+
+    async def batch_ingest_observations(self, session, observations):
+        return await self._send(session, observations, stream=False)
+
+    async def _send(self, session, observations, stream):
         robot = self.sessions[session]
-        before = len(robot.rejections)
-        for one in observations:
-            self._add(robot, one)
-        robot.flush()
+        rejected_before = len(robot.rejections)
+        for observation in observations:
+            self._add(robot, observation)
+        await get(robot.flush(stream=stream))
         return {
-            "applied_sequence": robot.applied_sequence,
-            "rejected": [r.sequence for r in robot.rejections[before:]],
+            "applied_sequence": robot.log.applied_sequence,
+            "rejected": [one.sequence for one in robot.rejections[rejected_before:]],
         }
 
-    stream_observations = batch_ingest_observations
-
-    def _add(self, robot, one):
-        time_ns, pose = one["time_ns"], one.get("pose")
-        if "scan" in one:
-            ranges_m = [
-                np.nan if r is None else np.inf if r == "none" else r
-                for r in self.scenario["ranges_m"][one["scan"]]
-            ]
+    def _add(self, robot, told):
+        time_ns, pose = told["time_ns"], told.get("pose")
+        if "scan" in told:
+            words = {None: math.nan, "none": math.inf}
+            ranges_m = [words.get(r, r) for r in self.scenario["ranges_m"][told["scan"]]]
             robot.add_scan(time_ns, pose, ranges_m, **self.scenario["scan"])
-        elif "gas_ppm" in one:
-            robot.add_gas(
-                time_ns, pose, one["gas_ppm"], one.get("stddev_ppm", 0.0), one.get("sensor", 0)
-            )
-        elif "correction" in one:
-            robot.add_correction(time_ns, pose, one["correction"])
+        elif "gas_ppm" in told:
+            stddev_ppm, sensor = told.get("stddev_ppm", 0.0), told.get("sensor", 0)
+            robot.add_gas(time_ns, pose, told["gas_ppm"], stddev_ppm, sensor)
+        elif "correction" in told:
+            robot.add_correction(time_ns, pose, told["correction"])
         else:
-            robot.add_status(time_ns, one["battery_share"])
+            robot.add_status(time_ns, told["battery_share"])
 
-    def list_robots(self, mission):
-        robots = self.client.robots(mission)
-        return {"robots": [reduce.last_part(one.on_map.robot) for one in robots]}
+    async def list_robots(self, mission):
+        robots = await get(self.client.robots(mission))
+        return {"robots": [reduce.last_part(robot.on_map.robot) for robot in robots]}
 
-    def get_robot(self, mission, robot):
-        return reduce.robot(self.client.get_robot(mission, robot))
+    async def get_robot(self, mission, robot):
+        return reduce.robot(await get(self.client.get_robot(mission, robot)))
 
-    def watch_robot(self, session=None, mission=None, robot=None):
+    async def watch_robot(self, session=None, mission=None, robot=None):
         if session:
             notices = self.sessions[session].watch()
         else:
             notices = self.client.watch_robot(mission, robot)
-        return reduce.standing(next(notices))
+        return reduce.standing(await first_of(notices))
 
-    def order_home(self, mission, home, robot=None):
-        self.client.order_home(mission, robot, home)
+    async def order_home(self, mission, home, robot=None):
+        await get(self.client.order_home(mission, robot, home))
 
-    def release_lease(self, session=None, mission=None, robot=None):
+    async def release_lease(self, session=None, mission=None, robot=None):
         if session:
-            self.sessions[session].release()
+            await get(self.sessions[session].release())
         else:
-            self.client.release_lease(mission, robot)
+            await get(self.client.release_lease(mission, robot))
 
-    def remove_robot(self, session=None, mission=None, robot=None):
+    async def remove_robot(self, session=None, mission=None, robot=None):
         if session:
-            self.sessions[session].leave()
+            await get(self.sessions[session].leave())
         else:
-            self.client.remove_robot(mission, robot)
+            await get(self.client.remove_robot(mission, robot))
 
     # Plans.
-    def next_best_trajectory(self, session, budget_s, seed, plan=None):
-        found = self.sessions[session].next_best_trajectory(
-            budget_s=budget_s, seed=seed, timeout_s=60
-        )
-        self.plans[plan] = found
-        return reduce.plan(found.proto)
 
-    def stream_next_best_trajectory(self, session, budget_s, seed, plan=None):
-        *_, found = self.sessions[session].stream_trajectories(
-            budget_s=budget_s, seed=seed, timeout_s=60
-        )
-        self.plans[plan] = found
-        return reduce.plan(found.proto)
-
-    def check_trajectory(self, session, plan=None, path=None, goal_kind=None):
+    async def next_best_trajectory(self, session, budget_s, seed, plan=None):
         robot = self.sessions[session]
-        if plan:
-            return reduce.check(robot.check(self.plans[plan]))
-        request = planning_pb.CheckTrajectoryRequest(
-            robot=robot._open.robot,
-            lease_token=robot._open.lease_token,
-            path=planning_pb.IntendedPath(
-                vertices=_points(path),
-                goal_kind=types_pb.GoalKind.Value("GOAL_KIND_" + goal_kind),
-            ),
+        found = await get(robot.next_best_trajectory(budget_s=budget_s, seed=seed))
+        self.plans[plan] = found
+        return reduce.plan(found)
+
+    async def stream_next_best_trajectory(self, session, budget_s, seed, plan=None):
+        robot = self.sessions[session]
+        async for found in items(robot.stream_trajectories(budget_s=budget_s, seed=seed)):
+            self.plans[plan] = found
+        return reduce.plan(self.plans[plan])
+
+    async def check_trajectory(self, session, plan=None, path=None, goal_kind=""):
+        robot = self.sessions[session]
+        checked = robot.check(self.plans[plan]) if plan else robot.check_path(path, goal_kind)
+        return reduce.check(await get(checked))
+
+    async def list_frontiers(self, session):
+        found = await get(self.sessions[session].list_frontiers())
+        return {"frontiers": [reduce.frontier(frontier) for frontier in found]}
+
+    async def report_progress(self, session, plan, outcome):
+        await get(self.sessions[session].report(self.plans[plan], outcome.lower()))
+
+    async def list_plans(self, mission):
+        plans = await get(self.client.live_plans(mission))
+        return {"plans": [reduce.live_plan(plan) for plan in plans]}
+
+    async def plan_team(self, mission, robots, seed, budget_s, max_order_count):
+        team = self.client.plan_team(
+            mission, robots, budget_s=budget_s, max_orders=max_order_count, seed=seed
         )
-        return reduce.check(self.client._call(self.client._planning.CheckTrajectory, request))
-
-    def list_frontiers(self, session):
-        found = self.sessions[session].list_frontiers()
-        return {"frontiers": [reduce.frontier(one) for one in found]}
-
-    def report_progress(self, session, plan, outcome):
-        self.sessions[session].report(self.plans[plan], outcome.lower())
-
-    def list_plans(self, mission):
-        return {"plans": [reduce.live_plan(one) for one in self.client.live_plans(mission)]}
-
-    def plan_team(self, mission, robots, seed, budget_s, max_order_count):
-        return reduce.team(
-            self.client.plan_team(
-                mission, robots, budget_s=budget_s, max_orders=max_order_count, seed=seed
-            )
-        )
+        return reduce.team(await get(team))
 
     # Maps.
-    def get_map(self, mission, layers=(), full_precision=True, region=None, level_of_detail=0, max_part_bytes=0, revision=0):
-        request = map_pb.GetMapRequest(
-            mission=f"missions/{mission}",
-            layers=[map_pb.MapLayer.Value("MAP_LAYER_" + layer) for layer in layers],
-            full_precision=full_precision,
-            fresh_posterior=True,
-            level_of_detail=level_of_detail,
-            max_part_bytes=max_part_bytes,
-            revision=revision,
-        )
-        if region:
-            request.region.min.CopyFrom(_points([region[:2]])[0])
-            request.region.max.CopyFrom(_points([region[2:]])[0])
-        parts = [self.client._call(self.client._maps.GetMap, request)]
-        while parts[-1].next_part_token:
-            request.part_token = parts[-1].next_part_token
-            parts.append(self.client._call(self.client._maps.GetMap, request))
-        return reduce.area(_map_from_proto(parts), [layer.lower() for layer in layers])
 
-    def watch_map(self, mission, layers=(), during=None):
-        request = map_pb.WatchMapRequest(
-            mission=f"missions/{mission}",
-            layers=[map_pb.MapLayer.Value("MAP_LAYER_" + layer) for layer in layers],
-            full_precision=True,
-        )
-        frames = self.client._maps.WatchMap(request)
-        parts = []
-        for frame in frames:
-            if frame.kind in (map_pb.WatchMapResponse.KIND_FULL, map_pb.WatchMapResponse.KIND_RESET):
-                parts = []
-            if frame.kind == map_pb.WatchMapResponse.KIND_RESET:
-                continue
-            parts.append(frame)
-            if frame.more_follow:
-                continue
-            found = _map_from_proto(parts)
-            latest = [p for p in parts if p.HasField("status")][-1].status
-            found = plumescout_client.Map(found.revision, latest, *[getattr(found, n) for n in ("geometry", "occupancy", "gas_mean_ppm", "gas_variance_ppm2")])
-            if during is None or not isinstance(during, dict):
-                known = {reduce.last_part(r.robot): r.applied_sequence for r in found.status.robots}
-                if during is None or known[robot] >= during:
-                    frames.cancel()
-                    return reduce.area(found, [layer.lower() for layer in layers])
-            else:
-                name = during["session"]
-                robot = reduce.last_part(self.sessions[name]._open.robot)
-                during = self.stream_observations(**during)["applied_sequence"]
-        return None
+    async def get_map(self, mission, layers=(), **arguments):
+        words = [layer.lower().replace("_", "-") for layer in layers]
+        return reduce.area(await get(self.client.get_map(mission, layers=words, **arguments)), words)
 
-    def query_gas(self, mission, points):
-        mean_ppm, variance_ppm2 = self.client.query_gas(mission, points)
-        return {"mean_ppm": reduce.numbers(mean_ppm), "variance_ppm2": reduce.numbers(variance_ppm2)}
+    async def watch_map(self, mission, layers=(), during=None):
+        words = [layer.lower().replace("_", "-") for layer in layers]
+        awaited = None
+        async for found in items(self.client.watch_map(mission, layers=words)):
+            if during is not None and awaited is None:
+                awaited = (await self.stream_observations(**during))["applied_sequence"]
+                name = self.sessions[during["session"]].name
+            applied = {robot.robot: robot.applied_sequence for robot in found.status.robots}
+            if awaited is None or applied[name] >= awaited:
+                return reduce.area(found, words)
 
-    # Files.
-    def export_mission(self, mission, file):
-        start = self.client.export_mission(mission, file)
-        return {"mission": reduce.last_part(start.mission)}
-
-    def import_mission(self, file, mission):
-        return reduce.mission(self.client.import_mission(file, mission))
-
-    def get_mission_history(self, mission, kinds):
-        values = [snapshot_pb.MissionEventKind.Value("MISSION_EVENT_KIND_" + k) for k in kinds]
-        events = self.client.mission_history(mission, values)
-        return {"events": [reduce.event(one) for one in events]}
+    async def query_gas(self, mission, points):
+        mean_ppm, variance_ppm2 = await get(self.client.query_gas(mission, points))
+        return {
+            "mean_ppm": reduce.numbers(mean_ppm),
+            "variance_ppm2": reduce.numbers(variance_ppm2),
+        }
 
 
-def fields_of(error):
-    return getattr(error, "fields", [])
-
-
-def main():
-    target, path = sys.argv[1:3]
-    scenario = json.loads(pathlib.Path(path).read_text())
-    with plumescout_client.Client(target, timeout_s=60) as client:
-        runner = Runner(client, scenario)
-        for step in scenario["steps"]:
-            told = {"do": step["do"]}
-            try:
-                if step["do"] == "restart":
-                    told["result"] = {}
-                else:
-                    told["result"] = getattr(runner, step["do"])(**step.get("with", {})) or {}
-            except plumescout_client.PlumeScoutError as error:
-                told["error"] = {
-                    "code": error.code.name,
-                    "reason": error.reason,
-                    "fields": fields_of(error),
-                }
-            print(json.dumps(told), flush=True)
+async def run(client, scenario):
+    runner = Runner(client, scenario)
+    for step in scenario["steps"]:
+        told = {"do": step["do"]}
+        try:
             if step["do"] == "restart":
-                sys.stdin.readline()
+                told["result"] = {}
+            else:
+                told["result"] = await getattr(runner, step["do"])(**step.get("with", {})) or {}
+        except plumescout.PlumeScoutError as error:
+            told["error"] = {
+                "code": error.code.name,
+                "reason": error.reason,
+                "fields": list(error.fields),
+            }
+        print(json.dumps(told), flush=True)
+        if step["do"] == "restart":
+            sys.stdin.readline()
+
+
+async def main(target, path, is_asyncio):
+    scenario = json.loads(pathlib.Path(path).read_text())
+    if is_asyncio:
+        async with plumescout.aio.Client(target, TIMEOUT_S) as client:
+            await run(client, scenario)
+    else:
+        with plumescout.Client(target, TIMEOUT_S) as client:
+            await run(client, scenario)
 
 
 if __name__ == "__main__":
-    main()
+    asyncio.run(main(*sys.argv[-2:], is_asyncio="--asyncio" in sys.argv))

@@ -5,7 +5,7 @@
 import socket
 import unittest
 
-import plumescout_client
+import plumescout
 import running
 
 EXIT_UNREACHABLE = 3
@@ -27,7 +27,7 @@ class DescriptorsTest(unittest.TestCase):
         self.addCleanup(server.stop)
         connections = connect(server.target, 1100)
         self.addCleanup(close, connections)
-        with plumescout_client.Client(server.target, timeout_s=running.PATIENCE_S) as client:
+        with plumescout.Client(server.target, timeout_s=running.PATIENCE_S) as client:
             client.create_mission("house")
             self.assertEqual(client.list_missions(), ["house"])
 
@@ -45,8 +45,8 @@ class DescriptorsTest(unittest.TestCase):
         self.addCleanup(server.process.stdout.close)
         self.addCleanup(server.process.kill)
         close(connect(server.target, 300))
-        with self.assertRaises(plumescout_client.PlumeScoutError):
-            with plumescout_client.Client(server.target, timeout_s=1.0) as client:
+        with self.assertRaises(plumescout.PlumeScoutError):
+            with plumescout.Client(server.target, timeout_s=1.0) as client:
                 client.list_missions()
         self.assertEqual(server.process.wait(timeout=running.PATIENCE_S), EXIT_UNREACHABLE)
 

@@ -16,7 +16,7 @@ import unittest
 
 import grpc
 
-import plumescout_client
+import plumescout
 import running
 from plumescout.v1 import map_service_pb2 as map_pb
 from plumescout.v1 import mission_service_pb2 as mission_pb
@@ -87,7 +87,7 @@ class FrontTest(unittest.TestCase):
 
     def client(self, name, folder=None, timeout_s=running.PATIENCE_S):
         folder = folder or self.folder
-        client = plumescout_client.Client(
+        client = plumescout.Client(
             self.front.target,
             timeout_s=timeout_s,
             tls_ca=self.folder / "ca.crt",
@@ -121,7 +121,7 @@ class FrontTest(unittest.TestCase):
         return link
 
     def assert_refused(self, code, call, *arguments):
-        with self.assertRaises(plumescout_client.PlumeScoutError) as caught:
+        with self.assertRaises(plumescout.PlumeScoutError) as caught:
             call(*arguments)
         self.assertEqual(caught.exception.code, code)
 
@@ -151,10 +151,10 @@ class FrontTest(unittest.TestCase):
     def test_nobody_gets_in_without_a_good_certificate(self):
         for name, folder in ((None, None), ("alice", self.strangers), ("late", None)):
             client = self.client(name, folder, timeout_s=1.0)  # it would try for ever
-            with self.assertRaises(plumescout_client.PlumeScoutError, msg=name):
+            with self.assertRaises(plumescout.PlumeScoutError, msg=name):
                 client.list_missions()
-        with plumescout_client.Client(self.front.target, timeout_s=1.0) as plaintext:
-            with self.assertRaises(plumescout_client.PlumeScoutError):
+        with plumescout.Client(self.front.target, timeout_s=1.0) as plaintext:
+            with self.assertRaises(plumescout.PlumeScoutError):
                 plaintext.list_missions()
         self.client("alice").list_missions()
 
@@ -230,7 +230,7 @@ class FrontTest(unittest.TestCase):
             try:
                 busy.list_missions()
                 codes.append(grpc.StatusCode.OK)
-            except plumescout_client.PlumeScoutError as error:
+            except plumescout.PlumeScoutError as error:
                 codes.append(error.code)
         self.assertEqual(set(codes), {grpc.StatusCode.OK, grpc.StatusCode.RESOURCE_EXHAUSTED})
         self.assertEqual(codes[:100], [grpc.StatusCode.OK] * 100)

@@ -13,8 +13,8 @@ import unittest
 
 import grpc
 
-import plumescout_client
-import plumescout_tokens
+import plumescout
+from plumescout import tokens
 import running
 
 
@@ -33,24 +33,24 @@ class TokensTest(unittest.TestCase):
     def client(self, server, secret):
         token_file = self.folder / "secret"
         token_file.write_text(f"{secret}\n")
-        client = plumescout_client.Client(
+        client = plumescout.Client(
             server.target, timeout_s=running.PATIENCE_S, token_file=token_file
         )
         self.addCleanup(client.close)
         return client
 
     def assert_refused(self, code, call, *arguments):
-        with self.assertRaises(plumescout_client.PlumeScoutError) as caught:
+        with self.assertRaises(plumescout.PlumeScoutError) as caught:
             call(*arguments)
         self.assertEqual(caught.exception.code, code)
 
     def test_a_token_lets_in_until_it_is_revoked(self):
-        alice = plumescout_tokens.create(self.file, "alice", "operator", "acme", days=1)
+        alice = tokens.create(self.file, "alice", "operator", "acme", days=1)
         server = self.start_server()
         client = self.client(server, alice)
         client.create_mission("house")
-        robot = plumescout_tokens.create(self.file, "scout", "robot", "acme")
-        self.assertEqual(plumescout_tokens.revoke(self.file, "alice"), 1)
+        robot = tokens.create(self.file, "scout", "robot", "acme")
+        self.assertEqual(tokens.revoke(self.file, "alice"), 1)
         self.assert_refused(grpc.StatusCode.UNAUTHENTICATED, client.list_missions)
 
         client = self.client(server, robot)
@@ -60,8 +60,8 @@ class TokensTest(unittest.TestCase):
         self.assert_refused(grpc.StatusCode.PERMISSION_DENIED, client.register, "house", "rover")
 
     def test_other_tenants_see_nothing(self):
-        alice = plumescout_tokens.create(self.file, "alice", "operator", "acme")
-        bob = plumescout_tokens.create(self.file, "bob", "operator", "other")
+        alice = tokens.create(self.file, "alice", "operator", "acme")
+        bob = tokens.create(self.file, "bob", "operator", "other")
         server = self.start_server()
         self.client(server, alice).create_mission("house")
         client = self.client(server, bob)
@@ -69,25 +69,25 @@ class TokensTest(unittest.TestCase):
         self.assert_refused(grpc.StatusCode.NOT_FOUND, client.get_map, "house")
 
     def test_wrong_expired_and_missing_tokens_are_refused(self):
-        late = plumescout_tokens.create(self.file, "late", "operator", days=1e-9)
+        late = tokens.create(self.file, "late", "operator", days=1e-9)
         server = self.start_server()
         for secret in (late, late + "x", "ps_", "none"):
             client = self.client(server, secret)
             self.assert_refused(grpc.StatusCode.UNAUTHENTICATED, client.list_missions)
-        with plumescout_client.Client(server.target, timeout_s=running.PATIENCE_S) as client:
+        with plumescout.Client(server.target, timeout_s=running.PATIENCE_S) as client:
             self.assert_refused(grpc.StatusCode.UNAUTHENTICATED, client.list_missions)
 
     def test_the_file_tells_who_has_tokens_and_no_secret(self):
-        secrets = [plumescout_tokens.create(self.file, "scout", "robot") for _ in range(2)]
+        secrets = [tokens.create(self.file, "scout", "robot") for _ in range(2)]
         self.file.write_text("# ours\n" + self.file.read_text())
-        first, second = plumescout_tokens.list_tokens(self.file)
+        first, second = tokens.list_tokens(self.file)
         self.assertEqual((first.name, first.role, first.tenant, first.expiry), ("scout", "robot", "", "never"))
         self.assertNotEqual(first.id, second.id)
         for secret in secrets:
             self.assertNotIn(secret, self.file.read_text())
-        self.assertEqual(plumescout_tokens.revoke(self.file, first.id), 1)
-        self.assertEqual(plumescout_tokens.list_tokens(self.file), [second])
-        self.assertEqual(plumescout_tokens.revoke(self.file, "nobody"), 0)
+        self.assertEqual(tokens.revoke(self.file, first.id), 1)
+        self.assertEqual(tokens.list_tokens(self.file), [second])
+        self.assertEqual(tokens.revoke(self.file, "nobody"), 0)
         self.assertTrue(self.file.read_text().startswith("# ours\n"))
 
     def test_words_that_the_server_would_refuse_are_refused(self):
@@ -102,14 +102,14 @@ class TokensTest(unittest.TestCase):
             ("a", "viewer", "", -1),
         ):
             with self.assertRaises(ValueError, msg=arguments):
-                plumescout_tokens.create(self.file, *arguments)
+                tokens.create(self.file, *arguments)
         self.assertFalse(self.file.exists())
 
     def test_writers_at_the_same_time_lose_nothing(self):
         names = [f"robot-{i}" for i in range(20)]
         with concurrent.futures.ThreadPoolExecutor(8) as pool:
-            list(pool.map(lambda name: plumescout_tokens.create(self.file, name, "robot"), names))
-        listed = plumescout_tokens.list_tokens(self.file)
+            list(pool.map(lambda name: tokens.create(self.file, name, "robot"), names))
+        listed = tokens.list_tokens(self.file)
         self.assertEqual(sorted(t.name for t in listed), sorted(names))
         self.assertEqual(os.listdir(self.folder).count("tokens"), 1)
 
@@ -117,7 +117,7 @@ class TokensTest(unittest.TestCase):
         def run(*arguments):
             output = io.StringIO()
             with contextlib.redirect_stdout(output), contextlib.redirect_stderr(io.StringIO()):
-                code = plumescout_tokens.main([str(a) for a in arguments])
+                code = tokens.main([str(a) for a in arguments])
             return code, output.getvalue()
 
         code, secret = run("create", self.file, "alice", "--role", "admin", "--days", "30")

@@ -15,7 +15,7 @@ import numpy as np
 import answers
 import bed
 import fault_proxy
-import plumescout_client
+import plumescout
 import robots
 import room
 
@@ -134,7 +134,7 @@ class NetworkTest(unittest.TestCase):
                 self.disturb(server, proxy, outage, outages, robot_s / PACE)
             code = program.wait()
             self.assertEqual(code, 0, f"{name}: {''.join(program.said[-20:])}")
-            with plumescout_client.Client(server.target) as client:
+            with plumescout.Client(server.target) as client:
                 drawn = client.get_map(MISSION)
         finally:
             proxy.stop()
@@ -157,7 +157,7 @@ class NetworkTest(unittest.TestCase):
             print(f"\n{outage} {number}: resumed after {resumed_s:.2f} s", flush=True)
 
     def applied(self, server):
-        with plumescout_client.Client(server.target) as client:
+        with plumescout.Client(server.target) as client:
             return client.get_robot(MISSION, ROBOT).on_map.applied_sequence
 
 

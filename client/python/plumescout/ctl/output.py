@@ -2,18 +2,22 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tables for people, JSON for programs."""
 
+import inspect
 import json
 import sys
 import threading
 
 from google.protobuf import json_format
 
+_PARAMETERS = inspect.signature(json_format.MessageToDict).parameters
+_ZEROS = "including_default_value_fields"  # its name until protobuf 25
+if _ZEROS not in _PARAMETERS:
+    _ZEROS = "always_print_fields_with_no_presence"
+
 
 def as_dict(message):
     """A message with the names of its .proto file; numbers that are 0 are there, too."""
-    return json_format.MessageToDict(
-        message, preserving_proto_field_name=True, including_default_value_fields=True
-    )
+    return json_format.MessageToDict(message, preserving_proto_field_name=True, **{_ZEROS: True})
 
 
 def print_json(value):

@@ -7,12 +7,14 @@ robot, viewer, operator or admin, a tenant or "-", and a time such as 2030-01-31
 "never". Empty lines and lines that begin with # mean nothing. The file holds no secrets: a token is
 shown once, when it is made. The server notices changes by itself.
 
-    secret = plumescout_tokens.create("tokens", "scout", "robot", tenant="acme", days=90)
-    for token in plumescout_tokens.list_tokens("tokens"): print(token)
-    plumescout_tokens.revoke("tokens", "scout")
+    secret = tokens.create("tokens", "scout", "robot", tenant="acme", days=90)
+    for token in tokens.list_tokens("tokens"): print(token)
+    tokens.revoke("tokens", "scout")
 
-As a program: python3 plumescout_tokens.py create|list|revoke FILE ...
+As a program: plumescoutctl tokens create|list|revoke FILE ...
 """
+
+from __future__ import annotations
 
 import argparse
 import contextlib
@@ -26,6 +28,7 @@ import re
 import secrets
 import sys
 import tempfile
+from collections.abc import Iterator, Sequence
 
 ROLES = ("robot", "viewer", "operator", "admin")
 
@@ -34,6 +37,8 @@ _ROBOT_ID = re.compile(r"[a-z]([a-z0-9-]{0,61}[a-z0-9])?")
 _SECRET_BYTES = 32
 _ID_LENGTH = 8
 _TIME_FORMAT = "%Y-%m-%dT%H:%M:%SZ"
+
+Path = str | pathlib.Path
 
 
 @dataclasses.dataclass(frozen=True)
@@ -47,7 +52,9 @@ class Token:
     expiry: str  # "never" or a time of RFC 3339
 
 
-def create(path, name, role, tenant="", days=None):
+def create(
+    path: Path, name: str, role: str, tenant: str = "", days: float | None = None
+) -> str:
     """Adds a token and returns its secret, which nobody can find out again. days: until it expires;
     default: never. The file is made if it is not there."""
     if not _WORD.fullmatch(name):
@@ -74,15 +81,15 @@ def create(path, name, role, tenant="", days=None):
     return secret
 
 
-def list_tokens(path):
+def list_tokens(path: Path) -> list[Token]:
     """The Tokens of a file, in its order."""
     return [token for token in map(_parse, _read(path)) if token]
 
 
-def revoke(path, name_or_id):
+def revoke(path: Path, name_or_id: str) -> int:
     """Removes the tokens of this name, or the one of this id; returns how many there were."""
 
-    def is_meant(line):
+    def is_meant(line: str) -> bool:
         token = _parse(line)
         return token is not None and name_or_id in (token.name, token.id)
 
@@ -94,14 +101,14 @@ def revoke(path, name_or_id):
     return len(lines) - len(kept)
 
 
-def _read(path):
+def _read(path: Path) -> list[str]:
     try:
         return pathlib.Path(path).read_text().splitlines()
     except FileNotFoundError:
         return []
 
 
-def _parse(line):
+def _parse(line: str) -> Token | None:
     fields = line.split()
     if len(fields) != 5 or line.lstrip().startswith("#"):
         return None
@@ -110,14 +117,14 @@ def _parse(line):
 
 
 @contextlib.contextmanager
-def _locked(path):
+def _locked(path: Path) -> Iterator[None]:
     """One writer at a time: two would lose a line, or bring a revoked one back."""
     with open(f"{path}.lock", "w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         yield
 
 
-def _replace(path, lines):
+def _replace(path: Path, lines: Sequence[str]) -> None:
     """The server sees the old file or the new one, and nothing between, whenever power fails."""
     path = pathlib.Path(path)
     mode = path.stat().st_mode & 0o777 if path.exists() else 0o640
@@ -134,9 +141,9 @@ def _replace(path, lines):
         raise
 
 
-def main(arguments=None):
+def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(
-        prog="plumescout_tokens.py", description="Bearer tokens of a PlumeScout server."
+        prog="plumescoutctl tokens", description="Bearer tokens of a PlumeScout server."
     )
     commands = parser.add_subparsers(dest="command", required=True)
     new = commands.add_parser("create", help="adds a token and prints it, once")

@@ -7,11 +7,12 @@ import os
 import sys
 
 import grpc
-import plumescout_client
+import plumescout
 from google.protobuf import json_format
 
+from .. import tokens
+from .._map_files import LAYERS
 from . import commands, completion, store, words
-from .map_files import LAYERS
 from .output import Printer
 
 EXIT_REFUSED, EXIT_USAGE, EXIT_UNREACHABLE, EXIT_NOT_FOUND = 1, 2, 3, 4
@@ -40,10 +41,12 @@ _CODES = {
 }
 
 
-def main(argv):
+def main(argv=None):
+    """Returns the exit code."""
+    argv = sys.argv[1:] if argv is None else argv
     parser = make_parser()
     arguments, rest = parser.parse_known_args(argv)
-    if arguments.command in (_tokens, store.run):
+    if arguments.command in (tokens.main, store.run):
         return arguments.command(rest)
     if rest:
         parser.error(f"unrecognized arguments: {' '.join(rest)}")
@@ -53,7 +56,7 @@ def main(argv):
     try:
         with connect(arguments) as client:
             arguments.command(client, arguments, Printer(arguments.output))
-    except plumescout_client.PlumeScoutError as error:
+    except plumescout.PlumeScoutError as error:
         print(f"plumescoutctl: {error}", file=sys.stderr)
         return _CODES.get(error.code, EXIT_REFUSED)
     except (OSError, ValueError, json_format.ParseError) as error:
@@ -65,7 +68,7 @@ def main(argv):
 
 
 def connect(arguments):
-    return plumescout_client.Client(
+    return plumescout.Client(
         arguments.server,
         arguments.timeout,
         tls_ca=arguments.tls_ca,
@@ -108,8 +111,8 @@ def make_parser():
     team.add_argument("--go-home", action="store_true", help="plan their ways home")
     _takes(_add(groups, "info", "version, limits and features"), commands.show_server)
     _takes(_add(groups, "drain", "take the server out of service"), commands.drain_server)
-    tokens = groups.add_parser("tokens", help="create, list and revoke tokens", add_help=False)
-    tokens.set_defaults(command=_tokens)
+    token = groups.add_parser("tokens", help="create, list and revoke tokens", add_help=False)
+    token.set_defaults(command=tokens.main)
     kept = groups.add_parser(
         "store", help="list and verify what a server that is down has kept", add_help=False
     )
@@ -262,15 +265,6 @@ def _takes(parser, command, *names):
     _add_everywhere(parser)
     parser.set_defaults(command=command)
     return parser
-
-
-def _tokens(argv):
-    try:
-        import plumescout_tokens
-    except ImportError:
-        print("plumescoutctl: plumescout_tokens.py is not installed beside it", file=sys.stderr)
-        return EXIT_USAGE
-    return plumescout_tokens.main(argv)
 
 
 def _completion(*_):

@@ -7,9 +7,9 @@ import json
 import pathlib
 import time
 
-import plumescout_client
+import plumescout
 
-from . import map_files, top, words
+from . import top, words
 from .output import Progress
 
 
@@ -27,7 +27,7 @@ def create_mission(client, arguments, out):
     if arguments.options is not None:
         options = json.loads(pathlib.Path(arguments.options).read_text())
     if arguments.prior_map is not None:
-        options["prior_map"] = plumescout_client.prior_map_of_files(arguments.prior_map)
+        options["prior_map"] = plumescout.prior_map_of_files(arguments.prior_map)
     client.create_mission(
         arguments.mission,
         options,
@@ -57,12 +57,14 @@ def delete_mission(client, arguments, out):
 
 
 def set_ttl(client, arguments, out):
-    mission = client.set_idle_time_to_live(arguments.mission, arguments.seconds)
+    mission = client.update_mission(arguments.mission, idle_time_to_live_s=arguments.seconds)
     out.message(mission, words.mission_facts(mission))
 
 
 def set_keep(client, arguments, out):
-    mission = client.set_keep_all_events(arguments.mission, arguments.events == "all")
+    mission = client.update_mission(
+        arguments.mission, keep_all_events=arguments.events == "all"
+    )
     out.message(mission, words.mission_facts(mission))
 
 
@@ -76,7 +78,7 @@ def import_mission(client, arguments, out):
     try:
         with Progress(f"import of {arguments.file}") as progress:
             mission = client.import_mission(arguments.file, arguments.name, progress)
-    except plumescout_client.PlumeScoutError as error:
+    except plumescout.PlumeScoutError as error:
         error.args = (f"{arguments.file}: {error}",)
         raise
     out.message(mission, words.mission_facts(mission))
@@ -133,13 +135,10 @@ def release_lease(client, arguments, out):
 
 
 def export_map(client, arguments, out):
-    paths = map_files.write_map(
-        client.get_map(
-            arguments.mission, revision=arguments.revision, species=arguments.species
-        ),
-        arguments.file,
-        arguments.layer,
+    found = client.get_map(
+        arguments.mission, revision=arguments.revision, species=arguments.species
     )
+    paths = found.save(arguments.file, arguments.layer)
     out.done(f"wrote {' and '.join(str(path) for path in paths)}")
 
 

@@ -8,7 +8,7 @@ import shutil
 import subprocess
 import sys
 
-_BUILT = pathlib.Path(__file__).resolve().parents[3] / "build/release/bin/plumescout-server"
+_BUILT = pathlib.Path(__file__).resolve().parents[4] / "build/release/bin/plumescout-server"
 EXIT_USAGE = 2
 
 
