@@ -60,6 +60,11 @@ class PackageTest(unittest.TestCase):
         self.assertGreater(np.isfinite(gas_ppm).sum(), 0.9 * 60 * 40)
         self.assertTrue((self.folder / "room.pgm").read_bytes().startswith(b"P5 "))
 
+    def test_the_page_shows_the_example(self):
+        example = (ROOT / "client/python/examples/robot.py").read_text()
+        page = (ROOT / "docs/clients.md").read_text()
+        self.assertIn(example[example.index("import math") :], page)
+
     @unittest.skipUnless(shutil.which("mypy"), "mypy is not installed")
     def test_types_hold(self):
         shutil.copy(ROOT / "client/python/pyproject.toml", self.site)
