@@ -8,7 +8,7 @@ import { Client } from './client.ts';
 
 export * from './index.ts';
 
-// address: of the server's console, or of the front before it, 'https://console.example'.
+/** address: of the server's console, or of the front before it, 'https://console.example'. */
 export function connect(address: string, options: CallOptions = {}): Client {
   return new Client(patient(createGrpcWebTransport({
     baseUrl: address,

@@ -18,8 +18,8 @@ export type CallOptions = {
 
 export const LINK_BACKOFF: BackoffOptions = { first_s: 0.1, longest_s: 2, factor: 1.6, jitter: 0.2 };
 
-// Names a request, so that it has its effect once. crypto.randomUUID is for secure origins alone, and
-// Node 18 has no crypto here.
+/** Names a request, so that it has its effect once. crypto.randomUUID is for secure origins alone, and
+ * Node 18 has no crypto here. */
 export function requestId(): string {
   const bytes = new Uint8Array(16);
   if (globalThis.crypto === undefined) bytes.forEach((_, i) => { bytes[i] = 256 * Math.random(); });
@@ -53,8 +53,8 @@ function named<I extends DescMessage>(method: DescMethodUnary<I>,
   return { ...input, requestId: requestId() };
 }
 
-// Unary calls get a time, a name if they take one, and are made again within that time while the
-// server is not there. Streams are left as they are.
+/** Unary calls get a time, a name if they take one, and are made again within that time while the
+ * server is not there. Streams are left as they are. */
 export function patient(transport: Transport, { timeout_s = 10, retries = true }: CallOptions): Transport {
   return {
     stream: transport.stream.bind(transport),

@@ -6,8 +6,8 @@ import {
   IngestService, MapService, MissionService, PlanningService, RobotService, SnapshotService, SystemService,
 } from './wire/index.ts';
 
-// All calls of a server, by service; each takes and returns the messages of
-// '@plumescout/client/wire'. Made by connect().
+/** All calls of a server, by service; each takes and returns the messages of
+ * '@plumescout/client/wire'. Made by connect(). */
 export class Client {
   readonly missions: ServiceClient<typeof MissionService>;
   readonly robots: ServiceClient<typeof RobotService>;
@@ -17,7 +17,7 @@ export class Client {
   readonly snapshots: ServiceClient<typeof SnapshotService>;
   readonly system: ServiceClient<typeof SystemService>;
 
-  // Calls fail once it is closed.
+  /** Calls fail once it is closed. */
   constructor(transport: Transport, readonly close: () => void = () => {}) {
     this.missions = createClient(MissionService, transport);
     this.robots = createClient(RobotService, transport);
@@ -29,8 +29,8 @@ export class Client {
   }
 }
 
-// The items of a list that comes in pages:
-//   await all((pageToken) => client.missions.listMissions({ pageToken }), (page) => page.missions)
+/** The items of a list that comes in pages:
+ *   await all((pageToken) => client.missions.listMissions({ pageToken }), (page) => page.missions) */
 export async function all<Page extends { nextPageToken: string }, Item>(
   ask: (pageToken: string) => Promise<Page>, itemsOf: (page: Page) => Item[]): Promise<Item[]> {
   const items: Item[] = [];

@@ -22,7 +22,7 @@ function isOfLink({ cause, rawMessage }: ConnectError): boolean {
     rawMessage.startsWith('http/2 stream closed with error code CANCEL');
 }
 
-// Of anything that is thrown; what is no error of a call has code Unknown.
+/** Of anything that is thrown; what is no error of a call has code Unknown. */
 export function errorOf(error: unknown): CallError {
   const call = error instanceof ConnectError ? error : null;
   const info = call?.findDetails(ErrorInfoSchema)[0];
@@ -42,7 +42,7 @@ export function errorOf(error: unknown): CallError {
 const FINAL = [Code.InvalidArgument, Code.NotFound, Code.AlreadyExists, Code.PermissionDenied,
   Code.Unauthenticated, Code.OutOfRange, Code.Unimplemented];
 
-// Whether the same call will be refused for ever.
+/** Whether the same call will be refused for ever. */
 export function isFinal({ code }: CallError): boolean {
   return FINAL.includes(code);
 }

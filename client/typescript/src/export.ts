@@ -4,7 +4,7 @@
 import { FREE, OCCUPIED } from './raster.ts';
 import type { Raster } from './raster.ts';
 
-// NumPy's format, version 1.0: float32, rows from the south.
+/** NumPy's format, version 1.0: float32, rows from the south. */
 export function npyOf(values: Float32Array, rows: number, columns: number): Uint8Array {
   const header = `{'descr': '<f4', 'fortran_order': False, 'shape': (${rows}, ${columns}), }`;
   const padded = header.padEnd(Math.ceil((header.length + 11) / 64) * 64 - 11) + '\n';
@@ -17,7 +17,7 @@ export function npyOf(values: Float32Array, rows: number, columns: number): Uint
   return bytes;
 }
 
-// Of map_server: black is occupied, nearly white free, grey unknown; rows from the north.
+/** Of map_server: black is occupied, nearly white free, grey unknown; rows from the north. */
 export function pgmOf(raster: Raster): Uint8Array {
   const { columns, rows } = raster.geometry;
   const head = new TextEncoder().encode(`P5\n${columns} ${rows}\n255\n`);

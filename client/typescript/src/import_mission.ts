@@ -9,8 +9,8 @@ import type { ImportMissionRequestSchema, Mission } from './wire/index.ts';
 const MAX_PIECE_BYTES = 1 << 20;
 const FRAMING_BYTES = 4096; // of a request, beside the bytes of the file
 
-// Makes a mission of a file's bytes, which come in pieces of any size (fs.createReadStream). missionId:
-// of the new mission; empty: that of the mission in the file. Errors are those of ImportMission.
+/** Makes a mission of a file's bytes, which come in pieces of any size (fs.createReadStream). missionId:
+ * of the new mission; empty: that of the mission in the file. Errors are those of ImportMission. */
 export async function importMission(client: Client, file: AsyncIterable<Uint8Array> | Iterable<Uint8Array>,
                                     options: { missionId?: string; signal?: AbortSignal } = {}): Promise<Mission> {
   const { limits } = await client.system.getServerInfo({});

@@ -6,10 +6,10 @@ import type { CellRect } from './raster.ts';
 import { WatchMapResponse_Kind } from './wire/index.ts';
 import type { WatchMapResponse } from './wire/index.ts';
 
-// Of larger maps squares of cells are shown: four million take 60 MB.
+/** Of larger maps squares of cells are shown: four million take 60 MB. */
 export const MAX_CELLS = 4_000_000;
 
-// The level of detail at which so many cells are few enough.
+/** The level of detail at which so many cells are few enough. */
 export function levelFor(cells: number, max_cells = MAX_CELLS): number {
   let level = 0;
   while (cells / 4 ** level > max_cells && level < 6) ++level;
@@ -20,7 +20,7 @@ export class MapCopy {
   raster: Raster | null = null;
   revision = -1n;
 
-  // Returns what to draw: all, some cells, or nothing.
+  /** Returns what to draw: all, some cells, or nothing. */
   apply(frame: WatchMapResponse): 'all' | CellRect[] {
     const kind = frame.kind;
     if (kind === WatchMapResponse_Kind.RESET) {

@@ -50,7 +50,7 @@ export type GetMapOptions = MapOptions & {
   maxPartBytes?: number; // of tiles in one message; as many as the server sends
 };
 
-// The map of missions/{mission}. Errors are those of MapService.GetMap.
+/** The map of missions/{mission}. Errors are those of MapService.GetMap. */
 export async function getMap(client: Client, mission: string, options: GetMapOptions = {}): Promise<DecodedMap> {
   for (let attempt = 1; ; ++attempt) {
     try {
@@ -83,7 +83,7 @@ async function getParts(client: Client, mission: string, options: GetMapOptions)
 
 export type MapUpdate = DecodedMap & { changed: 'all' | CellRect[] };
 
-// connecting: asks; live: a map is here; waiting: the link broke, and is tried again.
+/** connecting: asks; live: a map is here; waiting: the link broke, and is tried again. */
 export type LinkState = 'connecting' | 'live' | 'waiting';
 
 export type WatchMapOptions = MapOptions & {
@@ -93,10 +93,10 @@ export type WatchMapOptions = MapOptions & {
   onLink?: (state: LinkState, error: CallError | null, again_s: number) => void;
 };
 
-// The map whenever it changes, for as long as the reader goes on or until the signal ends it. The
-// raster is one and the same, kept up to date: copy() what is to stay. A link that breaks is opened
-// again, and the next update is then of all cells. What cannot pass by itself is thrown, as NotFound
-// and PermissionDenied.
+/** The map whenever it changes, for as long as the reader goes on or until the signal ends it. The
+ * raster is one and the same, kept up to date: copy() what is to stay. A link that breaks is opened
+ * again, and the next update is then of all cells. What cannot pass by itself is thrown, as NotFound
+ * and PermissionDenied. */
 export async function* watchMap(client: Client, mission: string,
                                 options: WatchMapOptions = {}): AsyncGenerator<MapUpdate, void> {
   const tell = options.onLink ?? (() => {});

@@ -9,7 +9,7 @@ const CRC_TABLE = Uint32Array.from({ length: 256 }, (_, byte) => {
   return rest;
 });
 
-// As zlib computes it; `before`: of the bytes that come before these.
+/** As zlib computes it; `before`: of the bytes that come before these. */
 export function crc32(data: Uint8Array, before = 0): number {
   let rest = ~before;
   for (let i = 0; i < data.length; ++i) rest = (rest >>> 8) ^ CRC_TABLE[(rest ^ data[i]!) & 255]!;
@@ -22,8 +22,8 @@ export type FilePiece = {
   expected_bytes: number; // of the whole, about
 };
 
-// The file of missions/{mission}, in pieces. What is not as the server sent it is thrown: a file is
-// whole once the loop has come to its end, and only then.
+/** The file of missions/{mission}, in pieces. What is not as the server sent it is thrown: a file is
+ * whole once the loop has come to its end, and only then. */
 export async function* exportMission(client: Client, mission: string,
                                      options: { signal?: AbortSignal } = {}): AsyncGenerator<FilePiece, void> {
   let crc = 0, done_bytes = 0, expected_bytes = 0;

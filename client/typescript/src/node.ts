@@ -15,7 +15,7 @@ export type {
   SessionStatistics,
 } from './robot_session.ts';
 
-// Files are PEM.
+/** Files are PEM. */
 export type ConnectOptions = CallOptions & {
   caFile?: string; // authorities of the server's certificate; absent: plaintext
   certificateFile?: string; // the client's own, with its key
@@ -25,7 +25,7 @@ export type ConnectOptions = CallOptions & {
 
 const KEEPALIVE = { pingIntervalMs: 10_000, pingTimeoutMs: 5_000 }; // the server's least interval
 
-// target: of the server's --listen, '127.0.0.1:50551'. Throws if a file cannot be read.
+/** target: of the server's --listen, '127.0.0.1:50551'. Throws if a file cannot be read. */
 export function connect(target = '127.0.0.1:50551', options: ConnectOptions = {}): Client {
   const { caFile, certificateFile, keyFile, tokenFile } = options;
   const read = (file: string | undefined) => (file === undefined ? undefined : readFileSync(file));

@@ -3,9 +3,9 @@
 import { MissionPhase } from './wire/index.ts';
 import type { Plan as PlanMessage } from './wire/index.ts';
 
-// Where to drive. Arrays have one number for each waypoint; the first is the start. Between two of
-// them speed changes evenly; if it is 0 at both, it is constant. Where two lie at one place the robot
-// turns on the spot.
+/** Where to drive. Arrays have one number for each waypoint; the first is the start. Between two of
+ * them speed changes evenly; if it is 0 at both, it is constant. Where two lie at one place the robot
+ * turns on the spot. */
 export type Plan = {
   name: string; // missions/{mission}/plans/{plan}; empty before it is committed
   complete: boolean; // the mission is: there is nowhere to go

@@ -5,7 +5,7 @@
 const RANGE_UNIT_M = 0.005;
 const NO_RETURN = 0, INVALID = 65535; // counts with a meaning of their own
 
-// Metres; Infinity: nothing seen, NaN: the beam says nothing. Little-endian counts of unit_m.
+/** Metres; Infinity: nothing seen, NaN: the beam says nothing. Little-endian counts of unit_m. */
 export function encodeRanges(ranges_m: ArrayLike<number>): { ranges_u16: Uint8Array; unit_m: number } {
   let longest_m = 0;
   for (let i = 0; i < ranges_m.length; ++i) {

@@ -9,7 +9,7 @@ export const UNKNOWN = 0;
 export const FREE = 1;
 export const OCCUPIED = 2;
 
-// Where a raster lies: metres, frame map; cell (0, 0) is the south-west one.
+/** Where a raster lies: metres, frame map; cell (0, 0) is the south-west one. */
 export type Geometry = {
   x_m: number;
   y_m: number;
@@ -18,10 +18,10 @@ export type Geometry = {
   rows: number;
 };
 
-// A rectangle of cells, `to` not included.
+/** A rectangle of cells, `to` not included. */
 export type CellRect = { fromColumn: number; fromRow: number; toColumn: number; toRow: number };
 
-// None of a map that has no cells yet.
+/** None of a map that has no cells yet. */
 export function geometryOf(proto: GridGeometry | undefined): Geometry | null {
   if (proto === undefined || proto.columnCount === 0 || proto.rowCount === 0) return null;
   return {
@@ -38,7 +38,7 @@ export function sameGeometry(a: Geometry, b: Geometry): boolean {
     a.columns === b.columns && a.rows === b.rows;
 }
 
-// The cells of a tile of gas: ppm, or ppm squared; NaN where there is none.
+/** The cells of a tile of gas: ppm, or ppm squared; NaN where there is none. */
 export function decodeGas(tile: MapTile): Float32Array {
   const count = tile.columnCount * tile.rowCount;
   const cells = new Float32Array(count);
@@ -57,7 +57,7 @@ export function decodeGas(tile: MapTile): Float32Array {
   return cells;
 }
 
-// The layers of a map, as far as they were told.
+/** The layers of a map, as far as they were told. */
 export class Raster {
   readonly occupancy: Uint8Array;
   readonly mean_ppm: Float32Array;
@@ -70,7 +70,7 @@ export class Raster {
     this.variance_ppm2 = new Float32Array(count).fill(NaN);
   }
 
-  // Returns what changed.
+  /** Returns what changed. */
   apply(tile: MapTile): CellRect {
     const column = tile.minCell?.column ?? 0;
     const row = tile.minCell?.row ?? 0;
@@ -95,7 +95,7 @@ export class Raster {
     return rect;
   }
 
-  // The cell at a place, or -1 beyond the map.
+  /** The cell at a place, or -1 beyond the map. */
   cellAt(x_m: number, y_m: number): number {
     const { geometry } = this;
     const column = Math.floor((x_m - geometry.x_m) / geometry.resolution_m);
@@ -151,7 +151,7 @@ export function figuresOf(raster: Raster, threshold_ppm: number): RasterFigures 
   };
 }
 
-// The mean now less the mean then, ppm, cell by cell of `now`, which may have grown.
+/** The mean now less the mean then, ppm, cell by cell of `now`, which may have grown. */
 export function changeOf(now: Raster, then: Raster): Float32Array {
   const change = new Float32Array(now.mean_ppm.length);
   const g = now.geometry, h = then.geometry;

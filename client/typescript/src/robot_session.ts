@@ -22,9 +22,9 @@ import type {
 } from './wire/index.ts';
 
 export type { LogOptions };
-// In frame map, or in the robot's own if it registered with one.
+/** In frame map, or in the robot's own if it registered with one. */
 export type Pose = { x_m: number; y_m: number; yaw_rad: number };
-// At a time, by the robot's clock, nanoseconds since the Unix epoch.
+/** At a time, by the robot's clock, nanoseconds since the Unix epoch. */
 export type PoseFix = { time_ns: bigint; pose: Pose };
 export type ScanSample = PoseFix & {
   ranges_m: ArrayLike<number>; // Infinity: nothing seen, NaN: the beam says nothing
@@ -86,12 +86,12 @@ const poseOf = ({ x_m, y_m, yaw_rad }: Pose): MessageInitShape<typeof Pose2DSche
 // Below 2^53, and not 0.
 const newLogEpoch = () => 1 + Math.floor(Math.random() * (Number.MAX_SAFE_INTEGER - 1));
 
-// Observations are numbered, kept, and sent as the server has credit for them; nothing that adds them
-// waits. A link that breaks is opened again, and the log goes on where the server says. The log is in
-// memory: a robot that must outlive restarts of its own is better served by plumescout-robot.
-// Methods that ask the server first wait until it has applied what was added. They throw what the call
-// threw, or why the session has ended: another client has the lease (LEASE_SUPERSEDED), or the robot
-// is not of the mission any more (NotFound).
+/** Observations are numbered, kept, and sent as the server has credit for them; nothing that adds them
+ * waits. A link that breaks is opened again, and the log goes on where the server says. The log is in
+ * memory: a robot that must outlive restarts of its own is better served by plumescout-robot.
+ * Methods that ask the server first wait until it has applied what was added. They throw what the call
+ * threw, or why the session has ended: another client has the lease (LEASE_SUPERSEDED), or the robot
+ * is not of the mission any more (NotFound). */
 export class RobotSession {
   private rejected = 0;
   private readonly loop: IngestLoop;
@@ -112,7 +112,7 @@ export class RobotSession {
     });
   }
 
-  // Joins a mission, or comes back to it. Errors are those of RegisterRobot, as LEASE_HELD.
+  /** Joins a mission, or comes back to it. Errors are those of RegisterRobot, as LEASE_HELD. */
   static async register(client: Client, options: RegisterOptions): Promise<RobotSession> {
     const { mission, robotId, radius_m, takeOver = false, gasSensors = [], frame } = options;
     const registered = await client.robots.registerRobot({
@@ -131,7 +131,7 @@ export class RobotSession {
              lost: this.log.lost, reconnects };
   }
 
-  // These number an observation, and return its number.
+  /** Numbers a scan. Returns its number. */
   addScan({ time_ns, pose, ranges_m, startAngle_rad, angleStep_rad, maxRange_m }: ScanSample): number {
     const { ranges_u16, unit_m } = encodeRanges(ranges_m);
     return this.add({ sampleTimeNs: time_ns, pose: poseOf(pose), payload: { case: 'scan', value: {
@@ -139,44 +139,46 @@ export class RobotSession {
       rangeUnitM: unit_m, rangesU16: ranges_u16,
     } } });
   }
+  /** Numbers a gas reading. Returns its number. */
   addGas({ time_ns, pose, concentration_ppm, stddev_ppm = 0, sensor = 0 }: GasSample): number {
     return this.add({ sampleTimeNs: time_ns, pose: poseOf(pose), payload: { case: 'gas', value: {
       concentrationPpm: concentration_ppm, stddevPpm: stddev_ppm, sensorIndex: sensor,
     } } });
   }
+  /** Numbers what the robot tells of itself. Returns its number. */
   addStatus({ time_ns, battery_share }: BatterySample): number {
     return this.add({ sampleTimeNs: time_ns, payload: { case: 'status', value: { batteryShare: battery_share } } });
   }
-  // Poses of before were wrong, as after a loop closure: the right ones at some of the times at which
-  // something was observed, in their order. The way between is interpolated, beyond them it is moved
-  // rigidly. The fix itself, and poses after it, are right.
+  /** Poses of before were wrong, as after a loop closure: the right ones at some of the times at which
+   * something was observed, in their order. The way between is interpolated, beyond them it is moved
+   * rigidly. The fix itself, and poses after it, are right. Returns its number. */
   addCorrection({ time_ns, pose }: PoseFix, anchors: PoseFix[]): number {
     return this.add({ sampleTimeNs: time_ns, pose: poseOf(pose), payload: { case: 'correction', value: {
       anchors: anchors.map((anchor) => ({ sampleTimeNs: anchor.time_ns, pose: poseOf(anchor.pose) })),
     } } });
   }
 
-  // Waits until the server has applied all that was added so far. Throws if it has not in time.
+  /** Waits until the server has applied all that was added so far. Throws if it has not in time. */
   async applied(timeout_s = CALL_TIMEOUT_S, signal?: AbortSignal): Promise<void> {
     const sequence = this.log.lastSequence;
     await this.waitFor(() => this.loop.applied >= sequence, timeout_s, signal);
   }
-  // The same, until it is safe on the server's disk, if that keeps anything there.
+  /** The same, until it is safe on the server's disk, if that keeps anything there. */
   async durable(timeout_s = CALL_TIMEOUT_S, signal?: AbortSignal): Promise<void> {
     const sequence = this.log.lastSequence;
     await this.waitFor(() => this.loop.applied >= sequence &&
       (this.loop.durable === 0 || this.loop.durable >= sequence), timeout_s, signal);
   }
 
-  // Where to drive next, or the way home.
+  /** Where to drive next, or the way home. */
   async nextBestTrajectory(options: PlanOptions = {}): Promise<Plan> {
     const { request, call } = await this.planning(options);
     const { plan } = await this.client.planning.nextBestTrajectory(request, call);
     if (plan === undefined) throw new Error('the server answered without a plan');
     return planOf(plan);
   }
-  // Better and better plans; the last is the one to drive. Leaving the loop before its end cancels
-  // the search, and nothing is committed.
+  /** Better and better plans; the last is the one to drive. Leaving the loop before its end cancels
+   * the search, and nothing is committed. */
   async* streamTrajectories(options: PlanOptions = {}): AsyncGenerator<Plan, void> {
     const { request, call } = await this.planning(options);
     const abort = new OwnAbort(options.signal);
@@ -187,8 +189,8 @@ export class RobotSession {
       abort.end();
     }
   }
-  // Whether the rest of the robot's latest plan, or a path, still holds: blockage and rejectedGoal
-  // are set if something is wrong with the way or the goal.
+  /** Whether the rest of the robot's latest plan, or a path, still holds: blockage and rejectedGoal
+   * are set if something is wrong with the way or the goal. */
   async check(subject: Plan | MessageInitShape<typeof IntendedPathSchema>): Promise<CheckTrajectoryResponse> {
     await this.applied();
     return this.client.planning.checkTrajectory({
@@ -196,35 +198,35 @@ export class RobotSession {
       subject: 'message' in subject ? { case: 'plan', value: subject.name } : { case: 'path', value: subject },
     });
   }
-  // Where this robot could go, and why not.
+  /** Where this robot could go, and why not. */
   async frontiers(): Promise<FrontierGoal[]> {
     await this.applied();
     return (await this.client.planning.listFrontiers({ robot: this.robot })).frontiers;
   }
-  // How a plan ended.
+  /** How a plan ended. */
   async report(plan: Plan, outcome: keyof typeof OUTCOMES): Promise<void> {
     await this.applied();
     await this.client.planning.reportProgress({ ...this.lease(), plan: plan.name, outcome: OUTCOMES[outcome] });
   }
-  // What the robot has to know without having asked; see watchRobot.
+  /** What the robot has to know without having asked; see watchRobot. */
   watch(signal?: AbortSignal): AsyncGenerator<RobotNotice, void> {
     return watchRobot(this.client, this.robot, {
       leaseToken: this.leaseToken, ...(signal === undefined ? {} : { signal }) });
   }
 
-  // Gives up the lease: another client may take the robot over at once. It stays in the mission.
+  /** Gives up the lease: another client may take the robot over at once. It stays in the mission. */
   async release(): Promise<void> {
     await this.applied();
     this.close();
     await this.client.robots.releaseLease(this.lease());
   }
-  // Leaves the mission; registering again goes on with the log.
+  /** Leaves the mission; registering again goes on with the log. */
   async leave(): Promise<void> {
     await this.applied();
     this.close();
     await this.client.robots.removeRobot(this.lease());
   }
-  // Ends the stream. What is not applied by now is lost with this session.
+  /** Ends the stream. What is not applied by now is lost with this session. */
   close(): void {
     this.loop.close();
   }

@@ -9,10 +9,10 @@ import type { WatchRobotResponse } from './wire/index.ts';
 
 export type RobotNotice = WatchRobotResponse['notice'];
 
-// What there is to know of missions/{mission}/robots/{robot} without having asked: how it stands, first
-// and after every change; that its plan does not stand any more; that it was given another. A link
-// that breaks is opened again. leaseToken: of the robot itself; absent: of an operator. What cannot
-// pass by itself is thrown, as a lease that another has taken (LEASE_SUPERSEDED).
+/** What there is to know of missions/{mission}/robots/{robot} without having asked: how it stands, first
+ * and after every change; that its plan does not stand any more; that it was given another. A link
+ * that breaks is opened again. leaseToken: of the robot itself; absent: of an operator. What cannot
+ * pass by itself is thrown, as a lease that another has taken (LEASE_SUPERSEDED). */
 export async function* watchRobot(client: Client, robot: string,
                                   options: { leaseToken?: bigint; signal?: AbortSignal } = {},
                                   ): AsyncGenerator<RobotNotice, void> {
