@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "absl/time/clock.h"
 #include "client/grpc_status.h"
+#include "proto/convert/status.h"
 
 namespace plumescout::client {
 namespace {
@@ -56,6 +56,10 @@ absl::Status GrpcLink::Judge(const grpc::Status& grpc_status, absl::Duration tim
   if (!absl::IsDeadlineExceeded(status) || linked) return status;
   return absl::UnavailableError(
       absl::StrCat("no link to ", options_.target, " within ", absl::FormatDuration(timeout)));
+}
+
+bool GrpcLink::IsBroken(const absl::Status& status) {
+  return absl::IsUnavailable(status) && Reason(status).empty();
 }
 
 void GrpcLink::AwaitLink() const {

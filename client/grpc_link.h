@@ -12,6 +12,7 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
+#include "absl/time/clock.h"
 #include "absl/time/time.h"
 #include "client/grpc_client_options.h"
 #include "client/request_ids.h"
@@ -41,6 +42,19 @@ class GrpcLink {
     return Call(stub, method, request, response, options_.call_timeout);
   }
 
+  // The same for calls that may be made twice without harm, as those that only read: one whose
+  // connection broke under it, as by a restart of the server since the last call, is made again.
+  template <typename Stub, typename Method, typename Request, typename Response>
+  absl::Status Ask(Stub& stub, Method method, const Request& request, Response* response) const {
+    const absl::Time deadline = absl::Now() + options_.call_timeout;
+    absl::Status status;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      status = Call(stub, method, request, response, deadline - absl::Now());
+      if (!IsBroken(status) || absl::Now() >= deadline) break;
+    }
+    return status;
+  }
+
   // The request has a name, by which the server knows it again when it is made again because its
   // answer was lost.
   template <typename Stub, typename Method, typename Request, typename Response>
@@ -63,9 +77,13 @@ class GrpcLink {
   void AwaitLink() const;
 
  private:
+  static constexpr int kAttempts = 3;
+
   static void Prepare(grpc::ClientContext& context, absl::Duration timeout);
   // What a call that took so long at most has come to.
   absl::Status Judge(const grpc::Status& status, absl::Duration timeout) const;
+  // Whether a call failed without a word from the server.
+  static bool IsBroken(const absl::Status& status);
 
   const GrpcClientOptions options_;
   RequestIds request_ids_;

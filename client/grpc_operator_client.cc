@@ -123,8 +123,8 @@ class GrpcOperatorClient final : public OperatorClient {
   absl::StatusOr<MissionId> ImportMission(const MissionId& mission,
                                           const MissionFileSource& source) override {
     v1::GetServerInfoResponse info;
-    PLUMESCOUT_RETURN_IF_ERROR(link_->Call(system_, &v1::SystemService::Stub::GetServerInfo,
-                                           v1::GetServerInfoRequest(), &info));
+    PLUMESCOUT_RETURN_IF_ERROR(link_->Ask(system_, &v1::SystemService::Stub::GetServerInfo,
+                                          v1::GetServerInfoRequest(), &info));
     return SendMissionFile(snapshots_, mission, source, info.limits().max_receive_bytes());
   }
 

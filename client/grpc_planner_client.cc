@@ -93,7 +93,7 @@ class GrpcPlannerClient final : public PlannerClient {
     do {
       v1::ListMissionsResponse response;
       PLUMESCOUT_RETURN_IF_ERROR(
-          link_->Call(missions_, &v1::MissionService::Stub::ListMissions, request, &response));
+          link_->Ask(missions_, &v1::MissionService::Stub::ListMissions, request, &response));
       for (const v1::Mission& mission : response.missions()) {
         PLUMESCOUT_ASSIGN_OR_RETURN(MissionId id,
                                     ParseMissionName("missions.name", mission.name()));
@@ -169,8 +169,8 @@ class GrpcPlannerClient final : public PlannerClient {
     }
     if (session.robot_clock_ns) request.mutable_batch()->set_sent_time_ns(session.robot_clock_ns());
     v1::BatchIngestObservationsResponse response;
-    PLUMESCOUT_RETURN_IF_ERROR(link_->Call(
-        ingest_, &v1::IngestService::Stub::BatchIngestObservations, request, &response));
+    PLUMESCOUT_RETURN_IF_ERROR(
+        link_->Ask(ingest_, &v1::IngestService::Stub::BatchIngestObservations, request, &response));
     BatchReply reply{.state = StateFromProto(response.ingest_state())};
     for (const v1::ObservationRejected& rejected : response.rejections()) {
       reply.rejected.push_back({rejected.sequence(), FromProto(rejected.status())});
@@ -197,8 +197,8 @@ class GrpcPlannerClient final : public PlannerClient {
   absl::StatusOr<TrajectoryCheck> CheckTrajectory(const RobotSession& session,
                                                   const TrajectoryQuery& query) override {
     v1::CheckTrajectoryResponse response;
-    PLUMESCOUT_RETURN_IF_ERROR(link_->Call(planning_, &v1::PlanningService::Stub::CheckTrajectory,
-                                           RequestFor(session, query), &response));
+    PLUMESCOUT_RETURN_IF_ERROR(link_->Ask(planning_, &v1::PlanningService::Stub::CheckTrajectory,
+                                          RequestFor(session, query), &response));
     PLUMESCOUT_ASSIGN_OR_RETURN(TrajectoryVerdict verdict, FromServer(FromProto(response)));
     return TrajectoryCheck{.revision = response.revision(), .verdict = std::move(verdict)};
   }

@@ -37,8 +37,8 @@ class GrpcServerClient final : public ServerClient {
 
   absl::StatusOr<ServerInfo> GetServerInfo() override {
     v1::GetServerInfoResponse response;
-    const absl::Status status = link_->Call(system_, &v1::SystemService::Stub::GetServerInfo,
-                                            v1::GetServerInfoRequest(), &response);
+    const absl::Status status = link_->Ask(system_, &v1::SystemService::Stub::GetServerInfo,
+                                           v1::GetServerInfoRequest(), &response);
     if (!status.ok()) return status;
     return ServerInfo{.version = response.version(),
                       .boot_id = response.boot_id(),

@@ -113,7 +113,7 @@ class GrpcViewerClient final : public ViewerClient {
     request.set_name(MissionResource(mission));
     v1::GetMissionResponse response;
     PLUMESCOUT_RETURN_IF_ERROR(
-        link_->Call(missions_, &v1::MissionService::Stub::GetMission, request, &response));
+        link_->Ask(missions_, &v1::MissionService::Stub::GetMission, request, &response));
     return FromServer(DetailsFromProto(response.mission()));
   }
 
@@ -124,7 +124,7 @@ class GrpcViewerClient final : public ViewerClient {
     do {
       v1::ListMissionsResponse response;
       PLUMESCOUT_RETURN_IF_ERROR(
-          link_->Call(missions_, &v1::MissionService::Stub::ListMissions, request, &response));
+          link_->Ask(missions_, &v1::MissionService::Stub::ListMissions, request, &response));
       for (const v1::Mission& mission : response.missions()) {
         PLUMESCOUT_ASSIGN_OR_RETURN(MissionDetails details, FromServer(DetailsFromProto(mission)));
         missions.push_back(std::move(details));
@@ -139,7 +139,7 @@ class GrpcViewerClient final : public ViewerClient {
     request.set_name(RobotResource({mission, robot}));
     v1::GetRobotResponse response;
     PLUMESCOUT_RETURN_IF_ERROR(
-        link_->Call(robots_, &v1::RobotService::Stub::GetRobot, request, &response));
+        link_->Ask(robots_, &v1::RobotService::Stub::GetRobot, request, &response));
     return FromServer(DetailsFromProto(response.robot()));
   }
 
@@ -151,7 +151,7 @@ class GrpcViewerClient final : public ViewerClient {
     do {
       v1::ListRobotsResponse response;
       PLUMESCOUT_RETURN_IF_ERROR(
-          link_->Call(robots_, &v1::RobotService::Stub::ListRobots, request, &response));
+          link_->Ask(robots_, &v1::RobotService::Stub::ListRobots, request, &response));
       for (const v1::Robot& robot : response.robots()) {
         PLUMESCOUT_ASSIGN_OR_RETURN(RobotDetails details, FromServer(DetailsFromProto(robot)));
         robots.push_back(std::move(details));
@@ -191,7 +191,7 @@ class GrpcViewerClient final : public ViewerClient {
     request.set_species(query.species);
     v1::QueryGasResponse response;
     PLUMESCOUT_RETURN_IF_ERROR(
-        link_->Call(maps_, &v1::MapService::Stub::QueryGas, request, &response));
+        link_->Ask(maps_, &v1::MapService::Stub::QueryGas, request, &response));
     return FromServer(AnswerFromProto(response));
   }
 
@@ -201,7 +201,7 @@ class GrpcViewerClient final : public ViewerClient {
     request.set_robot(RobotResource({mission, robot}));
     v1::ListFrontiersResponse response;
     PLUMESCOUT_RETURN_IF_ERROR(
-        link_->Call(planning_, &v1::PlanningService::Stub::ListFrontiers, request, &response));
+        link_->Ask(planning_, &v1::PlanningService::Stub::ListFrontiers, request, &response));
     return FromServer(FrontiersFromProto(response));
   }
 
@@ -211,7 +211,7 @@ class GrpcViewerClient final : public ViewerClient {
     request.set_with_latest(with_latest);
     v1::ListPlansResponse response;
     PLUMESCOUT_RETURN_IF_ERROR(
-        link_->Call(planning_, &v1::PlanningService::Stub::ListPlans, request, &response));
+        link_->Ask(planning_, &v1::PlanningService::Stub::ListPlans, request, &response));
     return FromServer(PlansFromProto(response));
   }
 
@@ -225,7 +225,7 @@ class GrpcViewerClient final : public ViewerClient {
     request.set_page_token(query.page_token);
     v1::GetMissionHistoryResponse response;
     PLUMESCOUT_RETURN_IF_ERROR(
-        link_->Call(snapshots_, &v1::SnapshotService::Stub::GetMissionHistory, request, &response));
+        link_->Ask(snapshots_, &v1::SnapshotService::Stub::GetMissionHistory, request, &response));
     return FromServer(PageFromProto(response));
   }
 

@@ -14,15 +14,15 @@ constexpr int kAttempts = 5;
 absl::StatusOr<MapSnapshot> FetchParts(const GrpcLink& link, v1::MapService::Stub& stub,
                                        v1::GetMapRequest request, bool all_gases) {
   v1::GetMapResponse part;
-  PLUMESCOUT_RETURN_IF_ERROR(link.Call(stub, &v1::MapService::Stub::GetMap, request, &part));
+  PLUMESCOUT_RETURN_IF_ERROR(link.Ask(stub, &v1::MapService::Stub::GetMap, request, &part));
   if (all_gases && part.status().gases_size() > 1) {  // it has the layers of the first
     for (const v1::GasStatus& gas : part.status().gases()) request.add_species(gas.species());
-    PLUMESCOUT_RETURN_IF_ERROR(link.Call(stub, &v1::MapService::Stub::GetMap, request, &part));
+    PLUMESCOUT_RETURN_IF_ERROR(link.Ask(stub, &v1::MapService::Stub::GetMap, request, &part));
   }
   PLUMESCOUT_ASSIGN_OR_RETURN(MapSnapshot map, FromServer(FromProto(part)));
   while (!part.next_part_token().empty()) {
     request.set_part_token(part.next_part_token());
-    PLUMESCOUT_RETURN_IF_ERROR(link.Call(stub, &v1::MapService::Stub::GetMap, request, &part));
+    PLUMESCOUT_RETURN_IF_ERROR(link.Ask(stub, &v1::MapService::Stub::GetMap, request, &part));
     if (const absl::Status added = AddTiles(part, map); !added.ok()) {
       return absl::InternalError(added.message());
     }

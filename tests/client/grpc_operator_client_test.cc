@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "client/grpc_operator_client.h"
 
-#include <grpcpp/grpcpp.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -17,9 +15,9 @@
 #include "absl/strings/str_cat.h"
 #include "absl/time/clock.h"
 #include "client/grpc_planner_client.h"
+#include "client/grpc_viewer_client.h"
 #include "core/plan/trajectory_timing.h"
 #include "core/types/error_reason.h"
-#include "plumescout/v1/robot_service.grpc.pb.h"
 #include "server/server.h"
 #include "tests/client/ingest_traffic.h"
 #include "tests/server/host_parts.h"
@@ -52,7 +50,9 @@ class GrpcOperatorClientTest : public ::testing::Test {
     const GrpcClientOptions options{.target = absl::StrCat("127.0.0.1:", server_->port()),
                                     .call_timeout = kPatience};
     robots_ = MakeGrpcPlannerClient(options);
-    operator_ = MakeGrpcOperatorClient(options);
+    const auto link = MakeGrpcLink(options);
+    operator_ = MakeGrpcOperatorClient(link);
+    viewer_ = MakeGrpcViewerClient(link);
     ASSERT_EQ(robots_->CreateMission("house", {}), absl::OkStatus());
   }
   RobotSession Register(const RobotId& robot, const RobotOutfit& outfit = {}) {
@@ -73,7 +73,7 @@ class GrpcOperatorClientTest : public ::testing::Test {
     return *std::move(stream);
   }
   RobotDetails Get(const RobotId& robot) {
-    auto details = operator_->GetRobot("house", robot);
+    auto details = viewer_->GetRobot("house", robot);
     EXPECT_TRUE(details.ok()) << details.status();
     return details.ok() ? *std::move(details) : RobotDetails{};
   }
@@ -92,6 +92,7 @@ class GrpcOperatorClientTest : public ::testing::Test {
   std::unique_ptr<server::Server> server_;
   std::unique_ptr<PlannerClient> robots_;
   std::unique_ptr<OperatorClient> operator_;
+  std::unique_ptr<ViewerClient> viewer_;
 };
 
 TEST_F(GrpcOperatorClientTest, ARobotIsToldWithItsLinkItsFrameAndItsClock) {
@@ -127,7 +128,7 @@ TEST_F(GrpcOperatorClientTest, ARobotIsToldWithItsLinkItsFrameAndItsClock) {
 
 TEST_F(GrpcOperatorClientTest, RobotsAreListedByName) {
   for (const char* robot : {"b", "a", "c"}) Register(robot);
-  const auto robots = operator_->ListRobots("house");
+  const auto robots = viewer_->ListRobots("house");
   ASSERT_TRUE(robots.ok()) << robots.status();
   std::vector<RobotId> names;
   for (const RobotDetails& robot : *robots) names.push_back(robot.state.id);
@@ -135,8 +136,8 @@ TEST_F(GrpcOperatorClientTest, RobotsAreListedByName) {
 }
 
 TEST_F(GrpcOperatorClientTest, WhatIsNotThereIsNotFound) {
-  EXPECT_EQ(ErrorReason(operator_->GetRobot("house", "r9").status()), reason::kRobotNotFound);
-  EXPECT_EQ(ErrorReason(operator_->ListRobots("attic").status()), reason::kMissionNotFound);
+  EXPECT_EQ(ErrorReason(viewer_->GetRobot("house", "r9").status()), reason::kRobotNotFound);
+  EXPECT_EQ(ErrorReason(viewer_->ListRobots("attic").status()), reason::kMissionNotFound);
   EXPECT_EQ(ErrorReason(operator_->RemoveRobot("house", "r9")), reason::kRobotNotFound);
   EXPECT_EQ(ErrorReason(operator_->ReleaseLease("house", "r9")), reason::kRobotNotFound);
   EXPECT_EQ(ErrorReason(operator_->OrderHome("house", "r9", true)), reason::kRobotNotFound);
@@ -217,69 +218,21 @@ TEST_F(GrpcOperatorClientTest, ALeaseIsFreedAndARobotRemovedWhoeverHoldsIt) {
   EXPECT_EQ(Get("scout").link, RobotLink::kGone);
   EXPECT_GT(Register("scout").lease_token, first.lease_token);
   ASSERT_EQ(operator_->RemoveRobot("house", "scout"), absl::OkStatus());
-  EXPECT_TRUE(operator_->ListRobots("house")->empty());
+  EXPECT_TRUE(viewer_->ListRobots("house")->empty());
 }
 
-// Tells of one robot whatever it is given.
-class OtherRobots final : public v1::RobotService::Service {
- public:
-  OtherRobots() {
-    robot.mutable_on_map()->set_robot("missions/house/robots/scout");
-    robot.set_link(v1::ROBOT_LINK_IDLE);
-    grpc::ServerBuilder builder;
-    builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port_);
-    builder.RegisterService(this);
-    server_ = builder.BuildAndStart();
-  }
-  ~OtherRobots() override { server_->Shutdown(std::chrono::system_clock::now()); }
-
-  grpc::Status GetRobot(grpc::ServerContext*, const v1::GetRobotRequest*,
-                        v1::GetRobotResponse* response) override {
-    *response->mutable_robot() = robot;
-    return {};
-  }
-  grpc::Status ListRobots(grpc::ServerContext*, const v1::ListRobotsRequest*,
-                          v1::ListRobotsResponse* response) override {
-    *response->add_robots() = robot;
-    return {};
-  }
-  std::unique_ptr<OperatorClient> Client() const {
-    return MakeGrpcOperatorClient(
-        {.target = absl::StrCat("127.0.0.1:", port_), .call_timeout = kPatience});
-  }
-
-  v1::Robot robot;
-
- private:
-  int port_ = 0;
-  std::unique_ptr<grpc::Server> server_;
-};
-
-TEST(GrpcOperatorClientOfOthersTest, ALinkThatIsNotKnownFailsNoList) {
-  OtherRobots server;
-  constexpr int kOfAnotherDay = 99;
-  server.robot.set_link(static_cast<v1::RobotLink>(kOfAnotherDay));
-  const auto robots = server.Client()->ListRobots("house");
-  ASSERT_TRUE(robots.ok()) << robots.status();
-  ASSERT_EQ(robots->size(), 1U);
-  EXPECT_EQ(robots->front().link, RobotLink::kUnknown);
-  EXPECT_EQ(robots->front().clock_offset_ns, std::nullopt);
-}
-
-TEST(GrpcOperatorClientOfOthersTest, AnOffsetOfNothingIsAnOffset) {
-  OtherRobots server;
-  server.robot.set_clock_offset_s(0.0);
-  const auto details = server.Client()->GetRobot("house", "scout");
-  ASSERT_TRUE(details.ok()) << details.status();
-  EXPECT_EQ(details->clock_offset_ns, 0);
-}
-
-TEST(GrpcOperatorClientOfOthersTest, AnAnswerThatCannotBeReadIsTheServersFault) {
-  OtherRobots server;
-  server.robot.set_clock_offset_s(1e12);
-  EXPECT_EQ(server.Client()->GetRobot("house", "scout").status().code(),
-            absl::StatusCode::kInternal);
-  EXPECT_EQ(server.Client()->ListRobots("house").status().code(), absl::StatusCode::kInternal);
+TEST_F(GrpcOperatorClientTest, HowAMissionIsKeptCanChange) {
+  ASSERT_EQ(operator_->UpdateMission("house", {.idle_time_to_live = absl::Seconds(90)}),
+            absl::OkStatus());
+  EXPECT_EQ(viewer_->GetMission("house")->idle_time_to_live, absl::Seconds(90));
+  ASSERT_EQ(operator_->UpdateMission("house", {.event_retention = EventRetention::kSinceSnapshot}),
+            absl::OkStatus());
+  EXPECT_EQ(viewer_->GetMission("house")->event_retention, EventRetention::kSinceSnapshot);
+  EXPECT_EQ(viewer_->GetMission("house")->idle_time_to_live, absl::Seconds(90)) << "as it was";
+  ASSERT_EQ(operator_->UpdateMission("house", {.idle_time_to_live = absl::InfiniteDuration()}),
+            absl::OkStatus());
+  EXPECT_EQ(viewer_->GetMission("house")->idle_time_to_live, absl::InfiniteDuration());
+  EXPECT_TRUE(absl::IsInvalidArgument(operator_->UpdateMission("house", {}))) << "nothing changes";
 }
 
 }  // namespace grpc_operator_client_test

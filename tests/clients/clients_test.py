@@ -12,6 +12,8 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import urllib.error
+import urllib.request
 
 import bed
 from google.protobuf import descriptor_pb2
@@ -63,6 +65,13 @@ def run(runner):
             server.kill()
 
 
+def _is_ready(server):
+    try:
+        return urllib.request.urlopen(f"http://{server.metrics}/readyz").status == 200
+    except urllib.error.HTTPError:
+        return False
+
+
 def _lines(process, server):
     for line in process.stdout:
         told = json.loads(line)
@@ -70,6 +79,8 @@ def _lines(process, server):
         if told["do"] == "restart":
             server.kill()
             server.start()
+            while not _is_ready(server):  # it has missions to recover
+                pass
             process.stdin.write("restarted\n")
             process.stdin.flush()
     code = process.wait(timeout=bed.PATIENCE_S)

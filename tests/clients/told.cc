@@ -103,7 +103,9 @@ std::string Sha256(const Grid<float>& cells) {
 
 MissionOptions ReadOptions(const Json& json) {
   MissionOptions options;
-  for (const auto& [name, value] : json.flatten().items()) {
+  if (json.empty()) return options;
+  const Json flat = json.flatten();
+  for (const auto& [name, value] : flat.items()) {
     if (name == "/planning/speed_mps") {
       options.planning.speed_mps = value;
     } else if (name == "/occupancy/resolution_m") {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "client/grpc_operator_client.h"
+#include "client/grpc_viewer_client.h"
 #include "client/grpc_planner_client.h"
 #include "server/server.h"
 #include "tests/client/ingest_traffic.h"
@@ -115,7 +115,7 @@ TeamRun RunTeam(const std::vector<Clock>& clocks) {
   const GrpcClientOptions options{.target = absl::StrCat("127.0.0.1:", (*server)->port()),
                                   .call_timeout = kPatience};
   const auto client = MakeGrpcPlannerClient(options);
-  const auto overseer = MakeGrpcOperatorClient(options);
+  const auto overseer = MakeGrpcViewerClient(options);
   MissionOptions mission;
   mission.gas.ageing_half_life_s = kHalfLife_s;
   EXPECT_EQ(client->CreateMission("house", mission), absl::OkStatus());
