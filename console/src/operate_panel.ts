@@ -27,7 +27,9 @@ export class OperatePanel {
   readonly element = h('div', {});
   private exporting: AbortController | null = null;
 
-  constructor(private readonly mission: string, private readonly raster: () => Raster | null,
+  // `areas`: what is done about keep-out areas.
+  constructor(private readonly mission: string, private readonly areas: HTMLElement,
+              private readonly raster: () => Raster | null,
               private readonly link: () => string) {}
 
   leave(): void {
@@ -42,6 +44,7 @@ export class OperatePanel {
       mayOperate() ? this.missionActions(mission)
         : h('p', { class: 'card' }, 'You look on: your role may not change missions.'),
       mayOperate() ? this.robotActions(mission, list) : null,
+      this.areas,
       this.exports(),
       this.options(mission)]);
   }

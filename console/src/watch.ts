@@ -142,15 +142,19 @@ export class Watch {
   }
 }
 
-// The map as it was, or as it is (revision 0).
-export async function fetchMap(mission: string, revision: bigint,
-                               signal: AbortSignal): Promise<{ raster: Raster; status: MapStatus }> {
+// The map as it was, or as it is (revision 0); of one with more cells than a page holds, squares of cells.
+export async function fetchMap(mission: string, revision: bigint, signal: AbortSignal,
+                               level = 0): Promise<{ raster: Raster; status: MapStatus }> {
   let raster: Raster | null = null;
   let status: MapStatus | undefined;
   let partToken = '';
   do {
-    const part = await maps.getMap({ mission, layers: ALL_LAYERS, revision, partToken }, { signal });
+    const part = await maps.getMap({ mission, layers: ALL_LAYERS, revision, partToken, levelOfDetail: level },
+                                   { signal });
     status ??= part.status;
+    const full = geometryOf(part.status?.geometry);
+    const needed = full === null ? 0 : levelFor(full.columns * full.rows);
+    if (needed > level) return fetchMap(mission, revision, signal, needed);
     const geometry = geometryOf(part.tileGeometry) ?? geometryOf(part.status?.geometry);
     if (raster === null && geometry !== null) raster = new Raster(geometry);
     if (raster !== null) for (const tile of part.tiles) raster.apply(tile);
