@@ -11,6 +11,7 @@ import { execFileSync } from 'node:child_process';
 import { mkdirSync, readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { parseArgs } from 'node:util';
+import { checkAccess } from './axe.mjs';
 import { PATIENCE_MS, cleanUp, data, drive, end, launch, serve, until } from './harness.mjs';
 
 const { values: options } = parseArgs({ options: {
@@ -235,14 +236,14 @@ async function areas() {
     await see('Robots may drive everywhere.');
     await button('Draw a rectangle').click();
     await draft().waitFor();
-    assert.ok(await button('Close this area').isDisabled());
+    assert.ok(await button('Keep robots out').isDisabled());
     await pointTo(0.72, 0.30);
     await page.mouse.down();
     await pointTo(0.80, 0.42);
     await page.mouse.up();
     await page.getByLabel('Name of the area').fill('spill');
     await picture('draw');
-    await button('Close this area').click();
+    await button('Keep robots out').click();
     await see('spill is closed to robots.');
     await button('Delete spill').waitFor();
     assert.equal(await draft().count(), 0);
@@ -252,7 +253,7 @@ async function areas() {
     for (const [x, y] of [[0.5, 0.55], [0.6, 0.55], [0.55, 0.68], [0.5, 0.55]]) await clickAt(x, y);
     await see('Robots will keep out of it:');
     await page.getByLabel('Name of the area').fill('spill');
-    await button('Close this area').click();
+    await button('Keep robots out').click();
     await see('keep-out area "spill"');
     await page.getByLabel('Name of the area').fill('ramp');
     await page.getByLabel('Name of the area').press('Enter');
@@ -370,6 +371,29 @@ async function pictures(origin) {
   });
 }
 
+async function everybody(origin) {
+  await step('every view, light and dark, is for everybody (axe-core)', async () => {
+    for (const theme of ['light', 'dark']) {
+      for (const [path, sign] of [['', 'Missions'], ['new', 'keep out'], ['service', 'memory promised to missions']]) {
+        await page.goto(`${origin}/#/${path}`);
+        await see(sign);
+        await checkAccess(page, `${path}, ${theme}`);
+      }
+      await page.goto(`${origin}/#/missions/hall`);
+      await see('live, revision');
+      for (const name of ['Robots', 'Why', 'Charts', 'Operate']) {
+        await tab(name).click();
+        await new Promise((done) => setTimeout(done, 500)); // for what the server has to say
+        await checkAccess(page, `${name}, ${theme}`);
+      }
+      await button('Draw a polygon').click();
+      await checkAccess(page, `drawing, ${theme}`);
+      await page.keyboard.press('Escape');
+      await page.keyboard.press('d');
+    }
+  });
+}
+
 async function trouble(origin, server) {
   await step('a mission that is deleted while it is open says so', async () => {
     await page.goto(`${origin}/#/missions/annex`);
@@ -477,6 +501,7 @@ try {
   await time(origin);
   await service(origin);
   await pictures(origin);
+  await everybody(origin);
   await trouble(origin, server);
   await access();
   assert.deepEqual(errors, []);

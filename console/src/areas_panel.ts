@@ -22,7 +22,7 @@ export class AreasPanel {
   private readonly how = h('span', {});
   private readonly name = h('input', { 'aria-label': 'Name of the area', required: true, size: 12,
     pattern: '[a-z]([a-z0-9\\-]{0,61}[a-z0-9])?', title: 'small letters, digits and dashes' });
-  private readonly submit = h('button', { class: 'primary' }, 'Close this area');
+  private readonly submit = h('button', { class: 'primary' }, 'Keep robots out');
   private draft: AreaDraft | null = null;
   private areas: Polygon[] = [];
   private takesChanges = false;

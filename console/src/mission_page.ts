@@ -50,7 +50,7 @@ export class MissionPage {
   private readonly playButton = h('button', { onclick: () => this.togglePlay() }, '▶ Play');
   private readonly pinButton = h('button', { onclick: () => this.pin() }, 'Pin to compare');
   private readonly tabBar = h('div', { class: 'tabs', role: 'tablist' });
-  private readonly tabBox = h('div', { class: 'tab', role: 'tabpanel' });
+  private readonly tabBox = h('div', { class: 'tab', role: 'tabpanel', tabindex: 0 });
 
   private watch: Watch | null = null;
   private past: bigint | null = null; // the revision that is looked at; null: live

@@ -156,6 +156,6 @@ export class OperatePanel {
   private options(mission: Mission): HTMLElement {
     const text = JSON.stringify(mission.options ?? {}, (key, value) =>
       key.startsWith('$') || key === 'priorMap' ? undefined : typeof value === 'bigint' ? Number(value) : value, 2);
-    return h('details', { class: 'group' }, h('summary', {}, 'Options in force'), h('pre', { class: 'scroll' }, text));
+    return h('details', { class: 'group' }, h('summary', {}, 'Options in force'), h('pre', { class: 'scroll', tabindex: 0 }, text));
   }
 }
