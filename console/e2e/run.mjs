@@ -7,61 +7,20 @@
 // Needs dist/ (npm run build) and, in PLUMESCOUT_BIN or ../build/release/bin, plumescout-server and
 // plumescout-lab. Pictures of every view are in DIR (../out/console).
 import assert from 'node:assert/strict';
-import { spawn } from 'node:child_process';
-import { mkdirSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { execFileSync } from 'node:child_process';
+import { mkdirSync, readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { parseArgs } from 'node:util';
-import { chromium } from 'playwright-core';
+import { checkAccess } from './axe.mjs';
+import { PATIENCE_MS, cleanUp, data, drive, end, launch, serve, until } from './harness.mjs';
 
 const { values: options } = parseArgs({ options: {
   out: { type: 'string', default: '../out/console' },
   scene: { type: 'string', default: '../build/scenes/industrial_16x20' },
   duration: { type: 'string', default: '600' },
 } });
-const BIN = resolve(process.env.PLUMESCOUT_BIN ?? '../build/release/bin');
 const OUT = resolve(options.out);
-const PATIENCE_MS = Number(process.env.PATIENCE_MS ?? 30_000);
-const data = mkdtempSync(join(tmpdir(), 'plumescout-console-'));
-const children = new Set();
-
-// Starts a program; resolves with what `wanted` finds in its output.
-function start(program, args, wanted) {
-  const child = spawn(join(BIN, program), args, { stdio: ['ignore', 'pipe', 'pipe'] });
-  children.add(child);
-  child.on('exit', () => children.delete(child));
-  let text = '';
-  return new Promise((done, fail) => {
-    const hear = (part) => {
-      text += part;
-      const found = wanted(text);
-      if (found) done({ child, found });
-    };
-    child.stdout.on('data', hear);
-    child.stderr.on('data', hear);
-    child.on('exit', (code) => fail(new Error(`${program} ended with ${code}:\n${text}`)));
-  });
-}
-
-function end(child, signal = 'SIGTERM') {
-  return new Promise((done) => {
-    if (child.exitCode !== null || child.signalCode !== null) return done();
-    child.on('exit', done);
-    child.kill(signal);
-  });
-}
-
-const serve = (listen, http) => start('plumescout-server',
-  ['--listen', listen, '--http', http, '--http-root', resolve('dist'), '--data', data,
-   '--set', 'observe.http_listen='],
-  (text) => {
-    const calls = /listening on (\S+)/.exec(text)?.[1], pages = /console on (\S+)/.exec(text)?.[1];
-    return calls && pages ? { calls, pages } : null;
-  });
-const drive = (server, ...more) => start('plumescout-lab',
-  ['robot', '--server', server, '--scene', resolve(options.scene), '--out', join(data, 'robot'),
-   '--mission', 'hall', '--robots', '2', '--realtime', '--duration', options.duration, ...more],
-  (text) => /simulated/.test(text));
+const TOKENS = join(data, 'tokens');
 
 let page;
 let steps = 0;
@@ -84,15 +43,6 @@ const map = () => page.locator('.stage > canvas');
 const revision = async () =>
   Number(/revision (\d+)/.exec(await page.locator('.time .quiet').innerText())?.[1] ?? -1);
 const readout = () => page.locator('.readout').innerText();
-
-// Until it holds.
-async function until(what, holds) {
-  const limit = Date.now() + PATIENCE_MS;
-  while (!await holds()) {
-    assert.ok(Date.now() < limit, `${what} did not come about`);
-    await new Promise((done) => setTimeout(done, 50));
-  }
-}
 
 async function missionsAndForms(origin) {
   await step('without missions it says what to do', async () => {
@@ -121,11 +71,28 @@ async function missionsAndForms(origin) {
     const file = (name, text, size) => ({ name, mimeType: 'text/plain', buffer: Buffer.alloc(size, text) });
     const yaml = 'image: a.pgm\n';
     await page.getByLabel('YAML file of a map').setInputFiles(file('a.yaml', yaml, yaml.length));
-    await page.getByLabel('PGM image of a map').setInputFiles(file('a.pgm', 'x', 1 << 20));
+    await page.getByLabel('PGM image of a map').setInputFiles(file('a.pgm', 'P5\n', 1 << 20));
     await until('the refusal', async () => { // once both files are read
       await button('Create mission').click();
       return await page.getByRole('alert').getByText(/^The request is 1\S* MiB, and the server takes/).count() > 0;
     });
+  });
+  await step('a file of another format is refused in words', async () => {
+    await page.goto(`${origin}/#/new`);
+    await page.getByLabel('Name').fill('photo');
+    const file = (name, text) => ({ name, mimeType: 'text/plain', buffer: Buffer.from(text) });
+    const refuses = async (yaml, pgm, words) => {
+      await page.getByLabel('YAML file of a map').setInputFiles(file('a.yaml', yaml));
+      await page.getByLabel('PGM image of a map').setInputFiles(file('a.pgm', pgm));
+      await until('the refusal', async () => { // once both files are read
+        await button('Create mission').click();
+        return await page.getByRole('alert').getByText(words).count() > 0;
+      });
+    };
+    await refuses('{"image": 7}', 'P5 1 1 255 x', 'names no image');
+    await refuses('image: a.pgm\n', '\x89PNG\r\n', 'not a binary PGM');
+    await refuses('image: a.pgm\n', 'P5 1 1 255 x', 'options.prior_map.files.yaml'); // in the server's words
+    await picture('format');
   });
   await step('a name that is taken is refused in words', async () => {
     await page.goto(`${origin}/#/new`);
@@ -251,6 +218,78 @@ async function operation() {
   });
 }
 
+// By the share of the map's width and height.
+async function pointTo(x, y) {
+  const box = await map().boundingBox();
+  await page.mouse.move(box.x + x * box.width, box.y + y * box.height);
+}
+async function clickAt(x, y) {
+  await pointTo(x, y);
+  await page.mouse.down();
+  await page.mouse.up();
+}
+const draft = () => page.getByRole('form', { name: 'New keep-out area' });
+
+async function areas() {
+  await step('a rectangle is drawn, and robots keep out of it', async () => {
+    await tab('Operate').click();
+    await see('Robots may drive everywhere.');
+    await button('Draw a rectangle').click();
+    await draft().waitFor();
+    assert.ok(await button('Keep robots out').isDisabled());
+    await pointTo(0.72, 0.30);
+    await page.mouse.down();
+    await pointTo(0.80, 0.42);
+    await page.mouse.up();
+    await page.getByLabel('Name of the area').fill('spill');
+    await picture('draw');
+    await button('Keep robots out').click();
+    await see('spill is closed to robots.');
+    await button('Delete spill').waitFor();
+    assert.equal(await draft().count(), 0);
+  });
+  await step('a polygon is drawn by corners; a name that is taken is refused in words', async () => {
+    await button('Draw a polygon').click();
+    for (const [x, y] of [[0.5, 0.55], [0.6, 0.55], [0.55, 0.68], [0.5, 0.55]]) await clickAt(x, y);
+    await see('Robots will keep out of it:');
+    await page.getByLabel('Name of the area').fill('spill');
+    await button('Keep robots out').click();
+    await see('keep-out area "spill"');
+    await page.getByLabel('Name of the area').fill('ramp');
+    await page.getByLabel('Name of the area').press('Enter');
+    await see('ramp is closed to robots.');
+    await picture('areas');
+  });
+  await step('drawing ends with Escape, and touches draw', async () => {
+    await button('Draw a polygon').click();
+    await clickAt(0.4, 0.4);
+    await page.keyboard.press('Escape');
+    assert.equal(await draft().count(), 0);
+    await button('Draw a rectangle').click();
+    await map().evaluate((canvas) => {
+      const box = canvas.getBoundingClientRect();
+      const touch = (type, x, y) => canvas.dispatchEvent(new PointerEvent(type, { pointerId: 1, pointerType: 'touch',
+        isPrimary: true, bubbles: true, clientX: box.left + x * box.width, clientY: box.top + y * box.height }));
+      canvas.setPointerCapture = () => {}; // of a finger that is there
+      touch('pointerdown', 0.5, 0.5);
+      touch('pointermove', 0.55, 0.55);
+      touch('pointerup', 0.6, 0.6);
+      delete canvas.setPointerCapture;
+    });
+    await see('Robots will keep out of it:');
+    await button('Cancel').click();
+    assert.equal(await draft().count(), 0);
+  });
+  await step('an area is opened again', async () => {
+    await button('Delete spill').click();
+    await see('Robots may drive through it from then on.');
+    await button('Delete').click();
+    await see('spill is open to robots.');
+    await button('Delete ramp').waitFor();
+    assert.equal(await button('Delete spill').count(), 0);
+  });
+}
+
 async function time(origin) {
   await step('what was can be looked at and compared', async () => {
     const head = await revision();
@@ -332,6 +371,29 @@ async function pictures(origin) {
   });
 }
 
+async function everybody(origin) {
+  await step('every view, light and dark, is for everybody (axe-core)', async () => {
+    for (const theme of ['light', 'dark']) {
+      for (const [path, sign] of [['', 'Missions'], ['new', 'keep out'], ['service', 'memory promised to missions']]) {
+        await page.goto(`${origin}/#/${path}`);
+        await see(sign);
+        await checkAccess(page, `${path}, ${theme}`);
+      }
+      await page.goto(`${origin}/#/missions/hall`);
+      await see('live, revision');
+      for (const name of ['Robots', 'Why', 'Charts', 'Operate']) {
+        await tab(name).click();
+        await new Promise((done) => setTimeout(done, 500)); // for what the server has to say
+        await checkAccess(page, `${name}, ${theme}`);
+      }
+      await button('Draw a polygon').click();
+      await checkAccess(page, `drawing, ${theme}`);
+      await page.keyboard.press('Escape');
+      await page.keyboard.press('d');
+    }
+  });
+}
+
 async function trouble(origin, server) {
   await step('a mission that is deleted while it is open says so', async () => {
     await page.goto(`${origin}/#/missions/annex`);
@@ -351,20 +413,69 @@ async function trouble(origin, server) {
     await end(server.child, 'SIGKILL');
     await see(/connection lost/);
     await picture('lost');
-    const again = await serve(server.found.calls, server.found.pages);
+    const again = await serve(server.found.calls, server.found.pages, '--data', data);
     await page.locator('.pill.good', { hasText: /^live$/ }).waitFor({ timeout: PATIENCE_MS });
     return again;
   });
 }
 
-mkdirSync(OUT, { recursive: true });
-let browser;
-try {
-  const server = await serve('127.0.0.1:0', '127.0.0.1:0');
+function tokens(...args) {
+  return execFileSync('python3', ['../client/python/plumescout_tokens.py', ...args], { encoding: 'utf8' })
+    .trim().split(/\s+/).at(-1);
+}
+
+async function useToken(origin, token) {
+  await page.goto(`${origin}/#/service`);
+  await page.getByLabel(/Token/).fill(token);
+  await button('Use').click();
+  await see('memory promised to missions');
+}
+
+async function access() {
+  const secret = Object.fromEntries(['operator', 'viewer'].map((role) =>
+    [role, tokens('create', TOKENS, role, '--role', role)]));
+  const server = await serve('127.0.0.1:0', '127.0.0.1:0', '--set', `access.tokens_file=${TOKENS}`,
+                             '--set', 'access.allow_plaintext=true', '--set', 'store.engine=none');
   const origin = `http://${server.found.pages}`;
-  browser = await chromium.launch({ executablePath: '/usr/bin/chromium', headless: true, args: [
-    '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run',
-    '--disable-background-networking', '--disable-component-update', '--disable-sync'] });
+  await step('without a token it says where to enter one', async () => {
+    await page.goto(`${origin}/#/`);
+    await see('Enter a token under Service.');
+  });
+  await step('viewers look on', async () => {
+    await useToken(origin, secret.operator);
+    await page.goto(`${origin}/#/new`);
+    await page.getByLabel('Name').fill('hall');
+    await button('Create mission').click();
+    await tab('Operate').click();
+    await button('Draw a polygon').waitFor();
+    await useToken(origin, secret.viewer);
+    await page.goto(`${origin}/#/missions/hall`);
+    await tab('Operate').click();
+    await see('You look on');
+    await see('Robots may drive everywhere.');
+    assert.equal(await button('Draw a polygon').count(), 0);
+    assert.equal(await button('Pause').count(), 0);
+  });
+  await step('a token that is revoked while the page is open is told of', async () => {
+    await page.locator('.pill.good', { hasText: /^live$/ }).waitFor({ timeout: PATIENCE_MS });
+    tokens('revoke', TOKENS, 'viewer');
+    await page.getByRole('link', { name: 'Enter a token' }).waitFor({ timeout: PATIENCE_MS });
+    await picture('revoked');
+    await page.getByRole('link', { name: 'Enter a token' }).click();
+    await page.getByLabel(/Token/).fill(secret.operator);
+    await button('Use').click();
+    await see('memory promised to missions');
+    await page.goBack();
+    await page.locator('.pill.good', { hasText: /^live$/ }).waitFor({ timeout: PATIENCE_MS });
+  });
+  await end(server.child);
+}
+
+mkdirSync(OUT, { recursive: true });
+try {
+  const server = await serve('127.0.0.1:0', '127.0.0.1:0', '--data', data);
+  const origin = `http://${server.found.pages}`;
+  const browser = await launch();
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 } });
   page = await context.newPage();
   page.setDefaultTimeout(PATIENCE_MS);
@@ -378,25 +489,26 @@ try {
   });
   page.on('request', (request) => {
     const url = request.url();
-    if (!url.startsWith(origin) && !/^(data|blob):/.test(url)) errors.push(`asks another host: ${url}`);
+    if (!/^http:\/\/127\.0\.0\.1:/.test(url) && !/^(data|blob):/.test(url)) errors.push(`asks another host: ${url}`);
   });
   await missionsAndForms(origin);
-  await drive(server.found.calls);
+  await drive(server.found.calls, options.scene, '--duration', options.duration);
   await liveMap(origin);
   await reasons();
   await charts();
   await operation();
+  await areas();
   await time(origin);
   await service(origin);
   await pictures(origin);
+  await everybody(origin);
   await trouble(origin, server);
+  await access();
   assert.deepEqual(errors, []);
   console.log(`${steps} steps; pictures in ${OUT}`);
 } catch (error) {
   console.error(error.message);
   process.exitCode = 1;
 } finally {
-  await browser?.close();
-  await Promise.all([...children].map((child) => end(child, 'SIGKILL')));
-  rmSync(data, { recursive: true, force: true });
+  await cleanUp();
 }

@@ -26,7 +26,7 @@ function toggleTheme(): void {
 const KEYS: [string, string][] = [
   ['f', 'show all of the map'], ['+ −', 'zoom'], ['← ↑ → ↓', 'pan'], ['c', 'follow the robot'],
   ['1 2 3 4', 'gas, uncertainty, change, walls'], ['g', 'logarithmic or linear scale'],
-  ['space', 'play or stop what was'], ['l', 'back to live'], ['d', 'dark or light'], ['?', 'this list']];
+  ['Esc', 'stop drawing an area'], ['space', 'play or stop what was'], ['l', 'back to live'], ['d', 'dark or light'], ['?', 'this list']];
 
 function showKeys(): void {
   const dialog = h('dialog', { 'aria-label': 'Keys', onclose: () => dialog.remove() },

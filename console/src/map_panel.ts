@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // The map with what stands around it: buttons, legend, what the pointer is at; and the hands on it.
+import type { AreaDraft } from './area_draft.ts';
 import type { CellLayer } from './cell_picture.ts';
 import { shareOf, ticksOf } from './colours.ts';
 import { fill, fillIfChanged, h, notice } from './dom.ts';
@@ -18,7 +19,16 @@ const SWITCH_NAMES: Record<Switch, string> = {
 const DRAG = 4;
 // A click this near, pixels, means the robot.
 const NEAR_ROBOT = 14;
+// A corner this near, pixels, is the same one.
+const NEAR_CORNER = 10;
 const ZOOM_STEP = 1.4;
+
+// What is drawn on the map, and who sees to it.
+export type Drawing = {
+  draft: AreaDraft;
+  changed(): void; // by the pointer
+  key(key: string): boolean; // whether it was one of the drawing's
+};
 
 export class MapPanel {
   readonly element: HTMLElement;
@@ -26,6 +36,7 @@ export class MapPanel {
   readonly map: MapView;
   // What the change of the gas mean from scene.then to now is called.
   private change = { name: 'Change', title: 'Change of the gas mean' };
+  private drawing: Drawing | null = null;
 
   private readonly canvas = h('canvas', { tabindex: 0, role: 'img',
     'aria-label': 'Map of the mission. Drag or use the arrow keys to pan, + and − to zoom.' });
@@ -41,6 +52,17 @@ export class MapPanel {
     this.listen();
     this.showTools();
     this.showLegend();
+  }
+
+  // From now on the pointer draws; null: no more.
+  draw(drawing: Drawing | null): void {
+    this.drawing = drawing;
+    this.scene.draft = drawing?.draft ?? null;
+    this.map.draw();
+  }
+  private drawn(): void {
+    this.drawing?.changed();
+    this.map.draw();
   }
 
   setCells(layer: CellLayer, log = this.map.picture.log): void {
@@ -161,6 +183,7 @@ export class MapPanel {
     const { canvas } = this;
     const pointers = new Map<number, [number, number]>();
     let moved = 0;
+    let pinches = false; // or did, until all fingers are off
     const place = (event: { clientX: number; clientY: number }): [number, number] => {
       const box = canvas.getBoundingClientRect();
       return [event.clientX - box.left, event.clientY - box.top];
@@ -169,16 +192,25 @@ export class MapPanel {
       canvas.setPointerCapture(event.pointerId);
       pointers.set(event.pointerId, place(event));
       moved = 0;
+      pinches = pointers.size > 1;
+      if (this.drawing === null) return;
+      if (!pinches) this.drawing.draft.press(this.placeAt(...place(event)));
+      else if (this.drawing.draft.drags) this.drawing.draft.clear();
+      this.drawn();
     });
     canvas.addEventListener('pointermove', (event) => {
       const now = place(event);
       this.hover(...now);
+      if (this.drawing !== null && !pinches) {
+        this.drawing.draft.move(this.placeAt(...now));
+        this.drawn();
+      }
       const before = pointers.get(event.pointerId);
       if (before === undefined) return;
       const other = [...pointers].find(([id]) => id !== event.pointerId)?.[1];
       moved += Math.hypot(now[0] - before[0], now[1] - before[1]);
       if (moved > DRAG && other === undefined) {
-        this.pan(now[0] - before[0], now[1] - before[1]);
+        if (!this.drawing?.draft.drags) this.pan(now[0] - before[0], now[1] - before[1]);
       } else if (other !== undefined) {
         const spread = (p: [number, number]) => Math.hypot(p[0] - other[0], p[1] - other[1]) + 1;
         this.zoom(spread(now) / spread(before), (now[0] + other[0]) / 2, (now[1] + other[1]) / 2);
@@ -186,8 +218,13 @@ export class MapPanel {
       pointers.set(event.pointerId, now);
     });
     const end = (event: PointerEvent) => {
-      if (!pointers.delete(event.pointerId) || event.type === 'pointercancel' || moved > DRAG) return;
-      this.click(...place(event));
+      if (!pointers.delete(event.pointerId) || event.type === 'pointercancel') return;
+      if (this.drawing !== null) {
+        if (pinches) return;
+        this.drawing.draft.release(this.placeAt(...place(event)), moved > DRAG, NEAR_CORNER / this.map.view.scale);
+        return this.drawn();
+      }
+      if (moved <= DRAG) this.click(...place(event));
     };
     canvas.addEventListener('pointerup', end);
     canvas.addEventListener('pointercancel', end);
@@ -198,18 +235,24 @@ export class MapPanel {
     }, { passive: false });
   }
 
+  private placeAt(x: number, y: number): Place {
+    const [x_m, y_m] = this.map.view.toPlace(x, y);
+    return { x_m, y_m };
+  }
+
   private click(x: number, y: number): void {
     for (const { pose, robot } of this.scene.status?.robots ?? []) {
       if (pose === undefined) continue;
       const [px, py] = this.map.view.toPixel(pose.xM, pose.yM);
       if (Math.hypot(px - x, py - y) < NEAR_ROBOT) return this.onRobot(robot);
     }
-    const [x_m, y_m] = this.map.view.toPlace(x, y);
-    this.onPlace({ x_m, y_m });
+    this.onPlace(this.placeAt(x, y));
   }
 
   // Whether it was a key of the map.
   onKey(key: string, target: HTMLElement): boolean {
+    const isOurs = key === 'Escape' || target === this.canvas || target === document.body;
+    if (isOurs && this.drawing?.key(key)) return true;
     const pans: Record<string, [number, number]> = {
       ArrowLeft: [60, 0], ArrowRight: [-60, 0], ArrowUp: [0, 60], ArrowDown: [0, -60] };
     if (key in pans) {

@@ -62,6 +62,19 @@ export class MapPen {
     c.lineTo(x - size, y + size);
     this.strokeTwice(colour, width);
   }
+  // Words that are read on any ground; x and y in pixels.
+  label(text: string, x: number, y: number, align: CanvasTextAlign, baseline: CanvasTextBaseline): void {
+    const c = this.context;
+    c.font = '600 12px system-ui, sans-serif';
+    c.textAlign = align;
+    c.textBaseline = baseline;
+    c.lineWidth = 3.5;
+    c.strokeStyle = theme('--map-rim');
+    c.strokeText(text, x, y);
+    c.fillStyle = theme('--map-ink');
+    c.fillText(text, x, y);
+  }
+
   // A number in a circle.
   disc(at: Point2D, text: string, strong: boolean): void {
     const c = this.context;
@@ -91,13 +104,6 @@ export class MapPen {
     c.lineTo(x + length, y);
     c.lineTo(x + length, y - 5);
     this.strokeTwice(theme('--map-ink'), 1.5);
-    c.font = '12px system-ui, sans-serif';
-    c.textAlign = 'center';
-    c.textBaseline = 'bottom';
-    c.lineWidth = 3.5;
-    c.strokeStyle = theme('--map-rim');
-    c.strokeText(`${length_m} m`, x + length / 2, y - 3);
-    c.fillStyle = theme('--map-ink');
-    c.fillText(`${length_m} m`, x + length / 2, y - 3);
+    this.label(`${length_m} m`, x + length / 2, y - 3, 'center', 'bottom');
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // The map on a canvas: cells as a picture of their own, drawn scaled, and what lies on them as lines.
+import type { AreaDraft, Place } from './area_draft.ts';
 import { CellPicture } from './cell_picture.ts';
 import type { CellLayer, Cells } from './cell_picture.ts';
 import { MapPen } from './map_pen.ts';
@@ -20,7 +21,7 @@ import { shortName } from './words.ts';
 export const SWITCHES = ['frontiers', 'ways', 'trails', 'claims', 'names', 'areas', 'why'] as const;
 export type Switch = (typeof SWITCHES)[number];
 
-export type Place = { x_m: number; y_m: number };
+export type { Place };
 
 // Whatever lies on the map.
 export type Scene = Cells & {
@@ -31,6 +32,7 @@ export type Scene = Cells & {
   candidate: number; // of it, pointed at; -1: none
   trails: Trails;
   keepOut: Polygon[];
+  draft: AreaDraft | null; // of another one
   home: Point2D | undefined;
   robot: string; // that is looked at
   asked: Place | null; // the place that was clicked on
@@ -52,7 +54,7 @@ export class MapView {
   private scheduled = false;
   private fitted = false;
   private robotHues = new Map<string, number>();
-  lastDraw_ms = 0;
+  revision = -1n; // of what the scene holds
 
   constructor(private readonly canvas: HTMLCanvasElement, private readonly scene: Scene) {
     this.context = canvas.getContext('2d')!;
@@ -143,9 +145,8 @@ export class MapView {
     this.scheduled = true;
     requestAnimationFrame(() => {
       this.scheduled = false;
-      const began = performance.now();
       this.drawNow();
-      this.lastDraw_ms = performance.now() - began;
+      this.canvas.dataset.revision = String(this.revision); // for tests and benches
     });
   }
 
@@ -171,6 +172,7 @@ export class MapView {
     this.drawRobots();
     this.drawAsked();
     for (const source of scene.sources) this.pen.cross(source, theme('--bad'));
+    if (scene.draft !== null) this.drawDraft(scene.draft);
     this.pen.scaleBar();
   }
 
@@ -200,6 +202,7 @@ export class MapView {
       c.setLineDash([6, 4]);
       this.pen.strokeTwice(theme('--bad'), 1.5);
       c.setLineDash([]);
+      if (this.on.has('names')) this.nameArea(area);
     }
     if (scene.home === undefined) return;
     const [x, y] = view.toPixel(scene.home.xM, scene.home.yM);
@@ -212,6 +215,33 @@ export class MapView {
     c.lineTo(x + 5, y + 7);
     c.lineTo(x + 5, y - 2);
     this.pen.strokeTwice(theme('--map-ink'), 2);
+  }
+
+  // In the middle of its box.
+  private nameArea({ name, vertices }: Polygon): void {
+    const xs = vertices.map((one) => one.xM), ys = vertices.map((one) => one.yM);
+    const [x, y] = this.view.toPixel((Math.min(...xs) + Math.max(...xs)) / 2,
+                                     (Math.min(...ys) + Math.max(...ys)) / 2);
+    this.pen.label(name, x, y, 'center', 'middle');
+  }
+
+  private drawDraft(draft: AreaDraft): void {
+    const { context: c } = this;
+    const outline = draft.outline().map(({ x_m, y_m }) => ({ xM: x_m, yM: y_m }));
+    if (outline.length === 0) return;
+    this.pen.path(outline);
+    if (outline.length > 2) {
+      c.closePath();
+      c.fillStyle = theme('--map-keep-out');
+      c.fill();
+    }
+    this.pen.strokeTwice(theme('--bad'), 2.5);
+    for (const { xM, yM } of outline) {
+      const [x, y] = this.view.toPixel(xM, yM);
+      c.beginPath();
+      c.arc(x, y, 4, 0, 2 * Math.PI);
+      this.pen.strokeTwice(theme('--bad'), 2);
+    }
   }
 
   private drawTrails(): void {
@@ -321,14 +351,7 @@ export class MapView {
       c.stroke();
       if (this.on.has('names')) {
         const text = shortName(robot.robot) + (robot.silent ? ' (silent)' : robot.frameSuspect ? ' (lost)' : '');
-        c.font = '600 12px system-ui, sans-serif';
-        c.textAlign = 'left';
-        c.textBaseline = 'middle';
-        c.lineWidth = 3.5;
-        c.strokeStyle = theme('--map-rim');
-        c.strokeText(text, x + 1.9 * radius, y - radius);
-        c.fillStyle = theme('--map-ink');
-        c.fillText(text, x + 1.9 * radius, y - radius);
+        this.pen.label(text, x + 1.9 * radius, y - radius, 'left', 'middle');
       }
       c.globalAlpha = 1;
     }

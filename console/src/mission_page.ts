@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // One mission: the map, and beside it robots, reasons, figures and what can be done.
+import { Code } from '@connectrpc/connect';
 import { PATIENCE, inWords, missions, planning, robots as robotCalls, sentence } from './client.ts';
 import type { Trouble } from './client.ts';
 import { ChartPanel } from './chart_panel.ts';
+import { AreasPanel } from './areas_panel.ts';
 import { fill, h, notice } from './dom.ts';
 import { MapPanel } from './map_panel.ts';
 import type { Place, Scene } from './map_view.ts';
@@ -16,10 +18,8 @@ import { refreshSession, session } from './session.ts';
 import { extendTrail } from './trails.ts';
 import { Watch, fetchMap } from './watch.ts';
 import type { LinkState } from './watch.ts';
-import type { MapStatus } from '@plumescout/client/wire';
-import type { Mission } from '@plumescout/client/wire';
-import type { Plan } from '@plumescout/client/wire';
-import type { Robot } from '@plumescout/client/wire';
+import { MissionState } from '@plumescout/client/wire';
+import type { MapStatus, Mission, Plan, Robot } from '@plumescout/client/wire';
 import { figure, missionState, phase } from './words.ts';
 import { WhyPanel } from './why_panel.ts';
 
@@ -31,12 +31,12 @@ export class MissionPage {
   readonly head: HTMLElement[];
   private readonly scene: Scene = {
     raster: null, then: null, figures: null, threshold_ppm: 0, status: null, plans: [], why: null, asksWhy: false, candidate: -1,
-    trails: new Map(), keepOut: [], home: undefined, robot: '', asked: null,
-    sources: [] };
+    trails: new Map(), keepOut: [], draft: null, home: undefined, robot: '', asked: null, sources: [] };
   private readonly panel: MapPanel;
   private readonly robotsPanel: RobotsPanel;
   private readonly why: WhyPanel;
   private readonly charts: ChartPanel;
+  private readonly areas: AreasPanel;
   private readonly operate: OperatePanel;
   private readonly statePill = h('span', { class: 'pill' }, '…');
   private readonly linkPill = h('span', { class: 'pill', role: 'status' }, 'connecting');
@@ -47,7 +47,7 @@ export class MissionPage {
   private readonly playButton = h('button', { onclick: () => this.togglePlay() }, '▶ Play');
   private readonly pinButton = h('button', { onclick: () => this.pin() }, 'Pin to compare');
   private readonly tabBar = h('div', { class: 'tabs', role: 'tablist' });
-  private readonly tabBox = h('div', { class: 'tab', role: 'tabpanel' });
+  private readonly tabBox = h('div', { class: 'tab', role: 'tabpanel', tabindex: 0 });
 
   private watch: Watch | null = null;
   private past: bigint | null = null; // the revision that is looked at; null: live
@@ -77,7 +77,11 @@ export class MissionPage {
       this.scene.candidate = candidate;
       this.panel.map.draw();
     });
-    this.operate = new OperatePanel(name, () => this.scene.raster, () => this.link());
+    this.areas = new AreasPanel(name, this.panel, (areas) => {
+      if (this.past === null) this.scene.keepOut = areas;
+      this.panel.map.draw();
+    });
+    this.operate = new OperatePanel(name, this.areas.element, () => this.scene.raster, () => this.link());
     this.listen();
     this.showTab('Robots');
     fill(this.panel.banner, 'Waiting for the map …');
@@ -89,6 +93,7 @@ export class MissionPage {
   leave(): void {
     this.watch?.stop();
     this.fetching?.abort();
+    this.areas.leave();
     this.operate.leave();
     for (const stop of this.stops) stop();
   }
@@ -123,7 +128,9 @@ export class MissionPage {
 
   private onStatus(status: MapStatus, revision: bigint): void {
     this.scene.status = status;
+    this.panel.map.revision = revision;
     this.scene.threshold_ppm = status.gasThresholdPpm;
+    this.scene.keepOut = status.keepOut;
     if (this.past === null) {
       this.head_revision = revision;
       this.slider.max = String(revision);
@@ -150,7 +157,8 @@ export class MissionPage {
     if (state === 'waiting' || state === 'ended') {
       fill(this.panel.banner, trouble === null ? 'The stream has ended.' : inWords(trouble),
         state === 'waiting' ? h('button', { onclick: () => this.watch?.retry() }, 'Try now')
-          : h('a', { href: '#/' }, 'All missions'));
+          : trouble?.code === Code.Unauthenticated ? h('a', { href: '#/service' }, 'Enter a token')
+            : h('a', { href: '#/' }, 'All missions'));
     }
   }
 
@@ -244,7 +252,6 @@ export class MissionPage {
       if (this.mission !== null) {
         this.statePill.className = stateClass(this.mission.state);
         this.statePill.textContent = `${missionState(this.mission.state)} · ${phase(this.mission.phase)}`;
-        this.scene.keepOut = this.mission.options?.keepOut ?? [];
         this.scene.home = this.mission.options?.home;
         if (this.mission.revision > this.head_revision) this.head_revision = this.mission.revision;
         this.slider.max = String(this.head_revision);
@@ -327,6 +334,9 @@ export class MissionPage {
       this.why.show(this.scene.robot, this.scene.why, this.latest !== null || this.past !== null);
     }
     if (this.tab === 'Charts') this.charts.draw();
+    if (this.mission !== null) {
+      this.areas.show(this.mission.options?.keepOut ?? [], this.mission.state !== MissionState.FINISHED);
+    }
     if (this.tab === 'Operate') this.operate.show(this.mission, this.robots);
   }
 

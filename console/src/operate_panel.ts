@@ -24,7 +24,9 @@ export class OperatePanel {
   readonly element = h('div', {});
   private exporting: AbortController | null = null;
 
-  constructor(private readonly mission: string, private readonly raster: () => Raster | null,
+  // `areas`: what is done about keep-out areas.
+  constructor(private readonly mission: string, private readonly areas: HTMLElement,
+              private readonly raster: () => Raster | null,
               private readonly link: () => string) {}
 
   leave(): void {
@@ -39,6 +41,7 @@ export class OperatePanel {
       mayOperate() ? this.missionActions(mission)
         : h('p', { class: 'card' }, 'You look on: your role may not change missions.'),
       mayOperate() ? this.robotActions(mission, list) : null,
+      this.areas,
       this.exports(),
       this.options(mission)]);
   }
@@ -145,6 +148,6 @@ export class OperatePanel {
   private options(mission: Mission): HTMLElement {
     const text = JSON.stringify(mission.options ?? {}, (key, value) =>
       key.startsWith('$') || key === 'priorMap' ? undefined : typeof value === 'bigint' ? Number(value) : value, 2);
-    return h('details', { class: 'group' }, h('summary', {}, 'Options in force'), h('pre', { class: 'scroll' }, text));
+    return h('details', { class: 'group' }, h('summary', {}, 'Options in force'), h('pre', { class: 'scroll', tabindex: 0 }, text));
   }
 }

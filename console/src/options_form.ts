@@ -75,6 +75,16 @@ function place(field: DescField): Field {
   };
 }
 
+// Whether they look like files of map_server; `head`: the first characters of the image.
+export function checkMapFiles(yaml: string, head: string): void {
+  if (!/^image\s*:/m.test(yaml)) {
+    throw new Error('the YAML file is not one of map_server: it names no image');
+  }
+  if (!head.startsWith('P5')) {
+    throw new Error('the image is not a binary PGM (P5), as map_server writes it: save it as one');
+  }
+}
+
 // A map_server map: files are read before the form is.
 function priorMap(field: DescField): Field {
   const yaml = h('input', { type: 'file', accept: '.yaml,.yml', 'aria-label': 'YAML file of a map' });
@@ -97,6 +107,7 @@ function priorMap(field: DescField): Field {
       if (files.yaml === undefined || files.pgm === undefined) {
         throw new Error('a known map needs both files, YAML and PGM');
       }
+      checkMapFiles(files.yaml, atob(files.pgm.slice(0, 4)));
       return { files };
     },
   };

@@ -55,7 +55,7 @@ async function deleteMission(name: string): Promise<void> {
 }
 
 function missionTable(list: Mission[]): HTMLElement {
-  return h('div', { class: 'card scroll' }, h('table', {},
+  return h('div', { class: 'card scroll', tabindex: 0 }, h('table', {},
     h('thead', {}, h('tr', {}, h('th', {}, 'Mission'), h('th', {}, 'State'), h('th', {}, 'Phase'),
       h('th', { class: 'n' }, 'Robots'), h('th', { class: 'n' }, 'Revision'),
       h('th', {}, 'Strategy'), h('th', { class: 'n' }, 'Memory'), h('th', {}, 'Owner'), h('th', {}, ''))),
@@ -167,7 +167,7 @@ export function servicePage(): Page {
           ['memory promised to missions', `${bytes(budget)} of ${bytes(limits?.memoryBudgetBytes ?? 0)}`],
           ['largest request', bytes(limits?.maxReceiveBytes ?? 0)],
           ['longest planning', duration(Number(limits?.maxPlanningBudget?.seconds ?? 0))]])),
-        h('div', { class: 'card scroll' }, h('h2', {}, 'Gas posteriors'), list.length === 0
+        h('div', { class: 'card scroll', tabindex: 0 }, h('h2', {}, 'Gas posteriors'), list.length === 0
           ? h('p', { class: 'quiet' }, 'No mission yet.')
           : h('table', {}, h('thead', {}, h('tr', {}, h('th', {}, 'Mission'),
               h('th', { class: 'n' }, 'Update, median'), h('th', { class: 'n' }, 'of 100, 99 below'),

@@ -26,7 +26,7 @@ function candidates(plan: Plan, pointAt: (candidate: number) => void): HTMLEleme
   const rewarded = plan.candidates.some((one) => one.reward !== undefined);
   const n = { class: 'n' };
   return h('div', {}, h('h3', {}, `${plan.candidates.length} goals it could drive to`),
-    h('div', { class: 'scroll' }, h('table', {},
+    h('div', { class: 'scroll', tabindex: 0 }, h('table', {},
       h('thead', {}, h('tr', {}, h('th', {}, '#'), h('th', {}, 'goal'), h('th', n, 'm'), h('th', n, 's'),
         priced ? h('th', n, 'nats') : null, priced ? h('th', n, 'nats/s') : null,
         rewarded ? h('th', n, 'reward') : null, h('th', n, 'cost'), h('th', n, 'ppm'))),

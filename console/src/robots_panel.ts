@@ -70,7 +70,7 @@ export class RobotsPanel {
         robot.orderedHome ? h('span', { class: 'pill warn' }, 'sent home') : null,
         robot.onMap?.frameSuspect ? h('span', { class: 'pill bad' }, 'lost') : null,
         robot.onMap?.silent ? h('span', { class: 'pill bad' }, 'silent') : null,
-        h('button', { 'aria-pressed': String(looked), 'aria-label': `Look at ${shortName(name)}`,
+        h('button', { 'aria-pressed': String(looked), 'aria-label': `${looked ? 'looked at' : 'look at'}: ${shortName(name)}`,
                       onclick: () => this.choose(name) }, looked ? 'looked at' : 'look at')),
       list(factsOf(robot)));
   }

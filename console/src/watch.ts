@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // A mission's map as it changes, for as long as anybody sees the page.
-import { getMap, watchMap } from '@plumescout/client';
+import { MAX_CELLS, getMap, watchMap } from '@plumescout/client';
 import type { CellRect, Raster } from '@plumescout/client';
 import type { MapStatus } from '@plumescout/client/wire';
 import { client, troubleOf, troubleOfCall } from './client.ts';
@@ -100,10 +100,10 @@ export class Watch {
   }
 }
 
-// The map as it was, or as it is (revision 0).
+// The map as it was, or as it is (revision 0); of one with more cells than a page holds, squares of cells.
 export async function fetchMap(mission: string, revision: bigint,
                                signal: AbortSignal): Promise<{ raster: Raster; status: MapStatus }> {
-  const { raster, status } = await getMap(client, mission, { revision, signal });
+  const { raster, status } = await getMap(client, mission, { revision, signal, maxCells: MAX_CELLS });
   if (raster === null) throw new Error('the mission had no map yet');
   return { raster, status };
 }

@@ -7,7 +7,7 @@ export { Client, all } from './client.ts';
 export { Code, errorOf, isFinal } from './errors.ts';
 export type { CallError } from './errors.ts';
 export { mapYamlOf, npyOf, pgmOf } from './export.ts';
-export { levelFor } from './map_copy.ts';
+export { MAX_CELLS, levelFor } from './map_copy.ts';
 export { getMap, watchMap } from './maps.ts';
 export type {
   DecodedMap, GetMapOptions, LinkState, MapOptions, MapUpdate, WatchMapOptions,

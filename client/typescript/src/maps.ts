@@ -48,6 +48,7 @@ export type GetMapOptions = MapOptions & {
   revision?: bigint; // the map as it was then
   freshPosterior?: boolean; // bring the gas up to date first
   maxPartBytes?: number; // of tiles in one message; as many as the server sends
+  maxCells?: number; // of larger maps squares of cells come; any
 };
 
 /** The map of missions/{mission}. Errors are those of MapService.GetMap. */
@@ -71,7 +72,12 @@ async function getParts(client: Client, mission: string, options: GetMapOptions)
     const part = await client.maps.getMap({ ...request, partToken }, call);
     if (map === null) {
       if (part.status === undefined) throw new Error('the first part of a map has no status');
-      const geometry = geometryOf(part.tileGeometry) ?? geometryOf(part.status.geometry);
+      const whole = geometryOf(part.status.geometry);
+      const level = levelFor(whole === null ? 0 : whole.columns * whole.rows, options.maxCells ?? Infinity);
+      if (level > request.levelOfDetail) {
+        return getParts(client, mission, { ...options, levelOfDetail: level });
+      }
+      const geometry = geometryOf(part.tileGeometry) ?? whole;
       map = { raster: geometry === null ? null : new Raster(geometry), status: part.status,
               revision: part.revision };
     }

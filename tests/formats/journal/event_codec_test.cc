@@ -90,10 +90,10 @@ TEST(EventCodec, UnknownEnumeratorsAreDataLoss) {
 
 TEST(EventCodec, UnknownKindsAndVersionsAreNamed) {
   std::string bytes = EncodeEvent(MakeRefresh());
-  bytes[1] = 13;  // twelve kinds of events: 1 to 12
+  bytes[1] = 14;  // thirteen kinds of events: 1 to 13
   absl::Status status = DecodeEvent(bytes).status();
   EXPECT_EQ(status.code(), absl::StatusCode::kDataLoss);
-  EXPECT_THAT(std::string(status.message()), HasSubstr("kind 13"));
+  EXPECT_THAT(std::string(status.message()), HasSubstr("kind 14"));
   bytes = EncodeEvent(MakeRefresh());
   bytes[0] = 2;
   status = DecodeEvent(bytes).status();

@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+// How fast the console is, in Debian's Chromium without a GPU, on the machine that the server runs on.
+//
+//   node e2e/bench.mjs [--summary FILE] [--scene DIR] [--seconds S]
+//
+// Needs what run.mjs needs. Prints a figure a line; --summary writes them as one flat JSON object.
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { cpus, loadavg } from 'node:os';
+import { parseArgs } from 'node:util';
+import { deflateSync } from 'node:zlib';
+import { cleanUp, data, drive, end, launch, serve, until } from './harness.mjs';
+
+const { values: options } = parseArgs({ options: {
+  summary: { type: 'string' },
+  scene: { type: 'string', default: '../build/scenes/industrial_16x20' },
+  seconds: { type: 'string', default: '30' },
+} });
+const SECONDS = Number(options.seconds);
+const PAGES = 16;
+const WIDE = 1000; // cells of the large map along either side
+const figures = {};
+const told = (name, value, digits = 1) => {
+  figures[name] = Number(value.toFixed(digits));
+  console.log(`${name.padEnd(40)} ${figures[name]}`);
+};
+const wait = (ms) => new Promise((done) => setTimeout(done, ms));
+const quantile = (values, share) => {
+  const sorted = [...values].sort((a, b) => a - b);
+  return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))] ?? NaN;
+};
+
+// --- Just so much of protobuf and gRPC-Web as the calls below need.
+
+function varint(value) {
+  const bytes = [];
+  for (; value > 127; value = Math.floor(value / 128)) bytes.push(value % 128 + 128);
+  return Buffer.from([...bytes, value]);
+}
+const number = (field, value) => Buffer.concat([varint(field * 8), varint(value)]);
+const real = (field, value) => {
+  const bytes = Buffer.alloc(8);
+  bytes.writeDoubleLE(value);
+  return Buffer.concat([varint(field * 8 + 1), bytes]);
+};
+const part = (field, ...parts) => {
+  const bytes = Buffer.concat(parts.map((one) => (typeof one === 'string' ? Buffer.from(one) : one)));
+  return Buffer.concat([varint(field * 8 + 2), varint(bytes.length), bytes]);
+};
+
+async function call(origin, method, ...parts) {
+  const body = Buffer.concat([Buffer.alloc(5), ...parts]);
+  body.writeUInt32BE(body.length - 5, 1);
+  const response = await fetch(`${origin}/plumescout.v1.${method}`, { method: 'POST', body,
+    headers: { 'content-type': 'application/grpc-web+proto', 'x-grpc-web': '1' } });
+  assert.equal(response.status, 200);
+  return response;
+}
+async function message(origin, method, ...parts) {
+  const bytes = Buffer.from(await (await call(origin, method, ...parts)).arrayBuffer());
+  assert.equal(bytes[0], 0, `${method}: ${bytes.subarray(5)}`);
+  return bytes.subarray(5, 5 + bytes.readUInt32BE(1));
+}
+const watchMap = (origin, mission) => call(origin, 'MapService/WatchMap', part(1, `missions/${mission}`),
+  part(2, Buffer.from([1, 2, 3])));
+
+// --- In the page: when which revision came, and when it was drawn.
+
+function observe() {
+  const times = window.consoleTimes = { came: [], drawn: [] };
+  const revisionOf = (bytes) => { // field 3, a varint; fields of other kinds than that have a length
+    let at = 0;
+    const next = () => {
+      let value = 0, scale = 1;
+      for (; bytes[at] > 127; scale *= 128) value += (bytes[at++] - 128) * scale;
+      return value + bytes[at++] * scale;
+    };
+    while (at < bytes.length) {
+      const tag = next();
+      const value = next();
+      if (tag === 24) return value;
+      if (tag % 8 === 2) at += value;
+    }
+    return -1;
+  };
+  const plain = window.fetch;
+  window.fetch = async (input, init) => {
+    const response = await plain(input, init);
+    if (!String(input.url ?? input).endsWith('/WatchMap') || response.body === null) return response;
+    let rest = new Uint8Array(0);
+    const watched = response.body.pipeThrough(new TransformStream({ transform(chunk, out) {
+      const now = performance.now();
+      const all = new Uint8Array(rest.length + chunk.length);
+      all.set(rest);
+      all.set(chunk, rest.length);
+      rest = all;
+      while (rest.length >= 5) {
+        const size = new DataView(rest.buffer, rest.byteOffset).getUint32(1);
+        if (rest.length < 5 + size) break;
+        if (rest[0] === 0) times.came.push([revisionOf(rest.subarray(5, 5 + size)), now]);
+        rest = rest.subarray(5 + size);
+      }
+      out.enqueue(chunk);
+    } }));
+    return new Response(watched, { status: response.status, headers: response.headers });
+  };
+  document.addEventListener('DOMContentLoaded', () => {
+    new MutationObserver((changes) => {
+      const now = performance.now();
+      for (const { target } of changes) {
+        const revision = Number(target.dataset?.revision ?? -1);
+        if (revision >= 0) times.drawn.push([revision, now]);
+      }
+    }).observe(document.body, { attributes: true, attributeFilter: ['data-revision'], subtree: true });
+  });
+}
+
+// --- The figures.
+
+// Frames at five a second: from the bytes' arrival in the page until they are drawn; and from the
+// server's answer that names a revision.
+async function latency(page, origin) {
+  await page.goto(`${origin}/#/missions/hall`);
+  await page.reload();
+  await until('a picture', async () => await page.evaluate(() => window.consoleTimes.drawn.length > 0));
+  told('first picture, ms', await page.evaluate(() => window.consoleTimes.drawn[0][1]), 0);
+  await wait(3000);
+  await page.evaluate(() => { window.consoleTimes.came = []; window.consoleTimes.drawn = []; });
+  await message(origin, 'RobotService/RegisterRobot', part(1, 'missions/hall'), part(2, 'bench'), real(3, 0.2));
+  const ordered = [];
+  const limit = Date.now() + 1000 * SECONDS;
+  for (let home = 1; Date.now() < limit; home = 1 - home) {
+    const answer = await message(origin, 'RobotService/OrderHome', part(1, 'missions/hall/robots/bench'),
+                                 ...(home ? [number(3, 1)] : []));
+    let revision = 0, scale = 1, at = 1; // its only field
+    for (; answer[at] > 127; scale *= 128) revision += (answer[at++] - 128) * scale;
+    ordered.push([revision + answer[at] * scale, Date.now()]);
+    await wait(230);
+  }
+  await wait(1000);
+  const { came, drawn, origin_ms } = await page.evaluate(() =>
+    ({ ...window.consoleTimes, origin_ms: performance.timeOrigin }));
+  const whenDrawn = (revision, from) => drawn.find(([one, at]) => one >= revision && at >= from);
+  const latencies = [], skipped = [];
+  for (const [revision, at] of came) {
+    assert.ok(revision > 0, 'a frame without a revision');
+    const done = whenDrawn(revision, at);
+    assert.ok(done !== undefined, `revision ${revision} was never drawn`);
+    latencies.push(done[1] - at);
+    if (done[0] > revision) skipped.push(revision);
+  }
+  const behind = ordered.map(([revision, at]) => whenDrawn(revision, -Infinity)?.[1] + origin_ms - at);
+  told('frames', came.length, 0);
+  told('frames a second', came.length / SECONDS);
+  told('bytes to pixels, median, ms', quantile(latencies, 0.5));
+  told('bytes to pixels, p99, ms', quantile(latencies, 0.99));
+  told('drawn with a later frame', skipped.length, 0);
+  told('event to pixels, median, ms', quantile(behind, 0.5), 0);
+  told('event to pixels, p99, ms', quantile(behind, 0.99), 0);
+}
+
+function cpu_s(child) {
+  const words = readFileSync(`/proc/${child.pid}/stat`, 'utf8').split(') ')[1].split(' ');
+  return (Number(words[11]) + Number(words[12])) / 100;
+}
+
+// What sixteen streams of the map, read to the end, cost the server; less what it does anyway.
+async function manyPages(server, origin) {
+  const measure = async () => {
+    const before = cpu_s(server.child);
+    await wait(10_000);
+    return (cpu_s(server.child) - before) / 10;
+  };
+  const alone = await measure();
+  const streams = await Promise.all(Array.from({ length: PAGES }, () => watchMap(origin, 'hall')));
+  const readers = streams.map((stream) => stream.body.getReader());
+  for (const reader of readers) void (async () => { while (!(await reader.read()).done); })().catch(() => {});
+  await wait(2000);
+  told('16 pages, cores', await measure() - alone, 2);
+  await Promise.all(readers.map((reader) => reader.cancel()));
+}
+
+async function panning(page, origin) {
+  const cells = Buffer.alloc(WIDE * WIDE, 1);
+  for (let i = 0; i < cells.length; i += 37) cells[i] = 2;
+  const prior = part(1, part(1, part(1, real(1, 0), real(2, 0)), real(2, 0.1), number(3, WIDE), number(4, WIDE)),
+                     part(2, deflateSync(cells)));
+  await message(origin, 'MissionService/CreateMission', part(1, 'field'), part(2, part(13, prior)));
+  await page.goto(`${origin}/#/missions/field`);
+  await until('the large map', async () => await page.evaluate(() =>
+    Number(document.querySelector('.stage > canvas')?.dataset.revision ?? -1) >= 0));
+  await wait(2000);
+  const intervals = await page.evaluate(() => new Promise((done) => {
+    const canvas = document.querySelector('.stage > canvas');
+    const box = canvas.getBoundingClientRect();
+    canvas.setPointerCapture = () => {}; // of a pointer that is there
+    const send = (type, x) => canvas.dispatchEvent(new PointerEvent(type, { pointerId: 1, bubbles: true,
+      clientX: box.left + x, clientY: box.top + 200 }));
+    send('pointerdown', 300);
+    const times = [];
+    const turn = (now) => {
+      times.push(now);
+      if (times.length > 180) return done(times.slice(1).map((time, i) => time - times[i]));
+      send('pointermove', 300 + 100 * Math.sin(times.length / 15));
+      requestAnimationFrame(turn);
+    };
+    requestAnimationFrame(turn);
+  }));
+  told('panning 1000 x 1000, frames a second', 1000 * intervals.length / intervals.reduce((a, b) => a + b, 0));
+  told('panning, longest frame, ms', Math.max(...intervals));
+}
+
+try {
+  console.log(`${cpus()[0].model}, ${cpus().length} cores, load ${loadavg()[0].toFixed(1)}`);
+  const server = await serve('127.0.0.1:0', '127.0.0.1:0', '--data', data, '--set', 'maps.publish_period_s=0.2',
+                             '--set', 'maps.gas_wait_s=0.2', '--set', 'limits.max_receive_bytes=4194304');
+  const origin = `http://${server.found.pages}`;
+  await drive(server.found.calls, options.scene, '--known-map', '--duration', '600');
+  const page = await (await (await launch()).newContext({ viewport: { width: 1280, height: 800 } })).newPage();
+  await page.addInitScript(observe);
+  await latency(page, origin);
+  await panning(page, origin);
+  await page.close();
+  await manyPages(server, origin);
+  await end(server.child);
+  if (options.summary) writeFileSync(options.summary, `${JSON.stringify(figures, null, 2)}\n`);
+} catch (error) {
+  console.error(error.message);
+  process.exitCode = 1;
+} finally {
+  await cleanUp();
+}
