@@ -96,7 +96,7 @@ struct MapStatus {
   GasQuality gas_quality;
   GasAudits gas_audits;
   std::vector<SensorOffset> sensor_offsets;  // of sensors whose offset was not known
-  std::vector<GasStatus> gases;  // of a mission that names its gases: all, the first first
+  std::vector<GasStatus> gases;   // of a mission that names its gases: all, the first first
   std::vector<Polygon> keep_out;  // where nobody may drive
   MissionPhase phase = MissionPhase::kExploring;
 };

@@ -4,8 +4,8 @@
 
 #include "core/types/error_reason.h"
 #include "proto/convert/enums.h"
-#include "proto/convert/names.h"
 #include "proto/convert/keep_out.h"
+#include "proto/convert/names.h"
 #include "proto/convert/options.h"
 #include "server/services/mission_update.h"
 
