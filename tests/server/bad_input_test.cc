@@ -246,13 +246,6 @@ TEST_F(BadInputTest, OrderHome) {
         SenderOf(robots_, &v1::RobotService::Stub::OrderHome));
 }
 
-TEST_F(BadInputTest, ChangeKeepOutAreas) {
-  v1::ChangeKeepOutAreasRequest good;
-  good.set_name("missions/hall");
-  Check(BadKeepOut(), Copies(good),
-        SenderOf(missions_, &v1::MissionService::Stub::ChangeKeepOutAreas));
-}
-
 TEST_F(BadInputTest, WatchRobot) {
   v1::WatchRobotRequest good;
   good.set_robot(kRobot);

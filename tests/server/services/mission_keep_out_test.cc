@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "server/services/mission_service.h"
+#include "tests/server/bad_input_fixture.h"
+#include "tests/server/bad_keep_out_input.h"
 #include "tests/server/host_parts.h"
 #include "tests/server/robot_watch_client.h"
 #include "tests/server/service_fixture.h"
@@ -124,6 +126,15 @@ TEST_F(MissionKeepOutTest, ARobotOnItsWayThroughANewAreaIsTold) {
   EXPECT_EQ(notice.plan_invalidated().plan(), plan->plan().name());
   EXPECT_EQ(notice.plan_invalidated().reason(), v1::PlanInvalidated::REASON_KEPT_OUT);
   EXPECT_NEAR(notice.plan_invalidated().place().x_m(), 3.05, 1e-6);
+}
+
+class BadKeepOutTest : public BadInputTest {};
+
+TEST_F(BadKeepOutTest, IsRefusedByNameAndChangesNothing) {
+  v1::ChangeKeepOutAreasRequest good;
+  good.set_name("missions/hall");
+  Check(BadKeepOut(), Copies(good),
+        SenderOf(missions_, &v1::MissionService::Stub::ChangeKeepOutAreas));
 }
 
 }  // namespace mission_keep_out_test
