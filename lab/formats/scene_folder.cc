@@ -17,9 +17,9 @@
 #include "core/types/status_macros.h"
 #include "formats/file_io.h"
 #include "formats/map_server.h"
+#include "formats/zstd_codec.h"
 #include "lab/formats/npy.h"
 #include "lab/formats/scene_json.h"
-#include "formats/zstd_codec.h"
 
 namespace plumescout::lab {
 namespace {
