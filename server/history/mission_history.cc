@@ -11,8 +11,8 @@
 #include "absl/strings/str_cat.h"
 #include "core/types/status_macros.h"
 #include "formats/journal/event_codec.h"
-#include "proto/convert/field.h"
 #include "proto/convert/event_line.h"
+#include "proto/convert/field.h"
 
 namespace plumescout::server {
 namespace {
