@@ -17,7 +17,7 @@ namespace {
 // Beside the event itself, a file has lengths and checksums.
 constexpr std::int64_t kBytesBesideRecord = 12;
 // A call ends after so much: others wait for the pool's thread.
-constexpr absl::Duration kMaxTimeAtOnce = absl::Milliseconds(100);
+constexpr absl::Duration kMaxFillTime = absl::Milliseconds(100);
 constexpr double kMapPeriod_s = 10.0;
 
 absl::StatusOr<std::int64_t> BytesOf(MissionStore& store, const std::string& key) {
@@ -97,7 +97,7 @@ absl::StatusOr<std::optional<v1::ExportMissionResponse>> MissionExport::Next() {
 }
 
 absl::Status MissionExport::Fill() {
-  const SteadyTime until = After(SteadyNow(), kMaxTimeAtOnce);
+  const SteadyTime until = After(SteadyNow(), kMaxFillTime);
   while (buffer_.size() < kPieceBytes && revision_ < point_.revision && SteadyNow() < until) {
     PLUMESCOUT_ASSIGN_OR_RETURN(const std::optional<JournalRecord> record, reader_->Next());
     if (!record.has_value() || record->number != revision_ + 1) {

@@ -64,11 +64,15 @@ Names Join(const std::vector<Names>& parts) {
 }
 
 std::vector<Room> MakeRooms() {
-  const Names adapters = {"proto/convert", "formats", "formats/journal", "ompl_planners"};
+  const Names adapters = {"proto/convert", "formats",      "formats/journal",
+                          "formats/mcap",  "formats/view", "ompl_planners"};
   std::vector<Room> rooms = {
       {"proto/convert", {"core/types", "formats"}},
       {"formats", {"core/types"}},
       {"formats/journal", {"core/types", "formats"}},
+      {"formats/mcap", {"core/types", "formats", "formats/journal"}},
+      {"formats/view", Join({Before(kCore, "core/mission/conduct"),
+                             {"proto/convert", "formats", "formats/journal", "formats/mcap"}})},
       {"ompl_planners", Before(kCore, "core/mission")},
       {"client", {"core/types", "proto/convert", "formats"}},
       {"tests", Join({kCore, adapters, kServer, {"client"}, kLab})},
@@ -123,7 +127,8 @@ bool MayInclude(const Room& room, const Room* other) {
 
 // Whether the include is somebody else's: a library's, or generated from proto/.
 bool IsForeign(const std::string& include) {
-  for (const char* prefix : {"absl/", "google/", "plumescout/", "gtest/", "gmock/", "CLI/"}) {
+  for (const char* prefix :
+       {"absl/", "google/", "foxglove/", "plumescout/", "gtest/", "gmock/", "CLI/"}) {
     if (absl::StartsWith(include, prefix)) return true;
   }
   return false;

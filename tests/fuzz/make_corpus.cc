@@ -12,6 +12,8 @@
 #include "core/types/event.h"
 #include "formats/file_io.h"
 #include "formats/journal/event_codec.h"
+#include "formats/mcap/mcap_encoder.h"
+#include "formats/mcap/mcap_journal.h"
 #include "formats/zlib_codec.h"
 #include "formats/zstd_codec.h"
 #include "lab/formats/scene_json.h"
@@ -98,6 +100,24 @@ void AddRecordings(Corpus& corpus) {
   }
 }
 
+void AddMcap(Corpus& corpus) {
+  for (const McapCompression compression : {McapCompression::kNone, McapCompression::kZstd}) {
+    McapEncoder encoder("fuzz", compression, 100);
+    const std::uint16_t schema = encoder.AddSchema("a.B", "protobuf", "schema");
+    const std::uint16_t other = encoder.AddChannel("/other", "protobuf", schema);
+    const std::uint16_t journal = encoder.AddChannel(kMcapJournalTopic, kMcapJournalEncoding, 0);
+    absl::Status status = encoder.Add({journal, 0, 1, 1, EncodeStart({.code_version = "fuzz"})});
+    status.Update(encoder.Add({journal, 1, 2, 2, EncodeEvent({1, RobotRemoved{"r1"}})}));
+    status.Update(encoder.Add({other, 1, 3, 3, "message"}));
+    status.Update(encoder.Finish());
+    const bool packed = compression == McapCompression::kZstd;
+    if (status.ok()) corpus.Add("mcap", packed ? "zstd" : "plain", encoder.Take());
+  }
+  corpus.Add(
+      "mcap", "records",
+      EncodeMcap(McapChannel{1, 0, "/a", "text"}) + EncodeMcap(McapMessage{1, 2, 3, 4, "m"}));
+}
+
 void AddMaps(Corpus& corpus) {
   const std::string yaml =
       "image: map.pgm\nresolution: 0.1\norigin: [0.0, 0.0, 0.0]\nnegate: 0\n"
@@ -162,6 +182,7 @@ int Run(const std::string& folder) {
   AddRequests(corpus);
   AddRecordings(corpus);
   AddMaps(corpus);
+  AddMcap(corpus);
   AddArrays(corpus);
   AddTexts(corpus);
   AddGaden(corpus);

@@ -21,6 +21,7 @@
 #include "tests/server/bad_registration_input.h"
 #include "tests/server/bad_robot_input.h"
 #include "tests/server/bad_snapshot_input.h"
+#include "tests/server/export_client.h"
 #include "tests/server/robot_watch_client.h"
 #include "tests/server/service_fixture.h"
 
@@ -344,9 +345,9 @@ TEST_F(BadInputTest, WatchMap) {
 TEST_F(BadInputTest, ExportMission) {
   v1::ExportMissionRequest good;
   good.set_mission("missions/hall");
-  Check(BadExport(), Copies(good), [this](const Message& request) {
-    return ExportClient(*snapshots_, static_cast<const v1::ExportMissionRequest&>(request))
-        .Finish();
+  Check(BadExport(), Copies(good), [this](const Message& message) {
+    const auto& request = static_cast<const v1::ExportMissionRequest&>(message);
+    return ExportClient(*snapshots_, request.mission(), request.format()).Finish();
   });
 }
 

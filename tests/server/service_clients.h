@@ -172,39 +172,6 @@ class ImportClient {
   std::unique_ptr<grpc::ClientWriter<v1::ImportMissionRequest>> stream_;
 };
 
-// A mission that comes from a server.
-class ExportClient {
- public:
-  ExportClient(v1::SnapshotService::Stub& stub, const v1::ExportMissionRequest& request) {
-    SetPatience(context_);
-    stream_ = stub.ExportMission(&context_, request);
-  }
-  ExportClient(v1::SnapshotService::Stub& stub, const std::string& mission)
-      : ExportClient(stub, RequestOf(mission)) {}
-  // A message of nothing once the stream has ended.
-  v1::ExportMissionResponse Read() {
-    v1::ExportMissionResponse response;
-    stream_->Read(&response);
-    return response;
-  }
-  void Cancel() { context_.TryCancel(); }
-  absl::Status Finish() {
-    while (Read().part_case() != v1::ExportMissionResponse::PART_NOT_SET) {
-    }
-    return ToAbsl(stream_->Finish());
-  }
-
- private:
-  static v1::ExportMissionRequest RequestOf(const std::string& mission) {
-    v1::ExportMissionRequest request;
-    request.set_mission(mission);
-    return request;
-  }
-
-  grpc::ClientContext context_;
-  std::unique_ptr<grpc::ClientReader<v1::ExportMissionResponse>> stream_;
-};
-
 // A robot that hears of better and better plans.
 class PlanStreamClient {
  public:

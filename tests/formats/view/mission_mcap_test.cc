@@ -153,6 +153,20 @@ TEST_F(MissionMcapTest, AnObservationOfThePastIsPublishedThenAndLoggedNow) {
   EXPECT_EQ(late.publish_time_ns, 20u * kSecond_ns);
 }
 
+// Which an independent reader reads too: console/test/mcap.test.ts.
+TEST_F(MissionMcapTest, AFileOfBeforeIsStillReplayed) {
+  auto reader = McapJournalReader::Open("tests/formats/view/golden/room.mcap");
+  ASSERT_TRUE(reader.ok()) << reader.status();
+  EXPECT_EQ(reader->start()->mission, "room");
+  Mission mission{MissionOptions()};
+  auto event = reader->Next();
+  for (; event.ok() && *event; event = reader->Next()) {
+    ASSERT_TRUE(mission.Apply((*event)->body).ok());
+  }
+  EXPECT_TRUE(event.ok()) << event.status();
+  EXPECT_EQ(mission.revision(), 34);
+}
+
 TEST_F(MissionMcapTest, AMissionWithoutObservationsIsAFileToo) {
   const std::vector<Event> events = {{1, RobotRegistered{.robot = "a", .lease_token = 1}}};
   EXPECT_EQ(Read(Write(events)).at("/journal").size(), 2u);

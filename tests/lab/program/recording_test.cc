@@ -11,7 +11,9 @@
 
 #include "formats/file_io.h"
 #include "formats/journal/journal_file.h"
+#include "formats/mcap/mcap_reader.h"
 #include "lab/about/about.h"
+#include "lab/program/mcap_export.h"
 #include "plumescout/v1/options.pb.h"
 #include "tests/formats/journal/golden_events.h"
 #include "tests/support/room_run.h"
@@ -66,6 +68,33 @@ TEST_F(RecordingTest, ReplaysToTheSameMap) {
   ASSERT_TRUE(again.ok()) << again.status();
   EXPECT_EQ((*again)->revision(), mission_.revision());
   EXPECT_EQ((*again)->Snapshot()->occupancy->values(), mission_.Snapshot()->occupancy->values());
+}
+
+TEST_F(RecordingTest, ReplaysFromAnMcapFileToTheSameState) {
+  RecordARun();
+  const std::string mcap = folder_.File("mission.mcap");
+  auto recording = Recording::Open(path_);
+  ASSERT_TRUE(recording.ok()) << recording.status();
+  ASSERT_TRUE(ExportMcap(*recording, mcap, 1.0).ok());
+  EXPECT_TRUE(McapReader::IsMcap(mcap));
+  EXPECT_FALSE(std::filesystem::exists(mcap + ".part"));
+  auto exported = Recording::Open(mcap);
+  ASSERT_TRUE(exported.ok()) << exported.status();
+  EXPECT_EQ(exported->code_version(), CodeVersion());
+  EXPECT_EQ(exported->options().seed, 42u);
+  const auto again = Replay(*exported, 0);
+  ASSERT_TRUE(again.ok()) << again.status();
+  EXPECT_EQ((*again)->revision(), mission_.revision());
+  EXPECT_EQ((*again)->Digest(), mission_.Digest());
+  EXPECT_EQ(EndRemark(*exported), "");
+}
+
+TEST_F(RecordingTest, AnMcapFileThatCannotBeWrittenLeavesNothing) {
+  RecordARun();
+  auto recording = Recording::Open(path_);
+  ASSERT_TRUE(recording.ok()) << recording.status();
+  EXPECT_EQ(ExportMcap(*recording, folder_.File("no/such/folder.mcap"), 1.0).code(),
+            absl::StatusCode::kUnavailable);
 }
 
 TEST_F(RecordingTest, ReplaysAMissionThatKnewItsBuilding) {

@@ -8,6 +8,7 @@
 #include "absl/strings/match.h"
 #include "formats/file_sum.h"
 #include "formats/mcap/mcap_records.h"
+#include "tests/server/export_client.h"
 #include "tests/server/service_fixture.h"
 
 namespace plumescout::server {
@@ -63,10 +64,7 @@ TEST_F(ExportStreamTest, CallerMayLeave) {
 
 TEST_F(ExportStreamTest, AMissionComesAsMcapToo) {
   Send(1, 500);
-  v1::ExportMissionRequest request;
-  request.set_mission("missions/hall");
-  request.set_format(v1::MISSION_FILE_FORMAT_MCAP);
-  ExportClient client(*snapshots_, request);
+  ExportClient client(*snapshots_, "missions/hall", v1::MISSION_FILE_FORMAT_MCAP);
   ASSERT_EQ(client.Read().start().revision(), Revision());
   std::string bytes;
   FileSum sum;
@@ -81,7 +79,8 @@ TEST_F(ExportStreamTest, AMissionComesAsMcapToo) {
   EXPECT_TRUE(client.Finish().ok());
   EXPECT_TRUE(absl::StartsWith(bytes, kMcapMagic) && absl::EndsWith(bytes, kMcapMagic));
   // What it held is free again for the next.
-  EXPECT_TRUE(ExportClient(*snapshots_, request).Finish().ok());
+  EXPECT_TRUE(
+      ExportClient(*snapshots_, "missions/hall", v1::MISSION_FILE_FORMAT_MCAP).Finish().ok());
 }
 
 TEST_F(ExportStreamTest, StrangersAreRefused) {

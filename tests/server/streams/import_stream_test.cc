@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "tests/server/export_client.h"
 #include "tests/server/service_fixture.h"
 
 namespace plumescout::server {
