@@ -89,7 +89,8 @@ void AddExperimentCommand(CLI::App& app, absl::Status& status) {
   names.emplace_back(kAll);
   experiment->footer(
       "On two cores xit_table3 takes some seven minutes, and team_study one to two hours: 108 "
-      "missions of teams of up to eight, and 200 in one-lane buildings (20 with --trials 1).");
+      "missions of teams of up to eight, and 200 in one-lane buildings (20 with --trials 1). "
+      "team_rivals takes some half an hour.");
   experiment->add_option("name", arguments->name, "Which one, or all")
       ->required()
       ->check(CLI::IsMember(names));
