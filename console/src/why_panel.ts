@@ -63,7 +63,8 @@ export class WhyPanel {
           priced ? h('th', n, 'nats') : null, priced ? h('th', n, 'nats/s') : null,
           rewarded ? h('th', n, 'reward') : null, h('th', n, 'cost'), h('th', n, 'ppm'))),
         h('tbody', {}, ...plan.candidates.map((one, i) => {
-          const nats = one.expectedInformationNats;
+          const nats = one.expectedInformationNats ?? one.expectedInformationBoundNats ?? NaN;
+          const atMost = one.expectedInformationNats === undefined && !Number.isNaN(nats) ? '≤ ' : '';
           return h('tr', {
             class: i === plan.chosenIndex ? 'pick chosen' : 'pick',
             title: `by ${source(one.pathSource)}; mean information ${figure(one.meanUcb)}, ` +
@@ -72,8 +73,8 @@ export class WhyPanel {
           }, h('td', {}, i + 1, i === plan.chosenIndex ? ' ✓' : ''),
             h('td', {}, goalKind(one.goal?.kind ?? GoalKind.UNSPECIFIED)),
             h('td', n, figure(one.lengthM)), h('td', n, figure(one.durationS)),
-            priced ? h('td', n, figure(nats ?? NaN)) : null,
-            priced ? h('td', n, figure((nats ?? NaN) / one.durationS)) : null,
+            priced ? h('td', n, atMost + figure(nats)) : null,
+            priced ? h('td', n, atMost + figure(nats / one.durationS)) : null,
             rewarded ? h('td', n, figure(one.reward ?? NaN)) : null,
             h('td', n, figure(one.cost)), h('td', n, figure(one.meanConcentrationPpm)));
         })))));
@@ -155,10 +156,12 @@ function frontierAnswer(frontier: FrontierGoal, plan: Plan | null): (Node | stri
   }
   if (index === plan.chosenIndex) return [what, h('strong', {}, 'It is where the robot drives.')];
   const [mine, chosen] = [plan.candidates[index], plan.candidates[plan.chosenIndex]];
-  const rate = (one: typeof mine) => (one.expectedInformationNats ?? NaN) / one.durationS;
+  const rate = (one: typeof mine) =>
+    (one.expectedInformationNats ?? one.expectedInformationBoundNats ?? NaN) / one.durationS;
+  const atMost = mine.expectedInformationNats === undefined ? 'at most ' : '';
   return [what, h('strong', {}, `It is candidate ${index + 1}; number ${plan.chosenIndex + 1} was better` +
     (chosen !== undefined && rate(chosen) > rate(mine)
-      ? `: ${figure(rate(chosen))} against ${figure(rate(mine))} nats a second.`
+      ? `: ${figure(rate(chosen))} against ${atMost}${figure(rate(mine))} nats a second.`
       : ', counting also what is unseen behind it, or what else the strategy weighs.'))];
 }
 

@@ -51,6 +51,8 @@ absl::Status CheckPrice(const v1::Candidate& proto, absl::string_view field) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative(Join(field, "duration_s"), proto.duration_s()));
   PLUMESCOUT_RETURN_IF_ERROR(
       CheckFinite(Join(field, "expected_information_nats"), proto.expected_information_nats()));
+  PLUMESCOUT_RETURN_IF_ERROR(CheckFinite(Join(field, "expected_information_bound_nats"),
+                                         proto.expected_information_bound_nats()));
   PLUMESCOUT_RETURN_IF_ERROR(CheckFinite(Join(field, "reward"), proto.reward()));
   return CheckFinite(Join(field, "mean_concentration_ppm"), proto.mean_concentration_ppm());
 }
@@ -74,6 +76,9 @@ absl::StatusOr<Candidate> FromProto(const v1::Candidate& proto, absl::string_vie
   candidate.duration_s = proto.duration_s();
   if (proto.has_expected_information_nats()) {
     candidate.expected_information_nats = proto.expected_information_nats();
+  }
+  if (proto.has_expected_information_bound_nats()) {
+    candidate.information_bound_nats = proto.expected_information_bound_nats();
   }
   if (proto.has_reward()) candidate.reward = proto.reward();
   for (int i = 0; i < proto.stops_size(); ++i) {
@@ -196,6 +201,9 @@ v1::Candidate ToProto(const Candidate& candidate) {
   proto.set_duration_s(candidate.duration_s);
   if (candidate.expected_information_nats) {
     proto.set_expected_information_nats(*candidate.expected_information_nats);
+  }
+  if (candidate.information_bound_nats) {
+    proto.set_expected_information_bound_nats(*candidate.information_bound_nats);
   }
   if (candidate.reward) proto.set_reward(*candidate.reward);
   for (const Point2& stop : candidate.stops) *proto.add_stops() = ToProto(stop);
