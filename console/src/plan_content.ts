@@ -31,7 +31,8 @@ function candidates(plan: Plan, pointAt: (candidate: number) => void): HTMLEleme
         priced ? h('th', n, 'nats') : null, priced ? h('th', n, 'nats/s') : null,
         rewarded ? h('th', n, 'reward') : null, h('th', n, 'cost'), h('th', n, 'ppm'))),
       h('tbody', {}, ...plan.candidates.map((one, i) => {
-        const nats = one.expectedInformationNats;
+        const nats = one.expectedInformationNats ?? one.expectedInformationBoundNats ?? NaN;
+        const atMost = one.expectedInformationNats === undefined && !Number.isNaN(nats) ? '≤ ' : '';
         return h('tr', {
           class: i === plan.chosenIndex ? 'pick chosen' : 'pick',
           title: `by ${source(one.pathSource)}; mean information ${figure(one.meanUcb)}, ` +
@@ -40,8 +41,8 @@ function candidates(plan: Plan, pointAt: (candidate: number) => void): HTMLEleme
         }, h('td', {}, i + 1, i === plan.chosenIndex ? ' ✓' : ''),
           h('td', {}, goalKind(one.goal?.kind ?? GoalKind.UNSPECIFIED)),
           h('td', n, figure(one.lengthM)), h('td', n, figure(one.durationS)),
-          priced ? h('td', n, figure(nats ?? NaN)) : null,
-          priced ? h('td', n, figure((nats ?? NaN) / one.durationS)) : null,
+          priced ? h('td', n, atMost + figure(nats)) : null,
+          priced ? h('td', n, atMost + figure(nats / one.durationS)) : null,
           rewarded ? h('td', n, figure(one.reward ?? NaN)) : null,
           h('td', n, figure(one.cost)), h('td', n, figure(one.meanConcentrationPpm)));
       })))));

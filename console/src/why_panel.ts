@@ -102,10 +102,12 @@ function frontierAnswer(frontier: FrontierGoal, plan: Plan | null): (Node | stri
   }
   if (index === plan.chosenIndex) return [what, h('strong', {}, 'It is where the robot drives.')];
   const [mine, chosen] = [plan.candidates[index], plan.candidates[plan.chosenIndex]];
-  const rate = (one: typeof mine) => (one.expectedInformationNats ?? NaN) / one.durationS;
+  const rate = (one: typeof mine) =>
+    (one.expectedInformationNats ?? one.expectedInformationBoundNats ?? NaN) / one.durationS;
+  const atMost = mine.expectedInformationNats === undefined ? 'at most ' : '';
   return [what, h('strong', {}, `It is candidate ${index + 1}; number ${plan.chosenIndex + 1} was better` +
     (chosen !== undefined && rate(chosen) > rate(mine)
-      ? `: ${figure(rate(chosen))} against ${figure(rate(mine))} nats a second.`
+      ? `: ${figure(rate(chosen))} against ${atMost}${figure(rate(mine))} nats a second.`
       : ', counting also what is unseen behind it, or what else the strategy weighs.'))];
 }
 

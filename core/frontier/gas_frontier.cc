@@ -119,9 +119,9 @@ double GasThreshold_ppm(const GasFrontierInput& input, double observed_variance_
   return std::max(percentile_ppm, options.min_gas_threshold_ppm);
 }
 
-std::vector<Frontier> FindGasFrontiers(const GasFrontierInput& input, double observed_variance_ppm2,
-                                       double gas_threshold_ppm, const std::vector<Cell>& starts,
-                                       const FrontierOptions& options) {
+std::vector<Frontier> FindGasClusters(const GasFrontierInput& input, double observed_variance_ppm2,
+                                      double gas_threshold_ppm, const std::vector<Cell>& starts,
+                                      const FrontierOptions& options) {
   const GridGeometry& geometry = input.states.geometry();
   Padded<std::uint8_t> marks = Classify(input, {observed_variance_ppm2, gas_threshold_ppm});
   MarkFrontierCells(geometry, marks);
@@ -144,6 +144,14 @@ std::vector<Frontier> FindGasFrontiers(const GasFrontierInput& input, double obs
       }
     }
   }
+  return frontiers;
+}
+
+std::vector<Frontier> FindGasFrontiers(const GasFrontierInput& input, double observed_variance_ppm2,
+                                       double gas_threshold_ppm, const std::vector<Cell>& starts,
+                                       const FrontierOptions& options) {
+  std::vector<Frontier> frontiers =
+      FindGasClusters(input, observed_variance_ppm2, gas_threshold_ppm, starts, options);
   FindGoalCells(input.states, input.traversable, starts, frontiers);
   return frontiers;
 }

@@ -37,8 +37,11 @@ double GasThreshold_ppm(const GasFrontierInput& input, double observed_variance_
 // start); kReachable (ours) every critical component that a start can reach over free cells,
 // because [XIT] Fig. 5(c) resumes a frontier that Alg. 2 forgets when the robot leaves the gas.
 // Clusters below the minimum size, which Alg. 2 line 22 discards, are kept and marked too_small.
-// Goal cells: core/frontier/goal_cells.h.
+// Goal cells: core/frontier/goal_cells.h; those of FindGasClusters are left open.
 // Cost: O(cells). Deterministic.
+std::vector<Frontier> FindGasClusters(const GasFrontierInput& input, double observed_variance_ppm2,
+                                      double gas_threshold_ppm, const std::vector<Cell>& starts,
+                                      const FrontierOptions& options);
 std::vector<Frontier> FindGasFrontiers(const GasFrontierInput& input, double observed_variance_ppm2,
                                        double gas_threshold_ppm, const std::vector<Cell>& starts,
                                        const FrontierOptions& options);

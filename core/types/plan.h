@@ -80,6 +80,9 @@ struct Candidate {
   // By how much readings on the way are expected to lower the entropy of the gas field, weighted by
   // relevance; only where the selection asks for it and time allowed.
   std::optional<double> expected_information_nats;
+  // Where that was not computed, for even this, which it is at most, would not have been chosen.
+  // Events do not keep it.
+  std::optional<double> information_bound_nats = std::nullopt;
   // Of strategies that sample sites: the reward of all stops on the way, in the unit of the reward.
   std::optional<double> reward = std::nullopt;
   std::vector<Point2> stops = {};  // of those strategies, in order; the goal is the last

@@ -101,6 +101,22 @@ struct MissionSize {
   int rounds = 12;
 };
 
+// By how much CPU time a plan outlives a stop that comes at one of several moments of it, at worst.
+double LateAfterStop_ms(const Strategy& strategy, const PlanMoment& moment, double whole_ms) {
+  constexpr int kStops = 8;
+  PlanRequest request;
+  request.robot = moment.robot;
+  double late_ms = 0.0;
+  for (int i = 1; i < kStops; ++i) {
+    const double limit_ms = whole_ms * i / kStops;
+    const double begin_ms = ThreadCpu_ms();
+    const StopFn stop = [&] { return ThreadCpu_ms() - begin_ms >= limit_ms; };
+    strategy.Plan(*moment.belief, request, stop).status().IgnoreError();
+    late_ms = std::max(late_ms, ThreadCpu_ms() - begin_ms - limit_ms);
+  }
+  return late_ms;
+}
+
 // Whole plans of the default strategy in missions under way: frontiers, information map, search,
 // pricing.
 absl::Status MeasureMissions(const std::string& only, BenchSummary& summary) {
@@ -119,6 +135,7 @@ absl::Status MeasureMissions(const std::string& only, BenchSummary& summary) {
                                                  .rounds = size.rounds,
                                                  .seed = summary.seed()}));
     std::vector<double> times_ms;
+    std::vector<double> late_ms;
     double candidates = 0.0;
     for (const PlanMoment& moment : moments) {
       PlanRequest request;
@@ -127,11 +144,13 @@ absl::Status MeasureMissions(const std::string& only, BenchSummary& summary) {
       times_ms.push_back(MedianCpu_ms(
           kRepeats, [&] { plan = strategy->Plan(*moment.belief, request, kNeverStop); }));
       PLUMESCOUT_RETURN_IF_ERROR(plan.status());
+      late_ms.push_back(LateAfterStop_ms(*strategy, moment, times_ms.back()));
       candidates += static_cast<double>(plan->candidates.size());
     }
     const std::string name = "mission_plan_" + size.name;
     summary.Set(name + "_ms", Median(times_ms));
     summary.Set(name + "_worst_ms", *std::max_element(times_ms.begin(), times_ms.end()));
+    summary.Set(name + "_late_after_stop_ms", Median(late_ms));
     summary.Set(name + "_candidates", candidates / static_cast<double>(moments.size()));
   }
   return absl::OkStatus();

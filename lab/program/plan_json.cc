@@ -32,6 +32,9 @@ Json ToJson(const Candidate& candidate) {
   if (candidate.expected_information_nats) {
     json["expected_information_nats"] = *candidate.expected_information_nats;
   }
+  if (candidate.information_bound_nats) {
+    json["information_bound_nats"] = *candidate.information_bound_nats;
+  }
   json["path_m"] = Json::array();
   for (const Point2& vertex : candidate.path) json["path_m"].push_back(ToJson(vertex));
   return json;

@@ -45,7 +45,7 @@ absl::StatusOr<RobotId> RobotOf(const Belief& belief, const RobotId& asked) {
   return belief.robots.begin()->first;
 }
 
-// What the selection did not ask for.
+// What the selection did not ask for, or did not need to know.
 void PriceInformation(const Belief& belief, const PlanningOptions& options, Plan& plan) {
   if (belief.gas_what_if == nullptr) return;
   const ExpectedInformation information(belief);
@@ -53,6 +53,7 @@ void PriceInformation(const Belief& belief, const PlanningOptions& options, Plan
     if (candidate.expected_information_nats) continue;
     candidate.expected_information_nats =
         information.Of(ReadingCells(candidate.path, belief.geometry(), options));
+    candidate.information_bound_nats.reset();
   }
 }
 

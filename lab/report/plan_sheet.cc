@@ -47,6 +47,16 @@ struct Table {
   }
 };
 
+std::string InformationOf(const Candidate& candidate) {
+  if (candidate.expected_information_nats) {
+    return absl::StrFormat("%.1f", *candidate.expected_information_nats);
+  }
+  if (candidate.information_bound_nats) {
+    return absl::StrFormat("at most %.1f", *candidate.information_bound_nats);
+  }
+  return "-";
+}
+
 Table CandidateTable(const Plan& plan) {
   Table table{absl::StrCat("Candidates (", plan.candidates.size(), ")"),
               {{"", 0.0},
@@ -66,8 +76,7 @@ Table CandidateTable(const Plan& plan) {
         {{CandidateLabel(i), absl::StrCat(NameOf(c.goal.kind), chosen ? " - chosen" : ""),
           absl::StrFormat("%.2f", c.cost), absl::StrFormat("%.2f", c.length_m),
           absl::StrFormat("%.1f", c.duration_s), absl::StrFormat("%.3f", c.mean_ucb),
-          absl::StrFormat("%.2f", c.mean_concentration_ppm),
-          c.expected_information_nats ? absl::StrFormat("%.1f", *c.expected_information_nats) : "-",
+          absl::StrFormat("%.2f", c.mean_concentration_ppm), InformationOf(c),
           NameOf(c.path_source)},
          chosen});
   }

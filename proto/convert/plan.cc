@@ -41,6 +41,8 @@ absl::Status CheckPrice(const v1::Candidate& proto, absl::string_view field) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative(Join(field, "duration_s"), proto.duration_s()));
   PLUMESCOUT_RETURN_IF_ERROR(
       CheckFinite(Join(field, "expected_information_nats"), proto.expected_information_nats()));
+  PLUMESCOUT_RETURN_IF_ERROR(CheckFinite(Join(field, "expected_information_bound_nats"),
+                                         proto.expected_information_bound_nats()));
   PLUMESCOUT_RETURN_IF_ERROR(CheckFinite(Join(field, "reward"), proto.reward()));
   return CheckFinite(Join(field, "mean_concentration_ppm"), proto.mean_concentration_ppm());
 }
@@ -131,6 +133,9 @@ v1::Candidate ToProto(const Candidate& candidate) {
   if (candidate.expected_information_nats) {
     proto.set_expected_information_nats(*candidate.expected_information_nats);
   }
+  if (candidate.information_bound_nats) {
+    proto.set_expected_information_bound_nats(*candidate.information_bound_nats);
+  }
   if (candidate.reward) proto.set_reward(*candidate.reward);
   for (const Point2& stop : candidate.stops) *proto.add_stops() = ToProto(stop);
   return proto;
@@ -199,6 +204,9 @@ absl::StatusOr<Candidate> FromProto(const v1::Candidate& proto, absl::string_vie
   candidate.duration_s = proto.duration_s();
   if (proto.has_expected_information_nats()) {
     candidate.expected_information_nats = proto.expected_information_nats();
+  }
+  if (proto.has_expected_information_bound_nats()) {
+    candidate.information_bound_nats = proto.expected_information_bound_nats();
   }
   if (proto.has_reward()) candidate.reward = proto.reward();
   for (int i = 0; i < proto.stops_size(); ++i) {

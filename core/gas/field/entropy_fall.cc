@@ -37,7 +37,7 @@ class EntropyFall::Sum final : public InverseColumns::Visitor {
       : fall_(fall), bounded_share_(bounded_share), stop_(stop) {}
 
   bool Enter(std::size_t node, std::span<const double> squares) override {
-    if (stopped_ || (++asked_ % kNodesPerStop == 0 && Stops(stop_))) {
+    if (stopped_ || (asked_++ % kNodesPerStop == 0 && Stops(stop_))) {
       stopped_ = true;
       return false;
     }
@@ -106,9 +106,9 @@ void EntropyFall::FindBound(std::size_t node) {
       bound.greatest_share = std::max(bound.greatest_share, bounds_[child].greatest_share);
     }
   }
-  const std::vector<double> ones(front.boundary(), 1.0);
+  ones_.resize(std::max(ones_.size(), front.boundary()), 1.0);
   row_sums_.assign(front.own, 0.0);
-  front.AddWeighted(ones, scratch_, row_sums_.data());
+  front.AddWeighted({ones_.data(), front.boundary()}, scratch_, row_sums_.data());
   for (std::size_t i = 0; i < front.own; ++i) {
     if (weights_[front.cells[i]] > 0.0) {
       const double share = row_sums_[i] * row_sums_[i] / variance_ppm2_[front.cells[i]];
@@ -116,9 +116,25 @@ void EntropyFall::FindBound(std::size_t node) {
     }
     slopes_[i] *= row_sums_[i];
   }
-  PathStep step;
-  Condition(front, slopes_, step);  // W^T, for one
-  boundary_weights_.insert(boundary_weights_.end(), step.boundary.begin(), step.boundary.end());
+  AddTransposed(front);
+  boundary_weights_.insert(boundary_weights_.end(),
+                           slopes_.begin() + static_cast<std::ptrdiff_t>(front.own), slopes_.end());
+}
+
+// slopes_R += W^T slopes_S
+void EntropyFall::AddTransposed(const Front& front) {
+  double* const boundary = slopes_.data() + front.own;
+  if (!front.couplings.empty()) {
+    scratch_.assign(front.own, 0.0);
+    front.AddCovariance({slopes_.data(), front.own}, scratch_.data());
+    for (const Front::Coupling& coupling : front.couplings) {
+      boundary[coupling.boundary] += front.coupling_precision * scratch_[coupling.own];
+    }
+  } else if (!front.weights.empty()) {
+    for (std::size_t j = 0; j < front.boundary(); ++j) {
+      boundary[j] += Dot(front.weights.data() + j * front.own, slopes_.data(), front.own);
+    }
+  }
 }
 
 std::optional<double> EntropyFall::Of(InverseColumns& columns, const StopFn& stop) const {

@@ -45,6 +45,7 @@ class EntropyFall {
     double greatest_share = 0;  // of its variance that a cell loses if the boundary loses 1 ppm^2
   };
   void FindBound(std::size_t node);
+  void AddTransposed(const Front& front);
 
   const FieldFactor* factor_;
   std::vector<double> variance_ppm2_;
@@ -54,7 +55,8 @@ class EntropyFall {
   std::vector<double> boundary_weights_;
 
   // Of FindBound.
-  std::vector<double> slopes_;
+  std::vector<double> slopes_;  // of the cells of the present front
+  std::vector<double> ones_;
   std::vector<double> row_sums_;
   std::vector<double> scratch_;
   std::vector<std::uint32_t> places_;

@@ -9,7 +9,6 @@
 #include "absl/strings/str_format.h"
 #include "core/frontier/gas_frontier.h"
 #include "core/frontier/occupancy_frontier.h"
-#include "core/grid/grid_search.h"
 #include "core/occupancy/keep_out.h"
 
 namespace plumescout {
@@ -44,10 +43,10 @@ std::vector<Frontier> GasFrontiers(const GoalQuery& query) {
   const FrontierOptions& options = belief.options->frontier;
   const double observed_ppm2 = ObservedVariance_ppm2(options, belief.options->gas);
   std::vector<Frontier> frontiers =
-      FindGasFrontiers(input, observed_ppm2, GasThreshold_ppm(input, observed_ppm2, options),
-                       {query.start}, options);
+      FindGasClusters(input, observed_ppm2, GasThreshold_ppm(input, observed_ppm2, options),
+                      {query.start}, options);
   if (frontiers.empty()) return frontiers;
-  const Grid<double> travel_m = TravelDistances_m(query.reachable, std::vector<Cell>{query.start});
+  const Grid<double>& travel_m = query.TravelFromStart_m();
   for (Frontier& frontier : frontiers) {
     MoveGoalOntoFrontier(query, frontier);
     if (frontier.reachable) frontier.travel_m = travel_m[frontier.goal_cell];

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "core/grid/grid_search.h"
 #include "core/plan/goals/frontier_goals.h"
 #include "core/plan/goals/goal_policy.h"
 #include "core/plan/goals/home_goal.h"
@@ -13,6 +14,13 @@
 #include "core/plan/goals/random_goals.h"
 
 namespace plumescout {
+
+const Grid<double>& GoalQuery::TravelFromStart_m() const {
+  if (!travel_from_start_m) {
+    travel_from_start_m = TravelDistances_m(reachable, std::vector<Cell>{start});
+  }
+  return *travel_from_start_m;
+}
 
 GoalOffer GoHome(const GoalQuery& query) {
   GoalOffer result;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/belief/belief.h"
@@ -22,6 +23,10 @@ struct GoalQuery {
   // As the belief is to be once other robots have driven their ways; null if they drive none. What
   // they will have observed by then is no goal.
   const Belief* ahead = nullptr;
+
+  // Lengths of ways from `start` by steps between reachable cells. Cost: O(cells) when first asked.
+  const Grid<double>& TravelFromStart_m() const;
+  mutable std::optional<Grid<double>> travel_from_start_m = std::nullopt;
 };
 
 struct GoalOffer {

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "core/frontier/gas_frontier.h"
-#include "core/grid/grid_search.h"
 #include "core/grid/window_sums.h"
 #include "core/plan/cost/relevance.h"
 #include "core/plan/goals/frontier_goals.h"
@@ -36,9 +35,10 @@ Grid<float> LeftToTell(const Belief& belief) {
     if (!(variance_ppm2 > 0.0F)) continue;
     const double sure = std::min(1.0, static_cast<double>(relevance[i]));
     const double done_ppm2 = observed_ppm2 * (1.0 - (1.0 - kDoneShare) * sure);
+    if (!(static_cast<double>(variance_ppm2) > done_ppm2)) continue;
     constexpr double kEntropyShare = 0.5;
     const double nats = kEntropyShare * std::log(static_cast<double>(variance_ppm2) / done_ppm2);
-    left[i] = relevance[i] * static_cast<float>(std::max(0.0, nats));
+    left[i] = relevance[i] * static_cast<float>(nats);
   }
   return left;
 }
@@ -49,7 +49,7 @@ Grid<double> Merits(const GoalQuery& query) {
   const int reach_cells = static_cast<int>(std::lround(kWindowReach_m / geometry.resolution_m));
   const Grid<float> left = LeftToTell(query.ahead != nullptr ? *query.ahead : query.belief);
   const Grid<float> around = WindowSums(left, reach_cells);
-  const Grid<double> travel_m = TravelDistances_m(query.reachable, std::vector<Cell>{query.start});
+  const Grid<double>& travel_m = query.TravelFromStart_m();
   const double reading_m = query.options.speed_mps / query.options.reading_rate_hz;
   const double nearest_m = std::max(query.options.min_goal_distance_m, reading_m);
   Grid<double> merits(geometry, 0.0);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plan/selection/choice.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -11,16 +12,6 @@
 
 namespace plumescout {
 namespace {
-
-void PriceInformation(const Belief& belief, const PlanningOptions& options, const StopFn& stop,
-                      std::vector<Candidate>& candidates) {
-  const ExpectedInformation information(belief);
-  for (Candidate& candidate : candidates) {
-    if (stop()) return;
-    candidate.expected_information_nats =
-        information.Of(ReadingCells(candidate.path, belief.geometry(), options));
-  }
-}
 
 // Index of the candidate at `claimed` or nearest to it, -1 if it covers none.
 int NearestCovered(const Goal& claimed, const std::vector<Candidate>& candidates) {
@@ -46,16 +37,79 @@ int UnderWayTo(const std::vector<Candidate>& candidates, const Belief& belief,
   return -1;
 }
 
+// Prices the expected information of candidates one by one, those that may be worth most first,
+// until no other can be the best.
+class Pricing {
+ public:
+  Pricing(const Belief& belief, const PlanningOptions& options, const StopFn& stop,
+          std::vector<Candidate>& candidates)
+      : belief_(belief),
+        options_(options),
+        stop_(stop),
+        candidates_(candidates),
+        information_(belief) {}
+
+  // `needed`: index of one whose price is wanted whatever the others are worth; -1: there is none.
+  void Run(int needed) {
+    if (needed >= 0 && !Price(candidates_[static_cast<std::size_t>(needed)])) return;
+    for (Candidate* const candidate : MostPromisingFirst()) {
+      if (candidate->expected_information_nats) continue;
+      const double most = InformationRate(*candidate, *candidate->information_bound_nats, options_);
+      if (most < best_ || !Price(*candidate)) return;
+    }
+  }
+
+ private:
+  std::vector<Cell> Readings(const Candidate& candidate) const {
+    return ReadingCells(candidate.path, belief_.geometry(), options_);
+  }
+
+  // Those that have a bound.
+  std::vector<Candidate*> MostPromisingFirst() {
+    std::vector<Candidate*> order;
+    for (Candidate& candidate : candidates_) {
+      if (stop_()) break;
+      if (candidate.expected_information_nats) continue;
+      candidate.information_bound_nats = information_.AtMost(Readings(candidate), stop_);
+      if (candidate.information_bound_nats) order.push_back(&candidate);
+    }
+    std::stable_sort(order.begin(), order.end(), [&](const Candidate* a, const Candidate* b) {
+      return InformationRate(*a, *a->information_bound_nats, options_) >
+             InformationRate(*b, *b->information_bound_nats, options_);
+    });
+    return order;
+  }
+
+  // Returns whether it was possible, and there is time for more.
+  bool Price(Candidate& candidate) {
+    if (stop_()) return false;
+    candidate.expected_information_nats = information_.Of(Readings(candidate), stop_);
+    if (!candidate.expected_information_nats) return false;
+    candidate.information_bound_nats.reset();
+    best_ =
+        std::max(best_, InformationRate(candidate, *candidate.expected_information_nats, options_));
+    return true;
+  }
+
+  const Belief& belief_;
+  const PlanningOptions& options_;
+  const StopFn& stop_;
+  std::vector<Candidate>& candidates_;
+  const ExpectedInformation information_;
+  double best_ = -std::numeric_limits<double>::infinity();
+};
+
 }  // namespace
 
 void Choose(const Belief& belief, const PlanningOptions& options, const StopFn& stop, Plan& plan) {
   std::vector<Candidate>& candidates = plan.candidates;
-  if (options.selection_rule == SelectionRule::kInformationRate) {
-    PriceInformation(belief, options, stop, candidates);
+  const bool commits = options.commitment_margin_share != 0.0;
+  const int kept = commits ? UnderWayTo(candidates, belief, plan.robot) : -1;
+  if (options.selection_rule == SelectionRule::kInformationRate && !candidates.empty()) {
+    Pricing(belief, options, stop, candidates).Run(kept);
   }
   plan.chosen = SelectCandidate(candidates, options);
-  const int kept = UnderWayTo(candidates, belief, plan.robot);
-  if (kept < 0 || kept == plan.chosen || options.commitment_margin_share == 0.0) return;
+  if (kept < 0 || kept == plan.chosen) return;
   const Candidate& best = candidates[static_cast<std::size_t>(plan.chosen)];
   if (BeatsByMargin(best, candidates[static_cast<std::size_t>(kept)], options)) {
     return;

@@ -10,10 +10,11 @@
 namespace plumescout {
 
 // Chooses among plan.candidates by options.selection_rule, after pricing their expected information
-// if it asks for that and until `stop` says so. The goal that the robot's live plan ends at is kept
-// unless another is better by options.commitment_margin_share, so that robots do not turn round for
-// little (ours). Pricing one candidate is not interrupted. Cost: that of ExpectedInformation::Of
-// for each candidate, or nothing.
+// if it asks for that and until `stop` says so. Only those are priced that may be the best by what
+// bounds their information; the others keep the bound, and the choice is as if all were priced. The
+// goal that the robot's live plan ends at is kept unless another is better by
+// options.commitment_margin_share, so that robots do not turn round for little (ours). Cost: that
+// of ExpectedInformation::AtMost for each candidate and ::Of for some, or nothing.
 void Choose(const Belief& belief, const PlanningOptions& options, const StopFn& stop, Plan& plan);
 
 }  // namespace plumescout

@@ -11,6 +11,10 @@ namespace {
 
 constexpr double kLeast_s = 1e-3;  // a candidate takes this long at least
 
+double WorthOf_nats(const Candidate& candidate, double nats, const PlanningOptions& options) {
+  return nats + (EndsAtTheUnseen(candidate) ? options.unseen_information_nats : 0.0);
+}
+
 // What the rule wants most of; the rest of `options` says how information counts.
 double Merit(const Candidate& candidate, SelectionRule rule, const PlanningOptions& options) {
   switch (rule) {
@@ -20,7 +24,7 @@ double Merit(const Candidate& candidate, SelectionRule rule, const PlanningOptio
       return candidate.mean_ucb;
     case SelectionRule::kInformationRate:
       if (!candidate.expected_information_nats) return -1.0;  // below any that is priced
-      return Worth_nats(candidate, options) / std::max(candidate.duration_s, kLeast_s);
+      return InformationRate(candidate, *candidate.expected_information_nats, options);
   }
   return -candidate.cost;
 }
@@ -40,8 +44,11 @@ bool EndsAtTheUnseen(const Candidate& candidate) {
 }
 
 double Worth_nats(const Candidate& candidate, const PlanningOptions& options) {
-  return *candidate.expected_information_nats +
-         (EndsAtTheUnseen(candidate) ? options.unseen_information_nats : 0.0);
+  return WorthOf_nats(candidate, *candidate.expected_information_nats, options);
+}
+
+double InformationRate(const Candidate& candidate, double nats, const PlanningOptions& options) {
+  return WorthOf_nats(candidate, nats, options) / std::max(candidate.duration_s, kLeast_s);
 }
 
 int SelectCandidate(const std::vector<Candidate>& candidates, const PlanningOptions& options) {

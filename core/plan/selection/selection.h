@@ -17,6 +17,9 @@ bool EndsAtTheUnseen(const Candidate& candidate);
 // REQUIRES: the candidate is priced.
 double Worth_nats(const Candidate& candidate, const PlanningOptions& options);
 
+// What kInformationRate goes by if the information expected were `nats`: worth per second.
+double InformationRate(const Candidate& candidate, double nats, const PlanningOptions& options);
+
 // Index of the next best trajectory by options.selection_rule, -1 if there is no candidate; the
 // first of equals.
 //   kLeastCost         argmin J, [XIT] Eq. (4) and (13)

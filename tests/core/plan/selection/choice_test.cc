@@ -7,6 +7,9 @@
 #include <memory>
 
 #include "core/gas/gas_map.h"
+#include "core/plan/selection/expected_information.h"
+#include "core/plan/selection/selection.h"
+#include "core/types/rng.h"
 
 namespace plumescout {
 namespace choice_test {
@@ -59,8 +62,85 @@ TEST(Choose, TakesTheWayThatTellsMostIfAsked) {
   EXPECT_FALSE(plan.candidates[0].expected_information_nats.has_value()) << "nobody asked";
   Choose(belief, By(SelectionRule::kInformationRate), NeverStop(), plan);
   EXPECT_EQ(plan.chosen, 1) << "the east is unread";
+  // The west is not even priced.
   EXPECT_GT(*plan.candidates[1].expected_information_nats,
-            2.0 * *plan.candidates[0].expected_information_nats);
+            2.0 * *plan.candidates[0].information_bound_nats);
+}
+
+// Rooms of 8 m with walls and readings at random, and ways through them.
+struct RandomChoice {
+  explicit RandomChoice(std::uint64_t seed) : rng(seed) {
+    Grid<CellState> states(GridGeometry{0.0, 0.0, 0.1, 80, 80}, CellState::kFree);
+    for (int wall = 0; wall < 12; ++wall) {
+      const bool along_x = rng.Below(2) == 0;
+      Cell cell{static_cast<int>(rng.Below(80)), static_cast<int>(rng.Below(80))};
+      for (int i = 0; i < 25 && states.Contains(cell); ++i) {
+        states[cell] = CellState::kOccupied;
+        ++(along_x ? cell.x : cell.y);
+      }
+    }
+    GasMap gas{GasOptions()};
+    for (int i = 0; i < 30; ++i) gas.Add(0, Place(), {rng.Uniform(0.0, 20.0), {}});
+    EXPECT_TRUE(gas.Refresh(states, 0).ok());
+    belief.options = std::make_shared<const MissionOptions>();
+    belief.occupancy = std::make_shared<const Grid<CellState>>(states);
+    belief.gas_mean_ppm = std::make_shared<const Grid<float>>(gas.mean_ppm());
+    belief.gas_variance_ppm2 = std::make_shared<const Grid<float>>(gas.variance_ppm2());
+    belief.gas_what_if = gas.what_if();
+    const Point2 start = Place();
+    for (int i = 0; i < 15; ++i) {
+      Candidate& way = plan.candidates.emplace_back();
+      way.path = {start, Place(), Place()};
+      way.goal.position = way.path.back();
+      way.goal.kind = rng.Below(2) == 0 ? GoalKind::kOccupancyFrontier : GoalKind::kInformation;
+      way.duration_s = Distance_m(way.path[0], way.path[1]) + Distance_m(way.path[1], way.path[2]);
+    }
+    plan.robot = "r";
+  }
+  Point2 Place() { return {rng.Uniform(0.0, 8.0), rng.Uniform(0.0, 8.0)}; }
+
+  Rng rng;
+  Belief belief;
+  Plan plan;
+};
+
+TEST(Choose, PricesNoMoreThanItNeedsAndChoosesAsIfAllWerePriced) {
+  std::size_t spared = 0;
+  for (std::uint64_t seed = 1; seed <= 25; ++seed) {
+    RandomChoice random(seed);
+    const bool commits = seed % 2 == 0;
+    const PlanningOptions options = By(SelectionRule::kInformationRate, commits ? 0.2 : 0.0);
+    random.belief.claims = {{"r", 1, random.plan.candidates[3].goal, 1}};
+    Plan lazy = random.plan;
+    Choose(random.belief, options, NeverStop(), lazy);
+
+    Plan all = random.plan;
+    const ExpectedInformation information(random.belief);
+    for (Candidate& candidate : all.candidates) {
+      candidate.expected_information_nats =
+          information.Of(ReadingCells(candidate.path, random.belief.geometry(), options));
+    }
+    const int best = SelectCandidate(all.candidates, options);
+    const bool keeps =
+        commits && best != 3 &&
+        !BeatsByMargin(all.candidates[static_cast<std::size_t>(best)], all.candidates[3], options);
+    EXPECT_EQ(lazy.chosen, keeps ? 3 : best) << "seed " << seed;
+    EXPECT_EQ(lazy.goal_kept, keeps);
+    for (std::size_t i = 0; i < all.candidates.size(); ++i) {
+      const Candidate& candidate = lazy.candidates[i];
+      const double nats = *all.candidates[i].expected_information_nats;
+      if (candidate.expected_information_nats) {
+        EXPECT_EQ(*candidate.expected_information_nats, nats);
+        EXPECT_FALSE(candidate.information_bound_nats.has_value());
+        continue;
+      }
+      ASSERT_TRUE(candidate.information_bound_nats.has_value());
+      EXPECT_GE(*candidate.information_bound_nats, nats);
+      ++spared;
+    }
+    EXPECT_TRUE(lazy.candidates[static_cast<std::size_t>(lazy.chosen)].expected_information_nats);
+  }
+  EXPECT_GT(spared, 25U * 15U / 2U);
 }
 
 TEST(Choose, FallsBackToTheCostIfThereIsNoTimeToPrice) {

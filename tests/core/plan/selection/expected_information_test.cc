@@ -180,6 +180,7 @@ TEST(ExpectedInformation, IsUnknownBeforeThereIsAField) {
   Belief belief = world.MakeBelief();
   belief.gas_what_if = nullptr;
   EXPECT_EQ(ExpectedInformation(belief).Of({{1, 1}}), std::nullopt);
+  EXPECT_EQ(ExpectedInformation(belief).AtMost({{1, 1}}), std::nullopt);
 }
 
 }  // namespace expected_information_test
