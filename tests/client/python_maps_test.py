@@ -84,9 +84,7 @@ class WatchTest(unittest.TestCase):
         more = frame(Kind.KIND_FULL, tile([[np.uint8(1)]]), more_follow=True)
         self.assertIsNone(self.builder.watched(more))
         last = frame(Kind.KIND_DELTA, tile([[np.uint8(2)]], 0, 1))
-        np.testing.assert_array_equal(
-            self.builder.watched(last).occupancy, [[1, 2, 0], [0, 0, 0]]
-        )
+        np.testing.assert_array_equal(self.builder.watched(last).occupancy, [[1, 2, 0], [0, 0, 0]])
 
     def test_nothing_is_left_after_a_reset(self):
         self.builder.watched(frame(Kind.KIND_FULL, tile(np.ones((2, 3), "u1"))))
@@ -108,11 +106,7 @@ class FilesTest(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
         mean = np.full((1, 2), 2.5, "<f4")
-        gas = tile(
-            mean,
-            layer=map_pb.MAP_LAYER_GAS_MEAN,
-            encoding=map_pb.MapTile.ENCODING_F32,
-        )
+        gas = tile(mean, layer=map_pb.MAP_LAYER_GAS_MEAN, encoding=map_pb.MapTile.ENCODING_F32)
         cells = tile(np.array([[1, 1, 2]], "u1"))
         self.map = MapBuilder().watched(frame(Kind.KIND_FULL, cells, gas))
 

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: PlumeScout contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What a robot of the Python client keeps, and tells a server that lost or does not take it; without
-a server, for operations only say what is to be done."""
+"""What a robot of the Python client keeps, and tells a server that lost or does not take it;
+without a server, for operations only say what is to be done."""
 
 import itertools
 import unittest
@@ -207,6 +207,7 @@ class RobotTest(unittest.TestCase):
                 self.assertEqual(self.robot.log.applied_sequence, 12)
 
     def test_a_server_that_lost_everything_is_told_everything_under_a_new_lease(self):
+        self.robot = self.register(take_over=True)
         self.server.keeps = False
         self.send(3)
         self.server.lose_everything()
@@ -281,6 +282,18 @@ class LogTest(unittest.TestCase):
         batch = log.batch(self.LIMITS, after=15).observations
         self.assertEqual([o.sequence for o in batch], list(range(16, 31)))
         self.assertEqual(log.lost_count, 0)
+
+    def test_of_a_gap_the_rest_is_told(self):
+        log = Log(0)
+        for _ in range(5):
+            log.add(ingest_pb.Observation())
+        del log._kept[:3]
+        log.go_back(0)
+        first, fourth, _ = log.batch(self.LIMITS, after=2).observations
+        self.assertEqual((first.sequence, first.gap.first_sequence), (3, 3))
+        self.assertEqual((first.gap.last_sequence, fourth.sequence), (3, 4))
+        log.note(ingest_pb.IngestState(applied_sequence=5, durable_sequence=5))
+        self.assertEqual(log.kept_count, 0)
 
     def test_nothing_goes_out_beyond_the_credit(self):
         log = Log(0)

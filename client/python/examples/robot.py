@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: PlumeScout contributors
 # SPDX-License-Identifier: Apache-2.0
-"""A robot that maps a room with a gas leak: robot.py [HOST:PORT]. Its room is made up; write your own
-scan, gas_ppm and drive instead."""
+"""A robot that maps a room with a gas leak: robot.py [HOST:PORT]. Its room is made up; write your
+own scan, gas_ppm and drive instead."""
 
 import math
 import sys

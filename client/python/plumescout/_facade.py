@@ -36,11 +36,13 @@ Metadata = tuple[tuple[str, str], ...]
 
 
 class Credentials:
-    """How a connection is protected, and who uses it. What is not given is taken from the environment:
-    PLUMESCOUT_TLS_CA, PLUMESCOUT_TLS_CERT, PLUMESCOUT_TLS_KEY and PLUMESCOUT_TOKEN_FILE.
+    """How a connection is protected, and who uses it. What is not given is taken from the
+    environment: PLUMESCOUT_TLS_CA, PLUMESCOUT_TLS_CERT, PLUMESCOUT_TLS_KEY and
+    PLUMESCOUT_TOKEN_FILE.
 
     tls_ca: PEM file of the authorities of the server's certificate; without it, plaintext.
-    tls_cert, tls_key: PEM files of the client's own certificate; token_file: holds a bearer token."""
+    tls_cert, tls_key: PEM files of the client's own certificate; token_file: holds a bearer token.
+    """
 
     def __init__(
         self,
@@ -91,7 +93,7 @@ def presents(method: Callable[..., Any], returns: str = "{}") -> Callable[[T], T
 
 
 def _local(
-    method: Callable[Concatenate[Ingest, P], T],
+    method: Callable[Concatenate[Ingest, P], T]
 ) -> Callable[Concatenate[BaseRobot[Any], P], T]:
     """A method of a robot that asks nobody."""
 
@@ -122,7 +124,7 @@ class BaseRobot(Generic[Driver]):
 
     @property
     def rejections(self) -> list[Rejection]:
-        """Observations that the server refused."""
+        """Observations that the server refused, the newest 10,000."""
         return self.session.rejections
 
     add_scan = _local(Ingest.add_scan)

@@ -117,6 +117,7 @@ class _Driver:
                 except grpc.RpcError as error:
                     progress.fail(error_of(error))
         finally:
+            progress.close()
             for stream in streams:
                 stream.cancel()
 
@@ -133,6 +134,8 @@ class _Driver:
                 wait_for_ready=True,
             )
         if isinstance(effect, Open):
+            while streams:  # an operation has one at a time
+                streams.pop().cancel()
             streams.append(_Stream(self.channel, effect, self._credentials.metadata()))
             return streams[-1]
         if isinstance(effect, Read):
@@ -147,7 +150,7 @@ class _Driver:
 
 
 def _client_call(
-    method: Callable[Concatenate[Operations, P], Operation[T]],
+    method: Callable[Concatenate[Operations, P], Operation[T]]
 ) -> Callable[Concatenate[Client, P], T]:
     @presents(method)
     def call(self: Client, /, *args: P.args, **kwargs: P.kwargs) -> T:
@@ -167,7 +170,7 @@ def _client_stream(
 
 
 def _robot_call(
-    method: Callable[Concatenate[Session, P], Operation[T]],
+    method: Callable[Concatenate[Session, P], Operation[T]]
 ) -> Callable[Concatenate[Robot, P], T]:
     @presents(method)
     def call(self: Robot, /, *args: P.args, **kwargs: P.kwargs) -> T:
@@ -187,7 +190,7 @@ def _robot_stream(
 
 
 def _registration(
-    method: Callable[Concatenate[Operations, P], Operation[Session]],
+    method: Callable[Concatenate[Operations, P], Operation[Session]]
 ) -> Callable[Concatenate[Client, P], Robot]:
     @presents(method, "Robot")
     def call(self: Client, /, *args: P.args, **kwargs: P.kwargs) -> Robot:
