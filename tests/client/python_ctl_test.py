@@ -11,7 +11,6 @@ import tempfile
 import time
 import unittest
 
-import grpc
 import numpy as np
 import plumescout
 from plumescout.ctl import output, words
@@ -141,7 +140,7 @@ class CtlTest(unittest.TestCase):
         shown = self.ctl_json("robots", "list", "busy")
         self.assertEqual([r["on_map"]["robot"] for r in shown], ["missions/busy/robots/scout"])
         self.assertTrue(shown[0]["leased"])
-        self.assertEqual(int(shown[0]["on_map"]["applied_sequence"]), robot.last_sequence)
+        self.assertEqual(int(shown[0]["on_map"]["applied_sequence"]), robot.log.last_sequence)
         plans = self.ctl_json("plans", "busy")
         self.assertEqual([p["name"] for p in plans], [plan.proto.name])
         self.assertIn("scout", self.ctl("plans", "busy"))
@@ -361,40 +360,6 @@ class ProgressTest(unittest.TestCase):
             told.seek(0)
             self.assertIn("export of hall: ", told.read())
             self.assertIn("waiting for the server", progress.text())
-
-
-class RequestIdTest(unittest.TestCase):
-    def test_an_answer_that_was_lost_comes_again(self):
-        server, target = start_server()
-        try:
-            with plumescout.Client(target) as client:
-                client.create_mission("lost")
-                method = client._robots.RegisterRobot
-                leases = []
-
-                def lossy(request, **options):
-                    response = method(request, **options)
-                    leases.append(response.lease_token)
-                    if len(leases) == 1:
-                        raise LostAnswer()
-                    return response
-
-                client._robots.RegisterRobot = lossy
-                robot = client.register("lost", "scout")
-                self.assertEqual(leases, [robot._open.lease_token] * 2)
-        finally:
-            stop_server(server)
-
-
-class LostAnswer(grpc.RpcError):
-    def code(self):
-        return grpc.StatusCode.UNAVAILABLE
-
-    def details(self):
-        return "the link broke"
-
-    def trailing_metadata(self):
-        return ()
 
 
 if __name__ == "__main__":

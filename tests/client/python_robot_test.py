@@ -1,33 +1,47 @@
 # SPDX-FileCopyrightText: PlumeScout contributors
 # SPDX-License-Identifier: Apache-2.0
-"""What a robot of the Python client keeps, and tells a server that lost or does not take it."""
+"""What a robot of the Python client keeps, and tells a server that lost or does not take it;
+without a server, for operations only say what is to be done."""
 
 import itertools
-import types
 import unittest
 
 import grpc
 import plumescout
-from plumescout import calls as calls_module
+from plumescout import _operation, rpcs
+from plumescout._client import Operations
+from plumescout._log import Log
 
 from plumescout.v1 import ingest_service_pb2 as ingest_pb
+from plumescout.v1 import mission_service_pb2 as mission_pb
 from plumescout.v1 import robot_service_pb2 as robot_pb
+from plumescout.v1 import system_service_pb2 as system_pb
 
 POSE = (0.0, 0.0, 0.0)
+ROBOT = "missions/m/robots/r"
+
+
+def refusal(code, reason, **facts):
+    return plumescout.PlumeScoutError(code, "refused", reason, **facts)
+
+
+LINK_BROKE = refusal(grpc.StatusCode.UNAVAILABLE, "")
 
 
 class FakeServer:
-    """The log of one robot, as a server holds it."""
+    """The log of one robot, as a server holds it; carries out operations."""
 
     def __init__(self):
         self.log = []  # numbers; a gap's as (first, last)
+        self.boot_id = "first"
+        self.knows_robot = True
+        self.log_continues = True
         self.keeps = True
         self.lag = 0
         self.durable = 0
-        self.limits = types.SimpleNamespace(
-            max_batch_observation_count=4, max_receive_bytes=1 << 20
-        )
-        self._ingest = types.SimpleNamespace(BatchIngestObservations=self.take)
+        self.errors = []  # of the next calls that send a batch
+        self.calls = []  # (rpc, request)
+        self.slept_s = []
 
     @property
     def applied(self):
@@ -38,153 +52,313 @@ class FakeServer:
         self.log = self.log[:count]
         self.durable = self.applied
 
-    def _call(self, method, request, before_try=None):
-        if before_try is not None:
-            before_try(request)
-        return method(request)
+    def lose_everything(self):
+        self.fall_back_to(0)
+        self.boot_id, self.knows_robot = "second", False
+
+    def run(self, operation):
+        progress = _operation.Progress(operation)
+        while (effect := progress.advance()) is not None:
+            try:
+                progress.give(self.perform(effect))
+            except plumescout.PlumeScoutError as error:
+                progress.fail(error)
+        return progress.result()
+
+    def perform(self, effect):
+        if isinstance(effect, _operation.Sleep):
+            return self.slept_s.append(effect.seconds)
+        if isinstance(effect, _operation.Open):
+            return FakeStream(self)
+        if isinstance(effect, _operation.Write):
+            return effect.stream.write(effect.request)
+        if isinstance(effect, _operation.EndWriting):
+            return effect.stream.responses.append(None)
+        if isinstance(effect, _operation.Read):
+            return effect.stream.responses.pop(0)
+        request = type(effect.request)()
+        request.CopyFrom(effect.request)
+        self.calls.append((effect.rpc, request))
+        if effect.rpc is rpcs.GET_SERVER_INFO:
+            limits = {"max_batch_observation_count": 4, "max_receive_bytes": 1 << 20}
+            return system_pb.GetServerInfoResponse(boot_id=self.boot_id, limits=limits)
+        if effect.rpc is rpcs.REGISTER_ROBOT:
+            self.knows_robot = True
+            return self.registration()
+        if effect.rpc is rpcs.BATCH_INGEST_OBSERVATIONS:
+            if self.errors and request.HasField("batch"):
+                raise self.errors.pop(0)
+            self.take(request)
+            return ingest_pb.BatchIngestObservationsResponse(ingest_state=self.state())
+        raise AssertionError(effect)
+
+    def registration(self):
+        return robot_pb.RegisterRobotResponse(
+            robot=ROBOT,
+            lease_token=len(self.calls) + 1,
+            ingest_state=self.state(),
+            server_boot_id=self.boot_id,
+            log_continues=self.log_continues,
+        )
+
+    def state(self):
+        return ingest_pb.IngestState(
+            applied_sequence=self.applied,
+            durable_sequence=self.durable,
+            credit_sequence=self.applied + 6,
+        )
 
     def take(self, request):
+        """request: something with `open` and `batch`."""
+        if not self.knows_robot:
+            raise refusal(grpc.StatusCode.NOT_FOUND, "ROBOT_NOT_FOUND")
         if request.open.durable_sequence > self.applied:
-            raise plumescout.PlumeScoutError(
-                grpc.StatusCode.FAILED_PRECONDITION,
-                "set back",
-                "STORE_ROLLED_BACK",
-                metadata={"applied_sequence": str(self.applied)},
+            applied = {"applied_sequence": str(self.applied)}
+            raise refusal(
+                grpc.StatusCode.FAILED_PRECONDITION, "STORE_ROLLED_BACK", metadata=applied
             )
         for observation in request.batch.observations:
             if observation.sequence > self.applied + 1:
-                raise plumescout.PlumeScoutError(
-                    grpc.StatusCode.FAILED_PRECONDITION, "a hole", "SEQUENCE_GAP"
-                )
+                raise refusal(grpc.StatusCode.FAILED_PRECONDITION, "SEQUENCE_GAP")
             gap = observation.gap if observation.HasField("gap") else None
             self.log.append(
                 (gap.first_sequence, gap.last_sequence) if gap else observation.sequence
             )
         if self.keeps:
             self.durable = max(self.durable, self.applied - self.lag)
-        response = ingest_pb.BatchIngestObservationsResponse()
-        response.ingest_state.applied_sequence = self.applied
-        response.ingest_state.durable_sequence = self.durable
-        return response
+
+
+class FakeStream:
+    """An ingest stream to a FakeServer."""
+
+    def __init__(self, server):
+        self.server = server
+        self.responses = []
+
+    def write(self, request):
+        response = ingest_pb.StreamObservationsResponse()
+        if request.HasField("open"):
+            self.server.take(ingest_pb.BatchIngestObservationsRequest(open=request.open))
+            response.opened.ingest_state.CopyFrom(self.server.state())
+        else:
+            self.server.take(ingest_pb.BatchIngestObservationsRequest(batch=request.batch))
+            response.ack.CopyFrom(self.server.state())
+        self.responses.append(response)
 
 
 class RobotTest(unittest.TestCase):
     def setUp(self):
         self.server = FakeServer()
-        self.robot = plumescout.Robot(
-            self.server, robot_pb.RegisterRobotResponse(robot="missions/m/robots/r")
-        )
+        self.operations = Operations(timeout_s=5.0)
+        self.ticks_ns = itertools.count(100)
+        self.robot = self.register()
 
-    def send(self, count):
+    def register(self, **arguments):
+        arguments = {"clock_ns": lambda: next(self.ticks_ns)} | arguments
+        robot = self.server.run(self.operations.register("m", "r", **arguments))
+        self.server.calls.clear()
+        return robot
+
+    def send(self, count, **how):
         for _ in range(count):
             self.robot.add_gas(1, POSE, 1.0)
-        self.robot.flush()
+        self.server.run(self.robot.flush(**how))
+
+    def batches(self):
+        requests = [q for rpc, q in self.server.calls if rpc is rpcs.BATCH_INGEST_OBSERVATIONS]
+        return [[o.sequence for o in request.batch.observations] for request in requests]
+
+    def test_batches_are_as_large_as_the_server_takes(self):
+        self.send(6, stream=False)
+        self.assertEqual(self.batches(), [[1, 2, 3, 4], [5, 6]])
+
+    def test_what_is_more_than_a_batch_is_streamed(self):
+        self.send(10)
+        self.assertEqual(self.server.log, list(range(1, 11)))
+        self.assertEqual(self.batches(), [])
+        self.assertFalse(self.robot.log.waits)
 
     def test_what_is_durable_is_forgotten(self):
         self.server.lag = 3
         self.send(10)
-        self.assertEqual(self.server.log, list(range(1, 11)))
-        self.assertEqual(self.robot.durable_sequence, 7)
-        self.assertEqual([o.sequence for o in self.robot._kept], [8, 9, 10])
-
-    def test_a_server_that_keeps_nothing_needs_nothing_kept(self):
-        self.server.keeps = False
-        self.send(10)
-        self.assertEqual(self.robot._kept, [])
+        self.assertEqual(self.robot.log.durable_sequence, 7)
+        self.assertEqual(self.robot.log.kept_count, 3)
 
     def test_what_was_not_durable_is_told_again_after_a_crash(self):
-        self.server.lag = 3
-        self.send(10)
-        self.server.fall_back_to(7)
-        with self.assertLogs("plumescout", "WARNING"):
-            self.send(1)
-        self.assertEqual(self.server.log, list(range(1, 12)))
+        for stream in (False, True):
+            with self.subTest(stream=stream):
+                self.setUp()
+                self.server.lag = 3
+                self.send(10)
+                self.server.fall_back_to(7)
+                with self.assertLogs("plumescout", "WARNING"):
+                    self.send(1, stream=stream)
+                self.assertEqual(self.server.log, list(range(1, 12)))
 
     def test_a_server_that_was_set_back_hears_what_is_gone(self):
-        self.send(10)
-        self.server.fall_back_to(4)
+        for stream in (False, True):
+            with self.subTest(stream=stream):
+                self.setUp()
+                self.send(10)
+                self.server.fall_back_to(4)
+                with self.assertLogs("plumescout", "WARNING"):
+                    self.send(2, stream=stream)
+                self.assertEqual(self.server.log, [1, 2, 3, 4, (5, 10), 11, 12])
+                self.assertEqual(self.robot.log.applied_sequence, 12)
+
+    def test_a_server_that_lost_everything_is_told_everything_under_a_new_lease(self):
+        self.robot = self.register(take_over=True)
+        self.server.keeps = False
+        self.send(3)
+        self.server.lose_everything()
         with self.assertLogs("plumescout", "WARNING"):
-            self.send(2)
-        self.assertEqual(self.server.log, [1, 2, 3, 4, (5, 10), 11, 12])
-        self.assertEqual(self.robot.applied_sequence, 12)
+            self.send(1)
+        self.assertEqual(self.server.log, [1, 2, 3, 4])
+        registrations = [q for rpc, q in self.server.calls if rpc is rpcs.REGISTER_ROBOT]
+        self.assertEqual(len(registrations), 1)
+        self.assertFalse(registrations[0].take_over)
+        self.assertEqual(registrations[0].log_epoch, self.robot._request.log_epoch)
+
+    def test_a_robot_that_was_removed_stays_away(self):
+        self.send(3)
+        self.server.knows_robot = False
+        with self.assertRaises(plumescout.PlumeScoutError) as caught:
+            self.send(1)
+        self.assertEqual(caught.exception.reason, "ROBOT_NOT_FOUND")
+
+    def test_what_another_log_has_not_is_numbered_after_it(self):
+        self.server.keeps = False
+        self.send(3)
+        self.server.lose_everything()
+        self.server.log, self.server.log_continues = list(range(1, 21)), False
+        self.send(2)
+        self.assertEqual(self.server.log, list(range(1, 23)))
+        self.assertEqual(self.robot.log.last_sequence, 22)
 
     def test_a_hole_that_is_none_of_the_servers_is_an_error(self):
         self.robot.add_gas(1, POSE, 1.0)
         self.robot.add_gas(1, POSE, 1.0)
-        del self.robot._kept[0]
+        del self.robot.log._kept[0]
         with self.assertRaises(plumescout.PlumeScoutError) as caught:
-            self.robot.flush()
+            self.server.run(self.robot.flush())
         self.assertEqual(caught.exception.reason, "SEQUENCE_GAP")
 
+    def test_a_batch_bears_the_time_of_the_try_that_gets_through(self):
+        full = refusal(grpc.StatusCode.UNAVAILABLE, "STORE_UNAVAILABLE", retry_after_s=0.001)
+        self.server.errors = [full, LINK_BROKE]
+        self.send(1)
+        times_ns = [q.batch.sent_time_ns for _, q in self.server.calls[-3:]]
+        self.assertEqual(times_ns, [100, 101, 102])
+        self.assertEqual(self.server.slept_s[0], 0.001)
 
-class WaitingTest(unittest.TestCase):
-    def call(self, errors, timeout_s=5.0):
-        """Calls a method that fails so often before it answers."""
-        client = plumescout.Client("127.0.0.1:1", timeout_s=timeout_s)
-        self.addCleanup(client.close)
+    def test_a_clock_of_nobody_is_not_told(self):
+        self.robot = self.register(clock_ns=None)
+        self.send(1)
+        self.assertEqual(self.server.calls[-1][1].batch.sent_time_ns, 0)
 
-        def method(_request, timeout, wait_for_ready):
-            self.assertLessEqual(timeout, timeout_s)
-            if errors:
-                raise errors.pop(0)
-            return "answer"
 
-        return client._call(method, None)
+class LogTest(unittest.TestCase):
+    LIMITS = system_pb.ServerLimits(max_receive_bytes=1 << 20, max_batch_observation_count=1000)
 
-    def setUp(self):
-        # The errors of gRPC have no public constructor: what error_of makes of them is given.
-        original = calls_module.error_of
-        calls_module.error_of = lambda error: error.told
-        self.addCleanup(setattr, calls_module, "error_of", original)
+    def test_the_oldest_go_when_it_is_full_and_are_declared(self):
+        one = ingest_pb.Observation(sequence=1, sample_time_ns=1)
+        log = Log(0, max_kept_bytes=20 * one.ByteSize())
+        for _ in range(30):
+            log.add(ingest_pb.Observation(sample_time_ns=1))
+        batch = log.batch(self.LIMITS, after=0).observations
+        self.assertGreaterEqual(log.lost_count, 10)
+        self.assertEqual(batch[0].gap.first_sequence, 1)
+        self.assertEqual(batch[0].gap.last_sequence, log.lost_count)
+        self.assertEqual([o.sequence for o in batch[1:]], list(range(log.lost_count + 1, 31)))
 
-    @staticmethod
-    def trouble(reason, retry_after_s=0.001):
-        error = grpc.RpcError()
-        error.told = plumescout.PlumeScoutError(
-            grpc.StatusCode.UNAVAILABLE, "later", reason, retry_after_s
-        )
-        return error
+    def test_what_was_applied_goes_without_a_gap(self):
+        one = ingest_pb.Observation(sequence=1, sample_time_ns=1)
+        log = Log(0, max_kept_bytes=20 * one.ByteSize())
+        for _ in range(15):
+            log.add(ingest_pb.Observation(sample_time_ns=1))
+        log.note(ingest_pb.IngestState(applied_sequence=15))
+        for _ in range(15):
+            log.add(ingest_pb.Observation(sample_time_ns=1))
+        batch = log.batch(self.LIMITS, after=15).observations
+        self.assertEqual([o.sequence for o in batch], list(range(16, 31)))
+        self.assertEqual(log.lost_count, 0)
+
+    def test_of_a_gap_the_rest_is_told(self):
+        log = Log(0)
+        for _ in range(5):
+            log.add(ingest_pb.Observation())
+        del log._kept[:3]
+        log.go_back(0)
+        first, fourth, _ = log.batch(self.LIMITS, after=2).observations
+        self.assertEqual((first.sequence, first.gap.first_sequence), (3, 3))
+        self.assertEqual((first.gap.last_sequence, fourth.sequence), (3, 4))
+        log.note(ingest_pb.IngestState(applied_sequence=5, durable_sequence=5))
+        self.assertEqual(log.kept_count, 0)
+
+    def test_nothing_goes_out_beyond_the_credit(self):
+        log = Log(0)
+        for _ in range(5):
+            log.add(ingest_pb.Observation())
+        batch = log.batch(self.LIMITS, after=1, credit=3).observations
+        self.assertEqual([o.sequence for o in batch], [2, 3])
+
+
+class CallTest(unittest.TestCase):
+    """How calls are made again."""
+
+    def call(self, rpc, request, outcomes, timeout_s=5.0):
+        """outcomes: of the tries, one after the other. Returns the requests, and what was slept."""
+        operation = Operations(timeout_s).call(rpc, request)
+        progress = _operation.Progress(operation)
+        names, slept_s = [], []
+        while (effect := progress.advance()) is not None:
+            if isinstance(effect, _operation.Sleep):
+                slept_s.append(effect.seconds)
+                continue
+            self.assertLessEqual(effect.timeout_s, timeout_s)
+            names.append(getattr(effect.request, "request_id", ""))
+            outcome = outcomes.pop(0)
+            if isinstance(outcome, plumescout.PlumeScoutError):
+                progress.fail(outcome)
+            else:
+                progress.give(outcome)
+        return names, slept_s
+
+    def later(self, reason, retry_after_s=0.25):
+        return refusal(grpc.StatusCode.UNAVAILABLE, reason, retry_after_s=retry_after_s)
 
     def test_a_server_that_recovers_or_has_no_room_is_waited_for(self):
-        errors = [self.trouble("RECOVERING"), self.trouble("STORE_UNAVAILABLE")]
-        self.assertEqual(self.call(errors), "answer")
+        outcomes = [self.later("RECOVERING"), self.later("STORE_UNAVAILABLE"), "answer"]
+        _, slept_s = self.call(rpcs.GET_MISSION, mission_pb.GetMissionRequest(), outcomes)
+        self.assertEqual(slept_s, [0.25, 0.25])
 
     def test_nothing_is_waited_for_longer_than_the_call_may_take(self):
+        outcomes = [self.later("RECOVERING", retry_after_s=60.0)]
         with self.assertRaises(plumescout.PlumeScoutError):
-            self.call([self.trouble("RECOVERING", retry_after_s=60.0)])
+            self.call(rpcs.GET_MISSION, mission_pb.GetMissionRequest(), outcomes)
 
-    def test_a_batch_bears_the_time_of_the_try_that_gets_through(self):
-        client = plumescout.Client("127.0.0.1:1", timeout_s=5.0)
-        self.addCleanup(client.close)
-        client._limits = types.SimpleNamespace(
-            max_batch_observation_count=4, max_receive_bytes=1 << 20
-        )
-        errors = [self.trouble("STORE_UNAVAILABLE"), self.trouble("STORE_UNAVAILABLE")]
-        stamps_ns = []
+    def test_waits_for_a_broken_link_grow(self):
+        outcomes = [LINK_BROKE] * 3 + ["answer"]
+        request = mission_pb.GetMissionRequest()
+        _, slept_s = self.call(rpcs.GET_MISSION, request, outcomes, timeout_s=60.0)
+        for slept, base_s in zip(slept_s, (0.1, 0.16, 0.256)):
+            self.assertLessEqual(abs(slept / base_s - 1), 0.2 + 1e-9)
 
-        def take(request, timeout, wait_for_ready):
-            stamps_ns.append(request.batch.sent_time_ns)
-            if errors:
-                raise errors.pop(0)
-            response = ingest_pb.BatchIngestObservationsResponse()
-            response.ingest_state.applied_sequence = 1
-            return response
+    def test_a_request_that_is_made_again_keeps_its_name(self):
+        request = mission_pb.CreateMissionRequest()
+        names, _ = self.call(rpcs.CREATE_MISSION, request, [LINK_BROKE, "answer"])
+        self.assertEqual(len(set(names)), 1)
+        self.assertTrue(names[0])
 
-        client._ingest = types.SimpleNamespace(BatchIngestObservations=take)
-        ticks_ns = itertools.count(100)
-        robot = plumescout.Robot(
-            client,
-            robot_pb.RegisterRobotResponse(robot="missions/m/robots/r"),
-            clock_ns=lambda: next(ticks_ns),
-        )
-        robot.add_gas(1, POSE, 1.0)
-        robot.flush()
-        self.assertEqual(stamps_ns, [100, 101, 102])
+    def test_what_may_have_been_done_is_not_done_twice(self):
+        with self.assertRaises(plumescout.PlumeScoutError):
+            self.call(rpcs.DELETE_MISSION, mission_pb.DeleteMissionRequest(), [LINK_BROKE])
 
     def test_other_trouble_is_the_callers(self):
         with self.assertRaises(plumescout.PlumeScoutError) as caught:
-            self.call([self.trouble("OVERLOADED")])
-        self.assertEqual(caught.exception.reason, "OVERLOADED")
+            reached = refusal(grpc.StatusCode.RESOURCE_EXHAUSTED, "LIMIT_REACHED")
+            self.call(rpcs.GET_MISSION, mission_pb.GetMissionRequest(), [reached])
+        self.assertEqual(caught.exception.reason, "LIMIT_REACHED")
 
 
 if __name__ == "__main__":

@@ -120,7 +120,7 @@ class SmokeTest(unittest.TestCase):
         self.assertGreater(variance_ppm2[0], 0)
         self.assertTrue(np.isnan(mean_ppm[1]))
         self.assertIsInstance(robot.list_frontiers(), list)
-        self.assertEqual(room.status.robots[0].applied_sequence, robot.last_sequence)
+        self.assertEqual(room.status.robots[0].applied_sequence, robot.log.last_sequence)
 
     def test_each_gas_of_a_mission_has_a_map(self):
         gases = [{"name": "methane"}, {"name": "ozone", "background_mean_ppm": 0.05}]

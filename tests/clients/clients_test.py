@@ -123,9 +123,7 @@ class ClientsTest(unittest.TestCase):
         }
         self.assertEqual(maps["the copy"], maps["the original"])
         whole = next(
-            told["result"]
-            for step, told in zip(self.steps, self.python)
-            if step["do"] == "get_map"
+            told["result"] for step, told in zip(self.steps, self.python) if step["do"] == "get_map"
         )
         self.assertEqual(maps["in parts"], whole)
         watched = next(

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: PlumeScout contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the scenario with the Python client: run_python.py [--asyncio] TARGET SCENARIO; see README.md."""
+"""Runs the scenario with the Python client: run_python.py [--asyncio] TARGET SCENARIO; see
+README.md."""
 
 import asyncio
 import inspect
@@ -53,10 +54,7 @@ class Runner:
 
     async def get_server_info(self):
         info = await get(self.client.server_info())
-        return {
-            "features": list(info.features),
-            "max_receive_bytes": info.limits.max_receive_bytes,
-        }
+        return {"features": list(info.features), "max_receive_bytes": info.limits.max_receive_bytes}
 
     async def drain_server(self):
         await get(self.client.drain_server())
@@ -121,9 +119,7 @@ class Runner:
         sensors = [
             robot_pb.GasSensor(
                 id=sensor["id"],
-                robot_from_sensor=types_pb.Point2D(
-                    x_m=sensor["ahead_m"], y_m=sensor["left_m"]
-                ),
+                robot_from_sensor=types_pb.Point2D(x_m=sensor["ahead_m"], y_m=sensor["left_m"]),
                 stddev_ppm=sensor["stddev_ppm"],
             )
             for sensor in gas_sensors
@@ -234,7 +230,9 @@ class Runner:
 
     async def get_map(self, mission, layers=(), **arguments):
         words = [layer.lower().replace("_", "-") for layer in layers]
-        return reduce.area(await get(self.client.get_map(mission, layers=words, **arguments)), words)
+        return reduce.area(
+            await get(self.client.get_map(mission, layers=words, **arguments)), words
+        )
 
     async def watch_map(self, mission, layers=(), during=None):
         words = [layer.lower().replace("_", "-") for layer in layers]

@@ -18,8 +18,8 @@ import grpc
 
 import plumescout
 import running
-from plumescout.v1 import map_service_pb2 as map_pb
 from plumescout.v1 import mission_service_pb2 as mission_pb
+from plumescout.v1 import mission_service_pb2_grpc as mission_grpc
 
 MAX_CONNECTIONS_OF_A_SOURCE = 64  # as deploy/haproxy/haproxy.cfg has it
 MAX_CALLS_IN_10_S = 500
@@ -126,8 +126,7 @@ class FrontTest(unittest.TestCase):
         self.assertEqual(caught.exception.code, code)
 
     def owner_of(self, client, mission):
-        request = mission_pb.GetMissionRequest(name=f"missions/{mission}")
-        return client._call(client._missions.GetMission, request).mission.owner
+        return client.get_mission(mission).owner
 
     def test_a_certificate_says_who_calls(self):
         alice = self.client("alice")
@@ -144,9 +143,9 @@ class FrontTest(unittest.TestCase):
     def test_streams_pass(self):
         alice = self.client("alice")
         alice.create_mission("watched")
-        watch = alice._maps.WatchMap(map_pb.WatchMapRequest(mission="missions/watched"))
-        self.assertEqual(next(watch).kind, map_pb.WatchMapResponse.KIND_FULL)
-        watch.cancel()
+        watch = alice.watch_map("watched")
+        self.assertEqual(next(watch).revision, 0)
+        watch.close()
 
     def test_nobody_gets_in_without_a_good_certificate(self):
         for name, folder in ((None, None), ("alice", self.strangers), ("late", None)):
@@ -170,12 +169,12 @@ class FrontTest(unittest.TestCase):
         lies = [("x-plumescout-subject", "CN=root,OU=admin")]
         scout = self.client("scout")
         with self.assertRaises(grpc.RpcError) as caught:
-            scout._missions.CreateMission(
+            mission_grpc.MissionServiceStub(scout.driver.channel).CreateMission(
                 mission_pb.CreateMissionRequest(mission_id="spoof"), metadata=lies * 2
             )
         self.assertEqual(caught.exception.code(), grpc.StatusCode.PERMISSION_DENIED)
         alice = self.client("alice")
-        created = alice._missions.CreateMission(
+        created = mission_grpc.MissionServiceStub(alice.driver.channel).CreateMission(
             mission_pb.CreateMissionRequest(mission_id="honest"), metadata=lies
         )
         self.assertEqual(created.mission.owner, "alice")
@@ -187,9 +186,9 @@ class FrontTest(unittest.TestCase):
             "/grpc.channelz.v1.Channelz/GetServers",
         ):
             with self.assertRaises(grpc.RpcError) as caught:
-                alice._channel.unary_unary(method)(b"", timeout=running.PATIENCE_S)
+                alice.driver.channel.unary_unary(method)(b"", timeout=running.PATIENCE_S)
             self.assertEqual(caught.exception.code(), grpc.StatusCode.UNIMPLEMENTED)  # HTTP 404
-        health = alice._channel.unary_unary("/grpc.health.v1.Health/Check")
+        health = alice.driver.channel.unary_unary("/grpc.health.v1.Health/Check")
         self.assertEqual(health(b"", timeout=running.PATIENCE_S), b"\x08\x01")  # SERVING
 
     def test_a_source_has_so_many_connections_and_no_more(self):

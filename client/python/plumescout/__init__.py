@@ -12,9 +12,9 @@
         robot.report(plan, "reached")
         gas_ppm = client.get_map("house").gas_mean_ppm
 
-plumescout.aio has the same for asyncio. Poses are (x_m, y_m, yaw_rad) in frame map. Observations are
-kept in memory until the server has them on its disk; a robot that must outlive restarts of its own is
-better served by the program plumescout-robot. Messages of the wire are in plumescout.v1.
+plumescout.aio has the same for asyncio. Poses are (x_m, y_m, yaw_rad) in frame map. Observations
+are kept in memory until the server has them on its disk; a robot that must outlive restarts of its
+own is better served by the program plumescout-robot. Messages of the wire are in plumescout.v1.
 """
 
 import pathlib
@@ -24,7 +24,7 @@ import sys
 # In a tree that is not installed plumescout.v1 is in a folder of its own: build/release/python.
 __path__ = pkgutil.extend_path(__path__, __name__)
 try:
-    import google.rpc  # of the package googleapis-common-protos, if that is there
+    import google.rpc.error_details_pb2  # of googleapis-common-protos, if that is installed
 except ModuleNotFoundError:  # else ours
     sys.path.append(str(pathlib.Path(__file__).with_name("_wire")))
 

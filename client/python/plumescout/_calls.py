@@ -29,8 +29,8 @@ class Calls:
         timeout_s: float | None = None,
         before_try: Callable[[Request], None] = lambda request: None,
     ) -> Operation[Response]:
-        """Makes a unary call, within its time again and again if the server has not taken it or, of a
-        call that may be repeated, the link broke. A request that can have a name gets one.
+        """Makes a unary call, within its time again and again if the server has not taken it or, of
+        a call that may be repeated, the link broke. A request that can have a name gets one.
 
         before_try is given the request before it goes out, each time that it does."""
         if "request_id" in request.DESCRIPTOR.fields_by_name:
@@ -65,8 +65,8 @@ class Calls:
         request: Message,
         digest: Callable[[Any], Any] = lambda response: response,
     ) -> Operation[None]:
-        """Emits what digest makes of what a watch says, unless that is None, for as long as it takes;
-        begins again when the link breaks."""
+        """Emits what digest makes of what a watch says, unless that is None, for as long as it
+        takes; begins again when the link breaks."""
         backoff = Backoff()
         while True:
             stream = yield Open(rpc, request)
@@ -89,9 +89,7 @@ def left_s(end_s: float) -> float:
     return max(0.001, end_s - time.monotonic())
 
 
-def pause(
-    error: PlumeScoutError, backoff: Backoff, end_s: float = float("inf")
-) -> Operation[None]:
+def pause(error: PlumeScoutError, backoff: Backoff, end_s: float = float("inf")) -> Operation[None]:
     """Waits before another try; raises the error if that would be too late."""
     wait_s = error.retry_after_s or backoff.next_s()
     if time.monotonic() + wait_s > end_s:

@@ -170,7 +170,8 @@ class Operations(MissionOperations):
         NaN. level_of_detail: squares of 2**n by 2**n cells make one, n up to 6: the worst of their
         states, their largest values. species: which of the mission's gases, by name; default: the
         first. layers: of "occupancy", "gas-mean" and "gas-variance"; default: all. Without
-        full_precision gas comes in steps of 1/65535 of its range. max_part_bytes: of one message."""
+        full_precision gas comes in steps of 1/65535 of its range. max_part_bytes: of one message.
+        """
         request = map_pb.GetMapRequest(
             mission=mission_name(mission),
             layers=layers_of(layers),

@@ -31,22 +31,25 @@ OPTIONS = (
     ("grpc.min_reconnect_backoff_ms", 100),
     ("grpc.max_reconnect_backoff_ms", 2_000),
 )
+StrPath = str | os.PathLike[str]
 Metadata = tuple[tuple[str, str], ...]
 
 
 class Credentials:
-    """How a connection is protected, and who uses it. What is not given is taken from the environment:
-    PLUMESCOUT_TLS_CA, PLUMESCOUT_TLS_CERT, PLUMESCOUT_TLS_KEY and PLUMESCOUT_TOKEN_FILE.
+    """How a connection is protected, and who uses it. What is not given is taken from the
+    environment: PLUMESCOUT_TLS_CA, PLUMESCOUT_TLS_CERT, PLUMESCOUT_TLS_KEY and
+    PLUMESCOUT_TOKEN_FILE.
 
     tls_ca: PEM file of the authorities of the server's certificate; without it, plaintext.
-    tls_cert, tls_key: PEM files of the client's own certificate; token_file: holds a bearer token."""
+    tls_cert, tls_key: PEM files of the client's own certificate; token_file: holds a bearer token.
+    """
 
     def __init__(
         self,
-        tls_ca: str | None = None,
-        tls_cert: str | None = None,
-        tls_key: str | None = None,
-        token_file: str | None = None,
+        tls_ca: StrPath | None = None,
+        tls_cert: StrPath | None = None,
+        tls_key: StrPath | None = None,
+        token_file: StrPath | None = None,
     ) -> None:
         self._ca = tls_ca or os.environ.get("PLUMESCOUT_TLS_CA")
         self._cert = tls_cert or os.environ.get("PLUMESCOUT_TLS_CERT")
@@ -90,7 +93,7 @@ def presents(method: Callable[..., Any], returns: str = "{}") -> Callable[[T], T
 
 
 def _local(
-    method: Callable[Concatenate[Ingest, P], T],
+    method: Callable[Concatenate[Ingest, P], T]
 ) -> Callable[Concatenate[BaseRobot[Any], P], T]:
     """A method of a robot that asks nobody."""
 
@@ -121,7 +124,7 @@ class BaseRobot(Generic[Driver]):
 
     @property
     def rejections(self) -> list[Rejection]:
-        """Observations that the server refused."""
+        """Observations that the server refused, the newest 10,000."""
         return self.session.rejections
 
     add_scan = _local(Ingest.add_scan)

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
 _RANGE_UNIT_M = 0.005
 _NO_RETURN, _INVALID = 0, 65535  # counts of ranges_u16 with a meaning of their own
+_KEPT_REJECTIONS = 10_000
 _LOST_REASONS = ("MISSION_NOT_FOUND", "ROBOT_NOT_FOUND")
 _LOGGER = logging.getLogger("plumescout")
 
@@ -98,9 +99,7 @@ class Ingest:
         )
         return self._add(ingest_pb.Observation(gas=reading), time_ns, pose)
 
-    def add_correction(
-        self, time_ns: int, pose: Pose, anchors: Sequence[tuple[int, Pose]]
-    ) -> int:
+    def add_correction(self, time_ns: int, pose: Pose, anchors: Sequence[tuple[int, Pose]]) -> int:
         """Says that poses of before were wrong, as after a loop closure. anchors: (time_ns, pose)
         in order of time, of times at which something was observed; between them poses are
         interpolated, beyond them the way is moved rigidly. `pose` and those after it are right.
@@ -111,7 +110,8 @@ class Ingest:
         return self._add(ingest_pb.Observation(correction=correction), time_ns, pose)
 
     def add_status(self, time_ns: int, battery_share: float) -> int:
-        """Numbers what the robot tells of itself: its battery, of a full one. Returns its number."""
+        """Numbers what the robot tells of itself: its battery, of a full one. Returns its
+        number."""
         status = ingest_pb.RobotStatus(battery_share=battery_share)
         return self._add(ingest_pb.Observation(status=status), time_ns, None)
 
@@ -200,11 +200,12 @@ class Ingest:
     def _reject(self, rejected: ingest_pb.ObservationRejected) -> None:
         rejection = Rejection(rejected.sequence, rejected.status.message)
         self.rejections.append(rejection)
+        del self.rejections[:-_KEPT_REJECTIONS]
         self._on_rejected(rejection)
 
     def _recover(self, error: PlumeScoutError) -> Operation[None]:
-        """Makes up for what a server has lost, so that the call may be made again; raises `error` if
-        that is not what is wrong."""
+        """Makes up for what a server has lost, so that the call may be made again; raises `error`
+        if that is not what is wrong."""
         if error.reason == "STORE_ROLLED_BACK":
             self._go_back(int(error.metadata.get("applied_sequence", 0)))
             return
@@ -224,6 +225,7 @@ class Ingest:
 
     def _rejoin(self) -> Operation[None]:
         self._request.request_id = ""
+        self._request.take_over = False  # who has taken the robot over since keeps it
         registration = yield from self._operations.call(rpcs.REGISTER_ROBOT, self._request)
         self._boot_id = registration.server_boot_id
         applied = registration.ingest_state.applied_sequence
@@ -247,9 +249,7 @@ class Ingest:
         )
 
 
-def _encode_ranges(
-    ranges_m: npt.NDArray[np.float64],
-) -> tuple[npt.NDArray[np.float64], float]:
+def _encode_ranges(ranges_m: npt.NDArray[np.float64]) -> tuple[npt.NDArray[np.float64], float]:
     seen = np.isfinite(ranges_m) & (ranges_m > 0)
     longest_m = float(ranges_m[seen].max(initial=0.0))
     unit_m = max(_RANGE_UNIT_M, longest_m / (_INVALID - 1))

@@ -25,11 +25,12 @@ class Rejection:
 
 
 class Log:
-    """Thread-safe. A server that calls nothing durable keeps nothing on a disk: what it has applied is
-    kept too, for it may restart."""
+    """Thread-safe. A server that calls nothing durable keeps nothing on a disk: what it has applied
+    is kept too, for it may restart."""
 
     def __init__(self, applied_sequence: int, max_kept_bytes: int = MAX_KEPT_BYTES) -> None:
-        """applied_sequence: what the server has of logs before this one, which goes on from there."""
+        """applied_sequence: what the server has of logs before this one, which goes on from
+        there."""
         self._lock = threading.Lock()
         self._max_kept_bytes = max_kept_bytes
         self._kept: list[ingest_pb.Observation] = []  # in order of number
@@ -75,6 +76,9 @@ class Log:
                 if credit is not None and last_sequence_of(observation) > credit:
                     break
                 batch.observations.append(observation)
+                if observation.sequence <= after:  # the rest of a gap
+                    batch.observations[-1].sequence = after + 1
+                    batch.observations[-1].gap.first_sequence = after + 1
         return batch
 
     def is_longer_than(self, count: int) -> bool:
@@ -97,7 +101,8 @@ class Log:
             self._declare_gap()
 
     def renumber(self, applied_sequence: int) -> None:
-        """Another log has been written meanwhile: what the server has not of this one follows it."""
+        """Another log has been written meanwhile: what the server has not of this one follows
+        it."""
         with self._lock:
             self._drop(self._index_after(self.applied_sequence))
             shift = applied_sequence - self.applied_sequence

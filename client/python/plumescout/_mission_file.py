@@ -23,7 +23,8 @@ class DamagedExport(Exception):
 
 
 class Writer:
-    """Writes the messages of ExportMission to a file, which is there once it is whole, and only then.
+    """Writes the messages of ExportMission to a file, which is there once it is whole, and only
+    then.
 
     progress(done_bytes, expected_bytes) is called now and then."""
 

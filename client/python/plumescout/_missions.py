@@ -180,8 +180,8 @@ class MissionOperations(Calls):
         progress: _mission_file.Progress = _NO_PROGRESS,
     ) -> Operation[mission_pb.Mission]:
         """Makes a mission of an exported one, under this name or else that in the file. Returns it
-        once it is durable and its events were applied, which may take as long as they took the server
-        that it comes from. progress: as of export_mission."""
+        once it is durable and its events were applied, which may take as long as they took the
+        server that it comes from. progress: as of export_mission."""
         limits = yield from self.limits()
         with open(path, "rb") as file:
             stream = yield Open(rpcs.IMPORT_MISSION)

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a client does, apart from how it waits.
 
-An operation is a generator: it yields what is to be done (an Effect) and is sent what came of it, or
-thrown a PlumeScoutError. It is written once; blocking.py and aio.py carry it out.
+An operation is a generator: it yields what is to be done (an Effect) and is sent what came of it,
+or thrown a PlumeScoutError. It is written once; blocking.py and aio.py carry it out.
 """
 
 from __future__ import annotations
@@ -104,6 +104,10 @@ class Progress(Generic[T]):
 
     def fail(self, error: PlumeScoutError) -> None:
         self._error = error
+
+    def close(self) -> None:
+        """No more of it is done."""
+        self._operation.close()
 
     def result(self) -> T:
         """Once it has ended."""

@@ -52,8 +52,8 @@ class Session(Ingest):
         timeout_s: float | None = None,
         go_home: bool = False,
     ) -> Operation[None]:
-        """As next_best_trajectory, but better and better plans come, one after the other; the last is
-        the one to drive. Leaving the loop before its end cancels the search, and nothing is
+        """As next_best_trajectory, but better and better plans come, one after the other; the last
+        is the one to drive. Leaving the loop before its end cancels the search, and nothing is
         committed."""
         request = planning_pb.StreamNextBestTrajectoryRequest()
         yield from self._order(request, start, budget_s, seed, go_home)
@@ -71,8 +71,8 @@ class Session(Ingest):
     def check_path(
         self, points: npt.ArrayLike, goal_kind: str
     ) -> Operation[planning_pb.CheckTrajectoryResponse]:
-        """The same of a path of its own: an array of shape (n, 2), x_m, y_m, and what waits at its end,
-        such as "occupancy_frontier" or "home"."""
+        """The same of a path of its own: an array of shape (n, 2), x_m, y_m, and what waits at its
+        end, such as "occupancy_frontier" or "home"."""
         request = planning_pb.CheckTrajectoryRequest()
         request.path.vertices.extend(points_of(points))
         request.path.goal_kind = types_pb.GoalKind.Value(f"GOAL_KIND_{goal_kind.upper()}")
@@ -102,9 +102,9 @@ class Session(Ingest):
         yield from self._call(rpcs.REPORT_PROGRESS, request)
 
     def watch(self) -> Operation[None]:
-        """What the robot has to know without having asked, one plumescout.v1.WatchRobotResponse after
-        the other: how it stands, that its plan does not stand, that it was given another. Leaving the
-        loop ends it; a link that breaks is made again."""
+        """What the robot has to know without having asked, one plumescout.v1.WatchRobotResponse
+        after the other: how it stands, that its plan does not stand, that it was given another.
+        Leaving the loop ends it; a link that breaks is made again."""
         request = robot_pb.WatchRobotRequest(robot=self.name, lease_token=self._open.lease_token)
         return self._operations.follow(rpcs.WATCH_ROBOT, request)
 

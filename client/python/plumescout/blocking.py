@@ -22,6 +22,7 @@ from ._facade import (
     BaseRobot,
     Credentials,
     Metadata,
+    StrPath,
     presents,
 )
 from ._operation import (
@@ -116,6 +117,7 @@ class _Driver:
                 except grpc.RpcError as error:
                     progress.fail(error_of(error))
         finally:
+            progress.close()
             for stream in streams:
                 stream.cancel()
 
@@ -132,6 +134,8 @@ class _Driver:
                 wait_for_ready=True,
             )
         if isinstance(effect, Open):
+            while streams:  # an operation has one at a time
+                streams.pop().cancel()
             streams.append(_Stream(self.channel, effect, self._credentials.metadata()))
             return streams[-1]
         if isinstance(effect, Read):
@@ -146,7 +150,7 @@ class _Driver:
 
 
 def _client_call(
-    method: Callable[Concatenate[Operations, P], Operation[T]],
+    method: Callable[Concatenate[Operations, P], Operation[T]]
 ) -> Callable[Concatenate[Client, P], T]:
     @presents(method)
     def call(self: Client, /, *args: P.args, **kwargs: P.kwargs) -> T:
@@ -166,7 +170,7 @@ def _client_stream(
 
 
 def _robot_call(
-    method: Callable[Concatenate[Session, P], Operation[T]],
+    method: Callable[Concatenate[Session, P], Operation[T]]
 ) -> Callable[Concatenate[Robot, P], T]:
     @presents(method)
     def call(self: Robot, /, *args: P.args, **kwargs: P.kwargs) -> T:
@@ -186,7 +190,7 @@ def _robot_stream(
 
 
 def _registration(
-    method: Callable[Concatenate[Operations, P], Operation[Session]],
+    method: Callable[Concatenate[Operations, P], Operation[Session]]
 ) -> Callable[Concatenate[Client, P], Robot]:
     @presents(method, "Robot")
     def call(self: Client, /, *args: P.args, **kwargs: P.kwargs) -> Robot:
@@ -218,10 +222,10 @@ class Client:
         self,
         target: str = DEFAULT_TARGET,
         timeout_s: float = DEFAULT_TIMEOUT_S,
-        tls_ca: str | None = None,
-        tls_cert: str | None = None,
-        tls_key: str | None = None,
-        token_file: str | None = None,
+        tls_ca: StrPath | None = None,
+        tls_cert: StrPath | None = None,
+        tls_key: StrPath | None = None,
+        token_file: StrPath | None = None,
     ) -> None:
         """target: HOST:PORT. timeout_s: of a call, waiting for the server included. The rest says
         how the connection is protected; default: environment variables PLUMESCOUT_TLS_CA and so on,

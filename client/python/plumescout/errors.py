@@ -45,7 +45,8 @@ class PlumeScoutError(Exception):
 
     @property
     def link_broke(self) -> bool:
-        """Whether the call may have been made or not: the link broke, or the server is not there."""
+        """Whether the call may have been made or not: the link broke, or the server is not
+        there."""
         return self.code == grpc.StatusCode.UNAVAILABLE and not self.reason
 
     @property
@@ -67,9 +68,7 @@ def error_of(error: grpc.RpcError) -> PlumeScoutError:
     return _error(error.code(), error.details() or "", details)
 
 
-def _error(
-    code: grpc.StatusCode, message: str, details: status_pb2.Status
-) -> PlumeScoutError:
+def _error(code: grpc.StatusCode, message: str, details: status_pb2.Status) -> PlumeScoutError:
     info, retry = error_details_pb2.ErrorInfo(), error_details_pb2.RetryInfo()
     bad = error_details_pb2.BadRequest()
     retry_after_s = None

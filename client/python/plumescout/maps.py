@@ -32,8 +32,8 @@ Tiles = Union[map_pb.GetMapResponse, map_pb.WatchMapResponse]
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Map:
-    """A map at one revision. Arrays have shape (rows, columns), row 0 in the south; layers that were
-    not asked for are UNKNOWN, or NaN."""
+    """A map at one revision. Arrays have shape (rows, columns), row 0 in the south; layers that
+    were not asked for are UNKNOWN, or NaN."""
 
     revision: int
     status: map_pb.MapStatus  # of the map in full detail: geometry, frontiers, robots, phase ...
@@ -58,8 +58,8 @@ class Map:
     def save(self, path: str | pathlib.Path, layer: str | None = None) -> list[pathlib.Path]:
         """Writes one layer ("occupancy", "gas-mean" or "gas-variance"); returns the paths written.
 
-        The ending of the path says how: .npy; .csv, a line for each known cell; .yaml for map_server,
-        with the .pgm beside it, which is always of the occupancy. Default: the mean."""
+        The ending of the path says how: .npy; .csv, a line for each known cell; .yaml for
+        map_server, with the .pgm beside it, which is always of the occupancy. Default: the mean."""
         layers = (self.occupancy, self.gas_mean_ppm, self.gas_variance_ppm2)
         raster = _map_files.Raster(
             dict(zip(_map_files.LAYERS, layers)), self.resolution_m, self.origin_m
@@ -134,9 +134,7 @@ def decode_tile(tile: map_pb.MapTile) -> npt.NDArray[Any]:
 
 def layers_of(words: Sequence[str]) -> list[map_pb.MapLayer]:
     """words: "occupancy", "gas-mean", "gas-variance"."""
-    return [
-        map_pb.MapLayer.Value("MAP_LAYER_" + word.upper().replace("-", "_")) for word in words
-    ]
+    return [map_pb.MapLayer.Value("MAP_LAYER_" + word.upper().replace("-", "_")) for word in words]
 
 
 def prior_map(

@@ -25,7 +25,9 @@ class Plan:
     phase: str  # of the mission: "exploring", "gas_probing", "complete" ...
     end: str  # how the search ended: "all_goals_reached", "no_goals" ...
     goal_kind: str  # "occupancy_frontier", "information", "home" ...; "" to stay
-    poses: npt.NDArray[np.float64]  # (n, 3): x_m, y_m, yaw_rad of way points; the first is the start
+    poses: npt.NDArray[
+        np.float64
+    ]  # (n, 3): x_m, y_m, yaw_rad of way points; the first is the start
     arrival_s: npt.NDArray[np.float64]  # (n,): since departure
     dwell_s: npt.NDArray[np.float64]  # (n,): standing time at each
     speed_mps: npt.NDArray[np.float64]  # (n,): in passing; 0 where the robot stands or speed jumps
@@ -48,7 +50,9 @@ def plan_of(proto: planning_pb.Plan) -> Plan:
     waypoints = proto.trajectory.waypoints
     rows = [(w.pose.x_m, w.pose.y_m, w.pose.yaw_rad) for w in waypoints]
     chosen = proto.chosen_index
-    goal_kind = proto.candidates[chosen].goal.kind if chosen >= 0 else types_pb.GOAL_KIND_UNSPECIFIED
+    goal_kind = (
+        proto.candidates[chosen].goal.kind if chosen >= 0 else types_pb.GOAL_KIND_UNSPECIFIED
+    )
     return Plan(
         name=proto.name,
         robot=proto.robot,

@@ -58,9 +58,7 @@ FINISH_MISSION = Rpc(_MISSIONS, missions.FinishMissionRequest, missions.FinishMi
 
 _ROBOTS = "RobotService"
 REGISTER_ROBOT = Rpc(_ROBOTS, robots.RegisterRobotRequest, robots.RegisterRobotResponse)
-REMOVE_ROBOT = Rpc(
-    _ROBOTS, robots.RemoveRobotRequest, robots.RemoveRobotResponse, repeatable=False
-)
+REMOVE_ROBOT = Rpc(_ROBOTS, robots.RemoveRobotRequest, robots.RemoveRobotResponse, repeatable=False)
 GET_ROBOT = Rpc(_ROBOTS, robots.GetRobotRequest, robots.GetRobotResponse)
 LIST_ROBOTS = Rpc(_ROBOTS, robots.ListRobotsRequest, robots.ListRobotsResponse)
 RELEASE_LEASE = Rpc(
@@ -93,9 +91,7 @@ STREAM_NEXT_BEST_TRAJECTORY = Rpc(
     planning.StreamNextBestTrajectoryResponse,
     streams_responses=True,
 )
-CHECK_TRAJECTORY = Rpc(
-    _PLANNING, planning.CheckTrajectoryRequest, planning.CheckTrajectoryResponse
-)
+CHECK_TRAJECTORY = Rpc(_PLANNING, planning.CheckTrajectoryRequest, planning.CheckTrajectoryResponse)
 LIST_FRONTIERS = Rpc(_PLANNING, planning.ListFrontiersRequest, planning.ListFrontiersResponse)
 REPORT_PROGRESS = Rpc(_PLANNING, planning.ReportProgressRequest, planning.ReportProgressResponse)
 LIST_PLANS = Rpc(_PLANNING, planning.ListPlansRequest, planning.ListPlansResponse)
@@ -103,9 +99,7 @@ PLAN_TEAM = Rpc(_PLANNING, planning.PlanTeamRequest, planning.PlanTeamResponse)
 
 GET_MAP = Rpc("MapService", maps.GetMapRequest, maps.GetMapResponse)
 QUERY_GAS = Rpc("MapService", maps.QueryGasRequest, maps.QueryGasResponse)
-WATCH_MAP = Rpc(
-    "MapService", maps.WatchMapRequest, maps.WatchMapResponse, streams_responses=True
-)
+WATCH_MAP = Rpc("MapService", maps.WatchMapRequest, maps.WatchMapResponse, streams_responses=True)
 
 _SNAPSHOTS = "SnapshotService"
 EXPORT_MISSION = Rpc(

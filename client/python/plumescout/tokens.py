@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Files of bearer tokens, as the server reads them (access.tokens_file).
 
-A line is "HASH NAME ROLE TENANT EXPIRY": the SHA-256 of the token in hexadecimal digits, who has it,
-robot, viewer, operator or admin, a tenant or "-", and a time such as 2030-01-31T00:00:00Z or
+A line is "HASH NAME ROLE TENANT EXPIRY": the SHA-256 of the token in hexadecimal digits, who has
+it, robot, viewer, operator or admin, a tenant or "-", and a time such as 2030-01-31T00:00:00Z or
 "never". Empty lines and lines that begin with # mean nothing. The file holds no secrets: a token is
 shown once, when it is made. The server notices changes by itself.
 
@@ -52,9 +52,7 @@ class Token:
     expiry: str  # "never" or a time of RFC 3339
 
 
-def create(
-    path: Path, name: str, role: str, tenant: str = "", days: float | None = None
-) -> str:
+def create(path: Path, name: str, role: str, tenant: str = "", days: float | None = None) -> str:
     """Adds a token and returns its secret, which nobody can find out again. days: until it expires;
     default: never. The file is made if it is not there."""
     if not _WORD.fullmatch(name):

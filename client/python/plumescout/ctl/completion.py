@@ -25,7 +25,7 @@ _ZSH = "autoload -U +X bashcompinit && bashcompinit\n"
 
 def script(parser, shell):
     """Asks no server: names of missions are not completed."""
-    words = {}
+    words: dict[str, list[str]] = {}
     _collect(parser, "", words)
     name = parser.prog
     cases = "\n".join(

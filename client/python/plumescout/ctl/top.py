@@ -25,7 +25,8 @@ def rows(missions, before, elapsed_s):
 
 def follow(client, interval_s, count, json):
     """count 0: until interrupted. On a terminal each table takes the place of the last."""
-    before, last_s, looks = {}, time.monotonic(), 0
+    before: dict[str, int] = {}
+    last_s, looks = time.monotonic(), 0
     while True:
         missions = client.missions()
         now_s = time.monotonic()

@@ -51,9 +51,9 @@ def notice_line(notice):
         told = [name.replace("_", " ") for name in fields if getattr(notice.standing, name)]
         return f"standing: {', '.join(told) or 'nothing to tell'}"
     if kind == "plan_invalidated":
-        told = notice.plan_invalidated
-        reason = enum_word(robot_pb.PlanInvalidated.Reason, told.reason, "REASON_")
-        return f"plan {last_part(told.plan)} does not stand: {reason}: {told.detail}"
+        invalidated = notice.plan_invalidated
+        reason = enum_word(robot_pb.PlanInvalidated.Reason, invalidated.reason, "REASON_")
+        return f"plan {last_part(invalidated.plan)} does not stand: {reason}: {invalidated.detail}"
     return f"plan {last_part(notice.plan_assigned.plan)} was given to it"
 
 
