@@ -33,9 +33,16 @@ class ForgetfulMissions final : public v1::MissionService::Service {
     names.push_back(request->request_id());
     return names.size() == 1 ? grpc::Status(grpc::StatusCode::UNAVAILABLE, "lost") : grpc::Status();
   }
+  grpc::Status ListMissions(grpc::ServerContext*, const v1::ListMissionsRequest*,
+                            v1::ListMissionsResponse*) override {
+    return ++lists <= lists_lost ? grpc::Status(grpc::StatusCode::UNAVAILABLE, "lost")
+                                 : grpc::Status();
+  }
   int port() const { return port_; }
 
   std::vector<std::string> names;
+  int lists = 0;
+  int lists_lost = 0;
 
  private:
   int port_ = 0;
@@ -59,6 +66,24 @@ TEST(GrpcLinkTest, ARequestThatIsMadeAgainKeepsItsNameUntilItIsAnswered) {
   EXPECT_NE(server.names[0], "");
   EXPECT_EQ(server.names[1], server.names[0]);
   EXPECT_NE(server.names[2], server.names[0]);
+}
+
+TEST(GrpcLinkTest, WhatOnlyReadsIsAskedAgainIfItsConnectionBreaks) {
+  ForgetfulMissions server;
+  const GrpcLink link(
+      {.target = absl::StrCat("127.0.0.1:", server.port()), .call_timeout = kPatience});
+  v1::MissionService::Stub stub(link.channel());
+  v1::ListMissionsResponse response;
+  const auto ask = [&] {
+    return link.Ask(stub, &v1::MissionService::Stub::ListMissions, v1::ListMissionsRequest(),
+                    &response);
+  };
+  server.lists_lost = 2;
+  EXPECT_EQ(ask(), absl::OkStatus());
+  EXPECT_EQ(server.lists, 3);
+  server.lists_lost = 1000;
+  EXPECT_TRUE(absl::IsUnavailable(ask())) << "not for ever";
+  EXPECT_EQ(server.lists, 6);
 }
 
 TEST(GrpcLinkTest, WithoutALinkItIsTheServerThatIsUnavailable) {

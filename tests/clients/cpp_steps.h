@@ -3,10 +3,10 @@
 #pragma once
 
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "absl/status/statusor.h"
-#include "nlohmann/json.hpp"
 
 namespace plumescout::client {
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,7 +16,6 @@
 #include "client/planner_client.h"
 #include "client/robot_details.h"
 #include "client/viewer_client.h"
-#include "nlohmann/json.hpp"
 
 namespace plumescout::client {
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <optional>
 
 #include "proto/convert/enums.h"
 #include "proto/convert/status.h"
@@ -97,6 +98,45 @@ TEST(InquiryTest, GasIsAbsentWhereThereIsNone) {
 TEST(InquiryTest, EveryStateOfACellHasAName) {
   EXPECT_EQ(ToProto(std::optional(CellState::kUnknown)), v1::CELL_STATE_UNKNOWN);
   EXPECT_EQ(ToProto(std::optional(CellState::kFree)), v1::CELL_STATE_FREE);
+}
+
+TEST(InquiryTest, AnswersComeBackAsTheyWere) {
+  TrajectoryVerdict verdict;
+  verdict.blockage = Blockage{{3, 4}, {0.3, 0.45}, 1.25, std::nullopt};
+  verdict.rejection = RejectedGoal{{}, RejectionReason::kGone, "no frontier"};
+  const auto blocked = FromProto(ToProto(verdict));
+  ASSERT_TRUE(blocked.ok()) << blocked.status();
+  EXPECT_EQ(blocked->blockage->cell, (Cell{3, 4}));
+  EXPECT_EQ(blocked->blockage->position, (Point2{0.3, 0.45}));
+  EXPECT_EQ(blocked->blockage->distance_m, 1.25);
+  EXPECT_EQ(blocked->blockage->state, std::nullopt);
+  EXPECT_EQ(blocked->rejection, verdict.rejection);
+  EXPECT_EQ(blocked->rest, std::nullopt);
+
+  JudgedFrontier judged;
+  judged.goal.frontier_cells = 7;
+  judged.travel_m = 3.5;
+  judged.rejection = RejectedGoal{judged.goal, RejectionReason::kClaimed, "by r2"};
+  const auto frontier = FromProto(ToProto(judged), "frontiers[0]");
+  ASSERT_TRUE(frontier.ok()) << frontier.status();
+  EXPECT_EQ(frontier->goal, judged.goal);
+  EXPECT_EQ(frontier->travel_m, 3.5);
+  EXPECT_EQ(frontier->rejection, judged.rejection);
+
+  const auto gas = FromProto(ToProto(GasAtPlace{CellState::kFree, 2.0, 0.5, true}), "gas[0]");
+  ASSERT_TRUE(gas.ok()) << gas.status();
+  EXPECT_EQ(gas->state, CellState::kFree);
+  EXPECT_EQ(gas->mean_ppm, 2.0);
+  EXPECT_EQ(gas->variance_ppm2, 0.5);
+  EXPECT_TRUE(gas->observed);
+}
+
+TEST(InquiryTest, AnswersThatCannotBeReadAreBlamedOnTheirField) {
+  v1::CheckTrajectoryResponse check;
+  check.mutable_blockage()->set_distance_m(-1.0);
+  EXPECT_EQ(FieldViolations(FromProto(check).status()).at(0).field, "blockage.distance_m");
+  EXPECT_EQ(FieldViolations(FromProto(v1::GasAtPoint(), "gas[2]").status()).at(0).field,
+            "gas[2].state");
 }
 
 }  // namespace inquiry_test

@@ -244,5 +244,19 @@ TEST(MapTest, WhatAReaderAllocatesByIsChecked) {
   }
 }
 
+TEST(MapViewTest, IsAskedForAsItIsRead) {
+  const MapView view{.gas_variance = false,
+                     .full_precision = true,
+                     .level_of_detail = 2,
+                     .region = Rectangle{{-1.0, 0.0}, {3.0, 2.5}},
+                     .species = {"methane"}};
+  v1::GetMapRequest get;
+  ToProto(view, get);
+  EXPECT_EQ(*MapViewFromProto(get), view);
+  v1::WatchMapRequest watch;
+  ToProto(view, watch);
+  EXPECT_EQ(*MapViewFromProto(watch), view);
+}
+
 }  // namespace map_test
 }  // namespace plumescout
