@@ -32,6 +32,7 @@ absl::Status CheckTimes(const PoseCorrection& correction, std::int64_t own_ns) {
 absl::Status Mission::TakeCorrection(const RobotId& robot, const Observation& observation,
                                      const PoseCorrection& correction) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckTimes(correction, observation.sample_time_ns));
+  FinishWays(robot, LaggingSensors(robot));
   const std::int64_t clock_offset_ns = fleet_.StateOf(robot).clock_offset_ns;
   const std::int64_t time_ns = observation.sample_time_ns + clock_offset_ns;
   std::vector<PoseAnchor> anchors = correction.anchors;
@@ -74,7 +75,7 @@ SensorOffsets Mission::Sensors(std::size_t species) const {
   SensorOffsets sensors(GasOptionsOf(*options_, species), options_->occupancy.resolution_m);
   if (!fleet_.has_offsets()) return sensors;
   for (const WayHistory::Heard& heard : history_.HeardReadings()) {
-    if (heard.species != species) continue;
+    if (heard.species != species || heard.is_part) continue;
     sensors.Add(heard.source, heard.time_ns, heard.place, heard.reading, GridGeometry());
   }
   return sensors;
