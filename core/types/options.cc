@@ -72,8 +72,7 @@ absl::Status Validate(const GasOptions& options) {
       .InRange("gas.background_precision_per_ppm2", options.background_precision_per_ppm2,
                kMinPrecision, kMaxPrecision)
       .InRange("gas.background_mean_ppm", options.background_mean_ppm, 0.0, 1e6)
-      .InRange("gas.observation_stddev_share", options.observation_stddev_share, 0.0,
-               options.scale == GasScale::kLinear ? 10.0 : 0.0)
+      .InRange("gas.observation_stddev_share", options.observation_stddev_share, 0.0, 10.0)
       .InRange("gas.ageing_half_life_s", ages ? options.ageing_half_life_s : kMaxTime_s,
                kMinHalfLife_s, kMaxTime_s)
       .InRange("gas.lattice_factor", options.lattice_factor, 1, kMostLatticeFactor)
