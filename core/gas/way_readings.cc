@@ -22,6 +22,9 @@ constexpr double kDrift_mps = 0.5;
 // Of what a sensor shows, beside its noise: gains are known to a few percent, gusts are short.
 constexpr double kGainStddev = 0.05;
 
+// Of a part of the way: less is rounding at the edge of a cell.
+constexpr double kNoShare = 1e-9;
+
 double Seconds(std::int64_t from_ns, std::int64_t to_ns) {
   return (static_cast<double>(to_ns) - static_cast<double>(from_ns)) / kNanosecondsPerSecond;
 }
@@ -102,7 +105,7 @@ std::vector<WayReadings::Span> WayReadings::SpansTo(const Point& end, const WayM
     double begin = 0.0;  // share of this part of the way
     const bool all = WalkSegment(cells, from_place, to_place, [&](Cell cell, double length_cells) {
       const double share = length_m > 0.0 ? length_cells * model.resolution_m / length_m : 1.0;
-      if (share <= 0.0) return true;
+      if (share <= kNoShare) return true;
       if (latest != cell) {
         if (spans.size() > kMostSpans) return false;
         const double middle = std::min(1.0, begin + share / 2.0);
