@@ -131,10 +131,11 @@ void AddOutfit(CLI::App& app, Participation& participation, std::vector<std::str
       ->capture_default_str();
   app.add_option(
       "--gas-sensor", gas_sensors,
-      "a gas sensor as ID,AHEAD,LEFT,STDDEV,OFFSET_STDDEV,SPECIES: where it sits, metres, the "
-      "standard deviations of its noise and its unknown offset, ppm (0: the mission's "
-      "model; calibrated), and which of the mission's gases it reads (left out: the first); once "
-      "for each, in the order in which readings name them");
+      "a gas sensor as ID,AHEAD,LEFT,STDDEV,OFFSET_STDDEV,SPECIES,RESPONSE_TIME: where it sits, "
+      "metres, the standard deviations of its noise and its unknown offset, ppm (0: the mission's "
+      "model; calibrated), which of the mission's gases it reads (left out: the first), and its "
+      "lag, seconds, if the mission is to undo it; once for each, in the order in which readings "
+      "name them");
 }
 
 void AddFlags(CLI::App& app, Flags& flags) {

@@ -55,11 +55,11 @@ MapStatus MakeMapStatus(const Belief& belief) {
 
 MapSnapshot MakeMapSnapshot(const Belief& belief) {
   MapSnapshot map{MakeMapStatus(belief), *belief.occupancy, *belief.gas_mean_ppm,
-                  *belief.gas_variance_ppm2};
+                  *belief.Gas(0).published_variance_ppm2()};
   for (std::size_t i = 1; i <= belief.further_gases.size(); ++i) {
     const GasField gas = belief.Gas(i);
     map.further_gases.push_back(
-        {SpeciesName(*belief.options, i), *gas.mean_ppm, *gas.variance_ppm2});
+        {SpeciesName(*belief.options, i), *gas.mean_ppm, *gas.published_variance_ppm2()});
   }
   return map;
 }

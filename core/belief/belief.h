@@ -88,6 +88,12 @@ struct GasField {
   GasCounters counters;
   GasQuality quality;
   GasAudits audits;
+  std::shared_ptr<const Grid<float>> error_variance_ppm2 = nullptr;
+
+  // Of the concentration, for those who look at it; see GasMap::error_variance_ppm2.
+  const std::shared_ptr<const Grid<float>>& published_variance_ppm2() const {
+    return error_variance_ppm2 != nullptr ? error_variance_ppm2 : variance_ppm2;
+  }
 };
 
 // Immutable snapshot of a mission that readers plan on and look at. Rasters are shared between
@@ -101,7 +107,10 @@ struct Belief {
   std::shared_ptr<const Grid<CellState>> occupancy;
   std::shared_ptr<const Grid<std::uint8_t>> traversable;  // 1: a robot may drive there
   std::shared_ptr<const Grid<float>> gas_mean_ppm;        // NaN off free cells
-  std::shared_ptr<const Grid<float>> gas_variance_ppm2;   // NaN off free cells
+  // NaN off free cells. Of the model, which plans go by; what is known of the concentration in ppm
+  // is Gas(0).published_variance_ppm2().
+  std::shared_ptr<const Grid<float>> gas_variance_ppm2;
+  std::shared_ptr<const Grid<float>> gas_error_variance_ppm2;  // null: that is the same
   std::shared_ptr<const GasWhatIf> gas_what_if;  // of the refresh; null before there is a free cell
   std::shared_ptr<const Grid<std::uint8_t>> sampled;  // 1: a gas reading was taken in the cell
   GasCounters gas_counters;
@@ -123,7 +132,8 @@ struct Belief {
   // By place among the mission's gases. REQUIRES: there is one.
   GasField Gas(std::size_t species) const {
     if (species > 0) return further_gases[species - 1];
-    return {gas_mean_ppm, gas_variance_ppm2, gas_counters, gas_quality, gas_audits};
+    return {gas_mean_ppm, gas_variance_ppm2, gas_counters,
+            gas_quality,  gas_audits,        gas_error_variance_ppm2};
   }
 };
 

@@ -37,8 +37,9 @@ std::vector<GasAtPlace> QueryGas(const Belief& belief, const std::vector<Point2>
     if (!belief.occupancy->Contains(cell)) continue;
     gas.state = (*belief.occupancy)[cell];
     gas.mean_ppm = IfKnown((*field.mean_ppm)[cell]);
-    gas.variance_ppm2 = IfKnown((*field.variance_ppm2)[cell]);
-    gas.observed = gas.variance_ppm2 && *gas.variance_ppm2 <= observed_ppm2;
+    gas.variance_ppm2 = IfKnown((*field.published_variance_ppm2())[cell]);
+    const std::optional<double> of_model_ppm2 = IfKnown((*field.variance_ppm2)[cell]);
+    gas.observed = of_model_ppm2 && *of_model_ppm2 <= observed_ppm2;
   }
   return answers;
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/gas/gas_scale.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
@@ -284,6 +285,8 @@ void GasMap::Publish() const {
   const AnchoredStates& known = inputs_.states();
   mean_ppm_ = Grid<float>(known.states().geometry(), kNoValue);
   variance_ppm2_ = mean_ppm_;
+  error_variance_ppm2_ = has_own_errors() ? mean_ppm_ : Grid<float>();
+  noise_scale_ = 1.0;
   what_if_ = nullptr;
   published_ = true;
   sensor_offsets_ = inputs_.sensors().Known();
@@ -291,19 +294,40 @@ void GasMap::Publish() const {
   OffsetEstimate beside;
   if (inputs_.sensors().HasColumns()) beside = EstimateSensors();
   const bool is_beside = !beside.mean_ppm.empty();
+  if (options_.estimate_noise) {
+    FieldFit fit = FitOfReadings();
+    fit.energy -= beside.explained;
+    noise_scale_ = NoiseScale(fit);
+  }
   for (std::size_t i = 0; i < known.states().size(); ++i) {
     if (known.states()[i] != CellState::kFree) continue;
     const std::size_t index = lattice_.Index(GasCellOf(known.At(i), inputs_.factor()));
-    double mean_ppm = engine_->mean_ppm(index);
-    double variance_ppm2 = engine_->variance_ppm2(index);
+    double deviation = engine_->mean_ppm(index);
+    double variance = engine_->variance_ppm2(index);
     if (is_beside) {
-      mean_ppm += beside.mean_ppm[index];
-      variance_ppm2 += beside.variance_ppm2[index];
+      deviation += beside.mean_ppm[index];
+      variance += beside.variance_ppm2[index];
     }
-    mean_ppm_[i] = static_cast<float>(options_.background_mean_ppm + mean_ppm);
-    variance_ppm2_[i] = static_cast<float>(variance_ppm2);
+    const GasEstimate gas = OffScale(options_, deviation, noise_scale_ * variance);
+    mean_ppm_[i] = static_cast<float>(gas.median_ppm);
+    variance_ppm2_[i] = static_cast<float>(variance);
+    if (has_own_errors()) error_variance_ppm2_[i] = static_cast<float>(gas.variance_ppm2);
   }
   beside_ppm2_ = std::move(beside.variance_ppm2);
+}
+
+FieldFit GasMap::FitOfReadings() const {
+  FieldFit fit;
+  double precision = 0.0;
+  for (const CellEvidence& e : inputs_.readings().AllEvidence()) {
+    const std::size_t cell = lattice_.Index(GasCellOf(e.cell, inputs_.factor()));
+    fit.energy +=
+        e.evidence.weighted_square - e.evidence.weighted_deviation * engine_->mean_ppm(cell);
+    precision += e.evidence.precision;
+  }
+  fit.readings = std::min(static_cast<double>(counters().in_posterior),
+                          precision / options_.observation_precision_per_ppm2);
+  return fit;
 }
 
 // Fills in sensor_offsets_.
@@ -337,6 +361,16 @@ const std::vector<SensorOffset>& GasMap::sensor_offsets() const {
 const Grid<float>& GasMap::mean_ppm() const {
   Publish();
   return mean_ppm_;
+}
+
+const Grid<float>& GasMap::error_variance_ppm2() const {
+  Publish();
+  return has_own_errors() ? error_variance_ppm2_ : variance_ppm2_;
+}
+
+double GasMap::noise_scale() const {
+  Publish();
+  return noise_scale_;
 }
 
 const Grid<float>& GasMap::variance_ppm2() const {

@@ -20,6 +20,7 @@
 #include "core/gas/gas_inputs.h"
 #include "core/gas/gas_lattice.h"
 #include "core/gas/gas_what_if.h"
+#include "core/gas/noise_scale.h"
 #include "core/gas/offset_estimate.h"
 #include "core/types/cell_state.h"
 #include "core/types/gas_reading.h"
@@ -99,9 +100,19 @@ class GasMap {
   absl::Status Refresh(const Grid<CellState>& states, std::int64_t time_ns);
 
   // As of the last refresh, on a lattice that covers its states; NaN off free cells, and everywhere
-  // if that failed. Empty before the first. Cost: O(cells) at the first call after a change.
+  // if that failed. Empty before the first. Cost: O(cells + sites log sites) at the first call
+  // after a change. In a field of roots it is the median, see GasEstimate.
   const Grid<float>& mean_ppm() const;
+  // Of the model as its precisions are given, which plans go by: on the scale of the field.
   const Grid<float>& variance_ppm2() const;
+  // Of the concentration: in ppm, and if options.estimate_noise times noise_scale(). It is another
+  // raster than the above only if it has_own_errors().
+  const Grid<float>& error_variance_ppm2() const;
+  bool has_own_errors() const {
+    return options_.estimate_noise || options_.scale != GasScale::kLinear;
+  }
+  // See NoiseScale; 1 unless options.estimate_noise.
+  double noise_scale() const;
   // The same moment, to ask what further readings would tell. Null if there is no field.
   // Cost: one number per cell, one pointer per node of the factor, at the first call after a
   // change; nothing where nobody calls it.
@@ -112,7 +123,11 @@ class GasMap {
   const SensorOffsets& sensors() const { return inputs_.sensors(); }
 
   const GasCounters& counters() const { return inputs_.counters(); }
-  const GasQuality& quality() const { return quality_; }
+  GasQuality quality() const {
+    GasQuality quality = quality_;
+    quality.noise_scale = noise_scale();
+    return quality;
+  }
   // Readings came since the last refresh, or no field came of it.
   bool stale() const { return stale_ || has_failed_; }
 
@@ -163,6 +178,7 @@ class GasMap {
   bool has_field() const { return engine_ != nullptr && !has_failed_; }
   absl::Status Conclude(const absl::Status& computed, std::int64_t time_ns);
   void Publish() const;
+  FieldFit FitOfReadings() const;
   OffsetEstimate EstimateSensors() const;
 
   GasOptions options_;
@@ -185,6 +201,8 @@ class GasMap {
   // What readers see; made when they look.
   mutable Grid<float> mean_ppm_;
   mutable Grid<float> variance_ppm2_;
+  mutable Grid<float> error_variance_ppm2_;  // if it has_own_errors()
+  mutable double noise_scale_ = 1.0;
   mutable std::shared_ptr<const GasWhatIf> what_if_;
   mutable std::vector<double> beside_ppm2_;  // see GasWhatIf, until there is one
   mutable std::vector<SensorOffset> sensor_offsets_;

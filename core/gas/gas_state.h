@@ -147,6 +147,7 @@ void GasMap::VisitState(Archive& archive, Self& self) {
     if (self.epoch_ != nullptr) archive(self.epoch_->time_ns(), self.epoch_->lattice());
     archive(self.has_field());
     if (self.has_field()) HashField(archive, *self.engine_);
+    if (self.options_.estimate_noise) archive(self.noise_scale());
   } else if constexpr (Archive::kReads) {
     const GasLattice& lattice = self.lattice_;
     const bool is_lattice = IsNearOrigin(lattice.x0) && IsNearOrigin(lattice.y0) &&

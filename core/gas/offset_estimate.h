@@ -27,6 +27,8 @@ struct OffsetColumn {
 struct OffsetEstimate {
   std::vector<double> offset_ppm;  // by column
   std::vector<double> stddev_ppm;
+  // By how much they lower the energy of all readings, see NoiseScale.
+  double explained = 0.0;
   // What comes on top of the field that takes all readings as they are, by lattice cell.
   std::vector<double> mean_ppm;
   std::vector<double> variance_ppm2;  // >= 0

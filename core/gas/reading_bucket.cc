@@ -43,6 +43,7 @@ ReadingBucket Merged(const ReadingBucket& first, const ReadingBucket& second,
     const double shift = part.middle_variance_ppm2() - merged.middle_variance_ppm2();
     AddShifted(part.count_moments, shift, merged.count_moments);
     AddShifted(part.deviation_moments, shift, merged.deviation_moments);
+    AddShifted(part.square_moments, shift, merged.square_moments);
   }
   return merged;
 }
@@ -61,14 +62,16 @@ ReadingBucket BucketOf(std::int64_t taken_ns, double variance_ppm2, double devia
           .least_variance_ppm2 = variance_ppm2,
           .most_variance_ppm2 = variance_ppm2,
           .count_moments = {1.0},
-          .deviation_moments = {deviation_ppm}};
+          .deviation_moments = {deviation_ppm},
+          .square_moments = {deviation_ppm * deviation_ppm}};
 }
 
 Evidence EvidenceOf(const ReadingBucket& bucket, const Ageing& ageing, std::int64_t time_ns) {
   const double precision =
       ageing.Precision(bucket.middle_variance_ppm2(), bucket.newest_ns, time_ns);
   return {SumOfSeries(bucket.count_moments, precision),
-          SumOfSeries(bucket.deviation_moments, precision)};
+          SumOfSeries(bucket.deviation_moments, precision),
+          SumOfSeries(bucket.square_moments, precision)};
 }
 
 void MergeAlike(std::int64_t now_ns, const Ageing& ageing, std::vector<ReadingBucket>& buckets) {

@@ -25,6 +25,7 @@ struct ReadingBucket {
   double most_variance_ppm2 = 0.0;
   Moments count_moments{};      // sums of (v_i - v)^k
   Moments deviation_moments{};  // sums of d_i (v_i - v)^k, with d_i = z_i - m_0
+  Moments square_moments{};     // sums of d_i^2 (v_i - v)^k
 
   double middle_variance_ppm2() const { return 0.5 * (least_variance_ppm2 + most_variance_ppm2); }
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 #include "core/gas/anchored_states.h"
@@ -21,17 +22,24 @@ void Visit(auto& archive, ConstOr<ReadingSite> auto& site) {
   archive(cell, neighbour_order);
 }
 void Visit(auto& archive, ConstOr<Evidence> auto& evidence) {
-  auto& [precision, weighted_deviation] = evidence;
+  auto& [precision, weighted_deviation, weighted_square] = evidence;
   archive(precision, weighted_deviation);
+  // What is published of it is hashed with the field.
+  if constexpr (!std::remove_reference_t<decltype(archive)>::kHashes) {
+    archive.Since(2, weighted_square);
+  }
 }
 void Visit(auto& archive, ConstOr<Staleness> auto& staleness) {
   auto& [since_ns, share_per_s] = staleness;
   archive(since_ns, share_per_s);
 }
 void Visit(auto& archive, ConstOr<ReadingBucket> auto& bucket) {
-  auto& [newest_ns, least_variance_ppm2, most_variance_ppm2, count_moments, deviation_moments] =
-      bucket;
+  auto& [newest_ns, least_variance_ppm2, most_variance_ppm2, count_moments, deviation_moments,
+         square_moments] = bucket;
   archive(newest_ns, least_variance_ppm2, most_variance_ppm2, count_moments, deviation_moments);
+  if constexpr (!std::remove_reference_t<decltype(archive)>::kHashes) {
+    archive.Since(2, square_moments);
+  }
 }
 
 template <typename Archive, typename Self>

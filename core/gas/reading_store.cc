@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/gas/gas_scale.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
@@ -29,16 +30,14 @@ void Insert(const ReadingSite& site, std::vector<ReadingSite>& sites) {
 }  // namespace
 
 ReadingStore::ReadingStore(const GasOptions& options, double resolution_m)
-    : background_mean_ppm_(options.background_mean_ppm),
-      resolution_m_(resolution_m),
-      ageing_(options) {}
+    : options_(options), resolution_m_(resolution_m), ageing_(options) {}
 
 void ReadingStore::Add(std::int64_t time_ns, Point2 position, const GasReading& reading) {
   ++counters_.readings;
   ++counters_.waiting;
   if (!IsUsable(position, reading)) return;
   arrivals_.push_back({position, BucketOf(time_ns, ageing_.InitialVariance_ppm2(reading),
-                                          reading.concentration_ppm - background_mean_ppm_)});
+                                          DeviationOnScale(options_, reading.concentration_ppm))});
   if (arrivals_.size() >= kMostArrivals) MergeArrivals();
 }
 

@@ -175,7 +175,7 @@ class ReadingStore {
   std::vector<AgedCell> AgedCells() const;
   void Watch(const std::vector<AgedCell>& cells);
 
-  double background_mean_ppm_;
+  GasOptions options_;
   double resolution_m_;
   Ageing ageing_;
   std::int64_t aged_to_ns_ = 0;

@@ -19,7 +19,7 @@ inline constexpr std::int64_t kMapCellBytes = 64;
 // Of every gas beside the first: rasters of its mean and variance, and those of snapshots.
 inline constexpr std::int64_t kFurtherGasCellBytes = 32;
 inline constexpr std::int64_t kReadingSiteBytes = 500;
-inline constexpr std::int64_t kReadingBucketBytes = 210;
+inline constexpr std::int64_t kReadingBucketBytes = 290;
 inline constexpr std::int64_t kVisitedTileBytes = 80;
 
 // What a mission holds, in the units in which its memory is reckoned. It follows from the events

@@ -10,6 +10,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/belief/regrid.h"
+#include "core/gas/gas_scale.h"
 #include "core/mission/observation_check.h"
 #include "core/mission/sensor_check.h"
 #include "core/occupancy/free_space.h"
@@ -96,8 +97,10 @@ absl::StatusOr<Applied> Mission::Change(const RobotRegistered& registration) {
                             fleet_.StateOf(registration.robot).frame != registration.frame;
   PLUMESCOUT_RETURN_IF_ERROR(CheckOffsets(registration.sensors, options_->gas));
   PLUMESCOUT_RETURN_IF_ERROR(CheckSpecies(registration.sensors, *options_));
+  const std::vector<GasSensor> lagging = LaggingSensors(registration.robot);
   PLUMESCOUT_RETURN_IF_ERROR(
       fleet_.Register(registration, options_->max_robot_count, options_->pose_limit_m));
+  FinishWays(registration.robot, lagging);
   if (is_elsewhere) {
     history_.DropQuarantined(registration.robot);
     TrustAgain(registration.robot);
@@ -123,6 +126,7 @@ absl::Status Mission::TakeIn(const RobotId& robot, const Observation& observatio
   const Pose2 pose = fleet_.InMission(robot, observation.pose);
   PLUMESCOUT_RETURN_IF_ERROR(CheckPlace(pose, options_->pose_limit_m));
   fleet_.Hear(robot, std::max(sample_time_ns_, time_ns));
+  NotePose(robot, time_ns, pose);
   if (const auto* scan = std::get_if<Scan>(&observation.payload)) {
     PLUMESCOUT_RETURN_IF_ERROR(TakeScan(robot, time_ns, pose, *scan, turned_suspect));
   } else if (const auto* gas = std::get_if<GasReading>(&observation.payload)) {
@@ -156,30 +160,16 @@ absl::Status Mission::InsertScan(const Pose2& pose, const Scan& scan,
   return absl::OkStatus();
 }
 
-absl::Status Mission::TakeReading(const RobotId& robot, std::int64_t time_ns, const Pose2& pose,
-                                  GasReading reading) {
-  PLUMESCOUT_ASSIGN_OR_RETURN(const GasSensor sensor, fleet_.SensorOf(robot, reading.sensor));
-  if (reading.variance_ppm2 == 0.0) reading.variance_ppm2 = sensor.stddev_ppm * sensor.stddev_ppm;
-  const std::size_t species = FindSpecies(*options_, sensor.species).value_or(0);
-  const Point2 place = PlaceOnRobot(pose, sensor.robot_from_sensor);
-  const bool suspect = fleet_.StateOf(robot).frame_suspect;
-  if (!suspect) {
-    PLUMESCOUT_RETURN_IF_ERROR(
-        AddReading(species, {robot, sensor.id, sensor.offset_stddev_ppm}, time_ns, place, reading));
-  }
-  history_.AddReading(robot, time_ns, pose, reading, suspect, sensor, species);
-  return absl::OkStatus();
-}
-
 absl::Status Mission::AddReading(std::size_t species, const ReadingSource& source,
-                                 std::int64_t time_ns, Point2 place, const GasReading& reading) {
+                                 std::int64_t time_ns, Point2 place, const GasReading& reading,
+                                 bool is_part) {
   GasMap& gas = gas_[species];
   if (!gas.HasRoomFor(place)) {
     return BudgetReached(absl::StrCat("readings at ", ReadingStore::kMostWaitingSites,
                                       " places wait for their cells to be seen"));
   }
   PLUMESCOUT_RETURN_IF_ERROR(CheckRoom(place, kReadingSiteBytes + kReadingBucketBytes));
-  if (fleet_.has_offsets()) {
+  if (fleet_.has_offsets() && !is_part) {
     gas.AddFrom(source, time_ns, place, reading);
   } else {
     gas.Add(time_ns, place, reading);
@@ -343,6 +333,11 @@ void Mission::UpdateRasters() const {
                                              options.background_mean_ppm);
       rasters_.gas[i].variance_ppm2 = OnFreeCells(gas_[i].variance_ppm2(), *rasters_.occupancy,
                                                   region_, OpenLatticeVariance_ppm2(options));
+      if (!gas_[i].has_own_errors()) continue;
+      const double prior_variance = gas_[i].noise_scale() * OpenLatticeVariance_ppm2(options);
+      rasters_.gas[i].error_variance_ppm2 =
+          OnFreeCells(gas_[i].error_variance_ppm2(), *rasters_.occupancy, region_,
+                      OffScale(options, 0.0, prior_variance).variance_ppm2);
     }
   }
   if (map_changed_since_snapshot_ || sampled_since_snapshot_) {
@@ -376,6 +371,7 @@ std::shared_ptr<const Belief> Mission::Snapshot() const {
   belief->traversable = rasters_.traversable;
   belief->gas_mean_ppm = rasters_.gas[0].mean_ppm;
   belief->gas_variance_ppm2 = rasters_.gas[0].variance_ppm2;
+  belief->gas_error_variance_ppm2 = rasters_.gas[0].error_variance_ppm2;
   belief->gas_what_if = gas_.first().what_if();
   belief->sampled = rasters_.sampled;
   belief->gas_counters = gas_.first().counters();
@@ -383,7 +379,8 @@ std::shared_ptr<const Belief> Mission::Snapshot() const {
   belief->gas_audits = gas_audits_[0];
   for (std::size_t i = 1; i < gas_.count(); ++i) {
     belief->further_gases.push_back({rasters_.gas[i].mean_ppm, rasters_.gas[i].variance_ppm2,
-                                     gas_[i].counters(), gas_[i].quality(), gas_audits_[i]});
+                                     gas_[i].counters(), gas_[i].quality(), gas_audits_[i],
+                                     rasters_.gas[i].error_variance_ppm2});
   }
   belief->sensor_offsets = Offsets();
   belief->robots = fleet_.Records();

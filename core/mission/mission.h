@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -16,6 +17,7 @@
 #include "core/belief/belief.h"
 #include "core/gas/field_region.h"
 #include "core/gas/gas_maps.h"
+#include "core/gas/way_readings.h"
 #include "core/mission/fleet.h"
 #include "core/mission/goal_memory.h"
 #include "core/mission/jump_watch.h"
@@ -222,8 +224,16 @@ class Mission {
   absl::Status InsertScan(const Pose2& pose, const Scan& scan, const std::vector<MaskDisc>& masks);
   absl::Status TakeReading(const RobotId& robot, std::int64_t time_ns, const Pose2& pose,
                            GasReading reading);
+  absl::Status Keep(const RobotId& robot, const GasSensor& sensor, const AirReading& air,
+                    bool is_part);
+  absl::Status KeepAll(const RobotId& robot, const GasSensor& sensor,
+                       const std::vector<AirReading>& told);
+  WayModel ModelOf(const GasSensor& sensor) const;
+  void NotePose(const RobotId& robot, std::int64_t time_ns, const Pose2& pose);
+  std::vector<GasSensor> LaggingSensors(const RobotId& robot) const;
+  void FinishWays(const RobotId& robot, const std::vector<GasSensor>& sensors);
   absl::Status AddReading(std::size_t species, const ReadingSource& source, std::int64_t time_ns,
-                          Point2 place, const GasReading& reading);
+                          Point2 place, const GasReading& reading, bool is_part);
   absl::Status TakeCorrection(const RobotId& robot, const Observation& observation,
                               const PoseCorrection& correction);
   bool IsInDoubt(const RobotId& robot, std::int64_t time_ns, const Pose2& pose, const Scan& scan,
@@ -256,6 +266,7 @@ class Mission {
   Fleet fleet_;
   GoalMemory goal_memory_;
   SampledCells sampled_cells_;
+  std::map<RobotId, std::vector<WayReadings>> lagging_;  // by sensor, of robots with such that lag
   WayHistory history_;
   JumpWatch jump_watch_;
   bool rebuild_wanted_ = false;

@@ -32,6 +32,7 @@ absl::Status CheckTimes(const PoseCorrection& correction, std::int64_t own_ns) {
 absl::Status Mission::TakeCorrection(const RobotId& robot, const Observation& observation,
                                      const PoseCorrection& correction) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckTimes(correction, observation.sample_time_ns));
+  FinishWays(robot, LaggingSensors(robot));
   const std::int64_t clock_offset_ns = fleet_.StateOf(robot).clock_offset_ns;
   const std::int64_t time_ns = observation.sample_time_ns + clock_offset_ns;
   std::vector<PoseAnchor> anchors = correction.anchors;
@@ -80,6 +81,7 @@ std::vector<SensorOffsets> Mission::Sensors(const std::vector<WayHistory::Heard>
   }
   if (!fleet_.has_offsets()) return sensors;
   for (const WayHistory::Heard& one : heard) {
+    if (one.is_part) continue;
     sensors[one.species].Add(one.source, one.time_ns, one.place, one.reading, GridGeometry());
   }
   return sensors;

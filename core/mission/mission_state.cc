@@ -10,6 +10,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/gas/gas_state.h"
+#include "core/gas/way_state.h"
 #include "core/mission/fleet_state.h"
 #include "core/mission/goal_memory_state.h"
 #include "core/mission/way_history_state.h"
@@ -81,6 +82,7 @@ void Mission::VisitState(Archive& archive, Self& self) {
     archive.Since(2, self.history_, self.jump_watch_, self.rebuild_wanted_, self.rebuilt_ns_);
   }
   archive.Since(2, self.changed_keep_out_);
+  archive.Since(2, self.lagging_);
   if constexpr (Archive::kReads) {
     archive.Require(self.goal_memory_.IsOf(self.options_->occupancy.resolution_m),
                     "goals are remembered from another map");

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kMaxDistance_m = 10.0;
 constexpr double kMaxStddev_ppm = 1e6;  // pure gas
+constexpr double kMaxResponseTime_s = 3600.0;
 
 absl::Status CheckSensor(const GasSensor& sensor, const std::string& field) {
   PLUMESCOUT_RETURN_IF_ERROR(ValidateId(absl::StrCat(field, ".id"), sensor.id));
@@ -29,6 +30,8 @@ absl::Status CheckSensor(const GasSensor& sensor, const std::string& field) {
       .InRange(absl::StrCat(field, ".stddev_ppm"), sensor.stddev_ppm, 0.0, kMaxStddev_ppm)
       .InRange(absl::StrCat(field, ".offset_stddev_ppm"), sensor.offset_stddev_ppm, 0.0,
                kMaxStddev_ppm)
+      .InRange(absl::StrCat(field, ".response_time_s"), sensor.response_time_s, 0.0,
+               kMaxResponseTime_s)
       .status();
 }
 
@@ -53,7 +56,13 @@ absl::Status CheckSensors(const std::vector<GasSensor>& sensors) {
 
 absl::Status CheckOffsets(const std::vector<GasSensor>& sensors, const GasOptions& gas) {
   for (std::size_t i = 0; i < sensors.size(); ++i) {
-    if (gas.ageing_half_life_s == 0.0 || sensors[i].offset_stddev_ppm == 0.0) continue;
+    if (sensors[i].offset_stddev_ppm == 0.0) continue;
+    if (gas.scale != GasScale::kLinear) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("gas_sensors[", i, "].offset_stddev_ppm = ", sensors[i].offset_stddev_ppm,
+                       " must be 0 in a mission with gas.scale = square_root"));
+    }
+    if (gas.ageing_half_life_s == 0.0) continue;
     return absl::InvalidArgumentError(
         absl::StrCat("gas_sensors[", i, "].offset_stddev_ppm = ", sensors[i].offset_stddev_ppm,
                      " must be 0 in a mission with ageing_half_life_s = ", gas.ageing_half_life_s));

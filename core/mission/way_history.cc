@@ -60,12 +60,12 @@ WayHistory::Way& WayHistory::WayOf(const RobotId& robot) {
 
 void WayHistory::AddReading(const RobotId& robot, std::int64_t time_ns, const Pose2& pose,
                             const GasReading& reading, bool quarantined, const GasSensor& sensor,
-                            std::size_t species) {
+                            std::size_t species, bool is_part) {
   if (!keeps_) return;
   Way& way = WayOf(robot);
   way.readings.push_back({next_number_++, time_ns, pose, reading, quarantined,
                           static_cast<std::uint8_t>(species), sensor.robot_from_sensor, sensor.id,
-                          sensor.offset_stddev_ppm});
+                          sensor.offset_stddev_ppm, is_part});
   way.latest = {time_ns, pose};
   bytes_ += kReadingBytes;
 }
@@ -236,7 +236,8 @@ std::vector<WayHistory::Heard> WayHistory::HeardReadings() const {
                        entry.time_ns,
                        entry.place(),
                        entry.reading,
-                       entry.species});
+                       entry.species,
+                       entry.is_part});
     }
   }
   std::sort(heard.begin(), heard.end(),

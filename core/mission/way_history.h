@@ -50,7 +50,7 @@ class WayHistory {
 
   void AddReading(const RobotId& robot, std::int64_t time_ns, const Pose2& pose,
                   const GasReading& reading, bool quarantined, const GasSensor& sensor = {},
-                  std::size_t species = 0);
+                  std::size_t species = 0, bool is_part = false);
   void AddScan(const RobotId& robot, std::int64_t time_ns, const Pose2& pose, const Scan& scan,
                const std::vector<MaskDisc>& masks, bool quarantined);
 
@@ -79,6 +79,7 @@ class WayHistory {
     Point2 place;  // of the sensor
     GasReading reading;
     std::size_t species = 0;  // place among the mission's gases
+    bool is_part = false;     // of a reading of which another part came before
   };
   std::vector<Heard> HeardReadings() const;
   // By gas, of what HeardReadings gave.
@@ -117,6 +118,7 @@ class WayHistory {
     Point2 robot_from_sensor;
     std::string sensor;
     double offset_stddev_ppm = 0.0;
+    bool is_part = false;
 
     Point2 place() const { return PlaceOnRobot(pose, robot_from_sensor); }
 

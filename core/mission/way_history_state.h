@@ -24,10 +24,11 @@ void Visit(auto& archive, ConstOr<WayPoint> auto& point) {
 template <typename Archive, typename Self>
 void WayHistory::KeptReading::VisitState(Archive& archive, Self& self) {
   auto& [number, time_ns, pose, reading, quarantined, species, robot_from_sensor, sensor,
-         offset_stddev_ppm] = self;
+         offset_stddev_ppm, is_part] = self;
   // The species is written for missions of several only, see below.
   archive(number, time_ns, pose, reading, quarantined, robot_from_sensor, sensor,
           offset_stddev_ppm);
+  archive.Since(2, is_part);
 }
 
 template <typename Archive, typename Self>

@@ -18,6 +18,9 @@ struct GasSensor {
   // Of the unknown offset that all its readings have, from its data sheet; 0: it is calibrated.
   double offset_stddev_ppm = 0.0;
   std::string species = {};  // what it reads, by name; empty: the mission's first gas
+  // Of the first-order lag that its readings have, to be undone along its way (WayReadings); 0:
+  // they are of the air where they are taken.
+  double response_time_s = 0.0;
 
   friend bool operator==(const GasSensor&, const GasSensor&) = default;
 };

@@ -61,6 +61,9 @@ struct GasQuality {
   std::int64_t failures = 0;          // refreshes and adoptions of which no field came
   double drift_mean_ppm = 0.0;        // largest found at the last adoption
   double drift_variance_ratio = 0.0;
+  // What published variances are scaled by, for readings fit the field that much worse than its
+  // precisions say; 1: not worse, or not estimated.
+  double noise_scale = 1.0;
 
   friend bool operator==(const GasQuality&, const GasQuality&) = default;
 };

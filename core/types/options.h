@@ -31,6 +31,7 @@ struct OccupancyOptions {
 };
 
 // Gas posterior; design of the GMRF with precisions in ppm^-2. [XIT] Table I.
+enum class GasScale { kLinear, kSquareRoot };
 struct GasOptions {
   double prior_precision_per_ppm2 = 3.0;         // lambda_p (sigma_r^2), > 0
   double observation_precision_per_ppm2 = 10.0;  // lambda_o (sigma_s^2), > 0
@@ -55,6 +56,11 @@ struct GasOptions {
   // Servers compare the posterior with an independent one after the first epoch and after every so
   // many from then on, [0, 1000000]; 0: never.
   int audit_period_epochs = 30;
+  // What is Gaussian: concentrations, or their roots. Then the lambda are of roots, in ppm^-1.
+  GasScale scale = GasScale::kLinear;
+  // Whether the variances that are published are scaled by how well readings fit the field (see
+  // NoiseScale). Plans go by those of the model.
+  bool estimate_noise = false;
 };
 
 inline constexpr int kMostLatticeFactor = 16;

@@ -86,9 +86,9 @@ void Visit(auto& archive, ConstOr<Goal> auto& goal) {
   archive(kind, cell, position, centroid, frontier_cells);
 }
 void Visit(auto& archive, ConstOr<GasSensor> auto& sensor) {
-  auto& [id, robot_from_sensor, stddev_ppm, offset_stddev_ppm, species] = sensor;
+  auto& [id, robot_from_sensor, stddev_ppm, offset_stddev_ppm, species, response_time_s] = sensor;
   archive(id, robot_from_sensor, stddev_ppm, offset_stddev_ppm);
-  archive.Since(2, species);
+  archive.Since(2, species, response_time_s);
 }
 void Visit(auto& archive, ConstOr<RobotFrame> auto& frame) {
   auto& [mission_from_robot, position_stddev_m, heading_stddev_rad] = frame;
@@ -106,7 +106,8 @@ void Visit(auto& archive, ConstOr<GasCounters> auto& counters) {
 }
 void Visit(auto& archive, ConstOr<GasQuality> auto& quality) {
   auto& [mean_error_ppm, variance_error_ratio, aged_to_ns, ageing_error_ratio, refreshes, epochs,
-         healed, failures, drift_mean_ppm, drift_variance_ratio] = quality;
+         healed, failures, drift_mean_ppm, drift_variance_ratio, noise_scale] = quality;
+  // The last follows from the field.
   archive(mean_error_ppm, variance_error_ratio, aged_to_ns, ageing_error_ratio, refreshes, epochs,
           healed, failures, drift_mean_ppm, drift_variance_ratio);
 }

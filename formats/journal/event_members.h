@@ -99,8 +99,8 @@ void VisitMembers(auto& archive, Is<RobotFrame> auto& frame) {
   archive(mission_from_robot, position_stddev_m, heading_stddev_rad);
 }
 void VisitMembers(auto& archive, Is<GasSensor> auto& sensor) {
-  auto& [id, robot_from_sensor, stddev_ppm, offset_stddev_ppm, species] = sensor;
-  archive(id, robot_from_sensor, stddev_ppm, offset_stddev_ppm, species);
+  auto& [id, robot_from_sensor, stddev_ppm, offset_stddev_ppm, species, response_time_s] = sensor;
+  archive(id, robot_from_sensor, stddev_ppm, offset_stddev_ppm, species, response_time_s);
 }
 void VisitMembers(auto& archive, Is<RobotRegistered> auto& event) {
   auto& [robot, radius_m, lease_token, log_epoch, frame, sensors] = event;

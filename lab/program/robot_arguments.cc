@@ -112,6 +112,9 @@ void AddGasOptions(CLI::App& app, RobotArguments& arguments) {
   app.add_option("--gas-rate", arguments.rates.gas_hz, "Readings a second; 0: none");
   app.add_flag("--raw-gas", arguments.raw_gas,
                "Send gas readings as the sensor gives them, its lag not undone");
+  app.add_flag("--way-gas", arguments.way_gas,
+               "The same, for the mission to undo the lag along the way")
+      ->excludes("--raw-gas");
   app.add_option("--gas-threshold", arguments.gas_threshold_ppm,
                  "Above it gas counts as a plume, ppm (default: a percentile of what is observed)");
   app.add_option("--dwell", arguments.dwell_s,
@@ -285,6 +288,7 @@ absl::StatusOr<PlannedEpisode> PlanEpisode(const RobotArguments& arguments,
   options.rates = arguments.rates;
   options.realtime = arguments.realtime;
   options.correct_gas_lag = !arguments.raw_gas;
+  options.mission_corrects_lag = arguments.way_gas;
   options.gas_settling_s = arguments.settling_s;
   options.simulated = RobotOf(arguments);
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<Pose2> starts,

@@ -47,7 +47,11 @@ client::RobotLoopOptions LoopOptions(const EpisodeOptions& options) {
   loop.pacing = options.realtime ? client::Pacing::kFreeRunning : client::Pacing::kLockstep;
   loop.following = options.following;
   loop.rates = options.rates;
-  if (options.correct_gas_lag) {
+  if (options.mission_corrects_lag) {
+    client::Participation& participation = loop.participation;
+    participation.sensors.emplace_back().id = "gas";
+    participation.sensors.back().response_time_s = options.simulated.gas_sensor.time_constant_s;
+  } else if (options.correct_gas_lag) {
     loop.gas_sampling.time_constant_s = options.simulated.gas_sensor.time_constant_s;
   }
   loop.gas_sampling.settling_s = options.gas_settling_s;

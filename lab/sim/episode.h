@@ -65,6 +65,8 @@ struct EpisodeOptions {
   client::Following following = client::Following::kIdeal;
   client::SensorRates rates;
   bool correct_gas_lag = true;  // undo the lag of the gas sensor, which the robot knows
+  // Instead the mission undoes it, along the way: see GasSensor::response_time_s.
+  bool mission_corrects_lag = false;
   double gas_settling_s = 0.0;  // see client::GasSampling; < the mission's dwell_s
   // False: the world waits for acknowledgements and plans, so an episode is repeatable. True: time
   // goes by as on a wall clock, plans take as long as they take.

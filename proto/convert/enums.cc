@@ -82,6 +82,11 @@ constexpr Row<ProgressOutcome, v1::ReportProgressRequest::Outcome> kOutcomes[] =
     {ProgressOutcome::kBlocked, v1::ReportProgressRequest::OUTCOME_BLOCKED},
     {ProgressOutcome::kAborted, v1::ReportProgressRequest::OUTCOME_ABORTED},
 };
+constexpr Row<GasScale, v1::GasScale> kGasScales[] = {
+    {GasScale::kLinear, v1::GAS_SCALE_LINEAR},
+    {GasScale::kSquareRoot, v1::GAS_SCALE_SQUARE_ROOT},
+};
+
 constexpr Row<WgfdScope, v1::WgfdScope> kWgfdScopes[] = {
     {WgfdScope::kReachable, v1::WGFD_SCOPE_REACHABLE},
     {WgfdScope::kLocal, v1::WGFD_SCOPE_LOCAL},
@@ -159,6 +164,7 @@ v1::PlanInvalidated::Reason ToProto(InvalidationReason value) {
   return Find(kInvalidationReasons, value);
 }
 v1::ReportProgressRequest::Outcome ToProto(ProgressOutcome value) { return Find(kOutcomes, value); }
+v1::GasScale ToProto(GasScale value) { return Find(kGasScales, value); }
 v1::WgfdScope ToProto(WgfdScope value) { return Find(kWgfdScopes, value); }
 v1::GoalPolicy ToProto(GoalPolicy value) { return Find(kGoalPolicies, value); }
 v1::CostKind ToProto(CostKind value) { return Find(kCostKinds, value); }
@@ -193,6 +199,9 @@ absl::StatusOr<InvalidationReason> FromProto(v1::PlanInvalidated::Reason proto,
 absl::StatusOr<ProgressOutcome> FromProto(v1::ReportProgressRequest::Outcome proto,
                                           absl::string_view field) {
   return Find(kOutcomes, proto, field);
+}
+absl::StatusOr<GasScale> FromProto(v1::GasScale proto, absl::string_view field) {
+  return Find(kGasScales, proto, field);
 }
 absl::StatusOr<WgfdScope> FromProto(v1::WgfdScope proto, absl::string_view field) {
   return Find(kWgfdScopes, proto, field);

@@ -250,7 +250,8 @@ GasQuality FromProto(const v1::GasQuality& proto) {
           .healed = proto.healed_count(),
           .failures = proto.failure_count(),
           .drift_mean_ppm = proto.drift_mean_ppm(),
-          .drift_variance_ratio = proto.drift_variance_ratio()};
+          .drift_variance_ratio = proto.drift_variance_ratio(),
+          .noise_scale = proto.noise_scale()};
 }
 
 GasAudits AuditsFromProto(const v1::GasQuality& proto) {
@@ -276,6 +277,7 @@ v1::GasQuality ToProto(const GasQuality& quality, const GasAudits& audits) {
   proto.set_audit_alarm_count(audits.alarms);
   proto.set_drift_mean_ppm(quality.drift_mean_ppm);
   proto.set_drift_variance_ratio(quality.drift_variance_ratio);
+  proto.set_noise_scale(quality.noise_scale);
   return proto;
 }
 

@@ -44,6 +44,8 @@ void Visit(OneOf<GasOptions> auto& options, auto& field) {
   field("lattice_factor", options.lattice_factor);
   field("observation_stddev_share", options.observation_stddev_share);
   field("field_reach_m", options.field_reach_m);
+  field("scale", options.scale);
+  field("estimate_noise", options.estimate_noise);
 }
 
 void Visit(OneOf<GasSpecies> auto& species, auto& field) {

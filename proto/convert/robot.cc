@@ -12,7 +12,8 @@ std::vector<GasSensor> SensorsFromProto(const v1::RegisterRobotRequest& request)
          .robot_from_sensor = {sensor.robot_from_sensor().x_m(), sensor.robot_from_sensor().y_m()},
          .stddev_ppm = sensor.stddev_ppm(),
          .offset_stddev_ppm = sensor.offset_stddev_ppm(),
-         .species = sensor.species()});
+         .species = sensor.species(),
+         .response_time_s = sensor.response_time_s()});
   }
   return sensors;
 }
@@ -26,6 +27,7 @@ void ToProto(const std::vector<GasSensor>& sensors, v1::RegisterRobotRequest& re
     added.set_stddev_ppm(sensor.stddev_ppm);
     added.set_offset_stddev_ppm(sensor.offset_stddev_ppm);
     added.set_species(sensor.species);
+    added.set_response_time_s(sensor.response_time_s);
   }
 }
 

@@ -111,13 +111,13 @@ void MapStore::Advance(const Belief& belief) {
   audits_ = AuditsOf(belief);
   Renew(belief.occupancy, belief.revision, rasters_.occupancy);
   Renew(belief.gas_mean_ppm, belief.revision, rasters_.gas_mean_ppm);
-  Renew(belief.gas_variance_ppm2, belief.revision, rasters_.gas_variance_ppm2);
+  Renew(belief.Gas(0).published_variance_ppm2(), belief.revision, rasters_.gas_variance_ppm2);
   rasters_.further_gases.resize(belief.further_gases.size());
   for (std::size_t i = 0; i < belief.further_gases.size(); ++i) {
     GasRasters& gas = rasters_.further_gases[i];
     gas.species = SpeciesName(*belief.options, i + 1);
     Renew(belief.further_gases[i].mean_ppm, belief.revision, gas.mean_ppm);
-    Renew(belief.further_gases[i].variance_ppm2, belief.revision, gas.variance_ppm2);
+    Renew(belief.further_gases[i].published_variance_ppm2(), belief.revision, gas.variance_ppm2);
   }
   status_ = SerialiseStatus(ToProto(MakeMapStatus(belief), belief.geometry(), mission_),
                             max_part_bytes_ / 2);

@@ -16,14 +16,18 @@ TEST(SensorArgumentsTest, WhatIsLeftOutIsNone) {
   EXPECT_TRUE(ReadSensors({})->empty());
 }
 
-TEST(SensorArgumentsTest, TheLastPartIsTheGas) {
+TEST(SensorArgumentsTest, TheLastPartsAreTheGasAndTheResponseTime) {
   const auto sensors = ReadSensors({"ec,0,0,0,0,hydrogen-sulfide"});
   ASSERT_TRUE(sensors.ok()) << sensors.status();
   EXPECT_THAT(*sensors, ::testing::ElementsAre(GasSensor{"ec", {}, 0.0, 0.0, "hydrogen-sulfide"}));
+  const auto slow = ReadSensors({"ec,0,0,0,0,,30"});
+  ASSERT_TRUE(slow.ok()) << slow.status();
+  EXPECT_THAT(*slow, ::testing::ElementsAre(GasSensor{"ec", {}, 0.0, 0.0, "", 30.0}));
 }
 
 TEST(SensorArgumentsTest, OthersAreQuoted) {
-  for (const char* text : {"pid,ahead", "pid,1,2,3,4,methane,6", "pid,"}) {
+  for (const char* text :
+       {"pid,ahead", "pid,1,2,3,4,methane,slow", "pid,1,2,3,4,methane,6,7", "pid,"}) {
     const auto refused = ReadSensors({text});
     EXPECT_TRUE(absl::IsInvalidArgument(refused.status()));
     EXPECT_THAT(refused.status().message(), ::testing::HasSubstr(text));

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "client/grpc_viewer_client.h"
 #include "client/grpc_planner_client.h"
+#include "client/grpc_viewer_client.h"
 #include "server/server.h"
 #include "tests/client/ingest_traffic.h"
 #include "tests/support/box_room.h"

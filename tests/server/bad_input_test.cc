@@ -69,6 +69,7 @@ std::map<std::string, BadInputs> AllBadInputs() {
 std::set<std::string> BoolFields() {
   return {
       "CreateMissionRequest.options.stamp_by_arrival",
+      "CreateMissionRequest.options.gas.estimate_noise",
       "CreateMissionRequest.options.keep_scans",
       "CreateMissionRequest.options.planning.draw_goals",
       "CreateMissionRequest.options.planning.raw_variance",

@@ -30,6 +30,7 @@ inline BadInputs BadGasSensor() {
   values("robot_from_sensor.y_m", {"nan", "inf", "-inf", "11", "-1e300"});
   values("stddev_ppm", {"nan", "inf", "-1", "1e7"});
   values("offset_stddev_ppm", {"nan", "inf", "-1", "1e7"});
+  values("response_time_s", {"nan", "inf", "-1", "3601"});
   values("species", {R"("ozone")"});
   rows.Row({"gas_sensors", "two of one name",
             [](Message& message) {

@@ -91,6 +91,7 @@ TEST(ReadingBucketTest, MergesReadingsOfOneInstantExactly) {
   const Evidence evidence = EvidenceOf(buckets[0], HalfLife(), 120 * kSecond_ns);
   EXPECT_DOUBLE_EQ(evidence.precision, 3.0 / 0.2);
   EXPECT_DOUBLE_EQ(evidence.weighted_deviation, 12.0 / 0.2);
+  EXPECT_DOUBLE_EQ(evidence.weighted_square, (1.0 + 4.0 + 81.0) / 0.2);
 }
 
 TEST(ReadingBucketTest, KeepsApartWhatDiffersTooMuch) {

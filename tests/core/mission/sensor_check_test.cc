@@ -32,6 +32,8 @@ TEST(SensorCheckTest, NamesFieldAndValue) {
               ::testing::HasSubstr("robot_from_sensor.y_m"));
   EXPECT_THAT(Refusal([](GasSensor& s) { s.stddev_ppm = -1.0; }),
               ::testing::HasSubstr("gas_sensors[1].stddev_ppm = -1"));
+  EXPECT_THAT(Refusal([](GasSensor& s) { s.response_time_s = 3601.0; }),
+              ::testing::HasSubstr("gas_sensors[1].response_time_s = 3601"));
   EXPECT_THAT(Refusal([](GasSensor& s) { s.offset_stddev_ppm = 2e6; }),
               ::testing::HasSubstr("gas_sensors[1].offset_stddev_ppm = 2e+06"));
 }
@@ -55,6 +57,15 @@ TEST(SensorCheckTest, OffsetsAreForReadingsThatDoNotAge) {
   const absl::Status status = CheckOffsets(sensors, gas);
   EXPECT_TRUE(absl::IsInvalidArgument(status));
   EXPECT_THAT(status.message(), ::testing::HasSubstr("offset_stddev_ppm = 1"));
+}
+
+TEST(SensorCheckTest, OffsetsAreForFieldsOfConcentrations) {
+  GasOptions gas;
+  gas.scale = GasScale::kSquareRoot;
+  EXPECT_TRUE(CheckOffsets({{"pid", {}, 0.0, 0.0}}, gas).ok());
+  const absl::Status status = CheckOffsets({{"pid", {}, 0.0, 1.0}}, gas);
+  EXPECT_TRUE(absl::IsInvalidArgument(status));
+  EXPECT_THAT(status.message(), ::testing::HasSubstr("offset_stddev_ppm = 1 must be 0"));
 }
 
 TEST(SensorCheckTest, SensorsReadWhatTheMissionMaps) {

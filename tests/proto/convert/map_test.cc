@@ -36,7 +36,7 @@ MapSnapshot TestMap() {
   map.robots = {{"r1", 0.25, true, {1.0, 2.0, 0.5}, 40, 2}, {"r2", 0.2, false, {}, 0, 0, true}};
   map.robots[1].frame_suspect = true;
   map.gas_counters = {10, 7, 2, 3};
-  map.gas_quality = {1e-4, 1e-5, 1'700'000'000'000'000'000, 0.02, 900, 8, 2, 1, 2e-4, 3e-5};
+  map.gas_quality = {1e-4, 1e-5, 1'700'000'000'000'000'000, 0.02, 900, 8, 2, 1, 2e-4, 3e-5, 7.5};
   map.gas_audits = {5, 2e-5, 4e-6, 1};
   map.gases = {{"methane", map.gas_counters, map.gas_quality, map.gas_audits},
                {"ozone", {3, 1, 0, 2}, {}, {2, 1e-5, 0.0, 0}}};

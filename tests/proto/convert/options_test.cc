@@ -69,6 +69,8 @@ MissionOptions Unlike() {
   options.stamp_by_arrival = true;
   options.keep_scans = false;
   options.gas.audit_period_epochs = 7;
+  options.gas.scale = GasScale::kSquareRoot;
+  options.gas.estimate_noise = true;
   options.keep_out = {{{{1, 2}, {3, 4}, {5, 7}}, "spill"}, {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}};
   options.gas_species = {{"methane", {}, {}, {}, {}}, {"ozone", 30.0, {}, 0.5, 0.25}};
   options.home = Point2{-1.0, 2.0};
@@ -91,6 +93,8 @@ TEST(OptionsTest, OptionsSurviveTheRoundTrip) {
   EXPECT_TRUE(back->stamp_by_arrival);
   EXPECT_FALSE(back->keep_scans);
   EXPECT_EQ(back->gas.audit_period_epochs, 7);
+  EXPECT_EQ(back->gas.scale, GasScale::kSquareRoot);
+  EXPECT_TRUE(back->gas.estimate_noise);
   EXPECT_EQ(back->frontier.fixed_gas_threshold_ppm, 4.0);
   EXPECT_EQ(back->keep_out, Unlike().keep_out);
   EXPECT_EQ(back->gas_species, Unlike().gas_species);

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+
+namespace plumescout {
+
+// How well readings fit the field that was made of them.
+struct FieldFit {
+  // The least energy of the field: z^T C^-1 z with the deviations z of all readings and what the
+  // model says of their covariance, C. It is sum of lambda_k (z_k - m_0)^2 - h^T m for the field
+  // H m = h. If the model is right it is as large as their number, give or take its root.
+  double energy = 0.0;
+  // How many readings there are; those that are less precise than the mission's count for as much
+  // less.
+  double readings = 0.0;
+};
+
+// By what factor variances are larger than the model says: that all its precisions are wrong alike
+// is what a fit can tell. Then given s, z ~ N(0, s C), and with an inverse gamma prior of mean 1
+// and infinite variance (a = 2, b = 1) the mean of s given z is (2 + energy) / (2 + readings).
+// Not below 1: from readings that are all alike it does not follow that sensors have no noise.
+inline double NoiseScale(const FieldFit& fit) {
+  return std::max(1.0, (2.0 + std::max(0.0, fit.energy)) / (2.0 + fit.readings));
+}
+
+}  // namespace plumescout

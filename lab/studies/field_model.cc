@@ -1,0 +1,278 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/studies/field_model.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "client/lag_correction.h"
+#include "core/gas/gas_map.h"
+#include "core/gas/way_readings.h"
+#include "core/types/status_macros.h"
+#include "lab/about/about.h"
+#include "lab/formats/scene_folder.h"
+#include "lab/sim/scene_world.h"
+#include "lab/trials/gas_recording.h"
+#include "lab/trials/map_calibration.h"
+#include "lab/trials/statistics.h"
+#include "lab/trials/study_scenes.h"
+#include "lab/trials/task_pool.h"
+#include "lab/trials/trial_study.h"
+
+namespace plumescout::lab {
+namespace {
+
+constexpr std::uint64_t kFirstBuilding = 700;  // 720 and on were tuned on
+constexpr int kBuildings = 12;
+constexpr int kTrials = 3;
+constexpr double kDuration_s = 300.0;
+constexpr double kQuickDuration_s = 30.0;
+constexpr const char* kStrategies[] = {"plumescout", "xit_f"};
+
+struct Model {
+  const char* name;
+  const char* label;
+  bool along_way;
+  GasOptions gas;
+};
+
+GasOptions Gas(double prior_precision, double background_precision, GasScale scale,
+               bool estimate_noise) {
+  GasOptions gas;
+  gas.prior_precision_per_ppm2 = prior_precision;
+  gas.background_precision_per_ppm2 = background_precision;
+  gas.scale = scale;
+  gas.estimate_noise = estimate_noise;
+  return gas;
+}
+
+constexpr std::size_t kBaseline = 0;
+std::vector<Model> Models() {
+  constexpr GasScale kLinear = GasScale::kLinear;
+  constexpr GasScale kRoot = GasScale::kSquareRoot;
+  return {{"plain", "points, linear, fixed noise", false, GasOptions()},
+          {"noise", "points, linear, noise estimated", false, Gas(3.0, 1e-3, kLinear, true)},
+          {"points_root", "points, roots", false, Gas(0.3, 9e-4, kRoot, true)},
+          {"way_as_is", "way, linear, precisions as they are", true, Gas(3.0, 1e-3, kLinear, true)},
+          {"way_linear", "way, linear", true, Gas(0.3, 9e-4, kLinear, true)},
+          {"way_root", "way, roots", true, Gas(0.3, 3e-4, kRoot, true)}};
+}
+
+struct Placed {
+  std::int64_t time_ns = 0;
+  Point2 place;
+  GasReading reading;
+};
+
+std::vector<Placed> Points(const GasRecording& recording) {
+  std::vector<Placed> placed;
+  client::LagCorrection correction(recording.response_time_s);
+  for (const HeardPose& heard : recording.heard) {
+    correction.NotePose(heard.time_ns, heard.pose);
+    if (!heard.reading) continue;
+    const client::GasSample air = correction.Correct({heard.time_ns, heard.pose, *heard.reading});
+    placed.push_back({air.time_ns, air.pose.position(), air.reading});
+  }
+  return placed;
+}
+
+std::vector<Placed> AlongWay(const GasRecording& recording, const GasOptions& gas) {
+  const WayModel model{.response_time_s = recording.response_time_s,
+                       .robot_from_sensor = {},
+                       .resolution_m = recording.states.geometry().resolution_m,
+                       .gas = gas};
+  std::vector<Placed> placed;
+  const auto place = [&placed](const std::vector<AirReading>& told) {
+    for (const AirReading& air : told) {
+      placed.push_back({air.time_ns, air.pose.position(), air.reading});
+    }
+  };
+  WayReadings way;
+  for (const HeardPose& heard : recording.heard) {
+    way.NotePose(heard.time_ns, heard.pose);
+    if (heard.reading) place(way.Add(model, heard.time_ns, heard.pose, *heard.reading));
+  }
+  place(way.Finish(model));
+  return placed;
+}
+
+struct Outcome {
+  MapCalibration map;
+  double noise_scale = 1.0;
+};
+
+absl::StatusOr<Outcome> MapBy(const Model& model, const Scene& scene,
+                              const GasRecording& recording) {
+  GasMap gas(model.gas, recording.states.geometry().resolution_m);
+  for (const Placed& p : model.along_way ? AlongWay(recording, model.gas) : Points(recording)) {
+    gas.Add(p.time_ns, p.place, p.reading);
+  }
+  PLUMESCOUT_RETURN_IF_ERROR(gas.Refresh(recording.states, recording.heard.back().time_ns));
+  return Outcome{Calibrate(scene, gas.mean_ppm(), gas.error_variance_ppm2()), gas.noise_scale()};
+}
+
+struct Mission {
+  std::string building;
+  std::string strategy;
+  std::uint64_t seed = 1;
+  std::vector<Outcome> models;
+};
+
+absl::StatusOr<std::vector<Mission>> Record(const ExperimentOptions& options,
+                                            const std::vector<std::string>& scenes,
+                                            const std::function<void(double)>& progress) {
+  const int trials = options.trials.value_or(options.quick ? 1 : kTrials);
+  const double duration_s = options.quick ? kQuickDuration_s : kDuration_s;
+  const std::size_t per_scene = std::size(kStrategies) * static_cast<std::size_t>(trials);
+  const std::vector<Model> models = Models();
+  std::vector<Mission> missions(scenes.size() * per_scene);
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(Scene scene, ReadScene(scenes[s]));
+    const SceneWorld world(std::move(scene));
+    const auto run = [&](std::size_t task) -> absl::Status {
+      Mission& mission = missions[s * per_scene + task];
+      mission.building = SceneName(scenes[s]);
+      mission.strategy = kStrategies[task % std::size(kStrategies)];
+      mission.seed = options.seed + task / std::size(kStrategies);
+      PLUMESCOUT_ASSIGN_OR_RETURN(const StudyRow row,
+                                  MakeStudyRow(mission.strategy, mission.strategy, false));
+      PLUMESCOUT_ASSIGN_OR_RETURN(const GasRecording recording,
+                                  RecordGas(world, row.mission, mission.seed, duration_s));
+      for (const Model& model : models) {
+        PLUMESCOUT_ASSIGN_OR_RETURN(const Outcome outcome, MapBy(model, world.scene(), recording));
+        mission.models.push_back(outcome);
+      }
+      return absl::OkStatus();
+    };
+    PLUMESCOUT_RETURN_IF_ERROR(RunTasks(per_scene, options.jobs, run, [&](double share) {
+      progress((static_cast<double>(s) + share) / static_cast<double>(scenes.size()));
+    }));
+  }
+  return missions;
+}
+
+using FigureFn = double (*)(const Outcome& model, const Outcome& baseline);
+struct Figure {
+  const char* name;
+  const char* label;
+  FigureFn of;
+};
+constexpr Figure kFigures[] = {
+    {"rmse_ratio", "RMSE over that of the first",
+     [](const Outcome& m, const Outcome& b) { return m.map.rmse_ppm / b.map.rmse_ppm; }},
+    {"log_ratio", "log error over that of the first",
+     [](const Outcome& m, const Outcome& b) { return m.map.log_rmse / b.map.log_rmse; }},
+    {"nlpd", "NLPD, nats", [](const Outcome& m, const Outcome&) { return m.map.nlpd_nats; }},
+    {"within_1_sigma", "1 σ holds",
+     [](const Outcome& m, const Outcome&) { return m.map.within_1_sigma; }},
+    {"within_2_sigma", "2 σ holds",
+     [](const Outcome& m, const Outcome&) { return m.map.within_2_sigma; }},
+    {"rms_z", "rms z", [](const Outcome& m, const Outcome&) { return m.map.rms_z; }},
+    {"two_sigma_fits", "missions with 2 σ in 0.90–0.98",
+     [](const Outcome& m, const Outcome&) {
+       return m.map.within_2_sigma >= 0.9 && m.map.within_2_sigma <= 0.98 ? 1.0 : 0.0;
+     }},
+    {"z_fits", "with rms z in 0.7–1.5",
+     [](const Outcome& m, const Outcome&) {
+       return m.map.rms_z >= 0.7 && m.map.rms_z <= 1.5 ? 1.0 : 0.0;
+     }},
+};
+
+// By building, as means over its missions.
+std::vector<double> ByBuilding(const std::vector<Mission>& missions, std::size_t model,
+                               FigureFn figure) {
+  std::vector<double> means;
+  for (std::size_t i = 0; i < missions.size();) {
+    double sum = 0.0;
+    std::size_t end = i;
+    while (end < missions.size() && missions[end].building == missions[i].building) {
+      sum += figure(missions[end].models[model], missions[end].models[kBaseline]);
+      ++end;
+    }
+    means.push_back(sum / static_cast<double>(end - i));
+    i = end;
+  }
+  return means;
+}
+
+TextTable MakeTable(const std::vector<Mission>& missions, Summary& summary) {
+  TextTable table;
+  table.title = "Means over buildings [± 95 % interval], critical cells";
+  table.columns = {"model"};
+  for (const Figure& figure : kFigures) table.columns.emplace_back(figure.label);
+  table.columns.emplace_back("RMSE ratio, worst building");
+  const std::vector<Model> models = Models();
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    std::vector<std::string>& row = table.rows.emplace_back();
+    row.emplace_back(models[m].label);
+    for (const Figure& figure : kFigures) {
+      const Spread spread = SpreadOf(ByBuilding(missions, m, figure.of));
+      row.push_back(absl::StrFormat("%.3f [± %.3f]", spread.mean, spread.half_95));
+      summary.figures.emplace_back(absl::StrCat(models[m].name, "_", figure.name), spread.mean);
+    }
+    const std::vector<double> ratios = ByBuilding(missions, m, kFigures[0].of);
+    const double worst = *std::max_element(ratios.begin(), ratios.end());
+    row.push_back(absl::StrFormat("%.3f", worst));
+    summary.figures.emplace_back(absl::StrCat(models[m].name, "_rmse_ratio_worst"), worst);
+  }
+  return table;
+}
+
+CsvTable MakeCsv(const std::vector<Mission>& missions) {
+  CsvTable csv;
+  csv.label_columns = {"building", "strategy", "model"};
+  csv.columns = {"seed",           "rmse_ppm",       "log_rmse", "nlpd_nats",
+                 "within_1_sigma", "within_2_sigma", "rms_z",    "noise_scale"};
+  const std::vector<Model> models = Models();
+  for (const Mission& mission : missions) {
+    for (std::size_t m = 0; m < models.size(); ++m) {
+      const auto& [map, noise_scale] = mission.models[m];
+      csv.labels.push_back({mission.building, mission.strategy, models[m].name});
+      csv.rows.push_back({static_cast<double>(mission.seed), map.rmse_ppm, map.log_rmse,
+                          map.nlpd_nats, map.within_1_sigma, map.within_2_sigma, map.rms_z,
+                          noise_scale});
+    }
+  }
+  return csv;
+}
+
+}  // namespace
+
+absl::StatusOr<Study> RunFieldModel(const ExperimentOptions& options) {
+  constexpr double kScenesShare = 0.3;  // of the time, for the progress line
+  const auto part = [&](double from, double to) {
+    return [&options, from, to](double share) {
+      if (options.progress) options.progress(from + (to - from) * share);
+    };
+  };
+  ExperimentOptions making = options;
+  making.progress = part(0.0, kScenesShare);
+  const double duration_s = options.quick ? kQuickDuration_s : kDuration_s;
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      const std::vector<std::string> scenes,
+      GeneratedScenes(making, {kFirstBuilding, options.quick ? 1 : kBuildings}, duration_s));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<Mission> missions,
+                              Record(options, scenes, part(kScenesShare, 1.0)));
+  Study study;
+  study.figures.title = "Models of the gas field, from the same readings";
+  study.figures.notes = {
+      absl::StrFormat("%d missions of %.0f s in %d buildings. Every model has the same readings, "
+                      "with the lag of the sensor; the truth is the mean over time.",
+                      missions.size(), duration_s, scenes.size()),
+      "Points: the lag is undone from each two readings, for one place between them. Way: along "
+      "the "
+      "way, for each cell that was passed. Roots: the square root of the concentration is "
+      "Gaussian."};
+  study.figures.tables = {MakeTable(missions, study.summary)};
+  study.table = MakeCsv(missions);
+  study.summary.about = AboutThisRun(options.seed);
+  return study;
+}
+
+}  // namespace plumescout::lab

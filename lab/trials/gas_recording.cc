@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/trials/gas_recording.h"
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+#include "absl/time/time.h"
+#include "core/types/event.h"
+#include "core/types/status_macros.h"
+#include "lab/local/local_planner_client.h"
+#include "lab/sim/episode.h"
+#include "ompl_planners/ompl_planner.h"
+
+namespace plumescout::lab {
+namespace {
+
+constexpr double kNoRefresh_s = 3600.0;  // but when a plan asks for it
+
+void Note(const Event& event, std::vector<HeardPose>& heard) {
+  const auto* received = std::get_if<ObservationReceived>(&event.body);
+  if (received == nullptr) return;
+  const Observation& observation = received->observation;
+  HeardPose& entry = heard.emplace_back();
+  entry.time_ns = observation.sample_time_ns;
+  entry.pose = observation.pose;
+  if (const auto* reading = std::get_if<GasReading>(&observation.payload)) entry.reading = *reading;
+}
+
+}  // namespace
+
+absl::StatusOr<GasRecording> RecordGas(const SceneWorld& world, const MissionOptions& mission,
+                                       std::uint64_t seed, double duration_s) {
+  GasRecording recording;
+  LocalOptions local;
+  local.path_planners = MakeOmplPlanner;
+  local.on_event = [&recording](const Event& event) { Note(event, recording.heard); };
+  LocalPlannerClient planner(local);
+  EpisodeOptions options;
+  options.mission = "recording";
+  options.create = mission;
+  options.create->seed = seed;
+  options.create->gas.refresh_period_s = kNoRefresh_s;
+  options.duration_s = duration_s;
+  options.metrics_period_s = duration_s;
+  options.plan_budget = absl::InfiniteDuration();
+  options.simulated.seed = seed;
+  options.correct_gas_lag = false;
+  PLUMESCOUT_RETURN_IF_ERROR(RunEpisode(planner, world, options).status());
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto belief, planner.GetBelief(options.mission));
+  recording.states = *belief->occupancy;
+  recording.response_time_s = options.simulated.gas_sensor.time_constant_s;
+  return recording;
+}
+
+}  // namespace plumescout::lab

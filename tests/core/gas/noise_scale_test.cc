@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/gas/noise_scale.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "core/gas/gas_map.h"
+#include "tests/core/gas/dense_field.h"
+#include "tests/core/gas/field/field_case.h"
+
+namespace plumescout {
+namespace noise_scale_test {
+
+using ::plumescout::testing::DenseField;
+using ::plumescout::testing::DenseReading;
+
+GasOptions Estimated(double background_ppm = 0.0) {
+  GasOptions gas;
+  gas.estimate_noise = true;
+  gas.background_mean_ppm = background_ppm;
+  return gas;
+}
+
+Grid<CellState> Room(int side) {
+  return Grid<CellState>(GridGeometry{0.0, 0.0, 0.1, side, side}, CellState::kFree);
+}
+
+void Add(const std::vector<DenseReading>& readings, const Grid<CellState>& states, GasMap& map) {
+  for (const DenseReading& r : readings) {
+    map.Add(0, states.geometry().Center(r.cell), {r.concentration_ppm, 1.0 / r.precision});
+  }
+}
+
+// z^T C^-1 z with the covariance of readings that the model says they have.
+double DenseEnergy(const Grid<CellState>& states, const std::vector<DenseReading>& readings,
+                   const GasOptions& gas) {
+  const DenseField prior(states, {}, gas);
+  const auto n = static_cast<Eigen::Index>(readings.size());
+  Eigen::MatrixXd places = Eigen::MatrixXd::Zero(n, prior.hessian().rows());
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd z(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const DenseReading& reading = readings[static_cast<std::size_t>(k)];
+    const auto cell = std::find(prior.cells().begin(), prior.cells().end(), reading.cell);
+    places(k, cell - prior.cells().begin()) = 1.0;
+    covariance(k, k) = 1.0 / reading.precision;
+    z(k) = reading.concentration_ppm - gas.background_mean_ppm;
+  }
+  covariance += places * prior.hessian().inverse() * places.transpose();
+  return z.dot(covariance.ldlt().solve(z));
+}
+
+TEST(NoiseScaleTest, IsTheMeanOfWhatTheFitSays) {
+  EXPECT_DOUBLE_EQ(NoiseScale({.energy = 98.0, .readings = 8.0}), 10.0);
+  EXPECT_EQ(NoiseScale({}), 1.0);
+  EXPECT_EQ(NoiseScale({.energy = 3.0, .readings = 100.0}), 1.0);
+  EXPECT_EQ(NoiseScale({.energy = -1e-9, .readings = 100.0}), 1.0);
+}
+
+TEST(NoiseScaleTest, AFieldKnowsTheEnergyOfItsReadings) {
+  Rng rng(3);
+  const Grid<CellState> states = testing::RandomStates(14, 12, 0.2, rng);
+  const std::vector<DenseReading> readings = testing::RandomReadings(states, 40, rng);
+  const GasOptions gas = Estimated(3.0);
+  GasMap map(gas);
+  const std::vector<DenseReading> first(readings.begin(), readings.begin() + 20);
+  Add(first, states, map);
+  ASSERT_TRUE(map.Refresh(states, 0).ok());
+  Add({readings.begin() + 20, readings.end()}, states, map);
+  ASSERT_TRUE(map.Refresh(states, 0).ok());
+  double weights = 0.0;
+  for (const DenseReading& r : readings) weights += r.precision / 10.0;
+  const double expected = NoiseScale(
+      {.energy = DenseEnergy(states, readings, gas), .readings = std::min(40.0, weights)});
+  ASSERT_GT(expected, 1.0);
+  EXPECT_NEAR(map.noise_scale(), expected, 1e-3 * expected);
+  EXPECT_EQ(map.quality().noise_scale, map.noise_scale());
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (states[i] != CellState::kFree) continue;
+    const double variance_ppm2 = map.variance_ppm2()[i];
+    EXPECT_NEAR(map.error_variance_ppm2()[i], map.noise_scale() * variance_ppm2,
+                1e-6 * map.noise_scale() * variance_ppm2);
+  }
+}
+
+TEST(NoiseScaleTest, IsNotEstimatedUnlessAskedFor) {
+  GasMap map{GasOptions()};
+  map.Add(0, {0.35, 0.35}, {50.0});
+  ASSERT_TRUE(map.Refresh(Room(8), 0).ok());
+  EXPECT_EQ(map.noise_scale(), 1.0);
+  EXPECT_EQ(&map.error_variance_ppm2(), &map.variance_ppm2());
+}
+
+TEST(NoiseScaleTest, OddReadingsNeverMakeAFieldSurer) {
+  for (const double ppm : {0.0, 50.0}) {
+    GasMap map(Estimated());
+    GasMap plain{GasOptions()};
+    for (int k = 0; k < 200; ++k) {
+      const Point2 place{0.05 + 0.1 * (k % 8), 0.05 + 0.1 * (k / 8 % 8)};
+      map.Add(0, place, {ppm});
+      plain.Add(0, place, {ppm});
+    }
+    ASSERT_TRUE(map.Refresh(Room(8), 0).ok());
+    ASSERT_TRUE(plain.Refresh(Room(8), 0).ok());
+    for (std::size_t i = 0; i < map.mean_ppm().size(); ++i) {
+      EXPECT_GE(map.error_variance_ppm2()[i], plain.variance_ppm2()[i]);
+      EXPECT_TRUE(std::isfinite(map.error_variance_ppm2()[i]));
+    }
+  }
+}
+
+TEST(NoiseScaleTest, OneReadingBeyondAllOthersMakesItUnsure) {
+  for (const bool alone : {true, false}) {
+    GasMap map(Estimated());
+    map.Add(0, {0.35, 0.35}, {1e6});
+    if (!alone) map.Add(0, {0.45, 0.35}, {0.0});
+    ASSERT_TRUE(map.Refresh(Room(8), 0).ok());
+    for (const float variance_ppm2 : map.error_variance_ppm2().values()) {
+      EXPECT_TRUE(std::isfinite(variance_ppm2));
+      // The prior has 17 ppm^2 at most: with three in the denominator a factor of 1e10 and more,
+      // and cells that nobody read have 0.05 ppm^2 and more left.
+      if (alone) EXPECT_GT(variance_ppm2, 1e8F);
+    }
+    EXPECT_GT(map.noise_scale(), 1e9);
+  }
+}
+
+TEST(NoiseScaleTest, AFieldOfRootsIsALinearOneOfTheRoots) {
+  Rng rng(5);
+  const Grid<CellState> states = Room(10);
+  GasOptions options;
+  GasMap linear(options);
+  options.scale = GasScale::kSquareRoot;
+  GasMap roots(options);
+  for (int k = 0; k < 30; ++k) {
+    const Point2 place{rng.Uniform(0.0, 1.0), rng.Uniform(0.0, 1.0)};
+    const double root = rng.Uniform(0.0, 6.0);
+    linear.Add(0, place, {root});
+    roots.Add(0, place, {root * root});
+  }
+  ASSERT_TRUE(linear.Refresh(states, 0).ok());
+  ASSERT_TRUE(roots.Refresh(states, 0).ok());
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const double mean = linear.mean_ppm()[i];
+    const double variance = linear.variance_ppm2()[i];
+    EXPECT_NEAR(roots.mean_ppm()[i], mean * mean, 1e-4);
+    EXPECT_NEAR(roots.variance_ppm2()[i], variance, 1e-6);
+    const double expected_ppm2 = (4.0 * mean * mean + 2.0 * variance) * variance;
+    EXPECT_NEAR(roots.error_variance_ppm2()[i], expected_ppm2, 1e-4 * (1.0 + expected_ppm2));
+  }
+}
+
+}  // namespace noise_scale_test
+}  // namespace plumescout

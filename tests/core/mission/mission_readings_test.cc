@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+
+// Sensors that lag, whose readings the mission takes along the way.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/gas/way_readings.h"
+#include "core/mission/mission.h"
+#include "tests/support/box_room.h"
+
+namespace plumescout {
+namespace mission_readings_test {
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr std::int64_t kTick_ns = kSecond_ns / 10;
+constexpr int kReadingTicks = 5;
+
+GasSensor Slow() {
+  GasSensor sensor;
+  sensor.id = "pid";
+  sensor.robot_from_sensor = {0.1, 0.0};
+  sensor.response_time_s = 0.5;
+  return sensor;
+}
+
+Pose2 PoseAt(int tick) { return {1.0 + 0.04 * tick, 2.5, 0.0}; }
+double Shown_ppm(int tick) { return 5.0 + 4.0 * std::sin(0.1 * tick); }
+
+// A robot drives along a room of 7.1 m x 5.1 m, with a scan at every tick.
+class Drive {
+ public:
+  explicit Drive(const MissionOptions& options = {}) : mission(Mission::Create(options).value()) {}
+
+  void Register(const std::vector<GasSensor>& sensors) {
+    RobotRegistered registered{"a", 0.2, ++token_};
+    registered.sensors = sensors;
+    Apply(registered);
+  }
+  void See(int tick) { Send(tick, support::ScanInBox(PoseAt(tick), 7.05, 5.05)); }
+  void Send(int tick, ObservationPayload payload) {
+    Apply(ObservationReceived{
+        "a", {++sequence, kSecond_ns + tick * kTick_ns, PoseAt(tick), std::move(payload)}});
+  }
+  void Tick(int tick) {
+    See(tick);
+    if (tick % kReadingTicks == 0) Send(tick, GasReading{Shown_ppm(tick)});
+  }
+  void Refresh(int tick) { Apply(PosteriorRefreshed{kSecond_ns + tick * kTick_ns}); }
+  void Apply(const EventBody& body) {
+    const auto applied = mission->Apply(body);
+    ASSERT_TRUE(applied.ok()) << applied.status();
+    ASSERT_TRUE(applied->observation.ok()) << applied->observation;
+    ASSERT_TRUE(applied->posterior.ok()) << applied->posterior;
+  }
+  std::int64_t readings() const { return mission->Snapshot()->gas_counters.readings; }
+
+  std::unique_ptr<Mission> mission;
+  std::int64_t sequence = 0;
+
+ private:
+  std::int64_t token_ = 0;
+};
+
+// The same, told to a mission as readings of the air, each where the sensor was.
+TEST(MissionReadingsTest, FieldIsThatOfTheReadingsAlongTheWay) {
+  Drive lagging;
+  lagging.Register({Slow()});
+  Drive told;
+  GasSensor quick = Slow();
+  quick.response_time_s = 0.0;
+  told.Register({quick});
+  WayReadings way;
+  WayModel model;
+  model.response_time_s = 0.5;
+  model.robot_from_sensor = Slow().robot_from_sensor;
+  int count = 0;
+  for (int tick = 0; tick <= 40; ++tick) {
+    lagging.Tick(tick);
+    told.See(tick);
+    const std::int64_t time_ns = kSecond_ns + tick * kTick_ns;
+    way.NotePose(time_ns, PoseAt(tick));
+    if (tick % kReadingTicks != 0) continue;
+    for (const AirReading& air : way.Add(model, time_ns, PoseAt(tick), {Shown_ppm(tick)})) {
+      told.Apply(ObservationReceived{"a", {++told.sequence, time_ns, air.pose, air.reading}});
+      ++count;
+    }
+  }
+  ASSERT_GE(count, 15);
+  EXPECT_EQ(lagging.readings(), count);
+  lagging.Refresh(40);
+  told.Refresh(40);
+  const auto a = lagging.mission->Snapshot();
+  const auto b = told.mission->Snapshot();
+  ASSERT_EQ(a->geometry(), b->geometry());
+  for (std::size_t i = 0; i < a->gas_mean_ppm->size(); ++i) {
+    if (std::isnan((*a->gas_mean_ppm)[i])) continue;
+    ASSERT_NEAR((*a->gas_mean_ppm)[i], (*b->gas_mean_ppm)[i], 1e-3);
+    ASSERT_NEAR((*a->gas_variance_ppm2)[i], (*b->gas_variance_ppm2)[i],
+                1e-3 * (*b->gas_variance_ppm2)[i]);
+  }
+}
+
+TEST(MissionReadingsTest, TheSameEventsGiveTheSameBytesAfterARestore) {
+  MissionOptions options;
+  options.gas.estimate_noise = true;
+  options.gas.scale = GasScale::kSquareRoot;
+  Drive live(options);
+  live.Register({Slow()});
+  for (int tick = 0; tick <= 17; ++tick) live.Tick(tick);
+  ASSERT_TRUE(live.mission->can_be_saved());
+  Drive restored(options);
+  restored.mission = Mission::Restore(options, live.mission->SaveState().value()).value();
+  restored.sequence = live.sequence;
+  EXPECT_EQ(restored.mission->Digest(), live.mission->Digest());
+  for (int tick = 18; tick <= 40; ++tick) {
+    live.Tick(tick);
+    restored.Tick(tick);
+    if (tick % 10 != 0) continue;
+    live.Refresh(tick);
+    restored.Refresh(tick);
+    EXPECT_EQ(restored.mission->Digest(), live.mission->Digest());
+  }
+  const auto belief = live.mission->Snapshot();
+  EXPECT_GE(belief->gas_quality.noise_scale, 1.0);
+  EXPECT_NE(belief->Gas(0).published_variance_ppm2(), belief->gas_variance_ppm2);
+}
+
+// What was read before is of the way as it was then, or of the sensor.
+TEST(MissionReadingsTest, NothingIsLeftUntoldWhenTheWayOrTheSensorsChange) {
+  for (const bool corrects : {true, false}) {
+    SCOPED_TRACE(corrects);
+    Drive drive;
+    drive.Register({Slow()});
+    for (int tick = 0; tick <= 10; ++tick) drive.Tick(tick);
+    const std::int64_t before = drive.readings();
+    if (corrects) {
+      PoseCorrection correction;
+      correction.anchors = {{kSecond_ns, PoseAt(0)}, {kSecond_ns + 10 * kTick_ns, PoseAt(10)}};
+      drive.Send(11, correction);
+    } else {
+      drive.Register({Slow()});
+    }
+    // Between two readings lie 0.2 m of way: two or three cells.
+    EXPECT_GE(drive.readings(), before + 2);
+    EXPECT_LE(drive.readings(), before + 3);
+    const std::int64_t after = drive.readings();
+    drive.Send(12, GasReading{5.0});
+    EXPECT_EQ(drive.readings(), after + 1) << "the first one again";
+  }
+}
+
+}  // namespace mission_readings_test
+}  // namespace plumescout

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/studies/field_model.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/lab/studies/small_study.h"
+#include "tests/support/temp_folder.h"
+
+namespace plumescout::lab {
+namespace field_model_test {
+
+using ::testing::Contains;
+using ::testing::Key;
+using ::testing::SizeIs;
+
+TEST(FieldModel, TellsOfEveryModelHowFarItIsFromTheTruth) {
+  const TempFolder folder;
+  const auto study = RunFieldModel(SmallStudy(folder));
+  ASSERT_TRUE(study.ok()) << study.status();
+  ASSERT_THAT(study->figures.tables, SizeIs(1));
+  EXPECT_THAT(study->figures.tables[0].rows, SizeIs(6));
+  for (const auto& row : study->figures.tables[0].rows) {
+    EXPECT_EQ(row.size(), study->figures.tables[0].columns.size());
+  }
+  EXPECT_THAT(study->table.rows, SizeIs(2 * 6));  // two strategies
+  EXPECT_THAT(study->table.labels, SizeIs(2 * 6));
+  EXPECT_THAT(study->summary.figures,
+              Contains(std::pair<std::string, double>("plain_rmse_ratio", 1.0)));
+  EXPECT_THAT(study->summary.figures, Contains(Key("way_root_within_2_sigma")));
+}
+
+}  // namespace field_model_test
+}  // namespace plumescout::lab
