@@ -16,6 +16,7 @@
 #include "plumescout/v1/snapshot_service.grpc.pb.h"
 #include "plumescout/v1/system_service.grpc.pb.h"
 #include "proto/convert/field.h"
+#include "proto/convert/keep_out.h"
 #include "proto/convert/names.h"
 #include "proto/convert/plan.h"
 
@@ -112,6 +113,16 @@ class GrpcOperatorClient final : public OperatorClient {
     }
     v1::UpdateMissionResponse response;
     return link_->Call(missions_, &v1::MissionService::Stub::UpdateMission, request, &response);
+  }
+
+  absl::StatusOr<std::vector<Polygon>> ChangeKeepOutAreas(const MissionId& mission,
+                                                          const KeepOutChanged& change) override {
+    v1::ChangeKeepOutAreasRequest request = ToProto(change);
+    request.set_name(MissionResource(mission));
+    v1::ChangeKeepOutAreasResponse response;
+    PLUMESCOUT_RETURN_IF_ERROR(link_->CallNamed(
+        missions_, &v1::MissionService::Stub::ChangeKeepOutAreas, request, &response));
+    return FromServer(FromProto(response.areas(), "areas"));
   }
 
   absl::StatusOr<ExportedMission> ExportMission(const MissionId& mission,

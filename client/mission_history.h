@@ -30,6 +30,7 @@ enum class MissionEventKind {
   kHomeOrdered,
   kMapRebuildBegun,
   kMapRebuilt,
+  kKeepOutChanged,
 };
 
 struct MissionEvent {

@@ -33,6 +33,7 @@ constexpr KindRow kKinds[] = {
     {MissionEventKind::kHomeOrdered, v1::MISSION_EVENT_KIND_HOME_ORDERED},
     {MissionEventKind::kMapRebuildBegun, v1::MISSION_EVENT_KIND_MAP_REBUILD_BEGUN},
     {MissionEventKind::kMapRebuilt, v1::MISSION_EVENT_KIND_MAP_REBUILT},
+    {MissionEventKind::kKeepOutChanged, v1::MISSION_EVENT_KIND_KEEP_OUT_CHANGED},
 };
 
 MissionState StateFromProto(v1::MissionState state) {

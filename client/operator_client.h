@@ -16,8 +16,10 @@
 #include "absl/time/time.h"
 #include "client/mission_details.h"
 #include "client/planner_client.h"
+#include "core/types/event.h"
 #include "core/types/ids.h"
 #include "core/types/plan.h"
+#include "core/types/polygon.h"
 
 namespace plumescout::client {
 
@@ -84,6 +86,10 @@ class OperatorClient {
   // Closes it for good: it can be read, nothing changes it any more.
   virtual absl::Status FinishMission(const MissionId& mission) = 0;
   virtual absl::Status UpdateMission(const MissionId& mission, const MissionUpdate& update) = 0;
+  // Closes areas to robots and opens them again, all or none; all areas as they are then. Reasons:
+  // KEEP_OUT_AREA_NOT_FOUND, KEEP_OUT_AREA_EXISTS, KEEP_OUT_COVERS_HOME, LIMIT_REACHED.
+  virtual absl::StatusOr<std::vector<Polygon>> ChangeKeepOutAreas(const MissionId& mission,
+                                                                  const KeepOutChanged& change) = 0;
 
   // The mission as a file, with its events up to the last one that is durable now. What the sink
   // got is the file only if this is OK: its sums were compared, kDataLoss if they differ. Takes as

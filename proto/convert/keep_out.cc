@@ -45,4 +45,11 @@ absl::StatusOr<KeepOutChanged> FromProto(const v1::ChangeKeepOutAreasRequest& re
   return change;
 }
 
+v1::ChangeKeepOutAreasRequest ToProto(const KeepOutChanged& change) {
+  v1::ChangeKeepOutAreasRequest request;
+  *request.mutable_deleted() = {change.deleted.begin(), change.deleted.end()};
+  *request.mutable_added() = ToProto(change.added);
+  return request;
+}
+
 }  // namespace plumescout

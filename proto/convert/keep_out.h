@@ -21,5 +21,7 @@ absl::StatusOr<std::vector<Polygon>> FromProto(const PolygonsProto& proto, absl:
 PolygonsProto ToProto(const std::vector<Polygon>& areas);
 
 absl::StatusOr<KeepOutChanged> FromProto(const v1::ChangeKeepOutAreasRequest& request);
+// Without the name of the mission.
+v1::ChangeKeepOutAreasRequest ToProto(const KeepOutChanged& change);
 
 }  // namespace plumescout

@@ -235,5 +235,15 @@ TEST_F(GrpcOperatorClientTest, HowAMissionIsKeptCanChange) {
   EXPECT_TRUE(absl::IsInvalidArgument(operator_->UpdateMission("house", {}))) << "nothing changes";
 }
 
+TEST_F(GrpcOperatorClientTest, AreasAreClosedAndOpened) {
+  const Polygon spill{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}}, "spill"};
+  const auto closed = operator_->ChangeKeepOutAreas("house", {{}, {spill}});
+  ASSERT_TRUE(closed.ok()) << closed.status();
+  EXPECT_EQ(*closed, std::vector<Polygon>{spill});
+  EXPECT_EQ(ErrorReason(operator_->ChangeKeepOutAreas("house", {{}, {spill}}).status()),
+            reason::kKeepOutAreaExists);
+  EXPECT_TRUE(operator_->ChangeKeepOutAreas("house", {{"spill"}, {}})->empty());
+}
+
 }  // namespace grpc_operator_client_test
 }  // namespace plumescout::client

@@ -61,6 +61,7 @@ class Runner {
         {"resume_mission", &Runner::ResumeMission},
         {"finish_mission", &Runner::FinishMission},
         {"update_mission", &Runner::UpdateMission},
+        {"change_keep_out_areas", &Runner::ChangeKeepOutAreas},
         {"delete_mission", &Runner::DeleteMission},
         {"register_robot", &Runner::RegisterRobot},
         {"stream_observations", &Runner::StreamObservations},
@@ -131,6 +132,13 @@ class Runner {
   }
   Answer UpdateMission(const Json& with) {
     return Told(operator_->UpdateMission(with["mission"], ReadUpdate(with)), with);
+  }
+  Answer ChangeKeepOutAreas(const Json& with) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<Polygon> areas,
+                                operator_->ChangeKeepOutAreas(with["mission"], ReadChange(with)));
+    Json told = Json::array();
+    for (const Polygon& area : areas) told.push_back(TellArea(area));
+    return Json{{"areas", told}};
   }
   Answer DeleteMission(const Json& with) {
     return Nothing(planner_->DeleteMission(with["mission"]));

@@ -154,6 +154,10 @@ def area(found, layers):
     return result
 
 
+def area_of(polygon):
+    return {"name": polygon.name, "corners": [[p.x_m, p.y_m] for p in polygon.vertices]}
+
+
 def numbers(values):
     return [None if np.isnan(value) else float(value) for value in values]
 

@@ -94,6 +94,10 @@ class Runner:
             changes["keep_all_events"] = changes.pop("event_retention") == "ALL"
         return reduce.mission(await get(self.client.update_mission(mission, **changes)))
 
+    async def change_keep_out_areas(self, mission, added=None, deleted=()):
+        changed = self.client.change_keep_out_areas(mission, added, deleted)
+        return {"areas": [reduce.area_of(one) for one in await get(changed)]}
+
     async def delete_mission(self, mission):
         await get(self.client.delete_mission(mission))
 

@@ -89,6 +89,17 @@ export class Runner {
       },
     })).mission!);
   }
+  async change_keep_out_areas({ mission, added = {}, deleted = [] }: {
+    mission: string; added?: Record<string, [number, number][]>; deleted?: string[];
+  }) {
+    const { areas } = await this.client.missions.changeKeepOutAreas({
+      name: name(mission), deleted,
+      added: Object.entries(added).map(([area, corners]) => ({
+        name: area, vertices: corners.map(([xM, yM]) => ({ xM, yM })) })),
+    });
+    return { areas: areas.map((area) => ({
+      name: area.name, corners: area.vertices.map(({ xM, yM }) => [xM, yM]) })) };
+  }
   async delete_mission({ mission }: { mission: string }) {
     await this.client.missions.deleteMission({ name: name(mission) });
   }

@@ -133,6 +133,17 @@ MissionUpdate ReadUpdate(const Json& with) {
   return update;
 }
 
+KeepOutChanged ReadChange(const Json& with) {
+  KeepOutChanged change;
+  change.deleted = with.value("deleted", std::vector<std::string>());
+  for (const auto& [name, corners] : with.value("added", Json::object()).items()) {
+    Polygon area{{}, name};
+    for (const Json& corner : corners) area.vertices.push_back({corner[0], corner[1]});
+    change.added.push_back(std::move(area));
+  }
+  return change;
+}
+
 std::vector<GasSensor> ReadSensors(const Json& list) {
   std::vector<GasSensor> sensors;
   for (const Json& one : list) {
@@ -222,6 +233,12 @@ Json TellMission(const MissionDetails& mission) {
            mission.event_retention == EventRetention::kAll ? "ALL" : "SINCE_SNAPSHOT"},
           {"idle_time_to_live_s",
            lives_on ? Json() : Json(absl::ToDoubleSeconds(mission.idle_time_to_live))}};
+}
+
+Json TellArea(const Polygon& area) {
+  Json corners = Json::array();
+  for (const Point2& corner : area.vertices) corners.push_back({corner.x_m, corner.y_m});
+  return {{"name", area.name}, {"corners", corners}};
 }
 
 Json TellEvent(const MissionEvent& event) {

@@ -21,6 +21,7 @@ namespace plumescout::client {
 
 MissionOptions ReadOptions(const nlohmann::json& json);
 MissionUpdate ReadUpdate(const nlohmann::json& with);
+KeepOutChanged ReadChange(const nlohmann::json& with);
 std::vector<GasSensor> ReadSensors(const nlohmann::json& list);
 // Without a number.
 Observation ReadObservation(const nlohmann::json& one, const nlohmann::json& scenario);
@@ -31,6 +32,7 @@ MapView ReadView(const nlohmann::json& with);
 
 nlohmann::json TellOptional(const std::optional<double>& value);
 nlohmann::json TellMission(const MissionDetails& mission);
+nlohmann::json TellArea(const Polygon& area);
 nlohmann::json TellEvent(const MissionEvent& event);
 nlohmann::json TellRobot(const RobotDetails& robot);
 nlohmann::json TellStanding(const RobotStanding& standing);
