@@ -125,7 +125,9 @@ TEST(NoiseScaleTest, OneReadingBeyondAllOthersMakesItUnsure) {
       EXPECT_TRUE(std::isfinite(variance_ppm2));
       // The prior has 17 ppm^2 at most: with three in the denominator a factor of 1e10 and more,
       // and cells that nobody read have 0.05 ppm^2 and more left.
-      if (alone) EXPECT_GT(variance_ppm2, 1e8F);
+      if (alone) {
+        EXPECT_GT(variance_ppm2, 1e8F);
+      }
     }
     EXPECT_GT(map.noise_scale(), 1e9);
   }

@@ -93,7 +93,7 @@ TEST(WayReadingsTest, TellsTheAirThatAllReadingsUpToTheNextOneSay) {
         EXPECT_NEAR(told[i].reading.variance_ppm2, kVariance_ppm2 * 0.5 / kStays_s[i], 1e-9);
       }
       EXPECT_NEAR(told[1].pose.x_m, PoseAt(reading - 2).x_m + 0.1, 1e-9);
-      EXPECT_NEAR(static_cast<double>(told[1].time_ns), (k - 2 + 0.5) * 5e8, 2.0);
+      EXPECT_NEAR(static_cast<double>(told[1].time_ns), (reading - 2 + 0.5) * 5e8, 2.0);
     }
     EXPECT_THAT(way.Finish(model), SizeIs(kCells));
     EXPECT_THAT(way.Finish(model), IsEmpty());
