@@ -3,8 +3,9 @@
 // What axe-core finds that keeps people from using a page: nothing serious may be left.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
 
-const AXE = readFileSync(new URL('../node_modules/axe-core/axe.min.js', import.meta.url), 'utf8');
+const AXE = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
 export async function checkAccess(page, view) {
   if (!await page.evaluate(() => 'axe' in window)) await page.evaluate(AXE);

@@ -13,6 +13,7 @@ import { join, resolve } from 'node:path';
 import { parseArgs } from 'node:util';
 import { checkAccess } from './axe.mjs';
 import { PATIENCE_MS, cleanUp, data, drive, end, launch, serve, until } from './harness.mjs';
+import { lookAround } from './report.mjs';
 
 const { values: options } = parseArgs({ options: {
   out: { type: 'string', default: '../out/console' },
@@ -504,6 +505,7 @@ try {
   await everybody(origin);
   await trouble(origin, server);
   await access();
+  await step('a report is looked around in, and printed', () => lookAround(browser, options.scene, OUT));
   assert.deepEqual(errors, []);
   console.log(`${steps} steps; pictures in ${OUT}`);
 } catch (error) {
