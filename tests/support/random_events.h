@@ -145,6 +145,7 @@ class RandomEvents {
             Real(),
             Real(),
             Bool() ? std::optional<double>(Real()) : std::nullopt,
+            std::nullopt,  // events do not keep bounds
             Bool() ? std::optional<double>(Real()) : std::nullopt,
             List([this] { return MakePoint(); })};
   }
