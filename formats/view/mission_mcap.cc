@@ -202,7 +202,8 @@ absl::Status MissionMcap::ShowMap() {
         channels_.Add(topic + "/mean", FoxgloveGrid(*gas.mean_ppm, "mean_ppm", now_ns_), times));
     PLUMESCOUT_RETURN_IF_ERROR(channels_.Add(
         topic + "/stddev",
-        FoxgloveGrid(StandardDeviation(*gas.variance_ppm2), "stddev_ppm", now_ns_), times));
+        FoxgloveGrid(StandardDeviation(*gas.published_variance_ppm2()), "stddev_ppm", now_ns_),
+        times));
   }
   return channels_.Add(
       "/scene/frontiers",
