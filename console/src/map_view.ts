@@ -10,12 +10,8 @@ import { theme } from './theme.ts';
 import type { Trails } from './trails.ts';
 import { View } from './view.ts';
 import type { Box } from './view.ts';
-import type { MapStatus } from '@plumescout/client/wire';
-import type { LivePlan, Plan } from '@plumescout/client/wire';
-import { RejectedGoal_Reason } from '@plumescout/client/wire';
-import { GoalKind } from '@plumescout/client/wire';
-import type { Point2D } from '@plumescout/client/wire';
-import type { Polygon } from '@plumescout/client/wire';
+import type { LivePlan, MapStatus, Plan, Point2D, Polygon } from '@plumescout/client/wire';
+import { GoalKind, RejectedGoal_Reason } from '@plumescout/client/wire';
 import { shortName } from './words.ts';
 
 export const SWITCHES = ['frontiers', 'ways', 'trails', 'claims', 'names', 'areas', 'why'] as const;

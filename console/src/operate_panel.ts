@@ -6,9 +6,8 @@ import { ask, fillIfChanged, h, notice, saveFile } from './dom.ts';
 import { exportMission, mapYamlOf, npyOf, pgmOf } from '@plumescout/client';
 import type { Raster } from '@plumescout/client';
 import { mayOperate } from './session.ts';
+import type { Mission, Robot } from '@plumescout/client/wire';
 import { MissionState } from '@plumescout/client/wire';
-import type { Mission } from '@plumescout/client/wire';
-import type { Robot } from '@plumescout/client/wire';
 import { bytes, shortName } from './words.ts';
 
 async function attempt(what: string, task: () => Promise<unknown>): Promise<void> {

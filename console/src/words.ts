@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // Names of things, and figures, as people read them.
-import { Candidate_PathSource, Plan_End, RejectedGoal_Reason } from '@plumescout/client/wire';
-import { RobotLink } from '@plumescout/client/wire';
-import { GoalKind, MissionPhase } from '@plumescout/client/wire';
-import { MissionState } from '@plumescout/client/wire';
+import {
+  Candidate_PathSource, GoalKind, MissionPhase, MissionState, Plan_End, RejectedGoal_Reason, RobotLink,
+} from '@plumescout/client/wire';
 
 // GAS_FRONTIER: gas frontier.
 function plain(name: string | undefined): string {

@@ -251,7 +251,7 @@ GasQuality FromProto(const v1::GasQuality& proto) {
           .failures = proto.failure_count(),
           .drift_mean_ppm = proto.drift_mean_ppm(),
           .drift_variance_ratio = proto.drift_variance_ratio(),
-          .noise_scale = proto.noise_scale()};
+          .noise_scale = proto.noise_ratio()};
 }
 
 GasAudits AuditsFromProto(const v1::GasQuality& proto) {
@@ -277,7 +277,7 @@ v1::GasQuality ToProto(const GasQuality& quality, const GasAudits& audits) {
   proto.set_audit_alarm_count(audits.alarms);
   proto.set_drift_mean_ppm(quality.drift_mean_ppm);
   proto.set_drift_variance_ratio(quality.drift_variance_ratio);
-  proto.set_noise_scale(quality.noise_scale);
+  proto.set_noise_ratio(quality.noise_scale);
   return proto;
 }
 

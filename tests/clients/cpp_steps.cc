@@ -34,6 +34,14 @@ Answer Nothing(const absl::Status& status) {
   return Json::object();
 }
 
+// All of a list, each as `tell` says.
+template <typename List, typename Tell>
+Json Each(const List& list, Tell tell) {
+  Json told = Json::array();
+  for (const auto& one : list) told.push_back(tell(one));
+  return told;
+}
+
 struct Session {
   RobotSession robot;
   std::int64_t last_sequence = 0;
@@ -136,9 +144,7 @@ class Runner {
   Answer ChangeKeepOutAreas(const Json& with) {
     PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<Polygon> areas,
                                 operator_->ChangeKeepOutAreas(with["mission"], ReadChange(with)));
-    Json told = Json::array();
-    for (const Polygon& area : areas) told.push_back(TellArea(area));
-    return Json{{"areas", told}};
+    return Json{{"areas", Each(areas, TellArea)}};
   }
   Answer DeleteMission(const Json& with) {
     return Nothing(planner_->DeleteMission(with["mission"]));
@@ -310,9 +316,7 @@ class Runner {
     const RobotSession& robot = sessions_.at(with["session"]).robot;
     PLUMESCOUT_ASSIGN_OR_RETURN(const FrontierList list,
                                 viewer_->ListFrontiers(robot.mission, robot.robot));
-    Json frontiers = Json::array();
-    for (const JudgedFrontier& one : list.frontiers) frontiers.push_back(TellFrontier(one));
-    return Json{{"frontiers", frontiers}};
+    return Json{{"frontiers", Each(list.frontiers, TellFrontier)}};
   }
   Answer ReportProgress(const Json& with) {
     return Nothing(planner_->ReportProgress(sessions_.at(with["session"]).robot,
@@ -321,9 +325,7 @@ class Runner {
   Answer ListPlans(const Json& with) {
     PLUMESCOUT_ASSIGN_OR_RETURN(const PlanList list,
                                 viewer_->ListPlans(with["mission"], /*with_latest=*/false));
-    Json plans = Json::array();
-    for (const LivePlan& plan : list.live) plans.push_back(TellLivePlan(plan));
-    return Json{{"plans", plans}};
+    return Json{{"plans", Each(list.live, TellLivePlan)}};
   }
   Answer PlanTeam(const Json& with) {
     PLUMESCOUT_ASSIGN_OR_RETURN(
@@ -339,9 +341,8 @@ class Runner {
       plans.push_back(TellPlan(plan));
       plans.back()["robot"] = plan.robot;
     }
-    Json left_out = Json::array();
-    for (const RobotLeftOut& one : team.left_out) left_out.push_back(one.robot);
-    return Json{{"plans", plans}, {"left_out", left_out}};
+    const auto robot_of = [](const RobotLeftOut& one) { return one.robot; };
+    return Json{{"plans", plans}, {"left_out", Each(team.left_out, robot_of)}};
   }
 
   // Maps.

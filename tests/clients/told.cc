@@ -136,7 +136,8 @@ MissionUpdate ReadUpdate(const Json& with) {
 KeepOutChanged ReadChange(const Json& with) {
   KeepOutChanged change;
   change.deleted = with.value("deleted", std::vector<std::string>());
-  for (const auto& [name, corners] : with.value("added", Json::object()).items()) {
+  const Json added = with.value("added", Json::object());
+  for (const auto& [name, corners] : added.items()) {
     Polygon area{{}, name};
     for (const Json& corner : corners) area.vertices.push_back({corner[0], corner[1]});
     change.added.push_back(std::move(area));

@@ -51,10 +51,18 @@ LIST_MISSIONS = Rpc(_MISSIONS, missions.ListMissionsRequest, missions.ListMissio
 DELETE_MISSION = Rpc(
     _MISSIONS, missions.DeleteMissionRequest, missions.DeleteMissionResponse, repeatable=False
 )
-UPDATE_MISSION = Rpc(_MISSIONS, missions.UpdateMissionRequest, missions.UpdateMissionResponse)
-PAUSE_MISSION = Rpc(_MISSIONS, missions.PauseMissionRequest, missions.PauseMissionResponse)
-RESUME_MISSION = Rpc(_MISSIONS, missions.ResumeMissionRequest, missions.ResumeMissionResponse)
-FINISH_MISSION = Rpc(_MISSIONS, missions.FinishMissionRequest, missions.FinishMissionResponse)
+UPDATE_MISSION = Rpc(
+    _MISSIONS, missions.UpdateMissionRequest, missions.UpdateMissionResponse, repeatable=False
+)
+PAUSE_MISSION = Rpc(
+    _MISSIONS, missions.PauseMissionRequest, missions.PauseMissionResponse, repeatable=False
+)
+RESUME_MISSION = Rpc(
+    _MISSIONS, missions.ResumeMissionRequest, missions.ResumeMissionResponse, repeatable=False
+)
+FINISH_MISSION = Rpc(
+    _MISSIONS, missions.FinishMissionRequest, missions.FinishMissionResponse, repeatable=False
+)
 CHANGE_KEEP_OUT_AREAS = Rpc(
     _MISSIONS, missions.ChangeKeepOutAreasRequest, missions.ChangeKeepOutAreasResponse
 )

@@ -106,10 +106,11 @@ TEST(HtmlPage, OneFigureEachForMapsAndCharts) { EXPECT_EQ(Count(MakePage(), "<im
 TEST(HtmlPage, PanelsStandInAsManyColumnsAsOnTheSheet) {
   ReportFigures figures;
   figures.panels.resize(6, MakeMapPanels(MakeSmallReport()).front());
-  EXPECT_THAT(MakeHtmlPage(figures),
-              HasSubstr("<div class=\"figures panels\" style=\"--columns: 3\">"));
+  EXPECT_THAT(
+      MakeHtmlPage(figures),
+      HasSubstr("<div class=\"figures panels\" style=\"--columns: 3; --printed-columns: 6\">"));
   figures.panels_per_row = 2;
-  EXPECT_THAT(MakeHtmlPage(figures), HasSubstr("style=\"--columns: 2\""));
+  EXPECT_THAT(MakeHtmlPage(figures), HasSubstr("style=\"--columns: 2; "));
 }
 
 TEST(HtmlPage, TablesStandBeforeTheMaps) {

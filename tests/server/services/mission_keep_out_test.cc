@@ -87,7 +87,7 @@ TEST_F(MissionKeepOutTest, RefusalsChangeNothing) {
   StartServer();
   const std::int64_t lease = Lease();
   ASSERT_TRUE(Ingest(kRobot, lease, RoomScan(1)).ok());
-  ASSERT_TRUE(Change({}, {Box("spill", 2, 1, 3, 2)}).ok());
+  ASSERT_TRUE(Change({}, {Box("spill", 3, 1, 4, 2)}).ok());
   const std::int64_t revision = Revision();
   EXPECT_THAT(Change({"spill"}, {Box("ramp", 5, 1, 6, 2), Box("Ramp", 5, 1, 6, 2)}).status(),
               RefusesField("added[1].name"));
