@@ -43,7 +43,7 @@ export function connect(target = '127.0.0.1:50551', options: ConnectOptions = {}
     : () => readFileSync(tokenFile, 'utf8').split('\n')[0]!.trim();
   const sessionManager = new Http2SessionManager(baseUrl, KEEPALIVE, caFile === undefined ? {} : tls);
   let closed = false; // the manager would connect anew
-  const whileOpen: Interceptor = (next) => (request) => {
+  const whileOpen: Interceptor = (next) => async (request) => {
     if (closed) throw new ConnectError('the client is closed', Code.Canceled);
     return next(request);
   };
