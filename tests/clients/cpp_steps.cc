@@ -34,12 +34,11 @@ Answer Nothing(const absl::Status& status) {
   return Json::object();
 }
 
-// All of a list, each as `tell` says.
-template <typename List, typename Tell>
-Json Each(const List& list, Tell tell) {
-  Json told = Json::array();
-  for (const auto& one : list) told.push_back(tell(one));
-  return told;
+template <typename Items, typename Tell>
+Json TellAll(const Items& items, Tell tell) {
+  Json all = Json::array();
+  for (const auto& item : items) all.push_back(tell(item));
+  return all;
 }
 
 struct Session {
@@ -144,7 +143,7 @@ class Runner {
   Answer ChangeKeepOutAreas(const Json& with) {
     PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<Polygon> areas,
                                 operator_->ChangeKeepOutAreas(with["mission"], ReadChange(with)));
-    return Json{{"areas", Each(areas, TellArea)}};
+    return Json{{"areas", TellAll(areas, TellArea)}};
   }
   Answer DeleteMission(const Json& with) {
     return Nothing(planner_->DeleteMission(with["mission"]));
@@ -185,6 +184,7 @@ class Runner {
   }
 
   // Robots.
+  const RobotSession& RobotOf(const Json& with) { return sessions_.at(with["session"]).robot; }
   Answer RegisterRobot(const Json& with) {
     PLUMESCOUT_ASSIGN_OR_RETURN(
         RobotSession robot,
@@ -224,15 +224,13 @@ class Runner {
     Session& session = sessions_.at(with["session"]);
     PLUMESCOUT_ASSIGN_OR_RETURN(const BatchReply reply,
                                 planner_->IngestBatch(session.robot, Numbered(with, session)));
-    Json rejected = Json::array();
-    for (const ObservationRejected& refused : reply.rejected) rejected.push_back(refused.sequence);
+    const Json rejected =
+        TellAll(reply.rejected, [](const auto& refused) { return refused.sequence; });
     return Json{{"applied_sequence", reply.state.applied_sequence}, {"rejected", rejected}};
   }
   Answer ListRobots(const Json& with) {
     PLUMESCOUT_ASSIGN_OR_RETURN(const auto robots, viewer_->ListRobots(with["mission"]));
-    Json names = Json::array();
-    for (const RobotDetails& robot : robots) names.push_back(robot.state.id);
-    return Json{{"robots", names}};
+    return Json{{"robots", TellAll(robots, [](const auto& robot) { return robot.state.id; })}};
   }
   Answer GetRobot(const Json& with) {
     PLUMESCOUT_ASSIGN_OR_RETURN(const RobotDetails robot,
@@ -242,7 +240,7 @@ class Runner {
   Answer WatchRobot(const Json& with) {
     PLUMESCOUT_ASSIGN_OR_RETURN(const auto watch,
                                 with.contains("session")
-                                    ? planner_->WatchRobot(sessions_.at(with["session"]).robot)
+                                    ? planner_->WatchRobot(RobotOf(with))
                                     : operator_->WatchRobot(with["mission"], with["robot"]));
     PLUMESCOUT_ASSIGN_OR_RETURN(const RobotNotice notice, watch->Read(kPatience));
     return TellStanding(std::get<RobotStanding>(notice));
@@ -256,20 +254,20 @@ class Runner {
     if (!with.contains("session")) {
       return Nothing(operator_->ReleaseLease(with["mission"], with["robot"]));
     }
-    return Nothing(planner_->ReleaseLease(sessions_.at(with["session"]).robot));
+    return Nothing(planner_->ReleaseLease(RobotOf(with)));
   }
   Answer RemoveRobot(const Json& with) {
     if (!with.contains("session")) {
       return Nothing(operator_->RemoveRobot(with["mission"], with["robot"]));
     }
-    const RobotSession& robot = sessions_.at(with["session"]).robot;
+    const RobotSession& robot = RobotOf(with);
     return Nothing(
         planner_->RemoveRobot(robot.mission, robot.robot, robot.lease_token, /*force=*/false));
   }
 
   // Plans.
   PlanQuery QueryOf(const Json& with) {
-    const RobotSession& robot = sessions_.at(with["session"]).robot;
+    const RobotSession& robot = RobotOf(with);
     PlanQuery query{.lease_token = robot.lease_token,
                     .budget = absl::Seconds(with["budget_s"].get<double>()),
                     .timeout = kPatience};
@@ -282,15 +280,13 @@ class Runner {
     return TellPlan(plan);
   }
   Answer NextBestTrajectory(const Json& with) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(
-        const Plan plan,
-        planner_->NextBestTrajectory(sessions_.at(with["session"]).robot.mission, QueryOf(with)));
+    PLUMESCOUT_ASSIGN_OR_RETURN(const Plan plan,
+                                planner_->NextBestTrajectory(RobotOf(with).mission, QueryOf(with)));
     return Took(with, plan);
   }
   Answer StreamNextBestTrajectory(const Json& with) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(const auto stream,
-                                planner_->StreamNextBestTrajectory(
-                                    sessions_.at(with["session"]).robot.mission, QueryOf(with)));
+    PLUMESCOUT_ASSIGN_OR_RETURN(const auto stream, planner_->StreamNextBestTrajectory(
+                                                       RobotOf(with).mission, QueryOf(with)));
     std::optional<Plan> last;
     while (true) {
       PLUMESCOUT_ASSIGN_OR_RETURN(std::optional<Plan> plan, stream->Read(kPatience));
@@ -307,25 +303,23 @@ class Runner {
     } else {
       query.subject = ReadPath(with);
     }
-    PLUMESCOUT_ASSIGN_OR_RETURN(
-        const TrajectoryCheck check,
-        planner_->CheckTrajectory(sessions_.at(with["session"]).robot, query));
+    PLUMESCOUT_ASSIGN_OR_RETURN(const TrajectoryCheck check,
+                                planner_->CheckTrajectory(RobotOf(with), query));
     return TellCheck(check.verdict);
   }
   Answer ListFrontiers(const Json& with) {
-    const RobotSession& robot = sessions_.at(with["session"]).robot;
     PLUMESCOUT_ASSIGN_OR_RETURN(const FrontierList list,
-                                viewer_->ListFrontiers(robot.mission, robot.robot));
-    return Json{{"frontiers", Each(list.frontiers, TellFrontier)}};
+                                viewer_->ListFrontiers(RobotOf(with).mission, RobotOf(with).robot));
+    return Json{{"frontiers", TellAll(list.frontiers, TellFrontier)}};
   }
   Answer ReportProgress(const Json& with) {
-    return Nothing(planner_->ReportProgress(sessions_.at(with["session"]).robot,
-                                            plans_.at(with["plan"]), ReadOutcome(with["outcome"])));
+    return Nothing(planner_->ReportProgress(RobotOf(with), plans_.at(with["plan"]),
+                                            ReadOutcome(with["outcome"])));
   }
   Answer ListPlans(const Json& with) {
     PLUMESCOUT_ASSIGN_OR_RETURN(const PlanList list,
                                 viewer_->ListPlans(with["mission"], /*with_latest=*/false));
-    return Json{{"plans", Each(list.live, TellLivePlan)}};
+    return Json{{"plans", TellAll(list.live, TellLivePlan)}};
   }
   Answer PlanTeam(const Json& with) {
     PLUMESCOUT_ASSIGN_OR_RETURN(
@@ -341,8 +335,8 @@ class Runner {
       plans.push_back(TellPlan(plan));
       plans.back()["robot"] = plan.robot;
     }
-    const auto robot_of = [](const RobotLeftOut& one) { return one.robot; };
-    return Json{{"plans", plans}, {"left_out", Each(team.left_out, robot_of)}};
+    const Json left_out = TellAll(team.left_out, [](const auto& one) { return one.robot; });
+    return Json{{"plans", plans}, {"left_out", left_out}};
   }
 
   // Maps.

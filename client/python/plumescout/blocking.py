@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import queue
 import time
 from collections.abc import Callable, Iterator
@@ -79,8 +80,9 @@ class _Stream:
 
     def cancel(self) -> None:
         self._call.cancel()
-        while not self._requests.empty():  # who feeds the call waits for the end of them
-            self._requests.get()
+        with contextlib.suppress(queue.Empty):  # who feeds the call waits for the end of them
+            while True:
+                self._requests.get_nowait()
         self._requests.put(None)
 
 

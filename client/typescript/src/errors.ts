@@ -40,7 +40,7 @@ export function errorOf(error: unknown): CallError {
 }
 
 const FINAL = [Code.InvalidArgument, Code.NotFound, Code.AlreadyExists, Code.PermissionDenied,
-  Code.Unauthenticated, Code.OutOfRange, Code.Unimplemented];
+  Code.Unauthenticated, Code.OutOfRange, Code.Unimplemented, Code.Canceled]; // the last: of a closed client
 
 /** Whether the same call will be refused for ever. */
 export function isFinal({ code }: CallError): boolean {

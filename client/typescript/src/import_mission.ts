@@ -8,13 +8,14 @@ import type { ImportMissionRequestSchema, Mission } from './wire/index.ts';
 
 const MAX_PIECE_BYTES = 1 << 20;
 const FRAMING_BYTES = 4096; // of a request, beside the bytes of the file
+const LEAST_REQUEST_BYTES = 1 << 18; // of a server that does not say what it takes
 
 /** Makes a mission of a file's bytes, which come in pieces of any size (fs.createReadStream). missionId:
  * of the new mission; empty: that of the mission in the file. Errors are those of ImportMission. */
 export async function importMission(client: Client, file: AsyncIterable<Uint8Array> | Iterable<Uint8Array>,
                                     options: { missionId?: string; signal?: AbortSignal } = {}): Promise<Mission> {
   const { limits } = await client.system.getServerInfo({});
-  const pieceBytes = Math.max(1, Math.min(MAX_PIECE_BYTES, (limits?.maxReceiveBytes ?? 0) - FRAMING_BYTES));
+  const pieceBytes = Math.max(1, Math.min(MAX_PIECE_BYTES, (limits?.maxReceiveBytes || LEAST_REQUEST_BYTES) - FRAMING_BYTES));
   const { missionId = '', ...call } = options;
   const { mission } = await client.snapshots.importMission(requests(file, missionId, pieceBytes), call);
   if (mission === undefined) throw new Error('the server named no mission');

@@ -97,7 +97,8 @@ export class IngestLoop {
         if (signal.aborted) return;
         if (error.reason === 'STORE_ROLLED_BACK') {
           this.keeps = Number(error.metadata['applied_sequence'] ?? 0);
-        } else if (isFinal(error) || ['LEASE_SUPERSEDED', 'MISSION_FINISHED'].includes(error.reason)) {
+        } else if (this.failure !== null || isFinal(error) ||
+                   ['LEASE_SUPERSEDED', 'MISSION_FINISHED'].includes(error.reason)) {
           this.failure = failed;
           this.options.onLink(false, error);
           return this.bell.ring();

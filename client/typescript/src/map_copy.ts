@@ -6,7 +6,7 @@ import type { CellRect } from './raster.ts';
 import { WatchMapResponse_Kind } from './wire/index.ts';
 import type { WatchMapResponse } from './wire/index.ts';
 
-/** Of larger maps squares of cells are shown: four million take 60 MB. */
+/** Of larger maps squares of cells are shown: four million take 36 MB. */
 export const MAX_CELLS = 4_000_000;
 
 /** The level of detail at which so many cells are few enough. */

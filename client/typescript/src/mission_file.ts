@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // Missions as files.
+import { OwnAbort } from './abort.ts';
 import type { Client } from './client.ts';
 
 const CRC_TABLE = Uint32Array.from({ length: 256 }, (_, byte) => {
@@ -27,21 +28,26 @@ export type FilePiece = {
 export async function* exportMission(client: Client, mission: string,
                                      options: { signal?: AbortSignal } = {}): AsyncGenerator<FilePiece, void> {
   let crc = 0, done_bytes = 0, expected_bytes = 0;
-  for await (const { part } of client.snapshots.exportMission({ mission }, options)) {
-    if (part.case === 'start') {
-      expected_bytes = Number(part.value.expectedBytes);
-    } else if (part.case === 'piece') {
-      const { data } = part.value;
-      crc = crc32(data, crc);
-      if (Number(part.value.offsetBytes) !== done_bytes || part.value.crc32 !== crc) {
-        throw new Error(`the piece at byte ${done_bytes} is not what was sent`);
+  const abort = new OwnAbort(options.signal);
+  try {
+    for await (const { part } of client.snapshots.exportMission({ mission }, { signal: abort.signal })) {
+      if (part.case === 'start') {
+        expected_bytes = Number(part.value.expectedBytes);
+      } else if (part.case === 'piece') {
+        const { data } = part.value;
+        crc = crc32(data, crc);
+        if (Number(part.value.offsetBytes) !== done_bytes || part.value.crc32 !== crc) {
+          throw new Error(`the piece at byte ${done_bytes} is not what was sent`);
+        }
+        done_bytes += data.length;
+        yield { data, done_bytes, expected_bytes: Math.max(done_bytes, expected_bytes) };
+      } else if (part.case === 'end') {
+        if (Number(part.value.totalBytes) === done_bytes) return;
+        throw new Error(`of ${part.value.totalBytes} bytes, ${done_bytes} came`);
       }
-      done_bytes += data.length;
-      yield { data, done_bytes, expected_bytes: Math.max(done_bytes, expected_bytes) };
-    } else if (part.case === 'end') {
-      if (Number(part.value.totalBytes) === done_bytes) return;
-      throw new Error(`of ${part.value.totalBytes} bytes, ${done_bytes} came`);
     }
+  } finally {
+    abort.end();
   }
   throw new Error(`the export ends after ${done_bytes} bytes, before its end`);
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // For Node: gRPC over HTTP/2, to the server's --listen.
 import { readFileSync } from 'node:fs';
+import { Code, ConnectError } from '@connectrpc/connect';
+import type { Interceptor } from '@connectrpc/connect';
 import { Http2SessionManager, createGrpcTransport } from '@connectrpc/connect-node';
 import { identify, patient } from './calls.ts';
 import type { CallOptions } from './calls.ts';
@@ -40,7 +42,15 @@ export function connect(target = '127.0.0.1:50551', options: ConnectOptions = {}
   const token = tokenFile === undefined ? options.token
     : () => readFileSync(tokenFile, 'utf8').split('\n')[0]!.trim();
   const sessionManager = new Http2SessionManager(baseUrl, KEEPALIVE, caFile === undefined ? {} : tls);
+  let closed = false; // the manager would connect anew
+  const whileOpen: Interceptor = (next) => async (request) => {
+    if (closed) throw new ConnectError('the client is closed', Code.Canceled);
+    return next(request);
+  };
   return new Client(patient(createGrpcTransport({
-    baseUrl, sessionManager, interceptors: [identify(token)],
-  }), options), () => sessionManager.abort());
+    baseUrl, sessionManager, interceptors: [whileOpen, identify(token)],
+  }), options), () => {
+    closed = true;
+    sessionManager.abort();
+  });
 }
