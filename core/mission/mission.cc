@@ -259,6 +259,7 @@ absl::StatusOr<Applied> Mission::Change(const EpochAdopted&) {
 
 absl::StatusOr<Applied> Mission::Change(const RobotRemoved& removal) {
   PLUMESCOUT_RETURN_IF_ERROR(fleet_.Remove(removal.robot));
+  FinishWays(removal.robot, LaggingSensors(removal.robot));
   return Applied{};
 }
 

@@ -54,6 +54,7 @@ absl::Status Mission::TakeCorrection(const RobotId& robot, const Observation& ob
 }
 
 void Mission::TrustAgain(const RobotId& robot) {
+  FinishWays(robot, LaggingSensors(robot));  // what is not told yet is of the doubt
   jump_watch_.Trust(robot, history_.next_number());
   fleet_.Suspect(robot, false);
 }
