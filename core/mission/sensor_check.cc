@@ -22,6 +22,12 @@ constexpr double kMaxResponseTime_s = 3600.0;
 absl::Status CheckSensor(const GasSensor& sensor, const std::string& field) {
   PLUMESCOUT_RETURN_IF_ERROR(ValidateId(absl::StrCat(field, ".id"), sensor.id));
   const Point2 place = sensor.robot_from_sensor;
+  // An offset belongs to a reading, and those of such a sensor are told in parts.
+  if (sensor.offset_stddev_ppm > 0.0 && sensor.response_time_s > 0.0) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(field, ".offset_stddev_ppm = ", sensor.offset_stddev_ppm,
+                     " must be 0 of a sensor with response_time_s = ", sensor.response_time_s));
+  }
   return Checker()
       .InRange(absl::StrCat(field, ".robot_from_sensor.x_m"), place.x_m, -kMaxDistance_m,
                kMaxDistance_m)

@@ -34,6 +34,8 @@ TEST(SensorCheckTest, NamesFieldAndValue) {
               ::testing::HasSubstr("gas_sensors[1].stddev_ppm = -1"));
   EXPECT_THAT(Refusal([](GasSensor& s) { s.response_time_s = 3601.0; }),
               ::testing::HasSubstr("gas_sensors[1].response_time_s = 3601"));
+  EXPECT_THAT(Refusal([](GasSensor& s) { s.offset_stddev_ppm = s.response_time_s = 1.5; }),
+              ::testing::HasSubstr("gas_sensors[1].offset_stddev_ppm = 1.5 must be 0"));
   EXPECT_THAT(Refusal([](GasSensor& s) { s.offset_stddev_ppm = 2e6; }),
               ::testing::HasSubstr("gas_sensors[1].offset_stddev_ppm = 2e+06"));
 }
