@@ -216,6 +216,7 @@ async function operation() {
     await until('both files', async () => files.length === 2);
     assert.deepEqual(files.sort(), ['hall.pgm', 'hall.yaml']);
     assert.ok((await download('Whole mission')).length > 1000);
+    assert.equal((await download('MCAP (Foxglove)')).subarray(1, 5).toString(), 'MCAP');
   });
 }
 

@@ -7,7 +7,7 @@ import { exportMission, mapYamlOf, npyOf, pgmOf } from '@plumescout/client';
 import type { Raster } from '@plumescout/client';
 import { mayOperate } from './session.ts';
 import type { Mission, Robot } from '@plumescout/client/wire';
-import { MissionState } from '@plumescout/client/wire';
+import { MissionFileFormat, MissionState } from '@plumescout/client/wire';
 import { bytes, shortName } from './words.ts';
 
 async function attempt(what: string, task: () => Promise<unknown>): Promise<void> {
@@ -119,23 +119,28 @@ export class OperatePanel {
       }) }, 'Map (map_server)'),
       h('button', { onclick: () => npy('gas-mean', (raster) => raster.mean_ppm) }, 'Gas mean (npy)'),
       h('button', { onclick: () => npy('gas-variance', (raster) => raster.variance_ppm2) }, 'Gas variance (npy)'),
-      mayOperate() ? h('button', { onclick: () => void this.exportMission() }, 'Whole mission') : null,
+      ...(mayOperate() ? [
+        h('button', { onclick: () => void this.exportMission('plumescout') }, 'Whole mission'),
+        h('button', { onclick: () => void this.exportMission('mcap') }, 'MCAP (Foxglove)')] : []),
       h('button', { onclick: () => void Promise.resolve(navigator.clipboard?.writeText(this.link()) ?? Promise.reject())
         .then(() => notice('The link to this moment is copied.'), () => notice(this.link())) }, 'Link to this moment')));
   }
 
-  private async exportMission(): Promise<void> {
+  // As a journal, which can be imported again, or as MCAP.
+  private async exportMission(ending: 'plumescout' | 'mcap'): Promise<void> {
     if (this.exporting !== null) return notice('The mission is on its way already.');
     const { signal } = this.exporting = new AbortController();
+    const format = ending === 'mcap' ? MissionFileFormat.MCAP : MissionFileFormat.JOURNAL;
     const parts: Uint8Array[] = [];
     try {
       let size = 0;
-      for await (const { data, done_bytes, expected_bytes } of exportMission(client, this.mission, { signal })) {
+      for await (const { data, done_bytes, expected_bytes } of exportMission(client, this.mission,
+                                                                                { format, signal })) {
         if (size === 0) notice(`About ${bytes(expected_bytes)} are on their way …`);
         parts.push(data);
         size = done_bytes;
       }
-      saveFile(`${shortName(this.mission)}.plumescout`, parts as BlobPart[]);
+      saveFile(`${shortName(this.mission)}.${ending}`, parts as BlobPart[]);
       notice(`The mission is saved: ${bytes(size)}.`);
     } catch (error) {
       if (!signal.aborted) notice(sentence(error), 'bad');

@@ -13,6 +13,7 @@ export type {
   DecodedMap, GetMapOptions, LinkState, MapOptions, MapUpdate, WatchMapOptions,
 } from './maps.ts';
 export { exportMission } from './mission_file.ts';
+export type { ExportOptions, FilePiece } from './mission_file.ts';
 export { planOf } from './plan.ts';
 export type { Plan } from './plan.ts';
 export { encodeRanges } from './ranges.ts';

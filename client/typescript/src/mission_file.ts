@@ -3,6 +3,7 @@
 // Missions as files.
 import { OwnAbort } from './abort.ts';
 import type { Client } from './client.ts';
+import { MissionFileFormat } from './wire/index.ts';
 
 const CRC_TABLE = Uint32Array.from({ length: 256 }, (_, byte) => {
   let rest = byte;
@@ -23,14 +24,20 @@ export type FilePiece = {
   expected_bytes: number; // of the whole, about
 };
 
+export type ExportOptions = {
+  format?: MissionFileFormat; // a journal, which importMission takes, or MCAP, which Foxglove shows
+  signal?: AbortSignal;
+};
+
 /** The file of missions/{mission}, in pieces. What is not as the server sent it is thrown: a file is
  * whole once the loop has come to its end, and only then. */
 export async function* exportMission(client: Client, mission: string,
-                                     options: { signal?: AbortSignal } = {}): AsyncGenerator<FilePiece, void> {
+                                     options: ExportOptions = {}): AsyncGenerator<FilePiece, void> {
+  const request = { mission, format: options.format ?? MissionFileFormat.JOURNAL };
   let crc = 0, done_bytes = 0, expected_bytes = 0;
   const abort = new OwnAbort(options.signal);
   try {
-    for await (const { part } of client.snapshots.exportMission({ mission }, { signal: abort.signal })) {
+    for await (const { part } of client.snapshots.exportMission(request, { signal: abort.signal })) {
       if (part.case === 'start') {
         expected_bytes = Number(part.value.expectedBytes);
       } else if (part.case === 'piece') {
