@@ -86,6 +86,8 @@ absl::StatusOr<std::optional<v1::ExportMissionResponse>> MissionExport::Next() {
       if (buffer_.empty() && closed_) stage_ = Stage::kEnd;
       return response;
     case Stage::kEnd:
+      mcap_.reset();
+      room_.reset();
       response->mutable_end()->set_total_bytes(sum_.bytes());
       response->mutable_end()->set_sha256(sum_.TakeSha256());
       stage_ = Stage::kOver;

@@ -67,8 +67,9 @@ class MissionExport {
   const ExportPoint point_;
   const std::int64_t expected_bytes_;
   const std::unique_ptr<JournalReader> reader_;
-  const std::shared_ptr<void> room_;         // of the mission that is replayed
-  const std::unique_ptr<MissionMcap> mcap_;  // null: a journal
+  // Both are let go before the end goes out, so that who has it may ask for the next.
+  std::shared_ptr<void> room_;         // of the mission that is replayed
+  std::unique_ptr<MissionMcap> mcap_;  // null: a journal
   Stage stage_ = Stage::kStart;
   std::int64_t revision_ = 0;  // of the last event that was read
   JournalFileEncoder encoder_;
