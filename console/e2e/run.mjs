@@ -12,7 +12,7 @@ import { mkdirSync, readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { parseArgs } from 'node:util';
 import { checkAccess } from './axe.mjs';
-import { PATIENCE_MS, cleanUp, data, drive, end, launch, serve, until } from './harness.mjs';
+import { BIN, PATIENCE_MS, cleanUp, data, drive, end, launch, serve, until } from './harness.mjs';
 import { lookAround } from './report.mjs';
 
 const { values: options } = parseArgs({ options: {
@@ -422,8 +422,9 @@ async function trouble(origin, server) {
 }
 
 function tokens(...args) {
-  return execFileSync('python3', ['../client/python/plumescout_tokens.py', ...args], { encoding: 'utf8' })
-    .trim().split(/\s+/).at(-1);
+  const messages = join(BIN, '..', 'python'); // of the wire, of the same build
+  return execFileSync('../client/python/plumescoutctl', ['tokens', ...args], {
+    encoding: 'utf8', env: { ...process.env, PYTHONPATH: messages } }).trim().split(/\s+/).at(-1);
 }
 
 async function useToken(origin, token) {
