@@ -13,7 +13,7 @@ export function planContent(plan: Plan, pointAt: (candidate: number) => void): H
     h('h2', {}, `Plan ${shortName(plan.name)} of ${shortName(plan.robot)}`),
     h('p', {}, plan.explanation),
     h('p', { class: 'quiet' }, `${phase(plan.phase)} · ${plan.strategy} · search ended: ` +
-      `${searchEnd(plan.end)} · ${duration(cpu_s)} of CPU · revision ${plan.beliefRevision}` +
+      `${searchEnd(plan.end)} · ${cpu_s > 0 ? `${duration(cpu_s)} of CPU · ` : ''}revision ${plan.beliefRevision}` +
       (plan.goalKept ? ' · it keeps its goal: no other is better by the margin' : '')),
   ];
   if (plan.candidates.length > 0) parts.push(candidates(plan, pointAt));
@@ -32,7 +32,7 @@ function candidates(plan: Plan, pointAt: (candidate: number) => void): HTMLEleme
         rewarded ? h('th', n, 'reward') : null, h('th', n, 'cost'), h('th', n, 'ppm'))),
       h('tbody', {}, ...plan.candidates.map((one, i) => {
         const nats = one.expectedInformationNats ?? one.expectedInformationBoundNats ?? NaN;
-        const atMost = one.expectedInformationNats === undefined && !Number.isNaN(nats) ? '≤ ' : '';
+        const atMost = one.expectedInformationNats === undefined && !Number.isNaN(nats) ? '≤\u00a0' : '';
         return h('tr', {
           class: i === plan.chosenIndex ? 'pick chosen' : 'pick',
           title: `by ${source(one.pathSource)}; mean information ${figure(one.meanUcb)}, ` +
