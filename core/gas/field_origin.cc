@@ -3,7 +3,6 @@
 #include "core/gas/field_origin.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -11,23 +10,20 @@
 #include "core/types/status_macros.h"
 
 namespace plumescout {
-namespace {
 
-bool IsTakenByFields(const CellInput& input) {
-  return input.precision >= 0.0 && input.precision <= kMaxCellPrecision &&
-         std::abs(input.weighted_deviation) <= kMaxCellPrecision;
+absl::Status CheckCells(std::span<const CellInput> cells) {
+  if (std::all_of(cells.begin(), cells.end(), IsPossible)) return absl::OkStatus();
+  return absl::InvalidArgumentError("the evidence of a cell is out of range");
 }
-
-}  // namespace
 
 absl::StatusOr<std::unique_ptr<FieldEngine>> MakeField(const FieldOrigin& origin,
                                                        const GasLattice& lattice,
                                                        const FieldOptions& options) {
   const bool fits = lattice.width > 0 && lattice.height > 0 &&
                     origin.cells.size() == lattice.size() &&
-                    origin.cells.size() < std::numeric_limits<Slot>::max() &&
-                    std::all_of(origin.cells.begin(), origin.cells.end(), IsTakenByFields);
+                    origin.cells.size() < std::numeric_limits<Slot>::max();
   if (!fits) return absl::InvalidArgumentError("a gas field is made from other cells");
+  PLUMESCOUT_RETURN_IF_ERROR(CheckCells(origin.cells));
   auto engine = std::make_unique<FieldEngine>(static_cast<std::size_t>(lattice.width),
                                               static_cast<std::size_t>(lattice.height),
                                               origin.cells, options);

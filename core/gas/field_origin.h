@@ -3,8 +3,10 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
+#include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/gas/field/field_engine.h"
 #include "core/gas/gas_lattice.h"
@@ -17,6 +19,10 @@ struct FieldOrigin {
   std::vector<CellInput> cells;                  // of the lattice, when it was made
   std::vector<std::vector<CellChange>> changes;  // call by call
 };
+
+// Whether a field can be made from them: kInvalidArgument for evidence that no readings give, which
+// only a damaged saved state has.
+absl::Status CheckCells(std::span<const CellInput> cells);
 
 // Errors: kInvalidArgument for cells that do not fill the lattice, or inputs that Apply would not
 // take; kInternal and kCancelled as from FieldEngine::Apply. Cost: a fresh computation, and a pass

@@ -33,6 +33,10 @@ FieldDrift DriftBetween(const EpochInputs& live, const FieldEngine& fresh) {
 
 void GasEpoch::Recompute() {
   if (done()) return;
+  if (absl::Status status = CheckCells(inputs_.cells); !status.ok()) {
+    failure_ = std::move(status);
+    return;
+  }
   auto engine = std::make_unique<FieldEngine>(static_cast<std::size_t>(inputs_.lattice.width),
                                               static_cast<std::size_t>(inputs_.lattice.height),
                                               inputs_.cells, inputs_.options);

@@ -136,6 +136,7 @@ absl::Status GasMap::Rebuild(std::int64_t time_ns) {
     inputs = inputs_.On(lattice);
     active_cells_ = CountActive(inputs);
   }
+  PLUMESCOUT_RETURN_IF_ERROR(CheckCells(inputs));
   auto engine = MakeEngine(lattice, inputs, field_options_);
   TakeOver(std::move(engine), lattice, {std::move(inputs), {}});
   schedule_.NoteFresh(active_cells_);

@@ -81,9 +81,18 @@ inline bool IsCellOfSites(AnchorCell cell) {
          cell.y <= kFarthest_cells;
 }
 
-inline bool IsBucket(const ReadingBucket& bucket) {
+// Whether readings can give it.
+inline bool IsEvidence(const Evidence& evidence) {
+  constexpr double kMost = 1e100;  // far beyond any sensor, and from where products overflow
+  return evidence.precision >= 0.0 && evidence.precision <= kMost &&
+         std::abs(evidence.weighted_deviation) <= kMost && evidence.weighted_square >= 0.0 &&
+         evidence.weighted_square <= kMost;
+}
+
+inline bool IsBucket(const ReadingBucket& bucket, const Ageing& ageing) {
   return bucket.least_variance_ppm2 > 0.0 &&
-         bucket.most_variance_ppm2 >= bucket.least_variance_ppm2;
+         bucket.most_variance_ppm2 >= bucket.least_variance_ppm2 &&
+         IsEvidence(EvidenceOf(bucket, ageing, bucket.newest_ns));
 }
 
 template <typename Archive, typename Self>
@@ -93,18 +102,20 @@ void ReadingStore::VisitState(Archive& archive, Self& self) {
   if constexpr (!Archive::kReads) aged = self.AgedCells();
   archive(aged);
   if constexpr (Archive::kReads) {
+    const auto is_bucket = [&](const ReadingBucket& b) { return IsBucket(b, self.ageing_); };
     for (const Sites* sites : {&self.merged_arrivals_, &self.sites_}) {
       for (const auto& [key, site] : *sites) {
         archive.Require(IsCellOfSites(key.cell), "a site lies too far away");
-        archive.Require(std::all_of(site.buckets.begin(), site.buckets.end(), IsBucket),
+        archive.Require(std::all_of(site.buckets.begin(), site.buckets.end(), is_bucket),
                         "readings have no variance");
+        archive.Require(IsEvidence(site.sums), "readings say what none can");
       }
     }
     for (const Arrival& arrival : self.arrivals_) {
       const Point2 place = arrival.position;
       archive.Require(std::isfinite(place.x_m) && std::isfinite(place.y_m),
                       "a reading was taken nowhere");
-      archive.Require(IsBucket(arrival.reading), "a reading has no variance");
+      archive.Require(is_bucket(arrival.reading), "a reading has no variance");
     }
     for (const AgedCell& cell : aged) {
       archive.Require(IsCellOfSites(cell.cell), "a cell lies too far away");

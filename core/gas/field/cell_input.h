@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 
 namespace plumescout {
@@ -26,5 +27,11 @@ struct CellChange {
 
 // Beyond any sensor, and far from where products of two overflow.
 inline constexpr double kMaxCellPrecision = 1e100;
+
+// Whether the numbers are such as readings can give; a field of others may not exist.
+inline bool IsPossible(const CellInput& input) {
+  return input.precision >= 0.0 && input.precision <= kMaxCellPrecision &&
+         std::abs(input.weighted_deviation) <= kMaxCellPrecision;
+}
 
 }  // namespace plumescout

@@ -28,11 +28,8 @@ std::shared_ptr<const SeparatorTree> MakeTree(std::size_t width, std::size_t hei
 
 absl::Status Check(const CellChange& change, std::size_t cells) {
   if (change.cell >= cells) return absl::InvalidArgumentError("a cell lies beyond the lattice");
-  const CellInput& input = change.input;
-  const bool usable = input.precision >= 0.0 && input.precision <= kMaxCellPrecision &&
-                      std::abs(input.weighted_deviation) <= kMaxCellPrecision;
-  if (!usable) return absl::InvalidArgumentError("the evidence of a cell is out of range");
-  return absl::OkStatus();
+  if (IsPossible(change.input)) return absl::OkStatus();
+  return absl::InvalidArgumentError("the evidence of a cell is out of range");
 }
 
 absl::Status Abandoned() { return absl::CancelledError("the gas field is abandoned"); }

@@ -99,6 +99,15 @@ TEST(GasEpochTest, EvidenceThatIsNoneIsSaid) {
   EXPECT_EQ(epoch.failure().code(), absl::StatusCode::kInvalidArgument);
 }
 
+TEST(GasEpochTest, CellsThatNoReadingsGiveAreSaid) {
+  EpochInputs inputs = Inputs();
+  inputs.cells[14].precision = -10.0;
+  GasEpoch epoch(std::move(inputs));
+  epoch.Recompute();
+  EXPECT_FALSE(epoch.done());
+  EXPECT_EQ(epoch.failure().code(), absl::StatusCode::kInvalidArgument);
+}
+
 TEST(GasEpochTest, RecomputesOnce) {
   GasEpoch epoch(Inputs());
   epoch.Recompute();

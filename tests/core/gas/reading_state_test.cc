@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+#include <limits>
 #include <string>
 
 #include "core/types/byte_reader.h"
@@ -104,6 +106,40 @@ TEST(ReadingState, ReadStoresGoOnTheSame) {
   Compare(options, 1);
   options.ageing_half_life_s = 20.0;
   Compare(options, 2);
+}
+
+// What was written with `was` in it is read with `is` in its place.
+absl::Status StatusWith(const GasOptions& options, double was, double is) {
+  Placed live(options);
+  live.store.Add(0, {0.55, 0.55}, {3.0, 0.1});
+  live.Place(Grid<CellState>({0.0, 0.0, kResolution_m, 10, 10}, CellState::kFree));
+  std::string bytes = BytesOf(live.store);
+  const std::string from(reinterpret_cast<const char*>(&was), sizeof(was));
+  const std::size_t place = bytes.find(from);
+  EXPECT_NE(place, std::string::npos);
+  std::memcpy(bytes.data() + place, &is, sizeof(is));
+  Placed again(options);
+  ByteReader reader(bytes, 1 << 20);
+  reader(again.store);
+  return reader.Finish();
+}
+
+TEST(ReadingState, WhatNoReadingSaysIsRefused) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  GasOptions options;
+  options.observation_precision_per_ppm2 = 7.0;
+  const Evidence evidence =
+      EvidenceOf(BucketOf(0, 0.1, 3.0), Ageing(options), 0);  // as Add makes it
+  EXPECT_TRUE(StatusWith(options, evidence.precision, 11.0).ok());
+  for (double is : {-10.0, nan, 1e101}) {
+    EXPECT_FALSE(StatusWith(options, evidence.precision, is).ok()) << is;
+    EXPECT_FALSE(StatusWith(options, evidence.weighted_deviation, is * 1e100).ok()) << is;
+    EXPECT_FALSE(StatusWith(options, evidence.weighted_square, is).ok()) << is;
+  }
+  options.ageing_half_life_s = 20.0;
+  EXPECT_TRUE(StatusWith(options, 1.0, 2.0).ok()) << "a bucket of two readings";
+  EXPECT_FALSE(StatusWith(options, 1.0, -1.0).ok()) << "a bucket of minus one";
+  EXPECT_FALSE(StatusWith(options, 9.0, -9.0).ok()) << "its square";
 }
 
 TEST(ReadingState, SitesOnOtherStatesAreNoticed) {
