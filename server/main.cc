@@ -6,9 +6,11 @@
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -20,6 +22,7 @@
 #include "server/base/exit_timer.h"
 #include "server/base/grpc_log.h"
 #include "server/base/log.h"
+#include "server/base/service_manager.h"
 #include "server/config/command_line.h"
 #include "server/observe/http_endpoints.h"
 #include "server/server.h"
@@ -97,12 +100,21 @@ absl::StatusOr<std::unique_ptr<WebServer>> ServeConsole(const ServerConfig& conf
   options.max_message_bytes = static_cast<std::size_t>(config.limits.max_receive_bytes);
   options.max_streams = console.max_stream_count;
   options.hosts = absl::StrSplit(console.hosts, ',', absl::SkipEmpty());
-  if (!console.folder.empty()) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(options.files, StaticFiles::Load(console.folder));
-  }
+  std::error_code ignored;  // then pages that are installed are not found
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      options.files,
+      StaticFiles::LoadOrInstalled(
+          console.folder, std::filesystem::read_symlink("/proc/self/exe", ignored).string()));
   auto web = WebServer::Start(console.listen, server.InProcessChannel(), std::move(options));
   if (web.ok()) PrintAddress("console", console.listen, (*web)->port());
   return web;
+}
+
+// In one line, for operators.
+std::string StateOf(const Server& server) {
+  if (std::string why = server.NotReady(); !why.empty()) return why;
+  if (std::string trouble = server.Trouble(); !trouble.empty()) return trouble;
+  return absl::StrCat("serving on port ", server.port());
 }
 
 int Run(const ServerConfig& config) {
@@ -121,7 +133,9 @@ int Run(const ServerConfig& config) {
   PrintAddress("listening", config.listen, (*server)->port());
   LogInfo("serving",
           {{"port", absl::StrCat((*server)->port())}, {"boot_id", (*server)->boot_id()}});
+  auto manager = std::make_unique<ServiceManager>([&server] { return StateOf(**server); });
   const int signal = WaitForSignal(BlockStopSignals());
+  manager.reset();
   LogInfo("draining", {{"signal", absl::StrCat(signal)}});
   const int exit_code = unreachable ? kExitUnreachable : EXIT_SUCCESS;
   const ExitTimer limit(absl::Seconds(config.connection.drain_s) + Server::kStopLimit, exit_code);

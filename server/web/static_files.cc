@@ -69,6 +69,16 @@ absl::StatusOr<StaticFiles> StaticFiles::Load(const std::string& folder) {
       absl::StrCat("console.folder = ", folder, " has no index.html: scripts/console makes it"));
 }
 
+absl::StatusOr<StaticFiles> StaticFiles::LoadOrInstalled(const std::string& folder,
+                                                         const std::string& program) {
+  if (!folder.empty()) return Load(folder);
+  const fs::path installed =
+      fs::path(program).parent_path().parent_path() / "share/plumescout/console";
+  std::error_code error;
+  if (!fs::is_directory(installed, error)) return StaticFiles();
+  return Load(installed.string());
+}
+
 const StaticFile* StaticFiles::Find(const std::string& path) const {
   const auto it = files_.find(path == "/" ? kIndex : path);
   return it == files_.end() ? nullptr : &it->second;

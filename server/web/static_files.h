@@ -29,6 +29,11 @@ class StaticFiles {
   // is no index.html, kResourceExhausted beyond the limits.
   static absl::StatusOr<StaticFiles> Load(const std::string& folder);
 
+  // The same of `folder`, or of share/plumescout/console beside bin/PROGRAM if `folder` is empty;
+  // none if nothing is installed there.
+  static absl::StatusOr<StaticFiles> LoadOrInstalled(const std::string& folder,
+                                                     const std::string& program);
+
   // "/" is index.html. Null: there is none.
   const StaticFile* Find(const std::string& path) const;
   bool empty() const { return files_.empty(); }

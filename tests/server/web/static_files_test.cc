@@ -44,6 +44,20 @@ TEST_F(StaticFilesTest, FilesAreFoundByTheirPaths) {
   EXPECT_THAT(script->caching, ::testing::HasSubstr("immutable"));
 }
 
+TEST_F(StaticFilesTest, ThoseInstalledWithTheProgramAreForWhoNamesNoFolder) {
+  Write("index.html", "named");
+  const std::string program = temporary_.File("usr/bin/plumescout-server");
+  const auto none = StaticFiles::LoadOrInstalled("", program);
+  ASSERT_TRUE(none.ok()) << none.status();
+  EXPECT_TRUE(none->empty());
+  const fs::path installed = temporary_.File("usr/share/plumescout/console");
+  fs::create_directories(installed);
+  EXPECT_FALSE(StaticFiles::LoadOrInstalled("", program).ok()) << "there is no page";
+  std::ofstream(installed / "index.html") << "installed";
+  EXPECT_EQ(StaticFiles::LoadOrInstalled("", program)->Find("/")->content, "installed");
+  EXPECT_EQ(StaticFiles::LoadOrInstalled(folder_, program)->Find("/")->content, "named");
+}
+
 TEST_F(StaticFilesTest, NothingElseIsServed) {
   Write("index.html", "<p>");
   Write(".secret.html", "x");

@@ -1,0 +1,66 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: PlumeScout contributors
+# SPDX-License-Identifier: Apache-2.0
+# packages.sh FOLDER: installs each package of the folder in a fresh Debian 12, and all together in
+# one, where a server and a simulated robot run a mission that plumescoutctl then asks about. Needs
+# root, mmdebstrap, and a mirror of Debian. scripts/packages --try runs it.
+set -euo pipefail
+packages="$(realpath "$1")"
+here="$(cd "$(dirname "$0")" && pwd)"
+work="$packages/../packages-root"
+base="$work/base.tar"
+mkdir -p "$work"
+say() { printf '\033[1m==> %s\033[0m\n' "$*"; }
+
+if [[ ! -f "$base" ]]; then
+  say "A fresh Debian 12"
+  mmdebstrap --quiet --variant=minbase --include=ca-certificates bookworm "$base"
+fi
+
+root=""
+clean_up() {
+  [[ -z "$root" ]] || { umount -q "$root/proc" || true; rm -rf "$root"; }
+  root=""
+}
+trap clean_up EXIT
+fresh_root() {
+  clean_up
+  root="$(mktemp -d "$work/root.XXXX")"
+  tar -C "$root" -xf "$base"
+  cp /etc/resolv.conf "$root/etc/resolv.conf"
+  mkdir "$root/packages"
+  cp "$packages"/*.deb "$root/packages/"
+  mount -t proc proc "$root/proc"
+}
+inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive \
+  HOME=/root LC_ALL=C.UTF-8 "$@"; }
+install_packages() {
+  inside apt-get update -qq
+  inside sh -c "apt-get install -y -qq --no-install-recommends $*" > "$work/install.log" 2>&1 ||
+    { tail -n 20 "$work/install.log"; exit 1; }
+}
+
+for package in "$packages"/*.deb; do
+  name="$(dpkg-deb -f "$package" Package)"
+  say "$name alone"
+  fresh_root
+  install_packages "/packages/${package##*/}"
+  case "$name" in
+    plumescout-*) inside "$name" --help > /dev/null ;;
+    python3-plumescout) inside plumescoutctl --help > /dev/null ;;
+    libplumescout-client-dev)
+      install_packages g++ cmake pkg-config
+      cp -r "$here/../../client/examples/cpp" "$root/example"
+      inside sh -c "cmake -S /example -B /example/build && cmake --build /example/build" > /dev/null
+      ;;
+  esac
+  inside dpkg --purge "$name" > /dev/null
+done
+
+say "A mission"
+fresh_root
+install_packages /packages/plumescout-server_* /packages/plumescout-lab_* \
+  /packages/python3-plumescout_*
+cp "$here/packages_mission.sh" "$root/packages/"
+inside bash /packages/packages_mission.sh
+say "All packages installed, and a mission ran"
