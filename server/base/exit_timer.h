@@ -10,7 +10,7 @@
 namespace plumescout::server {
 
 // Ends the process with `exit_code` unless it is destroyed in time: for a stop that something holds
-// up. Missions live in memory, so nothing is lost that would have been kept.
+// up. Nothing is lost that was acknowledged as durable.
 class ExitTimer {
  public:
   ExitTimer(absl::Duration limit, int exit_code);
