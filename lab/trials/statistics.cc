@@ -66,6 +66,14 @@ Spread SpreadOf(std::span<const double> values) {
   return spread;
 }
 
+PairedRatio PairedRatioOf(std::span<const double> a, std::span<const double> b) {
+  std::vector<double> logs;
+  for (std::size_t i = 0; i < a.size(); ++i) logs.push_back(std::log(a[i] / b[i]));
+  const Spread spread = SpreadOf(logs);
+  return {std::exp(spread.mean), std::exp(spread.mean - spread.half_95),
+          std::exp(spread.mean + spread.half_95)};
+}
+
 double PairedPValue(std::span<const double> a, std::span<const double> b) {
   if (a.empty()) return 1.0;
   std::vector<double> differences;

@@ -17,6 +17,16 @@ struct Spread {
 
 Spread SpreadOf(std::span<const double> values);
 
+// How many times as great as its partner in `b` a value of `a` is: the geometric mean over the
+// pairs, with the 95 % interval that Student's gives for its logarithm. NaN without pairs; one pair
+// has no interval (low = high = mean). REQUIRES: as many of one as of the other, all > 0.
+struct PairedRatio {
+  double mean = 1.0;
+  double low = 1.0;
+  double high = 1.0;
+};
+PairedRatio PairedRatioOf(std::span<const double> a, std::span<const double> b);
+
 // Two-sided p of "a and b are equally good", pair by pair: the share of all 2^n ways to swap the
 // two of a pair that bring the means at least as far apart as they are (Fisher's permutation
 // test). Assumes nothing about how values are distributed. Up to 20 pairs exact; beyond, a million
