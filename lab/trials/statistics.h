@@ -30,8 +30,8 @@ PairedRatio PairedRatioOf(std::span<const double> a, std::span<const double> b);
 
 // 95 % interval of a figure of several worlds for which there is no formula: the percentile
 // bootstrap, 2,000 draws of as many worlds as there are, with replacement, from a fixed seed.
-// `figure` is told which worlds; draws of which it is not finite do not count, and NaN is the interval if
-// it never is. REQUIRES: count > 0.
+// `figure` is told which worlds; draws of which it is not finite do not count, and the interval is
+// NaN if it never is. REQUIRES: count > 0.
 struct Interval {
   double low = 0.0;
   double high = 0.0;
