@@ -229,9 +229,10 @@ void AddNumbers(const SamplingPlan& plan, const Drives& drives, std::size_t spee
     figures.emplace_back(name + "_t_r_low", o.as_sweep.times_faster.low);
     figures.emplace_back(name + "_t_r_high", o.as_sweep.times_faster.high);
     if (row == kSweep) continue;
+    const std::string text = TextOf(o.as_sweep);
     study.figures.key_numbers.emplace_back(
         absl::StrFormat("%s at %.0f m/s: times faster", kRows[row].label, kSpeeds[speed].mps),
-        TextOf(o.as_sweep));
+        text.substr(0, text.find(" [")));  // printed large: the interval is in the table
   }
 }
 
