@@ -106,7 +106,8 @@ absl::Status CheckRegion(const PlanningOptions& options, SiteRule rule) {
   }
   PLUMESCOUT_ASSIGN_OR_RETURN(const SiteLattice lattice,
                               MakeSiteLattice(*sites.region, sites.spacing_m));
-  if (rule == SiteRule::kLowToHigh && sites.survey) {
+  const bool has_survey = rule == SiteRule::kLowToHigh || rule == SiteRule::kRandom;
+  if (has_survey && sites.survey) {
     return CheckSurvey(lattice, sites.survey_stride);
   }
   return absl::OkStatus();

@@ -129,7 +129,8 @@ struct SiteOptions {
   std::optional<Rectangle> region;
   double spacing_m = 1.0;  // d_res of [LHR], [0.05, 1000]
   SamplingReward reward = SamplingReward::kUcb;
-  // lhr: every survey_stride-th site first; the last row and column are among them.
+  // lhr and random_sampling: every survey_stride-th site first; the last row and column are among
+  // them.
   bool survey = true;
   int survey_stride = 10;  // alpha of [LHR], [1, 1000]
   // lhr and random_sampling: update cycles of cycle_sample_count sites, of the candidate_count

@@ -126,7 +126,7 @@ void AddGasOptions(CLI::App& app, RobotArguments& arguments) {
                  "all over the scene")
       ->check(CLI::Range(0.05, 1000.0));
   app.add_option("--survey-stride", arguments.survey_stride,
-                 "The survey of lhr takes every n-th site of every n-th row")
+                 "The survey of lhr and random_sampling takes every n-th site of every n-th row")
       ->check(CLI::Range(1, 1000));
 }
 

@@ -25,8 +25,14 @@ double MeanConcentration_ppm(const SceneWorld& world, const Dwell& dwell) {
 DwellSensor MakeDwellSensor(const SceneWorld& world, const DwellNoise& noise) {
   return [&world, noise](const Dwell& dwell, Rng& rng) {
     const double true_ppm = MeanConcentration_ppm(world, dwell);
-    const double sigma_ppm = std::hypot(noise.sigma_ppm, noise.share * true_ppm);
-    return GasReading{std::max(0.0, true_ppm + sigma_ppm * rng.Gaussian()), 0.0};
+    const double sigma_ppm = std::hypot(noise.sigma_ppm, noise.share * true_ppm,
+                                        std::sqrt(noise.variance_per_ppm * true_ppm));
+    GasReading reading{std::max(0.0, true_ppm + sigma_ppm * rng.Gaussian()), 0.0};
+    if (noise.variance_per_ppm > 0.0) {
+      reading.variance_ppm2 =
+          std::max(noise.least_told_ppm2, noise.variance_per_ppm * reading.concentration_ppm);
+    }
+    return reading;
   };
 }
 

@@ -46,6 +46,7 @@ absl::StatusOr<StudyRow> MakeRow(const std::string& strategy, bool knows_map) {
     row.mission.planning.dwell_s = kDwell_s;
     row.mission.planning.sites.spacing_m = kSpacing_m;
     row.mission.planning.sites.survey_stride = kSurveyStride;
+    row.mission.planning.sites.survey = strategy == "lhr";
   }
   return row;
 }
@@ -94,11 +95,13 @@ double Complete(const TrialRecord& trial) {
 
 Spread SpreadBy(const std::vector<SceneRecords>& records, std::size_t row,
                 double (*value)(const TrialRecord&)) {
-  std::vector<double> values;
+  std::vector<double> means;  // of buildings: trials in one are not independent
   for (const SceneRecords& scene : records) {
+    std::vector<double> values;
     for (const TrialRecord& trial : scene[row]) values.push_back(value(trial));
+    means.push_back(SpreadOf(values).mean);
   }
-  return SpreadOf(values);
+  return SpreadOf(means);
 }
 
 TextTable MakeTextTable(const TrialPlan& plan, const std::vector<SceneRecords>& records) {

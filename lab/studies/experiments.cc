@@ -28,6 +28,7 @@ namespace {
 struct Experiment {
   const char* name;
   absl::StatusOr<Study> (*run)(const ExperimentOptions&);
+  bool by_name_alone = false;  // takes an hour or more, and is of no paper
 };
 
 constexpr Experiment kExperiments[] = {
@@ -38,8 +39,8 @@ constexpr Experiment kExperiments[] = {
     {"lhr_table2", RunLhrTable2},
     {"mit_table1", RunMitTable1},
     {"own_strategy", RunOwnStrategy},
-    {"team_rivals", RunTeamRivals},
-    {"team_study", RunTeamStudy},
+    {"team_rivals", RunTeamRivals, true},
+    {"team_study", RunTeamStudy, true},
     {"wind_validation", RunWindValidation},
     {"xit_episode", RunXitEpisode},
     {"xit_fig3", RunXitFig3},
@@ -62,6 +63,14 @@ absl::Status Validate(const ExperimentOptions& options) {
 std::vector<std::string> ExperimentNames() {
   std::vector<std::string> names;
   for (const Experiment& experiment : kExperiments) names.emplace_back(experiment.name);
+  return names;
+}
+
+std::vector<std::string> ExperimentsOfAll() {
+  std::vector<std::string> names;
+  for (const Experiment& experiment : kExperiments) {
+    if (!experiment.by_name_alone) names.emplace_back(experiment.name);
+  }
   return names;
 }
 

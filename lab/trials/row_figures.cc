@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <string>
 
 #include "core/types/status_macros.h"
@@ -26,16 +27,28 @@ std::size_t LongestCurve(const std::vector<SceneRecords>& records, std::size_t r
   return longest;
 }
 
-// Of all trials at sample `index`.
+// What is independent of each other: the trials in one building, the means of several.
+std::vector<double> Independent(const std::vector<SceneRecords>& records, std::size_t row,
+                                const std::function<double(const TrialRecord&)>& value) {
+  std::vector<double> all;
+  std::vector<double> means;
+  for (const SceneRecords& scene : records) {
+    double sum = 0.0;
+    for (const TrialRecord& trial : scene[row]) {
+      all.push_back(value(trial));
+      sum += all.back();
+    }
+    if (!scene[row].empty()) means.push_back(sum / static_cast<double>(scene[row].size()));
+  }
+  return records.size() > 1 ? means : all;
+}
+
+// At sample `index`.
 Spread SpreadAt(const std::vector<SceneRecords>& records, std::size_t row, std::size_t index,
                 MetricFn metric) {
-  std::vector<double> values;
-  for (const SceneRecords& scene : records) {
-    for (const TrialRecord& trial : scene[row]) {
-      values.push_back(metric(trial.curve[std::min(index, trial.curve.size() - 1)].metrics));
-    }
-  }
-  return SpreadOf(values);
+  return SpreadOf(Independent(records, row, [&](const TrialRecord& trial) {
+    return metric(trial.curve[std::min(index, trial.curve.size() - 1)].metrics);
+  }));
 }
 
 double TimeAt(const std::vector<SceneRecords>& records, std::size_t row, std::size_t index) {
@@ -58,13 +71,9 @@ double Completeness(const MapMetrics& metrics) { return metrics.completeness; }
 
 std::vector<double> Finals(const std::vector<SceneRecords>& records, std::size_t row,
                            MetricFn metric) {
-  std::vector<double> finals;
-  for (const SceneRecords& scene : records) {
-    for (const TrialRecord& trial : scene[row]) {
-      finals.push_back(metric(trial.curve.back().metrics));
-    }
-  }
-  return finals;
+  return Independent(records, row, [metric](const TrialRecord& trial) {
+    return metric(trial.curve.back().metrics);
+  });
 }
 
 Chart MakeMetricChart(const std::vector<SceneRecords>& records, const std::vector<RowStyle>& rows,

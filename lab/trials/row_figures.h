@@ -22,12 +22,13 @@ double Rmse_ppm(const MapMetrics& metrics);
 double EntropyPerCell_nats(const MapMetrics& metrics);  // so that buildings can be compared
 double Completeness(const MapMetrics& metrics);
 
-// The metric at the end of every trial of a row, building by building: pairs between rows.
+// The metric at the end of a row's trials, pairs between rows: in one building every trial, in
+// several the mean over the trials of each, for those in one building are not independent.
 std::vector<double> Finals(const std::vector<SceneRecords>& records, std::size_t row,
                            MetricFn metric);
 
-// The metric over time, a curve for each row, the mean over trials; for those in `with_band` also
-// the 95 % interval of the mean, dashed. Trials that end early keep their last value. Completeness
+// The metric over time, a curve for each row, the mean over trials, or over several buildings; for
+// those in `with_band` also the 95 % interval of the mean, dashed. Trials that end early keep their last value. Completeness
 // is shown from 0 to 1.
 struct RowStyle {
   std::string name;

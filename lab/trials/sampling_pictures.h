@@ -26,18 +26,33 @@ absl::StatusOr<std::vector<MapPanel>> PictureUpdates(const SamplingPlan& plan, s
                                                      std::size_t number,
                                                      const std::vector<int>& updates);
 
-// One drive anew: the first map after `time_s`, or the last if the drive ended before.
-absl::StatusOr<MapPanel> PictureTime(const SamplingPlan& plan, std::size_t row, std::size_t number,
-                                     double time_s);
+// One drive anew: for each of the times, ascending, the first map after it, or the last if the
+// drive ended before: the estimated gas on the scale of the truth, and its variance.
+struct TimePictures {
+  std::vector<MapPanel> means;
+  std::vector<MapPanel> variances;
+};
+absl::StatusOr<TimePictures> PictureTimes(const SamplingPlan& plan, std::size_t row,
+                                          std::size_t number, const std::vector<double>& times_s);
 
-// The mean error of several drives over time, a curve for each row. Drives that ended early keep
-// their last value.
+// The gas of that moment, on the scale of the truth.
+MapPanel MomentPanel(const Scene& scene, double time_s);
+
+// As [IPP] Fig. 2: the gas of a moment, the starts of all cases in the world of case `number`, and
+// the way of one drive anew.
+absl::StatusOr<MapPanel> StagePanel(const SamplingPlan& plan, std::size_t row, std::size_t number,
+                                    double time_s);
+
+// The error over time, a chart for each row beside the reference: means over worlds (of the means
+// over the drives in a world) with their 95 % intervals, and a dot where the median of the drives
+// that come there samples the cell of a source. Drives that ended early keep their last value.
+// All charts have the same range, colours and legend. REQUIRES: all rows have a drive of each case.
 struct NamedDrives {
   std::string name;
-  Rgb color;
   std::vector<SamplingDrive> drives;
 };
-Chart MakeMeanErrorChart(const std::vector<NamedDrives>& rows, const std::string& title);
+std::vector<Chart> MakeErrorCharts(const SamplingPlan& plan, const NamedDrives& reference,
+                                   const std::vector<NamedDrives>& rows);
 
 // Every drive: row and case as labels, then seed, distance, samples, times and errors.
 CsvTable MakeDriveTable(const SamplingPlan& plan,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/trials/sampling_study.h"
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -39,10 +40,11 @@ MissionOptions MissionFor(const SamplingPlan& plan, std::size_t row, std::size_t
 std::string FingerprintOf(const SamplingPlan& plan, const MissionOptions& mission,
                           const SamplingCase& drive) {
   return absl::StrFormat(
-      "mission %08x scene %08x start %g %g seed %d noise %g %g first %g limit %g judge %g",
+      "mission %08x scene %08x start %g %g seed %d noise %g %g %g %g first %g limit %g judge %g",
       Crc32c(ToProto(mission).SerializeAsString()), SceneChecksum(plan.worlds[drive.world]),
       drive.start.x_m, drive.start.y_m, drive.seed, plan.noise.sigma_ppm, plan.noise.share,
-      plan.first_dwell_s, plan.time_limit_s, plan.judge_period_s);
+      plan.noise.variance_per_ppm, plan.noise.least_told_ppm2, plan.first_dwell_s,
+      plan.time_limit_s, plan.judge_period_s);
 }
 
 std::optional<SamplingDrive> FindDrive(const std::string& file, const std::string& fingerprint) {
@@ -56,6 +58,8 @@ std::optional<SamplingDrive> FindDrive(const std::string& file, const std::strin
     drive.elapsed_s = value.at("elapsed_s").get<double>();
     drive.driven_m = value.at("driven_m").get<double>();
     drive.samples = value.at("samples").get<int>();
+    const json& source_s = value.at("source_s");
+    if (!source_s.is_null()) drive.source_s = source_s.get<double>();
     for (const json& point : value.at("errors")) {
       drive.errors.push_back({point.at(0).get<double>(), point.at(1).get<double>()});
     }
@@ -70,10 +74,23 @@ absl::Status KeepDrive(const std::string& file, const std::string& fingerprint,
   json value = {{"fingerprint", fingerprint},   {"end", static_cast<int>(drive.end)},
                 {"elapsed_s", drive.elapsed_s}, {"driven_m", drive.driven_m},
                 {"samples", drive.samples},     {"errors", json::array()}};
+  value["source_s"] = drive.source_s ? json(*drive.source_s) : json();
   for (const ErrorPoint& point : drive.errors) {
     value["errors"].push_back({point.time_s, point.rmse_ppm});
   }
   return WriteFile(file, value.dump());
+}
+
+std::optional<double> SourceTime_s(const Scene& scene, const std::vector<TakenSample>& samples) {
+  const auto at_source = [&scene](const TakenSample& sample) {
+    const Cell cell = scene.geometry().CellAt(sample.place);
+    return std::any_of(scene.sources.begin(), scene.sources.end(), [&](const GasSource& source) {
+      return scene.geometry().CellAt({source.x_m, source.y_m}) == cell;
+    });
+  };
+  const auto first = std::find_if(samples.begin(), samples.end(), at_source);
+  if (first == samples.end()) return std::nullopt;
+  return first->time_s;
 }
 
 absl::StatusOr<SamplingDrive> MakeDrive(const SamplingPlan& plan, std::size_t row,
@@ -88,13 +105,37 @@ absl::StatusOr<SamplingDrive> MakeDrive(const SamplingPlan& plan, std::size_t ro
     return absl::Status(record.status().code(),
                         absl::StrCat(name, ": ", record.status().message()));
   }
-  SamplingDrive drive{record->end, record->elapsed_s, record->driven_m,
-                      static_cast<int>(record->samples.size()), std::move(record->errors)};
+  const Scene& scene = plan.worlds[plan.cases[number].world];
+  SamplingDrive drive{record->end,
+                      record->elapsed_s,
+                      record->driven_m,
+                      static_cast<int>(record->samples.size()),
+                      SourceTime_s(scene, record->samples),
+                      std::move(record->errors)};
   PLUMESCOUT_RETURN_IF_ERROR(KeepDrive(file, fingerprint, drive));
   return drive;
 }
 
 }  // namespace
+
+std::vector<std::vector<SamplingDrive>> ByWorld(const SamplingPlan& plan,
+                                                const std::vector<SamplingDrive>& row) {
+  std::vector<std::vector<SamplingDrive>> worlds(plan.worlds.size());
+  for (std::size_t i = 0; i < row.size(); ++i) worlds[plan.cases[i].world].push_back(row[i]);
+  return worlds;
+}
+
+std::vector<double> MeansByWorld(const SamplingPlan& plan, const std::vector<SamplingDrive>& row,
+                                 const std::function<double(const SamplingDrive&)>& figure) {
+  std::vector<double> means;
+  for (const std::vector<SamplingDrive>& world : ByWorld(plan, row)) {
+    if (world.empty()) continue;
+    double sum = 0.0;
+    for (const SamplingDrive& drive : world) sum += figure(drive);
+    means.push_back(sum / static_cast<double>(world.size()));
+  }
+  return means;
+}
 
 absl::StatusOr<SamplingRecord> RunSamplingCase(const SamplingPlan& plan, std::size_t row,
                                                std::size_t number, const SamplingWatch& watch) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,7 @@ struct SamplingDrive {
   double elapsed_s = 0.0;
   double driven_m = 0.0;
   int samples = 0;
+  std::optional<double> source_s;  // when the cell of a source was first sampled
   ErrorCurve errors;
 
   friend bool operator==(const SamplingDrive&, const SamplingDrive&) = default;
@@ -54,6 +56,15 @@ struct SamplingDrive {
 // By row and case; drives of one case are pairs between rows. Does not depend on the jobs.
 // Errors: those of RunSampling, naming row and case; of files.
 absl::StatusOr<std::vector<std::vector<SamplingDrive>>> RunSamplingStudy(const SamplingPlan& plan);
+
+// The drives of one row, world by world. Worlds are independent of each other; drives through one
+// world are not. A world without a drive has none.
+std::vector<std::vector<SamplingDrive>> ByWorld(const SamplingPlan& plan,
+                                                const std::vector<SamplingDrive>& row);
+
+// A figure of the drives of one row: its mean in each world that has drives.
+std::vector<double> MeansByWorld(const SamplingPlan& plan, const std::vector<SamplingDrive>& row,
+                                 const std::function<double(const SamplingDrive&)>& figure);
 
 // One drive by itself, with everything that happened: for pictures.
 struct SamplingWatch {

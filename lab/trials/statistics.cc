@@ -66,6 +66,34 @@ Spread SpreadOf(std::span<const double> values) {
   return spread;
 }
 
+PairedRatio PairedRatioOf(std::span<const double> a, std::span<const double> b) {
+  std::vector<double> logs;
+  for (std::size_t i = 0; i < a.size(); ++i) logs.push_back(std::log(a[i] / b[i]));
+  const Spread spread = SpreadOf(logs);
+  return {std::exp(spread.mean), std::exp(spread.mean - spread.half_95),
+          std::exp(spread.mean + spread.half_95)};
+}
+
+Interval BootstrapInterval(std::size_t count,
+                           const std::function<double(std::span<const std::size_t>)>& figure) {
+  constexpr int kResamples = 2'000;
+  constexpr double kTail = 0.025;
+  Rng rng(1);
+  std::vector<double> figures;
+  std::vector<std::size_t> worlds(count);
+  for (int k = 0; k < kResamples; ++k) {
+    for (std::size_t& world : worlds) world = static_cast<std::size_t>(rng.Below(count));
+    const double value = figure(worlds);
+    if (std::isfinite(value)) figures.push_back(value);
+  }
+  if (figures.empty()) {
+    return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+  }
+  std::sort(figures.begin(), figures.end());
+  const auto tail = static_cast<std::size_t>(kTail * static_cast<double>(figures.size()));
+  return {figures[tail], figures[figures.size() - 1 - tail]};
+}
+
 double PairedPValue(std::span<const double> a, std::span<const double> b) {
   if (a.empty()) return 1.0;
   std::vector<double> differences;

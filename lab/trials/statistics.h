@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 
 namespace plumescout::lab {
@@ -16,6 +17,27 @@ struct Spread {
 };
 
 Spread SpreadOf(std::span<const double> values);
+
+// How many times as great as its partner in `b` a value of `a` is: the geometric mean over the
+// pairs, with the 95 % interval that Student's gives for its logarithm. NaN without pairs; one pair
+// has no interval (low = high = mean). REQUIRES: as many of one as of the other, all > 0.
+struct PairedRatio {
+  double mean = 1.0;
+  double low = 1.0;
+  double high = 1.0;
+};
+PairedRatio PairedRatioOf(std::span<const double> a, std::span<const double> b);
+
+// 95 % interval of a figure of several worlds for which there is no formula: the percentile
+// bootstrap, 2,000 draws of as many worlds as there are, with replacement, from a fixed seed.
+// `figure` is told which worlds; draws of which it is not finite do not count, and the interval is
+// NaN if it never is. REQUIRES: count > 0.
+struct Interval {
+  double low = 0.0;
+  double high = 0.0;
+};
+Interval BootstrapInterval(std::size_t count,
+                           const std::function<double(std::span<const std::size_t>)>& figure);
 
 // Two-sided p of "a and b are equally good", pair by pair: the share of all 2^n ways to swap the
 // two of a pair that bring the means at least as far apart as they are (Fisher's permutation

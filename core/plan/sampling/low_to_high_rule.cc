@@ -59,7 +59,7 @@ class LowToHighRule : public SamplingRule {
   explicit LowToHighRule(bool at_random) : at_random_(at_random) {}
 
   absl::StatusOr<SamplingChoice> Choose(const SamplingQuery& query) const override {
-    if (!at_random_ && query.robot.options.sites.survey) {
+    if (query.robot.options.sites.survey) {
       PLUMESCOUT_ASSIGN_OR_RETURN(std::vector<Site> stops, RestOfSurvey(query));
       if (!stops.empty()) {
         const std::string merit = absl::StrFormat(

@@ -58,8 +58,8 @@ RewardTerms TermsOf(const SamplingQuery& query);
 // max_goal_count errands.
 std::unique_ptr<const SamplingRule> MakeRewardRule();
 
-// [LHR] Algorithm 1; `at_random` draws the rewards, and there is no survey: constrained random
-// sampling, section IV-B.
+// [LHR] Algorithm 1; `at_random` draws the rewards of its cycles: constrained random sampling,
+// section IV-B.
 std::unique_ptr<const SamplingRule> MakeLowToHighRule(bool at_random);
 
 // The next site of a lawnmower sweep that has not been sampled; it begins at the corner of the

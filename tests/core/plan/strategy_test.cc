@@ -161,14 +161,16 @@ TEST(SamplingStrategies, WantARegionOfWholeSquares) {
 }
 
 TEST(SamplingStrategies, WantASurveyStrideThatDividesTheRegion) {
-  PlanningOptions options = LhrOptions();
-  options.sites.survey_stride = 7;
-  ExpectRefused(options, "planning.sites.survey_stride ");
-  options.sites.survey_stride = 1;
-  ExpectRefused(options, "planning.sites.survey_stride ");  // 2601 sites
-  options.sites.survey = false;
-  EXPECT_TRUE(MakeStrategy(options).ok());
-  options = LhrOptions("random_sampling");
+  for (const char* name : {"lhr", "random_sampling"}) {
+    PlanningOptions options = LhrOptions(name);
+    options.sites.survey_stride = 7;
+    ExpectRefused(options, "planning.sites.survey_stride ");
+    options.sites.survey_stride = 1;
+    ExpectRefused(options, "planning.sites.survey_stride ");  // 2601 sites
+    options.sites.survey = false;
+    EXPECT_TRUE(MakeStrategy(options).ok());
+  }
+  PlanningOptions options = LhrOptions("sweep");
   options.sites.survey_stride = 7;
   EXPECT_TRUE(MakeStrategy(options).ok()) << "it makes no survey";
 }

@@ -59,6 +59,26 @@ TEST(DwellSensorTest, NoiseHasAConstantAndAProportionalPart) {
   EXPECT_NEAR(std::sqrt(squares / kReadings), sigma, 4.0 * sigma / std::sqrt(2.0 * kReadings));
 }
 
+// As above, with a variance of 0.4 ppm^2 at 10 ppm and three times as much at 30 ppm.
+TEST(DwellSensorTest, VarianceMayBeProportionalToTheConcentration) {
+  const SceneWorld world = SteppingWorld();
+  const DwellSensor sensor = MakeDwellSensor(world, {0.0, 0.0, 0.04, 0.1});
+  constexpr int kReadings = 4000;
+  Rng rng(7);
+  for (const double begin_s : {0.0, 6.0}) {
+    const double true_ppm = begin_s > 0.0 ? 30.0 : 10.0;
+    const double sigma = std::sqrt(0.04 * true_ppm);
+    double squares = 0.0;
+    for (int i = 0; i < kReadings; ++i) {
+      const GasReading reading = sensor({kPlace, begin_s, begin_s + 2.0}, rng);
+      squares += std::pow(reading.concentration_ppm - true_ppm, 2);
+      EXPECT_DOUBLE_EQ(reading.variance_ppm2, std::max(0.1, 0.04 * reading.concentration_ppm));
+    }
+    EXPECT_NEAR(std::sqrt(squares / kReadings), sigma, 4.0 * sigma / std::sqrt(2.0 * kReadings));
+  }
+  EXPECT_EQ(sensor({{0.05, 1.15}, 0.0, 2.0}, rng).variance_ppm2, 0.1);  // clean air
+}
+
 TEST(DwellSensorTest, NeverReadsLessThanNothing) {
   const SceneWorld world = SteppingWorld();
   const DwellSensor sensor = MakeDwellSensor(world, {5.0, 0.0});

@@ -8,12 +8,22 @@
 namespace plumescout::lab {
 namespace experiments_test {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
+using ::testing::Not;
 
 TEST(Experiments, ThoseOfThePapersAreThere) {
   EXPECT_THAT(ExperimentNames(), IsSupersetOf({"xit_table3", "xit_episode", "xit_trial", "xit_fig3",
                                                "xit_fig4", "xit_fig5", "mit_table1"}));
+}
+
+TEST(Experiments, AllAreThoseOfThePapersAndOfOneRobot) {
+  EXPECT_THAT(ExperimentsOfAll(), IsSupersetOf({"xit_table3", "mit_table1", "lhr_table2",
+                                                "ipp_table1", "own_strategy"}));
+  EXPECT_THAT(ExperimentsOfAll(), Not(Contains("team_study")));
+  EXPECT_THAT(ExperimentNames(), IsSupersetOf(ExperimentsOfAll()));
+  EXPECT_EQ(ExperimentNames().size(), ExperimentsOfAll().size() + 2);
 }
 
 // The others, which take longer, have tests of their own.

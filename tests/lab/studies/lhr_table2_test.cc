@@ -30,7 +30,12 @@ TEST(LhrTable2, HasTheRowsOfThePaperAndSamplesEverySite) {
   for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
   EXPECT_EQ(table.rows[2][2], "15547");  // [LHR] Table II
   EXPECT_EQ(table.rows[2][4], "46.7");
-  constexpr std::size_t kSamples = 2;  // column
+  const TextTable& bands = study->figures.tables.at(1);
+  ASSERT_THAT(bands.rows, SizeIs(6));
+  for (const auto& row : bands.rows) EXPECT_EQ(row.size(), bands.columns.size());
+  EXPECT_EQ(bands.columns[4], "within 0.2 %");
+  EXPECT_THAT(study->figures.charts, SizeIs(5));  // each row beside the sweep
+  constexpr std::size_t kSamples = 2;             // column
   for (const auto& row : study->table.rows) EXPECT_EQ(row[kSamples], 51 * 51);
   EXPECT_THAT(study->figures.panels, SizeIs(6));  // the truth and five updates
   for (const char* row :

@@ -26,7 +26,10 @@ TEST(OwnStrategy, ComparesAllContestantsWithTheOracle) {
     for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
   }
   EXPECT_THAT(study->table.rows, SizeIs(5));
-  EXPECT_THAT(study->summary.figures, Contains(Key("plumescout_entropy_oracle_share")));
+  for (const char* figure : {"plumescout_entropy_oracle_share", "plumescout_rmse_oracle_share_low",
+                             "plumescout_rmse_oracle_share_high"}) {
+    EXPECT_THAT(study->summary.figures, Contains(Key(figure)));
+  }
   EXPECT_THAT(study->summary.figures,
               Contains(std::pair<std::string, double>("rrt_star_frontier_rmse_oracle_share", 0.0)));
 }

@@ -14,12 +14,18 @@ namespace convergence_test {
 const ErrorCurve kCurve = {{0.0, 10.0}, {1.0, 4.0},  {2.0, 2.05}, {3.0, 2.5},
                            {4.0, 2.09}, {5.0, 1.91}, {6.0, 2.0}};
 
-TEST(ConvergenceTest, CountsFromWhenTheErrorStaysWithinFivePercentOfItsFinalValue) {
-  EXPECT_EQ(ConvergenceTime_s(kCurve), 4.0);
+TEST(ConvergenceTest, CountsFromWhenTheErrorStaysWithinAShareOfItsFinalValue) {
+  EXPECT_EQ(ConvergenceTime_s(kCurve, 0.05), 4.0);
+}
+
+// A sweep that mends its map a little with every sample has converged when it is done.
+TEST(ConvergenceTest, TheBandOfThePaperIsTight) {
+  EXPECT_EQ(ConvergenceTime_s(kCurve), 6.0);
+  EXPECT_EQ(ConvergenceTime_s({{0.0, 2.0}, {1.0, 1.003}, {2.0, 1.001}, {3.0, 1.0}}), 2.0);
 }
 
 TEST(ConvergenceTest, AnErrorThatDipsBelowTheFinalValueHasNotConverged) {
-  EXPECT_EQ(ConvergenceTime_s({{0.0, 2.0}, {1.0, 1.5}, {2.0, 2.0}}), 2.0);
+  EXPECT_EQ(ConvergenceTime_s({{0.0, 2.0}, {1.0, 1.5}, {2.0, 2.0}}, 0.05), 2.0);
 }
 
 TEST(ConvergenceTest, AWiderBandIsReachedSooner) {

@@ -63,6 +63,41 @@ TEST(SamplingStudy, GoesOnFromWhatItFindsAndTellsSettingsApart) {
   EXPECT_EQ(RunSamplingStudy(plan).value()[0][0].samples, kSites);
 }
 
+// Drives sample all of the yard's sites, the source's among them.
+TEST(SamplingStudy, TellsWhenTheSourceWasSampled) {
+  const TempFolder folder;
+  const auto drives = RunSamplingStudy(SmallSampling(folder.File("drives")));
+  ASSERT_TRUE(drives.ok());
+  for (const std::vector<SamplingDrive>& row : *drives) {
+    for (const SamplingDrive& drive : row) {
+      ASSERT_TRUE(drive.source_s.has_value());
+      EXPECT_GT(*drive.source_s, 0.0);
+      EXPECT_LE(*drive.source_s, drive.elapsed_s);
+    }
+  }
+  SamplingPlan elsewhere = SmallSampling(folder.File("elsewhere"));
+  elsewhere.worlds[0].sources[0].x_m = 3.5;  // in the wall, where nothing is sampled
+  const auto none = RunSamplingStudy(elsewhere);
+  ASSERT_TRUE(none.ok());
+  EXPECT_EQ((*none)[0][0].source_s, std::nullopt);
+  EXPECT_EQ(RunSamplingStudy(elsewhere).value(), *none) << "read again";
+}
+
+TEST(SamplingStudy, MeansAreThoseOfWorlds) {
+  SamplingPlan plan;
+  plan.worlds.resize(3);
+  plan.cases = {{"a", 0, {}, 1}, {"b", 2, {}, 1}, {"c", 0, {}, 1}};
+  std::vector<SamplingDrive> row(3);
+  row[0].driven_m = 1.0;
+  row[1].driven_m = 7.0;
+  row[2].driven_m = 2.0;
+  const std::vector<double> means =
+      MeansByWorld(plan, row, [](const SamplingDrive& drive) { return drive.driven_m; });
+  EXPECT_EQ(means, (std::vector<double>{1.5, 7.0}));  // no drive goes through the second
+  EXPECT_EQ(ByWorld(plan, row)[0], (std::vector<SamplingDrive>{row[0], row[2]}));
+  EXPECT_TRUE(ByWorld(plan, row)[1].empty());
+}
+
 TEST(SamplingStudy, NamesTheDriveThatFailed) {
   const TempFolder folder;
   SamplingPlan plan = SmallSampling(folder.File("drives"));

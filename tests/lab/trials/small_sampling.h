@@ -37,6 +37,7 @@ inline SamplingPlan SmallSampling(const std::string& folder) {
     row.mission.occupancy.inflation_radius_m = 0.0;
     row.mission.planning.dwell_s = 2.0;
     row.mission.planning.sites.region = Rectangle{{0.0, 0.0}, {6.0, 5.0}};
+    row.mission.planning.sites.survey = false;
     plan.rows.push_back(row);
   }
   plan.cases = {{"one", 0, {0.5, 0.5, 0.0}, 1}, {"two", 0, {5.5, 4.5, 0.0}, 2}};

@@ -227,10 +227,14 @@ TEST(LowToHighRule, SamplesOnceTheSurveyIsDone) {
   EXPECT_THAT(choice.errands.at(0).stops, SizeIs(5));
 }
 
-TEST(RandomSampling, FollowsItsSeedAndMakesNoSurvey) {
+TEST(RandomSampling, FollowsItsSeedAfterTheSurvey) {
   SiteCase c(testing::OpenArt(20, 20));
   c.options.sites.survey = true;
   c.options.sites.survey_stride = 19;
+  const SamplingChoice survey = Choose(c, /*at_random=*/true);
+  EXPECT_EQ(survey.phase, MissionPhase::kSurvey);
+  EXPECT_THAT(survey.errands.at(0).stops, SizeIs(4));  // the corners
+  testing::SetSampled(c.belief, {{0, 0}, {19, 0}, {0, 19}, {19, 19}});
   std::set<std::vector<std::size_t>> cycles;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const SamplingChoice choice = Choose(c, /*at_random=*/true, seed);
