@@ -129,9 +129,6 @@ absl::StatusOr<TrialPlan> MakePlan(const ExperimentOptions& options) {
   return plan;
 }
 
-// Total entropy over critical cells, as the paper prints it.
-double Entropy_nats(const MapMetrics& metrics) { return metrics.entropy_nats; }
-
 struct RowResult {
   Spread spread;
   double reduction_percent = 0.0;

@@ -51,6 +51,7 @@ double TimeAt(const std::vector<SceneRecords>& records, std::size_t row, std::si
 }  // namespace
 
 double Rmse_ppm(const MapMetrics& metrics) { return metrics.rmse_ppm; }
+double Entropy_nats(const MapMetrics& metrics) { return metrics.entropy_nats; }
 double EntropyPerCell_nats(const MapMetrics& metrics) {
   return metrics.entropy_nats / metrics.critical_cells;
 }

@@ -19,6 +19,7 @@ namespace plumescout::lab {
 
 using MetricFn = double (*)(const MapMetrics&);
 double Rmse_ppm(const MapMetrics& metrics);
+double Entropy_nats(const MapMetrics& metrics);         // total, as the papers print it
 double EntropyPerCell_nats(const MapMetrics& metrics);  // so that buildings can be compared
 double Completeness(const MapMetrics& metrics);
 
