@@ -19,7 +19,6 @@
 namespace plumescout::lab {
 namespace {
 
-constexpr double kPlanLatency_s = 0.74;  // [XIT] section VI-B
 constexpr double kRanges_m[] = {3.0, 3.5, 4.0, 5.0, 6.0, 8.0};
 constexpr std::uint64_t kSeedsApart = 1000;  // from those of Table III
 constexpr int kTrials = 10;
@@ -33,7 +32,10 @@ absl::StatusOr<TrialPlan> MakePlan(const ExperimentOptions& options) {
   for (const double range_m : kRanges_m) {
     PLUMESCOUT_ASSIGN_OR_RETURN(
         StudyRow row,
-        PublishedBaseline(absl::StrFormat("range_%02.0f_dm", 10.0 * range_m), range_m));
+        MakePublishedRow(absl::StrFormat("range_%02.0f_dm", 10.0 * range_m), "rrt_star_frontier"));
+    row.robot = CalibratedRobot();
+    row.robot.lidar_range_m = range_m;
+    row.robot.stops_without_frontier = true;
     plan.rows.push_back(std::move(row));
   }
   plan.trials = options.trials.value_or(options.quick ? 1 : kTrials);
@@ -97,12 +99,14 @@ void AddRows(const TrialPlan& plan, const std::vector<SceneRecords>& records, Te
 
 }  // namespace
 
-absl::StatusOr<StudyRow> PublishedBaseline(const std::string& name, double lidar_range_m) {
-  PLUMESCOUT_ASSIGN_OR_RETURN(StudyRow row, MakePublishedRow(name, "rrt_star_frontier"));
-  row.robot.lidar_range_m = lidar_range_m;
-  row.robot.plan_latency_s = kPlanLatency_s;
-  row.robot.stops_without_frontier = true;
-  return row;
+TrialRobot CalibratedRobot() {
+  constexpr double kPlanLatency_s = 0.74;
+  constexpr double kRange_m = 0.0;
+  TrialRobot robot;
+  robot.lidar_range_m = kRange_m;
+  robot.plan_latency_s = kPlanLatency_s;
+  robot.corrects_gas_lag = false;
+  return robot;
 }
 
 absl::StatusOr<Study> RunXitCalibration(const ExperimentOptions& options) {

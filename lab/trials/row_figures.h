@@ -23,7 +23,10 @@ double Entropy_nats(const MapMetrics& metrics);         // total, as the papers 
 double EntropyPerCell_nats(const MapMetrics& metrics);  // so that buildings can be compared
 double Completeness(const MapMetrics& metrics);
 
-// The metric at the end of every trial of a row, building by building: pairs between rows.
+// The metric at the end of the trials of a row: pairs between rows. In one building by trial; of
+// several buildings each has one value, the mean of its trials, which are not independent.
+std::vector<double> FinalsOf(const std::vector<SceneRecords>& records, std::size_t row,
+                             const std::function<double(const TrialRecord&)>& value);
 std::vector<double> Finals(const std::vector<SceneRecords>& records, std::size_t row,
                            MetricFn metric);
 

@@ -217,18 +217,19 @@ absl::StatusOr<TrialRecord> RunTrial(const Trial& trial) {
   }
   record.team = MakeTeamRecord(team, options.simulated.seen_radius_m);
   record.team.findings = watch.findings();
-  if (trial.on_end || trial.tells_other_entropies) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(const MapSnapshot map, planner.GetMap(kMission));
-    if (trial.on_end) trial.on_end(team, map);
-    if (trial.tells_other_entropies) {
-      PLUMESCOUT_ASSIGN_OR_RETURN(
-          record.other_entropies,
-          FindOtherEntropies(trial.world->scene(), trial.mission->gas, readings, map.occupancy));
-    }
+  PLUMESCOUT_ASSIGN_OR_RETURN(const MapSnapshot map, planner.GetMap(kMission));
+  const Scene& scene = trial.world->scene();
+  while (record.mean_ppm.size() < trial.map_times_s.size()) {
+    record.mean_ppm.push_back(OnSceneGrid(map.gas_mean_ppm, scene.geometry()));
+  }
+  if (trial.on_end) trial.on_end(team, map);
+  if (trial.tells_other_entropies) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(
+        record.other_entropies,
+        FindOtherEntropies(scene, trial.mission->gas, readings, map.occupancy));
   }
   if (trial.peer) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(record.peer_rmse_ppm,
-                                PeerError_ppm(trial.world->scene(), *trial.peer, readings));
+    PLUMESCOUT_ASSIGN_OR_RETURN(record.peer_rmse_ppm, PeerError_ppm(scene, *trial.peer, readings));
   }
   return record;
 }

@@ -72,8 +72,9 @@ struct TeamRecord {
 inline constexpr double kEncounterMargin_m = 0.1;
 
 struct TrialRecord {
-  std::vector<CurvePoint> curve;      // at 0, every 5 s, and at the end
-  std::vector<Grid<float>> mean_ppm;  // at the map times, on the scene's grid; NaN: not estimated
+  std::vector<CurvePoint> curve;  // at 0, every 5 s, and at the end
+  // At the map times, or at the end if that came before; on the scene's grid; NaN: not estimated.
+  std::vector<Grid<float>> mean_ppm;
   int gas_readings = 0;
   double distance_m = 0.0;
   int plans = 0;
