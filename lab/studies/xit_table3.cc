@@ -82,7 +82,7 @@ RowResult Compare(const std::vector<double>& values, const std::vector<double>& 
 }
 
 RowResult Compare(const Records& records, std::size_t row, std::size_t baseline, ValueFn value) {
-  return Compare(FinalsOf(records, row, value), FinalsOf(records, baseline, value));
+  return Compare(UnitsOf(records, row, value), UnitsOf(records, baseline, value));
 }
 
 std::string Text(const Spread& spread, int digits) {
@@ -185,7 +185,7 @@ BarChart MakeBarChart(const Records& records, const std::string& title, ValueFn 
                       Printed Table3Row::*printed) {
   BarChart chart{title, "row of the table", {}, {{"", {110, 130, 160}, {}}}, ""};
   for (std::size_t row = 0; row < RowCount(); ++row) {
-    const Spread spread = SpreadOf(FinalsOf(records, row, value));
+    const Spread spread = SpreadOf(UnitsOf(records, row, value));
     chart.groups.push_back(absl::StrCat(row + 1));
     chart.series.front().bars.push_back({spread.mean, spread.mean - spread.half_95,
                                          spread.mean + spread.half_95, (RowAt(row).*printed).mean});

@@ -33,16 +33,12 @@ std::vector<double> SampleTimes_s(const std::vector<SceneRecords>& records) {
   return times_s;
 }
 
-// Of all trials at sample `index`.
+// At sample `index`.
 Spread SpreadAt(const std::vector<SceneRecords>& records, std::size_t row, std::size_t index,
                 MetricFn metric) {
-  std::vector<double> values;
-  for (const SceneRecords& scene : records) {
-    for (const TrialRecord& trial : scene[row]) {
-      values.push_back(metric(trial.curve[std::min(index, trial.curve.size() - 1)].metrics));
-    }
-  }
-  return SpreadOf(values);
+  return SpreadOf(UnitsOf(records, row, [&](const TrialRecord& trial) {
+    return metric(trial.curve[std::min(index, trial.curve.size() - 1)].metrics);
+  }));
 }
 
 }  // namespace
@@ -54,8 +50,8 @@ double EntropyPerCell_nats(const MapMetrics& metrics) {
 }
 double Completeness(const MapMetrics& metrics) { return metrics.completeness; }
 
-std::vector<double> FinalsOf(const std::vector<SceneRecords>& records, std::size_t row,
-                             const std::function<double(const TrialRecord&)>& value) {
+std::vector<double> UnitsOf(const std::vector<SceneRecords>& records, std::size_t row,
+                            const std::function<double(const TrialRecord&)>& value) {
   std::vector<double> units;
   for (const SceneRecords& scene : records) {
     std::vector<double> trials;
@@ -68,9 +64,8 @@ std::vector<double> FinalsOf(const std::vector<SceneRecords>& records, std::size
 
 std::vector<double> Finals(const std::vector<SceneRecords>& records, std::size_t row,
                            MetricFn metric) {
-  return FinalsOf(records, row, [metric](const TrialRecord& trial) {
-    return metric(trial.curve.back().metrics);
-  });
+  return UnitsOf(records, row,
+                 [metric](const TrialRecord& trial) { return metric(trial.curve.back().metrics); });
 }
 
 Chart MakeMetricChart(const std::vector<SceneRecords>& records, const std::vector<RowStyle>& rows,
