@@ -14,7 +14,6 @@
 #include "absl/time/time.h"
 #include "client/motion.h"
 #include "client/planner_client.h"
-#include "client/robot_loop_options.h"
 #include "client/sensor_bridge.h"
 #include "core/types/event.h"
 #include "core/types/ids.h"
@@ -70,7 +69,7 @@ struct EpisodeOptions {
   bool mission_corrects_lag = false;
   double gas_settling_s = 0.0;  // see client::GasSampling; < the mission's dwell_s
   // In lockstep: how long the robot stands for each plan, >= 0.
-  double plan_latency_s = client::RobotLoopOptions{}.plan_latency_s;
+  double plan_latency_s = 0.1;
   // False: the world waits for acknowledgements and plans, so an episode is repeatable. True: time
   // goes by as on a wall clock, plans take as long as they take.
   bool realtime = false;

@@ -14,7 +14,6 @@
 #include "lab/rivals/kernel_dmv.h"
 #include "lab/rivals/team_rival.h"
 #include "lab/sim/episode.h"
-#include "lab/sim/lidar.h"
 #include "lab/sim/metrics.h"
 #include "lab/sim/scene_world.h"
 #include "lab/trials/other_entropies.h"
@@ -24,8 +23,8 @@ namespace plumescout::lab {
 
 // What the robots of a trial are like, beside what the mission says.
 struct TrialRobot {
-  double lidar_range_m = LidarOptions{}.max_range_m;
-  double plan_latency_s = EpisodeOptions{}.plan_latency_s;  // that it stands for each plan
+  double lidar_range_m = 8.0;
+  double plan_latency_s = 0.1;          // that it stands for each plan
   bool corrects_gas_lag = true;         // undoes the lag of its gas sensor, which it knows
   bool stops_without_frontier = false;  // the trial ends with the first plan that goes to none
 
