@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kRanges_m[] = {3.0, 3.5, 4.0, 5.0, 6.0, 8.0};
 constexpr std::uint64_t kSeedsApart = 1000;  // from those of Table III
-constexpr int kTrials = 10;
+constexpr int kTrials = 5;
 constexpr double kDuration_s = 300.0;
 constexpr double kQuickDuration_s = 60.0;
 constexpr double kCovered = 0.98;
@@ -101,7 +101,7 @@ void AddRows(const TrialPlan& plan, const std::vector<SceneRecords>& records, Te
 
 TrialRobot CalibratedRobot() {
   constexpr double kPlanLatency_s = 0.74;
-  constexpr double kRange_m = 0.0;
+  constexpr double kRange_m = 4.0;
   TrialRobot robot;
   robot.lidar_range_m = kRange_m;
   robot.plan_latency_s = kPlanLatency_s;

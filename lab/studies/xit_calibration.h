@@ -16,7 +16,7 @@ TrialRobot CalibratedRobot();
 // robot of Table III is chosen by this, and by no other row. The rule, from before anybody looked:
 // the shortest range with which the map is complete to 98 % when half of the time is over (the
 // paper: "near-complete coverage by the halfway mark"); the hall stays if the baseline's error with
-// it is within the paper's 20.0 +- 4.4 ppm. Ten trials of 300 s each, with seeds that Table III
+// it is within the paper's 20.0 +- 4.4 ppm. Five trials of 300 s each, with seeds that Table III
 // does not use. Quick: one of 60 s. Errors: as HallScene and RunTrials.
 absl::StatusOr<Study> RunXitCalibration(const ExperimentOptions& options);
 
