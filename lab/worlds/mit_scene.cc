@@ -49,8 +49,10 @@ std::vector<SceneBox> Clutter(const MitSceneSpec& spec) {
   constexpr double kClear_m = 0.5;
   std::vector<Point2> keep_free = PointsAlong(spec.driven, kClear_m);
   keep_free.insert(keep_free.end(), spec.goals.begin(), spec.goals.end());
-  const std::vector<Point2> passage = PointsAlong(spec.passage, kClear_m);
-  keep_free.insert(keep_free.end(), passage.begin(), passage.end());
+  if (!spec.passage.empty()) {
+    const std::vector<Point2> passage = PointsAlong(spec.passage, kClear_m);
+    keep_free.insert(keep_free.end(), passage.begin(), passage.end());
+  }
   Rng rng(spec.clutter_seed);
   std::vector<SceneBox> boxes = spec.walls;
   for (int i = 0; i < kBoxes; ++i) {
