@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,10 +13,10 @@
 #include "lab/about/about.h"
 #include "lab/report/bar_chart.h"
 #include "lab/report/palette.h"
+#include "lab/trials/mit_pictures.h"
 #include "lab/trials/mit_runs.h"
 #include "lab/trials/statistics.h"
 #include "lab/worlds/mit_scene.h"
-#include "lab/worlds/synthetic_scene.h"
 
 namespace plumescout::lab {
 namespace {
@@ -35,11 +34,6 @@ constexpr std::size_t kRrtStar = 2;
 constexpr std::size_t kEvenMit = 3;
 constexpr std::size_t kNormalisedMit = 4;
 constexpr double kRivals = 5.0;
-// Orange, cyan and magenta, as in the paper.
-constexpr Rgb kTrajectoryColors[kTrajectories] = {{238, 128, 22}, {0, 190, 214}, {214, 40, 160}};
-constexpr Rgb kStartMark{22, 150, 84};
-constexpr Rgb kDiscColor{60, 220, 90};
-constexpr Rgb kDrivenColor{242, 166, 176};
 
 // What became of one scene.
 struct SceneResult {
@@ -82,69 +76,6 @@ TableStudy RunAll(const ExperimentOptions& options) {
     study.scenes.push_back(std::move(result));
   }
   return study;
-}
-
-MapPanel FieldPanel(const MitScene& scene, std::string title) {
-  const ColorScale scale{ColorMap::kGas, 0.0, 1.0, false};
-  MapPanel panel;
-  panel.title = std::move(title);
-  panel.region = RegionOf(scene.occupancy.geometry());
-  panel.cells = PaintCells(scene.occupancy.geometry(), panel.region, [&](Cell cell) {
-    if (scene.occupancy[cell] != CellState::kFree) return kWallColor;
-    return std::isfinite(scene.information.penalty[cell]) ? scale(scene.information.value[cell])
-                                                          : kUnknownColor;
-  });
-  panel.marks.push_back({MarkShape::kDisc, kStartMark, scene.start, "S"});
-  for (std::size_t i = 0; i < kTrajectories; ++i) {
-    panel.marks.push_back(
-        {MarkShape::kDisc, kTrajectoryColors[i], scene.goals[i].position, absl::StrCat(i + 1)});
-  }
-  panel.color_bar = ColorBar{scale, "UCB"};
-  return panel;
-}
-
-MapPanel ScenePanel(const MitScene& scene, std::string title) {
-  MapPanel panel = FieldPanel(scene, std::move(title));
-  panel.lines.push_back({scene.driven, {kDrivenColor, 1.8, 5.0}});
-  panel.legend = {{"start", MarkShape::kDisc, kStartMark},
-                  {"driven", MarkShape::kLine, kDrivenColor},
-                  {"inflated", MarkShape::kSwatch, kUnknownColor}};
-  return panel;
-}
-
-std::vector<Point2> Circle(Point2 center, double radius_m) {
-  constexpr int kCorners = 48;
-  std::vector<Point2> points;
-  for (int i = 0; i <= kCorners; ++i) {
-    const double angle_rad = 2.0 * std::numbers::pi * i / kCorners;
-    points.push_back(
-        {center.x_m + radius_m * std::cos(angle_rad), center.y_m + radius_m * std::sin(angle_rad)});
-  }
-  return points;
-}
-
-// Some runs thin, the most typical of all thick.
-MapPanel RunsPanel(const SceneResult& result, std::size_t rival, std::string title, bool discs) {
-  constexpr std::size_t kThin = 25;
-  MapPanel panel = FieldPanel(result.scene, std::move(title));
-  const std::vector<MitRun>& runs = result.runs[rival];
-  for (std::size_t i = 0; i < std::min(kThin, runs.size()); ++i) {
-    for (const auto& path : runs[i].paths) panel.lines.push_back({path, {kPaper, 0.5}});
-  }
-  for (std::size_t t = 0; t < kTrajectories; ++t) {
-    if (discs) {
-      const std::vector<Point2> circle = Circle(result.scene.goals[t].position, kGoalRadius_m);
-      panel.lines.push_back({circle, {kDiscColor, 2.5}});
-    }
-    std::vector<const std::vector<Point2>*> paths;
-    for (const MitRun& run : runs) paths.push_back(&run.paths[t]);
-    const int typical = MostTypical(paths);
-    if (typical < 0) continue;
-    AddPath(*paths[static_cast<std::size_t>(typical)], {kTrajectoryColors[t], 3.5}, panel);
-    panel.legend.push_back(
-        {absl::StrCat("trajectory ", t + 1), MarkShape::kLine, kTrajectoryColors[t]});
-  }
-  return panel;
 }
 
 Rgb RivalColor(std::size_t rival) { return kLineColors[rival]; }
@@ -445,14 +376,15 @@ absl::StatusOr<Study> RunMitTable1(const ExperimentOptions& options) {
   study.figures.title = "Which trajectory is the most informative ([MIT] Table I, Fig. 2)";
   study.figures.notes = MakeNotes(found);
   const SceneResult& passage = found.passage();
-  study.figures.panels = {ScenePanel(scene.scene, "The scene (Fig. 1)"),
-                          RunsPanel(scene, kMit, "(a) MIT", false),
-                          RunsPanel(scene, 1, "(b) RRT", true),
-                          RunsPanel(scene, kRrtStar, "RRT*", true),
-                          ScenePanel(passage.scene, "The second scene: a narrow passage"),
-                          RunsPanel(passage, kMit, "MIT", false),
-                          RunsPanel(passage, kEvenMit, "MIT, even draw", false),
-                          RunsPanel(passage, kRrtStar, "RRT*", true)};
+  study.figures.panels = {
+      MitScenePanel(scene.scene, "The scene (Fig. 1)"),
+      MitRunsPanel(scene.scene, scene.runs[kMit], "(a) MIT", false),
+      MitRunsPanel(scene.scene, scene.runs[1], "(b) RRT", true),
+      MitRunsPanel(scene.scene, scene.runs[kRrtStar], "RRT*", true),
+      MitScenePanel(passage.scene, "The second scene: a narrow passage"),
+      MitRunsPanel(passage.scene, passage.runs[kMit], "MIT", false),
+      MitRunsPanel(passage.scene, passage.runs[kEvenMit], "MIT, even draw", false),
+      MitRunsPanel(passage.scene, passage.runs[kRrtStar], "RRT*", true)};
   study.figures.panels_per_row = 4;
   study.figures.bar_charts = {PsiChart(found), ShareChart(found), VariantChart(found)};
   AddHeadline(found, study.figures);
