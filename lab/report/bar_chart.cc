@@ -89,6 +89,7 @@ void DrawBars(Canvas& canvas, const Plot& plot, const BarChart& chart) {
 std::vector<ChartLegendItem> LegendOf(const BarChart& chart) {
   std::vector<ChartLegendItem> items;
   for (const BarSeries& series : chart.series) {
+    if (series.name.empty()) continue;
     items.push_back({series.name, {series.color}, LegendSample::kSquare});
   }
   if (!chart.reference_name.empty()) items.push_back({chart.reference_name, kReferenceStroke});

@@ -23,7 +23,7 @@ struct Bar {
 };
 
 struct BarSeries {
-  std::string name;
+  std::string name;  // empty: not in the legend
   Rgb color;
   std::vector<Bar> bars;  // one for each group
 };

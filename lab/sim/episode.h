@@ -68,6 +68,8 @@ struct EpisodeOptions {
   // Instead the mission undoes it, along the way: see GasSensor::response_time_s.
   bool mission_corrects_lag = false;
   double gas_settling_s = 0.0;  // see client::GasSampling; < the mission's dwell_s
+  // In lockstep: how long the robot stands for each plan, >= 0.
+  double plan_latency_s = 0.1;
   // False: the world waits for acknowledgements and plans, so an episode is repeatable. True: time
   // goes by as on a wall clock, plans take as long as they take.
   bool realtime = false;

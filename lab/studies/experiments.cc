@@ -15,6 +15,7 @@
 #include "lab/studies/team_rivals.h"
 #include "lab/studies/team_study.h"
 #include "lab/studies/wind_validation.h"
+#include "lab/studies/xit_calibration.h"
 #include "lab/studies/xit_episode.h"
 #include "lab/studies/xit_fig3.h"
 #include "lab/studies/xit_fig4.h"
@@ -42,6 +43,7 @@ constexpr Experiment kExperiments[] = {
     {"team_rivals", RunTeamRivals, true},
     {"team_study", RunTeamStudy, true},
     {"wind_validation", RunWindValidation},
+    {"xit_calibration", RunXitCalibration},
     {"xit_episode", RunXitEpisode},
     {"xit_fig3", RunXitFig3},
     {"xit_fig4", RunXitFig4},

@@ -19,20 +19,19 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kTrajectories = 3;
 
-// [MIT] section IV: the strategy's search, bare. It takes samples of the information map alone.
-PlanningOptions Mit() {
+// [MIT] section IV: the strategy's search, bare, with that share of even samples.
+PlanningOptions Mit(double uniform_share) {
   PlanningOptions options;
   options.strategy = "mit";
   if (!ApplyStrategyRow(options).ok()) return {};
   options.sample_count = kMitSamples;
   options.max_connection_radius_m = 0.0;
+  options.uniform_share = uniform_share;
   return options;
 }
 
-PlanningOptions UninformedMit() {
-  PlanningOptions options = Mit();
-  options.uniform_share = 1.0;
-  return options;
+std::unique_ptr<const PathPlanner> MitSearch(double uniform_share) {
+  return std::make_unique<const XitPlanner>(Mit(uniform_share));
 }
 
 std::unique_ptr<const PathPlanner> Tree(PathKind kind) {
@@ -94,13 +93,13 @@ std::vector<Point2> Resample(const std::vector<Point2>& path) {
 
 }  // namespace
 
-std::vector<MitRival> MitRivals() {
+std::vector<MitRival> MitRivals(const MitScene& scene) {
   std::vector<MitRival> rivals;
-  rivals.push_back({"MIT", std::make_unique<const XitPlanner>(Mit()), {21.6, 8.8, 69.6}});
+  rivals.push_back({"MIT", MitSearch(scene.ucb_uniform_share), {21.6, 8.8, 69.6}});
   rivals.push_back({"RRT", Tree(PathKind::kRrt), {6.4, 56.0, 37.6}});
   rivals.push_back({"RRT*", Tree(PathKind::kRrtStar), {12.0, 47.6, 40.4}});
-  rivals.push_back(
-      {"MIT, even draw", std::make_unique<const XitPlanner>(UninformedMit()), {kNan, kNan, kNan}});
+  rivals.push_back({"MIT, even draw", MitSearch(1.0), {kNan, kNan, kNan}});
+  rivals.push_back({"MIT, by I-hat", MitSearch(0.0), {kNan, kNan, kNan}});
   return rivals;
 }
 

@@ -28,8 +28,9 @@ inline constexpr int kMitSamples = 270;
 // from a goal, (k_n A / (pi N))^(1/2) on the 70 m2 that can be reached; where MIT's paths end.
 inline constexpr double kGoalRadius_m = 0.5;
 
-// MIT as published, RRT, RRT*, and (ours) MIT with samples that know nothing of the gas.
-std::vector<MitRival> MitRivals();
+// MIT as published, with samples drawn from Eq. (2) of the scene; RRT; RRT*; and (ours) MIT with
+// samples that know nothing of the gas, and with samples of I-hat, as [XIT] draws them.
+std::vector<MitRival> MitRivals(const MitScene& scene);
 
 // One search.
 struct MitRun {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
 #include <string>
 
 #include "core/types/status_macros.h"
@@ -19,77 +18,70 @@ constexpr double kCurveWidth_px = 1.8;
 constexpr double kBandWidth_px = 1.2;
 constexpr double kBandDash_px = 4.0;
 
-std::size_t LongestCurve(const std::vector<SceneRecords>& records, std::size_t row) {
-  std::size_t longest = 0;
+// When samples were taken, by the trial that went on longest.
+std::vector<double> SampleTimes_s(const std::vector<SceneRecords>& records) {
+  std::vector<double> times_s;
   for (const SceneRecords& scene : records) {
-    for (const TrialRecord& trial : scene[row]) longest = std::max(longest, trial.curve.size());
-  }
-  return longest;
-}
-
-// What is independent of each other: the trials in one building, the means of several.
-std::vector<double> Independent(const std::vector<SceneRecords>& records, std::size_t row,
-                                const std::function<double(const TrialRecord&)>& value) {
-  std::vector<double> all;
-  std::vector<double> means;
-  for (const SceneRecords& scene : records) {
-    double sum = 0.0;
-    for (const TrialRecord& trial : scene[row]) {
-      all.push_back(value(trial));
-      sum += all.back();
+    for (const auto& trials : scene) {
+      for (const TrialRecord& trial : trials) {
+        if (trial.curve.size() <= times_s.size()) continue;
+        times_s.clear();
+        for (const CurvePoint& point : trial.curve) times_s.push_back(point.time_s);
+      }
     }
-    if (!scene[row].empty()) means.push_back(sum / static_cast<double>(scene[row].size()));
   }
-  return records.size() > 1 ? means : all;
+  return times_s;
 }
 
 // At sample `index`.
 Spread SpreadAt(const std::vector<SceneRecords>& records, std::size_t row, std::size_t index,
                 MetricFn metric) {
-  return SpreadOf(Independent(records, row, [&](const TrialRecord& trial) {
+  return SpreadOf(UnitsOf(records, row, [&](const TrialRecord& trial) {
     return metric(trial.curve[std::min(index, trial.curve.size() - 1)].metrics);
   }));
-}
-
-double TimeAt(const std::vector<SceneRecords>& records, std::size_t row, std::size_t index) {
-  double time_s = 0.0;
-  for (const SceneRecords& scene : records) {
-    for (const TrialRecord& trial : scene[row]) {
-      if (index < trial.curve.size()) time_s = std::max(time_s, trial.curve[index].time_s);
-    }
-  }
-  return time_s;
 }
 
 }  // namespace
 
 double Rmse_ppm(const MapMetrics& metrics) { return metrics.rmse_ppm; }
+double Entropy_nats(const MapMetrics& metrics) { return metrics.entropy_nats; }
 double EntropyPerCell_nats(const MapMetrics& metrics) {
   return metrics.entropy_nats / metrics.critical_cells;
 }
 double Completeness(const MapMetrics& metrics) { return metrics.completeness; }
 
+std::vector<double> UnitsOf(const std::vector<SceneRecords>& records, std::size_t row,
+                            const std::function<double(const TrialRecord&)>& value) {
+  std::vector<double> units;
+  for (const SceneRecords& scene : records) {
+    std::vector<double> trials;
+    for (const TrialRecord& trial : scene[row]) trials.push_back(value(trial));
+    if (records.size() == 1) return trials;
+    units.push_back(SpreadOf(trials).mean);
+  }
+  return units;
+}
+
 std::vector<double> Finals(const std::vector<SceneRecords>& records, std::size_t row,
                            MetricFn metric) {
-  return Independent(records, row, [metric](const TrialRecord& trial) {
-    return metric(trial.curve.back().metrics);
-  });
+  return UnitsOf(records, row,
+                 [metric](const TrialRecord& trial) { return metric(trial.curve.back().metrics); });
 }
 
 Chart MakeMetricChart(const std::vector<SceneRecords>& records, const std::vector<RowStyle>& rows,
                       const std::string& title, MetricFn metric) {
   Chart chart{title, "time, s", std::nullopt, {}};
   if (metric == Completeness) chart.y_range = Range{0.0, 1.0};  // a share
+  const std::vector<double> times_s = SampleTimes_s(records);
   for (std::size_t row = 0; row < rows.size(); ++row) {
     Curve mean{rows[row].name, {rows[row].color, kCurveWidth_px}, {}};
     Curve low{"", {rows[row].color, kBandWidth_px, kBandDash_px}, {}, CurveKind::kBound};
     Curve high = low;
-    for (std::size_t i = 0; i < LongestCurve(records, row); ++i) {
+    for (std::size_t i = 0; i < times_s.size(); ++i) {
       const Spread spread = SpreadAt(records, row, i, metric);
-      const double time_s = TimeAt(records, row, i);
-      mean.points.push_back({time_s, spread.mean});
-      low.points.push_back({time_s, spread.mean - spread.half_95});
-      high.points.push_back({time_s, spread.mean + spread.half_95});
+      mean.points.push_back({times_s[i], spread.mean});
+      low.points.push_back({times_s[i], spread.mean - spread.half_95});
+      high.points.push_back({times_s[i], spread.mean + spread.half_95});
     }
     if (rows[row].with_band) chart.curves.insert(chart.curves.end(), {low, high});
     chart.curves.push_back(std::move(mean));

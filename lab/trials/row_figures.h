@@ -19,17 +19,21 @@ namespace plumescout::lab {
 
 using MetricFn = double (*)(const MapMetrics&);
 double Rmse_ppm(const MapMetrics& metrics);
+double Entropy_nats(const MapMetrics& metrics);         // total, as the papers print it
 double EntropyPerCell_nats(const MapMetrics& metrics);  // so that buildings can be compared
 double Completeness(const MapMetrics& metrics);
 
-// The metric at the end of a row's trials, pairs between rows: in one building every trial, in
-// several the mean over the trials of each, for those in one building are not independent.
+// A value of the trials of a row, pair by pair with other rows: in one building by trial; of
+// several buildings each has one, the mean of its trials, which are not independent.
+std::vector<double> UnitsOf(const std::vector<SceneRecords>& records, std::size_t row,
+                            const std::function<double(const TrialRecord&)>& value);
+// The same of the metric at the end.
 std::vector<double> Finals(const std::vector<SceneRecords>& records, std::size_t row,
                            MetricFn metric);
 
-// The metric over time, a curve for each row, the mean over trials, or over several buildings; for
-// those in `with_band` also the 95 % interval of the mean, dashed. Trials that end early keep their last value. Completeness
-// is shown from 0 to 1.
+// The metric over time, a curve for each row, the mean over those units; for those in `with_band`
+// also the 95 % interval of the mean, dashed. Trials that end early keep their last value.
+// Completeness is shown from 0 to 1.
 struct RowStyle {
   std::string name;
   Rgb color;

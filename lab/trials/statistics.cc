@@ -8,8 +8,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <vector>
 
+#include "core/types/quantile.h"
 #include "core/types/rng.h"
 
 namespace plumescout::lab {
@@ -107,6 +109,33 @@ double PairedPValue(std::span<const double> a, std::span<const double> b) {
   const double limit = std::abs(sum) - kRounding * scale;
   return a.size() <= kExactPairs ? ExactShare(differences, sum, limit)
                                  : DrawnShare(differences, limit);
+}
+
+Reduction ReductionOf(std::span<const double> values, std::span<const double> baseline) {
+  constexpr int kResamples = 10'000;
+  constexpr double kPercent = 100.0;
+  constexpr double kTail = 0.025;
+  const auto percent = [](double sum, double base) {
+    return kPercent * (base - sum) / std::abs(base);
+  };
+  Reduction reduction;
+  reduction.percent = percent(std::accumulate(values.begin(), values.end(), 0.0),
+                              std::accumulate(baseline.begin(), baseline.end(), 0.0));
+  Rng rng(1);
+  std::vector<double> draws;
+  for (int k = 0; k < kResamples; ++k) {
+    double sum = 0.0;
+    double base = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const auto pair = static_cast<std::size_t>(rng.Below(values.size()));
+      sum += values[pair];
+      base += baseline[pair];
+    }
+    draws.push_back(percent(sum, base));
+  }
+  reduction.low_95 = Quantile(draws, kTail);
+  reduction.high_95 = Quantile(draws, 1.0 - kTail);
+  return reduction;
 }
 
 ShareInterval WilsonInterval(int hits, int trials) {

@@ -32,7 +32,7 @@ absl::StatusOr<TrialPlan> MakePlan(const ExperimentOptions& options,
 absl::StatusOr<StudyRow> MakeStudyRow(const TeamRow& team) {
   const char* const strategy = team.rule ? "rrt_star_frontier" : "plumescout";
   PLUMESCOUT_ASSIGN_OR_RETURN(StudyRow row,
-                              MakeStudyRow(team.name, strategy, /*as_the_paper=*/false));
+                              MakeStudyRow(team.name, strategy, /*with_the_papers_goals=*/false));
   PlanningOptions& planning = row.mission.planning;
   if (team.rule) planning.paths = PathKind::kGridExact;
   planning.yield_to_robots = team.yields;

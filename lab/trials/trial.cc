@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lab/trials/trial.h"
 
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -137,6 +138,9 @@ EpisodeOptions MakeEpisodeOptions(const Trial& trial, TrialRecord& record) {
   options.simulated.seed = trial.seed;
   options.simulated.pace.most_late_s = trial.most_late_s;
   options.simulated.has_body = !trial.ghosts;
+  options.simulated.lidar.max_range_m = trial.robot.lidar_range_m;
+  options.plan_latency_s = trial.robot.plan_latency_s;
+  options.correct_gas_lag = trial.robot.corrects_gas_lag;
   options.prior_variance_ppm2 = OpenLatticeVariance_ppm2(trial.mission->gas);
   options.on_sample = [&trial, &record](const MetricSample& sample, const MapSnapshot& map) {
     record.curve.push_back({sample.time_s, sample.metrics});
@@ -167,6 +171,14 @@ void LetWatch(TeamWatch& watch, const LocalPlannerClient& planner, EpisodeOption
   options.on_leg = [&watch, radius_m](const EndedLeg& leg) { watch.OnLeg(leg, radius_m); };
 }
 
+// Once a plan goes to no frontier, for none is left.
+void EndWithoutFrontier(std::atomic<bool>& over, EpisodeOptions& options) {
+  options.on_plan = [&over, told = std::move(options.on_plan)](const IssuedPlan& issued) {
+    if (told) told(issued);
+    if (issued.plan.phase == MissionPhase::kFallback) over = true;
+  };
+}
+
 }  // namespace
 
 absl::StatusOr<TrialRecord> RunTrial(const Trial& trial) {
@@ -184,15 +196,18 @@ absl::StatusOr<TrialRecord> RunTrial(const Trial& trial) {
     const Observation* gas = GasObservation(event);
     if (gas == nullptr) return;
     ++record.gas_readings;
-    if (trial.peer) readings.push_back(*gas);
+    if (trial.peer || trial.tells_other_entropies) readings.push_back(*gas);
   };
   LocalPlannerClient planner(local);
   EpisodeOptions options = MakeEpisodeOptions(trial, record);
   TeamWatch watch;
   if (trial.robots > 1) LetWatch(watch, planner, options);
+  std::atomic<bool> over = false;
+  if (trial.robot.stops_without_frontier) EndWithoutFrontier(over, options);
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<Teammate> teammates, MakeTeammates(trial, options));
-  PLUMESCOUT_ASSIGN_OR_RETURN(const TeamResult team,
-                              RunTeamEpisode(planner, *trial.world, options, teammates));
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      const TeamResult team,
+      RunTeamEpisode(planner, *trial.world, options, teammates, [&over] { return over.load(); }));
   record.completed = true;
   for (const EpisodeResult& robot : team.robots) {
     record.distance_m += robot.distance_m;
@@ -202,13 +217,19 @@ absl::StatusOr<TrialRecord> RunTrial(const Trial& trial) {
   }
   record.team = MakeTeamRecord(team, options.simulated.seen_radius_m);
   record.team.findings = watch.findings();
-  if (trial.on_end) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(const MapSnapshot map, planner.GetMap(kMission));
-    trial.on_end(team, map);
+  PLUMESCOUT_ASSIGN_OR_RETURN(const MapSnapshot map, planner.GetMap(kMission));
+  const Scene& scene = trial.world->scene();
+  while (record.mean_ppm.size() < trial.map_times_s.size()) {
+    record.mean_ppm.push_back(OnSceneGrid(map.gas_mean_ppm, scene.geometry()));
+  }
+  if (trial.on_end) trial.on_end(team, map);
+  if (trial.tells_other_entropies) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(
+        record.other_entropies,
+        FindOtherEntropies(scene, trial.mission->gas, readings, map.occupancy));
   }
   if (trial.peer) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(record.peer_rmse_ppm,
-                                PeerError_ppm(trial.world->scene(), *trial.peer, readings));
+    PLUMESCOUT_ASSIGN_OR_RETURN(record.peer_rmse_ppm, PeerError_ppm(scene, *trial.peer, readings));
   }
   return record;
 }

@@ -16,9 +16,20 @@
 #include "lab/sim/episode.h"
 #include "lab/sim/metrics.h"
 #include "lab/sim/scene_world.h"
+#include "lab/trials/other_entropies.h"
 #include "lab/trials/team_watch.h"
 
 namespace plumescout::lab {
+
+// What the robots of a trial are like, beside what the mission says.
+struct TrialRobot {
+  double lidar_range_m = 8.0;
+  double plan_latency_s = 0.1;          // that it stands for each plan
+  bool corrects_gas_lag = true;         // undoes the lag of its gas sensor, which it knows
+  bool stops_without_frontier = false;  // the trial ends with the first plan that goes to none
+
+  friend bool operator==(const TrialRobot&, const TrialRobot&) = default;
+};
 
 // One robot or several, one building, one way to plan.
 struct Trial {
@@ -29,10 +40,13 @@ struct Trial {
   double duration_s = 300.0;          // simulated, [XIT] section VI-B
   double most_late_s = 0.0;           // legs fall behind by up to this, see PaceOptions
   std::vector<double> map_times_s{};  // when the gas map is kept, ascending
-  bool ghosts = false;                // robots neither see each other nor run into each other
-  std::optional<TeamRule> rule{};     // of others, that chooses among the mission's frontiers
+  TrialRobot robot{};
+  bool ghosts = false;             // robots neither see each other nor run into each other
+  std::optional<TeamRule> rule{};  // of others, that chooses among the mission's frontiers
   // Also map the same readings by Kernel DM+V, over the whole building, and tell its error.
   std::optional<KernelDmvOptions> peer{};
+  // Also tell the entropy at the end by other variances.
+  bool tells_other_entropies = false;
   // Told what the robots did, and the map at the end; may be empty.
   std::function<void(const TeamResult&, const MapSnapshot&)> on_end{};
 };
@@ -57,14 +71,16 @@ struct TeamRecord {
 inline constexpr double kEncounterMargin_m = 0.1;
 
 struct TrialRecord {
-  std::vector<CurvePoint> curve;      // at 0, every 5 s, and at the end
-  std::vector<Grid<float>> mean_ppm;  // at the map times, on the scene's grid; NaN: not estimated
+  std::vector<CurvePoint> curve;  // at 0, every 5 s, and at the end
+  // At the map times, or at the end if that came before; on the scene's grid; NaN: not estimated.
+  std::vector<Grid<float>> mean_ppm;
   int gas_readings = 0;
   double distance_m = 0.0;
   int plans = 0;
   int collisions = 0;
   bool completed = false;               // the planner said so before the time was up
   std::optional<double> peer_rmse_ppm;  // of Kernel DM+V in critical cells, at the end
+  std::optional<OtherEntropies> other_entropies;
   TeamRecord team;
 };
 

@@ -93,6 +93,10 @@ TrialRecord RecordFrom(const json& value) {
   record.collisions = value.at("collisions").get<int>();
   record.completed = value.at("completed").get<bool>();
   record.team = TeamRecordFrom(value.at("team"));
+  if (value.contains("other_entropies_nats")) {
+    const json& nats = value.at("other_entropies_nats");
+    record.other_entropies = {Number(nats.at(0)), Number(nats.at(1))};
+  }
   if (value.contains("peer_rmse_ppm")) {
     record.peer_rmse_ppm = value.at("peer_rmse_ppm").get<double>();
   }
@@ -155,6 +159,9 @@ absl::Status TrialStore::Keep(const std::string& name, const std::string& finger
                 {"maps", record.mean_ppm.size()},  {"curve", json::array()},
                 {"team", ToJson(record.team)}};
   if (record.peer_rmse_ppm) value["peer_rmse_ppm"] = *record.peer_rmse_ppm;
+  if (const auto& other = record.other_entropies) {
+    value["other_entropies_nats"] = {other->whole_building_nats, other->propagated_nats};
+  }
   for (const CurvePoint& point : record.curve) value["curve"].push_back(ToJson(point));
   return WriteFile(JsonPath(name), value.dump());  // last: it says that the maps are there
 }
@@ -179,6 +186,11 @@ std::string Fingerprint(const Trial& trial, std::uint32_t scene_checksum) {
   if (trial.most_late_s > 0.0) absl::StrAppend(&times, " late ", trial.most_late_s);
   if (trial.ghosts) absl::StrAppend(&times, " ghosts");
   if (trial.rule) absl::StrAppend(&times, " rule ", NameOf(*trial.rule));
+  if (const TrialRobot& robot = trial.robot; robot != TrialRobot{}) {
+    absl::StrAppend(&times, " robot ", robot.lidar_range_m, " ", robot.plan_latency_s, " ",
+                    robot.corrects_gas_lag, " ", robot.stops_without_frontier);
+  }
+  if (trial.tells_other_entropies) absl::StrAppend(&times, " entropies");
   return absl::StrFormat("mission %08x scene %08x robots %d seed %d duration %g maps%s",
                          Crc32c(ToProto(*trial.mission).SerializeAsString()), scene_checksum,
                          trial.robots, trial.seed, trial.duration_s, times);

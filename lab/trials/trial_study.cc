@@ -60,7 +60,9 @@ class SceneStudy {
     trial.mission = &missions_[row];
     trial.peer = plan_.peer;
     trial.world = &world_;
+    trial.tells_other_entropies = plan_.tells_other_entropies;
     trial.robots = plan_.rows[row].robots;
+    trial.robot = plan_.rows[row].robot;
     trial.most_late_s = plan_.rows[row].most_late_s;
     trial.ghosts = plan_.rows[row].ghosts;
     trial.rule = plan_.rows[row].rule;
@@ -94,16 +96,30 @@ class SceneStudy {
 }  // namespace
 
 absl::StatusOr<StudyRow> MakeStudyRow(const std::string& name, const std::string& strategy,
-                                      bool as_the_paper) {
+                                      bool with_the_papers_goals) {
   constexpr int kEndless = 1000;  // more fallbacks than a trial has time for
   StudyRow row{name, {}};
   PlanningOptions& planning = row.mission.planning;
   planning.strategy = strategy;
   PLUMESCOUT_RETURN_IF_ERROR(ApplyStrategyRow(planning));
   planning.fallback_limit = kEndless;
-  planning.draw_goals = as_the_paper;
-  planning.fallback_to_unobserved = !as_the_paper;
-  if (as_the_paper) planning.max_connection_radius_m = 0.0;
+  planning.draw_goals = with_the_papers_goals;
+  planning.fallback_to_unobserved = !with_the_papers_goals;
+  if (with_the_papers_goals) planning.max_connection_radius_m = 0.0;
+  return row;
+}
+
+absl::StatusOr<StudyRow> MakePublishedRow(const std::string& name, const std::string& strategy) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(StudyRow row,
+                              MakeStudyRow(name, strategy, /*with_the_papers_goals=*/true));
+  PlanningOptions& planning = row.mission.planning;
+  planning.sampling = SamplingKind::kIid;
+  planning.raw_variance = true;
+  planning.goal_vertices = false;
+  planning.grid_guard = false;
+  planning.straighten = false;
+  row.mission.frontier.wgfd_scope = WgfdScope::kLocal;
+  row.robot.corrects_gas_lag = false;
   return row;
 }
 

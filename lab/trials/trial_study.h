@@ -22,17 +22,24 @@ struct StudyRow {
   // The region that is sampled, of strategies that stop at sites, is the building.
   bool samples_building = false;
   int robots = 1;
+  TrialRobot robot = {};
   double most_late_s = 0.0;           // see Trial
   bool ghosts = false;                // likewise
   std::optional<TeamRule> rule = {};  // likewise
 };
 
-// A strategy of the table, driving until the time is up. As the paper: goals are drawn at random
-// within a kind, and are random free places once no frontier is left ([XIT] section VI-B), and the
-// connection radius of [XIT] Eq. (7) has no limit; else all of them are offered, and then places
-// whose gas is unobserved, and the radius has that of the options. Errors: as ApplyStrategyRow.
+// A strategy of the table, driving until the time is up. With the paper's goals: they are drawn at
+// random within a kind, and are random free places once no frontier is left ([XIT] section VI-B),
+// and the connection radius of [XIT] Eq. (7) has no limit; else all of them are offered, and then
+// places whose gas is unobserved, and the radius has that of the options. All else is ours. Errors:
+// as ApplyStrategyRow.
 absl::StatusOr<StudyRow> MakeStudyRow(const std::string& name, const std::string& strategy,
-                                      bool as_the_paper);
+                                      bool with_the_papers_goals);
+
+// A strategy of [XIT] to the letter: goals as above; independent samples, Eq. (8) with the variance
+// as it is, paths that end at samples, as they are found or not at all, Algorithm 2 where the robot
+// is, and gas as the sensor tells it. Errors: as ApplyStrategyRow.
+absl::StatusOr<StudyRow> MakePublishedRow(const std::string& name, const std::string& strategy);
 
 // Every row drives `trials` times through every building.
 struct TrialPlan {
@@ -43,6 +50,7 @@ struct TrialPlan {
   double duration_s = 300.0;
   std::vector<double> map_times_s = {};
   std::optional<KernelDmvOptions> peer = {};  // see Trial
+  bool tells_other_entropies = false;         // likewise
   std::string folder;                         // finished trials are kept here, and taken from here
   int jobs = 1;                               // trials at once
   std::function<void(double)> progress = {};

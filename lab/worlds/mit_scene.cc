@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -17,9 +18,6 @@
 
 namespace plumescout::lab {
 namespace {
-
-constexpr double kWidth_m = 12.0;
-constexpr double kHeight_m = 9.0;
 
 double Plume_ppm(const PlumeSpec& plume, Point2 at) {
   constexpr double kPeak_ppm = 60.0;
@@ -43,7 +41,7 @@ Grid<float> TrueGas_ppm(const PlumeSpec& plume, const GridGeometry& geometry) {
   return gas_ppm;
 }
 
-// Boxes that leave start, goals and the driven way free.
+// Walls, and boxes that leave goals, passage and the driven way free.
 std::vector<SceneBox> Clutter(const MitSceneSpec& spec) {
   constexpr int kBoxes = 40;
   constexpr double kLeast_m = 0.4;
@@ -51,11 +49,16 @@ std::vector<SceneBox> Clutter(const MitSceneSpec& spec) {
   constexpr double kClear_m = 0.5;
   std::vector<Point2> keep_free = PointsAlong(spec.driven, kClear_m);
   keep_free.insert(keep_free.end(), spec.goals.begin(), spec.goals.end());
+  if (!spec.passage.empty()) {
+    const std::vector<Point2> passage = PointsAlong(spec.passage, kClear_m);
+    keep_free.insert(keep_free.end(), passage.begin(), passage.end());
+  }
   Rng rng(spec.clutter_seed);
-  std::vector<SceneBox> boxes;
+  std::vector<SceneBox> boxes = spec.walls;
   for (int i = 0; i < kBoxes; ++i) {
-    const SceneBox box{rng.Uniform(0.0, kWidth_m - kMost_m), rng.Uniform(0.0, kHeight_m - kMost_m),
-                       rng.Uniform(kLeast_m, kMost_m), rng.Uniform(kLeast_m, kMost_m)};
+    const SceneBox box{rng.Uniform(0.0, spec.width_m - kMost_m),
+                       rng.Uniform(0.0, spec.height_m - kMost_m), rng.Uniform(kLeast_m, kMost_m),
+                       rng.Uniform(kLeast_m, kMost_m)};
     const bool in_the_way = std::any_of(keep_free.begin(), keep_free.end(), [&](Point2 p) {
       const double dx_m = std::max({box.x_m - p.x_m, p.x_m - box.x_m - box.width_m, 0.0});
       const double dy_m = std::max({box.y_m - p.y_m, p.y_m - box.y_m - box.height_m, 0.0});
@@ -82,13 +85,37 @@ MitSceneSpec WithClutter(MitSceneSpec spec, std::string name, std::uint64_t seed
   return spec;
 }
 
+// With I of Eq. (2) between I_min and I_max on n cells: I / sum(I) = (1 - s) I-hat / sum(I-hat) +
+// s / n, where s = n I_min / sum(I).
+double UniformShareOfUcb(const Grid<std::uint8_t>& reachable, const GasMap& gas,
+                         const GasOptions& options, const PlanningOptions& planning) {
+  const double unit_ppm2 = planning.raw_variance ? 1.0 : OpenLatticeVariance_ppm2(options);
+  double most_ppm = FrontierOptions{}.min_gas_threshold_ppm;
+  for (const float mean_ppm : gas.mean_ppm().values()) {
+    if (std::isfinite(mean_ppm)) most_ppm = std::max(most_ppm, static_cast<double>(mean_ppm));
+  }
+  double least = std::numeric_limits<double>::infinity();
+  double sum = 0.0;
+  double cells = 0.0;
+  for (std::size_t i = 0; i < reachable.size(); ++i) {
+    if (reachable[i] == 0) continue;
+    double variance = gas.variance_ppm2()[i] / unit_ppm2;
+    if (!planning.raw_variance) variance = std::min(1.0, variance);
+    const double ucb = std::max(0.0F, gas.mean_ppm()[i]) / most_ppm + planning.beta * variance;
+    least = std::min(least, ucb);
+    sum += ucb;
+    cells += 1.0;
+  }
+  return std::clamp(cells * least / sum, 0.0, 1.0);
+}
+
 }  // namespace
 
 absl::StatusOr<MitScene> BuildMitScene(const MitSceneSpec& spec) {
   constexpr double kBetweenReadings_m = 0.6;  // 2 Hz at 1.25 m/s
   MitScene scene;
   scene.name = spec.name;
-  scene.occupancy = MakeOccupancy(kWidth_m, kHeight_m, Clutter(spec));
+  scene.occupancy = MakeOccupancy(spec.width_m, spec.height_m, Clutter(spec));
   const GridGeometry& geometry = scene.occupancy.geometry();
   scene.true_gas_ppm = TrueGas_ppm(spec.plume, geometry);
   scene.driven = spec.driven;
@@ -108,6 +135,7 @@ absl::StatusOr<MitScene> BuildMitScene(const MitSceneSpec& spec) {
   scene.information = MakeInformationMap(
       {scene.reachable, gas.mean_ppm(), gas.variance_ppm2(), gas_options, FrontierOptions{}},
       planning);
+  scene.ucb_uniform_share = UniformShareOfUcb(scene.reachable, gas, gas_options, planning);
   for (const Point2 place : spec.goals) {
     Goal goal;
     goal.cell = geometry.CellAt(place);
@@ -130,6 +158,22 @@ MitSceneSpec MitTableScene() {
   spec.driven = {{0.8, 8.2}, {2.6, 6.6}, {5.2, 5.4}, {7.0, 2.6},
                  {5.4, 1.6}, {3.4, 2.4}, {1.0, 4.5}};
   spec.goals = {{{6.4, 8.2}, {11.2, 5.2}, {11.2, 1.6}}};
+  return spec;
+}
+
+MitSceneSpec MitPassageScene() {
+  MitSceneSpec spec;
+  spec.name = "narrow passage";
+  spec.width_m = 20.0;
+  spec.height_m = 12.0;
+  spec.walls = {{6.0, 0.0, 10.0, 2.0}, {6.0, 2.8, 2.8, 2.2}, {8.8, 4.0, 4.4, 1.0},
+                {13.2, 2.8, 2.8, 2.2}, {9.6, 2.0, 2.8, 1.2}, {10.0, 5.0, 1.0, 4.5}};
+  spec.passage = {{6.0, 2.4},  {9.2, 2.4},  {9.2, 3.6}, {12.8, 3.6},
+                  {12.8, 2.4}, {16.0, 2.4}, {17.5, 2.4}};
+  spec.plume = {{5.2, 2.4}, 0.0};
+  spec.driven = {{1.0, 10.8}, {5.0, 8.0}, {8.4, 10.6}, {3.0, 6.0}, {7.2, 2.4}, {3.0, 2.4}};
+  spec.goals = {{{3.0, 9.2}, {17.5, 10.5}, {17.5, 2.4}}};
+  spec.raw_variance = true;
   return spec;
 }
 

@@ -15,7 +15,7 @@ const MitScene& Scene() {
 }
 
 TEST(MitRuns, ThePapersSharesAddUpToAllRuns) {
-  for (const MitRival& rival : MitRivals()) {
+  for (const MitRival& rival : MitRivals(Scene())) {
     const auto& shares = rival.paper_shares_percent;
     if (std::isnan(shares[0])) continue;
     EXPECT_NEAR(shares[0] + shares[1] + shares[2], 100.0, 1e-9) << rival.name;
@@ -23,7 +23,7 @@ TEST(MitRuns, ThePapersSharesAddUpToAllRuns) {
 }
 
 TEST(MitRuns, EveryPlannerLeadsFromTheStartToNearItsGoals) {
-  for (const MitRival& rival : MitRivals()) {
+  for (const MitRival& rival : MitRivals(Scene())) {
     for (const MitRun& run : RunMitRival(rival, Scene(), 3, 1, nullptr)) {
       for (std::size_t i = 0; i < 3; ++i) {
         if (run.paths[i].empty()) continue;
@@ -39,20 +39,33 @@ TEST(MitRuns, EveryPlannerLeadsFromTheStartToNearItsGoals) {
 
 // What "a similar total number of sampling points" is: the trees' mean within a fifth of MIT's N.
 TEST(MitRuns, AllDrawAboutAsManySamples) {
-  for (const MitRival& rival : MitRivals()) {
+  for (const MitRival& rival : MitRivals(Scene())) {
     const MitSummary summary = Summarise(RunMitRival(rival, Scene(), 60, 1, nullptr));
     EXPECT_NEAR(summary.samples, kMitSamples, 0.2 * kMitSamples) << rival.name;
   }
 }
 
 TEST(MitRuns, RepeatFromTheirSeed) {
-  for (const MitRival& rival : MitRivals()) {
+  for (const MitRival& rival : MitRivals(Scene())) {
     const auto once = RunMitRival(rival, Scene(), 2, 7, nullptr);
     const auto again = RunMitRival(rival, Scene(), 2, 7, nullptr);
     EXPECT_EQ(once[1].paths, again[1].paths) << rival.name;
     EXPECT_NE(once[0].paths, once[1].paths) << rival.name;
     EXPECT_NE(RunMitRival(rival, Scene(), 1, 8, nullptr)[0].paths, once[0].paths) << rival.name;
   }
+}
+
+// Even samples are a share of 1 of them, samples of I-hat none; Eq. (2) lies between.
+TEST(MitRuns, AnswersDifferByWhatSamplesAreDrawnFrom) {
+  const std::vector<MitRival> rivals = MitRivals(Scene());
+  ASSERT_EQ(rivals.size(), 5u);
+  EXPECT_GT(Scene().ucb_uniform_share, 0.0);
+  EXPECT_LT(Scene().ucb_uniform_share, 1.0);
+  const auto paths = [&](std::size_t i) {
+    return RunMitRival(rivals[i], Scene(), 1, 1, nullptr)[0].paths;
+  };
+  EXPECT_NE(paths(0), paths(3));
+  EXPECT_NE(paths(0), paths(4));
 }
 
 MitRun MakeRun(std::array<double, 3> psi, int best) {

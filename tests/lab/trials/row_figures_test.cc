@@ -32,17 +32,27 @@ std::vector<SceneRecords> Records() {
           {{RecordOf({9, 8}), RecordOf({9})}, {RecordOf({9, 2}), RecordOf({9, 2})}}};
 }
 
-TEST(RowFigures, FinalsArePairsAcrossRows) {
-  const std::vector<SceneRecords> hall = {Records()[0]};
-  EXPECT_THAT(Finals(hall, 0, Rmse_ppm), ElementsAre(6, 4));
-  EXPECT_THAT(Finals(hall, 1, Rmse_ppm), ElementsAre(3, 1));
-  EXPECT_THAT(Finals(hall, 1, EntropyPerCell_nats), ElementsAre(6, 2));
+TEST(RowFigures, FinalsAreThoseOfTrialsInOneBuilding) {
+  const std::vector<SceneRecords> one = {Records().front()};
+  EXPECT_THAT(Finals(one, 0, Rmse_ppm), ElementsAre(6, 4));
+  EXPECT_THAT(Finals(one, 1, Rmse_ppm), ElementsAre(3, 1));
+  EXPECT_THAT(Finals(one, 1, Entropy_nats), ElementsAre(30, 10));
+  EXPECT_THAT(Finals(one, 1, EntropyPerCell_nats), ElementsAre(6, 2));
 }
 
-TEST(RowFigures, OfSeveralBuildingsFinalsAreTheirMeans) {
+TEST(RowFigures, OfSeveralBuildingsEachCountsOnce) {
   EXPECT_THAT(Finals(Records(), 0, Rmse_ppm), ElementsAre(5, 8.5));
   EXPECT_THAT(Finals(Records(), 1, Rmse_ppm), ElementsAre(2, 2));
   EXPECT_THAT(Finals(Records(), 1, EntropyPerCell_nats), ElementsAre(4, 4));
+}
+
+TEST(RowFigures, ARowWhoseTrialsAllEndEarlyGoesOnWithTheOthers) {
+  std::vector<SceneRecords> records = {{{RecordOf({9, 6})}, {RecordOf({9, 3, 1})}}};
+  const Chart chart = MakeMetricChart(records, {{"a", kInk}, {"b", kInk}}, "RMSE", Rmse_ppm);
+  ASSERT_THAT(chart.curves, SizeIs(2));
+  ASSERT_THAT(chart.curves[0].points, SizeIs(3));
+  EXPECT_DOUBLE_EQ(chart.curves[0].points[2].x, 10.0);
+  EXPECT_DOUBLE_EQ(chart.curves[0].points[2].y, 6.0);
 }
 
 TEST(RowFigures, CurvesAreMeansAndTrialsThatEndKeepTheirLastValue) {

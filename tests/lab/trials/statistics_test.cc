@@ -80,6 +80,23 @@ TEST(BootstrapInterval, OfOneWorldIsItsFigure) {
   EXPECT_TRUE(std::isnan(BootstrapInterval(2, [](auto) { return std::nan(""); }).low));
 }
 
+TEST(Reduction, IsOfTheMeansWithAnIntervalOverPairs) {
+  // Every pair is less by a tenth, however they are drawn.
+  const Reduction even = ReductionOf(std::vector{9.0, 18.0}, std::vector{10.0, 20.0});
+  EXPECT_NEAR(even.percent, 10.0, 1e-9);
+  EXPECT_NEAR(even.low_95, 10.0, 1e-9);
+  EXPECT_NEAR(even.high_95, 10.0, 1e-9);
+  // A quarter of all draws takes the first pair twice (50 %), a quarter the second (0 %).
+  const Reduction uneven = ReductionOf(std::vector{5.0, 10.0}, std::vector{10.0, 10.0});
+  EXPECT_NEAR(uneven.percent, 25.0, 1e-9);
+  EXPECT_NEAR(uneven.low_95, 0.0, 1e-9);
+  EXPECT_NEAR(uneven.high_95, 50.0, 1e-9);
+}
+
+TEST(Reduction, OfANegativeBaselineIsOfItsSize) {
+  EXPECT_NEAR(ReductionOf(std::vector{-12.0}, std::vector{-10.0}).percent, 20.0, 1e-9);
+}
+
 TEST(PairedPValue, CountsTheSwapsThatDoAsMuch) {
   // Differences 1, 2, 3: of the eight sign patterns only +++ and --- reach a sum of 6.
   EXPECT_DOUBLE_EQ(PairedPValue(std::vector{2.0, 4.0, 6.0}, std::vector{1.0, 2.0, 3.0}), 0.25);

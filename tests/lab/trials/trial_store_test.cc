@@ -36,6 +36,7 @@ TrialRecord SomeRecord() {
                           .held_up = 4,
                           .alone_nats = 5.5,
                           .besides_nats = 4.5};
+  record.other_entropies = {-2.5, 1.25};
   record.completed = true;
   return record;
 }
@@ -63,6 +64,9 @@ TEST(TrialStore, GivesBackWhatItKept) {
   EXPECT_EQ(found->team.encounters, 4);
   EXPECT_EQ(found->team.closest_m, 0.41);
   EXPECT_EQ(found->team.findings, kept.team.findings);
+  ASSERT_TRUE(found->other_entropies.has_value());
+  EXPECT_EQ(found->other_entropies->whole_building_nats, -2.5);
+  EXPECT_EQ(found->other_entropies->propagated_nats, 1.25);
   EXPECT_TRUE(found->completed);
   ASSERT_EQ(found->mean_ppm.size(), 1u);
   EXPECT_TRUE(std::isnan(found->mean_ppm[0][0]));
@@ -122,6 +126,15 @@ TEST(Fingerprint, TellsSettingsBuildingsSeedsAndTimesApart) {
   other = trial;
   other.ghosts = true;
   EXPECT_NE(Fingerprint(other, 1), print);
+  other = trial;
+  other.tells_other_entropies = true;
+  EXPECT_NE(Fingerprint(other, 1), print);
+  other = trial;
+  other.robot.lidar_range_m = 4.0;
+  const std::string by_robot = Fingerprint(other, 1);
+  EXPECT_NE(by_robot, print);
+  other.robot.stops_without_frontier = true;
+  EXPECT_NE(Fingerprint(other, 1), by_robot);
   other = trial;
   other.rule = TeamRule::kBurgard;
   const std::string by_rule = Fingerprint(other, 1);

@@ -33,7 +33,7 @@ TrialPlan SmallPlan(const TempFolder& folder) {
 
 double FinalRmse(const TrialRecord& record) { return record.curve.back().metrics.rmse_ppm; }
 
-TEST(TrialStudy, MakesRowsThatDriveAsThePaperOrWithAllGoals) {
+TEST(TrialStudy, MakesRowsWithThePapersGoalsOrAll) {
   const auto paper = MakeStudyRow("a", "xit_gff", true);
   const auto ours = MakeStudyRow("b", "xit_gff", false);
   ASSERT_TRUE(paper.ok() && ours.ok());
@@ -45,6 +45,23 @@ TEST(TrialStudy, MakesRowsThatDriveAsThePaperOrWithAllGoals) {
   EXPECT_EQ(ours->mission.planning.max_connection_radius_m, 5.0);
   EXPECT_EQ(MakeStudyRow("c", "xit_none", true).status().code(),
             absl::StatusCode::kInvalidArgument);
+}
+
+TEST(TrialStudy, MakesPublishedRowsToTheLetter) {
+  const auto row = MakePublishedRow("a", "xit_gff");
+  ASSERT_TRUE(row.ok());
+  const PlanningOptions& planning = row->mission.planning;
+  EXPECT_TRUE(planning.draw_goals);
+  EXPECT_EQ(planning.sample_count, 300);
+  EXPECT_EQ(planning.sampling, SamplingKind::kIid);
+  EXPECT_TRUE(planning.raw_variance);
+  EXPECT_EQ(planning.max_connection_radius_m, 0.0);
+  EXPECT_FALSE(planning.goal_vertices);
+  EXPECT_FALSE(planning.grid_guard);
+  EXPECT_FALSE(planning.straighten);
+  EXPECT_EQ(row->mission.frontier.wgfd_scope, WgfdScope::kLocal);
+  EXPECT_FALSE(row->robot.corrects_gas_lag);
+  EXPECT_TRUE(absl::IsInvalidArgument(MakePublishedRow("b", "xit_none").status()));
 }
 
 TEST(TrialStudy, DoesNotDependOnTheNumberOfJobs) {

@@ -96,6 +96,50 @@ TEST(Trial, MapsTheSameReadingsByAPeer) {
   EXPECT_TRUE(absl::IsInvalidArgument(RunTrial(trial).status()));
 }
 
+TEST(Trial, RobotsMayBeOtherThanOurs) {
+  const SceneWorld world(SmallScene());
+  const MissionOptions mission = MissionBy("xit_gff");
+  Trial trial = SmallTrial(mission, world);
+  const auto ours = RunTrial(trial);
+  trial.robot.lidar_range_m = 1.0;
+  const auto short_sighted = RunTrial(trial);
+  trial.robot = {.plan_latency_s = 3.0};
+  const auto slow = RunTrial(trial);
+  trial.robot = {.corrects_gas_lag = false};
+  const auto raw = RunTrial(trial);
+  ASSERT_TRUE(ours.ok() && short_sighted.ok() && slow.ok() && raw.ok());
+  EXPECT_LT(short_sighted->curve[1].metrics.completeness, ours->curve[1].metrics.completeness);
+  EXPECT_LE(slow->plans, 4);  // one every three seconds
+  EXPECT_GT(ours->plans, slow->plans);
+  EXPECT_NE(raw->curve.back().metrics.rmse_ppm, ours->curve.back().metrics.rmse_ppm);
+}
+
+TEST(Trial, MayEndWhenNoFrontierIsLeft) {
+  const SceneWorld world(SmallScene());
+  MissionOptions mission = MissionBy("rrt_star_frontier");
+  mission.planning.fallback_to_unobserved = false;
+  Trial trial = SmallTrial(mission, world);
+  trial.duration_s = 100.0;
+  trial.map_times_s = {5.0, 99.0};
+  trial.robot.stops_without_frontier = true;
+  const auto record = RunTrial(trial);
+  ASSERT_TRUE(record.ok()) << record.status();
+  EXPECT_LT(record->curve.back().time_s, 90.0);
+  EXPECT_GT(record->curve.back().metrics.completeness, 0.9);
+  EXPECT_EQ(record->mean_ppm.size(), 2u) << "the second is of the end";
+}
+
+TEST(Trial, TellsOtherEntropiesOfTheSameReadings) {
+  const SceneWorld world(SmallScene());
+  const MissionOptions mission = MissionBy("xit_gff");
+  Trial trial = SmallTrial(mission, world);
+  EXPECT_FALSE(RunTrial(trial)->other_entropies.has_value());
+  trial.tells_other_entropies = true;
+  const auto record = RunTrial(trial);
+  ASSERT_TRUE(record.ok() && record->other_entropies.has_value());
+  EXPECT_LT(record->other_entropies->propagated_nats, record->curve.back().metrics.entropy_nats);
+}
+
 TEST(Trial, TeamsShareTheMission) {
   const SceneWorld world(SmallScene());
   const MissionOptions mission = MissionBy("plumescout");

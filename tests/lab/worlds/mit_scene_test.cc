@@ -17,6 +17,7 @@ using ::testing::HasSubstr;
 std::vector<MitSceneSpec> AllSpecs() {
   std::vector<MitSceneSpec> specs = MitSceneVariants();
   specs.push_back(MitTableScene());
+  specs.push_back(MitPassageScene());
   return specs;
 }
 
@@ -61,6 +62,36 @@ TEST(MitScene, TheVarianceAsPrintedMakesAnotherField) {
   const MitScene ours = *BuildMitScene(spec);
   spec.raw_variance = true;
   EXPECT_NE(BuildMitScene(spec)->information.value, ours.information.value);
+}
+
+// Of draws from Eq. (2) that share is even: where I is flat all of them, where it is 0 somewhere
+// none. With the whole drive read, and as printed, it lies between.
+TEST(MitScene, DrawsOfTheUcbAreEvenInPart) {
+  for (const MitSceneSpec& spec : AllSpecs()) {
+    const MitScene scene = *BuildMitScene(spec);
+    EXPECT_GT(scene.ucb_uniform_share, 0.0) << spec.name;
+    EXPECT_LT(scene.ucb_uniform_share, 0.9) << spec.name;
+  }
+}
+
+// The passage is 0.8 m wide: 0.4 m of it can be driven, and the way through it is the shorter one.
+TEST(MitScene, ThePassageIsAShortcutThatEvenSamplesSeldomHit) {
+  const MitSceneSpec spec = MitPassageScene();
+  const MitScene scene = *BuildMitScene(spec);
+  double passage_cells = 0.0;
+  double cells = 0.0;
+  for (std::size_t i = 0; i < scene.reachable.size(); ++i) {
+    if (scene.reachable[i] == 0) continue;
+    const Point2 at = scene.reachable.geometry().Center(scene.reachable.geometry().CellAtIndex(i));
+    cells += 1.0;
+    if (at.x_m > 6.0 && at.x_m < 16.0 && at.y_m < 4.0) passage_cells += 1.0;
+  }
+  EXPECT_GT(passage_cells, 0.0);
+  EXPECT_LT(passage_cells / cells, 0.06);
+  for (const Point2 at : spec.passage) {
+    EXPECT_NE(scene.reachable.At(scene.reachable.geometry().CellAt(at), 0), 0)
+        << at.x_m << ", " << at.y_m;
+  }
 }
 
 TEST(MitScene, AGoalWithoutAWayIsRefusedByName) {
