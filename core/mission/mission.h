@@ -15,6 +15,7 @@
 #include "absl/status/statusor.h"
 #include "absl/strings/string_view.h"
 #include "core/belief/belief.h"
+#include "core/belief/sampled_cells.h"
 #include "core/gas/field_region.h"
 #include "core/gas/gas_maps.h"
 #include "core/gas/way_readings.h"
@@ -23,7 +24,6 @@
 #include "core/mission/jump_watch.h"
 #include "core/mission/map_rebuild.h"
 #include "core/mission/memory_estimate.h"
-#include "core/mission/sampled_cells.h"
 #include "core/mission/way_history.h"
 #include "core/occupancy/occupancy_grid.h"
 #include "core/occupancy/scan_inserter.h"
@@ -265,7 +265,7 @@ class Mission {
   std::vector<GasAudits> gas_audits_;  // by species
   Fleet fleet_;
   GoalMemory goal_memory_;
-  SampledCells sampled_cells_;
+  std::vector<SampledCells> sampled_cells_;              // by species
   std::map<RobotId, std::vector<WayReadings>> lagging_;  // by sensor, of robots with such that lag
   WayHistory history_;
   JumpWatch jump_watch_;
@@ -279,7 +279,7 @@ class Mission {
   struct Rasters {
     std::shared_ptr<const Grid<CellState>> occupancy;
     std::shared_ptr<const Grid<std::uint8_t>> traversable;
-    std::vector<GasField> gas;  // by species: rasters only
+    std::vector<GasField> gas;  // by species: rasters, and cells; those null when they changed
     std::shared_ptr<const Grid<std::uint8_t>> sampled;
   };
   void UpdateRasters() const;

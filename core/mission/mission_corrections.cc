@@ -68,6 +68,7 @@ void Mission::PlaceReadingsAgain() {
     gas_[i].ReplaceReadings(std::move(readings[i]), std::move(sensors[i]));
   }
   sampled_cells_ = history_.Sampled(heard);
+  for (GasField& gas : rasters_.gas) gas.sampled_cells = nullptr;
   sampled_since_snapshot_ = true;
   gas_changed_since_snapshot_ = true;
   for (const WayHistory::Heard& one : heard) region_.Visit(one.place);

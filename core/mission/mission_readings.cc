@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "core/mission/mission.h"
 #include "core/types/species.h"
 #include "core/types/status_macros.h"
@@ -58,6 +59,27 @@ absl::Status Mission::Keep(const RobotId& robot, const GasSensor& sensor, const 
         AddReading(species, source, air.time_ns, place, air.reading, is_part));
   }
   history_.AddReading(robot, air.time_ns, air.pose, air.reading, suspect, sensor, species, is_part);
+  return absl::OkStatus();
+}
+
+absl::Status Mission::AddReading(std::size_t species, const ReadingSource& source,
+                                 std::int64_t time_ns, Point2 place, const GasReading& reading,
+                                 bool is_part) {
+  GasMap& gas = gas_[species];
+  if (!gas.HasRoomFor(place)) {
+    return BudgetReached(absl::StrCat("readings at ", ReadingStore::kMostWaitingSites,
+                                      " places wait for their cells to be seen"));
+  }
+  PLUMESCOUT_RETURN_IF_ERROR(CheckRoom(place, kReadingSiteBytes + kReadingBucketBytes));
+  if (fleet_.has_offsets() && !is_part) {
+    gas.AddFrom(source, time_ns, place, reading);
+  } else {
+    gas.Add(time_ns, place, reading);
+  }
+  region_.Visit(place);
+  const bool is_new = sampled_cells_[species].Add(time_ns, place);
+  rasters_.gas[species].sampled_cells = nullptr;
+  sampled_since_snapshot_ |= is_new && species == 0;  // for plans
   return absl::OkStatus();
 }
 

@@ -41,14 +41,14 @@ WayHistory::WayHistory(const MissionOptions& options)
       pose_limit_m_(options.pose_limit_m),
       prior_map_(options.prior_map),
       base_readings_(NoReadings()),
-      base_sampled_(options.occupancy.resolution_m) {}
+      base_sampled_(NothingSampled()) {}
 
 void WayHistory::BeginWith(const OccupancyGrid& map, const ReadingStore& readings,
                            const SampledCells& sampled, std::int64_t time_ns) {
   if (!keeps_) return;
   base_map_ = map;
   base_readings_.front() = readings.Unplaced();
-  base_sampled_ = sampled;
+  base_sampled_.front() = sampled;
   merged_ns_ = time_ns;
 }
 
@@ -251,11 +251,9 @@ std::vector<ReadingStore> WayHistory::Readings(const std::vector<Heard>& heard) 
   return stores;
 }
 
-SampledCells WayHistory::Sampled(const std::vector<Heard>& heard) const {
-  SampledCells sampled = base_sampled_;
-  for (const Heard& one : heard) {
-    if (one.species == 0) sampled.Add(one.place);
-  }
+std::vector<SampledCells> WayHistory::Sampled(const std::vector<Heard>& heard) const {
+  std::vector<SampledCells> sampled = base_sampled_;
+  for (const Heard& one : heard) sampled[one.species].Add(one.time_ns, one.place);
   return sampled;
 }
 

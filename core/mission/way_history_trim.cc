@@ -55,7 +55,7 @@ void WayHistory::GiveUp() {
   ways_.clear();
   base_map_.reset();
   base_readings_ = NoReadings();
-  base_sampled_ = SampledCells(occupancy_.resolution_m);
+  base_sampled_ = NothingSampled();
 }
 
 // What is in quarantine is lost.
@@ -70,7 +70,7 @@ void WayHistory::Merge(std::int64_t below_number) {
       bytes_ -= kReadingBytes;
       if (entry.quarantined) return true;
       base_readings_[entry.species].Add(entry.time_ns, entry.place(), entry.reading);
-      if (entry.species == 0) base_sampled_.Add(entry.place());
+      base_sampled_[entry.species].Add(entry.time_ns, entry.place());
       return true;
     });
     std::erase_if(way.scans, [&](const KeptScan& entry) {
