@@ -175,6 +175,7 @@ MemoryUse Mission::Use() const {
   use.reading_buckets = gas_.reading_buckets();
   use.visited_tiles = static_cast<std::int64_t>(region_.visited_tiles());
   use.field_bytes = gas_.field_bytes();
+  for (const auto& [robot, ways] : lagging_) use.ways += static_cast<std::int64_t>(ways.size());
   return use;
 }
 

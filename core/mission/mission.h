@@ -152,7 +152,7 @@ class Mission {
 
   std::int64_t sample_time_ns() const { return sample_time_ns_; }
 
-  // What it holds, as reckoned; at most options().memory_budget_bytes. Cost: O(1).
+  // What it holds, as reckoned; at most options().memory_budget_bytes. Cost: O(robots).
   std::int64_t memory_bytes() const { return Use().Total_bytes() + history_.bytes(); }
   // Of the gas field now: that of the options, or a multiple since the map has grown large.
   int lattice_factor() const { return gas_.lattice_factor(); }
@@ -224,13 +224,13 @@ class Mission {
   absl::Status InsertScan(const Pose2& pose, const Scan& scan, const std::vector<MaskDisc>& masks);
   absl::Status TakeReading(const RobotId& robot, std::int64_t time_ns, const Pose2& pose,
                            GasReading reading);
-  absl::Status Keep(const RobotId& robot, const GasSensor& sensor, const AirReading& air,
-                    bool is_part);
+  absl::Status Keep(const RobotId& robot, const GasSensor& sensor, const AirReading& air);
   absl::Status KeepAll(const RobotId& robot, const GasSensor& sensor,
                        const std::vector<AirReading>& told);
   WayModel ModelOf(const GasSensor& sensor) const;
   void NotePose(const RobotId& robot, std::int64_t time_ns, const Pose2& pose);
   std::vector<GasSensor> LaggingSensors(const RobotId& robot) const;
+  std::vector<WayPoint> UntoldPoints(const RobotId& robot) const;
   void FinishWays(const RobotId& robot, const std::vector<GasSensor>& sensors);
   absl::Status AddReading(std::size_t species, const ReadingSource& source, std::int64_t time_ns,
                           Point2 place, const GasReading& reading, bool is_part);

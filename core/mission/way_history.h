@@ -70,6 +70,11 @@ class WayHistory {
                                const std::vector<PoseAnchor>& anchors,
                                std::int64_t doubtful_from = 0, WayPoint* start = nullptr);
 
+  // The errors of Correct, if these points were added to the robot's way before. Cost: as of it.
+  absl::Status CheckCorrection(const RobotId& robot, std::int64_t time_ns,
+                               const std::vector<PoseAnchor>& anchors,
+                               const std::vector<WayPoint>& added) const;
+
   // Of all that is not in quarantine, in the order in which it came; what was merged is in
   // Readings and Sampled only. Cost: O(readings * log).
   struct Heard {
@@ -149,7 +154,10 @@ class WayHistory {
   };
 
   Way& WayOf(const RobotId& robot);
-  std::vector<WayPoint> PointsOf(const Way& way) const;
+  std::vector<WayPoint> PointsOf(const Way& way, const std::vector<WayPoint>& added) const;
+  absl::StatusOr<WayCorrection> CorrectionOf(const RobotId& robot, std::int64_t time_ns,
+                                             const std::vector<PoseAnchor>& anchors,
+                                             const std::vector<WayPoint>& added) const;
   absl::Status CheckAnchors(const RobotId& robot, const Way& way,
                             const std::vector<WayPoint>& points,
                             const std::vector<PoseAnchor>& anchors) const;

@@ -69,7 +69,7 @@ void WayHistory::Merge(std::int64_t below_number) {
       merged_ns = std::max(merged_ns, entry.time_ns);
       bytes_ -= kReadingBytes;
       if (entry.quarantined) return true;
-      base_readings_[entry.species].Add(entry.time_ns, entry.place(), entry.reading);
+      base_readings_[entry.species].Add(entry.time_ns, entry.place(), entry.reading, entry.is_part);
       base_sampled_[entry.species].Add(entry.time_ns, entry.place());
       return true;
     });
