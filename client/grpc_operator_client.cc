@@ -125,10 +125,10 @@ class GrpcOperatorClient final : public OperatorClient {
     return FromServer(FromProto(response.areas(), "areas"));
   }
 
-  absl::StatusOr<ExportedMission> ExportMission(const MissionId& mission,
+  absl::StatusOr<ExportedMission> ExportMission(const MissionId& mission, MissionFileFormat format,
                                                 const MissionFileSink& sink) override {
     link_->AwaitLink();
-    return ReceiveMissionFile(snapshots_, mission, sink);
+    return ReceiveMissionFile(snapshots_, mission, format, sink);
   }
 
   absl::StatusOr<MissionId> ImportMission(const MissionId& mission,

@@ -41,6 +41,7 @@ absl::StatusOr<GasAnswer> AnswerFromProto(const v1::QueryGasResponse& proto) {
   }
   answer.quality = FromProto(proto.gas_quality());
   answer.audits = AuditsFromProto(proto.gas_quality());
+  answer.sample_time_ns = proto.sample_time_ns();
   return answer;
 }
 
@@ -189,6 +190,7 @@ class GrpcViewerClient final : public ViewerClient {
     for (const Point2& point : query.points) *request.add_points() = ToProto(point);
     request.set_fresh_posterior(query.fresh_posterior);
     request.set_species(query.species);
+    request.set_revision(query.revision);
     v1::QueryGasResponse response;
     PLUMESCOUT_RETURN_IF_ERROR(
         link_->Ask(maps_, &v1::MapService::Stub::QueryGas, request, &response));

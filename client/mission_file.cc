@@ -22,9 +22,11 @@ namespace {
 constexpr std::int64_t kMaxPiece_bytes = std::int64_t{1} << 20;
 constexpr std::int64_t kFraming_bytes = 4096;  // of a request, beside the bytes of the file
 
-v1::ExportMissionRequest RequestFor(const MissionId& mission) {
+v1::ExportMissionRequest RequestFor(const MissionId& mission, MissionFileFormat format) {
   v1::ExportMissionRequest request;
   request.set_mission(MissionResource(mission));
+  request.set_format(format == MissionFileFormat::kMcap ? v1::MISSION_FILE_FORMAT_MCAP
+                                                        : v1::MISSION_FILE_FORMAT_JOURNAL);
   return request;
 }
 
@@ -120,9 +122,10 @@ class FileSender {
 
 absl::StatusOr<ExportedMission> ReceiveMissionFile(v1::SnapshotService::Stub& stub,
                                                    const MissionId& mission,
+                                                   MissionFileFormat format,
                                                    const MissionFileSink& sink) {
   GrpcReader<v1::ExportMissionResponse> reader(
-      stub, &v1::SnapshotService::Stub::PrepareAsyncExportMission, RequestFor(mission));
+      stub, &v1::SnapshotService::Stub::PrepareAsyncExportMission, RequestFor(mission, format));
   FileReceiver receiver(sink);
   bool is_whole = false;
   while (true) {

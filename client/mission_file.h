@@ -14,6 +14,7 @@ namespace plumescout::client {
 // time.
 absl::StatusOr<ExportedMission> ReceiveMissionFile(v1::SnapshotService::Stub& stub,
                                                    const MissionId& mission,
+                                                   MissionFileFormat format,
                                                    const MissionFileSink& sink);
 // `max_request_bytes`: that the server takes.
 absl::StatusOr<MissionId> SendMissionFile(v1::SnapshotService::Stub& stub, const MissionId& mission,

@@ -67,6 +67,12 @@ using MissionFileSink = std::function<absl::Status(const MissionFilePiece&)>;
 // ends the import, which then has changed nothing.
 using MissionFileSource = std::function<absl::StatusOr<std::string>(std::size_t max_bytes)>;
 
+// What the file of a mission is to be.
+enum class MissionFileFormat {
+  kJournal,  // its events, which ImportMission takes
+  kMcap,     // an MCAP file, which Foxglove shows
+};
+
 // What an export gave.
 struct ExportedMission {
   std::int64_t revision = 0;  // last event in the file
@@ -95,9 +101,11 @@ class OperatorClient {
   // got is the file only if this is OK: its sums were compared, kDataLoss if they differ. Takes as
   // long as it takes, and one piece of memory.
   virtual absl::StatusOr<ExportedMission> ExportMission(const MissionId& mission,
+                                                        MissionFileFormat format,
                                                         const MissionFileSink& sink) = 0;
-  // Makes a mission of such a file, under this name or, if it is empty, that in the file; returns
-  // its name once it is durable. MISSION_EXISTS, EXPORT_DAMAGED. Time and memory as of an export.
+  // Makes a mission of such a file, a journal, under this name or, if it is empty, that in the
+  // file; returns its name once it is durable. MISSION_EXISTS, EXPORT_DAMAGED. Time and memory as
+  // of an export.
   virtual absl::StatusOr<MissionId> ImportMission(const MissionId& mission,
                                                   const MissionFileSource& source) = 0;
 

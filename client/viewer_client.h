@@ -60,6 +60,7 @@ struct GasQuery {
   std::vector<Point2> points = {};  // frame map; 1 to 4096
   std::string species = {};         // empty: the first
   bool fresh_posterior = false;     // as in MapQuery
+  std::int64_t revision = 0;        // as in MapQuery
 };
 
 struct GasAnswer {
@@ -68,6 +69,7 @@ struct GasAnswer {
   std::vector<GasAtPlace> gas;         // one a point, in their order
   GasQuality quality;
   GasAudits audits;
+  std::int64_t sample_time_ns = 0;  // newest that the mission has heard: ages of readings end then
 };
 
 struct FrontierList {

@@ -43,6 +43,7 @@ const see = (text) => page.getByText(text).first().waitFor({ timeout: PATIENCE_M
 const map = () => page.locator('.stage > canvas');
 const revision = async () =>
   Number(/revision (\d+)/.exec(await page.locator('.time .quiet').innerText())?.[1] ?? -1);
+const NEAREST = /nearest reading \d+\.\d m away, (just now|.* ago)$/;
 const readout = () => page.locator('.readout').innerText();
 
 async function missionsAndForms(origin) {
@@ -126,6 +127,8 @@ async function liveMap(origin) {
       }
       return false;
     });
+    await until('how near and how old', async () => NEAREST.test(await readout()));
+    await picture('hover');
   });
   await step('layers, scale and view follow buttons and keys', async () => {
     for (const name of ['Uncertainty', 'Walls', 'Gas']) {
@@ -305,6 +308,8 @@ async function time(origin) {
     assert.ok(await revision() < head);
     assert.match(page.url(), /@\d+$/);
     await picture('past');
+    await pointTo(0.5, 0.45);
+    await until('how near and how old it was', async () => NEAREST.test(await readout()));
     await button('Pin to compare').click();
     await button('Back to live').click();
     await see('live, revision');

@@ -7,6 +7,8 @@ import { shareOf, ticksOf } from './colours.ts';
 import { fill, fillIfChanged, h, notice } from './dom.ts';
 import { MapView, SWITCHES } from './map_view.ts';
 import type { Place, Scene, Switch } from './map_view.ts';
+import { NearestReading } from './nearest_reading.ts';
+import type { GasQuestion } from './nearest_reading.ts';
 import { FREE, OCCUPIED } from '@plumescout/client';
 import { figure } from './words.ts';
 
@@ -37,6 +39,8 @@ export class MapPanel {
   // What the change of the gas mean from scene.then to now is called.
   private change = { name: 'Change', title: 'Change of the gas mean' };
   private drawing: Drawing | null = null;
+  private pointer: [number, number] | null = null; // where it is, pixels
+  private readonly nearest: NearestReading | null;
 
   private readonly canvas = h('canvas', { tabindex: 0, role: 'img',
     'aria-label': 'Map of the mission. Drag or use the arrow keys to pan, + and − to zoom.' });
@@ -45,7 +49,8 @@ export class MapPanel {
   private readonly tools = h('div', { class: 'tools', role: 'toolbar', 'aria-label': 'Map' });
 
   constructor(private readonly scene: Scene, private readonly onRobot: (robot: string) => void,
-              private readonly onPlace: (place: Place) => void) {
+              private readonly onPlace: (place: Place) => void, question: GasQuestion | null = null) {
+    this.nearest = question === null ? null : new NearestReading(question, () => this.tell());
     this.map = new MapView(this.canvas, scene);
     this.element = h('section', { class: 'stage', 'aria-label': 'Map' },
       this.canvas, this.tools, this.banner, this.readout, this.legend);
@@ -162,9 +167,27 @@ export class MapPanel {
     this.map.draw();
   }
 
-  private hover(x: number, y: number): void {
+  // The pointer is there now; null: not on the map.
+  private hover(pointer: [number, number] | null): void {
+    this.pointer = pointer;
+    this.nearest?.move(pointer === null ? null : this.placeAt(...pointer));
+    this.tell();
+  }
+  // The map is of another moment.
+  hoverAgain(): void {
+    this.hover(this.pointer);
+  }
+  leave(): void {
+    this.hover(null);
+  }
+
+  private tell(): void {
+    if (this.pointer === null) {
+      this.readout.textContent = '';
+      return;
+    }
     const { raster } = this.scene;
-    const [x_m, y_m] = this.map.view.toPlace(x, y);
+    const { x_m, y_m } = this.placeAt(...this.pointer);
     const cell = raster?.cellAt(x_m, y_m) ?? -1;
     const parts = [`${x_m.toFixed(2)}, ${y_m.toFixed(2)} m`];
     if (raster === null || cell < 0) {
@@ -176,6 +199,7 @@ export class MapPanel {
         parts.push(`${figure(raster.mean_ppm[cell])} ± ${figure(Math.sqrt(raster.variance_ppm2[cell]))} ppm`);
       }
     }
+    if (this.nearest !== null && this.nearest.text !== '') parts.push(this.nearest.text);
     this.readout.textContent = parts.join(' · ');
   }
 
@@ -200,7 +224,7 @@ export class MapPanel {
     });
     canvas.addEventListener('pointermove', (event) => {
       const now = place(event);
-      this.hover(...now);
+      this.hover(now);
       if (this.drawing !== null && !pinches) {
         this.drawing.draft.move(this.placeAt(...now));
         this.drawn();
@@ -228,7 +252,7 @@ export class MapPanel {
     };
     canvas.addEventListener('pointerup', end);
     canvas.addEventListener('pointercancel', end);
-    canvas.addEventListener('pointerleave', () => { this.readout.textContent = ''; });
+    canvas.addEventListener('pointerleave', () => this.hover(null));
     canvas.addEventListener('wheel', (event) => {
       event.preventDefault();
       this.zoom(Math.exp(-event.deltaY * 0.0015), ...place(event));

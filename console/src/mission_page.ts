@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One mission: the map, and beside it robots, reasons, figures and what can be done.
 import { Code } from '@connectrpc/connect';
-import { PATIENCE, inWords, missions, planning, robots as robotCalls, sentence } from './client.ts';
+import { PATIENCE, inWords, maps, missions, planning, robots as robotCalls, sentence } from './client.ts';
 import type { Trouble } from './client.ts';
 import { ChartPanel } from './chart_panel.ts';
 import { AreasPanel } from './areas_panel.ts';
@@ -64,7 +64,10 @@ export class MissionPage {
 
   constructor(private readonly name: string, revision: bigint | null) {
     this.head = [this.statePill, this.linkPill];
-    this.panel = new MapPanel(this.scene, (robot) => this.choose(robot), (place) => this.ask(place));
+    this.panel = new MapPanel(this.scene, (robot) => this.choose(robot), (place) => this.ask(place), {
+      ask: async ({ x_m, y_m }, signal) => this.playing ? null : maps.queryGas(
+        { mission: name, points: [{ xM: x_m, yM: y_m }], revision: this.past ?? 0n }, { ...PATIENCE, signal }),
+      goesOn: () => this.past === null });
     const colourOf = (robot: string) => this.panel.map.colourOf(robot);
     this.robotsPanel = new RobotsPanel((robot) => this.choose(robot), colourOf);
     this.charts = new ChartPanel(colourOf);
@@ -93,6 +96,7 @@ export class MissionPage {
   leave(): void {
     this.watch?.stop();
     this.fetching?.abort();
+    this.panel.leave();
     this.areas.leave();
     this.operate.leave();
     for (const stop of this.stops) stop();
@@ -178,6 +182,7 @@ export class MissionPage {
     this.scene.trails.clear();
     this.startWatch(null);
     this.showPastBanner();
+    this.panel.hoverAgain();
     if (location.hash.includes('@')) history.replaceState(null, '', `#/${this.name}`);
   }
 
@@ -202,6 +207,7 @@ export class MissionPage {
       this.refreshFigures();
       this.panel.map.replaced();
       this.panel.showLegend();
+      this.panel.hoverAgain();
       this.showPastBanner();
       history.replaceState(null, '', `#/${this.name}@${revision}`);
     } catch (error) {
@@ -225,6 +231,7 @@ export class MissionPage {
     this.scene.trails.clear();
     this.setPlaying(true);
     this.startWatch({ fromRevision: from, speed: Number(this.speed.value) });
+    this.panel.hoverAgain();
   }
 
   private pin(): void {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/belief/sampled_cells.h"
 #include "core/gas/gas_what_if.h"
 #include "core/types/cell_state.h"
 #include "core/types/grid.h"
@@ -89,6 +90,7 @@ struct GasField {
   GasQuality quality;
   GasAudits audits;
   std::shared_ptr<const Grid<float>> error_variance_ppm2 = nullptr;
+  std::shared_ptr<const SampledCells> sampled_cells = nullptr;
 
   // Of the concentration, for those who look at it; see GasMap::error_variance_ppm2.
   const std::shared_ptr<const Grid<float>>& published_variance_ppm2() const {
@@ -113,6 +115,7 @@ struct Belief {
   std::shared_ptr<const Grid<float>> gas_error_variance_ppm2;  // null: that is the same
   std::shared_ptr<const GasWhatIf> gas_what_if;  // of the refresh; null before there is a free cell
   std::shared_ptr<const Grid<std::uint8_t>> sampled;  // 1: a gas reading was taken in the cell
+  std::shared_ptr<const SampledCells> sampled_cells;  // of the same, when; null: not known
   GasCounters gas_counters;
   GasQuality gas_quality;
   GasAudits gas_audits;
@@ -132,8 +135,8 @@ struct Belief {
   // By place among the mission's gases. REQUIRES: there is one.
   GasField Gas(std::size_t species) const {
     if (species > 0) return further_gases[species - 1];
-    return {gas_mean_ppm, gas_variance_ppm2, gas_counters,
-            gas_quality,  gas_audits,        gas_error_variance_ppm2};
+    return {gas_mean_ppm, gas_variance_ppm2,       gas_counters, gas_quality,
+            gas_audits,   gas_error_variance_ppm2, sampled_cells};
   }
 };
 

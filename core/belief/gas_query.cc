@@ -33,6 +33,7 @@ std::vector<GasAtPlace> QueryGas(const Belief& belief, const std::vector<Point2>
   answers.reserve(places.size());
   for (const Point2 place : places) {
     GasAtPlace& gas = answers.emplace_back();
+    if (field.sampled_cells != nullptr) gas.nearest_reading = field.sampled_cells->Nearest(place);
     const Cell cell = belief.geometry().CellAt(place);
     if (!belief.occupancy->Contains(cell)) continue;
     gas.state = (*belief.occupancy)[cell];

@@ -14,7 +14,7 @@ namespace plumescout {
 // In the order of `places`. `species`: the gas by its place among the mission's. Whether
 // further gases are observed goes by observed_variance_ratio alone: a variance, if the options name
 // one, is on the first one's scale. REQUIRES: places are finite, and there is such a gas. Cost:
-// O(places).
+// O(places), each with that of SampledCells::Nearest.
 std::vector<GasAtPlace> QueryGas(const Belief& belief, const std::vector<Point2>& places,
                                  std::size_t species = 0);
 

@@ -27,8 +27,8 @@ class GasInputs {
   // With readings that are not placed yet.
   GasInputs(const GasOptions& options, ReadingStore readings, SensorOffsets sensors);
 
-  void Add(std::int64_t time_ns, Point2 position, const GasReading& reading) {
-    readings_.Add(time_ns, position, reading);
+  void Add(std::int64_t time_ns, Point2 position, const GasReading& reading, bool is_part = false) {
+    readings_.Add(time_ns, position, reading, is_part);
   }
   // The same of a sensor in a mission in which some have unknown offsets.
   void AddFrom(const ReadingSource& source, std::int64_t time_ns, Point2 position,

@@ -49,8 +49,8 @@ GasMap::GasMap(const GasOptions& options, double resolution_m)
   assert(Validate(options).ok());
 }
 
-void GasMap::Add(std::int64_t time_ns, Point2 position, const GasReading& reading) {
-  inputs_.Add(time_ns, position, reading);
+void GasMap::Add(std::int64_t time_ns, Point2 position, const GasReading& reading, bool is_part) {
+  inputs_.Add(time_ns, position, reading, is_part);
   stale_ = true;
 }
 

@@ -73,7 +73,8 @@ class GasMap {
   void AbandonWhen(StopFn stop) { field_options_.stop = std::move(stop); }
 
   // A reading that is not finite, or beyond 1e9 ppm, is counted and waits for ever.
-  void Add(std::int64_t time_ns, Point2 position, const GasReading& reading);
+  // `is_part`: as of ReadingStore::Add.
+  void Add(std::int64_t time_ns, Point2 position, const GasReading& reading, bool is_part = false);
   // The same of a sensor in a mission in which some have unknown offsets. From the refresh after it
   // has met others often enough its offset is estimated, and what readers see is the field with
   // that as a further unknown. REQUIRES: options without ageing.

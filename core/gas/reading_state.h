@@ -58,8 +58,9 @@ void AnchoredStates::VisitState(Archive& archive, Self& self) {
 
 template <typename Archive, typename Self>
 void ReadingStore::Arrival::VisitState(Archive& archive, Self& self) {
-  auto& [position, reading] = self;
+  auto& [position, reading, is_part] = self;
   archive(position, reading);
+  archive.Since(2, is_part);
 }
 
 template <typename Archive, typename Self>

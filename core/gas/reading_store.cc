@@ -32,12 +32,17 @@ void Insert(const ReadingSite& site, std::vector<ReadingSite>& sites) {
 ReadingStore::ReadingStore(const GasOptions& options, double resolution_m)
     : options_(options), resolution_m_(resolution_m), ageing_(options) {}
 
-void ReadingStore::Add(std::int64_t time_ns, Point2 position, const GasReading& reading) {
-  ++counters_.readings;
-  ++counters_.waiting;
+void ReadingStore::Add(std::int64_t time_ns, Point2 position, const GasReading& reading,
+                       bool is_part) {
+  if (!is_part) {
+    ++counters_.readings;
+    ++counters_.waiting;
+  }
   if (!IsUsable(position, reading)) return;
-  arrivals_.push_back({position, BucketOf(time_ns, ageing_.InitialVariance_ppm2(reading),
-                                          DeviationOnScale(options_, reading.concentration_ppm))});
+  arrivals_.push_back({position,
+                       BucketOf(time_ns, ageing_.InitialVariance_ppm2(reading),
+                                DeviationOnScale(options_, reading.concentration_ppm)),
+                       is_part});
   if (arrivals_.size() >= kMostArrivals) MergeArrivals();
 }
 
@@ -106,8 +111,8 @@ void ReadingStore::MergeArrivals() {
   if (lattice.resolution_m == 0.0) return;
   for (const Arrival& arrival : arrivals_) {
     Site& site = merged_arrivals_[SiteOf(arrival.position, lattice)];
-    const Site one = SiteOfOne(arrival.reading);
-    ++site.count;
+    const Site one = SiteOfOne(arrival);
+    site.count += one.count;
     site.sums += one.sums;
     arrival_buckets_ -= site.buckets.size();
     site.buckets.insert(site.buckets.end(), one.buckets.begin(), one.buckets.end());
@@ -117,13 +122,13 @@ void ReadingStore::MergeArrivals() {
   arrivals_.clear();
 }
 
-ReadingStore::Site ReadingStore::SiteOfOne(const ReadingBucket& reading) const {
+ReadingStore::Site ReadingStore::SiteOfOne(const Arrival& arrival) const {
   Site site;
-  site.count = 1;
+  site.count = arrival.is_part ? 0 : 1;
   if (ageing_.enabled()) {
-    site.buckets.push_back(reading);
+    site.buckets.push_back(arrival.reading);
   } else {
-    site.sums += EvidenceOf(reading, ageing_, reading.newest_ns);
+    site.sums += EvidenceOf(arrival.reading, ageing_, arrival.reading.newest_ns);
   }
   return site;
 }
@@ -162,7 +167,7 @@ absl::Status ReadingStore::Place(const Grid<CellState>& states,
   merged_arrivals_.clear();
   arrival_buckets_ = 0;
   for (const Arrival& arrival : arrivals_) {
-    PlaceReadings(SiteOf(arrival.position, anchor_), SiteOfOne(arrival.reading), states);
+    PlaceReadings(SiteOf(arrival.position, anchor_), SiteOfOne(arrival), states);
   }
   arrivals_.clear();
   return absl::OkStatus();

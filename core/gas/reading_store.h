@@ -57,7 +57,8 @@ class ReadingStore {
 
   // A reading that is not finite, or whose concentration is absurd, is counted and waits for ever;
   // any other waits for the next Place. Cost: O(log sites), amortised.
-  void Add(std::int64_t time_ns, Point2 position, const GasReading& reading);
+  // `is_part`: of a reading of which another part was added, and counted.
+  void Add(std::int64_t time_ns, Point2 position, const GasReading& reading, bool is_part = false);
   // Whether a reading there would not be one site too many of those that wait. Callers who do not
   // ask have room for any number.
   bool HasRoomFor(Point2 position) const;
@@ -124,6 +125,7 @@ class ReadingStore {
   struct Arrival {
     Point2 position;
     ReadingBucket reading;
+    bool is_part = false;
 
     template <typename Archive, typename Self>
     static void VisitState(Archive& archive, Self& self);
@@ -157,7 +159,7 @@ class ReadingStore {
   void PlaceSitesNear(AnchorCell cell, const Grid<CellState>& states);
   void PlaceSite(const ReadingSite& key, Site& site, const Grid<CellState>& states);
   void PlaceReadings(const ReadingSite& key, const Site& news, const Grid<CellState>& states);
-  Site SiteOfOne(const ReadingBucket& reading) const;
+  Site SiteOfOne(const Arrival& arrival) const;
   void MergeArrivals();
   void CountArrivalBuckets();
   void MergeBuckets(Site& site);

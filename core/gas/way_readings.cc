@@ -76,12 +76,18 @@ std::vector<AirReading> WayReadings::Add(const WayModel& model, std::int64_t tim
   return told;
 }
 
-std::vector<AirReading> WayReadings::Finish(const WayModel& model) {
-  points_.clear();
+std::vector<AirReading> WayReadings::Untold(const WayModel& model) const {
   if (!untold_) return {};
   std::vector<double> air;
   Smooth({}, *untold_, &air);
-  return Told(*std::exchange(untold_, std::nullopt), air, model.gas.background_mean_ppm);
+  return Told(*untold_, air, model.gas.background_mean_ppm);
+}
+
+std::vector<AirReading> WayReadings::Finish(const WayModel& model) {
+  std::vector<AirReading> untold = Untold(model);
+  points_.clear();
+  untold_.reset();
+  return untold;
 }
 
 // The stays in cells since the latest reading, those that follow each other in one cell as one;
@@ -146,7 +152,7 @@ void WayReadings::Hear(double deviation, double variance, Interval& interval) {
   interval.surprise = surprise / total;
   b.mean[0] += interval.gain[0] * surprise;
   b.mean[1] += interval.gain[1] * surprise;
-  b.air -= interval.gain[1] * b.both;
+  b.air = std::max(0.0, b.air - interval.gain[1] * b.both);
   b.both *= variance / total;
   b.sensor *= variance / total;
 }
@@ -177,9 +183,34 @@ std::vector<AirReading> WayReadings::Told(const Interval& interval, const std::v
     const double concentration_ppm = std::max(0.0, background_mean_ppm + air[i]);
     told.push_back({span.middle.time_ns,
                     span.middle.pose,
-                    {concentration_ppm, interval.variance * whole_s / span.stay_s}});
+                    {concentration_ppm, interval.variance * whole_s / span.stay_s},
+                    !told.empty()});
   }
   return told;
+}
+
+bool WayReadings::IsWhole() const {
+  const auto is_finite = [](auto... numbers) { return (std::isfinite(numbers) && ...); };
+  const auto is_variance = [&](double value) { return is_finite(value) && value >= 0.0; };
+  const auto is_point = [&](const Point& point) {
+    return is_finite(point.pose.x_m, point.pose.y_m, point.pose.yaw_rad);
+  };
+  const auto is_state = [&](const State& state) {
+    return is_finite(state.mean[0], state.mean[1], state.both) && is_variance(state.sensor) &&
+           is_variance(state.air);
+  };
+  const auto is_span = [&](const Span& span) {
+    return is_point(span.middle) && is_finite(span.stay_s, span.way_m) && span.stay_s >= 0.0 &&
+           span.way_m >= 0.0 && span.kept >= 0.0 && span.kept <= 1.0 && is_state(span.predicted);
+  };
+  const auto is_later = [](const Point& a, const Point& b) { return a.time_ns >= b.time_ns; };
+  return points_.size() <= kMostPoints && std::all_of(points_.begin(), points_.end(), is_point) &&
+         std::adjacent_find(points_.begin(), points_.end(), is_later) == points_.end() &&
+         is_finite(latest_deviation_ppm_) && is_state(state_) &&
+         (!untold_ || (untold_->spans.size() <= kMostSpans &&
+                       std::all_of(untold_->spans.begin(), untold_->spans.end(), is_span) &&
+                       is_finite(untold_->surprise, untold_->gain[0], untold_->gain[1]) &&
+                       is_variance(untold_->variance)));
 }
 
 }  // namespace plumescout

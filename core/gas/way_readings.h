@@ -18,6 +18,7 @@ struct AirReading {
   std::int64_t time_ns = 0;  // in the middle of its stay there
   Pose2 pose;                // of the robot then
   GasReading reading;        // with its variance
+  bool is_part = false;      // of a reading of which another part was told before
 
   friend bool operator==(const AirReading&, const AirReading&) = default;
 };
@@ -56,7 +57,9 @@ class WayReadings {
   std::vector<AirReading> Add(const WayModel& model, std::int64_t time_ns, const Pose2& pose,
                               const GasReading& reading);
 
-  // All that is not told yet. The next reading is then a first one.
+  // All that is not told yet.
+  std::vector<AirReading> Untold(const WayModel& model) const;
+  // The same. The next reading is then a first one.
   std::vector<AirReading> Finish(const WayModel& model);
 
   static constexpr double kMostGap = 8.0;  // exp(-8) of a reading is older: 0.03 %
@@ -68,6 +71,8 @@ class WayReadings {
   static void VisitState(Archive& archive, Self& self);
 
  private:
+  bool IsWhole() const;  // of what was read
+
   struct Point {
     std::int64_t time_ns = 0;
     Pose2 pose;
@@ -79,8 +84,8 @@ class WayReadings {
 
   struct State {
     Pair mean{};
-    double sensor = 0.0;  // variances
-    double both = 0.0;
+    double sensor = 0.0;  // variances, >= 0
+    double both = 0.0;    // covariance
     double air = 0.0;
 
     Pair Times(const Pair& v) const {

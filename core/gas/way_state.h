@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/gas/way_readings.h"
 #include "core/types/visit_types.h"
 
@@ -38,13 +35,7 @@ template <typename Archive, typename Self>
 void WayReadings::VisitState(Archive& archive, Self& self) {
   archive(self.points_, self.latest_deviation_ppm_, self.state_, self.untold_);
   if constexpr (Archive::kReads) {
-    archive.Require(std::all_of(self.points_.begin(), self.points_.end(),
-                                [](const Point& point) {
-                                  return std::isfinite(point.pose.x_m) &&
-                                         std::isfinite(point.pose.y_m) &&
-                                         std::isfinite(point.pose.yaw_rad);
-                                }),
-                    "a way leads nowhere");
+    archive.Require(self.IsWhole(), "what a sensor that lags has read is damaged");
   }
 }
 

@@ -21,6 +21,9 @@ inline constexpr std::int64_t kFurtherGasCellBytes = 32;
 inline constexpr std::int64_t kReadingSiteBytes = 500;
 inline constexpr std::int64_t kReadingBucketBytes = 290;
 inline constexpr std::int64_t kVisitedTileBytes = 80;
+// Of a sensor that lags, at most: 256 points of its way and as many stays in cells, with what
+// vectors reserve.
+inline constexpr std::int64_t kWayBytes = std::int64_t{64} << 10;
 
 // What a mission holds, in the units in which its memory is reckoned. It follows from the events
 // alone, so that what is refused for want of memory does too.
@@ -31,11 +34,13 @@ struct MemoryUse {
   std::int64_t visited_tiles = 0;
   std::int64_t field_bytes = 0;  // of all fields; see core/gas/field_bytes.h
   std::int64_t species = 1;      // gases that are mapped
+  std::int64_t ways = 0;         // of sensors that lag
 
   std::int64_t CellBytes() const { return kMapCellBytes + kFurtherGasCellBytes * (species - 1); }
   std::int64_t BesideField_bytes() const {
     return kMissionBytes + CellBytes() * map_cells + kReadingSiteBytes * reading_sites +
-           kReadingBucketBytes * reading_buckets + kVisitedTileBytes * visited_tiles;
+           kReadingBucketBytes * reading_buckets + kVisitedTileBytes * visited_tiles +
+           kWayBytes * ways;
   }
   std::int64_t Total_bytes() const { return BesideField_bytes() + field_bytes; }
 };

@@ -73,8 +73,9 @@ Mission::Mission(const MissionOptions& options)
       gas_audits_(gas_.count()),
       fleet_(options.robot_silence_s, options.return_home_below_battery_share),
       goal_memory_(options),
-      sampled_cells_(options.occupancy.resolution_m),
+      sampled_cells_(gas_.count(), SampledCells(options.occupancy.resolution_m)),
       history_(options) {
+  rasters_.gas.resize(gas_.count());
   if (options.prior_map == nullptr) return;
   [[maybe_unused]] const absl::Status learnt = occupancy_.Learn(*options.prior_map);
   assert(learnt.ok());
@@ -160,26 +161,6 @@ absl::Status Mission::InsertScan(const Pose2& pose, const Scan& scan,
   return absl::OkStatus();
 }
 
-absl::Status Mission::AddReading(std::size_t species, const ReadingSource& source,
-                                 std::int64_t time_ns, Point2 place, const GasReading& reading,
-                                 bool is_part) {
-  GasMap& gas = gas_[species];
-  if (!gas.HasRoomFor(place)) {
-    return BudgetReached(absl::StrCat("readings at ", ReadingStore::kMostWaitingSites,
-                                      " places wait for their cells to be seen"));
-  }
-  PLUMESCOUT_RETURN_IF_ERROR(CheckRoom(place, kReadingSiteBytes + kReadingBucketBytes));
-  if (fleet_.has_offsets() && !is_part) {
-    gas.AddFrom(source, time_ns, place, reading);
-  } else {
-    gas.Add(time_ns, place, reading);
-  }
-  region_.Visit(place);
-  const bool counts = species == 0;  // for plans
-  sampled_since_snapshot_ = (counts && sampled_cells_.Add(place)) || sampled_since_snapshot_;
-  return absl::OkStatus();
-}
-
 std::int64_t Mission::MostMapCells() const {
   const MemoryUse use = Use();
   return use.map_cells +
@@ -194,6 +175,7 @@ MemoryUse Mission::Use() const {
   use.reading_buckets = gas_.reading_buckets();
   use.visited_tiles = static_cast<std::int64_t>(region_.visited_tiles());
   use.field_bytes = gas_.field_bytes();
+  for (const auto& [robot, ways] : lagging_) use.ways += static_cast<std::int64_t>(ways.size());
   return use;
 }
 
@@ -327,7 +309,6 @@ void Mission::UpdateRasters() const {
     rasters_.traversable = std::make_shared<const Grid<std::uint8_t>>(std::move(traversable));
   }
   if (map_changed_since_snapshot_ || gas_changed_since_snapshot_) {
-    rasters_.gas.resize(gas_.count());
     for (std::size_t i = 0; i < gas_.count(); ++i) {
       const GasOptions options = GasOptionsOf(*options_, i);
       rasters_.gas[i].mean_ppm = OnFreeCells(gas_[i].mean_ppm(), *rasters_.occupancy, region_,
@@ -343,7 +324,11 @@ void Mission::UpdateRasters() const {
   }
   if (map_changed_since_snapshot_ || sampled_since_snapshot_) {
     rasters_.sampled = std::make_shared<const Grid<std::uint8_t>>(
-        sampled_cells_.On(rasters_.occupancy->geometry()));
+        sampled_cells_.front().On(rasters_.occupancy->geometry()));
+  }
+  for (std::size_t i = 0; i < gas_.count(); ++i) {
+    std::shared_ptr<const SampledCells>& cells = rasters_.gas[i].sampled_cells;
+    if (cells == nullptr) cells = std::make_shared<const SampledCells>(sampled_cells_[i]);
   }
   sampled_since_snapshot_ = false;
   map_changed_since_snapshot_ = false;
@@ -375,13 +360,15 @@ std::shared_ptr<const Belief> Mission::Snapshot() const {
   belief->gas_error_variance_ppm2 = rasters_.gas[0].error_variance_ppm2;
   belief->gas_what_if = gas_.first().what_if();
   belief->sampled = rasters_.sampled;
+  belief->sampled_cells = rasters_.gas[0].sampled_cells;
   belief->gas_counters = gas_.first().counters();
   belief->gas_quality = gas_.first().quality();
   belief->gas_audits = gas_audits_[0];
   for (std::size_t i = 1; i < gas_.count(); ++i) {
     belief->further_gases.push_back({rasters_.gas[i].mean_ppm, rasters_.gas[i].variance_ppm2,
                                      gas_[i].counters(), gas_[i].quality(), gas_audits_[i],
-                                     rasters_.gas[i].error_variance_ppm2});
+                                     rasters_.gas[i].error_variance_ppm2,
+                                     rasters_.gas[i].sampled_cells});
   }
   belief->sensor_offsets = Offsets();
   belief->robots = fleet_.Records();

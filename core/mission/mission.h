@@ -15,6 +15,7 @@
 #include "absl/status/statusor.h"
 #include "absl/strings/string_view.h"
 #include "core/belief/belief.h"
+#include "core/belief/sampled_cells.h"
 #include "core/gas/field_region.h"
 #include "core/gas/gas_maps.h"
 #include "core/gas/way_readings.h"
@@ -23,7 +24,6 @@
 #include "core/mission/jump_watch.h"
 #include "core/mission/map_rebuild.h"
 #include "core/mission/memory_estimate.h"
-#include "core/mission/sampled_cells.h"
 #include "core/mission/way_history.h"
 #include "core/occupancy/occupancy_grid.h"
 #include "core/occupancy/scan_inserter.h"
@@ -152,7 +152,7 @@ class Mission {
 
   std::int64_t sample_time_ns() const { return sample_time_ns_; }
 
-  // What it holds, as reckoned; at most options().memory_budget_bytes. Cost: O(1).
+  // What it holds, as reckoned; at most options().memory_budget_bytes. Cost: O(robots).
   std::int64_t memory_bytes() const { return Use().Total_bytes() + history_.bytes(); }
   // Of the gas field now: that of the options, or a multiple since the map has grown large.
   int lattice_factor() const { return gas_.lattice_factor(); }
@@ -224,13 +224,13 @@ class Mission {
   absl::Status InsertScan(const Pose2& pose, const Scan& scan, const std::vector<MaskDisc>& masks);
   absl::Status TakeReading(const RobotId& robot, std::int64_t time_ns, const Pose2& pose,
                            GasReading reading);
-  absl::Status Keep(const RobotId& robot, const GasSensor& sensor, const AirReading& air,
-                    bool is_part);
+  absl::Status Keep(const RobotId& robot, const GasSensor& sensor, const AirReading& air);
   absl::Status KeepAll(const RobotId& robot, const GasSensor& sensor,
                        const std::vector<AirReading>& told);
   WayModel ModelOf(const GasSensor& sensor) const;
   void NotePose(const RobotId& robot, std::int64_t time_ns, const Pose2& pose);
   std::vector<GasSensor> LaggingSensors(const RobotId& robot) const;
+  std::vector<WayPoint> UntoldPoints(const RobotId& robot) const;
   void FinishWays(const RobotId& robot, const std::vector<GasSensor>& sensors);
   absl::Status AddReading(std::size_t species, const ReadingSource& source, std::int64_t time_ns,
                           Point2 place, const GasReading& reading, bool is_part);
@@ -265,7 +265,7 @@ class Mission {
   std::vector<GasAudits> gas_audits_;  // by species
   Fleet fleet_;
   GoalMemory goal_memory_;
-  SampledCells sampled_cells_;
+  std::vector<SampledCells> sampled_cells_;              // by species
   std::map<RobotId, std::vector<WayReadings>> lagging_;  // by sensor, of robots with such that lag
   WayHistory history_;
   JumpWatch jump_watch_;
@@ -279,7 +279,7 @@ class Mission {
   struct Rasters {
     std::shared_ptr<const Grid<CellState>> occupancy;
     std::shared_ptr<const Grid<std::uint8_t>> traversable;
-    std::vector<GasField> gas;  // by species: rasters only
+    std::vector<GasField> gas;  // by species: rasters, and cells; those null when they changed
     std::shared_ptr<const Grid<std::uint8_t>> sampled;
   };
   void UpdateRasters() const;

@@ -32,7 +32,6 @@ absl::Status CheckTimes(const PoseCorrection& correction, std::int64_t own_ns) {
 absl::Status Mission::TakeCorrection(const RobotId& robot, const Observation& observation,
                                      const PoseCorrection& correction) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckTimes(correction, observation.sample_time_ns));
-  FinishWays(robot, LaggingSensors(robot));
   const std::int64_t clock_offset_ns = fleet_.StateOf(robot).clock_offset_ns;
   const std::int64_t time_ns = observation.sample_time_ns + clock_offset_ns;
   std::vector<PoseAnchor> anchors = correction.anchors;
@@ -40,6 +39,9 @@ absl::Status Mission::TakeCorrection(const RobotId& robot, const Observation& ob
     anchor.sample_time_ns += clock_offset_ns;
     anchor.pose = fleet_.InMission(robot, anchor.pose);
   }
+  PLUMESCOUT_RETURN_IF_ERROR(
+      history_.CheckCorrection(robot, time_ns, anchors, UntoldPoints(robot)));
+  FinishWays(robot, LaggingSensors(robot));
   const std::int64_t doubtful_from =
       jump_watch_.IsSuspect(robot) ? jump_watch_.DoubtfulFrom(robot) : history_.next_number();
   std::optional<WayPoint> start = fleet_.StartOf(robot);
@@ -68,6 +70,7 @@ void Mission::PlaceReadingsAgain() {
     gas_[i].ReplaceReadings(std::move(readings[i]), std::move(sensors[i]));
   }
   sampled_cells_ = history_.Sampled(heard);
+  for (GasField& gas : rasters_.gas) gas.sampled_cells = nullptr;
   sampled_since_snapshot_ = true;
   gas_changed_since_snapshot_ = true;
   for (const WayHistory::Heard& one : heard) region_.Visit(one.place);

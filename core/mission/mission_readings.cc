@@ -3,10 +3,12 @@
 
 // Gas readings: of sensors that show the air where they are, and of those that lag behind.
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "core/mission/mission.h"
 #include "core/types/species.h"
 #include "core/types/status_macros.h"
@@ -29,10 +31,16 @@ absl::Status Mission::TakeReading(const RobotId& robot, std::int64_t time_ns, co
                                   GasReading reading) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const GasSensor sensor, fleet_.SensorOf(robot, reading.sensor));
   if (reading.variance_ppm2 == 0.0) reading.variance_ppm2 = sensor.stddev_ppm * sensor.stddev_ppm;
-  if (sensor.response_time_s == 0.0) return Keep(robot, sensor, {time_ns, pose, reading}, false);
+  if (sensor.response_time_s == 0.0) return Keep(robot, sensor, {time_ns, pose, reading});
   const auto index = static_cast<std::size_t>(reading.sensor);
+  const auto found = lagging_.find(robot);
+  const std::size_t known = found == lagging_.end() ? 0 : found->second.size();
+  if (index >= known) {
+    const auto ways = static_cast<std::int64_t>(index + 1 - known);
+    PLUMESCOUT_RETURN_IF_ERROR(CheckRoom(pose.position(), ways * kWayBytes));
+  }
   std::vector<WayReadings>& ways = lagging_[robot];
-  if (ways.size() <= index) ways.resize(index + 1);
+  ways.resize(std::max(known, index + 1));
   return KeepAll(robot, sensor, ways[index].Add(ModelOf(sensor), time_ns, pose, reading));
 }
 
@@ -40,24 +48,43 @@ absl::Status Mission::TakeReading(const RobotId& robot, std::int64_t time_ns, co
 absl::Status Mission::KeepAll(const RobotId& robot, const GasSensor& sensor,
                               const std::vector<AirReading>& told) {
   absl::Status kept;
-  for (std::size_t i = 0; i < told.size(); ++i) {
-    kept.Update(Keep(robot, sensor, told[i], /*is_part=*/i > 0));
-  }
+  for (const AirReading& air : told) kept.Update(Keep(robot, sensor, air));
   return kept;
 }
 
 // Sensors meet where they read, not in each cell that a reading tells of: the first stands for all.
-absl::Status Mission::Keep(const RobotId& robot, const GasSensor& sensor, const AirReading& air,
-                           bool is_part) {
+absl::Status Mission::Keep(const RobotId& robot, const GasSensor& sensor, const AirReading& air) {
   const std::size_t species = FindSpecies(*options_, sensor.species).value_or(0);
   const Point2 place = PlaceOnRobot(air.pose, sensor.robot_from_sensor);
   const bool suspect = fleet_.StateOf(robot).frame_suspect;
   if (!suspect) {
     const ReadingSource source{robot, sensor.id, sensor.offset_stddev_ppm};
     PLUMESCOUT_RETURN_IF_ERROR(
-        AddReading(species, source, air.time_ns, place, air.reading, is_part));
+        AddReading(species, source, air.time_ns, place, air.reading, air.is_part));
   }
-  history_.AddReading(robot, air.time_ns, air.pose, air.reading, suspect, sensor, species, is_part);
+  history_.AddReading(robot, air.time_ns, air.pose, air.reading, suspect, sensor, species,
+                      air.is_part);
+  return absl::OkStatus();
+}
+
+absl::Status Mission::AddReading(std::size_t species, const ReadingSource& source,
+                                 std::int64_t time_ns, Point2 place, const GasReading& reading,
+                                 bool is_part) {
+  GasMap& gas = gas_[species];
+  if (!gas.HasRoomFor(place)) {
+    return BudgetReached(absl::StrCat("readings at ", ReadingStore::kMostWaitingSites,
+                                      " places wait for their cells to be seen"));
+  }
+  PLUMESCOUT_RETURN_IF_ERROR(CheckRoom(place, kReadingSiteBytes + kReadingBucketBytes));
+  if (fleet_.has_offsets() && !is_part) {
+    gas.AddFrom(source, time_ns, place, reading);
+  } else {
+    gas.Add(time_ns, place, reading, is_part);
+  }
+  region_.Visit(place);
+  const bool is_new = sampled_cells_[species].Add(time_ns, place);
+  rasters_.gas[species].sampled_cells = nullptr;
+  sampled_since_snapshot_ |= is_new && species == 0;  // for plans
   return absl::OkStatus();
 }
 
@@ -70,6 +97,18 @@ std::vector<GasSensor> Mission::LaggingSensors(const RobotId& robot) const {
     sensors.push_back(fleet_.SensorOf(robot, static_cast<int>(i)).value_or(GasSensor()));
   }
   return sensors;
+}
+
+// Where FinishWays would add readings to the robot's way.
+std::vector<WayPoint> Mission::UntoldPoints(const RobotId& robot) const {
+  std::vector<WayPoint> points;
+  const std::vector<GasSensor> sensors = LaggingSensors(robot);
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    for (const AirReading& air : lagging_.at(robot)[i].Untold(ModelOf(sensors[i]))) {
+      points.push_back({air.time_ns, air.pose});
+    }
+  }
+  return points;
 }
 
 // Before the way lies elsewhere, or once the sensors, which were these, are others. What has no

@@ -66,8 +66,8 @@ template <typename Archive, typename Self>
 void Mission::VisitState(Archive& archive, Self& self) {
   archive(self.revision_, self.sample_time_ns_, self.posterior_time_ns_, self.refreshed_ns_,
           self.readings_refreshed_ns_, self.map_changed_since_refresh_);
-  archive(self.occupancy_, self.region_, self.fleet_, self.goal_memory_, self.sampled_cells_,
-          self.gas_);
+  archive(self.occupancy_, self.region_, self.fleet_, self.goal_memory_,
+          self.sampled_cells_.front(), self.gas_);
   if constexpr (Archive::kHashes) {
     // Until something was corrected, or doubted, the history tells nothing more than the rest does,
     // and missions of before it was kept have the hash that they had.
@@ -83,6 +83,11 @@ void Mission::VisitState(Archive& archive, Self& self) {
   }
   archive.Since(2, self.changed_keep_out_);
   archive.Since(2, self.lagging_);
+  if constexpr (!Archive::kHashes) {
+    for (std::size_t i = 1; i < self.sampled_cells_.size(); ++i) {
+      archive.Since(2, self.sampled_cells_[i]);
+    }
+  }
   if constexpr (Archive::kReads) {
     archive.Require(self.goal_memory_.IsOf(self.options_->occupancy.resolution_m),
                     "goals are remembered from another map");
@@ -125,7 +130,7 @@ absl::StatusOr<std::unique_ptr<Mission>> Mission::Restore(const MissionOptions& 
   }
   if (unframed.version < kVersionWithHistory) {
     mission->history_.BeginWith(mission->occupancy_, mission->gas_.first().readings(),
-                                mission->sampled_cells_, mission->sample_time_ns_);
+                                mission->sampled_cells_.front(), mission->sample_time_ns_);
   }
   mission->AbandonWhen(std::move(stop));
   PLUMESCOUT_RETURN_IF_ERROR(mission->gas_.MakeFieldsAgain());

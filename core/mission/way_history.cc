@@ -41,14 +41,14 @@ WayHistory::WayHistory(const MissionOptions& options)
       pose_limit_m_(options.pose_limit_m),
       prior_map_(options.prior_map),
       base_readings_(NoReadings()),
-      base_sampled_(options.occupancy.resolution_m) {}
+      base_sampled_(NothingSampled()) {}
 
 void WayHistory::BeginWith(const OccupancyGrid& map, const ReadingStore& readings,
                            const SampledCells& sampled, std::int64_t time_ns) {
   if (!keeps_) return;
   base_map_ = map;
   base_readings_.front() = readings.Unplaced();
-  base_sampled_ = sampled;
+  base_sampled_.front() = sampled;
   merged_ns_ = time_ns;
 }
 
@@ -124,9 +124,10 @@ bool WayHistory::HasQuarantined(const RobotId& robot) const {
          std::any_of(found->second.scans.begin(), found->second.scans.end(), is_in);
 }
 
-std::vector<WayPoint> WayHistory::PointsOf(const Way& way) const {
-  std::vector<WayPoint> points;
-  points.reserve(way.readings.size() + 2 * way.scans.size() + 1);
+std::vector<WayPoint> WayHistory::PointsOf(const Way& way,
+                                           const std::vector<WayPoint>& added) const {
+  std::vector<WayPoint> points = added;
+  points.reserve(added.size() + way.readings.size() + 2 * way.scans.size() + 1);
   for (const KeptReading& entry : way.readings) points.push_back({entry.time_ns, entry.pose});
   for (const KeptScan& entry : way.scans) {
     points.push_back({entry.time_ns, entry.pose});
@@ -162,9 +163,9 @@ absl::Status WayHistory::CheckAnchors(const RobotId& robot, const Way& way,
   return absl::OkStatus();
 }
 
-absl::StatusOr<bool> WayHistory::Correct(const RobotId& robot, std::int64_t time_ns,
-                                         const std::vector<PoseAnchor>& anchors,
-                                         std::int64_t doubtful_from, WayPoint* start) {
+absl::StatusOr<WayCorrection> WayHistory::CorrectionOf(const RobotId& robot, std::int64_t time_ns,
+                                                       const std::vector<PoseAnchor>& anchors,
+                                                       const std::vector<WayPoint>& added) const {
   if (!keeps_) {
     return absl::FailedPreconditionError(
         "keep_scans = false, or memory is too short: the mission keeps nothing that could be "
@@ -176,36 +177,52 @@ absl::StatusOr<bool> WayHistory::Correct(const RobotId& robot, std::int64_t time
         absl::StrCat("correction.anchors[0].sample_time_ns = ", anchors.front().sample_time_ns,
                      " is of a time of which no scan or reading is kept"));
   }
-  Way corrected = found->second;
-  const std::vector<WayPoint> points = PointsOf(corrected);
-  PLUMESCOUT_RETURN_IF_ERROR(CheckAnchors(robot, corrected, points, anchors));
-  const WayCorrection correction(points, anchors);
-  // When what is in quarantine begins, of the present doubt and of earlier ones.
-  std::int64_t present_ns = std::numeric_limits<std::int64_t>::max();
-  std::int64_t earlier_ns = present_ns;
-  bool within = true;
-  const auto correct = [&](auto& entries) {
-    for (auto& entry : entries) {
-      std::int64_t& begin_ns = entry.number < doubtful_from ? earlier_ns : present_ns;
-      if (entry.quarantined) begin_ns = std::min(begin_ns, entry.time_ns);
-      if (entry.time_ns > time_ns) continue;
-      entry.pose = correction.Corrected(entry.time_ns, entry.pose);
-      within = within && IsWithin(entry.pose, pose_limit_m_);
-    }
+  const Way& way = found->second;
+  const std::vector<WayPoint> points = PointsOf(way, added);
+  PLUMESCOUT_RETURN_IF_ERROR(CheckAnchors(robot, way, points, anchors));
+  WayCorrection correction(points, anchors);
+  const auto stays_within = [&](const auto& entry) {
+    return entry.time_ns > time_ns ||
+           IsWithin(correction.Corrected(entry.time_ns, entry.pose), pose_limit_m_);
   };
-  correct(corrected.readings);
-  correct(corrected.scans);
-  for (KeptScan& entry : corrected.scans) {
-    if (entry.last.time_ns > time_ns) continue;
-    entry.last.pose = correction.Corrected(entry.last.time_ns, entry.last.pose);
-  }
-  if (corrected.latest.time_ns <= time_ns) {
-    corrected.latest.pose = correction.Corrected(corrected.latest.time_ns, corrected.latest.pose);
-  }
-  if (!within) {
+  if (!std::all_of(way.readings.begin(), way.readings.end(), stays_within) ||
+      !std::all_of(way.scans.begin(), way.scans.end(), stays_within) ||
+      !std::all_of(added.begin(), added.end(), stays_within)) {
     return absl::InvalidArgumentError(absl::StrCat(
         "correction.anchors move the robot's way beyond pose_limit_m = ", pose_limit_m_));
   }
+  return correction;
+}
+
+absl::Status WayHistory::CheckCorrection(const RobotId& robot, std::int64_t time_ns,
+                                         const std::vector<PoseAnchor>& anchors,
+                                         const std::vector<WayPoint>& added) const {
+  return CorrectionOf(robot, time_ns, anchors, added).status();
+}
+
+absl::StatusOr<bool> WayHistory::Correct(const RobotId& robot, std::int64_t time_ns,
+                                         const std::vector<PoseAnchor>& anchors,
+                                         std::int64_t doubtful_from, WayPoint* start) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const WayCorrection correction,
+                              CorrectionOf(robot, time_ns, anchors, {}));
+  Way& way = ways_.at(robot);
+  // When what is in quarantine begins, of the present doubt and of earlier ones.
+  std::int64_t present_ns = std::numeric_limits<std::int64_t>::max();
+  std::int64_t earlier_ns = present_ns;
+  const auto correct = [&](auto& entry) {
+    if (entry.time_ns <= time_ns) entry.pose = correction.Corrected(entry.time_ns, entry.pose);
+  };
+  const auto correct_all = [&](auto& entries) {
+    for (auto& entry : entries) {
+      std::int64_t& begin_ns = entry.number < doubtful_from ? earlier_ns : present_ns;
+      if (entry.quarantined) begin_ns = std::min(begin_ns, entry.time_ns);
+      correct(entry);
+    }
+  };
+  correct_all(way.readings);
+  correct_all(way.scans);
+  for (KeptScan& entry : way.scans) correct(entry.last);
+  correct(way.latest);
   const bool covers = anchors.back().sample_time_ns >= present_ns;
   const bool covers_earlier = anchors.back().sample_time_ns >= earlier_ns;
   const std::int64_t from_ns = anchors.front().sample_time_ns - kDoubtBefore_ns;
@@ -215,13 +232,10 @@ absl::StatusOr<bool> WayHistory::Correct(const RobotId& robot, std::int64_t time
       if (covered && entry.time_ns >= from_ns) entry.quarantined = false;
     }
   };
-  release(corrected.readings);
-  release(corrected.scans);
-  corrected.key_scan_closed = true;
-  if (start != nullptr && start->time_ns <= time_ns && start->time_ns > corrected.merged_ns) {
-    start->pose = correction.Corrected(start->time_ns, start->pose);
-  }
-  found->second = std::move(corrected);
+  release(way.readings);
+  release(way.scans);
+  way.key_scan_closed = true;
+  if (start != nullptr && start->time_ns > way.merged_ns) correct(*start);
   used_ = true;
   return covers;
 }
@@ -247,15 +261,15 @@ std::vector<WayHistory::Heard> WayHistory::HeardReadings() const {
 
 std::vector<ReadingStore> WayHistory::Readings(const std::vector<Heard>& heard) const {
   std::vector<ReadingStore> stores = base_readings_;
-  for (const Heard& one : heard) stores[one.species].Add(one.time_ns, one.place, one.reading);
+  for (const Heard& one : heard) {
+    stores[one.species].Add(one.time_ns, one.place, one.reading, one.is_part);
+  }
   return stores;
 }
 
-SampledCells WayHistory::Sampled(const std::vector<Heard>& heard) const {
-  SampledCells sampled = base_sampled_;
-  for (const Heard& one : heard) {
-    if (one.species == 0) sampled.Add(one.place);
-  }
+std::vector<SampledCells> WayHistory::Sampled(const std::vector<Heard>& heard) const {
+  std::vector<SampledCells> sampled = base_sampled_;
+  for (const Heard& one : heard) sampled[one.species].Add(one.time_ns, one.place);
   return sampled;
 }
 

@@ -12,11 +12,11 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "core/belief/sampled_cells.h"
 #include "core/gas/reading_store.h"
 #include "core/gas/sensor_offsets.h"
 #include "core/mission/map_rebuild.h"
 #include "core/mission/packed_scan.h"
-#include "core/mission/sampled_cells.h"
 #include "core/mission/way_correction.h"
 #include "core/occupancy/occupancy_grid.h"
 #include "core/types/gas_reading.h"
@@ -70,6 +70,11 @@ class WayHistory {
                                const std::vector<PoseAnchor>& anchors,
                                std::int64_t doubtful_from = 0, WayPoint* start = nullptr);
 
+  // The errors of Correct, if these points were added to the robot's way before. Cost: as of it.
+  absl::Status CheckCorrection(const RobotId& robot, std::int64_t time_ns,
+                               const std::vector<PoseAnchor>& anchors,
+                               const std::vector<WayPoint>& added) const;
+
   // Of all that is not in quarantine, in the order in which it came; what was merged is in
   // Readings and Sampled only. Cost: O(readings * log).
   struct Heard {
@@ -84,8 +89,8 @@ class WayHistory {
   std::vector<Heard> HeardReadings() const;
   // By gas, of what HeardReadings gave.
   std::vector<ReadingStore> Readings(const std::vector<Heard>& heard) const;
-  // Of the first gas, as all that plans go by.
-  SampledCells Sampled(const std::vector<Heard>& heard) const;
+  // The same.
+  std::vector<SampledCells> Sampled(const std::vector<Heard>& heard) const;
   // Scans from that number on. Cost: O(entries).
   std::vector<PlacedScan> ScansFrom(std::int64_t number) const;
   // What they are to be inserted into. Cost: O(cells).
@@ -149,7 +154,10 @@ class WayHistory {
   };
 
   Way& WayOf(const RobotId& robot);
-  std::vector<WayPoint> PointsOf(const Way& way) const;
+  std::vector<WayPoint> PointsOf(const Way& way, const std::vector<WayPoint>& added) const;
+  absl::StatusOr<WayCorrection> CorrectionOf(const RobotId& robot, std::int64_t time_ns,
+                                             const std::vector<PoseAnchor>& anchors,
+                                             const std::vector<WayPoint>& added) const;
   absl::Status CheckAnchors(const RobotId& robot, const Way& way,
                             const std::vector<WayPoint>& points,
                             const std::vector<PoseAnchor>& anchors) const;
@@ -163,6 +171,9 @@ class WayHistory {
     std::vector<ReadingStore> stores;
     for (const GasOptions& gas : gases_) stores.emplace_back(gas, occupancy_.resolution_m);
     return stores;
+  }
+  std::vector<SampledCells> NothingSampled() const {  // by species
+    return std::vector<SampledCells>(gases_.size(), SampledCells(occupancy_.resolution_m));
   }
   static std::int64_t BytesOf(const Way& way);
   bool IsWhole() const;  // of what was read
@@ -180,7 +191,7 @@ class WayHistory {
   std::map<RobotId, Way> ways_;
   std::optional<OccupancyGrid> base_map_;    // none: the known map
   std::vector<ReadingStore> base_readings_;  // by species
-  SampledCells base_sampled_;
+  std::vector<SampledCells> base_sampled_;   // by species
 };
 
 }  // namespace plumescout

@@ -50,6 +50,9 @@ void WayHistory::VisitSpecies(Archive& archive, Self& self) {
   for (auto& [robot, way] : self.ways_) {
     for (auto& entry : way.readings) archive(entry.species);
   }
+  if constexpr (!Archive::kHashes) {
+    for (std::size_t i = 1; i < self.base_sampled_.size(); ++i) archive(self.base_sampled_[i]);
+  }
 }
 
 template <typename Archive, typename Self>
@@ -62,7 +65,7 @@ void WayHistory::VisitState(Archive& archive, Self& self) {
     if (has_base) self.base_map_.emplace(self.occupancy_);
   }
   if (self.base_map_) archive(*self.base_map_);
-  archive(self.base_readings_.front(), self.base_sampled_);
+  archive(self.base_readings_.front(), self.base_sampled_.front());
   if (self.base_readings_.size() > 1) VisitSpecies(archive, self);
   if constexpr (Archive::kReads) {
     archive.Require(self.IsWhole(), "what is kept of robots' ways is damaged");

@@ -55,7 +55,7 @@ void WayHistory::GiveUp() {
   ways_.clear();
   base_map_.reset();
   base_readings_ = NoReadings();
-  base_sampled_ = SampledCells(occupancy_.resolution_m);
+  base_sampled_ = NothingSampled();
 }
 
 // What is in quarantine is lost.
@@ -69,8 +69,8 @@ void WayHistory::Merge(std::int64_t below_number) {
       merged_ns = std::max(merged_ns, entry.time_ns);
       bytes_ -= kReadingBytes;
       if (entry.quarantined) return true;
-      base_readings_[entry.species].Add(entry.time_ns, entry.place(), entry.reading);
-      if (entry.species == 0) base_sampled_.Add(entry.place());
+      base_readings_[entry.species].Add(entry.time_ns, entry.place(), entry.reading, entry.is_part);
+      base_sampled_[entry.species].Add(entry.time_ns, entry.place());
       return true;
     });
     std::erase_if(way.scans, [&](const KeptScan& entry) {

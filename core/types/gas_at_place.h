@@ -2,11 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "core/types/cell_state.h"
 
 namespace plumescout {
+
+// Where and when gas was measured last around a place.
+struct NearestReading {
+  double distance_m = 0.0;              // to the middle of the cell in which it was taken
+  std::optional<std::int64_t> time_ns;  // none: taken before times were kept
+
+  friend bool operator==(const NearestReading&, const NearestReading&) = default;
+};
 
 // What a belief says of the gas at one place: that of its cell, for the field has no finer detail.
 struct GasAtPlace {
@@ -15,6 +24,7 @@ struct GasAtPlace {
   std::optional<double> mean_ppm;
   std::optional<double> variance_ppm2;
   bool observed = false;  // the variance is below that which gas frontiers count as observed
+  std::optional<NearestReading> nearest_reading = std::nullopt;  // none: no reading yet
 };
 
 }  // namespace plumescout

@@ -207,7 +207,7 @@ absl::Status MeasureReadingBytes(BenchSummary& summary) {
     for (int i = 0; i < kSide * kSide; ++i) {
       const Point2 place{0.05 + 0.1 * (i % kSide), 0.05 + 0.1 * (i / kSide)};
       store.Add(0, place, {1.0});
-      sampled.Add(place);
+      sampled.Add(0, place);
     }
     if (placed) {
       const GridGeometry geometry{0.0, 0.0, 0.1, kSide, kSide};

@@ -18,12 +18,13 @@ constexpr std::size_t kMaxEchoedBytes = 80;  // of a refused string, before esca
 
 // `reason`: "WORD: " or nothing, which comes first in the message.
 absl::Status Violation(absl::string_view field, absl::string_view description,
-                       absl::string_view reason = "") {
+                       absl::string_view reason = "",
+                       absl::StatusCode code = absl::StatusCode::kInvalidArgument) {
   google::rpc::BadRequest detail;
   auto* violation = detail.add_field_violations();
   violation->set_field(std::string(field));
   violation->set_description(std::string(description));
-  absl::Status status = absl::InvalidArgumentError(absl::StrCat(reason, field, " ", description));
+  absl::Status status(code, absl::StrCat(reason, field, " ", description));
   AttachDetail(detail, status);
   return status;
 }
@@ -49,6 +50,10 @@ absl::Status FieldError(absl::string_view field, double value, absl::string_view
 
 absl::Status FieldError(absl::string_view field, absl::string_view rule) {
   return Violation(field, rule);
+}
+
+absl::Status NotYetError(absl::string_view field, std::int64_t value, absl::string_view rule) {
+  return Violation(field, absl::StrCat("= ", value, " ", rule), "", absl::StatusCode::kOutOfRange);
 }
 
 absl::Status CheckFinite(absl::string_view field, double value) {

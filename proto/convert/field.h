@@ -19,6 +19,8 @@ absl::Status FieldError(absl::string_view field, absl::string_view value, absl::
 absl::Status FieldError(absl::string_view field, double value, absl::string_view rule);
 // For fields that are missing or whose value is of no use to the reader.
 absl::Status FieldError(absl::string_view field, absl::string_view rule);
+// The same as kOutOfRange: what the field names may come to be.
+absl::Status NotYetError(absl::string_view field, std::int64_t value, absl::string_view rule);
 
 absl::Status CheckFinite(absl::string_view field, double value);
 absl::Status CheckPositive(absl::string_view field, double value);     // finite and > 0

@@ -79,6 +79,12 @@ v1::GasAtPoint ToProto(const GasAtPlace& gas) {
   if (gas.mean_ppm) proto.set_mean_ppm(*gas.mean_ppm);
   if (gas.variance_ppm2) proto.set_variance_ppm2(*gas.variance_ppm2);
   proto.set_observed(gas.observed);
+  if (gas.nearest_reading) {
+    proto.set_nearest_reading_m(gas.nearest_reading->distance_m);
+    if (gas.nearest_reading->time_ns) {
+      proto.set_nearest_reading_time_ns(*gas.nearest_reading->time_ns);
+    }
+  }
   return proto;
 }
 
@@ -126,6 +132,14 @@ absl::StatusOr<GasAtPlace> FromProto(const v1::GasAtPoint& proto, absl::string_v
     gas.variance_ppm2 = proto.variance_ppm2();
   }
   gas.observed = proto.observed();
+  if (proto.has_nearest_reading_m()) {
+    const double distance_m = proto.nearest_reading_m();
+    PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative(Join(field, "nearest_reading_m"), distance_m));
+    gas.nearest_reading.emplace().distance_m = distance_m;
+    if (proto.has_nearest_reading_time_ns()) {
+      gas.nearest_reading->time_ns = proto.nearest_reading_time_ns();
+    }
+  }
   return gas;
 }
 

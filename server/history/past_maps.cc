@@ -53,13 +53,28 @@ absl::StatusOr<grpc::ByteBuffer> PastMaps::Part(const std::shared_ptr<MissionHos
 absl::StatusOr<PastMaps::EncodedPtr> PastMaps::Encode(const std::shared_ptr<MissionHost>& host,
                                                       const PastMapWish& wish, const StopFn& stop) {
   if (EncodedPtr found = Find(host, wish)) return found;
-  PLUMESCOUT_ASSIGN_OR_RETURN(
-      const PastMission past,
-      missions_.Make(*host, wish.revision, "revision", PastUse::kMap, stop));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto belief, BeliefAt(host, wish.revision, stop));
   MapStore store(host->id(), host->map_feed()->store().max_part_bytes());
-  EncodedPtr map = store.Encode(*past.mission->Snapshot(), wish.view);
+  EncodedPtr map = store.Encode(*belief, wish.view);
   Keep({host, map});
   return map;
+}
+
+absl::StatusOr<std::shared_ptr<const Belief>> PastMaps::BeliefAt(
+    const std::shared_ptr<MissionHost>& host, std::int64_t revision, const StopFn& stop) {
+  {
+    absl::MutexLock lock(&mutex_);
+    const bool is_wanted = belief_ != nullptr && belief_->revision == revision;
+    if (is_wanted && belief_host_.lock() == host) return belief_;
+  }
+  PLUMESCOUT_ASSIGN_OR_RETURN(const PastMission past,
+                              missions_.Make(*host, revision, "revision", PastUse::kMap, stop));
+  auto belief = std::make_shared<Belief>(*past.mission->Snapshot());
+  belief->gas_what_if = nullptr;  // holds as much as the field
+  absl::MutexLock lock(&mutex_);
+  belief_host_ = host;
+  belief_ = belief;
+  return belief;
 }
 
 PastMaps::EncodedPtr PastMaps::Find(const std::shared_ptr<MissionHost>& host,

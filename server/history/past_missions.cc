@@ -15,9 +15,10 @@ absl::StatusOr<PastMission> PastMissions::Make(const MissionHost& host, std::int
                                                const StopFn& stop) {
   const std::string key = KeyOf(host);
   PLUMESCOUT_ASSIGN_OR_RETURN(const AcquiredMission stored, store_.Peek(key));
-  if (revision < 0 || revision > stored.head) {
-    return FieldError(field, static_cast<double>(revision),
-                      absl::StrCat("must be in [0, ", stored.head, "], what is durable"));
+  PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative(field, static_cast<double>(revision)));
+  if (revision > stored.head) {
+    return NotYetError(field, revision,
+                       absl::StrCat("must be at most ", stored.head, ", what is durable"));
   }
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto place, TakePlace({key, use}));
   PLUMESCOUT_ASSIGN_OR_RETURN(auto memory, registry_.HoldRoom(host.options().memory_budget_bytes));

@@ -41,8 +41,9 @@ class PastMissions {
   MissionStore& store() { return store_; }
 
   // The mission after the event `revision`, 0: before the first. kInvalidArgument naming `field` if
-  // that is not durable; OVERLOADED if another is made for the same use; LIMIT_REACHED if the
-  // server has no memory left; kCancelled. May take some seconds: not for reactors.
+  // that is negative, kOutOfRange naming it if it is not durable yet; OVERLOADED if another is made
+  // for the same use; LIMIT_REACHED if the server has no memory left; kCancelled. May take some
+  // seconds: not for reactors.
   absl::StatusOr<PastMission> Make(const MissionHost& host, std::int64_t revision,
                                    absl::string_view field, PastUse use, const StopFn& stop);
 

@@ -78,20 +78,30 @@ absl::Status MapService::Query(const v1::QueryGasRequest& request, v1::QueryGasR
       PointsFromProto(request.points(), host->options().pose_limit_m, "points"));
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::size_t species,
                               SpeciesFromProto(request.species(), host->options(), "species"));
+  PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative("revision", static_cast<double>(request.revision())));
+  const auto answer = [response, species, points = std::move(points)](const Belief& belief) {
+    for (const GasAtPlace& gas : plumescout::QueryGas(belief, points, species)) {
+      *response->add_gas() = ToProto(gas);
+    }
+    const GasField field = belief.Gas(species);
+    response->set_revision(belief.revision);
+    response->set_sample_time_ns(belief.sample_time_ns);
+    response->set_posterior_time_ns(belief.posterior_time_ns);
+    *response->mutable_gas_quality() = ToProto(field.quality, field.audits);
+    return absl::OkStatus();
+  };
+  if (request.revision() > 0) {
+    PLUMESCOUT_RETURN_IF_ERROR(context_.CheckKeepsHistory());
+    return context_.query_pool->Submit(
+        [=, revision = request.revision(), maps = &context_.history->past_maps] {
+          const CallStop stop(call, host);
+          const auto belief = maps->BeliefAt(host, revision, [&stop] { return stop.stops(); });
+          call->Answer(stop.AnswerOf(belief.ok() ? answer(**belief) : belief.status()));
+        });
+  }
   BeliefWish wish;
   wish.fresh_posterior = request.fresh_posterior();
-  return AnswerFromBelief(
-      host, context_.query_pool, call, std::move(wish),
-      [response, species, points = std::move(points)](const Belief& belief) {
-        for (const GasAtPlace& gas : plumescout::QueryGas(belief, points, species)) {
-          *response->add_gas() = ToProto(gas);
-        }
-        const GasField field = belief.Gas(species);
-        response->set_revision(belief.revision);
-        response->set_posterior_time_ns(belief.posterior_time_ns);
-        *response->mutable_gas_quality() = ToProto(field.quality, field.audits);
-        return absl::OkStatus();
-      });
+  return AnswerFromBelief(host, context_.query_pool, call, std::move(wish), answer);
 }
 
 grpc::ServerUnaryReactor* MapService::GetMap(grpc::CallbackServerContext* context,

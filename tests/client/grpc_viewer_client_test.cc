@@ -116,6 +116,9 @@ TEST_F(GrpcViewerClientTest, GasIsToldOfPlaces) {
   EXPECT_EQ(answer->gas[0].state, CellState::kFree);
   EXPECT_TRUE(answer->gas[0].mean_ppm.has_value());
   EXPECT_EQ(answer->gas[1].state, std::nullopt) << "off the map";
+  const auto then = viewer_->QueryGas("house", {.points = {{0.0, 0.0}}, .revision = 1});
+  ASSERT_TRUE(then.ok()) << then.status();
+  EXPECT_EQ(then->revision, 1);
   EXPECT_EQ(RefusedFields(viewer_->QueryGas("house", {}).status()),
             std::vector<std::string>{"points"});
 }
@@ -161,10 +164,14 @@ TEST_F(GrpcViewerClientTest, HistoryIsReadByPages) {
 
 TEST_F(GrpcViewerClientTest, AMissionIsCopiedByItsFile) {
   std::string file;
-  const auto exported = operator_->ExportMission("house", [&](const MissionFilePiece& piece) {
+  const MissionFileSink into = [&](const MissionFilePiece& piece) {
     file.append(piece.bytes.data(), piece.bytes.size());
     return absl::OkStatus();
-  });
+  };
+  ASSERT_TRUE(operator_->ExportMission("house", MissionFileFormat::kMcap, into).ok());
+  EXPECT_EQ(file.substr(1, 4), "MCAP");
+  file.clear();
+  const auto exported = operator_->ExportMission("house", MissionFileFormat::kJournal, into);
   ASSERT_TRUE(exported.ok()) << exported.status();
   const auto source = [&](std::size_t max_bytes) {
     const std::string piece = file.substr(0, max_bytes);

@@ -16,6 +16,7 @@
 namespace plumescout::client {
 namespace mission_file_test {
 
+constexpr auto kJournal = MissionFileFormat::kJournal;
 constexpr char kFile[] = "the events of a mission, one after the other";
 
 // Exports kFile in two pieces, and imports what comes.
@@ -29,8 +30,9 @@ class FileService final : public v1::SnapshotService::Service {
   }
   ~FileService() override { server_->Shutdown(std::chrono::system_clock::now()); }
 
-  grpc::Status ExportMission(grpc::ServerContext*, const v1::ExportMissionRequest*,
+  grpc::Status ExportMission(grpc::ServerContext*, const v1::ExportMissionRequest* request,
                              grpc::ServerWriter<v1::ExportMissionResponse>* writer) override {
+    asked_format = request->format();
     v1::ExportMissionResponse message;
     message.mutable_start()->set_revision(9);
     message.mutable_start()->set_expected_bytes(1000);
@@ -69,6 +71,7 @@ class FileService final : public v1::SnapshotService::Service {
   }
 
   std::unique_ptr<v1::SnapshotService::Stub> stub;
+  v1::MissionFileFormat asked_format = v1::MISSION_FILE_FORMAT_UNSPECIFIED;
   std::uint32_t crc_error = 0;
   bool ends_early = false;
   bool refuses = false;
@@ -100,28 +103,36 @@ MissionFileSource From(std::string& file) {
 TEST(MissionFileTest, AnExportComesWhole) {
   FileService service;
   std::string file;
-  const auto exported = ReceiveMissionFile(*service.stub, "house", Into(file));
+  const auto exported = ReceiveMissionFile(*service.stub, "house", kJournal, Into(file));
   ASSERT_TRUE(exported.ok()) << exported.status();
   EXPECT_EQ(file, kFile);
   EXPECT_EQ(exported->revision, 9);
   EXPECT_EQ(exported->size_bytes, static_cast<std::int64_t>(file.size()));
+  EXPECT_EQ(service.asked_format, v1::MISSION_FILE_FORMAT_JOURNAL);
+  file.clear();
+  ASSERT_TRUE(
+      ReceiveMissionFile(*service.stub, "house", MissionFileFormat::kMcap, Into(file)).ok());
+  EXPECT_EQ(service.asked_format, v1::MISSION_FILE_FORMAT_MCAP);
 }
 
 TEST(MissionFileTest, WhatIsNotWhatWasSentIsNotTaken) {
   FileService service;
   std::string file;
   service.crc_error = 1;
-  EXPECT_TRUE(absl::IsDataLoss(ReceiveMissionFile(*service.stub, "house", Into(file)).status()));
+  EXPECT_TRUE(
+      absl::IsDataLoss(ReceiveMissionFile(*service.stub, "house", kJournal, Into(file)).status()));
   EXPECT_EQ(file, "");
   service.crc_error = 0;
   service.ends_early = true;
-  EXPECT_TRUE(absl::IsDataLoss(ReceiveMissionFile(*service.stub, "house", Into(file)).status()));
+  EXPECT_TRUE(
+      absl::IsDataLoss(ReceiveMissionFile(*service.stub, "house", kJournal, Into(file)).status()));
 }
 
 TEST(MissionFileTest, ASinkThatIsFullEndsTheExport) {
   FileService service;
   const auto full = [](const MissionFilePiece&) { return absl::ResourceExhaustedError("full"); };
-  EXPECT_TRUE(absl::IsResourceExhausted(ReceiveMissionFile(*service.stub, "house", full).status()));
+  EXPECT_TRUE(absl::IsResourceExhausted(
+      ReceiveMissionFile(*service.stub, "house", kJournal, full).status()));
 }
 
 TEST(MissionFileTest, AnImportGoesInPiecesThatTheServerTakes) {

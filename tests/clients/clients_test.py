@@ -5,6 +5,7 @@
 clients_test.py [RUNNER ARGUMENT ...]: see README.md. Without a runner, the one of Python alone.
 """
 
+import hashlib
 import json
 import pathlib
 import re
@@ -16,6 +17,7 @@ import urllib.error
 import urllib.request
 
 import bed
+import plumescout
 from google.protobuf import descriptor_pb2
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -42,7 +44,8 @@ def rpcs():
 
 
 def run(runner):
-    """The lines that a runner prints, parsed, of a run against a new server."""
+    """The lines that a runner prints, parsed, of a run against a new server; and the files of its
+    exports with what the server gives then, each by its SHA-256."""
     with tempfile.TemporaryDirectory(prefix="plumescout-clients-") as folder:
         folder = pathlib.Path(folder)
         work = folder / "work"
@@ -58,7 +61,10 @@ def run(runner):
             cwd=work,
         )
         try:
-            return list(_lines(process, server))
+            lines = list(_lines(process, server))
+            server.kill()
+            _start_again(server)
+            return lines, list(_exports(server, work))
         finally:
             process.kill()
             process.communicate()
@@ -72,15 +78,31 @@ def _is_ready(server):
         return False
 
 
+def _start_again(server):
+    server.start()
+    while not _is_ready(server):  # it has missions to recover
+        pass
+
+
+def _exports(server, work):
+    with plumescout.Client(server.target) as client:
+        for step in json.loads(SCENARIO.read_text())["steps"]:
+            if step["do"] != "export_mission":
+                continue
+            file = work / step["with"]["file"]
+            again = work / "again"
+            mcap = step["with"].get("format") == "MCAP"
+            client.export_mission(step["with"]["mission"], again, mcap=mcap)
+            yield file.name, *(hashlib.sha256(f.read_bytes()).hexdigest() for f in (file, again))
+
+
 def _lines(process, server):
     for line in process.stdout:
         told = json.loads(line)
         yield told
         if told["do"] == "restart":
             server.kill()
-            server.start()
-            while not _is_ready(server):  # it has missions to recover
-                pass
+            _start_again(server)
             process.stdin.write("restarted\n")
             process.stdin.flush()
     code = process.wait(timeout=bed.PATIENCE_S)
@@ -94,7 +116,7 @@ class ClientsTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.steps = json.loads(SCENARIO.read_text())["steps"]
-        cls.python = run(PYTHON_RUNNER)
+        cls.python, cls.python_exports = run(PYTHON_RUNNER)
 
     def check(self, lines):
         """Whether each step brought what the scenario says."""
@@ -107,6 +129,11 @@ class ClientsTest(unittest.TestCase):
                 self.assertEqual({key: told[kind].get(key) for key in expected}, expected)
         self.assertEqual(len(lines), len(self.steps), "steps that were done")
 
+    def check_exports(self, exports):
+        self.assertEqual([name for name, _, _ in exports], ["room.journal", "room.mcap"])
+        for name, of_runner, of_server in exports:
+            self.assertEqual(of_runner, of_server, name)
+
     def test_every_rpc_has_a_step(self):
         kinds = {step["do"] for step in self.steps} - {"restart"}
         self.assertEqual(sorted(rpcs() - kinds), [], "RPCs that no step calls")
@@ -114,6 +141,7 @@ class ClientsTest(unittest.TestCase):
 
     def test_the_python_client_gets_what_the_scenario_says(self):
         self.check(self.python)
+        self.check_exports(self.python_exports)
 
     def test_maps_are_the_same_to_the_byte_wherever_they_come_from(self):
         maps = {
@@ -135,8 +163,9 @@ class ClientsTest(unittest.TestCase):
 
     @unittest.skipUnless(RUNNER, "no runner is given")
     def test_the_client_gets_what_the_scenario_says_and_python_got(self):
-        lines = run(RUNNER)
+        lines, exports = run(RUNNER)
         self.check(lines)
+        self.check_exports(exports)
         for number, (told, python) in enumerate(zip(lines, self.python), start=1):
             with self.subTest(step=number, do=python["do"]):
                 self.assertEqual(told, python)

@@ -101,8 +101,8 @@ class Runner:
     async def delete_mission(self, mission):
         await get(self.client.delete_mission(mission))
 
-    async def export_mission(self, mission, file):
-        start = await get(self.client.export_mission(mission, file))
+    async def export_mission(self, mission, file, format="JOURNAL"):
+        start = await get(self.client.export_mission(mission, file, mcap=format == "MCAP"))
         return {"mission": reduce.last_part(start.mission)}
 
     async def import_mission(self, file, mission):
@@ -249,11 +249,15 @@ class Runner:
             if awaited is None or applied[name] >= awaited:
                 return reduce.area(found, words)
 
-    async def query_gas(self, mission, points):
-        mean_ppm, variance_ppm2 = await get(self.client.query_gas(mission, points))
+    async def query_gas(self, mission, points, revision=0):
+        of = {"revision": revision}
+        mean_ppm, variance_ppm2 = await get(self.client.query_gas(mission, points, **of))
+        distance_m, age_s = await get(self.client.nearest_readings(mission, points, **of))
         return {
             "mean_ppm": reduce.numbers(mean_ppm),
             "variance_ppm2": reduce.numbers(variance_ppm2),
+            "nearest_reading_m": reduce.numbers(distance_m),
+            "nearest_reading_age_s": reduce.numbers(age_s),
         }
 
 

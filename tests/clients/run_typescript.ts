@@ -270,17 +270,25 @@ export class Runner {
     }
     throw new Error('the watch ended');
   }
-  async query_gas({ mission, points }: { mission: string; points: number[][] }) {
-    const { gas } = await this.client.maps.queryGas({
-      mission: name(mission), points: points.map(pointOf), freshPosterior: true });
-    return { mean_ppm: gas.map((one) => one.meanPpm ?? null), variance_ppm2: gas.map((one) => one.variancePpm2 ?? null) };
+  async query_gas({ mission, points, revision = 0 }: { mission: string; points: number[][]; revision?: number }) {
+    const { gas, sampleTimeNs } = await this.client.maps.queryGas({
+      mission: name(mission), points: points.map(pointOf), freshPosterior: true, revision: BigInt(revision) });
+    return {
+      mean_ppm: gas.map((one) => one.meanPpm ?? null), variance_ppm2: gas.map((one) => one.variancePpm2 ?? null),
+      nearest_reading_m: gas.map((one) => one.nearestReadingM ?? null),
+      nearest_reading_age_s: gas.map(({ nearestReadingTimeNs: time_ns }) =>
+        time_ns === undefined ? null : Number(sampleTimeNs - time_ns) / 1e9),
+    };
   }
 
   // --- Files.
 
-  async export_mission({ mission, file }: { mission: string; file: string }) {
+  async export_mission({ mission, file, format = 'JOURNAL' }: {
+    mission: string; file: string; format?: keyof typeof wire.MissionFileFormat }) {
     const pieces: Uint8Array[] = [];
-    for await (const { data } of exportMission(this.client, name(mission))) pieces.push(data);
+    for await (const { data } of exportMission(this.client, name(mission), { format: wire.MissionFileFormat[format] })) {
+      pieces.push(data);
+    }
     writeFileSync(file, Buffer.concat(pieces));
     return { mission };
   }

@@ -52,7 +52,8 @@ Request GoodView() {
 
 inline BadInputs BadWatchMap() {
   return BadView<v1::WatchMapRequest>()
-      .Values("from_revision", {"-1", "9223372036854775807"})
+      .Values("from_revision", {"-1"})
+      .Value("from_revision", "9223372036854775807", absl::StatusCode::kOutOfRange, "OUT_OF_RANGE")
       .Values("speed_ratio", {"nan", "inf", "-1", "0.0001", "1e7"});
 }
 
@@ -60,7 +61,8 @@ inline BadInputs BadGetMap() {
   return BadView<v1::GetMapRequest>()
       .Values("part_token", {"\"x\"", "\"!\"", "\"MSAx\""})
       .Values("max_part_bytes", {"-1"})
-      .Values("revision", {"-1", "9223372036854775807"});
+      .Values("revision", {"-1"})
+      .Value("revision", "9223372036854775807", absl::StatusCode::kOutOfRange, "OUT_OF_RANGE");
 }
 
 inline BadInputs BadQueryGas() {
@@ -80,7 +82,9 @@ inline BadInputs BadQueryGas() {
             kInvalid, "points"})
       .ValuesBlaming("points[0].x_m", "points.x_m", off)
       .ValuesBlaming("points[0].y_m", "points.y_m", off)
-      .Values("species", {R"("ozone")"});
+      .Values("species", {R"("ozone")"})
+      .Values("revision", {"-1"})
+      .Value("revision", "9223372036854775807", absl::StatusCode::kOutOfRange, "OUT_OF_RANGE");
 }
 
 }  // namespace plumescout::server

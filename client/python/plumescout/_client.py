@@ -231,22 +231,55 @@ class Operations(MissionOperations):
         return self.follow(rpcs.WATCH_MAP, request, MapBuilder().watched)
 
     def query_gas(
-        self, mission: str, points: npt.ArrayLike, species: str | None = None
+        self,
+        mission: str,
+        points: npt.ArrayLike,
+        species: str | None = None,
+        revision: int = 0,
     ) -> Operation[tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]]:
-        """What the gas field says at points, an array of shape (n, 2): x_m, y_m. species: as of
-        get_map.
+        """What the gas field says at points, an array of shape (n, 2): x_m, y_m. species, revision:
+        as of get_map.
 
         Returns mean (ppm) and variance (ppm^2), each of shape (n,), NaN off free cells."""
+        gas = (yield from self._gas_at(mission, points, species, revision)).gas
+        mean_ppm = [g.mean_ppm if g.HasField("mean_ppm") else np.nan for g in gas]
+        variance_ppm2 = [g.variance_ppm2 if g.HasField("variance_ppm2") else np.nan for g in gas]
+        return np.array(mean_ppm), np.array(variance_ppm2)
+
+    def nearest_readings(
+        self,
+        mission: str,
+        points: npt.ArrayLike,
+        species: str | None = None,
+        revision: int = 0,
+    ) -> Operation[tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]]:
+        """Where and when gas was measured last around points; arguments as of query_gas.
+
+        Returns distance (m) of the nearest reading and its age (s) at the newest sample of any
+        robot, each of shape (n,), NaN where there is none."""
+        answer = yield from self._gas_at(mission, points, species, revision)
+        distance_m = [
+            g.nearest_reading_m if g.HasField("nearest_reading_m") else np.nan for g in answer.gas
+        ]
+        age_s = [
+            (answer.sample_time_ns - g.nearest_reading_time_ns) / 1e9
+            if g.HasField("nearest_reading_time_ns")
+            else np.nan
+            for g in answer.gas
+        ]
+        return np.array(distance_m), np.array(age_s)
+
+    def _gas_at(
+        self, mission: str, points: npt.ArrayLike, species: str | None, revision: int
+    ) -> Operation[map_pb.QueryGasResponse]:
         request = map_pb.QueryGasRequest(
             mission=mission_name(mission),
             points=points_of(points),
             fresh_posterior=True,
             species=species or "",
+            revision=revision,
         )
-        gas = (yield from self.call(rpcs.QUERY_GAS, request)).gas
-        mean_ppm = [g.mean_ppm if g.HasField("mean_ppm") else np.nan for g in gas]
-        variance_ppm2 = [g.variance_ppm2 if g.HasField("variance_ppm2") else np.nan for g in gas]
-        return np.array(mean_ppm), np.array(variance_ppm2)
+        return (yield from self.call(rpcs.QUERY_GAS, request))
 
 
 def _robot(mission: str, robot: str) -> str:

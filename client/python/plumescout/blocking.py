@@ -273,3 +273,4 @@ class Client:
     get_map = _client_call(Operations.get_map)
     watch_map = _client_stream(Operations.watch_map, Map)
     query_gas = _client_call(Operations.query_gas)
+    nearest_readings = _client_call(Operations.nearest_readings)

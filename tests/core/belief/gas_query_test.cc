@@ -98,6 +98,24 @@ TEST(QueryGas, SaysWhatIsOffTheMap) {
   }
 }
 
+TEST(QueryGas, TellsTheNearestReadingWhereverItIsAsked) {
+  Belief belief = Row();
+  for (const GasAtPlace& gas : QueryGas(belief, {{0.05, 0.05}})) {
+    EXPECT_EQ(gas.nearest_reading, std::nullopt);
+  }
+  SampledCells cells(0.1);
+  cells.Add(34, {0.05, 0.05});
+  belief.sampled_cells = std::make_shared<const SampledCells>(cells);
+  const auto answers = QueryGas(belief, {{0.05, 0.05}, {0.35, 0.05}, {5.05, 0.05}});
+  ASSERT_EQ(answers.size(), 3u);
+  const double distances_m[] = {0.0, 0.3, 5.0};  // in the cell, in a wall, off the map
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    ASSERT_TRUE(answers[i].nearest_reading);
+    EXPECT_NEAR(answers[i].nearest_reading->distance_m, distances_m[i], 1e-12);
+    EXPECT_EQ(answers[i].nearest_reading->time_ns, 34);
+  }
+}
+
 TEST(QueryGas, OfNothingIsNothing) { EXPECT_TRUE(QueryGas(Row(), {}).empty()); }
 
 TEST(QueryGas, FreeCellsWithoutAPosteriorHaveNoValues) {

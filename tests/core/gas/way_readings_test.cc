@@ -9,6 +9,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string>
 #include <vector>
 
 #include "core/gas/way_state.h"
@@ -195,6 +199,104 @@ TEST(WayReadingsTest, GoesOnFromItsBytes) {
   EXPECT_EQ(read.Add(Model(), 4 * kHalfSecond_ns, PoseAt(4), {9.0}),
             way.Add(Model(), 4 * kHalfSecond_ns, PoseAt(4), {9.0}));
   EXPECT_EQ(read.Finish(Model()), way.Finish(Model()));
+}
+
+TEST(WayReadingsTest, AllButTheFirstOfAReadingAreItsParts) {
+  WayReadings way;
+  std::vector<AirReading> told = way.Add(Model(), 0, PoseAt(0), {1.0});
+  ASSERT_THAT(told, SizeIs(1));
+  EXPECT_FALSE(told[0].is_part);
+  EXPECT_THAT(way.Add(Model(), kHalfSecond_ns, PoseAt(1), {2.0}), IsEmpty());
+  // After a pause that is too long: what was untold, and the reading, as a first one.
+  told = way.Add(Model(), 100 * kHalfSecond_ns, PoseAt(2), {3.0});
+  ASSERT_THAT(told, SizeIs(kCells + 1));
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    EXPECT_EQ(told[i].is_part, i != 0 && i != kCells) << i;
+  }
+}
+
+TEST(WayReadingsTest, WhatIsUntoldStaysSo) {
+  WayReadings way;
+  EXPECT_THAT(way.Untold(Model()), IsEmpty());
+  for (int k = 0; k < 3; ++k) way.Add(Model(), k * kHalfSecond_ns, PoseAt(k), {1.0 + k});
+  const std::vector<AirReading> untold = way.Untold(Model());
+  EXPECT_THAT(untold, SizeIs(kCells));
+  EXPECT_EQ(way.Untold(Model()), untold);
+  EXPECT_EQ(way.Finish(Model()), untold);
+  EXPECT_THAT(way.Untold(Model()), IsEmpty());
+}
+
+// The bytes of a way with three points and an interval of three stays that is not told yet: in
+// front the number of points, 32 bytes for each, the latest deviation, the state, and whether
+// there is an interval.
+class WayStateTest : public testing::Test {
+ protected:
+  static constexpr std::size_t kPoint = sizeof(std::uint32_t);
+  static constexpr std::size_t kPointBytes = 32;
+  static constexpr std::size_t kLatest = kPoint + 3 * kPointBytes;
+
+  void SetUp() override {
+    WayReadings way;
+    for (int k = 0; k < 3; ++k) way.Add(Model(), k * kHalfSecond_ns, PoseAt(k), {1.0 + k});
+    for (int i = 1; i < 3; ++i) {
+      way.NotePose(2 * kHalfSecond_ns + i * 100'000'000, PoseAt(2));
+    }
+    ByteWriter writer;
+    writer(way);
+    bytes_ = writer.sink().bytes;
+  }
+  bool IsTaken(std::string bytes) {
+    WayReadings way;
+    ByteReader reader(bytes, 1 << 20);
+    reader(way);
+    return reader.Finish().ok();
+  }
+  template <typename T>
+  std::string With(std::size_t at, T value) {
+    std::string bytes = bytes_;
+    std::memcpy(bytes.data() + at, &value, sizeof(value));
+    return bytes;
+  }
+
+  std::string bytes_;
+};
+
+TEST_F(WayStateTest, WhatNoSensorHasReadIsRefused) {
+  ASSERT_TRUE(IsTaken(bytes_));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  for (const double is : {nan, inf, -inf}) {
+    EXPECT_FALSE(IsTaken(With(kPoint + 8, is))) << "x of a point";
+    EXPECT_FALSE(IsTaken(With(kPoint + 24, is))) << "yaw of a point";
+    EXPECT_FALSE(IsTaken(With(kLatest, is))) << "the latest deviation";
+  }
+  EXPECT_FALSE(IsTaken(With(kPoint + kPointBytes, std::int64_t{0}))) << "times do not ascend";
+  EXPECT_TRUE(IsTaken(With(kPoint, std::int64_t{0}))) << "any time may be the first";
+}
+
+// Whatever double stands in the state and in the interval, it is refused or leads to readings that
+// a store can take.
+TEST_F(WayStateTest, WhatIsTakenTellsReadings) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  int refused = 0;
+  for (std::size_t at = kLatest; at + sizeof(double) <= bytes_.size(); ++at) {
+    for (const double is : {nan, -1.0, 1e300}) {
+      const std::string bytes = With(at, is);
+      WayReadings way;
+      ByteReader reader(bytes, 1 << 20);
+      reader(way);
+      if (!reader.Finish().ok()) {
+        ++refused;
+        continue;
+      }
+      for (const AirReading& air : way.Finish(Model())) {
+        EXPECT_TRUE(std::isfinite(air.pose.x_m)) << at;
+        EXPECT_GE(air.reading.concentration_ppm, 0.0) << at;
+        EXPECT_GE(air.reading.variance_ppm2, 0.0) << at;
+      }
+    }
+  }
+  EXPECT_GT(refused, 100);
 }
 
 }  // namespace way_readings_test

@@ -189,6 +189,9 @@ TEST_F(MissionCorrectionsTest, ACorrectionBringsInWhatWasInQuarantine) {
   const auto right = *without.FreshBelief();
   const auto mended = *conduct_->FreshBelief();
   EXPECT_EQ(mended->gas_counters, right->gas_counters);
+  const Point2 end_m = TruthAt(step_ - 1).position();
+  EXPECT_EQ(mended->sampled_cells->Nearest(end_m)->time_ns,
+            right->sampled_cells->Nearest(end_m)->time_ns);
   int differ = 0;
   double worst_ppm = 0.0;
   for (std::size_t i = 0; i < right->occupancy->size(); ++i) {

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -14,6 +15,7 @@
 #include "core/gas/way_readings.h"
 #include "core/mission/mission.h"
 #include "tests/support/box_room.h"
+#include "tests/support/same_bytes.h"
 
 namespace plumescout {
 namespace mission_readings_test {
@@ -60,6 +62,10 @@ class Drive {
     ASSERT_TRUE(applied->posterior.ok()) << applied->posterior;
   }
   std::int64_t readings() const { return mission->Snapshot()->gas_counters.readings; }
+  std::int64_t cells() const {
+    const std::vector<std::uint8_t> sampled = mission->Snapshot()->sampled->values();
+    return std::count(sampled.begin(), sampled.end(), 1);
+  }
 
   std::unique_ptr<Mission> mission;
   std::int64_t sequence = 0;
@@ -80,7 +86,8 @@ TEST(MissionReadingsTest, FieldIsThatOfTheReadingsAlongTheWay) {
   WayModel model;
   model.response_time_s = 0.5;
   model.robot_from_sensor = Slow().robot_from_sensor;
-  int count = 0;
+  int parts = 0;
+  int readings = 0;
   for (int tick = 0; tick <= 40; ++tick) {
     lagging.Tick(tick);
     told.See(tick);
@@ -89,13 +96,17 @@ TEST(MissionReadingsTest, FieldIsThatOfTheReadingsAlongTheWay) {
     if (tick % kReadingTicks != 0) continue;
     for (const AirReading& air : way.Add(model, time_ns, PoseAt(tick), {Shown_ppm(tick)})) {
       told.Apply(ObservationReceived{"a", {++told.sequence, time_ns, air.pose, air.reading}});
-      ++count;
+      ++parts;
+      readings += air.is_part ? 0 : 1;
     }
   }
-  ASSERT_GE(count, 15);
-  EXPECT_EQ(lagging.readings(), count);
+  ASSERT_GE(parts, 15);
+  EXPECT_EQ(readings, 8) << "of nine the last is not told yet";
+  EXPECT_EQ(lagging.readings(), readings) << "each once, in however many cells";
+  EXPECT_EQ(told.readings(), parts);
   lagging.Refresh(40);
   told.Refresh(40);
+  EXPECT_EQ(lagging.mission->Snapshot()->gas_counters.in_posterior, readings);
   const auto a = lagging.mission->Snapshot();
   const auto b = told.mission->Snapshot();
   ASSERT_EQ(a->geometry(), b->geometry());
@@ -140,6 +151,7 @@ TEST(MissionReadingsTest, NothingIsLeftUntoldWhenTheWayOrTheSensorsChange) {
     drive.Register({Slow()});
     for (int tick = 0; tick <= 10; ++tick) drive.Tick(tick);
     const std::int64_t before = drive.readings();
+    const std::int64_t cells_before = drive.cells();
     if (corrects) {
       PoseCorrection correction;
       correction.anchors = {{kSecond_ns, PoseAt(0)}, {kSecond_ns + 10 * kTick_ns, PoseAt(10)}};
@@ -147,13 +159,55 @@ TEST(MissionReadingsTest, NothingIsLeftUntoldWhenTheWayOrTheSensorsChange) {
     } else {
       drive.Register({Slow()});
     }
-    // Between two readings lie 0.2 m of way: two or three cells.
-    EXPECT_GE(drive.readings(), before + 2);
-    EXPECT_LE(drive.readings(), before + 3);
+    EXPECT_EQ(drive.readings(), before + 1);
+    // Between two readings lie 0.2 m of way: two or three cells, the first perhaps known before.
+    EXPECT_GE(drive.cells(), cells_before + 1);
+    EXPECT_LE(drive.cells(), cells_before + 3);
     const std::int64_t after = drive.readings();
     drive.Send(12, GasReading{5.0});
     EXPECT_EQ(drive.readings(), after + 1) << "the first one again";
   }
+}
+
+TEST(MissionReadingsTest, ARefusedCorrectionLeavesUntoldWhatIs) {
+  PoseCorrection too_early;
+  too_early.anchors = {{kSecond_ns / 2, PoseAt(0)}};
+  PoseCorrection too_far;
+  too_far.anchors = {{kSecond_ns + 5 * kTick_ns, {1e6, 0.0, 0.0}}};
+  Drive drive;
+  Drive other;
+  for (Drive* one : {&drive, &other}) {
+    one->Register({Slow()});
+    for (int tick = 0; tick <= 10; ++tick) one->Tick(tick);
+  }
+  for (const PoseCorrection& correction : {too_early, too_far}) {
+    const auto applied = drive.mission->Apply(ObservationReceived{
+        "a", {++drive.sequence, kSecond_ns + 10 * kTick_ns, PoseAt(10), correction}});
+    ASSERT_TRUE(applied.ok()) << applied.status();
+    EXPECT_TRUE(absl::IsInvalidArgument(applied->observation)) << applied->observation;
+  }
+  EXPECT_EQ(drive.readings(), other.readings());
+  for (Drive* one : {&drive, &other}) {
+    for (int tick = 11; tick <= 20; ++tick) one->Tick(tick);
+    one->Refresh(20);
+  }
+  EXPECT_EQ(drive.readings(), other.readings());
+  EXPECT_TRUE(support::SameBytes(*drive.mission->Snapshot()->gas_mean_ppm,
+                                 *other.mission->Snapshot()->gas_mean_ppm));
+}
+
+TEST(MissionReadingsTest, SensorsThatLagCountAgainstTheBudget) {
+  Drive drive;
+  drive.Register({Slow()});
+  drive.See(0);
+  const std::int64_t before = drive.mission->memory_bytes();
+  drive.Send(1, GasReading{5.0});
+  const std::int64_t first = drive.mission->memory_bytes() - before;
+  EXPECT_GE(first, kWayBytes);
+  drive.Send(2, GasReading{5.0});
+  EXPECT_LT(drive.mission->memory_bytes() - before, first + kWayBytes) << "there is one way";
+  drive.Apply(RobotRemoved{"a"});
+  EXPECT_LT(drive.mission->memory_bytes() - before, kWayBytes);
 }
 
 }  // namespace mission_readings_test

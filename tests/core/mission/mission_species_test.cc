@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/mission/mission.h"
+#include "core/types/byte_archive.h"
 #include "core/types/species.h"
 #include "tests/support/box_room.h"
 #include "tests/support/same_bytes.h"
@@ -125,6 +126,12 @@ std::unique_ptr<Mission> Play(const MissionOptions& options, const Story& story)
   return mission;
 }
 
+std::string BytesOf(const SampledCells& cells) {
+  ByteWriter writer;
+  writer(cells);
+  return writer.sink().bytes;
+}
+
 // `tell` fills a story.
 template <typename Tell>
 void ExpectEachAsAlone(const Tell& tell) {
@@ -144,6 +151,7 @@ void ExpectEachAsAlone(const Tell& tell) {
     EXPECT_TRUE(support::SameBytes(*gas.variance_ppm2, *alone->gas_variance_ppm2));
     EXPECT_EQ(gas.counters, alone->gas_counters);
     EXPECT_EQ(gas.quality, alone->gas_quality);
+    EXPECT_TRUE(BytesOf(*gas.sampled_cells) == BytesOf(*alone->sampled_cells));
     EXPECT_GT(gas.counters.in_posterior, 0);
   }
 }

@@ -61,8 +61,12 @@ TEST(WayHistoryOfGases, TellsReadingsOfGasesApart) {
     const std::vector<ReadingStore> readings = history.Readings(heard);
     EXPECT_EQ(readings[0].counters().readings, 2) << merged;
     EXPECT_EQ(readings[1].counters().readings, 4) << merged;
-    const Grid<std::uint8_t> sampled = history.Sampled(heard).On({0.0, 0.0, 0.1, 80, 20});
-    EXPECT_EQ(std::count(sampled.values().begin(), sampled.values().end(), 1), 2) << merged;
+    const std::vector<SampledCells> sampled = history.Sampled(heard);
+    for (const std::size_t species : {0U, 1U}) {
+      const auto cells = sampled[species].On({0.0, 0.0, 0.1, 80, 20}).values();
+      EXPECT_EQ(std::count(cells.begin(), cells.end(), 1), species == 0 ? 2 : 4) << merged;
+    }
+    EXPECT_EQ(sampled[1].Nearest({5.05, 1.55})->time_ns, 4 * kSecond_ns) << merged;
   }
 }
 

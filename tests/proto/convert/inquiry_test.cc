@@ -93,6 +93,11 @@ TEST(InquiryTest, GasIsAbsentWhereThereIsNone) {
   const v1::GasAtPoint outside = ToProto(GasAtPlace{});
   EXPECT_EQ(outside.state(), v1::CELL_STATE_OFF_MAP);
   EXPECT_FALSE(outside.has_mean_ppm() || outside.has_variance_ppm2() || outside.observed());
+  EXPECT_FALSE(outside.has_nearest_reading_m() || outside.has_nearest_reading_time_ns());
+  GasAtPlace old;
+  old.nearest_reading = NearestReading{1.5, std::nullopt};
+  EXPECT_EQ(ToProto(old).nearest_reading_m(), 1.5);
+  EXPECT_FALSE(ToProto(old).has_nearest_reading_time_ns());
 }
 
 TEST(InquiryTest, EveryStateOfACellHasAName) {
@@ -123,12 +128,15 @@ TEST(InquiryTest, AnswersComeBackAsTheyWere) {
   EXPECT_EQ(frontier->travel_m, 3.5);
   EXPECT_EQ(frontier->rejection, judged.rejection);
 
-  const auto gas = FromProto(ToProto(GasAtPlace{CellState::kFree, 2.0, 0.5, true}), "gas[0]");
+  const auto gas = FromProto(ToProto(GasAtPlace{CellState::kFree, 2.0, 0.5, true, NearestReading{1.5, 7}}),
+                             "gas[0]");
   ASSERT_TRUE(gas.ok()) << gas.status();
   EXPECT_EQ(gas->state, CellState::kFree);
   EXPECT_EQ(gas->mean_ppm, 2.0);
   EXPECT_EQ(gas->variance_ppm2, 0.5);
   EXPECT_TRUE(gas->observed);
+  EXPECT_EQ(gas->nearest_reading, (NearestReading{1.5, 7}));
+  EXPECT_EQ(FromProto(ToProto(GasAtPlace{}), "gas[0]")->nearest_reading, std::nullopt);
 }
 
 TEST(InquiryTest, AnswersThatCannotBeReadAreBlamedOnTheirField) {

@@ -80,6 +80,20 @@ TEST_F(PastMapsTest, PartsMakeTheMapThoughOthersAreLookedAt) {
   EXPECT_TRUE(together.SerializeAsString() == whole->SerializeAsString());
 }
 
+TEST_F(PastMapsTest, BeliefIsKeptForWhoeverAsksNext) {
+  const auto first = maps_->BeliefAt(host_, 60, NeverStop());
+  ASSERT_TRUE(first.ok()) << first.status();
+  EXPECT_EQ((*first)->revision, 60);
+  ASSERT_TRUE(Get({.revision = 60, .view = {.level_of_detail = 1}}).ok());
+  EXPECT_EQ(*maps_->BeliefAt(host_, 60, NeverStop()), *first);
+  ASSERT_TRUE(Get({.revision = 61}).ok());
+  const auto map = maps_->BeliefAt(host_, 61, NeverStop());
+  ASSERT_TRUE(map.ok()) << map.status();
+  EXPECT_EQ((*map)->revision, 61);
+  EXPECT_THAT(maps_->BeliefAt(host_, run_.revision() + 1, NeverStop()).status(),
+              IsNotYet("revision"));
+}
+
 TEST_F(PastMapsTest, TokensAreOfTheirMap) {
   const auto part = Get({.revision = 60, .max_bytes = 1});
   ASSERT_TRUE(part.ok()) << part.status();
@@ -87,7 +101,7 @@ TEST_F(PastMapsTest, TokensAreOfTheirMap) {
   EXPECT_THAT(Get({.revision = 61, .part_token = token}).status(), Blames("part_token"));
   EXPECT_THAT(Get({.revision = 60, .view = {.level_of_detail = 1}, .part_token = token}).status(),
               Blames("part_token"));
-  EXPECT_THAT(Get({.revision = run_.revision() + 1}).status(), Blames("revision"));
+  EXPECT_THAT(Get({.revision = run_.revision() + 1}).status(), IsNotYet("revision"));
 }
 
 }  // namespace past_maps_test

@@ -28,6 +28,13 @@ MATCHER_P(Blames, field, "") {
   return absl::IsInvalidArgument(arg) && violations.size() == 1 && violations[0].field == field;
 }
 
+// kOutOfRange that names this one field.
+MATCHER_P(IsNotYet, field, "") {
+  *result_listener << arg;
+  const std::vector<FieldViolation> violations = FieldViolations(arg);
+  return absl::IsOutOfRange(arg) && violations.size() == 1 && violations[0].field == field;
+}
+
 inline RegistryOptions WithMemory(std::int64_t budget_bytes) {
   RegistryOptions options;
   options.memory_budget_bytes = budget_bytes;

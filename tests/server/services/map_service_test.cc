@@ -295,6 +295,12 @@ TEST_F(MapServiceTest, GasIsToldPointByPoint) {
   EXPECT_EQ(response->gas(2).state(), v1::CELL_STATE_OCCUPIED);
   EXPECT_FALSE(response->gas(2).has_mean_ppm());
   EXPECT_EQ(response->gas(3).state(), v1::CELL_STATE_OFF_MAP);
+  EXPECT_LT(response->gas(0).nearest_reading_m(), 0.075) << "half a diagonal of a cell";
+  EXPECT_NEAR(response->gas(3).nearest_reading_m(), 498.0, 0.075);
+  for (const v1::GasAtPoint& gas : response->gas()) {
+    EXPECT_EQ(gas.nearest_reading_time_ns(), 13'000'000);
+  }
+  EXPECT_EQ(response->sample_time_ns(), 13'000'000);
   EXPECT_EQ(response->posterior_time_ns(), 13'000'000);
   EXPECT_EQ(response->gas_quality().refresh_count(), 1);
   EXPECT_EQ(response->revision(), Revision());
@@ -307,6 +313,7 @@ TEST_F(MapServiceTest, GasOfAnEmptyMapIsOffTheMap) {
   const auto response = Call(maps_, &v1::MapService::Stub::QueryGas, request);
   ASSERT_TRUE(response.ok()) << response.status();
   EXPECT_EQ(response->gas(0).state(), v1::CELL_STATE_OFF_MAP);
+  EXPECT_FALSE(response->gas(0).has_nearest_reading_m());
   EXPECT_EQ(Revision(), 0);
 }
 

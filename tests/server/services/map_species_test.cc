@@ -122,6 +122,34 @@ TEST_F(MapSpeciesTest, PlacesAreAskedOfOneGas) {
   EXPECT_NEAR(first->gas(0).mean_ppm(), 10.0, 2.0);
 }
 
+TEST_F(MapSpeciesTest, PlacesAreAskedOfThePast) {
+  v1::QueryGasRequest request;
+  request.set_mission(kMission);
+  request.set_fresh_posterior(true);
+  request.set_species(kSecond);
+  *request.add_points() = ToProto(Point2{3.0, 2.0});
+  const auto now = Call(maps_, &v1::MapService::Stub::QueryGas, request);
+  ASSERT_TRUE(now.ok()) << now.status();
+  EXPECT_EQ(now->gas(0).nearest_reading_time_ns(), 11'000'000) << "the last one was of the first";
+  EXPECT_EQ(now->sample_time_ns(), 12'000'000);
+  v1::ObservationBatch batch;
+  GasReading reading{4.0, 0.0};
+  reading.sensor = 1;
+  *batch.add_observations() =
+      ToProto(Observation{13, 20'000'000, {kPlace.x_m + 1.0, kPlace.y_m, 0.0}, reading});
+  ASSERT_TRUE(Ingest(kReader, lease_, batch).ok());
+  const auto later = Call(maps_, &v1::MapService::Stub::QueryGas, request);
+  ASSERT_TRUE(later.ok()) << later.status();
+  EXPECT_EQ(later->gas(0).nearest_reading_time_ns(), 20'000'000);
+  request.set_revision(now->revision());
+  const auto then = Call(maps_, &v1::MapService::Stub::QueryGas, request);
+  ASSERT_TRUE(then.ok()) << then.status();
+  EXPECT_EQ(then->SerializeAsString(), now->SerializeAsString());
+  request.set_revision(later->revision() + 1000);
+  EXPECT_THAT(Call(maps_, &v1::MapService::Stub::QueryGas, request).status(),
+              Refuses(absl::StatusCode::kOutOfRange, "OUT_OF_RANGE"));
+}
+
 TEST_F(MapSpeciesTest, WatchersAndThePastAreServedToo) {
   const auto now = Get(MapOf(kSecond));
   ASSERT_TRUE(now.ok()) << now.status();
