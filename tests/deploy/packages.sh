@@ -49,7 +49,7 @@ for package in "$packages"/*.deb; do
     plumescout-*) inside "$name" --help > /dev/null ;;
     python3-plumescout) inside plumescoutctl --help > /dev/null ;;
     libplumescout-client-dev)
-      install_packages g++ cmake pkg-config
+      install_packages g++ cmake make pkg-config
       cp -r "$here/../../client/examples/cpp" "$root/example"
       inside sh -c "cmake -S /example -B /example/build && cmake --build /example/build" > /dev/null
       ;;
