@@ -128,8 +128,8 @@ TEST(InquiryTest, AnswersComeBackAsTheyWere) {
   EXPECT_EQ(frontier->travel_m, 3.5);
   EXPECT_EQ(frontier->rejection, judged.rejection);
 
-  const auto gas = FromProto(ToProto(GasAtPlace{CellState::kFree, 2.0, 0.5, true, NearestReading{1.5, 7}}),
-                             "gas[0]");
+  const auto gas = FromProto(
+      ToProto(GasAtPlace{CellState::kFree, 2.0, 0.5, true, NearestReading{1.5, 7}}), "gas[0]");
   ASSERT_TRUE(gas.ok()) << gas.status();
   EXPECT_EQ(gas->state, CellState::kFree);
   EXPECT_EQ(gas->mean_ppm, 2.0);
