@@ -24,7 +24,6 @@ namespace {
 constexpr int kRuns = 250;  // [MIT] section IV
 constexpr int kQuickRuns = 40;
 constexpr int kQuickVariantRuns = 10;
-constexpr std::size_t kTrajectories = 3;
 constexpr std::size_t kInformative = 2;  // trajectory 3
 constexpr double kPercent = 100.0;
 // Places in the list of rivals.

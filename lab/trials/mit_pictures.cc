@@ -15,7 +15,6 @@
 namespace plumescout::lab {
 namespace {
 
-constexpr std::size_t kTrajectories = 3;
 // Orange, cyan and magenta, as in the paper.
 constexpr Rgb kTrajectoryColors[kTrajectories] = {{238, 128, 22}, {0, 190, 214}, {214, 40, 160}};
 constexpr Rgb kStartMark{22, 150, 84};

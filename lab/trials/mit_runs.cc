@@ -17,7 +17,6 @@ namespace plumescout::lab {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kTrajectories = 3;
 
 // [MIT] section IV: the strategy's search, bare, with that share of even samples.
 PlanningOptions Mit(double uniform_share) {

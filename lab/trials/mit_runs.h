@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -13,6 +14,9 @@
 #include "lab/worlds/mit_scene.h"
 
 namespace plumescout::lab {
+
+// Of Table I and Fig. 2.
+inline constexpr std::size_t kTrajectories = 3;
 
 // A planner of [MIT] Table I with what the paper prints for it, in percent.
 struct MitRival {
