@@ -6,7 +6,7 @@ import { OwnAbort } from './abort.ts';
 import { Backoff, pause } from './backoff.ts';
 import { LINK_BACKOFF } from './calls.ts';
 import type { Client } from './client.ts';
-import { errorOf, isFinal } from './errors.ts';
+import { Code, errorOf, isFinal } from './errors.ts';
 import type { CallError } from './errors.ts';
 import { lastSequenceOf } from './robot_log.ts';
 import type { RobotLog } from './robot_log.ts';
@@ -15,9 +15,20 @@ import type { IngestState, ObservationRejected, StreamObservationsRequestSchema 
 const MAX_BATCH_OBSERVATIONS = 64;
 const MAX_BATCH_BYTES = 1 << 17; // half of what servers receive unless they are told otherwise
 
+// That the server has lost the robot, or its mission.
+const LOST = ['MISSION_NOT_FOUND', 'ROBOT_NOT_FOUND'];
+const PASSING = [Code.Unavailable, Code.ResourceExhausted, Code.DeadlineExceeded];
+const ENDING = ['LEASE_SUPERSEDED', 'MISSION_FINISHED'];
+
+// How the robot stands with the server once it has registered.
+export type Standing = { leaseToken: bigint; applied: number };
+
 export type IngestOptions = {
   robot: string; // missions/{mission}/robots/{robot}
   leaseToken: bigint;
+  // Registers again with a server that has restarted and lost the robot; null: it has not restarted,
+  // somebody removed the robot.
+  rejoin: () => Promise<Standing | null>;
   clock_ns: (() => bigint) | null; // the robot's, now; null: it is taken as it is
   onRejected: (rejected: ObservationRejected) => void;
   onLink: (up: boolean, error: CallError | null) => void;
@@ -47,6 +58,7 @@ export class IngestLoop {
   durable = 0; // 0 of a server that keeps nothing on disk
   reconnects = 0;
   failure: unknown = null; // why it ended for good
+  leaseToken: bigint;
   private next: number; // to send, on the present stream
   private credit = 0;
   private keeps = 0; // durable as any server told
@@ -57,6 +69,7 @@ export class IngestLoop {
   constructor(private readonly client: Client, private readonly log: RobotLog,
               private readonly options: IngestOptions) {
     this.applied = log.lastSequence;
+    this.leaseToken = options.leaseToken;
     this.next = this.applied + 1;
     void this.run();
   }
@@ -88,26 +101,67 @@ export class IngestLoop {
 
   private async run(): Promise<void> {
     const { signal } = this.abort;
-    while (!signal.aborted) {
-      let error: CallError | null = null;
-      try {
-        await this.serveOneStream();
-      } catch (failed) {
-        error = errorOf(failed);
+    try {
+      while (!signal.aborted) {
+        const error = await this.serveUntilItBreaks();
         if (signal.aborted) return;
-        if (error.reason === 'STORE_ROLLED_BACK') {
-          this.keeps = Number(error.metadata['applied_sequence'] ?? 0);
-        } else if (this.failure !== null || isFinal(error) ||
-                   ['LEASE_SUPERSEDED', 'MISSION_FINISHED'].includes(error.reason)) {
-          this.failure = failed;
-          this.options.onLink(false, error);
-          return this.bell.ring();
-        }
+        ++this.reconnects;
+        this.noteLink(false, error);
+        await pause(Math.max(this.backoff.next_s(), error?.retryAfter_s ?? 0), signal);
       }
+    } catch (failed) {
       if (signal.aborted) return;
-      ++this.reconnects;
-      this.options.onLink(false, error);
-      await pause(Math.max(this.backoff.next_s(), error?.retryAfter_s ?? 0), signal);
+      this.failure ??= failed;
+      this.bell.ring();
+      try {
+        this.options.onLink(false, errorOf(failed));
+      } catch {
+        // It has failed already.
+      }
+    }
+  }
+
+  // What broke it; null: the server ended it. Throws what another stream would not mend.
+  private async serveUntilItBreaks(): Promise<CallError | null> {
+    try {
+      await this.serveOneStream();
+      return null;
+    } catch (failed) {
+      const error = errorOf(failed);
+      if (this.failure !== null || this.abort.signal.aborted) throw failed;
+      if (error.reason === 'STORE_ROLLED_BACK') {
+        this.keeps = Number(error.metadata['applied_sequence'] ?? 0);
+      } else if (LOST.includes(error.reason) ? !await this.rejoined()
+        : isFinal(error) || ENDING.includes(error.reason)) {
+        throw failed;
+      }
+      return error;
+    }
+  }
+
+  // Whether the robot is of the mission again, or may yet be.
+  private async rejoined(): Promise<boolean> {
+    try {
+      const standing = await this.options.rejoin();
+      if (standing === null) return false;
+      this.leaseToken = standing.leaseToken;
+      this.keeps = Math.min(this.keeps, standing.applied);
+    } catch (failed) {
+      if (!PASSING.includes(errorOf(failed).code)) throw failed;
+    }
+    return true;
+  }
+
+  private noteLink(up: boolean, error: CallError | null): void {
+    this.tell(() => this.options.onLink(up, error));
+  }
+  // What a callback throws ends the session: it has nothing to do with the link.
+  private tell(callback: () => void): void {
+    try {
+      callback();
+    } catch (thrown) {
+      this.failure = thrown;
+      throw thrown;
     }
   }
 
@@ -122,12 +176,13 @@ export class IngestLoop {
           if (state === undefined) continue;
           this.open(Number(state.appliedSequence));
           this.noteState(state);
-          this.options.onLink(true, null);
+          this.noteLink(true, null);
         } else if (frame.case === 'ack') {
           this.backoff.reset();
           this.noteState(frame.value);
         } else if (frame.case === 'rejected') {
-          this.options.onRejected(frame.value);
+          const { value } = frame;
+          this.tell(() => this.options.onRejected(value));
         }
       }
     } finally {
@@ -156,7 +211,7 @@ export class IngestLoop {
   }
 
   private async* requests(signal: AbortSignal): AsyncGenerator<MessageInitShape<typeof StreamObservationsRequestSchema>> {
-    const { robot, leaseToken, clock_ns } = this.options;
+    const { leaseToken, options: { robot, clock_ns } } = this;
     yield { frame: { case: 'open', value: { robot, leaseToken, durableSequence: BigInt(this.keeps) } } };
     while (!signal.aborted) {
       const observations = this.log.read(this.next, this.credit, MAX_BATCH_OBSERVATIONS, MAX_BATCH_BYTES);

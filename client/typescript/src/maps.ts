@@ -105,7 +105,12 @@ export type WatchMapOptions = MapOptions & {
  * and PermissionDenied. */
 export async function* watchMap(client: Client, mission: string,
                                 options: WatchMapOptions = {}): AsyncGenerator<MapUpdate, void> {
-  const tell = options.onLink ?? (() => {});
+  let callbackFailed = false;
+  const tell = (...news: Parameters<NonNullable<WatchMapOptions['onLink']>>) => {
+    callbackFailed = true;
+    options.onLink?.(...news);
+    callbackFailed = false;
+  };
   const ended = () => options.signal?.aborted === true;
   const backoff = new Backoff(WATCH_BACKOFF);
   const asked = { ...options };
@@ -122,6 +127,7 @@ export async function* watchMap(client: Client, mission: string,
       }
       if (asked.levelOfDetail !== level) continue;
     } catch (failed) {
+      if (callbackFailed) throw failed; // nothing that another stream would mend
       if (ended()) return;
       error = errorOf(failed);
       // A server that lost the last events has nothing to show from there on.

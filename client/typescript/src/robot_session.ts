@@ -7,6 +7,7 @@ import { durationFromMs } from '@bufbuild/protobuf/wkt';
 import { OwnAbort } from './abort.ts';
 import type { Client } from './client.ts';
 import { IngestLoop } from './ingest_loop.ts';
+import type { Standing } from './ingest_loop.ts';
 import { planOf } from './plan.ts';
 import type { Plan } from './plan.ts';
 import { encodeRanges } from './ranges.ts';
@@ -18,7 +19,7 @@ import type { CallError } from './errors.ts';
 import { ObservationSchema, ReportProgressRequest_Outcome } from './wire/index.ts';
 import type {
   CheckTrajectoryResponse, FrontierGoal, GasSensorSchema, IntendedPathSchema, ObservationRejected,
-  Pose2DSchema, RobotFrameSchema,
+  Pose2DSchema, RegisterRobotRequestSchema, RegisterRobotResponse, RobotFrameSchema,
 } from './wire/index.ts';
 
 export type { LogOptions };
@@ -86,23 +87,38 @@ const poseOf = ({ x_m, y_m, yaw_rad }: Pose): MessageInitShape<typeof Pose2DSche
 // Below 2^53, and not 0.
 const newLogEpoch = () => 1 + Math.floor(Math.random() * (Number.MAX_SAFE_INTEGER - 1));
 
+// See IngestOptions.rejoin. Who has taken the robot over since keeps it.
+function rejoining(client: Client, request: MessageInitShape<typeof RegisterRobotRequestSchema>,
+                   bootId: string): () => Promise<Standing | null> {
+  return async () => {
+    if ((await client.system.getServerInfo({})).bootId === bootId) return null;
+    const again = await client.robots.registerRobot({ ...request, takeOver: false });
+    const applied = Number(again.ingestState?.appliedSequence ?? 0n);
+    if (applied > 0 && !again.logContinues) throw new Error('another client has told of this robot since');
+    bootId = again.serverBootId;
+    return { leaseToken: again.leaseToken, applied };
+  };
+}
+
 /** Observations are numbered, kept, and sent as the server has credit for them; nothing that adds them
  * waits. A link that breaks is opened again, and the log goes on where the server says. The log is in
  * memory: a robot that must outlive restarts of its own is better served by plumescout-robot.
  * Methods that ask the server first wait until it has applied what was added. They throw what the call
- * threw, or why the session has ended: another client has the lease (LEASE_SUPERSEDED), or the robot
- * is not of the mission any more (NotFound). */
+ * threw, or why the session has ended: another client has the lease (LEASE_SUPERSEDED), the robot is
+ * not of the mission any more (NotFound), or a callback threw. Where a server has lost the robot as it
+ * restarted, the robot registers again. */
 export class RobotSession {
   private rejected = 0;
   private readonly loop: IngestLoop;
 
   private constructor(private readonly client: Client, readonly robot: string,
-                      readonly leaseToken: bigint, private readonly log: RobotLog,
-                      options: RegisterOptions) {
+                      private readonly log: RobotLog, options: RegisterOptions,
+                      request: MessageInitShape<typeof RegisterRobotRequestSchema>,
+                      registered: RegisterRobotResponse) {
     const onRejected = options.onRejected ??
       ((refusal) => console.warn(`${robot}: observation ${refusal.sequence} refused: ${refusal.message}`));
     this.loop = new IngestLoop(client, log, {
-      robot, leaseToken,
+      robot, leaseToken: registered.leaseToken, rejoin: rejoining(client, request, registered.serverBootId),
       clock_ns: options.clock_ns === undefined ? () => BigInt(Date.now()) * 1_000_000n : options.clock_ns,
       onRejected: ({ sequence, status }: ObservationRejected) => {
         ++this.rejected;
@@ -115,16 +131,21 @@ export class RobotSession {
   /** Joins a mission, or comes back to it. Errors are those of RegisterRobot, as LEASE_HELD. */
   static async register(client: Client, options: RegisterOptions): Promise<RobotSession> {
     const { mission, robotId, radius_m, takeOver = false, gasSensors = [], frame } = options;
-    const registered = await client.robots.registerRobot({
+    const request = {
       mission, robotId, radiusM: radius_m, takeOver, gasSensors, logEpoch: BigInt(newLogEpoch()),
       ...(frame === undefined ? {} : { frame }),
-    });
+    };
+    const registered = await client.robots.registerRobot(request);
     // The log is a new one: it begins after whatever the server has of this robot.
     const log = new RobotLog(Number(registered.ingestState?.appliedSequence ?? 0n),
                              { ...DEFAULT_LOG, ...options.log });
-    return new RobotSession(client, registered.robot, registered.leaseToken, log, options);
+    return new RobotSession(client, registered.robot, log, options, request, registered);
   }
 
+  /** Another one once the robot has registered again. */
+  get leaseToken(): bigint {
+    return this.loop.leaseToken;
+  }
   get statistics(): SessionStatistics {
     const { applied, durable, reconnects } = this.loop;
     return { lastSequence: this.log.lastSequence, applied, durable, rejected: this.rejected,

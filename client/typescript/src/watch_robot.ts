@@ -4,10 +4,16 @@ import { OwnAbort } from './abort.ts';
 import { Backoff, pause } from './backoff.ts';
 import { LINK_BACKOFF } from './calls.ts';
 import type { Client } from './client.ts';
-import { errorOf, isFinal } from './errors.ts';
+import { Code, errorOf, isFinal } from './errors.ts';
+import type { CallError } from './errors.ts';
 import type { WatchRobotResponse } from './wire/index.ts';
 
 export type RobotNotice = WatchRobotResponse['notice'];
+
+// Whether the server said why, and would say so again.
+function isAnswer({ code, reason }: CallError): boolean {
+  return reason !== '' && code !== Code.Unavailable && code !== Code.ResourceExhausted;
+}
 
 /** What there is to know of missions/{mission}/robots/{robot} without having asked: how it stands, first
  * and after every change; that its plan does not stand any more; that it was given another. A link
@@ -30,7 +36,7 @@ export async function* watchRobot(client: Client, robot: string,
     } catch (failed) {
       if (ended()) return;
       const error = errorOf(failed);
-      if (isFinal(error) || error.reason === 'LEASE_SUPERSEDED') throw failed;
+      if (isFinal(error) || isAnswer(error)) throw failed;
       retryAfter_s = error.retryAfter_s;
     } finally {
       abort.end();

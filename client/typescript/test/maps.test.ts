@@ -118,6 +118,18 @@ test('what cannot pass by itself is thrown; a signal ends the watch without a wo
   assert.equal(updates, 1);
 });
 
+test('what a callback throws is thrown, and asks nobody again', async () => {
+  for (const state of ['connecting', 'live']) {
+    const { client, requests } = serving({ frames: [FULL, FULL] });
+    const watching = (async () => {
+      const onLink = (now: string) => { if (now === state) throw new Error('mine'); };
+      for await (const _ of watchMap(client, 'missions/hall', { onLink })) continue;
+    })();
+    await assert.rejects(watching, /mine/);
+    assert.equal(requests.length, state === 'live' ? 1 : 0);
+  }
+});
+
 test('of maps that are too large, squares are asked for', async () => {
   const { client, requests } = serving({ frames: [FULL] }, { frames: [FULL] });
   await read(client, 1, { maxCells: 1 });

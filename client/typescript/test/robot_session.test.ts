@@ -6,8 +6,10 @@ import { Code } from '@connectrpc/connect';
 import type { MessageInitShape } from '@bufbuild/protobuf';
 import { RobotSession } from '../src/robot_session.ts';
 import type { RegisterOptions } from '../src/robot_session.ts';
-import { IngestService, PlanningService, RobotService } from '../src/wire/index.ts';
-import type { NextBestTrajectoryRequest, StreamObservationsResponseSchema } from '../src/wire/index.ts';
+import { IngestService, PlanningService, RobotService, SystemService } from '../src/wire/index.ts';
+import type {
+  NextBestTrajectoryRequest, RegisterRobotRequest, RegisterRobotResponseSchema, StreamObservationsResponseSchema,
+} from '../src/wire/index.ts';
 import { Timers, clientOf, refusal, settle } from './support.ts';
 
 type Answer = MessageInitShape<typeof StreamObservationsResponseSchema>;
@@ -27,9 +29,20 @@ async function joined(streams: { first: Answer | Error; onBatch?: OnBatch }[], o
   const opens: bigint[] = [];
   const batches: (number | number[])[][] = [];
   const plans: NextBestTrajectoryRequest[] = [];
+  const leases: bigint[] = [];
+  const registrations: RegisterRobotRequest[] = [];
+  // What a restarted server answers; without, there is none.
+  const later: { registered?: MessageInitShape<typeof RegisterRobotResponseSchema> | Error } = {};
   const client = clientOf(({ service }) => {
-    service(RobotService, { registerRobot: () => ({
-      robot: 'missions/hall/robots/scout', leaseToken: 7n, ingestState: state(0, 0) }) });
+    service(RobotService, { registerRobot: (request) => {
+      registrations.push(request);
+      if (registrations.length > 1 && later.registered instanceof Error) throw later.registered;
+      return {
+        robot: 'missions/hall/robots/scout', leaseToken: 7n, ingestState: state(0, 0), serverBootId: 'first',
+        ...(registrations.length > 1 ? later.registered as object : {}) };
+    } });
+    service(SystemService, { getServerInfo: () => ({
+      bootId: later.registered === undefined ? 'first' : 'second' }) });
     service(PlanningService, { nextBestTrajectory: (request) => {
       plans.push(request);
       return { plan: { name: 'missions/hall/plans/1' } };
@@ -39,6 +52,7 @@ async function joined(streams: { first: Answer | Error; onBatch?: OnBatch }[], o
       for await (const { frame } of requests) {
         if (frame.case === 'open') {
           opens.push(frame.value.durableSequence);
+          leases.push(frame.value.leaseToken);
           if (first instanceof Error) throw first;
           yield first;
         } else if (frame.case === 'batch') {
@@ -52,7 +66,7 @@ async function joined(streams: { first: Answer | Error; onBatch?: OnBatch }[], o
   });
   const session = await RobotSession.register(client, {
     mission: 'missions/hall', robotId: 'scout', radius_m: 0.2, clock_ns: null, onRejected: () => {}, ...options });
-  return { session, opens, batches, plans };
+  return { session, opens, batches, plans, leases, registrations, later };
 }
 
 function addReadings(session: RobotSession, count: number): void {
@@ -115,6 +129,62 @@ test('a lease that another has taken ends the session', async () => {
   await assert.rejects(session.nextBestTrajectory(), /LEASE_SUPERSEDED/);
   await timers.pass(5000);
   assert.equal(opens.length, 1);
+});
+
+test('a robot that a restarted server has lost registers again, and tells all it still has', async () => {
+  const { session, later, leases, opens, batches, registrations } = await joined([
+    { first: opened(0, 9), onBatch: (numbers) => {
+      if (numbers.includes(3)) throw refusal(Code.Unavailable);
+      return [ack(2, 9)];
+    } },
+    { first: refusal(Code.NotFound, 'ROBOT_NOT_FOUND') },
+    { first: opened(0, 9), onBatch: () => [ack(3, 9)] }], { takeOver: true });
+  addReadings(session, 2);
+  await session.applied();
+  later.registered = { leaseToken: 8n, ingestState: state(0, 0), serverBootId: 'second' };
+  addReadings(session, 1);
+  await timers.pass(130);
+  await timers.pass(200);
+  await session.applied();
+  assert.deepEqual(leases, [7n, 7n, 8n]);
+  assert.deepEqual(opens, [0n, 0n, 0n]);
+  assert.deepEqual(batches.at(-1), [1, 2, 3]);
+  assert.equal(session.leaseToken, 8n);
+  assert.deepEqual(registrations.map(({ takeOver }) => takeOver), [true, false]);
+  assert.equal(registrations[0]!.logEpoch, registrations[1]!.logEpoch);
+  session.close();
+});
+
+test('a robot that was removed stays away', async () => {
+  const { session, registrations } = await joined([{ first: refusal(Code.NotFound, 'ROBOT_NOT_FOUND') }]);
+  addReadings(session, 1);
+  await assert.rejects(session.applied(), /ROBOT_NOT_FOUND/);
+  assert.equal(registrations.length, 1);
+});
+
+test('a robot whose lease another client has since ends', async () => {
+  const { session, later } = await joined([
+    { first: opened(0, 9), onBatch: () => { throw refusal(Code.Unavailable); } },
+    { first: refusal(Code.NotFound, 'ROBOT_NOT_FOUND') }]);
+  later.registered = refusal(Code.FailedPrecondition, 'LEASE_HELD');
+  addReadings(session, 1);
+  const held = assert.rejects(session.applied(), /LEASE_HELD/);
+  await timers.pass(130);
+  await held;
+});
+
+test('what a callback throws ends the session, and is no matter of the link', async () => {
+  for (const options of [
+    { onRejected: () => { throw new Error('mine'); } },
+    { onLink: (up: boolean) => { if (up) throw new Error('mine'); } },
+    { onLink: () => { throw new Error('mine'); } }]) {
+    const { session, opens } = await joined([{ first: opened(0, 9), onBatch: () => [
+      { frame: { case: 'rejected', value: { sequence: 1n, status: { message: 'beyond the map' } } } }] }], options);
+    addReadings(session, 1);
+    await assert.rejects(session.applied(), /mine/);
+    await timers.pass(5000);
+    assert.equal(opens.length, 1);
+  }
 });
 
 test('a server with more observations than were made has those of another log', async () => {

@@ -9,6 +9,25 @@ import { Timers, clientOf, refusal } from './support.ts';
 
 const timers = new Timers();
 
+test('what the server says for good ends the watch', async () => {
+  for (const [code, reason] of [[Code.FailedPrecondition, 'MISSION_FINISHED'], [Code.NotFound, 'ROBOT_NOT_FOUND'],
+    [Code.DataLoss, 'STORE_DAMAGED'], [Code.InvalidArgument, '']] as const) {
+    let asked = 0;
+    const client = clientOf(({ service }) => service(RobotService, {
+      async* watchRobot() {
+        ++asked;
+        throw refusal(code, reason);
+      },
+    }));
+    const watching = (async () => {
+      for await (const _ of watchRobot(client, 'missions/hall/robots/scout')) assert.fail('nothing comes');
+    })();
+    await assert.rejects(watching, new RegExp(reason));
+    await timers.pass(5000);
+    assert.equal(asked, 1);
+  }
+});
+
 test('a watch that breaks is opened again; a lease that is lost ends it', async () => {
   const errors = [refusal(Code.Unavailable), refusal(Code.FailedPrecondition, 'LEASE_SUPERSEDED')];
   const tokens: bigint[] = [];
