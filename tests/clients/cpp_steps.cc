@@ -368,26 +368,7 @@ class Runner {
     GasQuery query{.fresh_posterior = true, .revision = with.value("revision", 0)};
     for (const Json& point : with["points"]) query.points.push_back({point[0], point[1]});
     PLUMESCOUT_ASSIGN_OR_RETURN(const GasAnswer answer, viewer_->QueryGas(with["mission"], query));
-    Json means = Json::array();
-    Json variances = Json::array();
-    Json distances = Json::array();
-    Json ages = Json::array();
-    for (const GasAtPlace& gas : answer.gas) {
-      std::optional<double> distance_m;
-      std::optional<double> age_s;
-      if (gas.nearest_reading) distance_m = gas.nearest_reading->distance_m;
-      if (gas.nearest_reading && gas.nearest_reading->time_ns) {
-        age_s = static_cast<double>(answer.sample_time_ns - *gas.nearest_reading->time_ns) / 1e9;
-      }
-      distances.push_back(TellOptional(distance_m));
-      ages.push_back(TellOptional(age_s));
-      means.push_back(TellOptional(gas.mean_ppm));
-      variances.push_back(TellOptional(gas.variance_ppm2));
-    }
-    return Json{{"mean_ppm", means},
-                {"variance_ppm2", variances},
-                {"nearest_reading_m", distances},
-                {"nearest_reading_age_s", ages}};
+    return TellGas(answer);
   }
 
   const Json scenario_;

@@ -316,6 +316,29 @@ Json TellLivePlan(const LivePlan& plan) {
           {"waypoints", plan.trajectory.waypoints.size()}};
 }
 
+Json TellGas(const GasAnswer& answer) {
+  Json means = Json::array();
+  Json variances = Json::array();
+  Json distances = Json::array();
+  Json ages = Json::array();
+  for (const GasAtPlace& gas : answer.gas) {
+    std::optional<double> distance_m;
+    std::optional<double> age_s;
+    if (gas.nearest_reading) distance_m = gas.nearest_reading->distance_m;
+    if (gas.nearest_reading && gas.nearest_reading->time_ns) {
+      age_s = static_cast<double>(answer.sample_time_ns - *gas.nearest_reading->time_ns) / 1e9;
+    }
+    means.push_back(TellOptional(gas.mean_ppm));
+    variances.push_back(TellOptional(gas.variance_ppm2));
+    distances.push_back(TellOptional(distance_m));
+    ages.push_back(TellOptional(age_s));
+  }
+  return Json{{"mean_ppm", means},
+              {"variance_ppm2", variances},
+              {"nearest_reading_m", distances},
+              {"nearest_reading_age_s", ages}};
+}
+
 Json TellMap(const MapSnapshot& map, const MapView& view) {
   const GridGeometry& geometry = map.occupancy.geometry();
   Json robots = Json::array();

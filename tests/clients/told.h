@@ -40,6 +40,7 @@ nlohmann::json TellPlan(const Plan& plan);
 nlohmann::json TellCheck(const TrajectoryVerdict& verdict);
 nlohmann::json TellFrontier(const JudgedFrontier& frontier);
 nlohmann::json TellLivePlan(const LivePlan& plan);
+nlohmann::json TellGas(const GasAnswer& answer);
 nlohmann::json TellMap(const MapSnapshot& map, const MapView& view);
 // How much of the robot's log the map says is in it; -1: there is no such robot.
 std::int64_t AppliedIn(const MapSnapshot& map, const RobotId& robot);
