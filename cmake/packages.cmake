@@ -53,7 +53,7 @@ plumescout_package(robot plumescout-robot
   "robot side of PlumeScout: sensors in, paths out, by lines of JSON")
 plumescout_package(client libplumescout-client-dev
   "C++ client library of PlumeScout, and its wire format"
-  DEPENDS "libabsl-dev, libgrpc++-dev, libprotobuf-dev, libssl-dev, libyaml-cpp-dev, libzstd-dev, zlib1g-dev")
+  DEPENDS "libabsl-dev, libgrpc++-dev, libprotobuf-dev, protobuf-compiler, protobuf-compiler-grpc, libssl-dev, libyaml-cpp-dev, libzstd-dev, zlib1g-dev")
 plumescout_package(lab plumescout-lab
   "laboratory of PlumeScout: simulated robots and gas, replays, studies"
   DEPENDS "fonts-dejavu-core")
