@@ -15,6 +15,8 @@
 
 namespace plumescout::server {
 
+class StoreNodes;
+
 // Where missions outlive the server: a journal of numbered records for each, the newest snapshots,
 // and who may write. What a record or a snapshot says is no concern of the store's.
 //
@@ -131,6 +133,9 @@ class MissionStore {
   virtual std::int64_t disk_bytes() const { return 0; }
   // Whether what it keeps survives the process.
   virtual bool is_durable() const = 0;
+  // The servers that share it; null if it is one server's alone. Then Acquire answers
+  // MISSION_ELSEWHERE, naming the node, for a mission of another node that lives.
+  virtual StoreNodes* nodes() { return nullptr; }
 };
 
 }  // namespace plumescout::server

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "server/base/clock.h"
+
+namespace plumescout::server {
+
+// A server of several that share one store.
+struct StoreNode {
+  std::string name;     // one word, of the operator's choice; clients ask for a node by it
+  std::string address;  // where it listens, for those who look
+
+  friend bool operator==(const StoreNode&, const StoreNode&) = default;
+};
+
+// The servers that share a store, and which of them has which mission. A node holds one lease in
+// the store, by the clock of the store alone, and every mission that it acquires (MissionStore)
+// is its own until it gives it back or its lease runs out. Safety rests on epochs, not on leases:
+// whoever lost a mission is FENCED. Thread-safe; what blocks says so.
+class StoreNodes {
+ public:
+  using OnLost = std::function<void(const absl::Status&)>;
+
+  virtual ~StoreNodes() = default;
+
+  virtual const StoreNode& self() const = 0;
+
+  // Until when this node may answer for its missions: counted from before the renewal was sent, by
+  // the steady clock. In the past once the lease was lost.
+  virtual SteadyTime lease_until() const = 0;
+  // OK while the lease holds; else why not, for people.
+  virtual absl::Status status() const = 0;
+  // Called when the lease is lost, on a thread of the store's, and must not block; the node then
+  // joins again by itself, under another lease, and has no missions.
+  virtual void SetOnLost(OnLost on_lost) = 0;
+
+  // Nodes whose lease holds, by name. Blocks.
+  virtual absl::StatusOr<std::vector<StoreNode>> ListLiving() = 0;
+  // The living node whose mission it is; nothing if it is nobody's. kNotFound if the store has no
+  // such mission. Blocks.
+  virtual absl::StatusOr<std::optional<std::string>> FindOwner(const std::string& key) = 0;
+  // The mission is nobody's: the next who acquires it has it. FENCED if it is not of this epoch.
+  // Blocks.
+  virtual absl::Status Release(const std::string& key, std::int64_t epoch) = 0;
+};
+
+}  // namespace plumescout::server
