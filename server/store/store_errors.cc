@@ -34,6 +34,18 @@ absl::Status FencedByEpoch(absl::string_view key, std::int64_t epoch, std::int64
   return Fenced(key, absl::StrCat("is written under epoch ", newest, ", not ", epoch));
 }
 
+absl::Status MissionElsewhere(absl::string_view key, absl::string_view node) {
+  return TypedError(
+      absl::StatusCode::kUnavailable, reason::kMissionElsewhere,
+      absl::StrCat("mission ", absl::Utf8SafeCHexEscape(key), " is served by node ", node));
+}
+
+absl::string_view NodeElsewhere(const absl::Status& status) {
+  if (ErrorReason(status) != reason::kMissionElsewhere) return {};
+  const absl::string_view message = status.message();
+  return message.substr(message.rfind(' ') + 1);
+}
+
 absl::Status FencedByHead(absl::string_view key, std::int64_t first_number, std::int64_t head) {
   return Fenced(
       key, absl::StrCat("has record ", head, " last, so ", first_number, " is not the next one"));

@@ -15,6 +15,11 @@ absl::Status NotStored(absl::string_view key);
 absl::Status AlreadyStored(absl::string_view key);
 // Somebody who acquired the mission later is writing.
 absl::Status FencedByEpoch(absl::string_view key, std::int64_t epoch, std::int64_t newest);
+// Another server that shares the store has it and lives; `node` is its name, one word, and the last
+// word of the message.
+absl::Status MissionElsewhere(absl::string_view key, absl::string_view node);
+// The node of a MISSION_ELSEWHERE; nothing for other errors.
+absl::string_view NodeElsewhere(const absl::Status& status);
 // Records would leave a gap, or stand twice.
 absl::Status FencedByHead(absl::string_view key, std::int64_t first_number, std::int64_t head);
 // A snapshot of what is not in the journal yet.

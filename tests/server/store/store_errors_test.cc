@@ -31,5 +31,11 @@ TEST(StoreErrors, NameTheMissionInPrintableWords) {
   EXPECT_THAT(std::string(BadFirstNumber(-3).message()), HasSubstr("-3"));
 }
 
+TEST(StoreErrors, NameTheNodeThatHasTheMission) {
+  EXPECT_EQ(NodeElsewhere(MissionElsewhere("a", "n2")), "n2");
+  EXPECT_EQ(NodeElsewhere(FencedByEpoch("a", 1, 2)), "");
+  EXPECT_EQ(NodeElsewhere(absl::OkStatus()), "");
+}
+
 }  // namespace store_errors_test
 }  // namespace plumescout::server
