@@ -19,6 +19,7 @@ enum class MissionState {
   kPaused,      // takes observations, plans nothing
   kFinished,    // is only read
   kRecovering,  // not in memory yet, since the server has just started
+  kSleeping,    // not in memory, since nobody has used it for long: the first call wakes it
   kDamaged,     // what is kept of it cannot be used
   kUnknown,     // the server says what this client does not know
 };
@@ -36,7 +37,8 @@ struct LatencySummary {
   friend bool operator==(const LatencySummary&, const LatencySummary&) = default;
 };
 
-// A mission as its service tells of it. Of one that is recovering or damaged, only name and state.
+// A mission as its service tells of it. Of one that is recovering,
+// asleep or damaged, only name and state.
 struct MissionDetails {
   MissionId id;
   MissionState state = MissionState::kUnknown;

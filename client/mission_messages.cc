@@ -46,6 +46,8 @@ MissionState StateFromProto(v1::MissionState state) {
       return MissionState::kFinished;
     case v1::MISSION_STATE_RECOVERING:
       return MissionState::kRecovering;
+    case v1::MISSION_STATE_SLEEPING:
+      return MissionState::kSleeping;
     case v1::MISSION_STATE_DAMAGED:
       return MissionState::kDamaged;
     default:
@@ -66,9 +68,10 @@ absl::StatusOr<MissionDetails> DetailsFromProto(const v1::Mission& proto) {
   MissionDetails mission;
   PLUMESCOUT_ASSIGN_OR_RETURN(mission.id, ParseMissionName("mission.name", proto.name()));
   mission.state = StateFromProto(proto.state());
-  const bool is_held =
-      mission.state != MissionState::kRecovering && mission.state != MissionState::kDamaged;
-  if (!is_held) return mission;
+  const bool is_absent = mission.state == MissionState::kRecovering ||
+                         mission.state == MissionState::kSleeping ||
+                         mission.state == MissionState::kDamaged;
+  if (is_absent) return mission;
   PLUMESCOUT_ASSIGN_OR_RETURN(mission.options,
                               FromProto(proto.options(), MissionOptions(), "mission.options"));
   PLUMESCOUT_ASSIGN_OR_RETURN(mission.phase, FromProto(proto.phase(), "mission.phase"));

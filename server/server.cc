@@ -80,6 +80,9 @@ RegistryOptions ToRegistryOptions(const ServerConfig& config) {
   options.host.max_clock_lead = absl::Seconds(config.limits.max_clock_lead_s);
   options.host.rates = ToRateOptions(config.limits);
   options.max_backlog_bytes = config.store.max_backlog_bytes;
+  if (config.store.sleep_after_s > 0.0) {
+    options.sleep_after = absl::Seconds(config.store.sleep_after_s);
+  }
   return options;
 }
 
@@ -308,12 +311,15 @@ absl::Status Server::BeginRecovery() {
   store_watch_ = std::make_unique<StoreWatch>(store_, kStorePeriod, [health](bool available) {
     health->SetServingStatus(kStoreHealth, available);
   });
-  for (int i = 0; i < threads; ++i) {
-    PLUMESCOUT_RETURN_IF_ERROR(recovery_pool_->Submit([this] {
+  const auto recover = [this] {
+    return recovery_pool_->Submit([this] {
       while (registry_.RecoverNext()) {
       }
-    }));
-  }
+    });
+  };
+  // If too many wait there is one among them that has not begun, and it does for all.
+  registry_.SetOnCalledFor([recover] { recover().IgnoreError(); });
+  for (int i = 0; i < threads; ++i) PLUMESCOUT_RETURN_IF_ERROR(recover());
   return absl::OkStatus();
 }
 
@@ -331,6 +337,9 @@ std::string Server::Trouble() const {
 void Server::Sweep() {
   for (const MissionId& id : registry_.DeleteIdle()) {
     LogInfo("mission deleted", {{"mission", id}, {"why", "idle"}});
+  }
+  for (const MissionId& id : registry_.SleepIdle()) {
+    LogInfo("mission sleeps", {{"mission", id}});
   }
   const int ended = streams_.EndLockedOut();
   if (ended > 0) LogWarning("callers were locked out", {{"streams", absl::StrCat(ended)}});

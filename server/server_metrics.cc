@@ -124,6 +124,9 @@ void ReadStore(const ServerState& state, Readings& readings) {
   readings.Add(absent.recovering);
   readings.Gauge("plumescout_missions_damaged", "Missions that could not be recovered.");
   readings.Add(absent.damaged);
+  readings.Gauge("plumescout_missions_sleeping",
+                 "Missions that nobody has used for store.sleep_after_s: not in memory.");
+  readings.Add(absent.sleeping);
 }
 
 using Hosts = std::vector<std::shared_ptr<MissionHost>>;

@@ -249,6 +249,7 @@ absl::Status Validate(const StoreConfig& store) {
                kMaxQueuedBytes)
       .InRange("store.recovery_threads", store.recovery_threads, 1, kMaxThreads)
       .InRange("store.slow_commit_s", store.slow_commit_s, 0.001, 3600)
+      .InRange("store.sleep_after_s", store.sleep_after_s, 0, 31'536'000)
       .status();
 }
 

@@ -117,6 +117,7 @@ struct StoreConfig {
   std::int64_t max_backlog_bytes = 67'108'864;
   int recovery_threads = 2;
   double slow_commit_s = 0.1;
+  double sleep_after_s = 900.0;
 };
 
 // Everything that can be set, by file or flag: the fields of plumescout.config.v1.ServerConfig,

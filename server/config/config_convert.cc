@@ -97,6 +97,7 @@ void Visit(OneOf<StoreConfig> auto& store, auto& field) {
   field("max_backlog_bytes", store.max_backlog_bytes);
   field("recovery_threads", store.recovery_threads);
   field("slow_commit_s", store.slow_commit_s);
+  field("sleep_after_s", store.sleep_after_s);
 }
 
 void Visit(OneOf<ConsoleConfig> auto& console, auto& field) {

@@ -314,6 +314,25 @@ void MissionHost::Run() {
   subscribers_.clear();
 }
 
+bool MissionHost::IsReadyToSleep() {
+  if (!journal_->is_durable()) return false;
+  const HostLoad now = load();
+  if (now.watchers > 0 || now.waiting_calls > 0 || now.queued_commands > 0) return false;
+  const std::int64_t revision = summary().revision;
+  if (settled_revision_ == revision) {
+    return journal_->is_stored() && journal_->durable_revision() == revision &&
+           journal_->CheckTakesMore().ok() && (snapshots_ == nullptr || !snapshots_->is_busy());
+  }
+  Post([this](MissionWriter&) { Settle(); }).IgnoreError();
+  return false;
+}
+
+void MissionHost::Settle() {
+  // Without a field there is no epoch, and the events are replayed.
+  if (snapshots_ != nullptr && snapshots_->WantOne()) writer_.conduct().RenewField().IgnoreError();
+  settled_revision_ = writer_.mission().revision();
+}
+
 void MissionHost::AfterCommands() {
   if (*abandoned_) return;
   writer_.CollectAudit();

@@ -151,6 +151,11 @@ class MissionHost {
   MissionMetrics& metrics() { return metrics_; }
   HostLoad load() const;
 
+  // Whether the mission may leave memory: everything is durable, and soon read again. If not, sees
+  // to it: a snapshot is taken of what would take time to replay, of an epoch that is made for it.
+  // To be asked now and then of a mission that nobody uses; false for ever if no store keeps it.
+  bool IsReadyToSleep();
+
   // Of observations that wait.
   IngestRoom& room() { return *room_; }
   // Hear when the mission ends, or EndWaits does.
@@ -207,6 +212,7 @@ class MissionHost {
                             const std::optional<ClockGate::Mapped>& mapped);
   void RecoverLeases(const StandingRecord& standing);
   void AfterCommands();
+  void Settle();  // the writer's part of IsReadyToSleep
   SteadyTime next_publication() const;  // max() if there is nothing new or nobody to tell
   void Publish(const absl::StatusOr<std::shared_ptr<const Belief>>& belief);
   SteadyTime NextWake() const;
@@ -252,6 +258,7 @@ class MissionHost {
   SteadyTime published_at_;
   // What load() tells of these.
   std::atomic<SteadyTime> unpublished_since_ = SteadyTime::max();
+  std::atomic<std::int64_t> settled_revision_ = -1;  // what IsReadyToSleep has seen to
 
   std::atomic<std::thread::id> writer_thread_;
   std::thread thread_;  // starts last: it uses all of the above

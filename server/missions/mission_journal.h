@@ -85,6 +85,12 @@ class MissionJournal : public std::enable_shared_from_this<MissionJournal> {
   void Close(const absl::Status& status);
   // False if something that was flushed is not durable by then, and may still become so.
   bool AwaitStored(SteadyTime deadline);
+  // Whether all that was handed over is durable, or never will be.
+  bool is_stored() const {
+    absl::MutexLock lock(&mutex_);
+    return IsStored();
+  }
+  std::int64_t epoch() const { return home_.epoch; }
   // The store forgets the mission. `done` may hear after long.
   void Remove(Callback done);
 

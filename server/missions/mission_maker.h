@@ -12,6 +12,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/strings/string_view.h"
+#include "absl/time/time.h"
 #include "core/types/options.h"
 #include "core/types/stop.h"
 #include "server/missions/mission_host.h"
@@ -30,6 +31,8 @@ struct RegistryOptions {
   int max_beam_count = std::numeric_limits<int>::max();
   double max_range_m = std::numeric_limits<double>::infinity();
   std::int64_t max_backlog_bytes = std::int64_t{64} << 20;  // of the store; see JournalHome
+  // Missions that a store keeps and that nobody has used for so long leave memory.
+  absl::Duration sleep_after = absl::InfiniteDuration();
   HostOptions host;
 };
 

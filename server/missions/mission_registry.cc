@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/missions/mission_registry.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -35,7 +36,10 @@ void LogRecovery(const std::string& key, const MissionHost* host, const absl::St
 }  // namespace
 
 MissionRegistry::MissionRegistry(const RegistryOptions& options, RegistryHooks hooks)
-    : options_(options), store_(hooks.store), maker_(options, std::move(hooks)) {}
+    : options_(options),
+      store_(hooks.store),
+      clock_(hooks.clock ? hooks.clock : options.host.clock),
+      maker_(options, std::move(hooks)) {}
 
 absl::Status MissionRegistry::CheckRoom(const MissionId& id, const std::string& key,
                                         std::int64_t bytes) const {
@@ -43,14 +47,18 @@ absl::Status MissionRegistry::CheckRoom(const MissionId& id, const std::string& 
   if (hosts_.contains(key) || being_made_.contains(key) || absent_.Contains(key)) {
     return MissionExists(id);
   }
-  if (held_missions() >= options_.max_missions) {
-    return LimitReached(absl::StrCat("the server holds ", options_.max_missions, " missions"));
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(CheckCount());
   return CheckMemory("the mission", bytes);
 }
 
+absl::Status MissionRegistry::CheckCount() const {
+  if (held_missions() < options_.max_missions) return absl::OkStatus();
+  return LimitReached(absl::StrCat("the server holds ", options_.max_missions, " missions"));
+}
+
 absl::Status MissionRegistry::CheckMemory(absl::string_view what, std::int64_t bytes) const {
-  const std::int64_t left_bytes = options_.memory_budget_bytes - reserved_bytes_;
+  const std::int64_t left_bytes =
+      options_.memory_budget_bytes - reserved_bytes_ - absent_.woken_memory_bytes();
   if (bytes <= left_bytes) return absl::OkStatus();
   return LimitReached(absl::StrCat(what, " may come to hold memory_budget_bytes = ", bytes, ", of ",
                                    left_bytes, " that limits.memory_budget_bytes has left"));
@@ -104,12 +112,24 @@ absl::Status MissionRegistry::Reserve(const MissionId& id, const std::string& ke
 
 absl::Status MissionRegistry::FindStored() {
   if (store_ == nullptr) return absl::OkStatus();
-  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<StoredMission> stored, store_->List());
+  PLUMESCOUT_ASSIGN_OR_RETURN(std::vector<StoredMission> stored, store_->List());
+  std::stable_sort(stored.begin(), stored.end(),
+                   [](const auto& a, const auto& b) { return a.head > b.head; });
   absl::MutexLock lock(&mutex_);
   for (const StoredMission& mission : stored) {
-    if (!hosts_.contains(mission.key)) absent_.Add(mission);
+    if (hosts_.contains(mission.key)) continue;
+    if (may_sleep() && !CheckCount().ok()) {
+      absent_.AddAsleep({.key = mission.key, .epoch = mission.epoch, .head = mission.head});
+    } else {
+      absent_.Add(mission);
+    }
   }
   return absl::OkStatus();
+}
+
+void MissionRegistry::SetOnCalledFor(std::function<void()> on_called_for) {
+  absl::MutexLock lock(&mutex_);
+  on_called_for_ = std::move(on_called_for);
 }
 
 bool MissionRegistry::RecoverNext() {
@@ -127,8 +147,7 @@ bool MissionRegistry::RecoverNext() {
 absl::Status MissionRegistry::CheckRecovery(const std::string& key) const {
   if (!closed_.ok()) return closed_;
   if (hosts_.contains(key) || being_made_.contains(key)) return MissionExists(MissionIdOf(key));
-  if (absent_.Contains(key) || held_missions() < options_.max_missions) return absl::OkStatus();
-  return LimitReached(absl::StrCat("the server holds ", options_.max_missions, " missions"));
+  return absent_.Contains(key) ? absl::OkStatus() : CheckCount();
 }
 
 absl::Status MissionRegistry::Recover(const std::string& key) {
@@ -152,7 +171,8 @@ absl::Status MissionRegistry::Recover(const std::string& key) {
       hosts_.emplace(key, *host);
       reserved_bytes_ += (*host)->options().memory_budget_bytes;
     } else if (closed_.ok() && !is_new) {
-      absent_.Hold(key, HeldWith(key, status));
+      const bool sleeps_on = absl::IsUnavailable(status) && absent_.SleepOn(key);
+      if (!sleeps_on) absent_.Hold(key, HeldWith(key, status));
     }
   }
   LogRecovery(key, host.ok() ? host->get() : nullptr, status, SteadyNow() - began);
@@ -166,7 +186,8 @@ std::vector<AbsentMission> MissionRegistry::ListAbsent(const std::string& after)
 
 AbsentCounts MissionRegistry::absent() const {
   absl::MutexLock lock(&mutex_);
-  return {absent_.waiting(), absent_.held()};
+  const int waking = absent_.woken();
+  return {absent_.waiting() - waking, absent_.held(), absent_.asleep(), waking};
 }
 
 bool MissionRegistry::AwaitStored(SteadyTime deadline) {
@@ -181,17 +202,27 @@ bool MissionRegistry::AwaitStored(SteadyTime deadline) {
 }
 
 absl::StatusOr<std::shared_ptr<MissionHost>> MissionRegistry::Find(const MissionId& id,
-                                                                   absl::string_view tenant) const {
+                                                                   absl::string_view tenant) {
   absl::MutexLock lock(&mutex_);
   const std::string key = MissionKey(tenant, id);
   const auto found = hosts_.find(key);
   if (found != hosts_.end()) return found->second;
-  PLUMESCOUT_RETURN_IF_ERROR(absent_.CallFor(key));
+  PLUMESCOUT_RETURN_IF_ERROR(CallForAbsent(key));
   return MissionNotFound(id);
 }
 
-absl::StatusOr<std::shared_ptr<MissionHost>> MissionRegistry::FindOfAnyTenant(
-    const MissionId& id) const {
+absl::Status MissionRegistry::CallForAbsent(const std::string& key) {
+  if (const SleepingMission* const sleeping = absent_.FindAsleep(key)) {
+    PLUMESCOUT_RETURN_IF_ERROR(CheckCount());
+    PLUMESCOUT_RETURN_IF_ERROR(CheckMemory("the mission", sleeping->memory_bytes));
+    const absl::Status called = absent_.CallFor(key);
+    on_called_for_();
+    return called;
+  }
+  return absent_.CallFor(key);
+}
+
+absl::StatusOr<std::shared_ptr<MissionHost>> MissionRegistry::FindOfAnyTenant(const MissionId& id) {
   const auto found = List("", 2, [&id](const MissionHost& host) { return host.id() == id; });
   std::vector<AbsentMission> absent = ListAbsent("");
   std::erase_if(absent, [&](const AbsentMission& other) { return MissionIdOf(other.key) != id; });
@@ -219,7 +250,7 @@ absl::Status MissionRegistry::Delete(const MissionId& id, absl::string_view tena
   absl::MutexLock lock(&mutex_);
   const auto found = hosts_.find(MissionKey(tenant, id));
   if (found == hosts_.end()) return MissionNotFound(id);
-  Reap(found, std::move(removed));
+  Remove(found, std::move(removed));
   return absl::OkStatus();
 }
 
@@ -246,26 +277,58 @@ std::vector<MissionId> MissionRegistry::DeleteIdle() {
       here->second->standing().Touch();
     } else if (here->second->standing().has_outlived_its_use()) {
       deleted.push_back(here->second->id());
-      Reap(here, [](const absl::Status&) {});
+      Remove(here, [](const absl::Status&) {});
     }
+  }
+  for (const SleepingMission& forgotten : absent_.TakeForgotten(clock_())) {
+    deleted.push_back(MissionIdOf(forgotten.key));
+    store_->Remove(forgotten.key, forgotten.epoch, [](const absl::Status&) {});
   }
   return deleted;
 }
 
-void MissionRegistry::Reap(Hosts::iterator found, MissionJournal::Callback removed) {
+std::vector<MissionId> MissionRegistry::SleepIdle() {
+  std::vector<MissionId> slept;
+  if (!may_sleep()) return slept;
+  absl::MutexLock lock(&mutex_);
+  if (!closed_.ok()) return slept;
+  for (auto it = hosts_.begin(); it != hosts_.end();) {
+    const auto here = it++;
+    const std::shared_ptr<MissionHost>& host = here->second;
+    const bool is_idle =
+        host.use_count() == 1 && host->standing().idle_time() >= options_.sleep_after;
+    if (!is_idle || !host->IsReadyToSleep()) continue;
+    absent_.AddAsleep({.key = here->first,
+                       .epoch = host->journal().epoch(),
+                       .head = host->journal().durable_revision(),
+                       .memory_bytes = host->options().memory_budget_bytes,
+                       .forget_at = host->standing().forget_at()});
+    slept.push_back(host->id());
+    Reap(here, Recovering(slept.back()), [] {});
+  }
+  return slept;
+}
+
+void MissionRegistry::Remove(Hosts::iterator found, MissionJournal::Callback removed) {
+  Reap(found, MissionNotFound(found->second->id()),
+       [journal = found->second->shared_journal(), removed = std::move(removed)] {
+         journal->Remove(removed);
+       });
+}
+
+void MissionRegistry::Reap(Hosts::iterator found, const absl::Status& status,
+                           std::function<void()> then) {
   auto host = std::move(found->second);
   hosts_.erase(found);
   ++stopping_missions_;
   const std::int64_t bytes = host->options().memory_budget_bytes;
-  const absl::Status status = MissionNotFound(host->id());
-  const auto journal = host->shared_journal();
-  reaper_.Take(std::move(host), status, [this, bytes, journal, removed = std::move(removed)] {
+  reaper_.Take(std::move(host), status, [this, bytes, then = std::move(then)] {
     {
       absl::MutexLock lock(&mutex_);
       reserved_bytes_ -= bytes;
       --stopping_missions_;
     }
-    journal->Remove(removed);
+    then();
   });
 }
 

@@ -29,6 +29,8 @@ namespace plumescout::server {
 struct AbsentCounts {
   int recovering = 0;
   int damaged = 0;  // or not to be recovered for another reason
+  int sleeping = 0;
+  int waking = 0;
 };
 
 // All missions of a server, by key. Thread-safe; what makes, recovers and awaits missions blocks,
@@ -49,11 +51,12 @@ class MissionRegistry {
   absl::Status CheckChoices(const MissionOptions& options) const {
     return maker_.CheckChoices(options);
   }
-  // RECOVERING or STORE_DAMAGED of a mission that the store has and that does not run.
+  // RECOVERING or STORE_DAMAGED of a mission that the store has and that does not run. One that
+  // sleeps wakes; LIMIT_REACHED if there is no room for it.
   absl::StatusOr<std::shared_ptr<MissionHost>> Find(const MissionId& id,
-                                                    absl::string_view tenant = {}) const;
+                                                    absl::string_view tenant = {});
   // The one of this name, whosever it is; kFailedPrecondition if several tenants have one.
-  absl::StatusOr<std::shared_ptr<MissionHost>> FindOfAnyTenant(const MissionId& id) const;
+  absl::StatusOr<std::shared_ptr<MissionHost>> FindOfAnyTenant(const MissionId& id);
   // At most `limit` missions whose keys come after `after`, of those that are `wanted`, in order
   // of key.
   std::vector<std::shared_ptr<MissionHost>> List(
@@ -72,8 +75,11 @@ class MissionRegistry {
   // MISSION_NOT_FOUND unless it is one. Reads the disk.
   absl::Status Discard(const std::string& key, MissionJournal::Callback removed);
 
-  // From now on the missions that the store has are there, if only to be recovered.
+  // From now on the missions that the store has are there, if only to be recovered; if missions
+  // sleep, those with fewest events that there is no room for do.
   absl::Status FindStored();
+  // Somebody has called for a mission that sleeps: RecoverNext wakes it. Must not block.
+  void SetOnCalledFor(std::function<void()> on_called_for);
   // Recovers the one of them that is wanted most. False if none waits, or nothing is to be made any
   // more.
   bool RecoverNext();
@@ -91,6 +97,9 @@ class MissionRegistry {
   // Deletes those that have outlived their use, and that nobody but the registry holds: whoever
   // holds a mission uses it. Returns their names.
   std::vector<MissionId> DeleteIdle();
+  // Missions that nobody has used for RegistryOptions::sleep_after leave memory, once all of them
+  // is durable. Returns their names.
+  std::vector<MissionId> SleepIdle();
 
   // MissionHost::EndWaits of all; no mission is made from then on.
   void EndWaits(const absl::Status& status);
@@ -104,8 +113,13 @@ class MissionRegistry {
  private:
   using Hosts = std::map<std::string, std::shared_ptr<MissionHost>>;
 
-  void Reap(Hosts::iterator found, MissionJournal::Callback removed)
+  // Takes the mission off the list and has it stopped; `then` is called when its room is free.
+  void Reap(Hosts::iterator found, const absl::Status& status, std::function<void()> then)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void Remove(Hosts::iterator found, MissionJournal::Callback removed)
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  absl::Status CallForAbsent(const std::string& key) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  absl::Status CheckCount() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status CheckRoom(const MissionId& id, const std::string& key, std::int64_t bytes) const
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status CheckMemory(absl::string_view what, std::int64_t bytes) const
@@ -113,10 +127,15 @@ class MissionRegistry {
   absl::Status Reserve(const MissionId& id, const std::string& key, std::int64_t bytes)
       ABSL_LOCKS_EXCLUDED(mutex_);
   absl::Status CheckRecovery(const std::string& key) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  bool may_sleep() const {
+    return store_ != nullptr && store_->is_durable() &&
+           options_.sleep_after != absl::InfiniteDuration();
+  }
   int held_missions() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
   const RegistryOptions options_;
   MissionStore* const store_;  // null: none
+  const SteadyClock clock_;
   const MissionMaker maker_;
 
   mutable absl::Mutex mutex_;
@@ -125,7 +144,8 @@ class MissionRegistry {
   std::int64_t reserved_bytes_ ABSL_GUARDED_BY(mutex_) = 0;  // of all of them
   int stopping_missions_ ABSL_GUARDED_BY(mutex_) = 0;        // deleted, but still there
   absl::Status closed_ ABSL_GUARDED_BY(mutex_);              // OK while missions may be made
-  mutable RecoveryList absent_ ABSL_GUARDED_BY(mutex_);
+  RecoveryList absent_ ABSL_GUARDED_BY(mutex_);
+  std::function<void()> on_called_for_ ABSL_GUARDED_BY(mutex_) = [] {};
   std::vector<std::shared_ptr<MissionJournal>> journals_ ABSL_GUARDED_BY(mutex_);  // of StopAll
   // Seen by what is recovered; epochs of it may outlive us.
   const std::shared_ptr<std::atomic<bool>> closing_ = std::make_shared<std::atomic<bool>>(false);

@@ -73,9 +73,14 @@ void MissionStanding::Touch() {
   last_use_ = clock_();
 }
 
-bool MissionStanding::has_outlived_its_use() const {
+absl::Duration MissionStanding::idle_time() const {
   absl::MutexLock lock(&mutex_);
-  return clock_() >= After(last_use_, idle_time_to_live_);
+  return absl::FromChrono(clock_() - last_use_);
+}
+
+SteadyTime MissionStanding::forget_at() const {
+  absl::MutexLock lock(&mutex_);
+  return After(last_use_, idle_time_to_live_);
 }
 
 }  // namespace plumescout::server

@@ -41,7 +41,10 @@ class MissionStanding {
   void Restore(MissionState state, absl::Duration idle_time_to_live, EventRetention retention);
   // Somebody calls for it, or has it in use.
   void Touch();
-  bool has_outlived_its_use() const;
+  absl::Duration idle_time() const;
+  // When it may go if nobody calls for it; max(): never.
+  SteadyTime forget_at() const;
+  bool has_outlived_its_use() const { return idle_time() >= idle_time_to_live(); }
 
  private:
   absl::Status Enter(MissionState state) ABSL_LOCKS_EXCLUDED(mutex_);

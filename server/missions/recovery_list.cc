@@ -13,13 +13,41 @@ void RecoveryList::Add(const StoredMission& mission) {
   missions_[mission.key] = Entry{.head = mission.head};
 }
 
+void RecoveryList::AddAsleep(const SleepingMission& mission) {
+  missions_[mission.key] = Entry{.head = mission.head, .sleep = mission, .is_asleep = true};
+}
+
+bool RecoveryList::SleepOn(const std::string& key) {
+  const auto found = missions_.find(key);
+  if (found == missions_.end() || !IsWoken(found->second)) return false;
+  AddAsleep(SleepingMission(*found->second.sleep));
+  return true;
+}
+
+std::vector<SleepingMission> RecoveryList::TakeForgotten(SteadyTime now) {
+  std::vector<SleepingMission> forgotten;
+  std::erase_if(missions_, [&](const auto& mission) {
+    const Entry& entry = mission.second;
+    if (!entry.is_asleep || now < entry.sleep->forget_at) return false;
+    forgotten.push_back(*entry.sleep);
+    return true;
+  });
+  return forgotten;
+}
+
+const SleepingMission* RecoveryList::FindAsleep(const std::string& key) const {
+  const auto found = missions_.find(key);
+  if (found == missions_.end() || !found->second.is_asleep) return nullptr;
+  return &*found->second.sleep;
+}
+
 std::optional<std::string> RecoveryList::Next() {
   const auto urgency = [](const Entry& entry) {
     return std::pair(entry.is_called_for, entry.head);
   };
   auto next = missions_.end();
   for (auto it = missions_.begin(); it != missions_.end(); ++it) {
-    if (it->second.has_begun) continue;
+    if (it->second.has_begun || it->second.is_asleep) continue;
     if (next == missions_.end() || urgency(it->second) > urgency(next->second)) next = it;
   }
   if (next == missions_.end()) return std::nullopt;
@@ -37,6 +65,7 @@ absl::Status RecoveryList::CallFor(const std::string& key) {
   const auto found = missions_.find(key);
   if (found == missions_.end()) return absl::OkStatus();
   found->second.is_called_for = true;
+  found->second.is_asleep = false;
   return StatusOf(key, found->second);
 }
 
@@ -47,16 +76,37 @@ absl::Status RecoveryList::StatusOf(const std::string& key, const Entry& entry) 
 std::vector<AbsentMission> RecoveryList::After(const std::string& key) const {
   std::vector<AbsentMission> absent;
   for (auto it = missions_.upper_bound(key); it != missions_.end(); ++it) {
-    absent.push_back({it->first, StatusOf(it->first, it->second)});
+    absent.push_back({it->first, StatusOf(it->first, it->second), it->second.is_asleep});
   }
   return absent;
 }
 
-int RecoveryList::waiting() const { return static_cast<int>(missions_.size()) - held(); }
+int RecoveryList::Count(bool (*wanted)(const Entry&)) const {
+  return static_cast<int>(
+      std::count_if(missions_.begin(), missions_.end(),
+                    [wanted](const auto& mission) { return wanted(mission.second); }));
+}
+
+int RecoveryList::waiting() const {
+  return Count([](const Entry& entry) { return entry.held.ok() && !entry.is_asleep; });
+}
 
 int RecoveryList::held() const {
-  return static_cast<int>(std::count_if(missions_.begin(), missions_.end(),
-                                        [](const auto& entry) { return !entry.second.held.ok(); }));
+  return Count([](const Entry& entry) { return !entry.held.ok(); });
+}
+
+int RecoveryList::asleep() const {
+  return Count([](const Entry& entry) { return entry.is_asleep; });
+}
+
+int RecoveryList::woken() const { return Count(IsWoken); }
+
+std::int64_t RecoveryList::woken_memory_bytes() const {
+  std::int64_t bytes = 0;
+  for (const auto& [key, entry] : missions_) {
+    if (IsWoken(entry)) bytes += entry.sleep->memory_bytes;
+  }
+  return bytes;
 }
 
 std::string MissionIdOf(const std::string& key) { return key.substr(key.rfind('/') + 1); }

@@ -41,10 +41,15 @@ void SnapshotTaker::NoteEvent(const Event& event, std::int64_t bytes, const Miss
   if (IsDue(event, mission)) Take(mission);
 }
 
+bool SnapshotTaker::WantOne() {
+  is_wanted_ = tail_bytes_ > kLeastTail_bytes;
+  return is_wanted_;
+}
+
 bool SnapshotTaker::IsDue(const Event& event, const Mission& mission) {
   if (!std::holds_alternative<EpochAdopted>(event.body)) return false;
   if (on_its_way_->busy || !mission.can_be_saved()) return false;
-  return tail_bytes_ > std::max(kLeastTail_bytes, on_its_way_->bytes.load()) ||
+  return is_wanted_ || tail_bytes_ > std::max(kLeastTail_bytes, on_its_way_->bytes.load()) ||
          clock_() - tail_from_ > kReplayLimit;
 }
 
@@ -54,6 +59,7 @@ void SnapshotTaker::Take(const Mission& mission) {
     LogWarning("no snapshot", {{"why", std::string(state.status().message())}});
     return;
   }
+  is_wanted_ = false;
   tail_bytes_ = 0;
   tail_from_ = clock_();
   on_its_way_->busy = true;

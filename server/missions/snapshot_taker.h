@@ -42,6 +42,11 @@ class SnapshotTaker {
 
   // The event was applied to the mission, and is so many bytes in the journal.
   void NoteEvent(const Event& event, std::int64_t bytes, const Mission& mission);
+  // Whether a recovery would take time to replay what came since the last snapshot. Then the next
+  // epoch that is adopted has one taken, however little that is.
+  bool WantOne();
+  // A snapshot is being packed or stored. From any thread.
+  bool is_busy() const { return on_its_way_->busy; }
 
  private:
   bool IsDue(const Event& event, const Mission& mission);
@@ -58,6 +63,7 @@ class SnapshotTaker {
   const ThreadClock clock_;
   const std::shared_ptr<OnItsWay> on_its_way_ = std::make_shared<OnItsWay>();
   std::int64_t tail_bytes_;
+  bool is_wanted_ = false;
   absl::Duration tail_from_ = absl::InfiniteDuration();  // CPU time when the tail began
 };
 

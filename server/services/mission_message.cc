@@ -68,8 +68,13 @@ v1::Mission DescribeMission(MissionHost& host, const MissionOptions& options) {
 v1::Mission DescribeMission(const AbsentMission& absent) {
   v1::Mission proto;
   proto.set_name(MissionResource(MissionIdOf(absent.key)));
-  proto.set_state(ErrorReason(absent.status) == reason::kRecovering ? v1::MISSION_STATE_RECOVERING
-                                                                    : v1::MISSION_STATE_DAMAGED);
+  if (absent.is_asleep) {
+    proto.set_state(v1::MISSION_STATE_SLEEPING);
+  } else if (ErrorReason(absent.status) == reason::kRecovering) {
+    proto.set_state(v1::MISSION_STATE_RECOVERING);
+  } else {
+    proto.set_state(v1::MISSION_STATE_DAMAGED);
+  }
   return proto;
 }
 

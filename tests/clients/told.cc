@@ -44,6 +44,8 @@ Json StateWord(MissionState state) {
       return "FINISHED";
     case MissionState::kRecovering:
       return "RECOVERING";
+    case MissionState::kSleeping:
+      return "SLEEPING";
     case MissionState::kDamaged:
       return "DAMAGED";
     case MissionState::kUnknown:

@@ -218,6 +218,11 @@ absl::Status MissionConduct::BeginEpoch() {
   return Take(GasStep::kBeginEpoch, EpochBegun{mission_->sample_time_ns()});
 }
 
+absl::Status MissionConduct::RenewField() {
+  if (mission_->epoch() == nullptr) PLUMESCOUT_RETURN_IF_ERROR(BeginEpoch());
+  return Take(GasStep::kAdoptEpoch, EpochAdopted{});
+}
+
 void MissionConduct::TakeFinding(const AuditFinding& finding) {
   GasAudits audits = mission_->gas_audits(finding.species);
   ++audits.audits;

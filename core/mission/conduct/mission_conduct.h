@@ -132,6 +132,8 @@ class MissionConduct {
   absl::Status Refresh();
   // kFailedPrecondition if an epoch is under way or there is no field. It is adopted in its time.
   absl::Status BeginEpoch();
+  // An epoch that is adopted at once; one that is under way will do. As BeginEpoch.
+  absl::Status RenewField();
 
   // Counts what an audit found (see Mission::MakeAudit). If that is more than was certified, begins
   // an epoch out of turn, which makes the field anew; one that is under way will do.

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,7 +32,12 @@ class MissionRegistryRecoveryTest : public testing::Test {
     }
     RegistryHooks hooks;
     hooks.store = &store_;
-    registry_ = std::make_unique<MissionRegistry>(RegistryOptions{}, hooks);
+    hooks.clock = [this] { return now_; };
+    hooks.snapshot_pool = &snapshot_pool_;
+    RegistryOptions options;
+    options.max_missions = 2;
+    options.sleep_after = absl::Seconds(60);
+    registry_ = std::make_unique<MissionRegistry>(options, hooks);
     const absl::Status found = registry_->FindStored();
     EXPECT_TRUE(found.ok()) << found;
   }
@@ -55,7 +61,18 @@ class MissionRegistryRecoveryTest : public testing::Test {
     return result;
   }
 
+  // Has the missions that are idle sleep; returns how many.
+  int SleepAll() {
+    std::size_t slept = registry_->SleepIdle().size();
+    // What the writers have to see to first, they do soon.
+    while (!registry_->List("", 1).empty()) slept += registry_->SleepIdle().size();
+    EXPECT_TRUE(registry_->AwaitStopped(SteadyTime::max()));
+    return static_cast<int>(slept);
+  }
+
+  SteadyTime now_ = SteadyTime() + std::chrono::hours(1);
   HeldStore store_;
+  WorkerPool snapshot_pool_{{"snapshot", 1, 4}};
   std::unique_ptr<MissionRegistry> registry_;
 };
 
@@ -186,6 +203,75 @@ TEST_F(MissionRegistryRecoveryTest, NobodyIsRecoveredOnceAllAreStopped) {
   registry_->EndWaits(absl::UnavailableError("over"));
   EXPECT_FALSE(registry_->RecoverNext());
   EXPECT_TRUE(absl::IsUnavailable(registry_->Recover("hall")));
+}
+
+TEST_F(MissionRegistryRecoveryTest, MissionsThatNobodyUsesSleepUntilSomebodyCalls) {
+  std::shared_ptr<const Belief> before;
+  std::int64_t token = 0;
+  int called = 0;
+  registry_->SetOnCalledFor([&] { ++called; });
+  {
+    const auto host = registry_->Create("hall", support::FastAgeing()).value();
+    EXPECT_TRUE(Do(*host, [&](MissionWriter& writer) {
+                  token = writer.conduct().Register({"r1", 0.2}, host->leases())->lease_token;
+                  EXPECT_TRUE(writer.conduct().Ingest("r1", token, RoomRunBatch()).status.ok());
+                  before = writer.conduct().Snapshot();
+                }).ok());
+    now_ += std::chrono::seconds(60);
+    EXPECT_TRUE(registry_->SleepIdle().empty()) << "somebody holds it";
+  }
+  now_ -= std::chrono::seconds(1);
+  EXPECT_TRUE(registry_->SleepIdle().empty()) << "not for long enough";
+  now_ += std::chrono::seconds(1);
+  EXPECT_EQ(SleepAll(), 1);
+  EXPECT_EQ(registry_->absent().sleeping, 1);
+  EXPECT_EQ(registry_->absent().recovering, 0);
+  ASSERT_EQ(registry_->ListAbsent("").size(), 1U);
+  EXPECT_TRUE(registry_->ListAbsent("")[0].is_asleep);
+  EXPECT_TRUE(absl::IsAlreadyExists(registry_->Create("hall", {}).status()));
+  EXPECT_FALSE(registry_->RecoverNext()) << "nobody has called";
+  EXPECT_EQ(called, 0);
+  EXPECT_EQ(ErrorReason(registry_->Find("hall").status()), reason::kRecovering);
+  EXPECT_EQ(called, 1);
+  EXPECT_EQ(registry_->absent().waking, 1);
+  EXPECT_EQ(registry_->absent().recovering, 0) << "the server stays ready";
+  RecoverAll();
+  const auto host = registry_->Find("hall").value();
+  EXPECT_TRUE(host->leases().Use("r1", token).ok()) << "the robot goes on as before";
+  EXPECT_TRUE(Do(*host, [&](MissionWriter& writer) {
+                ExpectSameMission(*writer.conduct().Snapshot(), *before);
+              }).ok());
+}
+
+TEST_F(MissionRegistryRecoveryTest, MissionsThatSleepTakeNoRoomAndAreForgottenInTime) {
+  for (const char* id : {"a", "b"}) ASSERT_TRUE(registry_->Create(id, {}).ok());
+  registry_->Find("a").value()->standing().set_idle_time_to_live(absl::Hours(1));
+  now_ += std::chrono::seconds(60);
+  EXPECT_EQ(SleepAll(), 2);
+  for (const char* id : {"c", "d"}) ASSERT_TRUE(registry_->Create(id, {}).ok());
+  EXPECT_EQ(ErrorReason(registry_->Find("b").status()), reason::kLimitReached);
+  EXPECT_EQ(registry_->absent().sleeping, 2) << "there is no room to wake";
+  ASSERT_TRUE(registry_->Delete("c").ok());
+  ASSERT_TRUE(registry_->AwaitStopped(SteadyTime::max()));
+  EXPECT_EQ(ErrorReason(registry_->Find("b").status()), reason::kRecovering);
+  RecoverAll();
+  EXPECT_TRUE(registry_->Find("b").ok());
+  now_ += std::chrono::hours(1);
+  EXPECT_THAT(registry_->DeleteIdle(), testing::ElementsAre("a"));
+  EXPECT_TRUE(absl::IsNotFound(registry_->Find("a").status()));
+}
+
+TEST_F(MissionRegistryRecoveryTest, AfterARestartWhatThereIsNoRoomForSleeps) {
+  for (const char* key : {"a", "b", "c"}) {
+    PutMission(store_, key, {}, {{1, RobotRegistered{"r1", 0.2, 7}}});
+  }
+  PutMission(store_, "busy", {},
+             {{1, RobotRegistered{"r1", 0.2, 7}}, {2, RobotRegistered{"r2", 0.2, 8}}});
+  Restart();
+  EXPECT_EQ(registry_->absent().sleeping, 2);
+  RecoverAll();
+  EXPECT_TRUE(registry_->Find("busy").ok());
+  EXPECT_EQ(registry_->absent().sleeping, 2);
 }
 
 TEST_F(MissionRegistryRecoveryTest, WhatWasAppliedIsStoredWhenAllAreStopped) {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <optional>
 #include <string>
 
@@ -50,6 +51,32 @@ TEST(RecoveryListTest, WhatCannotBeRecoveredStaysAndSaysWhy) {
   EXPECT_EQ(after[0].key, "acme/yard");
   EXPECT_EQ(ErrorReason(after[0].status), reason::kRecovering);
   EXPECT_EQ(list.After("").size(), 2U);
+}
+
+TEST(RecoveryListTest, WhoSleepsIsLeftInPeaceUntilSomebodyCalls) {
+  constexpr SteadyTime kLater = SteadyTime() + std::chrono::hours(1);
+  RecoveryList list;
+  list.AddAsleep({.key = "a", .epoch = 3, .head = 5, .memory_bytes = 100});
+  list.AddAsleep({.key = "b", .memory_bytes = 10, .forget_at = kLater});
+  EXPECT_EQ(list.asleep(), 2);
+  EXPECT_EQ(list.waiting(), 0);
+  EXPECT_EQ(list.Next(), std::nullopt);
+  EXPECT_TRUE(list.After("")[0].is_asleep);
+  EXPECT_EQ(list.FindAsleep("a")->memory_bytes, 100);
+  EXPECT_EQ(ErrorReason(list.CallFor("a")), reason::kRecovering);
+  EXPECT_EQ(list.FindAsleep("a"), nullptr);
+  EXPECT_FALSE(list.After("")[0].is_asleep);
+  EXPECT_EQ(list.woken(), 1);
+  EXPECT_EQ(list.woken_memory_bytes(), 100);
+  EXPECT_EQ(list.waiting(), 1);
+  EXPECT_EQ(list.Next(), "a");
+  EXPECT_TRUE(list.SleepOn("a"));
+  EXPECT_FALSE(list.SleepOn("a")) << "it sleeps";
+  EXPECT_EQ(list.FindAsleep("a")->epoch, 3);
+  EXPECT_EQ(list.Next(), std::nullopt) << "until somebody calls again";
+  EXPECT_TRUE(list.TakeForgotten(kLater - std::chrono::nanoseconds(1)).empty());
+  EXPECT_EQ(list.TakeForgotten(kLater).at(0).key, "b");
+  EXPECT_EQ(list.asleep(), 1);
 }
 
 TEST(RecoveryListTest, AKeyNamesMissionAndTenant) {

@@ -28,6 +28,8 @@ TEST(MissionMessageTest, MissionsThatDoNotRunSayWhy) {
   };
   EXPECT_EQ(DescribeMission(AbsentMission{"acme/hall", typed(reason::kRecovering)}).state(),
             v1::MISSION_STATE_RECOVERING);
+  EXPECT_EQ(DescribeMission(AbsentMission{"acme/hall", typed(reason::kRecovering), true}).state(),
+            v1::MISSION_STATE_SLEEPING);
   const v1::Mission damaged = DescribeMission(AbsentMission{"hall", typed(reason::kStoreDamaged)});
   EXPECT_EQ(damaged.state(), v1::MISSION_STATE_DAMAGED);
   EXPECT_EQ(damaged.name(), "missions/hall");
