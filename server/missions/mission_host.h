@@ -212,7 +212,7 @@ class MissionHost {
                             const std::optional<ClockGate::Mapped>& mapped);
   void RecoverLeases(const StandingRecord& standing);
   void AfterCommands();
-  void Settle();  // the writer's part of IsReadyToSleep
+  void Settle();                        // the writer's part of IsReadyToSleep
   SteadyTime next_publication() const;  // max() if there is nothing new or nobody to tell
   void Publish(const absl::StatusOr<std::shared_ptr<const Belief>>& belief);
   SteadyTime NextWake() const;

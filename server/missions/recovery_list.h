@@ -62,7 +62,7 @@ class RecoveryList {
   int waiting() const;  // those that are being recovered too
   int held() const;
   int asleep() const;
-  int woken() const;                       // of those that wait
+  int woken() const;                        // of those that wait
   std::int64_t woken_memory_bytes() const;  // that these may come to hold
 
  private:
@@ -70,7 +70,7 @@ class RecoveryList {
     std::int64_t head = 0;
     bool is_called_for = false;
     bool has_begun = false;
-    absl::Status held = {};  // OK: it is yet to be recovered
+    absl::Status held = {};                               // OK: it is yet to be recovered
     std::optional<SleepingMission> sleep = std::nullopt;  // of one that sleeps, or was woken
     bool is_asleep = false;
   };

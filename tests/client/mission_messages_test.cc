@@ -69,6 +69,8 @@ TEST(MissionMessagesTest, OfOneThatIsNotInMemoryThereIsNameAndState) {
   ASSERT_TRUE(mission.ok()) << mission.status();
   EXPECT_EQ(mission->id, "house");
   EXPECT_EQ(mission->state, MissionState::kRecovering);
+  proto.set_state(v1::MISSION_STATE_SLEEPING);
+  EXPECT_EQ(DetailsFromProto(proto)->state, MissionState::kSleeping);
 }
 
 TEST(MissionMessagesTest, AFieldThatCannotBeReadIsNamed) {

@@ -238,6 +238,9 @@ TEST(ConfigTest, WhereMissionsAreKeptIsChecked) {
   config.store = StoreConfig();
   config.store.recovery_threads = 0;
   EXPECT_THAT(RefusalOf(config), StartsWith("store.recovery_threads = 0 "));
+  config.store = StoreConfig();
+  config.store.sleep_after_s = -1.0;
+  EXPECT_THAT(RefusalOf(config), StartsWith("store.sleep_after_s = -1 "));
 }
 
 // The variables are the user's; a test that sets them must be alone in its process.
