@@ -26,6 +26,8 @@
 #include "server/base/knock.h"
 #include "server/base/log.h"
 #include "server/open_store.h"
+#include "server/registry_options.h"
+#include "server/store/store_nodes.h"
 
 namespace plumescout::server {
 namespace {
@@ -50,41 +52,6 @@ absl::StatusOr<Identity> IdentityOf(const std::shared_ptr<const Authenticator>& 
 
 // Times to live are seconds at least; who is locked out is so within this.
 constexpr absl::Duration kSweepPeriod = absl::Seconds(1);
-
-RateOptions ToRateOptions(const LimitConfig& limits) {
-  return {.scans_per_s = limits.max_scans_per_s,
-          .gas_readings_per_s = limits.max_gas_readings_per_s,
-          .ingest_bytes_per_s = limits.max_ingest_bytes_per_s,
-          .plans_per_s = limits.max_plans_per_s,
-          .ingest_burst = absl::Seconds(limits.ingest_burst_s)};
-}
-
-RegistryOptions ToRegistryOptions(const ServerConfig& config) {
-  RegistryOptions options;
-  options.max_missions = config.limits.max_missions;
-  options.memory_budget_bytes = config.limits.memory_budget_bytes;
-  options.mission_memory_budget_bytes = config.limits.mission_memory_budget_bytes;
-  options.max_map_cell_count = config.limits.max_map_cell_count;
-  options.max_beam_count = config.limits.max_beam_count;
-  options.max_range_m = config.limits.max_range_m;
-  options.host.max_queued_observations = config.limits.max_queued_observations;
-  options.host.max_queued_bytes = config.limits.max_queued_bytes;
-  options.host.max_waiters = config.limits.max_waiting_calls;
-  options.host.max_watchers_per_robot = config.limits.max_watchers_per_robot;
-  options.host.max_wait = absl::Seconds(config.limits.max_wait_s);
-  options.host.publish_period = absl::Seconds(config.maps.publish_period_s);
-  options.host.gas_wait = absl::Seconds(config.maps.gas_wait_s);
-  options.host.max_map_part_bytes = config.maps.max_part_bytes;
-  options.host.lease_hold = absl::Seconds(config.connection.lease_hold_s);
-  options.host.first_lease_token = FirstLeaseToken(RandomBits());
-  options.host.max_clock_lead = absl::Seconds(config.limits.max_clock_lead_s);
-  options.host.rates = ToRateOptions(config.limits);
-  options.max_backlog_bytes = config.store.max_backlog_bytes;
-  if (config.store.sleep_after_s > 0.0) {
-    options.sleep_after = absl::Seconds(config.store.sleep_after_s);
-  }
-  return options;
-}
 
 FairPoolOptions ToPlanningPoolOptions(const PlanningConfig& config) {
   FairPoolOptions options;
@@ -209,7 +176,7 @@ Server::Server(Private, const ServerConfig& config, RegistryHooks hooks,
       epoch_pool_({"epoch", config.epochs.threads, config.epochs.max_queued}),
       audit_pool_({"audit", kAuditThreads, config.limits.max_missions}),
       snapshot_pool_({"snapshot", kSnapshotThreads, config.limits.max_missions}),
-      registry_(ToRegistryOptions(config),
+      registry_(ToRegistryOptions(config, FirstLeaseToken(RandomBits())),
                 Complete(std::move(hooks), config, store_, &epoch_pool_, &audit_pool_,
                          &snapshot_pool_, &metrics_.missions())),
       planning_pool_(ToPlanningPoolOptions(config.planning)),
@@ -263,7 +230,8 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
   }
   auto server = std::make_unique<Server>(Private(), config, std::move(hooks), std::move(store),
                                          std::move(authenticator), std::move(events));
-  if (server->store_ != nullptr) {
+  // Of several servers another one may be at it.
+  if (server->store_ != nullptr && server->store_->nodes() == nullptr) {
     PLUMESCOUT_RETURN_IF_ERROR(DropUnfinishedImports(*server->store_));
   }
   PLUMESCOUT_RETURN_IF_ERROR(server->registry_.FindStored());
@@ -319,12 +287,21 @@ absl::Status Server::BeginRecovery() {
   };
   // If too many wait there is one among them that has not begun, and it does for all.
   registry_.SetOnCalledFor([recover] { recover().IgnoreError(); });
+  if (StoreNodes* const nodes = store_->nodes()) {
+    nodes->SetOnLost([this](const absl::Status& why) {
+      LogError("lease lost", {{"why", std::string(why.message())}});
+      registry_.LoseAll(StoreTakesNothing("this node has lost its lease in it"));
+    });
+  }
   for (int i = 0; i < threads; ++i) PLUMESCOUT_RETURN_IF_ERROR(recover());
   return absl::OkStatus();
 }
 
 std::string Server::NotReady() const {
   if (draining_) return "draining";
+  if (store_ != nullptr && store_->nodes() != nullptr && !store_->nodes()->status().ok()) {
+    return absl::StrCat("no lease in the store: ", store_->nodes()->status().message());
+  }
   const int recovering = registry_.absent().recovering;
   return recovering == 0 ? "" : absl::StrCat("recovering ", recovering, " missions");
 }
@@ -411,6 +388,8 @@ void Server::Drain() {
   if (!registry_.AwaitStored(limit) || !stopped) {
     LogWarning("not all that was applied is durable; robots have what is not");
   }
+  if (store_ != nullptr && store_->nodes() != nullptr) store_->nodes()->SetOnLost(nullptr);
+  registry_.ReleaseAll();
   store_watch_.reset();
 }
 

@@ -11,12 +11,14 @@
 #include "absl/strings/str_cat.h"
 #include "core/types/error_reason.h"
 #include "server/base/errors.h"
+#include "server/store/store_errors.h"
 
 namespace plumescout::server {
 namespace {
 
 constexpr char kRequestIdKey[] = "x-request-id";
 constexpr std::size_t kMaxRequestIdLength = 64;
+constexpr char kOwnerKey[] = "x-owner";
 
 std::string NewRequestId() {
   thread_local std::mt19937_64 bits{std::random_device{}()};
@@ -65,14 +67,18 @@ void Door::Leave(const CallInfo& info, const absl::Status& status) const {
   for (const CallObserver& observer : observers_) observer(info, end);
 }
 
-absl::Status Visit::Enter(const Door& door, Rpc rpc, const grpc::CallbackServerContext& call) {
+absl::Status Visit::Enter(const Door& door, Rpc rpc, grpc::CallbackServerContext& call) {
   const absl::Status status = door.Enter(rpc, call, info_);
   if (status.ok()) door_ = &door;
+  call_ = &call;
   return status;
 }
 
 void Visit::Leave(const absl::Status& status) {
-  if (door_ != nullptr) std::exchange(door_, nullptr)->Leave(info_, status);
+  if (door_ == nullptr) return;
+  const absl::string_view owner = NodeElsewhere(status);
+  if (!owner.empty()) call_->AddTrailingMetadata(kOwnerKey, std::string(owner));
+  std::exchange(door_, nullptr)->Leave(info_, status);
 }
 
 absl::Status CheckActsFor(const Principal& caller, const RobotName& robot) {

@@ -72,8 +72,9 @@ class Door {
 class Visit {
  public:
   // As Door::Enter. The door outlives the visit.
-  absl::Status Enter(const Door& door, Rpc rpc, const grpc::CallbackServerContext& call);
-  // No effect for who was not let in, or has left.
+  absl::Status Enter(const Door& door, Rpc rpc, grpc::CallbackServerContext& call);
+  // No effect for who was not let in, or has left. A call for a mission of another node is told its
+  // name (trailer x-owner).
   void Leave(const absl::Status& status);
 
   // Of who was not let in, too.
@@ -82,6 +83,7 @@ class Visit {
 
  private:
   const Door* door_ = nullptr;  // null: not inside
+  grpc::CallbackServerContext* call_ = nullptr;
   CallInfo info_;
 };
 

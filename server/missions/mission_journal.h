@@ -90,7 +90,13 @@ class MissionJournal : public std::enable_shared_from_this<MissionJournal> {
     absl::MutexLock lock(&mutex_);
     return IsStored();
   }
+  // Whether another server that shares the store has the mission now.
+  bool is_lost() const {
+    absl::MutexLock lock(&mutex_);
+    return !lost_.ok();
+  }
   std::int64_t epoch() const { return home_.epoch; }
+  const std::string& key() const { return home_.key; }
   // The store forgets the mission. `done` may hear after long.
   void Remove(Callback done);
 

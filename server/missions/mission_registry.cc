@@ -10,6 +10,7 @@
 #include "core/types/status_macros.h"
 #include "server/base/errors.h"
 #include "server/base/log.h"
+#include "server/store/store_errors.h"
 
 namespace plumescout::server {
 
@@ -17,7 +18,9 @@ namespace {
 
 // What is said of a mission that could not be recovered.
 absl::Status HeldWith(const std::string& key, const absl::Status& why) {
-  return absl::IsUnavailable(why) ? why : MissionDamaged(MissionIdOf(key), why.message());
+  if (absl::IsNotFound(why)) return MissionNotFound(MissionIdOf(key));
+  const bool passes = absl::IsUnavailable(why) || absl::IsResourceExhausted(why);
+  return passes ? why : MissionDamaged(MissionIdOf(key), why.message());
 }
 
 // `host`: null if it was not recovered.
@@ -28,7 +31,8 @@ void LogRecovery(const std::string& key, const MissionHost* host, const absl::St
             {{"mission", key},
              {"revision", absl::StrCat(host->summary().revision)},
              {"took_ms", absl::StrCat(absl::ToInt64Milliseconds(absl::FromChrono(time)))}});
-  } else if (!absl::IsCancelled(status)) {
+  } else if (!absl::IsCancelled(status) && !absl::IsNotFound(status) &&
+             NodeElsewhere(status).empty()) {
     LogError("mission not recovered", {{"mission", key}, {"why", std::string(status.message())}});
   }
 }
@@ -38,12 +42,14 @@ void LogRecovery(const std::string& key, const MissionHost* host, const absl::St
 MissionRegistry::MissionRegistry(const RegistryOptions& options, RegistryHooks hooks)
     : options_(options),
       store_(hooks.store),
+      nodes_(store_ != nullptr ? store_->nodes() : nullptr),
       clock_(hooks.clock ? hooks.clock : options.host.clock),
       maker_(options, std::move(hooks)) {}
 
 absl::Status MissionRegistry::CheckRoom(const MissionId& id, const std::string& key,
                                         std::int64_t bytes) const {
   if (!closed_.ok()) return closed_;
+  if (sought_.IsAskedFor(key)) return Recovering(id);
   if (hosts_.contains(key) || being_made_.contains(key) || absent_.Contains(key)) {
     return MissionExists(id);
   }
@@ -84,13 +90,16 @@ absl::StatusOr<std::shared_ptr<MissionHost>> MissionRegistry::Create(const Missi
                                                                      const MissionOwner& owner) {
   PLUMESCOUT_RETURN_IF_ERROR(maker_.CheckChoices(options));
   const std::string key = MissionKey(owner.tenant, id);
-  PLUMESCOUT_RETURN_IF_ERROR(Reserve(id, key, options.memory_budget_bytes));
+  PLUMESCOUT_RETURN_IF_ERROR(CheckLease());
+  PLUMESCOUT_ASSIGN_OR_RETURN(const int life, Reserve(id, key, options.memory_budget_bytes));
   auto host = maker_.Make(id, options, owner);
   absl::Status status = host.status();
   {
     absl::MutexLock lock(&mutex_);
     being_made_.erase(key);
     status.Update(closed_);
+    status.Update(CheckLife(life));
+    sought_.Erase(key);
     if (status.ok()) {
       hosts_.emplace(key, *host);
     } else {
@@ -101,17 +110,17 @@ absl::StatusOr<std::shared_ptr<MissionHost>> MissionRegistry::Create(const Missi
   return host;
 }
 
-absl::Status MissionRegistry::Reserve(const MissionId& id, const std::string& key,
-                                      std::int64_t bytes) {
+absl::StatusOr<int> MissionRegistry::Reserve(const MissionId& id, const std::string& key,
+                                             std::int64_t bytes) {
   absl::MutexLock lock(&mutex_);
   PLUMESCOUT_RETURN_IF_ERROR(CheckRoom(id, key, bytes));
   being_made_.insert(key);
   reserved_bytes_ += bytes;
-  return absl::OkStatus();
+  return lives_;
 }
 
 absl::Status MissionRegistry::FindStored() {
-  if (store_ == nullptr) return absl::OkStatus();
+  if (store_ == nullptr || nodes_ != nullptr) return absl::OkStatus();
   PLUMESCOUT_ASSIGN_OR_RETURN(std::vector<StoredMission> stored, store_->List());
   std::stable_sort(stored.begin(), stored.end(),
                    [](const auto& a, const auto& b) { return a.head > b.head; });
@@ -137,7 +146,8 @@ bool MissionRegistry::RecoverNext() {
   {
     absl::MutexLock lock(&mutex_);
     if (!closed_.ok()) return false;
-    key = absent_.Next();
+    key = sought_.Next();
+    if (!key.has_value()) key = absent_.Next();
   }
   if (!key.has_value()) return false;
   Recover(*key).IgnoreError();  // it is logged, and told to whoever calls for the mission
@@ -153,9 +163,13 @@ absl::Status MissionRegistry::CheckRecovery(const std::string& key) const {
 absl::Status MissionRegistry::Recover(const std::string& key) {
   if (store_ == nullptr) return absl::FailedPreconditionError("the server keeps no missions");
   bool is_new = false;
+  int life = 0;
   {
     absl::MutexLock lock(&mutex_);
-    PLUMESCOUT_RETURN_IF_ERROR(CheckRecovery(key));
+    const absl::Status may = CheckRecovery(key);
+    if (!may.ok()) sought_.Settle(key, may, clock_());
+    PLUMESCOUT_RETURN_IF_ERROR(may);
+    life = lives_;
     is_new = !absent_.Contains(key);
     if (is_new) being_made_.insert(key);
   }
@@ -166,10 +180,15 @@ absl::Status MissionRegistry::Recover(const std::string& key) {
     absl::MutexLock lock(&mutex_);
     being_made_.erase(key);
     status.Update(closed_);
+    status.Update(CheckLife(life));
     if (status.ok()) {
+      sought_.Erase(key);
       absent_.Erase(key);
       hosts_.emplace(key, *host);
       reserved_bytes_ += (*host)->options().memory_budget_bytes;
+    } else if (nodes_ != nullptr) {
+      absent_.Erase(key);
+      sought_.Settle(key, HeldWith(key, status), clock_());
     } else if (closed_.ok() && !is_new) {
       const bool sleeps_on = absl::IsUnavailable(status) && absent_.SleepOn(key);
       if (!sleeps_on) absent_.Hold(key, HeldWith(key, status));
@@ -205,10 +224,14 @@ absl::StatusOr<std::shared_ptr<MissionHost>> MissionRegistry::Find(const Mission
                                                                    absl::string_view tenant) {
   absl::MutexLock lock(&mutex_);
   const std::string key = MissionKey(tenant, id);
+  PLUMESCOUT_RETURN_IF_ERROR(CheckLease());
   const auto found = hosts_.find(key);
-  if (found != hosts_.end()) return found->second;
+  const bool is_gone =
+      found != hosts_.end() && nodes_ != nullptr && found->second->journal().is_lost();
+  if (is_gone) Reap(found, Recovering(id), [] {});
+  if (found != hosts_.end() && !is_gone) return found->second;
   PLUMESCOUT_RETURN_IF_ERROR(CallForAbsent(key));
-  return MissionNotFound(id);
+  return nodes_ == nullptr ? MissionNotFound(id) : Seek(key);
 }
 
 absl::Status MissionRegistry::CallForAbsent(const std::string& key) {

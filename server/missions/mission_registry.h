@@ -21,7 +21,9 @@
 #include "server/missions/mission_maker.h"
 #include "server/missions/mission_reaper.h"
 #include "server/missions/recovery_list.h"
+#include "server/missions/sought_missions.h"
 #include "server/store/mission_store.h"
+#include "server/store/store_nodes.h"
 
 namespace plumescout::server {
 
@@ -52,7 +54,9 @@ class MissionRegistry {
     return maker_.CheckChoices(options);
   }
   // RECOVERING or STORE_DAMAGED of a mission that the store has and that does not run. One that
-  // sleeps wakes; LIMIT_REACHED if there is no room for it.
+  // sleeps wakes; LIMIT_REACHED if there is no room for it. On a store of several servers,
+  // MISSION_ELSEWHERE of a mission that another one has; RECOVERING until that is known, and of one
+  // that is nobody's: it will be this server's. STORE_UNAVAILABLE without a lease.
   absl::StatusOr<std::shared_ptr<MissionHost>> Find(const MissionId& id,
                                                     absl::string_view tenant = {});
   // The one of this name, whosever it is; kFailedPrecondition if several tenants have one.
@@ -76,7 +80,8 @@ class MissionRegistry {
   absl::Status Discard(const std::string& key, MissionJournal::Callback removed);
 
   // From now on the missions that the store has are there, if only to be recovered; if missions
-  // sleep, those with fewest events that there is no room for do.
+  // sleep, those with fewest events that there is no room for do. Nothing of a store of several
+  // servers: a mission is of the one that is called for it.
   absl::Status FindStored();
   // Somebody has called for a mission that sleeps: RecoverNext wakes it. Must not block.
   void SetOnCalledFor(std::function<void()> on_called_for);
@@ -110,6 +115,12 @@ class MissionRegistry {
   // For the events of those that StopAll stopped to be durable. False if some are not by then.
   bool AwaitStored(SteadyTime deadline);
 
+  // The lease in a store of several servers is lost, and all missions with it: they are off the
+  // list and stop. Does not block.
+  void LoseAll(const absl::Status& status);
+  // After StopAll: other servers may have the missions at once. Blocks.
+  void ReleaseAll();
+
  private:
   using Hosts = std::map<std::string, std::shared_ptr<MissionHost>>;
 
@@ -118,13 +129,19 @@ class MissionRegistry {
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void Remove(Hosts::iterator found, MissionJournal::Callback removed)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  absl::Status CheckLease() const;
+  // Whether this server has had one lease since lives_ was this.
+  absl::Status CheckLife(int life) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  // Of a mission that is not this server's, or not any more.
+  absl::Status Seek(const std::string& key) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status CallForAbsent(const std::string& key) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status CheckCount() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status CheckRoom(const MissionId& id, const std::string& key, std::int64_t bytes) const
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status CheckMemory(absl::string_view what, std::int64_t bytes) const
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  absl::Status Reserve(const MissionId& id, const std::string& key, std::int64_t bytes)
+  // The life that it is of.
+  absl::StatusOr<int> Reserve(const MissionId& id, const std::string& key, std::int64_t bytes)
       ABSL_LOCKS_EXCLUDED(mutex_);
   absl::Status CheckRecovery(const std::string& key) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   bool may_sleep() const {
@@ -135,6 +152,7 @@ class MissionRegistry {
 
   const RegistryOptions options_;
   MissionStore* const store_;  // null: none
+  StoreNodes* const nodes_;    // null: the store is this server's alone
   const SteadyClock clock_;
   const MissionMaker maker_;
 
@@ -145,6 +163,8 @@ class MissionRegistry {
   int stopping_missions_ ABSL_GUARDED_BY(mutex_) = 0;        // deleted, but still there
   absl::Status closed_ ABSL_GUARDED_BY(mutex_);              // OK while missions may be made
   RecoveryList absent_ ABSL_GUARDED_BY(mutex_);
+  SoughtMissions sought_ ABSL_GUARDED_BY(mutex_);
+  int lives_ ABSL_GUARDED_BY(mutex_) = 0;  // leases that were lost
   std::function<void()> on_called_for_ ABSL_GUARDED_BY(mutex_) = [] {};
   std::vector<std::shared_ptr<MissionJournal>> journals_ ABSL_GUARDED_BY(mutex_);  // of StopAll
   // Seen by what is recovered; epochs of it may outlive us.

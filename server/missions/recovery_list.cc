@@ -35,6 +35,14 @@ std::vector<SleepingMission> RecoveryList::TakeForgotten(SteadyTime now) {
   return forgotten;
 }
 
+std::vector<SleepingMission> RecoveryList::Sleeping() const {
+  std::vector<SleepingMission> sleeping;
+  for (const auto& [key, entry] : missions_) {
+    if (entry.is_asleep) sleeping.push_back(*entry.sleep);
+  }
+  return sleeping;
+}
+
 const SleepingMission* RecoveryList::FindAsleep(const std::string& key) const {
   const auto found = missions_.find(key);
   if (found == missions_.end() || !found->second.is_asleep) return nullptr;

@@ -51,6 +51,7 @@ class RecoveryList {
   std::vector<SleepingMission> TakeForgotten(SteadyTime now);
 
   bool Contains(const std::string& key) const { return missions_.count(key) > 0; }
+  std::vector<SleepingMission> Sleeping() const;
   // The one of this key, if it sleeps; null if it does not.
   const SleepingMission* FindAsleep(const std::string& key) const;
   // Why the mission does not answer; OK if it is not on the list. Puts it before others; one that

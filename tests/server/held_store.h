@@ -31,7 +31,7 @@ inline StoreState Refusing(absl::string_view why) {
 
 // A store that says it is durable and takes its time: while it holds, what is appended waits until
 // it is released, as on a disk that hangs.
-class HeldStore final : public MissionStore {
+class HeldStore : public MissionStore {
  public:
   void Hold() {
     absl::MutexLock lock(&mutex_);

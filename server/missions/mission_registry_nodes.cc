@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+// Of the mission registry: a store that several servers share.
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "core/mission/conduct/conduct_errors.h"
+#include "server/base/errors.h"
+#include "server/base/log.h"
+#include "server/missions/mission_registry.h"
+#include "server/store/store_nodes.h"
+
+namespace plumescout::server {
+namespace {
+
+absl::Status LeaseLost() { return StoreTakesNothing("this node has no lease in it"); }
+
+}  // namespace
+
+absl::Status MissionRegistry::CheckLife(int life) const {
+  return life == lives_ ? absl::OkStatus() : LeaseLost();
+}
+
+absl::Status MissionRegistry::CheckLease() const {
+  return nodes_ == nullptr || clock_() < nodes_->lease_until() ? absl::OkStatus() : LeaseLost();
+}
+
+absl::Status MissionRegistry::Seek(const std::string& key) {
+  if (being_made_.contains(key)) return Recovering(MissionIdOf(key));
+  const absl::Status answer = sought_.CallFor(key, clock_());
+  on_called_for_();
+  return answer;
+}
+
+void MissionRegistry::LoseAll(const absl::Status& status) {
+  Hosts hosts;
+  {
+    absl::MutexLock lock(&mutex_);
+    ++lives_;
+    absent_ = RecoveryList();
+    hosts = hosts_;
+    while (!hosts_.empty()) Reap(hosts_.begin(), status, [] {});
+  }
+  for (const auto& [key, host] : hosts) host->DropAll();
+}
+
+void MissionRegistry::ReleaseAll() {
+  if (nodes_ == nullptr) return;
+  std::map<std::string, std::int64_t> epochs;
+  {
+    absl::MutexLock lock(&mutex_);
+    for (const auto& journal : journals_) epochs[journal->key()] = journal->epoch();
+    for (const SleepingMission& mission : absent_.Sleeping()) epochs[mission.key] = mission.epoch;
+  }
+  for (const auto& [key, epoch] : epochs) {
+    const absl::Status released = nodes_->Release(key, epoch);
+    if (!released.ok()) {
+      LogWarning("mission not released",
+                 {{"mission", key}, {"why", std::string(released.message())}});
+    }
+  }
+}
+
+}  // namespace plumescout::server

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/missions/sought_missions.h"
+
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "server/base/errors.h"
+#include "server/missions/recovery_list.h"
+
+namespace plumescout::server {
+
+absl::Status SoughtMissions::CallFor(const std::string& key, SteadyTime now) {
+  const auto found = missions_.find(key);
+  if (found != missions_.end()) {
+    if (found->second.is_asked_for) return Recovering(MissionIdOf(key));
+    if (now < found->second.holds_until) return found->second.answer;
+  }
+  if (missions_.size() >= options_.max_missions) {
+    std::erase_if(missions_, [now](const auto& mission) {
+      return !mission.second.is_asked_for && now >= mission.second.holds_until;
+    });
+  }
+  if (missions_.size() >= options_.max_missions) {
+    return Overloaded(absl::StrCat("the store is asked for ", missions_.size(), " missions"));
+  }
+  missions_[key] = Entry{};
+  waiting_.push_back(key);
+  return Recovering(MissionIdOf(key));
+}
+
+std::optional<std::string> SoughtMissions::Next() {
+  if (waiting_.empty()) return std::nullopt;
+  std::string key = std::move(waiting_.front());
+  waiting_.pop_front();
+  return key;
+}
+
+void SoughtMissions::Settle(const std::string& key, const absl::Status& status, SteadyTime now) {
+  const auto found = missions_.find(key);
+  if (found == missions_.end()) return;
+  found->second = Entry{
+      .is_asked_for = false, .answer = status, .holds_until = After(now, options_.answer_holds)};
+}
+
+}  // namespace plumescout::server

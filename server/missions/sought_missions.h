@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "absl/status/status.h"
+#include "absl/time/time.h"
+#include "server/base/clock.h"
+
+namespace plumescout::server {
+
+struct SoughtOptions {
+  // How long an answer of the store holds: longer than callers wait who are to ask again (see
+  // Recovering). So long, at most, is somebody sent to a node that lives no more.
+  absl::Duration answer_holds = absl::Milliseconds(500);
+  std::size_t max_missions = 4096;
+};
+
+// Missions that somebody has called for and that this server, which shares its store with others,
+// does not have: the store has to be asked whether there is one, and whose it is. Calls do not wait
+// for it. Thread-compatible.
+class SoughtMissions {
+ public:
+  explicit SoughtMissions(const SoughtOptions& options = {}) : options_(options) {}
+
+  // Somebody calls for the mission. What the store has answered, if that was lately; else
+  // RECOVERING, and it is among those to ask for. OVERLOADED if too many are.
+  absl::Status CallFor(const std::string& key, SteadyTime now);
+  // The next to ask for. Nothing if none waits.
+  std::optional<std::string> Next();
+  // The store has answered; no effect for others than were given out.
+  void Settle(const std::string& key, const absl::Status& status, SteadyTime now);
+  void Erase(const std::string& key) { missions_.erase(key); }
+  // Whether the store is being asked for it.
+  bool IsAskedFor(const std::string& key) const {
+    const auto found = missions_.find(key);
+    return found != missions_.end() && found->second.is_asked_for;
+  }
+
+ private:
+  struct Entry {
+    bool is_asked_for = true;  // no answer yet
+    absl::Status answer = {};
+    SteadyTime holds_until = {};
+  };
+
+  SoughtOptions options_;
+  std::map<std::string, Entry> missions_;  // by key
+  std::deque<std::string> waiting_;        // keys
+};
+
+}  // namespace plumescout::server

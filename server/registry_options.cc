@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/registry_options.h"
+
+#include "absl/time/time.h"
+
+namespace plumescout::server {
+namespace {
+
+RateOptions ToRateOptions(const LimitConfig& limits) {
+  return {.scans_per_s = limits.max_scans_per_s,
+          .gas_readings_per_s = limits.max_gas_readings_per_s,
+          .ingest_bytes_per_s = limits.max_ingest_bytes_per_s,
+          .plans_per_s = limits.max_plans_per_s,
+          .ingest_burst = absl::Seconds(limits.ingest_burst_s)};
+}
+
+}  // namespace
+
+RegistryOptions ToRegistryOptions(const ServerConfig& config, std::int64_t first_lease_token) {
+  RegistryOptions options;
+  options.max_missions = config.limits.max_missions;
+  options.memory_budget_bytes = config.limits.memory_budget_bytes;
+  options.mission_memory_budget_bytes = config.limits.mission_memory_budget_bytes;
+  options.max_map_cell_count = config.limits.max_map_cell_count;
+  options.max_beam_count = config.limits.max_beam_count;
+  options.max_range_m = config.limits.max_range_m;
+  options.host.max_queued_observations = config.limits.max_queued_observations;
+  options.host.max_queued_bytes = config.limits.max_queued_bytes;
+  options.host.max_waiters = config.limits.max_waiting_calls;
+  options.host.max_watchers_per_robot = config.limits.max_watchers_per_robot;
+  options.host.max_wait = absl::Seconds(config.limits.max_wait_s);
+  options.host.publish_period = absl::Seconds(config.maps.publish_period_s);
+  options.host.gas_wait = absl::Seconds(config.maps.gas_wait_s);
+  options.host.max_map_part_bytes = config.maps.max_part_bytes;
+  options.host.lease_hold = absl::Seconds(config.connection.lease_hold_s);
+  options.host.first_lease_token = first_lease_token;
+  options.host.max_clock_lead = absl::Seconds(config.limits.max_clock_lead_s);
+  options.host.rates = ToRateOptions(config.limits);
+  options.max_backlog_bytes = config.store.max_backlog_bytes;
+  if (config.store.sleep_after_s > 0.0) {
+    options.sleep_after = absl::Seconds(config.store.sleep_after_s);
+  }
+  return options;
+}
+
+}  // namespace plumescout::server

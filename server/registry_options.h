@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "server/config/config.h"
+#include "server/missions/mission_maker.h"
+
+namespace plumescout::server {
+
+// What the configuration says of missions.
+RegistryOptions ToRegistryOptions(const ServerConfig& config, std::int64_t first_lease_token);
+
+}  // namespace plumescout::server

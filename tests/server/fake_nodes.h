@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/base/thread_annotations.h"
+#include "absl/synchronization/mutex.h"
+#include "server/store/store_errors.h"
+#include "server/store/store_nodes.h"
+#include "tests/server/held_store.h"
+
+namespace plumescout::server {
+
+// A store that is shared with servers that are not there. Thread-safe.
+class SharedStore final : public HeldStore, public StoreNodes {
+ public:
+  // From now on the mission is this living node's; of nobody if it is empty.
+  void SetOwner(const std::string& key, const std::string& node) {
+    absl::MutexLock lock(&nodes_mutex_);
+    owners_[key] = node;
+  }
+  void SetLeaseUntil(SteadyTime until) {
+    absl::MutexLock lock(&nodes_mutex_);
+    lease_until_ = until;
+  }
+  void LoseLease() {
+    OnLost on_lost;
+    {
+      absl::MutexLock lock(&nodes_mutex_);
+      on_lost = on_lost_;
+    }
+    if (on_lost) on_lost(absl::UnavailableError("lost"));
+  }
+  std::map<std::string, std::int64_t> released() const {
+    absl::MutexLock lock(&nodes_mutex_);
+    return released_;
+  }
+
+  absl::StatusOr<AcquiredMission> Acquire(const std::string& key) override {
+    const auto owner = FindOwner(key);
+    if (owner.ok() && owner->has_value()) return MissionElsewhere(key, **owner);
+    return HeldStore::Acquire(key);
+  }
+  StoreNodes* nodes() override { return this; }
+
+  const StoreNode& self() const override { return self_; }
+  SteadyTime lease_until() const override {
+    absl::MutexLock lock(&nodes_mutex_);
+    return lease_until_;
+  }
+  absl::Status status() const override { return absl::OkStatus(); }
+  void SetOnLost(OnLost on_lost) override {
+    absl::MutexLock lock(&nodes_mutex_);
+    on_lost_ = std::move(on_lost);
+  }
+  absl::StatusOr<std::vector<StoreNode>> ListLiving() override {
+    return std::vector<StoreNode>{self_};
+  }
+  absl::StatusOr<std::optional<std::string>> FindOwner(const std::string& key) override {
+    absl::MutexLock lock(&nodes_mutex_);
+    const auto found = owners_.find(key);
+    if (found == owners_.end() || found->second.empty()) return std::nullopt;
+    return found->second;
+  }
+  absl::Status Release(const std::string& key, std::int64_t epoch) override {
+    absl::MutexLock lock(&nodes_mutex_);
+    released_[key] = epoch;
+    return absl::OkStatus();
+  }
+
+ private:
+  const StoreNode self_ = {"n1", "127.0.0.1:1"};
+  mutable absl::Mutex nodes_mutex_;
+  std::map<std::string, std::string> owners_ ABSL_GUARDED_BY(nodes_mutex_);
+  std::map<std::string, std::int64_t> released_ ABSL_GUARDED_BY(nodes_mutex_);
+  SteadyTime lease_until_ ABSL_GUARDED_BY(nodes_mutex_) = SteadyTime::max();
+  OnLost on_lost_ ABSL_GUARDED_BY(nodes_mutex_);
+};
+
+}  // namespace plumescout::server

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+// Of the mission registry: a store that several servers share.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "absl/synchronization/notification.h"
+#include "core/types/error_reason.h"
+#include "server/missions/mission_registry.h"
+#include "tests/server/fake_nodes.h"
+#include "tests/server/stored_run.h"
+
+namespace plumescout::server {
+namespace mission_registry_nodes_test {
+
+class MissionRegistryNodesTest : public testing::Test {
+ protected:
+  MissionRegistryNodesTest() {
+    RegistryHooks hooks;
+    hooks.store = &store_;
+    hooks.clock = [this] { return now_; };
+    RegistryOptions options;
+    options.sleep_after = absl::Seconds(60);
+    registry_ = std::make_unique<MissionRegistry>(options, hooks);
+  }
+  void Put(const std::string& key) {
+    PutMission(store_, key, {}, {{1, RobotRegistered{"r1", 0.2, 7}}});
+  }
+  // What a call is told once the store has been asked.
+  absl::StatusOr<std::shared_ptr<MissionHost>> CallFor(const std::string& id) {
+    EXPECT_EQ(ErrorReason(registry_->Find(id).status()), reason::kRecovering);
+    while (registry_->RecoverNext()) {
+    }
+    return registry_->Find(id);
+  }
+
+  SteadyTime now_ = SteadyTime() + std::chrono::hours(1);
+  SharedStore store_;
+  std::unique_ptr<MissionRegistry> registry_;
+};
+
+TEST_F(MissionRegistryNodesTest, AMissionOfNobodyIsAcquiredWhenItIsCalledFor) {
+  Put("hall");
+  ASSERT_TRUE(registry_->FindStored().ok());
+  EXPECT_FALSE(registry_->RecoverNext()) << "nobody has called";
+  const auto host = CallFor("hall");
+  ASSERT_TRUE(host.ok()) << host.status();
+  EXPECT_EQ((*host)->summary().revision, 1);
+  EXPECT_EQ((*host)->journal().epoch(), 2);
+}
+
+TEST_F(MissionRegistryNodesTest, CallsAreSentToTheNodeThatHasTheMissionAsLongAsItLives) {
+  Put("hall");
+  store_.SetOwner("hall", "n2");
+  EXPECT_EQ(NodeElsewhere(CallFor("hall").status()), "n2");
+  EXPECT_TRUE(absl::IsAlreadyExists(registry_->Create("hall", {}).status()));
+  store_.SetOwner("hall", "");
+  EXPECT_EQ(NodeElsewhere(registry_->Find("hall").status()), "n2") << "as it was told lately";
+  now_ += std::chrono::seconds(2);
+  EXPECT_TRUE(CallFor("hall").ok());
+}
+
+TEST_F(MissionRegistryNodesTest, WhatTheStoreDoesNotHaveCanBeMade) {
+  EXPECT_EQ(ErrorReason(registry_->Find("hall").status()), reason::kRecovering);
+  EXPECT_EQ(ErrorReason(registry_->Create("hall", {}).status()), reason::kRecovering)
+      << "it may be there";
+  EXPECT_TRUE(registry_->RecoverNext());
+  EXPECT_TRUE(absl::IsNotFound(registry_->Find("hall").status()));
+  ASSERT_TRUE(registry_->Create("hall", {}).ok());
+  EXPECT_TRUE(registry_->Find("hall").ok());
+}
+
+TEST_F(MissionRegistryNodesTest, NobodyIsServedWithoutALease) {
+  ASSERT_TRUE(registry_->Create("hall", {}).ok());
+  store_.SetLeaseUntil(now_);
+  EXPECT_EQ(ErrorReason(registry_->Find("hall").status()), reason::kStoreUnavailable);
+  EXPECT_EQ(ErrorReason(registry_->Create("yard", {}).status()), reason::kStoreUnavailable);
+  store_.SetLeaseUntil(now_ + std::chrono::nanoseconds(1));
+  EXPECT_TRUE(registry_->Find("hall").ok());
+}
+
+TEST_F(MissionRegistryNodesTest, WithTheLeaseAllMissionsAreLost) {
+  const auto host = registry_->Create("hall", {}).value();
+  absl::Notification ended;
+  host->end_listeners().Add([&](const absl::Status&) { ended.Notify(); });
+  registry_->LoseAll(absl::UnavailableError("lost"));
+  ended.WaitForNotification();
+  EXPECT_TRUE(absl::IsUnavailable(host->Post([](MissionWriter&) {})));
+  store_.SetOwner("hall", "n2");
+  EXPECT_EQ(NodeElsewhere(CallFor("hall").status()), "n2");
+}
+
+TEST_F(MissionRegistryNodesTest, AMissionThatWasTakenOverIsLookedForAnew) {
+  const auto host = registry_->Create("hall", {}).value();
+  ASSERT_TRUE(store_.HeldStore::Acquire("hall").ok());
+  absl::Notification told;
+  ASSERT_TRUE(host->Post([&](MissionWriter& writer) {
+                    EXPECT_TRUE(writer.conduct().Register({"r1", 0.2, 1}).ok());
+                    host->WhenDurable([&](const absl::Status& status) {
+                      EXPECT_EQ(ErrorReason(status), reason::kFenced);
+                      told.Notify();
+                    });
+                  })
+                  .ok());
+  told.WaitForNotification();
+  store_.SetOwner("hall", "n2");
+  EXPECT_EQ(NodeElsewhere(CallFor("hall").status()), "n2");
+}
+
+TEST_F(MissionRegistryNodesTest, MissionsAreReleasedOnceAllHaveStopped) {
+  ASSERT_TRUE(registry_->Create("hall", {}).ok());
+  Put("yard");
+  ASSERT_TRUE(CallFor("yard").ok());
+  registry_->StopAll(absl::UnavailableError("over"));
+  EXPECT_TRUE(registry_->AwaitStopped(SteadyTime::max()));
+  EXPECT_TRUE(registry_->AwaitStored(SteadyTime::max()));
+  registry_->ReleaseAll();
+  EXPECT_EQ(store_.released(), (std::map<std::string, std::int64_t>{{"hall", 1}, {"yard", 2}}));
+}
+
+}  // namespace mission_registry_nodes_test
+}  // namespace plumescout::server

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/registry_options.h"
+
+#include <gtest/gtest.h>
+
+namespace plumescout::server {
+namespace registry_options_test {
+
+TEST(RegistryOptionsTest, MissionsAreAsTheConfigurationSays) {
+  ServerConfig config;
+  config.limits.max_missions = 3;
+  config.limits.max_wait_s = 5.0;
+  config.store.max_backlog_bytes = 70'000;
+  config.store.sleep_after_s = 60.0;
+  const RegistryOptions options = ToRegistryOptions(config, 17);
+  EXPECT_EQ(options.max_missions, 3);
+  EXPECT_EQ(options.host.max_wait, absl::Seconds(5));
+  EXPECT_EQ(options.host.first_lease_token, 17);
+  EXPECT_EQ(options.max_backlog_bytes, 70'000);
+  EXPECT_EQ(options.sleep_after, absl::Seconds(60));
+  config.store.sleep_after_s = 0.0;
+  EXPECT_EQ(ToRegistryOptions(config, 17).sleep_after, absl::InfiniteDuration());
+}
+
+}  // namespace registry_options_test
+}  // namespace plumescout::server
