@@ -81,7 +81,7 @@ TEST(DoorTest, ObserversHearOfEveryCallOnce) {
     heard.push_back(absl::StrCat(RowOf(info.rpc).method, " ", info.caller.name, " ",
                                  absl::StatusCodeToString(end.status.code())));
   });
-  const grpc::CallbackServerContext call;
+  grpc::CallbackServerContext call;
   Visit visit;
   ASSERT_TRUE(visit.Enter(door, Rpc::kGetMap, call).ok());
   EXPECT_TRUE(heard.empty());
@@ -108,7 +108,7 @@ TEST(DoorTest, ManyMayEnterAtOnce) {
   std::vector<std::thread> threads;
   for (int i = 0; i < kThreads; ++i) {
     threads.emplace_back([&] {
-      const grpc::CallbackServerContext call;
+      grpc::CallbackServerContext call;
       for (int k = 0; k < kCalls; ++k) {
         Visit visit;
         EXPECT_TRUE(visit.Enter(door, Rpc::kGetMap, call).ok());

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+// Of the server: one of several that share a store.
+#include <grpcpp/client_context.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+#include "core/types/error_reason.h"
+#include "plumescout/v1/mission_service.grpc.pb.h"
+#include "server/server.h"
+#include "tests/server/fake_nodes.h"
+#include "tests/server/stored_run.h"
+
+namespace plumescout::server {
+namespace server_nodes_test {
+
+class ServerNodesTest : public testing::Test {
+ protected:
+  ServerNodesTest() {
+    for (const char* key : {"hall", "yard"}) {
+      PutMission(store_, key, {}, {{1, RobotRegistered{"r1", 0.2, 7}}});
+    }
+    store_.SetOwner("hall", "n2");
+    RegistryHooks hooks;
+    hooks.store = &store_;
+    ServerConfig config;
+    config.listen = "";
+    auto server = Server::Start(config, hooks);
+    EXPECT_TRUE(server.ok()) << server.status();
+    server_ = *std::move(server);
+    missions_ = v1::MissionService::NewStub(server_->InProcessChannel());
+  }
+
+  struct Answer {
+    grpc::Status status;
+    std::string owner;  // of the trailer
+  };
+  // Asks again while the server asks its store.
+  Answer Get(const std::string& id) {
+    while (true) {
+      grpc::ClientContext context;
+      v1::GetMissionRequest request;
+      v1::GetMissionResponse response;
+      request.set_name("missions/" + id);
+      Answer answer{missions_->GetMission(&context, request, &response), ""};
+      if (answer.status.error_message().starts_with(std::string(reason::kRecovering))) continue;
+      const auto& trailers = context.GetServerTrailingMetadata();
+      const auto owner = trailers.find("x-owner");
+      if (owner != trailers.end()) answer.owner = {owner->second.data(), owner->second.size()};
+      return answer;
+    }
+  }
+
+  SharedStore store_;
+  std::unique_ptr<Server> server_;
+  std::unique_ptr<v1::MissionService::Stub> missions_;
+};
+
+TEST_F(ServerNodesTest, CallsAreToldWhereAMissionIs) {
+  EXPECT_EQ(server_->NotReady(), "") << "missions are read when they are called for";
+  const Answer elsewhere = Get("hall");
+  EXPECT_EQ(elsewhere.status.error_code(), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_TRUE(elsewhere.status.error_message().starts_with(std::string(reason::kMissionElsewhere)))
+      << elsewhere.status.error_message();
+  EXPECT_EQ(elsewhere.owner, "n2");
+  const Answer mine = Get("yard");
+  EXPECT_TRUE(mine.status.ok()) << mine.status.error_message();
+  EXPECT_EQ(mine.owner, "");
+  EXPECT_EQ(Get("attic").status.error_code(), grpc::StatusCode::NOT_FOUND);
+}
+
+TEST_F(ServerNodesTest, WithTheLeaseItStopsServing) {
+  ASSERT_TRUE(Get("yard").status.ok());
+  store_.SetOwner("yard", "n2");
+  store_.LoseLease();
+  EXPECT_EQ(Get("yard").owner, "n2");
+}
+
+TEST_F(ServerNodesTest, WhoIsDrainedReleasesItsMissions) {
+  ASSERT_TRUE(Get("yard").status.ok());
+  server_->Drain();
+  EXPECT_EQ(store_.released(), (std::map<std::string, std::int64_t>{{"yard", 2}}));
+}
+
+}  // namespace server_nodes_test
+}  // namespace plumescout::server
