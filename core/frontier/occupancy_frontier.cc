@@ -70,11 +70,9 @@ class OuterWavefront {
   std::vector<int> frontier_;
 };
 
-}  // namespace
-
-std::vector<Frontier> FindOccupancyFrontiers(const Grid<CellState>& states,
-                                             const Grid<std::uint8_t>& traversable,
-                                             const std::vector<Cell>& starts, int min_cells) {
+// Without their goal cells.
+std::vector<Frontier> FindClusters(const Grid<CellState>& states, const std::vector<Cell>& starts,
+                                   int min_cells) {
   OuterWavefront wavefront(states);
   wavefront.Run(FreeStarts(states, starts));
   const ClusterRule rule = {FrontierKind::kOccupancy, kWaiting, kTaken, min_cells};
@@ -83,7 +81,23 @@ std::vector<Frontier> FindOccupancyFrontiers(const Grid<CellState>& states,
     if (wavefront.marks()[cell] != kWaiting) continue;
     frontiers.push_back(TakeCluster(states.geometry(), rule, cell, wavefront.marks()));
   }
+  return frontiers;
+}
+
+}  // namespace
+
+std::vector<Frontier> FindOccupancyFrontiers(const Grid<CellState>& states,
+                                             const Grid<std::uint8_t>& traversable,
+                                             const std::vector<Cell>& starts, int min_cells) {
+  std::vector<Frontier> frontiers = FindClusters(states, starts, min_cells);
   FindGoalCells(states, traversable, starts, frontiers);
+  return frontiers;
+}
+
+std::vector<Frontier> FindOccupancyFrontiers(const Grid<CellState>& states, Cell start,
+                                             const TravelFromStarts& from_start, int min_cells) {
+  std::vector<Frontier> frontiers = FindClusters(states, {start}, min_cells);
+  FindGoalCells(states, from_start, frontiers);
   return frontiers;
 }
 

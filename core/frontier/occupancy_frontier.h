@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/frontier/goal_cells.h"
 #include "core/types/cell_state.h"
 #include "core/types/frontier.h"
 #include "core/types/grid.h"
@@ -20,5 +21,8 @@ namespace plumescout {
 std::vector<Frontier> FindOccupancyFrontiers(const Grid<CellState>& states,
                                              const Grid<std::uint8_t>& traversable,
                                              const std::vector<Cell>& starts, int min_cells);
+// The same from one start, by ways from it that are known. REQUIRES: `from_start` has run.
+std::vector<Frontier> FindOccupancyFrontiers(const Grid<CellState>& states, Cell start,
+                                             const TravelFromStarts& from_start, int min_cells);
 
 }  // namespace plumescout

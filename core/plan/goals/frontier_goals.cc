@@ -46,10 +46,9 @@ std::vector<Frontier> GasFrontiers(const GoalQuery& query) {
       FindGasClusters(input, observed_ppm2, GasThreshold_ppm(input, observed_ppm2, options),
                       {query.start}, options);
   if (frontiers.empty()) return frontiers;
-  const Grid<double>& travel_m = query.TravelFromStart_m();
   for (Frontier& frontier : frontiers) {
     MoveGoalOntoFrontier(query, frontier);
-    if (frontier.reachable) frontier.travel_m = travel_m[frontier.goal_cell];
+    if (frontier.reachable) frontier.travel_m = query.FromStart().Travel(frontier.goal_cell);
   }
   return frontiers;
 }
@@ -142,7 +141,7 @@ std::vector<JudgedFrontier> JudgeFrontiers(const GoalQuery& query) {
     Judge(query, GasFrontiers(query), judged);
   }
   Judge(query,
-        FindOccupancyFrontiers(*belief.occupancy, *belief.traversable, {query.start},
+        FindOccupancyFrontiers(*belief.occupancy, query.start, query.FromStart(),
                                belief.options->frontier.min_occupancy_cell_count),
         judged);
   return judged;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/belief/belief.h"
+#include "core/frontier/goal_cells.h"
 #include "core/types/options.h"
 #include "core/types/plan.h"
 #include "core/types/rng.h"
@@ -24,9 +25,9 @@ struct GoalQuery {
   // they will have observed by then is no goal.
   const Belief* ahead = nullptr;
 
-  // Lengths of ways from `start` by steps between reachable cells. Cost: O(cells) when first asked.
-  const Grid<double>& TravelFromStart_m() const;
-  mutable std::optional<Grid<double>> travel_from_start_m = std::nullopt;
+  // The ways from `start` by steps between reachable cells. Cost: O(cells) when first asked.
+  const TravelFromStarts& FromStart() const;
+  mutable std::optional<TravelFromStarts> from_start = std::nullopt;
 };
 
 struct GoalOffer {
