@@ -99,7 +99,8 @@ std::vector<SearchSource> OpenRim(const GridGeometry& geometry, const TravelFrom
 
 // The ways from the reached cells over inflated free cells and frontier cells to the anchors.
 Search SearchBeyond(const Grid<CellState>& states, const std::vector<Frontier>& frontiers,
-                    const std::vector<Cell>& anchors, const TravelFromStarts& from_starts) {
+                    const std::vector<Cell>& anchors, const TravelFromStarts& from_starts,
+                    const StopFn& stop) {
   Search beyond = BeyondSearch(states, frontiers, from_starts);
   std::vector<int> pending;
   for (const Cell anchor : anchors) {
@@ -109,7 +110,7 @@ Search SearchBeyond(const Grid<CellState>& states, const std::vector<Frontier>& 
   if (pending.empty()) return beyond;
   beyond.Run(OpenRim(states.geometry(), from_starts, beyond), [&](std::span<const Search::Entry>) {
     while (!pending.empty() && beyond.IsSettled(pending.back())) pending.pop_back();
-    return pending.empty();
+    return pending.empty() || Stops(stop);
   });
   return beyond;
 }
@@ -138,13 +139,13 @@ void FindGoalCells(const Grid<CellState>& states, const Grid<std::uint8_t>& trav
 }
 
 void FindGoalCells(const Grid<CellState>& states, const TravelFromStarts& from_starts,
-                   std::vector<Frontier>& frontiers) {
+                   std::vector<Frontier>& frontiers, const StopFn& stop) {
   if (frontiers.empty()) return;
   std::vector<Cell> anchors;
   for (const Frontier& frontier : frontiers) {
     anchors.push_back(Anchor(frontier, states.geometry()));
   }
-  const Search beyond = SearchBeyond(states, frontiers, anchors, from_starts);
+  const Search beyond = SearchBeyond(states, frontiers, anchors, from_starts, stop);
   for (std::size_t i = 0; i < frontiers.size(); ++i) {
     const int anchor = beyond.IndexOf(anchors[i]);
     Frontier& frontier = frontiers[i];

@@ -19,7 +19,7 @@ const TravelFromStarts& GoalQuery::FromStart() const {
   if (!from_start) {
     from_start.emplace(reachable.geometry(), Connectivity::kEightNoCornerCut,
                        [this](std::size_t index) { return reachable[index] != 0; });
-    from_start->Run({{start}});
+    from_start->Run({{start}}, [this](const auto&) { return Stops(stop); });
   }
   return *from_start;
 }
@@ -41,7 +41,7 @@ GoalOffer FindGoals(const GoalQuery& query, Rng& rng) {
   GoalOffer result;
   result.rejected = std::move(frontiers.rejected);
   result.goals = ChooseByPolicy(std::move(frontiers), query.options, rng, result.rejected);
-  if (query.options.goal_policy == GoalPolicy::kEverything) {
+  if (query.options.goal_policy == GoalPolicy::kEverything && !Stops(query.stop)) {
     const std::vector<Goal> telling = InformationGoals(query, result.rejected);
     result.goals.insert(result.goals.end(), telling.begin(), telling.end());
   }
