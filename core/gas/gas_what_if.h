@@ -14,6 +14,7 @@
 #include "core/gas/gas_inputs.h"
 #include "core/gas/gas_lattice.h"
 #include "core/types/grid.h"
+#include "core/types/stop.h"
 
 namespace plumescout {
 
@@ -49,13 +50,14 @@ class GasWhatIf {
   // of geometry() weigh. Both refer to this object. Errors: those of VarianceIfRead.
   absl::StatusOr<std::optional<InverseColumns>> ColumnsIfRead(std::span<const Cell> cells,
                                                               double precision) const;
-  EntropyFall FallOf(std::span<const float> weights) const;
+  EntropyFall FallOf(std::span<const float> weights, const StopFn& stop = {}) const;
 
   // Itself once these readings have been taken, whatever they say: others are then worth what
   // they tell beside them. For cells and errors see VarianceIfRead. Cost: that, and for each
   // reading a copy of what lies on the way from its cell to the root of the factor.
-  absl::StatusOr<std::shared_ptr<const GasWhatIf>> Given(
-      std::span<const ForeseenCell> readings) const;
+  // kCancelled once `stop`, which is asked all along, says so.
+  absl::StatusOr<std::shared_ptr<const GasWhatIf>> Given(std::span<const ForeseenCell> readings,
+                                                         const StopFn& stop = {}) const;
 
   // Marginal variance of every free cell now, ppm^2; NaN off those. Cost: O(cells).
   Grid<float> variance_ppm2() const { return OnMap(field_.variance_ppm2()); }
