@@ -71,10 +71,7 @@ std::vector<Model> Models() {
           {"way_root", "way, roots", true, Gas(0.3, 3e-4, kRoot, true)},
           {"learned", "points, linear, learned", false, Learned(3.0, 1e-3, kLinear)},
           {"way_learned", "way, linear, learned", true, Learned(3.0, 1e-3, kLinear)},
-          {"way_learned_far", "way, linear, learned from 0.03", true, Learned(0.03, 1e-5, kLinear)},
-          {"way_learned_flat", "way, linear, learned, flat", true, Learned(3.0, 1e-2, kLinear)},
-          {"root_learned", "points, roots, learned", false, Learned(0.3, 3e-4, kRoot)},
-          {"way_root_learned", "way, roots, learned", true, Learned(0.3, 3e-4, kRoot)}};
+          {"root_learned", "points, roots, learned", false, Learned(0.3, 3e-4, kRoot)}};
 }
 
 struct Placed {
