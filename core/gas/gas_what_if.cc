@@ -78,7 +78,7 @@ Grid<float> GasWhatIf::OnMap(const std::vector<double>& by_lattice_cell) const {
     if (states[i] != CellState::kFree) continue;
     const std::size_t index = FieldIndex(i);
     const double beside_ppm2 = beside_ppm2_.empty() ? 0.0 : beside_ppm2_[index];
-    result[i] = static_cast<float>(by_lattice_cell[index] + beside_ppm2);
+    result[i] = static_cast<float>(prior_scale_ * (by_lattice_cell[index] + beside_ppm2));
   }
   return result;
 }

@@ -28,14 +28,16 @@ struct ForeseenCell {
 // the live field, which goes on without changing it. Immutable: may be read from any thread.
 class GasWhatIf {
  public:
-  // `beside_ppm2`: what unknown offsets of sensors add to each variance, by lattice cell, if there
-  // are any. Further readings are taken not to change it, though they would make it less.
+  // `prior_scale`: what variances are multiplied by, see PriorScale. `beside_ppm2`: what unknown
+  // offsets of sensors add to each variance, by lattice cell, if there are any. Further readings
+  // are taken not to change it, though they would make it less.
   GasWhatIf(FieldSnapshot field, const GasLattice& lattice, const GasInputs& inputs,
-            std::vector<double> beside_ppm2 = {})
+            double prior_scale = 1.0, std::vector<double> beside_ppm2 = {})
       : field_(std::move(field)),
         lattice_(lattice),
         states_(inputs.states()),
         factor_(inputs.factor()),
+        prior_scale_(prior_scale),
         beside_ppm2_(std::move(beside_ppm2)) {}
 
   const GridGeometry& geometry() const { return states_.states().geometry(); }
@@ -77,6 +79,7 @@ class GasWhatIf {
   GasLattice lattice_;
   AnchoredStates states_;
   int factor_;
+  double prior_scale_;
   std::vector<double> beside_ppm2_;
 };
 
