@@ -15,19 +15,20 @@
 namespace plumescout {
 namespace {
 
+// From the rim of what is reached: a few cells of length, so that float is exact enough.
 using Search = TravelSearch<float>;
 
-// The ways from the starts over traversable cells.
-Search SearchFromStarts(const Grid<CellState>& states, const Grid<std::uint8_t>& traversable,
-                        const std::vector<Cell>& starts) {
+TravelFromStarts SearchFromStarts(const Grid<CellState>& states,
+                                  const Grid<std::uint8_t>& traversable,
+                                  const std::vector<Cell>& starts) {
   std::vector<SearchSource> sources;
   for (const Cell start : starts) {
     const std::vector<Cell> escape = EscapePath(states, traversable, start);
     if (escape.empty()) continue;
     sources.push_back({escape.back(), PathLength_m(escape, states.geometry().resolution_m)});
   }
-  Search search(states.geometry(), Connectivity::kEightNoCornerCut,
-                [&traversable](std::size_t index) { return traversable[index] != 0; });
+  TravelFromStarts search(states.geometry(), Connectivity::kEightNoCornerCut,
+                          [&traversable](std::size_t index) { return traversable[index] != 0; });
   search.Run(std::move(sources));
   return search;
 }
@@ -61,7 +62,7 @@ Cell Anchor(const Frontier& frontier, const GridGeometry& geometry) {
 
 // A search over the free and the frontier cells that `from_starts` did not reach.
 Search BeyondSearch(const Grid<CellState>& states, const std::vector<Frontier>& frontiers,
-                    const Search& from_starts) {
+                    const TravelFromStarts& from_starts) {
   const GridGeometry& geometry = states.geometry();
   Search beyond(geometry, Connectivity::kEight,
                 [&](std::size_t index) { return states[index] == CellState::kFree; });
@@ -78,7 +79,7 @@ Search BeyondSearch(const Grid<CellState>& states, const std::vector<Frontier>& 
 }
 
 // Opens to `beyond` the reached cells beside its own: only they need to be sources.
-std::vector<SearchSource> OpenRim(const GridGeometry& geometry, const Search& from_starts,
+std::vector<SearchSource> OpenRim(const GridGeometry& geometry, const TravelFromStarts& from_starts,
                                   Search& beyond) {
   std::vector<SearchSource> rim;
   for (int y = 0; y < geometry.height; ++y) {
@@ -98,7 +99,8 @@ std::vector<SearchSource> OpenRim(const GridGeometry& geometry, const Search& fr
 
 // The ways from the reached cells over inflated free cells and frontier cells to the anchors.
 Search SearchBeyond(const Grid<CellState>& states, const std::vector<Frontier>& frontiers,
-                    const std::vector<Cell>& anchors, const Search& from_starts) {
+                    const std::vector<Cell>& anchors, const TravelFromStarts& from_starts,
+                    const StopFn& stop) {
   Search beyond = BeyondSearch(states, frontiers, from_starts);
   std::vector<int> pending;
   for (const Cell anchor : anchors) {
@@ -108,7 +110,7 @@ Search SearchBeyond(const Grid<CellState>& states, const std::vector<Frontier>& 
   if (pending.empty()) return beyond;
   beyond.Run(OpenRim(states.geometry(), from_starts, beyond), [&](std::span<const Search::Entry>) {
     while (!pending.empty() && beyond.IsSettled(pending.back())) pending.pop_back();
-    return pending.empty();
+    return pending.empty() || Stops(stop);
   });
   return beyond;
 }
@@ -133,12 +135,17 @@ std::vector<Cell> FreeStarts(const Grid<CellState>& states, const std::vector<Ce
 void FindGoalCells(const Grid<CellState>& states, const Grid<std::uint8_t>& traversable,
                    const std::vector<Cell>& starts, std::vector<Frontier>& frontiers) {
   if (frontiers.empty()) return;
+  FindGoalCells(states, SearchFromStarts(states, traversable, starts), frontiers);
+}
+
+void FindGoalCells(const Grid<CellState>& states, const TravelFromStarts& from_starts,
+                   std::vector<Frontier>& frontiers, const StopFn& stop) {
+  if (frontiers.empty()) return;
   std::vector<Cell> anchors;
   for (const Frontier& frontier : frontiers) {
     anchors.push_back(Anchor(frontier, states.geometry()));
   }
-  const Search from_starts = SearchFromStarts(states, traversable, starts);
-  const Search beyond = SearchBeyond(states, frontiers, anchors, from_starts);
+  const Search beyond = SearchBeyond(states, frontiers, anchors, from_starts, stop);
   for (std::size_t i = 0; i < frontiers.size(); ++i) {
     const int anchor = beyond.IndexOf(anchors[i]);
     Frontier& frontier = frontiers[i];
@@ -146,7 +153,7 @@ void FindGoalCells(const Grid<CellState>& states, const Grid<std::uint8_t>& trav
     if (!frontier.reachable) continue;
     frontier.goal_cell =
         from_starts.IsReached(anchor) ? anchors[i] : beyond.WayTo(anchors[i]).front();
-    frontier.travel_m = static_cast<double>(from_starts.Travel(frontier.goal_cell));
+    frontier.travel_m = from_starts.Travel(frontier.goal_cell);
   }
 }
 

@@ -5,11 +5,16 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/grid/travel_search.h"
 #include "core/types/cell_state.h"
 #include "core/types/frontier.h"
 #include "core/types/grid.h"
+#include "core/types/stop.h"
 
 namespace plumescout {
+
+// The ways from some starts over traversable cells, corners not cut.
+using TravelFromStarts = TravelSearch<double>;
 
 // The start cells that are free, and for those that are not (a robot on a cell not seen yet, or
 // hit by noise) the nearest free cell over unknown ones, if any.
@@ -31,5 +36,9 @@ std::vector<Cell> FreeStarts(const Grid<CellState>& states, const std::vector<Ce
 // REQUIRES: both rasters share one geometry. Cost: O(cells), however many frontiers there are.
 void FindGoalCells(const Grid<CellState>& states, const Grid<std::uint8_t>& traversable,
                    const std::vector<Cell>& starts, std::vector<Frontier>& frontiers);
+// The same by ways that are known; of no use once `stop` says so. REQUIRES: `from_starts` has run,
+// over the same geometry.
+void FindGoalCells(const Grid<CellState>& states, const TravelFromStarts& from_starts,
+                   std::vector<Frontier>& frontiers, const StopFn& stop = {});
 
 }  // namespace plumescout

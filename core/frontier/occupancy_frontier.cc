@@ -31,9 +31,13 @@ class OuterWavefront {
       : marks_(PaddedFrom<std::uint8_t>(states, kBlocked, MarkOf)),
         offsets_(marks_.NeighbourOffsets()) {}
 
-  void Run(const std::vector<Cell>& free_starts) {
+  void Run(const std::vector<Cell>& free_starts, const StopFn& stop) {
     for (const Cell start : free_starts) Visit(marks_.IndexOf(start));
-    for (std::size_t i = 0; i < queue_.size(); ++i) VisitNeighbours(queue_[i]);
+    constexpr std::size_t kCellsPerStop = 4096;
+    for (std::size_t i = 0; i < queue_.size(); ++i) {
+      if (i % kCellsPerStop == 0 && Stops(stop)) return;
+      VisitNeighbours(queue_[i]);
+    }
   }
 
   Padded<std::uint8_t>& marks() { return marks_; }
@@ -70,20 +74,35 @@ class OuterWavefront {
   std::vector<int> frontier_;
 };
 
-}  // namespace
-
-std::vector<Frontier> FindOccupancyFrontiers(const Grid<CellState>& states,
-                                             const Grid<std::uint8_t>& traversable,
-                                             const std::vector<Cell>& starts, int min_cells) {
+// Without their goal cells.
+std::vector<Frontier> FindClusters(const Grid<CellState>& states, const std::vector<Cell>& starts,
+                                   int min_cells, const StopFn& stop) {
   OuterWavefront wavefront(states);
-  wavefront.Run(FreeStarts(states, starts));
+  wavefront.Run(FreeStarts(states, starts), stop);
   const ClusterRule rule = {FrontierKind::kOccupancy, kWaiting, kTaken, min_cells};
   std::vector<Frontier> frontiers;
   for (const int cell : wavefront.frontier()) {
     if (wavefront.marks()[cell] != kWaiting) continue;
     frontiers.push_back(TakeCluster(states.geometry(), rule, cell, wavefront.marks()));
   }
+  return frontiers;
+}
+
+}  // namespace
+
+std::vector<Frontier> FindOccupancyFrontiers(const Grid<CellState>& states,
+                                             const Grid<std::uint8_t>& traversable,
+                                             const std::vector<Cell>& starts, int min_cells) {
+  std::vector<Frontier> frontiers = FindClusters(states, starts, min_cells, {});
   FindGoalCells(states, traversable, starts, frontiers);
+  return frontiers;
+}
+
+std::vector<Frontier> FindOccupancyFrontiers(const Grid<CellState>& states, Cell start,
+                                             const TravelFromStarts& from_start, int min_cells,
+                                             const StopFn& stop) {
+  std::vector<Frontier> frontiers = FindClusters(states, {start}, min_cells, stop);
+  if (!Stops(stop)) FindGoalCells(states, from_start, frontiers, stop);
   return frontiers;
 }
 

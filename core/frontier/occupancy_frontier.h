@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/frontier/goal_cells.h"
 #include "core/types/cell_state.h"
 #include "core/types/frontier.h"
 #include "core/types/grid.h"
+#include "core/types/stop.h"
 
 namespace plumescout {
 
@@ -20,5 +22,10 @@ namespace plumescout {
 std::vector<Frontier> FindOccupancyFrontiers(const Grid<CellState>& states,
                                              const Grid<std::uint8_t>& traversable,
                                              const std::vector<Cell>& starts, int min_cells);
+// The same from one start, by ways from it that are known; of no use once `stop` says so, which is
+// asked all along. REQUIRES: `from_start` has run.
+std::vector<Frontier> FindOccupancyFrontiers(const Grid<CellState>& states, Cell start,
+                                             const TravelFromStarts& from_start, int min_cells,
+                                             const StopFn& stop = {});
 
 }  // namespace plumescout

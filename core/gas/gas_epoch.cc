@@ -41,7 +41,7 @@ void GasEpoch::Recompute() {
                                               static_cast<std::size_t>(inputs_.lattice.height),
                                               inputs_.cells, inputs_.options);
   if (engine->abandoned()) return;
-  drift_ = DriftBetween(inputs_, *engine);
+  if (inputs_.is_same_model) drift_ = DriftBetween(inputs_, *engine);
   if (!inputs_.aged.empty()) {
     absl::Status status = engine->Apply(inputs_.aged);
     if (engine->abandoned()) return;

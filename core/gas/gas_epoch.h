@@ -5,19 +5,23 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "absl/status/status.h"
 #include "core/gas/field/field_engine.h"
 #include "core/gas/field_origin.h"
 #include "core/gas/gas_lattice.h"
+#include "core/gas/prior_scale.h"
 
 namespace plumescout {
 
 // What an epoch starts from: the live engine at one moment.
 struct EpochInputs {
   std::int64_t time_ns = 0;
-  FieldOptions options;
+  FieldOptions options;  // of the new engine, and where its prior comes from
+  PriorScale prior_scale;
+  bool is_same_model = true;     // the prior is that of the live engine
   GasLattice lattice;            // of the new engine
   std::vector<CellInput> cells;  // by its cells
   std::vector<CellChange> aged;  // evidence with the precisions of `time_ns`; none without ageing
@@ -48,15 +52,17 @@ class GasEpoch {
 
   std::int64_t time_ns() const { return inputs_.time_ns; }
   const GasLattice& lattice() const { return inputs_.lattice; }
-  // REQUIRES: done().
-  const FieldDrift& drift() const { return drift_; }
+  const FieldPrior& prior() const { return inputs_.options.prior; }
+  const PriorScale& prior_scale() const { return inputs_.prior_scale; }
+  // None if the live fields are of another prior. REQUIRES: done().
+  const std::optional<FieldDrift>& drift() const { return drift_; }
   std::unique_ptr<FieldEngine> TakeEngine() { return std::move(engine_); }
   // What that was made from. Nothing is left to recompute it.
   FieldOrigin TakeOrigin();
 
  private:
   EpochInputs inputs_;
-  FieldDrift drift_;
+  std::optional<FieldDrift> drift_;
   std::unique_ptr<FieldEngine> engine_;
   absl::Status failure_ = absl::CancelledError("an epoch is abandoned");
 };

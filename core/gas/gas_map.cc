@@ -15,13 +15,6 @@
 namespace plumescout {
 namespace {
 
-FieldOptions ToFieldOptions(const GasOptions& options) {
-  FieldOptions field;
-  field.prior = {.prior_precision_per_ppm2 = options.prior_precision_per_ppm2,
-                 .background_precision_per_ppm2 = options.background_precision_per_ppm2};
-  return field;
-}
-
 std::int64_t CountActive(std::span<const CellInput> inputs) {
   return std::count_if(inputs.begin(), inputs.end(), [](const CellInput& i) { return i.active; });
 }
@@ -45,7 +38,8 @@ std::vector<CellChange> Differences(std::span<const CellInput> inputs, const Fie
 }  // namespace
 
 GasMap::GasMap(const GasOptions& options, double resolution_m)
-    : options_(options), field_options_(ToFieldOptions(options)), inputs_(options, resolution_m) {
+    : options_(options), inputs_(options, resolution_m) {
+  field_options_.prior = PriorOf(options, {});
   assert(Validate(options).ok());
 }
 
@@ -160,7 +154,8 @@ void GasMap::TakeOver(std::unique_ptr<FieldEngine> engine, const GasLattice& lat
 
 bool GasMap::epoch_due(std::int64_t time_ns) const {
   return epoch_possible() &&
-         (schedule_.IsDue(lattice_, inputs_.box()) || inputs_.watch().IsEpochDue(time_ns));
+         (schedule_.IsDue(lattice_, inputs_.box()) || inputs_.watch().IsEpochDue(time_ns) ||
+          (learns() && IsLessonDue(prior_scale_, counters().in_posterior)));
 }
 
 absl::Status GasMap::BeginEpoch(std::int64_t time_ns) {
@@ -173,6 +168,13 @@ absl::Status GasMap::BeginEpoch(std::int64_t time_ns) {
   EpochInputs start;
   start.time_ns = time_ns;
   start.options = field_options_;
+  start.prior_scale = prior_scale_;
+  if (learns()) {
+    start.prior_scale = Improved(prior_scale_, PriorFitOf(*engine_, lattice_, inputs_, options_),
+                                 counters().in_posterior);
+    start.is_same_model = start.prior_scale.theta == prior_scale_.theta;
+    start.options.prior = PriorOf(options_, start.prior_scale);
+  }
   start.lattice = RoomyLattice();
   start.cells = inputs_.On(start.lattice);
   start.mean_ppm.resize(start.lattice.size());
@@ -218,8 +220,12 @@ absl::Status GasMap::Adopt() {
   schedule_.NoteFresh(active_cells_);
   quality_.aged_to_ns = epoch->time_ns();
   ++quality_.epochs;
-  quality_.drift_mean_ppm = epoch->drift().mean_ppm;
-  quality_.drift_variance_ratio = epoch->drift().variance_ratio;
+  prior_scale_ = epoch->prior_scale();
+  field_options_.prior = epoch->prior();
+  if (epoch->drift()) {
+    quality_.drift_mean_ppm = epoch->drift()->mean_ppm;
+    quality_.drift_variance_ratio = epoch->drift()->variance_ratio;
+  }
   return Conclude(absl::OkStatus(), time_ns_);
 }
 
@@ -232,7 +238,7 @@ std::shared_ptr<const AuditInputs> GasMap::MakeAudit(std::size_t species) const 
   if (engine_ == nullptr || has_failed_ || epoch_ != nullptr) return nullptr;
   auto audit = std::make_shared<AuditInputs>();
   audit->species = species;
-  audit->options = options_;
+  audit->options = WithPriorScale(options_, prior_scale_);
   audit->states = inputs_.states().states();
   audit->corner = inputs_.states().At(0);
   audit->evidence = inputs_.AllEvidence();
@@ -270,6 +276,7 @@ absl::Status GasMap::Conclude(const absl::Status& computed, std::int64_t time_ns
 absl::Status GasMap::MakeFieldAgain() {
   published_ = false;
   options_.lattice_factor = inputs_.factor();
+  field_options_.prior = PriorOf(options_, prior_scale_);
   engine_.reset();
   if (!origin_) return absl::OkStatus();
   auto engine = MakeField(*origin_, lattice_, field_options_);
@@ -287,7 +294,7 @@ void GasMap::Publish() const {
   mean_ppm_ = Grid<float>(known.states().geometry(), kNoValue);
   variance_ppm2_ = mean_ppm_;
   error_variance_ppm2_ = has_own_errors() ? mean_ppm_ : Grid<float>();
-  noise_scale_ = 1.0;
+  noise_ = {};
   what_if_ = nullptr;
   published_ = true;
   sensor_offsets_ = inputs_.sensors().Known();
@@ -296,9 +303,9 @@ void GasMap::Publish() const {
   if (inputs_.sensors().HasColumns()) beside = EstimateSensors();
   const bool is_beside = !beside.mean_ppm.empty();
   if (options_.estimate_noise) {
-    FieldFit fit = FitOfReadings();
+    FieldFit fit = FitOf(*engine_, lattice_, inputs_, options_);
     fit.energy -= beside.explained;
-    noise_scale_ = NoiseScale(fit);
+    noise_ = NoiseOf(fit, prior_scale_);
   }
   for (std::size_t i = 0; i < known.states().size(); ++i) {
     if (known.states()[i] != CellState::kFree) continue;
@@ -309,26 +316,12 @@ void GasMap::Publish() const {
       deviation += beside.mean_ppm[index];
       variance += beside.variance_ppm2[index];
     }
-    const GasEstimate gas = OffScale(options_, deviation, noise_scale_ * variance);
+    const GasEstimate gas = OffScale(options_, deviation, noise_.scale * variance);
     mean_ppm_[i] = static_cast<float>(gas.median_ppm);
-    variance_ppm2_[i] = static_cast<float>(variance);
+    variance_ppm2_[i] = static_cast<float>(prior_scale_.theta * variance);
     if (has_own_errors()) error_variance_ppm2_[i] = static_cast<float>(gas.variance_ppm2);
   }
   beside_ppm2_ = std::move(beside.variance_ppm2);
-}
-
-FieldFit GasMap::FitOfReadings() const {
-  FieldFit fit;
-  double precision = 0.0;
-  for (const CellEvidence& e : inputs_.readings().AllEvidence()) {
-    const std::size_t cell = lattice_.Index(GasCellOf(e.cell, inputs_.factor()));
-    fit.energy +=
-        e.evidence.weighted_square - e.evidence.weighted_deviation * engine_->mean_ppm(cell);
-    precision += e.evidence.precision;
-  }
-  fit.readings = std::min(static_cast<double>(counters().in_posterior),
-                          precision / options_.observation_precision_per_ppm2);
-  return fit;
 }
 
 // Fills in sensor_offsets_.
@@ -369,9 +362,14 @@ const Grid<float>& GasMap::error_variance_ppm2() const {
   return has_own_errors() ? error_variance_ppm2_ : variance_ppm2_;
 }
 
-double GasMap::noise_scale() const {
+GasQuality GasMap::quality() const {
   Publish();
-  return noise_scale_;
+  GasQuality quality = quality_;
+  quality.noise_scale = noise_.scale;
+  quality.noise_log_stddev = noise_.log_stddev;
+  quality.prior_precision_scale = prior_scale_.theta;
+  quality.prior_precision_log_stddev = prior_scale_.log_stddev;
+  return quality;
 }
 
 const Grid<float>& GasMap::variance_ppm2() const {
@@ -384,7 +382,7 @@ std::shared_ptr<const GasWhatIf> GasMap::what_if() const {
   // Nothing of what it is made from changes without a Publish after it.
   if (what_if_ == nullptr && has_field()) {
     what_if_ = std::make_shared<const GasWhatIf>(engine_->Snapshot(), lattice_, inputs_,
-                                                 std::move(beside_ppm2_));
+                                                 prior_scale_.theta, std::move(beside_ppm2_));
   }
   return what_if_;
 }

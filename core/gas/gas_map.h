@@ -22,6 +22,7 @@
 #include "core/gas/gas_what_if.h"
 #include "core/gas/noise_scale.h"
 #include "core/gas/offset_estimate.h"
+#include "core/gas/prior_scale.h"
 #include "core/types/cell_state.h"
 #include "core/types/gas_reading.h"
 #include "core/types/grid.h"
@@ -104,7 +105,8 @@ class GasMap {
   // if that failed. Empty before the first. Cost: O(cells + sites log sites) at the first call
   // after a change. In a field of roots it is the median, see GasEstimate.
   const Grid<float>& mean_ppm() const;
-  // Of the model as its precisions are given, which plans go by: on the scale of the field.
+  // Of the model as its precisions are given, which plans go by: on the scale of the field, and in
+  // the unit in which the prior has the precisions of the options, also where they are learned.
   const Grid<float>& variance_ppm2() const;
   // Of the concentration: in ppm, and if options.estimate_noise times noise_scale(). It is another
   // raster than the above only if it has_own_errors().
@@ -113,7 +115,7 @@ class GasMap {
     return options_.estimate_noise || options_.scale != GasScale::kLinear;
   }
   // See NoiseScale; 1 unless options.estimate_noise.
-  double noise_scale() const;
+  double noise_scale() const { return quality().noise_scale; }
   // The same moment, to ask what further readings would tell. Null if there is no field.
   // Cost: one number per cell, one pointer per node of the factor, at the first call after a
   // change; nothing where nobody calls it.
@@ -124,11 +126,7 @@ class GasMap {
   const SensorOffsets& sensors() const { return inputs_.sensors(); }
 
   const GasCounters& counters() const { return inputs_.counters(); }
-  GasQuality quality() const {
-    GasQuality quality = quality_;
-    quality.noise_scale = noise_scale();
-    return quality;
-  }
+  GasQuality quality() const;
   // Readings came since the last refresh, or no field came of it.
   bool stale() const { return stale_ || has_failed_; }
 
@@ -179,7 +177,10 @@ class GasMap {
   bool has_field() const { return engine_ != nullptr && !has_failed_; }
   absl::Status Conclude(const absl::Status& computed, std::int64_t time_ns);
   void Publish() const;
-  FieldFit FitOfReadings() const;
+  // Offsets of sensors that are estimated beside would pass for noise.
+  bool learns() const {
+    return options_.precisions == GasPrecisions::kLearned && !inputs_.sensors().HasColumns();
+  }
   OffsetEstimate EstimateSensors() const;
 
   GasOptions options_;
@@ -198,12 +199,13 @@ class GasMap {
   bool stale_ = false;
   bool replaced_ = false;
   GasQuality quality_;
+  PriorScale prior_scale_;  // that of field_options_
 
   // What readers see; made when they look.
   mutable Grid<float> mean_ppm_;
   mutable Grid<float> variance_ppm2_;
   mutable Grid<float> error_variance_ppm2_;  // if it has_own_errors()
-  mutable double noise_scale_ = 1.0;
+  mutable NoiseEstimate noise_;
   mutable std::shared_ptr<const GasWhatIf> what_if_;
   mutable std::vector<double> beside_ppm2_;  // see GasWhatIf, until there is one
   mutable std::vector<SensorOffset> sensor_offsets_;

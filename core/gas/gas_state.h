@@ -142,6 +142,14 @@ void GasMap::VisitState(Archive& archive, Self& self) {
   archive(self.inputs_, self.schedule_, self.lattice_, self.active_cells_, self.time_ns_,
           self.has_failed_, self.stale_, self.quality_);
   archive.Since(2, self.replaced_);
+  if (self.options_.precisions == GasPrecisions::kLearned) {
+    auto& [theta, log_stddev, readings] = self.prior_scale_;
+    archive.Since(2, theta, log_stddev, readings);
+    if constexpr (Archive::kReads) {
+      archive.Require(theta >= kLeastPriorScale && theta <= kMostPriorScale,
+                      "a precision of the gas field is out of range");
+    }
+  }
   if constexpr (Archive::kHashes) {
     archive(self.epoch_ != nullptr);
     if (self.epoch_ != nullptr) archive(self.epoch_->time_ns(), self.epoch_->lattice());

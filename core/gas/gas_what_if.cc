@@ -29,23 +29,23 @@ absl::StatusOr<std::optional<InverseColumns>> GasWhatIf::ColumnsIfRead(std::span
   return field_.ColumnsIfRead(read, precision);
 }
 
-EntropyFall GasWhatIf::FallOf(std::span<const float> weights) const {
+EntropyFall GasWhatIf::FallOf(std::span<const float> weights, const StopFn& stop) const {
   const Grid<CellState>& states = states_.states();
   std::vector<double> by_lattice_cell(lattice_.size(), 0.0);
   for (std::size_t i = 0; i < states.size(); ++i) {
     if (states[i] == CellState::kFree) by_lattice_cell[FieldIndex(i)] += weights[i];
   }
-  return field_.FallOf(by_lattice_cell, beside_ppm2_);
+  return field_.FallOf(by_lattice_cell, beside_ppm2_, stop);
 }
 
 absl::StatusOr<std::shared_ptr<const GasWhatIf>> GasWhatIf::Given(
-    std::span<const ForeseenCell> readings) const {
+    std::span<const ForeseenCell> readings, const StopFn& stop) const {
   std::vector<ForeseenReading> read;
   for (const ForeseenCell& reading : readings) {
     PLUMESCOUT_ASSIGN_OR_RETURN(const std::optional<std::size_t> index, FreeIndex(reading.cell));
     if (index) read.push_back({*index, reading.precision_per_ppm2});
   }
-  PLUMESCOUT_ASSIGN_OR_RETURN(FieldSnapshot field, field_.Given(read));
+  PLUMESCOUT_ASSIGN_OR_RETURN(FieldSnapshot field, field_.Given(read, stop));
   auto given = std::make_shared<GasWhatIf>(*this);
   given->field_ = std::move(field);
   return given;
@@ -78,7 +78,7 @@ Grid<float> GasWhatIf::OnMap(const std::vector<double>& by_lattice_cell) const {
     if (states[i] != CellState::kFree) continue;
     const std::size_t index = FieldIndex(i);
     const double beside_ppm2 = beside_ppm2_.empty() ? 0.0 : beside_ppm2_[index];
-    result[i] = static_cast<float>(by_lattice_cell[index] + beside_ppm2);
+    result[i] = static_cast<float>(prior_scale_ * (by_lattice_cell[index] + beside_ppm2));
   }
   return result;
 }

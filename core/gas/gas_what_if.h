@@ -14,6 +14,7 @@
 #include "core/gas/gas_inputs.h"
 #include "core/gas/gas_lattice.h"
 #include "core/types/grid.h"
+#include "core/types/stop.h"
 
 namespace plumescout {
 
@@ -27,14 +28,16 @@ struct ForeseenCell {
 // the live field, which goes on without changing it. Immutable: may be read from any thread.
 class GasWhatIf {
  public:
-  // `beside_ppm2`: what unknown offsets of sensors add to each variance, by lattice cell, if there
-  // are any. Further readings are taken not to change it, though they would make it less.
+  // `prior_scale`: what variances are multiplied by, see PriorScale. `beside_ppm2`: what unknown
+  // offsets of sensors add to each variance, by lattice cell, if there are any. Further readings
+  // are taken not to change it, though they would make it less.
   GasWhatIf(FieldSnapshot field, const GasLattice& lattice, const GasInputs& inputs,
-            std::vector<double> beside_ppm2 = {})
+            double prior_scale = 1.0, std::vector<double> beside_ppm2 = {})
       : field_(std::move(field)),
         lattice_(lattice),
         states_(inputs.states()),
         factor_(inputs.factor()),
+        prior_scale_(prior_scale),
         beside_ppm2_(std::move(beside_ppm2)) {}
 
   const GridGeometry& geometry() const { return states_.states().geometry(); }
@@ -49,13 +52,14 @@ class GasWhatIf {
   // of geometry() weigh. Both refer to this object. Errors: those of VarianceIfRead.
   absl::StatusOr<std::optional<InverseColumns>> ColumnsIfRead(std::span<const Cell> cells,
                                                               double precision) const;
-  EntropyFall FallOf(std::span<const float> weights) const;
+  EntropyFall FallOf(std::span<const float> weights, const StopFn& stop = {}) const;
 
   // Itself once these readings have been taken, whatever they say: others are then worth what
   // they tell beside them. For cells and errors see VarianceIfRead. Cost: that, and for each
   // reading a copy of what lies on the way from its cell to the root of the factor.
-  absl::StatusOr<std::shared_ptr<const GasWhatIf>> Given(
-      std::span<const ForeseenCell> readings) const;
+  // kCancelled once `stop`, which is asked all along, says so.
+  absl::StatusOr<std::shared_ptr<const GasWhatIf>> Given(std::span<const ForeseenCell> readings,
+                                                         const StopFn& stop = {}) const;
 
   // Marginal variance of every free cell now, ppm^2; NaN off those. Cost: O(cells).
   Grid<float> variance_ppm2() const { return OnMap(field_.variance_ppm2()); }
@@ -75,6 +79,7 @@ class GasWhatIf {
   GasLattice lattice_;
   AnchoredStates states_;
   int factor_;
+  double prior_scale_;
   std::vector<double> beside_ppm2_;
 };
 

@@ -25,4 +25,9 @@ inline double NoiseScale(const FieldFit& fit) {
   return std::max(1.0, (2.0 + std::max(0.0, fit.energy)) / (2.0 + fit.readings));
 }
 
+struct NoiseEstimate {
+  double scale = 1.0;
+  double log_stddev = 0.0;  // of its logarithm, nearly; 0: not estimated
+};
+
 }  // namespace plumescout

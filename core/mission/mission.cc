@@ -316,7 +316,9 @@ void Mission::UpdateRasters() const {
       rasters_.gas[i].variance_ppm2 = OnFreeCells(gas_[i].variance_ppm2(), *rasters_.occupancy,
                                                   region_, OpenLatticeVariance_ppm2(options));
       if (!gas_[i].has_own_errors()) continue;
-      const double prior_variance = gas_[i].noise_scale() * OpenLatticeVariance_ppm2(options);
+      const GasQuality quality = gas_[i].quality();
+      const double prior_variance =
+          quality.noise_scale / quality.prior_precision_scale * OpenLatticeVariance_ppm2(options);
       rasters_.gas[i].error_variance_ppm2 =
           OnFreeCells(gas_[i].error_variance_ppm2(), *rasters_.occupancy, region_,
                       OffScale(options, 0.0, prior_variance).variance_ppm2);

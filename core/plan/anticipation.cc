@@ -91,7 +91,7 @@ std::vector<ForeseenCell> PromisedReadings(const Belief& belief, const RobotId& 
 }
 
 std::optional<Belief> Anticipate(const Belief& belief, const RobotId& robot,
-                                 const PlanningOptions& options) {
+                                 const PlanningOptions& options, const StopFn& stop) {
   if (belief.gas_what_if == nullptr) return std::nullopt;
   const FieldWindow window(belief.geometry(), belief.gas_what_if->geometry());
   std::vector<ForeseenCell> inside;
@@ -100,7 +100,7 @@ std::optional<Belief> Anticipate(const Belief& belief, const RobotId& robot,
     if (cell) inside.push_back({*cell, reading.precision_per_ppm2});
   }
   if (inside.empty()) return std::nullopt;
-  auto given = belief.gas_what_if->Given(inside);
+  auto given = belief.gas_what_if->Given(inside, stop);
   if (!given.ok()) return std::nullopt;
   Belief ahead = belief;
   ahead.gas_what_if = *std::move(given);

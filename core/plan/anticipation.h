@@ -9,6 +9,7 @@
 #include "core/belief/belief.h"
 #include "core/gas/gas_what_if.h"
 #include "core/types/options.h"
+#include "core/types/stop.h"
 
 namespace plumescout {
 
@@ -28,9 +29,10 @@ std::vector<ForeseenCell> PromisedReadings(const Belief& belief, const RobotId& 
 // robots tell at least half of the most that ways from the same lists of candidates could, for the
 // sum of relevance * 1/2 ln(variance) is monotone and submodular: H is an M-matrix, so that to know
 // more never raises a correlation. Not so once value is divided by time, as our choice does.
-// Means, and all else, are those of now. None if nothing is promised, or there is no gas field.
-// Cost: that of GasWhatIf::Given, and O(cells).
+// Means, and all else, are those of now. None if nothing is promised, or there is no gas
+// field, or once `stop`, which is asked all along, says so. Cost: that of GasWhatIf::Given, and
+// O(cells).
 std::optional<Belief> Anticipate(const Belief& belief, const RobotId& robot,
-                                 const PlanningOptions& options);
+                                 const PlanningOptions& options, const StopFn& stop = {});
 
 }  // namespace plumescout

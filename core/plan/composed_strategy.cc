@@ -68,7 +68,8 @@ absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
     const bool priced = options_.selection_rule == SelectionRule::kInformationRate;
     std::optional<Belief> ahead;
     if (options_.anticipate_robots && priced && !request.go_home) {
-      ahead = Anticipate(belief, request.robot, options_);
+      ahead = Anticipate(belief, request.robot, options_, stop);
+      if (stop()) return StoppedBeforeAnyPath();
     }
     const plumescout::Plan blank = plan;
     const Call call = {belief, nullptr, request, stop, improved};
@@ -133,10 +134,12 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
   if (stop()) return StoppedBeforeAnyPath();
 
   Rng rng(plan.seed ^ kGoalStream);
-  const GoalQuery query = {
-      belief, belief.robots.at(request.robot), start_cell, reachable, options_, request.go_home,
-      ahead};
+  const GoalQuery query = {belief,     belief.robots.at(request.robot),
+                           start_cell, reachable,
+                           options_,   request.go_home,
+                           ahead,      stop};
   GoalOffer goals = FindGoals(query, rng);
+  if (stop()) return StoppedBeforeAnyPath();
   if (ahead != nullptr && !HasWork(goals)) {
     return PlanFrom(departure, {belief, nullptr, request, stop, improved}, plan);
   }
@@ -148,7 +151,6 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
     plan.phase = goals.complete ? MissionPhase::kComplete : plan.phase;
     return absl::OkStatus();
   }
-  if (stop()) return StoppedBeforeAnyPath();
 
   const EdgeCost selection_cost(information, options_.selection_cost, options_.alpha_per_m);
   const CandidateJudge judge = {selection_cost, *belief.gas_mean_ppm,

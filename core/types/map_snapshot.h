@@ -64,6 +64,11 @@ struct GasQuality {
   // What published variances are scaled by, for readings fit the field that much worse than its
   // precisions say; 1: not worse, or not estimated.
   double noise_scale = 1.0;
+  double noise_log_stddev = 0.0;  // of ln noise_scale; 0 if that is not estimated
+  // What lambda_p and lambda_d are of those of the options, in a field whose variances are scaled
+  // by noise_scale; 1: given.
+  double prior_precision_scale = 1.0;
+  double prior_precision_log_stddev = 0.0;  // of its logarithm; 0 if it is not learned
 
   friend bool operator==(const GasQuality&, const GasQuality&) = default;
 };

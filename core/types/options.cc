@@ -80,6 +80,9 @@ absl::Status Validate(const GasOptions& options) {
       .InRange("gas.field_reach_m", options.field_reach_m, 0.0, 1e6)
       .InRange("gas.refresh_period_s", options.refresh_period_s, 0.01, 3600.0)
       .InRange("gas.audit_period_epochs", options.audit_period_epochs, 0, 1'000'000)
+      .Require(options.estimate_noise || options.precisions == GasPrecisions::kFixed,
+               "gas.estimate_noise", options.estimate_noise ? 1.0 : 0.0,
+               "must be true where gas.precisions are learned")
       .status();
 }
 

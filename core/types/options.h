@@ -32,6 +32,7 @@ struct OccupancyOptions {
 
 // Gas posterior; design of the GMRF with precisions in ppm^-2. [XIT] Table I.
 enum class GasScale { kLinear, kSquareRoot };
+enum class GasPrecisions { kFixed, kLearned };
 struct GasOptions {
   double prior_precision_per_ppm2 = 3.0;         // lambda_p (sigma_r^2), > 0
   double observation_precision_per_ppm2 = 10.0;  // lambda_o (sigma_s^2), > 0
@@ -60,7 +61,11 @@ struct GasOptions {
   GasScale scale = GasScale::kLinear;
   // Whether the variances that are published are scaled by how well readings fit the field (see
   // NoiseScale). Plans go by those of the model.
-  bool estimate_noise = false;
+  bool estimate_noise = true;
+  // Whether lambda_p and lambda_d, in their ratio, follow from the readings
+  // (core/gas/prior_scale.h); those above are then where that begins. Learned ones need
+  // estimate_noise.
+  GasPrecisions precisions = GasPrecisions::kFixed;
 };
 
 inline constexpr int kMostLatticeFactor = 16;

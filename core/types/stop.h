@@ -6,7 +6,8 @@
 
 namespace plumescout {
 
-// Asked now and then by long computations; true means: return what you have, soon.
+// Asked now and then by long computations; true means: return what you have, soon. What has said so
+// goes on saying so.
 // Carries an RPC's deadline and cancellation into the core, which has no clock.
 using StopFn = std::function<bool()>;
 

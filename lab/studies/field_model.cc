@@ -33,6 +33,7 @@ constexpr int kBuildings = 12;
 constexpr int kTrials = 3;
 constexpr double kDuration_s = 300.0;
 constexpr double kQuickDuration_s = 30.0;
+constexpr int kBatch = 20;  // readings between refreshes of a model that learns
 constexpr const char* kStrategies[] = {"plumescout", "xit_f"};
 
 struct Model {
@@ -52,16 +53,25 @@ GasOptions Gas(double prior_precision, double background_precision, GasScale sca
   return gas;
 }
 
+GasOptions Learned(double prior_precision, double background_precision, GasScale scale) {
+  GasOptions gas = Gas(prior_precision, background_precision, scale, true);
+  gas.precisions = GasPrecisions::kLearned;
+  return gas;
+}
+
 constexpr std::size_t kBaseline = 0;
 std::vector<Model> Models() {
   constexpr GasScale kLinear = GasScale::kLinear;
   constexpr GasScale kRoot = GasScale::kSquareRoot;
-  return {{"plain", "points, linear, fixed noise", false, GasOptions()},
+  return {{"plain", "points, linear, fixed noise", false, Gas(3.0, 1e-3, kLinear, false)},
           {"noise", "points, linear, noise estimated", false, Gas(3.0, 1e-3, kLinear, true)},
           {"points_root", "points, roots", false, Gas(0.3, 9e-4, kRoot, true)},
           {"way_as_is", "way, linear, precisions as they are", true, Gas(3.0, 1e-3, kLinear, true)},
           {"way_linear", "way, linear", true, Gas(0.3, 9e-4, kLinear, true)},
-          {"way_root", "way, roots", true, Gas(0.3, 3e-4, kRoot, true)}};
+          {"way_root", "way, roots", true, Gas(0.3, 3e-4, kRoot, true)},
+          {"learned", "points, linear, learned", false, Learned(3.0, 1e-3, kLinear)},
+          {"way_learned", "way, linear, learned", true, Learned(3.0, 1e-3, kLinear)},
+          {"root_learned", "points, roots, learned", false, Learned(0.3, 3e-4, kRoot)}};
 }
 
 struct Placed {
@@ -104,17 +114,26 @@ std::vector<Placed> AlongWay(const GasRecording& recording, const GasOptions& ga
 
 struct Outcome {
   MapCalibration map;
-  double noise_scale = 1.0;
+  GasQuality gas;
 };
 
 absl::StatusOr<Outcome> MapBy(const Model& model, const Scene& scene,
                               const GasRecording& recording) {
   GasMap gas(model.gas, recording.states.geometry().resolution_m);
+  const std::int64_t end_ns = recording.heard.back().time_ns;
+  const bool learns = model.gas.precisions == GasPrecisions::kLearned;
+  int since_refresh = 0;
   for (const Placed& p : model.along_way ? AlongWay(recording, model.gas) : Points(recording)) {
     gas.Add(p.time_ns, p.place, p.reading);
+    if (!learns || ++since_refresh < kBatch) continue;
+    since_refresh = 0;
+    PLUMESCOUT_RETURN_IF_ERROR(gas.Refresh(recording.states, end_ns));
+    if (!gas.epoch_due(end_ns)) continue;
+    PLUMESCOUT_RETURN_IF_ERROR(gas.BeginEpoch(end_ns));
+    PLUMESCOUT_RETURN_IF_ERROR(gas.Adopt());
   }
-  PLUMESCOUT_RETURN_IF_ERROR(gas.Refresh(recording.states, recording.heard.back().time_ns));
-  return Outcome{Calibrate(scene, gas.mean_ppm(), gas.error_variance_ppm2()), gas.noise_scale()};
+  PLUMESCOUT_RETURN_IF_ERROR(gas.Refresh(recording.states, end_ns));
+  return Outcome{Calibrate(scene, gas.mean_ppm(), gas.error_variance_ppm2()), gas.quality()};
 }
 
 struct Mission {
@@ -227,16 +246,25 @@ TextTable MakeTable(const std::vector<Mission>& missions, Summary& summary) {
 CsvTable MakeCsv(const std::vector<Mission>& missions) {
   CsvTable csv;
   csv.label_columns = {"building", "strategy", "model"};
-  csv.columns = {"seed",           "rmse_ppm",       "log_rmse", "nlpd_nats",
-                 "within_1_sigma", "within_2_sigma", "rms_z",    "noise_scale"};
+  csv.columns = {"seed",
+                 "rmse_ppm",
+                 "log_rmse",
+                 "nlpd_nats",
+                 "within_1_sigma",
+                 "within_2_sigma",
+                 "rms_z",
+                 "noise_scale",
+                 "prior_precision_scale",
+                 "prior_precision_log_stddev"};
   const std::vector<Model> models = Models();
   for (const Mission& mission : missions) {
     for (std::size_t m = 0; m < models.size(); ++m) {
-      const auto& [map, noise_scale] = mission.models[m];
+      const auto& [map, gas] = mission.models[m];
       csv.labels.push_back({mission.building, mission.strategy, models[m].name});
       csv.rows.push_back({static_cast<double>(mission.seed), map.rmse_ppm, map.log_rmse,
                           map.nlpd_nats, map.within_1_sigma, map.within_2_sigma, map.rms_z,
-                          noise_scale});
+                          gas.noise_scale, gas.prior_precision_scale,
+                          gas.prior_precision_log_stddev});
     }
   }
   return csv;

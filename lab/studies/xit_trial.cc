@@ -59,6 +59,7 @@ absl::StatusOr<MissionOptions> MakeMissionOptions(std::uint64_t seed) {
   MissionOptions mission;
   mission.seed = seed;
   mission.gas.background_mean_ppm = kAmbient_ppm;
+  mission.gas.estimate_noise = false;
   mission.frontier.fixed_gas_threshold_ppm = kGasThreshold_ppm;
   mission.planning.strategy = "xit_gff";
   PLUMESCOUT_RETURN_IF_ERROR(ApplyStrategyRow(mission.planning));

@@ -86,6 +86,10 @@ constexpr Row<GasScale, v1::GasScale> kGasScales[] = {
     {GasScale::kLinear, v1::GAS_SCALE_LINEAR},
     {GasScale::kSquareRoot, v1::GAS_SCALE_SQUARE_ROOT},
 };
+constexpr Row<GasPrecisions, v1::GasPrecisions> kGasPrecisions[] = {
+    {GasPrecisions::kFixed, v1::GAS_PRECISIONS_FIXED},
+    {GasPrecisions::kLearned, v1::GAS_PRECISIONS_LEARNED},
+};
 
 constexpr Row<WgfdScope, v1::WgfdScope> kWgfdScopes[] = {
     {WgfdScope::kReachable, v1::WGFD_SCOPE_REACHABLE},
@@ -165,6 +169,7 @@ v1::PlanInvalidated::Reason ToProto(InvalidationReason value) {
 }
 v1::ReportProgressRequest::Outcome ToProto(ProgressOutcome value) { return Find(kOutcomes, value); }
 v1::GasScale ToProto(GasScale value) { return Find(kGasScales, value); }
+v1::GasPrecisions ToProto(GasPrecisions value) { return Find(kGasPrecisions, value); }
 v1::WgfdScope ToProto(WgfdScope value) { return Find(kWgfdScopes, value); }
 v1::GoalPolicy ToProto(GoalPolicy value) { return Find(kGoalPolicies, value); }
 v1::CostKind ToProto(CostKind value) { return Find(kCostKinds, value); }
@@ -202,6 +207,9 @@ absl::StatusOr<ProgressOutcome> FromProto(v1::ReportProgressRequest::Outcome pro
 }
 absl::StatusOr<GasScale> FromProto(v1::GasScale proto, absl::string_view field) {
   return Find(kGasScales, proto, field);
+}
+absl::StatusOr<GasPrecisions> FromProto(v1::GasPrecisions proto, absl::string_view field) {
+  return Find(kGasPrecisions, proto, field);
 }
 absl::StatusOr<WgfdScope> FromProto(v1::WgfdScope proto, absl::string_view field) {
   return Find(kWgfdScopes, proto, field);

@@ -28,6 +28,7 @@ v1::Plan::End ToProto(PlanEnd value);
 v1::PlanInvalidated::Reason ToProto(InvalidationReason value);
 v1::ReportProgressRequest::Outcome ToProto(ProgressOutcome value);
 v1::GasScale ToProto(GasScale value);
+v1::GasPrecisions ToProto(GasPrecisions value);
 v1::WgfdScope ToProto(WgfdScope value);
 v1::GoalPolicy ToProto(GoalPolicy value);
 v1::CostKind ToProto(CostKind value);
@@ -49,6 +50,7 @@ absl::StatusOr<InvalidationReason> FromProto(v1::PlanInvalidated::Reason proto,
 absl::StatusOr<ProgressOutcome> FromProto(v1::ReportProgressRequest::Outcome proto,
                                           absl::string_view field);
 absl::StatusOr<GasScale> FromProto(v1::GasScale proto, absl::string_view field);
+absl::StatusOr<GasPrecisions> FromProto(v1::GasPrecisions proto, absl::string_view field);
 absl::StatusOr<WgfdScope> FromProto(v1::WgfdScope proto, absl::string_view field);
 absl::StatusOr<GoalPolicy> FromProto(v1::GoalPolicy proto, absl::string_view field);
 absl::StatusOr<CostKind> FromProto(v1::CostKind proto, absl::string_view field);

@@ -251,7 +251,10 @@ GasQuality FromProto(const v1::GasQuality& proto) {
           .failures = proto.failure_count(),
           .drift_mean_ppm = proto.drift_mean_ppm(),
           .drift_variance_ratio = proto.drift_variance_ratio(),
-          .noise_scale = proto.noise_ratio()};
+          .noise_scale = proto.noise_ratio(),
+          .noise_log_stddev = proto.noise_log_stddev(),
+          .prior_precision_scale = proto.prior_precision_ratio(),
+          .prior_precision_log_stddev = proto.prior_precision_log_stddev()};
 }
 
 GasAudits AuditsFromProto(const v1::GasQuality& proto) {
@@ -278,6 +281,9 @@ v1::GasQuality ToProto(const GasQuality& quality, const GasAudits& audits) {
   proto.set_drift_mean_ppm(quality.drift_mean_ppm);
   proto.set_drift_variance_ratio(quality.drift_variance_ratio);
   proto.set_noise_ratio(quality.noise_scale);
+  proto.set_noise_log_stddev(quality.noise_log_stddev);
+  proto.set_prior_precision_ratio(quality.prior_precision_scale);
+  proto.set_prior_precision_log_stddev(quality.prior_precision_log_stddev);
   return proto;
 }
 

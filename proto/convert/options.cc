@@ -46,6 +46,7 @@ void Visit(OneOf<GasOptions> auto& options, auto& field) {
   field("field_reach_m", options.field_reach_m);
   field("scale", options.scale);
   field("estimate_noise", options.estimate_noise);
+  field("precisions", options.precisions);
 }
 
 void Visit(OneOf<GasSpecies> auto& species, auto& field) {
@@ -279,6 +280,7 @@ absl::StatusOr<MissionOptions> FromProto(const v1::MissionOptions& proto,
 MissionOptions RecordedDefaults() {
   MissionOptions options;
   options.keep_scans = false;
+  options.gas.estimate_noise = false;
   return options;
 }
 

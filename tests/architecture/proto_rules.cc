@@ -42,10 +42,12 @@ const std::set<std::string>& PureNumbers() {
       "max_streams_per_connection",
       "max_waiting_calls",
       "max_watchers_per_robot",
-      "mean_ucb",  // in [0, 1], [MIT] Eq. (3)
-      "number",    // of an event
+      "mean_ucb",          // in [0, 1], [MIT] Eq. (3)
+      "noise_log_stddev",  // of a logarithm
+      "number",            // of an event
       "first_number",
-      "page_size",  // a count
+      "page_size",                   // a count
+      "prior_precision_log_stddev",  // of a logarithm
       "query_threads",
       "recovery_threads",
       "revision",       // of a mission

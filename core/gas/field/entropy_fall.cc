@@ -14,6 +14,7 @@ namespace plumescout {
 namespace {
 
 constexpr double kEntropyShare = 0.5;
+constexpr std::size_t kNodesPerStop = 16;
 
 // -1/2 ln(1 - share). Far from the readings shares are small, and the logarithm takes long.
 double Nats(double share) {
@@ -66,25 +67,27 @@ class EntropyFall::Sum final : public InverseColumns::Visitor {
   }
 
  private:
-  static constexpr int kNodesPerStop = 16;
-
   const EntropyFall& fall_;
   const double bounded_share_;
   const StopFn& stop_;
   double nats_ = 0.0;
-  int asked_ = 0;
+  std::size_t asked_ = 0;
   bool stopped_ = false;
 };
 
 EntropyFall::EntropyFall(const FieldFactor& factor, std::vector<double> variance_ppm2,
-                         std::vector<double> weights, double tolerance_ppm2)
+                         std::vector<double> weights, double tolerance_ppm2, const StopFn& stop)
     : factor_(&factor),
       variance_ppm2_(std::move(variance_ppm2)),
       weights_(std::move(weights)),
       tolerance_ppm2_(tolerance_ppm2) {
   const std::size_t nodes = factor.tree().nodes().size();
   bounds_.resize(nodes);
-  for (std::size_t node = 0; node < nodes; ++node) FindBound(node);
+  for (std::size_t node = 0; node < nodes; ++node) {
+    if (node % kNodesPerStop == 0 && Stops(stop)) return;
+    FindBound(node);
+  }
+  complete_ = true;
 }
 
 void EntropyFall::FindBound(std::size_t node) {
@@ -138,12 +141,14 @@ void EntropyFall::AddTransposed(const Front& front) {
 }
 
 std::optional<double> EntropyFall::Of(InverseColumns& columns, const StopFn& stop) const {
+  if (!complete_) return std::nullopt;
   Sum sum(*this, 0.0, stop);
   columns.Descend(sum);
   return sum.nats();
 }
 
 std::optional<double> EntropyFall::AtMost(InverseColumns& columns, const StopFn& stop) const {
+  if (!complete_) return std::nullopt;
   constexpr double kBoundedShare = 0.3;  // there the chord is off by a fifth at most
   constexpr double kRounding = 1.0 + 1e-9;
   Sum sum(*this, kBoundedShare, stop);

@@ -84,15 +84,15 @@ absl::StatusOr<std::optional<InverseColumns>> FieldSnapshot::ColumnsAfter(
 }
 
 absl::StatusOr<std::vector<double>> FieldSnapshot::VarianceAfter(
-    std::span<const ForeseenReading> readings) const {
+    std::span<const ForeseenReading> readings, const StopFn& stop) const {
   PLUMESCOUT_ASSIGN_OR_RETURN(std::optional<InverseColumns> columns, ColumnsAfter(readings));
   std::vector<double> variance = variance_ppm2();
-  if (columns) columns->SubtractSquares(tolerance_ppm2_, variance);
+  if (columns) columns->SubtractSquares(tolerance_ppm2_, variance, stop);
   return variance;
 }
 
 EntropyFall FieldSnapshot::FallOf(std::span<const double> weights,
-                                  std::span<const double> beside_ppm2) const {
+                                  std::span<const double> beside_ppm2, const StopFn& stop) const {
   const SeparatorTree& tree = factor_.tree();
   std::vector<double> variance_ppm2 = variance_ppm2_;
   std::vector<double> by_slot(variance_ppm2.size());
@@ -100,12 +100,12 @@ EntropyFall FieldSnapshot::FallOf(std::span<const double> weights,
     by_slot[slot] = weights[tree.cell(slot)];
     if (!beside_ppm2.empty()) variance_ppm2[slot] += beside_ppm2[tree.cell(slot)];
   }
-  return {factor_, std::move(variance_ppm2), std::move(by_slot), tolerance_ppm2_};
+  return {factor_, std::move(variance_ppm2), std::move(by_slot), tolerance_ppm2_, stop};
 }
 
-absl::StatusOr<FieldSnapshot> FieldSnapshot::Given(
-    std::span<const ForeseenReading> readings) const {
-  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<double> variance, VarianceAfter(readings));
+absl::StatusOr<FieldSnapshot> FieldSnapshot::Given(std::span<const ForeseenReading> readings,
+                                                   const StopFn& stop) const {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<double> variance, VarianceAfter(readings, stop));
   FieldSnapshot given = *this;
   for (Slot slot = 0; slot < variance.size(); ++slot) {
     given.variance_ppm2_[slot] = variance[factor_.tree().cell(slot)];
@@ -113,6 +113,7 @@ absl::StatusOr<FieldSnapshot> FieldSnapshot::Given(
   for (const ForeseenReading& reading : readings) {
     const Slot slot = factor_.tree().slot(reading.cell);
     if (!IsActive(slot)) continue;
+    if (Stops(stop)) return absl::CancelledError("told to stop");
     given.factor_.AddReading(given.factor_.StepsFrom(slot), reading.precision, 0.0);
   }
   return given;

@@ -11,6 +11,7 @@
 #include "core/gas/field/entropy_fall.h"
 #include "core/gas/field/field_factor.h"
 #include "core/gas/field/inverse_columns.h"
+#include "core/types/stop.h"
 
 namespace plumescout {
 
@@ -48,12 +49,16 @@ class FieldSnapshot {
                                                               double precision) const;
   // For such columns. `weights` >= 0, and what each variance has beside that of the field, by cell
   // index. Refers to this snapshot.
-  EntropyFall FallOf(std::span<const double> weights, std::span<const double> beside_ppm2) const;
+  // `stop`: see EntropyFall.
+  EntropyFall FallOf(std::span<const double> weights, std::span<const double> beside_ppm2,
+                     const StopFn& stop = {}) const;
 
   // The snapshot of a field that has heard these readings besides; what they say is not known, so
   // it has variances only. Errors and cost: those of VarianceIfRead, and a copy of the fronts on
   // the path of each cell. Tolerances add up.
-  absl::StatusOr<FieldSnapshot> Given(std::span<const ForeseenReading> readings) const;
+  // kCancelled once `stop`, which is asked all along, says so.
+  absl::StatusOr<FieldSnapshot> Given(std::span<const ForeseenReading> readings,
+                                      const StopFn& stop = {}) const;
 
   // Marginal variance by cell index; NaN off the active cells. Cost: O(cells).
   std::vector<double> variance_ppm2() const;
@@ -62,8 +67,8 @@ class FieldSnapshot {
   bool IsActive(Slot slot) const { return variance_ppm2_[slot] > 0.0; }  // not NaN
   absl::StatusOr<std::optional<InverseColumns>> ColumnsAfter(
       std::span<const ForeseenReading> readings) const;
-  absl::StatusOr<std::vector<double>> VarianceAfter(
-      std::span<const ForeseenReading> readings) const;
+  absl::StatusOr<std::vector<double>> VarianceAfter(std::span<const ForeseenReading> readings,
+                                                    const StopFn& stop) const;
 
   FieldFactor factor_;
   std::vector<double> variance_ppm2_;  // by slot

@@ -87,13 +87,17 @@ void InverseColumns::Mix(const double* matrix, std::size_t stride) {
   path_rows_ = std::move(mixed);
 }
 
-void InverseColumns::SubtractSquares(double limit, std::vector<double>& by_cell) {
+void InverseColumns::SubtractSquares(double limit, std::vector<double>& by_cell,
+                                     const StopFn& stop) {
   class Subtraction final : public Visitor {
    public:
-    Subtraction(const SeparatorTree& tree, double limit, std::vector<double>& by_cell)
-        : tree_(tree), limit_(limit), by_cell_(by_cell) {}
+    Subtraction(const SeparatorTree& tree, double limit, std::vector<double>& by_cell,
+                const StopFn& stop)
+        : tree_(tree), limit_(limit), by_cell_(by_cell), stop_(stop) {}
     bool Enter(std::size_t, std::span<const double> squares) override {
-      return *std::max_element(squares.begin(), squares.end()) > limit_;
+      constexpr int kNodesPerStop = 16;
+      stopped_ = stopped_ || (asked_++ % kNodesPerStop == 0 && Stops(stop_));
+      return !stopped_ && *std::max_element(squares.begin(), squares.end()) > limit_;
     }
     void Take(std::span<const Slot> own, std::span<const double> squares) override {
       for (std::size_t i = 0; i < own.size(); ++i) by_cell_[tree_.cell(own[i])] -= squares[i];
@@ -103,8 +107,11 @@ void InverseColumns::SubtractSquares(double limit, std::vector<double>& by_cell)
     const SeparatorTree& tree_;
     const double limit_;
     std::vector<double>& by_cell_;
+    const StopFn& stop_;
+    int asked_ = 0;
+    bool stopped_ = false;
   };
-  Subtraction subtraction(factor_->tree(), limit, by_cell);
+  Subtraction subtraction(factor_->tree(), limit, by_cell, stop);
   Descend(subtraction);
 }
 

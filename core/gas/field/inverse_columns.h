@@ -9,6 +9,7 @@
 
 #include "core/gas/field/field_factor.h"
 #include "core/gas/field/separator_tree.h"
+#include "core/types/stop.h"
 
 namespace plumescout {
 
@@ -42,8 +43,9 @@ class InverseColumns {
 
   // by_cell[cell] -= |x|^2 for the row x of each active cell, but for subtrees off the paths on
   // whose boundary that is at most `limit`: with W >= 0 and row sums of at most 1, no row inside is
-  // longer than the longest there. Cost: all weights of the others.
-  void SubtractSquares(double limit, std::vector<double>& by_cell);
+  // longer than the longest there. The rest is left out once `stop`, which is asked all along, says
+  // so. Cost: all weights of the others.
+  void SubtractSquares(double limit, std::vector<double>& by_cell, const StopFn& stop = {});
 
  private:
   // Of the cells of one front, own ones first.

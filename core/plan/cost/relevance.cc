@@ -3,7 +3,9 @@
 #include "core/plan/cost/relevance.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <cstddef>
+#include <limits>
 
 namespace plumescout {
 namespace {
@@ -20,23 +22,37 @@ float SureGas_ppm(const MissionOptions& options) {
   return static_cast<float>(fixed ? above_ppm : kTwice * frontier.min_gas_threshold_ppm);
 }
 
+// Of those that are no NaN; -infinity without any.
+float Greatest_ppm(const std::vector<float>& values_ppm) {
+  constexpr std::size_t kLanes = 8;  // comparisons that do not wait for each other
+  std::array<float, kLanes> greatest_ppm;
+  greatest_ppm.fill(-std::numeric_limits<float>::infinity());
+  std::size_t i = 0;
+  for (; i + kLanes <= values_ppm.size(); i += kLanes) {
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const float value_ppm = values_ppm[i + k];
+      greatest_ppm[k] = value_ppm > greatest_ppm[k] ? value_ppm : greatest_ppm[k];
+    }
+  }
+  for (; i < values_ppm.size(); ++i) {
+    if (values_ppm[i] > greatest_ppm[0]) greatest_ppm[0] = values_ppm[i];
+  }
+  return *std::max_element(greatest_ppm.begin(), greatest_ppm.end());
+}
+
 }  // namespace
 
 std::vector<float> Relevance(const Grid<float>& mean_ppm, const MissionOptions& options) {
   const auto background_ppm = static_cast<float>(options.gas.background_mean_ppm);
   const float sure_ppm = SureGas_ppm(options);
-  float greatest_ppm = sure_ppm;
-  // fmax passes NaN over.
-  for (const float mean : mean_ppm.values()) {
-    greatest_ppm = std::fmax(greatest_ppm, mean - background_ppm);
-  }
-  std::vector<float> relevance;
-  relevance.reserve(mean_ppm.size());
-  for (const float mean : mean_ppm.values()) {
-    const float gas_ppm = std::fmax(0.0F, mean - background_ppm);
+  const float greatest_ppm = std::max(sure_ppm, Greatest_ppm(mean_ppm.values()) - background_ppm);
+  std::vector<float> relevance(mean_ppm.size());
+  for (std::size_t i = 0; i < relevance.size(); ++i) {
+    const float above_ppm = mean_ppm[i] - background_ppm;
+    const float gas_ppm = above_ppm > 0.0F ? above_ppm : 0.0F;  // where it is NaN too
     const float sure = std::min(1.0F, gas_ppm / sure_ppm);
-    relevance.push_back(kCleanRelevance + (1.0F - kCleanRelevance) * sure * sure +
-                        kErrorShare * gas_ppm / greatest_ppm);
+    relevance[i] = kCleanRelevance + (1.0F - kCleanRelevance) * sure * sure +
+                   kErrorShare * gas_ppm / greatest_ppm;
   }
   return relevance;
 }

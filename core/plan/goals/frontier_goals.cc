@@ -45,11 +45,10 @@ std::vector<Frontier> GasFrontiers(const GoalQuery& query) {
   std::vector<Frontier> frontiers =
       FindGasClusters(input, observed_ppm2, GasThreshold_ppm(input, observed_ppm2, options),
                       {query.start}, options);
-  if (frontiers.empty()) return frontiers;
-  const Grid<double>& travel_m = query.TravelFromStart_m();
+  if (frontiers.empty() || Stops(query.stop)) return {};
   for (Frontier& frontier : frontiers) {
     MoveGoalOntoFrontier(query, frontier);
-    if (frontier.reachable) frontier.travel_m = travel_m[frontier.goal_cell];
+    if (frontier.reachable) frontier.travel_m = query.FromStart().Travel(frontier.goal_cell);
   }
   return frontiers;
 }
@@ -141,9 +140,10 @@ std::vector<JudgedFrontier> JudgeFrontiers(const GoalQuery& query) {
   if (query.options.goal_policy != GoalPolicy::kOccupancyOnly) {
     Judge(query, GasFrontiers(query), judged);
   }
+  if (Stops(query.stop)) return judged;
   Judge(query,
-        FindOccupancyFrontiers(*belief.occupancy, *belief.traversable, {query.start},
-                               belief.options->frontier.min_occupancy_cell_count),
+        FindOccupancyFrontiers(*belief.occupancy, query.start, query.FromStart(),
+                               belief.options->frontier.min_occupancy_cell_count, query.stop),
         judged);
   return judged;
 }

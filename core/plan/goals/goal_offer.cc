@@ -3,10 +3,10 @@
 #include "core/plan/goals/goal_offer.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
 #include <utility>
 
-#include "core/grid/grid_search.h"
 #include "core/plan/goals/frontier_goals.h"
 #include "core/plan/goals/goal_policy.h"
 #include "core/plan/goals/home_goal.h"
@@ -15,11 +15,13 @@
 
 namespace plumescout {
 
-const Grid<double>& GoalQuery::TravelFromStart_m() const {
-  if (!travel_from_start_m) {
-    travel_from_start_m = TravelDistances_m(reachable, std::vector<Cell>{start});
+const TravelFromStarts& GoalQuery::FromStart() const {
+  if (!from_start) {
+    from_start.emplace(reachable.geometry(), Connectivity::kEightNoCornerCut,
+                       [this](std::size_t index) { return reachable[index] != 0; });
+    from_start->Run({{start}}, [this](const auto&) { return Stops(stop); });
   }
-  return *travel_from_start_m;
+  return *from_start;
 }
 
 GoalOffer GoHome(const GoalQuery& query) {
@@ -39,7 +41,7 @@ GoalOffer FindGoals(const GoalQuery& query, Rng& rng) {
   GoalOffer result;
   result.rejected = std::move(frontiers.rejected);
   result.goals = ChooseByPolicy(std::move(frontiers), query.options, rng, result.rejected);
-  if (query.options.goal_policy == GoalPolicy::kEverything) {
+  if (query.options.goal_policy == GoalPolicy::kEverything && !Stops(query.stop)) {
     const std::vector<Goal> telling = InformationGoals(query, result.rejected);
     result.goals.insert(result.goals.end(), telling.begin(), telling.end());
   }

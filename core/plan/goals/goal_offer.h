@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "core/belief/belief.h"
+#include "core/frontier/goal_cells.h"
 #include "core/types/options.h"
 #include "core/types/plan.h"
 #include "core/types/rng.h"
+#include "core/types/stop.h"
 
 namespace plumescout {
 
@@ -23,10 +25,12 @@ struct GoalQuery {
   // As the belief is to be once other robots have driven their ways; null if they drive none. What
   // they will have observed by then is no goal.
   const Belief* ahead = nullptr;
+  // Once it says so, what is found from then on is of no use.
+  StopFn stop = {};
 
-  // Lengths of ways from `start` by steps between reachable cells. Cost: O(cells) when first asked.
-  const Grid<double>& TravelFromStart_m() const;
-  mutable std::optional<Grid<double>> travel_from_start_m = std::nullopt;
+  // The ways from `start` by steps between reachable cells. Cost: O(cells) when first asked.
+  const TravelFromStarts& FromStart() const;
+  mutable std::optional<TravelFromStarts> from_start = std::nullopt;
 };
 
 struct GoalOffer {
@@ -47,7 +51,8 @@ GoalOffer GoHome(const GoalQuery& query);
 // mission open, for what that robot finds may need this one; one that is set aside does not, or a
 // frontier that no visit can dissolve would keep robots driving for ever. With options.return_home
 // the robot goes home before its mission is complete. If query.go_home, this is GoHome.
-// Deterministic in the query and `rng`. Cost: O(cells).
+// Deterministic in the query and `rng`, unless query.stop says so, which is asked all along. Cost:
+// O(cells).
 GoalOffer FindGoals(const GoalQuery& query, Rng& rng);
 
 }  // namespace plumescout

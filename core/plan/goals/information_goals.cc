@@ -48,14 +48,18 @@ Grid<double> Merits(const GoalQuery& query) {
   const GridGeometry& geometry = query.belief.geometry();
   const int reach_cells = static_cast<int>(std::lround(kWindowReach_m / geometry.resolution_m));
   const Grid<float> left = LeftToTell(query.ahead != nullptr ? *query.ahead : query.belief);
+  Grid<double> merits(geometry, 0.0);
+  if (Stops(query.stop)) return merits;
   const Grid<float> around = WindowSums(left, reach_cells);
-  const Grid<double>& travel_m = query.TravelFromStart_m();
+  const TravelFromStarts& from_start = query.FromStart();
   const double reading_m = query.options.speed_mps / query.options.reading_rate_hz;
   const double nearest_m = std::max(query.options.min_goal_distance_m, reading_m);
-  Grid<double> merits(geometry, 0.0);
+  if (Stops(query.stop)) return merits;
   for (std::size_t i = 0; i < left.size(); ++i) {
-    if (query.reachable[i] == 0 || !(left[i] > 0.0F) || travel_m[i] < nearest_m) continue;
-    merits[i] = static_cast<double>(around[i]) / (kErrand_m + travel_m[i]);
+    if (query.reachable[i] == 0 || !(left[i] > 0.0F)) continue;
+    const double travel_m = from_start.Travel(geometry.CellAtIndex(i));
+    if (travel_m < nearest_m) continue;
+    merits[i] = static_cast<double>(around[i]) / (kErrand_m + travel_m);
   }
   return merits;
 }

@@ -59,7 +59,8 @@ std::vector<Cell> ReadingCells(const std::vector<Point2>& path, const GridGeomet
   return cells;
 }
 
-ExpectedInformation::ExpectedInformation(const Belief& belief) : belief_(belief) {
+ExpectedInformation::ExpectedInformation(const Belief& belief, const StopFn& stop)
+    : belief_(belief) {
   if (belief.gas_what_if == nullptr) return;
   const std::vector<float> relevance = Relevance(*belief.gas_mean_ppm, *belief.options);
   const GridGeometry& field = belief.gas_what_if->geometry();
@@ -67,7 +68,7 @@ ExpectedInformation::ExpectedInformation(const Belief& belief) : belief_(belief)
   FieldWindow(belief.geometry(), field).ForEachCell([&](std::size_t in_map, std::size_t in_field) {
     weights[in_field] = relevance[in_map];
   });
-  fall_ = belief.gas_what_if->FallOf(weights);
+  fall_ = belief.gas_what_if->FallOf(weights, stop);
 }
 
 std::optional<double> ExpectedInformation::Of(const std::vector<Cell>& readings,

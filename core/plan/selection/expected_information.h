@@ -27,8 +27,9 @@ std::vector<Cell> ReadingCells(const std::vector<Point2>& path, const GridGeomet
 // Ours.
 class ExpectedInformation {
  public:
-  // Holds references to the belief. Cost: O(cells), and that of EntropyFall.
-  explicit ExpectedInformation(const Belief& belief);
+  // Holds references to the belief. Tells nothing if `stop`, which is asked all along, says so.
+  // Cost: O(cells), and that of EntropyFall.
+  explicit ExpectedInformation(const Belief& belief, const StopFn& stop = {});
 
   // The sum over free cells of relevance (core/plan/cost/relevance.h) times 1/2 ln(variance now /
   // variance then), in nats. None if the belief has no gas field yet, or `stop` said so. Cost: that

@@ -22,7 +22,6 @@ using ::plumescout::testing::DenseReading;
 
 GasOptions Estimated(double background_ppm = 0.0) {
   GasOptions gas;
-  gas.estimate_noise = true;
   gas.background_mean_ppm = background_ppm;
   return gas;
 }
@@ -90,7 +89,9 @@ TEST(NoiseScaleTest, AFieldKnowsTheEnergyOfItsReadings) {
 }
 
 TEST(NoiseScaleTest, IsNotEstimatedUnlessAskedFor) {
-  GasMap map{GasOptions()};
+  GasOptions fixed;
+  fixed.estimate_noise = false;
+  GasMap map(fixed);
   map.Add(0, {0.35, 0.35}, {50.0});
   ASSERT_TRUE(map.Refresh(Room(8), 0).ok());
   EXPECT_EQ(map.noise_scale(), 1.0);
@@ -137,6 +138,7 @@ TEST(NoiseScaleTest, AFieldOfRootsIsALinearOneOfTheRoots) {
   Rng rng(5);
   const Grid<CellState> states = Room(10);
   GasOptions options;
+  options.estimate_noise = false;
   GasMap linear(options);
   options.scale = GasScale::kSquareRoot;
   GasMap roots(options);

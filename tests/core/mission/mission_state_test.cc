@@ -139,6 +139,15 @@ TEST(MissionState, RestoredMissionsGoOnTheSame) {
   }
 }
 
+TEST(MissionState, HoldsWhatPrecisionsWereLearned) {
+  MissionOptions options;
+  options.gas.precisions = GasPrecisions::kLearned;
+  Course run(options);
+  run.ApplyRandom(1, 300, 5.0, 4.0);
+  EXPECT_GT(run.mission().Snapshot()->gas_quality.prior_precision_log_stddev, 0.0);
+  run.ExpectAllRestored(20);
+}
+
 TEST(MissionState, ReadingsThatAgeDoSoAfterwards) {
   MissionOptions options = support::FastAgeing();
   options.gas.observation_stddev_share = 0.3;

@@ -113,6 +113,14 @@ TEST(MetricsTest, FindsCellsByPositionOnAnotherGrid) {
   EXPECT_NEAR(metrics.entropy_nats, Entropy(0.25) + Entropy(0.3), kRounding);
 }
 
+TEST(MetricsTest, NoiseThatTheMapEstimatesIsAlsoWhereItHasNoEstimate) {
+  const Scene scene = MakeScene();
+  MapSnapshot map = BlankMap(scene.geometry());
+  map.gas_quality.noise_scale = 40.0;
+  const MapMetrics metrics = Evaluate(scene, map);
+  EXPECT_NEAR(metrics.entropy_nats, 2.0 * Entropy(40.0 * kPriorVariance_ppm2), kRounding);
+}
+
 TEST(MetricsTest, HasNoErrorsToTellWithoutCriticalCells) {
   Scene scene = MakeScene();
   scene.critical_threshold_ppm = 10.0;

@@ -45,6 +45,7 @@ TEST(EnumsTest, EveryTableIsCompleteAndRefusesTheRest) {
   ExpectTableIsComplete<v1::Plan::End>();
   ExpectTableIsComplete<v1::ReportProgressRequest::Outcome>();
   ExpectTableIsComplete<v1::GasScale>();
+  ExpectTableIsComplete<v1::GasPrecisions>();
   ExpectTableIsComplete<v1::WgfdScope>();
   ExpectTableIsComplete<v1::GoalPolicy>();
   ExpectTableIsComplete<v1::CostKind>();

@@ -70,7 +70,7 @@ MissionOptions Unlike() {
   options.keep_scans = false;
   options.gas.audit_period_epochs = 7;
   options.gas.scale = GasScale::kSquareRoot;
-  options.gas.estimate_noise = true;
+  options.gas.estimate_noise = false;
   options.keep_out = {{{{1, 2}, {3, 4}, {5, 7}}, "spill"}, {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}};
   options.gas_species = {{"methane", {}, {}, {}, {}}, {"ozone", 30.0, {}, 0.5, 0.25}};
   options.home = Point2{-1.0, 2.0};
@@ -94,7 +94,7 @@ TEST(OptionsTest, OptionsSurviveTheRoundTrip) {
   EXPECT_FALSE(back->keep_scans);
   EXPECT_EQ(back->gas.audit_period_epochs, 7);
   EXPECT_EQ(back->gas.scale, GasScale::kSquareRoot);
-  EXPECT_TRUE(back->gas.estimate_noise);
+  EXPECT_FALSE(back->gas.estimate_noise);
   EXPECT_EQ(back->frontier.fixed_gas_threshold_ppm, 4.0);
   EXPECT_EQ(back->keep_out, Unlike().keep_out);
   EXPECT_EQ(back->gas_species, Unlike().gas_species);
@@ -278,6 +278,14 @@ TEST(OptionsTest, MoreSamplesThanCandidatesAreNamedAsOnTheWire) {
 TEST(OptionsTest, JournalsThatDoNotNameKeptScansKeptNone) {
   EXPECT_FALSE(FromProto(v1::MissionOptions(), RecordedDefaults(), "options")->keep_scans);
   EXPECT_TRUE(FromProto(ToProto(MissionOptions()), RecordedDefaults(), "options")->keep_scans);
+}
+
+TEST(OptionsTest, JournalsThatDoNotNameTheNoiseOfMapsDidNotEstimateIt) {
+  const auto of = [](const v1::MissionOptions& proto) {
+    return FromProto(proto, RecordedDefaults(), "options")->gas.estimate_noise;
+  };
+  EXPECT_FALSE(of(v1::MissionOptions()));
+  EXPECT_TRUE(of(ToProto(MissionOptions())));
 }
 
 }  // namespace options_test

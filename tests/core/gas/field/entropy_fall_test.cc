@@ -114,6 +114,9 @@ TEST(EntropyFallTest, EndsWhenToldTo) {
   auto columns = world.snapshot.ColumnsIfRead(world.NearbyCells(3), kPrecision).value();
   EXPECT_EQ(fall.Of(*columns, [] { return true; }), std::nullopt);
   EXPECT_EQ(fall.AtMost(*columns, [] { return true; }), std::nullopt);
+  const EntropyFall begun = world.snapshot.FallOf(world.weights, {}, [] { return true; });
+  EXPECT_EQ(begun.Of(*columns, {}), std::nullopt);
+  EXPECT_EQ(begun.AtMost(*columns, {}), std::nullopt);
 }
 
 }  // namespace entropy_fall_test

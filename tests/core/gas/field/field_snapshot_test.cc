@@ -164,6 +164,15 @@ TEST(FieldSnapshotTest, GivenNothingItIsTheSame) {
   ExpectVariances(c, {}, now.variance_ppm2());
 }
 
+TEST(FieldSnapshotTest, IsGivenNothingOnceToldToStop) {
+  Rng rng(10);
+  const FieldCase c = RandomFieldCase(12, 12, 0.2, rng);
+  std::vector<ForeseenReading> promised;
+  for (const std::size_t cell : RandomCells(c, 9, rng)) promised.push_back({cell, kPrecision});
+  const auto given = EngineOf(c).Snapshot().Given(promised, [] { return true; });
+  EXPECT_EQ(given.status().code(), absl::StatusCode::kCancelled);
+}
+
 TEST(FieldSnapshotTest, RefusesCellsBeyondTheLatticeAndSenselessPrecisions) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   Rng rng(6);
