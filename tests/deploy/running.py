@@ -4,7 +4,6 @@
 
 import os
 import pathlib
-import resource
 import socket
 import subprocess
 import time
@@ -42,17 +41,13 @@ class Server:
         command = [BUILD_DIR / "bin/plumescout-server", "--listen", listen, "--store", "none"]
         for setting in settings:
             command += ["--set", setting]
-
-        def limit():
-            if descriptors:
-                resource.setrlimit(resource.RLIMIT_NOFILE, descriptors)
-
+        if descriptors:  # not by preexec_fn: what forks then aborts in gRPC's threads at times
+            command[:0] = ["prlimit", "--nofile={}:{}".format(*descriptors)]
         self.process = subprocess.Popen(
             command,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
             text=True,
-            preexec_fn=limit,
         )
         for line in self.process.stdout:  # which may name the address of its metrics, too
             if line.startswith("listening on "):
