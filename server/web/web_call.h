@@ -33,8 +33,8 @@ class WebCall final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::Byt
     std::function<void()> wake;  // there may be something to take; called on threads of gRPC
   };
   static std::unique_ptr<WebCall> Start(const std::shared_ptr<grpc::Channel>& channel, Parts parts);
-  // Cancels, and waits until gRPC has done with the call: not on its threads. One of them that drops
-  // the last reference to a channel has to end itself, which it cannot.
+  // Cancels, and waits until gRPC has done with the call: not on its threads. One of them that
+  // drops the last reference to a channel has to end itself, which it cannot.
   ~WebCall() override;
 
   // The next frames of gRPC-Web; empty if there are none yet.
@@ -56,7 +56,7 @@ class WebCall final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::Byt
   const Parts parts_;
   grpc::ClientContext context_;
   grpc::ByteBuffer request_;
-  grpc::ByteBuffer response_;  // of the read that is under way
+  grpc::ByteBuffer response_;      // of the read that is under way
   absl::Notification left_alone_;  // gRPC touches nothing any more
 
   mutable absl::Mutex mutex_;
