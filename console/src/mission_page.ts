@@ -20,7 +20,7 @@ import { Watch, fetchMap } from './watch.ts';
 import type { LinkState } from './watch.ts';
 import { MissionState } from '@plumescout/client/wire';
 import type { MapStatus, Mission, Plan, Robot } from '@plumescout/client/wire';
-import { figure, missionState, phase } from './words.ts';
+import { figure, missionState, objectiveWords, phase } from './words.ts';
 import { WhyPanel } from './why_panel.ts';
 
 const TABS = ['Robots', 'Why', 'Charts', 'Operate'] as const;
@@ -39,6 +39,7 @@ export class MissionPage {
   private readonly areas: AreasPanel;
   private readonly operate: OperatePanel;
   private readonly statePill = h('span', { class: 'pill' }, '…');
+  private readonly objectivePill = h('span');
   private readonly linkPill = h('span', { class: 'pill', role: 'status' }, 'connecting');
   private readonly slider = h('input', { type: 'range', min: 0, max: 1, value: 1, 'aria-label': 'Revision to look at' });
   private readonly moment = h('span', { class: 'quiet' }, 'live');
@@ -63,7 +64,7 @@ export class MissionPage {
   private readonly stops: (() => void)[] = [];
 
   constructor(private readonly name: string, revision: bigint | null) {
-    this.head = [this.statePill, this.linkPill];
+    this.head = [this.statePill, this.objectivePill, this.linkPill];
     this.panel = new MapPanel(this.scene, (robot) => this.choose(robot), (place) => this.ask(place), {
       ask: async ({ x_m, y_m }, signal) => this.playing ? null : maps.queryGas(
         { mission: name, points: [{ xM: x_m, yM: y_m }], revision: this.past ?? 0n }, { ...PATIENCE, signal }),
@@ -145,6 +146,9 @@ export class MissionPage {
       this.slider.value = String(revision);
       this.moment.textContent = `revision ${revision} of ${this.head_revision}`;
     }
+    const [text, look] = objectiveWords(status.objective);
+    [this.objectivePill.textContent, this.objectivePill.className] = [text, look];
+    this.objectivePill.title = status.objective?.explanation ?? '';
     for (const robot of status.robots) extendTrail(this.scene.trails, robot.robot, robot.pose);
     if (this.scene.robot === '' && status.robots.length > 0) this.choose(status.robots[0].robot);
     this.panel.map.draw();

@@ -11,6 +11,7 @@
 #include "lab/studies/ipp_table1.h"
 #include "lab/studies/lhr_table2.h"
 #include "lab/studies/mit_table1.h"
+#include "lab/studies/objectives.h"
 #include "lab/studies/own_strategy.h"
 #include "lab/studies/team_rivals.h"
 #include "lab/studies/team_study.h"
@@ -39,6 +40,7 @@ constexpr Experiment kExperiments[] = {
     {"ipp_table1", RunIppTable1},
     {"lhr_table2", RunLhrTable2},
     {"mit_table1", RunMitTable1},
+    {"objectives", RunObjectives},
     {"own_strategy", RunOwnStrategy},
     {"team_rivals", RunTeamRivals, true},
     {"team_study", RunTeamStudy, true},
