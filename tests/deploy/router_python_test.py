@@ -63,6 +63,10 @@ class Node(mission_grpc.MissionServiceServicer, robot_grpc.RobotServiceServicer)
         self.hangs.clear()
         self._http.shutdown()
         self._http.server_close()
+        self.die()
+
+    def die(self):
+        """It listens no more, and does not know yet that it is not ready."""
         self._grpc.stop(None).wait()
 
     def GetMission(self, request, context):
@@ -188,6 +192,16 @@ class RouterTest(unittest.TestCase):
         self.assertEqual(self.where("house", "n2"), "n3", "a name that is down is as none")
         self.assertTrue(drained.is_active())
         drained.cancel()
+
+    def test_a_call_that_no_node_has_seen_goes_to_another(self):
+        self.nodes["n1"].die()
+        self.assertIn(self.where("house", "n1"), ("n2", "n3"))
+        for name in ("n2", "n3"):
+            self.nodes[name].die()
+        with self.assertRaises(grpc.RpcError) as caught:
+            self.where("house")
+        self.assertEqual(caught.exception.code(), grpc.StatusCode.UNAVAILABLE)
+        self.assertEqual(caught.exception.details(), "the node does not answer")
 
     def test_clients_are_told_that_nobody_is_ready(self):
         for node in self.nodes.values():
