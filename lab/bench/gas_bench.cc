@@ -14,7 +14,6 @@
 #include <limits>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "absl/status/status.h"
@@ -255,7 +254,7 @@ absl::Status MeasureAudit(const Size& size, bool open, const GasCase& c, BenchSu
 
 // On a thread, as servers do it: so what audits leave of the heap is not where fields are made
 // next.
-absl::Status MeasureAuditApart(const Size& size, bool open, const GasCase& c,
+absl::Status MeasureAudit(const Size& size, bool open, const GasCase& c,
                                BenchSummary& summary) {
   absl::Status status;
   std::thread([&] { status = MeasureAudit(size, open, c, summary); }).join();
@@ -269,7 +268,7 @@ absl::Status Run(BenchSummary& summary) {
       const GasCase c = make(size.width_cells, size.height_cells, summary.seed());
       PLUMESCOUT_RETURN_IF_ERROR(MeasureMemory(size.Name("memory", open, "mb"), c, summary));
       PLUMESCOUT_RETURN_IF_ERROR(MeasureFresh(size, open, c, summary));
-      PLUMESCOUT_RETURN_IF_ERROR(MeasureAuditApart(size, open, c, summary));
+      PLUMESCOUT_RETURN_IF_ERROR(MeasureAudit(size, open, c, summary));
       PLUMESCOUT_RETURN_IF_ERROR(MeasureOnline(size, open, c, summary));
       PLUMESCOUT_RETURN_IF_ERROR(MeasureWorstReadings(size, open, c, summary));
       PLUMESCOUT_RETURN_IF_ERROR(MeasureBeliefPropagation(size, open, c, summary));

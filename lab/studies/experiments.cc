@@ -6,6 +6,7 @@
 #include "absl/strings/str_join.h"
 #include "core/types/status_macros.h"
 #include "lab/studies/all_strategies.h"
+#include "lab/studies/cluster_model.h"
 #include "lab/studies/field_model.h"
 #include "lab/studies/gas_validation.h"
 #include "lab/studies/ipp_table1.h"
@@ -35,6 +36,7 @@ struct Experiment {
 
 constexpr Experiment kExperiments[] = {
     {"all_strategies", RunAllStrategies},
+    {"cluster_model", RunClusterModel},
     {"field_model", RunFieldModel},
     {"gas_validation", RunGasValidation},
     {"ipp_table1", RunIppTable1},
