@@ -252,15 +252,6 @@ absl::Status MeasureAudit(const Size& size, bool open, const GasCase& c, BenchSu
   return status;
 }
 
-// On a thread, as servers do it: so what audits leave of the heap is not where fields are made
-// next.
-absl::Status MeasureAudit(const Size& size, bool open, const GasCase& c,
-                               BenchSummary& summary) {
-  absl::Status status;
-  std::thread([&] { status = MeasureAudit(size, open, c, summary); }).join();
-  return status;
-}
-
 absl::Status Run(BenchSummary& summary) {
   for (const Size& size : kSizes) {
     for (const bool open : {false, true}) {
