@@ -9,6 +9,7 @@ import { AreasPanel } from './areas_panel.ts';
 import { fill, h, notice } from './dom.ts';
 import { MapPanel } from './map_panel.ts';
 import type { Place, Scene } from './map_view.ts';
+import { missionFigures } from './mission_figures.ts';
 import { OperatePanel } from './operate_panel.ts';
 import { every, stateClass } from './pages.ts';
 import { figuresOf } from '@plumescout/client';
@@ -309,18 +310,9 @@ export class MissionPage {
     this.panel.showLegend();
   }
 
-  private sample(cpu: [string, number][]): void {
-    const { figures, status } = this.scene;
-    if (figures === null || status === null) return;
-    const add = (title: string, unit: string, value: number, line = '') => this.charts.add(title, unit, line, value);
-    add('Known area', 'm²', figures.known_m2);
-    add('Largest gas mean', 'ppm', figures.max_ppm);
-    add(`Plume (above ${figure(status.gasThresholdPpm)} ppm)`, 'm²', figures.plume_m2);
-    add('Mean entropy of the gas field', 'nats', figures.mean_entropy_nats);
-    add('Readings in the posterior', '', Number(status.gasCounters?.inPosteriorCount ?? 0));
-    for (const [robot, cpu_s] of cpu) add('CPU time of the latest plan', 'ms', 1000 * cpu_s, robot);
-    for (const robot of this.robots) {
-      if (robot.ingestLagS !== undefined) add('Age of the newest sample', 's', robot.ingestLagS, robot.onMap?.robot);
+  private sample(cpu_s: [string, number][]): void {
+    for (const { title, unit, robot, value } of missionFigures(this.scene, this.robots, cpu_s)) {
+      this.charts.add(title, unit, robot, value);
     }
   }
 

@@ -47,9 +47,9 @@ export const reason = (value: RejectedGoal_Reason) => REASONS[value] ?? 'could b
 
 // What became of an objective, and how that looks; nothing of a complete map.
 export function objectiveWords(status: ObjectiveStatus | undefined): [string, string] {
-  const sure = status === undefined ? '' : `${figure(100 * status.confidence)} %`;
-  switch (status?.state) {
-    case undefined: return ['', ''];
+  if (status === undefined) return ['', ''];
+  const sure = `${figure(100 * status.confidence)} %`;
+  switch (status.state) {
     case ObjectiveStatus_State.MET: return [`objective met, ${sure}`, 'pill good'];
     case ObjectiveStatus_State.REFUTED: return [`objective refuted, ${sure}`, 'pill bad'];
     case ObjectiveStatus_State.CANNOT_BE_MET: return ['objective not met', 'pill warn'];
