@@ -115,6 +115,7 @@ std::set<std::string> FreeFields() {
       "CreateMissionRequest.options.gas",
       "CreateMissionRequest.options.frontier",
       "CreateMissionRequest.options.planning",
+      "CreateMissionRequest.options.objective",
       "CreateMissionRequest.options.planning.sites",
       "CreateMissionRequest.options.home",
       // Unset: the mission may idle for ever; or it lacks its name, of which there are rows.
