@@ -10,6 +10,14 @@
 
 namespace plumescout::lab {
 
+std::function<void(double share)> PartOfProgress(const ExperimentOptions& options, double from,
+                                                 double to) {
+  if (!options.progress) return {};
+  return [progress = options.progress, from, to](double share) {
+    progress(from + (to - from) * share);
+  };
+}
+
 absl::Status WriteStudy(const Study& study, const std::string& folder) {
   PLUMESCOUT_RETURN_IF_ERROR(MakeFolder(folder));
   PLUMESCOUT_RETURN_IF_ERROR(
