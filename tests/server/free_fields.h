@@ -88,7 +88,8 @@ inline std::set<std::string> FreeFields() {
       "StreamObservationsRequest.frame",
       "StreamObservationsRequest.open",
       "StreamObservationsRequest.batch",
-      // The parts of an import, of which there are rows; those out of order have a test in bad_input_test.cc.
+      // The parts of an import, of which there are rows; those out of order have a test in
+      // bad_input_test.cc.
       "ImportMissionRequest.part",
       "ImportMissionRequest.start",
       "ImportMissionRequest.piece",
