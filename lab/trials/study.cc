@@ -12,9 +12,8 @@ namespace plumescout::lab {
 
 std::function<void(double share)> PartOfProgress(const ExperimentOptions& options, double from,
                                                  double to) {
-  if (!options.progress) return {};
   return [progress = options.progress, from, to](double share) {
-    progress(from + (to - from) * share);
+    if (progress) progress(from + (to - from) * share);
   };
 }
 

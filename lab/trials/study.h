@@ -26,7 +26,7 @@ struct ExperimentOptions {
 };
 
 // Of a part of an experiment that goes from the share `from` of the whole to `to`: tells
-// options.progress, if there is one.
+// options.progress, if there is one. Never empty: who has a share to tell may call it.
 std::function<void(double share)> PartOfProgress(const ExperimentOptions& options, double from,
                                                  double to);
 
