@@ -81,7 +81,7 @@ ServiceLimits ToServiceLimits(const ServerConfig& config) {
   limits.max_planning_budget = absl::Seconds(config.planning.max_budget_s);
   limits.deadline_margin = absl::Seconds(config.planning.deadline_margin_s);
   limits.replay_period = absl::Seconds(config.maps.publish_period_s);
-  limits.import_patience = absl::Seconds(config.limits.max_wait_s);
+  limits.import_patience = limits.export_patience = absl::Seconds(config.limits.max_wait_s);
   return limits;
 }
 

@@ -83,8 +83,9 @@ absl::Status MissionMcap::Add(const Event& event, absl::string_view record) {
   }
   const auto* received = std::get_if<ObservationReceived>(&event.body);
   if (!has_begun_ && received == nullptr) {
-    early_.push_back({event, std::string(record), *applied});
-    return absl::OkStatus();
+    early_.push_back({std::string(record), *applied});
+    early_bytes_ += sizeof(Early) + record.size();
+    return early_bytes_ < kMostEarlyBytes ? absl::OkStatus() : Begin();
   }
   now_ns_ = std::max(now_ns_, mission_->sample_time_ns());
   if (!has_begun_) PLUMESCOUT_RETURN_IF_ERROR(Begin());
@@ -98,14 +99,15 @@ absl::Status MissionMcap::Add(const Event& event, absl::string_view record) {
   return Show(event, *applied, times);
 }
 
-// Now there is a time.
+// Now there is a time, or none is waited for any more.
 absl::Status MissionMcap::Begin() {
   has_begun_ = true;
   const McapTimes times{now_ns_, now_ns_};
   PLUMESCOUT_RETURN_IF_ERROR(AddRecord(0, start_, times));
   for (const Early& early : std::exchange(early_, {})) {
-    PLUMESCOUT_RETURN_IF_ERROR(AddRecord(early.event.number, early.record, times));
-    PLUMESCOUT_RETURN_IF_ERROR(Show(early.event, early.applied, times));
+    PLUMESCOUT_ASSIGN_OR_RETURN(const Event event, DecodeEvent(early.record));
+    PLUMESCOUT_RETURN_IF_ERROR(AddRecord(event.number, early.record, times));
+    PLUMESCOUT_RETURN_IF_ERROR(Show(event, early.applied, times));
   }
   return absl::OkStatus();
 }

@@ -39,10 +39,14 @@ namespace plumescout {
 //
 // Times are the mission's (sample time): that of the log is when the mission had the message, so it
 // never goes back; that of publication is the message's own. Before the first observation it is
-// that of the first observation. Memory: that of the mission, and as of McapEncoder. The same
-// events give the same bytes. Single-threaded.
+// that of the first observation; of what comes before that in more than kMostEarlyBytes it is 0.
+// Memory: that of the mission, kMostEarlyBytes, and as of McapEncoder. The same events give the
+// same bytes. Single-threaded.
 class MissionMcap {
  public:
+  // Of records that wait for the first observation, which has the first time.
+  static constexpr std::size_t kMostEarlyBytes = std::size_t{1} << 20;
+
   // `mission` is that of the start's options, before its first event. `map_period_s` is in the
   // mission's time, at least; 0: after each event.
   MissionMcap(const JournalStart& start, std::unique_ptr<Mission> mission, double map_period_s);
@@ -75,7 +79,6 @@ class MissionMcap {
 
   // An event that came before the first observation, and so before there is a time.
   struct Early {
-    Event event;
     std::string record;
     Applied applied;
   };
@@ -88,6 +91,7 @@ class MissionMcap {
   TypedChannels channels_{&encoder_};
   const std::uint16_t journal_;  // channel
   std::vector<Early> early_;
+  std::size_t early_bytes_ = 0;
   bool has_begun_ = false;
   std::int64_t now_ns_ = 0;
   std::map<RobotId, Shown> shown_;

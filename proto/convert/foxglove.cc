@@ -163,6 +163,10 @@ foxglove::SceneUpdate FoxgloveGone(absl::string_view id, std::int64_t time_ns) {
 
 foxglove::SceneUpdate FoxgloveFrontiers(const std::vector<Frontier>& frontiers,
                                         const GridGeometry& geometry, std::int64_t time_ns) {
+  std::size_t cell_count = 0;
+  for (const Frontier& frontier : frontiers) cell_count += frontier.cells.size();
+  const std::size_t stride = 1 + cell_count / (kMostFrontierMarks + 1);
+  std::size_t place = 0;  // among all cells
   foxglove::SceneUpdate update;
   for (const FrontierKind kind : {FrontierKind::kOccupancy, FrontierKind::kGas}) {
     const bool is_gas = kind == FrontierKind::kGas;
@@ -174,6 +178,7 @@ foxglove::SceneUpdate FoxgloveFrontiers(const std::vector<Frontier>& frontiers,
       const foxglove::Color color =
           is_gas ? MakeColor(0.9, 0.4, 0.1, opacity) : MakeColor(0.1, 0.4, 0.9, opacity);
       for (const Cell cell : frontier.cells) {
+        if (place++ % stride != 0) continue;
         AddSphere(geometry.Center(cell), geometry.resolution_m, color, entity);
       }
     }

@@ -35,7 +35,9 @@ foxglove::Grid FoxgloveGrid(const Grid<float>& values, absl::string_view name,
 foxglove::SceneUpdate FoxgloveWay(absl::string_view id, const Trajectory& trajectory,
                                   std::int64_t time_ns);
 foxglove::SceneUpdate FoxgloveGone(absl::string_view id, std::int64_t time_ns);
-// An entity for each kind; those that are no goals are paler.
+// An entity for each kind; those that are no goals are paler. Of more cells than kMostFrontierMarks
+// every second one is shown, or every third, and so on.
+inline constexpr std::size_t kMostFrontierMarks = 20'000;
 foxglove::SceneUpdate FoxgloveFrontiers(const std::vector<Frontier>& frontiers,
                                         const GridGeometry& geometry, std::int64_t time_ns);
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/streams/export_stream.h"
 
+#include <chrono>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -11,6 +12,11 @@
 #include "server/base/log.h"
 
 namespace plumescout::server {
+namespace {
+
+constexpr absl::Duration kPoolRetry = absl::Milliseconds(50);
+
+}  // namespace
 
 ExportStream* ExportStream::Start(const ServiceContext* context, grpc::CallbackServerContext* call,
                                   const v1::ExportMissionRequest& request) {
@@ -45,7 +51,9 @@ absl::Status ExportStream::Begin(const v1::ExportMissionRequest& request) {
 
 void ExportStream::BeginAt(const absl::StatusOr<ExportPoint>& point) {
   if (!point.ok()) return End(point.status());
-  Submit([this, self = shared_from_this(), point = *point] { Open(point); });
+  const absl::Status queued = context_.query_pool->Submit(
+      [this, self = shared_from_this(), point = *point] { Open(point); });
+  if (!queued.ok()) End(queued);
 }
 
 void ExportStream::Open(const ExportPoint& point) {
@@ -80,7 +88,7 @@ void ExportStream::MakeNext() {
   if (!next.ok()) return End(next.status());
   if (!next->has_value()) return End(absl::OkStatus());
   if ((*next)->part_case() == v1::ExportMissionResponse::PART_NOT_SET) {
-    return Submit([this, self = shared_from_this()] { MakeNext(); });
+    return SubmitNext();
   }
   message_ = **std::move(next);
   {
@@ -91,23 +99,50 @@ void ExportStream::MakeNext() {
   Pump();
 }
 
-void ExportStream::Submit(std::function<void()> task) {
-  const absl::Status queued = context_.query_pool->Submit(std::move(task));
-  if (!queued.ok()) End(queued);
+void ExportStream::SubmitNext() {
+  if (HasEnded()) return;
+  const absl::Status queued =
+      context_.query_pool->Submit([this, self = shared_from_this()] { MakeNext(); });
+  if (queued.ok()) return room_by_.reset();
+  if (!room_by_) room_by_ = After(SteadyNow(), context_.limits.export_patience);
+  if (SteadyNow() >= *room_by_) return End(queued);
+  SetAlarm(kPoolRetry, [](ExportStream& self) { self.SubmitNext(); });
+}
+
+void ExportStream::SetAlarm(absl::Duration wait, std::function<void(ExportStream&)> ring) {
+  auto alarm = std::make_unique<grpc::Alarm>();
+  alarm->Set(std::chrono::system_clock::now() + absl::ToChronoMicroseconds(wait),
+             [weak = weak_from_this(), ring = std::move(ring)](bool is_due) {
+               const auto self = weak.lock();
+               if (is_due && self != nullptr) ring(static_cast<ExportStream&>(*self));
+             });
+  absl::MutexLock lock(&mutex_);
+  alarm_.swap(alarm);  // the last one may be ringing still, and is let go outside the lock
 }
 
 void ExportStream::LetGo() {
   if (host_ != nullptr) host_->end_listeners().Remove(listener_);
+  std::unique_ptr<grpc::Alarm> alarm;
+  absl::MutexLock lock(&mutex_);
+  alarm_.swap(alarm);
 }
 
 StreamPump::Operation ExportStream::NextOperation() {
   if (making_) return nullptr;
   if (has_message_) {
     has_message_ = false;
-    return Write(&message_);
+    StreamPump::Operation write = Write(&message_);
+    return [this, write = std::move(write), number = write_count()] {
+      const absl::Duration patience = context_.limits.export_patience;
+      SetAlarm(patience, [number, patience](ExportStream& self) {
+        self.HangUp(number, absl::DeadlineExceededError(absl::StrCat(
+                                "a piece was not taken for ", absl::FormatDuration(patience))));
+      });
+      write();
+    };
   }
   making_ = true;
-  return [this] { Submit([this, self = shared_from_this()] { MakeNext(); }); };
+  return [this] { SubmitNext(); };
 }
 
 }  // namespace plumescout::server

@@ -4,6 +4,7 @@
 
 #include <grpcpp/support/server_callback.h>
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -56,6 +57,7 @@ class WriteStream : public grpc::ServerWriteReactor<Message>,
   // who holds the stream.
   void Run(Rpc rpc, grpc::CallbackServerContext& call, const std::function<absl::Status()>& begin) {
     self_ = this->shared_from_this();
+    call_ = &call;
     context_.streams->Add(self_);
     absl::Status status = visit_.Enter(*context_.door, rpc, call);
     context_.streams->LetIn(this, visit_.info().recheck);
@@ -76,7 +78,26 @@ class WriteStream : public grpc::ServerWriteReactor<Message>,
   // Of this message, which stays until nothing is being written.
   StreamPump::Operation Write(const Message* message) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
     writing_ = true;
+    ++write_count_;
     return [this, message] { this->StartWrite(message); };
+  }
+  // So far; the last of them may be under way.
+  std::int64_t write_count() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) { return write_count_; }
+  // Ends the stream although the caller has not taken the message of this number, on which an end
+  // would wait. No effect if it has.
+  void HangUp(std::int64_t write, const absl::Status& status) ABSL_LOCKS_EXCLUDED(mutex_) {
+    {
+      absl::MutexLock lock(&mutex_);
+      if (!writing_ || write_count_ != write) return;
+      if (!end_.has_value()) end_ = status;
+      hanging_up_ = true;
+    }
+    call_->TryCancel();  // there until the stream is finished, which it is not meanwhile
+    {
+      absl::MutexLock lock(&mutex_);
+      hanging_up_ = false;
+    }
+    Pump();
   }
   bool has_ended() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) { return end_.has_value(); }
   // gRPC is done with the stream: lets go of what it works on.
@@ -88,7 +109,7 @@ class WriteStream : public grpc::ServerWriteReactor<Message>,
 
  private:
   StreamPump::Operation Next() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
-    if (finished_ || writing_) return nullptr;
+    if (finished_ || writing_ || hanging_up_) return nullptr;
     if (!end_.has_value()) return NextOperation();
     finished_ = true;
     return [this, status = *end_] {
@@ -98,8 +119,11 @@ class WriteStream : public grpc::ServerWriteReactor<Message>,
   }
 
   StreamPump pump_;
-  std::shared_ptr<WriteStream> self_;  // until OnDone
+  std::shared_ptr<WriteStream> self_;            // until OnDone
+  grpc::CallbackServerContext* call_ = nullptr;  // as long
   bool writing_ ABSL_GUARDED_BY(mutex_) = false;
+  std::int64_t write_count_ ABSL_GUARDED_BY(mutex_) = 0;
+  bool hanging_up_ ABSL_GUARDED_BY(mutex_) = false;
   bool finished_ ABSL_GUARDED_BY(mutex_) = false;
   std::optional<absl::Status> end_ ABSL_GUARDED_BY(mutex_);
 };

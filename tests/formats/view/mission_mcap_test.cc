@@ -135,6 +135,41 @@ TEST_F(MissionMcapTest, ViewersHaveWhatTheyDraw) {
                                           "plan to stay: there are no goals", "leaves"}));
 }
 
+// Plans with words in them, before anything is seen.
+std::vector<Event> ManyPlans(std::size_t bytes) {
+  std::vector<Event> events = {{1, RobotRegistered{.robot = "scout", .lease_token = 1}}};
+  constexpr std::size_t kWords = 10'000;
+  for (std::size_t written = 0; written < bytes; written += kWords) {
+    PlanIssued issued;
+    issued.plan.robot = "scout";
+    issued.plan.explanation = std::string(kWords, 'w');
+    events.push_back({static_cast<std::int64_t>(events.size()) + 1, issued});
+  }
+  return events;
+}
+
+TEST_F(MissionMcapTest, WhatWaitsForTheFirstObservationIsBounded) {
+  const std::size_t many = 4 * MissionMcap::kMostEarlyBytes + (McapEncoder::kChunkBytes);
+  MissionMcap mcap(start_, std::make_unique<Mission>(MissionOptions()), 10.0);
+  std::string bytes;
+  const std::vector<Event> events = ManyPlans(many);
+  for (const Event& event : events) {
+    ASSERT_TRUE(mcap.Add(event, EncodeEvent(event)).ok());
+    bytes += mcap.Take();
+  }
+  EXPECT_GT(bytes.size(), 0u) << "all of it waits";
+  const Observation seen = support::RoomRun().front();
+  const Event first{static_cast<std::int64_t>(events.size()) + 1,
+                    ObservationReceived{"scout", seen}};
+  ASSERT_TRUE(mcap.Add(first, EncodeEvent(first)).ok());
+  ASSERT_TRUE(mcap.Finish().ok());
+  const auto read = Read(bytes + mcap.Take());
+  const std::vector<McapMessage>& journal = read.at("/journal");
+  ASSERT_EQ(journal.size(), events.size() + 2);  // with the start
+  EXPECT_EQ(journal.front().log_time_ns, 0u);
+  EXPECT_EQ(journal.back().log_time_ns, static_cast<std::uint64_t>(seen.sample_time_ns));
+}
+
 TEST_F(MissionMcapTest, WhatComesBeforeTheFirstObservationHasItsTime) {
   const auto read = Read(Write(MakeEvents()));
   EXPECT_EQ(read.at("/journal")[0].log_time_ns, 100'000'000u);

@@ -119,6 +119,23 @@ TEST(FoxgloveTest, FrontiersAreOfTwoKindsAndPalerWhereTheyAreNoGoals) {
   EXPECT_LT(update.entities(1).spheres(2).color().a(), 1.0);
 }
 
+TEST(FoxgloveTest, OfManyFrontiersCellsAreLeftOutEvenly) {
+  Frontier long_one;
+  for (int x = 0; x < static_cast<int>(kMostFrontierMarks); ++x) long_one.cells.push_back({x, 0});
+  const GridGeometry geometry{0.0, 0.0, 1.0, 100'000, 4};
+  const auto marks = [&](const std::vector<Frontier>& frontiers) {
+    const foxglove::SceneUpdate update = FoxgloveFrontiers(frontiers, geometry, kTime_ns);
+    return static_cast<std::size_t>(update.entities(0).spheres_size() +
+                                    update.entities(1).spheres_size());
+  };
+  EXPECT_EQ(marks({long_one}), kMostFrontierMarks);
+  Frontier one_more = long_one;
+  one_more.kind = FrontierKind::kGas;
+  one_more.cells = {{0, 1}};
+  EXPECT_EQ(marks({long_one, one_more}), kMostFrontierMarks / 2 + 1);
+  EXPECT_LE(marks(std::vector<Frontier>(7, long_one)), kMostFrontierMarks);
+}
+
 TEST(FoxgloveTest, LogsSayWhoAndWhat) {
   const foxglove::Log log = FoxgloveLog(foxglove::Log::WARNING, "r1", "what", kTime_ns);
   EXPECT_EQ(log.level(), foxglove::Log::WARNING);

@@ -5,10 +5,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <functional>
+#include <random>
+#include <thread>
+
 #include "absl/strings/match.h"
+#include "absl/synchronization/notification.h"
+#include "absl/time/clock.h"
 #include "formats/file_sum.h"
 #include "formats/mcap/mcap_records.h"
+#include "proto/convert/status.h"
+#include "tests/server/await_metric.h"
 #include "tests/server/export_client.h"
+#include "tests/server/held_store.h"
 #include "tests/server/service_fixture.h"
 
 namespace plumescout::server {
@@ -81,6 +91,114 @@ TEST_F(ExportStreamTest, AMissionComesAsMcapToo) {
   // What it held is free again for the next.
   EXPECT_TRUE(
       ExportClient(*snapshots_, "missions/hall", v1::MISSION_FILE_FORMAT_MCAP).Finish().ok());
+}
+
+// More than a connection takes from who is not read, however it is packed.
+void SendMuch(const std::function<void(const v1::ObservationBatch&)>& send) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> ppm(0.0, 1.0);
+  constexpr std::int64_t kBatch = 1000;
+  for (std::int64_t first = 1; first <= 40 * kBatch; first += kBatch) {
+    v1::ObservationBatch batch = GasReadings(first, first + kBatch - 1);
+    for (v1::Observation& one : *batch.mutable_observations()) {
+      one.mutable_gas()->set_concentration_ppm(ppm(random));
+    }
+    send(batch);
+  }
+}
+
+TEST_F(ExportStreamTest, WhoReadsNoMoreIsHungUpOn) {
+  ServerConfig config;
+  config.limits.max_wait_s = 0.2;
+  StartServerWithStore(config);
+  lease_ = Lease();
+  SendMuch([&](const auto& batch) { ASSERT_TRUE(Ingest(kRobot, lease_, batch).ok()); });
+  // Of its own connection, which takes little of what nobody reads.
+  grpc::ChannelArguments small;
+  small.SetInt(GRPC_ARG_HTTP2_BDP_PROBE, 0);
+  const auto stub = v1::SnapshotService::NewStub(grpc::CreateCustomChannel(
+      absl::StrCat("127.0.0.1:", server_->port()), grpc::InsecureChannelCredentials(), small));
+  ExportClient stalled(*stub, "missions/hall", v1::MISSION_FILE_FORMAT_MCAP);
+  ASSERT_TRUE(stalled.Read().has_start());
+  // What it held is free for others once it is hung up on; nobody else reads it on.
+  const absl::Time deadline = absl::Now() + absl::Seconds(60);
+  absl::Status other = absl::UnknownError("not asked");
+  while (!other.ok() && absl::Now() < deadline) {
+    other = ExportClient(*snapshots_, "missions/hall", v1::MISSION_FILE_FORMAT_MCAP).Finish();
+  }
+  EXPECT_TRUE(other.ok()) << other;
+  EXPECT_FALSE(stalled.Finish().ok());
+}
+
+// Holds up who looks for a mission of this name.
+class GatedStore : public HeldStore {
+ public:
+  void Close() { closed_ = true; }
+  void Open() {
+    if (!opened_.HasBeenNotified()) opened_.Notify();
+  }
+  void AwaitVisitor() const { visited_.WaitForNotification(); }
+  absl::StatusOr<AcquiredMission> Peek(const std::string& key) override {
+    if (closed_ && absl::StrContains(key, "attic")) {
+      if (!visited_.HasBeenNotified()) visited_.Notify();
+      opened_.WaitForNotification();
+    }
+    return HeldStore::Peek(key);
+  }
+
+ private:
+  std::atomic<bool> closed_ = false;
+  absl::Notification visited_;
+  absl::Notification opened_;
+};
+
+// The pool that makes exports has one thread and room for one task.
+class FullPoolTest : public ServiceTest {
+ protected:
+  void SetUp() override {
+    RegistryHooks hooks;
+    hooks.store = &gate_;
+    ServerConfig config;
+    config.maps.query_threads = 1;
+    config.maps.max_queued_queries = 1;
+    StartServer(config, hooks);
+  }
+  void TearDown() override {
+    gate_.Open();
+    server_ = nullptr;
+  }
+
+  GatedStore gate_;
+};
+
+TEST_F(FullPoolTest, RefusesWhoBeginsAndHoldsUpWhoHasBegun) {
+  ASSERT_TRUE(CreateMission("attic").ok());
+  const std::int64_t lease = Lease();
+  SendMuch([&](const auto& batch) { ASSERT_TRUE(Ingest(kRobot, lease, batch).ok()); });
+  ExportClient begun(*snapshots_, "missions/hall");
+  ASSERT_TRUE(begun.Read().has_start());
+
+  gate_.Close();
+  ExportClient works(*snapshots_, "missions/attic");
+  gate_.AwaitVisitor();
+  ExportClient waits(*snapshots_, "missions/attic");
+  ASSERT_TRUE(AwaitMetric(*server_, "plumescout_pool_queue_depth{pool=\"query\"} 1"));
+  const absl::Status refused = ExportClient(*snapshots_, "missions/hall").Finish();
+  EXPECT_THAT(refused, Refuses(absl::StatusCode::kResourceExhausted, "OVERLOADED"));
+  EXPECT_TRUE(RetryDelay(refused).has_value());
+
+  absl::Status ended;
+  std::thread reader([&] { ended = begun.Finish(); });
+  const std::string only_the_other = "plumescout_pool_refused_total{pool=\"query\"} 1\n";
+  const absl::Time deadline = absl::Now() + absl::Seconds(60);
+  while (absl::StrContains(server_->MetricsText(), only_the_other) && absl::Now() < deadline) {
+    std::this_thread::yield();
+  }
+  EXPECT_LT(absl::Now(), deadline) << "it never met a full pool";
+  gate_.Open();
+  reader.join();
+  EXPECT_TRUE(ended.ok()) << ended;
+  EXPECT_TRUE(works.Finish().ok() && waits.Finish().ok());
 }
 
 TEST_F(ExportStreamTest, StrangersAreRefused) {
