@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What browser tests and benches of the console run: the server, simulated robots, Debian's Chromium.
 import assert from 'node:assert/strict';
-import { spawn } from 'node:child_process';
+import { execFile, spawn } from 'node:child_process';
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
+import { promisify } from 'node:util';
 import { chromium } from 'playwright-core';
 
 export const BIN = resolve(process.env.PLUMESCOUT_BIN ?? '../build/release/bin');
@@ -52,6 +53,12 @@ export const drive = (server, scene, ...more) => start('plumescout-lab',
   ['robot', '--server', server, '--scene', resolve(scene), '--out', join(data, 'robot'), '--mission', 'hall',
    '--robots', '2', '--realtime', ...more],
   (text) => /simulated/.test(text));
+
+// Drives a robot in lockstep to the end, in a mission of that name.
+export function driveToEnd(server, scene, mission, ...more) {
+  return promisify(execFile)(join(BIN, 'plumescout-lab'), ['robot', '--server', server, '--scene', resolve(scene),
+    '--out', join(data, mission), '--mission', mission, ...more]);
+}
 
 export async function launch() {
   browser = await chromium.launch({ executablePath: '/usr/bin/chromium', headless: true, args: [

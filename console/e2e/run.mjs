@@ -12,7 +12,7 @@ import { mkdirSync, readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { parseArgs } from 'node:util';
 import { checkAccess } from './axe.mjs';
-import { BIN, PATIENCE_MS, cleanUp, data, drive, end, launch, serve, until } from './harness.mjs';
+import { BIN, PATIENCE_MS, cleanUp, data, drive, driveToEnd, end, launch, serve, until } from './harness.mjs';
 import { lookAround } from './report.mjs';
 
 const { values: options } = parseArgs({ options: {
@@ -176,6 +176,11 @@ async function charts() {
   await step('figures are drawn over time', async () => {
     await tab('Charts').click();
     await see('Largest gas mean');
+    await page.locator('.chart', { hasText: /^Completeness/ }).getByText(/^\d\S* %$/).waitFor();
+    await page.getByText('What counts', { exact: true }).click();
+    await see(/the share of the mapped ground whose gas counts as observed/);
+    await picture('charts');
+    await page.getByText('What counts', { exact: true }).click();
     await until('two values', async () => !await page.locator('.chart').first().evaluate((chart) =>
       chart.querySelector('canvas').getContext('2d').getImageData(60, 8, 400, 80).data
         .every((value) => value === 0)));
@@ -322,7 +327,46 @@ async function time(origin) {
     assert.equal(await button('Change').getAttribute('aria-pressed'), 'true');
     await see('Change of the gas mean');
     await picture('change');
+  });
+  await step('two moments are looked at side by side, and move together', async () => {
+    await button('Side by side').click();
+    await see(/^then: revision \d+$/);
+    await see(/^now: live, revision \d+$/);
+    const [then, now] = [page.locator('.pinned > canvas'), map()];
+    assert.ok(Math.abs((await then.boundingBox()).width - (await now.boundingBox()).width) < 3);
+    await picture('beside_change'); // what was, and what the mean did since
     await button('Gas').click();
+    const placeOn = async (canvas) => {
+      const box = await canvas.boundingBox();
+      await page.mouse.move(box.x + box.width / 2 + 30, box.y + box.height / 2);
+      return (await readout()).split(' m · ')[0].split(', ').map(Number);
+    };
+    // To a pixel or two.
+    const isThere = ([x, y], [x2, y2]) => Math.hypot(x - x2, y - y2) < 0.12;
+    const before = await placeOn(then);
+    assert.match(await readout(), /then .* · now .*/);
+    assert.ok(isThere(await placeOn(now), before));
+    await until('a change where both have gas', async () => {
+      const box = await now.boundingBox();
+      for (let i = 1; i < 20; ++i) {
+        await page.mouse.move(box.x + box.width * (0.2 + 0.03 * i), box.y + box.height * (0.3 + 0.02 * i));
+        if (/then \S+ ± \S+ ppm · now \S+ ± \S+ ppm · change \S+ ppm/.test(await readout())) return true;
+      }
+      return false;
+    });
+    await picture('beside');
+    await placeOn(then);
+    const { x, y } = await then.boundingBox(); // what is done to one of them, happens to both
+    await page.mouse.down();
+    await page.mouse.move(x + 60, y + 300);
+    await page.mouse.up();
+    await page.mouse.wheel(0, -400);
+    const after = await placeOn(then);
+    assert.ok(!isThere(after, before), `${after} after ${before}`);
+    assert.ok(isThere(await placeOn(now), after));
+    await page.keyboard.press('f');
+    await page.keyboard.press('s');
+    assert.equal(await then.isVisible(), false);
   });
   await step('what was can be played', async () => {
     await page.getByLabel('Speed').selectOption('30');
@@ -341,6 +385,31 @@ async function time(origin) {
     await see(`As it was at revision ${at}`);
     await page.goto(`${origin}/#/missions/hall`);
     await see('live, revision');
+  });
+}
+
+async function objective(origin, server) {
+  await step('how an objective stands is seen on the map', async () => {
+    await page.goto(`${origin}/#/new`);
+    await page.getByLabel('Name').fill('leak');
+    await page.getByText('objective', { exact: true }).click();
+    const group = page.locator('details', { has: page.locator('summary', { hasText: /^objective$/ }) }).last();
+    await group.getByLabel('kind', { exact: true }).selectOption({ label: 'map above threshold' });
+    await group.getByLabel('threshold ppm', { exact: true }).fill('10');
+    await button('Create mission').click();
+    await see('No robot has registered yet.');
+    await driveToEnd(server.found.calls, options.scene, 'leak', '--duration', '40');
+    await see(/^objective: \S+ m² undecided$/);
+    await button('Objective').click();
+    for (const outlook of ['below', 'unmeasured']) await page.locator(`.legend .m-${outlook}`).waitFor();
+    await tab('Charts').click();
+    await page.locator('.chart', { hasText: /^Undecided area/ }).waitFor();
+    await picture('objective');
+    await page.goto(`${origin}/#/missions/hall`);
+    await see('live, revision');
+    assert.equal(await button('Objective').count(), 0);
+    await page.keyboard.press('5');
+    await see('This mission has no objective');
   });
 }
 
@@ -513,6 +582,7 @@ try {
   await operation();
   await areas();
   await time(origin);
+  await objective(origin, server);
   await service(origin);
   await pictures(origin);
   await everybody(origin);

@@ -7,7 +7,9 @@ import { FREE, OCCUPIED, changeOf } from '@plumescout/client';
 import type { CellRect, Raster, RasterFigures } from '@plumescout/client';
 import { theme } from './theme.ts';
 
-export type CellLayer = 'mean' | 'uncertainty' | 'change' | 'none';
+export type CellLayer = 'mean' | 'uncertainty' | 'change' | 'objective' | 'none';
+// Those that have colours of cells, and with them a scale.
+export const hasScale = (layer: CellLayer) => layer !== 'none' && layer !== 'objective';
 
 // What the picture is of.
 export type Cells = {
@@ -15,6 +17,7 @@ export type Cells = {
   then: Raster | null; // of the instant to compare with
   figures: RasterFigures | null;
   threshold_ppm: number; // above which gas counts as a plume
+  beside: Cells | null; // of a map beside it, on the same scale
 };
 
 function rgbOf(css: string): Rgb {
@@ -26,13 +29,18 @@ const pack = ([r, g, b]: Rgb) => ((255 << 24) | (b << 16) | (g << 8) | r) >>> 0;
 
 // The ends of the scale for what is shown.
 export function scaleOf(layer: CellLayer, log: boolean, cells: Cells, change: Float32Array | null): Scale {
-  if (layer === 'uncertainty') return { min: 0, max: roundUp(cells.figures?.max_stddev_ppm ?? 1), log: false };
+  const both = [cells, ...(cells.beside === null ? [] : [cells.beside])];
+  if (layer === 'uncertainty') {
+    const max = Math.max(...both.map(({ figures }) => figures?.max_stddev_ppm || 0));
+    return { min: 0, max: roundUp(max), log: false };
+  }
   if (layer === 'change') {
     let max = 0;
     for (const value of change ?? []) if (Math.abs(value) > max) max = Math.abs(value);
     return { min: -roundUp(max), max: roundUp(max), log: false };
   }
-  const max = roundUp(Math.max(cells.figures?.max_ppm || 0, cells.threshold_ppm, 0.1));
+  const max = roundUp(Math.max(0.1, ...both.flatMap(({ figures, threshold_ppm }) =>
+    [figures?.max_ppm || 0, threshold_ppm])));
   return { min: log ? max / 1000 : 0, max, log };
 }
 
@@ -96,6 +104,7 @@ export class CellPicture {
       case 'mean': return raster.mean_ppm;
       case 'uncertainty': return raster.variance_ppm2;
       case 'change': return this.change;
+      case 'objective': // drawn as squares on top
       case 'none': return null;
     }
   }

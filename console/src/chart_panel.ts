@@ -4,17 +4,22 @@
 import { Series, drawChart } from './charts.ts';
 import type { Line } from './charts.ts';
 import { fill, h } from './dom.ts';
+import { WHAT_COUNTS } from './mission_figures.ts';
 import { figure, shortName } from './words.ts';
 
 type Chart = { title: string; unit: string; lines: Map<string, Series> };
 
 export class ChartPanel {
-  readonly element = h('div', {});
+  readonly element: HTMLElement;
+  private readonly box = h('div', {}, h('p', { class: 'empty' }, 'Waiting for the map …'));
   private readonly began = performance.now();
   private readonly charts = new Map<string, Chart>();
 
   constructor(private readonly colourOf: (robot: string) => string) {
-    fill(this.element, h('p', { class: 'empty' }, 'Waiting for the map …'));
+    this.element = h('div', {},
+      h('details', { class: 'group' }, h('summary', {}, 'What counts'),
+        h('dl', {}, ...WHAT_COUNTS.flatMap(([name, what]) => [h('dt', {}, name), h('dd', {}, what)]))),
+      this.box);
   }
 
   // `line`: of a robot, or ''.
@@ -47,7 +52,7 @@ export class ChartPanel {
       return h('div', { class: 'chart' }, h('div', { class: 'head' },
         h('strong', {}, chart.title), h('span', { class: 'now' }, now)), canvas);
     });
-    fill(this.element, h('p', { class: 'quiet' }, 'Since this page was opened.'), ...boxes);
+    fill(this.box, h('p', { class: 'quiet' }, 'Since this page was opened.'), ...boxes);
     for (const [canvas, lines, unit] of drawn) drawChart(canvas, lines, unit);
   }
 }

@@ -54,6 +54,7 @@ export function drawChart(canvas: HTMLCanvasElement, lines: Line[], unit: string
     c.fillText('waiting for a second value', width / 2, height / 2);
     return;
   }
+  if (unit === '%') max = Math.max(max, 100);
   if (max <= min) max = min + 1;
   const x = (t: number) => left + ((t - minT) / (maxT - minT)) * (right - left);
   const y = (v: number) => bottom - ((v - min) / (max - min)) * (bottom - top);

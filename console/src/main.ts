@@ -25,7 +25,8 @@ function toggleTheme(): void {
 
 const KEYS: [string, string][] = [
   ['f', 'show all of the map'], ['+ −', 'zoom'], ['← ↑ → ↓', 'pan'], ['c', 'follow the robot'],
-  ['1 2 3 4', 'gas, uncertainty, change, walls'], ['g', 'logarithmic or linear scale'],
+  ['1 2 3 4 5', 'gas, uncertainty, change, walls, objective'], ['g', 'logarithmic or linear scale'],
+  ['s', 'the pinned moment beside this one'],
   ['Esc', 'stop drawing an area'], ['space', 'play or stop what was'], ['l', 'back to live'], ['d', 'dark or light'], ['?', 'this list']];
 
 function showKeys(): void {

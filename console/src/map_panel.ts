@@ -2,18 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // The map with what stands around it: buttons, legend, what the pointer is at; and the hands on it.
 import type { AreaDraft } from './area_draft.ts';
-import type { CellLayer } from './cell_picture.ts';
+import { hasScale } from './cell_picture.ts';
+import type { CellLayer, CellPicture } from './cell_picture.ts';
 import { shareOf, ticksOf } from './colours.ts';
 import { fill, fillIfChanged, h, notice } from './dom.ts';
 import { MapView, SWITCHES } from './map_view.ts';
 import type { Place, Scene, Switch } from './map_view.ts';
 import { NearestReading } from './nearest_reading.ts';
 import type { GasQuestion } from './nearest_reading.ts';
-import { FREE, OCCUPIED } from '@plumescout/client';
+import { cellInWords, cellsInWords } from './hover_words.ts';
+import { OUTLOOKS, ObjectiveLayer } from './objective_layer.ts';
+import type { ObjectiveQuestion } from './objective_layer.ts';
 import { figure } from './words.ts';
 
 const LAYERS: [CellLayer, string][] = [['mean', 'Gas'], ['uncertainty', 'Uncertainty'],
-  ['change', 'Change'], ['none', 'Walls']];
+  ['change', 'Change'], ['objective', 'Objective'], ['none', 'Walls']];
 const SWITCH_NAMES: Record<Switch, string> = {
   frontiers: 'frontiers', ways: 'ways of robots', trails: 'trails', claims: 'claimed goals', names: 'names',
   areas: 'keep-out and home', why: 'candidates of the plan' };
@@ -40,21 +43,37 @@ export class MapPanel {
   private change = { name: 'Change', title: 'Change of the gas mean' };
   private drawing: Drawing | null = null;
   private pointer: [number, number] | null = null; // where it is, pixels
+  private pinned: Scene | null = null; // that can be looked at beside this one
+  private pinnedView: MapView | null = null; // of it, once it was
   private readonly nearest: NearestReading | null;
+  private readonly objective: ObjectiveLayer | null;
+  private hasObjective = false;
 
   private readonly canvas = h('canvas', { tabindex: 0, role: 'img',
     'aria-label': 'Map of the mission. Drag or use the arrow keys to pan, + and − to zoom.' });
+  private readonly pinnedCanvas = h('canvas', { role: 'img', 'aria-label': 'Map of the pinned moment; it moves ' +
+    'with the other one.' });
+  private readonly captions = { then: h('div', { class: 'caption' }), now: h('div', { class: 'caption' }) };
+  private moments = { then: '', now: '' };
   private readonly legend = h('div', { class: 'legend' });
   private readonly readout = h('div', { class: 'readout' });
   private readonly tools = h('div', { class: 'tools', role: 'toolbar', 'aria-label': 'Map' });
 
   constructor(private readonly scene: Scene, private readonly onRobot: (robot: string) => void,
-              private readonly onPlace: (place: Place) => void, question: GasQuestion | null = null) {
+              private readonly onPlace: (place: Place) => void, question: GasQuestion | null = null,
+              objective: ObjectiveQuestion | null = null) {
+    this.objective = objective === null ? null : new ObjectiveLayer(objective, () => scene.raster, () => {
+      scene.judged = this.objective!.squares;
+      this.map.draw();
+      this.showLegend();
+    });
     this.nearest = question === null ? null : new NearestReading(question, () => this.tell());
     this.map = new MapView(this.canvas, scene);
     this.element = h('section', { class: 'stage', 'aria-label': 'Map' },
-      this.canvas, this.tools, this.banner, this.readout, this.legend);
-    this.listen();
+      this.canvas, h('div', { class: 'pinned' }, this.pinnedCanvas, this.captions.then), this.captions.now,
+      this.tools, this.banner, this.readout, this.legend);
+    this.listen(this.canvas);
+    this.listen(this.pinnedCanvas);
     this.showTools();
     this.showLegend();
   }
@@ -75,13 +94,57 @@ export class MapPanel {
       notice('Pin a moment first: “Pin to compare” below the map.', 'bad');
       return;
     }
+    if (layer === 'objective' && !this.hasObjective) {
+      notice('This mission has no objective: it maps all there is.', 'bad');
+      return;
+    }
     this.map.setCells(layer, log);
+    this.map.beside?.setCells(layer === 'change' || layer === 'objective' ? 'mean' : layer, log);
+    this.judgeAgain();
     this.showTools();
     this.showLegend();
   }
-  repaint(): void {
-    this.map.setCells(this.map.picture.layer);
+  // Whether the mission has an objective, whose layer can be looked at.
+  offerObjective(has: boolean): void {
+    if (has === this.hasObjective) return;
+    this.hasObjective = has;
+    this.showTools();
   }
+  private judgeAgain(): void {
+    this.scene.judged = [];
+    this.objective?.show(this.map.picture.layer === 'objective');
+  }
+  repaint(): void {
+    this.setCells(this.map.picture.layer);
+  }
+
+  // From now on the map of `pinned` can be looked at beside this one. Its scene may change: say so, then.
+  offer(pinned: Scene): void {
+    this.pinned = pinned;
+    this.map.beside?.replaced();
+    this.showTools();
+  }
+  private get isBeside(): boolean {
+    return this.map.beside !== null;
+  }
+  // What stands above the maps while there are two.
+  nameMoments(moments: { then?: string; now?: string }): void {
+    Object.assign(this.moments, moments);
+    this.captions.then.textContent = this.isBeside ? this.moments.then : '';
+    this.captions.now.textContent = this.isBeside ? this.moments.now : '';
+  }
+  lookBeside(on: boolean): void {
+    if (this.pinned === null) return notice('Pin a moment first: “Pin to compare” below the map.', 'bad');
+    this.element.classList.toggle('two', on);
+    this.pinnedView ??= new MapView(this.pinnedCanvas, this.pinned, this.map);
+    this.map.beside = on ? this.pinnedView : null;
+    this.scene.beside = on ? this.pinned : null;
+    this.map.pointed = null;
+    this.nameMoments({});
+    this.map.beside?.replaced();
+    this.setCells(this.map.picture.layer);
+  }
+
   callChange(name: string, title: string): void {
     this.change = { name, title };
     this.showTools();
@@ -90,26 +153,43 @@ export class MapPanel {
 
   showLegend(): void {
     this.map.picture.prepare(); // the ends of the scale
-    const { layer, scale, log } = this.map.picture;
-    const title = layer === 'uncertainty' ? 'Uncertainty, one σ, ppm'
-      : layer === 'change' ? `${this.change.title}, ppm`
-        : `Gas mean, ppm${log ? ' (logarithmic)' : ''}`;
-    fillIfChanged(this.legend, JSON.stringify([title, scale, layer]), () => [
-      ...(layer === 'none' ? [] : [h('div', {}, title), this.bar(title), h('div', { class: 'ticks' },
-        ...ticksOf(scale).map((value) => {
-          const tick = h('span', {}, figure(value, 2));
-          tick.style.left = `${100 * shareOf(scale, value)}%`;
-          return tick;
-        }))]),
+    const pictures = [this.map.picture];
+    // Else both are of one scale.
+    if (this.map.beside !== null && this.map.beside.picture.layer !== this.map.picture.layer) {
+      pictures.unshift(this.map.beside.picture);
+    }
+    for (const picture of pictures) picture.prepare();
+    const judged = new Set(this.scene.judged.map(({ outlook }) => outlook));
+    const key = [[...judged], pictures.map(({ layer, scale }) => [this.titleOf(layer, scale.log), scale, layer])];
+    fillIfChanged(this.legend, JSON.stringify(key), () => [
+      ...pictures.flatMap((picture) => this.scaleOf(picture)),
       h('div', { class: 'marks' },
         h('span', { class: 'mark m-wall' }, 'wall'), h('span', { class: 'mark m-unknown' }, 'unknown'),
         h('span', { class: 'mark gas m-gas' }, 'gas frontier'),
-        h('span', { class: 'mark m-occupancy' }, 'map frontier'))]);
+        h('span', { class: 'mark m-occupancy' }, 'map frontier'),
+        ...OUTLOOKS.filter(([outlook]) => judged.has(outlook)).map(([outlook, words]) =>
+          h('span', { class: `mark m-${outlook}` }, words)))]);
   }
 
-  private bar(title: string): HTMLElement {
-    const colours = this.map.picture.colours();
-    const { scale } = this.map.picture;
+  private titleOf(layer: CellLayer, log: boolean): string {
+    return layer === 'uncertainty' ? 'Uncertainty, one σ, ppm'
+      : layer === 'change' ? `${this.change.title}, ppm`
+        : `Gas mean, ppm${log ? ' (logarithmic)' : ''}`;
+  }
+  private scaleOf(picture: CellPicture): HTMLElement[] {
+    const { layer, scale } = picture;
+    if (!hasScale(layer)) return [];
+    const title = this.titleOf(layer, scale.log);
+    return [h('div', {}, title), this.bar(title, picture), h('div', { class: 'ticks' },
+      ...ticksOf(scale).map((value) => {
+        const tick = h('span', {}, figure(value, 2));
+        tick.style.left = `${100 * shareOf(scale, value)}%`;
+        return tick;
+      }))];
+  }
+  private bar(title: string, picture: CellPicture): HTMLElement {
+    const colours = picture.colours();
+    const { scale } = picture;
     const bar = h('canvas', { width: colours.length, height: 1, role: 'img',
                               'aria-label': `${title}: ${scale.min} to ${scale.max}` });
     const image = new ImageData(colours.length, 1);
@@ -122,10 +202,13 @@ export class MapPanel {
     const { map } = this;
     const open = this.tools.querySelector('details')?.open ?? false;
     fill(this.tools,
-      ...LAYERS.map(([layer, name]) => h('button', { 'aria-pressed': String(map.picture.layer === layer),
-        onclick: () => this.setCells(layer) }, layer === 'change' ? this.change.name : name)),
+      ...LAYERS.filter(([layer]) => layer !== 'objective' || this.hasObjective).map(([layer, name]) =>
+        h('button', { 'aria-pressed': String(map.picture.layer === layer), onclick: () => this.setCells(layer) },
+          layer === 'change' ? this.change.name : name)),
       h('button', { 'aria-pressed': String(map.picture.log), disabled: map.picture.layer !== 'mean',
         onclick: () => this.setCells('mean', !map.picture.log) }, 'Log'),
+      this.pinned === null ? null : h('button', { 'aria-pressed': String(this.isBeside),
+        onclick: () => this.lookBeside(!this.isBeside) }, 'Side by side'),
       h('details', { open }, h('summary', {}, 'Layers'), h('div', {}, ...SWITCHES.map((one) => this.switchOf(one)))),
       h('button', { onclick: () => this.fit() }, 'Fit'),
       h('button', { 'aria-label': 'Zoom in', onclick: () => this.zoom(ZOOM_STEP) }, '+'),
@@ -167,18 +250,34 @@ export class MapPanel {
     this.map.draw();
   }
 
-  // The pointer is there now; null: not on the map.
-  private hover(pointer: [number, number] | null): void {
+  // The pointer is there now, on that map; null: on none.
+  private hover(pointer: [number, number] | null, canvas = this.canvas): void {
     this.pointer = pointer;
+    const place = pointer === null ? null : this.placeAt(...pointer);
+    this.pointAt(canvas === this.canvas ? null : place, canvas === this.canvas ? place : null);
     this.nearest?.move(pointer === null ? null : this.placeAt(...pointer));
     this.tell();
   }
+  // At this place on this map, and on the one beside it.
+  private pointAt(here: Place | null, beside: Place | null): void {
+    const { map } = this;
+    if (map.beside === null) {
+      if (map.pointed === null) return;
+      here = null;
+    } else {
+      map.beside.pointed = beside;
+    }
+    map.pointed = here;
+    map.draw();
+  }
   // The map is of another moment.
-  hoverAgain(): void {
+  anotherMoment(): void {
     this.hover(this.pointer);
+    this.judgeAgain();
   }
   leave(): void {
     this.hover(null);
+    this.objective?.show(false);
   }
 
   private tell(): void {
@@ -186,25 +285,15 @@ export class MapPanel {
       this.readout.textContent = '';
       return;
     }
+    const place = this.placeAt(...this.pointer);
     const { raster } = this.scene;
-    const { x_m, y_m } = this.placeAt(...this.pointer);
-    const cell = raster?.cellAt(x_m, y_m) ?? -1;
-    const parts = [`${x_m.toFixed(2)}, ${y_m.toFixed(2)} m`];
-    if (raster === null || cell < 0) {
-      parts.push('off the map');
-    } else {
-      const state = raster.occupancy[cell];
-      parts.push(state === OCCUPIED ? 'occupied' : state === FREE ? 'free' : 'unknown');
-      if (!Number.isNaN(raster.mean_ppm[cell])) {
-        parts.push(`${figure(raster.mean_ppm[cell])} ± ${figure(Math.sqrt(raster.variance_ppm2[cell]))} ppm`);
-      }
-    }
+    const parts = [`${place.x_m.toFixed(2)}, ${place.y_m.toFixed(2)} m`, this.isBeside && this.pinned !== null
+      ? cellsInWords(this.pinned.raster, raster, place) : cellInWords(raster, place)];
     if (this.nearest !== null && this.nearest.text !== '') parts.push(this.nearest.text);
     this.readout.textContent = parts.join(' · ');
   }
 
-  private listen(): void {
-    const { canvas } = this;
+  private listen(canvas: HTMLCanvasElement): void {
     const pointers = new Map<number, [number, number]>();
     let moved = 0;
     let pinches = false; // or did, until all fingers are off
@@ -224,7 +313,7 @@ export class MapPanel {
     });
     canvas.addEventListener('pointermove', (event) => {
       const now = place(event);
-      this.hover(now);
+      this.hover(now, canvas);
       if (this.drawing !== null && !pinches) {
         this.drawing.draft.move(this.placeAt(...now));
         this.drawn();
@@ -289,7 +378,9 @@ export class MapPanel {
       '-': () => this.zoom(1 / ZOOM_STEP), c: () => this.toggleFollow(),
       g: () => this.setCells('mean', !this.map.picture.log),
       1: () => this.setCells('mean'), 2: () => this.setCells('uncertainty'),
-      3: () => this.setCells('change'), 4: () => this.setCells('none') };
+      3: () => this.setCells('change'), 4: () => this.setCells('none'),
+      5: () => this.setCells('objective'),
+      s: () => this.lookBeside(!this.isBeside) };
     if (!(key in actions)) return false;
     actions[key]();
     return true;

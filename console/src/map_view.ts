@@ -6,6 +6,7 @@ import { CellPicture } from './cell_picture.ts';
 import type { CellLayer, Cells } from './cell_picture.ts';
 import { MapPen } from './map_pen.ts';
 import type { CellRect, Raster } from '@plumescout/client';
+import type { JudgedSquare } from './objective_layer.ts';
 import { theme } from './theme.ts';
 import type { Trails } from './trails.ts';
 import { View } from './view.ts';
@@ -33,6 +34,7 @@ export type Scene = Cells & {
   robot: string; // that is looked at
   asked: Place | null; // the place that was clicked on
   sources: Place[]; // of gas, if somebody knows
+  judged: JudgedSquare[]; // how the objective stands, where that is looked at
 };
 
 // What the buttons above the map take of it, pixels.
@@ -40,8 +42,12 @@ const TOOLS_HEIGHT = 40;
 const ROBOT_HUES = [20, 230, 150, 320, 80, 275, 190, 0];
 
 export class MapView {
-  readonly view = new View();
+  readonly view: View;
   readonly picture: CellPicture;
+  // Shows the same part of the plane, and is drawn when this one is; null: there is none.
+  beside: MapView | null = null;
+  // What the pointer is at on the other map.
+  pointed: Place | null = null;
   readonly on = new Set<Switch>(SWITCHES);
   follow = false;
 
@@ -49,10 +55,14 @@ export class MapView {
   private readonly pen: MapPen;
   private scheduled = false;
   private fitted = false;
-  private robotHues = new Map<string, number>();
+  private readonly robotHues: Map<string, number>;
   revision = -1n; // of what the scene holds
 
-  constructor(private readonly canvas: HTMLCanvasElement, private readonly scene: Scene) {
+  // `leader`: whose part of the plane this shows, too, and whose colours robots have; null: its own.
+  constructor(private readonly canvas: HTMLCanvasElement, private readonly scene: Scene,
+              private readonly leader: MapView | null = null) {
+    this.view = leader?.view ?? new View();
+    this.robotHues = leader?.robotHues ?? new Map<string, number>();
     this.context = canvas.getContext('2d')!;
     this.pen = new MapPen(this.context, this.view);
     this.picture = new CellPicture(() => scene);
@@ -97,7 +107,7 @@ export class MapView {
   }
   // Under who draws an area the map stays where it is.
   private refit(): void {
-    if (this.scene.draft !== null) return;
+    if (this.scene.draft !== null || this.leader !== null) return;
     if (!this.fitted || this.untouched) this.fit();
   }
   fit(): void {
@@ -120,6 +130,7 @@ export class MapView {
   }
   figuresChanged(): void {
     this.picture.rescaleIfNeeded();
+    this.beside?.picture.rescaleIfNeeded();
     this.draw();
   }
   setCells(layer: CellLayer, log = this.picture.log): void {
@@ -142,6 +153,7 @@ export class MapView {
   }
 
   draw(): void {
+    this.beside?.draw();
     if (this.scheduled) return;
     this.scheduled = true;
     requestAnimationFrame(() => {
@@ -162,6 +174,7 @@ export class MapView {
     if (this.follow && scene.draft === null) this.centreOnRobot();
     this.pen.grid();
     this.drawCells(scene.raster);
+    if (this.picture.layer === 'objective') this.drawJudged();
     if (this.on.has('areas')) this.drawAreas();
     if (this.on.has('trails')) this.drawTrails();
     if (this.on.has('frontiers')) this.drawFrontiers(scene.raster);
@@ -171,7 +184,8 @@ export class MapView {
     if (this.on.has('claims')) this.drawClaims();
     if (why !== null) this.drawGoals(why);
     this.drawRobots();
-    this.drawAsked();
+    if (scene.asked !== null) this.drawCrosshair(scene.asked);
+    if (this.pointed !== null) this.drawCrosshair(this.pointed);
     for (const source of scene.sources) this.pen.cross(source, theme('--bad'));
     if (scene.draft !== null) this.drawDraft(scene.draft);
     this.pen.scaleBar();
@@ -191,6 +205,18 @@ export class MapView {
     const size = this.view.scale * resolution_m;
     this.context.imageSmoothingEnabled = size < 1;
     this.context.drawImage(this.picture.canvas, x, y, columns * size, rows * size);
+  }
+
+  private drawJudged(): void {
+    const { context: c, view } = this;
+    for (const { x_m, y_m, size_m, outlook } of this.scene.judged) {
+      const [left, top] = view.toPixel(x_m - size_m / 2, y_m + size_m / 2);
+      const [right, bottom] = view.toPixel(x_m + size_m / 2, y_m - size_m / 2);
+      c.fillStyle = theme(`--judged-${outlook}`);
+      // Whole pixels, so that no seams are seen.
+      const x = Math.round(left), y = Math.round(top);
+      c.fillRect(x, y, Math.round(right) - x, Math.round(bottom) - y);
+    }
   }
 
   private drawAreas(): void {
@@ -358,10 +384,8 @@ export class MapView {
     }
   }
 
-  private drawAsked(): void {
-    const asked = this.scene.asked;
-    if (asked === null) return;
-    const [x, y] = this.view.toPixel(asked.x_m, asked.y_m);
+  private drawCrosshair(at: Place): void {
+    const [x, y] = this.view.toPixel(at.x_m, at.y_m);
     const c = this.context;
     c.beginPath();
     c.moveTo(x - 10, y);

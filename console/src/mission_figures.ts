@@ -1,12 +1,29 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // What is charted of a mission at one moment.
-import type { Plan, Robot } from '@plumescout/client/wire';
+import { GoalKind } from '@plumescout/client/wire';
+import type { MapStatus, Plan, Robot } from '@plumescout/client/wire';
 import type { Scene } from './map_view.ts';
 import { figure } from './words.ts';
 
 // `robot`: the resource name of whose figure it is; empty: of the mission.
 export type MissionFigure = { title: string; unit: string; robot: string; value: number };
+
+// What counts, of figures whose names do not say it.
+export const WHAT_COUNTS: [string, string][] = [
+  ['Completeness', 'the share of the mapped ground whose gas counts as observed. Mapped ground is where robots may ' +
+    'stand and can get to from where they are or began. Gas counts as observed where its variance is as low as ' +
+    'where somebody measured. What lies behind frontiers is not in it: new ground lowers it.'],
+  ['Open frontiers of the map', 'borders to unknown space that a robot can reach and that are large enough to go to. ' +
+    'The map is complete once none is left.'],
+  ['Undecided area', 'of a mission with an objective: where robots can get to and what is asked is not sure yet.'],
+  ['Plume', 'where the gas mean is above the threshold that gas frontiers go by.'],
+  ['Mean entropy', 'of one free cell: half the logarithm of 2πe times its variance.'],
+];
+
+function openFrontiers({ frontiers }: MapStatus): number {
+  return frontiers.filter((one) => one.kind === GoalKind.OCCUPANCY_FRONTIER && one.reachable && !one.tooSmall).length;
+}
 
 // `latest`: the latest plan of each robot. None before there are a map and its status.
 export function missionFigures(scene: Pick<Scene, 'figures' | 'status'>, robots: Robot[],
@@ -15,6 +32,8 @@ export function missionFigures(scene: Pick<Scene, 'figures' | 'status'>, robots:
   if (figures === null || status === null) return [];
   const found: MissionFigure[] = [];
   const add = (title: string, unit: string, value: number, robot = '') => found.push({ title, unit, robot, value });
+  if (status.reachableAreaM2 > 0) add('Completeness', '%', (100 * status.observedAreaM2) / status.reachableAreaM2);
+  add('Open frontiers of the map', '', openFrontiers(status));
   add('Known area', 'm²', figures.known_m2);
   if (status.objective !== undefined) add('Undecided area', 'm²', status.objective.undecidedAreaM2);
   add('Largest gas mean', 'ppm', figures.max_ppm);

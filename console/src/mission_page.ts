@@ -5,8 +5,9 @@ import { Code } from '@connectrpc/connect';
 import { PATIENCE, inWords, maps, missions, planning, robots as robotCalls, sentence } from './client.ts';
 import type { Trouble } from './client.ts';
 import { ChartPanel } from './chart_panel.ts';
+import { Comparison } from './comparison.ts';
 import { AreasPanel } from './areas_panel.ts';
-import { fill, h, notice } from './dom.ts';
+import { fill, h } from './dom.ts';
 import { MapPanel } from './map_panel.ts';
 import type { Place, Scene } from './map_view.ts';
 import { missionFigures } from './mission_figures.ts';
@@ -32,8 +33,9 @@ export class MissionPage {
   readonly head: HTMLElement[];
   private readonly scene: Scene = {
     raster: null, then: null, figures: null, threshold_ppm: 0, status: null, plans: [], why: null, asksWhy: false, candidate: -1,
-    trails: new Map(), keepOut: [], draft: null, home: undefined, robot: '', asked: null, sources: [] };
+    trails: new Map(), keepOut: [], draft: null, beside: null, home: undefined, robot: '', asked: null, sources: [], judged: [] };
   private readonly panel: MapPanel;
+  private readonly comparison: Comparison;
   private readonly robotsPanel: RobotsPanel;
   private readonly why: WhyPanel;
   private readonly charts: ChartPanel;
@@ -47,7 +49,8 @@ export class MissionPage {
   private readonly speed = h('select', { 'aria-label': 'Speed' },
     ...[1, 5, 10, 30, 60].map((times) => h('option', { value: times, selected: times === 10 }, `${times}×`)));
   private readonly playButton = h('button', { onclick: () => this.togglePlay() }, '▶ Play');
-  private readonly pinButton = h('button', { onclick: () => this.pin() }, 'Pin to compare');
+  private readonly pinButton = h('button', { onclick: () => this.comparison.pin(this.past ?? this.head_revision) },
+    'Pin to compare');
   private readonly tabBar = h('div', { class: 'tabs', role: 'tablist' });
   private readonly tabBox = h('div', { class: 'tab', role: 'tabpanel', tabindex: 0 });
 
@@ -69,7 +72,13 @@ export class MissionPage {
     this.panel = new MapPanel(this.scene, (robot) => this.choose(robot), (place) => this.ask(place), {
       ask: async ({ x_m, y_m }, signal) => this.playing ? null : maps.queryGas(
         { mission: name, points: [{ xM: x_m, yM: y_m }], revision: this.past ?? 0n }, { ...PATIENCE, signal }),
-      goesOn: () => this.past === null });
+      goesOn: () => this.past === null }, {
+      ask: async (places, signal) => this.playing ? null : maps.queryGas(
+        { mission: name, points: places.map(({ x_m, y_m }) => ({ xM: x_m, yM: y_m })), withVerdicts: true,
+          revision: this.past ?? 0n }, { ...PATIENCE, signal }),
+      goesOn: () => this.past === null,
+      threshold_ppm: () => this.mission?.options?.objective?.thresholdPpm ?? Infinity });
+    this.comparison = new Comparison(this.scene, this.panel);
     const colourOf = (robot: string) => this.panel.map.colourOf(robot);
     this.robotsPanel = new RobotsPanel((robot) => this.choose(robot), colourOf);
     this.charts = new ChartPanel(colourOf);
@@ -147,6 +156,8 @@ export class MissionPage {
       this.slider.value = String(revision);
       this.moment.textContent = `revision ${revision} of ${this.head_revision}`;
     }
+    this.comparison.now(this.moment.textContent);
+    this.panel.offerObjective(status.objective !== undefined);
     const [text, look] = objectiveWords(status.objective);
     [this.objectivePill.textContent, this.objectivePill.className] = [text, look];
     this.objectivePill.title = status.objective?.explanation ?? '';
@@ -182,7 +193,7 @@ export class MissionPage {
     this.scene.trails.clear();
     this.startWatch(null);
     this.showPastBanner();
-    this.panel.hoverAgain();
+    this.panel.anotherMoment();
     if (location.hash.includes('@')) history.replaceState(null, '', `#/${this.name}`);
   }
 
@@ -207,7 +218,7 @@ export class MissionPage {
       this.refreshFigures();
       this.panel.map.replaced();
       this.panel.showLegend();
-      this.panel.hoverAgain();
+      this.panel.anotherMoment();
       this.showPastBanner();
       history.replaceState(null, '', `#/${this.name}@${revision}`);
     } catch (error) {
@@ -231,16 +242,7 @@ export class MissionPage {
     this.scene.trails.clear();
     this.setPlaying(true);
     this.startWatch({ fromRevision: from, speed: Number(this.speed.value) });
-    this.panel.hoverAgain();
-  }
-
-  private pin(): void {
-    if (this.scene.raster === null) return;
-    this.scene.then = this.scene.raster.copy();
-    const revision = this.past ?? this.head_revision;
-    this.panel.callChange('Change', `Change of the gas mean since revision ${revision}`);
-    notice(`Revision ${revision} is pinned: “Change” shows what the gas mean did since.`);
-    this.panel.setCells('change');
+    this.panel.anotherMoment();
   }
 
   // --- What is polled.

@@ -62,8 +62,8 @@ class Report {
       raster: this.estimate, then: this.truth, figures: null, threshold_ppm: map.status?.gasThresholdPpm ?? 0,
       status: map.status ?? null, plans: [], why: null, asksWhy: true, candidate: -1,
       trails: new Map(mission.ways.map(({ robot, points_m }) => [robot, { points: points_m }])),
-      keepOut: map.status?.keepOut ?? [], draft: null, home: undefined, robot: '', asked: null,
-      sources: mission.sources_m.map(([x_m, y_m]) => ({ x_m, y_m })) };
+      keepOut: map.status?.keepOut ?? [], draft: null, beside: null, home: undefined, robot: '', asked: null,
+      sources: mission.sources_m.map(([x_m, y_m]) => ({ x_m, y_m })), judged: [] };
     this.panel = new MapPanel(this.scene, () => {}, () => {});
     this.panel.callChange('Error', 'Estimated gas mean less the true one');
     this.slider = h('input', { type: 'range', min: 0, max: this.plans.length, value: this.plans.length,

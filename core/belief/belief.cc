@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "core/belief/completeness.h"
 #include "core/frontier/gas_frontier.h"
 #include "core/frontier/occupancy_frontier.h"
 #include "core/types/species.h"
@@ -35,6 +36,7 @@ MapStatus MakeMapStatus(const Belief& belief) {
   if (belief.objective) {
     map.objective_explanation = Describe(*belief.objective, belief.options->objective);
   }
+  map.completeness = AssessCompleteness(belief);
   map.keep_out = belief.options->keep_out;
   for (const auto& [id, record] : belief.robots) map.robots.push_back(record.state);
 

@@ -4,7 +4,10 @@
 
 #include <cmath>
 
+#include "core/belief/completeness.h"
+#include "core/belief/objective_cells.h"
 #include "core/frontier/gas_frontier.h"
+#include "core/grid/flood.h"
 #include "core/types/species.h"
 
 namespace plumescout {
@@ -22,10 +25,17 @@ FrontierOptions JudgingBy(const MissionOptions& options, std::size_t species) {
   return frontier;
 }
 
+// None: the mission is for a complete map.
+std::optional<ObjectiveCells> JudgedCells(const Belief& belief) {
+  if (belief.options->objective.kind == ObjectiveKind::kCompleteMap) return std::nullopt;
+  return JudgeCells(belief, ReachableCells(*belief.traversable, PlacesOfRobots(belief)));
+}
+
 }  // namespace
 
 std::vector<GasAtPlace> QueryGas(const Belief& belief, const std::vector<Point2>& places,
-                                 std::size_t species) {
+                                 std::size_t species, bool with_verdicts) {
+  const std::optional<ObjectiveCells> judged = with_verdicts ? JudgedCells(belief) : std::nullopt;
   const GasField field = belief.Gas(species);
   const double observed_ppm2 = ObservedVariance_ppm2(JudgingBy(*belief.options, species),
                                                      GasOptionsOf(*belief.options, species));
@@ -41,6 +51,10 @@ std::vector<GasAtPlace> QueryGas(const Belief& belief, const std::vector<Point2>
     gas.variance_ppm2 = IfKnown((*field.published_variance_ppm2())[cell]);
     const std::optional<double> of_model_ppm2 = IfKnown((*field.variance_ppm2)[cell]);
     gas.observed = of_model_ppm2 && *of_model_ppm2 <= observed_ppm2;
+    if (judged) {
+      gas.verdict =
+          VerdictOf(*judged, belief.options->objective.kind, belief.geometry().Index(cell));
+    }
   }
   return answers;
 }

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/belief/completeness.h"
 #include "core/belief/objective_cells.h"
 #include "core/frontier/occupancy_frontier.h"
 #include "core/grid/flood.h"
@@ -17,19 +18,6 @@
 
 namespace plumescout {
 namespace {
-
-std::vector<Cell> PlacesOfRobots(const Belief& belief) {
-  std::vector<Cell> cells;
-  const auto add = [&](Point2 place) {
-    const Cell cell = belief.geometry().CellAt(place);
-    if (belief.geometry().Contains(cell)) cells.push_back(cell);
-  };
-  for (const auto& [id, record] : belief.robots) {
-    if (record.state.has_pose) add(record.state.pose.position());
-    if (record.first_place) add(*record.first_place);
-  }
-  return cells;
-}
 
 bool IsGivenUp(const Frontier& frontier, const Belief& belief) {
   const Point2 place = belief.geometry().Center(frontier.goal_cell);

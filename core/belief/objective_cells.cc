@@ -152,4 +152,13 @@ ObjectiveCells JudgeCells(const Belief& belief, const Grid<std::uint8_t>& counte
   return Judge(belief, counted).Run();
 }
 
+ObjectiveVerdict VerdictOf(const ObjectiveCells& cells, ObjectiveKind kind, std::size_t cell) {
+  const float margin = cells.margin[cell];
+  if (std::isnan(margin)) return ObjectiveVerdict::kDoesNotCount;
+  if (margin == kNotMeasured) return ObjectiveVerdict::kNotMeasured;
+  if (margin >= cells.needed) return ObjectiveVerdict::kDecided;
+  const bool is_refuted = kind == ObjectiveKind::kConfirmClean && margin <= -cells.needed;
+  return is_refuted ? ObjectiveVerdict::kRefuted : ObjectiveVerdict::kUndecided;
+}
+
 }  // namespace plumescout

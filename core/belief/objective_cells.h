@@ -8,6 +8,7 @@
 
 #include "core/belief/belief.h"
 #include "core/types/grid.h"
+#include "core/types/objective.h"
 
 namespace plumescout {
 
@@ -36,5 +37,8 @@ struct ObjectiveCells {
 // Of the cells that are not 0 in `counted`. REQUIRES: the objective is not kCompleteMap; all
 // rasters share one geometry. Cost: O(cells), and for a map above the threshold times radius_m.
 ObjectiveCells JudgeCells(const Belief& belief, const Grid<std::uint8_t>& counted);
+
+// What they say of one. `kind` is that of the objective.
+ObjectiveVerdict VerdictOf(const ObjectiveCells& cells, ObjectiveKind kind, std::size_t cell);
 
 }  // namespace plumescout

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/types/cell_state.h"
+#include "core/types/objective.h"
 
 namespace plumescout {
 
@@ -25,6 +26,9 @@ struct GasAtPlace {
   std::optional<double> variance_ppm2;
   bool observed = false;  // the variance is below that which gas frontiers count as observed
   std::optional<NearestReading> nearest_reading = std::nullopt;  // none: no reading yet
+  // How the objective stands there; none: nobody asked, there is no objective, or it is off the
+  // map.
+  std::optional<ObjectiveVerdict> verdict = std::nullopt;
 };
 
 }  // namespace plumescout

@@ -95,6 +95,14 @@ struct GasStatus {
   friend bool operator==(const GasStatus&, const GasStatus&) = default;
 };
 
+// How much of the ground that robots can reach, as far as it is mapped, is known of the first gas.
+struct Completeness {
+  double reachable_area_m2 = 0.0;
+  double observed_area_m2 = 0.0;  // of that: where variances count as observed
+
+  friend bool operator==(const Completeness&, const Completeness&) = default;
+};
+
 // Everything on a map at one revision but its rasters. What it says of gas is of the first one.
 struct MapStatus {
   std::int64_t revision = 0;
@@ -110,6 +118,7 @@ struct MapStatus {
   MissionPhase phase = MissionPhase::kExploring;
   std::optional<ObjectiveStatus> objective;  // none: a complete map
   std::string objective_explanation;         // that in a sentence; empty: none
+  Completeness completeness;
 };
 
 // The rasters of one gas. Off the free cells they are NaN.

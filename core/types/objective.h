@@ -18,6 +18,15 @@ enum class ObjectiveState {
   kCannotBeMet,  // the mission has ended without either
 };
 
+// What is known of one cell.
+enum class ObjectiveVerdict {
+  kDoesNotCount,  // no robot can reach it, or it lies at an edge
+  kNotMeasured,
+  kUndecided,
+  kDecided,  // what the objective says of it is so, with the confidence
+  kRefuted,  // it is not so, with the confidence
+};
+
 // How far a mission has come with its objective, by its latest assessment.
 struct ObjectiveStatus {
   ObjectiveState state = ObjectiveState::kPursued;

@@ -104,6 +104,14 @@ constexpr Row<ObjectiveState, v1::ObjectiveStatus::State> kObjectiveStates[] = {
     {ObjectiveState::kCannotBeMet, v1::ObjectiveStatus::STATE_CANNOT_BE_MET},
 };
 
+constexpr Row<ObjectiveVerdict, v1::ObjectiveVerdict> kObjectiveVerdicts[] = {
+    {ObjectiveVerdict::kDoesNotCount, v1::OBJECTIVE_VERDICT_DOES_NOT_COUNT},
+    {ObjectiveVerdict::kNotMeasured, v1::OBJECTIVE_VERDICT_NOT_MEASURED},
+    {ObjectiveVerdict::kUndecided, v1::OBJECTIVE_VERDICT_UNDECIDED},
+    {ObjectiveVerdict::kDecided, v1::OBJECTIVE_VERDICT_DECIDED},
+    {ObjectiveVerdict::kRefuted, v1::OBJECTIVE_VERDICT_REFUTED},
+};
+
 constexpr Row<WgfdScope, v1::WgfdScope> kWgfdScopes[] = {
     {WgfdScope::kReachable, v1::WGFD_SCOPE_REACHABLE},
     {WgfdScope::kLocal, v1::WGFD_SCOPE_LOCAL},
@@ -185,6 +193,7 @@ v1::GasScale ToProto(GasScale value) { return Find(kGasScales, value); }
 v1::GasPrecisions ToProto(GasPrecisions value) { return Find(kGasPrecisions, value); }
 v1::ObjectiveKind ToProto(ObjectiveKind value) { return Find(kObjectiveKinds, value); }
 v1::ObjectiveStatus::State ToProto(ObjectiveState value) { return Find(kObjectiveStates, value); }
+v1::ObjectiveVerdict ToProto(ObjectiveVerdict value) { return Find(kObjectiveVerdicts, value); }
 v1::WgfdScope ToProto(WgfdScope value) { return Find(kWgfdScopes, value); }
 v1::GoalPolicy ToProto(GoalPolicy value) { return Find(kGoalPolicies, value); }
 v1::CostKind ToProto(CostKind value) { return Find(kCostKinds, value); }
@@ -232,6 +241,9 @@ absl::StatusOr<ObjectiveKind> FromProto(v1::ObjectiveKind proto, absl::string_vi
 absl::StatusOr<ObjectiveState> FromProto(v1::ObjectiveStatus::State proto,
                                          absl::string_view field) {
   return Find(kObjectiveStates, proto, field);
+}
+absl::StatusOr<ObjectiveVerdict> FromProto(v1::ObjectiveVerdict proto, absl::string_view field) {
+  return Find(kObjectiveVerdicts, proto, field);
 }
 absl::StatusOr<WgfdScope> FromProto(v1::WgfdScope proto, absl::string_view field) {
   return Find(kWgfdScopes, proto, field);

@@ -85,6 +85,7 @@ v1::GasAtPoint ToProto(const GasAtPlace& gas) {
       proto.set_nearest_reading_time_ns(*gas.nearest_reading->time_ns);
     }
   }
+  if (gas.verdict) proto.set_verdict(ToProto(*gas.verdict));
   return proto;
 }
 
@@ -139,6 +140,9 @@ absl::StatusOr<GasAtPlace> FromProto(const v1::GasAtPoint& proto, absl::string_v
     if (proto.has_nearest_reading_time_ns()) {
       gas.nearest_reading->time_ns = proto.nearest_reading_time_ns();
     }
+  }
+  if (proto.verdict() != v1::OBJECTIVE_VERDICT_UNSPECIFIED) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(gas.verdict, FromProto(proto.verdict(), Join(field, "verdict")));
   }
   return gas;
 }

@@ -15,6 +15,7 @@
 #include "proto/convert/keep_out.h"
 #include "proto/convert/names.h"
 #include "proto/convert/objective.h"
+#include "proto/convert/sensor_offset.h"
 
 namespace plumescout {
 namespace {
@@ -87,32 +88,13 @@ absl::Status ReadLists(const v1::MapStatus& proto, absl::string_view field, MapS
   return absl::OkStatus();
 }
 
-absl::StatusOr<SensorOffset> FromProto(const v1::SensorOffset& proto, absl::string_view field) {
-  PLUMESCOUT_ASSIGN_OR_RETURN(const RobotName name,
-                              ParseRobotName(Join(field, "robot"), proto.robot()));
-  PLUMESCOUT_RETURN_IF_ERROR(CheckFinite(Join(field, "offset_ppm"), proto.offset_ppm()));
-  PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative(Join(field, "stddev_ppm"), proto.stddev_ppm()));
-  return SensorOffset{.robot = name.robot,
-                      .sensor = proto.sensor(),
-                      .offset_ppm = proto.offset_ppm(),
-                      .stddev_ppm = proto.stddev_ppm(),
-                      .crossings = proto.crossing_count(),
-                      .estimated = proto.estimated(),
-                      .drifting = proto.drifting(),
-                      .species = proto.species()};
-}
-
-v1::SensorOffset ToProto(const SensorOffset& offset, const MissionId& mission) {
-  v1::SensorOffset proto;
-  proto.set_robot(RobotResource({mission, offset.robot}));
-  proto.set_sensor(offset.sensor);
-  proto.set_offset_ppm(offset.offset_ppm);
-  proto.set_stddev_ppm(offset.stddev_ppm);
-  proto.set_crossing_count(offset.crossings);
-  proto.set_estimated(offset.estimated);
-  proto.set_drifting(offset.drifting);
-  proto.set_species(offset.species);
-  return proto;
+absl::Status ReadCompleteness(const v1::MapStatus& proto, absl::string_view field,
+                              Completeness& completeness) {
+  completeness = {.reachable_area_m2 = proto.reachable_area_m2(),
+                  .observed_area_m2 = proto.observed_area_m2()};
+  PLUMESCOUT_RETURN_IF_ERROR(
+      CheckNotNegative(Join(field, "reachable_area_m2"), completeness.reachable_area_m2));
+  return CheckNotNegative(Join(field, "observed_area_m2"), completeness.observed_area_m2);
 }
 
 absl::Status ReadLayers(const google::protobuf::RepeatedField<int>& layers, MapView& view) {
@@ -308,6 +290,8 @@ v1::MapStatus ToProto(const MapStatus& status, const GridGeometry& geometry,
   }
   *proto.mutable_keep_out() = ToProto(status.keep_out);
   proto.set_phase(ToProto(status.phase));
+  proto.set_reachable_area_m2(status.completeness.reachable_area_m2);
+  proto.set_observed_area_m2(status.completeness.observed_area_m2);
   if (status.objective) {
     *proto.mutable_objective() = ToProto(*status.objective);
     proto.mutable_objective()->set_explanation(status.objective_explanation);
@@ -322,6 +306,7 @@ absl::StatusOr<MapStatus> FromProto(const v1::MapStatus& proto, absl::string_vie
   PLUMESCOUT_RETURN_IF_ERROR(
       CheckFinite(Join(field, "gas_threshold_ppm"), proto.gas_threshold_ppm()));
   map.gas_threshold_ppm = proto.gas_threshold_ppm();
+  PLUMESCOUT_RETURN_IF_ERROR(ReadCompleteness(proto, field, map.completeness));
   map.gas_counters = FromProto(proto.gas_counters());
   map.gas_quality = FromProto(proto.gas_quality());
   map.gas_audits = AuditsFromProto(proto.gas_quality());

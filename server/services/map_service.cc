@@ -79,8 +79,9 @@ absl::Status MapService::Query(const v1::QueryGasRequest& request, v1::QueryGasR
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::size_t species,
                               SpeciesFromProto(request.species(), host->options(), "species"));
   PLUMESCOUT_RETURN_IF_ERROR(CheckNotNegative("revision", static_cast<double>(request.revision())));
-  const auto answer = [response, species, points = std::move(points)](const Belief& belief) {
-    for (const GasAtPlace& gas : plumescout::QueryGas(belief, points, species)) {
+  const auto answer = [response, species, with_verdicts = request.with_verdicts(),
+                       points = std::move(points)](const Belief& belief) {
+    for (const GasAtPlace& gas : plumescout::QueryGas(belief, points, species, with_verdicts)) {
       *response->add_gas() = ToProto(gas);
     }
     const GasField field = belief.Gas(species);

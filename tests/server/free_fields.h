@@ -40,6 +40,7 @@ inline std::set<std::string> BoolFields() {
       "GetMapRequest.full_precision",
       "GetMapRequest.fresh_posterior",
       "QueryGasRequest.fresh_posterior",
+      "QueryGasRequest.with_verdicts",
       "WatchMapRequest.full_precision",
   };
 }

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "core/frontier/gas_frontier.h"
+#include "tests/support/measured_hall.h"
 
 namespace plumescout {
 namespace gas_query_test {
@@ -114,6 +115,23 @@ TEST(QueryGas, TellsTheNearestReadingWhereverItIsAsked) {
     EXPECT_NEAR(answers[i].nearest_reading->distance_m, distances_m[i], 1e-12);
     EXPECT_EQ(answers[i].nearest_reading->time_ns, 34);
   }
+}
+
+TEST(QueryGas, TellsHowTheObjectiveStandsIfItIsAsked) {
+  support::MeasuredHall hall(support::Objective(ObjectiveKind::kConfirmClean, 0.0));
+  hall.Forget({3, 3});
+  const std::vector<Point2> places = {hall.Center({3, 3}), hall.Center({7, 7}), {-9.0, -9.0}};
+  const auto answers = QueryGas(hall.belief, places, 0, /*with_verdicts=*/true);
+  ASSERT_EQ(answers.size(), 3u);
+  EXPECT_EQ(answers[0].verdict, ObjectiveVerdict::kNotMeasured);
+  EXPECT_EQ(answers[1].verdict, ObjectiveVerdict::kDecided);
+  EXPECT_EQ(answers[2].verdict, std::nullopt);  // off the map
+  EXPECT_EQ(QueryGas(hall.belief, places)[1].verdict, std::nullopt);
+}
+
+TEST(QueryGas, AMissionWithoutAnObjectiveHasNoVerdicts) {
+  const support::MeasuredHall hall(ObjectiveOptions{});
+  EXPECT_EQ(QueryGas(hall.belief, {hall.Center({7, 7})}, 0, true)[0].verdict, std::nullopt);
 }
 
 TEST(QueryGas, OfNothingIsNothing) { EXPECT_TRUE(QueryGas(Row(), {}).empty()); }

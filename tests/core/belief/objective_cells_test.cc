@@ -91,6 +91,24 @@ TEST(JudgeCells, ASourceIsThePlaceThatIsSurelyTheStrongest) {
   EXPECT_LT((cells.margin[Cell{3, 3}]), 0.0F);
 }
 
+TEST(VerdictOf, TellsWhatBecameOfACell) {
+  MeasuredHall hall(Objective(ObjectiveKind::kConfirmClean, 0.0));
+  hall.Set({4, 4}, 16.0F, 4.0F);
+  hall.Set({5, 5}, 9.0F, 4.0F);
+  hall.Forget({3, 3});
+  const auto verdict = [&](ObjectiveKind kind, Cell cell) {
+    return VerdictOf(Judged(hall), kind, hall.belief.geometry().Index(cell));
+  };
+  constexpr ObjectiveKind kClean = ObjectiveKind::kConfirmClean;
+  EXPECT_EQ(verdict(kClean, {7, 7}), ObjectiveVerdict::kDecided);
+  EXPECT_EQ(verdict(kClean, {4, 4}), ObjectiveVerdict::kRefuted);
+  EXPECT_EQ(verdict(kClean, {5, 5}), ObjectiveVerdict::kUndecided);
+  EXPECT_EQ(verdict(kClean, {3, 3}), ObjectiveVerdict::kNotMeasured);
+  EXPECT_EQ(verdict(kClean, {0, 0}), ObjectiveVerdict::kDoesNotCount);
+  // Less than the strongest place is no refutation of anything.
+  EXPECT_EQ(verdict(ObjectiveKind::kFindSources, {4, 4}), ObjectiveVerdict::kUndecided);
+}
+
 TEST(JudgeCells, WithoutASourceAllIsJudgedByTheThreshold) {
   MeasuredHall hall(Objective(ObjectiveKind::kFindSources));
   hall.Set({10, 5}, 11.0F, 1.0F);  // not surely above

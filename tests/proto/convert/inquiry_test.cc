@@ -137,6 +137,14 @@ TEST(InquiryTest, AnswersComeBackAsTheyWere) {
   EXPECT_TRUE(gas->observed);
   EXPECT_EQ(gas->nearest_reading, (NearestReading{1.5, 7}));
   EXPECT_EQ(FromProto(ToProto(GasAtPlace{}), "gas[0]")->nearest_reading, std::nullopt);
+  EXPECT_EQ(FromProto(ToProto(GasAtPlace{}), "gas[0]")->verdict, std::nullopt);
+  for (const ObjectiveVerdict verdict :
+       {ObjectiveVerdict::kDoesNotCount, ObjectiveVerdict::kNotMeasured,
+        ObjectiveVerdict::kUndecided, ObjectiveVerdict::kDecided, ObjectiveVerdict::kRefuted}) {
+    GasAtPlace judged_place;
+    judged_place.verdict = verdict;
+    EXPECT_EQ(FromProto(ToProto(judged_place), "gas[0]")->verdict, verdict);
+  }
 }
 
 TEST(InquiryTest, AnswersThatCannotBeReadAreBlamedOnTheirField) {

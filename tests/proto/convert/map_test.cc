@@ -33,6 +33,7 @@ MapSnapshot TestMap() {
   map.gas_threshold_ppm = 2.5;
   map.objective = ObjectiveStatus{.state = ObjectiveState::kMet, .confidence = 0.97};
   map.objective_explanation = "Clean.";
+  map.completeness = {.reachable_area_m2 = 12.5, .observed_area_m2 = 7.25};
   map.frontiers = {{FrontierKind::kGas, {{1, 2}, {2, 3}}, {0.1, 0.2}, {2, 2}, 3.5, true, false},
                    {FrontierKind::kOccupancy, {{9, 9}}, {1.0, 2.0}, {}, 0.0, false, true}};
   map.robots = {{"r1", 0.25, true, {1.0, 2.0, 0.5}, 40, 2}, {"r2", 0.2, false, {}, 0, 0, true}};
@@ -83,6 +84,7 @@ TEST(MapTest, MapSurvivesTheRoundTripInFullPrecision) {
   EXPECT_EQ(back->gas_threshold_ppm, map.gas_threshold_ppm);
   EXPECT_EQ(back->objective, map.objective);
   EXPECT_EQ(back->objective_explanation, "Clean.");
+  EXPECT_EQ(back->completeness, map.completeness);
   EXPECT_EQ(back->robots, map.robots);
   EXPECT_EQ(back->gas_counters, map.gas_counters);
   EXPECT_EQ(back->gas_quality, map.gas_quality);
@@ -219,6 +221,9 @@ TEST(MapTest, WhatAReaderAllocatesByIsChecked) {
        [](auto& m) { m.mutable_status()->mutable_geometry()->set_row_count(1'000'000'000); }},
       {"status.gas_threshold_ppm",
        [](auto& m) { m.mutable_status()->set_gas_threshold_ppm(kNan); }},
+      {"status.reachable_area_m2",
+       [](auto& m) { m.mutable_status()->set_reachable_area_m2(-1.0); }},
+      {"status.observed_area_m2", [](auto& m) { m.mutable_status()->set_observed_area_m2(kNan); }},
       {"status.phase", [](auto& m) { m.mutable_status()->clear_phase(); }},
       {"status.frontiers[0].kind",
        [](auto& m) {
