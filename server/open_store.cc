@@ -10,8 +10,13 @@
 
 namespace plumescout::server {
 
-absl::StatusOr<std::unique_ptr<MissionStore>> OpenStore(const StoreConfig& config) {
+absl::StatusOr<std::unique_ptr<MissionStore>> OpenStore(const StoreConfig& config,
+                                                        const std::string&) {
   if (config.engine == kNoStore) return nullptr;
+  if (config.engine == kPostgresqlStore) {
+    return absl::InvalidArgumentError(
+        "store.engine = postgresql: PostgreSQL is not built in, this server is built without it");
+  }
   StoreOptions options;
   PLUMESCOUT_ASSIGN_OR_RETURN(options.folder, StoreFolder(config));
   options.slow_commit = absl::Seconds(config.slow_commit_s);

@@ -37,6 +37,14 @@ TEST(OpenStoreTest, SqliteIsInTheFolder) {
   EXPECT_EQ((*again)->List()->size(), 1U);
 }
 
+TEST(OpenStoreTest, ADatabaseNeedsAServerThatIsBuiltForIt) {
+  StoreConfig config;
+  config.engine = kPostgresqlStore;
+  const absl::Status refused = OpenStore(config).status();
+  EXPECT_TRUE(absl::IsInvalidArgument(refused)) << refused;
+  EXPECT_THAT(std::string(refused.message()), testing::HasSubstr("PostgreSQL is not built in"));
+}
+
 TEST(OpenStoreTest, AFolderThatCannotBeMadeIsAnErrorThatNamesIt) {
   StoreConfig config;
   config.engine = kSqliteStore;
