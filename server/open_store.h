@@ -11,6 +11,9 @@
 
 namespace plumescout::server {
 
+// Whether this server was built with what store.engine = postgresql needs.
+bool HasPostgresql();
+
 // The store that the configuration asks for; null for none. An error names the folder, and what is
 // wrong with it: no rights, another server in it, a newer format, another program's files. Of a
 // database it names the host, never the password. `listen`: where others reach this server, if

@@ -240,7 +240,20 @@ absl::Status Validate(const ConsoleConfig& console) {
       .status();
 }
 
-constexpr std::size_t kMaxNodeName = 63;
+constexpr std::size_t kMaxWord = 63;
+
+absl::Status ValidateWord(absl::string_view option, const std::string& value,
+                          absl::string_view how) {
+  const bool is_word =
+      !value.empty() && value.size() <= kMaxWord &&
+      std::all_of(value.begin(), value.end(), [](char c) {
+        return absl::ascii_isalnum(static_cast<unsigned char>(c)) || absl::StrContains("._-", c);
+      });
+  if (is_word) return absl::OkStatus();
+  return Refuse(option, value,
+                absl::StrCat("a word of 1 to ", kMaxWord,
+                             " letters, digits, dots, dashes and underscores", how));
+}
 
 // Of a database that servers share.
 absl::Status ValidateShared(const StoreConfig& store) {
@@ -249,15 +262,8 @@ absl::Status ValidateShared(const StoreConfig& store) {
     return absl::InvalidArgumentError(
         "store.url must be postgresql://user@host:port/database for store.engine = postgresql");
   }
-  const bool is_word =
-      !store.node.empty() && store.node.size() <= kMaxNodeName &&
-      std::all_of(store.node.begin(), store.node.end(), [](char c) {
-        return absl::ascii_isalnum(static_cast<unsigned char>(c)) || absl::StrContains("._-", c);
-      });
-  if (is_word) return absl::OkStatus();
-  return Refuse("store.node", store.node,
-                absl::StrCat("a word of 1 to ", kMaxNodeName,
-                             " letters, digits, dots, dashes and underscores (--node)"));
+  PLUMESCOUT_RETURN_IF_ERROR(ValidateWord("store.node", store.node, " (--node)"));
+  return ValidateWord("store.cluster", store.cluster, "");
 }
 
 absl::Status Validate(const StoreConfig& store) {

@@ -123,7 +123,8 @@ struct StoreConfig {
   std::string url = "";   // may hold a password: it goes into no log and no message
   std::string node = "";  // a word
   double lease_s = 10.0;
-  std::string advertise = "";  // empty: ServerConfig::listen
+  std::string advertise = "";          // empty: ServerConfig::listen
+  std::string cluster = "plumescout";  // a word
 };
 
 // Everything that can be set, by file or flag: the fields of plumescout.config.v1.ServerConfig,

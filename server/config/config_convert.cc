@@ -102,6 +102,7 @@ void Visit(OneOf<StoreConfig> auto& store, auto& field) {
   field("node", store.node);
   field("lease_s", store.lease_s);
   field("advertise", store.advertise);
+  field("cluster", store.cluster);
 }
 
 void Visit(OneOf<ConsoleConfig> auto& console, auto& field) {
