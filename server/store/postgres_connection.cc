@@ -160,7 +160,8 @@ absl::StatusOr<std::unique_ptr<PostgresConnection>> PostgresConnection::Open(
   const SteadyTime limit = After(SteadyNow(), timeout);
   PGconn* const link = PQconnectStart(url.c_str());
   if (link == nullptr) return StoreUnavailable(absl::StrCat(name, ": no memory"));
-  PQsetNoticeProcessor(link, [](void*, const char*) {}, nullptr);  // else it writes to stderr
+  PQsetNoticeProcessor(
+      link, [](void*, const char*) {}, nullptr);  // else it writes to stderr
   auto connection = absl::WrapUnique(new PostgresConnection(link, name));
   PLUMESCOUT_RETURN_IF_ERROR(connection->FinishOpening(limit));
   // Whatever the database is set to, a commit is one when it is on the disk, and what we have given
@@ -235,9 +236,9 @@ absl::Status PostgresConnection::Send(const PostgresStatement& statement) {
     lengths.push_back(static_cast<int>(value.size()));
   }
   const std::vector<int> formats(values.size(), kBinary);
-  const int sent = PQsendQueryParams(connection_, statement.sql_.c_str(), static_cast<int>(values.size()),
-                                     statement.types_.data(), values.data(), lengths.data(),
-                                     formats.data(), kBinary);
+  const int sent = PQsendQueryParams(connection_, statement.sql_.c_str(),
+                                     static_cast<int>(values.size()), statement.types_.data(),
+                                     values.data(), lengths.data(), formats.data(), kBinary);
   return sent == 1 ? absl::OkStatus() : LinkError();
 }
 
@@ -294,7 +295,8 @@ absl::Status PostgresConnection::Await(bool to_write, SteadyTime limit) {
     }
     pollfd link = {PQsocket(connection_), events, 0};
     if (link.fd < 0) return LinkError();
-    const std::int64_t left_ms = std::min<std::int64_t>(absl::ToInt64Milliseconds(left) + 1, 60'000);
+    const std::int64_t left_ms =
+        std::min<std::int64_t>(absl::ToInt64Milliseconds(left) + 1, 60'000);
     const int ready = poll(&link, 1, static_cast<int>(left_ms));
     if (ready > 0) return absl::OkStatus();
     if (ready < 0 && errno != EINTR) {

@@ -61,10 +61,10 @@ class PostgresRows {
 
 // A connection to a database in PostgreSQL. Single-threaded. Every wait has an end.
 //
-// Errors name host and database, never what else an URL holds. kUnavailable (STORE_UNAVAILABLE): the
-// database is away, full, read-only or slow, worth another try on a new connection; whether it did
-// what it was asked to is uncertain. kDataLoss (STORE_DAMAGED): it says so itself, or lacks a table.
-// kPermissionDenied, kFailedPrecondition: it does not let this user in, or there is none.
+// Errors name host and database, never what else an URL holds. kUnavailable (STORE_UNAVAILABLE):
+// the database is away, full, read-only or slow, worth another try on a new connection; whether it
+// did what it was asked to is uncertain. kDataLoss (STORE_DAMAGED): it says so itself, or lacks a
+// table. kPermissionDenied, kFailedPrecondition: it does not let this user in, or there is none.
 // kInternal: others, which do not go away by themselves. After an error it is of no use any more.
 class PostgresConnection {
  public:

@@ -62,9 +62,9 @@ absl::Status PostgresEngine::CommitConnected(std::span<StoreWrite> writes) {
   }
   for (int round = 0; !left.empty(); ++round) {
     if (round == kMaxRounds) {
-      return StoreUnavailable(absl::StrCat(
-          connection_->name(), ": mission ", absl::CHexEscape(left.front()->key),
-          " is changed by others all the time, or this node's lease has run out"));
+      return StoreUnavailable(
+          absl::StrCat(connection_->name(), ": mission ", absl::CHexEscape(left.front()->key),
+                       " is changed by others all the time, or this node's lease has run out"));
     }
     PLUMESCOUT_RETURN_IF_ERROR(CommitRound(left, round == 0));
   }
@@ -142,8 +142,8 @@ absl::Status PostgresEngine::Plan(Round& round, StoreWrite& write) {
     return PlanCreate(round, write, shared.has_value() ? &*shared : nullptr);
   }
   if (!shared.has_value()) {
-    const bool is_done = write.kind == Kind::kUndoCreate ||
-                         (write.kind == Kind::kRemove && write.tried);
+    const bool is_done =
+        write.kind == Kind::kUndoCreate || (write.kind == Kind::kRemove && write.tried);
     if (!is_done || absl::IsDataLoss(missing)) Refuse(round, write, missing);
     return absl::OkStatus();
   }
@@ -307,9 +307,8 @@ absl::Status PostgresEngine::PlanTrim(Round& round, StoreWrite& write, const Sha
   const std::int64_t numbers[] = {last};
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<std::uint32_t> chains,
                               SharedChainsAt(*connection_, shared.row, numbers));
-  PLUMESCOUT_ASSIGN_OR_RETURN(
-      const std::int64_t bytes,
-      SharedRecordBytes(*connection_, shared.row, shared.row.base, last));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::int64_t bytes,
+                              SharedRecordBytes(*connection_, shared.row, shared.row.base, last));
   SharedRow after = Next(shared);
   after.row.base = last;
   after.row.base_chain = chains[0];
@@ -342,19 +341,19 @@ absl::Status PostgresEngine::DoChore() {
         ->Run(PostgresStatement("UPDATE plumescout_probe SET count = count + 1"), kCommitTimeout)
         .status();
   }
-  // Records of missions that were removed, then those that were trimmed. Other servers may be at it.
+  // Records of missions that were removed, then those that were trimmed. Other servers may be at
+  // it.
   std::vector<PostgresStatement> statements;
-  for (const char* of :
-       {"plumescout_removed p JOIN plumescout_record r ON r.mission = p.mission",
-        "plumescout_progress p JOIN plumescout_record r "
-        "ON r.mission = p.mission AND r.number <= p.base"}) {
+  for (const char* of : {"plumescout_removed p JOIN plumescout_record r ON r.mission = p.mission",
+                         "plumescout_progress p JOIN plumescout_record r "
+                         "ON r.mission = p.mission AND r.number <= p.base"}) {
     statements
-        .emplace_back(absl::StrCat(
-            "WITH next AS (SELECT r.mission, r.number FROM ", of,
-            " LIMIT $1 FOR UPDATE OF r SKIP LOCKED), "
-            "gone AS (DELETE FROM plumescout_record r USING next "
-            "WHERE r.mission = next.mission AND r.number = next.number RETURNING 1) "
-            "SELECT count(*) FROM gone"))
+        .emplace_back(
+            absl::StrCat("WITH next AS (SELECT r.mission, r.number FROM ", of,
+                         " LIMIT $1 FOR UPDATE OF r SKIP LOCKED), "
+                         "gone AS (DELETE FROM plumescout_record r USING next "
+                         "WHERE r.mission = next.mission AND r.number = next.number RETURNING 1) "
+                         "SELECT count(*) FROM gone"))
         .Bind(kPurgedRecords);
   }
   statements.emplace_back(

@@ -27,9 +27,10 @@ struct PostgresEngineOptions {
   std::function<std::int64_t()> lease;
 };
 
-// Writes to a database in PostgreSQL that other servers write to, too. A batch is one round trip and
-// one transaction. It is made of what this engine remembers of its missions; each statement does
-// nothing if its mission is not so any more, and then it is made again of what the database says.
+// Writes to a database in PostgreSQL that other servers write to, too. A batch is one round trip
+// and one transaction. It is made of what this engine remembers of its missions; each statement
+// does nothing if its mission is not so any more, and then it is made again of what the database
+// says.
 class PostgresEngine final : public WriteEngine {
  public:
   explicit PostgresEngine(PostgresEngineOptions options) : options_(std::move(options)) {}
@@ -59,7 +60,8 @@ class PostgresEngine final : public WriteEngine {
   // Rows that are not remembered, or must not be believed.
   absl::Status LoadRows(const std::vector<StoreWrite*>& writes, bool is_first);
 
-  // An error is that of the connection, or of this write alone; what it asks in vain is its `result`.
+  // An error is that of the connection, or of this write alone; what it asks in vain is its
+  // `result`.
   absl::Status Plan(Round& round, StoreWrite& write);
   absl::Status PlanFor(Round& round, StoreWrite& write, const SharedRow& shared);
   absl::Status PlanCreate(Round& round, StoreWrite& write, const SharedRow* shared);
@@ -77,8 +79,8 @@ class PostgresEngine final : public WriteEngine {
   absl::Status DoChore();
 
   const PostgresEngineOptions options_;
-  std::unique_ptr<PostgresConnection> connection_;  // null after an error
-  std::map<std::string, SharedRow> known_;          // of missions that are written
+  std::unique_ptr<PostgresConnection> connection_;          // null after an error
+  std::map<std::string, SharedRow> known_;                  // of missions that are written
   std::map<std::string, absl::StatusOr<SharedRow>> fresh_;  // of this round, as just read
   bool has_chores_ = true;                                  // until none is found
 };

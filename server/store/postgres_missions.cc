@@ -31,7 +31,8 @@ constexpr absl::string_view kMoved =
     "RETURNING mission)";
 
 // kMoved and what is done beside it, with $1 to $14 bound.
-PostgresStatement Moving(absl::string_view beside, const MissionRow& before, const MissionRow& after) {
+PostgresStatement Moving(absl::string_view beside, const MissionRow& before,
+                         const MissionRow& after) {
   PostgresStatement statement(absl::StrCat(kMoved, beside, " SELECT count(*) FROM moved"));
   statement.Bind(before.id).Bind(before.epoch).Bind(before.head).Bind(before.writes);
   statement.Bind(RowChecksum(before));
@@ -91,16 +92,16 @@ absl::StatusOr<std::map<std::string, absl::StatusOr<SharedRow>>> LoadSharedRows(
 
 namespace {
 
-// The mission's row with header and standing, its snapshots, and the checksum of its last record, of
-// one state of the database.
+// The mission's row with header and standing, its snapshots, and the checksum of its last record,
+// of one state of the database.
 std::vector<PostgresStatement> MissionStatements(const std::string& key) {
   std::vector<PostgresStatement> statements;
   statements.emplace_back("BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY");
   statements
-      .emplace_back(absl::StrCat(
-          kRow, ", m.header, m.crc, s.bytes, r.crc", kFromMissions,
-                    "LEFT JOIN plumescout_record r ON r.mission = m.id AND r.number = p.head "
-                    "WHERE m.key = $1"))
+      .emplace_back(
+          absl::StrCat(kRow, ", m.header, m.crc, s.bytes, r.crc", kFromMissions,
+                       "LEFT JOIN plumescout_record r ON r.mission = m.id AND r.number = p.head "
+                       "WHERE m.key = $1"))
       .BindBytes(key);
   statements
       .emplace_back(
@@ -215,8 +216,9 @@ absl::StatusOr<std::vector<std::pair<std::int64_t, std::int64_t>>> SharedSnapsho
   return sizes;
 }
 
-absl::StatusOr<std::int64_t> SharedRecordBytes(PostgresConnection& connection, const MissionRow& row,
-                                               std::int64_t after, std::int64_t last) {
+absl::StatusOr<std::int64_t> SharedRecordBytes(PostgresConnection& connection,
+                                               const MissionRow& row, std::int64_t after,
+                                               std::int64_t last) {
   PostgresStatement statement(
       "SELECT coalesce(sum(octet_length(bytes)), 0)::bigint FROM plumescout_record "
       "WHERE mission = $1 AND number > $2 AND number <= $3");

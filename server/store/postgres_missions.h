@@ -31,8 +31,8 @@ struct SharedMission {
   AcquiredMission known;
 };
 
-// Reading. Whatever has a checksum is checked: kDataLoss, naming database and row. Other errors as of
-// PostgresConnection. What one call reads is of a single state of the database.
+// Reading. Whatever has a checksum is checked: kDataLoss, naming database and row. Other errors as
+// of PostgresConnection. What one call reads is of a single state of the database.
 
 // Of those of the keys that there are; kDataLoss in place of a row that is damaged.
 absl::StatusOr<std::map<std::string, absl::StatusOr<SharedRow>>> LoadSharedRows(
@@ -51,13 +51,14 @@ absl::StatusOr<std::vector<std::uint32_t>> SharedChainsAt(PostgresConnection& co
 absl::StatusOr<std::vector<std::pair<std::int64_t, std::int64_t>>> SharedSnapshotSizes(
     PostgresConnection& connection, const MissionRow& row);
 // Of the records after the first, up to the last.
-absl::StatusOr<std::int64_t> SharedRecordBytes(PostgresConnection& connection, const MissionRow& row,
-                                               std::int64_t after, std::int64_t last);
+absl::StatusOr<std::int64_t> SharedRecordBytes(PostgresConnection& connection,
+                                               const MissionRow& row, std::int64_t after,
+                                               std::int64_t last);
 absl::StatusOr<std::int64_t> NextSharedId(PostgresConnection& connection);
 
-// Writing. Each statement does what it says only if the mission's row still is `before`, epoch, head
-// and all, and then makes it `after`; it gives one number: 1, or 0 if it was another and nothing was
-// done. `after` has its writes counted up. Who becomes the owner must hold its lease.
+// Writing. Each statement does what it says only if the mission's row still is `before`, epoch,
+// head and all, and then makes it `after`; it gives one number: 1, or 0 if it was another and
+// nothing was done. `after` has its writes counted up. Who becomes the owner must hold its lease.
 
 PostgresStatement CreateStatement(const MissionRow& made, const std::string& header,
                                   std::int64_t owner);
@@ -71,8 +72,8 @@ PostgresStatement StandingStatement(const MissionRow& before, const MissionRow& 
 PostgresStatement SnapshotStatement(const MissionRow& before, const MissionRow& after,
                                     const StoredSnapshot& snapshot,
                                     std::span<const std::int64_t> leaving);
-// Forgets a node whose lease has run out. It cannot be renewed any more then; one that is being renewed
-// just now is waited for.
+// Forgets a node whose lease has run out. It cannot be renewed any more then; one that is being
+// renewed just now is waited for.
 PostgresStatement ForgetStatement(std::int64_t lease);
 PostgresStatement SaveStatement(const MissionRow& before, const MissionRow& after);
 PostgresStatement RemoveStatement(const MissionRow& before);

@@ -21,8 +21,7 @@ constexpr double kMargin = 0.1;  // of a lease: a node takes it for lost so much
 absl::Status NameTaken(const std::string& database, const StoreNode& self,
                        const std::string& address) {
   return absl::FailedPreconditionError(absl::StrCat(database, ": store.node = ", self.name,
-                                                    " is another server that lives, at ",
-                                                    address));
+                                                    " is another server that lives, at ", address));
 }
 
 }  // namespace
@@ -52,7 +51,8 @@ PostgresNodes::~PostgresNodes() {
 absl::Status PostgresNodes::Connect() {
   if (connection_ != nullptr && !connection_->is_broken()) return absl::OkStatus();
   // A lease is over before an answer comes that takes longer.
-  const absl::Duration timeout = std::clamp(options_.lease / 2, absl::Milliseconds(500), kAskTimeout);
+  const absl::Duration timeout =
+      std::clamp(options_.lease / 2, absl::Milliseconds(500), kAskTimeout);
   connection_ = nullptr;
   PLUMESCOUT_ASSIGN_OR_RETURN(auto opened, PostgresConnection::Open(options_.url, timeout));
   PLUMESCOUT_RETURN_IF_ERROR(CheckSameStore(*opened, options_.store));
@@ -66,7 +66,8 @@ absl::StatusOr<std::optional<PostgresNodes::Holder>> PostgresNodes::TryJoin(std:
   std::vector<PostgresStatement> statements;
   statements
       .emplace_back(
-          "DELETE FROM plumescout_node WHERE id = $1 OR (name = $2 AND expires <= clock_timestamp())")
+          "DELETE FROM plumescout_node WHERE id = $1 OR (name = $2 AND expires <= "
+          "clock_timestamp())")
       .Bind(old)
       .BindText(options_.self.name);
   statements
@@ -105,8 +106,8 @@ absl::Status PostgresNodes::JoinAtStart() {
     PLUMESCOUT_ASSIGN_OR_RETURN(const std::optional<Holder> holder, TryJoin(0));
     if (!holder.has_value()) return absl::OkStatus();
     const bool is_new = !first.has_value() || holder->lease == 0;
-    const bool is_renewed = !is_new && (holder->lease != first->lease ||
-                                        holder->expires_us != first->expires_us);
+    const bool is_renewed =
+        !is_new && (holder->lease != first->lease || holder->expires_us != first->expires_us);
     const bool is_long = holder->left > 2 * options_.lease + absl::Seconds(1);
     if (is_renewed || is_long) {
       return NameTaken(connection_->name(), options_.self, holder->address);
@@ -138,9 +139,8 @@ absl::Status PostgresNodes::Renew() {
   const absl::Duration timeout = std::max(options_.lease / 2, absl::Milliseconds(250));
   PLUMESCOUT_ASSIGN_OR_RETURN(const PostgresRows rows, connection_->Run(statement, timeout));
   if (rows.count() == 0) {
-    return absl::AbortedError(
-        absl::StrCat(connection_->name(), ": the lease of node ", options_.self.name,
-                     " has run out"));
+    return absl::AbortedError(absl::StrCat(connection_->name(), ": the lease of node ",
+                                           options_.self.name, " has run out"));
   }
   Hold(own, begin);
   return absl::OkStatus();
@@ -223,6 +223,7 @@ absl::StatusOr<std::optional<std::string>> PostgresNodes::FindOwner(const std::s
 }
 
 absl::Status PostgresNodes::Release(const std::string& key, std::int64_t epoch) {
+  if (lease() == 0) return status();  // nothing is this node's any more
   PLUMESCOUT_ASSIGN_OR_RETURN(const PostgresPool::Loan connection, pool_->Take());
   std::vector<PostgresStatement> statements;
   statements

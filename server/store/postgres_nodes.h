@@ -33,12 +33,13 @@ struct PostgresNodeOptions {
 };
 
 // The servers that share a database, each a row with the time at which its lease runs out, by the
-// clock of the database. A thread renews it four times a lease, over a connection of its own, so that
-// no long commit is in its way.
+// clock of the database. A thread renews it four times a lease, over a connection of its own, so
+// that no long commit is in its way.
 class PostgresNodes final : public StoreNodes {
  public:
-  // Joins. Waits for the lease of a node of that name to run out, as a server that was killed leaves
-  // one behind. kFailedPrecondition, naming the other's address, if that node lives; kUnavailable.
+  // Joins. Waits for the lease of a node of that name to run out, as a server that was killed
+  // leaves one behind. kFailedPrecondition, naming the other's address, if that node lives;
+  // kUnavailable.
   static absl::StatusOr<std::unique_ptr<PostgresNodes>> Join(PostgresNodeOptions options,
                                                              std::shared_ptr<PostgresPool> pool);
   // Gives the lease back: what it had is nobody's.
@@ -80,7 +81,7 @@ class PostgresNodes final : public StoreNodes {
   const std::shared_ptr<PostgresPool> pool_;
 
   std::unique_ptr<PostgresConnection> connection_;  // of the thread; null after an error
-  std::int64_t old_lease_ = 0;                      // of the thread: lost, perhaps not forgotten yet
+  std::int64_t old_lease_ = 0;  // of the thread: lost, perhaps not forgotten yet
 
   mutable absl::Mutex mutex_;
   std::int64_t lease_ ABSL_GUARDED_BY(mutex_) = 0;

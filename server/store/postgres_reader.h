@@ -17,8 +17,8 @@
 
 namespace plumescout::server {
 
-// Reads a journal a page of records at a time, and holds a connection only meanwhile. Every record is
-// checked against the chain of those before.
+// Reads a journal a page of records at a time, and holds a connection only meanwhile. Every record
+// is checked against the chain of those before.
 class PostgresReader final : public JournalReader {
  public:
   // As MissionStore::Read.

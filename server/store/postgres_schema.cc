@@ -15,28 +15,30 @@ namespace {
 
 constexpr absl::Duration kTimeout = absl::Seconds(30);
 
-// What changes with every commit (progress) lies apart from what may be large, and with room for the
-// next version of each row in its page. Bodies are compressed or noise already. No id of a mission is
-// given out twice, so that whoever still reads a mission that was removed meets no other.
+// What changes with every commit (progress) lies apart from what may be large, and with room for
+// the next version of each row in its page. Bodies are compressed or noise already. No id of a
+// mission is given out twice, so that whoever still reads a mission that was removed meets no
+// other.
 constexpr const char* kTables[] = {
-    "CREATE TABLE IF NOT EXISTS plumescout_store(format bigint NOT NULL, id bigint NOT NULL, "
-    "cluster text NOT NULL, single boolean PRIMARY KEY DEFAULT true CHECK (single))",
-    "CREATE TABLE IF NOT EXISTS plumescout_node(id bigint PRIMARY KEY, name text NOT NULL UNIQUE, "
-    "address text NOT NULL, expires timestamptz NOT NULL)",
-    "CREATE TABLE IF NOT EXISTS plumescout_mission(id bigint PRIMARY KEY, key bytea NOT NULL UNIQUE, "
-    "header bytea NOT NULL, crc bigint NOT NULL)",
-    "CREATE TABLE IF NOT EXISTS plumescout_progress(mission bigint PRIMARY KEY, "
-    "epoch bigint NOT NULL, head bigint NOT NULL, chain bigint NOT NULL, base bigint NOT NULL, "
-    "base_chain bigint NOT NULL, bytes bigint NOT NULL, standing_crc bigint NOT NULL, "
-    "writes bigint NOT NULL, crc bigint NOT NULL, owner bigint) WITH (fillfactor = 50)",
-    "CREATE TABLE IF NOT EXISTS plumescout_standing(mission bigint PRIMARY KEY, "
-    "bytes bytea NOT NULL)",
-    "CREATE TABLE IF NOT EXISTS plumescout_record(mission bigint, number bigint, "
-    "crc bigint NOT NULL, bytes bytea NOT NULL, PRIMARY KEY(mission, number))",
+    ("CREATE TABLE IF NOT EXISTS plumescout_store(format bigint NOT NULL, id bigint NOT NULL, "
+     "cluster text NOT NULL, single boolean PRIMARY KEY DEFAULT true CHECK (single))"),
+    ("CREATE TABLE IF NOT EXISTS plumescout_node(id bigint PRIMARY KEY, name text NOT NULL UNIQUE, "
+     "address text NOT NULL, expires timestamptz NOT NULL)"),
+    ("CREATE TABLE IF NOT EXISTS plumescout_mission(id bigint PRIMARY KEY, key bytea NOT NULL "
+     "UNIQUE, "
+     "header bytea NOT NULL, crc bigint NOT NULL)"),
+    ("CREATE TABLE IF NOT EXISTS plumescout_progress(mission bigint PRIMARY KEY, "
+     "epoch bigint NOT NULL, head bigint NOT NULL, chain bigint NOT NULL, base bigint NOT NULL, "
+     "base_chain bigint NOT NULL, bytes bigint NOT NULL, standing_crc bigint NOT NULL, "
+     "writes bigint NOT NULL, crc bigint NOT NULL, owner bigint) WITH (fillfactor = 50)"),
+    ("CREATE TABLE IF NOT EXISTS plumescout_standing(mission bigint PRIMARY KEY, "
+     "bytes bytea NOT NULL)"),
+    ("CREATE TABLE IF NOT EXISTS plumescout_record(mission bigint, number bigint, "
+     "crc bigint NOT NULL, bytes bytea NOT NULL, PRIMARY KEY(mission, number))"),
     "ALTER TABLE plumescout_record ALTER COLUMN bytes SET STORAGE EXTERNAL",
-    "CREATE TABLE IF NOT EXISTS plumescout_snapshot(mission bigint, revision bigint, "
-    "digest bigint NOT NULL, crc bigint NOT NULL, bytes bytea NOT NULL, "
-    "PRIMARY KEY(mission, revision))",
+    ("CREATE TABLE IF NOT EXISTS plumescout_snapshot(mission bigint, revision bigint, "
+     "digest bigint NOT NULL, crc bigint NOT NULL, bytes bytea NOT NULL, "
+     "PRIMARY KEY(mission, revision))"),
     "ALTER TABLE plumescout_snapshot ALTER COLUMN bytes SET STORAGE EXTERNAL",
     "CREATE TABLE IF NOT EXISTS plumescout_removed(mission bigint PRIMARY KEY)",
     "CREATE TABLE IF NOT EXISTS plumescout_probe(id bigint PRIMARY KEY, count bigint NOT NULL)",
@@ -49,8 +51,9 @@ constexpr const char* kColumns[] = {
     "mission: id bigint, key bytea, header bytea, crc bigint",
     "node: id bigint, name text, address text, expires timestamp with time zone",
     "probe: id bigint, count bigint",
-    "progress: mission bigint, epoch bigint, head bigint, chain bigint, base bigint, "
-    "base_chain bigint, bytes bigint, standing_crc bigint, writes bigint, crc bigint, owner bigint",
+    ("progress: mission bigint, epoch bigint, head bigint, chain bigint, base bigint, "
+     "base_chain bigint, bytes bigint, standing_crc bigint, writes bigint, crc bigint, owner "
+     "bigint"),
     "record: mission bigint, number bigint, crc bigint, bytes bytea",
     "removed: mission bigint",
     "snapshot: mission bigint, revision bigint, digest bigint, crc bigint, bytes bytea",
@@ -68,10 +71,9 @@ absl::Status IsReadOnly(const std::string& database) {
 absl::StatusOr<bool> HoldsStore(PostgresConnection& connection) {
   PLUMESCOUT_ASSIGN_OR_RETURN(
       const PostgresRows rows,
-      connection.Run(
-          PostgresStatement("SELECT to_regclass('plumescout_store') IS NOT NULL, "
-                            "current_setting('transaction_read_only') = 'on'"),
-          kTimeout));
+      connection.Run(PostgresStatement("SELECT to_regclass('plumescout_store') IS NOT NULL, "
+                                       "current_setting('transaction_read_only') = 'on'"),
+                     kTimeout));
   if (rows.Int(0, 1) != 0) return IsReadOnly(connection.name());
   return rows.Int(0, 0) != 0;
 }
@@ -122,14 +124,13 @@ absl::StatusOr<std::int64_t> OpenSharedSchema(PostgresConnection& connection,
       connection.Run(PostgresStatement("SELECT format, id, cluster FROM plumescout_store"),
                      kTimeout));
   if (rows.count() != 1) {
-    return StoreDamaged(absl::StrCat(connection.name(), ": plumescout_store has ", rows.count(),
-                                     " rows, not 1"));
+    return StoreDamaged(
+        absl::StrCat(connection.name(), ": plumescout_store has ", rows.count(), " rows, not 1"));
   }
   const std::int64_t format = rows.Int(0, 0);
   if (format != kSharedStoreFormat) {
     return absl::FailedPreconditionError(absl::StrCat(connection.name(), " has format ", format,
-                                                      "; this program knows ",
-                                                      kSharedStoreFormat));
+                                                      "; this program knows ", kSharedStoreFormat));
   }
   const std::string owner = rows.Bytes(0, 2);
   if (owner != cluster) {
@@ -144,10 +145,9 @@ absl::StatusOr<std::int64_t> OpenSharedSchema(PostgresConnection& connection,
 absl::Status CheckSameStore(PostgresConnection& connection, std::int64_t store) {
   PLUMESCOUT_ASSIGN_OR_RETURN(
       const PostgresRows rows,
-      connection.Run(
-          PostgresStatement("SELECT id, current_setting('transaction_read_only') = 'on' "
-                            "FROM plumescout_store"),
-          absl::Seconds(5)));
+      connection.Run(PostgresStatement("SELECT id, current_setting('transaction_read_only') = 'on' "
+                                       "FROM plumescout_store"),
+                     absl::Seconds(5)));
   if (rows.count() != 1 || rows.Int(0, 0) != store) {
     return StoreUnavailable(
         absl::StrCat(connection.name(), " holds another store than when this server started"));

@@ -23,8 +23,8 @@ inline constexpr std::int64_t kSharedStoreFormat = 1;
 absl::StatusOr<std::int64_t> OpenSharedSchema(PostgresConnection& connection,
                                               const std::string& cluster);
 
-// Whether behind the address there is still the store that was opened. kUnavailable if it is another,
-// or read-only.
+// Whether behind the address there is still the store that was opened. kUnavailable if it is
+// another, or read-only.
 absl::Status CheckSameStore(PostgresConnection& connection, std::int64_t store);
 
 }  // namespace plumescout::server

@@ -55,8 +55,7 @@ absl::StatusOr<std::unique_ptr<PostgresStore>> PostgresStore::Open(
   node.warn = options.warn;
   PLUMESCOUT_ASSIGN_OR_RETURN(std::shared_ptr<PostgresNodes> nodes,
                               PostgresNodes::Join(std::move(node), pool));
-  return absl::WrapUnique(
-      new PostgresStore(options, store, std::move(pool), std::move(nodes)));
+  return absl::WrapUnique(new PostgresStore(options, store, std::move(pool), std::move(nodes)));
 }
 
 PostgresStore::PostgresStore(const PostgresStoreOptions& options, std::int64_t store,
@@ -88,11 +87,12 @@ absl::StatusOr<std::vector<StoredMission>> PostgresStore::List() {
 std::int64_t PostgresStore::disk_bytes() const {
   const absl::StatusOr<PostgresPool::Loan> connection = pool_->Take();
   if (!connection.ok()) return 0;
-  const absl::StatusOr<PostgresRows> rows = (*connection)->Run(
-      PostgresStatement("SELECT sum(pg_total_relation_size(oid))::bigint FROM pg_class "
-                        "WHERE relname LIKE 'plumescout\\_%' AND relkind = 'r' "
-                        "AND relnamespace = current_schema()::regnamespace"),
-      kFirstTimeout);
+  const absl::StatusOr<PostgresRows> rows =
+      (*connection)
+          ->Run(PostgresStatement("SELECT sum(pg_total_relation_size(oid))::bigint FROM pg_class "
+                                  "WHERE relname LIKE 'plumescout\\_%' AND relkind = 'r' "
+                                  "AND relnamespace = current_schema()::regnamespace"),
+                kFirstTimeout);
   return rows.ok() ? rows->Int(0, 0) : 0;
 }
 

@@ -31,8 +31,8 @@ struct PostgresStoreOptions {
   std::function<void(absl::string_view)> warn = [](absl::string_view) {};
 };
 
-// Missions in a database in PostgreSQL that several servers share. What was told durable survives the
-// database's process, and whatever else its operators have made it survive.
+// Missions in a database in PostgreSQL that several servers share. What was told durable survives
+// the database's process, and whatever else its operators have made it survive.
 class PostgresStore final : public CommittedStore {
  public:
   // Makes the tables unless they stand. Errors of PostgresConnection::Open, OpenSharedSchema and

@@ -58,8 +58,8 @@ pid_t Spawn(const std::vector<std::string>& command, const std::string& log) {
   std::string path = "PATH=/usr/bin:/bin";
   std::string locale = "LC_ALL=C";
   std::array<char*, 3> environment = {path.data(), locale.data(), nullptr};
-  const int error = posix_spawnp(&process, arguments[0], &actions, nullptr, arguments.data(),
-                                 environment.data());
+  const int error =
+      posix_spawnp(&process, arguments[0], &actions, nullptr, arguments.data(), environment.data());
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0) Fail("cannot start " + command[0]);
   return process;
@@ -137,9 +137,9 @@ std::string PostgresServer::NewUrl() {
 }
 
 std::string PostgresServer::Ask(const std::string& url, const std::string& sql) {
-  const std::string at = url.empty() ? absl::StrCat("postgresql:///postgres?host=", folder_.path(),
-                                                    "&user=plumescout")
-                                     : url;
+  const std::string at =
+      url.empty() ? absl::StrCat("postgresql:///postgres?host=", folder_.path(), "&user=plumescout")
+                  : url;
   bool ok = false;
   std::string output =
       Output(absl::StrCat("env -u LD_PRELOAD psql -XqAt '", at, "' -c \"", sql, "\" 2>&1"), ok);

@@ -310,6 +310,7 @@ std::unique_ptr<MissionStore> OpenShared() {
   config.engine = kPostgresqlStore;
   config.url = PostgresServer::Shared().NewUrl();
   config.node = "n1";
+  config.lease_s = 60;
   return OpenStore(config).value();
 }
 

@@ -98,9 +98,8 @@ TEST_F(PostgresConnectionTest, ATableThatIsNotThereIsDamage) {
 }
 
 TEST_F(PostgresConnectionTest, WhoIsCutOffHearsSo) {
-  const std::string victim =
-      std::to_string(connection().Run(PostgresStatement("SELECT pg_backend_pid()"), kPatience)
-                         ->Int(0, 0));
+  const std::string victim = std::to_string(
+      connection().Run(PostgresStatement("SELECT pg_backend_pid()"), kPatience)->Int(0, 0));
   PostgresServer::Shared().Ask(url_, "SELECT pg_terminate_backend(" + victim + ", 10000)");
   const absl::Status cut = connection().Run(PostgresStatement("SELECT 1"), kPatience).status();
   EXPECT_EQ(ErrorReason(cut), reason::kStoreUnavailable) << cut;
@@ -109,8 +108,8 @@ TEST_F(PostgresConnectionTest, WhoIsCutOffHearsSo) {
 TEST_F(PostgresConnectionTest, CommitsReachTheDiskWhateverTheDatabaseIsSetTo) {
   const auto opened = PostgresConnection::Open(url_ + "%20-csynchronous_commit%3Doff", kPatience);
   ASSERT_TRUE(opened.ok()) << opened.status();
-  const auto rows = (*opened)->Run(
-      PostgresStatement("SELECT current_setting('synchronous_commit')"), kPatience);
+  const auto rows =
+      (*opened)->Run(PostgresStatement("SELECT current_setting('synchronous_commit')"), kPatience);
   EXPECT_EQ(rows->Bytes(0, 0), "on");
 }
 

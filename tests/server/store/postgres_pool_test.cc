@@ -45,8 +45,8 @@ TEST_F(PostgresPoolTest, ConnectionsAreUsedAgainUnlessTheyAreBroken) {
 
 TEST_F(PostgresPoolTest, OneThatWasCutOffWhileItLayIdleIsReplaced) {
   const std::int64_t first = Backend(pool_.Take().value());
-  PostgresServer::Shared().Ask(
-      url_, "SELECT pg_terminate_backend(" + std::to_string(first) + ", 10000)");
+  PostgresServer::Shared().Ask(url_,
+                               "SELECT pg_terminate_backend(" + std::to_string(first) + ", 10000)");
   const auto again = pool_.Take();
   ASSERT_TRUE(again.ok()) << again.status();
   EXPECT_NE(Backend(*again), first);

@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "core/types/error_reason.h"
 #include "tests/server/store/shared_work.h"
@@ -61,19 +63,22 @@ TEST(PostgresStoreTest, ADatabaseThatTurnsReadOnlyTakesNothingAndTheNodeLosesIts
   const auto store = PostgresStore::Open(options).value();
   ASSERT_EQ(*store->Create("house", ""), 1);
   const auto set_read_only = [&](const std::string& value) {
-    PostgresServer::Shared().Ask(
-        "", "ALTER SYSTEM SET default_transaction_read_only = " + value);
+    PostgresServer::Shared().Ask("", "ALTER SYSTEM SET default_transaction_read_only = " + value);
     PostgresServer::Shared().Ask("", "SELECT pg_reload_conf()");
   };
   set_read_only("on");
-  Told told;
-  store->Append("house", 1, 1, {"a"}, told.done());
-  EXPECT_TRUE(Eventually([&] { return !store->nodes()->status().ok(); }));
+  // Sessions hear of it one by one.
+  std::vector<std::unique_ptr<Told>> told;
+  EXPECT_TRUE(Eventually([&] {
+    told.push_back(std::make_unique<Told>());
+    const auto number = static_cast<std::int64_t>(told.size());
+    store->Append("house", 1, number, {"a"}, told.back()->done());
+    return !store->state().status.ok();
+  }));
   EXPECT_THAT(std::string(store->state().status.message()), HasSubstr("read-only"));
-  PostgresServer::Shared().Ask("", "SET default_transaction_read_only = off; "
-                                   "ALTER SYSTEM RESET default_transaction_read_only");
+  EXPECT_TRUE(Eventually([&] { return !store->nodes()->status().ok(); }));
   set_read_only("off");
-  EXPECT_TRUE(Eventually([&] { return told.is_told(); }));
+  for (const auto& answer : told) EXPECT_TRUE(answer->Wait().ok());
   EXPECT_TRUE(Eventually([&] { return store->nodes()->status().ok(); }));
 }
 

@@ -31,8 +31,10 @@ inline std::unique_ptr<PostgresStore> OpenShared(const std::string& url,
 
 // As if nobody had renewed it for so long.
 inline void ExpireLease(const std::string& url, const std::string& node) {
-  PostgresServer::Shared().Ask(url, "UPDATE plumescout_node SET expires = now() - interval '1 s' "
-                                    "WHERE name = '" + node + "'");
+  PostgresServer::Shared().Ask(url,
+                               "UPDATE plumescout_node SET expires = now() - interval '1 s' "
+                               "WHERE name = '" +
+                                   node + "'");
 }
 
 // Waits until it is so; false: it never was.
