@@ -259,10 +259,10 @@ absl::Status Run(BenchSummary& summary) {
       const GasCase c = make(size.width_cells, size.height_cells, summary.seed());
       PLUMESCOUT_RETURN_IF_ERROR(MeasureMemory(size.Name("memory", open, "mb"), c, summary));
       PLUMESCOUT_RETURN_IF_ERROR(MeasureFresh(size, open, c, summary));
-      PLUMESCOUT_RETURN_IF_ERROR(MeasureAudit(size, open, c, summary));
       PLUMESCOUT_RETURN_IF_ERROR(MeasureOnline(size, open, c, summary));
       PLUMESCOUT_RETURN_IF_ERROR(MeasureWorstReadings(size, open, c, summary));
       PLUMESCOUT_RETURN_IF_ERROR(MeasureBeliefPropagation(size, open, c, summary));
+      PLUMESCOUT_RETURN_IF_ERROR(MeasureAudit(size, open, c, summary));
     }
   }
   const GasCase indoor = IndoorCase(160, 200, summary.seed());

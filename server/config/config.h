@@ -31,9 +31,9 @@ struct LimitConfig {
   double max_range_m = 300.0;
   // Of one robot; 0: any number.
   double max_scans_per_s = 50.0;
-  double max_gas_readings_per_s = 1000.0;
+  double max_gas_readings_per_s = 200.0;
   double max_ingest_bytes_per_s = 4'194'304.0;
-  double max_plans_per_s = 20.0;
+  double max_plans_per_s = 10.0;
   double ingest_burst_s = 60.0;   // so much time's worth of observations may come at once
   double max_clock_lead_s = 5.0;  // of a robot's sample; 0: any
   std::int64_t max_import_bytes = std::int64_t{4} << 30;
