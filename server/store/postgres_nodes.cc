@@ -169,7 +169,7 @@ void PostgresNodes::Lose(const absl::Status& why) {
     old_lease_ = lease_;
     lease_ = 0;
     lease_until_ = SteadyTime::min();
-    status_ = StoreUnavailable(why.message());
+    status_ = absl::IsUnavailable(why) ? why : StoreUnavailable(why.message());
   }
   absl::MutexLock lock(&on_lost_mutex_);
   if (on_lost_) on_lost_(why);
