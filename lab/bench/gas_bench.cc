@@ -21,6 +21,7 @@
 #include "core/types/quantile.h"
 #include "core/types/status_macros.h"
 #include "lab/about/cpu_time.h"
+#include "lab/bench/bench_program.h"
 #include "lab/bench/bench_summary.h"
 #include "lab/bench/gas_case.h"
 #include "lab/bench/gas_events.h"
@@ -274,6 +275,6 @@ absl::Status Run(BenchSummary& summary) {
 }  // namespace plumescout::lab
 
 int main(int argc, char** argv) {
-  CLI::App app("Times the gas posterior and compares it with other solvers");
-  return plumescout::lab::RunBench(app, argc, argv, plumescout::lab::Run);
+  return plumescout::lab::BenchProgram("Times the gas posterior and compares it with other solvers")
+      .Run(argc, argv, plumescout::lab::Run);
 }
