@@ -257,6 +257,9 @@ TEST(ConfigTest, ASharedStoreNeedsAUrlAndAWordForTheNode) {
     EXPECT_THAT(RefusalOf(config), StartsWith("store.node = " + node + " must be a word of 1 to"));
   }
   config.store.node = "n1";
+  config.store.cluster = "two words";
+  EXPECT_THAT(RefusalOf(config), StartsWith("store.cluster = two words must be a word of 1 to"));
+  config.store.cluster = "harbour";
   config.store.lease_s = 0.1;
   EXPECT_THAT(RefusalOf(config), StartsWith("store.lease_s = 0.1 "));
 }
