@@ -64,18 +64,20 @@ Names Join(const std::vector<Names>& parts) {
 }
 
 std::vector<Room> MakeRooms() {
-  const Names adapters = {"proto/convert", "formats",      "formats/journal",
-                          "formats/mcap",  "formats/view", "ompl_planners"};
+  const Names adapters = {"proto/convert", "formats",     "formats/journal", "formats/mcap",
+                          "formats/view",  "formats/ros", "ompl_planners"};
   std::vector<Room> rooms = {
       {"proto/convert", {"core/types", "formats"}},
       {"formats", {"core/types"}},
+      {"formats/ros", {}},
       {"formats/journal", {"core/types", "formats"}},
       {"formats/mcap", {"core/types", "formats", "formats/journal"}},
       {"formats/view", Join({Before(kCore, "core/mission/conduct"),
                              {"proto/convert", "formats", "formats/journal", "formats/mcap"}})},
       {"ompl_planners", Before(kCore, "core/mission")},
       {"client", {"core/types", "proto/convert", "formats"}},
-      {"tests", Join({kCore, adapters, kServer, {"client"}, kLab})},
+      {"client/ros2", {"core/types", "formats", "formats/ros", "client"}},
+      {"tests", Join({kCore, adapters, kServer, {"client", "client/ros2"}, kLab})},
   };
   for (const std::string& folder : kCore) rooms.push_back({folder, Before(kCore, folder)});
   for (const std::string& folder : kServer) {
