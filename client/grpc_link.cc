@@ -45,8 +45,8 @@ std::shared_ptr<GrpcLink> MakeGrpcLink(const GrpcClientOptions& options) {
   return std::make_shared<GrpcLink>(options);
 }
 
-void GrpcLink::Prepare(grpc::ClientContext& context, absl::Duration timeout) {
-  context.set_deadline(absl::ToChronoTime(absl::Now() + timeout));
+void GrpcLink::Prepare(grpc::ClientContext& context, absl::Time deadline) {
+  context.set_deadline(absl::ToChronoTime(deadline));
   context.set_wait_for_ready(true);
 }
 
@@ -59,7 +59,10 @@ absl::Status GrpcLink::Judge(const grpc::Status& grpc_status, absl::Duration tim
 }
 
 bool GrpcLink::IsBroken(const absl::Status& status) {
-  return absl::IsUnavailable(status) && Reason(status).empty();
+  // A front says the other two when the server behind it ends in the middle of a call.
+  const bool is_of_link =
+      absl::IsUnavailable(status) || absl::IsUnknown(status) || absl::IsInternal(status);
+  return is_of_link && Reason(status).empty();
 }
 
 void GrpcLink::AwaitLink() const {

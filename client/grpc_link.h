@@ -15,6 +15,7 @@
 #include "absl/time/clock.h"
 #include "absl/time/time.h"
 #include "client/grpc_client_options.h"
+#include "client/mission_routes.h"
 #include "client/request_ids.h"
 
 namespace plumescout::client {
@@ -28,14 +29,25 @@ class GrpcLink {
   const GrpcClientOptions& options() const { return options_; }
   // What stubs are made of.
   const std::shared_ptr<grpc::Channel>& channel() const { return channel_; }
+  // Where missions are, if several servers are behind the target.
+  MissionRoutes& routes() const { return routes_; }
 
-  // `method` of a generated stub. As GrpcClientOptions::call_timeout says of `timeout`.
+  // `method` of a generated stub. As GrpcClientOptions::call_timeout says of `timeout`. A call that
+  // is for another server behind the target is made again.
   template <typename Stub, typename Method, typename Request, typename Response>
   absl::Status Call(Stub& stub, Method method, const Request& request, Response* response,
                     absl::Duration timeout) const {
-    grpc::ClientContext context;
-    Prepare(context, timeout);
-    return Judge((stub.*method)(&context, request, response), timeout);
+    const absl::Time deadline = absl::Now() + timeout;
+    const std::string mission = MissionOf(request);
+    grpc::Status status;
+    for (int redirect = 0; redirect <= MissionRoutes::kMaxRedirects; ++redirect) {
+      grpc::ClientContext context;
+      Prepare(context, deadline);
+      const std::string node = routes_.Address(mission, context);
+      status = (stub.*method)(&context, request, response);
+      if (!routes_.Note(mission, node, status, context)) break;
+    }
+    return Judge(status, timeout);
   }
   template <typename Stub, typename Method, typename Request, typename Response>
   absl::Status Call(Stub& stub, Method method, const Request& request, Response* response) const {
@@ -79,7 +91,7 @@ class GrpcLink {
  private:
   static constexpr int kAttempts = 3;
 
-  static void Prepare(grpc::ClientContext& context, absl::Duration timeout);
+  static void Prepare(grpc::ClientContext& context, absl::Time deadline);
   // What a call that took so long at most has come to.
   absl::Status Judge(const grpc::Status& status, absl::Duration timeout) const;
   // Whether a call failed without a word from the server.
@@ -87,6 +99,7 @@ class GrpcLink {
 
   const GrpcClientOptions options_;
   RequestIds request_ids_;
+  mutable MissionRoutes routes_;
   const std::shared_ptr<grpc::Channel> channel_;
 };
 

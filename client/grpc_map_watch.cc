@@ -12,8 +12,9 @@ namespace {
 
 class GrpcMapWatch final : public MapWatch {
  public:
-  GrpcMapWatch(v1::MapService::Stub& stub, const v1::WatchMapRequest& request)
-      : reader_(stub, &v1::MapService::Stub::PrepareAsyncWatchMap, request) {}
+  GrpcMapWatch(MissionRoutes& routes, v1::MapService::Stub& stub,
+               const v1::WatchMapRequest& request)
+      : reader_(routes, stub, &v1::MapService::Stub::PrepareAsyncWatchMap, request) {}
 
   absl::StatusOr<MapChanges> Read(absl::Duration timeout) override {
     const absl::Time deadline = absl::Now() + timeout;
@@ -38,9 +39,9 @@ class GrpcMapWatch final : public MapWatch {
 
 }  // namespace
 
-std::unique_ptr<MapWatch> OpenGrpcMapWatch(v1::MapService::Stub& stub,
+std::unique_ptr<MapWatch> OpenGrpcMapWatch(MissionRoutes& routes, v1::MapService::Stub& stub,
                                            const v1::WatchMapRequest& request) {
-  return std::make_unique<GrpcMapWatch>(stub, request);
+  return std::make_unique<GrpcMapWatch>(routes, stub, request);
 }
 
 }  // namespace plumescout::client

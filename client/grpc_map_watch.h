@@ -4,13 +4,14 @@
 
 #include <memory>
 
+#include "client/mission_routes.h"
 #include "client/viewer_client.h"
 #include "plumescout/v1/map_service.grpc.pb.h"
 
 namespace plumescout::client {
 
 // Opens a stream of maps without waiting for the server. `stub` must outlive the watch.
-std::unique_ptr<MapWatch> OpenGrpcMapWatch(v1::MapService::Stub& stub,
+std::unique_ptr<MapWatch> OpenGrpcMapWatch(MissionRoutes& routes, v1::MapService::Stub& stub,
                                            const v1::WatchMapRequest& request);
 
 }  // namespace plumescout::client

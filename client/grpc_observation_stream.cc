@@ -33,10 +33,13 @@ void* TagOf(Op op) { return reinterpret_cast<void*>(static_cast<std::intptr_t>(o
 // deadline and no thread is needed. A read is always under way while the call lives.
 class GrpcObservationStream final : public ObservationStream {
  public:
-  explicit GrpcObservationStream(const StreamTimeouts& timeouts) : timeouts_(timeouts) {}
+  GrpcObservationStream(MissionRoutes& routes, const StreamTimeouts& timeouts)
+      : routes_(routes), timeouts_(timeouts) {}
   ~GrpcObservationStream() override;
 
   absl::Status Open(v1::IngestService::Stub& stub, const RobotSession& session);
+  // Whether it has ended because another server has the mission, which is known now.
+  bool is_elsewhere() const { return is_elsewhere_; }
 
   const IngestState& opened() const override { return opened_; }
   std::string server_boot_id() const override { return server_boot_id_; }
@@ -60,7 +63,11 @@ class GrpcObservationStream final : public ObservationStream {
 
   absl::Status WriteBatch(v1::StreamObservationsRequest& frame);
 
+  MissionRoutes& routes_;
   const StreamTimeouts timeouts_;
+  std::string mission_;
+  std::string node_;  // that it is addressed to
+  bool is_elsewhere_ = false;
   std::function<std::int64_t()> robot_clock_ns_;  // see RobotSession
   grpc::ClientContext context_;
   grpc::CompletionQueue queue_;
@@ -94,6 +101,8 @@ absl::Status GrpcObservationStream::Open(v1::IngestService::Stub& stub,
                                          const RobotSession& session) {
   const absl::Time deadline = absl::Now() + timeouts_.open;
   robot_clock_ns_ = session.robot_clock_ns;
+  mission_ = session.mission;
+  node_ = routes_.Address(mission_, context_);
   call_ = stub.PrepareAsyncStreamObservations(&context_, &queue_);
   call_->StartCall(TagOf(Op::kStart));
   if (!Await(Op::kStart, deadline)) return EndedStatus();
@@ -187,7 +196,10 @@ bool GrpcObservationStream::RunOne(absl::Time deadline) {
   completed_ = static_cast<Op>(reinterpret_cast<std::intptr_t>(tag));
   completed_ok_ = ok;
   if (completed_ == Op::kRead) OnRead(ok);
-  if (completed_ == Op::kFinish) finished_ = true;
+  if (completed_ == Op::kFinish) {
+    finished_ = true;
+    is_elsewhere_ = routes_.Note(mission_, node_, final_, context_);
+  }
   return true;
 }
 
@@ -216,7 +228,10 @@ absl::Status GrpcObservationStream::EndedStatus() {
   const absl::Time deadline = absl::Now() + kEndGrace;
   while (!reads_ended_ && RunOne(deadline)) {
   }
-  if (!reads_ended_) context_.TryCancel();
+  if (!reads_ended_) {
+    routes_.Forget(mission_, node_);  // it hangs
+    context_.TryCancel();
+  }
   const absl::Status status = AwaitFinish(absl::InfiniteFuture());
   switch (status.code()) {
     case absl::StatusCode::kOk:
@@ -248,10 +263,14 @@ absl::Status GrpcObservationStream::Broken(absl::Status status) {
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<ObservationStream>> OpenGrpcObservationStream(
-    v1::IngestService::Stub& stub, const RobotSession& session, const StreamTimeouts& timeouts) {
-  auto stream = std::make_unique<GrpcObservationStream>(timeouts);
-  PLUMESCOUT_RETURN_IF_ERROR(stream->Open(stub, session));
-  return stream;
+    MissionRoutes& routes, v1::IngestService::Stub& stub, const RobotSession& session,
+    const StreamTimeouts& timeouts) {
+  for (int redirect = 0;; ++redirect) {
+    auto stream = std::make_unique<GrpcObservationStream>(routes, timeouts);
+    const absl::Status status = stream->Open(stub, session);
+    if (status.ok()) return stream;
+    if (!stream->is_elsewhere() || redirect == MissionRoutes::kMaxRedirects) return status;
+  }
 }
 
 }  // namespace plumescout::client

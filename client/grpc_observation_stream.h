@@ -6,6 +6,7 @@
 
 #include "absl/status/statusor.h"
 #include "absl/time/time.h"
+#include "client/mission_routes.h"
 #include "client/planner_client.h"
 #include "plumescout/v1/ingest_service.grpc.pb.h"
 
@@ -16,8 +17,10 @@ struct StreamTimeouts {
   absl::Duration write;
 };
 
-// Opens an ingest stream and waits for the server's answer. `stub` must outlive the stream.
+// Opens an ingest stream and waits for the answer of the server that has the mission. `routes` and
+// `stub` must outlive the stream.
 absl::StatusOr<std::unique_ptr<ObservationStream>> OpenGrpcObservationStream(
-    v1::IngestService::Stub& stub, const RobotSession& session, const StreamTimeouts& timeouts);
+    MissionRoutes& routes, v1::IngestService::Stub& stub, const RobotSession& session,
+    const StreamTimeouts& timeouts);
 
 }  // namespace plumescout::client

@@ -128,7 +128,7 @@ class GrpcOperatorClient final : public OperatorClient {
   absl::StatusOr<ExportedMission> ExportMission(const MissionId& mission, MissionFileFormat format,
                                                 const MissionFileSink& sink) override {
     link_->AwaitLink();
-    return ReceiveMissionFile(snapshots_, mission, format, sink);
+    return ReceiveMissionFile(link_->routes(), snapshots_, mission, format, sink);
   }
 
   absl::StatusOr<MissionId> ImportMission(const MissionId& mission,
@@ -161,7 +161,7 @@ class GrpcOperatorClient final : public OperatorClient {
     RobotSession anybody;  // without a lease
     anybody.mission = mission;
     anybody.robot = robot;
-    return OpenGrpcRobotWatch(robots_, anybody);
+    return OpenGrpcRobotWatch(link_->routes(), robots_, anybody);
   }
 
  private:

@@ -16,10 +16,10 @@ namespace {
 
 class GrpcPlanStream final : public PlanStream {
  public:
-  GrpcPlanStream(v1::PlanningService::Stub& stub,
+  GrpcPlanStream(MissionRoutes& routes, v1::PlanningService::Stub& stub,
                  const v1::StreamNextBestTrajectoryRequest& request, absl::Duration timeout)
-      : reader_(stub, &v1::PlanningService::Stub::PrepareAsyncStreamNextBestTrajectory, request,
-                absl::Now() + timeout) {}
+      : reader_(routes, stub, &v1::PlanningService::Stub::PrepareAsyncStreamNextBestTrajectory,
+                request, absl::Now() + timeout) {}
 
   absl::StatusOr<std::optional<Plan>> Read(absl::Duration timeout) override {
     PLUMESCOUT_ASSIGN_OR_RETURN(const std::optional<v1::StreamNextBestTrajectoryResponse> message,
@@ -36,10 +36,11 @@ class GrpcPlanStream final : public PlanStream {
 
 }  // namespace
 
-std::unique_ptr<PlanStream> OpenGrpcPlanStream(v1::PlanningService::Stub& stub,
+std::unique_ptr<PlanStream> OpenGrpcPlanStream(MissionRoutes& routes,
+                                               v1::PlanningService::Stub& stub,
                                                const v1::StreamNextBestTrajectoryRequest& request,
                                                absl::Duration timeout) {
-  return std::make_unique<GrpcPlanStream>(stub, request, timeout);
+  return std::make_unique<GrpcPlanStream>(routes, stub, request, timeout);
 }
 
 }  // namespace plumescout::client

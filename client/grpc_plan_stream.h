@@ -5,13 +5,15 @@
 #include <memory>
 
 #include "absl/time/time.h"
+#include "client/mission_routes.h"
 #include "client/planner_client.h"
 #include "plumescout/v1/planning_service.grpc.pb.h"
 
 namespace plumescout::client {
 
 // Begins to plan without waiting for the server. `stub` must outlive the stream.
-std::unique_ptr<PlanStream> OpenGrpcPlanStream(v1::PlanningService::Stub& stub,
+std::unique_ptr<PlanStream> OpenGrpcPlanStream(MissionRoutes& routes,
+                                               v1::PlanningService::Stub& stub,
                                                const v1::StreamNextBestTrajectoryRequest& request,
                                                absl::Duration timeout);
 

@@ -147,7 +147,7 @@ class GrpcPlannerClient final : public PlannerClient {
   absl::StatusOr<std::unique_ptr<ObservationStream>> OpenObservationStream(
       const RobotSession& session) override {
     link_->AwaitLink();
-    return OpenGrpcObservationStream(ingest_, session,
+    return OpenGrpcObservationStream(link_->routes(), ingest_, session,
                                      {.open = link_->options().stream_open_timeout,
                                       .write = link_->options().stream_write_timeout});
   }
@@ -190,8 +190,9 @@ class GrpcPlannerClient final : public PlannerClient {
 
   absl::StatusOr<std::unique_ptr<PlanStream>> StreamNextBestTrajectory(
       const MissionId& mission, const PlanQuery& query) override {
-    return OpenGrpcPlanStream(
-        planning_, RequestFor<v1::StreamNextBestTrajectoryRequest>(mission, query), query.timeout);
+    return OpenGrpcPlanStream(link_->routes(), planning_,
+                              RequestFor<v1::StreamNextBestTrajectoryRequest>(mission, query),
+                              query.timeout);
   }
 
   absl::StatusOr<TrajectoryCheck> CheckTrajectory(const RobotSession& session,
@@ -215,7 +216,7 @@ class GrpcPlannerClient final : public PlannerClient {
   }
 
   absl::StatusOr<std::unique_ptr<RobotWatch>> WatchRobot(const RobotSession& session) override {
-    return OpenGrpcRobotWatch(robots_, session);
+    return OpenGrpcRobotWatch(link_->routes(), robots_, session);
   }
 
   absl::StatusOr<MapSnapshot> GetMap(const MissionId& mission) override {

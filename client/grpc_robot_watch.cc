@@ -20,8 +20,9 @@ v1::WatchRobotRequest RequestFor(const RobotSession& session) {
 // What is not read yet waits at the server, which keeps the newest of each kind.
 class GrpcRobotWatch final : public RobotWatch {
  public:
-  GrpcRobotWatch(v1::RobotService::Stub& stub, const RobotSession& session)
-      : reader_(stub, &v1::RobotService::Stub::PrepareAsyncWatchRobot, RequestFor(session)) {}
+  GrpcRobotWatch(MissionRoutes& routes, v1::RobotService::Stub& stub, const RobotSession& session)
+      : reader_(routes, stub, &v1::RobotService::Stub::PrepareAsyncWatchRobot,
+                RequestFor(session)) {}
 
   absl::StatusOr<RobotNotice> Read(absl::Duration timeout) override {
     PLUMESCOUT_ASSIGN_OR_RETURN(const v1::WatchRobotResponse message,
@@ -36,9 +37,9 @@ class GrpcRobotWatch final : public RobotWatch {
 
 }  // namespace
 
-std::unique_ptr<RobotWatch> OpenGrpcRobotWatch(v1::RobotService::Stub& stub,
+std::unique_ptr<RobotWatch> OpenGrpcRobotWatch(MissionRoutes& routes, v1::RobotService::Stub& stub,
                                                const RobotSession& session) {
-  return std::make_unique<GrpcRobotWatch>(stub, session);
+  return std::make_unique<GrpcRobotWatch>(routes, stub, session);
 }
 
 }  // namespace plumescout::client

@@ -181,7 +181,7 @@ class GrpcViewerClient final : public ViewerClient {
       request.set_from_revision(*query.from_revision);
       request.set_speed_ratio(query.speed_ratio);
     }
-    return OpenGrpcMapWatch(maps_, request);
+    return OpenGrpcMapWatch(link_->routes(), maps_, request);
   }
 
   absl::StatusOr<GasAnswer> QueryGas(const MissionId& mission, const GasQuery& query) override {

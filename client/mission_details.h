@@ -8,6 +8,7 @@
 
 #include "absl/time/time.h"
 #include "core/types/ids.h"
+#include "core/types/objective.h"
 #include "core/types/options.h"
 #include "core/types/plan.h"
 
@@ -56,6 +57,8 @@ struct MissionDetails {
   std::int64_t memory_used_bytes = 0;
   std::int64_t memory_budget_bytes = 0;
   EventRetention event_retention = EventRetention::kAll;
+  std::optional<ObjectiveStatus> objective = std::nullopt;  // none: a complete map
+  std::string objective_explanation = {};                   // that in a sentence
 };
 
 }  // namespace plumescout::client

@@ -120,12 +120,14 @@ class FileSender {
 
 }  // namespace
 
-absl::StatusOr<ExportedMission> ReceiveMissionFile(v1::SnapshotService::Stub& stub,
+absl::StatusOr<ExportedMission> ReceiveMissionFile(MissionRoutes& routes,
+                                                   v1::SnapshotService::Stub& stub,
                                                    const MissionId& mission,
                                                    MissionFileFormat format,
                                                    const MissionFileSink& sink) {
   GrpcReader<v1::ExportMissionResponse> reader(
-      stub, &v1::SnapshotService::Stub::PrepareAsyncExportMission, RequestFor(mission, format));
+      routes, stub, &v1::SnapshotService::Stub::PrepareAsyncExportMission,
+      RequestFor(mission, format));
   FileReceiver receiver(sink);
   bool is_whole = false;
   while (true) {

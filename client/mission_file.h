@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "absl/status/statusor.h"
+#include "client/mission_routes.h"
 #include "client/operator_client.h"
 #include "plumescout/v1/snapshot_service.grpc.pb.h"
 
@@ -12,7 +13,8 @@ namespace plumescout::client {
 
 // The calls of OperatorClient::ExportMission and ImportMission. They end with the link, not by
 // time.
-absl::StatusOr<ExportedMission> ReceiveMissionFile(v1::SnapshotService::Stub& stub,
+absl::StatusOr<ExportedMission> ReceiveMissionFile(MissionRoutes& routes,
+                                                   v1::SnapshotService::Stub& stub,
                                                    const MissionId& mission,
                                                    MissionFileFormat format,
                                                    const MissionFileSink& sink);

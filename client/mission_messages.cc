@@ -7,6 +7,7 @@
 #include "core/types/status_macros.h"
 #include "proto/convert/enums.h"
 #include "proto/convert/names.h"
+#include "proto/convert/objective.h"
 #include "proto/convert/options.h"
 
 namespace plumescout::client {
@@ -89,6 +90,11 @@ absl::StatusOr<MissionDetails> DetailsFromProto(const v1::Mission& proto) {
   mission.memory_budget_bytes = proto.memory().budget_bytes();
   if (proto.event_retention() == v1::EVENT_RETENTION_SINCE_SNAPSHOT) {
     mission.event_retention = EventRetention::kSinceSnapshot;
+  }
+  if (proto.has_objective()) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(mission.objective,
+                                FromProto(proto.objective(), "mission.objective"));
+    mission.objective_explanation = proto.objective().explanation();
   }
   return mission;
 }

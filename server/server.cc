@@ -299,8 +299,10 @@ absl::Status Server::BeginRecovery() {
 
 std::string Server::NotReady() const {
   if (draining_) return "draining";
-  if (store_ != nullptr && store_->nodes() != nullptr && !store_->nodes()->status().ok()) {
-    return absl::StrCat("no lease in the store: ", store_->nodes()->status().message());
+  if (store_ != nullptr && store_->nodes() != nullptr) {
+    // What it recovers it takes from others, one at a time: it serves the rest.
+    const absl::Status lease = store_->nodes()->status();
+    return lease.ok() ? "" : absl::StrCat("no lease in the store: ", lease.message());
   }
   const int recovering = registry_.absent().recovering;
   return recovering == 0 ? "" : absl::StrCat("recovering ", recovering, " missions");

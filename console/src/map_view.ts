@@ -68,7 +68,7 @@ export class MapView {
     this.canvas.height = Math.round(clientHeight * ratio);
     this.view.width = clientWidth;
     this.view.height = clientHeight;
-    if (!this.fitted || this.untouched) this.fit();
+    this.refit();
     this.draw();
   }
   // Nobody has panned or zoomed yet.
@@ -95,6 +95,11 @@ export class MapView {
       minY: y_m + minY * resolution_m, maxY: y_m + maxY * resolution_m,
     };
   }
+  // Under who draws an area the map stays where it is.
+  private refit(): void {
+    if (this.scene.draft !== null) return;
+    if (!this.fitted || this.untouched) this.fit();
+  }
   fit(): void {
     const box = this.box();
     if (box === null) return;
@@ -105,12 +110,12 @@ export class MapView {
   // The raster, or all of it, is new.
   replaced(): void {
     this.picture.forget();
-    if (!this.fitted || this.untouched) this.fit();
+    this.refit();
     this.draw();
   }
   cellsChanged(rects: CellRect[]): void {
     this.picture.update(rects);
-    if (this.untouched) this.fit();
+    this.refit();
     this.draw();
   }
   figuresChanged(): void {
@@ -154,7 +159,7 @@ export class MapView {
     c.fillRect(0, 0, view.width, view.height);
     if (scene.raster === null) return;
     this.picture.prepare();
-    if (this.follow) this.centreOnRobot();
+    if (this.follow && scene.draft === null) this.centreOnRobot();
     this.pen.grid();
     this.drawCells(scene.raster);
     if (this.on.has('areas')) this.drawAreas();

@@ -9,6 +9,7 @@ import { AreasPanel } from './areas_panel.ts';
 import { fill, h, notice } from './dom.ts';
 import { MapPanel } from './map_panel.ts';
 import type { Place, Scene } from './map_view.ts';
+import { missionFigures } from './mission_figures.ts';
 import { OperatePanel } from './operate_panel.ts';
 import { every, stateClass } from './pages.ts';
 import { figuresOf } from '@plumescout/client';
@@ -20,7 +21,7 @@ import { Watch, fetchMap } from './watch.ts';
 import type { LinkState } from './watch.ts';
 import { MissionState } from '@plumescout/client/wire';
 import type { MapStatus, Mission, Plan, Robot } from '@plumescout/client/wire';
-import { figure, missionState, phase } from './words.ts';
+import { figure, missionState, objectiveWords, phase } from './words.ts';
 import { WhyPanel } from './why_panel.ts';
 
 const TABS = ['Robots', 'Why', 'Charts', 'Operate'] as const;
@@ -39,6 +40,7 @@ export class MissionPage {
   private readonly areas: AreasPanel;
   private readonly operate: OperatePanel;
   private readonly statePill = h('span', { class: 'pill' }, '…');
+  private readonly objectivePill = h('span');
   private readonly linkPill = h('span', { class: 'pill', role: 'status' }, 'connecting');
   private readonly slider = h('input', { type: 'range', min: 0, max: 1, value: 1, 'aria-label': 'Revision to look at' });
   private readonly moment = h('span', { class: 'quiet' }, 'live');
@@ -63,7 +65,7 @@ export class MissionPage {
   private readonly stops: (() => void)[] = [];
 
   constructor(private readonly name: string, revision: bigint | null) {
-    this.head = [this.statePill, this.linkPill];
+    this.head = [this.statePill, this.objectivePill, this.linkPill];
     this.panel = new MapPanel(this.scene, (robot) => this.choose(robot), (place) => this.ask(place), {
       ask: async ({ x_m, y_m }, signal) => this.playing ? null : maps.queryGas(
         { mission: name, points: [{ xM: x_m, yM: y_m }], revision: this.past ?? 0n }, { ...PATIENCE, signal }),
@@ -145,6 +147,9 @@ export class MissionPage {
       this.slider.value = String(revision);
       this.moment.textContent = `revision ${revision} of ${this.head_revision}`;
     }
+    const [text, look] = objectiveWords(status.objective);
+    [this.objectivePill.textContent, this.objectivePill.className] = [text, look];
+    this.objectivePill.title = status.objective?.explanation ?? '';
     for (const robot of status.robots) extendTrail(this.scene.trails, robot.robot, robot.pose);
     if (this.scene.robot === '' && status.robots.length > 0) this.choose(status.robots[0].robot);
     this.panel.map.draw();
@@ -305,18 +310,9 @@ export class MissionPage {
     this.panel.showLegend();
   }
 
-  private sample(cpu: [string, number][]): void {
-    const { figures, status } = this.scene;
-    if (figures === null || status === null) return;
-    const add = (title: string, unit: string, value: number, line = '') => this.charts.add(title, unit, line, value);
-    add('Known area', 'm²', figures.known_m2);
-    add('Largest gas mean', 'ppm', figures.max_ppm);
-    add(`Plume (above ${figure(status.gasThresholdPpm)} ppm)`, 'm²', figures.plume_m2);
-    add('Mean entropy of the gas field', 'nats', figures.mean_entropy_nats);
-    add('Readings in the posterior', '', Number(status.gasCounters?.inPosteriorCount ?? 0));
-    for (const [robot, cpu_s] of cpu) add('CPU time of the latest plan', 'ms', 1000 * cpu_s, robot);
-    for (const robot of this.robots) {
-      if (robot.ingestLagS !== undefined) add('Age of the newest sample', 's', robot.ingestLagS, robot.onMap?.robot);
+  private sample(cpu_s: [string, number][]): void {
+    for (const { title, unit, robot, value } of missionFigures(this.scene, this.robots, cpu_s)) {
+      this.charts.add(title, unit, robot, value);
     }
   }
 

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Names of things, and figures, as people read them.
 import {
-  Candidate_PathSource, GoalKind, MissionPhase, MissionState, Plan_End, RejectedGoal_Reason, RobotLink,
+  Candidate_PathSource, GoalKind, MissionPhase, MissionState, ObjectiveStatus_State, Plan_End, RejectedGoal_Reason,
+  RobotLink,
 } from '@plumescout/client/wire';
+import type { ObjectiveStatus } from '@plumescout/client/wire';
 
 // GAS_FRONTIER: gas frontier.
 function plain(name: string | undefined): string {
@@ -39,8 +41,21 @@ const REASONS: Record<number, string> = {
   [RejectedGoal_Reason.KEPT_OUT]: 'in an area where nobody may drive',
   [RejectedGoal_Reason.GONE]: 'there is no such goal any more',
   [RejectedGoal_Reason.TRAFFIC]: 'another robot is on the way to it for too long',
+  [RejectedGoal_Reason.OVER_DEADLINE]: 'the robot would not be home by the deadline',
 };
 export const reason = (value: RejectedGoal_Reason) => REASONS[value] ?? 'could be a goal';
+
+// What became of an objective, and how that looks; nothing of a complete map.
+export function objectiveWords(status: ObjectiveStatus | undefined): [string, string] {
+  if (status === undefined) return ['', ''];
+  const sure = `${figure(100 * status.confidence)} %`;
+  switch (status.state) {
+    case ObjectiveStatus_State.MET: return [`objective met, ${sure}`, 'pill good'];
+    case ObjectiveStatus_State.REFUTED: return [`objective refuted, ${sure}`, 'pill bad'];
+    case ObjectiveStatus_State.CANNOT_BE_MET: return ['objective not met', 'pill warn'];
+    default: return [`objective: ${figure(status.undecidedAreaM2)} m² undecided`, 'pill'];
+  }
+}
 
 // Last part of a resource name.
 export const shortName = (name: string) => name.slice(name.lastIndexOf('/') + 1);

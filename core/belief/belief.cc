@@ -31,6 +31,10 @@ MapStatus MakeMapStatus(const Belief& belief) {
   map.gas_audits = belief.gas_audits;
   map.sensor_offsets = belief.sensor_offsets;
   map.phase = belief.phase;
+  map.objective = belief.objective;
+  if (belief.objective) {
+    map.objective_explanation = Describe(*belief.objective, belief.options->objective);
+  }
   map.keep_out = belief.options->keep_out;
   for (const auto& [id, record] : belief.robots) map.robots.push_back(record.state);
 

@@ -16,6 +16,7 @@
 #include "core/types/grid.h"
 #include "core/types/ids.h"
 #include "core/types/map_snapshot.h"
+#include "core/types/objective.h"
 #include "core/types/options.h"
 #include "core/types/plan.h"
 
@@ -130,6 +131,8 @@ struct Belief {
   // When the first of the live plans that sample sites has its last sample, in sample time; none
   // without such a plan.
   std::optional<std::int64_t> next_map_update_ns;
+  std::optional<ObjectiveStatus> objective;  // by the latest assessment; none: a complete map
+  std::optional<std::int64_t> deadline_ns;   // when robots are to be home, in sample time
 
   const GridGeometry& geometry() const { return occupancy->geometry(); }
   // By place among the mission's gases. REQUIRES: there is one.
@@ -139,6 +142,13 @@ struct Belief {
             gas_audits,   gas_error_variance_ppm2, sampled_cells};
   }
 };
+
+// Whether robots have nothing to do any more, whatever there is to learn: the objective is met or
+// refuted, or it is too late.
+inline bool IsOver(const Belief& belief) {
+  return (belief.objective && IsConcluded(*belief.objective)) ||
+         (belief.deadline_ns && belief.sample_time_ns >= *belief.deadline_ns);
+}
 
 // What watchers see beside the rasters: frontiers are found from all robots.
 MapStatus MakeMapStatus(const Belief& belief);

@@ -90,6 +90,7 @@ absl::StatusOr<Applied> Mission::Apply(const EventBody& body) {
   PLUMESCOUT_ASSIGN_OR_RETURN(Applied applied,
                               std::visit([this](const auto& e) { return Change(e); }, body));
   applied.revision = ++revision_;
+  NoteWhetherItGoesOn();
   return applied;
 }
 
@@ -136,6 +137,7 @@ absl::Status Mission::TakeIn(const RobotId& robot, const Observation& observatio
     PLUMESCOUT_RETURN_IF_ERROR(TakeCorrection(robot, observation, *correction));
   }
   sample_time_ns_ = std::max(sample_time_ns_, time_ns);
+  if (!progress_.began_ns) progress_.began_ns = time_ns;
   TrimHistory();
   return absl::OkStatus();
 }
@@ -203,6 +205,7 @@ absl::StatusOr<Applied> Mission::Change(const PosteriorRefreshed& refresh) {
   if (readings_waited || !succeeded) readings_refreshed_ns_ = refresh.time_ns;
   map_changed_since_refresh_ = false;
   gas_changed_since_snapshot_ = true;
+  if (succeeded) AssessIfDue();
   return applied;
 }
 
@@ -378,6 +381,8 @@ std::shared_ptr<const Belief> Mission::Snapshot() const {
   belief->set_aside = goal_memory_.SetAside(Present());
   belief->phase = fleet_.Phase();
   belief->next_map_update_ns = fleet_.NextMapUpdate_ns(sample_time_ns_);
+  belief->objective = objective();
+  belief->deadline_ns = Deadline_ns();
   return belief;
 }
 

@@ -29,6 +29,7 @@
 #include "core/occupancy/scan_inserter.h"
 #include "core/traffic/traffic.h"
 #include "core/types/event.h"
+#include "core/types/objective.h"
 #include "core/types/options.h"
 #include "core/types/stop.h"
 
@@ -63,6 +64,11 @@ class Mission {
   std::shared_ptr<const MissionOptions> shared_options() const { return options_; }
   std::int64_t revision() const { return revision_; }
   MissionPhase phase() const { return fleet_.Phase(); }
+  // None: it is for a complete map.
+  std::optional<ObjectiveStatus> objective() const {
+    if (options_->objective.kind == ObjectiveKind::kCompleteMap) return std::nullopt;
+    return progress_.status;
+  }
   std::optional<std::int64_t> next_map_update_ns() const {
     return fleet_.NextMapUpdate_ns(sample_time_ns_);
   }
@@ -215,6 +221,16 @@ class Mission {
   bool CoversHomes(const std::vector<Polygon>& areas) const;
   void KeepOutOf(std::vector<Polygon> areas);
   bool PeriodHasPassedSince(std::int64_t time_ns) const;
+  // Brings the status up to date, once a second of sample time. Cost: O(cells), and what it costs
+  // to look at the gas.
+  void AssessIfDue();
+  void NoteWhetherItGoesOn();
+  std::optional<std::int64_t> Deadline_ns() const;
+  // Whether it has come to anything that other missions have not.
+  bool has_purpose() const {
+    return options_->objective.kind != ObjectiveKind::kCompleteMap ||
+           options_->objective.deadline_s > 0.0;
+  }
   GoalMemory::Now Present() const {
     return {sample_time_ns_, occupancy_.States(), gas_.first().variance_ppm2()};
   }
@@ -272,6 +288,16 @@ class Mission {
   bool rebuild_wanted_ = false;
   std::int64_t rebuilt_ns_ = 0;          // sample time at which a rebuilt map was last adopted
   std::shared_ptr<MapRebuild> rebuild_;  // under way, or null
+  // With its objective.
+  struct Progress {
+    ObjectiveStatus status;
+    std::optional<std::int64_t> began_ns;     // when the first observation was taken
+    std::optional<std::int64_t> assessed_ns;  // when it was assessed last
+
+    template <typename Archive, typename Self>
+    static void VisitState(Archive& archive, Self& self);
+  };
+  Progress progress_;
   StopFn stop_;
   bool map_changed_since_refresh_ = false;
 

@@ -62,6 +62,30 @@ absl::StatusOr<Unframed> Unframe(absl::string_view bytes) {
 
 }  // namespace
 
+constexpr bool IsOne(ObjectiveState state) {
+  switch (state) {
+    case ObjectiveState::kPursued:
+    case ObjectiveState::kMet:
+    case ObjectiveState::kRefuted:
+    case ObjectiveState::kCannotBeMet:
+      return true;
+  }
+  return false;
+}
+
+void Visit(auto& archive, ConstOr<ObjectiveStatus> auto& status) {
+  auto& [state, confidence, undecided_area_m2, open_frontiers, place, mean_ppm, stddev_ppm,
+         strongest, since_ns] = status;
+  archive(state, confidence, undecided_area_m2, open_frontiers, place, mean_ppm, stddev_ppm,
+          strongest, since_ns);
+}
+
+template <typename Archive, typename Self>
+void Mission::Progress::VisitState(Archive& archive, Self& self) {
+  auto& [status, began_ns, assessed_ns] = self;
+  archive(status, began_ns, assessed_ns);
+}
+
 template <typename Archive, typename Self>
 void Mission::VisitState(Archive& archive, Self& self) {
   archive(self.revision_, self.sample_time_ns_, self.posterior_time_ns_, self.refreshed_ns_,
@@ -81,6 +105,8 @@ void Mission::VisitState(Archive& archive, Self& self) {
   } else {
     archive.Since(2, self.history_, self.jump_watch_, self.rebuild_wanted_, self.rebuilt_ns_);
   }
+  // Missions of before had no purpose of their own, and those without one have the bytes they had.
+  if (self.has_purpose()) archive(self.progress_);
   archive.Since(2, self.changed_keep_out_);
   archive.Since(2, self.lagging_);
   if constexpr (!Archive::kHashes) {

@@ -48,10 +48,11 @@ bool HasWork(const GoalOffer& offer) {
   return !offer.fallback && !offer.goals.empty() && offer.goals.front().kind != GoalKind::kHome;
 }
 
-// Every goal that could be reached is too far away for the travel budget.
+// Every goal that could be reached is too far away for the travel budget, or the deadline.
 bool IsBudgetSpent(const Plan& plan) {
-  return plan.candidates.empty() && IsRejectedFor(RejectionReason::kOverBudget, plan) &&
-         !IsRejectedFor(RejectionReason::kTraffic, plan);
+  const bool is_spent = IsRejectedFor(RejectionReason::kOverBudget, plan) ||
+                        IsRejectedFor(RejectionReason::kOverDeadline, plan);
+  return plan.candidates.empty() && is_spent && !IsRejectedFor(RejectionReason::kTraffic, plan);
 }
 
 }  // namespace
@@ -86,7 +87,10 @@ absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
   }
   Conclude(start.pose.yaw_rad, options_, plan);
   if (WaitOutOfTheWay(belief, options_, plan)) plan.explanation = Explain(plan, options_);
-  plan.explanation += WhySentHome(belief, request.robot);
+  if (IsOver(belief) && plan.end == PlanEnd::kMissionComplete) {
+    plan.explanation = "Stay: the mission is complete.";
+  }
+  plan.explanation += WhySentHome(belief, request.robot) + WhyOver(belief);
   if (start.departure) MakeWay(belief, *start.departure, options_, stop, plan);
   return std::move(plan);
 }

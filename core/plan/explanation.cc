@@ -82,6 +82,8 @@ std::string Choice(const Plan& plan, const PlanningOptions& options) {
       plan.candidates.size());
   if (Rejects(plan, RejectionReason::kOverBudget) && chosen.goal.kind == GoalKind::kHome) {
     absl::StrAppend(&text, "; every other goal is beyond the travel budget");
+  } else if (Rejects(plan, RejectionReason::kOverDeadline) && chosen.goal.kind == GoalKind::kHome) {
+    absl::StrAppend(&text, "; from every other goal it would be home after the deadline");
   }
   if (const double wait_s = WaitOf_s(plan.trajectory); wait_s > 0.0) {
     absl::StrAppend(&text,
@@ -100,6 +102,10 @@ std::string Explain(const Plan& plan, const PlanningOptions& options) {
   if (plan.chosen >= 0) return Choice(plan, options);
   if (plan.end == PlanEnd::kMissionComplete && Rejects(plan, RejectionReason::kOverBudget)) {
     return absl::StrCat("Stay: what is left of the travel budget is not enough for any goal, and ",
+                        IsWithoutWayHome(plan) ? "there is no way home." : "the robot is home.");
+  }
+  if (plan.end == PlanEnd::kMissionComplete && Rejects(plan, RejectionReason::kOverDeadline)) {
+    return absl::StrCat("Stay: there is no time left for any goal, and ",
                         IsWithoutWayHome(plan) ? "there is no way home." : "the robot is home.");
   }
   const bool search_failed = plan.end == PlanEnd::kQueueExhausted || plan.end == PlanEnd::kStopped;

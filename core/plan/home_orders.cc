@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plan/home_orders.h"
 
+#include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 
 namespace plumescout {
@@ -19,6 +20,15 @@ std::string WhySentHome(const Belief& belief, const RobotId& robot) {
   return absl::StrFormat(" Its battery, at %.0f %%, has been below %.0f %%: it goes home.",
                          100.0 * found->second.state.battery_share.value_or(0.0),
                          100.0 * belief.options->return_home_below_battery_share);
+}
+
+std::string WhyOver(const Belief& belief) {
+  if (!IsOver(belief)) return "";
+  if (belief.objective && IsConcluded(*belief.objective)) {
+    return absl::StrCat(" ", Describe(*belief.objective, belief.options->objective));
+  }
+  return absl::StrFormat(" The deadline, %g s from the first observation, has passed.",
+                         belief.options->objective.deadline_s);
 }
 
 }  // namespace plumescout

@@ -93,12 +93,20 @@ absl::StatusOr<plumescout::Plan> SamplingStrategy::Plan(const Belief& belief,
     start.plan.explanation = Explain(start.plan, options_);
     return std::move(start.plan);
   }
-  PLUMESCOUT_RETURN_IF_ERROR(PlanFrom(belief, stop, start));
+  if (IsOver(belief)) {
+    start.plan.end = PlanEnd::kMissionComplete;
+    start.plan.phase = MissionPhase::kComplete;
+    start.plan.explanation = absl::StrCat("Stay: the mission is complete.", WhyOver(belief));
+  } else {
+    PLUMESCOUT_RETURN_IF_ERROR(PlanFrom(belief, stop, start));
+  }
   // Before its mission is complete, or when its budget is spent, the robot drives home.
-  const bool is_spent = HasReason(start.plan, RejectionReason::kOverBudget) &&
+  const bool is_spent = (HasReason(start.plan, RejectionReason::kOverBudget) ||
+                         HasReason(start.plan, RejectionReason::kOverDeadline)) &&
                         !HasReason(start.plan, RejectionReason::kTraffic);
   const bool is_done = start.plan.end == PlanEnd::kMissionComplete;
-  if (start.plan.chosen < 0 && (is_spent || (is_done && options_.return_home))) {
+  if (start.plan.chosen < 0 &&
+      (is_spent || (is_done && (options_.return_home || belief.deadline_ns)))) {
     PlanRequest way_home = request;
     way_home.go_home = true;
     PLUMESCOUT_ASSIGN_OR_RETURN(plumescout::Plan plan,

@@ -12,6 +12,7 @@
 #include "core/types/gas_sensor.h"
 #include "core/types/grid.h"
 #include "core/types/ids.h"
+#include "core/types/objective.h"
 #include "core/types/plan.h"
 #include "core/types/polygon.h"
 #include "core/types/pose2.h"
@@ -107,6 +108,8 @@ struct MapStatus {
   std::vector<GasStatus> gases;   // of a mission that names its gases: all, the first first
   std::vector<Polygon> keep_out;  // where nobody may drive
   MissionPhase phase = MissionPhase::kExploring;
+  std::optional<ObjectiveStatus> objective;  // none: a complete map
+  std::string objective_explanation;         // that in a sentence; empty: none
 };
 
 // The rasters of one gas. Off the free cells they are NaN.

@@ -159,11 +159,26 @@ absl::Status Validate(const PlanningOptions& options) {
       .status();
 }
 
+absl::Status Validate(const ObjectiveOptions& options) {
+  constexpr double kMaxThreshold_ppm = 1e6;
+  constexpr double kMaxRadius_m = 100.0;
+  return Checker()
+      .InRange("objective.threshold_ppm", options.threshold_ppm, 0.0, kMaxThreshold_ppm)
+      .Require(options.kind == ObjectiveKind::kCompleteMap || options.threshold_ppm > 0.0,
+               "objective.threshold_ppm", options.threshold_ppm,
+               "must be > 0 for any objective.kind but a complete map")
+      .InRange("objective.confidence", options.confidence, 0.501, 0.9999)
+      .InRange("objective.radius_m", options.radius_m, 0.0, kMaxRadius_m)
+      .InRange("objective.deadline_s", options.deadline_s, 0.0, kMaxTime_s)
+      .status();
+}
+
 absl::Status Validate(const MissionOptions& options) {
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options.occupancy));
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options.gas));
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options.frontier));
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options.planning));
+  PLUMESCOUT_RETURN_IF_ERROR(Validate(options.objective));
   PLUMESCOUT_RETURN_IF_ERROR(ValidateKeepOut(options.keep_out));
   PLUMESCOUT_RETURN_IF_ERROR(ValidateSpecies(options));
   if (options.prior_map != nullptr) {

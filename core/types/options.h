@@ -223,11 +223,32 @@ struct PlanningOptions {
   SiteOptions sites;  // of strategies that stop and sample
 };
 
+// What a mission is for (core/belief/objective_cells.h). All but the first are of the mission's
+// first gas, and need a threshold.
+enum class ObjectiveKind {
+  kCompleteMap,        // all there is to know; neither met nor refuted
+  kMapAboveThreshold,  // where there is more than the threshold
+  kConfirmClean,       // that there is nowhere more than the threshold
+  kFindSources,        // which place is the strongest, if it is above the threshold
+};
+struct ObjectiveOptions {
+  ObjectiveKind kind = ObjectiveKind::kCompleteMap;
+  double threshold_ppm = 0.0;  // (0, 1e6]; 0: none, of kCompleteMap alone
+  double confidence = 0.95;    // of a cell's being decided, [0.501, 0.9999]
+  // How well places are to be known, [0, 100]: the edge of what is above the threshold, and the
+  // strongest place.
+  double radius_m = 1.0;
+  // Mission time, from its first observation on, by which robots are home: plans that do not come
+  // back by then are not taken. [0, 1e9]; 0: none.
+  double deadline_s = 0.0;
+};
+
 struct MissionOptions {
   OccupancyOptions occupancy;
   GasOptions gas;
   FrontierOptions frontier;
   PlanningOptions planning;
+  ObjectiveOptions objective;
   double pose_limit_m = 1000.0;  // |x|, |y| of any pose, > 0
   double max_range_m = 100.0;    // of any lidar, > 0
   int max_beam_count = 4096;     // of any scan
@@ -266,6 +287,7 @@ absl::Status Validate(const GasOptions& options);
 absl::Status Validate(const FrontierOptions& options);
 absl::Status Validate(const SiteOptions& options);
 absl::Status Validate(const PlanningOptions& options);
+absl::Status Validate(const ObjectiveOptions& options);
 absl::Status Validate(const MissionOptions& options);
 
 // ln(32 lambda_p / lambda_d) / (4 pi lambda_p), ppm^2: the prior marginal variance on an open

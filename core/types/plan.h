@@ -102,6 +102,7 @@ enum class RejectionReason {
   kKeptOut,        // in an area where nobody may drive
   kGone,           // of a check: no such goal is left
   kTraffic,        // another robot is on the way to it for longer than one would wait
+  kOverDeadline,   // the robot would not be home by the mission's deadline
 };
 
 struct RejectedGoal {

@@ -30,6 +30,7 @@ constexpr bool IsOne(RejectionReason reason) {
     case RejectionReason::kKeptOut:
     case RejectionReason::kGone:
     case RejectionReason::kTraffic:
+    case RejectionReason::kOverDeadline:
       return true;
   }
   return false;

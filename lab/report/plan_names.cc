@@ -60,6 +60,8 @@ const char* NameOf(RejectionReason reason) {
       return "too close";
     case RejectionReason::kSearchStopped:
       return "search stopped";
+    case RejectionReason::kOverDeadline:
+      return "after the deadline";
     case RejectionReason::kOverBudget:
       return "over the travel budget";
     case RejectionReason::kKeptOut:

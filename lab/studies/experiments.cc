@@ -6,11 +6,13 @@
 #include "absl/strings/str_join.h"
 #include "core/types/status_macros.h"
 #include "lab/studies/all_strategies.h"
+#include "lab/studies/cluster_model.h"
 #include "lab/studies/field_model.h"
 #include "lab/studies/gas_validation.h"
 #include "lab/studies/ipp_table1.h"
 #include "lab/studies/lhr_table2.h"
 #include "lab/studies/mit_table1.h"
+#include "lab/studies/objectives.h"
 #include "lab/studies/own_strategy.h"
 #include "lab/studies/team_rivals.h"
 #include "lab/studies/team_study.h"
@@ -34,11 +36,13 @@ struct Experiment {
 
 constexpr Experiment kExperiments[] = {
     {"all_strategies", RunAllStrategies},
+    {"cluster_model", RunClusterModel},
     {"field_model", RunFieldModel},
     {"gas_validation", RunGasValidation},
     {"ipp_table1", RunIppTable1},
     {"lhr_table2", RunLhrTable2},
     {"mit_table1", RunMitTable1},
+    {"objectives", RunObjectives},
     {"own_strategy", RunOwnStrategy},
     {"team_rivals", RunTeamRivals, true},
     {"team_study", RunTeamStudy, true},

@@ -54,6 +54,7 @@ constexpr Row<RejectionReason, v1::RejectedGoal::Reason> kRejectionReasons[] = {
     {RejectionReason::kKeptOut, v1::RejectedGoal::REASON_KEPT_OUT},
     {RejectionReason::kGone, v1::RejectedGoal::REASON_GONE},
     {RejectionReason::kTraffic, v1::RejectedGoal::REASON_TRAFFIC},
+    {RejectionReason::kOverDeadline, v1::RejectedGoal::REASON_OVER_DEADLINE},
 };
 constexpr Row<InvalidationReason, v1::PlanInvalidated::Reason> kInvalidationReasons[] = {
     {InvalidationReason::kMeetsRobot, v1::PlanInvalidated::REASON_MEETS_ROBOT},
@@ -89,6 +90,18 @@ constexpr Row<GasScale, v1::GasScale> kGasScales[] = {
 constexpr Row<GasPrecisions, v1::GasPrecisions> kGasPrecisions[] = {
     {GasPrecisions::kFixed, v1::GAS_PRECISIONS_FIXED},
     {GasPrecisions::kLearned, v1::GAS_PRECISIONS_LEARNED},
+};
+constexpr Row<ObjectiveKind, v1::ObjectiveKind> kObjectiveKinds[] = {
+    {ObjectiveKind::kCompleteMap, v1::OBJECTIVE_KIND_COMPLETE_MAP},
+    {ObjectiveKind::kMapAboveThreshold, v1::OBJECTIVE_KIND_MAP_ABOVE_THRESHOLD},
+    {ObjectiveKind::kConfirmClean, v1::OBJECTIVE_KIND_CONFIRM_CLEAN},
+    {ObjectiveKind::kFindSources, v1::OBJECTIVE_KIND_FIND_SOURCES},
+};
+constexpr Row<ObjectiveState, v1::ObjectiveStatus::State> kObjectiveStates[] = {
+    {ObjectiveState::kPursued, v1::ObjectiveStatus::STATE_PURSUED},
+    {ObjectiveState::kMet, v1::ObjectiveStatus::STATE_MET},
+    {ObjectiveState::kRefuted, v1::ObjectiveStatus::STATE_REFUTED},
+    {ObjectiveState::kCannotBeMet, v1::ObjectiveStatus::STATE_CANNOT_BE_MET},
 };
 
 constexpr Row<WgfdScope, v1::WgfdScope> kWgfdScopes[] = {
@@ -170,6 +183,8 @@ v1::PlanInvalidated::Reason ToProto(InvalidationReason value) {
 v1::ReportProgressRequest::Outcome ToProto(ProgressOutcome value) { return Find(kOutcomes, value); }
 v1::GasScale ToProto(GasScale value) { return Find(kGasScales, value); }
 v1::GasPrecisions ToProto(GasPrecisions value) { return Find(kGasPrecisions, value); }
+v1::ObjectiveKind ToProto(ObjectiveKind value) { return Find(kObjectiveKinds, value); }
+v1::ObjectiveStatus::State ToProto(ObjectiveState value) { return Find(kObjectiveStates, value); }
 v1::WgfdScope ToProto(WgfdScope value) { return Find(kWgfdScopes, value); }
 v1::GoalPolicy ToProto(GoalPolicy value) { return Find(kGoalPolicies, value); }
 v1::CostKind ToProto(CostKind value) { return Find(kCostKinds, value); }
@@ -210,6 +225,13 @@ absl::StatusOr<GasScale> FromProto(v1::GasScale proto, absl::string_view field) 
 }
 absl::StatusOr<GasPrecisions> FromProto(v1::GasPrecisions proto, absl::string_view field) {
   return Find(kGasPrecisions, proto, field);
+}
+absl::StatusOr<ObjectiveKind> FromProto(v1::ObjectiveKind proto, absl::string_view field) {
+  return Find(kObjectiveKinds, proto, field);
+}
+absl::StatusOr<ObjectiveState> FromProto(v1::ObjectiveStatus::State proto,
+                                         absl::string_view field) {
+  return Find(kObjectiveStates, proto, field);
 }
 absl::StatusOr<WgfdScope> FromProto(v1::WgfdScope proto, absl::string_view field) {
   return Find(kWgfdScopes, proto, field);

@@ -9,6 +9,7 @@
 #include "core/types/cell_state.h"
 #include "core/types/event.h"
 #include "core/types/frontier.h"
+#include "core/types/objective.h"
 #include "core/types/options.h"
 #include "core/types/plan.h"
 #include "core/types/robot_notice.h"
@@ -29,6 +30,8 @@ v1::PlanInvalidated::Reason ToProto(InvalidationReason value);
 v1::ReportProgressRequest::Outcome ToProto(ProgressOutcome value);
 v1::GasScale ToProto(GasScale value);
 v1::GasPrecisions ToProto(GasPrecisions value);
+v1::ObjectiveKind ToProto(ObjectiveKind value);
+v1::ObjectiveStatus::State ToProto(ObjectiveState value);
 v1::WgfdScope ToProto(WgfdScope value);
 v1::GoalPolicy ToProto(GoalPolicy value);
 v1::CostKind ToProto(CostKind value);
@@ -51,6 +54,8 @@ absl::StatusOr<ProgressOutcome> FromProto(v1::ReportProgressRequest::Outcome pro
                                           absl::string_view field);
 absl::StatusOr<GasScale> FromProto(v1::GasScale proto, absl::string_view field);
 absl::StatusOr<GasPrecisions> FromProto(v1::GasPrecisions proto, absl::string_view field);
+absl::StatusOr<ObjectiveKind> FromProto(v1::ObjectiveKind proto, absl::string_view field);
+absl::StatusOr<ObjectiveState> FromProto(v1::ObjectiveStatus::State proto, absl::string_view field);
 absl::StatusOr<WgfdScope> FromProto(v1::WgfdScope proto, absl::string_view field);
 absl::StatusOr<GoalPolicy> FromProto(v1::GoalPolicy proto, absl::string_view field);
 absl::StatusOr<CostKind> FromProto(v1::CostKind proto, absl::string_view field);

@@ -14,6 +14,7 @@
 #include "proto/convert/geometry.h"
 #include "proto/convert/keep_out.h"
 #include "proto/convert/names.h"
+#include "proto/convert/objective.h"
 
 namespace plumescout {
 namespace {
@@ -307,6 +308,10 @@ v1::MapStatus ToProto(const MapStatus& status, const GridGeometry& geometry,
   }
   *proto.mutable_keep_out() = ToProto(status.keep_out);
   proto.set_phase(ToProto(status.phase));
+  if (status.objective) {
+    *proto.mutable_objective() = ToProto(*status.objective);
+    proto.mutable_objective()->set_explanation(status.objective_explanation);
+  }
   return proto;
 }
 
@@ -328,6 +333,11 @@ absl::StatusOr<MapStatus> FromProto(const v1::MapStatus& proto, absl::string_vie
   for (const v1::GasStatus& gas : proto.gases()) {
     map.gases.push_back({gas.species(), FromProto(gas.gas_counters()), FromProto(gas.gas_quality()),
                          AuditsFromProto(gas.gas_quality())});
+  }
+  if (proto.has_objective()) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(map.objective,
+                                FromProto(proto.objective(), Join(field, "objective")));
+    map.objective_explanation = proto.objective().explanation();
   }
   return map;
 }

@@ -127,6 +127,14 @@ void Visit(OneOf<PlanningOptions> auto& options, auto& field) {
   field("planning_latency_s", options.planning_latency_s);
 }
 
+void Visit(OneOf<ObjectiveOptions> auto& options, auto& field) {
+  field("kind", options.kind);
+  field("threshold_ppm", options.threshold_ppm);
+  field("confidence", options.confidence);
+  field("radius_m", options.radius_m);
+  field("deadline_s", options.deadline_s);
+}
+
 void Visit(OneOf<MissionOptions> auto& options, auto& field) {
   field("pose_limit_m", options.pose_limit_m);
   field("max_range_m", options.max_range_m);
@@ -246,6 +254,7 @@ v1::MissionOptions ToProto(const MissionOptions& options) {
     *sites.mutable_region()->mutable_min() = ToProto(options.planning.sites.region->min);
     *sites.mutable_region()->mutable_max() = ToProto(options.planning.sites.region->max);
   }
+  Write(options.objective, *proto.mutable_objective());
   *proto.mutable_keep_out() = ToProto(options.keep_out);
   for (const GasSpecies& species : options.gas_species) Write(species, *proto.add_gas_species());
   if (options.home) *proto.mutable_home() = ToProto(*options.home);
@@ -267,6 +276,7 @@ absl::StatusOr<MissionOptions> FromProto(const v1::MissionOptions& proto,
   PLUMESCOUT_RETURN_IF_ERROR(Read(proto.frontier(), Join(field, "frontier"), options.frontier));
   PLUMESCOUT_RETURN_IF_ERROR(
       ReadPlanning(proto.planning(), Join(field, "planning"), options.planning));
+  PLUMESCOUT_RETURN_IF_ERROR(Read(proto.objective(), Join(field, "objective"), options.objective));
   PLUMESCOUT_RETURN_IF_ERROR(Read(proto, field, options));
   PLUMESCOUT_RETURN_IF_ERROR(ReadPlaces(proto, field, options));
   PLUMESCOUT_RETURN_IF_ERROR(ReadSpecies(proto, field, options));

@@ -16,7 +16,8 @@ namespace {
 
 MissionSummary SummaryOf(const Mission& mission) {
   return {mission.revision(),     mission.phase(),          mission.next_map_update_ns(),
-          mission.memory_bytes(), mission.lattice_factor(), mission.shared_options()};
+          mission.memory_bytes(), mission.lattice_factor(), mission.shared_options(),
+          mission.objective()};
 }
 
 // Of all fields that there are.

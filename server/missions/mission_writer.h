@@ -15,6 +15,7 @@
 #include "core/mission/conduct/mission_conduct.h"
 #include "core/mission/mission.h"
 #include "core/types/event.h"
+#include "core/types/objective.h"
 #include "server/base/clock.h"
 #include "server/base/worker_pool.h"
 #include "server/missions/audit_runner.h"
@@ -36,6 +37,7 @@ struct MissionSummary {
   std::int64_t memory_bytes = 0;                  // see Mission::memory_bytes
   int lattice_factor = 1;                         // of the gas field now
   std::shared_ptr<const MissionOptions> options;  // in force
+  std::optional<ObjectiveStatus> objective;       // none: a complete map
 };
 
 // The conduct of one mission on its writer's thread: has epochs recomputed on a pool, takes times,

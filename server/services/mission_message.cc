@@ -3,9 +3,11 @@
 #include "server/services/mission_message.h"
 
 #include "core/types/error_reason.h"
+#include "core/types/objective.h"
 #include "proto/convert/enums.h"
 #include "proto/convert/keep_out.h"
 #include "proto/convert/names.h"
+#include "proto/convert/objective.h"
 #include "proto/convert/options.h"
 #include "server/services/mission_update.h"
 
@@ -58,6 +60,11 @@ v1::Mission DescribeMission(MissionHost& host, const MissionOptions& options) {
   proto.set_revision(summary.revision);
   proto.set_phase(ToProto(summary.phase));
   if (summary.next_map_update_ns) proto.set_next_map_update_ns(*summary.next_map_update_ns);
+  if (summary.objective) {
+    *proto.mutable_objective() = ToProto(*summary.objective);
+    proto.mutable_objective()->set_explanation(
+        Describe(*summary.objective, summary.options->objective));
+  }
   proto.set_robot_count(host.leases().robot_count());
   const GasTimings timings = host.gas_timings();
   *proto.mutable_gas_timings()->mutable_update() = ToProto(timings.update);

@@ -26,12 +26,16 @@ std::string BytesOf(const grpc::ByteBuffer& buffer) {
 
 }  // namespace
 
-std::shared_ptr<WebCall> WebCall::Start(const std::shared_ptr<grpc::Channel>& channel,
+std::unique_ptr<WebCall> WebCall::Start(const std::shared_ptr<grpc::Channel>& channel,
                                         Parts parts) {
-  const std::shared_ptr<WebCall> call(new WebCall(std::move(parts)));
-  call->self_ = call;
+  std::unique_ptr<WebCall> call(new WebCall(std::move(parts)));
   call->Begin(channel);
   return call;
+}
+
+WebCall::~WebCall() {
+  Cancel();
+  left_alone_.WaitForNotification();
 }
 
 void WebCall::Begin(const std::shared_ptr<grpc::Channel>& channel) {
@@ -96,7 +100,7 @@ void WebCall::OnDone(const grpc::Status& status) {
     done_ = true;
   }
   parts_.wake();
-  self_ = nullptr;  // last: it may be the end of us
+  left_alone_.Notify();
 }
 
 }  // namespace plumescout::server

@@ -140,7 +140,6 @@ void WebServer::Run() {
         ++it;
         continue;
       }
-      if (it->call != nullptr) it->call->Cancel();
       close(it->fd);
       it = connections_.erase(it);
     }

@@ -74,7 +74,7 @@ class WebServer {
     std::string out = {};
     std::size_t sent = 0;
     SteadyTime answer_deadline = SteadyTime::max();  // of `out`, however it goes on
-    std::shared_ptr<WebCall> call = nullptr;         // whose answer is on its way
+    std::unique_ptr<WebCall> call = nullptr;         // whose answer is on its way
     bool is_stream = false;
     bool close_after = false;  // once `out` is sent
     bool has_more = false;     // to do at once: others came first

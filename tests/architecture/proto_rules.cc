@@ -14,16 +14,18 @@ namespace {
 
 // Units, and words that say what is counted or compared.
 constexpr const char* kSuffixes[] = {
-    "_m",        "_rad",   "_s",          "_ns",     "_mps",      "_mps2",        "_hz",
-    "_ppm",      "_ppm2",  "_per_m",      "_ratio",  "_per_ppm2", "_probability", "_nats",
-    "_log_odds", "_share", "_percentile", "_factor", "_count",    "_sequence",    "_revision",
-    "_column",   "_row",   "_columns",    "_rows",   "_index",    "_bytes",       "_epochs"};
+    "_m",        "_m2",          "_rad",      "_s",        "_ns",     "_mps",
+    "_mps2",     "_hz",          "_ppm",      "_ppm2",     "_per_m",  "_ratio",
+    "_per_ppm2", "_probability", "_nats",     "_log_odds", "_share",  "_percentile",
+    "_factor",   "_count",       "_sequence", "_revision", "_column", "_row",
+    "_columns",  "_rows",        "_index",    "_bytes",    "_epochs"};
 
 // Numbers that have no unit.
 const std::set<std::string>& PureNumbers() {
   static const std::set<std::string> names = {
       "beta",                    // weight, [XIT] Eq. (8)
       "column",                  // of a cell
+      "confidence",              // a probability
       "crc32",                   // a checksum
       "cost",                    // J, [XIT] Eq. (13): its unit follows from the strategy
       "fallback_limit",          // a count

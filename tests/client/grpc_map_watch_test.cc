@@ -35,11 +35,12 @@ class ScriptedMaps final : public v1::MapService::Service {
   grpc::Status WatchMap(grpc::ServerContext*, const v1::WatchMapRequest*, Writer* writer) override {
     return script_(*writer);
   }
-  std::unique_ptr<MapWatch> Open() { return OpenGrpcMapWatch(*stub_, {}); }
+  std::unique_ptr<MapWatch> Open() { return OpenGrpcMapWatch(routes_, *stub_, {}); }
 
  private:
   Script script_;
   std::unique_ptr<grpc::Server> server_;
+  MissionRoutes routes_;
   std::unique_ptr<v1::MapService::Stub> stub_;
 };
 

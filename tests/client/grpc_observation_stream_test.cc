@@ -63,7 +63,7 @@ class ScriptedServer final : public v1::IngestService::Service {
     session.lease_token = kLease;
     session.server_boot_id = kBootId;
     session.durable_sequence = 17;
-    return OpenGrpcObservationStream(*stub_, session, timeouts);
+    return OpenGrpcObservationStream(routes_, *stub_, session, timeouts);
   }
 
  private:
@@ -73,6 +73,7 @@ class ScriptedServer final : public v1::IngestService::Service {
 
   const StreamScript script_;
   std::unique_ptr<grpc::Server> server_;
+  MissionRoutes routes_;
   std::unique_ptr<v1::IngestService::Stub> stub_;
 };
 

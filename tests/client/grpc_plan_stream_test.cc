@@ -37,11 +37,12 @@ class ScriptedPlanner final : public v1::PlanningService::Service {
                                         Writer* writer) override {
     return script_(*writer);
   }
-  std::unique_ptr<PlanStream> Open() { return OpenGrpcPlanStream(*stub_, {}, kPatience); }
+  std::unique_ptr<PlanStream> Open() { return OpenGrpcPlanStream(routes_, *stub_, {}, kPatience); }
 
  private:
   Script script_;
   std::unique_ptr<grpc::Server> server_;
+  MissionRoutes routes_;
   std::unique_ptr<v1::PlanningService::Stub> stub_;
 };
 

@@ -41,12 +41,13 @@ class ScriptedRobots final : public v1::RobotService::Service {
     session.mission = "house";
     session.robot = "scout";
     session.lease_token = 42;
-    return OpenGrpcRobotWatch(*stub_, session);
+    return OpenGrpcRobotWatch(routes_, *stub_, session);
   }
 
  private:
   Script script_;
   std::unique_ptr<grpc::Server> server_;
+  MissionRoutes routes_;
   std::unique_ptr<v1::RobotService::Stub> stub_;
 };
 

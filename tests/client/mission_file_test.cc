@@ -70,6 +70,7 @@ class FileService final : public v1::SnapshotService::Service {
     return grpc::Status::OK;
   }
 
+  MissionRoutes routes;
   std::unique_ptr<v1::SnapshotService::Stub> stub;
   v1::MissionFileFormat asked_format = v1::MISSION_FILE_FORMAT_UNSPECIFIED;
   std::uint32_t crc_error = 0;
@@ -103,15 +104,17 @@ MissionFileSource From(std::string& file) {
 TEST(MissionFileTest, AnExportComesWhole) {
   FileService service;
   std::string file;
-  const auto exported = ReceiveMissionFile(*service.stub, "house", kJournal, Into(file));
+  const auto exported =
+      ReceiveMissionFile(service.routes, *service.stub, "house", kJournal, Into(file));
   ASSERT_TRUE(exported.ok()) << exported.status();
   EXPECT_EQ(file, kFile);
   EXPECT_EQ(exported->revision, 9);
   EXPECT_EQ(exported->size_bytes, static_cast<std::int64_t>(file.size()));
   EXPECT_EQ(service.asked_format, v1::MISSION_FILE_FORMAT_JOURNAL);
   file.clear();
-  ASSERT_TRUE(
-      ReceiveMissionFile(*service.stub, "house", MissionFileFormat::kMcap, Into(file)).ok());
+  ASSERT_TRUE(ReceiveMissionFile(service.routes, *service.stub, "house", MissionFileFormat::kMcap,
+                                 Into(file))
+                  .ok());
   EXPECT_EQ(service.asked_format, v1::MISSION_FILE_FORMAT_MCAP);
 }
 
@@ -119,20 +122,20 @@ TEST(MissionFileTest, WhatIsNotWhatWasSentIsNotTaken) {
   FileService service;
   std::string file;
   service.crc_error = 1;
-  EXPECT_TRUE(
-      absl::IsDataLoss(ReceiveMissionFile(*service.stub, "house", kJournal, Into(file)).status()));
+  EXPECT_TRUE(absl::IsDataLoss(
+      ReceiveMissionFile(service.routes, *service.stub, "house", kJournal, Into(file)).status()));
   EXPECT_EQ(file, "");
   service.crc_error = 0;
   service.ends_early = true;
-  EXPECT_TRUE(
-      absl::IsDataLoss(ReceiveMissionFile(*service.stub, "house", kJournal, Into(file)).status()));
+  EXPECT_TRUE(absl::IsDataLoss(
+      ReceiveMissionFile(service.routes, *service.stub, "house", kJournal, Into(file)).status()));
 }
 
 TEST(MissionFileTest, ASinkThatIsFullEndsTheExport) {
   FileService service;
   const auto full = [](const MissionFilePiece&) { return absl::ResourceExhaustedError("full"); };
   EXPECT_TRUE(absl::IsResourceExhausted(
-      ReceiveMissionFile(*service.stub, "house", kJournal, full).status()));
+      ReceiveMissionFile(service.routes, *service.stub, "house", kJournal, full).status()));
 }
 
 TEST(MissionFileTest, AnImportGoesInPiecesThatTheServerTakes) {

@@ -35,6 +35,9 @@ TEST(MissionMessagesTest, AMissionIsReadWhole) {
   proto.set_event_retention(v1::EVENT_RETENTION_SINCE_SNAPSHOT);
   proto.mutable_gas_timings()->mutable_update()->set_sample_count(4);
   proto.mutable_gas_timings()->mutable_staleness()->set_p99_s(0.25);
+  proto.mutable_objective()->set_state(v1::ObjectiveStatus::STATE_MET);
+  proto.mutable_objective()->set_confidence(0.96);
+  proto.mutable_objective()->set_explanation("Clean.");
   const auto mission = DetailsFromProto(proto);
   ASSERT_TRUE(mission.ok()) << mission.status();
   EXPECT_EQ(mission->id, "house");
@@ -51,6 +54,10 @@ TEST(MissionMessagesTest, AMissionIsReadWhole) {
   EXPECT_EQ(mission->event_retention, EventRetention::kSinceSnapshot);
   EXPECT_EQ(mission->gas_update.samples, 4);
   EXPECT_EQ(mission->gas_staleness.p99_s, 0.25);
+  ASSERT_TRUE(mission->objective.has_value());
+  EXPECT_EQ(mission->objective->state, ObjectiveState::kMet);
+  EXPECT_EQ(mission->objective->confidence, 0.96);
+  EXPECT_EQ(mission->objective_explanation, "Clean.");
 }
 
 TEST(MissionMessagesTest, WhatIsNotSaidIsNever) {
@@ -58,6 +65,7 @@ TEST(MissionMessagesTest, WhatIsNotSaidIsNever) {
   ASSERT_TRUE(mission.ok()) << mission.status();
   EXPECT_EQ(mission->idle_time_to_live, absl::InfiniteDuration());
   EXPECT_EQ(mission->next_map_update_ns, std::nullopt);
+  EXPECT_EQ(mission->objective, std::nullopt);
   EXPECT_EQ(mission->event_retention, EventRetention::kAll);
 }
 

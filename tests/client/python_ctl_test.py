@@ -114,6 +114,15 @@ class CtlTest(unittest.TestCase):
         kept = self.client.get_mission("yard").options.keep_out
         self.assertEqual([area.name for area in kept], ["ramp"])
 
+    def test_a_mission_tells_what_became_of_its_objective(self):
+        self.ctl("missions", "create", "map")
+        self.assertIn("a complete map", self.ctl("missions", "show", "map"))
+        objective = {"kind": "OBJECTIVE_KIND_CONFIRM_CLEAN", "threshold_ppm": 10}
+        self.client.create_mission("air", {"objective": objective})
+        self.assertIn("nothing is known yet", self.ctl("missions", "show", "air"))
+        status = self.ctl_json("missions", "show", "air")["objective"]
+        self.assertEqual(status["state"], "STATE_PURSUED")
+
     def test_a_mission_from_its_making_to_its_end(self):
         self.ctl("missions", "create", "life", "--ttl", "3600")
         self.assertEqual(self.client.get_mission("life").idle_time_to_live.seconds, 3600)

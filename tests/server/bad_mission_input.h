@@ -25,6 +25,17 @@ inline BadInputs BadLimits() {
       .Values("options.memory_budget_bytes", {"-1", "0", "33554431", "1073741825"});
 }
 
+inline BadInputs BadObjective() {
+  const std::string o = "options.objective.";
+  return BadInputs()
+      .Values(o + "kind", {"-1", "99"})
+      .Values(o + "threshold_ppm", {"nan", "inf", "-1", "1e7"})
+      .Values(o + "confidence", {"nan", "inf", "-1", "0", "0.5", "1"})
+      .Values(o + "radius_m", {"nan", "inf", "-1", "101"})
+      .Values(o + "deadline_s", {"nan", "inf", "-1", "1.1e9"})
+      .ValuesBlaming(o + "threshold_ppm", o + "kind", {"2", "3", "4"});
+}
+
 inline BadInputs BadPlaces() {
   return BadInputs()
       .Values("options.home.x_m", {"nan", "inf", "-1e300", "1001"})
@@ -121,6 +132,7 @@ inline BadInputs BadCreateMission() {
       .Value("mission_id", R"("hall")", absl::StatusCode::kAlreadyExists, "MISSION_EXISTS")
       .Rows(BadLimits())
       .Rows(BadPlaces())
+      .Rows(BadObjective())
       .Rows(BadPriorMap())
       .Rows(BadGasSpecies())
       .Rows(BadOccupancyOptions())

@@ -18,7 +18,7 @@
 namespace plumescout::server {
 
 // A store that is shared with servers that are not there. Thread-safe.
-class SharedStore final : public HeldStore, public StoreNodes {
+class SharedStore : public HeldStore, public StoreNodes {
  public:
   // From now on the mission is this living node's; of nobody if it is empty.
   void SetOwner(const std::string& key, const std::string& node) {

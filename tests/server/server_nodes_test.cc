@@ -4,9 +4,12 @@
 #include <grpcpp/client_context.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
+#include "absl/base/thread_annotations.h"
+#include "absl/synchronization/mutex.h"
 #include "core/types/error_reason.h"
 #include "plumescout/v1/mission_service.grpc.pb.h"
 #include "server/server.h"
@@ -15,6 +18,41 @@
 
 namespace plumescout::server {
 namespace server_nodes_test {
+
+// Reads of missions wait while it is told so.
+class SlowStore final : public SharedStore {
+ public:
+  void SetReads(bool wait) {
+    absl::MutexLock lock(&reads_mutex_);
+    reads_wait_ = wait;
+  }
+  void AwaitRead() const {
+    const auto is_read = [this] {
+      reads_mutex_.AssertHeld();
+      return reads_ > 0;
+    };
+    absl::MutexLock lock(&reads_mutex_);
+    reads_mutex_.Await(absl::Condition(&is_read));
+  }
+  absl::StatusOr<std::unique_ptr<JournalReader>> Read(const std::string& key,
+                                                      std::int64_t first_number) override {
+    {
+      const auto may_read = [this] {
+        reads_mutex_.AssertHeld();
+        return !reads_wait_;
+      };
+      absl::MutexLock lock(&reads_mutex_);
+      ++reads_;
+      reads_mutex_.Await(absl::Condition(&may_read));
+    }
+    return SharedStore::Read(key, first_number);
+  }
+
+ private:
+  mutable absl::Mutex reads_mutex_;
+  int reads_ ABSL_GUARDED_BY(reads_mutex_) = 0;
+  bool reads_wait_ ABSL_GUARDED_BY(reads_mutex_) = false;
+};
 
 class ServerNodesTest : public testing::Test {
  protected:
@@ -37,14 +75,17 @@ class ServerNodesTest : public testing::Test {
     grpc::Status status;
     std::string owner;  // of the trailer
   };
+  grpc::Status Ask(const std::string& id, grpc::ClientContext& context) {
+    v1::GetMissionRequest request;
+    v1::GetMissionResponse response;
+    request.set_name("missions/" + id);
+    return missions_->GetMission(&context, request, &response);
+  }
   // Asks again while the server asks its store.
   Answer Get(const std::string& id) {
     while (true) {
       grpc::ClientContext context;
-      v1::GetMissionRequest request;
-      v1::GetMissionResponse response;
-      request.set_name("missions/" + id);
-      Answer answer{missions_->GetMission(&context, request, &response), ""};
+      Answer answer{Ask(id, context), ""};
       if (answer.status.error_message().starts_with(std::string(reason::kRecovering))) continue;
       const auto& trailers = context.GetServerTrailingMetadata();
       const auto owner = trailers.find("x-owner");
@@ -53,7 +94,7 @@ class ServerNodesTest : public testing::Test {
     }
   }
 
-  SharedStore store_;
+  SlowStore store_;
   std::unique_ptr<Server> server_;
   std::unique_ptr<v1::MissionService::Stub> missions_;
 };
@@ -69,6 +110,16 @@ TEST_F(ServerNodesTest, CallsAreToldWhereAMissionIs) {
   EXPECT_TRUE(mine.status.ok()) << mine.status.error_message();
   EXPECT_EQ(mine.owner, "");
   EXPECT_EQ(Get("attic").status.error_code(), grpc::StatusCode::NOT_FOUND);
+}
+
+TEST_F(ServerNodesTest, TakingAMissionOverDoesNotMakeItUnready) {
+  store_.SetReads(/*wait=*/true);
+  grpc::ClientContext context;
+  EXPECT_EQ(Ask("yard", context).error_code(), grpc::StatusCode::UNAVAILABLE);
+  store_.AwaitRead();
+  EXPECT_EQ(server_->NotReady(), "");
+  store_.SetReads(/*wait=*/false);
+  EXPECT_TRUE(Get("yard").status.ok());
 }
 
 TEST_F(ServerNodesTest, WithTheLeaseItStopsServing) {

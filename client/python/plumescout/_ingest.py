@@ -162,7 +162,8 @@ class Ingest:
 
     def _send_stream(self, end_s: float) -> Operation[None]:
         limits = yield from self._operations.limits()
-        stream = yield Open(rpcs.STREAM_OBSERVATIONS, timeout_s=left_s(end_s))
+        mission = self._request.mission.removeprefix("missions/")
+        stream = yield Open(rpcs.STREAM_OBSERVATIONS, timeout_s=left_s(end_s), mission=mission)
         yield Write(stream, ingest_pb.StreamObservationsRequest(open=self._open))
         sent, credit, ending = None, 0, False
         while (response := (yield Read(stream))) is not None:

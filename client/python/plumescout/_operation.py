@@ -28,16 +28,20 @@ class Invoke:
     rpc: Rpc[Any, Any]
     request: Message
     timeout_s: float
+    mission: str = ""
+    metadata: tuple[tuple[str, str], ...] = ()
 
 
 @dataclasses.dataclass(frozen=True)
 class Open:
     """Begins a call that streams; who carries out the operation cancels it when that ends.
-    request: None if requests are written. Comes to: the stream."""
+    request: None if requests are written. mission: that they are about. Comes to: the stream."""
 
     rpc: Rpc[Any, Any]
     request: Message | None = None
     timeout_s: float | None = None
+    mission: str = ""
+    metadata: tuple[tuple[str, str], ...] = ()
 
 
 @dataclasses.dataclass(frozen=True)

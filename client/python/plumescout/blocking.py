@@ -38,6 +38,7 @@ from ._operation import (
     Sleep,
     Write,
 )
+from ._routes import Routes
 from ._session import Session
 from .errors import error_of
 from .maps import Map
@@ -91,6 +92,7 @@ class _Driver:
 
     def __init__(self, target: str, credentials: Credentials) -> None:
         self._credentials = credentials
+        self._routes = Routes()
         protection = credentials.channel_credentials()
         if protection is None:
             self.channel = grpc.insecure_channel(target, options=OPTIONS)
@@ -99,13 +101,13 @@ class _Driver:
 
     def run(self, operation: Operation[T]) -> T:
         """Of operations that emit nothing."""
-        progress = Progress(operation)
+        progress = Progress(self._routes.route(operation))
         for _ in self._carry_out(progress):
             raise AssertionError("an item of an operation that has none")
         return progress.result()
 
     def iterate(self, operation: Operation[None]) -> Iterator[Any]:
-        return self._carry_out(Progress(operation))
+        return self._carry_out(Progress(self._routes.route(operation)))
 
     def _carry_out(self, progress: Progress[Any]) -> Iterator[Any]:
         streams: list[_Stream] = []
@@ -123,6 +125,9 @@ class _Driver:
             for stream in streams:
                 stream.cancel()
 
+    def _metadata(self, effect: Invoke | Open) -> Metadata:
+        return self._credentials.metadata() + effect.metadata
+
     def _perform(self, effect: Effect, streams: list[_Stream]) -> Any:
         if isinstance(effect, Invoke):
             rpc = effect.rpc
@@ -132,13 +137,13 @@ class _Driver:
             return call(
                 effect.request,
                 timeout=effect.timeout_s,
-                metadata=self._credentials.metadata(),
+                metadata=self._metadata(effect),
                 wait_for_ready=True,
             )
         if isinstance(effect, Open):
             while streams:  # an operation has one at a time
                 streams.pop().cancel()
-            streams.append(_Stream(self.channel, effect, self._credentials.metadata()))
+            streams.append(_Stream(self.channel, effect, self._metadata(effect)))
             return streams[-1]
         if isinstance(effect, Read):
             return effect.stream.read()

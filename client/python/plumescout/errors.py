@@ -10,6 +10,13 @@ import grpc
 from google.rpc import error_details_pb2, status_pb2
 
 _DETAILS_KEY = "grpc-status-details-bin"
+_OWNER_KEY = "x-owner"
+# A front says the latter two when the server behind it ends in the middle of a call.
+_LINK_CODES = (
+    grpc.StatusCode.UNAVAILABLE,
+    grpc.StatusCode.UNKNOWN,
+    grpc.StatusCode.INTERNAL,
+)
 
 
 class PlumeScoutError(Exception):
@@ -25,6 +32,8 @@ class PlumeScoutError(Exception):
     """Facts by name."""
     retry_after_s: float | None
     """The server's advice, if it gave any."""
+    node: str
+    """Of MISSION_ELSEWHERE: the server that has the mission; or ''."""
 
     def __init__(
         self,
@@ -34,6 +43,7 @@ class PlumeScoutError(Exception):
         retry_after_s: float | None = None,
         metadata: Mapping[str, str] | None = None,
         fields: Sequence[str] = (),
+        node: str = "",
     ) -> None:
         super().__init__(f"{code.name}: {message}")
         self.code = code
@@ -42,33 +52,40 @@ class PlumeScoutError(Exception):
         self.retry_after_s = retry_after_s
         self.metadata = dict(metadata or {})
         self.fields = tuple(fields)
+        self.node = node
 
     @property
     def link_broke(self) -> bool:
         """Whether the call may have been made or not: the link broke, or the server is not
         there."""
-        return self.code == grpc.StatusCode.UNAVAILABLE and not self.reason
+        return self.code in _LINK_CODES and not self.reason
 
     @property
     def passes_by_itself(self) -> bool:
         """Whether the server has not made the call, and says when to try again: it recovers its
-        missions, its disk is full, it has much to do, or goes down."""
-        return self.retry_after_s is not None and self.code in (
-            grpc.StatusCode.UNAVAILABLE,
-            grpc.StatusCode.RESOURCE_EXHAUSTED,
+        missions, its disk is full, it has much to do, or goes down. Or another one has the
+        mission, and is gone perhaps."""
+        return self.reason == "MISSION_ELSEWHERE" or (
+            self.retry_after_s is not None
+            and self.code in (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.RESOURCE_EXHAUSTED)
         )
 
 
 def error_of(error: grpc.RpcError) -> PlumeScoutError:
     """The PlumeScoutError of an error of gRPC, blocking or asyncio."""
     details = status_pb2.Status()
+    node = ""
     for key, value in error.trailing_metadata() or ():
         if key == _DETAILS_KEY:
             details.ParseFromString(value)
-    return _error(error.code(), error.details() or "", details)
+        elif key == _OWNER_KEY:
+            node = value
+    return _error(error.code(), error.details() or "", details, node)
 
 
-def _error(code: grpc.StatusCode, message: str, details: status_pb2.Status) -> PlumeScoutError:
+def _error(
+    code: grpc.StatusCode, message: str, details: status_pb2.Status, node: str
+) -> PlumeScoutError:
     info, retry = error_details_pb2.ErrorInfo(), error_details_pb2.RetryInfo()
     bad = error_details_pb2.BadRequest()
     retry_after_s = None
@@ -78,4 +95,4 @@ def _error(code: grpc.StatusCode, message: str, details: status_pb2.Status) -> P
         if detail.Unpack(retry):
             retry_after_s = retry.retry_delay.ToNanoseconds() / 1e9
     fields = [violation.field for violation in bad.field_violations]
-    return PlumeScoutError(code, message, info.reason, retry_after_s, info.metadata, fields)
+    return PlumeScoutError(code, message, info.reason, retry_after_s, info.metadata, fields, node)

@@ -9,6 +9,7 @@ import { Backoff, pause } from './backoff.ts';
 import type { BackoffOptions } from './backoff.ts';
 import { errorOf } from './errors.ts';
 import type { CallError } from './errors.ts';
+import { routed } from './routes.ts';
 
 export type CallOptions = {
   token?: string | (() => string); // a function is asked at every call
@@ -41,9 +42,16 @@ function isRepeatable(method: DescMethodUnary): boolean {
     method.input.field.requestId !== undefined || /^(Get|List|Query|Check)/.test(method.name);
 }
 
-// Whether it has not been carried out, and will be once the server has recovered.
+// Whether it has not been carried out, and will be once the server has recovered, or another one has
+// the mission.
 function passesByItself({ reason }: CallError): boolean {
-  return reason === 'RECOVERING' || reason === 'STORE_UNAVAILABLE';
+  return reason === 'RECOVERING' || reason === 'STORE_UNAVAILABLE' || reason === 'MISSION_ELSEWHERE';
+}
+
+// Whether nobody is there. A front says the latter two when the server behind it ends in mid-call.
+function isSilence({ code, reason }: CallError): boolean {
+  return code === Code.Unavailable ||
+    (reason === '' && (code === Code.Unknown || code === Code.Internal));
 }
 
 function named<I extends DescMessage>(method: DescMethodUnary<I>,
@@ -54,8 +62,9 @@ function named<I extends DescMessage>(method: DescMethodUnary<I>,
 }
 
 /** Unary calls get a time, a name if they take one, and are made again within that time while the
- * server is not there. Streams are left as they are. */
-export function patient(transport: Transport, { timeout_s = 10, retries = true }: CallOptions): Transport {
+ * server is not there. All go to the server that has their mission. */
+export function patient(direct: Transport, { timeout_s = 10, retries = true }: CallOptions): Transport {
+  const transport = routed(direct);
   return {
     stream: transport.stream.bind(transport),
     async unary(method, signal, timeoutMs, header, input, contextValues) {
@@ -69,7 +78,7 @@ export function patient(transport: Transport, { timeout_s = 10, retries = true }
         } catch (failed) {
           const error = errorOf(failed);
           const wait_s = Math.max(error.retryAfter_s, backoff.next_s());
-          const again = retries && error.code === Code.Unavailable &&
+          const again = retries && isSilence(error) &&
             (passesByItself(error) || isRepeatable(method));
           if (!again || signal?.aborted === true || performance.now() + 1000 * wait_s > end_ms) {
             throw failed;

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+
+#include "core/belief/objective_cells.h"
 
 namespace plumescout {
 namespace {
@@ -53,6 +56,17 @@ std::vector<float> Relevance(const Grid<float>& mean_ppm, const MissionOptions& 
     const float sure = std::min(1.0F, gas_ppm / sure_ppm);
     relevance[i] = kCleanRelevance + (1.0F - kCleanRelevance) * sure * sure +
                    kErrorShare * gas_ppm / greatest_ppm;
+  }
+  return relevance;
+}
+
+std::vector<float> Relevance(const Belief& belief) {
+  std::vector<float> relevance = Relevance(*belief.gas_mean_ppm, *belief.options);
+  if (belief.options->objective.kind == ObjectiveKind::kCompleteMap) return relevance;
+  const Grid<std::uint8_t> all(belief.geometry(), std::uint8_t{1});
+  const ObjectiveCells cells = JudgeCells(belief, all);
+  for (std::size_t i = 0; i < relevance.size(); ++i) {
+    if (!(cells.margin[i] < cells.needed)) relevance[i] = 0.0F;
   }
   return relevance;
 }

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "core/belief/belief.h"
 #include "core/types/grid.h"
 #include "core/types/options.h"
 
@@ -24,5 +25,9 @@ inline constexpr float kCleanRelevance = 0.05F;
 // lost in the field's smoothness, a softer one spends readings around the gas.
 // Where the mean is NaN: kCleanRelevance. By cell, in [kCleanRelevance, 1.5]. Cost: O(cells).
 std::vector<float> Relevance(const Grid<float>& mean_ppm, const MissionOptions& options);
+
+// The same by what the mission is for: of another objective than a complete map, cells that are
+// decided (JudgeCells) have none. Then in {0} and [kCleanRelevance, 1.5].
+std::vector<float> Relevance(const Belief& belief);
 
 }  // namespace plumescout

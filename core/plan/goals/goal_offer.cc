@@ -35,8 +35,27 @@ GoalOffer GoHome(const GoalQuery& query) {
   return result;
 }
 
+namespace {
+
+// Nothing but the way home, if robots end there.
+GoalOffer EndMission(const GoalQuery& query, bool at_home, GoalOffer result) {
+  if (at_home) {
+    GoalOffer way_home = GoHome(query);
+    result.goals = std::move(way_home.goals);
+    std::move(way_home.rejected.begin(), way_home.rejected.end(),
+              std::back_inserter(result.rejected));
+  }
+  result.complete = result.goals.empty();
+  return result;
+}
+
+}  // namespace
+
 GoalOffer FindGoals(const GoalQuery& query, Rng& rng) {
   if (query.go_home) return GoHome(query);
+  if (IsOver(query.belief)) {
+    return EndMission(query, query.options.return_home || query.belief.deadline_ns, {});
+  }
   FrontierGoals frontiers = FindFrontierGoals(query);
   GoalOffer result;
   result.rejected = std::move(frontiers.rejected);
@@ -59,14 +78,7 @@ GoalOffer FindGoals(const GoalQuery& query, Rng& rng) {
       [](const RejectedGoal& goal) { return goal.reason == RejectionReason::kClaimed; });
   if (query.robot.fruitless_fallbacks >= query.options.fallback_limit && !others_are_exploring) {
     result.fallback = false;
-    if (query.options.return_home) {
-      GoalOffer way_home = GoHome(query);
-      result.goals = std::move(way_home.goals);
-      std::move(way_home.rejected.begin(), way_home.rejected.end(),
-                std::back_inserter(result.rejected));
-    }
-    result.complete = result.goals.empty();
-    return result;
+    return EndMission(query, query.options.return_home, std::move(result));
   }
   result.goals = RandomGoals(query, rng);
   return result;

@@ -50,7 +50,8 @@ GoalOffer GoHome(const GoalQuery& query);
 // nothing, the mission is complete instead. A goal that another robot is on its way to keeps the
 // mission open, for what that robot finds may need this one; one that is set aside does not, or a
 // frontier that no visit can dissolve would keep robots driving for ever. With options.return_home
-// the robot goes home before its mission is complete. If query.go_home, this is GoHome.
+// the robot goes home before its mission is complete. If query.go_home, this is GoHome. Once the
+// mission is over (IsOver) it is complete at once, or as soon as the robot is home.
 // Deterministic in the query and `rng`, unless query.stop says so, which is asked all along. Cost:
 // O(cells).
 GoalOffer FindGoals(const GoalQuery& query, Rng& rng);

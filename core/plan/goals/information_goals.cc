@@ -26,7 +26,7 @@ constexpr double kDoneShare = 0.5;
 // What each cell can still tell, nats; 0 off free cells.
 Grid<float> LeftToTell(const Belief& belief) {
   const MissionOptions& mission = *belief.options;
-  const std::vector<float> relevance = Relevance(*belief.gas_mean_ppm, mission);
+  const std::vector<float> relevance = Relevance(belief);
   const double observed_ppm2 = ObservedVariance_ppm2(mission.frontier, mission.gas);
   const auto most_ppm2 = static_cast<float>(OpenLatticeVariance_ppm2(mission.gas));
   Grid<float> left(belief.geometry(), 0.0F);

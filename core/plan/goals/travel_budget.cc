@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plan/goals/travel_budget.h"
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,25 +22,54 @@ std::string Account(const GoalQuery& query, const Candidate& candidate, double b
                          left_m, query.options.travel_budget_m);
 }
 
+// By how long the robot would be late, seconds; 0 or less: it would not.
+double Late_s(const GoalQuery& query, const Candidate& candidate, double back_m) {
+  if (!query.belief.deadline_ns) return 0.0;
+  constexpr double kSecondsPerNanosecond = 1e-9;
+  const double left_s =
+      static_cast<double>(*query.belief.deadline_ns - query.belief.sample_time_ns) *
+      kSecondsPerNanosecond;
+  const PlanningOptions& options = query.options;
+  const double mean_mps =
+      candidate.length_m > 0.0 ? candidate.length_m / candidate.duration_s : options.speed_mps;
+  const double back_s = back_m / std::min(mean_mps, options.speed_mps);
+  return options.planning_latency_s +
+         (1.0 + options.return_margin_share) * (candidate.duration_s + back_s) - left_s;
+}
+
+// Why the candidate is not to be driven; none: it may be.
+std::optional<RejectedGoal> Objection(const GoalQuery& query, const Candidate& candidate,
+                                      double back_m) {
+  if (candidate.goal.kind == GoalKind::kHome) return std::nullopt;
+  const double budget_m = query.options.travel_budget_m;
+  const double left_m = budget_m - query.robot.travelled_m;
+  const double needed_m = candidate.length_m + (1.0 + query.options.return_margin_share) * back_m;
+  if (budget_m > 0.0 && !(needed_m <= left_m)) {
+    return RejectedGoal{candidate.goal, RejectionReason::kOverBudget,
+                        Account(query, candidate, back_m, left_m)};
+  }
+  const double late_s = Late_s(query, candidate, back_m);
+  if (late_s <= 0.0) return std::nullopt;
+  return RejectedGoal{candidate.goal, RejectionReason::kOverDeadline,
+                      absl::StrFormat("home %.1f s after the deadline", late_s)};
+}
+
 }  // namespace
 
 void RejectOverBudget(const GoalQuery& query, Plan& plan) {
-  if (query.options.travel_budget_m == 0.0 || plan.candidates.empty()) return;
+  const bool is_limited = query.options.travel_budget_m > 0.0 || query.belief.deadline_ns;
+  if (!is_limited || plan.candidates.empty()) return;
   const HomeGoal home = FindHome(query);
   std::vector<Cell> ends;
   if (home.reachable) ends.push_back(home.goal.cell);
   const Grid<double> way_home_m = TravelDistances_m(query.reachable, ends);
-  const double left_m = query.options.travel_budget_m - query.robot.travelled_m;
   std::vector<Candidate> affordable;
   for (Candidate& candidate : plan.candidates) {
-    const Cell end = way_home_m.geometry().CellAt(candidate.path.back());
-    const double back_m = way_home_m[end];
-    const double needed_m = candidate.length_m + (1.0 + query.options.return_margin_share) * back_m;
-    if (needed_m <= left_m || candidate.goal.kind == GoalKind::kHome) {
-      affordable.push_back(std::move(candidate));
+    const double back_m = way_home_m[way_home_m.geometry().CellAt(candidate.path.back())];
+    if (std::optional<RejectedGoal> objection = Objection(query, candidate, back_m)) {
+      plan.rejected.push_back(*std::move(objection));
     } else {
-      plan.rejected.push_back({candidate.goal, RejectionReason::kOverBudget,
-                               Account(query, candidate, back_m, left_m)});
+      affordable.push_back(std::move(candidate));
     }
   }
   plan.candidates = std::move(affordable);

@@ -62,7 +62,7 @@ std::vector<Cell> ReadingCells(const std::vector<Point2>& path, const GridGeomet
 ExpectedInformation::ExpectedInformation(const Belief& belief, const StopFn& stop)
     : belief_(belief) {
   if (belief.gas_what_if == nullptr) return;
-  const std::vector<float> relevance = Relevance(*belief.gas_mean_ppm, *belief.options);
+  const std::vector<float> relevance = Relevance(belief);
   const GridGeometry& field = belief.gas_what_if->geometry();
   std::vector<float> weights(field.size());
   FieldWindow(belief.geometry(), field).ForEachCell([&](std::size_t in_map, std::size_t in_field) {

@@ -235,5 +235,54 @@ TEST(StrategyReturn, OutOfWorkOnTheWayHomeDoesNotClaimToBeThere) {
   EXPECT_THAT(plan->explanation, HasSubstr("stopped"));
 }
 
+Belief WithObjective(Belief belief, ObjectiveState state, double deadline_s = 0.0) {
+  MissionOptions options = *belief.options;
+  options.objective = {
+      .kind = ObjectiveKind::kConfirmClean, .threshold_ppm = 10.0, .deadline_s = deadline_s};
+  belief.options = std::make_shared<const MissionOptions>(options);
+  belief.objective = ObjectiveStatus{.state = state, .confidence = 0.96};
+  return belief;
+}
+
+TEST(StrategyReturn, AnObjectiveThatIsMetEndsTheMissionOnTheSpot) {
+  const absl::StatusOr<Plan> plan =
+      TryPlan(WithObjective(FromTheEast(), ObjectiveState::kMet), For("r"));
+  ASSERT_TRUE(plan.ok()) << plan.status();
+  EXPECT_EQ(plan->end, PlanEnd::kMissionComplete);
+  EXPECT_EQ(plan->phase, MissionPhase::kComplete);
+  EXPECT_EQ(plan->explanation,
+            "Stay: the mission is complete. The objective is met: clean: nowhere more than 10 ppm, "
+            "with a confidence of 96 %.");
+}
+
+TEST(StrategyReturn, AnObjectiveThatIsRefutedSendsRobotsHomeWhereMissionsEndThere) {
+  PlanningOptions options = testing::XitGff();
+  options.return_home = true;
+  const Belief belief = WithObjective(FromTheEast(), ObjectiveState::kRefuted);
+  const absl::StatusOr<Plan> plan = TryPlan(belief, For("r"), options);
+  ASSERT_TRUE(plan.ok()) << plan.status();
+  EXPECT_EQ(Chosen(*plan).goal.kind, GoalKind::kHome);
+  EXPECT_THAT(plan->explanation, HasSubstr("The objective is refuted"));
+}
+
+TEST(StrategyReturn, WhoWouldBeLateForEveryGoalGoesHome) {
+  Belief belief = WithObjective(FromTheEast(), ObjectiveState::kPursued, 10.0);
+  belief.deadline_ns = belief.sample_time_ns + 900'000'000;
+  const absl::StatusOr<Plan> plan = TryPlan(belief, For("r"));
+  ASSERT_TRUE(plan.ok()) << plan.status();
+  EXPECT_EQ(Chosen(*plan).goal.kind, GoalKind::kHome);
+  EXPECT_THAT(plan->explanation, HasSubstr("home after the deadline"));
+}
+
+TEST(StrategyReturn, WhoIsHomeByTheDeadlineIsDone) {
+  Belief belief = WithObjective(FromTheEast(), ObjectiveState::kPursued, 10.0);
+  belief.robots["r"].first_place = belief.robots["r"].state.pose.position();
+  belief.deadline_ns = belief.sample_time_ns;
+  const absl::StatusOr<Plan> plan = TryPlan(belief, For("r"));
+  ASSERT_TRUE(plan.ok()) << plan.status();
+  EXPECT_EQ(plan->end, PlanEnd::kMissionComplete);
+  EXPECT_THAT(plan->explanation, HasSubstr("The deadline, 10 s from the first observation"));
+}
+
 }  // namespace composed_strategy_return_test
 }  // namespace plumescout

@@ -48,5 +48,23 @@ TEST(HomeOrdersTest, ALowBatterySendsHomeAndIsExplained) {
             " Its battery, at 15 %, has been below 20 %: it goes home.");
 }
 
+TEST(WhyOver, SaysWhatIsReachedOrThatItIsTooLate) {
+  Belief belief = BeliefOf({});
+  EXPECT_EQ(WhyOver(belief), "");
+  MissionOptions options;
+  options.objective = {
+      .kind = ObjectiveKind::kConfirmClean, .threshold_ppm = 10.0, .deadline_s = 600.0};
+  belief.options = std::make_shared<const MissionOptions>(options);
+  belief.objective = ObjectiveStatus{.state = ObjectiveState::kPursued};
+  belief.deadline_ns = 100;
+  EXPECT_EQ(WhyOver(belief), "");
+  belief.sample_time_ns = 100;
+  EXPECT_EQ(WhyOver(belief), " The deadline, 600 s from the first observation, has passed.");
+  belief.objective->state = ObjectiveState::kMet;
+  belief.objective->confidence = 0.96;
+  EXPECT_EQ(WhyOver(belief),
+            " The objective is met: clean: nowhere more than 10 ppm, with a confidence of 96 %.");
+}
+
 }  // namespace home_orders_test
 }  // namespace plumescout

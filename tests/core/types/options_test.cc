@@ -50,6 +50,22 @@ void ExpectRefused(const std::vector<Field<Options>>& fields) {
   }
 }
 
+TEST(ObjectiveOptions, RefuseValuesOutsideTheirRanges) {
+  ExpectRefused<ObjectiveOptions>({
+      {"threshold_ppm", &ObjectiveOptions::threshold_ppm, {-1.0, 1.1e6}},
+      {"confidence", &ObjectiveOptions::confidence, {0.0, 0.5, 1.0}},
+      {"radius_m", &ObjectiveOptions::radius_m, {-0.1, 101.0}},
+      {"deadline_s", &ObjectiveOptions::deadline_s, {-1.0, 1.1e9}},
+  });
+}
+
+TEST(ObjectiveOptions, AllButACompleteMapNeedAThreshold) {
+  ObjectiveOptions options{.kind = ObjectiveKind::kConfirmClean};
+  EXPECT_THAT(std::string(Validate(options).message()), HasSubstr("objective.threshold_ppm = 0"));
+  options.threshold_ppm = 10.0;
+  EXPECT_TRUE(Validate(options).ok());
+}
+
 TEST(OccupancyOptions, RefuseValuesOutsideTheirRanges) {
   ExpectRefused<OccupancyOptions>({
       {"resolution_m", &OccupancyOptions::resolution_m, {0.0, -0.1, 50.1}},

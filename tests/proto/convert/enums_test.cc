@@ -46,6 +46,8 @@ TEST(EnumsTest, EveryTableIsCompleteAndRefusesTheRest) {
   ExpectTableIsComplete<v1::ReportProgressRequest::Outcome>();
   ExpectTableIsComplete<v1::GasScale>();
   ExpectTableIsComplete<v1::GasPrecisions>();
+  ExpectTableIsComplete<v1::ObjectiveKind>();
+  ExpectTableIsComplete<v1::ObjectiveStatus::State>();
   ExpectTableIsComplete<v1::WgfdScope>();
   ExpectTableIsComplete<v1::GoalPolicy>();
   ExpectTableIsComplete<v1::CostKind>();

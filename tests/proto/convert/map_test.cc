@@ -31,6 +31,8 @@ MapSnapshot TestMap() {
     map.gas_variance_ppm2[Cell{x, 5}] = 0.25f;
   }
   map.gas_threshold_ppm = 2.5;
+  map.objective = ObjectiveStatus{.state = ObjectiveState::kMet, .confidence = 0.97};
+  map.objective_explanation = "Clean.";
   map.frontiers = {{FrontierKind::kGas, {{1, 2}, {2, 3}}, {0.1, 0.2}, {2, 2}, 3.5, true, false},
                    {FrontierKind::kOccupancy, {{9, 9}}, {1.0, 2.0}, {}, 0.0, false, true}};
   map.robots = {{"r1", 0.25, true, {1.0, 2.0, 0.5}, 40, 2}, {"r2", 0.2, false, {}, 0, 0, true}};
@@ -79,6 +81,8 @@ TEST(MapTest, MapSurvivesTheRoundTripInFullPrecision) {
   EXPECT_TRUE(SameBits(back->gas_mean_ppm, map.gas_mean_ppm));
   EXPECT_TRUE(SameBits(back->gas_variance_ppm2, map.gas_variance_ppm2));
   EXPECT_EQ(back->gas_threshold_ppm, map.gas_threshold_ppm);
+  EXPECT_EQ(back->objective, map.objective);
+  EXPECT_EQ(back->objective_explanation, "Clean.");
   EXPECT_EQ(back->robots, map.robots);
   EXPECT_EQ(back->gas_counters, map.gas_counters);
   EXPECT_EQ(back->gas_quality, map.gas_quality);

@@ -62,6 +62,7 @@ MissionOptions Unlike() {
                             4,
                             5};
   options.max_robot_count = 3;
+  options.objective = {ObjectiveKind::kFindSources, 12.5, 0.99, 0.5, 900.0};
   options.robot_silence_s = 12.5;
   options.return_home_below_battery_share = 0.25;
   options.memory_budget_bytes = 100'000'000;
@@ -86,6 +87,8 @@ TEST(OptionsTest, OptionsSurviveTheRoundTrip) {
   ASSERT_TRUE(back.ok()) << back.status();
   EXPECT_TRUE(MessageDifferencer::Equals(ToProto(*back), proto));
   EXPECT_EQ(back->seed, Unlike().seed);
+  EXPECT_EQ(back->objective.kind, ObjectiveKind::kFindSources);
+  EXPECT_EQ(back->objective.deadline_s, 900.0);
   EXPECT_EQ(back->robot_silence_s, 12.5);
   EXPECT_EQ(back->return_home_below_battery_share, 0.25);
   EXPECT_EQ(back->memory_budget_bytes, 100'000'000);

@@ -42,7 +42,7 @@ class Bell {
 // A reader of calls.
 class WebCallTest : public ServiceTest {
  protected:
-  std::shared_ptr<WebCall> StartCall(const std::string& method,
+  std::unique_ptr<WebCall> StartCall(const std::string& method,
                                      const google::protobuf::Message& request) {
     WebCall::Parts parts;
     parts.method = method;
@@ -114,6 +114,17 @@ TEST_F(WebCallTest, CallThatNobodyReadsCanBeCancelled) {
   bell_->Await();
   call->Cancel();
   EXPECT_THAT(Rest(*call), HasSubstr("grpc-status: 1\r\n"));
+}
+
+TEST_F(WebCallTest, CallThatIsDroppedIsOverBeforeItsServer) {
+  StartServer();
+  v1::WatchMapRequest request;
+  request.set_mission("missions/hall");
+  for (int i = 0; i < 20; ++i) {
+    const auto call = StartCall(kWatchMap, request);
+    if (i % 2 == 0) bell_->Await();
+  }
+  server_ = nullptr;
 }
 
 TEST_F(WebCallTest, StreamsEndWithTheServer) {

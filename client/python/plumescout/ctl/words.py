@@ -115,6 +115,7 @@ def mission_facts(mission):
     return list(zip(MISSION_HEADINGS, mission_row(mission))) + [
         ("KEEPS EVENTS", kept_events(mission)),
         ("STRATEGY", mission.options.planning.strategy),
+        ("OBJECTIVE", mission.objective.explanation or "a complete map"),
         ("GASES", ", ".join(gas.name for gas in mission.options.gas_species) or "one"),
         ("GAS UPDATE P99", f"{1e3 * timings.update.p99_s:.1f} ms of {timings.update.sample_count}"),
         ("STALENESS P99", f"{1e3 * timings.staleness.p99_s:.1f} ms"),

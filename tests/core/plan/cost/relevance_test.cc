@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/types/rng.h"
+#include "tests/support/measured_hall.h"
 
 namespace plumescout {
 namespace relevance_test {
@@ -83,6 +84,27 @@ TEST(Relevance, NeverFallsWithTheMeanAndStaysWithinItsBounds) {
     EXPECT_GE(relevance[i], i == 0 ? kCleanRelevance : relevance[i - 1]);
     EXPECT_LE(relevance[i], 1.5F * (1.0F + static_cast<float>(kSingle)));
   }
+}
+
+TEST(Relevance, WhatIsDecidedHasNone) {
+  support::MeasuredHall hall(support::Objective(ObjectiveKind::kConfirmClean, 0.0));
+  hall.Set({5, 5}, 9.0F, 1.0F);
+  hall.Forget({7, 7});
+  const GridGeometry& geometry = hall.belief.geometry();
+  const std::vector<float> all = Relevance(*hall.belief.gas_mean_ppm, *hall.belief.options);
+  const std::vector<float> relevance = Relevance(hall.belief);
+  for (std::size_t i = 0; i < relevance.size(); ++i) {
+    const Cell cell = geometry.CellAtIndex(i);
+    const bool is_free = hall.occupancy->At(cell, CellState::kUnknown) == CellState::kFree;
+    const bool undecided = cell == Cell{5, 5} || cell == Cell{7, 7} || !is_free;
+    EXPECT_EQ(relevance[i], undecided ? all[i] : 0.0F) << cell.x << ", " << cell.y;
+  }
+}
+
+TEST(Relevance, OfACompleteMapIsThatOfItsMeans) {
+  support::MeasuredHall hall(support::Objective(ObjectiveKind::kCompleteMap));
+  hall.Set({5, 5}, 9.0F, 1.0F);
+  EXPECT_EQ(Relevance(hall.belief), Relevance(*hall.belief.gas_mean_ppm, *hall.belief.options));
 }
 
 }  // namespace relevance_test

@@ -104,6 +104,51 @@ TEST(RejectOverBudget, RefusesEverythingIfThereIsNoWayHome) {
   EXPECT_THAT(Judge(c, {To(c, {10, 1})}).candidates, IsEmpty());
 }
 
+// Home is 0.9 m from the end, 0.2 m are driven: 1.1 s at 1 m/s.
+GoalCase WithTime(std::int64_t left_ms, double margin = 0.0) {
+  GoalCase c = InTheCorridor(0.0, 0.0, margin);
+  c.options.speed_mps = 1.0;
+  c.belief.sample_time_ns = 7'000'000'000;
+  c.belief.deadline_ns = c.belief.sample_time_ns + left_ms * 1'000'000;
+  return c;
+}
+Candidate Lasting(Candidate candidate, double duration_s) {
+  candidate.duration_s = duration_s;
+  return candidate;
+}
+
+TEST(RejectOverBudget, LeavesEnoughTimeToDriveHome) {
+  for (const int left_ms : {1090, 1110}) {
+    const GoalCase c = WithTime(left_ms);
+    const Plan plan = Judge(c, {Lasting(To(c, {10, 1}), 0.2)});
+    ASSERT_EQ(plan.candidates.size(), left_ms == 1110 ? 1u : 0u);
+    if (left_ms == 1110) continue;
+    EXPECT_EQ(plan.rejected[0].reason, RejectionReason::kOverDeadline);
+    EXPECT_EQ(plan.rejected[0].detail, "home 0.0 s after the deadline");
+  }
+}
+
+TEST(RejectOverBudget, KeepsTheMarginAndTheLatencyBackFromTheTime) {
+  GoalCase c = WithTime(1150, 0.1);  // 1.21 s are needed
+  EXPECT_THAT(Judge(c, {Lasting(To(c, {10, 1}), 0.2)}).candidates, IsEmpty());
+  c.options.return_margin_share = 0.0;
+  EXPECT_THAT(Judge(c, {Lasting(To(c, {10, 1}), 0.2)}).candidates, SizeIs(1));
+  c.options.planning_latency_s = 0.1;
+  EXPECT_THAT(Judge(c, {Lasting(To(c, {10, 1}), 0.2)}).candidates, IsEmpty());
+}
+
+TEST(RejectOverBudget, WhoIsSlowOnTheWayThereIsSlowOnTheWayHome) {
+  const GoalCase c = WithTime(2000);
+  EXPECT_THAT(Judge(c, {Lasting(To(c, {10, 1}), 0.2)}).candidates, SizeIs(1));
+  EXPECT_THAT(Judge(c, {Lasting(To(c, {10, 1}), 0.4)}).candidates, IsEmpty());  // 0.5 m/s: 2.2 s
+}
+
+TEST(RejectOverBudget, NobodyIsTooLateToGoHome) {
+  const GoalCase c = WithTime(-1);
+  const Plan plan = Judge(c, {Lasting(To(c, {1, 1}, GoalKind::kHome), 1.0)});
+  EXPECT_THAT(plan.candidates, SizeIs(1));
+}
+
 TEST(RejectOverBudget, RefusesNothingWithoutABudget) {
   const GoalCase c = InTheCorridor(0.0, 1e6);
   EXPECT_THAT(Judge(c, {To(c, {10, 1}), To(c, {1, 1})}).candidates, SizeIs(2));

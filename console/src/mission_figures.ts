@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+// What is charted of a mission at one moment.
+import type { Robot } from '@plumescout/client/wire';
+import type { Scene } from './map_view.ts';
+import { figure } from './words.ts';
+
+// `robot`: the resource name of whose figure it is; empty: of the mission.
+export type MissionFigure = { title: string; unit: string; robot: string; value: number };
+
+// `planCpu_s`: CPU time of the latest plan, by robot. None before there are a map and its status.
+export function missionFigures(scene: Pick<Scene, 'figures' | 'status'>, robots: Robot[],
+                               planCpu_s: [string, number][]): MissionFigure[] {
+  const { figures, status } = scene;
+  if (figures === null || status === null) return [];
+  const found: MissionFigure[] = [];
+  const add = (title: string, unit: string, value: number, robot = '') => found.push({ title, unit, robot, value });
+  add('Known area', 'm²', figures.known_m2);
+  if (status.objective !== undefined) add('Undecided area', 'm²', status.objective.undecidedAreaM2);
+  add('Largest gas mean', 'ppm', figures.max_ppm);
+  add(`Plume (above ${figure(status.gasThresholdPpm)} ppm)`, 'm²', figures.plume_m2);
+  add('Mean entropy of the gas field', 'nats', figures.mean_entropy_nats);
+  add('Readings in the posterior', '', Number(status.gasCounters?.inPosteriorCount ?? 0));
+  for (const { robot, appliedSequence } of status.robots) add('Observations', '', Number(appliedSequence), robot);
+  for (const [robot, cpu_s] of planCpu_s) add('CPU time of the latest plan', 'ms', 1000 * cpu_s, robot);
+  for (const { ingestLagS, onMap } of robots) {
+    if (ingestLagS !== undefined) add('Age of the newest sample', 's', ingestLagS, onMap?.robot);
+  }
+  return found;
+}

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/belief/objective_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/frontier/gas_frontier.h"
+#include "core/gas/gas_scale.h"
+#include "core/grid/distance_field.h"
+#include "core/types/normal.h"
+
+namespace plumescout {
+namespace {
+
+constexpr float kNotMeasured = -std::numeric_limits<float>::infinity();
+constexpr float kDoesNotCount = std::numeric_limits<float>::quiet_NaN();
+
+// A cell on the scale on which the field is Gaussian.
+struct OnFieldScale {
+  float mean;
+  float variance;
+};
+
+// Of y^2 the variance is 4 mean^2 v + 2 v^2: v is its positive root.
+OnFieldScale Undo(const GasOptions& gas, float mean_ppm, float variance_ppm2) {
+  if (gas.scale == GasScale::kLinear) return {mean_ppm, variance_ppm2};
+  const float square = std::max(0.0F, mean_ppm);
+  const float half = 0.5F * variance_ppm2;
+  return {std::sqrt(square), half / (square + std::sqrt(square * square + half))};
+}
+
+class Judge {
+ public:
+  Judge(const Belief& belief, const Grid<std::uint8_t>& counted)
+      : options_(*belief.options),
+        mean_ppm_(*belief.gas_mean_ppm),
+        variance_ppm2_(*belief.Gas(0).published_variance_ppm2()),
+        model_variance_ppm2_(*belief.gas_variance_ppm2),
+        counted_(counted),
+        observed_ppm2_(static_cast<float>(ObservedVariance_ppm2(options_.frontier, options_.gas))),
+        threshold_(static_cast<float>(OnScale(options_.gas, options_.objective.threshold_ppm))) {
+    cells_.margin = Grid<float>(belief.geometry(), kDoesNotCount);
+    cells_.needed = static_cast<float>(NormalQuantile(options_.objective.confidence));
+  }
+
+  ObjectiveCells Run() {
+    const ObjectiveKind kind = options_.objective.kind;
+    if (kind == ObjectiveKind::kFindSources) FindStrongest();
+    const bool either_side = kind == ObjectiveKind::kMapAboveThreshold;
+    for (std::size_t i = 0; i < cells_.margin.size(); ++i) {
+      if (counted_[i] == 0) continue;
+      cells_.margin[i] = IsMeasured(i) ? MarginAt(i, either_side) : kNotMeasured;
+    }
+    JudgeBesideMeasured(either_side);
+    if (either_side) PassOverEdges();
+    if (cells_.source_found) PassOverSource();
+    return std::move(cells_);
+  }
+
+ private:
+  // False for NaN, too.
+  bool IsMeasured(std::size_t i) const { return model_variance_ppm2_[i] <= observed_ppm2_; }
+  OnFieldScale At(std::size_t i) const {
+    return Undo(options_.gas, mean_ppm_[i], variance_ppm2_[i]);
+  }
+  float MarginAt(std::size_t i, bool either_side) const {
+    const OnFieldScale cell = At(i);
+    if (cells_.source_found) {
+      return (strongest_.mean - cell.mean) / std::sqrt(strongest_.variance + cell.variance);
+    }
+    const float below = (threshold_ - cell.mean) / std::sqrt(cell.variance);
+    return either_side ? std::abs(below) : below;
+  }
+
+  void FindStrongest() {
+    float most = kNotMeasured;
+    for (std::size_t i = 0; i < cells_.margin.size(); ++i) {
+      if (counted_[i] == 0 || !IsMeasured(i)) continue;
+      const OnFieldScale cell = At(i);
+      const float bound = cell.mean - cells_.needed * std::sqrt(cell.variance);
+      if (!(bound > most)) continue;
+      most = bound;
+      strongest_ = cell;
+      cells_.strongest = i;
+    }
+    cells_.source_found = most > threshold_;
+  }
+
+  // In corners, which have fewer neighbours, variances stay larger whoever passes by.
+  void JudgeBesideMeasured(bool either_side) {
+    Grid<std::uint8_t> measured(cells_.margin.geometry(), std::uint8_t{0});
+    for (std::size_t i = 0; i < measured.size(); ++i) measured[i] = IsMeasured(i) ? 1 : 0;
+    const double radius_cells = RadiusInCells();
+    const Grid<std::int32_t> away =
+        SquaredDistancesUpTo_cells2(measured, static_cast<int>(std::ceil(radius_cells)));
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+      const bool is_near = static_cast<double>(away[i]) <= radius_cells * radius_cells;
+      if (cells_.margin[i] != kNotMeasured || !is_near || std::isnan(mean_ppm_[i])) continue;
+      cells_.margin[i] = MarginAt(i, either_side);
+    }
+  }
+  double RadiusInCells() const {
+    return options_.objective.radius_m / cells_.margin.geometry().resolution_m;
+  }
+
+  // What lies at the edge of what is above the threshold is never sure to be on either side.
+  void PassOverEdges() {
+    const double radius_cells = RadiusInCells();
+    Grid<std::uint8_t> decided(cells_.margin.geometry(), std::uint8_t{0});
+    for (std::size_t i = 0; i < decided.size(); ++i) {
+      decided[i] = cells_.margin[i] >= cells_.needed ? 1 : 0;
+    }
+    const Grid<std::int32_t> away =
+        SquaredDistancesUpTo_cells2(decided, static_cast<int>(std::ceil(radius_cells)));
+    for (std::size_t i = 0; i < decided.size(); ++i) {
+      const bool doubtful = cells_.margin[i] < cells_.needed && cells_.margin[i] != kNotMeasured;
+      if (doubtful && static_cast<double>(away[i]) <= radius_cells * radius_cells) {
+        cells_.margin[i] = kDoesNotCount;
+      }
+    }
+  }
+
+  void PassOverSource() {
+    const GridGeometry& geometry = cells_.margin.geometry();
+    const Point2 source = geometry.Center(geometry.CellAtIndex(*cells_.strongest));
+    for (std::size_t i = 0; i < cells_.margin.size(); ++i) {
+      if (!(cells_.margin[i] < cells_.needed) || cells_.margin[i] == kNotMeasured) continue;
+      const Point2 place = geometry.Center(geometry.CellAtIndex(i));
+      if (Distance_m(source, place) <= options_.objective.radius_m) {
+        cells_.margin[i] = kDoesNotCount;
+      }
+    }
+    cells_.margin[*cells_.strongest] = kDoesNotCount;
+  }
+
+  const MissionOptions& options_;
+  const Grid<float>& mean_ppm_;
+  const Grid<float>& variance_ppm2_;
+  const Grid<float>& model_variance_ppm2_;
+  const Grid<std::uint8_t>& counted_;
+  const float observed_ppm2_;
+  const float threshold_;
+  OnFieldScale strongest_ = {0.0F, 0.0F};
+  ObjectiveCells cells_;
+};
+
+}  // namespace
+
+ObjectiveCells JudgeCells(const Belief& belief, const Grid<std::uint8_t>& counted) {
+  return Judge(belief, counted).Run();
+}
+
+}  // namespace plumescout
