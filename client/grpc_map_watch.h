@@ -10,7 +10,8 @@
 
 namespace plumescout::client {
 
-// Opens a stream of maps without waiting for the server. `stub` must outlive the watch.
+// Opens a stream of maps without waiting for the server. `routes` and `stub` must
+// outlive the watch.
 std::unique_ptr<MapWatch> OpenGrpcMapWatch(MissionRoutes& routes, v1::MapService::Stub& stub,
                                            const v1::WatchMapRequest& request);
 

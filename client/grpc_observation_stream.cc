@@ -37,7 +37,8 @@ class GrpcObservationStream final : public ObservationStream {
       : routes_(routes), timeouts_(timeouts) {}
   ~GrpcObservationStream() override;
 
-  absl::Status Open(v1::IngestService::Stub& stub, const RobotSession& session);
+  absl::Status Open(v1::IngestService::Stub& stub, const RobotSession& session,
+                    absl::Time deadline);
   // Whether it has ended because another server has the mission, which is known now.
   bool is_elsewhere() const { return is_elsewhere_; }
 
@@ -97,9 +98,8 @@ GrpcObservationStream::~GrpcObservationStream() {
   }
 }
 
-absl::Status GrpcObservationStream::Open(v1::IngestService::Stub& stub,
-                                         const RobotSession& session) {
-  const absl::Time deadline = absl::Now() + timeouts_.open;
+absl::Status GrpcObservationStream::Open(v1::IngestService::Stub& stub, const RobotSession& session,
+                                         absl::Time deadline) {
   robot_clock_ns_ = session.robot_clock_ns;
   mission_ = session.mission;
   node_ = routes_.Address(mission_, context_);
@@ -265,9 +265,10 @@ absl::Status GrpcObservationStream::Broken(absl::Status status) {
 absl::StatusOr<std::unique_ptr<ObservationStream>> OpenGrpcObservationStream(
     MissionRoutes& routes, v1::IngestService::Stub& stub, const RobotSession& session,
     const StreamTimeouts& timeouts) {
+  const absl::Time deadline = absl::Now() + timeouts.open;
   for (int redirect = 0;; ++redirect) {
     auto stream = std::make_unique<GrpcObservationStream>(routes, timeouts);
-    const absl::Status status = stream->Open(stub, session);
+    const absl::Status status = stream->Open(stub, session, deadline);
     if (status.ok()) return stream;
     if (!stream->is_elsewhere() || redirect == MissionRoutes::kMaxRedirects) return status;
   }

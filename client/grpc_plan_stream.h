@@ -11,7 +11,8 @@
 
 namespace plumescout::client {
 
-// Begins to plan without waiting for the server. `stub` must outlive the stream.
+// Begins to plan without waiting for the server. `routes` and `stub` must
+// outlive the stream.
 std::unique_ptr<PlanStream> OpenGrpcPlanStream(MissionRoutes& routes,
                                                v1::PlanningService::Stub& stub,
                                                const v1::StreamNextBestTrajectoryRequest& request,

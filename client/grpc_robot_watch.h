@@ -10,7 +10,8 @@
 
 namespace plumescout::client {
 
-// Opens a stream of notices without waiting for the server. `stub` must outlive the watch.
+// Opens a stream of notices without waiting for the server. `routes` and `stub` must
+// outlive the watch.
 std::unique_ptr<RobotWatch> OpenGrpcRobotWatch(MissionRoutes& routes, v1::RobotService::Stub& stub,
                                                const RobotSession& session);
 

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // What is charted of a mission at one moment.
-import type { Robot } from '@plumescout/client/wire';
+import type { Plan, Robot } from '@plumescout/client/wire';
 import type { Scene } from './map_view.ts';
 import { figure } from './words.ts';
 
 // `robot`: the resource name of whose figure it is; empty: of the mission.
 export type MissionFigure = { title: string; unit: string; robot: string; value: number };
 
-// `planCpu_s`: CPU time of the latest plan, by robot. None before there are a map and its status.
+// `latest`: the latest plan of each robot. None before there are a map and its status.
 export function missionFigures(scene: Pick<Scene, 'figures' | 'status'>, robots: Robot[],
-                               planCpu_s: [string, number][]): MissionFigure[] {
+                               latest: Plan[]): MissionFigure[] {
   const { figures, status } = scene;
   if (figures === null || status === null) return [];
   const found: MissionFigure[] = [];
@@ -22,7 +22,10 @@ export function missionFigures(scene: Pick<Scene, 'figures' | 'status'>, robots:
   add('Mean entropy of the gas field', 'nats', figures.mean_entropy_nats);
   add('Readings in the posterior', '', Number(status.gasCounters?.inPosteriorCount ?? 0));
   for (const { robot, appliedSequence } of status.robots) add('Observations', '', Number(appliedSequence), robot);
-  for (const [robot, cpu_s] of planCpu_s) add('CPU time of the latest plan', 'ms', 1000 * cpu_s, robot);
+  for (const { robot, cpuDuration } of latest) {
+    const cpu_ms = 1e3 * Number(cpuDuration?.seconds ?? 0) + 1e-6 * (cpuDuration?.nanos ?? 0);
+    add('CPU time of the latest plan', 'ms', cpu_ms, robot);
+  }
   for (const { ingestLagS, onMap } of robots) {
     if (ingestLagS !== undefined) add('Age of the newest sample', 's', ingestLagS, onMap?.robot);
   }

@@ -21,7 +21,7 @@ import { Watch, fetchMap } from './watch.ts';
 import type { LinkState } from './watch.ts';
 import { MissionState } from '@plumescout/client/wire';
 import type { MapStatus, Mission, Plan, Robot } from '@plumescout/client/wire';
-import { figure, missionState, objectiveWords, phase } from './words.ts';
+import { linkWords, missionState, objectiveWords, phase } from './words.ts';
 import { WhyPanel } from './why_panel.ts';
 
 const TABS = ['Robots', 'Why', 'Charts', 'Operate'] as const;
@@ -156,12 +156,7 @@ export class MissionPage {
   }
 
   private onLink(state: LinkState, trouble: Trouble | null, again_s: number): void {
-    const words: Record<LinkState, [string, string]> = {
-      connecting: ['connecting', 'pill warn'],
-      live: this.past === null ? ['live', 'pill good'] : ['playing', 'pill warn'],
-      waiting: [`connection lost, again in ${figure(again_s)} s`, 'pill bad'],
-      hidden: ['asleep while hidden', 'pill'], ended: ['ended', 'pill bad'] };
-    [this.linkPill.textContent, this.linkPill.className] = words[state];
+    [this.linkPill.textContent, this.linkPill.className] = linkWords(state, this.past !== null, again_s);
     if (state === 'live') return this.showPastBanner();
     if (state === 'waiting' || state === 'ended') {
       fill(this.panel.banner, trouble === null ? 'The stream has ended.' : inWords(trouble),
@@ -272,8 +267,9 @@ export class MissionPage {
       if (this.past === null) {
         this.scene.plans = live.plans;
         if (withLatest && this.showsLatest()) this.setLatest(live.latest);
-        this.sample(live.latest.map((plan) => [plan.robot,
-          Number(plan.cpuDuration?.seconds ?? 0) + (plan.cpuDuration?.nanos ?? 0) * 1e-9]));
+        for (const { title, unit, robot, value } of missionFigures(this.scene, this.robots, live.latest)) {
+          this.charts.add(title, unit, robot, value);
+        }
       }
     } catch {
       return; // the stream's banner says what is the matter
@@ -308,12 +304,6 @@ export class MissionPage {
     this.scene.figures = figuresOf(this.scene.raster, this.scene.status?.gasThresholdPpm ?? 0);
     this.panel.map.figuresChanged();
     this.panel.showLegend();
-  }
-
-  private sample(cpu_s: [string, number][]): void {
-    for (const { title, unit, robot, value } of missionFigures(this.scene, this.robots, cpu_s)) {
-      this.charts.add(title, unit, robot, value);
-    }
   }
 
   // --- The side.

@@ -6,6 +6,7 @@ import {
   RobotLink,
 } from '@plumescout/client/wire';
 import type { ObjectiveStatus } from '@plumescout/client/wire';
+import type { LinkState } from './watch.ts';
 
 // GAS_FRONTIER: gas frontier.
 function plain(name: string | undefined): string {
@@ -54,6 +55,17 @@ export function objectiveWords(status: ObjectiveStatus | undefined): [string, st
     case ObjectiveStatus_State.REFUTED: return [`objective refuted, ${sure}`, 'pill bad'];
     case ObjectiveStatus_State.CANNOT_BE_MET: return ['objective not met', 'pill warn'];
     default: return [`objective: ${figure(status.undecidedAreaM2)} m² undecided`, 'pill'];
+  }
+}
+
+// Of the stream that a page looks through, with the looks of its pill. `plays`: what was, not what is.
+export function linkWords(state: LinkState, plays: boolean, again_s: number): [string, string] {
+  switch (state) {
+    case 'connecting': return ['connecting', 'pill warn'];
+    case 'live': return plays ? ['playing', 'pill warn'] : ['live', 'pill good'];
+    case 'waiting': return [`connection lost, again in ${figure(again_s)} s`, 'pill bad'];
+    case 'hidden': return ['asleep while hidden', 'pill'];
+    case 'ended': return ['ended', 'pill bad'];
   }
 }
 

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { create } from '@bufbuild/protobuf';
-import { MapStatusSchema, RobotSchema } from '@plumescout/client/wire';
+import { MapStatusSchema, PlanSchema, RobotSchema } from '@plumescout/client/wire';
 import { missionFigures } from '../src/mission_figures.ts';
 
 const figures = { known_m2: 12, max_ppm: 30, min_ppm: 0, plume_m2: 4, mean_entropy_nats: -1 } as never;
@@ -19,7 +19,8 @@ test('figures of the mission, and lines of its robots', () => {
   const status = create(MapStatusSchema, { gasThresholdPpm: 2.5, robots: [{ robot: R1, appliedSequence: 7n }],
                                            objective: { undecidedAreaM2: 3.5 } });
   const robots = [create(RobotSchema, { onMap: { robot: R1 }, ingestLagS: 0.25 }), create(RobotSchema, {})];
-  const found = missionFigures({ figures, status }, robots, [[R1, 0.02]]);
+  const found = missionFigures({ figures, status }, robots,
+    [create(PlanSchema, { robot: R1, cpuDuration: { seconds: 0n, nanos: 20_000_000 } })]);
   const values = Object.fromEntries(found.map(({ title, robot, value }) => [`${title}|${robot}`, value]));
   assert.deepEqual(values, {
     'Known area|': 12, 'Undecided area|': 3.5, 'Largest gas mean|': 30, 'Plume (above 2.5 ppm)|': 4,

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { create } from '@bufbuild/protobuf';
 import { ObjectiveStatusSchema, ObjectiveStatus_State } from '@plumescout/client/wire';
-import { objectiveWords } from '../src/words.ts';
+import { linkWords, objectiveWords } from '../src/words.ts';
 
 test('an objective is told in a few words', () => {
   const words = (state: ObjectiveStatus_State) =>
@@ -17,4 +17,11 @@ test('an objective is told in a few words', () => {
 
 test('of a complete map there is nothing to tell', () => {
   assert.deepEqual(objectiveWords(undefined), ['', '']);
+});
+
+test('a link is told by what it shows', () => {
+  assert.deepEqual(linkWords('live', false, 0), ['live', 'pill good']);
+  assert.deepEqual(linkWords('live', true, 0), ['playing', 'pill warn']);
+  assert.deepEqual(linkWords('waiting', false, 2), ['connection lost, again in 2 s', 'pill bad']);
+  assert.deepEqual(linkWords('ended', true, 0), ['ended', 'pill bad']);
 });

@@ -61,9 +61,7 @@ absl::StatusOr<TrialPlan> MakePlan(const ExperimentOptions& options) {
   }
   plan.duration_s = options.quick ? kQuickDuration_s : kDuration_s;
   ExperimentOptions making = options;
-  making.progress = [&options](double share) {
-    if (options.progress) options.progress(kScenesShare * share);
-  };
+  making.progress = PartOfProgress(options, 0.0, kScenesShare);
   PLUMESCOUT_ASSIGN_OR_RETURN(
       plan.scenes,
       GeneratedScenes(making, {kFirstBuilding, options.quick ? 1 : kBuildings}, plan.duration_s));
@@ -72,9 +70,7 @@ absl::StatusOr<TrialPlan> MakePlan(const ExperimentOptions& options) {
   plan.peer = kPeer;
   plan.folder = absl::StrCat(options.folder, "/trials");
   plan.jobs = options.jobs;
-  plan.progress = [&options](double share) {
-    if (options.progress) options.progress(kScenesShare + (1.0 - kScenesShare) * share);
-  };
+  plan.progress = PartOfProgress(options, kScenesShare, 1.0);
   return plan;
 }
 

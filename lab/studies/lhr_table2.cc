@@ -299,20 +299,16 @@ std::vector<std::string> MakeNotes(const SamplingPlan& plan) {
 
 absl::StatusOr<Study> RunLhrTable2(const ExperimentOptions& options) {
   const double table_share = options.quick ? 1.0 : 0.8;  // of the time, for the progress line
-  const auto part = [&options](double from, double to) {
-    return [&options, from, to](double share) {
-      if (options.progress) options.progress(from + (to - from) * share);
-    };
-  };
   PLUMESCOUT_ASSIGN_OR_RETURN(SamplingPlan plan, MakeTablePlan(options));
-  plan.progress = part(0.0, table_share);
+  plan.progress = PartOfProgress(options, 0.0, table_share);
   PLUMESCOUT_ASSIGN_OR_RETURN(const Drives drives, RunSamplingStudy(plan));
   Study study;
   study.figures.title = "Low-to-high resolution sampling ([LHR] Table II)";
   study.figures.notes = MakeNotes(plan);
   study.figures.tables = {MakeTextTable(plan, drives), MakeBandTable(plan, drives)};
   if (!options.quick) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(TextTable scan, ScanPriors(options, part(table_share, 1.0)));
+    PLUMESCOUT_ASSIGN_OR_RETURN(TextTable scan,
+                                ScanPriors(options, PartOfProgress(options, table_share, 1.0)));
     study.figures.tables.push_back(std::move(scan));
   }
   study.figures.charts = MakeCharts(plan, drives);

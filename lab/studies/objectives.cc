@@ -270,21 +270,17 @@ CsvTable MakeCsv(const std::vector<Building>& buildings) {
 
 absl::StatusOr<Study> RunObjectives(const ExperimentOptions& options) {
   constexpr double kScenesShare = 0.3;  // of the time, for the progress line
-  const auto part = [&](double from, double to) {
-    return [&options, from, to](double share) {
-      if (options.progress) options.progress(from + (to - from) * share);
-    };
-  };
   ExperimentOptions making = options;
-  making.progress = part(0.0, kScenesShare);
+  making.progress = PartOfProgress(options, 0.0, kScenesShare);
   const double duration_s = options.quick ? kQuickDuration_s : kDuration_s;
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<std::string> scenes,
                               GeneratedScenes(making,
                                               {options.quick ? kFirstQuickBuilding : kFirstBuilding,
                                                options.quick ? 1 : kBuildings},
                                               duration_s));
-  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<Building> buildings,
-                              DriveAll(options, scenes, part(kScenesShare, 1.0)));
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      const std::vector<Building> buildings,
+      DriveAll(options, scenes, PartOfProgress(options, kScenesShare, 1.0)));
   Study study;
   study.figures.title = "Missions that know what they are for";
   study.figures.notes = {

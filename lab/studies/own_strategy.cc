@@ -271,13 +271,8 @@ std::vector<std::string> MakeNotes(const TrialPlan& plan) {
 absl::StatusOr<Study> RunOwnStrategy(const ExperimentOptions& options) {
   constexpr double kScenesShare = 0.2;  // of the time, for the progress line
   constexpr double kOracleShare = 0.25;
-  const auto part = [&](double from, double to) {
-    return [&options, from, to](double share) {
-      if (options.progress) options.progress(from + (to - from) * share);
-    };
-  };
   ExperimentOptions making = options;
-  making.progress = part(0.0, kScenesShare);
+  making.progress = PartOfProgress(options, 0.0, kScenesShare);
   const double duration_s = options.quick ? kQuickDuration_s : kDuration_s;
   PLUMESCOUT_ASSIGN_OR_RETURN(std::vector<std::string> scenes,
                               GeneratedScenes(making,
@@ -285,10 +280,11 @@ absl::StatusOr<Study> RunOwnStrategy(const ExperimentOptions& options) {
                                                options.quick ? kQuickBuildings : kBuildings},
                                               duration_s));
   PLUMESCOUT_ASSIGN_OR_RETURN(TrialPlan plan, MakePlan(options, std::move(scenes)));
-  plan.progress = part(kScenesShare, 1.0 - kOracleShare);
+  plan.progress = PartOfProgress(options, kScenesShare, 1.0 - kOracleShare);
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<SceneRecords> records, RunTrials(plan));
-  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<Building> buildings,
-                              Judge(plan, records, part(1.0 - kOracleShare, 1.0)));
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      const std::vector<Building> buildings,
+      Judge(plan, records, PartOfProgress(options, 1.0 - kOracleShare, 1.0)));
   Study study;
   study.figures.title = "Our own strategy in buildings it does not know";
   study.figures.notes = MakeNotes(plan);

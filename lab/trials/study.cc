@@ -10,6 +10,13 @@
 
 namespace plumescout::lab {
 
+std::function<void(double share)> PartOfProgress(const ExperimentOptions& options, double from,
+                                                 double to) {
+  return [progress = options.progress, from, to](double share) {
+    if (progress) progress(from + (to - from) * share);
+  };
+}
+
 absl::Status WriteStudy(const Study& study, const std::string& folder) {
   PLUMESCOUT_RETURN_IF_ERROR(MakeFolder(folder));
   PLUMESCOUT_RETURN_IF_ERROR(

@@ -25,6 +25,11 @@ struct ExperimentOptions {
   std::function<void(double share)> progress{};  // told how much is done, [0, 1]; may be empty
 };
 
+// Of a part of an experiment that goes from the share `from` of the whole to `to`: tells
+// options.progress, if there is one. Never empty: who has a share to tell may call it.
+std::function<void(double share)> PartOfProgress(const ExperimentOptions& options, double from,
+                                                 double to);
+
 // What an experiment found.
 struct Study {
   ReportFigures figures;

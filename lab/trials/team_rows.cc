@@ -48,9 +48,7 @@ absl::StatusOr<SizeResult> RunSize(const ExperimentOptions& options, const Build
                                    std::vector<TeamRow> teams, double duration_s, int trials) {
   constexpr double kScenesShare = 0.2;  // of the time, for the progress line
   ExperimentOptions making = options;
-  making.progress = [&options](double share) {
-    if (options.progress) options.progress(kScenesShare * share);
-  };
+  making.progress = PartOfProgress(options, 0.0, kScenesShare);
   GeneratedBuildings buildings = size.buildings;
   if (options.quick) buildings.count = 1;
   PLUMESCOUT_ASSIGN_OR_RETURN(std::vector<std::string> scenes,
@@ -61,9 +59,7 @@ absl::StatusOr<SizeResult> RunSize(const ExperimentOptions& options, const Build
   PLUMESCOUT_ASSIGN_OR_RETURN(result.plan, MakePlan(options, result.teams, std::move(scenes)));
   result.plan.trials = options.trials.value_or(trials);
   result.plan.duration_s = duration_s;
-  result.plan.progress = [&options](double share) {
-    if (options.progress) options.progress(kScenesShare + (1.0 - kScenesShare) * share);
-  };
+  result.plan.progress = PartOfProgress(options, kScenesShare, 1.0);
   PLUMESCOUT_ASSIGN_OR_RETURN(result.records, RunTrials(result.plan));
   return result;
 }

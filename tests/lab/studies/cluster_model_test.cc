@@ -7,6 +7,8 @@
 #include <cmath>
 #include <string>
 
+#include "tests/lab/studies/study_figures.h"
+
 namespace plumescout::lab {
 namespace cluster_model_test {
 
@@ -19,13 +21,7 @@ const Study& Quick() {
   return study;
 }
 
-double Figure(const std::string& name) {
-  for (const auto& [key, value] : Quick().summary.figures) {
-    if (key == name) return value;
-  }
-  ADD_FAILURE() << "no figure " << name;
-  return std::nan("");
-}
+double Figure(const std::string& name) { return FigureOf(Quick(), name); }
 
 TEST(ClusterModel, MoreNodesRecoverTheMissionsOfOneSooner) {
   EXPECT_LT(Figure("storm_n10_m800_longest_s"), Figure("storm_n3_m800_longest_s") / 2.0);

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "lab/worlds/mit_scene.h"
+#include "tests/lab/studies/study_figures.h"
 
 namespace plumescout::lab {
 namespace mit_table1_test {
@@ -20,11 +21,7 @@ const Study& QuickStudy() {
   return study;
 }
 
-double Figure(const std::string& name) {
-  const std::map<std::string, double> figures(QuickStudy().summary.figures.begin(),
-                                              QuickStudy().summary.figures.end());
-  return figures.at(name);
-}
+double Figure(const std::string& name) { return FigureOf(QuickStudy(), name); }
 
 TEST(MitTable1, HasARowForEveryRunOfEveryPlannerInEveryScene) {
   const double scenes = static_cast<double>(MitSceneVariants().size() + 2);

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "lab/worlds/published_flows.h"
+#include "tests/lab/studies/study_figures.h"
 
 namespace plumescout::lab {
 namespace wind_validation_test {
@@ -23,13 +24,7 @@ const Study& Quick() {
   return study;
 }
 
-double Figure(const std::string& name) {
-  for (const auto& [key, value] : Quick().summary.figures) {
-    if (key == name) return value;
-  }
-  ADD_FAILURE() << "no figure " << name;
-  return std::nan("");
-}
+double Figure(const std::string& name) { return FigureOf(Quick(), name); }
 
 // Bars: what second order leaves at these cells by the full study's rasters (0.0031, 0.0044, 0.0034
 // at 32 cells, a quarter of each at 64), and a quarter more.

@@ -7,6 +7,8 @@
 #include <map>
 #include <string>
 
+#include "tests/lab/studies/study_figures.h"
+
 namespace plumescout::lab {
 namespace xit_trial_test {
 
@@ -21,11 +23,7 @@ const Study& QuickStudy() {
   return study;
 }
 
-double Figure(const std::string& name) {
-  const std::map<std::string, double> figures(QuickStudy().summary.figures.begin(),
-                                              QuickStudy().summary.figures.end());
-  return figures.at(name);
-}
+double Figure(const std::string& name) { return FigureOf(QuickStudy(), name); }
 
 TEST(XitTrial, TheRobotStopsToSample) {
   EXPECT_GT(Figure("stops"), 5.0);

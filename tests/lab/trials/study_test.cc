@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "formats/file_io.h"
 #include "tests/support/temp_folder.h"
 
@@ -33,6 +35,17 @@ TEST(Study, WritesPagePictureTableAndSummary) {
             std::string::npos);
   EXPECT_TRUE(ReadFile(out + "/report.png", kMaxBytes).ok());
 }
+
+TEST(PartOfProgress, TellsOfTheWhole) {
+  std::vector<double> told;
+  ExperimentOptions options;
+  options.progress = [&](double share) { told.push_back(share); };
+  const auto part = PartOfProgress(options, 0.25, 0.75);
+  for (const double share : {0.0, 0.5, 1.0}) part(share);
+  EXPECT_EQ(told, (std::vector<double>{0.25, 0.5, 0.75}));
+}
+
+TEST(PartOfProgress, MayBeToldThoughNobodyAsks) { PartOfProgress({}, 0.0, 1.0)(0.5); }
 
 TEST(Study, SaysWhereItCannotWrite) {
   const TempFolder folder;
