@@ -28,4 +28,5 @@ endif()
 if(PLUMESCOUT_BUILD_TESTS)
   find_package(GTest CONFIG REQUIRED)
   include(GoogleTest)
+  find_package(fastrtps CONFIG QUIET)  # without it plumescout-ros2 is tried with one vendor's DDS only
 endif()

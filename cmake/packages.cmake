@@ -61,5 +61,5 @@ plumescout_package(python python3-plumescout
   "Python client of PlumeScout, and plumescoutctl"
   DEPENDS "python3 (>= 3.10), python3-grpcio, python3-numpy, python3-protobuf" ARCHITECTURE all)
 plumescout_package(ros2 plumescout-ros2
-  "checks by DDS whether robots that speak ROS 2 publish what PlumeScout needs")
+  "puts robots that speak ROS 2 into missions of PlumeScout, by DDS")
 include(CPack)

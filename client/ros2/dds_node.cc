@@ -159,6 +159,12 @@ absl::Status DdsNode::PublishBytes(int writer, std::string cdr) {
   return code < 0 ? Failed(to.topic.c_str(), code) : absl::OkStatus();
 }
 
+void DdsNode::AwaitHeard(absl::Duration timeout) {
+  for (const Writer& writer : writers_) {
+    dds_wait_for_acks(writer.entity, absl::ToInt64Nanoseconds(timeout));
+  }
+}
+
 std::vector<DdsNode::Source> DdsNode::Sources() const {
   std::vector<Source> sources;
   for (const auto& reader : readers_) {

@@ -59,6 +59,9 @@ class DdsNode {
     return PublishBytes(writer, ros::EncodeCdr(message));
   }
 
+  // Waits until who listens reliably has what was published, at most so long for each topic.
+  void AwaitHeard(absl::Duration timeout);
+
   // How many publish what is subscribed to.
   struct Source {
     std::string topic;

@@ -27,6 +27,13 @@ std::int64_t TimeOf_ns(const ros::Header& header) { return ros::ToNanoseconds(he
 
 }  // namespace
 
+std::string Describe(const IntakeCounters& counters) {
+  return absl::StrCat("heard ", counters.scans, " scans, ", counters.gas_readings,
+                      " gas readings, ", counters.winds, " of wind; refused ", counters.bad,
+                      ", without a place ", counters.unplaced, ", not taken in time ",
+                      counters.overrun);
+}
+
 RobotIntake::RobotIntake(const IntakeOptions& options, Complain complain)
     : options_(options), complain_(std::move(complain)), jump_(options.jump) {
   tf_.HoldNewest(options_.odom_frame);

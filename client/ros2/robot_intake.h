@@ -48,6 +48,9 @@ struct IntakeCounters {
   std::int64_t overrun = 0;       // that were dropped since nobody took them
 };
 
+// In a sentence.
+std::string Describe(const IntakeCounters& counters);
+
 // Makes samples with poses of what a robot of ROS 2 publishes. Whatever makes no sense is counted,
 // told of and passed over. Pure: `received_ns` is any clock that nobody sets.
 class RobotIntake {

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "client/ros2/robot_topics.h"
 
-#include <chrono>
 #include <utility>
 
+#include "client/ros2/steady_clock.h"
 #include "core/types/status_macros.h"
 #include "formats/ros/cdr_reader.h"
 #include "formats/ros/messages.h"
@@ -14,12 +14,6 @@ namespace {
 
 constexpr int kTransforms = 100;  // as many as publishers of transforms keep
 constexpr int kSamples = 20;
-
-std::int64_t Steady_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 template <typename Message, typename HearMessage>
 absl::Status Listen(const TopicNames& names, const std::string& topic, const TopicQos& qos,

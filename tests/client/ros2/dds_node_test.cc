@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <functional>
 #include <string>
@@ -34,7 +33,7 @@ class DdsNodeTest : public ::testing::Test {
  protected:
   DdsNodeTest() {
     KeepDdsToLoopback();
-    domain_ = 100 + getpid() % 100;  // where no other test is
+    domain_ = OwnDomain();
     node_ = Open();
   }
   std::unique_ptr<DdsNode> Open() const {

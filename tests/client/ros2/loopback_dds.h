@@ -3,6 +3,7 @@
 #pragma once
 
 #include <stdlib.h>
+#include <unistd.h>
 
 namespace plumescout::client {
 
@@ -16,5 +17,8 @@ inline void KeepDdsToLoopback() {
          "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery></Domain></CycloneDDS>",
          /*overwrite=*/1);
 }
+
+// Where no other test is.
+inline int OwnDomain() { return 100 + getpid() % 100; }
 
 }  // namespace plumescout::client

@@ -3,7 +3,6 @@
 #include "client/ros2/robot_topics.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "absl/time/clock.h"
 #include "tests/client/ros2/loopback_dds.h"
@@ -18,7 +17,7 @@ constexpr std::int64_t kTime_ns = 100'000'000'000;
 // no message of the topic's type is refused, and the next one counts.
 TEST(ListenToRobot, HearsAWholeRobot) {
   KeepDdsToLoopback();
-  const int domain = 100 + getpid() % 100;
+  const int domain = OwnDomain();
   RobotIntake intake{IntakeOptions{}};
   const auto node = DdsNode::Open(domain);
   ASSERT_TRUE(node.ok()) << node.status();
