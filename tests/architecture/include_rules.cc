@@ -49,9 +49,9 @@ const Names kServer = {"server/base",  "server/config",  "server/access",   "ser
                        "server/store", "server/maps",    "server/missions", "server/history",
                        "server/calls", "server/streams", "server/services", "server/web",
                        "server"};
-const Names kLab = {"lab/about",   "lab/formats", "lab/rivals", "lab/local",
-                    "lab/sim",     "lab/report",  "lab/worlds", "lab/trials",
-                    "lab/studies", "lab/bench",   "lab/program"};
+const Names kLab = {"lab/about",  "lab/formats", "lab/bags",   "lab/rivals",
+                    "lab/local",  "lab/sim",     "lab/report", "lab/worlds",
+                    "lab/trials", "lab/studies", "lab/bench",  "lab/program"};
 
 Names Before(const Names& rooms, const std::string& folder) {
   return {rooms.begin(), std::find(rooms.begin(), rooms.end(), folder)};
@@ -85,6 +85,8 @@ std::vector<Room> MakeRooms() {
   }
   const std::vector<Room> narrow = {
       {"lab/formats", {"core/types", "formats"}},
+      {"lab/bags",
+       {"core/types", "formats", "formats/mcap", "formats/ros", "client", "client/ros2"}},
       {"lab/local", Join({kCore, {"client"}})},
       {"lab/sim", {"core/types", "core/grid", "core/linalg", "formats", "client", "lab/formats"}},
       {"lab/report", {"core/types", "formats", "lab/formats"}},
@@ -214,9 +216,12 @@ std::string WhyForbidden(const SourceFile& file, const std::string& include) {
   if (absl::StartsWith(include, "ompl/") && !may_ompl) {
     return "OMPL stays in the sources of ompl_planners";
   }
-  const bool may_sqlite =
-      (IsBelow(file.path, "server/store") || IsBelow(file.path, "tests")) && !file.is_header();
-  if (include == "sqlite3.h" && !may_sqlite) return "SQLite stays in the sources of server/store";
+  const bool may_sqlite = (IsBelow(file.path, "server/store") || IsBelow(file.path, "lab/bags") ||
+                           IsBelow(file.path, "tests")) &&
+                          !file.is_header();
+  if (include == "sqlite3.h" && !may_sqlite) {
+    return "SQLite stays in the sources of server/store and lab/bags";
+  }
   const bool may_wire = IsBelow(file.path, "server") || IsBelow(file.path, "client") ||
                         IsBelow(file.path, "proto/convert") || IsBelow(file.path, "tests");
   if (file.is_header() && (IsGrpc(include) || IsProtobuf(include)) && !may_wire) {
