@@ -75,9 +75,9 @@ endfunction()
 # Builds every *_test.cc in and below tests/core/gas into the program core_gas_tests. CTest has one
 # test for each file, under its path: core/gas/posterior_test. Sources are compiled several at a
 # time, which halves the time: each keeps to a namespace of its own name. OPTIMISE: what they compare
-# with, dense matrices, would run for minutes without. EXCEPT: a regex of tests that are left out.
+# with, dense matrices, would run for minutes without. EXCLUDE: sources to leave out, by regex.
 function(plumescout_tests folder)
-  cmake_parse_arguments(ARG "OPTIMISE" "PRECOMPILED;EXCEPT" "DEPS" ${ARGN})
+  cmake_parse_arguments(ARG "OPTIMISE" "PRECOMPILED;EXCLUDE" "DEPS" ${ARGN})
   if(NOT folder MATCHES "${PLUMESCOUT_SUITES}")
     return()
   endif()
@@ -87,8 +87,8 @@ function(plumescout_tests folder)
   string(REPLACE "/" "_" target ${folder}_tests)
   file(GLOB_RECURSE sources RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
        ${PROJECT_SOURCE_DIR}/tests/${folder}/*_test.cc)
-  if(ARG_EXCEPT)
-    list(FILTER sources EXCLUDE REGEX ${ARG_EXCEPT})
+  if(ARG_EXCLUDE)
+    list(FILTER sources EXCLUDE REGEX ${ARG_EXCLUDE})
   endif()
   plumescout_unite(united ${target} ${sources})
   plumescout_program(${target} SOURCES ${united} DEPS ${ARG_DEPS} plumescout::tests_main)

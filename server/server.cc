@@ -226,7 +226,7 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
   auto unreachable = std::move(events.unreachable);
   std::unique_ptr<MissionStore> store;
   if (hooks.store == nullptr) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(store, OpenStore(config.store));
+    PLUMESCOUT_ASSIGN_OR_RETURN(store, OpenStore(config.store, config.listen));
   }
   auto server = std::make_unique<Server>(Private(), config, std::move(hooks), std::move(store),
                                          std::move(authenticator), std::move(events));

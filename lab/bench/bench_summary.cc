@@ -8,6 +8,7 @@
 #include <iostream>
 #include <limits>
 
+#include "CLI/App.hpp"
 #include "CLI/Config.hpp"
 #include "CLI/Formatter.hpp"
 #include "lab/about/about.h"

@@ -7,9 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "CLI/App.hpp"
 #include "absl/status/status.h"
 #include "lab/formats/summary.h"
+
+namespace CLI {
+class App;
+}
 
 namespace plumescout::lab {
 

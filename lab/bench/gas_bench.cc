@@ -21,6 +21,7 @@
 #include "core/types/quantile.h"
 #include "core/types/status_macros.h"
 #include "lab/about/cpu_time.h"
+#include "lab/bench/bench_program.h"
 #include "lab/bench/bench_summary.h"
 #include "lab/bench/gas_case.h"
 #include "lab/bench/gas_events.h"
@@ -259,10 +260,10 @@ absl::Status Run(BenchSummary& summary) {
       const GasCase c = make(size.width_cells, size.height_cells, summary.seed());
       PLUMESCOUT_RETURN_IF_ERROR(MeasureMemory(size.Name("memory", open, "mb"), c, summary));
       PLUMESCOUT_RETURN_IF_ERROR(MeasureFresh(size, open, c, summary));
-      PLUMESCOUT_RETURN_IF_ERROR(MeasureAudit(size, open, c, summary));
       PLUMESCOUT_RETURN_IF_ERROR(MeasureOnline(size, open, c, summary));
       PLUMESCOUT_RETURN_IF_ERROR(MeasureWorstReadings(size, open, c, summary));
       PLUMESCOUT_RETURN_IF_ERROR(MeasureBeliefPropagation(size, open, c, summary));
+      PLUMESCOUT_RETURN_IF_ERROR(MeasureAudit(size, open, c, summary));
     }
   }
   const GasCase indoor = IndoorCase(160, 200, summary.seed());
@@ -274,6 +275,6 @@ absl::Status Run(BenchSummary& summary) {
 }  // namespace plumescout::lab
 
 int main(int argc, char** argv) {
-  CLI::App app("Times the gas posterior and compares it with other solvers");
-  return plumescout::lab::RunBench(app, argc, argv, plumescout::lab::Run);
+  return plumescout::lab::BenchProgram("Times the gas posterior and compares it with other solvers")
+      .Run(argc, argv, plumescout::lab::Run);
 }

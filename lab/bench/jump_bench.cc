@@ -22,6 +22,7 @@
 #include "core/mission/mission.h"
 #include "core/types/rng.h"
 #include "core/types/status_macros.h"
+#include "lab/bench/bench_program.h"
 #include "lab/bench/bench_summary.h"
 #include "lab/sim/lidar.h"
 #include "lab/worlds/bench_world.h"
@@ -280,11 +281,11 @@ absl::Status MeasureAll(int jump_buildings, int corrected_buildings, BenchSummar
 }  // namespace plumescout::lab
 
 int main(int argc, char** argv) {
-  CLI::App app("Robots that lose their place: jumps that go unnoticed, and what corrections mend");
   int buildings = 10;
-  app.add_option("--buildings", buildings, "Five jumps, and one that is corrected, in each")
-      ->check(CLI::PositiveNumber);
-  return plumescout::lab::RunBench(app, argc, argv, [&](plumescout::lab::BenchSummary& summary) {
-    return plumescout::lab::MeasureAll(buildings, buildings, summary);
-  });
+  return plumescout::lab::BenchProgram(
+             "Robots that lose their place: jumps that go unnoticed, and what corrections mend")
+      .AddCount("--buildings", buildings, "Five jumps, and one that is corrected, in each")
+      .Run(argc, argv, [&](plumescout::lab::BenchSummary& summary) {
+        return plumescout::lab::MeasureAll(buildings, buildings, summary);
+      });
 }

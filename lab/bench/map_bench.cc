@@ -23,6 +23,7 @@
 #include "core/occupancy/scan_inserter.h"
 #include "core/types/status_macros.h"
 #include "lab/about/cpu_time.h"
+#include "lab/bench/bench_program.h"
 #include "lab/bench/bench_summary.h"
 #include "lab/worlds/bench_world.h"
 
@@ -244,6 +245,6 @@ absl::Status Run(BenchSummary& summary) {
 }  // namespace plumescout::lab
 
 int main(int argc, char** argv) {
-  CLI::App app("What mapping and frontier detection cost");
-  return plumescout::lab::RunBench(app, argc, argv, plumescout::lab::Run);
+  return plumescout::lab::BenchProgram("What mapping and frontier detection cost")
+      .Run(argc, argv, plumescout::lab::Run);
 }

@@ -27,6 +27,7 @@
 #include "core/types/quantile.h"
 #include "core/types/status_macros.h"
 #include "lab/about/cpu_time.h"
+#include "lab/bench/bench_program.h"
 #include "lab/bench/bench_summary.h"
 
 namespace plumescout::lab {
@@ -242,10 +243,11 @@ absl::Status Run(bool whole, BenchSummary& summary) {
 }  // namespace plumescout::lab
 
 int main(int argc, char** argv) {
-  CLI::App app("What missions over open ground cost, and what their parts take in memory");
   bool whole = false;
-  app.add_flag("--whole", whole, "Also the field of the whole map, which takes gigabytes");
-  return plumescout::lab::RunBench(app, argc, argv, [&](plumescout::lab::BenchSummary& summary) {
-    return plumescout::lab::Run(whole, summary);
-  });
+  return plumescout::lab::BenchProgram(
+             "What missions over open ground cost, and what their parts take in memory")
+      .AddSwitch("--whole", whole, "Also the field of the whole map, which takes gigabytes")
+      .Run(argc, argv, [&](plumescout::lab::BenchSummary& summary) {
+        return plumescout::lab::Run(whole, summary);
+      });
 }

@@ -22,6 +22,7 @@
 #include "core/types/quantile.h"
 #include "core/types/status_macros.h"
 #include "lab/about/cpu_time.h"
+#include "lab/bench/bench_program.h"
 #include "lab/bench/bench_summary.h"
 #include "lab/bench/plan_case.h"
 #include "lab/bench/planner_registry.h"
@@ -286,17 +287,16 @@ absl::Status Measure(int worlds, int buildings, BenchSummary& summary) {
 }  // namespace plumescout::lab
 
 int main(int argc, char** argv) {
-  CLI::App app(
-      "Every planner on the same worlds: CPU time, goals reached, price over exact searches");
   int worlds = 50;
   int buildings = 6;
-  app.add_option("--worlds", worlds, "random halls")->check(CLI::PositiveNumber);
-  app.add_option("--buildings", buildings, "large buildings of each size")
-      ->check(CLI::PositiveNumber);
   std::string mission;
-  app.add_option("--mission", mission, "only whole plans of this mission, as 16x20m");
-  return plumescout::lab::RunBench(app, argc, argv, [&](plumescout::lab::BenchSummary& summary) {
-    if (!mission.empty()) return plumescout::lab::MeasureMissions(mission, summary);
-    return plumescout::lab::Measure(worlds, buildings, summary);
-  });
+  return plumescout::lab::BenchProgram(
+             "Every planner on the same worlds: CPU time, goals reached, price over exact searches")
+      .AddCount("--worlds", worlds, "Random halls")
+      .AddCount("--buildings", buildings, "Large buildings of each size")
+      .AddText("--mission", mission, "Only whole plans of this mission, as 16x20m")
+      .Run(argc, argv, [&](plumescout::lab::BenchSummary& summary) {
+        if (!mission.empty()) return plumescout::lab::MeasureMissions(mission, summary);
+        return plumescout::lab::Measure(worlds, buildings, summary);
+      });
 }

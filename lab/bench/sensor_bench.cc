@@ -6,10 +6,6 @@
 // buildings for five minutes, all over the building or each in a quarter of its own; the first is
 // calibrated. The same ways and noise are used for every row.
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
-#include <CLI/Validators.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -25,6 +21,7 @@
 #include "core/mission/mission.h"
 #include "core/types/rng.h"
 #include "core/types/status_macros.h"
+#include "lab/bench/bench_program.h"
 #include "lab/bench/bench_summary.h"
 #include "lab/worlds/bench_world.h"
 
@@ -217,10 +214,10 @@ absl::Status MeasureAll(int buildings, BenchSummary& summary) {
 }  // namespace plumescout::lab
 
 int main(int argc, char** argv) {
-  CLI::App app("Gas sensors with unknown offsets, beside calibrated ones");
   int buildings = 6;
-  app.add_option("--buildings", buildings, "of 16 m x 20 m")->check(CLI::PositiveNumber);
-  return plumescout::lab::RunBench(app, argc, argv, [&](plumescout::lab::BenchSummary& summary) {
-    return plumescout::lab::MeasureAll(buildings, summary);
-  });
+  return plumescout::lab::BenchProgram("Gas sensors with unknown offsets, beside calibrated ones")
+      .AddCount("--buildings", buildings, "Of 16 m x 20 m")
+      .Run(argc, argv, [&](plumescout::lab::BenchSummary& summary) {
+        return plumescout::lab::MeasureAll(buildings, summary);
+      });
 }

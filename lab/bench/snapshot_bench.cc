@@ -19,6 +19,7 @@
 #include "core/types/status_macros.h"
 #include "formats/zlib_codec.h"
 #include "lab/about/cpu_time.h"
+#include "lab/bench/bench_program.h"
 #include "lab/bench/bench_summary.h"
 #include "lab/worlds/bench_world.h"
 
@@ -139,12 +140,13 @@ absl::Status Run(int seconds, const std::string& only, BenchSummary& summary) {
 }  // namespace plumescout::lab
 
 int main(int argc, char** argv) {
-  CLI::App app("What snapshots of missions take, and what restoring them saves");
   int seconds = 1200;
   std::string only;
-  app.add_option("--seconds", seconds, "Of sample time")->check(CLI::PositiveNumber);
-  app.add_option("--only", only, "One case: 16x20m, 16x20m_ageing or 96x120m");
-  return plumescout::lab::RunBench(app, argc, argv, [&](plumescout::lab::BenchSummary& summary) {
-    return plumescout::lab::Run(seconds, only, summary);
-  });
+  return plumescout::lab::BenchProgram(
+             "What snapshots of missions take, and what restoring them saves")
+      .AddCount("--seconds", seconds, "Of sample time")
+      .AddText("--only", only, "One case: 16x20m, 16x20m_ageing or 96x120m")
+      .Run(argc, argv, [&](plumescout::lab::BenchSummary& summary) {
+        return plumescout::lab::Run(seconds, only, summary);
+      });
 }

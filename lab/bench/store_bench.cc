@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 
-// What keeping missions costs: events a second through SQLite, how long robots wait until one is
-// durable, and reading, each beside a plain file that is synced as often.
+// What keeping missions costs: events a second through SQLite or PostgreSQL, how long robots wait
+// until one is durable, and reading, each beside a plain file that is synced as often.
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -27,6 +27,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
+#include "absl/synchronization/blocking_counter.h"
 #include "absl/synchronization/mutex.h"
 #include "absl/time/clock.h"
 #include "absl/time/time.h"
@@ -37,11 +38,16 @@
 #include "lab/bench/bench_summary.h"
 #include "server/store/sqlite_store.h"
 
+#ifdef PLUMESCOUT_POSTGRESQL
+#include "server/store/postgres_store.h"
+#endif
+
 namespace plumescout::lab {
 namespace {
 
 using server::MissionStore;
 using server::SqliteStore;
+using StorePtr = std::unique_ptr<MissionStore>;
 
 constexpr int kMissions = 100;
 constexpr int kRecordsPerAppend = 4;
@@ -49,6 +55,7 @@ constexpr std::int64_t kMaxBacklogRecords = 4000;  // as credit bounds it for ro
 
 struct StoreFlags {
   std::string folder = std::filesystem::temp_directory_path().string();
+  std::string url;  // of a database in PostgreSQL; empty: SQLite
   int events = 60'000;
   double paced_s = 10.0;
   bool quick = false;
@@ -120,15 +127,32 @@ class Durability {
   absl::Status status_ ABSL_GUARDED_BY(mutex_);
 };
 
-// A fresh store below the folder, with missions that have no events; gone afterwards.
+absl::StatusOr<StorePtr> OpenShared([[maybe_unused]] const std::string& url) {
+#ifdef PLUMESCOUT_POSTGRESQL
+  server::PostgresStoreOptions options;
+  options.url = url;
+  options.cluster = "store_bench";
+  options.node = {"store_bench", "nowhere"};
+  PLUMESCOUT_ASSIGN_OR_RETURN(StorePtr store, server::PostgresStore::Open(options));
+  return store;
+#else
+  return absl::UnimplementedError("built without PostgreSQL");
+#endif
+}
+
+// A fresh store below the folder, or missions in a database, that have no events; gone afterwards.
 class BenchStore {
  public:
-  static absl::StatusOr<std::unique_ptr<BenchStore>> Make(const std::string& below, int missions) {
+  static absl::StatusOr<std::unique_ptr<BenchStore>> Make(const StoreFlags& flags, int missions) {
     auto made = std::make_unique<BenchStore>();
-    made->folder_ = absl::StrCat(below, "/plumescout-store-bench-", getpid());
-    server::StoreOptions options;
-    options.folder = made->folder_;
-    PLUMESCOUT_ASSIGN_OR_RETURN(made->store_, SqliteStore::Open(options));
+    made->folder_ = absl::StrCat(flags.folder, "/plumescout-store-bench-", getpid());
+    if (flags.url.empty()) {
+      server::StoreOptions options;
+      options.folder = made->folder_;
+      PLUMESCOUT_ASSIGN_OR_RETURN(made->store_, SqliteStore::Open(options));
+    } else {
+      PLUMESCOUT_ASSIGN_OR_RETURN(made->store_, OpenShared(flags.url));
+    }
     for (int i = 0; i < missions; ++i) {
       PLUMESCOUT_RETURN_IF_ERROR(made->store_->Create(MissionKeyOf(i), "header").status());
     }
@@ -137,6 +161,12 @@ class BenchStore {
   }
   BenchStore() = default;
   ~BenchStore() {
+    absl::BlockingCounter removed(static_cast<int>(heads_.size()));
+    for (std::size_t i = 0; i < heads_.size(); ++i) {
+      store_->Remove(MissionKeyOf(static_cast<int>(i)), 1,
+                     [&removed](const absl::Status&) { removed.DecrementCount(); });
+    }
+    removed.Wait();
     store_ = nullptr;
     std::error_code ignored;
     std::filesystem::remove_all(folder_, ignored);
@@ -144,7 +174,7 @@ class BenchStore {
   BenchStore(const BenchStore&) = delete;
   BenchStore& operator=(const BenchStore&) = delete;
 
-  SqliteStore& store() { return *store_; }
+  MissionStore& store() { return *store_; }
   void Append(int mission, std::vector<std::string> records, Durability& durability) {
     const auto count = static_cast<std::int64_t>(records.size());
     std::int64_t& head = heads_[static_cast<std::size_t>(mission)];
@@ -154,7 +184,7 @@ class BenchStore {
 
  private:
   std::string folder_;
-  std::unique_ptr<SqliteStore> store_;
+  StorePtr store_;
   std::vector<std::int64_t> heads_;
 };
 
@@ -208,7 +238,7 @@ absl::StatusOr<double> ReadEventsPerSecond(BenchStore& bench) {
 absl::StatusOr<std::vector<Bar>> MeasureThroughput(const std::string& name, const StoreFlags& flags,
                                                    const Sizes& sizes, Rng& rng) {
   constexpr double kMostMs = 1000.0;  // 10,000 events a second
-  PLUMESCOUT_ASSIGN_OR_RETURN(const auto bench, BenchStore::Make(flags.folder, kMissions));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto bench, BenchStore::Make(flags, kMissions));
   const std::string bytes = RandomBytes(1 << 20, rng);
   Durability durability;
   const std::int64_t commits_before = bench->store().state().commits;
@@ -243,7 +273,7 @@ absl::StatusOr<std::vector<Bar>> MeasureWaits(const StoreFlags& flags, Rng& rng)
   constexpr int kRobots = 8;
   constexpr double kRate_hz = 20.0;
   constexpr double kMostMs = 50.0;
-  PLUMESCOUT_ASSIGN_OR_RETURN(const auto bench, BenchStore::Make(flags.folder, 1));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto bench, BenchStore::Make(flags, 1));
   const auto events = static_cast<int>(flags.paced_s * kRate_hz * kRobots);
   const Sizes sizes = FleetSizes(events, rng);
   Durability durability;
@@ -296,10 +326,12 @@ absl::Status Run(const StoreFlags& flags, BenchSummary& summary) {
 
 int main(int argc, char** argv) {
   plumescout::lab::StoreFlags flags;
-  CLI::App app("What keeping missions in SQLite costs, beside a plain file");
+  CLI::App app("What keeping missions costs, in SQLite or PostgreSQL, beside a plain file");
   app.add_option("--folder", flags.folder, "where the files are written, and removed again")
       ->check(CLI::ExistingDirectory)
       ->capture_default_str();
+  app.add_option("--url", flags.url, "of a database of its own in PostgreSQL, instead of SQLite")
+      ->type_name("postgresql://USER@HOST:PORT/DATABASE");
   app.add_option("--events", flags.events, "of each measurement")
       ->check(CLI::Range(100, 10'000'000))
       ->capture_default_str();

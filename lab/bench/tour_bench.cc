@@ -17,6 +17,7 @@
 #include "core/types/rng.h"
 #include "core/types/status_macros.h"
 #include "lab/about/cpu_time.h"
+#include "lab/bench/bench_program.h"
 #include "lab/bench/bench_summary.h"
 #include "lab/worlds/tour_cases.h"
 
@@ -114,6 +115,6 @@ absl::Status Run(BenchSummary& summary) {
 }  // namespace plumescout::lab
 
 int main(int argc, char** argv) {
-  CLI::App app("What survey tours and subsets of cells cost");
-  return plumescout::lab::RunBench(app, argc, argv, plumescout::lab::Run);
+  return plumescout::lab::BenchProgram("What survey tours and subsets of cells cost")
+      .Run(argc, argv, plumescout::lab::Run);
 }

@@ -20,6 +20,7 @@ struct Flags {
   std::string listen;
   std::string log_format;
   std::string store;
+  std::string node;
   std::string data;
   std::string http;
   std::string http_root;
@@ -34,8 +35,13 @@ void Declare(Flags& flags, CLI::App& app) {
   app.add_option("--log-format", flags.log_format, "how log lines are written")
       ->type_name("text|json");
   app.add_option("--data", flags.data, "folder where missions are kept")->type_name("DIR");
-  app.add_option("--store", flags.store, "how missions are kept; none: in memory only")
-      ->type_name("sqlite|none");
+  app.add_option(
+         "--store", flags.store,
+         "how missions are kept: in a folder, in memory only, or in a database that several "
+         "servers share")
+      ->type_name("sqlite|none|postgresql://USER@HOST:PORT/DATABASE");
+  app.add_option("--node", flags.node, "name of this server among those that share a database")
+      ->type_name("NAME");
   app.add_option("--http", flags.http, "address and port of the console; port 0: any free one")
       ->type_name("HOST:PORT");
   app.add_option("--http-root", flags.http_root, "folder of the console's pages")->type_name("DIR");
@@ -43,6 +49,14 @@ void Declare(Flags& flags, CLI::App& app) {
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   app.set_version_flag("--version", absl::StrCat("plumescout-server ", kVersion));
+}
+
+absl::Status SetStore(const std::string& store, ConfigBuilder& builder) {
+  // A URL with a slip in it is not repeated either: see Validate.
+  const bool is_url = store.starts_with("postgres") && store != kPostgresqlStore;
+  if (!is_url) return builder.Set("store.engine", store);
+  PLUMESCOUT_RETURN_IF_ERROR(builder.Set("store.engine", kPostgresqlStore));
+  return builder.Set("store.url", store);
 }
 
 absl::StatusOr<ServerConfig> BuildConfig(const Flags& flags) {
@@ -61,7 +75,8 @@ absl::StatusOr<ServerConfig> BuildConfig(const Flags& flags) {
     PLUMESCOUT_RETURN_IF_ERROR(builder.Set("observe.log_format", flags.log_format));
   }
   if (!flags.data.empty()) PLUMESCOUT_RETURN_IF_ERROR(builder.Set("store.folder", flags.data));
-  if (!flags.store.empty()) PLUMESCOUT_RETURN_IF_ERROR(builder.Set("store.engine", flags.store));
+  if (!flags.store.empty()) PLUMESCOUT_RETURN_IF_ERROR(SetStore(flags.store, builder));
+  if (!flags.node.empty()) PLUMESCOUT_RETURN_IF_ERROR(builder.Set("store.node", flags.node));
   if (!flags.http.empty()) PLUMESCOUT_RETURN_IF_ERROR(builder.Set("console.listen", flags.http));
   if (!flags.http_root.empty()) {
     PLUMESCOUT_RETURN_IF_ERROR(builder.Set("console.folder", flags.http_root));

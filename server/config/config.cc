@@ -240,11 +240,40 @@ absl::Status Validate(const ConsoleConfig& console) {
       .status();
 }
 
-absl::Status Validate(const StoreConfig& store) {
-  if (store.engine != kNoStore && store.engine != kSqliteStore) {
-    return Refuse("store.engine", store.engine, "one of none, sqlite");
+constexpr std::size_t kMaxWord = 63;
+
+absl::Status ValidateWord(absl::string_view option, const std::string& value,
+                          absl::string_view how) {
+  const bool is_word =
+      !value.empty() && value.size() <= kMaxWord &&
+      std::all_of(value.begin(), value.end(), [](char c) {
+        return absl::ascii_isalnum(static_cast<unsigned char>(c)) || absl::StrContains("._-", c);
+      });
+  if (is_word) return absl::OkStatus();
+  return Refuse(option, value,
+                absl::StrCat("a word of 1 to ", kMaxWord,
+                             " letters, digits, dots, dashes and underscores", how));
+}
+
+// Of a database that servers share.
+absl::Status ValidateShared(const StoreConfig& store) {
+  if (!IsPostgresqlUrl(store.url)) {
+    // Whatever stands there may hold a password.
+    return absl::InvalidArgumentError(
+        "store.url must be postgresql://user@host:port/database for store.engine = postgresql");
   }
+  PLUMESCOUT_RETURN_IF_ERROR(ValidateWord("store.node", store.node, " (--node)"));
+  return ValidateWord("store.cluster", store.cluster, "");
+}
+
+absl::Status Validate(const StoreConfig& store) {
+  const bool is_shared = store.engine == kPostgresqlStore;
+  if (store.engine != kNoStore && store.engine != kSqliteStore && !is_shared) {
+    return Refuse("store.engine", store.engine, "one of none, sqlite, postgresql");
+  }
+  if (is_shared) PLUMESCOUT_RETURN_IF_ERROR(ValidateShared(store));
   return Checker()
+      .InRange("store.lease_s", store.lease_s, 0.5, 3600)
       .InRange("store.max_backlog_bytes", static_cast<double>(store.max_backlog_bytes), 65'536,
                kMaxQueuedBytes)
       .InRange("store.recovery_threads", store.recovery_threads, 1, kMaxThreads)
@@ -273,6 +302,10 @@ ServerConfig ProgramDefaults() {
   ServerConfig config;
   config.store.engine = kSqliteStore;
   return config;
+}
+
+bool IsPostgresqlUrl(absl::string_view text) {
+  return absl::StartsWith(text, "postgresql://") || absl::StartsWith(text, "postgres://");
 }
 
 absl::StatusOr<std::string> StoreFolder(const StoreConfig& store) {

@@ -7,6 +7,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "absl/strings/string_view.h"
 #include "core/types/options.h"
 
 namespace plumescout::server {
@@ -30,9 +31,9 @@ struct LimitConfig {
   double max_range_m = 300.0;
   // Of one robot; 0: any number.
   double max_scans_per_s = 50.0;
-  double max_gas_readings_per_s = 1000.0;
+  double max_gas_readings_per_s = 200.0;
   double max_ingest_bytes_per_s = 4'194'304.0;
-  double max_plans_per_s = 20.0;
+  double max_plans_per_s = 10.0;
   double ingest_burst_s = 60.0;   // so much time's worth of observations may come at once
   double max_clock_lead_s = 5.0;  // of a robot's sample; 0: any
   std::int64_t max_import_bytes = std::int64_t{4} << 30;
@@ -109,6 +110,7 @@ struct ConsoleConfig {
 // Values of store.engine.
 inline constexpr char kNoStore[] = "none";
 inline constexpr char kSqliteStore[] = "sqlite";
+inline constexpr char kPostgresqlStore[] = "postgresql";
 
 struct StoreConfig {
   // Whoever makes a server in a process of theirs says where it may write; see ProgramDefaults.
@@ -118,6 +120,11 @@ struct StoreConfig {
   int recovery_threads = 2;
   double slow_commit_s = 0.1;
   double sleep_after_s = 900.0;
+  std::string url = "";   // may hold a password: it goes into no log and no message
+  std::string node = "";  // a word
+  double lease_s = 10.0;
+  std::string advertise = "";          // empty: ServerConfig::listen
+  std::string cluster = "plumescout";  // a word
 };
 
 // Everything that can be set, by file or flag: the fields of plumescout.config.v1.ServerConfig,
@@ -141,6 +148,9 @@ ServerConfig ProgramDefaults();
 
 // kInvalidArgument naming option, value and range: "planning.threads = 0 must be in [1, 256]".
 absl::Status Validate(const ServerConfig& config);
+
+// Whether the text is the URL of a database in PostgreSQL, by how it begins.
+bool IsPostgresqlUrl(absl::string_view text);
 
 // Where missions are kept: store.folder, or else plumescout below the user's folder of state,
 // $XDG_STATE_HOME or ~/.local/state. kInvalidArgument if the user has none.

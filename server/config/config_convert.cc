@@ -98,6 +98,11 @@ void Visit(OneOf<StoreConfig> auto& store, auto& field) {
   field("recovery_threads", store.recovery_threads);
   field("slow_commit_s", store.slow_commit_s);
   field("sleep_after_s", store.sleep_after_s);
+  field("url", store.url);
+  field("node", store.node);
+  field("lease_s", store.lease_s);
+  field("advertise", store.advertise);
+  field("cluster", store.cluster);
 }
 
 void Visit(OneOf<ConsoleConfig> auto& console, auto& field) {

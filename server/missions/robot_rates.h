@@ -20,9 +20,9 @@ namespace plumescout::server {
 // What one robot may ask for, per second; 0: any number.
 struct RateOptions {
   double scans_per_s = 50.0;
-  double gas_readings_per_s = 1000.0;
+  double gas_readings_per_s = 200.0;
   double ingest_bytes_per_s = 4'194'304.0;
-  double plans_per_s = 20.0;
+  double plans_per_s = 10.0;
   // Of what is ingested, so much time's worth may come at once: a robot sends its log after an
   // outage.
   absl::Duration ingest_burst = absl::Seconds(60);

@@ -14,30 +14,6 @@
 namespace plumescout::server {
 namespace {
 
-std::uint32_t RowChecksum(const MissionRow& row) {
-  return Checksum()
-      .Add(row.key)
-      .Add(row.id)
-      .Add(row.epoch)
-      .Add(row.head)
-      .Add(std::int64_t{row.chain})
-      .Add(row.base)
-      .Add(std::int64_t{row.base_chain})
-      .Add(row.bytes)
-      .Add(std::int64_t{row.standing_crc})
-      .Add(row.writes)
-      .value();
-}
-
-std::uint32_t SnapshotChecksum(std::int64_t mission, const StoredSnapshot& snapshot) {
-  return Checksum()
-      .Add(mission)
-      .Add(snapshot.revision)
-      .Add(static_cast<std::int64_t>(snapshot.digest))
-      .Add(snapshot.bytes)
-      .value();
-}
-
 std::int64_t SizeOf(const std::string& bytes) { return static_cast<std::int64_t>(bytes.size()); }
 
 // Of the columns id, epoch, head, chain, base, base_chain, bytes, standing_crc, writes, crc.

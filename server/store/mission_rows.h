@@ -11,23 +11,10 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "server/store/database.h"
+#include "server/store/mission_row.h"
 #include "server/store/mission_store.h"
 
 namespace plumescout::server {
-
-// How a mission stands in the database.
-struct MissionRow {
-  std::string key;
-  std::int64_t id = 0;
-  std::int64_t epoch = 0;
-  std::int64_t head = 0;
-  std::uint32_t chain = 0;       // checksum of all records up to the head, see checksum.h
-  std::int64_t base = 0;         // the last record that was trimmed; 0: none was
-  std::uint32_t base_chain = 0;  // checksum of all records up to that one
-  std::int64_t bytes = 0;        // of header, standing, records and snapshots
-  std::uint32_t standing_crc = 0;
-  std::int64_t writes = 0;  // grows with every Save
-};
 
 // Missions in a database, row by row. Every row has a checksum, which reading checks: kDataLoss,
 // naming file and row, if it is not what was written. Other errors as of Database.

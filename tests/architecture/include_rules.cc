@@ -216,12 +216,13 @@ std::string WhyForbidden(const SourceFile& file, const std::string& include) {
   if (absl::StartsWith(include, "ompl/") && !may_ompl) {
     return "OMPL stays in the sources of ompl_planners";
   }
-  const bool may_sqlite = (IsBelow(file.path, "server/store") || IsBelow(file.path, "lab/bags") ||
-                           IsBelow(file.path, "tests")) &&
-                          !file.is_header();
+  const bool may_store =
+      (IsBelow(file.path, "server/store") || IsBelow(file.path, "tests")) && !file.is_header();
+  const bool may_sqlite = may_store || (IsBelow(file.path, "lab/bags") && !file.is_header());
   if (include == "sqlite3.h" && !may_sqlite) {
     return "SQLite stays in the sources of server/store and lab/bags";
   }
+  if (include == "libpq-fe.h" && !may_store) return "libpq stays in the sources of server/store";
   const bool may_wire = IsBelow(file.path, "server") || IsBelow(file.path, "client") ||
                         IsBelow(file.path, "proto/convert") || IsBelow(file.path, "tests");
   if (file.is_header() && (IsGrpc(include) || IsProtobuf(include)) && !may_wire) {

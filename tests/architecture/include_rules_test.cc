@@ -108,6 +108,8 @@ TEST(IncludeRules, PlatformHeadersOutOfPlaceAreFound) {
       {"server/missions/a.cc", "#include <sqlite3.h>\n"},
       {"server/store/a.h", "#include <sqlite3.h>\n"},
       {"lab/bench/a.cc", "#include <sqlite3.h>\n"},
+      {"server/a.cc", "#include <libpq-fe.h>\n"},
+      {"server/store/a.h", "#include <libpq-fe.h>\n"},
       {"proto/convert/a.cc", "#include <grpcpp/grpcpp.h>\n"},
       {"lab/sim/a.h", "#include <grpcpp/grpcpp.h>\n"},
   };
@@ -122,9 +124,10 @@ TEST(IncludeRules, OmplIsIncludedWhereItBelongs) {
       IsEmpty());
 }
 
-TEST(IncludeRules, SqliteIsIncludedWhereItBelongs) {
+TEST(IncludeRules, DatabasesAreIncludedWhereTheyBelong) {
   EXPECT_THAT(CheckPlatformHeaders(Tree({{"server/store/a.cc", "#include <sqlite3.h>\n"},
-                                         {"server/store/b.cc", "#include <sqlite3.h>\n"}})),
+                                         {"server/store/b.cc", "#include <sqlite3.h>\n"},
+                                         {"server/store/c.cc", "#include <libpq-fe.h>\n"}})),
               IsEmpty());
 }
 

@@ -55,6 +55,8 @@ for package in "$packages"/*.deb; do
       ;;
   esac
   inside dpkg --purge "$name" > /dev/null
+  left="$(find "$root/usr" -name '*plumescout*' | head -n 3)"
+  [[ -z "$left" ]] || { echo "$name leaves behind: $left" >&2; exit 1; }
 done
 
 say "A mission"

@@ -24,8 +24,8 @@ trap '[[ -z "$server_pid" ]] || kill "$server_pid"' EXIT
 
 start_server
 exec 4<> /dev/tcp/127.0.0.1/8080
-printf 'GET / HTTP/1.0\r\nHost: 127.0.0.1:8080\r\n\r\n' >&4
-grep -q '<title>PlumeScout' <&4 || { echo "no console" >&2; exit 1; }
+printf 'GET / HTTP/1.1\r\nHost: 127.0.0.1:8080\r\n\r\n' >&4
+timeout 30 grep -q '<title>PlumeScout' <&4 || { echo "no console" >&2; exit 1; }
 
 plumescout-lab scene generate --seed 1 --count 1 --out /tmp/buildings > /dev/null
 scene="$(dirname "$(find /tmp/buildings -name scene.json | head -n 1)")"

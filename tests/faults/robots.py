@@ -29,15 +29,55 @@ OUTCOMES = {
 CALL_S = 3.0
 # Reasons that go with a server that has just come back, or is busy.
 PASSING = frozenset(
-    {"RECOVERING", "OVERLOADED", "STORE_UNAVAILABLE", "SERVER_RESTARTED", "DRAINING"}
+    {
+        "DRAINING",
+        "MISSION_ELSEWHERE",
+        "OVERLOADED",
+        "RECOVERING",
+        "SERVER_RESTARTED",
+        "STORE_UNAVAILABLE",
+    }
 )
 
 
-class Stubs:
-    """Everything that a channel can be asked."""
+class Route(grpc.UnaryUnaryClientInterceptor, grpc.StreamStreamClientInterceptor):
+    """Where a mission's calls go behind a router, as the clients do it: with its name, and to the
+    node that was told to have it until that does not answer. redirects: how many were told."""
 
-    def __init__(self, target):
-        self.channel = bed.channel_to(target)
+    def __init__(self, mission):
+        self._mission, self._node = mission, None
+        self.redirects = 0
+
+    def note(self, error):
+        """True: the call may be made again at once."""
+        if bed.reason_of(error) == "MISSION_ELSEWHERE":
+            owner = dict(error.trailing_metadata() or ()).get("x-owner")
+            new = owner is not None and owner != self._node
+            self.redirects += new
+            self._node = owner
+            return new
+        if bed.reason_of(error) in ("", "DRAINING", "STORE_UNAVAILABLE"):
+            self._node = None
+        return False
+
+    def _addressed(self, details):
+        metadata = [("x-mission-id", self._mission)]
+        metadata += [("x-node", self._node)] if self._node else []
+        return details._replace(metadata=metadata)
+
+    def intercept_unary_unary(self, continuation, details, request):
+        return continuation(self._addressed(details), request)
+
+    def intercept_stream_stream(self, continuation, details, requests):
+        return continuation(self._addressed(details), requests)
+
+
+class Stubs:
+    """Everything that a channel can be asked. route: of its mission, behind a router."""
+
+    def __init__(self, target, route=None):
+        self._channel = bed.channel_to(target)
+        self.channel = grpc.intercept_channel(self._channel, route) if route else self._channel
         self.missions = mission_grpc.MissionServiceStub(self.channel)
         self.robots = robot_grpc.RobotServiceStub(self.channel)
         self.ingest = ingest_grpc.IngestServiceStub(self.channel)
@@ -47,7 +87,10 @@ class Stubs:
         return self
 
     def __exit__(self, *_):
-        self.channel.close()
+        self.close()
+
+    def close(self):
+        self._channel.close()
 
 
 def is_passing(error):
@@ -162,13 +205,14 @@ class Robot:
         self._mission = mission
         self._answers = answers
         self._period_s = period_s
-        self._resource = f"missions/{mission}/robots/{self.name}"
+        self.resource = f"missions/{mission}/robots/{self.name}"
         self._log_epoch = random.getrandbits(52) + 1
         self._token = 0
         self._durable = 0
         self._unanswered = False  # a registration that may have been carried out
         self._target = target
-        self._stubs = Stubs(target)
+        self.route = Route(mission)
+        self._stubs = Stubs(target, self.route)
         self._stopping = threading.Event()
         self._call = None
         self._threads = [threading.Thread(target=self._stream), threading.Thread(target=self._plan)]
@@ -188,7 +232,7 @@ class Robot:
             self._call.cancel()
         for thread in self._threads:
             thread.join()
-        self._stubs.channel.close()
+        self._stubs.close()
 
     def pause(self):
         self._stopping.wait(self._period_s)
@@ -243,10 +287,11 @@ class Robot:
             self._stopping.wait(0.05)
 
     def _reconnect(self):
-        old, self._stubs = self._stubs, Stubs(self._target)
-        old.channel.close()
+        old, self._stubs = self._stubs, Stubs(self._target, self.route)
+        old.close()
 
     def _note_end(self, error):
+        self.route.note(error)
         if self._stopping.is_set() or is_passing(error):
             return
         reason = bed.reason_of(error)
@@ -257,7 +302,7 @@ class Robot:
 
     def _stream_once(self):
         opening = ingest_pb.OpenIngest(
-            robot=self._resource, lease_token=self._token, durable_sequence=self._durable
+            robot=self.resource, lease_token=self._token, durable_sequence=self._durable
         )
         outbox = Outbox(self, opening)
         self._call = self._stubs.ingest.StreamObservations(outbox)
@@ -286,6 +331,7 @@ class Robot:
             except ValueError:
                 continue  # the channel was closed meanwhile
             except grpc.RpcError as error:
+                self.route.note(error)
                 # No map yet, or the other thread has registered meanwhile.
                 expected = error.code() == grpc.StatusCode.FAILED_PRECONDITION
                 if not (expected or is_passing(error) or self._stopping.is_set()):
@@ -293,7 +339,7 @@ class Robot:
 
     def _plan_once(self):
         request = planning_pb.NextBestTrajectoryRequest(
-            robot=self._resource, lease_token=self._token, max_edge_evaluation_count=300
+            robot=self.resource, lease_token=self._token, max_edge_evaluation_count=300
         )
         request.planning_budget.FromMilliseconds(100)
         plan = self._stubs.planning.NextBestTrajectory(request, timeout=CALL_S).plan
@@ -302,7 +348,7 @@ class Robot:
         self._answers.note("plan", self._mission, number, self.name)
         outcome = random.choice(list(OUTCOMES))
         report = planning_pb.ReportProgressRequest(
-            robot=self._resource,
+            robot=self.resource,
             lease_token=self._token,
             plan=plan.name,
             outcome=OUTCOMES[outcome],

@@ -7,6 +7,8 @@
 
 #include <string>
 
+#include "server/store/store_nodes.h"
+#include "tests/support/postgres_server.h"
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::server {
@@ -35,6 +37,22 @@ TEST(OpenStoreTest, SqliteIsInTheFolder) {
   const auto again = OpenStore(config);
   ASSERT_TRUE(again.ok()) << again.status();
   EXPECT_EQ((*again)->List()->size(), 1U);
+}
+
+TEST(OpenStoreTest, ADatabaseNeedsAServerThatIsBuiltForIt) {
+  StoreConfig config;
+  config.engine = kPostgresqlStore;
+  config.url = HasPostgresql() ? PostgresServer::Shared().NewUrl() : "postgresql://db/plumes";
+  config.node = "n1";
+  const auto store = OpenStore(config, "10.0.0.1:50551");
+  if (HasPostgresql()) {
+    ASSERT_TRUE(store.ok()) << store.status();
+    EXPECT_EQ((*store)->nodes()->self(), (StoreNode{"n1", "10.0.0.1:50551"}));
+    return;
+  }
+  EXPECT_TRUE(absl::IsInvalidArgument(store.status())) << store.status();
+  EXPECT_THAT(std::string(store.status().message()),
+              testing::HasSubstr("PostgreSQL is not built in"));
 }
 
 TEST(OpenStoreTest, AFolderThatCannotBeMadeIsAnErrorThatNamesIt) {

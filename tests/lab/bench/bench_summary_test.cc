@@ -12,6 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include "CLI/App.hpp"
+#include "CLI/Config.hpp"
+#include "CLI/Formatter.hpp"
 #include "lab/about/about.h"
 
 namespace plumescout::lab {

@@ -12,6 +12,7 @@ namespace plumescout::server {
 namespace command_line_test {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 absl::StatusOr<CommandLine> Read(std::vector<const char*> flags) {
   flags.insert(flags.begin(), "plumescout-server");
@@ -50,7 +51,22 @@ TEST(CommandLineTest, MissionsAreKeptUnlessToldOtherwise) {
   EXPECT_EQ(Read({"--store", "none"})->config.store.engine, kNoStore);
   EXPECT_EQ(Read({"--set", "store.engine=none"})->config.store.engine, kNoStore);
   EXPECT_THAT(std::string(Read({"--store", "floppy"}).status().message()),
-              HasSubstr("store.engine = floppy must be one of none, sqlite"));
+              HasSubstr("store.engine = floppy must be one of none, sqlite, postgresql"));
+}
+
+TEST(CommandLineTest, ASharedStoreIsAUrlAndTheNameOfANode) {
+  const auto line = Read({"--store", "postgresql://scout@db:5432/plumes", "--node", "n1"});
+  ASSERT_TRUE(line.ok()) << line.status();
+  EXPECT_EQ(line->config.store.engine, kPostgresqlStore);
+  EXPECT_EQ(line->config.store.url, "postgresql://scout@db:5432/plumes");
+  EXPECT_EQ(line->config.store.node, "n1");
+  EXPECT_EQ(line->config.store.lease_s, 10.0);
+  EXPECT_THAT(std::string(Read({"--store", "postgresql://scout@db/plumes"}).status().message()),
+              HasSubstr("store.node =  must be a word"));
+  const std::string slip(
+      Read({"--store", "postgresql:/scout:secret@db/plumes", "--node", "n1"}).status().message());
+  EXPECT_THAT(slip, HasSubstr("store.url must be postgresql://user@host:port/database"));
+  EXPECT_THAT(slip, Not(HasSubstr("secret")));
 }
 
 TEST(CommandLineTest, HelpNamesFlagsAndOptions) {

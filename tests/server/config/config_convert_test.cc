@@ -29,7 +29,8 @@ ServerConfig Unlike() {
   config.access = {"a", "b", "c", true, "d", true, true, "e"};
   config.mission.seed = 21;
   config.observe = {"127.0.0.1:1", "debug", "json", 0.5, false, true};
-  config.store = {kSqliteStore, "f", 1'000'000, 3, 0.5, 30.0};
+  config.store = {kSqliteStore,       "f",  1'000'000, 3,   0.5, 30.0,
+                  "postgresql://h/d", "n1", 2.0,       "i", "j"};
   config.console = {"127.0.0.1:2", "g", 5, "h"};
   return config;
 }

@@ -234,13 +234,34 @@ TEST(ConfigTest, WhereMissionsAreKeptIsChecked) {
   EXPECT_EQ(config.store.engine, kNoStore) << "whoever makes a server says where it may write";
   EXPECT_EQ(ProgramDefaults().store.engine, kSqliteStore);
   config.store.engine = "floppy";
-  EXPECT_EQ(RefusalOf(config), "store.engine = floppy must be one of none, sqlite");
+  EXPECT_EQ(RefusalOf(config), "store.engine = floppy must be one of none, sqlite, postgresql");
   config.store = StoreConfig();
   config.store.recovery_threads = 0;
   EXPECT_THAT(RefusalOf(config), StartsWith("store.recovery_threads = 0 "));
   config.store = StoreConfig();
   config.store.sleep_after_s = -1.0;
   EXPECT_THAT(RefusalOf(config), StartsWith("store.sleep_after_s = -1 "));
+}
+
+TEST(ConfigTest, ASharedStoreNeedsAUrlAndAWordForTheNode) {
+  ServerConfig config;
+  config.store.engine = kPostgresqlStore;
+  config.store.url = "scout:secret@db";
+  config.store.node = "n1";
+  EXPECT_EQ(RefusalOf(config),
+            "store.url must be postgresql://user@host:port/database for store.engine = postgresql");
+  config.store.url = "postgres://db/plumes";
+  EXPECT_TRUE(Validate(config).ok()) << Validate(config);
+  for (const std::string& node : {std::string(), std::string("n 1"), std::string(64, 'n')}) {
+    config.store.node = node;
+    EXPECT_THAT(RefusalOf(config), StartsWith("store.node = " + node + " must be a word of 1 to"));
+  }
+  config.store.node = "n1";
+  config.store.cluster = "two words";
+  EXPECT_THAT(RefusalOf(config), StartsWith("store.cluster = two words must be a word of 1 to"));
+  config.store.cluster = "harbour";
+  config.store.lease_s = 0.1;
+  EXPECT_THAT(RefusalOf(config), StartsWith("store.lease_s = 0.1 "));
 }
 
 // The variables are the user's; a test that sets them must be alone in its process.

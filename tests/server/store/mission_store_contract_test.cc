@@ -11,10 +11,12 @@
 #include <thread>
 
 #include "core/types/error_reason.h"
+#include "server/open_store.h"
 #include "server/store/memory_store.h"
 #include "server/store/sqlite_store.h"
 #include "tests/server/store/store_work.h"
 #include "tests/support/faulty_disk.h"
+#include "tests/support/postgres_server.h"
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::server {
@@ -303,17 +305,34 @@ TEST_P(MissionStoreContract, WhoIsClosedAnswersEverybodyOnce) {
   for (const std::atomic<int>& count : answers) EXPECT_EQ(count, 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Engines, MissionStoreContract,
-    ::testing::Values(StoreKind{"Memory",
-                                [](const std::string&) -> std::unique_ptr<MissionStore> {
-                                  return std::make_unique<MemoryStore>();
-                                }},
-                      StoreKind{"Sqlite",
-                                [](const std::string& folder) -> std::unique_ptr<MissionStore> {
-                                  return SqliteStore::Open(InFolder(folder)).value();
-                                }}),
-    [](const ::testing::TestParamInfo<StoreKind>& info) { return info.param.name; });
+std::unique_ptr<MissionStore> OpenShared() {
+  StoreConfig config;
+  config.engine = kPostgresqlStore;
+  config.url = PostgresServer::Shared().NewUrl();
+  config.node = "n1";
+  config.lease_s = 60;
+  return OpenStore(config).value();
+}
+
+std::vector<StoreKind> Kinds() {
+  std::vector<StoreKind> kinds = {
+      {"Memory",
+       [](const std::string&) -> std::unique_ptr<MissionStore> {
+         return std::make_unique<MemoryStore>();
+       }},
+      {"Sqlite", [](const std::string& folder) -> std::unique_ptr<MissionStore> {
+         return SqliteStore::Open(InFolder(folder)).value();
+       }}};
+  if (HasPostgresql()) {
+    kinds.push_back({"Postgresql", [](const std::string&) { return OpenShared(); }});
+  }
+  return kinds;
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, MissionStoreContract, ::testing::ValuesIn(Kinds()),
+                         [](const ::testing::TestParamInfo<StoreKind>& info) {
+                           return info.param.name;
+                         });
 
 }  // namespace mission_store_contract_test
 }  // namespace plumescout::server

@@ -27,7 +27,9 @@ constexpr int kWindow = LimitConfig{}.stream_window_observations;
 class IngestStreamTest : public ServiceTest {
  protected:
   void SetUp() override {
-    StartServer();
+    ServerConfig config;
+    config.limits.max_gas_readings_per_s = 0.0;
+    StartServer(config);
     lease_ = Lease();
   }
   // A stream that is open, its greeting read.
@@ -166,7 +168,7 @@ TEST_F(IngestStreamTest, HalfCloseEndsTheStreamAfterTheLastAcknowledgement) {
 }
 
 TEST_F(IngestStreamTest, RobotThatDoesNotReadGetsTheNewestAcknowledgementLast) {
-  constexpr int kBatches = 400;  // within the burst of readings
+  constexpr int kBatches = 400;
   const auto stream = OpenStream();
   for (int i = 0; i < kBatches; ++i) ASSERT_TRUE(stream->Send(GasReadings(1, kWindow)));
   stream->HalfClose();

@@ -1,0 +1,338 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/store/postgres_missions.h"
+
+#include <utility>
+
+#include "absl/strings/escaping.h"
+#include "absl/strings/str_cat.h"
+#include "core/types/status_macros.h"
+#include "server/store/store_errors.h"
+
+namespace plumescout::server {
+namespace {
+
+constexpr absl::Duration kReadTimeout = absl::Seconds(30);
+
+// Of which ReadRow reads the first fourteen columns.
+constexpr absl::string_view kRow =
+    "SELECT m.id, p.epoch, p.head, p.chain, p.base, p.base_chain, p.bytes, p.standing_crc, "
+    "p.writes, p.crc, p.owner, n.name, m.key, octet_length(s.bytes)";
+constexpr absl::string_view kFromMissions =
+    " FROM plumescout_mission m LEFT JOIN plumescout_progress p ON p.mission = m.id "
+    "LEFT JOIN plumescout_node n ON n.id = p.owner AND n.expires > clock_timestamp() "
+    "LEFT JOIN plumescout_standing s ON s.mission = m.id ";
+
+// The row is what it was thought to be, and becomes another.
+constexpr absl::string_view kMoved =
+    "WITH moved AS (UPDATE plumescout_progress SET epoch = $6, head = $7, chain = $8, base = $9, "
+    "base_chain = $10, bytes = $11, standing_crc = $12, writes = $13, crc = $14 "
+    "WHERE mission = $1 AND epoch = $2 AND head = $3 AND writes = $4 AND crc = $5 "
+    "RETURNING mission)";
+
+// kMoved and what is done beside it, with $1 to $14 bound.
+PostgresStatement Moving(absl::string_view beside, const MissionRow& before,
+                         const MissionRow& after) {
+  PostgresStatement statement(absl::StrCat(kMoved, beside, " SELECT count(*) FROM moved"));
+  statement.Bind(before.id).Bind(before.epoch).Bind(before.head).Bind(before.writes);
+  statement.Bind(RowChecksum(before));
+  statement.Bind(after.epoch).Bind(after.head).Bind(after.chain).Bind(after.base);
+  statement.Bind(after.base_chain).Bind(after.bytes).Bind(after.standing_crc);
+  statement.Bind(after.writes).Bind(RowChecksum(after));
+  return statement;
+}
+
+// Nothing if it is damaged.
+std::optional<SharedRow> ReadRow(const PostgresRows& rows, int at) {
+  SharedRow shared;
+  MissionRow& row = shared.row;
+  row.key = rows.Bytes(at, 12);
+  row.id = rows.Int(at, 0);
+  row.epoch = rows.Int(at, 1);
+  row.head = rows.Int(at, 2);
+  row.chain = static_cast<std::uint32_t>(rows.Int(at, 3));
+  row.base = rows.Int(at, 4);
+  row.base_chain = static_cast<std::uint32_t>(rows.Int(at, 5));
+  row.bytes = rows.Int(at, 6);
+  row.standing_crc = static_cast<std::uint32_t>(rows.Int(at, 7));
+  row.writes = rows.Int(at, 8);
+  if (rows.Int(at, 9) != RowChecksum(row)) return std::nullopt;
+  shared.owner = rows.Int(at, 10);
+  shared.living_node = rows.Bytes(at, 11);
+  shared.standing_bytes = rows.Int(at, 13);
+  return shared;
+}
+
+}  // namespace
+
+absl::Status SharedRowDamaged(const PostgresConnection& connection, absl::string_view key,
+                              absl::string_view what) {
+  return StoreDamaged(absl::StrCat(connection.name(), ": ", what, " of mission ",
+                                   absl::CHexEscape(key), " is not what was written"));
+}
+
+absl::StatusOr<std::map<std::string, absl::StatusOr<SharedRow>>> LoadSharedRows(
+    PostgresConnection& connection, std::span<const std::string> keys) {
+  PostgresStatement statement(absl::StrCat(kRow, kFromMissions, "WHERE m.key = ANY($1)"));
+  statement.BindAllBytes(keys);
+  PLUMESCOUT_ASSIGN_OR_RETURN(const PostgresRows rows, connection.Run(statement, kReadTimeout));
+  std::map<std::string, absl::StatusOr<SharedRow>> loaded;
+  for (int at = 0; at < rows.count(); ++at) {
+    std::string key = rows.Bytes(at, 12);
+    std::optional<SharedRow> row = ReadRow(rows, at);
+    if (row.has_value()) {
+      loaded.emplace(std::move(key), *std::move(row));
+    } else {
+      const absl::Status damage = SharedRowDamaged(connection, key, "the progress");
+      loaded.emplace(std::move(key), damage);
+    }
+  }
+  return loaded;
+}
+
+namespace {
+
+// The mission's row with header and standing, its snapshots, and the checksum of its last record,
+// of one state of the database.
+std::vector<PostgresStatement> MissionStatements(const std::string& key) {
+  std::vector<PostgresStatement> statements;
+  statements.emplace_back("BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY");
+  statements
+      .emplace_back(
+          absl::StrCat(kRow, ", m.header, m.crc, s.bytes, r.crc", kFromMissions,
+                       "LEFT JOIN plumescout_record r ON r.mission = m.id AND r.number = p.head "
+                       "WHERE m.key = $1"))
+      .BindBytes(key);
+  statements
+      .emplace_back(
+          "SELECT s.revision, s.digest, s.crc, s.bytes FROM plumescout_snapshot s "
+          "JOIN plumescout_mission m ON m.id = s.mission WHERE m.key = $1 ORDER BY s.revision DESC")
+      .BindBytes(key);
+  statements.emplace_back("COMMIT");
+  return statements;
+}
+
+// A damaged snapshot is left out: what it held, the records tell too.
+std::vector<StoredSnapshot> ReadSnapshots(const PostgresRows& rows, const MissionRow& row) {
+  std::vector<StoredSnapshot> snapshots;
+  for (int at = 0; at < rows.count(); ++at) {
+    StoredSnapshot snapshot;
+    snapshot.revision = rows.Int(at, 0);
+    snapshot.digest = static_cast<std::uint64_t>(rows.Int(at, 1));
+    snapshot.bytes = rows.Bytes(at, 3);
+    const bool is_whole =
+        rows.Int(at, 2) == SnapshotChecksum(row.id, snapshot) && snapshot.revision <= row.head;
+    if (is_whole) snapshots.push_back(std::move(snapshot));
+  }
+  return snapshots;
+}
+
+}  // namespace
+
+absl::StatusOr<SharedMission> LoadSharedMission(PostgresConnection& connection,
+                                                const std::string& key) {
+  const std::vector<PostgresStatement> statements = MissionStatements(key);
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<PostgresRows> answers,
+                              connection.RunAll(statements, 2 * kReadTimeout));
+  const PostgresRows& rows = answers[1];
+  if (rows.count() == 0) return NotStored(key);
+  const std::optional<SharedRow> shared = ReadRow(rows, 0);
+  if (!shared.has_value()) return SharedRowDamaged(connection, key, "the progress");
+  const MissionRow& row = shared->row;
+  SharedMission mission;
+  mission.shared = *shared;
+  mission.known.epoch = row.epoch;
+  mission.known.head = row.head;
+  mission.known.first = row.base + 1;
+  mission.known.header = rows.Bytes(0, 14);
+  const std::int64_t header_crc = rows.Int(0, 15);
+  if (header_crc != HeaderChecksum(key, mission.known.header)) {
+    return SharedRowDamaged(connection, key, "the header");
+  }
+  mission.known.standing = rows.Bytes(0, 16);
+  if (row.standing_crc != Checksum().Add(mission.known.standing).value()) {
+    return SharedRowDamaged(connection, key, "the standing");
+  }
+  // Records up to the base may be gone.
+  const std::int64_t last_crc = row.head == 0          ? header_crc
+                                : row.head == row.base ? row.base_chain
+                                : rows.is_null(0, 17)  ? -1
+                                                       : rows.Int(0, 17);
+  if (last_crc != row.chain) {
+    return SharedRowDamaged(connection, key, absl::StrCat("record ", row.head));
+  }
+  mission.known.snapshots = ReadSnapshots(answers[2], row);
+  return mission;
+}
+
+absl::StatusOr<std::vector<StoredMission>> ListSharedMissions(PostgresConnection& connection) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      const PostgresRows rows,
+      connection.Run(PostgresStatement(absl::StrCat(kRow, kFromMissions, "ORDER BY m.key")),
+                     kReadTimeout));
+  std::vector<StoredMission> missions;
+  for (int at = 0; at < rows.count(); ++at) {
+    SharedRow damaged;
+    damaged.row.key = rows.Bytes(at, 12);
+    const MissionRow row = ReadRow(rows, at).value_or(damaged).row;
+    missions.push_back({row.key, row.epoch, row.head, row.bytes});
+  }
+  return missions;
+}
+
+absl::StatusOr<std::vector<std::uint32_t>> SharedChainsAt(PostgresConnection& connection,
+                                                          const MissionRow& row,
+                                                          std::span<const std::int64_t> numbers) {
+  PostgresStatement statement(
+      "SELECT number, crc FROM plumescout_record WHERE mission = $1 AND number = ANY($2) "
+      "UNION ALL SELECT 0, crc FROM plumescout_mission WHERE id = $1 AND 0 = ANY($2)");
+  statement.Bind(row.id).BindNumbers(numbers);
+  PLUMESCOUT_ASSIGN_OR_RETURN(const PostgresRows rows, connection.Run(statement, kReadTimeout));
+  std::map<std::int64_t, std::uint32_t> found;
+  for (int at = 0; at < rows.count(); ++at) {
+    found[rows.Int(at, 0)] = static_cast<std::uint32_t>(rows.Int(at, 1));
+  }
+  if (row.base > 0) found[row.base] = row.base_chain;
+  std::vector<std::uint32_t> chains;
+  for (const std::int64_t number : numbers) {
+    const auto chain = found.find(number);
+    if (chain == found.end()) {
+      return SharedRowDamaged(connection, row.key, absl::StrCat("record ", number));
+    }
+    chains.push_back(chain->second);
+  }
+  return chains;
+}
+
+absl::StatusOr<std::vector<std::pair<std::int64_t, std::int64_t>>> SharedSnapshotSizes(
+    PostgresConnection& connection, const MissionRow& row) {
+  PostgresStatement statement(
+      "SELECT revision, octet_length(bytes) FROM plumescout_snapshot WHERE mission = $1 "
+      "ORDER BY revision DESC");
+  statement.Bind(row.id);
+  PLUMESCOUT_ASSIGN_OR_RETURN(const PostgresRows rows, connection.Run(statement, kReadTimeout));
+  std::vector<std::pair<std::int64_t, std::int64_t>> sizes;
+  for (int at = 0; at < rows.count(); ++at) sizes.emplace_back(rows.Int(at, 0), rows.Int(at, 1));
+  return sizes;
+}
+
+absl::StatusOr<std::int64_t> SharedRecordBytes(PostgresConnection& connection,
+                                               const MissionRow& row, std::int64_t after,
+                                               std::int64_t last) {
+  PostgresStatement statement(
+      "SELECT coalesce(sum(octet_length(bytes)), 0)::bigint FROM plumescout_record "
+      "WHERE mission = $1 AND number > $2 AND number <= $3");
+  statement.Bind(row.id).Bind(after).Bind(last);
+  PLUMESCOUT_ASSIGN_OR_RETURN(const PostgresRows rows, connection.Run(statement, kReadTimeout));
+  return rows.Int(0, 0);
+}
+
+absl::StatusOr<std::int64_t> NextSharedId(PostgresConnection& connection) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      const PostgresRows rows,
+      connection.Run(PostgresStatement("SELECT nextval('plumescout_ids')"), kReadTimeout));
+  return rows.Int(0, 0);
+}
+
+PostgresStatement CreateStatement(const MissionRow& made, const std::string& header,
+                                  std::int64_t owner) {
+  PostgresStatement statement(
+      "WITH made AS (INSERT INTO plumescout_mission(id, key, header, crc) SELECT $1, $2, $3, $4 "
+      "WHERE EXISTS (SELECT FROM plumescout_node n WHERE n.id = $10 "
+      "AND n.expires > clock_timestamp()) ON CONFLICT (key) DO NOTHING RETURNING id), "
+      "begun AS (INSERT INTO plumescout_progress(mission, epoch, head, chain, base, base_chain, "
+      "bytes, standing_crc, writes, crc, owner) "
+      "SELECT id, $5, 0, $4, 0, 0, $6, $7, $8, $9, $10 FROM made) SELECT count(*) FROM made");
+  statement.Bind(made.id).BindBytes(made.key).BindBytes(header).Bind(made.chain).Bind(made.epoch);
+  statement.Bind(made.bytes).Bind(made.standing_crc).Bind(made.writes).Bind(RowChecksum(made));
+  statement.Bind(owner);
+  return statement;
+}
+
+PostgresStatement AcquireStatement(const MissionRow& before, const MissionRow& after,
+                                   std::int64_t owner) {
+  PostgresStatement statement(
+      "WITH moved AS (UPDATE plumescout_progress SET epoch = $6, writes = $7, crc = $8, owner = $9 "
+      "WHERE mission = $1 AND epoch = $2 AND head = $3 AND writes = $4 AND crc = $5 "
+      "AND (owner IS NULL OR owner = $9 OR NOT EXISTS "
+      "(SELECT FROM plumescout_node n WHERE n.id = owner)) AND EXISTS (SELECT FROM "
+      "plumescout_node n WHERE n.id = $9 AND n.expires > clock_timestamp()) RETURNING mission) "
+      "SELECT count(*) FROM moved");
+  statement.Bind(before.id).Bind(before.epoch).Bind(before.head).Bind(before.writes);
+  statement.Bind(RowChecksum(before)).Bind(after.epoch).Bind(after.writes);
+  statement.Bind(RowChecksum(after)).Bind(owner);
+  return statement;
+}
+
+PostgresStatement AppendStatement(const MissionRow& before, const MissionRow& after,
+                                  std::span<const std::string> records) {
+  std::vector<std::int64_t> numbers;
+  std::vector<std::int64_t> chains;
+  std::uint32_t chain = before.chain;
+  for (const std::string& record : records) {
+    numbers.push_back(before.head + static_cast<std::int64_t>(numbers.size()) + 1);
+    chain = ChainChecksum(chain, numbers.back(), record);
+    chains.push_back(chain);
+  }
+  PostgresStatement statement = Moving(
+      ", added AS (INSERT INTO plumescout_record(mission, number, crc, bytes) "
+      "SELECT moved.mission, r.number, r.crc, r.bytes FROM moved, "
+      "unnest($15::bigint[], $16::bigint[], $17::bytea[]) AS r(number, crc, bytes))",
+      before, after);
+  statement.BindNumbers(numbers).BindNumbers(chains).BindAllBytes(records);
+  return statement;
+}
+
+PostgresStatement StandingStatement(const MissionRow& before, const MissionRow& after,
+                                    const std::string& standing) {
+  PostgresStatement statement = Moving(
+      ", put AS (INSERT INTO plumescout_standing(mission, bytes) SELECT mission, $15 FROM moved "
+      "ON CONFLICT (mission) DO UPDATE SET bytes = excluded.bytes)",
+      before, after);
+  statement.BindBytes(standing);
+  return statement;
+}
+
+PostgresStatement SnapshotStatement(const MissionRow& before, const MissionRow& after,
+                                    const StoredSnapshot& snapshot,
+                                    std::span<const std::int64_t> leaving) {
+  PostgresStatement statement = Moving(
+      ", gone AS (DELETE FROM plumescout_snapshot s USING moved "
+      "WHERE s.mission = moved.mission AND s.revision = ANY($15)), "
+      "put AS (INSERT INTO plumescout_snapshot(mission, revision, digest, crc, bytes) "
+      "SELECT mission, $16, $17, $18, $19 FROM moved ON CONFLICT (mission, revision) DO UPDATE "
+      "SET digest = excluded.digest, crc = excluded.crc, bytes = excluded.bytes)",
+      before, after);
+  statement.BindNumbers(leaving).Bind(snapshot.revision);
+  statement.Bind(static_cast<std::int64_t>(snapshot.digest));
+  statement.Bind(SnapshotChecksum(before.id, snapshot)).BindBytes(snapshot.bytes);
+  return statement;
+}
+
+PostgresStatement ForgetStatement(std::int64_t lease) {
+  PostgresStatement statement(
+      "DELETE FROM plumescout_node WHERE id = $1 AND expires <= clock_timestamp()");
+  statement.Bind(lease);
+  return statement;
+}
+
+PostgresStatement SaveStatement(const MissionRow& before, const MissionRow& after) {
+  return Moving("", before, after);
+}
+
+PostgresStatement RemoveStatement(const MissionRow& before) {
+  PostgresStatement statement(
+      "WITH gone AS (DELETE FROM plumescout_progress "
+      "WHERE mission = $1 AND epoch = $2 AND head = $3 AND writes = $4 AND crc = $5 "
+      "RETURNING mission), "
+      "m AS (DELETE FROM plumescout_mission m USING gone WHERE m.id = gone.mission), "
+      "s AS (DELETE FROM plumescout_standing s USING gone WHERE s.mission = gone.mission), "
+      "n AS (DELETE FROM plumescout_snapshot n USING gone WHERE n.mission = gone.mission), "
+      "r AS (INSERT INTO plumescout_removed SELECT mission FROM gone) "
+      "SELECT count(*) FROM gone");
+  statement.Bind(before.id).Bind(before.epoch).Bind(before.head).Bind(before.writes);
+  statement.Bind(RowChecksum(before));
+  return statement;
+}
+
+}  // namespace plumescout::server

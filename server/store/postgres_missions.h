@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "server/store/mission_row.h"
+#include "server/store/mission_store.h"
+#include "server/store/postgres_connection.h"
+
+namespace plumescout::server {
+
+// How a mission stands in the database, and whose it is.
+struct SharedRow {
+  MissionRow row;
+  std::int64_t owner = 0;   // the lease of a node, living or not; 0: nobody's
+  std::string living_node;  // the name of that node; empty if its lease has run out
+  std::int64_t standing_bytes = 0;
+};
+
+// A mission with all that is kept beside its records, checked.
+struct SharedMission {
+  SharedRow shared;
+  AcquiredMission known;
+};
+
+// Reading. Whatever has a checksum is checked: kDataLoss, naming database and row. Other errors as
+// of PostgresConnection. What one call reads is of a single state of the database.
+
+// Of those of the keys that there are; kDataLoss in place of a row that is damaged.
+absl::StatusOr<std::map<std::string, absl::StatusOr<SharedRow>>> LoadSharedRows(
+    PostgresConnection& connection, std::span<const std::string> keys);
+// kNotFound.
+absl::StatusOr<SharedMission> LoadSharedMission(PostgresConnection& connection,
+                                                const std::string& key);
+// All of them by key, and damaged rows with a key only.
+absl::StatusOr<std::vector<StoredMission>> ListSharedMissions(PostgresConnection& connection);
+
+// The checksums of the records up to each of these; 0 is the header. kDataLoss if one is not there.
+absl::StatusOr<std::vector<std::uint32_t>> SharedChainsAt(PostgresConnection& connection,
+                                                          const MissionRow& row,
+                                                          std::span<const std::int64_t> numbers);
+// Revisions and sizes, newest first.
+absl::StatusOr<std::vector<std::pair<std::int64_t, std::int64_t>>> SharedSnapshotSizes(
+    PostgresConnection& connection, const MissionRow& row);
+// Of the records after the first, up to the last.
+absl::StatusOr<std::int64_t> SharedRecordBytes(PostgresConnection& connection,
+                                               const MissionRow& row, std::int64_t after,
+                                               std::int64_t last);
+absl::StatusOr<std::int64_t> NextSharedId(PostgresConnection& connection);
+
+// Writing. Each statement does what it says only if the mission's row still is `before`, epoch,
+// head and all, and then makes it `after`; it gives one number: 1, or 0 if it was another and
+// nothing was done. `after` has its writes counted up. Who becomes the owner must hold its lease.
+
+PostgresStatement CreateStatement(const MissionRow& made, const std::string& header,
+                                  std::int64_t owner);
+// Nor if a node that has not been forgotten, and is not `owner`, has it. See ForgetStatement.
+PostgresStatement AcquireStatement(const MissionRow& before, const MissionRow& after,
+                                   std::int64_t owner);
+PostgresStatement AppendStatement(const MissionRow& before, const MissionRow& after,
+                                  std::span<const std::string> records);
+PostgresStatement StandingStatement(const MissionRow& before, const MissionRow& after,
+                                    const std::string& standing);
+PostgresStatement SnapshotStatement(const MissionRow& before, const MissionRow& after,
+                                    const StoredSnapshot& snapshot,
+                                    std::span<const std::int64_t> leaving);
+// Forgets a node whose lease has run out. It cannot be renewed any more then; one that is being
+// renewed just now is waited for.
+PostgresStatement ForgetStatement(std::int64_t lease);
+PostgresStatement SaveStatement(const MissionRow& before, const MissionRow& after);
+PostgresStatement RemoveStatement(const MissionRow& before);
+
+absl::Status SharedRowDamaged(const PostgresConnection& connection, absl::string_view key,
+                              absl::string_view what);
+
+}  // namespace plumescout::server

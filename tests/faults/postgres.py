@@ -1,0 +1,73 @@
+# SPDX-FileCopyrightText: PlumeScout contributors
+# SPDX-License-Identifier: Apache-2.0
+"""A PostgreSQL of its own in a folder, on a loopback port, for as long as somebody needs it."""
+
+import os
+import pathlib
+import pwd
+import subprocess
+
+USER = "plumescout"
+
+
+def program(name):
+    """Debian keeps each version in a folder of its own."""
+    found = sorted(pathlib.Path("/usr/lib/postgresql").glob(f"*/bin/{name}"))
+    if not found:
+        raise RuntimeError(f"no {name} of PostgreSQL: scripts/setup --cluster")
+    return found[-1]
+
+
+class Postgres:
+    """folder: it and all above it can be entered by others. It refuses root; then it runs as
+    nobody."""
+
+    def __init__(self, folder, port):
+        self.folder, self.port = pathlib.Path(folder), port
+        self.url = f"postgresql://{USER}@127.0.0.1:{port}/missions"
+        self._as = ["setpriv", "--pdeathsig", "INT"]
+        self.folder.mkdir(parents=True, exist_ok=True)
+        if os.geteuid() == 0:
+            nobody = pwd.getpwnam("nobody")
+            os.chown(self.folder, nobody.pw_uid, nobody.pw_gid)
+            self._as += [f"--reuid={nobody.pw_uid}", f"--regid={nobody.pw_gid}", "--clear-groups"]
+        data = self.folder / "data"
+        options = ["-k", "-A", "trust", "-U", USER, "-E", "UTF8", "--no-locale", "-D", data]
+        self._run(program("initdb"), *options)
+        options = f"-p {port} -h 127.0.0.1 -k {self.folder} -c max_connections=100"
+        self._process = subprocess.Popen(
+            [*self._as, program("postgres"), "-D", data, *options.split()],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            cwd="/",
+        )
+
+    def _run(self, *command):
+        done = subprocess.run(
+            [*self._as, *map(str, command)],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            text=True,
+            cwd="/",
+        )
+        if done.returncode != 0:
+            raise RuntimeError(f"{command[0]}: {done.stderr}")
+
+    def make_database(self):
+        """Whether it has been made: false as long as the server does not answer."""
+        command = ["createdb", "-h", "127.0.0.1", "-p", str(self.port), "-U", USER, "missions"]
+        return subprocess.run(command, stderr=subprocess.DEVNULL).returncode == 0
+
+    def ask(self, query):
+        """Rows of words."""
+        command = ["psql", "-XAt", "-F", "\t", self.url, "-c", query]
+        done = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True)
+        return [line.split("\t") for line in done.stdout.splitlines()]
+
+    def stop(self):
+        self._process.terminate()
+        try:
+            self._process.wait(timeout=10)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "server/store/postgres_nodes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/types/error_reason.h"
+#include "server/store/store_errors.h"
+#include "tests/server/store/shared_work.h"
+#include "tests/server/store/store_work.h"
+
+namespace plumescout::server {
+namespace postgres_nodes_test {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class PostgresNodesTest : public ::testing::Test {
+ protected:
+  std::string Ask(const std::string& sql) { return PostgresServer::Shared().Ask(url_, sql); }
+
+  const std::string url_ = PostgresServer::Shared().NewUrl();
+};
+
+TEST_F(PostgresNodesTest, AMissionIsOfTheNodeThatMadeItUntilItLeaves) {
+  auto first = OpenShared(url_, "n1");
+  const auto second = OpenShared(url_, "n2");
+  ASSERT_EQ(*first->Create("house", ""), 1);
+  EXPECT_THAT(*second->nodes()->ListLiving(),
+              ElementsAre(StoreNode{"n1", "n1.example:1"}, StoreNode{"n2", "n2.example:1"}));
+  EXPECT_EQ(*second->nodes()->FindOwner("house"), "n1");
+  EXPECT_TRUE(absl::IsNotFound(second->nodes()->FindOwner("mill").status()));
+
+  const absl::Status elsewhere = second->Acquire("house").status();
+  EXPECT_EQ(ErrorReason(elsewhere), reason::kMissionElsewhere);
+  EXPECT_EQ(NodeElsewhere(elsewhere), "n1");
+
+  first = nullptr;
+  EXPECT_EQ(*second->nodes()->FindOwner("house"), std::nullopt);
+  EXPECT_EQ(second->Acquire("house")->epoch, 2);
+  EXPECT_EQ(*second->nodes()->FindOwner("house"), "n2");
+}
+
+TEST_F(PostgresNodesTest, WhatIsReleasedIsTheNextOnes) {
+  const auto first = OpenShared(url_, "n1");
+  const auto second = OpenShared(url_, "n2");
+  ASSERT_EQ(*first->Create("house", ""), 1);
+  EXPECT_EQ(ErrorReason(first->nodes()->Release("house", 2)), reason::kFenced);
+  EXPECT_EQ(*second->nodes()->FindOwner("house"), "n1");
+  EXPECT_TRUE(absl::IsNotFound(first->nodes()->Release("mill", 1)));
+
+  EXPECT_TRUE(first->nodes()->Release("house", 1).ok());
+  EXPECT_EQ(*second->nodes()->FindOwner("house"), std::nullopt);
+  EXPECT_EQ(second->Acquire("house")->epoch, 2);
+  EXPECT_EQ(ErrorReason(first->nodes()->Release("house", 1)), reason::kFenced);
+  EXPECT_EQ(ErrorReason(AppendNow(*first, "house", 1, 1, {"late"})), reason::kFenced);
+}
+
+TEST_F(PostgresNodesTest, ALeaseThatRanOutLosesTheMissions) {
+  PostgresStoreOptions options = SharedOptions(url_, "n1");
+  options.lease = absl::Seconds(2);
+  const auto first = PostgresStore::Open(options).value();
+  const auto second = OpenShared(url_, "n2");
+  ASSERT_EQ(*first->Create("house", ""), 1);
+  std::atomic<int> losses = 0;
+  first->nodes()->SetOnLost([&](const absl::Status& why) {
+    EXPECT_FALSE(why.ok());
+    EXPECT_LT(first->nodes()->lease_until(), SteadyNow());
+    EXPECT_EQ(ErrorReason(first->nodes()->status()), reason::kStoreUnavailable);
+    ++losses;
+  });
+  ExpireLease(url_, "n1");
+  ASSERT_EQ(second->Acquire("house")->epoch, 2);
+  ASSERT_TRUE(Eventually([&] { return losses > 0; }));
+  EXPECT_EQ(ErrorReason(AppendNow(*first, "house", 1, 1, {"late"})), reason::kFenced);
+  // It joins again, and owns nothing.
+  ASSERT_TRUE(Eventually([&] { return first->nodes()->status().ok(); }));
+  EXPECT_EQ(NodeElsewhere(first->Acquire("house").status()), "n2");
+  EXPECT_EQ(losses, 1);
+  first->nodes()->SetOnLost(nullptr);
+}
+
+TEST_F(PostgresNodesTest, ALeaseIsRenewedAndEndsBeforeItsOwnTime) {
+  PostgresStoreOptions options = SharedOptions(url_, "n1");
+  options.lease = absl::Seconds(2);
+  const auto store = PostgresStore::Open(options).value();
+  const SteadyTime first = store->nodes()->lease_until();
+  EXPECT_LT(first, After(SteadyNow(), options.lease));
+  ASSERT_TRUE(Eventually([&] { return store->nodes()->lease_until() > first; }));
+}
+
+TEST_F(PostgresNodesTest, ANameIsOneNodes) {
+  const auto first = OpenShared(url_, "n1");
+  PostgresStoreOptions options = SharedOptions(url_, "n1");
+  options.lease = absl::Seconds(1);  // the other has a minute, so nobody waits for it
+  const absl::Status refused = PostgresStore::Open(options).status();
+  EXPECT_TRUE(absl::IsFailedPrecondition(refused)) << refused;
+  EXPECT_THAT(std::string(refused.message()), HasSubstr("store.node = n1"));
+  EXPECT_THAT(std::string(refused.message()), HasSubstr("n1.example:1"));
+  EXPECT_TRUE(first->nodes()->status().ok());
+}
+
+TEST_F(PostgresNodesTest, ANameThatIsRenewedMeanwhileIsTaken) {
+  PostgresStoreOptions options = SharedOptions(url_, "n1");
+  options.lease = absl::Seconds(6);
+  const auto first = PostgresStore::Open(options).value();
+  const absl::Status refused = PostgresStore::Open(options).status();
+  EXPECT_TRUE(absl::IsFailedPrecondition(refused)) << refused;
+}
+
+TEST_F(PostgresNodesTest, WhoeverWasKilledIsWaitedFor) {
+  OpenShared(url_, "n0");  // makes the tables
+  Ask("INSERT INTO plumescout_node VALUES(7, 'n1', 'gone.example:1', now() + interval '1 s')");
+  const auto store = PostgresStore::Open(SharedOptions(url_, "n1"));
+  ASSERT_TRUE(store.ok()) << store.status();
+  EXPECT_EQ(Ask("SELECT count(*) FROM plumescout_node WHERE id = 7"), "0");
+}
+
+TEST_F(PostgresNodesTest, ADatabaseThatStaysAwayEndsTheLease) {
+  PostgresStoreOptions options = SharedOptions(url_, "n1");
+  options.lease = absl::Seconds(1);
+  const auto store = PostgresStore::Open(options).value();
+  std::atomic<bool> is_lost = false;
+  store->nodes()->SetOnLost([&](const absl::Status&) { is_lost = true; });
+  PostgresServer::Shared().Kill();
+  EXPECT_TRUE(Eventually([&] { return is_lost.load(); }));
+  EXPECT_EQ(ErrorReason(store->nodes()->status()), reason::kStoreUnavailable);
+  EXPECT_EQ(ErrorReason(store->nodes()->Release("house", 1)), reason::kStoreUnavailable);
+  PostgresServer::Shared().Start();
+  EXPECT_TRUE(Eventually([&] { return store->nodes()->status().ok(); }));
+  EXPECT_TRUE(Eventually([&] { return store->Create("house", "").ok(); }));
+  store->nodes()->SetOnLost(nullptr);
+}
+
+}  // namespace postgres_nodes_test
+}  // namespace plumescout::server
