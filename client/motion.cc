@@ -3,6 +3,7 @@
 #include "client/motion.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace plumescout::client {
 namespace {
@@ -77,12 +78,56 @@ class SteeredMotion final : public Motion {
   PathFollower follower_;
 };
 
+// The path that was planned only says where it ends, how long one stands there, and what the rest
+// of the way would be.
+class OthersMotion final : public Motion {
+ public:
+  OthersMotion(const Trajectory& trajectory, const FollowerOptions& options)
+      : trajectory_(trajectory), arrival_tolerance_m_(options.arrival_tolerance_m) {}
+
+  absl::Status Step(RobotDriver& driver) override {
+    const Waypoint& last = trajectory_.waypoints.back();
+    const double left_m = Distance_m(driver.pose().position(), last.pose.position());
+    if (!arrived_ns_ && left_m <= arrival_tolerance_m_) arrived_ns_ = driver.now_ns();
+    if (arrived_ns_) {
+      const auto stood_ns = static_cast<double>(driver.now_ns() - *arrived_ns_);
+      done_ = stood_ns * kSecondsPerNanosecond >= last.dwell_s;
+    }
+    return absl::OkStatus();
+  }
+  bool done() const override { return done_; }
+  bool standing() const override { return arrived_ns_.has_value(); }
+
+  std::vector<Point2> PathAhead(const Pose2& pose) const override {
+    const auto& waypoints = trajectory_.waypoints;
+    const auto nearest = std::min_element(waypoints.begin(), waypoints.end(),
+                                          [&pose](const Waypoint& a, const Waypoint& b) {
+                                            return Distance_m(a.pose.position(), pose.position()) <
+                                                   Distance_m(b.pose.position(), pose.position());
+                                          });
+    std::vector<Point2> path = {pose.position()};
+    for (auto ahead = nearest; ahead != waypoints.end(); ++ahead) {
+      path.push_back(ahead->pose.position());
+    }
+    return path;
+  }
+
+ private:
+  const Trajectory trajectory_;
+  const double arrival_tolerance_m_;
+  std::optional<std::int64_t> arrived_ns_;
+  bool done_ = false;
+};
+
 }  // namespace
 
 std::unique_ptr<Motion> StartMotion(Following following, const Trajectory& trajectory,
                                     const FollowerOptions& options, std::int64_t departure_ns) {
   if (following == Following::kIdeal) {
     return std::make_unique<IdealMotion>(trajectory, departure_ns);
+  }
+  if (following == Following::kByOthers) {
+    return std::make_unique<OthersMotion>(trajectory, options);
   }
   return std::make_unique<SteeredMotion>(trajectory, options);
 }

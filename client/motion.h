@@ -17,6 +17,7 @@ namespace plumescout::client {
 enum class Following {
   kProportional,  // [XIT] section VII: wheels are steered
   kIdeal,         // the robot stands exactly on the trajectory; simulated robots only
+  kByOthers,      // somebody else drives it there, by a way of their own
 };
 
 // One trajectory being followed by a robot, tick by tick.

@@ -24,7 +24,11 @@ find_path(GLPK_INCLUDE_DIR glpk.h REQUIRED)
 # Not find_package(ompl): Debian's asks for Boost libraries that its package does not pull in.
 find_library(OMPL_LIBRARY ompl REQUIRED)
 find_path(OMPL_INCLUDE_DIR ompl/config.h PATH_SUFFIXES ompl-1.5 REQUIRED)
+if(PLUMESCOUT_ROS2)
+  find_package(CycloneDDS CONFIG)  # without it plumescout-ros2 is left out
+endif()
 if(PLUMESCOUT_BUILD_TESTS)
   find_package(GTest CONFIG REQUIRED)
   include(GoogleTest)
+  find_package(fastrtps CONFIG QUIET)  # without it plumescout-ros2 is tried with one vendor's DDS only
 endif()

@@ -1,5 +1,6 @@
 option(PLUMESCOUT_BUILD_TESTS "Build the tests" ON)
 option(PLUMESCOUT_SERVER_OMPL "Let servers offer the planners of OMPL (planning.rivals)" ON)
+option(PLUMESCOUT_ROS2 "Build plumescout-ros2, if Cyclone DDS is installed" ON)
 option(PLUMESCOUT_BUILD_BENCHES "Build lab/bench" ON)
 option(PLUMESCOUT_UNITE "Compile several sources at a time: half the time of a whole build" ON)
 option(PLUMESCOUT_FUZZ "Build the fuzzing targets of tests/fuzz; needs clang" OFF)

@@ -62,5 +62,5 @@ plumescout_package(python python3-plumescout
   DEPENDS "python3 (>= 3.10), python3-grpcio, python3-numpy, python3-protobuf" ARCHITECTURE all)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/deploy/debian/python/prerm)
 plumescout_package(ros2 plumescout-ros2
-  "bridge between PlumeScout and robots that speak ROS 2, by DDS")
+  "puts robots that speak ROS 2 into missions of PlumeScout, by DDS")
 include(CPack)

@@ -9,6 +9,7 @@
 #include "absl/status/status.h"
 #include "lab/program/experiment_command.h"
 #include "lab/program/export_command.h"
+#include "lab/program/ingest_command.h"
 #include "lab/program/plan_command.h"
 #include "lab/program/replay_command.h"
 #include "lab/program/robot_command.h"
@@ -22,6 +23,7 @@ int main(int argc, char** argv) {
   absl::Status status;
   plumescout::lab::AddExperimentCommand(app, status);
   plumescout::lab::AddExportCommand(app, status);
+  plumescout::lab::AddIngestCommand(app, status);
   plumescout::lab::AddPlanCommand(app, status);
   plumescout::lab::AddReplayCommand(app, status);
   plumescout::lab::AddRobotCommand(app, status);

@@ -16,7 +16,10 @@ using Names = std::vector<std::string>;
 // Programs, examples, and the headers that the client library is published by.
 bool IsRoot(const SourceFile& file) {
   if (absl::StartsWith(file.path, "client/examples/")) return true;
-  if (file.path == "server/main.cc" || file.path == "client/robot_main.cc") return true;
+  for (const char* program :
+       {"server/main.cc", "client/robot_main.cc", "client/ros2/ros2_main.cc"}) {
+    if (file.path == program) return true;
+  }
   return file.folder() == "client" && file.is_header();
 }
 

@@ -161,6 +161,29 @@ TEST(SteeredMotionTest, ThePathAheadBeginsAtTheRobot) {
   EXPECT_EQ(motion->PathAhead(driver.pose()).back(), (Point2{2.0, 1.0}));
 }
 
+TEST(OthersMotionTest, WhoeverDrivesAnyWayArrivesAtTheEndAndStandsThereAsPlanned) {
+  FakeDriver driver;
+  Trajectory trajectory = AroundTheCorner();
+  trajectory.waypoints.back().dwell_s = 0.3;
+  const auto motion =
+      StartMotion(Following::kByOthers, trajectory, FollowerOptions(), driver.now_ns());
+  driver.set_pose({2.1, 0.2, 0.0});  // the corner was cut
+  ASSERT_TRUE(motion->Step(driver).ok());
+  EXPECT_EQ(driver.twist().forward_mps, 0.0);
+  EXPECT_FALSE(motion->done());
+  EXPECT_FALSE(motion->standing());
+  EXPECT_THAT(motion->PathAhead(driver.pose()),
+              ElementsAre(Point2{2.1, 0.2}, Point2{2.0, 0.0}, Point2{2.0, 1.0}));
+
+  driver.set_pose({2.05, 0.95, 0.0});
+  ASSERT_TRUE(motion->Step(driver).ok());
+  EXPECT_TRUE(motion->standing());
+  EXPECT_FALSE(motion->done());
+  driver.set_now_ns(driver.now_ns() + kSecond_ns / 2);
+  ASSERT_TRUE(motion->Step(driver).ok());
+  EXPECT_TRUE(motion->done());
+}
+
 // Real robots do not jump.
 class RealRobot final : public RobotDriver {
  public:

@@ -9,9 +9,8 @@
 #include "absl/strings/str_cat.h"
 #include "client/grpc_planner_client.h"
 #include "core/types/status_macros.h"
-#include "lab/sim/layout.h"
-#include "lab/sim/scene_maker.h"
 #include "proto/convert/observation.h"
+#include "tests/e2e/gas_hall.h"
 #include "tests/support/same_bytes.h"
 
 namespace plumescout::lab {
@@ -19,29 +18,6 @@ namespace {
 
 constexpr double kDuration_s = 40.0;
 constexpr std::int64_t kMaxEdgeEvaluations = 20'000;  // of each plan
-
-Layout GasHallLayout() {
-  Layout layout;
-  layout.name = "gas_hall";
-  layout.size_x_m = 6.0;
-  layout.size_y_m = 5.0;
-  layout.walls = {{{3.0, 0.0}, {3.0, 5.0}, 0.2, {{3.6, 1.4}}}};
-  layout.boxes = {{{4.2, 1.6}, {4.8, 2.2}}};
-  layout.openings = {{Side::kWest, 3.0, 4.2, 1.0}, {Side::kEast, 1.0, 2.2, std::nullopt}};
-  layout.sources = {{0, 3.6, 3.4, 0.4, 1000.0}};
-  layout.start_pose = {0.8, 0.8, 0.0};
-  return layout;
-}
-
-Scene MakeGasHall() {
-  SceneMakerOptions options;
-  options.wind.flow_s = 4.0;
-  options.warm_up_s = 30.0;
-  options.frames = 80;
-  absl::StatusOr<Scene> scene = MakeScene(GasHallLayout(), options);
-  EXPECT_TRUE(scene.ok()) << scene.status();
-  return *std::move(scene);
-}
 
 class TappedStream final : public client::ObservationStream {
  public:
@@ -113,7 +89,11 @@ class TappedClient final : public client::PlannerClient {
 }  // namespace
 
 const SceneWorld& GasHall() {
-  static const SceneWorld world(MakeGasHall());
+  static const SceneWorld world([] {
+    absl::StatusOr<Scene> scene = MakeGasHall();
+    EXPECT_TRUE(scene.ok()) << scene.status();
+    return *std::move(scene);
+  }());
   return world;
 }
 

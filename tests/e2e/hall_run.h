@@ -18,8 +18,7 @@ namespace plumescout::lab {
 
 inline constexpr char kHallMission[] = "trial";
 
-// A hall of 6 m x 5 m with an inlet in the west, an outlet in the east, a screen, a box and one
-// source. Made once.
+// See gas_hall.h. Made once.
 const SceneWorld& GasHall();
 
 // 40 simulated seconds in lockstep, with bounded work, so that only the planning service could make

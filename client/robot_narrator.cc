@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "client/robot_narrator.h"
+
+#include <cstdio>
+
+#include "absl/strings/str_cat.h"
+
+namespace plumescout::client {
+
+void RobotNarrator::OnPlan(const PlanArrival& arrival) {
+  Say(absl::StrCat("plan ", arrival.plan.id, " at ", arrival.elapsed_s,
+                   " s: ", arrival.plan.explanation));
+}
+
+void RobotNarrator::OnReport(PlanId plan, ProgressOutcome outcome) {
+  const char* what = outcome == ProgressOutcome::kReached   ? "reached"
+                     : outcome == ProgressOutcome::kBlocked ? "blocked"
+                                                            : "given up";
+  Say(absl::StrCat("plan ", plan, ": ", what));
+}
+
+void RobotNarrator::OnPlanFailure(const absl::Status& status) {
+  Say(absl::StrCat("no plan: ", status.ToString()));
+}
+
+void RobotNarrator::OnRejected(const ObservationRejected& rejected) {
+  Say(absl::StrCat("observation ", rejected.sequence, " refused: ", rejected.status.ToString()));
+}
+
+void RobotNarrator::OnLink(const absl::Status& status) {
+  Say(status.ok() ? "link is up" : absl::StrCat("link: ", status.ToString()));
+}
+
+void RobotNarrator::OnRolledBack(std::int64_t applied_sequence, std::int64_t forgotten) {
+  Say(absl::StrCat("the server was set back: it has ", applied_sequence,
+                   " observations of this robot, although it had more; the rest is sent again",
+                   forgotten > 0 ? absl::StrCat(", but for ", forgotten, " that are gone") : ""));
+}
+
+void RobotNarrator::OnDisk(const absl::Status& status) {
+  Say(status.ok() ? "the log is written to disk again"
+                  : absl::StrCat("log on disk: ", status.message()));
+}
+
+void RobotNarrator::Say(const std::string& text) const {
+  std::fprintf(stderr, "%s: %s\n", program_.c_str(), text.c_str());
+}
+
+void RobotNarrator::SayResult(const RobotResult& result) const {
+  Say(absl::StrCat("done after ", result.elapsed_s, " s: ", result.plans, " plans, ",
+                   result.distance_m, " m, ", result.ingest.applied_sequence, " of ",
+                   result.ingest.last_sequence, " observations applied, ",
+                   result.ingest.durable_sequence, " durable"));
+}
+
+}  // namespace plumescout::client

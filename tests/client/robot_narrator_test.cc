@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "client/robot_narrator.h"
+
+#include <gtest/gtest.h>
+
+namespace plumescout::client {
+namespace robot_narrator_test {
+
+TEST(RobotNarratorTest, SaysInALineEachWhatHappens) {
+  RobotNarrator narrator("plumescout-test");
+  Plan plan;
+  plan.id = 3;
+  plan.explanation = "nearest frontier";
+  testing::internal::CaptureStderr();
+  narrator.OnPlan({.time_ns = 0, .elapsed_s = 1.5, .pose = {}, .plan = plan, .rpc_wall = {}});
+  narrator.OnReport(3, ProgressOutcome::kBlocked);
+  narrator.OnLink(absl::UnavailableError("gone"));
+  narrator.OnRolledBack(7, 2);
+  RobotResult result;
+  result.elapsed_s = 9.0;
+  result.plans = 4;
+  narrator.SayResult(result);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "plumescout-test: plan 3 at 1.5 s: nearest frontier\n"
+            "plumescout-test: plan 3: blocked\n"
+            "plumescout-test: link: UNAVAILABLE: gone\n"
+            "plumescout-test: the server was set back: it has 7 observations of this robot, "
+            "although it had more; the rest is sent again, but for 2 that are gone\n"
+            "plumescout-test: done after 9 s: 4 plans, 0 m, 0 of 0 observations applied, "
+            "0 durable\n");
+}
+
+}  // namespace robot_narrator_test
+}  // namespace plumescout::client
