@@ -25,8 +25,6 @@ constexpr double kStuck_s = 3.0;
 constexpr double kStuckShare = 0.1;
 constexpr double kProgress_m = 0.1;
 constexpr double kProgress_rad = 0.2;
-// A robot that stands and waits for its plan looks for it so often.
-constexpr double kAnswerLook_s = 0.01;
 // Remainders of a wait below this are rounding.
 constexpr double kTimeRounding_s = 1e-6;
 
@@ -300,7 +298,7 @@ absl::Status RobotLoop::AskWhileRunning() {
     });
   }
   if (pending_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
-    return Tick(std::min(options_.tick_s, kAnswerLook_s));
+    return Tick(std::min(options_.tick_s, options_.answer_look_s));
   }
   PlanReply answer = pending_.get();
   if (answer.reported) report_.reset();

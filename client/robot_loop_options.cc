@@ -17,6 +17,7 @@ absl::Status Validate(const RobotLoopOptions& options) {
   }
   return Checker()
       .Positive("tick_s", options.tick_s)
+      .Positive("answer_look_s", options.answer_look_s)
       .Positive("radius_m", options.participation.radius_m)
       .Positive("stand_before_retry_s", options.stand_before_retry_s)
       .NotNegative("look_around_s", options.look_around_s)

@@ -38,7 +38,10 @@ struct RobotLoopOptions {
   // The driver's clock goes as fast as time does, so batches say when they were sent by it, and it
   // need not be right. Not for simulations that run faster, or slower.
   bool real_clock = false;
-  double tick_s = 0.1;          // between commands, > 0
+  double tick_s = 0.1;  // between commands, > 0
+  // Who stands and waits for a plan looks for it so often, > 0. Below a tick, which scans are taken
+  // depends on how long plans take.
+  double answer_look_s = 0.1;
   double look_around_s = 0.5;   // standing before the first plan: a cell takes 3 beams to be free
   double plan_latency_s = 0.1;  // lockstep only: robot time that a plan costs, >= 0
   double stand_before_retry_s = 1.0;  // when there was nowhere to go, > 0

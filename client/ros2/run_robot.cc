@@ -134,6 +134,7 @@ class PlanTeller final : public RobotNarrator {
 RobotLoopOptions OptionsOf(const RunFlags& flags) {
   RobotLoopOptions options = flags.robot.loop;
   options.real_clock = !flags.simulated_clock;
+  options.answer_look_s = 0.01;  // scans come when they come
   if (flags.tell.plan.drives != Drives::kVelocity) {
     options.following = Following::kByOthers;
     options.follower.arrival_tolerance_m = kOthersTolerance_m;

@@ -45,13 +45,6 @@ absl::Status AwaitStore(const std::function<void(MissionStore::Done)>& start, co
   return end->status;
 }
 
-// An import ends with the mission's standing. That its events are fewer than it began with does not
-// say so: a store may have lost them later.
-bool IsUnfinished(const AcquiredMission& stored) {
-  const auto start = DecodeStart(stored.header);
-  return start.ok() && start->last_number > 0 && stored.standing.empty();
-}
-
 }  // namespace
 
 absl::Status MissionImport::Add(const v1::MissionFilePiece& piece) {
@@ -94,6 +87,7 @@ absl::StatusOr<std::shared_ptr<MissionHost>> MissionImport::Finish(const v1::Mis
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto room,
                               registry_.HoldRoom(journal.options.memory_budget_bytes));
   const std::string key = MissionKey(named.owner.tenant, named.mission);
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto name, registry_.HoldName(key));
   PLUMESCOUT_RETURN_IF_ERROR(Store(journal, key, named, stop));
   return Revive(journal, key, named, stop);
 }
@@ -150,9 +144,8 @@ absl::StatusOr<std::shared_ptr<MissionHost>> MissionImport::Revive(const Checked
                                                                    const std::string& key,
                                                                    const ImportWish& wish,
                                                                    const StopFn& stop) {
-  const absl::Status recovered = registry_.Recover(key);
+  const absl::Status recovered = registry_.Recover(key, /*holds_name=*/true);
   if (!recovered.ok()) {
-    // Who recovers takes the mission over: it is no longer ours to remove.
     const auto acquired = store_.Acquire(key);
     if (acquired.ok()) Remove(key, acquired->epoch);
     return recovered;
@@ -193,7 +186,7 @@ absl::Status DropUnfinishedImports(MissionStore& store) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto missions, store.List());
   for (const StoredMission& mission : missions) {
     const auto stored = store.Peek(mission.key);
-    if (!stored.ok() || !IsUnfinished(*stored)) continue;
+    if (!stored.ok() || !IsUnfinishedImport(*stored)) continue;
     PLUMESCOUT_ASSIGN_OR_RETURN(const AcquiredMission acquired, store.Acquire(mission.key));
     PLUMESCOUT_RETURN_IF_ERROR(AwaitStore(
         [&](MissionStore::Done done) {

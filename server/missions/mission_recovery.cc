@@ -135,9 +135,18 @@ absl::StatusOr<std::unique_ptr<Mission>> MissionAt(MissionStore& store, const st
   return std::move(rebuilt.mission);
 }
 
+bool IsUnfinishedImport(const AcquiredMission& stored) {
+  const auto start = DecodeStart(stored.header);
+  return start.ok() && start->last_number > 0 && stored.standing.empty();
+}
+
 absl::StatusOr<RecoveredMission> RecoverMission(MissionStore& store, const std::string& key,
                                                 const StopFn& stop) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const AcquiredMission kept, store.Acquire(key));
+  if (IsUnfinishedImport(kept)) {
+    return absl::DataLossError(absl::StrCat(
+        "mission ", key, " is an import that did not end; delete it, and import again"));
+  }
   RecoveredMission recovered;
   PLUMESCOUT_ASSIGN_OR_RETURN(recovered.start, DecodeStart(kept.header));
   PLUMESCOUT_ASSIGN_OR_RETURN(recovered.standing, DecodeStanding(kept.standing));

@@ -30,6 +30,11 @@ absl::StatusOr<MissionOptions> OptionsOf(const JournalStart& start);
 absl::StatusOr<std::unique_ptr<Mission>> MissionAt(MissionStore& store, const std::string& key,
                                                    std::int64_t revision, const StopFn& stop);
 
+// Whether it is what an import has left behind that did not end: that begins with the number of its
+// last event, and ends with the mission's standing. That its events are fewer does not say so: a
+// store may have lost them later.
+bool IsUnfinishedImport(const AcquiredMission& stored);
+
 // A mission that this server has taken over.
 struct RecoveredMission {
   std::unique_ptr<Mission> mission;
@@ -40,7 +45,8 @@ struct RecoveredMission {
   JournalTail tail;  // what was replayed
 };
 
-// Takes the mission over and brings it to where its durable events left it. Errors as MissionAt.
+// Takes the mission over and brings it to where its durable events left it. Errors as MissionAt;
+// kDataLoss of an import that did not end on another server.
 absl::StatusOr<RecoveredMission> RecoverMission(MissionStore& store, const std::string& key,
                                                 const StopFn& stop);
 

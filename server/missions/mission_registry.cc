@@ -48,13 +48,17 @@ MissionRegistry::MissionRegistry(const RegistryOptions& options, RegistryHooks h
 
 absl::Status MissionRegistry::CheckRoom(const MissionId& id, const std::string& key,
                                         std::int64_t bytes) const {
+  PLUMESCOUT_RETURN_IF_ERROR(CheckName(id, key));
+  return CheckMemory("the mission", bytes);
+}
+
+absl::Status MissionRegistry::CheckName(const MissionId& id, const std::string& key) const {
   if (!closed_.ok()) return closed_;
   if (sought_.IsAskedFor(key)) return Recovering(id);
   if (hosts_.contains(key) || being_made_.contains(key) || absent_.Contains(key)) {
     return MissionExists(id);
   }
-  PLUMESCOUT_RETURN_IF_ERROR(CheckCount());
-  return CheckMemory("the mission", bytes);
+  return CheckCount();
 }
 
 absl::Status MissionRegistry::CheckCount() const {
@@ -154,31 +158,31 @@ bool MissionRegistry::RecoverNext() {
   return true;
 }
 
-absl::Status MissionRegistry::CheckRecovery(const std::string& key) const {
-  if (!closed_.ok()) return closed_;
+absl::Status MissionRegistry::CheckRecovery(const std::string& key, bool holds_name) const {
+  if (!closed_.ok() || holds_name) return closed_;
   if (hosts_.contains(key) || being_made_.contains(key)) return MissionExists(MissionIdOf(key));
   return absent_.Contains(key) ? absl::OkStatus() : CheckCount();
 }
 
-absl::Status MissionRegistry::Recover(const std::string& key) {
+absl::Status MissionRegistry::Recover(const std::string& key, bool holds_name) {
   if (store_ == nullptr) return absl::FailedPreconditionError("the server keeps no missions");
   bool is_new = false;
   int life = 0;
   {
     absl::MutexLock lock(&mutex_);
-    const absl::Status may = CheckRecovery(key);
+    const absl::Status may = CheckRecovery(key, holds_name);
     if (!may.ok()) sought_.Settle(key, may, clock_());
     PLUMESCOUT_RETURN_IF_ERROR(may);
     life = lives_;
     is_new = !absent_.Contains(key);
-    if (is_new) being_made_.insert(key);
+    if (is_new && !holds_name) being_made_.insert(key);
   }
   const SteadyTime began = SteadyNow();
   auto host = maker_.Revive(key, [closing = closing_] { return closing->load(); });
   absl::Status status = host.status();
   {
     absl::MutexLock lock(&mutex_);
-    being_made_.erase(key);
+    if (!holds_name) being_made_.erase(key);
     status.Update(closed_);
     status.Update(CheckLife(life));
     if (status.ok()) {
@@ -246,6 +250,7 @@ absl::Status MissionRegistry::CallForAbsent(const std::string& key) {
 }
 
 absl::StatusOr<std::shared_ptr<MissionHost>> MissionRegistry::FindOfAnyTenant(const MissionId& id) {
+  PLUMESCOUT_RETURN_IF_ERROR(CheckLease());
   const auto found = List("", 2, [&id](const MissionHost& host) { return host.id() == id; });
   std::vector<AbsentMission> absent = ListAbsent("");
   std::erase_if(absent, [&](const AbsentMission& other) { return MissionIdOf(other.key) != id; });
@@ -280,12 +285,15 @@ absl::Status MissionRegistry::Delete(const MissionId& id, absl::string_view tena
 absl::Status MissionRegistry::Discard(const std::string& key, MissionJournal::Callback removed) {
   {
     absl::MutexLock lock(&mutex_);
-    if (!absl::IsDataLoss(absent_.CallFor(key))) return MissionNotFound(MissionIdOf(key));
+    const absl::Status held =
+        nodes_ == nullptr ? absent_.CallFor(key) : sought_.CallFor(key, clock_());
+    if (!absl::IsDataLoss(held)) return MissionNotFound(MissionIdOf(key));
   }
   PLUMESCOUT_ASSIGN_OR_RETURN(const AcquiredMission stored, store_->Peek(key));
   {
     absl::MutexLock lock(&mutex_);
     absent_.Erase(key);
+    sought_.Erase(key);
   }
   store_->Remove(key, stored.epoch, std::move(removed));
   return absl::OkStatus();

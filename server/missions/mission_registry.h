@@ -89,8 +89,9 @@ class MissionRegistry {
   // more.
   bool RecoverNext();
   // Takes over a mission that the store has, such as an import has put there. MISSION_EXISTS if it
-  // runs, LIMIT_REACHED, and what RecoverMission says.
-  absl::Status Recover(const std::string& key);
+  // runs, or is made by somebody but the caller, who holds its name; LIMIT_REACHED, and what
+  // RecoverMission says.
+  absl::Status Recover(const std::string& key, bool holds_name = false);
   // Those that do not run, whose keys come after this one, in order of key.
   std::vector<AbsentMission> ListAbsent(const std::string& after) const;
   AbsentCounts absent() const;
@@ -98,6 +99,11 @@ class MissionRegistry {
   // Room for what takes memory like a mission and is none, until the hold is let go; the registry
   // outlives it. LIMIT_REACHED.
   absl::StatusOr<std::shared_ptr<void>> HoldRoom(std::int64_t bytes) ABSL_LOCKS_EXCLUDED(mutex_);
+
+  // Nobody else makes or recovers a mission of this name until the hold is let go; the registry
+  // outlives it. MISSION_EXISTS, and RECOVERING of one that is not there yet.
+  absl::StatusOr<std::shared_ptr<void>> HoldName(const std::string& key)
+      ABSL_LOCKS_EXCLUDED(mutex_);
 
   // Deletes those that have outlived their use, and that nobody but the registry holds: whoever
   // holds a mission uses it. Returns their names.
@@ -143,7 +149,10 @@ class MissionRegistry {
   // The life that it is of.
   absl::StatusOr<int> Reserve(const MissionId& id, const std::string& key, std::int64_t bytes)
       ABSL_LOCKS_EXCLUDED(mutex_);
-  absl::Status CheckRecovery(const std::string& key) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  absl::Status CheckRecovery(const std::string& key, bool holds_name) const
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  absl::Status CheckName(const MissionId& id, const std::string& key) const
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   bool may_sleep() const {
     return store_ != nullptr && store_->is_durable() &&
            options_.sleep_after != absl::InfiniteDuration();

@@ -3,6 +3,7 @@
 // Of the mission registry: a store that several servers share.
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 
 #include "core/mission/conduct/conduct_errors.h"
@@ -24,6 +25,16 @@ absl::Status MissionRegistry::CheckLife(int life) const {
 
 absl::Status MissionRegistry::CheckLease() const {
   return nodes_ == nullptr || clock_() < nodes_->lease_until() ? absl::OkStatus() : LeaseLost();
+}
+
+absl::StatusOr<std::shared_ptr<void>> MissionRegistry::HoldName(const std::string& key) {
+  absl::MutexLock lock(&mutex_);
+  PLUMESCOUT_RETURN_IF_ERROR(CheckName(MissionIdOf(key), key));
+  being_made_.insert(key);
+  return std::shared_ptr<void>(nullptr, [this, key](void*) {
+    absl::MutexLock release(&mutex_);
+    being_made_.erase(key);
+  });
 }
 
 absl::Status MissionRegistry::Seek(const std::string& key) {

@@ -128,6 +128,7 @@ void Committer::CommitBatch(Batch batch) {
       // Who is to blame shows when each has a commit of its own.
       for (StoreWrite& write : batch) {
         Batch alone;
+        write.tried = true;  // an engine may have written some of them
         alone.push_back(std::move(write));
         CommitBatch(std::move(alone));
       }

@@ -172,7 +172,14 @@ absl::StatusOr<std::unique_ptr<PostgresConnection>> PostgresConnection::Open(
       "THEN set_config('synchronous_commit', 'on', false) END");
   settings.emplace_back("SELECT set_config('statement_timeout', '60s', false)");
   settings.emplace_back("SELECT set_config('lock_timeout', '10s', false)");
-  PLUMESCOUT_RETURN_IF_ERROR(connection->RunAll(settings, timeout).status());
+  settings.emplace_back("SELECT set_config('client_encoding', 'UTF8', false)");
+  // A machine that is gone in the middle of a commit frees its rows in some ten seconds.
+  settings.emplace_back(
+      "SELECT set_config('tcp_keepalives_idle', '5', false), "
+      "set_config('tcp_keepalives_interval', '2', false), "
+      "set_config('tcp_keepalives_count', '3', false)");
+  PLUMESCOUT_RETURN_IF_ERROR(
+      connection->RunAll(settings, absl::FromChrono(limit - SteadyNow())).status());
   return connection;
 }
 
@@ -182,9 +189,8 @@ absl::Status PostgresConnection::FinishOpening(SteadyTime limit) {
     PLUMESCOUT_RETURN_IF_ERROR(Await(to_write, limit));
     const PostgresPollingStatusType polled = PQconnectPoll(connection_);
     if (polled == PGRES_POLLING_OK) {
-      const bool is_set = PQsetnonblocking(connection_, 1) == 0 &&
-                          PQsetClientEncoding(connection_, "UTF8") == 0 &&
-                          PQenterPipelineMode(connection_) == 1;
+      const bool is_set =
+          PQsetnonblocking(connection_, 1) == 0 && PQenterPipelineMode(connection_) == 1;
       return is_set ? absl::OkStatus() : LinkError();
     }
     if (polled == PGRES_POLLING_FAILED) break;

@@ -94,7 +94,12 @@ absl::Status PostgresEngine::CommitRound(std::vector<StoreWrite*>& writes, bool 
   }
   for (auto& [key, row] : round.rows) {
     known_.erase(key);
-    if (row.has_value() && !round.put_off_keys.contains(key)) known_.emplace(key, *std::move(row));
+    if (round.put_off_keys.contains(key)) continue;
+    if (row.has_value()) {
+      known_.emplace(key, *std::move(row));
+    } else {
+      own_.erase(key);
+    }
   }
   for (const std::string& key : round.put_off_keys) known_.erase(key);
   // In their order: of one mission, those that were sent came before those that waited.
@@ -153,7 +158,16 @@ absl::Status PostgresEngine::Plan(Round& round, StoreWrite& write) {
     Refuse(round, write, FencedByEpoch(write.key, write.epoch, shared->row.epoch));
     return absl::OkStatus();
   }
+  if (!IsOwn(shared->row)) {
+    Refuse(round, write, FencedByNamesake(write.key));
+    return absl::OkStatus();
+  }
   return PlanFor(round, write, *shared);
+}
+
+bool PostgresEngine::IsOwn(const MissionRow& row) const {
+  const auto own = own_.find(row.key);
+  return own != own_.end() && own->second.epoch == row.epoch && own->second.id == row.id;
 }
 
 absl::Status PostgresEngine::PlanFor(Round& round, StoreWrite& write, const SharedRow& shared) {
@@ -197,13 +211,14 @@ absl::Status PostgresEngine::PlanCreate(Round& round, StoreWrite& write, const S
   made.row.standing_crc = Checksum().Add(absl::string_view()).value();
   made.row.writes = 1;
   made.owner = lease;
+  own_[write.key] = {made.row.epoch, made.row.id};
   write.inserted = true;
   Add(round, write, CreateStatement(made.row, write.bytes, lease), made);
   return absl::OkStatus();
 }
 
 absl::Status PostgresEngine::PlanUndo(Round& round, StoreWrite& write, const SharedRow& shared) {
-  if (shared.row.epoch > 1 || shared.row.head > 0) return absl::OkStatus();
+  if (!IsOwn(shared.row) || shared.row.epoch > 1 || shared.row.head > 0) return absl::OkStatus();
   PLUMESCOUT_ASSIGN_OR_RETURN(const SharedMission mission,
                               LoadSharedMission(*connection_, write.key));
   if (mission.known.header != write.bytes) return absl::OkStatus();
@@ -232,6 +247,9 @@ absl::Status PostgresEngine::PlanAcquire(Round& round, StoreWrite& write) {
   SharedRow after = Next(before);
   ++after.row.epoch;
   after.owner = lease;
+  own_[write.key] = {after.row.epoch, after.row.id};
+  // Who died in the middle of a commit may hold the row for long; all missions wait behind this.
+  round.statements.emplace_back("SELECT set_config('lock_timeout', '1s', true)");
   round.statements.push_back(ForgetStatement(before.owner));
   Add(round, write, AcquireStatement(before.row, after.row, lease), after);
   mission->known.epoch = after.row.epoch;
@@ -254,7 +272,13 @@ absl::Status PostgresEngine::PlanAppend(Round& round, StoreWrite& write, const S
   if (write.tried) {
     PLUMESCOUT_ASSIGN_OR_RETURN(is_done, HoldsRecords(row, write));
   }
-  if (!is_done) Refuse(round, write, FencedByHead(write.key, write.first_number, row.head));
+  if (is_done) {
+    // A standby that a commit waits for may not have them yet: one more commit waits for it.
+    const SharedRow after = Next(shared);
+    Add(round, write, SaveStatement(row, after.row), after);
+  } else {
+    Refuse(round, write, FencedByHead(write.key, write.first_number, row.head));
+  }
   return absl::OkStatus();
 }
 

@@ -71,6 +71,8 @@ class PostgresEngine final : public WriteEngine {
   absl::Status PlanSnapshot(Round& round, StoreWrite& write, const SharedRow& shared);
   absl::Status PlanTrim(Round& round, StoreWrite& write, const SharedRow& shared);
   absl::StatusOr<bool> HoldsRecords(const MissionRow& row, const StoreWrite& write);
+  // Epochs tell owners of one mission apart, not missions that had the same key one after another.
+  bool IsOwn(const MissionRow& row) const;
 
   void Add(Round& round, StoreWrite& write, PostgresStatement statement,
            std::optional<SharedRow> after);
@@ -82,7 +84,13 @@ class PostgresEngine final : public WriteEngine {
   std::unique_ptr<PostgresConnection> connection_;          // null after an error
   std::map<std::string, SharedRow> known_;                  // of missions that are written
   std::map<std::string, absl::StatusOr<SharedRow>> fresh_;  // of this round, as just read
-  bool has_chores_ = true;                                  // until none is found
+  // Of missions by key: what this engine made or took over last.
+  struct Own {
+    std::int64_t epoch = 0;
+    std::int64_t id = 0;
+  };
+  std::map<std::string, Own> own_;
+  bool has_chores_ = true;  // until none is found
 };
 
 }  // namespace plumescout::server

@@ -18,6 +18,8 @@ namespace {
 constexpr absl::Duration kAskTimeout = absl::Seconds(5);
 constexpr double kMargin = 0.1;  // of a lease: a node takes it for lost so much earlier
 
+absl::Duration Until(SteadyTime limit) { return absl::FromChrono(limit - SteadyNow()); }
+
 absl::Status NameTaken(const std::string& database, const StoreNode& self,
                        const std::string& address) {
   return absl::FailedPreconditionError(absl::StrCat(database, ": store.node = ", self.name,
@@ -43,25 +45,22 @@ PostgresNodes::~PostgresNodes() {
     stopping_ = true;
   }
   if (thread_.joinable()) thread_.join();
-  if (lease() == 0 || !Connect().ok()) return;
+  if (lease() == 0 || !Connect(After(SteadyNow(), kAskTimeout)).ok()) return;
   PostgresStatement leave("DELETE FROM plumescout_node WHERE id = $1");
   connection_->Run(leave.Bind(lease()), kAskTimeout).status().IgnoreError();
 }
 
-absl::Status PostgresNodes::Connect() {
+absl::Status PostgresNodes::Connect(SteadyTime limit) {
   if (connection_ != nullptr && !connection_->is_broken()) return absl::OkStatus();
-  // A lease is over before an answer comes that takes longer.
-  const absl::Duration timeout =
-      std::clamp(options_.lease / 2, absl::Milliseconds(500), kAskTimeout);
   connection_ = nullptr;
-  PLUMESCOUT_ASSIGN_OR_RETURN(auto opened, PostgresConnection::Open(options_.url, timeout));
-  PLUMESCOUT_RETURN_IF_ERROR(CheckSameStore(*opened, options_.store));
+  PLUMESCOUT_ASSIGN_OR_RETURN(auto opened, PostgresConnection::Open(options_.url, Until(limit)));
+  PLUMESCOUT_RETURN_IF_ERROR(CheckSameStore(*opened, options_.store, Until(limit)));
   connection_ = std::move(opened);
   return absl::OkStatus();
 }
 
 absl::StatusOr<std::optional<PostgresNodes::Holder>> PostgresNodes::TryJoin(std::int64_t old) {
-  PLUMESCOUT_RETURN_IF_ERROR(Connect());
+  PLUMESCOUT_RETURN_IF_ERROR(Connect(After(SteadyNow(), kAskTimeout)));
   const SteadyTime begin = SteadyNow();
   std::vector<PostgresStatement> statements;
   statements
@@ -129,15 +128,18 @@ void PostgresNodes::Hold(std::int64_t lease, SteadyTime begin) {
 }
 
 absl::Status PostgresNodes::Renew() {
-  PLUMESCOUT_RETURN_IF_ERROR(Connect());
+  // No answer is worth waiting for once the lease is over.
+  const absl::Duration patience =
+      std::clamp(options_.lease / 2, absl::Milliseconds(250), kAskTimeout);
+  const SteadyTime limit = std::min(After(SteadyNow(), patience), lease_until());
+  PLUMESCOUT_RETURN_IF_ERROR(Connect(limit));
   const SteadyTime begin = SteadyNow();
   const std::int64_t own = lease();
   PostgresStatement statement(
       "UPDATE plumescout_node SET expires = clock_timestamp() + $2 * interval '1 us' "
       "WHERE id = $1 AND expires > clock_timestamp() RETURNING id");
   statement.Bind(own).Bind(absl::ToInt64Microseconds(options_.lease));
-  const absl::Duration timeout = std::max(options_.lease / 2, absl::Milliseconds(250));
-  PLUMESCOUT_ASSIGN_OR_RETURN(const PostgresRows rows, connection_->Run(statement, timeout));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const PostgresRows rows, connection_->Run(statement, Until(limit)));
   if (rows.count() == 0) {
     return absl::AbortedError(absl::StrCat(connection_->name(), ": the lease of node ",
                                            options_.self.name, " has run out"));
@@ -151,7 +153,8 @@ void PostgresNodes::Run() {
     const bool is_held = lease() != 0;
     {
       absl::MutexLock lock(&mutex_);
-      if (mutex_.AwaitWithTimeout(absl::Condition(&stopping_), period())) return;
+      const absl::Duration wait = is_held ? std::min(period(), Until(lease_until_)) : period();
+      if (mutex_.AwaitWithTimeout(absl::Condition(&stopping_), wait)) return;
     }
     const absl::Status status = is_held ? Renew() : TryJoin(old_lease_).status();
     if (!status.ok()) connection_ = nullptr;

@@ -73,7 +73,7 @@ class PostgresNodes final : public StoreNodes {
   absl::Status Renew();
   void Lose(const absl::Status& why);
   void Hold(std::int64_t lease, SteadyTime begin);
-  absl::Status Connect();
+  absl::Status Connect(SteadyTime limit);
   void Run();
   absl::Duration period() const { return options_.lease / 4; }
 

@@ -142,12 +142,13 @@ absl::StatusOr<std::int64_t> OpenSharedSchema(PostgresConnection& connection,
   return rows.Int(0, 1);
 }
 
-absl::Status CheckSameStore(PostgresConnection& connection, std::int64_t store) {
+absl::Status CheckSameStore(PostgresConnection& connection, std::int64_t store,
+                            absl::Duration timeout) {
   PLUMESCOUT_ASSIGN_OR_RETURN(
       const PostgresRows rows,
       connection.Run(PostgresStatement("SELECT id, current_setting('transaction_read_only') = 'on' "
                                        "FROM plumescout_store"),
-                     absl::Seconds(5)));
+                     timeout));
   if (rows.count() != 1 || rows.Int(0, 0) != store) {
     return StoreUnavailable(
         absl::StrCat(connection.name(), " holds another store than when this server started"));

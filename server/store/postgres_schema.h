@@ -25,6 +25,7 @@ absl::StatusOr<std::int64_t> OpenSharedSchema(PostgresConnection& connection,
 
 // Whether behind the address there is still the store that was opened. kUnavailable if it is
 // another, or read-only.
-absl::Status CheckSameStore(PostgresConnection& connection, std::int64_t store);
+absl::Status CheckSameStore(PostgresConnection& connection, std::int64_t store,
+                            absl::Duration timeout = absl::Seconds(5));
 
 }  // namespace plumescout::server

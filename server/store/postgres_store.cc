@@ -85,6 +85,8 @@ absl::StatusOr<std::vector<StoredMission>> PostgresStore::List() {
 }
 
 std::int64_t PostgresStore::disk_bytes() const {
+  // Whoever asks serves others, too, who must not wait for a database that is away.
+  if (!state().status.ok() || !nodes_->status().ok()) return 0;
   const absl::StatusOr<PostgresPool::Loan> connection = pool_->Take();
   if (!connection.ok()) return 0;
   const absl::StatusOr<PostgresRows> rows =

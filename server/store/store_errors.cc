@@ -46,6 +46,10 @@ absl::string_view NodeElsewhere(const absl::Status& status) {
   return message.substr(message.rfind(' ') + 1);
 }
 
+absl::Status FencedByNamesake(absl::string_view key) {
+  return Fenced(key, "is another one of that name, or was not taken over");
+}
+
 absl::Status FencedByHead(absl::string_view key, std::int64_t first_number, std::int64_t head) {
   return Fenced(
       key, absl::StrCat("has record ", head, " last, so ", first_number, " is not the next one"));

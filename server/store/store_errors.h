@@ -21,6 +21,8 @@ absl::Status MissionElsewhere(absl::string_view key, absl::string_view node);
 // The node of a MISSION_ELSEWHERE; nothing for other errors.
 absl::string_view NodeElsewhere(const absl::Status& status);
 // Records would leave a gap, or stand twice.
+// A mission that had this key before is gone, and another has it.
+absl::Status FencedByNamesake(absl::string_view key);
 absl::Status FencedByHead(absl::string_view key, std::int64_t first_number, std::int64_t head);
 // A snapshot of what is not in the journal yet.
 absl::Status SnapshotAhead(absl::string_view key, std::int64_t revision, std::int64_t head);

@@ -18,6 +18,9 @@ TEST(RobotLoopOptionsTest, NonsenseIsRefusedByName) {
   options.tick_s = 0.0;
   EXPECT_THAT(std::string(Validate(options).message()), ::testing::HasSubstr("tick_s"));
   options = {};
+  options.answer_look_s = 0.0;
+  EXPECT_THAT(std::string(Validate(options).message()), ::testing::HasSubstr("answer_look_s"));
+  options = {};
   options.rates.gas_hz = std::nan("");
   EXPECT_THAT(std::string(Validate(options).message()), ::testing::HasSubstr("gas_hz"));
   options = {};

@@ -101,6 +101,17 @@ TEST(MissionRecoveryTest, ARecordThatCannotBeReadOrAppliedIsNamed) {
   EXPECT_TRUE(absl::IsDataLoss(RecoverMission(store, "headless", NeverStop()).status()));
 }
 
+TEST(MissionRecoveryTest, AnImportThatDidNotEndIsNoMission) {
+  MemoryStore store(/*is_durable=*/true);
+  JournalStart start{"", "", "hall", "ann"};
+  start.last_number = 7;
+  ASSERT_TRUE(store.Create(kKey, EncodeMissionStart(start, {})).ok());
+  ASSERT_TRUE(IsUnfinishedImport(*store.Peek(kKey)));
+  const absl::Status refused = RecoverMission(store, kKey, NeverStop()).status();
+  EXPECT_TRUE(absl::IsDataLoss(refused)) << refused;
+  EXPECT_THAT(std::string(refused.message()), testing::HasSubstr("import that did not end"));
+}
+
 TEST(MissionRecoveryTest, StopsWhenTold) {
   MemoryStore store(/*is_durable=*/true);
   PutMission(store, kKey, {}, {{1, RobotRegistered{"r1", 0.2, 7}}});

@@ -12,6 +12,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/synchronization/notification.h"
+#include "core/types/error_reason.h"
+#include "server/store/memory_store.h"
 #include "tests/server/host_parts.h"
 
 namespace plumescout::server {
@@ -56,6 +58,22 @@ TEST(MissionRegistryTest, EachTenantHasNamesOfItsOwn) {
   ASSERT_TRUE(registry.Delete("hall", "acme").ok());
   EXPECT_EQ(registry.FindOfAnyTenant("hall").value()->owner(), "bob");
   EXPECT_TRUE(absl::IsNotFound(registry.FindOfAnyTenant("attic").status()));
+}
+
+TEST(MissionRegistryTest, ANameThatIsHeldIsNobodyElses) {
+  MemoryStore store(/*is_durable=*/true);
+  RegistryHooks hooks;
+  hooks.store = &store;
+  MissionRegistry registry({}, hooks);
+  const std::string key = MissionKey("", "hall");
+  auto name = registry.HoldName(key);
+  ASSERT_TRUE(name.ok()) << name.status();
+  EXPECT_EQ(ErrorReason(registry.Create("hall", {}).status()), reason::kMissionExists);
+  EXPECT_EQ(ErrorReason(registry.Recover(key)), reason::kMissionExists);
+  EXPECT_EQ(ErrorReason(registry.HoldName(key).status()), reason::kMissionExists);
+  EXPECT_TRUE(absl::IsNotFound(registry.Recover(key, /*holds_name=*/true)));
+  *name = nullptr;
+  EXPECT_TRUE(registry.Create("hall", {}).ok());
 }
 
 TEST(MissionRegistryTest, ListGoesOnAfterAName) {

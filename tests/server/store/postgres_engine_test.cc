@@ -47,6 +47,21 @@ class PostgresEngineTest : public ::testing::Test {
     return write;
   }
 
+  // What the engine may write to is what it made or took over itself.
+  static void Make(PostgresEngine& engine, const std::string& key) {
+    std::vector<StoreWrite> batch;
+    batch.push_back(Write(Kind::kCreate, key, 1));
+    ASSERT_TRUE(engine.Commit(batch).ok());
+    ASSERT_TRUE(batch[0].result.ok()) << batch[0].result;
+  }
+  static void AppendTo(PostgresEngine& engine, const std::string& key,
+                       std::vector<std::string> records) {
+    std::vector<StoreWrite> batch;
+    batch.push_back(AppendOf(key, 1, 1, std::move(records)));
+    ASSERT_TRUE(engine.Commit(batch).ok());
+    ASSERT_TRUE(batch[0].result.ok()) << batch[0].result;
+  }
+
   const std::string url_ = PostgresServer::Shared().NewUrl();
   const std::unique_ptr<PostgresStore> store_ = OpenShared(url_);
   std::int64_t lease_ = 0;
@@ -79,10 +94,24 @@ TEST_F(PostgresEngineTest, OneBatchHoldsManyWritesOfManyMissions) {
   EXPECT_EQ(store_->List()->front().bytes, 3 + 6);
 }
 
+TEST_F(PostgresEngineTest, WhatComesLateForAMissionThatIsGoneLeavesItsNamesakeAlone) {
+  const auto other = OpenShared(url_, "n2");
+  ASSERT_EQ(*store_->Create("house", "old"), 1);
+  ASSERT_TRUE(store_->nodes()->Release("house", 1).ok());
+  const std::int64_t taken = other->Acquire("house")->epoch;
+  ASSERT_TRUE(RemoveNow(*other, "house", taken).ok());
+  ASSERT_EQ(*other->Create("house", "new"), 1);
+  EXPECT_EQ(ErrorReason(AppendNow(*store_, "house", 1, 1, {"late"})), reason::kFenced);
+  EXPECT_EQ(ErrorReason(RemoveNow(*store_, "house", 1)), reason::kFenced);
+  EXPECT_EQ(other->Peek("house")->header, "new");
+  EXPECT_TRUE(AppendNow(*other, "house", 1, 1, {"first"}).ok());
+  EXPECT_EQ(*ReadAll(*other, "house"), (std::vector<JournalRecord>{{1, "first"}}));
+}
+
 TEST_F(PostgresEngineTest, WhoWasOvertakenIsFencedAndTheRestOfTheBatchStands) {
   const auto engine = MakeEngine();
-  ASSERT_EQ(*store_->Create("house", ""), 1);
-  ASSERT_EQ(*store_->Create("mill", ""), 1);
+  Make(*engine, "house");
+  Make(*engine, "mill");
   std::vector<StoreWrite> batch;
   batch.push_back(AppendOf("house", 1, 1, {"a"}));
   batch.push_back(AppendOf("mill", 1, 1, {"a"}));
@@ -104,8 +133,8 @@ TEST_F(PostgresEngineTest, WhoWasOvertakenIsFencedAndTheRestOfTheBatchStands) {
 
 TEST_F(PostgresEngineTest, WhatWasWrittenAlreadyIsNotWrittenTwice) {
   const auto engine = MakeEngine();
-  ASSERT_EQ(*store_->Create("house", ""), 1);
-  ASSERT_TRUE(AppendNow(*store_, "house", 1, 1, {"a", "b"}).ok());
+  Make(*engine, "house");
+  AppendTo(*engine, "house", {"a", "b"});
   std::vector<StoreWrite> batch;
   batch.push_back(AppendOf("house", 1, 1, {"a", "b"}));
   batch.push_back(AppendOf("house", 1, 1, {"a", "other"}));
@@ -154,8 +183,8 @@ TEST_F(PostgresEngineTest, WithoutALeaseNothingIsMadeOrTaken) {
 
 TEST_F(PostgresEngineTest, ChoresEndOnceAllIsDone) {
   const auto engine = MakeEngine();
-  ASSERT_EQ(*store_->Create("house", ""), 1);
-  ASSERT_TRUE(AppendNow(*store_, "house", 1, 1, Records("house", 1, 700)).ok());
+  Make(*engine, "house");
+  AppendTo(*engine, "house", Records("house", 1, 700));
   std::vector<StoreWrite> batch;
   batch.push_back(Write(Kind::kRemove, "house", 1));
   ASSERT_TRUE(engine->Commit(batch).ok());
