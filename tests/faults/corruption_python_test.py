@@ -7,6 +7,7 @@ whoever reads the journal. It never tells anything else.
 """
 
 import collections
+import time
 import unittest
 
 import grpc
@@ -21,6 +22,7 @@ from plumescout.v1 import planning_service_pb2 as planning_pb
 
 DAMAGES = {"ci": 100, "long": 2000}
 CUT_EVERY = 10  # damages; the others are flips
+QUIET_S = 0.5
 MISSIONS = ("house", "cellar")
 
 
@@ -43,6 +45,24 @@ def files_of(data):
     by whoever opens the database first."""
     found = [path for path in sorted(data.rglob("*")) if path.is_file()]
     return {p: p.stat().st_size for p in found if p.stat().st_size and not p.name.endswith("-shm")}
+
+
+def state_of(data):
+    return {path: (path.stat().st_size, path.stat().st_mtime_ns) for path in files_of(data)}
+
+
+def await_quiet(data):
+    """Returns once nothing was written to the folder for a while: what a server says of its own
+    accord, after the last answer, is whole then, with the mark beside it that tells of its loss."""
+    deadline = time.monotonic() + bed.PATIENCE_S
+    state, since = state_of(data), time.monotonic()
+    while time.monotonic() - since < QUIET_S:
+        if time.monotonic() > deadline:
+            raise AssertionError(f"{data} is written to for {bed.PATIENCE_S:g} s after the session")
+        time.sleep(0.05)
+        now = state_of(data)
+        if now != state:
+            state, since = now, time.monotonic()
 
 
 class CorruptionTest(unittest.TestCase):
@@ -68,6 +88,7 @@ class CorruptionTest(unittest.TestCase):
         told = answers.Answers()
         run = session.Session(server.target, told).run()
         self.assertEqual(run.failures, [])
+        await_quiet(server.data)
         server.stop() if stop else server.kill()
         return server.data
 
