@@ -52,7 +52,7 @@ absl::Status FairPool::Submit(const FairKey& key, FairTask task) {
     return room;
   }
   Group& group = groups_[key.group];
-  group.members[key.member].push_back(std::move(task));
+  group.members[key.member].tasks.push_back(std::move(task));
   ++group.queued;
   ++queued_;
   return absl::OkStatus();
@@ -69,7 +69,7 @@ absl::Status FairPool::CheckRoom(const FairKey& key) const {
   }
   const auto member = group->second.members.find(key.member);
   if (member == group->second.members.end() ||
-      member->second.size() < static_cast<std::size_t>(options_.max_queued_per_member)) {
+      member->second.tasks.size() < static_cast<std::size_t>(options_.max_queued_per_member)) {
     return absl::OkStatus();
   }
   return Overloaded(
@@ -79,7 +79,8 @@ absl::Status FairPool::CheckRoom(const FairKey& key) const {
 std::vector<FairTask> FairPool::TakeAbandoned() {
   std::vector<FairTask> taken;
   for (auto group = groups_.begin(); group != groups_.end();) {
-    for (auto& [name, tasks] : group->second.members) {
+    for (auto& [name, member] : group->second.members) {
+      std::deque<FairTask>& tasks = member.tasks;
       const auto first = std::stable_partition(
           tasks.begin(), tasks.end(), [](const FairTask& task) { return !task.abandoned(); });
       const auto count = static_cast<int>(std::distance(first, tasks.end()));
@@ -88,10 +89,16 @@ std::vector<FairTask> FairPool::TakeAbandoned() {
       std::move(first, tasks.end(), std::back_inserter(taken));
       tasks.erase(first, tasks.end());
     }
-    std::erase_if(group->second.members, [](const auto& member) { return member.second.empty(); });
+    std::erase_if(group->second.members, [](const auto& entry) { return entry.second.IsIdle(); });
     EraseIfIdle(group++);
   }
   return taken;
+}
+
+bool FairPool::MayRun(const Group& group) const {
+  return group.running < options_.max_running_per_group &&
+         std::any_of(group.members.begin(), group.members.end(),
+                     [](const auto& entry) { return entry.second.MayRun(); });
 }
 
 bool FairPool::Ready() const {
@@ -106,11 +113,12 @@ FairPool::Groups::iterator FairPool::NextGroup() {
 
 FairTask FairPool::TakeTask(Group& group) {
   const auto member =
-      NextInTurn(group.members, group.last_member, [](const auto&) { return true; });
-  FairTask task = std::move(member->second.front());
+      NextInTurn(group.members, group.last_member, [](const Member& one) { return one.MayRun(); });
+  FairTask task = std::move(member->second.tasks.front());
   group.last_member = member->first;
-  member->second.pop_front();
-  if (member->second.empty()) group.members.erase(member);
+  member->second.tasks.pop_front();
+  member->second.running = true;
+  ++group.running;
   --group.queued;
   --queued_;
   return task;
@@ -120,28 +128,34 @@ void FairPool::EraseIfIdle(Groups::iterator group) {
   if (group->second.queued == 0 && group->second.running == 0) groups_.erase(group);
 }
 
+void FairPool::NoteEnd(const FairKey& key) {
+  --busy_;
+  const auto group = groups_.find(key.group);
+  --group->second.running;
+  const auto member = group->second.members.find(key.member);
+  member->second.running = false;
+  if (member->second.IsIdle()) group->second.members.erase(member);
+  EraseIfIdle(group);
+}
+
 void FairPool::Run() {
   while (true) {
     FairTask task;
-    std::string name;
+    FairKey key;
     {
       absl::MutexLock lock(&mutex_);
       mutex_.Await(absl::Condition(this, &FairPool::Ready));
       const auto group = NextGroup();
       if (group == groups_.end()) return;
-      name = group->first;
-      last_group_ = name;
-      ++group->second.running;
+      last_group_ = group->first;
       ++busy_;
       task = TakeTask(group->second);
+      key = {group->first, group->second.last_member};
     }
     if (!task.abandoned()) task.run();
     task = {};
     absl::MutexLock lock(&mutex_);
-    const auto group = groups_.find(name);
-    --group->second.running;
-    --busy_;
-    EraseIfIdle(group);
+    NoteEnd(key);
   }
 }
 

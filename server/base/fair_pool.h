@@ -41,7 +41,8 @@ struct FairTask {
 };
 
 // Fixed threads over bounded queues, so that whoever asks much waits for itself: a group never has
-// more than its share of the threads, and one task of it at a time has its turn. Thread-safe.
+// more than its share of the threads, a member never more than one, and one task at a time has its
+// turn. Thread-safe.
 class FairPool {
  public:
   explicit FairPool(const FairPoolOptions& options);
@@ -57,25 +58,32 @@ class FairPool {
   PoolLoad load() const;
 
  private:
+  struct Member {
+    std::deque<FairTask> tasks;
+    bool running = false;
+
+    bool MayRun() const { return !tasks.empty() && !running; }
+    bool IsIdle() const { return tasks.empty() && !running; }
+  };
   struct Group {
-    std::map<std::string, std::deque<FairTask>> members;  // those who wait
-    std::string last_member;                              // who had the latest turn
+    std::map<std::string, Member> members;  // those who wait or run
+    std::string last_member;                // who had the latest turn
     int queued = 0;
     int running = 0;
   };
   using Groups = std::map<std::string, Group>;
 
   void Run();
-  bool MayRun(const Group& group) const {
-    return group.queued > 0 && group.running < options_.max_running_per_group;
-  }
+  bool MayRun(const Group& group) const;
   bool Ready() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status CheckRoom(const FairKey& key) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   // What nobody wants any more, taken out of the queues.
   std::vector<FairTask> TakeAbandoned() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   // Whose turn it is; end() if nobody may run.
   Groups::iterator NextGroup() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  // REQUIRES: the group may run. Its member is `last_member` then.
   FairTask TakeTask(Group& group) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void NoteEnd(const FairKey& key) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void EraseIfIdle(Groups::iterator group) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
   const FairPoolOptions options_;

@@ -163,10 +163,10 @@ absl::StatusOr<std::vector<double>> Bystander::Ask(const std::string& order, std
 absl::StatusOr<Bystander::Watch> Bystander::BeginWatch(const std::string& target,
                                                        const MissionId& mission, int watchers,
                                                        absl::Duration patience) {
-  PLUMESCOUT_ASSIGN_OR_RETURN(
-      const auto numbers, Ask(absl::StrCat("watch ", target, " ", mission, " ", watchers, " ",
-                                           absl::ToDoubleSeconds(patience)),
-                              2));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto numbers,
+                              Ask(absl::StrCat("watch ", target, " ", mission, " ", watchers, " ",
+                                               absl::ToDoubleSeconds(patience)),
+                                  2));
   return Watch{static_cast<int>(numbers[0]), static_cast<int>(numbers[1])};
 }
 
@@ -178,11 +178,10 @@ absl::StatusOr<Bystander::Watched> Bystander::EndWatch() {
 absl::StatusOr<FloodFigures> Bystander::RunFlood(const std::string& target,
                                                  const client::RobotSession& session,
                                                  const FloodOptions& options, absl::Duration time) {
-  const std::string order =
-      absl::StrCat("flood ", target, " ", session.mission, " ", session.robot, " ",
-                   session.lease_token, " ", session.ingest.applied_sequence, " ",
-                   options.plans_per_s, " ", options.readings_per_s, " ", options.spread_m, " ",
-                   options.seed, " ", absl::ToDoubleSeconds(time));
+  const std::string order = absl::StrCat(
+      "flood ", target, " ", session.mission, " ", session.robot, " ", session.lease_token, " ",
+      session.ingest.applied_sequence, " ", options.plans_per_s, " ", options.readings_per_s, " ",
+      options.spread_m, " ", options.seed, " ", absl::ToDoubleSeconds(time));
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto numbers, Ask(order, 4));
   const auto whole = [&](std::size_t i) { return static_cast<std::int64_t>(numbers[i]); };
   return FloodFigures{whole(0), whole(1), whole(2), whole(3)};

@@ -122,6 +122,24 @@ TEST(FairPoolThreadsTest, OneGroupLeavesAThreadToTheOthers) {
   release.Notify();
 }
 
+TEST(FairPoolThreadsTest, OneMemberLeavesAThreadToTheOthersOfItsGroup) {
+  absl::Notification release;
+  absl::Notification other_ran;
+  std::atomic<int> greedy = 0;
+  FairPool pool({.name = "test", .threads = 2, .max_running_per_group = 2});
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_TRUE(pool.Submit({"a", "1"}, {[&] {
+                              ++greedy;
+                              release.WaitForNotification();
+                            }})
+                    .ok());
+  }
+  ASSERT_TRUE(pool.Submit({"a", "2"}, {[&] { other_ran.Notify(); }}).ok());
+  other_ran.WaitForNotification();  // would hang if the first member had both threads
+  EXPECT_LE(greedy, 1);
+  release.Notify();
+}
+
 TEST(FairPoolThreadsTest, RunsWhatItIsGivenBeforeItGoes) {
   std::atomic<int> runs = 0;
   {
