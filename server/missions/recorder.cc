@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "absl/time/time.h"
+#include "server/base/thread_priority.h"
 
 namespace plumescout::server {
 namespace {
@@ -76,6 +77,7 @@ std::optional<Recorder::Item> Recorder::Take(bool& stops) {
 }
 
 void Recorder::Run() {
+  YieldCpuToOthers();
   SteadyTime next_look = After(SteadyNow(), kLook);
   for (bool stops = false; !stops;) {
     std::optional<Item> item = Take(stops);
