@@ -44,4 +44,13 @@ RegistryOptions ToRegistryOptions(const ServerConfig& config, std::int64_t first
   return options;
 }
 
+RecordingOptions ToRecordingOptions(const RecordConfig& config) {
+  RecordingOptions options;
+  options.folder = config.folder;
+  options.map_period_s = config.map_period_s;
+  options.chunk_period = absl::Seconds(config.chunk_s);
+  options.max_file_bytes = config.max_file_bytes;
+  return options;
+}
+
 }  // namespace plumescout::server

@@ -6,10 +6,12 @@
 
 #include "server/config/config.h"
 #include "server/missions/mission_maker.h"
+#include "server/missions/mission_recording.h"
 
 namespace plumescout::server {
 
 // What the configuration says of missions.
 RegistryOptions ToRegistryOptions(const ServerConfig& config, std::int64_t first_lease_token);
+RecordingOptions ToRecordingOptions(const RecordConfig& config);
 
 }  // namespace plumescout::server

@@ -21,6 +21,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/synchronization/notification.h"
 #include "core/types/status_macros.h"
+#include "formats/file_io.h"
 #include "server/access/server_credentials.h"
 #include "server/base/errors.h"
 #include "server/base/knock.h"
@@ -98,8 +99,9 @@ ImportLimits ToImportLimits(const ServerConfig& config) {
 
 RegistryHooks Complete(RegistryHooks hooks, const ServerConfig& config, MissionStore* store,
                        WorkerPool* epoch_pool, WorkerPool* audit_pool, WorkerPool* snapshot_pool,
-                       MissionMetrics* metrics) {
+                       Recorder* recorder, MissionMetrics* metrics) {
   hooks.snapshot_pool = snapshot_pool;
+  hooks.recorder = recorder;
   hooks.store = store;
   hooks.epoch_pool = epoch_pool;
   hooks.audit_pool = audit_pool;
@@ -110,6 +112,11 @@ RegistryHooks Complete(RegistryHooks hooks, const ServerConfig& config, MissionS
     };
   }
   return hooks;
+}
+
+std::unique_ptr<Recorder> MakeRecorder(const RecordConfig& config, MissionMetrics* metrics) {
+  if (config.folder.empty()) return nullptr;
+  return std::make_unique<Recorder>(ToRecordingOptions(config), metrics);
 }
 
 constexpr int kHandshakeTimeout_ms = 10'000;  // who connects and says nothing is hung up on
@@ -178,9 +185,10 @@ Server::Server(Private, const ServerConfig& config, RegistryHooks hooks,
       epoch_pool_({"epoch", config.epochs.threads, config.epochs.max_queued}),
       audit_pool_({"audit", kAuditThreads, config.limits.max_missions, kYields}),
       snapshot_pool_({"snapshot", kSnapshotThreads, config.limits.max_missions, kYields}),
+      recorder_(MakeRecorder(config.record, &metrics_.missions())),
       registry_(ToRegistryOptions(config, FirstLeaseToken(RandomBits())),
                 Complete(std::move(hooks), config, store_, &epoch_pool_, &audit_pool_,
-                         &snapshot_pool_, &metrics_.missions())),
+                         &snapshot_pool_, recorder_.get(), &metrics_.missions())),
       planning_pool_(ToPlanningPoolOptions(config.planning)),
       map_pool_({"map", config.maps.threads, config.maps.max_queued, kYields}),
       query_pool_({"query", config.maps.query_threads, config.maps.max_queued_queries, kYields}),
@@ -225,6 +233,9 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
   }
   PLUMESCOUT_ASSIGN_OR_RETURN(auto authenticator,
                               Authenticator::Make(config.access, IsServedLocally(config)));
+  if (!config.record.folder.empty()) {
+    PLUMESCOUT_RETURN_IF_ERROR(MakeFolder(config.record.folder));
+  }
   auto unreachable = std::move(events.unreachable);
   std::unique_ptr<MissionStore> store;
   if (hooks.store == nullptr) {

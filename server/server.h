@@ -18,6 +18,7 @@
 #include "server/calls/service_context.h"
 #include "server/config/config.h"
 #include "server/history/history.h"
+#include "server/missions/recorder.h"
 #include "server/self_probe.h"
 #include "server/server_metrics.h"
 #include "server/services/ingest_service.h"
@@ -102,6 +103,7 @@ class Server {
   WorkerPool epoch_pool_;  // before the missions that use it, as is the next
   WorkerPool audit_pool_;
   WorkerPool snapshot_pool_;
+  const std::unique_ptr<Recorder> recorder_;  // as well; null: missions are not recorded
   MissionRegistry registry_;
   FairPool planning_pool_;
   WorkerPool map_pool_;

@@ -62,6 +62,8 @@ absl::Status McapEncoder::Add(const McapMessage& message) {
   return chunk_.size() < chunk_bytes_ ? absl::OkStatus() : CloseChunk();
 }
 
+absl::Status McapEncoder::EndChunk() { return chunk_.empty() ? absl::OkStatus() : CloseChunk(); }
+
 absl::Status McapEncoder::CloseChunk() {
   std::string packed;
   if (compression_ == McapCompression::kZstd) {
@@ -116,7 +118,7 @@ std::string McapEncoder::Summary(std::uint64_t begin, std::uint64_t& offsets_at)
 }
 
 absl::Status McapEncoder::Finish() {
-  if (!chunk_.empty()) PLUMESCOUT_RETURN_IF_ERROR(CloseChunk());
+  PLUMESCOUT_RETURN_IF_ERROR(EndChunk());
   statistics_.schemas = static_cast<std::uint16_t>(schemas_.size());
   statistics_.channels = static_cast<std::uint32_t>(channels_.size());
   Emit(McapFields().Number(crc_).Record(McapOp::kDataEnd));

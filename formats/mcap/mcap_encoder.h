@@ -45,6 +45,9 @@ class McapEncoder {
 
   // kInternal if zstd fails. REQUIRES: the channel was added; not finished.
   absl::Status Add(const McapMessage& message);
+  // Closes the chunk that is open, if anything is in it: what was added so far can then be read
+  // whatever becomes of the rest. Errors as of Add.
+  absl::Status EndChunk();
   // The file ends here. Errors as of Add.
   absl::Status Finish();
 

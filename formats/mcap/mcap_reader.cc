@@ -10,6 +10,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/types/status_macros.h"
 #include "formats/little_endian.h"
+#include "formats/lz4_codec.h"
 #include "formats/zstd_codec.h"
 
 namespace plumescout {
@@ -225,9 +226,11 @@ absl::Status McapReader::OpenChunk() {
     return Damage(absl::StrCat("a chunk of ", chunk.uncompressed_bytes, " bytes"));
   }
   std::string records;
-  if (chunk.compression == "zstd") {
+  if (chunk.compression == "zstd" || chunk.compression == "lz4") {
     records.resize(chunk.uncompressed_bytes);
-    const absl::Status unpacked = DecompressZstd(chunk.records, records.data(), records.size());
+    const absl::Status unpacked =
+        chunk.compression == "zstd" ? DecompressZstd(chunk.records, records.data(), records.size())
+                                    : DecompressLz4(chunk.records, records.data(), records.size());
     if (!unpacked.ok()) return Damage(unpacked.message());
   } else if (chunk.compression.empty()) {
     records.assign(chunk.records.data(), chunk.records.size());
@@ -238,7 +241,7 @@ absl::Status McapReader::OpenChunk() {
   } else {
     return absl::UnimplementedError(absl::StrCat(path_, ": the chunk at byte ", record_at_,
                                                  " is packed by \"", chunk.compression,
-                                                 "\"; this program reads zstd"));
+                                                 "\"; this program reads zstd and lz4"));
   }
   if (chunk.uncompressed_crc != 0 && McapCrc(records) != chunk.uncompressed_crc) {
     return Damage("checksum mismatch of a chunk");

@@ -19,8 +19,8 @@ namespace plumescout {
 inline constexpr std::uint64_t kMcapMaxRecordBytes = std::uint64_t{1} << 29;
 
 // Reads an MCAP file from its beginning to its end, and holds one record at a time, of chunks also
-// what they unpack to. Chunks may be packed by zstd, or not at all. Attachments, metadata and
-// records that are not known are passed over. Every CRC that the file has is checked: that of a
+// what they unpack to. Chunks may be packed by zstd or lz4, or not at all. Attachments, metadata
+// and records that are not known are passed over. Every CRC that the file has is checked: that of a
 // chunk before its messages are given out, those of the data and the summary when the reader comes
 // to them. So are the numbers in the summary that the reader has counted itself. Not thread-safe.
 class McapReader {

@@ -2,78 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "formats/view/mission_mcap.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
-#include <variant>
 
+#include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
-#include "core/mission/observation_check.h"
-#include "core/types/status_macros.h"
-#include "formats/mcap/mcap_journal.h"
-#include "proto/convert/event_line.h"
-#include "proto/convert/foxglove.h"
-#include "proto/convert/observation.h"
-#include "proto/convert/plan.h"
 
 namespace plumescout {
-namespace {
-
-constexpr std::int64_t kPosePeriod_ns = 200'000'000;
-constexpr std::int64_t kScanPeriod_ns = 1'000'000'000;
-
-std::string WriterName(const JournalStart& start) {
-  return absl::StrCat("plumescout ", start.code_version);
-}
-
-std::int64_t Nanoseconds(double seconds) {
-  constexpr double kSecond_ns = 1e9;
-  constexpr double kMost_s = 1e9;
-  return std::llround(kSecond_ns * std::clamp(seconds, 0.0, kMost_s));
-}
-
-// Whether it is time to show something again; notes that it is shown. Of robots that send what
-// they kept, times go back.
-bool IsDue(std::int64_t time_ns, std::int64_t period_ns, std::optional<std::int64_t>& shown_ns) {
-  if (shown_ns && time_ns >= *shown_ns && time_ns - *shown_ns < period_ns) return false;
-  shown_ns = time_ns;
-  return true;
-}
-
-std::string WayOf(const RobotId& robot) { return absl::StrCat("plans/", robot); }
-
-Grid<float> StandardDeviation(const Grid<float>& variance) {
-  Grid<float> stddev = variance;
-  for (float& value : stddev.values()) value = std::sqrt(value);
-  return stddev;
-}
-
-// Whether histories in words are the clearer for it.
-bool IsNews(v1::MissionEventKind kind) {
-  switch (kind) {
-    case v1::MISSION_EVENT_KIND_SCAN:
-    case v1::MISSION_EVENT_KIND_GAS_READING:
-    case v1::MISSION_EVENT_KIND_REFRESH:
-    case v1::MISSION_EVENT_KIND_EPOCH_BEGUN:
-    case v1::MISSION_EVENT_KIND_EPOCH_ADOPTED:
-    case v1::MISSION_EVENT_KIND_ROBOT_STATUS:
-      return false;
-    default:
-      return true;
-  }
-}
-
-}  // namespace
 
 MissionMcap::MissionMcap(const JournalStart& start, std::unique_ptr<Mission> mission,
                          double map_period_s)
-    : mission_id_(start.mission.empty() ? "recording" : start.mission),
-      start_(EncodeStart(start)),
-      map_period_ns_(Nanoseconds(map_period_s)),
-      mission_(std::move(mission)),
-      encoder_(WriterName(start)),
-      journal_(encoder_.AddChannel(kMcapJournalTopic, kMcapJournalEncoding, 0)) {}
+    : mission_(std::move(mission)), map_timer_(map_period_s), view_(start) {}
 
 absl::Status MissionMcap::Add(const Event& event, absl::string_view record) {
   const absl::StatusOr<Applied> applied = mission_->Apply(event.body);
@@ -81,135 +19,9 @@ absl::Status MissionMcap::Add(const Event& event, absl::string_view record) {
     return absl::DataLossError(
         absl::StrCat("event ", event.number, " does not follow: ", applied.status().message()));
   }
-  const auto* received = std::get_if<ObservationReceived>(&event.body);
-  if (!has_begun_ && received == nullptr) {
-    early_.push_back({std::string(record), *applied});
-    early_bytes_ += sizeof(Early) + record.size();
-    return early_bytes_ < kMostEarlyBytes ? absl::OkStatus() : Begin();
-  }
-  now_ns_ = std::max(now_ns_, mission_->sample_time_ns());
-  if (!has_begun_) PLUMESCOUT_RETURN_IF_ERROR(Begin());
-  McapTimes times{now_ns_, now_ns_};
-  if (received != nullptr) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(const RobotState robot, mission_->StateOf(received->robot));
-    times.publish_ns =
-        std::max(std::int64_t{0}, MissionTime_ns(received->observation, robot.clock_offset_ns));
-  }
-  PLUMESCOUT_RETURN_IF_ERROR(AddRecord(event.number, record, times));
-  return Show(event, *applied, times);
-}
-
-// Now there is a time, or none is waited for any more.
-absl::Status MissionMcap::Begin() {
-  has_begun_ = true;
-  const McapTimes times{now_ns_, now_ns_};
-  PLUMESCOUT_RETURN_IF_ERROR(AddRecord(0, start_, times));
-  for (const Early& early : std::exchange(early_, {})) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(const Event event, DecodeEvent(early.record));
-    PLUMESCOUT_RETURN_IF_ERROR(AddRecord(event.number, early.record, times));
-    PLUMESCOUT_RETURN_IF_ERROR(Show(event, early.applied, times));
-  }
-  return absl::OkStatus();
-}
-
-absl::Status MissionMcap::Finish() {
-  if (!has_begun_) PLUMESCOUT_RETURN_IF_ERROR(Begin());
-  if (map_revision_ != mission_->revision()) PLUMESCOUT_RETURN_IF_ERROR(ShowMap());
-  return encoder_.Finish();
-}
-
-absl::Status MissionMcap::AddRecord(std::int64_t number, absl::string_view record,
-                                    McapTimes times) {
-  return encoder_.Add({journal_, static_cast<std::uint32_t>(number),
-                       static_cast<std::uint64_t>(times.log_ns),
-                       static_cast<std::uint64_t>(times.publish_ns), std::string(record)});
-}
-
-absl::Status MissionMcap::Show(const Event& event, const Applied& applied, McapTimes times) {
-  if (const auto* received = std::get_if<ObservationReceived>(&event.body)) {
-    if (applied.observation.ok()) {
-      PLUMESCOUT_RETURN_IF_ERROR(ShowObservation(*received, times));
-    }
-  } else if (const auto* issued = std::get_if<PlanIssued>(&event.body)) {
-    PLUMESCOUT_RETURN_IF_ERROR(ShowPlan(issued->plan, applied.plan_id, times));
-  } else if (const auto* report = std::get_if<ProgressReported>(&event.body)) {
-    PLUMESCOUT_RETURN_IF_ERROR(
-        channels_.Add("/scene/plans", FoxgloveGone(WayOf(report->robot), times.log_ns), times));
-  } else if (const auto* removed = std::get_if<RobotRemoved>(&event.body)) {
-    PLUMESCOUT_RETURN_IF_ERROR(
-        channels_.Add("/scene/plans", FoxgloveGone(WayOf(removed->robot), times.log_ns), times));
-  }
-  PLUMESCOUT_RETURN_IF_ERROR(ShowLog(event, applied, times));
-  return IsDue(now_ns_, map_period_ns_, map_ns_) ? ShowMap() : absl::OkStatus();
-}
-
-absl::Status MissionMcap::ShowObservation(const ObservationReceived& received, McapTimes times) {
-  const Observation& observation = received.observation;
-  PLUMESCOUT_ASSIGN_OR_RETURN(const RobotState robot, mission_->StateOf(received.robot));
-  const Pose2 pose = InMission(robot.frame, observation.pose);
-  const std::string topic = absl::StrCat("/robots/", received.robot);
-  Shown& shown = shown_[received.robot];
-  if (IsDue(times.publish_ns, kPosePeriod_ns, shown.pose_ns)) {
-    PLUMESCOUT_RETURN_IF_ERROR(
-        channels_.Add(topic + "/pose", FoxglovePose(pose, times.publish_ns), times));
-  }
-  if (std::holds_alternative<GasReading>(observation.payload)) {
-    return channels_.Add(topic + "/gas", ToProto(observation), times);
-  }
-  const auto* scan = std::get_if<Scan>(&observation.payload);
-  if (scan == nullptr || !IsDue(times.publish_ns, kScanPeriod_ns, shown.scan_ns)) {
-    return absl::OkStatus();
-  }
-  return channels_.Add(topic + "/scan", FoxgloveScan(*scan, pose, times.publish_ns), times);
-}
-
-absl::Status MissionMcap::ShowPlan(const Plan& issued, PlanId id, McapTimes times) {
-  Plan plan = issued;
-  plan.id = id;
-  if (plan.chosen >= static_cast<int>(plan.candidates.size())) plan.chosen = -1;  // not kept
-  PLUMESCOUT_RETURN_IF_ERROR(channels_.Add("/plans", ToProto(plan, mission_id_), times));
-  const std::string way = WayOf(plan.robot);
-  return channels_.Add("/scene/plans",
-                       plan.trajectory.waypoints.empty()
-                           ? FoxgloveGone(way, times.log_ns)
-                           : FoxgloveWay(way, plan.trajectory, times.log_ns),
-                       times);
-}
-
-absl::Status MissionMcap::ShowLog(const Event& event, const Applied& applied, McapTimes times) {
-  const v1::MissionEvent told = ToProto(event, mission_id_);
-  absl::Status refused = applied.observation;
-  refused.Update(applied.posterior);
-  refused.Update(applied.map);
-  if (refused.ok() && !IsNews(told.kind())) return absl::OkStatus();
-  const std::string line =
-      refused.ok() ? told.summary() : absl::StrCat(told.summary(), ": ", refused.message());
-  const auto level = refused.ok() ? foxglove::Log::INFO : foxglove::Log::WARNING;
-  return channels_.Add("/log", FoxgloveLog(level, told.robot(), line, times.log_ns), times);
-}
-
-absl::Status MissionMcap::ShowMap() {
-  const McapTimes times{now_ns_, now_ns_};
-  const std::shared_ptr<const Belief> belief = mission_->Snapshot();
-  map_revision_ = belief->revision;
-  if (belief->geometry().size() == 0) return absl::OkStatus();
-  PLUMESCOUT_RETURN_IF_ERROR(
-      channels_.Add("/map/occupancy", FoxgloveGrid(*belief->occupancy, now_ns_), times));
-  const std::vector<GasSpecies>& species = belief->options->gas_species;
-  for (std::size_t i = 0; i <= belief->further_gases.size(); ++i) {
-    const GasField gas = belief->Gas(i);
-    const std::string topic =
-        species.size() < 2 ? "/map/gas" : absl::StrCat("/map/gas/", species[i].name);
-    PLUMESCOUT_RETURN_IF_ERROR(
-        channels_.Add(topic + "/mean", FoxgloveGrid(*gas.mean_ppm, "mean_ppm", now_ns_), times));
-    PLUMESCOUT_RETURN_IF_ERROR(channels_.Add(
-        topic + "/stddev",
-        FoxgloveGrid(StandardDeviation(*gas.published_variance_ppm2()), "stddev_ppm", now_ns_),
-        times));
-  }
-  return channels_.Add(
-      "/scene/frontiers",
-      FoxgloveFrontiers(MakeMapStatus(*belief).frontiers, belief->geometry(), now_ns_), times);
+  MissionMoment moment = MomentAfter(event, *applied, *mission_, map_timer_);
+  moment.record = std::string(record);
+  return view_.Add(std::move(moment));
 }
 
 }  // namespace plumescout

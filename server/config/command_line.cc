@@ -22,6 +22,7 @@ struct Flags {
   std::string store;
   std::string node;
   std::string data;
+  std::string record;
   std::string http;
   std::string http_root;
   std::vector<std::string> settings;  // KEY=VALUE
@@ -42,6 +43,8 @@ void Declare(Flags& flags, CLI::App& app) {
       ->type_name("sqlite|none|postgresql://USER@HOST:PORT/DATABASE");
   app.add_option("--node", flags.node, "name of this server among those that share a database")
       ->type_name("NAME");
+  app.add_option("--record", flags.record, "folder where missions are recorded as MCAP files")
+      ->type_name("DIR");
   app.add_option("--http", flags.http, "address and port of the console; port 0: any free one")
       ->type_name("HOST:PORT");
   app.add_option("--http-root", flags.http_root, "folder of the console's pages")->type_name("DIR");
@@ -77,6 +80,7 @@ absl::StatusOr<ServerConfig> BuildConfig(const Flags& flags) {
   if (!flags.data.empty()) PLUMESCOUT_RETURN_IF_ERROR(builder.Set("store.folder", flags.data));
   if (!flags.store.empty()) PLUMESCOUT_RETURN_IF_ERROR(SetStore(flags.store, builder));
   if (!flags.node.empty()) PLUMESCOUT_RETURN_IF_ERROR(builder.Set("store.node", flags.node));
+  if (!flags.record.empty()) PLUMESCOUT_RETURN_IF_ERROR(builder.Set("record.folder", flags.record));
   if (!flags.http.empty()) PLUMESCOUT_RETURN_IF_ERROR(builder.Set("console.listen", flags.http));
   if (!flags.http_root.empty()) {
     PLUMESCOUT_RETURN_IF_ERROR(builder.Set("console.folder", flags.http_root));

@@ -282,6 +282,15 @@ absl::Status Validate(const StoreConfig& store) {
       .status();
 }
 
+absl::Status Validate(const RecordConfig& record) {
+  return Checker()
+      .InRange("record.map_period_s", record.map_period_s, 0.1, 3600)
+      .InRange("record.chunk_s", record.chunk_s, 0.1, 3600)
+      .InRange("record.max_file_bytes", static_cast<double>(record.max_file_bytes), 1'048'576,
+               kMaxQueuedBytes)
+      .status();
+}
+
 absl::Status Validate(const ObserveConfig& observe) {
   const std::string& http = observe.http_listen;
   if (!http.empty() && http != kAuto && !PortOf(http).has_value()) {
@@ -346,6 +355,7 @@ absl::Status Validate(const ServerConfig& config) {
   PLUMESCOUT_RETURN_IF_ERROR(Validate(config.observe));
   PLUMESCOUT_RETURN_IF_ERROR(Validate(config.store));
   PLUMESCOUT_RETURN_IF_ERROR(Validate(config.console));
+  PLUMESCOUT_RETURN_IF_ERROR(Validate(config.record));
   PLUMESCOUT_RETURN_IF_ERROR(ValidateReach(config.console, config.access));
   return WithField(plumescout::Validate(config.mission), "mission");
 }

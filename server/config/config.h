@@ -107,6 +107,13 @@ struct ConsoleConfig {
   std::string hosts = "";     // names of a front, with commas between
 };
 
+struct RecordConfig {
+  std::string folder = "";  // empty: missions are not recorded
+  double map_period_s = 10.0;
+  double chunk_s = 10.0;
+  std::int64_t max_file_bytes = std::int64_t{1} << 30;
+};
+
 // Values of store.engine.
 inline constexpr char kNoStore[] = "none";
 inline constexpr char kSqliteStore[] = "sqlite";
@@ -140,6 +147,7 @@ struct ServerConfig {
   ObserveConfig observe;
   StoreConfig store;
   ConsoleConfig console;
+  RecordConfig record;
   MissionOptions mission;  // what missions get for fields that their creator leaves unset
 };
 

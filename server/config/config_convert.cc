@@ -112,6 +112,13 @@ void Visit(OneOf<ConsoleConfig> auto& console, auto& field) {
   field("hosts", console.hosts);
 }
 
+void Visit(OneOf<RecordConfig> auto& record, auto& field) {
+  field("folder", record.folder);
+  field("map_period_s", record.map_period_s);
+  field("chunk_s", record.chunk_s);
+  field("max_file_bytes", record.max_file_bytes);
+}
+
 void Visit(OneOf<ServerConfig> auto& config, auto& field) { field("listen", config.listen); }
 
 void Write(const auto& config, google::protobuf::Message& proto) {
@@ -139,6 +146,7 @@ config::v1::ServerConfig ServerConfigToProto(const ServerConfig& config) {
   Write(config.observe, *proto.mutable_observe());
   Write(config.store, *proto.mutable_store());
   Write(config.console, *proto.mutable_console());
+  Write(config.record, *proto.mutable_record());
   *proto.mutable_mission() = plumescout::ToProto(config.mission);
   return proto;
 }
@@ -155,6 +163,7 @@ absl::StatusOr<ServerConfig> ServerConfigFromProto(const config::v1::ServerConfi
   Read(proto.observe(), config.observe);
   Read(proto.store(), config.store);
   Read(proto.console(), config.console);
+  Read(proto.record(), config.record);
   PLUMESCOUT_ASSIGN_OR_RETURN(config.mission,
                               ReadMissionOptions(proto.mission(), config.mission, "mission"));
   PLUMESCOUT_RETURN_IF_ERROR(Validate(config));

@@ -53,6 +53,7 @@ MissionHost::MissionHost(Parts parts, const HostOptions& options)
       journal_(parts.journal != nullptr ? std::move(parts.journal)
                                         : std::make_shared<MissionJournal>()),
       snapshots_(MakeTaker(journal_, parts.snapshot_pool, parts.tail)),
+      recording_(std::move(parts.recording)),
       sink_(std::move(parts.sink)),
       rates_(options.rates, options.clock),
       requests_(std::make_shared<RequestMemory>(
@@ -62,8 +63,9 @@ MissionHost::MissionHost(Parts parts, const HostOptions& options)
       waiters_(options.max_waiters),
       writer_(
           AbandonedWith(abandoned_, std::move(parts.mission)),
-          [this](const Event& event) { Keep(event); }, parts.epoch_pool, SteadyNow,
-          parts.audit_pool, parts.metrics, HabitOf(*journal_, parts.tail)),
+          [this](const Event& event, const Applied& applied) { Keep(event, applied); },
+          parts.epoch_pool, SteadyNow, parts.audit_pool, parts.metrics,
+          HabitOf(*journal_, parts.tail)),
       clock_gate_({options.max_clock_lead, mission_options_.stamp_by_arrival}, options.wall_clock),
       mission_clock_(options.wall_clock, options.clock) {
   standing_.Restore(parts.standing.state, parts.standing.idle_time_to_live,
@@ -75,12 +77,13 @@ MissionHost::MissionHost(Parts parts, const HostOptions& options)
 
 MissionHost::~MissionHost() { Stop(MissionNotFound(id_)); }
 
-void MissionHost::Keep(const Event& event) {
+void MissionHost::Keep(const Event& event, const Applied& applied) {
   if (const auto* removed = std::get_if<RobotRemoved>(&event.body)) {
     robot_clocks_.Forget(removed->robot);
   }
   const std::int64_t bytes = journal_->Add(event);
   if (snapshots_ != nullptr) snapshots_->NoteEvent(event, bytes, writer_.mission());
+  if (recording_ != nullptr) recording_->Note(event, applied, writer_.mission());
   if (sink_) sink_(event);
 }
 
@@ -304,6 +307,7 @@ void MissionHost::Run() {
     journal_->Flush();
   }
   journal_->Flush();
+  if (recording_ != nullptr) recording_->End(writer_.mission());
   DropAll();
   absl::Status status;
   {

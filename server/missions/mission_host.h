@@ -32,6 +32,7 @@
 #include "server/missions/mission_journal.h"
 #include "server/missions/mission_standing.h"
 #include "server/missions/mission_writer.h"
+#include "server/missions/recorder.h"
 #include "server/missions/robot_clocks.h"
 #include "server/missions/robot_notices.h"
 #include "server/missions/robot_rates.h"
@@ -106,6 +107,7 @@ class MissionHost {
     StandingRecord standing = {};                         // of a mission that is recovered
     JournalTail tail = {};                                // as well
     WorkerPool* snapshot_pool = nullptr;                  // null: no snapshots are taken
+    std::unique_ptr<RecordingFeed> recording = nullptr;   // null: the mission is not recorded
   };
 
   // Robots that the mission knows go on with their leases, which are held as if used just now.
@@ -206,7 +208,7 @@ class MissionHost {
     return !commands_.empty() || stopping_;
   }
   // Of every event, on the writer's thread.
-  void Keep(const Event& event);
+  void Keep(const Event& event, const Applied& applied);
   IngestResult IngestMapped(MissionWriter& writer, const RobotId& robot, std::int64_t lease_token,
                             std::vector<IncomingObservation> batch,
                             const std::optional<ClockGate::Mapped>& mapped);
@@ -231,6 +233,7 @@ class MissionHost {
   MissionStanding standing_;
   const std::shared_ptr<MissionJournal> journal_;
   const std::unique_ptr<SnapshotTaker> snapshots_;  // the writer's; null: none are taken
+  const std::unique_ptr<RecordingFeed> recording_;  // the writer's; null: there is none
   const EventSink sink_;
   absl::Mutex keep_standing_;  // its records leave in the order in which they are made
   RobotRates rates_;

@@ -54,13 +54,13 @@ absl::StatusOr<std::shared_ptr<MissionHost>> MissionMaker::Make(const MissionId&
   PLUMESCOUT_ASSIGN_OR_RETURN(auto strategy, hooks_.make_strategy(options.planning));
   PLUMESCOUT_ASSIGN_OR_RETURN(auto mission, Mission::Create(options));
   JournalHome home{.key = MissionKey(owner.tenant, id)};
+  const JournalStart start{.code_version = kVersion,
+                           .mission_options = {},
+                           .mission = id,
+                           .owner = owner.name,
+                           .tenant = owner.tenant,
+                           .created_ns = options_.host.wall_clock()};
   if (hooks_.store != nullptr) {
-    const JournalStart start{.code_version = kVersion,
-                             .mission_options = {},
-                             .mission = id,
-                             .owner = owner.name,
-                             .tenant = owner.tenant,
-                             .created_ns = options_.host.wall_clock()};
     const auto epoch =
         hooks_.store->Create(home.key, EncodeMissionStart(start, mission->options()));
     if (absl::IsUnavailable(epoch.status())) return StoreTakesNothing(epoch.status().message());
@@ -69,11 +69,11 @@ absl::StatusOr<std::shared_ptr<MissionHost>> MissionMaker::Make(const MissionId&
   }
   return MakeHost(
       {.id = id, .mission = std::move(mission), .strategy = std::move(strategy), .owner = owner},
-      std::move(home));
+      std::move(home), start);
 }
 
-std::shared_ptr<MissionHost> MissionMaker::MakeHost(MissionHost::Parts parts,
-                                                    JournalHome home) const {
+std::shared_ptr<MissionHost> MissionMaker::MakeHost(MissionHost::Parts parts, JournalHome home,
+                                                    const JournalStart& start) const {
   HostOptions options = options_.host;
   if (hooks_.clock) options.clock = hooks_.clock;
   if (hooks_.wall_clock) options.wall_clock = hooks_.wall_clock;
@@ -81,6 +81,9 @@ std::shared_ptr<MissionHost> MissionMaker::MakeHost(MissionHost::Parts parts,
     // Of each life of the mission, which its robots' leases outlive, greater than of the one
     // before.
     options.first_lease_token = FirstLeaseTokenOf(home.epoch);
+  }
+  if (hooks_.recorder != nullptr) {
+    parts.recording = hooks_.recorder->Begin(StartOf(start, parts.mission->options()), home.key);
   }
   home.store = hooks_.store;
   home.max_backlog_bytes = options_.max_backlog_bytes;
@@ -111,7 +114,7 @@ absl::StatusOr<std::shared_ptr<MissionHost>> MissionMaker::Revive(const std::str
                    .owner = {recovered.start.owner, TenantOf(key)},
                    .standing = std::move(recovered.standing),
                    .tail = recovered.tail},
-                  {.key = key, .epoch = recovered.epoch, .head = recovered.head});
+                  {.key = key, .epoch = recovered.epoch, .head = recovered.head}, recovered.start);
 }
 
 }  // namespace plumescout::server

@@ -53,6 +53,8 @@ struct RegistryHooks {
   WorkerPool* snapshot_pool = nullptr;
   // Keeps the missions, and outlives them. Null: they end with the process.
   MissionStore* store = nullptr;
+  // Records them; as above. Null: nobody does.
+  Recorder* recorder = nullptr;
   // What time it is in them; null: as RegistryOptions::host says.
   SteadyClock clock = nullptr;
   WallClock wall_clock = nullptr;
@@ -80,7 +82,8 @@ class MissionMaker {
                                                       const StopFn& stop) const;
 
  private:
-  std::shared_ptr<MissionHost> MakeHost(MissionHost::Parts parts, JournalHome home) const;
+  std::shared_ptr<MissionHost> MakeHost(MissionHost::Parts parts, JournalHome home,
+                                        const JournalStart& start) const;
 
   const RegistryOptions options_;
   const RegistryHooks hooks_;

@@ -113,9 +113,13 @@ absl::StatusOr<Rebuilt> Rebuild(MissionStore& store, const std::string& key,
 
 }  // namespace
 
-std::string EncodeMissionStart(JournalStart start, const MissionOptions& options) {
+JournalStart StartOf(JournalStart start, const MissionOptions& options) {
   start.mission_options = ToProto(options).SerializeAsString();
-  return EncodeStart(start);
+  return start;
+}
+
+std::string EncodeMissionStart(const JournalStart& start, const MissionOptions& options) {
+  return EncodeStart(StartOf(start, options));
 }
 
 absl::StatusOr<MissionOptions> OptionsOf(const JournalStart& start) {

@@ -19,7 +19,8 @@ namespace plumescout::server {
 
 // What the journal of a mission begins with, and the options that stand in it: those that the
 // mission has, as it was fitted to its budget. kDataLoss if they are none.
-std::string EncodeMissionStart(JournalStart start, const MissionOptions& options);
+JournalStart StartOf(JournalStart start, const MissionOptions& options);
+std::string EncodeMissionStart(const JournalStart& start, const MissionOptions& options);
 absl::StatusOr<MissionOptions> OptionsOf(const JournalStart& start);
 
 // The mission as it was after this event: of the newest snapshot before it that makes the mission

@@ -37,7 +37,7 @@ bool IsReadingTakenIn(const Event& event, const Applied& applied) {
 
 }  // namespace
 
-MissionWriter::MissionWriter(std::unique_ptr<Mission> mission, EventSink sink,
+MissionWriter::MissionWriter(std::unique_ptr<Mission> mission, AppliedSink sink,
                              WorkerPool* epoch_pool, SteadyClock clock, WorkerPool* audit_pool,
                              MissionMetrics* metrics, const EpochHabit& habit)
     : sink_(std::move(sink)),
@@ -60,7 +60,7 @@ MissionSummary MissionWriter::summary() const {
 }
 
 void MissionWriter::OnEvent(const Event& event, const Applied& applied) {
-  if (sink_) sink_(event);
+  if (sink_) sink_(event, applied);
   if (std::holds_alternative<ObservationReceived>(event.body)) {
     metrics_.NoteObservation(applied.observation.ok());
   }

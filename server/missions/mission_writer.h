@@ -28,6 +28,8 @@ namespace plumescout::server {
 
 // Hears of every event in the order in which the mission applied it.
 using EventSink = std::function<void(const Event&)>;
+// Likewise, and of what became of it.
+using AppliedSink = std::function<void(const Event&, const Applied&)>;
 
 // What lists say of a mission.
 struct MissionSummary {
@@ -49,8 +51,9 @@ class MissionWriter final : private ConductObserver {
   // owned and outlives the last call. The events are the same with any pool and clock. `audit_pool`
   // audits it, null: nobody does; as above. `metrics` is not owned either. `habit`: as
   // MissionConduct.
-  MissionWriter(std::unique_ptr<Mission> mission, EventSink sink, WorkerPool* epoch_pool = nullptr,
-                SteadyClock clock = SteadyNow, WorkerPool* audit_pool = nullptr,
+  MissionWriter(std::unique_ptr<Mission> mission, AppliedSink sink,
+                WorkerPool* epoch_pool = nullptr, SteadyClock clock = SteadyNow,
+                WorkerPool* audit_pool = nullptr,
                 MissionMetrics* metrics = &MissionMetrics::Unread(), const EpochHabit& habit = {});
   MissionWriter(const MissionWriter&) = delete;
   MissionWriter& operator=(const MissionWriter&) = delete;
@@ -84,7 +87,7 @@ class MissionWriter final : private ConductObserver {
   void AfterMapRebuildBegun() override;
   void TakeFinding(const AuditFinding& found);
 
-  EventSink sink_;
+  AppliedSink sink_;
   const SteadyClock clock_;
   MissionMetrics& metrics_;
   EpochRunner epoch_runner_;

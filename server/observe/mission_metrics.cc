@@ -69,6 +69,15 @@ MissionMetrics::MissionMetrics(prometheus::Registry& registry) {
                        .Add({});
   staleness_ = MakeTimes(registry, "plumescout_belief_staleness_seconds",
                          "Time from a reading's acknowledgement until watchers have it.");
+  recorded_bytes_ = &Counters(registry, "plumescout_recorded_bytes_total",
+                              "Bytes of MCAP files that missions were recorded in.")
+                         .Add({});
+  recording_drops_ = &Counters(registry, "plumescout_recording_dropped_events_total",
+                               "Events that are missing in recordings.")
+                          .Add({});
+  recording_failures_ = &Counters(registry, "plumescout_recording_failures_total",
+                                  "Recordings that stopped because the disk took no more.")
+                             .Add({});
   auto& audits = Counters(registry, "plumescout_gas_audits_total",
                           "Audits of gas fields by an independent computation.");
   audits_certified_ = &audits.Add({{"outcome", "certified"}});

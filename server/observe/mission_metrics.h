@@ -9,6 +9,7 @@
 #include <prometheus/registry.h>
 
 #include <array>
+#include <cstdint>
 #include <map>
 
 #include "absl/status/statusor.h"
@@ -42,6 +43,13 @@ class MissionMetrics {
   void NoteGasFailure() { gas_failures_->Increment(); }
   // Between the acknowledgement of a reading and the publication of the first belief with it.
   void NoteStaleness(absl::Duration time) { Observe(*staleness_, time); }
+  // Of files that missions are recorded in; of events that are missing there; of files that could
+  // not be written.
+  void NoteRecordedBytes(std::int64_t bytes) {
+    recorded_bytes_->Increment(static_cast<double>(bytes));
+  }
+  void NoteRecordingDrop() { recording_drops_->Increment(); }
+  void NoteRecordingFailure() { recording_failures_->Increment(); }
   void NoteAudit(const absl::StatusOr<AuditFinding>& finding);
 
   void NotePlanStage(Stage stage, absl::Duration time);
@@ -63,6 +71,9 @@ class MissionMetrics {
   prometheus::Histogram* epoch_ = nullptr;
   prometheus::Counter* gas_failures_ = nullptr;
   prometheus::Histogram* staleness_ = nullptr;
+  prometheus::Counter* recorded_bytes_ = nullptr;
+  prometheus::Counter* recording_drops_ = nullptr;
+  prometheus::Counter* recording_failures_ = nullptr;
   prometheus::Counter* audits_certified_ = nullptr;
   prometheus::Counter* audits_alarmed_ = nullptr;
   prometheus::Counter* audits_failed_ = nullptr;

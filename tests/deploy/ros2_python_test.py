@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: PlumeScout contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Robots of ROS 2 by another vendor's DDS (Fast DDS), plumescout-ros2 and a server, on loopback."""
+"""Robots of ROS 2 by another vendor's DDS (Fast DDS), plumescout-ros2 and a server, on loopback: in a network
+namespace of their own if the machine allows it."""
 
 import json
 import os
@@ -152,4 +153,5 @@ class Ros2Test(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    running.enter_network_of_its_own()
     unittest.main()

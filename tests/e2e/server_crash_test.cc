@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The real server is killed in the middle of a mission and started again on the same folder: what
 // it said is durable is there, and robots go on as if nothing had happened.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -11,6 +12,7 @@
 
 #include "absl/time/clock.h"
 #include "tests/e2e/server_program.h"
+#include "tests/server/missions/recorded_files.h"
 #include "tests/server/service_fixture.h"
 #include "tests/support/temp_folder.h"
 
@@ -21,7 +23,9 @@ class ServerCrashTest : public ServiceTest {
  protected:
   void StartProgram() {
     program_ = std::make_unique<e2e::ServerProgram>(
-        std::vector<std::string>{"--store", "sqlite", "--data", folder_.path()}, STDERR_FILENO);
+        std::vector<std::string>{"--store", "sqlite", "--data", folder_.path(), "--record",
+                                 folder_.File("recorded"), "--set", "record.chunk_s=0.1"},
+        STDERR_FILENO);
     ASSERT_TRUE(program_->listens());
     Connect(program_->target());
   }
@@ -69,6 +73,27 @@ TEST_F(ServerCrashTest, WhatWasAcknowledgedIsThereAgain) {
     EXPECT_EQ(AwaitRecovered().revision(), revision);
     EXPECT_EQ(GetMap(/*full_precision=*/true)->SerializeAsString(), map->SerializeAsString());
   }
+}
+
+// But for what came in the last moments. The recording thread looks at its chunks every second.
+TEST_F(ServerCrashTest, TheRecordingOfAKilledServerIsReadUpToItsLastChunk) {
+  StartProgram();
+  ASSERT_TRUE(CreateMission("hall").ok());
+  const std::int64_t lease = Lease();
+  ASSERT_TRUE(Ingest(kRobot, lease, RoomScan(1)).ok());
+  ASSERT_TRUE(Ingest(kRobot, lease, GasReadings(2, 21)).ok());
+  const std::string path = folder_.File("recorded/hall.1.mcap");
+  const absl::Time deadline = absl::Now() + absl::Seconds(60);
+  RecordedFile file;
+  while (file.events.size() < 22 && absl::Now() < deadline) {
+    absl::SleepFor(absl::Milliseconds(50));
+    if (McapReader::Open(path).ok()) file = ReadRecording(path);
+  }
+  Kill();
+  file = ReadRecording(path);
+  EXPECT_GE(file.events.size(), 22u);  // the robot's registration as well
+  EXPECT_THAT(file.torn_end, testing::HasSubstr("cut off"));
+  EXPECT_EQ(file.by_topic.at("/robots/r1/gas").size(), 20u);
 }
 
 // Whatever comes of a batch whose answer was lost, nothing is lost or counted twice.

@@ -21,6 +21,7 @@
 #include "tests/fuzz/small_service.h"
 #include "tests/support/box_room.h"
 #include "tests/support/gaden_files.h"
+#include "tests/support/lz4_frame.h"
 
 namespace plumescout::fuzz {
 namespace {
@@ -113,9 +114,13 @@ void AddMcap(Corpus& corpus) {
     const bool packed = compression == McapCompression::kZstd;
     if (status.ok()) corpus.Add("mcap", packed ? "zstd" : "plain", encoder.Take());
   }
-  corpus.Add(
-      "mcap", "records",
-      EncodeMcap(McapChannel{1, 0, "/a", "text"}) + EncodeMcap(McapMessage{1, 2, 3, 4, "m"}));
+  const std::string records =
+      EncodeMcap(McapChannel{1, 0, "/a", "text"}) + EncodeMcap(McapMessage{1, 2, 3, 4, "m"});
+  corpus.Add("mcap", "lz4",
+             absl::StrCat(
+                 kMcapMagic, McapFields().Text("").Text("").Record(McapOp::kHeader),
+                 EncodeMcap(McapChunk{3, 3, records.size(), 0, "lz4", support::PackLz4(records)})));
+  corpus.Add("mcap", "records", records);
 }
 
 void AddMaps(Corpus& corpus) {
@@ -130,6 +135,7 @@ void AddMaps(Corpus& corpus) {
   corpus.Add("packed", "zlib", CompressZlib(cells));
   const auto zstd = CompressZstd(std::string(4096, 'a'));
   if (zstd.ok()) corpus.Add("packed", "zstd", *zstd);
+  corpus.Add("packed", "lz4", support::PackLz4(std::string(4096, 'a')));
 }
 
 std::string NpyHeader(const std::string& type, const std::string& shape, std::size_t values,

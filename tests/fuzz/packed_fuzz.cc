@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-// What is packed: zlib and zstd as they come, and known maps whose cells are packed well.
+// What is packed: zlib, zstd and lz4 as they come, and known maps whose cells are packed well.
 
 #include <algorithm>
 #include <cstdint>
 #include <string>
 
+#include "formats/lz4_codec.h"
 #include "formats/zlib_codec.h"
 #include "formats/zstd_codec.h"
 #include "proto/convert/prior_map.h"
@@ -34,6 +35,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (inflated.ok() && inflated->size() > kRoom_bytes) __builtin_trap();
   std::string room(kRoom_bytes, '\0');
   plumescout::DecompressZstd(bytes, room.data(), room.size()).IgnoreError();
+  plumescout::DecompressLz4(bytes, room.data(), room.size()).IgnoreError();
   ReadMap(bytes);
   return 0;
 }

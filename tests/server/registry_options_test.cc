@@ -23,5 +23,13 @@ TEST(RegistryOptionsTest, MissionsAreAsTheConfigurationSays) {
   EXPECT_EQ(ToRegistryOptions(config, 17).sleep_after, absl::InfiniteDuration());
 }
 
+TEST(RegistryOptionsTest, RecordingsAreAsTheConfigurationSays) {
+  const RecordingOptions options = ToRecordingOptions({"d", 2.0, 3.0, 4'000'000});
+  EXPECT_EQ(options.folder, "d");
+  EXPECT_EQ(options.map_period_s, 2.0);
+  EXPECT_EQ(options.chunk_period, absl::Seconds(3));
+  EXPECT_EQ(options.max_file_bytes, 4'000'000);
+}
+
 }  // namespace registry_options_test
 }  // namespace plumescout::server

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "tests/formats/mcap/mcap_files.h"
+#include "tests/support/lz4_frame.h"
 
 namespace plumescout {
 namespace mcap_reader_test {
@@ -159,9 +160,20 @@ TEST(McapReaderTest, WhatIsOfNoInterestIsPassedOver) {
 }
 
 TEST(McapReaderTest, ACompressionThatIsNotKnownIsNamed) {
-  const McapReading reading = ReadMcap(PlainFile(Chunk("lz4", "packed")));
+  const McapReading reading = ReadMcap(PlainFile(Chunk("brotli", "packed")));
   EXPECT_EQ(reading.end.code(), absl::StatusCode::kUnimplemented);
-  EXPECT_THAT(std::string(reading.end.message()), HasSubstr("\"lz4\""));
+  EXPECT_THAT(std::string(reading.end.message()), HasSubstr("\"brotli\""));
+}
+
+TEST(McapReaderTest, ChunksOfLz4AreRead) {
+  const std::string records = kChannel + EncodeMcap(kMessage);
+  const std::string packed = support::PackLz4(records);
+  const McapReading reading =
+      ReadMcap(PlainFile(EncodeMcap(McapChunk{1, 1, records.size(), 0, "lz4", packed})));
+  EXPECT_TRUE(reading.end.ok()) << reading.end;
+  EXPECT_EQ(reading.messages, std::vector<McapMessage>{kMessage});
+  ExpectDamage(PlainFile(EncodeMcap(McapChunk{1, 1, records.size() - 1, 0, "lz4", packed})),
+               "the lz4 frame holds more than");
 }
 
 TEST(McapReaderTest, DamageIsNamedWithItsPlace) {
@@ -181,6 +193,7 @@ TEST(McapReaderTest, DamageIsNamedWithItsPlace) {
   ExpectDamage(PlainFile(McapFields().Record(McapOp::kStatistics)), "does not belong");
   ExpectDamage(PlainFile(McapFields().Record(static_cast<McapOp>(0))), "kind 0");
   ExpectDamage(PlainFile(Chunk("zstd", "no frame")), "in the record at byte");
+  ExpectDamage(PlainFile(Chunk("lz4", "no frame")), "lz4: ERROR_frameType_unknown");
   ExpectDamage(PlainFile(kChannel + Chunk("", message + "torn")), "beyond its chunk");
   ExpectDamage(PlainFile(EncodeMcap(McapChunk{1, 1, kMcapMaxRecordBytes + 1, 0, "", ""})),
                "a chunk of 536870913 bytes");

@@ -149,7 +149,7 @@ std::vector<Event> ManyPlans(std::size_t bytes) {
 }
 
 TEST_F(MissionMcapTest, WhatWaitsForTheFirstObservationIsBounded) {
-  const std::size_t many = 4 * MissionMcap::kMostEarlyBytes + (McapEncoder::kChunkBytes);
+  const std::size_t many = 4 * MissionView::kMostEarlyBytes + McapEncoder::kChunkBytes;
   MissionMcap mcap(start_, std::make_unique<Mission>(MissionOptions()), 10.0);
   std::string bytes;
   const std::vector<Event> events = ManyPlans(many);

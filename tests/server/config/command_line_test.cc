@@ -48,6 +48,8 @@ TEST(CommandLineTest, MissionsAreKeptUnlessToldOtherwise) {
   EXPECT_EQ(Read({"--data", "d"})->config.store.folder, "d");
   EXPECT_EQ(Read({"--http", "127.0.0.1:8080"})->config.console.listen, "127.0.0.1:8080");
   EXPECT_EQ(Read({"--http-root", "d"})->config.console.folder, "d");
+  EXPECT_EQ(Read({})->config.record.folder, "");
+  EXPECT_EQ(Read({"--record", "d"})->config.record.folder, "d");
   EXPECT_EQ(Read({"--store", "none"})->config.store.engine, kNoStore);
   EXPECT_EQ(Read({"--set", "store.engine=none"})->config.store.engine, kNoStore);
   EXPECT_THAT(std::string(Read({"--store", "floppy"}).status().message()),

@@ -32,6 +32,7 @@ ServerConfig Unlike() {
   config.store = {kSqliteStore,       "f",  1'000'000, 3,   0.5, 30.0,
                   "postgresql://h/d", "n1", 2.0,       "i", "j"};
   config.console = {"127.0.0.1:2", "g", 5, "h"};
+  config.record = {"i", 2.0, 3.0, 2'000'000};
   return config;
 }
 
@@ -58,6 +59,7 @@ TEST(ConfigConvertTest, EveryOptionSurvivesTheRoundTrip) {
   EXPECT_EQ(back->store.engine, kSqliteStore);
   EXPECT_EQ(back->store.recovery_threads, 3);
   EXPECT_EQ(back->console.folder, "g");
+  EXPECT_EQ(back->record.max_file_bytes, 2'000'000);
 }
 
 // A field that conversion forgot is unset, or keeps its default.

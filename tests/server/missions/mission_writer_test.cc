@@ -32,10 +32,11 @@ constexpr std::int64_t kLease = 7;
 TEST(MissionWriterTest, SummaryIsNeverBehindAnEvent) {
   MissionWriter* teller = nullptr;
   std::vector<std::int64_t> numbers;
-  MissionWriter writer(std::make_unique<Mission>(MissionOptions{}), [&](const Event& event) {
-    numbers.push_back(event.number);
-    EXPECT_EQ(teller->summary().revision, event.number - 1);
-  });
+  MissionWriter writer(std::make_unique<Mission>(MissionOptions{}),
+                       [&](const Event& event, const Applied&) {
+                         numbers.push_back(event.number);
+                         EXPECT_EQ(teller->summary().revision, event.number - 1);
+                       });
   teller = &writer;
   ASSERT_TRUE(writer.conduct().Register({"r1", 0.2, kLease}).ok());
   EXPECT_EQ(writer.summary().revision, 1);
@@ -65,7 +66,7 @@ Recording Record(WorkerPool* epoch_pool) {
   Recording recording;
   MissionWriter writer(
       std::make_unique<Mission>(support::FastAgeing()),
-      [&](const Event& event) { recording.events.push_back(event); }, epoch_pool);
+      [&](const Event& event, const Applied&) { recording.events.push_back(event); }, epoch_pool);
   EXPECT_TRUE(writer.conduct().Register({"r1", 0.2, kLease}).ok());
   const IngestResult result = writer.conduct().Ingest("r1", kLease, RoomRunBatch());
   EXPECT_TRUE(result.status.ok()) << result.status;
@@ -135,7 +136,7 @@ TEST(MissionWriterAudit, FindsCountsAndMendsAFieldThatWasMisled) {
     bool struck = false;
     MissionWriter writer(
         std::move(mission),
-        [&](const Event& event) {
+        [&](const Event& event, const Applied&) {
           events.push_back(event);
           // As the epoch takes its place, and before it is audited.
           if (!misled || struck || !std::holds_alternative<EpochAdopted>(event.body)) return;

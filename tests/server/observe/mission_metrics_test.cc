@@ -31,6 +31,9 @@ TEST_F(MissionMetricsTest, CountsAndTimesWhatItIsTold) {
   metrics_.NoteAdoption(absl::Milliseconds(2));
   metrics_.NoteEpoch(absl::Milliseconds(2));
   metrics_.NoteGasFailure();
+  metrics_.NoteRecordedBytes(500);
+  metrics_.NoteRecordingDrop();
+  metrics_.NoteRecordingFailure();
   metrics_.NoteStaleness(absl::Milliseconds(60));
   metrics_.NotePlan(absl::Milliseconds(7));
   const std::string text = Text();
@@ -42,7 +45,9 @@ TEST_F(MissionMetricsTest, CountsAndTimesWhatItIsTold) {
         "plumescout_gas_refresh_duration_seconds_count 1\n",
         "plumescout_gas_adoption_duration_seconds_count 1\n",
         "plumescout_gas_epoch_duration_seconds_count 1\n", "plumescout_gas_failures_total 1\n",
-        "plumescout_belief_staleness_seconds_count 1\n", "plumescout_plan_cpu_seconds_count 1\n"}) {
+        "plumescout_recorded_bytes_total 500\n", "plumescout_recording_dropped_events_total 1\n",
+        "plumescout_recording_failures_total 1\n", "plumescout_belief_staleness_seconds_count 1\n",
+        "plumescout_plan_cpu_seconds_count 1\n"}) {
     EXPECT_THAT(text, HasSubstr(line));
   }
 }
