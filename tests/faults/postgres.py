@@ -24,7 +24,7 @@ class Postgres:
 
     def __init__(self, folder, port):
         self.folder, self.port = pathlib.Path(folder), port
-        self.url = f"postgresql://{USER}@127.0.0.1:{port}/missions"
+        self.url = self.url_by(f"127.0.0.1:{port}")
         self._as = ["setpriv", "--pdeathsig", "INT"]
         self.folder.mkdir(parents=True, exist_ok=True)
         if os.geteuid() == 0:
@@ -35,7 +35,7 @@ class Postgres:
         options = ["-k", "-A", "trust", "-U", USER, "-E", "UTF8", "--no-locale", "-D", data]
         self._run(program("initdb"), *options)
         options = f"-p {port} -h 127.0.0.1 -k {self.folder} -c max_connections=100"
-        self._process = subprocess.Popen(
+        self.process = subprocess.Popen(
             [*self._as, program("postgres"), "-D", data, *options.split()],
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
@@ -53,6 +53,11 @@ class Postgres:
         if done.returncode != 0:
             raise RuntimeError(f"{command[0]}: {done.stderr}")
 
+    @staticmethod
+    def url_by(address):
+        """Of the database, for who reaches it at host:port."""
+        return f"postgresql://{USER}@{address}/missions"
+
     def make_database(self):
         """Whether it has been made: false as long as the server does not answer."""
         command = ["createdb", "-h", "127.0.0.1", "-p", str(self.port), "-U", USER, "missions"]
@@ -65,9 +70,9 @@ class Postgres:
         return [line.split("\t") for line in done.stdout.splitlines()]
 
     def stop(self):
-        self._process.terminate()
+        self.process.terminate()
         try:
-            self._process.wait(timeout=10)
+            self.process.wait(timeout=10)
         except subprocess.TimeoutExpired:
-            self._process.kill()
-            self._process.wait()
+            self.process.kill()
+            self.process.wait()
