@@ -9,6 +9,10 @@ robots in four missions. scripts/cluster builds and runs it.
   --cut-every S      so often a server's link to the database, and no other, is cut or goes silent for
                      longer than its lease
   --roll-every S     so often a server is drained, and started again; each in its turn
+  --database patroni the database with a standby, as production has it; needs Debian's patroni and
+                     etcd-server, which scripts/cluster then installs
+  --kill-primary-every S
+                     so often its primary is killed, with its Patroni, until another has its place
   --proxies N        routers, 1 or 2: the second has the nodes in another order, and half of the robots
   --nodes N          servers, 1 to 3
   --robots N --missions M --pause S --plan-pause S
@@ -30,6 +34,7 @@ import time
 
 import answers
 import bed
+import patroni
 import plumescout
 import postgres
 import robots
@@ -54,6 +59,7 @@ class Shape:
     pause_s: float = 0.06
     plan_pause_s: float = 0.2
     cuttable: bool = True  # links to the database; costs CPU
+    database: str = "single"  # or "patroni"
 
 
 class Cluster:
@@ -65,11 +71,15 @@ class Cluster:
         self._shape = shape
         self._folder = pathlib.Path(folder)
         self._folder.chmod(0o755)  # PostgreSQL is another user
-        self._database = postgres.Postgres(self._folder / "postgres", running.free_port())
-        running.await_that(self._database.make_database, "PostgreSQL answers")
-        address = f"127.0.0.1:{self._database.port}"
+        where = self._folder / "postgres"
+        if shape.database == "patroni":
+            self.database = patroni.Patroni(where)
+        else:
+            self.database = postgres.Postgres(where, running.free_port())
+        running.await_that(self.database.make_database, "PostgreSQL answers")
+        address = f"127.0.0.1:{self.database.port}"
         self.nodes = [
-            Node(f"n{i + 1}", self._folder, self._database.url_by, address, shape.cuttable)
+            Node(f"n{i + 1}", self._folder, self.database.url_by, address, shape.cuttable)
             for i in range(shape.nodes)
         ]
         self.routers = [Router(self.nodes, self._folder, o) for o in (1, -1)[: shape.proxies]]
@@ -101,7 +111,7 @@ class Cluster:
         return {
             "servers": sum(cpu_s(node.server.process.pid) for node in self.nodes),
             "HAProxy": sum(cpu_s(router.process.pid) for router in self.routers),
-            "PostgreSQL": cpu_s(self._database.process.pid),
+            "PostgreSQL": sum(map(cpu_s, self.database.pids())),
         }
 
     def cost(self):
@@ -117,7 +127,7 @@ class Cluster:
         """The node that has it, as robots go on."""
 
         def find():
-            rows = self._database.ask(OWNERS)
+            rows = self.database.ask(OWNERS)
             names = [name for key, name, *_ in rows if key.rsplit("/", 1)[-1] == mission]
             return next((node for node in self.nodes if node.name in names), None)
 
@@ -131,8 +141,9 @@ class Cluster:
         )
 
     def fault(self, kind, node, chance):
-        """One of KINDS. Returns once all robots have gone on."""
-        owned = [row for row in self._database.ask(OWNERS) if row[1] == node.name]
+        """One of KINDS, or of the database: "primary". Returns once all robots have gone on."""
+        owners = [name for _, name, *_ in self.database.ask(OWNERS)]
+        owned = owners if node is self.database else [n for n in owners if n == node.name]
         self.owner_faults += bool(owned)
         self._waits.reset()
         began = time.monotonic()
@@ -149,7 +160,7 @@ class Cluster:
         )
 
     def show(self):
-        for key, node, epoch, head in self._database.ask(OWNERS):
+        for key, node, epoch, head in self.database.ask(OWNERS):
             mission = key.rsplit("/", 1)[-1]
             ones = [r for r in self.team if f"missions/{mission}/" in r.resource]
             self.say(
@@ -196,7 +207,7 @@ class Cluster:
             router.stop()
         for node in self.nodes:
             node.stop()
-        self._database.stop()
+        self.database.stop()
 
     def summary(self, breaches):
         waits = sorted(self.waits_s) or [0.0]
@@ -233,17 +244,23 @@ def main():
         parser.add_argument(f"--{kind}-every", type=float)
     for name, standard in (("nodes", 3), ("proxies", 1), ("robots", 8), ("missions", 4)):
         parser.add_argument(f"--{name}", type=int, default=standard)
+    parser.add_argument("--database", choices=("single", "patroni"), default="single")
+    parser.add_argument("--kill-primary-every", type=float)
     parser.add_argument("--pause", type=float, default=0.06)
     parser.add_argument("--plan-pause", type=float, default=0.2)
     parser.add_argument("--seed", type=int, default=int(time.time()) % 1_000_000)
     arguments = parser.parse_args()
     chance = random.Random(arguments.seed)
     periods = {kind: getattr(arguments, f"{kind}_every") for kind in KINDS}
+    periods["primary"] = arguments.kill_primary_every
     kinds = {kind: period_s for kind, period_s in periods.items() if period_s}
+    if "primary" in kinds and arguments.database != "patroni":
+        parser.error("--kill-primary-every: there is no standby but with --database patroni")
     shape = Shape(
         *(getattr(arguments, name) for name in ("nodes", "proxies", "robots", "missions", "pause")),
         plan_pause_s=arguments.plan_pause,
         cuttable="cut" in kinds,
+        database=arguments.database,
     )
     folder = tempfile.mkdtemp(prefix="plumescout-cluster-")
     print(f"--seed {arguments.seed}, in {folder}", flush=True)
@@ -253,8 +270,8 @@ def main():
         while time.monotonic() - begin < arguments.seconds:
             if kind := due(kinds, begin, done):
                 turn = cluster.nodes[done[kind] % shape.nodes]
-                hit = turn if kind == "roll" else chance.choice(cluster.nodes)
-                cluster.fault(kind, hit, chance)
+                others = cluster.database if kind == "primary" else chance.choice(cluster.nodes)
+                cluster.fault(kind, turn if kind == "roll" else others, chance)
             if time.monotonic() - shown > SHOW_S:
                 cluster.show()
                 shown = time.monotonic()
