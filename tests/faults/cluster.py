@@ -14,7 +14,7 @@ robots in four missions. scripts/cluster builds and runs it.
   --kill-primary-every S
                      so often its primary is killed, with its Patroni, until another has its place
   --proxies N        routers, 1 or 2: the second has the nodes in another order, and half of the robots
-  --nodes N          servers, 1 to 3
+  --nodes N          servers, 1 to 3; where libfaketime is, their clocks are an hour apart
   --robots N --missions M --pause S --plan-pause S
                      how many, and how long each waits between what it sends and before it plans
 
@@ -42,6 +42,7 @@ import running
 from cluster_parts import LEASE_S, Node, Router, Waits, cpu_s, percentile
 
 KINDS = ("kill", "pause", "cut", "roll")
+CLOCKS = {"n1": 0, "n2": 3600, "n3": -3600}  # how far each server's wall clock is off, in seconds
 SHOW_S = 5.0
 OWNERS = (
     "SELECT encode(m.key, 'escape'), coalesce(n.name, '-'), p.epoch, p.head "
@@ -79,8 +80,8 @@ class Cluster:
         running.await_that(self.database.make_database, "PostgreSQL answers")
         address = f"127.0.0.1:{self.database.port}"
         self.nodes = [
-            Node(f"n{i + 1}", self._folder, self.database.url_by, address, shape.cuttable)
-            for i in range(shape.nodes)
+            Node(name, self._folder, self.database.url_by, address, shape.cuttable, clock_s)
+            for name, clock_s in list(CLOCKS.items())[: shape.nodes]
         ]
         self.routers = [Router(self.nodes, self._folder, o) for o in (1, -1)[: shape.proxies]]
         for router in self.routers:
