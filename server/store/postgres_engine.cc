@@ -280,10 +280,7 @@ absl::Status PostgresEngine::PlanAppend(Round& round, StoreWrite& write, const S
     Add(round, write, AppendStatement(row, after.row, write.records), after);
     return absl::OkStatus();
   }
-  bool is_done = false;
-  if (write.tried) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(is_done, HoldsRecords(row, write));
-  }
+  PLUMESCOUT_ASSIGN_OR_RETURN(const bool is_done, HoldsRecords(row, write));
   if (is_done) {
     // A standby that a commit waits for may not have them yet: one more commit waits for it.
     const SharedRow after = Next(shared);
@@ -297,7 +294,7 @@ absl::Status PostgresEngine::PlanAppend(Round& round, StoreWrite& write, const S
 absl::StatusOr<bool> PostgresEngine::HoldsRecords(const MissionRow& row, const StoreWrite& write) {
   const std::int64_t last =
       write.first_number + static_cast<std::int64_t>(write.records.size()) - 1;
-  if (write.first_number <= row.base || last > row.head) return false;
+  if (!write.tried || write.first_number <= row.base || last > row.head) return false;
   const std::int64_t numbers[] = {write.first_number - 1, last};
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<std::uint32_t> chains,
                               SharedChainsAt(*connection_, row, numbers));
@@ -362,8 +359,7 @@ void PostgresEngine::Add(Round& round, StoreWrite& write, PostgresStatement stat
 }
 
 void PostgresEngine::Refuse(Round& round, StoreWrite& write, absl::Status why) {
-  const bool is_fresh = fresh_.contains(write.key);
-  if (is_fresh) {
+  if (fresh_.contains(write.key)) {
     write.result = std::move(why);
     return;
   }

@@ -72,6 +72,7 @@ class PostgresEngine final : public WriteEngine {
   absl::Status PlanAppend(Round& round, StoreWrite& write, const SharedRow& shared);
   absl::Status PlanSnapshot(Round& round, StoreWrite& write, const SharedRow& shared);
   absl::Status PlanTrim(Round& round, StoreWrite& write, const SharedRow& shared);
+  // Whether an earlier try has written them.
   absl::StatusOr<bool> HoldsRecords(const MissionRow& row, const StoreWrite& write);
   // Epochs tell owners of one mission apart, not missions that had the same key one after another.
   bool IsOwn(const MissionRow& row) const;

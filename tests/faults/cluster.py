@@ -14,7 +14,8 @@ robots in four missions. scripts/cluster builds and runs it.
   --kill-primary-every S
                      so often its primary is killed, with its Patroni, until another has its place
   --proxies N        routers, 1 or 2: the second has the nodes in another order, and half of the robots
-  --nodes N          servers, 1 to 3; where libfaketime is, their clocks are an hour apart
+  --nodes N          servers, 1 to 3; if there are faults, and libfaketime, n2's clock is an hour
+                     ahead
   --robots N --missions M --pause S --plan-pause S
                      how many, and how long each waits between what it sends and before it plans
 
@@ -42,7 +43,7 @@ import running
 from cluster_parts import LEASE_S, Node, Router, Waits, cpu_s, percentile
 
 KINDS = ("kill", "pause", "cut", "roll")
-CLOCKS = {"n1": 0, "n2": 3600, "n3": -3600}  # how far each server's wall clock is off, in seconds
+CLOCKS = {"n1": 0, "n2": 3600, "n3": 0}  # how far each server's wall clock is off, in seconds
 SHOW_S = 5.0
 OWNERS = (
     "SELECT encode(m.key, 'escape'), coalesce(n.name, '-'), p.epoch, p.head "
@@ -60,6 +61,7 @@ class Shape:
     pause_s: float = 0.06
     plan_pause_s: float = 0.2
     cuttable: bool = True  # links to the database; costs CPU
+    clocks_apart: bool = True  # costs CPU, too
     database: str = "single"  # or "patroni"
 
 
@@ -79,9 +81,11 @@ class Cluster:
             self.database = postgres.Postgres(where, running.free_port())
         running.await_that(self.database.make_database, "PostgreSQL answers")
         address = f"127.0.0.1:{self.database.port}"
+        names = [f"n{i + 1}" for i in range(shape.nodes)]
+        clocks_s = [CLOCKS[name] if shape.clocks_apart else 0 for name in names]
         self.nodes = [
             Node(name, self._folder, self.database.url_by, address, shape.cuttable, clock_s)
-            for name, clock_s in list(CLOCKS.items())[: shape.nodes]
+            for name, clock_s in zip(names, clocks_s)
         ]
         self.routers = [Router(self.nodes, self._folder, o) for o in (1, -1)[: shape.proxies]]
         for router in self.routers:
@@ -261,6 +265,7 @@ def main():
         *(getattr(arguments, name) for name in ("nodes", "proxies", "robots", "missions", "pause")),
         plan_pause_s=arguments.plan_pause,
         cuttable="cut" in kinds,
+        clocks_apart=bool(kinds),
         database=arguments.database,
     )
     folder = tempfile.mkdtemp(prefix="plumescout-cluster-")

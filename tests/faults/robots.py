@@ -32,6 +32,7 @@ CALL_S = 3.0
 PASSING = frozenset(
     {
         "DRAINING",
+        "FENCED",  # who was overtaken and has not noticed yet
         "MISSION_ELSEWHERE",
         "OVERLOADED",
         "RECOVERING",
@@ -60,7 +61,7 @@ class Route(grpc.UnaryUnaryClientInterceptor, grpc.StreamStreamClientInterceptor
             self.redirects += new
             self._node = owner
             return new
-        if bed.reason_of(error) in ("", "DRAINING", "STORE_UNAVAILABLE"):
+        if bed.reason_of(error) in ("", "DRAINING", "FENCED", "STORE_UNAVAILABLE"):
             self._node = None
         return False
 
