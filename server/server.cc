@@ -248,6 +248,7 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config
     PLUMESCOUT_RETURN_IF_ERROR(DropUnfinishedImports(*server->store_));
   }
   PLUMESCOUT_RETURN_IF_ERROR(server->registry_.FindStored());
+  server->HeedLostLeases();
   PLUMESCOUT_RETURN_IF_ERROR(server->Listen());
   PLUMESCOUT_RETURN_IF_ERROR(server->BeginRecovery());
   server->StartProbe(std::move(unreachable));
@@ -282,6 +283,16 @@ absl::Status Server::Listen() {
   return absl::OkStatus();
 }
 
+// Before any call can make it own a mission.
+void Server::HeedLostLeases() {
+  StoreNodes* const nodes = store_ == nullptr ? nullptr : store_->nodes();
+  if (nodes == nullptr) return;
+  nodes->SetOnLost([this](const absl::Status& why) {
+    LogError("lease lost", {{"why", std::string(why.message())}});
+    registry_.LoseAll(StoreTakesNothing("this node has lost its lease in it"));
+  });
+}
+
 absl::Status Server::BeginRecovery() {
   if (store_ == nullptr) return absl::OkStatus();
   const int threads = config_.store.recovery_threads;
@@ -300,12 +311,6 @@ absl::Status Server::BeginRecovery() {
   };
   // If too many wait there is one among them that has not begun, and it does for all.
   registry_.SetOnCalledFor([recover] { recover().IgnoreError(); });
-  if (StoreNodes* const nodes = store_->nodes()) {
-    nodes->SetOnLost([this](const absl::Status& why) {
-      LogError("lease lost", {{"why", std::string(why.message())}});
-      registry_.LoseAll(StoreTakesNothing("this node has lost its lease in it"));
-    });
-  }
   for (int i = 0; i < threads; ++i) PLUMESCOUT_RETURN_IF_ERROR(recover());
   return absl::OkStatus();
 }
@@ -387,7 +392,7 @@ std::string Server::MetricsText() const {
   state.store = store_;
   if (history_ != nullptr) state.pools.push_back(history_->imports.pool().load());
   if (recovery_pool_ != nullptr) state.pools.push_back(recovery_pool_->load());
-  if (store_usage_ != nullptr) state.mission_disk_bytes = store_usage_->BytesByMission();
+  if (store_usage_ != nullptr) state.store_sizes = store_usage_->sizes();
   return metrics_.Text(state);
 }
 

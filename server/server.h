@@ -93,6 +93,7 @@ class Server {
   // Whether the server takes connections and answers calls.
   absl::Status Probe();
   void StartProbe(std::function<void()> unreachable);
+  void HeedLostLeases();
   absl::Status BeginRecovery();
 
   const ServerConfig config_;

@@ -118,7 +118,7 @@ void ReadStore(const ServerState& state, Readings& readings) {
   readings.Gauge("plumescout_store_last_commit_seconds", "Duration of the last commit.");
   readings.Add(absl::ToDoubleSeconds(store.last_commit));
   readings.Gauge("plumescout_store_disk_bytes", "Size of all files of the store.");
-  readings.Add(state.store->disk_bytes());
+  readings.Add(state.store_sizes.disk_bytes);
   const AbsentCounts absent = state.missions->absent();
   readings.Gauge("plumescout_missions_recovering", "Missions that are yet to be recovered.");
   readings.Add(absent.recovering);
@@ -166,9 +166,10 @@ void ReadMissionsOnDisk(const ServerState& state, const Hosts& hosts, Readings& 
   readings.Gauge("plumescout_mission_durable_revision", "Events of the mission that are durable.");
   for (const auto& host : hosts) readings.Add(host->journal().durable_revision(), LabelsOf(*host));
   readings.Gauge("plumescout_mission_disk_bytes", "What the store keeps of the mission.");
+  const auto& sizes = state.store_sizes.mission_bytes;
   for (const auto& host : hosts) {
-    const auto found = state.mission_disk_bytes.find(MissionKey(host->tenant(), host->id()));
-    if (found != state.mission_disk_bytes.end()) readings.Add(found->second, LabelsOf(*host));
+    const auto found = sizes.find(MissionKey(host->tenant(), host->id()));
+    if (found != sizes.end()) readings.Add(found->second, LabelsOf(*host));
   }
 }
 

@@ -5,7 +5,6 @@
 #include <prometheus/registry.h>
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "server/observe/call_metrics.h"
 #include "server/observe/mission_metrics.h"
 #include "server/store/mission_store.h"
+#include "server/store_usage.h"
 
 namespace plumescout::server {
 
@@ -31,8 +31,8 @@ struct ServerState {
   // Missions beyond these, in order of name, have no series: those cost whoever keeps them.
   int max_mission_series = 100;
   bool draining = false;
-  const MissionStore* store = nullptr;                          // null: none
-  std::map<std::string, std::int64_t> mission_disk_bytes = {};  // by key, as they were lately
+  const MissionStore* store = nullptr;  // null: none
+  StoreUsage::Sizes store_sizes = {};
 };
 
 // All metrics of a server: what was counted and timed so far, and how things stand.

@@ -2,25 +2,44 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/store_usage.h"
 
-#include "absl/time/time.h"
+#include <utility>
 
 namespace plumescout::server {
-namespace {
 
-constexpr absl::Duration kLookPeriod = absl::Minutes(1);
+StoreUsage::StoreUsage(MissionStore* store, absl::Duration period)
+    : store_(store), period_(period), thread_([this] { Run(); }) {}
 
-}  // namespace
+StoreUsage::~StoreUsage() {
+  {
+    absl::MutexLock lock(&mutex_);
+    stopping_ = true;
+  }
+  thread_.join();
+}
 
-std::map<std::string, std::int64_t> StoreUsage::BytesByMission() {
+void StoreUsage::Run() {
   absl::MutexLock lock(&mutex_);
-  const SteadyTime now = clock_();
-  if (now < look_at_) return bytes_;
-  look_at_ = After(now, kLookPeriod);
+  do {
+    mutex_.Unlock();
+    Look();
+    mutex_.Lock();
+  } while (!mutex_.AwaitWithTimeout(absl::Condition(&stopping_), period_));
+}
+
+void StoreUsage::Look() {
+  if (!store_->state().status.ok()) return;
   const auto missions = store_->List();
-  if (!missions.ok()) return bytes_;
-  bytes_.clear();
-  for (const StoredMission& mission : *missions) bytes_[mission.key] = mission.bytes;
-  return bytes_;
+  if (!missions.ok()) return;
+  Sizes found;
+  found.disk_bytes = store_->disk_bytes();
+  for (const StoredMission& mission : *missions) found.mission_bytes[mission.key] = mission.bytes;
+  absl::MutexLock lock(&mutex_);
+  sizes_ = std::move(found);
+}
+
+StoreUsage::Sizes StoreUsage::sizes() const {
+  absl::MutexLock lock(&mutex_);
+  return sizes_;
 }
 
 }  // namespace plumescout::server

@@ -5,31 +5,46 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <thread>
 
 #include "absl/base/thread_annotations.h"
 #include "absl/synchronization/mutex.h"
-#include "server/base/clock.h"
+#include "absl/time/time.h"
 #include "server/store/mission_store.h"
 
 namespace plumescout::server {
 
-// How much of the disk each mission takes, looked up once a minute at most. The store is not owned
-// and outlives it. Thread-safe.
+// How much room the store takes, and each mission in it. It is looked up on a thread of its own,
+// for a disk or a database may take its time: whoever asks gets what was found last. The store is
+// not owned and outlives it. Thread-safe.
 class StoreUsage {
  public:
-  explicit StoreUsage(MissionStore* store, SteadyClock clock = SteadyNow)
-      : store_(store), clock_(std::move(clock)) {}
+  struct Sizes {
+    std::int64_t disk_bytes = 0;
+    std::map<std::string, std::int64_t> mission_bytes;  // by key
+  };
 
-  // By key. Blocks when it has to look.
-  std::map<std::string, std::int64_t> BytesByMission();
+  // Looks at once, and then every `period`.
+  explicit StoreUsage(MissionStore* store, absl::Duration period = absl::Minutes(1));
+  ~StoreUsage();
+  StoreUsage(const StoreUsage&) = delete;
+  StoreUsage& operator=(const StoreUsage&) = delete;
+
+  // Nothing until the first look is over.
+  Sizes sizes() const;
 
  private:
-  MissionStore* const store_;
-  const SteadyClock clock_;
+  void Run();
+  void Look();
 
-  absl::Mutex mutex_;
-  SteadyTime look_at_ ABSL_GUARDED_BY(mutex_) = SteadyTime::min();
-  std::map<std::string, std::int64_t> bytes_ ABSL_GUARDED_BY(mutex_);
+  MissionStore* const store_;
+  const absl::Duration period_;
+
+  mutable absl::Mutex mutex_;
+  bool stopping_ ABSL_GUARDED_BY(mutex_) = false;
+  Sizes sizes_ ABSL_GUARDED_BY(mutex_);
+
+  std::thread thread_;  // last: it uses all of the above
 };
 
 }  // namespace plumescout::server

@@ -69,6 +69,25 @@ absl::Status ErrorOf(absl::string_view state, const std::string& message) {
   return absl::InternalError(message);
 }
 
+// A machine that turns dark under an open connection is noticed in some ten seconds, unless the URL
+// says otherwise.
+PGconn* StartLink(const std::string& url, const PostgresHost& host) {
+  std::vector<const char*> keywords = {"tcp_user_timeout", "keepalives_idle", "keepalives_interval",
+                                       "keepalives_count", "dbname"};
+  std::vector<const char*> values = {"10000", "5", "2", "3", url.c_str()};
+  const auto choose = [&](const char* keyword, const std::string& value) {
+    if (value.empty()) return;
+    keywords.push_back(keyword);
+    values.push_back(value.c_str());
+  };
+  choose("host", host.host);
+  choose("hostaddr", host.address);
+  choose("port", host.port);
+  keywords.push_back(nullptr);
+  values.push_back(nullptr);
+  return PQconnectStartParams(keywords.data(), values.data(), /*expand_dbname=*/1);
+}
+
 }  // namespace
 
 PostgresStatement& PostgresStatement::Add(std::uint32_t type, std::string value) {
@@ -156,9 +175,25 @@ PostgresConnection::~PostgresConnection() { PQfinish(connection_); }
 
 absl::StatusOr<std::unique_ptr<PostgresConnection>> PostgresConnection::Open(
     const std::string& url, absl::Duration timeout) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<PostgresHost> hosts, PostgresHosts(url));
+  const SteadyTime limit = After(SteadyNow(), timeout);
+  absl::Status error;
+  for (std::size_t i = 0; i < hosts.size(); ++i) {
+    const absl::Duration left = absl::FromChrono(limit - SteadyNow());
+    auto opened = OpenAt(url, hosts[i], left / static_cast<std::int64_t>(hosts.size() - i));
+    if (!absl::IsUnavailable(opened.status())) return opened;
+    error = error.ok()
+                ? opened.status()
+                : StoreUnavailable(absl::StrCat(error.message(), "; ", opened.status().message()));
+  }
+  return error;
+}
+
+absl::StatusOr<std::unique_ptr<PostgresConnection>> PostgresConnection::OpenAt(
+    const std::string& url, const PostgresHost& host, absl::Duration timeout) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::string name, PostgresName(url));
   const SteadyTime limit = After(SteadyNow(), timeout);
-  PGconn* const link = PQconnectStart(url.c_str());
+  PGconn* const link = StartLink(url, host);
   if (link == nullptr) return StoreUnavailable(absl::StrCat(name, ": no memory"));
   PQsetNoticeProcessor(
       link, [](void*, const char*) {}, nullptr);  // else it writes to stderr

@@ -13,6 +13,7 @@
 #include "absl/strings/string_view.h"
 #include "absl/time/time.h"
 #include "server/base/clock.h"
+#include "server/store/postgres_hosts.h"
 
 struct pg_conn;
 struct pg_result;
@@ -68,6 +69,8 @@ class PostgresRows {
 // kInternal: others, which do not go away by themselves. After an error it is of no use any more.
 class PostgresConnection {
  public:
+  // Of several hosts in the URL each gets an equal share of the time that is left, so that one that
+  // is dark does not keep from the next.
   static absl::StatusOr<std::unique_ptr<PostgresConnection>> Open(const std::string& url,
                                                                   absl::Duration timeout);
   ~PostgresConnection();
@@ -86,6 +89,9 @@ class PostgresConnection {
  private:
   PostgresConnection(pg_conn* connection, std::string name);
 
+  static absl::StatusOr<std::unique_ptr<PostgresConnection>> OpenAt(const std::string& url,
+                                                                    const PostgresHost& host,
+                                                                    absl::Duration timeout);
   absl::Status FinishOpening(SteadyTime limit);
   absl::Status Send(const PostgresStatement& statement);
   absl::Status Flush(SteadyTime limit);

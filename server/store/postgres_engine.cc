@@ -3,6 +3,7 @@
 #include "server/store/postgres_engine.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "absl/strings/escaping.h"
@@ -60,6 +61,8 @@ absl::Status PostgresEngine::CommitConnected(std::span<StoreWrite> writes) {
     write.inserted = false;
     left.push_back(&write);
   }
+  std::stable_sort(left.begin(), left.end(),
+                   [](const StoreWrite* a, const StoreWrite* b) { return a->key < b->key; });
   for (int round = 0; !left.empty(); ++round) {
     if (round == kMaxRounds) {
       return StoreUnavailable(
@@ -81,17 +84,7 @@ absl::Status PostgresEngine::CommitRound(std::vector<StoreWrite*>& writes, bool 
       PLUMESCOUT_RETURN_IF_ERROR(Plan(round, *write));
     }
   }
-  if (!round.statements.empty()) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<PostgresRows> answers,
-                                connection_->RunAll(round.statements, kCommitTimeout));
-    for (const Planned& planned : round.planned) {
-      const PostgresRows& answer = answers[*planned.statement];
-      if (answer.Int(0, 0) > 0) continue;
-      planned.write->inserted = false;
-      round.put_off_keys.insert(planned.write->key);
-      round.put_off.push_back(planned.write);
-    }
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(Send(round));
   for (auto& [key, row] : round.rows) {
     known_.erase(key);
     if (round.put_off_keys.contains(key)) continue;
@@ -109,6 +102,27 @@ absl::Status PostgresEngine::CommitRound(std::vector<StoreWrite*>& writes, bool 
     if (std::find(again.begin(), again.end(), write) != again.end()) left.push_back(write);
   }
   writes = std::move(left);
+  return absl::OkStatus();
+}
+
+absl::Status PostgresEngine::Send(Round& round) {
+  if (round.statements.empty()) return absl::OkStatus();
+  std::vector<PostgresStatement> statements;
+  if (!round.forgotten.empty()) {
+    // Who died in the middle of a commit may hold a row for long; all missions wait behind this.
+    statements.emplace_back("SELECT set_config('lock_timeout', '1s', true)");
+    for (const std::int64_t lease : round.forgotten) statements.push_back(ForgetStatement(lease));
+  }
+  const std::size_t first = statements.size();
+  std::move(round.statements.begin(), round.statements.end(), std::back_inserter(statements));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<PostgresRows> answers,
+                              connection_->RunAll(statements, kCommitTimeout));
+  for (const Planned& planned : round.planned) {
+    if (answers[first + planned.statement].Int(0, 0) > 0) continue;
+    planned.write->inserted = false;
+    round.put_off_keys.insert(planned.write->key);
+    round.put_off.push_back(planned.write);
+  }
   return absl::OkStatus();
 }
 
@@ -248,9 +262,7 @@ absl::Status PostgresEngine::PlanAcquire(Round& round, StoreWrite& write) {
   ++after.row.epoch;
   after.owner = lease;
   own_[write.key] = {after.row.epoch, after.row.id};
-  // Who died in the middle of a commit may hold the row for long; all missions wait behind this.
-  round.statements.emplace_back("SELECT set_config('lock_timeout', '1s', true)");
-  round.statements.push_back(ForgetStatement(before.owner));
+  round.forgotten.insert(before.owner);
   Add(round, write, AcquireStatement(before.row, after.row, lease), after);
   mission->known.epoch = after.row.epoch;
   if (write.acquired != nullptr) *write.acquired = std::move(mission->known);
@@ -268,10 +280,7 @@ absl::Status PostgresEngine::PlanAppend(Round& round, StoreWrite& write, const S
     Add(round, write, AppendStatement(row, after.row, write.records), after);
     return absl::OkStatus();
   }
-  bool is_done = false;
-  if (write.tried) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(is_done, HoldsRecords(row, write));
-  }
+  PLUMESCOUT_ASSIGN_OR_RETURN(const bool is_done, HoldsRecords(row, write));
   if (is_done) {
     // A standby that a commit waits for may not have them yet: one more commit waits for it.
     const SharedRow after = Next(shared);
@@ -285,7 +294,7 @@ absl::Status PostgresEngine::PlanAppend(Round& round, StoreWrite& write, const S
 absl::StatusOr<bool> PostgresEngine::HoldsRecords(const MissionRow& row, const StoreWrite& write) {
   const std::int64_t last =
       write.first_number + static_cast<std::int64_t>(write.records.size()) - 1;
-  if (write.first_number <= row.base || last > row.head) return false;
+  if (!write.tried || write.first_number <= row.base || last > row.head) return false;
   const std::int64_t numbers[] = {write.first_number - 1, last};
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<std::uint32_t> chains,
                               SharedChainsAt(*connection_, row, numbers));
@@ -350,8 +359,7 @@ void PostgresEngine::Add(Round& round, StoreWrite& write, PostgresStatement stat
 }
 
 void PostgresEngine::Refuse(Round& round, StoreWrite& write, absl::Status why) {
-  const bool is_fresh = fresh_.contains(write.key);
-  if (is_fresh) {
+  if (fresh_.contains(write.key)) {
     write.result = std::move(why);
     return;
   }

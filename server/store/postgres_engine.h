@@ -28,9 +28,10 @@ struct PostgresEngineOptions {
 };
 
 // Writes to a database in PostgreSQL that other servers write to, too. A batch is one round trip
-// and one transaction. It is made of what this engine remembers of its missions; each statement
-// does nothing if its mission is not so any more, and then it is made again of what the database
-// says.
+// and one transaction, which locks rows in one order: leases by their numbers, then missions by
+// their keys. So servers whose batches meet wait for each other, and never in a circle. It is made
+// of what this engine remembers of its missions; each statement does nothing if its mission is not
+// so any more, and then it is made again of what the database says.
 class PostgresEngine final : public WriteEngine {
  public:
   explicit PostgresEngine(PostgresEngineOptions options) : options_(std::move(options)) {}
@@ -40,13 +41,13 @@ class PostgresEngine final : public WriteEngine {
   bool has_chores() const override { return has_chores_; }
 
  private:
-  // A write and its statement, or none: then it has its `result`.
   struct Planned {
     StoreWrite* write = nullptr;
-    std::optional<std::size_t> statement;
+    std::size_t statement = 0;
   };
   // What is sent at once.
   struct Round {
+    std::set<std::int64_t> forgotten;  // leases that are forgotten, in this order, before all else
     std::vector<PostgresStatement> statements;
     std::vector<Planned> planned;
     std::vector<StoreWrite*> put_off;  // to the next round, in order
@@ -57,6 +58,7 @@ class PostgresEngine final : public WriteEngine {
   absl::Status Connect();
   absl::Status CommitConnected(std::span<StoreWrite> writes);
   absl::Status CommitRound(std::vector<StoreWrite*>& writes, bool is_first);
+  absl::Status Send(Round& round);
   // Rows that are not remembered, or must not be believed.
   absl::Status LoadRows(const std::vector<StoreWrite*>& writes, bool is_first);
 
@@ -70,6 +72,7 @@ class PostgresEngine final : public WriteEngine {
   absl::Status PlanAppend(Round& round, StoreWrite& write, const SharedRow& shared);
   absl::Status PlanSnapshot(Round& round, StoreWrite& write, const SharedRow& shared);
   absl::Status PlanTrim(Round& round, StoreWrite& write, const SharedRow& shared);
+  // Whether an earlier try has written them.
   absl::StatusOr<bool> HoldsRecords(const MissionRow& row, const StoreWrite& write);
   // Epochs tell owners of one mission apart, not missions that had the same key one after another.
   bool IsOwn(const MissionRow& row) const;

@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: PlumeScout contributors
 # SPDX-License-Identifier: Apache-2.0
-# container.sh FOLDER: makes the image plumescout-server of the packages in the folder, without a
-# registry: its base is a fresh Debian 12. Starts it as a user without rights on a root that it cannot
-# write, asks for its health, and says how large it is. Needs root. scripts/packages --container runs it.
+# container.sh FOLDER PROGRAMS: makes the image plumescout-server of the packages in the folder, without
+# a registry: its base is a fresh Debian 12. Starts it as a user without rights on a root that it cannot
+# write, and asks for its health. A simulated robot, from outside, drives a mission; the server is killed,
+# started again, and has the mission. PROGRAMS has plumescout-lab. Needs root. scripts/packages
+# --container runs it.
 set -euo pipefail
-packages="$(realpath "$1")"
+packages="$(realpath "$1")" programs="$(realpath "$2")"
 root="$(cd "$(dirname "$0")/../.." && pwd)"
 "$root/scripts/setup" --container
 work="$root/out/container"
@@ -30,26 +32,72 @@ say "The image"
 image bud --isolation chroot --pull-never --format docker --quiet --build-arg BASE=debian:12 \
   --build-arg PACKAGES="${packages#"$root"/}" -t plumescout-server \
   -f "$root/deploy/container/Dockerfile" "$root" > "$work/image"
-bytes="$(image inspect --type image --format '{{.Docker.Size}}' plumescout-server 2> /dev/null || true)"
 
 say "Running it"
 container="$(image from --pull-never plumescout-server)"
 mounted="$(image mount "$container")"
+pid="" server=""
 clean_up() {
-  [[ -z "${pid:-}" ]] || { kill "$pid" && wait "$pid"; } || true
+  [[ -z "$server" ]] || kill "$server" 2> /dev/null || true
+  [[ -z "$pid" ]] || wait "$pid" || true
   image rm "$container" > /dev/null
 }
 trap clean_up EXIT
-echo "size: $(du -sm "$mounted" | cut -f1) MB${bytes:+ ($bytes bytes by the image)}"
-image run --isolation chroot "$container" -- plumescout-server --version
-image run --isolation chroot "$container" -- plumescout-server \
-  --config /etc/plumescout/plumescout.yaml > "$work/server.out" 2> "$work/server.log" &
-pid=$!
-for _ in $(seq 150); do
-  grep -q '^listening on ' "$work/server.out" && break
-  kill -0 "$pid" || { cat "$work/server.log"; exit 1; }
-  sleep 0.2
-done
-image run --isolation chroot "$container" -- bash -c \
-  "exec 3<>/dev/tcp/127.0.0.1/50552 && printf 'GET /readyz HTTP/1.0\r\n\r\n' >&3 && read -r line <&3 && echo \"\$line\""
-image run --isolation chroot "$container" -- id -un
+megabytes="$(du -sm "$mounted" | cut -f1)"
+echo "size: $megabytes MB"
+[[ "$megabytes" -lt 120 ]] || { echo "the image has grown beyond 120 MB" >&2; exit 1; }
+
+run=(image run --isolation chroot --volume "$work/state:/var/lib/plumescout" "$container" --)
+rm -rf "$work/state" && install -d -o 999 -g 999 -m 750 "$work/state"
+"${run[@]}" plumescout-server --version
+# Words of the shell alone: there is nothing else.
+[[ "$("${run[@]}" bash -c 'echo $EUID; [[ -w / || -w /etc || -w /usr/bin ]] || echo closed')" == \
+  $'999\nclosed' ]]
+check="$(sed -n '/^HEALTHCHECK/{n;p}' "$root/deploy/container/Dockerfile")"
+check="$(python3 -c 'import json, sys; print(json.loads(sys.argv[1])[2])' "$check")"
+
+# Of the container's processes, which are below `pid`: the server itself.
+find_server() {
+  local below=("$pid") next
+  while [[ ${#below[@]} -gt 0 ]]; do
+    next="${below[0]}" below=("${below[@]:1}")
+    [[ "$(cat "/proc/$next/comm" 2> /dev/null)" != plumescout-serv ]] || { echo "$next"; return; }
+    below+=($(cat /proc/"$next"/task/*/children 2> /dev/null))
+  done
+}
+start_server() {
+  "${run[@]}" plumescout-server --config /etc/plumescout/plumescout.yaml \
+    > "$work/server.out" 2> "$work/server.log" &
+  pid=$!
+  for _ in $(seq 150); do
+    grep -q '^listening on ' "$work/server.out" && break
+    kill -0 "$pid" || { cat "$work/server.log"; exit 1; }
+    sleep 0.2
+  done
+  server="$(find_server)" && [[ -n "$server" ]]
+  for _ in $(seq 150); do
+    "${run[@]}" bash -c "$check" 2> /dev/null && return
+    sleep 0.2
+  done
+  echo "the health check does not pass" >&2
+  exit 1
+}
+start_server
+
+say "A robot from outside"
+rm -rf "$work/buildings" "$work/robot"
+"$programs/plumescout-lab" scene generate --seed 1 --count 1 --out "$work/buildings" > /dev/null
+scene="$(dirname "$(find "$work/buildings" -name scene.json | head -n 1)")"
+"$programs/plumescout-lab" robot --scene "$scene" --out "$work/robot" --mission hall --duration 15 \
+  --server 127.0.0.1:50551
+kill -9 "$server"
+wait "$pid" || true
+if "${run[@]}" bash -c "$check" 2> /dev/null; then
+  echo "healthy without a server" >&2
+  exit 1
+fi
+start_server
+grep -q 'hall' "$work/server.log" || { cat "$work/server.log"; exit 1; }
+"$programs/plumescout-lab" robot --scene "$scene" --out "$work/robot" --mission hall --duration 5 \
+  --server 127.0.0.1:50551
+say "The image serves a mission, is killed, and has it again"

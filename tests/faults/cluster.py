@@ -6,7 +6,18 @@ robots in four missions. scripts/cluster builds and runs it.
   --seconds S        how long robots work
   --kill-every S     so often a server is killed (kill -9), and started again at once
   --pause-every S    so often a server is stopped (SIGSTOP) for longer than its lease, then goes on
-  --roll-every S     so often a server is drained, and started again
+  --cut-every S      so often a server's link to the database, and no other, is cut or goes silent for
+                     longer than its lease
+  --roll-every S     so often a server is drained, and started again; each in its turn
+  --database patroni the database with a standby, as production has it; needs Debian's patroni and
+                     etcd-server, which scripts/cluster then installs
+  --kill-primary-every S
+                     so often its primary is killed, with its Patroni, until another has its place
+  --proxies N        routers, 1 or 2: the second has the nodes in another order, and half of the robots
+  --nodes N          servers, 1 to 3; if there are faults, and libfaketime, n2's clock is an hour
+                     ahead
+  --robots N --missions M --pause S --plan-pause S
+                     how many, and how long each waits between what it sends and before it plans
 
 At the end each mission is exported, and a server of its own takes it in, replays it and compares its
 digest; what robots were answered has to stand in the journal, once. Exit code 1 if it does not.
@@ -14,27 +25,25 @@ digest; what robots were answered has to stand in the journal, once. Exit code 1
 
 import argparse
 import collections
-import os
+import dataclasses
 import pathlib
 import random
 import shutil
-import signal
-import subprocess
 import sys
 import tempfile
-import threading
 import time
 
 import answers
 import bed
+import patroni
 import plumescout
 import postgres
 import robots
 import running
+from cluster_parts import LEASE_S, Node, Router, Waits, cpu_s, percentile
 
-ROBOTS, MISSIONS, NODES = 8, 4, 3
-EACH = ROBOTS // MISSIONS
-LEASE_S = 1.0
+KINDS = ("kill", "pause", "cut", "roll")
+CLOCKS = {"n1": 0, "n2": 3600, "n3": 0}  # how far each server's wall clock is off, in seconds
 SHOW_S = 5.0
 OWNERS = (
     "SELECT encode(m.key, 'escape'), coalesce(n.name, '-'), p.epoch, p.head "
@@ -43,115 +52,91 @@ OWNERS = (
 )
 
 
-class Router:
-    """HAProxy with the shipped configuration."""
-
-    def __init__(self, nodes):
-        self.target = f"127.0.0.1:{running.free_port()}"
-        environment = dict(os.environ, PLUMESCOUT_ROUTER_BIND=self.target)
-        for number, node in enumerate(nodes, 1):
-            environment[f"PLUMESCOUT_NODE_{number}"] = node.server.target
-            environment[f"PLUMESCOUT_NODE_{number}_HTTP"] = str(node.http_port)
-        program = os.environ.get("PLUMESCOUT_HAPROXY") or "/usr/sbin/haproxy"
-        self._process = subprocess.Popen(
-            [program, "-db", "-f", running.ROOT / "deploy/cluster/haproxy.cfg"],
-            env=environment,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
-
-    def answers(self):
-        try:
-            with plumescout.Client(self.target, timeout_s=0.5) as client:
-                client.list_missions()
-            return True
-        except plumescout.PlumeScoutError:
-            return False
-
-    def stop(self):
-        self._process.kill()
-        self._process.wait()
-
-
-class Node:
-    def __init__(self, name, folder, store):
-        self.name, self.http_port = name, running.free_port()
-        (folder / name).mkdir()
-        self.server = bed.Server(
-            folder / name,
-            f"observe.http_listen=127.0.0.1:{self.http_port}",
-            f"store.node={name}",
-            f"store.lease_s={LEASE_S}",
-            store=store,
-        ).start()
-
-    def kill(self, _):
-        self.server.kill()
-        self.server.start()
-
-    def pause(self, seconds):
-        os.kill(self.server.process.pid, signal.SIGSTOP)
-        time.sleep(seconds)
-        os.kill(self.server.process.pid, signal.SIGCONT)
-
-    def roll(self, _):
-        self.server.stop()
-        self.server.start()
-
-
-class Waits:
-    """How long each robot was not told that anything is durable, at worst, since it was asked."""
-
-    def __init__(self, team):
-        self._team = team
-        self._worst = collections.defaultdict(float)
-        self._stop = threading.Event()
-        self._thread = threading.Thread(target=self._watch)
-        self._thread.start()
-
-    def reset(self):
-        self._worst = collections.defaultdict(float)
-
-    def worst(self):
-        return list(self._worst.values())
-
-    def _watch(self):
-        while not self._stop.wait(0.02):
-            now, worst = time.monotonic(), self._worst
-            for robot in self._team:
-                worst[id(robot)] = max(worst[id(robot)], now - robot.last_acknowledged_s)
-
-    def stop(self):
-        self._stop.set()
-        self._thread.join()
+@dataclasses.dataclass
+class Shape:
+    nodes: int = 3
+    proxies: int = 1
+    robots: int = 8
+    missions: int = 4
+    pause_s: float = 0.06
+    plan_pause_s: float = 0.2
+    cuttable: bool = True  # links to the database; costs CPU
+    clocks_apart: bool = True  # costs CPU, too
+    database: str = "single"  # or "patroni"
 
 
 class Cluster:
-    """Everything, begun; `stop` ends it. say: hears a line now and then."""
+    """Everything, begun; `stop` ends it. say: hears a line now and then. owner_faults: those that hit
+    who had missions, all of which are under load."""
 
-    def __init__(self, folder, say=print):
-        self.say, self.faults, self.waits_s = say, 0, []
+    def __init__(self, folder, shape=Shape(), say=print):
+        self.say, self.faults, self.owner_faults, self.waits_s = say, 0, 0, []
+        self._shape = shape
         self._folder = pathlib.Path(folder)
         self._folder.chmod(0o755)  # PostgreSQL is another user
-        self._database = postgres.Postgres(self._folder / "postgres", running.free_port())
-        running.await_that(self._database.make_database, "PostgreSQL answers")
-        self.nodes = [Node(f"n{i + 1}", self._folder, self._database.url) for i in range(NODES)]
-        self.router = Router(self.nodes)
-        running.await_that(self.router.answers, "the router leads to a node")
-        self.told = answers.Answers()
-        self.missions = [f"mission-{i + 1}" for i in range(MISSIONS)]
-        for mission in self.missions:
-            with robots.Stubs(self.router.target, robots.Route(mission)) as stubs:
-                robots.create_mission(stubs, mission, self.told, options=robots.cheap_options())
-        self.team = [
-            robots.Robot(self.router.target, mission, index, self.told, period_s=0.06)
-            for mission in self.missions
-            for index in range(EACH)
+        where = self._folder / "postgres"
+        if shape.database == "patroni":
+            self.database = patroni.Patroni(where)
+        else:
+            self.database = postgres.Postgres(where, running.free_port())
+        running.await_that(self.database.make_database, "PostgreSQL answers")
+        address = f"127.0.0.1:{self.database.port}"
+        names = [f"n{i + 1}" for i in range(shape.nodes)]
+        clocks_s = [CLOCKS[name] if shape.clocks_apart else 0 for name in names]
+        self.nodes = [
+            Node(name, self._folder, self.database.url_by, address, shape.cuttable, clock_s)
+            for name, clock_s in zip(names, clocks_s)
         ]
+        self.routers = [Router(self.nodes, self._folder, o) for o in (1, -1)[: shape.proxies]]
+        for router in self.routers:
+            running.await_that(router.answers, "the router leads to a node")
+        self.told = answers.Answers()
+        self.missions = [f"mission-{i + 1}" for i in range(shape.missions)]
+        self._each = shape.robots // shape.missions
+        self.team = [robot for mission in self.missions for robot in self._crew(mission)]
         for robot in self.team:
             robot.start()
         running.await_that(lambda: all(r.durable > 0 for r in self.team), "all robots are served")
         self._waits = Waits(self.team)
+        self._cpu_s, self._durable = self._cpu(), self._acknowledged()
+
+    def _crew(self, mission):
+        """Its robots, each at another router than the one before."""
+        with robots.Stubs(self.routers[0].target, robots.Route(mission)) as stubs:
+            robots.create_mission(stubs, mission, self.told, options=robots.cheap_options())
+        pace = {"period_s": self._shape.pause_s, "plan_period_s": self._shape.plan_pause_s}
+        for index in range(self._each):
+            router = self.routers[index % len(self.routers)]
+            yield robots.Robot(router.target, mission, index, self.told, **pace)
+
+    def _acknowledged(self):
+        return sum(robot.durable for robot in self.team)
+
+    def _cpu(self):
+        return {
+            "servers": sum(cpu_s(node.server.process.pid) for node in self.nodes),
+            "HAProxy": sum(cpu_s(router.process.pid) for router in self.routers),
+            "PostgreSQL": sum(map(cpu_s, self.database.pids())),
+        }
+
+    def cost(self):
+        """In words: CPU for each observation that was acknowledged since the robots began."""
+        events = self._acknowledged() - self._durable
+        parts = [
+            f"{part} {1e6 * (spent - self._cpu_s[part]) / events:.0f}"
+            for part, spent in self._cpu().items()
+        ]
+        return f"microseconds of CPU an observation, of {events}: {', '.join(parts)}"
+
+    def await_owner(self, mission):
+        """The node that has it, as robots go on."""
+
+        def find():
+            rows = self.database.ask(OWNERS)
+            names = [name for key, name, *_ in rows if key.rsplit("/", 1)[-1] == mission]
+            return next((node for node in self.nodes if node.name in names), None)
+
+        return running.await_that(find, f"somebody has {mission}")
 
     def await_progress(self):
         before = [robot.durable for robot in self.team]
@@ -161,22 +146,26 @@ class Cluster:
         )
 
     def fault(self, kind, node, chance):
-        """kill, pause or roll. Returns once all robots have gone on."""
+        """One of KINDS, or of the database: "primary". Returns once all robots have gone on."""
+        owners = [name for _, name, *_ in self.database.ask(OWNERS)]
+        owned = owners if node is self.database else [n for n in owners if n == node.name]
+        self.owner_faults += bool(owned)
         self._waits.reset()
         began = time.monotonic()
-        getattr(node, kind)(chance.uniform(1.5, 3.0) * LEASE_S)
+        getattr(node, kind)(chance, self.await_progress)
         self.await_progress()
         # Robots that did not notice are not part of it.
         hit = [wait for wait in self._waits.worst() if wait > LEASE_S / 2]
         self.waits_s += hit
         self.faults += 1
         self.say(
-            f"{kind} {node.name}: all robots go on after {time.monotonic() - began:.1f} s, "
+            f"{kind} {node.name} ({len(owned)} missions): all robots go on after "
+            f"{time.monotonic() - began:.1f} s, "
             f"{len(hit)} waited, {max(hit, default=0):.2f} s at most"
         )
 
     def show(self):
-        for key, node, epoch, head in self._database.ask(OWNERS):
+        for key, node, epoch, head in self.database.ask(OWNERS):
             mission = key.rsplit("/", 1)[-1]
             ones = [r for r in self.team if f"missions/{mission}/" in r.resource]
             self.say(
@@ -198,13 +187,13 @@ class Cluster:
         try:
             for mission in self.missions:
                 file = own / f"{mission}.journal"
-                with plumescout.Client(self.router.target, timeout_s=60) as client:
+                with plumescout.Client(self.routers[0].target, timeout_s=60) as client:
                     self._persist(lambda: client.export_mission(mission, file))
                 with plumescout.Client(server.target, timeout_s=60) as client:
                     client.import_mission(file)
         finally:
             server.stop()
-        found = answers.breaches(answers.read(server.data), self.told, robots.names(EACH))
+        found = answers.breaches(answers.read(server.data), self.told, robots.names(self._each))
         return found + [breach for robot in self.team for breach in robot.breaches]
 
     @staticmethod
@@ -219,19 +208,24 @@ class Cluster:
             time.sleep(0.2)
 
     def stop(self):
-        self.router.stop()
+        for router in self.routers:
+            router.stop()
         for node in self.nodes:
-            node.server.kill()
-        self._database.stop()
+            node.stop()
+        self.database.stop()
 
     def summary(self, breaches):
         waits = sorted(self.waits_s) or [0.0]
         verdict = f"{len(breaches)} BREACHES" if breaches else "0 lost, 0 doubled, 0 forks"
+        plans_s = [wait for robot in self.team for wait in robot.plan_waits_s]
+        failures = sum((robot.route.failures for robot in self.team), collections.Counter())
         return (
-            f"{self.faults} faults; {sum(r.durable for r in self.team)} observations were "
+            f"{self.faults} faults, {self.owner_faults} of them to who had missions; {sum(r.durable for r in self.team)} observations were "
             f"acknowledged, {self.told.count('plan')} plans answered, "
             f"{sum(r.route.redirects for r in self.team)} redirects; robots that a fault hit waited "
-            f"{waits[len(waits) // 2]:.2f} s (p50), {waits[-1]:.2f} s (max): {verdict}"
+            f"{waits[len(waits) // 2]:.2f} s (p50), {waits[-1]:.2f} s (max); plans were waited for "
+            f"{percentile(plans_s, 0.5):.2f} s (p50), {percentile(plans_s, 0.99):.2f} s (p99); calls "
+            f"that ended otherwise: {dict(failures)}: {verdict}"
         )
 
 
@@ -251,25 +245,45 @@ def main():
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--seconds", type=float, default=60)
-    for kind in ("kill", "pause", "roll"):
+    for kind in KINDS:
         parser.add_argument(f"--{kind}-every", type=float)
+    for name, standard in (("nodes", 3), ("proxies", 1), ("robots", 8), ("missions", 4)):
+        parser.add_argument(f"--{name}", type=int, default=standard)
+    parser.add_argument("--database", choices=("single", "patroni"), default="single")
+    parser.add_argument("--kill-primary-every", type=float)
+    parser.add_argument("--pause", type=float, default=0.06)
+    parser.add_argument("--plan-pause", type=float, default=0.2)
     parser.add_argument("--seed", type=int, default=int(time.time()) % 1_000_000)
     arguments = parser.parse_args()
     chance = random.Random(arguments.seed)
-    periods = {kind: getattr(arguments, f"{kind}_every") for kind in ("kill", "pause", "roll")}
+    periods = {kind: getattr(arguments, f"{kind}_every") for kind in KINDS}
+    periods["primary"] = arguments.kill_primary_every
     kinds = {kind: period_s for kind, period_s in periods.items() if period_s}
+    if "primary" in kinds and arguments.database != "patroni":
+        parser.error("--kill-primary-every: there is no standby but with --database patroni")
+    shape = Shape(
+        *(getattr(arguments, name) for name in ("nodes", "proxies", "robots", "missions", "pause")),
+        plan_pause_s=arguments.plan_pause,
+        cuttable="cut" in kinds,
+        clocks_apart=bool(kinds),
+        database=arguments.database,
+    )
     folder = tempfile.mkdtemp(prefix="plumescout-cluster-")
     print(f"--seed {arguments.seed}, in {folder}", flush=True)
-    cluster = Cluster(folder, say=lambda line: print(line, flush=True))
+    cluster = Cluster(folder, shape, say=lambda line: print(line, flush=True))
     try:
         begin, shown, done = time.monotonic(), 0.0, collections.Counter()
         while time.monotonic() - begin < arguments.seconds:
             if kind := due(kinds, begin, done):
-                cluster.fault(kind, chance.choice(cluster.nodes), chance)
+                turn = cluster.nodes[done[kind] % shape.nodes]
+                others = cluster.database if kind == "primary" else chance.choice(cluster.nodes)
+                cluster.fault(kind, turn if kind == "roll" else others, chance)
             if time.monotonic() - shown > SHOW_S:
                 cluster.show()
                 shown = time.monotonic()
             time.sleep(0.1)
+        if not kinds:  # who was started again has none of what it spent before
+            print(cluster.cost())
         cluster.stop_robots()
         breaches = cluster.breaches()
         print(cluster.summary(breaches), *breaches, sep="\n  ")

@@ -1,32 +1,35 @@
 # SPDX-FileCopyrightText: PlumeScout contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Three servers share a PostgreSQL behind the shipped router, and are killed, stopped for longer than
-their lease, and drained: what was acknowledged stands in the journals, once, and they replay."""
+"""Three servers share a PostgreSQL behind two routers that see them differently, and are killed,
+stopped for longer than their lease, cut from the database alone, and drained: what was acknowledged
+stands in the journals, once, and they replay."""
 
 import unittest
 
 import bed
 import cluster
 
-FAULTS = {"ci": ("kill", "pause", "roll", "kill"), "long": ("kill", "pause", "roll") * 70}
+FAULTS = {"ci": cluster.KINDS, "long": cluster.KINDS * 50}
 
 
 class ClusterTest(unittest.TestCase):
     def test_no_fault_loses_doubles_or_forks_anything(self):
         chance = bed.random_of("cluster")
-        running = cluster.Cluster(bed.folder_of(self))
+        running = cluster.Cluster(bed.folder_of(self), cluster.Shape(proxies=2))
         self.addCleanup(running.stop)
         try:
             for number, kind in enumerate(bed.size(FAULTS["ci"], FAULTS["long"])):
-                # Each node in turn, so that whoever took over is hit next.
-                running.fault(kind, running.nodes[number % cluster.NODES], chance)
-                running.await_progress()
+                mission = running.missions[number % len(running.missions)]
+                running.fault(kind, running.await_owner(mission), chance)
             running.show()
         finally:
             running.stop_robots()
         breaches = running.breaches()
         print(running.summary(breaches))
         self.assertEqual(breaches, [])
+        self.assertEqual(running.owner_faults, running.faults, "all hit who had missions under load")
+        redirects = sum(robot.route.redirects for robot in running.team)
+        self.assertGreater(redirects, 0, "the routers' lists lead to different nodes")
 
 
 if __name__ == "__main__":

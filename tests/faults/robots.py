@@ -3,6 +3,7 @@
 """Robots that stream what they see in the room, ask for plans and report them, whatever becomes of
 the server; all that they are answered goes into an Answers."""
 
+import collections
 import random
 import threading
 import time
@@ -31,6 +32,7 @@ CALL_S = 3.0
 PASSING = frozenset(
     {
         "DRAINING",
+        "FENCED",  # who was overtaken and has not noticed yet
         "MISSION_ELSEWHERE",
         "OVERLOADED",
         "RECOVERING",
@@ -42,21 +44,24 @@ PASSING = frozenset(
 
 class Route(grpc.UnaryUnaryClientInterceptor, grpc.StreamStreamClientInterceptor):
     """Where a mission's calls go behind a router, as the clients do it: with its name, and to the
-    node that was told to have it until that does not answer. redirects: how many were told."""
+    node that was told to have it until that does not answer. redirects: how many were told;
+    failures: how many calls ended so, by reason."""
 
     def __init__(self, mission):
         self._mission, self._node = mission, None
         self.redirects = 0
+        self.failures = collections.Counter()
 
     def note(self, error):
         """True: the call may be made again at once."""
+        self.failures[bed.reason_of(error) or error.code().name] += 1
         if bed.reason_of(error) == "MISSION_ELSEWHERE":
             owner = dict(error.trailing_metadata() or ()).get("x-owner")
             new = owner is not None and owner != self._node
             self.redirects += new
             self._node = owner
             return new
-        if bed.reason_of(error) in ("", "DRAINING", "STORE_UNAVAILABLE"):
+        if bed.reason_of(error) in ("", "DRAINING", "FENCED", "STORE_UNAVAILABLE"):
             self._node = None
         return False
 
@@ -190,9 +195,20 @@ class Outbox:
 
 class Robot:
     """One robot of a mission, on two threads: one streams, one plans. What it does not expect is in
-    `breaches`. limit: it has no more observations than that."""
+    `breaches`. limit: it has no more observations than that. plan_waits_s: of each plan, from when it
+    was asked for first until it was there."""
 
-    def __init__(self, target, mission, index, answers, batch=4, period_s=0.03, limit=1 << 40):
+    def __init__(
+        self,
+        target,
+        mission,
+        index,
+        answers,
+        batch=4,
+        period_s=0.03,
+        limit=1 << 40,
+        plan_period_s=0.2,
+    ):
         self.name = f"robot-{index}"
         self.index = index
         self.batch = batch
@@ -200,11 +216,14 @@ class Robot:
         self.sent = 0
         self.streams = 0  # opened
         self.plans = 0
+        self.plan_waits_s = []
         self.breaches = []
         self.last_acknowledged_s = None  # of the monotonic clock: when durable last grew
         self._mission = mission
         self._answers = answers
         self._period_s = period_s
+        self._plan_period_s = plan_period_s
+        self._asked_s = None  # when the plan that is not there yet was asked for first
         self.resource = f"missions/{mission}/robots/{self.name}"
         self._log_epoch = random.getrandbits(52) + 1
         self._token = 0
@@ -323,7 +342,7 @@ class Robot:
             self._call.cancel()
 
     def _plan(self):
-        while not self._stopping.wait(0.2):
+        while not self._stopping.wait(0.2 if self._asked_s else self._plan_period_s):
             if self._token == 0:
                 continue
             try:
@@ -342,7 +361,10 @@ class Robot:
             robot=self.resource, lease_token=self._token, max_edge_evaluation_count=300
         )
         request.planning_budget.FromMilliseconds(100)
+        self._asked_s = self._asked_s or time.monotonic()
         plan = self._stubs.planning.NextBestTrajectory(request, timeout=CALL_S).plan
+        self.plan_waits_s.append(time.monotonic() - self._asked_s)
+        self._asked_s = None
         number = int(plan.name.rsplit("/", 1)[-1])
         self.plans += 1
         self._answers.note("plan", self._mission, number, self.name)

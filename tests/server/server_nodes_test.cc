@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "absl/base/thread_annotations.h"
 #include "absl/synchronization/mutex.h"
@@ -15,6 +17,7 @@
 #include "server/server.h"
 #include "tests/server/fake_nodes.h"
 #include "tests/server/stored_run.h"
+#include "tests/support/temp_folder.h"
 
 namespace plumescout::server {
 namespace server_nodes_test {
@@ -133,6 +136,39 @@ TEST_F(ServerNodesTest, WhoIsDrainedReleasesItsMissions) {
   ASSERT_TRUE(Get("yard").status.ok());
   server_->Drain();
   EXPECT_EQ(store_.released(), (std::map<std::string, std::int64_t>{{"yard", 2}}));
+}
+
+// Notes whether calls could come already when the server began to heed what it is told of leases.
+class WatchedStore final : public SharedStore {
+ public:
+  explicit WatchedStore(std::string socket) : socket_(std::move(socket)) {}
+  void SetOnLost(OnLost on_lost) override {
+    if (on_lost) {
+      is_heeded = true;
+      was_listening = std::filesystem::exists(socket_);
+    }
+    SharedStore::SetOnLost(std::move(on_lost));
+  }
+  bool is_heeded = false;
+  bool was_listening = false;
+
+ private:
+  const std::string socket_;
+};
+
+TEST(ServerLeaseTest, LostLeasesAreHeededBeforeCallsAreTaken) {
+  const TempFolder folder;
+  const std::string socket = folder.path() + "/grpc.sock";
+  WatchedStore store(socket);
+  RegistryHooks hooks;
+  hooks.store = &store;
+  ServerConfig config;
+  config.listen = "unix:" + socket;
+  const auto server = Server::Start(config, hooks);
+  ASSERT_TRUE(server.ok()) << server.status();
+  EXPECT_TRUE(std::filesystem::exists(socket));
+  EXPECT_TRUE(store.is_heeded);
+  EXPECT_FALSE(store.was_listening);
 }
 
 }  // namespace server_nodes_test

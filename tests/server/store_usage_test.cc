@@ -4,24 +4,63 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+
+#include "absl/synchronization/notification.h"
 #include "tests/server/held_store.h"
 
 namespace plumescout::server {
 namespace store_usage_test {
 
-TEST(StoreUsageTest, LooksOnceAMinute) {
-  HeldStore store;
+// Waits until the sizes are so; the test's own deadline ends it else.
+template <typename Condition>
+StoreUsage::Sizes AwaitSizes(const StoreUsage& usage, const Condition& condition) {
+  while (true) {
+    StoreUsage::Sizes sizes = usage.sizes();
+    if (condition(sizes)) return sizes;
+    std::this_thread::yield();
+  }
+}
+
+class SizedStore : public HeldStore {
+ public:
+  std::int64_t disk_bytes() const override { return 4096; }
+};
+
+// One that hangs, as a database on a network that is gone.
+class HangingStore final : public SizedStore {
+ public:
+  absl::StatusOr<std::vector<StoredMission>> List() override {
+    asked.Notify();
+    answers.WaitForNotification();
+    return SizedStore::List();
+  }
+  absl::Notification asked;
+  absl::Notification answers;
+};
+
+TEST(StoreUsageTest, LooksAgainAndAgain) {
+  SizedStore store;
   ASSERT_TRUE(store.Create("hall", "header").ok());
-  SteadyTime now;
-  StoreUsage usage(&store, [&] { return now; });
-  EXPECT_EQ(usage.BytesByMission().count("hall"), 1U);
+  const StoreUsage usage(&store, absl::Milliseconds(1));
+  AwaitSizes(usage, [](const auto& sizes) { return sizes.mission_bytes.size() == 1; });
   ASSERT_TRUE(store.Create("acme/yard", "header").ok());
-  now += std::chrono::seconds(59);
-  EXPECT_EQ(usage.BytesByMission().size(), 1U);
-  now += std::chrono::seconds(1);
-  const auto bytes = usage.BytesByMission();
-  ASSERT_EQ(bytes.size(), 2U);
-  EXPECT_GT(bytes.at("acme/yard"), 0);
+  const StoreUsage::Sizes both =
+      AwaitSizes(usage, [](const auto& sizes) { return sizes.mission_bytes.size() == 2; });
+  EXPECT_GT(both.mission_bytes.at("acme/yard"), 0);
+  EXPECT_EQ(both.disk_bytes, 4096);
+}
+
+TEST(StoreUsageTest, NobodyWaitsForAStoreThatHangs) {
+  HangingStore store;
+  ASSERT_TRUE(store.Create("hall", "header").ok());
+  {
+    const StoreUsage usage(&store, absl::Hours(1));
+    store.asked.WaitForNotification();
+    EXPECT_TRUE(usage.sizes().mission_bytes.empty());
+    store.answers.Notify();
+    AwaitSizes(usage, [](const auto& sizes) { return sizes.mission_bytes.contains("hall"); });
+  }
 }
 
 }  // namespace store_usage_test

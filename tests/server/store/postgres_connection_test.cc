@@ -4,11 +4,15 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <string>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
 #include "core/types/error_reason.h"
+#include "server/base/tcp_listener.h"
 #include "tests/support/postgres_server.h"
 
 namespace plumescout::server {
@@ -54,6 +58,31 @@ TEST_F(PostgresConnectionTest, ValuesComeBackAsTheyWere) {
   EXPECT_EQ(parted->Int(1, 0), 1LL << 40);
   EXPECT_EQ(parted->Bytes(0, 1), bytes);
   EXPECT_EQ(parted->Bytes(1, 1), "");
+}
+
+// Takes connections and never says anything.
+class DarkHost {
+ public:
+  DarkHost() { fd_ = ListenOnTcp("127.0.0.1:0").value(); }
+  ~DarkHost() { close(fd_); }
+  int port() const { return ListenerPort(fd_); }
+
+ private:
+  int fd_ = -1;
+};
+
+TEST_F(PostgresConnectionTest, AHostThatIsDarkDoesNotKeepFromTheNext) {
+  const DarkHost dark;
+  const std::string url =
+      absl::StrReplaceAll(url_, {{"host=", "host=127.0.0.1,"}}) +
+      absl::StrCat("&port=", dark.port(), ",5432&target_session_attrs=read-write");
+  const auto opened = PostgresConnection::Open(url, absl::Seconds(4));
+  ASSERT_TRUE(opened.ok()) << opened.status();
+  EXPECT_TRUE((*opened)->Run(PostgresStatement("SELECT 1"), kPatience).ok());
+  const std::string nowhere =
+      absl::StrCat("postgresql://u@127.0.0.1:", dark.port(), ",127.0.0.1:", dark.port(), "/d");
+  const absl::Status away = PostgresConnection::Open(nowhere, absl::Milliseconds(50)).status();
+  EXPECT_EQ(ErrorReason(away), reason::kStoreUnavailable) << away;
 }
 
 TEST_F(PostgresConnectionTest, AllStatementsAreDoneOrNone) {

@@ -7,10 +7,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <future>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "core/types/error_reason.h"
 #include "server/store/postgres_schema.h"
 #include "tests/server/store/shared_work.h"
@@ -145,6 +147,41 @@ TEST_F(PostgresEngineTest, WhatWasWrittenAlreadyIsNotWrittenTwice) {
   EXPECT_EQ(ErrorReason(batch[1].result), reason::kFenced);
   EXPECT_TRUE(batch[2].result.ok()) << batch[2].result;
   EXPECT_EQ(ReadAll(*store_, "house")->size(), 3U);
+}
+
+TEST_F(PostgresEngineTest, BatchesThatMeetDoNotWaitInACircle) {
+  const auto first = MakeEngine();
+  const auto second = MakeEngine();
+  const auto blocker = PostgresConnection::Open(url_, absl::Seconds(30)).value();
+  const auto block = [&](const char* sql) {
+    ASSERT_TRUE(blocker->Run(PostgresStatement(sql), absl::Seconds(30)).ok()) << sql;
+  };
+  const auto waiting = [this](int count) {
+    return Eventually([&] {
+      return PostgresServer::Shared().Ask(
+                 url_, "SELECT count(*) FROM pg_stat_activity WHERE wait_event_type = 'Lock'") ==
+             std::to_string(count);
+    });
+  };
+  const auto make = [](PostgresEngine& engine, std::vector<std::string> keys) {
+    return std::async(std::launch::async, [&engine, keys] {
+      std::vector<StoreWrite> batch;
+      for (const std::string& key : keys) batch.push_back(Write(Kind::kCreate, key, 1));
+      const absl::Status status = engine.Commit(batch);
+      if (!status.ok()) return status.ToString();
+      return absl::StrCat(batch[0].result.ok(), batch[1].result.ok());
+    });
+  };
+  block("BEGIN");
+  block("INSERT INTO plumescout_mission(id, key, header, crc) VALUES(0, 'house', '', 0)");
+  auto ahead = make(*first, {"house", "mill"});
+  ASSERT_TRUE(waiting(1));
+  // If it had the mill already when it comes to the house, neither could go on.
+  auto behind = make(*second, {"mill", "house"});
+  ASSERT_TRUE(waiting(2));
+  block("ROLLBACK");
+  const std::vector<std::string> answers = {ahead.get(), behind.get()};
+  EXPECT_THAT(answers, ::testing::UnorderedElementsAre("11", "00"));
 }
 
 TEST_F(PostgresEngineTest, ACreationThatWasAnsweredWithAnErrorIsTakenBack) {

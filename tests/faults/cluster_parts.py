@@ -1,0 +1,166 @@
+# SPDX-FileCopyrightText: PlumeScout contributors
+# SPDX-License-Identifier: Apache-2.0
+"""What a cluster on this machine is made of: routers, nodes whose links to the database can be cut,
+and who watches what robots wait for."""
+
+import collections
+import os
+import pathlib
+import signal
+import subprocess
+import threading
+import time
+
+import bed
+import fault_proxy
+import plumescout
+import running
+
+LEASE_S = 1.0
+CONFIGURATION = running.ROOT / "deploy/cluster/haproxy.cfg"
+
+
+class Router:
+    """HAProxy with the shipped configuration. order: of the nodes in its list, which the hash goes by:
+    routers with different lists take missions to different nodes."""
+
+    def __init__(self, nodes, folder, order=1):
+        self.target = f"127.0.0.1:{running.free_port()}"
+        environment = dict(os.environ, PLUMESCOUT_ROUTER_BIND=self.target)
+        for number, node in enumerate(nodes, 1):
+            environment[f"PLUMESCOUT_NODE_{number}"] = node.server.target
+            environment[f"PLUMESCOUT_NODE_{number}_HTTP"] = str(node.http_port)
+        lines = CONFIGURATION.read_text().splitlines()
+        listed = [line for line in lines if line.split()[:1] == ["server"]]
+        names = {node.name for node in nodes}
+        kept = [line for line in listed if line.split()[1] in names][::order]
+        rest = [line for line in lines if line not in listed]
+        rest = [line for line in rest if not self._uses_another(line, names)]
+        own = pathlib.Path(folder) / f"haproxy{order}.cfg"
+        own.write_text("\n".join([*rest, *kept, ""]))
+        program = os.environ.get("PLUMESCOUT_HAPROXY") or "/usr/sbin/haproxy"
+        self.process = subprocess.Popen(
+            [program, "-db", "-f", own],
+            env=environment,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+
+    @staticmethod
+    def _uses_another(line, names):
+        return line.split()[:1] == ["use-server"] and line.split()[1] not in names
+
+    def answers(self):
+        try:
+            with plumescout.Client(self.target, timeout_s=0.5) as client:
+                client.list_missions()
+            return True
+        except plumescout.PlumeScoutError:
+            return False
+
+    def stop(self):
+        self.process.kill()
+        self.process.wait()
+
+
+def by_clock(offset_s):
+    """The environment of a program whose wall clock is off by so much; its steady clock goes on. Empty
+    without libfaketime."""
+    libraries = sorted(pathlib.Path("/usr/lib").glob("*/faketime/libfaketimeMT.so.1"))
+    if not libraries or offset_s == 0:
+        return {}
+    return {
+        "LD_PRELOAD": str(libraries[0]),
+        "FAKETIME": f"{offset_s:+}s",
+        "FAKETIME_DONT_FAKE_MONOTONIC": "1",
+    }
+
+
+class Node:
+    """A server, which reaches the database through a proxy of its own if its link is to be cut."""
+
+    def __init__(self, name, folder, store_of, database, cuttable, clock_s=0):
+        self.name, self.http_port = name, running.free_port()
+        self._link = fault_proxy.Proxy(database) if cuttable else None
+        (folder / name).mkdir()
+        self.server = bed.Server(
+            folder / name,
+            f"observe.http_listen=127.0.0.1:{self.http_port}",
+            f"store.node={name}",
+            f"store.lease_s={LEASE_S}",
+            "limits.max_missions=256",
+            environment=by_clock(clock_s),
+            store=store_of(self._link.target if cuttable else database),
+        ).start()
+
+    # Faults. while_down: called while the node is out, for as long as others take to go on.
+
+    def kill(self, chance, while_down):
+        del chance, while_down
+        self.server.kill()
+        self.server.start()
+
+    def pause(self, chance, while_down):
+        os.kill(self.server.process.pid, signal.SIGSTOP)
+        time.sleep(chance.uniform(1.5, 3.0) * LEASE_S)
+        os.kill(self.server.process.pid, signal.SIGCONT)
+
+    def cut(self, chance, while_down):
+        """From the database alone: robots and routers reach it all the time."""
+        self._link.set_state(chance.choice(("cut", "half_open")))
+        time.sleep(chance.uniform(1.5, 3.0) * LEASE_S)
+        while_down()
+        self._link.set_state("up")
+
+    def roll(self, chance, while_down):
+        del chance, while_down
+        self.server.stop()
+        self.server.start()
+
+    def stop(self):
+        self.server.kill()
+        if self._link is not None:
+            self._link.stop()
+
+
+class Waits:
+    """How long each robot was not told that anything is durable, at worst, since it was asked."""
+
+    def __init__(self, team):
+        self._team = team
+        self._worst = collections.defaultdict(float)
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._watch)
+        self._thread.start()
+
+    def reset(self):
+        self._worst = collections.defaultdict(float)
+
+    def worst(self):
+        return list(self._worst.values())
+
+    def _watch(self):
+        while not self._stop.wait(0.02):
+            now, worst = time.monotonic(), self._worst
+            for robot in self._team:
+                worst[id(robot)] = max(worst[id(robot)], now - robot.last_acknowledged_s)
+
+    def stop(self):
+        self._stop.set()
+        self._thread.join()
+
+
+def cpu_s(pid):
+    """Of a process and all that it has or had below it."""
+    try:
+        fields = pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
+        below = pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+    except OSError:
+        return 0.0  # gone meanwhile
+    own = sum(map(int, fields[11:15])) / os.sysconf("SC_CLK_TCK")
+    return own + sum(cpu_s(child) for child in below)
+
+
+def percentile(values, share):
+    ordered = sorted(values) or [0.0]
+    return ordered[min(len(ordered) - 1, int(share * len(ordered)))]
