@@ -21,6 +21,7 @@
 #include "core/plan/plan_start.h"
 #include "core/plan/right_of_way.h"
 #include "core/plan/selection/choice.h"
+#include "core/plan/selection/selection.h"
 #include "core/plan/trajectory_timing.h"
 #include "core/plan/wait_place.h"
 #include "core/plan/way_round.h"
@@ -85,8 +86,9 @@ absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
       PLUMESCOUT_RETURN_IF_ERROR(PlanLastWayHome(*start.departure, call, plan));
     }
   }
-  Conclude(start.pose.yaw_rad, options_, plan);
-  if (WaitOutOfTheWay(belief, options_, plan)) plan.explanation = Explain(plan, options_);
+  const PlanningOptions judging = InField(options_, belief.options->gas);
+  Conclude(start.pose.yaw_rad, judging, plan);
+  if (WaitOutOfTheWay(belief, options_, plan)) plan.explanation = Explain(plan, judging);
   if (IsOver(belief) && plan.end == PlanEnd::kMissionComplete) {
     plan.explanation = "Stay: the mission is complete.";
   }
@@ -181,7 +183,7 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
     LeadRound({query, departure, problem, judge}, *waits, plan);
     YieldToRobots(*waits, departure.yaw_rad, options_, plan);
   }
-  Choose(foreseen, options_, stop, plan);
+  Choose(foreseen, InField(options_, mission.gas), stop, plan);
   const bool budget_spent = request.max_edge_evaluations > 0 &&
                             plan.effort.edges_evaluated >= request.max_edge_evaluations;
   return stopped_empty && !budget_spent ? StoppedBeforeAnyPath() : absl::OkStatus();

@@ -11,6 +11,12 @@ namespace {
 
 constexpr double kLeast_s = 1e-3;  // a candidate takes this long at least
 
+// Twice what a reading in open air that nobody has read tells of its own cell, nats.
+double ToldByReading_nats(const GasOptions& gas) {
+  return std::log1p(gas.observation_precision_per_ppm2 *
+                    std::max(0.0, OpenLatticeVariance_ppm2(gas)));
+}
+
 double WorthOf_nats(const Candidate& candidate, double nats, const PlanningOptions& options) {
   return nats + (EndsAtTheUnseen(candidate) ? options.unseen_information_nats : 0.0);
 }
@@ -41,6 +47,11 @@ SelectionRule Applicable(const std::vector<Candidate>& candidates, SelectionRule
 
 bool EndsAtTheUnseen(const Candidate& candidate) {
   return candidate.goal.kind == GoalKind::kOccupancyFrontier;
+}
+
+PlanningOptions InField(PlanningOptions options, const GasOptions& gas) {
+  options.unseen_information_nats *= ToldByReading_nats(gas) / ToldByReading_nats(GasOptions{});
+  return options;
 }
 
 double Worth_nats(const Candidate& candidate, const PlanningOptions& options) {

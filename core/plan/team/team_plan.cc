@@ -75,7 +75,10 @@ class TeamSearch {
  public:
   TeamSearch(const Strategy& strategy, const Belief& belief, const TeamRequest& request,
              const StopFn& stop)
-      : strategy_(strategy), options_(belief.options->planning), request_(request), stop_(stop) {}
+      : strategy_(strategy),
+        options_(InField(belief.options->planning, belief.options->gas)),
+        request_(request),
+        stop_(stop) {}
 
   int searches() const { return searches_; }
 
@@ -135,7 +138,7 @@ class TeamSearch {
 
  private:
   const Strategy& strategy_;
-  const PlanningOptions& options_;
+  const PlanningOptions options_;
   const TeamRequest& request_;
   const StopFn& stop_;
   int searches_ = 0;
@@ -259,7 +262,7 @@ TeamValue ValueOf(const std::vector<Plan>& plans, const PlanningOptions& options
 absl::StatusOr<TeamPlan> PlanTeam(const Strategy& strategy, const Belief& belief,
                                   const TeamRequest& request, const StopFn& stop) {
   PLUMESCOUT_ASSIGN_OR_RETURN(std::vector<RobotId> robots, TeamOf(belief, request));
-  const PlanningOptions& options = belief.options->planning;
+  const PlanningOptions options = InField(belief.options->planning, belief.options->gas);
   TeamSearch search(strategy, belief, request, stop);
   TeamPlan team;
   FirstOrder first = FindFirstOrder(belief, search, robots);

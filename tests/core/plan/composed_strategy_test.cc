@@ -7,9 +7,12 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <set>
+#include <string>
 #include <vector>
 
+#include "core/gas/gas_map.h"
 #include "lab/worlds/random_world.h"
 #include "tests/support/goal_case.h"
 #include "tests/support/strategy_case.h"
@@ -98,6 +101,28 @@ TEST(Strategy, PlansToTheCheapestFrontier) {
   }
   EXPECT_THAT(plan->explanation, HasSubstr("an occupancy frontier"));
   EXPECT_GT(plan->effort.samples, 0);
+}
+
+// Into a room with unseen parts, in a field of this smoothness.
+std::string WhyThere(double prior_precision_per_ppm2) {
+  Belief belief = SmallBelief(kRoom);
+  MissionOptions mission = *belief.options;
+  mission.gas.prior_precision_per_ppm2 = prior_precision_per_ppm2;
+  belief.options = std::make_shared<const MissionOptions>(mission);
+  GasMap gas(mission.gas);
+  EXPECT_TRUE(gas.Refresh(*belief.occupancy, 0).ok());
+  belief.gas_mean_ppm = std::make_shared<const Grid<float>>(gas.mean_ppm());
+  belief.gas_variance_ppm2 = std::make_shared<const Grid<float>>(gas.variance_ppm2());
+  belief.gas_what_if = gas.what_if();
+  const absl::StatusOr<Plan> plan = TryPlan(belief, For("r", 5), PlanningOptions());
+  EXPECT_TRUE(plan.ok()) << plan.status();
+  return plan.ok() ? plan->explanation : "";
+}
+
+TEST(Strategy, CountsWhatIsUnseenInTheUnitOfTheField) {
+  EXPECT_THAT(WhyThere(3.0), HasSubstr("nats and 20 for what is unseen"));
+  // ln(1 + 10 * 6.4227) / ln(1 + 10 * 0.30431) = 2.9906 times as much
+  EXPECT_THAT(WhyThere(0.1), HasSubstr("nats and 59.8 for what is unseen"));
 }
 
 TEST(Strategy, TimesTheTrajectoryOfTheChosenCandidate) {

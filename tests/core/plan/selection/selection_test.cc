@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace plumescout {
 namespace selection_test {
 
@@ -75,6 +77,21 @@ TEST(SelectCandidate, CountsWhatIsUnseenAsMuchAsItIsTold) {
   options.unseen_information_nats = 0.0;
   EXPECT_EQ(SelectCandidate({Informed(1.1, 10), frontier}, options), 0);
   EXPECT_FALSE(BeatsByMargin(frontier, Informed(1, 10), options));
+}
+
+TEST(InField, CountsWhatIsUnseenByWhatAReadingTells) {
+  PlanningOptions options;
+  options.unseen_information_nats = 12.0;
+  GasOptions gas;
+  EXPECT_DOUBLE_EQ(InField(options, gas).unseen_information_nats, 12.0);
+  // ln(32 lambda_p / lambda_d) / (4 pi lambda_p) is 0.30431 ppm^2 and, with 0.1, 6.4227 ppm^2.
+  gas.prior_precision_per_ppm2 = 0.1;
+  EXPECT_NEAR(InField(options, gas).unseen_information_nats,
+              12.0 * std::log(1.0 + 64.227) / std::log(1.0 + 3.0431), 0.005);
+  gas.observation_precision_per_ppm2 = 1e-9;
+  EXPECT_LT(InField(options, gas).unseen_information_nats, 1e-6) << "readings that tell nothing";
+  options.unseen_information_nats = 0.0;
+  EXPECT_EQ(InField(options, GasOptions{}).unseen_information_nats, 0.0);
 }
 
 TEST(SelectCandidate, PassesOverWhatWasNotPricedUnlessNothingWas) {
