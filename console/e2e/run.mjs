@@ -13,7 +13,7 @@ import { join, resolve } from 'node:path';
 import { parseArgs } from 'node:util';
 import { checkAccess } from './axe.mjs';
 import { BIN, PATIENCE_MS, cleanUp, data, drive, driveToEnd, end, launch, serve, until } from './harness.mjs';
-import { lookAround } from './report.mjs';
+import { lookAround, openSaved } from './report.mjs';
 
 const { values: options } = parseArgs({ options: {
   out: { type: 'string', default: '../out/console' },
@@ -388,7 +388,7 @@ async function time(origin) {
   });
 }
 
-async function objective(origin, server) {
+async function objective(origin, server, browser) {
   await step('how an objective stands is seen on the map', async () => {
     await page.goto(`${origin}/#/new`);
     await page.getByLabel('Name').fill('leak');
@@ -405,6 +405,9 @@ async function objective(origin, server) {
     await tab('Charts').click();
     await page.locator('.chart', { hasText: /^Undecided area/ }).waitFor();
     await picture('objective');
+    await tab('Operate').click();
+    const report = (await download('Report (HTML)')).toString();
+    await openSaved(browser, report, OUT, [/^leak, revision \d+$/, 'map where there is more than 10 ppm, 95 % sure', 'still open']);
     await page.goto(`${origin}/#/missions/hall`);
     await see('live, revision');
     assert.equal(await button('Objective').count(), 0);
@@ -582,7 +585,7 @@ try {
   await operation();
   await areas();
   await time(origin);
-  await objective(origin, server);
+  await objective(origin, server, browser);
   await service(origin);
   await pictures(origin);
   await everybody(origin);
