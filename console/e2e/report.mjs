@@ -6,6 +6,7 @@ import { execFileSync } from 'node:child_process';
 import { writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
+import { checkSwitches } from './effects.mjs';
 import { BIN, PATIENCE_MS, data } from './harness.mjs';
 
 const PRINTED_PAGE = /\/Type\s*\/Page\b/g;
@@ -40,6 +41,7 @@ export async function lookAround(browser, scene, out) {
   await explorer.getByText(/^plan 1 of \d+/).waitFor();
   await explorer.getByText(/goals it could drive to/).waitFor();
   await page.screenshot({ path: join(out, 'report.png') });
+  await checkSwitches(explorer, ['ways of robots', 'claimed goals', 'trails', 'frontiers', 'names', 'candidates of the plan']);
   await explorer.getByRole('button', { name: 'Error' }).click();
   await explorer.getByText('Estimated gas mean less the true one, ppm').waitFor();
   await explorer.getByRole('button', { name: 'Truth' }).click();

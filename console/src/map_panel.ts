@@ -76,6 +76,8 @@ export class MapPanel {
       this.tools, this.banner, this.readout, this.legend);
     this.listen(this.canvas);
     this.listen(this.pinnedCanvas);
+    new ResizeObserver(() => this.map.cover({ width: this.legend.offsetLeft + this.legend.offsetWidth,
+      height: this.element.clientHeight - this.legend.offsetTop })).observe(this.legend);
     this.showTools();
     this.showLegend();
   }

@@ -69,6 +69,6 @@ export function objectiveSummary(asked: ObjectiveOptions, status: ObjectiveStatu
       h('th', { class: 'n' }, '% of what counts'))),
       h('tbody', {}, ...areas.map(({ outlook, name, area_m2, share }) => h('tr', {},
         h('td', {}, h('span', { class: `mark m-${outlook}` }, name)),
-        h('td', { class: 'n' }, figure(area_m2)), h('td', { class: 'n' }, figure(100 * share)))))),
+        h('td', { class: 'n' }, area_m2.toFixed(1)), h('td', { class: 'n' }, (100 * share).toFixed(1)))))),
     h('p', {}, status.explanation));
 }

@@ -134,7 +134,7 @@ class Report {
     this.scene.robot = plan?.robot ?? '';
     this.scene.plans = plan === null ? [] : [liveOf(plan)];
     this.scene.candidate = -1;
-    this.moment.textContent = entry === undefined ? `${this.plans.length} plans`
+    this.moment.textContent = entry === undefined ? `${this.plans.length} plan${this.plans.length === 1 ? '' : 's'}`
       : `plan ${Number(this.slider.value) + 1} of ${this.plans.length}, ${shortName(entry.plan.robot)}` +
         (entry.time_s === undefined ? '' : ` after ${duration(entry.time_s)}`);
     fill(this.details, ...(plan === null ? this.overview()
