@@ -255,7 +255,10 @@ export class MissionPage {
   }
 
   private listen(): void {
-    const themed = () => this.panel.repaint();
+    const themed = () => {
+      this.panel.repaint();
+      this.showSide(); // charts have colours, too
+    };
     window.addEventListener('themechange', themed);
     this.stops.push(() => window.removeEventListener('themechange', themed));
   }
