@@ -66,6 +66,8 @@ FairPoolOptions ToPlanningPoolOptions(const PlanningConfig& config) {
   return options;
 }
 
+// Who looks on has what robots leave of the CPU: plans, and what they wait for, go first.
+constexpr bool kYields = true;
 // Audits are rare and nobody waits for them: one thread does for all missions.
 constexpr int kAuditThreads = 1;
 // Snapshots are packed in milliseconds, and nobody waits for them.
@@ -174,15 +176,15 @@ Server::Server(Private, const ServerConfig& config, RegistryHooks hooks,
       own_store_(std::move(store)),
       store_(hooks.store != nullptr ? hooks.store : own_store_.get()),
       epoch_pool_({"epoch", config.epochs.threads, config.epochs.max_queued}),
-      audit_pool_({"audit", kAuditThreads, config.limits.max_missions}),
-      snapshot_pool_({"snapshot", kSnapshotThreads, config.limits.max_missions}),
+      audit_pool_({"audit", kAuditThreads, config.limits.max_missions, kYields}),
+      snapshot_pool_({"snapshot", kSnapshotThreads, config.limits.max_missions, kYields}),
       registry_(ToRegistryOptions(config, FirstLeaseToken(RandomBits())),
                 Complete(std::move(hooks), config, store_, &epoch_pool_, &audit_pool_,
                          &snapshot_pool_, &metrics_.missions())),
       planning_pool_(ToPlanningPoolOptions(config.planning)),
-      map_pool_({"map", config.maps.threads, config.maps.max_queued}),
-      query_pool_({"query", config.maps.query_threads, config.maps.max_queued_queries}),
-      creation_pool_({"creation", kCreationThreads, config.limits.max_missions}),
+      map_pool_({"map", config.maps.threads, config.maps.max_queued, kYields}),
+      query_pool_({"query", config.maps.query_threads, config.maps.max_queued_queries, kYields}),
+      creation_pool_({"creation", kCreationThreads, config.limits.max_missions, kYields}),
       history_(store_ == nullptr
                    ? nullptr
                    : std::make_unique<History>(store_, &registry_, ToImportLimits(config))),

@@ -6,6 +6,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "server/base/errors.h"
+#include "server/base/thread_priority.h"
 
 namespace plumescout::server {
 
@@ -38,6 +39,7 @@ PoolLoad WorkerPool::load() const {
 }
 
 void WorkerPool::Run() {
+  if (options_.yields) YieldCpuToOthers();
   while (true) {
     std::function<void()> task;
     {

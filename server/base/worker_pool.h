@@ -20,6 +20,7 @@ struct WorkerPoolOptions {
   std::string name;  // for errors: "planning"
   int threads = 2;
   int max_queued = 64;
+  bool yields = false;  // to all other threads, see YieldCpuToOthers
 };
 
 // Fixed threads over a bounded queue: work that must not run in a reactor. Thread-safe.

@@ -41,7 +41,7 @@ struct LimitConfig {
 };
 
 struct PlanningConfig {
-  int threads = 2;
+  int threads = 3;
   int max_queued = 64;
   double default_budget_s = 1.0;
   double max_budget_s = 5.0;

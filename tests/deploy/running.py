@@ -2,14 +2,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Programs that tests of the deployment run: the server, the front, an authority."""
 
+import errno
 import os
 import pathlib
+import random
 import socket
 import subprocess
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD_DIR = pathlib.Path(os.environ["PLUMESCOUT_BUILD_DIR"])
+SERVER_PORTS = (10_000, 32_000)
 PATIENCE_S = 60.0  # far beyond what anything takes, on any machine
 
 
@@ -29,9 +32,17 @@ def make_certificate(folder, *arguments):
 
 
 def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
+    """Of those below the ones that the system gives to whoever connects: it stays free while a
+    server that has it is down."""
+    while True:
+        port = random.SystemRandom().randrange(*SERVER_PORTS)
+        with socket.socket() as probe:
+            try:
+                probe.bind(("127.0.0.1", port))
+                return port
+            except OSError as error:
+                if error.errno != errno.EADDRINUSE:
+                    raise
 
 
 class Server:

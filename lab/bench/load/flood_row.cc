@@ -40,15 +40,15 @@ absl::StatusOr<std::vector<Bar>> FloodRow(const RowSettings& settings) {
   const TeamFigures before = Take(team);
 
   const Quota quota = AskQuota(server->target());
-  FloodFigures flooded;
-  {
-    const Flood flood(server->target(), session,
-                      {.plans_per_s = kTimesItsQuota * quota.plans_per_s,
-                       .readings_per_s = kTimesItsQuota * quota.readings_per_s,
-                       .seed = settings.seed});
-    absl::SleepFor(settings.time);
-    flooded = flood.figures();
-  }
+  PLUMESCOUT_ASSIGN_OR_RETURN(const ProcessUsage usage_before, server->Usage());
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      const FloodFigures flooded,
+      settings.bystander->RunFlood(server->target(), session,
+                                   {.plans_per_s = kTimesItsQuota * quota.plans_per_s,
+                                    .readings_per_s = kTimesItsQuota * quota.readings_per_s,
+                                    .seed = settings.seed},
+                                   settings.time));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const ProcessUsage usage, server->Usage());
   const TeamFigures during = Take(team);
   const TeamFigures rest = Stop(team, kDrain);
   return std::vector<Bar>{
@@ -59,6 +59,8 @@ absl::StatusOr<std::vector<Bar>> FloodRow(const RowSettings& settings) {
       {"flood_lost", rest.lost, 0.0},
       {"flood_plans_asked", static_cast<double>(flooded.plans_asked)},
       {"flood_plans_made", static_cast<double>(flooded.plans_made)},
+      {"flood_cpu_cores",
+       (usage.cpu_s - usage_before.cpu_s) / absl::ToDoubleSeconds(settings.time)},
       {"flood_readings_sent", static_cast<double>(flooded.readings_sent)},
       {"flood_readings_taken", static_cast<double>(flooded.readings_taken)},
   };

@@ -39,10 +39,12 @@ struct LoadFlags {
   std::string server_program = SiblingProgram("plumescout-server");
 };
 
-absl::Status RunRow(const std::string& name, const LoadFlags& flags, BenchSummary& summary) {
+absl::Status RunRow(const std::string& name, const LoadFlags& flags, Bystander& bystander,
+                    BenchSummary& summary) {
   if (name == "team") return RunTeam(flags.team, flags.server_program, summary);
   constexpr double kQuick = 0.2;
-  RowSettings settings{flags.server_program, absl::Seconds(flags.team.seconds), summary.seed()};
+  RowSettings settings{flags.server_program, &bystander, absl::Seconds(flags.team.seconds),
+                       summary.seed()};
   if (flags.quick) settings.time *= kQuick;
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<Bar> bars, Rows().at(name)(settings));
   for (const Bar& bar : bars) {
@@ -56,10 +58,10 @@ absl::Status RunRow(const std::string& name, const LoadFlags& flags, BenchSummar
 }
 
 // A row that fails does not keep the others from being measured.
-absl::Status RunRows(const LoadFlags& flags, BenchSummary& summary) {
+absl::Status RunRows(const LoadFlags& flags, Bystander& bystander, BenchSummary& summary) {
   absl::Status first;
   for (const std::string& name : flags.rows) {
-    const absl::Status status = RunRow(name, flags, summary);
+    const absl::Status status = RunRow(name, flags, bystander, summary);
     if (!status.ok()) std::cerr << name << ": " << status << std::endl;
     first.Update(status);
   }
@@ -84,8 +86,12 @@ int main(int argc, char** argv) {
   app.add_option("--server-program", flags.server_program, "plumescout-server to load");
   app.add_flag("--quick", flags.quick, "a fifth of the time");
   app.add_flag("--strict", flags.strict, "fail if a bar is missed");
-  return plumescout::lab::RunBench(app, argc, argv,
-                                   [&flags](plumescout::lab::BenchSummary& summary) {
-                                     return plumescout::lab::RunRows(flags, summary);
-                                   });
+  const auto bystander = plumescout::lab::Bystander::Fork();  // before there are threads
+  if (!bystander.ok()) {
+    std::cerr << bystander.status() << std::endl;
+    return 1;
+  }
+  return plumescout::lab::RunBench(app, argc, argv, [&](plumescout::lab::BenchSummary& summary) {
+    return plumescout::lab::RunRows(flags, **bystander, summary);
+  });
 }

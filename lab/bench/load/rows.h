@@ -9,11 +9,13 @@
 #include "absl/status/statusor.h"
 #include "absl/time/time.h"
 #include "lab/bench/bars.h"
+#include "lab/bench/load/bystander.h"
 
 namespace plumescout::lab {
 
 struct RowSettings {
   std::string server_program;
+  Bystander* bystander = nullptr;           // not null
   absl::Duration time = absl::Seconds(20);  // of each measurement
   std::uint64_t seed = 1;
 };

@@ -1,13 +1,9 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <memory>
-
 #include "absl/time/clock.h"
 #include "client/grpc_planner_client.h"
 #include "core/types/status_macros.h"
 #include "lab/bench/load/load_team.h"
-#include "lab/bench/load/load_watcher.h"
 #include "lab/bench/load/rows.h"
 #include "lab/bench/load/server_process.h"
 #include "lab/worlds/bench_world.h"
@@ -23,22 +19,6 @@ constexpr double kSlower = 1.5;
 constexpr absl::Duration kPlanPeriod = absl::Milliseconds(200);
 constexpr absl::Duration kDrain = absl::Seconds(5);
 constexpr absl::Duration kFirstFrames = absl::Seconds(20);
-constexpr absl::Duration kLook = absl::Milliseconds(50);
-
-using Watchers = std::vector<std::unique_ptr<LoadWatcher>>;
-
-Watchers Watch(const std::string& target) {
-  Watchers watchers;
-  for (int i = 0; i < kWatchers; ++i) {
-    watchers.push_back(std::make_unique<LoadWatcher>(target, kMission, nullptr));
-  }
-  const auto has_frame = [](const auto& watcher) { return watcher->frame_count() > 0; };
-  const absl::Time deadline = absl::Now() + kFirstFrames;
-  while (absl::Now() < deadline && !std::all_of(watchers.begin(), watchers.end(), has_frame)) {
-    absl::SleepFor(kLook);
-  }
-  return watchers;
-}
 
 }  // namespace
 
@@ -54,7 +34,9 @@ absl::StatusOr<std::vector<Bar>> WatcherRow(const RowSettings& settings) {
   absl::SleepFor(settings.time);
   const TeamFigures alone = Take(team);
 
-  const Watchers watchers = Watch(server->target());
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      const Bystander::Watch watch,
+      settings.bystander->BeginWatch(server->target(), kMission, kWatchers, kFirstFrames));
   Take(team);  // what was planned while they came
   PLUMESCOUT_ASSIGN_OR_RETURN(const ProcessUsage before, server->Usage());
   const absl::Time began = absl::Now();
@@ -62,17 +44,12 @@ absl::StatusOr<std::vector<Bar>> WatcherRow(const RowSettings& settings) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const ProcessUsage after, server->Usage());
   const double wall_s = absl::ToDoubleSeconds(absl::Now() - began);
   const TeamFigures beside = Take(team);
-  double sent_away = 0.0;
-  double frames = 0.0;
-  for (const auto& watcher : watchers) {
-    sent_away += watcher->was_sent_away() || watcher->frame_count() == 0 ? 1.0 : 0.0;
-    frames += static_cast<double>(watcher->frame_count());
-  }
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Bystander::Watched watched, settings.bystander->EndWatch());
   Stop(team, kDrain);
   return std::vector<Bar>{
       {"watchers_cpu_cores", (after.cpu_s - before.cpu_s) / wall_s, kCores},
-      {"watchers_sent_away", sent_away, 0.0},
-      {"watchers_frames_per_watcher", frames / kWatchers},
+      {"watchers_sent_away", static_cast<double>(watched.sent_away + watch.without_frame), 0.0},
+      {"watchers_frames_per_watcher", watched.frames / kWatchers},
       {"watchers_plan_p99_alone_ms", alone.PlanP99_ms()},
       {"watchers_plan_p99_ms", beside.PlanP99_ms()},
       {"watchers_plan_p99_ratio", beside.PlanP99_ms() / alone.PlanP99_ms(), kSlower},

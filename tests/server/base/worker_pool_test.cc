@@ -3,6 +3,7 @@
 #include "server/base/worker_pool.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <atomic>
 
@@ -53,6 +54,19 @@ TEST(WorkerPoolTest, ThreadsRunSideBySide) {
   ASSERT_TRUE(pool.Submit([&] { first.Notify(); }).ok());
   first.WaitForNotification();  // would hang if the first task held the only thread
   second.Notify();
+}
+
+TEST(WorkerPoolTest, YieldsTheCpuIfItIsToldTo) {
+  const auto niceness_in = [](bool yields) {
+    int niceness = 0;
+    {
+      WorkerPool pool({"test", 1, 1, yields});
+      EXPECT_TRUE(pool.Submit([&] { niceness = getpriority(PRIO_PROCESS, 0); }).ok());
+    }
+    return niceness;
+  };
+  EXPECT_EQ(niceness_in(false), getpriority(PRIO_PROCESS, 0));
+  EXPECT_GT(niceness_in(true), niceness_in(false));
 }
 
 }  // namespace worker_pool_test

@@ -161,7 +161,9 @@ TEST_F(PlanningServiceTest, BudgetBeyondTheServersIsCutToIt) {
 TEST_F(PlanningServiceTest, MissionThatSearchesLeavesAThreadToTheOthers) {
   absl::Notification release;
   std::atomic<int> searching = 0;
-  Start({}, [&](const Belief& belief, const PlanRequest& request, const StopFn&) {
+  ServerConfig config;
+  config.planning.threads = 2;
+  Start(config, [&](const Belief& belief, const PlanRequest& request, const StopFn&) {
     ++searching;
     if (request.robot != "quick") release.WaitForNotification();
     return PlanTo(belief, request.robot, request.robot == "r2" ? 5.0 : 1.0);
