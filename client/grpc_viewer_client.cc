@@ -191,6 +191,7 @@ class GrpcViewerClient final : public ViewerClient {
     request.set_fresh_posterior(query.fresh_posterior);
     request.set_species(query.species);
     request.set_revision(query.revision);
+    request.set_with_verdicts(query.with_verdicts);
     v1::QueryGasResponse response;
     PLUMESCOUT_RETURN_IF_ERROR(
         link_->Ask(maps_, &v1::MapService::Stub::QueryGas, request, &response));

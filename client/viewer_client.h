@@ -61,6 +61,7 @@ struct GasQuery {
   std::string species = {};         // empty: the first
   bool fresh_posterior = false;     // as in MapQuery
   std::int64_t revision = 0;        // as in MapQuery
+  bool with_verdicts = false;       // say how the mission's objective stands there, too
 };
 
 struct GasAnswer {

@@ -4,12 +4,14 @@
 //
 //   node e2e/bench.mjs [--summary FILE] [--scene DIR] [--seconds S]
 //
-// Needs what run.mjs needs. Prints a figure a line; --summary writes them as one flat JSON object.
+// Needs what run.mjs needs. Prints a figure a line, with its bar if it has one, and ends with 1 if one
+// is missed; --summary writes the figures as one flat JSON object. Takes a minute and a half.
 import assert from 'node:assert/strict';
-import { readFileSync, writeFileSync } from 'node:fs';
+import { readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { cpus, loadavg } from 'node:os';
+import { join } from 'node:path';
 import { parseArgs } from 'node:util';
-import { deflateSync } from 'node:zlib';
+import { deflateSync, gzipSync } from 'node:zlib';
 import { cleanUp, data, drive, end, launch, serve, until } from './harness.mjs';
 
 const { values: options } = parseArgs({ options: {
@@ -21,9 +23,15 @@ const SECONDS = Number(options.seconds);
 const PAGES = 16;
 const WIDE = 1000; // cells of the large map along either side
 const figures = {};
-const told = (name, value, digits = 1) => {
+let missed = 0;
+// `bar`: what the figure may be at most, or has to be at least; without one it is for information.
+const told = (name, value, digits = 1, bar = {}) => {
   figures[name] = Number(value.toFixed(digits));
-  console.log(`${name.padEnd(40)} ${figures[name]}`);
+  const [limit] = Object.values(bar);
+  const met = limit === undefined || (bar.atMost === undefined ? value >= limit : value <= limit);
+  if (!met) ++missed;
+  console.log(`${name.padEnd(40)} ${String(figures[name]).padEnd(8)}` + (limit === undefined ? ''
+    : ` ${bar.atMost === undefined ? 'at least' : 'at most'} ${limit}${met ? '' : '  MISSED'}`));
 };
 const wait = (ms) => new Promise((done) => setTimeout(done, ms));
 const quantile = (values, share) => {
@@ -124,7 +132,7 @@ async function latency(page, origin) {
   await page.goto(`${origin}/#/missions/hall`);
   await page.reload();
   await until('a picture', async () => await page.evaluate(() => window.consoleTimes.drawn.length > 0));
-  told('first picture, ms', await page.evaluate(() => window.consoleTimes.drawn[0][1]), 0);
+  told('first picture, ms', await page.evaluate(() => window.consoleTimes.drawn[0][1]), 0, { atMost: 1000 });
   await wait(3000);
   await page.evaluate(() => { window.consoleTimes.came = []; window.consoleTimes.drawn = []; });
   await message(origin, 'RobotService/RegisterRobot', part(1, 'missions/hall'), part(2, 'bench'), real(3, 0.2));
@@ -153,8 +161,8 @@ async function latency(page, origin) {
   const behind = ordered.map(([revision, at]) => whenDrawn(revision, -Infinity)?.[1] + origin_ms - at);
   told('frames', came.length, 0);
   told('frames a second', came.length / SECONDS);
-  told('bytes to pixels, median, ms', quantile(latencies, 0.5));
-  told('bytes to pixels, p99, ms', quantile(latencies, 0.99));
+  told('bytes to pixels, median, ms', quantile(latencies, 0.5), 1, { atMost: 10 });
+  told('bytes to pixels, p99, ms', quantile(latencies, 0.99), 1, { atMost: 50 });
   told('drawn with a later frame', skipped.length, 0);
   told('event to pixels, median, ms', quantile(behind, 0.5), 0);
   told('event to pixels, p99, ms', quantile(behind, 0.99), 0);
@@ -177,8 +185,15 @@ async function manyPages(server, origin) {
   const readers = streams.map((stream) => stream.body.getReader());
   for (const reader of readers) void (async () => { while (!(await reader.read()).done); })().catch(() => {});
   await wait(2000);
-  told('16 pages, cores', await measure() - alone, 2);
+  told('16 pages, cores', await measure() - alone, 2, { atMost: 0.3 });
   await Promise.all(readers.map((reader) => reader.cancel()));
+}
+
+// What a page takes through a front that compresses.
+function bundle() {
+  const files = readdirSync('dist', { recursive: true }).filter((name) => /\.(js|css)$|^index\.html$/.test(name));
+  const bytes = files.reduce((sum, name) => sum + gzipSync(readFileSync(join('dist', name))).length, 0);
+  told('pages, kB gzip', bytes / 1000, 0, { atMost: 200 });
 }
 
 async function panning(page, origin) {
@@ -207,7 +222,7 @@ async function panning(page, origin) {
     };
     requestAnimationFrame(turn);
   }));
-  told('panning 1000 x 1000, frames a second', 1000 * intervals.length / intervals.reduce((a, b) => a + b, 0));
+  told('panning 1000 x 1000, frames a second', 1000 * intervals.length / intervals.reduce((a, b) => a + b, 0), 1, { atLeast: 30 });
   told('panning, longest frame, ms', Math.max(...intervals));
 }
 
@@ -219,11 +234,14 @@ try {
   await drive(server.found.calls, options.scene, '--known-map', '--duration', '600');
   const page = await (await (await launch()).newContext({ viewport: { width: 1280, height: 800 } })).newPage();
   await page.addInitScript(observe);
+  bundle();
   await latency(page, origin);
   await panning(page, origin);
   await page.close();
   await manyPages(server, origin);
   await end(server.child);
+  console.log(missed === 0 ? 'every bar is met' : `${missed} missed`);
+  if (missed > 0) process.exitCode = 1;
   if (options.summary) writeFileSync(options.summary, `${JSON.stringify(figures, null, 2)}\n`);
 } catch (error) {
   console.error(error.message);

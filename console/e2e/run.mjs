@@ -12,8 +12,9 @@ import { mkdirSync, readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { parseArgs } from 'node:util';
 import { checkAccess } from './axe.mjs';
+import { checkMoves, checkScales, checkSwitches, frontierMark } from './effects.mjs';
 import { BIN, PATIENCE_MS, cleanUp, data, drive, driveToEnd, end, launch, serve, until } from './harness.mjs';
-import { lookAround } from './report.mjs';
+import { lookAround, openSaved } from './report.mjs';
 
 const { values: options } = parseArgs({ options: {
   out: { type: 'string', default: '../out/console' },
@@ -36,7 +37,11 @@ async function step(name, task) {
   ++steps;
   console.log(`ok  ${name} (${Date.now() - began} ms)`);
 }
-const picture = (name) => page.screenshot({ path: join(OUT, `${name}.png`) });
+// Without what passes by itself.
+async function picture(name) {
+  await page.locator('#notice').evaluate((notice) => { notice.className = notice.textContent = ''; });
+  await page.screenshot({ path: join(OUT, `${name}.png`) });
+}
 const button = (name, exact = true) => page.getByRole('button', { name, exact });
 const tab = (name) => page.getByRole('tab', { name, exact: true });
 const see = (text) => page.getByText(text).first().waitFor({ timeout: PATIENCE_MS });
@@ -62,6 +67,8 @@ async function missionsAndForms(origin) {
     await page.getByLabel('home', { exact: true }).fill('0.5,0.5');
     await page.getByText('planning', { exact: true }).click();
     await page.getByLabel('strategy', { exact: true }).selectOption('xit_gff');
+    const help = await page.locator('.field small').allTextContents();
+    assert.deepEqual(help.filter((text) => text.trim() === ''), [], 'every option says what it means');
     await picture('new');
     await button('Create mission').click();
     await see('No robot has registered yet.');
@@ -113,6 +120,7 @@ async function liveMap(origin) {
     await until('a newer revision', async () => await revision() > before);
     await see('streaming');
     await see('robot-2');
+    for (const fact of ['last heard', 'newest sample', 'log applied']) await see(fact);
     await until('a picture', async () => await map().evaluate((canvas) => {
       const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
       return new Set(new Uint32Array(data.buffer)).size > 20;
@@ -170,6 +178,18 @@ async function reasons() {
     await map().click({ position: { x: box.width / 2, y: box.height / 2 } });
     await see(/straight way there|frontier of \d+ cells|where the robot drives/);
   });
+  await step('why it does not drive to a frontier: a click on its mark answers', async () => {
+    await until('an answer', async () => { // the mark may have moved on meanwhile
+      const mark = await frontierMark(page);
+      if (mark === null) return false;
+      await page.mouse.click(...mark);
+      const answer = page.getByText(/^A (map|gas) frontier of \d+ cells; /);
+      return await answer.waitFor({ timeout: 2000 }).then(() => true, () => false);
+    });
+    await see(/It is (no goal now|candidate|where the robot drives)|It could be a goal/);
+    await see(/goals left out/);
+    await see(/search ended: /);
+  });
 }
 
 async function charts() {
@@ -184,7 +204,12 @@ async function charts() {
     await until('two values', async () => !await page.locator('.chart').first().evaluate((chart) =>
       chart.querySelector('canvas').getContext('2d').getImageData(60, 8, 400, 80).data
         .every((value) => value === 0)));
-    assert.ok(await page.locator('.chart canvas').count() >= 5);
+    const titles = await page.locator('.chart strong').allInnerTexts();
+    for (const title of ['Completeness', 'Open frontiers of the map', 'Known area', 'Largest gas mean',
+      'Mean entropy of the gas field', 'Observations', 'CPU time of the latest plan', 'Age of the newest sample']) {
+      assert.ok(titles.includes(title), `no chart of ${title} among ${titles}`);
+    }
+    assert.ok(titles.some((title) => /^Plume \(above \S+ ppm\)$/.test(title)));
   });
 }
 
@@ -193,7 +218,8 @@ async function download(name) {
   return readFileSync(await file.path());
 }
 
-async function operation() {
+async function operation(origin) {
+  let known;
   await step('a mission pauses and goes on', async () => {
     await tab('Operate').click();
     await button('Pause').click();
@@ -205,6 +231,10 @@ async function operation() {
     await button('Send robot-2 home').click();
     await button('robot-2 goes on').click();
     await button('Send robot-2 home').waitFor();
+    await button('All home').click();
+    await button('robot-1 goes on').waitFor();
+    await button('Not home any more').click();
+    await button('Send robot-1 home').waitFor();
   });
   await step('what cannot be undone asks first', async () => {
     await button('Finish …').click();
@@ -213,18 +243,46 @@ async function operation() {
     await button('Cancel').click();
     await button('Remove robot-1').click();
     await button('Cancel').click();
+    await button('Release the lease of robot-1').click();
+    await button('Cancel').click();
     assert.equal(await page.locator('dialog').count(), 0);
   });
   await step('maps and missions can be taken away', async () => {
-    const npy = await download('Gas mean (npy)');
-    assert.equal(npy.subarray(1, 6).toString(), 'NUMPY');
-    const files = [];
-    page.on('download', (file) => files.push(file.suggestedFilename()));
+    for (const layer of ['Gas mean (npy)', 'Gas variance (npy)']) {
+      assert.equal((await download(layer)).subarray(1, 6).toString(), 'NUMPY');
+    }
+    const files = new Map();
+    const keep = async (file) => files.set(file.suggestedFilename(), readFileSync(await file.path()));
+    page.on('download', keep);
     await button('Map (map_server)').click();
-    await until('both files', async () => files.length === 2);
-    assert.deepEqual(files.sort(), ['hall.pgm', 'hall.yaml']);
+    await until('both files', async () => files.size === 2);
+    page.off('download', keep);
+    assert.deepEqual([...files.keys()].sort(), ['hall.pgm', 'hall.yaml']);
+    known = files;
     assert.ok((await download('Whole mission')).length > 1000);
     assert.equal((await download('MCAP (Foxglove)')).subarray(1, 5).toString(), 'MCAP');
+  });
+  await step('a mission is made with the map that another one saved', async () => {
+    await page.goto(`${origin}/#/new`);
+    await page.getByLabel('Name').fill('known');
+    for (const [label, name] of [['YAML file of a map', 'hall.yaml'], ['PGM image of a map', 'hall.pgm']]) {
+      await page.getByLabel(label).setInputFiles({ name, mimeType: 'text/plain', buffer: known.get(name) });
+    }
+    await until('the mission', async () => { // once both files are read
+      await button('Create mission').click();
+      return /#\/missions\/known$/.test(page.url());
+    });
+    await see('live, revision');
+    await until('free ground', async () => {
+      const box = await map().boundingBox();
+      for (let i = 1; i < 20; ++i) {
+        await page.mouse.move(box.x + box.width * (0.3 + 0.02 * i), box.y + box.height * (0.3 + 0.02 * i));
+        if (/ free/.test(await readout())) return true;
+      }
+      return false;
+    });
+    await page.goto(`${origin}/#/missions/hall`);
+    await see('live, revision');
   });
 }
 
@@ -254,7 +312,6 @@ async function areas() {
     await page.getByLabel('Name of the area').fill('spill');
     await picture('draw');
     await button('Keep robots out').click();
-    await see('spill is closed to robots.');
     await button('Delete spill').waitFor();
     assert.equal(await draft().count(), 0);
   });
@@ -264,16 +321,20 @@ async function areas() {
     for (const [x, y] of corners.slice(0, 3)) await clickAt(x, y);
     // The window changes under the drawing: the map stays where it is.
     const size = page.viewportSize();
-    await page.setViewportSize({ width: size.width, height: size.height + 1 });
-    await page.setViewportSize(size);
+    const heights = () => map().evaluate((canvas) => [canvas.height, canvas.clientHeight]);
+    const [height] = await heights();
+    for (const more of [1, 0]) {
+      await page.setViewportSize({ width: size.width, height: size.height + more });
+      await until('a map of that size', async () => (await heights()).every((now) => now === height + more));
+    }
     for (const [x, y] of corners.slice(3)) await clickAt(x, y);
     await see('Robots will keep out of it:');
     await page.getByLabel('Name of the area').fill('spill');
     await button('Keep robots out').click();
-    await see('keep-out area "spill"');
+    await draft().getByText('keep-out area "spill"').waitFor();
     await page.getByLabel('Name of the area').fill('ramp');
     await page.getByLabel('Name of the area').press('Enter');
-    await see('ramp is closed to robots.');
+    await button('Delete ramp').waitFor();
     await picture('areas');
   });
   await step('drawing ends with Escape, and touches draw', async () => {
@@ -300,9 +361,8 @@ async function areas() {
     await button('Delete spill').click();
     await see('Robots may drive through it from then on.');
     await button('Delete').click();
-    await see('spill is open to robots.');
+    await until('no spill', async () => await button('Delete spill').count() === 0);
     await button('Delete ramp').waitFor();
-    assert.equal(await button('Delete spill').count(), 0);
   });
 }
 
@@ -369,11 +429,13 @@ async function time(origin) {
     assert.equal(await then.isVisible(), false);
   });
   await step('what was can be played', async () => {
-    await page.getByLabel('Speed').selectOption('30');
     await button('▶ Play').click();
     await see('What was, played');
-    const before = await revision();
-    await until('a later frame', async () => await revision() > before && before >= 0);
+    for (const speed of ['30', '1', '60', '5', '10']) {
+      await page.getByLabel('Speed').selectOption(speed);
+      const before = await revision();
+      await until(`a later frame at ${speed}×`, async () => await revision() > before && before >= 0);
+    }
     await button('■ Stop').click();
     await see('As it was at revision');
     await page.keyboard.press('l');
@@ -383,12 +445,25 @@ async function time(origin) {
     const at = Math.floor(await revision() / 3);
     await page.goto(`${origin}/#/missions/hall@${at}`);
     await see(`As it was at revision ${at}`);
+    await tab('Operate').click();
+    await button('Link to this moment').click();
+    await see('The link to this moment is copied.');
+    assert.equal(await page.evaluate(() => navigator.clipboard.readText()), `${origin}/#/missions/hall@${at}`);
     await page.goto(`${origin}/#/missions/hall`);
+    await see('live, revision');
+  });
+  await step('every layer, scale and move does something to the map', async () => {
+    await page.goto(`${origin}/#/missions/hall@${await revision()}`); // it stands still
+    await see('As it was at revision');
+    await checkScales(page);
+    await checkSwitches(page, ['frontiers', 'names', 'keep-out and home']);
+    await checkMoves(page);
+    await page.keyboard.press('l');
     await see('live, revision');
   });
 }
 
-async function objective(origin, server) {
+async function objective(origin, server, browser) {
   await step('how an objective stands is seen on the map', async () => {
     await page.goto(`${origin}/#/new`);
     await page.getByLabel('Name').fill('leak');
@@ -405,6 +480,19 @@ async function objective(origin, server) {
     await tab('Charts').click();
     await page.locator('.chart', { hasText: /^Undecided area/ }).waitFor();
     await picture('objective');
+    await tab('Operate').click();
+    const report = (await download('Report (HTML)')).toString();
+    await openSaved(browser, report, OUT, [/^leak, revision \d+$/, 'map where there is more than 10 ppm, 95 % sure', 'still open']);
+  });
+  await step('a robot is removed, and a mission is finished', async () => {
+    await button('Remove robot-1').click();
+    await button('Remove').click();
+    await until('no robot', async () => await button('Remove robot-1').count() === 0);
+    await button('Finish …').click();
+    await button('Finish').click();
+    await see(/^finished/);
+    assert.ok(await button('Pause').isDisabled());
+    assert.equal(await button('Draw a polygon').count(), 0);
     await page.goto(`${origin}/#/missions/hall`);
     await see('live, revision');
     assert.equal(await button('Objective').count(), 0);
@@ -438,10 +526,17 @@ async function pictures(origin) {
     await until('a way', async () => await page.evaluate(() => document.fonts.status === 'loaded'));
     await new Promise((done) => setTimeout(done, 4000)); // for trails, and for the picture alone
     await picture('map');
+    await tab('Why').click();
+    await see('goals it could drive to');
+    await page.locator('tr.pick').nth(1).hover();
+    await picture('why');
+    await tab('Operate').click();
+    await picture('operate');
+    await tab('Charts').click();
+    await new Promise((done) => setTimeout(done, 3000)); // for lines, and for the picture alone
+    await picture('charts');
     await button('Uncertainty').click();
     await page.keyboard.press('d');
-    await tab('Charts').click();
-    await new Promise((done) => setTimeout(done, 1500));
     await picture('dark');
     await page.keyboard.press('d');
     await page.setViewportSize({ width: 800, height: 1100 });
@@ -456,6 +551,7 @@ async function pictures(origin) {
 async function everybody(origin) {
   await step('every view, light and dark, is for everybody (axe-core)', async () => {
     for (const theme of ['light', 'dark']) {
+      assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), theme);
       for (const [path, sign] of [['', 'Missions'], ['new', 'keep out'], ['service', 'memory promised to missions']]) {
         await page.goto(`${origin}/#/${path}`);
         await see(sign);
@@ -559,7 +655,8 @@ try {
   const server = await serve('127.0.0.1:0', '127.0.0.1:0', '--data', data);
   const origin = `http://${server.found.pages}`;
   const browser = await launch();
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 } });
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 },
+    permissions: ['clipboard-read', 'clipboard-write'] });
   page = await context.newPage();
   page.setDefaultTimeout(PATIENCE_MS);
   const errors = [];
@@ -579,10 +676,10 @@ try {
   await liveMap(origin);
   await reasons();
   await charts();
-  await operation();
+  await operation(origin);
   await areas();
   await time(origin);
-  await objective(origin, server);
+  await objective(origin, server, browser);
   await service(origin);
   await pictures(origin);
   await everybody(origin);

@@ -22,6 +22,7 @@ export class AreasPanel {
   private readonly how = h('span', {});
   private readonly name = h('input', { 'aria-label': 'Name of the area', required: true, size: 12,
     pattern: '[a-z]([a-z0-9\\-]{0,61}[a-z0-9])?', title: 'small letters, digits and dashes' });
+  private readonly refusal = h('p', { role: 'alert' }); // why the server did not take it
   private readonly submit = h('button', { class: 'primary' }, 'Keep robots out');
   private draft: AreaDraft | null = null;
   private areas: Polygon[] = [];
@@ -31,7 +32,7 @@ export class AreasPanel {
               private readonly changed: (areas: Polygon[]) => void) {
     this.bar.append(this.how, this.name, this.submit,
       h('button', { type: 'button', onclick: () => this.undo() }, 'Undo'),
-      h('button', { type: 'button', onclick: () => this.cancel() }, 'Cancel'));
+      h('button', { type: 'button', onclick: () => this.cancel() }, 'Cancel'), this.refusal);
   }
 
   // `takesChanges`: the mission is not finished.
@@ -78,6 +79,7 @@ export class AreasPanel {
     if (this.draft === null) return;
     const ready = this.draft.area().length >= 3;
     this.submit.disabled = !ready || (this.draft.shape === 'rectangle' && !this.draft.done);
+    this.refusal.textContent = '';
     this.how.textContent = this.draft.done ? 'Robots will keep out of it:' : HOW[this.draft.shape];
   }
 
@@ -95,32 +97,36 @@ export class AreasPanel {
   }
 
   private async close(): Promise<void> {
-    if (this.draft === null || this.submit.disabled || !this.bar.reportValidity()) return;
+    const { draft } = this;
+    if (draft === null || this.submit.disabled || !this.bar.reportValidity()) return;
     const area = this.name.value;
-    const vertices = this.draft.area().map(({ x_m, y_m }) => ({ xM: centimetres(x_m), yM: centimetres(y_m) }));
+    const vertices = draft.area().map(({ x_m, y_m }) => ({ xM: centimetres(x_m), yM: centimetres(y_m) }));
     this.submit.disabled = true;
-    if (await this.change({ added: [{ name: area, vertices }] }, `${area} is closed to robots.`)) this.cancel();
-    else this.showDraft();
+    const refusal = await this.change({ added: [{ name: area, vertices }] }, `${area} is closed to robots.`);
+    if (this.draft !== draft) return; // another one is drawn by now
+    if (refusal === '') return this.cancel();
+    this.showDraft();
+    this.refusal.textContent = refusal;
   }
 
   private async open(area: string): Promise<void> {
-    if (await ask(`Delete ${area}?`, 'Robots may drive through it from then on.', 'Delete')) {
-      await this.change({ deleted: [area] }, `${area} is open to robots.`);
-    }
+    if (!await ask(`Delete ${area}?`, 'Robots may drive through it from then on.', 'Delete')) return;
+    const refusal = await this.change({ deleted: [area] }, `${area} is open to robots.`);
+    if (refusal !== '') notice(refusal, 'bad');
   }
 
+  // Why it was not taken; empty: it was.
   private async change(wish: { added?: { name: string; vertices: { xM: number; yM: number }[] }[]; deleted?: string[] },
-                       done: string): Promise<boolean> {
+                       done: string): Promise<string> {
     try {
       const { areas } = await missions.changeKeepOutAreas(
         { name: this.mission, ...wish, requestId: requestId() }, PATIENCE);
       this.show(areas, this.takesChanges);
       this.changed(areas);
       notice(done);
-      return true;
+      return '';
     } catch (error) {
-      notice(sentence(error), 'bad');
-      return false;
+      return sentence(error);
     }
   }
 }

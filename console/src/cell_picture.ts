@@ -31,7 +31,7 @@ const pack = ([r, g, b]: Rgb) => ((255 << 24) | (b << 16) | (g << 8) | r) >>> 0;
 export function scaleOf(layer: CellLayer, log: boolean, cells: Cells, change: Float32Array | null): Scale {
   const both = [cells, ...(cells.beside === null ? [] : [cells.beside])];
   if (layer === 'uncertainty') {
-    const max = Math.max(...both.map(({ figures }) => figures?.max_stddev_ppm || 0));
+    const max = Math.max(...both.map(({ figures }) => figures?.p99_stddev_ppm || 0));
     return { min: 0, max: roundUp(max), log: false };
   }
   if (layer === 'change') {

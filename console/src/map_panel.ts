@@ -11,8 +11,9 @@ import type { Place, Scene, Switch } from './map_view.ts';
 import { NearestReading } from './nearest_reading.ts';
 import type { GasQuestion } from './nearest_reading.ts';
 import { cellInWords, cellsInWords } from './hover_words.ts';
-import { OUTLOOKS, ObjectiveLayer } from './objective_layer.ts';
+import { ObjectiveLayer } from './objective_layer.ts';
 import type { ObjectiveQuestion } from './objective_layer.ts';
+import { outlooksOf } from './objective_words.ts';
 import { figure } from './words.ts';
 
 const LAYERS: [CellLayer, string][] = [['mean', 'Gas'], ['uncertainty', 'Uncertainty'],
@@ -48,6 +49,7 @@ export class MapPanel {
   private readonly nearest: NearestReading | null;
   private readonly objective: ObjectiveLayer | null;
   private hasObjective = false;
+  private hasChange = true;
 
   private readonly canvas = h('canvas', { tabindex: 0, role: 'img',
     'aria-label': 'Map of the mission. Drag or use the arrow keys to pan, + and − to zoom.' });
@@ -60,20 +62,22 @@ export class MapPanel {
   private readonly tools = h('div', { class: 'tools', role: 'toolbar', 'aria-label': 'Map' });
 
   constructor(private readonly scene: Scene, private readonly onRobot: (robot: string) => void,
-              private readonly onPlace: (place: Place) => void, question: GasQuestion | null = null,
-              objective: ObjectiveQuestion | null = null) {
-    this.objective = objective === null ? null : new ObjectiveLayer(objective, () => scene.raster, () => {
+              private readonly onPlace: (place: Place) => void, nearest: GasQuestion | null = null,
+              private readonly question: ObjectiveQuestion | null = null) {
+    this.objective = question === null ? null : new ObjectiveLayer(question, () => scene.raster, () => {
       scene.judged = this.objective!.squares;
       this.map.draw();
       this.showLegend();
     });
-    this.nearest = question === null ? null : new NearestReading(question, () => this.tell());
+    this.nearest = nearest === null ? null : new NearestReading(nearest, () => this.tell());
     this.map = new MapView(this.canvas, scene);
     this.element = h('section', { class: 'stage', 'aria-label': 'Map' },
       this.canvas, h('div', { class: 'pinned' }, this.pinnedCanvas, this.captions.then), this.captions.now,
       this.tools, this.banner, this.readout, this.legend);
     this.listen(this.canvas);
     this.listen(this.pinnedCanvas);
+    new ResizeObserver(() => this.map.cover({ width: this.legend.offsetLeft + this.legend.offsetWidth,
+      height: this.element.clientHeight - this.legend.offsetTop })).observe(this.legend);
     this.showTools();
     this.showLegend();
   }
@@ -91,7 +95,7 @@ export class MapPanel {
 
   setCells(layer: CellLayer, log = this.map.picture.log): void {
     if (layer === 'change' && this.scene.then === null) {
-      notice('Pin a moment first: “Pin to compare” below the map.', 'bad');
+      notice(this.hasChange ? 'Pin a moment first: “Pin to compare” below the map.' : 'There is nothing to compare with.', 'bad');
       return;
     }
     if (layer === 'objective' && !this.hasObjective) {
@@ -108,6 +112,11 @@ export class MapPanel {
   offerObjective(has: boolean): void {
     if (has === this.hasObjective) return;
     this.hasObjective = has;
+    this.showTools();
+  }
+  // Whether there is, or may be, another map to compare with.
+  offerChange(has: boolean): void {
+    this.hasChange = has;
     this.showTools();
   }
   private judgeAgain(): void {
@@ -160,14 +169,14 @@ export class MapPanel {
     }
     for (const picture of pictures) picture.prepare();
     const judged = new Set(this.scene.judged.map(({ outlook }) => outlook));
-    const key = [[...judged], pictures.map(({ layer, scale }) => [this.titleOf(layer, scale.log), scale, layer])];
+    const key = [[...judged], outlooksOf(this.question?.asked()), pictures.map(({ layer, scale }) => [this.titleOf(layer, scale.log), scale, layer])];
     fillIfChanged(this.legend, JSON.stringify(key), () => [
       ...pictures.flatMap((picture) => this.scaleOf(picture)),
       h('div', { class: 'marks' },
         h('span', { class: 'mark m-wall' }, 'wall'), h('span', { class: 'mark m-unknown' }, 'unknown'),
         h('span', { class: 'mark gas m-gas' }, 'gas frontier'),
         h('span', { class: 'mark m-occupancy' }, 'map frontier'),
-        ...OUTLOOKS.filter(([outlook]) => judged.has(outlook)).map(([outlook, words]) =>
+        ...outlooksOf(this.question?.asked()).filter(([outlook]) => judged.has(outlook)).map(([outlook, words]) =>
           h('span', { class: `mark m-${outlook}` }, words)))]);
   }
 
@@ -202,7 +211,7 @@ export class MapPanel {
     const { map } = this;
     const open = this.tools.querySelector('details')?.open ?? false;
     fill(this.tools,
-      ...LAYERS.filter(([layer]) => layer !== 'objective' || this.hasObjective).map(([layer, name]) =>
+      ...LAYERS.filter(([layer]) => layer === 'objective' ? this.hasObjective : layer !== 'change' || this.hasChange).map(([layer, name]) =>
         h('button', { 'aria-pressed': String(map.picture.layer === layer), onclick: () => this.setCells(layer) },
           layer === 'change' ? this.change.name : name)),
       h('button', { 'aria-pressed': String(map.picture.log), disabled: map.picture.layer !== 'mean',

@@ -9,8 +9,8 @@ import type { CellRect, Raster } from '@plumescout/client';
 import type { JudgedSquare } from './objective_layer.ts';
 import { theme } from './theme.ts';
 import type { Trails } from './trails.ts';
-import { View } from './view.ts';
-import type { Box } from './view.ts';
+import { View, knownIn } from './view.ts';
+import type { Box, Corner } from './view.ts';
 import type { LivePlan, MapStatus, Plan, Point2D, Polygon } from '@plumescout/client/wire';
 import { GoalKind, RejectedGoal_Reason } from '@plumescout/client/wire';
 import { shortName } from './words.ts';
@@ -81,29 +81,32 @@ export class MapView {
     this.refit();
     this.draw();
   }
+  // What the legend takes at the lower left.
+  private corner: Corner = { width: 0, height: 0 };
+  cover(corner: Corner): void {
+    if (corner.width === this.corner.width && corner.height === this.corner.height) return;
+    this.corner = corner;
+    this.refit();
+  }
   // Nobody has panned or zoomed yet.
   untouched = true;
 
-  // Of the known part of the map.
+  // Of the known part of the map. It is not looked for in cells that did not change.
   box(): Box | null {
     const { raster } = this.scene;
-    if (raster === null) return null;
-    const { columns, rows, resolution_m, x_m, y_m } = raster.geometry;
-    let minX = columns, minY = rows, maxX = 0, maxY = 0;
-    for (let row = 0; row < rows; ++row) {
-      for (let column = 0; column < columns; ++column) {
-        if (raster.occupancy[row * columns + column] === 0) continue;
-        minX = Math.min(minX, column);
-        maxX = Math.max(maxX, column + 1);
-        minY = Math.min(minY, row);
-        maxY = row + 1;
-      }
-    }
-    if (maxX === 0) return null;
+    if (raster === null || this.known === null) return null;
+    const { resolution_m, x_m, y_m } = raster.geometry;
+    const { fromColumn, fromRow, toColumn, toRow } = this.known;
     return {
-      minX: x_m + minX * resolution_m, maxX: x_m + maxX * resolution_m,
-      minY: y_m + minY * resolution_m, maxY: y_m + maxY * resolution_m,
+      minX: x_m + fromColumn * resolution_m, maxX: x_m + toColumn * resolution_m,
+      minY: y_m + fromRow * resolution_m, maxY: y_m + toRow * resolution_m,
     };
+  }
+  private known: CellRect | null = null;
+  private learn(rects: CellRect[]): void {
+    const { raster } = this.scene;
+    if (raster === null) return;
+    for (const rect of rects) this.known = knownIn(raster, rect, this.known);
   }
   // Under who draws an area the map stays where it is.
   private refit(): void {
@@ -114,17 +117,23 @@ export class MapView {
     const box = this.box();
     if (box === null) return;
     this.fitted = true;
-    this.view.fit(box, TOOLS_HEIGHT);
+    this.view.fit(box, TOOLS_HEIGHT, this.corner);
     this.draw();
   }
   // The raster, or all of it, is new.
   replaced(): void {
     this.picture.forget();
+    const { raster } = this.scene;
+    this.known = null;
+    if (raster !== null) {
+      this.learn([{ fromColumn: 0, fromRow: 0, toColumn: raster.geometry.columns, toRow: raster.geometry.rows }]);
+    }
     this.refit();
     this.draw();
   }
   cellsChanged(rects: CellRect[]): void {
     this.picture.update(rects);
+    this.learn(rects);
     this.refit();
     this.draw();
   }

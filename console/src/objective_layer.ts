@@ -4,7 +4,7 @@
 import { FREE } from '@plumescout/client';
 import type { Raster } from '@plumescout/client';
 import { ObjectiveVerdict } from '@plumescout/client/wire';
-import type { GasAtPoint, QueryGasResponse } from '@plumescout/client/wire';
+import type { GasAtPoint, ObjectiveOptions, QueryGasResponse } from '@plumescout/client/wire';
 import type { Place } from './area_draft.ts';
 
 // As many places as the server answers for at once.
@@ -13,8 +13,6 @@ export const MOST_PLACES = 4096;
 const AGAIN_MS = 2_000;
 
 export type Outlook = 'below' | 'above' | 'refuted' | 'undecided' | 'unmeasured';
-export const OUTLOOKS: [Outlook, string][] = [['below', 'decided'], ['above', 'decided, above'],
-  ['refuted', 'refuted'], ['undecided', 'undecided'], ['unmeasured', 'not measured']];
 export type JudgedSquare = Place & { size_m: number; outlook: Outlook };
 
 // The middles of squares that lie on free cells, of the smallest squares of which there are not more than so many.
@@ -33,7 +31,22 @@ export function squaresOf(raster: Raster, most = MOST_PLACES): { places: Place[]
   }
 }
 
-function outlookOf({ verdict, meanPpm }: GasAtPoint, threshold_ppm: number): Outlook | null {
+// A verdict a cell of `raster`: that of the middle of the square that it lies in.
+export function spread(raster: Raster, places: Place[], size_m: number, verdicts: number[]): Uint8Array {
+  const { columns, rows, resolution_m, x_m, y_m } = raster.geometry;
+  const side = Math.round(size_m / resolution_m);
+  const cells = new Uint8Array(columns * rows);
+  places.forEach((place, i) => {
+    const fromColumn = Math.floor(((place.x_m - x_m) / resolution_m) / side) * side;
+    const fromRow = Math.floor(((place.y_m - y_m) / resolution_m) / side) * side;
+    for (let row = fromRow; row < Math.min(fromRow + side, rows); ++row) {
+      cells.fill(verdicts[i], row * columns + fromColumn, row * columns + Math.min(fromColumn + side, columns));
+    }
+  });
+  return cells;
+}
+
+export function outlookOf({ verdict, meanPpm }: GasAtPoint, threshold_ppm: number): Outlook | null {
   switch (verdict) {
     case ObjectiveVerdict.NOT_MEASURED: return 'unmeasured';
     case ObjectiveVerdict.UNDECIDED: return 'undecided';
@@ -53,7 +66,8 @@ export function judgedSquares(places: Place[], size_m: number, gas: GasAtPoint[]
 export type ObjectiveQuestion = {
   ask(places: Place[], signal: AbortSignal): Promise<QueryGasResponse | null>; // null: not now
   goesOn(): boolean; // whether the answer will be another one soon
-  threshold_ppm(): number;
+  asked(): ObjectiveOptions | undefined; // what the mission is for, once that is known
+  mostPlaces: number; // that are answered for at once
 };
 
 export class ObjectiveLayer {
@@ -76,12 +90,12 @@ export class ObjectiveLayer {
 
   private async ask(signal: AbortSignal): Promise<void> {
     const raster = this.raster();
-    const { places, size_m } = raster === null ? { places: [], size_m: 0 } : squaresOf(raster);
+    const { places, size_m } = raster === null ? { places: [], size_m: 0 } : squaresOf(raster, this.question.mostPlaces);
     try {
       const answer = places.length === 0 ? null : await this.question.ask(places, signal);
       if (signal.aborted) return;
       if (answer !== null) {
-        this.squares = judgedSquares(places, size_m, answer.gas, this.question.threshold_ppm());
+        this.squares = judgedSquares(places, size_m, answer.gas, this.question.asked()?.thresholdPpm ?? Infinity);
         this.changed();
       }
     } catch {

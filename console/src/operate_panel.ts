@@ -23,10 +23,10 @@ export class OperatePanel {
   readonly element = h('div', {});
   private exporting: AbortController | null = null;
 
-  // `areas`: what is done about keep-out areas.
+  // `areas`: what is done about keep-out areas; `report`: makes one of what is looked at.
   constructor(private readonly mission: string, private readonly areas: HTMLElement,
               private readonly raster: () => Raster | null,
-              private readonly link: () => string) {}
+              private readonly link: () => string, private readonly report: () => Promise<string>) {}
 
   leave(): void {
     this.exporting?.abort();
@@ -119,11 +119,19 @@ export class OperatePanel {
       }) }, 'Map (map_server)'),
       h('button', { onclick: () => npy('gas-mean', (raster) => raster.mean_ppm) }, 'Gas mean (npy)'),
       h('button', { onclick: () => npy('gas-variance', (raster) => raster.variance_ppm2) }, 'Gas variance (npy)'),
+      h('button', { onclick: () => void this.saveReport() }, 'Report (HTML)'),
       ...(mayOperate() ? [
         h('button', { onclick: () => void this.exportMission('plumescout') }, 'Whole mission'),
         h('button', { onclick: () => void this.exportMission('mcap') }, 'MCAP (Foxglove)')] : []),
       h('button', { onclick: () => void Promise.resolve(navigator.clipboard?.writeText(this.link()) ?? Promise.reject())
         .then(() => notice('The link to this moment is copied.'), () => notice(this.link())) }, 'Link to this moment')));
+  }
+
+  private async saveReport(): Promise<void> {
+    if (this.raster() === null) return notice('There is no map yet.', 'bad');
+    notice('The report is on its way …');
+    await attempt('The report is saved: it needs no server.', async () =>
+      saveFile(`${shortName(this.mission)}.html`, [await this.report()], 'text/html'));
   }
 
   // As a journal, which can be imported again, or as MCAP.

@@ -5,33 +5,37 @@
 import { create, fromBinary } from '@bufbuild/protobuf';
 import type { Message } from '@bufbuild/protobuf';
 import type { GenMessage } from '@bufbuild/protobuf/codegenv2';
-import { Raster, figuresOf, geometryOf } from '@plumescout/client';
-import type { GetMapResponse, LivePlan, Plan } from '@plumescout/client/wire';
-import { GetMapResponseSchema, LivePlanSchema, PlanSchema } from '@plumescout/client/wire';
+import { figuresOf } from '@plumescout/client';
+import type { Raster } from '@plumescout/client';
+import type { LivePlan, MapStatus, ObjectiveOptions, ObjectiveVerdict, Plan } from '@plumescout/client/wire';
+import {
+  GetMapResponseSchema, LivePlanSchema, ObjectiveOptionsSchema, PlanSchema, QueryGasResponseSchema,
+} from '@plumescout/client/wire';
+import type { Place } from './area_draft.ts';
 import { fill, h } from './dom.ts';
 import { MapPanel } from './map_panel.ts';
 import type { Scene } from './map_view.ts';
+import type { ObjectiveQuestion } from './objective_layer.ts';
+import { objectiveSummary, verdictAreas } from './objective_words.ts';
 import { planContent } from './plan_content.ts';
-import { duration, shortName } from './words.ts';
+import { bytesOf, rasterOf } from './reported_mission.ts';
+import type { ReportedMission } from './reported_mission.ts';
+import { duration, figure, shortName } from './words.ts';
 
-type Mission = {
-  map: string; // GetMapResponse in base64, as the others
-  truth: string;
-  plans: { time_s: number; plan: string }[]; // robot by robot
-  ways: { robot: string; points_m: [number, number][] }[];
-  sources_m: [number, number][];
-};
+// Squares of the objective's layer: as many as are drawn without a pause.
+const MOST_SQUARES = 65_536;
 
 function decode<T extends Message>(schema: GenMessage<T>, base64: string): T {
-  return fromBinary(schema, Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0)));
+  return fromBinary(schema, bytesOf(base64));
 }
 
-function rasterOf(response: GetMapResponse): Raster | null {
-  const geometry = geometryOf(response.tileGeometry);
-  if (geometry === null) return null;
-  const raster = new Raster(geometry);
-  for (const tile of response.tiles) raster.apply(tile);
-  return raster;
+function missionFacts(raster: Raster, status: MapStatus): [string, string][] {
+  const { known_m2, free_m2, max_ppm, plume_m2 } = figuresOf(raster, status.gasThresholdPpm);
+  const observed = (100 * status.observedAreaM2) / status.reachableAreaM2;
+  return [['known', `${figure(known_m2)} m²`], ['free', `${figure(free_m2)} m²`],
+    ['completeness', `${figure(observed)} %`], ['largest gas mean', `${figure(max_ppm)} ppm`],
+    ['plume', `${figure(plume_m2)} m² above ${figure(status.gasThresholdPpm)} ppm`],
+    ['readings', String(status.gasCounters?.readingCount ?? 0n)], ['robots', String(status.robots.length)]];
 }
 
 // The plan as a way on the map, while it was live.
@@ -40,10 +44,24 @@ function liveOf(plan: Plan): LivePlan {
   return create(LivePlanSchema, { robot: plan.robot, trajectory: plan.trajectory, goal });
 }
 
+// How the objective stood, cell by cell of the estimate.
+type Objective = { asked: ObjectiveOptions; verdicts: Uint8Array };
+
+function questionOf(objective: Objective, estimate: Raster): ObjectiveQuestion {
+  const at = ({ x_m, y_m }: Place) => {
+    const cell = estimate.cellAt(x_m, y_m);
+    return { verdict: (objective.verdicts[cell] ?? 0) as ObjectiveVerdict, meanPpm: estimate.mean_ppm[cell] };
+  };
+  return { ask: async (places) => create(QueryGasResponseSchema, { gas: places.map(at) }), goesOn: () => false,
+           asked: () => objective.asked, mostPlaces: MOST_SQUARES };
+}
+
 class Report {
   private readonly estimate: Raster | null;
   private readonly truth: Raster | null;
-  private readonly plans: { time_s: number; plan: Plan }[];
+  private readonly status: MapStatus | null;
+  private readonly plans: { time_s?: number; plan: Plan }[];
+  private readonly objective: Objective | null;
   private readonly scene: Scene;
   private readonly panel: MapPanel;
   private readonly details = h('div', { class: 'tab' });
@@ -51,20 +69,26 @@ class Report {
   private readonly slider: HTMLInputElement;
   private readonly shown: Record<'estimate' | 'truth', HTMLButtonElement>;
 
-  constructor(mission: Mission) {
+  constructor(private readonly mission: ReportedMission) {
     const map = decode(GetMapResponseSchema, mission.map);
     this.estimate = rasterOf(map);
-    this.truth = rasterOf(decode(GetMapResponseSchema, mission.truth));
+    this.truth = mission.truth === undefined ? null : rasterOf(decode(GetMapResponseSchema, mission.truth));
+    this.status = map.status ?? null;
+    this.objective = mission.objective === null ? null : {
+      asked: decode(ObjectiveOptionsSchema, mission.objective.asked), verdicts: bytesOf(mission.objective.verdicts) };
     this.plans = mission.plans
       .map(({ time_s, plan }) => ({ time_s, plan: decode(PlanSchema, plan) }))
-      .sort((a, b) => a.time_s - b.time_s);
+      .sort((a, b) => (a.time_s ?? 0) - (b.time_s ?? 0));
     this.scene = {
       raster: this.estimate, then: this.truth, figures: null, threshold_ppm: map.status?.gasThresholdPpm ?? 0,
-      status: map.status ?? null, plans: [], why: null, asksWhy: true, candidate: -1,
+      status: this.status, plans: [], why: null, asksWhy: true, candidate: -1,
       trails: new Map(mission.ways.map(({ robot, points_m }) => [robot, { points: points_m }])),
       keepOut: map.status?.keepOut ?? [], draft: null, beside: null, home: undefined, robot: '', asked: null,
       sources: mission.sources_m.map(([x_m, y_m]) => ({ x_m, y_m })), judged: [] };
-    this.panel = new MapPanel(this.scene, () => {}, () => {});
+    this.panel = new MapPanel(this.scene, () => {}, () => {}, null,
+      this.objective === null || this.estimate === null ? null : questionOf(this.objective, this.estimate));
+    this.panel.offerObjective(this.objective !== null);
+    this.panel.offerChange(this.truth !== null);
     this.panel.callChange('Error', 'Estimated gas mean less the true one');
     this.slider = h('input', { type: 'range', min: 0, max: this.plans.length, value: this.plans.length,
                                'aria-label': 'Plan to look at', oninput: () => this.showPlan() });
@@ -81,7 +105,7 @@ class Report {
     return h('main', { class: 'mission' },
       this.panel.element,
       h('aside', { class: 'side', 'aria-label': 'Plan' },
-        h('div', { class: 'tabs' }, this.shown.estimate, this.shown.truth), this.details),
+        this.truth === null ? null : h('div', { class: 'tabs' }, this.shown.estimate, this.shown.truth), this.details),
       h('footer', { class: 'time', 'aria-label': 'Plans' },
         h('button', { onclick: step(-1), 'aria-label': 'Plan before' }, '‹'), this.slider,
         h('button', { onclick: step(1), 'aria-label': 'Next plan' }, '›'), this.moment));
@@ -110,17 +134,36 @@ class Report {
     this.scene.robot = plan?.robot ?? '';
     this.scene.plans = plan === null ? [] : [liveOf(plan)];
     this.scene.candidate = -1;
-    this.moment.textContent = entry === undefined ? `end of the mission; ${this.plans.length} plans`
-      : `plan ${Number(this.slider.value) + 1} of ${this.plans.length}, ` +
-        `${shortName(entry.plan.robot)} after ${duration(entry.time_s)}`;
-    fill(this.details, ...(plan === null
-      ? [h('p', { class: 'quiet' }, 'The map when the mission ended, and the ways that were driven. Move the ' +
-          'slider below for each plan and what it was chosen from. Point at a cell for its gas; drag to pan, scroll to zoom.')]
+    this.moment.textContent = entry === undefined ? `${this.plans.length} plan${this.plans.length === 1 ? '' : 's'}`
+      : `plan ${Number(this.slider.value) + 1} of ${this.plans.length}, ${shortName(entry.plan.robot)}` +
+        (entry.time_s === undefined ? '' : ` after ${duration(entry.time_s)}`);
+    fill(this.details, ...(plan === null ? this.overview()
       : planContent(plan, (candidate) => {
         this.scene.candidate = candidate;
         this.panel.map.draw();
       })));
     this.panel.map.draw();
+  }
+
+  // What there is to say of all of it.
+  private overview(): HTMLElement[] {
+    const { title } = this.mission;
+    const parts: HTMLElement[] = [h('p', { class: 'quiet' }, title === undefined
+      ? 'The map when the mission ended, and the ways that were driven. Move the slider below for each plan and ' +
+        'what it was chosen from. Point at a cell for its gas; drag to pan, scroll to zoom.'
+      : 'The map as it was then, with the ways of robots while a console looked on. Move the slider below for the ' +
+        'latest plan of each robot. Point at a cell for its gas; drag to pan, scroll to zoom.')];
+    if (title !== undefined) parts.unshift(h('h1', {}, title));
+    const { estimate, objective, status } = this;
+    if (objective !== null && estimate !== null && status?.objective !== undefined) {
+      parts.push(objectiveSummary(objective.asked, status.objective,
+                                  verdictAreas(objective.asked, objective.verdicts, estimate)));
+    }
+    if (title !== undefined && estimate !== null && status !== null) {
+      parts.push(h('dl', { class: 'facts' }, ...missionFacts(estimate, status).flatMap(([name, value]) => [
+        h('dt', {}, name), h('dd', {}, value)])));
+    }
+    return parts;
   }
 
   onKey(event: KeyboardEvent): void {
@@ -130,7 +173,9 @@ class Report {
 }
 
 document.documentElement.dataset.theme = 'light';
-const report = new Report(JSON.parse(document.getElementById('mission')!.textContent!) as Mission);
+const mission = JSON.parse(document.getElementById('mission')!.textContent!) as ReportedMission;
+if (mission.title !== undefined) document.title = mission.title;
+const report = new Report(mission);
 document.body.prepend(report.element());
 document.addEventListener('keydown', (event) => report.onKey(event));
 report.showMap('estimate');

@@ -23,9 +23,9 @@ function factsOf(robot: Robot): Facts {
   if (robot.ingestLagS !== undefined) facts.push(['newest sample', `${duration(robot.ingestLagS)} old`]);
   if (robot.batteryShare !== undefined) facts.push(['battery', `${figure(100 * robot.batteryShare)} %`]);
   if (robot.livePlan === '') return [...facts, ['plan', 'none']];
-  const late = figure(Math.max(0, robot.latenessS), 2);
+  const late_s = robot.latenessS < 0.05 ? '' : `, late by ${figure(robot.latenessS, 2)} s`;
   return [...facts, ['plan', shortName(robot.livePlan)],
-    ['on its way', `${figure(robot.progressS)} s, late by ${late} s`]];
+    ['on its way', `${figure(robot.progressS, 2)} s${late_s}`]];
 }
 
 function missionFacts(mission: Mission, { figures, status }: Scene): Facts {

@@ -13,7 +13,9 @@ function plain(name: string | undefined): string {
   return (name ?? 'unknown').toLowerCase().replaceAll('_', ' ');
 }
 
-export const goalKind = (kind: GoalKind) => plain(GoalKind[kind]);
+// As the legend calls them.
+export const goalKind = (kind: GoalKind) =>
+  kind === GoalKind.OCCUPANCY_FRONTIER ? 'map frontier' : plain(GoalKind[kind]);
 export const phase = (value: MissionPhase) => plain(MissionPhase[value]);
 export const missionState = (state: MissionState) => plain(MissionState[state]);
 export const link = (value: RobotLink) => plain(RobotLink[value]);

@@ -5,9 +5,9 @@ import { test } from 'node:test';
 import { scaleOf } from '../src/cell_picture.ts';
 import type { Cells } from '../src/cell_picture.ts';
 
-const cells = (max_ppm: number, max_stddev_ppm: number, beside: Cells | null = null): Cells => ({
+const cells = (max_ppm: number, p99_stddev_ppm: number, beside: Cells | null = null): Cells => ({
   raster: null, then: null, threshold_ppm: 0.2, beside,
-  figures: { known_m2: 1, free_m2: 1, plume_m2: 0, max_ppm, max_stddev_ppm, mean_entropy_nats: 0 } });
+  figures: { known_m2: 1, free_m2: 1, plume_m2: 0, max_ppm, max_stddev_ppm: 500, p99_stddev_ppm, mean_entropy_nats: 0 } });
 
 test('a map alone is on its own scale', () => {
   assert.deepEqual(scaleOf('mean', false, cells(18, 3), null), { min: 0, max: 20, log: false });

@@ -4,8 +4,8 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { create } from '@bufbuild/protobuf';
 import { FREE, OCCUPIED, Raster } from '@plumescout/client';
-import { GasAtPointSchema, ObjectiveVerdict, QueryGasResponseSchema } from '@plumescout/client/wire';
-import { ObjectiveLayer, judgedSquares, squaresOf } from '../src/objective_layer.ts';
+import { GasAtPointSchema, ObjectiveOptionsSchema, ObjectiveVerdict, QueryGasResponseSchema } from '@plumescout/client/wire';
+import { ObjectiveLayer, judgedSquares, spread, squaresOf } from '../src/objective_layer.ts';
 
 function room(columns: number, rows: number): Raster {
   const raster = new Raster({ x_m: 10, y_m: 0, resolution_m: 0.5, columns, rows });
@@ -27,6 +27,13 @@ test('of a large map squares are judged by their middle, as many as are answered
   assert.deepEqual(places[0], { x_m: 10.75, y_m: 0.75 });
 });
 
+test('what is said of a square is said of its cells', () => {
+  const raster = room(5, 3);
+  const { places, size_m } = squaresOf(raster, 6);
+  assert.equal(size_m, 1);
+  assert.deepEqual([...spread(raster, places, size_m, places.map((_, i) => i + 1))], [1, 1, 2, 2, 0, 1, 1, 2, 2, 0, 0, 0, 0, 0, 0]);
+});
+
 test('verdicts become what is drawn, and what does not count is left out', () => {
   const V = ObjectiveVerdict;
   const gas = [point(V.DECIDED, 1), point(V.DECIDED, 9), point(V.REFUTED, 9), point(V.UNDECIDED, 5),
@@ -42,7 +49,7 @@ test('it is asked for while it is shown, and what comes late is dropped', async 
   const layer = new ObjectiveLayer({
     ask: () => new Promise((resolve) => answers.push((verdict) =>
       resolve(create(QueryGasResponseSchema, { gas: [point(verdict)] })))),
-    goesOn: () => false, threshold_ppm: () => 5 }, () => room(1, 1), () => ++changes);
+    goesOn: () => false, asked: () => create(ObjectiveOptionsSchema, { thresholdPpm: 5 }), mostPlaces: 9 }, () => room(1, 1), () => ++changes);
   layer.show(true);
   layer.show(true); // of another moment
   answers[0](ObjectiveVerdict.NOT_MEASURED);

@@ -7,60 +7,59 @@
 namespace plumescout {
 namespace {
 
-// Spreads labels (0, 1, ...) over a padded raster of kBlocked, kUnreached or a label.
+// Spreads labels (0, 1, ...) over a padded raster of kBlocked, kUnreached or a label, by runs:
+// cells of a row that lie side by side. Where corners are not cut a diagonal step is two straight
+// ones, so that runs are connected as if there were none.
 template <typename Label>
 class Flood {
  public:
   Flood(const Grid<std::uint8_t>& passable, Connectivity connectivity)
       : labels_(PaddedFrom<Label>(passable, kBlocked,
                                   [](std::uint8_t ok) { return ok != 0 ? kUnreached : kBlocked; })),
-        offsets_(labels_.NeighbourOffsets()),
-        connectivity_(connectivity) {}
+        aside_(connectivity == Connectivity::kEight ? 1 : 0) {}
 
   const Padded<Label>& labels() const { return labels_; }
 
   // Labels all that is connected to `start` and not labelled yet. Returns the number of cells.
   int Spread(Cell start, Label label) {
-    const int first = labels_.IndexOf(start);
-    if (labels_[first] != kUnreached) return 0;
-    int count = 1;
-    labels_[first] = label;
-    stack_.assign(1, first);
+    int count = 0;
+    stack_.assign(1, labels_.IndexOf(start));
     while (!stack_.empty()) {
       const int cell = stack_.back();
       stack_.pop_back();
-      count += SpreadFrom(cell, label);
+      if (labels_[cell] == kUnreached) count += LabelRun(cell, label);
     }
     return count;
   }
 
  private:
-  int SpreadFrom(int cell, Label label) {
-    int count = 0;
-    const std::size_t steps = connectivity_ == Connectivity::kFour ? kNeighbours4.size() : 8;
-    for (std::size_t k = 0; k < steps; ++k) {
-      const int neighbour = cell + offsets_[k];
-      if (labels_[neighbour] != kUnreached || CutsCorner(cell, k)) continue;
-      labels_[neighbour] = label;
-      stack_.push_back(neighbour);
-      ++count;
+  // That of the cell. Its neighbours are for later.
+  int LabelRun(int cell, Label label) {
+    int begin = cell;
+    int end = cell + 1;
+    while (labels_[begin - 1] == kUnreached) --begin;
+    while (labels_[end] == kUnreached) ++end;
+    for (int i = begin; i < end; ++i) labels_[i] = label;
+    for (const int row : {-labels_.stride(), labels_.stride()}) {
+      PushRuns(begin - aside_ + row, end + aside_ + row);
     }
-    return count;
+    return end - begin;
   }
 
-  bool CutsCorner(int cell, std::size_t k) const {
-    const Cell offset = kNeighbours8[k];
-    return connectivity_ == Connectivity::kEightNoCornerCut && IsDiagonal(offset) &&
-           (labels_[cell + offset.x] == kBlocked ||
-            labels_[cell + offset.y * labels_.stride()] == kBlocked);
+  void PushRuns(int begin, int end) {
+    bool in_run = false;
+    for (int cell = begin; cell < end; ++cell) {
+      const bool is_open = labels_[cell] == kUnreached;
+      if (is_open && !in_run) stack_.push_back(cell);
+      in_run = is_open;
+    }
   }
 
   static constexpr Label kBlocked = -2;
   static constexpr Label kUnreached = -1;
 
   Padded<Label> labels_;
-  std::array<int, 8> offsets_;
-  Connectivity connectivity_;
+  const int aside_;  // how far beside a run cells of the next row are its neighbours
   std::vector<int> stack_;
 };
 

@@ -39,7 +39,7 @@ std::string WhatIsRefuted(const ObjectiveStatus& status, const ObjectiveOptions&
 
 std::string WhatIsLeft(const ObjectiveStatus& status) {
   if (!status.place) return "nothing is known yet";
-  return absl::StrFormat("%.1f m^2 are undecided, most of all%s, and %d frontier%s open",
+  return absl::StrFormat("%.1f m\u00B2 are undecided, most of all%s, and %d frontier%s open",
                          status.undecided_area_m2, At(status.place), status.open_frontiers,
                          status.open_frontiers == 1 ? " of the map is" : "s of the map are");
 }

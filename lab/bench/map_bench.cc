@@ -9,10 +9,12 @@
 #include <cstdlib>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <queue>
 #include <utility>
 #include <vector>
 
+#include "core/belief/completeness.h"
 #include "core/frontier/gas_frontier.h"
 #include "core/frontier/occupancy_frontier.h"
 #include "core/grid/distance_field.h"
@@ -200,7 +202,26 @@ void BenchGrid(const World& world, BenchSummary& summary) {
               MedianCpu_ms(kRepeats, [&] { HeapDistances_m(world.traversable, world.start); }));
 }
 
-void BenchFrontiers(const World& world, BenchSummary& summary) {
+// A plume around the start, measured along a strip from west to east.
+struct Gas {
+  explicit Gas(const World& world)
+      : mean_ppm(world.states.geometry()), variance_ppm2(world.states.geometry()) {
+    constexpr double kPlume_cells = 40.0;
+    constexpr double kPeak_ppm = 50.0;
+    constexpr int kStrip_cells = 15;
+    for (std::size_t i = 0; i < mean_ppm.size(); ++i) {
+      const Cell cell = mean_ppm.geometry().CellAtIndex(i);
+      const double distance = std::hypot(cell.x - world.start.x, cell.y - world.start.y);
+      mean_ppm[i] = static_cast<float>(kPeak_ppm * std::exp(-distance / kPlume_cells));
+      variance_ppm2[i] = std::abs(cell.y - world.start.y) < kStrip_cells ? 0.1F : 1.0F;
+    }
+  }
+
+  Grid<float> mean_ppm;
+  Grid<float> variance_ppm2;
+};
+
+void BenchFrontiers(const World& world, const Gas& gas, BenchSummary& summary) {
   const FrontierOptions options;
   const std::vector<Cell> starts = {world.start};
   const auto find = [&] {
@@ -210,19 +231,7 @@ void BenchFrontiers(const World& world, BenchSummary& summary) {
   summary.Set("frontiers_160x200_ms", MedianCpu_ms(kRepeats, find));
   summary.Set("frontiers_found", static_cast<double>(find().size()));
 
-  // A plume around the start, measured along a strip from west to east.
-  constexpr double kPlume_cells = 40.0;
-  constexpr double kPeak_ppm = 50.0;
-  constexpr int kStrip_cells = 15;
-  Grid<float> mean_ppm(world.states.geometry());
-  Grid<float> variance_ppm2(world.states.geometry());
-  for (std::size_t i = 0; i < mean_ppm.size(); ++i) {
-    const Cell cell = mean_ppm.geometry().CellAtIndex(i);
-    const double distance = std::hypot(cell.x - world.start.x, cell.y - world.start.y);
-    mean_ppm[i] = static_cast<float>(kPeak_ppm * std::exp(-distance / kPlume_cells));
-    variance_ppm2[i] = std::abs(cell.y - world.start.y) < kStrip_cells ? 0.1F : 1.0F;
-  }
-  const GasFrontierInput input = {world.states, world.traversable, mean_ppm, variance_ppm2};
+  const GasFrontierInput input = {world.states, world.traversable, gas.mean_ppm, gas.variance_ppm2};
   const auto find_gas = [&] {
     const double observed_ppm2 = ObservedVariance_ppm2(options, GasOptions{});
     return FindGasFrontiers(input, observed_ppm2, GasThreshold_ppm(input, observed_ppm2, options),
@@ -232,11 +241,33 @@ void BenchFrontiers(const World& world, BenchSummary& summary) {
   summary.Set("gas_frontiers_found", static_cast<double>(find_gas().size()));
 }
 
+// What is told of each revision beside the rasters, with one robot, and how much of that time is
+// for how complete the map is.
+void BenchStatus(const World& world, const Gas& gas, BenchSummary& summary) {
+  Belief belief;
+  belief.options = std::make_shared<const MissionOptions>();
+  belief.occupancy = std::make_shared<const Grid<CellState>>(world.states);
+  belief.traversable = std::make_shared<const Grid<std::uint8_t>>(world.traversable);
+  belief.gas_mean_ppm = std::make_shared<const Grid<float>>(gas.mean_ppm);
+  belief.gas_variance_ppm2 = std::make_shared<const Grid<float>>(gas.variance_ppm2);
+  RobotRecord& robot = belief.robots["r"];
+  robot.state.has_pose = true;
+  robot.state.pose = world.poses.front();
+  robot.first_place = world.poses.front().position();
+  const double status_ms = MedianCpu_ms(kRepeats, [&] { MakeMapStatus(belief); });
+  const double completeness_ms = MedianCpu_ms(kRepeats, [&] { AssessCompleteness(belief); });
+  summary.Set("map_status_160x200_ms", status_ms);
+  summary.Set("completeness_160x200_ms", completeness_ms);
+  summary.Set("completeness_share_of_map_status", completeness_ms / status_ms);
+}
+
 absl::Status Run(BenchSummary& summary) {
   World world;
   PLUMESCOUT_RETURN_IF_ERROR(MakeWorld(summary.seed(), world));
   BenchGrid(world, summary);
-  BenchFrontiers(world, summary);
+  const Gas gas(world);
+  BenchFrontiers(world, gas, summary);
+  BenchStatus(world, gas, summary);
   BenchScans(world, summary);
   return absl::OkStatus();
 }

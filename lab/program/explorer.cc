@@ -12,8 +12,10 @@
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "formats/file_io.h"
+#include "proto/convert/enums.h"
 #include "proto/convert/geometry.h"
 #include "proto/convert/map.h"
+#include "proto/convert/options.h"
 #include "proto/convert/plan.h"
 #include "proto/convert/raster.h"
 
@@ -58,6 +60,19 @@ std::string TruthOf(const Scene& scene) {
   return Base64(MapOf(scene.occupancy, mean_ppm));
 }
 
+// Verdicts as a byte a cell, row by row from the south; null: the mission had no objective.
+Json ObjectiveOf(const std::optional<ObjectiveOutcome>& outcome) {
+  if (!outcome) return nullptr;
+  MissionOptions options;
+  options.objective = outcome->asked;
+  std::string verdicts;
+  for (const ObjectiveVerdict verdict : outcome->verdicts.values()) {
+    verdicts.push_back(static_cast<char>(ToProto(verdict)));
+  }
+  return {{"asked", Base64(ToProto(options).objective())},
+          {"verdicts", absl::Base64Escape(verdicts)}};
+}
+
 double Rounded(double length_m) {
   return std::round(length_m * kCentimetresPerMetre) / kCentimetresPerMetre;
 }
@@ -100,11 +115,9 @@ std::string ReadExplorerPage() {
 std::string MakeExplorer(absl::string_view page, const Run& run) {
   const std::size_t place = page.find(kPlace);
   if (place == absl::string_view::npos) return "";
-  Json mission = {{"map", EstimateOf(run.final_map)},
-                  {"truth", TruthOf(run.world.scene())},
-                  {"plans", PlanEntries(run.team)},
-                  {"ways", Json::array()},
-                  {"sources_m", Json::array()}};
+  Json mission = {{"map", EstimateOf(run.final_map)}, {"truth", TruthOf(run.world.scene())},
+                  {"plans", PlanEntries(run.team)},   {"ways", Json::array()},
+                  {"sources_m", Json::array()},       {"objective", ObjectiveOf(run.objective)}};
   for (const EpisodeResult& robot : run.team.robots) mission["ways"].push_back(WayOf(robot));
   for (const GasSource& source : run.world.scene().sources) {
     mission["sources_m"].push_back({source.x_m, source.y_m});

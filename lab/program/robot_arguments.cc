@@ -26,6 +26,22 @@
 namespace plumescout::lab {
 namespace {
 
+void AddObjectiveOptions(CLI::App& app, ObjectiveOptions& objective) {
+  const std::map<std::string, ObjectiveKind> kinds{
+      {"complete_map", ObjectiveKind::kCompleteMap},
+      {"map_above_threshold", ObjectiveKind::kMapAboveThreshold},
+      {"confirm_clean", ObjectiveKind::kConfirmClean},
+      {"find_sources", ObjectiveKind::kFindSources}};
+  app.add_option("--objective", objective.kind,
+                 "What a mission that is made is for; it ends once that is met or refuted")
+      ->transform(CLI::CheckedTransformer(kinds))
+      ->default_str("complete_map");
+  app.add_option("--objective-threshold", objective.threshold_ppm,
+                 "Concentration that the objective is about, ppm");
+  app.add_option("--objective-confidence", objective.confidence,
+                 "How sure it is to be of each cell, as a share");
+}
+
 void AddMissionOptions(CLI::App& app, RobotArguments& arguments) {
   app.add_option("--scene", arguments.scene, "Scene folder: the true building and gas")
       ->required()
@@ -50,6 +66,7 @@ void AddMissionOptions(CLI::App& app, RobotArguments& arguments) {
                  "(default: the scene's start, others beside it)")
       ->default_str("");
   app.add_option("--strategy", arguments.strategy, absl::StrJoin(StrategyNames(), ", "));
+  AddObjectiveOptions(app, arguments.objective);
   app.add_option("--duration", arguments.duration_s, "Longest simulated time, seconds")
       ->check(CLI::PositiveNumber);
   app.add_option("--seed", arguments.seed, "Seed of sensors and planner")
@@ -204,6 +221,8 @@ absl::StatusOr<MissionOptions> MissionOf(const RobotArguments& arguments, const 
   mission.frontier.fixed_gas_threshold_ppm = arguments.gas_threshold_ppm;
   mission.gas.background_mean_ppm = arguments.world.ambient_ppm;
   mission.seed = arguments.seed;
+  mission.objective = arguments.objective;
+  PLUMESCOUT_RETURN_IF_ERROR(Validate(mission.objective));
   PLUMESCOUT_RETURN_IF_ERROR(TakePriorMap(arguments, world, mission));
   return mission;
 }

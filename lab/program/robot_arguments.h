@@ -38,6 +38,7 @@ struct RobotArguments {
   std::string mission = "demo";
   std::string robot = "robot-1";
   std::string strategy = MissionOptions{}.planning.strategy;
+  ObjectiveOptions objective;
   std::string record;  // empty: a server plans
   bool known_map = false;
   std::string prior_map;  // a file; empty: none

@@ -16,10 +16,13 @@
 #include "absl/strings/str_format.h"
 #include "absl/time/clock.h"
 #include "client/grpc_planner_client.h"
+#include "client/grpc_viewer_client.h"
+#include "core/belief/gas_query.h"
 #include "core/plan/strategy.h"
 #include "core/types/status_macros.h"
 #include "lab/formats/scene_folder.h"
 #include "lab/local/local_planner_client.h"
+#include "lab/program/objective_survey.h"
 #include "lab/program/progress_line.h"
 #include "lab/program/recording.h"
 #include "lab/program/robot_arguments.h"
@@ -132,17 +135,45 @@ std::string Verdict(const TeamResult& team, double wall_s) {
   return verdict;
 }
 
-// By a server, or in this process with the mission's events recorded.
-absl::StatusOr<TeamResult> RunPlanned(const RobotArguments& arguments, const SceneWorld& world,
-                                      PlannedEpisode planned) {
+// What came of an episode, and of what its mission was for.
+struct Ended {
+  TeamResult team;
+  std::optional<ObjectiveOutcome> objective;
+};
+
+// `map`: where the last map of the episode is, once it has ended.
+absl::StatusOr<Ended> RunByServer(const RobotArguments& arguments, const SceneWorld& world,
+                                  PlannedEpisode planned, const MapSnapshot& map) {
   EpisodeOptions& options = planned.options;
-  if (arguments.record.empty()) {
-    client::GrpcClientOptions link;
-    link.target = arguments.server;
-    // A server looks at plans by its own clock, and lockstep is to be repeatable.
-    options.watch = options.realtime;
-    return RunTeamEpisode(*client::MakeGrpcPlannerClient(link), world, options, planned.teammates);
-  }
+  client::GrpcClientOptions link;
+  link.target = arguments.server;
+  // A server looks at plans by its own clock, and lockstep is to be repeatable.
+  options.watch = options.realtime;
+  PLUMESCOUT_ASSIGN_OR_RETURN(TeamResult team, RunTeamEpisode(*client::MakeGrpcPlannerClient(link),
+                                                              world, options, planned.teammates));
+  Ended ended{std::move(team), std::nullopt};
+  if (!map.objective) return ended;
+  const auto viewer = client::MakeGrpcViewerClient(link);
+  // Somebody else may have made the mission.
+  PLUMESCOUT_ASSIGN_OR_RETURN(const client::MissionDetails mission,
+                              viewer->GetMission(options.mission));
+  const AskGas ask =
+      [&](const std::vector<Point2>& places) -> absl::StatusOr<std::vector<GasAtPlace>> {
+    PLUMESCOUT_ASSIGN_OR_RETURN(
+        client::GasAnswer answer,
+        viewer->QueryGas(options.mission, {.points = places, .with_verdicts = true}));
+    return std::move(answer.gas);
+  };
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      ended.objective,
+      SurveyObjective(mission.options.objective, map, options.simulated.start_time_ns, ask));
+  return ended;
+}
+
+// In this process, with the mission's events recorded.
+absl::StatusOr<Ended> RunHere(const RobotArguments& arguments, const SceneWorld& world,
+                              PlannedEpisode planned, const MapSnapshot& map) {
+  EpisodeOptions& options = planned.options;
   PLUMESCOUT_RETURN_IF_ERROR(ApplyStrategyRow(options.create->planning));  // as servers do
   PLUMESCOUT_ASSIGN_OR_RETURN(Recorder recorder,
                               Recorder::Create(arguments.record, *options.create));
@@ -158,7 +189,16 @@ absl::StatusOr<TeamResult> RunPlanned(const RobotArguments& arguments, const Sce
   PLUMESCOUT_ASSIGN_OR_RETURN(TeamResult team,
                               RunTeamEpisode(planner, world, options, planned.teammates));
   PLUMESCOUT_RETURN_IF_ERROR(recorder.status());
-  return team;
+  Ended ended{std::move(team), std::nullopt};
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::shared_ptr<const Belief> belief,
+                              planner.GetBelief(options.mission));
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      ended.objective,
+      SurveyObjective(belief->options->objective, map, options.simulated.start_time_ns,
+                      [&](const std::vector<Point2>& places) {
+                        return QueryGas(*belief, places, 0, /*with_verdicts=*/true);
+                      }));
+  return ended;
 }
 
 absl::Status DriveRobots(const RobotArguments& arguments) {
@@ -174,18 +214,20 @@ absl::Status DriveRobots(const RobotArguments& arguments) {
     display.OnSample(sample, map);
     crash.OnTime(sample.time_s);
   };
-  PLUMESCOUT_ASSIGN_OR_RETURN(const TeamResult team,
-                              RunPlanned(arguments, world, std::move(planned)));
+  const auto run_episode = arguments.record.empty() ? RunByServer : RunHere;
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      const Ended ended, run_episode(arguments, world, std::move(planned), display.last_map()));
   const double wall_s = absl::ToDoubleSeconds(absl::Now() - start);
-  display.line().Finish(Verdict(team, wall_s));
+  display.line().Finish(Verdict(ended.team, wall_s));
   PLUMESCOUT_RETURN_IF_ERROR(crash.status());
   const Run run{.world = world,
-                .team = team,
+                .team = ended.team,
                 .final_map = display.last_map(),
                 .strategy = arguments.strategy,
                 .seed = arguments.seed,
                 .wall_s = wall_s,
                 .server_killed_s = crash.happened_s(),
+                .objective = ended.objective,
                 .look = {.lidar_range_m = arguments.lidar.max_range_m}};
   PLUMESCOUT_RETURN_IF_ERROR(WriteRunFolder(run, arguments.out));
   std::cout << arguments.out << "/report.html\n";

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/types/map_snapshot.h"
+#include "lab/report/objective_section.h"
 #include "lab/sim/episode.h"
 #include "lab/sim/scene_world.h"
 #include "lab/trials/team_picture.h"
@@ -21,8 +22,9 @@ struct Run {
   std::string strategy;
   std::uint64_t seed = 0;
   double wall_s = 0.0;
-  std::optional<double> server_killed_s = {};  // of simulated time
-  TeamLook look = {};                          // of several robots
+  std::optional<double> server_killed_s = {};      // of simulated time
+  std::optional<ObjectiveOutcome> objective = {};  // none: a complete map
+  TeamLook look = {};                              // of several robots
 };
 
 }  // namespace plumescout::lab

@@ -126,6 +126,7 @@ ReportData MakeReport(const Run& run, const Summary& summary) {
         {sample.time_s, m.completeness, m.rmse_ppm, m.rmse_zero_ppm, m.entropy_nats});
   }
   if (run.team.robots.size() > 1) report.team = MakeTeamPicture(run.team, run.world, run.look);
+  report.objective = run.objective;
   report.server_killed_s = run.server_killed_s;
   report.key_numbers = LabelledNumbers(summary);
   report.explorer = MakeExplorer(ReadExplorerPage(), run);

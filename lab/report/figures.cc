@@ -218,6 +218,10 @@ std::vector<MapPanel> MakeMapPanels(const ReportData& data) {
                  PaintField(data.map.gas_variance_ppm2, data.map.occupancy, region, variance.scale),
                  variance));
   panels.push_back(OccupancyPanel(data, region));
+  if (data.objective) {
+    panels.push_back(ObjectivePanel(*data.objective, data.map, region));
+    for (const MapMark& mark : SourceMarks(data)) panels.back().marks.push_back(mark);
+  }
   if (data.team) {
     const Grid<CellState>& map = data.map.occupancy;
     panels.push_back(TubesPanel(*data.team, map, region, BusiestMoment_s(*data.team)));

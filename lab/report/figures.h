@@ -20,8 +20,8 @@ Rgb StateColor(CellState state);
 Rgb GoalColor(GoalKind kind);
 
 // True gas (if known), estimated mean, its variance, and occupancy with frontiers, goals and
-// paths: all of the same region, the gas maps with the same colours. Of a team also its tubes at
-// the busiest moment, and where each robot drove.
+// paths: all of the same region, the gas maps with the same colours. With an objective also how it
+// stands; of a team its tubes at the busiest moment, and where each robot drove.
 // REQUIRES: valid data (see report.h).
 std::vector<MapPanel> MakeMapPanels(const ReportData& data);
 

@@ -14,7 +14,7 @@
 namespace plumescout::lab {
 namespace {
 
-constexpr std::size_t kPrintedColumns = 6;  // of panels, where a mission is on one sheet
+constexpr std::size_t kPrintedColumns = 7;  // of panels, where a mission is on one sheet
 
 constexpr char kStyle[] = R"(
 body { margin: 0 auto; padding: 2rem; max-width: 120rem; color: #1f2430; background: #fff;
@@ -51,6 +51,9 @@ th { padding: .2rem .6rem .2rem 0; text-align: left; }
   .headline strong { font-size: 1.1rem; }
   .figures { gap: .5rem 1rem; margin: 0 0 .5rem; }
   .panels { grid-template-columns: repeat(var(--printed-columns), minmax(0, 1fr)); }
+  p { margin: 0 0 .3rem; }
+  table { font-size: inherit; }
+  .wide { margin: 0 0 .4rem; }
   .charts { grid-template-columns: repeat(4, minmax(0, 1fr)); }
   .panels img { max-height: 90mm; width: auto; max-width: 100%; }
   .numbers, .numbers tbody { display: block; width: auto; max-width: none; }

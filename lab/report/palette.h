@@ -26,6 +26,13 @@ inline constexpr Rgb kRandomGoalColor{130, 136, 148};
 inline constexpr Rgb kSourceColor{206, 30, 140};
 inline constexpr Rgb kStartColor{22, 150, 84};
 
+// How an objective stands; told apart also by the colour-blind.
+inline constexpr Rgb kJudgedBelowColor{159, 205, 234};
+inline constexpr Rgb kJudgedAboveColor{230, 159, 0};
+inline constexpr Rgb kJudgedRefutedColor{192, 57, 43};
+inline constexpr Rgb kJudgedUndecidedColor{245, 234, 124};
+inline constexpr Rgb kNotMeasuredColor{201, 201, 201};
+
 // Paths and curves, told apart also by the colour-blind.
 inline constexpr std::array<Rgb, 6> kLineColors = {
     {{36, 99, 201}, {222, 120, 20}, {20, 140, 140}, {142, 68, 173}, {120, 85, 40}, {90, 96, 110}}};

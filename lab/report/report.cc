@@ -26,6 +26,9 @@ absl::Status Validate(const ReportData& data) {
   if (data.true_gas_ppm && data.true_gas_ppm->geometry() != data.truth.geometry()) {
     return absl::InvalidArgumentError("report: the true gas has another geometry than the truth");
   }
+  if (data.objective && data.objective->verdicts.geometry() != geometry) {
+    return absl::InvalidArgumentError("report: the verdicts have another geometry than the map");
+  }
   return absl::OkStatus();
 }
 
@@ -35,6 +38,10 @@ absl::Status WriteReport(const ReportData& data, const std::string& folder) {
   PLUMESCOUT_RETURN_IF_ERROR(Validate(data));
   ReportFigures figures{data.title, data.key_numbers, MakeMapPanels(data), MakeCharts(data)};
   figures.explorer = data.explorer;
+  if (data.objective) {
+    figures.notes.push_back(data.objective->explanation);
+    figures.tables.push_back(ObjectiveTable(*data.objective, data.map));
+  }
   if (data.team) figures.bar_charts.push_back(ShareChart(*data.team));
   const std::filesystem::path path(folder);
   PLUMESCOUT_RETURN_IF_ERROR(MakeFolder(folder));

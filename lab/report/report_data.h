@@ -12,6 +12,7 @@
 #include "core/types/map_snapshot.h"
 #include "core/types/plan.h"
 #include "core/types/pose2.h"
+#include "lab/report/objective_section.h"
 #include "lab/report/team_panels.h"
 
 namespace plumescout::lab {
@@ -36,8 +37,9 @@ struct ReportData {
   std::vector<Point2> sources;
   std::vector<Point2> starts;  // one per robot
   std::vector<MetricPoint> metrics;
-  std::optional<TeamPicture> team = {};   // of several robots
-  std::optional<double> server_killed_s;  // on purpose, at this time of the mission
+  std::optional<TeamPicture> team = {};            // of several robots
+  std::optional<ObjectiveOutcome> objective = {};  // none: a complete map
+  std::optional<double> server_killed_s;           // on purpose, at this time of the mission
   std::vector<std::pair<std::string, std::string>> key_numbers;  // name, value with unit
   std::string explorer = {};  // HTML of the mission to look around in, for the page only
 };

@@ -123,6 +123,26 @@ TEST_F(GrpcViewerClientTest, GasIsToldOfPlaces) {
             std::vector<std::string>{"points"});
 }
 
+TEST_F(GrpcViewerClientTest, HowTheObjectiveStandsIsToldOfPlacesIfAskedFor) {
+  MissionOptions clean;
+  clean.objective = {.kind = ObjectiveKind::kConfirmClean, .threshold_ppm = 10.0};
+  ASSERT_EQ(robots_->CreateMission("attic", clean), absl::OkStatus());
+  const auto session = robots_->RegisterRobot("attic", "scout", 0.2, false);
+  ASSERT_TRUE(session.ok()) << session.status();
+  session_ = *session;
+  Send(LookAround(kScans));
+  Send({GasAt(kScans + 1)});
+  GasQuery query{.points = {{0.0, 0.0}, {500.0, 0.0}}, .fresh_posterior = true};
+  const auto without = viewer_->QueryGas("attic", query);
+  ASSERT_TRUE(without.ok()) << without.status();
+  EXPECT_EQ(without->gas[0].verdict, std::nullopt);
+  query.with_verdicts = true;
+  const auto with = viewer_->QueryGas("attic", query);
+  ASSERT_TRUE(with.ok()) << with.status();
+  EXPECT_TRUE(with->gas[0].verdict.has_value());
+  EXPECT_EQ(with->gas[1].verdict, std::nullopt) << "off the map";
+}
+
 TEST_F(GrpcViewerClientTest, PlansAndFrontiersAreListed) {
   const auto frontiers = viewer_->ListFrontiers("house", "scout");
   ASSERT_TRUE(frontiers.ok()) << frontiers.status();

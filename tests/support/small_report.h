@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "lab/report/report_data.h"
@@ -55,6 +56,28 @@ inline lab::ReportData MakeSmallReport() {
   }
   data.key_numbers = {{"completeness", "50 %"}, {"RMSE", "10 ppm"}};
   return data;
+}
+
+// For it: clean but for a square in the middle of what is known, part of which nobody measured.
+inline lab::ObjectiveOutcome MakeSmallOutcome(const lab::ReportData& data) {
+  lab::ObjectiveOutcome outcome{
+      .asked = {.kind = ObjectiveKind::kConfirmClean, .threshold_ppm = 12.5},
+      .status = {.state = ObjectiveState::kRefuted,
+                 .confidence = 0.98,
+                 .place = Point2{1.75, 4.75}},
+      .since_s = 84.4,
+      .explanation = "So it is.",
+      .verdicts = Grid<ObjectiveVerdict>(data.map.occupancy.geometry())};
+  for (std::size_t i = 0; i < outcome.verdicts.size(); ++i) {
+    const Cell cell = outcome.verdicts.geometry().CellAtIndex(i);
+    if (data.map.occupancy[i] != CellState::kFree) continue;
+    outcome.verdicts[i] = cell.x >= 4 && cell.x <= 6 && cell.y >= 4 && cell.y <= 6
+                              ? ObjectiveVerdict::kRefuted
+                              : ObjectiveVerdict::kDecided;
+  }
+  outcome.verdicts[Cell{1, 1}] = ObjectiveVerdict::kNotMeasured;
+  outcome.verdicts[Cell{2, 1}] = ObjectiveVerdict::kUndecided;
+  return outcome;
 }
 
 }  // namespace plumescout

@@ -119,14 +119,31 @@ export type RasterFigures = {
   plume_m2: number; // where the mean is above the threshold
   max_ppm: number; // NaN if there is no gas layer yet
   max_stddev_ppm: number;
+  p99_stddev_ppm: number; // that 99 of 100 cells are not above, or up to an eighth more
   mean_entropy_nats: number; // differential entropy of the marginals, mean over free cells
 };
+
+// Variances by their logarithms, counted in bins.
+const BINS_A_UNIT = 4;
+const LEAST_LOG = -100;
+const BINS = 200 * BINS_A_UNIT;
+
+// The upper end of the bin that the last but a hundredth of them lie in.
+function highVariance(bins: Uint32Array, count: number): number {
+  let above = 0;
+  for (let bin = BINS - 1; bin >= 0; --bin) {
+    above += bins[bin];
+    if (above > 0.01 * count) return Math.exp((bin + 1) / BINS_A_UNIT + LEAST_LOG);
+  }
+  return NaN;
+}
 
 export function figuresOf(raster: Raster, threshold_ppm: number): RasterFigures {
   const area = raster.geometry.resolution_m ** 2;
   let known = 0, free = 0, plume = 0, gas = 0, entropy = 0;
   let max = NaN, maxVariance = NaN;
   const { occupancy, mean_ppm, variance_ppm2 } = raster;
+  const bins = new Uint32Array(BINS);
   for (let i = 0; i < occupancy.length; ++i) {
     if (occupancy[i] === UNKNOWN) continue;
     ++known;
@@ -139,7 +156,9 @@ export function figuresOf(raster: Raster, threshold_ppm: number): RasterFigures 
     if (!(variance > 0)) continue;
     if (!(variance <= maxVariance)) maxVariance = variance;
     ++gas;
-    entropy += 0.5 * Math.log(2 * Math.PI * Math.E * variance);
+    const log = Math.log(variance);
+    entropy += 0.5 * (Math.log(2 * Math.PI * Math.E) + log);
+    ++bins[Math.min(BINS - 1, Math.max(0, Math.floor((log - LEAST_LOG) * BINS_A_UNIT)))];
   }
   return {
     known_m2: known * area,
@@ -147,6 +166,7 @@ export function figuresOf(raster: Raster, threshold_ppm: number): RasterFigures 
     plume_m2: plume * area,
     max_ppm: max,
     max_stddev_ppm: Math.sqrt(maxVariance),
+    p99_stddev_ppm: Math.sqrt(Math.min(maxVariance, highVariance(bins, gas))),
     mean_entropy_nats: gas === 0 ? NaN : entropy / gas,
   };
 }

@@ -62,7 +62,19 @@ test('figures count what is known', () => {
   assert.equal(figures.max_stddev_ppm, 2);
   const standard = 0.5 * Math.log(2 * Math.PI * Math.E);
   assert.ok(Math.abs(figures.mean_entropy_nats - (standard + 0.25 * Math.log(4))) < 1e-12);
+  assert.equal(figures.p99_stddev_ppm, 2);
   assert.ok(Number.isNaN(figuresOf(new Raster(geometry), 5).max_ppm));
+});
+
+test('a cell in a hundred does not say how large deviations are', () => {
+  const many = new Raster({ ...geometry, columns: 40, rows: 5 });
+  many.occupancy.fill(FREE);
+  many.mean_ppm.fill(1);
+  many.variance_ppm2.fill(9);
+  many.variance_ppm2[7] = 250_000;
+  const { max_stddev_ppm, p99_stddev_ppm } = figuresOf(many, 5);
+  assert.equal(max_stddev_ppm, 500);
+  assert.ok(p99_stddev_ppm >= 3 && p99_stddev_ppm < 3.5, String(p99_stddev_ppm));
 });
 
 test('changes are found though the map has grown', () => {

@@ -36,9 +36,10 @@ TEST(Describe, SaysWhatSpeaksAgainstIt) {
 
 TEST(Describe, SaysWhatIsLeft) {
   const ObjectiveOptions clean = Kind(ObjectiveKind::kConfirmClean);
-  EXPECT_THAT(Describe(In(ObjectiveState::kPursued), clean),
-              HasSubstr("2.5 m^2 are undecided, most of all at (3.0, 4.0), and 1 frontier of the "
-                        "map is open."));
+  EXPECT_THAT(
+      Describe(In(ObjectiveState::kPursued), clean),
+      HasSubstr("2.5 m\u00B2 are undecided, most of all at (3.0, 4.0), and 1 frontier of the "
+                "map is open."));
   EXPECT_THAT(Describe(In(ObjectiveState::kCannotBeMet), clean), HasSubstr("ended before"));
   EXPECT_THAT(Describe(ObjectiveStatus(), clean), HasSubstr("nothing is known yet"));
 }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "absl/strings/escaping.h"
+#include "plumescout/v1/options.pb.h"
 #include "proto/convert/map.h"
 #include "proto/convert/plan.h"
 #include "tests/lab/sim/small_scene.h"
@@ -42,9 +43,12 @@ lab::Run RunOf(const TeamResult& team, const MapSnapshot& map) {
 }
 
 // What is written in place of the mission.
-nlohmann::json MissionIn(const TeamResult& team) {
+nlohmann::json MissionIn(const TeamResult& team,
+                         const std::optional<ObjectiveOutcome>& objective = {}) {
   const MapSnapshot map = MapOfTheScene();
-  const std::string page = MakeExplorer("<b>@mission@</b>", RunOf(team, map));
+  lab::Run run = RunOf(team, map);
+  run.objective = objective;
+  const std::string page = MakeExplorer("<b>@mission@</b>", run);
   EXPECT_EQ(page.substr(0, 3), "<b>");
   EXPECT_EQ(page.substr(page.size() - 4), "</b>");
   EXPECT_EQ(page.find('<', 1), page.size() - 4);  // nothing ends the element it stands in
@@ -83,6 +87,23 @@ TEST(Explorer, PlansAndWaysAreThere) {
   // To the centimetre, and a robot that stands is at one place.
   EXPECT_EQ(mission["ways"][0]["points_m"].dump(), "[[1.0,2.0],[1.5,2.25]]");
   EXPECT_EQ(mission["sources_m"].size(), SmallWorld().scene().sources.size());
+}
+
+TEST(Explorer, HowTheObjectiveStandsIsThereCellByCell) {
+  EXPECT_TRUE(MissionIn(TeamOfOne())["objective"].is_null());
+  ObjectiveOutcome outcome;
+  outcome.asked = {.kind = ObjectiveKind::kConfirmClean, .threshold_ppm = 12.0};
+  outcome.verdicts = Grid<ObjectiveVerdict>(SmallWorld().scene().geometry());
+  outcome.verdicts[1] = ObjectiveVerdict::kRefuted;
+  const nlohmann::json objective = MissionIn(TeamOfOne(), outcome)["objective"];
+  const auto asked = Decode<v1::ObjectiveOptions>(objective["asked"]);
+  EXPECT_EQ(asked.kind(), v1::OBJECTIVE_KIND_CONFIRM_CLEAN);
+  EXPECT_EQ(asked.threshold_ppm(), 12.0);
+  std::string verdicts;
+  ASSERT_TRUE(absl::Base64Unescape(objective["verdicts"].get<std::string>(), &verdicts));
+  ASSERT_EQ(verdicts.size(), outcome.verdicts.size());
+  EXPECT_EQ(verdicts[0], static_cast<char>(v1::OBJECTIVE_VERDICT_DOES_NOT_COUNT));
+  EXPECT_EQ(verdicts[1], static_cast<char>(v1::OBJECTIVE_VERDICT_REFUTED));
 }
 
 TEST(Explorer, WithoutAPlaceForTheMissionThereIsNone) {

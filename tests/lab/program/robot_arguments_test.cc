@@ -39,5 +39,17 @@ TEST(RobotArguments, WrongClocksAreOfThoseWhoCanFindOut) {
   EXPECT_TRUE(PlanEpisode(arguments, SmallWorld()).ok());
 }
 
+TEST(RobotArguments, AMissionMayBeForSomething) {
+  RobotArguments arguments;
+  arguments.objective.kind = ObjectiveKind::kConfirmClean;
+  EXPECT_THAT(std::string(PlanEpisode(arguments, SmallWorld()).status().message()),
+              HasSubstr("threshold_ppm"));
+  arguments.objective.threshold_ppm = 10.0;
+  const auto planned = PlanEpisode(arguments, SmallWorld());
+  ASSERT_TRUE(planned.ok()) << planned.status();
+  EXPECT_EQ(planned->options.create->objective.kind, ObjectiveKind::kConfirmClean);
+  EXPECT_EQ(planned->options.create->objective.threshold_ppm, 10.0);
+}
+
 }  // namespace robot_arguments_test
 }  // namespace plumescout::lab

@@ -16,7 +16,9 @@
 namespace plumescout::lab {
 namespace report_test {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr std::uint64_t kNoLimit = 1 << 24;
 
@@ -47,6 +49,19 @@ TEST(Report, OfATeamHasItsShares) {
   EXPECT_THAT(*ReadFile(folder.File("report.html"), kNoLimit), HasSubstr("Shares of the robots"));
 }
 
+TEST(Report, OfAMissionWithAnObjectiveSaysWhatCameOfIt) {
+  const TempFolder folder;
+  ReportData data = MakeSmallReport();
+  ASSERT_TRUE(WriteReport(data, folder.path()).ok());
+  const std::string page = folder.File("report.html");
+  EXPECT_THAT(*ReadFile(page, kNoLimit), Not(HasSubstr("What the mission was for")));
+  data.objective = MakeSmallOutcome(data);
+  ASSERT_TRUE(WriteReport(data, folder.path()).ok());
+  EXPECT_THAT(*ReadFile(page, kNoLimit),
+              AllOf(HasSubstr("<h2>What the mission was for"), HasSubstr("So it is."),
+                    HasSubstr("alt=\"Objective\"")));
+}
+
 TEST(Report, AMissionThatNeverStartedStillHasAReport) {
   const TempFolder folder;
   ReportData data;
@@ -63,6 +78,10 @@ TEST(Report, RastersThatDoNotFitAreRefused) {
   EXPECT_EQ(WriteReport({}, folder.path()).code(), invalid);
   ReportData data = MakeSmallReport();
   data.map.gas_variance_ppm2 = Grid<float>(GridGeometry{0, 0, 1, 2, 2});
+  EXPECT_EQ(WriteReport(data, folder.path()).code(), invalid);
+  data = MakeSmallReport();
+  data.objective = MakeSmallOutcome(data);
+  data.objective->verdicts = Grid<ObjectiveVerdict>(GridGeometry{0, 0, 1, 2, 2});
   EXPECT_EQ(WriteReport(data, folder.path()).code(), invalid);
   data = MakeSmallReport();
   data.truth = Grid<CellState>();
