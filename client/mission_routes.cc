@@ -41,7 +41,8 @@ bool IsGone(const absl::Status& status) {
   const std::string why = Reason(status);
   switch (status.code()) {
     case absl::StatusCode::kUnavailable:
-      return why.empty() || why == reason::kDraining || why == reason::kStoreUnavailable;
+      return why.empty() || why == reason::kDraining || why == reason::kFenced ||
+             why == reason::kStoreUnavailable;
     case absl::StatusCode::kUnknown:
     case absl::StatusCode::kInternal:
     case absl::StatusCode::kDeadlineExceeded:

@@ -231,6 +231,7 @@ absl::Status SqliteEngine::Remove(const MissionRow& row) {
   PLUMESCOUT_RETURN_IF_ERROR(marks_->Clear(row.key));
   saved_.erase(row.key);
   has_chores_ = true;
+  has_removed_ = true;
   return rows_->Delete(row);
 }
 
@@ -269,9 +270,10 @@ void SqliteEngine::MarkHeads() {
 void SqliteEngine::Tidy() {
   if (database_ == nullptr) return;
   const bool is_long = database_->logged_pages() >= kCheckpointPages;
-  if (!is_long && !is_compacted_) return;
-  const absl::Status status = database_->Checkpoint(/*whole=*/is_compacted_);
+  if (!is_long && !is_compacted_ && !has_removed_) return;
+  const absl::Status status = database_->Checkpoint(/*whole=*/is_compacted_ || has_removed_);
   is_compacted_ = false;
+  has_removed_ = false;
   // The log holds everything still; who writes next hears of a disk that is really ill.
   if (!status.ok()) options_.warn(status.message());
 }

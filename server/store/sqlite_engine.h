@@ -36,7 +36,7 @@ class SqliteEngine final : public WriteEngine {
 
   // A batch without writes is a chore, or else changes a row of its own.
   absl::Status Commit(std::span<StoreWrite> writes) override;
-  // Brings the write-ahead log into the database once it is long enough.
+  // Brings the write-ahead log into the database once it is long enough, or a mission is removed.
   void Tidy() override;
   bool has_chores() const override { return has_chores_; }
 
@@ -74,6 +74,7 @@ class SqliteEngine final : public WriteEngine {
   bool is_uncertain_ = false;
   bool has_chores_ = true;  // until none is found
   bool is_compacted_ = false;
+  bool has_removed_ = false;  // a mission, which is back if the log loses its end: it has no mark
   bool warned_of_marks_ = false;
   std::map<std::string, MissionRow> saved_;  // in this transaction
 };

@@ -22,7 +22,7 @@ _MAX_MISSIONS = 4096  # beyond them all is forgotten: it is a hint
 _WORD = re.compile(r"[!-~]{1,128}")  # what headers may say
 _NAMES = ("mission", "name", "robot", "mission_id", "open")
 # Of a server that does not serve, or is not there.
-_GONE_REASONS = ("", "DRAINING", "STORE_UNAVAILABLE")
+_GONE_REASONS = ("", "DRAINING", "FENCED", "STORE_UNAVAILABLE")
 _GONE = frozenset(
     {
         grpc.StatusCode.UNAVAILABLE,

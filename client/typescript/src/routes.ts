@@ -10,7 +10,7 @@ const MAX_REDIRECTS = 3; // beyond them who made the call waits, as for a server
 const MAX_MISSIONS = 4096; // beyond them all is forgotten: it is a hint
 const WORD = /^[!-~]{1,128}$/; // what headers may say
 // Of a server that does not serve, or is not there.
-const GONE_REASONS = ['', 'DRAINING', 'STORE_UNAVAILABLE'];
+const GONE_REASONS = ['', 'DRAINING', 'FENCED', 'STORE_UNAVAILABLE'];
 const GONE = [Code.Unavailable, Code.Unknown, Code.Internal, Code.DeadlineExceeded];
 
 /** The ID of the mission that a request is about, as it is named in it; '' of one that is about none. */

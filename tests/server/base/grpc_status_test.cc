@@ -32,6 +32,14 @@ TEST(GrpcStatusTest, EveryErrorHasAReason) {
   }
 }
 
+TEST(GrpcStatusTest, WhoCallsAServerThatWasOvertakenComesAgain) {
+  const grpc::Status status =
+      ToGrpc(TypedError(absl::StatusCode::kFailedPrecondition, reason::kFenced, "x"));
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_EQ(status.error_message(), "FENCED: x");
+  EXPECT_EQ(Reason(Details(status)), reason::kFenced);
+}
+
 TEST(GrpcStatusTest, RequestIsNamedIfItHasAnId) {
   const absl::Status status = absl::NotFoundError("x");
   EXPECT_EQ(RequestId(Details(ToGrpc(status, "r7"))), "r7");

@@ -134,6 +134,21 @@ TEST_F(SqliteStoreTest, ALogThatLostItsEndIsFoundOutAndMayBeAccepted) {
   EXPECT_EQ(Open(InFolder(copy_))->Acquire("house")->head, found + 1);
 }
 
+TEST_F(SqliteStoreTest, AMissionThatWasRemovedStaysSoWithoutTheLog) {
+  const auto store = Open();
+  ASSERT_TRUE(store->Create("house", "header").ok());
+  ASSERT_TRUE(AppendNow(*store, "house", 1, 1, Records("house", 1, 5)).ok());
+  ASSERT_TRUE(RemoveNow(*store, "house", 1).ok());
+  ASSERT_TRUE(store->Create("mill", "").ok());  // what follows the removal has been done
+  CopyStore(folder_, copy_);
+  const std::string log = copy_ + "/store.db-wal";
+  ASSERT_GT(std::filesystem::file_size(log), 0);
+  std::filesystem::resize_file(log, 0);
+  const auto again = Open(InFolder(copy_));
+  EXPECT_TRUE(absl::IsNotFound(again->Peek("house").status())) << again->Peek("house").status();
+  EXPECT_EQ(ErrorReason(again->Peek("mill").status()), reason::kStoreDamaged);
+}
+
 TEST_F(SqliteStoreTest, AnOldCopyIsFoundOut) {
   {
     const auto store = Open();
