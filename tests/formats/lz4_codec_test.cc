@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <string>
 
 #include "tests/support/lz4_frame.h"
@@ -17,7 +18,7 @@ using testing::HasSubstr;
 // Several blocks of 64 KiB.
 std::string Text() {
   std::string text;
-  for (int i = 0; i < 50'000; ++i) text += std::to_string(i * i);
+  for (std::int64_t i = 0; i < 50'000; ++i) text += std::to_string(i * i);
   return text;
 }
 
