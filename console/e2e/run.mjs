@@ -81,10 +81,8 @@ async function missionsAndForms(origin) {
     const yaml = 'image: a.pgm\n';
     await page.getByLabel('YAML file of a map').setInputFiles(file('a.yaml', yaml, yaml.length));
     await page.getByLabel('PGM image of a map').setInputFiles(file('a.pgm', 'P5\n', 1 << 20));
-    await until('the refusal', async () => { // once both files are read
-      await button('Create mission').click();
-      return await page.getByRole('alert').getByText(/^The request is 1\S* MiB, and the server takes/).count() > 0;
-    });
+    await button('Create mission').click();
+    await page.getByRole('alert').getByText(/^The request is 1\S* MiB, and the server takes/).waitFor();
   });
   await step('a file of another format is refused in words', async () => {
     await page.goto(`${origin}/#/new`);
@@ -93,10 +91,8 @@ async function missionsAndForms(origin) {
     const refuses = async (yaml, pgm, words) => {
       await page.getByLabel('YAML file of a map').setInputFiles(file('a.yaml', yaml));
       await page.getByLabel('PGM image of a map').setInputFiles(file('a.pgm', pgm));
-      await until('the refusal', async () => { // once both files are read
-        await button('Create mission').click();
-        return await page.getByRole('alert').getByText(words).count() > 0;
-      });
+      await button('Create mission').click();
+      await page.getByRole('alert').getByText(words).waitFor();
     };
     await refuses('{"image": 7}', 'P5 1 1 255 x', 'names no image');
     await refuses('image: a.pgm\n', '\x89PNG\r\n', 'not a binary PGM');
@@ -268,10 +264,8 @@ async function operation(origin) {
     for (const [label, name] of [['YAML file of a map', 'hall.yaml'], ['PGM image of a map', 'hall.pgm']]) {
       await page.getByLabel(label).setInputFiles({ name, mimeType: 'text/plain', buffer: known.get(name) });
     }
-    await until('the mission', async () => { // once both files are read
-      await button('Create mission').click();
-      return /#\/missions\/known$/.test(page.url());
-    });
+    await button('Create mission').click();
+    await until('the mission', async () => /#\/missions\/known$/.test(page.url()));
     await see('live, revision');
     await until('free ground', async () => {
       const box = await map().boundingBox();

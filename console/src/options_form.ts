@@ -85,30 +85,26 @@ export function checkMapFiles(yaml: string, head: string): void {
   }
 }
 
-// A map_server map: files are read before the form is.
+// A map_server map: its files are read when the form is.
 function priorMap(field: DescField): Field {
   const yaml = h('input', { type: 'file', accept: '.yaml,.yml', 'aria-label': 'YAML file of a map' });
   const pgm = h('input', { type: 'file', accept: '.pgm', 'aria-label': 'PGM image of a map' });
-  const files: { yaml?: string; pgm?: string } = {};
-  yaml.addEventListener('change', async () => { files.yaml = await yaml.files?.[0]?.text(); });
-  pgm.addEventListener('change', async () => {
-    const data = await pgm.files?.[0]?.arrayBuffer();
-    let binary = '';
-    for (const byte of new Uint8Array(data ?? new ArrayBuffer(0))) binary += String.fromCharCode(byte);
-    files.pgm = data === undefined ? undefined : btoa(binary);
-  });
   const both = h('div', { class: 'row' }, yaml, pgm);
   const element = labelled(field, both);
   element.lastElementChild!.textContent += ' A map of map_server: its YAML file and its PGM image.';
   return {
     element,
-    read: () => {
-      if (files.yaml === undefined && files.pgm === undefined) return undefined;
-      if (files.yaml === undefined || files.pgm === undefined) {
+    read: async () => {
+      const [description, image] = [yaml.files?.[0], pgm.files?.[0]];
+      if (description === undefined && image === undefined) return undefined;
+      if (description === undefined || image === undefined) {
         throw new Error('a known map needs both files, YAML and PGM');
       }
-      checkMapFiles(files.yaml, atob(files.pgm.slice(0, 4)));
-      return { files };
+      const text = await description.text();
+      let binary = '';
+      for (const byte of new Uint8Array(await image.arrayBuffer())) binary += String.fromCharCode(byte);
+      checkMapFiles(text, binary.slice(0, 2));
+      return { files: { yaml: text, pgm: btoa(binary) } };
     },
   };
 }
@@ -121,10 +117,10 @@ function group(message: DescMessage, title: string, help: string): Field {
   return {
     element: h('details', { class: 'group' }, h('summary', {}, title),
       h('div', {}, h('small', { class: 'quiet' }, help), ...fields.map(([, field]) => field.element))),
-    read: () => {
+    read: async () => {
       const json: Record<string, unknown> = {};
       for (const [name, field] of fields) {
-        const value = field.read();
+        const value = await field.read();
         if (value !== undefined) json[name] = value;
       }
       return Object.keys(json).length === 0 ? undefined : json;
@@ -156,10 +152,10 @@ function fieldOf(field: DescField): Field | null {
   }
 }
 
-export function optionsForm(): { element: HTMLElement; read: () => MissionOptions } {
+export function optionsForm(): { element: HTMLElement; read: () => Promise<MissionOptions> } {
   const whole = group(MissionOptionsSchema, 'Options', 'What is left empty is as the server has it.');
   return {
     element: whole.element,
-    read: () => fromJson(MissionOptionsSchema, (whole.read() ?? {}) as JsonObject),
+    read: async () => fromJson(MissionOptionsSchema, (await whole.read() ?? {}) as JsonObject),
   };
 }

@@ -109,7 +109,7 @@ export function newPage(): Page {
     fill(failed);
     try {
       const request = create(CreateMissionRequestSchema, {
-        missionId: id.value, options: options.read(), requestId: requestId() });
+        missionId: id.value, options: await options.read(), requestId: requestId() });
       const info = session.info ?? await refreshSession();
       checkSize(toBinary(CreateMissionRequestSchema, request).length, Number(info.limits?.maxReceiveBytes ?? 0));
       const made = await missions.createMission(request, PATIENCE);
