@@ -79,7 +79,9 @@ def by_clock(offset_s):
 class Node:
     """A server, which reaches the database through a proxy of its own if its link is to be cut."""
 
-    def __init__(self, name, folder, store_of, database, cuttable, clock_s=0):
+    def __init__(
+        self, name, folder, store_of, database, cuttable, clock_s=0, lease_s=LEASE_S
+    ):
         self.name, self.http_port = name, running.free_port()
         self._link = fault_proxy.Proxy(database) if cuttable else None
         (folder / name).mkdir()
@@ -87,7 +89,7 @@ class Node:
             folder / name,
             f"observe.http_listen=127.0.0.1:{self.http_port}",
             f"store.node={name}",
-            f"store.lease_s={LEASE_S}",
+            f"store.lease_s={lease_s}",
             "limits.max_missions=256",
             environment=by_clock(clock_s),
             store=store_of(self._link.target if cuttable else database),
