@@ -124,6 +124,11 @@ PostgresStatement& PostgresStatement::BindAllBytes(std::span<const std::string> 
   return Add(kBytesArrayType, std::move(array));
 }
 
+PostgresStatement& PostgresStatement::Keep() {
+  is_kept_ = true;
+  return *this;
+}
+
 PostgresRows::~PostgresRows() { PQclear(result_); }
 
 int PostgresRows::count() const { return PQntuples(result_); }
@@ -248,12 +253,13 @@ absl::StatusOr<std::vector<PostgresRows>> PostgresConnection::RunAll(
   if (is_broken_) return StoreUnavailable(absl::StrCat(name_, ": the connection is broken"));
   const SteadyTime limit = After(SteadyNow(), timeout);
   is_broken_ = true;  // unless all goes well
+  PLUMESCOUT_ASSIGN_OR_RETURN(const int prepared, Prepare(statements));
   for (const PostgresStatement& statement : statements) {
     PLUMESCOUT_RETURN_IF_ERROR(Send(statement));
   }
   if (PQpipelineSync(connection_) != 1) return LinkError();
   PLUMESCOUT_RETURN_IF_ERROR(Flush(limit));
-  PLUMESCOUT_ASSIGN_OR_RETURN(std::vector<PostgresRows> rows, Collect(limit));
+  PLUMESCOUT_ASSIGN_OR_RETURN(std::vector<PostgresRows> rows, Collect(prepared, limit));
   if (rows.size() != statements.size()) {
     return StoreUnavailable(absl::StrCat(name_, ": ", rows.size(), " of ", statements.size(),
                                          " statements were answered"));
@@ -269,6 +275,21 @@ absl::StatusOr<PostgresRows> PostgresConnection::Run(const PostgresStatement& st
   return std::move(rows.front());
 }
 
+absl::StatusOr<int> PostgresConnection::Prepare(std::span<const PostgresStatement> statements) {
+  int prepared = 0;
+  for (const PostgresStatement& statement : statements) {
+    if (!statement.is_kept_ || kept_.contains(statement.sql_)) continue;
+    const std::string& name =
+        kept_.emplace(statement.sql_, absl::StrCat("kept_", kept_.size())).first->second;
+    const int sent =
+        PQsendPrepare(connection_, name.c_str(), statement.sql_.c_str(),
+                      static_cast<int>(statement.types_.size()), statement.types_.data());
+    if (sent != 1) return LinkError();
+    ++prepared;
+  }
+  return prepared;
+}
+
 absl::Status PostgresConnection::Send(const PostgresStatement& statement) {
   std::vector<const char*> values;
   std::vector<int> lengths;
@@ -277,9 +298,13 @@ absl::Status PostgresConnection::Send(const PostgresStatement& statement) {
     lengths.push_back(static_cast<int>(value.size()));
   }
   const std::vector<int> formats(values.size(), kBinary);
-  const int sent = PQsendQueryParams(connection_, statement.sql_.c_str(),
-                                     static_cast<int>(values.size()), statement.types_.data(),
-                                     values.data(), lengths.data(), formats.data(), kBinary);
+  const int count = static_cast<int>(values.size());
+  const int sent =
+      statement.is_kept_
+          ? PQsendQueryPrepared(connection_, kept_.at(statement.sql_).c_str(), count, values.data(),
+                                lengths.data(), formats.data(), kBinary)
+          : PQsendQueryParams(connection_, statement.sql_.c_str(), count, statement.types_.data(),
+                              values.data(), lengths.data(), formats.data(), kBinary);
   return sent == 1 ? absl::OkStatus() : LinkError();
 }
 
@@ -294,7 +319,8 @@ absl::Status PostgresConnection::Flush(SteadyTime limit) {
   }
 }
 
-absl::StatusOr<std::vector<PostgresRows>> PostgresConnection::Collect(SteadyTime limit) {
+absl::StatusOr<std::vector<PostgresRows>> PostgresConnection::Collect(int prepared,
+                                                                      SteadyTime limit) {
   std::vector<PostgresRows> rows;
   absl::Status error;
   bool was_end = false;
@@ -306,7 +332,10 @@ absl::StatusOr<std::vector<PostgresRows>> PostgresConnection::Collect(SteadyTime
     const ExecStatusType status = PQresultStatus(result);
     PostgresRows owned(result);
     if (status == PGRES_PIPELINE_SYNC) break;
-    if (status == PGRES_TUPLES_OK || status == PGRES_COMMAND_OK) {
+    const bool is_done = status == PGRES_TUPLES_OK || status == PGRES_COMMAND_OK;
+    if (is_done && prepared > 0) {
+      --prepared;
+    } else if (is_done) {
       rows.push_back(std::move(owned));
     } else if (error.ok()) {  // those that follow were left out
       error = ResultError(result);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -30,6 +31,9 @@ class PostgresStatement {
   PostgresStatement& BindBytes(absl::string_view bytes);
   PostgresStatement& BindNumbers(std::span<const std::int64_t> values);
   PostgresStatement& BindAllBytes(std::span<const std::string> values);
+  // For a statement of few different texts that runs all the time: the database keeps it, parsed
+  // and planned, for as long as the connection lasts.
+  PostgresStatement& Keep();
 
  private:
   friend class PostgresConnection;
@@ -39,6 +43,7 @@ class PostgresStatement {
   std::string sql_;
   std::vector<std::uint32_t> types_;
   std::vector<std::string> values_;  // as the wire has them
+  bool is_kept_ = false;
 };
 
 // The rows that a statement gave.
@@ -94,8 +99,12 @@ class PostgresConnection {
                                                                     absl::Duration timeout);
   absl::Status FinishOpening(SteadyTime limit);
   absl::Status Send(const PostgresStatement& statement);
+  // Names the statements to the database that it is to keep and does not know yet. Returns how
+  // many.
+  absl::StatusOr<int> Prepare(std::span<const PostgresStatement> statements);
   absl::Status Flush(SteadyTime limit);
-  absl::StatusOr<std::vector<PostgresRows>> Collect(SteadyTime limit);
+  // Without what was prepared, which is answered first.
+  absl::StatusOr<std::vector<PostgresRows>> Collect(int prepared, SteadyTime limit);
   // Null: the end of a statement's results.
   absl::StatusOr<pg_result*> NextResult(SteadyTime limit);
   absl::Status Await(bool to_write, SteadyTime limit);
@@ -105,6 +114,7 @@ class PostgresConnection {
   pg_conn* const connection_;
   const std::string name_;
   bool is_broken_ = false;
+  std::map<std::string, std::string> kept_;  // names by texts
 };
 
 // "host:port/database" of an URL, for messages; never a user or a password. kInvalidArgument.

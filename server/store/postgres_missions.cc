@@ -279,7 +279,7 @@ PostgresStatement AppendStatement(const MissionRow& before, const MissionRow& af
       "SELECT moved.mission, r.number, r.crc, r.bytes FROM moved, "
       "unnest($15::bigint[], $16::bigint[], $17::bytea[]) AS r(number, crc, bytes))",
       before, after);
-  statement.BindNumbers(numbers).BindNumbers(chains).BindAllBytes(records);
+  statement.BindNumbers(numbers).BindNumbers(chains).BindAllBytes(records).Keep();
   return statement;
 }
 

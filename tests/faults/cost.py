@@ -24,6 +24,7 @@ import running
 from cluster_parts import Node, Router, cpu_s
 
 LEASE_S = 30.0  # the machine is busy, and no mission is to move
+PATIENCE_S = 300.0
 EVENTS = "SELECT coalesce(sum(head), 0)::bigint, coalesce(sum(writes), 0)::bigint FROM plumescout_progress"
 
 
@@ -67,7 +68,7 @@ def start_team(cluster, number, arguments, folder):
     with open(log, "wb") as file:
         process = subprocess.Popen(list(map(str, command)), stdout=file, stderr=file)
     begun = lambda: b"simulated" in log.read_bytes() or process.poll() is not None
-    running.await_that(begun, "the mission has begun")
+    running.await_that(begun, "the mission has begun", PATIENCE_S)
     return process
 
 

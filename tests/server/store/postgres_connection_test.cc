@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -101,6 +102,27 @@ TEST_F(PostgresConnectionTest, AllStatementsAreDoneOrNone) {
   EXPECT_TRUE(connection().is_broken());
   EXPECT_FALSE(connection().Run(PostgresStatement("SELECT 1"), kPatience).ok());
   EXPECT_EQ(PostgresServer::Shared().Ask(url_, "SELECT * FROM kept"), "1");
+}
+
+TEST_F(PostgresConnectionTest, KeptStatementsAreNamedOnceAndAnsweredLikeOthers) {
+  for (std::int64_t run = 0; run < 3; ++run) {
+    std::vector<PostgresStatement> statements;
+    statements.emplace_back("SELECT 7");
+    statements.emplace_back("SELECT $1 + 10").Bind(run).Keep();
+    statements.emplace_back("SELECT $1 + 10").Bind(run + 1).Keep();
+    statements.emplace_back("SELECT $1 + 20").Bind(run).Keep();
+    const auto answers = connection().RunAll(statements, kPatience);
+    ASSERT_TRUE(answers.ok()) << answers.status();
+    const std::int64_t expected[] = {7, run + 10, run + 11, run + 20};
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ((*answers)[i].Int(0, 0), expected[i]);
+  }
+  const auto kept = connection().Run(
+      PostgresStatement("SELECT count(*), sum(generic_plans + custom_plans)::bigint "
+                        "FROM pg_prepared_statements WHERE name <> ''"),
+      kPatience);
+  ASSERT_TRUE(kept.ok()) << kept.status();
+  EXPECT_EQ(kept->Int(0, 0), 2);
+  EXPECT_EQ(kept->Int(0, 1), 9);
 }
 
 TEST_F(PostgresConnectionTest, MuchGoesBothWaysAtOnce) {
