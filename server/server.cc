@@ -74,6 +74,7 @@ constexpr bool kYields = true;
 constexpr int kAuditThreads = 1;
 // Snapshots are packed in milliseconds, and nobody waits for them.
 constexpr int kSnapshotThreads = 1;
+constexpr absl::Duration kLongestSettling = absl::Seconds(2);
 // Missions are created now and then; those with large known maps take a second, beside the others.
 constexpr int kCreationThreads = 1;
 
@@ -392,9 +393,14 @@ std::string Server::MetricsText() const {
 }
 
 void Server::Drain() {
-  if (draining_.exchange(true)) return;
-  probe_.reset();
+  if (drain_begun_.exchange(true)) return;
   const SteadyTime cut = After(SteadyNow(), absl::Seconds(config_.connection.drain_s));
+  if (store_ != nullptr && store_->nodes() != nullptr) {
+    // Whoever takes a mission over is to read it quickly; until then it is served here.
+    registry_.TakeSnapshots(std::min(cut, After(SteadyNow(), kLongestSettling)));
+  }
+  draining_ = true;
+  probe_.reset();
   if (grpc_server_ != nullptr) EndCalls(cut);
   sweeper_.reset();
   registry_.StopAll(Draining());

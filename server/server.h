@@ -128,6 +128,7 @@ class Server {
   std::unique_ptr<PeriodicTask> sweeper_;      // as well
 
   int port_ = 0;
+  std::atomic<bool> drain_begun_ = false;
   std::atomic<bool> draining_ = false;
   std::unique_ptr<grpc::Server> grpc_server_;
   std::unique_ptr<SelfProbe> probe_;  // null: none

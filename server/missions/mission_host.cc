@@ -18,6 +18,8 @@ namespace plumescout::server {
 namespace {
 
 constexpr std::int64_t kMaxRememberedBytes = 2 << 20;  // the last plans of some dozens of robots
+// Of a mission that moves to another server, whose robots wait meanwhile.
+constexpr std::int64_t kLeastTailOfMoving_bytes = 32 * 1024;
 
 std::unique_ptr<Mission> AbandonedWith(std::shared_ptr<const std::atomic<bool>> flag,
                                        std::unique_ptr<Mission> mission) {
@@ -325,15 +327,26 @@ bool MissionHost::IsReadyToSleep() {
   const std::int64_t revision = summary().revision;
   if (settled_revision_ == revision) {
     return journal_->is_stored() && journal_->durable_revision() == revision &&
-           journal_->CheckTakesMore().ok() && (snapshots_ == nullptr || !snapshots_->is_busy());
+           journal_->CheckTakesMore().ok() && !is_taking_snapshot();
   }
-  Post([this](MissionWriter&) { Settle(); }).IgnoreError();
+  Post([this](MissionWriter&) { Settle(kLeastTail_bytes); }).IgnoreError();
   return false;
 }
 
-void MissionHost::Settle() {
+absl::Status MissionHost::BeginSnapshot(std::function<void()> begun) {
+  return Post(
+      [this, begun](MissionWriter&) {
+        Settle(kLeastTailOfMoving_bytes);
+        begun();
+      },
+      [begun](const absl::Status&) { begun(); });
+}
+
+void MissionHost::Settle(std::int64_t least_tail_bytes) {
   // Without a field there is no epoch, and the events are replayed.
-  if (snapshots_ != nullptr && snapshots_->WantOne()) writer_.conduct().RenewField().IgnoreError();
+  if (snapshots_ != nullptr && snapshots_->WantOne(least_tail_bytes)) {
+    writer_.conduct().RenewField().IgnoreError();
+  }
   settled_revision_ = writer_.mission().revision();
 }
 

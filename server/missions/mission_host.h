@@ -157,6 +157,11 @@ class MissionHost {
   // to it: a snapshot is taken of what would take time to replay, of an epoch that is made for it.
   // To be asked now and then of a mission that nobody uses; false for ever if no store keeps it.
   bool IsReadyToSleep();
+  // Has a snapshot taken as IsReadyToSleep does, of a mission that goes on meanwhile; `begun` hears
+  // when what it needs is applied, or that the mission ends. An error as of Post: it hears nothing.
+  absl::Status BeginSnapshot(std::function<void()> begun);
+  // Whether one is on its way to the store.
+  bool is_taking_snapshot() const { return snapshots_ != nullptr && snapshots_->is_busy(); }
 
   // Of observations that wait.
   IngestRoom& room() { return *room_; }
@@ -214,8 +219,8 @@ class MissionHost {
                             const std::optional<ClockGate::Mapped>& mapped);
   void RecoverLeases(const StandingRecord& standing);
   void AfterCommands();
-  void Settle();                        // the writer's part of IsReadyToSleep
-  SteadyTime next_publication() const;  // max() if there is nothing new or nobody to tell
+  void Settle(std::int64_t least_tail_bytes);  // the writer's part of IsReadyToSleep
+  SteadyTime next_publication() const;         // max() if there is nothing new or nobody to tell
   void Publish(const absl::StatusOr<std::shared_ptr<const Belief>>& belief);
   SteadyTime NextWake() const;
 

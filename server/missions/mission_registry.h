@@ -112,6 +112,9 @@ class MissionRegistry {
   // is durable. Returns their names.
   std::vector<MissionId> SleepIdle();
 
+  // Has snapshots taken of missions that other servers are soon to read, while they go on. False if
+  // not all are stored by then.
+  bool TakeSnapshots(SteadyTime deadline);
   // MissionHost::EndWaits of all; no mission is made from then on.
   void EndWaits(const absl::Status& status);
   // All missions are off the list and stop; what is queued is dropped.

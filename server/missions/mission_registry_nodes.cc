@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // Of the mission registry: a store that several servers share.
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
 
+#include "absl/time/clock.h"
 #include "core/mission/conduct/conduct_errors.h"
 #include "server/base/errors.h"
 #include "server/base/log.h"
@@ -14,6 +17,8 @@
 
 namespace plumescout::server {
 namespace {
+
+constexpr absl::Duration kSnapshotLook = absl::Milliseconds(2);
 
 absl::Status LeaseLost() { return StoreTakesNothing("this node has no lease in it"); }
 
@@ -42,6 +47,42 @@ absl::Status MissionRegistry::Seek(const std::string& key) {
   const absl::Status answer = sought_.CallFor(key, clock_());
   on_called_for_();
   return answer;
+}
+
+bool MissionRegistry::TakeSnapshots(SteadyTime deadline) {
+  const auto hosts = List("", std::numeric_limits<int>::max());
+  struct Begun {
+    absl::Mutex mutex;
+    std::size_t left ABSL_GUARDED_BY(mutex) = 0;
+  };
+  const auto begun = std::make_shared<Begun>();  // outlives us if a writer is slow
+  for (const auto& host : hosts) {
+    const auto note = [begun] {
+      absl::MutexLock lock(&begun->mutex);
+      --begun->left;
+    };
+    {
+      absl::MutexLock lock(&begun->mutex);
+      ++begun->left;
+    }
+    if (!host->BeginSnapshot(note).ok()) note();
+  }
+  {
+    const auto have_all = [&begun] {
+      begun->mutex.AssertHeld();
+      return begun->left == 0;
+    };
+    absl::MutexLock lock(&begun->mutex);
+    const absl::Duration left = absl::FromChrono(deadline - SteadyNow());
+    if (!begun->mutex.AwaitWithTimeout(absl::Condition(&have_all), left)) return false;
+  }
+  for (const auto& host : hosts) {
+    while (host->is_taking_snapshot()) {
+      if (SteadyNow() >= deadline) return false;
+      absl::SleepFor(kSnapshotLook);
+    }
+  }
+  return true;
 }
 
 void MissionRegistry::LoseAll(const absl::Status& status) {

@@ -18,8 +18,6 @@ namespace {
 
 // What a recovery may take beside reading the snapshot.
 constexpr absl::Duration kReplayLimit = absl::Seconds(2);
-// Less than this is read before anybody notices.
-constexpr std::int64_t kLeastTail_bytes = 256 * 1024;
 
 }  // namespace
 
@@ -41,8 +39,8 @@ void SnapshotTaker::NoteEvent(const Event& event, std::int64_t bytes, const Miss
   if (IsDue(event, mission)) Take(mission);
 }
 
-bool SnapshotTaker::WantOne() {
-  is_wanted_ = tail_bytes_ > kLeastTail_bytes;
+bool SnapshotTaker::WantOne(std::int64_t least_tail_bytes) {
+  is_wanted_ = tail_bytes_ > least_tail_bytes;
   return is_wanted_;
 }
 

@@ -31,6 +31,9 @@ absl::Duration ThreadCpuNow();
 // that a mission that goes on after a crash has the same events as one that was left in peace.
 inline constexpr std::int64_t kEventsPerEpoch = 8'000;
 
+// Less than this is read before anybody notices who wakes a mission.
+inline constexpr std::int64_t kLeastTail_bytes = 256 * 1024;
+
 // Has snapshots of a mission taken, when an epoch is adopted and the events since the last one have
 // grown larger than that, or would take long to replay. The writer makes the bytes; a pool packs
 // them, and the journal keeps them once their events are durable. Single-threaded.
@@ -42,9 +45,9 @@ class SnapshotTaker {
 
   // The event was applied to the mission, and is so many bytes in the journal.
   void NoteEvent(const Event& event, std::int64_t bytes, const Mission& mission);
-  // Whether a recovery would take time to replay what came since the last snapshot. Then the next
-  // epoch that is adopted has one taken, however little that is.
-  bool WantOne();
+  // Whether more than this has come since the last snapshot. Then the next epoch that is adopted
+  // has one taken.
+  bool WantOne(std::int64_t least_tail_bytes);
   // A snapshot is being packed or stored. From any thread.
   bool is_busy() const { return on_its_way_->busy; }
 

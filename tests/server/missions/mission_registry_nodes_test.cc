@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <iterator>
 #include <memory>
 #include <string>
 
@@ -22,6 +23,7 @@ class MissionRegistryNodesTest : public testing::Test {
     RegistryHooks hooks;
     hooks.store = &store_;
     hooks.clock = [this] { return now_; };
+    hooks.snapshot_pool = &snapshot_pool_;
     RegistryOptions options;
     options.sleep_after = absl::Seconds(60);
     registry_ = std::make_unique<MissionRegistry>(options, hooks);
@@ -39,6 +41,7 @@ class MissionRegistryNodesTest : public testing::Test {
 
   SteadyTime now_ = SteadyTime() + std::chrono::hours(1);
   SharedStore store_;
+  WorkerPool snapshot_pool_{{"snapshot", 1, 4}};
   std::unique_ptr<MissionRegistry> registry_;
 };
 
@@ -114,6 +117,28 @@ TEST_F(MissionRegistryNodesTest, AMissionThatWasTakenOverIsLookedForAnew) {
   told.WaitForNotification();
   store_.SetOwner("hall", "n2");
   EXPECT_EQ(NodeElsewhere(CallFor("hall").status()), "n2");
+}
+
+TEST_F(MissionRegistryNodesTest, WhatOthersAreToReadIsShortened) {
+  const auto host = registry_->Create("hall", support::FastAgeing()).value();
+  absl::Notification applied;
+  ASSERT_TRUE(host->Post([&](MissionWriter& writer) {
+                    const auto lease = writer.conduct().Register({"r1", 0.2}, host->leases());
+                    const auto batch = support::RoomRunBatch();
+                    EXPECT_TRUE(
+                        writer.conduct().Ingest("r1", lease->lease_token, batch).status.ok());
+                    applied.Notify();
+                  })
+                  .ok());
+  applied.WaitForNotification();
+  store_.Hold();
+  EXPECT_FALSE(registry_->TakeSnapshots(After(SteadyNow(), absl::Milliseconds(1))));
+  store_.HeldStore::Release();
+  EXPECT_TRUE(registry_->TakeSnapshots(SteadyTime::max()));
+  const auto snapshots = store_.Peek("hall")->snapshots;
+  ASSERT_FALSE(snapshots.empty());
+  EXPECT_GT(snapshots[0].revision, std::ssize(support::RoomRun())) << "all that was observed";
+  EXPECT_TRUE(host->CheckMayWrite().ok()) << "it goes on";
 }
 
 TEST_F(MissionRegistryNodesTest, MissionsAreReleasedOnceAllHaveStopped) {
