@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What pointers do to a map: look, pan, pinch, click, and draw areas. Mouse, pen or fingers.
 import type { AreaDraft } from './area_draft.ts';
-import type { Place } from './map_view.ts';
+import type { Place } from './scene.ts';
 
 // A pointer that moves farther, pixels, drags.
 const DRAG = 4;
