@@ -30,6 +30,16 @@ ServerLimits LimitsFromProto(const v1::ServerLimits& proto) {
           .max_clock_lead = DurationFromProto(proto.max_clock_lead())};
 }
 
+StoreInfo StoreFromProto(const v1::StoreInfo& proto) {
+  return {.engine = proto.engine(),
+          .node = proto.node(),
+          .cluster = proto.cluster(),
+          .is_available = proto.available(),
+          .trouble = proto.trouble(),
+          .backlog_bytes = proto.backlog_bytes(),
+          .stored_bytes = proto.stored_bytes()};
+}
+
 class GrpcServerClient final : public ServerClient {
  public:
   explicit GrpcServerClient(std::shared_ptr<GrpcLink> link)
@@ -46,7 +56,8 @@ class GrpcServerClient final : public ServerClient {
                       .limits = LimitsFromProto(response.limits()),
                       .features = {response.features().begin(), response.features().end()},
                       .caller = response.caller(),
-                      .caller_role = response.caller_role()};
+                      .caller_role = response.caller_role(),
+                      .store = StoreFromProto(response.store())};
   }
 
   absl::Status DrainServer() override {

@@ -32,6 +32,17 @@ struct ServerLimits {
   friend bool operator==(const ServerLimits&, const ServerLimits&) = default;
 };
 
+// Where a server keeps its missions.
+struct StoreInfo {
+  std::string engine;              // none, sqlite or postgresql
+  std::string node;                // of a cluster; empty: the server is alone
+  std::string cluster;             // as well
+  bool is_available = false;       // whether it takes data now
+  std::string trouble;             // what keeps it from that, for operators and admins
+  std::int64_t backlog_bytes = 0;  // waits to be durable
+  std::int64_t stored_bytes = 0;   // of all missions; looked up once a minute
+};
+
 struct ServerInfo {
   std::string version;
   std::string boot_id;  // changes when the server restarts
@@ -40,6 +51,7 @@ struct ServerInfo {
   std::vector<std::string> features;  // optional parts: "rivals", "tls", "tokens"
   std::string caller;                 // name of the caller, as the server knows it
   std::string caller_role;            // robot, viewer, operator or admin
+  StoreInfo store;
 };
 
 // The server itself. Thread-safe.

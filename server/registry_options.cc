@@ -44,6 +44,15 @@ RegistryOptions ToRegistryOptions(const ServerConfig& config, std::int64_t first
   return options;
 }
 
+ImportLimits ToImportLimits(const ServerConfig& config) {
+  ImportLimits limits;
+  limits.max_bytes = config.limits.max_import_bytes;
+  if (config.store.engine == kSqliteStore) {
+    limits.folder = StoreFolder(config.store).value_or("");  // where there should be room
+  }
+  return limits;
+}
+
 RecordingOptions ToRecordingOptions(const RecordConfig& config) {
   RecordingOptions options;
   options.folder = config.folder;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "server/config/config.h"
+#include "server/history/mission_import.h"
 #include "server/missions/mission_maker.h"
 #include "server/missions/mission_recording.h"
 
@@ -12,6 +13,7 @@ namespace plumescout::server {
 
 // What the configuration says of missions.
 RegistryOptions ToRegistryOptions(const ServerConfig& config, std::int64_t first_lease_token);
+ImportLimits ToImportLimits(const ServerConfig& config);
 RecordingOptions ToRecordingOptions(const RecordConfig& config);
 
 }  // namespace plumescout::server

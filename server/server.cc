@@ -29,6 +29,7 @@
 #include "server/open_store.h"
 #include "server/registry_options.h"
 #include "server/store/store_nodes.h"
+#include "server/store_info.h"
 
 namespace plumescout::server {
 namespace {
@@ -85,15 +86,6 @@ ServiceLimits ToServiceLimits(const ServerConfig& config) {
   limits.deadline_margin = absl::Seconds(config.planning.deadline_margin_s);
   limits.replay_period = absl::Seconds(config.maps.publish_period_s);
   limits.import_patience = limits.export_patience = absl::Seconds(config.limits.max_wait_s);
-  return limits;
-}
-
-ImportLimits ToImportLimits(const ServerConfig& config) {
-  ImportLimits limits;
-  limits.max_bytes = config.limits.max_import_bytes;
-  if (config.store.engine == kSqliteStore) {
-    limits.folder = StoreFolder(config.store).value_or("");  // where there should be room
-  }
   return limits;
 }
 
@@ -182,6 +174,7 @@ Server::Server(Private, const ServerConfig& config, RegistryHooks hooks,
     : config_(config),
       own_store_(std::move(store)),
       store_(hooks.store != nullptr ? hooks.store : own_store_.get()),
+      store_usage_(store_ == nullptr ? nullptr : std::make_unique<StoreUsage>(store_)),
       epoch_pool_({"epoch", config.epochs.threads, config.epochs.max_queued}),
       audit_pool_({"audit", kAuditThreads, config.limits.max_missions, kYields}),
       snapshot_pool_({"snapshot", kSnapshotThreads, config.limits.max_missions, kYields}),
@@ -217,7 +210,10 @@ Server::Server(Private, const ServerConfig& config, RegistryHooks hooks,
       planning_service_(&context_),
       map_service_(&context_),
       snapshot_service_(&context_),
-      system_service_(&context_, &config_, std::move(events.drain)) {
+      system_service_(
+          &context_, &config_,
+          [this] { return TellOfStore(config_.store, store_, store_usage_.get()); },
+          std::move(events.drain)) {
   door_.AddObserver([this](const CallInfo& info, const CallEnd& end) {
     metrics_.calls().Note(info.rpc, end.status, end.duration);
   });
@@ -297,7 +293,6 @@ absl::Status Server::BeginRecovery() {
   if (store_ == nullptr) return absl::OkStatus();
   const int threads = config_.store.recovery_threads;
   recovery_pool_ = std::make_unique<WorkerPool>(WorkerPoolOptions{"recovery", threads, threads});
-  store_usage_ = std::make_unique<StoreUsage>(store_);
   grpc::HealthCheckServiceInterface* const health = grpc_server_->GetHealthCheckService();
   health->SetServingStatus(kStoreHealth, true);
   store_watch_ = std::make_unique<StoreWatch>(store_, kStorePeriod, [health](bool available) {

@@ -101,6 +101,7 @@ class Server {
   ServerMetrics metrics_;                          // before all that counts
   const std::unique_ptr<MissionStore> own_store_;  // before what it keeps; null: none, or another's
   MissionStore* const store_;                      // null: none
+  const std::unique_ptr<StoreUsage> store_usage_;  // null without a store
   WorkerPool epoch_pool_;  // before the missions that use it, as is the next
   WorkerPool audit_pool_;
   WorkerPool snapshot_pool_;
@@ -122,10 +123,9 @@ class Server {
   MapService map_service_;
   SnapshotService snapshot_service_;
   SystemService system_service_;
-  std::unique_ptr<WorkerPool> recovery_pool_;  // null without a store, as are the next
-  std::unique_ptr<StoreUsage> store_usage_;
-  std::unique_ptr<StoreWatch> store_watch_;  // while the server serves
-  std::unique_ptr<PeriodicTask> sweeper_;    // as well
+  std::unique_ptr<WorkerPool> recovery_pool_;  // null without a store, as is the next
+  std::unique_ptr<StoreWatch> store_watch_;    // while the server serves
+  std::unique_ptr<PeriodicTask> sweeper_;      // as well
 
   int port_ = 0;
   std::atomic<bool> draining_ = false;

@@ -499,6 +499,8 @@ async function service(origin) {
   await step('the service tells of itself', async () => {
     await page.goto(`${origin}/#/service`);
     await see('memory promised to missions');
+    await see('in files of the server (SQLite)');
+    await see('takes data');
     await picture('service');
     await page.getByLabel(/Token/).fill('wrong');
     await button('Use').click();

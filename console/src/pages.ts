@@ -9,7 +9,7 @@ import { optionsForm } from './options_form.ts';
 import { mayOperate, refreshSession, session } from './session.ts';
 import { CreateMissionRequestSchema, MissionState } from '@plumescout/client/wire';
 import type { Latency, Mission } from '@plumescout/client/wire';
-import { bytes, duration, figure, missionState, phase, shortName } from './words.ts';
+import { bytes, duration, figure, missionState, phase, shortName, storeFacts } from './words.ts';
 
 export type Page = { element: HTMLElement; leave(): void };
 
@@ -161,6 +161,7 @@ export function servicePage(): Page {
           ['version', info.version], ['running for', duration(Number(info.uptime?.seconds ?? 0))],
           ['boot id', info.bootId], ['parts', info.features.join(', ') || 'none beside the usual'],
           ['you', `${info.caller} (${info.callerRole})`]])),
+        h('div', { class: 'card' }, h('h2', {}, 'Store'), facts(storeFacts(info.store))),
         h('div', { class: 'card' }, h('h2', {}, 'Room'), facts([
           ['missions', `${list.length} of ${limits?.maxMissionCount ?? '–'}`],
           ['memory in use', bytes(used)],

@@ -5,7 +5,7 @@ import {
   Candidate_PathSource, GoalKind, MissionPhase, MissionState, ObjectiveStatus_State, Plan_End, RejectedGoal_Reason,
   RobotLink,
 } from '@plumescout/client/wire';
-import type { ObjectiveStatus } from '@plumescout/client/wire';
+import type { ObjectiveStatus, StoreInfo } from '@plumescout/client/wire';
 import type { LinkState } from './watch.ts';
 
 // GAS_FRONTIER: gas frontier.
@@ -96,4 +96,17 @@ export function duration(seconds: number): string {
   if (seconds < 120) return `${figure(seconds)} s`;
   if (seconds < 7200) return `${Math.floor(seconds / 60)} min ${Math.round(seconds % 60)} s`;
   return `${Math.floor(seconds / 3600)} h ${Math.round((seconds % 3600) / 60)} min`;
+}
+
+// Where missions are kept, and how that goes; a server of an earlier release tells nothing.
+export function storeFacts(store: StoreInfo | undefined): [string, string][] {
+  if (store === undefined) return [['kept', 'not told by this server']];
+  if (store.engine === 'none') return [['kept', 'nowhere: missions are gone when the server ends']];
+  const trouble = store.trouble === '' ? '' : `: ${store.trouble}`;
+  return [
+    ['kept', store.engine === 'sqlite' ? 'in files of the server (SQLite)' : `in a database (${store.engine})`],
+    ...(store.node === '' ? [] : [['node', `${store.node} of ${store.cluster}`] as [string, string]]),
+    ['state', store.available ? 'takes data' : `takes no data now${trouble}`],
+    ['missions take up, as of a minute ago', bytes(store.storedBytes)],
+    ['not durable yet', bytes(store.backlogBytes)]];
 }

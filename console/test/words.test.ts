@@ -3,8 +3,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { create } from '@bufbuild/protobuf';
-import { ObjectiveStatusSchema, ObjectiveStatus_State } from '@plumescout/client/wire';
-import { linkWords, objectiveWords } from '../src/words.ts';
+import { ObjectiveStatusSchema, ObjectiveStatus_State, StoreInfoSchema } from '@plumescout/client/wire';
+import { linkWords, objectiveWords, storeFacts } from '../src/words.ts';
 
 test('an objective is told in a few words', () => {
   const words = (state: ObjectiveStatus_State) =>
@@ -24,4 +24,15 @@ test('a link is told by what it shows', () => {
   assert.deepEqual(linkWords('live', true, 0), ['playing', 'pill warn']);
   assert.deepEqual(linkWords('waiting', false, 2), ['connection lost, again in 2 s', 'pill bad']);
   assert.deepEqual(linkWords('ended', true, 0), ['ended', 'pill bad']);
+});
+
+test('a store is told by what a restart would find', () => {
+  const facts = (store: object) => storeFacts(create(StoreInfoSchema, store)).map(([, fact]) => fact);
+  assert.deepEqual(storeFacts(undefined), [['kept', 'not told by this server']]);
+  assert.match(facts({ engine: 'none' })[0], /gone when the server ends/);
+  assert.deepEqual(facts({ engine: 'sqlite', available: true, storedBytes: 2_097_152n }),
+                   ['in files of the server (SQLite)', 'takes data', '2 MiB', '0 B']);
+  assert.deepEqual(
+    facts({ engine: 'postgresql', node: 'one', cluster: 'yard', trouble: 'no room', backlogBytes: 7n }),
+    ['in a database (postgresql)', 'one of yard', 'takes no data now: no room', '0 B', '7 B']);
 });

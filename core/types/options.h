@@ -182,7 +182,8 @@ struct PlanningOptions {
   // Readings expected along a path when its information is priced, [0.01, 1000].
   double reading_rate_hz = 2.0;
   // The gas field has no cells behind an occupancy frontier, so what readings there would tell
-  // cannot be priced (ours). Where information is priced it counts as this much, nats, [0, 1e9].
+  // cannot be priced (ours). Where information is priced it counts as this much, nats, [0, 1e9]; in
+  // a field of other precisions in proportion to what a reading tells (`InField` in core/plan).
   // Found by trial with the default precisions, where from 10 to 30 are equal
   // (docs/decisions/0007-own-strategy.md): with none, rooms that promise little stay unseen.
   double unseen_information_nats = 20.0;

@@ -51,6 +51,8 @@ absl::Status SystemService::Tell(v1::GetServerInfoResponse& response,
   if (!config_.access.tokens_file.empty()) response.add_features("tokens");
   response.set_caller(call->caller().name);
   response.set_caller_role(std::string(RoleName(call->caller().role)));
+  *response.mutable_store() = store_();
+  if (call->caller().role < Role::kOperator) response.mutable_store()->clear_trouble();
   call->Answer(absl::OkStatus());
   return absl::OkStatus();
 }

@@ -17,10 +17,14 @@ namespace plumescout::server {
 class SystemService final : public v1::SystemService::CallbackService {
  public:
   // `drain` begins to take the process out of service and returns at once; null: whoever started
-  // this server ends it in another way.
+  // this server ends it in another way. `store` tells of the store; it must not block.
   SystemService(const ServiceContext* context, const ServerConfig* config,
-                std::function<void()> drain)
-      : context_(*context), config_(*config), drain_(std::move(drain)), started_(SteadyNow()) {}
+                std::function<v1::StoreInfo()> store, std::function<void()> drain)
+      : context_(*context),
+        config_(*config),
+        store_(std::move(store)),
+        drain_(std::move(drain)),
+        started_(SteadyNow()) {}
 
   grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context,
                                           const v1::GetServerInfoRequest* request,
@@ -35,6 +39,7 @@ class SystemService final : public v1::SystemService::CallbackService {
 
   const ServiceContext& context_;
   const ServerConfig& config_;
+  const std::function<v1::StoreInfo()> store_;
   const std::function<void()> drain_;
   const SteadyTime started_;
 };

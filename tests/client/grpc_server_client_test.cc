@@ -31,6 +31,8 @@ TEST(GrpcServerClientTest, AServerTellsOfItselfAndIsDrained) {
   EXPECT_EQ(info->limits.max_planning_budget, absl::Milliseconds(1500));
   EXPECT_EQ(info->limits.max_receive_bytes, config.limits.max_receive_bytes);
   EXPECT_EQ(info->caller_role, "admin") << "where nobody is asked who they are";
+  EXPECT_EQ(info->store.engine, "none");
+  EXPECT_FALSE(info->store.is_available);
   ASSERT_EQ(client->DrainServer(), absl::OkStatus());
   EXPECT_TRUE(drained.WaitForNotificationWithTimeout(kPatience));
 }

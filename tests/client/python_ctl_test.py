@@ -231,7 +231,7 @@ class CtlTest(unittest.TestCase):
         self.assertRegex(info["version"], r"^\d+\.\d+\.\d+$")
         self.assertEqual(info["caller_role"], "admin")
         self.assertEqual(info["limits"]["max_batch_observation_count"], 1024)
-        self.assertIn("UPTIME", self.ctl("info"))
+        self.assertRegex(self.ctl("info"), r"STORE +none: missions are gone")
 
     def test_top_shows_every_mission(self):
         self.client.create_mission("seen")
@@ -286,6 +286,11 @@ class KeptMissionsTest(unittest.TestCase):
 
     ctl = CtlTest.ctl
     ctl_json = CtlTest.ctl_json
+
+    def test_the_server_tells_where_missions_are(self):
+        store = self.ctl_json("info")["store"]
+        self.assertEqual((store["engine"], store["available"]), ("sqlite", True))
+        self.assertRegex(self.ctl("info"), r"STORE +sqlite, [\d.]+ k?B\n")
 
     def test_a_mission_goes_out_and_comes_in_again(self):
         path = self.folder / "hall.journal"

@@ -9,10 +9,12 @@
 #include "plumescout/v1/map_service.grpc.pb.h"
 #include "plumescout/v1/planning_service.grpc.pb.h"
 #include "plumescout/v1/snapshot_service.grpc.pb.h"
+#include "plumescout/v1/system_service.grpc.pb.h"
 #include "server/access/rpc.h"
 #include "server/store/memory_store.h"
 #include "tests/server/access_fixture.h"
 #include "tests/server/await_metric.h"
+#include "tests/server/held_store.h"
 
 namespace plumescout::server {
 namespace access_test {
@@ -138,6 +140,33 @@ TEST_F(WhoMayCallTest, AnImportEndsOnceItsTokenIsRevoked) {
   EXPECT_TRUE(AwaitMetric(**server, "plumescout_open_streams 1"));
   WriteTokens("");
   EXPECT_EQ(import->Finish().error_code(), grpc::StatusCode::UNAUTHENTICATED);
+}
+
+TEST_F(WhoMayCallTest, WhatIsWrongWithTheStoreIsToldToOperators) {
+  HeldStore store;
+  ServerConfig config;
+  config.listen = "127.0.0.1:0";
+  config.access.tokens_file = tokens_path_;
+  RegistryHooks hooks;
+  hooks.store = &store;
+  const auto server = Server::Start(config, hooks);
+  ASSERT_TRUE(server.ok()) << server.status();
+  store.set_state(Refusing("/srv is full"));
+  const auto stub = v1::SystemService::NewStub(grpc::CreateChannel(
+      absl::StrCat("127.0.0.1:", (*server)->port()), grpc::InsecureChannelCredentials()));
+  const auto ask = [&](const std::string& token) {
+    grpc::ClientContext context;
+    SetPatience(context);
+    context.AddMetadata("authorization", absl::StrCat("Bearer ", token));
+    v1::GetServerInfoResponse response;
+    EXPECT_TRUE(stub->GetServerInfo(&context, {}, &response).ok());
+    EXPECT_FALSE(response.store().available());
+    return response.store().trouble();
+  };
+  EXPECT_EQ(ask(kEve), "");
+  EXPECT_EQ(ask(kScout), "");
+  EXPECT_EQ(ask(kAlice), "/srv is full");
+  EXPECT_EQ(ask(kRoot), "/srv is full");
 }
 
 TEST_F(WhoMayCallTest, HealthIsForEverybody) {

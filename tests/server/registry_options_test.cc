@@ -23,6 +23,16 @@ TEST(RegistryOptionsTest, MissionsAreAsTheConfigurationSays) {
   EXPECT_EQ(ToRegistryOptions(config, 17).sleep_after, absl::InfiniteDuration());
 }
 
+TEST(RegistryOptionsTest, ImportsGoWhereThereIsRoom) {
+  ServerConfig config;
+  config.limits.max_import_bytes = 5'000'000;
+  config.store.folder = "/srv/missions";
+  EXPECT_EQ(ToImportLimits(config).max_bytes, 5'000'000);
+  EXPECT_EQ(ToImportLimits(config).folder, "") << "nothing is kept in a folder";
+  config.store.engine = kSqliteStore;
+  EXPECT_EQ(ToImportLimits(config).folder, "/srv/missions");
+}
+
 TEST(RegistryOptionsTest, RecordingsAreAsTheConfigurationSays) {
   const RecordingOptions options = ToRecordingOptions({"d", 2.0, 3.0, 4'000'000});
   EXPECT_EQ(options.folder, "d");

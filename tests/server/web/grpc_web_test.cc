@@ -51,7 +51,7 @@ TEST(GrpcWeb, MessagesHaveTheirLengthBeforeThem) {
 }
 
 TEST(GrpcWeb, TrailersTellTheStatus) {
-  EXPECT_EQ(TrailerFrame(grpc::Status()), std::string("\x80\0\0\0\x10", 5) + "grpc-status: 0\r\n");
+  EXPECT_EQ(TrailerFrame(grpc::Status()), std::string("\x80\0\0\0\x10grpc-status: 0\r\n", 21));
   const std::string refused =
       TrailerFrame(grpc::Status(grpc::StatusCode::NOT_FOUND, "5 % of ä\r\n", "abc"));
   EXPECT_EQ(refused.substr(5),

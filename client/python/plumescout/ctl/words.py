@@ -225,6 +225,18 @@ def event_line(event):
     return f"{event.number:>8}  {time:<24}  {kind:<16}  {robot:<12}  {event.summary}"
 
 
+def store_words(store):
+    """Where missions are kept, and how that goes."""
+    if store.engine in ("", "none"):
+        return "none: missions are gone when the server ends"
+    place = f"{store.engine}, {size(store.stored_bytes)}"
+    if store.node:
+        place += f", node {store.node} of {store.cluster}"
+    if store.available:
+        return place
+    return f"{place}, takes nothing now" + (f": {store.trouble}" if store.trouble else "")
+
+
 def server_facts(info):
     limits = info.limits
     return [
@@ -233,6 +245,7 @@ def server_facts(info):
         ("UPTIME", duration(info.uptime)),
         ("CALLER", f"{info.caller} ({info.caller_role})"),
         ("FEATURES", " ".join(info.features) or "-"),
+        ("STORE", store_words(info.store)),
         ("REQUEST", size(limits.max_receive_bytes)),
         ("BATCH", f"{limits.max_batch_observation_count} observations"),
         ("MISSIONS", limits.max_mission_count),
