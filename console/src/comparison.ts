@@ -4,7 +4,7 @@
 import { figuresOf } from '@plumescout/client';
 import { notice } from './dom.ts';
 import type { MapPanel } from './map_panel.ts';
-import type { Scene } from './map_view.ts';
+import type { Scene } from './scene.ts';
 
 export class Comparison {
   private readonly pinned: Scene;

@@ -6,8 +6,10 @@ import { hasScale } from './cell_picture.ts';
 import type { CellLayer, CellPicture } from './cell_picture.ts';
 import { shareOf, ticksOf } from './colours.ts';
 import { fill, fillIfChanged, h, notice } from './dom.ts';
-import { MapView, SWITCHES } from './map_view.ts';
-import type { Place, Scene, Switch } from './map_view.ts';
+import { listenToPointers } from './map_pointer.ts';
+import { MapView } from './map_view.ts';
+import { SWITCHES } from './scene.ts';
+import type { Place, Scene, Switch } from './scene.ts';
 import { NearestReading } from './nearest_reading.ts';
 import type { GasQuestion } from './nearest_reading.ts';
 import { cellInWords, cellsInWords } from './hover_words.ts';
@@ -21,12 +23,8 @@ const LAYERS: [CellLayer, string][] = [['mean', 'Gas'], ['uncertainty', 'Uncerta
 const SWITCH_NAMES: Record<Switch, string> = {
   frontiers: 'frontiers', ways: 'ways of robots', trails: 'trails', claims: 'claimed goals', names: 'names',
   areas: 'keep-out and home', why: 'candidates of the plan' };
-// A pointer that moves farther, pixels, drags.
-const DRAG = 4;
 // A click this near, pixels, means the robot.
 const NEAR_ROBOT = 14;
-// A corner this near, pixels, is the same one.
-const NEAR_CORNER = 10;
 const ZOOM_STEP = 1.4;
 
 // What is drawn on the map, and who sees to it.
@@ -303,58 +301,16 @@ export class MapPanel {
   }
 
   private listen(canvas: HTMLCanvasElement): void {
-    const pointers = new Map<number, [number, number]>();
-    let moved = 0;
-    let pinches = false; // or did, until all fingers are off
-    const place = (event: { clientX: number; clientY: number }): [number, number] => {
-      const box = canvas.getBoundingClientRect();
-      return [event.clientX - box.left, event.clientY - box.top];
-    };
-    canvas.addEventListener('pointerdown', (event) => {
-      canvas.setPointerCapture(event.pointerId);
-      pointers.set(event.pointerId, place(event));
-      moved = 0;
-      pinches = pointers.size > 1;
-      if (this.drawing === null) return;
-      if (!pinches) this.drawing.draft.press(this.placeAt(...place(event)));
-      else if (this.drawing.draft.drags) this.drawing.draft.clear();
-      this.drawn();
+    listenToPointers(canvas, {
+      draft: () => this.drawing?.draft ?? null,
+      drawn: () => this.drawn(),
+      placeAt: (x, y) => this.placeAt(x, y),
+      scale: () => this.map.view.scale,
+      hover: (at) => this.hover(at, canvas),
+      pan: (dx, dy) => this.pan(dx, dy),
+      zoom: (by, x, y) => this.zoom(by, x, y),
+      click: (x, y) => this.click(x, y),
     });
-    canvas.addEventListener('pointermove', (event) => {
-      const now = place(event);
-      this.hover(now, canvas);
-      if (this.drawing !== null && !pinches) {
-        this.drawing.draft.move(this.placeAt(...now));
-        this.drawn();
-      }
-      const before = pointers.get(event.pointerId);
-      if (before === undefined) return;
-      const other = [...pointers].find(([id]) => id !== event.pointerId)?.[1];
-      moved += Math.hypot(now[0] - before[0], now[1] - before[1]);
-      if (moved > DRAG && other === undefined) {
-        if (!this.drawing?.draft.drags) this.pan(now[0] - before[0], now[1] - before[1]);
-      } else if (other !== undefined) {
-        const spread = (p: [number, number]) => Math.hypot(p[0] - other[0], p[1] - other[1]) + 1;
-        this.zoom(spread(now) / spread(before), (now[0] + other[0]) / 2, (now[1] + other[1]) / 2);
-      }
-      pointers.set(event.pointerId, now);
-    });
-    const end = (event: PointerEvent) => {
-      if (!pointers.delete(event.pointerId) || event.type === 'pointercancel') return;
-      if (this.drawing !== null) {
-        if (pinches) return;
-        this.drawing.draft.release(this.placeAt(...place(event)), moved > DRAG, NEAR_CORNER / this.map.view.scale);
-        return this.drawn();
-      }
-      if (moved <= DRAG) this.click(...place(event));
-    };
-    canvas.addEventListener('pointerup', end);
-    canvas.addEventListener('pointercancel', end);
-    canvas.addEventListener('pointerleave', () => this.hover(null));
-    canvas.addEventListener('wheel', (event) => {
-      event.preventDefault();
-      this.zoom(Math.exp(-event.deltaY * 0.0015), ...place(event));
-    }, { passive: false });
   }
 
   private placeAt(x: number, y: number): Place {

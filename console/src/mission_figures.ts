@@ -3,7 +3,7 @@
 // What is charted of a mission at one moment.
 import { GoalKind } from '@plumescout/client/wire';
 import type { MapStatus, Plan, Robot } from '@plumescout/client/wire';
-import type { Scene } from './map_view.ts';
+import type { Scene } from './scene.ts';
 import { figure } from './words.ts';
 
 // `robot`: the resource name of whose figure it is; empty: of the mission.

@@ -7,7 +7,7 @@ import { Comparison } from './comparison.ts';
 import { AreasPanel } from './areas_panel.ts';
 import { fill, h } from './dom.ts';
 import { MapPanel } from './map_panel.ts';
-import type { Place, Scene } from './map_view.ts';
+import type { Place, Scene } from './scene.ts';
 import { missionFigures } from './mission_figures.ts';
 import { OperatePanel } from './operate_panel.ts';
 import { every, stateClass } from './pages.ts';

@@ -14,7 +14,7 @@ import {
 import type { Place } from './area_draft.ts';
 import { fill, h } from './dom.ts';
 import { MapPanel } from './map_panel.ts';
-import type { Scene } from './map_view.ts';
+import type { Scene } from './scene.ts';
 import type { ObjectiveQuestion } from './objective_layer.ts';
 import { objectiveSummary, verdictAreas } from './objective_words.ts';
 import { planContent } from './plan_content.ts';

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The robots of a mission, and what is known of it all.
 import { fill, h } from './dom.ts';
-import type { Scene } from './map_view.ts';
+import type { Scene } from './scene.ts';
 import type { Mission } from '@plumescout/client/wire';
 import type { Robot } from '@plumescout/client/wire';
 import { duration, figure, link, shortName } from './words.ts';

@@ -3,7 +3,7 @@
 // Why a robot drives where it does, and not elsewhere.
 import { PATIENCE, planning, sentence } from './client.ts';
 import { fill, fillIfChanged, h } from './dom.ts';
-import type { Place } from './map_view.ts';
+import type { Place } from './scene.ts';
 import { planContent } from './plan_content.ts';
 import type { CheckTrajectoryResponse, FrontierGoal, Plan, Pose2D } from '@plumescout/client/wire';
 import { CellState, GoalKind, RejectedGoal_Reason } from '@plumescout/client/wire';

@@ -44,7 +44,9 @@ std::string FilterOf(const std::string& source) {
 
 int main(int argc, char** argv) {
   testing::InitGoogleMock(&argc, argv);
-  if (const std::optional<std::string> source = SourceArgument(argc, argv)) {
+  // A filter goes before: death tests start the program again with both, for one test.
+  const std::optional<std::string> source = SourceArgument(argc, argv);
+  if (source.has_value() && GTEST_FLAG_GET(filter) == "*") {
     const std::string filter = FilterOf(*source);
     if (filter.empty()) {
       std::fprintf(stderr, "no test of this program stands in %s\n", source->c_str());

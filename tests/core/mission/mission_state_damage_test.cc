@@ -12,6 +12,7 @@
 #include "core/types/byte_archive.h"
 #include "core/types/rng.h"
 #include "tests/core/mission/random_mission.h"
+#include "tests/support/rounds.h"
 
 namespace plumescout {
 namespace mission_state_damage_test {
@@ -99,7 +100,7 @@ TEST(MissionStateDamage, WhatIsReadIsHashedToo) {
     Rng rng(3);
     int refused = 0;
     int other = 0;
-    for (int i = 0; i < 600; ++i) {
+    for (int i = 0; i < support::Rounds(600); ++i) {
       std::string forged = state;
       Flip(forged, sizeof(std::uint32_t) + rng.Below(state.size() - 12), rng.Below(8));
       const auto restored = Mission::Restore(options, Forged(forged));
@@ -115,8 +116,8 @@ TEST(MissionStateDamage, WhatIsReadIsHashedToo) {
         EXPECT_EQ(then, later) << "flip " << i;
       }
     }
-    EXPECT_GT(refused, 50);
-    EXPECT_GT(other, 300);
+    EXPECT_GT(refused, support::Rounds(50));
+    EXPECT_GT(other, support::Rounds(300));
   }
 }
 

@@ -11,6 +11,7 @@
 #include "core/plan/composed_strategy.h"
 #include "lab/worlds/random_world.h"
 #include "tests/support/goal_case.h"
+#include "tests/support/rounds.h"
 #include "tests/support/strategy_case.h"
 
 namespace plumescout {
@@ -184,7 +185,7 @@ void ExpectTimesInOrder(const Trajectory& trajectory, double speed_mps) {
 
 TEST(StrategyReturn, KeepsItsWordUnderRandomOptionsInRandomHalls) {
   Rng rng(77);
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+  for (int seed = 1; seed <= support::Rounds(8); ++seed) {
     lab::RandomWorld world = lab::MakeRandomWorld(seed, 1);
     RobotRecord& robot = world.belief.robots[world.robot];
     robot.first_place = Point2{rng.Uniform(-2.0, 18.0), rng.Uniform(-2.0, 22.0)};

@@ -15,6 +15,7 @@
 #include "core/gas/gas_map.h"
 #include "lab/worlds/random_world.h"
 #include "tests/support/goal_case.h"
+#include "tests/support/rounds.h"
 #include "tests/support/strategy_case.h"
 
 namespace plumescout {
@@ -139,7 +140,7 @@ TEST(Strategy, TimesTheTrajectoryOfTheChosenCandidate) {
 }
 
 TEST(Strategy, CollidesWithNothingAndReachesAllItOffersInRandomHalls) {
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+  for (int seed = 1; seed <= support::Rounds(8); ++seed) {
     const lab::RandomWorld world = lab::MakeRandomWorld(seed, 1);
     const absl::StatusOr<Plan> plan = TryPlan(world.belief, For(world.robot, seed));
     ASSERT_TRUE(plan.ok()) << plan.status();

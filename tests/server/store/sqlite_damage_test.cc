@@ -16,12 +16,13 @@
 #include "server/store/verify.h"
 #include "tests/server/store/store_work.h"
 #include "tests/support/faulty_disk.h"
+#include "tests/support/rounds.h"
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::server {
 namespace sqlite_damage_test {
 
-constexpr int kFlips = 600;
+constexpr int kFlips = support::Rounds(600);
 constexpr int kRecords = 120;
 constexpr std::size_t kRecordBytes = 400;
 constexpr std::uint64_t kMaxBytes = 1 << 26;
@@ -104,8 +105,8 @@ TEST(SqliteDamage, AFlippedBitIsFoundOrHarmless) {
     found[name] += ReadsWhole(tried) ? 0 : 1;
     if (testing::Test::HasFailure()) return;
   }
-  EXPECT_GT(found["store.db"], 10);
-  EXPECT_GT(found["store.db-wal"], 10);
+  EXPECT_GT(found["store.db"], support::Rounds(10));
+  EXPECT_GT(found["store.db-wal"], support::Rounds(10));
   EXPECT_EQ(found["heads"], 0);
 }
 
