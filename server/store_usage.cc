@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "server/base/clock.h"
+
 namespace plumescout::server {
 
 StoreUsage::StoreUsage(MissionStore* store, absl::Duration period)
@@ -19,7 +21,10 @@ StoreUsage::~StoreUsage() {
 
 void StoreUsage::Run() {
   absl::MutexLock lock(&mutex_);
+  SteadyTime next = SteadyNow();
   do {
+    if (SteadyNow() < next) continue;  // the wall clock was set, which ended the wait
+    next = After(SteadyNow(), period_);
     mutex_.Unlock();
     Look();
     mutex_.Lock();

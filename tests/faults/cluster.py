@@ -129,12 +129,12 @@ class Cluster:
         return f"microseconds of CPU an observation, of {events}: {', '.join(parts)}"
 
     def await_owner(self, mission):
-        """The node that has it, as robots go on."""
+        """The node that has it, as robots go on, and who had which mission then."""
 
         def find():
             rows = self.database.ask(OWNERS)
             names = [name for key, name, *_ in rows if key.rsplit("/", 1)[-1] == mission]
-            return next((node for node in self.nodes if node.name in names), None)
+            return next(((node, rows) for node in self.nodes if node.name in names), None)
 
         return running.await_that(find, f"somebody has {mission}")
 
@@ -145,9 +145,10 @@ class Cluster:
             "all robots go on",
         )
 
-    def fault(self, kind, node, chance):
-        """One of KINDS, or of the database: "primary". Returns once all robots have gone on."""
-        owners = [name for _, name, *_ in self.database.ask(OWNERS)]
+    def fault(self, kind, node, chance, rows=None):
+        """One of KINDS, or of the database: "primary". Returns once all robots have gone on. rows: who
+        has which mission, if that is known."""
+        owners = [name for _, name, *_ in rows or self.database.ask(OWNERS)]
         owned = owners if node is self.database else [n for n in owners if n == node.name]
         self.owner_faults += bool(owned)
         self._waits.reset()

@@ -20,7 +20,8 @@ class ClusterTest(unittest.TestCase):
         try:
             for number, kind in enumerate(bed.size(FAULTS["ci"], FAULTS["long"])):
                 mission = running.missions[number % len(running.missions)]
-                running.fault(kind, running.await_owner(mission), chance)
+                node, rows = running.await_owner(mission)
+                running.fault(kind, node, chance, rows)
             running.show()
         finally:
             running.stop_robots()
