@@ -10,7 +10,7 @@ import { promisify } from 'node:util';
 import { chromium } from 'playwright-core';
 
 export const BIN = resolve(process.env.PLUMESCOUT_BIN ?? '../build/release/bin');
-export const PATIENCE_MS = Number(process.env.PATIENCE_MS ?? 30_000);
+export const PATIENCE_MS = Number(process.env.PATIENCE_MS ?? 90_000);
 export const data = mkdtempSync(join(tmpdir(), 'plumescout-console-'));
 const children = new Set();
 let browser = null;

@@ -94,7 +94,6 @@ class ClocksTest(unittest.TestCase):
             lambda: all(r.durable > was for r, was in zip(team, before))
             and all(r.plans > was for r, was in zip(team, plans)),
             "every robot's observations become durable, and each gets a plan",
-            patience_s=240.0,  # a faked clock costs a file's reading a look, on a busy machine
         )
 
 
