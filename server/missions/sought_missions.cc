@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/missions/sought_missions.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -14,7 +15,9 @@ absl::Status SoughtMissions::CallFor(const std::string& key, SteadyTime now) {
   const auto found = missions_.find(key);
   if (found != missions_.end()) {
     if (found->second.is_asked_for) return Recovering(MissionIdOf(key));
-    if (now < found->second.holds_until) return found->second.answer;
+    Entry& entry = found->second;
+    const SteadyTime unheard_until = std::exchange(entry.unheard_until, SteadyTime());
+    if (now < std::max(entry.holds_until, unheard_until)) return entry.answer;
   }
   if (missions_.size() >= options_.max_missions) {
     std::erase_if(missions_, [now](const auto& mission) {
@@ -39,8 +42,10 @@ std::optional<std::string> SoughtMissions::Next() {
 void SoughtMissions::Settle(const std::string& key, const absl::Status& status, SteadyTime now) {
   const auto found = missions_.find(key);
   if (found == missions_.end()) return;
-  found->second = Entry{
-      .is_asked_for = false, .answer = status, .holds_until = After(now, options_.answer_holds)};
+  found->second = Entry{.is_asked_for = false,
+                        .answer = status,
+                        .holds_until = After(now, options_.answer_holds),
+                        .unheard_until = After(now, options_.unheard_holds)};
 }
 
 }  // namespace plumescout::server

@@ -15,9 +15,11 @@
 namespace plumescout::server {
 
 struct SoughtOptions {
-  // How long an answer of the store holds: longer than callers wait who are to ask again (see
-  // Recovering). So long, at most, is somebody sent to a node that lives no more.
+  // How long an answer of the store holds.
   absl::Duration answer_holds = absl::Milliseconds(500);
+  // The same until somebody has heard it: longer than any caller waits who is to ask again. One
+  // whose answer was gone each time that it came back would be told RECOVERING for ever.
+  absl::Duration unheard_holds = absl::Seconds(10);
   std::size_t max_missions = 4096;
 };
 
@@ -47,6 +49,7 @@ class SoughtMissions {
     bool is_asked_for = true;  // no answer yet
     absl::Status answer = {};
     SteadyTime holds_until = {};
+    SteadyTime unheard_until = {};  // the epoch of the clock once it is heard
   };
 
   SoughtOptions options_;

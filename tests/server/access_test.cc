@@ -21,6 +21,21 @@ namespace access_test {
 
 class WhoMayCallTest : public AccessTest {
  protected:
+  // Another server of the same callers, whose missions that store keeps.
+  std::unique_ptr<Server> StartWithStore(MissionStore& store) const {
+    ServerConfig config;
+    config.listen = "127.0.0.1:0";
+    config.access.tokens_file = tokens_path_;
+    RegistryHooks hooks;
+    hooks.store = &store;
+    auto server = Server::Start(config, hooks);
+    EXPECT_TRUE(server.ok()) << server.status();
+    return server.ok() ? *std::move(server) : nullptr;
+  }
+  static std::shared_ptr<grpc::Channel> ChannelTo(const Server& server) {
+    return grpc::CreateChannel(absl::StrCat("127.0.0.1:", server.port()),
+                               grpc::InsecureChannelCredentials());
+  }
   static const RpcRow& RowOfMethod(const Method& method) {
     for (const RpcRow& row : RpcTable()) {
       if (row.service == method.service()->name() && row.method == method.name()) return row;
@@ -120,15 +135,9 @@ TEST_F(WhoMayCallTest, AStreamEndsOnceItsTokenIsRevoked) {
 TEST_F(WhoMayCallTest, AnImportEndsOnceItsTokenIsRevoked) {
   WriteTokens(TokenLine(kEve, "eve operator acme never"));
   MemoryStore store(/*is_durable=*/true);
-  ServerConfig config;
-  config.listen = "127.0.0.1:0";
-  config.access.tokens_file = tokens_path_;
-  RegistryHooks hooks;
-  hooks.store = &store;
-  const auto server = Server::Start(config, hooks);
-  ASSERT_TRUE(server.ok()) << server.status();
-  const auto stub = v1::SnapshotService::NewStub(grpc::CreateChannel(
-      absl::StrCat("127.0.0.1:", (*server)->port()), grpc::InsecureChannelCredentials()));
+  const auto server = StartWithStore(store);
+  ASSERT_NE(server, nullptr);
+  const auto stub = v1::SnapshotService::NewStub(ChannelTo(*server));
   grpc::ClientContext context;
   SetPatience(context);
   context.AddMetadata("authorization", absl::StrCat("Bearer ", kEve));
@@ -137,23 +146,17 @@ TEST_F(WhoMayCallTest, AnImportEndsOnceItsTokenIsRevoked) {
   v1::ImportMissionRequest part;
   part.mutable_start()->set_mission_id("hall");
   ASSERT_TRUE(import->Write(part));
-  EXPECT_TRUE(AwaitMetric(**server, "plumescout_open_streams 1"));
+  EXPECT_TRUE(AwaitMetric(*server, "plumescout_open_streams 1"));
   WriteTokens("");
   EXPECT_EQ(import->Finish().error_code(), grpc::StatusCode::UNAUTHENTICATED);
 }
 
 TEST_F(WhoMayCallTest, WhatIsWrongWithTheStoreIsToldToOperators) {
   HeldStore store;
-  ServerConfig config;
-  config.listen = "127.0.0.1:0";
-  config.access.tokens_file = tokens_path_;
-  RegistryHooks hooks;
-  hooks.store = &store;
-  const auto server = Server::Start(config, hooks);
-  ASSERT_TRUE(server.ok()) << server.status();
+  const auto server = StartWithStore(store);
+  ASSERT_NE(server, nullptr);
   store.set_state(Refusing("/srv is full"));
-  const auto stub = v1::SystemService::NewStub(grpc::CreateChannel(
-      absl::StrCat("127.0.0.1:", (*server)->port()), grpc::InsecureChannelCredentials()));
+  const auto stub = v1::SystemService::NewStub(ChannelTo(*server));
   const auto ask = [&](const std::string& token) {
     grpc::ClientContext context;
     SetPatience(context);

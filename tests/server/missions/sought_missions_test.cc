@@ -36,6 +36,21 @@ TEST(SoughtMissionsTest, AnAnswerHoldsForAWhile) {
   EXPECT_EQ(ErrorReason(sought.CallFor("hall", kNow)), reason::kRecovering);
 }
 
+TEST(SoughtMissionsTest, AnAnswerWaitsForWhoComesBackLate) {
+  SoughtMissions sought({.answer_holds = absl::Milliseconds(500)});
+  EXPECT_EQ(ErrorReason(sought.CallFor("hall", kNow)), reason::kRecovering);
+  EXPECT_EQ(sought.Next(), "hall");
+  const absl::Status elsewhere = MissionElsewhere("hall", "n2");
+  sought.Settle("hall", elsewhere, kNow);
+  EXPECT_EQ(sought.CallFor("hall", kNow + milliseconds(2400)), elsewhere);
+  EXPECT_EQ(ErrorReason(sought.CallFor("hall", kNow + milliseconds(2401))), reason::kRecovering)
+      << "it was heard, and may not be so any more";
+  EXPECT_EQ(sought.Next(), "hall");
+  sought.Settle("hall", elsewhere, kNow);
+  EXPECT_EQ(ErrorReason(sought.CallFor("hall", kNow + std::chrono::seconds(10))),
+            reason::kRecovering);
+}
+
 TEST(SoughtMissionsTest, NamesThatCallersMakeUpAreBounded) {
   SoughtMissions sought({.answer_holds = absl::Milliseconds(500), .max_missions = 2});
   for (const char* key : {"a", "b"}) {

@@ -227,7 +227,9 @@ def event_line(event):
 
 def store_words(store):
     """Where missions are kept, and how that goes."""
-    if store.engine in ("", "none"):
+    if not store.engine:
+        return "not told by this server"
+    if store.engine == "none":
         return "none: missions are gone when the server ends"
     place = f"{store.engine}, {size(store.stored_bytes)}"
     if store.node:
