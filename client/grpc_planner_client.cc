@@ -13,6 +13,7 @@
 #include "client/grpc_status.h"
 #include "client/ingest_messages.h"
 #include "client/map_call.h"
+#include "client/robot_messages.h"
 #include "core/types/status_macros.h"
 #include "plumescout/v1/ingest_service.grpc.pb.h"
 #include "plumescout/v1/map_service.grpc.pb.h"
@@ -26,8 +27,6 @@
 #include "proto/convert/observation.h"
 #include "proto/convert/options.h"
 #include "proto/convert/plan.h"
-#include "proto/convert/robot.h"
-#include "proto/convert/robot_frame.h"
 #include "proto/convert/status.h"
 
 namespace plumescout::client {
@@ -115,14 +114,13 @@ class GrpcPlannerClient final : public PlannerClient {
                                              double radius_m, bool take_over,
                                              std::int64_t log_epoch,
                                              const RobotOutfit& outfit) override {
-    v1::RegisterRobotRequest request;
-    request.set_mission(MissionResource(mission));
-    request.set_robot_id(robot);
-    request.set_radius_m(radius_m);
-    request.set_take_over(take_over);
-    request.set_log_epoch(log_epoch);
-    if (outfit.frame != RobotFrame()) *request.mutable_frame() = ToProto(outfit.frame);
-    ToProto(outfit.sensors, request);
+    v1::RegisterRobotRequest request = RegistrationOf({.mission = mission,
+                                                       .robot = robot,
+                                                       .radius_m = radius_m,
+                                                       .take_over = take_over,
+                                                       .log_epoch = log_epoch,
+                                                       .frame = outfit.frame,
+                                                       .sensors = outfit.sensors});
     v1::RegisterRobotResponse response;
     PLUMESCOUT_RETURN_IF_ERROR(
         link_->CallNamed(robots_, &v1::RobotService::Stub::RegisterRobot, request, &response));

@@ -13,6 +13,7 @@
 
 #include "absl/time/time.h"
 #include "client/credentials.h"
+#include "client/robot_narrator.h"
 #include "client/sensor_arguments.h"
 #include "core/types/prior_map.h"
 #include "core/types/status_macros.h"
@@ -104,6 +105,9 @@ void AddConduct(CLI::App& app, RobotFlags& flags) {
                  "each, inf: sync at the end alone")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  app.add_option("--record", flags.record_folder,
+                 "folder in which the run is recorded as MCAP files, MISSION/ROBOT.TIME.mcap: what "
+                 "is sent, what comes back, and what viewers draw of it");
 }
 
 // An epoch for a log that begins now: 53 random bits, but not 0.
@@ -137,6 +141,12 @@ absl::Status Prepare(RobotFlags& flags) {
   flags.loop.new_log_epoch = DrawLogEpoch();
   flags.loop.real_clock = true;
   return absl::OkStatus();
+}
+
+RobotRecordingOptions RecordingOf(const RobotFlags& flags, const std::string& program) {
+  return {.folder = flags.record_folder,
+          .file = {},
+          .say = [aside = RobotNarrator(program)](const std::string& text) { aside.Say(text); }};
 }
 
 }  // namespace plumescout::client

@@ -124,8 +124,13 @@ void RobotLoop::StartSensing() {
                   std::move(opened_log_));
   bridge_.emplace(driver_, options_.rates, options_.gas_sampling,
                   [this](std::int64_t time_ns, const Pose2& pose, ObservationPayload payload) {
-                    ingest_->Append(time_ns, pose, std::move(payload));
+                    Log(time_ns, pose, std::move(payload));
                   });
+}
+
+void RobotLoop::Log(std::int64_t time_ns, const Pose2& pose, ObservationPayload payload) {
+  const std::int64_t sequence = ingest_->Append(time_ns, pose, payload);
+  observer_.OnLogged({sequence, time_ns, pose, std::move(payload)});
 }
 
 absl::Status RobotLoop::Explore() {
@@ -183,7 +188,7 @@ absl::Status RobotLoop::Tick(double duration_s) {
   if (options_.real_clock) clock_.Note(driver_.now_ns());
   PLUMESCOUT_RETURN_IF_ERROR(bridge_->Poll(standing));
   if (const auto status = status_reports_.Take(driver_.TakeStatus(), driver_.now_ns())) {
-    ingest_->Append(driver_.now_ns(), driver_.pose(), *status);
+    Log(driver_.now_ns(), driver_.pose(), *status);
   }
   const bool world_waits = options_.pacing == Pacing::kLockstep && !GoesOnWithoutLink();
   if (world_waits) AwaitApplied(options_.link_patience);

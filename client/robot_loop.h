@@ -73,6 +73,7 @@ class RobotLoop {
   absl::Status OpenLogOnDisk();
   absl::Status JoinMission();
   void StartSensing();
+  void Log(std::int64_t time_ns, const Pose2& pose, ObservationPayload payload);
   absl::Status Explore();
   absl::Status Finish();
   void DropPending();

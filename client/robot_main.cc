@@ -9,6 +9,7 @@
 #include <CLI/Formatter.hpp>
 #include <atomic>
 #include <cstdlib>
+#include <optional>
 
 #include "absl/strings/str_cat.h"
 #include "client/grpc_planner_client.h"
@@ -16,6 +17,7 @@
 #include "client/robot_flags.h"
 #include "client/robot_loop.h"
 #include "client/robot_narrator.h"
+#include "client/robot_recorder.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout::client {
@@ -44,13 +46,21 @@ void RequestStop(int) { stop_requested = true; }
 
 absl::Status RunRobot(RobotFlags flags) {
   PLUMESCOUT_RETURN_IF_ERROR(Prepare(flags));
-  RobotNarrator narrator(kProgram);
+  std::optional<RobotRecorder> recorder;
+  RobotNarrator narrator(kProgram, [&recorder](bool is_warning, const std::string& line) {
+    if (recorder) recorder->OnSaid(is_warning, line);
+  });
   LineDriver driver({.on_bad_line = [&narrator](const absl::Status& status) {
     narrator.Say(absl::StrCat("bad line: ", status.message()));
   }});
   PLUMESCOUT_RETURN_IF_ERROR(driver.AwaitPose());
   const auto client = MakeGrpcPlannerClient(flags.client);
-  RobotLoop loop(*client, driver, flags.loop, narrator);
+  RobotObserver* observer = &narrator;
+  if (!flags.record_folder.empty()) {
+    observer = &recorder.emplace(RecordingOf(flags, kProgram), flags.loop.participation,
+                                 driver.now_ns(), &narrator);
+  }
+  RobotLoop loop(*client, driver, flags.loop, *observer);
   const auto result = loop.Run([] { return stop_requested.load(); });
   if (!result.ok()) return result.status();
   narrator.SayResult(*result);

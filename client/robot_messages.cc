@@ -8,6 +8,7 @@
 #include "proto/convert/field.h"
 #include "proto/convert/map.h"
 #include "proto/convert/names.h"
+#include "proto/convert/robot.h"
 #include "proto/convert/robot_frame.h"
 
 namespace plumescout::client {
@@ -41,6 +42,18 @@ absl::StatusOr<RobotState> StateFromProto(const v1::Robot& proto) {
 }
 
 }  // namespace
+
+v1::RegisterRobotRequest RegistrationOf(const Participation& participation) {
+  v1::RegisterRobotRequest request;
+  request.set_mission(MissionResource(participation.mission));
+  request.set_robot_id(participation.robot);
+  request.set_radius_m(participation.radius_m);
+  request.set_take_over(participation.take_over);
+  request.set_log_epoch(participation.log_epoch);
+  if (participation.frame != RobotFrame()) *request.mutable_frame() = ToProto(participation.frame);
+  ToProto(participation.sensors, request);
+  return request;
+}
 
 absl::StatusOr<RobotDetails> DetailsFromProto(const v1::Robot& proto) {
   RobotDetails details;

@@ -21,30 +21,32 @@ void RobotNarrator::OnReport(PlanId plan, ProgressOutcome outcome) {
 }
 
 void RobotNarrator::OnPlanFailure(const absl::Status& status) {
-  Say(absl::StrCat("no plan: ", status.ToString()));
+  Warn(absl::StrCat("no plan: ", status.ToString()));
 }
 
 void RobotNarrator::OnRejected(const ObservationRejected& rejected) {
-  Say(absl::StrCat("observation ", rejected.sequence, " refused: ", rejected.status.ToString()));
+  Warn(absl::StrCat("observation ", rejected.sequence, " refused: ", rejected.status.ToString()));
 }
 
 void RobotNarrator::OnLink(const absl::Status& status) {
-  Say(status.ok() ? "link is up" : absl::StrCat("link: ", status.ToString()));
+  if (status.ok()) return Say("link is up");
+  Warn(absl::StrCat("link: ", status.ToString()));
 }
 
 void RobotNarrator::OnRolledBack(std::int64_t applied_sequence, std::int64_t forgotten) {
-  Say(absl::StrCat("the server was set back: it has ", applied_sequence,
-                   " observations of this robot, although it had more; the rest is sent again",
-                   forgotten > 0 ? absl::StrCat(", but for ", forgotten, " that are gone") : ""));
+  Warn(absl::StrCat("the server was set back: it has ", applied_sequence,
+                    " observations of this robot, although it had more; the rest is sent again",
+                    forgotten > 0 ? absl::StrCat(", but for ", forgotten, " that are gone") : ""));
 }
 
 void RobotNarrator::OnDisk(const absl::Status& status) {
-  Say(status.ok() ? "the log is written to disk again"
-                  : absl::StrCat("log on disk: ", status.message()));
+  if (status.ok()) return Say("the log is written to disk again");
+  Warn(absl::StrCat("log on disk: ", status.message()));
 }
 
-void RobotNarrator::Say(const std::string& text) const {
+void RobotNarrator::Tell(bool is_warning, const std::string& text) const {
   std::fprintf(stderr, "%s: %s\n", program_.c_str(), text.c_str());
+  if (listener_) listener_(is_warning, text);
 }
 
 void RobotNarrator::SayResult(const RobotResult& result) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -15,7 +16,11 @@ namespace plumescout::client {
 // Thread-safe.
 class RobotNarrator : public RobotObserver {
  public:
-  explicit RobotNarrator(std::string program) : program_(std::move(program)) {}
+  using Listener = std::function<void(bool is_warning, const std::string& line)>;
+
+  // `listener`, who may be none, hears what is said, without the program's name.
+  explicit RobotNarrator(std::string program, Listener listener = nullptr)
+      : program_(std::move(program)), listener_(std::move(listener)) {}
 
   void OnPlan(const PlanArrival& arrival) override;
   void OnReport(PlanId plan, ProgressOutcome outcome) override;
@@ -25,11 +30,16 @@ class RobotNarrator : public RobotObserver {
   void OnRolledBack(std::int64_t applied_sequence, std::int64_t forgotten) override;
   void OnDisk(const absl::Status& status) override;
 
-  void Say(const std::string& text) const;
+  void Say(const std::string& text) const { Tell(/*is_warning=*/false, text); }
+  void Warn(const std::string& text) const { Tell(/*is_warning=*/true, text); }
   void SayResult(const RobotResult& result) const;
+  const std::string& program() const { return program_; }
 
  private:
+  void Tell(bool is_warning, const std::string& text) const;
+
   const std::string program_;
+  const Listener listener_;
 };
 
 }  // namespace plumescout::client

@@ -8,6 +8,7 @@
 #include "absl/time/time.h"
 #include "client/ingest_session.h"
 #include "client/planner_client.h"
+#include "core/types/observation.h"
 #include "core/types/plan.h"
 #include "core/types/pose2.h"
 
@@ -38,6 +39,8 @@ class RobotObserver {
 
   // On the robot's thread. A slow observer slows the robot.
   virtual void OnTick(const RobotTick&) {}
+  // What was just added to the log that the server is sent, with its number by then.
+  virtual void OnLogged(const Observation&) {}
   virtual void OnPlan(const PlanArrival&) {}
   virtual void OnReport(PlanId, ProgressOutcome) {}
   virtual void OnPlanFailure(const absl::Status&) {}

@@ -8,10 +8,10 @@
 
 namespace plumescout {
 
-absl::StatusOr<std::string> CompressZstd(absl::string_view bytes) {
+absl::StatusOr<std::string> CompressZstd(absl::string_view bytes, int level) {
   std::string frame(ZSTD_compressBound(bytes.size()), '\0');
   const std::size_t size =
-      ZSTD_compress(frame.data(), frame.size(), bytes.data(), bytes.size(), ZSTD_CLEVEL_DEFAULT);
+      ZSTD_compress(frame.data(), frame.size(), bytes.data(), bytes.size(), level);
   if (ZSTD_isError(size) != 0) return absl::InternalError(ZSTD_getErrorName(size));
   frame.resize(size);
   return frame;

@@ -11,8 +11,11 @@
 
 namespace plumescout {
 
+// The library's own.
+inline constexpr int kZstdLevel = 3;
+
 // One zstd frame that holds `bytes`. kInternal if the library fails.
-absl::StatusOr<std::string> CompressZstd(absl::string_view bytes);
+absl::StatusOr<std::string> CompressZstd(absl::string_view bytes, int level = kZstdLevel);
 
 // Unpacks one zstd frame into `size` bytes at `out`, never more. kDataLoss if the frame is damaged
 // or holds another number of bytes.

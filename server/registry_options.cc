@@ -57,8 +57,9 @@ RecordingOptions ToRecordingOptions(const RecordConfig& config) {
   RecordingOptions options;
   options.folder = config.folder;
   options.map_period_s = config.map_period_s;
-  options.chunk_period = absl::Seconds(config.chunk_s);
-  options.max_file_bytes = config.max_file_bytes;
+  options.map_share = config.map_share;
+  options.file.chunk_period = absl::Seconds(config.chunk_s);
+  options.file.max_file_bytes = config.max_file_bytes;
   return options;
 }
 

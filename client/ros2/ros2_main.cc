@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cstdlib>
 
+#include "client/robot_narrator.h"
 #include "client/ros2/check_robot.h"
 #include "client/ros2/run_robot.h"
 
@@ -33,6 +34,7 @@ CLI::App* AddCheck(CLI::App& app, Flags& flags) {
       "check",
       "Says what of a robot's topics, transforms and units is missing or does not fit. Ends with 0 "
       "as soon as all is there, with 1 if it is not in time.");
+  check->alias("--check");
   check->add_option("--for", flags.check_s, "seconds to listen, at most")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
@@ -70,6 +72,7 @@ int main(int argc, char** argv) {
   CLI::App app("Puts a robot of ROS 2 into a mission, by DDS.", client::kProgram);
   client::Flags flags;
   app.require_subcommand(1);
+  app.set_help_all_flag("--help-all", "Print this, and the help of check and run, and exit");
   const CLI::App* const check = client::AddCheck(app, flags);
   client::AddRun(app, flags);
   CLI11_PARSE(app, argc, argv);
@@ -82,7 +85,7 @@ int main(int argc, char** argv) {
     status = complete.status();
   } else {
     status = client::RunRobot(
-        flags.run, [] { return client::stop_requested.load(); }, narrator);
+        flags.run, [] { return client::stop_requested.load(); }, client::kProgram);
   }
   if (status.ok()) return EXIT_SUCCESS;
   narrator.Say(status.ToString());

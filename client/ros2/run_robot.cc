@@ -12,6 +12,8 @@
 #include "client/grpc_planner_client.h"
 #include "client/grpc_viewer_client.h"
 #include "client/robot_loop.h"
+#include "client/robot_narrator.h"
+#include "client/robot_recorder.h"
 #include "client/ros2/complaints.h"
 #include "client/ros2/dds_node.h"
 #include "client/ros2/input_watch.h"
@@ -147,7 +149,11 @@ RobotLoopOptions OptionsOf(const RunFlags& flags) {
 
 }  // namespace
 
-absl::Status RunRobot(RunFlags flags, const StopFn& stop, const RobotNarrator& narrator) {
+absl::Status RunRobot(RunFlags flags, const StopFn& stop, const std::string& program) {
+  std::optional<RobotRecorder> recorder;
+  const RobotNarrator narrator(program, [&recorder](bool is_warning, const std::string& line) {
+    if (recorder) recorder->OnSaid(is_warning, line);
+  });
   PLUMESCOUT_RETURN_IF_ERROR(Prepare(flags.robot));
   PLUMESCOUT_RETURN_IF_ERROR(Prepare(flags.listen));
   const Participation& participation = flags.robot.loop.participation;
@@ -160,6 +166,11 @@ absl::Status RunRobot(RunFlags flags, const StopFn& stop, const RobotNarrator& n
   const auto planner = MakeGrpcPlannerClient(link);
   const auto viewer = MakeGrpcViewerClient(link);
   PlanTeller teller(narrator, robot);
+  RobotObserver* observer = &teller;
+  if (!flags.robot.record_folder.empty()) {
+    observer = &recorder.emplace(RecordingOf(flags.robot, program), participation,
+                                 robot.driver().now_ns(), &teller);
+  }
   std::optional<MapRelay> relay;
   if (robot.publishes_maps()) {
     relay.emplace(
@@ -174,7 +185,7 @@ absl::Status RunRobot(RunFlags flags, const StopFn& stop, const RobotNarrator& n
                                   narrator.Say(absl::StrCat("map: ", why.message()));
                                 }});
   }
-  RobotLoop loop(*planner, robot.driver(), OptionsOf(flags), teller);
+  RobotLoop loop(*planner, robot.driver(), OptionsOf(flags), *observer);
   const auto result = loop.Run(stop);
   robot.driver().Drive({}).IgnoreError();  // whatever has gone wrong
   robot.LetLastWordsOut();

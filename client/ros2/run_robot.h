@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "absl/status/status.h"
 #include "client/robot_flags.h"
-#include "client/robot_narrator.h"
 #include "client/ros2/ros2_flags.h"
 #include "core/types/stop.h"
 
@@ -20,6 +21,7 @@ struct RunFlags {
 };
 
 // Puts a robot of ROS 2 into a mission until that is complete, the time is up, or `stop` says so.
-absl::Status RunRobot(RunFlags flags, const StopFn& stop, const RobotNarrator& narrator);
+// Lines for people begin with the name of the program.
+absl::Status RunRobot(RunFlags flags, const StopFn& stop, const std::string& program);
 
 }  // namespace plumescout::client

@@ -10,8 +10,8 @@
 namespace plumescout {
 
 MissionMcap::MissionMcap(const JournalStart& start, std::unique_ptr<Mission> mission,
-                         double map_period_s)
-    : mission_(std::move(mission)), map_timer_(map_period_s), view_(start) {}
+                         double map_period_s, double map_share)
+    : mission_(std::move(mission)), map_timer_(map_period_s), view_(start, map_share) {}
 
 absl::Status MissionMcap::Add(const Event& event, absl::string_view record) {
   const absl::StatusOr<Applied> applied = mission_->Apply(event.body);

@@ -15,13 +15,14 @@
 namespace plumescout {
 
 // The events of a mission as a MissionView: the mission is replayed for that, event by event, and
-// shows its map every map_period_s. Memory: that of the mission, and as of MissionView. The same
-// events give the same bytes. Single-threaded.
+// shows its map every map_period_s, if the ration allows it. Memory: that of the mission, and as of
+// MissionView. The same events give the same bytes. Single-threaded.
 class MissionMcap {
  public:
   // `mission` is that of the start's options, before its first event. `map_period_s` is in the
-  // mission's time, at least; 0: after each event.
-  MissionMcap(const JournalStart& start, std::unique_ptr<Mission> mission, double map_period_s);
+  // mission's time, at least; 0: after each event. `map_share`: as of MapRation.
+  MissionMcap(const JournalStart& start, std::unique_ptr<Mission> mission, double map_period_s,
+              double map_share = MissionView::kMapShare);
 
   // Applies the event. `record` is its bytes in a journal. kDataLoss if the mission refuses the
   // event or gives it another number; kInternal as of McapEncoder.

@@ -12,16 +12,12 @@
 #include "core/mission/observation_check.h"
 #include "core/types/status_macros.h"
 #include "formats/mcap/mcap_journal.h"
+#include "formats/zstd_codec.h"
 #include "proto/convert/event_line.h"
 #include "proto/convert/foxglove.h"
-#include "proto/convert/observation.h"
-#include "proto/convert/plan.h"
 
 namespace plumescout {
 namespace {
-
-constexpr std::int64_t kPosePeriod_ns = 200'000'000;
-constexpr std::int64_t kScanPeriod_ns = 1'000'000'000;
 
 std::string WriterName(const JournalStart& start) {
   return absl::StrCat("plumescout ", start.code_version);
@@ -32,16 +28,6 @@ std::int64_t Nanoseconds(double seconds) {
   constexpr double kMost_s = 1e9;
   return std::llround(kSecond_ns * std::clamp(seconds, 0.0, kMost_s));
 }
-
-// Whether it is time to show something again; notes that it is shown. Of robots that send what
-// they kept, times go back.
-bool IsDue(std::int64_t time_ns, std::int64_t period_ns, std::optional<std::int64_t>& shown_ns) {
-  if (shown_ns && time_ns >= *shown_ns && time_ns - *shown_ns < period_ns) return false;
-  shown_ns = time_ns;
-  return true;
-}
-
-std::string WayOf(const RobotId& robot) { return absl::StrCat("plans/", robot); }
 
 Grid<float> StandardDeviation(const Grid<float>& variance) {
   Grid<float> stddev = variance;
@@ -87,10 +73,11 @@ MissionMoment MomentAfter(Event event, const Applied& applied, const Mission& mi
   return moment;
 }
 
-MissionView::MissionView(const JournalStart& start)
+MissionView::MissionView(const JournalStart& start, double map_share)
     : mission_id_(start.mission.empty() ? "recording" : start.mission),
       start_(EncodeStart(start)),
       encoder_(WriterName(start)),
+      ration_(map_share),
       journal_(encoder_.AddChannel(kMcapJournalTopic, kMcapJournalEncoding, 0)) {}
 
 absl::Status MissionView::Add(MissionMoment moment) {
@@ -129,22 +116,20 @@ absl::Status MissionView::NoteGap(std::int64_t missing_events, std::int64_t even
   if (!has_begun_) PLUMESCOUT_RETURN_IF_ERROR(Begin());
   const std::string line =
       absl::StrCat("recording: ", missing_events, " events are missing before event ", event);
-  return channels_.Add("/log", FoxgloveLog(foxglove::Log::WARNING, "", line, now_ns_),
-                       {now_ns_, now_ns_});
+  return drawing_.DrawLine(/*is_warning=*/true, "", line, {now_ns_, now_ns_});
 }
 
 absl::Status MissionView::EndChunk() { return encoder_.EndChunk(); }
 
 absl::Status MissionView::Finish(const std::shared_ptr<const Belief>& belief) {
   if (!has_begun_) PLUMESCOUT_RETURN_IF_ERROR(Begin());
-  if (belief != nullptr && map_revision_ != belief->revision) {
-    PLUMESCOUT_RETURN_IF_ERROR(ShowMap(*belief));
-  }
+  if (belief != nullptr) PLUMESCOUT_RETURN_IF_ERROR(ShowMap(*belief, /*is_last=*/true));
   return encoder_.Finish();
 }
 
 absl::Status MissionView::AddRecord(std::int64_t number, absl::string_view record,
                                     McapTimes times) {
+  ration_.NoteRecord(record.size());
   return encoder_.Add({journal_, static_cast<std::uint32_t>(number),
                        static_cast<std::uint64_t>(times.log_ns),
                        static_cast<std::uint64_t>(times.publish_ns), std::string(record)});
@@ -155,52 +140,25 @@ absl::Status MissionView::Show(const MissionMoment& moment, McapTimes times) {
   const Applied& applied = moment.applied;
   if (const auto* received = std::get_if<ObservationReceived>(&event.body)) {
     if (applied.observation.ok() && moment.robot) {
-      PLUMESCOUT_RETURN_IF_ERROR(ShowObservation(*received, *moment.robot, times));
+      PLUMESCOUT_RETURN_IF_ERROR(drawing_.DrawObservation(received->robot, moment.robot->frame,
+                                                          received->observation, times));
     }
   } else if (const auto* issued = std::get_if<PlanIssued>(&event.body)) {
     PLUMESCOUT_RETURN_IF_ERROR(ShowPlan(issued->plan, applied.plan_id, times));
   } else if (const auto* report = std::get_if<ProgressReported>(&event.body)) {
-    PLUMESCOUT_RETURN_IF_ERROR(
-        channels_.Add("/scene/plans", FoxgloveGone(WayOf(report->robot), times.log_ns), times));
+    PLUMESCOUT_RETURN_IF_ERROR(drawing_.DrawEndOfPlan(report->robot, times));
   } else if (const auto* removed = std::get_if<RobotRemoved>(&event.body)) {
-    PLUMESCOUT_RETURN_IF_ERROR(
-        channels_.Add("/scene/plans", FoxgloveGone(WayOf(removed->robot), times.log_ns), times));
+    PLUMESCOUT_RETURN_IF_ERROR(drawing_.DrawEndOfPlan(removed->robot, times));
   }
   PLUMESCOUT_RETURN_IF_ERROR(ShowLog(event, applied, times));
-  return moment.belief == nullptr ? absl::OkStatus() : ShowMap(*moment.belief);
-}
-
-absl::Status MissionView::ShowObservation(const ObservationReceived& received,
-                                          const RobotState& robot, McapTimes times) {
-  const Observation& observation = received.observation;
-  const Pose2 pose = InMission(robot.frame, observation.pose);
-  const std::string topic = absl::StrCat("/robots/", received.robot);
-  Shown& shown = shown_[received.robot];
-  if (IsDue(times.publish_ns, kPosePeriod_ns, shown.pose_ns)) {
-    PLUMESCOUT_RETURN_IF_ERROR(
-        channels_.Add(topic + "/pose", FoxglovePose(pose, times.publish_ns), times));
-  }
-  if (std::holds_alternative<GasReading>(observation.payload)) {
-    return channels_.Add(topic + "/gas", ToProto(observation), times);
-  }
-  const auto* scan = std::get_if<Scan>(&observation.payload);
-  if (scan == nullptr || !IsDue(times.publish_ns, kScanPeriod_ns, shown.scan_ns)) {
-    return absl::OkStatus();
-  }
-  return channels_.Add(topic + "/scan", FoxgloveScan(*scan, pose, times.publish_ns), times);
+  return moment.belief == nullptr ? absl::OkStatus() : ShowMap(*moment.belief, /*is_last=*/false);
 }
 
 absl::Status MissionView::ShowPlan(const Plan& issued, PlanId id, McapTimes times) {
   Plan plan = issued;
   plan.id = id;
   if (plan.chosen >= static_cast<int>(plan.candidates.size())) plan.chosen = -1;  // not kept
-  PLUMESCOUT_RETURN_IF_ERROR(channels_.Add("/plans", ToProto(plan, mission_id_), times));
-  const std::string way = WayOf(plan.robot);
-  return channels_.Add("/scene/plans",
-                       plan.trajectory.waypoints.empty()
-                           ? FoxgloveGone(way, times.log_ns)
-                           : FoxgloveWay(way, plan.trajectory, times.log_ns),
-                       times);
+  return drawing_.DrawPlan(mission_id_, plan, times);
 }
 
 absl::Status MissionView::ShowLog(const Event& event, const Applied& applied, McapTimes times) {
@@ -211,31 +169,41 @@ absl::Status MissionView::ShowLog(const Event& event, const Applied& applied, Mc
   if (refused.ok() && !IsNews(told.kind())) return absl::OkStatus();
   const std::string line =
       refused.ok() ? told.summary() : absl::StrCat(told.summary(), ": ", refused.message());
-  const auto level = refused.ok() ? foxglove::Log::INFO : foxglove::Log::WARNING;
-  return channels_.Add("/log", FoxgloveLog(level, told.robot(), line, times.log_ns), times);
+  return drawing_.DrawLine(!refused.ok(), told.robot(), line, times);
 }
 
-absl::Status MissionView::ShowMap(const Belief& belief) {
-  const McapTimes times{now_ns_, now_ns_};
-  map_revision_ = belief.revision;
+absl::Status MissionView::ShowMap(const Belief& belief, bool is_last) {
   if (belief.geometry().size() == 0) return absl::OkStatus();
-  PLUMESCOUT_RETURN_IF_ERROR(
-      channels_.Add("/map/occupancy", FoxgloveGrid(*belief.occupancy, now_ns_), times));
+  const auto show = [&](const std::string& topic, const google::protobuf::Message& layer) {
+    return ShowLayer(topic, layer, belief.revision, is_last);
+  };
+  PLUMESCOUT_RETURN_IF_ERROR(show("/map/occupancy", FoxgloveGrid(*belief.occupancy, now_ns_)));
   const std::vector<GasSpecies>& species = belief.options->gas_species;
   for (std::size_t i = 0; i <= belief.further_gases.size(); ++i) {
     const GasField gas = belief.Gas(i);
     const std::string topic =
         species.size() < 2 ? "/map/gas" : absl::StrCat("/map/gas/", species[i].name);
     PLUMESCOUT_RETURN_IF_ERROR(
-        channels_.Add(topic + "/mean", FoxgloveGrid(*gas.mean_ppm, "mean_ppm", now_ns_), times));
-    PLUMESCOUT_RETURN_IF_ERROR(channels_.Add(
+        show(topic + "/mean", FoxgloveGrid(*gas.mean_ppm, "mean_ppm", now_ns_)));
+    PLUMESCOUT_RETURN_IF_ERROR(show(
         topic + "/stddev",
-        FoxgloveGrid(StandardDeviation(*gas.published_variance_ppm2()), "stddev_ppm", now_ns_),
-        times));
+        FoxgloveGrid(StandardDeviation(*gas.published_variance_ppm2()), "stddev_ppm", now_ns_)));
   }
-  return channels_.Add(
-      "/scene/frontiers",
-      FoxgloveFrontiers(MakeMapStatus(belief).frontiers, belief.geometry(), now_ns_), times);
+  return show("/scene/frontiers",
+              FoxgloveFrontiers(MakeMapStatus(belief).frontiers, belief.geometry(), now_ns_));
+}
+
+absl::Status MissionView::ShowLayer(const std::string& topic,
+                                    const google::protobuf::Message& layer, std::int64_t revision,
+                                    bool is_last) {
+  const auto shown = shown_revisions_.find(topic);
+  if (shown != shown_revisions_.end() && shown->second == revision) return absl::OkStatus();
+  if (!is_last) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(const std::string packed, CompressZstd(layer.SerializeAsString()));
+    if (!ration_.Allows(topic, packed.size(), now_ns_)) return absl::OkStatus();
+  }
+  shown_revisions_[topic] = revision;
+  return channels_.Add(topic, layer, {now_ns_, now_ns_});
 }
 
 }  // namespace plumescout

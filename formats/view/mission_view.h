@@ -16,9 +16,15 @@
 #include "core/mission/mission.h"
 #include "core/types/event.h"
 #include "core/types/map_snapshot.h"
+#include "formats/draw/robot_drawing.h"
+#include "formats/draw/typed_channels.h"
 #include "formats/journal/event_codec.h"
 #include "formats/mcap/mcap_encoder.h"
-#include "formats/view/typed_channels.h"
+#include "formats/view/map_ration.h"
+
+namespace google::protobuf {
+class Message;
+}  // namespace google::protobuf
 
 namespace plumescout {
 
@@ -56,16 +62,14 @@ MissionMoment MomentAfter(Event event, const Applied& applied, const Mission& mi
 //
 //   topic                 schema                    when
 //   /journal              -                         the start, then each event
-//   /plans                plumescout.v1.Plan        each plan
-//   /log                  foxglove.Log              what happens, in words; not each observation
-//   /map/occupancy        foxglove.Grid             when a moment has the belief, and at the end
+//   /map/occupancy        foxglove.Grid             when a moment has the belief and the ration
+//                                                   (formats/view/map_ration.h) allows it; at the
+//                                                   end
 //   /map/gas/mean         foxglove.Grid             as above; of several gases /map/gas/NAME/mean
 //   /map/gas/stddev       foxglove.Grid             as above
 //   /scene/frontiers      foxglove.SceneUpdate      as above
-//   /scene/plans          foxglove.SceneUpdate      the ways of live plans
-//   /robots/NAME/pose     foxglove.PoseInFrame      every 0.2 s
-//   /robots/NAME/scan     foxglove.LaserScan        every second
-//   /robots/NAME/gas      plumescout.v1.Observation  each reading
+//
+// and what formats/draw/robot_drawing.h draws of robots. The log is not of each observation.
 //
 // Times are the mission's (sample time): that of the log is when the mission had the message, so it
 // never goes back; that of publication is the message's own. Before the first observation it is
@@ -76,8 +80,11 @@ class MissionView {
  public:
   // Of records that wait for the first observation, which has the first time.
   static constexpr std::size_t kMostEarlyBytes = std::size_t{1} << 20;
+  // Of the journal that maps may take.
+  static constexpr double kMapShare = 0.1;
 
-  explicit MissionView(const JournalStart& start);
+  // `map_share`: as of MapRation.
+  explicit MissionView(const JournalStart& start, double map_share = kMapShare);
 
   // Errors as of McapEncoder::Add.
   absl::Status Add(MissionMoment moment);
@@ -93,33 +100,29 @@ class MissionView {
   std::size_t ready_bytes() const { return encoder_.ready_bytes(); }
 
  private:
-  // What of a robot was shown last, by the message's own time.
-  struct Shown {
-    std::optional<std::int64_t> pose_ns;
-    std::optional<std::int64_t> scan_ns;
-  };
-
   absl::Status AddRecord(std::int64_t number, absl::string_view record, McapTimes times);
   absl::Status AddShown(const MissionMoment& moment);
   absl::Status Show(const MissionMoment& moment, McapTimes times);
-  absl::Status ShowObservation(const ObservationReceived& received, const RobotState& robot,
-                               McapTimes times);
   absl::Status ShowPlan(const Plan& issued, PlanId id, McapTimes times);
   absl::Status ShowLog(const Event& event, const Applied& applied, McapTimes times);
-  absl::Status ShowMap(const Belief& belief);
+  // What of it was not shown yet, and is allowed to, or has to be for it is the last.
+  absl::Status ShowMap(const Belief& belief, bool is_last);
+  absl::Status ShowLayer(const std::string& topic, const google::protobuf::Message& layer,
+                         std::int64_t revision, bool is_last);
   absl::Status Begin();
 
   const std::string mission_id_;
   const std::string start_;  // as a record
   McapEncoder encoder_;
   TypedChannels channels_{&encoder_};
+  RobotDrawing drawing_{&channels_};
+  MapRation ration_;
   const std::uint16_t journal_;       // channel
   std::vector<MissionMoment> early_;  // before the first observation, and so before there is a time
   std::size_t early_bytes_ = 0;
   bool has_begun_ = false;
   std::int64_t now_ns_ = 0;
-  std::map<RobotId, Shown> shown_;
-  std::int64_t map_revision_ = -1;  // that was shown last
+  std::map<std::string, std::int64_t> shown_revisions_;  // of layers, by their topics
 };
 
 }  // namespace plumescout

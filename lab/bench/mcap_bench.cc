@@ -5,6 +5,7 @@
 // says what happened, and of the thread that writes the file; bytes beside those of the journal.
 // Four robots drive straight ways through a building, scan and read twice a second.
 
+#include <cmath>
 #include <cstdio>
 #include <string>
 #include <utility>
@@ -34,12 +35,14 @@ struct McapFlags {
   int seconds = 300;
   int scans_per_s = 10;
   int chunk_s = 10;
+  int map_percent = static_cast<int>(std::lround(100.0 * MissionView::kMapShare));
 };
 
 // As plumescout-server records, on one thread.
 class Recorder final : public ConductObserver {
  public:
-  explicit Recorder(int chunk_s) : chunk_ns_(chunk_s * kSecond_ns) {
+  Recorder(int chunk_s, double map_share)
+      : chunk_ns_(chunk_s * kSecond_ns), view_({.mission = "bench"}, map_share) {
     journal_bytes_ = std::ssize(journal_.Begin({.mission = "bench"}));
   }
 
@@ -77,7 +80,7 @@ class Recorder final : public ConductObserver {
   const std::int64_t chunk_ns_;
   const Mission* mission_ = nullptr;
   MapTimer timer_{kMapPeriod_s};
-  MissionView view_{{.mission = "bench"}};
+  MissionView view_;
   JournalFileEncoder journal_;
   absl::Status status_;
   std::int64_t chunk_end_ns_ = 0;
@@ -119,7 +122,7 @@ absl::Status Drive(const McapFlags& flags, std::uint64_t seed, MissionConduct& c
 
 absl::Status Run(const McapFlags& flags, BenchSummary& summary) {
   PLUMESCOUT_ASSIGN_OR_RETURN(auto mission, Mission::Create(MissionOptions()));
-  Recorder recorder(flags.chunk_s);
+  Recorder recorder(flags.chunk_s, 0.01 * flags.map_percent);
   recorder.Watch(*mission);
   MissionConduct conduct(std::move(mission), &recorder);
   PLUMESCOUT_RETURN_IF_ERROR(Drive(flags, summary.seed(), conduct));
@@ -150,6 +153,7 @@ int main(int argc, char** argv) {
       .AddCount("--seconds", flags.seconds, "Of sample time")
       .AddCount("--scans-per-s", flags.scans_per_s, "Of each robot")
       .AddCount("--chunk", flags.chunk_s, "Chunks end after so many seconds of sample time")
+      .AddCount("--map-percent", flags.map_percent, "Of the journal's bytes that maps may take")
       .Run(argc, argv, [&](plumescout::lab::BenchSummary& summary) {
         return plumescout::lab::Run(flags, summary);
       });

@@ -19,6 +19,7 @@
 #include "lab/local/local_planner_client.h"
 #include "lab/program/progress_line.h"
 #include "lab/program/recording.h"
+#include "lab/program/robot_run.h"
 #include "lab/program/run_folder.h"
 
 namespace plumescout::lab {
@@ -43,11 +44,12 @@ class RecordedMission {
   RecordedMission(Recorder& recorder)
       : planner_({.on_event = [&recorder](const Event& event) { recorder.Record(event); }}) {}
 
-  absl::Status Begin(const IngestArguments& arguments, const MissionOptions& options) {
-    PLUMESCOUT_RETURN_IF_ERROR(planner_.CreateMission(kIngestedMission, options));
+  absl::Status Begin(const RobotId& robot, double radius_m,
+                     const client::RobotOutfit& outfit = {}) {
+    PLUMESCOUT_RETURN_IF_ERROR(planner_.CreateMission(kIngestedMission, MissionOptions()));
     PLUMESCOUT_ASSIGN_OR_RETURN(
         const client::RobotSession session,
-        planner_.RegisterRobot(kIngestedMission, arguments.robot, arguments.radius_m, false));
+        planner_.RegisterRobot(kIngestedMission, robot, radius_m, false, 0, outfit));
     PLUMESCOUT_ASSIGN_OR_RETURN(stream_, planner_.OpenObservationStream(session));
     return absl::OkStatus();
   }
@@ -62,9 +64,12 @@ class RecordedMission {
     }
     return absl::OkStatus();
   }
+  void TellRefusals() const {
+    if (refused_ == 0) return;
+    std::cerr << "the mission refused " << refused_ << ", first for: " << first_refusal_.message()
+              << "\n";
+  }
   absl::StatusOr<MapSnapshot> Map() { return planner_.GetMap(kIngestedMission); }
-  std::int64_t refused() const { return refused_; }
-  const absl::Status& first_refusal() const { return first_refusal_; }
 
  private:
   LocalPlannerClient planner_;
@@ -74,6 +79,10 @@ class RecordedMission {
   absl::Status first_refusal_;
 };
 
+void TellEnd(const std::string& torn_end) {
+  if (!torn_end.empty()) std::cerr << torn_end << "; what stands before is kept\n";
+}
+
 // What went wrong, by topic: the first time it did, and how often.
 class Troubles {
  public:
@@ -81,7 +90,7 @@ class Troubles {
     auto& [count, first] = by_topic_[about];
     if (count++ == 0) first = std::string(why.message());
   }
-  void Tell(const BagReader& bag, const RecordedMission& mission) const {
+  void Tell(const BagReader& bag) const {
     for (const auto& [about, trouble] : by_topic_) {
       std::cerr << about << ": passed over " << trouble.first << ", first for: " << trouble.second
                 << "\n";
@@ -89,11 +98,7 @@ class Troubles {
     for (const auto& [encoding, count] : bag.unknown_encodings()) {
       std::cerr << count << " messages in encoding \"" << encoding << "\", which is no CDR\n";
     }
-    if (mission.refused() > 0) {
-      std::cerr << "the mission refused " << mission.refused()
-                << ", first for: " << mission.first_refusal().message() << "\n";
-    }
-    if (!bag.torn_end().empty()) std::cerr << bag.torn_end() << "; what stands before is kept\n";
+    TellEnd(bag.torn_end());
   }
 
  private:
@@ -110,6 +115,48 @@ absl::Status NothingIn(const BagReader& bag, const std::string& path) {
                    topics.empty() ? " none" : topics));
 }
 
+// The map that the mission has come to, and where all of it is.
+absl::Status WriteMission(const IngestArguments& arguments, const Recorder& recorder,
+                          RecordedMission& mission) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const MapSnapshot map, mission.Map());
+  PLUMESCOUT_RETURN_IF_ERROR(recorder.status());
+  PLUMESCOUT_RETURN_IF_ERROR(WriteMapFiles(map, arguments.out));
+  std::cout << arguments.record << "\n" << arguments.out << "/map.yaml\n";
+  return absl::OkStatus();
+}
+
+absl::Status IngestRobotRun(const IngestArguments& arguments, RobotRun run) {
+  ProgressLine progress(absl::Seconds(2));
+  PLUMESCOUT_ASSIGN_OR_RETURN(Recorder recorder,
+                              Recorder::Create(arguments.record, MissionOptions()));
+  RecordedMission mission(recorder);
+  PLUMESCOUT_RETURN_IF_ERROR(mission.Begin(run.robot(), run.radius_m(), run.outfit()));
+  const absl::Time start = absl::Now();
+  std::int64_t count = 0;
+  while (true) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(std::optional<Observation> observation, run.Next());
+    if (!observation) break;
+    if (std::holds_alternative<SequenceGap>(observation->payload)) continue;  // numbers are new
+    ++count;
+    PLUMESCOUT_RETURN_IF_ERROR(mission.Add(observation->sample_time_ns, observation->pose,
+                                           std::move(observation->payload)));
+    progress.Show(
+        absl::StrCat(ProgressWithTimeLeft(run.share_read(), absl::Now() - start), "  ingest"));
+  }
+  if (run.senseless() > 0) {
+    std::cerr << "passed over " << run.senseless()
+              << ", first for: " << run.first_senseless().message() << "\n";
+  }
+  mission.TellRefusals();
+  TellEnd(run.torn_end());
+  if (count == 0) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(arguments.bag, ": robot ", run.robot(), " has sensed nothing"));
+  }
+  progress.Finish(absl::StrCat("Ingested: ", count, " observations of robot ", run.robot()));
+  return WriteMission(arguments, recorder, mission);
+}
+
 absl::Status IngestBag(IngestArguments arguments) {
   if (!arguments.gas_calibration.empty()) {
     PLUMESCOUT_ASSIGN_OR_RETURN(arguments.intake.gas_calibration,
@@ -118,10 +165,10 @@ absl::Status IngestBag(IngestArguments arguments) {
   ProgressLine progress(absl::Seconds(2));
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::unique_ptr<BagReader> bag,
                               OpenBag(arguments.bag, arguments.topics.all()));
-  const MissionOptions options;
-  PLUMESCOUT_ASSIGN_OR_RETURN(Recorder recorder, Recorder::Create(arguments.record, options));
+  PLUMESCOUT_ASSIGN_OR_RETURN(Recorder recorder,
+                              Recorder::Create(arguments.record, MissionOptions()));
   RecordedMission mission(recorder);
-  PLUMESCOUT_RETURN_IF_ERROR(mission.Begin(arguments, options));
+  PLUMESCOUT_RETURN_IF_ERROR(mission.Begin(arguments.robot, arguments.radius_m));
   Troubles troubles;
   BagIntake intake(
       arguments.topics, arguments.intake,
@@ -138,16 +185,18 @@ absl::Status IngestBag(IngestArguments arguments) {
         absl::StrCat(ProgressWithTimeLeft(bag->share_read(), absl::Now() - start), "  ingest"));
   }
   PLUMESCOUT_RETURN_IF_ERROR(intake.Finish());
-  troubles.Tell(*bag, mission);
+  mission.TellRefusals();
+  troubles.Tell(*bag);
   if (intake.counters().scans + intake.counters().gas_readings == 0) {
     return NothingIn(*bag, arguments.bag);
   }
-  PLUMESCOUT_ASSIGN_OR_RETURN(const MapSnapshot map, mission.Map());
-  PLUMESCOUT_RETURN_IF_ERROR(recorder.status());
-  PLUMESCOUT_RETURN_IF_ERROR(WriteMapFiles(map, arguments.out));
   progress.Finish(absl::StrCat("Ingested: ", Describe(intake.counters())));
-  std::cout << arguments.record << "\n" << arguments.out << "/map.yaml\n";
-  return absl::OkStatus();
+  return WriteMission(arguments, recorder, mission);
+}
+
+absl::Status Ingest(const IngestArguments& arguments) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(std::optional<RobotRun> run, RobotRun::Open(arguments.bag));
+  return run ? IngestRobotRun(arguments, *std::move(run)) : IngestBag(arguments);
 }
 
 void AddTopics(CLI::App& command, IngestArguments& arguments) {
@@ -170,22 +219,24 @@ void AddTopics(CLI::App& command, IngestArguments& arguments) {
 
 void AddIngestCommand(CLI::App& app, absl::Status& status) {
   CLI::App* command = app.add_subcommand(
-      "ingest", "Make a mission of a bag of rosbag2: transforms, scans, gas readings");
+      "ingest",
+      "Make a mission of what a robot has sensed: of its own recording (--record of "
+      "plumescout-robot or plumescout-ros2), or of a bag of rosbag2");
   const auto arguments = std::make_shared<IngestArguments>();
-  command->add_option("bag", arguments->bag, "File of the bag, .mcap or .db3")
+  command->add_option("bag", arguments->bag, "The file, .mcap or of a bag .db3")
       ->required()
       ->check(CLI::ExistingFile);
   command->add_option("recording", arguments->record, "The recording that is made, for replay")
       ->required();
   command->add_option("--out", arguments->out, "Folder for map and gas fields")
       ->capture_default_str();
-  command->add_option("--robot", arguments->robot, "Its name in the mission")
+  command->add_option("--robot", arguments->robot, "Of a bag: its name in the mission")
       ->capture_default_str();
-  command->add_option("--radius", arguments->radius_m, "Of the robot's footprint, metres")
+  command->add_option("--radius", arguments->radius_m, "Of a bag: of the robot's footprint, metres")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   AddTopics(*command, *arguments);
-  command->callback([arguments, &status] { status = IngestBag(*arguments); });
+  command->callback([arguments, &status] { status = Ingest(*arguments); });
 }
 
 }  // namespace plumescout::lab

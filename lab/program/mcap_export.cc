@@ -33,10 +33,10 @@ absl::Status Write(Recording& recording, MissionMcap& mcap, std::ostream& file,
 }  // namespace
 
 absl::Status ExportMcap(Recording& recording, const std::string& path, double map_period_s,
-                        const std::function<void(double)>& progress) {
+                        double map_share, const std::function<void(double)>& progress) {
   PLUMESCOUT_ASSIGN_OR_RETURN(std::unique_ptr<Mission> mission,
                               Mission::Create(recording.options()));
-  MissionMcap mcap(recording.start(), std::move(mission), map_period_s);
+  MissionMcap mcap(recording.start(), std::move(mission), map_period_s, map_share);
   const std::string part = absl::StrCat(path, ".part");
   std::ofstream file(part, std::ios::binary);
   absl::Status status = Write(recording, mcap, file, progress);

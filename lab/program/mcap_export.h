@@ -16,6 +16,6 @@ namespace plumescout::lab {
 // is done, and may be empty. Errors: those of reading and Replay; kUnavailable if the file cannot
 // be written. REQUIRES: no event was read yet.
 absl::Status ExportMcap(Recording& recording, const std::string& path, double map_period_s,
-                        const std::function<void(double)>& progress = {});
+                        double map_share, const std::function<void(double)>& progress = {});
 
 }  // namespace plumescout::lab

@@ -12,6 +12,7 @@
 #include "core/types/status_macros.h"
 #include "formats/file_io.h"
 #include "lab/about/about.h"
+#include "lab/program/robot_run.h"
 #include "proto/convert/options.h"
 
 namespace plumescout::lab {
@@ -67,8 +68,14 @@ Recording::Recording(Reader reader, MissionOptions options)
 }
 
 absl::StatusOr<Recording::Reader> Recording::OpenReader(const std::string& path) {
-  if (McapReader::IsMcap(path)) return McapJournalReader::Open(path);
-  return JournalFileReader::Open(path);
+  if (!McapReader::IsMcap(path)) return JournalFileReader::Open(path);
+  absl::StatusOr<McapJournalReader> reader = McapJournalReader::Open(path);
+  if (reader.ok()) return *std::move(reader);
+  const auto run = RobotRun::Open(path);
+  if (!run.ok() || !*run) return reader.status();
+  return absl::InvalidArgumentError(
+      absl::StrCat(path, ": is what robot ", (*run)->robot(),
+                   " has recorded; plumescout-lab ingest makes a mission of it"));
 }
 
 absl::StatusOr<Recording> Recording::Open(const std::string& path) {

@@ -15,6 +15,7 @@ namespace {
 constexpr char kFrame[] = "map";
 constexpr double kLine_m = 0.05;
 constexpr double kGoal_m = 0.2;
+constexpr double kRangeStep_m = 1.0 / 128.0;  // a power of two: its multiples end in zeros
 // Maps lie on the ground; what is drawn on them lies a little higher.
 constexpr double kAbove_m = 0.02;
 
@@ -101,7 +102,10 @@ foxglove::LaserScan FoxgloveScan(const Scan& scan, const Pose2& pose, std::int64
   const auto steps = static_cast<double>(scan.ranges_m.empty() ? 0 : scan.ranges_m.size() - 1);
   message.set_start_angle(scan.start_angle_rad);
   message.set_end_angle(scan.start_angle_rad + steps * scan.angle_step_rad);
-  message.mutable_ranges()->Add(scan.ranges_m.begin(), scan.ranges_m.end());
+  message.mutable_ranges()->Reserve(static_cast<int>(scan.ranges_m.size()));
+  for (const float range_m : scan.ranges_m) {
+    message.add_ranges(std::nearbyint(range_m / kRangeStep_m) * kRangeStep_m);
+  }
   return message;
 }
 

@@ -21,7 +21,8 @@ namespace plumescout {
 // epoch, and not negative.
 
 foxglove::PoseInFrame FoxglovePose(const Pose2& pose, std::int64_t time_ns);
-// `pose` is that of the robot.
+// `pose` is that of the robot. Ranges are rounded by at most 4 mm, so that they pack into a third
+// of the bytes: for looking.
 foxglove::LaserScan FoxgloveScan(const Scan& scan, const Pose2& pose, std::int64_t time_ns);
 
 // A field "occupancy" as ROS has it: -1 unknown, 0 free, 100 occupied.

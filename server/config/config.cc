@@ -285,6 +285,7 @@ absl::Status Validate(const StoreConfig& store) {
 absl::Status Validate(const RecordConfig& record) {
   return Checker()
       .InRange("record.map_period_s", record.map_period_s, 0.1, 3600)
+      .InRange("record.map_share", record.map_share, 0, 1000)
       .InRange("record.chunk_s", record.chunk_s, 0.1, 3600)
       .InRange("record.max_file_bytes", static_cast<double>(record.max_file_bytes), 1'048'576,
                kMaxQueuedBytes)

@@ -110,6 +110,7 @@ struct ConsoleConfig {
 struct RecordConfig {
   std::string folder = "";  // empty: missions are not recorded
   double map_period_s = 10.0;
+  double map_share = 0.1;  // MissionView::kMapShare
   double chunk_s = 10.0;
   std::int64_t max_file_bytes = std::int64_t{1} << 30;
 };

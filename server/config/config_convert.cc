@@ -115,6 +115,7 @@ void Visit(OneOf<ConsoleConfig> auto& console, auto& field) {
 void Visit(OneOf<RecordConfig> auto& record, auto& field) {
   field("folder", record.folder);
   field("map_period_s", record.map_period_s);
+  field("map_share", record.map_share);
   field("chunk_s", record.chunk_s);
   field("max_file_bytes", record.max_file_bytes);
 }

@@ -64,18 +64,21 @@ Names Join(const std::vector<Names>& parts) {
 }
 
 std::vector<Room> MakeRooms() {
-  const Names adapters = {"proto/convert", "formats",     "formats/journal", "formats/mcap",
-                          "formats/view",  "formats/ros", "ompl_planners"};
+  const Names adapters = {"proto/convert", "formats",      "formats/journal", "formats/mcap",
+                          "formats/draw",  "formats/view", "formats/ros",     "ompl_planners"};
   std::vector<Room> rooms = {
       {"proto/convert", {"core/types", "formats"}},
       {"formats", {"core/types"}},
       {"formats/ros", {}},
       {"formats/journal", {"core/types", "formats"}},
       {"formats/mcap", {"core/types", "formats", "formats/journal"}},
-      {"formats/view", Join({Before(kCore, "core/mission/conduct"),
-                             {"proto/convert", "formats", "formats/journal", "formats/mcap"}})},
+      {"formats/draw",
+       {"core/types", "proto/convert", "formats", "formats/journal", "formats/mcap"}},
+      {"formats/view",
+       Join({Before(kCore, "core/mission/conduct"),
+             {"proto/convert", "formats", "formats/journal", "formats/mcap", "formats/draw"}})},
       {"ompl_planners", Before(kCore, "core/mission")},
-      {"client", {"core/types", "proto/convert", "formats"}},
+      {"client", {"core/types", "proto/convert", "formats", "formats/mcap", "formats/draw"}},
       {"client/ros2", {"core/types", "formats", "formats/ros", "client"}},
       {"tests", Join({kCore, adapters, kServer, {"client", "client/ros2"}, kLab})},
   };

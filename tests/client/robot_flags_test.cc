@@ -36,6 +36,15 @@ TEST(RobotFlagsTest, BecomeOptionsOfTheLoop) {
   EXPECT_TRUE(Validate(loop).ok()) << Validate(loop);
 }
 
+TEST(RobotFlagsTest, TheRunIsRecordedWhereTheySay) {
+  EXPECT_EQ(Parse("").record_folder, "") << "and not by themselves";
+  const RobotRecordingOptions options = RecordingOf(Parse("--record /srv/runs"), "plumescout-test");
+  EXPECT_EQ(options.folder, "/srv/runs");
+  testing::internal::CaptureStderr();
+  options.say("recorded");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "plumescout-test: recorded\n");
+}
+
 TEST(RobotFlagsTest, WhatIsWrongIsQuoted) {
   RobotFlags flags = Parse("--gas-sensor pid,ahead");
   EXPECT_THAT(Prepare(flags).message(), ::testing::HasSubstr("pid,ahead"));

@@ -45,13 +45,15 @@ inline FakePlannerClient::PlanScript Tour(std::vector<Point2> goals) {
   };
 }
 
-class RobotRecorder final : public RobotObserver {
+class RunNotes final : public RobotObserver {
  public:
   void OnTick(const RobotTick& tick) override { ticks.push_back(tick); }
+  void OnLogged(const Observation& observation) override { logged.push_back(observation); }
   void OnPlan(const PlanArrival& plan) override { plan_times_s.push_back(plan.elapsed_s); }
   void OnPlanFailure(const absl::Status& status) override { failures.push_back(status); }
 
   std::vector<RobotTick> ticks;
+  std::vector<Observation> logged;
   std::vector<double> plan_times_s;
   std::vector<absl::Status> failures;
 };
@@ -93,7 +95,7 @@ class RobotLoopTest : public ::testing::Test {
 
   FakePlannerClient server_;
   FakeDriver driver_;
-  RobotRecorder recorder_;
+  RunNotes recorder_;
 };
 
 }  // namespace plumescout::client

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <variant>
 #include <vector>
 
 #include "absl/synchronization/notification.h"
@@ -29,6 +30,26 @@ TEST_F(RobotLoopTest, InLockstepItVisitsEveryGoalAndEndsWithTheMission) {
   EXPECT_EQ(result->reached, 2);
   EXPECT_NEAR(result->distance_m, 3.0, 1e-6);
   EXPECT_EQ(driver_.pose().position(), (Point2{1, 2}));
+}
+
+TEST_F(RobotLoopTest, ItsObserverIsToldOfAllThatItLogs) {
+  server_.set_script(Tour({{1, 0}}));
+  driver_.status = [](std::int64_t) { return RobotStatus{0.5}; };
+
+  const absl::StatusOr<RobotResult> result = RunInLockstep();
+
+  ASSERT_TRUE(result.ok()) << result.status();
+  const std::vector<Observation>& logged = recorder_.logged;
+  ASSERT_EQ(std::ssize(logged), result->ingest.last_sequence);
+  int statuses = 0;
+  for (std::size_t i = 0; i < logged.size(); ++i) {
+    EXPECT_EQ(logged[i].sequence, static_cast<std::int64_t>(i) + 1);
+    statuses += std::holds_alternative<RobotStatus>(logged[i].payload) ? 1 : 0;
+  }
+  EXPECT_GT(statuses, 0);
+  const auto* scan = std::get_if<Scan>(&logged[0].payload);
+  ASSERT_NE(scan, nullptr);
+  EXPECT_EQ(scan->ranges_m.size(), 90u);
 }
 
 TEST_F(RobotLoopTest, PlanningCostsTheFixedLatencyOfRobotTime) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // The program plumescout-robot as a robot's own program sees it: lines in, lines out, an exit code.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -28,6 +29,7 @@
 #include "formats/file_io.h"
 #include "formats/map_server.h"
 #include "server/server.h"
+#include "tests/client/recorded_run.h"
 #include "tests/support/box_room.h"
 #include "tests/support/temp_folder.h"
 
@@ -82,7 +84,7 @@ TEST_F(RobotMainTest, SaysHowItIsUsed) {
   EXPECT_EQ(Run("--help"), EXIT_SUCCESS);
   const std::string help = Read(out_);
   for (const char* word :
-       {"--server", "--mission", "--robot", "--log-dir", R"("type":"scan")", "twist"}) {
+       {"--server", "--mission", "--robot", "--log-dir", "--record", R"("type":"scan")", "twist"}) {
     EXPECT_TRUE(absl::StrContains(help, word)) << word;
   }
 }
@@ -242,6 +244,25 @@ TEST_F(RobotMainTest, RefusesAFolderThatIsNoneForItsLog) {
   EXPECT_EQ(WEXITSTATUS(std::system(Command(arguments, absl::StrCat("< ", pose)).c_str())),
             EXIT_FAILURE);
   EXPECT_TRUE(absl::StrContains(Read(err_), folder_.File("log"))) << Read(err_);
+}
+
+TEST_F(RobotMainWithServerTest, RecordsItsRunIfItIsToldWhere) {
+  Start("--time-limit 2 --record " + folder_.File("runs"));
+  for (int step = 1; step <= 30; ++step) Write(LinesAt(step * kStep_ns));
+  EXPECT_EQ(End(), EXIT_SUCCESS) << Read(err_);
+  const std::vector<std::string> files = RecordingsIn(folder_.File("runs"));
+  ASSERT_EQ(files.size(), 1u) << Read(err_);
+  EXPECT_TRUE(absl::StrContains(files[0], "/room/scout.")) << files[0];
+  EXPECT_TRUE(absl::StrContains(Read(err_), "recorded in " + files[0])) << Read(err_);
+  const RecordedRun run = ReadRun(files[0]);
+  EXPECT_EQ(run.torn_end, "");
+  EXPECT_EQ(run.Count("/registration"), 1u);
+  const auto map = MakeGrpcPlannerClient({.target = address_})->GetMap("room");
+  ASSERT_TRUE(map.ok()) << map.status();
+  EXPECT_EQ(run.Count("/observations"), static_cast<std::size_t>(map->robots[0].applied_sequence));
+  EXPECT_GT(run.Count("/robots/scout/scan"), 0u);
+  EXPECT_THAT(run.log, testing::Contains("link is up"));
+  EXPECT_THAT(run.log, testing::Contains(testing::StartsWith("done after ")));
 }
 
 TEST_F(RobotMainWithServerTest, SaysWhatItDidWhenItsTimeIsOver) {

@@ -18,6 +18,26 @@ v1::Robot Scout() {
   return proto;
 }
 
+TEST(RobotMessagesTest, ARegistrationSaysHowItTakesPart) {
+  const v1::RegisterRobotRequest plain = RegistrationOf({.mission = "house", .robot = "scout"});
+  EXPECT_EQ(plain.mission(), "missions/house");
+  EXPECT_EQ(plain.robot_id(), "scout");
+  EXPECT_FALSE(plain.has_frame()) << "it is the mission's";
+  const v1::RegisterRobotRequest outfit =
+      RegistrationOf({.mission = "house",
+                      .robot = "scout",
+                      .radius_m = 0.3,
+                      .take_over = true,
+                      .log_epoch = 9,
+                      .frame = {.mission_from_robot = {1.0, 0.0, 0.0}},
+                      .sensors = {{.id = "pid"}}});
+  EXPECT_EQ(outfit.radius_m(), 0.3);
+  EXPECT_TRUE(outfit.take_over());
+  EXPECT_EQ(outfit.log_epoch(), 9);
+  EXPECT_EQ(outfit.frame().mission_from_robot().x_m(), 1.0);
+  ASSERT_EQ(outfit.gas_sensors_size(), 1);
+}
+
 TEST(RobotMessagesTest, ARobotIsReadWhole) {
   v1::Robot proto = Scout();
   proto.set_leased(true);

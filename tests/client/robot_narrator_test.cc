@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 namespace plumescout::client {
 namespace robot_narrator_test {
 
@@ -29,6 +32,22 @@ TEST(RobotNarratorTest, SaysInALineEachWhatHappens) {
             "although it had more; the rest is sent again, but for 2 that are gone\n"
             "plumescout-test: done after 9 s: 4 plans, 0 m, 0 of 0 observations applied, "
             "0 durable\n");
+}
+
+TEST(RobotNarratorTest, AListenerHearsItWithItsWeight) {
+  std::vector<std::string> heard;
+  const auto listen = [&heard](bool is_warning, const std::string& line) {
+    heard.push_back((is_warning ? "warning: " : "") + line);
+  };
+  RobotNarrator narrator("plumescout-test", listen);
+  testing::internal::CaptureStderr();
+  narrator.OnLink(absl::OkStatus());
+  narrator.OnRejected({4, absl::InvalidArgumentError("no pose")});
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "plumescout-test: link is up\n"
+            "plumescout-test: observation 4 refused: INVALID_ARGUMENT: no pose\n");
+  EXPECT_EQ(heard, (std::vector<std::string>{
+                       "link is up", "warning: observation 4 refused: INVALID_ARGUMENT: no pose"}));
 }
 
 }  // namespace robot_narrator_test

@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: PlumeScout contributors
 # SPDX-License-Identifier: Apache-2.0
-# packages.sh FOLDER: installs each package of the folder in a fresh Debian 12, and all together in
-# one, where a server and a simulated robot run a mission that plumescoutctl then asks about. Needs
-# root, mmdebstrap, and a mirror of Debian. scripts/packages --try runs it.
+# packages.sh FOLDER [PEER]: installs each package of the folder in a fresh Debian 12, and all
+# together in one, where a server and a simulated robot run a mission that plumescoutctl then asks
+# about. PEER, the program plumescout-ros2-peer: also a mission of it by DDS, with plumescout-ros2.
+# Needs root, mmdebstrap, and a mirror of Debian. scripts/packages --try runs it.
 set -euo pipefail
 packages="$(realpath "$1")"
+peer="${2:-}"
 here="$(cd "$(dirname "$0")" && pwd)"
 work="$packages/../packages-root"
 base="$work/base.tar"
@@ -46,6 +48,12 @@ for package in "$packages"/*.deb; do
   fresh_root
   install_packages "/packages/${package##*/}"
   case "$name" in
+    plumescout-ros2)
+      # A robot that is not there is named; one that is there is driven below.
+      ! inside plumescout-ros2 --check --for 1 2> "$work/check.log"
+      grep -q 'missing: nobody publishes /scan' "$work/check.log"
+      inside sh -c 'zcat /usr/share/man/man1/plumescout-ros2.1.gz' | grep -q -- scan.*topic
+      ;;&
     plumescout-*) inside "$name" --help > /dev/null ;;
     python3-plumescout) inside plumescoutctl --help > /dev/null ;;
     libplumescout-client-dev)
@@ -58,6 +66,18 @@ for package in "$packages"/*.deb; do
   left="$(find "$root/usr" -name '*plumescout*' | head -n 3)"
   [[ -z "$left" ]] || { echo "$name leaves behind: $left" >&2; exit 1; }
 done
+
+if [[ -x "$peer" && -n "$(find "$packages" -name 'plumescout-ros2_*')" ]]; then
+  say "A robot of ROS 2 by Fast DDS"
+  fresh_root
+  # What the simulated robot is linked with, beside what the packages bring.
+  others="$(ldd "$peer" | sed -n 's/.*=> \([^ ]*\) .*/\1/p' | xargs -n 1 realpath |
+    xargs dpkg -S 2> /dev/null | cut -d: -f1 | sort -u | tr '\n' ' ')"
+  install_packages /packages/plumescout-server_* /packages/plumescout-ros2_* \
+    /packages/python3-plumescout_* iproute2 "$others"
+  cp "$here/packages_ros2.sh" "$here/../ros2_peer/loopback.xml" "$peer" "$root/packages/"
+  inside unshare --net bash /packages/packages_ros2.sh
+fi
 
 say "A mission"
 fresh_root

@@ -35,6 +35,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seconds", type=float, default=60.0)
     parser.add_argument("--beams", type=int, default=720)
+    parser.add_argument("--record", metavar="DIR", help="have the run recorded there")
     arguments = parser.parse_args()
     domain = str(20 + os.getpid() % 80)
     server = running.Server()
@@ -51,7 +52,8 @@ def main():
     loopback = f"file://{running.ROOT}/tests/ros2_peer/loopback.xml"
     bridge = subprocess.Popen(
         [BIN / "plumescout-ros2", "run", "--server", server.target, "--mission", "hall"]
-        + ["--robot", "r1", "--create-mission", "--max-speed", "0.5", "--domain", domain],
+        + ["--robot", "r1", "--create-mission", "--max-speed", "0.5", "--domain", domain]
+        + (["--record", arguments.record] if arguments.record else []),
         env=dict(os.environ, CYCLONEDDS_URI=loopback),
         stderr=subprocess.DEVNULL,
     )

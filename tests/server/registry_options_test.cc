@@ -34,11 +34,13 @@ TEST(RegistryOptionsTest, ImportsGoWhereThereIsRoom) {
 }
 
 TEST(RegistryOptionsTest, RecordingsAreAsTheConfigurationSays) {
-  const RecordingOptions options = ToRecordingOptions({"d", 2.0, 3.0, 4'000'000});
+  const RecordingOptions options = ToRecordingOptions({"d", 2.0, 0.5, 3.0, 4'000'000});
   EXPECT_EQ(options.folder, "d");
   EXPECT_EQ(options.map_period_s, 2.0);
-  EXPECT_EQ(options.chunk_period, absl::Seconds(3));
-  EXPECT_EQ(options.max_file_bytes, 4'000'000);
+  EXPECT_EQ(options.map_share, 0.5);
+  EXPECT_EQ(ToRecordingOptions({}).map_share, RecordingOptions().map_share);
+  EXPECT_EQ(options.file.chunk_period, absl::Seconds(3));
+  EXPECT_EQ(options.file.max_file_bytes, 4'000'000);
 }
 
 }  // namespace registry_options_test

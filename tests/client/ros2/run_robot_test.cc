@@ -2,15 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "client/ros2/run_robot.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/time/clock.h"
 #include "client/grpc_planner_client.h"
 #include "server/server.h"
+#include "tests/client/recorded_run.h"
 #include "tests/client/ros2/box_robot.h"
+#include "tests/support/temp_folder.h"
 
 namespace plumescout::client {
 namespace run_robot_test {
@@ -36,7 +41,7 @@ class RunRobotTest : public ::testing::Test {
   absl::Status Run(const StopFn& enough) {
     const absl::Time end = absl::Now() + absl::Seconds(90);
     return RunRobot(
-        flags_, [&] { return enough() || absl::Now() > end; }, RobotNarrator("test"));
+        flags_, [&] { return enough() || absl::Now() > end; }, "test");
   }
 
   std::unique_ptr<server::Server> server_;
@@ -55,6 +60,25 @@ TEST_F(RunRobotTest, DrivesTheRobotAndShowsItTheMap) {
   const auto map = MakeGrpcPlannerClient({.target = flags_.robot.client.target})->GetMap("room");
   ASSERT_TRUE(map.ok()) << map.status();
   EXPECT_GT(map->gas_counters.readings, 0);
+}
+
+TEST_F(RunRobotTest, TheRunIsRecordedIfItIsToldWhere) {
+  const TempFolder folder;
+  flags_.robot.record_folder = folder.path();
+  BoxRobot robot;
+  const absl::Status status = Run([&robot] { return robot.paths > 0; });
+  ASSERT_TRUE(status.ok()) << status;
+  const std::vector<std::string> files = RecordingsIn(folder.path());
+  ASSERT_EQ(files.size(), 1u);
+  const RecordedRun run = ReadRun(files[0]);
+  EXPECT_EQ(run.torn_end, "");
+  EXPECT_GT(run.Count("/observations"), 0u);
+  EXPECT_GT(run.Count("/robots/scout/pose"), 0u);
+  EXPECT_GT(run.Count("/robots/scout/scan"), 0u);
+  EXPECT_GT(run.Count("/robots/scout/gas"), 0u);
+  EXPECT_GT(run.Count("/plans"), 0u);
+  EXPECT_GT(run.Count("/scene/plans"), 0u);
+  EXPECT_THAT(run.log, testing::Contains(testing::HasSubstr("plan 1")));
 }
 
 TEST_F(RunRobotTest, WhoElseDrivesHearsThePathAndNoVelocity) {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <set>
@@ -23,6 +24,7 @@ namespace mission_mcap_test {
 using testing::HasSubstr;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr double kAll = std::numeric_limits<double>::infinity();
 
 class MissionMcapTest : public testing::Test {
  protected:
@@ -50,8 +52,8 @@ class MissionMcapTest : public testing::Test {
     return events;
   }
   // The file that these make.
-  std::string Write(const std::vector<Event>& events, double map_period_s = 10.0) {
-    MissionMcap mcap(start_, std::make_unique<Mission>(MissionOptions()), map_period_s);
+  std::string Write(const std::vector<Event>& events, double map_share = kAll) {
+    MissionMcap mcap(start_, std::make_unique<Mission>(MissionOptions()), 10.0, map_share);
     std::string bytes;
     for (const Event& event : events) {
       EXPECT_TRUE(mcap.Add(event, EncodeEvent(event)).ok());
@@ -133,6 +135,20 @@ TEST_F(MissionMcapTest, ViewersHaveWhatTheyDraw) {
   }
   EXPECT_EQ(lines, (std::set<std::string>{"joins with a radius of 0.20 m",
                                           "plan to stay: there are no goals", "leaves"}));
+}
+
+TEST_F(MissionMcapTest, MapsThatAreTooLargeForTheirShareAreShownFirstAndLast) {
+  const std::vector<Event> events = MakeEvents();
+  const std::string bytes = Write(events, 0.0);
+  auto read = Read(bytes);
+  EXPECT_EQ(read["/journal"].size(), events.size() + 1);
+  for (const char* topic :
+       {"/map/occupancy", "/map/gas/mean", "/map/gas/stddev", "/scene/frontiers"}) {
+    ASSERT_EQ(read[topic].size(), 2u) << topic;
+    EXPECT_EQ(read[topic][0].log_time_ns, 100'000'000u) << topic;
+    EXPECT_EQ(read[topic][1].log_time_ns, 20u * kSecond_ns) << topic;
+  }
+  EXPECT_LT(bytes.size(), Write(events).size());
 }
 
 // Plans with words in them, before anything is seen.

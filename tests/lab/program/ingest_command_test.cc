@@ -8,11 +8,15 @@
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "core/belief/belief.h"
 #include "lab/program/recording.h"
 #include "tests/lab/bags/bag_files.h"
+#include "tests/lab/program/robot_runs.h"
+#include "tests/support/room_run.h"
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::lab {
@@ -76,6 +80,40 @@ TEST_F(IngestCommandTest, OfABagThatWasCutOffTheFrontIsKept) {
   EXPECT_EQ(Ingest("cut"), "");
   EXPECT_THAT(stderr_, AllOf(HasSubstr("cut off at byte"), HasSubstr("is kept")));
   EXPECT_GT(MakeMapSnapshot(*Replayed()->Snapshot()).gas_counters.readings, 10);
+}
+
+TEST_F(IngestCommandTest, WhatARobotRecordedBecomesAMission) {
+  const std::vector<Observation> log = support::RoomRun();
+  WriteRobotRun(folder_.File("run"), log);
+  ASSERT_EQ(Ingest("run"), "");
+  const MapSnapshot map = MakeMapSnapshot(*Replayed()->Snapshot());
+  EXPECT_EQ(map.gas_counters.readings, 67);
+  ASSERT_EQ(map.robots.size(), 1u);
+  EXPECT_EQ(map.robots[0].id, "scout");
+  EXPECT_EQ(map.robots[0].radius_m, 0.25);
+  EXPECT_EQ(map.robots[0].applied_sequence, std::ssize(log));
+  EXPECT_GT(map.robots[0].pose.x_m, 10.0) << "in the mission's frame";
+}
+
+TEST_F(IngestCommandTest, OfARobotsRecordingThatWasCutOffTheFrontIsKept) {
+  std::vector<Observation> log;
+  for (int lap = 0; lap < 10; ++lap) {  // more than one chunk
+    for (Observation seen : support::RoomRun()) {
+      seen.sequence = std::ssize(log) + 1;
+      seen.sample_time_ns += lap * std::int64_t{20'000'000'000};
+      log.push_back(std::move(seen));
+    }
+  }
+  WriteRobotRun(folder_.File("run"), log);
+  CutFile(folder_.File("run"), 0.9, folder_.File("cut"));
+  EXPECT_EQ(Ingest("cut"), "");
+  EXPECT_THAT(stderr_, AllOf(HasSubstr("cut off at byte"), HasSubstr("is kept")));
+  EXPECT_GT(MakeMapSnapshot(*Replayed()->Snapshot()).gas_counters.readings, 100);
+}
+
+TEST_F(IngestCommandTest, ARobotThatSensedNothingIsNamed) {
+  WriteRobotRun(folder_.File("run"), {});
+  EXPECT_THAT(Ingest("run"), HasSubstr("robot scout has sensed nothing"));
 }
 
 TEST_F(IngestCommandTest, WhatIsMissingIsNamed) {

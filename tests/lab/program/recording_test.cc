@@ -16,6 +16,7 @@
 #include "lab/program/mcap_export.h"
 #include "plumescout/v1/options.pb.h"
 #include "tests/formats/journal/golden_events.h"
+#include "tests/lab/program/robot_runs.h"
 #include "tests/support/room_run.h"
 #include "tests/support/same_bytes.h"
 #include "tests/support/temp_folder.h"
@@ -75,7 +76,7 @@ TEST_F(RecordingTest, ReplaysFromAnMcapFileToTheSameState) {
   const std::string mcap = folder_.File("mission.mcap");
   auto recording = Recording::Open(path_);
   ASSERT_TRUE(recording.ok()) << recording.status();
-  ASSERT_TRUE(ExportMcap(*recording, mcap, 1.0).ok());
+  ASSERT_TRUE(ExportMcap(*recording, mcap, 1.0, 0.15).ok());
   EXPECT_TRUE(McapReader::IsMcap(mcap));
   EXPECT_FALSE(std::filesystem::exists(mcap + ".part"));
   auto exported = Recording::Open(mcap);
@@ -89,11 +90,19 @@ TEST_F(RecordingTest, ReplaysFromAnMcapFileToTheSameState) {
   EXPECT_EQ(EndRemark(*exported), "");
 }
 
+TEST_F(RecordingTest, WhatARobotRecordedIsNamedWithWhatToDo) {
+  WriteRobotRun(folder_.File("run.mcap"), {});
+  const absl::Status status = Recording::Open(folder_.File("run.mcap")).status();
+  EXPECT_TRUE(absl::IsInvalidArgument(status)) << status;
+  EXPECT_NE(status.message().find("robot scout"), std::string::npos) << status;
+  EXPECT_NE(status.message().find("plumescout-lab ingest"), std::string::npos) << status;
+}
+
 TEST_F(RecordingTest, AnMcapFileThatCannotBeWrittenLeavesNothing) {
   RecordARun();
   auto recording = Recording::Open(path_);
   ASSERT_TRUE(recording.ok()) << recording.status();
-  EXPECT_EQ(ExportMcap(*recording, folder_.File("no/such/folder.mcap"), 1.0).code(),
+  EXPECT_EQ(ExportMcap(*recording, folder_.File("no/such/folder.mcap"), 1.0, 0.15).code(),
             absl::StatusCode::kUnavailable);
 }
 

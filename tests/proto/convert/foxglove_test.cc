@@ -43,6 +43,16 @@ TEST(FoxgloveTest, TheLastBeamOfAScanHasItsEndAngle) {
   EXPECT_EQ(FoxgloveScan({}, {}, kTime_ns).ranges_size(), 0);
 }
 
+TEST(FoxgloveTest, RangesAreRoundedByFourMillimetresAtMost) {
+  Scan scan{.start_angle_rad = 0.0, .angle_step_rad = 0.1, .max_range_m = 8.0, .ranges_m = {}};
+  for (int i = 0; i < 1000; ++i) scan.ranges_m.push_back(0.0077F * static_cast<float>(i));
+  const foxglove::LaserScan message = FoxgloveScan(scan, {}, kTime_ns);
+  for (int i = 0; i < 1000; ++i) {
+    EXPECT_NEAR(message.ranges(i), scan.ranges_m[static_cast<std::size_t>(i)], 0.00391);
+    EXPECT_EQ(message.ranges(i) * 128.0, std::round(message.ranges(i) * 128.0)) << i;
+  }
+}
+
 TEST(FoxgloveTest, OccupancyIsThatOfRos) {
   Grid<CellState> occupancy({-1.0, 2.0, 0.1, 3, 1}, CellState::kUnknown);
   occupancy[Cell{1, 0}] = CellState::kFree;

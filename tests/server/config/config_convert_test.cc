@@ -32,7 +32,7 @@ ServerConfig Unlike() {
   config.store = {kSqliteStore,       "f",  1'000'000, 3,   0.5, 30.0,
                   "postgresql://h/d", "n1", 2.0,       "i", "j"};
   config.console = {"127.0.0.1:2", "g", 5, "h"};
-  config.record = {"i", 2.0, 3.0, 2'000'000};
+  config.record = {"i", 2.0, 0.5, 3.0, 2'000'000};
   return config;
 }
 

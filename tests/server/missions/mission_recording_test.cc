@@ -68,17 +68,17 @@ TEST_F(MissionRecordingTest, TheFileReplaysToTheSameState) {
 TEST_F(MissionRecordingTest, AChunkEndsInTime) {
   Make();
   Add(0, 10);
-  recording_->EndChunkIfDue(now_ + absl::ToChronoSeconds(options_.chunk_period) -
+  recording_->EndChunkIfDue(now_ + absl::ToChronoSeconds(options_.file.chunk_period) -
                             std::chrono::seconds(1));
   EXPECT_TRUE(ReadRecording(folder_.File("hall.1.mcap")).events.empty());
-  recording_->EndChunkIfDue(now_ + absl::ToChronoSeconds(options_.chunk_period));
+  recording_->EndChunkIfDue(now_ + absl::ToChronoSeconds(options_.file.chunk_period));
   const RecordedFile file = ReadRecording(folder_.File("hall.1.mcap"));
   EXPECT_EQ(file.events.size(), 10u);
   EXPECT_NE(file.torn_end, "") << "it goes on";
 }
 
 TEST_F(MissionRecordingTest, ALongFileIsFollowedByAnother) {
-  options_.max_file_bytes = 1;
+  options_.file.max_file_bytes = 1;
   Make();
   Add(0, 20);  // the head of a file is longer
   recording_->Finish(belief_, now_);
@@ -109,7 +109,7 @@ TEST_F(MissionRecordingTest, DroppedEventsAreInTheLogOfTheFile) {
 
 TEST_F(MissionRecordingTest, AFullDiskIsTriedAgainLater) {
   bool full = false;
-  options_.open = [&full](const std::string& path) -> absl::StatusOr<AppendBytes> {
+  options_.file.open = [&full](const std::string& path) -> absl::StatusOr<AppendBytes> {
     auto file = OpenRecordingFile(path);
     if (!file.ok()) return file.status();
     return AppendBytes([&full, append = *file](absl::string_view bytes) {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -48,13 +49,15 @@ class RecorderTest : public testing::Test {
 // But for plans: a store keeps less of them.
 TEST_F(RecorderTest, TheFileIsThatOfAnExport) {
   options_.map_period_s = 2.0;
+  options_.map_share = std::numeric_limits<double>::infinity();
   {
     Recorder recorder(options_, &metrics_);
     const auto feed = recorder.Begin(start_, "hall");
     Drive(*feed);
     feed->End(mission_);
   }
-  MissionMcap exported(start_, std::make_unique<Mission>(MissionOptions()), 2.0);
+  MissionMcap exported(start_, std::make_unique<Mission>(MissionOptions()), 2.0,
+                       options_.map_share);
   for (const Event& event : RoomRunEvents(MissionOptions())) {
     ASSERT_TRUE(exported.Add(event, EncodeEvent(event, PlanDetail::kForReplay)).ok());
   }
@@ -79,7 +82,7 @@ TEST_F(RecorderTest, AFileHasAnEndThoughTheMissionHasNone) {
 // The thread stands still in a write while the mission goes on.
 TEST_F(RecorderTest, ASlowDiskCostsEventsAndNobodyWaits) {
   absl::Notification goes_on;
-  options_.open = [&](const std::string& path) {
+  options_.file.open = [&](const std::string& path) {
     goes_on.WaitForNotification();
     return OpenRecordingFile(path);
   };

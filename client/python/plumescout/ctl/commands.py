@@ -87,7 +87,7 @@ def set_keep(client, arguments, out):
 
 def export_mission(client, arguments, out):
     with Progress(f"export of {arguments.mission}") as progress:
-        mcap = arguments.file.endswith(".mcap")
+        mcap = arguments.mcap or arguments.file.endswith(".mcap")
         start = client.export_mission(arguments.mission, arguments.file, progress, mcap)
     out.done(f"wrote {arguments.file}: {arguments.mission} up to event {start.revision}")
 

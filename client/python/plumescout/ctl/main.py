@@ -194,6 +194,7 @@ def _add_missions(groups):
         help=".mcap: MCAP, which Foxglove shows; else a journal, which missions import takes. "
         "plumescout-lab replay reads both",
     )
+    export.add_argument("--mcap", action="store_true", help="MCAP, whatever the file's name")
     imported = _takes(
         _add(steps, "import", "make a mission of an exported one"), commands.import_mission, "file"
     )
