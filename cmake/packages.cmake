@@ -42,10 +42,11 @@ function(plumescout_package component name summary)
   endforeach()
 endfunction()
 
-# The user that the server runs as comes about by systemd-sysusers, in containers by its small twin.
+# The user that the server runs as comes about by systemd-sysusers, and its folder by systemd-tmpfiles; in
+# containers by their small twins.
 plumescout_package(server plumescout-server
   "planning service for robots that map gas leaks: gRPC server and web console"
-  DEPENDS "systemd-standalone-sysusers | systemd")
+  DEPENDS "systemd-standalone-sysusers | systemd, systemd-standalone-tmpfiles | systemd")
 set(CPACK_COMPONENT_MACHINE_GROUP server)
 set(CPACK_DEBIAN_SERVER_PACKAGE_CONTROL_EXTRA
     "${PROJECT_SOURCE_DIR}/deploy/debian/postinst;${PROJECT_SOURCE_DIR}/deploy/debian/prerm;${PROJECT_SOURCE_DIR}/deploy/debian/postrm;${PROJECT_SOURCE_DIR}/deploy/debian/conffiles")

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // Makes the pages in dist/: index.html, and script and style with a hash of their content in their
-// names; and report.html, all in one, for what plumescout-lab writes. `--watch` is not there on
-// purpose: a build takes less than a second.
-import { mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+// names; report.html, all in one, for what plumescout-lab writes; and third-party.json, which packages
+// of others both are bundled from, and their licences. `--watch` is not there on purpose: a build takes
+// less than a second.
+import { mkdirSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { basename } from 'node:path';
 import { gzipSync } from 'node:zlib';
 import { build } from 'esbuild';
@@ -45,3 +46,18 @@ const parts = await build({
 const textOf = (ending) => parts.outputFiles.find(({ path }) => path.endsWith(ending)).text.trim();
 writeFileSync('dist/report.html', readFileSync('src/report.html', 'utf8')
   .replace('@style@', () => textOf('.css')).replace('@script@', () => textOf('.js')));
+
+// The folder of each package that something was taken from.
+const folders = [result, parts]
+  .flatMap(({ metafile }) => Object.values(metafile.outputs))
+  .flatMap(({ inputs }) => Object.entries(inputs))
+  .filter(([, { bytesInOutput }]) => bytesInOutput > 0)
+  .map(([path]) => path.match(/^.*node_modules\/(?:@[^/]+\/)?[^/]+/)?.[0])
+  .filter((folder) => folder !== undefined);
+const thirdParty = [...new Set(folders)].sort().map((folder) => {
+  const { name, version, license } = JSON.parse(readFileSync(`${folder}/package.json`, 'utf8'));
+  const files = readdirSync(folder).filter((file) => /^(licen[cs]e|notice|copying)/i.test(file)).sort();
+  const notice = files.map((file) => readFileSync(`${folder}/${file}`, 'utf8')).join('\n');
+  return { name, version, license, notice: notice || `Licence: ${license}` };
+});
+writeFileSync('dist/third-party.json', JSON.stringify(thirdParty, null, 1));

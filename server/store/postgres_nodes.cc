@@ -148,6 +148,18 @@ absl::Status PostgresNodes::Renew() {
   return absl::OkStatus();
 }
 
+absl::Status PostgresNodes::JoinAgain() {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::optional<Holder> holder, TryJoin(old_lease_));
+  if (!holder.has_value()) {
+    options_.warn("the node has a lease again");
+  } else if (holder->lease != 0) {
+    const absl::Status taken = NameTaken(connection_->name(), options_.self, holder->address);
+    absl::MutexLock lock(&mutex_);
+    status_ = StoreUnavailable(taken.message());
+  }
+  return absl::OkStatus();
+}
+
 void PostgresNodes::Run() {
   while (true) {
     const bool is_held = lease() != 0;
@@ -156,12 +168,9 @@ void PostgresNodes::Run() {
       const absl::Duration wait = is_held ? std::min(period(), Until(lease_until_)) : period();
       if (mutex_.AwaitWithTimeout(absl::Condition(&stopping_), wait)) return;
     }
-    const absl::Status status = is_held ? Renew() : TryJoin(old_lease_).status();
+    const absl::Status status = is_held ? Renew() : JoinAgain();
     if (!status.ok()) connection_ = nullptr;
-    if (!is_held) {
-      if (lease() != 0) options_.warn("the node has a lease again");
-      continue;
-    }
+    if (!is_held) continue;
     if (absl::IsAborted(status) || (!status.ok() && SteadyNow() >= lease_until())) Lose(status);
   }
 }

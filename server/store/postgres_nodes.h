@@ -71,6 +71,8 @@ class PostgresNodes final : public StoreNodes {
   absl::StatusOr<std::optional<Holder>> TryJoin(std::int64_t old);
   absl::Status JoinAtStart();
   absl::Status Renew();
+  // After the lease was lost. If the name is another node's by now, the status says so.
+  absl::Status JoinAgain();
   void Lose(const absl::Status& why);
   void Hold(std::int64_t lease, SteadyTime begin);
   absl::Status Connect(SteadyTime limit);

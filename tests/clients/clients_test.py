@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs the scenario of the clients with the runners given, each against a server of its own.
 
-clients_test.py [RUNNER ARGUMENT ...]: see README.md. Without a runner, the one of Python alone.
+clients_test.py [--cluster] [RUNNER ARGUMENT ...]: see README.md. Without a runner, the one of Python
+alone.
 """
 
 import hashlib
@@ -17,12 +18,19 @@ import urllib.error
 import urllib.request
 
 import bed
+import cluster_parts
 import plumescout
+import postgres
+import running
 from google.protobuf import descriptor_pb2
 
 HERE = pathlib.Path(__file__).resolve().parent
 SCENARIO = HERE / "scenario.json"
-RUNNER = sys.argv[1:]
+IN_CLUSTER = sys.argv[1:2] == ["--cluster"]
+RUNNER = sys.argv[2:] if IN_CLUSTER else sys.argv[1:]
+# Not of a mission, so they say something of the one node that they come to.
+OF_ONE_NODE = ("list_missions", "drain_server")
+MISSION = "room"  # whose server is killed
 PYTHON_RUNNER = [sys.executable, str(HERE / "run_python.py")]
 
 
@@ -61,7 +69,7 @@ def run(runner):
             cwd=work,
         )
         try:
-            lines = list(_lines(process, server))
+            lines = list(_lines(process, lambda: (server.kill(), _start_again(server))))
             server.kill()
             _start_again(server)
             return lines, list(_exports(server, work))
@@ -69,6 +77,63 @@ def run(runner):
             process.kill()
             process.communicate()
             server.kill()
+
+
+class Cluster:
+    """Two servers on one PostgreSQL behind the shipped router."""
+
+    def __init__(self, folder):
+        folder.chmod(0o755)  # PostgreSQL is another user
+        self._database = postgres.Postgres(folder / "postgres", running.free_port())
+        running.await_that(self._database.make_database, "PostgreSQL answers")
+        address = f"127.0.0.1:{self._database.port}"
+        self._nodes = [
+            cluster_parts.Node(name, folder, self._database.url_by, address, cuttable=False)
+            for name in ("n1", "n2")
+        ]
+        self._router = cluster_parts.Router(self._nodes, folder)
+        running.await_that(self._router.answers, "the router leads to a node")
+        self.target = self._router.target
+
+    def _owner(self):
+        rows = self._database.ask(cluster_parts.OWNERS)
+        names = [name for key, name, *_ in rows if key.rsplit("/", 1)[-1] == MISSION]
+        return next((node for node in self._nodes if node.name in names), None)
+
+    def kill_owner(self):
+        """It does not come back: whoever calls for the mission is served by the other."""
+        running.await_that(self._owner, f"a server has {MISSION}").server.kill()
+
+    def stop(self):
+        self._router.stop()
+        for node in self._nodes:
+            node.stop()
+        self._database.stop()
+
+
+def run_in_cluster(runner, steps):
+    """The lines that a runner prints, parsed; at the step `restart` the owner of its mission dies."""
+    with tempfile.TemporaryDirectory(prefix="plumescout-clients-") as folder:
+        folder = pathlib.Path(folder).resolve()
+        work = folder / "work"
+        work.mkdir()
+        (work / "damaged.journal").write_bytes(b"this was never a mission")
+        scenario = json.loads(SCENARIO.read_text())
+        (folder / "scenario.json").write_text(json.dumps({**scenario, "steps": steps}))
+        cluster = Cluster(folder)
+        process = subprocess.Popen(
+            [*runner, cluster.target, str(folder / "scenario.json")],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+            cwd=work,
+        )
+        try:
+            return list(_lines(process, cluster.kill_owner))
+        finally:
+            process.kill()
+            process.communicate()
+            cluster.stop()
 
 
 def _is_ready(server):
@@ -96,13 +161,12 @@ def _exports(server, work):
             yield file.name, *(hashlib.sha256(f.read_bytes()).hexdigest() for f in (file, again))
 
 
-def _lines(process, server):
+def _lines(process, restart):
     for line in process.stdout:
         told = json.loads(line)
         yield told
         if told["do"] == "restart":
-            server.kill()
-            _start_again(server)
+            restart()
             process.stdin.write("restarted\n")
             process.stdin.flush()
     code = process.wait(timeout=bed.PATIENCE_S)
@@ -110,13 +174,8 @@ def _lines(process, server):
         raise AssertionError(f"{process.args[0]} ended with {code}")
 
 
-class ClientsTest(unittest.TestCase):
+class ScenarioTest(unittest.TestCase):
     maxDiff = None
-
-    @classmethod
-    def setUpClass(cls):
-        cls.steps = json.loads(SCENARIO.read_text())["steps"]
-        cls.python, cls.python_exports = run(PYTHON_RUNNER)
 
     def check(self, lines):
         """Whether each step brought what the scenario says."""
@@ -128,6 +187,22 @@ class ClientsTest(unittest.TestCase):
                 expected = step.get("error", step.get("expect", {}))
                 self.assertEqual({key: told[kind].get(key) for key in expected}, expected)
         self.assertEqual(len(lines), len(self.steps), "steps that were done")
+
+
+@unittest.skipUnless(IN_CLUSTER, "without --cluster")
+class ClusterTest(ScenarioTest):
+    def test_the_client_gets_what_the_scenario_says_while_the_missions_server_is_killed(self):
+        steps = json.loads(SCENARIO.read_text())["steps"]
+        self.steps = [step for step in steps if step["do"] not in OF_ONE_NODE]
+        self.check(run_in_cluster(RUNNER or PYTHON_RUNNER, self.steps))
+
+
+@unittest.skipIf(IN_CLUSTER, "with --cluster")
+class ClientsTest(ScenarioTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.steps = json.loads(SCENARIO.read_text())["steps"]
+        cls.python, cls.python_exports = run(PYTHON_RUNNER)
 
     def check_exports(self, exports):
         self.assertEqual([name for name, _, _ in exports], ["room.journal", "room.mcap"])

@@ -3,7 +3,7 @@
 """The shipped router before nodes: what goes where, and what becomes of calls when nodes go.
 
 The nodes are small servers of the same wire, so that each can be made to drain, hang or die by
-itself; tests/faults has the whole with real ones.
+itself; cluster_python_test and tests/faults have real ones.
 """
 
 import collections
@@ -95,6 +95,7 @@ class RouterTest(unittest.TestCase):
         self.nodes = {name: Node(name, self.owners) for name in NAMES}
         port = running.free_port()
         environment = dict(os.environ, PLUMESCOUT_ROUTER_BIND=f"127.0.0.1:{port}")
+        environment["PLUMESCOUT_ROUTER_PLAINTEXT"] = "1"
         for number, node in enumerate(self.nodes.values(), start=1):
             self.addCleanup(node.stop)
             environment[f"PLUMESCOUT_NODE_{number}"] = f"127.0.0.1:{node.port}"

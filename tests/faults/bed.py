@@ -131,9 +131,19 @@ class DidNotStart(Exception):
 class Server:
     """A plumescout-server on one folder and one port, for as many lives as a test wants.
 
-    folder: for its log and, unless `data` says otherwise, its data. environment: of its process."""
+    folder: for its log and, unless `data` says otherwise, its data. environment: of its process.
+    config: a file of options, for those that nothing else sets."""
 
-    def __init__(self, folder, *settings, data=None, environment=None, port=None, store="sqlite"):
+    def __init__(
+        self,
+        folder,
+        *settings,
+        data=None,
+        environment=None,
+        port=None,
+        store="sqlite",
+        config=None,
+    ):
         self.folder = pathlib.Path(folder)
         self.data = pathlib.Path(data or self.folder / "data")
         self.port = port or running.free_port()
@@ -142,13 +152,14 @@ class Server:
         self.process = None
         self.environment = dict(environment or {})
         self._store = store
+        self._config = ["--config", config] if config else []
         self._settings = (*SETTINGS, *settings)
         self._log = self.folder / "server.log"
         self._reader = None
 
     def start(self):
         """Returns once it listens. DidNotStart if it ends before."""
-        command = [BUILD_DIR / "bin/plumescout-server", "--listen", self.target]
+        command = [BUILD_DIR / "bin/plumescout-server", *self._config, "--listen", self.target]
         command += ["--store", self._store]
         if self._store != "none":
             command += ["--data", self.data]

@@ -14,7 +14,7 @@ robots in four missions. scripts/cluster builds and runs it.
   --kill-primary-every S
                      so often its primary is killed, with its Patroni, until another has its place
   --proxies N        routers, 1 or 2: the second has the nodes in another order, and half of the robots
-  --nodes N          servers, 1 to 3; if there are faults, and libfaketime, n2's clock is an hour
+  --nodes N          servers, 1 to 3; if there are faults, n2's clock is an hour
                      ahead
   --robots N --missions M --pause S --plan-pause S
                      how many, and how long each waits between what it sends and before it plans
@@ -40,16 +40,11 @@ import plumescout
 import postgres
 import robots
 import running
-from cluster_parts import LEASE_S, Node, Router, Waits, cpu_s, percentile
+from cluster_parts import LEASE_S, OWNERS, Node, Router, Waits, cpu_s, percentile
 
 KINDS = ("kill", "pause", "cut", "roll")
 CLOCKS = {"n1": 0, "n2": 3600, "n3": 0}  # how far each server's wall clock is off, in seconds
 SHOW_S = 5.0
-OWNERS = (
-    "SELECT encode(m.key, 'escape'), coalesce(n.name, '-'), p.epoch, p.head "
-    "FROM plumescout_mission m JOIN plumescout_progress p ON p.mission = m.id "
-    "LEFT JOIN plumescout_node n ON n.id = p.owner AND n.expires > clock_timestamp() ORDER BY 1"
-)
 
 
 @dataclasses.dataclass

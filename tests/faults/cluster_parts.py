@@ -18,15 +18,27 @@ import running
 
 LEASE_S = 1.0
 CONFIGURATION = running.ROOT / "deploy/cluster/haproxy.cfg"
+# Of each mission its key, its node or -, its epoch and how many events it has.
+OWNERS = (
+    "SELECT encode(m.key, 'escape'), coalesce(n.name, '-'), p.epoch, p.head "
+    "FROM plumescout_mission m JOIN plumescout_progress p ON p.mission = m.id "
+    "LEFT JOIN plumescout_node n ON n.id = p.owner AND n.expires > clock_timestamp() ORDER BY 1"
+)
 
 
 class Router:
     """HAProxy with the shipped configuration. order: of the nodes in its list, which the hash goes by:
-    routers with different lists take missions to different nodes."""
+    routers with different lists take missions to different nodes. certificates: a folder with those
+    of the cluster's authority and of the router; without, it speaks plaintext to the nodes."""
 
-    def __init__(self, nodes, folder, order=1):
+    def __init__(self, nodes, folder, order=1, certificates=None):
         self.target = f"127.0.0.1:{running.free_port()}"
         environment = dict(os.environ, PLUMESCOUT_ROUTER_BIND=self.target)
+        if certificates:
+            environment["PLUMESCOUT_ROUTER_CERTIFICATE"] = str(certificates / "router.crt")
+            environment["PLUMESCOUT_ROUTER_NODE_CA"] = str(certificates / "ca.crt")
+        else:
+            environment["PLUMESCOUT_ROUTER_PLAINTEXT"] = "1"
         for number, node in enumerate(nodes, 1):
             environment[f"PLUMESCOUT_NODE_{number}"] = node.server.target
             environment[f"PLUMESCOUT_NODE_{number}_HTTP"] = str(node.http_port)
@@ -64,11 +76,12 @@ class Router:
 
 
 def by_clock(offset_s):
-    """The environment of a program whose wall clock is off by so much; its steady clock goes on. Empty
-    without libfaketime."""
-    libraries = sorted(pathlib.Path("/usr/lib").glob("*/faketime/libfaketimeMT.so.1"))
-    if not libraries or offset_s == 0:
+    """The environment of a program whose wall clock is off by so much; its steady clock goes on."""
+    if offset_s == 0:
         return {}
+    libraries = sorted(pathlib.Path("/usr/lib").glob("*/faketime/libfaketimeMT.so.1"))
+    if not libraries:
+        raise RuntimeError("no libfaketime: scripts/setup --cluster")
     return {
         "LD_PRELOAD": str(libraries[0]),
         "FAKETIME": f"{offset_s:+}s",

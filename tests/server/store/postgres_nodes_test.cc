@@ -114,6 +114,19 @@ TEST_F(PostgresNodesTest, ANameThatIsRenewedMeanwhileIsTaken) {
   EXPECT_TRUE(absl::IsFailedPrecondition(refused)) << refused;
 }
 
+TEST_F(PostgresNodesTest, WhoLosesItsNameToAnotherSaysSoUntilThatIsGone) {
+  const auto store = OpenShared(url_, "n1");
+  Ask("UPDATE plumescout_node SET id = nextval('plumescout_ids'), address = 'other:1', "
+      "expires = clock_timestamp() + interval '1 hour'");
+  ASSERT_TRUE(Eventually([&] {
+    return store->nodes()->status().message().find("is another server that lives, at other:1") !=
+           absl::string_view::npos;
+  })) << store->nodes()->status();
+  EXPECT_EQ(ErrorReason(store->nodes()->status()), reason::kStoreUnavailable);
+  Ask("DELETE FROM plumescout_node");
+  EXPECT_TRUE(Eventually([&] { return store->nodes()->status().ok(); }));
+}
+
 TEST_F(PostgresNodesTest, WhoeverWasKilledIsWaitedFor) {
   OpenShared(url_, "n0");  // makes the tables
   Ask("INSERT INTO plumescout_node VALUES(7, 'n1', 'gone.example:1', now() + interval '1 s')");
