@@ -20,6 +20,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/synchronization/notification.h"
+#include "absl/time/clock.h"
 #include "core/types/status_macros.h"
 #include "formats/file_io.h"
 #include "server/access/server_credentials.h"
@@ -75,6 +76,8 @@ constexpr int kAuditThreads = 1;
 // Snapshots are packed in milliseconds, and nobody waits for them.
 constexpr int kSnapshotThreads = 1;
 constexpr absl::Duration kLongestSettling = absl::Seconds(2);
+// Routers look every 0.2 s whether a server is ready (deploy/cluster/haproxy.cfg).
+constexpr absl::Duration kRoutersNotice = absl::Milliseconds(400);
 // Missions are created now and then; those with large known maps take a second, beside the others.
 constexpr int kCreationThreads = 1;
 
@@ -398,6 +401,12 @@ void Server::Drain() {
   if (store_ != nullptr && store_->nodes() != nullptr) {
     // Whoever takes a mission over is to read it quickly; until then it is served here.
     registry_.TakeSnapshots(std::min(cut, After(SteadyNow(), kLongestSettling)));
+    if (registry_.HandOverAll(cut)) {
+      draining_ = true;
+      // Whoever still comes is told where to go.
+      const SteadyTime noticed = std::min(cut, After(SteadyNow(), kRoutersNotice));
+      absl::SleepFor(absl::FromChrono(noticed - SteadyNow()));
+    }
   }
   draining_ = true;
   probe_.reset();

@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "absl/strings/cord.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/strip.h"
@@ -15,6 +16,7 @@
 namespace plumescout::server {
 namespace {
 
+constexpr absl::string_view kAwaitedPayload = "plumescout/awaited";
 constexpr std::int64_t kOverloadRetry_ns = 250'000'000;
 constexpr std::int64_t kDrainRetry_ns = 1'000'000'000;  // about the time of a restart
 constexpr std::int64_t kStoreRetry_ns = 1'000'000'000;
@@ -92,9 +94,21 @@ absl::Status Recovering(absl::string_view mission) {
                         kRecoveryRetry_ns);
 }
 
+absl::Status WithAwaitedMission(absl::Status status, absl::string_view key) {
+  if (ErrorReason(status) == reason::kRecovering) {
+    status.SetPayload(kAwaitedPayload, absl::Cord(key));
+  }
+  return status;
+}
+
+std::string AwaitedMission(const absl::Status& status) {
+  return std::string(status.GetPayload(kAwaitedPayload).value_or(absl::Cord()));
+}
+
 absl::Status WithErrorInfo(const absl::Status& status) {
   if (status.ok()) return status;
   absl::Status typed = WithRetryInfo(status);
+  typed.ErasePayload(kAwaitedPayload);
   if (!Reason(typed).empty()) return typed;
   const absl::string_view reason = ErrorReason(status);
   if (!reason.empty()) return WithReason(typed, reason, Facts(status.message()));

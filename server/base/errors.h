@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "absl/status/status.h"
 #include "absl/strings/string_view.h"
@@ -28,6 +29,11 @@ absl::Status StoreRolledBack(std::int64_t applied_sequence, std::int64_t told_se
 absl::Status MissionDamaged(absl::string_view mission, absl::string_view why);
 // The mission is there, but not yet in memory.
 absl::Status Recovering(absl::string_view mission);
+// If it is RECOVERING, the same error of the mission of this key, for whoever is ready to wait for
+// it; the wire does not tell the key.
+absl::Status WithAwaitedMission(absl::Status status, absl::string_view key);
+// That key; empty if there is none.
+std::string AwaitedMission(const absl::Status& status);
 
 // The same status as the wire tells it. It has an ErrorInfo: the reason of a typed error, or else
 // the name of the code. Numbers that programs act on ("SEQUENCE_GAP: expected 7, ...") are metadata

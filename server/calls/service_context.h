@@ -28,9 +28,11 @@ struct ServiceLimits {
   absl::Duration default_planning_budget = absl::Seconds(1);
   absl::Duration max_planning_budget = absl::Seconds(5);
   absl::Duration deadline_margin = absl::Milliseconds(20);  // kept back for commit and reply
-  absl::Duration replay_period = absl::Milliseconds(100);   // between frames of a past map
-  absl::Duration import_patience = absl::Seconds(30);       // for the next piece of an import
-  absl::Duration export_patience = absl::Seconds(30);       // for a piece to be taken, or made
+  // How long a call waits for a mission that is being recovered.
+  absl::Duration recovery_patience = absl::Seconds(1);
+  absl::Duration replay_period = absl::Milliseconds(100);  // between frames of a past map
+  absl::Duration import_patience = absl::Seconds(30);      // for the next piece of an import
+  absl::Duration export_patience = absl::Seconds(30);      // for a piece to be taken, or made
 };
 
 inline bool MaySeeTenant(const Principal& caller, absl::string_view tenant) {

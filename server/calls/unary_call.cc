@@ -5,20 +5,30 @@
 #include <utility>
 
 #include "server/base/grpc_status.h"
+#include "server/calls/patient_attempt.h"
+#include "server/calls/service_context.h"
 
 namespace plumescout::server {
 
-UnaryCall* UnaryCall::Start(const Door* door, Rpc rpc, grpc::CallbackServerContext* call,
-                            const Handler& handle) {
+UnaryCall* UnaryCall::Start(const ServiceContext& context, Rpc rpc,
+                            grpc::CallbackServerContext* call, Handler handle) {
   auto unary = std::make_shared<UnaryCall>();
   unary->self_ = unary;
   // For those who may answer: when the last of them lets go, nobody will.
   const std::shared_ptr<UnaryCall> handle_of_call(unary.get(), [unary](UnaryCall* reactor) {
     reactor->Answer(absl::UnavailableError("the server let go of the call; try again"));
   });
-  absl::Status status = unary->visit_.Enter(*door, rpc, *call);
-  if (status.ok()) status = handle(handle_of_call);
-  if (!status.ok()) unary->Answer(status);
+  const absl::Status entered = unary->visit_.Enter(*context.door, rpc, *call);
+  if (!entered.ok()) {
+    unary->Answer(entered);
+    return unary.get();
+  }
+  AttemptPatiently(
+      context, unary->info().deadline,
+      [handle = std::move(handle), handle_of_call] { return handle(handle_of_call); },
+      [unary](const absl::Status& status) {
+        if (!status.ok()) unary->Answer(status);
+      });
   return unary.get();
 }
 

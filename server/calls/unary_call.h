@@ -19,6 +19,8 @@
 
 namespace plumescout::server {
 
+struct ServiceContext;
+
 // A unary call from the door to its answer, now or later, from any thread. The first answer counts.
 // gRPC never stops a server that owes one, so a call that everybody has let go of is answered with
 // UNAVAILABLE: it stood in a queue that is no more.
@@ -28,9 +30,10 @@ class UnaryCall final : public grpc::ServerUnaryReactor {
   using Handler = std::function<absl::Status(const std::shared_ptr<UnaryCall>&)>;
 
   // The reactor owns itself until gRPC is done with it. Requests and responses live until the
-  // answer is given.
-  static UnaryCall* Start(const Door* door, Rpc rpc, grpc::CallbackServerContext* call,
-                          const Handler& handle);
+  // answer is given. `handle` is called again, perhaps later, if the mission is RECOVERING (see
+  // AttemptPatiently).
+  static UnaryCall* Start(const ServiceContext& context, Rpc rpc, grpc::CallbackServerContext* call,
+                          Handler handle);
 
   const CallInfo& info() const { return visit_.info(); }
   const Principal& caller() const { return visit_.caller(); }

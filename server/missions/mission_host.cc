@@ -287,7 +287,7 @@ std::optional<std::size_t> MissionHost::AwaitCommands(SteadyTime until) {
 
 std::optional<MissionHost::Command> MissionHost::NextCommand() {
   absl::MutexLock lock(&mutex_);
-  if (stopping_ || commands_.empty()) return std::nullopt;
+  if (stopping_ || resting_ || commands_.empty()) return std::nullopt;
   Command command = std::move(commands_.front());
   commands_.pop_front();
   if (command.room == nullptr) --bounded_commands_;
@@ -342,6 +342,18 @@ absl::Status MissionHost::BeginSnapshot(std::function<void()> begun) {
       [begun](const absl::Status&) { begun(); });
 }
 
+absl::Status MissionHost::BeginRest(MissionJournal::Callback rests) {
+  return Post(
+      [this, rests](MissionWriter&) {
+        {
+          absl::MutexLock lock(&mutex_);
+          resting_ = true;
+        }
+        WhenDurable(rests);
+      },
+      rests);
+}
+
 void MissionHost::Settle(std::int64_t least_tail_bytes) {
   // Without a field there is no epoch, and the events are replayed.
   if (snapshots_ != nullptr && snapshots_->WantOne(least_tail_bytes)) {
@@ -351,7 +363,7 @@ void MissionHost::Settle(std::int64_t least_tail_bytes) {
 }
 
 void MissionHost::AfterCommands() {
-  if (*abandoned_) return;
+  if (*abandoned_ || IsResting()) return;
   writer_.CollectAudit();
   const SteadyTime now = SteadyNow();
   journal_->DropOverdue(now);
@@ -380,7 +392,13 @@ void MissionHost::Publish(const absl::StatusOr<std::shared_ptr<const Belief>>& b
   std::erase_if(subscribers_, [&](const Subscriber& subscriber) { return !subscriber(belief); });
 }
 
+bool MissionHost::IsResting() const {
+  absl::MutexLock lock(&mutex_);
+  return resting_;
+}
+
 SteadyTime MissionHost::NextWake() const {
+  if (IsResting()) return SteadyTime::max();
   return std::min({waiters_.next_deadline(), next_publication(), journal_->next_deadline(),
                    robot_notices_->next_look(writer_.mission().revision()),
                    robot_notices_->next_follow(leases_, SteadyNow())});

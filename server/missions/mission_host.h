@@ -160,6 +160,10 @@ class MissionHost {
   // Has a snapshot taken as IsReadyToSleep does, of a mission that goes on meanwhile; `begun` hears
   // when what it needs is applied, or that the mission ends. An error as of Post: it hears nothing.
   absl::Status BeginSnapshot(std::function<void()> begun);
+  // The mission comes to rest, for another server to go on with it: once `rests` has heard, all
+  // that was done is durable, and nothing more is. What is posted from then on waits, no longer
+  // than until BeginStop and DropAll. `rests` hears an error if it is not durable. Errors as Post.
+  absl::Status BeginRest(MissionJournal::Callback rests);
   // Whether one is on its way to the store.
   bool is_taking_snapshot() const { return snapshots_ != nullptr && snapshots_->is_busy(); }
 
@@ -210,7 +214,7 @@ class MissionHost {
   // Nothing if the host is to stop.
   std::optional<Command> NextCommand();
   bool HasWork() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
-    return !commands_.empty() || stopping_;
+    return (!commands_.empty() && !resting_) || stopping_;
   }
   // Of every event, on the writer's thread.
   void Keep(const Event& event, const Applied& applied);
@@ -222,6 +226,7 @@ class MissionHost {
   void Settle(std::int64_t least_tail_bytes);  // the writer's part of IsReadyToSleep
   SteadyTime next_publication() const;         // max() if there is nothing new or nobody to tell
   void Publish(const absl::StatusOr<std::shared_ptr<const Belief>>& belief);
+  bool IsResting() const;
   SteadyTime NextWake() const;
 
   const MissionId id_;
@@ -252,6 +257,7 @@ class MissionHost {
   mutable absl::Mutex mutex_;
   std::deque<Command> commands_ ABSL_GUARDED_BY(mutex_);
   int bounded_commands_ ABSL_GUARDED_BY(mutex_) = 0;  // those without room of their own
+  bool resting_ ABSL_GUARDED_BY(mutex_) = false;      // set by the writer
   bool stopping_ ABSL_GUARDED_BY(mutex_) = false;
   absl::Status stop_status_ ABSL_GUARDED_BY(mutex_);
 

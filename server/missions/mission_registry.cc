@@ -2,42 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/missions/mission_registry.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "core/mission/conduct/conduct_errors.h"
 #include "core/types/status_macros.h"
 #include "server/base/errors.h"
-#include "server/base/log.h"
-#include "server/store/store_errors.h"
 
 namespace plumescout::server {
-
-namespace {
-
-// What is said of a mission that could not be recovered.
-absl::Status HeldWith(const std::string& key, const absl::Status& why) {
-  if (absl::IsNotFound(why)) return MissionNotFound(MissionIdOf(key));
-  const bool passes = absl::IsUnavailable(why) || absl::IsResourceExhausted(why);
-  return passes ? why : MissionDamaged(MissionIdOf(key), why.message());
-}
-
-// `host`: null if it was not recovered.
-void LogRecovery(const std::string& key, const MissionHost* host, const absl::Status& status,
-                 SteadyTime::duration time) {
-  if (host != nullptr) {
-    LogInfo("mission recovered",
-            {{"mission", key},
-             {"revision", absl::StrCat(host->summary().revision)},
-             {"took_ms", absl::StrCat(absl::ToInt64Milliseconds(absl::FromChrono(time)))}});
-  } else if (!absl::IsCancelled(status) && !absl::IsNotFound(status) &&
-             NodeElsewhere(status).empty()) {
-    LogError("mission not recovered", {{"mission", key}, {"why", std::string(status.message())}});
-  }
-}
-
-}  // namespace
 
 MissionRegistry::MissionRegistry(const RegistryOptions& options, RegistryHooks hooks)
     : options_(options),
@@ -53,7 +25,7 @@ absl::Status MissionRegistry::CheckRoom(const MissionId& id, const std::string& 
 }
 
 absl::Status MissionRegistry::CheckName(const MissionId& id, const std::string& key) const {
-  if (!closed_.ok()) return closed_;
+  PLUMESCOUT_RETURN_IF_ERROR(Closed(key));
   if (sought_.IsAskedFor(key)) return Recovering(id);
   if (hosts_.contains(key) || being_made_.contains(key) || absent_.Contains(key)) {
     return MissionExists(id);
@@ -98,8 +70,10 @@ absl::StatusOr<std::shared_ptr<MissionHost>> MissionRegistry::Create(const Missi
   PLUMESCOUT_ASSIGN_OR_RETURN(const int life, Reserve(id, key, options.memory_budget_bytes));
   auto host = maker_.Make(id, options, owner);
   absl::Status status = host.status();
+  std::vector<RecoveryWaiters::Look> waiters;
   {
     absl::MutexLock lock(&mutex_);
+    waiters = waiters_.TakeOf(key);
     being_made_.erase(key);
     status.Update(closed_);
     status.Update(CheckLife(life));
@@ -110,6 +84,7 @@ absl::StatusOr<std::shared_ptr<MissionHost>> MissionRegistry::Create(const Missi
       reserved_bytes_ -= options.memory_budget_bytes;
     }
   }
+  for (const auto& look : waiters) look();
   if (!status.ok()) return status;
   return host;
 }
@@ -121,96 +96,6 @@ absl::StatusOr<int> MissionRegistry::Reserve(const MissionId& id, const std::str
   being_made_.insert(key);
   reserved_bytes_ += bytes;
   return lives_;
-}
-
-absl::Status MissionRegistry::FindStored() {
-  if (store_ == nullptr || nodes_ != nullptr) return absl::OkStatus();
-  PLUMESCOUT_ASSIGN_OR_RETURN(std::vector<StoredMission> stored, store_->List());
-  std::stable_sort(stored.begin(), stored.end(),
-                   [](const auto& a, const auto& b) { return a.head > b.head; });
-  absl::MutexLock lock(&mutex_);
-  for (const StoredMission& mission : stored) {
-    if (hosts_.contains(mission.key)) continue;
-    if (may_sleep() && !CheckCount().ok()) {
-      absent_.AddAsleep({.key = mission.key, .epoch = mission.epoch, .head = mission.head});
-    } else {
-      absent_.Add(mission);
-    }
-  }
-  return absl::OkStatus();
-}
-
-void MissionRegistry::SetOnCalledFor(std::function<void()> on_called_for) {
-  absl::MutexLock lock(&mutex_);
-  on_called_for_ = std::move(on_called_for);
-}
-
-bool MissionRegistry::RecoverNext() {
-  std::optional<std::string> key;
-  {
-    absl::MutexLock lock(&mutex_);
-    if (!closed_.ok()) return false;
-    key = sought_.Next();
-    if (!key.has_value()) key = absent_.Next();
-  }
-  if (!key.has_value()) return false;
-  Recover(*key).IgnoreError();  // it is logged, and told to whoever calls for the mission
-  return true;
-}
-
-absl::Status MissionRegistry::CheckRecovery(const std::string& key, bool holds_name) const {
-  if (!closed_.ok() || holds_name) return closed_;
-  if (hosts_.contains(key) || being_made_.contains(key)) return MissionExists(MissionIdOf(key));
-  return absent_.Contains(key) ? absl::OkStatus() : CheckCount();
-}
-
-absl::Status MissionRegistry::Recover(const std::string& key, bool holds_name) {
-  if (store_ == nullptr) return absl::FailedPreconditionError("the server keeps no missions");
-  bool is_new = false;
-  int life = 0;
-  {
-    absl::MutexLock lock(&mutex_);
-    const absl::Status may = CheckRecovery(key, holds_name);
-    if (!may.ok()) sought_.Settle(key, may, clock_());
-    PLUMESCOUT_RETURN_IF_ERROR(may);
-    life = lives_;
-    is_new = !absent_.Contains(key);
-    if (is_new && !holds_name) being_made_.insert(key);
-  }
-  const SteadyTime began = SteadyNow();
-  auto host = maker_.Revive(key, [closing = closing_] { return closing->load(); });
-  absl::Status status = host.status();
-  {
-    absl::MutexLock lock(&mutex_);
-    if (!holds_name) being_made_.erase(key);
-    status.Update(closed_);
-    status.Update(CheckLife(life));
-    if (status.ok()) {
-      sought_.Erase(key);
-      absent_.Erase(key);
-      hosts_.emplace(key, *host);
-      reserved_bytes_ += (*host)->options().memory_budget_bytes;
-    } else if (nodes_ != nullptr) {
-      absent_.Erase(key);
-      sought_.Settle(key, HeldWith(key, status), clock_());
-    } else if (closed_.ok() && !is_new) {
-      const bool sleeps_on = absl::IsUnavailable(status) && absent_.SleepOn(key);
-      if (!sleeps_on) absent_.Hold(key, HeldWith(key, status));
-    }
-  }
-  LogRecovery(key, host.ok() ? host->get() : nullptr, status, SteadyNow() - began);
-  return status;
-}
-
-std::vector<AbsentMission> MissionRegistry::ListAbsent(const std::string& after) const {
-  absl::MutexLock lock(&mutex_);
-  return absent_.After(after);
-}
-
-AbsentCounts MissionRegistry::absent() const {
-  absl::MutexLock lock(&mutex_);
-  const int waking = absent_.woken();
-  return {absent_.waiting() - waking, absent_.held(), absent_.asleep(), waking};
 }
 
 bool MissionRegistry::AwaitStored(SteadyTime deadline) {
@@ -234,19 +119,9 @@ absl::StatusOr<std::shared_ptr<MissionHost>> MissionRegistry::Find(const Mission
       found != hosts_.end() && nodes_ != nullptr && found->second->journal().is_lost();
   if (is_gone) Reap(found, Recovering(id), [] {});
   if (found != hosts_.end() && !is_gone) return found->second;
-  PLUMESCOUT_RETURN_IF_ERROR(CallForAbsent(key));
-  return nodes_ == nullptr ? MissionNotFound(id) : Seek(key);
-}
-
-absl::Status MissionRegistry::CallForAbsent(const std::string& key) {
-  if (const SleepingMission* const sleeping = absent_.FindAsleep(key)) {
-    PLUMESCOUT_RETURN_IF_ERROR(CheckCount());
-    PLUMESCOUT_RETURN_IF_ERROR(CheckMemory("the mission", sleeping->memory_bytes));
-    const absl::Status called = absent_.CallFor(key);
-    on_called_for_();
-    return called;
-  }
-  return absent_.CallFor(key);
+  if (!successors_.empty()) return Closed(key);
+  PLUMESCOUT_RETURN_IF_ERROR(WithAwaitedMission(CallForAbsent(key), key));
+  return nodes_ == nullptr ? MissionNotFound(id) : WithAwaitedMission(Seek(key), key);
 }
 
 absl::StatusOr<std::shared_ptr<MissionHost>> MissionRegistry::FindOfAnyTenant(const MissionId& id) {
@@ -279,23 +154,6 @@ absl::Status MissionRegistry::Delete(const MissionId& id, absl::string_view tena
   const auto found = hosts_.find(MissionKey(tenant, id));
   if (found == hosts_.end()) return MissionNotFound(id);
   Remove(found, std::move(removed));
-  return absl::OkStatus();
-}
-
-absl::Status MissionRegistry::Discard(const std::string& key, MissionJournal::Callback removed) {
-  {
-    absl::MutexLock lock(&mutex_);
-    const absl::Status held =
-        nodes_ == nullptr ? absent_.CallFor(key) : sought_.CallFor(key, clock_());
-    if (!absl::IsDataLoss(held)) return MissionNotFound(MissionIdOf(key));
-  }
-  PLUMESCOUT_ASSIGN_OR_RETURN(const AcquiredMission stored, store_->Peek(key));
-  {
-    absl::MutexLock lock(&mutex_);
-    absent_.Erase(key);
-    sought_.Erase(key);
-  }
-  store_->Remove(key, stored.epoch, std::move(removed));
   return absl::OkStatus();
 }
 
@@ -366,12 +224,15 @@ void MissionRegistry::Reap(Hosts::iterator found, const absl::Status& status,
 void MissionRegistry::EndWaits(const absl::Status& status) {
   *closing_ = true;
   std::vector<std::shared_ptr<MissionHost>> hosts;
+  std::vector<RecoveryWaiters::Look> waiters;
   {
     absl::MutexLock lock(&mutex_);
     if (closed_.ok()) closed_ = status;
     for (const auto& [id, host] : hosts_) hosts.push_back(host);
+    waiters = waiters_.TakeAll();
   }
   for (const auto& host : hosts) host->EndWaits(status);
+  for (const auto& look : waiters) look();
 }
 
 void MissionRegistry::StopAll(const absl::Status& status) {

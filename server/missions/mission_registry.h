@@ -21,6 +21,7 @@
 #include "server/missions/mission_maker.h"
 #include "server/missions/mission_reaper.h"
 #include "server/missions/recovery_list.h"
+#include "server/missions/recovery_waiters.h"
 #include "server/missions/sought_missions.h"
 #include "server/store/mission_store.h"
 #include "server/store/store_nodes.h"
@@ -61,6 +62,12 @@ class MissionRegistry {
                                                     absl::string_view tenant = {});
   // The one of this name, whosever it is; kFailedPrecondition if several tenants have one.
   absl::StatusOr<std::shared_ptr<MissionHost>> FindOfAnyTenant(const MissionId& id);
+  // `look` is called once it is known what becomes of a mission that Find said is RECOVERING (key:
+  // AwaitedMission), on another thread, unless StopAwaiting comes before. 0 if that is known by
+  // now, or too many wait. Must not block.
+  RecoveryWaiters::Id AwaitAnswer(const std::string& key, RecoveryWaiters::Look look)
+      ABSL_LOCKS_EXCLUDED(mutex_);
+  void StopAwaiting(RecoveryWaiters::Id id) ABSL_LOCKS_EXCLUDED(mutex_);
   // At most `limit` missions whose keys come after `after`, of those that are `wanted`, in order
   // of key.
   std::vector<std::shared_ptr<MissionHost>> List(
@@ -115,6 +122,12 @@ class MissionRegistry {
   // Has snapshots taken of missions that other servers are soon to read, while they go on. False if
   // not all are stored by then.
   bool TakeSnapshots(SteadyTime deadline);
+  // Gives all missions to the other servers of the store, one after the other: what is asked of a
+  // mission meanwhile waits, until it is nobody's, and is then told (MISSION_ELSEWHERE) who is to
+  // have it. From now on the same is said of every mission that is not here. False if there is no
+  // other server: then nothing has changed. What is not given away by the deadline is dropped, or
+  // left to StopAll. Blocks.
+  bool HandOverAll(SteadyTime deadline);
   // MissionHost::EndWaits of all; no mission is made from then on.
   void EndWaits(const absl::Status& status);
   // All missions are off the list and stop; what is queued is dropped.
@@ -139,6 +152,11 @@ class MissionRegistry {
   void Remove(Hosts::iterator found, MissionJournal::Callback removed)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status CheckLease() const;
+  // Why no mission is made or recovered; OK if they are.
+  absl::Status Closed(const std::string& key) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void HandOver(const std::shared_ptr<MissionHost>& host, SteadyTime deadline);
+  void ReleaseSleeping();
+  void Release(const std::string& key, std::int64_t epoch);
   // Whether this server has had one lease since lives_ was this.
   absl::Status CheckLife(int life) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   // Of a mission that is not this server's, or not any more.
@@ -152,6 +170,7 @@ class MissionRegistry {
   // The life that it is of.
   absl::StatusOr<int> Reserve(const MissionId& id, const std::string& key, std::int64_t bytes)
       ABSL_LOCKS_EXCLUDED(mutex_);
+  absl::Status RecoverNow(const std::string& key, bool holds_name) ABSL_LOCKS_EXCLUDED(mutex_);
   absl::Status CheckRecovery(const std::string& key, bool holds_name) const
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status CheckName(const MissionId& id, const std::string& key) const
@@ -179,6 +198,9 @@ class MissionRegistry {
   int lives_ ABSL_GUARDED_BY(mutex_) = 0;  // leases that were lost
   std::function<void()> on_called_for_ ABSL_GUARDED_BY(mutex_) = [] {};
   std::vector<std::shared_ptr<MissionJournal>> journals_ ABSL_GUARDED_BY(mutex_);  // of StopAll
+  RecoveryWaiters waiters_ ABSL_GUARDED_BY(mutex_);
+  // Nodes that are to have our missions; none unless they are handed over.
+  std::vector<std::string> successors_ ABSL_GUARDED_BY(mutex_);
   // Seen by what is recovered; epochs of it may outlive us.
   const std::shared_ptr<std::atomic<bool>> closing_ = std::make_shared<std::atomic<bool>>(false);
 

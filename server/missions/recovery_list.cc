@@ -35,6 +35,11 @@ std::vector<SleepingMission> RecoveryList::TakeForgotten(SteadyTime now) {
   return forgotten;
 }
 
+bool RecoveryList::IsWaiting(const std::string& key) const {
+  const auto found = missions_.find(key);
+  return found != missions_.end() && found->second.held.ok() && !found->second.is_asleep;
+}
+
 std::vector<SleepingMission> RecoveryList::Sleeping() const {
   std::vector<SleepingMission> sleeping;
   for (const auto& [key, entry] : missions_) {

@@ -51,6 +51,8 @@ class RecoveryList {
   std::vector<SleepingMission> TakeForgotten(SteadyTime now);
 
   bool Contains(const std::string& key) const { return missions_.count(key) > 0; }
+  // Whether it is yet to be recovered.
+  bool IsWaiting(const std::string& key) const;
   std::vector<SleepingMission> Sleeping() const;
   // The one of this key, if it sleeps; null if it does not.
   const SleepingMission* FindAsleep(const std::string& key) const;

@@ -8,6 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "server/base/errors.h"
 #include "server/missions/recovery_list.h"
+#include "server/store/store_errors.h"
 
 namespace plumescout::server {
 
@@ -42,9 +43,11 @@ std::optional<std::string> SoughtMissions::Next() {
 void SoughtMissions::Settle(const std::string& key, const absl::Status& status, SteadyTime now) {
   const auto found = missions_.find(key);
   if (found == missions_.end()) return;
+  const absl::Duration holds =
+      NodeElsewhere(status).empty() ? options_.answer_holds : options_.elsewhere_holds;
   found->second = Entry{.is_asked_for = false,
                         .answer = status,
-                        .holds_until = After(now, options_.answer_holds),
+                        .holds_until = After(now, holds),
                         .unheard_until = After(now, options_.unheard_holds)};
 }
 

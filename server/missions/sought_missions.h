@@ -17,6 +17,9 @@ namespace plumescout::server {
 struct SoughtOptions {
   // How long an answer of the store holds.
   absl::Duration answer_holds = absl::Milliseconds(500);
+  // The same of a mission that another node has: as long as all take to hear it who waited for it.
+  // It may move at any time, and who is sent to the next node must not be sent back.
+  absl::Duration elsewhere_holds = absl::Milliseconds(20);
   // The same until somebody has heard it: longer than any caller waits who is to ask again. One
   // whose answer was gone each time that it came back would be told RECOVERING for ever.
   absl::Duration unheard_holds = absl::Seconds(10);

@@ -64,8 +64,8 @@ absl::Status IngestService::BatchIngest(const v1::BatchIngestObservationsRequest
 grpc::ServerUnaryReactor* IngestService::BatchIngestObservations(
     grpc::CallbackServerContext* context, const v1::BatchIngestObservationsRequest* request,
     v1::BatchIngestObservationsResponse* response) {
-  return UnaryCall::Start(context_.door, Rpc::kBatchIngestObservations, context,
-                          [&](const std::shared_ptr<UnaryCall>& call) {
+  return UnaryCall::Start(context_, Rpc::kBatchIngestObservations, context,
+                          [=, this](const std::shared_ptr<UnaryCall>& call) {
                             return BatchIngest(*request, response, call);
                           });
 }

@@ -109,16 +109,17 @@ grpc::ServerUnaryReactor* MapService::GetMap(grpc::CallbackServerContext* contex
                                              const grpc::ByteBuffer* request,
                                              grpc::ByteBuffer* response) {
   return UnaryCall::Start(
-      context_.door, Rpc::kGetMap, context,
-      [&](const std::shared_ptr<UnaryCall>& call) { return Get(*request, response, call); });
+      context_, Rpc::kGetMap, context,
+      [=, this](const std::shared_ptr<UnaryCall>& call) { return Get(*request, response, call); });
 }
 
 grpc::ServerUnaryReactor* MapService::QueryGas(grpc::CallbackServerContext* context,
                                                const v1::QueryGasRequest* request,
                                                v1::QueryGasResponse* response) {
-  return UnaryCall::Start(
-      context_.door, Rpc::kQueryGas, context,
-      [&](const std::shared_ptr<UnaryCall>& call) { return Query(*request, response, call); });
+  return UnaryCall::Start(context_, Rpc::kQueryGas, context,
+                          [=, this](const std::shared_ptr<UnaryCall>& call) {
+                            return Query(*request, response, call);
+                          });
 }
 
 grpc::ServerWriteReactor<grpc::ByteBuffer>* MapService::WatchMap(

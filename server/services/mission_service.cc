@@ -99,8 +99,10 @@ absl::Status MissionService::MakeNow(const v1::CreateMissionRequest& request,
 absl::Status MissionService::Create(const v1::CreateMissionRequest* request,
                                     v1::CreateMissionResponse* response,
                                     const std::shared_ptr<UnaryCall>& call) {
+  const absl::Status found = context_.FindMission(call->caller(), request->mission_id()).status();
+  if (!AwaitedMission(found).empty()) return found;  // it may be there
   // A mission that is gone again was not made, whatever was answered then.
-  if (absl::IsNotFound(context_.FindMission(call->caller(), request->mission_id()).status())) {
+  if (absl::IsNotFound(found)) {
     context_.requests->Forget(KeyOf(*call, request->request_id()));
   }
   return AnswerOnce(context_.requests, request->request_id(), *request, response, call,
@@ -227,16 +229,17 @@ absl::Status MissionService::Change(const std::string& name, v1::Mission& missio
 grpc::ServerUnaryReactor* MissionService::CreateMission(grpc::CallbackServerContext* context,
                                                         const v1::CreateMissionRequest* request,
                                                         v1::CreateMissionResponse* response) {
-  return UnaryCall::Start(
-      context_.door, Rpc::kCreateMission, context,
-      [&](const std::shared_ptr<UnaryCall>& call) { return Create(request, response, call); });
+  return UnaryCall::Start(context_, Rpc::kCreateMission, context,
+                          [=, this](const std::shared_ptr<UnaryCall>& call) {
+                            return Create(request, response, call);
+                          });
 }
 
 grpc::ServerUnaryReactor* MissionService::GetMission(grpc::CallbackServerContext* context,
                                                      const v1::GetMissionRequest* request,
                                                      v1::GetMissionResponse* response) {
-  return UnaryCall::Start(context_.door, Rpc::kGetMission, context,
-                          [&](const std::shared_ptr<UnaryCall>& call) {
+  return UnaryCall::Start(context_, Rpc::kGetMission, context,
+                          [=, this](const std::shared_ptr<UnaryCall>& call) {
                             return Get(*request, *response->mutable_mission(), call);
                           });
 }
@@ -244,24 +247,25 @@ grpc::ServerUnaryReactor* MissionService::GetMission(grpc::CallbackServerContext
 grpc::ServerUnaryReactor* MissionService::ListMissions(grpc::CallbackServerContext* context,
                                                        const v1::ListMissionsRequest* request,
                                                        v1::ListMissionsResponse* response) {
-  return UnaryCall::Start(
-      context_.door, Rpc::kListMissions, context,
-      [&](const std::shared_ptr<UnaryCall>& call) { return List(*request, *response, call); });
+  return UnaryCall::Start(context_, Rpc::kListMissions, context,
+                          [=, this](const std::shared_ptr<UnaryCall>& call) {
+                            return List(*request, *response, call);
+                          });
 }
 
 grpc::ServerUnaryReactor* MissionService::DeleteMission(grpc::CallbackServerContext* context,
                                                         const v1::DeleteMissionRequest* request,
                                                         v1::DeleteMissionResponse*) {
   return UnaryCall::Start(
-      context_.door, Rpc::kDeleteMission, context,
-      [&](const std::shared_ptr<UnaryCall>& call) { return Delete(*request, call); });
+      context_, Rpc::kDeleteMission, context,
+      [=, this](const std::shared_ptr<UnaryCall>& call) { return Delete(*request, call); });
 }
 
 grpc::ServerUnaryReactor* MissionService::UpdateMission(grpc::CallbackServerContext* context,
                                                         const v1::UpdateMissionRequest* request,
                                                         v1::UpdateMissionResponse* response) {
-  return UnaryCall::Start(context_.door, Rpc::kUpdateMission, context,
-                          [&](const std::shared_ptr<UnaryCall>& call) {
+  return UnaryCall::Start(context_, Rpc::kUpdateMission, context,
+                          [=, this](const std::shared_ptr<UnaryCall>& call) {
                             return Update(*request, *response->mutable_mission(), call);
                           });
 }
@@ -270,7 +274,7 @@ grpc::ServerUnaryReactor* MissionService::PauseMission(grpc::CallbackServerConte
                                                        const v1::PauseMissionRequest* request,
                                                        v1::PauseMissionResponse* response) {
   return UnaryCall::Start(
-      context_.door, Rpc::kPauseMission, context, [&](const std::shared_ptr<UnaryCall>& call) {
+      context_, Rpc::kPauseMission, context, [=, this](const std::shared_ptr<UnaryCall>& call) {
         return Change(request->name(), *response->mutable_mission(), call,
                       [](MissionHost& host, MissionWriter&) { return host.standing().Pause(); });
       });
@@ -280,7 +284,7 @@ grpc::ServerUnaryReactor* MissionService::ResumeMission(grpc::CallbackServerCont
                                                         const v1::ResumeMissionRequest* request,
                                                         v1::ResumeMissionResponse* response) {
   return UnaryCall::Start(
-      context_.door, Rpc::kResumeMission, context, [&](const std::shared_ptr<UnaryCall>& call) {
+      context_, Rpc::kResumeMission, context, [=, this](const std::shared_ptr<UnaryCall>& call) {
         return Change(request->name(), *response->mutable_mission(), call,
                       [](MissionHost& host, MissionWriter&) { return host.standing().Resume(); });
       });
@@ -290,7 +294,7 @@ grpc::ServerUnaryReactor* MissionService::FinishMission(grpc::CallbackServerCont
                                                         const v1::FinishMissionRequest* request,
                                                         v1::FinishMissionResponse* response) {
   return UnaryCall::Start(
-      context_.door, Rpc::kFinishMission, context, [&](const std::shared_ptr<UnaryCall>& call) {
+      context_, Rpc::kFinishMission, context, [=, this](const std::shared_ptr<UnaryCall>& call) {
         return Change(request->name(), *response->mutable_mission(), call, Finish);
       });
 }
@@ -325,9 +329,10 @@ absl::Status MissionService::KeepOut(const v1::ChangeKeepOutAreasRequest& reques
 grpc::ServerUnaryReactor* MissionService::ChangeKeepOutAreas(
     grpc::CallbackServerContext* context, const v1::ChangeKeepOutAreasRequest* request,
     v1::ChangeKeepOutAreasResponse* response) {
-  return UnaryCall::Start(
-      context_.door, Rpc::kChangeKeepOutAreas, context,
-      [&](const std::shared_ptr<UnaryCall>& call) { return KeepOut(*request, response, call); });
+  return UnaryCall::Start(context_, Rpc::kChangeKeepOutAreas, context,
+                          [=, this](const std::shared_ptr<UnaryCall>& call) {
+                            return KeepOut(*request, response, call);
+                          });
 }
 
 }  // namespace plumescout::server

@@ -127,9 +127,10 @@ absl::Status PlanningService::Search(const std::shared_ptr<MissionHost>& host, P
 grpc::ServerUnaryReactor* PlanningService::NextBestTrajectory(
     grpc::CallbackServerContext* context, const v1::NextBestTrajectoryRequest* request,
     v1::NextBestTrajectoryResponse* response) {
-  return UnaryCall::Start(
-      context_.door, Rpc::kNextBestTrajectory, context,
-      [&](const std::shared_ptr<UnaryCall>& call) { return Order(*request, response, call); });
+  return UnaryCall::Start(context_, Rpc::kNextBestTrajectory, context,
+                          [=, this](const std::shared_ptr<UnaryCall>& call) {
+                            return Order(*request, response, call);
+                          });
 }
 
 grpc::ServerWriteReactor<v1::StreamNextBestTrajectoryResponse>*
@@ -164,9 +165,10 @@ absl::Status PlanningService::Check(const v1::CheckTrajectoryRequest& request,
 grpc::ServerUnaryReactor* PlanningService::CheckTrajectory(
     grpc::CallbackServerContext* context, const v1::CheckTrajectoryRequest* request,
     v1::CheckTrajectoryResponse* response) {
-  return UnaryCall::Start(
-      context_.door, Rpc::kCheckTrajectory, context,
-      [&](const std::shared_ptr<UnaryCall>& call) { return Check(*request, response, call); });
+  return UnaryCall::Start(context_, Rpc::kCheckTrajectory, context,
+                          [=, this](const std::shared_ptr<UnaryCall>& call) {
+                            return Check(*request, response, call);
+                          });
 }
 
 absl::Status PlanningService::List(const v1::ListFrontiersRequest& request,
@@ -194,8 +196,8 @@ grpc::ServerUnaryReactor* PlanningService::ListFrontiers(grpc::CallbackServerCon
                                                          const v1::ListFrontiersRequest* request,
                                                          v1::ListFrontiersResponse* response) {
   return UnaryCall::Start(
-      context_.door, Rpc::kListFrontiers, context,
-      [&](const std::shared_ptr<UnaryCall>& call) { return List(*request, response, call); });
+      context_, Rpc::kListFrontiers, context,
+      [=, this](const std::shared_ptr<UnaryCall>& call) { return List(*request, response, call); });
 }
 
 absl::Status PlanningService::Report(const v1::ReportProgressRequest& request,
@@ -226,9 +228,10 @@ absl::Status PlanningService::Report(const v1::ReportProgressRequest& request,
 grpc::ServerUnaryReactor* PlanningService::ReportProgress(grpc::CallbackServerContext* context,
                                                           const v1::ReportProgressRequest* request,
                                                           v1::ReportProgressResponse* response) {
-  return UnaryCall::Start(
-      context_.door, Rpc::kReportProgress, context,
-      [&](const std::shared_ptr<UnaryCall>& call) { return Report(*request, response, call); });
+  return UnaryCall::Start(context_, Rpc::kReportProgress, context,
+                          [=, this](const std::shared_ptr<UnaryCall>& call) {
+                            return Report(*request, response, call);
+                          });
 }
 
 absl::Status PlanningService::ListLive(const v1::ListPlansRequest& request,
@@ -260,9 +263,10 @@ absl::Status PlanningService::ListLive(const v1::ListPlansRequest& request,
 grpc::ServerUnaryReactor* PlanningService::ListPlans(grpc::CallbackServerContext* context,
                                                      const v1::ListPlansRequest* request,
                                                      v1::ListPlansResponse* response) {
-  return UnaryCall::Start(
-      context_.door, Rpc::kListPlans, context,
-      [&](const std::shared_ptr<UnaryCall>& call) { return ListLive(*request, response, call); });
+  return UnaryCall::Start(context_, Rpc::kListPlans, context,
+                          [=, this](const std::shared_ptr<UnaryCall>& call) {
+                            return ListLive(*request, response, call);
+                          });
 }
 
 }  // namespace plumescout::server

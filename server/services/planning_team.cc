@@ -61,9 +61,10 @@ absl::Status PlanningService::SearchTeam(const std::shared_ptr<MissionHost>& hos
 grpc::ServerUnaryReactor* PlanningService::PlanTeam(grpc::CallbackServerContext* context,
                                                     const v1::PlanTeamRequest* request,
                                                     v1::PlanTeamResponse* response) {
-  return UnaryCall::Start(
-      context_.door, Rpc::kPlanTeam, context,
-      [&](const std::shared_ptr<UnaryCall>& call) { return OrderTeam(*request, response, call); });
+  return UnaryCall::Start(context_, Rpc::kPlanTeam, context,
+                          [=, this](const std::shared_ptr<UnaryCall>& call) {
+                            return OrderTeam(*request, response, call);
+                          });
 }
 
 }  // namespace plumescout::server

@@ -79,9 +79,10 @@ absl::Status RobotService::Join(const std::shared_ptr<MissionHost>& host, const 
 grpc::ServerUnaryReactor* RobotService::RegisterRobot(grpc::CallbackServerContext* context,
                                                       const v1::RegisterRobotRequest* request,
                                                       v1::RegisterRobotResponse* response) {
-  return UnaryCall::Start(
-      context_.door, Rpc::kRegisterRobot, context,
-      [&](const std::shared_ptr<UnaryCall>& call) { return Register(*request, response, call); });
+  return UnaryCall::Start(context_, Rpc::kRegisterRobot, context,
+                          [=, this](const std::shared_ptr<UnaryCall>& call) {
+                            return Register(*request, response, call);
+                          });
 }
 
 absl::Status RobotService::Remove(const v1::RemoveRobotRequest& request,
@@ -111,9 +112,10 @@ absl::Status RobotService::Remove(const v1::RemoveRobotRequest& request,
 grpc::ServerUnaryReactor* RobotService::RemoveRobot(grpc::CallbackServerContext* context,
                                                     const v1::RemoveRobotRequest* request,
                                                     v1::RemoveRobotResponse* response) {
-  return UnaryCall::Start(
-      context_.door, Rpc::kRemoveRobot, context,
-      [&](const std::shared_ptr<UnaryCall>& call) { return Remove(*request, response, call); });
+  return UnaryCall::Start(context_, Rpc::kRemoveRobot, context,
+                          [=, this](const std::shared_ptr<UnaryCall>& call) {
+                            return Remove(*request, response, call);
+                          });
 }
 
 absl::Status RobotService::Get(const v1::GetRobotRequest& request, v1::GetRobotResponse* response,
@@ -134,8 +136,8 @@ grpc::ServerUnaryReactor* RobotService::GetRobot(grpc::CallbackServerContext* co
                                                  const v1::GetRobotRequest* request,
                                                  v1::GetRobotResponse* response) {
   return UnaryCall::Start(
-      context_.door, Rpc::kGetRobot, context,
-      [&](const std::shared_ptr<UnaryCall>& call) { return Get(*request, response, call); });
+      context_, Rpc::kGetRobot, context,
+      [=, this](const std::shared_ptr<UnaryCall>& call) { return Get(*request, response, call); });
 }
 
 absl::Status RobotService::List(const v1::ListRobotsRequest& request,
@@ -163,8 +165,8 @@ grpc::ServerUnaryReactor* RobotService::ListRobots(grpc::CallbackServerContext* 
                                                    const v1::ListRobotsRequest* request,
                                                    v1::ListRobotsResponse* response) {
   return UnaryCall::Start(
-      context_.door, Rpc::kListRobots, context,
-      [&](const std::shared_ptr<UnaryCall>& call) { return List(*request, response, call); });
+      context_, Rpc::kListRobots, context,
+      [=, this](const std::shared_ptr<UnaryCall>& call) { return List(*request, response, call); });
 }
 
 absl::Status RobotService::Release(const v1::ReleaseLeaseRequest& request,
@@ -186,8 +188,8 @@ grpc::ServerUnaryReactor* RobotService::ReleaseLease(grpc::CallbackServerContext
                                                      const v1::ReleaseLeaseRequest* request,
                                                      v1::ReleaseLeaseResponse*) {
   return UnaryCall::Start(
-      context_.door, Rpc::kReleaseLease, context,
-      [&](const std::shared_ptr<UnaryCall>& call) { return Release(*request, call); });
+      context_, Rpc::kReleaseLease, context,
+      [=, this](const std::shared_ptr<UnaryCall>& call) { return Release(*request, call); });
 }
 
 absl::Status RobotService::Order(const v1::OrderHomeRequest& request,
@@ -221,9 +223,10 @@ absl::Status RobotService::Order(const v1::OrderHomeRequest& request,
 grpc::ServerUnaryReactor* RobotService::OrderHome(grpc::CallbackServerContext* context,
                                                   const v1::OrderHomeRequest* request,
                                                   v1::OrderHomeResponse* response) {
-  return UnaryCall::Start(
-      context_.door, Rpc::kOrderHome, context,
-      [&](const std::shared_ptr<UnaryCall>& call) { return Order(*request, response, call); });
+  return UnaryCall::Start(context_, Rpc::kOrderHome, context,
+                          [=, this](const std::shared_ptr<UnaryCall>& call) {
+                            return Order(*request, response, call);
+                          });
 }
 
 grpc::ServerWriteReactor<v1::WatchRobotResponse>* RobotService::WatchRobot(

@@ -46,9 +46,10 @@ grpc::ServerReadReactor<v1::ImportMissionRequest>* SnapshotService::ImportMissio
 grpc::ServerUnaryReactor* SnapshotService::GetMissionHistory(
     grpc::CallbackServerContext* context, const v1::GetMissionHistoryRequest* request,
     v1::GetMissionHistoryResponse* response) {
-  return UnaryCall::Start(
-      context_.door, Rpc::kGetMissionHistory, context,
-      [&](const std::shared_ptr<UnaryCall>& call) { return History(*request, response, call); });
+  return UnaryCall::Start(context_, Rpc::kGetMissionHistory, context,
+                          [=, this](const std::shared_ptr<UnaryCall>& call) {
+                            return History(*request, response, call);
+                          });
 }
 
 }  // namespace plumescout::server

@@ -71,15 +71,16 @@ grpc::ServerUnaryReactor* SystemService::GetServerInfo(grpc::CallbackServerConte
                                                        const v1::GetServerInfoRequest*,
                                                        v1::GetServerInfoResponse* response) {
   return UnaryCall::Start(
-      context_.door, Rpc::kGetServerInfo, context,
-      [&](const std::shared_ptr<UnaryCall>& call) { return Tell(*response, call); });
+      context_, Rpc::kGetServerInfo, context,
+      [=, this](const std::shared_ptr<UnaryCall>& call) { return Tell(*response, call); });
 }
 
 grpc::ServerUnaryReactor* SystemService::DrainServer(grpc::CallbackServerContext* context,
                                                      const v1::DrainServerRequest*,
                                                      v1::DrainServerResponse*) {
-  return UnaryCall::Start(context_.door, Rpc::kDrainServer, context,
-                          [&](const std::shared_ptr<UnaryCall>& call) { return Drain(call); });
+  return UnaryCall::Start(
+      context_, Rpc::kDrainServer, context,
+      [=, this](const std::shared_ptr<UnaryCall>& call) { return Drain(call); });
 }
 
 }  // namespace plumescout::server

@@ -40,10 +40,7 @@ absl::StatusOr<std::unique_ptr<PostgresNodes>> PostgresNodes::Join(
 }
 
 PostgresNodes::~PostgresNodes() {
-  {
-    absl::MutexLock lock(&mutex_);
-    stopping_ = true;
-  }
+  stop_.Stop();
   if (thread_.joinable()) thread_.join();
   if (lease() == 0 || !Connect(After(SteadyNow(), kAskTimeout)).ok()) return;
   PostgresStatement leave("DELETE FROM plumescout_node WHERE id = $1");
@@ -163,11 +160,8 @@ absl::Status PostgresNodes::JoinAgain() {
 void PostgresNodes::Run() {
   while (true) {
     const bool is_held = lease() != 0;
-    {
-      absl::MutexLock lock(&mutex_);
-      const absl::Duration wait = is_held ? std::min(period(), Until(lease_until_)) : period();
-      if (mutex_.AwaitWithTimeout(absl::Condition(&stopping_), wait)) return;
-    }
+    const SteadyTime next = After(SteadyNow(), period());
+    if (stop_.AwaitStop(is_held ? std::min(next, lease_until()) : next)) return;
     const absl::Status status = is_held ? Renew() : JoinAgain();
     if (!status.ok()) connection_ = nullptr;
     if (!is_held) continue;

@@ -17,6 +17,7 @@
 #include "absl/strings/string_view.h"
 #include "absl/synchronization/mutex.h"
 #include "absl/time/time.h"
+#include "server/base/stop_signal.h"
 #include "server/store/postgres_connection.h"
 #include "server/store/postgres_pool.h"
 #include "server/store/store_nodes.h"
@@ -85,11 +86,11 @@ class PostgresNodes final : public StoreNodes {
   std::unique_ptr<PostgresConnection> connection_;  // of the thread; null after an error
   std::int64_t old_lease_ = 0;  // of the thread: lost, perhaps not forgotten yet
 
+  StopSignal stop_;
   mutable absl::Mutex mutex_;
   std::int64_t lease_ ABSL_GUARDED_BY(mutex_) = 0;
   SteadyTime lease_until_ ABSL_GUARDED_BY(mutex_) = SteadyTime::min();
   absl::Status status_ ABSL_GUARDED_BY(mutex_);
-  bool stopping_ ABSL_GUARDED_BY(mutex_) = false;
 
   absl::Mutex on_lost_mutex_;  // held while it is called
   OnLost on_lost_ ABSL_GUARDED_BY(on_lost_mutex_);

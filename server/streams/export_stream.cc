@@ -21,7 +21,7 @@ constexpr absl::Duration kPoolRetry = absl::Milliseconds(50);
 ExportStream* ExportStream::Start(const ServiceContext* context, grpc::CallbackServerContext* call,
                                   const v1::ExportMissionRequest& request) {
   const auto stream = std::make_shared<ExportStream>(context);
-  stream->Run(Rpc::kExportMission, *call, [&] { return stream->Begin(request); });
+  stream->Run(Rpc::kExportMission, *call, [stream, &request] { return stream->Begin(request); });
   return stream.get();
 }
 
@@ -75,11 +75,6 @@ void ExportStream::Open(const ExportPoint& point) {
                                {"caller", visit_.caller().name},
                                {"request_id", visit_.info().request_id}});
   MakeNext();
-}
-
-bool ExportStream::HasEnded() {
-  absl::MutexLock lock(&mutex_);
-  return has_ended();
 }
 
 void ExportStream::MakeNext() {

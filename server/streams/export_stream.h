@@ -36,7 +36,6 @@ class ExportStream final : public WriteStream<v1::ExportMissionResponse> {
   // On the pool, one at a time.
   void Open(const ExportPoint& point);
   void MakeNext();
-  bool HasEnded() ABSL_LOCKS_EXCLUDED(mutex_);
   void SubmitNext();
   // Has `ring` run then, unless the stream is gone or another alarm was set.
   void SetAlarm(absl::Duration wait, std::function<void(ExportStream&)> ring)

@@ -9,6 +9,7 @@
 #include "core/types/status_macros.h"
 #include "proto/convert/field.h"
 #include "server/base/grpc_status.h"
+#include "server/calls/patient_attempt.h"
 #include "server/streams/ingest_frames.h"
 
 namespace plumescout::server {
@@ -75,7 +76,7 @@ void IngestStream::OnDone() {
 absl::Status IngestStream::HandleFrame() {
   switch (request_.frame_case()) {
     case v1::StreamObservationsRequest::kOpen:
-      return Open(request_.open());
+      return BeginOpen();
     case v1::StreamObservationsRequest::kBatch:
       return TakeBatch(request_.batch());
     case v1::StreamObservationsRequest::FRAME_NOT_SET:
@@ -84,8 +85,38 @@ absl::Status IngestStream::HandleFrame() {
   return FieldError("frame", "must be one of open, batch");
 }
 
-absl::Status IngestStream::Open(const v1::OpenIngest& open) {
+absl::Status IngestStream::BeginOpen() {
   if (host_ != nullptr) return FieldError("open", "must come once, as the first frame");
+  {
+    absl::MutexLock lock(&mutex_);
+    opening_ = true;
+  }
+  const auto self = shared_from_this();
+  AttemptPatiently(
+      context_, visit_.info().deadline,
+      [self] {
+        // Who is gone must not take the place of a stream that came since.
+        return self->HasEnded() ? absl::OkStatus() : self->Open(self->request_.open());
+      },
+      [self](const absl::Status& status) { self->OpenTried(status); });
+  return absl::OkStatus();
+}
+
+bool IngestStream::HasEnded() {
+  absl::MutexLock lock(&mutex_);
+  return end_.has_value();
+}
+
+void IngestStream::OpenTried(const absl::Status& status) {
+  {
+    absl::MutexLock lock(&mutex_);
+    opening_ = false;
+    if (!status.ok()) SetEnd(status, /*flush=*/true);
+  }
+  Pump();
+}
+
+absl::Status IngestStream::Open(const v1::OpenIngest& open) {
   PLUMESCOUT_ASSIGN_OR_RETURN(robot_, ParseRobotName("open.robot", open.robot()));
   PLUMESCOUT_ASSIGN_OR_RETURN(host_, context_.FindMissionOf(visit_.caller(), robot_));
   PLUMESCOUT_RETURN_IF_ERROR(host_->CheckMayWrite());
@@ -262,7 +293,7 @@ void IngestStream::Pump() {
 }
 
 StreamPump::Operation IngestStream::NextOperation() {
-  if (finished_) return nullptr;
+  if (finished_ || opening_) return nullptr;
   const bool broken_off = end_.has_value() && !flush_;
   // Who says that it has sent everything hears that it is durable.
   const bool over = end_.has_value() || (half_closed_ && !awaits_durable_);

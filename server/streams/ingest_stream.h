@@ -46,7 +46,11 @@ class IngestStream final
 
  private:
   absl::Status HandleFrame();
+  // Sees to it that the mission is there, now or soon.
+  absl::Status BeginOpen();
   absl::Status Open(const v1::OpenIngest& open);
+  bool HasEnded() ABSL_LOCKS_EXCLUDED(mutex_);
+  void OpenTried(const absl::Status& status) ABSL_LOCKS_EXCLUDED(mutex_);
   absl::Status TakeBatch(const v1::ObservationBatch& batch);
   // The batch that waits has room.
   void PostBatch(IngestRoom::Hold room) ABSL_LOCKS_EXCLUDED(mutex_);
@@ -87,6 +91,7 @@ class IngestStream final
   absl::Mutex mutex_;
   StreamPump pump_;
   v1::StreamObservationsResponse response_ ABSL_GUARDED_BY(mutex_);  // in flight if writing_
+  bool opening_ ABSL_GUARDED_BY(mutex_) = false;                     // as if it was being read
   bool opened_ ABSL_GUARDED_BY(mutex_) = false;
   bool reading_ ABSL_GUARDED_BY(mutex_) = false;
   bool paused_ ABSL_GUARDED_BY(mutex_) = false;     // until the alarm

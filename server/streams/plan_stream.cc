@@ -11,6 +11,7 @@
 #include "proto/convert/names.h"
 #include "proto/convert/plan.h"
 #include "server/base/grpc_status.h"
+#include "server/calls/patient_attempt.h"
 #include "server/streams/plan_order_from_proto.h"
 
 namespace plumescout::server {
@@ -20,11 +21,27 @@ PlanStream* PlanStream::Start(const ServiceContext* context, grpc::CallbackServe
   auto stream = std::make_shared<PlanStream>(context);
   stream->self_ = stream;
   context->streams->Add(stream);
-  absl::Status status = stream->visit_.Enter(*context->door, Rpc::kStreamNextBestTrajectory, *call);
+  const absl::Status entered =
+      stream->visit_.Enter(*context->door, Rpc::kStreamNextBestTrajectory, *call);
   context->streams->LetIn(stream.get(), stream->visit_.info().recheck);
-  if (status.ok()) status = stream->Order(request);
-  if (!status.ok()) stream->End(status);
+  if (!entered.ok()) {
+    stream->Ordered(entered);
+    return stream.get();
+  }
+  AttemptPatiently(
+      *context, stream->visit_.info().deadline,
+      [stream, &request] { return stream->Order(request); },
+      [stream](const absl::Status& status) { stream->Ordered(status); });
   return stream.get();
+}
+
+void PlanStream::Ordered(const absl::Status& status) {
+  {
+    absl::MutexLock lock(&mutex_);
+    ordering_ = false;
+  }
+  if (!status.ok()) return End(status);
+  Pump();
 }
 
 absl::Status PlanStream::Order(const v1::StreamNextBestTrajectoryRequest& request) {
@@ -118,7 +135,7 @@ void PlanStream::Pump() {
 }
 
 StreamPump::Operation PlanStream::NextOperation() {
-  if (finished_ || writing_) return nullptr;
+  if (finished_ || ordering_ || writing_) return nullptr;
   if (waiting_.has_value()) {
     in_flight_ = *std::exchange(waiting_, std::nullopt);
     if (end_.has_value()) {

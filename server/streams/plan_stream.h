@@ -40,6 +40,7 @@ class PlanStream final : public grpc::ServerWriteReactor<v1::StreamNextBestTraje
 
  private:
   absl::Status Order(const v1::StreamNextBestTrajectoryRequest& request);
+  void Ordered(const absl::Status& status);
   void Offer(const Plan& plan);
   void Conclude(const absl::StatusOr<PlanAnswer>& answer);
   // Starts whatever can start now: a write, or the finish.
@@ -56,6 +57,7 @@ class PlanStream final : public grpc::ServerWriteReactor<v1::StreamNextBestTraje
   std::shared_ptr<PlanJob> job_ ABSL_GUARDED_BY(mutex_);  // until OnDone; holds this stream in turn
   std::optional<v1::StreamNextBestTrajectoryResponse> waiting_ ABSL_GUARDED_BY(mutex_);
   v1::StreamNextBestTrajectoryResponse in_flight_;  // while writing_
+  bool ordering_ ABSL_GUARDED_BY(mutex_) = true;    // the request is there meanwhile
   bool writing_ ABSL_GUARDED_BY(mutex_) = false;
   bool finished_ ABSL_GUARDED_BY(mutex_) = false;
   // OK: what waits is the last plan.

@@ -15,7 +15,7 @@ RobotWatchStream* RobotWatchStream::Start(const ServiceContext* context,
                                           grpc::CallbackServerContext* call,
                                           const v1::WatchRobotRequest& request) {
   const auto stream = std::make_shared<RobotWatchStream>(context);
-  stream->Run(Rpc::kWatchRobot, *call, [&] { return stream->Subscribe(request); });
+  stream->Run(Rpc::kWatchRobot, *call, [stream, &request] { return stream->Subscribe(request); });
   return stream.get();
 }
 

@@ -29,7 +29,7 @@ absl::StatusOr<double> SpeedOf(const v1::WatchMapRequest& request) {
 WatchStream* WatchStream::Start(const ServiceContext* context, grpc::CallbackServerContext* call,
                                 const grpc::ByteBuffer& request) {
   const auto stream = std::make_shared<WatchStream>(context);
-  stream->Run(Rpc::kWatchMap, *call, [&] { return stream->Subscribe(request); });
+  stream->Run(Rpc::kWatchMap, *call, [stream, &request] { return stream->Subscribe(request); });
   return stream.get();
 }
 

@@ -8,12 +8,14 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "absl/base/thread_annotations.h"
 #include "absl/status/status.h"
 #include "absl/synchronization/mutex.h"
 #include "server/base/grpc_status.h"
 #include "server/calls/active_streams.h"
+#include "server/calls/patient_attempt.h"
 #include "server/calls/service_context.h"
 #include "server/streams/stream_pump.h"
 
@@ -53,16 +55,24 @@ class WriteStream : public grpc::ServerWriteReactor<Message>,
  protected:
   explicit WriteStream(const ServiceContext* context) : context_(*context) {}
 
-  // Has the caller let in, and then the stream begin; an error ends it. REQUIRES: called once, by
-  // who holds the stream.
-  void Run(Rpc rpc, grpc::CallbackServerContext& call, const std::function<absl::Status()>& begin) {
+  // Has the caller let in, and then the stream begin (see AttemptPatiently); an error ends it.
+  // REQUIRES: called once, by who holds the stream.
+  void Run(Rpc rpc, grpc::CallbackServerContext& call, std::function<absl::Status()> begin) {
     self_ = this->shared_from_this();
     call_ = &call;
     context_.streams->Add(self_);
-    absl::Status status = visit_.Enter(*context_.door, rpc, call);
+    const absl::Status entered = visit_.Enter(*context_.door, rpc, call);
     context_.streams->LetIn(this, visit_.info().recheck);
-    if (status.ok()) status = begin();
-    if (!status.ok()) End(status);
+    if (!entered.ok()) return End(entered);
+    {
+      absl::MutexLock lock(&mutex_);
+      beginning_ = true;
+    }
+    const auto self = self_;
+    AttemptPatiently(
+        context_, visit_.info().deadline,
+        [self, begin = std::move(begin)] { return self->HasEnded() ? absl::OkStatus() : begin(); },
+        [self](const absl::Status& status) { self->Begun(status); });
   }
 
   // Starts whatever can start now.
@@ -100,6 +110,10 @@ class WriteStream : public grpc::ServerWriteReactor<Message>,
     Pump();
   }
   bool has_ended() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) { return end_.has_value(); }
+  bool HasEnded() ABSL_LOCKS_EXCLUDED(mutex_) {
+    absl::MutexLock lock(&mutex_);
+    return end_.has_value();
+  }
   // gRPC is done with the stream: lets go of what it works on.
   virtual void LetGo() = 0;
 
@@ -108,8 +122,16 @@ class WriteStream : public grpc::ServerWriteReactor<Message>,
   absl::Mutex mutex_;
 
  private:
+  void Begun(const absl::Status& status) ABSL_LOCKS_EXCLUDED(mutex_) {
+    {
+      absl::MutexLock lock(&mutex_);
+      beginning_ = false;
+    }
+    if (!status.ok()) return End(status);
+    Pump();
+  }
   StreamPump::Operation Next() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
-    if (finished_ || writing_ || hanging_up_) return nullptr;
+    if (finished_ || beginning_ || writing_ || hanging_up_) return nullptr;
     if (!end_.has_value()) return NextOperation();
     finished_ = true;
     return [this, status = *end_] {
@@ -121,6 +143,8 @@ class WriteStream : public grpc::ServerWriteReactor<Message>,
   StreamPump pump_;
   std::shared_ptr<WriteStream> self_;            // until OnDone
   grpc::CallbackServerContext* call_ = nullptr;  // as long
+  // What the stream begins with is there until that has succeeded or failed for good.
+  bool beginning_ ABSL_GUARDED_BY(mutex_) = false;
   bool writing_ ABSL_GUARDED_BY(mutex_) = false;
   std::int64_t write_count_ ABSL_GUARDED_BY(mutex_) = 0;
   bool hanging_up_ ABSL_GUARDED_BY(mutex_) = false;

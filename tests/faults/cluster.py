@@ -13,6 +13,9 @@ robots in four missions. scripts/cluster builds and runs it.
                      etcd-server, which scripts/cluster then installs
   --kill-primary-every S
                      so often its primary is killed, with its Patroni, until another has its place
+  --split-primary-every S
+                     so often its primary hears nothing from etcd, its standby, or both, while servers
+                     reach it
   --proxies N        routers, 1 or 2: the second has the nodes in another order, and half of the robots
   --nodes N          servers, 1 to 3; if there are faults, n2's clock is an hour
                      ahead
@@ -43,6 +46,7 @@ import running
 from cluster_parts import LEASE_S, OWNERS, Node, Router, Waits, cpu_s, percentile
 
 KINDS = ("kill", "pause", "cut", "roll")
+DATABASE_KINDS = {"primary": "kill_primary_every", "split": "split_primary_every"}
 CLOCKS = {"n1": 0, "n2": 3600, "n3": 0}  # how far each server's wall clock is off, in seconds
 SHOW_S = 5.0
 
@@ -141,7 +145,7 @@ class Cluster:
         )
 
     def fault(self, kind, node, chance, rows=None):
-        """One of KINDS, or of the database: "primary". Returns once all robots have gone on. rows: who
+        """One of KINDS, or of DATABASE_KINDS. Returns once all robots have gone on. rows: who
         has which mission, if that is known."""
         owners = [name for _, name, *_ in rows or self.database.ask(OWNERS)]
         owned = owners if node is self.database else [n for n in owners if n == node.name]
@@ -214,13 +218,15 @@ class Cluster:
         waits = sorted(self.waits_s) or [0.0]
         verdict = f"{len(breaches)} BREACHES" if breaches else "0 lost, 0 doubled, 0 forks"
         plans_s = [wait for robot in self.team for wait in robot.plan_waits_s]
+        slowest_s, told = max(robot.slowest_plan for robot in self.team)
         failures = sum((robot.route.failures for robot in self.team), collections.Counter())
         return (
             f"{self.faults} faults, {self.owner_faults} of them to who had missions; {sum(r.durable for r in self.team)} observations were "
             f"acknowledged, {self.told.count('plan')} plans answered, "
             f"{sum(r.route.redirects for r in self.team)} redirects; robots that a fault hit waited "
             f"{waits[len(waits) // 2]:.2f} s (p50), {waits[-1]:.2f} s (max); plans were waited for "
-            f"{percentile(plans_s, 0.5):.2f} s (p50), {percentile(plans_s, 0.99):.2f} s (p99); calls "
+            f"{percentile(plans_s, 0.5):.3f} s (p50), {percentile(plans_s, 0.99):.3f} s (p99), "
+            f"{slowest_s:.3f} s (max, told before: {', '.join(told) or 'nothing'}); calls "
             f"that ended otherwise: {dict(failures)}: {verdict}"
         )
 
@@ -247,16 +253,17 @@ def main():
         parser.add_argument(f"--{name}", type=int, default=standard)
     parser.add_argument("--database", choices=("single", "patroni"), default="single")
     parser.add_argument("--kill-primary-every", type=float)
+    parser.add_argument("--split-primary-every", type=float)
     parser.add_argument("--pause", type=float, default=0.06)
     parser.add_argument("--plan-pause", type=float, default=0.2)
     parser.add_argument("--seed", type=int, default=int(time.time()) % 1_000_000)
     arguments = parser.parse_args()
     chance = random.Random(arguments.seed)
     periods = {kind: getattr(arguments, f"{kind}_every") for kind in KINDS}
-    periods["primary"] = arguments.kill_primary_every
+    periods |= {kind: getattr(arguments, option) for kind, option in DATABASE_KINDS.items()}
     kinds = {kind: period_s for kind, period_s in periods.items() if period_s}
-    if "primary" in kinds and arguments.database != "patroni":
-        parser.error("--kill-primary-every: there is no standby but with --database patroni")
+    if DATABASE_KINDS.keys() & kinds.keys() and arguments.database != "patroni":
+        parser.error("there is no primary with a standby but with --database patroni")
     shape = Shape(
         *(getattr(arguments, name) for name in ("nodes", "proxies", "robots", "missions", "pause")),
         plan_pause_s=arguments.plan_pause,
@@ -272,7 +279,7 @@ def main():
         while time.monotonic() - begin < arguments.seconds:
             if kind := due(kinds, begin, done):
                 turn = cluster.nodes[done[kind] % shape.nodes]
-                others = cluster.database if kind == "primary" else chance.choice(cluster.nodes)
+                others = cluster.database if kind in DATABASE_KINDS else chance.choice(cluster.nodes)
                 cluster.fault(kind, turn if kind == "roll" else others, chance)
             if time.monotonic() - shown > SHOW_S:
                 cluster.show()

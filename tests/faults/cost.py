@@ -3,7 +3,8 @@
 """What an event costs a cluster on this machine: the CPU of servers, router and database while simulated
 robots map a building through the router, as fast as it goes. `scripts/cluster cost` builds and runs it.
 
-  --missions N     how many at once
+  --missions N     how many, each begun when the one before has
+  --at-once        begun all at once
   --robots N       in each
   --duration S     simulated time of each
   --nodes N        servers, 1 to 3
@@ -59,7 +60,7 @@ class Cluster:
 
 
 def start_team(cluster, number, arguments, folder):
-    """A mission's robots. Returns their process once the mission has begun."""
+    """A mission's robots. Returns their process, once the mission has begun unless all begin at once."""
     command = [running.BUILD_DIR / "bin/plumescout-lab", "robot", "--scene", arguments.scene]
     command += ["--server", cluster.router.target, "--mission", f"mission-{number}"]
     command += ["--robots", arguments.robots, "--seed", number, "--duration", arguments.duration]
@@ -67,6 +68,8 @@ def start_team(cluster, number, arguments, folder):
     log = folder / f"team-{number}.log"
     with open(log, "wb") as file:
         process = subprocess.Popen(list(map(str, command)), stdout=file, stderr=file)
+    if arguments.at_once:
+        return process
     begun = lambda: b"simulated" in log.read_bytes() or process.poll() is not None
     running.await_that(begun, "the mission has begun", PATIENCE_S)
     return process
@@ -76,16 +79,22 @@ def run(cluster, arguments, folder):
     """Prints what was spent. Returns whether all missions came to their end."""
     before, began = cluster.cpu_s(), time.monotonic()
     missions = range(1, arguments.missions + 1)
-    teams = [start_team(cluster, number, arguments, folder) for number in missions]
+    teams, most = [], 0
+    for number in missions:
+        teams.append(start_team(cluster, number, arguments, folder))
+        most = max(most, sum(team.poll() is None for team in teams))
     codes = [team.wait() for team in teams]
+    for number, code in zip(missions, codes):
+        if code != 0:
+            print(f"mission {number}: {(folder / f'team-{number}.log').read_text().splitlines()[-1:]}")
     spent = {part: value - before[part] for part, value in cluster.cpu_s().items()}
     events, writes = cluster.count(EVENTS)
     each = ", ".join(f"{part} {1e6 * value / events:.0f}" for part, value in spent.items())
     share = (spent["HAProxy"] + spent["PostgreSQL"]) / spent["servers"]
     early = sum(code != 0 for code in codes)
     print(
-        f"{events} events in {writes} writes and {time.monotonic() - began:.0f} s, {early} missions "
-        f"ended early; microseconds of CPU an event: {each}; router and database {share:.1%} of the "
+        f"{events} events in {writes} writes and {time.monotonic() - began:.0f} s, at most {most} "
+        f"missions at one time, {early} ended early; microseconds of CPU an event: {each}; router and database {share:.1%} of the "
         "servers"
     )
     return early == 0
@@ -101,6 +110,7 @@ def main():
     for name, standard in (("missions", 24), ("robots", 4), ("nodes", 3)):
         parser.add_argument(f"--{name}", type=int, default=standard)
     parser.add_argument("--duration", type=float, default=20)
+    parser.add_argument("--at-once", action="store_true")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="plumescout-cost-") as name:
         folder = pathlib.Path(name)

@@ -11,6 +11,7 @@ import subprocess
 import time
 import urllib.request
 
+import fault_proxy
 import postgres
 import running
 
@@ -21,20 +22,22 @@ CONFIGURATIONS = running.ROOT / "deploy/cluster"
 
 class Machine:
     """One of the database: Patroni, which starts and minds PostgreSQL. start: runs a command as who
-    PostgreSQL is."""
+    PostgreSQL is. It reaches etcd by a link of its own, and its standby reaches it by another."""
 
     def __init__(self, name, folder, etcd, start):
         self.name, self.port, self.rest_port = name, running.free_port(), running.free_port()
         self._data, self._start, self._process = folder / name, start, None
         rest, database = f"127.0.0.1:{self.rest_port}", f"127.0.0.1:{self.port}"
+        self.links = {"etcd": fault_proxy.Proxy(etcd), "standby": fault_proxy.Proxy(database)}
         self._environment = dict(
             os.environ,
             PATRONI_NAME=name,
-            PATRONI_ETCD3_HOSTS=etcd,
+            PATRONI_ETCD3_HOSTS=self.links["etcd"].target,
+            PATRONI_ETCD3_USE_PROXIES="true",  # and not what etcd says where it is
             PATRONI_RESTAPI_LISTEN=rest,
             PATRONI_RESTAPI_CONNECT_ADDRESS=rest,
             PATRONI_POSTGRESQL_LISTEN=database,
-            PATRONI_POSTGRESQL_CONNECT_ADDRESS=database,
+            PATRONI_POSTGRESQL_CONNECT_ADDRESS=self.links["standby"].target,
             PATRONI_POSTGRESQL_DATA_DIR=str(self._data),
             PATRONI_SUPERUSER_USERNAME=postgres.USER,
             PATRONI_SUPERUSER_PASSWORD=PASSWORD,
@@ -69,6 +72,8 @@ class Machine:
             self._process.wait(timeout=30)
         except subprocess.TimeoutExpired:
             self.kill()
+        for link in self.links.values():
+            link.stop()
 
 
 class Patroni:
@@ -142,16 +147,39 @@ class Patroni:
     def primary(self, chance, while_down):
         """A fault: the primary's machine is gone, and comes back once another has its place."""
         del chance
-        running.await_that(self._has_standby, "there is a standby again", 180)
-        primary = next(machine for machine in self._machines if machine.is_primary())
+        primary = self._await_primary()
         began = time.monotonic()
         primary.kill()
-        others = [machine for machine in self._machines if machine is not primary]
-        running.await_that(lambda: any(m.is_primary() for m in others), "another is primary", 120)
-        print(f"{primary.name} is gone; another is primary after {time.monotonic() - began:.1f} s")
+        self._await_another(primary, "is gone", began)
         while_down()
         print(f"all robots go on {time.monotonic() - began:.1f} s after it was gone", flush=True)
         primary.start()
+
+    def split(self, chance, while_down):
+        """A fault: the primary's machine hears nothing any more from etcd, its standby, or both, while
+        servers reach it, until they go on."""
+        primary = self._await_primary()
+        cut = chance.choice((("etcd",), ("standby",), ("etcd", "standby")))
+        began = time.monotonic()
+        for name in cut:
+            primary.links[name].set_state("half_open")
+        if "etcd" in cut:
+            self._await_another(primary, f"is cut from {' and '.join(cut)}", began)
+        while_down()
+        passed_s = time.monotonic() - began
+        print(f"all robots go on {passed_s:.1f} s after the cut from {' and '.join(cut)}", flush=True)
+        for name in cut:
+            primary.links[name].set_state("up")
+
+    def _await_primary(self):
+        running.await_that(self._has_standby, "there is a standby again", 180)
+        return next(machine for machine in self._machines if machine.is_primary())
+
+    def _await_another(self, primary, what, began):
+        others = [machine for machine in self._machines if machine is not primary]
+        running.await_that(lambda: any(m.is_primary() for m in others), "another is primary", 120)
+        passed_s = time.monotonic() - began
+        print(f"{primary.name} {what}; another is primary after {passed_s:.1f} s", flush=True)
 
     def pids(self):
         return [process.pid for process in (self._front, self._etcd)] + [

@@ -28,6 +28,8 @@ OUTCOMES = {
     "aborted": planning_pb.ReportProgressRequest.OUTCOME_ABORTED,
 }
 CALL_S = 3.0
+PLAN_AGAIN_S = 0.2
+MAX_REDIRECTS = 3  # followed at once, as clients do
 # Reasons that go with a server that has just come back, or is busy.
 PASSING = frozenset(
     {
@@ -57,10 +59,9 @@ class Route(grpc.UnaryUnaryClientInterceptor, grpc.StreamStreamClientInterceptor
         self.failures[bed.reason_of(error) or error.code().name] += 1
         if bed.reason_of(error) == "MISSION_ELSEWHERE":
             owner = dict(error.trailing_metadata() or ()).get("x-owner")
-            new = owner is not None and owner != self._node
-            self.redirects += new
+            self.redirects += owner is not None
             self._node = owner
-            return new
+            return owner is not None
         if bed.reason_of(error) in ("", "DRAINING", "FENCED", "STORE_UNAVAILABLE"):
             self._node = None
         return False
@@ -196,7 +197,7 @@ class Outbox:
 class Robot:
     """One robot of a mission, on two threads: one streams, one plans. What it does not expect is in
     `breaches`. limit: it has no more observations than that. plan_waits_s: of each plan, from when it
-    was asked for first until it was there."""
+    was asked for first until it was there; slowest_plan: the longest, and what it was told before."""
 
     def __init__(
         self,
@@ -217,12 +218,14 @@ class Robot:
         self.streams = 0  # opened
         self.plans = 0
         self.plan_waits_s = []
+        self.slowest_plan = (0.0, [])
         self.breaches = []
         self.last_acknowledged_s = None  # of the monotonic clock: when durable last grew
         self._mission = mission
         self._answers = answers
         self._period_s = period_s
         self._plan_period_s = plan_period_s
+        self._told = []  # reasons, since then
         self._asked_s = None  # when the plan that is not there yet was asked for first
         self.resource = f"missions/{mission}/robots/{self.name}"
         self._log_epoch = random.getrandbits(52) + 1
@@ -302,7 +305,8 @@ class Robot:
                 self._stream_once()
             except grpc.RpcError as error:
                 self._note_end(error)
-                self._reconnect()
+                if bed.reason_of(error) != "MISSION_ELSEWHERE":  # plans may be under way on it
+                    self._reconnect()
             self._stopping.wait(0.05)
 
     def _reconnect(self):
@@ -342,15 +346,21 @@ class Robot:
             self._call.cancel()
 
     def _plan(self):
-        while not self._stopping.wait(0.2 if self._asked_s else self._plan_period_s):
+        wait_s, redirects = self._plan_period_s, 0
+        while not self._stopping.wait(wait_s):
+            wait_s = self._plan_period_s
             if self._token == 0:
                 continue
             try:
                 self._plan_once()
+                redirects = 0
             except ValueError:
+                wait_s = PLAN_AGAIN_S
                 continue  # the channel was closed meanwhile
             except grpc.RpcError as error:
-                self.route.note(error)
+                follows = self.route.note(error) and redirects < MAX_REDIRECTS
+                redirects, wait_s = (redirects + 1, 0.0) if follows else (0, PLAN_AGAIN_S)
+                self._told.append(bed.reason_of(error) or error.code().name)
                 # No map yet, or the other thread has registered meanwhile.
                 expected = error.code() == grpc.StatusCode.FAILED_PRECONDITION
                 if not (expected or is_passing(error) or self._stopping.is_set()):
@@ -364,7 +374,8 @@ class Robot:
         self._asked_s = self._asked_s or time.monotonic()
         plan = self._stubs.planning.NextBestTrajectory(request, timeout=CALL_S).plan
         self.plan_waits_s.append(time.monotonic() - self._asked_s)
-        self._asked_s = None
+        self.slowest_plan = max(self.slowest_plan, (self.plan_waits_s[-1], self._told))
+        self._asked_s, self._told = None, []
         number = int(plan.name.rsplit("/", 1)[-1])
         self.plans += 1
         self._answers.note("plan", self._mission, number, self.name)

@@ -25,6 +25,11 @@ class SharedStore : public HeldStore, public StoreNodes {
     absl::MutexLock lock(&nodes_mutex_);
     owners_[key] = node;
   }
+  // Another server, which lives.
+  void AddNode(const std::string& name) {
+    absl::MutexLock lock(&nodes_mutex_);
+    living_.push_back({name, "127.0.0.1:2"});
+  }
   void SetLeaseUntil(SteadyTime until) {
     absl::MutexLock lock(&nodes_mutex_);
     lease_until_ = until;
@@ -60,7 +65,8 @@ class SharedStore : public HeldStore, public StoreNodes {
     on_lost_ = std::move(on_lost);
   }
   absl::StatusOr<std::vector<StoreNode>> ListLiving() override {
-    return std::vector<StoreNode>{self_};
+    absl::MutexLock lock(&nodes_mutex_);
+    return living_;
   }
   absl::StatusOr<std::optional<std::string>> FindOwner(const std::string& key) override {
     absl::MutexLock lock(&nodes_mutex_);
@@ -78,6 +84,7 @@ class SharedStore : public HeldStore, public StoreNodes {
   const StoreNode self_ = {"n1", "127.0.0.1:1"};
   mutable absl::Mutex nodes_mutex_;
   std::map<std::string, std::string> owners_ ABSL_GUARDED_BY(nodes_mutex_);
+  std::vector<StoreNode> living_ ABSL_GUARDED_BY(nodes_mutex_) = {self_};
   std::map<std::string, std::int64_t> released_ ABSL_GUARDED_BY(nodes_mutex_);
   SteadyTime lease_until_ ABSL_GUARDED_BY(nodes_mutex_) = SteadyTime::max();
   OnLost on_lost_ ABSL_GUARDED_BY(nodes_mutex_);

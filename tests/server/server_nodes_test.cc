@@ -132,6 +132,13 @@ TEST_F(ServerNodesTest, WithTheLeaseItStopsServing) {
   EXPECT_EQ(Get("yard").owner, "n2");
 }
 
+TEST_F(ServerNodesTest, WhoIsDrainedHandsItsMissionsOver) {
+  store_.AddNode("n2");
+  ASSERT_TRUE(Get("yard").status.ok());
+  server_->Drain();
+  EXPECT_EQ(store_.released(), (std::map<std::string, std::int64_t>{{"yard", 2}}));
+}
+
 TEST_F(ServerNodesTest, WhoIsDrainedReleasesItsMissions) {
   ASSERT_TRUE(Get("yard").status.ok());
   server_->Drain();

@@ -43,6 +43,17 @@ TEST(ErrorsTest, NothingButDetailsOfGoogleRpcGoesOverTheWire) {
   EXPECT_EQ(ToProto(WithErrorInfo(reasoned)).details_size(), 2);
 }
 
+TEST(ErrorsTest, WhichMissionIsAwaitedStaysHere) {
+  const absl::Status awaited = WithAwaitedMission(Recovering("hall"), "acme/hall");
+  EXPECT_EQ(AwaitedMission(awaited), "acme/hall");
+  EXPECT_EQ(AwaitedMission(Recovering("hall")), "");
+  EXPECT_EQ(AwaitedMission(WithAwaitedMission(MissionNotFound("hall"), "hall")), "");
+  const absl::Status told = WithErrorInfo(awaited);
+  EXPECT_EQ(AwaitedMission(told), "");
+  EXPECT_EQ(Reason(told), "RECOVERING");
+  EXPECT_EQ(RetryDelay(told), absl::Milliseconds(500));
+}
+
 TEST(ErrorsTest, HoleInALogTellsTheNumberExpected) {
   const absl::Status status =
       WithErrorInfo(absl::FailedPreconditionError("SEQUENCE_GAP: expected 7, got 9"));

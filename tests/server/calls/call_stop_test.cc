@@ -13,6 +13,7 @@
 #include "absl/synchronization/notification.h"
 #include "plumescout/v1/system_service.grpc.pb.h"
 #include "server/calls/door.h"
+#include "server/calls/service_context.h"
 #include "tests/server/host_parts.h"
 #include "tests/server/service_clients.h"
 
@@ -22,10 +23,11 @@ namespace call_stop_test {
 // Hands each call over to the test.
 class HeldService final : public v1::SystemService::CallbackService {
  public:
+  HeldService() { context_.door = &door_; }
   grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context,
                                           const v1::GetServerInfoRequest*,
                                           v1::GetServerInfoResponse*) override {
-    return UnaryCall::Start(&door_, Rpc::kGetServerInfo, context,
+    return UnaryCall::Start(context_, Rpc::kGetServerInfo, context,
                             [&](const std::shared_ptr<UnaryCall>& call) {
                               call_.set_value(call);
                               return absl::OkStatus();
@@ -35,6 +37,7 @@ class HeldService final : public v1::SystemService::CallbackService {
 
  private:
   const Door door_;
+  ServiceContext context_;
   std::promise<std::shared_ptr<UnaryCall>> call_;
 };
 

@@ -119,6 +119,7 @@ TEST_F(UnaryCallTest, WaitEndsWithTheServerAndSaysWhenToRetry) {
 class ScriptedService final : public v1::SystemService::CallbackService {
  public:
   explicit ScriptedService(UnaryCall::Handler script) : script_(std::move(script)) {
+    context_.door = &door_;
     grpc::ServerBuilder builder;
     builder.RegisterService(this);
     server_ = builder.BuildAndStart();
@@ -128,7 +129,7 @@ class ScriptedService final : public v1::SystemService::CallbackService {
   grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context,
                                           const v1::GetServerInfoRequest*,
                                           v1::GetServerInfoResponse*) override {
-    return UnaryCall::Start(&door_, Rpc::kGetServerInfo, context, script_);
+    return UnaryCall::Start(context_, Rpc::kGetServerInfo, context, script_);
   }
   absl::Status Ask() {
     const auto stub =
@@ -141,6 +142,7 @@ class ScriptedService final : public v1::SystemService::CallbackService {
 
  private:
   const Door door_;
+  ServiceContext context_;
   const UnaryCall::Handler script_;
   std::unique_ptr<grpc::Server> server_;
 };

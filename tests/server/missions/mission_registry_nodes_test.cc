@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <future>
 #include <iterator>
 #include <memory>
 #include <string>
 
 #include "absl/synchronization/notification.h"
 #include "core/types/error_reason.h"
+#include "server/base/errors.h"
 #include "server/missions/mission_registry.h"
 #include "tests/server/fake_nodes.h"
 #include "tests/server/stored_run.h"
@@ -139,6 +141,79 @@ TEST_F(MissionRegistryNodesTest, WhatOthersAreToReadIsShortened) {
   ASSERT_FALSE(snapshots.empty());
   EXPECT_GT(snapshots[0].revision, std::ssize(support::RoomRun())) << "all that was observed";
   EXPECT_TRUE(host->CheckMayWrite().ok()) << "it goes on";
+}
+
+TEST_F(MissionRegistryNodesTest, NothingIsHandedOverToNobody) {
+  ASSERT_TRUE(registry_->Create("hall", {}).ok());
+  EXPECT_FALSE(registry_->HandOverAll(SteadyTime::max()));
+  EXPECT_TRUE(registry_->Find("hall").ok());
+  EXPECT_TRUE(registry_->Create("yard", {}).ok());
+}
+
+TEST_F(MissionRegistryNodesTest, WhoAsksWhileAMissionMovesWaitsAndIsToldWhoHasItNext) {
+  store_.AddNode("n2");
+  const auto host = registry_->Create("hall", {}).value();
+  store_.Hold();
+  ASSERT_TRUE(host->Post([](MissionWriter& writer) {
+                    EXPECT_TRUE(writer.conduct().Register({"r1", 0.2, 1}).ok());
+                  })
+                  .ok());
+  store_.AwaitHeld(1);
+  auto moved =
+      std::async(std::launch::async, [this] { return registry_->HandOverAll(SteadyTime::max()); });
+  // The writer rests once it waits for what it did before to be durable.
+  while (host->journal().next_deadline() == SteadyTime::max()) {
+  }
+  std::promise<absl::Status> told;
+  EXPECT_TRUE(host->Post([](MissionWriter&) { ADD_FAILURE() << "it rests"; },
+                         [&](const absl::Status& status) { told.set_value(status); })
+                  .ok());
+  EXPECT_TRUE(store_.released().empty()) << "not all is durable";
+  store_.HeldStore::Release();
+  EXPECT_TRUE(moved.get());
+  EXPECT_EQ(NodeElsewhere(told.get_future().get()), "n2");
+  EXPECT_EQ(store_.released(), (std::map<std::string, std::int64_t>{{"hall", 1}}));
+  EXPECT_EQ(store_.Peek("hall")->head, 1);
+  EXPECT_EQ(NodeElsewhere(registry_->Find("hall").status()), "n2");
+}
+
+TEST_F(MissionRegistryNodesTest, WhoHandsItsMissionsOverTakesNoOthers) {
+  store_.AddNode("n2");
+  Put("yard");
+  ASSERT_TRUE(CallFor("yard").ok());
+  now_ += std::chrono::minutes(2);
+  EXPECT_TRUE(registry_->SleepIdle().empty()) << "not all is settled";
+  while (registry_->SleepIdle().empty()) {
+  }
+  Put("attic");
+  EXPECT_EQ(ErrorReason(registry_->Find("attic").status()), reason::kRecovering);
+  EXPECT_TRUE(registry_->HandOverAll(SteadyTime::max()));
+  EXPECT_EQ(store_.released(), (std::map<std::string, std::int64_t>{{"yard", 2}}));
+  EXPECT_TRUE(registry_->RecoverNext()) << "it was asked for before";
+  EXPECT_EQ(store_.Peek("attic")->epoch, 1);
+  for (const char* key : {"yard", "attic", "cellar"}) {
+    EXPECT_EQ(NodeElsewhere(registry_->Find(key).status()), "n2");
+    EXPECT_EQ(NodeElsewhere(registry_->Create(key, {}).status()), "n2");
+  }
+}
+
+TEST_F(MissionRegistryNodesTest, WhatDoesNotComeToRestIsDropped) {
+  store_.AddNode("n2");
+  const auto host = registry_->Create("hall", {}).value();
+  store_.Hold();
+  ASSERT_TRUE(host->Post([](MissionWriter& writer) {
+                    EXPECT_TRUE(writer.conduct().Register({"r1", 0.2, 1}).ok());
+                  })
+                  .ok());
+  EXPECT_TRUE(registry_->HandOverAll(SteadyNow()));
+  EXPECT_TRUE(store_.released().empty());
+  EXPECT_EQ(ErrorReason(host->Post([](MissionWriter&) {})), reason::kDraining);
+  store_.HeldStore::Release();
+  registry_->StopAll(absl::UnavailableError("over"));
+  EXPECT_TRUE(registry_->AwaitStopped(SteadyTime::max()));
+  EXPECT_TRUE(registry_->AwaitStored(SteadyTime::max()));
+  registry_->ReleaseAll();
+  EXPECT_EQ(store_.released(), (std::map<std::string, std::int64_t>{{"hall", 1}}));
 }
 
 TEST_F(MissionRegistryNodesTest, MissionsAreReleasedOnceAllHaveStopped) {

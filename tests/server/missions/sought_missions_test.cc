@@ -25,15 +25,27 @@ TEST(SoughtMissionsTest, AnAnswerHoldsForAWhile) {
   EXPECT_EQ(sought.Next(), "hall");
   EXPECT_EQ(sought.Next(), std::nullopt) << "once is enough";
   EXPECT_EQ(ErrorReason(sought.CallFor("hall", kNow)), reason::kRecovering);
-  const absl::Status elsewhere = MissionElsewhere("hall", "n2");
-  sought.Settle("hall", elsewhere, kNow);
-  EXPECT_EQ(sought.CallFor("hall", kNow + milliseconds(499)), elsewhere);
+  const absl::Status damaged = absl::DataLossError("it is damaged");
+  sought.Settle("hall", damaged, kNow);
+  EXPECT_EQ(sought.CallFor("hall", kNow + milliseconds(499)), damaged);
   EXPECT_EQ(sought.Next(), std::nullopt);
   EXPECT_EQ(ErrorReason(sought.CallFor("hall", kNow + milliseconds(500))), reason::kRecovering);
-  EXPECT_EQ(sought.Next(), "hall") << "its owner may live no more";
+  EXPECT_EQ(sought.Next(), "hall") << "it may be mended";
   sought.Erase("hall");
-  sought.Settle("hall", elsewhere, kNow);
+  sought.Settle("hall", damaged, kNow);
   EXPECT_EQ(ErrorReason(sought.CallFor("hall", kNow)), reason::kRecovering);
+}
+
+TEST(SoughtMissionsTest, WhereAMissionIsHoldsForThoseOnlyWhoWaitedForIt) {
+  SoughtMissions sought({.elsewhere_holds = absl::Milliseconds(20)});
+  EXPECT_EQ(ErrorReason(sought.CallFor("hall", kNow)), reason::kRecovering);
+  EXPECT_EQ(sought.Next(), "hall");
+  const absl::Status elsewhere = MissionElsewhere("hall", "n2");
+  sought.Settle("hall", elsewhere, kNow);
+  EXPECT_EQ(sought.CallFor("hall", kNow), elsewhere);
+  EXPECT_EQ(sought.CallFor("hall", kNow + milliseconds(19)), elsewhere);
+  EXPECT_EQ(ErrorReason(sought.CallFor("hall", kNow + milliseconds(20))), reason::kRecovering)
+      << "it may have moved";
 }
 
 TEST(SoughtMissionsTest, AnAnswerWaitsForWhoComesBackLate) {

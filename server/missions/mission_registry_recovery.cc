@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+// Of the mission registry: missions that the store has and that do not run.
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "core/mission/conduct/conduct_errors.h"
+#include "core/types/status_macros.h"
+#include "server/base/errors.h"
+#include "server/base/log.h"
+#include "server/missions/mission_registry.h"
+#include "server/store/store_errors.h"
+
+namespace plumescout::server {
+namespace {
+
+// What is said of a mission that could not be recovered.
+absl::Status HeldWith(const std::string& key, const absl::Status& why) {
+  if (absl::IsNotFound(why)) return MissionNotFound(MissionIdOf(key));
+  const bool passes = absl::IsUnavailable(why) || absl::IsResourceExhausted(why);
+  return passes ? why : MissionDamaged(MissionIdOf(key), why.message());
+}
+
+// `host`: null if it was not recovered.
+void LogRecovery(const std::string& key, const MissionHost* host, const absl::Status& status,
+                 SteadyTime::duration time) {
+  if (host != nullptr) {
+    LogInfo("mission recovered",
+            {{"mission", key},
+             {"revision", absl::StrCat(host->summary().revision)},
+             {"took_ms", absl::StrCat(absl::ToInt64Milliseconds(absl::FromChrono(time)))}});
+  } else if (!absl::IsCancelled(status) && !absl::IsNotFound(status) &&
+             NodeElsewhere(status).empty()) {
+    LogError("mission not recovered", {{"mission", key}, {"why", std::string(status.message())}});
+  }
+}
+
+}  // namespace
+
+absl::Status MissionRegistry::FindStored() {
+  if (store_ == nullptr || nodes_ != nullptr) return absl::OkStatus();
+  PLUMESCOUT_ASSIGN_OR_RETURN(std::vector<StoredMission> stored, store_->List());
+  std::stable_sort(stored.begin(), stored.end(),
+                   [](const auto& a, const auto& b) { return a.head > b.head; });
+  absl::MutexLock lock(&mutex_);
+  for (const StoredMission& mission : stored) {
+    if (hosts_.contains(mission.key)) continue;
+    if (may_sleep() && !CheckCount().ok()) {
+      absent_.AddAsleep({.key = mission.key, .epoch = mission.epoch, .head = mission.head});
+    } else {
+      absent_.Add(mission);
+    }
+  }
+  return absl::OkStatus();
+}
+
+void MissionRegistry::SetOnCalledFor(std::function<void()> on_called_for) {
+  absl::MutexLock lock(&mutex_);
+  on_called_for_ = std::move(on_called_for);
+}
+
+bool MissionRegistry::RecoverNext() {
+  std::optional<std::string> key;
+  {
+    absl::MutexLock lock(&mutex_);
+    if (!closed_.ok()) return false;
+    key = sought_.Next();
+    if (!key.has_value()) key = absent_.Next();
+  }
+  if (!key.has_value()) return false;
+  Recover(*key).IgnoreError();  // it is logged, and told to whoever calls for the mission
+  return true;
+}
+
+absl::Status MissionRegistry::CheckRecovery(const std::string& key, bool holds_name) const {
+  const absl::Status closed = Closed(key);
+  if (!closed.ok() || holds_name) return closed;
+  if (hosts_.contains(key) || being_made_.contains(key)) return MissionExists(MissionIdOf(key));
+  return absent_.Contains(key) ? absl::OkStatus() : CheckCount();
+}
+
+absl::Status MissionRegistry::Recover(const std::string& key, bool holds_name) {
+  if (store_ == nullptr) return absl::FailedPreconditionError("the server keeps no missions");
+  const absl::Status recovered = RecoverNow(key, holds_name);
+  std::vector<RecoveryWaiters::Look> waiters;
+  {
+    absl::MutexLock lock(&mutex_);
+    waiters = waiters_.TakeOf(key);
+  }
+  for (const auto& look : waiters) look();
+  return recovered;
+}
+
+absl::Status MissionRegistry::RecoverNow(const std::string& key, bool holds_name) {
+  bool is_new = false;
+  int life = 0;
+  {
+    absl::MutexLock lock(&mutex_);
+    const absl::Status may = CheckRecovery(key, holds_name);
+    if (!may.ok()) sought_.Settle(key, may, clock_());
+    PLUMESCOUT_RETURN_IF_ERROR(may);
+    life = lives_;
+    is_new = !absent_.Contains(key);
+    if (is_new && !holds_name) being_made_.insert(key);
+  }
+  const SteadyTime began = SteadyNow();
+  auto host = maker_.Revive(key, [closing = closing_] { return closing->load(); });
+  absl::Status status = host.status();
+  {
+    absl::MutexLock lock(&mutex_);
+    if (!holds_name) being_made_.erase(key);
+    status.Update(closed_);
+    status.Update(CheckLife(life));
+    if (status.ok()) {
+      sought_.Erase(key);
+      absent_.Erase(key);
+      hosts_.emplace(key, *host);
+      reserved_bytes_ += (*host)->options().memory_budget_bytes;
+    } else if (nodes_ != nullptr) {
+      absent_.Erase(key);
+      sought_.Settle(key, HeldWith(key, status), clock_());
+    } else if (closed_.ok() && !is_new) {
+      const bool sleeps_on = absl::IsUnavailable(status) && absent_.SleepOn(key);
+      if (!sleeps_on) absent_.Hold(key, HeldWith(key, status));
+    }
+  }
+  LogRecovery(key, host.ok() ? host->get() : nullptr, status, SteadyNow() - began);
+  return status;
+}
+
+std::vector<AbsentMission> MissionRegistry::ListAbsent(const std::string& after) const {
+  absl::MutexLock lock(&mutex_);
+  return absent_.After(after);
+}
+
+AbsentCounts MissionRegistry::absent() const {
+  absl::MutexLock lock(&mutex_);
+  const int waking = absent_.woken();
+  return {absent_.waiting() - waking, absent_.held(), absent_.asleep(), waking};
+}
+
+RecoveryWaiters::Id MissionRegistry::AwaitAnswer(const std::string& key,
+                                                 RecoveryWaiters::Look look) {
+  absl::MutexLock lock(&mutex_);
+  const bool is_pending =
+      sought_.IsAskedFor(key) || being_made_.contains(key) || absent_.IsWaiting(key);
+  return is_pending && closed_.ok() ? waiters_.Add(key, std::move(look)) : 0;
+}
+
+void MissionRegistry::StopAwaiting(RecoveryWaiters::Id id) {
+  RecoveryWaiters::Look look;  // nobody lets go of it under the lock
+  absl::MutexLock lock(&mutex_);
+  look = waiters_.Take(id);
+}
+
+absl::Status MissionRegistry::CallForAbsent(const std::string& key) {
+  if (const SleepingMission* const sleeping = absent_.FindAsleep(key)) {
+    PLUMESCOUT_RETURN_IF_ERROR(CheckCount());
+    PLUMESCOUT_RETURN_IF_ERROR(CheckMemory("the mission", sleeping->memory_bytes));
+    const absl::Status called = absent_.CallFor(key);
+    on_called_for_();
+    return called;
+  }
+  return absent_.CallFor(key);
+}
+
+absl::Status MissionRegistry::Discard(const std::string& key, MissionJournal::Callback removed) {
+  {
+    absl::MutexLock lock(&mutex_);
+    const absl::Status held =
+        nodes_ == nullptr ? absent_.CallFor(key) : sought_.CallFor(key, clock_());
+    if (!absl::IsDataLoss(held)) return MissionNotFound(MissionIdOf(key));
+  }
+  PLUMESCOUT_ASSIGN_OR_RETURN(const AcquiredMission stored, store_->Peek(key));
+  {
+    absl::MutexLock lock(&mutex_);
+    absent_.Erase(key);
+    sought_.Erase(key);
+  }
+  store_->Remove(key, stored.epoch, std::move(removed));
+  return absl::OkStatus();
+}
+
+}  // namespace plumescout::server
