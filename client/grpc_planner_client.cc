@@ -210,7 +210,8 @@ class GrpcPlannerClient final : public PlannerClient {
     request.set_plan(PlanResource({session.mission, plan}));
     request.set_outcome(ToProto(outcome));
     v1::ReportProgressResponse response;
-    return link_->Call(planning_, &v1::PlanningService::Stub::ReportProgress, request, &response);
+    return link_->CallNamed(planning_, &v1::PlanningService::Stub::ReportProgress, request,
+                            &response);
   }
 
   absl::StatusOr<std::unique_ptr<RobotWatch>> WatchRobot(const RobotSession& session) override {

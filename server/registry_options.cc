@@ -20,6 +20,7 @@ RateOptions ToRateOptions(const LimitConfig& limits) {
 RegistryOptions ToRegistryOptions(const ServerConfig& config, std::int64_t first_lease_token) {
   RegistryOptions options;
   options.max_missions = config.limits.max_missions;
+  options.max_missions_per_tenant = config.limits.max_missions_per_tenant;
   options.memory_budget_bytes = config.limits.memory_budget_bytes;
   options.mission_memory_budget_bytes = config.limits.mission_memory_budget_bytes;
   options.max_map_cell_count = config.limits.max_map_cell_count;

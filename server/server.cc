@@ -71,6 +71,8 @@ FairPoolOptions ToPlanningPoolOptions(const PlanningConfig& config) {
 
 // Who looks on has what robots leave of the CPU: plans, and what they wait for, go first.
 constexpr bool kYields = true;
+// Looks at the past take seconds, and do not keep anybody from what is now.
+constexpr int kPastThreads = 1;
 // Audits are rare and nobody waits for them: one thread does for all missions.
 constexpr int kAuditThreads = 1;
 // Snapshots are packed in milliseconds, and nobody waits for them.
@@ -80,6 +82,21 @@ constexpr absl::Duration kLongestSettling = absl::Seconds(2);
 constexpr absl::Duration kRoutersNotice = absl::Milliseconds(400);
 // Missions are created now and then; those with large known maps take a second, beside the others.
 constexpr int kCreationThreads = 1;
+
+// Of callers who ask at the same time each has its turns.
+FairPoolOptions ToViewersPoolOptions(const std::string& name, int threads,
+                                     const MapConfig& config) {
+  FairPoolOptions options;
+  options.name = name;
+  options.threads = threads;
+  options.max_queued = config.max_queued_queries;
+  options.max_queued_per_group = options.max_queued_per_member =
+      std::max(1, options.max_queued / 2);
+  options.max_running_per_group = options.max_running_per_member = threads;
+  options.groups_leave_room = true;
+  options.yields = kYields;
+  return options;
+}
 
 ServiceLimits ToServiceLimits(const ServerConfig& config) {
   ServiceLimits limits;
@@ -188,25 +205,23 @@ Server::Server(Private, const ServerConfig& config, RegistryHooks hooks,
                          &snapshot_pool_, recorder_.get(), &metrics_.missions())),
       planning_pool_(ToPlanningPoolOptions(config.planning)),
       map_pool_({"map", config.maps.threads, config.maps.max_queued, kYields}),
-      query_pool_({"query", config.maps.query_threads, config.maps.max_queued_queries, kYields}),
+      query_pool_(ToViewersPoolOptions("query", config.maps.query_threads, config.maps)),
+      past_pool_(ToViewersPoolOptions("past", kPastThreads, config.maps)),
       creation_pool_({"creation", kCreationThreads, config.limits.max_missions, kYields}),
       history_(store_ == nullptr
                    ? nullptr
                    : std::make_unique<History>(store_, &registry_, ToImportLimits(config))),
-      door_([authenticator = std::move(authenticator)](const grpc::CallbackServerContext& call) {
-        return IdentityOf(authenticator, ReadCredentials(call));
-      }),
-      context_{&door_,
-               &registry_,
-               &planning_pool_,
-               &map_pool_,
-               &query_pool_,
-               &creation_pool_,
-               &streams_,
-               config.mission,
-               ToServiceLimits(config),
-               NewBootId(),
-               std::make_shared<RequestMemory>(),
+      door_(
+          [authenticator = std::move(authenticator)](const grpc::CallbackServerContext& call) {
+            return IdentityOf(authenticator, ReadCredentials(call));
+          },
+          CallRateOptions{config.limits.max_calls_per_s, config.limits.max_costly_calls_per_s}),
+      context_{&door_,          &registry_,
+               &planning_pool_, &map_pool_,
+               &query_pool_,    &past_pool_,
+               &creation_pool_, &streams_,
+               config.mission,  ToServiceLimits(config),
+               NewBootId(),     std::make_shared<RequestMemory>(),
                history_.get()},
       mission_service_(&context_),
       robot_service_(&context_),
@@ -380,9 +395,9 @@ std::string Server::MetricsText() const {
   ServerState state;
   state.missions = &registry_;
   state.streams = &streams_;
-  state.pools = {planning_pool_.load(), map_pool_.load(),   query_pool_.load(),
-                 creation_pool_.load(), epoch_pool_.load(), audit_pool_.load(),
-                 snapshot_pool_.load()};
+  state.pools = {planning_pool_.load(), map_pool_.load(),      query_pool_.load(),
+                 past_pool_.load(),     creation_pool_.load(), epoch_pool_.load(),
+                 audit_pool_.load(),    snapshot_pool_.load()};
   state.boot_id = context_.boot_id;
   state.began = began_;
   state.max_missions = config_.limits.max_missions;

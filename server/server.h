@@ -109,7 +109,8 @@ class Server {
   MissionRegistry registry_;
   FairPool planning_pool_;
   WorkerPool map_pool_;
-  WorkerPool query_pool_;
+  FairPool query_pool_;
+  FairPool past_pool_;
   WorkerPool creation_pool_;
   const std::unique_ptr<History> history_;  // null without a store
   ActiveStreams streams_;

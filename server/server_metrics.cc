@@ -153,6 +153,9 @@ void ReadMissionCounts(const ServerState& state, Hosts& hosts, Readings& reading
 void ReadMissionMemory(const ServerState& state, const Hosts& hosts, Readings& readings) {
   readings.Gauge("plumescout_memory_budget_bytes", "What all missions together may come to hold.");
   readings.Add(state.memory_budget_bytes);
+  readings.Gauge("plumescout_memory_reserved_bytes",
+                 "What of it is taken: missions are refused by this, not by what they hold.");
+  readings.Add(state.missions->reserved_bytes());
   readings.Gauge("plumescout_mission_memory_bytes", "What the mission holds, as it reckons.");
   for (const auto& host : hosts) readings.Add(host->summary().memory_bytes, LabelsOf(*host));
   readings.Gauge("plumescout_mission_memory_budget_bytes", "What the mission may come to hold.");

@@ -54,7 +54,8 @@ struct RpcRow {
   absl::string_view method;
   bool robot;
   bool viewer;
-  bool op;  // operator; admins may do everything
+  bool op;         // operator; admins may do everything
+  bool is_costly;  // takes a good part of a second of a core where missions are large
 };
 
 // In the order of Rpc.

@@ -9,6 +9,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "server/base/errors.h"
+#include "server/base/thread_priority.h"
 
 namespace plumescout::server {
 namespace {
@@ -19,15 +20,43 @@ typename Map::iterator NextInTurn(Map& map, const std::string& last, const Wante
   auto it = map.upper_bound(last);
   for (std::size_t i = 0; i < map.size(); ++i) {
     if (it == map.end()) it = map.begin();
-    if (wanted(it->second)) return it;
+    if (wanted(*it)) return it;
     ++it;
   }
   return map.end();
 }
 
+template <typename Map>
+typename Map::mapped_type const* Find(const Map& map, const std::string& name) {
+  const auto found = map.find(name);
+  return found == map.end() ? nullptr : &found->second;
+}
+
+template <typename Children>
+void EraseIdle(Children& children) {
+  std::erase_if(children, [](const auto& child) { return child.second.IsIdle(); });
+}
+
+// Who is not alone leaves so much of the queue to others.
+constexpr int kPartLeft = 4;
+// Beyond so many groups, those that have not asked for long are forgotten.
+constexpr std::size_t kMaxPaces = 256;
+
 }  // namespace
 
-FairPool::FairPool(const FairPoolOptions& options) : options_(options) {
+void FairPool::Company::Note(const std::string& who, SteadyTime now) {
+  if (who != latest_) others_at_ = latest_at_;
+  latest_ = who;
+  latest_at_ = now;
+}
+
+bool FairPool::Company::IsAlone(const std::string& who, SteadyTime now) const {
+  const SteadyTime asked = who == latest_ ? others_at_ : latest_at_;
+  return asked == SteadyTime() || now > After(asked, kCompany);
+}
+
+FairPool::FairPool(const FairPoolOptions& options, SteadyClock clock)
+    : options_(options), clock_(std::move(clock)) {
   for (int i = 0; i < options_.threads; ++i) threads_.emplace_back([this] { Run(); });
 }
 
@@ -42,6 +71,7 @@ FairPool::~FairPool() {
 absl::Status FairPool::Submit(const FairKey& key, FairTask task) {
   std::vector<FairTask> abandoned;  // what they hold goes outside the lock
   absl::MutexLock lock(&mutex_);
+  NoteAsked(key);
   absl::Status room = CheckRoom(key);
   if (!room.ok()) {
     abandoned = TakeAbandoned();
@@ -51,122 +81,192 @@ absl::Status FairPool::Submit(const FairKey& key, FairTask task) {
     ++refused_;
     return room;
   }
-  Group& group = groups_[key.group];
-  group.members[key.member].tasks.push_back(std::move(task));
+  Tenant& tenant = all_.children[key.tenant];
+  Group& group = tenant.children[key.group];
+  group.children[key.member].tasks.push_back(std::move(task));
   ++group.queued;
-  ++queued_;
+  ++tenant.queued;
+  ++all_.queued;
   return absl::OkStatus();
 }
 
+void FairPool::NoteAsked(const FairKey& key) {
+  const SteadyTime now = clock_();
+  tenants_.Note(key.tenant, now);
+  groups_.Note(key.group, now);
+  if (paces_.size() >= kMaxPaces) {
+    std::erase_if(paces_,
+                  [now](const auto& pace) { return now > After(pace.second.asked, kCompany); });
+  }
+  const GroupName name(key.tenant, key.group);
+  if (paces_.size() < kMaxPaces || paces_.contains(name)) paces_[name].asked = now;
+}
+
+int FairPool::Places(const FairKey& key, const Tenant* tenant, const Group* group) const {
+  const SteadyTime now = clock_();
+  const bool leaves_tenants =
+      tenant != nullptr && tenant->queued > 0 && !tenants_.IsAlone(key.tenant, now);
+  const bool leaves_groups = options_.groups_leave_room && group != nullptr && group->queued > 0 &&
+                             !groups_.IsAlone(key.group, now);
+  const bool leaves = leaves_tenants || leaves_groups;
+  return leaves ? options_.max_queued - options_.max_queued / kPartLeft : options_.max_queued;
+}
+
 absl::Status FairPool::CheckRoom(const FairKey& key) const {
-  if (queued_ >= options_.max_queued) {
+  const Tenant* const tenant = Find(all_.children, key.tenant);
+  const Group* const group = tenant == nullptr ? nullptr : Find(tenant->children, key.group);
+  if (all_.queued >= Places(key, tenant, group)) {
     return Overloaded(absl::StrCat("the ", options_.name, " queue is full"));
   }
-  const auto group = groups_.find(key.group);
-  if (group == groups_.end()) return absl::OkStatus();
-  if (group->second.queued >= options_.max_queued_per_group) {
+  if (group == nullptr) return absl::OkStatus();
+  if (group->queued >= options_.max_queued_per_group) {
     return Overloaded(absl::StrCat("the ", options_.name, " queue of ", key.group, " is full"));
   }
-  const auto member = group->second.members.find(key.member);
-  if (member == group->second.members.end() ||
-      member->second.tasks.size() < static_cast<std::size_t>(options_.max_queued_per_member)) {
+  const Member* const member = Find(group->children, key.member);
+  if (member == nullptr ||
+      member->tasks.size() < static_cast<std::size_t>(options_.max_queued_per_member)) {
     return absl::OkStatus();
   }
   return Overloaded(
       absl::StrCat("the ", options_.name, " queue of ", key.member, " in ", key.group, " is full"));
 }
 
+void FairPool::TakeAbandoned(Group& group, std::vector<FairTask>& taken) {
+  for (auto& [name, member] : group.children) {
+    std::deque<FairTask>& tasks = member.tasks;
+    const auto first = std::stable_partition(
+        tasks.begin(), tasks.end(), [](const FairTask& task) { return !task.abandoned(); });
+    group.queued -= static_cast<int>(std::distance(first, tasks.end()));
+    std::move(first, tasks.end(), std::back_inserter(taken));
+    tasks.erase(first, tasks.end());
+  }
+  EraseIdle(group.children);
+}
+
 std::vector<FairTask> FairPool::TakeAbandoned() {
   std::vector<FairTask> taken;
-  for (auto group = groups_.begin(); group != groups_.end();) {
-    for (auto& [name, member] : group->second.members) {
-      std::deque<FairTask>& tasks = member.tasks;
-      const auto first = std::stable_partition(
-          tasks.begin(), tasks.end(), [](const FairTask& task) { return !task.abandoned(); });
-      const auto count = static_cast<int>(std::distance(first, tasks.end()));
-      group->second.queued -= count;
-      queued_ -= count;
-      std::move(first, tasks.end(), std::back_inserter(taken));
-      tasks.erase(first, tasks.end());
-    }
-    std::erase_if(group->second.members, [](const auto& entry) { return entry.second.IsIdle(); });
-    EraseIfIdle(group++);
+  for (auto& [name, tenant] : all_.children) {
+    const std::size_t before = taken.size();
+    for (auto& [group_name, group] : tenant.children) TakeAbandoned(group, taken);
+    tenant.queued -= static_cast<int>(taken.size() - before);
+    EraseIdle(tenant.children);
   }
+  all_.queued -= static_cast<int>(taken.size());
+  EraseIdle(all_.children);
   return taken;
 }
 
-bool FairPool::MayRun(const Group& group) const {
-  return group.running < options_.max_running_per_group &&
-         std::any_of(group.members.begin(), group.members.end(),
-                     [](const auto& entry) { return entry.second.MayRun(); });
+int FairPool::Threads(bool alone) const {
+  return alone ? options_.threads : std::max(1, options_.threads - 1);
 }
 
-bool FairPool::Ready() const {
-  if (stopping_ && queued_ == 0) return true;
-  return std::any_of(groups_.begin(), groups_.end(),
+bool FairPool::MayRun(const Member& member) const {
+  return !member.tasks.empty() && member.running < options_.max_running_per_member;
+}
+
+bool FairPool::LeavesLastThread(const GroupName& name) const {
+  const auto found = paces_.find(name);
+  const bool is_last = options_.threads > 1 && all_.running >= options_.threads - 1;
+  if (!is_last || found == paces_.end() || !found->second.is_long) return false;
+  const SteadyTime now = clock_();
+  return std::any_of(paces_.begin(), paces_.end(), [now](const auto& pace) {
+    return !pace.second.is_long && now <= After(pace.second.asked, kCompany);
+  });
+}
+
+bool FairPool::MayRun(const GroupName& name, const Group& group) const {
+  const bool alone = !options_.groups_leave_room || groups_.IsAlone(name.second, clock_());
+  return !LeavesLastThread(name) &&
+         group.running < std::min(options_.max_running_per_group, Threads(alone)) &&
+         std::any_of(group.children.begin(), group.children.end(),
                      [this](const auto& entry) { return MayRun(entry.second); });
 }
 
-FairPool::Groups::iterator FairPool::NextGroup() {
-  return NextInTurn(groups_, last_group_, [this](const Group& group) { return MayRun(group); });
+bool FairPool::MayRun(const std::string& name, const Tenant& tenant) const {
+  return tenant.running < Threads(tenants_.IsAlone(name, clock_())) &&
+         std::any_of(tenant.children.begin(), tenant.children.end(), [&](const auto& entry) {
+           mutex_.AssertHeld();
+           return MayRun({name, entry.first}, entry.second);
+         });
 }
 
-FairTask FairPool::TakeTask(Group& group) {
-  const auto member =
-      NextInTurn(group.members, group.last_member, [](const Member& one) { return one.MayRun(); });
-  FairTask task = std::move(member->second.tasks.front());
-  group.last_member = member->first;
+bool FairPool::Ready() const {
+  if (stopping_ && all_.queued == 0) return true;
+  return std::any_of(all_.children.begin(), all_.children.end(), [this](const auto& entry) {
+    mutex_.AssertHeld();
+    return MayRun(entry.first, entry.second);
+  });
+}
+
+std::optional<FairPool::Turn> FairPool::TakeTurn() {
+  const auto tenant = NextInTurn(all_.children, all_.last, [this](const auto& entry) {
+    mutex_.AssertHeld();
+    return MayRun(entry.first, entry.second);
+  });
+  if (tenant == all_.children.end()) return std::nullopt;
+  const auto group =
+      NextInTurn(tenant->second.children, tenant->second.last, [&](const auto& entry) {
+        mutex_.AssertHeld();
+        return MayRun({tenant->first, entry.first}, entry.second);
+      });
+  const auto member = NextInTurn(group->second.children, group->second.last,
+                                 [this](const auto& entry) { return MayRun(entry.second); });
+  Turn turn{{group->first, member->first, tenant->first}, std::move(member->second.tasks.front())};
   member->second.tasks.pop_front();
-  member->second.running = true;
-  ++group.running;
-  --group.queued;
-  --queued_;
-  return task;
+  ++member->second.running;
+  const auto note = [](auto& party, const std::string& child) {
+    party.last = child;
+    ++party.running;
+    --party.queued;
+  };
+  note(group->second, member->first);
+  note(tenant->second, group->first);
+  note(all_, tenant->first);
+  return turn;
 }
 
-void FairPool::EraseIfIdle(Groups::iterator group) {
-  if (group->second.queued == 0 && group->second.running == 0) groups_.erase(group);
-}
-
-void FairPool::NoteEnd(const FairKey& key) {
-  --busy_;
-  const auto group = groups_.find(key.group);
-  --group->second.running;
-  const auto member = group->second.members.find(key.member);
-  member->second.running = false;
-  if (member->second.IsIdle()) group->second.members.erase(member);
-  EraseIfIdle(group);
+void FairPool::NoteEnd(const FairKey& key, bool is_long) {
+  const auto pace = paces_.find({key.tenant, key.group});
+  if (pace != paces_.end()) pace->second.is_long = is_long;
+  Tenant& tenant = all_.children[key.tenant];
+  Group& group = tenant.children[key.group];
+  --group.children[key.member].running;
+  --group.running;
+  --tenant.running;
+  --all_.running;
+  EraseIdle(group.children);
+  EraseIdle(tenant.children);
+  EraseIdle(all_.children);
 }
 
 void FairPool::Run() {
+  if (options_.yields) YieldCpuToOthers();
   while (true) {
-    FairTask task;
-    FairKey key;
+    std::optional<Turn> turn;
     {
       absl::MutexLock lock(&mutex_);
       mutex_.Await(absl::Condition(this, &FairPool::Ready));
-      const auto group = NextGroup();
-      if (group == groups_.end()) return;
-      last_group_ = group->first;
-      ++busy_;
-      task = TakeTask(group->second);
-      key = {group->first, group->second.last_member};
+      turn = TakeTurn();
     }
-    if (!task.abandoned()) task.run();
-    task = {};
+    if (!turn) return;
+    const SteadyTime began = clock_();
+    if (!turn->task.abandoned()) turn->task.run();
+    turn->task = {};
+    const bool is_long = clock_() > After(began, kLong);
     absl::MutexLock lock(&mutex_);
-    NoteEnd(key);
+    NoteEnd(turn->key, is_long);
   }
 }
 
 PoolLoad FairPool::load() const {
   absl::MutexLock lock(&mutex_);
-  return {options_.name, options_.threads, busy_, queued_, options_.max_queued, refused_};
+  return {options_.name, options_.threads,    all_.running,
+          all_.queued,   options_.max_queued, refused_};
 }
 
 int FairPool::queued() const {
   absl::MutexLock lock(&mutex_);
-  return queued_;
+  return all_.queued;
 }
 
 }  // namespace plumescout::server

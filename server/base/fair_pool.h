@@ -6,14 +6,18 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "absl/base/thread_annotations.h"
 #include "absl/status/status.h"
 #include "absl/synchronization/mutex.h"
+#include "absl/time/time.h"
 #include "core/types/stop.h"
+#include "server/base/clock.h"
 #include "server/base/pool_load.h"
 
 namespace plumescout::server {
@@ -25,12 +29,17 @@ struct FairPoolOptions {
   int max_queued_per_group = 32;  // of these
   int max_queued_per_member = 4;  // of these
   int max_running_per_group = 1;
+  int max_running_per_member = 1;
+  bool groups_leave_room = false;  // to one another, as tenants do
+  bool yields = false;             // to all other threads, see YieldCpuToOthers
 };
 
-// For whom a task is: groups take turns, and within each its members do.
+// For whom a task is: tenants take turns, within each its groups do, and within these their
+// members.
 struct FairKey {
   std::string group;
   std::string member;
+  std::string tenant = {};
 };
 
 struct FairTask {
@@ -41,17 +50,24 @@ struct FairTask {
 };
 
 // Fixed threads over bounded queues, so that whoever asks much waits for itself: a group never has
-// more than its share of the threads, a member never more than one, and one task at a time has its
-// turn. Thread-safe.
+// more than its share of the threads, a member neither, and one task at a time has its turn. A
+// tenant that is alone may have everything; while others ask too it leaves them a thread and a
+// quarter of the queue. Groups whose tasks take long leave the last thread to those whose do not.
+// Thread-safe.
 class FairPool {
  public:
-  explicit FairPool(const FairPoolOptions& options);
+  // Who asked within this is company.
+  static constexpr absl::Duration kCompany = absl::Seconds(60);
+  // A task that takes more than this takes long.
+  static constexpr absl::Duration kLong = absl::Seconds(1);
+
+  explicit FairPool(const FairPoolOptions& options, SteadyClock clock = SteadyNow);
   // Runs what is queued, then joins.
   ~FairPool();
   FairPool(const FairPool&) = delete;
   FairPool& operator=(const FairPool&) = delete;
 
-  // OVERLOADED, with a time to retry, if one of the three queues is full.
+  // OVERLOADED, with a time to retry, if one of the queues is full.
   absl::Status Submit(const FairKey& key, FairTask task);
 
   int queued() const;
@@ -60,39 +76,76 @@ class FairPool {
  private:
   struct Member {
     std::deque<FairTask> tasks;
-    bool running = false;
+    int running = 0;
 
-    bool MayRun() const { return !tasks.empty() && !running; }
-    bool IsIdle() const { return tasks.empty() && !running; }
+    bool IsIdle() const { return tasks.empty() && running == 0; }
   };
-  struct Group {
-    std::map<std::string, Member> members;  // those who wait or run
-    std::string last_member;                // who had the latest turn
+  // Of one tenant or group: those who wait or run below it, and who had the latest turn.
+  template <typename Child>
+  struct Party {
+    std::map<std::string, Child> children;
+    std::string last;
     int queued = 0;
     int running = 0;
+
+    bool IsIdle() const { return queued == 0 && running == 0; }
   };
-  using Groups = std::map<std::string, Group>;
+  using Group = Party<Member>;
+  using Tenant = Party<Group>;
+  // Of a group that asked lately.
+  struct Pace {
+    SteadyTime asked;
+    bool is_long = false;  // its latest task was
+  };
+  using GroupName = std::pair<std::string, std::string>;  // tenant and group
+  // Who asked lately.
+  class Company {
+   public:
+    void Note(const std::string& who, SteadyTime now);
+    bool IsAlone(const std::string& who, SteadyTime now) const;
+
+   private:
+    std::string latest_;
+    SteadyTime latest_at_;
+    SteadyTime others_at_;  // the last time that anybody but `latest_` asked
+  };
 
   void Run();
-  bool MayRun(const Group& group) const;
+  // Of how many threads whoever is `alone`, or not, may have.
+  int Threads(bool alone) const;
+  bool MayRun(const Member& member) const;
+  bool MayRun(const GroupName& name, const Group& group) const
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  // Whether the group's task may take long, and no thread would be left to others whose do not.
+  bool LeavesLastThread(const GroupName& name) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void NoteAsked(const FairKey& key) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  bool MayRun(const std::string& name, const Tenant& tenant) const
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   bool Ready() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status CheckRoom(const FairKey& key) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  // Of those that may be queued in all when the key's task comes.
+  int Places(const FairKey& key, const Tenant* tenant, const Group* group) const
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   // What nobody wants any more, taken out of the queues.
   std::vector<FairTask> TakeAbandoned() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  // Whose turn it is; end() if nobody may run.
-  Groups::iterator NextGroup() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  // REQUIRES: the group may run. Its member is `last_member` then.
-  FairTask TakeTask(Group& group) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  void NoteEnd(const FairKey& key) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  void EraseIfIdle(Groups::iterator group) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void TakeAbandoned(Group& group, std::vector<FairTask>& taken)
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  // The task whose turn it is; none if nobody may run.
+  struct Turn {
+    FairKey key;
+    FairTask task;
+  };
+  std::optional<Turn> TakeTurn() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  void NoteEnd(const FairKey& key, bool is_long) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
   const FairPoolOptions options_;
+  const SteadyClock clock_;
 
   mutable absl::Mutex mutex_;
-  Groups groups_ ABSL_GUARDED_BY(mutex_);  // those who wait or run
-  std::string last_group_ ABSL_GUARDED_BY(mutex_);
-  int queued_ ABSL_GUARDED_BY(mutex_) = 0;
-  int busy_ ABSL_GUARDED_BY(mutex_) = 0;
+  Party<Tenant> all_ ABSL_GUARDED_BY(mutex_);
+  Company tenants_ ABSL_GUARDED_BY(mutex_);
+  Company groups_ ABSL_GUARDED_BY(mutex_);  // by name alone: whoever shares one shares its fate
+  std::map<GroupName, Pace> paces_ ABSL_GUARDED_BY(mutex_);
   std::int64_t refused_ ABSL_GUARDED_BY(mutex_) = 0;
   bool stopping_ ABSL_GUARDED_BY(mutex_) = false;
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/base/request_memory.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "proto/convert/field.h"
@@ -62,25 +63,50 @@ void RequestMemory::Keep(const RequestKey& key, Entry& entry, std::string answer
   entry.running = false;
   entry.answer = std::move(answer);
   entry.answered = options_.clock();
-  entry.place = oldest_first_.insert(oldest_first_.end(), key);
+  Shelf& shelf = shelves_[{key.caller, key.method}];
+  shelf.bytes += static_cast<std::int64_t>(entry.answer.size());
+  entry.place = shelf.keys.insert(shelf.keys.end(), key);
+  ++answers_;
 }
 
 void RequestMemory::Erase(const RequestKey& key) {
   const auto found = entries_.find(key);
-  bytes_ -= static_cast<std::int64_t>(found->second.answer.size());
-  oldest_first_.erase(found->second.place);
+  const auto shelf = shelves_.find({key.caller, key.method});
+  const auto bytes = static_cast<std::int64_t>(found->second.answer.size());
+  bytes_ -= bytes;
+  shelf->second.bytes -= bytes;
+  --answers_;
+  shelf->second.keys.erase(found->second.place);
+  if (shelf->second.keys.empty()) shelves_.erase(shelf);
   entries_.erase(found);
 }
 
 void RequestMemory::DropOld() {
   const SteadyTime now = options_.clock();
-  while (!oldest_first_.empty()) {
-    const RequestKey oldest = oldest_first_.front();
-    const bool too_many = oldest_first_.size() > static_cast<std::size_t>(options_.max_answers) ||
-                          bytes_ > options_.max_bytes;
-    const bool too_old = now >= After(entries_.at(oldest).answered, options_.max_age);
-    if (!too_many && !too_old) return;
-    Erase(oldest);
+  const auto is_too_old = [&](const RequestKey& key) {
+    mutex_.AssertHeld();
+    return now >= After(entries_.at(key).answered, options_.max_age);
+  };
+  for (auto shelf = shelves_.begin(); shelf != shelves_.end();) {
+    const auto here = shelf++;
+    while (is_too_old(here->second.keys.front())) {
+      const bool is_last = here->second.keys.size() == 1;
+      Erase(RequestKey(here->second.keys.front()));
+      if (is_last) break;
+    }
+  }
+  const auto drop_of_the_largest = [this](const auto& size_of) {
+    mutex_.AssertHeld();
+    const auto largest = std::max_element(
+        shelves_.begin(), shelves_.end(),
+        [&](const auto& a, const auto& b) { return size_of(a.second) < size_of(b.second); });
+    Erase(RequestKey(largest->second.keys.front()));
+  };
+  while (answers_ > static_cast<std::size_t>(options_.max_answers)) {
+    drop_of_the_largest([](const Shelf& shelf) { return shelf.keys.size(); });
+  }
+  while (bytes_ > options_.max_bytes) {
+    drop_of_the_largest([](const Shelf& shelf) { return shelf.bytes; });
   }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -39,7 +40,8 @@ struct RequestMemoryOptions {
 
 // Answers by request id, so that a request whose answer was lost on its way can be sent again. Only
 // answers that are OK are kept: an error has changed nothing, so the request may as well be made
-// anew. Bounded; the oldest answers go first. Thread-safe.
+// anew. Bounded; the oldest answers go first, of whoever has most of one method: plans do not push
+// out what other robots, or the same one, were told otherwise. Thread-safe.
 class RequestMemory {
  public:
   // Called with the answer of an equal request; with null if that came to nothing and it is this
@@ -68,8 +70,14 @@ class RequestMemory {
     std::deque<Waiter> waiters = {};  // while running
     std::string answer = {};
     SteadyTime answered = {};
-    std::list<RequestKey>::iterator place = {};  // in oldest_first_, unless running
+    std::list<RequestKey>::iterator place = {};  // in its shelf, unless running
   };
+  // Answers of one caller to one method, the oldest first.
+  struct Shelf {
+    std::list<RequestKey> keys;
+    std::int64_t bytes = 0;
+  };
+  using Shelves = std::map<std::pair<std::string, std::string>, Shelf>;
 
   void Keep(const RequestKey& key, Entry& entry, std::string answer)
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
@@ -82,7 +90,8 @@ class RequestMemory {
 
   absl::Mutex mutex_;
   std::map<RequestKey, Entry> entries_ ABSL_GUARDED_BY(mutex_);
-  std::list<RequestKey> oldest_first_ ABSL_GUARDED_BY(mutex_);  // of those with an answer
+  Shelves shelves_ ABSL_GUARDED_BY(mutex_);  // with an answer at least
+  std::size_t answers_ ABSL_GUARDED_BY(mutex_) = 0;
   std::int64_t bytes_ ABSL_GUARDED_BY(mutex_) = 0;
 };
 

@@ -38,6 +38,15 @@ std::string RequestId(const grpc::CallbackServerContext& call) {
   return {found->second.data(), found->second.size()};
 }
 
+// Without the port.
+std::string MachineOf(const std::string& peer) { return peer.substr(0, peer.rfind(':')); }
+
+// No tenant and no name has a space, and what gRPC says of peers begins otherwise.
+std::string AccountOf(const Principal& caller, const std::string& peer) {
+  if (caller == Principal{}) return MachineOf(peer);
+  return absl::StrCat("caller ", caller.tenant, " ", caller.name);
+}
+
 }  // namespace
 
 absl::Status Door::Enter(Rpc rpc, const grpc::CallbackServerContext& call, CallInfo& info) const {
@@ -54,10 +63,12 @@ absl::Status Door::Enter(Rpc rpc, const grpc::CallbackServerContext& call, CallI
       info.recheck = std::move(identity->recheck);
     }
   }
+  info.account = AccountOf(info.caller, call.peer());
   if (status.ok() && !IsAllowed(info.caller.role, rpc)) {
     status = absl::PermissionDeniedError(
         absl::StrCat(info.caller.name, " may not call ", RowOf(rpc).method));
   }
+  if (status.ok()) status = rates_->Admit(info.account, rpc);
   if (!status.ok()) Leave(info, status);
   return status;
 }

@@ -18,6 +18,7 @@
 #include "server/access/rpc.h"
 #include "server/base/clock.h"
 #include "server/base/stage_times.h"
+#include "server/calls/call_rates.h"
 
 namespace plumescout::server {
 
@@ -25,6 +26,9 @@ namespace plumescout::server {
 struct CallInfo {
   Rpc rpc = Rpc::kGetServerInfo;
   Principal caller;
+  // Whose share of the server it takes: the caller's, or, of those that nobody knows, that of the
+  // machine they call from.
+  std::string account;
   std::string request_id;  // of log lines and error details: the caller's x-request-id, or made up
   SteadyTime began;
   SteadyTime deadline = SteadyTime::max();  // the caller's; no earlier than `began`
@@ -55,16 +59,19 @@ using CallObserver = std::function<void(const CallInfo&, const CallEnd&)>;
 class Door {
  public:
   // `authenticate` null: everybody is an anonymous admin.
-  explicit Door(Authenticate authenticate = nullptr) : authenticate_(std::move(authenticate)) {}
+  explicit Door(Authenticate authenticate = nullptr, const CallRateOptions& rates = {})
+      : authenticate_(std::move(authenticate)), rates_(std::make_unique<CallRates>(rates)) {}
   // REQUIRES: no call has entered.
   void AddObserver(CallObserver observer) { observers_.push_back(std::move(observer)); }
 
-  // kUnauthenticated, kPermissionDenied. Whoever is let in leaves once. `info` is filled in anyway.
+  // kUnauthenticated, kPermissionDenied, RATE_EXCEEDED. Whoever is let in leaves once. `info` is
+  // filled in anyway.
   absl::Status Enter(Rpc rpc, const grpc::CallbackServerContext& call, CallInfo& info) const;
   void Leave(const CallInfo& info, const absl::Status& status) const;
 
  private:
   const Authenticate authenticate_;
+  const std::unique_ptr<CallRates> rates_;
   std::vector<CallObserver> observers_;
 };
 

@@ -46,9 +46,10 @@ inline bool MaySee(const Principal& caller, const MissionHost& host) {
 struct ServiceContext {
   const Door* door = nullptr;
   MissionRegistry* registry = nullptr;
-  FairPool* planning_pool = nullptr;    // by mission and robot
+  FairPool* planning_pool = nullptr;    // by tenant, mission and robot
   WorkerPool* map_pool = nullptr;       // frames for watchers
-  WorkerPool* query_pool = nullptr;     // answers that take time
+  FairPool* query_pool = nullptr;       // answers that take time; see TurnOf, as of the next
+  FairPool* past_pool = nullptr;        // looks at what missions were, which take long
   WorkerPool* creation_pool = nullptr;  // of missions
   ActiveStreams* streams = nullptr;
   MissionOptions mission_defaults;

@@ -9,6 +9,15 @@
 #include "server/calls/service_context.h"
 
 namespace plumescout::server {
+namespace {
+
+absl::Status GivenUp() { return absl::CancelledError("the caller gave up"); }
+
+void EndStage(const UnaryCall& call, Stage stage, SteadyTime began) {
+  call.info().stage_times->Add(stage, absl::FromChrono(SteadyNow() - began));
+}
+
+}  // namespace
 
 UnaryCall* UnaryCall::Start(const ServiceContext& context, Rpc rpc,
                             grpc::CallbackServerContext* call, Handler handle) {
@@ -16,7 +25,9 @@ UnaryCall* UnaryCall::Start(const ServiceContext& context, Rpc rpc,
   unary->self_ = unary;
   // For those who may answer: when the last of them lets go, nobody will.
   const std::shared_ptr<UnaryCall> handle_of_call(unary.get(), [unary](UnaryCall* reactor) {
-    reactor->Answer(absl::UnavailableError("the server let go of the call; try again"));
+    reactor->Answer(reactor->is_cancelled()
+                        ? GivenUp()
+                        : absl::UnavailableError("the server let go of the call; try again"));
   });
   const absl::Status entered = unary->visit_.Enter(*context.door, rpc, *call);
   if (!entered.ok()) {
@@ -82,42 +93,53 @@ void UnaryCall::OnDone() {
   stop.swap(stop_);
 }
 
+absl::Status PostFor(const std::shared_ptr<UnaryCall>& call, MissionHost& host,
+                     MissionHost::Task command) {
+  return host.Post(
+      [call, posted = SteadyNow(), command = std::move(command)](MissionWriter& writer) {
+        EndStage(*call, Stage::kCommit, posted);
+        command(writer);
+      },
+      Refusal(call));
+}
+
 void AnswerWhenDurable(MissionHost& host, const std::shared_ptr<UnaryCall>& call,
                        const absl::Status& status) {
   if (!status.ok()) return call->Answer(status);
   host.WhenDurable([call, began = SteadyNow()](const absl::Status& durable) {
-    call->info().stage_times->Add(Stage::kDurable, absl::FromChrono(SteadyNow() - began));
+    EndStage(*call, Stage::kDurable, began);
     call->Answer(durable);
   });
 }
 
-absl::Status AnswerFromBelief(const std::shared_ptr<MissionHost>& host, WorkerPool* pool,
+absl::Status AnswerInTurn(const std::shared_ptr<UnaryCall>& call, absl::string_view mission,
+                          FairPool* pool, std::function<absl::Status()> task) {
+  return pool->Submit(TurnOf(call->info(), mission),
+                      {[call, task = std::move(task), queued = SteadyNow()] {
+                         EndStage(*call, Stage::kQueue, queued);
+                         if (call->is_cancelled()) return call->Answer(GivenUp());
+                         const SteadyTime began = SteadyNow();
+                         const absl::Status status = task();
+                         EndStage(*call, Stage::kRead, began);
+                         call->Answer(status);
+                       },
+                       [call] { return call->is_cancelled(); }});
+}
+
+absl::Status AnswerFromBelief(const std::shared_ptr<MissionHost>& host, FairPool* pool,
                               const std::shared_ptr<UnaryCall>& call, BeliefWish wish,
                               std::function<absl::Status(const Belief&)> read) {
   call->WhenCancelled([host] { host->Wake(); });
-  const auto ended = [call](Stage stage, SteadyTime began) {
-    const SteadyTime now = SteadyNow();
-    call->info().stage_times->Add(stage, absl::FromChrono(now - began));
-    return now;
-  };
   return host->AwaitBelief(
       {.wish = std::move(wish),
        .deadline = call->info().deadline,
        .abandoned = [call] { return call->is_cancelled(); }},
-      [call, pool, ended, asked = SteadyNow(),
+      [call, pool, mission = host->id(), asked = SteadyNow(),
        read = std::move(read)](absl::StatusOr<std::shared_ptr<const Belief>> belief) {
-        const SteadyTime served = ended(Stage::kBelief, asked);
+        EndStage(*call, Stage::kBelief, asked);
         if (!belief.ok()) return call->Answer(belief.status());
-        const absl::Status queued =
-            pool->Submit([call, read, ended, served, belief = *std::move(belief)] {
-              const SteadyTime began = ended(Stage::kQueue, served);
-              if (call->is_cancelled()) {
-                return call->Answer(absl::CancelledError("the caller gave up"));
-              }
-              const absl::Status status = read(*belief);
-              ended(Stage::kRead, began);
-              call->Answer(status);
-            });
+        const absl::Status queued = AnswerInTurn(
+            call, mission, pool, [read, belief = *std::move(belief)] { return read(*belief); });
         if (!queued.ok()) call->Answer(queued);
       });
 }

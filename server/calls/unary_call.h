@@ -7,13 +7,15 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "absl/base/thread_annotations.h"
 #include "absl/status/status.h"
+#include "absl/strings/string_view.h"
 #include "absl/synchronization/mutex.h"
 #include "core/belief/belief.h"
-#include "server/base/worker_pool.h"
+#include "server/base/fair_pool.h"
 #include "server/calls/door.h"
 #include "server/missions/mission_host.h"
 
@@ -65,16 +67,29 @@ inline MissionHost::OnDropped Refusal(std::shared_ptr<UnaryCall> call) {
   return [call = std::move(call)](const absl::Status& status) { call->Answer(status); };
 }
 
+// Has the mission's writer run the command of a call, or answers it if the command is dropped.
+absl::Status PostFor(const std::shared_ptr<UnaryCall>& call, MissionHost& host,
+                     MissionHost::Task command);
+
 // Answers a call with an error at once; with OK when all that was done to the mission so far is
 // durable, or with an error if it does not become so. A caller that gives up is not waited for
 // less: what is done is remembered for when it asks again. From any thread.
 void AnswerWhenDurable(MissionHost& host, const std::shared_ptr<UnaryCall>& call,
                        const absl::Status& status);
 
+// As whom a call waits for a thread: callers of one tenant take turns, and their missions.
+inline FairKey TurnOf(const CallInfo& call, absl::string_view mission) {
+  return {call.account, std::string(mission), call.caller.tenant};
+}
+// Answers with what the task says, which runs when it is the caller's turn, unless it has given up
+// by then. An error is for the caller to answer with.
+absl::Status AnswerInTurn(const std::shared_ptr<UnaryCall>& call, absl::string_view mission,
+                          FairPool* pool, std::function<absl::Status()> task);
+
 // Answers a call with what `read` makes of a belief. It runs on `pool`: neither the mission's
 // writer nor a search waits for it. The wait for the belief ends with the call. An error is for the
 // caller to answer with.
-absl::Status AnswerFromBelief(const std::shared_ptr<MissionHost>& host, WorkerPool* pool,
+absl::Status AnswerFromBelief(const std::shared_ptr<MissionHost>& host, FairPool* pool,
                               const std::shared_ptr<UnaryCall>& call, BeliefWish wish,
                               std::function<absl::Status(const Belief&)> read);
 

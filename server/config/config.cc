@@ -63,6 +63,9 @@ absl::Status Validate(const LimitConfig& limits) {
           .InRange("limits.max_gas_readings_per_s", limits.max_gas_readings_per_s, 0, kMaxCount)
           .InRange("limits.max_ingest_bytes_per_s", limits.max_ingest_bytes_per_s, 0, kMaxRate)
           .InRange("limits.max_plans_per_s", limits.max_plans_per_s, 0, kMaxCount)
+          .InRange("limits.max_missions_per_tenant", limits.max_missions_per_tenant, 0, kMaxCount)
+          .InRange("limits.max_calls_per_s", limits.max_calls_per_s, 0, kMaxCount)
+          .InRange("limits.max_costly_calls_per_s", limits.max_costly_calls_per_s, 0, kMaxCount)
           .InRange("limits.ingest_burst_s", limits.ingest_burst_s, 1, kDay_s)
           .InRange("limits.max_clock_lead_s", limits.max_clock_lead_s, 0, kDay_s)
           .InRange("limits.max_import_bytes", static_cast<double>(limits.max_import_bytes), 65536,

@@ -33,6 +33,9 @@ void Visit(OneOf<LimitConfig> auto& limits, auto& field) {
   field("max_clock_lead_s", limits.max_clock_lead_s);
   field("max_import_bytes", limits.max_import_bytes);
   field("max_watchers_per_robot", limits.max_watchers_per_robot);
+  field("max_calls_per_s", limits.max_calls_per_s);
+  field("max_costly_calls_per_s", limits.max_costly_calls_per_s);
+  field("max_missions_per_tenant", limits.max_missions_per_tenant);
 }
 
 void Visit(OneOf<PlanningConfig> auto& planning, auto& field) {

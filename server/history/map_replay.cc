@@ -43,7 +43,7 @@ absl::Status MapReplay::Begin(std::shared_ptr<MapReader> reader, std::function<v
     reader_ = std::move(reader);
     caught_up_ = std::move(caught_up);
   }
-  return parts_.pool->Submit([self = shared_from_this()] { self->Prepare(); });
+  return Queue(&MapReplay::Prepare);
 }
 
 void MapReplay::Await() {
@@ -86,9 +86,13 @@ void MapReplay::StepAt(SteadyTime time) {
 
 void MapReplay::Submit(void (MapReplay::*task)()) {
   if (stopped_) return;
-  const absl::Status queued =
-      parts_.pool->Submit([self = shared_from_this(), task] { (self.get()->*task)(); });
-  if (!queued.ok()) StepAt(After(SteadyNow(), kPoolRetry));
+  if (!Queue(task).ok()) StepAt(After(SteadyNow(), kPoolRetry));
+}
+
+absl::Status MapReplay::Queue(void (MapReplay::*task)()) {
+  const auto self = shared_from_this();
+  return parts_.pool->Submit(parts_.turn, {[self, task] { (self.get()->*task)(); },
+                                           [self] { return self->stopped_.load(); }});
 }
 
 void MapReplay::EndWith(const absl::Status& status) {

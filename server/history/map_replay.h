@@ -18,7 +18,7 @@
 #include "core/types/event.h"
 #include "proto/convert/map.h"
 #include "server/base/clock.h"
-#include "server/base/worker_pool.h"
+#include "server/base/fair_pool.h"
 #include "server/history/past_missions.h"
 #include "server/maps/map_feed.h"
 #include "server/maps/map_store.h"
@@ -42,7 +42,8 @@ class MapReplay : public std::enable_shared_from_this<MapReplay> {
   struct Parts {
     std::shared_ptr<MissionHost> host;
     PastMissions* missions = nullptr;  // not owned, as is the pool; both outlive the replay
-    WorkerPool* pool = nullptr;
+    FairPool* pool = nullptr;
+    FairKey turn = {};                                // whose it is there
     absl::Duration period = absl::Milliseconds(100);  // between frames, at least
   };
 
@@ -71,7 +72,9 @@ class MapReplay : public std::enable_shared_from_this<MapReplay> {
   void Show();
 
   void StepAt(SteadyTime time);
+  // Again and again until there is room.
   void Submit(void (MapReplay::*task)());
+  absl::Status Queue(void (MapReplay::*task)());
   void EndWith(const absl::Status& status);
   void CatchUp();
   std::shared_ptr<MapReader> reader() ABSL_LOCKS_EXCLUDED(mutex_);

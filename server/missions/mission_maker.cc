@@ -103,6 +103,13 @@ std::shared_ptr<MissionHost> MissionMaker::MakeHost(MissionHost::Parts parts, Jo
   return host;
 }
 
+absl::StatusOr<std::int64_t> MissionMaker::StoredBudget_bytes(const std::string& key) const {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const AcquiredMission kept, hooks_.store->Peek(key));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const JournalStart start, DecodeStart(kept.header));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const MissionOptions options, OptionsOf(start));
+  return options.memory_budget_bytes;
+}
+
 absl::StatusOr<std::shared_ptr<MissionHost>> MissionMaker::Revive(const std::string& key,
                                                                   const StopFn& stop) const {
   PLUMESCOUT_ASSIGN_OR_RETURN(RecoveredMission recovered, RecoverMission(*hooks_.store, key, stop));

@@ -23,6 +23,7 @@ namespace plumescout::server {
 
 struct RegistryOptions {
   int max_missions = 64;
+  int max_missions_per_tenant = 0;  // 0: as many
   // Of all missions together, each counted with all that it may come to hold.
   std::int64_t memory_budget_bytes = std::numeric_limits<std::int64_t>::max();
   // What missions may choose for themselves at most.
@@ -77,6 +78,9 @@ class MissionMaker {
   absl::StatusOr<std::shared_ptr<MissionHost>> Make(const MissionId& id,
                                                     const MissionOptions& options,
                                                     const MissionOwner& owner) const;
+  // What the options of a stored mission say, which alone are read of it. REQUIRES: there is a
+  // store.
+  absl::StatusOr<std::int64_t> StoredBudget_bytes(const std::string& key) const;
   // REQUIRES: there is a store. As RecoverMission.
   absl::StatusOr<std::shared_ptr<MissionHost>> Revive(const std::string& key,
                                                       const StopFn& stop) const;

@@ -30,30 +30,12 @@ absl::Status MissionRegistry::CheckName(const MissionId& id, const std::string& 
   if (hosts_.contains(key) || being_made_.contains(key) || absent_.Contains(key)) {
     return MissionExists(id);
   }
-  return CheckCount();
+  return CheckPlaces(key);
 }
 
 absl::Status MissionRegistry::CheckCount() const {
   if (held_missions() < options_.max_missions) return absl::OkStatus();
   return LimitReached(absl::StrCat("the server holds ", options_.max_missions, " missions"));
-}
-
-absl::Status MissionRegistry::CheckMemory(absl::string_view what, std::int64_t bytes) const {
-  const std::int64_t left_bytes =
-      options_.memory_budget_bytes - reserved_bytes_ - absent_.woken_memory_bytes();
-  if (bytes <= left_bytes) return absl::OkStatus();
-  return LimitReached(absl::StrCat(what, " may come to hold memory_budget_bytes = ", bytes, ", of ",
-                                   left_bytes, " that limits.memory_budget_bytes has left"));
-}
-
-absl::StatusOr<std::shared_ptr<void>> MissionRegistry::HoldRoom(std::int64_t bytes) {
-  absl::MutexLock lock(&mutex_);
-  PLUMESCOUT_RETURN_IF_ERROR(CheckMemory("the mission as it was", bytes));
-  reserved_bytes_ += bytes;
-  return std::shared_ptr<void>(nullptr, [this, bytes](void*) {
-    absl::MutexLock release(&mutex_);
-    reserved_bytes_ -= bytes;
-  });
 }
 
 int MissionRegistry::held_missions() const {
@@ -127,8 +109,8 @@ absl::StatusOr<std::shared_ptr<MissionHost>> MissionRegistry::Find(const Mission
 absl::StatusOr<std::shared_ptr<MissionHost>> MissionRegistry::FindOfAnyTenant(const MissionId& id) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckLease());
   const auto found = List("", 2, [&id](const MissionHost& host) { return host.id() == id; });
-  std::vector<AbsentMission> absent = ListAbsent("");
-  std::erase_if(absent, [&](const AbsentMission& other) { return MissionIdOf(other.key) != id; });
+  const std::vector<AbsentMission> absent =
+      ListAbsent("", 2, [&id](const std::string& key) { return MissionIdOf(key) == id; });
   if (found.empty() && absent.empty()) return MissionNotFound(id);
   if (found.size() == 1 && absent.empty()) return found[0];
   if (found.empty() && absent.size() == 1) return Find(id, TenantOf(absent[0].key));

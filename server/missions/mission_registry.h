@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <set>
@@ -87,7 +88,8 @@ class MissionRegistry {
   absl::Status Discard(const std::string& key, MissionJournal::Callback removed);
 
   // From now on the missions that the store has are there, if only to be recovered; if missions
-  // sleep, those with fewest events that there is no room for do. Nothing of a store of several
+  // sleep, those with fewest events that there is no place for do. Those for which there is no
+  // memory once it is their turn do in any case. Nothing of a store of several
   // servers: a mission is of the one that is called for it.
   absl::Status FindStored();
   // Somebody has called for a mission that sleeps: RecoverNext wakes it. Must not block.
@@ -99,13 +101,18 @@ class MissionRegistry {
   // runs, or is made by somebody but the caller, who holds its name; LIMIT_REACHED, and what
   // RecoverMission says.
   absl::Status Recover(const std::string& key, bool holds_name = false);
-  // Those that do not run, whose keys come after this one, in order of key.
-  std::vector<AbsentMission> ListAbsent(const std::string& after) const;
+  // At most `limit` of those that do not run, whose keys come after this one and are `wanted`, in
+  // order of key.
+  std::vector<AbsentMission> ListAbsent(
+      const std::string& after, int limit = std::numeric_limits<int>::max(),
+      const WantedKey& wanted = [](const std::string&) { return true; }) const;
   AbsentCounts absent() const;
 
   // Room for what takes memory like a mission and is none, until the hold is let go; the registry
   // outlives it. LIMIT_REACHED.
   absl::StatusOr<std::shared_ptr<void>> HoldRoom(std::int64_t bytes) ABSL_LOCKS_EXCLUDED(mutex_);
+  // What all that is there may come to hold: that much of the budget is taken.
+  std::int64_t reserved_bytes() const ABSL_LOCKS_EXCLUDED(mutex_);
 
   // Nobody else makes or recovers a mission of this name until the hold is let go; the registry
   // outlives it. MISSION_EXISTS, and RECOVERING of one that is not there yet.
@@ -162,6 +169,8 @@ class MissionRegistry {
   // Of a mission that is not this server's, or not any more.
   absl::Status Seek(const std::string& key) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status CallForAbsent(const std::string& key) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  // LIMIT_REACHED, of all missions and of those of the key's tenant.
+  absl::Status CheckPlaces(const std::string& key) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status CheckCount() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status CheckRoom(const MissionId& id, const std::string& key, std::int64_t bytes) const
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
@@ -171,6 +180,10 @@ class MissionRegistry {
   absl::StatusOr<int> Reserve(const MissionId& id, const std::string& key, std::int64_t bytes)
       ABSL_LOCKS_EXCLUDED(mutex_);
   absl::Status RecoverNow(const std::string& key, bool holds_name) ABSL_LOCKS_EXCLUDED(mutex_);
+  // Takes room for a mission of the store before anything of it is read but its options; how much,
+  // or LIMIT_REACHED. `has_room`: it was looked after.
+  absl::StatusOr<std::int64_t> TakeRoomFor(const std::string& key, bool has_room)
+      ABSL_LOCKS_EXCLUDED(mutex_);
   absl::Status CheckRecovery(const std::string& key, bool holds_name) const
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status CheckName(const MissionId& id, const std::string& key) const

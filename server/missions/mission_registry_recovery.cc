@@ -109,13 +109,16 @@ absl::Status MissionRegistry::RecoverNow(const std::string& key, bool holds_name
     if (is_new && !holds_name) being_made_.insert(key);
   }
   const SteadyTime began = SteadyNow();
-  auto host = maker_.Revive(key, [closing = closing_] { return closing->load(); });
+  const auto bytes = TakeRoomFor(key, holds_name);
+  auto host = bytes.ok() ? maker_.Revive(key, [closing = closing_] { return closing->load(); })
+                         : absl::StatusOr<std::shared_ptr<MissionHost>>(bytes.status());
   absl::Status status = host.status();
   {
     absl::MutexLock lock(&mutex_);
     if (!holds_name) being_made_.erase(key);
     status.Update(closed_);
     status.Update(CheckLife(life));
+    reserved_bytes_ -= bytes.value_or(0);
     if (status.ok()) {
       sought_.Erase(key);
       absent_.Erase(key);
@@ -124,7 +127,7 @@ absl::Status MissionRegistry::RecoverNow(const std::string& key, bool holds_name
     } else if (nodes_ != nullptr) {
       absent_.Erase(key);
       sought_.Settle(key, HeldWith(key, status), clock_());
-    } else if (closed_.ok() && !is_new) {
+    } else if (closed_.ok() && !is_new && bytes.ok()) {
       const bool sleeps_on = absl::IsUnavailable(status) && absent_.SleepOn(key);
       if (!sleeps_on) absent_.Hold(key, HeldWith(key, status));
     }
@@ -133,9 +136,10 @@ absl::Status MissionRegistry::RecoverNow(const std::string& key, bool holds_name
   return status;
 }
 
-std::vector<AbsentMission> MissionRegistry::ListAbsent(const std::string& after) const {
+std::vector<AbsentMission> MissionRegistry::ListAbsent(const std::string& after, int limit,
+                                                       const WantedKey& wanted) const {
   absl::MutexLock lock(&mutex_);
-  return absent_.After(after);
+  return absent_.After(after, limit, wanted);
 }
 
 AbsentCounts MissionRegistry::absent() const {
@@ -160,7 +164,7 @@ void MissionRegistry::StopAwaiting(RecoveryWaiters::Id id) {
 
 absl::Status MissionRegistry::CallForAbsent(const std::string& key) {
   if (const SleepingMission* const sleeping = absent_.FindAsleep(key)) {
-    PLUMESCOUT_RETURN_IF_ERROR(CheckCount());
+    PLUMESCOUT_RETURN_IF_ERROR(CheckPlaces(key));
     PLUMESCOUT_RETURN_IF_ERROR(CheckMemory("the mission", sleeping->memory_bytes));
     const absl::Status called = absent_.CallFor(key);
     on_called_for_();

@@ -3,6 +3,7 @@
 #include "server/missions/recovery_list.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "server/base/errors.h"
@@ -10,11 +11,12 @@
 namespace plumescout::server {
 
 void RecoveryList::Add(const StoredMission& mission) {
-  missions_[mission.key] = Entry{.head = mission.head};
+  missions_[mission.key] = Entry{.head = mission.head, .epoch = mission.epoch};
 }
 
 void RecoveryList::AddAsleep(const SleepingMission& mission) {
-  missions_[mission.key] = Entry{.head = mission.head, .sleep = mission, .is_asleep = true};
+  missions_[mission.key] =
+      Entry{.head = mission.head, .epoch = mission.epoch, .sleep = mission, .is_asleep = true};
 }
 
 bool RecoveryList::SleepOn(const std::string& key) {
@@ -22,6 +24,19 @@ bool RecoveryList::SleepOn(const std::string& key) {
   if (found == missions_.end() || !IsWoken(found->second)) return false;
   AddAsleep(SleepingMission(*found->second.sleep));
   return true;
+}
+
+void RecoveryList::PutToSleep(const std::string& key, std::int64_t memory_bytes) {
+  const Entry& entry = missions_.at(key);
+  SleepingMission mission =
+      entry.sleep.value_or(SleepingMission{.key = key, .epoch = entry.epoch, .head = entry.head});
+  mission.memory_bytes = memory_bytes;
+  AddAsleep(mission);
+}
+
+void RecoveryList::ForgetMemory(const std::string& key) {
+  const auto found = missions_.find(key);
+  if (found != missions_.end() && found->second.sleep) found->second.sleep->memory_bytes = 0;
 }
 
 std::vector<SleepingMission> RecoveryList::TakeForgotten(SteadyTime now) {
@@ -86,9 +101,12 @@ absl::Status RecoveryList::StatusOf(const std::string& key, const Entry& entry) 
   return entry.held.ok() ? Recovering(MissionIdOf(key)) : entry.held;
 }
 
-std::vector<AbsentMission> RecoveryList::After(const std::string& key) const {
+std::vector<AbsentMission> RecoveryList::After(const std::string& key, int limit,
+                                               const WantedKey& wanted) const {
   std::vector<AbsentMission> absent;
   for (auto it = missions_.upper_bound(key); it != missions_.end(); ++it) {
+    if (absent.size() == static_cast<std::size_t>(limit)) break;
+    if (!wanted(it->first)) continue;
     absent.push_back({it->first, StatusOf(it->first, it->second), it->second.is_asleep});
   }
   return absent;

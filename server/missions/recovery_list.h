@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -32,6 +33,8 @@ struct SleepingMission {
   SteadyTime forget_at = SteadyTime::max();  // if nobody calls for it before
 };
 
+using WantedKey = std::function<bool(const std::string& key)>;
+
 // Missions that wait to be recovered, those that sleep until somebody calls for them, and those
 // that cannot be recovered. Thread-compatible.
 class RecoveryList {
@@ -47,6 +50,11 @@ class RecoveryList {
   // A mission that was woken could not be recovered now: the next call wakes it again. False if it
   // is another.
   bool SleepOn(const std::string& key);
+  // There is no room for so much memory now: it sleeps until somebody calls for it.
+  // REQUIRES: Contains(key).
+  void PutToSleep(const std::string& key, std::int64_t memory_bytes);
+  // Its memory is counted elsewhere from now on, not in woken_memory_bytes().
+  void ForgetMemory(const std::string& key);
   // Those that sleep and are to be forgotten; they are off the list.
   std::vector<SleepingMission> TakeForgotten(SteadyTime now);
 
@@ -59,8 +67,9 @@ class RecoveryList {
   // Why the mission does not answer; OK if it is not on the list. Puts it before others; one that
   // sleeps wakes.
   absl::Status CallFor(const std::string& key);
-  // After this key, in order.
-  std::vector<AbsentMission> After(const std::string& key) const;
+  // At most `limit` after this key, of those whose keys are `wanted`, in order.
+  std::vector<AbsentMission> After(const std::string& key, int limit,
+                                   const WantedKey& wanted) const;
 
   int waiting() const;  // those that are being recovered too
   int held() const;
@@ -71,6 +80,7 @@ class RecoveryList {
  private:
   struct Entry {
     std::int64_t head = 0;
+    std::int64_t epoch = 0;
     bool is_called_for = false;
     bool has_begun = false;
     absl::Status held = {};                               // OK: it is yet to be recovered

@@ -18,7 +18,7 @@ constexpr std::int64_t kNoLease = 0;  // tokens are above it
 }  // namespace
 
 absl::Status RobotNotices::Join(const std::shared_ptr<RobotWatcher>& watcher, const RobotId& robot,
-                                std::optional<std::int64_t> lease_token, WorkerPool* pool,
+                                std::optional<std::int64_t> lease_token, Submit submit,
                                 const Belief& belief, const LeaseTable& leases,
                                 MissionState state) {
   const auto found = belief.robots.find(robot);
@@ -29,7 +29,7 @@ absl::Status RobotNotices::Join(const std::shared_ptr<RobotWatcher>& watcher, co
   state_ = state;
   robots_[robot] = found->second.state;
   leased_[robot] = leases.Standing(robot).held;
-  Place place{watcher, robot, lease_token, pool, {}};
+  Place place{watcher, robot, lease_token, std::move(submit), {}};
   place.standing = StandingOf(place);
   ForgetEnded(belief);
   const auto latest = latest_.find(robot);
@@ -124,9 +124,8 @@ void RobotNotices::Look(BeliefPtr belief, SteadyTime now) {
     UpdateStandings(woken);
     ForgetEnded(*belief);
     if (!is_looking_) {
-      WorkerPool& pool = *places_.begin()->second.pool;
-      is_looking_ =
-          pool.Submit([self = shared_from_this(), belief] { self->LookAtPlans(belief); }).ok();
+      const Submit& submit = places_.begin()->second.submit;
+      is_looking_ = submit([self = shared_from_this(), belief] { self->LookAtPlans(belief); }).ok();
       if (is_looking_) looked_at_ = belief->revision;
     }
   }

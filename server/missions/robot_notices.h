@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -18,7 +19,6 @@
 #include "core/plan/plan_watch.h"
 #include "core/types/robot_notice.h"
 #include "server/base/clock.h"
-#include "server/base/worker_pool.h"
 #include "server/missions/lease_table.h"
 #include "server/missions/mission_standing.h"
 #include "server/observe/mission_metrics.h"
@@ -43,6 +43,8 @@ class RobotWatcher {
 class RobotNotices : public std::enable_shared_from_this<RobotNotices> {
  public:
   using BeliefPtr = std::shared_ptr<const Belief>;
+  // Has a task run on a pool; an error if that is full. Must not block.
+  using Submit = std::function<absl::Status(std::function<void()>)>;
   // Between looks at the plans.
   static constexpr absl::Duration kLookPeriod = absl::Milliseconds(500);
 
@@ -53,10 +55,10 @@ class RobotNotices : public std::enable_shared_from_this<RobotNotices> {
       : metrics_(*metrics), max_per_robot_(max_per_robot) {}
 
   // The robot's standing, and what is the matter with its plan, are there for the watcher at once.
-  // `lease_token`: none: whoever holds it. `pool` outlives the watchers. ROBOT_NOT_FOUND,
-  // LEASE_SUPERSEDED, LIMIT_REACHED. Cost: O(watchers).
+  // `lease_token`: none: whoever holds it. `submit` is good as long as there are watchers.
+  // ROBOT_NOT_FOUND, LEASE_SUPERSEDED, LIMIT_REACHED. Cost: O(watchers).
   absl::Status Join(const std::shared_ptr<RobotWatcher>& watcher, const RobotId& robot,
-                    std::optional<std::int64_t> lease_token, WorkerPool* pool, const Belief& belief,
+                    std::optional<std::int64_t> lease_token, Submit submit, const Belief& belief,
                     const LeaseTable& leases, MissionState state) ABSL_LOCKS_EXCLUDED(mutex_);
   void Leave(const RobotWatcher* watcher) ABSL_LOCKS_EXCLUDED(mutex_);
   // The next notice for the watcher; none: it will be woken.
@@ -83,7 +85,7 @@ class RobotNotices : public std::enable_shared_from_this<RobotNotices> {
     std::weak_ptr<RobotWatcher> watcher;
     RobotId robot;
     std::optional<std::int64_t> lease_token;
-    WorkerPool* pool = nullptr;
+    Submit submit = nullptr;
     RobotStanding standing = {};  // the newest
     bool standing_is_news = true;
     std::optional<PlanInvalidated> invalidated = std::nullopt;  // to be fetched, as is the next

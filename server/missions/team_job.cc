@@ -46,7 +46,7 @@ void TeamJob::AwaitBelief() {
 void TeamJob::Enqueue(std::shared_ptr<const Belief> belief) {
   const auto self = shared_from_this();
   const absl::Status queued =
-      parts_.pool->Submit({MissionKey(parts_.host->tenant(), parts_.host->id()), ""},
+      parts_.pool->Submit({parts_.host->id(), "", parts_.host->tenant()},
                           {[self, belief = std::move(belief)] { self->Search(*belief); },
                            [self] { return self->answered_.load(); }});
   if (!queued.ok()) Finish(queued);

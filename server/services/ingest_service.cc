@@ -38,7 +38,9 @@ absl::Status IngestService::BatchIngest(const v1::BatchIngestObservationsRequest
     return Overloaded(absl::StrCat("the ingest queue of mission ", host->id(), " is full"));
   }
   return host->Post(
-      {[=, &open = request.open(), incoming = std::move(incoming)](MissionWriter& writer) mutable {
+      {[=, &open = request.open(), incoming = std::move(incoming),
+        posted = SteadyNow()](MissionWriter& writer) mutable {
+         call->info().stage_times->Add(Stage::kCommit, absl::FromChrono(SteadyNow() - posted));
          const auto position = writer.conduct().Position(name.robot);
          const absl::Status fits = position.ok()
                                        ? CheckNotRolledBack(open, *position, writer.metrics())

@@ -41,10 +41,10 @@ absl::Status MapService::Get(const grpc::ByteBuffer& bytes, grpc::ByteBuffer* re
   }
   const std::shared_ptr<MapFeed> feed = host->map_feed();
   if (!request.part_token().empty()) {
-    return context_.query_pool->Submit([=, token = request.part_token()] {
+    return AnswerInTurn(call, mission, context_.query_pool, [=, token = request.part_token()] {
       auto part = feed->store().NextPart(token, view, max_bytes);
       if (part.ok()) response->Swap(&*part);
-      call->Answer(part.status());
+      return part.status();
     });
   }
   BeliefWish wish;
@@ -60,12 +60,13 @@ absl::Status MapService::GetPast(const std::shared_ptr<MissionHost>& host, const
                                  grpc::ByteBuffer* response,
                                  const std::shared_ptr<UnaryCall>& call) {
   PLUMESCOUT_RETURN_IF_ERROR(context_.CheckKeepsHistory());
-  return context_.query_pool->Submit([=, maps = &context_.history->past_maps] {
-    const CallStop stop(call, host);
-    auto part = maps->Part(host, wish, [&stop] { return stop.stops(); });
-    if (part.ok()) response->Swap(&*part);
-    call->Answer(stop.AnswerOf(part.status()));
-  });
+  return AnswerInTurn(call, host->id(), context_.past_pool,
+                      [=, maps = &context_.history->past_maps] {
+                        const CallStop stop(call, host);
+                        auto part = maps->Part(host, wish, [&stop] { return stop.stops(); });
+                        if (part.ok()) response->Swap(&*part);
+                        return stop.AnswerOf(part.status());
+                      });
 }
 
 absl::Status MapService::Query(const v1::QueryGasRequest& request, v1::QueryGasResponse* response,
@@ -93,12 +94,13 @@ absl::Status MapService::Query(const v1::QueryGasRequest& request, v1::QueryGasR
   };
   if (request.revision() > 0) {
     PLUMESCOUT_RETURN_IF_ERROR(context_.CheckKeepsHistory());
-    return context_.query_pool->Submit(
-        [=, revision = request.revision(), maps = &context_.history->past_maps] {
-          const CallStop stop(call, host);
-          const auto belief = maps->BeliefAt(host, revision, [&stop] { return stop.stops(); });
-          call->Answer(stop.AnswerOf(belief.ok() ? answer(**belief) : belief.status()));
-        });
+    return AnswerInTurn(call, mission, context_.past_pool,
+                        [=, revision = request.revision(), maps = &context_.history->past_maps] {
+                          const CallStop stop(call, host);
+                          const auto belief =
+                              maps->BeliefAt(host, revision, [&stop] { return stop.stops(); });
+                          return stop.AnswerOf(belief.ok() ? answer(**belief) : belief.status());
+                        });
   }
   BeliefWish wish;
   wish.fresh_posterior = request.fresh_posterior();

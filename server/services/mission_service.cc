@@ -120,9 +120,9 @@ absl::Status MissionService::Get(const v1::GetMissionRequest& request, v1::Missi
     call->Answer(absl::OkStatus());
     return absl::OkStatus();
   }
-  return context_.query_pool->Submit([host, &mission, call] {
+  return AnswerInTurn(call, id, context_.query_pool, [host, &mission] {
     *mission.mutable_options()->mutable_prior_map() = host->prior_map();
-    call->Answer(absl::OkStatus());
+    return absl::OkStatus();
   });
 }
 
@@ -130,9 +130,9 @@ absl::Status MissionService::List(const v1::ListMissionsRequest& request,
                                   v1::ListMissionsResponse& response,
                                   const std::shared_ptr<UnaryCall>& call) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const Page page, ReadPage(request.page_size(), request.page_token()));
-  return context_.query_pool->Submit([this, page, &response, call] {
+  return AnswerInTurn(call, "", context_.query_pool, [this, page, &response, call] {
     Fill(page, call->caller(), response);
-    call->Answer(absl::OkStatus());
+    return absl::OkStatus();
   });
 }
 
@@ -141,8 +141,10 @@ void MissionService::Fill(const Page& page, const Principal& caller,
   std::map<std::string, v1::Mission> missions;  // by key
   std::string last_key;
   // Before the others: what is recovered in between stands with both, and then it runs.
-  for (const AbsentMission& absent : context_.registry->ListAbsent(page.after)) {
-    if (MaySeeTenant(caller, TenantOf(absent.key))) missions[absent.key] = DescribeMission(absent);
+  const auto may_see = [&](const std::string& key) { return MaySeeTenant(caller, TenantOf(key)); };
+  for (const AbsentMission& absent :
+       context_.registry->ListAbsent(page.after, page.size + 1, may_see)) {
+    missions[absent.key] = DescribeMission(absent);
   }
   // One more than the page tells whether there is a next.
   const auto hosts = context_.registry->List(
@@ -198,7 +200,8 @@ absl::Status MissionService::Update(const v1::UpdateMissionRequest& request, v1:
           {{"mission", update.mission},
            {"idle_time_to_live", absl::FormatDuration(host->standing().idle_time_to_live())},
            {"event_retention",
-            v1::EventRetention_Name(EventRetentionToProto(host->standing().event_retention()))}});
+            v1::EventRetention_Name(EventRetentionToProto(host->standing().event_retention()))},
+           {"request_id", call->info().request_id}});
   mission = DescribeMission(*host, WithoutPriorMap(host->options()));
   AnswerWhenDurable(*host, call, absl::OkStatus());
   return absl::OkStatus();
@@ -210,20 +213,19 @@ absl::Status MissionService::Change(const std::string& name, v1::Mission& missio
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMission(call->caller(), id));
   // On the writer's thread: what was asked before the change is done, what is asked after it sees
   // it.
-  return host->Post(
-      [host, step, call, &mission](MissionWriter& writer) {
-        absl::Status changed = host->journal().CheckTakesMore();
-        if (changed.ok()) changed = step(*host, writer);
-        if (changed.ok()) {
-          host->KeepStanding();
-          mission = DescribeMission(*host, WithoutPriorMap(host->options()));
-          LogInfo("mission state", {{"mission", host->id()},
-                                    {"state", v1::MissionState_Name(mission.state())},
-                                    {"caller", call->caller().name}});
-        }
-        AnswerWhenDurable(*host, call, changed);
-      },
-      Refusal(call));
+  return PostFor(call, *host, [host, step, call, &mission](MissionWriter& writer) {
+    absl::Status changed = host->journal().CheckTakesMore();
+    if (changed.ok()) changed = step(*host, writer);
+    if (changed.ok()) {
+      host->KeepStanding();
+      mission = DescribeMission(*host, WithoutPriorMap(host->options()));
+      LogInfo("mission state", {{"mission", host->id()},
+                                {"state", v1::MissionState_Name(mission.state())},
+                                {"caller", call->caller().name},
+                                {"request_id", call->info().request_id}});
+    }
+    AnswerWhenDurable(*host, call, changed);
+  });
 }
 
 grpc::ServerUnaryReactor* MissionService::CreateMission(grpc::CallbackServerContext* context,
@@ -306,22 +308,21 @@ absl::Status MissionService::KeepOut(const v1::ChangeKeepOutAreasRequest& reques
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMission(call->caller(), id));
   PLUMESCOUT_ASSIGN_OR_RETURN(const KeepOutChanged change, FromProto(request));
   const auto run = [host, change, response](const std::shared_ptr<UnaryCall>& runner) {
-    return host->Post(
-        [host, change, response, runner](MissionWriter& writer) {
-          const absl::Status writable = host->CheckMayWrite();
-          if (!writable.ok()) return runner->Answer(writable);
-          const auto revision = writer.conduct().ChangeKeepOut(change);
-          if (revision.ok()) {
-            LogInfo("keep-out areas changed", {{"mission", host->id()},
-                                               {"added", absl::StrCat(change.added.size())},
-                                               {"deleted", absl::StrCat(change.deleted.size())},
-                                               {"caller", runner->caller().name}});
-            *response->mutable_areas() = ToProto(writer.mission().options().keep_out);
-            response->set_revision(*revision);
-          }
-          AnswerWhenDurable(*host, runner, WithField(revision.status(), ""));
-        },
-        Refusal(runner));
+    return PostFor(runner, *host, [host, change, response, runner](MissionWriter& writer) {
+      const absl::Status writable = host->CheckMayWrite();
+      if (!writable.ok()) return runner->Answer(writable);
+      const auto revision = writer.conduct().ChangeKeepOut(change);
+      if (revision.ok()) {
+        LogInfo("keep-out areas changed", {{"mission", host->id()},
+                                           {"added", absl::StrCat(change.added.size())},
+                                           {"deleted", absl::StrCat(change.deleted.size())},
+                                           {"caller", runner->caller().name},
+                                           {"request_id", runner->info().request_id}});
+        *response->mutable_areas() = ToProto(writer.mission().options().keep_out);
+        response->set_revision(*revision);
+      }
+      AnswerWhenDurable(*host, runner, WithField(revision.status(), ""));
+    });
   };
   return AnswerOnce(host->requests(), request.request_id(), request, response, call, run);
 }

@@ -214,15 +214,16 @@ absl::Status PlanningService::Report(const v1::ReportProgressRequest& request,
   const std::int64_t token = request.lease_token();
   PLUMESCOUT_RETURN_IF_ERROR(host->leases().Use(name.robot, token));
   const ProgressReported report{name.robot, plan.plan, outcome};
-  return host->Post(
-      [host, report, token, response, call](MissionWriter& writer) {
-        const absl::Status writable = host->CheckMayWrite();
-        if (!writable.ok()) return call->Answer(writable);
-        const auto revision = writer.conduct().Report(report, token);
-        if (revision.ok()) response->set_revision(*revision);
-        AnswerWhenDurable(*host, call, revision.status());
-      },
-      Refusal(call));
+  const auto run = [host, report, token, response](const std::shared_ptr<UnaryCall>& runner) {
+    return PostFor(runner, *host, [host, report, token, response, runner](MissionWriter& writer) {
+      const absl::Status writable = host->CheckMayWrite();
+      if (!writable.ok()) return runner->Answer(writable);
+      const auto revision = writer.conduct().Report(report, token);
+      if (revision.ok()) response->set_revision(*revision);
+      AnswerWhenDurable(*host, runner, revision.status());
+    });
+  };
+  return AnswerOnce(host->requests(), request.request_id(), request, response, call, run);
 }
 
 grpc::ServerUnaryReactor* PlanningService::ReportProgress(grpc::CallbackServerContext* context,

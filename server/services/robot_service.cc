@@ -54,26 +54,24 @@ absl::Status RobotService::Register(const v1::RegisterRobotRequest& request,
 absl::Status RobotService::Join(const std::shared_ptr<MissionHost>& host, const Registration& wish,
                                 v1::RegisterRobotResponse* response,
                                 const std::shared_ptr<UnaryCall>& call) {
-  return host->Post(
-      [this, host, wish, response, call](MissionWriter& writer) {
-        const absl::Status writable = host->CheckMayWrite();
-        if (!writable.ok()) return call->Answer(writable);
-        const auto registered = writer.conduct().Register(wish, host->leases());
-        if (!registered.ok()) return call->Answer(WithField(registered.status(), ""));
-        LogInfo("robot registered", {{"mission", host->id()},
-                                     {"robot", wish.robot},
-                                     {"lease", absl::StrCat(registered->lease_token)},
-                                     {"request_id", call->info().request_id}});
-        response->set_robot(RobotResource({host->id(), wish.robot}));
-        response->set_lease_token(registered->lease_token);
-        response->set_log_continues(registered->log_continues);
-        response->set_server_boot_id(context_.boot_id);
-        *response->mutable_ingest_state() =
-            ToIngestState(registered->position, wish.robot, host->journal(),
-                          context_.limits.stream_window_observations);
-        AnswerWhenDurable(*host, call, absl::OkStatus());
-      },
-      Refusal(call));
+  return PostFor(call, *host, [this, host, wish, response, call](MissionWriter& writer) {
+    const absl::Status writable = host->CheckMayWrite();
+    if (!writable.ok()) return call->Answer(writable);
+    const auto registered = writer.conduct().Register(wish, host->leases());
+    if (!registered.ok()) return call->Answer(WithField(registered.status(), ""));
+    LogInfo("robot registered", {{"mission", host->id()},
+                                 {"robot", wish.robot},
+                                 {"lease", absl::StrCat(registered->lease_token)},
+                                 {"request_id", call->info().request_id}});
+    response->set_robot(RobotResource({host->id(), wish.robot}));
+    response->set_lease_token(registered->lease_token);
+    response->set_log_continues(registered->log_continues);
+    response->set_server_boot_id(context_.boot_id);
+    *response->mutable_ingest_state() =
+        ToIngestState(registered->position, wish.robot, host->journal(),
+                      context_.limits.stream_window_observations);
+    AnswerWhenDurable(*host, call, absl::OkStatus());
+  });
 }
 
 grpc::ServerUnaryReactor* RobotService::RegisterRobot(grpc::CallbackServerContext* context,
@@ -92,21 +90,19 @@ absl::Status RobotService::Remove(const v1::RemoveRobotRequest& request,
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMissionOf(call->caller(), name));
   Removal wish{name.robot};
   if (!request.force()) wish.lease_token = request.lease_token();
-  return host->Post(
-      [host, wish, response, call](MissionWriter& writer) {
-        const absl::Status writable = host->CheckMayWrite();
-        if (!writable.ok()) return call->Answer(writable);
-        const auto revision = writer.conduct().Remove(wish, host->leases());
-        if (revision.ok()) {
-          host->latest_plans().Forget(wish.robot);
-          LogInfo("robot removed", {{"mission", host->id()},
-                                    {"robot", wish.robot},
-                                    {"request_id", call->info().request_id}});
-          response->set_revision(*revision);
-        }
-        AnswerWhenDurable(*host, call, revision.status());
-      },
-      Refusal(call));
+  return PostFor(call, *host, [host, wish, response, call](MissionWriter& writer) {
+    const absl::Status writable = host->CheckMayWrite();
+    if (!writable.ok()) return call->Answer(writable);
+    const auto revision = writer.conduct().Remove(wish, host->leases());
+    if (revision.ok()) {
+      host->latest_plans().Forget(wish.robot);
+      LogInfo("robot removed", {{"mission", host->id()},
+                                {"robot", wish.robot},
+                                {"request_id", call->info().request_id}});
+      response->set_revision(*revision);
+    }
+    AnswerWhenDurable(*host, call, revision.status());
+  });
 }
 
 grpc::ServerUnaryReactor* RobotService::RemoveRobot(grpc::CallbackServerContext* context,
@@ -178,8 +174,10 @@ absl::Status RobotService::Release(const v1::ReleaseLeaseRequest& request,
   PLUMESCOUT_RETURN_IF_ERROR(host->journal().CheckTakesMore());
   PLUMESCOUT_RETURN_IF_ERROR(host->leases().Release(name.robot, token));
   host->KeepStanding();
-  LogInfo("lease released",
-          {{"mission", host->id()}, {"robot", name.robot}, {"caller", call->caller().name}});
+  LogInfo("lease released", {{"mission", host->id()},
+                             {"robot", name.robot},
+                             {"caller", call->caller().name},
+                             {"request_id", call->info().request_id}});
   AnswerWhenDurable(*host, call, absl::OkStatus());
   return absl::OkStatus();
 }
@@ -199,23 +197,22 @@ absl::Status RobotService::Order(const v1::OrderHomeRequest& request,
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMission(call->caller(), name.mission));
   const auto run = [host, name, response,
                     home = request.home()](const std::shared_ptr<UnaryCall>& runner) {
-    return host->Post(
-        [host, name, home, response, runner](MissionWriter& writer) {
-          const absl::Status writable = host->CheckMayWrite();
-          if (!writable.ok()) return runner->Answer(writable);
-          const auto robots =
-              name.robot.empty() ? writer.mission().RobotIds() : std::vector<RobotId>{name.robot};
-          const auto revision = writer.conduct().OrderHome(robots, home);
-          if (revision.ok()) {
-            LogInfo(home ? "robots sent home" : "robots called back to work",
-                    {{"mission", host->id()},
-                     {"robot", name.robot.empty() ? "all" : name.robot},
-                     {"caller", runner->caller().name}});
-            response->set_revision(*revision);
-          }
-          AnswerWhenDurable(*host, runner, revision.status());
-        },
-        Refusal(runner));
+    return PostFor(runner, *host, [host, name, home, response, runner](MissionWriter& writer) {
+      const absl::Status writable = host->CheckMayWrite();
+      if (!writable.ok()) return runner->Answer(writable);
+      const auto robots =
+          name.robot.empty() ? writer.mission().RobotIds() : std::vector<RobotId>{name.robot};
+      const auto revision = writer.conduct().OrderHome(robots, home);
+      if (revision.ok()) {
+        LogInfo(home ? "robots sent home" : "robots called back to work",
+                {{"mission", host->id()},
+                 {"robot", name.robot.empty() ? "all" : name.robot},
+                 {"caller", runner->caller().name},
+                 {"request_id", runner->info().request_id}});
+        response->set_revision(*revision);
+      }
+      AnswerWhenDurable(*host, runner, revision.status());
+    });
   };
   return AnswerOnce(host->requests(), request.request_id(), request, response, call, run);
 }

@@ -22,12 +22,12 @@ absl::Status SnapshotService::History(const v1::GetMissionHistoryRequest& reques
   PLUMESCOUT_ASSIGN_OR_RETURN(const HistoryPage page, HistoryPageFromProto(request));
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMission(call->caller(), mission));
   PLUMESCOUT_RETURN_IF_ERROR(context_.CheckKeepsHistory());
-  return context_.query_pool->Submit([=, store = &context_.history->store] {
+  return AnswerInTurn(call, mission, context_.past_pool, [=, store = &context_.history->store] {
     const CallStop stop(call, host);
     auto history =
         ReadHistory(*store, KeyOf(*host), host->id(), page, [&stop] { return stop.stops(); });
     if (history.ok()) *response = *std::move(history);
-    call->Answer(stop.AnswerOf(history.status()));
+    return stop.AnswerOf(history.status());
   });
 }
 

@@ -33,6 +33,16 @@ v1::ServerLimits LimitsOf(const ServerConfig& config) {
   proto.set_max_scans_per_s(limits.max_scans_per_s);
   proto.set_max_gas_readings_per_s(limits.max_gas_readings_per_s);
   proto.set_max_plans_per_s(limits.max_plans_per_s);
+  proto.set_max_calls_per_s(limits.max_calls_per_s);
+  proto.set_max_costly_calls_per_s(limits.max_costly_calls_per_s);
+  proto.set_max_ingest_bytes_per_s(limits.max_ingest_bytes_per_s);
+  *proto.mutable_ingest_burst() = FromSeconds(limits.ingest_burst_s);
+  proto.set_max_mission_beam_count(limits.max_beam_count);
+  proto.set_max_range_m(limits.max_range_m);
+  proto.set_max_map_cell_count(limits.max_map_cell_count);
+  proto.set_max_import_bytes(limits.max_import_bytes);
+  *proto.mutable_max_wait() = FromSeconds(limits.max_wait_s);
+  proto.set_max_watcher_count_per_robot(limits.max_watchers_per_robot);
   *proto.mutable_max_clock_lead() = FromSeconds(limits.max_clock_lead_s);
   return proto;
 }
@@ -59,7 +69,8 @@ absl::Status SystemService::Tell(v1::GetServerInfoResponse& response,
 
 absl::Status SystemService::Drain(const std::shared_ptr<UnaryCall>& call) {
   if (!drain_) return absl::UnimplementedError("this server is ended by the process it is part of");
-  LogInfo("asked to drain", {{"caller", call->caller().name}});
+  LogInfo("asked to drain",
+          {{"caller", call->caller().name}, {"request_id", call->info().request_id}});
   // The call lets go of this when its answer is out.
   call->WhenCancelled(
       [last_act = std::shared_ptr<void>(nullptr, [drain = drain_](void*) { drain(); })] {});

@@ -51,9 +51,14 @@ absl::Status ExportStream::Begin(const v1::ExportMissionRequest& request) {
 
 void ExportStream::BeginAt(const absl::StatusOr<ExportPoint>& point) {
   if (!point.ok()) return End(point.status());
-  const absl::Status queued = context_.query_pool->Submit(
-      [this, self = shared_from_this(), point = *point] { Open(point); });
+  const absl::Status queued = Submit([this, point = *point] { Open(point); });
   if (!queued.ok()) End(queued);
+}
+
+absl::Status ExportStream::Submit(std::function<void()> task) {
+  return context_.past_pool->Submit(
+      TurnOf(visit_.info(), host_->id()),
+      {[self = shared_from_this(), task = std::move(task)] { task(); }});
 }
 
 void ExportStream::Open(const ExportPoint& point) {
@@ -96,8 +101,7 @@ void ExportStream::MakeNext() {
 
 void ExportStream::SubmitNext() {
   if (HasEnded()) return;
-  const absl::Status queued =
-      context_.query_pool->Submit([this, self = shared_from_this()] { MakeNext(); });
+  const absl::Status queued = Submit([this] { MakeNext(); });
   if (queued.ok()) return room_by_.reset();
   if (!room_by_) room_by_ = After(SteadyNow(), context_.limits.export_patience);
   if (SteadyNow() >= *room_by_) return End(queued);

@@ -33,6 +33,7 @@ class ExportStream final : public WriteStream<v1::ExportMissionResponse> {
  private:
   absl::Status Begin(const v1::ExportMissionRequest& request);
   void BeginAt(const absl::StatusOr<ExportPoint>& point);
+  absl::Status Submit(std::function<void()> task);
   // On the pool, one at a time.
   void Open(const ExportPoint& point);
   void MakeNext();

@@ -49,9 +49,14 @@ void RobotWatchStream::Join(const RobotId& robot, std::optional<std::int64_t> le
   }
   if (host == nullptr) return;  // the caller has left meanwhile
   RobotNotices& notices = *host->robot_notices();
-  const absl::Status status =
-      notices.Join({shared_from_this(), this}, robot, lease_token, context_.query_pool,
-                   *writer.conduct().Snapshot(), host->leases(), host->standing().state());
+  // What is looked at is the mission's, whoever watches.
+  const FairKey turn{.group = "", .member = host->id(), .tenant = host->tenant()};
+  const absl::Status status = notices.Join(
+      {shared_from_this(), this}, robot, lease_token,
+      [turn, pool = context_.query_pool](std::function<void()> look) {
+        return pool->Submit(turn, {std::move(look)});
+      },
+      *writer.conduct().Snapshot(), host->leases(), host->standing().state());
   if (!status.ok()) return End(status);
   bool left = false;
   {

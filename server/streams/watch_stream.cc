@@ -67,8 +67,8 @@ absl::Status WatchStream::BeginReplay(const std::shared_ptr<MissionHost>& host,
   PLUMESCOUT_RETURN_IF_ERROR(context_.CheckKeepsHistory());
   is_live_ = false;
   const auto replay = std::make_shared<MapReplay>(
-      MapReplay::Parts{host, &context_.history->past_missions, context_.query_pool,
-                       context_.limits.replay_period},
+      MapReplay::Parts{host, &context_.history->past_missions, context_.past_pool,
+                       TurnOf(visit_.info(), host->id()), context_.limits.replay_period},
       wish);
   {
     absl::MutexLock lock(&mutex_);

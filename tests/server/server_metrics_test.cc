@@ -71,6 +71,8 @@ TEST_F(ServerMetricsTest, WhatRobotsDoIsCounted) {
   EXPECT_GT(metrics.at("plumescout_mission_memory_bytes{mission=\"hall\"}"), 0);
   EXPECT_GT(metrics.at("plumescout_mission_memory_budget_bytes{mission=\"hall\"}"),
             metrics.at("plumescout_mission_memory_bytes{mission=\"hall\"}"));
+  EXPECT_EQ(metrics.at("plumescout_memory_reserved_bytes"),
+            static_cast<double>(MissionOptions{}.memory_budget_bytes));
   EXPECT_EQ(metrics.at("plumescout_memory_budget_bytes"),
             static_cast<double>(LimitConfig{}.memory_budget_bytes));
   EXPECT_GT(metrics.at("plumescout_process_resident_memory_bytes"), 1e6);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "absl/time/clock.h"
 #include "client/grpc_planner_client.h"
 #include "core/types/quantile.h"
@@ -37,6 +38,13 @@ absl::StatusOr<std::unique_ptr<AttackBed>> AttackBed::Start(const AttackSettings
   MemoryBudget budget = DefaultBudget(settings.server_program);
   ServerStart start{settings.server_program, options.settings, options.max_descriptors,
                     options.log_unread};
+  // Whoever attacks calls from the same address as honest callers, without a name, and would spend
+  // their quota as well: what holds beneath the door is what is to be seen.
+  for (const char* quota : {"limits.max_calls_per_s", "limits.max_costly_calls_per_s"}) {
+    if (DefaultOf(settings.server_program, quota).has_value()) {
+      start.settings.push_back(absl::StrCat(quota, "=0"));
+    }
+  }
   start.settings.insert(start.settings.end(), budget.settings.begin(), budget.settings.end());
   PLUMESCOUT_ASSIGN_OR_RETURN(auto server, ServerProcess::Start(start));
   std::unique_ptr<FrontProcess> front;

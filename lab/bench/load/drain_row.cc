@@ -23,11 +23,19 @@ constexpr double kBeyond_s = 1.0;
 constexpr absl::Duration kPatience = absl::Seconds(60);
 constexpr absl::Duration kUnderWay = absl::Milliseconds(100);  // until the server is at it
 constexpr int kStreams = 100;
-constexpr int kLargeSide = 1000;  // cells: a million
 constexpr int kBuildingSide = 600;
 
-// Makes a server busy; what it returns keeps it so.
-using MakeBusy = std::function<absl::StatusOr<std::shared_ptr<void>>(const std::string& target)>;
+// What keeps a server busy.
+struct Busy {
+  std::shared_ptr<void> held;
+  std::function<bool()> is_under_way;
+};
+using MakeBusy = std::function<absl::StatusOr<Busy>(const std::string& target)>;
+
+Busy BusyWith(std::unique_ptr<OpenCalls> calls) {
+  const std::shared_ptr<OpenCalls> held = std::move(calls);
+  return {held, [held] { return held->ended() == 0; }};
+}
 
 absl::StatusOr<client::RobotSession> Begin(const std::string& target, const MissionOptions& options,
                                            const Pose2& pose) {
@@ -36,12 +44,12 @@ absl::StatusOr<client::RobotSession> Begin(const std::string& target, const Miss
   return PlaceRobot(*client, kMission, "robot-1", pose);
 }
 
-absl::StatusOr<std::shared_ptr<void>> Wait(const std::string& target) {
+absl::StatusOr<Busy> Wait(const std::string& target) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto session, Begin(target, MissionOptions{}, {}));
-  return std::shared_ptr<OpenCalls>(OpenCalls::WaitForLog(target, session, 1));
+  return BusyWith(OpenCalls::WaitForLog(target, session, 1));
 }
 
-absl::StatusOr<std::shared_ptr<void>> Plan(const std::string& target) {
+absl::StatusOr<Busy> Plan(const std::string& target) {
   constexpr int kCalls = 4;
   const Grid<std::uint8_t> walls = MakeBuilding(kBuildingSide, kBuildingSide, 1);
   MissionOptions options = WithMap(KnownBuilding(walls));
@@ -49,35 +57,38 @@ absl::StatusOr<std::shared_ptr<void>> Plan(const std::string& target) {
   options.planning.nearest_sample_count = 100;
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto session,
                               Begin(target, options, FreePoses(walls, 1, 1).front()));
-  return std::shared_ptr<OpenCalls>(OpenCalls::Plan(target, session, kCalls, absl::Minutes(1)));
+  return BusyWith(OpenCalls::Plan(target, session, kCalls, absl::Minutes(1)));
 }
 
-absl::StatusOr<std::shared_ptr<void>> Refresh(const std::string& target) {
-  const auto client = client::MakeGrpcPlannerClient({.target = target});
-  PLUMESCOUT_RETURN_IF_ERROR(client->CreateMission(kMission, WithMap(KnownHall(kLargeSide))));
-  return std::shared_ptr<OpenCalls>(OpenCalls::ReadFreshMap(target, kMission, 1));
+absl::StatusOr<Busy> Refresh(const std::string& target) {
+  const auto client = client::MakeGrpcPlannerClient({.target = target, .call_timeout = kPatience});
+  PLUMESCOUT_RETURN_IF_ERROR(client->CreateMission(kMission, LargeField()));
+  return BusyWith(OpenCalls::ReadFreshMap(target, kMission, 1));
 }
 
-absl::StatusOr<std::shared_ptr<void>> Watch(const std::string& target) {
+absl::StatusOr<Busy> Watch(const std::string& target) {
   PLUMESCOUT_RETURN_IF_ERROR(Begin(target, MissionOptions{}, {}).status());
   auto watchers = std::make_shared<std::vector<std::unique_ptr<LoadWatcher>>>();
   for (int i = 0; i < kStreams; ++i) {
     watchers->push_back(std::make_unique<LoadWatcher>(target, kMission, nullptr));
   }
-  return std::shared_ptr<void>(watchers);
+  return Busy{watchers, [] { return true; }};
 }
 
-absl::StatusOr<Bar> Measure(const RowSettings& settings, const std::string& state,
-                            const MakeBusy& make_busy) {
-  const std::string drain = absl::StrCat("connection.drain_s=", kDrain_s);
+absl::StatusOr<std::vector<Bar>> Measure(const RowSettings& settings, const std::string& state,
+                                         const MakeBusy& make_busy) {
+  std::vector<std::string> options = LargeFieldSettings();
+  options.push_back(absl::StrCat("connection.drain_s=", kDrain_s));
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto server,
-                              ServerProcess::Start({settings.server_program, {drain}}));
-  PLUMESCOUT_ASSIGN_OR_RETURN(const auto busy, make_busy(server->target()));
+                              ServerProcess::Start({settings.server_program, options}));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Busy busy, make_busy(server->target()));
   absl::SleepFor(kUnderWay);
+  const bool under_way = busy.is_under_way();
   const absl::StatusOr<absl::Duration> taken = server->Stop(kPatience);
   if (!taken.ok() && !absl::IsDeadlineExceeded(taken.status())) return taken.status();
-  return Bar{absl::StrCat("drain_", state, "_s"), absl::ToDoubleSeconds(taken.value_or(kPatience)),
-             kDrain_s + kBeyond_s};
+  return std::vector<Bar>{{absl::StrCat("drain_", state, "_s"),
+                           absl::ToDoubleSeconds(taken.value_or(kPatience)), kDrain_s + kBeyond_s},
+                          MustHold(absl::StrCat("drain_", state, "_idle"), under_way)};
 }
 
 }  // namespace
@@ -87,8 +98,9 @@ absl::StatusOr<std::vector<Bar>> DrainRow(const RowSettings& settings) {
       {"waiter", Wait}, {"plan", Plan}, {"refresh", Refresh}, {"streams", Watch}};
   std::vector<Bar> bars;
   for (const auto& [name, make_busy] : states) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(Bar bar, Measure(settings, name, make_busy));
-    bars.push_back(std::move(bar));
+    PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<Bar> measured,
+                                Measure(settings, name, make_busy));
+    bars.insert(bars.end(), measured.begin(), measured.end());
   }
   return bars;
 }

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "absl/time/clock.h"
 #include "absl/time/time.h"
 #include "core/types/status_macros.h"
@@ -16,6 +17,7 @@
 namespace plumescout::lab {
 namespace {
 
+constexpr std::int64_t kLargeField_bytes = std::int64_t{8} << 30;
 constexpr double kRadius_m = 0.2;
 constexpr absl::Duration kScanPatience = absl::Seconds(10);
 constexpr int kBeams = 90;
@@ -60,6 +62,19 @@ MissionOptions WithMap(std::shared_ptr<const Grid<CellState>> map) {
   options.occupancy.max_extent_m = std::max(options.occupancy.max_extent_m, 1.5 * extent_m);
   options.prior_map = std::move(map);
   return options;
+}
+
+MissionOptions LargeField() {
+  constexpr int kSide = 1000;  // cells
+  MissionOptions options = WithMap(KnownHall(kSide));
+  options.gas.field_reach_m = 0.0;
+  options.memory_budget_bytes = kLargeField_bytes;
+  return options;
+}
+
+std::vector<std::string> LargeFieldSettings() {
+  return {absl::StrCat("limits.memory_budget_bytes=", kLargeField_bytes),
+          absl::StrCat("limits.mission_memory_budget_bytes=", kLargeField_bytes)};
 }
 
 absl::StatusOr<client::RobotSession> PlaceRobot(client::PlannerClient& client,

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "client/planner_client.h"
@@ -21,6 +23,10 @@ std::shared_ptr<const Grid<CellState>> KnownBuilding(const Grid<std::uint8_t>& w
 
 // A mission that begins with the map and allows as many cells.
 MissionOptions WithMap(std::shared_ptr<const Grid<CellState>> map);
+// One in a hall of a million cells, on all of which the gas is computed at full resolution; for a
+// server with these settings.
+MissionOptions LargeField();
+std::vector<std::string> LargeFieldSettings();
 
 // Registers a robot and has one scan of an empty place applied, taken at `pose`: now it can be
 // planned for.

@@ -142,6 +142,25 @@ TEST_F(RequestMemoryTest, TheOldestGoFirstByNumberAndByBytes) {
   EXPECT_TRUE(Runs(memory, key(2)));
 }
 
+TEST_F(RequestMemoryTest, ManyAnswersOfOneMethodPushOutTheirOwnKind) {
+  RequestMemoryOptions options = Options();
+  options.max_answers = 4;
+  options.max_bytes = 100;
+  RequestMemory memory(options);
+  ASSERT_TRUE(Runs(memory, kKey));
+  memory.Conclude(kKey, "lease 7");
+  const auto plan = [](int i) {
+    return RequestKey{kKey.caller, "NextBestTrajectory", absl::StrCat(i)};
+  };
+  for (int i = 0; i < 9; ++i) {
+    ASSERT_TRUE(Runs(memory, plan(i)));
+    memory.Conclude(plan(i), std::string(i < 8 ? 10 : 80, 'x'));
+  }
+  EXPECT_FALSE(Runs(memory, kKey));
+  EXPECT_FALSE(Runs(memory, plan(8)));
+  EXPECT_TRUE(Runs(memory, plan(5)));
+}
+
 TEST_F(RequestMemoryTest, WhatWasUndoneIsForgottenUnlessItRuns) {
   RequestMemory memory(Options());
   ASSERT_TRUE(Runs(memory, kKey));

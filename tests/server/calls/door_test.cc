@@ -10,6 +10,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/synchronization/mutex.h"
+#include "core/types/error_reason.h"
 
 namespace plumescout::server {
 namespace door_test {
@@ -93,6 +94,29 @@ TEST(DoorTest, ObserversHearOfEveryCallOnce) {
   refused.Leave(absl::OkStatus());
   ASSERT_EQ(heard.size(), 2u);
   EXPECT_EQ(heard[1], "DrainServer scout PERMISSION_DENIED");
+}
+
+TEST(DoorTest, CallersAreHeldToTheirRatesAndObserversHear) {
+  Principal caller = kScout;
+  int refused = 0;
+  Door door([&](const grpc::CallbackServerContext&) { return Identity{caller}; },
+            {.calls_per_s = 1e-3});
+  door.AddObserver([&](const CallInfo&, const CallEnd& end) {
+    EXPECT_EQ(ErrorReason(end.status), reason::kRateExceeded);
+    ++refused;
+  });
+  const grpc::CallbackServerContext call;
+  EXPECT_TRUE(Enter(door, Rpc::kGetMap, call).ok());
+  EXPECT_EQ(ErrorReason(Enter(door, Rpc::kGetRobot, call).status()), reason::kRateExceeded);
+  caller.tenant = "other";  // another one of that name
+  EXPECT_TRUE(Enter(door, Rpc::kGetMap, call).ok());
+  EXPECT_EQ(refused, 1);
+}
+
+TEST(DoorTest, AccountsAreOfCallersOrOfTheirMachines) {
+  const grpc::CallbackServerContext call;
+  EXPECT_EQ(Enter(Door(AlwaysSay(kScout)), Rpc::kGetMap, call)->account, "caller acme scout");
+  EXPECT_EQ(Enter(Door(), Rpc::kGetMap, call)->account, "") << "that of a call from nowhere";
 }
 
 TEST(DoorTest, ManyMayEnterAtOnce) {

@@ -63,11 +63,11 @@ class MapReplayTest : public testing::Test {
     ASSERT_TRUE(registry_->Recover("hall").ok());
     host_ = *registry_->Find("hall");
     past_ = std::make_unique<PastMissions>(&store_, registry_.get());
-    pool_ = std::make_unique<WorkerPool>(WorkerPoolOptions{"query", 1, 16});
+    pool_ = std::make_unique<FairPool>(FairPoolOptions{.name = "past", .threads = 1});
   }
   std::shared_ptr<MapReplay> Replay(const ReplayWish& wish) {
     auto replay = std::make_shared<MapReplay>(
-        MapReplay::Parts{host_, past_.get(), pool_.get(), absl::ZeroDuration()}, wish);
+        MapReplay::Parts{host_, past_.get(), pool_.get(), {}, absl::ZeroDuration()}, wish);
     EXPECT_TRUE(replay->Begin(reader_, [this] { caught_up_.Notify(); }).ok());
     return replay;
   }
@@ -84,7 +84,7 @@ class MapReplayTest : public testing::Test {
   std::unique_ptr<PastMissions> past_;
   absl::Notification caught_up_;
   const std::shared_ptr<Reader> reader_ = std::make_shared<Reader>();
-  std::unique_ptr<WorkerPool> pool_;  // goes first: what it runs uses the above
+  std::unique_ptr<FairPool> pool_;  // goes first: what it runs uses the above
 };
 
 TEST_F(MapReplayTest, FramesLeadFromThePastToNow) {

@@ -36,6 +36,8 @@ class MissionRegistryRecoveryTest : public testing::Test {
     hooks.snapshot_pool = &snapshot_pool_;
     RegistryOptions options;
     options.max_missions = 2;
+    options.memory_budget_bytes = budget_bytes_;
+    options.max_missions_per_tenant = max_per_tenant_;
     options.sleep_after = absl::Seconds(60);
     registry_ = std::make_unique<MissionRegistry>(options, hooks);
     const absl::Status found = registry_->FindStored();
@@ -71,6 +73,8 @@ class MissionRegistryRecoveryTest : public testing::Test {
   }
 
   SteadyTime now_ = SteadyTime() + std::chrono::hours(1);
+  std::int64_t budget_bytes_ = RegistryOptions().memory_budget_bytes;
+  int max_per_tenant_ = 0;
   HeldStore store_;
   WorkerPool snapshot_pool_{{"snapshot", 1, 4}};
   std::unique_ptr<MissionRegistry> registry_;
@@ -241,6 +245,59 @@ TEST_F(MissionRegistryRecoveryTest, MissionsThatNobodyUsesSleepUntilSomebodyCall
   EXPECT_TRUE(Do(*host, [&](MissionWriter& writer) {
                 ExpectSameMission(*writer.conduct().Snapshot(), *before);
               }).ok());
+}
+
+TEST_F(MissionRegistryRecoveryTest, ARestartKeepsWithinTheBudgetOfMemory) {
+  const std::int64_t each_bytes = MissionOptions().memory_budget_bytes;
+  PutMission(store_, "busy", {}, {{1, RobotRegistered{"r1", 0.2, 7}}});
+  ASSERT_TRUE(registry_->Create("quiet", {}).ok());
+  budget_bytes_ = each_bytes * 3 / 2;  // of a machine that has less
+  Restart();
+  RecoverAll();
+  EXPECT_TRUE(registry_->Find("busy").ok());
+  EXPECT_EQ(registry_->reserved_bytes(), each_bytes);
+  EXPECT_EQ(registry_->absent().sleeping, 1);
+  EXPECT_EQ(registry_->absent().damaged, 0);
+  EXPECT_EQ(ErrorReason(registry_->Find("quiet").status()), reason::kLimitReached);
+  EXPECT_FALSE(registry_->RecoverNext());
+  ASSERT_TRUE(registry_->Delete("busy").ok());
+  ASSERT_TRUE(registry_->AwaitStopped(SteadyTime::max()));
+  EXPECT_EQ(ErrorReason(registry_->Find("quiet").status()), reason::kRecovering);
+  EXPECT_EQ(registry_->reserved_bytes(), each_bytes);
+  RecoverAll();
+  EXPECT_TRUE(registry_->Find("quiet").ok());
+  EXPECT_EQ(registry_->reserved_bytes(), each_bytes);
+}
+
+TEST_F(MissionRegistryRecoveryTest, OneThatIsCalledForFindsTheRoomTakenMeanwhile) {
+  PutMission(store_, "stored", {}, {{1, RobotRegistered{"r1", 0.2, 7}}});
+  budget_bytes_ = MissionOptions().memory_budget_bytes;
+  Restart();
+  ASSERT_TRUE(registry_->Create("new", {}).ok());
+  RecoverAll();
+  EXPECT_EQ(ErrorReason(registry_->Find("stored").status()), reason::kLimitReached);
+  EXPECT_EQ(registry_->reserved_bytes(), budget_bytes_);
+}
+
+TEST_F(MissionRegistryRecoveryTest, OneTenantLeavesPlacesToOthers) {
+  max_per_tenant_ = 1;
+  Restart();
+  ASSERT_TRUE(registry_->Create("a", {}, {"ann", "acme"}).ok());
+  EXPECT_EQ(ErrorReason(registry_->Create("b", {}, {"ann", "acme"}).status()),
+            reason::kLimitReached);
+  now_ += std::chrono::seconds(60);
+  EXPECT_EQ(SleepAll(), 1);
+  ASSERT_TRUE(registry_->Create("b", {}, {"ann", "acme"}).ok());
+  EXPECT_EQ(ErrorReason(registry_->Find("a", "acme").status()), reason::kLimitReached);
+  EXPECT_TRUE(registry_->Create("a", {}, {"bob", "other"}).ok());
+}
+
+TEST_F(MissionRegistryRecoveryTest, ADamagedMissionTakesNoMemory) {
+  PutMission(store_, "bad", {}, {{1, RobotRemoved{"r1"}}});  // who was never there
+  Restart();
+  RecoverAll();
+  EXPECT_EQ(registry_->absent().damaged, 1);
+  EXPECT_EQ(registry_->reserved_bytes(), 0);
 }
 
 TEST_F(MissionRegistryRecoveryTest, MissionsThatSleepTakeNoRoomAndAreForgottenInTime) {

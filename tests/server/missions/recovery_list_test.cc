@@ -18,6 +18,10 @@ StoredMission Stored(const std::string& key, std::int64_t head) {
   return {.key = key, .epoch = 1, .head = head, .bytes = 0};
 }
 
+std::vector<AbsentMission> After(const RecoveryList& list, const std::string& key, int limit = 9) {
+  return list.After(key, limit, [](const std::string&) { return true; });
+}
+
 TEST(RecoveryListTest, BusyMissionsComeFirstButThoseThatAreCalledForBeforeThem) {
   RecoveryList list;
   for (const auto& [key, head] : {std::pair("a", 5), {"b", 50}, {"c", 7}, {"d", 6}}) {
@@ -46,11 +50,11 @@ TEST(RecoveryListTest, WhatCannotBeRecoveredStaysAndSaysWhy) {
   EXPECT_EQ(list.waiting(), 1);
   EXPECT_EQ(list.Next(), "acme/yard");
   EXPECT_EQ(list.Next(), std::nullopt);
-  const auto after = list.After("acme/hall");
+  const auto after = After(list, "acme/hall");
   ASSERT_EQ(after.size(), 1U);
   EXPECT_EQ(after[0].key, "acme/yard");
   EXPECT_EQ(ErrorReason(after[0].status), reason::kRecovering);
-  EXPECT_EQ(list.After("").size(), 2U);
+  EXPECT_EQ(After(list, "").size(), 2U);
 }
 
 TEST(RecoveryListTest, WhoSleepsIsLeftInPeaceUntilSomebodyCalls) {
@@ -61,11 +65,11 @@ TEST(RecoveryListTest, WhoSleepsIsLeftInPeaceUntilSomebodyCalls) {
   EXPECT_EQ(list.asleep(), 2);
   EXPECT_EQ(list.waiting(), 0);
   EXPECT_EQ(list.Next(), std::nullopt);
-  EXPECT_TRUE(list.After("")[0].is_asleep);
+  EXPECT_TRUE(After(list, "")[0].is_asleep);
   EXPECT_EQ(list.FindAsleep("a")->memory_bytes, 100);
   EXPECT_EQ(ErrorReason(list.CallFor("a")), reason::kRecovering);
   EXPECT_EQ(list.FindAsleep("a"), nullptr);
-  EXPECT_FALSE(list.After("")[0].is_asleep);
+  EXPECT_FALSE(After(list, "")[0].is_asleep);
   EXPECT_EQ(list.woken(), 1);
   EXPECT_EQ(list.woken_memory_bytes(), 100);
   EXPECT_EQ(list.waiting(), 1);
@@ -77,6 +81,33 @@ TEST(RecoveryListTest, WhoSleepsIsLeftInPeaceUntilSomebodyCalls) {
   EXPECT_TRUE(list.TakeForgotten(kLater - std::chrono::nanoseconds(1)).empty());
   EXPECT_EQ(list.TakeForgotten(kLater).at(0).key, "b");
   EXPECT_EQ(list.asleep(), 1);
+}
+
+TEST(RecoveryListTest, NoMoreIsListedThanIsWanted) {
+  RecoveryList list;
+  for (const char* key : {"a", "b", "c", "d"}) list.Add({.key = key});
+  EXPECT_EQ(After(list, "", 2).back().key, "b");
+  const auto even = list.After("", 1, [](const std::string& key) { return key > "b"; });
+  ASSERT_EQ(even.size(), 1U);
+  EXPECT_EQ(even[0].key, "c");
+}
+
+TEST(RecoveryListTest, WhatThereIsNoRoomForSleepsAndKnowsWhy) {
+  RecoveryList list;
+  list.Add({.key = "hall", .epoch = 3, .head = 7});
+  ASSERT_EQ(list.Next(), "hall");
+  list.PutToSleep("hall", 100);
+  EXPECT_EQ(list.waiting(), 0);
+  EXPECT_EQ(list.Next(), std::nullopt);
+  ASSERT_NE(list.FindAsleep("hall"), nullptr);
+  EXPECT_EQ(list.FindAsleep("hall")->memory_bytes, 100);
+  EXPECT_EQ(list.FindAsleep("hall")->epoch, 3);
+  EXPECT_EQ(list.FindAsleep("hall")->head, 7);
+  EXPECT_FALSE(list.CallFor("hall").ok());
+  EXPECT_EQ(list.woken_memory_bytes(), 100);
+  list.ForgetMemory("hall");
+  EXPECT_EQ(list.woken_memory_bytes(), 0);
+  EXPECT_EQ(list.Next(), "hall");
 }
 
 TEST(RecoveryListTest, AKeyNamesMissionAndTenant) {

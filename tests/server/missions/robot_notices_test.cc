@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <thread>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "absl/synchronization/notification.h"
 #include "core/mission/conduct/mission_conduct.h"
 #include "core/types/error_reason.h"
+#include "server/base/worker_pool.h"
 
 namespace plumescout::server {
 namespace robot_notices_test {
@@ -25,6 +27,10 @@ class Watcher final : public RobotWatcher {
   std::atomic<int> wakes = 0;
   absl::Status end;
 };
+
+RobotNotices::Submit On(WorkerPool& pool) {
+  return [&pool](std::function<void()> look) { return pool.Submit(std::move(look)); };
+}
 
 class RobotNoticesTest : public ::testing::Test {
  protected:
@@ -39,7 +45,7 @@ class RobotNoticesTest : public ::testing::Test {
   }
   absl::Status Join(const std::shared_ptr<Watcher>& watcher, const RobotId& robot = "r1",
                     std::optional<std::int64_t> lease = kLease) {
-    return notices_->Join(watcher, robot, lease, &pool_, *belief_, leases_, state_);
+    return notices_->Join(watcher, robot, lease, On(pool_), *belief_, leases_, state_);
   }
   // A watcher that has heard how its robot stands.
   std::shared_ptr<Watcher> Joined(const RobotId& robot = "r1") {
@@ -209,7 +215,7 @@ TEST_F(RobotNoticesTest, ALookForWhichThereWasNoRoomIsMadeUpFor) {
   busy.WaitForNotification();
   ASSERT_TRUE(full.Submit([] {}).ok());
   const auto watcher = std::make_shared<Watcher>();
-  ASSERT_TRUE(notices_->Join(watcher, "r1", kLease, &full, *belief_, leases_, state_).ok());
+  ASSERT_TRUE(notices_->Join(watcher, "r1", kLease, On(full), *belief_, leases_, state_).ok());
   ASSERT_TRUE(notices_->Next(watcher.get()).has_value());
   auto belief = std::make_shared<Belief>(*belief_);
   ++belief->revision;

@@ -5,10 +5,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <thread>
+#include <vector>
+
+#include "absl/synchronization/notification.h"
 #include "absl/time/clock.h"
 #include "absl/time/time.h"
+#include "core/types/error_reason.h"
 #include "proto/convert/geometry.h"
 #include "proto/convert/map.h"
+#include "tests/server/held_store.h"
 #include "tests/server/service_fixture.h"
 #include "tests/support/room_run.h"
 
@@ -315,6 +322,69 @@ TEST_F(MapServiceTest, GasOfAnEmptyMapIsOffTheMap) {
   EXPECT_EQ(response->gas(0).state(), v1::CELL_STATE_OFF_MAP);
   EXPECT_FALSE(response->gas(0).has_nearest_reading_m());
   EXPECT_EQ(Revision(), 0);
+}
+
+// Reads of journals wait until they may go on.
+class SlowJournal final : public HeldStore {
+ public:
+  absl::StatusOr<std::unique_ptr<JournalReader>> Read(const std::string& key,
+                                                      std::int64_t first_number) override {
+    if (!reads.HasBeenNotified()) reads.Notify();
+    go_on.WaitForNotification();
+    return HeldStore::Read(key, first_number);
+  }
+
+  absl::Notification reads;
+  absl::Notification go_on;
+};
+
+TEST_F(MapServiceTest, LooksAtThePastKeepNobodyFromWhatIsNow) {
+  SlowJournal store;
+  ServerConfig config;
+  config.maps.query_threads = 1;
+  RegistryHooks hooks;
+  hooks.store = &store;
+  server_ = nullptr;
+  StartServer(config, hooks);
+  SeeTheRoom();
+  v1::GetMapRequest request;
+  request.set_mission("missions/hall");
+  request.set_revision(1);
+  std::thread looks([&] { EXPECT_TRUE(Call(maps_, &v1::MapService::Stub::GetMap, request).ok()); });
+  store.reads.WaitForNotification();
+  EXPECT_TRUE(GetMap().ok());  // would wait for its deadline
+  store.go_on.Notify();
+  looks.join();
+  server_ = nullptr;
+}
+
+TEST_F(MapServiceTest, OneCallersLooksLeaveRoomForOthers) {
+  SlowJournal store;
+  ServerConfig config;
+  config.maps.max_queued_queries = 4;
+  RegistryHooks hooks;
+  hooks.store = &store;
+  server_ = nullptr;
+  StartServer(config, hooks);
+  SeeTheRoom();
+  v1::GetMapRequest request;
+  request.set_mission("missions/hall");
+  request.set_revision(1);
+  std::atomic<int> refused = 0;
+  std::vector<std::thread> looks;
+  for (int i = 0; i < 4; ++i) {  // one is at it and two wait: the fourth is beyond its share
+    looks.emplace_back([&] {
+      const absl::Status status = Call(maps_, &v1::MapService::Stub::GetMap, request).status();
+      if (ErrorReason(status) == reason::kOverloaded) ++refused;
+    });
+    store.reads.WaitForNotification();
+  }
+  while (refused == 0) std::this_thread::yield();
+  EXPECT_TRUE(GetMap().ok());
+  store.go_on.Notify();
+  for (std::thread& look : looks) look.join();
+  EXPECT_EQ(refused, 1);
+  server_ = nullptr;
 }
 
 TEST_F(MapServiceTest, WatchersAreServedToo) {

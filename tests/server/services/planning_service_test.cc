@@ -80,6 +80,19 @@ absl::StatusOr<Plan> DriveEast(const Belief& belief, const PlanRequest& request,
   return PlanTo(belief, request.robot, 1.0);
 }
 
+TEST_F(PlanningServiceTest, AReportWhoseAnswerWasLostMayBeMadeAgain) {
+  Start();
+  ASSERT_TRUE(NextBest(Order()).ok());
+  const auto name = [](v1::ReportProgressRequest& request) { request.set_request_id("report-1"); };
+  const auto first = Report(1, name);
+  ASSERT_TRUE(first.ok()) << first.status();
+  ASSERT_TRUE(NextBest(Order()).ok());  // by now another plan counts
+  const auto again = Report(1, name);
+  ASSERT_TRUE(again.ok()) << again.status();
+  EXPECT_EQ(again->revision(), first->revision());
+  EXPECT_FALSE(Report(1).ok()) << "without its name it is another report";
+}
+
 TEST_F(PlanningServiceTest, PlanStartsAtTheRobotAndIsCommitted) {
   Start();
   const auto response = NextBest(Order());

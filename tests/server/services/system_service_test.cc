@@ -48,6 +48,16 @@ TEST_F(SystemServiceTest, InfoTellsWhatIsConfigured) {
   EXPECT_EQ(limits.max_scans_per_s(), 12.5);
   EXPECT_EQ(limits.max_gas_readings_per_s(), config.limits.max_gas_readings_per_s);
   EXPECT_EQ(limits.max_plans_per_s(), config.limits.max_plans_per_s);
+  EXPECT_EQ(limits.max_calls_per_s(), config.limits.max_calls_per_s);
+  EXPECT_EQ(limits.max_costly_calls_per_s(), config.limits.max_costly_calls_per_s);
+  EXPECT_EQ(limits.max_ingest_bytes_per_s(), config.limits.max_ingest_bytes_per_s);
+  EXPECT_EQ(limits.ingest_burst().seconds(), 60);
+  EXPECT_EQ(limits.max_mission_beam_count(), config.limits.max_beam_count);
+  EXPECT_EQ(limits.max_range_m(), config.limits.max_range_m);
+  EXPECT_EQ(limits.max_map_cell_count(), config.limits.max_map_cell_count);
+  EXPECT_EQ(limits.max_import_bytes(), config.limits.max_import_bytes);
+  EXPECT_EQ(limits.max_wait().seconds(), 30);
+  EXPECT_EQ(limits.max_watcher_count_per_robot(), config.limits.max_watchers_per_robot);
   EXPECT_EQ(limits.max_clock_lead().seconds(), 2);
   EXPECT_EQ(limits.max_clock_lead().nanos(), 500'000'000);
   EXPECT_EQ(limits.max_planning_budget().seconds(), 1);
