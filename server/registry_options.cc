@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/registry_options.h"
 
+#include <algorithm>
+
 #include "absl/time/time.h"
 
 namespace plumescout::server {
@@ -61,6 +63,31 @@ RecordingOptions ToRecordingOptions(const RecordConfig& config) {
   options.map_share = config.map_share;
   options.file.chunk_period = absl::Seconds(config.chunk_s);
   options.file.max_file_bytes = config.max_file_bytes;
+  return options;
+}
+
+ServiceLimits ToServiceLimits(const ServerConfig& config) {
+  ServiceLimits limits;
+  limits.max_batch_observations = config.limits.max_batch_observations;
+  limits.stream_window_observations = config.limits.stream_window_observations;
+  limits.default_planning_budget = absl::Seconds(config.planning.default_budget_s);
+  limits.max_planning_budget = absl::Seconds(config.planning.max_budget_s);
+  limits.deadline_margin = absl::Seconds(config.planning.deadline_margin_s);
+  limits.replay_period = absl::Seconds(config.maps.publish_period_s);
+  limits.import_patience = limits.export_patience = absl::Seconds(config.limits.max_wait_s);
+  return limits;
+}
+
+FairPoolOptions ToPlanningPoolOptions(const PlanningConfig& config) {
+  FairPoolOptions options;
+  options.name = "planning";
+  options.threads = config.threads;
+  options.max_queued = config.max_queued;
+  options.max_queued_per_group = config.max_queued_per_mission;
+  options.max_queued_per_member = config.max_queued_per_robot;
+  options.max_running_per_group = config.max_running_per_mission > 0
+                                      ? config.max_running_per_mission
+                                      : std::max(1, config.threads - 1);
   return options;
 }
 

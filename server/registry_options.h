@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "server/base/fair_pool.h"
+#include "server/calls/service_context.h"
 #include "server/config/config.h"
 #include "server/history/mission_import.h"
 #include "server/missions/mission_maker.h"
@@ -11,9 +13,11 @@
 
 namespace plumescout::server {
 
-// What the configuration says of missions.
+// What the configuration says of missions, and of calls.
 RegistryOptions ToRegistryOptions(const ServerConfig& config, std::int64_t first_lease_token);
 ImportLimits ToImportLimits(const ServerConfig& config);
 RecordingOptions ToRecordingOptions(const RecordConfig& config);
+ServiceLimits ToServiceLimits(const ServerConfig& config);
+FairPoolOptions ToPlanningPoolOptions(const PlanningConfig& config);
 
 }  // namespace plumescout::server

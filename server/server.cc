@@ -56,19 +56,6 @@ absl::StatusOr<Identity> IdentityOf(const std::shared_ptr<const Authenticator>& 
 // Times to live are seconds at least; who is locked out is so within this.
 constexpr absl::Duration kSweepPeriod = absl::Seconds(1);
 
-FairPoolOptions ToPlanningPoolOptions(const PlanningConfig& config) {
-  FairPoolOptions options;
-  options.name = "planning";
-  options.threads = config.threads;
-  options.max_queued = config.max_queued;
-  options.max_queued_per_group = config.max_queued_per_mission;
-  options.max_queued_per_member = config.max_queued_per_robot;
-  options.max_running_per_group = config.max_running_per_mission > 0
-                                      ? config.max_running_per_mission
-                                      : std::max(1, config.threads - 1);
-  return options;
-}
-
 // Who looks on has what robots leave of the CPU: plans, and what they wait for, go first.
 constexpr bool kYields = true;
 // Looks at the past take seconds, and do not keep anybody from what is now.
@@ -77,9 +64,6 @@ constexpr int kPastThreads = 1;
 constexpr int kAuditThreads = 1;
 // Snapshots are packed in milliseconds, and nobody waits for them.
 constexpr int kSnapshotThreads = 1;
-constexpr absl::Duration kLongestSettling = absl::Seconds(2);
-// Routers look every 0.2 s whether a server is ready (deploy/cluster/haproxy.cfg).
-constexpr absl::Duration kRoutersNotice = absl::Milliseconds(400);
 // Missions are created now and then; those with large known maps take a second, beside the others.
 constexpr int kCreationThreads = 1;
 
@@ -96,18 +80,6 @@ FairPoolOptions ToViewersPoolOptions(const std::string& name, int threads,
   options.groups_leave_room = true;
   options.yields = kYields;
   return options;
-}
-
-ServiceLimits ToServiceLimits(const ServerConfig& config) {
-  ServiceLimits limits;
-  limits.max_batch_observations = config.limits.max_batch_observations;
-  limits.stream_window_observations = config.limits.stream_window_observations;
-  limits.default_planning_budget = absl::Seconds(config.planning.default_budget_s);
-  limits.max_planning_budget = absl::Seconds(config.planning.max_budget_s);
-  limits.deadline_margin = absl::Seconds(config.planning.deadline_margin_s);
-  limits.replay_period = absl::Seconds(config.maps.publish_period_s);
-  limits.import_patience = limits.export_patience = absl::Seconds(config.limits.max_wait_s);
-  return limits;
 }
 
 RegistryHooks Complete(RegistryHooks hooks, const ServerConfig& config, MissionStore* store,
@@ -413,15 +385,11 @@ std::string Server::MetricsText() const {
 void Server::Drain() {
   if (drain_begun_.exchange(true)) return;
   const SteadyTime cut = After(SteadyNow(), absl::Seconds(config_.connection.drain_s));
-  if (store_ != nullptr && store_->nodes() != nullptr) {
-    // Whoever takes a mission over is to read it quickly; until then it is served here.
-    registry_.TakeSnapshots(std::min(cut, After(SteadyNow(), kLongestSettling)));
-    if (registry_.HandOverAll(cut)) {
-      draining_ = true;
-      // Whoever still comes is told where to go.
-      const SteadyTime noticed = std::min(cut, After(SteadyNow(), kRoutersNotice));
-      absl::SleepFor(absl::FromChrono(noticed - SteadyNow()));
-    }
+  if (registry_.HandOverAll(cut)) {
+    draining_ = true;
+    // Whoever still comes is told where to go, until routers have noticed: they look every 0.2 s
+    // whether a server is ready (deploy/cluster/haproxy.cfg).
+    absl::SleepFor(std::min(absl::Milliseconds(400), absl::FromChrono(cut - SteadyNow())));
   }
   draining_ = true;
   probe_.reset();

@@ -14,7 +14,6 @@ namespace plumescout::server {
 
 struct LimitConfig {
   int max_missions = 8;
-  int max_missions_per_tenant = 0;  // of these; 0: as many
   // Of all missions together, each counted with all that it may come to hold.
   std::int64_t memory_budget_bytes = std::int64_t{4} << 30;
   int max_receive_bytes = 262'144;  // of one request message
@@ -35,13 +34,14 @@ struct LimitConfig {
   double max_gas_readings_per_s = 200.0;
   double max_ingest_bytes_per_s = 4'194'304.0;
   double max_plans_per_s = 10.0;
-  // Of one caller; 0: any number.
-  double max_calls_per_s = 2000.0;
-  double max_costly_calls_per_s = 200.0;
   double ingest_burst_s = 60.0;   // so much time's worth of observations may come at once
   double max_clock_lead_s = 5.0;  // of a robot's sample; 0: any
   std::int64_t max_import_bytes = std::int64_t{4} << 30;
   int max_watchers_per_robot = 64;  // with its lease, and as many without
+  // Of one caller; 0: any number.
+  double max_calls_per_s = 2000.0;
+  double max_costly_calls_per_s = 500.0;
+  int max_missions_per_tenant = 0;  // 0: as many as there are
 };
 
 struct PlanningConfig {

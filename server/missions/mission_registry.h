@@ -129,11 +129,11 @@ class MissionRegistry {
   // Has snapshots taken of missions that other servers are soon to read, while they go on. False if
   // not all are stored by then.
   bool TakeSnapshots(SteadyTime deadline);
-  // Gives all missions to the other servers of the store, one after the other: what is asked of a
-  // mission meanwhile waits, until it is nobody's, and is then told (MISSION_ELSEWHERE) who is to
-  // have it. From now on the same is said of every mission that is not here. False if there is no
-  // other server: then nothing has changed. What is not given away by the deadline is dropped, or
-  // left to StopAll. Blocks.
+  // Gives all missions to the other servers of the store, one after the other, when snapshots are
+  // taken: what is asked of a mission meanwhile waits, until it is nobody's, and is then told
+  // (MISSION_ELSEWHERE) who is to have it. From now on the same is said of every mission that is
+  // not here. False if there is no other server: then they go on. What is not given away by the
+  // deadline is dropped, or left to StopAll. Blocks.
   bool HandOverAll(SteadyTime deadline);
   // MissionHost::EndWaits of all; no mission is made from then on.
   void EndWaits(const absl::Status& status);

@@ -14,6 +14,7 @@
 #include "absl/synchronization/notification.h"
 #include "absl/time/clock.h"
 #include "core/mission/conduct/conduct_errors.h"
+#include "core/types/status_macros.h"
 #include "server/base/errors.h"
 #include "server/base/log.h"
 #include "server/missions/mission_registry.h"
@@ -24,6 +25,7 @@ namespace plumescout::server {
 namespace {
 
 constexpr absl::Duration kSnapshotLook = absl::Milliseconds(2);
+constexpr absl::Duration kLongestSettling = absl::Seconds(2);
 // Of one mission; so long calls wait at most that come meanwhile.
 constexpr absl::Duration kLongestHandOver = absl::Seconds(1);
 
@@ -99,6 +101,9 @@ bool MissionRegistry::TakeSnapshots(SteadyTime deadline) {
 }
 
 bool MissionRegistry::HandOverAll(SteadyTime deadline) {
+  if (nodes_ == nullptr) return false;
+  // Whoever takes a mission over is to read it quickly; until then it is served here.
+  TakeSnapshots(std::min(deadline, After(SteadyNow(), kLongestSettling)));
   std::vector<std::string> successors;
   for (StoreNode& node : nodes_->ListLiving().value_or(std::vector<StoreNode>())) {
     if (node.name != nodes_->self().name) successors.push_back(std::move(node.name));

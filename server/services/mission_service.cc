@@ -183,6 +183,7 @@ absl::Status MissionService::Discard(const MissionId& id, const std::shared_ptr<
                        MaySeeTenant(call->caller(), TenantOf(absent.key));
     if (is_it && key != own_key) key = absent.key;
   }
+  if (key.empty()) key = own_key;  // servers that share a store list no missions of the store
   return context_.creation_pool->Submit([this, key, id, call] {
     const absl::Status status = context_.registry->Discard(key, AnswerOnceDeleted(id, call));
     if (!status.ok()) call->Answer(status);

@@ -42,7 +42,7 @@ v1::ServerLimits LimitsOf(const ServerConfig& config) {
   proto.set_max_map_cell_count(limits.max_map_cell_count);
   proto.set_max_import_bytes(limits.max_import_bytes);
   *proto.mutable_max_wait() = FromSeconds(limits.max_wait_s);
-  proto.set_max_watcher_count_per_robot(limits.max_watchers_per_robot);
+  proto.set_max_robot_watcher_count(limits.max_watchers_per_robot);
   *proto.mutable_max_clock_lead() = FromSeconds(limits.max_clock_lead_s);
   return proto;
 }

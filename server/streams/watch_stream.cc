@@ -10,6 +10,7 @@
 #include "proto/convert/names.h"
 #include "proto/convert/species.h"
 #include "server/base/grpc_status.h"
+#include "server/calls/unary_call.h"
 #include "server/maps/wire_message.h"
 
 namespace plumescout::server {

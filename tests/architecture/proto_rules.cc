@@ -35,6 +35,7 @@ const std::set<std::string>& PureNumbers() {
       "level_of_detail",         // n: squares of 2^n cells
       "max_batch_observations",  // counts, as the others of the server's configuration
       "max_missions",
+      "max_missions_per_tenant",
       "max_queued",
       "max_queued_observations",
       "max_queued_per_mission",

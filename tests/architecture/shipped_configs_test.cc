@@ -13,12 +13,14 @@ using testing::IsEmpty;
 using testing::Not;
 
 TEST(ShippedConfigs, EveryOneLoads) {
-  const auto paths = ListFiles("deploy/config", ".yaml");
-  ASSERT_THAT(paths, Not(IsEmpty()));
-  for (const std::string& path : paths) {
-    server::ConfigBuilder builder;
-    EXPECT_EQ(builder.AddFile(path), absl::OkStatus()) << path;
-    EXPECT_EQ(builder.Build().status(), absl::OkStatus()) << path;
+  for (const char* folder : {"deploy/config", "deploy/cluster"}) {
+    const auto paths = ListFiles(folder, ".yaml");
+    ASSERT_THAT(paths, Not(IsEmpty())) << folder;
+    for (const std::string& path : paths) {
+      server::ConfigBuilder builder;
+      EXPECT_EQ(builder.AddFile(path), absl::OkStatus()) << path;
+      EXPECT_EQ(builder.Build().status(), absl::OkStatus()) << path;
+    }
   }
 }
 

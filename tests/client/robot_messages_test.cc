@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <vector>
 
 #include "proto/convert/status.h"
 
@@ -30,7 +31,7 @@ TEST(RobotMessagesTest, ARegistrationSaysHowItTakesPart) {
                       .take_over = true,
                       .log_epoch = 9,
                       .frame = {.mission_from_robot = {1.0, 0.0, 0.0}},
-                      .sensors = {{.id = "pid"}}});
+                      .sensors = std::vector<GasSensor>(1)});
   EXPECT_EQ(outfit.radius_m(), 0.3);
   EXPECT_TRUE(outfit.take_over());
   EXPECT_EQ(outfit.log_epoch(), 9);

@@ -100,4 +100,9 @@ start_server
 grep -q 'hall' "$work/server.log" || { cat "$work/server.log"; exit 1; }
 "$programs/plumescout-lab" robot --scene "$scene" --out "$work/robot" --mission hall --duration 5 \
   --server 127.0.0.1:50551
+kill "$server"
+wait "$pid" || true
+pid="" server=""
+say "By runc"
+"$root/tests/deploy/runc.sh" "$mounted" "$work/runc"
 say "The image serves a mission, is killed, and has it again"

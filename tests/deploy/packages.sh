@@ -4,7 +4,8 @@
 # packages.sh FOLDER [PEER]: installs each package of the folder in a fresh Debian 12, and all
 # together in one, where a server and a simulated robot run a mission that plumescoutctl then asks
 # about. PEER, the program plumescout-ros2-peer: also a mission of it by DDS, with plumescout-ros2.
-# Needs root, mmdebstrap, and a mirror of Debian. scripts/packages --try runs it.
+# What needs a package that is not there is left out. Needs root, mmdebstrap, and a mirror of Debian.
+# scripts/packages --try runs it.
 set -euo pipefail
 packages="$(realpath "$1")"
 peer="${2:-}"
@@ -79,6 +80,10 @@ if [[ -x "$peer" && -n "$(find "$packages" -name 'plumescout-ros2_*')" ]]; then
   inside unshare --net bash /packages/packages_ros2.sh
 fi
 
+if [[ -z "$(find "$packages" -name 'plumescout-lab_*')" ]]; then
+  say "All packages of the folder installed"
+  exit
+fi
 say "A mission"
 fresh_root
 install_packages /packages/plumescout-server_* /packages/plumescout-lab_* \

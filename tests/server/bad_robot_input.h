@@ -137,6 +137,7 @@ inline BadInputs BadReportProgress() {
   return BadInputs()
       .Rows(BadRobotName("robot"))
       .Rows(BadLease("lease_token"))
+      .Rows(BadRequestId())
       .Values("plan",
               {R"("")", R"("1")", R"("missions/hall/plans/")", R"("missions/hall/plans/0")",
                R"("missions/hall/plans/-1")", R"("missions/hall/plans/01")",

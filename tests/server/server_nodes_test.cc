@@ -125,6 +125,18 @@ TEST_F(ServerNodesTest, TakingAMissionOverDoesNotMakeItUnready) {
   EXPECT_TRUE(Get("yard").status.ok());
 }
 
+TEST_F(ServerNodesTest, WhatCannotBeReadCanBeDeleted) {
+  ASSERT_TRUE(store_.Create("mill", "no mission begins so").ok());
+  EXPECT_EQ(Get("mill").status.error_code(), grpc::StatusCode::DATA_LOSS);
+  grpc::ClientContext context;
+  v1::DeleteMissionRequest request;
+  v1::DeleteMissionResponse response;
+  request.set_name("missions/mill");
+  const grpc::Status deleted = missions_->DeleteMission(&context, request, &response);
+  EXPECT_TRUE(deleted.ok()) << deleted.error_message();
+  EXPECT_EQ(Get("mill").status.error_code(), grpc::StatusCode::NOT_FOUND);
+}
+
 TEST_F(ServerNodesTest, WithTheLeaseItStopsServing) {
   ASSERT_TRUE(Get("yard").status.ok());
   store_.SetOwner("yard", "n2");

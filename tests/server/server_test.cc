@@ -316,7 +316,8 @@ TEST_F(ServerTest, SlowCallsAreLogged) {
     ASSERT_TRUE(NextBest(PlanFor(lease)).ok());
   });
   EXPECT_THAT(log, ContainsRegex("WARNING slow call method=IngestService/BatchIngestObservations "
-                                 "caller=anonymous code=OK duration_ms=[0-9]+ request_id="));
+                                 "caller=anonymous code=OK duration_ms=[0-9]+ commit_ms=[0-9]+ "
+                                 "request_id="));
   EXPECT_THAT(log, ContainsRegex("WARNING slow call method=PlanningService/NextBestTrajectory "
                                  "caller=anonymous code=OK duration_ms=[0-9]+ belief_ms=[0-9]+ "
                                  "queue_ms=[0-9]+ search_ms=[0-9]+ commit_ms=[0-9]+ "

@@ -357,37 +357,6 @@ TEST(MissionHostTest, WhatCommandsHoldMayCallTheHostWhenItGoes) {
   Settle(host);
 }
 
-TEST(MissionHostTest, AMissionThatRestsKeepsWhatIsPostedUntilItEnds) {
-  MissionHost host(HostParts(), {});
-  AddRobot(host);
-  absl::Notification rests;
-  ASSERT_TRUE(host.BeginRest([&](const absl::Status& status) {
-                    EXPECT_TRUE(status.ok()) << status;
-                    rests.Notify();
-                  })
-                  .ok());
-  rests.WaitForNotification();
-  EXPECT_EQ(host.summary().revision, 1) << "what came before is done";
-  absl::Status end;
-  ASSERT_TRUE(host.Post([](MissionWriter&) { ADD_FAILURE() << "it rests"; },
-                        [&](const absl::Status& status) { end = status; })
-                  .ok());
-  EXPECT_EQ(host.load().queued_commands, 1);
-  host.Stop(absl::UnavailableError("it is elsewhere"));
-  EXPECT_TRUE(absl::IsUnavailable(end));
-}
-
-TEST(MissionHostTest, WhoWaitsForItsRestHearsThatItEndsBefore) {
-  MissionHost host(HostParts(), {});
-  BusyWriter writer(host);
-  absl::Status end;
-  ASSERT_TRUE(host.BeginRest([&](const absl::Status& status) { end = status; }).ok());
-  host.BeginStop(absl::UnavailableError("over"));
-  host.DropAll();
-  EXPECT_TRUE(absl::IsUnavailable(end));
-  writer.Release();
-}
-
 TEST(MissionHostTest, SummaryFollowsTheMission) {
   MissionHost host(HostParts(), {});
   AddRobot(host);

@@ -95,24 +95,6 @@ TEST(MissionRegistryTest, NumberOfMissionsIsBounded) {
 
 constexpr std::int64_t kMegabyte = 1'000'000;
 
-TEST(MissionRegistryTest, BudgetsOfAllMissionsTogetherAreBounded) {
-  RegistryOptions options;
-  options.memory_budget_bytes = 100 * kMegabyte;
-  MissionRegistry registry(options, {});
-  MissionOptions mission;
-  mission.memory_budget_bytes = 40 * kMegabyte;
-  ASSERT_TRUE(registry.Create("a", mission).ok());
-  ASSERT_TRUE(registry.Create("b", mission).ok());
-  const absl::Status refused = registry.Create("c", mission).status();
-  EXPECT_TRUE(absl::IsResourceExhausted(refused));
-  EXPECT_THAT(std::string(refused.message()),
-              testing::AllOf(testing::StartsWith("LIMIT_REACHED"),
-                             testing::HasSubstr("40000000, of 20000000")));
-  ASSERT_TRUE(registry.Delete("a").ok());
-  ASSERT_TRUE(registry.AwaitStopped(SteadyTime::max()));
-  EXPECT_TRUE(registry.Create("c", mission).ok());
-}
-
 TEST(MissionRegistryTest, MissionsChooseNothingBeyondTheServersLimits) {
   RegistryOptions options;
   options.mission_memory_budget_bytes = 50 * kMegabyte;
@@ -141,27 +123,6 @@ TEST(MissionRegistryTest, MissionsChooseNothingBeyondTheServersLimits) {
               testing::StartsWith("max_beam_count = 101 must be at most"));
   EXPECT_THAT(refusal([](MissionOptions& m) { m.max_range_m = 20.5; }),
               testing::StartsWith("max_range_m = 20.5 must be at most"));
-}
-
-// 8 KB on the wire, for such a map is deflated well.
-TEST(MissionRegistryTest, AKnownMapBeyondTheMissionsBudgetIsRefused) {
-  MissionRegistry registry({}, {});
-  MissionOptions mission;
-  mission.occupancy.max_extent_m = 400.0;
-  mission.occupancy.max_cell_count = 16'000'000;
-  mission.prior_map = std::make_shared<const Grid<CellState>>(
-      GridGeometry{0.0, 0.0, 0.1, 2900, 2900}, CellState::kFree);
-  mission.memory_budget_bytes = 256 * kMegabyte;
-  const absl::Status refused = registry.Create("hall", mission).status();
-  EXPECT_TRUE(absl::IsResourceExhausted(refused)) << refused;
-  EXPECT_THAT(std::string(refused.message()), testing::StartsWith("BUDGET_REACHED: prior_map"));
-  EXPECT_TRUE(absl::IsNotFound(registry.Find("hall").status()));
-  // The whole field at 0.1 m would take more; so its lattice is coarser.
-  mission.gas.field_reach_m = 0.0;
-  mission.memory_budget_bytes = 1000 * kMegabyte;
-  const auto host = registry.Create("hall", mission);
-  ASSERT_TRUE(host.ok()) << host.status();
-  EXPECT_GT((*host)->options().gas.lattice_factor, 1);
 }
 
 TEST(MissionRegistryTest, InvalidOptionsMakeNoMission) {

@@ -57,7 +57,7 @@ TEST_F(SystemServiceTest, InfoTellsWhatIsConfigured) {
   EXPECT_EQ(limits.max_map_cell_count(), config.limits.max_map_cell_count);
   EXPECT_EQ(limits.max_import_bytes(), config.limits.max_import_bytes);
   EXPECT_EQ(limits.max_wait().seconds(), 30);
-  EXPECT_EQ(limits.max_watcher_count_per_robot(), config.limits.max_watchers_per_robot);
+  EXPECT_EQ(limits.max_robot_watcher_count(), config.limits.max_watchers_per_robot);
   EXPECT_EQ(limits.max_clock_lead().seconds(), 2);
   EXPECT_EQ(limits.max_clock_lead().nanos(), 500'000'000);
   EXPECT_EQ(limits.max_planning_budget().seconds(), 1);

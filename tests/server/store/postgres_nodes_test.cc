@@ -115,7 +115,9 @@ TEST_F(PostgresNodesTest, ANameThatIsRenewedMeanwhileIsTaken) {
 }
 
 TEST_F(PostgresNodesTest, WhoLosesItsNameToAnotherSaysSoUntilThatIsGone) {
-  const auto store = OpenShared(url_, "n1");
+  PostgresStoreOptions options = SharedOptions(url_, "n1");
+  options.lease = absl::Seconds(1);
+  const auto store = PostgresStore::Open(options).value();
   Ask("UPDATE plumescout_node SET id = nextval('plumescout_ids'), address = 'other:1', "
       "expires = clock_timestamp() + interval '1 hour'");
   ASSERT_TRUE(Eventually([&] {

@@ -124,7 +124,7 @@ TEST_F(ExportStreamTest, WhoReadsNoMoreIsHungUpOn) {
   SendMuch([&](const auto& batch) { ASSERT_TRUE(Ingest(kRobot, lease_, batch).ok()); });
   const auto stub = SmallConnection(*server_);
   ExportClient stalled(*stub, "missions/hall", v1::MISSION_FILE_FORMAT_MCAP);
-  ASSERT_TRUE(stalled.Read().has_start());
+  ASSERT_TRUE(stalled.Read().has_start()) << stalled.Finish();
   // What it held is free for others once it is hung up on; nobody else reads it on.
   const absl::Time deadline = absl::Now() + absl::Seconds(60);
   absl::Status other = absl::UnknownError("not asked");
@@ -182,8 +182,8 @@ class FullPoolTest : public ServiceTest {
     while (absl::Now() < deadline) {
       const std::string metrics = server_->MetricsText();
       const bool is_idle =
-          absl::StrContains(metrics, "plumescout_pool_queue_depth{pool=\"query\"} 0\n") &&
-          absl::StrContains(metrics, "plumescout_pool_busy_threads{pool=\"query\"} 0\n");
+          absl::StrContains(metrics, "plumescout_pool_queue_depth{pool=\"past\"} 0\n") &&
+          absl::StrContains(metrics, "plumescout_pool_busy_threads{pool=\"past\"} 0\n");
       if (!is_idle) idle_since = absl::Now();
       if (absl::Now() - idle_since >= kIdle) return true;
       absl::SleepFor(absl::Milliseconds(1));
@@ -200,7 +200,7 @@ TEST_F(FullPoolTest, RefusesWhoBeginsAndHoldsUpWhoHasBegun) {
   SendMuch([&](const auto& batch) { ASSERT_TRUE(Ingest(kRobot, lease, batch).ok()); });
   const auto small = SmallConnection(*server_);
   ExportClient begun(*small, "missions/hall");
-  ASSERT_TRUE(begun.Read().has_start());
+  ASSERT_TRUE(begun.Read().has_start()) << begun.Finish();
 
   // Its connection takes no more of what nobody reads: it leaves the pool to others.
   ASSERT_TRUE(AwaitIdlePool());
@@ -209,14 +209,14 @@ TEST_F(FullPoolTest, RefusesWhoBeginsAndHoldsUpWhoHasBegun) {
   ExportClient works(*snapshots_, "missions/attic");
   gate_.AwaitVisitor();
   ExportClient waits(*snapshots_, "missions/attic");
-  ASSERT_TRUE(AwaitMetric(*server_, "plumescout_pool_queue_depth{pool=\"query\"} 1"));
+  ASSERT_TRUE(AwaitMetric(*server_, "plumescout_pool_queue_depth{pool=\"past\"} 1"));
   const absl::Status refused = ExportClient(*snapshots_, "missions/hall").Finish();
   EXPECT_THAT(refused, Refuses(absl::StatusCode::kResourceExhausted, "OVERLOADED"));
   EXPECT_TRUE(RetryDelay(refused).has_value());
 
   absl::Status ended;
   std::thread reader([&] { ended = begun.Finish(); });
-  const std::string only_the_other = "plumescout_pool_refused_total{pool=\"query\"} 1\n";
+  const std::string only_the_other = "plumescout_pool_refused_total{pool=\"past\"} 1\n";
   const absl::Time deadline = absl::Now() + absl::Seconds(60);
   while (absl::StrContains(server_->MetricsText(), only_the_other) && absl::Now() < deadline) {
     std::this_thread::yield();
