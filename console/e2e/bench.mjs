@@ -185,7 +185,7 @@ async function manyPages(server, origin) {
   const readers = streams.map((stream) => stream.body.getReader());
   for (const reader of readers) void (async () => { while (!(await reader.read()).done); })().catch(() => {});
   await wait(2000);
-  told('16 pages, cores', await measure() - alone, 2, { atMost: 0.3 });
+  told('16 streams of the map, cores', await measure() - alone, 2, { atMost: 0.3 });
   await Promise.all(readers.map((reader) => reader.cancel()));
 }
 

@@ -35,6 +35,26 @@ export function fillIfChanged(element: Element, key: string, make: () => Child[]
   fill(element, ...make());
 }
 
+// As fill(); if a button had the focus, the one of its name has it then, so that keys go on there.
+export function refill(bar: Element, ...children: Child[]): void {
+  const nameOf = (button: Element) => button.getAttribute('aria-label') ?? button.textContent;
+  const focused = bar.contains(document.activeElement) ? nameOf(document.activeElement!) : null;
+  fill(bar, ...children);
+  if (focused === null) return;
+  [...bar.querySelectorAll<HTMLElement>('button, summary')].find((button) => nameOf(button) === focused)?.focus();
+}
+
+// Where a key leads to from place `at` of a row of so many tabs; null: it leads nowhere.
+export function tabOfKey(key: string, at: number, count: number): number | null {
+  switch (key) {
+    case 'ArrowLeft': return (at + count - 1) % count;
+    case 'ArrowRight': return (at + 1) % count;
+    case 'Home': return 0;
+    case 'End': return count - 1;
+    default: return null;
+  }
+}
+
 export function saveFile(name: string, parts: BlobPart[], type = 'application/octet-stream'): void {
   const url = URL.createObjectURL(new Blob(parts, { type }));
   const link = h('a', { href: url, download: name });

@@ -5,7 +5,7 @@ import type { AreaDraft } from './area_draft.ts';
 import { hasScale } from './cell_picture.ts';
 import type { CellLayer, CellPicture } from './cell_picture.ts';
 import { shareOf, ticksOf } from './colours.ts';
-import { fill, fillIfChanged, h, notice } from './dom.ts';
+import { fillIfChanged, h, notice, refill } from './dom.ts';
 import { listenToPointers } from './map_pointer.ts';
 import { MapView } from './map_view.ts';
 import { SWITCHES } from './scene.ts';
@@ -16,7 +16,7 @@ import { cellInWords, cellsInWords } from './hover_words.ts';
 import { ObjectiveLayer } from './objective_layer.ts';
 import type { ObjectiveQuestion } from './objective_layer.ts';
 import { outlooksOf } from './objective_words.ts';
-import { figure } from './words.ts';
+import { figure, squaresInWords } from './words.ts';
 
 const LAYERS: [CellLayer, string][] = [['mean', 'Gas'], ['uncertainty', 'Uncertainty'],
   ['change', 'Change'], ['objective', 'Objective'], ['none', 'Walls']];
@@ -167,9 +167,12 @@ export class MapPanel {
     }
     for (const picture of pictures) picture.prepare();
     const judged = new Set(this.scene.judged.map(({ outlook }) => outlook));
-    const key = [[...judged], outlooksOf(this.question?.asked()), pictures.map(({ layer, scale }) => [this.titleOf(layer, scale.log), scale, layer])];
+    const { raster, status } = this.scene;
+    const squares = squaresInWords(raster?.geometry.resolution_m ?? NaN, status?.geometry?.resolutionM ?? NaN);
+    const key = [squares, [...judged], outlooksOf(this.question?.asked()), pictures.map(({ layer, scale }) => [this.titleOf(layer, scale.log), scale, layer])];
     fillIfChanged(this.legend, JSON.stringify(key), () => [
       ...pictures.flatMap((picture) => this.scaleOf(picture)),
+      squares === '' ? null : h('div', {}, `The map is large: ${squares} are shown.`),
       h('div', { class: 'marks' },
         h('span', { class: 'mark m-wall' }, 'wall'), h('span', { class: 'mark m-unknown' }, 'unknown'),
         h('span', { class: 'mark gas m-gas' }, 'gas frontier'),
@@ -208,7 +211,7 @@ export class MapPanel {
   private showTools(): void {
     const { map } = this;
     const open = this.tools.querySelector('details')?.open ?? false;
-    fill(this.tools,
+    refill(this.tools,
       ...LAYERS.filter(([layer]) => layer === 'objective' ? this.hasObjective : layer !== 'change' || this.hasChange).map(([layer, name]) =>
         h('button', { 'aria-pressed': String(map.picture.layer === layer), onclick: () => this.setCells(layer) },
           layer === 'change' ? this.change.name : name)),

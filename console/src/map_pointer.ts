@@ -31,6 +31,7 @@ export function listenToPointers(canvas: HTMLCanvasElement, map: PointedMap): vo
   };
   canvas.addEventListener('pointerdown', (event) => {
     canvas.setPointerCapture(event.pointerId);
+    map.hover(place(event)); // fingers do not move there first
     pointers.set(event.pointerId, place(event));
     moved = 0;
     pinches = pointers.size > 1;
@@ -72,7 +73,9 @@ export function listenToPointers(canvas: HTMLCanvasElement, map: PointedMap): vo
   };
   canvas.addEventListener('pointerup', end);
   canvas.addEventListener('pointercancel', end);
-  canvas.addEventListener('pointerleave', () => map.hover(null));
+  canvas.addEventListener('pointerleave', (event) => {
+    if (event.pointerType !== 'touch') map.hover(null); // what a finger asked is read once it is off
+  });
   canvas.addEventListener('wheel', (event) => {
     event.preventDefault();
     map.zoom(Math.exp(-event.deltaY * 0.0015), ...place(event));

@@ -5,7 +5,7 @@ import { PATIENCE, maps, missions, planning, robots as robotCalls } from './clie
 import { ChartPanel } from './chart_panel.ts';
 import { Comparison } from './comparison.ts';
 import { AreasPanel } from './areas_panel.ts';
-import { fill, h } from './dom.ts';
+import { fill, h, refill, tabOfKey } from './dom.ts';
 import { MapPanel } from './map_panel.ts';
 import type { Place, Scene } from './scene.ts';
 import { missionFigures } from './mission_figures.ts';
@@ -21,7 +21,7 @@ import type { MomentEvents } from './time_bar.ts';
 import { extendTrail } from './trails.ts';
 import { MissionState } from '@plumescout/client/wire';
 import type { MapStatus, Mission, Plan, QueryGasResponse, Robot } from '@plumescout/client/wire';
-import { missionState, objectiveWords, phase } from './words.ts';
+import { missionState, noPlanWords, objectiveWords, phase } from './words.ts';
 import { WhyPanel } from './why_panel.ts';
 
 const TABS = ['Robots', 'Why', 'Charts', 'Operate'] as const;
@@ -43,7 +43,8 @@ export class MissionPage {
   private readonly operate: OperatePanel;
   private readonly statePill = h('span', { class: 'pill' }, '…');
   private readonly objectivePill = h('span');
-  private readonly tabBar = h('div', { class: 'tabs', role: 'tablist' });
+  private readonly tabBar = h('div', { class: 'tabs', role: 'tablist',
+    onkeydown: (event: KeyboardEvent) => this.onTabKey(event) });
   private readonly tabBox = h('div', { class: 'tab', role: 'tabpanel', tabindex: 0 });
 
   private tab: Tab = 'Robots';
@@ -51,6 +52,7 @@ export class MissionPage {
   private robots: Robot[] = [];
   // The latest plan of each robot with all its candidates; null: not asked for, as nothing shows it.
   private latest: Plan[] | null = null;
+  private answers = true; // the server, when it was last asked
   private figuresDue = true;
   private readonly stops: (() => void)[] = [];
 
@@ -79,8 +81,8 @@ export class MissionPage {
       if (this.time.isLive) this.scene.keepOut = areas;
       this.panel.map.draw();
     });
-    this.operate = new OperatePanel(name, this.areas.element, () => this.scene.raster, () => this.link(),
-      () => this.report());
+    this.operate = new OperatePanel(name, this.areas.element, () => this.scene.raster, () => this.time.past ?? 0n,
+      () => this.link(), () => this.report());
     this.listen();
     this.showTab('Robots');
     if (revision === null || revision === 0n) this.time.goLive();
@@ -119,6 +121,8 @@ export class MissionPage {
     return {
       leaves: () => {
         this.scene.trails.clear();
+        this.scene.asked = null;
+        this.why.clear();
         if (this.time.isLive) return;
         this.scene.plans = [];
         this.setLatest(null);
@@ -167,6 +171,7 @@ export class MissionPage {
         missions.getMission({ name: this.name }, PATIENCE),
         robotCalls.listRobots({ mission: this.name }, PATIENCE),
         planning.listPlans({ mission: this.name, withLatest }, PATIENCE)]);
+      this.answers = true;
       this.mission = got.mission ?? null;
       this.robots = listed.robots;
       if (this.mission !== null) {
@@ -183,7 +188,8 @@ export class MissionPage {
         }
       }
     } catch {
-      return; // the stream's banner says what is the matter
+      this.answers = false; // the stream's banner says what is the matter
+      this.statePill.className = 'pill';
     }
     this.showSide();
     this.panel.map.draw();
@@ -224,18 +230,29 @@ export class MissionPage {
     this.scene.asksWhy = tab === 'Why';
     if (!this.showsLatest()) this.setLatest(null);
     this.panel.map.draw();
-    fill(this.tabBar, ...TABS.map((one) => h('button', { role: 'tab', 'aria-selected': String(one === tab),
-      onclick: () => this.showTab(one) }, one)));
+    refill(this.tabBar, ...TABS.map((one) => h('button', { role: 'tab', 'aria-selected': String(one === tab),
+      tabindex: one === tab ? 0 : -1, onclick: () => this.showTab(one) }, one)));
     fill(this.tabBox, { Robots: this.robotsPanel.element, Why: this.why.element, Charts: this.charts.element,
                         Operate: this.operate.element }[tab]);
     this.showSide();
     if (tab === 'Why') this.latestPlan().catch(() => {}); // the next poll asks again
   }
 
+  private onTabKey(event: KeyboardEvent): void {
+    const next = tabOfKey(event.key, TABS.indexOf(this.tab), TABS.length);
+    if (next === null) return;
+    event.preventDefault();
+    this.showTab(TABS[next]);
+    this.tabBar.querySelector<HTMLElement>('[aria-selected=true]')?.focus();
+  }
+
   private showSide(): void {
-    if (this.tab === 'Robots') this.robotsPanel.show(this.mission, this.robots, this.scene);
+    if (this.tab === 'Robots') {
+      this.robotsPanel.show(this.mission, this.robots, this.scene, this.time.past, this.answers);
+    }
     if (this.tab === 'Why') {
-      this.why.show(this.scene.robot, this.scene.why, this.latest !== null || !this.time.isLive);
+      const { robot, why } = this.scene;
+      this.why.show(robot, why, noPlanWords(robot, this.time.isLive, this.latest !== null));
     }
     if (this.tab === 'Charts') this.charts.draw();
     if (this.mission !== null) {
@@ -263,11 +280,12 @@ export class MissionPage {
     this.stops.push(() => window.removeEventListener('themechange', themed));
   }
 
-  // Why the robot does not go there.
+  // Why the robot does not go there. Of the past nobody answers.
   private ask(place: Place): void {
+    this.showTab('Why');
+    if (!this.time.isLive) return;
     this.scene.asked = place;
     this.panel.map.draw();
-    this.showTab('Why');
     const pose = this.scene.status?.robots.find((one) => one.robot === this.scene.robot)?.pose;
     void this.why.ask(this.scene.robot, pose, place, () => this.latestPlan());
   }

@@ -14,7 +14,8 @@ const ppm = (asked: ObjectiveOptions | undefined) => `${figure(asked?.thresholdP
 
 // Verdicts that a mission can have, as they are called there.
 export function outlooksOf(asked: ObjectiveOptions | undefined): [Outlook, string][] {
-  const rest: [Outlook, string][] = [['undecided', 'undecided'], ['unmeasured', 'not measured']];
+  // The server counts both as undecided.
+  const rest: [Outlook, string][] = [['undecided', 'undecided, measured'], ['unmeasured', 'undecided, not measured']];
   switch (asked?.kind) {
     case ObjectiveKind.MAP_ABOVE_THRESHOLD:
       return [['above', `above ${ppm(asked)}`], ['below', `below ${ppm(asked)}`], ...rest];
@@ -69,6 +70,6 @@ export function objectiveSummary(asked: ObjectiveOptions, status: ObjectiveStatu
       h('th', { class: 'n' }, '% of what counts'))),
       h('tbody', {}, ...areas.map(({ outlook, name, area_m2, share }) => h('tr', {},
         h('td', {}, h('span', { class: `mark m-${outlook}` }, name)),
-        h('td', { class: 'n' }, area_m2.toFixed(1)), h('td', { class: 'n' }, (100 * share).toFixed(1)))))),
+        h('td', { class: 'n' }, figure(area_m2)), h('td', { class: 'n' }, figure(100 * share)))))),
     h('p', {}, status.explanation));
 }

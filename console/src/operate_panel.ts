@@ -8,7 +8,8 @@ import type { Raster } from '@plumescout/client';
 import { mayOperate } from './session.ts';
 import type { Mission, Robot } from '@plumescout/client/wire';
 import { MissionFileFormat, MissionState } from '@plumescout/client/wire';
-import { bytes, shortName } from './words.ts';
+import { fetchMap } from './watch.ts';
+import { bytes, shortName, squaresInWords } from './words.ts';
 
 async function attempt(what: string, task: () => Promise<unknown>): Promise<void> {
   try {
@@ -22,14 +23,18 @@ async function attempt(what: string, task: () => Promise<unknown>): Promise<void
 export class OperatePanel {
   readonly element = h('div', {});
   private exporting: AbortController | null = null;
+  private readonly saving = new AbortController();
 
-  // `areas`: what is done about keep-out areas; `report`: makes one of what is looked at.
+  // `areas`: what is done about keep-out areas; `raster`, `revision` (0: as it is now): of what is looked at;
+  // `report`: makes one of that.
   constructor(private readonly mission: string, private readonly areas: HTMLElement,
               private readonly raster: () => Raster | null,
+              private readonly revision: () => bigint,
               private readonly link: () => string, private readonly report: () => Promise<string>) {}
 
   leave(): void {
     this.exporting?.abort();
+    this.saving.abort();
   }
 
   show(mission: Mission | null, list: Robot[]): void {
@@ -105,15 +110,10 @@ export class OperatePanel {
 
   private exports(): HTMLElement {
     const id = shortName(this.mission);
-    const save = (write: (raster: Raster) => void) => {
-      const raster = this.raster();
-      if (raster === null) notice('There is no map yet.', 'bad');
-      else write(raster);
-    };
-    const npy = (name: string, layer: (raster: Raster) => Float32Array) => save((raster) =>
+    const npy = (name: string, layer: (raster: Raster) => Float32Array) => void this.saveMap((raster) =>
       saveFile(`${id}-${name}.npy`, [npyOf(layer(raster), raster.geometry.rows, raster.geometry.columns).buffer as ArrayBuffer]));
     return h('section', { class: 'card' }, h('h2', {}, 'Take away'), h('div', { class: 'row' },
-      h('button', { onclick: () => save((raster) => {
+      h('button', { onclick: () => void this.saveMap((raster) => {
         saveFile(`${id}.pgm`, [pgmOf(raster).buffer as ArrayBuffer]);
         saveFile(`${id}.yaml`, [mapYamlOf(raster, `${id}.pgm`)]);
       }) }, 'Map (map_server)'),
@@ -125,6 +125,20 @@ export class OperatePanel {
         h('button', { onclick: () => void this.exportMission('mcap') }, 'MCAP (Foxglove)')] : []),
       h('button', { onclick: () => void Promise.resolve(navigator.clipboard?.writeText(this.link()) ?? Promise.reject())
         .then(() => notice('The link to this moment is copied.'), () => notice(this.link())) }, 'Link to this moment')));
+  }
+
+  // What is drawn may be of squares of cells, and its gas is of 16 bits.
+  private async saveMap(write: (raster: Raster) => void): Promise<void> {
+    if (this.raster() === null) return notice('There is no map yet.', 'bad');
+    const { signal } = this.saving;
+    try {
+      const { raster, status } = await fetchMap(this.mission, this.revision(), signal, true);
+      write(raster);
+      const squares = squaresInWords(raster.geometry.resolution_m, status.geometry?.resolutionM ?? NaN);
+      if (squares !== '') notice(`The map is large: it is saved in ${squares}. plumescoutctl map export saves all cells.`);
+    } catch (error) {
+      if (!signal.aborted) notice(sentence(error), 'bad');
+    }
   }
 
   private async saveReport(): Promise<void> {

@@ -3,9 +3,10 @@
 // The pages beside that of a mission: all missions, a new one, the service.
 import { create, toBinary } from '@bufbuild/protobuf';
 import { all } from '@plumescout/client';
-import { PATIENCE, checkSize, missions, requestId, sentence, token, troubleOf } from './client.ts';
+import { PATIENCE, checkSize, missions, requestId, robots, sentence, token, troubleOf } from './client.ts';
 import { ask, fill, fillIfChanged, h, notice } from './dom.ts';
 import { optionsForm } from './options_form.ts';
+import { robotsInShort } from './robots_panel.ts';
 import { mayOperate, refreshSession, session } from './session.ts';
 import { CreateMissionRequestSchema, MissionState } from '@plumescout/client/wire';
 import type { Latency, Mission } from '@plumescout/client/wire';
@@ -136,6 +137,25 @@ function latency(of: Latency | undefined, value_s: number | undefined): string {
   return of === undefined || of.sampleCount === 0n ? '–' : `${figure(1000 * (value_s ?? NaN))} ms`;
 }
 
+// Missions whose robots are asked for every time.
+const MOST_ASKED = 20;
+
+// Those of missions that are awake; no question wakes one.
+async function robotTable(list: Mission[]): Promise<HTMLElement> {
+  const awake = list.filter((one) => one.robotCount > 0 && one.state !== MissionState.SLEEPING);
+  const asked = awake.slice(0, MOST_ASKED);
+  const rows = await Promise.all(asked.map(async ({ name }) => {
+    const answer = await robots.listRobots({ mission: name }, PATIENCE).catch(() => null); // it may be gone by now
+    return answer === null ? null : h('tr', {}, h('td', {}, h('a', { href: `#/${name}` }, shortName(name))),
+      ...robotsInShort(answer.robots).map((fact, i) => h('td', { class: i === 1 ? null : 'n' }, fact)));
+  }));
+  if (asked.length === 0) return h('p', { class: 'quiet' }, 'No robot in a mission that is awake.');
+  return h('div', {}, h('table', {}, h('thead', {}, h('tr', {}, h('th', {}, 'Mission'), h('th', { class: 'n' }, 'Robots'),
+    h('th', {}, 'Silent'), h('th', { class: 'n' }, 'Longest not heard for'), h('th', { class: 'n' }, 'Oldest newest sample'))),
+    h('tbody', {}, ...rows)),
+    awake.length > asked.length ? h('p', { class: 'quiet' }, `Of the first ${MOST_ASKED} of ${awake.length} missions.`) : null);
+}
+
 export function servicePage(): Page {
   const body = h('div', {}, h('p', { class: 'empty' }, 'Asking the server …'));
   const input = h('input', { type: 'password', id: 'token', autocomplete: 'off',
@@ -153,6 +173,7 @@ export function servicePage(): Page {
   const stop = every(2000, async () => {
     try {
       const [info, list] = [await refreshSession(), await allMissions()];
+      const robotsOfAll = await robotTable(list);
       const used = list.reduce((sum, one) => sum + Number(one.memory?.usedBytes ?? 0), 0);
       const budget = list.reduce((sum, one) => sum + Number(one.memory?.budgetBytes ?? 0), 0);
       const limits = info.limits;
@@ -168,6 +189,7 @@ export function servicePage(): Page {
           ['memory promised to missions', `${bytes(budget)} of ${bytes(limits?.memoryBudgetBytes ?? 0)}`],
           ['largest request', bytes(limits?.maxReceiveBytes ?? 0)],
           ['longest planning', duration(Number(limits?.maxPlanningBudget?.seconds ?? 0))]])),
+        h('div', { class: 'card scroll', tabindex: 0 }, h('h2', {}, 'Robots'), robotsOfAll),
         h('div', { class: 'card scroll', tabindex: 0 }, h('h2', {}, 'Gas posteriors'), list.length === 0
           ? h('p', { class: 'quiet' }, 'No mission yet.')
           : h('table', {}, h('thead', {}, h('tr', {}, h('th', {}, 'Mission'),

@@ -16,9 +16,24 @@ export function planContent(plan: Plan, pointAt: (candidate: number) => void): H
       `${searchEnd(plan.end)} · ${cpu_s > 0 ? `${duration(cpu_s)} of CPU · ` : ''}revision ${plan.beliefRevision}` +
       (plan.goalKept ? ' · it keeps its goal: no other is better by the margin' : '')),
   ];
-  if (plan.candidates.length > 0) parts.push(candidates(plan, pointAt));
+  if (plan.candidates.length > 0) parts.push(candidates(plan, pointAt), columnHelp());
   if (plan.rejectedGoals.length > 0) parts.push(rejected(plan));
+  if (plan.candidates.length + plan.rejectedGoals.length > 0) {
+    parts.push(h('p', { class: 'quiet' }, 'On the map: a number is a goal of the table, a dashed line the way to it; × is a ' +
+      'goal that was left out, but for those of too few cells.'));
+  }
   return parts;
+}
+
+// Of all columns that a plan may have.
+function columnHelp(): HTMLElement {
+  const columns = [['m, s', 'length of the way, and how long it takes'],
+    ['nats', 'what readings on the way are expected to tell of the gas; ≤: at most'],
+    ['reward', 'of all stops on the way'], ['cost', 'by which goals are compared, in cells'],
+    ['ppm', 'mean gas along the way, as estimated'], ['mean info', 'mean information along the way, 0 to 1'],
+    ['penalty', 'for information along the way, in cells'], ['way by', 'what found it']];
+  return h('details', {}, h('summary', {}, 'What the columns say'), h('dl', { class: 'facts' },
+    ...columns.flatMap(([name, what]) => [h('dt', {}, name), h('dd', {}, what)])));
 }
 
 function candidates(plan: Plan, pointAt: (candidate: number) => void): HTMLElement {
@@ -29,22 +44,23 @@ function candidates(plan: Plan, pointAt: (candidate: number) => void): HTMLEleme
     h('div', { class: 'scroll', tabindex: 0 }, h('table', {},
       h('thead', {}, h('tr', {}, h('th', {}, '#'), h('th', {}, 'goal'), h('th', n, 'm'), h('th', n, 's'),
         priced ? h('th', n, 'nats') : null, priced ? h('th', n, 'nats/s') : null,
-        rewarded ? h('th', n, 'reward') : null, h('th', n, 'cost'), h('th', n, 'ppm'))),
+        rewarded ? h('th', n, 'reward') : null, h('th', n, 'cost'), h('th', n, 'ppm'),
+        h('th', n, 'mean info'), h('th', n, 'penalty'), h('th', {}, 'way by'))),
       h('tbody', {}, ...plan.candidates.map((one, i) => {
         const nats = one.expectedInformationNats ?? one.expectedInformationBoundNats ?? NaN;
         const atMost = one.expectedInformationNats === undefined && !Number.isNaN(nats) ? '≤\u00a0' : '';
         return h('tr', {
-          class: i === plan.chosenIndex ? 'pick chosen' : 'pick',
-          title: `by ${source(one.pathSource)}; mean information ${figure(one.meanUcb)}, ` +
-            `information penalty ${figure(one.informationPenalty)} cells`,
+          class: i === plan.chosenIndex ? 'pick chosen' : 'pick', tabindex: 0,
           onmouseenter: () => pointAt(i), onmouseleave: () => pointAt(-1),
+          onfocus: () => pointAt(i), onblur: () => pointAt(-1),
         }, h('td', {}, i + 1, i === plan.chosenIndex ? ' ✓' : ''),
           h('td', {}, goalKind(one.goal?.kind ?? GoalKind.UNSPECIFIED)),
           h('td', n, figure(one.lengthM)), h('td', n, figure(one.durationS)),
           priced ? h('td', n, atMost + figure(nats)) : null,
           priced ? h('td', n, atMost + figure(nats / one.durationS)) : null,
           rewarded ? h('td', n, figure(one.reward ?? NaN)) : null,
-          h('td', n, figure(one.cost)), h('td', n, figure(one.meanConcentrationPpm)));
+          h('td', n, figure(one.cost)), h('td', n, figure(one.meanConcentrationPpm)),
+          h('td', n, figure(one.meanUcb)), h('td', n, figure(one.informationPenalty)), h('td', {}, source(one.pathSource)));
       })))));
 }
 

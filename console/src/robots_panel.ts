@@ -5,7 +5,7 @@ import { fill, h } from './dom.ts';
 import type { Scene } from './scene.ts';
 import type { Mission } from '@plumescout/client/wire';
 import type { Robot } from '@plumescout/client/wire';
-import { duration, figure, link, shortName } from './words.ts';
+import { duration, figure, link, robotsAsOf, shortName } from './words.ts';
 
 type Facts = [string, string][];
 
@@ -38,13 +38,25 @@ function missionFacts(mission: Mission, { figures, status }: Scene): Facts {
     ['strategy', mission.options?.planning?.strategy ?? '–']];
 }
 
+// Of all robots of a mission: how many there are, which are silent, the least recently heard, and the oldest newest sample.
+export function robotsInShort(robots: Robot[]): [string, string, string, string] {
+  const oldest = (ages_s: (number | undefined)[]) => {
+    const known = ages_s.filter((age_s) => age_s !== undefined);
+    return known.length === 0 ? '–' : duration(Math.max(...known));
+  };
+  const silent = robots.filter(({ onMap }) => onMap?.silent).map(({ onMap }) => shortName(onMap!.robot));
+  return [String(robots.length), silent.join(', ') || 'none', oldest(robots.map((one) => one.lastHeardAgeS)),
+    oldest(robots.map((one) => one.ingestLagS))];
+}
+
 export class RobotsPanel {
   readonly element = h('div', {}, h('p', { class: 'empty' }, 'Loading …'));
 
   constructor(private readonly choose: (robot: string) => void,
               private readonly colourOf: (robot: string) => string) {}
 
-  show(mission: Mission | null, robots: Robot[], scene: Scene): void {
+  // `past`: the revision that the map is of, null: it is live; `answers`: the server does.
+  show(mission: Mission | null, robots: Robot[], scene: Scene, past: bigint | null, answers: boolean): void {
     if (mission === null) return;
     // A button that is pointed at, or about to be pressed, stays where it is.
     const focused = this.element.contains(document.activeElement)
@@ -53,8 +65,10 @@ export class RobotsPanel {
       return fill(this.element, h('p', { class: 'empty' }, 'No robot has registered yet. ',
         'A robot joins with RegisterRobot: see docs/robots.md.'));
     }
-    fill(this.element, ...robots.map((robot) => this.robot(robot, scene.robot)),
-      h('section', {}, h('h3', {}, 'Mission'), list(missionFacts(mission, scene))));
+    const asOf = robotsAsOf(past === null, answers);
+    fill(this.element, asOf === '' ? null : h('p', { class: answers ? 'quiet' : 'stale' }, asOf),
+      ...robots.map((robot) => this.robot(robot, scene.robot)),
+      h('section', {}, h('h3', {}, past === null ? 'Mission' : `Mission at revision ${past}`), list(missionFacts(mission, scene))));
     if (focused !== null && focused !== undefined) {
       this.element.querySelector<HTMLElement>(`[aria-label="${CSS.escape(focused)}"]`)?.focus();
     }

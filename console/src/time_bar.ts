@@ -41,6 +41,7 @@ export class TimeBar {
   private fetching: AbortController | null = null;
   private hasStatus = false;
   private hasMap = false;
+  private countdown = 0; // timer, while the stream waits to try again
 
   // `banner`: where it is said that this is not the present, or what is the matter.
   constructor(private readonly mission: string, private readonly banner: HTMLElement,
@@ -63,6 +64,7 @@ export class TimeBar {
   leave(): void {
     this.watch?.stop();
     this.fetching?.abort();
+    clearInterval(this.countdown);
   }
 
   get isLive(): boolean {
@@ -101,6 +103,7 @@ export class TimeBar {
     const mine = this.fetching = new AbortController();
     this.past = revision;
     this.events.leaves();
+    clearInterval(this.countdown);
     [this.linkPill.textContent, this.linkPill.className] = ['looking back', 'pill warn'];
     fill(this.banner, `Making the map of revision ${revision} …`);
     try {
@@ -162,8 +165,19 @@ export class TimeBar {
   }
 
   private onLink(state: LinkState, trouble: Trouble | null, again_s: number): void {
-    [this.linkPill.textContent, this.linkPill.className] = linkWords(state, !this.isLive, again_s);
+    clearInterval(this.countdown);
+    const tell = (left_s: number) => {
+      [this.linkPill.textContent, this.linkPill.className] = linkWords(state, !this.isLive, left_s);
+    };
+    this.linkPill.setAttribute('aria-live', state === 'waiting' ? 'off' : 'polite'); // the banner speaks, once
+    tell(again_s);
     if (state === 'live') return this.showMoment();
+    // What came last stands there until more comes.
+    if (this.isLive && this.hasStatus) this.moment.textContent = `revision ${this.head}, the last that came`;
+    if (state === 'waiting') {
+      const begin_ms = performance.now();
+      this.countdown = window.setInterval(() => tell(again_s - (performance.now() - begin_ms) / 1000), 1000);
+    }
     if (state === 'waiting' || state === 'ended') {
       fill(this.banner, trouble === null ? 'The stream has ended.' : inWords(trouble),
         state === 'waiting' ? h('button', { onclick: () => this.watch?.retry() }, 'Try now')

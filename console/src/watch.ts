@@ -100,10 +100,15 @@ export class Watch {
   }
 }
 
+// Cells of a map that is saved: 324 MB while it is made.
+const MAX_SAVED_CELLS = 9 * MAX_CELLS;
+
 // The map as it was, or as it is (revision 0); of one with more cells than a page holds, squares of cells.
-export async function fetchMap(mission: string, revision: bigint,
-                               signal: AbortSignal): Promise<{ raster: Raster; status: MapStatus }> {
-  const { raster, status } = await getMap(client, mission, { revision, signal, maxCells: MAX_CELLS });
+// `saved`: it is not drawn, so of more cells, and with gas to the last digit.
+export async function fetchMap(mission: string, revision: bigint, signal: AbortSignal,
+                               saved = false): Promise<{ raster: Raster; status: MapStatus }> {
+  const { raster, status } = await getMap(client, mission, {
+    revision, signal, fullPrecision: saved, maxCells: saved ? MAX_SAVED_CELLS : MAX_CELLS });
   if (raster === null) throw new Error('the mission had no map yet');
   return { raster, status };
 }

@@ -7,7 +7,7 @@ import type { Place } from './scene.ts';
 import { planContent } from './plan_content.ts';
 import type { CheckTrajectoryResponse, FrontierGoal, Plan, Pose2D } from '@plumescout/client/wire';
 import { CellState, GoalKind, RejectedGoal_Reason } from '@plumescout/client/wire';
-import { figure, goalKind, reason, shortName } from './words.ts';
+import { figure, goalKind, reason } from './words.ts';
 
 // A click means a frontier this near.
 const NEAR_M = 0.8;
@@ -24,18 +24,11 @@ export class WhyPanel {
       this.answer, this.plan);
   }
 
-  // The latest plan of the robot that is looked at; null: the server knows of none, if it `answered`.
-  show(robot: string, plan: Plan | null, answered: boolean): void {
-    const key = `${robot} ${answered} ${plan?.name ?? ''} ${plan?.chosenIndex ?? ''} ${plan?.beliefRevision ?? ''}`;
-    fillIfChanged(this.plan, key, () => {
-      if (robot === '') return [h('p', { class: 'empty' }, 'No robot yet.')];
-      if (!answered) return [h('p', { class: 'empty' }, 'Asking the server …')];
-      if (plan === null) {
-        return [h('p', { class: 'empty' },
-          `${shortName(robot)} has not been given a plan since the server started.`)];
-      }
-      return planContent(plan, this.pointAt);
-    });
+  // The latest plan of the robot that is looked at; null: there is `none`, in words.
+  show(robot: string, plan: Plan | null, none: string): void {
+    const key = `${robot} ${none} ${plan?.name ?? ''} ${plan?.chosenIndex ?? ''} ${plan?.beliefRevision ?? ''}`;
+    fillIfChanged(this.plan, key, () => plan === null ? [h('p', { class: 'empty' }, none)]
+      : planContent(plan, this.pointAt));
   }
 
   clear(): void {

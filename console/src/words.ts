@@ -60,12 +60,31 @@ export function objectiveWords(status: ObjectiveStatus | undefined): [string, st
   }
 }
 
+// Why no plan of the robot is told; '': there may be one. `answered`: the server did, of now.
+export function noPlanWords(robot: string, isLive: boolean, answered: boolean): string {
+  if (!isLive) return 'Plans are told of now alone. Go back to live to see where robots drive, and why.';
+  if (robot === '') return 'No robot yet.';
+  return answered ? `${shortName(robot)} has not been given a plan since the server started.` : 'Asking the server …';
+}
+
+// Of a map that is shown or saved in squares of cells, how large they are; '': it is of cells.
+export function squaresInWords(square_m: number, cell_m: number): string {
+  const across = Math.round(square_m / cell_m);
+  return across > 1 ? `squares of ${across} × ${across} cells` : '';
+}
+
+// What robots are told of as; '': as they are, on the map that is looked at.
+export function robotsAsOf(isLive: boolean, answers: boolean): string {
+  if (!answers) return 'Robots as the server last told of them:';
+  return isLive ? '' : 'Robots as they are now:';
+}
+
 // Of the stream that a page looks through, with the looks of its pill. `plays`: what was, not what is.
 export function linkWords(state: LinkState, plays: boolean, again_s: number): [string, string] {
   switch (state) {
     case 'connecting': return ['connecting', 'pill warn'];
     case 'live': return plays ? ['playing', 'pill warn'] : ['live', 'pill good'];
-    case 'waiting': return [`connection lost, again in ${figure(again_s)} s`, 'pill bad'];
+    case 'waiting': return [again_s > 0 ? `connection lost, again in ${Math.ceil(again_s)} s` : 'connection lost', 'pill bad'];
     case 'hidden': return ['asleep while hidden', 'pill'];
     case 'ended': return ['ended', 'pill bad'];
   }

@@ -8,6 +8,7 @@ import { listenToPointers } from '../src/map_pointer.ts';
 // A canvas whose corner is at (100, 50) of the window, and what its map is told.
 function pointedMap(draft: AreaDraft | null = null) {
   const told: string[] = [];
+  let hovered: [number, number] | null = null;
   const canvas = Object.assign(new EventTarget(), {
     setPointerCapture: () => {}, getBoundingClientRect: () => ({ left: 100, top: 50 }) });
   listenToPointers(canvas as unknown as HTMLCanvasElement, {
@@ -15,14 +16,17 @@ function pointedMap(draft: AreaDraft | null = null) {
     drawn: () => told.push('drawn'),
     placeAt: (x, y) => ({ x_m: x / 10, y_m: y / 10 }),
     scale: () => 10,
-    hover: (at) => { if (at === null) told.push('left'); },
+    hover: (at) => {
+      hovered = at;
+      if (at === null) told.push('left');
+    },
     pan: (dx, dy) => told.push(`pan ${dx} ${dy}`),
     zoom: (by, x, y) => told.push(`zoom ${by.toFixed(2)} ${x} ${y}`),
     click: (x, y) => told.push(`click ${x} ${y}`),
   });
   const send = (type: string, x: number, y: number, pointerId = 1, more = {}) =>
     canvas.dispatchEvent(Object.assign(new Event(type), { clientX: x, clientY: y, pointerId, ...more }));
-  return { told, send };
+  return { told, send, hovered: () => hovered };
 }
 
 test('a pointer that hardly moves clicks, in pixels of the canvas', () => {
@@ -31,6 +35,18 @@ test('a pointer that hardly moves clicks, in pixels of the canvas', () => {
   send('pointermove', 122, 81);
   send('pointerup', 122, 81);
   assert.deepEqual(told, ['click 22 31']);
+});
+
+test('what a finger tapped on is told once it is off; a mouse that leaves is at nothing', () => {
+  const { send, hovered } = pointedMap();
+  const touch = { pointerType: 'touch' };
+  send('pointerdown', 120, 80, 1, touch);
+  send('pointerup', 120, 80, 1, touch);
+  send('pointerleave', 120, 80, 1, touch);
+  assert.deepEqual(hovered(), [20, 30]);
+  send('pointermove', 130, 80, 2, { pointerType: 'mouse' });
+  send('pointerleave', 130, 80, 2, { pointerType: 'mouse' });
+  assert.equal(hovered(), null);
 });
 
 test('a pointer that moves on pans; one that is not down does not', () => {

@@ -19,7 +19,7 @@ test('what was asked is told with the threshold and how sure it is to be', () =>
 
 test('verdicts are called by what the mission is for', () => {
   assert.deepEqual(outlooksOf(asked(ObjectiveKind.CONFIRM_CLEAN)).map(([, words]) => words),
-    ['below 10 ppm', 'above 10 ppm', 'undecided', 'not measured']);
+    ['below 10 ppm', 'above 10 ppm', 'undecided, measured', 'undecided, not measured']);
   assert.deepEqual(outlooksOf(asked(ObjectiveKind.MAP_ABOVE_THRESHOLD))[0], ['above', 'above 10 ppm']);
   assert.deepEqual(outlooksOf(undefined).map(([outlook]) => outlook), ['undecided', 'unmeasured']);
 });
@@ -32,7 +32,8 @@ test('areas are of what counts, on the side that the mean lies on', () => {
   const verdicts = Uint8Array.of(V.DECIDED, V.DECIDED, V.DECIDED, V.UNDECIDED, V.NOT_MEASURED, V.DOES_NOT_COUNT);
   const areas = verdictAreas(asked(ObjectiveKind.MAP_ABOVE_THRESHOLD), verdicts, raster);
   assert.deepEqual(areas.map(({ name, area_m2, share }) => [name, area_m2, share]), [
-    ['above 10 ppm', 0.5, 0.4], ['below 10 ppm', 0.25, 0.2], ['undecided', 0.25, 0.2], ['not measured', 0.25, 0.2]]);
+    ['above 10 ppm', 0.5, 0.4], ['below 10 ppm', 0.25, 0.2], ['undecided, measured', 0.25, 0.2],
+    ['undecided, not measured', 0.25, 0.2]]);
 });
 
 test('where nothing counts there is no share', () => {
