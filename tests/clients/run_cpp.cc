@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "absl/time/clock.h"
 #include "client/error_reason.h"
 #include "proto/convert/status.h"
 #include "tests/clients/cpp_steps.h"
@@ -32,6 +33,19 @@ bool Print(const std::string& kind, const Answer& answer) {
   return true;
 }
 
+// A server that takes a mission over is asked again, as robots do (RobotLoop).
+Answer RunPatiently(const Steps& run, const std::string& kind, const Json& with) {
+  constexpr absl::Duration kPatience = absl::Seconds(30);
+  constexpr absl::Duration kPause = absl::Milliseconds(100);
+  const absl::Time give_up = absl::Now() + kPatience;
+  Answer answer = run(kind, with);
+  while (absl::IsUnavailable(answer.status()) && absl::Now() < give_up) {
+    absl::SleepFor(kPause);
+    answer = run(kind, with);
+  }
+  return answer;
+}
+
 int Run(const std::string& target, const std::string& path) {
   Json scenario = Json::parse(std::ifstream(path));
   const Json steps = scenario["steps"];
@@ -39,8 +53,8 @@ int Run(const std::string& target, const std::string& path) {
   for (const Json& step : steps) {
     const std::string kind = step["do"];
     const bool is_restart = kind == "restart";
-    const Answer answer =
-        is_restart ? Answer(Json::object()) : run(kind, step.value("with", Json::object()));
+    const Answer answer = is_restart ? Answer(Json::object())
+                                     : RunPatiently(run, kind, step.value("with", Json::object()));
     if (!Print(kind, answer)) return EXIT_FAILURE;
     std::string restarted;
     if (is_restart) std::getline(std::cin, restarted);

@@ -116,14 +116,17 @@ class ClusterTest(unittest.TestCase):
 
     def test_clients_are_who_the_front_says_on_every_node(self):
         alice, scout = self.client("alice"), self.client("scout")
-        missions = [f"house-{i}" for i in range(8)]
-        for mission in missions:
+        owners = set()
+        for mission in (f"house-{i}" for i in range(8)):
             self.assertEqual(alice.create_mission(mission).owner, "alice")
             scout.register(mission, "scout")
             self.assert_refused(
                 grpc.StatusCode.PERMISSION_DENIED, scout.register, mission, "rover"
             )
-        self.assertEqual({self.owner(mission) for mission in missions}, set(NAMES))
+            owners.add(self.owner(mission))
+            if owners == set(NAMES):
+                break  # a node takes eight missions
+        self.assertEqual(owners, set(NAMES))
         self.assert_refused(grpc.StatusCode.PERMISSION_DENIED, scout.create_mission, "attic")
 
     def test_nodes_believe_the_router_and_nobody_else(self):
