@@ -19,6 +19,8 @@ from plumescout.v1 import snapshot_service_pb2 as snapshot_pb
 from plumescout.v1 import types_pb2 as types_pb
 
 TIMEOUT_S = 60.0
+RETRIES = 100  # while a server takes a mission over
+RETRY_PAUSE_S = 0.2
 
 
 async def get(result):
@@ -261,6 +263,19 @@ class Runner:
         }
 
 
+async def patiently(step):
+    """What a step brings. Streams are not begun again by the client: whoever is told that a server
+    takes the mission over does it, as robots do."""
+    for _ in range(RETRIES):
+        try:
+            return await step() or {}
+        except plumescout.PlumeScoutError as error:
+            if error.reason not in ("RECOVERING", "MISSION_ELSEWHERE"):
+                raise
+        await asyncio.sleep(RETRY_PAUSE_S)
+    return await step() or {}
+
+
 async def run(client, scenario):
     runner = Runner(client, scenario)
     for step in scenario["steps"]:
@@ -269,7 +284,9 @@ async def run(client, scenario):
             if step["do"] == "restart":
                 told["result"] = {}
             else:
-                told["result"] = await getattr(runner, step["do"])(**step.get("with", {})) or {}
+                told["result"] = await patiently(
+                    lambda: getattr(runner, step["do"])(**step.get("with", {}))
+                )
         except plumescout.PlumeScoutError as error:
             told["error"] = {
                 "code": error.code.name,

@@ -310,6 +310,20 @@ function refusalOf(thrown: unknown) {
   return { code: Code[code].replace(/(?<!^)(?=[A-Z])/g, '_').toUpperCase(), reason, fields };
 }
 
+// What a step brings. Streams are not begun again by the client: whoever is told that a server takes
+// the mission over does it, as robots do.
+async function patiently<T>(task: () => Promise<T>): Promise<T> {
+  for (let retry = 0; retry < 100; ++retry) {
+    try {
+      return await task();
+    } catch (error) {
+      if (!['RECOVERING', 'MISSION_ELSEWHERE'].includes(errorOf(error).reason)) throw error;
+    }
+    await new Promise((resolve) => setTimeout(resolve, 200));
+  }
+  return await task();
+}
+
 const [target, path] = process.argv.slice(2);
 const client = connect(target!, { timeout_s: 60 });
 const scenario = JSON.parse(readFileSync(path!, 'utf8')) as Scenario;
@@ -318,7 +332,7 @@ const input = openSync('/dev/stdin', 'r');
 for (const step of scenario.steps) {
   const task = step.do === 'restart' ? async () => {} : runner[step.do as Exclude<keyof Runner, never>] as
     (this: Runner, given: unknown) => Promise<object | void>;
-  const told = await task.call(runner, step.with ?? {}).then(
+  const told = await patiently(() => task.call(runner, step.with ?? {})).then(
     (result) => ({ result: result ?? {} }), (thrown) => ({ error: refusalOf(thrown) }));
   writeSync(1, `${JSON.stringify({ do: step.do, ...told })}\n`);
   if (step.do === 'restart') readSync(input, new Uint8Array(1 << 10));

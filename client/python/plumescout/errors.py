@@ -17,6 +17,7 @@ _LINK_CODES = (
     grpc.StatusCode.UNKNOWN,
     grpc.StatusCode.INTERNAL,
 )
+_CODES: Mapping[int, grpc.StatusCode] = {code.value[0]: code for code in grpc.StatusCode}
 
 
 class PlumeScoutError(Exception):
@@ -80,6 +81,9 @@ def error_of(error: grpc.RpcError) -> PlumeScoutError:
             details.ParseFromString(value)
         elif key == _OWNER_KEY:
             node = value
+    if error.code() == grpc.StatusCode.CANCELLED and details.code in _CODES:
+        # What a front that cuts off a call makes of an answer that came before all was sent.
+        return _error(_CODES[details.code], details.message, details, node)
     return _error(error.code(), error.details() or "", details, node)
 
 
