@@ -71,9 +71,10 @@ done
 if [[ -x "$peer" && -n "$(find "$packages" -name 'plumescout-ros2_*')" ]]; then
   say "A robot of ROS 2 by Fast DDS"
   fresh_root
-  # What the simulated robot is linked with, beside what the packages bring.
+  # What the simulated robot is linked with, beside what the packages bring. (dpkg knows some of the
+  # libraries by another path; those are of every system.)
   others="$(ldd "$peer" | sed -n 's/.*=> \([^ ]*\) .*/\1/p' | xargs -n 1 realpath |
-    xargs dpkg -S 2> /dev/null | cut -d: -f1 | sort -u | tr '\n' ' ')"
+    { xargs dpkg -S 2> /dev/null || true; } | cut -d: -f1 | sort -u | tr '\n' ' ')"
   install_packages /packages/plumescout-server_* /packages/plumescout-ros2_* \
     /packages/python3-plumescout_* iproute2 "$others"
   cp "$here/packages_ros2.sh" "$here/../ros2_peer/loopback.xml" "$peer" "$root/packages/"
