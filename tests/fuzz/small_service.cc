@@ -20,6 +20,7 @@
 #include "proto/convert/options.h"
 #include "proto/convert/plan.h"
 #include "proto/convert/robot.h"
+#include "proto/convert/robot_frame.h"
 #include "proto/convert/status.h"
 #include "server/config/mission_options.h"
 #include "server/history/mission_history.h"
