@@ -44,7 +44,7 @@ void FillNames(Message& message) {
   const auto* type = message.GetDescriptor();
   const auto set = [&](const char* name, const auto& value) {
     const auto* field = type->FindFieldByName(name);
-    if (field == nullptr) return;
+    if (field == nullptr || field->message_type() != nullptr) return;
     if constexpr (std::is_convertible_v<decltype(value), std::string>) {
       message.GetReflection()->SetString(&message, field, value);
     } else {
