@@ -14,21 +14,13 @@ SelfProbe::SelfProbe(const Options& options, Probe probe,
       thread_([this] { Run(); }) {}
 
 SelfProbe::~SelfProbe() {
-  {
-    absl::MutexLock lock(&mutex_);
-    stopping_ = true;
-  }
+  stop_.Stop();
   thread_.join();
-}
-
-bool SelfProbe::Sleep() {
-  absl::MutexLock lock(&mutex_);
-  return !mutex_.AwaitWithTimeout(absl::Condition(&stopping_), options_.period);
 }
 
 void SelfProbe::Run() {
   int failures = 0;
-  while (Sleep()) {
+  while (!stop_.AwaitStop(After(SteadyNow(), options_.period))) {
     const absl::Status status = probe_();
     failures = status.ok() ? 0 : failures + 1;
     if (failures == options_.failures) return unreachable_(status);

@@ -5,10 +5,9 @@
 #include <functional>
 #include <thread>
 
-#include "absl/base/thread_annotations.h"
 #include "absl/status/status.h"
-#include "absl/synchronization/mutex.h"
 #include "absl/time/time.h"
+#include "server/base/stop_signal.h"
 
 namespace plumescout::server {
 
@@ -33,16 +32,12 @@ class SelfProbe {
 
  private:
   void Run();
-  // False if the probe is to stop.
-  bool Sleep() ABSL_LOCKS_EXCLUDED(mutex_);
 
   const Options options_;
   const Probe probe_;
   const std::function<void(const absl::Status&)> unreachable_;
 
-  absl::Mutex mutex_;
-  bool stopping_ ABSL_GUARDED_BY(mutex_) = false;
-
+  StopSignal stop_;
   std::thread thread_;  // last: it uses all of the above
 };
 

@@ -4,31 +4,20 @@
 
 #include <utility>
 
-#include "server/base/clock.h"
-
 namespace plumescout::server {
 
 StoreUsage::StoreUsage(MissionStore* store, absl::Duration period)
     : store_(store), period_(period), thread_([this] { Run(); }) {}
 
 StoreUsage::~StoreUsage() {
-  {
-    absl::MutexLock lock(&mutex_);
-    stopping_ = true;
-  }
+  stop_.Stop();
   thread_.join();
 }
 
 void StoreUsage::Run() {
-  absl::MutexLock lock(&mutex_);
-  SteadyTime next = SteadyNow();
   do {
-    if (SteadyNow() < next) continue;  // the wall clock was set, which ended the wait
-    next = After(SteadyNow(), period_);
-    mutex_.Unlock();
     Look();
-    mutex_.Lock();
-  } while (!mutex_.AwaitWithTimeout(absl::Condition(&stopping_), period_));
+  } while (!stop_.AwaitStop(After(SteadyNow(), period_)));
 }
 
 void StoreUsage::Look() {

@@ -10,6 +10,7 @@
 #include "absl/base/thread_annotations.h"
 #include "absl/synchronization/mutex.h"
 #include "absl/time/time.h"
+#include "server/base/stop_signal.h"
 #include "server/store/mission_store.h"
 
 namespace plumescout::server {
@@ -41,9 +42,9 @@ class StoreUsage {
   const absl::Duration period_;
 
   mutable absl::Mutex mutex_;
-  bool stopping_ ABSL_GUARDED_BY(mutex_) = false;
   Sizes sizes_ ABSL_GUARDED_BY(mutex_);
 
+  StopSignal stop_;
   std::thread thread_;  // last: it uses all of the above
 };
 

@@ -7,24 +7,7 @@
 namespace plumescout::server {
 
 StoreWatch::StoreWatch(const MissionStore* store, absl::Duration period, Changed changed)
-    : store_(store), period_(period), changed_(std::move(changed)), thread_([this] { Run(); }) {}
-
-StoreWatch::~StoreWatch() {
-  {
-    absl::MutexLock lock(&mutex_);
-    stopping_ = true;
-  }
-  thread_.join();
-}
-
-void StoreWatch::Run() {
-  absl::MutexLock lock(&mutex_);
-  while (!mutex_.AwaitWithTimeout(absl::Condition(&stopping_), period_)) {
-    mutex_.Unlock();
-    Look();
-    mutex_.Lock();
-  }
-}
+    : store_(store), changed_(std::move(changed)), looks_(period, [this] { Look(); }) {}
 
 void StoreWatch::Look() {
   const bool available = store_->state().status.ok();

@@ -3,12 +3,9 @@
 #pragma once
 
 #include <functional>
-#include <thread>
 
-#include "absl/base/thread_annotations.h"
-#include "absl/status/status.h"
-#include "absl/synchronization/mutex.h"
 #include "absl/time/time.h"
+#include "server/base/periodic_task.h"
 #include "server/store/mission_store.h"
 
 namespace plumescout::server {
@@ -21,24 +18,16 @@ class StoreWatch {
 
   // Looks every `period`.
   StoreWatch(const MissionStore* store, absl::Duration period, Changed changed);
-  ~StoreWatch();
-  StoreWatch(const StoreWatch&) = delete;
-  StoreWatch& operator=(const StoreWatch&) = delete;
 
  private:
-  void Run();
   void Look();
 
   const MissionStore* const store_;
-  const absl::Duration period_;
   const Changed changed_;
   // Of the thread.
   bool available_ = true;
 
-  absl::Mutex mutex_;
-  bool stopping_ ABSL_GUARDED_BY(mutex_) = false;
-
-  std::thread thread_;  // last: it uses all of the above
+  PeriodicTask looks_;  // last: it uses all of the above
 };
 
 }  // namespace plumescout::server

@@ -10,20 +10,12 @@ PeriodicTask::PeriodicTask(absl::Duration period, std::function<void()> task)
     : period_(period), task_(std::move(task)), thread_([this] { Run(); }) {}
 
 PeriodicTask::~PeriodicTask() {
-  {
-    absl::MutexLock lock(&mutex_);
-    stopping_ = true;
-  }
+  stop_.Stop();
   thread_.join();
 }
 
 void PeriodicTask::Run() {
-  absl::MutexLock lock(&mutex_);
-  while (!mutex_.AwaitWithTimeout(absl::Condition(&stopping_), period_)) {
-    mutex_.Unlock();
-    task_();
-    mutex_.Lock();
-  }
+  while (!stop_.AwaitStop(After(SteadyNow(), period_))) task_();
 }
 
 }  // namespace plumescout::server

@@ -5,9 +5,8 @@
 #include <functional>
 #include <thread>
 
-#include "absl/base/thread_annotations.h"
-#include "absl/synchronization/mutex.h"
 #include "absl/time/time.h"
+#include "server/base/stop_signal.h"
 
 namespace plumescout::server {
 
@@ -27,9 +26,7 @@ class PeriodicTask {
   const absl::Duration period_;
   const std::function<void()> task_;
 
-  absl::Mutex mutex_;
-  bool stopping_ ABSL_GUARDED_BY(mutex_) = false;
-
+  StopSignal stop_;
   std::thread thread_;  // last: it uses all of the above
 };
 

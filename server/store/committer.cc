@@ -46,6 +46,7 @@ Committer::~Committer() {
     absl::MutexLock lock(&mutex_);
     stopping_ = true;
   }
+  stop_.Stop();
   thread_.join();
 }
 
@@ -88,12 +89,10 @@ void Committer::Run() {
 
 bool Committer::Take(Batch& batch) {
   const bool has_chores = engine_->has_chores();
+  const bool has_trouble = !state().status.ok();
+  if (has_trouble && !AwaitRetry()) return false;
   absl::MutexLock lock(&mutex_);
-  if (!state_.status.ok()) {
-    mutex_.AwaitWithTimeout(absl::Condition(this, &Committer::Ready), options_.retry_period);
-  } else if (!has_chores) {
-    mutex_.Await(absl::Condition(this, &Committer::Ready));
-  }
+  if (!has_trouble && !has_chores) mutex_.Await(absl::Condition(this, &Committer::Ready));
   if (stopping_) return false;
   // Chores take turns with batches.
   if (!has_chores || !chore_is_next_) TakeQueued(batch);
@@ -190,10 +189,7 @@ void Committer::AnswerImpatient(const absl::Status& status, Batch& batch) {
   Answer(answered, status);
 }
 
-bool Committer::AwaitRetry() {
-  absl::MutexLock lock(&mutex_);
-  return !mutex_.AwaitWithTimeout(absl::Condition(&stopping_), options_.retry_period);
-}
+bool Committer::AwaitRetry() { return !stop_.AwaitStop(After(SteadyNow(), options_.retry_period)); }
 
 void Committer::Answer(Batch& batch) {
   {

@@ -14,6 +14,7 @@
 #include "absl/synchronization/mutex.h"
 #include "absl/time/time.h"
 #include "server/base/clock.h"
+#include "server/base/stop_signal.h"
 #include "server/store/mission_store.h"
 #include "server/store/store_write.h"
 
@@ -76,6 +77,7 @@ class Committer {
   bool chore_is_next_ = false;
   SteadyTime no_warning_before_ = SteadyTime::min();  // of slow commits
 
+  StopSignal stop_;
   std::thread thread_;  // last: it uses the others
 };
 

@@ -373,26 +373,8 @@ absl::Status PostgresEngine::DoChore() {
         ->Run(PostgresStatement("UPDATE plumescout_probe SET count = count + 1"), kCommitTimeout)
         .status();
   }
-  // Records of missions that were removed, then those that were trimmed. Other servers may be at
-  // it.
-  std::vector<PostgresStatement> statements;
-  for (const char* of : {"plumescout_removed p JOIN plumescout_record r ON r.mission = p.mission",
-                         "plumescout_progress p JOIN plumescout_record r "
-                         "ON r.mission = p.mission AND r.number <= p.base"}) {
-    statements
-        .emplace_back(
-            absl::StrCat("WITH next AS (SELECT r.mission, r.number FROM ", of,
-                         " LIMIT $1 FOR UPDATE OF r SKIP LOCKED), "
-                         "gone AS (DELETE FROM plumescout_record r USING next "
-                         "WHERE r.mission = next.mission AND r.number = next.number RETURNING 1) "
-                         "SELECT count(*) FROM gone"))
-        .Bind(kPurgedRecords);
-  }
-  statements.emplace_back(
-      "DELETE FROM plumescout_removed d WHERE NOT EXISTS "
-      "(SELECT FROM plumescout_record r WHERE r.mission = d.mission)");
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<PostgresRows> answers,
-                              connection_->RunAll(statements, kCommitTimeout));
+                              connection_->RunAll(PurgeStatements(kPurgedRecords), kCommitTimeout));
   has_chores_ = answers[0].Int(0, 0) + answers[1].Int(0, 0) > 0;
   return absl::OkStatus();
 }

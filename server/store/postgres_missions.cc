@@ -335,4 +335,24 @@ PostgresStatement RemoveStatement(const MissionRow& before) {
   return statement;
 }
 
+std::vector<PostgresStatement> PurgeStatements(std::int64_t limit) {
+  std::vector<PostgresStatement> statements;
+  for (const char* of : {"plumescout_removed p JOIN plumescout_record r ON r.mission = p.mission",
+                         "plumescout_progress p JOIN plumescout_record r "
+                         "ON r.mission = p.mission AND r.number <= p.base"}) {
+    statements
+        .emplace_back(
+            absl::StrCat("WITH next AS (SELECT r.mission, r.number FROM ", of,
+                         " LIMIT $1 FOR UPDATE OF r SKIP LOCKED), "
+                         "gone AS (DELETE FROM plumescout_record r USING next "
+                         "WHERE r.mission = next.mission AND r.number = next.number RETURNING 1) "
+                         "SELECT count(*) FROM gone"))
+        .Bind(limit);
+  }
+  statements.emplace_back(
+      "DELETE FROM plumescout_removed d WHERE NOT EXISTS "
+      "(SELECT FROM plumescout_record r WHERE r.mission = d.mission)");
+  return statements;
+}
+
 }  // namespace plumescout::server

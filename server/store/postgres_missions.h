@@ -77,6 +77,10 @@ PostgresStatement SnapshotStatement(const MissionRow& before, const MissionRow& 
 PostgresStatement ForgetStatement(std::int64_t lease);
 PostgresStatement SaveStatement(const MissionRow& before, const MissionRow& after);
 PostgresStatement RemoveStatement(const MissionRow& before);
+// Each of the first two deletes at most `limit` records and counts them: of missions that were
+// removed, and of those that were trimmed. Other servers may be at it, too. Then missions are
+// forgotten of which no record is left.
+std::vector<PostgresStatement> PurgeStatements(std::int64_t limit);
 
 absl::Status SharedRowDamaged(const PostgresConnection& connection, absl::string_view key,
                               absl::string_view what);

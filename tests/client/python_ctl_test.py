@@ -317,9 +317,8 @@ class KeptMissionsTest(unittest.TestCase):
         for topic in (b"/journal", b"/map/occupancy", b"/map/gas/mean", b"/log"):
             self.assertIn(topic, data)
         self.assertIn("EXPORT_DAMAGED", self.ctl("missions", "import", str(path), code=1))
-        named_otherwise = self.folder / "hall.log"
-        self.ctl("missions", "export", "hall", str(named_otherwise), "--mcap")
-        self.assertTrue(named_otherwise.read_bytes().startswith(magic))
+        self.ctl("missions", "export", "hall", str(path.with_suffix(".log")), "--mcap")
+        self.assertTrue(path.with_suffix(".log").read_bytes().startswith(magic))
 
     def test_a_file_that_is_not_whole_is_refused_by_name(self):
         path = self.folder / "hall.journal"

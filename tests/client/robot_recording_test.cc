@@ -11,6 +11,7 @@
 
 #include "absl/strings/str_join.h"
 #include "tests/client/recorded_run.h"
+#include "tests/support/full_disk.h"
 #include "tests/support/room_run.h"
 #include "tests/support/temp_folder.h"
 
@@ -95,13 +96,7 @@ TEST_F(RobotRecordingTest, WhatWasDroppedIsInTheLogOfTheFile) {
 
 TEST_F(RobotRecordingTest, AFullDiskIsNamedAndTriedAgainLater) {
   bool full = false;
-  options_.file.open = [&full](const std::string& path) -> absl::StatusOr<AppendBytes> {
-    auto file = OpenRecordingFile(path);
-    if (!file.ok()) return file.status();
-    return AppendBytes([&full, append = *file](absl::string_view bytes) {
-      return full ? absl::UnavailableError("No space left on device") : append(bytes);
-    });
-  };
+  options_.file.open = support::OpenOnDiskThatFills(full);
   Make();
   Add(0, 10);
   full = true;

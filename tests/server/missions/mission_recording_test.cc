@@ -14,6 +14,7 @@
 #include "tests/server/captured_log.h"
 #include "tests/server/missions/recorded_files.h"
 #include "tests/server/stored_run.h"
+#include "tests/support/full_disk.h"
 
 namespace plumescout::server {
 namespace mission_recording_test {
@@ -109,13 +110,7 @@ TEST_F(MissionRecordingTest, DroppedEventsAreInTheLogOfTheFile) {
 
 TEST_F(MissionRecordingTest, AFullDiskIsTriedAgainLater) {
   bool full = false;
-  options_.file.open = [&full](const std::string& path) -> absl::StatusOr<AppendBytes> {
-    auto file = OpenRecordingFile(path);
-    if (!file.ok()) return file.status();
-    return AppendBytes([&full, append = *file](absl::string_view bytes) {
-      return full ? absl::UnavailableError("No space left on device") : append(bytes);
-    });
-  };
+  options_.file.open = support::OpenOnDiskThatFills(full);
   Make();
   Add(0, 10);
   full = true;

@@ -41,6 +41,17 @@ class MissionRegistryNodesTest : public testing::Test {
     return registry_->Find(id);
   }
 
+  // A mission that did something which does not become durable until the store is released.
+  std::shared_ptr<MissionHost> MakeUnsettled(const std::string& id) {
+    const auto host = registry_->Create(id, {}).value();
+    store_.Hold();
+    const auto something = [](MissionWriter& writer) {
+      EXPECT_TRUE(writer.conduct().Register({"r1", 0.2, 1}).ok());
+    };
+    EXPECT_TRUE(host->Post(something).ok());
+    return host;
+  }
+
   SteadyTime now_ = SteadyTime() + std::chrono::hours(1);
   SharedStore store_;
   WorkerPool snapshot_pool_{{"snapshot", 1, 4}};
@@ -152,12 +163,7 @@ TEST_F(MissionRegistryNodesTest, NothingIsHandedOverToNobody) {
 
 TEST_F(MissionRegistryNodesTest, WhoAsksWhileAMissionMovesWaitsAndIsToldWhoHasItNext) {
   store_.AddNode("n2");
-  const auto host = registry_->Create("hall", {}).value();
-  store_.Hold();
-  ASSERT_TRUE(host->Post([](MissionWriter& writer) {
-                    EXPECT_TRUE(writer.conduct().Register({"r1", 0.2, 1}).ok());
-                  })
-                  .ok());
+  const auto host = MakeUnsettled("hall");
   store_.AwaitHeld(1);
   auto moved =
       std::async(std::launch::async, [this] { return registry_->HandOverAll(SteadyTime::max()); });
@@ -199,12 +205,7 @@ TEST_F(MissionRegistryNodesTest, WhoHandsItsMissionsOverTakesNoOthers) {
 
 TEST_F(MissionRegistryNodesTest, WhatDoesNotComeToRestIsDropped) {
   store_.AddNode("n2");
-  const auto host = registry_->Create("hall", {}).value();
-  store_.Hold();
-  ASSERT_TRUE(host->Post([](MissionWriter& writer) {
-                    EXPECT_TRUE(writer.conduct().Register({"r1", 0.2, 1}).ok());
-                  })
-                  .ok());
+  const auto host = MakeUnsettled("hall");
   EXPECT_TRUE(registry_->HandOverAll(SteadyNow()));
   EXPECT_TRUE(store_.released().empty());
   EXPECT_EQ(ErrorReason(host->Post([](MissionWriter&) {})), reason::kDraining);

@@ -338,53 +338,54 @@ class SlowJournal final : public HeldStore {
   absl::Notification go_on;
 };
 
-TEST_F(MapServiceTest, LooksAtThePastKeepNobodyFromWhatIsNow) {
-  SlowJournal store;
-  ServerConfig config;
-  config.maps.query_threads = 1;
-  RegistryHooks hooks;
-  hooks.store = &store;
-  server_ = nullptr;
-  StartServer(config, hooks);
-  SeeTheRoom();
-  v1::GetMapRequest request;
-  request.set_mission("missions/hall");
-  request.set_revision(1);
-  std::thread looks([&] { EXPECT_TRUE(Call(maps_, &v1::MapService::Stub::GetMap, request).ok()); });
-  store.reads.WaitForNotification();
+class PastMapTest : public MapServiceTest {
+ protected:
+  ~PastMapTest() override { server_ = nullptr; }  // it uses the store
+
+  // A server whose looks at the past wait, of a mission that has one.
+  void StartSlowly(const MapConfig& maps) {
+    ServerConfig config;
+    config.maps = maps;
+    RegistryHooks hooks;
+    hooks.store = &store_;
+    server_ = nullptr;
+    StartServer(config, hooks);
+    SeeTheRoom();
+  }
+  absl::Status LookAtThePast() {
+    v1::GetMapRequest request;
+    request.set_mission("missions/hall");
+    request.set_revision(1);
+    return Call(maps_, &v1::MapService::Stub::GetMap, request).status();
+  }
+
+  SlowJournal store_;
+};
+
+TEST_F(PastMapTest, KeepsNobodyFromWhatIsNow) {
+  StartSlowly({.query_threads = 1});
+  std::thread looks([&] { EXPECT_TRUE(LookAtThePast().ok()); });
+  store_.reads.WaitForNotification();
   EXPECT_TRUE(GetMap().ok());  // would wait for its deadline
-  store.go_on.Notify();
+  store_.go_on.Notify();
   looks.join();
-  server_ = nullptr;
 }
 
-TEST_F(MapServiceTest, OneCallersLooksLeaveRoomForOthers) {
-  SlowJournal store;
-  ServerConfig config;
-  config.maps.max_queued_queries = 4;
-  RegistryHooks hooks;
-  hooks.store = &store;
-  server_ = nullptr;
-  StartServer(config, hooks);
-  SeeTheRoom();
-  v1::GetMapRequest request;
-  request.set_mission("missions/hall");
-  request.set_revision(1);
+TEST_F(PastMapTest, OneCallersLooksLeaveRoomForOthers) {
+  StartSlowly({.max_queued_queries = 4});
   std::atomic<int> refused = 0;
   std::vector<std::thread> looks;
   for (int i = 0; i < 4; ++i) {  // one is at it and two wait: the fourth is beyond its share
     looks.emplace_back([&] {
-      const absl::Status status = Call(maps_, &v1::MapService::Stub::GetMap, request).status();
-      if (ErrorReason(status) == reason::kOverloaded) ++refused;
+      if (ErrorReason(LookAtThePast()) == reason::kOverloaded) ++refused;
     });
-    store.reads.WaitForNotification();
+    store_.reads.WaitForNotification();
   }
   while (refused == 0) std::this_thread::yield();
   EXPECT_TRUE(GetMap().ok());
-  store.go_on.Notify();
+  store_.go_on.Notify();
   for (std::thread& look : looks) look.join();
   EXPECT_EQ(refused, 1);
-  server_ = nullptr;
 }
 
 TEST_F(MapServiceTest, WatchersAreServedToo) {
