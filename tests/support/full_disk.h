@@ -11,8 +11,8 @@
 
 namespace plumescout::support {
 
-// Opens files as recordings do, on a disk that takes nothing more while it is `full`, which outlives
-// them.
+// Opens files as recordings do, on a disk that takes nothing more while it is `full`, which
+// outlives them.
 inline auto OpenOnDiskThatFills(bool& full) {
   return [&full](const std::string& path) -> absl::StatusOr<AppendBytes> {
     auto file = OpenRecordingFile(path);
