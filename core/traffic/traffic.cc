@@ -39,6 +39,12 @@ bool IsGone(const RobotRecord& record, std::int64_t now_ns) {
   return record.state.silent && unheard_s > Traffic::kSilentBody_s;
 }
 
+double SquaredDistance_m2(Point2 a, Point2 b) {
+  const double dx_m = b.x_m - a.x_m;
+  const double dy_m = b.y_m - a.y_m;
+  return dx_m * dx_m + dy_m * dy_m;
+}
+
 double Fastest_m(const std::vector<Point2>& places) {
   double fastest_m = 0.0;
   for (std::size_t k = 1; k < places.size(); ++k) {
@@ -222,10 +228,11 @@ std::optional<std::size_t> Traffic::MeetingStep(const Other& other, const Steps&
     // Who is late now is where it was to be a while ago.
     const std::size_t late = on_time_ ? 0 : StepsIn(kLate_s + kLateShare * time_s);
     const std::size_t early = on_time_ ? 0 : StepsIn(kEarly_s + kEarlyShare * time_s);
-    double nearest_m = Distance_m(mine, place(k));
+    double nearest_m2 = SquaredDistance_m2(mine, place(k));
     for (std::size_t j = k - std::min(k, late); j <= k + early; ++j) {
-      nearest_m = std::min(nearest_m, Distance_m(mine, place(j)));
+      nearest_m2 = std::min(nearest_m2, SquaredDistance_m2(mine, place(j)));
     }
+    const double nearest_m = std::sqrt(nearest_m2);
     if (nearest_m < limit_m) return k;
     // In a step both come nearer by their own way, and the window grows by a share of a step, which
     // may round up to a whole one.

@@ -15,6 +15,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 }  // namespace
 
 double SegmentIntegral_cells(const Grid<float>& raster, Point2 a, Point2 b) {
+  return SegmentIntegralUpTo_cells(raster, a, b, kInfinity);
+}
+
+double SegmentIntegralUpTo_cells(const Grid<float>& raster, Point2 a, Point2 b, double most_cells) {
   const GridGeometry& geometry = raster.geometry();
   // Between two cells of the raster the walk never leaves it.
   if (!raster.Contains(geometry.CellAt(a)) || !raster.Contains(geometry.CellAt(b)))
@@ -24,7 +28,7 @@ double SegmentIntegral_cells(const Grid<float>& raster, Point2 a, Point2 b) {
     const double value = raster[cell];
     if (value == kInfinity) return false;
     sum += value * length_cells;
-    return true;
+    return sum <= most_cells;
   });
   return passed ? sum : kInfinity;
 }
@@ -51,10 +55,17 @@ EdgeCost::EdgeCost(const InformationMap& information, CostKind kind, double alph
                                             resolution_m_),
       lower_bound_per_edge_(vertex_weight_ * static_cast<double>(information.min_penalty)) {}
 
-double EdgeCost::operator()(Point2 a, Point2 b) const {
-  const double penalty_cells = SegmentIntegral_cells(information_->penalty, a, b);
-  if (penalty_cells == kInfinity) return kInfinity;
+double EdgeCost::operator()(Point2 a, Point2 b) const { return UpTo(a, b, kInfinity); }
+
+double EdgeCost::UpTo(Point2 a, Point2 b, double limit) const {
+  // More than rounding takes off sums of prices, so that it decides between equals as if they were
+  // summed to the end.
+  constexpr double kRounding = 1.0 + 1e-9;
   const double length_price = alpha_per_m_ > 0.0 ? alpha_per_m_ * Distance_m(a, b) : 0.0;
+  const double most_cells =
+      penalty_weight_ > 0.0 ? (limit * kRounding - length_price) / penalty_weight_ : kInfinity;
+  const double penalty_cells = SegmentIntegralUpTo_cells(information_->penalty, a, b, most_cells);
+  if (penalty_cells == kInfinity) return kInfinity;
   if (vertex_weight_ > 0.0) {
     return static_cast<double>(information_->penalty[geometry().CellAt(b)]) + length_price;
   }

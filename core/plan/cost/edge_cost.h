@@ -19,6 +19,9 @@ namespace plumescout {
 // at a corner. Cost: O(cells crossed).
 double SegmentIntegral_cells(const Grid<float>& raster, Point2 a, Point2 b);
 
+// The same, but may stop and return +infinity once the sum is over `most_cells`.
+double SegmentIntegralUpTo_cells(const Grid<float>& raster, Point2 a, Point2 b, double most_cells);
+
 // The same over the cells that can be crossed: others count as `blocked_value`.
 double OpenSegmentIntegral_cells(const Grid<float>& raster, Point2 a, Point2 b,
                                  double blocked_value);
@@ -33,6 +36,10 @@ class EdgeCost {
 
   // c(a, b) of Eq. (12).
   double operator()(Point2 a, Point2 b) const;
+
+  // The same if it is less than `limit`; else that or more, maybe +infinity. Those who look for
+  // something cheaper need not know how much dearer it is.
+  double UpTo(Point2 a, Point2 b, double limit) const;
 
   // c-hat of [XIT] Eq. (6): no segment of this length, > 0, costs less.
   double LowerBound(double length_m) const {

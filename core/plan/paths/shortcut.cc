@@ -45,7 +45,7 @@ ShortcutPath Shortcut(const EdgeCost& cost, const std::vector<Point2>& path, con
     for (std::size_t j = i; j-- > i - window;) {
       if (best[j] + cost.LowerBound(Distance_m(path[j], path[i])) >= best[i]) continue;
       ++result.edges_evaluated;
-      const double via_j = best[j] + cost(path[j], path[i]);
+      const double via_j = best[j] + cost.UpTo(path[j], path[i], best[i] - best[j]);
       if (via_j < best[i]) {
         best[i] = via_j;
         previous[i] = j;

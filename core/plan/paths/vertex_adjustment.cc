@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "core/grid/neighbours.h"
@@ -13,6 +14,7 @@ namespace plumescout {
 namespace {
 
 constexpr std::array<int, 3> kSteps_cells = {4, 2, 1};
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 constexpr int kMaxSweeps = 8;  // over all vertices with steps of one length
 // A move must save this share of its two edges: less is rounding, which could go round in circles.
 constexpr double kLeastSaving = 1e-9;
@@ -53,7 +55,8 @@ class Adjustment {
     const Point2 before = path_.vertices[i - 1];
     const Point2 after = path_.vertices[i + 1];
     const Cell cell = geometry.CellAt(path_.vertices[i]);
-    const double present = Price(before, path_.vertices[i]) + Price(path_.vertices[i], after);
+    const double present =
+        Price(before, path_.vertices[i], kUnlimited) + Price(path_.vertices[i], after, kUnlimited);
     double best = present * (1.0 - kLeastSaving);
     bool found = false;
     for (const Cell offset : kNeighbours8) {
@@ -62,9 +65,9 @@ class Adjustment {
       const Point2 place = geometry.Center(to);
       const double rest = cost_.LowerBound(Distance_m(place, after));
       if (cost_.LowerBound(Distance_m(before, place)) + rest >= best) continue;
-      const double first = Price(before, place);
+      const double first = Price(before, place, best - rest);
       if (first + rest >= best) continue;
-      const double via = first + Price(place, after);
+      const double via = first + Price(place, after, best - first);
       if (via >= best) continue;
       best = via;
       path_.vertices[i] = place;
@@ -74,9 +77,9 @@ class Adjustment {
     return found;
   }
 
-  double Price(Point2 a, Point2 b) {
+  double Price(Point2 a, Point2 b, double limit) {
     ++path_.edges_evaluated;
-    return cost_(a, b);
+    return cost_.UpTo(a, b, limit);
   }
 
   const EdgeCost& cost_;

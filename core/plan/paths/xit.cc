@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <queue>
 
 #include "core/plan/cost/sampler.h"
 #include "core/plan/paths/connection_radius.h"
@@ -17,8 +15,8 @@ namespace plumescout {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kNoParent = -1;
+constexpr int kNotOpen = -1;
 
 // The implicit random geometric graph: samples, goal cells and the root, with their neighbours.
 struct Graph {
@@ -78,8 +76,8 @@ class XitSearch {
         g_(graph_.points.size(), kInfinity),
         parent_(graph_.points.size(), kNoParent),
         taken_(graph_.points.size(), 0),
-        queues_(problem.cost.HasHeuristic() || informed_ ? problem.goals.size() : 1) {
-    if (informed_) heuristics_.assign(graph_.points.size() * graph_.goal_sets.size(), kNaN);
+        place_in_open_(graph_.points.size(), kNotOpen),
+        heuristics_(graph_.points.size() * graph_.goal_sets.size(), 0.0) {
     Reach(graph_.root(), kNoParent, 0.0);  // line 6
   }
 
@@ -96,17 +94,6 @@ class XitSearch {
   }
 
  private:
-  struct Queued {
-    double f;  // g + h
-    int vertex;
-    double g;  // when queued; the entry is stale if the vertex has a better one by now
-
-    bool operator>(const Queued& other) const {
-      return f != other.f ? f > other.f : vertex > other.vertex;
-    }
-  };
-  using Queue = std::priority_queue<Queued, std::vector<Queued>, std::greater<>>;
-
   double& g(int vertex) { return g_[static_cast<std::size_t>(vertex)]; }
   Point2 At(int vertex) const { return graph_.points[static_cast<std::size_t>(vertex)]; }
   bool Taken(int vertex) const { return taken_[static_cast<std::size_t>(vertex)] != 0; }
@@ -132,17 +119,31 @@ class XitSearch {
     return PlanEnd::kAllGoalsReached;
   }
 
-  // The vertex of Q_v with the least g + h for this goal; kNoParent if Q_v is empty.
+  // The vertex of Q_v with the least g + h for this goal, of equals the first; kNoParent if Q_v is
+  // empty. Q_v has no order: it is the rim of the tree, which is looked through in less time than
+  // an order for each goal would take to keep up.
   int TakeNext(std::size_t goal) {
-    Queue& queue = queues_[queues_.size() > 1 ? goal : 0];
-    while (!queue.empty()) {
-      const Queued next = queue.top();
-      queue.pop();
-      if (Taken(next.vertex) || next.g != g(next.vertex)) continue;
-      taken_[static_cast<std::size_t>(next.vertex)] = 1;
-      return next.vertex;
+    const double* const h = &heuristics_[goal * graph_.points.size()];
+    int next = kNoParent;
+    double least = kInfinity;
+    for (const int vertex : open_) {
+      const double f = g(vertex) + h[vertex];
+      if (next != kNoParent && (f > least || (f == least && vertex > next))) continue;
+      least = f;
+      next = vertex;
     }
-    return kNoParent;
+    if (next != kNoParent) Close(next);
+    return next;
+  }
+
+  void Close(int vertex) {
+    taken_[static_cast<std::size_t>(vertex)] = 1;
+    int& place = place_in_open_[static_cast<std::size_t>(vertex)];
+    const int last = open_.back();
+    open_[static_cast<std::size_t>(place)] = last;
+    place_in_open_[static_cast<std::size_t>(last)] = place;
+    open_.pop_back();
+    place = kNotOpen;
   }
 
   // Lines 15-28. False if the budget ran out.
@@ -164,27 +165,29 @@ class XitSearch {
     const std::int64_t budget = problem_.max_edge_evaluations;
     if (budget > 0 && effort_.edges_evaluated >= budget) return false;
     ++effort_.edges_evaluated;
-    const double via_v = g(v) + problem_.cost(At(v), At(w));
+    const double via_v = g(v) + problem_.cost.UpTo(At(v), At(w), g(w) - g(v));
     if (via_v < g(w)) Reach(w, v, via_v);  // line 21
     return true;
   }
 
   // Lines 22-28: enters the tree, or changes parent.
   void Reach(int vertex, int parent, double cost) {
+    if (g(vertex) == kInfinity) WriteHeuristics(vertex);
     g(vertex) = cost;
     parent_[static_cast<std::size_t>(vertex)] = parent;
     taken_[static_cast<std::size_t>(vertex)] = 0;
-    for (std::size_t k = 0; k < queues_.size(); ++k) {
-      queues_[k].push({cost + Heuristic(vertex, k), vertex, cost});
-    }
+    int& place = place_in_open_[static_cast<std::size_t>(vertex)];
+    if (place != kNotOpen) return;
+    place = static_cast<int>(open_.size());
+    open_.push_back(vertex);
   }
 
-  double Heuristic(int vertex, std::size_t goal) {
-    if (!problem_.cost.HasHeuristic() && !informed_) return 0.0;
-    if (!informed_) return LeastHeuristic(vertex, goal);
-    double& known = heuristics_[static_cast<std::size_t>(vertex) * graph_.goal_sets.size() + goal];
-    if (std::isnan(known)) known = LeastHeuristic(vertex, goal);
-    return known;
+  void WriteHeuristics(int vertex) {
+    if (!problem_.cost.HasHeuristic() && !informed_) return;
+    for (std::size_t goal = 0; goal < graph_.goal_sets.size(); ++goal) {
+      heuristics_[goal * graph_.points.size() + static_cast<std::size_t>(vertex)] =
+          LeastHeuristic(vertex, goal);
+    }
   }
 
   // To the nearest, or cheapest, vertex of the goal's set.
@@ -234,8 +237,9 @@ class XitSearch {
   std::vector<double> g_;            // cost to come in the tree, g_tau
   std::vector<int> parent_;          // E
   std::vector<std::uint8_t> taken_;  // no longer in Q_v
-  std::vector<Queue> queues_;        // Q_v, by goal; one for all if h = 0
-  std::vector<double> heuristics_;   // informed h by vertex and goal; NaN: not yet known
+  std::vector<int> open_;            // Q_v
+  std::vector<int> place_in_open_;   // by vertex
+  std::vector<double> heuristics_;   // h by goal, then by vertex; of vertices in the tree
   PlanEffort effort_;
 };
 

@@ -187,6 +187,29 @@ TEST(EdgeCost, NeverGoesBelowItsLowerBoundAndTheHeuristicIsConsistent) {
   }
 }
 
+TEST(EdgeCost, UpToALimitIsThePriceIfItIsLess) {
+  RandomCase c(5);
+  for (const CostKind kind : {CostKind::kUcb, CostKind::kEuclidean, CostKind::kVertices}) {
+    const EdgeCost cost(c.information, kind, 0.7);
+    int below = 0;
+    for (int i = 0; i < 500; ++i) {
+      const Point2 a = c.Point();
+      const Point2 b = c.Point();
+      const double limit = c.rng.Uniform(0.0, 40.0);
+      const double price = cost(a, b);
+      below += price < limit ? 1 : 0;
+      if (price < limit) {
+        EXPECT_EQ(cost.UpTo(a, b, limit), price);
+      } else {
+        EXPECT_GE(cost.UpTo(a, b, limit), limit);
+      }
+      EXPECT_EQ(cost.UpTo(a, b, kInf), price);
+    }
+    EXPECT_GT(below, 20);
+    EXPECT_LT(below, 480);
+  }
+}
+
 TEST(EdgeCost, HasAHeuristicOnlyIfLengthCosts) {
   const InformationMap information = InformationOf(ThreeCells(1, 1, 1));
   EXPECT_FALSE(EdgeCost(information, CostKind::kUcb, 0.0).HasHeuristic());
