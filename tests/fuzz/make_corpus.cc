@@ -9,6 +9,7 @@
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
+#include "core/mission/mission.h"
 #include "core/types/event.h"
 #include "formats/file_io.h"
 #include "formats/journal/event_codec.h"
@@ -17,7 +18,10 @@
 #include "formats/zlib_codec.h"
 #include "formats/zstd_codec.h"
 #include "lab/formats/scene_json.h"
+#include "server/missions/standing_record.h"
+#include "server/web/grpc_web.h"
 #include "tests/fuzz/request_steps.h"
+#include "tests/fuzz/small_mission.h"
 #include "tests/fuzz/small_service.h"
 #include "tests/support/box_room.h"
 #include "tests/support/gaden_files.h"
@@ -73,22 +77,50 @@ std::string WithLength(const std::string& body) {
                       std::string(1, static_cast<char>(body.size() / 256)), body);
 }
 
-void AddRecordings(Corpus& corpus) {
+// A short mission: a robot that sees a room and reads gas in it, and goes.
+std::vector<EventBody> ShortMission() {
   const Pose2 pose{1.0, 1.5, 0.0};
   constexpr std::int64_t kSecond_ns = 1'000'000'000;
   Scan scan = support::ScanInBox(pose, 6.0, 4.0);
-  const std::vector<EventBody> bodies = {
-      RobotRegistered{"r1", 0.2, 1},
-      ObservationReceived{"r1", {1, kSecond_ns, pose, scan}},
-      ObservationReceived{"r1", {2, 2 * kSecond_ns, pose, GasReading{5.0, 0.0}}},
-      ObservationReceived{"r1", {3, 3 * kSecond_ns, pose, SequenceGap{3, 4}}},
-      PosteriorRefreshed{3 * kSecond_ns},
-      EpochBegun{3 * kSecond_ns},
-      EpochAdopted{},
-      RobotRemoved{"r1"}};
+  return {RobotRegistered{"r1", 0.2, 1},
+          ObservationReceived{"r1", {1, kSecond_ns, pose, scan}},
+          ObservationReceived{"r1", {2, 2 * kSecond_ns, pose, GasReading{5.0, 0.0}}},
+          ObservationReceived{"r1", {3, 3 * kSecond_ns, pose, SequenceGap{3, 4}}},
+          PosteriorRefreshed{3 * kSecond_ns},
+          EpochBegun{3 * kSecond_ns},
+          EpochAdopted{},
+          RobotRemoved{"r1"}};
+}
+
+void AddSnapshots(Corpus& corpus) {
+  Mission mission(SmallMission());
+  for (const EventBody& body : ShortMission()) {
+    mission.Apply(body).status().IgnoreError();  // a snapshot is of any state
+    const auto state = mission.SaveState();
+    if (state.ok()) corpus.Add("snapshot", absl::StrCat("revision-", mission.revision()), *state);
+  }
+  server::StandingRecord standing;
+  standing.released_leases = {{"r1", 7}};
+  corpus.Add("snapshot", "standing", server::EncodeStanding(standing));
+}
+
+void AddStrangers(Corpus& corpus) {
+  corpus.Add("access", "subject", "CN=scout,OU=robot,O=acme");
+  corpus.Add("access", "token",
+             absl::StrCat(std::string(64, 'a'), " scout robot acme 2030-01-01T00:00:00Z"));
+  const std::string frame = server::MessageFrame("message");
+  corpus.Add("web", "call",
+             absl::StrCat("POST /plumescout.v1.MapService/GetMap HTTP/1.1\r\nHost: a\r\n"
+                          "Content-Type: ",
+                          server::kGrpcWebType, "\r\ngrpc-timeout: 5S\r\nContent-Length: ",
+                          frame.size(), "\r\n\r\n", frame));
+  corpus.Add("web", "page", "GET /index.html?x=1 HTTP/1.1\r\nHost: a\r\n\r\n");
+}
+
+void AddRecordings(Corpus& corpus) {
   std::string all;
   std::int64_t number = 0;
-  for (const EventBody& body : bodies) {
+  for (const EventBody& body : ShortMission()) {
     const std::string event = EncodeEvent({++number, body});
     corpus.Add("recording", absl::StrCat("record-", number), event);
     corpus.Add("recording", absl::StrCat("event-", number), WithLength(event));
@@ -187,6 +219,8 @@ int Run(const std::string& folder) {
   Corpus corpus(folder);
   AddRequests(corpus);
   AddRecordings(corpus);
+  AddSnapshots(corpus);
+  AddStrangers(corpus);
   AddMaps(corpus);
   AddMcap(corpus);
   AddArrays(corpus);

@@ -12,6 +12,7 @@
 #include "formats/journal/event_codec_v4.h"
 #include "formats/journal/journal_file.h"
 #include "tests/fuzz/memory_file.h"
+#include "tests/fuzz/small_mission.h"
 
 namespace {
 
@@ -50,14 +51,6 @@ std::string File(absl::string_view bytes) {
   return file;
 }
 
-plumescout::MissionOptions SmallOptions() {
-  plumescout::MissionOptions options;
-  options.occupancy.resolution_m = 0.5;
-  options.occupancy.max_extent_m = 30.0;
-  options.occupancy.max_cell_count = 16'384;
-  return options;
-}
-
 // What decodes to an event is encoded, and decoded to the same event.
 void DecodeRecord(absl::string_view bytes) {
   plumescout::DecodeEventV4(bytes).status().IgnoreError();
@@ -71,7 +64,7 @@ void DecodeRecord(absl::string_view bytes) {
 void Replay(const std::string& path) {
   auto reader = plumescout::JournalFileReader::Open(path);
   if (!reader.ok()) return;
-  plumescout::Mission mission(SmallOptions());
+  plumescout::Mission mission(plumescout::fuzz::SmallMission());
   bool applied = true;
   for (auto event = reader->Next(); event.ok() && *event; event = reader->Next()) {
     applied = applied && mission.Apply((*event)->body).ok();

@@ -44,7 +44,7 @@ void FillNames(Message& message) {
   const auto* type = message.GetDescriptor();
   const auto set = [&](const char* name, const auto& value) {
     const auto* field = type->FindFieldByName(name);
-    if (field == nullptr) return;
+    if (field == nullptr || field->message_type() != nullptr) return;
     if constexpr (std::is_convertible_v<decltype(value), std::string>) {
       message.GetReflection()->SetString(&message, field, value);
     } else {
@@ -56,6 +56,8 @@ void FillNames(Message& message) {
   set("mission", std::string(kMission));
   set("robot", std::string(kRobot));
   set("lease_token", kToken);
+  const bool is_of_robot = type->file()->name().ends_with("robot_service.proto");
+  set("name", std::string(is_of_robot ? kRobot : kMission));
 }
 
 }  // namespace
@@ -118,6 +120,20 @@ Step GoodStep(std::size_t kind) {
   } else if (auto* report = dynamic_cast<v1::ReportProgressRequest*>(request.get())) {
     report->set_plan("missions/hall/plans/1");
     report->set_outcome(v1::ReportProgressRequest::OUTCOME_REACHED);
+  } else if (auto* home = dynamic_cast<v1::OrderHomeRequest*>(request.get())) {
+    home->set_home(true);
+  } else if (auto* area = dynamic_cast<v1::ChangeKeepOutAreasRequest*>(request.get())) {
+    v1::Polygon& polygon = *area->add_added();
+    polygon.set_name("pit");
+    for (const auto& [x_m, y_m] : {std::pair(4.0, 3.0), std::pair(5.0, 3.0), std::pair(5.0, 3.5)}) {
+      v1::Point2D* const vertex = polygon.add_vertices();
+      vertex->set_x_m(x_m);
+      vertex->set_y_m(y_m);
+    }
+  } else if (auto* update = dynamic_cast<v1::UpdateMissionRequest*>(request.get())) {
+    update->mutable_mission()->set_name(kMission);
+    update->mutable_mission()->mutable_idle_time_to_live()->set_seconds(60);
+    update->mutable_update_mask()->add_paths("idle_time_to_live");
   } else if (auto* query = dynamic_cast<v1::QueryGasRequest*>(request.get())) {
     query->add_points()->set_x_m(1.0);
   }

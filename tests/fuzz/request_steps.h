@@ -33,6 +33,6 @@ Step GoodStep(std::size_t kind);
 // A short mission: made, joined, seen, planned and read.
 Steps GoodSteps();
 
-inline constexpr std::size_t kMaxSteps = 16;
+inline constexpr std::size_t kMaxSteps = 32;
 
 }  // namespace plumescout::fuzz

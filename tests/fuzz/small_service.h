@@ -20,6 +20,7 @@
 #include "plumescout/v1/mission_service.pb.h"
 #include "plumescout/v1/planning_service.pb.h"
 #include "plumescout/v1/robot_service.pb.h"
+#include "plumescout/v1/snapshot_service.pb.h"
 
 namespace plumescout::fuzz {
 
@@ -42,6 +43,21 @@ class SmallService {
   void GetMap(const v1::GetMapRequest& request);
   void WatchMap(const v1::WatchMapRequest& request);
   void QueryGas(const v1::QueryGasRequest& request);
+  void ChangeKeepOut(const v1::ChangeKeepOutAreasRequest& request);
+  void PlanTeam(const v1::PlanTeamRequest& request);
+  void OrderHome(const v1::OrderHomeRequest& request);
+  void ReleaseLease(const v1::ReleaseLeaseRequest& request);
+  // Of these there is nothing to do but to read them.
+  void Update(const v1::UpdateMissionRequest& request);
+  void ListMissions(const v1::ListMissionsRequest& request);
+  void ListRobots(const v1::ListRobotsRequest& request);
+  void ListPlans(const v1::ListPlansRequest& request);
+  void History(const v1::GetMissionHistoryRequest& request);
+  void WatchRobot(const v1::WatchRobotRequest& request);
+  void GetRobot(const v1::GetRobotRequest& request);
+  // GetMission, DeleteMission, PauseMission, ResumeMission, FinishMission.
+  template <typename Request>
+  void Name(const Request& request);
   // Not a request: what clients make of an answer.
   void ReadMap(const v1::GetMapResponse& response);
   void ReadPlan(const v1::Plan& plan);
