@@ -276,7 +276,9 @@ TEST(FairPoolThreadsTest, YieldsTheCpuIfItIsToldTo) {
     }
     return niceness;
   };
-  EXPECT_GT(niceness_in(true), niceness_in(false));
+  constexpr int kNicest = 19;
+  const int usual = niceness_in(false);
+  EXPECT_TRUE(niceness_in(true) > usual || usual == kNicest);
 }
 
 TEST(FairPoolThreadsTest, GroupsThatShallDoLeaveAThreadToOneAnother) {

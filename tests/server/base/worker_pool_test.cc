@@ -66,7 +66,9 @@ TEST(WorkerPoolTest, YieldsTheCpuIfItIsToldTo) {
     return niceness;
   };
   EXPECT_EQ(niceness_in(false), getpriority(PRIO_PROCESS, 0));
-  EXPECT_GT(niceness_in(true), niceness_in(false));
+  constexpr int kNicest = 19;
+  const int usual = niceness_in(false);
+  EXPECT_TRUE(niceness_in(true) > usual || usual == kNicest);
 }
 
 }  // namespace worker_pool_test
