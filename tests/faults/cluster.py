@@ -219,6 +219,7 @@ class Cluster:
         verdict = f"{len(breaches)} BREACHES" if breaches else "0 lost, 0 doubled, 0 forks"
         plans_s = [wait for robot in self.team for wait in robot.plan_waits_s]
         slowest_s, told = max(robot.slowest_plan for robot in self.team)
+        answers = [f"{count} × {name}" for name, count in collections.Counter(told).items()]
         failures = sum((robot.route.failures for robot in self.team), collections.Counter())
         return (
             f"{self.faults} faults, {self.owner_faults} of them to who had missions; {sum(r.durable for r in self.team)} observations were "
@@ -226,7 +227,7 @@ class Cluster:
             f"{sum(r.route.redirects for r in self.team)} redirects; robots that a fault hit waited "
             f"{waits[len(waits) // 2]:.2f} s (p50), {waits[-1]:.2f} s (max); plans were waited for "
             f"{percentile(plans_s, 0.5):.3f} s (p50), {percentile(plans_s, 0.99):.3f} s (p99), "
-            f"{slowest_s:.3f} s (max, told before: {', '.join(told) or 'nothing'}); calls "
+            f"{slowest_s:.3f} s (max, told before: {', '.join(answers) or 'nothing'}); calls "
             f"that ended otherwise: {dict(failures)}: {verdict}"
         )
 
