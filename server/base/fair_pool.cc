@@ -39,6 +39,8 @@ void EraseIdle(Children& children) {
 
 // Who is not alone leaves so much of the queue to others.
 constexpr int kPartLeft = 4;
+// Of which one is for a core that long tasks do not have: servers have a thread more than cores.
+constexpr int kThreadsLeft = 2;
 // Beyond so many groups, those that have not asked for long are forgotten.
 constexpr std::size_t kMaxPaces = 256;
 
@@ -164,19 +166,35 @@ bool FairPool::MayRun(const Member& member) const {
   return !member.tasks.empty() && member.running < options_.max_running_per_member;
 }
 
-bool FairPool::LeavesLastThread(const GroupName& name) const {
-  const auto found = paces_.find(name);
-  const bool is_last = options_.threads > 1 && all_.running >= options_.threads - 1;
-  if (!is_last || found == paces_.end() || !found->second.is_long) return false;
+bool FairPool::TakesLong(const Pace& pace, SteadyTime now) {
+  return pace.long_at != SteadyTime() && now <= After(pace.long_at, kLongKnown);
+}
+
+int FairPool::RunningLong(SteadyTime now) const {
+  int running = 0;
+  for (const auto& [name, pace] : paces_) {
+    if (!TakesLong(pace, now)) continue;
+    const Tenant* const tenant = Find(all_.children, name.first);
+    const Group* const group = tenant == nullptr ? nullptr : Find(tenant->children, name.second);
+    running += group == nullptr ? 0 : group->running;
+  }
+  return running;
+}
+
+bool FairPool::LeavesThreads(const GroupName& name) const {
   const SteadyTime now = clock_();
+  const auto found = paces_.find(name);
+  if (options_.threads < 2 || found == paces_.end() || !TakesLong(found->second, now)) return false;
+  const bool is_last = all_.running >= options_.threads - 1;
+  if (!is_last && RunningLong(now) < std::max(1, options_.threads - kThreadsLeft)) return false;
   return std::any_of(paces_.begin(), paces_.end(), [now](const auto& pace) {
-    return !pace.second.is_long && now <= After(pace.second.asked, kCompany);
+    return !TakesLong(pace.second, now) && now <= After(pace.second.asked, kCompany);
   });
 }
 
 bool FairPool::MayRun(const GroupName& name, const Group& group) const {
   const bool alone = !options_.groups_leave_room || groups_.IsAlone(name.second, clock_());
-  return !LeavesLastThread(name) &&
+  return !LeavesThreads(name) &&
          group.running < std::min(options_.max_running_per_group, Threads(alone)) &&
          std::any_of(group.children.begin(), group.children.end(),
                      [this](const auto& entry) { return MayRun(entry.second); });
@@ -227,7 +245,7 @@ std::optional<FairPool::Turn> FairPool::TakeTurn() {
 
 void FairPool::NoteEnd(const FairKey& key, bool is_long) {
   const auto pace = paces_.find({key.tenant, key.group});
-  if (pace != paces_.end()) pace->second.is_long = is_long;
+  if (is_long && pace != paces_.end()) pace->second.long_at = clock_();
   Tenant& tenant = all_.children[key.tenant];
   Group& group = tenant.children[key.group];
   --group.children[key.member].running;

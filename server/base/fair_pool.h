@@ -52,14 +52,15 @@ struct FairTask {
 // Fixed threads over bounded queues, so that whoever asks much waits for itself: a group never has
 // more than its share of the threads, a member neither, and one task at a time has its turn. A
 // tenant that is alone may have everything; while others ask too it leaves them a thread and a
-// quarter of the queue. Groups whose tasks take long leave the last thread to those whose do not.
-// Thread-safe.
+// quarter of the queue. Groups whose tasks take long leave two threads to those whose do not, as
+// long as one is left to themselves. Thread-safe.
 class FairPool {
  public:
   // Who asked within this is company.
   static constexpr absl::Duration kCompany = absl::Seconds(60);
-  // A task that takes more than this takes long.
-  static constexpr absl::Duration kLong = absl::Seconds(1);
+  // A task that takes more than this takes long, and its group is known for it for so much time.
+  static constexpr absl::Duration kLong = absl::Milliseconds(250);
+  static constexpr absl::Duration kLongKnown = absl::Seconds(10);
 
   explicit FairPool(const FairPoolOptions& options, SteadyClock clock = SteadyNow);
   // Runs what is queued, then joins.
@@ -95,7 +96,7 @@ class FairPool {
   // Of a group that asked lately.
   struct Pace {
     SteadyTime asked;
-    bool is_long = false;  // its latest task was
+    SteadyTime long_at = {};  // when a task of it ended that took long, the last time
   };
   using GroupName = std::pair<std::string, std::string>;  // tenant and group
   // Who asked lately.
@@ -116,8 +117,12 @@ class FairPool {
   bool MayRun(const Member& member) const;
   bool MayRun(const GroupName& name, const Group& group) const
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  // Whether the group's task may take long, and no thread would be left to others whose do not.
-  bool LeavesLastThread(const GroupName& name) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  static bool TakesLong(const Pace& pace, SteadyTime now);
+  // Tasks of groups that take long.
+  int RunningLong(SteadyTime now) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  // Whether the group's task may take long, and too few threads would be left to those of others
+  // that do not.
+  bool LeavesThreads(const GroupName& name) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void NoteAsked(const FairKey& key) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   bool MayRun(const std::string& name, const Tenant& tenant) const
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
