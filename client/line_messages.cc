@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "core/types/checker.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout::client {
@@ -84,10 +85,11 @@ absl::StatusOr<GasReading> ReadGas(const Json& object) {
   }
   if (object.contains("sensor")) {
     PLUMESCOUT_ASSIGN_OR_RETURN(const double sensor, Number(object, "sensor"));
-    if (!(sensor >= 0.0 && sensor < kSensorEnd) || sensor != std::floor(sensor)) {
-      return absl::InvalidArgumentError(
-          absl::StrCat("sensor = ", sensor, " must be a whole number in [0, ", kSensorEnd, ")"));
-    }
+    PLUMESCOUT_RETURN_IF_ERROR(
+        Checker()
+            .InRangeBelow("sensor", sensor, 0.0, kSensorEnd)
+            .Require(sensor == std::floor(sensor), "sensor", sensor, "must be a whole number")
+            .status());
     reading.sensor = static_cast<int>(sensor);
   }
   return reading;
@@ -111,10 +113,8 @@ absl::StatusOr<PoseCorrection> ReadCorrection(const Json& object) {
 absl::StatusOr<RobotStatus> ReadStatus(const Json& object) {
   RobotStatus status;
   PLUMESCOUT_ASSIGN_OR_RETURN(status.battery_share, Number(object, "battery_share"));
-  if (status.battery_share < 0.0 || status.battery_share > 1.0) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("battery_share = ", status.battery_share, " must be in [0, 1]"));
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(
+      Checker().InRange("battery_share", status.battery_share, 0.0, 1.0).status());
   return status;
 }
 

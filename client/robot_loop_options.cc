@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "client/robot_loop_options.h"
 
-#include "absl/strings/str_cat.h"
 #include "core/types/checker.h"
 
 namespace plumescout::client {
@@ -10,12 +9,8 @@ namespace plumescout::client {
 absl::Status Validate(const RobotLoopOptions& options) {
   const GasSampling& gas_sampling = options.gas_sampling;
   const std::int64_t least_epoch = options.ingest.store.folder.empty() ? 0 : 1;
-  if (options.new_log_epoch < least_epoch || options.new_log_epoch >= kLogEpochEnd) {
-    return absl::InvalidArgumentError(absl::StrCat("new_log_epoch = ", options.new_log_epoch,
-                                                   " must be in [", least_epoch, ", ", kLogEpochEnd,
-                                                   ")"));
-  }
   return Checker()
+      .InRangeBelow("new_log_epoch", options.new_log_epoch, least_epoch, kLogEpochEnd)
       .Positive("tick_s", options.tick_s)
       .Positive("answer_look_s", options.answer_look_s)
       .Positive("radius_m", options.participation.radius_m)

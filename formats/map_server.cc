@@ -10,6 +10,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "core/types/checker.h"
 #include "core/types/status_macros.h"
 #include "formats/file_io.h"
 #include "formats/pgm.h"
@@ -66,10 +67,8 @@ absl::Status ValidateHeader(const MapHeader& header) {
   if (header.mode != "trinary") {
     return absl::InvalidArgumentError(absl::StrCat("mode \"", header.mode, "\" is not trinary"));
   }
-  if (!(header.resolution_m > 0.0 && header.resolution_m <= kMaxResolution_m)) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("resolution = ", header.resolution_m, " must be in (0, 100] m"));
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(
+      Checker().InRangeAbove("resolution", header.resolution_m, 0.0, kMaxResolution_m).status());
   if (!(std::abs(header.origin_x_m) <= kMaxOrigin_m &&
         std::abs(header.origin_y_m) <= kMaxOrigin_m)) {
     return absl::InvalidArgumentError("origin must be within 1e6 m");

@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "absl/strings/str_cat.h"
+#include "core/types/checker.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
@@ -65,7 +66,7 @@ std::vector<Triplet> SortedWithDiagonal(int n, std::span<const Triplet> triplets
 }  // namespace
 
 absl::StatusOr<SymmetricMatrix> SymmetricFromTriplets(int n, std::span<const Triplet> triplets) {
-  if (n < 0) return absl::InvalidArgumentError(absl::StrCat("n = ", n, " must be >= 0"));
+  PLUMESCOUT_RETURN_IF_ERROR(Checker().AtLeast("n", n, 0).status());
   for (const Triplet& t : triplets) {
     if (t.column < 0 || t.row < t.column || t.row >= n) {
       return absl::InvalidArgumentError(absl::StrCat(

@@ -56,12 +56,10 @@ const Fleet::Member* Fleet::Find(const RobotId& robot) const {
 absl::Status Fleet::Register(const RobotRegistered& registration, int max_robot_count,
                              double pose_limit_m) {
   PLUMESCOUT_RETURN_IF_ERROR(ValidateId("robot", registration.robot));
-  PLUMESCOUT_RETURN_IF_ERROR(
-      Checker().InRangeAbove("radius_m", registration.radius_m, 0.0, kMaxRadius_m).status());
-  if (registration.log_epoch < 0 || registration.log_epoch >= kLogEpochEnd) {
-    return absl::InvalidArgumentError(absl::StrCat("log_epoch = ", registration.log_epoch,
-                                                   " must be in [0, ", kLogEpochEnd, ")"));
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(Checker()
+                                 .InRangeAbove("radius_m", registration.radius_m, 0.0, kMaxRadius_m)
+                                 .InRangeBelow("log_epoch", registration.log_epoch, 0, kLogEpochEnd)
+                                 .status());
   PLUMESCOUT_RETURN_IF_ERROR(Validate(registration.frame, pose_limit_m));
   PLUMESCOUT_RETURN_IF_ERROR(CheckSensors(registration.sensors));
   const auto found = robots_.find(registration.robot);
@@ -99,10 +97,7 @@ absl::Status Fleet::Register(const RobotRegistered& registration, int max_robot_
 absl::StatusOr<GasSensor> Fleet::SensorOf(const RobotId& robot, int sensor) const {
   const std::vector<GasSensor>& sensors = robots_.at(robot).sensors;
   const int count = std::max(1, static_cast<int>(sensors.size()));
-  if (sensor < 0 || sensor >= count) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("gas.sensor = ", sensor, " must be in [0, ", count, ")"));
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(Checker().InRangeBelow("gas.sensor", sensor, 0, count).status());
   return sensors.empty() ? GasSensor() : sensors[static_cast<std::size_t>(sensor)];
 }
 
@@ -158,10 +153,7 @@ absl::Status Fleet::CheckSequence(const RobotId& robot, const Observation& obser
   const Member* const member = Find(robot);
   if (member == nullptr) return UnknownRobot(robot);
   const std::int64_t expected = member->record.state.applied_sequence + 1;
-  if (observation.sequence < 1) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("sequence = ", observation.sequence, " must be >= 1"));
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(Checker().AtLeast("sequence", observation.sequence, 1).status());
   if (observation.sequence < expected && LastSequence(observation) < expected) {
     return absl::AlreadyExistsError(
         absl::StrCat("sequence = ", observation.sequence, " is applied already"));
@@ -223,10 +215,8 @@ std::optional<GoalClaim> Fleet::FindClaim(const Plan& plan, std::int64_t now_ns,
 absl::StatusOr<PlanId> Fleet::Issue(const Plan& plan, std::int64_t now_ns, bool assigned) {
   Member* const planner = Find(plan.robot);
   if (planner == nullptr) return UnknownRobot(plan.robot);
-  if (plan.chosen < -1 || plan.chosen >= static_cast<int>(plan.candidates.size())) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("chosen = ", plan.chosen, " must be in [-1, ", plan.candidates.size(), ")"));
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(
+      Checker().InRangeBelow("chosen", plan.chosen, -1, plan.candidates.size()).status());
   LivePlan live{next_plan_, plan.phase, GoalToClaim(plan),
                 now_ns + Nanoseconds(plan.trajectory.duration_s * kClaimSlack + kClaimGrace_s),
                 std::nullopt};

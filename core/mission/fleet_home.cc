@@ -8,6 +8,8 @@
 #include "absl/strings/str_cat.h"
 #include "core/mission/fleet.h"
 #include "core/mission/observation_check.h"
+#include "core/types/checker.h"
+#include "core/types/status_macros.h"
 
 namespace plumescout {
 namespace {
@@ -32,11 +34,10 @@ std::optional<WayPoint> Fleet::StartOf(const RobotId& robot) const {
 absl::Status Fleet::NoteClock(const ClockOffsetNoted& noted) {
   Member* const member = Find(noted.robot);
   if (member == nullptr) return NotRegistered(noted.robot);
-  if (noted.offset_ns < -kMaxClockOffset_ns || noted.offset_ns > kMaxClockOffset_ns) {
-    return absl::InvalidArgumentError(absl::StrCat("offset_ns = ", noted.offset_ns, " must be in [",
-                                                   -kMaxClockOffset_ns, ", ", kMaxClockOffset_ns,
-                                                   "]"));
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(
+      Checker()
+          .InRange("offset_ns", noted.offset_ns, -kMaxClockOffset_ns, kMaxClockOffset_ns)
+          .status());
   member->record.state.clock_offset_ns = noted.offset_ns;
   return absl::OkStatus();
 }

@@ -15,6 +15,7 @@
 #include "core/mission/sensor_check.h"
 #include "core/occupancy/free_space.h"
 #include "core/occupancy/keep_out.h"
+#include "core/types/checker.h"
 #include "core/types/keep_out.h"
 #include "core/types/species.h"
 #include "core/types/status_macros.h"
@@ -47,8 +48,7 @@ std::shared_ptr<const MissionOptions> InForce(MissionOptions options) {
 }
 
 absl::Status CheckTime(std::int64_t time_ns) {
-  if (time_ns >= 0) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat("time_ns = ", time_ns, " must be >= 0"));
+  return Checker().AtLeast("time_ns", time_ns, 0).status();
 }
 
 // What GasMap could not even begin is no event, nor what was abandoned; what it failed in is one,
@@ -210,10 +210,8 @@ absl::StatusOr<Applied> Mission::Change(const PosteriorRefreshed& refresh) {
 }
 
 absl::StatusOr<Applied> Mission::Change(const PlanIssued& issued) {
-  if (issued.plan.belief_revision < 0 || issued.plan.belief_revision > revision_) {
-    return absl::InvalidArgumentError(absl::StrCat(
-        "belief_revision = ", issued.plan.belief_revision, " must be in [0, ", revision_, "]"));
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(
+      Checker().InRange("belief_revision", issued.plan.belief_revision, 0, revision_).status());
   Applied applied;
   PLUMESCOUT_ASSIGN_OR_RETURN(applied.plan_id,
                               fleet_.Issue(issued.plan, sample_time_ns_, issued.assigned));

@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/types/checker.h"
+#include "core/types/status_macros.h"
 
 namespace plumescout {
 namespace {
@@ -34,9 +36,7 @@ absl::Status Malformed(const TourGraph& graph, std::size_t index, const char* fa
 }  // namespace
 
 absl::Status Validate(const TourGraph& graph) {
-  if (graph.nodes < 1) {
-    return absl::InvalidArgumentError(absl::StrCat("nodes = ", graph.nodes, " must be >= 1"));
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(Checker().AtLeast("nodes", graph.nodes, 1).status());
   std::set<std::pair<int, int>> joined;
   for (std::size_t i = 0; i < graph.edges.size(); ++i) {
     const char* const fault = Fault(graph.edges[i], graph.nodes);

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
+#include <utility>
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
@@ -11,19 +13,32 @@
 namespace plumescout {
 
 // Collects the first violation, so that a Validate reads as a table of fields. NaN is in no range.
+// Where value and ends are all whole numbers, they are compared as such and told digit by digit.
 class Checker {
  public:
   Checker& InRange(absl::string_view field, double value, double low, double high) {
-    if (!(value >= low && value <= high)) {
-      Fail(field, value, absl::StrCat("must be in [", low, ", ", high, "]"));
-    }
-    return *this;
+    return Within(value >= low && value <= high, field, value, "[", low, high, "]");
+  }
+  Checker& InRange(absl::string_view field, std::integral auto value, std::integral auto low,
+                   std::integral auto high) {
+    const bool holds = std::cmp_greater_equal(value, low) && std::cmp_less_equal(value, high);
+    return Within(holds, field, value, "[", low, high, "]");
   }
   // Without its lower end.
   Checker& InRangeAbove(absl::string_view field, double value, double low, double high) {
-    if (!(value > low && value <= high)) {
-      Fail(field, value, absl::StrCat("must be in (", low, ", ", high, "]"));
-    }
+    return Within(value > low && value <= high, field, value, "(", low, high, "]");
+  }
+  // Without its upper end.
+  Checker& InRangeBelow(absl::string_view field, double value, double low, double end) {
+    return Within(value >= low && value < end, field, value, "[", low, end, ")");
+  }
+  Checker& InRangeBelow(absl::string_view field, std::integral auto value, std::integral auto low,
+                        std::integral auto end) {
+    const bool holds = std::cmp_greater_equal(value, low) && std::cmp_less(value, end);
+    return Within(holds, field, value, "[", low, end, ")");
+  }
+  Checker& AtLeast(absl::string_view field, std::integral auto value, std::integral auto least) {
+    if (std::cmp_less(value, least)) Fail(field, value, absl::StrCat("must be >= ", least));
     return *this;
   }
   Checker& Finite(absl::string_view field, double value) {
@@ -39,7 +54,8 @@ class Checker {
     return Require(value < 0.0 && std::isfinite(value), field, value, "must be < 0 and finite");
   }
   // A rule of the caller's own: "must be ...".
-  Checker& Require(bool holds, absl::string_view field, double value, absl::string_view rule) {
+  template <typename Value>
+  Checker& Require(bool holds, absl::string_view field, Value value, absl::string_view rule) {
     if (!holds) Fail(field, value, rule);
     return *this;
   }
@@ -47,7 +63,17 @@ class Checker {
   const absl::Status& status() const { return status_; }
 
  private:
-  void Fail(absl::string_view field, double value, absl::string_view rule) {
+  template <typename Value, typename Low, typename High>
+  Checker& Within(bool holds, absl::string_view field, Value value, absl::string_view opening,
+                  Low low, High high, absl::string_view closing) {
+    if (!holds) {
+      Fail(field, value, absl::StrCat("must be in ", opening, low, ", ", high, closing));
+    }
+    return *this;
+  }
+
+  template <typename Value>
+  void Fail(absl::string_view field, Value value, absl::string_view rule) {
     if (status_.ok()) {
       status_ = absl::InvalidArgumentError(absl::StrCat(field, " = ", value, " ", rule));
     }

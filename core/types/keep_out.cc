@@ -17,11 +17,10 @@ namespace plumescout {
 namespace {
 
 absl::Status ValidateArea(const Polygon& area, const std::string& field) {
-  constexpr double kMaxVertices = 256;
+  constexpr int kMaxVertices = 256;
   constexpr double kMaxCoordinate_m = 1e6;
   Checker checker;
-  checker.InRange(absl::StrCat(field, ".vertices"), static_cast<double>(area.vertices.size()), 3,
-                  kMaxVertices);
+  checker.InRange(absl::StrCat(field, ".vertices"), area.vertices.size(), 3, kMaxVertices);
   for (std::size_t i = 0; i < area.vertices.size(); ++i) {
     const std::string vertex = absl::StrCat(field, ".vertices[", i, "]");
     checker
@@ -36,8 +35,7 @@ absl::Status ValidateArea(const Polygon& area, const std::string& field) {
 // Each as it has to be, and of those with a name no two with the same.
 absl::Status ValidateAreas(const std::vector<Polygon>& areas, absl::string_view field,
                            bool may_lack_name) {
-  PLUMESCOUT_RETURN_IF_ERROR(
-      Checker().InRange(field, static_cast<double>(areas.size()), 0, kMostKeepOutAreas).status());
+  PLUMESCOUT_RETURN_IF_ERROR(Checker().InRange(field, areas.size(), 0, kMostKeepOutAreas).status());
   std::set<std::string> names;
   for (std::size_t i = 0; i < areas.size(); ++i) {
     const std::string area = absl::StrCat(field, "[", i, "]");

@@ -32,8 +32,8 @@ constexpr double kMaxWeight = 1e9;         // of a term of a cost: keeps costs f
 constexpr double kMaxResolution_m = 50.0;  // outdoors
 constexpr double kMaxExtent_m =
     20'000.0;  // six tiles of such cells; max_cell_count bounds the memory
-constexpr double kMinBudget_bytes = 32.0 * 1024 * 1024;
-constexpr double kMaxBudget_bytes = 1e12;
+constexpr std::int64_t kMinBudget_bytes = std::int64_t{32} << 20;
+constexpr std::int64_t kMaxBudget_bytes = 1'000'000'000'000;
 constexpr double kMaxTime_s = 1e9;  // 30 years: added to a time in ns, it stays within int64
 
 }  // namespace
@@ -55,8 +55,7 @@ absl::Status Validate(const OccupancyOptions& options) {
       .InRange("occupancy.miss_log_odds", options.miss_log_odds, -kMaxLogOdds, 0.0)
       .InRange("occupancy.clamp_log_odds", options.clamp_log_odds, least_clamp, kMaxLogOdds)
       .InRange("occupancy.max_extent_m", options.max_extent_m, 1.0, kMaxExtent_m)
-      .InRange("occupancy.max_cell_count", static_cast<double>(options.max_cell_count), 4096,
-               16'000'000)
+      .InRange("occupancy.max_cell_count", options.max_cell_count, 4096, 16'000'000)
       .status();
 }
 
@@ -193,8 +192,8 @@ absl::Status Validate(const MissionOptions& options) {
       .InRange("max_robot_count", options.max_robot_count, 1, 1000)
       .InRange("robot_silence_s", options.robot_silence_s, 1.0, 1e9)
       .InRange("return_home_below_battery_share", options.return_home_below_battery_share, 0.0, 1.0)
-      .InRange("memory_budget_bytes", static_cast<double>(options.memory_budget_bytes),
-               kMinBudget_bytes, kMaxBudget_bytes)
+      .InRange("memory_budget_bytes", options.memory_budget_bytes, kMinBudget_bytes,
+               kMaxBudget_bytes)
       .InRange("home.x_m", home.x_m, -options.pose_limit_m, options.pose_limit_m)
       .InRange("home.y_m", home.y_m, -options.pose_limit_m, options.pose_limit_m)
       .status();

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "absl/strings/str_cat.h"
+#include "core/types/checker.h"
 #include "core/types/status_macros.h"
 #include "formats/file_io.h"
 #include "formats/little_endian.h"
@@ -56,10 +57,6 @@ class ByteReader {
 
 absl::Status EndsEarly() { return absl::DataLossError("the frame ends early"); }
 
-absl::Status OutOfRange(absl::string_view field, double value) {
-  return absl::InvalidArgumentError(absl::StrCat(field, " = ", value, " is out of range"));
-}
-
 // Box of the environment; its corners and cell size are those of OccupancyGrid3D.csv.
 void ReadBox(ByteReader& reader, GadenFrame& frame) {
   for (int& count : frame.cells) count = reader.Number<std::int32_t>();
@@ -69,26 +66,22 @@ void ReadBox(ByteReader& reader, GadenFrame& frame) {
 }
 
 absl::Status CheckFilament(const GadenFilament& filament) {
+  Checker checker;
   for (const double coordinate : filament.position_m) {
-    if (!(std::abs(coordinate) <= kMaxMagnitude))
-      return OutOfRange("filament position", coordinate);
+    checker.InRange("filament position", coordinate, -kMaxMagnitude, kMaxMagnitude);
   }
-  if (filament.sigma_cm > 0.0 && filament.sigma_cm <= kMaxMagnitude) return absl::OkStatus();
-  return OutOfRange("filament sigma", filament.sigma_cm);
+  return checker.InRangeAbove("filament sigma", filament.sigma_cm, 0.0, kMaxMagnitude).status();
 }
 
 absl::Status CheckHeader(const GadenFrame& frame) {
+  Checker checker;
   for (const double coordinate : frame.source_m) {
-    if (!(std::abs(coordinate) <= kMaxMagnitude)) return OutOfRange("source position", coordinate);
+    checker.InRange("source position", coordinate, -kMaxMagnitude, kMaxMagnitude);
   }
-  if (!(frame.moles_per_filament >= 0.0 && std::isfinite(frame.moles_per_filament))) {
-    return OutOfRange("moles per filament", frame.moles_per_filament);
-  }
-  if (!(frame.moles_per_cm3 > 0.0 && std::isfinite(frame.moles_per_cm3))) {
-    return OutOfRange("moles per cm3", frame.moles_per_cm3);
-  }
-  if (frame.wind_index < 0) return OutOfRange("wind index", frame.wind_index);
-  return absl::OkStatus();
+  return checker.NotNegative("moles per filament", frame.moles_per_filament)
+      .Positive("moles per cm3", frame.moles_per_cm3)
+      .AtLeast("wind index", frame.wind_index, 0)
+      .status();
 }
 
 absl::Status SkipSourceSize(ByteReader& reader) {
@@ -131,7 +124,7 @@ absl::Status ReadConcentrations3(ByteReader& reader, GadenFrame& frame) {
   }
   for (std::uint64_t i = 0; i < count; ++i) {
     const float ppm = reader.Number<float>();
-    if (!(ppm >= 0.0F && std::isfinite(ppm))) return OutOfRange("concentration", ppm);
+    PLUMESCOUT_RETURN_IF_ERROR(Checker().NotNegative("concentration", ppm).status());
     frame.concentrations_ppm.push_back(ppm);
   }
   return absl::OkStatus();

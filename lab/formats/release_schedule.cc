@@ -6,18 +6,13 @@
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
+#include "core/types/checker.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout::lab {
 namespace {
 
 constexpr double kMaxTime_s = 1e6;  // more than a week: no scene lasts that long
-
-absl::Status CheckTime(const char* key, const std::optional<double>& value_s, double low_s) {
-  if (!value_s || (*value_s >= low_s && *value_s <= kMaxTime_s)) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      absl::StrCat(key, " = ", *value_s, " must be in [", low_s, ", ", kMaxTime_s, "]"));
-}
 
 // Releasing time of the first `elapsed_s` of turns.
 double TurnsTime_s(double on_s, double off_s, double elapsed_s) {
@@ -29,10 +24,13 @@ double TurnsTime_s(double on_s, double off_s, double elapsed_s) {
 
 absl::Status Validate(const ReleaseSchedule& schedule) {
   constexpr double kShortestTurn_s = 1e-3;  // far below a step of the simulation
-  PLUMESCOUT_RETURN_IF_ERROR(CheckTime("start_s", schedule.start_s, -kMaxTime_s));
-  PLUMESCOUT_RETURN_IF_ERROR(CheckTime("end_s", schedule.end_s, -kMaxTime_s));
-  PLUMESCOUT_RETURN_IF_ERROR(CheckTime("on_s", schedule.on_s, kShortestTurn_s));
-  PLUMESCOUT_RETURN_IF_ERROR(CheckTime("off_s", schedule.off_s, kShortestTurn_s));
+  PLUMESCOUT_RETURN_IF_ERROR(
+      Checker()
+          .InRange("start_s", schedule.start_s.value_or(0.0), -kMaxTime_s, kMaxTime_s)
+          .InRange("end_s", schedule.end_s.value_or(0.0), -kMaxTime_s, kMaxTime_s)
+          .InRange("on_s", schedule.on_s.value_or(kMaxTime_s), kShortestTurn_s, kMaxTime_s)
+          .InRange("off_s", schedule.off_s.value_or(kMaxTime_s), kShortestTurn_s, kMaxTime_s)
+          .status());
   if (schedule.start_s && schedule.end_s && !(*schedule.end_s > *schedule.start_s)) {
     return absl::InvalidArgumentError(
         absl::StrCat("end_s = ", *schedule.end_s, " must be after start_s = ", *schedule.start_s));

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "absl/strings/str_cat.h"
+#include "core/types/checker.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout::lab {
@@ -49,13 +50,10 @@ absl::Status ValidateRasters(const Scene& scene) {
 
 absl::Status ValidateSeries(const Scene& scene) {
   const ConcentrationSeries& series = scene.series;
-  if (!(series.dt_s > 0.0 && std::isfinite(series.dt_s))) {
-    return Invalid(absl::StrCat("dt_s = ", series.dt_s, " must be > 0"));
-  }
-  if (!(series.scale_ppm_per_count > 0.0 && std::isfinite(series.scale_ppm_per_count))) {
-    return Invalid(
-        absl::StrCat("scale_ppm_per_count = ", series.scale_ppm_per_count, " must be > 0"));
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(Checker()
+                                 .Positive("dt_s", series.dt_s)
+                                 .Positive("scale_ppm_per_count", series.scale_ppm_per_count)
+                                 .status());
   const bool filled =
       series.frames > 0 &&
       series.counts.size() == static_cast<std::uint64_t>(series.frames) * scene.geometry().size();
@@ -91,9 +89,8 @@ absl::Status ValidateOpening(const Scene& scene, std::size_t index) {
     return Invalid(absl::StrCat(field, " from ", opening.from_m, " to ", opening.to_m,
                                 " m must rise within the wall, [", low_m, ", ", high_m, "]"));
   }
-  if (opening.inflow_mps && !(*opening.inflow_mps > 0.0 && std::isfinite(*opening.inflow_mps))) {
-    return Invalid(absl::StrCat(field, ".inflow_mps = ", *opening.inflow_mps, " must be > 0"));
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(
+      Checker().Positive(field + ".inflow_mps", opening.inflow_mps.value_or(1.0)).status());
   for (std::size_t i = 0; i < index; ++i) {
     const Opening& other = scene.openings[i];
     const bool apart =

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "absl/strings/str_cat.h"
+#include "core/types/checker.h"
 #include "core/types/status_macros.h"
 #include "lab/sim/ageing_depth.h"
 #include "lab/sim/concentration_slice.h"
@@ -230,14 +231,10 @@ absl::StatusOr<std::vector<Grid<float>>> MeanConcentration(const LayoutRaster& r
                                                            const GasParameters& gas,
                                                            const MeanWindow& window) {
   constexpr double kMaxTime_s = 1e5;
-  if (!(window.warm_up_s >= 0.0 && window.warm_up_s <= kMaxTime_s)) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("warm_up_s = ", window.warm_up_s, " must be in [0, ", kMaxTime_s, "]"));
-  }
-  if (!(window.mean_s > 0.0 && window.mean_s <= kMaxTime_s)) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("mean_s = ", window.mean_s, " must be in (0, ", kMaxTime_s, "]"));
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(Checker()
+                                 .InRange("warm_up_s", window.warm_up_s, 0.0, kMaxTime_s)
+                                 .InRangeAbove("mean_s", window.mean_s, 0.0, kMaxTime_s)
+                                 .status());
   Solver solver(raster, wind, sources, gas);
   for (const DecayTerm& term : InverseDepthTerms(gas)) {
     // After 7 times their own, exp(-7) = 0.1 % are missing from being steady.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <set>
 #include <thread>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "absl/synchronization/mutex.h"
 #include "client/robot_loop.h"
 #include "client/robot_observer.h"
+#include "core/types/checker.h"
 #include "core/types/status_macros.h"
 #include "lab/sim/company.h"
 #include "lab/sim/faulty_link.h"
@@ -22,15 +22,12 @@ namespace {
 
 constexpr double kIdleTick_s = 0.1;  // of who takes no part
 
-absl::Status CheckPositive(const char* field, double value) {
-  if (value > 0.0 && std::isfinite(value)) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat(field, " = ", value, " must be > 0 and finite"));
-}
-
 absl::Status Validate(const EpisodeOptions& options) {
-  PLUMESCOUT_RETURN_IF_ERROR(CheckPositive("duration_s", options.duration_s));
-  PLUMESCOUT_RETURN_IF_ERROR(CheckPositive("metrics_period_s", options.metrics_period_s));
-  PLUMESCOUT_RETURN_IF_ERROR(CheckPositive("prior_variance_ppm2", options.prior_variance_ppm2));
+  PLUMESCOUT_RETURN_IF_ERROR(Checker()
+                                 .Positive("duration_s", options.duration_s)
+                                 .Positive("metrics_period_s", options.metrics_period_s)
+                                 .Positive("prior_variance_ppm2", options.prior_variance_ppm2)
+                                 .status());
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options.traits.outages));
   const bool settles = options.gas_settling_s == 0.0 || !options.create ||
                        options.gas_settling_s < options.create->planning.dwell_s;

@@ -18,6 +18,7 @@
 #include "absl/strings/strip.h"
 #include "core/grid/flood.h"
 #include "core/grid/mask.h"
+#include "core/types/checker.h"
 #include "core/types/status_macros.h"
 #include "lab/formats/gaden_environment.h"
 #include "lab/formats/gaden_frame.h"
@@ -38,12 +39,11 @@ absl::Status Invalid(const std::string& what) { return absl::InvalidArgumentErro
 
 absl::Status CheckFields(const GadenImport& import) {
   if (import.results.empty()) return Invalid("results must name a folder");
-  if (!(import.frame_period_s > 0.0 && import.frame_period_s <= kMaxFramePeriod_s)) {
-    return Invalid(absl::StrCat("frame_period_s = ", import.frame_period_s, " must be in (0, 60]"));
-  }
-  if (import.skip_frames < 0) {
-    return Invalid(absl::StrCat("skip_frames = ", import.skip_frames, " must be >= 0"));
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(
+      Checker()
+          .InRangeAbove("frame_period_s", import.frame_period_s, 0.0, kMaxFramePeriod_s)
+          .AtLeast("skip_frames", import.skip_frames, 0)
+          .status());
   if (import.rates_ppm_per_s.empty() || import.rates_ppm_per_s.size() == import.results.size()) {
     return absl::OkStatus();
   }
@@ -122,10 +122,10 @@ absl::StatusOr<GadenFrame> ReadFrameOf(const std::string& path,
 absl::StatusOr<Grid<CellState>> MapSlice(const GadenEnvironment& environment,
                                          const GadenImport& import) {
   const double top_m = environment.min[2] + environment.cells[2] * environment.cell_size_m;
-  if (!(import.height_m >= std::max(0.0, environment.min[2]) && import.height_m < top_m)) {
-    return Invalid(absl::StrCat("height_m = ", import.height_m, " must be in [",
-                                std::max(0.0, environment.min[2]), ", ", top_m, ")"));
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(
+      Checker()
+          .InRangeBelow("height_m", import.height_m, std::max(0.0, environment.min[2]), top_m)
+          .status());
   const int z = LayerAt(environment, import.height_m);
   Grid<std::uint8_t> open(SliceGeometry(environment));
   for (std::size_t i = 0; i < open.size(); ++i) {

@@ -6,9 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "absl/strings/str_cat.h"
 #include "core/grid/ray.h"
-#include "core/types/status_macros.h"
+#include "core/types/checker.h"
 
 namespace plumescout::lab {
 namespace {
@@ -20,27 +19,15 @@ constexpr double kTouch_cells = 1e-9;  // a beam through a corner touches cells 
 constexpr double kNoReturn_m = std::numeric_limits<double>::infinity();
 constexpr double kSilence_m = std::numeric_limits<double>::quiet_NaN();
 
-absl::Status OutOfRange(const char* field, double value, const char* range) {
-  return absl::InvalidArgumentError(
-      absl::StrCat("lidar.", field, " = ", value, " must be ", range));
-}
-
 }  // namespace
 
 absl::Status Validate(const LidarOptions& options) {
-  if (options.beams < 1 || options.beams > kMaxBeams) {
-    return OutOfRange("beams", options.beams, "in [1, 20000]");
-  }
-  if (!(options.max_range_m > 0.0 && options.max_range_m <= kMaxRange_m)) {
-    return OutOfRange("max_range_m", options.max_range_m, "in (0, 100]");
-  }
-  if (!(options.noise_sigma_m >= 0.0 && options.noise_sigma_m <= kMaxNoise_m)) {
-    return OutOfRange("noise_sigma_m", options.noise_sigma_m, "in [0, 1]");
-  }
-  if (!(options.dropout_share >= 0.0 && options.dropout_share <= 1.0)) {
-    return OutOfRange("dropout_share", options.dropout_share, "in [0, 1]");
-  }
-  return absl::OkStatus();
+  return Checker()
+      .InRange("lidar.beams", options.beams, 1, kMaxBeams)
+      .InRangeAbove("lidar.max_range_m", options.max_range_m, 0.0, kMaxRange_m)
+      .InRange("lidar.noise_sigma_m", options.noise_sigma_m, 0.0, kMaxNoise_m)
+      .InRange("lidar.dropout_share", options.dropout_share, 0.0, 1.0)
+      .status();
 }
 
 double CastBeam_m(const Grid<CellState>& truth, Point2 from, double angle_rad, double max_range_m) {

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "absl/strings/str_cat.h"
+#include "core/types/checker.h"
 #include "core/types/status_macros.h"
 #include "lab/sim/cell_wind.h"
 #include "lab/sim/concentration_slice.h"
@@ -23,10 +23,6 @@ constexpr double kWindShare = 0.3;  // of the whole work, for the progress bar
 constexpr double kMaxWarmUp_s = 3600.0;
 constexpr int kMaxFrames = 10'000;
 constexpr double kMaxFramePeriod_s = 60.0;
-
-absl::Status OutOfRange(const char* field, double value, const char* range) {
-  return absl::InvalidArgumentError(absl::StrCat(field, " = ", value, " must be ", range));
-}
 
 std::int64_t StepsIn(double duration_s) { return std::llround(duration_s / Plume::kStep_s); }
 
@@ -65,22 +61,18 @@ Scene SceneOf(const Layout& layout, const LayoutRaster& raster) {
 
 absl::Status Validate(const SceneMakerOptions& options) {
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options.wind));
-  if (!(options.warm_up_s >= 0.0 && options.warm_up_s <= kMaxWarmUp_s)) {
-    return OutOfRange("warm_up_s", options.warm_up_s, "in [0, 3600]");
-  }
-  if (options.frames < 1 || options.frames > kMaxFrames) {
-    return OutOfRange("frames", options.frames, "in [1, 10000]");
-  }
   const double period_s = options.frame_period_s;
-  if (!(period_s > 0.0 && period_s <= kMaxFramePeriod_s)) {
-    return OutOfRange("frame_period_s", period_s, "in (0, 60]");
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(Checker()
+                                 .InRange("warm_up_s", options.warm_up_s, 0.0, kMaxWarmUp_s)
+                                 .InRange("frames", options.frames, 1, kMaxFrames)
+                                 .InRangeAbove("frame_period_s", period_s, 0.0, kMaxFramePeriod_s)
+                                 .status());
   const double whole_s = static_cast<double>(StepsIn(period_s)) * Plume::kStep_s;
   constexpr double kRounding_s = 1e-9;
-  if (std::abs(whole_s - period_s) > kRounding_s) {
-    return OutOfRange("frame_period_s", period_s, "a whole number of steps of 0.05 s");
-  }
-  return absl::OkStatus();
+  return Checker()
+      .Require(std::abs(whole_s - period_s) <= kRounding_s, "frame_period_s", period_s,
+               "must be a whole number of steps of 0.05 s")
+      .status();
 }
 
 absl::StatusOr<Scene> MakeScene(const Layout& layout, const SceneMakerOptions& options,

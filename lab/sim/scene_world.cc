@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
+#include "core/types/checker.h"
 
 namespace plumescout::lab {
 namespace {
@@ -25,9 +25,7 @@ double DistanceToCell_m(Point2 point, Cell cell, const GridGeometry& geometry) {
 }  // namespace
 
 absl::Status Validate(const SceneWorldOptions& options) {
-  if (options.ambient_ppm >= 0.0 && options.ambient_ppm <= kMaxAmbient_ppm) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      absl::StrCat("world.ambient_ppm = ", options.ambient_ppm, " must be in [0, 1e6]"));
+  return Checker().InRange("world.ambient_ppm", options.ambient_ppm, 0.0, kMaxAmbient_ppm).status();
 }
 
 SceneWorld::SceneWorld(Scene scene, const SceneWorldOptions& options)

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "absl/strings/str_cat.h"
+#include "core/types/checker.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout::lab {
@@ -30,32 +31,18 @@ bool IsFinite(const Pose2& pose) {
   return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad);
 }
 
-absl::Status OutOfRange(const char* field, double value, const char* range) {
-  return absl::InvalidArgumentError(
-      absl::StrCat("robot.", field, " = ", value, " must be ", range));
-}
-
 absl::Status Validate(const SimulatedRobotOptions& options) {
-  const auto positive = [](double value) { return value > 0.0 && value <= kMaxSpeed; };
-  if (!positive(options.max_forward_mps)) {
-    return OutOfRange("max_forward_mps", options.max_forward_mps, "in (0, 100]");
-  }
-  if (!positive(options.max_turn_rad_per_s)) {
-    return OutOfRange("max_turn_rad_per_s", options.max_turn_rad_per_s, "in (0, 100]");
-  }
-  if (!(options.body_radius_m >= 0.0 && options.body_radius_m <= kMaxBodyRadius_m)) {
-    return OutOfRange("body_radius_m", options.body_radius_m, "in [0, 5]");
-  }
-  if (!(options.seen_radius_m >= 0.0 && options.seen_radius_m <= kMaxBodyRadius_m)) {
-    return OutOfRange("seen_radius_m", options.seen_radius_m, "in [0, 5]");
-  }
   const double acceleration_mps2 = options.max_acceleration_mps2.value_or(kMaxAcceleration_mps2);
-  if (!(acceleration_mps2 > 0.0 && acceleration_mps2 <= kMaxAcceleration_mps2)) {
-    return OutOfRange("max_acceleration_mps2", acceleration_mps2, "in (0, 1000]");
-  }
-  if (!(options.scene_start_s >= 0.0 && options.scene_start_s <= kMaxSceneStart_s)) {
-    return OutOfRange("scene_start_s", options.scene_start_s, "in [0, 1e6]");
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(
+      Checker()
+          .InRangeAbove("robot.max_forward_mps", options.max_forward_mps, 0.0, kMaxSpeed)
+          .InRangeAbove("robot.max_turn_rad_per_s", options.max_turn_rad_per_s, 0.0, kMaxSpeed)
+          .InRange("robot.body_radius_m", options.body_radius_m, 0.0, kMaxBodyRadius_m)
+          .InRange("robot.seen_radius_m", options.seen_radius_m, 0.0, kMaxBodyRadius_m)
+          .InRangeAbove("robot.max_acceleration_mps2", acceleration_mps2, 0.0,
+                        kMaxAcceleration_mps2)
+          .InRange("robot.scene_start_s", options.scene_start_s, 0.0, kMaxSceneStart_s)
+          .status());
   PLUMESCOUT_RETURN_IF_ERROR(lab::Validate(options.pace));
   PLUMESCOUT_RETURN_IF_ERROR(lab::Validate(options.clock));
   const bool after_epoch =
@@ -152,9 +139,8 @@ absl::Status SimulatedRobot::PlaceAt(const Pose2& pose) {
 }
 
 absl::Status SimulatedRobot::Advance(double duration_s) {
-  if (!(duration_s >= 0.0 && duration_s <= kMaxAdvance_s)) {
-    return OutOfRange("Advance duration_s", duration_s, "in [0, 3600]");
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(
+      Checker().InRange("robot.Advance duration_s", duration_s, 0.0, kMaxAdvance_s).status());
   const std::int64_t begin_ns = now_ns_;
   constexpr double kRounding = 1e-9;
   const auto steps = static_cast<int>(std::ceil(duration_s / kStep_s - kRounding));

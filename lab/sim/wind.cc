@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "absl/strings/str_cat.h"
+#include "core/types/checker.h"
 #include "core/types/status_macros.h"
 #include "lab/sim/flow_solver.h"
 
@@ -14,19 +14,15 @@ namespace {
 constexpr double kMaxViscosity_m2_per_s = 10.0;
 constexpr double kMaxFlow_s = 3600.0;
 
-absl::Status Positive(const char* field, double value, double highest) {
-  if (value > 0.0 && value <= highest) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      absl::StrCat("wind.", field, " = ", value, " must be in (0, ", highest, "]"));
-}
-
 }  // namespace
 
 absl::Status Validate(const WindOptions& options) {
-  PLUMESCOUT_RETURN_IF_ERROR(
-      Positive("viscosity_m2_per_s", options.viscosity_m2_per_s, kMaxViscosity_m2_per_s));
-  PLUMESCOUT_RETURN_IF_ERROR(Positive("flow_s", options.flow_s, kMaxFlow_s));
-  return Positive("stability_share", options.stability_share, 1.0);
+  return Checker()
+      .InRangeAbove("wind.viscosity_m2_per_s", options.viscosity_m2_per_s, 0.0,
+                    kMaxViscosity_m2_per_s)
+      .InRangeAbove("wind.flow_s", options.flow_s, 0.0, kMaxFlow_s)
+      .InRangeAbove("wind.stability_share", options.stability_share, 0.0, 1.0)
+      .status();
 }
 
 absl::StatusOr<MacField> SolveWind(const FlowDomain& domain, const WindOptions& options,

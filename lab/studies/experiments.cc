@@ -4,6 +4,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "core/types/checker.h"
 #include "core/types/status_macros.h"
 #include "lab/studies/all_strategies.h"
 #include "lab/studies/cluster_model.h"
@@ -57,11 +58,10 @@ constexpr Experiment kExperiments[] = {
 };
 
 absl::Status Validate(const ExperimentOptions& options) {
-  if (options.trials.value_or(1) < 1) {
-    return absl::InvalidArgumentError(absl::StrCat("trials = ", *options.trials, " must be >= 1"));
-  }
-  if (options.jobs >= 1) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat("jobs = ", options.jobs, " must be >= 1"));
+  return Checker()
+      .AtLeast("trials", options.trials.value_or(1), 1)
+      .AtLeast("jobs", options.jobs, 1)
+      .status();
 }
 
 }  // namespace

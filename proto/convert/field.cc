@@ -74,8 +74,7 @@ absl::Status CheckRange(absl::string_view field, double value, double low, doubl
 
 absl::Status CheckIntRange(absl::string_view field, std::int64_t value, std::int64_t low,
                            std::int64_t high) {
-  if (value >= low && value <= high) return absl::OkStatus();
-  return Violation(field, absl::StrCat("= ", value, " must be in [", low, ", ", high, "]"));
+  return WithField(Checker().InRange(field, value, low, high).status(), "");
 }
 
 absl::Status CheckPresent(absl::string_view field, bool present) {

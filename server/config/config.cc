@@ -23,12 +23,12 @@ namespace {
 
 constexpr double kMaxThreads = 256;
 constexpr double kMaxCount = 1e6;
-constexpr double kMaxBytes = 64.0 * 1024 * 1024;
-constexpr double kMaxQueuedBytes = 1024.0 * 1024 * 1024 * 1024;
+constexpr int kMaxBytes = 64 << 20;
+constexpr std::int64_t kMaxQueuedBytes = std::int64_t{1} << 40;
 // Ranges travel as 16 bits and are kept as 32.
 constexpr std::int64_t kReadOverWire = 2;
-constexpr double kMinBudget_bytes = 32.0 * 1024 * 1024;
-constexpr double kMaxBudget_bytes = 1e12;
+constexpr std::int64_t kMinBudget_bytes = std::int64_t{32} << 20;
+constexpr std::int64_t kMaxBudget_bytes = 1'000'000'000'000;
 constexpr double kMaxRate = 1e12;
 constexpr double kDay_s = 86'400;
 
@@ -36,13 +36,11 @@ absl::Status Validate(const LimitConfig& limits) {
   PLUMESCOUT_RETURN_IF_ERROR(
       Checker()
           .InRange("limits.max_missions", limits.max_missions, 1, kMaxCount)
-          .InRange("limits.memory_budget_bytes", static_cast<double>(limits.memory_budget_bytes),
-                   kMinBudget_bytes, kMaxBudget_bytes)
-          .InRange("limits.mission_memory_budget_bytes",
-                   static_cast<double>(limits.mission_memory_budget_bytes), kMinBudget_bytes,
+          .InRange("limits.memory_budget_bytes", limits.memory_budget_bytes, kMinBudget_bytes,
                    kMaxBudget_bytes)
-          .InRange("limits.max_map_cell_count", static_cast<double>(limits.max_map_cell_count),
-                   4096, 16'000'000)
+          .InRange("limits.mission_memory_budget_bytes", limits.mission_memory_budget_bytes,
+                   kMinBudget_bytes, kMaxBudget_bytes)
+          .InRange("limits.max_map_cell_count", limits.max_map_cell_count, 4096, 16'000'000)
           .InRange("limits.max_beam_count", limits.max_beam_count, 1, 100'000)
           .InRange("limits.max_range_m", limits.max_range_m, 0.1, 1000)
           .InRange("limits.max_receive_bytes", limits.max_receive_bytes, 4096, kMaxBytes)
@@ -50,8 +48,7 @@ absl::Status Validate(const LimitConfig& limits) {
           .InRange("limits.stream_window_observations", limits.stream_window_observations, 1,
                    kMaxCount)
           .InRange("limits.max_queued_observations", limits.max_queued_observations, 1, kMaxCount)
-          .InRange("limits.max_queued_bytes", static_cast<double>(limits.max_queued_bytes), 4096,
-                   kMaxQueuedBytes)
+          .InRange("limits.max_queued_bytes", limits.max_queued_bytes, 4096, kMaxQueuedBytes)
           .InRange("limits.max_waiting_calls", limits.max_waiting_calls, 1, kMaxCount)
           .InRange("limits.max_wait_s", limits.max_wait_s, 0.1, 3600)
           .InRange("limits.max_streams_per_connection", limits.max_streams_per_connection, 1,
@@ -68,8 +65,7 @@ absl::Status Validate(const LimitConfig& limits) {
           .InRange("limits.max_costly_calls_per_s", limits.max_costly_calls_per_s, 0, kMaxCount)
           .InRange("limits.ingest_burst_s", limits.ingest_burst_s, 1, kDay_s)
           .InRange("limits.max_clock_lead_s", limits.max_clock_lead_s, 0, kDay_s)
-          .InRange("limits.max_import_bytes", static_cast<double>(limits.max_import_bytes), 65536,
-                   kMaxQueuedBytes)
+          .InRange("limits.max_import_bytes", limits.max_import_bytes, 65536, kMaxQueuedBytes)
           .InRange("limits.max_watchers_per_robot", limits.max_watchers_per_robot, 1, kMaxCount)
           .status());
   if (limits.stream_window_observations > limits.max_queued_observations ||
@@ -95,13 +91,10 @@ absl::Status Validate(const LimitConfig& limits) {
 // A mission that its creator says nothing of has to be one that the server takes.
 absl::Status CheckDefaults(const MissionOptions& mission, const LimitConfig& limits) {
   return Checker()
-      .InRange("mission.memory_budget_bytes", static_cast<double>(mission.memory_budget_bytes),
-               kMinBudget_bytes,
-               static_cast<double>(
-                   std::min(limits.memory_budget_bytes, limits.mission_memory_budget_bytes)))
-      .InRange("mission.occupancy.max_cell_count",
-               static_cast<double>(mission.occupancy.max_cell_count), 4096,
-               static_cast<double>(limits.max_map_cell_count))
+      .InRange("mission.memory_budget_bytes", mission.memory_budget_bytes, kMinBudget_bytes,
+               std::min(limits.memory_budget_bytes, limits.mission_memory_budget_bytes))
+      .InRange("mission.occupancy.max_cell_count", mission.occupancy.max_cell_count, 4096,
+               limits.max_map_cell_count)
       .InRange("mission.max_beam_count", mission.max_beam_count, 1, limits.max_beam_count)
       .InRange("mission.max_range_m", mission.max_range_m, 0.1, limits.max_range_m)
       .status();
@@ -277,8 +270,7 @@ absl::Status Validate(const StoreConfig& store) {
   if (is_shared) PLUMESCOUT_RETURN_IF_ERROR(ValidateShared(store));
   return Checker()
       .InRange("store.lease_s", store.lease_s, 0.5, 3600)
-      .InRange("store.max_backlog_bytes", static_cast<double>(store.max_backlog_bytes), 65'536,
-               kMaxQueuedBytes)
+      .InRange("store.max_backlog_bytes", store.max_backlog_bytes, 65'536, kMaxQueuedBytes)
       .InRange("store.recovery_threads", store.recovery_threads, 1, kMaxThreads)
       .InRange("store.slow_commit_s", store.slow_commit_s, 0.001, 3600)
       .InRange("store.sleep_after_s", store.sleep_after_s, 0, 31'536'000)
@@ -290,8 +282,7 @@ absl::Status Validate(const RecordConfig& record) {
       .InRange("record.map_period_s", record.map_period_s, 0.1, 3600)
       .InRange("record.map_share", record.map_share, 0, 1000)
       .InRange("record.chunk_s", record.chunk_s, 0.1, 3600)
-      .InRange("record.max_file_bytes", static_cast<double>(record.max_file_bytes), 1'048'576,
-               kMaxQueuedBytes)
+      .InRange("record.max_file_bytes", record.max_file_bytes, 1'048'576, kMaxQueuedBytes)
       .status();
 }
 

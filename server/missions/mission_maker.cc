@@ -34,11 +34,11 @@ absl::Status MissionMaker::CheckChoices(const MissionOptions& options) const {
   };
   return Checker()
       .Require(options.memory_budget_bytes <= options_.mission_memory_budget_bytes,
-               "memory_budget_bytes", static_cast<double>(options.memory_budget_bytes),
+               "memory_budget_bytes", options.memory_budget_bytes,
                must_be_at_most(options_.mission_memory_budget_bytes,
                                "limits.mission_memory_budget_bytes"))
       .Require(options.occupancy.max_cell_count <= options_.max_map_cell_count,
-               "occupancy.max_cell_count", static_cast<double>(options.occupancy.max_cell_count),
+               "occupancy.max_cell_count", options.occupancy.max_cell_count,
                must_be_at_most(options_.max_map_cell_count, "limits.max_map_cell_count"))
       .Require(options.max_beam_count <= options_.max_beam_count, "max_beam_count",
                options.max_beam_count,

@@ -15,6 +15,7 @@
 #include "core/plan/selection/selection.h"
 #include "core/plan/team/team_belief.h"
 #include "core/traffic/traffic.h"
+#include "core/types/checker.h"
 #include "core/types/error_reason.h"
 #include "core/types/status_macros.h"
 
@@ -24,10 +25,8 @@ namespace {
 constexpr double kLeast_s = 1e-3;  // a way takes this long at least
 
 absl::StatusOr<std::vector<RobotId>> TeamOf(const Belief& belief, const TeamRequest& request) {
-  if (request.max_order_count < 1) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("max_order_count = ", request.max_order_count, " must be >= 1"));
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(
+      Checker().AtLeast("max_order_count", request.max_order_count, 1).status());
   if (request.robots.empty()) {
     std::vector<RobotId> free = FreeRobots(belief);
     if (free.size() <= kMostTeamRobots) return free;

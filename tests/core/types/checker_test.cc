@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace plumescout {
@@ -28,6 +29,40 @@ TEST(Checker, RangesAboveAnEndAreWithoutIt) {
   }
   EXPECT_EQ(Checker().InRangeAbove("x", 0.0, 0.0, 2.0).status().message(),
             "x = 0 must be in (0, 2]");
+}
+
+TEST(Checker, RangesBelowAnEndAreWithoutIt) {
+  EXPECT_TRUE(Checker().InRangeBelow("x", 0.0, 0.0, 2.0).status().ok());
+  for (const double bad : {-0.1, 2.0, kInfinity, std::nan("")}) {
+    EXPECT_FALSE(Checker().InRangeBelow("x", bad, 0.0, 2.0).status().ok()) << bad;
+  }
+  EXPECT_EQ(Checker().InRangeBelow("x", 2.0, 0.0, 2.0).status().message(),
+            "x = 2 must be in [0, 2)");
+}
+
+TEST(Checker, WholeNumbersAreToldDigitByDigit) {
+  constexpr std::int64_t kEnd = std::int64_t{1} << 62;
+  EXPECT_TRUE(
+      Checker().InRange("n", kEnd, -1, kEnd).InRangeBelow("n", kEnd - 1, 0, kEnd).status().ok());
+  // As doubles the two would be the same.
+  EXPECT_EQ(Checker().InRange("n", kEnd + 1, 0, kEnd).status().message(),
+            "n = 4611686018427387905 must be in [0, 4611686018427387904]");
+  EXPECT_EQ(Checker().InRangeBelow("n", kEnd, 1'000'000, kEnd).status().message(),
+            "n = 4611686018427387904 must be in [1000000, 4611686018427387904)");
+  EXPECT_EQ(Checker().Require(false, "n", 1'234'567, "must be even").status().message(),
+            "n = 1234567 must be even");
+}
+
+TEST(Checker, WholeNumbersOfOtherSignednessKeepTheirOrder) {
+  constexpr std::size_t kCount = 3;
+  EXPECT_TRUE(Checker().InRangeBelow("n", -1, -1, kCount).status().ok());
+  EXPECT_FALSE(Checker().InRange("n", -2, -1, kCount).status().ok());
+  EXPECT_FALSE(Checker().InRange("n", kCount, 0, -1).status().ok());
+}
+
+TEST(Checker, TheLeastIsEnough) {
+  EXPECT_TRUE(Checker().AtLeast("n", 1, 1).AtLeast("m", std::int64_t{7}, 1).status().ok());
+  EXPECT_EQ(Checker().AtLeast("n", 0, 1).status().message(), "n = 0 must be >= 1");
 }
 
 TEST(Checker, RulesOfTheCallersOwnAreToldAsTheyAre) {
