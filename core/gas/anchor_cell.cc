@@ -31,10 +31,4 @@ absl::StatusOr<AnchorCell> CornerOf(const GridGeometry& geometry, const GridGeom
   return AnchorCell{static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y))};
 }
 
-bool AnchorExtent::Covers(const AnchorExtent& other) const {
-  return corner.x <= other.corner.x && corner.y <= other.corner.y &&
-         corner.x + width >= other.corner.x + other.width &&
-         corner.y + height >= other.corner.y + other.height;
-}
-
 }  // namespace plumescout

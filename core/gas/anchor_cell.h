@@ -5,6 +5,7 @@
 #include <compare>
 
 #include "absl/status/statusor.h"
+#include "core/types/cell_rect.h"
 #include "core/types/grid_geometry.h"
 
 namespace plumescout {
@@ -26,13 +27,6 @@ struct AnchorCell {
 // resolution, between the anchor's cells, or more than 2^29 cells away.
 absl::StatusOr<AnchorCell> CornerOf(const GridGeometry& geometry, const GridGeometry& anchor);
 
-// The anchor cells that a grid covers.
-struct AnchorExtent {
-  AnchorCell corner;  // of its cell (0, 0)
-  int width = 0;
-  int height = 0;
-
-  bool Covers(const AnchorExtent& other) const;
-};
+using AnchorRect = CellRectOf<AnchorCell>;
 
 }  // namespace plumescout

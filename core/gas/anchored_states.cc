@@ -39,8 +39,9 @@ absl::StatusOr<std::vector<std::size_t>> AnchoredStates::Update(const Grid<CellS
   anchor_ = anchor;
   corner_ = corner;
   states_ = states;
-  const AnchorExtent covered = {corner, states.width(), states.height()};
-  if (!covered.Covers({old.corner_, old.states_.width(), old.states_.height()}) && !old.empty()) {
+  const auto covered = AnchorRect::Sized(corner, states.width(), states.height());
+  const auto before = AnchorRect::Sized(old.corner_, old.states_.width(), old.states_.height());
+  if (!covered.Covers(before) && !old.empty()) {
     states_ = Widened(states, corner, old.states_.geometry(), old.corner_);
     corner_ = {std::min(corner.x, old.corner_.x), std::min(corner.y, old.corner_.y)};
   }

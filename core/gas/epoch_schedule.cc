@@ -18,10 +18,10 @@ constexpr std::int64_t kMostRefreshes = 10'000;
 
 }  // namespace
 
-int EpochSchedule::Margin_cells(const GasCellBox& box) {
+int EpochSchedule::Margin_cells(const GasCellRect& rect) {
   constexpr int kLeast_cells = 32;
   constexpr int kPart = 8;  // of the larger side
-  return std::max(kLeast_cells, std::max(box.x1 - box.x0, box.y1 - box.y0) / kPart);
+  return std::max(kLeast_cells, std::max(rect.width(), rect.height()) / kPart);
 }
 
 void EpochSchedule::NoteRefresh(std::int64_t activity_changes) {
@@ -35,8 +35,8 @@ void EpochSchedule::NoteFresh(std::int64_t active_cells) {
   refreshes_ = 0;
 }
 
-bool EpochSchedule::IsDue(const GasLattice& lattice, const GasCellBox& box) const {
-  return !HasRoom(lattice, box, Margin_cells(box) / 2) || refreshes_ >= kMostRefreshes ||
+bool EpochSchedule::IsDue(const GasLattice& lattice, const GasCellRect& rect) const {
+  return !HasRoom(lattice, rect, Margin_cells(rect) / 2) || refreshes_ >= kMostRefreshes ||
          static_cast<double>(activity_changes_) >
              kDissectedShare * static_cast<double>(active_cells_);
 }

@@ -17,14 +17,14 @@ class EpochSchedule {
   static constexpr std::int64_t kRecompute_ns = 1'000'000'000;
   // Cells around the active ones that a new lattice gets. Half of them are used up before the next
   // one is due, so a map that grows is made anew a number of times that follows its logarithm.
-  static int Margin_cells(const GasCellBox& box);
+  static int Margin_cells(const GasCellRect& rect);
 
   // A batch of changes, of which so many made a cell active or not.
   void NoteRefresh(std::int64_t activity_changes);
   // A field was made anew.
   void NoteFresh(std::int64_t active_cells);
 
-  bool IsDue(const GasLattice& lattice, const GasCellBox& box) const;
+  bool IsDue(const GasLattice& lattice, const GasCellRect& rect) const;
 
   template <typename Archive, typename Self>
   static void VisitState(Archive& archive, Self& self);

@@ -39,10 +39,10 @@ bool GasInputs::Coarsen() {
   constexpr int kTwice = 2;
   if (!CanCoarsen()) return false;
   factor_ *= kTwice;
-  if (box_.empty()) return true;
-  const GasCell low = GasCellOf({box_.x0, box_.y0}, kTwice);
-  const GasCell high = GasCellOf({box_.x1 - 1, box_.y1 - 1}, kTwice);
-  box_ = {low.x, low.y, high.x + 1, high.y + 1};
+  if (rect_.empty()) return true;
+  const GasCell low = GasCellOf({rect_.min.x, rect_.min.y}, kTwice);
+  const GasCell high = GasCellOf({rect_.end.x - 1, rect_.end.y - 1}, kTwice);
+  rect_ = {low, {high.x + 1, high.y + 1}};
   return true;
 }
 
@@ -57,7 +57,7 @@ absl::StatusOr<std::vector<GasCell>> GasInputs::Update(const Grid<CellState>& st
   for (const std::size_t index : freed) {
     const GasCell gas_cell = GasCellOf(states_.At(index), factor_);
     changed.push_back(gas_cell);
-    if (states_.states()[index] == CellState::kFree) box_.Add(gas_cell);
+    if (states_.states()[index] == CellState::kFree) rect_.Include(gas_cell);
     if (factor_ == 1) continue;
     // The links to it belong to its neighbours west and south.
     changed.push_back({gas_cell.x - 1, gas_cell.y});
@@ -67,14 +67,11 @@ absl::StatusOr<std::vector<GasCell>> GasInputs::Update(const Grid<CellState>& st
   return changed;
 }
 
-bool GasInputs::BoxHoldsFreeCells() const {
+bool GasInputs::RectHoldsFreeCells() const {
   const Grid<CellState>& states = states_.states();
   for (std::size_t i = 0; i < states.size(); ++i) {
     if (states[i] != CellState::kFree) continue;
-    const GasCell cell = GasCellOf(states_.At(i), factor_);
-    if (cell.x < box_.x0 || cell.x >= box_.x1 || cell.y < box_.y0 || cell.y >= box_.y1) {
-      return false;
-    }
+    if (!rect_.Contains(GasCellOf(states_.At(i), factor_))) return false;
   }
   return true;
 }

@@ -50,11 +50,11 @@ class GasInputs {
 
   // Cost: O(factor()^2) lookups, and the buckets of the readings in the cell.
   CellInput Of(GasCell cell) const;
-  // Of all cells of the lattice. REQUIRES: it holds box(). Cost: O(cells), and all buckets.
+  // Of all cells of the lattice. REQUIRES: it holds rect(). Cost: O(cells), and all buckets.
   std::vector<CellInput> On(const GasLattice& lattice) const;
   const AnchoredStates& states() const { return states_; }
   // Holds all gas cells that ever were active.
-  const GasCellBox& box() const { return box_; }
+  const GasCellRect& rect() const { return rect_; }
   int factor() const { return factor_; }
   // Doubles the factor, unless it would be beyond kMostLatticeFactor. Returns whether it did. Gas
   // cells are others then.
@@ -75,7 +75,7 @@ class GasInputs {
   static void VisitState(Archive& archive, Self& self);
 
  private:
-  bool BoxHoldsFreeCells() const;
+  bool RectHoldsFreeCells() const;
   std::map<GasCell, Evidence> SumsOf(std::span<const CellEvidence> cells) const;
   std::vector<GasCell> GasCellsOf(std::span<const AnchorCell> cells) const;
 
@@ -84,7 +84,7 @@ class GasInputs {
   ReadingStore readings_;
   SensorOffsets sensors_;
   AnchoredStates states_;
-  GasCellBox box_;
+  GasCellRect rect_;
 };
 
 }  // namespace plumescout

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/gas/gas_lattice.h"
 
-#include <algorithm>
-
 namespace plumescout {
 namespace {
 
@@ -15,31 +13,14 @@ GasCell GasCellOf(AnchorCell cell, int factor) {
   return {FloorDivide(cell.x, factor), FloorDivide(cell.y, factor)};
 }
 
-void GasCellBox::Add(GasCell cell) {
-  if (empty()) {
-    *this = {cell.x, cell.y, cell.x + 1, cell.y + 1};
-    return;
-  }
-  x0 = std::min(x0, cell.x);
-  y0 = std::min(y0, cell.y);
-  x1 = std::max(x1, cell.x + 1);
-  y1 = std::max(y1, cell.y + 1);
+bool HasRoom(const GasLattice& lattice, const GasCellRect& rect, int margin) {
+  return lattice.cells().Covers(rect.Grown(margin));
 }
 
-bool HasRoom(const GasLattice& lattice, const GasCellBox& box, int margin) {
-  return lattice.Contains({box.x0 - margin, box.y0 - margin}) &&
-         lattice.Contains({box.x1 - 1 + margin, box.y1 - 1 + margin});
-}
-
-GasLattice MakeLattice(const GasLattice& old, const GasCellBox& box, int margin) {
-  GasCellBox all = box;
-  all.Add({box.x0 - margin, box.y0 - margin});
-  all.Add({box.x1 - 1 + margin, box.y1 - 1 + margin});
-  if (old.size() > 0) {
-    all.Add({old.x0, old.y0});
-    all.Add({old.x0 + old.width - 1, old.y0 + old.height - 1});
-  }
-  return {all.x0, all.y0, all.x1 - all.x0, all.y1 - all.y0};
+GasLattice MakeLattice(const GasLattice& old, const GasCellRect& rect, int margin) {
+  GasCellRect all = rect.Grown(margin);
+  if (old.size() > 0) all = all.With(old.cells());
+  return {all.min.x, all.min.y, all.width(), all.height()};
 }
 
 CellInput StructureOf(const AnchoredStates& states, GasCell gas_cell, int factor) {

@@ -25,7 +25,9 @@ struct GasCell {
 
 GasCell GasCellOf(AnchorCell cell, int factor);
 
-// A rectangle of gas cells that begins at (x0, y0).
+using GasCellRect = CellRectOf<GasCell>;
+
+// The raster of a gas field: gas cells from (x0, y0), in the order in which they are stored.
 struct GasLattice {
   int x0 = 0;
   int y0 = 0;
@@ -35,9 +37,8 @@ struct GasLattice {
   std::size_t size() const {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   }
-  bool Contains(GasCell cell) const {
-    return cell.x >= x0 && cell.y >= y0 && cell.x < x0 + width && cell.y < y0 + height;
-  }
+  GasCellRect cells() const { return GasCellRect::Sized({x0, y0}, width, height); }
+  bool Contains(GasCell cell) const { return cells().Contains(cell); }
   // REQUIRES: Contains(cell).
   std::size_t Index(GasCell cell) const {
     return static_cast<std::size_t>(cell.y - y0) * static_cast<std::size_t>(width) +
@@ -50,19 +51,11 @@ struct GasLattice {
   friend bool operator==(const GasLattice&, const GasLattice&) = default;
 };
 
-// Smallest rectangle of gas cells that holds all that were added.
-struct GasCellBox {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // [x0, x1) x [y0, y1)
+// Whether `rect`, and `margin` cells more on each side, lie in the lattice.
+bool HasRoom(const GasLattice& lattice, const GasCellRect& rect, int margin);
 
-  bool empty() const { return x0 == x1; }
-  void Add(GasCell cell);
-};
-
-// Whether `box`, and `margin` cells more on each side, lie in the lattice.
-bool HasRoom(const GasLattice& lattice, const GasCellBox& box, int margin);
-
-// The lattice for `box` with `margin` cells on each side; holds `old` too if that has cells.
-GasLattice MakeLattice(const GasLattice& old, const GasCellBox& box, int margin);
+// The lattice for `rect` with `margin` cells on each side; holds `old` too if that has cells.
+GasLattice MakeLattice(const GasLattice& old, const GasCellRect& rect, int margin);
 
 // Activity and links of a gas cell: it has a variable if one of its occupancy cells is free, and a
 // factor to the next one if two free cells of theirs touch across the side they share. Evidence is

@@ -74,11 +74,11 @@ absl::Status GasMap::Refresh(const Grid<CellState>& states, std::int64_t time_ns
   stale_ = false;
   replaced_ = false;
   ++quality_.refreshes;
-  if (inputs_.box().empty()) {
+  if (inputs_.rect().empty()) {
     published_ = false;
     return absl::OkStatus();
   }
-  const bool usable = engine_ != nullptr && !has_failed_ && HasRoom(lattice_, inputs_.box(), 0);
+  const bool usable = engine_ != nullptr && !has_failed_ && HasRoom(lattice_, inputs_.rect(), 0);
   if (!usable) return Conclude(Rebuild(time_ns), time_ns);
   const Changes changes = ChangesIn(changed);
   const std::int64_t active = active_cells_ + changes.activated - changes.deactivated;
@@ -141,7 +141,7 @@ absl::Status GasMap::Rebuild(std::int64_t time_ns) {
 }
 
 GasLattice GasMap::RoomyLattice() const {
-  return MakeLattice(lattice_, inputs_.box(), EpochSchedule::Margin_cells(inputs_.box()));
+  return MakeLattice(lattice_, inputs_.rect(), EpochSchedule::Margin_cells(inputs_.rect()));
 }
 
 void GasMap::TakeOver(std::unique_ptr<FieldEngine> engine, const GasLattice& lattice,
@@ -154,7 +154,7 @@ void GasMap::TakeOver(std::unique_ptr<FieldEngine> engine, const GasLattice& lat
 
 bool GasMap::epoch_due(std::int64_t time_ns) const {
   return epoch_possible() &&
-         (schedule_.IsDue(lattice_, inputs_.box()) || inputs_.watch().IsEpochDue(time_ns) ||
+         (schedule_.IsDue(lattice_, inputs_.rect()) || inputs_.watch().IsEpochDue(time_ns) ||
           (learns() && IsLessonDue(prior_scale_, counters().in_posterior)));
 }
 

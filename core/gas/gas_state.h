@@ -32,9 +32,9 @@ void Visit(auto& archive, ConstOr<GasLattice> auto& lattice) {
   auto& [x0, y0, width, height] = lattice;
   archive(x0, y0, width, height);
 }
-void Visit(auto& archive, ConstOr<GasCellBox> auto& box) {
-  auto& [x0, y0, x1, y1] = box;
-  archive(x0, y0, x1, y1);
+void Visit(auto& archive, ConstOr<GasCellRect> auto& rect) {
+  auto& [min, end] = rect;
+  archive(min.x, min.y, end.x, end.y);
 }
 
 // All that it has been told, and what it made of that.
@@ -118,14 +118,14 @@ void SensorOffsets::VisitState(Archive& archive, Self& self) {
 
 template <typename Archive, typename Self>
 void GasInputs::VisitState(Archive& archive, Self& self) {
-  archive(self.factor_, self.states_, self.box_, self.readings_);
+  archive(self.factor_, self.states_, self.rect_, self.readings_);
   if constexpr (Archive::kReads) {
     archive.Require(self.factor_ >= 1 && self.factor_ <= kMostLatticeFactor,
                     "the lattice factor is out of range");
     if (!archive.ok()) return;
-    const GasCellBox& box = self.box_;
-    archive.Require(IsNearOrigin(box.x0) && IsNearOrigin(box.y0) && IsNearOrigin(box.x1) &&
-                        IsNearOrigin(box.y1) && self.BoxHoldsFreeCells(),
+    const auto& [min, end] = self.rect_;
+    archive.Require(IsNearOrigin(min.x) && IsNearOrigin(min.y) && IsNearOrigin(end.x) &&
+                        IsNearOrigin(end.y) && self.RectHoldsFreeCells(),
                     "free cells lie beyond those of the gas field");
     archive.Require(self.readings_.PlaceAgain(self.states_), "readings lie where none were");
   }
@@ -162,8 +162,8 @@ void GasMap::VisitState(Archive& archive, Self& self) {
                             lattice.width >= 0 && IsNearOrigin(lattice.width) &&
                             lattice.height >= 0 && IsNearOrigin(lattice.height) &&
                             lattice.size() <= archive.room_bytes() / sizeof(CellInput);
-    const GasCellBox& box = self.inputs_.box();
-    archive.Require(is_lattice && (box.empty() || HasRoom(lattice, box, 0)),
+    const GasCellRect& rect = self.inputs_.rect();
+    archive.Require(is_lattice && (rect.empty() || HasRoom(lattice, rect, 0)),
                     "the gas lattice is out of range");
     archive(self.origin_);
     const bool is_whole = self.origin_ ? !self.has_failed_ && lattice.size() > 0

@@ -30,12 +30,12 @@ bool ReadingStore::PlaceAgain(const AnchoredStates& states) {
   anchor_ = states.anchor();
   extent_ = {};
   if (!states.empty()) {
-    extent_ = {states.At(0), states.states().width(), states.states().height()};
+    extent_ = AnchorRect::Sized(states.At(0), states.states().width(), states.states().height());
   }
   waiting_sites_ = 0;
   buckets_ = 0;
   for (auto& [key, site] : sites_) {
-    site.placement = PlacementOf(key, states.states(), extent_.corner);
+    site.placement = PlacementOf(key, states.states(), extent_.min);
     buckets_ += site.buckets.size();
     if (!site.placement.cell) {
       ++waiting_sites_;

@@ -153,8 +153,8 @@ absl::Status ReadingStore::Place(const Grid<CellState>& states,
   PLUMESCOUT_ASSIGN_OR_RETURN(const AnchorCell corner,
                               CornerOf(states.geometry(), is_first ? states.geometry() : anchor_));
   if (is_first) Anchor(states.geometry());
-  const AnchorExtent before =
-      std::exchange(extent_, AnchorExtent{corner, states.width(), states.height()});
+  const AnchorRect before =
+      std::exchange(extent_, AnchorRect::Sized(corner, states.width(), states.height()));
   if (!extent_.Covers(before) || changed.size() >= sites_.size()) {
     for (auto& [key, site] : sites_) PlaceSite(key, site, states);
   } else {
@@ -185,7 +185,7 @@ void ReadingStore::PlaceSitesNear(AnchorCell cell, const Grid<CellState>& states
 }
 
 void ReadingStore::PlaceSite(const ReadingSite& key, Site& site, const Grid<CellState>& states) {
-  const Placement placement = PlacementOf(key, states, extent_.corner);
+  const Placement placement = PlacementOf(key, states, extent_.min);
   if (placement == site.placement) return;
   Count(site.placement, -site.count);
   if (site.placement.cell) std::erase(MarkChanged(*site.placement.cell).sites, key);

@@ -183,7 +183,7 @@ class ReadingStore {
   std::int64_t aged_to_ns_ = 0;
   GasCounters counters_;
   GridGeometry anchor_;
-  AnchorExtent extent_;            // of the last grid
+  AnchorRect extent_;              // of the last grid
   std::vector<Arrival> arrivals_;  // not yet placed, for want of an anchor or of a call
   Sites merged_arrivals_;          // those before them, on Lattice()
   Sites sites_;

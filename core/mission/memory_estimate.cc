@@ -47,7 +47,7 @@ FirstCells FirstField(const MissionOptions& options) {
     height = std::min(height, region.WidestAround_cells());
   }
   const std::int64_t margin =
-      EpochSchedule::Margin_cells({0, 0, static_cast<int>(width), static_cast<int>(height)});
+      EpochSchedule::Margin_cells({{0, 0}, {static_cast<int>(width), static_cast<int>(height)}});
   cells.lattice = (width + 2 * margin) * (height + 2 * margin);
   return cells;
 }

@@ -17,7 +17,7 @@ constexpr Stroke kReferenceStroke{kSourceColor, 2.5};
 
 // Plot area, and the value at its upper edge.
 struct Plot {
-  Box area;
+  PixelBox area;
   double top_value;
 
   double PixelY(double value) const { return area.bottom() - value / top_value * area.height; }
@@ -52,7 +52,7 @@ void DrawAxes(Canvas& canvas, const Plot& plot, const BarChart& chart) {
 }
 
 // `room` is the column of the plot area that belongs to the bar.
-void DrawBar(Canvas& canvas, const Plot& plot, const Box& room, const Bar& bar, Rgb color) {
+void DrawBar(Canvas& canvas, const Plot& plot, const PixelBox& room, const Bar& bar, Rgb color) {
   const double middle = room.x + 0.5 * room.width;
   if (std::isfinite(bar.value)) {
     const double y = plot.PixelY(bar.value);
@@ -96,7 +96,7 @@ std::vector<ChartLegendItem> LegendOf(const BarChart& chart) {
   return items;
 }
 
-void DrawBarChart(Canvas& canvas, const Box& box, const BarChart& chart,
+void DrawBarChart(Canvas& canvas, const PixelBox& box, const BarChart& chart,
                   const std::vector<ChartLegendItem>& legend) {
   const Plot plot{DrawChartFrame(canvas, box, chart.title, chart.x_label, legend),
                   kHeadroom * Greatest(chart)};

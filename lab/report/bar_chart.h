@@ -41,9 +41,9 @@ struct BarChart {
 std::vector<ChartLegendItem> LegendOf(const BarChart& chart);
 
 // Draws title, legend, axes and bars into the box.
-void DrawBarChart(Canvas& canvas, const Box& box, const BarChart& chart,
+void DrawBarChart(Canvas& canvas, const PixelBox& box, const BarChart& chart,
                   const std::vector<ChartLegendItem>& legend);
-inline void DrawBarChart(Canvas& canvas, const Box& box, const BarChart& chart) {
+inline void DrawBarChart(Canvas& canvas, const PixelBox& box, const BarChart& chart) {
   DrawBarChart(canvas, box, chart, LegendOf(chart));
 }
 

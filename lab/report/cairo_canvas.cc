@@ -32,7 +32,7 @@ class CairoCanvas final : public Canvas {
   explicit CairoCanvas(cairo_t* context) : context_(context) {}
 
   // Edges lie between pixels.
-  void FillBox(const Box& box, Rgb color) override {
+  void FillBox(const PixelBox& box, Rgb color) override {
     const double left = Bounded(std::round(box.x));
     const double top = Bounded(std::round(box.y));
     SetColor(color);
@@ -76,7 +76,7 @@ class CairoCanvas final : public Canvas {
     cairo_new_path(context_);
   }
 
-  void Picture(const Box& box, const Image& image) override {
+  void Picture(const PixelBox& box, const Image& image) override {
     if (image.pixels().empty() || !(box.width > 0.0) || !(box.height > 0.0)) return;
     const CairoSurface surface = ToCairo(image);
     cairo_save(context_);

@@ -15,7 +15,8 @@ struct PixelPoint {
   double y = 0.0;
 };
 
-struct Box {
+// Part of a canvas.
+struct PixelBox {
   double x = 0.0;  // left
   double y = 0.0;  // top
   double width = 0.0;
@@ -48,14 +49,14 @@ class Canvas {
  public:
   virtual ~Canvas() = default;
 
-  virtual void FillBox(const Box& box, Rgb color) = 0;
+  virtual void FillBox(const PixelBox& box, Rgb color) = 0;
   // Round joints and ends. Points that are not finite part the line.
   virtual void Polyline(std::span<const PixelPoint> points, const Stroke& stroke) = 0;
   virtual void Disc(PixelPoint center, double radius_px, Rgb color) = 0;
   // `baseline` is the start, middle or end of the base line, as the style's anchor says.
   virtual void Text(PixelPoint baseline, absl::string_view utf8, const TextStyle& style) = 0;
   // The image fills the box; its pixels become crisp rectangles.
-  virtual void Picture(const Box& box, const Image& image) = 0;
+  virtual void Picture(const PixelBox& box, const Image& image) = 0;
 };
 
 }  // namespace plumescout::lab

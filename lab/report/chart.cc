@@ -73,7 +73,7 @@ Range WithHeadroom(Range range) {
 
 // Plot area and what its edges stand for.
 struct Plot {
-  Box area;
+  PixelBox area;
   Range x;
   Range y;
 
@@ -104,7 +104,7 @@ struct Segment {
 
 // What of the segment lies in the box; nothing if an end is not finite. The edges of the box cut
 // the line at shares of its length (Liang and Barsky).
-std::optional<Segment> ClipSegment(const Segment& segment, const Box& box) {
+std::optional<Segment> ClipSegment(const Segment& segment, const PixelBox& box) {
   const PixelPoint a = segment.from;
   const PixelPoint b = segment.to;
   double first = 0.0;
@@ -127,7 +127,7 @@ std::optional<Segment> ClipSegment(const Segment& segment, const Box& box) {
 }
 
 // The parts of the line in the box, parted by a point that is not finite.
-std::vector<PixelPoint> ClipLine(const std::vector<PixelPoint>& line, const Box& box) {
+std::vector<PixelPoint> ClipLine(const std::vector<PixelPoint>& line, const PixelBox& box) {
   std::vector<PixelPoint> clipped;
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
     const std::optional<Segment> part = ClipSegment({line[i], line[i + 1]}, box);
@@ -145,8 +145,8 @@ std::vector<PixelPoint> ClipLine(const std::vector<PixelPoint>& line, const Box&
 
 void DrawCurve(Canvas& canvas, const Plot& plot, const Curve& curve) {
   constexpr double kSlack_px = 1.0;  // what lies along an edge is seen, whatever the rounding
-  const Box area{plot.area.x - kSlack_px, plot.area.y - kSlack_px,
-                 plot.area.width + 2.0 * kSlack_px, plot.area.height + 2.0 * kSlack_px};
+  const PixelBox area{plot.area.x - kSlack_px, plot.area.y - kSlack_px,
+                      plot.area.width + 2.0 * kSlack_px, plot.area.height + 2.0 * kSlack_px};
   std::vector<PixelPoint> line;
   for (const ChartPoint& point : curve.points) {
     line.push_back({plot.PixelX(point.x), plot.PixelY(point.y)});
@@ -174,7 +174,7 @@ std::vector<ChartLegendItem> LegendOf(const Chart& chart) {
   return items;
 }
 
-void DrawChart(Canvas& canvas, const Box& box, const Chart& chart,
+void DrawChart(Canvas& canvas, const PixelBox& box, const Chart& chart,
                const std::vector<ChartLegendItem>& legend) {
   const Plot plot{DrawChartFrame(canvas, box, chart.title, chart.x_label, legend),
                   Widen(RangeOfX(chart)),

@@ -47,9 +47,9 @@ struct Chart {
 std::vector<ChartLegendItem> LegendOf(const Chart& chart);
 
 // Draws title, legend, axes with round ticks, and the curves into the box.
-void DrawChart(Canvas& canvas, const Box& box, const Chart& chart,
+void DrawChart(Canvas& canvas, const PixelBox& box, const Chart& chart,
                const std::vector<ChartLegendItem>& legend);
-inline void DrawChart(Canvas& canvas, const Box& box, const Chart& chart) {
+inline void DrawChart(Canvas& canvas, const PixelBox& box, const Chart& chart) {
   DrawChart(canvas, box, chart, LegendOf(chart));
 }
 

@@ -19,11 +19,11 @@ constexpr int kTicks = 5;
 
 }  // namespace
 
-Box DrawChartFrame(Canvas& canvas, const Box& box, const std::string& title,
-                   const std::string& x_label, const std::vector<ChartLegendItem>& legend) {
+PixelBox DrawChartFrame(Canvas& canvas, const PixelBox& box, const std::string& title,
+                        const std::string& x_label, const std::vector<ChartLegendItem>& legend) {
   const double top_px = kTop_px + ChartLegendHeight_px(legend, box.width);
-  const Box plot{box.x + kLeft_px, box.y + top_px, box.width - kLeft_px - kRight_px,
-                 box.height - top_px - kBottom_px};
+  const PixelBox plot{box.x + kLeft_px, box.y + top_px, box.width - kLeft_px - kRight_px,
+                      box.height - top_px - kBottom_px};
   const double size_px = SizeToFit_px(title, kTitleSize_px, box.width, true);
   canvas.Text({box.x, box.y + kTitleSize_px}, title, {size_px, kInk, Anchor::kStart, true});
   DrawChartLegend(canvas, {box.x, box.y + kLegendTop_px, box.width, box.height}, legend);
@@ -32,7 +32,7 @@ Box DrawChartFrame(Canvas& canvas, const Box& box, const std::string& title,
   return plot;
 }
 
-void DrawValueLines(Canvas& canvas, const Box& plot, double low, double high,
+void DrawValueLines(Canvas& canvas, const PixelBox& plot, double low, double high,
                     const std::function<double(double)>& pixel_y) {
   for (const double value : LinearTicks(low, high, kTicks)) {
     const double y = pixel_y(value);
@@ -45,11 +45,11 @@ void DrawValueLines(Canvas& canvas, const Box& plot, double low, double high,
   }
 }
 
-void DrawBelowPlot(Canvas& canvas, const Box& plot, double x, const std::string& name) {
+void DrawBelowPlot(Canvas& canvas, const PixelBox& plot, double x, const std::string& name) {
   canvas.Text({x, plot.bottom() + 18.0}, name, {kChartLabelSize_px, kFaintInk, Anchor::kMiddle});
 }
 
-void DrawFootLine(Canvas& canvas, const Box& plot) {
+void DrawFootLine(Canvas& canvas, const PixelBox& plot) {
   const PixelPoint line[] = {{plot.x, plot.bottom()}, {plot.right(), plot.bottom()}};
   canvas.Polyline(line, {kFrame, 1.0});
 }

@@ -16,17 +16,17 @@ namespace plumescout::lab {
 inline constexpr double kChartLabelSize_px = 13.0;
 
 // Draws title, legend below it and the name of the x axis at the foot; returns the plot area.
-Box DrawChartFrame(Canvas& canvas, const Box& box, const std::string& title,
-                   const std::string& x_label, const std::vector<ChartLegendItem>& legend);
+PixelBox DrawChartFrame(Canvas& canvas, const PixelBox& box, const std::string& title,
+                        const std::string& x_label, const std::vector<ChartLegendItem>& legend);
 
 // Lines across the plot at round values between `low` and `high`, which lie at `pixel_y`.
-void DrawValueLines(Canvas& canvas, const Box& plot, double low, double high,
+void DrawValueLines(Canvas& canvas, const PixelBox& plot, double low, double high,
                     const std::function<double(double)>& pixel_y);
 
 // A name below the plot, centred at `x`.
-void DrawBelowPlot(Canvas& canvas, const Box& plot, double x, const std::string& name);
+void DrawBelowPlot(Canvas& canvas, const PixelBox& plot, double x, const std::string& name);
 
 // The line at the foot of the plot.
-void DrawFootLine(Canvas& canvas, const Box& plot);
+void DrawFootLine(Canvas& canvas, const PixelBox& plot);
 
 }  // namespace plumescout::lab

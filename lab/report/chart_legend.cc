@@ -92,7 +92,8 @@ double ChartLegendHeight_px(const std::vector<ChartLegendItem>& items, double wi
   return (Place(items, width_px).back().row + 1) * kRow_px + kBelow_px;
 }
 
-void DrawChartLegend(Canvas& canvas, const Box& box, const std::vector<ChartLegendItem>& items) {
+void DrawChartLegend(Canvas& canvas, const PixelBox& box,
+                     const std::vector<ChartLegendItem>& items) {
   const std::vector<PlacedItem> placed = Place(items, box.width);
   for (std::size_t i = 0; i < items.size(); ++i) {
     const PixelPoint baseline{box.x + placed[i].x, box.y + placed[i].row * kRow_px + kBaseline_px};

@@ -26,6 +26,7 @@ double ChartLegendHeight_px(const std::vector<ChartLegendItem>& items, double wi
 
 // Draws samples and names from the top left corner of the box, in rows that its width holds; a
 // name that is wider than the box is cut.
-void DrawChartLegend(Canvas& canvas, const Box& box, const std::vector<ChartLegendItem>& items);
+void DrawChartLegend(Canvas& canvas, const PixelBox& box,
+                     const std::vector<ChartLegendItem>& items);
 
 }  // namespace plumescout::lab

@@ -27,7 +27,7 @@ std::vector<PixelPoint> Offsets(double radius_px) {
   return offsets;
 }
 
-bool LiesIn(PixelPoint center, double radius_px, const Box& bounds) {
+bool LiesIn(PixelPoint center, double radius_px, const PixelBox& bounds) {
   return center.x - radius_px >= bounds.x && center.x + radius_px <= bounds.right() &&
          center.y - radius_px >= bounds.y && center.y + radius_px <= bounds.bottom();
 }
@@ -35,7 +35,7 @@ bool LiesIn(PixelPoint center, double radius_px, const Box& bounds) {
 }  // namespace
 
 std::vector<PixelPoint> SpreadDiscs(std::span<const PixelPoint> places, double radius_px,
-                                    const Box& bounds) {
+                                    const PixelBox& bounds) {
   const std::vector<PixelPoint> offsets = Offsets(radius_px);
   std::vector<PixelPoint> centers;
   for (const PixelPoint& place : places) {

@@ -13,6 +13,6 @@ namespace plumescout::lab {
 // positions around it where the disc lies in the bounds and meets no disc before it. If there is
 // none, the place. Cost: O(places squared).
 std::vector<PixelPoint> SpreadDiscs(std::span<const PixelPoint> places, double radius_px,
-                                    const Box& bounds);
+                                    const PixelBox& bounds);
 
 }  // namespace plumescout::lab

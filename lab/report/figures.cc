@@ -25,21 +25,16 @@ std::optional<Rectangle> KnownCenters(const Grid<CellState>& map) {
     if (map[i] == CellState::kUnknown) continue;
     const Point2 center = geometry.Center(geometry.CellAtIndex(i));
     const Rectangle cell{center, center};
-    known = known ? Union(*known, cell) : cell;
+    known = known ? known->With(cell) : cell;
   }
   return known;
-}
-
-Rectangle WithMargin(const Rectangle& region) {
-  return {{region.min.x_m - kMargin_m, region.min.y_m - kMargin_m},
-          {region.max.x_m + kMargin_m, region.max.y_m + kMargin_m}};
 }
 
 Rectangle ShownRegion(const ReportData& data) {
   if (data.truth.size() == 0) return KnownRegion(data.map.occupancy);
   const Rectangle truth = RegionOf(data.truth.geometry());
   const std::optional<Rectangle> known = KnownCenters(data.map.occupancy);
-  return WithMargin(known ? Union(*known, truth) : truth);
+  return (known ? known->With(truth) : truth).Grown(kMargin_m);
 }
 
 // Least and greatest finite values; low > high if there are none.
@@ -167,7 +162,7 @@ Curve MetricCurve(const ReportData& data, const char* name, const Stroke& stroke
 }  // namespace
 
 Rectangle KnownRegion(const Grid<CellState>& map) {
-  return WithMargin(KnownCenters(map).value_or(RegionOf(map.geometry())));
+  return KnownCenters(map).value_or(RegionOf(map.geometry())).Grown(kMargin_m);
 }
 
 Rgb StateColor(CellState state) {

@@ -131,7 +131,7 @@ std::string MakeFigure(const std::string& title, int width_px, int height_px, co
 
 std::string MakePanels(const ReportFigures& figures) {
   const int height_px = PanelHeight_px(figures, kPanelWidth_px);
-  const Box box{0.0, 0.0, kPanelWidth_px, static_cast<double>(height_px)};
+  const PixelBox box{0.0, 0.0, kPanelWidth_px, static_cast<double>(height_px)};
   std::string html;
   for (const MapPanel& panel : figures.panels) {
     html += MakeFigure(panel.title, kPanelWidth_px, height_px,
@@ -144,7 +144,7 @@ std::string MakeLegend(const std::vector<ChartLegendItem>& items) {
   if (items.empty()) return "";
   constexpr int kWidth_px = 2 * kChartWidth_px;
   const int height_px = static_cast<int>(std::ceil(ChartLegendHeight_px(items, kWidth_px)));
-  const Box box{0.0, 0.0, kWidth_px, static_cast<double>(height_px)};
+  const PixelBox box{0.0, 0.0, kWidth_px, static_cast<double>(height_px)};
   return absl::StrCat("<div class=\"legend\">\n",
                       MakeFigure("Legend of the charts", kWidth_px, height_px,
                                  [&](Canvas& canvas) { DrawChartLegend(canvas, box, items); }),
@@ -153,7 +153,7 @@ std::string MakeLegend(const std::vector<ChartLegendItem>& items) {
 
 std::string MakeCharts(const ReportFigures& figures) {
   const ChartDrawings charts = MakeChartDrawings(figures);
-  const Box box{0.0, 0.0, kChartWidth_px, static_cast<double>(charts.height_px)};
+  const PixelBox box{0.0, 0.0, kChartWidth_px, static_cast<double>(charts.height_px)};
   std::string html = absl::StrCat(MakeLegend(charts.legend), "<div class=\"figures charts\">\n");
   for (const ChartDrawing& chart : charts.charts) {
     html += MakeFigure(chart.title, kChartWidth_px, charts.height_px,

@@ -24,7 +24,7 @@ constexpr double kHalo_px = 1.5;        // white rim of marks, which sets them o
 
 // Where the map lies on the canvas.
 struct MapFrame {
-  Box box;
+  PixelBox box;
   Rectangle region;
   double px_per_m;
 
@@ -35,7 +35,7 @@ struct MapFrame {
 };
 
 // The largest map that fits, at the left.
-MapFrame FitMap(const Box& box, const Rectangle& region) {
+MapFrame FitMap(const PixelBox& box, const Rectangle& region) {
   const double height_px = box.height - kTop_px - kBottom_px;
   const double px_per_m = std::min(box.width / region.width_m(), height_px / region.height_m());
   return {{box.x, box.y + kTop_px, px_per_m * region.width_m(), px_per_m * region.height_m()},
@@ -43,7 +43,7 @@ MapFrame FitMap(const Box& box, const Rectangle& region) {
           px_per_m};
 }
 
-void DrawOutline(Canvas& canvas, const Box& box) {
+void DrawOutline(Canvas& canvas, const PixelBox& box) {
   const PixelPoint outline[] = {{box.x, box.y},
                                 {box.right(), box.y},
                                 {box.right(), box.bottom()},
@@ -54,7 +54,7 @@ void DrawOutline(Canvas& canvas, const Box& box) {
 
 // The title and, in line with it, a bar of a round number of metres: over the right edge of the
 // map, or as far beyond it as the title needs.
-void DrawTitleAndScaleBar(Canvas& canvas, const Box& box, const std::string& title,
+void DrawTitleAndScaleBar(Canvas& canvas, const PixelBox& box, const std::string& title,
                           const MapFrame& frame) {
   constexpr double kLargestShare = 0.2;  // of the map's width
   constexpr double kEnd_px = 4.0;        // half the height of its ends
@@ -158,7 +158,7 @@ void DrawLabels(Canvas& canvas, const MapFrame& frame, const std::vector<MapMark
   }
 }
 
-void DrawColorBar(Canvas& canvas, const Box& box, const ColorBar& bar) {
+void DrawColorBar(Canvas& canvas, const PixelBox& box, const ColorBar& bar) {
   constexpr int kSteps = 256;
   Image strip(kSteps, 1);
   for (int i = 0; i < kSteps; ++i) {
@@ -182,7 +182,7 @@ void DrawColorBar(Canvas& canvas, const Box& box, const ColorBar& bar) {
 }
 
 // Entries one after the other, in rows; in one row, as small as it takes, if `one_row`.
-void DrawLegend(Canvas& canvas, const Box& box, const std::vector<LegendEntry>& legend,
+void DrawLegend(Canvas& canvas, const PixelBox& box, const std::vector<LegendEntry>& legend,
                 bool one_row) {
   constexpr double kRow_px = 20.0;
   constexpr double kMark_px = 10.0;  // centre of the mark
@@ -216,11 +216,6 @@ Rectangle RegionOf(const GridGeometry& geometry) {
            geometry.origin_y_m + geometry.height * geometry.resolution_m}};
 }
 
-Rectangle Union(const Rectangle& a, const Rectangle& b) {
-  return {{std::min(a.min.x_m, b.min.x_m), std::min(a.min.y_m, b.min.y_m)},
-          {std::max(a.max.x_m, b.max.x_m), std::max(a.max.y_m, b.max.y_m)}};
-}
-
 CellPicture PaintCells(const GridGeometry& geometry, const Rectangle& region,
                        const std::function<Rgb(Cell)>& color) {
   const double inset_m = 1e-6 * geometry.resolution_m;  // an edge touched by rounding is not shown
@@ -252,7 +247,7 @@ double MapWidth_px(const MapPanel& panel, double width_px) {
   return std::min(width_px, kMaxMapHeight_px / panel.region.height_m() * panel.region.width_m());
 }
 
-void DrawMapPanel(Canvas& canvas, const Box& box, const MapPanel& panel) {
+void DrawMapPanel(Canvas& canvas, const PixelBox& box, const MapPanel& panel) {
   const MapFrame frame = FitMap(box, panel.region);
   DrawTitleAndScaleBar(canvas, box, panel.title, frame);
   canvas.FillBox(frame.box, kUnknownColor);

@@ -17,8 +17,6 @@
 namespace plumescout::lab {
 
 Rectangle RegionOf(const GridGeometry& geometry);
-// The smallest rectangle that holds both.
-Rectangle Union(const Rectangle& a, const Rectangle& b);
 
 // Cells as an image, one pixel a cell, north up.
 struct CellPicture {
@@ -77,6 +75,6 @@ double MapPanelHeight_px(const MapPanel& panel, double width_px);
 double MapWidth_px(const MapPanel& panel, double width_px);
 
 // Draws the panel into the box, as large as it fits.
-void DrawMapPanel(Canvas& canvas, const Box& box, const MapPanel& panel);
+void DrawMapPanel(Canvas& canvas, const PixelBox& box, const MapPanel& panel);
 
 }  // namespace plumescout::lab

@@ -101,7 +101,7 @@ Table RejectionTable(const Plan& plan) {
   return table;
 }
 
-void DrawRow(Canvas& canvas, const Box& box, const std::vector<Column>& columns,
+void DrawRow(Canvas& canvas, const PixelBox& box, const std::vector<Column>& columns,
              const TableRow& row) {
   constexpr Rgb kHighlight{252, 232, 244};
   if (row.highlighted) canvas.FillBox(box, kHighlight);
@@ -121,7 +121,7 @@ void DrawRow(Canvas& canvas, const Box& box, const std::vector<Column>& columns,
 
 void DrawTable(Canvas& canvas, double top, const Table& table) {
   canvas.Text({kMargin_px, top + 16.0}, table.title, {16.0, kInk, Anchor::kStart, true});
-  Box row{kMargin_px, top + kTableTitle_px, kWidth_px - 2.0 * kMargin_px, kRow_px};
+  PixelBox row{kMargin_px, top + kTableTitle_px, kWidth_px - 2.0 * kMargin_px, kRow_px};
   TableRow names;
   for (const Column& column : table.columns) names.texts.emplace_back(column.name);
   DrawRow(canvas, row, table.columns, names);

@@ -200,13 +200,13 @@ ChartDrawings MakeChartDrawings(const ReportFigures& figures) {
   std::size_t at = 0;
   for (const Chart& chart : figures.charts) {
     drawings.charts.push_back(
-        {chart.title, [&chart, legend = legends[at++]](Canvas& canvas, const Box& box) {
+        {chart.title, [&chart, legend = legends[at++]](Canvas& canvas, const PixelBox& box) {
            DrawChart(canvas, box, chart, legend);
          }});
   }
   for (const BarChart& chart : figures.bar_charts) {
     drawings.charts.push_back(
-        {chart.title, [&chart, legend = legends[at++]](Canvas& canvas, const Box& box) {
+        {chart.title, [&chart, legend = legends[at++]](Canvas& canvas, const PixelBox& box) {
            DrawBarChart(canvas, box, chart, legend);
          }});
   }

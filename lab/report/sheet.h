@@ -48,7 +48,7 @@ int PanelHeight_px(const ReportFigures& figures, double width_px);
 // The charts of both kinds, ready to be drawn.
 struct ChartDrawing {
   std::string title;
-  std::function<void(Canvas&, const Box&)> draw;
+  std::function<void(Canvas&, const PixelBox&)> draw;
 };
 struct ChartDrawings {
   std::vector<ChartLegendItem> legend;  // of all charts: if several have one and all the same

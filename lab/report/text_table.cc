@@ -102,7 +102,7 @@ std::optional<double> TextTableHeight_px(const TextTable& table, double width_px
   return layout->height_px(table.rows.size());
 }
 
-void DrawTextTable(Canvas& canvas, const Box& box, const TextTable& table) {
+void DrawTextTable(Canvas& canvas, const PixelBox& box, const TextTable& table) {
   const std::optional<Layout> layout = LayOut(table, box.width);
   if (!layout) return;
   canvas.Text({box.x, box.y + kTitleSize_px}, table.title,

@@ -22,6 +22,6 @@ struct TextTable {
 std::optional<double> TextTableHeight_px(const TextTable& table, double width_px);
 
 // Draws the table at the top of the box; nothing if it is too wide.
-void DrawTextTable(Canvas& canvas, const Box& box, const TextTable& table);
+void DrawTextTable(Canvas& canvas, const PixelBox& box, const TextTable& table);
 
 }  // namespace plumescout::lab

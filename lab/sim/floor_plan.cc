@@ -26,12 +26,12 @@ class Divider {
   Divider(const FloorPlanStyle& style, Rng& rng, FloorPlan& plan)
       : style_(style), rng_(rng), plan_(plan) {}
 
-  void Divide(const UnitRect& floor) {
+  void Divide(const CellRect& floor) {
     const bool vertical = floor.width() >= floor.height();  // the wall: it crosses the longer side
     const int across = vertical ? floor.width() : floor.height();
     const double limit = style_.largest_room_units2 * rng_.Uniform(2.0 / 3.0, 4.0 / 3.0);
-    if (floor.area() <= limit || across < 2 * kMinSide + 1) {
-      const bool hall = floor.area() >= kHallArea;
+    if (AreaOf(floor) <= limit || across < 2 * kMinSide + 1) {
+      const bool hall = AreaOf(floor) >= kHallArea;
       plan_.rooms.push_back({floor, hall ? RoomKind::kHall : RoomKind::kRoom});
       return;
     }
@@ -46,7 +46,7 @@ class Divider {
 
  private:
   // Room, corridor, room, the corridor as long as the floor.
-  bool DivideByCorridor(const UnitRect& floor, bool vertical) {
+  bool DivideByCorridor(const CellRect& floor, bool vertical) {
     const int across = vertical ? floor.width() : floor.height();
     const int along = vertical ? floor.height() : floor.width();
     const int corridor = DrawInt(rng_, kMinCorridor, kMaxCorridor);
@@ -62,16 +62,16 @@ class Divider {
   }
 
   // A partition `at` units into the floor, and what lies before and behind it.
-  std::pair<UnitRect, UnitRect> Cut(const UnitRect& floor, bool vertical, int at) {
-    UnitRect before = floor;
-    UnitRect wall = floor;
-    UnitRect behind = floor;
+  std::pair<CellRect, CellRect> Cut(const CellRect& floor, bool vertical, int at) {
+    CellRect before = floor;
+    CellRect wall = floor;
+    CellRect behind = floor;
     if (vertical) {
-      before.x1 = wall.x0 = floor.x0 + at;
-      behind.x0 = wall.x1 = wall.x0 + 1;
+      before.end.x = wall.min.x = floor.min.x + at;
+      behind.min.x = wall.end.x = wall.min.x + 1;
     } else {
-      before.y1 = wall.y0 = floor.y0 + at;
-      behind.y0 = wall.y1 = wall.y0 + 1;
+      before.end.y = wall.min.y = floor.min.y + at;
+      behind.min.y = wall.end.y = wall.min.y + 1;
     }
     plan_.partitions.push_back({wall, vertical, {}});
     return {before, behind};
@@ -97,11 +97,11 @@ struct Span {
   int to = 0;
 };
 
-Span Along(const Partition& wall, const UnitRect& rect) {
-  return wall.vertical ? Span{rect.y0, rect.y1} : Span{rect.x0, rect.x1};
+Span Along(const Partition& wall, const CellRect& rect) {
+  return wall.vertical ? Span{rect.min.y, rect.end.y} : Span{rect.min.x, rect.end.x};
 }
-Span Across(const Partition& wall, const UnitRect& rect) {
-  return wall.vertical ? Span{rect.x0, rect.x1} : Span{rect.y0, rect.y1};
+Span Across(const Partition& wall, const CellRect& rect) {
+  return wall.vertical ? Span{rect.min.x, rect.end.x} : Span{rect.min.y, rect.end.y};
 }
 
 std::vector<SharedWall> SharedWalls(const FloorPlan& plan) {
@@ -198,7 +198,7 @@ std::optional<FloorPlan> DrawFloorPlan(int width, int height, const FloorPlanSty
   FloorPlan plan;
   plan.width = width;
   plan.height = height;
-  Divider(style, rng, plan).Divide({1, 1, width - 1, height - 1});
+  Divider(style, rng, plan).Divide({{1, 1}, {width - 1, height - 1}});
   if (!CutDoors(style.loop_share, rng, plan)) return std::nullopt;
   return plan;
 }

@@ -5,36 +5,19 @@
 #include <optional>
 #include <vector>
 
+#include "core/types/cell_rect.h"
 #include "core/types/rng.h"
 
 namespace plumescout::lab {
 
 // Random floor plans, drawn in whole units so that they are the same on every machine and fit the
-// cells of a raster exactly.
+// cells of a raster exactly: the cells of their rectangles are units.
 inline constexpr int kUnitsPerM = 5;  // a unit is 0.2 m: as thick as a wall
-
-// Units from `x0` (`y0`) up to but without `x1` (`y1`).
-struct UnitRect {
-  int x0 = 0;
-  int y0 = 0;
-  int x1 = 0;
-  int y1 = 0;
-
-  int width() const { return x1 - x0; }
-  int height() const { return y1 - y0; }
-  int area() const { return width() * height(); }
-  UnitRect Grown(int by) const { return {x0 - by, y0 - by, x1 + by, y1 + by}; }
-  bool Overlaps(const UnitRect& other) const {
-    return x0 < other.x1 && other.x0 < x1 && y0 < other.y1 && other.y0 < y1;
-  }
-
-  friend bool operator==(const UnitRect&, const UnitRect&) = default;
-};
 
 enum class RoomKind { kRoom, kHall, kCorridor };
 
 struct Room {
-  UnitRect floor;
+  CellRect floor;
   RoomKind kind = RoomKind::kRoom;
 };
 
@@ -48,7 +31,7 @@ struct PlanDoor {
 
 // Wall one unit thick between rooms.
 struct Partition {
-  UnitRect solid;         // as if it had no doors
+  CellRect solid;         // as if it had no doors
   bool vertical = false;  // runs north; else east
   std::vector<PlanDoor> doors;
 };
@@ -72,6 +55,9 @@ struct FloorPlanStyle {
 // long enough for a door: then draw again. REQUIRES: at least 8 m on each side.
 std::optional<FloorPlan> DrawFloorPlan(int width, int height, const FloorPlanStyle& style,
                                        Rng& rng);
+
+// In square units.
+inline int AreaOf(const CellRect& rect) { return rect.width() * rect.height(); }
 
 // A whole number in [low, high]. REQUIRES: low <= high.
 int DrawInt(Rng& rng, int low, int high);

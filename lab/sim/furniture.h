@@ -15,7 +15,7 @@ inline constexpr int kPassage_units = 4;
 // Furnishes the rooms: shelves along walls and tables in rooms; containers, rows of shelves or
 // pillars in halls; a cupboard here and there in corridors. Pieces touch a wall or leave a passage
 // to it, leave a passage between each other, and stay out of the `clear` rectangles.
-std::vector<UnitRect> DrawFurniture(const FloorPlan& plan, const std::vector<UnitRect>& clear,
+std::vector<CellRect> DrawFurniture(const FloorPlan& plan, const std::vector<CellRect>& clear,
                                     Rng& rng);
 
 }  // namespace plumescout::lab

@@ -82,11 +82,6 @@ absl::Status CheckWall(const std::string& field, const Wall& wall, const Layout&
   return absl::OkStatus();
 }
 
-bool Overlap(const Rectangle& a, const Rectangle& b) {
-  return a.min.x_m < b.max.x_m - kTouch_m && b.min.x_m < a.max.x_m - kTouch_m &&
-         a.min.y_m < b.max.y_m - kTouch_m && b.min.y_m < a.max.y_m - kTouch_m;
-}
-
 absl::Status CheckBox(const std::string& field, const Rectangle& box, const Layout& layout) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckInside(field + ".min_m", box.min, layout));
   PLUMESCOUT_RETURN_IF_ERROR(CheckInside(field + ".max_m", box.max, layout));
@@ -152,7 +147,7 @@ absl::Status Validate(const Layout& layout) {
   for (std::size_t i = 0; i < layout.boxes.size(); ++i) {
     PLUMESCOUT_RETURN_IF_ERROR(CheckBox(absl::StrCat("boxes[", i, "]"), layout.boxes[i], layout));
     for (std::size_t j = 0; j < i; ++j) {
-      if (!Overlap(layout.boxes[j], layout.boxes[i])) continue;
+      if (!layout.boxes[j].Grown(-kTouch_m).Overlaps(layout.boxes[i])) continue;
       const Point2 corner = layout.boxes[i].min;
       return absl::InvalidArgumentError(absl::StrCat("boxes[", i, "] from (", corner.x_m, ", ",
                                                      corner.y_m, ") overlaps boxes[", j, "]"));

@@ -35,13 +35,15 @@ struct Spot {
 
 int Distance(const Spot& a, const Spot& b) { return std::abs(a.x - b.x) + std::abs(a.y - b.y); }
 
-Spot MiddleOf(const UnitRect& rect) { return {(rect.x0 + rect.x1) / 2, (rect.y0 + rect.y1) / 2}; }
+Spot MiddleOf(const CellRect& rect) {
+  return {(rect.min.x + rect.end.x) / 2, (rect.min.y + rect.end.y) / 2};
+}
 
 // The door's gap.
-UnitRect GapOf(const Partition& wall, const PlanDoor& door) {
-  UnitRect gap = wall.solid;
-  (wall.vertical ? gap.y0 : gap.x0) = door.from;
-  (wall.vertical ? gap.y1 : gap.x1) = door.from + door.width;
+CellRect GapOf(const Partition& wall, const PlanDoor& door) {
+  CellRect gap = wall.solid;
+  (wall.vertical ? gap.min.y : gap.min.x) = door.from;
+  (wall.vertical ? gap.end.y : gap.end.x) = door.from + door.width;
   return gap;
 }
 
@@ -59,26 +61,26 @@ class Interior {
 
   // Whether all found a place.
   bool Draw(int max_leaks) {
-    std::vector<UnitRect> clear = DoorZones();
+    std::vector<CellRect> clear = DoorZones();
     for (const Window& window : air_.windows) clear.push_back(window.zone);
     furniture_ = DrawFurniture(plan_, clear, rng_);
     return DrawLeaks(max_leaks) && DrawStart();
   }
 
-  const std::vector<UnitRect>& furniture() const { return furniture_; }
+  const std::vector<CellRect>& furniture() const { return furniture_; }
   const std::vector<Leak>& leaks() const { return leaks_; }
   const Spot& start() const { return start_; }
 
  private:
   // Kept clear on both sides of doors.
-  std::vector<UnitRect> DoorZones() const {
+  std::vector<CellRect> DoorZones() const {
     constexpr int kDepth = 6;  // 1.2 m
-    std::vector<UnitRect> zones;
+    std::vector<CellRect> zones;
     for (const Partition& wall : plan_.partitions) {
       for (const PlanDoor& door : wall.doors) {
-        UnitRect zone = GapOf(wall, door);
-        (wall.vertical ? zone.x0 : zone.y0) -= kDepth;
-        (wall.vertical ? zone.x1 : zone.y1) += kDepth;
+        CellRect zone = GapOf(wall, door);
+        (wall.vertical ? zone.min.x : zone.min.y) -= kDepth;
+        (wall.vertical ? zone.end.x : zone.end.y) += kDepth;
         zones.push_back(zone);
       }
     }
@@ -86,12 +88,12 @@ class Interior {
   }
 
   // A spot in the open of this room; nothing if furniture is in the way of the draw.
-  std::optional<Spot> DrawSpot(const UnitRect& floor) {
+  std::optional<Spot> DrawSpot(const CellRect& floor) {
     constexpr int kClearance = 3;  // 0.6 m
-    const int x = DrawInt(rng_, floor.x0 + kClearance, floor.x1 - kClearance);
-    const int y = DrawInt(rng_, floor.y0 + kClearance, floor.y1 - kClearance);
-    const UnitRect around = UnitRect{x, y, x, y}.Grown(kClearance);
-    const auto overlaps = [&around](const UnitRect& rect) { return rect.Overlaps(around); };
+    const int x = DrawInt(rng_, floor.min.x + kClearance, floor.end.x - kClearance);
+    const int y = DrawInt(rng_, floor.min.y + kClearance, floor.end.y - kClearance);
+    const CellRect around = CellRect{{x, y}, {x, y}}.Grown(kClearance);
+    const auto overlaps = [&around](const CellRect& rect) { return rect.Overlaps(around); };
     if (std::any_of(furniture_.begin(), furniture_.end(), overlaps)) return std::nullopt;
     return Spot{x, y};
   }
@@ -167,7 +169,7 @@ class Interior {
   const FloorPlan& plan_;
   const Ventilation& air_;
   Rng& rng_;
-  std::vector<UnitRect> furniture_;
+  std::vector<CellRect> furniture_;
   std::vector<Leak> leaks_;
   Spot start_;
 };
@@ -177,17 +179,17 @@ double Meters(int units) { return static_cast<double>(units) / kUnitsPerM; }
 double HalfMeters(int half_units) { return static_cast<double>(half_units) / (2 * kUnitsPerM); }
 
 Wall ToWall(const Partition& partition) {
-  const UnitRect& solid = partition.solid;
+  const CellRect& solid = partition.solid;
   Wall wall;
   wall.thickness_m = Meters(1);
   if (partition.vertical) {
-    wall.from = {HalfMeters(solid.x0 + solid.x1), Meters(solid.y0)};
-    wall.to = {HalfMeters(solid.x0 + solid.x1), Meters(solid.y1)};
+    wall.from = {HalfMeters(solid.min.x + solid.end.x), Meters(solid.min.y)};
+    wall.to = {HalfMeters(solid.min.x + solid.end.x), Meters(solid.end.y)};
   } else {
-    wall.from = {Meters(solid.x0), HalfMeters(solid.y0 + solid.y1)};
-    wall.to = {Meters(solid.x1), HalfMeters(solid.y0 + solid.y1)};
+    wall.from = {Meters(solid.min.x), HalfMeters(solid.min.y + solid.end.y)};
+    wall.to = {Meters(solid.end.x), HalfMeters(solid.min.y + solid.end.y)};
   }
-  const int begin = partition.vertical ? solid.y0 : solid.x0;
+  const int begin = partition.vertical ? solid.min.y : solid.min.x;
   for (const PlanDoor& door : partition.doors) {
     wall.doors.push_back({HalfMeters(2 * (door.from - begin) + door.width), Meters(door.width)});
   }
@@ -200,9 +202,9 @@ Layout ToLayout(const FloorPlan& plan, const Ventilation& air, const Interior& i
   layout.size_y_m = Meters(plan.height);
   layout.border_m = Meters(1);
   for (const Partition& partition : plan.partitions) layout.walls.push_back(ToWall(partition));
-  for (const UnitRect& piece : interior.furniture()) {
+  for (const CellRect& piece : interior.furniture()) {
     layout.boxes.push_back(
-        {{Meters(piece.x0), Meters(piece.y0)}, {Meters(piece.x1), Meters(piece.y1)}});
+        {{Meters(piece.min.x), Meters(piece.min.y)}, {Meters(piece.end.x), Meters(piece.end.y)}});
   }
   for (const Window& window : air.windows) {
     layout.openings.push_back(

@@ -50,10 +50,7 @@ bool Covers(const Wall& wall, Point2 point) {
   });
 }
 
-bool Covers(const Rectangle& box, Point2 point) {
-  return point.x_m > box.min.x_m + kEdge_m && point.x_m < box.max.x_m - kEdge_m &&
-         point.y_m > box.min.y_m + kEdge_m && point.y_m < box.max.y_m - kEdge_m;
-}
+bool Covers(const Rectangle& box, Point2 point) { return box.Grown(-kEdge_m).Surrounds(point); }
 
 Grid<std::uint8_t> OpenCells(const Layout& layout) {
   const GridGeometry geometry = GeometryOf(layout);

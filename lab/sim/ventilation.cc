@@ -13,38 +13,40 @@ constexpr int kTries = 40;  // to find a place for a window
 constexpr int kApart = 4;   // between the zones of two windows
 
 // Whether the room's wall on this side is an outer wall.
-bool IsOuter(const FloorPlan& plan, const UnitRect& floor, Side side) {
+bool IsOuter(const FloorPlan& plan, const CellRect& floor, Side side) {
   switch (side) {
     case Side::kWest:
-      return floor.x0 == 1;
+      return floor.min.x == 1;
     case Side::kEast:
-      return floor.x1 == plan.width - 1;
+      return floor.end.x == plan.width - 1;
     case Side::kSouth:
-      return floor.y0 == 1;
+      return floor.min.y == 1;
     case Side::kNorth:
-      return floor.y1 == plan.height - 1;
+      return floor.end.y == plan.height - 1;
   }
   return false;
 }
 
-UnitRect ZoneOf(const UnitRect& floor, Side side, int from, int width) {
+CellRect ZoneOf(const CellRect& floor, Side side, int from, int width) {
   constexpr int kDepth = 6;  // 1.2 m
   switch (side) {
     case Side::kWest:
-      return {floor.x0, from, floor.x0 + kDepth, from + width};
+      return CellRect::Sized({floor.min.x, from}, kDepth, width);
     case Side::kEast:
-      return {floor.x1 - kDepth, from, floor.x1, from + width};
+      return CellRect::Sized({floor.end.x - kDepth, from}, kDepth, width);
     case Side::kSouth:
-      return {from, floor.y0, from + width, floor.y0 + kDepth};
+      return CellRect::Sized({from, floor.min.y}, width, kDepth);
     case Side::kNorth:
-      return {from, floor.y1 - kDepth, from + width, floor.y1};
+      return CellRect::Sized({from, floor.end.y - kDepth}, width, kDepth);
   }
   return {};
 }
 
 // From middle to middle, along the axes.
-int Distance(const UnitRect& a, const UnitRect& b) {
-  return (std::abs(a.x0 + a.x1 - b.x0 - b.x1) + std::abs(a.y0 + a.y1 - b.y0 - b.y1)) / 2;
+int Distance(const CellRect& a, const CellRect& b) {
+  return (std::abs(a.min.x + a.end.x - b.min.x - b.end.x) +
+          std::abs(a.min.y + a.end.y - b.min.y - b.end.y)) /
+         2;
 }
 
 int DoorsOf(const FloorPlan& plan, std::size_t room) {
@@ -86,10 +88,10 @@ class Ventilator {
     window.room = rng_.Below(plan_.rooms.size());
     window.side = static_cast<Side>(rng_.Below(4));
     window.width = DrawInt(rng_, 4, 9);  // 0.8 to 1.8 m
-    const UnitRect& floor = plan_.rooms[window.room].floor;
+    const CellRect& floor = plan_.rooms[window.room].floor;
     const bool along_y = window.side == Side::kWest || window.side == Side::kEast;
-    const int low = (along_y ? floor.y0 : floor.x0) + kMargin;
-    const int high = (along_y ? floor.y1 : floor.x1) - kMargin - window.width;
+    const int low = (along_y ? floor.min.y : floor.min.x) + kMargin;
+    const int high = (along_y ? floor.end.y : floor.end.x) - kMargin - window.width;
     if (high < low || !IsOuter(plan_, floor, window.side)) return std::nullopt;
     window.from = DrawInt(rng_, low, high);
     window.zone = ZoneOf(floor, window.side, window.from, window.width);

@@ -19,7 +19,7 @@ struct Window {
   int width = 0;
   std::optional<double> inflow_mps;  // none: outlet
   std::size_t room = 0;              // index into FloorPlan::rooms
-  UnitRect zone;                     // inside, before it: nothing should stand here
+  CellRect zone;                     // inside, before it: nothing should stand here
 };
 
 // How air passes a building.

@@ -14,11 +14,6 @@ namespace {
 
 constexpr Stroke kStreamLine{{255, 255, 255}, 1.0};
 
-bool Holds(const Rectangle& region, Point2 point) {
-  return point.x_m > region.min.x_m && point.x_m < region.max.x_m && point.y_m > region.min.y_m &&
-         point.y_m < region.max.y_m;
-}
-
 // Corner of a cell and the value there.
 struct Corner {
   Point2 at;
@@ -51,7 +46,7 @@ void AddStreamLines(const MacField& velocity, const FlowPicture& picture, MapPan
   };
   for (std::size_t i = 0; i < geometry.size(); ++i) {
     const auto [x, y] = geometry.CellAtIndex(i);
-    if (!Holds(picture.region, geometry.Center({x, y}))) continue;
+    if (!picture.region.Surrounds(geometry.Center({x, y}))) continue;
     const std::array<Corner, 4> corners = {corner(x, y), corner(x + 1, y), corner(x + 1, y + 1),
                                            corner(x, y + 1)};
     for (const double level : picture.stream_values) {

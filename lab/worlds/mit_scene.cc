@@ -42,7 +42,7 @@ Grid<float> TrueGas_ppm(const PlumeSpec& plume, const GridGeometry& geometry) {
 }
 
 // Walls, and boxes that leave goals, passage and the driven way free.
-std::vector<SceneBox> Clutter(const MitSceneSpec& spec) {
+std::vector<Rectangle> Clutter(const MitSceneSpec& spec) {
   constexpr int kBoxes = 40;
   constexpr double kLeast_m = 0.4;
   constexpr double kMost_m = 1.1;
@@ -54,15 +54,15 @@ std::vector<SceneBox> Clutter(const MitSceneSpec& spec) {
     keep_free.insert(keep_free.end(), passage.begin(), passage.end());
   }
   Rng rng(spec.clutter_seed);
-  std::vector<SceneBox> boxes = spec.walls;
+  std::vector<Rectangle> boxes = spec.walls;
   for (int i = 0; i < kBoxes; ++i) {
-    const SceneBox box{rng.Uniform(0.0, spec.width_m - kMost_m),
-                       rng.Uniform(0.0, spec.height_m - kMost_m), rng.Uniform(kLeast_m, kMost_m),
-                       rng.Uniform(kLeast_m, kMost_m)};
-    const bool in_the_way = std::any_of(keep_free.begin(), keep_free.end(), [&](Point2 p) {
-      const double dx_m = std::max({box.x_m - p.x_m, p.x_m - box.x_m - box.width_m, 0.0});
-      const double dy_m = std::max({box.y_m - p.y_m, p.y_m - box.y_m - box.height_m, 0.0});
-      return std::hypot(dx_m, dy_m) < kClear_m;
+    const Point2 corner{rng.Uniform(0.0, spec.width_m - kMost_m),
+                        rng.Uniform(0.0, spec.height_m - kMost_m)};
+    const double width_m = rng.Uniform(kLeast_m, kMost_m);
+    const double height_m = rng.Uniform(kLeast_m, kMost_m);
+    const Rectangle box = Rectangle::Sized(corner, width_m, height_m);
+    const bool in_the_way = std::any_of(keep_free.begin(), keep_free.end(), [&](Point2 place) {
+      return box.Distance_m(place) < kClear_m;
     });
     if (!in_the_way) boxes.push_back(box);
   }
@@ -166,8 +166,8 @@ MitSceneSpec MitPassageScene() {
   spec.name = "narrow passage";
   spec.width_m = 20.0;
   spec.height_m = 12.0;
-  spec.walls = {{6.0, 0.0, 10.0, 2.0}, {6.0, 2.8, 2.8, 2.2}, {8.8, 4.0, 4.4, 1.0},
-                {13.2, 2.8, 2.8, 2.2}, {9.6, 2.0, 2.8, 1.2}, {10.0, 5.0, 1.0, 4.5}};
+  spec.walls = {{{6.0, 0.0}, {16.0, 2.0}},  {{6.0, 2.8}, {8.8, 5.0}},  {{8.8, 4.0}, {13.2, 5.0}},
+                {{13.2, 2.8}, {16.0, 5.0}}, {{9.6, 2.0}, {12.4, 3.2}}, {{10.0, 5.0}, {11.0, 9.5}}};
   spec.passage = {{6.0, 2.4},  {9.2, 2.4},  {9.2, 3.6}, {12.8, 3.6},
                   {12.8, 2.4}, {16.0, 2.4}, {17.5, 2.4}};
   spec.plume = {{5.2, 2.4}, 0.0};

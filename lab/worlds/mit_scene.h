@@ -30,7 +30,7 @@ struct MitSceneSpec {
   std::string name;
   double width_m = 12.0;
   double height_m = 9.0;
-  std::vector<SceneBox> walls{};
+  std::vector<Rectangle> walls{};
   std::vector<Point2> passage{};   // kept free of boxes, like the way that was driven
   std::uint64_t clutter_seed = 1;  // of the boxes
   PlumeSpec plume;

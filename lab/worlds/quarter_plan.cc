@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/types/rng.h"
+#include "lab/worlds/fill.h"
 
 namespace plumescout::lab {
 namespace {
@@ -22,31 +23,20 @@ int Draw(int least, int most, Rng& rng) {
 
 bool Chance(double probability, Rng& rng) { return rng.Uniform01() < probability; }
 
-// Cells [west, east) x [south, north).
-struct Block {
-  int west, south, east, north;
-};
-
-void Fill(const Block& block, CellState state, Grid<CellState>& occupancy) {
-  for (int y = block.south; y < block.north; ++y) {
-    for (int x = block.west; x < block.east; ++x) occupancy[Cell{x, y}] = state;
-  }
-}
-
 // A yard that is open to one of the block's corners.
-void CutYard(const Block& block, Rng& rng, Grid<CellState>& occupancy) {
-  const int width = Draw(1, (block.east - block.west) / 2, rng);
-  const int height = Draw(1, (block.north - block.south) / 2, rng);
-  const int west = Chance(0.5, rng) ? block.west : block.east - width;
-  const int south = Chance(0.5, rng) ? block.south : block.north - height;
-  Fill({west, south, west + width, south + height}, CellState::kFree, occupancy);
+void CutYard(const CellRect& block, Rng& rng, Grid<CellState>& occupancy) {
+  const int width = Draw(1, block.width() / 2, rng);
+  const int height = Draw(1, block.height() / 2, rng);
+  const int west = Chance(0.5, rng) ? block.min.x : block.end.x - width;
+  const int south = Chance(0.5, rng) ? block.min.y : block.end.y - height;
+  Fill(CellRect::Sized({west, south}, width, height), CellState::kFree, occupancy);
 }
 
-void Build(const Block& block, const BuiltUpArea& area, Rng& rng, Grid<CellState>& occupancy) {
+void Build(const CellRect& block, const BuiltUpArea& area, Rng& rng, Grid<CellState>& occupancy) {
   constexpr double kSquares = 0.08;  // of the blocks
   constexpr double kYards = 0.4;
-  const Point2 low = occupancy.geometry().Center({block.west, block.south});
-  const Point2 high = occupancy.geometry().Center({block.east - 1, block.north - 1});
+  const Point2 low = occupancy.geometry().Center(block.min);
+  const Point2 high = occupancy.geometry().Center({block.end.x - 1, block.end.y - 1});
   const Point2 middle{(low.x_m + high.x_m) / 2.0, (low.y_m + high.y_m) / 2.0};
   const bool is_square = Chance(kSquares, rng);
   const bool has_yard = Chance(kYards, rng);
@@ -62,7 +52,7 @@ void BuildRow(int south, int north, const BuiltUpArea& area, Rng& rng, Grid<Cell
   int west = geometry.CellAt({area.center.x_m - area.half_width_m, 0.0}).x + Draw(0, 2, rng);
   while (west < last) {
     const int east = west + Draw(3, 7, rng);
-    Build({west, south, east, north}, area, rng, occupancy);
+    Build({{west, south}, {east, north}}, area, rng, occupancy);
     west = east + Draw(1, 2, rng);
   }
 }

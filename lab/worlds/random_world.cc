@@ -20,6 +20,7 @@
 #include "core/occupancy/free_space.h"
 #include "core/types/options.h"
 #include "core/types/rng.h"
+#include "lab/worlds/fill.h"
 
 namespace plumescout::lab {
 namespace {
@@ -44,18 +45,6 @@ constexpr int kMinFrontier_cells = 8;
 constexpr int kMinFree_cells = 8000;
 constexpr int kPlumes = 3;
 
-struct Box {
-  int x, y, width, height;
-};
-
-void Fill(Grid<CellState>& hall, const Box& box, CellState state) {
-  for (int y = std::max(0, box.y); y < std::min(hall.height(), box.y + box.height); ++y) {
-    for (int x = std::max(0, box.x); x < std::min(hall.width(), box.x + box.width); ++x) {
-      hall[Cell{x, y}] = state;
-    }
-  }
-}
-
 int Between(Rng& rng, int low, int high) {
   return low + static_cast<int>(rng.Below(static_cast<std::uint64_t>(high - low + 1)));
 }
@@ -63,14 +52,15 @@ int Between(Rng& rng, int low, int high) {
 // A wall along the whole of one axis, with doors.
 void BuildWall(Grid<CellState>& hall, bool along_x, int at, Rng& rng) {
   const int length = along_x ? hall.width() : hall.height();
-  const auto box = [&](int from, int extent) {
-    return along_x ? Box{from, at, extent, kWall_cells} : Box{at, from, kWall_cells, extent};
+  const auto stretch = [&](int from, int extent) {
+    return along_x ? CellRect::Sized({from, at}, extent, kWall_cells)
+                   : CellRect::Sized({at, from}, kWall_cells, extent);
   };
-  Fill(hall, box(0, length), CellState::kOccupied);
+  Fill(stretch(0, length), CellState::kOccupied, hall);
   for (int door = 0; door < kDoorsPerWall; ++door) {
     const int width = Between(rng, kMinDoor_cells, kMaxDoor_cells);
     const int from = Between(rng, kWall_cells, length - kWall_cells - width);
-    Fill(hall, box(from, width), CellState::kFree);
+    Fill(stretch(from, width), CellState::kFree, hall);
   }
 }
 
@@ -87,15 +77,14 @@ Grid<CellState> BuildHall(Rng& rng) {
     const bool turned = rng.Below(2) == 0;
     const int width = turned ? kContainerShort_cells : kContainerLong_cells;
     const int height = turned ? kContainerLong_cells : kContainerShort_cells;
-    Fill(hall,
-         {Between(rng, 0, kWidth_cells - width), Between(rng, 0, kHeight_cells - height), width,
-          height},
-         CellState::kOccupied);
+    const int x = Between(rng, 0, kWidth_cells - width);
+    const int y = Between(rng, 0, kHeight_cells - height);
+    Fill(CellRect::Sized({x, y}, width, height), CellState::kOccupied, hall);
   }
-  Fill(hall, {0, 0, kWidth_cells, 1}, CellState::kOccupied);
-  Fill(hall, {0, kHeight_cells - 1, kWidth_cells, 1}, CellState::kOccupied);
-  Fill(hall, {0, 0, 1, kHeight_cells}, CellState::kOccupied);
-  Fill(hall, {kWidth_cells - 1, 0, 1, kHeight_cells}, CellState::kOccupied);
+  Fill({{0, 0}, {kWidth_cells, 1}}, CellState::kOccupied, hall);
+  Fill({{0, kHeight_cells - 1}, {kWidth_cells, kHeight_cells}}, CellState::kOccupied, hall);
+  Fill({{0, 0}, {1, kHeight_cells}}, CellState::kOccupied, hall);
+  Fill({{kWidth_cells - 1, 0}, {kWidth_cells, kHeight_cells}}, CellState::kOccupied, hall);
   return hall;
 }
 

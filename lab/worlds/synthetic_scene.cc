@@ -18,12 +18,10 @@ namespace {
 constexpr double kResolution_m = 0.1;
 constexpr double kWall_m = 0.1;
 
-void Fill(const SceneBox& box, Grid<CellState>& occupancy) {
+void Build(const Rectangle& solid, Grid<CellState>& occupancy) {
   for (std::size_t i = 0; i < occupancy.size(); ++i) {
     const Point2 at = occupancy.geometry().Center(occupancy.geometry().CellAtIndex(i));
-    const bool inside = at.x_m > box.x_m && at.x_m < box.x_m + box.width_m && at.y_m > box.y_m &&
-                        at.y_m < box.y_m + box.height_m;
-    if (inside) occupancy[i] = CellState::kOccupied;
+    if (solid.Surrounds(at)) occupancy[i] = CellState::kOccupied;
   }
 }
 
@@ -51,8 +49,8 @@ SceneSpec ColumnsScene() {
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
       const double shift_m = row % 2 == 0 ? 0.0 : 0.5 * kSpacing_m;
-      spec.obstacles.push_back(
-          {1.2 + column * kSpacing_m + shift_m, 0.9 + row * kSpacing_m, kSide_m, kSide_m});
+      const Point2 corner{1.2 + column * kSpacing_m + shift_m, 0.9 + row * kSpacing_m};
+      spec.obstacles.push_back(Rectangle::Sized(corner, kSide_m, kSide_m));
     }
   }
   spec.clouds = {{{3.5, 6.8}, 40.0, 1.5}, {{8.5, 3.0}, 60.0, 1.3}};
@@ -64,10 +62,9 @@ SceneSpec ColumnsScene() {
 SceneSpec RoomsScene() {
   SceneSpec spec;
   spec.name = "Rooms";
-  constexpr double kThick_m = 0.2;
-  spec.obstacles = {{3.8, 0.0, kThick_m, 1.2}, {3.8, 2.4, kThick_m, 4.0}, {3.8, 7.6, kThick_m, 1.4},
-                    {7.8, 0.0, kThick_m, 3.4}, {7.8, 4.6, kThick_m, 4.4}, {4.8, 3.6, 1.4, 0.8},
-                    {9.2, 5.4, 1.6, kThick_m}, {1.6, 5.0, 0.8, 1.6},      {9.4, 1.4, 0.8, 0.8}};
+  spec.obstacles = {{{3.8, 0.0}, {4.0, 1.2}},  {{3.8, 2.4}, {4.0, 6.4}}, {{3.8, 7.6}, {4.0, 9.0}},
+                    {{7.8, 0.0}, {8.0, 3.4}},  {{7.8, 4.6}, {8.0, 9.0}}, {{4.8, 3.6}, {6.2, 4.4}},
+                    {{9.2, 5.4}, {10.8, 5.6}}, {{1.6, 5.0}, {2.4, 6.6}}, {{9.4, 1.4}, {10.2, 2.2}}};
   spec.clouds = {{{5.8, 6.6}, 50.0, 1.2}, {{10.0, 3.6}, 30.0, 1.4}, {{2.0, 7.6}, 20.0, 1.0}};
   spec.start = {0.8, 0.8};
   spec.goal = {11.0, 7.8};
@@ -84,13 +81,14 @@ SceneSpec ClutterScene() {
   constexpr double kClear_m = 1.2;  // around start and goal
   Rng rng(kSeed);
   for (int i = 0; i < kBoxes; ++i) {
-    const SceneBox box{rng.Uniform(0.8, 10.4), rng.Uniform(0.0, 8.4), rng.Uniform(0.3, 1.1),
-                       rng.Uniform(0.3, 1.1)};
-    const Point2 middle{box.x_m + 0.5 * box.width_m, box.y_m + 0.5 * box.height_m};
+    const Point2 corner{rng.Uniform(0.8, 10.4), rng.Uniform(0.0, 8.4)};
+    const double width_m = rng.Uniform(0.3, 1.1);
+    const double height_m = rng.Uniform(0.3, 1.1);
+    const Point2 middle{corner.x_m + 0.5 * width_m, corner.y_m + 0.5 * height_m};
     if (Distance_m(middle, spec.start) < kClear_m || Distance_m(middle, spec.goal) < kClear_m) {
       continue;
     }
-    spec.obstacles.push_back(box);
+    spec.obstacles.push_back(Rectangle::Sized(corner, width_m, height_m));
   }
   spec.clouds = {{{3.6, 1.8}, 40.0, 1.3}, {{6.6, 7.2}, 60.0, 1.2}, {{9.0, 2.6}, 30.0, 1.2}};
   return spec;
@@ -99,16 +97,16 @@ SceneSpec ClutterScene() {
 }  // namespace
 
 Grid<CellState> MakeOccupancy(double width_m, double height_m,
-                              const std::vector<SceneBox>& obstacles) {
+                              const std::vector<Rectangle>& obstacles) {
   Grid<CellState> occupancy(
       GridGeometry{0.0, 0.0, kResolution_m, static_cast<int>(std::lround(width_m / kResolution_m)),
                    static_cast<int>(std::lround(height_m / kResolution_m))},
       CellState::kFree);
-  Fill({0.0, 0.0, width_m, kWall_m}, occupancy);
-  Fill({0.0, height_m - kWall_m, width_m, kWall_m}, occupancy);
-  Fill({0.0, 0.0, kWall_m, height_m}, occupancy);
-  Fill({width_m - kWall_m, 0.0, kWall_m, height_m}, occupancy);
-  for (const SceneBox& box : obstacles) Fill(box, occupancy);
+  Build(Rectangle::Sized({0.0, 0.0}, width_m, kWall_m), occupancy);
+  Build(Rectangle::Sized({0.0, height_m - kWall_m}, width_m, kWall_m), occupancy);
+  Build(Rectangle::Sized({0.0, 0.0}, kWall_m, height_m), occupancy);
+  Build(Rectangle::Sized({width_m - kWall_m, 0.0}, kWall_m, height_m), occupancy);
+  for (const Rectangle& obstacle : obstacles) Build(obstacle, occupancy);
   return occupancy;
 }
 
@@ -136,8 +134,8 @@ SyntheticScene BuildScene(const SceneSpec& spec) {
 SceneSpec DistanceWeightScene() {
   SceneSpec spec;
   spec.name = "Two ways round";
-  spec.obstacles = {{2.6, 3.2, 0.8, 1.6}, {5.2, 3.8, 1.6, 0.8}, {8.4, 3.2, 0.8, 1.6},
-                    {3.8, 6.2, 0.8, 0.8}, {7.4, 6.2, 0.8, 0.8}, {5.6, 1.2, 0.8, 0.8}};
+  spec.obstacles = {{{2.6, 3.2}, {3.4, 4.8}}, {{5.2, 3.8}, {6.8, 4.6}}, {{8.4, 3.2}, {9.2, 4.8}},
+                    {{3.8, 6.2}, {4.6, 7.0}}, {{7.4, 6.2}, {8.2, 7.0}}, {{5.6, 1.2}, {6.4, 2.0}}};
   spec.clouds = {{{2.2, 5.8}, 40.0, 1.0},
                  {{4.2, 7.4}, 40.0, 1.0},
                  {{6.2, 7.6}, 40.0, 1.0},

@@ -11,13 +11,10 @@
 #include "core/types/grid.h"
 #include "core/types/plan.h"
 #include "core/types/pose2.h"
+#include "core/types/rectangle.h"
 #include "lab/report/map_panel.h"
 
 namespace plumescout::lab {
-
-struct SceneBox {
-  double x_m, y_m, width_m, height_m;  // south-west corner and size
-};
 
 // A Gaussian cloud of gas; walls do not hold it up.
 struct GasCloud {
@@ -30,7 +27,7 @@ struct SceneSpec {
   std::string name;
   double width_m = 12.0;
   double height_m = 9.0;
-  std::vector<SceneBox> obstacles;
+  std::vector<Rectangle> obstacles;
   std::vector<GasCloud> clouds;
   Point2 start;
   Point2 goal;
@@ -49,7 +46,7 @@ struct SyntheticScene {
 
 // Cells of 0.1 m: free, but for an outer wall and the obstacles.
 Grid<CellState> MakeOccupancy(double width_m, double height_m,
-                              const std::vector<SceneBox>& obstacles);
+                              const std::vector<Rectangle>& obstacles);
 
 SyntheticScene BuildScene(const SceneSpec& spec);
 

@@ -34,7 +34,8 @@ absl::Status MapReplica::Apply(const v1::WatchMapResponse& frame) {
     const v1::MapTile& tile = frame.tiles(i);
     PLUMESCOUT_RETURN_IF_ERROR(DecodeTile(tile, Join("", "tiles", i), map_));
     if (changes_.everything) continue;
-    changes_.rects.insert({FromProto(tile.min_cell()), tile.column_count(), tile.row_count()});
+    changes_.rects.insert(
+        CellRect::Sized(FromProto(tile.min_cell()), tile.column_count(), tile.row_count()));
   }
   whole_ = !frame.more_follow();
   return absl::OkStatus();

@@ -23,10 +23,6 @@ static_assert(std::endian::native == std::endian::little, "rasters travel as lit
 constexpr std::uint16_t kNanCount = 65535;
 constexpr double kSteps = kNanCount - 1;
 
-std::size_t CellCount(const CellRect& rect) {
-  return static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height);
-}
-
 template <typename T>
 std::string Deflate(const std::vector<T>& cells, int level = kFastDeflate) {
   return CompressZlib({reinterpret_cast<const char*>(cells.data()), cells.size() * sizeof(T)},
@@ -37,20 +33,20 @@ std::string Deflate(const std::vector<T>& cells, int level = kFastDeflate) {
 template <typename T>
 std::vector<T> Gather(const Grid<T>& grid, const CellRect& rect) {
   std::vector<T> cells;
-  cells.reserve(CellCount(rect));
-  for (int row = 0; row < rect.height; ++row) {
-    if (rect.width == 0) break;
+  cells.reserve(rect.size());
+  for (int row = 0; row < rect.height(); ++row) {
+    if (rect.width() == 0) break;
     const T* first = &grid[Cell{rect.min.x, rect.min.y + row}];
-    cells.insert(cells.end(), first, first + rect.width);
+    cells.insert(cells.end(), first, first + rect.width());
   }
   return cells;
 }
 
 template <typename T>
 void Scatter(const std::vector<T>& cells, const CellRect& rect, Grid<T>& grid) {
-  for (int row = 0; row < rect.height; ++row) {
-    const auto first = cells.begin() + static_cast<std::ptrdiff_t>(row) * rect.width;
-    for (int column = 0; column < rect.width; ++column) {
+  for (int row = 0; row < rect.height(); ++row) {
+    const auto first = cells.begin() + static_cast<std::ptrdiff_t>(row) * rect.width();
+    for (int column = 0; column < rect.width(); ++column) {
       grid[Cell{rect.min.x + column, rect.min.y + row}] = first[column];
     }
   }
@@ -60,8 +56,8 @@ v1::MapTile MakeTile(v1::MapLayer layer, const CellRect& rect, v1::MapTile::Enco
   v1::MapTile tile;
   tile.set_layer(layer);
   *tile.mutable_min_cell() = ToProto(rect.min);
-  tile.set_column_count(rect.width);
-  tile.set_row_count(rect.height);
+  tile.set_column_count(rect.width());
+  tile.set_row_count(rect.height());
   tile.set_encoding(encoding);
   return tile;
 }
@@ -76,13 +72,13 @@ absl::StatusOr<CellRect> ReadRect(const v1::MapTile& tile, absl::string_view fie
       CheckIntRange(Join(field, "column_count"), tile.column_count(), 0, geometry.width - min.x));
   PLUMESCOUT_RETURN_IF_ERROR(
       CheckIntRange(Join(field, "row_count"), tile.row_count(), 0, geometry.height - min.y));
-  return CellRect{min, tile.column_count(), tile.row_count()};
+  return CellRect::Sized(min, tile.column_count(), tile.row_count());
 }
 
 template <typename T>
 absl::StatusOr<std::vector<T>> InflateCells(const v1::MapTile& tile, absl::string_view field,
                                             const CellRect& rect) {
-  std::vector<T> cells(CellCount(rect));
+  std::vector<T> cells(rect.size());
   const std::size_t size = cells.size() * sizeof(T);
   const absl::StatusOr<std::string> bytes = DecompressZlib(tile.deflated_data(), size);
   if (!bytes.ok() || bytes->size() != size) {
@@ -109,10 +105,6 @@ absl::StatusOr<std::vector<float>> ReadScaled(const v1::MapTile& tile, absl::str
 }
 
 }  // namespace
-
-CellRect WholeRaster(const GridGeometry& geometry) {
-  return {{0, 0}, geometry.width, geometry.height};
-}
 
 v1::MapTile EncodeStates(const Grid<CellState>& states, const CellRect& rect, int deflate_level) {
   v1::MapTile tile = MakeTile(v1::MAP_LAYER_OCCUPANCY, rect, v1::MapTile::ENCODING_U8);

@@ -13,8 +13,6 @@
 
 namespace plumescout {
 
-CellRect WholeRaster(const GridGeometry& geometry);
-
 inline constexpr int kFastDeflate = 1;   // of maps that change: they are mostly runs
 inline constexpr int kDenseDeflate = 6;  // of maps that are packed once
 

@@ -31,10 +31,11 @@ const DatedRaster<float>& GasOf(const MapRasters& rasters, const LayerForm& form
 template <typename T>
 std::size_t HashOf(const Grid<T>& cells, const CellRect& rect) {
   std::size_t hash = 0;
-  for (int row = 0; row < rect.height; ++row) {
+  for (int row = 0; row < rect.height(); ++row) {
     const T* first = &cells[Cell{rect.min.x, rect.min.y + row}];
-    hash = absl::HashOf(hash, absl::string_view(reinterpret_cast<const char*>(first),
-                                                static_cast<std::size_t>(rect.width) * sizeof(T)));
+    hash =
+        absl::HashOf(hash, absl::string_view(reinterpret_cast<const char*>(first),
+                                             static_cast<std::size_t>(rect.width()) * sizeof(T)));
   }
   return hash;
 }
@@ -72,8 +73,7 @@ LayerTiles::LayerTiles(const LayerForm& form, const GridGeometry& cells)
 
 CellRect LayerTiles::RectOf(Cell tile) const {
   const Cell min{tile.x * kTileSquares, tile.y * kTileSquares};
-  return {min, std::min(kTileSquares, squares_.width - min.x),
-          std::min(kTileSquares, squares_.height - min.y)};
+  return CellRect::Sized(min, kTileSquares, kTileSquares).Within(WholeRaster(squares_));
 }
 
 const StoredTile& LayerTiles::At(Cell tile, const MapRasters& rasters) {
@@ -108,7 +108,7 @@ grpc::Slice LayerTiles::Encode(const CellRect& rect, const MapRasters& rasters) 
 }
 
 grpc::Slice UnknownTile(const LayerForm& form, const CellRect& rect) {
-  const GridGeometry geometry{0.0, 0.0, 1.0, rect.width, rect.height};
+  const GridGeometry geometry{0.0, 0.0, 1.0, rect.width(), rect.height()};
   if (form.layer == v1::MAP_LAYER_OCCUPANCY) {
     const Grid<CellState> unknown(geometry, CellState::kUnknown);
     return Place(EncodeStates(unknown, WholeRaster(geometry)), rect.min);

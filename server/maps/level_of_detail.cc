@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/maps/level_of_detail.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -14,12 +13,12 @@ int DivideUp(int count, int level) { return (count + (1 << level) - 1) >> level;
 // Each square's cells brought together by `join`, beginning with `least`.
 template <typename T, typename Join>
 Grid<T> Joined(const Grid<T>& cells, int level, const CellRect& squares, T least, Join join) {
-  Grid<T> joined(GridGeometry{0.0, 0.0, 1.0, squares.width, squares.height}, least);
+  Grid<T> joined(GridGeometry{0.0, 0.0, 1.0, squares.width(), squares.height()}, least);
   const CellRect rect = CellsOf(squares, level, cells.geometry());
-  for (int y = 0; y < rect.height; ++y) {
+  for (int y = 0; y < rect.height(); ++y) {
     const T* row = &cells[Cell{rect.min.x, rect.min.y + y}];
     T* out = &joined[Cell{0, y >> level}];
-    for (int x = 0; x < rect.width; ++x) out[x >> level] = join(out[x >> level], row[x]);
+    for (int x = 0; x < rect.width(); ++x) out[x >> level] = join(out[x >> level], row[x]);
   }
   return joined;
 }
@@ -44,9 +43,9 @@ GridGeometry SquaresOf(const GridGeometry& cells, int level) {
 }
 
 CellRect CellsOf(const CellRect& squares, int level, const GridGeometry& cells) {
-  const Cell min{squares.min.x << level, squares.min.y << level};
-  return {min, std::min(squares.width << level, cells.width - min.x),
-          std::min(squares.height << level, cells.height - min.y)};
+  const CellRect whole{{squares.min.x << level, squares.min.y << level},
+                       {squares.end.x << level, squares.end.y << level}};
+  return whole.Within(WholeRaster(cells));
 }
 
 Grid<CellState> WorstStates(const Grid<CellState>& cells, int level, const CellRect& squares) {

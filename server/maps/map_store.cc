@@ -72,13 +72,8 @@ grpc::Slice SerialiseStatus(v1::MapStatus status, std::int64_t max_bytes) {
   return Serialise(status);
 }
 
-// The tiles of which the view's region holds a point; begin to end along each axis.
-struct TileRange {
-  Cell begin;
-  Cell end;
-};
-
-TileRange RangeOf(const MapView& view, const LayerTiles& layer) {
+// The tiles of which the view's region holds a point.
+CellRect TilesOf(const MapView& view, const LayerTiles& layer) {
   const Cell all{layer.column_count(), layer.row_count()};
   if (!view.region) return {{0, 0}, all};
   const Cell min = layer.squares().CellAt(view.region->min);
@@ -130,9 +125,9 @@ void MapStore::AddLayer(const LayerForm& form, EncodedMap& map) {
   LayerTiles& layer =
       layers_.try_emplace(form, form, rasters_.occupancy.raster->geometry()).first->second;
   const std::int64_t encoded_before = layer.encoded_count();
-  const TileRange range = RangeOf(map.view, layer);
-  for (int y = range.begin.y; y < range.end.y; ++y) {
-    for (int x = range.begin.x; x < range.end.x; ++x) {
+  const CellRect tiles = TilesOf(map.view, layer);
+  for (int y = tiles.min.y; y < tiles.end.y; ++y) {
+    for (int x = tiles.min.x; x < tiles.end.x; ++x) {
       map.tiles.push_back({form, layer.RectOf({x, y}), layer.At({x, y}, rasters_)});
     }
   }

@@ -46,7 +46,8 @@ class PartedMaps final : public v1::MapService::Service {
       --gone;
       return grpc::Status(grpc::StatusCode::ABORTED, "MAP_PARTS_GONE: begin again");
     }
-    *part->add_tiles() = EncodeStates(Grid<CellState>(geometry, CellState::kFree), {{0, 0}, 2, 1});
+    *part->add_tiles() =
+        EncodeStates(Grid<CellState>(geometry, CellState::kFree), {{0, 0}, {2, 1}});
     return {};
   }
   absl::StatusOr<MapSnapshot> Fetch(bool all_gases) {

@@ -38,7 +38,7 @@ class RecordingCanvas final : public Canvas {
   std::vector<WrittenText> texts;
   std::vector<DrawnLine> lines;
   std::vector<DrawnDisc> discs;
-  std::vector<Box> boxes;
+  std::vector<PixelBox> boxes;
 
   // All that is written, each text between ">" and "<".
   std::string Texts() const {
@@ -47,7 +47,7 @@ class RecordingCanvas final : public Canvas {
     return all;
   }
 
-  void FillBox(const Box& box, Rgb) override { boxes.push_back(box); }
+  void FillBox(const PixelBox& box, Rgb) override { boxes.push_back(box); }
   void Polyline(std::span<const PixelPoint> points, const Stroke& stroke) override {
     lines.push_back({{points.begin(), points.end()}, stroke});
   }
@@ -57,7 +57,7 @@ class RecordingCanvas final : public Canvas {
   void Text(PixelPoint baseline, absl::string_view utf8, const TextStyle& style) override {
     texts.push_back({baseline, std::string(utf8), style});
   }
-  void Picture(const Box&, const Image&) override {}
+  void Picture(const PixelBox&, const Image&) override {}
 };
 
 }  // namespace plumescout::lab

@@ -28,10 +28,8 @@ absl::StatusOr<int> Squares(const char* edge, double length_m, double spacing_m)
 
 absl::StatusOr<SiteLattice> MakeSiteLattice(const Rectangle& region, double spacing_m) {
   SiteLattice lattice{region.min, spacing_m, 0, 0};
-  PLUMESCOUT_ASSIGN_OR_RETURN(lattice.columns,
-                              Squares("wide", region.max.x_m - region.min.x_m, spacing_m));
-  PLUMESCOUT_ASSIGN_OR_RETURN(lattice.rows,
-                              Squares("high", region.max.y_m - region.min.y_m, spacing_m));
+  PLUMESCOUT_ASSIGN_OR_RETURN(lattice.columns, Squares("wide", region.width_m(), spacing_m));
+  PLUMESCOUT_ASSIGN_OR_RETURN(lattice.rows, Squares("high", region.height_m(), spacing_m));
   if (static_cast<double>(lattice.size()) <= kMaxSites) return lattice;
   return absl::InvalidArgumentError(absl::StrCat("planning.sites.region = ", lattice.columns, " x ",
                                                  lattice.rows, " sites must be at most ",

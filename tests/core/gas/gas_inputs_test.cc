@@ -34,13 +34,13 @@ TEST(GasInputsTest, SaysWhichCellsHaveNews) {
   EXPECT_FALSE(inputs.Of({2, 0}).active);
 }
 
-TEST(GasInputsTest, BoxHoldsAllThatEverWasFree) {
+TEST(GasInputsTest, RectHoldsAllThatEverWasFree) {
   GasInputs inputs(Options(1));
-  EXPECT_TRUE(inputs.box().empty());
+  EXPECT_TRUE(inputs.rect().empty());
   ASSERT_TRUE(inputs.Update(GridFromArt({"?..?"}), 0).ok());
   ASSERT_TRUE(inputs.Update(GridFromArt({"?#.."}), 0).ok());
-  EXPECT_EQ(inputs.box().x0, 1);
-  EXPECT_EQ(inputs.box().x1, 4);
+  EXPECT_EQ(inputs.rect().min.x, 1);
+  EXPECT_EQ(inputs.rect().end.x, 4);
 }
 
 TEST(GasInputsTest, CoarseCellAddsUpTheReadingsOfItsCells) {

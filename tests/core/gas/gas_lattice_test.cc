@@ -35,15 +35,12 @@ TEST(GasLatticeTest, IndexAndCellAreInverse) {
 }
 
 TEST(GasLatticeTest, NewLatticeHoldsTheOldOneAndTheMargin) {
-  GasCellBox box;
-  EXPECT_TRUE(box.empty());
-  box.Add({3, 4});
-  box.Add({-1, 6});
-  const GasLattice lattice = MakeLattice({2, 2, 20, 1}, box, 5);
+  const GasCellRect rect{{-1, 4}, {4, 7}};
+  const GasLattice lattice = MakeLattice({2, 2, 20, 1}, rect, 5);
   EXPECT_EQ(lattice, (GasLattice{-6, -1, 28, 13}));
-  EXPECT_TRUE(HasRoom(lattice, box, 5));
-  EXPECT_FALSE(HasRoom(lattice, box, 6));
-  EXPECT_FALSE(HasRoom(GasLattice(), box, 0));
+  EXPECT_TRUE(HasRoom(lattice, rect, 5));
+  EXPECT_FALSE(HasRoom(lattice, rect, 6));
+  EXPECT_FALSE(HasRoom(GasLattice(), rect, 0));
 }
 
 TEST(GasLatticeTest, SingleCellsAreLinkedByBeingFree) {

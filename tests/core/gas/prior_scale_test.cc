@@ -55,7 +55,7 @@ PriorFit FitWith(double theta, const Grid<CellState>& states,
     inputs.Add(0, states.geometry().Center(r.cell), {r.concentration_ppm});
   }
   EXPECT_TRUE(inputs.Update(states, 0).ok());
-  const GasLattice lattice = MakeLattice({}, inputs.box(), 2);
+  const GasLattice lattice = MakeLattice({}, inputs.rect(), 2);
   FieldOptions options;
   options.prior = PriorOf(gas, {.theta = theta});
   const FieldEngine field(static_cast<std::size_t>(lattice.width),

@@ -20,7 +20,7 @@ using testing::Not;
 constexpr Rgb kBlue{0, 0, 255};
 constexpr Rgb kRed{255, 0, 0};
 constexpr Rgb kWhite{255, 255, 255};
-constexpr Box kBox{0.0, 0.0, 400.0, 300.0};
+constexpr PixelBox kBox{0.0, 0.0, 400.0, 300.0};
 
 BarChart TwoByTwo() {
   return {"Share, %",

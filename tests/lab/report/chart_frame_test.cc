@@ -12,11 +12,11 @@
 namespace plumescout::lab {
 namespace chart_frame_test {
 
-constexpr Box kBox{10.0, 20.0, 400.0, 300.0};
+constexpr PixelBox kBox{10.0, 20.0, 400.0, 300.0};
 
 TEST(ChartFrame, NothingIsWrittenInThePlotOrBeyondTheBox) {
   RecordingCanvas canvas;
-  const Box plot =
+  const PixelBox plot =
       DrawChartFrame(canvas, kBox, std::string(80, 'm'), "time, s", {{"a", {}}, {"b", {}}});
   DrawValueLines(canvas, plot, 0.0, 1e-4,
                  [&](double value) { return plot.bottom() - value / 1e-4 * plot.height; });
@@ -38,8 +38,8 @@ TEST(ChartFrame, NothingIsWrittenInThePlotOrBeyondTheBox) {
 
 TEST(ChartFrame, TheLegendTakesItsRoomFromThePlot) {
   RecordingCanvas canvas;
-  const Box without = DrawChartFrame(canvas, kBox, "", "", {});
-  const Box with = DrawChartFrame(canvas, kBox, "", "", {{"a", {}}});
+  const PixelBox without = DrawChartFrame(canvas, kBox, "", "", {});
+  const PixelBox with = DrawChartFrame(canvas, kBox, "", "", {{"a", {}}});
   EXPECT_EQ(with.y - without.y, ChartLegendHeight_px({{"a", {}}}, kBox.width));
   EXPECT_EQ(with.bottom(), without.bottom());
 }

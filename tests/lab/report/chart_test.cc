@@ -21,8 +21,8 @@ using testing::Not;
 
 constexpr Rgb kBlue{0, 0, 255};
 constexpr Rgb kRed{255, 0, 0};
-constexpr Box kBox{0.0, 0.0, 400.0, 300.0};
-constexpr Box kPlot{52.0, 34.0, 338.0, 226.0};  // in kBox, without legend
+constexpr PixelBox kBox{0.0, 0.0, 400.0, 300.0};
+constexpr PixelBox kPlot{52.0, 34.0, 338.0, 226.0};  // in kBox, without legend
 
 Curve MakeCurve(const std::string& name, const std::vector<ChartPoint>& points) {
   return {name, {kBlue, 2.0}, points};

@@ -9,7 +9,7 @@
 namespace plumescout::lab {
 namespace disc_layout_test {
 
-constexpr Box kBounds{0.0, 0.0, 400.0, 300.0};
+constexpr PixelBox kBounds{0.0, 0.0, 400.0, 300.0};
 constexpr double kRadius_px = 10.0;
 
 double Gap_px(PixelPoint a, PixelPoint b) { return std::hypot(a.x - b.x, a.y - b.y); }

@@ -50,7 +50,7 @@ TEST(MapPanel, RegionsCoverTheirCells) {
   const Rectangle region = RegionOf(kGeometry);
   EXPECT_EQ(region.min, (Point2{10.0, 20.0}));
   EXPECT_EQ(region.max, (Point2{12.0, 21.0}));
-  const Rectangle both = Union(region, {{9.0, 20.5}, {11.0, 30.0}});
+  const Rectangle both = region.With({{9.0, 20.5}, {11.0, 30.0}});
   EXPECT_EQ(both.min, (Point2{9.0, 20.0}));
   EXPECT_EQ(both.max, (Point2{12.0, 30.0}));
 }

@@ -25,8 +25,8 @@ TEST(FloorPlanTest, RoomsAndPartitionsTileTheBuilding) {
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     const FloorPlan plan = Draw(seed, kOffices);
     int area = 0;
-    for (const Room& room : plan.rooms) area += room.floor.area();
-    for (const Partition& wall : plan.partitions) area += wall.solid.area();
+    for (const Room& room : plan.rooms) area += AreaOf(room.floor);
+    for (const Partition& wall : plan.partitions) area += AreaOf(wall.solid);
     EXPECT_EQ(area, 78 * 98) << seed;
     for (std::size_t i = 0; i < plan.rooms.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
@@ -61,9 +61,9 @@ TEST(FloorPlanTest, DoorsLeadFromOneRoomIntoTheOther) {
       for (const PlanDoor& door : wall.doors) {
         EXPECT_TRUE(door.width >= 5 && door.width <= 8) << door.width;
         for (const int index : {door.room_a, door.room_b}) {
-          const UnitRect& floor = plan.rooms[static_cast<std::size_t>(index)].floor;
-          const int low = wall.vertical ? floor.y0 : floor.x0;
-          const int high = wall.vertical ? floor.y1 : floor.x1;
+          const CellRect& floor = plan.rooms[static_cast<std::size_t>(index)].floor;
+          const int low = wall.vertical ? floor.min.y : floor.min.x;
+          const int high = wall.vertical ? floor.end.y : floor.end.x;
           EXPECT_GE(door.from, low + 2) << seed;
           EXPECT_LE(door.from + door.width, high - 2) << seed;
         }

@@ -16,7 +16,7 @@ FloorPlan OneRoom(RoomKind kind, int width, int height) {
   FloorPlan plan;
   plan.width = width + 2;
   plan.height = height + 2;
-  plan.rooms = {{{1, 1, width + 1, height + 1}, kind}};
+  plan.rooms = {{{{1, 1}, {width + 1, height + 1}}, kind}};
   return plan;
 }
 
@@ -24,12 +24,12 @@ TEST(FurnitureTest, LeavesAPassageOrTouches) {
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     for (const RoomKind kind : {RoomKind::kRoom, RoomKind::kHall, RoomKind::kCorridor}) {
       const FloorPlan plan = OneRoom(kind, 50, 40);
-      const UnitRect& floor = plan.rooms[0].floor;
+      const CellRect& floor = plan.rooms[0].floor;
       Rng rng(seed);
-      const std::vector<UnitRect> pieces = DrawFurniture(plan, {}, rng);
+      const std::vector<CellRect> pieces = DrawFurniture(plan, {}, rng);
       for (std::size_t i = 0; i < pieces.size(); ++i) {
-        for (const int gap : {pieces[i].x0 - floor.x0, pieces[i].y0 - floor.y0,
-                              floor.x1 - pieces[i].x1, floor.y1 - pieces[i].y1}) {
+        for (const int gap : {pieces[i].min.x - floor.min.x, pieces[i].min.y - floor.min.y,
+                              floor.end.x - pieces[i].end.x, floor.end.y - pieces[i].end.y}) {
           EXPECT_TRUE(gap == 0 || gap >= kPassage_units) << seed << ": " << gap;
         }
         for (std::size_t j = 0; j < i; ++j) {
@@ -42,11 +42,11 @@ TEST(FurnitureTest, LeavesAPassageOrTouches) {
 
 TEST(FurnitureTest, KeepsOutOfTheWay) {
   const FloorPlan plan = OneRoom(RoomKind::kHall, 60, 60);
-  const std::vector<UnitRect> clear = {{1, 20, 15, 30}, {30, 1, 40, 61}};
+  const std::vector<CellRect> clear = {{{1, 20}, {15, 30}}, {{30, 1}, {40, 61}}};
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     Rng rng(seed);
-    for (const UnitRect& piece : DrawFurniture(plan, clear, rng)) {
-      for (const UnitRect& zone : clear) EXPECT_FALSE(piece.Overlaps(zone)) << seed;
+    for (const CellRect& piece : DrawFurniture(plan, clear, rng)) {
+      for (const CellRect& zone : clear) EXPECT_FALSE(piece.Overlaps(zone)) << seed;
     }
   }
 }

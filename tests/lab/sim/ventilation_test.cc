@@ -33,14 +33,14 @@ TEST(VentilationTest, MostPlansCanBeVentilated) { EXPECT_GE(Draws().size(), 40u)
 TEST(VentilationTest, WindowsLieInTheOuterWallOfTheirRoom) {
   for (const Draw& draw : Draws()) {
     for (const Window& window : draw.air.windows) {
-      const UnitRect& floor = draw.plan.rooms[window.room].floor;
-      const UnitRect& zone = window.zone;
-      EXPECT_TRUE(zone.x0 >= floor.x0 && zone.x1 <= floor.x1);
-      EXPECT_TRUE(zone.y0 >= floor.y0 && zone.y1 <= floor.y1);
-      const bool outer = (window.side == Side::kWest && zone.x0 == 1) ||
-                         (window.side == Side::kEast && zone.x1 == draw.plan.width - 1) ||
-                         (window.side == Side::kSouth && zone.y0 == 1) ||
-                         (window.side == Side::kNorth && zone.y1 == draw.plan.height - 1);
+      const CellRect& floor = draw.plan.rooms[window.room].floor;
+      const CellRect& zone = window.zone;
+      EXPECT_TRUE(zone.min.x >= floor.min.x && zone.end.x <= floor.end.x);
+      EXPECT_TRUE(zone.min.y >= floor.min.y && zone.end.y <= floor.end.y);
+      const bool outer = (window.side == Side::kWest && zone.min.x == 1) ||
+                         (window.side == Side::kEast && zone.end.x == draw.plan.width - 1) ||
+                         (window.side == Side::kSouth && zone.min.y == 1) ||
+                         (window.side == Side::kNorth && zone.end.y == draw.plan.height - 1);
       EXPECT_TRUE(outer);
     }
   }

@@ -17,7 +17,7 @@ SceneSpec SmallRoom() {
   spec.name = "Small";
   spec.width_m = 4.0;
   spec.height_m = 3.0;
-  spec.obstacles = {{0.5, 1.0, 0.5, 0.5}};
+  spec.obstacles = {{{0.5, 1.0}, {1.0, 1.5}}};
   spec.clouds = {{{3.05, 1.55}, 20.0, 0.4}};
   spec.start = {1.55, 1.55};
   spec.goal = {3.55, 1.55};

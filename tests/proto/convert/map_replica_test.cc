@@ -24,7 +24,7 @@ v1::WatchMapResponse Full(std::int64_t revision, int width) {
   frame.set_kind(v1::WatchMapResponse::KIND_FULL);
   frame.set_revision(revision);
   *frame.mutable_tile_geometry() = ToProto(Yard(width));
-  *frame.add_tiles() = EncodeStates(AllFree(width), {{0, 0}, width, 2});
+  *frame.add_tiles() = EncodeStates(AllFree(width), {{0, 0}, {width, 2}});
   return frame;
 }
 
@@ -36,7 +36,7 @@ v1::WatchMapResponse Delta(std::int64_t base, std::int64_t revision, int width) 
   frame.set_revision(revision);
   Grid<CellState> states = AllFree(width);
   states[Cell{1, 1}] = CellState::kOccupied;
-  *frame.add_tiles() = EncodeStates(states, {{1, 1}, 1, 1});
+  *frame.add_tiles() = EncodeStates(states, {{1, 1}, {2, 2}});
   return frame;
 }
 
@@ -54,7 +54,7 @@ TEST(MapReplicaTest, ChangesAreOnTopOfTheWholeMap) {
   EXPECT_EQ(replica.map().revision, 5);
   EXPECT_EQ((replica.map().occupancy[Cell{1, 1}]), CellState::kOccupied);
   EXPECT_EQ((replica.map().occupancy[Cell{0, 1}]), CellState::kFree);
-  EXPECT_EQ(replica.TakeChanges(), (MapChanges{.rects = {{{1, 1}, 1, 1}}}));
+  EXPECT_EQ(replica.TakeChanges(), (MapChanges{.rects = {{{1, 1}, {2, 2}}}}));
   EXPECT_EQ(replica.TakeChanges(), MapChanges());
 }
 

@@ -100,7 +100,7 @@ TEST(RasterTest, MapWithoutCellsIsATileWithoutCells) {
 TEST(RasterTest, TileChangesItsRectangleOnly) {
   const Grid<CellState> states(kGeometry, CellState::kOccupied);
   Grid<CellState> back(kGeometry, CellState::kUnknown);
-  const CellRect rect{{64, 10}, 6, 5};
+  const auto rect = CellRect::Sized({64, 10}, 6, 5);
   ASSERT_TRUE(DecodeStates(EncodeStates(states, rect), "tile", back).ok());
   for (std::size_t i = 0; i < back.size(); ++i) {
     const Cell cell = kGeometry.CellAtIndex(i);
@@ -119,7 +119,7 @@ class BadTileTest : public testing::Test {
     return violations.empty() ? "" : violations[0].field;
   }
 
-  v1::MapTile tile_ = EncodeScaled(v1::MAP_LAYER_GAS_MEAN, RandomValues(), {{1, 2}, 8, 8});
+  v1::MapTile tile_ = EncodeScaled(v1::MAP_LAYER_GAS_MEAN, RandomValues(), {{1, 2}, {9, 10}});
 };
 
 TEST_F(BadTileTest, RectangleMustLieInTheRaster) {
@@ -160,7 +160,7 @@ TEST_F(BadTileTest, ScaleAndEncodingAreChecked) {
 
 TEST_F(BadTileTest, UnknownCellStateIsRefused) {
   Grid<CellState> states(kGeometry);
-  v1::MapTile tile = EncodeStates(states, {{0, 0}, 2, 2});
+  v1::MapTile tile = EncodeStates(states, {{0, 0}, {2, 2}});
   tile.set_deflated_data(Deflated(std::string("\x01\x02\x03\x00", 4)));
   EXPECT_TRUE(absl::IsInvalidArgument(DecodeStates(tile, "tile", states)));
   tile.set_encoding(v1::MapTile::ENCODING_F32);

@@ -115,7 +115,7 @@ TEST_F(LayerTilesTest, UnknownTileClearsWhatAReaderHolds) {
   map.occupancy = Grid<CellState>(geometry_, CellState::kFree);
   map.gas_mean_ppm = Grid<float>(geometry_, 1.0f);
   map.gas_variance_ppm2 = map.gas_mean_ppm;
-  const CellRect rect{{64, 64}, 36, 16};
+  const auto rect = CellRect::Sized({64, 64}, 36, 16);
   for (const v1::MapLayer layer :
        {v1::MAP_LAYER_OCCUPANCY, v1::MAP_LAYER_GAS_MEAN, v1::MAP_LAYER_GAS_VARIANCE}) {
     const v1::MapTile tile = Read({0, UnknownTile({layer, false, 0}, rect)});

@@ -41,11 +41,11 @@ TEST(LevelOfDetailTest, SquaresAreTheWorstAndTheLargestOfTheirCells) {
   for (int level = 0; level <= kMaxLevelOfDetail; ++level) {
     const GridGeometry squares = SquaresOf(map.states.geometry(), level);
     EXPECT_EQ(squares.resolution_m, 0.1 * (1 << level));
-    const CellRect rect{{squares.width / 2, 0}, squares.width - squares.width / 2, squares.height};
+    const CellRect rect{{squares.width / 2, 0}, {squares.width, squares.height}};
     const auto states = WorstStates(map.states, level, rect);
     const auto values = LargestValues(map.values, level, rect);
-    for (int y = 0; y < rect.height; ++y) {
-      for (int x = 0; x < rect.width; ++x) {
+    for (int y = 0; y < rect.height(); ++y) {
+      for (int x = 0; x < rect.width(); ++x) {
         const Oracle oracle = LookAt(map, level, {rect.min.x + x, rect.min.y + y});
         const CellState worst = oracle.occupied  ? CellState::kOccupied
                                 : oracle.unknown ? CellState::kUnknown
@@ -61,10 +61,8 @@ TEST(LevelOfDetailTest, SquaresAreTheWorstAndTheLargestOfTheirCells) {
 TEST(LevelOfDetailTest, SquaresAtTheBorderHoldTheCellsThatThereAre) {
   const GridGeometry cells{0.0, 0.0, 0.5, 9, 5};
   EXPECT_EQ(SquaresOf(cells, 2), (GridGeometry{0.0, 0.0, 2.0, 3, 2}));
-  const CellRect last = CellsOf({{2, 1}, 1, 1}, 2, cells);
-  EXPECT_EQ(last.min, (Cell{8, 4}));
-  EXPECT_EQ(last.width, 1);
-  EXPECT_EQ(last.height, 1);
+  const CellRect last = CellsOf({{2, 1}, {3, 2}}, 2, cells);
+  EXPECT_EQ(last, (CellRect{{8, 4}, {9, 5}}));
 }
 
 TEST(LevelOfDetailTest, MapWithoutCellsHasNoSquares) {
