@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // What a history takes, and what becomes of what is oldest when that is too much.
+#include "core/mission/way_history.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "core/mission/memory_estimate.h"
-#include "core/mission/way_history.h"
 #include "core/types/stop.h"
 
 namespace plumescout {

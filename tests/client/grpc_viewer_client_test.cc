@@ -19,8 +19,8 @@
 #include "client/grpc_planner_client.h"
 #include "plumescout/v1/robot_service.grpc.pb.h"
 #include "server/server.h"
-#include "server/store/memory_store.h"
 #include "tests/client/ingest_traffic.h"
+#include "tests/support/memory_store.h"
 
 namespace plumescout::client {
 namespace grpc_viewer_client_test {

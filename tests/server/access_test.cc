@@ -11,10 +11,10 @@
 #include "plumescout/v1/snapshot_service.grpc.pb.h"
 #include "plumescout/v1/system_service.grpc.pb.h"
 #include "server/access/rpc.h"
-#include "server/store/memory_store.h"
 #include "tests/server/access_fixture.h"
 #include "tests/server/await_metric.h"
 #include "tests/server/held_store.h"
+#include "tests/support/memory_store.h"
 
 namespace plumescout::server {
 namespace access_test {

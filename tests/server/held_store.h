@@ -14,7 +14,7 @@
 #include "absl/status/status.h"
 #include "absl/strings/string_view.h"
 #include "absl/synchronization/mutex.h"
-#include "server/store/memory_store.h"
+#include "tests/support/memory_store.h"
 
 namespace plumescout::server {
 

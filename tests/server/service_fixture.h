@@ -21,9 +21,9 @@
 #include "plumescout/v1/system_service.grpc.pb.h"
 #include "proto/convert/observation.h"
 #include "server/server.h"
-#include "server/store/memory_store.h"
 #include "tests/server/service_clients.h"
 #include "tests/support/box_room.h"
+#include "tests/support/memory_store.h"
 
 namespace plumescout::server {
 

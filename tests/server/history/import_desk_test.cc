@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "server/store/memory_store.h"
 #include "tests/server/service_clients.h"
+#include "tests/support/memory_store.h"
 
 namespace plumescout::server {
 namespace import_desk_test {

@@ -11,8 +11,8 @@
 #include "absl/synchronization/mutex.h"
 #include "absl/synchronization/notification.h"
 #include "server/maps/wire_message.h"
-#include "server/store/memory_store.h"
 #include "tests/server/history/past_run.h"
+#include "tests/support/memory_store.h"
 
 namespace plumescout::server {
 namespace map_replay_test {

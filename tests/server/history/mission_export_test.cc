@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "formats/mcap/mcap_journal.h"
-#include "server/store/memory_store.h"
 #include "tests/server/history/exported_file.h"
 #include "tests/server/history/past_run.h"
+#include "tests/support/memory_store.h"
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::server {

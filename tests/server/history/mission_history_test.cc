@@ -7,10 +7,10 @@
 
 #include <vector>
 
-#include "server/store/memory_store.h"
 #include "tests/server/history/past_run.h"
 #include "tests/server/service_clients.h"
 #include "tests/server/store/store_work.h"
+#include "tests/support/memory_store.h"
 
 namespace plumescout::server {
 namespace mission_history_test {

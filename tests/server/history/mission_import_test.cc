@@ -9,9 +9,9 @@
 
 #include "core/types/error_reason.h"
 #include "server/history/import_desk.h"
-#include "server/store/memory_store.h"
 #include "tests/server/history/exported_file.h"
 #include "tests/server/history/past_run.h"
+#include "tests/support/memory_store.h"
 
 namespace plumescout::server {
 namespace mission_import_test {

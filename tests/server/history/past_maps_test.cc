@@ -8,8 +8,8 @@
 #include "server/maps/map_feed.h"
 #include "server/maps/map_store.h"
 #include "server/maps/wire_message.h"
-#include "server/store/memory_store.h"
 #include "tests/server/history/past_run.h"
+#include "tests/support/memory_store.h"
 
 namespace plumescout::server {
 namespace past_maps_test {

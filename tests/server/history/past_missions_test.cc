@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "server/store/memory_store.h"
 #include "tests/server/history/past_run.h"
+#include "tests/support/memory_store.h"
 
 namespace plumescout::server {
 namespace past_missions_test {

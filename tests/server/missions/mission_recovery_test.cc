@@ -13,9 +13,9 @@
 
 #include "absl/synchronization/notification.h"
 #include "server/missions/mission_snapshot.h"
-#include "server/store/memory_store.h"
 #include "tests/server/store/store_work.h"
 #include "tests/server/stored_run.h"
+#include "tests/support/memory_store.h"
 
 namespace plumescout::server {
 namespace mission_recovery_test {

@@ -13,8 +13,8 @@
 #include "absl/strings/str_cat.h"
 #include "absl/synchronization/notification.h"
 #include "core/types/error_reason.h"
-#include "server/store/memory_store.h"
 #include "tests/server/host_parts.h"
+#include "tests/support/memory_store.h"
 
 namespace plumescout::server {
 namespace mission_registry_test {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "absl/synchronization/notification.h"
-#include "server/store/memory_store.h"
 #include "tests/server/stored_run.h"
+#include "tests/support/memory_store.h"
 
 namespace plumescout::server {
 namespace mission_snapshot_test {

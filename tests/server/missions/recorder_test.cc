@@ -13,10 +13,10 @@
 #include "formats/view/mission_mcap.h"
 #include "server/missions/mission_maker.h"
 #include "server/missions/mission_recovery.h"
-#include "server/store/memory_store.h"
 #include "tests/server/host_parts.h"
 #include "tests/server/missions/recorded_files.h"
 #include "tests/server/stored_run.h"
+#include "tests/support/memory_store.h"
 
 namespace plumescout::server {
 namespace recorder_test {

@@ -12,10 +12,10 @@
 
 #include "core/types/error_reason.h"
 #include "server/open_store.h"
-#include "server/store/memory_store.h"
 #include "server/store/sqlite_store.h"
 #include "tests/server/store/store_work.h"
 #include "tests/support/faulty_disk.h"
+#include "tests/support/memory_store.h"
 #include "tests/support/postgres_server.h"
 #include "tests/support/temp_folder.h"
 

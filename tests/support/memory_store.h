@@ -11,10 +11,10 @@
 
 namespace plumescout::server {
 
-// Keeps missions as long as it lives: for servers without a folder, and for tests.
+// Keeps missions as long as it lives.
 class MemoryStore final : public CommittedStore {
  public:
-  // `is_durable`: what it says of itself. Tests of what outlives a server keep the store instead.
+  // `is_durable`: what it says of itself. Tests of what outlives a server keep the store.
   explicit MemoryStore(bool is_durable = false);
 
   absl::StatusOr<std::unique_ptr<JournalReader>> Read(const std::string& key,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "server/store/memory_store.h"
+#include "tests/support/memory_store.h"
 
 #include <algorithm>
 #include <cstddef>
