@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// What most sources include, read once for all of them. Sources name their own includes still: the
-// clang builds compile without this file.
+// What most sources include, read once for all of them. Sources name their own includes still:
+// tests/architecture looks at headers, and scripts/thread_safety reads sources without this file.
 #include <algorithm>
 #include <array>
 #include <cmath>

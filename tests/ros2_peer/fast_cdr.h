@@ -7,6 +7,7 @@
 #include <fastcdr/FastBuffer.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <type_traits>

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "core/linalg/symmetric_matrix.h"
