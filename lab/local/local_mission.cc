@@ -3,10 +3,10 @@
 #include "lab/local/local_mission.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <optional>
 #include <utility>
 
+#include "core/mission/conduct/clock_offset.h"
 #include "core/mission/conduct/commit_race.h"
 #include "core/mission/conduct/ingest.h"
 #include "core/plan/team/assigned_plan.h"
@@ -87,8 +87,8 @@ absl::Status LocalMission::NoteClock(const RobotId& robot, std::int64_t lease_to
   PLUMESCOUT_RETURN_IF_ERROR(closed_);
   PLUMESCOUT_RETURN_IF_ERROR(leases_.Check(robot, lease_token));
   PLUMESCOUT_ASSIGN_OR_RETURN(const RobotState state, conduct_.mission().StateOf(robot));
-  if (std::abs(offset_ns - state.clock_offset_ns) <= kClockTolerance_ns) return absl::OkStatus();
-  return conduct_.NoteClock({robot, offset_ns}, lease_token);
+  return conduct_.NoteClock({robot, SettledOffset_ns(offset_ns, state.clock_offset_ns)},
+                            lease_token);
 }
 
 void LocalMission::CloseStream(const RobotId& robot, StreamId stream) {
@@ -191,9 +191,11 @@ absl::StatusOr<RobotNews> LocalMission::NewsOf(const RobotId& robot, std::int64_
   PLUMESCOUT_RETURN_IF_ERROR(closed_);
   PLUMESCOUT_RETURN_IF_ERROR(leases_.Check(robot, lease_token));
   LookAtPlans();
-  RobotNews news = news_[robot];
-  news.revision = conduct_.mission().revision();
-  if (!news.standing) news.standing.emplace();
+  PlanNews plan = news_.PlanNewsOf(robot);
+  RobotNews news{.revision = conduct_.mission().revision(),
+                 .standing = news_.StandingOf(robot),
+                 .invalidated = std::move(plan.invalidated),
+                 .assigned = plan.assigned};
   news.standing->leased = true;
   return news;
 }
@@ -209,24 +211,12 @@ bool LocalMission::AwaitChange(std::int64_t revision, absl::Time deadline,
 
 void LocalMission::LookAtPlans() {
   const std::int64_t now_ns = conduct_.mission().sample_time_ns();
-  const bool due =
-      !looked_at_ns_ || static_cast<double>(now_ns - *looked_at_ns_) * 1e-9 >= kLookPeriod_s;
-  if (!due) return;
-  looked_at_ns_ = now_ns;
+  if (now_ns < news_.next_look_ns()) return;
+  news_.NoteLook(now_ns);
   const std::shared_ptr<const Belief> belief = conduct_.Snapshot();
-  for (const auto& [robot, record] : belief->robots) {
-    RobotNews& news = news_[robot];
-    const RobotState& state = record.state;
-    news.standing = RobotStanding{.ordered_home = state.ordered_home,
-                                  .frame_suspect = state.frame_suspect,
-                                  .silent = state.silent};
-    if (news.invalidated && news.invalidated->plan != record.last_plan) news.invalidated.reset();
-    if (news.assigned && news.assigned->plan != record.last_plan) news.assigned.reset();
-  }
-  for (PlanWatch::News& told : plan_watch_.Look(*belief)) {
-    RobotNews& news = news_[told.robot];
-    if (auto* one = std::get_if<PlanInvalidated>(&told.notice)) news.invalidated = std::move(*one);
-    if (auto* one = std::get_if<PlanAssigned>(&told.notice)) news.assigned = *one;
+  news_.Follow(*belief);
+  for (const PlanWatch::News& told : plan_watch_.Look(*belief)) {
+    news_.Note(told.robot, told.notice);
   }
 }
 

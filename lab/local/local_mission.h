@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -21,6 +20,7 @@
 #include "core/mission/conduct/conduct_observer.h"
 #include "core/mission/conduct/lease_book.h"
 #include "core/mission/conduct/mission_conduct.h"
+#include "core/mission/conduct/robot_news_book.h"
 #include "core/mission/conduct/team_commit.h"
 #include "core/mission/mission.h"
 #include "core/plan/paths/path_planners.h"
@@ -85,9 +85,7 @@ class LocalMission final : private ConductObserver {
                               absl::Duration timeout);
 
   // A batch of the robot is sent when its clock says `sent_ns`. Nothing comes between in this
-  // process, so the difference to the mission's clock is how far the robot's is off; a change of
-  // up to kClockTolerance_ns, as servers have it, is none.
-  static constexpr std::int64_t kClockTolerance_ns = 20'000'000;
+  // process, so the difference to the mission's clock is how far the robot's is off.
   absl::Status NoteClock(const RobotId& robot, std::int64_t lease_token, std::int64_t sent_ns);
 
   // Applies a batch in order; observations that the mission refuses are added to `rejected`.
@@ -99,8 +97,8 @@ class LocalMission final : private ConductObserver {
   // For robots that are free, or named; they fetch it as their next plan. `budget` 0: the default.
   absl::StatusOr<CommittedTeam> PlanForTeam(const TeamRequest& request, absl::Duration budget);
   absl::Status Report(const ProgressReported& report, std::int64_t lease_token);
-  // Looks at the live plans first, if they were not for kLookPeriod_s of sample time. The lease has
-  // to be in force.
+  // Looks at the live plans first, if that is due by the mission's sample time. The lease has to be
+  // in force.
   absl::StatusOr<RobotNews> NewsOf(const RobotId& robot, std::int64_t lease_token);
   // Waits until the mission has another revision, has ended or is woken with `cancelled` set; false
   // after the deadline.
@@ -114,8 +112,6 @@ class LocalMission final : private ConductObserver {
   void Close(const absl::Status& status);
 
  private:
-  static constexpr double kLookPeriod_s = 0.5;
-
   void LookAtPlans() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void OnEvent(const Event& event, const Applied& applied) override;
 
@@ -136,8 +132,7 @@ class LocalMission final : private ConductObserver {
   LeaseBook leases_ ABSL_GUARDED_BY(mutex_);
   absl::Status closed_ ABSL_GUARDED_BY(mutex_);  // OK: it is open
   PlanWatch plan_watch_ ABSL_GUARDED_BY(mutex_);
-  std::optional<std::int64_t> looked_at_ns_ ABSL_GUARDED_BY(mutex_);  // in sample time
-  std::map<RobotId, RobotNews> news_ ABSL_GUARDED_BY(mutex_);         // but for revision and lease
+  RobotNewsBook news_ ABSL_GUARDED_BY(mutex_);
 };
 
 }  // namespace plumescout::lab

@@ -24,10 +24,6 @@ namespace plumescout::server {
 // far as it makes the offset less. Costs O(1) memory and time. Thread-compatible.
 class ClockEstimator {
  public:
-  // With less between them, offsets count as the same. Far more than the shortest delay of a link
-  // varies by, far less than samples of the gas field differ by in age.
-  static constexpr std::int64_t kTolerance_ns = 20'000'000;
-
   // Delays vary by less, and so do clocks that nobody sets.
   static constexpr std::int64_t kStep_ns = 1'000'000'000;
 

@@ -8,6 +8,8 @@
 #include <iterator>
 #include <variant>
 
+#include "core/mission/conduct/clock_offset.h"
+
 namespace plumescout::server {
 
 RobotClocks::Reckoning RobotClocks::Reckon(const RobotId& robot, const BatchTimes& times,
@@ -20,11 +22,11 @@ RobotClocks::Reckoning RobotClocks::Reckon(const RobotId& robot, const BatchTime
   ClockEstimator& estimator = estimators_[robot];
   const std::int64_t estimate_ns =
       estimator.Note(times.sent_ns, times.arrived_ns, times.at_the_latest);
-  const std::int64_t change_ns = std::abs(estimate_ns - in_force_ns);
-  if (change_ns <= ClockEstimator::kTolerance_ns) return {in_force_ns, false};
+  const std::int64_t settled_ns = SettledOffset_ns(estimate_ns, in_force_ns);
+  const std::int64_t change_ns = std::abs(settled_ns - in_force_ns);
   const bool was_set =
       is_known && change_ns > ClockEstimator::kStep_ns && !estimator.lowered_itself();
-  return {estimate_ns, was_set};
+  return {settled_ns, was_set};
 }
 
 void RobotClocks::NoteBatch(const RobotId& robot, const LinkTimes& link) {

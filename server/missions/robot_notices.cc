@@ -3,7 +3,9 @@
 #include "server/missions/robot_notices.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
+#include <variant>
 
 #include "absl/strings/str_cat.h"
 #include "core/mission/conduct/conduct_errors.h"
@@ -21,22 +23,18 @@ absl::Status RobotNotices::Join(const std::shared_ptr<RobotWatcher>& watcher, co
                                 std::optional<std::int64_t> lease_token, Submit submit,
                                 const Belief& belief, const LeaseTable& leases,
                                 MissionState state) {
-  const auto found = belief.robots.find(robot);
-  if (found == belief.robots.end()) return RobotNotFound(robot);
+  if (belief.robots.count(robot) == 0) return RobotNotFound(robot);
   if (lease_token) PLUMESCOUT_RETURN_IF_ERROR(leases.Check(robot, *lease_token));
   absl::MutexLock lock(&mutex_);
   PLUMESCOUT_RETURN_IF_ERROR(CheckRoom(robot, lease_token.has_value()));
   state_ = state;
-  robots_[robot] = found->second.state;
+  book_.Follow(belief);
   leased_[robot] = leases.Standing(robot).held;
   Place place{watcher, robot, lease_token, std::move(submit), {}};
   place.standing = StandingOf(place);
-  ForgetEnded(belief);
-  const auto latest = latest_.find(robot);
-  if (latest != latest_.end()) {
-    place.invalidated = latest->second.invalidated;
-    place.assigned = latest->second.assigned;
-  }
+  PlanNews plan = book_.PlanNewsOf(robot);
+  place.invalidated = std::move(plan.invalidated);
+  place.assigned = plan.assigned;
   places_[watcher.get()] = std::move(place);
   return absl::OkStatus();
 }
@@ -110,7 +108,7 @@ SteadyTime RobotNotices::next_follow(const LeaseTable& leases, SteadyTime now) c
 SteadyTime RobotNotices::next_look(std::int64_t revision) const {
   absl::MutexLock lock(&mutex_);
   const bool idle = places_.empty() || revision == looked_at_;
-  return idle ? SteadyTime::max() : next_look_;
+  return idle ? SteadyTime::max() : SteadyTime(std::chrono::nanoseconds(book_.next_look_ns()));
 }
 
 void RobotNotices::Look(BeliefPtr belief, SteadyTime now) {
@@ -118,11 +116,9 @@ void RobotNotices::Look(BeliefPtr belief, SteadyTime now) {
   {
     absl::MutexLock lock(&mutex_);
     if (places_.empty()) return;
-    next_look_ = After(now, kLookPeriod);
-    robots_.clear();
-    for (const auto& [robot, record] : belief->robots) robots_[robot] = record.state;
+    book_.NoteLook(ToNanoseconds(now));
+    book_.Follow(*belief);
     UpdateStandings(woken);
-    ForgetEnded(*belief);
     if (!is_looking_) {
       const Submit& submit = places_.begin()->second.submit;
       is_looking_ = submit([self = shared_from_this(), belief] { self->LookAtPlans(belief); }).ok();
@@ -146,12 +142,8 @@ void RobotNotices::Tell(const std::vector<PlanWatch::News>& news) {
     for (const PlanWatch::News& one : news) {
       const auto* invalidated = std::get_if<PlanInvalidated>(&one.notice);
       const auto* assigned = std::get_if<PlanAssigned>(&one.notice);
-      Latest& latest = latest_[one.robot];
-      if (invalidated != nullptr) {
-        metrics_.NotePlanInvalidated(invalidated->reason);
-        latest.invalidated = *invalidated;
-      }
-      if (assigned != nullptr) latest.assigned = *assigned;
+      if (invalidated != nullptr) metrics_.NotePlanInvalidated(invalidated->reason);
+      book_.Note(one.robot, one.notice);
       for (auto& [key, place] : places_) {
         if (place.robot != one.robot) continue;
         if (invalidated != nullptr) place.invalidated = *invalidated;
@@ -164,15 +156,11 @@ void RobotNotices::Tell(const std::vector<PlanWatch::News>& news) {
 }
 
 RobotStanding RobotNotices::StandingOf(const Place& place) const {
-  RobotStanding standing{.paused = state_ == MissionState::kPaused,
-                         .finished = state_ == MissionState::kFinished};
+  RobotStanding standing = book_.StandingOf(place.robot);
+  standing.paused = state_ == MissionState::kPaused;
+  standing.finished = state_ == MissionState::kFinished;
   const auto leased = leased_.find(place.robot);
   standing.leased = leased != leased_.end() && leased->second;
-  const auto found = robots_.find(place.robot);
-  if (found == robots_.end()) return standing;
-  standing.ordered_home = found->second.ordered_home;
-  standing.frame_suspect = found->second.frame_suspect;
-  standing.silent = found->second.silent;
   return standing;
 }
 
@@ -183,15 +171,6 @@ void RobotNotices::UpdateStandings(Woken& woken) {
     place.standing = standing;
     place.standing_is_news = true;
     if (auto watcher = place.watcher.lock()) woken.push_back(std::move(watcher));
-  }
-}
-
-void RobotNotices::ForgetEnded(const Belief& belief) {
-  std::erase_if(latest_, [&](const auto& entry) { return belief.robots.count(entry.first) == 0; });
-  for (auto& [robot, latest] : latest_) {
-    const PlanId plan = belief.robots.at(robot).last_plan;
-    if (latest.invalidated && latest.invalidated->plan != plan) latest.invalidated.reset();
-    if (latest.assigned && latest.assigned->plan != plan) latest.assigned.reset();
   }
 }
 

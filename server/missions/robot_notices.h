@@ -16,6 +16,7 @@
 #include "absl/synchronization/mutex.h"
 #include "absl/time/time.h"
 #include "core/belief/belief.h"
+#include "core/mission/conduct/robot_news_book.h"
 #include "core/plan/plan_watch.h"
 #include "core/types/robot_notice.h"
 #include "server/base/clock.h"
@@ -46,7 +47,7 @@ class RobotNotices : public std::enable_shared_from_this<RobotNotices> {
   // Has a task run on a pool; an error if that is full. Must not block.
   using Submit = std::function<absl::Status(std::function<void()>)>;
   // Between looks at the plans.
-  static constexpr absl::Duration kLookPeriod = absl::Milliseconds(500);
+  static constexpr absl::Duration kLookPeriod = absl::Nanoseconds(RobotNewsBook::kLookPeriod_ns);
 
   // `metrics` is not owned and outlives the last look. `max_per_robot`: watchers that come with its
   // lease; as many may come without.
@@ -92,20 +93,12 @@ class RobotNotices : public std::enable_shared_from_this<RobotNotices> {
     std::optional<PlanAssigned> assigned = std::nullopt;
   };
   using Woken = std::vector<std::shared_ptr<RobotWatcher>>;
-  // Of a robot, for those who come later.
-  struct Latest {
-    std::optional<PlanInvalidated> invalidated;
-    std::optional<PlanAssigned> assigned;
-  };
 
   RobotStanding StandingOf(const Place& place) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   // Brings the places' standings up to date; adds those to whom that is news.
   void UpdateStandings(Woken& woken) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void LookAtPlans(const BeliefPtr& belief) ABSL_LOCKS_EXCLUDED(mutex_);
   void Tell(const std::vector<PlanWatch::News>& news) ABSL_LOCKS_EXCLUDED(mutex_);
-  // Forgets of plans that are not the robots' latest.
-  void ForgetEnded(const Belief& belief) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-
   absl::Status CheckRoom(const RobotId& robot, bool has_lease) const
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
 
@@ -114,12 +107,10 @@ class RobotNotices : public std::enable_shared_from_this<RobotNotices> {
 
   mutable absl::Mutex mutex_;
   std::map<const RobotWatcher*, Place> places_ ABSL_GUARDED_BY(mutex_);
-  std::map<RobotId, RobotState> robots_ ABSL_GUARDED_BY(mutex_);  // as last seen
+  RobotNewsBook book_ ABSL_GUARDED_BY(mutex_);  // for those who come later, too
   std::map<RobotId, bool> leased_ ABSL_GUARDED_BY(mutex_);
   MissionState state_ ABSL_GUARDED_BY(mutex_) = MissionState::kRunning;
-  std::map<RobotId, Latest> latest_ ABSL_GUARDED_BY(mutex_);
   std::int64_t looked_at_ ABSL_GUARDED_BY(mutex_) = 0;  // the revision of the last look
-  SteadyTime next_look_ ABSL_GUARDED_BY(mutex_);
   bool is_looking_ ABSL_GUARDED_BY(mutex_) = false;
 
   PlanWatch plan_watch_;  // of the look that is under way

@@ -13,7 +13,6 @@
 #include "absl/strings/str_cat.h"
 #include "absl/time/clock.h"
 #include "client/error_reason.h"
-#include "server/missions/clock_estimator.h"
 #include "tests/client/ingest_traffic.h"
 #include "tests/support/room_run.h"
 #include "tests/support/scripted_strategy.h"
@@ -56,9 +55,6 @@ class LocalMissionTest : public ::testing::Test {
   absl::Time now_ = absl::FromUnixSeconds(1'700'000'000);
   std::shared_ptr<LocalMission> mission_;
 };
-
-static_assert(LocalMission::kClockTolerance_ns == server::ClockEstimator::kTolerance_ns,
-              "clocks are as right here as they are for servers");
 
 TEST_F(LocalMissionTest, BadOptionsMakeNoMission) {
   MissionOptions options;
