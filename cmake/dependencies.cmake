@@ -22,9 +22,11 @@ find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
 find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
 find_library(GLPK_LIBRARY glpk REQUIRED)
 find_path(GLPK_INCLUDE_DIR glpk.h REQUIRED)
-# Not find_package(ompl): Debian's asks for Boost libraries that its package does not pull in.
-find_library(OMPL_LIBRARY ompl REQUIRED)
-find_path(OMPL_INCLUDE_DIR ompl/config.h PATH_SUFFIXES ompl-1.5 REQUIRED)
+if(PLUMESCOUT_BUILD_LAB OR PLUMESCOUT_SERVER_OMPL)
+  # Not find_package(ompl): Debian's asks for Boost libraries that its package does not pull in.
+  find_library(OMPL_LIBRARY ompl REQUIRED)
+  find_path(OMPL_INCLUDE_DIR ompl/config.h PATH_SUFFIXES ompl-1.5 REQUIRED)
+endif()
 if(PLUMESCOUT_ROS2)
   find_package(CycloneDDS CONFIG)  # without it plumescout-ros2 is left out
 endif()

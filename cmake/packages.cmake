@@ -1,7 +1,10 @@
 # What scripts/packages makes .deb packages of. It puts what a component has besides its programs
 # (manuals, completions, pages, notices) in packages/COMPONENT of the build folder, by the paths that
 # they have below /usr.
-set(PLUMESCOUT_PACKAGED server robot client lab python)
+set(PLUMESCOUT_PACKAGED server robot client python)
+if(PLUMESCOUT_BUILD_LAB)
+  list(APPEND PLUMESCOUT_PACKAGED lab)
+endif()
 if(TARGET plumescout-ros2)
   list(APPEND PLUMESCOUT_PACKAGED ros2)
 endif()

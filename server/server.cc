@@ -214,10 +214,7 @@ Server::Server(Private, const ServerConfig& config, RegistryHooks hooks,
 
 absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerConfig& config,
                                                       RegistryHooks hooks, ServerEvents events) {
-  if (config.planning.rivals && !HasRivals()) {
-    return absl::InvalidArgumentError(
-        "planning.rivals = true needs a server that is built with OMPL");
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(CheckRivals(config.planning.rivals));
   PLUMESCOUT_ASSIGN_OR_RETURN(auto authenticator,
                               Authenticator::Make(config.access, IsServedLocally(config)));
   if (!config.record.folder.empty()) {

@@ -19,6 +19,12 @@ const PathPlannerFactory kRivals = nullptr;
 
 bool HasRivals() { return kRivals != nullptr; }
 
+absl::Status CheckRivals(bool are_on, bool has_rivals) {
+  if (!are_on || has_rivals) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      "planning.rivals = true needs a server that is built with OMPL");
+}
+
 absl::StatusOr<std::unique_ptr<const Strategy>> MakeMissionStrategy(const PlanningOptions& options,
                                                                     Rivals rivals) {
   return MakeStrategy(options, rivals == Rivals::kOn ? kRivals : nullptr);

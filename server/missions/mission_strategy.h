@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/plan/strategy.h"
 #include "core/types/options.h"
@@ -16,6 +17,9 @@ enum class Rivals { kOff, kOn };
 
 // Whether this server was built with them (CMake's PLUMESCOUT_SERVER_OMPL).
 bool HasRivals();
+
+// Whether a server with or without them can be configured so; kInvalidArgument names the option.
+absl::Status CheckRivals(bool are_on, bool has_rivals = HasRivals());
 
 // The strategy of a mission with these options. kInvalidArgument if there is none of that name, or
 // its paths are a rival's and those are off. REQUIRES: Validate(options).ok(); HasRivals() if `on`.

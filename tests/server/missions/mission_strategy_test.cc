@@ -27,6 +27,14 @@ TEST(MissionStrategy, RivalsAreMadeWhereTheyAreOnOnly) {
   }
 }
 
+TEST(MissionStrategy, AServerThatIsBuiltWithoutRivalsCannotOfferThem) {
+  EXPECT_TRUE(CheckRivals(true, true).ok());
+  EXPECT_TRUE(CheckRivals(false, false).ok());
+  const absl::Status refused = CheckRivals(true, false);
+  EXPECT_TRUE(absl::IsInvalidArgument(refused));
+  EXPECT_THAT(std::string(refused.message()), HasSubstr("planning.rivals = true"));
+}
+
 TEST(MissionStrategy, OursIsMadeEitherWay) {
   PlanningOptions options;
   ASSERT_TRUE(ApplyStrategyRow(options).ok());

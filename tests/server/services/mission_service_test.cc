@@ -14,12 +14,14 @@
 #include "absl/synchronization/notification.h"
 #include "proto/convert/map.h"
 #include "proto/convert/options.h"
+#include "server/missions/mission_strategy.h"
 #include "tests/server/service_fixture.h"
 
 namespace plumescout::server {
 namespace mission_service_test {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 constexpr auto kNotFound = absl::StatusCode::kNotFound;
@@ -345,6 +347,16 @@ TEST_F(MissionServiceTest, PlannersThatHoldAThreadForLongAreForServersThatAllowT
   EXPECT_TRUE(absl::IsInvalidArgument(CreateMission("attic", options).status()));
   options.mutable_planning()->set_paths(v1::PATH_KIND_XIT);
   EXPECT_TRUE(CreateMission("attic", options).ok());
+
+  v1::MissionOptions baseline;
+  baseline.mutable_planning()->set_strategy("rrt_star_frontier");
+  const absl::Status refused = CreateMission("yard", baseline).status();
+  EXPECT_TRUE(absl::IsInvalidArgument(refused)) << refused;
+  EXPECT_THAT(std::string(refused.message()), HasSubstr("planning.paths"));
+  ServerConfig config;
+  config.planning.rivals = HasRivals();
+  StartServer(config);
+  EXPECT_EQ(CreateMission("yard", baseline).ok(), HasRivals());
 }
 
 }  // namespace mission_service_test
