@@ -53,6 +53,9 @@ std::vector<RegisteredPlanner> PlannerRegistry() {
   planners.push_back({"xit_300_published", std::make_unique<const XitPlanner>(AsPublished(300))});
   planners.push_back({"mit_270", std::make_unique<const XitPlanner>(Mit()), Mit().cost});
   planners.push_back(Ours("xit_300", PathKind::kXit, 300));
+  PlanningOptions tree_only;
+  tree_only.sample_count = 300;
+  planners.push_back({"xit_300_tree_only", std::make_unique<const XitPlanner>(tree_only)});
   planners.push_back(Ours("xit_1000", PathKind::kXit, 1000));
   planners.push_back(Ours("grid_exact", PathKind::kGridExact, 1));
   planners.push_back(Ours("anytime_xit", PathKind::kAnytimeXit, 1));

@@ -19,10 +19,10 @@ struct RegisteredPlanner {
   bool is_rival = false;           // of another library
 };
 
-// Every planner there is, to be run on the same work. Ours: XIT as published and as we drive it,
-// MIT's search, the exact grid search, and anytime XIT until it gains no more. Rivals: those of
-// ompl_planners with budgets from a first path to the quality of the grid's optimum; the number is
-// that of samples.
+// Every planner there is, to be run on the same work. Ours: XIT as published, as we drive it, and
+// its tree alone, MIT's search, the exact grid search, and anytime XIT until it gains no more.
+// Rivals: those of ompl_planners with budgets from a first path to the quality of the grid's
+// optimum; the number is that of samples.
 std::vector<RegisteredPlanner> PlannerRegistry();
 
 }  // namespace plumescout::lab

@@ -22,8 +22,8 @@ TEST(PlannerRegistry, NamesEveryRowOnce) {
   }
   EXPECT_EQ(names.size(), planners.size());
   for (const char* name :
-       {"xit_300_published", "mit_270", "xit_300", "grid_exact", "anytime_xit", "rrt_1000",
-        "rrt_star_1000", "informed_rrt_star_1000", "bit_star_1000", "prm_star_1000"}) {
+       {"xit_300_published", "mit_270", "xit_300", "xit_300_tree_only", "grid_exact", "anytime_xit",
+        "rrt_1000", "rrt_star_1000", "informed_rrt_star_1000", "bit_star_1000", "prm_star_1000"}) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
 }
