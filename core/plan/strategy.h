@@ -56,8 +56,10 @@ std::vector<std::string> StrategyNames();
 // Whether the row of this name has robots stop at sites and sample.
 bool StopsAtSites(const std::string& strategy);
 
-// Sets the parts of `options` that the row `options.strategy` fixes (goals, cost, ...).
-// kInvalidArgument for an unknown name.
+// Sets the parts of `options` that the row `options.strategy` fixes (goals, cost, ...). That does
+// not make the search of "xit_..." and "mit" the published one: what we add to it, such as the
+// limit of the connection radius, is left as it is, and whoever compares with the papers turns it
+// off (lab/trials/trial_study.h, MakePublishedRow). kInvalidArgument for an unknown name.
 absl::Status ApplyStrategyRow(PlanningOptions& options);
 
 // Whether the strategy never has a site sampled twice.
