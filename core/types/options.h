@@ -172,8 +172,8 @@ struct PlanningOptions {
   // area, for nearly every such edge of a cluttered map is blocked; 0: no limit (paper); [0, 1000].
   double max_connection_radius_m = 5.0;
   bool grid_guard = true;  // complete missed goals on the grid
-  // Goal cells are vertices, where paths end (ours); false: paths end at the sample of the goal set
-  // that is the cheapest to reach (paper).
+  // Goal cells are vertices, where paths end (ours); false: paths end at that of the goal's
+  // neighbours that is the cheapest to reach (paper).
   bool goal_vertices = true;
   // Search guided by [XIT] section IV-C's UCB-aware h-hat in place of the admissible distance.
   bool informed_heuristic = false;

@@ -13,7 +13,7 @@
 namespace plumescout::lab {
 namespace {
 
-// As published: independent samples, paths that end at the goal sets, nothing added.
+// As published: independent samples, paths that end at neighbours of goals, nothing added.
 PlanningOptions AsPublished(int samples) {
   PlanningOptions options;
   options.sample_count = samples;

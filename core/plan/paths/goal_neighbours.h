@@ -11,9 +11,9 @@
 namespace plumescout {
 
 // The goal sets of [XIT] Alg. 1 lines 3-5. Ours: a goal's own cell is a vertex of the graph and
-// every path ends there, not at a sample somewhere near the frontier. The k_n nearest samples make
-// the set by an edge to that vertex, however long; a sample that does not see the goal's cell is
-// out of the set because such an edge is blocked.
+// every path ends there, not at a sample somewhere near the frontier. The k_n nearest samples, its
+// neighbours, have an edge to that vertex, however long; one that does not see the goal's cell does
+// not count because its edge is blocked.
 class GoalNeighbours {
  public:
   // `points` holds the samples first, `sample_count` of them. `goal_vertices` index into `points`.

@@ -20,9 +20,9 @@ constexpr int kNotOpen = -1;
 
 // The implicit random geometric graph: samples, goal cells and the root, with their neighbours.
 struct Graph {
-  std::vector<Point2> points;      // samples, then goal cells that are no sample, then the root
-  std::vector<int> goal_vertices;  // by goal; none if goal cells are no vertices
-  std::vector<std::vector<int>> goal_sets;  // by goal: vertices that solve it
+  std::vector<Point2> points;          // samples, then goal cells that are no sample, then the root
+  std::vector<int> goal_vertices;      // by goal; none if goal cells are no vertices
+  std::vector<std::vector<int>> ends;  // by goal: where a path to it may end
   int sample_count = 0;
 
   int root() const { return static_cast<int>(points.size()) - 1; }
@@ -40,7 +40,7 @@ Graph MakeGraph(const PathProblem& problem, const PlanningOptions& options) {
     for (const Goal& goal : problem.goals) {  // line 2
       const auto known = std::find(cells.begin(), cells.end(), goal.cell);
       graph.goal_vertices.push_back(static_cast<int>(known - cells.begin()));
-      graph.goal_sets.push_back({graph.goal_vertices.back()});
+      graph.ends.push_back({graph.goal_vertices.back()});
       if (known == cells.end()) cells.push_back(goal.cell);
     }
   }
@@ -48,7 +48,7 @@ Graph MakeGraph(const PathProblem& problem, const PlanningOptions& options) {
   for (const Cell cell : cells) graph.points.push_back(problem.cost.geometry().Center(cell));
   if (!options.goal_vertices) {
     for (const Goal& goal : problem.goals) {  // lines 3-5
-      graph.goal_sets.push_back(
+      graph.ends.push_back(
           NearestSamples(graph.points, goal.position, options.nearest_sample_count));
     }
   }
@@ -77,14 +77,14 @@ class XitSearch {
         parent_(graph_.points.size(), kNoParent),
         taken_(graph_.points.size(), 0),
         place_in_open_(graph_.points.size(), kNotOpen),
-        heuristics_(graph_.points.size() * graph_.goal_sets.size(), 0.0) {
+        heuristics_(graph_.points.size() * graph_.ends.size(), 0.0) {
     Reach(graph_.root(), kNoParent, 0.0);  // line 6
   }
 
   PathResult Run() {
     PathResult result;
     result.end = Grow();
-    for (const std::vector<int>& goal : graph_.goal_sets) result.paths.push_back(PathTo(goal));
+    for (const auto& ends : graph_.ends) result.paths.push_back(PathToOneOf(ends));
     result.effort = effort_;
     result.effort.samples = graph_.sample_count;
     result.effort.vertices = static_cast<int>(
@@ -98,8 +98,8 @@ class XitSearch {
   Point2 At(int vertex) const { return graph_.points[static_cast<std::size_t>(vertex)]; }
   bool Taken(int vertex) const { return taken_[static_cast<std::size_t>(vertex)] != 0; }
   bool Solved(std::size_t goal) const {
-    const std::vector<int>& set = graph_.goal_sets[goal];
-    return std::any_of(set.begin(), set.end(), [this](int vertex) { return Taken(vertex); });
+    const std::vector<int>& ends = graph_.ends[goal];
+    return std::any_of(ends.begin(), ends.end(), [this](int vertex) { return Taken(vertex); });
   }
 
   // Lines 8-28.
@@ -184,19 +184,18 @@ class XitSearch {
 
   void WriteHeuristics(int vertex) {
     if (!problem_.cost.HasHeuristic() && !informed_) return;
-    for (std::size_t goal = 0; goal < graph_.goal_sets.size(); ++goal) {
+    for (std::size_t goal = 0; goal < graph_.ends.size(); ++goal) {
       heuristics_[goal * graph_.points.size() + static_cast<std::size_t>(vertex)] =
           LeastHeuristic(vertex, goal);
     }
   }
 
-  // To the nearest, or cheapest, vertex of the goal's set.
+  // To the nearest, or cheapest, end of a path to the goal.
   double LeastHeuristic(int vertex, std::size_t goal) const {
     double least = kInfinity;
-    for (const int member : graph_.goal_sets[goal]) {
-      least =
-          std::min(least, informed_ ? problem_.cost.InformedHeuristic(At(vertex), At(member))
-                                    : problem_.cost.Heuristic(Distance_m(At(vertex), At(member))));
+    for (const int end : graph_.ends[goal]) {
+      least = std::min(least, informed_ ? problem_.cost.InformedHeuristic(At(vertex), At(end))
+                                        : problem_.cost.Heuristic(Distance_m(At(vertex), At(end))));
     }
     return least;
   }
@@ -210,12 +209,12 @@ class XitSearch {
     return edges;
   }
 
-  std::optional<FoundPath> PathTo(const std::vector<int>& goal_set) const {
+  std::optional<FoundPath> PathToOneOf(const std::vector<int>& ends) const {
     const auto cheaper = [this](int a, int b) {
       return g_[static_cast<std::size_t>(a)] < g_[static_cast<std::size_t>(b)];
     };
-    const auto end = std::min_element(goal_set.begin(), goal_set.end(), cheaper);
-    if (end == goal_set.end() || g_[static_cast<std::size_t>(*end)] == kInfinity) {
+    const auto end = std::min_element(ends.begin(), ends.end(), cheaper);
+    if (end == ends.end() || g_[static_cast<std::size_t>(*end)] == kInfinity) {
       return std::nullopt;
     }
     FoundPath path;

@@ -20,9 +20,9 @@ namespace plumescout {
 //               forgets.
 //   line 16-18  Q_e is drained for one vertex, so its order cannot change the tree: no sort.
 //   line 20-21  "<" in both; "<=" as [MIT] prints would rewire ties for ever.
-//   goals       as in goal_sets.h; a goal is solved when its vertex is taken from Q_v, not when
-//               an edge first touches it. Without options.goal_vertices the goal sets are the
-//               paper's: a path ends at the sample of the set that is the cheapest to reach.
+//   goals       as in goal_neighbours.h; a goal is solved when its vertex is taken from Q_v, not
+//               when an edge first touches it. Without options.goal_vertices, as in the paper, a
+//               path ends at that neighbour of the goal that is the cheapest to reach.
 // A goal touched but not solved when the search is stopped still gets the path found so far.
 //
 // Cost: O(cells) for the draw, then about N log N queue steps and edge integrals.

@@ -15,27 +15,27 @@ using ::testing::Pair;
 // Samples 0 to 3 at x = 0, 1, 2, 3; a goal of its own, vertex 4, at x = 2.2.
 const std::vector<Point2> kPoints = {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {2.2, 0}};
 
-std::vector<GoalNeighbours::Edge> EdgesFrom(const GoalNeighbours& sets, int vertex) {
-  const auto edges = sets.EdgesFrom(vertex);
+std::vector<GoalNeighbours::Edge> EdgesFrom(const GoalNeighbours& neighbours, int vertex) {
+  const auto edges = neighbours.EdgesFrom(vertex);
   return {edges.begin(), edges.end()};
 }
 
 TEST(GoalNeighbours, JoinTheGoalToItsNearestSamplesInBothDirections) {
-  const GoalNeighbours sets(kPoints, 4, {4}, 3);
-  EXPECT_THAT(EdgesFrom(sets, 4), ElementsAre(Pair(4, 1), Pair(4, 2), Pair(4, 3)));
-  EXPECT_THAT(EdgesFrom(sets, 1), ElementsAre(Pair(1, 4)));
-  EXPECT_THAT(EdgesFrom(sets, 0), IsEmpty());
+  const GoalNeighbours neighbours(kPoints, 4, {4}, 3);
+  EXPECT_THAT(EdgesFrom(neighbours, 4), ElementsAre(Pair(4, 1), Pair(4, 2), Pair(4, 3)));
+  EXPECT_THAT(EdgesFrom(neighbours, 1), ElementsAre(Pair(1, 4)));
+  EXPECT_THAT(EdgesFrom(neighbours, 0), IsEmpty());
 }
 
 TEST(GoalNeighbours, LeaveOutTheGoalItselfIfItIsASample) {
-  const GoalNeighbours sets(kPoints, 4, {2}, 2);
-  EXPECT_THAT(EdgesFrom(sets, 2), ElementsAre(Pair(2, 1)));
+  const GoalNeighbours neighbours(kPoints, 4, {2}, 2);
+  EXPECT_THAT(EdgesFrom(neighbours, 2), ElementsAre(Pair(2, 1)));
 }
 
 TEST(GoalNeighbours, ShareSamplesAndKeepEqualGoalsOnce) {
-  const GoalNeighbours sets(kPoints, 4, {4, 4, 3}, 1);
-  EXPECT_THAT(EdgesFrom(sets, 2), ElementsAre(Pair(2, 4)));
-  EXPECT_THAT(EdgesFrom(sets, 3), IsEmpty()) << "its nearest sample is itself";
+  const GoalNeighbours neighbours(kPoints, 4, {4, 4, 3}, 1);
+  EXPECT_THAT(EdgesFrom(neighbours, 2), ElementsAre(Pair(2, 4)));
+  EXPECT_THAT(EdgesFrom(neighbours, 3), IsEmpty()) << "its nearest sample is itself";
 }
 
 TEST(GoalNeighbours, TakeAllSamplesIfThereAreFew) {
