@@ -91,6 +91,7 @@ std::vector<Goal> PlacesInMemory(const Belief& belief) {
     if (claim.goal.kind != GoalKind::kRandomFreeSpace) places.push_back(claim.goal);
   }
   for (const SetAsideGoal& aside : belief.set_aside) {
+    // That a goal of another kind led nowhere says nothing of what readings tell.
     if (aside.goal.kind == GoalKind::kInformation) places.push_back(aside.goal);
   }
   return places;
