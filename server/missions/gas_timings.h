@@ -33,7 +33,8 @@ struct GasTimings {
                              // hold was acknowledged
 };
 
-// The last samples of one latency. Thread-compatible.
+// The last samples of one latency. Metrics do not tell what it does: their histograms are of all
+// missions of a server, and as coarse as their buckets. Thread-compatible.
 class LatencyWindow {
  public:
   void Add(absl::Duration sample);
