@@ -12,8 +12,8 @@ namespace plumescout::server {
 
 class AuditRunner::Task {
  public:
-  explicit Task(std::vector<std::shared_ptr<const AuditInputs>> inputs)
-      : inputs_(std::move(inputs)) {}
+  Task(std::vector<std::shared_ptr<const AuditInputs>> inputs, std::function<void()> on_finding)
+      : inputs_(std::move(inputs)), on_finding_(std::move(on_finding)) {}
 
   void Run() {
     for (const std::shared_ptr<const AuditInputs>& inputs : inputs_) {
@@ -24,6 +24,7 @@ class AuditRunner::Task {
       absl::StatusOr<AuditFinding> finding = RunAudit(*inputs);
       absl::MutexLock lock(&mutex_);
       findings_.push_back(std::move(finding));
+      if (!dropped_ && on_finding_) on_finding_();
     }
   }
   void Drop() {
@@ -40,6 +41,7 @@ class AuditRunner::Task {
 
  private:
   const std::vector<std::shared_ptr<const AuditInputs>> inputs_;
+  const std::function<void()> on_finding_;
 
   absl::Mutex mutex_;
   bool dropped_ ABSL_GUARDED_BY(mutex_) = false;
@@ -53,7 +55,7 @@ AuditRunner::~AuditRunner() {
 void AuditRunner::Start(std::vector<std::shared_ptr<const AuditInputs>> inputs) {
   if (!is_free() || inputs.empty()) return;
   const std::size_t count = inputs.size();
-  auto task = std::make_shared<Task>(std::move(inputs));
+  auto task = std::make_shared<Task>(std::move(inputs), on_finding_);
   if (!pool_->Submit([task] { task->Run(); }).ok()) return;
   task_ = std::move(task);
   to_be_taken_ = count;

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -20,6 +22,9 @@ class AuditRunner {
  public:
   // `pool` is not owned and outlives the last Start; null: nothing is audited.
   explicit AuditRunner(WorkerPool* pool) : pool_(pool) {}
+  // `told`, on the pool, whenever Take has something more to give; it must not block, and is not
+  // called once the destructor has returned. Of rounds that start after this.
+  void OnFinding(std::function<void()> told) { on_finding_ = std::move(told); }
   // An audit that runs is left to its end, those that wait never run.
   ~AuditRunner();
   AuditRunner(const AuditRunner&) = delete;
@@ -37,8 +42,9 @@ class AuditRunner {
   class Task;
 
   WorkerPool* const pool_;
-  std::shared_ptr<Task> task_;   // null: none
-  std::size_t to_be_taken_ = 0;  // of its findings
+  std::function<void()> on_finding_;  // may be empty
+  std::shared_ptr<Task> task_;        // null: none
+  std::size_t to_be_taken_ = 0;       // of its findings
 };
 
 }  // namespace plumescout::server

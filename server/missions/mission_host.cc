@@ -74,6 +74,8 @@ MissionHost::MissionHost(Parts parts, const HostOptions& options)
                     parts.standing.event_retention);
   journal_->set_trims(parts.standing.event_retention == EventRetention::kSinceSnapshot);
   if (writer_.mission().revision() > 0) RecoverLeases(parts.standing);
+  // The writer, which may sleep, collects it.
+  writer_.OnAuditFinding([this] { Post([](MissionWriter&) {}).IgnoreError(); });
   thread_ = std::thread([this] { Run(); });
 }
 

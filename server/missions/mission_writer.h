@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "absl/base/thread_annotations.h"
 #include "absl/status/status.h"
@@ -70,6 +71,8 @@ class MissionWriter final : private ConductObserver {
   // Counts what an audit has found, if one has ended since, and mends what it blames. What is
   // mended, and when, is an event.
   void CollectAudit();
+  // As AuditRunner::OnFinding; to be called before anything is applied.
+  void OnAuditFinding(std::function<void()> told) { audit_runner_.OnFinding(std::move(told)); }
 
   // For those who watch: a snapshot whose posterior holds every reading that was applied
   // `gas_wait` ago or earlier. If no observation has led to the refresh for that, this does.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -56,6 +57,29 @@ TEST(AuditRunnerTest, GivesWhatItFoundOfEachFieldInTheirOrder) {
   EXPECT_FALSE(runner.Take().has_value());
   runner.Start({});
   EXPECT_TRUE(runner.is_free()) << "nothing to audit";
+}
+
+TEST(AuditRunnerTest, TellsOfEachFindingAsLongAsItLives) {
+  std::optional<WorkerPool> pool(std::in_place, WorkerPoolOptions{"test", 1, 2});
+  std::atomic<int> told = 0;
+  AuditRunner runner(&*pool);
+  runner.OnFinding([&] { ++told; });
+  runner.Start({Moment(), Moment()});
+  auto gone = std::make_unique<AuditRunner>(&*pool);
+  absl::Notification begun, go_on;
+  ASSERT_TRUE(pool->Submit([&] {
+                    begun.Notify();
+                    go_on.WaitForNotification();
+                  })
+                  .ok());
+  begun.WaitForNotification();
+  EXPECT_EQ(told, 2);
+  gone->OnFinding([&] { told = -100; });
+  gone->Start({Moment()});
+  gone = nullptr;
+  go_on.Notify();
+  pool.reset();
+  EXPECT_EQ(told, 2);
 }
 
 TEST(AuditRunnerTest, SaysWhenNothingCouldBeFound) {
