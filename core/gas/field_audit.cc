@@ -9,7 +9,7 @@
 
 #include "core/gas/gmrf_graph.h"
 #include "core/gas/information.h"
-#include "core/gas/posterior.h"
+#include "core/linalg/cholmod_solve.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
@@ -48,12 +48,13 @@ std::vector<Evidence> EvidenceOn(const GmrfGraph& graph, const AuditInputs& inpu
   return evidence;
 }
 
-AuditFinding Compare(const GmrfGraph& graph, const Posterior& truth, const AuditInputs& inputs) {
+AuditFinding Compare(const GmrfGraph& graph, const CholmodSolution& truth,
+                     const AuditInputs& inputs) {
   AuditFinding finding;
   finding.species = inputs.species;
   const GasCell first = FirstGasCell(inputs);
   double largest_mean_ppm = 0.0;
-  for (std::size_t i = 0; i < truth.mean_ppm.size(); ++i) {
+  for (std::size_t i = 0; i < truth.x.size(); ++i) {
     const Cell cell = graph.geometry().CellAtIndex(graph.cell_index(static_cast<VariableIndex>(i)));
     const GasCell gas_cell{first.x + cell.x, first.y + cell.y};
     const bool known = inputs.lattice.Contains(gas_cell);
@@ -61,18 +62,15 @@ AuditFinding Compare(const GmrfGraph& graph, const Posterior& truth, const Audit
     const double nothing = std::nan("");
     const double mean_ppm = known ? inputs.mean_ppm[index] : nothing;
     const double variance_ppm2 = known ? inputs.variance_ppm2[index] : nothing;
-    const double deviation_ppm = truth.mean_ppm[i] - inputs.options.background_mean_ppm;
-    largest_mean_ppm = std::max(largest_mean_ppm, std::abs(deviation_ppm));
-    Raise(finding.mean_ppm, std::abs(mean_ppm - deviation_ppm));
-    Raise(finding.variance_ratio, std::abs(variance_ppm2 / truth.variance_ppm2[i] - 1.0));
+    largest_mean_ppm = std::max(largest_mean_ppm, std::abs(truth.x[i]));
+    Raise(finding.mean_ppm, std::abs(mean_ppm - truth.x[i]));
+    Raise(finding.variance_ratio, std::abs(variance_ppm2 / truth.inverse_diagonal[i] - 1.0));
   }
   const auto active = std::count_if(inputs.variance_ppm2.begin(), inputs.variance_ppm2.end(),
                                     [](double v) { return !std::isnan(v); });
   if (active > graph.variables()) Raise(finding.variance_ratio, std::nan(""));
   const double rounding = RoundingShare(inputs.options);
-  // m_0 is added to the independent mean and taken off again.
-  const double scale_ppm = largest_mean_ppm + std::abs(inputs.options.background_mean_ppm);
-  finding.certified = finding.mean_ppm <= inputs.certified_mean_ppm + rounding * scale_ppm &&
+  finding.certified = finding.mean_ppm <= inputs.certified_mean_ppm + rounding * largest_mean_ppm &&
                       finding.variance_ratio <= inputs.certified_variance_ratio + rounding;
   return finding;
 }
@@ -81,9 +79,10 @@ AuditFinding Compare(const GmrfGraph& graph, const Posterior& truth, const Audit
 
 absl::StatusOr<AuditFinding> RunAudit(const AuditInputs& inputs) {
   const GmrfGraph graph(inputs.states, inputs.corner, inputs.options.lattice_factor);
-  PLUMESCOUT_ASSIGN_OR_RETURN(
-      const Posterior truth,
-      PosteriorSolver().Solve(graph, EvidenceOn(graph, inputs), inputs.options));
+  const Information information =
+      BuildInformation(graph, EvidenceOn(graph, inputs), inputs.options);
+  PLUMESCOUT_ASSIGN_OR_RETURN(const CholmodSolution truth,
+                              SolveByCholmod(information.hessian, information.negative_gradient));
   return Compare(graph, truth, inputs);
 }
 

@@ -40,11 +40,11 @@ struct AuditFinding {
   std::size_t species = 0;      // of whose field, by place among the mission's gases
 };
 
-// Computes means and variances of the whole map once more, independently of core/gas/field: the
-// graph from the occupancy, [IPP] Eq. (3) as one sparse matrix, its factorisation in CHOLMOD's
-// order, selected inversion. The two share the readings' evidence and the dense kernels.
-// Errors: those of PosteriorSolver::Solve; then nothing is known. Cost at 160x200 cells: 0.05 s in
-// rooms, 0.14 s in the open.
+// Computes means and variances of the whole map once more, by CHOLMOD: the graph from the
+// occupancy, [IPP] Eq. (3) as one sparse matrix, CHOLMOD's factorisation and solve, variances from
+// its factor (core/linalg/cholmod_solve.h). With the engine (core/gas/field) this shares the
+// readings' evidence by cell, and no arithmetic. Errors: those of SolveByCholmod; then nothing is
+// known. Cost at 160x200 cells: 0.04 s in rooms, 0.2 s in the open.
 absl::StatusOr<AuditFinding> RunAudit(const AuditInputs& inputs);
 
 }  // namespace plumescout

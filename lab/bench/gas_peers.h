@@ -16,9 +16,9 @@ struct PeerPosterior {
 };
 
 // What one writes with a library and the textbook: its simplicial Cholesky, ordered by AMD from
-// scratch, a solve for the mean, and Takahashi's recursion entry by entry for the variances. They
-// share no code with core/linalg but the form of the matrix.
-// Errors: kInternal if the factorisation fails.
+// scratch, a solve for the mean, and Takahashi's recursion entry by entry for the variances.
+// CHOLMOD is as the auditor has it (core/linalg/cholmod_solve.h). Errors: kInternal if the
+// factorisation fails.
 absl::StatusOr<PeerPosterior> SolveByCholmod(const Information& information);
 absl::StatusOr<PeerPosterior> SolveByEigen(const Information& information);
 

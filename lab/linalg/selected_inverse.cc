@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/linalg/selected_inverse.h"
+#include "lab/linalg/selected_inverse.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 #include "core/linalg/dense_kernel.h"
 
-namespace plumescout {
+namespace plumescout::lab {
 namespace {
 
 std::size_t Unsigned(int index) { return static_cast<std::size_t>(index); }
@@ -201,4 +201,4 @@ void InverseDiagonalSupernodes(const SupernodalPattern& pattern, const FactorVal
   SelectedInversion(pattern, factor, diagonal).Run();
 }
 
-}  // namespace plumescout
+}  // namespace plumescout::lab

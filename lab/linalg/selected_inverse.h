@@ -4,10 +4,10 @@
 
 #include <span>
 
-#include "core/linalg/supernodal_factor.h"
-#include "core/linalg/supernodal_pattern.h"
+#include "lab/linalg/supernodal_factor.h"
+#include "lab/linalg/supernodal_pattern.h"
 
-namespace plumescout {
+namespace plumescout::lab {
 
 // diagonal[i] = (A^-1)_ii for all i, from the factor of A.
 //
@@ -18,4 +18,4 @@ namespace plumescout {
 void InverseDiagonalSupernodes(const SupernodalPattern& pattern, const FactorValues& factor,
                                std::span<double> diagonal);
 
-}  // namespace plumescout
+}  // namespace plumescout::lab

@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/linalg/sparse_cholesky.h"
+#include "lab/linalg/sparse_cholesky.h"
 
 #include <cstddef>
 #include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "core/linalg/selected_inverse.h"
-#include "core/linalg/supernodal_factor.h"
-#include "core/linalg/supernodal_pattern.h"
-#include "core/linalg/triangular_solve.h"
 #include "core/types/status_macros.h"
+#include "lab/linalg/selected_inverse.h"
+#include "lab/linalg/supernodal_factor.h"
+#include "lab/linalg/supernodal_pattern.h"
+#include "lab/linalg/triangular_solve.h"
 
-namespace plumescout {
+namespace plumescout::lab {
 
 struct SparseCholesky::State {
   // What was analysed, to know it again.
@@ -81,4 +81,4 @@ absl::Status SparseCholesky::InverseDiagonal(std::span<double> diagonal) const {
   return absl::OkStatus();
 }
 
-}  // namespace plumescout
+}  // namespace plumescout::lab

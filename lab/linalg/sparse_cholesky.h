@@ -8,7 +8,7 @@
 #include "absl/status/status.h"
 #include "core/linalg/symmetric_matrix.h"
 
-namespace plumescout {
+namespace plumescout::lab {
 
 // Direct solver for A x = b with A sparse, symmetric and positive definite, and for the diagonal of
 // A's inverse.
@@ -52,4 +52,4 @@ class SparseCholesky {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace plumescout
+}  // namespace plumescout::lab

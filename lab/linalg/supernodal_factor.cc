@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/linalg/supernodal_factor.h"
+#include "lab/linalg/supernodal_factor.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -8,7 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/linalg/dense_kernel.h"
 
-namespace plumescout {
+namespace plumescout::lab {
 namespace {
 
 std::size_t Unsigned(int index) { return static_cast<std::size_t>(index); }
@@ -131,4 +131,4 @@ absl::StatusOr<FactorValues> FactorizeSupernodes(const SupernodalPattern& patter
   return factorization.Take();
 }
 
-}  // namespace plumescout
+}  // namespace plumescout::lab

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "core/linalg/supernodal_pattern.h"
+#include "lab/linalg/supernodal_pattern.h"
 
-namespace plumescout {
+namespace plumescout::lab {
 
 // Values of L, panel by panel as `pattern` lays them out; the upper triangle of a panel's diagonal
 // block means nothing. Padded at the end so that a row tile may be read at any panel's end.
@@ -21,4 +21,4 @@ using FactorValues = std::vector<double>;
 absl::StatusOr<FactorValues> FactorizeSupernodes(const SupernodalPattern& pattern,
                                                  std::span<const double> matrix_values);
 
-}  // namespace plumescout
+}  // namespace plumescout::lab

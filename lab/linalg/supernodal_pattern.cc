@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 
-// The only user of CHOLMOD. Its Supernodal module is GPL-2.0-or-later (see README, licences).
-// CHOLMOD orders and analyses; the numbers are computed by our own kernels, because CHOLMOD's
-// supernodal factorisation starts OpenMP threads and its bytes depend on the BLAS at hand.
-#include "core/linalg/supernodal_pattern.h"
+// CHOLMOD orders and analyses, by its Supernodal module, which is GPL-2.0-or-later (see README,
+// licences). The numbers are computed by our own kernels, because CHOLMOD's supernodal
+// factorisation starts OpenMP threads and its bytes depend on the BLAS at hand.
+#include "lab/linalg/supernodal_pattern.h"
 
 #include <cholmod.h>
 
@@ -15,7 +15,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/types/status_macros.h"
 
-namespace plumescout {
+namespace plumescout::lab {
 namespace {
 
 std::size_t Unsigned(int index) { return static_cast<std::size_t>(index); }
@@ -164,4 +164,4 @@ absl::StatusOr<SupernodalPattern> AnalyzePattern(const SymmetricMatrix& matrix) 
   return pattern;
 }
 
-}  // namespace plumescout
+}  // namespace plumescout::lab

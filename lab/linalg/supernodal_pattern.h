@@ -8,7 +8,7 @@
 #include "absl/status/statusor.h"
 #include "core/linalg/symmetric_matrix.h"
 
-namespace plumescout {
+namespace plumescout::lab {
 
 // Nonzero pattern of the Cholesky factor L of P A P^T. A supernode s is a run of columns
 // [first_column[s], first_column[s + 1]) that share their rows below; its values form one dense
@@ -44,4 +44,4 @@ struct SupernodalPattern {
 // factor. REQUIRES: Validate(matrix).ok(), n > 0. Errors: kResourceExhausted, kInternal.
 absl::StatusOr<SupernodalPattern> AnalyzePattern(const SymmetricMatrix& matrix);
 
-}  // namespace plumescout
+}  // namespace plumescout::lab

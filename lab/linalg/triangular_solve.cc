@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/linalg/triangular_solve.h"
+#include "lab/linalg/triangular_solve.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 #include "core/linalg/dense_kernel.h"
 
-namespace plumescout {
+namespace plumescout::lab {
 namespace {
 
 std::size_t Unsigned(int index) { return static_cast<std::size_t>(index); }
@@ -84,4 +84,4 @@ void SolveSupernodes(const SupernodalPattern& pattern, const FactorValues& facto
   for (std::size_t k = 0; k < n; ++k) x[Unsigned(pattern.order[k])] = permuted[k];
 }
 
-}  // namespace plumescout
+}  // namespace plumescout::lab

@@ -4,13 +4,13 @@
 
 #include <span>
 
-#include "core/linalg/supernodal_factor.h"
-#include "core/linalg/supernodal_pattern.h"
+#include "lab/linalg/supernodal_factor.h"
+#include "lab/linalg/supernodal_pattern.h"
 
-namespace plumescout {
+namespace plumescout::lab {
 
 // x = A^-1 b from its factor: P^T L^-T L^-1 P b. b and x hold n values and may be the same memory.
 void SolveSupernodes(const SupernodalPattern& pattern, const FactorValues& factor,
                      std::span<const double> b, std::span<double> x);
 
-}  // namespace plumescout
+}  // namespace plumescout::lab

@@ -9,8 +9,8 @@
 
 #include "core/gas/gmrf_graph.h"
 #include "core/gas/information.h"
-#include "core/gas/posterior.h"
 #include "core/types/options.h"
+#include "lab/rivals/posterior.h"
 
 namespace plumescout::lab {
 

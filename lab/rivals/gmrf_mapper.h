@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "core/gas/posterior.h"
 #include "core/types/options.h"
 #include "lab/rivals/gas_mapper.h"
+#include "lab/rivals/posterior.h"
 
 namespace plumescout::lab {
 

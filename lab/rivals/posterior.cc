@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/gas/posterior.h"
+#include "lab/rivals/posterior.h"
 
 #include <cstddef>
 #include <utility>
 
 #include "core/types/status_macros.h"
 
-namespace plumescout {
+namespace plumescout::lab {
 
 absl::StatusOr<Posterior> PosteriorSolver::Solve(const GmrfGraph& graph,
                                                  std::span<const Evidence> evidence,
@@ -23,4 +23,4 @@ absl::StatusOr<Posterior> PosteriorSolver::Solve(const GmrfGraph& graph,
   return posterior;
 }
 
-}  // namespace plumescout
+}  // namespace plumescout::lab

@@ -8,10 +8,10 @@
 #include "absl/status/statusor.h"
 #include "core/gas/gmrf_graph.h"
 #include "core/gas/information.h"
-#include "core/linalg/sparse_cholesky.h"
 #include "core/types/options.h"
+#include "lab/linalg/sparse_cholesky.h"
 
-namespace plumescout {
+namespace plumescout::lab {
 
 // Marginals of the field, by variable.
 struct Posterior {
@@ -31,4 +31,4 @@ class PosteriorSolver {
   SparseCholesky cholesky_;
 };
 
-}  // namespace plumescout
+}  // namespace plumescout::lab

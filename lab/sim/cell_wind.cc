@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/linalg/sparse_cholesky.h"
 #include "core/linalg/symmetric_matrix.h"
 #include "core/types/status_macros.h"
+#include "lab/linalg/sparse_cholesky.h"
 
 namespace plumescout::lab {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "core/linalg/sparse_cholesky.h"
+#include "lab/linalg/sparse_cholesky.h"
 #include "lab/sim/flow_faces.h"
 #include "lab/sim/flow_parts.h"
 #include "lab/sim/mac_field.h"

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "core/linalg/sparse_cholesky.h"
 #include "core/linalg/symmetric_matrix.h"
 #include "core/types/status_macros.h"
+#include "lab/linalg/sparse_cholesky.h"
 
 namespace plumescout::lab {
 namespace {

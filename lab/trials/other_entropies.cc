@@ -8,9 +8,9 @@
 
 #include "core/gas/gmrf_graph.h"
 #include "core/gas/information.h"
-#include "core/gas/posterior.h"
 #include "core/types/status_macros.h"
 #include "lab/rivals/belief_propagation.h"
+#include "lab/rivals/posterior.h"
 
 namespace plumescout::lab {
 namespace {

@@ -49,9 +49,9 @@ const Names kServer = {"server/base",  "server/config",  "server/access",   "ser
                        "server/store", "server/maps",    "server/missions", "server/history",
                        "server/calls", "server/streams", "server/services", "server/web",
                        "server"};
-const Names kLab = {"lab/about",  "lab/formats", "lab/bags",   "lab/rivals",
-                    "lab/local",  "lab/sim",     "lab/report", "lab/worlds",
-                    "lab/trials", "lab/studies", "lab/bench",  "lab/program"};
+const Names kLab = {"lab/about",   "lab/formats", "lab/bags",   "lab/linalg", "lab/rivals",
+                    "lab/local",   "lab/sim",     "lab/report", "lab/worlds", "lab/trials",
+                    "lab/studies", "lab/bench",   "lab/program"};
 
 Names Before(const Names& rooms, const std::string& folder) {
   return {rooms.begin(), std::find(rooms.begin(), rooms.end(), folder)};
@@ -91,7 +91,10 @@ std::vector<Room> MakeRooms() {
       {"lab/bags",
        {"core/types", "formats", "formats/mcap", "formats/ros", "client", "client/ros2"}},
       {"lab/local", Join({kCore, {"client"}})},
-      {"lab/sim", {"core/types", "core/grid", "core/linalg", "formats", "client", "lab/formats"}},
+      {"lab/linalg", {"core/types", "core/linalg"}},
+      {"lab/sim",
+       {"core/types", "core/grid", "core/linalg", "formats", "client", "lab/formats",
+        "lab/linalg"}},
       {"lab/report", {"core/types", "formats", "lab/formats"}},
       // Servers are measured as programs, but for what keeps missions.
       {"lab/bench", Join({kCore, adapters, {"client", "server/store"}, Before(kLab, "lab/bench")})},
@@ -199,8 +202,8 @@ struct SoleUse {
   bool (*is_header)(const std::string& include);
   const char* folder;
 };
-constexpr SoleUse kSoleUses[] = {{"CHOLMOD", IsCholmod, "core/linalg"},
-                                 {"GLPK", IsGlpk, "core/tour"}};
+constexpr const char* kLinalg = "core/linalg";
+constexpr SoleUse kSoleUses[] = {{"CHOLMOD", IsCholmod, kLinalg}, {"GLPK", IsGlpk, "core/tour"}};
 
 // Why `file` must not include it; empty if it may.
 std::string WhyForbidden(const SourceFile& file, const std::string& include) {
@@ -209,8 +212,9 @@ std::string WhyForbidden(const SourceFile& file, const std::string& include) {
   if (in_core && IsImpure(include)) return "core is pure";
   if (IsBelow(file.path, "proto/convert") && IsGrpc(include)) return "conversion knows no gRPC";
   for (const SoleUse& use : kSoleUses) {
-    // Benches measure such a library as a rival of our own.
-    const bool may_use = IsBelow(file.path, use.folder) || IsBelow(file.path, "lab/bench");
+    // The laboratory orders matrices by CHOLMOD, and benches measure such a library as a rival.
+    const bool may_use = IsBelow(file.path, use.folder) || IsBelow(file.path, "lab/bench") ||
+                         (use.folder == kLinalg && IsBelow(file.path, "lab/linalg"));
     if (use.is_header(include) && (!may_use || file.is_header())) {
       return absl::StrCat(use.library, " has one user");
     }

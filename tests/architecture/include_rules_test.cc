@@ -100,6 +100,8 @@ TEST(IncludeRules, PlatformHeadersOutOfPlaceAreFound) {
       {"core/gas/a.cc", "#include \"plumescout/v1/types.pb.h\"\n"},
       {"core/gas/a.cc", "#include <cholmod.h>\n"},
       {"core/linalg/a.h", "#include <cholmod.h>\n"},
+      {"lab/linalg/a.h", "#include <cholmod.h>\n"},
+      {"lab/sim/a.cc", "#include <cholmod.h>\n"},
       {"core/plan/a.cc", "#include <glpk.h>\n"},
       {"core/tour/a.h", "#include <glpk.h>\n"},
       {"core/plan/a.cc", "#include <ompl/base/Planner.h>\n"},
@@ -132,7 +134,8 @@ TEST(IncludeRules, DatabasesAreIncludedWhereTheyBelong) {
 }
 
 TEST(IncludeRules, ASecondUserOfCholmodIsFound) {
-  EXPECT_THAT(CheckPlatformHeaders(Tree({{"core/linalg/a.cc", "#include <cholmod.h>\n"}})),
+  EXPECT_THAT(CheckPlatformHeaders(Tree({{"core/linalg/a.cc", "#include <cholmod.h>\n"},
+                                         {"lab/linalg/b.cc", "#include <cholmod.h>\n"}})),
               IsEmpty());
   EXPECT_THAT(CheckPlatformHeaders(Tree({{"core/linalg/a.cc", "#include <cholmod.h>\n"},
                                          {"core/linalg/b.cc", "#include <cholmod.h>\n"}})),

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The main function of every test program. One program holds the tests of a folder;
-// `--source=tests/core/gas/posterior_test.cc` runs those of one file, and fails if there are none.
+// `--source=tests/core/gas/gas_map_test.cc` runs those of one file, and fails if there are none.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/linalg/selected_inverse.h"
+#include "lab/linalg/selected_inverse.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "tests/core/linalg/dense_oracle.h"
 
-namespace plumescout {
+namespace plumescout::lab {
 namespace selected_inverse_test {
 
 void ExpectInverseDiagonal(const SymmetricMatrix& matrix) {
@@ -51,4 +51,4 @@ TEST(InverseDiagonalSupernodesTest, OfADiagonalMatrixIsItsReciprocal) {
 }
 
 }  // namespace selected_inverse_test
-}  // namespace plumescout
+}  // namespace plumescout::lab

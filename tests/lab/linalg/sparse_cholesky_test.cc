@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/linalg/sparse_cholesky.h"
+#include "lab/linalg/sparse_cholesky.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "tests/core/linalg/dense_oracle.h"
 
-namespace plumescout {
+namespace plumescout::lab {
 namespace sparse_cholesky_test {
 
 std::vector<double> Solution(const SparseCholesky& cholesky, const std::vector<double>& b) {
@@ -141,4 +141,4 @@ TEST(SparseCholeskyTest, KeepsItsFactorWhenMoved) {
 }
 
 }  // namespace sparse_cholesky_test
-}  // namespace plumescout
+}  // namespace plumescout::lab

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/linalg/supernodal_factor.h"
+#include "lab/linalg/supernodal_factor.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "tests/core/linalg/dense_oracle.h"
 
-namespace plumescout {
+namespace plumescout::lab {
 namespace supernodal_factor_test {
 
 // L as a dense matrix, in the order of the factor.
@@ -61,4 +61,4 @@ TEST(FactorizeSupernodesTest, NamesAnUnknownOfAnIndefiniteMatrix) {
 }
 
 }  // namespace supernodal_factor_test
-}  // namespace plumescout
+}  // namespace plumescout::lab

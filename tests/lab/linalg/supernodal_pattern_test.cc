@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/linalg/supernodal_pattern.h"
+#include "lab/linalg/supernodal_pattern.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "tests/core/linalg/dense_oracle.h"
 
-namespace plumescout {
+namespace plumescout::lab {
 namespace supernodal_pattern_test {
 
 std::size_t Unsigned(int index) { return static_cast<std::size_t>(index); }
@@ -107,4 +107,4 @@ TEST_F(SupernodalPatternTest, SaysNothingOnStandardOutput) {
 }
 
 }  // namespace supernodal_pattern_test
-}  // namespace plumescout
+}  // namespace plumescout::lab

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/linalg/triangular_solve.h"
+#include "lab/linalg/triangular_solve.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "tests/core/linalg/dense_oracle.h"
 
-namespace plumescout {
+namespace plumescout::lab {
 namespace triangular_solve_test {
 
 void ExpectSolves(const SymmetricMatrix& matrix, Rng& rng) {
@@ -45,4 +45,4 @@ TEST(SolveSupernodesTest, WorksInPlace) {
 }
 
 }  // namespace triangular_solve_test
-}  // namespace plumescout
+}  // namespace plumescout::lab

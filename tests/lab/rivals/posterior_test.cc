@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/gas/posterior.h"
+#include "lab/rivals/posterior.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "tests/core/gas/dense_field.h"
 #include "tests/support/grid_art.h"
 
-namespace plumescout {
+namespace plumescout::lab {
 namespace posterior_test {
 
 using ::plumescout::testing::DenseField;
@@ -115,4 +115,4 @@ TEST(PosteriorTest, RefusesEvidenceThatIsNotFinite) {
 }
 
 }  // namespace posterior_test
-}  // namespace plumescout
+}  // namespace plumescout::lab
