@@ -24,7 +24,8 @@ struct McapTimes {
 };
 
 // The channels of an MCAP file whose messages are of protobuf. A channel begins with its first
-// message, and so does the schema, which holds the message's .proto file and all that it imports.
+// message, and so does the schema, which holds the message's .proto file and those that it imports,
+// with what the message is made of alone.
 class TypedChannels {
  public:
   // Not owned; outlives this.
