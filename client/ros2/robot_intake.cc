@@ -178,8 +178,10 @@ absl::Status RobotIntake::Waiting() const {
   const auto why = [this](const ros::Header& header) {
     return tf_.Lookup(options_.map_frame, header.frame_id, TimeOf_ns(header)).status();
   };
-  if (!scans_.empty()) return why(scans_.front().message.header);
-  return gas_.empty() ? absl::OkStatus() : why(gas_.front().message.header);
+  absl::Status waiting;
+  if (!scans_.empty()) waiting.Update(why(scans_.front().message.header));
+  if (!gas_.empty()) waiting.Update(why(gas_.front().message.header));
+  return waiting;
 }
 
 }  // namespace plumescout::client

@@ -79,7 +79,7 @@ class RobotIntake {
   absl::StatusOr<PlacedSample<std::monostate>> LatestPose() const;
   // The newest time that odometry or a sensor has told of; 0: none has yet.
   std::int64_t newest_ns() const { return newest_ns_; }
-  // Why the oldest sample that waits does so; OK if none does.
+  // Why the oldest scan that waits does so, or if none does, the oldest gas reading; OK: neither.
   absl::Status Waiting() const;
 
   const IntakeCounters& counters() const { return counters_; }

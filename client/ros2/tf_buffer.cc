@@ -96,6 +96,26 @@ absl::StatusOr<std::vector<std::string>> TfBuffer::WayUp(const std::string& fram
   return way;
 }
 
+std::string TfBuffer::DeadEnds(const std::vector<std::string>& from_up,
+                               const std::vector<std::string>& to_up) const {
+  const auto hangs = [](const std::vector<std::string>& way) {
+    return absl::StrCat(way.front(), " hangs from ", way.back());
+  };
+  const std::string& to = to_up.front();
+  const bool has_children = std::any_of(frames_.begin(), frames_.end(), [&to](const auto& frame) {
+    return frame.second.parent == to;
+  });
+  std::string ends = from_up.size() > 1
+                         ? hangs(from_up)
+                         : absl::StrCat("nobody says where ", from_up.front(), " is");
+  if (to_up.size() > 1) {
+    absl::StrAppend(&ends, ", ", hangs(to_up));
+  } else if (!has_children) {
+    absl::StrAppend(&ends, ", nothing hangs from ", to);
+  }
+  return ends;
+}
+
 absl::StatusOr<Transform> TfBuffer::InParent(const std::string& child, std::int64_t time_ns) const {
   const Frame& frame = frames_.at(child);
   const std::deque<Stamped>& history = frame.history;
@@ -139,9 +159,8 @@ absl::StatusOr<Transform> TfBuffer::Lookup(const std::string& target, const std:
   const auto meeting =
       std::find_first_of(from_up.begin(), from_up.end(), to_up.begin(), to_up.end());
   if (meeting == from_up.end()) {
-    return absl::NotFoundError(absl::StrCat("no transform ", to, " → ", from, " yet: ", from,
-                                            " hangs from ", from_up.back(), ", ", to, " from ",
-                                            to_up.back()));
+    return absl::NotFoundError(
+        absl::StrCat("no transform ", to, " → ", from, " yet: ", DeadEnds(from_up, to_up)));
   }
   const auto to_meeting = std::find(to_up.begin(), to_up.end(), *meeting);
   PLUMESCOUT_ASSIGN_OR_RETURN(

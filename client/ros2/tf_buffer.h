@@ -56,6 +56,9 @@ class TfBuffer {
   };
   // From a frame up to the root of its tree.
   absl::StatusOr<std::vector<std::string>> WayUp(const std::string& frame) const;
+  // In words, of two ways that do not meet.
+  std::string DeadEnds(const std::vector<std::string>& from_up,
+                       const std::vector<std::string>& to_up) const;
   absl::StatusOr<Transform> InParent(const std::string& child, std::int64_t time_ns) const;
   absl::StatusOr<Transform> InAncestor(const std::vector<std::string>& way, std::size_t steps,
                                        std::int64_t time_ns) const;

@@ -106,6 +106,16 @@ TEST_F(RobotIntakeTest, SaysWhichTransformIsMissing) {
   EXPECT_THAT(intake_.Waiting().message(), HasSubstr("no transform map → lidar yet"));
 }
 
+TEST_F(RobotIntakeTest, AScanThatCanBePlacedDoesNotHideThatAReadingCannot) {
+  PublishStatic();
+  PublishOdometry(0.0, 1.0);
+  intake_.OnScan(ScanAt(0.0), 0);
+  ros::GasSensor gas = GasAt(0.0);
+  gas.header.frame_id = "gas_sensor";
+  intake_.OnGas(gas, 0);
+  EXPECT_THAT(intake_.Waiting().message(), HasSubstr("nobody says where gas_sensor is"));
+}
+
 TEST_F(RobotIntakeTest, TakesThePoseOfOdometryIfNobodyPublishesTheTransform) {
   PublishStatic();
   ros::Odometry odometry;
