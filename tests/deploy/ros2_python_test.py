@@ -112,7 +112,9 @@ class Ros2Test(unittest.TestCase):
             lambda: peer.last.get("driven_m", 0.0) > 1.0
             and peer.last["paths"] >= 2
             and peer.last["maps"] > 0
-            and peer.last["gas_maps"] > 0,
+            and peer.last["gas_maps"] > 0
+            and peer.last["gas_layers"] > 1
+            and peer.last["frontiers"] > 0,
             "the robot has driven a plan and has heard of maps",
         )
         for named in [
@@ -122,6 +124,7 @@ class Ros2Test(unittest.TestCase):
             "gas: transforms form a loop",
             "LaserScan: a text is longer than the message",
             "/tf: transform map → ghost is not finite",
+            "/r1/tf_static: a publisher is incompatible in durability; have it publish TRANSIENT_LOCAL",
         ]:
             self.await_that(lambda: named in self.log(), named)
         self.assert_mapped()

@@ -42,10 +42,13 @@ void Print(const PeerReport& report, const Pose2& pose) {
   }
   std::printf(
       "{\"driven_m\":%.3f,\"x_m\":%.3f,\"y_m\":%.3f,\"paths\":%lld,\"velocities\":%lld,"
-      "\"maps\":%lld,\"gas_maps\":%lld,\"unreadable\":%lld,\"path_latency_median_s\":%.4f}\n",
+      "\"maps\":%lld,\"gas_maps\":%lld,\"gas_layers\":%lld,\"frontiers\":%lld,\"unreadable\":%lld,"
+      "\"path_latency_median_s\":%.4f}\n",
       report.driven_m, pose.x_m, pose.y_m, static_cast<long long>(report.paths),
       static_cast<long long>(report.velocities), static_cast<long long>(report.maps),
-      static_cast<long long>(report.gas_maps), static_cast<long long>(report.unreadable), median_s);
+      static_cast<long long>(report.gas_maps), static_cast<long long>(report.gas_layers),
+      static_cast<long long>(report.frontiers), static_cast<long long>(report.unreadable),
+      median_s);
   std::fflush(stdout);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -62,6 +63,8 @@ PeerRobot::PeerRobot(lab::SimulatedRobot& robot, const PeerOptions& options)
   mounts.transforms = {Between(HeaderOf("base_link"), "laser", {0.0, 0.0, kLaserYaw_rad}),
                        Between(HeaderOf("base_link"), "gas_sensor", {})};
   node_.Publish(tf_static_, mounts);
+  // Whoever comes later would not hear of these mounts.
+  if (options.makes_mischief) Advertise("tf_static", ros::TfMessage::kType, Service::kReliable);
 }
 
 FastDdsNode::Writer& PeerRobot::Advertise(const std::string& topic, const char* type,
@@ -98,11 +101,19 @@ void PeerRobot::SubscribeAll() ABSL_NO_THREAD_SAFETY_ANALYSIS {
                                     ros::ToNanoseconds(path.header.stamp));
     }
   });
-  Subscribe<ros::OccupancyGrid>("map", Service::kLatched, [this](const ros::OccupancyGrid& map) {
-    if (map.data.size() == std::size_t{map.info.width} * map.info.height) ++report_.maps;
-  });
+  const auto count_grids = [this](const std::string& topic, std::int64_t& count) {
+    Subscribe<ros::OccupancyGrid>(topic, Service::kLatched, [&count](const auto& grid) {
+      if (grid.data.size() == std::size_t{grid.info.width} * grid.info.height) ++count;
+    });
+  };
+  count_grids("map", report_.maps);
+  count_grids("gas_mean", report_.gas_layers);
+  count_grids("gas_variance", report_.gas_layers);
   Subscribe<ros::GridMap>("gas_map", Service::kLatched, [this](const ros::GridMap& map) {
     if (map.layers.size() == map.data.size()) ++report_.gas_maps;
+  });
+  Subscribe<ros::MarkerArray>("frontiers", Service::kLatched, [this](const auto& seen) {
+    report_.frontiers += std::ssize(seen.markers) - 1;  // but for the one that clears
   });
 }
 

@@ -36,6 +36,8 @@ struct PeerReport {
   std::int64_t velocities = 0;
   std::int64_t maps = 0;
   std::int64_t gas_maps = 0;
+  std::int64_t gas_layers = 0;  // of mean or variance, for viewers
+  std::int64_t frontiers = 0;   // markers
   std::int64_t unreadable = 0;
   // From the publication of the newest scan that was there when a path was asked for, which is what
   // it is stamped with, until it came.
