@@ -8,12 +8,13 @@
 // plumescout-lab. Pictures of every view are in DIR (../out/console).
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdirSync, readFileSync } from 'node:fs';
+import { mkdirSync, readFileSync, readdirSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { parseArgs } from 'node:util';
 import { checkAccess } from './axe.mjs';
 import { checkMoves, checkScales, checkSwitches, frontierMark } from './effects.mjs';
 import { BIN, PATIENCE_MS, cleanUp, data, drive, driveToEnd, end, launch, serve, until } from './harness.mjs';
+import { readStream, readWhole } from '../test/mcap_file.mjs';
 import { lookAround, openSaved } from './report.mjs';
 
 const { values: options } = parseArgs({ options: {
@@ -23,6 +24,7 @@ const { values: options } = parseArgs({ options: {
 } });
 const OUT = resolve(options.out);
 const TOKENS = join(data, 'tokens');
+const RECORDED = join(data, 'recorded');
 
 let page;
 let steps = 0;
@@ -256,7 +258,8 @@ async function operation(origin) {
     assert.deepEqual([...files.keys()].sort(), ['hall.pgm', 'hall.yaml']);
     known = files;
     assert.ok((await download('Whole mission')).length > 1000);
-    assert.equal((await download('MCAP (Foxglove)')).subarray(1, 5).toString(), 'MCAP');
+    const { counts } = await readWhole(await download('MCAP (Foxglove)'));
+    for (const topic of ['/journal', '/map/gas/mean', '/robots/robot-1/scan']) assert.ok(counts.has(topic), topic);
   });
   await step('a mission is made with the map that another one saved', async () => {
     await page.goto(`${origin}/#/new`);
@@ -569,6 +572,7 @@ async function everybody(origin) {
 }
 
 async function trouble(origin, server) {
+  let again;
   await step('a mission that is deleted while it is open says so', async () => {
     await page.goto(`${origin}/#/missions/annex`);
     await see('No robot has registered yet.');
@@ -587,9 +591,21 @@ async function trouble(origin, server) {
     await end(server.child, 'SIGKILL');
     await see(/connection lost/);
     await picture('lost');
-    const again = await serve(server.found.calls, server.found.pages, '--data', data);
+    again = await serve(server.found.calls, server.found.pages, '--data', data, '--record', RECORDED);
     await page.locator('.pill.good', { hasText: /^live$/ }).waitFor({ timeout: PATIENCE_MS });
-    return again;
+  });
+  await step('what servers have recorded of a mission while it ran is read by others (@mcap/core)', async () => {
+    const files = () => readdirSync(RECORDED).filter((name) => name.startsWith('hall.')).sort();
+    await until('a second recording', async () => files().length === 2);
+    await end(again.child);
+    const bytes = files().map((name) => readFileSync(join(RECORDED, name)));
+    const killed = bytes.map(readStream).filter(({ isWhole }) => !isWhole);
+    assert.equal(killed.length, 1, 'the one of the server that was killed has no end');
+    assert.ok(killed[0].counts.get('/journal') > 100);
+    for (const whole of bytes.filter((file) => readStream(file).isWhole)) {
+      const { counts } = await readWhole(whole);
+      for (const topic of ['/journal', '/map/occupancy', '/map/gas/stddev']) assert.ok(counts.has(topic), topic);
+    }
   });
 }
 
@@ -648,7 +664,7 @@ async function access() {
 
 mkdirSync(OUT, { recursive: true });
 try {
-  const server = await serve('127.0.0.1:0', '127.0.0.1:0', '--data', data);
+  const server = await serve('127.0.0.1:0', '127.0.0.1:0', '--data', data, '--record', RECORDED);
   const origin = `http://${server.found.pages}`;
   const browser = await launch();
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 },

@@ -1,50 +1,52 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-// A mission as MCAP, as an independent reader has it, with all its checksums.
+// MCAP files of before, as an independent reader has them: of a mission (room), of a mission while it ran on a
+// server (live), and of a robot in it (scout). How they came about: ../tests/formats/view/golden/README.md.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { McapIndexedReader, McapStreamReader } from '@mcap/core';
-import { decompress } from 'fzstd';
+import { openIndexed, readStream, readWhole } from './mcap_file.mjs';
 
-const FILE = '../tests/formats/view/golden/room.mcap';
-const decompressHandlers = {
-  zstd: (packed: Uint8Array, size: bigint) => decompress(packed, new Uint8Array(Number(size))),
+const DRAWN = ['foxglove.LaserScan', 'foxglove.Log', 'foxglove.PoseInFrame', 'foxglove.SceneUpdate',
+               'plumescout.v1.Observation', 'plumescout.v1.Plan'];
+const FILES = {
+  room: {
+    path: '../tests/formats/view/golden/room.mcap',
+    counts: { '/journal': 35, '/plans': 1, '/map/occupancy': 2 },  // the start and 34 events
+    schemas: [...DRAWN, 'foxglove.Grid'],
+  },
+  live: {
+    path: '../tests/formats/view/golden/live.mcap',
+    counts: { '/journal': 196, '/plans': 2, '/map/occupancy': 2 },
+    schemas: [...DRAWN, 'foxglove.Grid'],
+  },
+  scout: {
+    path: '../tests/formats/view/golden/scout.mcap',
+    counts: { '/registration': 1, '/observations': 92, '/plans': 2 },
+    schemas: [...DRAWN, 'plumescout.v1.RegisterRobotRequest'],
+  },
 };
 
-test('a stream reader finds every message and no wrong checksum', () => {
-  const reader = new McapStreamReader({ decompressHandlers, validateCrcs: true });
-  reader.append(readFileSync(FILE));
-  const topics = new Map<number, string>();
-  const counts = new Map<string, number>();
-  for (let record = reader.nextRecord(); record; record = reader.nextRecord()) {
-    if (record.type === 'Channel') topics.set(record.id, record.topic);
-    if (record.type !== 'Message') continue;
-    const topic = topics.get(record.channelId);
-    assert.ok(topic);
-    counts.set(topic, (counts.get(topic) ?? 0) + 1);
-  }
-  assert.ok(reader.done());
-  assert.equal(counts.get('/journal'), 35);  // the start and 34 events
-  assert.equal(counts.get('/plans'), 1);
-  assert.equal(counts.get('/map/occupancy'), 2);
-});
+for (const [name, { path, counts, schemas }] of Object.entries(FILES)) {
+  test(`of ${name} every message is found, also by the index, and no checksum is wrong`, async () => {
+    const read = await readWhole(readFileSync(path));
+    for (const [topic, count] of Object.entries(counts)) assert.equal(read.counts.get(topic), count, topic);
+    for (const schema of schemas) assert.ok(read.schemas.has(schema), schema);
+  });
+}
 
 test('its index leads to the messages of a topic and time', async () => {
-  const bytes = readFileSync(FILE);
-  const readable = {
-    size: async () => BigInt(bytes.length),
-    read: async (offset: bigint, size: bigint) =>
-      new Uint8Array(bytes.subarray(Number(offset), Number(offset + size))),
-  };
-  const reader = await McapIndexedReader.Initialize({ readable, decompressHandlers });
-  const schemas = [...reader.schemasById.values()].map((schema) => schema.name);
-  for (const name of ['foxglove.Grid', 'foxglove.LaserScan', 'foxglove.Log',
-                      'foxglove.PoseInFrame', 'foxglove.SceneUpdate', 'plumescout.v1.Plan']) {
-    assert.ok(schemas.includes(name), name);
-  }
+  const reader = await openIndexed(readFileSync(FILES.room.path));
   const times: bigint[] = [];
   const wish = { topics: ['/robots/scout/pose'], startTime: 1_000_000_000n };
   for await (const message of reader.readMessages(wish)) times.push(message.logTime);
   assert.ok(times.length > 0 && times.every((time) => time >= 1_000_000_000n));
+});
+
+test('a file that was cut off is read up to the last whole chunk; a wrong byte is found', () => {
+  const bytes = readFileSync(FILES.room.path);
+  assert.equal(readStream(bytes.subarray(0, bytes.length - 100)).isWhole, false);
+  const wrong = Uint8Array.from(bytes);
+  wrong[wrong.length / 2 | 0] ^= 1;
+  assert.throws(() => readStream(wrong));
 });

@@ -100,6 +100,22 @@ TEST_F(RobotViewTest, TheLogsTimeNeverGoesBack) {
   EXPECT_THAT(run.log, ElementsAre("recording: 3 messages are missing"));
 }
 
+// Which an independent reader reads too: console/test/mcap.test.ts.
+TEST_F(RobotViewTest, AFileOfBeforeIsStillRead) {
+  const RecordedRun run = ReadRun("tests/formats/view/golden/scout.mcap");
+  EXPECT_EQ(run.torn_end, "");
+  v1::RegisterRobotRequest registration;
+  ASSERT_EQ(run.Count("/registration"), 1u);
+  ASSERT_TRUE(registration.ParseFromString(run.by_topic.at("/registration")[0].data));
+  EXPECT_EQ(registration.robot_id(), "scout");
+  EXPECT_EQ(run.Count("/observations"), 92u);
+  for (const McapMessage& message : run.by_topic.at("/observations")) {
+    v1::Observation proto;
+    ASSERT_TRUE(proto.ParseFromString(message.data));
+    EXPECT_TRUE(FromProto(proto, "observation").ok()) << proto.sequence();
+  }
+}
+
 TEST_F(RobotViewTest, AnEmptyRunSaysWhoItWas) { EXPECT_EQ(Read().Count("/registration"), 1u); }
 
 }  // namespace robot_view_test

@@ -95,6 +95,17 @@ TEST_F(IngestCommandTest, WhatARobotRecordedBecomesAMission) {
   EXPECT_GT(map.robots[0].pose.x_m, 10.0) << "in the mission's frame";
 }
 
+TEST_F(IngestCommandTest, WhatARobotOfBeforeRecordedStillBecomesAMission) {
+  const auto run = ReadFile("tests/formats/view/golden/scout.mcap", 1 << 20);
+  ASSERT_TRUE(run.ok()) << run.status();
+  ASSERT_TRUE(WriteFile(folder_.File("run"), *run).ok());
+  ASSERT_EQ(Ingest("run"), "");
+  const MapSnapshot map = MakeMapSnapshot(*Replayed()->Snapshot());
+  ASSERT_EQ(map.robots.size(), 1u);
+  EXPECT_EQ(map.robots[0].id, "scout");
+  EXPECT_EQ(map.gas_counters.readings, 16);
+}
+
 TEST_F(IngestCommandTest, OfARobotsRecordingThatWasCutOffTheFrontIsKept) {
   std::vector<Observation> log;
   for (int lap = 0; lap < 10; ++lap) {  // more than one chunk

@@ -90,6 +90,17 @@ TEST_F(RecordingTest, ReplaysFromAnMcapFileToTheSameState) {
   EXPECT_EQ(EndRemark(*exported), "");
 }
 
+// Which an independent reader reads too: console/test/mcap.test.ts.
+TEST_F(RecordingTest, WhatAServerOfBeforeRecordedIsStillReplayed) {
+  auto recording = Recording::Open("tests/formats/view/golden/live.mcap");
+  ASSERT_TRUE(recording.ok()) << recording.status();
+  EXPECT_EQ(recording->start().mission, "hall");
+  const auto mission = Replay(*recording, 0);
+  ASSERT_TRUE(mission.ok()) << mission.status();
+  EXPECT_EQ((*mission)->revision(), 195);
+  EXPECT_EQ(EndRemark(*recording), "");
+}
+
 TEST_F(RecordingTest, WhatARobotRecordedIsNamedWithWhatToDo) {
   WriteRobotRun(folder_.File("run.mcap"), {});
   const absl::Status status = Recording::Open(folder_.File("run.mcap")).status();
