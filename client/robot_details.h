@@ -42,6 +42,7 @@ struct RobotDetails {
   std::optional<double> ingest_lag_s = std::nullopt;
   std::optional<PlanProgress> live_plan = std::nullopt;  // none, too, if it is to stay
   bool battery_low = false;                              // it is sent home for that
+  std::optional<Point2> home = std::nullopt;             // none before its first observation
 };
 
 }  // namespace plumescout::client

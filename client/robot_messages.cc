@@ -6,6 +6,7 @@
 
 #include "core/types/status_macros.h"
 #include "proto/convert/field.h"
+#include "proto/convert/geometry.h"
 #include "proto/convert/map.h"
 #include "proto/convert/names.h"
 #include "proto/convert/robot.h"
@@ -76,6 +77,9 @@ absl::StatusOr<RobotDetails> DetailsFromProto(const v1::Robot& proto) {
         PlanProgress{plan.plan, proto.progress_s(), proto.lateness_s(), proto.arrival_time_ns()};
   }
   details.battery_low = proto.battery_low();
+  if (proto.has_home()) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(details.home, FromProto(proto.home(), "robot.home"));
+  }
   return details;
 }
 

@@ -68,6 +68,9 @@ v1::Robot DescribeRobot(const RobotRecord& record, const Belief& belief, Mission
   if (robot.battery_share) proto.set_battery_share(*robot.battery_share);
   proto.set_ordered_home(robot.ordered_home);
   proto.set_battery_low(record.battery_low);
+  const std::optional<Point2> home =
+      belief.options->home ? belief.options->home : record.first_place;
+  if (home) *proto.mutable_home() = ToProto(*home);
   return proto;
 }
 

@@ -50,6 +50,7 @@ TEST(RobotMessagesTest, ARobotIsReadWhole) {
   proto.set_progress_s(3.0);
   proto.set_lateness_s(1.0);
   proto.set_arrival_time_ns(99);
+  proto.mutable_home()->set_x_m(4.0);
   const auto robot = DetailsFromProto(proto);
   ASSERT_TRUE(robot.ok()) << robot.status();
   EXPECT_EQ(robot->state.id, "scout");
@@ -60,6 +61,7 @@ TEST(RobotMessagesTest, ARobotIsReadWhole) {
   EXPECT_EQ(robot->last_heard_age_s, 2.0);
   EXPECT_EQ(robot->ingest_lag_s, 0.5);
   EXPECT_EQ(robot->live_plan, (PlanProgress{7, 3.0, 1.0, 99}));
+  EXPECT_EQ(robot->home, (Point2{4.0, 0.0}));
 }
 
 TEST(RobotMessagesTest, ALinkThatIsNotKnownIsUnknown) {

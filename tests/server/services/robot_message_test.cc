@@ -24,9 +24,9 @@ absl::StatusOr<Plan> DriveEast(const Belief& belief, const PlanRequest& request,
 
 class RobotMessageTest : public ServiceTest {
  protected:
-  v1::Robot Get() {
+  v1::Robot Get(const std::string& robot = kRobot) {
     v1::GetRobotRequest request;
-    request.set_name(kRobot);
+    request.set_name(robot);
     auto response = Call(robots_, &v1::RobotService::Stub::GetRobot, request);
     EXPECT_TRUE(response.ok()) << response.status();
     return response.ok() ? response->robot() : v1::Robot();
@@ -91,6 +91,26 @@ TEST_F(RobotMessageTest, TheBatteryIsWhatItToldWithoutAPose) {
   EXPECT_EQ(response->rejections_size(), 0);
   EXPECT_EQ(Get().battery_share(), 0.75);
   EXPECT_FALSE(Get().on_map().has_pose());
+}
+
+TEST_F(RobotMessageTest, HomeIsWhereItBeganUnlessTheMissionNamesOne) {
+  StartServer();
+  const std::int64_t lease = Lease();
+  EXPECT_FALSE(Get().has_home());
+  for (int k = 1; k <= 2; ++k) {
+    ASSERT_TRUE(Ingest(kRobot, lease, RoomScan(k, {1.0 + k, 1.5, 0.0})).ok());
+  }
+  EXPECT_EQ(Get().home().x_m(), 2.0);
+  EXPECT_EQ(Get().home().y_m(), 1.5);
+  v1::MissionOptions options;
+  options.mutable_home()->set_x_m(4.0);
+  ASSERT_TRUE(CreateMission("yard", options).ok());
+  v1::RegisterRobotRequest request;
+  request.set_mission("missions/yard");
+  request.set_robot_id("r1");
+  request.set_radius_m(0.2);
+  ASSERT_TRUE(Call(robots_, &v1::RobotService::Stub::RegisterRobot, request).ok());
+  EXPECT_EQ(Get("missions/yard/robots/r1").home().x_m(), 4.0);
 }
 
 TEST_F(RobotMessageTest, ALivePlanHasProgress) {
