@@ -100,6 +100,8 @@ absl::StatusOr<std::unique_ptr<WebServer>> ServeConsole(const ServerConfig& conf
   options.max_message_bytes = static_cast<std::size_t>(config.limits.max_receive_bytes);
   options.max_streams = console.max_stream_count;
   options.hosts = absl::StrSplit(console.hosts, ',', absl::SkipEmpty());
+  options.takes_subjects =
+      config.access.trusted_front == kLocalFront && IsLocalAddress(console.listen);
   std::error_code ignored;  // then pages that are installed are not found
   PLUMESCOUT_ASSIGN_OR_RETURN(
       options.files,

@@ -37,8 +37,9 @@ constexpr absl::Duration kAcceptPause = absl::Milliseconds(100);
 // Of a request that was refused.
 constexpr std::size_t kMaxDroppedBytes = std::size_t{64} << 20;
 constexpr char kNoStore[] = "no-store";
+constexpr absl::string_view kSubject = "x-plumescout-subject";
 // What a browser's call brings along that calls may have.
-constexpr std::array<const char*, 2> kMetadata = {"authorization", "x-request-id"};
+constexpr std::array<absl::string_view, 3> kMetadata = {"authorization", "x-request-id", kSubject};
 
 std::string RefusedCall(const grpc::Status& status) {
   return HttpAnswerOf(200, kGrpcWebType, kNoStore, TrailerFrame(status));
@@ -373,8 +374,9 @@ void WebServer::StartCall(const HttpRequest& request, Connection& connection) {
   WebCall::Parts parts;
   parts.method = method->path;
   parts.message = *std::move(message);
-  for (const char* name : kMetadata) {
-    const absl::string_view value = request.Header(name);
+  for (const absl::string_view name : kMetadata) {
+    if (name == kSubject && !options_.takes_subjects) continue;
+    const absl::string_view value = request.Header(std::string(name));
     if (value.empty()) continue;
     if (!std::all_of(value.begin(), value.end(), absl::ascii_isprint)) {
       return refuse(grpc::StatusCode::INVALID_ARGUMENT, absl::StrCat(name, " is not ASCII"));

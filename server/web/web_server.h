@@ -22,7 +22,10 @@ namespace plumescout::server {
 
 struct WebOptions {
   StaticFiles files = {};
-  std::vector<std::string> hosts = {};      // names of a front, as they stand in addresses
+  std::vector<std::string> hosts = {};  // names of a front, as they stand in addresses
+  // Whoever connects is the trusted front, and says by x-plumescout-subject who calls. Else that is
+  // not passed on.
+  bool takes_subjects = false;
   std::size_t max_message_bytes = 262'144;  // of a request
   int max_streams = 64;                     // at one time, of all pages
   int max_calls = 64;                       // that are no streams, at one time

@@ -5,6 +5,7 @@
 Floods come from addresses of their own, for the front counts by address.
 """
 
+import http.client
 import pathlib
 import socket
 import ssl
@@ -80,9 +81,10 @@ class FrontTest(unittest.TestCase):
             running.make_certificate(cls.folder, *made)
         running.make_certificate(cls.strangers, "authority")
         running.make_certificate(cls.strangers, "client", "alice", "operator", "acme")
-        cls.server = running.Server("access.trusted_front=loopback")
+        console = f"127.0.0.1:{running.free_port()}"
+        cls.server = running.Server("access.trusted_front=loopback", f"console.listen={console}")
         cls.addClassCleanup(cls.server.stop)
-        cls.front = running.Front(cls.folder, cls.server.target)
+        cls.front = running.Front(cls.folder, cls.server.target, console)
         cls.addClassCleanup(cls.front.stop)
 
     def client(self, name, folder=None, timeout_s=running.PATIENCE_S):
@@ -139,6 +141,34 @@ class FrontTest(unittest.TestCase):
         self.assert_refused(
             grpc.StatusCode.UNAUTHENTICATED, self.client("norole").list_missions
         )
+
+    def post(self, name, method, message, **headers):
+        """The answer to a call that a page makes in a browser with that certificate."""
+        context = ssl.create_default_context(cafile=self.folder / "ca.crt")
+        if name:
+            context.load_cert_chain(self.folder / f"{name}.crt", self.folder / f"{name}.key")
+        link = http.client.HTTPSConnection(
+            "localhost", self.front.console_port, context=context, timeout=running.PATIENCE_S
+        )
+        self.addCleanup(link.close)
+        body = message.SerializeToString()
+        link.request(
+            "POST",
+            f"/plumescout.v1.MissionService/{method}",
+            b"\0" + struct.pack(">I", len(body)) + body,
+            {"content-type": "application/grpc-web+proto", **headers},
+        )
+        return link.getresponse().read()
+
+    def test_a_browser_is_who_its_certificate_says(self):
+        make = mission_pb.CreateMissionRequest(mission_id="annex")
+        lie = {"x-plumescout-subject": "CN=root,OU=admin"}
+        self.assertIn(b"grpc-status: 7", self.post("scout", "CreateMission", make, **lie))
+        self.assertIn(b"grpc-status: 0", self.post("alice", "CreateMission", make, **lie))
+        self.assertEqual(self.owner_of(self.client("alice"), "annex"), "alice")
+        for name in (None, "late"):
+            with self.assertRaises(OSError, msg=name):
+                self.post(name, "ListMissions", mission_pb.ListMissionsRequest())
 
     def test_streams_pass(self):
         alice = self.client("alice")

@@ -96,19 +96,28 @@ class Server:
 
 
 class Front:
-    """HAProxy with the shipped configuration on a loopback port, before a server."""
+    """HAProxy with the shipped configuration on loopback ports, before a server, and before its
+    console where that has an address."""
 
-    def __init__(self, folder, server_target):
+    def __init__(self, folder, server_target, console=""):
         self.port = free_port()
+        self.console_port = free_port()
+        configurations = ["haproxy.cfg"] + (["console.cfg"] if console else [])
         environment = dict(
             os.environ,
             PLUMESCOUT_FRONT_BIND=f"127.0.0.1:{self.port}",
             PLUMESCOUT_FRONT_CERTIFICATE=str(folder / "front.crt"),
             PLUMESCOUT_FRONT_CLIENT_CA=str(folder / "ca.crt"),
             PLUMESCOUT_SERVER=server_target,
+            PLUMESCOUT_CONSOLE_BIND=f"127.0.0.1:{self.console_port}",
+            PLUMESCOUT_CONSOLE=console,
         )
         self.process = subprocess.Popen(
-            [os.environ["PLUMESCOUT_HAPROXY"], "-db", "-f", ROOT / "deploy/haproxy/haproxy.cfg"],
+            [
+                os.environ["PLUMESCOUT_HAPROXY"],
+                "-db",
+                *(part for name in configurations for part in ("-f", ROOT / "deploy/haproxy" / name)),
+            ],
             env=environment,
             stdout=subprocess.DEVNULL,
         )

@@ -230,6 +230,25 @@ TEST_F(WebServerTest, CallsHaveTheIdentityOfTheirTokens) {
               HasSubstr("grpc-status: 7\r\n"));
 }
 
+TEST_F(WebServerTest, CallsHaveTheIdentityThatTheFrontSays) {
+  ServerConfig config;
+  config.access.trusted_front = kLocalFront;
+  config.listen = "127.0.0.1:0";
+  auto server = Server::Start(config);
+  ASSERT_TRUE(server.ok()) << server.status();
+  server_ = *std::move(server);
+  const std::string who =
+      absl::StrCat("X-PlumeScout-Subject: CN=lena,OU=viewer,O=acme\r\n", kClose);
+  WebOptions options;
+  options.takes_subjects = true;
+  ServeWeb(std::move(options));
+  EXPECT_THAT(Exchange(Post(kListMissions, "", who)), HasSubstr("grpc-status: 0\r\n"));
+  EXPECT_THAT(Exchange(Post("/plumescout.v1.MissionService/CreateMission", "", who)),
+              HasSubstr("grpc-status: 7\r\n"));
+  ServeWeb({});  // where anybody may connect, nobody is believed
+  EXPECT_THAT(Exchange(Post(kListMissions, "", who)), HasSubstr("grpc-status: 16\r\n"));
+}
+
 TEST_F(WebServerTest, TooManyStreamsAreRefusedUntilOneEnds) {
   WebOptions options;
   options.max_streams = 1;
