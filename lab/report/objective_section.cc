@@ -45,7 +45,7 @@ struct Kind {
   Rgb color;
 };
 
-// Those that missions for `asked` can have, as they are called there.
+// Those that missions for `asked` can have, as the console calls them (objective_words.ts).
 std::vector<Kind> KindsOf(const ObjectiveOptions& asked) {
   const std::string threshold = absl::StrFormat("%g ppm", asked.threshold_ppm);
   std::vector<Kind> kinds;
@@ -55,19 +55,18 @@ std::vector<Kind> KindsOf(const ObjectiveOptions& asked) {
                {Outlook::kBelow, absl::StrCat("below ", threshold), kJudgedBelowColor}};
       break;
     case ObjectiveKind::kConfirmClean:
-      kinds = {
-          {Outlook::kBelow, absl::StrCat("clean, below ", threshold), kJudgedBelowColor},
-          {Outlook::kRefuted, absl::StrCat("not clean, above ", threshold), kJudgedRefutedColor}};
+      kinds = {{Outlook::kBelow, absl::StrCat("below ", threshold), kJudgedBelowColor},
+               {Outlook::kRefuted, absl::StrCat("above ", threshold), kJudgedRefutedColor}};
       break;
     case ObjectiveKind::kFindSources:
-      kinds = {{Outlook::kBelow, "weaker than the strongest place", kJudgedBelowColor},
+      kinds = {{Outlook::kBelow, "weaker than the source", kJudgedBelowColor},
                {Outlook::kAbove, absl::StrCat("weaker, but above ", threshold), kJudgedAboveColor}};
       break;
     case ObjectiveKind::kCompleteMap:
       break;
   }
-  kinds.push_back({Outlook::kUndecided, "undecided", kJudgedUndecidedColor});
-  kinds.push_back({Outlook::kNotMeasured, "not measured", kNotMeasuredColor});
+  kinds.push_back({Outlook::kUndecided, "undecided, measured", kJudgedUndecidedColor});
+  kinds.push_back({Outlook::kNotMeasured, "undecided, not measured", kNotMeasuredColor});
   return kinds;
 }
 
@@ -101,7 +100,7 @@ std::string Became(ObjectiveState state) {
     case ObjectiveState::kPursued:
       break;
   }
-  return "still open in the end";
+  return "still open";
 }
 
 // Of what is concluded, or how far the most doubtful place is from it.
