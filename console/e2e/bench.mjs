@@ -12,6 +12,7 @@ import { cpus, loadavg } from 'node:os';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 import { deflateSync, gzipSync } from 'node:zlib';
+import { RobotSession, connect } from '@plumescout/client';
 import { cleanUp, data, drive, end, launch, serve, until } from './harness.mjs';
 
 const { values: options } = parseArgs({ options: {
@@ -173,7 +174,14 @@ function cpu_s(child) {
   return (Number(words[11]) + Number(words[12])) / 100;
 }
 
-// What sixteen streams of the map, read to the end, cost the server; less what it does anyway.
+// What a page asks for every second, all at once.
+const poll = (origin, mission) => Promise.all([
+  message(origin, 'MissionService/GetMission', part(1, `missions/${mission}`)),
+  message(origin, 'RobotService/ListRobots', part(1, `missions/${mission}`)),
+  message(origin, 'PlanningService/ListPlans', part(1, `missions/${mission}`))]);
+
+// What sixteen pages cost the server, less what it does anyway: their streams, read to the end; then with
+// what they ask for beside.
 async function manyPages(server, origin) {
   const measure = async () => {
     const before = cpu_s(server.child);
@@ -185,7 +193,15 @@ async function manyPages(server, origin) {
   const readers = streams.map((stream) => stream.body.getReader());
   for (const reader of readers) void (async () => { while (!(await reader.read()).done); })().catch(() => {});
   await wait(2000);
-  told('16 streams of the map, cores', await measure() - alone, 2, { atMost: 0.3 });
+  told('streams of 16 pages, cores', await measure() - alone, 2);
+  let polls = 0;
+  const timers = readers.map((_, i) => setInterval(() => { // not all at once
+    setTimeout(() => poll(origin, 'hall').then(() => { ++polls; }, () => {}), 1000 * i / PAGES);
+  }, 1000));
+  await wait(2000);
+  told('16 pages, cores', await measure() - alone, 2, { atMost: 0.3 });
+  for (const timer of timers) clearInterval(timer);
+  assert.ok(polls > 10 * PAGES, `only ${polls} of them were answered`);
   await Promise.all(readers.map((reader) => reader.cancel()));
 }
 
@@ -196,9 +212,26 @@ function bundle() {
   told('pages, kB gzip', bytes / 1000, 0, { atMost: 200 });
 }
 
-async function panning(page, origin) {
-  const cells = Buffer.alloc(WIDE * WIDE, 1);
-  for (let i = 0; i < cells.length; i += 37) cells[i] = 2;
+// A robot walks along the edge of what is known, and reveals as far as it sees, once a second.
+async function explore(calls, mission) {
+  const robot = await RobotSession.register(connect(calls), { mission: `missions/${mission}`, robotId: 'walker', radius_m: 0.2,
+    clock_ns: null, takeOver: true });
+  const beams = 720, ranges_m = new Float64Array(beams).fill(Infinity);
+  let time_ns = 1_000_000_000_000n, x_m = 10;
+  const timer = setInterval(() => {
+    for (let k = 0; k < 4; ++k) { // a cell is free once it was seen more than once
+      robot.addScan({ time_ns: time_ns += 250_000_000n, pose: { x_m, y_m: 49, yaw_rad: 0 }, ranges_m,
+        startAngle_rad: 0, angleStep_rad: 2 * Math.PI / beams, maxRange_m: 15 });
+    }
+    x_m += 2;
+  }, 1000);
+  return () => { clearInterval(timer); robot.close(); };
+}
+
+// The southern half of it is known.
+async function panning(page, origin, calls) {
+  const cells = Buffer.alloc(WIDE * WIDE);
+  for (let i = 0; i < cells.length / 2; ++i) cells[i] = 1;
   const prior = part(1, part(1, part(1, real(1, 0), real(2, 0)), real(2, 0.1), number(3, WIDE), number(4, WIDE)),
                      part(2, deflateSync(cells)));
   await message(origin, 'MissionService/CreateMission', part(1, 'field'), part(2, part(13, prior)));
@@ -206,7 +239,28 @@ async function panning(page, origin) {
   await until('the large map', async () => await page.evaluate(() =>
     Number(document.querySelector('.stage > canvas')?.dataset.revision ?? -1) >= 0));
   await wait(2000);
-  const intervals = await page.evaluate(() => new Promise((done) => {
+  const still = await dragging(page, 180);
+  told('panning 1000 x 1000, frames a second', 1000 / mean(still), 1, { atLeast: 30 });
+  told('panning, longest frame, ms', Math.max(...still));
+  const stop = await explore(calls, 'field');
+  await wait(2000);
+  const known = () => page.evaluate(() => new Set(window.consoleTimes.drawn.map(([revision]) => revision)).size);
+  const before = await known();
+  const changing = await dragging(page, 900);
+  const seconds = changing.reduce((a, b) => a + b, 0) / 1000;
+  const changes = await known() - before;
+  stop();
+  assert.ok(changes > seconds / 2, `the map changed ${changes} times in ${seconds} s`);
+  told('while it changes, frames a second', 1000 / mean(changing), 1, { atLeast: 30 });
+  told('while it changes, p99 frame, ms', quantile(changing, 0.99), 1, { atMost: 50 });
+  told('while it changes, longest frame, ms', Math.max(...changing));
+}
+
+const mean = (values) => values.reduce((a, b) => a + b, 0) / values.length;
+
+// Times between frames while the map is dragged to and fro.
+function dragging(page, frames) {
+  return page.evaluate((count) => new Promise((done) => {
     const canvas = document.querySelector('.stage > canvas');
     const box = canvas.getBoundingClientRect();
     canvas.setPointerCapture = () => {}; // of a pointer that is there
@@ -216,14 +270,15 @@ async function panning(page, origin) {
     const times = [];
     const turn = (now) => {
       times.push(now);
-      if (times.length > 180) return done(times.slice(1).map((time, i) => time - times[i]));
+      if (times.length > count) {
+        send('pointerup', 300);
+        return done(times.slice(1).map((time, i) => time - times[i]));
+      }
       send('pointermove', 300 + 100 * Math.sin(times.length / 15));
       requestAnimationFrame(turn);
     };
     requestAnimationFrame(turn);
-  }));
-  told('panning 1000 x 1000, frames a second', 1000 * intervals.length / intervals.reduce((a, b) => a + b, 0), 1, { atLeast: 30 });
-  told('panning, longest frame, ms', Math.max(...intervals));
+  }), frames);
 }
 
 try {
@@ -236,7 +291,7 @@ try {
   await page.addInitScript(observe);
   bundle();
   await latency(page, origin);
-  await panning(page, origin);
+  await panning(page, origin, server.found.calls);
   await page.close();
   await manyPages(server, origin);
   await end(server.child);

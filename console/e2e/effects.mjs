@@ -88,6 +88,29 @@ export async function frontierMark(page) {
   return found === null ? null : [box.x + found[0], box.y + found[1]];
 }
 
+// The middle of the mark of a robot of this colour, rgb(r, g, b), pixels of the page; null: it is not found.
+export async function robotMark(page, colour) {
+  const canvas = page.locator('.stage > canvas');
+  const box = await canvas.boundingBox();
+  const rgb = colour.match(/\d+/g).map(Number);
+  const found = await canvas.evaluate((element, [r, g, b]) => {
+    const { data, width, height } = element.getContext('2d').getImageData(0, 0, element.width, element.height);
+    const is = (x, y) => {
+      const i = 4 * (y * width + x);
+      return Math.abs(data[i] - r) < 3 && Math.abs(data[i + 1] - g) < 3 && Math.abs(data[i + 2] - b) < 3;
+    };
+    const ratio = width / element.clientWidth;
+    const reach = [-4, -2, 0, 2, 4]; // ways are thinner
+    for (let y = 60; y < height - 10; ++y) {
+      for (let x = 10; x < width - 10; ++x) {
+        if (is(x, y) && reach.every((dx) => reach.every((dy) => is(x + dx, y + dy)))) return [x / ratio, y / ratio];
+      }
+    }
+    return null;
+  }, rgb);
+  return found === null ? null : [box.x + found[0], box.y + found[1]];
+}
+
 export async function checkScales(page) {
   const legend = page.locator('.legend');
   const button = (name) => page.getByRole('button', { name, exact: true });

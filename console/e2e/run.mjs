@@ -12,7 +12,8 @@ import { mkdirSync, readFileSync, readdirSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { parseArgs } from 'node:util';
 import { checkAccess } from './axe.mjs';
-import { checkMoves, checkScales, checkSwitches, frontierMark } from './effects.mjs';
+import { checkMoves, checkScales, checkSwitches, frontierMark, robotMark } from './effects.mjs';
+import { measureTwoGases } from './gases.mjs';
 import { BIN, PATIENCE_MS, cleanUp, data, drive, driveToEnd, end, launch, serve, until } from './harness.mjs';
 import { readStream, readWhole } from '../test/mcap_file.mjs';
 import { lookAround, openSaved } from './report.mjs';
@@ -124,6 +125,18 @@ async function liveMap(origin) {
       return new Set(new Uint32Array(data.buffer)).size > 20;
     }));
   });
+  await step('a robot is looked at by its button, and by a click on it', async () => {
+    await button('look at: robot-2').click();
+    await button('looked at: robot-2').waitFor();
+    const colour = await page.locator('.robot', { hasText: 'robot-1' }).locator('.swatch')
+      .evaluate((swatch) => getComputedStyle(swatch).backgroundColor);
+    await until('robot-1 is looked at', async () => { // it may have moved on meanwhile
+      const mark = await robotMark(page, colour);
+      if (mark === null) return false;
+      await page.mouse.click(...mark);
+      return await button('looked at: robot-1').isVisible();
+    });
+  });
   await step('cells tell what they hold', async () => {
     const box = await map().boundingBox();
     await until('a reading', async () => {
@@ -194,6 +207,7 @@ async function charts() {
   await step('figures are drawn over time', async () => {
     await tab('Charts').click();
     await see('Largest gas mean');
+    await see('Since the mission began.');
     await page.locator('.chart', { hasText: /^Completeness/ }).getByText(/^\d\S* %$/).waitFor();
     await page.getByText('What counts', { exact: true }).click();
     await see(/the share of the mapped ground whose gas counts as observed/);
@@ -324,6 +338,8 @@ async function areas() {
       await page.setViewportSize({ width: size.width, height: size.height + more });
       await until('a map of that size', async () => (await heights()).every((now) => now === height + more));
     }
+    await clickAt(0.65, 0.6);
+    await button('Undo').click();
     for (const [x, y] of corners.slice(3)) await clickAt(x, y);
     await see('Robots will keep out of it:');
     await page.getByLabel('Name of the area').fill('spill');
@@ -333,6 +349,17 @@ async function areas() {
     await page.getByLabel('Name of the area').press('Enter');
     await button('Delete ramp').waitFor();
     await picture('areas');
+  });
+  await step('options in force tell of the areas, whose corners were three', async () => {
+    await page.getByText('Options in force', { exact: true }).click();
+    await until('both areas', async () => {
+      const text = await page.locator('details', { hasText: 'Options in force' }).locator('pre').textContent();
+      const { keepOut } = JSON.parse(text);
+      return keepOut.length === 2 && keepOut.find(({ name }) => name === 'ramp')?.vertices.length === 3;
+    });
+    if (!await page.locator('details[open] pre').isVisible()) await page.getByText('Options in force', { exact: true }).click();
+    await page.locator('details[open] pre').waitFor();
+    await page.getByText('Options in force', { exact: true }).click();
   });
   await step('drawing ends with Escape, and touches draw', async () => {
     await button('Draw a polygon').click();
@@ -373,6 +400,7 @@ async function time(origin) {
       input.dispatchEvent(new Event('change'));
     });
     await see('As it was at revision');
+    await see(/^revision \d+ of \d+ · .* in$/);
     assert.ok(await revision() < head);
     assert.match(page.url(), /@\d+$/);
     await picture('past');
@@ -453,7 +481,7 @@ async function time(origin) {
     await page.goto(`${origin}/#/missions/hall@${await revision()}`); // it stands still
     await see('As it was at revision');
     await checkScales(page);
-    await checkSwitches(page, ['frontiers', 'names', 'keep-out and home']);
+    await checkSwitches(page, ['frontiers', 'names', 'keep-out and homes']);
     await checkMoves(page);
     await page.keyboard.press('l');
     await see('live, revision');
@@ -496,6 +524,53 @@ async function objective(origin, server, browser) {
     await page.keyboard.press('5');
     await see('This mission has no objective');
   });
+}
+
+async function gases(origin, server) {
+  const robot = await measureTwoGases(server.found.calls, 'plant');
+  await step('of several gases the first is looked at, and the page says so', async () => {
+    await page.goto(`${origin}/#/missions/plant`);
+    await see('Gas mean of methane, ppm (logarithmic)');
+    await see('Plans, gas frontiers and the objective go by methane.');
+    await see('largest gas mean of methane');
+  });
+  await step('another one is chosen: map, figures, files, address', async () => {
+    const kept = new URL(page.url()).hash;
+    await page.getByLabel('Gas to look at').selectOption('ammonia');
+    await see('Gas mean of ammonia, ppm (logarithmic)');
+    await see('largest gas mean of ammonia');
+    assert.equal(new URL(page.url()).hash, `${kept}?gas=ammonia`);
+    const largest = async () => Number((await page.locator('dt', { hasText: 'largest gas mean of ammonia' })
+      .locator('+ dd').innerText()).split(' ')[0]);
+    await until('ammonia on the map', async () => { const ppm = await largest(); return ppm > 3 && ppm < 10; });
+    await picture('gases');
+    const [file] = await Promise.all([page.waitForEvent('download'),
+      (async () => { await tab('Operate').click(); await button('Gas mean (npy)').click(); })()]);
+    assert.equal(file.suggestedFilename(), 'plant-ammonia-gas-mean.npy');
+    const report = (await download('Report (HTML)')).toString();
+    assert.match(report, /plant, gas of ammonia, revision \d+/);
+    await tab('Why').click();
+    await page.locator('.side').getByText('go by methane.').waitFor();
+    await tab('Charts').click();
+    await page.locator('.chart', { hasText: /^Largest gas mean of ammonia/ }).waitFor();
+  });
+  await step('a link keeps the gas, and one that the mission does not have is refused with a way on', async () => {
+    await page.reload();
+    await see('Gas mean of ammonia, ppm (logarithmic)');
+    assert.equal(await page.getByLabel('Gas to look at').inputValue(), 'ammonia');
+    await page.goto(`${origin}/#/missions/plant?gas=neon`);
+    await page.getByRole('link', { name: 'The first gas' }).click();
+    await see('Gas mean of methane, ppm (logarithmic)');
+  });
+  await step('a lease is released once it was asked for', async () => {
+    await tab('Operate').click();
+    await button('Release the lease of sniffer').click();
+    await see('Whoever drives it now is sent away');
+    await button('Release').click();
+    await see('The lease of sniffer is free.');
+    await until('no lease', async () => await button('Release the lease of sniffer').count() === 0);
+  });
+  robot.close();
 }
 
 async function service(origin) {
@@ -591,6 +666,10 @@ async function trouble(origin, server) {
     await end(server.child, 'SIGKILL');
     await see(/connection lost/);
     await picture('lost');
+    const asked = page.waitForRequest(/WatchMap/);
+    await button('Try now').click();
+    await asked;
+    await see(/connection lost/);
     again = await serve(server.found.calls, server.found.pages, '--data', data, '--record', RECORDED);
     await page.locator('.pill.good', { hasText: /^live$/ }).waitFor({ timeout: PATIENCE_MS });
   });
@@ -692,6 +771,7 @@ try {
   await areas();
   await time(origin);
   await objective(origin, server, browser);
+  await gases(origin, server);
   await service(origin);
   await pictures(origin);
   await everybody(origin);

@@ -26,7 +26,7 @@ export class Series {
   }
 }
 
-export type Line = { name: string; series: Series; colour: string };
+export type Line = { name: string; samples: Sample[]; colour: string };
 
 export function drawChart(canvas: HTMLCanvasElement, lines: Line[], unit: string): void {
   const ratio = window.devicePixelRatio || 1;
@@ -40,7 +40,7 @@ export function drawChart(canvas: HTMLCanvasElement, lines: Line[], unit: string
   const left = 44, right = width - 6, top = 6, bottom = height - 16;
   let minT = Infinity, maxT = -Infinity, min = 0, max = -Infinity;
   for (const line of lines) {
-    for (const { t_s, value } of line.series.samples) {
+    for (const { t_s, value } of line.samples) {
       minT = Math.min(minT, t_s);
       maxT = Math.max(maxT, t_s);
       min = Math.min(min, value);
@@ -79,7 +79,7 @@ export function drawChart(canvas: HTMLCanvasElement, lines: Line[], unit: string
   for (const line of lines) {
     c.strokeStyle = line.colour;
     c.beginPath();
-    line.series.samples.forEach(({ t_s, value }, i) => {
+    line.samples.forEach(({ t_s, value }, i) => {
       if (i === 0) c.moveTo(x(t_s), y(value));
       else c.lineTo(x(t_s), y(value));
     });

@@ -15,17 +15,23 @@ export class Comparison {
 
   // Keeps what is looked at, which is of this revision.
   pin(revision: bigint): void {
-    const { raster, status, threshold_ppm, keepOut, home } = this.scene;
+    const { raster, status, threshold_ppm, keepOut, homes } = this.scene;
     if (raster === null) return notice('There is no map yet.', 'bad');
     this.scene.then = raster.copy();
     Object.assign(this.pinned, {
-      raster: this.scene.then, figures: figuresOf(this.scene.then, threshold_ppm), status, threshold_ppm, keepOut, home,
+      raster: this.scene.then, figures: figuresOf(this.scene.then, threshold_ppm), status, threshold_ppm, keepOut, homes,
       robot: '', plans: [], trails: new Map(), why: null, asked: null, draft: null, beside: this.scene });
     this.panel.callChange('Change', `Change of the gas mean since revision ${revision}`);
     this.panel.nameMoments({ then: `then: revision ${revision}` });
     this.panel.offer(this.pinned);
     notice(`Revision ${revision} is pinned: “Change” shows what the gas mean did since, “Side by side” both maps.`);
     this.panel.setCells('change');
+  }
+
+  // What is kept does not compare with what is looked at from now on.
+  drop(): void {
+    this.panel.offer(null);
+    this.scene.then = null;
   }
 
   // What is looked at now, in words.

@@ -35,13 +35,13 @@ export function fillIfChanged(element: Element, key: string, make: () => Child[]
   fill(element, ...make());
 }
 
-// As fill(); if a button had the focus, the one of its name has it then, so that keys go on there.
+// As fill(); if a button or a choice had the focus, the one of its name has it then, so that keys go on there.
 export function refill(bar: Element, ...children: Child[]): void {
   const nameOf = (button: Element) => button.getAttribute('aria-label') ?? button.textContent;
   const focused = bar.contains(document.activeElement) ? nameOf(document.activeElement!) : null;
   fill(bar, ...children);
   if (focused === null) return;
-  [...bar.querySelectorAll<HTMLElement>('button, summary')].find((button) => nameOf(button) === focused)?.focus();
+  [...bar.querySelectorAll<HTMLElement>('button, summary, select')].find((button) => nameOf(button) === focused)?.focus();
 }
 
 // Where a key leads to from place `at` of a row of so many tabs; null: it leads nowhere.

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 import { h, fill } from './dom.ts';
+import { addressOf } from './address.ts';
 import { MissionPage } from './mission_page.ts';
 import { listPage, newPage, servicePage } from './pages.ts';
 import type { Page } from './pages.ts';
@@ -43,9 +44,9 @@ let page: Page | null = null;
 
 function open(): void {
   page?.leave();
-  const [path, revision] = decodeURI(location.hash.slice(2)).split('@');
+  const { path, revision, gas } = addressOf(location.hash);
   const isMission = /^missions\/[a-z][a-z0-9-]*$/.test(path);
-  page = isMission ? new MissionPage(path, revision === undefined ? null : BigInt(`0${revision.replace(/\D/g, '')}`))
+  page = isMission ? new MissionPage(path, revision, gas)
     : path === 'new' ? newPage() : path === 'service' ? servicePage() : listPage();
   const name = isMission ? path.slice('missions/'.length) : path === 'new' ? 'new mission' : path;
   document.title = name === '' ? 'PlumeScout' : `${name} – PlumeScout`;

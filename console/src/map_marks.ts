@@ -7,7 +7,7 @@ import type { Raster } from '@plumescout/client';
 import type { Place, Scene } from './scene.ts';
 import { theme } from './theme.ts';
 import type { View } from './view.ts';
-import type { Plan, Polygon } from '@plumescout/client/wire';
+import type { Plan, Point2D, Polygon } from '@plumescout/client/wire';
 import { GoalKind, RejectedGoal_Reason } from '@plumescout/client/wire';
 import { shortName } from './words.ts';
 
@@ -29,7 +29,7 @@ export class MapMarks {
   }
 
   areas(names: boolean): void {
-    const { context: c, scene, view } = this;
+    const { context: c, scene } = this;
     for (const area of scene.keepOut) {
       this.pen.path(area.vertices);
       c.closePath();
@@ -40,8 +40,13 @@ export class MapMarks {
       c.setLineDash([]);
       if (names) this.nameArea(area);
     }
-    if (scene.home === undefined) return;
-    const [x, y] = view.toPixel(scene.home.xM, scene.home.yM);
+    for (const home of scene.homes) this.home(home);
+  }
+
+  // A house.
+  private home({ xM, yM }: Point2D): void {
+    const { context: c } = this;
+    const [x, y] = this.view.toPixel(xM, yM);
     c.beginPath();
     c.moveTo(x - 8, y);
     c.lineTo(x, y - 8);

@@ -13,6 +13,7 @@ import type { Place, Scene, Switch } from './scene.ts';
 import { NearestReading } from './nearest_reading.ts';
 import type { GasQuestion } from './nearest_reading.ts';
 import { cellInWords, cellsInWords } from './hover_words.ts';
+import { ofGas, ofPlans } from './gases.ts';
 import { ObjectiveLayer } from './objective_layer.ts';
 import type { ObjectiveQuestion } from './objective_layer.ts';
 import { outlooksOf } from './objective_words.ts';
@@ -22,7 +23,7 @@ const LAYERS: [CellLayer, string][] = [['mean', 'Gas'], ['uncertainty', 'Uncerta
   ['change', 'Change'], ['objective', 'Objective'], ['none', 'Walls']];
 const SWITCH_NAMES: Record<Switch, string> = {
   frontiers: 'frontiers', ways: 'ways of robots', trails: 'trails', claims: 'claimed goals', names: 'names',
-  areas: 'keep-out and home', why: 'candidates of the plan' };
+  areas: 'keep-out and homes', why: 'candidates of the plan' };
 // A click this near, pixels, means the robot.
 const NEAR_ROBOT = 14;
 const ZOOM_STEP = 1.4;
@@ -38,6 +39,8 @@ export class MapPanel {
   readonly element: HTMLElement;
   readonly banner = h('div', { class: 'banner', role: 'status' });
   readonly map: MapView;
+  // Another of the mission's gases is chosen.
+  onGas: (gas: string) => void = () => {};
   // What the change of the gas mean from scene.then to now is called.
   private change = { name: 'Change', title: 'Change of the gas mean' };
   private drawing: Drawing | null = null;
@@ -125,8 +128,20 @@ export class MapPanel {
     this.setCells(this.map.picture.layer);
   }
 
+  // Which gases there are to choose from, and which one is looked at.
+  offerGases(names: string[], looked: string): void {
+    const { gases } = this.scene;
+    if (names.join() === gases.names.join() && looked === gases.looked) return;
+    this.scene.gases = { names, looked };
+    this.showTools();
+    this.showLegend();
+  }
+
   // From now on the map of `pinned` can be looked at beside this one. Its scene may change: say so, then.
-  offer(pinned: Scene): void {
+  // Null: none is any more.
+  offer(pinned: Scene | null): void {
+    if (pinned === null && this.isBeside) this.lookBeside(false);
+    if (pinned === null && this.map.picture.layer === 'change') this.setCells('mean');
     this.pinned = pinned;
     this.map.beside?.replaced();
     this.showTools();
@@ -169,9 +184,11 @@ export class MapPanel {
     const judged = new Set(this.scene.judged.map(({ outlook }) => outlook));
     const { raster, status } = this.scene;
     const squares = squaresInWords(raster?.geometry.resolution_m ?? NaN, status?.geometry?.resolutionM ?? NaN);
-    const key = [squares, [...judged], outlooksOf(this.question?.asked()), pictures.map(({ layer, scale }) => [this.titleOf(layer, scale.log), scale, layer])];
+    const basis = ofPlans(this.scene.gases);
+    const key = [squares, basis, [...judged], outlooksOf(this.question?.asked()), pictures.map(({ layer, scale }) => [this.titleOf(layer, scale.log), scale, layer])];
     fillIfChanged(this.legend, JSON.stringify(key), () => [
       ...pictures.flatMap((picture) => this.scaleOf(picture)),
+      basis === '' ? null : h('div', {}, basis),
       squares === '' ? null : h('div', {}, `The map is large: ${squares} are shown.`),
       h('div', { class: 'marks' },
         h('span', { class: 'mark m-wall' }, 'wall'), h('span', { class: 'mark m-unknown' }, 'unknown'),
@@ -182,9 +199,9 @@ export class MapPanel {
   }
 
   private titleOf(layer: CellLayer, log: boolean): string {
-    return layer === 'uncertainty' ? 'Uncertainty, one σ, ppm'
+    return layer === 'uncertainty' ? `Uncertainty${ofGas(this.scene.gases)}, one σ, ppm`
       : layer === 'change' ? `${this.change.title}, ppm`
-        : `Gas mean, ppm${log ? ' (logarithmic)' : ''}`;
+        : `Gas mean${ofGas(this.scene.gases)}, ppm${log ? ' (logarithmic)' : ''}`;
   }
   private scaleOf(picture: CellPicture): HTMLElement[] {
     const { layer, scale } = picture;
@@ -211,7 +228,7 @@ export class MapPanel {
   private showTools(): void {
     const { map } = this;
     const open = this.tools.querySelector('details')?.open ?? false;
-    refill(this.tools,
+    refill(this.tools, this.choiceOfGas(),
       ...LAYERS.filter(([layer]) => layer === 'objective' ? this.hasObjective : layer !== 'change' || this.hasChange).map(([layer, name]) =>
         h('button', { 'aria-pressed': String(map.picture.layer === layer), onclick: () => this.setCells(layer) },
           layer === 'change' ? this.change.name : name)),
@@ -224,6 +241,14 @@ export class MapPanel {
       h('button', { 'aria-label': 'Zoom in', onclick: () => this.zoom(ZOOM_STEP) }, '+'),
       h('button', { 'aria-label': 'Zoom out', onclick: () => this.zoom(1 / ZOOM_STEP) }, '−'),
       h('button', { 'aria-pressed': String(map.follow), onclick: () => this.toggleFollow() }, 'Follow'));
+  }
+
+  private choiceOfGas(): HTMLElement | null {
+    const { names, looked } = this.scene.gases;
+    if (names.length < 2) return null;
+    const choice = h('select', { 'aria-label': 'Gas to look at', onchange: () => this.onGas(choice.value) },
+      ...names.map((name) => h('option', { value: name, selected: name === (looked || names[0]) }, name)));
+    return choice;
   }
 
   private switchOf(one: Switch): HTMLElement {

@@ -3,6 +3,7 @@
 // What is charted of a mission at one moment.
 import { GoalKind } from '@plumescout/client/wire';
 import type { MapStatus, Plan, Robot } from '@plumescout/client/wire';
+import { countersOf, isFirst, ofGas } from './gases.ts';
 import type { Scene } from './scene.ts';
 import { figure } from './words.ts';
 
@@ -26,20 +27,21 @@ function openFrontiers({ frontiers }: MapStatus): number {
 }
 
 // `latest`: the latest plan of each robot. None before there are a map and its status.
-export function missionFigures(scene: Pick<Scene, 'figures' | 'status'>, robots: Robot[],
+export function missionFigures(scene: Pick<Scene, 'figures' | 'status' | 'gases'>, robots: Robot[],
                                latest: Plan[]): MissionFigure[] {
-  const { figures, status } = scene;
+  const { figures, status, gases } = scene;
   if (figures === null || status === null) return [];
   const found: MissionFigure[] = [];
   const add = (title: string, unit: string, value: number, robot = '') => found.push({ title, unit, robot, value });
-  if (status.reachableAreaM2 > 0) add('Completeness', '%', (100 * status.observedAreaM2) / status.reachableAreaM2);
+  const first = ofGas({ ...gases, looked: '' }), looked = ofGas(gases);
+  if (status.reachableAreaM2 > 0) add(`Completeness${first}`, '%', (100 * status.observedAreaM2) / status.reachableAreaM2);
   add('Open frontiers of the map', '', openFrontiers(status));
   add('Known area', 'm²', figures.known_m2);
   if (status.objective !== undefined) add('Undecided area', 'm²', status.objective.undecidedAreaM2);
-  add('Largest gas mean', 'ppm', figures.max_ppm);
-  add(`Plume (above ${figure(status.gasThresholdPpm)} ppm)`, 'm²', figures.plume_m2);
-  add('Mean entropy of the gas field', 'nats', figures.mean_entropy_nats);
-  add('Readings in the posterior', '', Number(status.gasCounters?.inPosteriorCount ?? 0));
+  add(`Largest gas mean${looked}`, 'ppm', figures.max_ppm);
+  if (isFirst(gases)) add(`Plume${looked} (above ${figure(status.gasThresholdPpm)} ppm)`, 'm²', figures.plume_m2);
+  add(`Mean entropy of the gas field${looked}`, 'nats', figures.mean_entropy_nats);
+  add(`Readings in the posterior${looked}`, '', Number(countersOf(status, gases)?.inPosteriorCount ?? 0));
   for (const { robot, appliedSequence } of status.robots) add('Observations', '', Number(appliedSequence), robot);
   for (const { robot, cpuDuration } of latest) {
     const cpu_ms = 1e3 * Number(cpuDuration?.seconds ?? 0) + 1e-6 * (cpuDuration?.nanos ?? 0);

@@ -1,20 +1,23 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // One mission: the map, and beside it robots, reasons, figures and what can be done.
-import { PATIENCE, maps, missions, planning, robots as robotCalls } from './client.ts';
+import { PATIENCE, maps, missions, planning, robots as robotCalls, sentence } from './client.ts';
 import { ChartPanel } from './chart_panel.ts';
 import { Comparison } from './comparison.ts';
+import { hashOf } from './address.ts';
 import { AreasPanel } from './areas_panel.ts';
 import { fill, h, refill, tabOfKey } from './dom.ts';
 import { MapPanel } from './map_panel.ts';
 import type { Place, Scene } from './scene.ts';
 import { missionFigures } from './mission_figures.ts';
+import { pastFigures, replayOf } from './past_figures.ts';
 import { OperatePanel } from './operate_panel.ts';
 import { every, stateClass } from './pages.ts';
+import { isFirst, ofPlans } from './gases.ts';
 import { MOST_PLACES } from './objective_layer.ts';
 import { figuresOf } from '@plumescout/client';
 import { reportOf } from './report_file.ts';
-import { RobotsPanel } from './robots_panel.ts';
+import { RobotsPanel, homesOf } from './robots_panel.ts';
 import { refreshSession, session } from './session.ts';
 import { TimeBar } from './time_bar.ts';
 import type { MomentEvents } from './time_bar.ts';
@@ -32,7 +35,7 @@ export class MissionPage {
   readonly head: HTMLElement[];
   private readonly scene: Scene = {
     raster: null, then: null, figures: null, threshold_ppm: 0, status: null, plans: [], why: null, asksWhy: false, candidate: -1,
-    trails: new Map(), keepOut: [], draft: null, beside: null, home: undefined, robot: '', asked: null, sources: [], judged: [] };
+    trails: new Map(), keepOut: [], draft: null, beside: null, homes: [], gases: { names: [], looked: '' }, robot: '', asked: null, sources: [], judged: [] };
   private readonly panel: MapPanel;
   private readonly time: TimeBar;
   private readonly comparison: Comparison;
@@ -54,16 +57,20 @@ export class MissionPage {
   private latest: Plan[] | null = null;
   private answers = true; // the server, when it was last asked
   private figuresDue = true;
+  private chartsPast: AbortController | null = null; // while they are asked for, and after
+  private readonly opened_s = performance.now() / 1000;
   private readonly stops: (() => void)[] = [];
 
-  constructor(private readonly name: string, revision: bigint | null) {
+  constructor(private readonly name: string, revision: bigint | null, gas: string) {
     this.panel = new MapPanel(this.scene, (robot) => this.choose(robot), (place) => this.ask(place), {
       ask: (place, signal) => this.askGas([place], signal, false), goesOn: () => this.time.isLive }, {
       ask: (places, signal) => this.askGas(places, signal, true),
       goesOn: () => this.time.isLive,
       asked: () => this.mission?.options?.objective,
       mostPlaces: MOST_PLACES });
-    this.time = new TimeBar(name, this.panel.banner, this.momentEvents());
+    this.panel.onGas = (chosen) => this.lookAt(chosen);
+    this.time = new TimeBar(name, gas, this.panel.banner, this.momentEvents());
+    this.scene.gases.looked = gas;
     this.head = [this.statePill, this.objectivePill, this.time.linkPill];
     this.comparison = new Comparison(this.scene, this.panel);
     const colourOf = (robot: string) => this.panel.map.colourOf(robot);
@@ -81,7 +88,7 @@ export class MissionPage {
       if (this.time.isLive) this.scene.keepOut = areas;
       this.panel.map.draw();
     });
-    this.operate = new OperatePanel(name, this.areas.element, () => this.scene.raster, () => this.time.past ?? 0n,
+    this.operate = new OperatePanel(name, this.areas.element, () => this.scene.raster, () => ({ revision: this.time.past ?? 0n, gas: this.time.gas }),
       () => this.link(), () => this.report());
     this.listen();
     this.showTab('Robots');
@@ -95,6 +102,7 @@ export class MissionPage {
     this.panel.leave();
     this.areas.leave();
     this.operate.leave();
+    this.chartsPast?.abort();
     for (const stop of this.stops) stop();
   }
 
@@ -102,17 +110,18 @@ export class MissionPage {
   private async askGas(places: Place[], signal: AbortSignal, withVerdicts: boolean): Promise<QueryGasResponse | null> {
     if (this.time.playing) return null;
     return maps.queryGas({ mission: this.name, points: places.map(({ x_m, y_m }) => ({ xM: x_m, yM: y_m })), withVerdicts,
-                           revision: this.time.past ?? 0n }, { ...PATIENCE, signal });
+                           revision: this.time.past ?? 0n,
+                           species: withVerdicts ? '' : this.time.gas }, { ...PATIENCE, signal });
   }
 
   private async report(): Promise<string> {
-    const { mission, scene: { raster, trails } } = this;
+    const { mission, scene: { raster, trails, gases } } = this;
     if (mission === null || raster === null) throw new Error('there is no map yet');
-    return reportOf({ mission, raster, trails, revision: this.time.past ?? 0n });
+    return reportOf({ mission, raster, trails, gases, revision: this.time.past ?? 0n });
   }
 
   private link(): string {
-    return `${location.origin}/#/${this.name}@${this.time.revision}`;
+    return `${location.origin}/${hashOf({ path: this.name, revision: this.time.revision, gas: this.time.gas })}`;
   }
 
   // --- What is looked at.
@@ -148,7 +157,8 @@ export class MissionPage {
   private onStatus(status: MapStatus, revision: bigint): void {
     this.scene.status = status;
     this.panel.map.revision = revision;
-    this.scene.threshold_ppm = status.gasThresholdPpm;
+    this.panel.offerGases(status.gases.map(({ species }) => species), this.time.gas);
+    this.scene.threshold_ppm = isFirst(this.scene.gases) ? status.gasThresholdPpm : 0;
     this.scene.keepOut = status.keepOut;
     this.comparison.now(this.time.words);
     this.panel.offerObjective(status.objective !== undefined);
@@ -158,6 +168,16 @@ export class MissionPage {
     for (const robot of status.robots) extendTrail(this.scene.trails, robot.robot, robot.pose);
     if (this.scene.robot === '' && status.robots.length > 0) this.choose(status.robots[0].robot);
     this.panel.map.draw();
+  }
+
+  private lookAt(gas: string): void {
+    this.comparison.drop();
+    this.time.lookAt(gas);
+    this.panel.offerGases(this.scene.gases.names, gas);
+    this.charts.clear();
+    this.chartsPast?.abort();
+    this.chartsPast = null;
+
   }
 
   // --- What is polled.
@@ -174,18 +194,16 @@ export class MissionPage {
       this.answers = true;
       this.mission = got.mission ?? null;
       this.robots = listed.robots;
+      this.scene.homes = homesOf(this.robots, got.mission?.options?.home);
       if (this.mission !== null) {
         this.statePill.className = stateClass(this.mission.state);
         this.statePill.textContent = `${missionState(this.mission.state)} · ${phase(this.mission.phase)}`;
-        this.scene.home = this.mission.options?.home;
         this.time.reached(this.mission.revision);
       }
       if (this.time.isLive) {
         this.scene.plans = live.plans;
         if (withLatest && this.showsLatest()) this.setLatest(live.latest);
-        for (const { title, unit, robot, value } of missionFigures(this.scene, this.robots, live.latest)) {
-          this.charts.add(title, unit, robot, value);
-        }
+        for (const one of missionFigures(this.scene, this.robots, live.latest)) this.charts.add(one);
       }
     } catch {
       this.answers = false; // the stream's banner says what is the matter
@@ -218,7 +236,7 @@ export class MissionPage {
   private refreshFigures(): void {
     if (!this.figuresDue || this.scene.raster === null) return;
     this.figuresDue = false;
-    this.scene.figures = figuresOf(this.scene.raster, this.scene.status?.gasThresholdPpm ?? 0);
+    this.scene.figures = figuresOf(this.scene.raster, this.scene.threshold_ppm);
     this.panel.map.figuresChanged();
     this.panel.showLegend();
   }
@@ -238,6 +256,27 @@ export class MissionPage {
     if (tab === 'Why') this.latestPlan().catch(() => {}); // the next poll asks again
   }
 
+  // What was before the page was opened, once somebody asks for charts.
+  private async chartPast(): Promise<void> {
+    if (this.chartsPast !== null || this.mission === null) return;
+    const { signal } = this.chartsPast = new AbortController();
+    const { revision } = this.mission;
+    const { charts, scene: { gases }, time: { clock } } = this;
+    const page_s = performance.now() / 1000;
+    try {
+      const now_s = await clock.elapsed_s(revision);
+      if (now_s === null || signal.aborted) return;
+      charts.says('Since this page was opened; what was before is on its way …', now_s - (page_s - this.opened_s));
+      const updates = replayOf(this.name, now_s, gases, signal);
+      for await (const { t_s, figures } of pastFigures(updates, revision, gases, clock)) {
+        for (const one of figures) charts.addPast(t_s, one);
+      }
+      if (!signal.aborted) charts.says('Since the mission began.');
+    } catch (error) {
+      if (!signal.aborted) charts.says(`Since this page was opened. What was before is not known: ${sentence(error)}`);
+    }
+  }
+
   private onTabKey(event: KeyboardEvent): void {
     const next = tabOfKey(event.key, TABS.indexOf(this.tab), TABS.length);
     if (next === null) return;
@@ -252,9 +291,13 @@ export class MissionPage {
     }
     if (this.tab === 'Why') {
       const { robot, why } = this.scene;
-      this.why.show(robot, why, noPlanWords(robot, this.time.isLive, this.latest !== null));
+      this.why.show(robot, why, noPlanWords(robot, this.time.isLive, this.latest !== null),
+                    ofPlans(this.scene.gases));
     }
-    if (this.tab === 'Charts') this.charts.draw();
+    if (this.tab === 'Charts') {
+      void this.chartPast();
+      this.charts.draw();
+    }
     if (this.mission !== null) {
       this.areas.show(this.mission.options?.keepOut ?? [], this.mission.state !== MissionState.FINISHED);
     }

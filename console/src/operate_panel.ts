@@ -9,6 +9,7 @@ import { mayOperate } from './session.ts';
 import type { Mission, Robot } from '@plumescout/client/wire';
 import { MissionFileFormat, MissionState } from '@plumescout/client/wire';
 import { fetchMap } from './watch.ts';
+import type { Moment } from './watch.ts';
 import { bytes, shortName, squaresInWords } from './words.ts';
 
 async function attempt(what: string, task: () => Promise<unknown>): Promise<void> {
@@ -25,11 +26,11 @@ export class OperatePanel {
   private exporting: AbortController | null = null;
   private readonly saving = new AbortController();
 
-  // `areas`: what is done about keep-out areas; `raster`, `revision` (0: as it is now): of what is looked at;
+  // `areas`: what is done about keep-out areas; `raster`, `moment`: of what is looked at;
   // `report`: makes one of that.
   constructor(private readonly mission: string, private readonly areas: HTMLElement,
               private readonly raster: () => Raster | null,
-              private readonly revision: () => bigint,
+              private readonly moment: () => Moment,
               private readonly link: () => string, private readonly report: () => Promise<string>) {}
 
   leave(): void {
@@ -39,7 +40,7 @@ export class OperatePanel {
 
   show(mission: Mission | null, list: Robot[]): void {
     if (mission === null) return;
-    const key = JSON.stringify([mayOperate(), mission.state, list.map((one) =>
+    const key = JSON.stringify([mayOperate(), mission.state, mission.options?.keepOut, list.map((one) =>
       [one.onMap?.robot, one.orderedHome, one.leased])]);
     fillIfChanged(this.element, key, () => [
       mayOperate() ? this.missionActions(mission)
@@ -110,8 +111,8 @@ export class OperatePanel {
 
   private exports(): HTMLElement {
     const id = shortName(this.mission);
-    const npy = (name: string, layer: (raster: Raster) => Float32Array) => void this.saveMap((raster) =>
-      saveFile(`${id}-${name}.npy`, [npyOf(layer(raster), raster.geometry.rows, raster.geometry.columns).buffer as ArrayBuffer]));
+    const npy = (name: string, layer: (raster: Raster) => Float32Array) => void this.saveMap((raster, gas) =>
+      saveFile(`${id}-${gas === '' ? '' : `${gas}-`}${name}.npy`, [npyOf(layer(raster), raster.geometry.rows, raster.geometry.columns).buffer as ArrayBuffer]));
     return h('section', { class: 'card' }, h('h2', {}, 'Take away'), h('div', { class: 'row' },
       h('button', { onclick: () => void this.saveMap((raster) => {
         saveFile(`${id}.pgm`, [pgmOf(raster).buffer as ArrayBuffer]);
@@ -128,12 +129,13 @@ export class OperatePanel {
   }
 
   // What is drawn may be of squares of cells, and its gas is of 16 bits.
-  private async saveMap(write: (raster: Raster) => void): Promise<void> {
+  private async saveMap(write: (raster: Raster, gas: string) => void): Promise<void> {
     if (this.raster() === null) return notice('There is no map yet.', 'bad');
     const { signal } = this.saving;
+    const moment = this.moment();
     try {
-      const { raster, status } = await fetchMap(this.mission, this.revision(), signal, true);
-      write(raster);
+      const { raster, status } = await fetchMap(this.mission, moment, signal, true);
+      write(raster, moment.gas);
       const squares = squaresInWords(raster.geometry.resolution_m, status.geometry?.resolutionM ?? NaN);
       if (squares !== '') notice(`The map is large: it is saved in ${squares}. plumescoutctl map export saves all cells.`);
     } catch (error) {

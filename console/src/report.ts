@@ -83,7 +83,7 @@ class Report {
       raster: this.estimate, then: this.truth, figures: null, threshold_ppm: map.status?.gasThresholdPpm ?? 0,
       status: this.status, plans: [], why: null, asksWhy: true, candidate: -1,
       trails: new Map(mission.ways.map(({ robot, points_m }) => [robot, { points: points_m }])),
-      keepOut: map.status?.keepOut ?? [], draft: null, beside: null, home: undefined, robot: '', asked: null,
+      keepOut: map.status?.keepOut ?? [], draft: null, beside: null, homes: [], gases: { names: [], looked: '' }, robot: '', asked: null,
       sources: mission.sources_m.map(([x_m, y_m]) => ({ x_m, y_m })), judged: [] };
     this.panel = new MapPanel(this.scene, () => {}, () => {}, null,
       this.objective === null || this.estimate === null ? null : questionOf(this.objective, this.estimate));

@@ -9,6 +9,8 @@ import {
 } from '@plumescout/client/wire';
 import type { GetMapResponse, Mission } from '@plumescout/client/wire';
 import { PATIENCE, maps, planning } from './client.ts';
+import { isFirst, ofGas } from './gases.ts';
+import type { Gases } from './gases.ts';
 import { MOST_PLACES, spread, squaresOf } from './objective_layer.ts';
 import { base64Of, fillReport, rasterOf } from './reported_mission.ts';
 import type { ReportedMission } from './reported_mission.ts';
@@ -20,15 +22,16 @@ const LAYERS = [MapLayer.OCCUPANCY, MapLayer.GAS_MEAN, MapLayer.GAS_VARIANCE];
 const MOST_QUESTIONS = 16;
 
 // What is looked at. `revision` 0: as it is now.
-export type Looked = { mission: Mission; revision: bigint; raster: Raster; trails: Trails };
+export type Looked = { mission: Mission; revision: bigint; gases: Gases; raster: Raster; trails: Trails };
 
 // One message, whatever parts it came in, as coarse as `raster`.
-async function wholeMap(mission: string, revision: bigint, raster: Raster): Promise<GetMapResponse> {
+async function wholeMap({ mission: { name }, revision, gases, raster }: Looked): Promise<GetMapResponse> {
   let whole: GetMapResponse | null = null;
   let level = 0;
   let partToken = '';
   do {
-    const part = await maps.getMap({ mission, revision, layers: LAYERS, levelOfDetail: level, partToken }, PATIENCE);
+    const part = await maps.getMap({ mission: name, revision, layers: LAYERS, levelOfDetail: level, partToken,
+      species: gases.looked === '' ? [] : [gases.looked] }, PATIENCE);
     const cell_m = part.status?.geometry?.resolutionM ?? NaN;
     if (whole === null && raster.geometry.resolution_m > 1.5 * cell_m && level === 0) {
       level = Math.round(Math.log2(raster.geometry.resolution_m / cell_m));
@@ -42,9 +45,10 @@ async function wholeMap(mission: string, revision: bigint, raster: Raster): Prom
   return whole;
 }
 
-async function objectiveOf({ mission, revision }: Looked, raster: Raster): Promise<ReportedMission['objective']> {
+async function objectiveOf({ mission, revision, gases }: Looked, raster: Raster): Promise<ReportedMission['objective']> {
   const asked = mission.options?.objective;
-  if (asked === undefined || asked.kind === ObjectiveKind.COMPLETE_MAP) return null;
+  // It is of the first gas, and so are the means that tell above from below.
+  if (asked === undefined || asked.kind === ObjectiveKind.COMPLETE_MAP || !isFirst(gases)) return null;
   const { places, size_m } = squaresOf(raster, MOST_QUESTIONS * MOST_PLACES);
   const verdicts: number[] = [];
   for (let i = 0; i < places.length; i += MOST_PLACES) {
@@ -59,14 +63,14 @@ async function objectiveOf({ mission, revision }: Looked, raster: Raster): Promi
 // The page. Errors are those of the calls.
 export async function reportOf(looked: Looked): Promise<string> {
   const { mission, revision, trails } = looked;
-  const map = await wholeMap(mission.name, revision, looked.raster);
+  const map = await wholeMap(looked);
   const raster = rasterOf(map); // it may have grown
   const [page, objective, { latest }] = await Promise.all([
     fetch('report.html').then((answer) => answer.text()),
     raster === null ? null : objectiveOf(looked, raster),
     revision === 0n ? planning.listPlans({ mission: mission.name, withLatest: true }, PATIENCE) : { latest: [] }]);
   return fillReport(page, {
-    title: `${shortName(mission.name)}, revision ${map.revision}`,
+    title: `${shortName(mission.name)}, ${ofGas(looked.gases) === '' ? '' : `gas${ofGas(looked.gases)}, `}revision ${map.revision}`,
     map: base64Of(toBinary(GetMapResponseSchema, map)),
     plans: latest.map((plan) => ({ plan: base64Of(toBinary(PlanSchema, plan)) })),
     ways: [...trails].map(([robot, { points }]) => ({ robot, points_m: points })),

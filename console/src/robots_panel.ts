@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The robots of a mission, and what is known of it all.
 import { fill, h } from './dom.ts';
+import { countersOf, isFirst, ofGas } from './gases.ts';
 import type { Scene } from './scene.ts';
-import type { Mission } from '@plumescout/client/wire';
-import type { Robot } from '@plumescout/client/wire';
+import type { Mission, Point2D, Robot } from '@plumescout/client/wire';
 import { duration, figure, link, robotsAsOf, shortName } from './words.ts';
 
 type Facts = [string, string][];
@@ -28,12 +28,14 @@ function factsOf(robot: Robot): Facts {
     ['on its way', `${figure(robot.progressS, 2)} s${late_s}`]];
 }
 
-function missionFacts(mission: Mission, { figures, status }: Scene): Facts {
-  const gas = status?.gasCounters;
+function missionFacts(mission: Mission, { figures, status, gases }: Scene): Facts {
+  const gas = status === null ? undefined : countersOf(status, gases);
+  const plume: Facts = isFirst(gases)
+    ? [[`plume${ofGas(gases)}`, `${figure(figures?.plume_m2 ?? NaN)} m² above ${figure(status?.gasThresholdPpm ?? NaN)} ppm`]] : [];
   return [['known', `${figure(figures?.known_m2 ?? NaN)} m²`], ['free', `${figure(figures?.free_m2 ?? NaN)} m²`],
-    ['largest gas mean', `${figure(figures?.max_ppm ?? NaN)} ppm`],
-    ['plume', `${figure(figures?.plume_m2 ?? NaN)} m² above ${figure(status?.gasThresholdPpm ?? NaN)} ppm`],
-    ['readings', `${gas?.inPosteriorCount ?? 0n} of ${gas?.readingCount ?? 0n} in the posterior`],
+    [`largest gas mean${ofGas(gases)}`, `${figure(figures?.max_ppm ?? NaN)} ppm`],
+    ...plume,
+    [`readings${ofGas(gases)}`, `${gas?.inPosteriorCount ?? 0n} of ${gas?.readingCount ?? 0n} in the posterior`],
     ['frontiers', String(status?.frontiers.filter((one) => !one.tooSmall).length ?? 0)],
     ['strategy', mission.options?.planning?.strategy ?? '–']];
 }
@@ -47,6 +49,12 @@ export function robotsInShort(robots: Robot[]): [string, string, string, string]
   const silent = robots.filter(({ onMap }) => onMap?.silent).map(({ onMap }) => shortName(onMap!.robot));
   return [String(robots.length), silent.join(', ') || 'none', oldest(robots.map((one) => one.lastHeardAgeS)),
     oldest(robots.map((one) => one.ingestLagS))];
+}
+
+// Each place once: robots may have one in common. `named`: by the mission.
+export function homesOf(robots: Robot[], named: Point2D | undefined): Point2D[] {
+  const all = [named, ...robots.map(({ home }) => home)].filter((home) => home !== undefined);
+  return [...new Map(all.map((home) => [`${home.xM} ${home.yM}`, home])).values()];
 }
 
 export class RobotsPanel {

@@ -5,12 +5,14 @@
 import { Code } from '@connectrpc/connect';
 import type { CellRect, Raster } from '@plumescout/client';
 import type { MapStatus } from '@plumescout/client/wire';
-import { inWords, sentence } from './client.ts';
+import { hashOf } from './address.ts';
+import { PATIENCE, inWords, sentence, snapshots } from './client.ts';
 import type { Trouble } from './client.ts';
 import { fill, h } from './dom.ts';
+import { MissionClock } from './mission_clock.ts';
 import { Watch, fetchMap } from './watch.ts';
 import type { LinkState } from './watch.ts';
-import { linkWords } from './words.ts';
+import { duration, linkWords } from './words.ts';
 
 export type MomentEvents = {
   // Another moment is on its way: what was drawn of the last one does not hold any more.
@@ -30,6 +32,8 @@ export class TimeBar {
   playing = false;
   past: bigint | null = null; // the revision that is looked at; null: live
   private head = 0n;
+  private when = ''; // that was, after the mission's beginning; in words, if it is known
+  readonly clock: MissionClock;
 
   private readonly slider = h('input', { type: 'range', min: 0, max: 1, value: 1, 'aria-label': 'Revision to look at' });
   private readonly moment = h('span', { class: 'quiet' }, 'live');
@@ -44,12 +48,14 @@ export class TimeBar {
   private countdown = 0; // timer, while the stream waits to try again
 
   // `banner`: where it is said that this is not the present, or what is the matter.
-  constructor(private readonly mission: string, private readonly banner: HTMLElement,
+  // `gas`: of which the map is; empty: the first.
+  constructor(private readonly mission: string, public gas: string, private readonly banner: HTMLElement,
               private readonly events: MomentEvents) {
+    this.clock = new MissionClock((request) => snapshots.getMissionHistory({ mission, ...request }, PATIENCE));
     this.element = h('footer', { class: 'time', 'aria-label': 'Time' }, this.playButton, this.speed, this.slider,
       this.moment, h('button', { onclick: () => events.pin(this.revision) }, 'Pin to compare'),
       h('button', { onclick: () => this.goLive() }, 'Live'));
-    this.slider.addEventListener('input', () => { this.moment.textContent = `revision ${this.slider.value}`; });
+    this.slider.addEventListener('input', () => this.tellPast(BigInt(this.slider.value)));
     this.slider.addEventListener('change', () => {
       if (BigInt(this.slider.value) >= this.head) this.goLive();
       else void this.goTo(BigInt(this.slider.value));
@@ -84,6 +90,16 @@ export class TimeBar {
     if (this.isLive) this.slider.value = this.slider.max;
   }
 
+  // The same moment, of another gas.
+  lookAt(gas: string): void {
+    this.gas = gas;
+    if (this.isLive) this.goLive();
+    else void this.goTo(this.revision);
+  }
+  get hash(): string {
+    return hashOf({ path: this.mission, revision: this.past, gas: this.gas });
+  }
+
   goLive(): void {
     this.fetching?.abort();
     this.past = null;
@@ -92,7 +108,7 @@ export class TimeBar {
     this.startWatch(null);
     this.showMoment();
     this.events.arrived();
-    if (location.hash.includes('@')) history.replaceState(null, '', `#/${this.mission}`);
+    history.replaceState(null, '', this.hash);
   }
 
   async goTo(revision: bigint): Promise<void> {
@@ -107,13 +123,13 @@ export class TimeBar {
     [this.linkPill.textContent, this.linkPill.className] = ['looking back', 'pill warn'];
     fill(this.banner, `Making the map of revision ${revision} …`);
     try {
-      const { raster, status } = await fetchMap(this.mission, revision, mine.signal);
+      const { raster, status } = await fetchMap(this.mission, { revision, gas: this.gas }, mine.signal);
       if (mine.signal.aborted) return;
       this.onStatus(status, revision);
       this.onMap(raster);
       this.events.arrived();
       this.showMoment();
-      history.replaceState(null, '', `#/${this.mission}@${revision}`);
+      history.replaceState(null, '', this.hash);
     } catch (error) {
       if (mine.signal.aborted) return;
       fill(this.banner, sentence(error), this.backToLive());
@@ -142,7 +158,7 @@ export class TimeBar {
       changed: (rects) => this.events.changed(rects),
       status: (status, revision) => this.onStatus(status, revision),
       link: (state, trouble, again_s) => this.onLink(state, trouble, again_s),
-    }, replay);
+    }, this.gas, replay);
   }
 
   private onMap(raster: Raster): void {
@@ -158,10 +174,20 @@ export class TimeBar {
       this.moment.textContent = `live, revision ${revision}`;
     } else {
       this.past = revision;
-      this.moment.textContent = `revision ${revision} of ${this.head}`;
+      this.tellPast(revision);
     }
     this.slider.value = String(revision);
     this.events.status(status, revision);
+  }
+
+  private tellPast(revision: bigint): void {
+    const show = () => { this.moment.textContent = `revision ${revision} of ${this.head}${this.when}`; };
+    show();
+    this.clock.tell(revision, (elapsed_s) => {
+      const isShown = this.moment.textContent.startsWith(`revision ${revision} of`);
+      this.when = ` · ${duration(Math.round(elapsed_s))} in`;
+      if (isShown) show();
+    });
   }
 
   private onLink(state: LinkState, trouble: Trouble | null, again_s: number): void {
@@ -182,7 +208,9 @@ export class TimeBar {
       fill(this.banner, trouble === null ? 'The stream has ended.' : inWords(trouble),
         state === 'waiting' ? h('button', { onclick: () => this.watch?.retry() }, 'Try now')
           : trouble?.code === Code.Unauthenticated ? h('a', { href: '#/service' }, 'Enter a token')
-            : h('a', { href: '#/' }, 'All missions'));
+            : this.gas !== '' && trouble?.code === Code.InvalidArgument
+              ? h('a', { href: hashOf({ path: this.mission, revision: null, gas: '' }) }, 'The first gas')
+              : h('a', { href: '#/' }, 'All missions'));
     }
   }
 

@@ -31,7 +31,7 @@ export class Watch {
   private wake: () => void = () => {};
 
   constructor(private readonly mission: string, private readonly events: WatchEvents,
-              private readonly replay: Replay | null = null) {
+              private readonly gas = '', private readonly replay: Replay | null = null) {
     document.addEventListener('visibilitychange', this.onVisibility);
     void this.run();
   }
@@ -88,7 +88,7 @@ export class Watch {
     const { signal } = this.abort;
     const replay = this.replay === null ? {}
       : { fromRevision: this.replay.fromRevision, speedRatio: this.replay.speed };
-    const updates = watchMap(client, this.mission, { ...replay, signal, onLink: (state, error, again_s) => {
+    const updates = watchMap(client, this.mission, { ...replay, ...speciesOf(this.gas), signal, onLink: (state, error, again_s) => {
       if (!signal.aborted) this.events.link(state, error === null ? null : troubleOfCall(error), again_s);
     } });
     for await (const { raster, status, revision, changed } of updates) {
@@ -103,12 +103,17 @@ export class Watch {
 // Cells of a map that is saved: 324 MB while it is made.
 const MAX_SAVED_CELLS = 9 * MAX_CELLS;
 
-// The map as it was, or as it is (revision 0); of one with more cells than a page holds, squares of cells.
+// What a map is of: a revision, 0: as it is now; a gas, empty: the mission's first.
+export type Moment = { revision: bigint; gas: string };
+
+const speciesOf = (gas: string) => (gas === '' ? {} : { species: gas });
+
+// Of a map with more cells than a page holds, squares of cells.
 // `saved`: it is not drawn, so of more cells, and with gas to the last digit.
-export async function fetchMap(mission: string, revision: bigint, signal: AbortSignal,
+export async function fetchMap(mission: string, { revision, gas }: Moment, signal: AbortSignal,
                                saved = false): Promise<{ raster: Raster; status: MapStatus }> {
   const { raster, status } = await getMap(client, mission, {
-    revision, signal, fullPrecision: saved, maxCells: saved ? MAX_SAVED_CELLS : MAX_CELLS });
+    revision, ...speciesOf(gas), signal, fullPrecision: saved, maxCells: saved ? MAX_SAVED_CELLS : MAX_CELLS });
   if (raster === null) throw new Error('the mission had no map yet');
   return { raster, status };
 }

@@ -24,11 +24,13 @@ export class WhyPanel {
       this.answer, this.plan);
   }
 
-  // The latest plan of the robot that is looked at; null: there is `none`, in words.
-  show(robot: string, plan: Plan | null, none: string): void {
-    const key = `${robot} ${none} ${plan?.name ?? ''} ${plan?.chosenIndex ?? ''} ${plan?.beliefRevision ?? ''}`;
-    fillIfChanged(this.plan, key, () => plan === null ? [h('p', { class: 'empty' }, none)]
-      : planContent(plan, this.pointAt));
+  // The latest plan of the robot that is looked at; null: there is `none`, in words. `basis`: by which gas
+  // it was made, of several.
+  show(robot: string, plan: Plan | null, none: string, basis: string): void {
+    const key = `${robot} ${none} ${basis} ${plan?.name ?? ''} ${plan?.chosenIndex ?? ''} ${plan?.beliefRevision ?? ''}`;
+    fillIfChanged(this.plan, key, () => [
+      ...(plan === null ? [h('p', { class: 'empty' }, none)] : planContent(plan, this.pointAt)),
+      basis === '' ? null : h('p', { class: 'quiet' }, basis)]);
   }
 
   clear(): void {

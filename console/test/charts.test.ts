@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { Series } from '../src/charts.ts';
+import { Series, drawChart } from '../src/charts.ts';
+import { recordedCanvas, styleSheet } from './recorded_canvas.ts';
 import { bytes, duration, figure } from '../src/words.ts';
 
 test('long series are thinned and keep their ends', () => {
@@ -27,4 +28,34 @@ test('figures are short', () => {
                    ['0', '0.0568', '12.3', '1000', '12345', '3.0e+7', '1.0e-4', '–']);
   assert.deepEqual([12, 2048, 3 << 20, 5 * 2 ** 30].map(bytes), ['12 B', '2 kiB', '3 MiB', '5 GiB']);
   assert.deepEqual([0.05, 5, 300, 8000].map(duration), ['50 ms', '5 s', '5 min 0 s', '2 h 13 min']);
+});
+
+function chartOf(unit: string, ...lines: [number, number][][]) {
+  styleSheet();
+  const canvas = recordedCanvas(300, 100);
+  drawChart(canvas as never, lines.map((line, i) => ({ name: `r${i}`, colour: `hue ${i}`,
+    samples: line.map(([t_s, value]) => ({ t_s, value })) })), unit);
+  return canvas;
+}
+
+test('a chart goes from its left to its right, from the least value to the largest', () => {
+  const { context, width } = chartOf('ppm', [[10, 0], [20, 8], [30, 4]]);
+  assert.equal(width, 600); // of two pixels each
+  assert.deepEqual(context.of('scale')[0].args, [2, 2]);
+  const line = context.strokes.filter(({ stroke, call }) => stroke === 'hue 0' && /To$/.test(call)).map(({ args }) => args);
+  assert.deepEqual(line, [[44, 84], [169, 6], [294, 45]]);
+  assert.deepEqual(context.texts(), ['0', '4', '8', 'ppm', 'last 20 s']);
+});
+
+test('lines of a chart share its axes, and shares go up to the whole', () => {
+  const { context } = chartOf('%', [[0, 20], [600, 40]], [[0, 50], [300, 50]]);
+  const ends = ['hue 0', 'hue 1'].map((hue) => context.strokes.filter(({ stroke }) => stroke === hue).findLast(({ call }) => call === 'lineTo')!.args);
+  assert.deepEqual(ends, [[294, 52.8], [169, 45]]);
+  assert.deepEqual(context.texts(), ['0', '50', '100', '%', 'last 10 min']);
+});
+
+test('one value is no line, and a line that does not move has one', () => {
+  assert.deepEqual(chartOf('m²', [[3, 1]]).context.texts(), ['waiting for a second value']);
+  const { context } = chartOf('m²', [[0, 0], [1, 0]]);
+  assert.deepEqual(context.points('moveTo').at(-1), [44, 84]);
 });

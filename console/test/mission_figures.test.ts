@@ -8,12 +8,13 @@ import { WHAT_COUNTS, missionFigures } from '../src/mission_figures.ts';
 
 const figures = { known_m2: 12, max_ppm: 30, min_ppm: 0, plume_m2: 4, mean_entropy_nats: -1 } as never;
 const frontier = (other: object) => ({ kind: GoalKind.OCCUPANCY_FRONTIER, reachable: true, ...other });
+const gases = { names: [], looked: '' };
 const R1 = 'missions/hall/robots/r1';
 
 test('nothing is charted before there is a map', () => {
   const status = create(MapStatusSchema, {});
-  assert.deepEqual(missionFigures({ figures: null, status }, [], []), []);
-  assert.deepEqual(missionFigures({ figures, status: null }, [], []), []);
+  assert.deepEqual(missionFigures({ figures: null, status, gases }, [], []), []);
+  assert.deepEqual(missionFigures({ figures, status: null, gases }, [], []), []);
 });
 
 test('figures of the mission, and lines of its robots', () => {
@@ -24,7 +25,7 @@ test('figures of the mission, and lines of its robots', () => {
                                              frontier({ reachable: false }),
                                              frontier({ kind: GoalKind.GAS_FRONTIER })] });
   const robots = [create(RobotSchema, { onMap: { robot: R1 }, ingestLagS: 0.25 }), create(RobotSchema, {})];
-  const found = missionFigures({ figures, status }, robots,
+  const found = missionFigures({ figures, status, gases }, robots,
     [create(PlanSchema, { robot: R1, cpuDuration: { seconds: 0n, nanos: 20_000_000 } })]);
   const values = Object.fromEntries(found.map(({ title, robot, value }) => [`${title}|${robot}`, value]));
   assert.deepEqual(values, {
@@ -35,17 +36,31 @@ test('figures of the mission, and lines of its robots', () => {
 });
 
 test('missions without an objective have nothing undecided', () => {
-  const titles = missionFigures({ figures, status: create(MapStatusSchema, {}) }, [], []).map(({ title }) => title);
+  const titles = missionFigures({ figures, status: create(MapStatusSchema, {}), gases }, [], []).map(({ title }) => title);
   assert.ok(!titles.includes('Undecided area'));
 });
 
 test('before a robot can reach anything, nothing is a share of it', () => {
-  const titles = missionFigures({ figures, status: create(MapStatusSchema, {}) }, [], []).map(({ title }) => title);
+  const titles = missionFigures({ figures, status: create(MapStatusSchema, {}), gases }, [], []).map(({ title }) => title);
   assert.ok(!titles.includes('Completeness'));
 });
 
 test('what counts is told of figures that there are', () => {
   const status = create(MapStatusSchema, { reachableAreaM2: 1, objective: {} });
-  const titles = missionFigures({ figures, status }, [], []).map(({ title }) => title);
+  const titles = missionFigures({ figures, status, gases }, [], []).map(({ title }) => title);
   for (const [name] of WHAT_COUNTS) assert.ok(titles.some((title) => title.startsWith(name)), name);
+});
+
+test('of several gases it is said which one a figure is of, and there is a plume of the first alone', () => {
+  const status = create(MapStatusSchema, { reachableAreaM2: 1, gasCounters: { inPosteriorCount: 5n }, gases: [
+    { species: 'methane', gasCounters: { inPosteriorCount: 5n } }, { species: 'ammonia', gasCounters: { inPosteriorCount: 3n } }] });
+  const of = (looked: string) => Object.fromEntries(
+    missionFigures({ figures, status, gases: { names: ['methane', 'ammonia'], looked } }, [], [])
+      .map(({ title, value }) => [title, value]));
+  const [first, second] = [of(''), of('ammonia')];
+  assert.equal(first['Readings in the posterior of methane'], 5);
+  assert.equal(second['Readings in the posterior of ammonia'], 3);
+  assert.ok('Completeness of methane' in second);
+  assert.ok('Plume of methane (above 0 ppm)' in first);
+  assert.ok(!Object.keys(second).some((title) => title.startsWith('Plume')));
 });
