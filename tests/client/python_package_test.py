@@ -63,9 +63,8 @@ class PackageTest(unittest.TestCase):
     def test_the_page_shows_the_example(self):
         example = (ROOT / "client/python/examples/robot.py").read_text()
         page = (ROOT / "docs/clients.md").read_text()
-        self.assertIn(example[example.index("import math") :], page)
+        self.assertIn(example[example.index("import sys") :], page)
 
-    @unittest.skipUnless(shutil.which("mypy"), "mypy is not installed")
     def test_types_hold(self):
         shutil.copy(ROOT / "client/python/pyproject.toml", self.site)
         self.run_in(self.site, "mypy", "-p", "plumescout")

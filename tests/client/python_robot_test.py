@@ -4,16 +4,21 @@
 without a server, for operations only say what is to be done."""
 
 import itertools
+import math
 import unittest
 
 import grpc
+import numpy as np
 import plumescout
 from plumescout import _operation, rpcs
 from plumescout._client import Operations
 from plumescout._log import Log
+from plumescout.plans import plan_of, pose_of
+from plumescout.practice import Room
 
 from plumescout.v1 import ingest_service_pb2 as ingest_pb
 from plumescout.v1 import mission_service_pb2 as mission_pb
+from plumescout.v1 import planning_service_pb2 as planning_pb
 from plumescout.v1 import robot_service_pb2 as robot_pb
 from plumescout.v1 import system_service_pb2 as system_pb
 
@@ -359,6 +364,37 @@ class CallTest(unittest.TestCase):
             reached = refusal(grpc.StatusCode.RESOURCE_EXHAUSTED, "LIMIT_REACHED")
             self.call(rpcs.GET_MISSION, mission_pb.GetMissionRequest(), [reached])
         self.assertEqual(caught.exception.reason, "LIMIT_REACHED")
+
+
+class PracticeTest(unittest.TestCase):
+    def plan(self, *poses):
+        plan = planning_pb.Plan()
+        for pose in poses:
+            plan.trajectory.waypoints.add().pose.CopyFrom(pose_of(pose))
+        return plan_of(plan)
+
+    def test_a_way_is_taken_step_by_step(self):
+        way = list(self.plan((0, 0, 0), (1, 0, 0), (1, 0, 2), (1, 0.3, 2)).every(0.4))
+        self.assertEqual(way[2], (1.0, 0.0, 0.0))
+        self.assertEqual(way[3], (1.0, 0.0, 2.0))  # on the spot
+        self.assertEqual(way[-1], (1.0, 0.3, 2.0))
+        places = [(0.0, 0.0)] + [pose[:2] for pose in way]
+        self.assertLessEqual(max(map(math.dist, places, places[1:])), 0.4)
+
+    def test_a_plan_to_stay_has_no_way(self):
+        self.assertEqual(list(self.plan((0, 0, 0)).every(0.2)), [])
+
+    def test_beams_in_a_room_end_at_its_walls(self):
+        room = Room(width_m=6.0, depth_m=4.0, leak_m=(4.5, 3.0), beams=4, max_range_m=4.5)
+        ranges_m, start_rad, step_rad, max_range_m = room.scan((1.0, 1.0, 0.0))
+        np.testing.assert_allclose(ranges_m, [np.inf, 3.0, 1.0, 1.0])
+        self.assertEqual((start_rad, step_rad, max_range_m), (0.0, math.tau / 4, 4.5))
+        np.testing.assert_allclose(room.scan((1.0, 1.0, math.pi))[0], [1.0, 1.0, np.inf, 3.0])
+
+    def test_gas_is_thickest_at_the_leak(self):
+        room = Room(width_m=6.0, depth_m=4.0, leak_m=(4.5, 3.0))
+        self.assertEqual(room.gas_ppm((4.5, 3.0, 1.0)), 20.0)
+        self.assertAlmostEqual(room.gas_ppm((4.5, 2.0, 0.0)), 20.0 / math.e)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,8 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Any
+import math
+from typing import Any, Iterator
 
 import numpy as np
 import numpy.typing as npt
@@ -40,6 +41,18 @@ class Plan:
     def complete(self) -> bool:
         """The mission is complete: nothing is left to drive to."""
         return self.phase == "complete"
+
+    def every(self, step_m: float) -> Iterator[Pose]:
+        """Poses on the way, at most so far apart, with the heading of their leg; without the first,
+        where the robot stands. Way points are among them."""
+        for (x_m, y_m, _), (end_x_m, end_y_m, yaw_rad) in zip(self.poses, self.poses[1:]):
+            steps = 1 + int(math.dist((x_m, y_m), (end_x_m, end_y_m)) / step_m)
+            for share in (step / steps for step in range(1, steps + 1)):
+                yield (
+                    float(x_m + share * (end_x_m - x_m)),
+                    float(y_m + share * (end_y_m - y_m)),
+                    float(yaw_rad),
+                )
 
     def __bool__(self) -> bool:
         """Whether there is anywhere to drive."""
