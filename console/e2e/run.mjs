@@ -607,6 +607,7 @@ async function pictures(origin) {
     await tab('Operate').click();
     await picture('operate');
     await tab('Charts').click();
+    await see('Since the mission began.');
     await new Promise((done) => setTimeout(done, 3000)); // for lines, and for the picture alone
     await picture('charts');
     await button('Uncertainty').click();
@@ -665,6 +666,7 @@ async function trouble(origin, server) {
     await see('live, revision');
     await end(server.child, 'SIGKILL');
     await see(/connection lost/);
+    await page.locator('.side .stale').waitFor();
     await picture('lost');
     const asked = page.waitForRequest(/WatchMap/);
     await button('Try now').click();

@@ -182,10 +182,10 @@ export class MapPanel {
     }
     for (const picture of pictures) picture.prepare();
     const judged = new Set(this.scene.judged.map(({ outlook }) => outlook));
-    const { raster, status } = this.scene;
+    const { raster, status, homes } = this.scene;
     const squares = squaresInWords(raster?.geometry.resolution_m ?? NaN, status?.geometry?.resolutionM ?? NaN);
     const basis = ofPlans(this.scene.gases);
-    const key = [squares, basis, [...judged], outlooksOf(this.question?.asked()), pictures.map(({ layer, scale }) => [this.titleOf(layer, scale.log), scale, layer])];
+    const key = [squares, basis, homes.length, [...judged], outlooksOf(this.question?.asked()), pictures.map(({ layer, scale }) => [this.titleOf(layer, scale.log), scale, layer])];
     fillIfChanged(this.legend, JSON.stringify(key), () => [
       ...pictures.flatMap((picture) => this.scaleOf(picture)),
       basis === '' ? null : h('div', {}, basis),
@@ -194,6 +194,7 @@ export class MapPanel {
         h('span', { class: 'mark m-wall' }, 'wall'), h('span', { class: 'mark m-unknown' }, 'unknown'),
         h('span', { class: 'mark gas m-gas' }, 'gas frontier'),
         h('span', { class: 'mark m-occupancy' }, 'map frontier'),
+        homes.length === 0 ? null : h('span', { class: 'm-home' }, homes.length === 1 ? 'home' : 'homes'),
         ...outlooksOf(this.question?.asked()).filter(([outlook]) => judged.has(outlook)).map(([outlook, words]) =>
           h('span', { class: `mark m-${outlook}` }, words)))]);
   }

@@ -195,6 +195,7 @@ export class MissionPage {
       this.mission = got.mission ?? null;
       this.robots = listed.robots;
       this.scene.homes = homesOf(this.robots, got.mission?.options?.home);
+      this.panel.showLegend();
       if (this.mission !== null) {
         this.statePill.className = stateClass(this.mission.state);
         this.statePill.textContent = `${missionState(this.mission.state)} · ${phase(this.mission.phase)}`;

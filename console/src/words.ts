@@ -126,6 +126,6 @@ export function storeFacts(store: StoreInfo | undefined): [string, string][] {
     ['kept', store.engine === 'sqlite' ? 'in files of the server (SQLite)' : `in a database (${store.engine})`],
     ...(store.node === '' ? [] : [['node', `${store.node} of ${store.cluster}`] as [string, string]]),
     ['state', store.available ? 'takes data' : `takes no data now${trouble}`],
-    ['missions take up, as of a minute ago', bytes(store.storedBytes)],
+    ['missions take up, as of a minute ago', store.storedBytes === 0n ? 'not counted yet' : bytes(store.storedBytes)],
     ['not durable yet', bytes(store.backlogBytes)]];
 }
