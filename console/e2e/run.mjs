@@ -504,6 +504,7 @@ async function objective(origin, server, browser) {
     for (const outlook of ['below', 'unmeasured']) await page.locator(`.legend .m-${outlook}`).waitFor();
     await tab('Charts').click();
     await page.locator('.chart', { hasText: /^Undecided area/ }).waitFor();
+    await see('Since the mission began.');
     await picture('objective');
     await tab('Operate').click();
     const report = (await download('Report (HTML)')).toString();
