@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // A mission of two gases, whose robot stands in a room and reads both: methane in the east, ammonia in the west.
-import { RobotSession, connect } from '@plumescout/client';
+import { RobotSession } from '@plumescout/client';
 
 const ROOM_M = 8, BEAMS = 180, STEP_RAD = 2 * Math.PI / BEAMS;
 
@@ -13,8 +13,7 @@ function ranges({ x_m, y_m }) {
 }
 
 // The robot's session, which holds its lease.
-export async function measureTwoGases(calls, mission) {
-  const client = connect(calls);
+export async function measureTwoGases(client, mission) {
   const gases = ['methane', 'ammonia'];
   await client.missions.createMission({ missionId: mission, options: { gasSpecies: gases.map((name) => ({ name })) } });
   const robot = await RobotSession.register(client, { mission: `missions/${mission}`, robotId: 'sniffer', radius_m: 0.2,

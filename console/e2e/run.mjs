@@ -11,6 +11,7 @@ import { execFileSync } from 'node:child_process';
 import { mkdirSync, readFileSync, readdirSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { parseArgs } from 'node:util';
+import { connect, errorOf } from '@plumescout/client';
 import { checkAccess } from './axe.mjs';
 import { checkMoves, checkScales, checkSwitches, frontierMark, robotMark } from './effects.mjs';
 import { measureTwoGases } from './gases.mjs';
@@ -130,11 +131,13 @@ async function liveMap(origin) {
     await button('looked at: robot-2').waitFor();
     const colour = await page.locator('.robot', { hasText: 'robot-1' }).locator('.swatch')
       .evaluate((swatch) => getComputedStyle(swatch).backgroundColor);
-    await until('robot-1 is looked at', async () => { // it may have moved on meanwhile
+    await until('robot-1 is looked at', async () => {
       const mark = await robotMark(page, colour);
       if (mark === null) return false;
       await page.mouse.click(...mark);
-      return await button('looked at: robot-1').isVisible();
+      if (await button('looked at: robot-1').isVisible()) return true;
+      await tab('Robots').click(); // it has moved on meanwhile: that was a click on a place
+      return false;
     });
   });
   await step('cells tell what they hold', async () => {
@@ -528,7 +531,8 @@ async function objective(origin, server, browser) {
 }
 
 async function gases(origin, server) {
-  const robot = await measureTwoGases(server.found.calls, 'plant');
+  const client = connect(server.found.calls);
+  const robot = await measureTwoGases(client, 'plant');
   await step('of several gases the first is looked at, and the page says so', async () => {
     await page.goto(`${origin}/#/missions/plant`);
     await see('Gas mean of methane, ppm (logarithmic)');
@@ -563,15 +567,19 @@ async function gases(origin, server) {
     await page.getByRole('link', { name: 'The first gas' }).click();
     await see('Gas mean of methane, ppm (logarithmic)');
   });
-  await step('a lease is released once it was asked for', async () => {
+  await step('a lease is released once it was asked for, and another client has the robot at once', async () => {
+    const takeOver = () => client.robots.registerRobot({ mission: 'missions/plant', robotId: 'sniffer', radiusM: 0.2 });
+    await assert.rejects(takeOver, (error) => errorOf(error).reason === 'LEASE_HELD');
     await tab('Operate').click();
     await button('Release the lease of sniffer').click();
     await see('Whoever drives it now is sent away');
     await button('Release').click();
     await see('The lease of sniffer is free.');
     await until('no lease', async () => await button('Release the lease of sniffer').count() === 0);
+    await takeOver();
   });
   robot.close();
+  client.close();
 }
 
 async function service(origin) {
