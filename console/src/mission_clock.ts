@@ -30,13 +30,9 @@ export class MissionClock {
     return at_ns === null ? null : Number(at_ns - this.begin_ns) * S_PER_NS;
   }
 
-  // One question at a time: of those that come meanwhile the last is asked. Where the time is not known
-  // nothing is told.
-  tell(revision: bigint, told: (elapsed_s: number) => void): void {
-    this.next = async () => {
-      const elapsed_s = await this.elapsed_s(revision).catch(() => null);
-      if (elapsed_s !== null) told(elapsed_s);
-    };
+  // One question at a time: of those that come meanwhile the last is asked. Null: it is not known, or not told.
+  tell(revision: bigint, told: (elapsed_s: number | null) => void): void {
+    this.next = async () => told(await this.elapsed_s(revision).catch(() => null));
     if (!this.busy) void this.work();
   }
   private async work(): Promise<void> {

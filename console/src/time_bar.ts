@@ -182,10 +182,12 @@ export class TimeBar {
 
   private tellPast(revision: bigint): void {
     const show = () => { this.moment.textContent = `revision ${revision} of ${this.head}${this.when}`; };
+    if (!this.playing) this.when = ''; // while it is played, that of the frame before stands a moment
     show();
     this.clock.tell(revision, (elapsed_s) => {
       const isShown = this.moment.textContent.startsWith(`revision ${revision} of`);
-      this.when = ` · ${duration(Math.round(elapsed_s))} in`;
+      if (!isShown && !this.playing) return;
+      this.when = elapsed_s === null ? '' : ` · ${duration(Math.round(elapsed_s))} in`;
       if (isShown) show();
     });
   }
