@@ -172,12 +172,15 @@ export class MissionPage {
 
   private lookAt(gas: string): void {
     this.comparison.drop();
-    this.time.lookAt(gas);
-    this.panel.offerGases(this.scene.gases.names, gas);
+    // Nothing of the gas before is shown under the name of another.
+    this.scene.raster = this.scene.figures = null;
+    this.panel.map.replaced();
     this.charts.clear();
     this.chartsPast?.abort();
     this.chartsPast = null;
-
+    this.time.lookAt(gas);
+    this.panel.offerGases(this.scene.gases.names, gas);
+    this.showSide();
   }
 
   // --- What is polled.
@@ -270,6 +273,7 @@ export class MissionPage {
       charts.says('Since this page was opened; what was before is on its way …', now_s - (page_s - this.opened_s));
       const updates = replayOf(this.name, now_s, gases, signal);
       for await (const { t_s, figures } of pastFigures(updates, revision, gases, clock)) {
+        if (signal.aborted) return;
         for (const one of figures) charts.addPast(t_s, one);
       }
       if (!signal.aborted) charts.says('Since the mission began.');
