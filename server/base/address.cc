@@ -33,7 +33,8 @@ bool IsLocalAddress(absl::string_view listen) {
 }
 
 bool IsLocalPeer(absl::string_view peer) {
-  if (peer == "inproc" || IsUnixAddress(peer)) return true;
+  // Calls within the process have no address, which gRPC calls "unknown"; sockets always have one.
+  if (peer == "inproc" || peer == "unknown" || IsUnixAddress(peer)) return true;
   const std::string address = absl::StrReplaceAll(peer, {{"%5B", "["}, {"%5D", "]"}});
   absl::string_view host_port = address;
   if (!absl::ConsumePrefix(&host_port, "ipv4:") && !absl::ConsumePrefix(&host_port, "ipv6:")) {

@@ -16,7 +16,7 @@ bool IsUnixAddress(absl::string_view address);
 bool IsLocalAddress(absl::string_view listen);
 
 // The same of a caller's address as gRPC writes it: "ipv4:127.0.0.1:4711", "ipv6:%5B::1%5D:4711",
-// "unix:", "inproc".
+// "unix:", "inproc"; "unknown" is what it calls one that has no address, a call within the process.
 bool IsLocalPeer(absl::string_view peer);
 
 // Host and port of "10.0.0.1:50551" or "[::1]:50551"; the port is empty if there is none.

@@ -24,7 +24,7 @@ TEST(AddressTest, WhateverElseCanBeReached) {
 
 TEST(AddressTest, PeersAreJudgedAsGrpcWritesThem) {
   for (const char* peer : {"ipv4:127.0.0.1:4711", "ipv6:%5B::1%5D:4711", "ipv6:[::1]:4711",
-                           "unix:", "unix:/run/a", "inproc"}) {
+                           "unix:", "unix:/run/a", "inproc", "unknown"}) {
     EXPECT_TRUE(IsLocalPeer(peer)) << peer;
   }
   for (const char* peer : {"ipv4:10.0.0.7:4711", "ipv6:%5Bfe80::1%5D:4711", "127.0.0.1:1", "",

@@ -32,8 +32,9 @@ EncodedMap TestMap() {
     tile.mutable_min_cell()->set_column(64 * i);
     tile.set_deflated_data(std::string(kTile_bytes, 'x'));
     const grpc::Slice bytes = i == 1 ? grpc::Slice() : Serialise(tile);
-    map.tiles.push_back(
-        {{v1::MAP_LAYER_OCCUPANCY, false, 0}, {{64 * i, 0}, 64, 64}, {i == 3 ? 19 : 7, bytes}});
+    map.tiles.push_back({{v1::MAP_LAYER_OCCUPANCY, false, 0},
+                         CellRect::Sized({64 * i, 0}, 64, 64),
+                         {i == 3 ? 19 : 7, bytes}});
   }
   return map;
 }

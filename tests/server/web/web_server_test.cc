@@ -6,8 +6,6 @@
 #include <gtest/gtest.h>
 #include <netinet/tcp.h>
 
-#include <algorithm>
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <fstream>
@@ -20,6 +18,7 @@
 #include "server/web/grpc_web.h"
 #include "server/web/http_message.h"
 #include "tests/server/http_client.h"
+#include "tests/server/http_connection.h"
 #include "tests/server/service_fixture.h"
 #include "tests/server/token_line.h"
 #include "tests/support/temp_folder.h"
@@ -40,70 +39,6 @@ std::string Post(const std::string& path, const std::string& message,
   return absl::StrCat("POST ", path, " HTTP/1.1\r\nHost: localhost\r\nContent-Type: ", kGrpcWebType,
                       "\r\nContent-Length: ", body.size(), "\r\n", headers, "\r\n", body);
 }
-
-// A connection that reads when it is told to.
-class Client {
- public:
-  explicit Client(int port) : fd_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(port));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    EXPECT_EQ(connect(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
-  }
-  ~Client() { close(fd_); }
-  Client(const Client&) = delete;
-  Client& operator=(const Client&) = delete;
-
-  void Send(const std::string& text) const { EXPECT_TRUE(TrySend(text)); }
-  // False if the other side does not take all of it.
-  bool TrySend(const std::string& text) const {
-    return send(fd_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
-  }
-  // An option of the socket at the other side, which is in this process; -1: there is none.
-  int OptionOfPeer(int level, int name) const {
-    sockaddr_in here{};
-    socklen_t size = sizeof(here);
-    getsockname(fd_, reinterpret_cast<sockaddr*>(&here), &size);
-    for (int fd = 0; fd < kMaxDescriptor; ++fd) {
-      sockaddr_in peer{};
-      size = sizeof(peer);
-      if (getpeername(fd, reinterpret_cast<sockaddr*>(&peer), &size) != 0) continue;
-      if (peer.sin_family != AF_INET || peer.sin_port != here.sin_port) continue;
-      int value = -1;
-      size = sizeof(value);
-      return getsockopt(fd, level, name, &value, &size) == 0 ? value : -1;
-    }
-    return -1;
-  }
-  void EndSending() const { shutdown(fd_, SHUT_WR); }
-  // Bytes until the other side closes.
-  std::size_t CountToEnd() const {
-    std::size_t received = 0;
-    std::array<char, 65'536> part{};
-    for (ssize_t count = 1; count > 0;
-         received += static_cast<std::size_t>(std::max<ssize_t>(count, 0))) {
-      count = recv(fd_, part.data(), part.size(), 0);
-    }
-    return received;
-  }
-  // Until this comes, or the other side closes.
-  std::string ReadTo(const std::string& end) const {
-    std::string received;
-    std::array<char, 4096> part{};
-    while (received.find(end) == std::string::npos) {
-      const ssize_t count = recv(fd_, part.data(), part.size(), 0);
-      if (count <= 0) break;
-      received.append(part.data(), static_cast<std::size_t>(count));
-    }
-    return received;
-  }
-
- private:
-  static constexpr int kMaxDescriptor = 1024;
-
-  const int fd_;
-};
 
 class WebServerTest : public ServiceTest {
  protected:
@@ -253,23 +188,23 @@ TEST_F(WebServerTest, TooManyStreamsAreRefusedUntilOneEnds) {
   WebOptions options;
   options.max_streams = 1;
   Serve(std::move(options));
-  auto first = std::make_unique<Client>(web_->port());
+  auto first = std::make_unique<HttpConnection>(web_->port());
   first->Send(WatchHall());
   first->ReadTo("\r\n\r\n");
-  const Client second(web_->port());
+  const HttpConnection second(web_->port());
   second.Send(WatchHall());
   EXPECT_THAT(second.ReadTo("grpc-message"), HasSubstr("grpc-status: 8\r\n"));
   EXPECT_THAT(Exchange(Post(kListMissions, "")), HasSubstr("grpc-status: 0\r\n"));
   first = nullptr;
   // The server hears of that before, or in the same turn as, of what comes later.
-  const Client third(web_->port());
+  const HttpConnection third(web_->port());
   third.Send(WatchHall());
   EXPECT_THAT(third.ReadTo("\r\n\r\n"), HasSubstr("Transfer-Encoding: chunked"));
 }
 
 TEST_F(WebServerTest, StreamsEndWhenTheServerDrains) {
   Serve();
-  const Client client(web_->port());
+  const HttpConnection client(web_->port());
   client.Send(WatchHall());
   client.ReadTo("\r\n\r\n");
   server_->Drain();
@@ -278,7 +213,7 @@ TEST_F(WebServerTest, StreamsEndWhenTheServerDrains) {
 
 TEST_F(WebServerTest, VanishedPeersAreNoticed) {
   Serve();
-  const Client client(web_->port());
+  const HttpConnection client(web_->port());
   client.Send(WatchHall());
   client.ReadTo("\r\n\r\n");  // it was accepted
   EXPECT_EQ(client.OptionOfPeer(SOL_SOCKET, SO_KEEPALIVE), 1);
@@ -316,7 +251,7 @@ TEST_F(WebServerTest, WhoDoesNotReadHoldsUpNobody) {
   WebOptions options;
   options.files = PageOf(large);
   Serve(std::move(options));
-  const Client stalled(web_->port());
+  const HttpConnection stalled(web_->port());
   stalled.Send(kGetPage);
   EXPECT_THAT(Exchange(Post(kListMissions, "")), HasSubstr("grpc-status: 0\r\n"));
   EXPECT_THAT(Exchange(kGetPage), ::testing::EndsWith(large));
@@ -329,7 +264,7 @@ TEST_F(WebServerTest, AnswersHaveOneTimeLimitHoweverTheyAreRead) {
   options.answer_patience = absl::ZeroDuration();
   options.reader_patience = absl::InfiniteDuration();
   Serve(std::move(options));
-  const Client slow(web_->port());
+  const HttpConnection slow(web_->port());
   slow.Send(kGetPage);
   // Each comes to its turn after the page has had one.
   for (int i = 0; i < 3; ++i) {
@@ -344,10 +279,10 @@ TEST_F(WebServerTest, ThereAreAsManyConnectionsAsStreamsAndCalls) {
   options.max_calls = 0;
   options.max_spare_connections = 0;
   Serve(std::move(options));
-  const Client stream(web_->port());
+  const HttpConnection stream(web_->port());
   stream.Send(WatchHall());
   EXPECT_THAT(stream.ReadTo("\r\n\r\n"), HasSubstr("200 OK"));
-  const Client other(web_->port());
+  const HttpConnection other(web_->port());
   EXPECT_EQ(other.CountToEnd(), 0U);
 }
 
@@ -393,7 +328,7 @@ class Flood {
     client_.EndSending();
   }
 
-  const Client client_;
+  const HttpConnection client_;
   std::atomic<bool> ended_ = false;
   std::atomic<std::int64_t> sent_ = 0;
   std::size_t answered_bytes_ = 0;
