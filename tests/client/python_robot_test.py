@@ -368,7 +368,7 @@ class CallTest(unittest.TestCase):
 
 class PracticeTest(unittest.TestCase):
     def plan(self, *poses):
-        plan = planning_pb.Plan()
+        plan = planning_pb.Plan(chosen_index=-1)
         for pose in poses:
             plan.trajectory.waypoints.add().pose.CopyFrom(pose_of(pose))
         return plan_of(plan)
