@@ -104,6 +104,7 @@ class Node:
             f"store.node={name}",
             f"store.lease_s={lease_s}",
             "limits.max_missions=256",
+            "limits.memory_budget_bytes=17179869184",
             environment=by_clock(clock_s),
             store=store_of(self._link.target if cuttable else database),
         ).start()
