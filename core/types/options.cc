@@ -199,6 +199,13 @@ absl::Status Validate(const MissionOptions& options) {
       .status();
 }
 
+GasOptions PublishedGasOptions() {
+  GasOptions gas;
+  gas.observation_precision_per_ppm2 = 10.0;
+  gas.background_precision_per_ppm2 = 0.001;
+  return gas;
+}
+
 double OpenLatticeVariance_ppm2(const GasOptions& options) {
   constexpr double kPi = 3.14159265358979323846;
   return std::log(32.0 * options.prior_precision_per_ppm2 / options.background_precision_per_ppm2) /

@@ -30,14 +30,16 @@ struct OccupancyOptions {
   std::int64_t max_cell_count = 4'000'000;  // nor beyond this many cells
 };
 
-// Gas posterior; design of the GMRF with precisions in ppm^-2. [XIT] Table I.
+// Gas posterior; design of the GMRF with precisions in ppm^-2. Of [XIT] Table I are lambda_p, the
+// unit, and m_0; lambda_o and lambda_d are ours (docs/decisions/0029-the-default-field.md), for the
+// paper's see PublishedGasOptions().
 enum class GasScale { kLinear, kSquareRoot };
 enum class GasPrecisions { kFixed, kLearned };
 struct GasOptions {
-  double prior_precision_per_ppm2 = 3.0;         // lambda_p (sigma_r^2), > 0
-  double observation_precision_per_ppm2 = 10.0;  // lambda_o (sigma_s^2), > 0
-  double background_precision_per_ppm2 = 0.001;  // lambda_d (sigma_d^2), > 0
-  double background_mean_ppm = 0.0;              // m_0
+  double prior_precision_per_ppm2 = 3.0;          // lambda_p (sigma_r^2), > 0
+  double observation_precision_per_ppm2 = 100.0;  // lambda_o (sigma_s^2), > 0
+  double background_precision_per_ppm2 = 0.009;   // lambda_d (sigma_d^2), > 0
+  double background_mean_ppm = 0.0;               // m_0
   // A reading's variance grows by 1/lambda_o in this time (lambda_t = half-life * lambda_o);
   // 0: readings do not age; else [0.001, 1e9].
   double ageing_half_life_s = 0.0;
@@ -67,6 +69,9 @@ struct GasOptions {
   // estimate_noise.
   GasPrecisions precisions = GasPrecisions::kFixed;
 };
+
+// The same with the precisions of [XIT] Table I: lambda_o = 10, lambda_d = 0.001.
+GasOptions PublishedGasOptions();
 
 inline constexpr int kMostLatticeFactor = 16;
 
@@ -184,7 +189,7 @@ struct PlanningOptions {
   // The gas field has no cells behind an occupancy frontier, so what readings there would tell
   // cannot be priced (ours). Where information is priced it counts as this much, nats, [0, 1e9]; in
   // a field of other precisions in proportion to what a reading tells (`InField` in core/plan).
-  // Found by trial with the default precisions, where from 10 to 30 are equal
+  // Found by trial with the published precisions, where from 10 to 30 are equal
   // (docs/decisions/0007-own-strategy.md): with none, rooms that promise little stay unseen.
   double unseen_information_nats = 20.0;
   // A robot under way keeps its goal unless another is better by more than this share, [0, 1].

@@ -128,9 +128,9 @@ void AddGasOptions(CLI::App& app, RobotArguments& arguments) {
                  "Readings are multiples of it, ppm (co2 10)");
   app.add_option("--gas-rate", arguments.rates.gas_hz, "Readings a second; 0: none");
   app.add_flag("--raw-gas", arguments.raw_gas,
-               "Send gas readings as the sensor gives them, its lag not undone");
-  app.add_flag("--way-gas", arguments.way_gas,
-               "The same, for the mission to undo the lag along the way")
+               "Nobody undoes the sensor's lag (default: the mission does, along the way)");
+  app.add_flag("--point-gas", arguments.point_gas,
+               "The robot undoes it, from each two readings for one place between them")
       ->excludes("--raw-gas");
   app.add_option("--gas-threshold", arguments.gas_threshold_ppm,
                  "Above it gas counts as a plume, ppm (default: a percentile of what is observed)");
@@ -307,7 +307,7 @@ absl::StatusOr<PlannedEpisode> PlanEpisode(const RobotArguments& arguments,
   options.rates = arguments.rates;
   options.realtime = arguments.realtime;
   options.correct_gas_lag = !arguments.raw_gas;
-  options.mission_corrects_lag = arguments.way_gas;
+  options.mission_corrects_lag = !arguments.raw_gas && !arguments.point_gas;
   options.gas_settling_s = arguments.settling_s;
   options.simulated = RobotOf(arguments);
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<Pose2> starts,

@@ -57,7 +57,7 @@ struct RobotArguments {
   GasSensorKind gas_sensor = GasSensorKind::kPhotoIonisation;
   GasSensorChanges gas_changes;
   bool raw_gas = false;
-  bool way_gas = false;
+  bool point_gas = false;
   std::optional<double> gas_threshold_ppm;
   double dwell_s = 0.0;
   double settling_s = 0.0;

@@ -45,7 +45,7 @@ struct Model {
 
 GasOptions Gas(double prior_precision, double background_precision, GasScale scale,
                bool estimate_noise) {
-  GasOptions gas;
+  GasOptions gas = PublishedGasOptions();
   gas.prior_precision_per_ppm2 = prior_precision;
   gas.background_precision_per_ppm2 = background_precision;
   gas.scale = scale;
@@ -67,7 +67,8 @@ std::vector<Model> Models() {
           {"noise", "points, linear, noise estimated", false, Gas(3.0, 1e-3, kLinear, true)},
           {"points_root", "points, roots", false, Gas(0.3, 9e-4, kRoot, true)},
           {"way_as_is", "way, linear, precisions as they are", true, Gas(3.0, 1e-3, kLinear, true)},
-          {"way_linear", "way, linear", true, Gas(0.3, 9e-4, kLinear, true)},
+          // The ratios of (0.3, 9e-4) with lambda_o = 10, so the same means.
+          {"way_linear", "way, linear, as by default", true, GasOptions{}},
           {"way_root", "way, roots", true, Gas(0.3, 3e-4, kRoot, true)},
           {"learned", "points, linear, learned", false, Learned(3.0, 1e-3, kLinear)},
           {"way_learned", "way, linear, learned", true, Learned(3.0, 1e-3, kLinear)},

@@ -52,6 +52,7 @@ absl::StatusOr<EpisodeOptions> MakeEpisodeOptions(const ExperimentOptions& optio
   episode.mission = "xit-episode";
   episode.create.emplace();
   episode.create->seed = options.seed;
+  episode.create->gas = PublishedGasOptions();
   episode.create->planning.strategy = "xit_gff";
   PLUMESCOUT_RETURN_IF_ERROR(ApplyStrategyRow(episode.create->planning));
   episode.duration_s = options.quick ? kQuickDuration_s : kDuration_s;

@@ -58,6 +58,7 @@ SceneMakerOptions SceneOptions(const ExperimentOptions& options) {
 absl::StatusOr<MissionOptions> MakeMissionOptions(std::uint64_t seed) {
   MissionOptions mission;
   mission.seed = seed;
+  mission.gas = PublishedGasOptions();
   mission.gas.background_mean_ppm = kAmbient_ppm;
   mission.gas.estimate_noise = false;
   mission.frontier.fixed_gas_threshold_ppm = kGasThreshold_ppm;

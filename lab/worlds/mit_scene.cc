@@ -119,7 +119,7 @@ absl::StatusOr<MitScene> BuildMitScene(const MitSceneSpec& spec) {
   const GridGeometry& geometry = scene.occupancy.geometry();
   scene.true_gas_ppm = TrueGas_ppm(spec.plume, geometry);
   scene.driven = spec.driven;
-  const GasOptions gas_options;
+  const GasOptions gas_options = PublishedGasOptions();
   GasMap gas(gas_options);
   for (const Point2 at : PointsAlong(spec.driven, kBetweenReadings_m)) {
     gas.Add(0, at, {Plume_ppm(spec.plume, at), 0.0});

@@ -117,7 +117,7 @@ SyntheticScene BuildScene(const SceneSpec& spec) {
   const GridGeometry& geometry = scene.occupancy.geometry();
   const Grid<std::uint8_t> traversable =
       TraversableCells(scene.occupancy, OccupancyOptions{}.inflation_radius_m);
-  const GasOptions gas;
+  const GasOptions gas = PublishedGasOptions();
   const Grid<float> variance_ppm2(geometry, static_cast<float>(OpenLatticeVariance_ppm2(gas)));
   scene.information = MakeInformationMap(
       {traversable, MakeMean_ppm(spec, geometry), variance_ppm2, gas, FrontierOptions{}},

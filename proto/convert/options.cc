@@ -290,6 +290,7 @@ absl::StatusOr<MissionOptions> FromProto(const v1::MissionOptions& proto,
 MissionOptions RecordedDefaults() {
   MissionOptions options;
   options.keep_scans = false;
+  options.gas = PublishedGasOptions();
   options.gas.estimate_noise = false;
   return options;
 }

@@ -50,7 +50,8 @@ bool EndsAtTheUnseen(const Candidate& candidate) {
 }
 
 PlanningOptions InField(PlanningOptions options, const GasOptions& gas) {
-  options.unseen_information_nats *= ToldByReading_nats(gas) / ToldByReading_nats(GasOptions{});
+  options.unseen_information_nats *=
+      ToldByReading_nats(gas) / ToldByReading_nats(PublishedGasOptions());
   return options;
 }
 

@@ -15,7 +15,7 @@ bool EndsAtTheUnseen(const Candidate& candidate);
 
 // `options` with unseen_information_nats as it counts in this field: in proportion to what a
 // reading in air that nobody has read tells of its own cell, 1/2 ln(1 + lambda_o epsilon_inf), over
-// that with the default precisions. Where readings tell more, so would those behind a frontier.
+// that with the published precisions. Where readings tell more, so would those behind a frontier.
 PlanningOptions InField(PlanningOptions options, const GasOptions& gas);
 
 // Expected information, nats, and options.unseen_information_nats if the way ends at the unseen.

@@ -13,7 +13,7 @@ namespace ageing_test {
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 GasOptions HalfLife(double half_life_s) {
-  GasOptions options;
+  GasOptions options = PublishedGasOptions();
   options.ageing_half_life_s = half_life_s;
   return options;
 }

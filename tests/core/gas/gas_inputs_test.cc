@@ -18,7 +18,7 @@ using ::testing::IsEmpty;
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 GasOptions Options(int lattice_factor, double half_life_s = 0.0) {
-  GasOptions options;
+  GasOptions options = PublishedGasOptions();
   options.lattice_factor = lattice_factor;
   options.ageing_half_life_s = half_life_s;
   return options;

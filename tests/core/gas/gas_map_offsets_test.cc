@@ -32,7 +32,7 @@ Grid<CellState> Hall() {
 // Both drive to and fro; the second also over the first one's ground if they cross. Its readings
 // are too high by `offset_ppm`.
 GasMap Drive(bool cross, double offset_ppm, const ReadingSource& second) {
-  GasMap map{GasOptions()};
+  GasMap map{PublishedGasOptions()};
   Rng rng(7);
   for (int i = 0; i < 160; ++i) {
     const double x_m = 0.1 + 4.8 * (i % 40) / 40.0;

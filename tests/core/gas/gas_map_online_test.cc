@@ -145,7 +145,7 @@ void Step(Discovery& discovery, GasMap& map, std::int64_t time_ns) {
 
 TEST(GasMapOnlineTest, StaysWithinItsCertificateWhileTheMapGrows) {
   Discovery discovery(1);
-  const GasOptions options;
+  const GasOptions options = PublishedGasOptions();
   GasMap map(options);
   for (int step = 0; step < 120; ++step) {
     Step(discovery, map, step * kSecond_ns / 2);
@@ -164,7 +164,7 @@ TEST(GasMapOnlineTest, AgesReadingsInEpochs) {
   constexpr double kMerged = 2 * kBucketError;
 
   Discovery discovery(2);
-  GasOptions options;
+  GasOptions options = PublishedGasOptions();
   options.ageing_half_life_s = 120.0;
   GasMap map(options);
   for (int step = 0; step < 60; ++step) {
@@ -183,7 +183,7 @@ TEST(GasMapOnlineTest, AgesReadingsInEpochs) {
 }
 
 TEST(GasMapOnlineTest, AgesAllAtOnceWhenItIsFarBehind) {
-  GasOptions options;
+  GasOptions options = PublishedGasOptions();
   options.ageing_half_life_s = 60.0;
   GasMap map(options);
   const Grid<CellState> states = GridFromArt({"."});
@@ -204,7 +204,7 @@ TEST(GasMapOnlineTest, AgesAllAtOnceWhenItIsFarBehind) {
 TEST(GasMapOnlineTest, APreciseReadingLeavesAgeingToEpochs) {
   constexpr double kVariance_ppm2 = 0.03 * 0.03;
   constexpr double kHalfLife_s = 120.0;
-  GasOptions options;
+  GasOptions options = PublishedGasOptions();
   options.ageing_half_life_s = kHalfLife_s;
   GasMap map(options);
   const Grid<CellState> states(GridGeometry{0.0, 0.0, 0.1, 12, 10}, CellState::kFree);
@@ -255,7 +255,7 @@ TEST(GasMapOnlineTest, APreciseReadingLeavesAgeingToEpochs) {
 
 TEST(GasMapOnlineTest, GivesTheSameBytesWhereverAndWheneverAnEpochIsRecomputed) {
   for (const double half_life_s : {0.0, 120.0}) {
-    GasOptions options;
+    GasOptions options = PublishedGasOptions();
     options.ageing_half_life_s = half_life_s;
     Discovery at_once_world(3), late_world(3);
     GasMap at_once(options), late(options);
@@ -271,7 +271,7 @@ TEST(GasMapOnlineTest, GivesTheSameBytesWhereverAndWheneverAnEpochIsRecomputed) 
 }
 
 TEST(GasMapOnlineTest, AnEpochDoesNotForgetWhatCameMeanwhile) {
-  GasMap map{GasOptions()};
+  GasMap map{PublishedGasOptions()};
   ASSERT_TRUE(map.Refresh(GridFromArt({"....", "...."}), 0).ok());
   ASSERT_TRUE(map.BeginEpoch(0).ok());
   const std::shared_ptr<GasEpoch> epoch = map.epoch();
@@ -282,11 +282,11 @@ TEST(GasMapOnlineTest, AnEpochDoesNotForgetWhatCameMeanwhile) {
   ASSERT_TRUE(map.Adopt().ok());
   EXPECT_EQ(map.epoch(), nullptr);
   EXPECT_EQ(map.quality().epochs, 1);
-  ExpectCertified(map, DenseField(walled, {{{0, 0}, 10.0, 20.0}}, GasOptions()));
+  ExpectCertified(map, DenseField(walled, {{{0, 0}, 10.0, 20.0}}, PublishedGasOptions()));
 }
 
 TEST(GasMapOnlineTest, AdoptsOnlyWhatWasBegun) {
-  GasMap map{GasOptions()};
+  GasMap map{PublishedGasOptions()};
   EXPECT_FALSE(map.epoch_due(0));
   EXPECT_FALSE(map.adoption_due(1'000'000 * kSecond_ns));
   EXPECT_TRUE(absl::IsFailedPrecondition(map.Adopt()));
@@ -300,17 +300,17 @@ TEST(GasMapOnlineTest, AdoptsOnlyWhatWasBegun) {
 }
 
 TEST(GasMapOnlineTest, OutgrownLatticeIsReplacedAtOnce) {
-  GasMap map{GasOptions()};
+  GasMap map{PublishedGasOptions()};
   ASSERT_TRUE(map.Refresh(GridFromArt({"."}), 0).ok());
   map.Add(0, {0.05, 0.05}, {20.0});
   const Grid<CellState> hall = GridFromArt({std::string(120, '.'), std::string(120, '.')});
   ASSERT_TRUE(map.Refresh(hall, 0).ok());
-  ExpectCertified(map, DenseField(hall, {{{0, 0}, 10.0, 20.0}}, GasOptions()));
+  ExpectCertified(map, DenseField(hall, {{{0, 0}, 10.0, 20.0}}, PublishedGasOptions()));
 }
 
 // A chain of three gas cells of 2x2 in which a wall stands between the second and the third.
 TEST(GasMapOnlineTest, CoarseLatticeHasNoLinkThroughAWall) {
-  GasOptions options;
+  GasOptions options = PublishedGasOptions();
   options.lattice_factor = 2;
   GasMap map(options);
   map.Add(0, {0.05, 0.05}, {20.0});
@@ -333,7 +333,7 @@ TEST(GasMapOnlineTest, CoarseLatticeHasNoLinkThroughAWall) {
 // A map of 5 x 4 cells, which then grows by one cell to the west and the south, is one of 2 x 2 gas
 // cells of 3 x 3 that grows to 3 x 3 of them.
 TEST(GasMapOnlineTest, GasCellsNeedNotDivideTheMap) {
-  GasOptions options;
+  GasOptions options = PublishedGasOptions();
   options.lattice_factor = 3;
   GasMap map(options);
   map.Add(0, {0.45, 0.35}, {20.0});

@@ -40,7 +40,8 @@ struct GasMapPeer {
     map.field_options_.prior.prior_precision_per_ppm2 = std::nan("");
   }
   static void FindPrior(GasMap& map) {
-    map.field_options_.prior.prior_precision_per_ppm2 = GasOptions().prior_precision_per_ppm2;
+    map.field_options_.prior.prior_precision_per_ppm2 =
+        PublishedGasOptions().prior_precision_per_ppm2;
   }
 };
 

@@ -32,7 +32,7 @@ constexpr double kFloat = 1e-7;
 constexpr double kLargest_ppm = 40.0;  // of the readings below
 
 GasMap MapOf(const std::vector<TimedReading>& readings, const Grid<CellState>& states,
-             std::int64_t time_ns, const GasOptions& options = {}) {
+             std::int64_t time_ns, const GasOptions& options = PublishedGasOptions()) {
   GasMap map(options);
   for (const TimedReading& r : readings) map.Add(r.time_ns, r.position, r.reading);
   EXPECT_TRUE(map.Refresh(states, time_ns).ok());
@@ -66,7 +66,7 @@ TEST(GasMapTest, PublishesTheExactPosteriorRoundedToFloat) {
   Rng rng(1);
   const Grid<CellState> states = testing::RandomStates(14, 12, 0.2, rng);
   std::vector<DenseReading> readings = testing::RandomReadings(states, 25, rng);
-  GasOptions options;
+  GasOptions options = PublishedGasOptions();
   options.background_mean_ppm = 3.0;
   GasMap map(options);
   for (const DenseReading& r : readings) {
@@ -88,18 +88,18 @@ TEST(GasMapTest, PublishesTheExactPosteriorRoundedToFloat) {
 TEST(GasMapTest, EveryVarianceIsThatOfTheDenseInverseAt40By50Cells) {
   Rng rng(5);
   const Grid<CellState> states = testing::RandomStates(40, 50, 0.15, rng);
-  GasMap map{GasOptions()};
+  GasMap map{PublishedGasOptions()};
   std::vector<CellInput> cells(states.size());
   for (std::size_t i = 0; i < states.size(); ++i) {
     cells[i].active = states[i] == CellState::kFree;
     if (!cells[i].active || rng.Below(20) != 0) continue;
     const double concentration_ppm = rng.Uniform(0.0, kLargest_ppm);
     map.Add(0, states.geometry().Center(states.geometry().CellAtIndex(i)), {concentration_ppm});
-    cells[i].precision = GasOptions().observation_precision_per_ppm2;
+    cells[i].precision = PublishedGasOptions().observation_precision_per_ppm2;
     cells[i].weighted_deviation = cells[i].precision * concentration_ppm;
   }
   ASSERT_TRUE(map.Refresh(states, 0).ok());
-  const testing::DenseTruth dense(40, cells, GasOptions());
+  const testing::DenseTruth dense(40, cells, PublishedGasOptions());
   for (std::size_t i = 0; i < states.size(); ++i) {
     if (!cells[i].active) continue;
     const Eigen::Index row = dense.variable(i);
@@ -112,7 +112,7 @@ TEST(GasMapTest, EveryVarianceIsThatOfTheDenseInverseAt40By50Cells) {
 TEST(GasMapTest, NeitherClampsMeansNorCapsVariances) {
   const Grid<CellState> states = GridFromArt({".#.#."});
   const GasMap map = MapOf({{0, {0.05, 0.05}, {5e5}}, {0, {0.25, 0.05}, {-3.0}}}, states, 0);
-  const GasOptions options;
+  const GasOptions options = PublishedGasOptions();
   const double precision =
       options.observation_precision_per_ppm2 + options.background_precision_per_ppm2;
   const double share = options.observation_precision_per_ppm2 / precision;
@@ -155,7 +155,7 @@ TEST(GasMapTest, AReadingGoesThroughADoor) {
 }
 
 TEST(GasMapTest, OldReadingsWeighLess) {
-  GasOptions options;
+  GasOptions options = PublishedGasOptions();
   options.ageing_half_life_s = 60.0;
   const Grid<CellState> states = GridFromArt({"."});
   const GasMap map = MapOf({{0, {0.05, 0.05}, {20.0}}}, states, 180 * kSecond_ns, options);
@@ -180,7 +180,7 @@ TEST(GasMapTest, IsTheSameHoweverOftenItWasRefreshedBefore) {
   const Grid<CellState> states = testing::RandomStates(20, 20, 0.25, rng);
   const std::vector<TimedReading> readings = RandomTimedReadings(states, 60, rng);
   for (const double half_life_s : {0.0, 30.0}) {
-    GasOptions options;
+    GasOptions options = PublishedGasOptions();
     options.ageing_half_life_s = half_life_s;
     GasMap often(options);
     for (const TimedReading& r : readings) {
@@ -218,7 +218,7 @@ TEST(GasMapTest, CountsMovedAndWaitingReadings) {
 }
 
 TEST(GasMapTest, CountsEachReadingBeforeTheNextRefresh) {
-  GasMap map{GasOptions()};
+  GasMap map{PublishedGasOptions()};
   EXPECT_FALSE(map.stale());
   map.Add(0, {0.05, 0.05}, {1.0});
   EXPECT_TRUE(map.stale());
@@ -283,7 +283,7 @@ TEST(GasMapTest, SurvivesTheLossOfEveryFreeCell) {
 }
 
 TEST(GasMapTest, WorksWithoutCellsAndWithoutFreeCells) {
-  GasMap map{GasOptions()};
+  GasMap map{PublishedGasOptions()};
   map.Add(0, {0.05, 0.05}, {5.0});
   ASSERT_TRUE(map.Refresh(Grid<CellState>(), 0).ok());
   EXPECT_EQ(map.mean_ppm().size(), 0U);
@@ -310,7 +310,7 @@ bool ShowsNothing(const GasMap& map) {
 
 TEST(GasMapTest, ShowsNoFieldThatCannotBeComputed) {
   const Grid<CellState> states = GridFromArt({"...", "..."});
-  GasMap map{GasOptions()};
+  GasMap map{PublishedGasOptions()};
   GasMapPeer::LosePrior(map);
   map.Add(0, {0.05, 0.05}, {5.0});
   if (GasMapPeer::kStopsAtDefects) {
@@ -354,7 +354,7 @@ TEST(GasMapTest, ShowsNoFieldAfterAnEpochThatCannotBeComputed) {
 }
 
 TEST(GasMapTest, NoPrecisionIsTooExtreme) {
-  GasOptions options;
+  GasOptions options = PublishedGasOptions();
   options.prior_precision_per_ppm2 = 1e9;
   options.background_precision_per_ppm2 = 1e-9;  // 1e9 + 1e-9 rounds to 1e9
   GasMap map = MapOf({}, GridFromArt({".#"}), 0, options);

@@ -21,7 +21,7 @@ using ::plumescout::testing::DenseField;
 using ::plumescout::testing::DenseReading;
 
 GasOptions Estimated(double background_ppm = 0.0) {
-  GasOptions gas;
+  GasOptions gas = PublishedGasOptions();
   gas.background_mean_ppm = background_ppm;
   return gas;
 }
@@ -89,7 +89,7 @@ TEST(NoiseScaleTest, AFieldKnowsTheEnergyOfItsReadings) {
 }
 
 TEST(NoiseScaleTest, IsNotEstimatedUnlessAskedFor) {
-  GasOptions fixed;
+  GasOptions fixed = PublishedGasOptions();
   fixed.estimate_noise = false;
   GasMap map(fixed);
   map.Add(0, {0.35, 0.35}, {50.0});
@@ -101,7 +101,7 @@ TEST(NoiseScaleTest, IsNotEstimatedUnlessAskedFor) {
 TEST(NoiseScaleTest, OddReadingsNeverMakeAFieldSurer) {
   for (const double ppm : {0.0, 50.0}) {
     GasMap map(Estimated());
-    GasMap plain{GasOptions()};
+    GasMap plain{PublishedGasOptions()};
     for (int k = 0; k < 200; ++k) {
       const Point2 place{0.05 + 0.1 * (k % 8), 0.05 + 0.1 * (k / 8 % 8)};
       map.Add(0, place, {ppm});
@@ -137,7 +137,7 @@ TEST(NoiseScaleTest, OneReadingBeyondAllOthersMakesItUnsure) {
 TEST(NoiseScaleTest, AFieldOfRootsIsALinearOneOfTheRoots) {
   Rng rng(5);
   const Grid<CellState> states = Room(10);
-  GasOptions options;
+  GasOptions options = PublishedGasOptions();
   options.estimate_noise = false;
   GasMap linear(options);
   options.scale = GasScale::kSquareRoot;

@@ -254,7 +254,7 @@ void CompareOverAMission(const MissionOptions& run) {
   constexpr double kRounding = 1e-12;
   Rng rng(run.seed);
   GrowingMap map(rng);
-  GasOptions options;
+  GasOptions options = PublishedGasOptions();
   options.observation_precision_per_ppm2 = kObservationPrecision;
   options.background_mean_ppm = kMean_ppm;
   options.ageing_half_life_s = run.half_life_s;

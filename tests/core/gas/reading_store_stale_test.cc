@@ -18,7 +18,7 @@ constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kWeek_s = 7 * 24 * 3600;
 
 GasOptions Options(double half_life_s) {
-  GasOptions options;
+  GasOptions options = PublishedGasOptions();
   options.ageing_half_life_s = half_life_s;
   return options;
 }

@@ -30,7 +30,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 GasOptions Options(double half_life_s = 0.0) {
-  GasOptions options;
+  GasOptions options = PublishedGasOptions();
   options.background_mean_ppm = 2.0;
   options.ageing_half_life_s = half_life_s;
   return options;

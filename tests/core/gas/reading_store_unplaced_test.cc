@@ -19,7 +19,7 @@ using ::plumescout::testing::GridFromArt;
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 GasOptions Options(double half_life_s = 0.0) {
-  GasOptions options;
+  GasOptions options = PublishedGasOptions();
   options.background_mean_ppm = 2.0;
   options.ageing_half_life_s = half_life_s;
   return options;

@@ -37,7 +37,7 @@ std::vector<Taken> Readings(int count, Rng& rng) {
 
 TEST(ReadingStoreWaitingTest, ManyOfFewCellsAreMergedBeforeTheFirstMap) {
   Rng rng(1);
-  ReadingStore store(GasOptions(), kResolution_m);
+  ReadingStore store(PublishedGasOptions(), kResolution_m);
   for (const Taken& taken : Readings(kMany, rng))
     store.Add(0, taken.place, {taken.concentration_ppm});
   EXPECT_LE(store.arrivals(), ReadingStore::kMostArrivals + 8 * 6 * kSitesPerCell);
@@ -48,7 +48,7 @@ TEST(ReadingStoreWaitingTest, ManyOfFewCellsAreMergedBeforeTheFirstMap) {
 TEST(ReadingStoreWaitingTest, MergedReadingsSayWhatAllSay) {
   for (const double half_life_s : {0.0, 5.0}) {
     Rng rng(2);
-    GasOptions options;
+    GasOptions options = PublishedGasOptions();
     options.ageing_half_life_s = half_life_s;
     ReadingStore merged(options, kResolution_m);
     ReadingStore single(options);  // cannot merge before the first map
@@ -79,7 +79,7 @@ TEST(ReadingStoreWaitingTest, MergedReadingsSayWhatAllSay) {
 }
 
 TEST(ReadingStoreWaitingTest, BucketsOfOneCellAreBoundedWhileSampleTimeStandsStill) {
-  GasOptions options;
+  GasOptions options = PublishedGasOptions();
   options.ageing_half_life_s = 5.0;
   ReadingStore store(options, kResolution_m);
   ASSERT_TRUE(store.Place(Ground(), {}).ok());
@@ -97,7 +97,7 @@ TEST(ReadingStoreWaitingTest, BucketsOfOneCellAreBoundedWhileSampleTimeStandsSti
 
 TEST(ReadingStoreWaitingTest, PlacesThatWaitAreBounded) {
   Rng rng(3);
-  ReadingStore store(GasOptions(), kResolution_m);
+  ReadingStore store(PublishedGasOptions(), kResolution_m);
   std::size_t taken = 0;
   Point2 first;
   for (std::size_t k = 0; k < ReadingStore::kMostWaitingSites + 5000; ++k) {

@@ -32,6 +32,7 @@ constexpr double kVariance_ppm2 = 0.1;  // 1 / lambda_o
 WayModel Model(double response_time_s = 0.5) {
   WayModel model;
   model.response_time_s = response_time_s;
+  model.gas = PublishedGasOptions();
   return model;
 }
 

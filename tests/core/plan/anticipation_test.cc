@@ -131,8 +131,8 @@ TEST(PromisedReadings, AreBoundedWhateverTheOptionsSay) {
   often.reading_rate_hz = 1000.0;
   const Promises promises = PromisedReadings(belief, "r", often);
   EXPECT_LE(promises.size(), kMostPromised);
-  EXPECT_NEAR(PrecisionSum(promises), 12'000 * belief.options->gas.observation_precision_per_ppm2,
-              500.0 * 10.0);
+  const double precision = belief.options->gas.observation_precision_per_ppm2;
+  EXPECT_NEAR(PrecisionSum(promises), 12'000 * precision, 500.0 * precision);
   for (int k = 0; k < 100; ++k) {
     AddRobot("c" + std::to_string(k), {{0.5, 0.5}, {12.5, 0.5}}, belief);
   }

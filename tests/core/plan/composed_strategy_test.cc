@@ -108,6 +108,7 @@ TEST(Strategy, PlansToTheCheapestFrontier) {
 std::string WhyThere(double prior_precision_per_ppm2) {
   Belief belief = SmallBelief(kRoom);
   MissionOptions mission = *belief.options;
+  mission.gas = PublishedGasOptions();
   mission.gas.prior_precision_per_ppm2 = prior_precision_per_ppm2;
   belief.options = std::make_shared<const MissionOptions>(mission);
   GasMap gas(mission.gas);

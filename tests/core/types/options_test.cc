@@ -23,6 +23,7 @@ TEST(Options, AreValidByDefault) {
   EXPECT_TRUE(Validate(MissionOptions{}).ok());
   EXPECT_TRUE(Validate(OccupancyOptions{}).ok());
   EXPECT_TRUE(Validate(GasOptions{}).ok());
+  EXPECT_TRUE(Validate(PublishedGasOptions()).ok());
   EXPECT_TRUE(Validate(FrontierOptions{}).ok());
   EXPECT_TRUE(Validate(PlanningOptions{}).ok());
 }
@@ -198,7 +199,16 @@ TEST(MissionOptions, AreInvalidIfAnyPartIs) {
 
 TEST(OpenLatticeVariance, FollowsItsFormula) {
   // ln(32 * 3 / 0.001) / (4 pi * 3), worked by hand: 11.47210 / 37.69911.
-  EXPECT_NEAR(OpenLatticeVariance_ppm2(GasOptions{}), 0.304307, 1e-6);
+  EXPECT_NEAR(OpenLatticeVariance_ppm2(PublishedGasOptions()), 0.304307, 1e-6);
+  // ln(32 * 3 / 0.009) / (4 pi * 3): 9.27488 / 37.69911.
+  EXPECT_NEAR(OpenLatticeVariance_ppm2(GasOptions{}), 0.246024, 1e-6);
+}
+
+TEST(GasOptionsTest, ThePublishedOnesHaveTheRatiosOfXitTableOne) {
+  const GasOptions published = PublishedGasOptions();
+  EXPECT_EQ(published.prior_precision_per_ppm2, 3.0);
+  EXPECT_EQ(published.observation_precision_per_ppm2, 10.0);
+  EXPECT_EQ(published.background_precision_per_ppm2, 0.001);
 }
 
 }  // namespace options_test

@@ -42,11 +42,11 @@ Grid<T> GridOf(const std::vector<T>& values) {
 
 InformationMap InformationOf(const Row& row, const PlanningOptions& options = {}) {
   return MakeInformationMap({GridOf(row.traversable), GridOf(row.mean_ppm),
-                             GridOf(row.variance_ppm2), GasOptions{}, FrontierOptions{}},
+                             GridOf(row.variance_ppm2), PublishedGasOptions(), FrontierOptions{}},
                             options);
 }
 
-float EpsilonInf() { return static_cast<float>(OpenLatticeVariance_ppm2(GasOptions{})); }
+float EpsilonInf() { return static_cast<float>(OpenLatticeVariance_ppm2(PublishedGasOptions())); }
 
 PlanningOptions WithBeta(double beta) {
   PlanningOptions options;
@@ -64,10 +64,10 @@ TEST(InformationMap, FollowsEquations8To11OnRandomMaps) {
     for (float& v : variance.values()) v = static_cast<float>(rng.Uniform(0.0, 0.4));
     const double beta = rng.Uniform(0.0, 2.0);
     const InformationMap information = MakeInformationMap(
-        {traversable, mean, variance, GasOptions{}, FrontierOptions{}}, WithBeta(beta));
+        {traversable, mean, variance, PublishedGasOptions(), FrontierOptions{}}, WithBeta(beta));
 
     const double max_mean = *std::max_element(mean.values().begin(), mean.values().end());
-    const double epsilon_inf = OpenLatticeVariance_ppm2(GasOptions{});
+    const double epsilon_inf = OpenLatticeVariance_ppm2(PublishedGasOptions());
     std::vector<double> bound;
     for (std::size_t i = 0; i < mean.size(); ++i) {
       const double mu = std::max(0.0, static_cast<double>(mean[i])) / std::max(max_mean, 2.0);

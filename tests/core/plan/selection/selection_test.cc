@@ -82,7 +82,7 @@ TEST(SelectCandidate, CountsWhatIsUnseenAsMuchAsItIsTold) {
 TEST(InField, CountsWhatIsUnseenByWhatAReadingTells) {
   PlanningOptions options;
   options.unseen_information_nats = 12.0;
-  GasOptions gas;
+  GasOptions gas = PublishedGasOptions();
   EXPECT_DOUBLE_EQ(InField(options, gas).unseen_information_nats, 12.0);
   // ln(32 lambda_p / lambda_d) / (4 pi lambda_p) is 0.30431 ppm^2 and, with 0.1, 6.4227 ppm^2.
   gas.prior_precision_per_ppm2 = 0.1;
@@ -91,7 +91,7 @@ TEST(InField, CountsWhatIsUnseenByWhatAReadingTells) {
   gas.observation_precision_per_ppm2 = 1e-9;
   EXPECT_LT(InField(options, gas).unseen_information_nats, 1e-6) << "readings that tell nothing";
   options.unseen_information_nats = 0.0;
-  EXPECT_EQ(InField(options, GasOptions{}).unseen_information_nats, 0.0);
+  EXPECT_EQ(InField(options, PublishedGasOptions()).unseen_information_nats, 0.0);
 }
 
 TEST(SelectCandidate, PassesOverWhatWasNotPricedUnlessNothingWas) {
