@@ -54,10 +54,16 @@ if(MOLD_PROGRAM)
 endif()
 
 # What sources of a kind, by what they include (precompiled.cmake), are compiled with, after the
-# options of the configuration. Where calls are waited for (wire) -O3 brings nothing. Tests are
-# compiled once and run for seconds: little optimisation pays, and less by clang.
+# options of the configuration. Where calls are waited for (wire) -O3 brings nothing, and under
+# sanitizers no optimisation pays at all. Tests are compiled once and run for seconds: little
+# optimisation pays, and less by clang.
 set(PLUMESCOUT_OPTIONS_base)
 set(PLUMESCOUT_OPTIONS_wire $<$<CONFIG:Release>:-O2>)
+set(PLUMESCOUT_OPTIONS_generated -O1)
+if(PLUMESCOUT_SANITIZE)
+  set(PLUMESCOUT_OPTIONS_wire -O0)
+  set(PLUMESCOUT_OPTIONS_generated -O0)
+endif()
 set(PLUMESCOUT_OPTIONS_tests -O1)
 set(PLUMESCOUT_OPTIONS_wire_tests -O0)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)

@@ -38,8 +38,9 @@ struct Size {
   int robots;   // that scan at once
   int repeats;  // of what takes long
 
+  std::string Cells() const { return absl::StrCat(width_cells, "x", height_cells); }
   std::string Name(const std::string& what, bool open, const std::string& unit) const {
-    return absl::StrCat(what, open ? "_open_" : "_", width_cells, "x", height_cells, "_", unit);
+    return absl::StrCat(what, open ? "_open_" : "_", Cells(), "_", unit);
   }
 };
 constexpr Size kSizes[] = {{160, 200, 1, 9}, {320, 400, 2, 3}, {700, 700, 8, 1}};
@@ -255,19 +256,29 @@ absl::Status MeasureAudit(const Size& size, bool open, const GasCase& c, BenchSu
   return status;
 }
 
-absl::Status Run(BenchSummary& summary) {
-  for (const Size& size : kSizes) {
-    for (const bool open : {false, true}) {
-      const auto make = open ? OpenCase : IndoorCase;
-      const GasCase c = make(size.width_cells, size.height_cells, summary.seed());
-      PLUMESCOUT_RETURN_IF_ERROR(MeasureMemory(size.Name("memory", open, "mb"), c, summary));
-      PLUMESCOUT_RETURN_IF_ERROR(MeasureFresh(size, open, c, summary));
-      PLUMESCOUT_RETURN_IF_ERROR(MeasureOnline(size, open, c, summary));
-      PLUMESCOUT_RETURN_IF_ERROR(MeasureWorstReadings(size, open, c, summary));
-      PLUMESCOUT_RETURN_IF_ERROR(MeasureBeliefPropagation(size, open, c, summary));
-      PLUMESCOUT_RETURN_IF_ERROR(MeasureAudit(size, open, c, summary));
-    }
+absl::Status MeasureSize(const Size& size, BenchSummary& summary) {
+  for (const bool open : {false, true}) {
+    const auto make = open ? OpenCase : IndoorCase;
+    const GasCase c = make(size.width_cells, size.height_cells, summary.seed());
+    PLUMESCOUT_RETURN_IF_ERROR(MeasureMemory(size.Name("memory", open, "mb"), c, summary));
+    PLUMESCOUT_RETURN_IF_ERROR(MeasureFresh(size, open, c, summary));
+    PLUMESCOUT_RETURN_IF_ERROR(MeasureOnline(size, open, c, summary));
+    PLUMESCOUT_RETURN_IF_ERROR(MeasureWorstReadings(size, open, c, summary));
+    PLUMESCOUT_RETURN_IF_ERROR(MeasureBeliefPropagation(size, open, c, summary));
+    PLUMESCOUT_RETURN_IF_ERROR(MeasureAudit(size, open, c, summary));
   }
+  return absl::OkStatus();
+}
+
+absl::Status Measure(const std::string& map, BenchSummary& summary) {
+  bool found = false;
+  for (const Size& size : kSizes) {
+    if (!map.empty() && map != size.Cells()) continue;
+    PLUMESCOUT_RETURN_IF_ERROR(MeasureSize(size, summary));
+    found = true;
+  }
+  if (!found) return absl::InvalidArgumentError("--map " + map + " is none of its sizes");
+  if (!map.empty()) return absl::OkStatus();
   const GasCase indoor = IndoorCase(160, 200, summary.seed());
   PLUMESCOUT_RETURN_IF_ERROR(MeasureFreshError(indoor, summary));
   return MeasureOnlineError(indoor, summary);
@@ -277,6 +288,10 @@ absl::Status Run(BenchSummary& summary) {
 }  // namespace plumescout::lab
 
 int main(int argc, char** argv) {
+  std::string map;
   return plumescout::lab::BenchProgram("Times the gas posterior and compares it with other solvers")
-      .Run(argc, argv, plumescout::lab::Run);
+      .AddText("--map", map, "Only maps of this size, as 160x200, and no errors")
+      .Run(argc, argv, [&map](plumescout::lab::BenchSummary& summary) {
+        return plumescout::lab::Measure(map, summary);
+      });
 }

@@ -31,12 +31,12 @@
 #include "server/server.h"
 #include "tests/client/recorded_run.h"
 #include "tests/support/box_room.h"
+#include "tests/support/program_path.h"
 #include "tests/support/temp_folder.h"
 
 namespace plumescout::client {
 namespace robot_main_test {
 
-constexpr char kProgram[] = PLUMESCOUT_ROBOT_PROGRAM;
 constexpr Pose2 kPose = {1.5, 1.0, 0.0};
 constexpr std::int64_t kStep_ns = 100'000'000;
 constexpr int kMostSteps = 3000;  // far beyond what a plan takes on any machine
@@ -72,7 +72,8 @@ class RobotMainTest : public ::testing::Test {
     return WEXITSTATUS(std::system(Command(arguments, "< /dev/null").c_str()));
   }
   std::string Command(const std::string& arguments, const std::string& input) const {
-    return absl::StrCat(kProgram, " ", arguments, " ", input, " > ", out_, " 2> ", err_);
+    return absl::StrCat(support::ProgramPath("plumescout-robot"), " ", arguments, " ", input, " > ",
+                        out_, " 2> ", err_);
   }
 
   TempFolder folder_;

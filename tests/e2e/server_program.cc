@@ -16,13 +16,14 @@
 #include "absl/strings/numbers.h"
 #include "absl/strings/string_view.h"
 #include "absl/strings/strip.h"
+#include "tests/support/program_path.h"
 
 namespace plumescout::e2e {
 
 ServerProgram::ServerProgram(std::vector<std::string> arguments, int stderr_fd) {
   // Missions are kept only where a test says.
-  arguments.insert(arguments.begin(), {PLUMESCOUT_SERVER_PROGRAM, "--listen", "127.0.0.1:0",
-                                       "--set", "store.engine=none"});
+  arguments.insert(arguments.begin(), {support::ProgramPath("plumescout-server"), "--listen",
+                                       "127.0.0.1:0", "--set", "store.engine=none"});
   std::vector<char*> words;
   for (std::string& argument : arguments) words.push_back(argument.data());
   words.push_back(nullptr);
