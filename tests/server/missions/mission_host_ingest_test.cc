@@ -252,6 +252,36 @@ TEST_F(ClocksTest, NobodyCanHurryTheMission) {
   EXPECT_EQ(time_ns(), kNow_ns + 4 * kSecond_ns);
 }
 
+// A goal is claimed for 30 s after twice the time of the way to it, here none.
+TEST_F(ClocksTest, AClaimEndsByTheServersClockWhateverThoseOfRobotsSay) {
+  for (const std::int64_t holder_ns : {-kHour_ns, kHour_ns}) {
+    for (const std::int64_t other_ns : {-kHour_ns, kHour_ns}) {
+      leases_.clear();
+      elapsed_ns_ = 0;
+      Start({{"holder", holder_ns}, {"other", other_ns}});
+      Send("holder");
+      Send("other");
+      Run([&](MissionWriter& writer) {
+        Plan plan;
+        plan.robot = "holder";
+        plan.chosen = 0;
+        plan.candidates.resize(1);
+        plan.candidates[0].goal.kind = GoalKind::kOccupancyFrontier;
+        plan.trajectory.waypoints.resize(2);
+        EXPECT_TRUE(writer.conduct().Commit(plan, leases_.at("holder")).ok());
+      });
+      // It is heard of no more.
+      Wait(29.0);
+      Send("other");
+      EXPECT_EQ(Fresh()->claims.size(), 1U) << holder_ns << " " << other_ns;
+      Wait(2.0);
+      Send("other");
+      EXPECT_TRUE(Fresh()->claims.empty()) << holder_ns << " " << other_ns;
+      host_->Stop(absl::NotFoundError("over"));
+    }
+  }
+}
+
 TEST_F(ClocksTest, WhoSaysNothingOfItsClockIsTakenAsItIs) {
   Start({{"a", kHour_ns}});
   Send("a", 0, /*says_when=*/false);
