@@ -65,8 +65,8 @@ bool GrpcLink::IsBroken(const absl::Status& status) {
   return is_of_link && Reason(status).empty();
 }
 
-void GrpcLink::AwaitLink() const {
-  channel_->WaitForConnected(absl::ToChronoTime(absl::Now() + kLinkPatience));
+bool GrpcLink::AwaitLink() const {
+  return channel_->WaitForConnected(absl::ToChronoTime(absl::Now() + kLinkPatience));
 }
 
 void SetDuration(absl::Duration duration, google::protobuf::Duration* proto) {

@@ -85,8 +85,8 @@ class GrpcLink {
 
   // Waits for a link for as long as an attempt takes, and the pause before it. Between calls that
   // fail at once nobody drives the channel's attempts, and gRPC looks at them every five seconds
-  // only; whoever waits for the channel drives them.
-  void AwaitLink() const;
+  // only; whoever waits for the channel drives them. Whether there is one.
+  bool AwaitLink() const;
 
  private:
   static constexpr int kAttempts = 3;

@@ -19,8 +19,8 @@
 namespace plumescout::client {
 namespace {
 
-// Frames stay well below the server's receive limit of 256 KiB.
-constexpr std::size_t kMaxFrame_bytes = std::size_t{192} << 10;
+// Of a request; the rest is for what goes around them.
+constexpr double kRoomForObservations = 0.75;
 // How long a failed call is given to say why before it is cancelled.
 constexpr absl::Duration kEndGrace = absl::Milliseconds(200);
 
@@ -33,8 +33,9 @@ void* TagOf(Op op) { return reinterpret_cast<void*>(static_cast<std::intptr_t>(o
 // deadline and no thread is needed. A read is always under way while the call lives.
 class GrpcObservationStream final : public ObservationStream {
  public:
-  GrpcObservationStream(MissionRoutes& routes, const StreamTimeouts& timeouts)
-      : routes_(routes), timeouts_(timeouts) {}
+  GrpcObservationStream(MissionRoutes& routes, const StreamTimeouts& timeouts,
+                        std::size_t max_frame_bytes)
+      : routes_(routes), timeouts_(timeouts), max_frame_bytes_(max_frame_bytes) {}
   ~GrpcObservationStream() override;
 
   absl::Status Open(v1::IngestService::Stub& stub, const RobotSession& session,
@@ -66,6 +67,7 @@ class GrpcObservationStream final : public ObservationStream {
 
   MissionRoutes& routes_;
   const StreamTimeouts timeouts_;
+  const std::size_t max_frame_bytes_;  // of observations
   std::string mission_;
   std::string node_;  // that it is addressed to
   bool is_elsewhere_ = false;
@@ -134,7 +136,7 @@ absl::Status GrpcObservationStream::Write(const std::vector<Observation>& batch)
   for (const Observation& observation : batch) {
     v1::Observation proto = ToProto(observation);
     const std::size_t bytes = proto.ByteSizeLong();
-    if (frame_bytes > 0 && frame_bytes + bytes > kMaxFrame_bytes) {
+    if (frame_bytes > 0 && frame_bytes + bytes > max_frame_bytes_) {
       PLUMESCOUT_RETURN_IF_ERROR(WriteBatch(frame));
       frame.Clear();
       frame_bytes = 0;
@@ -264,10 +266,12 @@ absl::Status GrpcObservationStream::Broken(absl::Status status) {
 
 absl::StatusOr<std::unique_ptr<ObservationStream>> OpenGrpcObservationStream(
     MissionRoutes& routes, v1::IngestService::Stub& stub, const RobotSession& session,
-    const StreamTimeouts& timeouts) {
+    const StreamTimeouts& timeouts, std::int64_t max_request_bytes) {
   const absl::Time deadline = absl::Now() + timeouts.open;
+  const auto max_frame_bytes =
+      static_cast<std::size_t>(static_cast<double>(max_request_bytes) * kRoomForObservations);
   for (int redirect = 0;; ++redirect) {
-    auto stream = std::make_unique<GrpcObservationStream>(routes, timeouts);
+    auto stream = std::make_unique<GrpcObservationStream>(routes, timeouts, max_frame_bytes);
     const absl::Status status = stream->Open(stub, session, deadline);
     if (status.ok()) return stream;
     if (!stream->is_elsewhere() || redirect == MissionRoutes::kMaxRedirects) return status;

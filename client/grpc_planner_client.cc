@@ -20,6 +20,7 @@
 #include "plumescout/v1/mission_service.grpc.pb.h"
 #include "plumescout/v1/planning_service.grpc.pb.h"
 #include "plumescout/v1/robot_service.grpc.pb.h"
+#include "plumescout/v1/system_service.grpc.pb.h"
 #include "proto/convert/enums.h"
 #include "proto/convert/geometry.h"
 #include "proto/convert/inquiry.h"
@@ -74,7 +75,8 @@ class GrpcPlannerClient final : public PlannerClient {
         robots_(link_->channel()),
         ingest_(link_->channel()),
         planning_(link_->channel()),
-        maps_(link_->channel()) {}
+        maps_(link_->channel()),
+        system_(link_->channel()) {}
 
   absl::Status CreateMission(const MissionId& mission, const MissionOptions& options) override {
     v1::CreateMissionRequest request;
@@ -144,10 +146,11 @@ class GrpcPlannerClient final : public PlannerClient {
 
   absl::StatusOr<std::unique_ptr<ObservationStream>> OpenObservationStream(
       const RobotSession& session) override {
-    link_->AwaitLink();
+    const bool linked = link_->AwaitLink();
     return OpenGrpcObservationStream(link_->routes(), ingest_, session,
                                      {.open = link_->options().stream_open_timeout,
-                                      .write = link_->options().stream_write_timeout});
+                                      .write = link_->options().stream_write_timeout},
+                                     linked ? MaxRequest_bytes() : kUsualRequest_bytes);
   }
 
   absl::Status ReleaseLease(const RobotSession& session) override {
@@ -227,12 +230,23 @@ class GrpcPlannerClient final : public PlannerClient {
   }
 
  private:
+  // As the server says, which may be another one than a moment ago.
+  std::int64_t MaxRequest_bytes() {
+    v1::GetServerInfoResponse info;
+    const absl::Status told =
+        link_->Call(system_, &v1::SystemService::Stub::GetServerInfo, v1::GetServerInfoRequest(),
+                    &info, link_->options().stream_open_timeout);
+    const std::int64_t bytes = info.limits().max_receive_bytes();
+    return told.ok() && bytes > 0 ? bytes : kUsualRequest_bytes;
+  }
+
   const std::shared_ptr<GrpcLink> link_;
   v1::MissionService::Stub missions_;
   v1::RobotService::Stub robots_;
   v1::IngestService::Stub ingest_;
   v1::PlanningService::Stub planning_;
   v1::MapService::Stub maps_;
+  v1::SystemService::Stub system_;
 };
 
 }  // namespace

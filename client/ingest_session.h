@@ -30,7 +30,7 @@ struct IngestOptions {
   LogStoreOptions store;  // its folder is opened by who makes the session
   BackoffOptions backoff;
   std::size_t max_batch_observations = 64;
-  std::size_t max_batch_bytes = std::size_t{1} << 17;  // half the server's receive limit
+  std::size_t max_batch_bytes = std::size_t{1} << 17;  // the stream cuts it as the server likes
   // While acknowledgements are due, new observations wait at most this long for the stream.
   absl::Duration read_slice = absl::Milliseconds(5);
   absl::Duration idle_check = absl::Milliseconds(200);  // how often a quiet stream is looked at

@@ -10,6 +10,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <queue>
 #include <utility>
 #include <vector>
@@ -20,9 +21,13 @@
 #include "core/grid/distance_field.h"
 #include "core/grid/grid_search.h"
 #include "core/grid/mask.h"
+#include "core/mission/mission.h"
 #include "core/occupancy/free_space.h"
 #include "core/occupancy/occupancy_grid.h"
 #include "core/occupancy/scan_inserter.h"
+#include "core/types/event.h"
+#include "core/types/options.h"
+#include "core/types/quantile.h"
 #include "core/types/status_macros.h"
 #include "lab/about/cpu_time.h"
 #include "lab/bench/bench_program.h"
@@ -261,7 +266,46 @@ void BenchStatus(const World& world, const Gas& gas, BenchSummary& summary) {
   summary.Set("completeness_share_of_map_status", completeness_ms / status_ms);
 }
 
+// What a mission of default options takes at most: a map of 31 x 31 tiles that one scan makes, from
+// the middle of a tile, by as many beams as may cross so many cells, none of which returns.
+constexpr double kFarthest_m = 99.0;
+constexpr Pose2 kMiddleOfTile = {3.2, 3.2, 0.0};
+
+Scan LongestScan(const MissionOptions& options) {
+  constexpr double kSides = 4.0 / std::numbers::pi;  // cells that a beam crosses by its length
+  const double crossings = kSides * kFarthest_m / options.occupancy.resolution_m;
+  const auto beams = static_cast<std::size_t>(ScanInserter::kMostCrossings / crossings);
+  return {0.0, 2.0 * std::numbers::pi / static_cast<double>(beams), kFarthest_m,
+          std::vector<float>(beams, std::numeric_limits<float>::infinity())};
+}
+
+// The dearest scan that a mission of default options takes, with all that applying it costs: as the
+// first one, for which the map is made, and later.
+absl::Status BenchLongestScan(BenchSummary& summary) {
+  const MissionOptions options;
+  const Scan scan = LongestScan(options);
+  std::vector<double> first_ms;
+  std::vector<double> later_ms;
+  for (int i = 0; i < kSlowRepeats; ++i) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(const auto mission, Mission::Create(options));
+    PLUMESCOUT_RETURN_IF_ERROR(
+        mission->Apply(RobotRegistered{.robot = "r", .radius_m = 0.2, .lease_token = 1}).status());
+    for (std::int64_t sequence = 1; sequence <= kSlowRepeats; ++sequence) {
+      const EventBody event = ObservationReceived{"r", {sequence, sequence, kMiddleOfTile, scan}};
+      const double from_ms = ThreadCpu_ms();
+      PLUMESCOUT_ASSIGN_OR_RETURN(const Applied applied, mission->Apply(event));
+      (sequence == 1 ? first_ms : later_ms).push_back(ThreadCpu_ms() - from_ms);
+      PLUMESCOUT_RETURN_IF_ERROR(applied.observation);
+    }
+  }
+  summary.Set("longest_scan_beams", static_cast<double>(scan.ranges_m.size()));
+  summary.Set("longest_scan_ms", Median(later_ms));
+  summary.Set("longest_scan_that_makes_the_map_ms", Median(first_ms));
+  return absl::OkStatus();
+}
+
 absl::Status Run(BenchSummary& summary) {
+  PLUMESCOUT_RETURN_IF_ERROR(BenchLongestScan(summary));
   World world;
   PLUMESCOUT_RETURN_IF_ERROR(MakeWorld(summary.seed(), world));
   BenchGrid(world, summary);

@@ -72,6 +72,8 @@ absl::StatusOr<TokenEntry> ParseTokenLine(absl::string_view line) {
 absl::StatusOr<std::unique_ptr<TokenFile>> TokenFile::Open(const std::string& path) {
   auto file = absl::WrapUnique(new TokenFile(path));
   PLUMESCOUT_RETURN_IF_ERROR(file->ReadFirst());
+  file->looks_ =
+      std::make_unique<PeriodicTask>(kLookPeriod, [looker = file.get()] { looker->Look(); });
   return file;
 }
 
@@ -87,7 +89,7 @@ TokenFile::Stamp TokenFile::StampOf(const std::string& path) {
 }
 
 absl::Status TokenFile::ReadFirst() {
-  absl::MutexLock lock(&mutex_);
+  absl::MutexLock look(&look_);
   return Read();
 }
 
@@ -110,24 +112,28 @@ absl::Status TokenFile::Read() {
     }
   }
   if (!file.eof()) status = absl::NotFoundError(absl::StrCat(path_, " cannot be read"));
+  absl::MutexLock lock(&mutex_);
   entries_ = std::move(entries);
   return status;
 }
 
-std::shared_ptr<const TokenFile::Entries> TokenFile::Current() {
-  absl::MutexLock lock(&mutex_);
-  if (StampOf(path_) != stamp_) {
-    const absl::Status status = Read();
-    if (status.ok()) {
-      LogInfo("tokens read", {{"file", path_}, {"tokens", absl::StrCat(entries_->size())}});
-    } else {
-      LogWarning("tokens not all read", {{"why", std::string(status.message())}});
-    }
+void TokenFile::Look() {
+  absl::MutexLock look(&look_);
+  if (StampOf(path_) == stamp_) return;
+  const absl::Status status = Read();
+  if (status.ok()) {
+    LogInfo("tokens read", {{"file", path_}, {"tokens", absl::StrCat(Current()->size())}});
+  } else {
+    LogWarning("tokens not all read", {{"why", std::string(status.message())}});
   }
+}
+
+std::shared_ptr<const TokenFile::Entries> TokenFile::Current() const {
+  absl::MutexLock lock(&mutex_);
   return entries_;
 }
 
-absl::StatusOr<Principal> TokenFile::Find(absl::string_view token, absl::Time now) {
+absl::StatusOr<Principal> TokenFile::Find(absl::string_view token, absl::Time now) const {
   const std::shared_ptr<const Entries> entries = Current();
   const Sha256 hash = HashOf(token.substr(0, kMaxTokenLength));
   const TokenEntry* found = nullptr;

@@ -170,62 +170,72 @@ bool FairPool::TakesLong(const Pace& pace, SteadyTime now) {
   return pace.long_at != SteadyTime() && now <= After(pace.long_at, kLongKnown);
 }
 
+bool FairPool::TakesLong(const GroupName& name, SteadyTime now) const {
+  const auto found = paces_.find(name);
+  return found != paces_.end() && TakesLong(found->second, now);
+}
+
 int FairPool::RunningLong(SteadyTime now) const {
   int running = 0;
-  for (const auto& [name, pace] : paces_) {
-    if (!TakesLong(pace, now)) continue;
-    const Tenant* const tenant = Find(all_.children, name.first);
-    const Group* const group = tenant == nullptr ? nullptr : Find(tenant->children, name.second);
-    running += group == nullptr ? 0 : group->running;
+  for (const auto& [tenant_name, tenant] : all_.children) {
+    if (tenant.running == 0) continue;
+    for (const auto& [name, group] : tenant.children) {
+      if (group.running > 0 && TakesLong({tenant_name, name}, now)) running += group.running;
+    }
   }
   return running;
 }
 
-bool FairPool::LeavesThreads(const GroupName& name) const {
-  const SteadyTime now = clock_();
-  const auto found = paces_.find(name);
-  if (options_.threads < 2 || found == paces_.end() || !TakesLong(found->second, now)) return false;
+FairPool::Moment FairPool::Present() const {
+  Moment moment = {.now = clock_()};
+  if (options_.threads < 2) return moment;
   const bool is_last = all_.running >= options_.threads - 1;
-  if (!is_last && RunningLong(now) < std::max(1, options_.threads - kThreadsLeft)) return false;
-  return std::any_of(paces_.begin(), paces_.end(), [now](const auto& pace) {
-    return !TakesLong(pace.second, now) && now <= After(pace.second.asked, kCompany);
+  const int most_long = std::max(1, options_.threads - kThreadsLeft);
+  if (!is_last && RunningLong(moment.now) < most_long) return moment;
+  moment.holds_long = std::any_of(paces_.begin(), paces_.end(), [&moment](const auto& entry) {
+    const Pace& pace = entry.second;
+    return !TakesLong(pace, moment.now) && moment.now <= After(pace.asked, kCompany);
   });
+  return moment;
 }
 
-bool FairPool::MayRun(const GroupName& name, const Group& group) const {
-  const bool alone = !options_.groups_leave_room || groups_.IsAlone(name.second, clock_());
-  return !LeavesThreads(name) &&
+bool FairPool::MayRun(const GroupName& name, const Group& group, const Moment& moment) const {
+  const bool alone = !options_.groups_leave_room || groups_.IsAlone(name.second, moment.now);
+  return !(moment.holds_long && TakesLong(name, moment.now)) &&
          group.running < std::min(options_.max_running_per_group, Threads(alone)) &&
          std::any_of(group.children.begin(), group.children.end(),
                      [this](const auto& entry) { return MayRun(entry.second); });
 }
 
-bool FairPool::MayRun(const std::string& name, const Tenant& tenant) const {
-  return tenant.running < Threads(tenants_.IsAlone(name, clock_())) &&
+bool FairPool::MayRun(const std::string& name, const Tenant& tenant, const Moment& moment) const {
+  return tenant.running < Threads(tenants_.IsAlone(name, moment.now)) &&
          std::any_of(tenant.children.begin(), tenant.children.end(), [&](const auto& entry) {
            mutex_.AssertHeld();
-           return MayRun({name, entry.first}, entry.second);
+           return MayRun({name, entry.first}, entry.second, moment);
          });
 }
 
 bool FairPool::Ready() const {
-  if (stopping_ && all_.queued == 0) return true;
-  return std::any_of(all_.children.begin(), all_.children.end(), [this](const auto& entry) {
+  if (all_.queued == 0) return stopping_;
+  const Moment moment = Present();
+  return std::any_of(all_.children.begin(), all_.children.end(), [&](const auto& entry) {
     mutex_.AssertHeld();
-    return MayRun(entry.first, entry.second);
+    return MayRun(entry.first, entry.second, moment);
   });
 }
 
 std::optional<FairPool::Turn> FairPool::TakeTurn() {
-  const auto tenant = NextInTurn(all_.children, all_.last, [this](const auto& entry) {
+  if (all_.queued == 0) return std::nullopt;
+  const Moment moment = Present();
+  const auto tenant = NextInTurn(all_.children, all_.last, [&](const auto& entry) {
     mutex_.AssertHeld();
-    return MayRun(entry.first, entry.second);
+    return MayRun(entry.first, entry.second, moment);
   });
   if (tenant == all_.children.end()) return std::nullopt;
   const auto group =
       NextInTurn(tenant->second.children, tenant->second.last, [&](const auto& entry) {
         mutex_.AssertHeld();
-        return MayRun({tenant->first, entry.first}, entry.second);
+        return MayRun({tenant->first, entry.first}, entry.second, moment);
       });
   const auto member = NextInTurn(group->second.children, group->second.last,
                                  [this](const auto& entry) { return MayRun(entry.second); });

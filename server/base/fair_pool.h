@@ -111,20 +111,26 @@ class FairPool {
     SteadyTime others_at_;  // the last time that anybody but `latest_` asked
   };
 
+  // What is the same for all who wait, as they are looked through: found once, for it costs a look
+  // at everybody's pace.
+  struct Moment {
+    SteadyTime now;
+    bool holds_long = false;  // too few threads would be left if another took long
+  };
+
   void Run();
   // Of how many threads whoever is `alone`, or not, may have.
   int Threads(bool alone) const;
   bool MayRun(const Member& member) const;
-  bool MayRun(const GroupName& name, const Group& group) const
+  bool MayRun(const GroupName& name, const Group& group, const Moment& moment) const
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   static bool TakesLong(const Pace& pace, SteadyTime now);
+  bool TakesLong(const GroupName& name, SteadyTime now) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   // Tasks of groups that take long.
   int RunningLong(SteadyTime now) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  // Whether the group's task may take long, and too few threads would be left to those of others
-  // that do not.
-  bool LeavesThreads(const GroupName& name) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  Moment Present() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void NoteAsked(const FairKey& key) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  bool MayRun(const std::string& name, const Tenant& tenant) const
+  bool MayRun(const std::string& name, const Tenant& tenant, const Moment& moment) const
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   bool Ready() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   absl::Status CheckRoom(const FairKey& key) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);

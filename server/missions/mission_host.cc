@@ -76,6 +76,7 @@ MissionHost::MissionHost(Parts parts, const HostOptions& options)
   if (writer_.mission().revision() > 0) RecoverLeases(parts.standing);
   // The writer, which may sleep, collects it.
   writer_.OnAuditFinding([this] { Post([](MissionWriter&) {}).IgnoreError(); });
+  writer_.conduct().PutOffRefreshesWhile([this] { return IsBeliefWanted(); });
   thread_ = std::thread([this] { Run(); });
 }
 
@@ -98,9 +99,8 @@ void MissionHost::RecoverLeases(const StandingRecord& standing) {
     if (!token.ok()) continue;
     leases_.Grant(robot, *token);
     const auto released = standing.released_leases.find(robot);
-    if (released != standing.released_leases.end() && released->second == *token) {
+    if (released != standing.released_leases.end() && released->second == *token)
       leases_.Release(robot, token.value()).IgnoreError();
-    }
   }
 }
 
@@ -114,9 +114,8 @@ HostLoad MissionHost::load() const {
   load.waiting_calls = waiters_.size();
   load.watchers = map_feed_->reader_count();
   const SteadyTime since = unpublished_since_;
-  if (load.watchers > 0 && since != SteadyTime::max()) {
+  if (load.watchers > 0 && since != SteadyTime::max())
     load.unpublished = absl::FromChrono(SteadyNow() - since);
-  }
   load.reserved_observations = room_->used().observations;
   absl::MutexLock lock(&mutex_);
   load.queued_commands = static_cast<int>(commands_.size());
@@ -221,8 +220,10 @@ absl::Status MissionHost::Post(Command command) {
 
 absl::Status MissionHost::AwaitBelief(BeliefRequest request, BeliefCallback done) {
   request.deadline = std::min(request.deadline, After(SteadyNow(), host_options_.max_wait));
+  ++queued_wishes_;
+  const std::shared_ptr<void> wish(nullptr, [this](void*) { --queued_wishes_; });
   return Post(
-      [this, request = std::move(request), done](MissionWriter& writer) {
+      [this, request = std::move(request), done, wish](MissionWriter& writer) {
         waiters_.Add(request, done, writer.conduct(), SteadyNow());
       },
       [done](const absl::Status& status) { done(status); });
@@ -299,10 +300,14 @@ std::optional<MissionHost::Command> MissionHost::NextCommand() {
 void MissionHost::Run() {
   writer_thread_ = std::this_thread::get_id();
   while (const auto count = AwaitCommands(NextWake())) {
+    const int waited_before = waiters_.size();
     for (std::size_t i = 0; i < *count; ++i) {
       std::optional<Command> command = NextCommand();
       if (!command.has_value()) break;
       command->room = nullptr;  // it waits no more
+      // Who waits since this batch is served after it; who did before may be, if more commands
+      // come.
+      more_follow_ = i + 1 < *count || waiters_.size() > waited_before;
       command->run(writer_);
       journal_->FlushIfIdle();
     }
@@ -313,12 +318,11 @@ void MissionHost::Run() {
   journal_->Flush();
   if (recording_ != nullptr) recording_->End(writer_.mission());
   DropAll();
-  absl::Status status;
-  {
+  const auto why = [this] {
     absl::MutexLock lock(&mutex_);
-    status = stop_status_;
-  }
-  Publish(status);
+    return stop_status_;
+  };
+  Publish(why());
   subscribers_.clear();
 }
 
@@ -358,9 +362,8 @@ absl::Status MissionHost::BeginRest(MissionJournal::Callback rests) {
 
 void MissionHost::Settle(std::int64_t least_tail_bytes) {
   // Without a field there is no epoch, and the events are replayed.
-  if (snapshots_ != nullptr && snapshots_->WantOne(least_tail_bytes)) {
+  if (snapshots_ != nullptr && snapshots_->WantOne(least_tail_bytes))
     writer_.conduct().RenewField().IgnoreError();
-  }
   settled_revision_ = writer_.mission().revision();
 }
 

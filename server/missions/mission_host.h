@@ -216,6 +216,10 @@ class MissionHost {
   bool HasWork() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
     return (!commands_.empty() && !resting_) || stopping_;
   }
+  // Whether a belief will be made as soon as the commands at hand have run.
+  bool IsBeliefWanted() const {
+    return queued_wishes_ > 0 || (more_follow_ && waiters_.size() > 0);
+  }
   // Of every event, on the writer's thread.
   void Keep(const Event& event, const Applied& applied);
   IngestResult IngestMapped(MissionWriter& writer, const RobotId& robot, std::int64_t lease_token,
@@ -262,6 +266,8 @@ class MissionHost {
   absl::Status stop_status_ ABSL_GUARDED_BY(mutex_);
 
   BeliefWaiters waiters_;
+  std::atomic<int> queued_wishes_ = 0;  // calls of AwaitBelief that the writer has not come to
+  bool more_follow_ = false;  // whether a belief may be due after the command at hand; the writer's
   // Touched by the writer's thread only, but for the writer's summary.
   MissionWriter writer_;
   ClockGate clock_gate_;

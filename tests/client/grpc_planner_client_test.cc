@@ -13,6 +13,7 @@
 #include <thread>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/synchronization/notification.h"
@@ -94,6 +95,31 @@ TEST_F(GrpcPlannerClientTest, AStreamToAServerThatIsNotThereIsUnavailable) {
   const absl::Status status = client->OpenObservationStream(session).status();
 
   EXPECT_TRUE(absl::IsUnavailable(status)) << status;
+}
+
+TEST_F(GrpcPlannerClientTest, AStreamKeepsToWhatTheServerTakesInOneRequest) {
+  server::ServerConfig config;
+  config.listen = "127.0.0.1:0";
+  config.limits.max_receive_bytes = 8192;
+  auto started = server::Server::Start(config);
+  ASSERT_TRUE(started.ok()) << started.status();
+  server_ = *std::move(started);
+  client_ = MakeGrpcPlannerClient(At(server_->port()));
+  ASSERT_TRUE(client_->CreateMission("house", {}).ok());
+  const auto session = client_->RegisterRobot("house", "scout", 0.2, false);
+  ASSERT_TRUE(session.ok()) << session.status();
+  const auto stream = client_->OpenObservationStream(*session);
+  ASSERT_TRUE(stream.ok()) << stream.status();
+  std::vector<Observation> batch = GasRange(1, 20);
+  constexpr std::size_t kBeams = 1000;  // of 2 bytes each: 40 kB in all
+  for (Observation& observation : batch) {
+    observation.payload = Scan{0.0, 0.001, 20.0, std::vector<float>(kBeams, 3.0F)};
+  }
+  ASSERT_EQ((*stream)->Write(batch), absl::OkStatus());
+  ASSERT_EQ((*stream)->Finish(), absl::OkStatus());
+  const auto again = client_->OpenObservationStream(*session);
+  ASSERT_TRUE(again.ok()) << again.status();
+  EXPECT_EQ((*again)->opened().applied_sequence, 20);
 }
 
 TEST_F(GrpcPlannerClientTest, CallsWaitForTheServerToComeUp) {

@@ -99,12 +99,13 @@ class FrontTest(unittest.TestCase):
         self.addCleanup(client.close)
         return client
 
-    def connect(self, source):
+    def connect(self, source, front=None, timeout_s=5.0):
+        port = (front or self.front).port
         return socket.create_connection(
-            ("127.0.0.1", self.front.port), source_address=(source, 0), timeout=5.0
+            ("127.0.0.1", port), source_address=(source, 0), timeout=timeout_s
         )
 
-    def handshake(self, source, name="alice", versions=()):
+    def handshake(self, source, name="alice", versions=(), **to):
         context = ssl.create_default_context(cafile=self.folder / "ca.crt")
         if name:
             context.load_cert_chain(self.folder / f"{name}.crt", self.folder / f"{name}.key")
@@ -113,7 +114,7 @@ class FrontTest(unittest.TestCase):
             context.set_ciphers("DEFAULT@SECLEVEL=0")  # else this side would not speak old ones
             context.minimum_version, context.maximum_version = versions
         link = context.wrap_socket(
-            self.connect(source), server_hostname="localhost", do_handshake_on_connect=False
+            self.connect(source, **to), server_hostname="localhost", do_handshake_on_connect=False
         )
         try:
             link.do_handshake()
@@ -251,6 +252,19 @@ class FrontTest(unittest.TestCase):
         self.assertLess(time.monotonic() - began, HONEST_CALL_S)
         for connection in connections:
             connection.close()
+
+    def test_all_sources_together_have_so_many_connections_and_no_more(self):
+        most = 80
+        front = running.Front(self.folder, self.server.target, connections=most)
+        self.addCleanup(front.stop)
+        silent = [self.connect(f"127.0.0.{10 + i % 4}", front) for i in range(most - 10)]
+        self.handshake("127.0.0.20", front=front, timeout_s=running.PATIENCE_S).close()
+        silent += [self.connect(f"127.0.0.{10 + i % 4}", front) for i in range(20)]
+        with self.assertRaises(TimeoutError):  # whoever comes first is taken first
+            self.handshake("127.0.0.20", front=front, timeout_s=1.0)
+        for connection in silent:
+            connection.close()
+        self.handshake("127.0.0.20", front=front, timeout_s=running.PATIENCE_S).close()
 
     def test_calls_beyond_a_rate_are_answered_by_the_front(self):
         busy = self.client("busy")

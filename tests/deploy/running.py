@@ -99,7 +99,7 @@ class Front:
     """HAProxy with the shipped configuration on loopback ports, before a server, and before its
     console where that has an address."""
 
-    def __init__(self, folder, server_target, console=""):
+    def __init__(self, folder, server_target, console="", connections=2000):
         self.port = free_port()
         self.console_port = free_port()
         configurations = ["haproxy.cfg"] + (["console.cfg"] if console else [])
@@ -111,6 +111,7 @@ class Front:
             PLUMESCOUT_SERVER=server_target,
             PLUMESCOUT_CONSOLE_BIND=f"127.0.0.1:{self.console_port}",
             PLUMESCOUT_CONSOLE=console,
+            PLUMESCOUT_FRONT_CONNECTIONS=str(connections),
         )
         self.process = subprocess.Popen(
             [

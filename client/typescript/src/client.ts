@@ -29,6 +29,19 @@ export class Client {
   }
 }
 
+const USUAL_REQUEST_BYTES = 1 << 18;
+
+/** Bytes that the server takes in one request. Of one that does not say, what servers take unless they
+ * are told otherwise: if it cannot be asked, the next call says why. */
+export async function maxRequestBytes(client: Client, signal?: AbortSignal): Promise<number> {
+  try {
+    const { limits } = await client.system.getServerInfo({}, signal === undefined ? {} : { signal });
+    return limits?.maxReceiveBytes || USUAL_REQUEST_BYTES;
+  } catch {
+    return USUAL_REQUEST_BYTES;
+  }
+}
+
 /** The items of a list that comes in pages:
  *   await all((pageToken) => client.missions.listMissions({ pageToken }), (page) => page.missions) */
 export async function all<Page extends { nextPageToken: string }, Item>(

@@ -2,20 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 import { createHash } from 'node:crypto';
 import type { MessageInitShape } from '@bufbuild/protobuf';
+import { maxRequestBytes } from './client.ts';
 import type { Client } from './client.ts';
 import { crc32 } from './mission_file.ts';
 import type { ImportMissionRequestSchema, Mission } from './wire/index.ts';
 
 const MAX_PIECE_BYTES = 1 << 20;
 const FRAMING_BYTES = 4096; // of a request, beside the bytes of the file
-const LEAST_REQUEST_BYTES = 1 << 18; // of a server that does not say what it takes
 
 /** Makes a mission of a file's bytes, which come in pieces of any size (fs.createReadStream). missionId:
  * of the new mission; empty: that of the mission in the file. Errors are those of ImportMission. */
 export async function importMission(client: Client, file: AsyncIterable<Uint8Array> | Iterable<Uint8Array>,
                                     options: { missionId?: string; signal?: AbortSignal } = {}): Promise<Mission> {
-  const { limits } = await client.system.getServerInfo({});
-  const pieceBytes = Math.max(1, Math.min(MAX_PIECE_BYTES, (limits?.maxReceiveBytes || LEAST_REQUEST_BYTES) - FRAMING_BYTES));
+  const pieceBytes = Math.max(1, Math.min(MAX_PIECE_BYTES, await maxRequestBytes(client) - FRAMING_BYTES));
   const { missionId = '', ...call } = options;
   const { mission } = await client.snapshots.importMission(requests(file, missionId, pieceBytes), call);
   if (mission === undefined) throw new Error('the server named no mission');

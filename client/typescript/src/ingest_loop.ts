@@ -5,6 +5,7 @@ import type { MessageInitShape } from '@bufbuild/protobuf';
 import { OwnAbort } from './abort.ts';
 import { Backoff, pause } from './backoff.ts';
 import { LINK_BACKOFF } from './calls.ts';
+import { maxRequestBytes } from './client.ts';
 import type { Client } from './client.ts';
 import { Code, errorOf, isFinal } from './errors.ts';
 import type { CallError } from './errors.ts';
@@ -13,7 +14,7 @@ import type { RobotLog } from './robot_log.ts';
 import type { IngestState, ObservationRejected, StreamObservationsRequestSchema } from './wire/index.ts';
 
 const MAX_BATCH_OBSERVATIONS = 64;
-const MAX_BATCH_BYTES = 1 << 17; // half of what servers receive unless they are told otherwise
+const ROOM_FOR_OBSERVATIONS = 0.75; // of a request; the rest is for what goes around them
 
 // That the server has lost the robot, or its mission.
 const LOST = ['MISSION_NOT_FOUND', 'ROBOT_NOT_FOUND'];
@@ -62,6 +63,7 @@ export class IngestLoop {
   private next: number; // to send, on the present stream
   private credit = 0;
   private keeps = 0; // durable as any server told
+  private maxBatchBytes = 0; // of what the present server takes
   private readonly bell = new Bell();
   private readonly abort = new OwnAbort();
   private readonly backoff = new Backoff(LINK_BACKOFF);
@@ -169,6 +171,7 @@ export class IngestLoop {
     const stream = new OwnAbort(this.abort.signal);
     this.credit = 0;
     try {
+      this.maxBatchBytes = ROOM_FOR_OBSERVATIONS * await maxRequestBytes(this.client, stream.signal);
       const responses = this.client.ingest.streamObservations(this.requests(stream.signal), { signal: stream.signal });
       for await (const { frame } of responses) {
         if (frame.case === 'opened') {
@@ -214,7 +217,7 @@ export class IngestLoop {
     const { leaseToken, options: { robot, clock_ns } } = this;
     yield { frame: { case: 'open', value: { robot, leaseToken, durableSequence: BigInt(this.keeps) } } };
     while (!signal.aborted) {
-      const observations = this.log.read(this.next, this.credit, MAX_BATCH_OBSERVATIONS, MAX_BATCH_BYTES);
+      const observations = this.log.read(this.next, this.credit, MAX_BATCH_OBSERVATIONS, this.maxBatchBytes);
       if (observations.length === 0) {
         await this.bell.heard();
         continue;

@@ -25,7 +25,8 @@ const state = (applied: number, credit: number, durable = 0) => ({
   appliedSequence: BigInt(applied), creditSequence: BigInt(credit), durableSequence: BigInt(durable) });
 
 // A session with a server whose n-th stream is opened with the n-th answer, or refused with the error.
-async function joined(streams: { first: Answer | Error; onBatch?: OnBatch }[], options: Partial<RegisterOptions> = {}) {
+async function joined(streams: { first: Answer | Error; onBatch?: OnBatch }[], options: Partial<RegisterOptions> = {},
+                      maxReceiveBytes = 1 << 18) {
   const opens: bigint[] = [];
   const batches: (number | number[])[][] = [];
   const plans: NextBestTrajectoryRequest[] = [];
@@ -42,6 +43,7 @@ async function joined(streams: { first: Answer | Error; onBatch?: OnBatch }[], o
         ...(registrations.length > 1 ? later.registered as object : {}) };
     } });
     service(SystemService, { getServerInfo: () => ({
+      limits: { maxReceiveBytes },
       bootId: later.registered === undefined ? 'first' : 'second' }) });
     service(PlanningService, { nextBestTrajectory: (request) => {
       plans.push(request);
@@ -81,6 +83,15 @@ test('observations are sent as far as there is credit', async () => {
   await session.applied();
   assert.deepEqual(batches, [[1, 2], [3]]);
   assert.deepEqual(session.statistics, { lastSequence: 3, applied: 3, durable: 0, rejected: 0, lost: 0, reconnects: 0 });
+  session.close();
+});
+
+test('a batch is no larger than what the server takes', async () => {
+  const { session, batches } = await joined([{ first: opened(0, 9), onBatch: (numbers) =>
+    [ack(numbers.at(-1) as number, 9)] }], {}, 16);
+  addReadings(session, 3); // of some 20 bytes each
+  await session.applied();
+  assert.deepEqual(batches, [[1], [2], [3]]);
   session.close();
 });
 

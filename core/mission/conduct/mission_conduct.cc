@@ -201,7 +201,7 @@ void MissionConduct::KeepMapUp() {
 
 void MissionConduct::KeepGasUp() {
   if (mission_->adoption_due()) Take(GasStep::kAdoptEpoch, EpochAdopted{}).IgnoreError();
-  if (mission_->refresh_due()) Refresh().IgnoreError();
+  if (mission_->refresh_due() && !IsRefreshWanted()) Refresh().IgnoreError();
   if (mission_->epoch_due() || IsEpochWanted()) BeginEpoch().IgnoreError();
 }
 

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "absl/status/status.h"
@@ -128,6 +130,12 @@ class MissionConduct {
   absl::StatusOr<std::shared_ptr<const Belief>> FreshBelief();
   std::shared_ptr<const Belief> Snapshot() const { return mission_->Snapshot(); }
 
+  // While `is_wanted` says that somebody is about to have the posterior brought up to date, a
+  // refresh that is due after an observation waits for that one, which it would only double.
+  void PutOffRefreshesWhile(std::function<bool()> is_wanted) {
+    is_refresh_wanted_ = std::move(is_wanted);
+  }
+
   // Out of turn; what is due after an observation, Ingest does by itself.
   absl::Status Refresh();
   // kFailedPrecondition if an epoch is under way or there is no field. It is adopted in its time.
@@ -146,12 +154,14 @@ class MissionConduct {
   // events do not depend on how a log was cut into batches.
   void KeepGasUp();
   void KeepMapUp();
+  bool IsRefreshWanted() const { return is_refresh_wanted_ && is_refresh_wanted_(); }
   bool IsEpochWanted() const;
   absl::Status Take(GasStep step, EventBody body);
 
   std::unique_ptr<Mission> mission_;
   ConductObserver* const observer_;
   EpochHabit habit_;
+  std::function<bool()> is_refresh_wanted_ = nullptr;  // null: never
 };
 
 }  // namespace plumescout

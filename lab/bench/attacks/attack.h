@@ -14,7 +14,9 @@ namespace plumescout::lab {
 
 struct AttackSettings {
   std::string server_program;
-  absl::Duration time = absl::Seconds(6);  // of what takes as long as one likes
+  absl::Duration time = absl::Seconds(6);      // of what takes as long as one likes
+  absl::Duration warm_up = absl::Seconds(2);   // of honest callers
+  absl::Duration patience = absl::Seconds(5);  // of theirs; a call that takes longer has failed
   std::uint64_t seed = 1;
   std::string front_config;  // of HAProxy, for attacks that a front is to stop; empty: no front
 };

@@ -20,8 +20,6 @@ constexpr int kWidth = 160;  // of the building: 16 x 20 m
 constexpr int kHeight = 200;
 constexpr absl::Duration kPlanPeriod = absl::Milliseconds(200);
 constexpr absl::Duration kListPeriod = absl::Milliseconds(20);
-constexpr absl::Duration kWarmUp = absl::Seconds(2);
-constexpr absl::Duration kPatience = absl::Seconds(5);
 constexpr double kMedian = 0.5;
 constexpr double kTail = 0.99;
 
@@ -52,8 +50,8 @@ absl::StatusOr<std::unique_ptr<AttackBed>> AttackBed::Start(const AttackSettings
     PLUMESCOUT_ASSIGN_OR_RETURN(front,
                                 FrontProcess::Start(settings.front_config, server->target()));
   }
-  auto bed = std::make_unique<AttackBed>(Private(), settings.seed, std::move(budget),
-                                         std::move(server), std::move(front));
+  auto bed = std::make_unique<AttackBed>(Private(), settings, std::move(budget), std::move(server),
+                                         std::move(front));
   PLUMESCOUT_RETURN_IF_ERROR(bed->operator_->CreateMission(kHonestMission, MissionOptions{}));
   LoadRobotOptions robot;
   robot.participation.mission = kHonestMission;
@@ -61,24 +59,27 @@ absl::StatusOr<std::unique_ptr<AttackBed>> AttackBed::Start(const AttackSettings
   robot.start = FreePoses(bed->walls_, 1, settings.seed).front();
   robot.plan_period = kPlanPeriod;
   PLUMESCOUT_ASSIGN_OR_RETURN(
-      bed->robot_, LoadRobot::Start(client::MakeGrpcPlannerClient(
-                                        {.target = bed->target(), .call_timeout = kPatience}),
-                                    bed->walls_, robot));
-  absl::SleepFor(kWarmUp);
+      bed->robot_,
+      LoadRobot::Start(client::MakeGrpcPlannerClient(
+                           {.target = bed->target(), .call_timeout = settings.patience}),
+                       bed->walls_, robot));
+  absl::SleepFor(settings.warm_up);
   bed->Take();
   absl::SleepFor(settings.time);
   bed->before_ = bed->Take();
   return bed;
 }
 
-AttackBed::AttackBed(Private, std::uint64_t seed, MemoryBudget budget,
+AttackBed::AttackBed(Private, const AttackSettings& settings, MemoryBudget budget,
                      std::unique_ptr<ServerProcess> server, std::unique_ptr<FrontProcess> front)
-    : walls_(MakeBuilding(kWidth, kHeight, seed)),
+    : walls_(MakeBuilding(kWidth, kHeight, settings.seed)),
+      patience_(settings.patience),
       budget_(std::move(budget)),
       server_(std::move(server)),
       front_(std::move(front)),
       target_(front_ != nullptr ? front_->target() : server_->target()),
-      operator_(client::MakeGrpcPlannerClient({.target = target_, .call_timeout = kPatience})),
+      operator_(
+          client::MakeGrpcPlannerClient({.target = target_, .call_timeout = settings.patience})),
       operator_thread_([this] { RunOperator(); }) {}
 
 AttackBed::~AttackBed() {
@@ -128,9 +129,16 @@ std::vector<Bar> AttackBed::Judge(const HonestFigures& during) {
       {"list p99 before, ms", quick_before_ms},
       {"list p99, ms", Quantile(during.quick_ms, kTail), limit(quick_before_ms, kQuickFloor_ms)},
       {"honest calls failed", during.failures, 0.0},
+      MustHold("newcomer not served", IsNewcomerServed()),
       MustHold("server ended", server_->IsAlive()),
       {"peak memory, MB", peak_mb, budget_.limit_mb()},
   };
+}
+
+bool AttackBed::IsNewcomerServed() const {
+  return client::MakeGrpcPlannerClient({.target = target_, .call_timeout = patience_})
+      ->ListMissions()
+      .ok();
 }
 
 double AttackBed::Cpu_s() const {

@@ -46,8 +46,8 @@ class AttackBed {
   };
 
  public:
-  AttackBed(Private, std::uint64_t seed, MemoryBudget budget, std::unique_ptr<ServerProcess> server,
-            std::unique_ptr<FrontProcess> front);
+  AttackBed(Private, const AttackSettings& settings, MemoryBudget budget,
+            std::unique_ptr<ServerProcess> server, std::unique_ptr<FrontProcess> front);
   static absl::StatusOr<std::unique_ptr<AttackBed>> Start(const AttackSettings& settings,
                                                           const BedOptions& options = {});
   ~AttackBed();
@@ -61,9 +61,12 @@ class AttackBed {
 
   // What they met with since the last call.
   HonestFigures Take();
-  // What every attack has to bear: plans and lists as before or nearly so, no call failed, the
-  // server alive and within its budget of memory. `during`: since the attack began.
+  // What every attack has to bear: plans and lists as before or nearly so, no call failed, whoever
+  // has not called before answered now, the server alive and within its budget of memory.
+  // `during`: since the attack began.
   std::vector<Bar> Judge(const HonestFigures& during);
+  // Whether a caller that has not called before is answered.
+  bool IsNewcomerServed() const;
   // CPU that the server has used, seconds; NaN once it has ended.
   double Cpu_s() const;
 
@@ -71,6 +74,7 @@ class AttackBed {
   void RunOperator();
 
   const Grid<std::uint8_t> walls_;
+  const absl::Duration patience_;
   const MemoryBudget budget_;
   const std::unique_ptr<ServerProcess> server_;
   const std::unique_ptr<FrontProcess> front_;  // null: none

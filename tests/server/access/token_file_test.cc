@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/access/token_file.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <thread>
 
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
@@ -25,7 +29,9 @@ const absl::Time kNow = absl::FromUnixSeconds(1'800'000'000);
 class TokenFileTest : public testing::Test {
  protected:
   void Write(const std::string& text) { std::ofstream(path_) << text; }
+  // In the file as it is now.
   absl::StatusOr<Principal> Find(TokenFile& file, const std::string& token) {
+    file.Look();
     return file.Find(token, kNow);
   }
 
@@ -61,7 +67,7 @@ TEST_F(TokenFileTest, ATokenExpires) {
             absl::UnauthenticatedError("the token has expired"));
 }
 
-TEST_F(TokenFileTest, WhatIsRevokedOrAddedIsSoAtOnce) {
+TEST_F(TokenFileTest, WhatIsRevokedOrAddedIsSoAtTheNextLook) {
   const std::string alice = TokenLine("secret-a", "alice operator acme never");
   const std::string bob = TokenLine("secret-b", "bob operator acme never");
   Write(alice);
@@ -89,6 +95,36 @@ TEST_F(TokenFileTest, AFileThatIsReplacedIsReadAgain) {
   std::filesystem::rename(other, path_);
   EXPECT_FALSE(Find(**file, "secret-a").ok());
   EXPECT_TRUE(Find(**file, "secret-b").ok());
+}
+
+TEST_F(TokenFileTest, NobodyNeedsToTellItToLook) {
+  Write(TokenLine("secret-a", "alice operator acme never"));
+  const auto file = TokenFile::Open(path_);
+  ASSERT_TRUE(file.ok()) << file.status();
+  Write(TokenLine("secret-b", "bob operator acme never"));
+  while (!(*file)->Find("secret-b", kNow).ok()) std::this_thread::yield();
+  EXPECT_FALSE((*file)->Find("secret-a", kNow).ok());
+}
+
+// A pipe that nobody writes to stands for a disk that does not answer.
+TEST_F(TokenFileTest, WhoeverAsksWaitsForNoDisk) {
+  Write(TokenLine("secret-a", "alice operator acme never"));
+  const auto file = TokenFile::Open(path_);
+  ASSERT_TRUE(file.ok()) << file.status();
+  const std::string pipe = folder_.File("pipe");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::filesystem::remove(path_);
+  std::filesystem::create_hard_link(pipe, path_);
+  (*file)->Find("secret-a", kNow).status().IgnoreError();  // would hang
+
+  const std::string other = folder_.File("other");
+  std::ofstream(other) << TokenLine("secret-b", "bob operator acme never");
+  std::filesystem::rename(other, path_);
+  while (!(*file)->Find("secret-b", kNow).ok()) {
+    const int end = open(pipe.c_str(), O_WRONLY | O_NONBLOCK);  // sends away who reads it
+    if (end >= 0) close(end);
+    std::this_thread::yield();
+  }
 }
 
 TEST_F(TokenFileTest, ASpoiltLineHoldsNoTokenAndHarmsNoOther) {

@@ -217,8 +217,12 @@ class FairPoolCompanyTest : public testing::Test {
   std::atomic<int> holding_ = 0;
   int groups_made_ = 0;
   std::atomic<SteadyTime::rep> later_ = 0;
+  std::atomic<int> clock_reads_ = 0;
   std::optional<FairPool> pool_{std::in_place, FairPoolOptions{.name = "test", .threads = 3},
-                                [this] { return SteadyNow() + SteadyTime::duration(later_); }};
+                                [this] {
+                                  ++clock_reads_;
+                                  return SteadyNow() + SteadyTime::duration(later_);
+                                }};
 };
 
 TEST_F(FairPoolCompanyTest, ATenantAloneHasAllThreads) {
@@ -265,6 +269,38 @@ TEST_F(FairPoolCompanyTest, GroupsWhoseTasksTakeLongLeaveTwoThreadsToThoseWhoseD
   }
   AwaitHolding(1);
   for (int i = 0; i < 20; ++i) Pass("");
+  EXPECT_EQ(holding_, 1);
+}
+
+// Under the lock, on the thread of whoever asks.
+TEST_F(FairPoolCompanyTest, ALookAtThoseWhoWaitIsOneHoweverManyTheyAre) {
+  constexpr int kGroups = 15;
+  const auto slow = [](int i) { return absl::StrCat("slow", i); };
+  for (int i = 0; i < kGroups; ++i) {
+    absl::Notification ran;
+    ASSERT_TRUE(pool_
+                    ->Submit({slow(i), "1"}, {[&] {
+                               later_ += absl::ToChronoNanoseconds(2 * FairPool::kLong).count();
+                               ran.Notify();
+                             }})
+                    .ok());
+    ran.WaitForNotification();
+    while (pool_->load().busy_threads > 0) std::this_thread::yield();
+  }
+  Pass("");
+  for (int i = 0; i < kGroups; ++i) {
+    ASSERT_TRUE(pool_
+                    ->Submit({slow(i), "1"}, {[this] {
+                               ++holding_;
+                               release_.WaitForNotification();
+                             }})
+                    .ok());
+  }
+  AwaitHolding(1);
+  while (pool_->load().busy_threads > 1) std::this_thread::yield();
+  const int before = clock_reads_;
+  ASSERT_TRUE(pool_->Submit({slow(1), "2"}, {[] {}}).ok());
+  EXPECT_LT(clock_reads_ - before, kGroups);
   EXPECT_EQ(holding_, 1);
 }
 

@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "absl/synchronization/notification.h"
@@ -85,6 +86,42 @@ TEST(MissionHostIngestTest, ASampleOfAClockThatRunsAheadIsAnEventThatARefusalFol
   for (const Event& event : events) EXPECT_TRUE(replay.Apply(event.body).ok());
   EXPECT_EQ(replay.sample_time_ns(), 3'000'000);
   EXPECT_EQ(replay.AppliedSequence("r1").value(), 3);
+}
+
+// Readings that arrive with the call would have a refresh made before it, and it another.
+TEST(MissionHostIngestTest, WhoWaitsForABeliefHasTheRefreshThatIsDue) {
+  int refreshes = 0;
+  const auto count = [&](const Event& event) {
+    refreshes += std::holds_alternative<PosteriorRefreshed>(event.body) ? 1 : 0;
+  };
+  MissionHost host(HostParts(nullptr, count), {});
+  AddRobot(host);
+  const auto send = [&](std::int64_t first, std::int64_t last) {
+    ASSERT_TRUE(host.Post([first, last](MissionWriter& writer) {
+                      auto batch = GasBatch(first, last);  // a millisecond after the other
+                      EXPECT_TRUE(
+                          writer.conduct().Ingest("r1", kLease, std::move(batch)).status.ok());
+                    })
+                    .ok());
+  };
+  absl::Notification release;
+  absl::Notification served;
+  ASSERT_TRUE(host.Post([&](MissionWriter&) { release.WaitForNotification(); }).ok());
+  send(1, 60);
+  ASSERT_TRUE(host.AwaitBelief({.wish = {.robot = "r1", .min_applied_sequence = 2}},
+                               [&](const absl::StatusOr<std::shared_ptr<const Belief>>& belief) {
+                                 EXPECT_TRUE(belief.ok()) << belief.status();
+                                 served.Notify();
+                               })
+                  .ok());
+  send(61, 64);
+  release.Notify();
+  served.WaitForNotification();
+  Settle(host);
+  EXPECT_EQ(refreshes, 1);
+  send(65, 120);
+  Settle(host);
+  EXPECT_EQ(refreshes, 2) << "one is due again, and nobody waits for it";
 }
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
@@ -250,6 +287,36 @@ TEST_F(ClocksTest, NobodyCanHurryTheMission) {
   EXPECT_EQ(ErrorReason(result.refused[0].status), reason::kClockAhead);
   Send("a", -4 * kSecond_ns);
   EXPECT_EQ(time_ns(), kNow_ns + 4 * kSecond_ns);
+}
+
+// A goal is claimed for 30 s after twice the time of the way to it, here none.
+TEST_F(ClocksTest, AClaimEndsByTheServersClockWhateverThoseOfRobotsSay) {
+  for (const std::int64_t holder_ns : {-kHour_ns, kHour_ns}) {
+    for (const std::int64_t other_ns : {-kHour_ns, kHour_ns}) {
+      leases_.clear();
+      elapsed_ns_ = 0;
+      Start({{"holder", holder_ns}, {"other", other_ns}});
+      Send("holder");
+      Send("other");
+      Run([&](MissionWriter& writer) {
+        Plan plan;
+        plan.robot = "holder";
+        plan.chosen = 0;
+        plan.candidates.resize(1);
+        plan.candidates[0].goal.kind = GoalKind::kOccupancyFrontier;
+        plan.trajectory.waypoints.resize(2);
+        EXPECT_TRUE(writer.conduct().Commit(plan, leases_.at("holder")).ok());
+      });
+      // It is heard of no more.
+      Wait(29.0);
+      Send("other");
+      EXPECT_EQ(Fresh()->claims.size(), 1U) << holder_ns << " " << other_ns;
+      Wait(2.0);
+      Send("other");
+      EXPECT_TRUE(Fresh()->claims.empty()) << holder_ns << " " << other_ns;
+      host_->Stop(absl::NotFoundError("over"));
+    }
+  }
 }
 
 TEST_F(ClocksTest, WhoSaysNothingOfItsClockIsTakenAsItIs) {
