@@ -115,9 +115,9 @@ export class MissionPage {
   }
 
   private async report(): Promise<string> {
-    const { mission, scene: { raster, trails, gases } } = this;
+    const { mission, scene: { raster, trails, gases, homes } } = this;
     if (mission === null || raster === null) throw new Error('there is no map yet');
-    return reportOf({ mission, raster, trails, gases, revision: this.time.past ?? 0n });
+    return reportOf({ mission, raster, trails, gases, homes, revision: this.time.past ?? 0n });
   }
 
   private link(): string {
