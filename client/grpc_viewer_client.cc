@@ -232,6 +232,20 @@ class GrpcViewerClient final : public ViewerClient {
     return FromServer(PageFromProto(response));
   }
 
+  absl::StatusOr<FigureHistory> GetFigures(const MissionId& mission) override {
+    v1::GetMissionFiguresRequest request;
+    request.set_mission(MissionResource(mission));
+    v1::GetMissionFiguresResponse response;
+    PLUMESCOUT_RETURN_IF_ERROR(
+        link_->Ask(snapshots_, &v1::SnapshotService::Stub::GetMissionFigures, request, &response));
+    FigureHistory history{{}, response.more_follow()};
+    for (const v1::MissionFigures& told : response.figures()) {
+      PLUMESCOUT_ASSIGN_OR_RETURN(MissionFigures figures, FromServer(FiguresFromProto(told)));
+      history.figures.push_back(std::move(figures));
+    }
+    return history;
+  }
+
  private:
   const std::shared_ptr<GrpcLink> link_;
   v1::MissionService::Stub missions_;

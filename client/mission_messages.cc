@@ -114,6 +114,30 @@ absl::StatusOr<MissionEvent> EventFromProto(const v1::MissionEvent& proto) {
   return event;
 }
 
+absl::StatusOr<MissionFigures> FiguresFromProto(const v1::MissionFigures& proto) {
+  MissionFigures figures;
+  figures.revision = proto.revision();
+  figures.elapsed_s = proto.elapsed_s();
+  figures.known_area_m2 = proto.known_area_m2();
+  figures.reachable_area_m2 = proto.reachable_area_m2();
+  figures.observed_area_m2 = proto.observed_area_m2();
+  figures.open_frontiers = proto.open_frontier_count();
+  if (proto.has_undecided_area_m2()) figures.undecided_area_m2 = proto.undecided_area_m2();
+  for (const v1::GasFigures& told : proto.gases()) {
+    GasFigures& gas = figures.gases.emplace_back();
+    gas.species = told.species();
+    if (told.has_max_mean_ppm()) gas.max_mean_ppm = told.max_mean_ppm();
+    gas.plume_area_m2 = told.plume_area_m2();
+    if (told.has_mean_entropy_nats()) gas.mean_entropy_nats = told.mean_entropy_nats();
+    gas.in_posterior = told.in_posterior_count();
+  }
+  for (const v1::RobotFigures& told : proto.robots()) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(RobotName name, ParseRobotName("robots.robot", told.robot()));
+    figures.applied_sequences[name.robot] = told.applied_sequence();
+  }
+  return figures;
+}
+
 v1::EventRetention ToProto(EventRetention retention) {
   return retention == EventRetention::kAll ? v1::EVENT_RETENTION_ALL
                                            : v1::EVENT_RETENTION_SINCE_SNAPSHOT;

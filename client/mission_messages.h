@@ -13,6 +13,7 @@ namespace plumescout::client {
 // kInvalidArgument naming the field.
 absl::StatusOr<MissionDetails> DetailsFromProto(const v1::Mission& proto);
 absl::StatusOr<MissionEvent> EventFromProto(const v1::MissionEvent& proto);
+absl::StatusOr<MissionFigures> FiguresFromProto(const v1::MissionFigures& proto);
 
 v1::EventRetention ToProto(EventRetention retention);
 v1::MissionEventKind ToProto(MissionEventKind kind);

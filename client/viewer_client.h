@@ -124,6 +124,9 @@ class ViewerClient {
   // A page of what happened, as far as it is durable. Not for callers of role robot.
   virtual absl::StatusOr<HistoryPage> GetHistory(const MissionId& mission,
                                                  const HistoryQuery& query) = 0;
+  // How the map came to have its figures, as far as the server has replayed that; it does so while
+  // somebody asks. Not for callers of role robot.
+  virtual absl::StatusOr<FigureHistory> GetFigures(const MissionId& mission) = 0;
 };
 
 }  // namespace plumescout::client

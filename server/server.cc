@@ -175,14 +175,14 @@ Server::Server(Private, const ServerConfig& config, RegistryHooks hooks,
       registry_(ToRegistryOptions(config, FirstLeaseToken(RandomBits())),
                 Complete(std::move(hooks), config, store_, &epoch_pool_, &audit_pool_,
                          &snapshot_pool_, recorder_.get(), &metrics_.missions())),
+      history_(store_ == nullptr
+                   ? nullptr
+                   : std::make_unique<History>(store_, &registry_, ToImportLimits(config))),
       planning_pool_(ToPlanningPoolOptions(config.planning)),
       map_pool_({"map", config.maps.threads, config.maps.max_queued, kYields}),
       query_pool_(ToViewersPoolOptions("query", config.maps.query_threads, config.maps)),
       past_pool_(ToViewersPoolOptions("past", kPastThreads, config.maps)),
       creation_pool_({"creation", kCreationThreads, config.limits.max_missions, kYields}),
-      history_(store_ == nullptr
-                   ? nullptr
-                   : std::make_unique<History>(store_, &registry_, ToImportLimits(config))),
       door_(
           [authenticator = std::move(authenticator)](const grpc::CallbackServerContext& call) {
             return IdentityOf(authenticator, ReadCredentials(call));

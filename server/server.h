@@ -107,12 +107,12 @@ class Server {
   WorkerPool snapshot_pool_;
   const std::unique_ptr<Recorder> recorder_;  // as well; null: missions are not recorded
   MissionRegistry registry_;
+  const std::unique_ptr<History> history_;  // before the pools that use it; null without a store
   FairPool planning_pool_;
   WorkerPool map_pool_;
   FairPool query_pool_;
   FairPool past_pool_;
   WorkerPool creation_pool_;
-  const std::unique_ptr<History> history_;  // null without a store
   ActiveStreams streams_;
   Door door_;
   const ServiceContext context_;

@@ -41,7 +41,8 @@ export async function lookAround(browser, scene, out) {
   await explorer.getByText(/^plan 1 of \d+/).waitFor();
   await explorer.getByText(/goals it could drive to/).waitFor();
   await page.screenshot({ path: join(out, 'report.png') });
-  await checkSwitches(explorer, ['ways of robots', 'claimed goals', 'trails', 'frontiers', 'names', 'candidates of the plan']);
+  await checkSwitches(explorer, ['ways of robots', 'claimed goals', 'trails', 'frontiers', 'names', 'candidates of the plan',
+    'keep-out and homes']);
   await explorer.getByRole('button', { name: 'Error' }).click();
   await explorer.getByText('Estimated gas mean less the true one, ppm').waitFor();
   await explorer.getByRole('button', { name: 'Truth' }).click();
@@ -64,7 +65,7 @@ export async function openSaved(browser, html, out, says) {
   await page.goto(pathToFileURL(file).href);
   for (const words of says) await page.getByText(words).first().waitFor({ timeout: PATIENCE_MS });
   await page.getByRole('button', { name: 'Objective' }).click();
-  await page.locator('.legend .m-below').waitFor();
+  for (const mark of ['m-below', 'm-home']) await page.locator(`.legend .${mark}`).waitFor();
   await page.screenshot({ path: join(out, 'report_saved.png') });
   assert.equal(await page.getByRole('button', { name: 'Change' }).count(), 0);
   assert.deepEqual(wrong, []);

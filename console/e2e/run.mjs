@@ -11,6 +11,7 @@ import { execFileSync } from 'node:child_process';
 import { mkdirSync, readFileSync, readdirSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { parseArgs } from 'node:util';
+import { deflateSync } from 'node:zlib';
 import { connect, errorOf } from '@plumescout/client';
 import { checkAccess } from './axe.mjs';
 import { checkMoves, checkScales, checkSwitches, frontierMark, robotMark } from './effects.mjs';
@@ -52,6 +53,12 @@ const see = (text) => page.getByText(text).first().waitFor({ timeout: PATIENCE_M
 const map = () => page.locator('.stage > canvas');
 const revision = async () =>
   Number(/revision (\d+)/.exec(await page.locator('.time .quiet').innerText())?.[1] ?? -1);
+// Of what takes the server too long it is asked again, as people do.
+const seePast = () => until('the map as it was', async () => {
+  if (await page.getByText('As it was at revision').first().isVisible()) return true;
+  if (await button('Try again').isVisible()) await button('Try again').click();
+  return false;
+});
 const NEAREST = /nearest reading \d+\.\d m away, (just now|.* ago)$/;
 const readout = () => page.locator('.readout').innerText();
 
@@ -187,6 +194,19 @@ async function reasons() {
     await page.locator('tr.pick').nth(1).hover();
     await picture('why');
   });
+  await step('nothing of the table is cut, on tablets and on large screens', async () => {
+    const size = page.viewportSize();
+    for (const width of [1024, 1280, 1600]) {
+      await page.setViewportSize({ width, height: 800 });
+      const box = page.locator('.scroll', { has: page.locator('.candidates') });
+      const [inner, outer] = await box.evaluate((element) => [element.scrollWidth, element.clientWidth]);
+      assert.ok(inner <= outer, `${inner} of ${outer} pixels at ${width}`);
+      const heights = await page.locator('tr.pick').evaluateAll((rows) => rows.map((row) => row.offsetHeight));
+      assert.ok(Math.max(...heights) < 1.5 * Math.min(...heights), `rows of ${heights} pixels at ${width}`);
+      await picture(`why_${width}`);
+    }
+    await page.setViewportSize(size);
+  });
   await step('why it does not drive there: a click answers', async () => {
     const box = await map().boundingBox();
     await map().click({ position: { x: box.width / 2, y: box.height / 2 } });
@@ -207,8 +227,23 @@ async function reasons() {
 }
 
 async function charts() {
-  await step('figures are drawn over time', async () => {
+  await step('a server that has nothing to spare for the past is not pressed, and asked again when somebody wants it', async () => {
+    const call = '**/plumescout.v1.SnapshotService/GetMissionFigures';
+    let asked = 0;
+    await page.route(call, (route) => {
+      ++asked;
+      return route.fulfill({ headers: { 'content-type': 'application/grpc-web+proto', 'grpc-status': '9',
+                                        'grpc-message': 'this server keeps no journal of its missions' } });
+    });
     await tab('Charts').click();
+    await see('What was before is not known: this server keeps no journal of its missions');
+    await picture('charts_refused');
+    assert.equal(asked, 1);
+    await page.unroute(call);
+    await button('Try again').click();
+    await see('Since the mission began.');
+  });
+  await step('figures are drawn over time', async () => {
     await see('Largest gas mean');
     await see('Since the mission began.');
     await page.locator('.chart', { hasText: /^Completeness/ }).getByText(/^\d\S* %$/).waitFor();
@@ -402,7 +437,7 @@ async function time(origin) {
       input.dispatchEvent(new Event('input'));
       input.dispatchEvent(new Event('change'));
     });
-    await see('As it was at revision');
+    await seePast();
     await see(/^revision \d+ of \d+ · .* in$/);
     assert.ok(await revision() < head);
     assert.match(page.url(), /@\d+$/);
@@ -465,7 +500,7 @@ async function time(origin) {
       await until(`a later frame at ${speed}×`, async () => await revision() > before && before >= 0);
     }
     await button('■ Stop').click();
-    await see('As it was at revision');
+    await seePast();
     await page.keyboard.press('l');
     await see('live, revision');
   });
@@ -482,7 +517,7 @@ async function time(origin) {
   });
   await step('every layer, scale and move does something to the map', async () => {
     await page.goto(`${origin}/#/missions/hall@${await revision()}`); // it stands still
-    await see('As it was at revision');
+    await seePast();
     await checkScales(page);
     await checkSwitches(page, ['frontiers', 'names', 'keep-out and homes']);
     await checkMoves(page);
@@ -662,6 +697,25 @@ async function everybody(origin) {
 
 async function trouble(origin, server) {
   let again;
+  await step('a map that is too large for a page is shown in squares, and the page says so', async () => {
+    const client = connect(server.found.calls);
+    const [columnCount, rowCount] = [2200, 2000];
+    const cells = Buffer.alloc(columnCount * rowCount);
+    for (let row = 400; row < 600; ++row) cells.fill(1, row * columnCount + 500, row * columnCount + 900);
+    await client.missions.createMission({ missionId: 'wide', options: { occupancy: { maxExtentM: 250, maxCellCount: 6_000_000n }, priorMap: { map: { case: 'cells', value: {
+      geometry: { origin: { xM: 0, yM: 0 }, resolutionM: 0.1, columnCount, rowCount }, deflatedData: deflateSync(cells) } } } } });
+    client.close();
+    await page.goto(`${origin}/#/missions/wide`);
+    await see('squares of 2 × 2 cells');
+    await picture('wide');
+  });
+  await step('a browser that does not know the language of the page is told which do', async () => {
+    const old = await (await page.context().browser().newContext()).newPage();
+    await old.route('**/*.js', (route) => route.fulfill({ contentType: 'text/javascript', body: 'no ?.. such language' }));
+    await old.goto(`${origin}/`);
+    await old.getByText(/^Nothing comes\? The console needs Chrome/).waitFor({ timeout: PATIENCE_MS });
+    await old.context().close();
+  });
   await step('a mission that is deleted while it is open says so', async () => {
     await page.goto(`${origin}/#/missions/annex`);
     await see('No robot has registered yet.');
@@ -672,6 +726,7 @@ async function trouble(origin, server) {
     await other.getByText('annex is deleted.').waitFor();
     await other.close();
     await page.getByRole('link', { name: 'All missions' }).waitFor({ timeout: PATIENCE_MS });
+    await see('There is no mission of this name. It may have been deleted.');
     await picture('deleted');
   });
   await step('a server that goes away comes back by itself', async () => {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // Figures of a mission over time: as the page saw them, and before that as the journal has them.
-import { Series, drawChart } from './charts.ts';
-import type { Line, Sample } from './charts.ts';
+import { Series, drawChart, spanOf } from './charts.ts';
+import type { Sample } from './charts.ts';
 import { fill, h } from './dom.ts';
 import { WHAT_COUNTS } from './mission_figures.ts';
 import type { MissionFigure } from './mission_figures.ts';
@@ -18,26 +18,33 @@ export class ChartPanel {
   private readonly began = performance.now();
   private readonly charts = new Map<string, Chart>();
   private opened_s = 0; // since the mission began, when the page was opened; 0: that is not known
-  private said = 'Since this page was opened.';
+  private readonly note = h('p', { class: 'quiet', role: 'status' }, 'Since this page was opened.');
 
   constructor(private readonly colourOf: (robot: string) => string) {
     this.element = h('div', {},
       h('details', { class: 'group' }, h('summary', {}, 'What counts'),
         h('dl', {}, ...WHAT_COUNTS.flatMap(([name, what]) => [h('dt', {}, name), h('dd', {}, what)]))),
-      this.box);
+      this.note, this.box);
   }
 
   // Of now.
   add(figure: MissionFigure): void {
     this.historyOf(figure).now.add((performance.now() - this.began) / 1000, figure.value);
   }
-  // Of so long after the mission began; one after the other.
-  addPast(t_s: number, figure: MissionFigure): void {
-    this.historyOf(figure).past.add(t_s, figure.value);
+  // All that is known of what was before, in its order; times are since the mission began.
+  setPast(moments: { t_s: number; figures: MissionFigure[] }[]): void {
+    for (const { lines } of this.charts.values()) for (const history of lines.values()) history.past = new Series();
+    for (const { t_s, figures } of moments) {
+      for (const one of figures) this.historyOf(one).past.add(t_s, one.value);
+    }
   }
-  // Since when lines are drawn, in words; `opened_s`: so long after the mission's beginning the page was opened.
-  says(said: string, opened_s = this.opened_s): void {
-    [this.said, this.opened_s] = [said, opened_s];
+  // So long after the mission's beginning the page was opened.
+  beginAt(opened_s: number): void {
+    this.opened_s = opened_s;
+  }
+  // Since when lines are drawn, in words; `again`: what is done if somebody wants it tried again.
+  says(said: string, again: (() => void) | null = null): void {
+    fill(this.note, said, again === null ? null : ' ', again === null ? null : h('button', { onclick: again }, 'Try again'));
   }
 
   private historyOf({ title, unit, robot: line }: MissionFigure): History {
@@ -54,9 +61,11 @@ export class ChartPanel {
     return history;
   }
 
+  // The mission's own account, as far as it goes, and what the page saw after it.
   private samplesOf({ past, now }: History): Sample[] {
-    const since_s = this.opened_s + (now.samples[0]?.t_s ?? Infinity);
-    return [...past.samples.filter(({ t_s }) => t_s < since_s), ...now.samples.map(({ t_s, value }) => ({ t_s: t_s + this.opened_s, value }))];
+    const known_s = past.samples.at(-1)?.t_s ?? -Infinity;
+    const seen = now.samples.map(({ t_s, value }) => ({ t_s: t_s + this.opened_s, value }));
+    return [...past.samples, ...seen.filter(({ t_s }) => t_s > known_s)];
   }
 
   // What is charted from now on is of something else.
@@ -66,20 +75,18 @@ export class ChartPanel {
 
   draw(): void {
     if (this.charts.size === 0 || this.element.clientWidth === 0) return;
-    const drawn: [HTMLCanvasElement, Line[], string][] = [];
-    const boxes = [...this.charts.values()].map((chart) => {
-      const lines = [...chart.lines].map(([name, history]) => ({
-        name, samples: this.samplesOf(history), colour: name === '' ? getComputedStyle(this.element).getPropertyValue('--accent')
-                                          : this.colourOf(name),
-      }));
+    const accent = getComputedStyle(this.element).getPropertyValue('--accent');
+    const charts = [...this.charts.values()].map(({ title, unit, lines }) => ({ title, unit, lines: [...lines].map(
+      ([name, history]) => ({ name, samples: this.samplesOf(history), colour: name === '' ? accent : this.colourOf(name) })) }));
+    const span = spanOf(charts.flatMap(({ lines }) => lines)); // one for all: they are of the same time
+    const drawn = charts.map(({ title, unit, lines }) => {
       const now = lines.map((line) => (line.name === '' ? '' : `${shortName(line.name)} `) +
-        `${figure(line.samples.at(-1)?.value ?? NaN)} ${chart.unit}`).join(', ');
-      const canvas = h('canvas', { role: 'img', 'aria-label': `${chart.title}: ${now}` });
-      drawn.push([canvas, lines, chart.unit]);
-      return h('div', { class: 'chart' }, h('div', { class: 'head' },
-        h('strong', {}, chart.title), h('span', { class: 'now' }, now)), canvas);
+        `${figure(line.samples.at(-1)?.value ?? NaN)} ${unit}`).join(', ');
+      const canvas = h('canvas', { role: 'img', 'aria-label': `${title}: ${now}` });
+      return { canvas, lines, unit, box: h('div', { class: 'chart' }, h('div', { class: 'head' },
+        h('strong', {}, title), h('span', { class: 'now' }, now)), canvas) };
     });
-    fill(this.box, h('p', { class: 'quiet' }, this.said), ...boxes);
-    for (const [canvas, lines, unit] of drawn) drawChart(canvas, lines, unit);
+    fill(this.box, ...drawn.map(({ box }) => box));
+    for (const { canvas, lines, unit } of drawn) drawChart(canvas, lines, unit, span);
   }
 }

@@ -28,7 +28,15 @@ export class Series {
 
 export type Line = { name: string; samples: Sample[]; colour: string };
 
-export function drawChart(canvas: HTMLCanvasElement, lines: Line[], unit: string): void {
+export type Span = { from_s: number; to_s: number };
+
+// From the first value of any line to the last.
+export function spanOf(lines: Line[]): Span {
+  const ends = lines.flatMap(({ samples }) => (samples.length === 0 ? [] : [samples[0].t_s, samples.at(-1)!.t_s]));
+  return { from_s: Math.min(...ends), to_s: Math.max(...ends) };
+}
+
+export function drawChart(canvas: HTMLCanvasElement, lines: Line[], unit: string, span = spanOf(lines)): void {
   const ratio = window.devicePixelRatio || 1;
   const width = canvas.clientWidth, height = canvas.clientHeight;
   if (width === 0) return;
@@ -38,18 +46,17 @@ export function drawChart(canvas: HTMLCanvasElement, lines: Line[], unit: string
   c.scale(ratio, ratio);
   const style = getComputedStyle(canvas);
   const left = 44, right = width - 6, top = 6, bottom = height - 16;
-  let minT = Infinity, maxT = -Infinity, min = 0, max = -Infinity;
+  const { from_s: minT, to_s: maxT } = span;
+  let min = 0, max = -Infinity;
   for (const line of lines) {
-    for (const { t_s, value } of line.samples) {
-      minT = Math.min(minT, t_s);
-      maxT = Math.max(maxT, t_s);
+    for (const { value } of line.samples) {
       min = Math.min(min, value);
       max = Math.max(max, value);
     }
   }
   c.font = '11px system-ui, sans-serif';
   c.fillStyle = style.getPropertyValue('--quiet');
-  if (!(maxT > minT)) {
+  if (!(maxT > minT) || !(max > -Infinity)) {
     c.textAlign = 'center';
     c.fillText('waiting for a second value', width / 2, height / 2);
     return;

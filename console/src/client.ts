@@ -57,6 +57,9 @@ export function troubleOfCall({ code, reason, message, fields, unanswered }: Cal
     return { text: 'The request is larger than the server takes.', advice: SMALLER,
              code: Code.ResourceExhausted, reason: '' };
   }
+  if (code === Code.NotFound && message.startsWith('MISSION_NOT_FOUND')) {
+    return { text: 'There is no mission of this name.', advice: 'It may have been deleted.', code, reason };
+  }
   const advice: Partial<Record<Code, string>> = {
     [Code.Unauthenticated]: 'Enter a token under Service.',
     [Code.PermissionDenied]: 'Your role may not do this. Ask for an operator’s token.',

@@ -14,6 +14,7 @@ import type { Box, Corner } from './view.ts';
 
 // What the buttons above the map take of it, pixels.
 const TOOLS_HEIGHT = 40;
+const CAPTION_HEIGHT = 28; // of two maps, below them
 const ROBOT_HUES = [20, 230, 150, 320, 80, 275, 190, 0];
 
 export class MapView {
@@ -94,7 +95,7 @@ export class MapView {
     const box = this.box();
     if (box === null) return;
     this.fitted = true;
-    this.view.fit(box, TOOLS_HEIGHT, this.corner);
+    this.view.fit(box, TOOLS_HEIGHT + (this.beside === null ? 0 : CAPTION_HEIGHT), this.corner);
     this.draw();
   }
   // The raster, or all of it, is new.

@@ -1,22 +1,28 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-// How long after its beginning a mission was at a revision, by its own time: to the refresh of the gas
-// posterior that came next, about a second.
+// How long after its beginning a mission was at a revision, by its own time: between the refreshes of
+// the gas posterior before and after, which are about a second apart.
 import { MissionEventKind } from '@plumescout/client/wire';
 import type { MissionEvent } from '@plumescout/client/wire';
 
 // Events with the mission's time; observations have those of the robots' clocks.
 const TIMED = [MissionEventKind.REFRESH, MissionEventKind.EPOCH_BEGUN];
-// The last such event before a revision that none follows is looked for among so many.
-const LOOK_BACK = 500n;
-const MOST_PAGES = 4;
+// The last such event before a revision is looked for among so many, then among so many times more.
+const FIRST_LOOK_BACK = 64n;
+const WIDER = 16n;
+const MOST_ON_A_PAGE = 1000n;
 const S_PER_NS = 1e-9;
 
+type Timed = { number: bigint; time_ns: bigint };
+
+const timedOf = (events: HistoryPage['events']): Timed[] => events.flatMap(({ number, sampleTimeNs }) =>
+  (sampleTimeNs === undefined ? [] : [{ number, time_ns: sampleTimeNs }]));
 export type HistoryPage = { events: Pick<MissionEvent, 'number' | 'sampleTimeNs'>[]; nextPageToken: string };
 export type HistoryRequest = { kinds: MissionEventKind[]; firstNumber: bigint; pageSize: number; pageToken: string };
 
 export class MissionClock {
-  private begin_ns: bigint | null = null;
+  private first: Timed | null = null;
+  private tail: Timed | null = null; // that none followed when somebody looked
   private busy = false;
   private next: (() => Promise<void>) | null = null;
 
@@ -24,10 +30,18 @@ export class MissionClock {
 
   // Null: it is not known. Errors are those of the call.
   async elapsed_s(revision: bigint): Promise<number | null> {
-    this.begin_ns ??= await this.firstAfter(0n);
-    if (this.begin_ns === null) return null;
-    const at_ns = await this.firstAfter(revision) ?? await this.lastBefore(revision);
-    return at_ns === null ? null : Number(at_ns - this.begin_ns) * S_PER_NS;
+    this.first ??= await this.firstFrom(0n);
+    if (this.first === null) return null;
+    if (revision <= this.first.number) return 0;
+    const before = await this.lastBefore(revision) ?? this.first;
+    const after = await this.firstFrom(revision);
+    const since_s = (at: Timed) => Number(at.time_ns - this.first!.time_ns) * S_PER_NS;
+    if (after === null) {
+      this.tail = before;
+      return since_s(before);
+    }
+    const share = Number(revision - before.number) / Number(after.number - before.number);
+    return since_s(before) + share * (since_s(after) - since_s(before));
   }
 
   // One question at a time: of those that come meanwhile the last is asked. Null: it is not known, or not told.
@@ -45,19 +59,36 @@ export class MissionClock {
     this.busy = false;
   }
 
-  private async firstAfter(revision: bigint): Promise<bigint | null> {
+  // The first event at or after the revision.
+  private async firstFrom(revision: bigint): Promise<Timed | null> {
     let pageToken = '';
-    for (let page = 0; page < MOST_PAGES; ++page) {
+    do {
       const { events, nextPageToken } = await this.history({ kinds: TIMED, firstNumber: revision, pageSize: 1, pageToken });
-      if (events[0]?.sampleTimeNs !== undefined) return events[0].sampleTimeNs;
-      if (nextPageToken === '') return null;
+      const found = timedOf(events);
+      if (found.length > 0) return found[0];
       pageToken = nextPageToken;
-    }
+    } while (pageToken !== '');
     return null;
   }
-  private async lastBefore(revision: bigint): Promise<bigint | null> {
-    const firstNumber = revision > LOOK_BACK ? revision - LOOK_BACK : 0n;
-    const { events } = await this.history({ kinds: TIMED, firstNumber, pageSize: Number(LOOK_BACK), pageToken: '' });
-    return events.at(-1)?.sampleTimeNs ?? null;
+  // The last event before the revision; null: there is none.
+  private async lastBefore(revision: bigint): Promise<Timed | null> {
+    const least = this.tail !== null && this.tail.number < revision ? this.tail.number : 0n;
+    for (let span = FIRST_LOOK_BACK; ; span *= WIDER) {
+      const from = revision - span > least ? revision - span : least;
+      const last = await this.lastAmong(from, revision, Number(span < MOST_ON_A_PAGE ? span : MOST_ON_A_PAGE));
+      if (last !== null || from === least) return last;
+    }
+  }
+  private async lastAmong(from: bigint, revision: bigint, pageSize: number): Promise<Timed | null> {
+    let last: Timed | null = null;
+    let pageToken = '';
+    do {
+      const { events, nextPageToken } = await this.history({ kinds: TIMED, firstNumber: from, pageSize, pageToken });
+      const found = timedOf(events);
+      last = found.filter(({ number }) => number < revision).at(-1) ?? last;
+      if (found.some(({ number }) => number >= revision)) break;
+      pageToken = nextPageToken;
+    } while (pageToken !== '');
+    return last;
   }
 }

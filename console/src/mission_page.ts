@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // One mission: the map, and beside it robots, reasons, figures and what can be done.
-import { PATIENCE, maps, missions, planning, robots as robotCalls, sentence } from './client.ts';
+import { PATIENCE, maps, missions, planning, robots as robotCalls, sentence, snapshots } from './client.ts';
 import { ChartPanel } from './chart_panel.ts';
 import { Comparison } from './comparison.ts';
 import { hashOf } from './address.ts';
@@ -9,8 +9,8 @@ import { AreasPanel } from './areas_panel.ts';
 import { fill, h, refill, tabOfKey } from './dom.ts';
 import { MapPanel } from './map_panel.ts';
 import type { Place, Scene } from './scene.ts';
-import { missionFigures } from './mission_figures.ts';
-import { pastFigures, replayOf } from './past_figures.ts';
+import { figuresThen, missionFigures } from './mission_figures.ts';
+import { pastFigures } from './past_figures.ts';
 import { OperatePanel } from './operate_panel.ts';
 import { every, stateClass } from './pages.ts';
 import { isFirst, ofPlans } from './gases.ts';
@@ -115,9 +115,9 @@ export class MissionPage {
   }
 
   private async report(): Promise<string> {
-    const { mission, scene: { raster, trails, gases } } = this;
+    const { mission, scene: { raster, trails, gases, homes } } = this;
     if (mission === null || raster === null) throw new Error('there is no map yet');
-    return reportOf({ mission, raster, trails, gases, revision: this.time.past ?? 0n });
+    return reportOf({ mission, raster, trails, gases, homes, revision: this.time.past ?? 0n });
   }
 
   private link(): string {
@@ -264,21 +264,23 @@ export class MissionPage {
   private async chartPast(): Promise<void> {
     if (this.chartsPast !== null || this.mission === null) return;
     const { signal } = this.chartsPast = new AbortController();
-    const { revision } = this.mission;
-    const { charts, scene: { gases }, time: { clock } } = this;
-    const page_s = performance.now() / 1000;
+    const { charts, scene: { gases } } = this;
+    charts.says('Since this page was opened; what was before is on its way …');
     try {
-      const now_s = await clock.elapsed_s(revision);
-      if (now_s === null || signal.aborted) return;
-      charts.says('Since this page was opened; what was before is on its way …', now_s - (page_s - this.opened_s));
-      const updates = replayOf(this.name, now_s, gases, signal);
-      for await (const { t_s, figures } of pastFigures(updates, revision, gases, clock)) {
-        if (signal.aborted) return;
-        for (const one of figures) charts.addPast(t_s, one);
+      const now_s = await this.time.clock.elapsed_s(this.mission.revision);
+      charts.beginAt(now_s === null ? 0 : now_s - (performance.now() / 1000 - this.opened_s));
+      const ask = () => snapshots.getMissionFigures({ mission: this.name }, { ...PATIENCE, signal });
+      for await (const found of pastFigures(ask, signal)) {
+        const threshold_ppm = this.scene.status?.gasThresholdPpm ?? 0;
+        charts.setPast(found.map((one) => ({ t_s: one.elapsedS, figures: figuresThen(one, threshold_ppm, gases) })));
       }
       if (!signal.aborted) charts.says('Since the mission began.');
     } catch (error) {
-      if (!signal.aborted) charts.says(`Since this page was opened. What was before is not known: ${sentence(error)}`);
+      if (signal.aborted) return;
+      charts.says(`Since this page was opened. What was before is not known: ${sentence(error).replace(/[.!?]?$/, '.')}`, () => {
+        this.chartsPast = null;
+        void this.chartPast();
+      });
     }
   }
 

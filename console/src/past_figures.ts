@@ -1,37 +1,39 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-// The figures that a mission had before the page was opened, from its journal.
-import { figuresOf, watchMap } from '@plumescout/client';
-import type { MapUpdate } from '@plumescout/client';
-import { client } from './client.ts';
-import { isFirst } from './gases.ts';
-import type { Gases } from './gases.ts';
-import type { MissionClock } from './mission_clock.ts';
-import { missionFigures } from './mission_figures.ts';
-import type { MissionFigure } from './mission_figures.ts';
+// The figures that a mission had before the page was opened: the server replays its journal for them,
+// once for all pages.
+import { Code, errorOf } from '@plumescout/client';
+import type { GetMissionFiguresResponse, MissionFigures } from '@plumescout/client/wire';
 
-// All of it is shown in about so long, if the server can.
-const SHOWN_IN_S = 10;
-const SLOWEST = 60; // times as fast as it happened
+// Between looks at what the server has found so far.
+const PERIOD_S = 1;
+// Between attempts, where the server is short of something; then it is left alone.
+const RETRY_AFTER_S = [1, 2, 4, 8, 15];
+const PASSES = [Code.Unavailable, Code.ResourceExhausted, Code.DeadlineExceeded];
 
-export type PastFigures = { t_s: number; figures: MissionFigure[] };
+export type Ask = () => Promise<Pick<GetMissionFiguresResponse, 'figures' | 'moreFollow'>>;
 
-export const speedOf = (length_s: number) => Math.max(SLOWEST, length_s / SHOWN_IN_S);
+export const pause = (wait_s: number) => new Promise<void>((done) => { setTimeout(done, 1000 * wait_s); });
 
-export function replayOf(mission: string, length_s: number, { looked }: Gases, signal: AbortSignal): AsyncIterable<MapUpdate> {
-  return watchMap(client, mission, { fromRevision: 0n, speedRatio: speedOf(length_s), signal,
-    ...(looked === '' ? {} : { species: looked }) });
-}
-
-// Of the frames of `updates` that are older than revision `until`.
-export async function* pastFigures(updates: AsyncIterable<MapUpdate>, until: bigint, gases: Gases,
-                                   clock: Pick<MissionClock, 'elapsed_s'>): AsyncGenerator<PastFigures, void> {
-  for await (const { raster, status, revision } of updates) {
-    if (revision >= until) return;
-    if (raster === null) continue;
-    const found = missionFigures(
-      { figures: figuresOf(raster, isFirst(gases) ? status.gasThresholdPpm : 0), status, gases }, [], []);
-    const t_s = await clock.elapsed_s(revision);
-    if (t_s !== null) yield { t_s, figures: found };
+// All that was found so far, again and again until it is whole. Errors are those of the call.
+export async function* pastFigures(ask: Ask, signal: AbortSignal,
+                                   wait = pause): AsyncGenerator<MissionFigures[], void> {
+  let found = 0;
+  let failures = 0;
+  while (!signal.aborted) {
+    let wait_s = PERIOD_S;
+    try {
+      const { figures, moreFollow } = await ask();
+      if (signal.aborted) return;
+      if (figures.length > found) failures = 0;
+      found = figures.length;
+      yield figures;
+      if (!moreFollow) return;
+    } catch (error) {
+      const { code, retryAfter_s } = errorOf(error);
+      if (!PASSES.includes(code) || failures === RETRY_AFTER_S.length) throw error;
+      wait_s = Math.max(RETRY_AFTER_S[failures++], retryAfter_s);
+    }
+    await wait(wait_s);
   }
 }

@@ -25,43 +25,42 @@ export function planContent(plan: Plan, pointAt: (candidate: number) => void): H
   return parts;
 }
 
-// Of all columns that a plan may have.
+// Of all that a plan may tell of a goal.
 function columnHelp(): HTMLElement {
   const columns = [['m, s', 'length of the way, and how long it takes'],
     ['nats', 'what readings on the way are expected to tell of the gas; ≤: at most'],
     ['reward', 'of all stops on the way'], ['cost', 'by which goals are compared, in cells'],
     ['ppm', 'mean gas along the way, as estimated'], ['mean info', 'mean information along the way, 0 to 1'],
-    ['penalty', 'for information along the way, in cells'], ['way by', 'what found it']];
-  return h('details', {}, h('summary', {}, 'What the columns say'), h('dl', { class: 'facts' },
+    ['penalty', 'for information along the way, in cells'], ['by', 'what found the way']];
+  return h('details', {}, h('summary', {}, 'What the figures say'), h('dl', { class: 'facts' },
     ...columns.flatMap(([name, what]) => [h('dt', {}, name), h('dd', {}, what)])));
 }
 
+// Two lines each, so that nothing is cut beside the map: by what it is compared, and what else is known.
 function candidates(plan: Plan, pointAt: (candidate: number) => void): HTMLElement {
   const priced = plan.candidates.some((one) => one.expectedInformationNats !== undefined);
   const rewarded = plan.candidates.some((one) => one.reward !== undefined);
   const n = { class: 'n' };
+  const heads = ['m', 's', ...(priced ? ['nats', 'nats/s'] : []), ...(rewarded ? ['reward'] : []), 'cost'];
+  const bodies = plan.candidates.map((one, i) => {
+    const nats = one.expectedInformationNats ?? one.expectedInformationBoundNats ?? NaN;
+    const atMost = one.expectedInformationNats === undefined && !Number.isNaN(nats) ? '≤\u00a0' : '';
+    const chosen = i === plan.chosenIndex;
+    const terms = [figure(one.lengthM), figure(one.durationS),
+      ...(priced ? [atMost + figure(nats), atMost + figure(nats / one.durationS)] : []),
+      ...(rewarded ? [figure(one.reward ?? NaN)] : []), figure(one.cost)];
+    return h('tbody', { onmouseenter: () => pointAt(i), onmouseleave: () => pointAt(-1) },
+      h('tr', { class: chosen ? 'pick chosen' : 'pick', tabindex: 0, onfocus: () => pointAt(i), onblur: () => pointAt(-1) },
+        h('td', {}, i + 1, chosen ? ' ✓' : ''), h('td', {}, goalKind(one.goal?.kind ?? GoalKind.UNSPECIFIED)),
+        ...terms.map((term) => h('td', n, term))),
+      h('tr', { class: 'more' }, h('td', {}),
+        h('td', { colspan: 1 + terms.length }, `${figure(one.meanConcentrationPpm)} ppm · mean info ${figure(one.meanUcb)} · ` +
+          `penalty ${figure(one.informationPenalty)} · by ${source(one.pathSource)}`)));
+  });
   return h('div', {}, h('h3', {}, `${plan.candidates.length} goals it could drive to`),
-    h('div', { class: 'scroll', tabindex: 0 }, h('table', {},
-      h('thead', {}, h('tr', {}, h('th', {}, '#'), h('th', {}, 'goal'), h('th', n, 'm'), h('th', n, 's'),
-        priced ? h('th', n, 'nats') : null, priced ? h('th', n, 'nats/s') : null,
-        rewarded ? h('th', n, 'reward') : null, h('th', n, 'cost'), h('th', n, 'ppm'),
-        h('th', n, 'mean info'), h('th', n, 'penalty'), h('th', {}, 'way by'))),
-      h('tbody', {}, ...plan.candidates.map((one, i) => {
-        const nats = one.expectedInformationNats ?? one.expectedInformationBoundNats ?? NaN;
-        const atMost = one.expectedInformationNats === undefined && !Number.isNaN(nats) ? '≤\u00a0' : '';
-        return h('tr', {
-          class: i === plan.chosenIndex ? 'pick chosen' : 'pick', tabindex: 0,
-          onmouseenter: () => pointAt(i), onmouseleave: () => pointAt(-1),
-          onfocus: () => pointAt(i), onblur: () => pointAt(-1),
-        }, h('td', {}, i + 1, i === plan.chosenIndex ? ' ✓' : ''),
-          h('td', {}, goalKind(one.goal?.kind ?? GoalKind.UNSPECIFIED)),
-          h('td', n, figure(one.lengthM)), h('td', n, figure(one.durationS)),
-          priced ? h('td', n, atMost + figure(nats)) : null,
-          priced ? h('td', n, atMost + figure(nats / one.durationS)) : null,
-          rewarded ? h('td', n, figure(one.reward ?? NaN)) : null,
-          h('td', n, figure(one.cost)), h('td', n, figure(one.meanConcentrationPpm)),
-          h('td', n, figure(one.meanUcb)), h('td', n, figure(one.informationPenalty)), h('td', {}, source(one.pathSource)));
-      })))));
+    h('div', { class: 'scroll', tabindex: 0 }, h('table', { class: 'candidates' },
+      h('thead', {}, h('tr', {}, h('th', {}, '#'), h('th', {}, 'goal'), ...heads.map((head) => h('th', n, head)))),
+      ...bodies)));
 }
 
 function rejected(plan: Plan): HTMLElement {

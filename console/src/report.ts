@@ -9,7 +9,7 @@ import { figuresOf } from '@plumescout/client';
 import type { Raster } from '@plumescout/client';
 import type { LivePlan, MapStatus, ObjectiveOptions, ObjectiveVerdict, Plan } from '@plumescout/client/wire';
 import {
-  GetMapResponseSchema, LivePlanSchema, ObjectiveOptionsSchema, PlanSchema, QueryGasResponseSchema,
+  GetMapResponseSchema, LivePlanSchema, ObjectiveOptionsSchema, PlanSchema, Point2DSchema, QueryGasResponseSchema,
 } from '@plumescout/client/wire';
 import type { Place } from './area_draft.ts';
 import { fill, h } from './dom.ts';
@@ -83,7 +83,7 @@ class Report {
       raster: this.estimate, then: this.truth, figures: null, threshold_ppm: map.status?.gasThresholdPpm ?? 0,
       status: this.status, plans: [], why: null, asksWhy: true, candidate: -1,
       trails: new Map(mission.ways.map(({ robot, points_m }) => [robot, { points: points_m }])),
-      keepOut: map.status?.keepOut ?? [], draft: null, beside: null, homes: [], gases: { names: [], looked: '' }, robot: '', asked: null,
+      keepOut: map.status?.keepOut ?? [], draft: null, beside: null, homes: mission.homes_m.map(([xM, yM]) => create(Point2DSchema, { xM, yM })), gases: { names: [], looked: '' }, robot: '', asked: null,
       sources: mission.sources_m.map(([x_m, y_m]) => ({ x_m, y_m })), judged: [] };
     this.panel = new MapPanel(this.scene, () => {}, () => {}, null,
       this.objective === null || this.estimate === null ? null : questionOf(this.objective, this.estimate));

@@ -7,7 +7,7 @@ import type { Raster } from '@plumescout/client';
 import {
   GetMapResponseSchema, MapLayer, ObjectiveKind, ObjectiveOptionsSchema, PlanSchema,
 } from '@plumescout/client/wire';
-import type { GetMapResponse, Mission } from '@plumescout/client/wire';
+import type { GetMapResponse, Mission, Point2D } from '@plumescout/client/wire';
 import { PATIENCE, maps, planning } from './client.ts';
 import { isFirst, ofGas } from './gases.ts';
 import type { Gases } from './gases.ts';
@@ -22,7 +22,8 @@ const LAYERS = [MapLayer.OCCUPANCY, MapLayer.GAS_MEAN, MapLayer.GAS_VARIANCE];
 const MOST_QUESTIONS = 16;
 
 // What is looked at. `revision` 0: as it is now.
-export type Looked = { mission: Mission; revision: bigint; gases: Gases; raster: Raster; trails: Trails };
+export type Looked = {
+  mission: Mission; revision: bigint; gases: Gases; raster: Raster; trails: Trails; homes: Point2D[] };
 
 // One message, whatever parts it came in, as coarse as `raster`.
 async function wholeMap({ mission: { name }, revision, gases, raster }: Looked): Promise<GetMapResponse> {
@@ -62,7 +63,7 @@ async function objectiveOf({ mission, revision, gases }: Looked, raster: Raster)
 
 // The page. Errors are those of the calls.
 export async function reportOf(looked: Looked): Promise<string> {
-  const { mission, revision, trails } = looked;
+  const { mission, revision, trails, homes } = looked;
   const map = await wholeMap(looked);
   const raster = rasterOf(map); // it may have grown
   const [page, objective, { latest }] = await Promise.all([
@@ -74,6 +75,7 @@ export async function reportOf(looked: Looked): Promise<string> {
     map: base64Of(toBinary(GetMapResponseSchema, map)),
     plans: latest.map((plan) => ({ plan: base64Of(toBinary(PlanSchema, plan)) })),
     ways: [...trails].map(([robot, { points }]) => ({ robot, points_m: points })),
+    homes_m: homes.map(({ xM, yM }) => [xM, yM]),
     sources_m: [],
     objective,
   });

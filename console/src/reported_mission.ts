@@ -10,6 +10,7 @@ export type ReportedMission = {
   truth?: string; // absent: nobody knows
   plans: { time_s?: number; plan: string }[]; // robot by robot; time_s: of the mission's begin
   ways: { robot: string; points_m: [number, number][] }[];
+  homes_m: [number, number][];
   sources_m: [number, number][];
   // `asked`: ObjectiveOptions; `verdicts`: one of the wire's ObjectiveVerdict a cell, a byte each, row by
   // row from the south. Null: a complete map.

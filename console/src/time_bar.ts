@@ -132,7 +132,7 @@ export class TimeBar {
       history.replaceState(null, '', this.hash);
     } catch (error) {
       if (mine.signal.aborted) return;
-      fill(this.banner, sentence(error), this.backToLive());
+      fill(this.banner, sentence(error), h('button', { onclick: () => void this.goTo(revision) }, 'Try again'), this.backToLive());
     }
   }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { Series, drawChart } from '../src/charts.ts';
+import { Series, drawChart, spanOf } from '../src/charts.ts';
 import { recordedCanvas, styleSheet } from './recorded_canvas.ts';
 import { bytes, duration, figure } from '../src/words.ts';
 
@@ -58,4 +58,17 @@ test('one value is no line, and a line that does not move has one', () => {
   assert.deepEqual(chartOf('m²', [[3, 1]]).context.texts(), ['waiting for a second value']);
   const { context } = chartOf('m²', [[0, 0], [1, 0]]);
   assert.deepEqual(context.points('moveTo').at(-1), [44, 84]);
+});
+
+test('charts of the same time have one axis, whenever their lines begin', () => {
+  const late = [{ name: '', colour: 'hue 0', samples: [{ t_s: 30, value: 1 }, { t_s: 40, value: 2 }] }];
+  const early = [{ name: '', colour: 'hue 1', samples: [{ t_s: 0, value: 1 }, { t_s: 35, value: 2 }] }];
+  const span = spanOf([...late, ...early, { name: '', colour: '', samples: [] }]);
+  assert.deepEqual(span, { from_s: 0, to_s: 40 });
+  styleSheet();
+  const canvas = recordedCanvas(300, 100);
+  drawChart(canvas as never, late, 'm²', span);
+  const line = canvas.context.strokes.filter(({ stroke, call }) => stroke === 'hue 0' && /To$/.test(call)).map(({ args }) => args[0]);
+  assert.deepEqual(line, [231.5, 294]);
+  assert.ok(canvas.context.texts().includes('last 40 s'));
 });

@@ -39,6 +39,13 @@ test('what a server or a front refuses by its size is told in words', async () =
   });
 });
 
+test('a mission that is gone is told in words', async () => {
+  const { missions, sentence } = await client(() => new Response('', { headers: {
+    'content-type': 'application/grpc-web+proto', 'grpc-status': '5', 'grpc-message': 'MISSION_NOT_FOUND: missions/hall' } }));
+  await assert.rejects(missions.createMission(MAP), (error) =>
+    sentence(error) === 'There is no mission of this name. It may have been deleted.');
+});
+
 test('no answer is told as such', async () => {
   const { missions, troubleOf } = await client(() => { throw new TypeError('fetch failed'); });
   await assert.rejects(missions.createMission(MAP), (error) =>

@@ -3,8 +3,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { create } from '@bufbuild/protobuf';
-import { GoalKind, MapStatusSchema, PlanSchema, RobotSchema } from '@plumescout/client/wire';
-import { WHAT_COUNTS, missionFigures } from '../src/mission_figures.ts';
+import { GoalKind, MapStatusSchema, MissionFiguresSchema, PlanSchema, RobotSchema } from '@plumescout/client/wire';
+import { WHAT_COUNTS, figuresThen, missionFigures } from '../src/mission_figures.ts';
 
 const figures = { known_m2: 12, max_ppm: 30, min_ppm: 0, plume_m2: 4, mean_entropy_nats: -1 } as never;
 const frontier = (other: object) => ({ kind: GoalKind.OCCUPANCY_FRONTIER, reachable: true, ...other });
@@ -63,4 +63,19 @@ test('of several gases it is said which one a figure is of, and there is a plume
   assert.ok('Completeness of methane' in second);
   assert.ok('Plume of methane (above 0 ppm)' in first);
   assert.ok(!Object.keys(second).some((title) => title.startsWith('Plume')));
+});
+
+test('what was is charted as what is, of the gas that is looked at', () => {
+  const then = create(MissionFiguresSchema, { knownAreaM2: 12, reachableAreaM2: 8, observedAreaM2: 2, openFrontierCount: 1,
+    undecidedAreaM2: 3.5, gases: [{ species: 'methane', maxMeanPpm: 30, plumeAreaM2: 4, meanEntropyNats: -1, inPosteriorCount: 5n },
+      { species: 'ammonia', maxMeanPpm: 7 }], robots: [{ robot: R1, appliedSequence: 7n }] });
+  const status = create(MapStatusSchema, { gasThresholdPpm: 2.5, robots: [{ robot: R1, appliedSequence: 7n }],
+    objective: { undecidedAreaM2: 3.5 }, reachableAreaM2: 8, observedAreaM2: 2, frontiers: [frontier({})],
+    gases: [{ species: 'methane', gasCounters: { inPosteriorCount: 5n } }, { species: 'ammonia' }] });
+  const first = { names: ['methane', 'ammonia'], looked: '' };
+  assert.deepEqual(figuresThen(then, 2.5, first),
+                   missionFigures({ figures, status: { ...status, gasCounters: status.gases[0].gasCounters }, gases: first }, [], []));
+  const of = Object.fromEntries(figuresThen(then, 0, { ...first, looked: 'ammonia' }).map(({ title, value }) => [title, value]));
+  assert.equal(of['Largest gas mean of ammonia'], 7);
+  assert.ok(!Object.keys(of).some((title) => title.startsWith('Plume')));
 });

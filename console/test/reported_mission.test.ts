@@ -5,7 +5,7 @@ import { test } from 'node:test';
 import { base64Of, bytesOf, fillReport } from '../src/reported_mission.ts';
 import type { ReportedMission } from '../src/reported_mission.ts';
 
-const MISSION: ReportedMission = { title: '</script>', map: 'AQ==', plans: [], ways: [], sources_m: [], objective: null };
+const MISSION: ReportedMission = { title: '</script>', map: 'AQ==', plans: [], ways: [], homes_m: [], sources_m: [], objective: null };
 
 test('a mission stands in the page, and nothing of it ends the script', () => {
   const page = fillReport('<script>@mission@</script><script>x</script>', MISSION);

@@ -115,10 +115,18 @@ std::string ReadExplorerPage() {
 std::string MakeExplorer(absl::string_view page, const Run& run) {
   const std::size_t place = page.find(kPlace);
   if (place == absl::string_view::npos) return "";
-  Json mission = {{"map", EstimateOf(run.final_map)}, {"truth", TruthOf(run.world.scene())},
-                  {"plans", PlanEntries(run.team)},   {"ways", Json::array()},
-                  {"sources_m", Json::array()},       {"objective", ObjectiveOf(run.objective)}};
-  for (const EpisodeResult& robot : run.team.robots) mission["ways"].push_back(WayOf(robot));
+  Json mission = {{"map", EstimateOf(run.final_map)},
+                  {"truth", TruthOf(run.world.scene())},
+                  {"plans", PlanEntries(run.team)},
+                  {"ways", Json::array()},
+                  {"homes_m", Json::array()},
+                  {"sources_m", Json::array()},
+                  {"objective", ObjectiveOf(run.objective)}};
+  for (const EpisodeResult& robot : run.team.robots) {
+    mission["ways"].push_back(WayOf(robot));
+    const Json& way = mission["ways"].back()["points_m"];
+    if (!way.empty()) mission["homes_m"].push_back(way.front());  // where it began
+  }
   for (const GasSource& source : run.world.scene().sources) {
     mission["sources_m"].push_back({source.x_m, source.y_m});
   }

@@ -14,10 +14,10 @@ namespace plumescout::lab {
 // there.
 std::string ReadExplorerPage();
 
-// The page with what it draws: the map at the end and the truth, the ways that robots drove, and
-// every plan with what it was chosen from, and how the objective stands if it has one. All as the
-// wire has it, for the page reads it with what the console reads missions with. Empty if `page` is,
-// or has no place for a mission.
+// The page with what it draws: the map at the end and the truth, the ways that robots drove from
+// their homes, and every plan with what it was chosen from, and how the objective stands if it has
+// one. All as the wire has it, for the page reads it with what the console reads missions with.
+// Empty if `page` is, or has no place for a mission.
 std::string MakeExplorer(absl::string_view page, const Run& run);
 
 }  // namespace plumescout::lab

@@ -45,6 +45,7 @@ constexpr std::array<RpcRow, kRpcCount> kTable = {{
     {Rpc::kExportMission, "SnapshotService", "ExportMission", kNo, kNo, kYes, kYes},
     {Rpc::kImportMission, "SnapshotService", "ImportMission", kNo, kNo, kYes, kYes},
     {Rpc::kGetMissionHistory, "SnapshotService", "GetMissionHistory", kNo, kYes, kYes, kYes},
+    {Rpc::kGetMissionFigures, "SnapshotService", "GetMissionFigures", kNo, kYes, kYes, kYes},
     {Rpc::kGetServerInfo, "SystemService", "GetServerInfo", kYes, kYes, kYes, kNo},
     {Rpc::kDrainServer, "SystemService", "DrainServer", kNo, kNo, kNo, kNo},
 }};

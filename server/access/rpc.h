@@ -42,6 +42,7 @@ enum class Rpc {
   kExportMission,
   kImportMission,
   kGetMissionHistory,
+  kGetMissionFigures,
   kGetServerInfo,
   kDrainServer,
 };

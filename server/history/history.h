@@ -3,6 +3,7 @@
 #pragma once
 
 #include "server/history/import_desk.h"
+#include "server/history/past_figures.h"
 #include "server/history/past_maps.h"
 #include "server/history/past_missions.h"
 #include "server/store/mission_store.h"
@@ -16,11 +17,13 @@ struct History {
       : store(*mission_store),
         past_missions(mission_store, registry),
         past_maps(&past_missions),
+        past_figures(&past_missions),
         imports(mission_store, registry, limits) {}
 
   MissionStore& store;
   PastMissions past_missions;
   PastMaps past_maps;
+  PastFigures past_figures;
   ImportDesk imports;
 };
 

@@ -7,9 +7,7 @@
 #include <utility>
 #include <variant>
 
-#include "absl/strings/str_cat.h"
 #include "core/mission/observation_check.h"
-#include "core/types/error_reason.h"
 #include "core/types/status_macros.h"
 #include "formats/journal/event_codec.h"
 
@@ -24,11 +22,6 @@ constexpr absl::Duration kShortestWait = absl::Milliseconds(10);
 constexpr absl::Duration kLongestWait = absl::Seconds(1);
 // Where the pool has no room, it is asked again after this.
 constexpr absl::Duration kPoolRetry = absl::Milliseconds(250);
-
-absl::Status ReplayDiffers(std::int64_t number, const absl::Status& why) {
-  return TypedError(absl::StatusCode::kDataLoss, reason::kStoreDamaged,
-                    absl::StrCat("event ", number, " of the journal: ", why.message()));
-}
 
 }  // namespace
 

@@ -3,12 +3,18 @@
 #include "server/history/past_missions.h"
 
 #include "absl/strings/str_cat.h"
+#include "core/types/error_reason.h"
 #include "core/types/status_macros.h"
 #include "proto/convert/field.h"
 #include "server/base/errors.h"
 #include "server/missions/mission_recovery.h"
 
 namespace plumescout::server {
+
+absl::Status ReplayDiffers(std::int64_t number, const absl::Status& why) {
+  return TypedError(absl::StatusCode::kDataLoss, reason::kStoreDamaged,
+                    absl::StrCat("event ", number, " of the journal: ", why.message()));
+}
 
 absl::StatusOr<PastMission> PastMissions::Make(const MissionHost& host, std::int64_t revision,
                                                absl::string_view field, PastUse use,

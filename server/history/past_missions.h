@@ -22,7 +22,7 @@
 namespace plumescout::server {
 
 // What a past state is made for. Of each, a mission has one at a time.
-enum class PastUse { kMap, kReplay, kExport };
+enum class PastUse { kMap, kReplay, kExport, kFigures };
 
 // A mission as it was, beside the one that goes on.
 struct PastMission {
@@ -58,6 +58,9 @@ class PastMissions {
   absl::Mutex mutex_;
   std::set<Place> taken_ ABSL_GUARDED_BY(mutex_);
 };
+
+// An event of the journal that the mission does not take as it once did. kDataLoss.
+absl::Status ReplayDiffers(std::int64_t number, const absl::Status& why);
 
 // How a store knows the mission.
 inline std::string KeyOf(const MissionHost& host) { return MissionKey(host.tenant(), host.id()); }

@@ -31,6 +31,20 @@ absl::Status SnapshotService::History(const v1::GetMissionHistoryRequest& reques
   });
 }
 
+absl::Status SnapshotService::Figures(const v1::GetMissionFiguresRequest& request,
+                                      v1::GetMissionFiguresResponse* response,
+                                      const std::shared_ptr<UnaryCall>& call) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const MissionId mission,
+                              ParseMissionName("mission", request.mission()));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMission(call->caller(), mission));
+  PLUMESCOUT_RETURN_IF_ERROR(context_.CheckKeepsHistory());
+  PLUMESCOUT_ASSIGN_OR_RETURN(*response,
+                              context_.history->past_figures.Ask(
+                                  host, {context_.past_pool, TurnOf(call->info(), mission)}));
+  call->Answer(absl::OkStatus());
+  return absl::OkStatus();
+}
+
 grpc::ServerWriteReactor<v1::ExportMissionResponse>* SnapshotService::ExportMission(
     grpc::CallbackServerContext* context, const v1::ExportMissionRequest* request) {
   return ExportStream::Start(&context_, context, *request);
@@ -49,6 +63,15 @@ grpc::ServerUnaryReactor* SnapshotService::GetMissionHistory(
   return UnaryCall::Start(context_, Rpc::kGetMissionHistory, context,
                           [=, this](const std::shared_ptr<UnaryCall>& call) {
                             return History(*request, response, call);
+                          });
+}
+
+grpc::ServerUnaryReactor* SnapshotService::GetMissionFigures(
+    grpc::CallbackServerContext* context, const v1::GetMissionFiguresRequest* request,
+    v1::GetMissionFiguresResponse* response) {
+  return UnaryCall::Start(context_, Rpc::kGetMissionFigures, context,
+                          [=, this](const std::shared_ptr<UnaryCall>& call) {
+                            return Figures(*request, response, call);
                           });
 }
 

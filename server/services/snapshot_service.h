@@ -21,10 +21,16 @@ class SnapshotService final : public v1::SnapshotService::CallbackService {
   grpc::ServerUnaryReactor* GetMissionHistory(grpc::CallbackServerContext* context,
                                               const v1::GetMissionHistoryRequest* request,
                                               v1::GetMissionHistoryResponse* response) override;
+  grpc::ServerUnaryReactor* GetMissionFigures(grpc::CallbackServerContext* context,
+                                              const v1::GetMissionFiguresRequest* request,
+                                              v1::GetMissionFiguresResponse* response) override;
 
  private:
   absl::Status History(const v1::GetMissionHistoryRequest& request,
                        v1::GetMissionHistoryResponse* response,
+                       const std::shared_ptr<UnaryCall>& call);
+  absl::Status Figures(const v1::GetMissionFiguresRequest& request,
+                       v1::GetMissionFiguresResponse* response,
                        const std::shared_ptr<UnaryCall>& call);
 
   const ServiceContext& context_;

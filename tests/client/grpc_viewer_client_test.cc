@@ -182,6 +182,21 @@ TEST_F(GrpcViewerClientTest, HistoryIsReadByPages) {
   EXPECT_EQ(events[0].robot, "scout");
 }
 
+TEST_F(GrpcViewerClientTest, FiguresLeadFromTheBeginningToNow) {
+  absl::StatusOr<FigureHistory> history;
+  do {
+    history = viewer_->GetFigures("house");
+    ASSERT_TRUE(history.ok()) << history.status();
+  } while (history->more_follow);
+  ASSERT_FALSE(history->figures.empty());
+  const MissionFigures& last = history->figures.back();
+  EXPECT_GT(last.known_area_m2, 0.0);
+  EXPECT_GT(last.elapsed_s, 0.0);
+  ASSERT_EQ(last.gases.size(), 1U);
+  EXPECT_GT(last.gases[0].in_posterior, 0);
+  EXPECT_EQ(last.applied_sequences.count("scout"), 1U);
+}
+
 TEST_F(GrpcViewerClientTest, AMissionIsCopiedByItsFile) {
   std::string file;
   const MissionFileSink into = [&](const MissionFilePiece& piece) {

@@ -92,6 +92,7 @@ class Runner {
         {"export_mission", &Runner::ExportMission},
         {"import_mission", &Runner::ImportMission},
         {"get_mission_history", &Runner::GetMissionHistory},
+        {"get_mission_figures", &Runner::GetMissionFigures},
     };
     const auto found = steps.find(kind);
     if (found == steps.end()) return absl::UnimplementedError("no step of kind " + kind);
@@ -184,6 +185,7 @@ class Runner {
     } while (!query.page_token.empty());
     return Json{{"events", events}};
   }
+  Answer GetMissionFigures(const Json& with) { return TellFigures(*viewer_, with["mission"]); }
 
   // Robots.
   const RobotSession& RobotOf(const Json& with) { return sessions_.at(with["session"]).robot; }

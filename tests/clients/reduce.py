@@ -134,6 +134,14 @@ def event(message):
     }
 
 
+def figures(message):
+    return {
+        "known_area_m2": message.known_area_m2,
+        "readings": [gas.in_posterior_count for gas in message.gases],
+        "robots": [last_part(one.robot) for one in message.robots],
+    }
+
+
 def area(found, layers):
     """Of a plumescout.Map; layers: those that were asked for, none: all."""
     status = found.status

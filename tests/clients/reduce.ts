@@ -102,6 +102,11 @@ export function event(message: wire.MissionEvent) {
   return { kind: wire.MissionEventKind[message.kind], robot: lastPart(message.robot) || null };
 }
 
+export function figures({ knownAreaM2, gases, robots }: wire.MissionFigures) {
+  return { known_area_m2: knownAreaM2, readings: gases.map((gas) => Number(gas.inPosteriorCount)),
+           robots: robots.map(({ robot }) => lastPart(robot)) };
+}
+
 export function area({ raster, status }: DecodedMap, layers: string[] = []) {
   const { geometry, occupancy, mean_ppm, variance_ppm2 } =
     raster ?? new Raster({ x_m: 0, y_m: 0, resolution_m: 0, columns: 0, rows: 0 });

@@ -117,6 +117,9 @@ class Runner:
         events = items(self.client.mission_history(mission, values))
         return {"events": [reduce.event(event) async for event in events]}
 
+    async def get_mission_figures(self, mission):
+        return reduce.figures((await get(self.client.mission_figures(mission)))[-1])
+
     # Robots.
 
     async def register_robot(

@@ -301,6 +301,12 @@ export class Runner {
     }), (page) => page.events);
     return { events: events.map(reduce.event) };
   }
+  async get_mission_figures({ mission }: { mission: string }) {
+    for (;;) {
+      const { figures, moreFollow } = await this.client.snapshots.getMissionFigures({ mission: name(mission) });
+      if (!moreFollow) return reduce.figures(figures.at(-1)!);
+    }
+  }
 }
 
 // What the server refused; anything else ends the runner.

@@ -12,6 +12,7 @@
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "client/mission_messages.h"
+#include "core/types/status_macros.h"
 #include "formats/file_sum.h"
 #include "proto/convert/enums.h"
 
@@ -247,6 +248,20 @@ Json TellArea(const Polygon& area) {
 Json TellEvent(const MissionEvent& event) {
   return {{"kind", Word(v1::MissionEventKind_Name(ToProto(event.kind)), "MISSION_EVENT_KIND_")},
           {"robot", event.robot.empty() ? Json() : Json(event.robot)}};
+}
+
+absl::StatusOr<Json> TellFigures(ViewerClient& viewer, const MissionId& mission) {
+  FigureHistory history{{}, true};
+  while (history.more_follow) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(history, viewer.GetFigures(mission));
+  }
+  if (history.figures.empty()) return absl::NotFoundError("no figures are told");
+  const MissionFigures& last = history.figures.back();
+  Json readings = Json::array();
+  for (const GasFigures& gas : last.gases) readings.push_back(gas.in_posterior);
+  Json robots = Json::array();
+  for (const auto& [robot, sequence] : last.applied_sequences) robots.push_back(robot);
+  return Json{{"known_area_m2", last.known_area_m2}, {"readings", readings}, {"robots", robots}};
 }
 
 Json TellRobot(const RobotDetails& robot) {

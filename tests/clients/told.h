@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "absl/status/statusor.h"
 #include "client/mission_details.h"
 #include "client/mission_history.h"
 #include "client/operator_client.h"
@@ -34,6 +35,8 @@ nlohmann::json TellOptional(const std::optional<double>& value);
 nlohmann::json TellMission(const MissionDetails& mission);
 nlohmann::json TellArea(const Polygon& area);
 nlohmann::json TellEvent(const MissionEvent& event);
+// The last of them, once no more follow.
+absl::StatusOr<nlohmann::json> TellFigures(ViewerClient& viewer, const MissionId& mission);
 nlohmann::json TellRobot(const RobotDetails& robot);
 nlohmann::json TellStanding(const RobotStanding& standing);
 nlohmann::json TellPlan(const Plan& plan);

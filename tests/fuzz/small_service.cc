@@ -82,6 +82,7 @@ const std::vector<HandledRequest>& HandledRequests() {
       Handled(&SmallService::ListRobots),
       Handled(&SmallService::ListPlans),
       Handled(&SmallService::History),
+      Handled(&SmallService::Figures),
       Handled(&SmallService::WatchRobot),
       Handled(&SmallService::GetRobot),
       Handled(&SmallService::Name<v1::GetMissionRequest>),
@@ -311,6 +312,10 @@ void SmallService::ListPlans(const v1::ListPlansRequest& request) {
 void SmallService::History(const v1::GetMissionHistoryRequest& request) {
   if (!ParseMissionName("mission", request.mission()).ok()) return;
   server::HistoryPageFromProto(request).status().IgnoreError();
+}
+
+void SmallService::Figures(const v1::GetMissionFiguresRequest& request) {
+  ParseMissionName("mission", request.mission()).status().IgnoreError();
 }
 
 void SmallService::WatchRobot(const v1::WatchRobotRequest& request) {

@@ -53,6 +53,7 @@ class SmallService {
   void ListRobots(const v1::ListRobotsRequest& request);
   void ListPlans(const v1::ListPlansRequest& request);
   void History(const v1::GetMissionHistoryRequest& request);
+  void Figures(const v1::GetMissionFiguresRequest& request);
   void WatchRobot(const v1::WatchRobotRequest& request);
   void GetRobot(const v1::GetRobotRequest& request);
   // GetMission, DeleteMission, PauseMission, ResumeMission, FinishMission.

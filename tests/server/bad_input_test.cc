@@ -63,7 +63,8 @@ std::map<std::string, BadInputs> AllBadInputs() {
           {"WatchMapRequest", BadWatchMap()},
           {"ExportMissionRequest", BadExport()},
           {"ImportMissionRequest", BadImport()},
-          {"GetMissionHistoryRequest", BadHistory()}};
+          {"GetMissionHistoryRequest", BadHistory()},
+          {"GetMissionFiguresRequest", BadMissionName("mission")}};
 }
 
 // Of the mission in an update, what no mask may name is not read.
@@ -271,6 +272,13 @@ TEST_F(BadInputTest, GetMissionHistory) {
   good.set_mission("missions/hall");
   Check(BadHistory(), Copies(good),
         SenderOf(snapshots_, &v1::SnapshotService::Stub::GetMissionHistory));
+}
+
+TEST_F(BadInputTest, GetMissionFigures) {
+  v1::GetMissionFiguresRequest good;
+  good.set_mission("missions/hall");
+  Check(BadMissionName("mission"), Copies(good),
+        SenderOf(snapshots_, &v1::SnapshotService::Stub::GetMissionFigures));
 }
 
 TEST_F(BadInputTest, PartsOfAnImportOutOfOrderAndOfNothing) {

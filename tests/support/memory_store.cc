@@ -196,6 +196,7 @@ MemoryStore::MemoryStore(bool is_durable, std::shared_ptr<Shelf> shelf)
 
 absl::StatusOr<std::unique_ptr<JournalReader>> MemoryStore::Read(const std::string& key,
                                                                  std::int64_t first_number) {
+  ++read_count_;
   auto mission = shelf_->Find(key);
   if (mission == nullptr) return NotStored(key);
   if (first_number < 1) return BadFirstNumber(first_number);

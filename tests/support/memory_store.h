@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@ class MemoryStore final : public CommittedStore {
   absl::StatusOr<AcquiredMission> Peek(const std::string& key) override;
   absl::StatusOr<std::vector<StoredMission>> List() override;
   bool is_durable() const override { return is_durable_; }
+  // How often a journal was opened.
+  int read_count() const { return read_count_; }
 
  private:
   class Shelf;
@@ -29,6 +32,7 @@ class MemoryStore final : public CommittedStore {
   MemoryStore(bool is_durable, std::shared_ptr<Shelf> shelf);
 
   const bool is_durable_;
+  std::atomic<int> read_count_ = 0;
   const std::shared_ptr<Shelf> shelf_;  // with readers
 };
 

@@ -18,11 +18,12 @@ from plumescout.v1 import system_service_pb2 as system_pb
 
 from . import _mission_file, rpcs
 from ._calls import Calls
-from ._operation import Emit, EndWriting, Open, Operation, Read, Write
+from ._operation import Emit, EndWriting, Open, Operation, Read, Sleep, Write
 from .errors import PlumeScoutError
 
 _NO_PROGRESS: _mission_file.Progress = lambda done_bytes, expected_bytes: None
 _UNCHANGED: Any = object()
+_FIGURES_PERIOD_S = 0.5  # between looks at what a replay has found so far
 
 
 class MissionOperations(Calls):
@@ -169,6 +170,16 @@ class MissionOperations(Calls):
             request.page_token = page.next_page_token
             if not request.page_token:
                 return
+
+    def mission_figures(self, mission: str) -> Operation[list[snapshot_pb.MissionFigures]]:
+        """How the map came to have its figures: some hundred plumescout.v1.MissionFigures, in order
+        of their revisions. The server replays the journal for that, which is waited for."""
+        request = snapshot_pb.GetMissionFiguresRequest(mission=mission_name(mission))
+        while True:
+            response = yield from self.call(rpcs.GET_MISSION_FIGURES, request)
+            if not response.more_follow:
+                return list(response.figures)
+            yield Sleep(_FIGURES_PERIOD_S)
 
     def export_mission(
         self,

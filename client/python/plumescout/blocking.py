@@ -264,6 +264,7 @@ class Client:
     update_mission = _client_call(Operations.update_mission)
     delete_mission = _client_call(Operations.delete_mission)
     mission_history = _client_stream(Operations.mission_history, snapshot_pb.MissionEvent)
+    mission_figures = _client_call(Operations.mission_figures)
     export_mission = _client_call(Operations.export_mission)
     import_mission = _client_call(Operations.import_mission)
     register = _registration(Operations.register)

@@ -129,5 +129,8 @@ IMPORT_MISSION = Rpc(
 GET_MISSION_HISTORY = Rpc(
     _SNAPSHOTS, snapshots.GetMissionHistoryRequest, snapshots.GetMissionHistoryResponse
 )
+GET_MISSION_FIGURES = Rpc(
+    _SNAPSHOTS, snapshots.GetMissionFiguresRequest, snapshots.GetMissionFiguresResponse
+)
 
 ALL = [value for value in list(globals().values()) if isinstance(value, Rpc)]

@@ -58,6 +58,7 @@ class WatchesOnly final : public ViewerClient {
   absl::StatusOr<HistoryPage> GetHistory(const MissionId&, const HistoryQuery&) override {
     return No();
   }
+  absl::StatusOr<FigureHistory> GetFigures(const MissionId&) override { return No(); }
 
  private:
   static absl::Status No() { return absl::UnimplementedError("nobody asks"); }

@@ -86,6 +86,7 @@ TEST(Explorer, PlansAndWaysAreThere) {
   EXPECT_EQ(mission["ways"][0]["robot"], plan.robot());
   // To the centimetre, and a robot that stands is at one place.
   EXPECT_EQ(mission["ways"][0]["points_m"].dump(), "[[1.0,2.0],[1.5,2.25]]");
+  EXPECT_EQ(mission["homes_m"].dump(), "[[1.0,2.0]]");
   EXPECT_EQ(mission["sources_m"].size(), SmallWorld().scene().sources.size());
 }
 

@@ -104,6 +104,20 @@ TEST_F(SnapshotServiceTest, HistoryTellsWhatHappened) {
   EXPECT_THAT(plans->events(0).summary(), testing::StartsWith("plan to "));
 }
 
+TEST_F(SnapshotServiceTest, FiguresOfThePastAreTold) {
+  v1::GetMissionFiguresRequest request;
+  request.set_mission("missions/hall");
+  absl::StatusOr<v1::GetMissionFiguresResponse> answer;
+  do {
+    answer = Call(snapshots_, &v1::SnapshotService::Stub::GetMissionFigures, request);
+    ASSERT_TRUE(answer.ok()) << answer.status();
+  } while (answer->more_follow());
+  ASSERT_GT(answer->figures_size(), 0);
+  const v1::MissionFigures& last = answer->figures(answer->figures_size() - 1);
+  EXPECT_EQ(last.revision(), Revision());
+  EXPECT_EQ(last.robots(0).robot(), kRobot);
+}
+
 TEST_F(SnapshotServiceTest, PastMapsAreServed) {
   const std::string then = MapOf("missions/hall");
   const std::int64_t revision = Revision();
@@ -126,6 +140,10 @@ TEST_F(SnapshotServiceTest, ServerWithoutAJournalSaysSo) {
   request.set_mission("missions/hall");
   EXPECT_TRUE(absl::IsFailedPrecondition(
       Call(snapshots_, &v1::SnapshotService::Stub::GetMissionHistory, request).status()));
+  v1::GetMissionFiguresRequest figures;
+  figures.set_mission("missions/hall");
+  EXPECT_TRUE(absl::IsFailedPrecondition(
+      Call(snapshots_, &v1::SnapshotService::Stub::GetMissionFigures, figures).status()));
   EXPECT_TRUE(absl::IsFailedPrecondition(ExportClient(*snapshots_, "missions/hall").Finish()));
   EXPECT_TRUE(absl::IsFailedPrecondition(ImportClient(*snapshots_).Finish().status()));
 }
