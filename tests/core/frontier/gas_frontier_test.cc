@@ -266,7 +266,8 @@ TEST(GasThreshold, MayBeFixed) {
 TEST(ObservedVariance, IsAShareOfTheVarianceOnAnOpenLattice) {
   // ln(32 * 3 / 0.001) / (12 pi) = 0.30426...
   const double open_ppm2 = std::log(96'000.0) / (12.0 * M_PI);
-  EXPECT_DOUBLE_EQ(ObservedVariance_ppm2(FrontierOptions{}, GasOptions{}), 0.7 * open_ppm2);
+  EXPECT_DOUBLE_EQ(ObservedVariance_ppm2(FrontierOptions{}, PublishedGasOptions()),
+                   0.7 * open_ppm2);
 }
 
 TEST(ObservedVariance, MayBeGiven) {
