@@ -21,6 +21,7 @@ enum class MissionState {
   kFinished,    // is only read
   kRecovering,  // not in memory yet, since the server has just started
   kSleeping,    // not in memory, since nobody has used it for long: the first call wakes it
+  kElsewhere,   // another of the servers that share a store has it: MissionDetails::node
   kDamaged,     // what is kept of it cannot be used
   kUnknown,     // the server says what this client does not know
 };
@@ -38,8 +39,8 @@ struct LatencySummary {
   friend bool operator==(const LatencySummary&, const LatencySummary&) = default;
 };
 
-// A mission as its service tells of it. Of one that is recovering,
-// asleep or damaged, only name and state.
+// A mission as its service tells of it. Of one that is recovering, asleep, elsewhere or damaged,
+// only name, state and node.
 struct MissionDetails {
   MissionId id;
   MissionState state = MissionState::kUnknown;
@@ -59,6 +60,7 @@ struct MissionDetails {
   EventRetention event_retention = EventRetention::kAll;
   std::optional<ObjectiveStatus> objective = std::nullopt;  // none: a complete map
   std::string objective_explanation = {};                   // that in a sentence
+  std::string node = {};  // the server that has it, of several that share a store
 };
 
 }  // namespace plumescout::client

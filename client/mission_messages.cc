@@ -49,6 +49,8 @@ MissionState StateFromProto(v1::MissionState state) {
       return MissionState::kRecovering;
     case v1::MISSION_STATE_SLEEPING:
       return MissionState::kSleeping;
+    case v1::MISSION_STATE_ELSEWHERE:
+      return MissionState::kElsewhere;
     case v1::MISSION_STATE_DAMAGED:
       return MissionState::kDamaged;
     default:
@@ -69,9 +71,10 @@ absl::StatusOr<MissionDetails> DetailsFromProto(const v1::Mission& proto) {
   MissionDetails mission;
   PLUMESCOUT_ASSIGN_OR_RETURN(mission.id, ParseMissionName("mission.name", proto.name()));
   mission.state = StateFromProto(proto.state());
-  const bool is_absent = mission.state == MissionState::kRecovering ||
-                         mission.state == MissionState::kSleeping ||
-                         mission.state == MissionState::kDamaged;
+  mission.node = proto.node();
+  const bool is_absent =
+      mission.state == MissionState::kRecovering || mission.state == MissionState::kSleeping ||
+      mission.state == MissionState::kElsewhere || mission.state == MissionState::kDamaged;
   if (is_absent) return mission;
   PLUMESCOUT_ASSIGN_OR_RETURN(mission.options,
                               FromProto(proto.options(), MissionOptions(), "mission.options"));

@@ -91,4 +91,18 @@ FairPoolOptions ToPlanningPoolOptions(const PlanningConfig& config) {
   return options;
 }
 
+FairPoolOptions ToViewersPoolOptions(const std::string& name, int threads,
+                                     const MapConfig& config) {
+  FairPoolOptions options;
+  options.name = name;
+  options.threads = threads;
+  options.max_queued = config.max_queued_queries;
+  options.max_queued_per_group = options.max_queued_per_member =
+      std::max(1, options.max_queued / 2);
+  options.max_running_per_group = options.max_running_per_member = threads;
+  options.groups_leave_room = true;
+  options.yields = true;
+  return options;
+}
+
 }  // namespace plumescout::server

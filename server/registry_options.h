@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "server/base/fair_pool.h"
 #include "server/calls/service_context.h"
@@ -19,5 +20,7 @@ ImportLimits ToImportLimits(const ServerConfig& config);
 RecordingOptions ToRecordingOptions(const RecordConfig& config);
 ServiceLimits ToServiceLimits(const ServerConfig& config);
 FairPoolOptions ToPlanningPoolOptions(const PlanningConfig& config);
+// Of callers who ask at the same time each has its turns; they have what robots leave of the CPU.
+FairPoolOptions ToViewersPoolOptions(const std::string& name, int threads, const MapConfig& config);
 
 }  // namespace plumescout::server

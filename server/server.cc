@@ -55,8 +55,10 @@ absl::StatusOr<Identity> IdentityOf(const std::shared_ptr<const Authenticator>& 
 
 // Times to live are seconds at least; who is locked out is so within this.
 constexpr absl::Duration kSweepPeriod = absl::Seconds(1);
+// How often servers that share a store tell it for how long missions are to be kept.
+constexpr absl::Duration kForgettingPeriod = absl::Seconds(30);
 
-// Who looks on has what robots leave of the CPU: plans, and what they wait for, go first.
+// What robots leave of the CPU is for it: plans, and what they wait for, go first.
 constexpr bool kYields = true;
 // Looks at the past take seconds, and do not keep anybody from what is now.
 constexpr int kPastThreads = 1;
@@ -66,21 +68,6 @@ constexpr int kAuditThreads = 1;
 constexpr int kSnapshotThreads = 1;
 // Missions are created now and then; those with large known maps take a second, beside the others.
 constexpr int kCreationThreads = 1;
-
-// Of callers who ask at the same time each has its turns.
-FairPoolOptions ToViewersPoolOptions(const std::string& name, int threads,
-                                     const MapConfig& config) {
-  FairPoolOptions options;
-  options.name = name;
-  options.threads = threads;
-  options.max_queued = config.max_queued_queries;
-  options.max_queued_per_group = options.max_queued_per_member =
-      std::max(1, options.max_queued / 2);
-  options.max_running_per_group = options.max_running_per_member = threads;
-  options.groups_leave_room = true;
-  options.yields = kYields;
-  return options;
-}
 
 RegistryHooks Complete(RegistryHooks hooks, const ServerConfig& config, MissionStore* store,
                        WorkerPool* epoch_pool, WorkerPool* audit_pool, WorkerPool* snapshot_pool,
@@ -264,6 +251,9 @@ absl::Status Server::Listen() {
   }
   grpc_server_->GetHealthCheckService()->SetServingStatus(true);
   sweeper_ = std::make_unique<PeriodicTask>(kSweepPeriod, [this] { Sweep(); });
+  if (store_ != nullptr && store_->nodes() != nullptr) {
+    forgetter_ = std::make_unique<PeriodicTask>(kForgettingPeriod, [this] { DeleteForgotten(); });
+  }
   return absl::OkStatus();
 }
 
@@ -323,6 +313,18 @@ void Server::Sweep() {
   }
   const int ended = streams_.EndLockedOut();
   if (ended > 0) LogWarning("callers were locked out", {{"streams", absl::StrCat(ended)}});
+}
+
+void Server::DeleteForgotten() {
+  const auto deleted = registry_.DeleteForgotten(kForgettingPeriod);
+  if (!deleted.ok()) {
+    LogWarning("store not told how long missions are kept",
+               {{"why", std::string(deleted.status().message())}});
+    return;
+  }
+  for (const MissionId& id : *deleted) {
+    LogInfo("mission deleted", {{"mission", id}, {"why", "idle, and of no server"}});
+  }
 }
 
 std::shared_ptr<grpc::Channel> Server::InProcessChannel() {
@@ -401,6 +403,7 @@ void Server::Drain() {
   if (store_ != nullptr && store_->nodes() != nullptr) store_->nodes()->SetOnLost(nullptr);
   registry_.ReleaseAll();
   store_watch_.reset();
+  forgetter_.reset();  // it may wait for the store; what it does no mission waits for
 }
 
 void Server::EndCalls(SteadyTime cut) {

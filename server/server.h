@@ -88,6 +88,8 @@ class Server {
   // Deletes missions that nobody has called for during their idle time to live, and ends streams
   // whose callers would not be let in any more.
   void Sweep();
+  // Of a store that several servers share: see MissionRegistry::DeleteForgotten.
+  void DeleteForgotten();
   // Returns when every call has its answer; drops what the missions have queued at `cut`.
   void EndCalls(SteadyTime cut);
   // Whether the server takes connections and answers calls.
@@ -127,6 +129,7 @@ class Server {
   std::unique_ptr<WorkerPool> recovery_pool_;  // null without a store, as is the next
   std::unique_ptr<StoreWatch> store_watch_;    // while the server serves
   std::unique_ptr<PeriodicTask> sweeper_;      // as well
+  std::unique_ptr<PeriodicTask> forgetter_;    // null unless servers share the store
 
   int port_ = 0;
   std::atomic<bool> drain_begun_ = false;

@@ -94,6 +94,11 @@ absl::Status Recovering(absl::string_view mission) {
                         kRecoveryRetry_ns);
 }
 
+absl::Status NameOfSeveral(absl::string_view mission) {
+  return absl::FailedPreconditionError(
+      absl::StrCat("missions/", mission, " is the name of several tenants' missions"));
+}
+
 absl::Status WithAwaitedMission(absl::Status status, absl::string_view key) {
   if (ErrorReason(status) == reason::kRecovering) {
     status.SetPayload(kAwaitedPayload, absl::Cord(key));

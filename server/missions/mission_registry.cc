@@ -111,11 +111,10 @@ absl::StatusOr<std::shared_ptr<MissionHost>> MissionRegistry::FindOfAnyTenant(co
   const auto found = List("", 2, [&id](const MissionHost& host) { return host.id() == id; });
   const std::vector<AbsentMission> absent =
       ListAbsent("", 2, [&id](const std::string& key) { return MissionIdOf(key) == id; });
-  if (found.empty() && absent.empty()) return MissionNotFound(id);
+  if (found.empty() && absent.empty()) return FindByName(id);
   if (found.size() == 1 && absent.empty()) return found[0];
   if (found.empty() && absent.size() == 1) return Find(id, TenantOf(absent[0].key));
-  return absl::FailedPreconditionError(
-      absl::StrCat("missions/", id, " is the name of several tenants' missions"));
+  return NameOfSeveral(id);
 }
 
 std::vector<std::shared_ptr<MissionHost>> MissionRegistry::List(

@@ -107,6 +107,13 @@ class MissionRegistry {
       const std::string& after, int limit = std::numeric_limits<int>::max(),
       const WantedKey& wanted = [](const std::string&) { return true; }) const;
   AbsentCounts absent() const;
+  // At most `limit` missions of a store that several servers share which this one does not have,
+  // whose keys come after this one, begin so and are `wanted`, in order of key. Blocks.
+  absl::StatusOr<std::vector<OwnedMission>> ListElsewhere(
+      const std::string& after, int limit, const std::string& begins_with = {},
+      const WantedKey& wanted = [](const std::string&) { return true; }) const;
+  // This server's name among those that share its store; empty: it has one of its own.
+  std::string node() const { return nodes_ == nullptr ? "" : nodes_->self().name; }
 
   // Room for what takes memory like a mission and is none, until the hold is let go; the registry
   // outlives it. LIMIT_REACHED.
@@ -122,6 +129,10 @@ class MissionRegistry {
   // Deletes those that have outlived their use, and that nobody but the registry holds: whoever
   // holds a mission uses it. Returns their names.
   std::vector<MissionId> DeleteIdle();
+  // Tells servers that share the store for how long they are to keep missions of this one, should
+  // it end, `period` and more beyond what is left to them; and deletes those of nobody that have
+  // outlived their use. Returns their names. Called once a `period`. Blocks.
+  absl::StatusOr<std::vector<MissionId>> DeleteForgotten(absl::Duration period);
   // Missions that nobody has used for RegistryOptions::sleep_after leave memory, once all of them
   // is durable. Returns their names.
   std::vector<MissionId> SleepIdle();
@@ -168,6 +179,14 @@ class MissionRegistry {
   absl::Status CheckLife(int life) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   // Of a mission that is not this server's, or not any more.
   absl::Status Seek(const std::string& key) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
+  // Of a mission of this name that the store may have, whosever it is.
+  absl::StatusOr<std::shared_ptr<MissionHost>> FindByName(const MissionId& id)
+      ABSL_LOCKS_EXCLUDED(mutex_);
+  // Asks the store for missions of the name in this key. Blocks.
+  void SeekName(const std::string& key) ABSL_LOCKS_EXCLUDED(mutex_);
+  std::vector<KeptMission> KeptMissions(absl::Duration longer) ABSL_LOCKS_EXCLUDED(mutex_);
+  absl::Status Forget(const ForgottenMission& mission) ABSL_LOCKS_EXCLUDED(mutex_);
+  absl::Status RemoveForgotten(const ForgottenMission& mission);
   absl::Status CallForAbsent(const std::string& key) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   // LIMIT_REACHED, of all missions and of those of the key's tenant.
   absl::Status CheckPlaces(const std::string& key) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <string>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "absl/hash/hash.h"
+#include "absl/strings/str_cat.h"
 #include "absl/synchronization/notification.h"
 #include "absl/time/clock.h"
 #include "core/mission/conduct/conduct_errors.h"
@@ -28,6 +30,13 @@ constexpr absl::Duration kSnapshotLook = absl::Milliseconds(2);
 constexpr absl::Duration kLongestSettling = absl::Seconds(2);
 // Of one mission; so long calls wait at most that come meanwhile.
 constexpr absl::Duration kLongestHandOver = absl::Seconds(1);
+
+constexpr absl::Duration kLongestRemoval = absl::Seconds(5);
+constexpr int kListedAtOnce = 1000;
+constexpr int kForgottenAtOnce = 100;
+
+// By which missions of a name are sought, whosever they are: no mission's key begins with a slash.
+std::string NameKey(const MissionId& id) { return absl::StrCat("/", id); }
 
 absl::Status LeaseLost() { return StoreTakesNothing("this node has no lease in it"); }
 
@@ -62,6 +71,128 @@ absl::Status MissionRegistry::Seek(const std::string& key) {
   const absl::Status answer = sought_.CallFor(key, clock_());
   on_called_for_();
   return answer;
+}
+
+absl::StatusOr<std::shared_ptr<MissionHost>> MissionRegistry::FindByName(const MissionId& id) {
+  if (nodes_ == nullptr) return MissionNotFound(id);
+  const std::string name_key = NameKey(id);
+  std::string key;
+  {
+    absl::MutexLock lock(&mutex_);
+    const absl::Status answer = sought_.CallFor(name_key, clock_());
+    on_called_for_();
+    key = AwaitedMission(answer);
+    if (key.empty()) return WithAwaitedMission(answer, name_key);
+  }
+  return Find(id, TenantOf(key));
+}
+
+void MissionRegistry::SeekName(const std::string& key) {
+  const MissionId id = MissionIdOf(key);
+  const auto named = nodes_->ListMissions({.last_part = id, .limit = 2});
+  absl::Status answer = named.status();
+  if (named.ok()) {
+    answer = named->empty()       ? MissionNotFound(id)
+             : named->size() == 1 ? WithAwaitedMission(Recovering(id), named->front().key)
+                                  : NameOfSeveral(id);
+  }
+  std::vector<RecoveryWaiters::Look> waiters;
+  {
+    absl::MutexLock lock(&mutex_);
+    sought_.Settle(key, answer, clock_());
+    waiters = waiters_.TakeOf(key);
+  }
+  for (const auto& look : waiters) look();
+}
+
+absl::StatusOr<std::vector<OwnedMission>> MissionRegistry::ListElsewhere(
+    const std::string& after, int limit, const std::string& begins_with,
+    const WantedKey& wanted) const {
+  std::vector<OwnedMission> elsewhere;
+  if (nodes_ == nullptr) return elsewhere;
+  OwnedMissionQuery query{.after = after, .begins_with = begins_with, .limit = kListedAtOnce};
+  while (true) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(std::vector<OwnedMission> page, nodes_->ListMissions(query));
+    for (OwnedMission& mission : page) {
+      query.after = mission.key;
+      if (mission.node == node() || !wanted(mission.key)) continue;
+      elsewhere.push_back(std::move(mission));
+      if (std::ssize(elsewhere) == limit) return elsewhere;
+    }
+    if (std::ssize(page) < query.limit) return elsewhere;
+  }
+}
+
+std::vector<KeptMission> MissionRegistry::KeptMissions(absl::Duration longer) {
+  std::vector<KeptMission> missions;
+  absl::MutexLock lock(&mutex_);
+  const SteadyTime now = clock_();
+  const auto keep = [&](const std::string& key, SteadyTime forget_at) {
+    const bool for_good = forget_at == SteadyTime::max();
+    missions.push_back(
+        {key, for_good ? absl::InfiniteDuration() : absl::FromChrono(forget_at - now) + longer});
+  };
+  for (const auto& [key, host] : hosts_) {
+    // Whoever holds a mission uses it.
+    if (host.use_count() > 1) host->standing().Touch();
+    keep(key, host->standing().forget_at());
+  }
+  for (const SleepingMission& mission : absent_.Sleeping()) keep(mission.key, mission.forget_at);
+  return missions;
+}
+
+absl::StatusOr<std::vector<MissionId>> MissionRegistry::DeleteForgotten(absl::Duration period) {
+  std::vector<MissionId> deleted;
+  if (nodes_ == nullptr) return deleted;
+  PLUMESCOUT_RETURN_IF_ERROR(nodes_->KeepFor(KeptMissions(2 * period)));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<ForgottenMission> forgotten,
+                              nodes_->ListForgotten(kForgottenAtOnce));
+  for (const ForgottenMission& mission : forgotten) {
+    const absl::Status status = Forget(mission);
+    if (status.ok()) deleted.push_back(MissionIdOf(mission.key));
+    if (absl::IsUnavailable(status) && NodeElsewhere(status).empty()) return status;
+  }
+  return deleted;
+}
+
+absl::Status MissionRegistry::Forget(const ForgottenMission& mission) {
+  const std::string& key = mission.key;
+  {
+    absl::MutexLock lock(&mutex_);
+    PLUMESCOUT_RETURN_IF_ERROR(Closed(key));
+    const bool is_used = hosts_.contains(key) || being_made_.contains(key) ||
+                         absent_.Contains(key) || sought_.IsAskedFor(key);
+    if (is_used) return absl::AbortedError("somebody calls for it");
+    being_made_.insert(key);
+  }
+  const absl::Status status = RemoveForgotten(mission);
+  std::vector<RecoveryWaiters::Look> waiters;
+  {
+    absl::MutexLock lock(&mutex_);
+    being_made_.erase(key);
+    waiters = waiters_.TakeOf(key);
+  }
+  for (const auto& look : waiters) look();
+  return status;
+}
+
+absl::Status MissionRegistry::RemoveForgotten(const ForgottenMission& mission) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const AcquiredMission acquired, store_->Acquire(mission.key));
+  if (acquired.epoch != mission.epoch + 1) {
+    Release(mission.key, acquired.epoch);
+    return absl::AbortedError("somebody has used it meanwhile");
+  }
+  struct Removal {
+    absl::Notification done;
+    absl::Status status;
+  };
+  const auto removal = std::make_shared<Removal>();  // outlives us if the store is slow
+  store_->Remove(mission.key, acquired.epoch, [removal](const absl::Status& status) {
+    removal->status = status;
+    removal->done.Notify();
+  });
+  if (removal->done.WaitForNotificationWithTimeout(kLongestRemoval)) return removal->status;
+  return StoreTakesNothing("a mission is not removed");
 }
 
 bool MissionRegistry::TakeSnapshots(SteadyTime deadline) {

@@ -73,6 +73,10 @@ bool MissionRegistry::RecoverNext() {
     if (!key.has_value()) key = absent_.Next();
   }
   if (!key.has_value()) return false;
+  if (key->starts_with('/')) {
+    SeekName(*key);
+    return true;
+  }
   Recover(*key).IgnoreError();  // it is logged, and told to whoever calls for the mission
   return true;
 }

@@ -44,7 +44,8 @@ MissionOptions WithoutPriorMap(MissionOptions options) {
   return options;
 }
 
-v1::Mission DescribeMission(MissionHost& host, const MissionOptions& options) {
+v1::Mission DescribeMission(MissionHost& host, const MissionOptions& options,
+                            const std::string& node) {
   const MissionSummary summary = host.summary();
   v1::Mission proto;
   proto.set_name(MissionResource(host.id()));
@@ -54,6 +55,7 @@ v1::Mission DescribeMission(MissionHost& host, const MissionOptions& options) {
   proto.mutable_memory()->set_used_bytes(summary.memory_bytes);
   proto.mutable_memory()->set_budget_bytes(options.memory_budget_bytes);
   proto.set_owner(host.owner());
+  proto.set_node(node);
   proto.set_state(ToProto(host.standing().state()));
   SetIdleTimeToLive(host.standing().idle_time_to_live(), proto);
   proto.set_event_retention(server::EventRetentionToProto(host.standing().event_retention()));
@@ -72,8 +74,17 @@ v1::Mission DescribeMission(MissionHost& host, const MissionOptions& options) {
   return proto;
 }
 
-v1::Mission DescribeMission(const AbsentMission& absent) {
+v1::Mission DescribeMission(const OwnedMission& owned) {
   v1::Mission proto;
+  proto.set_name(MissionResource(MissionIdOf(owned.key)));
+  proto.set_node(owned.node);
+  proto.set_state(owned.node.empty() ? v1::MISSION_STATE_SLEEPING : v1::MISSION_STATE_ELSEWHERE);
+  return proto;
+}
+
+v1::Mission DescribeMission(const AbsentMission& absent, const std::string& node) {
+  v1::Mission proto;
+  proto.set_node(node);
   proto.set_name(MissionResource(MissionIdOf(absent.key)));
   if (absent.is_asleep) {
     proto.set_state(v1::MISSION_STATE_SLEEPING);

@@ -91,7 +91,7 @@ absl::Status MissionService::MakeNow(const v1::CreateMissionRequest& request,
            {"lattice_factor", absl::StrCat((*host)->options().gas.lattice_factor)},
            {"strategy", options.planning.strategy},
            {"request_id", call->info().request_id}});
-  mission = DescribeMission(**host, WithoutPriorMap((*host)->options()));
+  mission = Describe(**host);
   AnswerWhenDurable(**host, call, absl::OkStatus());
   return absl::OkStatus();
 }
@@ -99,7 +99,8 @@ absl::Status MissionService::MakeNow(const v1::CreateMissionRequest& request,
 absl::Status MissionService::Create(const v1::CreateMissionRequest* request,
                                     v1::CreateMissionResponse* response,
                                     const std::shared_ptr<UnaryCall>& call) {
-  const absl::Status found = context_.FindMission(call->caller(), request->mission_id()).status();
+  const absl::Status found =
+      context_.registry->Find(request->mission_id(), call->caller().tenant).status();
   if (!AwaitedMission(found).empty()) return found;  // it may be there
   // A mission that is gone again was not made, whatever was answered then.
   if (absl::IsNotFound(found)) {
@@ -115,7 +116,7 @@ absl::Status MissionService::Get(const v1::GetMissionRequest& request, v1::Missi
                                  const std::shared_ptr<UnaryCall>& call) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const MissionId id, ParseMissionName("name", request.name()));
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMission(call->caller(), id));
-  mission = DescribeMission(*host, WithoutPriorMap(host->options()));
+  mission = Describe(*host);
   if (host->options().prior_map == nullptr) {
     call->Answer(absl::OkStatus());
     return absl::OkStatus();
@@ -131,36 +132,42 @@ absl::Status MissionService::List(const v1::ListMissionsRequest& request,
                                   const std::shared_ptr<UnaryCall>& call) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const Page page, ReadPage(request.page_size(), request.page_token()));
   return AnswerInTurn(call, "", context_.query_pool, [this, page, &response, call] {
-    Fill(page, call->caller(), response);
-    return absl::OkStatus();
+    return Fill(page, call->caller(), response);
   });
 }
 
-void MissionService::Fill(const Page& page, const Principal& caller,
-                          v1::ListMissionsResponse& response) {
-  std::map<std::string, v1::Mission> missions;  // by key
-  std::string last_key;
-  // Before the others: what is recovered in between stands with both, and then it runs.
+absl::Status MissionService::Fill(const Page& page, const Principal& caller,
+                                  v1::ListMissionsResponse& response) {
+  const MissionRegistry& registry = *context_.registry;
+  const int limit = page.size + 1;  // one more than the page tells whether there is a next
   const auto may_see = [&](const std::string& key) { return MaySeeTenant(caller, TenantOf(key)); };
-  for (const AbsentMission& absent :
-       context_.registry->ListAbsent(page.after, page.size + 1, may_see)) {
-    missions[absent.key] = DescribeMission(absent);
+  const bool sees_all = caller.role == Role::kAdmin || caller.tenant.empty();
+  const std::string begins_with = sees_all ? "" : absl::StrCat(caller.tenant, "/");
+  std::map<std::string, v1::Mission> missions;  // by key
+  // In this order: what is taken over or recovered in between stands with both, and then it runs.
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<OwnedMission> elsewhere,
+                              registry.ListElsewhere(page.after, limit, begins_with, may_see));
+  for (const OwnedMission& owned : elsewhere) missions[owned.key] = DescribeMission(owned);
+  for (const AbsentMission& absent : registry.ListAbsent(page.after, limit, may_see)) {
+    missions[absent.key] = DescribeMission(absent, registry.node());
   }
-  // One more than the page tells whether there is a next.
-  const auto hosts = context_.registry->List(
-      page.after, page.size + 1, [&](const MissionHost& host) { return MaySee(caller, host); });
-  for (const auto& host : hosts) {
-    missions[MissionKey(host->tenant(), host->id())] =
-        DescribeMission(*host, WithoutPriorMap(host->options()));
-  }
+  const auto hosts = registry.List(page.after, limit,
+                                   [&](const MissionHost& host) { return MaySee(caller, host); });
+  for (const auto& host : hosts) missions[MissionKey(host->tenant(), host->id())] = Describe(*host);
+  std::string last_key;
   for (auto& [key, mission] : missions) {
     if (response.missions_size() == page.size) {
       response.set_next_page_token(PageTokenAfter(last_key));
-      return;
+      break;
     }
     *response.add_missions() = std::move(mission);
     last_key = key;
   }
+  return absl::OkStatus();
+}
+
+v1::Mission MissionService::Describe(MissionHost& host) const {
+  return DescribeMission(host, WithoutPriorMap(host.options()), context_.registry->node());
 }
 
 absl::Status MissionService::Delete(const v1::DeleteMissionRequest& request,
@@ -203,7 +210,7 @@ absl::Status MissionService::Update(const v1::UpdateMissionRequest& request, v1:
            {"event_retention",
             v1::EventRetention_Name(EventRetentionToProto(host->standing().event_retention()))},
            {"request_id", call->info().request_id}});
-  mission = DescribeMission(*host, WithoutPriorMap(host->options()));
+  mission = Describe(*host);
   AnswerWhenDurable(*host, call, absl::OkStatus());
   return absl::OkStatus();
 }
@@ -214,12 +221,12 @@ absl::Status MissionService::Change(const std::string& name, v1::Mission& missio
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto host, context_.FindMission(call->caller(), id));
   // On the writer's thread: what was asked before the change is done, what is asked after it sees
   // it.
-  return PostFor(call, *host, [host, step, call, &mission](MissionWriter& writer) {
+  return PostFor(call, *host, [this, host, step, call, &mission](MissionWriter& writer) {
     absl::Status changed = host->journal().CheckTakesMore();
     if (changed.ok()) changed = step(*host, writer);
     if (changed.ok()) {
       host->KeepStanding();
-      mission = DescribeMission(*host, WithoutPriorMap(host->options()));
+      mission = Describe(*host);
       LogInfo("mission state", {{"mission", host->id()},
                                 {"state", v1::MissionState_Name(mission.state())},
                                 {"caller", call->caller().name},

@@ -60,7 +60,8 @@ class MissionService final : public v1::MissionService::CallbackService {
                    const std::shared_ptr<UnaryCall>& call);
   absl::Status List(const v1::ListMissionsRequest& request, v1::ListMissionsResponse& response,
                     const std::shared_ptr<UnaryCall>& call);
-  void Fill(const Page& page, const Principal& caller, v1::ListMissionsResponse& response);
+  absl::Status Fill(const Page& page, const Principal& caller, v1::ListMissionsResponse& response);
+  v1::Mission Describe(MissionHost& host) const;
   absl::Status Delete(const v1::DeleteMissionRequest& request,
                       const std::shared_ptr<UnaryCall>& call);
   // A mission that cannot be recovered.

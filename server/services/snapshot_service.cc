@@ -52,8 +52,8 @@ grpc::ServerWriteReactor<v1::ExportMissionResponse>* SnapshotService::ExportMiss
 
 grpc::ServerReadReactor<v1::ImportMissionRequest>* SnapshotService::ImportMission(
     grpc::CallbackServerContext* context, v1::ImportMissionResponse* response) {
-  return ImportStream::Start(&context_, context, response, [](MissionHost& host) {
-    return DescribeMission(host, WithoutPriorMap(host.options()));
+  return ImportStream::Start(&context_, context, response, [this](MissionHost& host) {
+    return DescribeMission(host, WithoutPriorMap(host.options()), context_.registry->node());
   });
 }
 

@@ -256,7 +256,8 @@ PostgresStatement AcquireStatement(const MissionRow& before, const MissionRow& a
       "WHERE mission = $1 AND epoch = $2 AND head = $3 AND writes = $4 AND crc = $5 "
       "AND (owner IS NULL OR owner = $9 OR NOT EXISTS "
       "(SELECT FROM plumescout_node n WHERE n.id = owner)) AND EXISTS (SELECT FROM "
-      "plumescout_node n WHERE n.id = $9 AND n.expires > clock_timestamp()) RETURNING mission) "
+      "plumescout_node n WHERE n.id = $9 AND n.expires > clock_timestamp()) RETURNING mission), "
+      "used AS (DELETE FROM plumescout_idle i USING moved WHERE i.mission = moved.mission) "
       "SELECT count(*) FROM moved");
   statement.Bind(before.id).Bind(before.epoch).Bind(before.head).Bind(before.writes);
   statement.Bind(RowChecksum(before)).Bind(after.epoch).Bind(after.writes);
@@ -328,6 +329,7 @@ PostgresStatement RemoveStatement(const MissionRow& before) {
       "m AS (DELETE FROM plumescout_mission m USING gone WHERE m.id = gone.mission), "
       "s AS (DELETE FROM plumescout_standing s USING gone WHERE s.mission = gone.mission), "
       "n AS (DELETE FROM plumescout_snapshot n USING gone WHERE n.mission = gone.mission), "
+      "i AS (DELETE FROM plumescout_idle i USING gone WHERE i.mission = gone.mission), "
       "r AS (INSERT INTO plumescout_removed SELECT mission FROM gone) "
       "SELECT count(*) FROM gone");
   statement.Bind(before.id).Bind(before.epoch).Bind(before.head).Bind(before.writes);

@@ -228,6 +228,77 @@ absl::StatusOr<std::optional<std::string>> PostgresNodes::FindOwner(const std::s
   return std::optional<std::string>(rows.Bytes(0, 0));
 }
 
+absl::StatusOr<std::vector<OwnedMission>> PostgresNodes::ListMissions(
+    const OwnedMissionQuery& query) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const PostgresPool::Loan connection, pool_->Take());
+  const std::string last_part = query.last_part.empty() ? "" : absl::StrCat("/", query.last_part);
+  // Keys that begin so are one stretch of the index; it is read to the end of the limit only.
+  PostgresStatement statement(
+      "SELECT m.key, n.name FROM plumescout_mission m "
+      "JOIN plumescout_progress p ON p.mission = m.id "
+      "LEFT JOIN plumescout_node n ON n.id = p.owner AND n.expires > clock_timestamp() "
+      "WHERE m.key > $1 AND m.key >= $2 AND substr(m.key, 1, octet_length($2)) = $2 "
+      "AND substr('\\x2f'::bytea || m.key, octet_length(m.key) + 2 - octet_length($3)) = $3 "
+      "ORDER BY m.key LIMIT $4");
+  statement.BindBytes(query.after).BindBytes(query.begins_with).BindBytes(last_part);
+  PLUMESCOUT_ASSIGN_OR_RETURN(const PostgresRows rows,
+                              connection->Run(statement.Bind(query.limit), kAskTimeout));
+  std::vector<OwnedMission> missions;
+  for (int at = 0; at < rows.count(); ++at)
+    missions.push_back({rows.Bytes(at, 0), rows.Bytes(at, 1)});
+  return missions;
+}
+
+absl::Status PostgresNodes::KeepFor(const std::vector<KeptMission>& missions) {
+  std::vector<std::string> kept;
+  std::vector<std::int64_t> kept_us;
+  std::vector<std::string> for_good;
+  for (const KeptMission& mission : missions) {
+    if (mission.keep_for == absl::InfiniteDuration()) {
+      for_good.push_back(mission.key);
+    } else {
+      kept.push_back(mission.key);
+      kept_us.push_back(absl::ToInt64Microseconds(mission.keep_for));
+    }
+  }
+  PLUMESCOUT_ASSIGN_OR_RETURN(const PostgresPool::Loan connection, pool_->Take());
+  std::vector<PostgresStatement> statements;
+  statements
+      .emplace_back(
+          "INSERT INTO plumescout_idle(mission, forget_at) "
+          "SELECT m.id, clock_timestamp() + k.us * interval '1 us' "
+          "FROM unnest($1::bytea[], $2::bigint[]) AS k(key, us) "
+          "JOIN plumescout_mission m ON m.key = k.key "
+          "JOIN plumescout_progress p ON p.mission = m.id AND p.owner = $3 ORDER BY m.id "
+          "ON CONFLICT (mission) DO UPDATE SET forget_at = excluded.forget_at")
+      .BindAllBytes(kept)
+      .BindNumbers(kept_us)
+      .Bind(lease());
+  statements
+      .emplace_back(
+          "DELETE FROM plumescout_idle i USING plumescout_mission m, plumescout_progress p "
+          "WHERE m.key = ANY($1) AND p.mission = m.id AND p.owner = $2 AND i.mission = m.id")
+      .BindAllBytes(for_good)
+      .Bind(lease());
+  return connection->RunAll(statements, kAskTimeout).status();
+}
+
+absl::StatusOr<std::vector<ForgottenMission>> PostgresNodes::ListForgotten(int limit) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const PostgresPool::Loan connection, pool_->Take());
+  PostgresStatement statement(
+      "SELECT m.key, p.epoch FROM plumescout_idle i JOIN plumescout_mission m ON m.id = i.mission "
+      "JOIN plumescout_progress p ON p.mission = m.id "
+      "LEFT JOIN plumescout_node n ON n.id = p.owner AND n.expires > clock_timestamp() "
+      "WHERE i.forget_at <= clock_timestamp() AND n.id IS NULL ORDER BY i.forget_at, m.key LIMIT "
+      "$1");
+  PLUMESCOUT_ASSIGN_OR_RETURN(const PostgresRows rows,
+                              connection->Run(statement.Bind(limit), kAskTimeout));
+  std::vector<ForgottenMission> missions;
+  for (int at = 0; at < rows.count(); ++at)
+    missions.push_back({rows.Bytes(at, 0), rows.Int(at, 1)});
+  return missions;
+}
+
 absl::Status PostgresNodes::Release(const std::string& key, std::int64_t epoch) {
   if (lease() == 0) return status();  // nothing is this node's any more
   PLUMESCOUT_ASSIGN_OR_RETURN(const PostgresPool::Loan connection, pool_->Take());

@@ -55,6 +55,9 @@ class PostgresNodes final : public StoreNodes {
   void SetOnLost(OnLost on_lost) override;
   absl::StatusOr<std::vector<StoreNode>> ListLiving() override;
   absl::StatusOr<std::optional<std::string>> FindOwner(const std::string& key) override;
+  absl::StatusOr<std::vector<OwnedMission>> ListMissions(const OwnedMissionQuery& query) override;
+  absl::Status KeepFor(const std::vector<KeptMission>& missions) override;
+  absl::StatusOr<std::vector<ForgottenMission>> ListForgotten(int limit) override;
   absl::Status Release(const std::string& key, std::int64_t epoch) override;
 
  private:

@@ -46,8 +46,15 @@ constexpr const char* kTables[] = {
     "INSERT INTO plumescout_probe VALUES(1, 0) ON CONFLICT DO NOTHING",
 };
 
+// When missions that nobody calls for are to go. It came later than the others: a store without it
+// gets it, and servers that do not know it leave it alone.
+constexpr char kIdleTable[] =
+    "CREATE TABLE IF NOT EXISTS plumescout_idle(mission bigint PRIMARY KEY, "
+    "forget_at timestamptz NOT NULL)";
+
 // As kTables, for whoever reads them again.
 constexpr const char* kColumns[] = {
+    "idle: mission bigint, forget_at timestamp with time zone",
     "mission: id bigint, key bytea, header bytea, crc bigint",
     "node: id bigint, name text, address text, expires timestamp with time zone",
     "probe: id bigint, count bigint",
@@ -89,6 +96,18 @@ absl::Status MakeTables(PostgresConnection& connection, const std::string& clust
           "ON CONFLICT DO NOTHING")
       .Bind(kSharedStoreFormat)
       .BindText(cluster);
+  return connection.RunAll(statements, kTimeout).status();
+}
+
+absl::Status AddIdleTable(PostgresConnection& connection) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(
+      const PostgresRows rows,
+      connection.Run(PostgresStatement("SELECT to_regclass('plumescout_idle') IS NOT NULL"),
+                     kTimeout));
+  if (rows.Int(0, 0) != 0) return absl::OkStatus();
+  std::vector<PostgresStatement> statements;
+  statements.emplace_back("SELECT pg_advisory_xact_lock($1)").Bind(kMakingLock);
+  statements.emplace_back(kIdleTable);
   return connection.RunAll(statements, kTimeout).status();
 }
 
@@ -138,6 +157,7 @@ absl::StatusOr<std::int64_t> OpenSharedSchema(PostgresConnection& connection,
         absl::StrCat(connection.name(), " is the store of the cluster ",
                      absl::Utf8SafeCHexEscape(owner), ", not of store.cluster = ", cluster));
   }
+  PLUMESCOUT_RETURN_IF_ERROR(AddIdleTable(connection));
   PLUMESCOUT_RETURN_IF_ERROR(CheckTables(connection));
   return rows.Int(0, 1);
 }

@@ -10,6 +10,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "absl/time/time.h"
 #include "server/base/clock.h"
 
 namespace plumescout::server {
@@ -20,6 +21,36 @@ struct StoreNode {
   std::string address;  // where it listens, for those who look
 
   friend bool operator==(const StoreNode&, const StoreNode&) = default;
+};
+
+// A mission of the store, and the living node that has it; empty: nobody's.
+struct OwnedMission {
+  std::string key;
+  std::string node;
+
+  friend bool operator==(const OwnedMission&, const OwnedMission&) = default;
+};
+
+// Which missions to list: at most `limit`, in order of key.
+struct OwnedMissionQuery {
+  std::string after = {};        // keys after this one
+  std::string begins_with = {};  // that begin so
+  std::string last_part = {};    // whose part after the last slash is this; empty: any
+  int limit = 0;
+};
+
+// A mission that is to go if nobody calls for it any more, whoever has it by then.
+struct KeptMission {
+  std::string key;
+  absl::Duration keep_for;  // from now on; infinite: for good
+};
+
+// A mission of nobody that has outlived its use.
+struct ForgottenMission {
+  std::string key;
+  std::int64_t epoch = 0;
+
+  friend bool operator==(const ForgottenMission&, const ForgottenMission&) = default;
 };
 
 // The servers that share a store, and which of them has which mission. A node holds one lease in
@@ -48,6 +79,14 @@ class StoreNodes {
   // The living node whose mission it is; nothing if it is nobody's. kNotFound if the store has no
   // such mission. Blocks.
   virtual absl::StatusOr<std::optional<std::string>> FindOwner(const std::string& key) = 0;
+  // Blocks.
+  virtual absl::StatusOr<std::vector<OwnedMission>> ListMissions(
+      const OwnedMissionQuery& query) = 0;
+  // Of missions of this node; others are passed over. Who acquires a mission forgets how long it
+  // was to be kept. Blocks.
+  virtual absl::Status KeepFor(const std::vector<KeptMission>& missions) = 0;
+  // At most `limit`, those first that are over for longest. Blocks.
+  virtual absl::StatusOr<std::vector<ForgottenMission>> ListForgotten(int limit) = 0;
   // The mission is nobody's: the next who acquires it has it. FENCED if it is not of this epoch.
   // Blocks.
   virtual absl::Status Release(const std::string& key, std::int64_t epoch) = 0;

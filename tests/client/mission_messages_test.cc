@@ -79,6 +79,10 @@ TEST(MissionMessagesTest, OfOneThatIsNotInMemoryThereIsNameAndState) {
   EXPECT_EQ(mission->state, MissionState::kRecovering);
   proto.set_state(v1::MISSION_STATE_SLEEPING);
   EXPECT_EQ(DetailsFromProto(proto)->state, MissionState::kSleeping);
+  proto.set_state(v1::MISSION_STATE_ELSEWHERE);
+  proto.set_node("n2");
+  EXPECT_EQ(DetailsFromProto(proto)->state, MissionState::kElsewhere);
+  EXPECT_EQ(DetailsFromProto(proto)->node, "n2");
 }
 
 TEST(MissionMessagesTest, AFieldThatCannotBeReadIsNamed) {

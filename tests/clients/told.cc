@@ -47,6 +47,8 @@ Json StateWord(MissionState state) {
       return "RECOVERING";
     case MissionState::kSleeping:
       return "SLEEPING";
+    case MissionState::kElsewhere:
+      return "ELSEWHERE";
     case MissionState::kDamaged:
       return "DAMAGED";
     case MissionState::kUnknown:

@@ -78,7 +78,8 @@ class Naming {
     if (name == "plan") return absl::StrCat(mission, "/plans/1");
     if (name == "name") return about_robot_ ? robot : mission;
     const bool names_nothing = name == "page_token" || name == "part_token" ||
-                               name == "request_id" || name == "owner" || name == "species";
+                               name == "request_id" || name == "owner" || name == "species" ||
+                               name == "node";
     EXPECT_TRUE(names_nothing) << field.full_name() << ": say here what it names";
     return "";
   }

@@ -42,6 +42,15 @@ class SharedStore : public HeldStore, public StoreNodes {
     }
     if (on_lost) on_lost(absl::UnavailableError("lost"));
   }
+  // Missions that ListForgotten tells of, until somebody acquires or removes them.
+  void SetForgotten(std::vector<ForgottenMission> forgotten) {
+    absl::MutexLock lock(&nodes_mutex_);
+    forgotten_ = std::move(forgotten);
+  }
+  std::map<std::string, absl::Duration> kept() const {
+    absl::MutexLock lock(&nodes_mutex_);
+    return kept_;
+  }
   std::map<std::string, std::int64_t> released() const {
     absl::MutexLock lock(&nodes_mutex_);
     return released_;
@@ -74,6 +83,31 @@ class SharedStore : public HeldStore, public StoreNodes {
     if (found == owners_.end() || found->second.empty()) return std::nullopt;
     return found->second;
   }
+  absl::StatusOr<std::vector<OwnedMission>> ListMissions(const OwnedMissionQuery& query) override {
+    const auto stored = List();
+    if (!stored.ok()) return stored.status();
+    std::vector<OwnedMission> missions;
+    absl::MutexLock lock(&nodes_mutex_);
+    for (const StoredMission& mission : *stored) {
+      const std::string last_part = mission.key.substr(mission.key.rfind('/') + 1);
+      const bool is_wanted = mission.key > query.after &&
+                             mission.key.starts_with(query.begins_with) &&
+                             (query.last_part.empty() || query.last_part == last_part);
+      if (!is_wanted || static_cast<int>(missions.size()) == query.limit) continue;
+      const auto owner = owners_.find(mission.key);
+      missions.push_back({mission.key, owner == owners_.end() ? "" : owner->second});
+    }
+    return missions;
+  }
+  absl::Status KeepFor(const std::vector<KeptMission>& missions) override {
+    absl::MutexLock lock(&nodes_mutex_);
+    for (const KeptMission& mission : missions) kept_[mission.key] = mission.keep_for;
+    return absl::OkStatus();
+  }
+  absl::StatusOr<std::vector<ForgottenMission>> ListForgotten(int) override {
+    absl::MutexLock lock(&nodes_mutex_);
+    return forgotten_;
+  }
   absl::Status Release(const std::string& key, std::int64_t epoch) override {
     absl::MutexLock lock(&nodes_mutex_);
     released_[key] = epoch;
@@ -85,6 +119,8 @@ class SharedStore : public HeldStore, public StoreNodes {
   mutable absl::Mutex nodes_mutex_;
   std::map<std::string, std::string> owners_ ABSL_GUARDED_BY(nodes_mutex_);
   std::vector<StoreNode> living_ ABSL_GUARDED_BY(nodes_mutex_) = {self_};
+  std::vector<ForgottenMission> forgotten_ ABSL_GUARDED_BY(nodes_mutex_);
+  std::map<std::string, absl::Duration> kept_ ABSL_GUARDED_BY(nodes_mutex_);
   std::map<std::string, std::int64_t> released_ ABSL_GUARDED_BY(nodes_mutex_);
   SteadyTime lease_until_ ABSL_GUARDED_BY(nodes_mutex_) = SteadyTime::max();
   OnLost on_lost_ ABSL_GUARDED_BY(nodes_mutex_);

@@ -43,5 +43,17 @@ TEST(RegistryOptionsTest, RecordingsAreAsTheConfigurationSays) {
   EXPECT_EQ(options.file.max_file_bytes, 4'000'000);
 }
 
+TEST(RegistryOptionsTest, NoViewerHasTheQueueToItself) {
+  MapConfig config;
+  config.max_queued_queries = 9;
+  const FairPoolOptions options = ToViewersPoolOptions("query", 3, config);
+  EXPECT_EQ(options.threads, 3);
+  EXPECT_EQ(options.max_queued, 9);
+  EXPECT_EQ(options.max_queued_per_group, 4);
+  EXPECT_TRUE(options.yields);
+  config.max_queued_queries = 1;
+  EXPECT_EQ(ToViewersPoolOptions("query", 3, config).max_queued_per_group, 1);
+}
+
 }  // namespace registry_options_test
 }  // namespace plumescout::server

@@ -115,6 +115,31 @@ TEST_F(ServerNodesTest, CallsAreToldWhereAMissionIs) {
   EXPECT_EQ(Get("attic").status.error_code(), grpc::StatusCode::NOT_FOUND);
 }
 
+TEST_F(ServerNodesTest, MissionsOfTheWholeStoreAreListed) {
+  ASSERT_TRUE(store_.Create("attic", "").ok());
+  ASSERT_TRUE(Get("yard").status.ok());
+  store_.SetOwner("yard", "n1");
+  std::string token;
+  std::string listed;
+  do {
+    grpc::ClientContext context;
+    v1::ListMissionsRequest request;
+    v1::ListMissionsResponse response;
+    request.set_page_size(1);
+    request.set_page_token(token);
+    ASSERT_TRUE(missions_->ListMissions(&context, request, &response).ok());
+    ASSERT_EQ(response.missions_size(), 1);
+    const v1::Mission& mission = response.missions(0);
+    listed +=
+        mission.name() + " " + v1::MissionState_Name(mission.state()) + " " + mission.node() + "\n";
+    token = response.next_page_token();
+  } while (!token.empty());
+  EXPECT_EQ(listed,
+            "missions/attic MISSION_STATE_SLEEPING \n"
+            "missions/hall MISSION_STATE_ELSEWHERE n2\n"
+            "missions/yard MISSION_STATE_RUNNING n1\n");
+}
+
 TEST_F(ServerNodesTest, TakingAMissionOverDoesNotMakeItUnready) {
   store_.SetReads(/*wait=*/true);
   grpc::ClientContext context;

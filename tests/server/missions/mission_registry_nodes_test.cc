@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // Of the mission registry: a store that several servers share.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -13,11 +14,14 @@
 #include "core/types/error_reason.h"
 #include "server/base/errors.h"
 #include "server/missions/mission_registry.h"
+#include "server/missions/recovery_list.h"
 #include "tests/server/fake_nodes.h"
 #include "tests/server/stored_run.h"
 
 namespace plumescout::server {
 namespace mission_registry_nodes_test {
+
+using ::testing::ElementsAre;
 
 class MissionRegistryNodesTest : public testing::Test {
  protected:
@@ -130,6 +134,73 @@ TEST_F(MissionRegistryNodesTest, AMissionThatWasTakenOverIsLookedForAnew) {
   told.WaitForNotification();
   store_.SetOwner("hall", "n2");
   EXPECT_EQ(NodeElsewhere(CallFor("hall").status()), "n2");
+}
+
+TEST_F(MissionRegistryNodesTest, WhatOthersHaveIsListed) {
+  for (const char* key : {"acme/hall", "acme/yard", "hall", "mill"}) Put(key);
+  store_.SetOwner("acme/yard", "n2");
+  store_.SetOwner("mill", "n1");  // ours: it is on the list of those that run, or will be
+  EXPECT_EQ(registry_->node(), "n1");
+  EXPECT_THAT(*registry_->ListElsewhere("", 9),
+              ElementsAre(OwnedMission{"acme/hall", ""}, OwnedMission{"acme/yard", "n2"},
+                          OwnedMission{"hall", ""}));
+  EXPECT_THAT(*registry_->ListElsewhere("acme/hall", 1),
+              ElementsAre(OwnedMission{"acme/yard", "n2"}));
+  EXPECT_THAT(*registry_->ListElsewhere("", 9, "acme/"),
+              ElementsAre(OwnedMission{"acme/hall", ""}, OwnedMission{"acme/yard", "n2"}));
+  const auto of_nobody = [](const std::string& key) { return TenantOf(key).empty(); };
+  EXPECT_THAT(*registry_->ListElsewhere("", 9, "", of_nobody),
+              ElementsAre(OwnedMission{"hall", ""}));
+}
+
+TEST_F(MissionRegistryNodesTest, AnAdministratorsNameIsLookedForInTheStore) {
+  for (const char* key : {"acme/hall", "acme/yard", "globex/yard", "globex/mill"}) Put(key);
+  store_.SetOwner("globex/mill", "n2");
+  const auto find = [this](const MissionId& id) {
+    auto found = registry_->FindOfAnyTenant(id);
+    while (ErrorReason(found.status()) == reason::kRecovering) {
+      EXPECT_FALSE(AwaitedMission(found.status()).empty()) << "who calls may wait for it";
+      while (registry_->RecoverNext()) {
+      }
+      found = registry_->FindOfAnyTenant(id);
+    }
+    return found;
+  };
+  const auto hall = find("hall");
+  ASSERT_TRUE(hall.ok()) << hall.status();
+  EXPECT_EQ((*hall)->tenant(), "acme");
+  EXPECT_EQ(NodeElsewhere(find("mill").status()), "n2");
+  EXPECT_TRUE(absl::IsFailedPrecondition(find("yard").status())) << "of several tenants";
+  EXPECT_TRUE(absl::IsNotFound(find("attic").status()));
+}
+
+TEST_F(MissionRegistryNodesTest, TheStoreIsToldForHowLongMissionsAreKept) {
+  constexpr absl::Duration kPeriod = absl::Seconds(30);
+  ASSERT_TRUE(registry_->Create("mill", {}).ok());
+  ASSERT_TRUE(registry_->Create("hall", {}).ok());
+  registry_->Find("hall").value()->standing().set_idle_time_to_live(absl::Minutes(10));
+  now_ += std::chrono::minutes(4);
+  ASSERT_TRUE(registry_->DeleteForgotten(kPeriod)->empty());
+  EXPECT_EQ(store_.kept()["mill"], absl::InfiniteDuration());
+  EXPECT_EQ(store_.kept()["hall"], absl::Minutes(6) + 2 * kPeriod);
+  const auto used = registry_->Find("hall");
+  ASSERT_TRUE(registry_->DeleteForgotten(kPeriod)->empty());
+  EXPECT_EQ(store_.kept()["hall"], absl::Minutes(10) + 2 * kPeriod) << "it is used";
+}
+
+TEST_F(MissionRegistryNodesTest, MissionsOfNobodyGoWhenTheirTimeIsOver) {
+  for (const char* key : {"hall", "mill", "yard", "attic"}) Put(key);
+  ASSERT_TRUE(CallFor("hall").ok());
+  store_.SetOwner("mill", "n2");
+  // One is here, one is another's by now, one was used meanwhile.
+  store_.SetForgotten({{"hall", 2}, {"mill", 1}, {"yard", 0}, {"attic", 1}});
+  const auto deleted = registry_->DeleteForgotten(absl::Seconds(30));
+  ASSERT_TRUE(deleted.ok()) << deleted.status();
+  EXPECT_THAT(*deleted, ElementsAre("attic"));
+  EXPECT_TRUE(absl::IsNotFound(CallFor("attic").status()));
+  EXPECT_EQ(store_.released(), (std::map<std::string, std::int64_t>{{"yard", 2}}));
+  EXPECT_TRUE(CallFor("yard").ok());
+  EXPECT_TRUE(registry_->Find("hall").ok());
 }
 
 TEST_F(MissionRegistryNodesTest, WhatOthersAreToReadIsShortened) {

@@ -33,6 +33,11 @@ TEST(MissionMessageTest, MissionsThatDoNotRunSayWhy) {
   const v1::Mission damaged = DescribeMission(AbsentMission{"hall", typed(reason::kStoreDamaged)});
   EXPECT_EQ(damaged.state(), v1::MISSION_STATE_DAMAGED);
   EXPECT_EQ(damaged.name(), "missions/hall");
+  const v1::Mission elsewhere = DescribeMission(OwnedMission{"acme/hall", "n2"});
+  EXPECT_EQ(elsewhere.name(), "missions/hall");
+  EXPECT_EQ(elsewhere.state(), v1::MISSION_STATE_ELSEWHERE);
+  EXPECT_EQ(elsewhere.node(), "n2");
+  EXPECT_EQ(DescribeMission(OwnedMission{"hall", ""}).state(), v1::MISSION_STATE_SLEEPING);
 }
 
 TEST(MissionMessageTest, KnownMapCanBeLeftOut) {

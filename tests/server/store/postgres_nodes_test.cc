@@ -62,6 +62,70 @@ TEST_F(PostgresNodesTest, WhatIsReleasedIsTheNextOnes) {
   EXPECT_EQ(ErrorReason(AppendNow(*first, "house", 1, 1, {"late"})), reason::kFenced);
 }
 
+TEST_F(PostgresNodesTest, MissionsOfTheWholeStoreAreListedWithTheirNodes) {
+  const auto first = OpenShared(url_, "n1");
+  const auto second = OpenShared(url_, "n2");
+  const std::string odd = std::string("acme/\0odd", 9);
+  for (const std::string& key : {std::string("hall"), std::string("acme/hall"), odd}) {
+    ASSERT_TRUE(first->Create(key, "").ok());
+  }
+  ASSERT_TRUE(second->Create("acme0", "").ok());
+  ASSERT_TRUE(first->nodes()->Release("hall", 1).ok());
+  const OwnedMission of_first{"acme/hall", "n1"};
+  const auto list = [&](OwnedMissionQuery query) {
+    query.limit = query.limit == 0 ? 9 : query.limit;
+    return second->nodes()->ListMissions(query).value();
+  };
+  EXPECT_THAT(list({}), ElementsAre(OwnedMission{odd, "n1"}, of_first, OwnedMission{"acme0", "n2"},
+                                    OwnedMission{"hall", ""}));
+  EXPECT_THAT(list({.after = odd, .limit = 1}), ElementsAre(of_first));
+  EXPECT_THAT(list({.begins_with = "acme/"}), ElementsAre(OwnedMission{odd, "n1"}, of_first));
+  EXPECT_THAT(list({.after = "acme/hall", .begins_with = "acme/"}), ElementsAre());
+  EXPECT_THAT(list({.last_part = "hall"}), ElementsAre(of_first, OwnedMission{"hall", ""}));
+  EXPECT_THAT(list({.last_part = "all"}), ElementsAre());
+  ExpireLease(url_, "n1");
+  EXPECT_THAT(list({.last_part = "hall", .limit = 1}), ElementsAre(OwnedMission{"acme/hall", ""}));
+}
+
+TEST_F(PostgresNodesTest, AMissionOfNobodyIsForgottenWhenItsTimeIsOver) {
+  const auto first = OpenShared(url_, "n1");
+  const auto second = OpenShared(url_, "n2");
+  StoreNodes& nodes = *first->nodes();
+  const absl::Duration over = -absl::Seconds(1);
+  for (const char* key : {"hall", "mill", "yard"}) ASSERT_TRUE(first->Create(key, "").ok());
+  ASSERT_TRUE(second->Create("attic", "").ok());
+  ASSERT_TRUE(nodes.KeepFor({{"hall", over}, {"mill", absl::Hours(1)}, {"attic", over}}).ok());
+  EXPECT_THAT(*nodes.ListForgotten(9), ElementsAre()) << "its node lives";
+  for (const char* key : {"hall", "mill", "yard"}) ASSERT_TRUE(nodes.Release(key, 1).ok());
+  ASSERT_TRUE(second->nodes()->Release("attic", 1).ok());
+  EXPECT_THAT(*second->nodes()->ListForgotten(9), ElementsAre(ForgottenMission{"hall", 1}))
+      << "a node speaks for its own only";
+
+  ASSERT_EQ(second->Acquire("hall")->epoch, 2);
+  ASSERT_TRUE(second->nodes()->Release("hall", 2).ok());
+  EXPECT_THAT(*nodes.ListForgotten(9), ElementsAre()) << "somebody has called for it";
+
+  ASSERT_EQ(second->Acquire("hall")->epoch, 3);
+  ASSERT_EQ(second->Acquire("mill")->epoch, 2);
+  ASSERT_TRUE(second->nodes()->KeepFor({{"hall", over}, {"mill", 2 * over}}).ok());
+  ExpireLease(url_, "n2");
+  EXPECT_THAT(*nodes.ListForgotten(9),
+              ElementsAre(ForgottenMission{"mill", 2}, ForgottenMission{"hall", 3}));
+  EXPECT_THAT(*nodes.ListForgotten(1), ElementsAre(ForgottenMission{"mill", 2}));
+}
+
+TEST_F(PostgresNodesTest, WhatIsKeptForGoodOrRemovedIsNotForgotten) {
+  const auto store = OpenShared(url_, "n1");
+  for (const char* key : {"hall", "mill"}) ASSERT_TRUE(store->Create(key, "").ok());
+  StoreNodes& nodes = *store->nodes();
+  const absl::Duration over = -absl::Seconds(1);
+  ASSERT_TRUE(nodes.KeepFor({{"hall", over}, {"mill", over}}).ok());
+  ASSERT_TRUE(nodes.KeepFor({{"hall", absl::InfiniteDuration()}}).ok());
+  EXPECT_EQ(Ask("SELECT count(*) FROM plumescout_idle"), "1");
+  EXPECT_TRUE(RemoveNow(*store, "mill", 1).ok());
+  EXPECT_EQ(Ask("SELECT count(*) FROM plumescout_idle"), "0");
+}
+
 TEST_F(PostgresNodesTest, ALeaseThatRanOutLosesTheMissions) {
   PostgresStoreOptions options = SharedOptions(url_, "n1");
   options.lease = absl::Seconds(2);

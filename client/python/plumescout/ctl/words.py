@@ -9,7 +9,17 @@ from plumescout.v1 import robot_service_pb2 as robot_pb
 from plumescout.v1 import snapshot_service_pb2 as snapshot_pb
 from plumescout.v1 import types_pb2 as types_pb
 
-MISSION_HEADINGS = ["MISSION", "STATE", "PHASE", "ROBOTS", "REVISION", "MEMORY", "IDLE TTL", "OWNER"]
+MISSION_HEADINGS = [
+    "MISSION",
+    "STATE",
+    "PHASE",
+    "ROBOTS",
+    "REVISION",
+    "MEMORY",
+    "IDLE TTL",
+    "OWNER",
+    "SERVER",
+]
 ROBOT_HEADINGS = [
     "ROBOT",
     "LINK",
@@ -107,6 +117,7 @@ def mission_row(mission):
         memory(mission),
         idle_time_to_live(mission),
         mission.owner,
+        mission.node or "-",
     ]
 
 
