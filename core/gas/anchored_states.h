@@ -32,6 +32,19 @@ class AnchoredStates {
            CellState::kFree;
   }
 
+  // visit(index into states(), AnchorCell) of each free cell, in order: what At says of all of
+  // them, without its divisions.
+  template <typename Visit>
+  void ForEachFree(const Visit& visit) const {
+    std::size_t index = 0;
+    const GridGeometry& geometry = states_.geometry();
+    for (int y = corner_.y; y < corner_.y + geometry.height; ++y) {
+      for (int x = corner_.x; x < corner_.x + geometry.width; ++x, ++index) {
+        if (states_[index] == CellState::kFree) visit(index, AnchorCell{x, y});
+      }
+    }
+  }
+
   template <typename Archive, typename Self>
   static void VisitState(Archive& archive, Self& self);
 

@@ -3,15 +3,6 @@
 #include "core/gas/gas_lattice.h"
 
 namespace plumescout {
-namespace {
-
-int FloorDivide(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
-
-}  // namespace
-
-GasCell GasCellOf(AnchorCell cell, int factor) {
-  return {FloorDivide(cell.x, factor), FloorDivide(cell.y, factor)};
-}
 
 bool HasRoom(const GasLattice& lattice, const GasCellRect& rect, int margin) {
   return lattice.cells().Covers(rect.Grown(margin));

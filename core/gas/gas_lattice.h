@@ -23,7 +23,13 @@ struct GasCell {
   }
 };
 
-GasCell GasCellOf(AnchorCell cell, int factor);
+inline GasCell GasCellOf(AnchorCell cell, int factor) {
+  if (factor == 1) return {cell.x, cell.y};  // nearly always, and divisions take long
+  const auto floor_of = [factor](int a) {
+    return a >= 0 ? a / factor : -((factor - 1 - a) / factor);
+  };
+  return {floor_of(cell.x), floor_of(cell.y)};
+}
 
 using GasCellRect = CellRectOf<GasCell>;
 

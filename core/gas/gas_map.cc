@@ -307,9 +307,8 @@ void GasMap::Publish() const {
     fit.energy -= beside.explained;
     noise_ = NoiseOf(fit, prior_scale_);
   }
-  for (std::size_t i = 0; i < known.states().size(); ++i) {
-    if (known.states()[i] != CellState::kFree) continue;
-    const std::size_t index = lattice_.Index(GasCellOf(known.At(i), inputs_.factor()));
+  known.ForEachFree([&](std::size_t i, AnchorCell cell) {
+    const std::size_t index = lattice_.Index(GasCellOf(cell, inputs_.factor()));
     double deviation = engine_->mean_ppm(index);
     double variance = engine_->variance_ppm2(index);
     if (is_beside) {
@@ -320,7 +319,7 @@ void GasMap::Publish() const {
     mean_ppm_[i] = static_cast<float>(gas.median_ppm);
     variance_ppm2_[i] = static_cast<float>(prior_scale_.theta * variance);
     if (has_own_errors()) error_variance_ppm2_[i] = static_cast<float>(gas.variance_ppm2);
-  }
+  });
   beside_ppm2_ = std::move(beside.variance_ppm2);
 }
 

@@ -29,13 +29,11 @@ absl::StatusOr<std::optional<InverseColumns>> GasWhatIf::ColumnsIfRead(std::span
   return field_.ColumnsIfRead(read, precision);
 }
 
-EntropyFall GasWhatIf::FallOf(std::span<const float> weights, const StopFn& stop) const {
-  const Grid<CellState>& states = states_.states();
+EntropyFall GasWhatIf::FallOf(std::span<const float> weights) const {
   std::vector<double> by_lattice_cell(lattice_.size(), 0.0);
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    if (states[i] == CellState::kFree) by_lattice_cell[FieldIndex(i)] += weights[i];
-  }
-  return field_.FallOf(by_lattice_cell, beside_ppm2_, stop);
+  states_.ForEachFree(
+      [&](std::size_t i, AnchorCell cell) { by_lattice_cell[FieldIndex(cell)] += weights[i]; });
+  return field_.FallOf(by_lattice_cell, beside_ppm2_);
 }
 
 absl::StatusOr<std::shared_ptr<const GasWhatIf>> GasWhatIf::Given(
@@ -59,7 +57,7 @@ absl::StatusOr<std::optional<std::size_t>> GasWhatIf::FreeIndex(Cell cell) const
   }
   const std::size_t index = geometry().Index(cell);
   if (states[index] != CellState::kFree) return std::nullopt;
-  return FieldIndex(index);
+  return FieldIndex(states_.At(index));
 }
 
 absl::StatusOr<std::vector<std::size_t>> GasWhatIf::FreeIndices(std::span<const Cell> cells) const {
@@ -72,14 +70,12 @@ absl::StatusOr<std::vector<std::size_t>> GasWhatIf::FreeIndices(std::span<const 
 }
 
 Grid<float> GasWhatIf::OnMap(const std::vector<double>& by_lattice_cell) const {
-  const Grid<CellState>& states = states_.states();
   Grid<float> result(geometry(), std::numeric_limits<float>::quiet_NaN());
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    if (states[i] != CellState::kFree) continue;
-    const std::size_t index = FieldIndex(i);
+  states_.ForEachFree([&](std::size_t i, AnchorCell cell) {
+    const std::size_t index = FieldIndex(cell);
     const double beside_ppm2 = beside_ppm2_.empty() ? 0.0 : beside_ppm2_[index];
     result[i] = static_cast<float>(prior_scale_ * (by_lattice_cell[index] + beside_ppm2));
-  }
+  });
   return result;
 }
 

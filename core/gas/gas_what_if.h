@@ -52,7 +52,7 @@ class GasWhatIf {
   // of geometry() weigh. Both refer to this object. Errors: those of VarianceIfRead.
   absl::StatusOr<std::optional<InverseColumns>> ColumnsIfRead(std::span<const Cell> cells,
                                                               double precision) const;
-  EntropyFall FallOf(std::span<const float> weights, const StopFn& stop = {}) const;
+  EntropyFall FallOf(std::span<const float> weights) const;
 
   // Itself once these readings have been taken, whatever they say: others are then worth what
   // they tell beside them. For cells and errors see VarianceIfRead. Cost: that, and for each
@@ -71,9 +71,7 @@ class GasWhatIf {
   absl::StatusOr<std::vector<std::size_t>> FreeIndices(std::span<const Cell> cells) const;
   Grid<float> OnMap(const std::vector<double>& by_lattice_cell) const;
   // In the lattice, of a free cell.
-  std::size_t FieldIndex(std::size_t index) const {
-    return lattice_.Index(GasCellOf(states_.At(index), factor_));
-  }
+  std::size_t FieldIndex(AnchorCell cell) const { return lattice_.Index(GasCellOf(cell, factor_)); }
 
   FieldSnapshot field_;
   GasLattice lattice_;

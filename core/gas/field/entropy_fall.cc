@@ -33,7 +33,8 @@ double Nats(double share) {
 // Adds up, node by node, what readings take away.
 class EntropyFall::Sum final : public InverseColumns::Visitor {
  public:
-  // Subtrees whose cells lose no greater share of their variance than this are bounded.
+  // Subtrees whose cells lose no greater share of their variance than this are bounded, unless it
+  // is 0.
   Sum(const EntropyFall& fall, double bounded_share, const StopFn& stop)
       : fall_(fall), bounded_share_(bounded_share), stop_(stop) {}
 
@@ -44,6 +45,7 @@ class EntropyFall::Sum final : public InverseColumns::Visitor {
     }
     const double most = *std::max_element(squares.begin(), squares.end());
     if (most <= fall_.tolerance_ppm2_) return false;
+    if (bounded_share_ == 0.0) return true;
     const Bound& bound = fall_.bounds_[node];
     const double share = bound.greatest_share * most;
     if (share >= bounded_share_) return true;
@@ -76,18 +78,22 @@ class EntropyFall::Sum final : public InverseColumns::Visitor {
 };
 
 EntropyFall::EntropyFall(const FieldFactor& factor, std::vector<double> variance_ppm2,
-                         std::vector<double> weights, double tolerance_ppm2, const StopFn& stop)
+                         std::vector<double> weights, double tolerance_ppm2)
     : factor_(&factor),
       variance_ppm2_(std::move(variance_ppm2)),
       weights_(std::move(weights)),
-      tolerance_ppm2_(tolerance_ppm2) {
-  const std::size_t nodes = factor.tree().nodes().size();
-  bounds_.resize(nodes);
+      tolerance_ppm2_(tolerance_ppm2) {}
+
+void EntropyFall::FindBounds(const StopFn& stop) {
+  if (has_bounds_) return;
+  const std::size_t nodes = factor_->tree().nodes().size();
+  bounds_.assign(nodes, {});
+  boundary_weights_.clear();
   for (std::size_t node = 0; node < nodes; ++node) {
     if (node % kNodesPerStop == 0 && Stops(stop)) return;
     FindBound(node);
   }
-  complete_ = true;
+  has_bounds_ = true;
 }
 
 void EntropyFall::FindBound(std::size_t node) {
@@ -141,14 +147,13 @@ void EntropyFall::AddTransposed(const Front& front) {
 }
 
 std::optional<double> EntropyFall::Of(InverseColumns& columns, const StopFn& stop) const {
-  if (!complete_) return std::nullopt;
   Sum sum(*this, 0.0, stop);
   columns.Descend(sum);
   return sum.nats();
 }
 
 std::optional<double> EntropyFall::AtMost(InverseColumns& columns, const StopFn& stop) const {
-  if (!complete_) return std::nullopt;
+  if (!has_bounds_) return std::nullopt;
   constexpr double kBoundedShare = 0.3;  // there the chord is off by a fifth at most
   constexpr double kRounding = 1.0 + 1e-9;
   Sum sum(*this, kBoundedShare, stop);

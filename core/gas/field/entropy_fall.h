@@ -26,14 +26,15 @@ class EntropyFall {
  public:
   // `variance_ppm2` and `weights` >= 0 by slot; those of other than active cells do not matter.
   // Falls of the variance are left out as FieldSnapshot does. REQUIRES: `factor` outlives this.
-  // `stop` is asked all along. Cost: about that of SolveField.
   EntropyFall(const FieldFactor& factor, std::vector<double> variance_ppm2,
-              std::vector<double> weights, double tolerance_ppm2, const StopFn& stop = {});
+              std::vector<double> weights, double tolerance_ppm2);
 
-  // Nats. None if `stop`, which is asked all along, said so, or did when this was made. Cost: that
-  // of the columns in every active cell, less what readings hardly tell of.
+  // Nats. None if `stop`, which is asked all along, said so. Cost: that of the columns in every
+  // active cell, less what readings hardly tell of.
   std::optional<double> Of(InverseColumns& columns, const StopFn& stop) const;
-  // No less than Of. Cost: that of the columns near their own cells.
+  // What AtMost needs. `stop` is asked all along. Cost: about that of SolveField.
+  void FindBounds(const StopFn& stop = {});
+  // No less than Of; none without bounds. Cost: that of the columns near their own cells.
   std::optional<double> AtMost(InverseColumns& columns, const StopFn& stop) const;
 
  private:
@@ -51,7 +52,7 @@ class EntropyFall {
   std::vector<double> variance_ppm2_;
   std::vector<double> weights_;
   double tolerance_ppm2_;
-  bool complete_ = false;
+  bool has_bounds_ = false;
   std::vector<Bound> bounds_;  // by node
   std::vector<double> boundary_weights_;
 

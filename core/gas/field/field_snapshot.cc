@@ -92,7 +92,7 @@ absl::StatusOr<std::vector<double>> FieldSnapshot::VarianceAfter(
 }
 
 EntropyFall FieldSnapshot::FallOf(std::span<const double> weights,
-                                  std::span<const double> beside_ppm2, const StopFn& stop) const {
+                                  std::span<const double> beside_ppm2) const {
   const SeparatorTree& tree = factor_.tree();
   std::vector<double> variance_ppm2 = variance_ppm2_;
   std::vector<double> by_slot(variance_ppm2.size());
@@ -100,7 +100,7 @@ EntropyFall FieldSnapshot::FallOf(std::span<const double> weights,
     by_slot[slot] = weights[tree.cell(slot)];
     if (!beside_ppm2.empty()) variance_ppm2[slot] += beside_ppm2[tree.cell(slot)];
   }
-  return {factor_, std::move(variance_ppm2), std::move(by_slot), tolerance_ppm2_, stop};
+  return {factor_, std::move(variance_ppm2), std::move(by_slot), tolerance_ppm2_};
 }
 
 absl::StatusOr<FieldSnapshot> FieldSnapshot::Given(std::span<const ForeseenReading> readings,

@@ -50,9 +50,7 @@ class FieldSnapshot {
                                                               double precision) const;
   // For such columns. `weights` >= 0, and what each variance has beside that of the field, by cell
   // index. Refers to this snapshot.
-  // `stop`: see EntropyFall.
-  EntropyFall FallOf(std::span<const double> weights, std::span<const double> beside_ppm2,
-                     const StopFn& stop = {}) const;
+  EntropyFall FallOf(std::span<const double> weights, std::span<const double> beside_ppm2) const;
 
   // The snapshot of a field that has heard these readings besides; what they say is not known, so
   // it has variances only. Errors and cost: those of VarianceIfRead, and a copy of the fronts on

@@ -47,10 +47,11 @@ class Pricing {
         options_(options),
         stop_(stop),
         candidates_(candidates),
-        information_(belief, stop) {}
+        information_(belief) {}
 
   // `needed`: index of one whose price is wanted whatever the others are worth; -1: there is none.
   void Run(int needed) {
+    if (candidates_.size() == 1) needed = 0;  // there is nothing to compare it with
     if (needed >= 0 && !Price(candidates_[static_cast<std::size_t>(needed)])) return;
     for (Candidate* const candidate : MostPromisingFirst()) {
       if (candidate->expected_information_nats) continue;
@@ -67,6 +68,7 @@ class Pricing {
   // Those that have a bound.
   std::vector<Candidate*> MostPromisingFirst() {
     std::vector<Candidate*> order;
+    if (candidates_.size() > 1) information_.FindBounds(stop_);
     for (Candidate& candidate : candidates_) {
       if (stop_()) break;
       if (candidate.expected_information_nats) continue;
@@ -95,7 +97,7 @@ class Pricing {
   const PlanningOptions& options_;
   const StopFn& stop_;
   std::vector<Candidate>& candidates_;
-  const ExpectedInformation information_;
+  ExpectedInformation information_;
   double best_ = -std::numeric_limits<double>::infinity();
 };
 

@@ -59,8 +59,7 @@ std::vector<Cell> ReadingCells(const std::vector<Point2>& path, const GridGeomet
   return cells;
 }
 
-ExpectedInformation::ExpectedInformation(const Belief& belief, const StopFn& stop)
-    : belief_(belief) {
+ExpectedInformation::ExpectedInformation(const Belief& belief) : belief_(belief) {
   if (belief.gas_what_if == nullptr) return;
   const std::vector<float> relevance = Relevance(belief);
   const GridGeometry& field = belief.gas_what_if->geometry();
@@ -68,7 +67,11 @@ ExpectedInformation::ExpectedInformation(const Belief& belief, const StopFn& sto
   FieldWindow(belief.geometry(), field).ForEachCell([&](std::size_t in_map, std::size_t in_field) {
     weights[in_field] = relevance[in_map];
   });
-  fall_ = belief.gas_what_if->FallOf(weights, stop);
+  fall_ = belief.gas_what_if->FallOf(weights);
+}
+
+void ExpectedInformation::FindBounds(const StopFn& stop) {
+  if (fall_) fall_->FindBounds(stop);
 }
 
 std::optional<double> ExpectedInformation::Of(const std::vector<Cell>& readings,

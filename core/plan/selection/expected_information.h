@@ -27,15 +27,16 @@ std::vector<Cell> ReadingCells(const std::vector<Point2>& path, const GridGeomet
 // Ours.
 class ExpectedInformation {
  public:
-  // Holds references to the belief. Tells nothing if `stop`, which is asked all along, says so.
-  // Cost: O(cells), and that of EntropyFall.
-  explicit ExpectedInformation(const Belief& belief, const StopFn& stop = {});
+  // Holds references to the belief. Cost: O(cells).
+  explicit ExpectedInformation(const Belief& belief);
 
   // The sum over free cells of relevance (core/plan/cost/relevance.h) times 1/2 ln(variance now /
   // variance then), in nats. None if the belief has no gas field yet, or `stop` said so. Cost: that
   // of EntropyFall::Of.
   std::optional<double> Of(const std::vector<Cell>& readings, const StopFn& stop = {}) const;
-  // No less, for less: that of EntropyFall::AtMost.
+  // For AtMost. Finds none if `stop`, which is asked all along, says so. Cost: see EntropyFall.
+  void FindBounds(const StopFn& stop = {});
+  // No less, for less: that of EntropyFall::AtMost. None without bounds.
   std::optional<double> AtMost(const std::vector<Cell>& readings, const StopFn& stop = {}) const;
 
  private:

@@ -55,6 +55,22 @@ TEST(AnchoredStatesTest, CellsKeepTheirPlaceWhenTheMapGrows) {
   EXPECT_FALSE(states.IsFree({3, 0}));  // beyond the map
 }
 
+TEST(AnchoredStatesTest, FreeCellsAreVisitedInOrder) {
+  AnchoredStates states;
+  ASSERT_TRUE(states.Update(GridFromArt({".#"})).ok());
+  ASSERT_TRUE(states.Update(MapAt(-2, -1, {"??.#.", "....."})).ok());
+  std::size_t visited = 0;
+  std::size_t next = 0;
+  states.ForEachFree([&](std::size_t index, AnchorCell cell) {
+    EXPECT_GE(index, next) << "in order, and once";
+    EXPECT_EQ(cell, states.At(index));
+    EXPECT_TRUE(states.IsFree(cell));
+    next = index + 1;
+    ++visited;
+  });
+  EXPECT_EQ(visited, 7u);
+}
+
 TEST(AnchoredStatesTest, WhatANewMapLeavesOutIsUnknown) {
   AnchoredStates states;
   ASSERT_TRUE(states.Update(GridFromArt({"..."})).ok());
