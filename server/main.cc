@@ -21,6 +21,7 @@
 #include "server/base/descriptor_limit.h"
 #include "server/base/exit_timer.h"
 #include "server/base/grpc_log.h"
+#include "server/base/heap.h"
 #include "server/base/log.h"
 #include "server/base/service_manager.h"
 #include "server/config/command_line.h"
@@ -151,6 +152,7 @@ int Run(const ServerConfig& config) {
 
 int RunLogged(const ServerConfig& config) {
   BlockStopSignals();  // before the first thread starts
+  ReturnLargeBlocks();
   // Who reads our output may go away.
   signal(SIGPIPE, SIG_IGN);
   ConfigureLog(

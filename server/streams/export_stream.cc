@@ -10,6 +10,7 @@
 #include "proto/convert/field.h"
 #include "proto/convert/names.h"
 #include "server/base/log.h"
+#include "server/calls/unary_call.h"
 
 namespace plumescout::server {
 namespace {

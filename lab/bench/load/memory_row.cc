@@ -12,6 +12,7 @@
 #include "client/grpc_planner_client.h"
 #include "core/types/rng.h"
 #include "core/types/status_macros.h"
+#include "lab/bench/load/budget_filler.h"
 #include "lab/bench/load/known_map.h"
 #include "lab/bench/load/memory_budget.h"
 #include "lab/bench/load/rows.h"
@@ -28,6 +29,7 @@ constexpr double kSpread_m = 60.0;
 constexpr absl::Duration kCallTimeout = absl::Seconds(5);
 constexpr absl::Duration kReply = absl::Milliseconds(100);
 constexpr int kBatch = 64;
+constexpr double kFillShare = 4.0;  // of the row's time: the budget is not reached sooner
 
 // Asks for memory in every way that is allowed. What the server refuses is as good as what it does.
 class Hoarder {
@@ -129,10 +131,8 @@ class Hoarder {
   std::map<MissionId, Robot> robots_;
 };
 
-}  // namespace
-
-absl::StatusOr<std::vector<Bar>> MemoryRow(const RowSettings& settings) {
-  const MemoryBudget budget = SmallBudget(settings.server_program);
+// Random requests.
+absl::StatusOr<std::vector<Bar>> Hoard(const RowSettings& settings, const MemoryBudget& budget) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto server,
                               ServerProcess::Start({settings.server_program, budget.settings}));
   Hoarder hoarder(server->target(), settings.seed);
@@ -151,6 +151,52 @@ absl::StatusOr<std::vector<Bar>> MemoryRow(const RowSettings& settings) {
       {"memory_requests", requests},
       {"memory_refused", hoarder.refused()},
   };
+}
+
+// All that there is room for, again and again: once for each way to begin with.
+absl::StatusOr<std::vector<Bar>> FillUp(const RowSettings& settings, MemoryBudget budget) {
+  for (const char* free : {"limits.max_missions=64", "limits.max_scans_per_s=0",
+                           "limits.max_gas_readings_per_s=0", "limits.max_ingest_bytes_per_s=0"}) {
+    budget.settings.emplace_back(free);
+  }
+  PLUMESCOUT_ASSIGN_OR_RETURN(const auto server,
+                              ServerProcess::Start({settings.server_program, budget.settings}));
+  const absl::Time end = absl::Now() + kFillShare * settings.time;
+  double peak_mb = 0.0;
+  const auto look = [&] {
+    const auto usage = server->Usage();
+    if (usage.ok()) peak_mb = std::max(peak_mb, usage->peak_rss_mb);
+    return usage.ok() && absl::Now() < end && peak_mb < kUnbearable_mb;
+  };
+  BudgetFiller filler(server->target(), look);
+  int missions = 0;
+  std::size_t rounds = 0;
+  for (; look(); ++rounds) {
+    missions = std::max(missions,
+                        filler.Fill(static_cast<BudgetFiller::Way>(rounds % BudgetFiller::kWays)));
+    filler.Look();
+    look();
+    filler.Clear();
+  }
+  return std::vector<Bar>{
+      {"memory_full_peak_rss_mb", peak_mb, budget.limit_mb()},
+      {"memory_full_budget_mb", budget.budget_mb},
+      MustHold("memory_full_server_ended", server->IsAlive()),
+      {"memory_full_missions", static_cast<double>(missions)},
+      {"memory_full_rounds", static_cast<double>(rounds)},
+      {"memory_full_requests", filler.requests()},
+      {"memory_full_refused", filler.refused()},
+  };
+}
+
+}  // namespace
+
+absl::StatusOr<std::vector<Bar>> MemoryRow(const RowSettings& settings) {
+  const MemoryBudget budget = SmallBudget(settings.server_program);
+  PLUMESCOUT_ASSIGN_OR_RETURN(std::vector<Bar> bars, Hoard(settings, budget));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<Bar> full, FillUp(settings, budget));
+  bars.insert(bars.end(), full.begin(), full.end());
+  return bars;
 }
 
 }  // namespace plumescout::lab
