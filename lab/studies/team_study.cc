@@ -145,7 +145,11 @@ std::vector<std::string> MakeNotes(const TrialPlan& plan, bool given) {
       "other in the way only when their beams meet. Up to a second late: in each leg robots fall "
       "behind their trajectories by up to so much, here and there on the way.",
       "Promised already: of what the readings of chosen ways would tell if nobody else read, the "
-      "share that live plans of others tell already, as missions foresee them. Blocked by a robot: "
+      "share that live plans of others tell already, as missions foresee them. Bought twice: of "
+      "what these ways were priced at when they were chosen, the share that is above what they "
+      "tell "
+      "beside those plans; what is promised already and not paid for is no part of it. Blocked by "
+      "a robot: "
       "another body was within 1.5 m when the leg ended so. Rings: robots that wait for each "
       "other, "
       "found once a second. Ghosts neither see each other nor run into each other: later for "

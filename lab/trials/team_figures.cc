@@ -32,6 +32,8 @@ void AddTeamRecord(const TeamRecord& team, TeamRecord& sums) {
   sums.findings.held_up += team.findings.held_up;
   sums.findings.alone_nats += team.findings.alone_nats;
   sums.findings.besides_nats += team.findings.besides_nats;
+  sums.findings.paid_nats += team.findings.paid_nats;
+  sums.findings.paid_twice_nats += team.findings.paid_twice_nats;
 }
 
 }  // namespace
@@ -93,6 +95,11 @@ double Traffic::waiting_share() const { return sums.waiting_s / std::max(1.0, su
 double Traffic::promised_share() const {
   const TeamFindings& findings = sums.findings;
   return findings.alone_nats > 0.0 ? 1.0 - findings.besides_nats / findings.alone_nats : 0.0;
+}
+
+double Traffic::bought_twice_share() const {
+  const TeamFindings& findings = sums.findings;
+  return findings.paid_nats > 0.0 ? findings.paid_twice_nats / findings.paid_nats : 0.0;
 }
 
 Traffic TrafficOf(const std::vector<SceneRecords>& records, std::size_t row) {

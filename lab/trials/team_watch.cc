@@ -99,6 +99,9 @@ void TeamWatch::Price(const Belief& belief, const Plan& plan) {
   if (!besides_nats) return;
   findings_.alone_nats += *alone_nats;
   findings_.besides_nats += *besides_nats;
+  if (!chosen.expected_information_nats) return;
+  findings_.paid_nats += *chosen.expected_information_nats;
+  findings_.paid_twice_nats += std::max(0.0, *chosen.expected_information_nats - *besides_nats);
 }
 
 }  // namespace plumescout::lab

@@ -25,6 +25,10 @@ struct TeamFindings {
   // of others promised before (see core/plan/anticipation.h).
   double alone_nats = 0.0;
   double besides_nats = 0.0;
+  // Of those whose choice went by their information: the prices that they were chosen by, and by
+  // how much each is above what its way tells beside those promises.
+  double paid_nats = 0.0;
+  double paid_twice_nats = 0.0;
 
   friend bool operator==(const TeamFindings&, const TeamFindings&) = default;
 };

@@ -59,7 +59,9 @@ json ToJson(const TeamRecord& team) {
           {"deadlocks", team.findings.deadlocks},
           {"held_up", team.findings.held_up},
           {"alone_nats", team.findings.alone_nats},
-          {"besides_nats", team.findings.besides_nats}};
+          {"besides_nats", team.findings.besides_nats},
+          {"paid_nats", team.findings.paid_nats},
+          {"paid_twice_nats", team.findings.paid_twice_nats}};
 }
 
 TeamRecord TeamRecordFrom(const json& value) {
@@ -81,6 +83,8 @@ TeamRecord TeamRecordFrom(const json& value) {
   value.at("held_up").get_to(findings.held_up);
   value.at("alone_nats").get_to(findings.alone_nats);
   value.at("besides_nats").get_to(findings.besides_nats);
+  value.at("paid_nats").get_to(findings.paid_nats);
+  value.at("paid_twice_nats").get_to(findings.paid_twice_nats);
   return team;
 }
 

@@ -141,6 +141,31 @@ TEST(TeamWatch, PricesWhatOthersHavePromised) {
   EXPECT_GT(watch.findings().besides_nats, alone_nats);
 }
 
+TEST(TeamWatch, TellsWhatWasPaidTwiceFromWhatIsPromised) {
+  CorridorTeam team;
+  ASSERT_NO_FATAL_FAILURE(AddGasField(team.belief));
+  team.Stands("a", 2.0);
+  team.Stands("b", 2.0);
+  team.Drives("b", 6.0);
+  Plan plan = PlanOfA(CorridorTeam::At(6.0));
+  TeamWatch unpriced;
+  unpriced.OnPlan(team.belief, plan);
+  const double alone_nats = unpriced.findings().alone_nats;
+  const double besides_nats = unpriced.findings().besides_nats;
+  ASSERT_LT(besides_nats, alone_nats);
+  EXPECT_EQ(unpriced.findings().paid_nats, 0.0) << "it was not chosen by its information";
+  plan.candidates[0].expected_information_nats = besides_nats;
+  TeamWatch once;
+  once.OnPlan(team.belief, plan);
+  EXPECT_EQ(once.findings().paid_nats, besides_nats);
+  EXPECT_EQ(once.findings().paid_twice_nats, 0.0);
+  plan.candidates[0].expected_information_nats = alone_nats;
+  TeamWatch twice;
+  twice.OnPlan(team.belief, plan);
+  EXPECT_EQ(twice.findings().paid_nats, alone_nats);
+  EXPECT_DOUBLE_EQ(twice.findings().paid_twice_nats, alone_nats - besides_nats);
+}
+
 TEST(TeamWatch, WhatIsPromisedAfterAPlanWasNotBefore) {
   CorridorTeam team;
   ASSERT_NO_FATAL_FAILURE(AddGasField(team.belief));
