@@ -34,6 +34,8 @@ void AddTeamRecord(const TeamRecord& team, TeamRecord& sums) {
   sums.findings.besides_nats += team.findings.besides_nats;
   sums.findings.paid_nats += team.findings.paid_nats;
   sums.findings.paid_twice_nats += team.findings.paid_twice_nats;
+  sums.findings.unseen_goals += team.findings.unseen_goals;
+  sums.findings.unseen_in_others_sight += team.findings.unseen_in_others_sight;
 }
 
 }  // namespace
@@ -100,6 +102,11 @@ double Traffic::promised_share() const {
 double Traffic::bought_twice_share() const {
   const TeamFindings& findings = sums.findings;
   return findings.paid_nats > 0.0 ? findings.paid_twice_nats / findings.paid_nats : 0.0;
+}
+
+double Traffic::unseen_twice_share() const {
+  const TeamFindings& findings = sums.findings;
+  return static_cast<double>(findings.unseen_in_others_sight) / std::max(1, findings.unseen_goals);
 }
 
 Traffic TrafficOf(const std::vector<SceneRecords>& records, std::size_t row) {

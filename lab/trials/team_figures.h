@@ -42,6 +42,8 @@ struct Traffic {
   double promised_share() const;
   // Of what chosen ways were priced at: what live plans of others had promised already.
   double bought_twice_share() const;
+  // Of ways to the edge of the unseen: live plans of others are to see that edge.
+  double unseen_twice_share() const;
 };
 Traffic TrafficOf(const std::vector<SceneRecords>& records, std::size_t row);
 

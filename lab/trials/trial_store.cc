@@ -61,7 +61,9 @@ json ToJson(const TeamRecord& team) {
           {"alone_nats", team.findings.alone_nats},
           {"besides_nats", team.findings.besides_nats},
           {"paid_nats", team.findings.paid_nats},
-          {"paid_twice_nats", team.findings.paid_twice_nats}};
+          {"paid_twice_nats", team.findings.paid_twice_nats},
+          {"unseen_goals", team.findings.unseen_goals},
+          {"unseen_in_others_sight", team.findings.unseen_in_others_sight}};
 }
 
 TeamRecord TeamRecordFrom(const json& value) {
@@ -85,6 +87,8 @@ TeamRecord TeamRecordFrom(const json& value) {
   value.at("besides_nats").get_to(findings.besides_nats);
   value.at("paid_nats").get_to(findings.paid_nats);
   value.at("paid_twice_nats").get_to(findings.paid_twice_nats);
+  value.at("unseen_goals").get_to(findings.unseen_goals);
+  value.at("unseen_in_others_sight").get_to(findings.unseen_in_others_sight);
   return team;
 }
 

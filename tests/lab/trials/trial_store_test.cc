@@ -37,7 +37,9 @@ TrialRecord SomeRecord() {
                           .alone_nats = 5.5,
                           .besides_nats = 4.5,
                           .paid_nats = 3.5,
-                          .paid_twice_nats = 0.5};
+                          .paid_twice_nats = 0.5,
+                          .unseen_goals = 9,
+                          .unseen_in_others_sight = 2};
   record.other_entropies = {-2.5, 1.25};
   record.completed = true;
   return record;
