@@ -145,13 +145,16 @@ std::vector<std::string> MakeNotes(const TrialPlan& plan, bool given) {
       "other in the way only when their beams meet. Up to a second late: in each leg robots fall "
       "behind their trajectories by up to so much, here and there on the way.",
       "Promised already: of what the readings of chosen ways would tell if nobody else read, the "
-      "share that live plans of others tell already, as missions foresee them. Blocked by a robot: "
-      "another body was within 1.5 m when the leg ended so. Rings: robots that wait for each "
-      "other, "
-      "found once a second. Ghosts neither see each other nor run into each other: later for "
-      "keeping clear is beside them, in the time to 95 % of the map and to half of the first "
-      "error. Pairs reached: both got there, a run and that of its ghosts. Who did not counts with "
-      "the end of the run, so where few did the cost says nothing.",
+      "share that live plans of others tell already, as missions foresee them. Bought twice: of "
+      "what these ways were priced at when they were chosen, the share above what they tell beside "
+      "those plans; what is promised already and not paid for is no part of it. Edges of the "
+      "unseen: of the ways that were chosen to one, the share whose edge live plans of others are "
+      "to see, within the range of the lidar and past no wall.",
+      "Blocked by a robot: another body was within 1.5 m when the leg ended so. Rings: robots that "
+      "wait for each other, found once a second. Ghosts neither see each other nor run into each "
+      "other: later for keeping clear is beside them, in the time to 95 % of the map and to half "
+      "of the first error. Pairs reached: both got there, a run and that of its ghosts. Who did "
+      "not counts with the end of the run, so where few did the cost says nothing.",
   };
 }
 

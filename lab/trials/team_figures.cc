@@ -32,6 +32,10 @@ void AddTeamRecord(const TeamRecord& team, TeamRecord& sums) {
   sums.findings.held_up += team.findings.held_up;
   sums.findings.alone_nats += team.findings.alone_nats;
   sums.findings.besides_nats += team.findings.besides_nats;
+  sums.findings.paid_nats += team.findings.paid_nats;
+  sums.findings.paid_twice_nats += team.findings.paid_twice_nats;
+  sums.findings.unseen_goals += team.findings.unseen_goals;
+  sums.findings.unseen_in_others_sight += team.findings.unseen_in_others_sight;
 }
 
 }  // namespace
@@ -93,6 +97,16 @@ double Traffic::waiting_share() const { return sums.waiting_s / std::max(1.0, su
 double Traffic::promised_share() const {
   const TeamFindings& findings = sums.findings;
   return findings.alone_nats > 0.0 ? 1.0 - findings.besides_nats / findings.alone_nats : 0.0;
+}
+
+double Traffic::bought_twice_share() const {
+  const TeamFindings& findings = sums.findings;
+  return findings.paid_nats > 0.0 ? findings.paid_twice_nats / findings.paid_nats : 0.0;
+}
+
+double Traffic::unseen_twice_share() const {
+  const TeamFindings& findings = sums.findings;
+  return static_cast<double>(findings.unseen_in_others_sight) / std::max(1, findings.unseen_goals);
 }
 
 Traffic TrafficOf(const std::vector<SceneRecords>& records, std::size_t row) {

@@ -38,8 +38,12 @@ struct Traffic {
   double blocked_by_robot_share() const;  // of legs
   double encounters_per_robot_minute() const;
   double waiting_share() const;  // of robots' time, by plan
-  // Of what chosen ways tell: promised by live plans of others already.
+  // Of what chosen ways tell: promised by live plans of others already, whether it was paid or not.
   double promised_share() const;
+  // Of what chosen ways were priced at: what live plans of others had promised already.
+  double bought_twice_share() const;
+  // Of ways to the edge of the unseen: live plans of others are to see that edge.
+  double unseen_twice_share() const;
 };
 Traffic TrafficOf(const std::vector<SceneRecords>& records, std::size_t row);
 

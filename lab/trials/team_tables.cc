@@ -42,6 +42,8 @@ TextTable SpeedTable(const SizeResult& result) {
                    "… at 95 % of the map",
                    "runs that did not get there",
                    "promised already",
+                   "bought twice",
+                   "edges of the unseen in sight of others' ways",
                    "planned waits, share of time",
                    "plan, ms",
                    "… over one robot's"};
@@ -53,7 +55,8 @@ TextTable SpeedTable(const SizeResult& result) {
         {result.teams[row].label, absl::StrFormat("%.2f", speedup.entropy),
          absl::StrFormat("%.2f", speedup.rmse), absl::StrFormat("%.2f", speedup.map),
          absl::StrCat(speedup.censored), Percent(figures.traffic.promised_share()),
-         Percent(figures.traffic.waiting_share()),
+         Percent(figures.traffic.bought_twice_share()),
+         Percent(figures.traffic.unseen_twice_share()), Percent(figures.traffic.waiting_share()),
          absl::StrFormat("%.0f", kMillisecondsPerSecond * figures.traffic.plan_wall_s),
          absl::StrFormat("%.2f", figures.plan_wall_ratio)});
   }
@@ -125,6 +128,8 @@ void AddNumbers(const SizeResult& result, Study& study) {
     add("speedup_complete95", speedup.map);
     add("censored", speedup.censored);
     add("promised_share", figures.traffic.promised_share());
+    add("bought_twice_share", figures.traffic.bought_twice_share());
+    add("unseen_twice_share", figures.traffic.unseen_twice_share());
     add("plan_wall_s", figures.traffic.plan_wall_s);
     add("plan_wall_ratio", figures.plan_wall_ratio);
     AddTrafficNumbers(result, row, study);

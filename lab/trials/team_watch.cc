@@ -6,9 +6,12 @@
 #include <optional>
 #include <vector>
 
+#include "core/grid/ray.h"
 #include "core/plan/anticipation.h"
 #include "core/plan/blockade.h"
 #include "core/plan/selection/expected_information.h"
+#include "core/plan/selection/selection.h"
+#include "core/traffic/traffic.h"
 
 namespace plumescout::lab {
 namespace {
@@ -25,6 +28,24 @@ Belief WhenMade(const Belief& belief, const Plan& plan) {
     if (record.last_plan > plan.id) record.live_trajectory = nullptr;
   }
   return then;
+}
+
+bool SeesThrough(const Belief& belief, Point2 from, Point2 to) {
+  return WalkSegment(belief.geometry(), from, to, [&](Cell cell, double) {
+    return belief.occupancy->At(cell, CellState::kUnknown) != CellState::kOccupied;
+  });
+}
+
+// Whether a robot is to see a place on what is left of its live plan.
+bool WillSee(const RobotRecord& record, const Belief& belief, Point2 place, double range_m) {
+  constexpr double kLook_s = 0.5;
+  const Trajectory& way = *record.live_trajectory;
+  for (double at_s = Progress_s(record, belief.sample_time_ns); at_s <= way.duration_s;
+       at_s += kLook_s) {
+    const Point2 from = PoseAt(way, at_s).position();
+    if (Distance_m(from, place) <= range_m && SeesThrough(belief, from, place)) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -62,6 +83,7 @@ void TeamWatch::OnPlan(const Belief& belief, const Plan& plan) {
   goals_.erase(plan.robot);
   if (plan.chosen < 0) return;
   goals_[plan.robot] = plan.candidates[static_cast<std::size_t>(plan.chosen)].goal;
+  CheckUnseen(belief, plan);
   if (belief.gas_what_if != nullptr) Price(belief, plan);
 }
 
@@ -87,6 +109,21 @@ void TeamWatch::CheckSetAside(const Belief& belief, const RobotId& robot) {
   blocked_.erase(blocked);
 }
 
+void TeamWatch::CheckUnseen(const Belief& belief, const Plan& plan) {
+  const Candidate& chosen = plan.candidates[static_cast<std::size_t>(plan.chosen)];
+  if (!EndsAtTheUnseen(chosen)) return;
+  ++findings_.unseen_goals;
+  const Belief then = WhenMade(belief, plan);
+  const bool is_in_sight =
+      std::any_of(then.robots.begin(), then.robots.end(), [&](const auto& robot) {
+        const auto& [id, record] = robot;
+        return id != plan.robot && record.state.has_pose && !record.state.silent &&
+               IsOnItsWay(record, then.sample_time_ns) &&
+               WillSee(record, then, chosen.goal.centroid, lidar_range_m_);
+      });
+  if (is_in_sight) ++findings_.unseen_in_others_sight;
+}
+
 void TeamWatch::Price(const Belief& belief, const Plan& plan) {
   const PlanningOptions& options = belief.options->planning;
   const Candidate& chosen = plan.candidates[static_cast<std::size_t>(plan.chosen)];
@@ -99,6 +136,9 @@ void TeamWatch::Price(const Belief& belief, const Plan& plan) {
   if (!besides_nats) return;
   findings_.alone_nats += *alone_nats;
   findings_.besides_nats += *besides_nats;
+  if (!chosen.expected_information_nats) return;
+  findings_.paid_nats += *chosen.expected_information_nats;
+  findings_.paid_twice_nats += std::max(0.0, *chosen.expected_information_nats - *besides_nats);
 }
 
 }  // namespace plumescout::lab

@@ -25,6 +25,14 @@ struct TeamFindings {
   // of others promised before (see core/plan/anticipation.h).
   double alone_nats = 0.0;
   double besides_nats = 0.0;
+  // Of those whose choice went by their information: the prices that they were chosen by, and by
+  // how much each is above what its way tells beside those promises.
+  double paid_nats = 0.0;
+  double paid_twice_nats = 0.0;
+  // Chosen ways to the edge of the unseen, and those whose edge others are to see on the way of
+  // live plans made before: both are paid the whole worth of the unseen.
+  int unseen_goals = 0;
+  int unseen_in_others_sight = 0;
 
   friend bool operator==(const TeamFindings&, const TeamFindings&) = default;
 };
@@ -33,6 +41,8 @@ struct TeamFindings {
 class TeamWatch {
  public:
   static constexpr double kLong_s = 10.0;
+
+  explicit TeamWatch(double lidar_range_m) : lidar_range_m_(lidar_range_m) {}
 
   // Every second or so of sample time. Cost: that of FindBlockedRobots.
   void OnTime(const Belief& belief);
@@ -61,7 +71,9 @@ class TeamWatch {
 
   void CheckSetAside(const Belief& belief, const RobotId& robot);
   void Price(const Belief& belief, const Plan& plan);
+  void CheckUnseen(const Belief& belief, const Plan& plan);
 
+  double lidar_range_m_;
   TeamFindings findings_;
   Plight ring_;
   Plight held_up_;

@@ -200,7 +200,7 @@ absl::StatusOr<TrialRecord> RunTrial(const Trial& trial) {
   };
   LocalPlannerClient planner(local);
   EpisodeOptions options = MakeEpisodeOptions(trial, record);
-  TeamWatch watch;
+  TeamWatch watch(trial.robot.lidar_range_m);
   if (trial.robots > 1) LetWatch(watch, planner, options);
   std::atomic<bool> over = false;
   if (trial.robot.stops_without_frontier) EndWithoutFrontier(over, options);

@@ -59,7 +59,11 @@ json ToJson(const TeamRecord& team) {
           {"deadlocks", team.findings.deadlocks},
           {"held_up", team.findings.held_up},
           {"alone_nats", team.findings.alone_nats},
-          {"besides_nats", team.findings.besides_nats}};
+          {"besides_nats", team.findings.besides_nats},
+          {"paid_nats", team.findings.paid_nats},
+          {"paid_twice_nats", team.findings.paid_twice_nats},
+          {"unseen_goals", team.findings.unseen_goals},
+          {"unseen_in_others_sight", team.findings.unseen_in_others_sight}};
 }
 
 TeamRecord TeamRecordFrom(const json& value) {
@@ -81,6 +85,10 @@ TeamRecord TeamRecordFrom(const json& value) {
   value.at("held_up").get_to(findings.held_up);
   value.at("alone_nats").get_to(findings.alone_nats);
   value.at("besides_nats").get_to(findings.besides_nats);
+  value.at("paid_nats").get_to(findings.paid_nats);
+  value.at("paid_twice_nats").get_to(findings.paid_twice_nats);
+  value.at("unseen_goals").get_to(findings.unseen_goals);
+  value.at("unseen_in_others_sight").get_to(findings.unseen_in_others_sight);
   return team;
 }
 

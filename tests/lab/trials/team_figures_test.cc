@@ -71,7 +71,11 @@ TEST(TeamFigures, TrafficIsSummed) {
                          .deadlocks = 2,
                          .held_up = 3,
                          .alone_nats = 6.0,
-                         .besides_nats = 5.0};
+                         .besides_nats = 5.0,
+                         .paid_nats = 3.0,
+                         .paid_twice_nats = 1.0,
+                         .unseen_goals = 3,
+                         .unseen_in_others_sight = 1};
   TrialRecord second;
   second.team = {.legs = 2,
                  .blocked_legs = 1,
@@ -84,6 +88,8 @@ TEST(TeamFigures, TrafficIsSummed) {
                  .findings = {}};
   second.team.findings.alone_nats = 4.0;
   second.team.findings.besides_nats = 3.0;
+  second.team.findings.paid_nats = 1.0;
+  second.team.findings.unseen_goals = 1;
   const SceneRecords unmeasured(1, {TrialRecord()});  // of one robot, or of ghosts
   EXPECT_EQ(TrafficOf({unmeasured}, 0).sums.closest_m, std::nullopt);
   const std::vector<SceneRecords> records = {{{first}}, {{second}}};
@@ -100,6 +106,8 @@ TEST(TeamFigures, TrafficIsSummed) {
   EXPECT_DOUBLE_EQ(traffic.encounters_per_robot_minute(), 1.5);
   EXPECT_DOUBLE_EQ(traffic.waiting_share(), 0.1);
   EXPECT_DOUBLE_EQ(traffic.promised_share(), 0.2);
+  EXPECT_DOUBLE_EQ(traffic.bought_twice_share(), 0.25);
+  EXPECT_DOUBLE_EQ(traffic.unseen_twice_share(), 0.25);
   EXPECT_DOUBLE_EQ(traffic.plan_wall_s, 0.03);
 }
 

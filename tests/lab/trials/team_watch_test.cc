@@ -16,6 +16,7 @@ namespace team_watch_test {
 using testing::CorridorTeam;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr double kLidarRange_m = 3.0;
 
 // Two that want past each other in a corridor.
 CorridorTeam HeadOn() {
@@ -29,7 +30,7 @@ CorridorTeam HeadOn() {
 
 TEST(TeamWatch, CountsARingOnceItHasLasted) {
   CorridorTeam team = HeadOn();
-  TeamWatch watch;
+  TeamWatch watch(kLidarRange_m);
   for (int second = 0; second < 10; ++second) {
     watch.OnTime(team.belief);
     EXPECT_EQ(watch.findings(), TeamFindings{}) << second;
@@ -45,7 +46,7 @@ TEST(TeamWatch, CountsARingOnceItHasLasted) {
 
 TEST(TeamWatch, WhatWasResolvedInTimeIsNone) {
   CorridorTeam team = HeadOn();
-  TeamWatch watch;
+  TeamWatch watch(kLidarRange_m);
   for (int second = 0; second < 60; ++second) {
     // Every five seconds one of them is out of the way for a moment.
     team.belief.robots["b"].state.silent = second % 5 == 4;
@@ -60,7 +61,7 @@ TEST(TeamWatch, WhoHasNoWayPastOneThatStandsIsHeldUpAndNotInARing) {
   team.Stands("a", 2.0);
   team.Wants("a", 9.0, 0.0);
   team.Stands("b", 4.0);
-  TeamWatch watch;
+  TeamWatch watch(kLidarRange_m);
   watch.OnTime(team.belief);
   team.belief.sample_time_ns += 11 * kSecond_ns;
   watch.OnTime(team.belief);
@@ -81,7 +82,7 @@ Plan PlanOfA(Point2 goal) {
 EndedLeg Blocked(double nearest_m) { return {10.0, "a", 1, ProgressOutcome::kBlocked, nearest_m}; }
 
 TEST(TeamWatch, TellsBlockedLegsByRobotsFromOthers) {
-  TeamWatch watch;
+  TeamWatch watch(kLidarRange_m);
   watch.OnLeg(Blocked(1.91), 0.2);
   EXPECT_EQ(watch.findings().blocked_by_robot, 0);
   watch.OnLeg(Blocked(1.89), 0.2);
@@ -96,7 +97,7 @@ TEST(TeamWatch, FindsGoalsThatWereSetAsideForARobot) {
   CorridorTeam team;
   team.Stands("a", 2.0);
   const Plan plan = PlanOfA(CorridorTeam::At(6.0));
-  TeamWatch watch;
+  TeamWatch watch(kLidarRange_m);
   watch.OnPlan(team.belief, plan);
   watch.OnLeg(Blocked(0.5), 0.2);
   watch.OnPlan(team.belief, plan);
@@ -111,6 +112,34 @@ TEST(TeamWatch, FindsGoalsThatWereSetAsideForARobot) {
   watch.OnLeg(Blocked(0.5), 0.2);
   watch.OnPlan(team.belief, plan);
   EXPECT_EQ(watch.findings().set_aside_for_robot, 1);
+}
+
+TEST(TeamWatch, FindsEdgesOfTheUnseenThatOthersAreToSee) {
+  CorridorTeam team;
+  team.Stands("a", 2.0);
+  team.Stands("b", 1.0);
+  Plan plan = PlanOfA(CorridorTeam::At(6.0));
+  TeamWatch watch(kLidarRange_m);
+  watch.OnPlan(team.belief, plan);
+  EXPECT_EQ(watch.findings().unseen_goals, 0) << "it goes elsewhere";
+  plan.candidates[0].goal.kind = GoalKind::kOccupancyFrontier;
+  watch.OnPlan(team.belief, plan);
+  EXPECT_EQ(watch.findings().unseen_goals, 1);
+  team.Drives("b", 2.5);
+  watch.OnPlan(team.belief, plan);
+  EXPECT_EQ(watch.findings().unseen_in_others_sight, 0) << "none from so far away";
+  team.Drives("b", 4.0);
+  watch.OnPlan(team.belief, plan);
+  EXPECT_EQ(watch.findings().unseen_in_others_sight, 1);
+  auto walled = std::make_shared<Grid<CellState>>(*team.belief.occupancy);
+  const int wall_x = walled->geometry().CellAt(CorridorTeam::At(5.0)).x;
+  for (int y = 0; y < walled->geometry().height; ++y) {
+    (*walled)[Cell{wall_x, y}] = CellState::kOccupied;
+  }
+  team.belief.occupancy = walled;
+  watch.OnPlan(team.belief, plan);
+  EXPECT_EQ(watch.findings().unseen_in_others_sight, 1) << "not through a wall";
+  EXPECT_EQ(watch.findings().unseen_goals, 4);
 }
 
 void AddGasField(Belief& belief) {
@@ -128,7 +157,7 @@ TEST(TeamWatch, PricesWhatOthersHavePromised) {
   team.Stands("a", 2.0);
   team.Stands("b", 2.0, 1.0);
   const Plan plan = PlanOfA(CorridorTeam::At(6.0));
-  TeamWatch watch;
+  TeamWatch watch(kLidarRange_m);
   watch.OnPlan(team.belief, plan);
   EXPECT_GT(watch.findings().alone_nats, 0.0);
   EXPECT_EQ(watch.findings().besides_nats, watch.findings().alone_nats) << "nobody promises";
@@ -141,6 +170,31 @@ TEST(TeamWatch, PricesWhatOthersHavePromised) {
   EXPECT_GT(watch.findings().besides_nats, alone_nats);
 }
 
+TEST(TeamWatch, TellsWhatWasPaidTwiceFromWhatIsPromised) {
+  CorridorTeam team;
+  ASSERT_NO_FATAL_FAILURE(AddGasField(team.belief));
+  team.Stands("a", 2.0);
+  team.Stands("b", 2.0);
+  team.Drives("b", 6.0);
+  Plan plan = PlanOfA(CorridorTeam::At(6.0));
+  TeamWatch unpriced(kLidarRange_m);
+  unpriced.OnPlan(team.belief, plan);
+  const double alone_nats = unpriced.findings().alone_nats;
+  const double besides_nats = unpriced.findings().besides_nats;
+  ASSERT_LT(besides_nats, alone_nats);
+  EXPECT_EQ(unpriced.findings().paid_nats, 0.0) << "it was not chosen by its information";
+  plan.candidates[0].expected_information_nats = besides_nats;
+  TeamWatch once(kLidarRange_m);
+  once.OnPlan(team.belief, plan);
+  EXPECT_EQ(once.findings().paid_nats, besides_nats);
+  EXPECT_EQ(once.findings().paid_twice_nats, 0.0);
+  plan.candidates[0].expected_information_nats = alone_nats;
+  TeamWatch twice(kLidarRange_m);
+  twice.OnPlan(team.belief, plan);
+  EXPECT_EQ(twice.findings().paid_nats, alone_nats);
+  EXPECT_DOUBLE_EQ(twice.findings().paid_twice_nats, alone_nats - besides_nats);
+}
+
 TEST(TeamWatch, WhatIsPromisedAfterAPlanWasNotBefore) {
   CorridorTeam team;
   ASSERT_NO_FATAL_FAILURE(AddGasField(team.belief));
@@ -150,12 +204,12 @@ TEST(TeamWatch, WhatIsPromisedAfterAPlanWasNotBefore) {
   Plan plan = PlanOfA(CorridorTeam::At(6.0));
   plan.id = 4;
   team.belief.robots["b"].last_plan = 5;
-  TeamWatch later;
+  TeamWatch later(kLidarRange_m);
   later.OnPlan(team.belief, plan);
   EXPECT_GT(later.findings().alone_nats, 0.0);
   EXPECT_EQ(later.findings().besides_nats, later.findings().alone_nats);
   team.belief.robots["b"].last_plan = 3;
-  TeamWatch before;
+  TeamWatch before(kLidarRange_m);
   before.OnPlan(team.belief, plan);
   EXPECT_EQ(before.findings().alone_nats, later.findings().alone_nats);
   EXPECT_LT(before.findings().besides_nats, before.findings().alone_nats);

@@ -35,7 +35,11 @@ TrialRecord SomeRecord() {
                           .deadlocks = 3,
                           .held_up = 4,
                           .alone_nats = 5.5,
-                          .besides_nats = 4.5};
+                          .besides_nats = 4.5,
+                          .paid_nats = 3.5,
+                          .paid_twice_nats = 0.5,
+                          .unseen_goals = 9,
+                          .unseen_in_others_sight = 2};
   record.other_entropies = {-2.5, 1.25};
   record.completed = true;
   return record;
