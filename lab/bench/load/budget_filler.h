@@ -15,8 +15,8 @@
 
 namespace plumescout::lab {
 
-// Makes a server hold as much as it allows: missions until there is room for none, each filled until
-// it refuses more, in one of the ways in which missions grow. Then those who look on and read
+// Makes a server hold as much as it allows: missions until there is room for none, each filled
+// until it refuses more, in one of the ways in which missions grow. Then those who look on and read
 // nothing.
 class BudgetFiller {
  public:
