@@ -131,7 +131,7 @@ class MissionRegistry {
   std::vector<MissionId> DeleteIdle();
   // Tells servers that share the store for how long they are to keep missions of this one, should
   // it end, `period` and more beyond what is left to them; and deletes those of nobody that have
-  // outlived their use. Returns their names. Called once a `period`. Blocks.
+  // outlived their use. Returns their names. Called once a `period`, beside DeleteIdle. Blocks.
   absl::StatusOr<std::vector<MissionId>> DeleteForgotten(absl::Duration period);
   // Missions that nobody has used for RegistryOptions::sleep_after leave memory, once all of them
   // is durable. Returns their names.

@@ -132,11 +132,7 @@ std::vector<KeptMission> MissionRegistry::KeptMissions(absl::Duration longer) {
     missions.push_back(
         {key, for_good ? absl::InfiniteDuration() : absl::FromChrono(forget_at - now) + longer});
   };
-  for (const auto& [key, host] : hosts_) {
-    // Whoever holds a mission uses it.
-    if (host.use_count() > 1) host->standing().Touch();
-    keep(key, host->standing().forget_at());
-  }
+  for (const auto& [key, host] : hosts_) keep(key, host->standing().forget_at());
   for (const SleepingMission& mission : absent_.Sleeping()) keep(mission.key, mission.forget_at);
   return missions;
 }
@@ -150,7 +146,7 @@ absl::StatusOr<std::vector<MissionId>> MissionRegistry::DeleteForgotten(absl::Du
   for (const ForgottenMission& mission : forgotten) {
     const absl::Status status = Forget(mission);
     if (status.ok()) deleted.push_back(MissionIdOf(mission.key));
-    if (absl::IsUnavailable(status) && NodeElsewhere(status).empty()) return status;
+    if (absl::IsUnavailable(status) && NodeElsewhere(status).empty()) break;  // all would wait
   }
   return deleted;
 }

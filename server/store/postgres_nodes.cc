@@ -232,7 +232,6 @@ absl::StatusOr<std::vector<OwnedMission>> PostgresNodes::ListMissions(
     const OwnedMissionQuery& query) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const PostgresPool::Loan connection, pool_->Take());
   const std::string last_part = query.last_part.empty() ? "" : absl::StrCat("/", query.last_part);
-  // Keys that begin so are one stretch of the index; it is read to the end of the limit only.
   PostgresStatement statement(
       "SELECT m.key, n.name FROM plumescout_mission m "
       "JOIN plumescout_progress p ON p.mission = m.id "

@@ -30,7 +30,7 @@ class BudgetFiller {
 
   // From `first` on, one way after another. Returns how many missions there was room for.
   int Fill(Way first);
-  // Plans and fresh maps of every mission, and watchers that read nothing.
+  // Plans and maps of every mission, and watchers that read nothing.
   void Look();
   // All missions and watchers are gone.
   void Clear();

@@ -29,7 +29,7 @@ constexpr double kSpread_m = 60.0;
 constexpr absl::Duration kCallTimeout = absl::Seconds(5);
 constexpr absl::Duration kReply = absl::Milliseconds(100);
 constexpr int kBatch = 64;
-constexpr double kFillShare = 4.0;  // of the row's time: the budget is not reached sooner
+constexpr double kFillTimes = 4.0;  // the time of the row: the budget is not reached sooner
 
 // Asks for memory in every way that is allowed. What the server refuses is as good as what it does.
 class Hoarder {
@@ -161,7 +161,7 @@ absl::StatusOr<std::vector<Bar>> FillUp(const RowSettings& settings, MemoryBudge
   }
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto server,
                               ServerProcess::Start({settings.server_program, budget.settings}));
-  const absl::Time end = absl::Now() + kFillShare * settings.time;
+  const absl::Time end = absl::Now() + kFillTimes * settings.time;
   double peak_mb = 0.0;
   const auto look = [&] {
     const auto usage = server->Usage();

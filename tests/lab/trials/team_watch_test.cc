@@ -151,6 +151,14 @@ void AddGasField(Belief& belief) {
   belief.gas_what_if = gas.what_if();
 }
 
+// Both stand where the way of a begins, and b is to drive it.
+void LetBPromiseTheWay(CorridorTeam& team) {
+  ASSERT_NO_FATAL_FAILURE(AddGasField(team.belief));
+  team.Stands("a", 2.0);
+  team.Stands("b", 2.0);
+  team.Drives("b", 6.0);
+}
+
 TEST(TeamWatch, PricesWhatOthersHavePromised) {
   CorridorTeam team;
   ASSERT_NO_FATAL_FAILURE(AddGasField(team.belief));
@@ -172,10 +180,7 @@ TEST(TeamWatch, PricesWhatOthersHavePromised) {
 
 TEST(TeamWatch, TellsWhatWasPaidTwiceFromWhatIsPromised) {
   CorridorTeam team;
-  ASSERT_NO_FATAL_FAILURE(AddGasField(team.belief));
-  team.Stands("a", 2.0);
-  team.Stands("b", 2.0);
-  team.Drives("b", 6.0);
+  ASSERT_NO_FATAL_FAILURE(LetBPromiseTheWay(team));
   Plan plan = PlanOfA(CorridorTeam::At(6.0));
   TeamWatch unpriced(kLidarRange_m);
   unpriced.OnPlan(team.belief, plan);
@@ -197,10 +202,7 @@ TEST(TeamWatch, TellsWhatWasPaidTwiceFromWhatIsPromised) {
 
 TEST(TeamWatch, WhatIsPromisedAfterAPlanWasNotBefore) {
   CorridorTeam team;
-  ASSERT_NO_FATAL_FAILURE(AddGasField(team.belief));
-  team.Stands("a", 2.0);
-  team.Stands("b", 2.0);
-  team.Drives("b", 6.0);
+  ASSERT_NO_FATAL_FAILURE(LetBPromiseTheWay(team));
   Plan plan = PlanOfA(CorridorTeam::At(6.0));
   plan.id = 4;
   team.belief.robots["b"].last_plan = 5;

@@ -184,6 +184,7 @@ TEST_F(MissionRegistryNodesTest, TheStoreIsToldForHowLongMissionsAreKept) {
   EXPECT_EQ(store_.kept()["mill"], absl::InfiniteDuration());
   EXPECT_EQ(store_.kept()["hall"], absl::Minutes(6) + 2 * kPeriod);
   const auto used = registry_->Find("hall");
+  EXPECT_TRUE(registry_->DeleteIdle().empty());
   ASSERT_TRUE(registry_->DeleteForgotten(kPeriod)->empty());
   EXPECT_EQ(store_.kept()["hall"], absl::Minutes(10) + 2 * kPeriod) << "it is used";
 }
