@@ -104,6 +104,9 @@ int Milliseconds(double seconds) {
 void SetArguments(const ServerConfig& config, grpc::ServerBuilder& builder) {
   const ConnectionConfig& connection = config.connection;
   builder.SetMaxReceiveMessageSize(config.limits.max_receive_bytes);
+  grpc::ResourceQuota quota("connections");
+  quota.Resize(static_cast<std::size_t>(config.limits.max_connection_bytes));
+  builder.SetResourceQuota(quota);
   builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS,
                              config.limits.max_streams_per_connection);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, Milliseconds(connection.keepalive_time_s));

@@ -27,6 +27,7 @@ constexpr int kMaxBytes = 64 << 20;
 constexpr std::int64_t kMaxQueuedBytes = std::int64_t{1} << 40;
 // Ranges travel as 16 bits and are kept as 32.
 constexpr std::int64_t kReadOverWire = 2;
+constexpr std::int64_t kMinConnection_bytes = std::int64_t{16} << 20;
 constexpr std::int64_t kMinBudget_bytes = std::int64_t{32} << 20;
 constexpr std::int64_t kMaxBudget_bytes = 1'000'000'000'000;
 constexpr double kMaxRate = 1e12;
@@ -53,6 +54,8 @@ absl::Status Validate(const LimitConfig& limits) {
           .InRange("limits.max_wait_s", limits.max_wait_s, 0.1, 3600)
           .InRange("limits.max_streams_per_connection", limits.max_streams_per_connection, 1,
                    kMaxCount)
+          .InRange("limits.max_connection_bytes", limits.max_connection_bytes, kMinConnection_bytes,
+                   kMaxBudget_bytes)
           .status());
   PLUMESCOUT_RETURN_IF_ERROR(
       Checker()

@@ -41,7 +41,8 @@ struct LimitConfig {
   // Of one caller; 0: any number.
   double max_calls_per_s = 2000.0;
   double max_costly_calls_per_s = 500.0;
-  int max_missions_per_tenant = 0;  // 0: as many as there are
+  int max_missions_per_tenant = 0;                             // 0: as many as there are
+  std::int64_t max_connection_bytes = std::int64_t{64} << 20;  // of all connections
 };
 
 struct PlanningConfig {

@@ -36,6 +36,7 @@ void Visit(OneOf<LimitConfig> auto& limits, auto& field) {
   field("max_calls_per_s", limits.max_calls_per_s);
   field("max_costly_calls_per_s", limits.max_costly_calls_per_s);
   field("max_missions_per_tenant", limits.max_missions_per_tenant);
+  field("max_connection_bytes", limits.max_connection_bytes);
 }
 
 void Visit(OneOf<PlanningConfig> auto& planning, auto& field) {

@@ -24,11 +24,12 @@ from plumescout.v1 import mission_service_pb2_grpc as mission_grpc
 
 MAX_CONNECTIONS_OF_A_SOURCE = 64  # as deploy/haproxy/haproxy.cfg has it
 MAX_CALLS_IN_10_S = 500
+MAX_OPEN_CALLS = 200  # of a certificate
 FLOOD_S = 6.0
 HONEST_CALL_S = 1.0  # the longest that an honest call may take beside a flood
 MAX_GROWTH_BYTES = 128 << 20
 
-HEADERS, RST_STREAM, SETTINGS = 1, 3, 4
+DATA, HEADERS, RST_STREAM, SETTINGS = 0, 1, 3, 4
 END_HEADERS = 4
 CANCEL = 8
 
@@ -49,6 +50,7 @@ CALL = (
     + literal(4, b"/plumescout.v1.MissionService/ListMissions")
     + literal(1, b"localhost")
     + literal(31, b"application/grpc")
+    + b"\0\x02te\x08trailers"
 )
 PREFACE = b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n" + frame(SETTINGS, 0, 0, b"")
 
@@ -60,6 +62,40 @@ def resets(first_stream, count):
         frames.append(frame(HEADERS, END_HEADERS, stream, CALL))
         frames.append(frame(RST_STREAM, 0, stream, struct.pack(">I", CANCEL)))
     return b"".join(frames)
+
+
+def half_requests(count):
+    """Calls whose request is never sent to its end."""
+    half = b"\0" + struct.pack(">I", 1000) + b"\0" * 500
+    streams = range(1, 2 * count, 2)
+    return b"".join(
+        frame(HEADERS, END_HEADERS, stream, CALL) + frame(DATA, 0, stream, half)
+        for stream in streams
+    )
+
+
+class Answers:
+    """How many calls of a connection have been answered."""
+
+    def __init__(self, link):
+        self._link = link
+        self._link.settimeout(0.0)
+        self._bytes = b""
+        self.count = 0
+
+    def look(self):
+        try:
+            while chunk := self._link.recv(1 << 16):
+                self._bytes += chunk
+        except (BlockingIOError, ssl.SSLWantReadError):
+            pass
+        while len(self._bytes) >= 9:
+            end = 9 + int.from_bytes(self._bytes[:3], "big")
+            if len(self._bytes) < end:
+                break
+            self.count += self._bytes[3] == HEADERS
+            self._bytes = self._bytes[end:]
+        return self.count
 
 
 class FrontTest(unittest.TestCase):
@@ -75,6 +111,7 @@ class FrontTest(unittest.TestCase):
             ("client", "alice", "operator", "acme"),
             ("client", "scout", "robot", "acme"),
             ("client", "busy", "viewer", "acme"),
+            ("client", "holder", "viewer", "acme"),
             ("client", "norole", "gardener", "acme"),
             ("client", "late", "operator", "acme", "--days", "-1"),
         ):
@@ -278,6 +315,34 @@ class FrontTest(unittest.TestCase):
         self.assertEqual(set(codes), {grpc.StatusCode.OK, grpc.StatusCode.RESOURCE_EXHAUSTED})
         self.assertEqual(codes[:100], [grpc.StatusCode.OK] * 100)
         self.client("alice").list_missions()
+
+    def test_one_caller_has_so_many_open_calls_and_no_more(self):
+        links = [self.handshake("127.0.0.5", "holder") for _ in range(10)]
+        each = (MAX_OPEN_CALLS + 100) // len(links)
+        for link in links:
+            link.sendall(PREFACE + half_requests(each))
+        answers = [Answers(link) for link in links]
+        running.await_that(
+            lambda: sum(answer.look() for answer in answers) >= 100, "the rest is turned away"
+        )
+        self.assert_refused(
+            grpc.StatusCode.RESOURCE_EXHAUSTED, self.client("holder").list_missions
+        )
+        began = time.monotonic()
+        self.client("alice").list_missions()
+        self.assertLess(time.monotonic() - began, HONEST_CALL_S)
+        self.assertEqual(sum(answer.look() for answer in answers), 100)
+        for link in links:
+            link.close()
+
+        def is_served():
+            try:
+                self.client("holder").list_missions()
+                return True
+            except plumescout.PlumeScoutError:
+                return False
+
+        running.await_that(is_served, "who lets go is served")
 
     def test_resets_of_streams_harm_nobody_else(self):
         alice = self.client("alice")

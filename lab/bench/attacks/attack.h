@@ -37,6 +37,7 @@ Attack FarScansAttack();
 Attack NarrowBeamsAttack();
 Attack SilentConnectionsAttack();
 Attack RapidResetAttack();
+Attack HalfRequestsAttack();
 Attack LongPlansAttack();
 Attack WatchersAttack();
 Attack KnownMapReadersAttack();

@@ -30,7 +30,7 @@ std::vector<Attack> AllAttacks() {
           NarrowBeamsAttack(), SilentConnectionsAttack(), RapidResetAttack(),
           LongPlansAttack(),   WatchersAttack(),          KnownMapReadersAttack(),
           DeleteBusyAttack(),  StopInRefreshAttack(),     LogUnreadAttack(),
-          ManyStreamsAttack(), ScatteredReadingsAttack()};
+          ManyStreamsAttack(), ScatteredReadingsAttack(), HalfRequestsAttack()};
 }
 
 struct AttackFlags {

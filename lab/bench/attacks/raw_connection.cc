@@ -20,12 +20,6 @@ namespace {
 
 constexpr int kPatience_ms = 1000;
 
-void ThrowAway(int fd) {
-  std::array<char, 1 << 16> bytes{};
-  while (recv(fd, bytes.data(), bytes.size(), MSG_DONTWAIT) > 0) {
-  }
-}
-
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<RawConnection>> RawConnection::Open(const std::string& target) {
@@ -55,9 +49,19 @@ absl::StatusOr<std::unique_ptr<RawConnection>> RawConnection::Open(const std::st
 
 RawConnection::~RawConnection() { close(fd_); }
 
+std::string RawConnection::Receive() {
+  std::string received;
+  std::array<char, 1 << 16> bytes{};
+  ssize_t size = 0;
+  while ((size = recv(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT)) > 0) {
+    received.append(bytes.data(), static_cast<std::size_t>(size));
+  }
+  return received;
+}
+
 absl::Status RawConnection::Send(absl::string_view bytes) {
   while (!bytes.empty()) {
-    ThrowAway(fd_);
+    Receive();
     const ssize_t sent = send(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
     if (sent > 0) {
       bytes.remove_prefix(static_cast<std::size_t>(sent));

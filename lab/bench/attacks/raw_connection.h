@@ -28,6 +28,8 @@ class RawConnection {
 
   // All of it; throws away what has come in meanwhile, so that the other side never has to wait.
   absl::Status Send(absl::string_view bytes);
+  // What has come in by now.
+  std::string Receive();
 
  private:
   const int fd_;

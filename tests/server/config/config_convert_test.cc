@@ -19,9 +19,9 @@ using google::protobuf::util::MessageDifferencer;
 ServerConfig Unlike() {
   ServerConfig config;
   config.listen = "[::]:1";
-  config.limits = {2,    3'000'000'000, 5000,       4,    5,     6,    7,      8,   10'001,
-                   8.5,  2'000'000'000, 5'000'000,  9000, 250.0, 51.0, 1001.0, 5e6, 21.0,
-                   61.0, 6.0,           70'000'000, 65,   66.0,  67.0, 1};
+  config.limits = {2,    3'000'000'000, 5000,       4,    5,     6,    7,      8,         10'001,
+                   8.5,  2'000'000'000, 5'000'000,  9000, 250.0, 51.0, 1001.0, 5e6,       21.0,
+                   61.0, 6.0,           70'000'000, 65,   66.0,  67.0, 1,      80'000'000};
   config.planning = {9, 10, 0.5, 11.0, 0.25, true, 1, 2, 3};
   config.maps = {12, 13, 0.75, 0.125, 14, 15, 1'000'000};
   config.epochs = {14, 15};
@@ -44,6 +44,7 @@ TEST(ConfigConvertTest, EveryOptionSurvivesTheRoundTrip) {
   EXPECT_EQ(back->listen, "[::]:1");
   EXPECT_EQ(back->limits.memory_budget_bytes, 3'000'000'000);
   EXPECT_EQ(back->limits.max_streams_per_connection, 8);
+  EXPECT_EQ(back->limits.max_connection_bytes, 80'000'000);
   EXPECT_EQ(back->planning.deadline_margin_s, 0.25);
   EXPECT_TRUE(back->planning.rivals);
   EXPECT_EQ(back->maps.gas_wait_s, 0.125);
