@@ -7,12 +7,17 @@ export OPENBLAS_NUM_THREADS=1
 
 say() { printf '\033[1m==> %s\033[0m\n' "$*"; }
 
-# Configures and builds the given targets (all if none), quietly unless something is wrong.
-build() {
+# Quietly unless something is wrong.
+configure() {
   cmake --preset "$PRESET" -S "$ROOT" > "$ROOT/build/$PRESET-configure.log" 2>&1 || {
     cat "$ROOT/build/$PRESET-configure.log"
     exit 1
   }
+}
+
+# Configures and builds the given targets (all if none).
+build() {
+  configure
   cmake --build "$BUILD" ${1:+--target "$@"}
 }
 mkdir -p "$ROOT/build"
