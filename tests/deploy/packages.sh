@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # packages.sh FOLDER [PEER]: installs each package of the folder in a fresh Debian 12, and all
 # together in one, where a server and a simulated robot run a mission that plumescoutctl then asks
-# about. PEER, the program plumescout-ros2-peer: also a mission of it by DDS, with plumescout-ros2.
-# What needs a package that is not there is left out. Needs root, mmdebstrap, and a mirror of Debian.
-# scripts/packages --try runs it.
+# about; once more with systemd at work. PEER, the program plumescout-ros2-peer: also a mission of it
+# by DDS, with plumescout-ros2. What needs a package that is not there is left out. Needs root,
+# mmdebstrap, systemd-nspawn, and a mirror of Debian. scripts/packages --try runs it.
 set -euo pipefail
 packages="$(realpath "$1")"
 peer="${2:-}"
@@ -91,4 +91,10 @@ install_packages /packages/plumescout-server_* /packages/plumescout-lab_* \
   /packages/python3-plumescout_*
 cp "$here/packages_mission.sh" "$root/packages/"
 inside bash /packages/packages_mission.sh
+say "By systemd"
+fresh_root
+install_packages systemd systemd-sysv dbus /packages/plumescout-server_* /packages/plumescout-lab_* \
+  /packages/python3-plumescout_*
+umount "$root/proc"
+"$here/systemd.sh" "$root"
 say "All packages installed, and a mission ran"
