@@ -47,7 +47,8 @@ mkdir "$root/etc/systemd/system/plumescout-server.service.d"
 printf '[Service]\nWatchdogSec=4\n' > "$root/etc/systemd/system/plumescout-server.service.d/watch.conf"
 inside systemctl daemon-reload
 inside systemctl start plumescout-server
-is_serving # what notifies is ready once start has returned
+[[ "$(value ActiveState)" == active ]] # what notifies is ready once start has returned
+await is_serving
 exposure="$(inside systemd-analyze security --no-pager plumescout-server | grep -oE '[0-9.]+ OK' || true)"
 echo "exposure: ${exposure:-beyond what is called OK}"
 awk -v exposure="${exposure%% *}" 'BEGIN { exit !(exposure > 0 && exposure <= 2.0) }'
@@ -63,7 +64,7 @@ await has_mission
 before="$(value MainPID)"
 inside systemctl kill --kill-whom=main --signal=STOP plumescout-server # as one that hangs
 await is_anew "$before"
-inside journalctl --unit plumescout-server --no-pager | grep -q 'Watchdog timeout'
+inside journalctl --unit plumescout-server --no-pager --grep 'Watchdog timeout' > /dev/null
 await has_mission
 drive 5
 [[ "$(value NRestarts)" == 2 ]]
