@@ -129,6 +129,18 @@ void ReadStore(const ServerState& state, Readings& readings) {
   readings.Add(absent.sleeping);
 }
 
+void ReadStrays(const ServerState& state, Readings& readings) {
+  if (state.store == nullptr) return;
+  readings.Counter("plumescout_stray_calls_total",
+                   "Calls that named the node that has their mission, and came to this one.");
+  readings.Add(state.strays.calls);
+  readings.Counter("plumescout_missions_given_up_total",
+                   "Missions given up because their calls came to other nodes.");
+  readings.Add(state.strays.given_up);
+  readings.Gauge("plumescout_node_unreached", "1 for each node that lives and calls do not reach.");
+  for (const std::string& node : state.strays.unreached) readings.Add(1, {{"node", node}});
+}
+
 using Hosts = std::vector<std::shared_ptr<MissionHost>>;
 
 // Missions of different tenants may have the same name.
@@ -226,6 +238,7 @@ std::string ServerMetrics::Text(const ServerState& state) const {
   ReadProcess(readings);
   ReadPools(state, readings);
   ReadStore(state, readings);
+  ReadStrays(state, readings);
   ReadMissions(state, readings);
   return prometheus::TextSerializer().Serialize(families);
 }

@@ -10,6 +10,7 @@
 #include "absl/time/clock.h"
 #include "core/types/status_macros.h"
 #include "server/store/postgres_schema.h"
+#include "server/store/postgres_strays.h"
 #include "server/store/store_errors.h"
 
 namespace plumescout::server {
@@ -296,6 +297,16 @@ absl::StatusOr<std::vector<ForgottenMission>> PostgresNodes::ListForgotten(int l
   for (int at = 0; at < rows.count(); ++at)
     missions.push_back({rows.Bytes(at, 0), rows.Int(at, 1)});
   return missions;
+}
+
+absl::Status PostgresNodes::NoteStrays(const std::vector<OwnedMission>& missions) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const PostgresPool::Loan connection, pool_->Take());
+  return NoteSharedStrays(*connection, options_.strays, options_.self.name, missions);
+}
+
+absl::StatusOr<Strays> PostgresNodes::TakeStrays(int limit) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const PostgresPool::Loan connection, pool_->Take());
+  return TakeSharedStrays(*connection, options_.strays, lease(), limit);
 }
 
 absl::Status PostgresNodes::Release(const std::string& key, std::int64_t epoch) {

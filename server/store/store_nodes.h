@@ -53,6 +53,30 @@ struct ForgottenMission {
   friend bool operator==(const ForgottenMission&, const ForgottenMission&) = default;
 };
 
+// A mission of this node whose calls have come to another one for long enough (StoreNodes).
+struct StrayMission {
+  std::string key;
+  std::int64_t epoch = 0;
+  std::string came_to;  // that node
+
+  friend bool operator==(const StrayMission&, const StrayMission&) = default;
+};
+
+// When calls that come to the wrong node move their mission there. Clients that are not served come
+// again after waits that grow to some seconds.
+struct StrayRules {
+  absl::Duration lasts = absl::Seconds(3);   // calls have strayed for so long
+  absl::Duration gap = absl::Seconds(15);    // without a longer one between them
+  absl::Duration rests = absl::Seconds(10);  // after it has moved it stays for so long
+  absl::Duration shown = absl::Minutes(2);   // a node is called unreached for so long
+};
+
+// What the store has heard of calls that strayed.
+struct Strays {
+  std::vector<StrayMission> missions;  // to be given up; each is told of once until it has rested
+  std::vector<std::string> unreached;  // living nodes that calls did not find lately, by name
+};
+
 // The servers that share a store, and which of them has which mission. A node holds one lease in
 // the store, by the clock of the store alone, and every mission that it acquires (MissionStore)
 // is its own until it gives it back or its lease runs out. Safety rests on epochs, not on leases:
@@ -87,6 +111,11 @@ class StoreNodes {
   virtual absl::Status KeepFor(const std::vector<KeptMission>& missions) = 0;
   // At most `limit`, those first that are over for longest. Blocks.
   virtual absl::StatusOr<std::vector<ForgottenMission>> ListForgotten(int limit) = 0;
+  // Calls for these missions named the nodes that have them, and came to this one. Those that are
+  // not these nodes' are passed over. Blocks.
+  virtual absl::Status NoteStrays(const std::vector<OwnedMission>& missions) = 0;
+  // What nodes have noted so; at most `limit` missions. Blocks.
+  virtual absl::StatusOr<Strays> TakeStrays(int limit) = 0;
   // The mission is nobody's: the next who acquires it has it. FENCED if it is not of this epoch.
   // Blocks.
   virtual absl::Status Release(const std::string& key, std::int64_t epoch) = 0;

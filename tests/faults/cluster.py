@@ -8,6 +8,8 @@ robots in four missions. scripts/cluster builds and runs it.
   --pause-every S    so often a server is stopped (SIGSTOP) for longer than its lease, then goes on
   --cut-every S      so often a server's link to the database, and no other, is cut or goes silent for
                      longer than its lease
+  --unroute-every S  so often the routers lead to a server no more, which lives and has its lease, until
+                     all robots go on
   --roll-every S     so often a server is drained, and started again; each in its turn
   --database patroni the database with a standby, as production has it; needs Debian's patroni and
                      etcd-server, which scripts/cluster then installs
@@ -45,7 +47,7 @@ import robots
 import running
 from cluster_parts import LEASE_S, OWNERS, Node, Router, Waits, cpu_s, percentile
 
-KINDS = ("kill", "pause", "cut", "roll")
+KINDS = ("kill", "pause", "cut", "roll", "unroute")
 DATABASE_KINDS = {"primary": "kill_primary_every", "split": "split_primary_every"}
 CLOCKS = {"n1": 0, "n2": 3600, "n3": 0}  # how far each server's wall clock is off, in seconds
 SHOW_S = 5.0
@@ -89,6 +91,8 @@ class Cluster:
         self.routers = [Router(self.nodes, self._folder, o) for o in (1, -1)[: shape.proxies]]
         for router in self.routers:
             running.await_that(router.answers, "the router leads to a node")
+        for node in self.nodes:
+            node.routers = self.routers
         self.told = answers.Answers()
         self.missions = [f"mission-{i + 1}" for i in range(shape.missions)]
         self._each = shape.robots // shape.missions

@@ -51,6 +51,15 @@ class SharedStore : public HeldStore, public StoreNodes {
     absl::MutexLock lock(&nodes_mutex_);
     return kept_;
   }
+  // What TakeStrays tells next, once.
+  void SetStrays(Strays strays) {
+    absl::MutexLock lock(&nodes_mutex_);
+    strays_ = std::move(strays);
+  }
+  std::vector<OwnedMission> noted_strays() const {
+    absl::MutexLock lock(&nodes_mutex_);
+    return noted_strays_;
+  }
   std::map<std::string, std::int64_t> released() const {
     absl::MutexLock lock(&nodes_mutex_);
     return released_;
@@ -108,6 +117,15 @@ class SharedStore : public HeldStore, public StoreNodes {
     absl::MutexLock lock(&nodes_mutex_);
     return forgotten_;
   }
+  absl::Status NoteStrays(const std::vector<OwnedMission>& missions) override {
+    absl::MutexLock lock(&nodes_mutex_);
+    noted_strays_.insert(noted_strays_.end(), missions.begin(), missions.end());
+    return absl::OkStatus();
+  }
+  absl::StatusOr<Strays> TakeStrays(int) override {
+    absl::MutexLock lock(&nodes_mutex_);
+    return std::exchange(strays_, {{}, strays_.unreached});
+  }
   absl::Status Release(const std::string& key, std::int64_t epoch) override {
     absl::MutexLock lock(&nodes_mutex_);
     released_[key] = epoch;
@@ -122,6 +140,8 @@ class SharedStore : public HeldStore, public StoreNodes {
   std::vector<ForgottenMission> forgotten_ ABSL_GUARDED_BY(nodes_mutex_);
   std::map<std::string, absl::Duration> kept_ ABSL_GUARDED_BY(nodes_mutex_);
   std::map<std::string, std::int64_t> released_ ABSL_GUARDED_BY(nodes_mutex_);
+  Strays strays_ ABSL_GUARDED_BY(nodes_mutex_);
+  std::vector<OwnedMission> noted_strays_ ABSL_GUARDED_BY(nodes_mutex_);
   SteadyTime lease_until_ ABSL_GUARDED_BY(nodes_mutex_) = SteadyTime::max();
   OnLost on_lost_ ABSL_GUARDED_BY(nodes_mutex_);
 };

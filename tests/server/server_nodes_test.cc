@@ -1,16 +1,20 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // Of the server: one of several that share a store.
+#include <gmock/gmock.h>
 #include <grpcpp/client_context.h>
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "absl/base/thread_annotations.h"
+#include "absl/strings/match.h"
 #include "absl/synchronization/mutex.h"
 #include "core/types/error_reason.h"
 #include "plumescout/v1/mission_service.grpc.pb.h"
@@ -21,6 +25,10 @@
 
 namespace plumescout::server {
 namespace server_nodes_test {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 // Reads of missions wait while it is told so.
 class SlowStore final : public SharedStore {
@@ -85,9 +93,10 @@ class ServerNodesTest : public testing::Test {
     return missions_->GetMission(&context, request, &response);
   }
   // Asks again while the server asks its store.
-  Answer Get(const std::string& id) {
+  Answer Get(const std::string& id, const std::string& unreached = "") {
     while (true) {
       grpc::ClientContext context;
+      if (!unreached.empty()) context.AddMetadata("x-unreached", unreached);
       Answer answer{Ask(id, context), ""};
       if (answer.status.error_message().starts_with(std::string(reason::kRecovering))) continue;
       const auto& trailers = context.GetServerTrailingMetadata();
@@ -113,6 +122,33 @@ TEST_F(ServerNodesTest, CallsAreToldWhereAMissionIs) {
   EXPECT_TRUE(mine.status.ok()) << mine.status.error_message();
   EXPECT_EQ(mine.owner, "");
   EXPECT_EQ(Get("attic").status.error_code(), grpc::StatusCode::NOT_FOUND);
+}
+
+TEST_F(ServerNodesTest, CallsThatNamedTheNodeOfTheirMissionAndCameHereAreTold) {
+  const Answer strayed = Get("hall", "n2");
+  EXPECT_EQ(strayed.status.error_code(), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_THAT(strayed.status.error_message(), StartsWith(std::string(reason::kNodeUnreached)));
+  EXPECT_THAT(strayed.status.error_message(), HasSubstr("missions/hall is served by node n2"));
+  EXPECT_EQ(strayed.owner, "n2");
+  EXPECT_TRUE(Get("yard", "n2").status.ok()) << "it was another's before";
+  EXPECT_THAT(Get("hall", "n3").status.error_message(),
+              StartsWith(std::string(reason::kMissionElsewhere)));
+  EXPECT_THAT(server_->MetricsText(), HasSubstr("plumescout_stray_calls_total 1\n"));
+  while (store_.noted_strays().empty()) std::this_thread::yield();
+  EXPECT_THAT(store_.noted_strays(), ElementsAre(OwnedMission{"hall", "n2"}));
+}
+
+TEST_F(ServerNodesTest, MissionsWhoseCallsGoToOthersAreGivenUp) {
+  ASSERT_TRUE(Get("yard").status.ok());
+  store_.SetStrays({{{"yard", 2, "n2"}}, {"n1"}});
+  while (store_.released().empty()) std::this_thread::yield();
+  EXPECT_EQ(store_.released(), (std::map<std::string, std::int64_t>{{"yard", 2}}));
+  EXPECT_EQ(Get("yard").owner, "n2");
+  const auto says = [this](const std::string& line) {
+    return absl::StrContains(server_->MetricsText(), line);
+  };
+  while (!says("plumescout_missions_given_up_total 1\n")) std::this_thread::yield();
+  EXPECT_TRUE(says("plumescout_node_unreached{node=\"n1\"} 1\n"));
 }
 
 TEST_F(ServerNodesTest, MissionsOfTheWholeStoreAreListed) {

@@ -245,6 +245,8 @@ def store_words(store):
     place = f"{store.engine}, {size(store.stored_bytes)}"
     if store.node:
         place += f", node {store.node} of {store.cluster}"
+    if store.unreached_nodes:
+        place += f", calls do not reach {' '.join(store.unreached_nodes)}"
     if store.available:
         return place
     return f"{place}, takes nothing now" + (f": {store.trouble}" if store.trouble else "")
