@@ -123,7 +123,7 @@ void ReadStore(const ServerState& state, Readings& readings) {
   readings.Gauge("plumescout_missions_recovering", "Missions that are yet to be recovered.");
   readings.Add(absent.recovering);
   readings.Gauge("plumescout_missions_damaged", "Missions that could not be recovered.");
-  readings.Add(absent.damaged);
+  readings.Add(absent.damaged + state.store_sizes.damaged_missions);
   readings.Gauge("plumescout_missions_sleeping",
                  "Missions that nobody has used for store.sleep_after_s: not in memory.");
   readings.Add(absent.sleeping);

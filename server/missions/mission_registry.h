@@ -83,8 +83,8 @@ class MissionRegistry {
       const MissionId& id, absl::string_view tenant = {},
       MissionJournal::Callback removed = [](const absl::Status&) {});
 
-  // The store forgets a mission that cannot be recovered; `removed` hears as of Delete.
-  // MISSION_NOT_FOUND unless it is one. Reads the disk.
+  // The store forgets a mission that cannot be recovered, as Find has said; `removed` hears as of
+  // Delete. MISSION_NOT_FOUND unless it is one. Reads the disk.
   absl::Status Discard(const std::string& key, MissionJournal::Callback removed);
 
   // From now on the missions that the store has are there, if only to be recovered; if missions

@@ -120,7 +120,8 @@ absl::StatusOr<std::vector<OwnedMission>> MissionRegistry::ListElsewhere(
     PLUMESCOUT_ASSIGN_OR_RETURN(std::vector<OwnedMission> page, nodes_->ListMissions(query));
     for (OwnedMission& mission : page) {
       query.after = mission.key;
-      if (mission.node == node() || !wanted(mission.key)) continue;
+      const bool is_here = mission.node == node() && mission.damage.empty();
+      if (is_here || !wanted(mission.key)) continue;
       elsewhere.push_back(std::move(mission));
       if (std::ssize(elsewhere) == limit) return elsewhere;
     }

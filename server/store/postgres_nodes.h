@@ -57,6 +57,7 @@ class PostgresNodes final : public StoreNodes {
   absl::StatusOr<std::vector<StoreNode>> ListLiving() override;
   absl::StatusOr<std::optional<std::string>> FindOwner(const std::string& key) override;
   absl::StatusOr<std::vector<OwnedMission>> ListMissions(const OwnedMissionQuery& query) override;
+  absl::Status NoteDamage(const std::string& key, const std::string& what) override;
   absl::Status KeepFor(const std::vector<KeptMission>& missions) override;
   absl::StatusOr<std::vector<ForgottenMission>> ListForgotten(int limit) override;
   absl::Status NoteStrays(const std::vector<OwnedMission>& missions) override;

@@ -46,19 +46,22 @@ constexpr const char* kTables[] = {
     "INSERT INTO plumescout_probe VALUES(1, 0) ON CONFLICT DO NOTHING",
 };
 
-// When missions that nobody calls for are to go, and whose calls come to the wrong node. They came
-// later than the others: a store without them gets them, and servers that do not know them leave
-// them alone.
+// When missions that nobody calls for are to go, whose calls come to the wrong node, and what is
+// damaged. They came later than the others: a store without them gets them, and servers that do not
+// know them leave them alone.
 constexpr const char* kLaterTables[] = {
     ("CREATE TABLE IF NOT EXISTS plumescout_idle(mission bigint PRIMARY KEY, "
      "forget_at timestamptz NOT NULL)"),
     ("CREATE TABLE IF NOT EXISTS plumescout_stray(mission bigint PRIMARY KEY, "
      "owner bigint NOT NULL, came_to text NOT NULL, since timestamptz NOT NULL, "
      "seen timestamptz NOT NULL)"),
+    ("CREATE TABLE IF NOT EXISTS plumescout_damage(mission bigint PRIMARY KEY, "
+     "what text NOT NULL)"),
 };
 
 // As kTables, for whoever reads them again.
 constexpr const char* kColumns[] = {
+    "damage: mission bigint, what text",
     "idle: mission bigint, forget_at timestamp with time zone",
     "mission: id bigint, key bytea, header bytea, crc bigint",
     "node: id bigint, name text, address text, expires timestamp with time zone",
@@ -110,7 +113,8 @@ absl::Status AddLaterTables(PostgresConnection& connection) {
   PLUMESCOUT_ASSIGN_OR_RETURN(
       const PostgresRows rows,
       connection.Run(PostgresStatement("SELECT to_regclass('plumescout_idle') IS NOT NULL AND "
-                                       "to_regclass('plumescout_stray') IS NOT NULL"),
+                                       "to_regclass('plumescout_stray') IS NOT NULL AND "
+                                       "to_regclass('plumescout_damage') IS NOT NULL"),
                      kTimeout));
   if (rows.Int(0, 0) != 0) return absl::OkStatus();
   std::vector<PostgresStatement> statements;

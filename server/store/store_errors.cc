@@ -76,6 +76,10 @@ absl::Status NotKept(absl::string_view key, std::int64_t last_gone) {
                                             " keeps no events up to ", last_gone, " any more"));
 }
 
+absl::Status NotDamaged(absl::string_view key) {
+  return absl::FailedPreconditionError(absl::StrCat(Name(key), " is not damaged"));
+}
+
 absl::Status BadFirstNumber(std::int64_t first_number) {
   return absl::InvalidArgumentError(absl::StrCat("first_number = ", first_number, " is not > 0"));
 }

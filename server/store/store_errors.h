@@ -32,6 +32,8 @@ absl::Status SnapshotAhead(absl::string_view key, std::int64_t revision, std::in
 
 // Records up to this one were trimmed.
 absl::Status NotKept(absl::string_view key, std::int64_t last_gone);
+// There is no reason to discard it.
+absl::Status NotDamaged(absl::string_view key);
 // Records count from 1.
 absl::Status BadFirstNumber(std::int64_t first_number);
 

@@ -27,6 +27,7 @@ struct StoreNode {
 struct OwnedMission {
   std::string key;
   std::string node;
+  std::string damage = {};  // what is wrong with it, as a node has found; empty: nothing is known
 
   friend bool operator==(const OwnedMission&, const OwnedMission&) = default;
 };
@@ -106,6 +107,8 @@ class StoreNodes {
   // Blocks.
   virtual absl::StatusOr<std::vector<OwnedMission>> ListMissions(
       const OwnedMissionQuery& query) = 0;
+  // Tells who lists the mission, until somebody has acquired it, what is wrong with it. Blocks.
+  virtual absl::Status NoteDamage(const std::string& key, const std::string& what) = 0;
   // Of missions of this node; others are passed over. Who acquires a mission forgets how long it
   // was to be kept. Blocks.
   virtual absl::Status KeepFor(const std::vector<KeptMission>& missions) = 0;

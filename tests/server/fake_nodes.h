@@ -104,9 +104,16 @@ class SharedStore : public HeldStore, public StoreNodes {
                              (query.last_part.empty() || query.last_part == last_part);
       if (!is_wanted || static_cast<int>(missions.size()) == query.limit) continue;
       const auto owner = owners_.find(mission.key);
-      missions.push_back({mission.key, owner == owners_.end() ? "" : owner->second});
+      const auto damage = damages_.find(mission.key);
+      missions.push_back({mission.key, owner == owners_.end() ? "" : owner->second,
+                          damage == damages_.end() ? "" : damage->second});
     }
     return missions;
+  }
+  absl::Status NoteDamage(const std::string& key, const std::string& what) override {
+    absl::MutexLock lock(&nodes_mutex_);
+    damages_[key] = what;
+    return absl::OkStatus();
   }
   absl::Status KeepFor(const std::vector<KeptMission>& missions) override {
     absl::MutexLock lock(&nodes_mutex_);
@@ -136,6 +143,7 @@ class SharedStore : public HeldStore, public StoreNodes {
   const StoreNode self_ = {"n1", "127.0.0.1:1"};
   mutable absl::Mutex nodes_mutex_;
   std::map<std::string, std::string> owners_ ABSL_GUARDED_BY(nodes_mutex_);
+  std::map<std::string, std::string> damages_ ABSL_GUARDED_BY(nodes_mutex_);
   std::vector<StoreNode> living_ ABSL_GUARDED_BY(nodes_mutex_) = {self_};
   std::vector<ForgottenMission> forgotten_ ABSL_GUARDED_BY(nodes_mutex_);
   std::map<std::string, absl::Duration> kept_ ABSL_GUARDED_BY(nodes_mutex_);

@@ -19,6 +19,7 @@
 #include "core/types/error_reason.h"
 #include "plumescout/v1/mission_service.grpc.pb.h"
 #include "server/server.h"
+#include "server/store/store_errors.h"
 #include "tests/server/fake_nodes.h"
 #include "tests/server/stored_run.h"
 #include "tests/support/temp_folder.h"
@@ -30,9 +31,29 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-// Reads of missions wait while it is told so.
+// Reads of missions wait while it is told so, and rows of missions are damaged.
 class SlowStore final : public SharedStore {
  public:
+  absl::StatusOr<AcquiredMission> Acquire(const std::string& key) override {
+    if (is_damaged(key)) return kDamage;
+    return SharedStore::Acquire(key);
+  }
+  absl::StatusOr<AcquiredMission> Peek(const std::string& key) override {
+    if (is_damaged(key)) return kDamage;
+    return SharedStore::Peek(key);
+  }
+  void Discard(const std::string& key, Done done) override {
+    EXPECT_TRUE(is_damaged(key));
+    {
+      absl::MutexLock lock(&reads_mutex_);
+      damaged_ = "";
+    }
+    SharedStore::Remove(key, 1, std::move(done));
+  }
+  void Damage(const std::string& key) {
+    absl::MutexLock lock(&reads_mutex_);
+    damaged_ = key;
+  }
   void SetReads(bool wait) {
     absl::MutexLock lock(&reads_mutex_);
     reads_wait_ = wait;
@@ -60,7 +81,14 @@ class SlowStore final : public SharedStore {
   }
 
  private:
+  bool is_damaged(const std::string& key) const {
+    absl::MutexLock lock(&reads_mutex_);
+    return damaged_ == key;
+  }
+
+  const absl::Status kDamage = StoreDamaged("the header is not what was written");
   mutable absl::Mutex reads_mutex_;
+  std::string damaged_ ABSL_GUARDED_BY(reads_mutex_);
   int reads_ ABSL_GUARDED_BY(reads_mutex_) = 0;
   bool reads_wait_ ABSL_GUARDED_BY(reads_mutex_) = false;
 };
@@ -196,6 +224,29 @@ TEST_F(ServerNodesTest, WhatCannotBeReadCanBeDeleted) {
   const grpc::Status deleted = missions_->DeleteMission(&context, request, &response);
   EXPECT_TRUE(deleted.ok()) << deleted.error_message();
   EXPECT_EQ(Get("mill").status.error_code(), grpc::StatusCode::NOT_FOUND);
+}
+
+TEST_F(ServerNodesTest, WhatTheStoreCallsDamagedIsNamedListedAndDeleted) {
+  ASSERT_TRUE(store_.Create("acme/mill", "").ok());
+  store_.Damage("acme/mill");
+  const Answer damaged = Get("mill");  // an admin's call, who is of no tenant
+  EXPECT_EQ(damaged.status.error_code(), grpc::StatusCode::DATA_LOSS);
+  EXPECT_THAT(damaged.status.error_message(), HasSubstr("the header is not what was written"));
+  grpc::ClientContext lists;
+  v1::ListMissionsRequest all;
+  v1::ListMissionsResponse listed;
+  ASSERT_TRUE(missions_->ListMissions(&lists, all, &listed).ok());
+  ASSERT_EQ(listed.missions(0).name(), "missions/mill");
+  EXPECT_EQ(listed.missions(0).state(), v1::MISSION_STATE_DAMAGED);
+  EXPECT_THAT(listed.missions(0).damage(), HasSubstr("the header is not what was written"));
+  grpc::ClientContext context;
+  v1::DeleteMissionRequest request;
+  v1::DeleteMissionResponse response;
+  request.set_name("missions/mill");
+  const grpc::Status deleted = missions_->DeleteMission(&context, request, &response);
+  EXPECT_TRUE(deleted.ok()) << deleted.error_message();
+  EXPECT_EQ(Get("mill").status.error_code(), grpc::StatusCode::NOT_FOUND);
+  EXPECT_TRUE(absl::IsNotFound(store_.Peek("acme/mill").status()));
 }
 
 TEST_F(ServerNodesTest, WithTheLeaseItStopsServing) {

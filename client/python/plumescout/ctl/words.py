@@ -117,7 +117,7 @@ def mission_row(mission):
         memory(mission),
         idle_time_to_live(mission),
         mission.owner,
-        mission.node or "-",
+        ": ".join(filter(None, (mission.node, mission.damage))) or "-",
     ]
 
 
