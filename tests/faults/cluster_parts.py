@@ -50,6 +50,7 @@ class Router:
         kept = [line for line in listed if line.split()[1] in names][::order]
         rest = [line for line in lines if line not in listed]
         rest = [line for line in rest if not self._uses_another(line, names)]
+        self._group = None
         self._admin = f"{folder}/haproxy{order}.sock"
         rest.insert(rest.index("global") + 1, f"    stats socket {self._admin} level admin")
         own = pathlib.Path(folder) / f"haproxy{order}.cfg"
@@ -66,6 +67,21 @@ class Router:
     def _uses_another(line, names):
         used = [name for name in NAMES if f"use-server {name} " in line or f"nodes/{name})" in line]
         return bool(set(used) - names)
+
+    def hold_to(self, share):
+        """It gets no more than this share of one core from now on. Needs root."""
+        root = pathlib.Path("/sys/fs/cgroup")
+        is_second = (root / "cgroup.controllers").exists()
+        group = root / ("" if is_second else "cpu") / f"plumescout-{self.process.pid}"
+        group.mkdir()
+        quota_us, period_us = 1000, round(1000 / share)
+        if is_second:
+            (group / "cpu.max").write_text(f"{quota_us} {period_us}")
+        else:
+            (group / "cpu.cfs_period_us").write_text(str(period_us))
+            (group / "cpu.cfs_quota_us").write_text(str(quota_us))
+        (group / "cgroup.procs").write_text(str(self.process.pid))
+        self._group = group
 
     def lead(self, node, leads):
         """Whether it leads to the node of this name, from now on; it does not lose it by that."""
@@ -88,6 +104,8 @@ class Router:
     def stop(self):
         self.process.kill()
         self.process.wait()
+        if self._group:
+            self._group.rmdir()
 
 
 def by_clock(offset_s):
