@@ -165,6 +165,8 @@ Server::Server(Private, const ServerConfig& config, RegistryHooks hooks,
       registry_(ToRegistryOptions(config, FirstLeaseToken(RandomBits())),
                 Complete(std::move(hooks), config, store_, &epoch_pool_, &audit_pool_,
                          &snapshot_pool_, recorder_.get(), &metrics_.missions())),
+      stray_calls_(store_ == nullptr ? nullptr : store_->nodes(),
+                   [this](const StrayMission& stray) { return registry_.GiveUp(stray); }),
       history_(store_ == nullptr
                    ? nullptr
                    : std::make_unique<History>(store_, &registry_, ToImportLimits(config))),
@@ -193,8 +195,11 @@ Server::Server(Private, const ServerConfig& config, RegistryHooks hooks,
       snapshot_service_(&context_),
       system_service_(
           &context_, &config_,
-          [this] { return TellOfStore(config_.store, store_, store_usage_.get()); },
+          [this] {
+            return TellOfStore(config_.store, store_, store_usage_.get(), stray_calls_.figures());
+          },
           std::move(events.drain)) {
+  door_.SetOnStray([this](const OwnedMission& mission) { stray_calls_.Note(mission); });
   door_.AddObserver([this](const CallInfo& info, const CallEnd& end) {
     metrics_.calls().Note(info.rpc, end.status, end.duration);
   });
@@ -256,6 +261,8 @@ absl::Status Server::Listen() {
   sweeper_ = std::make_unique<PeriodicTask>(kSweepPeriod, [this] { Sweep(); });
   if (store_ != nullptr && store_->nodes() != nullptr) {
     forgetter_ = std::make_unique<PeriodicTask>(kForgettingPeriod, [this] { DeleteForgotten(); });
+    stray_follower_ =
+        std::make_unique<PeriodicTask>(kStorePeriod, [this] { stray_calls_.Follow(); });
   }
   return absl::OkStatus();
 }
@@ -303,8 +310,7 @@ std::string Server::NotReady() const {
 }
 
 std::string Server::Trouble() const {
-  if (store_ == nullptr) return "";
-  return std::string(store_->state().status.message());
+  return store_ == nullptr ? "" : std::string(store_->state().status.message());
 }
 
 void Server::Sweep() {
@@ -378,6 +384,7 @@ std::string Server::MetricsText() const {
   state.memory_budget_bytes = config_.limits.memory_budget_bytes;
   state.draining = draining_;
   state.store = store_;
+  state.strays = stray_calls_.figures();
   if (history_ != nullptr) state.pools.push_back(history_->imports.pool().load());
   if (recovery_pool_ != nullptr) state.pools.push_back(recovery_pool_->load());
   if (store_usage_ != nullptr) state.store_sizes = store_usage_->sizes();
@@ -406,7 +413,8 @@ void Server::Drain() {
   if (store_ != nullptr && store_->nodes() != nullptr) store_->nodes()->SetOnLost(nullptr);
   registry_.ReleaseAll();
   store_watch_.reset();
-  forgetter_.reset();  // it may wait for the store; what it does no mission waits for
+  forgetter_.reset();       // it may wait for the store; what it does no mission waits for
+  stray_follower_.reset();  // as well
 }
 
 void Server::EndCalls(SteadyTime cut) {

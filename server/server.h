@@ -19,6 +19,7 @@
 #include "server/config/config.h"
 #include "server/history/history.h"
 #include "server/missions/recorder.h"
+#include "server/missions/stray_calls.h"
 #include "server/self_probe.h"
 #include "server/server_metrics.h"
 #include "server/services/ingest_service.h"
@@ -109,6 +110,7 @@ class Server {
   WorkerPool snapshot_pool_;
   const std::unique_ptr<Recorder> recorder_;  // as well; null: missions are not recorded
   MissionRegistry registry_;
+  StrayCalls stray_calls_;
   const std::unique_ptr<History> history_;  // before the pools that use it; null without a store
   FairPool planning_pool_;
   WorkerPool map_pool_;
@@ -129,7 +131,8 @@ class Server {
   std::unique_ptr<WorkerPool> recovery_pool_;  // null without a store, as is the next
   std::unique_ptr<StoreWatch> store_watch_;    // while the server serves
   std::unique_ptr<PeriodicTask> sweeper_;      // as well
-  std::unique_ptr<PeriodicTask> forgetter_;    // null unless servers share the store
+  std::unique_ptr<PeriodicTask> forgetter_;  // null unless servers share the store, as is the next
+  std::unique_ptr<PeriodicTask> stray_follower_;
 
   int port_ = 0;
   std::atomic<bool> drain_begun_ = false;

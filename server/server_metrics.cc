@@ -123,10 +123,22 @@ void ReadStore(const ServerState& state, Readings& readings) {
   readings.Gauge("plumescout_missions_recovering", "Missions that are yet to be recovered.");
   readings.Add(absent.recovering);
   readings.Gauge("plumescout_missions_damaged", "Missions that could not be recovered.");
-  readings.Add(absent.damaged);
+  readings.Add(absent.damaged + state.store_sizes.damaged_missions);
   readings.Gauge("plumescout_missions_sleeping",
                  "Missions that nobody has used for store.sleep_after_s: not in memory.");
   readings.Add(absent.sleeping);
+}
+
+void ReadStrays(const ServerState& state, Readings& readings) {
+  if (state.store == nullptr) return;
+  readings.Counter("plumescout_stray_calls_total",
+                   "Calls that named the node that has their mission, and came to this one.");
+  readings.Add(state.strays.calls);
+  readings.Counter("plumescout_missions_given_up_total",
+                   "Missions given up because their calls came to other nodes.");
+  readings.Add(state.strays.given_up);
+  readings.Gauge("plumescout_node_unreached", "1 for each node that lives and calls do not reach.");
+  for (const std::string& node : state.strays.unreached) readings.Add(1, {{"node", node}});
 }
 
 using Hosts = std::vector<std::shared_ptr<MissionHost>>;
@@ -226,6 +238,7 @@ std::string ServerMetrics::Text(const ServerState& state) const {
   ReadProcess(readings);
   ReadPools(state, readings);
   ReadStore(state, readings);
+  ReadStrays(state, readings);
   ReadMissions(state, readings);
   return prometheus::TextSerializer().Serialize(families);
 }

@@ -12,6 +12,7 @@
 #include "server/base/pool_load.h"
 #include "server/calls/active_streams.h"
 #include "server/missions/mission_registry.h"
+#include "server/missions/stray_calls.h"
 #include "server/observe/call_metrics.h"
 #include "server/observe/mission_metrics.h"
 #include "server/store/mission_store.h"
@@ -33,6 +34,7 @@ struct ServerState {
   bool draining = false;
   const MissionStore* store = nullptr;  // null: none
   StoreUsage::Sizes store_sizes = {};
+  StrayFigures strays = {};
 };
 
 // All metrics of a server: what was counted and timed so far, and how things stand.

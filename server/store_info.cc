@@ -7,7 +7,7 @@
 namespace plumescout::server {
 
 v1::StoreInfo TellOfStore(const StoreConfig& config, const MissionStore* store,
-                          const StoreUsage* usage) {
+                          const StoreUsage* usage, const StrayFigures& strays) {
   v1::StoreInfo info;
   info.set_engine(config.engine);
   if (config.engine == kPostgresqlStore) {
@@ -19,6 +19,7 @@ v1::StoreInfo TellOfStore(const StoreConfig& config, const MissionStore* store,
   info.set_available(state.status.ok());
   info.set_trouble(std::string(state.status.message()));
   info.set_backlog_bytes(state.backlog_bytes);
+  for (const std::string& node : strays.unreached) info.add_unreached_nodes(node);
   if (usage == nullptr) return info;
   for (const auto& [key, bytes] : usage->sizes().mission_bytes) {
     info.set_stored_bytes(info.stored_bytes() + bytes);

@@ -5,6 +5,7 @@
 
 #include "plumescout/v1/system_service.pb.h"
 #include "server/config/config.h"
+#include "server/missions/stray_calls.h"
 #include "server/store/mission_store.h"
 #include "server/store_usage.h"
 
@@ -12,6 +13,6 @@ namespace plumescout::server {
 
 // Both null where missions are not kept. Does not block.
 v1::StoreInfo TellOfStore(const StoreConfig& config, const MissionStore* store,
-                          const StoreUsage* usage);
+                          const StoreUsage* usage, const StrayFigures& strays = {});
 
 }  // namespace plumescout::server

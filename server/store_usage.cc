@@ -26,7 +26,10 @@ void StoreUsage::Look() {
   if (!missions.ok()) return;
   Sizes found;
   found.disk_bytes = store_->disk_bytes();
-  for (const StoredMission& mission : *missions) found.mission_bytes[mission.key] = mission.bytes;
+  for (const StoredMission& mission : *missions) {
+    found.mission_bytes[mission.key] = mission.bytes;
+    found.damaged_missions += mission.is_damaged ? 1 : 0;
+  }
   absl::MutexLock lock(&mutex_);
   sizes_ = std::move(found);
 }

@@ -23,6 +23,7 @@ class StoreUsage {
   struct Sizes {
     std::int64_t disk_bytes = 0;
     std::map<std::string, std::int64_t> mission_bytes;  // by key
+    int damaged_missions = 0;                           // StoredMission::is_damaged
   };
 
   // Looks at once, and then every `period`.

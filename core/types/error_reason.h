@@ -54,6 +54,7 @@ inline constexpr absl::string_view kStoreDamaged = "STORE_DAMAGED";
 inline constexpr absl::string_view kRecovering = "RECOVERING";
 inline constexpr absl::string_view kFenced = "FENCED";
 inline constexpr absl::string_view kMissionElsewhere = "MISSION_ELSEWHERE";
+inline constexpr absl::string_view kNodeUnreached = "NODE_UNREACHED";
 inline constexpr absl::string_view kExportDamaged = "EXPORT_DAMAGED";
 
 }  // namespace reason

@@ -22,6 +22,7 @@ constexpr double kLineWidth_px = 2.0;
 constexpr double kStorm = 0.0;
 constexpr double kHot = 1.0;
 constexpr double kTail = 2.0;
+constexpr double kRecovery = 3.0;
 constexpr int kFailovers = 40;  // of each point
 constexpr int kQuickFailovers = 4;
 constexpr double kHotSeconds = 300.0;
@@ -32,6 +33,8 @@ constexpr int kMissionsOfANode[] = {10, 25, 50, 100, 200, 400, 800};
 constexpr int kNodes[] = {3, 10, 100};
 constexpr int kRobots[] = {1, 2, 4, 8, 16, 32, 48, 64, 80, 96, 100, 104, 108, 112, 128};
 constexpr double kTails_s[] = {0.1, 0.2, 0.5, 1.0, 1.5, 2.0};
+constexpr double kCores[] = {2.0, 4.0, 16.0};
+constexpr int kRecoveries[] = {1, 2, 4, 8};
 constexpr double kLeases_s[] = {1.0, 2.0, 5.0};
 
 struct Waits {
@@ -145,6 +148,31 @@ void AddTails(const ExperimentOptions& options, Study& study) {
   study.figures.charts.push_back(std::move(chart));
 }
 
+// How many are recovered at a time, by the cores that nodes have.
+void AddRecoveries(const ExperimentOptions& options, Study& study) {
+  Chart chart{.title = "Longest wait by recoveries at a time, s",
+              .x_label = "recoveries of a node at a time",
+              .y_range = {},
+              .curves = {}};
+  for (std::size_t i = 0; i < std::size(kCores); ++i) {
+    chart.curves.push_back(Line(absl::StrFormat("%.0f cores", kCores[i]), i));
+    for (const int recoveries : kRecoveries) {
+      ClusterModel model;
+      model.cores = kCores[i];
+      model.recoveries = recoveries;
+      const Waits waits = WaitsOf(ManyFailovers(model, options));
+      chart.curves.back().points.push_back({static_cast<double>(recoveries), waits.longest_s});
+      study.table.rows.push_back({kRecovery, static_cast<double>(model.nodes),
+                                  static_cast<double>(recoveries), model.lease_s, waits.median_s,
+                                  waits.far_s, waits.longest_s});
+      const std::string name = absl::StrFormat("recoveries_c%.0f_k%d", kCores[i], recoveries);
+      study.summary.figures.emplace_back(name + "_median_s", waits.median_s);
+      study.summary.figures.emplace_back(name + "_longest_s", waits.longest_s);
+    }
+  }
+  study.figures.charts.push_back(std::move(chart));
+}
+
 void AddHotMission(const ExperimentOptions& options, Study& study) {
   Chart chart{.title = "Observation sent until applied, 99 of 100, ms",
               .x_label = "robots of one mission",
@@ -174,7 +202,8 @@ std::vector<std::string> MakeNotes() {
       "grow; "
       "the router sends each mission to one of the nodes that are left; that asks the store whose "
       "the mission is, which holds for half a second; once the lease has run out it takes the "
-      "mission over and recovers it, one mission at a time, while the missions that it has already "
+      "mission over and recovers it, two missions at a time, while the missions that it has "
+      "already "
       "take half of its two cores. Leases are renewed four times in their time; callers of a "
       "mission "
       "that is recovered ask every 0.5 s. All of these are constants of the code.",
@@ -196,11 +225,13 @@ absl::StatusOr<Study> RunClusterModel(const ExperimentOptions& options) {
   Study study;
   study.figures.title = "When one of many servers dies";
   study.figures.notes = MakeNotes();
-  study.table.columns = {"kind",  "nodes",    "missions_tail_s_or_robots", "lease_s", "median_s",
-                         "p99_s", "longest_s"};
+  study.table.columns = {"kind",     "nodes",    "missions_tail_s_recoveries_or_robots",
+                         "lease_s",  "median_s", "p99_s",
+                         "longest_s"};
   AddLeases(options, study);
   AddStorms(options, study);
   AddTails(options, study);
+  AddRecoveries(options, study);
   AddHotMission(options, study);
   study.summary.about = AboutThisRun(options.seed);
   return study;

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <queue>
+#include <span>
 
 #include "core/types/rng.h"
 
@@ -16,12 +17,19 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kBackoffFactor = 1.6;
 constexpr double kJitter = 0.2;
+constexpr double kDone_s = 1e-9;
 
 struct Mission {
   std::size_t node = 0;         // that the router sends its calls to
   double asked_until_s = -1.0;  // an answer that the node has, or waits for
-  double served_from_s = kNever;
-  double recovery_s = 0.0;
+  bool is_taken = false;
+  double left_s = 0.0;            // of its recovery, on a core of its own
+  double served_from_s = kNever;  // once its node has come so far
+};
+
+struct Node {
+  double time_s = 0.0;             // up to which it has recovered
+  std::vector<std::size_t> taken;  // missions that are left, in the order in which it took them
 };
 
 struct Robot {
@@ -45,15 +53,13 @@ class Failover {
         rng_(seed),
         // The last renewal was a quarter of the lease ago at most.
         lease_end_s_(model.lease_s * rng_.Uniform(0.75, 1.0)),
-        free_from_s_(static_cast<std::size_t>(model.nodes - 1), 0.0),
+        nodes_(static_cast<std::size_t>(model.nodes - 1)),
         missions_(static_cast<std::size_t>(model.missions)),
         robots_(missions_.size() * static_cast<std::size_t>(model.robots)) {
-    // Recovering takes one core at most, and what the others' missions leave.
-    const double share = std::min(1.0, model_.cores * (1.0 - model_.utilisation));
     for (Mission& mission : missions_) {
-      mission.node = rng_.Below(free_from_s_.size());
+      mission.node = rng_.Below(nodes_.size());
       const double tail = rng_.Uniform(0.0, model_.largest_tail);
-      mission.recovery_s = (model_.read_s + tail * model_.replay_s) / share;
+      mission.left_s = model_.store_s + model_.read_s + tail * model_.replay_s;
     }
     for (std::size_t i = 0; i < robots_.size(); ++i) {
       robots_[i] = {i % missions_.size(), model_.first_backoff_s};
@@ -66,27 +72,49 @@ class Failover {
     while (!attempts_.empty()) {
       const Attempt attempt = attempts_.top();
       attempts_.pop();
-      Mission& mission = missions_[robots_[attempt.robot].mission];
+      const std::size_t index = robots_[attempt.robot].mission;
+      const Mission& mission = missions_[index];
+      Advance(nodes_[mission.node], attempt.time_s);
       if (attempt.time_s >= mission.served_from_s) {
         waits_s[attempt.robot] = attempt.time_s;
         continue;
       }
-      attempts_.push({attempt.time_s + Refuse(mission, attempt), attempt.robot});
+      attempts_.push({attempt.time_s + Refuse(index, attempt), attempt.robot});
     }
     return waits_s;
   }
 
  private:
+  // Those that it recovers at a time share what its other missions leave of its cores.
+  void Advance(Node& node, double until_s) {
+    const double free_cores = model_.cores * (1.0 - model_.utilisation);
+    while (!node.taken.empty() && node.time_s < until_s) {
+      const std::span<const std::size_t> begun =
+          std::span(node.taken)
+              .first(std::min(node.taken.size(), static_cast<std::size_t>(model_.recoveries)));
+      const double rate = std::min(1.0, free_cores / static_cast<double>(begun.size()));
+      double step_s = until_s - node.time_s;
+      for (const std::size_t i : begun) step_s = std::min(step_s, missions_[i].left_s / rate);
+      for (const std::size_t i : begun) missions_[i].left_s -= step_s * rate;
+      node.time_s += step_s;
+      std::erase_if(node.taken, [&](std::size_t i) {
+        if (missions_[i].left_s > kDone_s) return false;
+        missions_[i].served_from_s = node.time_s;
+        return true;
+      });
+    }
+    node.time_s = until_s;
+  }
+
   // How long the robot waits before its next attempt.
-  double Refuse(Mission& mission, const Attempt& attempt) {
-    const bool is_taken = mission.served_from_s != kNever;
-    if (is_taken) return model_.retry_recovering_s;
+  double Refuse(std::size_t index, const Attempt& attempt) {
+    Mission& mission = missions_[index];
+    if (mission.is_taken) return model_.retry_recovering_s;
     if (attempt.time_s < mission.asked_until_s) return NextBackoff_s(robots_[attempt.robot]);
     const double answered_s = attempt.time_s + model_.store_s;
     if (answered_s >= lease_end_s_) {
-      double& free_from_s = free_from_s_[mission.node];
-      free_from_s = std::max(free_from_s, answered_s) + mission.recovery_s;
-      mission.served_from_s = free_from_s;
+      mission.is_taken = true;
+      nodes_[mission.node].taken.push_back(index);
     } else {
       mission.asked_until_s = answered_s + model_.answer_holds_s;
     }
@@ -102,7 +130,7 @@ class Failover {
   const ClusterModel model_;
   Rng rng_;
   const double lease_end_s_;
-  std::vector<double> free_from_s_;  // by node: one mission is recovered at a time
+  std::vector<Node> nodes_;  // that are left
   std::vector<Mission> missions_;
   std::vector<Robot> robots_;
   std::priority_queue<Attempt> attempts_;

@@ -13,6 +13,7 @@ struct ClusterModel {
   int nodes = 3;             // before one of them died; >= 2
   double cores = 2.0;        // of a node; > 0
   double utilisation = 0.5;  // of the cores, by missions that run; [0, 1)
+  int recoveries = 2;        // of a node at a time (store.recovery_threads), a core each; >= 1
   int missions = 50;         // of the node that died
   int robots = 4;            // of a mission
 

@@ -21,6 +21,7 @@ constexpr std::int64_t kOverloadRetry_ns = 250'000'000;
 constexpr std::int64_t kDrainRetry_ns = 1'000'000'000;  // about the time of a restart
 constexpr std::int64_t kStoreRetry_ns = 1'000'000'000;
 constexpr std::int64_t kRecoveryRetry_ns = 500'000'000;
+constexpr std::int64_t kUnreachedRetry_ns = 1'000'000'000;
 
 // A number that stands behind the reason and a word that names it.
 struct Fact {
@@ -92,6 +93,14 @@ absl::Status Recovering(absl::string_view mission) {
   return WithRetryAfter(TypedError(absl::StatusCode::kUnavailable, reason::kRecovering,
                                    absl::StrCat("missions/", mission, " is read from the disk")),
                         kRecoveryRetry_ns);
+}
+
+absl::Status NodeUnreached(absl::string_view mission, absl::string_view node) {
+  return WithRetryAfter(
+      TypedError(absl::StatusCode::kUnavailable, reason::kNodeUnreached,
+                 absl::StrCat("missions/", mission, " is served by node ", node,
+                              ", where this call did not get; another one is to take it over")),
+      kUnreachedRetry_ns);
 }
 
 absl::Status NameOfSeveral(absl::string_view mission) {

@@ -29,6 +29,8 @@ absl::Status StoreRolledBack(std::int64_t applied_sequence, std::int64_t told_se
 absl::Status MissionDamaged(absl::string_view mission, absl::string_view why);
 // The mission is there, but not yet in memory.
 absl::Status Recovering(absl::string_view mission);
+// Calls for the mission do not reach the node that has it, which is to give it up.
+absl::Status NodeUnreached(absl::string_view mission, absl::string_view node);
 // The name alone does not tell which mission is meant.
 absl::Status NameOfSeveral(absl::string_view mission);
 // If it is RECOVERING, the same error of the mission of this key, for whoever is ready to wait for

@@ -11,14 +11,16 @@
 #include "absl/strings/str_cat.h"
 #include "core/types/error_reason.h"
 #include "server/base/errors.h"
+#include "server/missions/recovery_list.h"
 #include "server/store/store_errors.h"
 
 namespace plumescout::server {
 namespace {
 
 constexpr char kRequestIdKey[] = "x-request-id";
-constexpr std::size_t kMaxRequestIdLength = 64;
+constexpr std::size_t kMaxWordLength = 64;
 constexpr char kOwnerKey[] = "x-owner";
+constexpr char kUnreachedKey[] = "x-unreached";  // by the router alone, deploy/cluster/haproxy.cfg
 
 std::string NewRequestId() {
   thread_local std::mt19937_64 bits{std::random_device{}()};
@@ -26,15 +28,16 @@ std::string NewRequestId() {
 }
 
 bool IsWord(const grpc::string_ref& text) {
-  return !text.empty() && text.size() <= kMaxRequestIdLength &&
+  return !text.empty() && text.size() <= kMaxWordLength &&
          std::all_of(text.begin(), text.end(),
                      [](char c) { return absl::ascii_isgraph(static_cast<unsigned char>(c)); });
 }
 
-std::string RequestId(const grpc::CallbackServerContext& call) {
+// The word that a call says under this key; empty if it says none.
+std::string WordOf(const grpc::CallbackServerContext& call, const char* key) {
   const auto& metadata = call.client_metadata();
-  const auto found = metadata.find(kRequestIdKey);
-  if (found == metadata.end() || !IsWord(found->second)) return NewRequestId();
+  const auto found = metadata.find(key);
+  if (found == metadata.end() || !IsWord(found->second)) return {};
   return {found->second.data(), found->second.size()};
 }
 
@@ -51,7 +54,9 @@ std::string AccountOf(const Principal& caller, const std::string& peer) {
 
 absl::Status Door::Enter(Rpc rpc, const grpc::CallbackServerContext& call, CallInfo& info) const {
   info.rpc = rpc;
-  info.request_id = RequestId(call);
+  info.named_node = WordOf(call, kUnreachedKey);
+  info.request_id = WordOf(call, kRequestIdKey);
+  if (info.request_id.empty()) info.request_id = NewRequestId();
   info.began = SteadyNow();
   info.deadline = std::max(info.began, ToSteady(call.deadline()));
   absl::Status status;
@@ -85,11 +90,21 @@ absl::Status Visit::Enter(const Door& door, Rpc rpc, grpc::CallbackServerContext
   return status;
 }
 
-void Visit::Leave(const absl::Status& status) {
-  if (door_ == nullptr) return;
+absl::Status Door::Redirect(const CallInfo& info, const absl::Status& elsewhere) const {
+  const absl::string_view owner = NodeElsewhere(elsewhere);
+  if (owner.empty() || owner != info.named_node) return elsewhere;
+  const OwnedMission mission{KeyElsewhere(elsewhere), std::string(owner)};
+  if (on_stray_) on_stray_(mission);
+  return NodeUnreached(MissionIdOf(mission.key), owner);
+}
+
+absl::Status Visit::Leave(absl::Status status) {
+  if (door_ == nullptr) return status;
   const absl::string_view owner = NodeElsewhere(status);
   if (!owner.empty()) call_->AddTrailingMetadata(kOwnerKey, std::string(owner));
+  status = door_->Redirect(info_, status);
   std::exchange(door_, nullptr)->Leave(info_, status);
+  return status;
 }
 
 absl::Status CheckActsFor(const Principal& caller, const RobotName& robot) {

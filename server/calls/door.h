@@ -19,6 +19,7 @@
 #include "server/base/clock.h"
 #include "server/base/stage_times.h"
 #include "server/calls/call_rates.h"
+#include "server/store/store_nodes.h"
 
 namespace plumescout::server {
 
@@ -29,6 +30,7 @@ struct CallInfo {
   // Whose share of the server it takes: the caller's, or, of those that nobody knows, that of the
   // machine they call from.
   std::string account;
+  std::string named_node;  // by the caller, and not reached, as the router says; empty: none
   std::string request_id;  // of log lines and error details: the caller's x-request-id, or made up
   SteadyTime began;
   SteadyTime deadline = SteadyTime::max();  // the caller's; no earlier than `began`
@@ -54,6 +56,7 @@ struct Identity {
 using Authenticate = std::function<absl::StatusOr<Identity>(const grpc::CallbackServerContext&)>;
 // Hears of every call, also of those that were not let in. Must not block.
 using CallObserver = std::function<void(const CallInfo&, const CallEnd&)>;
+using OnStray = std::function<void(const OwnedMission&)>;
 
 // The one door: every unary and stream handler passes it, in and out. Thread-safe.
 class Door {
@@ -63,14 +66,20 @@ class Door {
       : authenticate_(std::move(authenticate)), rates_(std::make_unique<CallRates>(rates)) {}
   // REQUIRES: no call has entered.
   void AddObserver(CallObserver observer) { observers_.push_back(std::move(observer)); }
+  // Hears of calls whose mission is at a node that the router does not reach. Must not block.
+  // REQUIRES: no call has entered.
+  void SetOnStray(OnStray on_stray) { on_stray_ = std::move(on_stray); }
 
   // kUnauthenticated, kPermissionDenied, RATE_EXCEEDED. Whoever is let in leaves once. `info` is
   // filled in anyway.
   absl::Status Enter(Rpc rpc, const grpc::CallbackServerContext& call, CallInfo& info) const;
   void Leave(const CallInfo& info, const absl::Status& status) const;
+  // What a call is told whose mission is elsewhere: NODE_UNREACHED, if that is info.named_node.
+  absl::Status Redirect(const CallInfo& info, const absl::Status& elsewhere) const;
 
  private:
   const Authenticate authenticate_;
+  OnStray on_stray_;  // null: nobody wants to know
   const std::unique_ptr<CallRates> rates_;
   std::vector<CallObserver> observers_;
 };
@@ -80,9 +89,10 @@ class Visit {
  public:
   // As Door::Enter. The door outlives the visit.
   absl::Status Enter(const Door& door, Rpc rpc, grpc::CallbackServerContext& call);
-  // No effect for who was not let in, or has left. A call for a mission of another node is told its
-  // name (trailer x-owner).
-  void Leave(const absl::Status& status);
+  // What the call is to be told: what it ended with, or NODE_UNREACHED if its mission is at the
+  // node that it named and the router does not reach. It is told that name (trailer x-owner).
+  // Nothing is done for who was not let in, or has left.
+  absl::Status Leave(absl::Status status);
 
   // Of who was not let in, too.
   const CallInfo& info() const { return info_; }

@@ -72,8 +72,7 @@ void UnaryCall::Answer(const absl::Status& status) {
     look.swap(look_);
   }
   if (look) look(status);
-  visit_.Leave(status);
-  Finish(ToGrpc(status, info().request_id));
+  Finish(ToGrpc(visit_.Leave(status), info().request_id));
 }
 
 void UnaryCall::OnCancel() {

@@ -83,8 +83,8 @@ class MissionRegistry {
       const MissionId& id, absl::string_view tenant = {},
       MissionJournal::Callback removed = [](const absl::Status&) {});
 
-  // The store forgets a mission that cannot be recovered; `removed` hears as of Delete.
-  // MISSION_NOT_FOUND unless it is one. Reads the disk.
+  // The store forgets a mission that cannot be recovered, as Find has said; `removed` hears as of
+  // Delete. MISSION_NOT_FOUND unless it is one. Reads the disk.
   absl::Status Discard(const std::string& key, MissionJournal::Callback removed);
 
   // From now on the missions that the store has are there, if only to be recovered; if missions
@@ -146,6 +146,10 @@ class MissionRegistry {
   // not here. False if there is no other server: then they go on. What is not given away by the
   // deadline is dropped, or left to StopAll. Blocks.
   bool HandOverAll(SteadyTime deadline);
+  // Gives up one mission, whose calls come to another node, as HandOverAll does; for a while calls
+  // are told that that one has it. kAborted if it is being read just now. What does not come to
+  // rest ends, and stays this node's. Blocks.
+  absl::Status GiveUp(const StrayMission& stray);
   // MissionHost::EndWaits of all; no mission is made from then on.
   void EndWaits(const absl::Status& status);
   // All missions are off the list and stop; what is queued is dropped.
@@ -173,6 +177,7 @@ class MissionRegistry {
   // Why no mission is made or recovered; OK if they are.
   absl::Status Closed(const std::string& key) const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void HandOver(const std::shared_ptr<MissionHost>& host, SteadyTime deadline);
+  absl::Status RestAndRelease(MissionHost& host, SteadyTime deadline);
   void ReleaseSleeping();
   void Release(const std::string& key, std::int64_t epoch);
   // Whether this server has had one lease since lives_ was this.

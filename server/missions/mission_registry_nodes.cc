@@ -31,6 +31,11 @@ constexpr absl::Duration kLongestSettling = absl::Seconds(2);
 // Of one mission; so long calls wait at most that come meanwhile.
 constexpr absl::Duration kLongestHandOver = absl::Seconds(1);
 
+// Of one that nobody reaches anyway.
+constexpr absl::Duration kLongestGivingUp = absl::Seconds(5);
+// Who calls here all the same is sent on for so long: it is to move, not to come back at once.
+constexpr absl::Duration kGivenAway = absl::Seconds(5);
+
 constexpr absl::Duration kLongestRemoval = absl::Seconds(5);
 constexpr int kListedAtOnce = 1000;
 constexpr int kForgottenAtOnce = 100;
@@ -115,7 +120,8 @@ absl::StatusOr<std::vector<OwnedMission>> MissionRegistry::ListElsewhere(
     PLUMESCOUT_ASSIGN_OR_RETURN(std::vector<OwnedMission> page, nodes_->ListMissions(query));
     for (OwnedMission& mission : page) {
       query.after = mission.key;
-      if (mission.node == node() || !wanted(mission.key)) continue;
+      const bool is_here = mission.node == node() && mission.damage.empty();
+      if (is_here || !wanted(mission.key)) continue;
       elsewhere.push_back(std::move(mission));
       if (std::ssize(elsewhere) == limit) return elsewhere;
     }
@@ -254,24 +260,26 @@ bool MissionRegistry::HandOverAll(SteadyTime deadline) {
   return true;
 }
 
-void MissionRegistry::HandOver(const std::shared_ptr<MissionHost>& host, SteadyTime deadline) {
+absl::Status MissionRegistry::RestAndRelease(MissionHost& host, SteadyTime deadline) {
   struct Rest {
     absl::Notification begun;
     absl::Status status;
   };
   const auto rest = std::make_shared<Rest>();  // outlives us if the store is slow
-  absl::Status status = host->BeginRest([rest](const absl::Status& durable) {
+  PLUMESCOUT_RETURN_IF_ERROR(host.BeginRest([rest](const absl::Status& durable) {
     rest->status = durable;
     rest->begun.Notify();
-  });
-  const std::string& key = host->journal().key();
-  if (status.ok()) {
-    const absl::Duration left = absl::FromChrono(deadline - SteadyNow());
-    status = rest->begun.WaitForNotificationWithTimeout(left)
-                 ? rest->status
-                 : absl::DeadlineExceededError("it does not come to rest");
+  }));
+  if (!rest->begun.WaitForNotificationWithTimeout(absl::FromChrono(deadline - SteadyNow()))) {
+    return absl::DeadlineExceededError("it does not come to rest");
   }
-  if (status.ok()) status = nodes_->Release(key, host->journal().epoch());
+  PLUMESCOUT_RETURN_IF_ERROR(rest->status);
+  return nodes_->Release(host.journal().key(), host.journal().epoch());
+}
+
+void MissionRegistry::HandOver(const std::shared_ptr<MissionHost>& host, SteadyTime deadline) {
+  const absl::Status status = RestAndRelease(*host, deadline);
+  const std::string& key = host->journal().key();
   if (status.ok()) {
     absl::MutexLock lock(&mutex_);
     const auto found = hosts_.find(key);
@@ -282,6 +290,35 @@ void MissionRegistry::HandOver(const std::shared_ptr<MissionHost>& host, SteadyT
     host->BeginStop(Draining());
   }
   host->DropAll();
+}
+
+absl::Status MissionRegistry::GiveUp(const StrayMission& stray) {
+  const std::string& key = stray.key;
+  std::shared_ptr<MissionHost> host;
+  {
+    absl::MutexLock lock(&mutex_);
+    PLUMESCOUT_RETURN_IF_ERROR(Closed(key));
+    const auto found = hosts_.find(key);
+    if (found != hosts_.end()) host = found->second;
+    const bool is_read = being_made_.contains(key) || sought_.IsAskedFor(key) ||
+                         (absent_.Contains(key) && absent_.FindAsleep(key) == nullptr);
+    if (host == nullptr && is_read) return absl::AbortedError("it is being read");
+    absent_.Erase(key);
+  }
+  const absl::Status status = host != nullptr
+                                  ? RestAndRelease(*host, After(SteadyNow(), kLongestGivingUp))
+                                  : nodes_->Release(key, stray.epoch);
+  {
+    const absl::Status told = status.ok() ? MissionElsewhere(key, stray.came_to) : Draining();
+    absl::MutexLock lock(&mutex_);
+    const auto found = hosts_.find(key);
+    if (host != nullptr && found != hosts_.end() && found->second == host) {
+      Reap(found, told, [] {});
+    }
+    if (status.ok()) sought_.Tell(key, told, After(clock_(), kGivenAway));
+  }
+  if (host != nullptr) host->DropAll();
+  return status;
 }
 
 void MissionRegistry::ReleaseSleeping() {

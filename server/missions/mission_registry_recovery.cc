@@ -136,6 +136,10 @@ absl::Status MissionRegistry::RecoverNow(const std::string& key, bool holds_name
       if (!sleeps_on) absent_.Hold(key, HeldWith(key, status));
     }
   }
+  // Those that nobody can read are nobody's to list.
+  if (nodes_ != nullptr && absl::IsDataLoss(status)) {
+    nodes_->NoteDamage(key, std::string(status.message())).IgnoreError();
+  }
   LogRecovery(key, host.ok() ? host->get() : nullptr, status, SteadyNow() - began);
   return status;
 }
@@ -178,19 +182,24 @@ absl::Status MissionRegistry::CallForAbsent(const std::string& key) {
 }
 
 absl::Status MissionRegistry::Discard(const std::string& key, MissionJournal::Callback removed) {
-  {
+  if (nodes_ == nullptr) {
     absl::MutexLock lock(&mutex_);
-    const absl::Status held =
-        nodes_ == nullptr ? absent_.CallFor(key) : sought_.CallFor(key, clock_());
-    if (!absl::IsDataLoss(held)) return MissionNotFound(MissionIdOf(key));
+    if (!absl::IsDataLoss(absent_.CallFor(key))) return MissionNotFound(MissionIdOf(key));
+  } else {
+    PLUMESCOUT_RETURN_IF_ERROR(CheckLease());
   }
-  PLUMESCOUT_ASSIGN_OR_RETURN(const AcquiredMission stored, store_->Peek(key));
+  const absl::StatusOr<AcquiredMission> stored = store_->Peek(key);
+  if (!stored.ok() && !absl::IsDataLoss(stored.status())) return stored.status();
   {
     absl::MutexLock lock(&mutex_);
     absent_.Erase(key);
     sought_.Erase(key);
   }
-  store_->Remove(key, stored.epoch, std::move(removed));
+  if (stored.ok()) {
+    store_->Remove(key, stored->epoch, std::move(removed));
+  } else {
+    store_->Discard(key, std::move(removed));
+  }
   return absl::OkStatus();
 }
 

@@ -51,4 +51,8 @@ void SoughtMissions::Settle(const std::string& key, const absl::Status& status, 
                         .unheard_until = After(now, options_.unheard_holds)};
 }
 
+void SoughtMissions::Tell(const std::string& key, const absl::Status& status, SteadyTime until) {
+  missions_[key] = Entry{.is_asked_for = false, .answer = status, .holds_until = until};
+}
+
 }  // namespace plumescout::server

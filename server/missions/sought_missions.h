@@ -40,6 +40,8 @@ class SoughtMissions {
   std::optional<std::string> Next();
   // The store has answered; no effect for others than were given out.
   void Settle(const std::string& key, const absl::Status& status, SteadyTime now);
+  // What is said of the mission until then, though the store was not asked.
+  void Tell(const std::string& key, const absl::Status& status, SteadyTime until);
   void Erase(const std::string& key) { missions_.erase(key); }
   // Whether the store is being asked for it.
   bool IsAskedFor(const std::string& key) const {

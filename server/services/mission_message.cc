@@ -78,7 +78,10 @@ v1::Mission DescribeMission(const OwnedMission& owned) {
   v1::Mission proto;
   proto.set_name(MissionResource(MissionIdOf(owned.key)));
   proto.set_node(owned.node);
-  proto.set_state(owned.node.empty() ? v1::MISSION_STATE_SLEEPING : v1::MISSION_STATE_ELSEWHERE);
+  proto.set_state(!owned.damage.empty() ? v1::MISSION_STATE_DAMAGED
+                  : owned.node.empty()  ? v1::MISSION_STATE_SLEEPING
+                                        : v1::MISSION_STATE_ELSEWHERE);
+  proto.set_damage(owned.damage);
   return proto;
 }
 
@@ -92,6 +95,7 @@ v1::Mission DescribeMission(const AbsentMission& absent, const std::string& node
     proto.set_state(v1::MISSION_STATE_RECOVERING);
   } else {
     proto.set_state(v1::MISSION_STATE_DAMAGED);
+    proto.set_damage(std::string(absent.status.message()));
   }
   return proto;
 }

@@ -192,9 +192,22 @@ absl::Status MissionService::Discard(const MissionId& id, const std::shared_ptr<
   }
   if (key.empty()) key = own_key;  // servers that share a store list no missions of the store
   return context_.creation_pool->Submit([this, key, id, call] {
-    const absl::Status status = context_.registry->Discard(key, AnswerOnceDeleted(id, call));
+    absl::Status status = context_.registry->Discard(key, AnswerOnceDeleted(id, call));
+    if (absl::IsNotFound(status)) status = DiscardOfAnyTenant(id, call);
     if (!status.ok()) call->Answer(status);
   });
+}
+
+// Of a store that servers share.
+absl::Status MissionService::DiscardOfAnyTenant(const MissionId& id,
+                                                const std::shared_ptr<UnaryCall>& call) {
+  const auto is_it = [&](const std::string& key) {
+    return MissionIdOf(key) == id && MaySeeTenant(call->caller(), TenantOf(key));
+  };
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<OwnedMission> found,
+                              context_.registry->ListElsewhere("", 2, "", is_it));
+  if (found.size() != 1) return found.empty() ? MissionNotFound(id) : NameOfSeveral(id);
+  return context_.registry->Discard(found.front().key, AnswerOnceDeleted(id, call));
 }
 
 absl::Status MissionService::Update(const v1::UpdateMissionRequest& request, v1::Mission& mission,

@@ -66,6 +66,7 @@ class MissionService final : public v1::MissionService::CallbackService {
                       const std::shared_ptr<UnaryCall>& call);
   // A mission that cannot be recovered.
   absl::Status Discard(const MissionId& id, const std::shared_ptr<UnaryCall>& call);
+  absl::Status DiscardOfAnyTenant(const MissionId& id, const std::shared_ptr<UnaryCall>& call);
   absl::Status Update(const v1::UpdateMissionRequest& request, v1::Mission& mission,
                       const std::shared_ptr<UnaryCall>& call);
   absl::Status Change(const std::string& name, v1::Mission& mission,

@@ -74,6 +74,10 @@ void CommittedStore::Remove(const std::string& key, std::int64_t epoch, Done don
   committer_.Submit(MakeWrite(Kind::kRemove, key, epoch, std::move(done)));
 }
 
+void CommittedStore::Discard(const std::string& key, Done done) {
+  committer_.Submit(MakeWrite(Kind::kDiscard, key, 0, std::move(done)));
+}
+
 StoreState CommittedStore::state() const { return committer_.state(); }
 
 }  // namespace plumescout::server

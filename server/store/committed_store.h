@@ -28,6 +28,7 @@ class CommittedStore : public MissionStore {
                    Done done) override;
   void Trim(const std::string& key, std::int64_t epoch, Done done) override;
   void Remove(const std::string& key, std::int64_t epoch, Done done) override;
+  void Discard(const std::string& key, Done done) override;
   StoreState state() const override;
 
  protected:

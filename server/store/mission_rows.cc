@@ -72,6 +72,12 @@ absl::StatusOr<std::optional<MissionRow>> MissionRows::Find(const std::string& k
   return row;
 }
 
+absl::StatusOr<std::optional<std::int64_t>> MissionRows::FindId(const std::string& key) {
+  Query query = database_->Use("SELECT id FROM mission WHERE key = ?");
+  PLUMESCOUT_ASSIGN_OR_RETURN(const bool is_there, query.BindText(key).Next());
+  return is_there ? std::optional<std::int64_t>(query.Int(0)) : std::nullopt;
+}
+
 absl::StatusOr<std::vector<MissionRow>> MissionRows::List() {
   Query query = database_->Use(
       "SELECT m.id, p.epoch, p.head, p.chain, p.base, p.base_chain, p.bytes, p.standing_crc, "

@@ -28,6 +28,9 @@ class MissionRows {
   // Of all missions by key; rows that are damaged have a key only.
   absl::StatusOr<std::vector<MissionRow>> List();
 
+  // Of a mission whose row may be damaged; nothing if there is none.
+  absl::StatusOr<std::optional<std::int64_t>> FindId(const std::string& key);
+
   absl::StatusOr<std::string> Header(const MissionRow& row);
   absl::StatusOr<std::string> Standing(const MissionRow& row);
   // Of the records up to this one; 0 is the header. REQUIRES: number >= row.base.

@@ -54,8 +54,9 @@ class JournalReader {
 struct StoredMission {
   std::string key;
   std::int64_t epoch = 0;
-  std::int64_t head = 0;   // number of the last record; 0: there is none
-  std::int64_t bytes = 0;  // of header, standing, records and snapshots
+  std::int64_t head = 0;    // number of the last record; 0: there is none
+  std::int64_t bytes = 0;   // of header, standing, records and snapshots
+  bool is_damaged = false;  // as servers that share the store have found
 
   friend bool operator==(const StoredMission&, const StoredMission&) = default;
 };
@@ -124,6 +125,10 @@ class MissionStore {
 
   // The mission and all that was kept of it are gone, durably. As Append.
   virtual void Remove(const std::string& key, std::int64_t epoch, Done done) = 0;
+
+  // The same of a mission that Acquire calls damaged, whatever is left of it; kFailedPrecondition
+  // of one that is whole. MISSION_ELSEWHERE as Acquire.
+  virtual void Discard(const std::string& key, Done done) = 0;
 
   // All missions, by key.
   virtual absl::StatusOr<std::vector<StoredMission>> List() = 0;

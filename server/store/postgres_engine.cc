@@ -88,11 +88,8 @@ absl::Status PostgresEngine::CommitRound(std::vector<StoreWrite*>& writes, bool 
   for (auto& [key, row] : round.rows) {
     known_.erase(key);
     if (round.put_off_keys.contains(key)) continue;
-    if (row.has_value()) {
-      known_.emplace(key, *std::move(row));
-    } else {
-      own_.erase(key);
-    }
+    if (!row.has_value()) own_.erase(key);
+    if (row.has_value()) known_.emplace(key, *std::move(row));
   }
   for (const std::string& key : round.put_off_keys) known_.erase(key);
   // In their order: of one mission, those that were sent came before those that waited.
@@ -144,6 +141,7 @@ absl::Status PostgresEngine::LoadRows(const std::vector<StoreWrite*>& writes, bo
 absl::Status PostgresEngine::Plan(Round& round, StoreWrite& write) {
   if (write.kind == Kind::kCompact) return absl::OkStatus();  // the database sees to it by itself
   const auto planned = round.rows.find(write.key);
+  if (write.kind == Kind::kDiscard) return PlanDiscard(round, write);
   const auto known = known_.find(write.key);
   const auto fresh = fresh_.find(write.key);
   std::optional<SharedRow> shared;
@@ -177,6 +175,10 @@ absl::Status PostgresEngine::Plan(Round& round, StoreWrite& write) {
     return absl::OkStatus();
   }
   return PlanFor(round, write, *shared);
+}
+
+absl::Status PostgresEngine::NoLease() const {
+  return StoreUnavailable(absl::StrCat(connection_->name(), ": this node has no lease"));
 }
 
 bool PostgresEngine::IsOwn(const MissionRow& row) const {
@@ -213,7 +215,7 @@ absl::Status PostgresEngine::PlanCreate(Round& round, StoreWrite& write, const S
     return absl::OkStatus();
   }
   if (lease == 0) {
-    write.result = StoreUnavailable(absl::StrCat(connection_->name(), ": this node has no lease"));
+    write.result = NoLease();
     return absl::OkStatus();
   }
   SharedRow made;
@@ -250,7 +252,7 @@ absl::Status PostgresEngine::PlanAcquire(Round& round, StoreWrite& write) {
   PLUMESCOUT_RETURN_IF_ERROR(mission.status());
   const std::int64_t lease = options_.lease();
   if (lease == 0) {
-    write.result = StoreUnavailable(absl::StrCat(connection_->name(), ": this node has no lease"));
+    write.result = NoLease();
     return absl::OkStatus();
   }
   const SharedRow& before = mission->shared;
@@ -269,6 +271,22 @@ absl::Status PostgresEngine::PlanAcquire(Round& round, StoreWrite& write) {
   return absl::OkStatus();
 }
 
+absl::Status PostgresEngine::PlanDiscard(Round& round, StoreWrite& write) {
+  const std::int64_t lease = options_.lease();
+  const auto row = LoadDamagedRow(*connection_, write.key, lease);
+  if (round.rows.contains(write.key)) {
+    PutOff(round, write);
+  } else if (row.ok()) {
+    Add(round, write, DiscardStatement(*row, lease), std::nullopt);
+    has_chores_ = true;
+  } else if (absl::IsUnavailable(row.status()) && NodeElsewhere(row.status()).empty()) {
+    return row.status();
+  } else if (!absl::IsNotFound(row.status()) || !write.tried) {
+    write.result = row.status();
+  }
+  return absl::OkStatus();
+}
+
 absl::Status PostgresEngine::PlanAppend(Round& round, StoreWrite& write, const SharedRow& shared) {
   const MissionRow& row = shared.row;
   if (write.first_number == row.head + 1) {
@@ -280,8 +298,11 @@ absl::Status PostgresEngine::PlanAppend(Round& round, StoreWrite& write, const S
     Add(round, write, AppendStatement(row, after.row, write.records), after);
     return absl::OkStatus();
   }
-  PLUMESCOUT_ASSIGN_OR_RETURN(const bool is_done, HoldsRecords(row, write));
-  if (is_done) {
+  const auto is_done =
+      write.tried ? SharedHoldsRecords(*connection_, row, write.first_number, write.records)
+                  : absl::StatusOr<bool>(false);
+  PLUMESCOUT_RETURN_IF_ERROR(is_done.status());
+  if (*is_done) {
     // A standby that a commit waits for may not have them yet: one more commit waits for it.
     const SharedRow after = Next(shared);
     Add(round, write, SaveStatement(row, after.row), after);
@@ -289,19 +310,6 @@ absl::Status PostgresEngine::PlanAppend(Round& round, StoreWrite& write, const S
     Refuse(round, write, FencedByHead(write.key, write.first_number, row.head));
   }
   return absl::OkStatus();
-}
-
-absl::StatusOr<bool> PostgresEngine::HoldsRecords(const MissionRow& row, const StoreWrite& write) {
-  const std::int64_t last =
-      write.first_number + static_cast<std::int64_t>(write.records.size()) - 1;
-  if (!write.tried || write.first_number <= row.base || last > row.head) return false;
-  const std::int64_t numbers[] = {write.first_number - 1, last};
-  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<std::uint32_t> chains,
-                              SharedChainsAt(*connection_, row, numbers));
-  std::uint32_t chain = chains[0];
-  std::int64_t number = write.first_number;
-  for (const std::string& record : write.records) chain = ChainChecksum(chain, number++, record);
-  return chain == chains[1];
 }
 
 absl::Status PostgresEngine::PlanSnapshot(Round& round, StoreWrite& write,
@@ -363,6 +371,10 @@ void PostgresEngine::Refuse(Round& round, StoreWrite& write, absl::Status why) {
     write.result = std::move(why);
     return;
   }
+  PutOff(round, write);
+}
+
+void PostgresEngine::PutOff(Round& round, StoreWrite& write) {
   round.put_off.push_back(&write);
   round.put_off_keys.insert(write.key);
 }

@@ -70,11 +70,11 @@ class PostgresEngine final : public WriteEngine {
   absl::Status PlanCreate(Round& round, StoreWrite& write, const SharedRow* shared);
   absl::Status PlanUndo(Round& round, StoreWrite& write, const SharedRow& shared);
   absl::Status PlanAcquire(Round& round, StoreWrite& write);
+  absl::Status PlanDiscard(Round& round, StoreWrite& write);
+  absl::Status NoLease() const;
   absl::Status PlanAppend(Round& round, StoreWrite& write, const SharedRow& shared);
   absl::Status PlanSnapshot(Round& round, StoreWrite& write, const SharedRow& shared);
   absl::Status PlanTrim(Round& round, StoreWrite& write, const SharedRow& shared);
-  // Whether an earlier try has written them.
-  absl::StatusOr<bool> HoldsRecords(const MissionRow& row, const StoreWrite& write);
   // Epochs tell owners of one mission apart, not missions that had the same key one after another.
   bool IsOwn(const MissionRow& row) const;
 
@@ -82,6 +82,8 @@ class PostgresEngine final : public WriteEngine {
            std::optional<SharedRow> after);
   // The answer, unless it was found by what is remembered: then the database is asked.
   void Refuse(Round& round, StoreWrite& write, absl::Status why);
+  // Until the next round.
+  static void PutOff(Round& round, StoreWrite& write);
   absl::Status DoChore();
 
   const PostgresEngineOptions options_;

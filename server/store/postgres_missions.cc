@@ -30,6 +30,20 @@ constexpr absl::string_view kMoved =
     "WHERE mission = $1 AND epoch = $2 AND head = $3 AND writes = $4 AND crc = $5 "
     "RETURNING mission)";
 
+// The row is what it was thought to be, and is gone.
+constexpr absl::string_view kProgressGone =
+    "DELETE FROM plumescout_progress WHERE mission = $1 AND epoch = $2 AND head = $3 "
+    "AND writes = $4 AND crc = $5 RETURNING mission";
+// So is all else that is kept of the mission in `gone`; its records are for chores.
+constexpr absl::string_view kAllGone =
+    "m AS (DELETE FROM plumescout_mission m USING gone WHERE m.id = gone.mission), "
+    "s AS (DELETE FROM plumescout_standing s USING gone WHERE s.mission = gone.mission), "
+    "n AS (DELETE FROM plumescout_snapshot n USING gone WHERE n.mission = gone.mission), "
+    "i AS (DELETE FROM plumescout_idle i USING gone WHERE i.mission = gone.mission), "
+    "d AS (DELETE FROM plumescout_damage d USING gone WHERE d.mission = gone.mission), "
+    "r AS (INSERT INTO plumescout_removed SELECT mission FROM gone) "
+    "SELECT count(*) FROM gone";
+
 // kMoved and what is done beside it, with $1 to $14 bound.
 PostgresStatement Moving(absl::string_view beside, const MissionRow& before,
                          const MissionRow& after) {
@@ -165,17 +179,42 @@ absl::StatusOr<SharedMission> LoadSharedMission(PostgresConnection& connection,
   return mission;
 }
 
+absl::StatusOr<DamagedRow> LoadDamagedRow(PostgresConnection& connection, const std::string& key,
+                                          std::int64_t lease) {
+  const absl::Status status = LoadSharedMission(connection, key).status();
+  if (status.ok()) return NotDamaged(key);
+  if (!absl::IsDataLoss(status)) return status;
+  PostgresStatement statement(absl::StrCat(kRow, kFromMissions, "WHERE m.key = $1"));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const PostgresRows rows,
+                              connection.Run(statement.BindBytes(key), kReadTimeout));
+  if (rows.count() == 0) return NotStored(key);
+  DamagedRow row;
+  row.id = rows.Int(0, 0);
+  row.has_progress = !rows.is_null(0, 1);
+  row.epoch = rows.Int(0, 1);
+  row.head = rows.Int(0, 2);
+  row.writes = rows.Int(0, 8);
+  row.crc = rows.Int(0, 9);
+  const std::string living_node = rows.Bytes(0, 11);
+  if (!living_node.empty() && rows.Int(0, 10) != lease) return MissionElsewhere(key, living_node);
+  return row;
+}
+
 absl::StatusOr<std::vector<StoredMission>> ListSharedMissions(PostgresConnection& connection) {
   PLUMESCOUT_ASSIGN_OR_RETURN(
       const PostgresRows rows,
-      connection.Run(PostgresStatement(absl::StrCat(kRow, kFromMissions, "ORDER BY m.key")),
+      connection.Run(PostgresStatement(absl::StrCat(
+                         kRow, ", d.mission IS NOT NULL", kFromMissions,
+                         "LEFT JOIN plumescout_damage d ON d.mission = m.id ORDER BY m.key")),
                      kReadTimeout));
   std::vector<StoredMission> missions;
   for (int at = 0; at < rows.count(); ++at) {
     SharedRow damaged;
     damaged.row.key = rows.Bytes(at, 12);
-    const MissionRow row = ReadRow(rows, at).value_or(damaged).row;
-    missions.push_back({row.key, row.epoch, row.head, row.bytes});
+    const std::optional<SharedRow> whole = ReadRow(rows, at);
+    const MissionRow& row = whole.value_or(damaged).row;
+    const bool is_damaged = !whole.has_value() || rows.Int(at, 14) != 0;
+    missions.push_back({row.key, row.epoch, row.head, row.bytes, is_damaged});
   }
   return missions;
 }
@@ -202,6 +241,20 @@ absl::StatusOr<std::vector<std::uint32_t>> SharedChainsAt(PostgresConnection& co
     chains.push_back(chain->second);
   }
   return chains;
+}
+
+absl::StatusOr<bool> SharedHoldsRecords(PostgresConnection& connection, const MissionRow& row,
+                                        std::int64_t first_number,
+                                        std::span<const std::string> records) {
+  const std::int64_t last = first_number + static_cast<std::int64_t>(records.size()) - 1;
+  if (first_number <= row.base || last > row.head) return false;
+  const std::int64_t numbers[] = {first_number - 1, last};
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<std::uint32_t> chains,
+                              SharedChainsAt(connection, row, numbers));
+  std::uint32_t chain = chains[0];
+  std::int64_t number = first_number;
+  for (const std::string& record : records) chain = ChainChecksum(chain, number++, record);
+  return chain == chains[1];
 }
 
 absl::StatusOr<std::vector<std::pair<std::int64_t, std::int64_t>>> SharedSnapshotSizes(
@@ -257,7 +310,8 @@ PostgresStatement AcquireStatement(const MissionRow& before, const MissionRow& a
       "AND (owner IS NULL OR owner = $9 OR NOT EXISTS "
       "(SELECT FROM plumescout_node n WHERE n.id = owner)) AND EXISTS (SELECT FROM "
       "plumescout_node n WHERE n.id = $9 AND n.expires > clock_timestamp()) RETURNING mission), "
-      "used AS (DELETE FROM plumescout_idle i USING moved WHERE i.mission = moved.mission) "
+      "used AS (DELETE FROM plumescout_idle i USING moved WHERE i.mission = moved.mission), "
+      "mended AS (DELETE FROM plumescout_damage d USING moved WHERE d.mission = moved.mission) "
       "SELECT count(*) FROM moved");
   statement.Bind(before.id).Bind(before.epoch).Bind(before.head).Bind(before.writes);
   statement.Bind(RowChecksum(before)).Bind(after.epoch).Bind(after.writes);
@@ -322,18 +376,29 @@ PostgresStatement SaveStatement(const MissionRow& before, const MissionRow& afte
 }
 
 PostgresStatement RemoveStatement(const MissionRow& before) {
-  PostgresStatement statement(
-      "WITH gone AS (DELETE FROM plumescout_progress "
-      "WHERE mission = $1 AND epoch = $2 AND head = $3 AND writes = $4 AND crc = $5 "
-      "RETURNING mission), "
-      "m AS (DELETE FROM plumescout_mission m USING gone WHERE m.id = gone.mission), "
-      "s AS (DELETE FROM plumescout_standing s USING gone WHERE s.mission = gone.mission), "
-      "n AS (DELETE FROM plumescout_snapshot n USING gone WHERE n.mission = gone.mission), "
-      "i AS (DELETE FROM plumescout_idle i USING gone WHERE i.mission = gone.mission), "
-      "r AS (INSERT INTO plumescout_removed SELECT mission FROM gone) "
-      "SELECT count(*) FROM gone");
+  PostgresStatement statement(absl::StrCat("WITH gone AS (", kProgressGone, "), ", kAllGone));
   statement.Bind(before.id).Bind(before.epoch).Bind(before.head).Bind(before.writes);
   statement.Bind(RowChecksum(before));
+  return statement;
+}
+
+PostgresStatement DiscardStatement(const DamagedRow& before, std::int64_t owner) {
+  if (!before.has_progress) {
+    PostgresStatement statement(absl::StrCat(
+        "WITH gone AS (SELECT id AS mission FROM plumescout_mission WHERE id = $1 AND NOT EXISTS "
+        "(SELECT FROM plumescout_progress WHERE mission = $1)), ",
+        kAllGone));
+    statement.Bind(before.id);
+    return statement;
+  }
+  PostgresStatement statement(absl::StrCat(
+      "WITH gone AS (DELETE FROM plumescout_progress WHERE mission = $1 AND epoch = $2 AND "
+      "head = $3 AND writes = $4 AND crc = $5 AND (owner IS NULL OR owner = $6 OR NOT EXISTS "
+      "(SELECT FROM plumescout_node n WHERE n.id = owner AND n.expires > clock_timestamp())) "
+      "RETURNING mission), ",
+      kAllGone));
+  statement.Bind(before.id).Bind(before.epoch).Bind(before.head).Bind(before.writes);
+  statement.Bind(before.crc).Bind(owner);
   return statement;
 }
 

@@ -26,6 +26,16 @@ struct SharedRow {
   std::int64_t standing_bytes = 0;
 };
 
+// What stands in the row of a mission that may be damaged.
+struct DamagedRow {
+  std::int64_t id = 0;
+  bool has_progress = false;  // without it there is nothing of the next four
+  std::int64_t epoch = 0;
+  std::int64_t head = 0;
+  std::int64_t writes = 0;
+  std::int64_t crc = 0;
+};
+
 // A mission with all that is kept beside its records, checked.
 struct SharedMission {
   SharedRow shared;
@@ -41,6 +51,10 @@ absl::StatusOr<std::map<std::string, absl::StatusOr<SharedRow>>> LoadSharedRows(
 // kNotFound.
 absl::StatusOr<SharedMission> LoadSharedMission(PostgresConnection& connection,
                                                 const std::string& key);
+// kNotFound; kFailedPrecondition of a mission that is not damaged; MISSION_ELSEWHERE if a node that
+// lives has it, and not under this lease.
+absl::StatusOr<DamagedRow> LoadDamagedRow(PostgresConnection& connection, const std::string& key,
+                                          std::int64_t lease);
 // All of them by key, and damaged rows with a key only.
 absl::StatusOr<std::vector<StoredMission>> ListSharedMissions(PostgresConnection& connection);
 
@@ -48,6 +62,10 @@ absl::StatusOr<std::vector<StoredMission>> ListSharedMissions(PostgresConnection
 absl::StatusOr<std::vector<std::uint32_t>> SharedChainsAt(PostgresConnection& connection,
                                                           const MissionRow& row,
                                                           std::span<const std::int64_t> numbers);
+// Whether exactly these records stand behind the others of their numbers.
+absl::StatusOr<bool> SharedHoldsRecords(PostgresConnection& connection, const MissionRow& row,
+                                        std::int64_t first_number,
+                                        std::span<const std::string> records);
 // Revisions and sizes, newest first.
 absl::StatusOr<std::vector<std::pair<std::int64_t, std::int64_t>>> SharedSnapshotSizes(
     PostgresConnection& connection, const MissionRow& row);
@@ -78,6 +96,9 @@ PostgresStatement SnapshotStatement(const MissionRow& before, const MissionRow& 
 PostgresStatement ForgetStatement(std::int64_t lease);
 PostgresStatement SaveStatement(const MissionRow& before, const MissionRow& after);
 PostgresStatement RemoveStatement(const MissionRow& before);
+// As the last, of a row that cannot be told by its checksum. Nor if a node that lives, and is not
+// `owner`, has it.
+PostgresStatement DiscardStatement(const DamagedRow& before, std::int64_t owner);
 // Each of the first two deletes at most `limit` records and counts them: of missions that were
 // removed, and of those that were trimmed. Other servers may be at it, too. Then missions are
 // forgotten of which no record is left.

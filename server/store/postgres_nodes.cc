@@ -10,6 +10,7 @@
 #include "absl/time/clock.h"
 #include "core/types/status_macros.h"
 #include "server/store/postgres_schema.h"
+#include "server/store/postgres_strays.h"
 #include "server/store/store_errors.h"
 
 namespace plumescout::server {
@@ -233,9 +234,10 @@ absl::StatusOr<std::vector<OwnedMission>> PostgresNodes::ListMissions(
   PLUMESCOUT_ASSIGN_OR_RETURN(const PostgresPool::Loan connection, pool_->Take());
   const std::string last_part = query.last_part.empty() ? "" : absl::StrCat("/", query.last_part);
   PostgresStatement statement(
-      "SELECT m.key, n.name FROM plumescout_mission m "
-      "JOIN plumescout_progress p ON p.mission = m.id "
+      "SELECT m.key, n.name, d.what FROM plumescout_mission m "
+      "LEFT JOIN plumescout_progress p ON p.mission = m.id "
       "LEFT JOIN plumescout_node n ON n.id = p.owner AND n.expires > clock_timestamp() "
+      "LEFT JOIN plumescout_damage d ON d.mission = m.id "
       "WHERE m.key > $1 AND m.key >= $2 AND substr(m.key, 1, octet_length($2)) = $2 "
       "AND substr('\\x2f'::bytea || m.key, octet_length(m.key) + 2 - octet_length($3)) = $3 "
       "ORDER BY m.key LIMIT $4");
@@ -244,8 +246,16 @@ absl::StatusOr<std::vector<OwnedMission>> PostgresNodes::ListMissions(
                               connection->Run(statement.Bind(query.limit), kAskTimeout));
   std::vector<OwnedMission> missions;
   for (int at = 0; at < rows.count(); ++at)
-    missions.push_back({rows.Bytes(at, 0), rows.Bytes(at, 1)});
+    missions.push_back({rows.Bytes(at, 0), rows.Bytes(at, 1), rows.Bytes(at, 2)});
   return missions;
+}
+
+absl::Status PostgresNodes::NoteDamage(const std::string& key, const std::string& what) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const PostgresPool::Loan connection, pool_->Take());
+  PostgresStatement statement(
+      "INSERT INTO plumescout_damage(mission, what) SELECT id, $2 FROM plumescout_mission "
+      "WHERE key = $1 ON CONFLICT (mission) DO UPDATE SET what = excluded.what");
+  return connection->Run(statement.BindBytes(key).BindText(what), kAskTimeout).status();
 }
 
 absl::Status PostgresNodes::KeepFor(const std::vector<KeptMission>& missions) {
@@ -296,6 +306,16 @@ absl::StatusOr<std::vector<ForgottenMission>> PostgresNodes::ListForgotten(int l
   for (int at = 0; at < rows.count(); ++at)
     missions.push_back({rows.Bytes(at, 0), rows.Int(at, 1)});
   return missions;
+}
+
+absl::Status PostgresNodes::NoteStrays(const std::vector<OwnedMission>& missions) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const PostgresPool::Loan connection, pool_->Take());
+  return NoteSharedStrays(*connection, options_.strays, options_.self.name, missions);
+}
+
+absl::StatusOr<Strays> PostgresNodes::TakeStrays(int limit) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const PostgresPool::Loan connection, pool_->Take());
+  return TakeSharedStrays(*connection, options_.strays, lease(), limit);
 }
 
 absl::Status PostgresNodes::Release(const std::string& key, std::int64_t epoch) {

@@ -29,6 +29,7 @@ struct PostgresNodeOptions {
   std::int64_t store = 0;  // see CheckSameStore
   StoreNode self;
   absl::Duration lease = absl::Seconds(10);
+  StrayRules strays;
   // Hears what an operator should know, in a line. Must not block.
   std::function<void(absl::string_view)> warn = [](absl::string_view) {};
 };
@@ -56,8 +57,11 @@ class PostgresNodes final : public StoreNodes {
   absl::StatusOr<std::vector<StoreNode>> ListLiving() override;
   absl::StatusOr<std::optional<std::string>> FindOwner(const std::string& key) override;
   absl::StatusOr<std::vector<OwnedMission>> ListMissions(const OwnedMissionQuery& query) override;
+  absl::Status NoteDamage(const std::string& key, const std::string& what) override;
   absl::Status KeepFor(const std::vector<KeptMission>& missions) override;
   absl::StatusOr<std::vector<ForgottenMission>> ListForgotten(int limit) override;
+  absl::Status NoteStrays(const std::vector<OwnedMission>& missions) override;
+  absl::StatusOr<Strays> TakeStrays(int limit) override;
   absl::Status Release(const std::string& key, std::int64_t epoch) override;
 
  private:

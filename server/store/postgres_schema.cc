@@ -46,14 +46,22 @@ constexpr const char* kTables[] = {
     "INSERT INTO plumescout_probe VALUES(1, 0) ON CONFLICT DO NOTHING",
 };
 
-// When missions that nobody calls for are to go. It came later than the others: a store without it
-// gets it, and servers that do not know it leave it alone.
-constexpr char kIdleTable[] =
-    "CREATE TABLE IF NOT EXISTS plumescout_idle(mission bigint PRIMARY KEY, "
-    "forget_at timestamptz NOT NULL)";
+// When missions that nobody calls for are to go, whose calls come to the wrong node, and what is
+// damaged. They came later than the others: a store without them gets them, and servers that do not
+// know them leave them alone.
+constexpr const char* kLaterTables[] = {
+    ("CREATE TABLE IF NOT EXISTS plumescout_idle(mission bigint PRIMARY KEY, "
+     "forget_at timestamptz NOT NULL)"),
+    ("CREATE TABLE IF NOT EXISTS plumescout_stray(mission bigint PRIMARY KEY, "
+     "owner bigint NOT NULL, came_to text NOT NULL, since timestamptz NOT NULL, "
+     "seen timestamptz NOT NULL)"),
+    ("CREATE TABLE IF NOT EXISTS plumescout_damage(mission bigint PRIMARY KEY, "
+     "what text NOT NULL)"),
+};
 
 // As kTables, for whoever reads them again.
 constexpr const char* kColumns[] = {
+    "damage: mission bigint, what text",
     "idle: mission bigint, forget_at timestamp with time zone",
     "mission: id bigint, key bytea, header bytea, crc bigint",
     "node: id bigint, name text, address text, expires timestamp with time zone",
@@ -66,6 +74,8 @@ constexpr const char* kColumns[] = {
     "snapshot: mission bigint, revision bigint, digest bigint, crc bigint, bytes bytea",
     "standing: mission bigint, bytes bytea",
     "store: format bigint, id bigint, cluster text, single boolean",
+    ("stray: mission bigint, owner bigint, came_to text, since timestamp with time zone, "
+     "seen timestamp with time zone"),
 };
 
 // "PlumeScout" in ASCII, cut to eight bytes: of the lock that servers take while they make tables.
@@ -99,15 +109,17 @@ absl::Status MakeTables(PostgresConnection& connection, const std::string& clust
   return connection.RunAll(statements, kTimeout).status();
 }
 
-absl::Status AddIdleTable(PostgresConnection& connection) {
+absl::Status AddLaterTables(PostgresConnection& connection) {
   PLUMESCOUT_ASSIGN_OR_RETURN(
       const PostgresRows rows,
-      connection.Run(PostgresStatement("SELECT to_regclass('plumescout_idle') IS NOT NULL"),
+      connection.Run(PostgresStatement("SELECT to_regclass('plumescout_idle') IS NOT NULL AND "
+                                       "to_regclass('plumescout_stray') IS NOT NULL AND "
+                                       "to_regclass('plumescout_damage') IS NOT NULL"),
                      kTimeout));
   if (rows.Int(0, 0) != 0) return absl::OkStatus();
   std::vector<PostgresStatement> statements;
   statements.emplace_back("SELECT pg_advisory_xact_lock($1)").Bind(kMakingLock);
-  statements.emplace_back(kIdleTable);
+  for (const char* table : kLaterTables) statements.emplace_back(table);
   return connection.RunAll(statements, kTimeout).status();
 }
 
@@ -157,7 +169,7 @@ absl::StatusOr<std::int64_t> OpenSharedSchema(PostgresConnection& connection,
         absl::StrCat(connection.name(), " is the store of the cluster ",
                      absl::Utf8SafeCHexEscape(owner), ", not of store.cluster = ", cluster));
   }
-  PLUMESCOUT_RETURN_IF_ERROR(AddIdleTable(connection));
+  PLUMESCOUT_RETURN_IF_ERROR(AddLaterTables(connection));
   PLUMESCOUT_RETURN_IF_ERROR(CheckTables(connection));
   return rows.Int(0, 1);
 }

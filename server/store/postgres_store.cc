@@ -52,6 +52,7 @@ absl::StatusOr<std::unique_ptr<PostgresStore>> PostgresStore::Open(
   node.store = store;
   node.self = options.node;
   node.lease = options.lease;
+  node.strays = options.strays;
   node.warn = options.warn;
   PLUMESCOUT_ASSIGN_OR_RETURN(std::shared_ptr<PostgresNodes> nodes,
                               PostgresNodes::Join(std::move(node), pool));

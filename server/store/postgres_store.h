@@ -25,6 +25,7 @@ struct PostgresStoreOptions {
   std::string cluster;  // whose store it is; servers of other clusters are refused
   StoreNode node;       // this server
   absl::Duration lease = absl::Seconds(10);
+  StrayRules strays = {};
   absl::Duration retry_period = absl::Milliseconds(200);  // of what the database refused
   absl::Duration slow_commit = absl::Seconds(1);          // who takes longer is warned of
   // Hears what an operator should know, in a line. Must not block.

@@ -132,6 +132,8 @@ absl::Status SqliteEngine::Apply(StoreWrite& write) {
       return UndoCreate(write);
     case Kind::kAcquire:
       return Acquire(write);
+    case Kind::kDiscard:
+      return Discard(write);
     case Kind::kCompact:
       return Compact(write);
     case Kind::kAppend:
@@ -233,6 +235,22 @@ absl::Status SqliteEngine::Remove(const MissionRow& row) {
   has_chores_ = true;
   has_removed_ = true;
   return rows_->Delete(row);
+}
+
+absl::Status SqliteEngine::Discard(StoreWrite& write) {
+  const absl::Status status = LoadMission(*rows_, marks_->Known(write.key), write.key).status();
+  if (absl::IsNotFound(status) && write.tried) return absl::OkStatus();
+  if (status.ok() || absl::IsNotFound(status)) {
+    write.result = status.ok() ? NotDamaged(write.key) : status;
+    return absl::OkStatus();
+  }
+  if (!absl::IsDataLoss(status)) return status;
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::optional<std::int64_t> id, rows_->FindId(write.key));
+  if (!id.has_value()) return marks_->Clear(write.key);  // it was there once
+  MissionRow row;
+  row.key = write.key;
+  row.id = *id;
+  return Remove(row);
 }
 
 absl::Status SqliteEngine::Compact(StoreWrite& write) {

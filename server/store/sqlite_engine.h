@@ -58,6 +58,7 @@ class SqliteEngine final : public WriteEngine {
   absl::Status Acquire(StoreWrite& write);
   absl::Status Append(MissionRow& row, StoreWrite& write);
   absl::Status Remove(const MissionRow& row);
+  absl::Status Discard(StoreWrite& write);
   absl::Status Compact(StoreWrite& write);
   absl::Status DoChore();
   absl::Status Save(MissionRow& row);

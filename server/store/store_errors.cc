@@ -11,6 +11,10 @@
 namespace plumescout::server {
 namespace {
 
+constexpr absl::string_view kReasonEnd = ": ";  // of TypedError
+constexpr absl::string_view kElsewhere = "mission ";
+constexpr absl::string_view kServedBy = " is served by node ";
+
 std::string Name(absl::string_view key) { return absl::StrCat("mission ", absl::CHexEscape(key)); }
 
 absl::Status Fenced(absl::string_view key, absl::string_view why) {
@@ -35,15 +39,22 @@ absl::Status FencedByEpoch(absl::string_view key, std::int64_t epoch, std::int64
 }
 
 absl::Status MissionElsewhere(absl::string_view key, absl::string_view node) {
-  return TypedError(
-      absl::StatusCode::kUnavailable, reason::kMissionElsewhere,
-      absl::StrCat("mission ", absl::Utf8SafeCHexEscape(key), " is served by node ", node));
+  return TypedError(absl::StatusCode::kUnavailable, reason::kMissionElsewhere,
+                    absl::StrCat(kElsewhere, absl::Utf8SafeCHexEscape(key), kServedBy, node));
 }
 
 absl::string_view NodeElsewhere(const absl::Status& status) {
   if (ErrorReason(status) != reason::kMissionElsewhere) return {};
   const absl::string_view message = status.message();
   return message.substr(message.rfind(' ') + 1);
+}
+
+std::string KeyElsewhere(const absl::Status& status) {
+  if (NodeElsewhere(status).empty()) return {};
+  absl::string_view key = status.message().substr(0, status.message().rfind(kServedBy));
+  key.remove_prefix(reason::kMissionElsewhere.size() + kReasonEnd.size() + kElsewhere.size());
+  std::string unescaped;
+  return absl::CUnescape(key, &unescaped) ? unescaped : std::string();
 }
 
 absl::Status FencedByNamesake(absl::string_view key) {
@@ -63,6 +74,10 @@ absl::Status SnapshotAhead(absl::string_view key, std::int64_t revision, std::in
 absl::Status NotKept(absl::string_view key, std::int64_t last_gone) {
   return absl::OutOfRangeError(absl::StrCat("mission ", absl::CHexEscape(key),
                                             " keeps no events up to ", last_gone, " any more"));
+}
+
+absl::Status NotDamaged(absl::string_view key) {
+  return absl::FailedPreconditionError(absl::StrCat(Name(key), " is not damaged"));
 }
 
 absl::Status BadFirstNumber(std::int64_t first_number) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "absl/status/status.h"
 #include "absl/strings/string_view.h"
@@ -20,6 +21,8 @@ absl::Status FencedByEpoch(absl::string_view key, std::int64_t epoch, std::int64
 absl::Status MissionElsewhere(absl::string_view key, absl::string_view node);
 // The node of a MISSION_ELSEWHERE; nothing for other errors.
 absl::string_view NodeElsewhere(const absl::Status& status);
+// The key of the mission that one is about; nothing for other errors.
+std::string KeyElsewhere(const absl::Status& status);
 // Records would leave a gap, or stand twice.
 // A mission that had this key before is gone, and another has it.
 absl::Status FencedByNamesake(absl::string_view key);
@@ -29,6 +32,8 @@ absl::Status SnapshotAhead(absl::string_view key, std::int64_t revision, std::in
 
 // Records up to this one were trimmed.
 absl::Status NotKept(absl::string_view key, std::int64_t last_gone);
+// There is no reason to discard it.
+absl::Status NotDamaged(absl::string_view key);
 // Records count from 1.
 absl::Status BadFirstNumber(std::int64_t first_number);
 

@@ -27,6 +27,7 @@ struct StoreNode {
 struct OwnedMission {
   std::string key;
   std::string node;
+  std::string damage = {};  // what is wrong with it, as a node has found; empty: nothing is known
 
   friend bool operator==(const OwnedMission&, const OwnedMission&) = default;
 };
@@ -51,6 +52,30 @@ struct ForgottenMission {
   std::int64_t epoch = 0;
 
   friend bool operator==(const ForgottenMission&, const ForgottenMission&) = default;
+};
+
+// A mission of this node whose calls have come to another one for long enough (StoreNodes).
+struct StrayMission {
+  std::string key;
+  std::int64_t epoch = 0;
+  std::string came_to;  // that node
+
+  friend bool operator==(const StrayMission&, const StrayMission&) = default;
+};
+
+// When calls that come to the wrong node move their mission there. Clients that are not served come
+// again after waits that grow to some seconds.
+struct StrayRules {
+  absl::Duration lasts = absl::Seconds(3);   // calls have strayed for so long
+  absl::Duration gap = absl::Seconds(15);    // without a longer one between them
+  absl::Duration rests = absl::Seconds(10);  // after it has moved it stays for so long
+  absl::Duration shown = absl::Minutes(2);   // a node is called unreached for so long
+};
+
+// What the store has heard of calls that strayed.
+struct Strays {
+  std::vector<StrayMission> missions;  // to be given up; each is told of once until it has rested
+  std::vector<std::string> unreached;  // living nodes that calls did not find lately, by name
 };
 
 // The servers that share a store, and which of them has which mission. A node holds one lease in
@@ -82,11 +107,18 @@ class StoreNodes {
   // Blocks.
   virtual absl::StatusOr<std::vector<OwnedMission>> ListMissions(
       const OwnedMissionQuery& query) = 0;
+  // Tells who lists the mission, until somebody has acquired it, what is wrong with it. Blocks.
+  virtual absl::Status NoteDamage(const std::string& key, const std::string& what) = 0;
   // Of missions of this node; others are passed over. Who acquires a mission forgets how long it
   // was to be kept. Blocks.
   virtual absl::Status KeepFor(const std::vector<KeptMission>& missions) = 0;
   // At most `limit`, those first that are over for longest. Blocks.
   virtual absl::StatusOr<std::vector<ForgottenMission>> ListForgotten(int limit) = 0;
+  // Calls for these missions named the nodes that have them, and came to this one. Those that are
+  // not these nodes' are passed over. Blocks.
+  virtual absl::Status NoteStrays(const std::vector<OwnedMission>& missions) = 0;
+  // What nodes have noted so; at most `limit` missions. Blocks.
+  virtual absl::StatusOr<Strays> TakeStrays(int limit) = 0;
   // The mission is nobody's: the next who acquires it has it. FENCED if it is not of this epoch.
   // Blocks.
   virtual absl::Status Release(const std::string& key, std::int64_t epoch) = 0;

@@ -26,6 +26,7 @@ struct StoreWrite {
     kSnapshot,
     kTrim,
     kRemove,
+    kDiscard,
     kCompact  // a bounded step
   };
 

@@ -147,10 +147,8 @@ StreamPump::Operation ImportStream::NextOperation() {
   if (finished_ || handling_) return nullptr;
   if (end_.has_value()) {
     finished_ = true;
-    return [this, status = *end_] {
-      visit_.Leave(status);
-      Finish(ToGrpc(status, visit_.info().request_id));
-    };
+    return
+        [this, status = *end_] { Finish(ToGrpc(visit_.Leave(status), visit_.info().request_id)); };
   }
   if (reading_) return nullptr;
   reading_ = true;

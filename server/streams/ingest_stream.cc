@@ -304,8 +304,7 @@ StreamPump::Operation IngestStream::NextOperation() {
   if (!writing_ && (broken_off || (over && in_flight_observations_ == 0))) {
     finished_ = true;
     return [this, status = end_.value_or(absl::OkStatus())] {
-      visit_.Leave(status);
-      Finish(ToGrpc(status, visit_.info().request_id));
+      Finish(ToGrpc(visit_.Leave(status), visit_.info().request_id));
     };
   }
   if (!reading_ && HoldsBack()) held_back_ = true;

@@ -140,20 +140,15 @@ StreamPump::Operation PlanStream::NextOperation() {
     in_flight_ = *std::exchange(waiting_, std::nullopt);
     if (end_.has_value()) {
       finished_ = true;
-      return [this] {
-        visit_.Leave(absl::OkStatus());
-        StartWriteAndFinish(&in_flight_, {}, grpc::Status::OK);
-      };
+      return
+          [this] { StartWriteAndFinish(&in_flight_, {}, ToGrpc(visit_.Leave(absl::OkStatus()))); };
     }
     writing_ = true;
     return [this] { StartWrite(&in_flight_); };
   }
   if (!end_.has_value()) return nullptr;
   finished_ = true;
-  return [this, status = *end_] {
-    visit_.Leave(status);
-    Finish(ToGrpc(status, visit_.info().request_id));
-  };
+  return [this, status = *end_] { Finish(ToGrpc(visit_.Leave(status), visit_.info().request_id)); };
 }
 
 }  // namespace plumescout::server

@@ -135,8 +135,7 @@ class WriteStream : public grpc::ServerWriteReactor<Message>,
     if (!end_.has_value()) return NextOperation();
     finished_ = true;
     return [this, status = *end_] {
-      visit_.Leave(status);
-      this->Finish(ToGrpc(status, visit_.info().request_id));
+      this->Finish(ToGrpc(visit_.Leave(status), visit_.info().request_id));
     };
   }
 

@@ -15,7 +15,9 @@ import numpy as np
 import plumescout
 from plumescout.ctl import output, words
 
+from plumescout.v1 import mission_service_pb2 as mission_pb
 from plumescout.v1 import robot_service_pb2 as robot_pb
+from plumescout.v1 import system_service_pb2 as system_pb
 
 BUILD_DIR = pathlib.Path(os.environ["PLUMESCOUT_BUILD_DIR"])
 PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "client/python/plumescoutctl"
@@ -383,6 +385,18 @@ class WordsTest(unittest.TestCase):
         self.assertEqual(row["POSE"], "1.50 0.00 0.00 doubted")
         for heading in ("LINK", "HEARD", "LAG", "CLOCK", "PLAN", "LATE", "APPLIED", "REFUSED"):
             self.assertIn(heading, words.ROBOT_COLUMNS)
+
+    def test_a_node_that_calls_do_not_reach_is_named(self):
+        store = system_pb.StoreInfo(engine="postgresql", node="n2", cluster="hall", available=True)
+        self.assertEqual(words.store_words(store), "postgresql, 0 B, node n2 of hall")
+        store.unreached_nodes.extend(["n1", "n3"])
+        self.assertTrue(words.store_words(store).endswith(", calls do not reach n1 n3"))
+
+    def test_what_is_wrong_with_a_mission_is_said(self):
+        mission = mission_pb.Mission(state=mission_pb.MISSION_STATE_DAMAGED, damage="the header")
+        self.assertEqual(words.mission_row(mission)[-1], "the header")
+        mission.node = "n1"
+        self.assertEqual(words.mission_row(mission)[-1], "n1: the header")
 
     def test_an_instant_is_a_time_of_day_if_there_is_one(self):
         self.assertEqual(words.instant(1_700_000_000_250_000_000), "2023-11-14 22:13:20.250Z")

@@ -15,10 +15,13 @@ import running
 import yaml
 
 KUBERNETES = running.ROOT / "deploy/kubernetes"
+ROUTER = running.ROOT / "deploy/cluster/haproxy.cfg"
+CLUSTER = running.ROOT / "deploy/kubernetes_cluster"
 COMPOSE = running.ROOT / "deploy/container/compose.yaml"
 CLASSES = {
     ("v1", "Service"): api.V1Service,
     ("apps/v1", "StatefulSet"): api.V1StatefulSet,
+    ("apps/v1", "Deployment"): api.V1Deployment,
     ("policy/v1", "PodDisruptionBudget"): api.V1PodDisruptionBudget,
     ("networking.k8s.io/v1", "NetworkPolicy"): api.V1NetworkPolicy,
 }
@@ -122,6 +125,74 @@ class KubernetesTest(unittest.TestCase):
         done = subprocess.run([program, *arguments], capture_output=True, text=True)
         self.assertEqual(done.returncode, 1, "the options are right, and the files are not there")
         self.assertIn("/nowhere/", done.stderr)
+
+
+class KubernetesClusterTest(unittest.TestCase):
+    """Patches are read as they stand: what they leave out is in deploy/kubernetes."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.own = {path.name: yaml.safe_load(path.read_text()) for path in CLUSTER.glob("*.yaml")}
+        cls.patches = {p.name: yaml.safe_load(p.read_text()) for p in CLUSTER.glob("node/*.yaml")}
+        cls.files = {p.parent.name: yaml.safe_load(p.read_text()) for p in CLUSTER.glob("n?/*.yaml")}
+        cls.top, cls.node = cls.own.pop("kustomization.yaml"), cls.patches.pop("kustomization.yaml")
+        cls.router = cls.own["router.yaml"]["spec"]["template"]
+
+    def node_patch(self, name):
+        patch = yaml.safe_load(self.files[name]["patches"][0]["patch"])
+        return patch, patch["spec"]["template"]["spec"]
+
+    def test_all_files_are_used_and_there(self):
+        self.assertEqual(set(self.top["resources"]), {*self.files, *self.own})
+        self.assertEqual({patch["path"] for patch in self.node["patches"]}, set(self.patches))
+        for folder, file in (("node", self.node), *self.files.items()):
+            for resource in file["resources"]:
+                self.assertTrue((CLUSTER / folder / resource / "kustomization.yaml").exists())
+
+    def test_every_field_is_one_of_the_api(self):
+        for name, value in self.own.items():
+            model = CLASSES[value["apiVersion"], value["kind"]]
+            self.assertEqual(complaints_of_class(model, value, name), [])
+        patches = [*self.patches.values(), *(self.node_patch(name)[0] for name in self.files)]
+        for value in patches:
+            value.get("spec", {}).pop("volumeClaimTemplates", None)  # null: there are none
+            value.get("spec", {}).pop("clusterIP", None)
+            found = complaints_of_class(CLASSES[value["apiVersion"], value["kind"]], value, "patch")
+            self.assertEqual([c for c in found if not c.endswith(": missing")], [])
+
+    def test_the_router_leads_to_all_nodes_by_their_names(self):
+        containers = {c["name"]: c for c in self.router["spec"]["containers"]}
+        environment = {e["name"]: e["value"] for e in containers["router"]["env"]}
+        for number, name in enumerate(sorted(self.files), 1):
+            self.assertEqual(environment[f"PLUMESCOUT_NODE_{number}"], f"plumescout-{name}:50551")
+            self.assertEqual(self.files[name]["nameSuffix"], f"-{name}")
+            [own] = self.node_patch(name)[1]["containers"][0]["env"]
+            self.assertEqual(own, {"name": "PLUMESCOUT_NODE", "value": name})
+            [volume] = self.node_patch(name)[1]["volumes"]
+            self.assertEqual(volume["secret"]["secretName"], f"plumescout-tls-{name}")
+        listed = [line.split() for line in ROUTER.read_text().splitlines()]
+        self.assertEqual({w[1] for w in listed if w[:1] == ["server"]}, set(self.files))
+
+    def test_everything_of_the_router_finds_its_pods(self):
+        labels = self.router["metadata"]["labels"]
+        for name, value in self.own.items():
+            for selector in selectors(value["spec"]):
+                self.assertEqual(selector, labels, name)
+        [rule, _] = self.patches["network.yaml"]["spec"]["ingress"]
+        [expression] = rule["from"][0]["podSelector"]["matchExpressions"]
+        self.assertEqual(labels, {expression["key"]: expression["values"][0]})
+        volumes = {volume["name"] for volume in self.router["spec"]["volumes"]}
+        for container in self.router["spec"]["containers"]:
+            self.assertLessEqual({mount["name"] for mount in container["volumeMounts"]}, volumes)
+
+    def test_a_node_takes_what_it_is_started_with(self):
+        arguments = self.patches["server.yaml"]["spec"]["template"]["spec"]["containers"][0]["args"]
+        arguments = [a.replace("$(PLUMESCOUT_NODE)", "n1") for a in arguments]
+        arguments = [a.replace("@database:5432/", "@127.0.0.1:1/") for a in arguments]
+        program = running.BUILD_DIR / "bin/plumescout-server"
+        done = subprocess.run([program, *arguments], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1, "the options are right, and there is no database")
+        self.assertIn("127.0.0.1:1/plumescout", done.stderr)
 
 
 class ComposeTest(unittest.TestCase):

@@ -35,7 +35,7 @@ class Node(mission_grpc.MissionServiceServicer, robot_grpc.RobotServiceServicer)
 
     def __init__(self, name, owners):
         self.name, self.owners, self.ready, self.hangs = name, owners, True, threading.Event()
-        self.named = []  # x-node of calls
+        self.named, self.unreached = [], []  # x-node and x-unreached of calls
         self._grpc = grpc.server(concurrent.futures.ThreadPoolExecutor(16))
         mission_grpc.add_MissionServiceServicer_to_server(self, self._grpc)
         robot_grpc.add_RobotServiceServicer_to_server(self, self._grpc)
@@ -71,7 +71,9 @@ class Node(mission_grpc.MissionServiceServicer, robot_grpc.RobotServiceServicer)
 
     def GetMission(self, request, context):
         mission = request.name.removeprefix("missions/")
-        self.named.append(dict(context.invocation_metadata()).get("x-node"))
+        metadata = dict(context.invocation_metadata())
+        self.named.append(metadata.get("x-node"))
+        self.unreached.append(metadata.get("x-unreached"))
         owner = self.owners.get(mission, self.name)
         if owner != self.name:
             status = status_pb2.Status(code=grpc.StatusCode.UNAVAILABLE.value[0])
@@ -123,8 +125,9 @@ class RouterTest(unittest.TestCase):
             return False
 
     def where(self, mission, node=None):
-        """The node that a call comes to."""
-        metadata = [("x-mission-id", mission)] + ([("x-node", node)] if node else [])
+        """The node that a call comes to, which says besides what only the router may."""
+        metadata = [("x-mission-id", mission), ("x-unreached", "n1")]
+        metadata += [("x-node", node)] if node else []
         request = mission_pb.GetMissionRequest(name=f"missions/{mission}")
         answer = self.stub.GetMission(request, metadata=metadata, timeout=running.PATIENCE_S)
         return answer.mission.owner
@@ -162,6 +165,7 @@ class RouterTest(unittest.TestCase):
             node.named.clear()
         self.assertEqual(self.where("house", "n4"), self.where("house"))
         self.assertEqual({n for node in self.nodes.values() for n in node.named}, {None})
+        self.assertEqual({n for node in self.nodes.values() for n in node.unreached}, {None})
 
     def test_a_client_is_led_to_the_node_that_has_the_mission(self):
         for i, mission in enumerate(MISSIONS[:9]):
@@ -191,6 +195,9 @@ class RouterTest(unittest.TestCase):
         )
         self.await_places(lambda p: set(p.values()) == {"n3"}, "all go to the third")
         self.assertEqual(self.where("house", "n2"), "n3", "a name that is down is as none")
+        self.assertEqual(self.nodes["n3"].unreached[-1], "n2", "and the node that is asked is told")
+        self.where("house", "n3")
+        self.assertEqual(self.nodes["n3"].unreached[-1], None)
         self.assertTrue(drained.is_active())
         drained.cancel()
 

@@ -8,6 +8,8 @@ robots in four missions. scripts/cluster builds and runs it.
   --pause-every S    so often a server is stopped (SIGSTOP) for longer than its lease, then goes on
   --cut-every S      so often a server's link to the database, and no other, is cut or goes silent for
                      longer than its lease
+  --unroute-every S  so often the routers lead to a server no more, which lives and has its lease, until
+                     all robots go on
   --roll-every S     so often a server is drained, and started again; each in its turn
   --database patroni the database with a standby, as production has it; needs Debian's patroni and
                      etcd-server, which scripts/cluster then installs
@@ -19,6 +21,7 @@ robots in four missions. scripts/cluster builds and runs it.
   --proxies N        routers, 1 or 2: the second has the nodes in another order, and half of the robots
   --nodes N          servers, 1 to 3; if there are faults, n2's clock is an hour
                      ahead
+  --router-share S   of a core, that a router gets at most; needs root
   --robots N --missions M --pause S --plan-pause S
                      how many, and how long each waits between what it sends and before it plans
 
@@ -45,7 +48,7 @@ import robots
 import running
 from cluster_parts import LEASE_S, OWNERS, Node, Router, Waits, cpu_s, percentile
 
-KINDS = ("kill", "pause", "cut", "roll")
+KINDS = ("kill", "pause", "cut", "roll", "unroute")
 DATABASE_KINDS = {"primary": "kill_primary_every", "split": "split_primary_every"}
 CLOCKS = {"n1": 0, "n2": 3600, "n3": 0}  # how far each server's wall clock is off, in seconds
 SHOW_S = 5.0
@@ -62,6 +65,7 @@ class Shape:
     cuttable: bool = True  # links to the database; costs CPU
     clocks_apart: bool = True  # costs CPU, too
     database: str = "single"  # or "patroni"
+    router_share: float = 0.0  # of a core, that each router gets; 0: all it wants
 
 
 class Cluster:
@@ -89,6 +93,10 @@ class Cluster:
         self.routers = [Router(self.nodes, self._folder, o) for o in (1, -1)[: shape.proxies]]
         for router in self.routers:
             running.await_that(router.answers, "the router leads to a node")
+            if shape.router_share:
+                router.hold_to(shape.router_share)
+        for node in self.nodes:
+            node.routers = self.routers
         self.told = answers.Answers()
         self.missions = [f"mission-{i + 1}" for i in range(shape.missions)]
         self._each = shape.robots // shape.missions
@@ -98,6 +106,7 @@ class Cluster:
         running.await_that(lambda: all(r.durable > 0 for r in self.team), "all robots are served")
         self._waits = Waits(self.team)
         self._cpu_s, self._durable = self._cpu(), self._acknowledged()
+        self._began = time.monotonic()
 
     def _crew(self, mission):
         """Its robots, each at another router than the one before."""
@@ -120,12 +129,13 @@ class Cluster:
 
     def cost(self):
         """In words: CPU for each observation that was acknowledged since the robots began."""
-        events = self._acknowledged() - self._durable
-        parts = [
-            f"{part} {1e6 * (spent - self._cpu_s[part]) / events:.0f}"
-            for part, spent in self._cpu().items()
-        ]
-        return f"microseconds of CPU an observation, of {events}: {', '.join(parts)}"
+        events, spent_s = self._acknowledged() - self._durable, time.monotonic() - self._began
+        cpu_s = {part: spent - self._cpu_s[part] for part, spent in self._cpu().items()}
+        parts = [f"{part} {1e6 * spent / events:.0f}" for part, spent in cpu_s.items()]
+        return (
+            f"microseconds of CPU an observation, of {events}, {events / spent_s:.0f} a second: "
+            f"{', '.join(parts)}; HAProxy took {cpu_s['HAProxy'] / spent_s:.3f} cores"
+        )
 
     def await_owner(self, mission):
         """The node that has it, as robots go on, and who had which mission then."""
@@ -183,7 +193,7 @@ class Cluster:
         """[sentence ...] of promises that were not kept. After stop_robots."""
         own = self._folder / "own"
         own.mkdir()
-        server = bed.Server(own).start()
+        server = bed.Server(own, "limits.memory_budget_bytes=17179869184").start()
         try:
             for mission in self.missions:
                 file = own / f"{mission}.journal"
@@ -255,6 +265,7 @@ def main():
     parser.add_argument("--database", choices=("single", "patroni"), default="single")
     parser.add_argument("--kill-primary-every", type=float)
     parser.add_argument("--split-primary-every", type=float)
+    parser.add_argument("--router-share", type=float, default=0.0)
     parser.add_argument("--pause", type=float, default=0.06)
     parser.add_argument("--plan-pause", type=float, default=0.2)
     parser.add_argument("--seed", type=int, default=int(time.time()) % 1_000_000)
@@ -271,6 +282,7 @@ def main():
         cuttable="cut" in kinds,
         clocks_apart=bool(kinds),
         database=arguments.database,
+        router_share=arguments.router_share,
     )
     folder = tempfile.mkdtemp(prefix="plumescout-cluster-")
     print(f"--seed {arguments.seed}, in {folder}", flush=True)

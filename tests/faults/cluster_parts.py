@@ -7,6 +7,7 @@ import collections
 import os
 import pathlib
 import signal
+import socket
 import subprocess
 import threading
 import time
@@ -17,6 +18,7 @@ import plumescout
 import running
 
 LEASE_S = 1.0
+NAMES = ("n1", "n2", "n3")  # in the shipped configuration
 CONFIGURATION = running.ROOT / "deploy/cluster/haproxy.cfg"
 # Of each mission its key, its node or -, its epoch and how many events it has.
 OWNERS = (
@@ -48,6 +50,9 @@ class Router:
         kept = [line for line in listed if line.split()[1] in names][::order]
         rest = [line for line in lines if line not in listed]
         rest = [line for line in rest if not self._uses_another(line, names)]
+        self._group = None
+        self._admin = f"{folder}/haproxy{order}.sock"
+        rest.insert(rest.index("global") + 1, f"    stats socket {self._admin} level admin")
         own = pathlib.Path(folder) / f"haproxy{order}.cfg"
         own.write_text("\n".join([*rest, *kept, ""]))
         program = os.environ.get("PLUMESCOUT_HAPROXY") or "/usr/sbin/haproxy"
@@ -60,7 +65,33 @@ class Router:
 
     @staticmethod
     def _uses_another(line, names):
-        return line.split()[:1] == ["use-server"] and line.split()[1] not in names
+        used = [name for name in NAMES if f"use-server {name} " in line or f"nodes/{name})" in line]
+        return bool(set(used) - names)
+
+    def hold_to(self, share):
+        """It gets no more than this share of one core from now on. Needs root."""
+        root = pathlib.Path("/sys/fs/cgroup")
+        is_second = (root / "cgroup.controllers").exists()
+        group = root / ("" if is_second else "cpu") / f"plumescout-{self.process.pid}"
+        group.mkdir()
+        quota_us, period_us = 1000, round(1000 / share)
+        if is_second:
+            (group / "cpu.max").write_text(f"{quota_us} {period_us}")
+        else:
+            (group / "cpu.cfs_period_us").write_text(str(period_us))
+            (group / "cpu.cfs_quota_us").write_text(str(quota_us))
+        (group / "cgroup.procs").write_text(str(self.process.pid))
+        self._group = group
+
+    def lead(self, node, leads):
+        """Whether it leads to the node of this name, from now on; it does not lose it by that."""
+        command = f"{'enable' if leads else 'disable'} server nodes/{node}\n"
+        with socket.socket(socket.AF_UNIX) as admin:
+            admin.connect(self._admin)
+            admin.sendall(command.encode())
+            said = admin.recv(4096).strip()
+        if said:
+            raise RuntimeError(f"{command.strip()}: {said.decode()}")
 
     def answers(self):
         try:
@@ -73,6 +104,8 @@ class Router:
     def stop(self):
         self.process.kill()
         self.process.wait()
+        if self._group:
+            self._group.rmdir()
 
 
 def by_clock(offset_s):
@@ -95,7 +128,7 @@ class Node:
     def __init__(
         self, name, folder, store_of, database, cuttable, clock_s=0, lease_s=LEASE_S
     ):
-        self.name, self.http_port = name, running.free_port()
+        self.name, self.http_port, self.routers = name, running.free_port(), []
         self._link = fault_proxy.Proxy(database) if cuttable else None
         (folder / name).mkdir()
         self.server = bed.Server(
@@ -127,6 +160,15 @@ class Node:
         time.sleep(chance.uniform(1.5, 3.0) * LEASE_S)
         while_down()
         self._link.set_state("up")
+
+    def unroute(self, chance, while_down):
+        """No router leads to it: it lives, and has its lease."""
+        del chance
+        for router in self.routers:
+            router.lead(self.name, False)
+        while_down()
+        for router in self.routers:
+            router.lead(self.name, True)
 
     def roll(self, chance, while_down):
         del chance, while_down

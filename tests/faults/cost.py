@@ -8,6 +8,7 @@ robots map a building through the router, as fast as it goes. `scripts/cluster c
   --robots N       in each
   --duration S     simulated time of each
   --nodes N        servers, 1 to 3
+  --router-share S of a core, that the router gets at most; needs root
 
 Robots are those of `plumescout-lab robot`: ten scans of 360 beams and two readings a second, and plans as
 they need them. An event is an entry of a mission's journal. Exit code 1 if a mission ended early.
@@ -30,7 +31,7 @@ EVENTS = "SELECT coalesce(sum(head), 0)::bigint, coalesce(sum(writes), 0)::bigin
 
 
 class Cluster:
-    def __init__(self, folder, nodes):
+    def __init__(self, folder, nodes, router_share):
         folder.chmod(0o755)  # PostgreSQL is another user
         self.database = postgres.Postgres(folder / "postgres", running.free_port())
         running.await_that(self.database.make_database, "PostgreSQL answers")
@@ -41,6 +42,8 @@ class Cluster:
         ]
         self.router = Router(self._nodes, folder)
         running.await_that(self.router.answers, "the router leads to a node")
+        if router_share:
+            self.router.hold_to(router_share)
 
     def cpu_s(self):
         return {
@@ -91,11 +94,12 @@ def run(cluster, arguments, folder):
     events, writes = cluster.count(EVENTS)
     each = ", ".join(f"{part} {1e6 * value / events:.0f}" for part, value in spent.items())
     share = (spent["HAProxy"] + spent["PostgreSQL"]) / spent["servers"]
+    took_s = time.monotonic() - began
     early = sum(code != 0 for code in codes)
     print(
-        f"{events} events in {writes} writes and {time.monotonic() - began:.0f} s, at most {most} "
+        f"{events} events in {writes} writes and {took_s:.0f} s, at most {most} "
         f"missions at one time, {early} ended early; microseconds of CPU an event: {each}; router and database {share:.1%} of the "
-        "servers"
+        f"servers; HAProxy took {spent['HAProxy'] / took_s:.3f} cores"
     )
     return early == 0
 
@@ -110,11 +114,12 @@ def main():
     for name, standard in (("missions", 24), ("robots", 4), ("nodes", 3)):
         parser.add_argument(f"--{name}", type=int, default=standard)
     parser.add_argument("--duration", type=float, default=20)
+    parser.add_argument("--router-share", type=float, default=0.0)
     parser.add_argument("--at-once", action="store_true")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="plumescout-cost-") as name:
         folder = pathlib.Path(name)
-        cluster = Cluster(folder, arguments.nodes)
+        cluster = Cluster(folder, arguments.nodes, arguments.router_share)
         try:
             return 0 if run(cluster, arguments, folder) else 1
         finally:

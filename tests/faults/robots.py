@@ -36,6 +36,7 @@ PASSING = frozenset(
         "DRAINING",
         "FENCED",  # who was overtaken and has not noticed yet
         "MISSION_ELSEWHERE",
+        "NODE_UNREACHED",
         "OVERLOADED",
         "RECOVERING",
         "SERVER_RESTARTED",

@@ -282,6 +282,7 @@ TEST_F(DurableServerTest, DamagedMissionsAreListedAndRefused) {
   ASSERT_EQ(page->missions_size(), 2);
   EXPECT_EQ(page->missions(0).name(), "missions/bad");
   EXPECT_EQ(page->missions(0).state(), v1::MISSION_STATE_DAMAGED);
+  EXPECT_THAT(page->missions(0).damage(), HasSubstr("missions/bad: "));
   EXPECT_EQ(page->missions(1).state(), v1::MISSION_STATE_RUNNING);
   v1::ListMissionsRequest first;
   first.set_page_size(1);

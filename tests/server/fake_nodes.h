@@ -51,6 +51,15 @@ class SharedStore : public HeldStore, public StoreNodes {
     absl::MutexLock lock(&nodes_mutex_);
     return kept_;
   }
+  // What TakeStrays tells next, once.
+  void SetStrays(Strays strays) {
+    absl::MutexLock lock(&nodes_mutex_);
+    strays_ = std::move(strays);
+  }
+  std::vector<OwnedMission> noted_strays() const {
+    absl::MutexLock lock(&nodes_mutex_);
+    return noted_strays_;
+  }
   std::map<std::string, std::int64_t> released() const {
     absl::MutexLock lock(&nodes_mutex_);
     return released_;
@@ -95,9 +104,16 @@ class SharedStore : public HeldStore, public StoreNodes {
                              (query.last_part.empty() || query.last_part == last_part);
       if (!is_wanted || static_cast<int>(missions.size()) == query.limit) continue;
       const auto owner = owners_.find(mission.key);
-      missions.push_back({mission.key, owner == owners_.end() ? "" : owner->second});
+      const auto damage = damages_.find(mission.key);
+      missions.push_back({mission.key, owner == owners_.end() ? "" : owner->second,
+                          damage == damages_.end() ? "" : damage->second});
     }
     return missions;
+  }
+  absl::Status NoteDamage(const std::string& key, const std::string& what) override {
+    absl::MutexLock lock(&nodes_mutex_);
+    damages_[key] = what;
+    return absl::OkStatus();
   }
   absl::Status KeepFor(const std::vector<KeptMission>& missions) override {
     absl::MutexLock lock(&nodes_mutex_);
@@ -107,6 +123,15 @@ class SharedStore : public HeldStore, public StoreNodes {
   absl::StatusOr<std::vector<ForgottenMission>> ListForgotten(int) override {
     absl::MutexLock lock(&nodes_mutex_);
     return forgotten_;
+  }
+  absl::Status NoteStrays(const std::vector<OwnedMission>& missions) override {
+    absl::MutexLock lock(&nodes_mutex_);
+    noted_strays_.insert(noted_strays_.end(), missions.begin(), missions.end());
+    return absl::OkStatus();
+  }
+  absl::StatusOr<Strays> TakeStrays(int) override {
+    absl::MutexLock lock(&nodes_mutex_);
+    return std::exchange(strays_, {{}, strays_.unreached});
   }
   absl::Status Release(const std::string& key, std::int64_t epoch) override {
     absl::MutexLock lock(&nodes_mutex_);
@@ -118,10 +143,13 @@ class SharedStore : public HeldStore, public StoreNodes {
   const StoreNode self_ = {"n1", "127.0.0.1:1"};
   mutable absl::Mutex nodes_mutex_;
   std::map<std::string, std::string> owners_ ABSL_GUARDED_BY(nodes_mutex_);
+  std::map<std::string, std::string> damages_ ABSL_GUARDED_BY(nodes_mutex_);
   std::vector<StoreNode> living_ ABSL_GUARDED_BY(nodes_mutex_) = {self_};
   std::vector<ForgottenMission> forgotten_ ABSL_GUARDED_BY(nodes_mutex_);
   std::map<std::string, absl::Duration> kept_ ABSL_GUARDED_BY(nodes_mutex_);
   std::map<std::string, std::int64_t> released_ ABSL_GUARDED_BY(nodes_mutex_);
+  Strays strays_ ABSL_GUARDED_BY(nodes_mutex_);
+  std::vector<OwnedMission> noted_strays_ ABSL_GUARDED_BY(nodes_mutex_);
   SteadyTime lease_until_ ABSL_GUARDED_BY(nodes_mutex_) = SteadyTime::max();
   OnLost on_lost_ ABSL_GUARDED_BY(nodes_mutex_);
 };

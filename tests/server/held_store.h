@@ -92,6 +92,9 @@ class HeldStore : public MissionStore {
   void Remove(const std::string& key, std::int64_t epoch, Done done) override {
     Write([=, this] { store_.Remove(key, epoch, done); });
   }
+  void Discard(const std::string& key, Done done) override {
+    Write([=, this] { store_.Discard(key, done); });
+  }
   absl::StatusOr<std::vector<StoredMission>> List() override { return store_.List(); }
   StoreState state() const override {
     absl::MutexLock lock(&mutex_);

@@ -1,20 +1,25 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 // Of the server: one of several that share a store.
+#include <gmock/gmock.h>
 #include <grpcpp/client_context.h>
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "absl/base/thread_annotations.h"
+#include "absl/strings/match.h"
 #include "absl/synchronization/mutex.h"
 #include "core/types/error_reason.h"
 #include "plumescout/v1/mission_service.grpc.pb.h"
 #include "server/server.h"
+#include "server/store/store_errors.h"
 #include "tests/server/fake_nodes.h"
 #include "tests/server/stored_run.h"
 #include "tests/support/temp_folder.h"
@@ -22,9 +27,33 @@
 namespace plumescout::server {
 namespace server_nodes_test {
 
-// Reads of missions wait while it is told so.
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+// Reads of missions wait while it is told so, and rows of missions are damaged.
 class SlowStore final : public SharedStore {
  public:
+  absl::StatusOr<AcquiredMission> Acquire(const std::string& key) override {
+    if (is_damaged(key)) return kDamage;
+    return SharedStore::Acquire(key);
+  }
+  absl::StatusOr<AcquiredMission> Peek(const std::string& key) override {
+    if (is_damaged(key)) return kDamage;
+    return SharedStore::Peek(key);
+  }
+  void Discard(const std::string& key, Done done) override {
+    EXPECT_TRUE(is_damaged(key));
+    {
+      absl::MutexLock lock(&reads_mutex_);
+      damaged_ = "";
+    }
+    SharedStore::Remove(key, 1, std::move(done));
+  }
+  void Damage(const std::string& key) {
+    absl::MutexLock lock(&reads_mutex_);
+    damaged_ = key;
+  }
   void SetReads(bool wait) {
     absl::MutexLock lock(&reads_mutex_);
     reads_wait_ = wait;
@@ -52,7 +81,14 @@ class SlowStore final : public SharedStore {
   }
 
  private:
+  bool is_damaged(const std::string& key) const {
+    absl::MutexLock lock(&reads_mutex_);
+    return damaged_ == key;
+  }
+
+  const absl::Status kDamage = StoreDamaged("the header is not what was written");
   mutable absl::Mutex reads_mutex_;
+  std::string damaged_ ABSL_GUARDED_BY(reads_mutex_);
   int reads_ ABSL_GUARDED_BY(reads_mutex_) = 0;
   bool reads_wait_ ABSL_GUARDED_BY(reads_mutex_) = false;
 };
@@ -85,9 +121,10 @@ class ServerNodesTest : public testing::Test {
     return missions_->GetMission(&context, request, &response);
   }
   // Asks again while the server asks its store.
-  Answer Get(const std::string& id) {
+  Answer Get(const std::string& id, const std::string& unreached = "") {
     while (true) {
       grpc::ClientContext context;
+      if (!unreached.empty()) context.AddMetadata("x-unreached", unreached);
       Answer answer{Ask(id, context), ""};
       if (answer.status.error_message().starts_with(std::string(reason::kRecovering))) continue;
       const auto& trailers = context.GetServerTrailingMetadata();
@@ -113,6 +150,33 @@ TEST_F(ServerNodesTest, CallsAreToldWhereAMissionIs) {
   EXPECT_TRUE(mine.status.ok()) << mine.status.error_message();
   EXPECT_EQ(mine.owner, "");
   EXPECT_EQ(Get("attic").status.error_code(), grpc::StatusCode::NOT_FOUND);
+}
+
+TEST_F(ServerNodesTest, CallsThatNamedTheNodeOfTheirMissionAndCameHereAreTold) {
+  const Answer strayed = Get("hall", "n2");
+  EXPECT_EQ(strayed.status.error_code(), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_THAT(strayed.status.error_message(), StartsWith(std::string(reason::kNodeUnreached)));
+  EXPECT_THAT(strayed.status.error_message(), HasSubstr("missions/hall is served by node n2"));
+  EXPECT_EQ(strayed.owner, "n2");
+  EXPECT_TRUE(Get("yard", "n2").status.ok()) << "it was another's before";
+  EXPECT_THAT(Get("hall", "n3").status.error_message(),
+              StartsWith(std::string(reason::kMissionElsewhere)));
+  EXPECT_THAT(server_->MetricsText(), HasSubstr("plumescout_stray_calls_total 1\n"));
+  while (store_.noted_strays().empty()) std::this_thread::yield();
+  EXPECT_THAT(store_.noted_strays(), ElementsAre(OwnedMission{"hall", "n2"}));
+}
+
+TEST_F(ServerNodesTest, MissionsWhoseCallsGoToOthersAreGivenUp) {
+  ASSERT_TRUE(Get("yard").status.ok());
+  store_.SetStrays({{{"yard", 2, "n2"}}, {"n1"}});
+  while (store_.released().empty()) std::this_thread::yield();
+  EXPECT_EQ(store_.released(), (std::map<std::string, std::int64_t>{{"yard", 2}}));
+  EXPECT_EQ(Get("yard").owner, "n2");
+  const auto says = [this](const std::string& line) {
+    return absl::StrContains(server_->MetricsText(), line);
+  };
+  while (!says("plumescout_missions_given_up_total 1\n")) std::this_thread::yield();
+  EXPECT_TRUE(says("plumescout_node_unreached{node=\"n1\"} 1\n"));
 }
 
 TEST_F(ServerNodesTest, MissionsOfTheWholeStoreAreListed) {
@@ -160,6 +224,29 @@ TEST_F(ServerNodesTest, WhatCannotBeReadCanBeDeleted) {
   const grpc::Status deleted = missions_->DeleteMission(&context, request, &response);
   EXPECT_TRUE(deleted.ok()) << deleted.error_message();
   EXPECT_EQ(Get("mill").status.error_code(), grpc::StatusCode::NOT_FOUND);
+}
+
+TEST_F(ServerNodesTest, WhatTheStoreCallsDamagedIsNamedListedAndDeleted) {
+  ASSERT_TRUE(store_.Create("acme/mill", "").ok());
+  store_.Damage("acme/mill");
+  const Answer damaged = Get("mill");  // an admin's call, who is of no tenant
+  EXPECT_EQ(damaged.status.error_code(), grpc::StatusCode::DATA_LOSS);
+  EXPECT_THAT(damaged.status.error_message(), HasSubstr("the header is not what was written"));
+  grpc::ClientContext lists;
+  v1::ListMissionsRequest all;
+  v1::ListMissionsResponse listed;
+  ASSERT_TRUE(missions_->ListMissions(&lists, all, &listed).ok());
+  ASSERT_EQ(listed.missions(0).name(), "missions/mill");
+  EXPECT_EQ(listed.missions(0).state(), v1::MISSION_STATE_DAMAGED);
+  EXPECT_THAT(listed.missions(0).damage(), HasSubstr("the header is not what was written"));
+  grpc::ClientContext context;
+  v1::DeleteMissionRequest request;
+  v1::DeleteMissionResponse response;
+  request.set_name("missions/mill");
+  const grpc::Status deleted = missions_->DeleteMission(&context, request, &response);
+  EXPECT_TRUE(deleted.ok()) << deleted.error_message();
+  EXPECT_EQ(Get("mill").status.error_code(), grpc::StatusCode::NOT_FOUND);
+  EXPECT_TRUE(absl::IsNotFound(store_.Peek("acme/mill").status()));
 }
 
 TEST_F(ServerNodesTest, WithTheLeaseItStopsServing) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/store_info.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <thread>
@@ -38,7 +39,8 @@ TEST(StoreInfoTest, SaysWhatIsWrongWithIt) {
   HeldStore store;
   store.set_state(Refusing("the disk is full"));
   const StoreConfig config{.engine = kPostgresqlStore, .node = "one", .cluster = "yard"};
-  const v1::StoreInfo info = TellOfStore(config, &store, nullptr);
+  const v1::StoreInfo info = TellOfStore(config, &store, nullptr, {.unreached = {"n2", "n3"}});
+  EXPECT_THAT(info.unreached_nodes(), testing::ElementsAre("n2", "n3"));
   EXPECT_FALSE(info.available());
   EXPECT_EQ(info.trouble(), "the disk is full");
   EXPECT_EQ(info.node(), "one");

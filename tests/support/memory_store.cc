@@ -82,6 +82,7 @@ class MemoryStore::Shelf {
         break;
     }
     if (!stands) return NotStored(write.key);
+    if (write.kind == StoreWrite::Kind::kDiscard) return NotDamaged(write.key);
     const absl::Status status = ApplyTo(*found->second, write);
     if (status.ok() && write.kind == StoreWrite::Kind::kRemove) missions_.erase(found);
     return status;

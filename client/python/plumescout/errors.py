@@ -34,7 +34,7 @@ class PlumeScoutError(Exception):
     retry_after_s: float | None
     """The server's advice, if it gave any."""
     node: str
-    """Of MISSION_ELSEWHERE: the server that has the mission; or ''."""
+    """Of MISSION_ELSEWHERE and NODE_UNREACHED: the server that has the mission; or ''."""
 
     def __init__(
         self,

@@ -45,7 +45,7 @@ function isRepeatable(method: DescMethodUnary): boolean {
 // Whether it has not been carried out, and will be once the server has recovered, or another one has
 // the mission.
 function passesByItself({ reason }: CallError): boolean {
-  return reason === 'RECOVERING' || reason === 'STORE_UNAVAILABLE' || reason === 'MISSION_ELSEWHERE';
+  return ['RECOVERING', 'STORE_UNAVAILABLE', 'MISSION_ELSEWHERE', 'NODE_UNREACHED'].includes(reason);
 }
 
 // Whether nobody is there. A front says the latter two when the server behind it ends in mid-call.

@@ -34,6 +34,11 @@ TEST(ClusterModel, ShorterTailsMakeShorterStorms) {
   EXPECT_LT(Figure("tail_n3_0.1_s_longest_s"), 10.0);
 }
 
+TEST(ClusterModel, MoreRecoveriesAtATimeHelpWhereThereAreCores) {
+  EXPECT_LT(Figure("recoveries_c16_k8_longest_s"), Figure("recoveries_c16_k1_longest_s") / 2.0);
+  EXPECT_GT(Figure("recoveries_c2_k8_longest_s"), 0.7 * Figure("recoveries_c2_k1_longest_s"));
+}
+
 TEST(ClusterModel, RobotsWaitForTheLease) {
   EXPECT_GT(Figure("lease_5_s_median_s"), Figure("lease_1_s_median_s") + 2.0);
   EXPECT_GE(Figure("lease_1_s_median_s"), 0.75);
@@ -47,8 +52,8 @@ TEST(ClusterModel, AMissionHasNoMoreRobotsThanACoreCanServe) {
 }
 
 TEST(ClusterModel, ShowsItAll) {
-  EXPECT_EQ(Quick().figures.charts.size(), 5u);
-  EXPECT_EQ(Quick().table.rows.size(), 3u * 7u + 3u * 6u + 15u);
+  EXPECT_EQ(Quick().figures.charts.size(), 6u);
+  EXPECT_EQ(Quick().table.rows.size(), 3u * 7u + 3u * 6u + 3u * 4u + 15u);
   for (const auto& row : Quick().table.rows) EXPECT_EQ(row.size(), Quick().table.columns.size());
 }
 

@@ -52,6 +52,26 @@ TEST(FailoverWaits, AreThoseOfTheRecoveriesWhereThoseAreLong) {
   EXPECT_LT(Max(FailoverWaits_s(model, 1)), 10.0);
 }
 
+// Two at a time on two cores take half as long as one; on one core all are there as soon, and most
+// of them later.
+TEST(FailoverWaits, AreShorterWhereSeveralAreRecoveredAtATimeIfThereAreCores) {
+  ClusterModel model;
+  model.nodes = 2;
+  model.missions = 100;
+  model.read_s = 1.0;
+  model.largest_tail = 0.0;
+  model.recoveries = 1;
+  const std::vector<double> one_s = FailoverWaits_s(model, 1);
+  model.recoveries = 2;
+  const std::vector<double> two_s = FailoverWaits_s(model, 1);
+  EXPECT_NEAR(Max(two_s), Max(one_s), 1.0);
+  EXPECT_GT(Mean(two_s), Mean(one_s) + 0.2);
+  model.cores = 4.0;  // two are left
+  EXPECT_NEAR(Max(FailoverWaits_s(model, 1)), Max(one_s) / 2.0, 1.0);
+  model.recoveries = 1;
+  EXPECT_NEAR(Max(FailoverWaits_s(model, 1)), Max(one_s), 1.0) << "one cannot use them";
+}
+
 TEST(FailoverWaits, HaveTheTimeInThemAfterWhichANodeThatHangsIsNoticed) {
   ClusterModel model;
   model.noticed_s = 3.0;  // longer than the lease

@@ -11,6 +11,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/synchronization/mutex.h"
 #include "core/types/error_reason.h"
+#include "server/store/store_errors.h"
 
 namespace plumescout::server {
 namespace door_test {
@@ -86,12 +87,12 @@ TEST(DoorTest, ObserversHearOfEveryCallOnce) {
   Visit visit;
   ASSERT_TRUE(visit.Enter(door, Rpc::kGetMap, call).ok());
   EXPECT_TRUE(heard.empty());
-  visit.Leave(absl::CancelledError(""));
-  visit.Leave(absl::OkStatus());
+  EXPECT_EQ(visit.Leave(absl::CancelledError("")), absl::CancelledError(""));
+  EXPECT_TRUE(visit.Leave(absl::OkStatus()).ok());
   EXPECT_EQ(heard, std::vector<std::string>{"GetMap scout CANCELLED"});
   Visit refused;
   EXPECT_FALSE(refused.Enter(door, Rpc::kDrainServer, call).ok());
-  refused.Leave(absl::OkStatus());
+  EXPECT_TRUE(refused.Leave(absl::OkStatus()).ok());
   ASSERT_EQ(heard.size(), 2u);
   EXPECT_EQ(heard[1], "DrainServer scout PERMISSION_DENIED");
 }
@@ -111,6 +112,22 @@ TEST(DoorTest, CallersAreHeldToTheirRatesAndObserversHear) {
   caller.tenant = "other";  // another one of that name
   EXPECT_TRUE(Enter(door, Rpc::kGetMap, call).ok());
   EXPECT_EQ(refused, 1);
+}
+
+TEST(DoorTest, CallsThatNamedTheNodeOfTheirMissionAndCameHereAreTold) {
+  std::vector<OwnedMission> strayed;
+  Door door;
+  door.SetOnStray([&](const OwnedMission& mission) { strayed.push_back(mission); });
+  CallInfo info;
+  const absl::Status elsewhere = MissionElsewhere("acme/hall", "n2");
+  EXPECT_EQ(door.Redirect(info, elsewhere), elsewhere);
+  info.named_node = "n3";
+  EXPECT_EQ(door.Redirect(info, elsewhere), elsewhere) << "it has moved";
+  info.named_node = "n2";
+  EXPECT_TRUE(door.Redirect(info, absl::OkStatus()).ok());
+  EXPECT_TRUE(strayed.empty());
+  EXPECT_EQ(ErrorReason(door.Redirect(info, elsewhere)), reason::kNodeUnreached);
+  EXPECT_EQ(strayed, (std::vector<OwnedMission>{{"acme/hall", "n2"}}));
 }
 
 TEST(DoorTest, AccountsAreOfCallersOrOfTheirMachines) {
@@ -136,7 +153,7 @@ TEST(DoorTest, ManyMayEnterAtOnce) {
       for (int k = 0; k < kCalls; ++k) {
         Visit visit;
         EXPECT_TRUE(visit.Enter(door, Rpc::kGetMap, call).ok());
-        visit.Leave(absl::OkStatus());
+        EXPECT_TRUE(visit.Leave(absl::OkStatus()).ok());
       }
     });
   }

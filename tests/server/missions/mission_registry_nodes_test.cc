@@ -289,6 +289,42 @@ TEST_F(MissionRegistryNodesTest, WhatDoesNotComeToRestIsDropped) {
   EXPECT_EQ(store_.released(), (std::map<std::string, std::int64_t>{{"hall", 1}}));
 }
 
+TEST_F(MissionRegistryNodesTest, AMissionWhoseCallsComeToAnotherNodeIsGivenUpToIt) {
+  const auto host = MakeUnsettled("hall");
+  store_.AwaitHeld(1);
+  const StrayMission stray{"hall", 1, "n3"};
+  auto given = std::async(std::launch::async, [&] { return registry_->GiveUp(stray); });
+  while (host->journal().next_deadline() == SteadyTime::max()) {
+  }
+  std::promise<absl::Status> told;
+  EXPECT_TRUE(host->Post([](MissionWriter&) { ADD_FAILURE() << "it rests"; },
+                         [&](const absl::Status& status) { told.set_value(status); })
+                  .ok());
+  EXPECT_TRUE(store_.released().empty()) << "not all is durable";
+  store_.HeldStore::Release();
+  EXPECT_TRUE(given.get().ok());
+  EXPECT_EQ(NodeElsewhere(told.get_future().get()), "n3");
+  EXPECT_EQ(store_.released(), (std::map<std::string, std::int64_t>{{"hall", 1}}));
+  EXPECT_EQ(NodeElsewhere(registry_->Find("hall").status()), "n3") << "it is to have it first";
+  EXPECT_TRUE(registry_->Create("yard", {}).ok()) << "the node goes on";
+  now_ += std::chrono::seconds(5);
+  EXPECT_TRUE(CallFor("hall").ok()) << "nobody has taken it";
+}
+
+TEST_F(MissionRegistryNodesTest, WhatSleepsOrIsDamagedIsGivenUpAndWhatIsReadIsNot) {
+  Put("yard");
+  ASSERT_TRUE(CallFor("yard").ok());
+  now_ += std::chrono::minutes(2);
+  while (registry_->SleepIdle().empty()) {
+  }
+  EXPECT_TRUE(registry_->GiveUp({"yard", 2, "n3"}).ok());
+  EXPECT_TRUE(registry_->GiveUp({"mill", 7, "n3"}).ok()) << "it is ours, and was not read";
+  EXPECT_EQ(NodeElsewhere(registry_->Find("yard").status()), "n3");
+  EXPECT_EQ(ErrorReason(registry_->Find("attic").status()), reason::kRecovering);
+  EXPECT_TRUE(absl::IsAborted(registry_->GiveUp({"attic", 1, "n3"})));
+  EXPECT_EQ(store_.released(), (std::map<std::string, std::int64_t>{{"mill", 7}, {"yard", 2}}));
+}
+
 TEST_F(MissionRegistryNodesTest, MissionsAreReleasedOnceAllHaveStopped) {
   ASSERT_TRUE(registry_->Create("hall", {}).ok());
   Put("yard");

@@ -36,6 +36,16 @@ TEST(SoughtMissionsTest, AnAnswerHoldsForAWhile) {
   EXPECT_EQ(ErrorReason(sought.CallFor("hall", kNow)), reason::kRecovering);
 }
 
+TEST(SoughtMissionsTest, WhatItIsToldIsSaidUntilThen) {
+  SoughtMissions sought;
+  const absl::Status elsewhere = MissionElsewhere("hall", "n2");
+  sought.Tell("hall", elsewhere, kNow + milliseconds(20));
+  EXPECT_EQ(sought.CallFor("hall", kNow), elsewhere);
+  EXPECT_EQ(sought.CallFor("hall", kNow + milliseconds(19)), elsewhere);
+  EXPECT_EQ(sought.Next(), std::nullopt);
+  EXPECT_EQ(ErrorReason(sought.CallFor("hall", kNow + milliseconds(20))), reason::kRecovering);
+}
+
 TEST(SoughtMissionsTest, WhereAMissionIsHoldsForThoseOnlyWhoWaitedForIt) {
   SoughtMissions sought({.elsewhere_holds = absl::Milliseconds(20)});
   EXPECT_EQ(ErrorReason(sought.CallFor("hall", kNow)), reason::kRecovering);

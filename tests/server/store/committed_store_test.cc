@@ -55,8 +55,9 @@ TEST(CommittedStore, HandsOnWhatItIsAsked) {
   EXPECT_TRUE(PutStandingNow(store, "a", 2, "paused").ok());
   EXPECT_TRUE(PutSnapshotNow(store, "a", 2, {6, 9, "state"}).ok());
   EXPECT_TRUE(RemoveNow(store, "a", 2).ok());
+  EXPECT_TRUE(DiscardNow(store, "a").ok());
 
-  ASSERT_EQ(noted.size(), 6U);
+  ASSERT_EQ(noted.size(), 7U);
   for (const StoreWrite& write : noted) EXPECT_EQ(write.key, "a");
   EXPECT_EQ(noted[0].kind, StoreWrite::Kind::kCreate);
   EXPECT_EQ(noted[0].bytes, "header");
@@ -70,7 +71,8 @@ TEST(CommittedStore, HandsOnWhatItIsAsked) {
   EXPECT_EQ(noted[4].kind, StoreWrite::Kind::kSnapshot);
   EXPECT_EQ(noted[4].snapshot, (StoredSnapshot{6, 9, "state"}));
   EXPECT_EQ(noted[5].kind, StoreWrite::Kind::kRemove);
-  EXPECT_EQ(store.state().commits, 6);
+  EXPECT_EQ(noted[6].kind, StoreWrite::Kind::kDiscard);
+  EXPECT_EQ(store.state().commits, 7);
 }
 
 }  // namespace committed_store_test

@@ -62,13 +62,19 @@ TEST_P(MissionStoreContract, AMissionIsMadeOnce) {
   EXPECT_EQ(store().Peek("house")->header, "of bricks");
 }
 
+TEST_P(MissionStoreContract, WhatIsWholeIsNotDiscarded) {
+  Fill("house", 2);
+  EXPECT_TRUE(absl::IsFailedPrecondition(DiscardNow(store(), "house")));
+  EXPECT_EQ(store().Peek("house")->head, 2);
+}
+
 TEST_P(MissionStoreContract, WhatIsNotThereIsNotFound) {
   for (const absl::Status& status :
        {store().Acquire("house").status(), store().Peek("house").status(),
         store().Read("house", 1).status(), AppendNow(store(), "house", 1, 1, {"a"}),
         PutStandingNow(store(), "house", 1, "paused"),
         PutSnapshotNow(store(), "house", 1, {0, 0, ""}), TrimNow(store(), "house", 1),
-        RemoveNow(store(), "house", 1)}) {
+        RemoveNow(store(), "house", 1), DiscardNow(store(), "house")}) {
     EXPECT_TRUE(absl::IsNotFound(status)) << status;
     EXPECT_EQ(ErrorReason(status), reason::kMissionNotFound);
   }

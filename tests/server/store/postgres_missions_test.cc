@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "absl/strings/match.h"
 #include "core/types/error_reason.h"
+#include "server/store/store_errors.h"
 #include "tests/server/store/shared_work.h"
 #include "tests/server/store/store_work.h"
 
@@ -69,6 +71,30 @@ TEST_F(PostgresMissionsTest, WhatIsDamagedIsNamed) {
     EXPECT_EQ(ErrorReason(found), reason::kStoreDamaged) << c.sql << ": " << found;
     EXPECT_THAT(std::string(found.message()), HasSubstr(c.named));
   }
+}
+
+TEST_F(PostgresMissionsTest, WhatIsDamagedIsDiscardedWhole) {
+  const auto other = OpenShared(url_, "n2");
+  for (const char* sql : {"UPDATE plumescout_record SET crc = crc + 1",
+                          "UPDATE plumescout_standing SET bytes = 'finished'",
+                          "UPDATE plumescout_mission SET header = 'other' WHERE key = 'house'",
+                          "UPDATE plumescout_progress SET head = head + 1 WHERE head > 0",
+                          "DELETE FROM plumescout_progress WHERE head > 0"}) {
+    ASSERT_TRUE(other->Create("mill", "header").ok());
+    Damage(sql);
+    if (absl::StartsWith(sql, "UPDATE")) {
+      EXPECT_EQ(NodeElsewhere(DiscardNow(*other, "house")), "n1") << "it lives";
+    }
+    EXPECT_TRUE(DiscardNow(*store_, "house").ok()) << sql;
+    EXPECT_TRUE(absl::IsNotFound(store_->Peek("house").status()));
+    EXPECT_TRUE(absl::IsNotFound(DiscardNow(*store_, "house")));
+    EXPECT_EQ(store_->Peek("mill")->header, "header") << "others are whole";
+    ASSERT_TRUE(RemoveNow(*other, "mill", 1).ok());
+    SetUp();  // the name is free
+  }
+  Damage("UPDATE plumescout_mission SET header = 'other'");
+  ExpireLease(url_, "n1");
+  EXPECT_TRUE(DiscardNow(*other, "house").ok()) << "it was nobody's";
 }
 
 TEST_F(PostgresMissionsTest, ADamagedSnapshotIsLeftOut) {

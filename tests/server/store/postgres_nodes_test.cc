@@ -87,6 +87,24 @@ TEST_F(PostgresNodesTest, MissionsOfTheWholeStoreAreListedWithTheirNodes) {
   EXPECT_THAT(list({.last_part = "hall", .limit = 1}), ElementsAre(OwnedMission{"acme/hall", ""}));
 }
 
+TEST_F(PostgresNodesTest, WhatIsDamagedIsListedSoUntilSomebodyHasIt) {
+  const auto first = OpenShared(url_, "n1");
+  const auto second = OpenShared(url_, "n2");
+  for (const char* key : {"hall", "mill"}) ASSERT_TRUE(first->Create(key, "").ok());
+  for (const char* what : {"a record", "the header"}) {
+    ASSERT_TRUE(second->nodes()->NoteDamage("hall", what).ok());
+  }
+  ASSERT_TRUE(second->nodes()->NoteDamage("attic", "it is not there").ok());
+  EXPECT_THAT(*second->nodes()->ListMissions({.limit = 9}),
+              ElementsAre(OwnedMission{"hall", "n1", "the header"}, OwnedMission{"mill", "n1"}));
+  EXPECT_THAT(*second->List(),
+              ElementsAre(StoredMission{"hall", 1, 0, 0, true}, StoredMission{"mill", 1, 0, 0}));
+  ASSERT_EQ(first->Acquire("hall")->epoch, 2);
+  EXPECT_FALSE(second->List()->front().is_damaged);
+  Ask("UPDATE plumescout_progress SET epoch = 1");
+  EXPECT_TRUE(second->List()->front().is_damaged) << "that is seen at once";
+}
+
 TEST_F(PostgresNodesTest, AMissionOfNobodyIsForgottenWhenItsTimeIsOver) {
   const auto first = OpenShared(url_, "n1");
   const auto second = OpenShared(url_, "n2");

@@ -12,6 +12,7 @@
 #include "absl/strings/match.h"
 #include "core/types/error_reason.h"
 #include "formats/file_io.h"
+#include "server/store/database.h"
 #include "tests/server/store/store_work.h"
 #include "tests/support/faulty_disk.h"
 #include "tests/support/temp_folder.h"
@@ -132,6 +133,32 @@ TEST_F(SqliteStoreTest, ALogThatLostItsEndIsFoundOutAndMayBeAccepted) {
   }
   EXPECT_THAT(warnings, ElementsAre(HasSubstr("mission barn"), HasSubstr("mission house")));
   EXPECT_EQ(Open(InFolder(copy_))->Acquire("house")->head, found + 1);
+}
+
+TEST_F(SqliteStoreTest, WhatIsDamagedIsDiscardedWhole) {
+  for (const char* damage :
+       {"UPDATE progress SET head = 4 WHERE head = 5", "DELETE FROM progress WHERE head = 5",
+        "UPDATE mission SET header = x'00' WHERE key = 'house'",
+        "DELETE FROM mission WHERE key = 'house'"}) {
+    {
+      const auto store = Open();
+      ASSERT_TRUE(store->Create("house", "header").ok());
+      ASSERT_TRUE(store->Create("mill", "header").ok());
+      ASSERT_TRUE(AppendNow(*store, "house", 1, 1, Records("house", 1, 5)).ok());
+    }
+    {
+      const auto database = Database::Open(folder_ + "/store.db", Database::Access::kWrite);
+      ASSERT_TRUE(database.ok()) << database.status();
+      ASSERT_TRUE((*database)->Execute(damage).ok()) << damage;
+    }
+    const auto store = Open();
+    EXPECT_EQ(ErrorReason(store->Acquire("house").status()), reason::kStoreDamaged) << damage;
+    EXPECT_TRUE(DiscardNow(*store, "house").ok()) << damage;
+    EXPECT_TRUE(absl::IsNotFound(store->Peek("house").status()));
+    EXPECT_TRUE(absl::IsNotFound(DiscardNow(*store, "house")));
+    EXPECT_EQ(store->Peek("mill")->header, "header") << "others are whole";
+    ASSERT_TRUE(RemoveNow(*store, "mill", 1).ok());
+  }
 }
 
 TEST_F(SqliteStoreTest, AMissionThatWasRemovedStaysSoWithoutTheLog) {

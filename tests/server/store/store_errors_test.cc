@@ -35,6 +35,10 @@ TEST(StoreErrors, NameTheNodeThatHasTheMission) {
   EXPECT_EQ(NodeElsewhere(MissionElsewhere("a", "n2")), "n2");
   EXPECT_EQ(NodeElsewhere(FencedByEpoch("a", 1, 2)), "");
   EXPECT_EQ(NodeElsewhere(absl::OkStatus()), "");
+  for (const char* key : {"a", "team/a", "a is served by node n3\n"}) {
+    EXPECT_EQ(KeyElsewhere(MissionElsewhere(key, "n2")), key);
+  }
+  EXPECT_EQ(KeyElsewhere(FencedByEpoch("a", 1, 2)), "");
 }
 
 }  // namespace store_errors_test

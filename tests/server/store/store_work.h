@@ -46,6 +46,12 @@ inline absl::Status AppendNow(MissionStore& store, const std::string& key, std::
   return answer.Wait();
 }
 
+inline absl::Status DiscardNow(MissionStore& store, const std::string& key) {
+  Told answer;
+  store.Discard(key, answer.done());
+  return answer.Wait();
+}
+
 inline absl::Status PutStandingNow(MissionStore& store, const std::string& key, std::int64_t epoch,
                                    const std::string& standing) {
   Told answer;

@@ -117,7 +117,7 @@ def mission_row(mission):
         memory(mission),
         idle_time_to_live(mission),
         mission.owner,
-        mission.node or "-",
+        ": ".join(filter(None, (mission.node, mission.damage))) or "-",
     ]
 
 
@@ -245,6 +245,8 @@ def store_words(store):
     place = f"{store.engine}, {size(store.stored_bytes)}"
     if store.node:
         place += f", node {store.node} of {store.cluster}"
+    if store.unreached_nodes:
+        place += f", calls do not reach {' '.join(store.unreached_nodes)}"
     if store.available:
         return place
     return f"{place}, takes nothing now" + (f": {store.trouble}" if store.trouble else "")
