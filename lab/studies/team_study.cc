@@ -58,7 +58,7 @@ struct Pair {
 constexpr Pair kClearOrGhosts[] = {{2, 10}, {3, 11}};
 
 constexpr BuildingSize kSizes[] = {
-    {"small", "16 to 23 m", {500, 6, "small_building", kSmallBuilding}},
+    {"small", "16 to 23 m", {506, 6, "small_building", kSmallBuilding}},
     {"large", "34 to 40 m", {550, 3, "large_building", kLargeBuilding}}};
 constexpr BuildingSize kTight = {
     "tight", "doors and lanes of 0.8 m", {580, 10, "one_lane", {}}, true};
