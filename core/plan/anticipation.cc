@@ -8,7 +8,9 @@
 #include <memory>
 #include <utility>
 
+#include "core/grid/ray.h"
 #include "core/plan/cost/field_window.h"
+#include "core/plan/selection/selection.h"
 #include "core/traffic/traffic.h"
 
 namespace plumescout {
@@ -24,6 +26,11 @@ struct PromisedReading {
   double precision_per_ppm2 = 0.0;
 };
 using PromisedWay = std::vector<PromisedReading>;
+
+// Whether the robot promises anything.
+bool Drives(const RobotRecord& record, const Belief& belief) {
+  return record.state.has_pose && !record.state.silent && IsOnItsWay(record, belief.sample_time_ns);
+}
 
 double Trust(double ahead_s) {
   return std::exp(-std::max(0.0, ahead_s - kFullTrust_s) / kTrustFades_s);
@@ -74,9 +81,7 @@ std::vector<ForeseenCell> PromisedReadings(const Belief& belief, const RobotId& 
   std::vector<PromisedWay> ways;
   std::size_t count = 0;
   for (const auto& [id, record] : belief.robots) {
-    const bool drives = id != robot && record.state.has_pose && !record.state.silent &&
-                        IsOnItsWay(record, belief.sample_time_ns);
-    if (!drives) continue;
+    if (id == robot || !Drives(record, belief)) continue;
     ways.push_back(ReadingsOf(record, belief, options));
     count += ways.back().size();
   }
@@ -112,6 +117,44 @@ std::optional<Belief> Anticipate(const Belief& belief, const RobotId& robot,
   });
   ahead.gas_variance_ppm2 = std::move(variance);
   return ahead;
+}
+
+PromisedSight::PromisedSight(const Belief& belief, const RobotId& robot, double range_m)
+    : belief_(belief), range_m_(range_m) {
+  constexpr double kLook_s = 0.5;
+  for (const auto& [id, record] : belief.robots) {
+    if (id == robot || !Drives(record, belief)) continue;
+    const Trajectory& way = *record.live_trajectory;
+    const double progress_s = Progress_s(record, belief.sample_time_ns);
+    const double late_s = Lateness_s(record, belief.sample_time_ns);
+    for (double ahead_s = 0.0; progress_s + ahead_s <= way.duration_s; ahead_s += kLook_s) {
+      const double trust = Trust(late_s + ahead_s);
+      if (trust < kLeastTrust) break;
+      looks_.push_back({PoseAt(way, progress_s + ahead_s).position(), trust});
+    }
+  }
+}
+
+double PromisedSight::ShareOf(Point2 place) const {
+  const auto is_clear = [this](Cell cell, double) {
+    return belief_.occupancy->At(cell, CellState::kUnknown) != CellState::kOccupied;
+  };
+  double most = 0.0;
+  for (const Look& look : looks_) {
+    const double share = look.trust * (1.0 - Distance_m(look.from, place) / range_m_);
+    const bool shows_more =
+        share > most && WalkSegment(belief_.geometry(), look.from, place, is_clear);
+    if (shows_more) most = share;
+  }
+  return most;
+}
+
+void LeavePromisedSight(const Belief& belief, Plan& plan) {
+  const PromisedSight sight(belief, plan.robot);
+  for (Candidate& candidate : plan.candidates) {
+    if (!EndsAtTheUnseen(candidate)) continue;
+    candidate.unseen_share = 1.0 - sight.ShareOf(candidate.goal.centroid);
+  }
 }
 
 }  // namespace plumescout

@@ -49,6 +49,13 @@ bool HasWork(const GoalOffer& offer) {
   return !offer.fallback && !offer.goals.empty() && offer.goals.front().kind != GoalKind::kHome;
 }
 
+void EndWithoutGoals(bool complete, Plan& plan) {
+  plan.end = complete                ? PlanEnd::kMissionComplete
+             : plan.rejected.empty() ? PlanEnd::kNoGoals
+                                     : PlanEnd::kAllGoalsRejected;
+  if (complete) plan.phase = MissionPhase::kComplete;
+}
+
 // Every goal that could be reached is too far away for the travel budget, or the deadline.
 bool IsBudgetSpent(const Plan& plan) {
   const bool is_spent = IsRejectedFor(RejectionReason::kOverBudget, plan) ||
@@ -151,10 +158,7 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
   }
   std::move(goals.rejected.begin(), goals.rejected.end(), std::back_inserter(plan.rejected));
   if (goals.goals.empty()) {
-    plan.end = goals.complete          ? PlanEnd::kMissionComplete
-               : plan.rejected.empty() ? PlanEnd::kNoGoals
-                                       : PlanEnd::kAllGoalsRejected;
-    plan.phase = goals.complete ? MissionPhase::kComplete : plan.phase;
+    EndWithoutGoals(goals.complete, plan);
     return absl::OkStatus();
   }
 
@@ -183,6 +187,7 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
     LeadRound({query, departure, problem, judge}, *waits, plan);
     YieldToRobots(*waits, departure.yaw_rad, options_, plan);
   }
+  if (ahead != nullptr) LeavePromisedSight(belief, plan);
   Choose(foreseen, InField(options_, mission.gas), stop, plan);
   const bool budget_spent = request.max_edge_evaluations > 0 &&
                             plan.effort.edges_evaluated >= request.max_edge_evaluations;

@@ -33,6 +33,13 @@ std::string Destination(const Goal& goal) {
   return "";
 }
 
+std::string Unseen(const Candidate& candidate, const PlanningOptions& options) {
+  if (!EndsAtTheUnseen(candidate)) return "";
+  return absl::StrFormat(" and %.3g for what is unseen%s",
+                         candidate.unseen_share * options.unseen_information_nats,
+                         candidate.unseen_share < 1.0 ? " and others will not see" : "");
+}
+
 std::string Merit(const Candidate& candidate, const PlanningOptions& options) {
   switch (options.selection_rule) {
     case SelectionRule::kLeastCost:
@@ -41,12 +48,9 @@ std::string Merit(const Candidate& candidate, const PlanningOptions& options) {
       return absl::StrFormat("greatest mean information, %.2f", candidate.mean_ucb);
     case SelectionRule::kInformationRate:
       if (!candidate.expected_information_nats) break;
-      return absl::StrFormat(
-          "most information expected, %.1f nats%s in %.0f s", *candidate.expected_information_nats,
-          EndsAtTheUnseen(candidate)
-              ? absl::StrFormat(" and %.3g for what is unseen", options.unseen_information_nats)
-              : "",
-          candidate.duration_s);
+      return absl::StrFormat("most information expected, %.1f nats%s in %.0f s",
+                             *candidate.expected_information_nats, Unseen(candidate, options),
+                             candidate.duration_s);
   }
   return absl::StrFormat("least cost, %.2f", candidate.cost);
 }

@@ -83,6 +83,9 @@ struct Candidate {
   // Where that was not computed, for even this, which it is at most, would not have been chosen.
   // Events do not keep it.
   std::optional<double> information_bound_nats = std::nullopt;
+  // Share of options.unseen_information_nats that counts, of a way to the edge of the unseen: what
+  // live plans of others are not about to see of it. Events do not keep it.
+  double unseen_share = 1.0;
   // Of strategies that sample sites: the reward of all stops on the way, in the unit of the reward.
   std::optional<double> reward = std::nullopt;
   std::vector<Point2> stops = {};  // of those strategies, in order; the goal is the last

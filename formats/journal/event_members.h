@@ -75,8 +75,9 @@ void VisitMembers(auto& archive, Is<Goal> auto& goal) {
 }
 void VisitMembers(auto& archive, Is<Candidate> auto& candidate) {
   auto& [goal, path, source, cost, penalty, length_m, mean_ucb, mean_ppm, duration_s,
-         information_nats, information_bound_nats, reward, stops] = candidate;
+         information_nats, information_bound_nats, unseen_share, reward, stops] = candidate;
   static_cast<void>(information_bound_nats);  // for who asked
+  static_cast<void>(unseen_share);            // likewise
   archive(goal, path, source, cost, penalty, length_m, mean_ucb, mean_ppm, duration_s,
           information_nats, reward, stops);
 }

@@ -58,7 +58,7 @@ struct Pair {
 constexpr Pair kClearOrGhosts[] = {{2, 10}, {3, 11}};
 
 constexpr BuildingSize kSizes[] = {
-    {"small", "16 to 23 m", {500, 6, "small_building", kSmallBuilding}},
+    {"small", "16 to 23 m", {506, 6, "small_building", kSmallBuilding}},
     {"large", "34 to 40 m", {550, 3, "large_building", kLargeBuilding}}};
 constexpr BuildingSize kTight = {
     "tight", "doors and lanes of 0.8 m", {580, 10, "one_lane", {}}, true};
@@ -149,7 +149,9 @@ std::vector<std::string> MakeNotes(const TrialPlan& plan, bool given) {
       "what these ways were priced at when they were chosen, the share above what they tell beside "
       "those plans; what is promised already and not paid for is no part of it. Edges of the "
       "unseen: of the ways that were chosen to one, the share whose edge live plans of others are "
-      "to see, within the range of the lidar and past no wall.",
+      "to see, within the range of the lidar and past no wall; bought twice with these included, "
+      "as "
+      "if others were to see all that hides there.",
       "Blocked by a robot: another body was within 1.5 m when the leg ended so. Rings: robots that "
       "wait for each other, found once a second. Ghosts neither see each other nor run into each "
       "other: later for keeping clear is beside them, in the time to 95 % of the map and to half "

@@ -36,6 +36,8 @@ void AddTeamRecord(const TeamRecord& team, TeamRecord& sums) {
   sums.findings.paid_twice_nats += team.findings.paid_twice_nats;
   sums.findings.unseen_goals += team.findings.unseen_goals;
   sums.findings.unseen_in_others_sight += team.findings.unseen_in_others_sight;
+  sums.findings.unseen_paid_nats += team.findings.unseen_paid_nats;
+  sums.findings.unseen_paid_twice_nats += team.findings.unseen_paid_twice_nats;
 }
 
 }  // namespace
@@ -107,6 +109,13 @@ double Traffic::bought_twice_share() const {
 double Traffic::unseen_twice_share() const {
   const TeamFindings& findings = sums.findings;
   return static_cast<double>(findings.unseen_in_others_sight) / std::max(1, findings.unseen_goals);
+}
+
+double Traffic::all_bought_twice_share() const {
+  const TeamFindings& findings = sums.findings;
+  const double paid_nats = findings.paid_nats + findings.unseen_paid_nats;
+  const double twice_nats = findings.paid_twice_nats + findings.unseen_paid_twice_nats;
+  return paid_nats > 0.0 ? twice_nats / paid_nats : 0.0;
 }
 
 Traffic TrafficOf(const std::vector<SceneRecords>& records, std::size_t row) {

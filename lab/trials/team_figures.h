@@ -44,6 +44,9 @@ struct Traffic {
   double bought_twice_share() const;
   // Of ways to the edge of the unseen: live plans of others are to see that edge.
   double unseen_twice_share() const;
+  // Of all that was paid, edges of the unseen included: bought twice, as if others saw all of every
+  // edge that is in their sight.
+  double all_bought_twice_share() const;
 };
 Traffic TrafficOf(const std::vector<SceneRecords>& records, std::size_t row);
 

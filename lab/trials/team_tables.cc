@@ -44,6 +44,7 @@ TextTable SpeedTable(const SizeResult& result) {
                    "promised already",
                    "bought twice",
                    "edges of the unseen in sight of others' ways",
+                   "bought twice, edges included",
                    "planned waits, share of time",
                    "plan, ms",
                    "… over one robot's"};
@@ -56,7 +57,9 @@ TextTable SpeedTable(const SizeResult& result) {
          absl::StrFormat("%.2f", speedup.rmse), absl::StrFormat("%.2f", speedup.map),
          absl::StrCat(speedup.censored), Percent(figures.traffic.promised_share()),
          Percent(figures.traffic.bought_twice_share()),
-         Percent(figures.traffic.unseen_twice_share()), Percent(figures.traffic.waiting_share()),
+         Percent(figures.traffic.unseen_twice_share()),
+         Percent(figures.traffic.all_bought_twice_share()),
+         Percent(figures.traffic.waiting_share()),
          absl::StrFormat("%.0f", kMillisecondsPerSecond * figures.traffic.plan_wall_s),
          absl::StrFormat("%.2f", figures.plan_wall_ratio)});
   }
@@ -130,6 +133,7 @@ void AddNumbers(const SizeResult& result, Study& study) {
     add("promised_share", figures.traffic.promised_share());
     add("bought_twice_share", figures.traffic.bought_twice_share());
     add("unseen_twice_share", figures.traffic.unseen_twice_share());
+    add("all_bought_twice_share", figures.traffic.all_bought_twice_share());
     add("plan_wall_s", figures.traffic.plan_wall_s);
     add("plan_wall_ratio", figures.plan_wall_ratio);
     AddTrafficNumbers(result, row, study);

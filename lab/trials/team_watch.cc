@@ -6,12 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "core/grid/ray.h"
 #include "core/plan/anticipation.h"
 #include "core/plan/blockade.h"
 #include "core/plan/selection/expected_information.h"
 #include "core/plan/selection/selection.h"
-#include "core/traffic/traffic.h"
 
 namespace plumescout::lab {
 namespace {
@@ -28,24 +26,6 @@ Belief WhenMade(const Belief& belief, const Plan& plan) {
     if (record.last_plan > plan.id) record.live_trajectory = nullptr;
   }
   return then;
-}
-
-bool SeesThrough(const Belief& belief, Point2 from, Point2 to) {
-  return WalkSegment(belief.geometry(), from, to, [&](Cell cell, double) {
-    return belief.occupancy->At(cell, CellState::kUnknown) != CellState::kOccupied;
-  });
-}
-
-// Whether a robot is to see a place on what is left of its live plan.
-bool WillSee(const RobotRecord& record, const Belief& belief, Point2 place, double range_m) {
-  constexpr double kLook_s = 0.5;
-  const Trajectory& way = *record.live_trajectory;
-  for (double at_s = Progress_s(record, belief.sample_time_ns); at_s <= way.duration_s;
-       at_s += kLook_s) {
-    const Point2 from = PoseAt(way, at_s).position();
-    if (Distance_m(from, place) <= range_m && SeesThrough(belief, from, place)) return true;
-  }
-  return false;
 }
 
 }  // namespace
@@ -115,13 +95,13 @@ void TeamWatch::CheckUnseen(const Belief& belief, const Plan& plan) {
   ++findings_.unseen_goals;
   const Belief then = WhenMade(belief, plan);
   const bool is_in_sight =
-      std::any_of(then.robots.begin(), then.robots.end(), [&](const auto& robot) {
-        const auto& [id, record] = robot;
-        return id != plan.robot && record.state.has_pose && !record.state.silent &&
-               IsOnItsWay(record, then.sample_time_ns) &&
-               WillSee(record, then, chosen.goal.centroid, lidar_range_m_);
-      });
+      PromisedSight(then, plan.robot, lidar_range_m_).ShareOf(chosen.goal.centroid) > 0.0;
   if (is_in_sight) ++findings_.unseen_in_others_sight;
+  if (!chosen.expected_information_nats) return;
+  const PlanningOptions options = InField(belief.options->planning, belief.options->gas);
+  const double paid_nats = chosen.unseen_share * options.unseen_information_nats;
+  findings_.unseen_paid_nats += paid_nats;
+  if (is_in_sight) findings_.unseen_paid_twice_nats += paid_nats;
 }
 
 void TeamWatch::Price(const Belief& belief, const Plan& plan) {

@@ -30,9 +30,13 @@ struct TeamFindings {
   double paid_nats = 0.0;
   double paid_twice_nats = 0.0;
   // Chosen ways to the edge of the unseen, and those whose edge others are to see on the way of
-  // live plans made before: both are paid the whole worth of the unseen.
+  // live plans made before.
   int unseen_goals = 0;
   int unseen_in_others_sight = 0;
+  // What was paid for all those edges, and for those in sight, as if others saw all that hides
+  // there. Of choices that went by information.
+  double unseen_paid_nats = 0.0;
+  double unseen_paid_twice_nats = 0.0;
 
   friend bool operator==(const TeamFindings&, const TeamFindings&) = default;
 };

@@ -63,7 +63,9 @@ json ToJson(const TeamRecord& team) {
           {"paid_nats", team.findings.paid_nats},
           {"paid_twice_nats", team.findings.paid_twice_nats},
           {"unseen_goals", team.findings.unseen_goals},
-          {"unseen_in_others_sight", team.findings.unseen_in_others_sight}};
+          {"unseen_in_others_sight", team.findings.unseen_in_others_sight},
+          {"unseen_paid_nats", team.findings.unseen_paid_nats},
+          {"unseen_paid_twice_nats", team.findings.unseen_paid_twice_nats}};
 }
 
 TeamRecord TeamRecordFrom(const json& value) {
@@ -89,6 +91,8 @@ TeamRecord TeamRecordFrom(const json& value) {
   value.at("paid_twice_nats").get_to(findings.paid_twice_nats);
   value.at("unseen_goals").get_to(findings.unseen_goals);
   value.at("unseen_in_others_sight").get_to(findings.unseen_in_others_sight);
+  value.at("unseen_paid_nats").get_to(findings.unseen_paid_nats);
+  value.at("unseen_paid_twice_nats").get_to(findings.unseen_paid_twice_nats);
   return team;
 }
 

@@ -146,6 +146,7 @@ class RandomEvents {
             Real(),
             Bool() ? std::optional<double>(Real()) : std::nullopt,
             std::nullopt,  // events do not keep bounds
+            1.0,           // nor what others are to see
             Bool() ? std::optional<double>(Real()) : std::nullopt,
             List([this] { return MakePoint(); })};
   }

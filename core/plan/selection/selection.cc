@@ -18,7 +18,9 @@ double ToldByReading_nats(const GasOptions& gas) {
 }
 
 double WorthOf_nats(const Candidate& candidate, double nats, const PlanningOptions& options) {
-  return nats + (EndsAtTheUnseen(candidate) ? options.unseen_information_nats : 0.0);
+  return nats + (EndsAtTheUnseen(candidate)
+                     ? candidate.unseen_share * options.unseen_information_nats
+                     : 0.0);
 }
 
 // What the rule wants most of; the rest of `options` says how information counts.

@@ -18,7 +18,8 @@ bool EndsAtTheUnseen(const Candidate& candidate);
 // that with the published precisions. Where readings tell more, so would those behind a frontier.
 PlanningOptions InField(PlanningOptions options, const GasOptions& gas);
 
-// Expected information, nats, and options.unseen_information_nats if the way ends at the unseen.
+// Expected information, nats, and its unseen_share of options.unseen_information_nats if the way
+// ends at the unseen.
 // REQUIRES: the candidate is priced.
 double Worth_nats(const Candidate& candidate, const PlanningOptions& options);
 

@@ -62,10 +62,11 @@ struct TeamPlan {
 // was searched for before others chose is taken to promise the most that it can). Then other orders
 // are tried, that one turned round and those in which another goes first, and the best is kept.
 //
-// By *value*, robots that choose one after the other in any order have at least half of what the
-// best combination of the ways on their lists tells, for what is told is submodular (see
-// anticipation.h). They choose by value per second here, as for single robots, and keep clear of
-// each other: then there is no such bound, and the orders are what it is replaced by.
+// By what their readings tell, robots that choose one after the other in any order have at least
+// half of what the best combination of the ways on their lists tells, for that is submodular (see
+// anticipation.h). They choose by value per second here, edges of the unseen included, as for
+// single robots, and keep clear of each other: then there is no such bound, and the orders are what
+// it is replaced by.
 //
 // A robot whose search fails is left out, with the error of Strategy::Plan; if it follows a plan
 // the others reckon with that. Deterministic in belief, request and counts; `stop` ends the search

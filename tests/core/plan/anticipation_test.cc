@@ -196,6 +196,71 @@ TEST(Anticipate, KnowsWhereTheFieldLiesOnAMapThatHasGrown) {
   EXPECT_TRUE(std::isnan((*after->gas_variance_ppm2)[(Cell{0, 0})]));
 }
 
+TEST(PromisedSight, FallsWithTheDistanceAndEndsAtWalls) {
+  Belief belief = Hall();
+  AddRobot("b", {{1.0, 1.0}, {6.0, 1.0}}, belief);  // 4 s
+  const PromisedSight sight(belief, "r");
+  EXPECT_DOUBLE_EQ(sight.ShareOf({6.0, 1.0}), 1.0);
+  EXPECT_DOUBLE_EQ(sight.ShareOf({10.0, 1.0}), 0.5);
+  EXPECT_DOUBLE_EQ(sight.ShareOf({6.0, 5.0}), 0.5);
+  EXPECT_EQ(sight.ShareOf({14.1, 1.0}), 0.0) << "out of range";
+  EXPECT_DOUBLE_EQ(PromisedSight(belief, "r", 16.0).ShareOf({10.0, 1.0}), 0.75);
+  auto walled = std::make_shared<Grid<CellState>>(*belief.occupancy);
+  for (int y = 0; y < 60; ++y) (*walled)[Cell{80, y}] = CellState::kOccupied;
+  belief.occupancy = walled;
+  EXPECT_EQ(PromisedSight(belief, "r").ShareOf({10.0, 1.0}), 0.0);
+  EXPECT_DOUBLE_EQ(PromisedSight(belief, "r").ShareOf({6.0, 5.0}), 0.5);
+}
+
+TEST(PromisedSight, IsOfWaysAheadAndFadesAsPromisesDo) {
+  Belief belief = Hall();
+  AddRobot("b", {{1.0, 1.0}, {6.0, 1.0}}, belief);
+  EXPECT_EQ(PromisedSight(belief, "b").ShareOf({6.0, 1.0}), 0.0) << "its own plan";
+  Belief late = belief;
+  late.sample_time_ns += 26'000'000'000;  // and it has not moved: the end is 30 s after its time
+  EXPECT_NEAR(PromisedSight(late, "r").ShareOf({6.0, 1.0}), std::exp(-1.0), 0.01);
+  Belief silent = belief;
+  silent.robots["b"].state.silent = true;
+  EXPECT_EQ(PromisedSight(silent, "r").ShareOf({6.0, 1.0}), 0.0);
+  belief.robots["b"].state.pose.x_m = 5.0;
+  EXPECT_DOUBLE_EQ(PromisedSight(belief, "r").ShareOf({1.0, 1.0}), 0.5) << "from 4 m past it";
+}
+
+TEST(Anticipation, LeavesToOthersTheEdgesThatTheyAreToSee) {
+  Belief belief = Hall();
+  auto known = std::make_shared<Grid<CellState>>(*belief.occupancy);
+  auto traversable = std::make_shared<Grid<std::uint8_t>>(*belief.traversable);
+  for (std::size_t i = 0; i < known->size(); ++i) {
+    const int x = known->geometry().CellAtIndex(i).x;
+    if (x >= 10 && x < 150) continue;
+    (*known)[i] = CellState::kUnknown;
+    (*traversable)[i] = 0;
+  }
+  belief.occupancy = known;
+  belief.traversable = traversable;
+  AddRobot("b", {{9.0, 1.0}, {14.5, 2.0}}, belief);
+  PlanningOptions options;
+  const absl::StatusOr<Plan> beside = TryPlan(belief, For("r", 3), options);
+  ASSERT_TRUE(beside.ok()) << beside.status();
+  options.anticipate_robots = false;
+  const absl::StatusOr<Plan> alone = TryPlan(belief, For("r", 3), options);
+  ASSERT_TRUE(alone.ok());
+  const auto share_of = [](const Plan& plan, bool east) {
+    double share = -1.0;  // there is no such edge among the candidates
+    for (const Candidate& c : plan.candidates) {
+      const bool is_it =
+          c.goal.kind == GoalKind::kOccupancyFrontier && (c.goal.centroid.x_m > 8.0) == east;
+      if (is_it) share = c.unseen_share;
+    }
+    return share;
+  };
+  EXPECT_EQ(share_of(*beside, false), 1.0);
+  EXPECT_GE(share_of(*beside, true), 0.0);
+  EXPECT_LT(share_of(*beside, true), 0.25);
+  EXPECT_EQ(share_of(*alone, false), 1.0);
+  EXPECT_EQ(share_of(*alone, true), 1.0);
+}
+
 TEST(Anticipation, SendsARobotElsewhereThanWhereAnotherIsAboutToRead) {
   Belief belief = Hall();
   AddRobot("b", {{9.0, 3.0}, {15.0, 3.0}, {15.0, 1.0}, {10.0, 1.0}, {10.0, 5.0}, {14.0, 5.0}},

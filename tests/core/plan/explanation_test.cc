@@ -53,6 +53,9 @@ TEST(Explain, NamesTheInformationExpected) {
               HasSubstr("most information expected, 34.6 nats and 20 for what is unseen in 12 s"));
   options.unseen_information_nats = 7.5;
   EXPECT_THAT(Explain(plan, options), HasSubstr("34.6 nats and 7.5 for what is unseen in 12 s"));
+  plan.candidates[1].unseen_share = 0.2;
+  EXPECT_THAT(Explain(plan, options),
+              HasSubstr("34.6 nats and 1.5 for what is unseen and others will not see in 12 s"));
 }
 
 TEST(Explain, SaysThatTheGoalWasKept) {

@@ -31,9 +31,9 @@ TEST(TeamStudy, ComparesTeamsWithOneRobot) {
   EXPECT_THAT(study->figures.panels, SizeIs(2));  // tubes, and ways
   EXPECT_THAT(study->figures.bar_charts, SizeIs(1));
   EXPECT_THAT(study->summary.figures, Contains(Key("given_k2_speedup_entropy80")));
-  for (const char* name :
-       {"contacts", "deadlocks_unresolved", "blocked_by_robot_share", "set_aside_by_robot",
-        "promised_share", "bought_twice_share", "unseen_twice_share", "plan_wall_ratio"}) {
+  for (const char* name : {"contacts", "deadlocks_unresolved", "blocked_by_robot_share",
+                           "set_aside_by_robot", "promised_share", "bought_twice_share",
+                           "unseen_twice_share", "all_bought_twice_share", "plan_wall_ratio"}) {
     EXPECT_THAT(study->summary.figures, Contains(Key(std::string("given_k2_") + name)));
   }
 }

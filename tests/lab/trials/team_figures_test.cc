@@ -75,7 +75,9 @@ TEST(TeamFigures, TrafficIsSummed) {
                          .paid_nats = 3.0,
                          .paid_twice_nats = 1.0,
                          .unseen_goals = 3,
-                         .unseen_in_others_sight = 1};
+                         .unseen_in_others_sight = 1,
+                         .unseen_paid_nats = 8.0,
+                         .unseen_paid_twice_nats = 2.0};
   TrialRecord second;
   second.team = {.legs = 2,
                  .blocked_legs = 1,
@@ -90,6 +92,7 @@ TEST(TeamFigures, TrafficIsSummed) {
   second.team.findings.besides_nats = 3.0;
   second.team.findings.paid_nats = 1.0;
   second.team.findings.unseen_goals = 1;
+  second.team.findings.unseen_paid_nats = 4.0;
   const SceneRecords unmeasured(1, {TrialRecord()});  // of one robot, or of ghosts
   EXPECT_EQ(TrafficOf({unmeasured}, 0).sums.closest_m, std::nullopt);
   const std::vector<SceneRecords> records = {{{first}}, {{second}}};
@@ -108,6 +111,7 @@ TEST(TeamFigures, TrafficIsSummed) {
   EXPECT_DOUBLE_EQ(traffic.promised_share(), 0.2);
   EXPECT_DOUBLE_EQ(traffic.bought_twice_share(), 0.25);
   EXPECT_DOUBLE_EQ(traffic.unseen_twice_share(), 0.25);
+  EXPECT_DOUBLE_EQ(traffic.all_bought_twice_share(), 3.0 / 16.0);
   EXPECT_DOUBLE_EQ(traffic.plan_wall_s, 0.03);
 }
 

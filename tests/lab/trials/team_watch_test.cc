@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "core/gas/gas_map.h"
+#include "core/plan/selection/selection.h"
 #include "tests/support/corridor_team.h"
 
 namespace plumescout::lab {
@@ -140,6 +141,29 @@ TEST(TeamWatch, FindsEdgesOfTheUnseenThatOthersAreToSee) {
   watch.OnPlan(team.belief, plan);
   EXPECT_EQ(watch.findings().unseen_in_others_sight, 1) << "not through a wall";
   EXPECT_EQ(watch.findings().unseen_goals, 4);
+}
+
+TEST(TeamWatch, CountsWhatIsPaidForEdgesInSight) {
+  CorridorTeam team;
+  team.Stands("a", 2.0);
+  team.Stands("b", 1.0);
+  Plan plan = PlanOfA(CorridorTeam::At(6.0));
+  Candidate& candidate = plan.candidates[0];
+  candidate.goal.kind = GoalKind::kOccupancyFrontier;
+  TeamWatch watch(kLidarRange_m);
+  watch.OnPlan(team.belief, plan);
+  EXPECT_EQ(watch.findings().unseen_paid_nats, 0.0) << "it was not chosen by its information";
+  candidate.expected_information_nats = 3.0;
+  const MissionOptions& mission = *team.belief.options;
+  const double whole_nats = InField(mission.planning, mission.gas).unseen_information_nats;
+  watch.OnPlan(team.belief, plan);
+  EXPECT_DOUBLE_EQ(watch.findings().unseen_paid_nats, whole_nats);
+  EXPECT_EQ(watch.findings().unseen_paid_twice_nats, 0.0);
+  team.Drives("b", 4.0);
+  candidate.unseen_share = 0.25;
+  watch.OnPlan(team.belief, plan);
+  EXPECT_DOUBLE_EQ(watch.findings().unseen_paid_nats, 1.25 * whole_nats);
+  EXPECT_DOUBLE_EQ(watch.findings().unseen_paid_twice_nats, 0.25 * whole_nats);
 }
 
 void AddGasField(Belief& belief) {

@@ -39,7 +39,9 @@ TrialRecord SomeRecord() {
                           .paid_nats = 3.5,
                           .paid_twice_nats = 0.5,
                           .unseen_goals = 9,
-                          .unseen_in_others_sight = 2};
+                          .unseen_in_others_sight = 2,
+                          .unseen_paid_nats = 60.5,
+                          .unseen_paid_twice_nats = 20.25};
   record.other_entropies = {-2.5, 1.25};
   record.completed = true;
   return record;

@@ -79,6 +79,17 @@ TEST(SelectCandidate, CountsWhatIsUnseenAsMuchAsItIsTold) {
   EXPECT_FALSE(BeatsByMargin(frontier, Informed(1, 10), options));
 }
 
+TEST(SelectCandidate, CountsOfTheUnseenWhatOthersLeave) {
+  Candidate frontier = Informed(1, 10);
+  frontier.goal.kind = GoalKind::kOccupancyFrontier;
+  frontier.unseen_share = 0.25;
+  const PlanningOptions options = By(SelectionRule::kInformationRate);
+  EXPECT_DOUBLE_EQ(Worth_nats(frontier, options), 6.0);
+  EXPECT_DOUBLE_EQ(InformationRate(frontier, 2.0, options), 0.7);
+  EXPECT_EQ(SelectCandidate({Informed(5.9, 10), frontier}, options), 1);
+  EXPECT_EQ(SelectCandidate({Informed(6.1, 10), frontier}, options), 0);
+}
+
 TEST(InField, CountsWhatIsUnseenByWhatAReadingTells) {
   PlanningOptions options;
   options.unseen_information_nats = 12.0;
