@@ -33,12 +33,13 @@ OnFieldScale Undo(const GasOptions& gas, float mean_ppm, float variance_ppm2) {
 
 class Judge {
  public:
-  Judge(const Belief& belief, const Grid<std::uint8_t>& counted)
+  Judge(const Belief& belief, const Grid<std::uint8_t>& counted, const StopFn& stop)
       : options_(*belief.options),
         mean_ppm_(*belief.gas_mean_ppm),
         variance_ppm2_(*belief.Gas(0).published_variance_ppm2()),
         model_variance_ppm2_(*belief.gas_variance_ppm2),
         counted_(counted),
+        stop_(stop),
         observed_ppm2_(static_cast<float>(ObservedVariance_ppm2(options_.frontier, options_.gas))),
         threshold_(static_cast<float>(OnScale(options_.gas, options_.objective.threshold_ppm))) {
     cells_.margin = Grid<float>(belief.geometry(), kDoesNotCount);
@@ -49,17 +50,24 @@ class Judge {
     const ObjectiveKind kind = options_.objective.kind;
     if (kind == ObjectiveKind::kFindSources) FindStrongest();
     const bool either_side = kind == ObjectiveKind::kMapAboveThreshold;
-    for (std::size_t i = 0; i < cells_.margin.size(); ++i) {
-      if (counted_[i] == 0) continue;
+    ForEachCell([&](std::size_t i) {
+      if (counted_[i] == 0) return;
       cells_.margin[i] = IsMeasured(i) ? MarginAt(i, either_side) : kNotMeasured;
-    }
-    JudgeBesideMeasured(either_side);
-    if (either_side) PassOverEdges();
-    if (cells_.source_found) PassOverSource();
+    });
+    if (!Stops(stop_)) JudgeBesideMeasured(either_side);
+    if (either_side && !Stops(stop_)) PassOverEdges();
+    if (cells_.source_found && !Stops(stop_)) PassOverSource();
     return std::move(cells_);
   }
 
  private:
+  template <typename Visit>
+  void ForEachCell(const Visit& visit) const {
+    InPieces(cells_.margin.size(), stop_, [&visit](std::size_t first, std::size_t end) {
+      for (std::size_t i = first; i < end; ++i) visit(i);
+    });
+  }
+
   // False for NaN, too.
   bool IsMeasured(std::size_t i) const { return model_variance_ppm2_[i] <= observed_ppm2_; }
   OnFieldScale At(std::size_t i) const {
@@ -76,30 +84,30 @@ class Judge {
 
   void FindStrongest() {
     float most = kNotMeasured;
-    for (std::size_t i = 0; i < cells_.margin.size(); ++i) {
-      if (counted_[i] == 0 || !IsMeasured(i)) continue;
+    ForEachCell([&](std::size_t i) {
+      if (counted_[i] == 0 || !IsMeasured(i)) return;
       const OnFieldScale cell = At(i);
       const float bound = cell.mean - cells_.needed * std::sqrt(cell.variance);
-      if (!(bound > most)) continue;
+      if (!(bound > most)) return;
       most = bound;
       strongest_ = cell;
       cells_.strongest = i;
-    }
+    });
     cells_.source_found = most > threshold_;
   }
 
   // In corners, which have fewer neighbours, variances stay larger whoever passes by.
   void JudgeBesideMeasured(bool either_side) {
     Grid<std::uint8_t> measured(cells_.margin.geometry(), std::uint8_t{0});
-    for (std::size_t i = 0; i < measured.size(); ++i) measured[i] = IsMeasured(i) ? 1 : 0;
+    ForEachCell([&](std::size_t i) { measured[i] = IsMeasured(i) ? 1 : 0; });
     const double radius_cells = RadiusInCells();
     const Grid<std::int32_t> away =
         SquaredDistancesUpTo_cells2(measured, static_cast<int>(std::ceil(radius_cells)));
-    for (std::size_t i = 0; i < measured.size(); ++i) {
+    ForEachCell([&](std::size_t i) {
       const bool is_near = static_cast<double>(away[i]) <= radius_cells * radius_cells;
-      if (cells_.margin[i] != kNotMeasured || !is_near || std::isnan(mean_ppm_[i])) continue;
+      if (cells_.margin[i] != kNotMeasured || !is_near || std::isnan(mean_ppm_[i])) return;
       cells_.margin[i] = MarginAt(i, either_side);
-    }
+    });
   }
   double RadiusInCells() const {
     return options_.objective.radius_m / cells_.margin.geometry().resolution_m;
@@ -109,29 +117,27 @@ class Judge {
   void PassOverEdges() {
     const double radius_cells = RadiusInCells();
     Grid<std::uint8_t> decided(cells_.margin.geometry(), std::uint8_t{0});
-    for (std::size_t i = 0; i < decided.size(); ++i) {
-      decided[i] = cells_.margin[i] >= cells_.needed ? 1 : 0;
-    }
+    ForEachCell([&](std::size_t i) { decided[i] = cells_.margin[i] >= cells_.needed ? 1 : 0; });
     const Grid<std::int32_t> away =
         SquaredDistancesUpTo_cells2(decided, static_cast<int>(std::ceil(radius_cells)));
-    for (std::size_t i = 0; i < decided.size(); ++i) {
+    ForEachCell([&](std::size_t i) {
       const bool doubtful = cells_.margin[i] < cells_.needed && cells_.margin[i] != kNotMeasured;
       if (doubtful && static_cast<double>(away[i]) <= radius_cells * radius_cells) {
         cells_.margin[i] = kDoesNotCount;
       }
-    }
+    });
   }
 
   void PassOverSource() {
     const GridGeometry& geometry = cells_.margin.geometry();
     const Point2 source = geometry.Center(geometry.CellAtIndex(*cells_.strongest));
-    for (std::size_t i = 0; i < cells_.margin.size(); ++i) {
-      if (!(cells_.margin[i] < cells_.needed) || cells_.margin[i] == kNotMeasured) continue;
+    ForEachCell([&](std::size_t i) {
+      if (!(cells_.margin[i] < cells_.needed) || cells_.margin[i] == kNotMeasured) return;
       const Point2 place = geometry.Center(geometry.CellAtIndex(i));
       if (Distance_m(source, place) <= options_.objective.radius_m) {
         cells_.margin[i] = kDoesNotCount;
       }
-    }
+    });
     cells_.margin[*cells_.strongest] = kDoesNotCount;
   }
 
@@ -140,6 +146,7 @@ class Judge {
   const Grid<float>& variance_ppm2_;
   const Grid<float>& model_variance_ppm2_;
   const Grid<std::uint8_t>& counted_;
+  const StopFn& stop_;
   const float observed_ppm2_;
   const float threshold_;
   OnFieldScale strongest_ = {0.0F, 0.0F};
@@ -148,8 +155,9 @@ class Judge {
 
 }  // namespace
 
-ObjectiveCells JudgeCells(const Belief& belief, const Grid<std::uint8_t>& counted) {
-  return Judge(belief, counted).Run();
+ObjectiveCells JudgeCells(const Belief& belief, const Grid<std::uint8_t>& counted,
+                          const StopFn& stop) {
+  return Judge(belief, counted, stop).Run();
 }
 
 ObjectiveVerdict VerdictOf(const ObjectiveCells& cells, ObjectiveKind kind, std::size_t cell) {

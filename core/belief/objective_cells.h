@@ -9,6 +9,7 @@
 #include "core/belief/belief.h"
 #include "core/types/grid.h"
 #include "core/types/objective.h"
+#include "core/types/stop.h"
 
 namespace plumescout {
 
@@ -34,9 +35,11 @@ struct ObjectiveCells {
   bool source_found = false;             // and that is above the threshold
 };
 
-// Of the cells that are not 0 in `counted`. REQUIRES: the objective is not kCompleteMap; all
-// rasters share one geometry. Cost: O(cells), and for a map above the threshold times radius_m.
-ObjectiveCells JudgeCells(const Belief& belief, const Grid<std::uint8_t>& counted);
+// Of the cells that are not 0 in `counted`. Of no use once `stop`, which is asked all along, says
+// so. REQUIRES: the objective is not kCompleteMap; all rasters share one geometry. Cost: O(cells),
+// and for a map above the threshold times radius_m.
+ObjectiveCells JudgeCells(const Belief& belief, const Grid<std::uint8_t>& counted,
+                          const StopFn& stop = {});
 
 // What they say of one. `kind` is that of the objective.
 ObjectiveVerdict VerdictOf(const ObjectiveCells& cells, ObjectiveKind kind, std::size_t cell);

@@ -35,15 +35,16 @@ bool IsObserved(CellState state, float variance_ppm2, double observed_variance_p
   return state == CellState::kFree && static_cast<double>(variance_ppm2) <= observed_variance_ppm2;
 }
 
-Padded<std::uint8_t> Classify(const GasFrontierInput& input, const Thresholds& thresholds) {
-  const GridGeometry& geometry = input.states.geometry();
-  Padded<std::uint8_t> marks(geometry, kOther, kOther);
-  for (int y = 0; y < geometry.height; ++y) {
-    const CellState* state = GridRow(input.states, y);
-    const float* mean_ppm = GridRow(input.mean_ppm, y);
-    const float* variance_ppm2 = GridRow(input.variance_ppm2, y);
+// The cells of the map that are free lie in `cells`.
+Padded<std::uint8_t> Classify(const GasFrontierInput& input, const CellRect& cells,
+                              const Thresholds& thresholds, const StopFn& stop) {
+  Padded<std::uint8_t> marks(cells, kOther, kOther);
+  ByRows(cells.min.y, cells.end.y, cells.width(), stop, [&](int y) {
+    const CellState* state = GridRow(input.states, y) + cells.min.x;
+    const float* mean_ppm = GridRow(input.mean_ppm, y) + cells.min.x;
+    const float* variance_ppm2 = GridRow(input.variance_ppm2, y) + cells.min.x;
     std::uint8_t* mark = marks.Row(y);
-    for (int x = 0; x < geometry.width; ++x) {
+    for (int x = 0; x < cells.width(); ++x) {
       if (state[x] != CellState::kFree) continue;
       if (!IsObserved(state[x], variance_ppm2[x], thresholds.observed_variance_ppm2)) {
         mark[x] = kUnseen;
@@ -51,29 +52,30 @@ Padded<std::uint8_t> Classify(const GasFrontierInput& input, const Thresholds& t
         mark[x] = kCritical;
       }
     }
-  }
+  });
   return marks;
 }
 
 // Marks C_gf, Eq. (20)-(21): the predicate of Alg. 3 for all cells at once.
-void MarkFrontierCells(const GridGeometry& geometry, Padded<std::uint8_t>& marks) {
+void MarkFrontierCells(const CellRect& cells, const StopFn& stop, Padded<std::uint8_t>& marks) {
   const auto offsets = marks.NeighbourOffsets();
-  for (int y = 0; y < geometry.height; ++y) {
-    const int begin = marks.IndexOf({0, y});
-    for (int cell = begin; cell < begin + geometry.width; ++cell) {
+  ByRows(cells.min.y, cells.end.y, cells.width(), stop, [&](int y) {
+    const int begin = marks.IndexOf({cells.min.x, y});
+    for (int cell = begin; cell < begin + cells.width(); ++cell) {
       if (marks[cell] != kCritical) continue;
       for (const int offset : offsets) {
         if (marks[cell + offset] == kUnseen) marks[cell + offset] = kWaiting;
       }
     }
-  }
+  });
 }
 
 // Where the outer wavefront begins, as indices of `marks`. kLocal: the starts in gas, observed or
 // not, Alg. 2 lines 2-4. kReachable: every critical cell that a start reaches over free cells.
-std::vector<int> WavefrontSeeds(const GasFrontierInput& input, const Padded<std::uint8_t>& marks,
-                                double gas_threshold_ppm, const std::vector<Cell>& starts,
-                                WgfdScope scope) {
+std::vector<int> WavefrontSeeds(const GasFrontierInput& input, const CellRect& cells,
+                                const Padded<std::uint8_t>& marks, double gas_threshold_ppm,
+                                const std::vector<Cell>& starts, WgfdScope scope,
+                                const StopFn& stop) {
   std::vector<int> seeds;
   if (scope == WgfdScope::kLocal) {
     for (const Cell start : starts) {
@@ -85,14 +87,15 @@ std::vector<int> WavefrontSeeds(const GasFrontierInput& input, const Padded<std:
     return seeds;
   }
   const Grid<std::uint8_t> reached =
-      ReachableCells(MaskOf(input.states, CellState::kFree), FreeStarts(input.states, starts));
-  for (int y = 0; y < reached.height(); ++y) {
-    const std::uint8_t* reached_row = GridRow(reached, y);
-    const int begin = marks.IndexOf({0, y});
-    for (int x = 0; x < reached.width(); ++x) {
+      ReachableCells(MaskOf(input.states, CellState::kFree), FreeStarts(input.states, starts),
+                     Connectivity::kEightNoCornerCut, stop);
+  ByRows(cells.min.y, cells.end.y, cells.width(), stop, [&](int y) {
+    const std::uint8_t* const reached_row = GridRow(reached, y) + cells.min.x;
+    const int begin = marks.IndexOf({cells.min.x, y});
+    for (int x = 0; x < cells.width(); ++x) {
       if (reached_row[x] != 0 && marks[begin + x] == kCritical) seeds.push_back(begin + x);
     }
-  }
+  });
   return seeds;
 }
 
@@ -104,16 +107,18 @@ double ObservedVariance_ppm2(const FrontierOptions& options, const GasOptions& g
 }
 
 double GasThreshold_ppm(const GasFrontierInput& input, double observed_variance_ppm2,
-                        const FrontierOptions& options) {
+                        const FrontierOptions& options, const StopFn& stop) {
   if (options.fixed_gas_threshold_ppm) return *options.fixed_gas_threshold_ppm;
   std::vector<float> means_ppm;
-  for (std::size_t i = 0; i < input.states.size(); ++i) {
-    if (IsObserved(input.states[i], input.variance_ppm2[i], observed_variance_ppm2) &&
-        !std::isnan(input.mean_ppm[i])) {
-      means_ppm.push_back(input.mean_ppm[i]);
+  InPieces(input.states.size(), stop, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      if (IsObserved(input.states[i], input.variance_ppm2[i], observed_variance_ppm2) &&
+          !std::isnan(input.mean_ppm[i])) {
+        means_ppm.push_back(input.mean_ppm[i]);
+      }
     }
-  }
-  if (means_ppm.empty()) return options.min_gas_threshold_ppm;
+  });
+  if (means_ppm.empty() || Stops(stop)) return options.min_gas_threshold_ppm;
   constexpr double kPercent = 0.01;
   const double percentile_ppm = Quantile(std::move(means_ppm), kPercent * options.gas_percentile);
   return std::max(percentile_ppm, options.min_gas_threshold_ppm);
@@ -121,19 +126,22 @@ double GasThreshold_ppm(const GasFrontierInput& input, double observed_variance_
 
 std::vector<Frontier> FindGasClusters(const GasFrontierInput& input, double observed_variance_ppm2,
                                       double gas_threshold_ppm, const std::vector<Cell>& starts,
-                                      const FrontierOptions& options) {
+                                      const FrontierOptions& options, const StopFn& stop) {
   const GridGeometry& geometry = input.states.geometry();
-  Padded<std::uint8_t> marks = Classify(input, {observed_variance_ppm2, gas_threshold_ppm});
-  MarkFrontierCells(geometry, marks);
+  const CellRect cells = BoundsOf(input.states, CellState::kFree);
+  Padded<std::uint8_t> marks =
+      Classify(input, cells, {observed_variance_ppm2, gas_threshold_ppm}, stop);
+  MarkFrontierCells(cells, stop, marks);
   const auto offsets = marks.NeighbourOffsets();
   const ClusterRule rule = {FrontierKind::kGas, kWaiting, kTaken, options.min_gas_cell_count};
   std::vector<Frontier> frontiers;
   std::vector<int> queue =
-      WavefrontSeeds(input, marks, gas_threshold_ppm, starts, options.wgfd_scope);
+      WavefrontSeeds(input, cells, marks, gas_threshold_ppm, starts, options.wgfd_scope, stop);
   for (const int seed : queue) {
     if (marks[seed] == kCritical) marks[seed] = kVisited;
   }
   for (std::size_t i = 0; i < queue.size(); ++i) {  // [XIT] Alg. 2 lines 8-26
+    if (i % kCellsPerStop == 0 && Stops(stop)) break;
     for (const int offset : offsets) {
       const int neighbour = queue[i] + offset;
       if (marks[neighbour] == kWaiting) {

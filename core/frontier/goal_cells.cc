@@ -62,29 +62,32 @@ Cell Anchor(const Frontier& frontier, const GridGeometry& geometry) {
 
 // A search over the free and the frontier cells that `from_starts` did not reach.
 Search BeyondSearch(const Grid<CellState>& states, const std::vector<Frontier>& frontiers,
-                    const TravelFromStarts& from_starts) {
-  const GridGeometry& geometry = states.geometry();
-  Search beyond(geometry, Connectivity::kEight,
-                [&](std::size_t index) { return states[index] == CellState::kFree; });
+                    const TravelFromStarts& from_starts, const StopFn& stop) {
+  const CellRect& cells = from_starts.cells();
+  Search beyond(
+      states.geometry(), cells, Connectivity::kEight,
+      [&](std::size_t index) { return states[index] == CellState::kFree; }, stop);
+  if (Stops(stop)) return beyond;
   for (const Frontier& frontier : frontiers) {
     for (const Cell cell : frontier.cells) beyond.Open(beyond.IndexOf(cell));
   }
-  for (int y = 0; y < geometry.height; ++y) {
-    const int begin = beyond.IndexOf({0, y});
-    for (int cell = begin; cell < begin + geometry.width; ++cell) {
+  ByRows(cells.min.y, cells.end.y, cells.width(), stop, [&](int y) {
+    const int begin = beyond.IndexOf({cells.min.x, y});
+    for (int cell = begin; cell < begin + cells.width(); ++cell) {
       if (from_starts.IsReached(cell)) beyond.Close(cell);
     }
-  }
+  });
   return beyond;
 }
 
 // Opens to `beyond` the reached cells beside its own: only they need to be sources.
-std::vector<SearchSource> OpenRim(const GridGeometry& geometry, const TravelFromStarts& from_starts,
+std::vector<SearchSource> OpenRim(const TravelFromStarts& from_starts, const StopFn& stop,
                                   Search& beyond) {
+  const CellRect& cells = beyond.cells();
   std::vector<SearchSource> rim;
-  for (int y = 0; y < geometry.height; ++y) {
-    const int begin = beyond.IndexOf({0, y});
-    for (int cell = begin; cell < begin + geometry.width; ++cell) {
+  ByRows(cells.min.y, cells.end.y, cells.width(), stop, [&](int y) {
+    const int begin = beyond.IndexOf({cells.min.x, y});
+    for (int cell = begin; cell < begin + cells.width(); ++cell) {
       if (!beyond.IsOpen(cell) || from_starts.IsReached(cell)) continue;
       for (const int offset : beyond.offsets()) {
         const int neighbour = cell + offset;
@@ -93,7 +96,7 @@ std::vector<SearchSource> OpenRim(const GridGeometry& geometry, const TravelFrom
         rim.push_back({beyond.CellAt(neighbour), 0.0});
       }
     }
-  }
+  });
   return rim;
 }
 
@@ -101,14 +104,15 @@ std::vector<SearchSource> OpenRim(const GridGeometry& geometry, const TravelFrom
 Search SearchBeyond(const Grid<CellState>& states, const std::vector<Frontier>& frontiers,
                     const std::vector<Cell>& anchors, const TravelFromStarts& from_starts,
                     const StopFn& stop) {
-  Search beyond = BeyondSearch(states, frontiers, from_starts);
+  Search beyond = BeyondSearch(states, frontiers, from_starts, stop);
+  if (Stops(stop)) return beyond;
   std::vector<int> pending;
   for (const Cell anchor : anchors) {
     const int cell = beyond.IndexOf(anchor);
     if (!from_starts.IsReached(cell)) pending.push_back(cell);
   }
   if (pending.empty()) return beyond;
-  beyond.Run(OpenRim(states.geometry(), from_starts, beyond), [&](std::span<const Search::Entry>) {
+  beyond.Run(OpenRim(from_starts, stop, beyond), [&](std::span<const Search::Entry>) {
     while (!pending.empty() && beyond.IsSettled(pending.back())) pending.pop_back();
     return pending.empty() || Stops(stop);
   });
@@ -132,6 +136,10 @@ std::vector<Cell> FreeStarts(const Grid<CellState>& states, const std::vector<Ce
   return free_starts;
 }
 
+CellRect CellsAroundFree(const Grid<CellState>& states) {
+  return BoundsOf(states, CellState::kFree).Grown(1).Within(WholeRaster(states.geometry()));
+}
+
 void FindGoalCells(const Grid<CellState>& states, const Grid<std::uint8_t>& traversable,
                    const std::vector<Cell>& starts, std::vector<Frontier>& frontiers) {
   if (frontiers.empty()) return;
@@ -143,9 +151,11 @@ void FindGoalCells(const Grid<CellState>& states, const TravelFromStarts& from_s
   if (frontiers.empty()) return;
   std::vector<Cell> anchors;
   for (const Frontier& frontier : frontiers) {
+    if (Stops(stop)) return;
     anchors.push_back(Anchor(frontier, states.geometry()));
   }
   const Search beyond = SearchBeyond(states, frontiers, anchors, from_starts, stop);
+  if (Stops(stop)) return;
   for (std::size_t i = 0; i < frontiers.size(); ++i) {
     const int anchor = beyond.IndexOf(anchors[i]);
     Frontier& frontier = frontiers[i];

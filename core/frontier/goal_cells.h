@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/grid/travel_search.h"
+#include "core/types/cell_rect.h"
 #include "core/types/cell_state.h"
 #include "core/types/frontier.h"
 #include "core/types/grid.h"
@@ -19,6 +20,9 @@ using TravelFromStarts = TravelSearch<double>;
 // The start cells that are free, and for those that are not (a robot on a cell not seen yet, or
 // hit by noise) the nearest free cell over unknown ones, if any.
 std::vector<Cell> FreeStarts(const Grid<CellState>& states, const std::vector<Cell>& starts);
+
+// Free cells and their neighbours lie in this rectangle, and with them all cells of frontiers.
+CellRect CellsAroundFree(const Grid<CellState>& states);
 
 // Fills in goal_cell, travel_m and reachable of each frontier.
 //
@@ -36,8 +40,8 @@ std::vector<Cell> FreeStarts(const Grid<CellState>& states, const std::vector<Ce
 // REQUIRES: both rasters share one geometry. Cost: O(cells), however many frontiers there are.
 void FindGoalCells(const Grid<CellState>& states, const Grid<std::uint8_t>& traversable,
                    const std::vector<Cell>& starts, std::vector<Frontier>& frontiers);
-// The same by ways that are known; of no use once `stop` says so. REQUIRES: `from_starts` has run,
-// over the same geometry.
+// The same by ways that are known; of no use once `stop`, which is asked all along, says so.
+// REQUIRES: `from_starts` has run, over the same geometry and CellsAroundFree.
 void FindGoalCells(const Grid<CellState>& states, const TravelFromStarts& from_starts,
                    std::vector<Frontier>& frontiers, const StopFn& stop = {});
 

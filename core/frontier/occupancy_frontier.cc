@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
 
 #include "core/frontier/cluster.h"
 #include "core/frontier/goal_cells.h"
@@ -28,15 +29,22 @@ std::uint8_t MarkOf(CellState state) {
 class OuterWavefront {
  public:
   explicit OuterWavefront(const Grid<CellState>& states)
-      : marks_(PaddedFrom<std::uint8_t>(states, kBlocked, MarkOf)),
+      : marks_(PaddedFrom<std::uint8_t>(states, CellsAroundFree(states), kBlocked, MarkOf)),
         offsets_(marks_.NeighbourOffsets()) {}
 
   void Run(const std::vector<Cell>& free_starts, const StopFn& stop) {
     for (const Cell start : free_starts) Visit(marks_.IndexOf(start));
-    constexpr std::size_t kCellsPerStop = 4096;
-    for (std::size_t i = 0; i < queue_.size(); ++i) {
-      if (i % kCellsPerStop == 0 && Stops(stop)) return;
-      VisitNeighbours(queue_[i]);
+    std::size_t since_stop = kCellsPerStop;
+    std::vector<int> wave;
+    while (!next_.empty()) {
+      wave.clear();
+      std::swap(wave, next_);
+      since_stop += wave.size();
+      if (since_stop >= kCellsPerStop) {
+        if (Stops(stop)) return;
+        since_stop = 0;
+      }
+      for (const int cell : wave) VisitNeighbours(cell);
     }
   }
 
@@ -47,7 +55,7 @@ class OuterWavefront {
   void Visit(int cell) {
     if (marks_[cell] == kFree) {
       marks_[cell] = kReached;
-      queue_.push_back(cell);
+      next_.push_back(cell);
     } else if (marks_[cell] == kUnknown) {
       marks_[cell] = kWaiting;
       frontier_.push_back(cell);
@@ -70,7 +78,7 @@ class OuterWavefront {
 
   Padded<std::uint8_t> marks_;
   std::array<int, 8> offsets_;
-  std::vector<int> queue_;
+  std::vector<int> next_;  // wave: what was reached and has to spread
   std::vector<int> frontier_;
 };
 
@@ -83,6 +91,7 @@ std::vector<Frontier> FindClusters(const Grid<CellState>& states, const std::vec
   std::vector<Frontier> frontiers;
   for (const int cell : wavefront.frontier()) {
     if (wavefront.marks()[cell] != kWaiting) continue;
+    if (Stops(stop)) break;
     frontiers.push_back(TakeCluster(states.geometry(), rule, cell, wavefront.marks()));
   }
   return frontiers;

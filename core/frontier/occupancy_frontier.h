@@ -23,7 +23,7 @@ std::vector<Frontier> FindOccupancyFrontiers(const Grid<CellState>& states,
                                              const Grid<std::uint8_t>& traversable,
                                              const std::vector<Cell>& starts, int min_cells);
 // The same from one start, by ways from it that are known; of no use once `stop` says so, which is
-// asked all along. REQUIRES: `from_start` has run.
+// asked all along. REQUIRES: `from_start` has run, over CellsAroundFree.
 std::vector<Frontier> FindOccupancyFrontiers(const Grid<CellState>& states, Cell start,
                                              const TravelFromStarts& from_start, int min_cells,
                                              const StopFn& stop = {});

@@ -9,6 +9,7 @@
 #include "core/gas/anchor_cell.h"
 #include "core/types/cell_state.h"
 #include "core/types/grid.h"
+#include "core/types/stop.h"
 
 namespace plumescout {
 
@@ -35,14 +36,14 @@ class AnchoredStates {
   // visit(index into states(), AnchorCell) of each free cell, in order: what At says of all of
   // them, without its divisions.
   template <typename Visit>
-  void ForEachFree(const Visit& visit) const {
+  void ForEachFree(const Visit& visit, const StopFn& stop = {}) const {
     std::size_t index = 0;
     const GridGeometry& geometry = states_.geometry();
-    for (int y = corner_.y; y < corner_.y + geometry.height; ++y) {
+    ByRows(corner_.y, corner_.y + geometry.height, geometry.width, stop, [&](int y) {
       for (int x = corner_.x; x < corner_.x + geometry.width; ++x, ++index) {
         if (states_[index] == CellState::kFree) visit(index, AnchorCell{x, y});
       }
-    }
+    });
   }
 
   template <typename Archive, typename Self>

@@ -24,16 +24,19 @@ absl::StatusOr<Grid<float>> GasWhatIf::VarianceIfRead(std::span<const Cell> cell
 }
 
 absl::StatusOr<std::optional<InverseColumns>> GasWhatIf::ColumnsIfRead(std::span<const Cell> cells,
-                                                                       double precision) const {
+                                                                       double precision,
+                                                                       const StopFn& stop) const {
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<std::size_t> read, FreeIndices(cells));
-  return field_.ColumnsIfRead(read, precision);
+  return field_.ColumnsIfRead(read, precision, stop);
 }
 
-EntropyFall GasWhatIf::FallOf(std::span<const float> weights) const {
+EntropyFall GasWhatIf::FallOf(std::span<const float> weights, const StopFn& stop) const {
   std::vector<double> by_lattice_cell(lattice_.size(), 0.0);
-  states_.ForEachFree(
-      [&](std::size_t i, AnchorCell cell) { by_lattice_cell[FieldIndex(cell)] += weights[i]; });
-  return field_.FallOf(by_lattice_cell, beside_ppm2_);
+  const auto add = [&](std::size_t i, AnchorCell cell) {
+    by_lattice_cell[FieldIndex(cell)] += weights[i];
+  };
+  states_.ForEachFree(add, stop);
+  return field_.FallOf(by_lattice_cell, beside_ppm2_, stop);
 }
 
 absl::StatusOr<std::shared_ptr<const GasWhatIf>> GasWhatIf::Given(
@@ -69,13 +72,14 @@ absl::StatusOr<std::vector<std::size_t>> GasWhatIf::FreeIndices(std::span<const 
   return indices;
 }
 
-Grid<float> GasWhatIf::OnMap(const std::vector<double>& by_lattice_cell) const {
+Grid<float> GasWhatIf::OnMap(const std::vector<double>& by_lattice_cell, const StopFn& stop) const {
   Grid<float> result(geometry(), std::numeric_limits<float>::quiet_NaN());
-  states_.ForEachFree([&](std::size_t i, AnchorCell cell) {
+  const auto write = [&](std::size_t i, AnchorCell cell) {
     const std::size_t index = FieldIndex(cell);
     const double beside_ppm2 = beside_ppm2_.empty() ? 0.0 : beside_ppm2_[index];
     result[i] = static_cast<float>(prior_scale_ * (by_lattice_cell[index] + beside_ppm2));
-  });
+  };
+  states_.ForEachFree(write, stop);
   return result;
 }
 

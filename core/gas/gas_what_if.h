@@ -49,10 +49,12 @@ class GasWhatIf {
   absl::StatusOr<Grid<float>> VarianceIfRead(std::span<const Cell> cells, double precision) const;
 
   // For EntropyFall: the columns of such readings, none if no cell is free, and what the free cells
-  // of geometry() weigh. Both refer to this object. Errors: those of VarianceIfRead.
+  // of geometry() weigh; that is of no use once `stop`, which is asked all along, says so. Both
+  // refer to this object. Errors: those of VarianceIfRead, and kCancelled once `stop` says so.
   absl::StatusOr<std::optional<InverseColumns>> ColumnsIfRead(std::span<const Cell> cells,
-                                                              double precision) const;
-  EntropyFall FallOf(std::span<const float> weights) const;
+                                                              double precision,
+                                                              const StopFn& stop = {}) const;
+  EntropyFall FallOf(std::span<const float> weights, const StopFn& stop = {}) const;
 
   // Itself once these readings have been taken, whatever they say: others are then worth what
   // they tell beside them. For cells and errors see VarianceIfRead. Cost: that, and for each
@@ -61,15 +63,18 @@ class GasWhatIf {
   absl::StatusOr<std::shared_ptr<const GasWhatIf>> Given(std::span<const ForeseenCell> readings,
                                                          const StopFn& stop = {}) const;
 
-  // Marginal variance of every free cell now, ppm^2; NaN off those. Cost: O(cells).
-  Grid<float> variance_ppm2() const { return OnMap(field_.variance_ppm2()); }
+  // Marginal variance of every free cell now, ppm^2; NaN off those. Of no use once `stop`, which is
+  // asked all along, says so. Cost: O(cells).
+  Grid<float> variance_ppm2(const StopFn& stop = {}) const {
+    return OnMap(field_.variance_ppm2(stop), stop);
+  }
 
  private:
   // In the lattice; none of a cell that is not free. Errors: kInvalidArgument off the map.
   absl::StatusOr<std::optional<std::size_t>> FreeIndex(Cell cell) const;
   // Those of cells that are free.
   absl::StatusOr<std::vector<std::size_t>> FreeIndices(std::span<const Cell> cells) const;
-  Grid<float> OnMap(const std::vector<double>& by_lattice_cell) const;
+  Grid<float> OnMap(const std::vector<double>& by_lattice_cell, const StopFn& stop = {}) const;
   // In the lattice, of a free cell.
   std::size_t FieldIndex(AnchorCell cell) const { return lattice_.Index(GasCellOf(cell, factor_)); }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/grid/flood.h"
 
+#include <cstddef>
+
 #include "core/grid/padded.h"
 
 namespace plumescout {
@@ -21,13 +23,19 @@ class Flood {
   const Padded<Label>& labels() const { return labels_; }
 
   // Labels all that is connected to `start` and not labelled yet. Returns the number of cells.
-  int Spread(Cell start, Label label) {
+  int Spread(Cell start, Label label, const StopFn& stop = {}) {
     int count = 0;
+    std::size_t since_stop = 0;
     stack_.assign(1, labels_.IndexOf(start));
     while (!stack_.empty()) {
       const int cell = stack_.back();
       stack_.pop_back();
-      if (labels_[cell] == kUnreached) count += LabelRun(cell, label);
+      const int run = labels_[cell] == kUnreached ? LabelRun(cell, label) : 0;
+      count += run;
+      since_stop += 1 + static_cast<std::size_t>(run);
+      if (since_stop < kCellsPerStop) continue;
+      if (Stops(stop)) break;
+      since_stop = 0;
     }
     return count;
   }
@@ -66,10 +74,13 @@ class Flood {
 }  // namespace
 
 Grid<std::uint8_t> ReachableCells(const Grid<std::uint8_t>& passable,
-                                  const std::vector<Cell>& starts, Connectivity connectivity) {
+                                  const std::vector<Cell>& starts, Connectivity connectivity,
+                                  const StopFn& stop) {
+  if (Stops(stop)) return Grid<std::uint8_t>(passable.geometry(), 0);
   Flood<std::int8_t> flood(passable, connectivity);
   for (const Cell start : starts) {
-    if (passable.Contains(start)) flood.Spread(start, 0);
+    if (Stops(stop)) break;
+    if (passable.Contains(start)) flood.Spread(start, 0, stop);
   }
   return GridFrom<std::uint8_t>(flood.labels(), passable.geometry(), [](std::int8_t label) {
     return static_cast<std::uint8_t>(label >= 0 ? 1 : 0);

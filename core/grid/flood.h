@@ -7,14 +7,17 @@
 
 #include "core/grid/neighbours.h"
 #include "core/types/grid.h"
+#include "core/types/stop.h"
 
 namespace plumescout {
 
 // 1 on the cells that a wavefront from `starts` reaches over non-zero cells of `passable`, else 0.
-// Starts that are outside or not passable are passed over. Cost: O(cells).
+// Starts that are outside or not passable are passed over. Of no use once `stop`, which is asked
+// all along, says so. Cost: O(cells).
 Grid<std::uint8_t> ReachableCells(const Grid<std::uint8_t>& passable,
                                   const std::vector<Cell>& starts,
-                                  Connectivity connectivity = Connectivity::kEightNoCornerCut);
+                                  Connectivity connectivity = Connectivity::kEightNoCornerCut,
+                                  const StopFn& stop = {});
 
 struct Components {
   static constexpr int kNone = -1;

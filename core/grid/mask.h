@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "core/grid/padded.h"
+#include "core/types/cell_rect.h"
 #include "core/types/grid.h"
 
 namespace plumescout {
@@ -17,6 +19,27 @@ Grid<std::uint8_t> MaskWhere(const Grid<T>& grid, Predicate&& predicate) {
       grid.values().begin(), grid.values().end(), mask.values().begin(),
       [&](const T& value) { return static_cast<std::uint8_t>(predicate(value) ? 1 : 0); });
   return mask;
+}
+
+// The least rectangle of cells that hold `value`; empty without any. Cost: O(cells off it).
+template <typename T>
+CellRect BoundsOf(const Grid<T>& grid, T value) {
+  const int width = grid.width();
+  const auto has_row = [&](int y) {
+    const T* const row = GridRow(grid, y);
+    return std::find(row, row + width, value) != row + width;
+  };
+  CellRect bounds({width, 0}, {0, grid.height()});
+  while (bounds.min.y < bounds.end.y && !has_row(bounds.min.y)) ++bounds.min.y;
+  while (bounds.end.y > bounds.min.y && !has_row(bounds.end.y - 1)) --bounds.end.y;
+  for (int y = bounds.min.y; y < bounds.end.y; ++y) {
+    const T* const row = GridRow(grid, y);
+    bounds.min.x = static_cast<int>(std::find(row, row + bounds.min.x, value) - row);
+    int end = width;
+    while (end > bounds.end.x && row[end - 1] != value) --end;
+    bounds.end.x = end;
+  }
+  return bounds.empty() ? CellRect() : bounds;
 }
 
 // 1 where `grid` holds `value`, else 0.

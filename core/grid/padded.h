@@ -8,32 +8,46 @@
 #include <vector>
 
 #include "core/grid/neighbours.h"
+#include "core/types/cell_rect.h"
 #include "core/types/grid.h"
+#include "core/types/stop.h"
 
 namespace plumescout {
 
-// A raster with a border one cell wide. Inside searches a cell is an index into it, its neighbours
-// are fixed offsets, and the border stands for "outside" without a bounds check.
+// A raster, or a rectangle out of one, with a border one cell wide. Inside searches a cell is an
+// index into it, its neighbours are fixed offsets, and the border stands for "outside" without a
+// bounds check.
 template <typename T>
 class Padded {
  public:
   Padded(const GridGeometry& geometry, T border, T fill)
-      : stride_(geometry.width + 2),
-        values_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(geometry.height + 2),
-                border) {
-    for (int y = 0; y < geometry.height; ++y) std::fill_n(Row(y), geometry.width, fill);
+      : Padded(WholeRaster(geometry), border, fill) {}
+  // Without any cells, and not to be looked into, if `stop`, which is asked all along, says so.
+  Padded(const CellRect& cells, T border, T fill, const StopFn& stop = {})
+      : min_(cells.min), stride_(cells.width() + 2) {
+    const auto size = CellRect::Sized({}, stride_, cells.height() + 2).size();
+    values_.reserve(size);
+    const auto add = [&](std::size_t, std::size_t end) { values_.resize(end, border); };
+    if (!InPieces(size, stop, add)) values_.clear();
+    if (fill == border || empty()) return;
+    for (int y = cells.min.y; y < cells.end.y; ++y) std::fill_n(Row(y), cells.width(), fill);
   }
 
+  bool empty() const { return values_.empty(); }
+
   int stride() const { return stride_; }
-  int IndexOf(Cell cell) const { return (cell.y + 1) * stride_ + cell.x + 1; }
-  Cell CellAt(int index) const { return {index % stride_ - 1, index / stride_ - 1}; }
+  // Of a cell of the rectangle, or beside it.
+  int IndexOf(Cell cell) const { return (cell.y - min_.y + 1) * stride_ + cell.x - min_.x + 1; }
+  Cell CellAt(int index) const {
+    return {min_.x + index % stride_ - 1, min_.y + index / stride_ - 1};
+  }
 
   T& operator[](int index) { return values_[static_cast<std::size_t>(index)]; }
   const T& operator[](int index) const { return values_[static_cast<std::size_t>(index)]; }
 
-  // First cell of row y of the raster proper.
-  T* Row(int y) { return values_.data() + IndexOf({0, y}); }
-  const T* Row(int y) const { return values_.data() + IndexOf({0, y}); }
+  // First cell of row y of the rectangle.
+  T* Row(int y) { return values_.data() + IndexOf({min_.x, y}); }
+  const T* Row(int y) const { return values_.data() + IndexOf({min_.x, y}); }
 
   // Index offsets in the order of kNeighbours8.
   std::array<int, 8> NeighbourOffsets() const {
@@ -44,6 +58,7 @@ class Padded {
   }
 
  private:
+  Cell min_;
   int stride_;
   std::vector<T> values_;
 };
@@ -58,15 +73,19 @@ const T* GridRow(const Grid<T>& grid, int y) {
   return grid.values().data() + static_cast<std::ptrdiff_t>(y) * grid.width();
 }
 
-// The raster, each value mapped by `convert`, inside a border.
+// These cells of the raster, each value mapped by `convert`, inside a border.
 template <typename T, typename U, typename Convert>
-Padded<T> PaddedFrom(const Grid<U>& grid, T border, Convert&& convert) {
-  Padded<T> padded(grid.geometry(), border, border);
-  for (int y = 0; y < grid.height(); ++y) {
-    const U* row = GridRow(grid, y);
-    std::transform(row, row + grid.width(), padded.Row(y), convert);
+Padded<T> PaddedFrom(const Grid<U>& grid, const CellRect& cells, T border, Convert&& convert) {
+  Padded<T> padded(cells, border, border);
+  for (int y = cells.min.y; y < cells.end.y; ++y) {
+    const U* const row = GridRow(grid, y);
+    std::transform(row + cells.min.x, row + cells.end.x, padded.Row(y), convert);
   }
   return padded;
+}
+template <typename T, typename U, typename Convert>
+Padded<T> PaddedFrom(const Grid<U>& grid, T border, Convert&& convert) {
+  return PaddedFrom<T>(grid, WholeRaster(grid.geometry()), border, convert);
 }
 
 // The raster proper of `padded`, each value mapped by `convert`.

@@ -14,7 +14,9 @@
 
 #include "core/grid/neighbours.h"
 #include "core/grid/padded.h"
+#include "core/types/cell_rect.h"
 #include "core/types/grid.h"
+#include "core/types/stop.h"
 
 namespace plumescout {
 
@@ -65,24 +67,37 @@ class TravelSearch {
     Length travel_m;
   };
 
-  // `passable`: callable (std::size_t index of the raster) -> bool.
+  // `passable`: callable (std::size_t index of the raster) -> bool. No cell is passable that lies
+  // off `cells`. None is, and none may be asked about by index, if `stop`, which is asked all
+  // along, says so.
   template <typename Passable>
-  TravelSearch(const GridGeometry& geometry, Connectivity connectivity, Passable&& passable)
+  TravelSearch(const GridGeometry& geometry, const CellRect& cells, Connectivity connectivity,
+               Passable&& passable, const StopFn& stop = {})
       : geometry_(geometry),
-        travel_m_(geometry, kBlocked, kBlocked),
+        cells_(cells),
+        travel_m_(cells, kBlocked, kBlocked, stop),
         offsets_(travel_m_.NeighbourOffsets()),
         connectivity_(connectivity),
         straight_m_(static_cast<Length>(kStraightStep_cells * geometry.resolution_m)),
         diagonal_m_(static_cast<Length>(kDiagonalStep_cells * geometry.resolution_m)),
         levels_per_m_(Length{1} / straight_m_) {
-    std::size_t index = 0;
-    for (int y = 0; y < geometry.height; ++y) {
-      Length* row = travel_m_.Row(y);
-      for (int x = 0; x < geometry.width; ++x) row[x] = passable(index++) ? kUnreached : kBlocked;
-    }
+    const auto open = [&](int y) {
+      Length* const row = travel_m_.Row(y);
+      const std::size_t first = geometry.Index({cells.min.x, y});
+      for (int x = 0; x < cells.width(); ++x) {
+        row[x] = passable(first + static_cast<std::size_t>(x)) ? kUnreached : kBlocked;
+      }
+    };
+    if (!ByRows(cells.min.y, cells.end.y, cells.width(), stop, open)) cells_ = CellRect();
   }
+  template <typename Passable>
+  TravelSearch(const GridGeometry& geometry, Connectivity connectivity, Passable&& passable)
+      : TravelSearch(geometry, WholeRaster(geometry), connectivity, passable) {}
 
-  // Cells of the search by index, which neighbours differ in by offsets().
+  const CellRect& cells() const { return cells_; }
+
+  // Cells of the search by index, which neighbours differ in by offsets(). REQUIRES: in cells(), or
+  // beside them.
   int IndexOf(Cell cell) const { return travel_m_.IndexOf(cell); }
   Cell CellAt(int index) const { return travel_m_.CellAt(index); }
   const std::array<int, 8>& offsets() const { return offsets_; }
@@ -113,7 +128,7 @@ class TravelSearch {
       for (; next != sources.end(); ++next) {
         const auto travel_m = static_cast<Length>(next->travel_m);
         if (LevelOf(travel_m) > level_) break;
-        if (!geometry_.Contains(next->cell)) continue;
+        if (!cells_.Contains(next->cell)) continue;
         Bucket& bucket = BucketOf(level_);
         bucket.count += Reach(travel_m_.IndexOf(next->cell), travel_m, true, bucket.Tail());
       }
@@ -130,8 +145,10 @@ class TravelSearch {
     Run(std::move(sources), [](std::span<const Entry>) { return false; });
   }
 
-  // Metres from the nearest source; kUnreached where blocked, not reached or outside by one cell.
-  Length Travel(Cell cell) const { return Unblocked(travel_m_[travel_m_.IndexOf(cell)]); }
+  // Metres from the nearest source; kUnreached where blocked, not reached or outside.
+  Length Travel(Cell cell) const {
+    return cells_.Contains(cell) ? Unblocked(travel_m_[travel_m_.IndexOf(cell)]) : kUnreached;
+  }
 
   // The cells from a source to `goal`, both included; empty if not reached.
   std::vector<Cell> WayTo(Cell goal) const {
@@ -146,6 +163,7 @@ class TravelSearch {
     return way;
   }
 
+  // REQUIRES: cells() are the whole raster.
   Grid<Length> Field() const { return GridFrom<Length>(travel_m_, geometry_, Unblocked); }
 
  private:
@@ -218,6 +236,7 @@ class TravelSearch {
   }
 
   GridGeometry geometry_;
+  CellRect cells_;
   Padded<Length> travel_m_;
   std::array<int, 8> offsets_;
   Connectivity connectivity_;

@@ -4,33 +4,71 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
-namespace plumescout {
+#include "core/grid/padded.h"
 
-Grid<float> WindowSums(const Grid<float>& values, int reach_cells) {
-  const int width = values.width();
-  const int height = values.height();
-  // (x, y) holds the sum over all cells west of x and south of y (Crow 1984).
-  Grid<double> table(GridGeometry{0.0, 0.0, 1.0, width + 1, height + 1}, 0.0);
-  for (int y = 0; y < height; ++y) {
+namespace plumescout {
+namespace {
+
+// Row y, column x: the sum over all cells west of x and south of y (Crow 1984). Keeps the rows that
+// windows of this reach need at once.
+class SumTable {
+ public:
+  SumTable(const Grid<float>& values, int reach_cells)
+      : values_(values),
+        width_(static_cast<std::size_t>(values.width()) + 1),
+        kept_(std::min(2 * static_cast<std::int64_t>(reach_cells) + 2,
+                       static_cast<std::int64_t>(values.height()) + 1)),
+        rows_(width_ * static_cast<std::size_t>(kept_), 0.0) {}
+
+  // REQUIRES: `y` is none of those that were given up for later rows.
+  const double* Row(int y) {
+    for (; last_ < y; ++last_) AddRow();
+    return RowOf(y);
+  }
+
+ private:
+  double* RowOf(int y) { return rows_.data() + width_ * static_cast<std::size_t>(y % kept_); }
+
+  void AddRow() {
+    const float* const values = GridRow(values_, last_);
+    const double* const south = RowOf(last_);
+    double* const sums = RowOf(last_ + 1);
     double row = 0.0;
-    for (int x = 0; x < width; ++x) {
-      row += static_cast<double>(values[Cell{x, y}]);
-      table[Cell{x + 1, y + 1}] = table[Cell{x + 1, y}] + row;
+    sums[0] = 0.0;
+    for (std::size_t x = 0; x + 1 < width_; ++x) {
+      row += static_cast<double>(values[x]);
+      sums[x + 1] = south[x + 1] + row;
     }
   }
-  Grid<float> sums(values.geometry());
-  for (int y = 0; y < height; ++y) {
-    const int south = std::max(0, y - reach_cells);
-    const int north = std::min(height, y + reach_cells + 1);
+
+  const Grid<float>& values_;
+  std::size_t width_;
+  std::int64_t kept_;
+  std::vector<double> rows_;
+  int last_ = 0;  // row that is known
+};
+
+}  // namespace
+
+Grid<float> WindowSums(const Grid<float>& values, int reach_cells, const StopFn& stop) {
+  const int width = values.width();
+  const int height = values.height();
+  Grid<float> sums(values.geometry(), 0.0F, stop);
+  SumTable table(values, reach_cells);
+  ByRows(0, height, width, stop, [&](int y) {
+    // The northern one first: then both are there.
+    const double* const north = table.Row(std::min(height, y + reach_cells + 1));
+    const double* const south = table.Row(std::max(0, y - reach_cells));
+    float* const row = GridRow(sums, y);
     for (int x = 0; x < width; ++x) {
       const int west = std::max(0, x - reach_cells);
       const int east = std::min(width, x + reach_cells + 1);
-      sums[Cell{x, y}] = static_cast<float>(table[Cell{east, north}] - table[Cell{west, north}] -
-                                            table[Cell{east, south}] + table[Cell{west, south}]);
+      row[x] = static_cast<float>(north[east] - north[west] - south[east] + south[west]);
     }
-  }
+  });
   return sums;
 }
 

@@ -109,12 +109,14 @@ std::optional<Belief> Anticipate(const Belief& belief, const RobotId& robot,
   if (!given.ok()) return std::nullopt;
   Belief ahead = belief;
   ahead.gas_what_if = *std::move(given);
-  const Grid<float> then = ahead.gas_what_if->variance_ppm2();
+  const Grid<float> then = ahead.gas_what_if->variance_ppm2(stop);
+  if (Stops(stop)) return std::nullopt;
   auto variance = std::make_shared<Grid<float>>(*belief.gas_variance_ppm2);
-  window.ForEachCell([&](std::size_t in_map, std::size_t in_field) {
+  const auto lower = [&](std::size_t in_map, std::size_t in_field) {
     float& known = (*variance)[in_map];
     if (then[in_field] < known) known = then[in_field];  // NaN off free cells
-  });
+  };
+  window.ForEachCell(lower, stop);
   ahead.gas_variance_ppm2 = std::move(variance);
   return ahead;
 }

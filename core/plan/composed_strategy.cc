@@ -63,6 +63,18 @@ bool IsBudgetSpent(const Plan& plan) {
   return plan.candidates.empty() && is_spent && !IsRejectedFor(RejectionReason::kTraffic, plan);
 }
 
+// To the robots that go first, or round them.
+void GiveWay(const SearchedWays& ways, Plan& plan) {
+  const auto& [query, departure, problem, judge] = ways;
+  // Who is to keep its goal may need any of the candidates.
+  const StopFn stop = query.options.commitment_margin_share == 0.0 ? problem.stop : NeverStop();
+  std::optional<Waits> waits =
+      FindWaitsUntil(stop, query.belief, departure.yaw_rad, query.options, plan);
+  if (!waits) return;
+  LeadRound(ways, *waits, plan);
+  YieldToRobots(*waits, departure.yaw_rad, query.options, plan);
+}
+
 }  // namespace
 
 absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
@@ -140,10 +152,11 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
   const InformationMap information =
       MakeInformationMap({*belief.traversable, *belief.gas_mean_ppm, *foreseen.gas_variance_ppm2,
                           mission.gas, mission.frontier},
-                         options_);
+                         options_, stop);
   plan.field_flat = information.flat;
   const Cell start_cell = belief.geometry().CellAt(departure.start);
-  const Grid<std::uint8_t> reachable = ReachableCells(*belief.traversable, {start_cell});
+  const Grid<std::uint8_t> reachable =
+      ReachableCells(*belief.traversable, {start_cell}, Connectivity::kEightNoCornerCut, stop);
   if (stop()) return StoppedBeforeAnyPath();
 
   Rng rng(plan.seed ^ kGoalStream);
@@ -152,6 +165,8 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
                            options_,   request.go_home,
                            ahead,      stop};
   GoalOffer goals = FindGoals(query, rng);
+  query.from_start.reset();
+  if (IsLimited(query) && !stop()) query.FromHome();
   if (stop()) return StoppedBeforeAnyPath();
   if (ahead != nullptr && !HasWork(goals)) {
     return PlanFrom(departure, {belief, nullptr, request, stop, improved}, plan);
@@ -183,10 +198,7 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
   TakeResults(judging, result, plan);
   const bool stopped_empty = plan.end == PlanEnd::kStopped && plan.candidates.empty();
   RejectOverBudget(query, plan);
-  if (std::optional<Waits> waits = FindWaits(belief, departure.yaw_rad, options_, plan)) {
-    LeadRound({query, departure, problem, judge}, *waits, plan);
-    YieldToRobots(*waits, departure.yaw_rad, options_, plan);
-  }
+  GiveWay({query, departure, problem, judge}, plan);
   if (ahead != nullptr) LeavePromisedSight(belief, plan);
   Choose(foreseen, InField(options_, mission.gas), stop, plan);
   const bool budget_spent = request.max_edge_evaluations > 0 &&

@@ -10,6 +10,7 @@
 
 #include "absl/strings/str_format.h"
 #include "core/plan/precedence.h"
+#include "core/plan/selection/selection.h"
 #include "core/plan/trajectory_timing.h"
 #include "core/traffic/traffic.h"
 
@@ -21,6 +22,10 @@ Trajectory Timed(const Candidate& candidate, double start_yaw_rad, const Plannin
   return candidate.stops.empty()
              ? TimeTrajectory(candidate.path, start_yaw_rad, options)
              : TimeTrajectory(candidate.path, candidate.stops, start_yaw_rad, options);
+}
+
+bool HasToYield(const Belief& belief, const PlanningOptions& options, const Plan& plan) {
+  return options.yield_to_robots && belief.robots.size() > 1 && !plan.candidates.empty();
 }
 
 RejectedGoal InTraffic(const Candidate& candidate, const Meeting& meeting) {
@@ -48,12 +53,38 @@ Traffic TrafficFor(const Belief& belief, const Plan& plan, const PlanningOptions
 
 std::optional<Waits> FindWaits(const Belief& belief, double start_yaw_rad,
                                const PlanningOptions& options, const Plan& plan) {
-  if (!options.yield_to_robots || belief.robots.size() < 2 || plan.candidates.empty()) {
-    return std::nullopt;
-  }
+  if (!HasToYield(belief, options, plan)) return std::nullopt;
   Waits waits{TrafficFor(belief, plan, options), {}};
   for (const Candidate& candidate : plan.candidates) {
     waits.waits_s.push_back(waits.traffic.LeastWait_s(Timed(candidate, start_yaw_rad, options)));
+  }
+  return waits;
+}
+
+std::optional<Waits> FindWaitsUntil(const StopFn& stop, const Belief& belief, double start_yaw_rad,
+                                    const PlanningOptions& options, Plan& plan) {
+  if (!HasToYield(belief, options, plan)) return std::nullopt;
+  Waits waits{TrafficFor(belief, plan, options), {}};
+  const auto add = [&](const Candidate& candidate) {
+    waits.waits_s.push_back(waits.traffic.LeastWait_s(Timed(candidate, start_yaw_rad, options)));
+    return waits.waits_s.back().has_value();
+  };
+  std::vector<Candidate> left = std::exchange(plan.candidates, {});
+  std::reverse(left.begin(), left.end());
+  while (!left.empty() && !Stops(stop)) {
+    add(left.back());
+    plan.candidates.push_back(std::move(left.back()));
+    left.pop_back();
+  }
+  for (bool is_clear = false; !left.empty() && !is_clear;) {
+    const auto best = left.begin() + SelectCandidate(left, options);
+    is_clear = add(*best);
+    plan.candidates.push_back(std::move(*best));
+    left.erase(best);
+  }
+  for (Candidate& candidate : left) {
+    plan.rejected.push_back({std::move(candidate.goal), RejectionReason::kSearchStopped, ""});
+    plan.end = PlanEnd::kStopped;
   }
   return waits;
 }

@@ -9,6 +9,7 @@
 #include "core/traffic/traffic.h"
 #include "core/types/options.h"
 #include "core/types/plan.h"
+#include "core/types/stop.h"
 #include "core/types/trajectory.h"
 
 namespace plumescout {
@@ -34,6 +35,11 @@ struct Waits {
 // each candidate.
 std::optional<Waits> FindWaits(const Belief& belief, double start_yaw_rad,
                                const PlanningOptions& options, const Plan& plan);
+// The same, but once `stop` says so only until the best of the candidates left is clear; those
+// after it are rejected (kSearchStopped). Nothing is priced any more, so that none of them would be
+// chosen.
+std::optional<Waits> FindWaitsUntil(const StopFn& stop, const Belief& belief, double start_yaw_rad,
+                                    const PlanningOptions& options, Plan& plan);
 
 // Others go first whose plans are live, and who have waited for long (precedence.h): each candidate
 // waits at its start until its way is clear of theirs, which adds to its duration_s; one that would

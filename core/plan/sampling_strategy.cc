@@ -138,7 +138,9 @@ absl::Status SamplingStrategy::PlanFrom(const Belief& belief, const StopFn& stop
   plumescout::Plan& plan = start.plan;
   const Departure& departure = *start.departure;
   const Cell start_cell = belief.geometry().CellAt(departure.start);
-  const Grid<std::uint8_t> reachable = ReachableCells(*belief.traversable, {start_cell});
+  const Grid<std::uint8_t> reachable =
+      ReachableCells(*belief.traversable, {start_cell}, Connectivity::kEightNoCornerCut, stop);
+  if (stop()) return StoppedBeforeAnyPath();
   const GoalQuery query = {belief, start.robot, start_cell, reachable, options_};
   const Sites sites = FindSites(query, LatticeOver(belief.geometry(), options_.sites));
   if (stop()) return StoppedBeforeAnyPath();

@@ -57,8 +57,10 @@ void BlockDisc(Point2 center, double radius_m, Grid<float>& penalty) {
 
 // Without the cells that touch where another robot will be, unless it is gone from there before the
 // robot can come. Where the robot stands too near already, without those that are nearer still.
+// Prices alone.
 InformationMap KeptClear(const Traffic& traffic, const SearchedWays& ways) {
-  InformationMap information = ways.problem.cost.information();
+  const InformationMap& priced = ways.problem.cost.information();
+  InformationMap information{{}, priced.penalty, priced.min_penalty, priced.flat};
   const double half_diagonal_m = information.penalty.geometry().resolution_m / std::sqrt(2.0);
   for (const Traffic::Hold& hold : traffic.Holds()) {
     const double way_m = Distance_m(hold.place, ways.problem.start);
@@ -102,7 +104,7 @@ std::vector<Candidate> FindRounds(const InformationMap& clear, const SearchedWay
 
 void LeadRound(const SearchedWays& ways, Waits& waits, Plan& plan) {
   const std::vector<Standing> standing = FindStanding(waits, ways, plan);
-  if (standing.empty()) return;
+  if (standing.empty() || ways.problem.stop()) return;
   Plan rounds;
   rounds.candidates = FindRounds(KeptClear(waits.traffic, ways), ways, standing, plan);
   RejectOverBudget(ways.query, rounds);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/types/grid_geometry.h"
+#include "core/types/stop.h"
 
 namespace plumescout {
 
@@ -17,6 +18,18 @@ class Grid {
   Grid() = default;
   explicit Grid(const GridGeometry& geometry, T fill = T{})
       : geometry_(geometry), values_(geometry.size(), fill) {}
+
+  // The same; without any cells if `stop`, which is asked all along, says so. New memory takes
+  // long.
+  Grid(const GridGeometry& geometry, T fill, const StopFn& stop) {
+    values_.reserve(geometry.size());
+    const auto add = [&](std::size_t, std::size_t end) { values_.resize(end, fill); };
+    if (InPieces(geometry.size(), stop, add)) {
+      geometry_ = geometry;
+    } else {
+      values_.clear();
+    }
+  }
 
   const GridGeometry& geometry() const { return geometry_; }
   int width() const { return geometry_.width; }

@@ -24,6 +24,7 @@
 #include "core/plan/selection/expected_information.h"
 #include "core/plan/strategy.h"
 #include "core/types/quantile.h"
+#include "core/types/rng.h"
 #include "core/types/status_macros.h"
 #include "lab/about/cpu_time.h"
 #include "lab/bench/bench_program.h"
@@ -106,20 +107,36 @@ struct MissionSize {
   int rounds = 12;
 };
 
-// By how much CPU time a plan outlives a stop that comes at one of several moments of it, at worst.
-double LateAfterStop_ms(const Strategy& strategy, const PlanMoment& moment, double whole_ms) {
-  constexpr int kStops = 8;
+// Plans that were told to stop at random moments.
+struct StoppedPlans {
+  std::vector<double> late_ms;  // by how much CPU time each outlived its stop
+  double answered = 0.0;        // those that had a plan
+
+  void Set(const std::string& name, BenchSummary& summary) const {
+    constexpr double kTail = 0.99;
+    summary.Set(name + "_late_after_stop_ms", Median(late_ms));
+    summary.Set(name + "_late_after_stop_ms_p99", Quantile(late_ms, kTail));
+    summary.Set(name + "_late_after_stop_ms_worst",
+                *std::max_element(late_ms.begin(), late_ms.end()));
+    summary.Set(name + "_stopped_answered_ratio", answered / static_cast<double>(late_ms.size()));
+  }
+};
+
+void StopAtRandom(const Strategy& strategy, const PlanMoment& moment, double whole_ms, Rng& rng,
+                  StoppedPlans& stopped) {
+  constexpr int kStops = 25;
   PlanRequest request;
   request.robot = moment.robot;
-  double late_ms = 0.0;
-  for (int i = 1; i < kStops; ++i) {
-    const double limit_ms = whole_ms * i / kStops;
+  for (int i = 0; i < kStops; ++i) {
+    const double limit_ms = whole_ms * rng.Uniform01();
     const double begin_ms = ThreadCpu_ms();
     const StopFn stop = [&] { return ThreadCpu_ms() - begin_ms >= limit_ms; };
-    strategy.Plan(*moment.belief, request, stop).status().IgnoreError();
-    late_ms = std::max(late_ms, ThreadCpu_ms() - begin_ms - limit_ms);
+    const bool answered = strategy.Plan(*moment.belief, request, stop).ok();
+    const double late_ms = ThreadCpu_ms() - begin_ms - limit_ms;
+    if (late_ms < 0.0) continue;  // it was quicker this time
+    stopped.late_ms.push_back(late_ms);
+    stopped.answered += answered ? 1.0 : 0.0;
   }
-  return late_ms;
 }
 
 // Whole plans of the default strategy in missions under way: frontiers, information map, search,
@@ -140,7 +157,8 @@ absl::Status MeasureMissions(const std::string& only, BenchSummary& summary) {
                                                  .rounds = size.rounds,
                                                  .seed = summary.seed()}));
     std::vector<double> times_ms;
-    std::vector<double> late_ms;
+    StoppedPlans stopped;
+    Rng rng(summary.seed());
     double candidates = 0.0;
     for (const PlanMoment& moment : moments) {
       PlanRequest request;
@@ -149,13 +167,13 @@ absl::Status MeasureMissions(const std::string& only, BenchSummary& summary) {
       times_ms.push_back(MedianCpu_ms(
           kRepeats, [&] { plan = strategy->Plan(*moment.belief, request, kNeverStop); }));
       PLUMESCOUT_RETURN_IF_ERROR(plan.status());
-      late_ms.push_back(LateAfterStop_ms(*strategy, moment, times_ms.back()));
+      StopAtRandom(*strategy, moment, times_ms.back(), rng, stopped);
       candidates += static_cast<double>(plan->candidates.size());
     }
     const std::string name = "mission_plan_" + size.name;
     summary.Set(name + "_ms", Median(times_ms));
     summary.Set(name + "_worst_ms", *std::max_element(times_ms.begin(), times_ms.end()));
-    summary.Set(name + "_late_after_stop_ms", Median(late_ms));
+    stopped.Set(name, summary);
     summary.Set(name + "_candidates", candidates / static_cast<double>(moments.size()));
   }
   return absl::OkStatus();

@@ -18,6 +18,8 @@ struct Foreseen {
   std::vector<double> noise_ppm2;  // 1 / precision of each
 };
 
+absl::Status Cancelled() { return absl::CancelledError("told to stop"); }
+
 absl::Status CheckReading(const SeparatorTree& tree, const ForeseenReading& reading) {
   if (!(reading.precision > 0.0) || reading.precision > kMaxCellPrecision) {
     return absl::InvalidArgumentError("the precision of a reading is out of range");
@@ -31,8 +33,11 @@ absl::Status CheckReading(const SeparatorTree& tree, const ForeseenReading& read
 // diag(Z_C (N + Z_CC)^-1 Z_C^T) for the cells C that are read and the noise N: with L L^T the
 // matrix in the middle, the rows of Z_C L^-T squared and summed. Mixed before they are continued
 // off the paths, the columns need no product over all cells.
-InverseColumns GainColumns(const FieldFactor& factor, const Foreseen& readings) {
-  InverseColumns columns(factor, readings.slots);
+// kCancelled once `stop`, which is asked all along, says so.
+absl::StatusOr<InverseColumns> GainColumns(const FieldFactor& factor, const Foreseen& readings,
+                                           const StopFn& stop) {
+  InverseColumns columns(factor, readings.slots, stop);
+  if (Stops(stop)) return Cancelled();
   const std::size_t size = readings.slots.size();
   const std::size_t stride = PaddedRows(size);
   std::vector<double> matrix(stride * size, 0.0);
@@ -61,15 +66,15 @@ absl::StatusOr<std::vector<double>> FieldSnapshot::VarianceIfRead(
 }
 
 absl::StatusOr<std::optional<InverseColumns>> FieldSnapshot::ColumnsIfRead(
-    std::span<const std::size_t> cells, double precision) const {
+    std::span<const std::size_t> cells, double precision, const StopFn& stop) const {
   std::vector<ForeseenReading> readings;
   for (const std::size_t cell : cells) readings.push_back({cell, precision});
   if (readings.empty()) PLUMESCOUT_RETURN_IF_ERROR(CheckReading(factor_.tree(), {0, precision}));
-  return ColumnsAfter(readings);
+  return ColumnsAfter(readings, stop);
 }
 
 absl::StatusOr<std::optional<InverseColumns>> FieldSnapshot::ColumnsAfter(
-    std::span<const ForeseenReading> readings) const {
+    std::span<const ForeseenReading> readings, const StopFn& stop) const {
   const SeparatorTree& tree = factor_.tree();
   Foreseen foreseen;
   for (const ForeseenReading& reading : readings) {
@@ -80,51 +85,59 @@ absl::StatusOr<std::optional<InverseColumns>> FieldSnapshot::ColumnsAfter(
     foreseen.noise_ppm2.push_back(1.0 / reading.precision);
   }
   if (foreseen.slots.empty()) return std::nullopt;
-  return GainColumns(factor_, foreseen);
+  PLUMESCOUT_ASSIGN_OR_RETURN(InverseColumns columns, GainColumns(factor_, foreseen, stop));
+  return columns;
 }
 
 absl::StatusOr<std::vector<double>> FieldSnapshot::VarianceAfter(
     std::span<const ForeseenReading> readings, const StopFn& stop) const {
-  PLUMESCOUT_ASSIGN_OR_RETURN(std::optional<InverseColumns> columns, ColumnsAfter(readings));
-  std::vector<double> variance = variance_ppm2();
-  if (columns) columns->SubtractSquares(tolerance_ppm2_, variance, stop);
+  PLUMESCOUT_ASSIGN_OR_RETURN(std::optional<InverseColumns> columns, ColumnsAfter(readings, stop));
+  std::vector<double> variance = variance_ppm2(stop);
+  if (columns && !Stops(stop)) columns->SubtractSquares(tolerance_ppm2_, variance, stop);
   return variance;
 }
 
 EntropyFall FieldSnapshot::FallOf(std::span<const double> weights,
-                                  std::span<const double> beside_ppm2) const {
+                                  std::span<const double> beside_ppm2, const StopFn& stop) const {
   const SeparatorTree& tree = factor_.tree();
   std::vector<double> variance_ppm2 = variance_ppm2_;
   std::vector<double> by_slot(variance_ppm2.size());
-  for (Slot slot = 0; slot < by_slot.size(); ++slot) {
-    by_slot[slot] = weights[tree.cell(slot)];
-    if (!beside_ppm2.empty()) variance_ppm2[slot] += beside_ppm2[tree.cell(slot)];
-  }
+  InPieces(by_slot.size(), stop, [&](std::size_t first, std::size_t end) {
+    for (auto slot = static_cast<Slot>(first); slot < end; ++slot) {
+      by_slot[slot] = weights[tree.cell(slot)];
+      if (!beside_ppm2.empty()) variance_ppm2[slot] += beside_ppm2[tree.cell(slot)];
+    }
+  });
   return {factor_, std::move(variance_ppm2), std::move(by_slot), tolerance_ppm2_};
 }
 
 absl::StatusOr<FieldSnapshot> FieldSnapshot::Given(std::span<const ForeseenReading> readings,
                                                    const StopFn& stop) const {
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<double> variance, VarianceAfter(readings, stop));
+  if (Stops(stop)) return Cancelled();
   FieldSnapshot given = *this;
-  for (Slot slot = 0; slot < variance.size(); ++slot) {
-    given.variance_ppm2_[slot] = variance[factor_.tree().cell(slot)];
-  }
+  InPieces(variance.size(), stop, [&](std::size_t first, std::size_t end) {
+    for (auto slot = static_cast<Slot>(first); slot < end; ++slot) {
+      given.variance_ppm2_[slot] = variance[factor_.tree().cell(slot)];
+    }
+  });
   for (const ForeseenReading& reading : readings) {
     const Slot slot = factor_.tree().slot(reading.cell);
     if (!IsActive(slot)) continue;
-    if (Stops(stop)) return absl::CancelledError("told to stop");
+    if (Stops(stop)) return Cancelled();
     given.factor_.AddReading(given.factor_.StepsFrom(slot), reading.precision, 0.0);
   }
   return given;
 }
 
-std::vector<double> FieldSnapshot::variance_ppm2() const {
+std::vector<double> FieldSnapshot::variance_ppm2(const StopFn& stop) const {
   const SeparatorTree& tree = factor_.tree();
   std::vector<double> by_cell(tree.cells());
-  for (Slot slot = 0; slot < by_cell.size(); ++slot) {
-    by_cell[tree.cell(slot)] = variance_ppm2_[slot];
-  }
+  InPieces(by_cell.size(), stop, [&](std::size_t first, std::size_t end) {
+    for (auto slot = static_cast<Slot>(first); slot < end; ++slot) {
+      by_cell[tree.cell(slot)] = variance_ppm2_[slot];
+    }
+  });
   return by_cell;
 }
 

@@ -46,11 +46,14 @@ class FieldSnapshot {
   // Columns of which |x|^2 is by how much that would lower the variance of each cell; none if no
   // cell is active. They refer to this snapshot. Errors: those of VarianceIfRead. Cost: that of the
   // paths of the cells.
+  // kCancelled once `stop`, which is asked all along, says so.
   absl::StatusOr<std::optional<InverseColumns>> ColumnsIfRead(std::span<const std::size_t> cells,
-                                                              double precision) const;
+                                                              double precision,
+                                                              const StopFn& stop = {}) const;
   // For such columns. `weights` >= 0, and what each variance has beside that of the field, by cell
-  // index. Refers to this snapshot.
-  EntropyFall FallOf(std::span<const double> weights, std::span<const double> beside_ppm2) const;
+  // index. Refers to this snapshot. Of no use once `stop`, which is asked all along, says so.
+  EntropyFall FallOf(std::span<const double> weights, std::span<const double> beside_ppm2,
+                     const StopFn& stop = {}) const;
 
   // The snapshot of a field that has heard these readings besides; what they say is not known, so
   // it has variances only. Errors and cost: those of VarianceIfRead, and a copy of the fronts on
@@ -59,13 +62,14 @@ class FieldSnapshot {
   absl::StatusOr<FieldSnapshot> Given(std::span<const ForeseenReading> readings,
                                       const StopFn& stop = {}) const;
 
-  // Marginal variance by cell index; NaN off the active cells. Cost: O(cells).
-  std::vector<double> variance_ppm2() const;
+  // Marginal variance by cell index; NaN off the active cells. Of no use once `stop`, which is
+  // asked all along, says so. Cost: O(cells).
+  std::vector<double> variance_ppm2(const StopFn& stop = {}) const;
 
  private:
   bool IsActive(Slot slot) const { return variance_ppm2_[slot] > 0.0; }  // not NaN
   absl::StatusOr<std::optional<InverseColumns>> ColumnsAfter(
-      std::span<const ForeseenReading> readings) const;
+      std::span<const ForeseenReading> readings, const StopFn& stop) const;
   absl::StatusOr<std::vector<double>> VarianceAfter(std::span<const ForeseenReading> readings,
                                                     const StopFn& stop) const;
 

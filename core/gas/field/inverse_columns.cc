@@ -9,16 +9,18 @@
 
 namespace plumescout {
 
-InverseColumns::InverseColumns(const FieldFactor& factor, std::span<const Slot> slots)
+InverseColumns::InverseColumns(const FieldFactor& factor, std::span<const Slot> slots,
+                               const StopFn& stop)
     : factor_(&factor), columns_(slots.size()), stride_(TileRows(slots.size())) {
-  PlacePaths(slots);
-  CompletePath(factor.tree().nodes().size() - 1, 0);
+  PlacePaths(slots, stop);
+  CompletePath(factor.tree().nodes().size() - 1, 0, stop);
 }
 
 // What each cell contributes to the nodes on its own path, given that their boundary is 0.
-void InverseColumns::PlacePaths(std::span<const Slot> slots) {
+void InverseColumns::PlacePaths(std::span<const Slot> slots, const StopFn& stop) {
   std::vector<std::vector<PathStep>> paths;
   for (const Slot slot : slots) {
+    if (Stops(stop)) return;
     paths.push_back(factor_->StepsFrom(slot));
     for (const PathStep& step : paths.back()) path_nodes_.push_back(step.node);
   }
@@ -56,7 +58,8 @@ double InverseColumns::At(Slot slot, std::size_t column) const {
 }
 
 // Adds what comes from the boundary, to a node on a path and those below it.
-void InverseColumns::CompletePath(std::size_t node, std::size_t depth) {
+void InverseColumns::CompletePath(std::size_t node, std::size_t depth, const StopFn& stop) {
+  if (Stops(stop)) return;
   const std::size_t first = FirstOf(node);
   if (first == kOffPaths) return;
   GatherBoundary(node, depth);
@@ -68,7 +71,7 @@ void InverseColumns::CompletePath(std::size_t node, std::size_t depth) {
   }
   if (factor_->tree().nodes()[node].is_leaf()) return;
   for (const std::uint32_t child : factor_->tree().nodes()[node].children) {
-    CompletePath(child, depth + 1);
+    CompletePath(child, depth + 1, stop);
   }
 }
 

@@ -17,9 +17,9 @@ namespace plumescout {
 // the root; elsewhere x_S = W x_R, node by node.
 class InverseColumns {
  public:
-  // H^-1 e_i for each i in `slots`. REQUIRES: slots are active, one at least; `factor` outlives
-  // this. Cost: that of the paths.
-  InverseColumns(const FieldFactor& factor, std::span<const Slot> slots);
+  // H^-1 e_i for each i in `slots`; not to be used if `stop`, which is asked all along, says so.
+  // REQUIRES: slots are active, one at least; `factor` outlives this. Cost: that of the paths.
+  InverseColumns(const FieldFactor& factor, std::span<const Slot> slots, const StopFn& stop = {});
 
   // REQUIRES: `slot` is one of those.
   double At(Slot slot, std::size_t column) const;
@@ -56,10 +56,10 @@ class InverseColumns {
 
   static constexpr std::size_t kOffPaths = ~std::size_t{0};
 
-  void PlacePaths(std::span<const Slot> slots);
+  void PlacePaths(std::span<const Slot> slots, const StopFn& stop);
   // Where the rows of the own cells of a node begin in path_rows_; kOffPaths if it has none there.
   std::size_t FirstOf(std::size_t node) const;
-  void CompletePath(std::size_t node, std::size_t depth);
+  void CompletePath(std::size_t node, std::size_t depth, const StopFn& stop);
   void DescendBelow(std::size_t node, std::size_t depth, Visitor& visitor);
   void GatherBoundary(std::size_t node, std::size_t depth);
   void Continue(const Front& front, Block& block);

@@ -6,7 +6,9 @@
 #include <optional>
 
 #include "core/types/cell.h"
+#include "core/types/cell_rect.h"
 #include "core/types/grid_geometry.h"
+#include "core/types/stop.h"
 
 namespace plumescout {
 
@@ -24,14 +26,18 @@ class FieldWindow {
     return field_.Contains(inside) ? std::optional<Cell>(inside) : std::nullopt;
   }
 
-  // Calls visit(index in the map, index in the field) for all cells of the field.
+  // The cells of the map that are cells of the field.
+  CellRect cells() const { return CellRect::Sized(corner_, field_.width, field_.height); }
+
+  // Calls visit(index in the map, index in the field) for all cells of the field, until `stop`,
+  // which is asked all along, says so.
   template <typename Visit>
-  void ForEachCell(const Visit& visit) const {
-    for (int y = 0; y < field_.height; ++y) {
+  void ForEachCell(const Visit& visit, const StopFn& stop = {}) const {
+    ByRows(0, field_.height, field_.width, stop, [&](int y) {
       std::size_t in_map = map_.Index({corner_.x, corner_.y + y});
       std::size_t in_field = field_.Index({0, y});
       for (int x = 0; x < field_.width; ++x) visit(in_map++, in_field++);
-    }
+    });
   }
 
  private:

@@ -56,16 +56,20 @@ struct HilbertOrder {
 inline constexpr HilbertOrder kHilbertOrder;
 
 // Visits the cells of the square, of at least kHilbertTile, that lie in [0, width) x [0, height).
-// Squares outside are passed over whole.
-template <typename Visit>
-void WalkHilbertSquare(const HilbertSquare& square, int width, int height, Visit& visit) {
+// Squares outside are passed over whole, and those that `pass(low, high)` says of, corners of a
+// square.
+template <typename Visit, typename Pass>
+void WalkHilbertSquare(const HilbertSquare& square, int width, int height, Visit& visit,
+                       Pass& pass) {
   const auto [corner, along, across, size] = square;
   const int reach = size - 1;
   const Cell far{corner.x + reach * (along.x + across.x), corner.y + reach * (along.y + across.y)};
-  if (std::min(corner.x, far.x) >= width || std::min(corner.y, far.y) >= height) return;
+  const Cell low{std::min(corner.x, far.x), std::min(corner.y, far.y)};
+  if (low.x >= width || low.y >= height) return;
+  if (pass(low, Cell{low.x + reach, low.y + reach})) return;
   if (size > kHilbertTile) {
     for (const HilbertSquare& quarter : HilbertQuarters(square)) {
-      WalkHilbertSquare(quarter, width, height, visit);
+      WalkHilbertSquare(quarter, width, height, visit, pass);
     }
     return;
   }
@@ -77,12 +81,17 @@ void WalkHilbertSquare(const HilbertSquare& square, int width, int height, Visit
 }
 
 // Visits every cell of a width x height raster once, in the order of a Hilbert curve on the
-// smallest square of a power of two around it, of kHilbertTile at least. Cost: O(width * height).
-template <typename Visit>
-void ForEachCellAlongHilbert(int width, int height, Visit&& visit) {
+// smallest square of a power of two around it, of kHilbertTile at least, but for squares that are
+// passed over. Cost: O(width * height).
+template <typename Visit, typename Pass>
+void ForEachCellAlongHilbert(int width, int height, Visit&& visit, Pass&& pass) {
   const auto extent = static_cast<unsigned>(std::max({width, height, kHilbertTile}));
   const int size = static_cast<int>(std::bit_ceil(extent));
-  WalkHilbertSquare({{0, 0}, {1, 0}, {0, 1}, size}, width, height, visit);
+  WalkHilbertSquare({{0, 0}, {1, 0}, {0, 1}, size}, width, height, visit, pass);
+}
+template <typename Visit>
+void ForEachCellAlongHilbert(int width, int height, Visit&& visit) {
+  ForEachCellAlongHilbert(width, height, visit, [](Cell, Cell) { return false; });
 }
 
 }  // namespace plumescout

@@ -3,7 +3,9 @@
 #include "core/plan/cost/information_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace plumescout {
@@ -14,21 +16,31 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kFlatContrast = 1e-5F;
 
 // Denominator of Eq. (9): over all free cells, inflated zone included, as in the paper.
-float MaxMean_ppm(const InformationMapInput& input) {
-  float max_ppm = static_cast<float>(input.frontier.min_gas_threshold_ppm);
-  for (const float mean_ppm : input.mean_ppm.values()) {
-    if (std::isfinite(mean_ppm)) max_ppm = std::max(max_ppm, mean_ppm);
-  }
-  return max_ppm;
+float MaxMean_ppm(const InformationMapInput& input, const StopFn& stop) {
+  constexpr std::size_t kLanes = 8;  // comparisons that do not wait for each other
+  std::array<float, kLanes> max_ppm;
+  max_ppm.fill(static_cast<float>(input.frontier.min_gas_threshold_ppm));
+  const auto take = [](float mean_ppm, float& max) {
+    max = mean_ppm > max && mean_ppm < kInfinity ? mean_ppm : max;
+  };
+  InPieces(input.mean_ppm.size(), stop, [&](std::size_t first, std::size_t end) {
+    std::size_t i = first;
+    for (; i + kLanes <= end; i += kLanes) {
+      for (std::size_t k = 0; k < kLanes; ++k) take(input.mean_ppm[i + k], max_ppm[k]);
+    }
+    for (; i < end; ++i) take(input.mean_ppm[i], max_ppm[0]);
+  });
+  return *std::max_element(max_ppm.begin(), max_ppm.end());
 }
 
 // Eq. (8) of one cell.
 class UpperConfidenceBound {
  public:
-  UpperConfidenceBound(const InformationMapInput& input, const PlanningOptions& options)
+  UpperConfidenceBound(const InformationMapInput& input, const PlanningOptions& options,
+                       const StopFn& stop)
       : prior_mean_ppm_(static_cast<float>(input.gas.background_mean_ppm)),
         prior_variance_ppm2_(static_cast<float>(OpenLatticeVariance_ppm2(input.gas))),
-        mean_scale_(1.0F / MaxMean_ppm(input)),
+        mean_scale_(1.0F / MaxMean_ppm(input, stop)),
         variance_scale_(options.raw_variance ? 1.0F : 1.0F / prior_variance_ppm2_),
         variance_limit_(options.raw_variance ? kInfinity : 1.0F),
         beta_(static_cast<float>(options.beta)) {}
@@ -60,38 +72,47 @@ struct Range {
 
 // Writes I of Eq. (8) into `values` on the traversable cells and returns I_min and I_max.
 Range WriteInformation(const InformationMapInput& input, const UpperConfidenceBound& bound,
-                       Grid<float>& values) {
+                       const StopFn& stop, Grid<float>& values) {
   Range range;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (input.traversable[i] == 0) continue;
-    values[i] = bound(input.mean_ppm[i], input.variance_ppm2[i]);
-    range.low = std::min(range.low, values[i]);
-    range.high = std::max(range.high, values[i]);
-  }
+  InPieces(values.size(), stop, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      if (input.traversable[i] == 0) continue;
+      values[i] = bound(input.mean_ppm[i], input.variance_ppm2[i]);
+      range.low = std::min(range.low, values[i]);
+      range.high = std::max(range.high, values[i]);
+    }
+  });
   return range;
+}
+
+// Eq. (10) and (11), on I in the place of I-hat.
+void WritePenalty(const Grid<std::uint8_t>& traversable, const Range& range, const StopFn& stop,
+                  InformationMap& information) {
+  constexpr float kFlatInformation = 0.5F;
+  const float scale = information.flat ? 0.0F : 1.0F / (range.high - range.low);
+  InPieces(information.penalty.size(), stop, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      if (traversable[i] == 0) continue;
+      float& value = information.value[i];
+      value =
+          information.flat ? kFlatInformation : std::clamp((value - range.low) * scale, 0.0F, 1.0F);
+      information.penalty[i] = std::max(1.0F - value, kMinPenalty);
+      information.min_penalty = std::min(information.min_penalty, information.penalty[i]);
+    }
+  });
 }
 
 }  // namespace
 
-InformationMap MakeInformationMap(const InformationMapInput& input,
-                                  const PlanningOptions& options) {
+InformationMap MakeInformationMap(const InformationMapInput& input, const PlanningOptions& options,
+                                  const StopFn& stop) {
   InformationMap information;
-  information.value = Grid<float>(input.traversable.geometry(), 0.0F);
-  information.penalty = Grid<float>(input.traversable.geometry(), kInfinity);
-  const Range range =
-      WriteInformation(input, UpperConfidenceBound(input, options), information.value);
+  const UpperConfidenceBound bound(input, options, stop);
+  information.value = Grid<float>(input.traversable.geometry(), 0.0F, stop);
+  const Range range = WriteInformation(input, bound, stop, information.value);
   information.flat = range.flat();
-  const float scale = information.flat ? 0.0F : 1.0F / (range.high - range.low);
-  constexpr float kFlatInformation = 0.5F;
-  for (std::size_t i = 0; i < information.penalty.size(); ++i) {
-    if (input.traversable[i] == 0) continue;
-    float& value = information.value[i];
-    value = information.flat  // Eq. (10)
-                ? kFlatInformation
-                : std::clamp((value - range.low) * scale, 0.0F, 1.0F);
-    information.penalty[i] = std::max(1.0F - value, kMinPenalty);  // Eq. (11)
-    information.min_penalty = std::min(information.min_penalty, information.penalty[i]);
-  }
+  information.penalty = Grid<float>(input.traversable.geometry(), kInfinity, stop);
+  WritePenalty(input.traversable, range, stop, information);
   return information;
 }
 

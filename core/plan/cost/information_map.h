@@ -6,6 +6,7 @@
 
 #include "core/types/grid.h"
 #include "core/types/options.h"
+#include "core/types/stop.h"
 
 namespace plumescout {
 
@@ -38,7 +39,9 @@ inline constexpr float kMinPenalty = 1e-3F;
 //             outweigh the dimensionless mean; options.raw_variance takes it as printed.
 //   Eq. (10)  I-hat = 0.5 and `flat` if I has no contrast.
 // Cells known to be free since the last refresh of the posterior have no mean or variance yet:
-// they take the prior, m_0 and epsilon_inf. Cost: O(cells).
-InformationMap MakeInformationMap(const InformationMapInput& input, const PlanningOptions& options);
+// they take the prior, m_0 and epsilon_inf. Of no use once `stop`, which is asked all along, says
+// so: it may have no cells. Cost: O(cells).
+InformationMap MakeInformationMap(const InformationMapInput& input, const PlanningOptions& options,
+                                  const StopFn& stop = {});
 
 }  // namespace plumescout

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "core/belief/objective_cells.h"
+#include "core/grid/padded.h"
 
 namespace plumescout {
 namespace {
@@ -26,49 +27,73 @@ float SureGas_ppm(const MissionOptions& options) {
 }
 
 // Of those that are no NaN; -infinity without any.
-float Greatest_ppm(const std::vector<float>& values_ppm) {
+float Greatest_ppm(const std::vector<float>& values_ppm, const StopFn& stop) {
   constexpr std::size_t kLanes = 8;  // comparisons that do not wait for each other
   std::array<float, kLanes> greatest_ppm;
   greatest_ppm.fill(-std::numeric_limits<float>::infinity());
-  std::size_t i = 0;
-  for (; i + kLanes <= values_ppm.size(); i += kLanes) {
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      const float value_ppm = values_ppm[i + k];
-      greatest_ppm[k] = value_ppm > greatest_ppm[k] ? value_ppm : greatest_ppm[k];
+  InPieces(values_ppm.size(), stop, [&](std::size_t first, std::size_t end) {
+    std::size_t i = first;
+    for (; i + kLanes <= end; i += kLanes) {
+      for (std::size_t k = 0; k < kLanes; ++k) {
+        const float value_ppm = values_ppm[i + k];
+        greatest_ppm[k] = value_ppm > greatest_ppm[k] ? value_ppm : greatest_ppm[k];
+      }
     }
-  }
-  for (; i < values_ppm.size(); ++i) {
-    if (values_ppm[i] > greatest_ppm[0]) greatest_ppm[0] = values_ppm[i];
-  }
+    for (; i < end; ++i) {
+      if (values_ppm[i] > greatest_ppm[0]) greatest_ppm[0] = values_ppm[i];
+    }
+  });
   return *std::max_element(greatest_ppm.begin(), greatest_ppm.end());
 }
 
 }  // namespace
 
-std::vector<float> Relevance(const Grid<float>& mean_ppm, const MissionOptions& options) {
+std::vector<float> Relevance(const Grid<float>& mean_ppm, const MissionOptions& options,
+                             const CellRect& cells, const StopFn& stop) {
   const auto background_ppm = static_cast<float>(options.gas.background_mean_ppm);
   const float sure_ppm = SureGas_ppm(options);
-  const float greatest_ppm = std::max(sure_ppm, Greatest_ppm(mean_ppm.values()) - background_ppm);
-  std::vector<float> relevance(mean_ppm.size());
-  for (std::size_t i = 0; i < relevance.size(); ++i) {
-    const float above_ppm = mean_ppm[i] - background_ppm;
-    const float gas_ppm = above_ppm > 0.0F ? above_ppm : 0.0F;  // where it is NaN too
-    const float sure = std::min(1.0F, gas_ppm / sure_ppm);
-    relevance[i] = kCleanRelevance + (1.0F - kCleanRelevance) * sure * sure +
-                   kErrorShare * gas_ppm / greatest_ppm;
-  }
+  const float greatest_ppm =
+      std::max(sure_ppm, Greatest_ppm(mean_ppm.values(), stop) - background_ppm);
+  std::vector<float> relevance;
+  relevance.reserve(cells.size());
+  ByRows(cells.min.y, cells.end.y, cells.width(), stop, [&](int y) {
+    relevance.resize(relevance.size() + static_cast<std::size_t>(cells.width()));
+    float* const to = relevance.data() + relevance.size() - cells.width();
+    const float* const row_ppm = GridRow(mean_ppm, y) + cells.min.x;
+    for (int x = 0; x < cells.width(); ++x) {
+      const float above_ppm = row_ppm[x] - background_ppm;
+      const float gas_ppm = above_ppm > 0.0F ? above_ppm : 0.0F;  // where it is NaN too
+      const float sure = std::min(1.0F, gas_ppm / sure_ppm);
+      to[x] = kCleanRelevance + (1.0F - kCleanRelevance) * sure * sure +
+              kErrorShare * gas_ppm / greatest_ppm;
+    }
+  });
+  return relevance;
+}
+
+std::vector<float> Relevance(const Grid<float>& mean_ppm, const MissionOptions& options) {
+  return Relevance(mean_ppm, options, WholeRaster(mean_ppm.geometry()));
+}
+
+std::vector<float> Relevance(const Belief& belief, const CellRect& cells, const StopFn& stop) {
+  std::vector<float> relevance = Relevance(*belief.gas_mean_ppm, *belief.options, cells, stop);
+  if (belief.options->objective.kind == ObjectiveKind::kCompleteMap) return relevance;
+  if (Stops(stop)) return relevance;
+  const Grid<std::uint8_t> all(belief.geometry(), std::uint8_t{1});
+  const ObjectiveCells judged = JudgeCells(belief, all, stop);
+  float* to = relevance.data();
+  ByRows(cells.min.y, cells.end.y, cells.width(), stop, [&](int y) {
+    const float* const margins = GridRow(judged.margin, y) + cells.min.x;
+    for (int x = 0; x < cells.width(); ++x) {
+      if (!(margins[x] < judged.needed)) to[x] = 0.0F;
+    }
+    to += cells.width();
+  });
   return relevance;
 }
 
 std::vector<float> Relevance(const Belief& belief) {
-  std::vector<float> relevance = Relevance(*belief.gas_mean_ppm, *belief.options);
-  if (belief.options->objective.kind == ObjectiveKind::kCompleteMap) return relevance;
-  const Grid<std::uint8_t> all(belief.geometry(), std::uint8_t{1});
-  const ObjectiveCells cells = JudgeCells(belief, all);
-  for (std::size_t i = 0; i < relevance.size(); ++i) {
-    if (!(cells.margin[i] < cells.needed)) relevance[i] = 0.0F;
-  }
-  return relevance;
+  return Relevance(belief, WholeRaster(belief.geometry()));
 }
 
 }  // namespace plumescout

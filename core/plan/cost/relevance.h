@@ -5,8 +5,10 @@
 #include <vector>
 
 #include "core/belief/belief.h"
+#include "core/types/cell_rect.h"
 #include "core/types/grid.h"
 #include "core/types/options.h"
+#include "core/types/stop.h"
 
 namespace plumescout {
 
@@ -23,11 +25,15 @@ inline constexpr float kCleanRelevance = 0.05F;
 // all: maps are judged where they do. The last is about errors, which grow with concentration.
 // Square and factor were found by trial (docs/decisions/0007-own-strategy.md): a sharper edge is
 // lost in the field's smoothness, a softer one spends readings around the gas.
-// Where the mean is NaN: kCleanRelevance. By cell, in [kCleanRelevance, 1.5]. Cost: O(cells).
+// Where the mean is NaN: kCleanRelevance. By cell, in [kCleanRelevance, 1.5]; of `cells` alone, row
+// by row. Of no use once `stop`, which is asked all along, says so. Cost: O(cells).
+std::vector<float> Relevance(const Grid<float>& mean_ppm, const MissionOptions& options,
+                             const CellRect& cells, const StopFn& stop = {});
 std::vector<float> Relevance(const Grid<float>& mean_ppm, const MissionOptions& options);
 
 // The same by what the mission is for: of another objective than a complete map, cells that are
 // decided (JudgeCells) have none. Then in {0} and [kCleanRelevance, 1.5].
+std::vector<float> Relevance(const Belief& belief, const CellRect& cells, const StopFn& stop = {});
 std::vector<float> Relevance(const Belief& belief);
 
 }  // namespace plumescout

@@ -7,18 +7,24 @@
 #include <limits>
 #include <utility>
 
+#include "core/grid/padded.h"
 #include "core/plan/cost/hilbert.h"
+#include "core/types/cell_rect.h"
 
 namespace plumescout {
 namespace {
 
 // Successive draws without replacement, by exponential keys (Efraimidis and Spirakis 2006): the
 // `count` least of Exp(1) / q have the law of drawing one after the other.
-std::vector<Cell> DrawIid(const Grid<float>& mass, std::size_t count, Rng& rng) {
+std::vector<Cell> DrawIid(const Grid<float>& mass, std::size_t count, Rng& rng,
+                          const StopFn& stop) {
   std::vector<std::pair<double, std::size_t>> keys;
-  for (std::size_t i = 0; i < mass.size(); ++i) {
-    if (mass[i] > 0.0F) keys.emplace_back(-std::log1p(-rng.Uniform01()) / mass[i], i);
-  }
+  const bool is_whole = InPieces(mass.size(), stop, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      if (mass[i] > 0.0F) keys.emplace_back(-std::log1p(-rng.Uniform01()) / mass[i], i);
+    }
+  });
+  if (!is_whole) return {};
   count = std::min(count, keys.size());
   std::nth_element(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(count), keys.end());
   keys.resize(count);
@@ -30,36 +36,64 @@ std::vector<Cell> DrawIid(const Grid<float>& mass, std::size_t count, Rng& rng) 
   return samples;
 }
 
+// Where there is mass.
+struct MassCells {
+  CellRect bounds;
+  std::size_t count = 0;
+};
+
+MassCells FindMass(const Grid<float>& mass, const StopFn& stop) {
+  const auto has_mass = [](float q) { return q > 0.0F; };
+  MassCells cells;
+  ByRows(0, mass.height(), mass.width(), stop, [&](int y) {
+    const float* const row = GridRow(mass, y);
+    const float* const end = row + mass.width();
+    const float* const first = std::find_if(row, end, has_mass);
+    if (first == end) return;
+    cells.count += static_cast<std::size_t>(std::count_if(first, end, has_mass));
+    int last = mass.width() - 1;
+    while (!has_mass(row[last])) --last;
+    cells.bounds.Include({static_cast<int>(first - row), y});
+    cells.bounds.Include({last, y});
+  });
+  return cells;
+}
+
 // Distance in mass between systematic draws. Cells with at least that much are drawn for certain
 // and the others share the draws that remain, so that no cell is met twice.
 // REQUIRES: more than `count` cells with mass.
-double SystematicStep(const Grid<float>& mass, std::size_t count) {
+double SystematicStep(const Grid<float>& mass, const CellRect& bounds, std::size_t count,
+                      const StopFn& stop) {
   double step = std::numeric_limits<double>::infinity();
   std::size_t certain = 0;
   while (
       true) {  // ends: the step shrinks and more cells become certain in every round but the last
     double shared_mass = 0.0;
     std::size_t now_certain = 0;
-    for (const float q : mass.values()) {
-      const bool is_certain = q >= step;
-      now_certain += is_certain ? 1 : 0;
-      shared_mass += is_certain ? 0.0 : static_cast<double>(q);
-    }
+    const auto add_row = [&](int y) {
+      const float* const row = GridRow(mass, y);
+      for (int x = bounds.min.x; x < bounds.end.x; ++x) {
+        const bool is_certain = row[x] >= step;
+        now_certain += is_certain ? 1 : 0;
+        shared_mass += is_certain ? 0.0 : static_cast<double>(row[x]);
+      }
+    };
+    const bool is_whole = ByRows(bounds.min.y, bounds.end.y, bounds.width(), stop, add_row);
     const bool settled = std::isfinite(step) && now_certain == certain;
-    if (settled || now_certain >= count) return step;
+    if (settled || now_certain >= count || !is_whole) return step;
     certain = now_certain;
     step = shared_mass / static_cast<double>(count - certain);
   }
 }
 
-std::vector<Cell> DrawSystematic(const Grid<float>& mass, std::size_t count, Rng& rng) {
-  const auto cells_with_mass = static_cast<std::size_t>(
-      std::count_if(mass.values().begin(), mass.values().end(), [](float q) { return q > 0.0F; }));
-  const double step = count < cells_with_mass ? SystematicStep(mass, count) : 0.0;
+std::vector<Cell> DrawSystematic(const Grid<float>& mass, std::size_t count, Rng& rng,
+                                 const StopFn& stop) {
+  const MassCells cells = FindMass(mass, stop);
+  const double step = count < cells.count ? SystematicStep(mass, cells.bounds, count, stop) : 0.0;
   std::vector<Cell> samples;
-  samples.reserve(std::min(count, cells_with_mass));
+  samples.reserve(std::min(count, cells.count));
   double until_next = step * (1.0 - rng.Uniform01());  // in (0, step]
-  ForEachCellAlongHilbert(mass.width(), mass.height(), [&](Cell cell) {
+  const auto draw = [&](Cell cell) {
     const double q = mass[cell];
     if (q <= 0.0) return;
     if (q >= step) {
@@ -70,6 +104,13 @@ std::vector<Cell> DrawSystematic(const Grid<float>& mass, std::size_t count, Rng
     if (until_next > 0.0) return;
     samples.push_back(cell);
     until_next += step;
+  };
+  std::size_t tiles = 0;
+  bool stopped = false;
+  ForEachCellAlongHilbert(mass.width(), mass.height(), draw, [&](Cell low, Cell high) {
+    constexpr std::size_t kTilesPerStop = kCellsPerStop / (kHilbertTile * kHilbertTile);
+    stopped = stopped || (tiles++ % kTilesPerStop == 0 && Stops(stop));
+    return stopped || !cells.bounds.Overlaps({low, {high.x + 1, high.y + 1}});
   });
   return samples;
 }
@@ -77,15 +118,17 @@ std::vector<Cell> DrawSystematic(const Grid<float>& mass, std::size_t count, Rng
 }  // namespace
 
 Grid<float> SamplingMass(const InformationMap& information, const Grid<std::uint8_t>& domain,
-                         Cell robot_cell, double uniform_share) {
-  Grid<float> mass(domain.geometry(), 0.0F);
+                         Cell robot_cell, double uniform_share, const StopFn& stop) {
+  Grid<float> mass(domain.geometry(), 0.0F, stop);
   double total = 0.0;
   double cells = 0.0;
-  for (std::size_t i = 0; i < mass.size(); ++i) {
-    if (domain[i] == 0) continue;
-    total += information.value[i];
-    cells += 1.0;
-  }
+  InPieces(mass.size(), stop, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      if (domain[i] == 0) continue;
+      total += information.value[i];
+      cells += 1.0;
+    }
+  });
   if (domain.At(robot_cell, 0) != 0) {
     total -= information.value[robot_cell];
     cells -= 1.0;
@@ -95,17 +138,20 @@ Grid<float> SamplingMass(const InformationMap& information, const Grid<std::uint
   const auto per_information =
       no_information ? 0.0F : static_cast<float>((1.0 - uniform_share) / total);
   const auto per_cell = static_cast<float>((no_information ? 1.0 : uniform_share) / cells);
-  for (std::size_t i = 0; i < mass.size(); ++i) {
-    if (domain[i] != 0) mass[i] = per_information * information.value[i] + per_cell;  // Eq. (14)
-  }
+  InPieces(mass.size(), stop, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      if (domain[i] != 0) mass[i] = per_information * information.value[i] + per_cell;  // Eq. (14)
+    }
+  });
   if (mass.Contains(robot_cell)) mass[robot_cell] = 0.0F;
   return mass;
 }
 
-std::vector<Cell> DrawSamples(const Grid<float>& mass, int count, SamplingKind kind, Rng& rng) {
+std::vector<Cell> DrawSamples(const Grid<float>& mass, int count, SamplingKind kind, Rng& rng,
+                              const StopFn& stop) {
   const auto wanted = static_cast<std::size_t>(std::max(count, 0));
-  return kind == SamplingKind::kIid ? DrawIid(mass, wanted, rng)
-                                    : DrawSystematic(mass, wanted, rng);
+  return kind == SamplingKind::kIid ? DrawIid(mass, wanted, rng, stop)
+                                    : DrawSystematic(mass, wanted, rng, stop);
 }
 
 }  // namespace plumescout

@@ -42,11 +42,12 @@ std::vector<Frontier> GasFrontiers(const GoalQuery& query) {
                                *belief.gas_variance_ppm2};
   const FrontierOptions& options = belief.options->frontier;
   const double observed_ppm2 = ObservedVariance_ppm2(options, belief.options->gas);
-  std::vector<Frontier> frontiers =
-      FindGasClusters(input, observed_ppm2, GasThreshold_ppm(input, observed_ppm2, options),
-                      {query.start}, options);
-  if (frontiers.empty() || Stops(query.stop)) return {};
+  std::vector<Frontier> frontiers = FindGasClusters(
+      input, observed_ppm2, GasThreshold_ppm(input, observed_ppm2, options, query.stop),
+      {query.start}, options, query.stop);
+  if (frontiers.empty()) return {};
   for (Frontier& frontier : frontiers) {
+    if (Stops(query.stop)) return {};
     MoveGoalOntoFrontier(query, frontier);
     if (frontier.reachable) frontier.travel_m = query.FromStart().Travel(frontier.goal_cell);
   }

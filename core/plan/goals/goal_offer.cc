@@ -15,13 +15,34 @@
 
 namespace plumescout {
 
+namespace {
+
+// Over what can be reached.
+TravelFromStarts TravelFrom(const GoalQuery& query, std::vector<SearchSource> sources) {
+  CellRect cells = CellsAroundFree(*query.belief.occupancy);
+  cells.Include(query.start);
+  TravelFromStarts travel(
+      query.reachable.geometry(), cells, Connectivity::kEightNoCornerCut,
+      [&query](std::size_t index) { return query.reachable[index] != 0; }, query.stop);
+  travel.Run(std::move(sources), [&query](const auto&) { return Stops(query.stop); });
+  return travel;
+}
+
+}  // namespace
+
 const TravelFromStarts& GoalQuery::FromStart() const {
-  if (!from_start) {
-    from_start.emplace(reachable.geometry(), Connectivity::kEightNoCornerCut,
-                       [this](std::size_t index) { return reachable[index] != 0; });
-    from_start->Run({{start}}, [this](const auto&) { return Stops(stop); });
-  }
+  if (!from_start) from_start.emplace(TravelFrom(*this, {{start}}));
   return *from_start;
+}
+
+const TravelFromStarts& GoalQuery::FromHome() const {
+  if (!from_home) {
+    const HomeGoal home = FindHome(*this);
+    std::vector<SearchSource> sources;
+    if (home.reachable) sources.push_back({home.goal.cell});
+    from_home.emplace(TravelFrom(*this, std::move(sources)));
+  }
+  return *from_home;
 }
 
 GoalOffer GoHome(const GoalQuery& query) {
@@ -64,7 +85,7 @@ GoalOffer FindGoals(const GoalQuery& query, Rng& rng) {
     const std::vector<Goal> telling = InformationGoals(query, result.rejected);
     result.goals.insert(result.goals.end(), telling.begin(), telling.end());
   }
-  if (!result.goals.empty()) return result;
+  if (!result.goals.empty() || Stops(query.stop)) return result;
 
   result.fallback = true;
   // Without a gas sensor all would stay unobserved, and the mission would never end.

@@ -31,6 +31,9 @@ struct GoalQuery {
   // The ways from `start` by steps between reachable cells. Cost: O(cells) when first asked.
   const TravelFromStarts& FromStart() const;
   mutable std::optional<TravelFromStarts> from_start = std::nullopt;
+  // The same from home; from nowhere if that cannot be reached.
+  const TravelFromStarts& FromHome() const;
+  mutable std::optional<TravelFromStarts> from_home = std::nullopt;
 };
 
 struct GoalOffer {

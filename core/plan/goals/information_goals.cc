@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/frontier/gas_frontier.h"
+#include "core/grid/padded.h"
 #include "core/grid/window_sums.h"
 #include "core/plan/cost/relevance.h"
 #include "core/plan/goals/frontier_goals.h"
@@ -23,64 +24,111 @@ constexpr double kErrand_m = 4.0;
 // Variance that counts as done where there surely is gas, over that of clean air.
 constexpr double kDoneShare = 0.5;
 
-// What each cell can still tell, nats; 0 off free cells.
-Grid<float> LeftToTell(const Belief& belief) {
+// What each of these cells can still tell, nats; 0 off free cells. A raster of them alone.
+Grid<float> LeftToTell(const Belief& belief, const CellRect& cells, const StopFn& stop) {
   const MissionOptions& mission = *belief.options;
-  const std::vector<float> relevance = Relevance(belief);
+  const std::vector<float> relevance = Relevance(belief, cells, stop);
   const double observed_ppm2 = ObservedVariance_ppm2(mission.frontier, mission.gas);
   const auto most_ppm2 = static_cast<float>(OpenLatticeVariance_ppm2(mission.gas));
-  Grid<float> left(belief.geometry(), 0.0F);
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    const float variance_ppm2 = std::min((*belief.gas_variance_ppm2)[i], most_ppm2);
-    if (!(variance_ppm2 > 0.0F)) continue;
-    const double sure = std::min(1.0, static_cast<double>(relevance[i]));
+  const auto of_cell = [&](float known_ppm2, float relevant) {
+    const float variance_ppm2 = std::min(known_ppm2, most_ppm2);
+    if (!(variance_ppm2 > 0.0F)) return 0.0F;
+    const double sure = std::min(1.0, static_cast<double>(relevant));
     const double done_ppm2 = observed_ppm2 * (1.0 - (1.0 - kDoneShare) * sure);
-    if (!(static_cast<double>(variance_ppm2) > done_ppm2)) continue;
+    if (!(static_cast<double>(variance_ppm2) > done_ppm2)) return 0.0F;
     constexpr double kEntropyShare = 0.5;
     const double nats = kEntropyShare * std::log(static_cast<double>(variance_ppm2) / done_ppm2);
-    left[i] = relevance[i] * static_cast<float>(nats);
-  }
+    return relevant * static_cast<float>(nats);
+  };
+  GridGeometry geometry = belief.geometry();
+  geometry.width = cells.width();
+  geometry.height = cells.height();
+  Grid<float> left(geometry, 0.0F, stop);
+  std::size_t to = 0;
+  ByRows(cells.min.y, cells.end.y, cells.width(), stop, [&](int y) {
+    const float* const variance_ppm2 = GridRow(*belief.gas_variance_ppm2, y) + cells.min.x;
+    for (int x = 0; x < cells.width(); ++x, ++to) {
+      left[to] = of_cell(variance_ppm2[x], relevance[to]);
+    }
+  });
   return left;
 }
 
-// What each cell is worth driving to; 0 where no goal may be.
-Grid<double> Merits(const GoalQuery& query) {
-  const GridGeometry& geometry = query.belief.geometry();
-  const int reach_cells = static_cast<int>(std::lround(kWindowReach_m / geometry.resolution_m));
-  const Grid<float> left = LeftToTell(query.ahead != nullptr ? *query.ahead : query.belief);
-  Grid<double> merits(geometry, 0.0);
-  if (Stops(query.stop)) return merits;
-  const Grid<float> around = WindowSums(left, reach_cells);
-  const TravelFromStarts& from_start = query.FromStart();
-  const double reading_m = query.options.speed_mps / query.options.reading_rate_hz;
-  const double nearest_m = std::max(query.options.min_goal_distance_m, reading_m);
-  if (Stops(query.stop)) return merits;
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    if (query.reachable[i] == 0 || !(left[i] > 0.0F)) continue;
-    const double travel_m = from_start.Travel(geometry.CellAtIndex(i));
-    if (travel_m < nearest_m) continue;
-    merits[i] = static_cast<double>(around[i]) / (kErrand_m + travel_m);
-  }
-  return merits;
+struct Spot {
+  double merit = 0.0;
+  std::size_t index = 0;
+};
+
+bool IsWorse(const Spot& a, const Spot& b) {
+  return a.merit != b.merit ? a.merit < b.merit : a.index > b.index;
 }
 
-// Leaves no goal nearer to `place` than kApart_m. Returns whether there might have been one.
-bool Clear(Point2 place, Grid<double>& merits) {
-  const GridGeometry& geometry = merits.geometry();
-  const Cell middle = geometry.CellAt(place);
-  const int reach = 1 + static_cast<int>(std::ceil(kApart_m / geometry.resolution_m));
-  bool found = false;
-  for (int y = middle.y - reach; y <= middle.y + reach; ++y) {
-    for (int x = middle.x - reach; x <= middle.x + reach; ++x) {
-      const Cell cell{x, y};
-      if (!(merits.At(cell, 0.0) > 0.0)) continue;
-      if (Distance_m(place, geometry.Center(cell)) >= kApart_m) continue;
-      merits[cell] = 0.0;
-      found = true;
+// What each cell is worth driving to; 0 where no goal may be. Of no use once query.stop says so.
+class Merits {
+ public:
+  explicit Merits(const GoalQuery& query)
+      : query_(query),
+        from_start_(query.FromStart()),
+        left_(
+            LeftToTell(query.ahead != nullptr ? *query.ahead : query.belief, cells(), query.stop)),
+        around_(WindowSums(left_, ReachCells(), query.stop)),
+        closed_(left_.geometry(), 0),
+        nearest_m_(std::max(query.options.min_goal_distance_m,
+                            query.options.speed_mps / query.options.reading_rate_hz)) {}
+
+  const GridGeometry& geometry() const { return query_.belief.geometry(); }
+  // All that can be reached, and all that is free.
+  const CellRect& cells() const { return from_start_.cells(); }
+
+  // The best of a row, the first of several; of no merit if there is none.
+  Spot BestOf(int y) const {
+    Spot best;
+    for (int x = cells().min.x; x < cells().end.x; ++x) {
+      const double merit = At({x, y});
+      if (merit > best.merit) best = {merit, geometry().Index({x, y})};
     }
+    return best;
   }
-  return found;
-}
+
+  bool IsClosed(Cell cell) const { return closed_[Inside(cell)] != 0; }
+
+  // Leaves no goal nearer to `place` than kApart_m. Returns whether there might have been one.
+  bool Clear(Point2 place) {
+    const int reach = 1 + static_cast<int>(std::ceil(kApart_m / geometry().resolution_m));
+    const CellRect near =
+        CellRect::Sized(geometry().CellAt(place), 1, 1).Grown(reach).Within(cells());
+    bool found = false;
+    for (int y = near.min.y; y < near.end.y; ++y) {
+      for (int x = near.min.x; x < near.end.x; ++x) {
+        if (Distance_m(place, geometry().Center({x, y})) >= kApart_m) continue;
+        found = found || At({x, y}) > 0.0;
+        closed_[Inside({x, y})] = 1;
+      }
+    }
+    return found;
+  }
+
+ private:
+  int ReachCells() const {
+    return static_cast<int>(std::lround(kWindowReach_m / geometry().resolution_m));
+  }
+  Cell Inside(Cell cell) const { return {cell.x - cells().min.x, cell.y - cells().min.y}; }
+  double At(Cell cell) const {
+    const Cell inside = Inside(cell);
+    if (query_.reachable[cell] == 0 || !(left_[inside] > 0.0F) || closed_[inside] != 0) return 0.0;
+    const double travel_m = from_start_.Travel(cell);
+    if (travel_m < nearest_m_) return 0.0;
+    return static_cast<double>(around_[inside]) / (kErrand_m + travel_m);
+  }
+
+  const GoalQuery& query_;
+  const TravelFromStarts& from_start_;
+  // Of cells() alone.
+  const Grid<float> left_;
+  const Grid<float> around_;
+  Grid<std::uint8_t> closed_;
+  const double nearest_m_;
+};
 
 // Claims come first, for they keep the mission open: what is set aside beside one may leave out
 // nothing more.
@@ -97,38 +145,30 @@ std::vector<Goal> PlacesInMemory(const Belief& belief) {
   return places;
 }
 
-void ClearPlacesInMemory(const GoalQuery& query, Grid<double>& merits,
+void ClearPlacesInMemory(const GoalQuery& query, Merits& merits,
                          std::vector<RejectedGoal>& rejected) {
   for (Goal& place : PlacesInMemory(query.belief)) {
     place.cell = merits.geometry().CellAt(place.position);  // the map may have grown since
     std::optional<RejectedGoal> rejection = RejectedByMemory(query, place);
-    if (rejection && Clear(place.position, merits)) rejected.push_back(*std::move(rejection));
+    if (rejection && merits.Clear(place.position)) rejected.push_back(*std::move(rejection));
   }
 }
 
-struct Spot {
-  double merit;
-  std::size_t index;
-};
-
-bool IsWorse(const Spot& a, const Spot& b) {
-  return a.merit != b.merit ? a.merit < b.merit : a.index > b.index;
+// The best of each row that has any.
+std::vector<Spot> BestOfRows(const Merits& merits, const StopFn& stop) {
+  std::vector<Spot> rows;
+  const CellRect& cells = merits.cells();
+  ByRows(cells.min.y, cells.end.y, cells.width(), stop, [&](int y) {
+    const Spot best = merits.BestOf(y);
+    if (best.merit > 0.0) rows.push_back(best);
+  });
+  return rows;
 }
 
-// A heap, the best on top: of some million spots a few thousand are looked at.
-std::vector<Spot> SpotsOf(const Grid<double>& merits) {
-  std::vector<Spot> spots;
-  for (std::size_t i = 0; i < merits.size(); ++i) {
-    if (merits[i] > 0.0) spots.push_back({merits[i], i});
-  }
-  std::make_heap(spots.begin(), spots.end(), IsWorse);
-  return spots;
-}
-
-Goal GoalAt(std::size_t index, const GridGeometry& geometry) {
+Goal GoalAt(Cell cell, const GridGeometry& geometry) {
   Goal goal;
   goal.kind = GoalKind::kInformation;
-  goal.cell = geometry.CellAtIndex(index);
+  goal.cell = cell;
   goal.position = geometry.Center(goal.cell);
   goal.centroid = goal.position;
   return goal;
@@ -139,16 +179,23 @@ Goal GoalAt(std::size_t index, const GridGeometry& geometry) {
 std::vector<Goal> InformationGoals(const GoalQuery& query, std::vector<RejectedGoal>& rejected) {
   std::vector<Goal> goals;
   if (query.belief.gas_counters.readings == 0) return goals;
-  Grid<double> merits = Merits(query);
+  Merits merits(query);
+  if (Stops(query.stop)) return goals;
   ClearPlacesInMemory(query, merits, rejected);
-  std::vector<Spot> spots = SpotsOf(merits);
-  while (!spots.empty() && goals.size() < kMaxGoals) {
-    std::pop_heap(spots.begin(), spots.end(), IsWorse);
-    const std::size_t best = spots.back().index;
-    spots.pop_back();
-    if (!(merits[best] > 0.0)) continue;  // too near to one that is taken
-    goals.push_back(GoalAt(best, merits.geometry()));
-    Clear(goals.back().position, merits);
+  std::vector<Spot> rows = BestOfRows(merits, query.stop);
+  std::make_heap(rows.begin(), rows.end(), IsWorse);
+  while (!rows.empty() && goals.size() < kMaxGoals && !Stops(query.stop)) {
+    std::pop_heap(rows.begin(), rows.end(), IsWorse);
+    const Cell best = merits.geometry().CellAtIndex(rows.back().index);
+    rows.pop_back();
+    if (!merits.IsClosed(best)) {
+      goals.push_back(GoalAt(best, merits.geometry()));
+      merits.Clear(goals.back().position);
+    }  // else too near to one that is taken
+    const Spot next = merits.BestOf(best.y);
+    if (!(next.merit > 0.0)) continue;
+    rows.push_back(next);
+    std::push_heap(rows.begin(), rows.end(), IsWorse);
   }
   return goals;
 }

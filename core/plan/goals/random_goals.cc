@@ -18,13 +18,18 @@ std::vector<Goal> DrawGoals(const GoalQuery& query, GoalKind kind, Rng& rng,
   const GridGeometry& geometry = query.reachable.geometry();
   const Point2 from = geometry.Center(query.start);
   std::vector<std::size_t> cells;
-  for (std::size_t i = 0; i < query.reachable.size(); ++i) {
+  const auto add = [&](std::size_t i) {
     const Cell cell = geometry.CellAtIndex(i);
     if (query.reachable[i] != 0 && cell != query.start && wanted(cell) &&
         Distance_m(from, geometry.Center(cell)) >= query.options.min_goal_distance_m) {
       cells.push_back(i);
     }
-  }
+  };
+  const bool is_whole =
+      InPieces(query.reachable.size(), query.stop, [&](std::size_t first, std::size_t end) {
+        for (std::size_t i = first; i < end; ++i) add(i);
+      });
+  if (!is_whole) return {};
   const auto limit = static_cast<std::size_t>(query.options.max_goal_count);
   std::vector<Goal> goals;
   for (std::size_t i = 0; i < cells.size() && goals.size() < limit; ++i) {

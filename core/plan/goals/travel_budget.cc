@@ -9,8 +9,6 @@
 #include <vector>
 
 #include "absl/strings/str_format.h"
-#include "core/grid/grid_search.h"
-#include "core/plan/goals/home_goal.h"
 
 namespace plumescout {
 namespace {
@@ -56,16 +54,17 @@ std::optional<RejectedGoal> Objection(const GoalQuery& query, const Candidate& c
 
 }  // namespace
 
+bool IsLimited(const GoalQuery& query) {
+  return query.options.travel_budget_m > 0.0 || query.belief.deadline_ns;
+}
+
 void RejectOverBudget(const GoalQuery& query, Plan& plan) {
-  const bool is_limited = query.options.travel_budget_m > 0.0 || query.belief.deadline_ns;
-  if (!is_limited || plan.candidates.empty()) return;
-  const HomeGoal home = FindHome(query);
-  std::vector<Cell> ends;
-  if (home.reachable) ends.push_back(home.goal.cell);
-  const Grid<double> way_home_m = TravelDistances_m(query.reachable, ends);
+  if (!IsLimited(query) || plan.candidates.empty()) return;
+  const TravelFromStarts& from_home = query.FromHome();
+  const GridGeometry& geometry = query.reachable.geometry();
   std::vector<Candidate> affordable;
   for (Candidate& candidate : plan.candidates) {
-    const double back_m = way_home_m[way_home_m.geometry().CellAt(candidate.path.back())];
+    const double back_m = from_home.Travel(geometry.CellAt(candidate.path.back()));
     if (std::optional<RejectedGoal> objection = Objection(query, candidate, back_m)) {
       plan.rejected.push_back(*std::move(objection));
     } else {

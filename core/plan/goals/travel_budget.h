@@ -16,7 +16,10 @@ namespace plumescout {
 // there is until the deadline, with the same margin on both ways, if the way home is driven at the
 // mean speed of the way there, or at speed_mps if that is less. The margin is also for what the
 // robot drives while it is planned for, which does not count yet. The plan's choice is not looked
-// at. Cost: O(cells), one search for all candidates.
+// at. Cost: that of query.FromHome().
 void RejectOverBudget(const GoalQuery& query, Plan& plan);
+
+// Whether there is a travel budget, or a deadline.
+bool IsLimited(const GoalQuery& query);
 
 }  // namespace plumescout

@@ -13,22 +13,27 @@ namespace {
 
 constexpr float kBlockedPenalty = std::numeric_limits<float>::infinity();
 constexpr double kUnreached = std::numeric_limits<double>::infinity();
-constexpr int kNoParent = -1;
+constexpr std::int8_t kStart = -1;
 constexpr int kVisitsBetweenStops = 512;  // some tens of microseconds
 
 }  // namespace
 
-CostSearch::CostSearch(const EdgeCost& cost)
+CostSearch::CostSearch(const EdgeCost& cost, const CellRect& cells, const StopFn& stop)
     : cost_(cost),
-      penalty_(PaddedFrom<float>(cost.information().penalty, kBlockedPenalty,
-                                 [](float penalty) { return penalty; })),
-      g_(cost.geometry(), kUnreached, kUnreached),
-      parent_(cost.geometry(), kNoParent, kNoParent),
+      penalty_(cells, kBlockedPenalty, kBlockedPenalty, stop),
+      g_(cells, kUnreached, kUnreached, stop),
+      from_(cells, kStart, kStart, stop),
       offsets_(penalty_.NeighbourOffsets()),
-      levels_per_cost_(kBucketsPerStep / cost.GridStep(1.0F, 1.0F, kDiagonalStep_cells)) {}
+      levels_per_cost_(kBucketsPerStep / cost.GridStep(1.0F, 1.0F, kDiagonalStep_cells)) {
+  ByRows(cells.min.y, cells.end.y, cells.width(), stop, [&](int y) {
+    std::copy_n(GridRow(cost.information().penalty, y) + cells.min.x, cells.width(),
+                penalty_.Row(y));
+  });
+}
 
 bool CostSearch::Run(Cell start, const std::vector<Cell>& goals, const StopFn& stop) {
-  Reach(penalty_.IndexOf(start), kNoParent, 0.0);
+  if (stop()) return false;
+  Reach(penalty_.IndexOf(start), kStart, 0.0);
   int visits = 0;
   for (; waiting_ > 0 && !Settled(goals); ++level_) {
     std::vector<Entry>& bucket = BucketOf(level_);
@@ -51,10 +56,10 @@ bool CostSearch::Settled(const std::vector<Cell>& goals) const {
   });
 }
 
-void CostSearch::Reach(int cell, int parent, double g) {
+void CostSearch::Reach(int cell, std::int8_t from, double g) {
   if (!(g < g_[cell])) return;
   g_[cell] = g;
-  parent_[cell] = parent;
+  from_[cell] = from;
   BucketOf(std::max(LevelOf(g), level_)).push_back({cell, g});
   ++waiting_;
 }
@@ -69,17 +74,18 @@ void CostSearch::ReachNeighbours(const Entry& from) {
     if (!diagonal) open[k] = passable;
     // Diagonal k lies between the straight steps k - 4 and k - 3.
     if (!passable || (diagonal && !(open[k - 4] && open[(k - 3) % 4]))) continue;
-    Reach(to, from.cell,
+    Reach(to, static_cast<std::int8_t>(k),
           from.g + cost_.GridStep(penalty, penalty_[to],
                                   diagonal ? kDiagonalStep_cells : kStraightStep_cells));
   }
 }
 
 std::vector<Point2> CostSearch::WayTo(Cell goal, Point2 start) const {
-  if (g_[g_.IndexOf(goal)] == kUnreached) return {};
+  if (from_.empty() || g_[g_.IndexOf(goal)] == kUnreached) return {};
   std::vector<Point2> way;
-  for (int cell = g_.IndexOf(goal); cell != kNoParent; cell = parent_[cell]) {
+  for (int cell = g_.IndexOf(goal);; cell -= offsets_[static_cast<std::size_t>(from_[cell])]) {
     way.push_back(cost_.geometry().Center(g_.CellAt(cell)));
+    if (from_[cell] == kStart) break;
   }
   if (way.back() != start) way.push_back(start);
   std::reverse(way.begin(), way.end());

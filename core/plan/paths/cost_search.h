@@ -8,6 +8,7 @@
 
 #include "core/grid/padded.h"
 #include "core/plan/paths/path_planner.h"
+#include "core/types/cell_rect.h"
 
 namespace plumescout {
 
@@ -16,12 +17,15 @@ namespace plumescout {
 // is visited until it stays empty; a cell that got better meanwhile is visited again.
 class CostSearch {
  public:
-  // Cost: O(cells).
-  explicit CostSearch(const EdgeCost& cost);
+  // No way leaves `cells`. Of no use once `stop`, which is asked all along, says so. Cost:
+  // O(`cells`).
+  CostSearch(const EdgeCost& cost, const CellRect& cells, const StopFn& stop);
+  explicit CostSearch(const EdgeCost& cost)
+      : CostSearch(cost, WholeRaster(cost.geometry()), StopFn()) {}
 
   // Settles all `goals`, or all of them that can be reached. False if `stop` said so first. To be
-  // called once. REQUIRES: `start` and the goals are inside. Cost: O(cells cheaper to reach than
-  // the dearest goal).
+  // called once. REQUIRES: `start` and the goals are in the cells. Cost: O(cells cheaper to reach
+  // than the dearest goal).
   bool Run(Cell start, const std::vector<Cell>& goals, const StopFn& stop);
 
   // The polyline from `start`, inside the cell that Run began with, along the centres of cells to
@@ -46,13 +50,13 @@ class CostSearch {
     return buckets_[static_cast<std::size_t>(level) % kBuckets];
   }
   bool Settled(const std::vector<Cell>& goals) const;
-  void Reach(int cell, int parent, double g);
+  void Reach(int cell, std::int8_t from, double g);
   void ReachNeighbours(const Entry& from);
 
   const EdgeCost& cost_;
   Padded<float> penalty_;
   Padded<double> g_;
-  Padded<int> parent_;
+  Padded<std::int8_t> from_;  // which of the offsets leads there from the cell before
   std::array<int, 8> offsets_;
   double levels_per_cost_;
   std::array<std::vector<Entry>, kBuckets> buckets_;

@@ -3,7 +3,9 @@
 #include "core/plan/paths/grid_guard.h"
 
 #include <cstddef>
+#include <cstdint>
 
+#include "core/grid/mask.h"
 #include "core/plan/paths/cost_search.h"
 #include "core/plan/paths/straighten.h"
 
@@ -25,7 +27,8 @@ void CompleteOnGrid(const PathProblem& problem, PathSource source, PathResult& r
   const std::vector<Cell> missed = MissedGoals(problem, result);
   bool stopped = false;
   if (!missed.empty()) {
-    CostSearch search(problem.cost);
+    // Nothing else can be reached.
+    CostSearch search(problem.cost, BoundsOf(problem.reachable, std::uint8_t{1}), problem.stop);
     stopped = !search.Run(problem.start_cell(), missed, problem.stop);
     for (std::size_t i = 0; i < result.paths.size(); ++i) {
       if (result.paths[i] || problem.reachable.At(problem.goals[i].cell, 0) == 0) continue;

@@ -71,8 +71,7 @@ struct PathProblem {
 
 // Finds collision-free paths from one start to many goals. Immutable; FindPaths may run on many
 // threads at once. Same problem: same bytes, unless the stop function says so: a search polls it
-// many times a millisecond, and returns what was found so far. (Preparations of O(cells), some ten
-// nanoseconds a cell, are not interrupted.)
+// many times a millisecond, and returns what was found so far.
 class PathPlanner {
  public:
   virtual ~PathPlanner() = default;

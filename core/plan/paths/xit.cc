@@ -31,9 +31,9 @@ struct Graph {
 Graph MakeGraph(const PathProblem& problem, const PlanningOptions& options) {
   Rng rng(problem.seed);
   const Grid<float> mass = SamplingMass(problem.cost.information(), problem.reachable,
-                                        problem.start_cell(), options.uniform_share);
+                                        problem.start_cell(), options.uniform_share, problem.stop);
   std::vector<Cell> cells =
-      DrawSamples(mass, options.sample_count, options.sampling, rng);  // line 1
+      DrawSamples(mass, options.sample_count, options.sampling, rng, problem.stop);  // line 1
   Graph graph;
   graph.sample_count = static_cast<int>(cells.size());
   if (options.goal_vertices) {

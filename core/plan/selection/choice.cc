@@ -47,7 +47,7 @@ class Pricing {
         options_(options),
         stop_(stop),
         candidates_(candidates),
-        information_(belief) {}
+        information_(belief, stop) {}
 
   // `needed`: index of one whose price is wanted whatever the others are worth; -1: there is none.
   void Run(int needed) {

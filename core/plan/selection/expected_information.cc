@@ -59,15 +59,13 @@ std::vector<Cell> ReadingCells(const std::vector<Point2>& path, const GridGeomet
   return cells;
 }
 
-ExpectedInformation::ExpectedInformation(const Belief& belief) : belief_(belief) {
+ExpectedInformation::ExpectedInformation(const Belief& belief, const StopFn& stop)
+    : belief_(belief) {
   if (belief.gas_what_if == nullptr) return;
-  const std::vector<float> relevance = Relevance(belief);
-  const GridGeometry& field = belief.gas_what_if->geometry();
-  std::vector<float> weights(field.size());
-  FieldWindow(belief.geometry(), field).ForEachCell([&](std::size_t in_map, std::size_t in_field) {
-    weights[in_field] = relevance[in_map];
-  });
-  fall_ = belief.gas_what_if->FallOf(weights);
+  const FieldWindow window(belief.geometry(), belief.gas_what_if->geometry());
+  const std::vector<float> weights = Relevance(belief, window.cells(), stop);
+  if (Stops(stop)) return;
+  fall_ = belief.gas_what_if->FallOf(weights, stop);
 }
 
 void ExpectedInformation::FindBounds(const StopFn& stop) {
@@ -93,7 +91,7 @@ std::optional<double> ExpectedInformation::Ask(Measure measure, const std::vecto
     if (const std::optional<Cell> cell = window.InField(reading)) inside.push_back(*cell);
   }
   const double precision = belief_.options->gas.observation_precision_per_ppm2;
-  auto columns = belief_.gas_what_if->ColumnsIfRead(inside, precision);
+  auto columns = belief_.gas_what_if->ColumnsIfRead(inside, precision, stop);
   if (!columns.ok()) return std::nullopt;
   if (!columns->has_value()) return 0.0;
   return ((*fall_).*measure)(**columns, stop);

@@ -28,7 +28,7 @@ std::vector<Cell> ReadingCells(const std::vector<Point2>& path, const GridGeomet
 class ExpectedInformation {
  public:
   // Holds references to the belief. Cost: O(cells).
-  explicit ExpectedInformation(const Belief& belief);
+  explicit ExpectedInformation(const Belief& belief, const StopFn& stop = {});
 
   // The sum over free cells of relevance (core/plan/cost/relevance.h) times 1/2 ln(variance now /
   // variance then), in nats. None if the belief has no gas field yet, or `stop` said so. Cost: that

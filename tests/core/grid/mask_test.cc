@@ -17,6 +17,18 @@ TEST(MaskOf, IsOneWhereTheGridHoldsTheValue) {
   EXPECT_EQ(MaskOf(states, CellState::kFree).geometry(), states.geometry());
 }
 
+TEST(BoundsOf, IsTheLeastRectangleAroundTheValue) {
+  const Grid<CellState> states = testing::GridFromArt({"#####",  //
+                                                       "##.##",  //
+                                                       "#.##.",  //
+                                                       "#####"});
+  const CellRect bounds = BoundsOf(states, CellState::kFree);
+  EXPECT_EQ(bounds, CellRect({1, 1}, {5, 3}));
+  EXPECT_EQ(BoundsOf(states, CellState::kOccupied), WholeRaster(states.geometry()));
+  EXPECT_TRUE(BoundsOf(states, CellState::kUnknown).empty());
+  EXPECT_TRUE(BoundsOf(Grid<CellState>(), CellState::kFree).empty());
+}
+
 TEST(MaskWhere, IsOneWhereThePredicateHolds) {
   Grid<double> grid(GridGeometry{0.0, 0.0, 0.1, 3, 1});
   grid.values() = {-1.0, 0.0, 2.0};

@@ -53,6 +53,22 @@ TEST(Padded, ComesBackAsTheGridItWasMadeFrom) {
   EXPECT_EQ(GridFrom<std::uint8_t>(padded, grid.geometry(), same), grid);
 }
 
+TEST(Padded, HoldsARectangleOutOfARaster) {
+  Rng rng(2);
+  const Grid<std::uint8_t> grid = testing::RandomMask(17, 9, 0.5, rng);
+  const CellRect cells({4, 2}, {9, 8});
+  const auto same = [](std::uint8_t value) { return value; };
+  const Padded<std::uint8_t> padded = PaddedFrom<std::uint8_t>(grid, cells, 9, same);
+  for (int y = 1; y < 9; ++y) {
+    for (int x = 3; x < 10; ++x) {
+      const int index = padded.IndexOf({x, y});
+      EXPECT_EQ(padded.CellAt(index), (Cell{x, y}));
+      const int expected = cells.Contains({x, y}) ? grid.At({x, y}, 0) : 9;
+      EXPECT_EQ(padded[index], expected);
+    }
+  }
+}
+
 TEST(Padded, OfAnEmptyRasterIsAllBorder) {
   const Padded<int> padded(GridGeometry{}, 5, 0);
   EXPECT_EQ(padded[padded.IndexOf({-1, -1})], 5);

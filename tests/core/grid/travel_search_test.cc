@@ -24,6 +24,27 @@ Grid<std::uint8_t> OpenRow(int width) {
   return Grid<std::uint8_t>(GridGeometry{0.0, 0.0, 0.1, width, 1}, 1);
 }
 
+TEST(TravelSearch, OfARectangleIsThatOfTheRasterWithAllElseClosed) {
+  Rng rng(5);
+  const Grid<std::uint8_t> mask = testing::RandomMask(40, 30, 0.8, rng);
+  const CellRect cells({7, 3}, {33, 29});
+  Grid<std::uint8_t> inside(mask.geometry(), 0);
+  Cell start;
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    const Cell cell = mask.geometry().CellAtIndex(i);
+    inside[i] = cells.Contains(cell) ? mask[i] : std::uint8_t{0};
+    if (inside[i] != 0) start = cell;
+  }
+  TravelSearch<double> search(mask.geometry(), cells, Connectivity::kEightNoCornerCut,
+                              [&mask](std::size_t index) { return mask[index] != 0; });
+  search.Run({{{0, 0}, 0.0}, {start, 0.0}});
+  const Grid<double> expected = TravelDistances_m(inside, std::vector<Cell>{start});
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    const Cell cell = mask.geometry().CellAtIndex(i);
+    ASSERT_EQ(search.Travel(cell), expected[i]) << cell.x << ", " << cell.y;
+  }
+}
+
 TEST(TravelSearch, InFloatAgreesWithDoubleToItsRoundings) {
   Rng rng(1);
   for (int trial = 0; trial < 20; ++trial) {

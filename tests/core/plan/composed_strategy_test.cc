@@ -333,31 +333,6 @@ TEST(Strategy, WithoutTheGuardMayMissGoalsAndSaysSo) {
   EXPECT_GT(guarded->effort.goals_by_guard, 0);
 }
 
-TEST(Strategy, StoppedBeforeAnyPathIsAnError) {
-  const absl::StatusOr<Plan> plan = TryPlan(SmallBelief(kRoom), For("r"), {}, [] { return true; });
-  EXPECT_EQ(plan.status().code(), absl::StatusCode::kDeadlineExceeded);
-}
-
-TEST(Strategy, StoppedHalfWayReturnsWhatItHas) {
-  const lab::RandomWorld world = lab::MakeRandomWorld(2, 3);
-  bool saw_part = false;
-  for (int polls = 5; polls < 300; polls += 5) {
-    int polled = 0;
-    const absl::StatusOr<Plan> plan =
-        TryPlan(world.belief, For(world.robot), {}, [&] { return ++polled > polls; });
-    if (!plan.ok()) {
-      EXPECT_EQ(plan.status().code(), absl::StatusCode::kDeadlineExceeded);
-      continue;
-    }
-    if (plan->end != PlanEnd::kStopped) continue;
-    EXPECT_GE(plan->chosen, 0);
-    for (const RejectedGoal& goal : plan->rejected) {
-      saw_part = saw_part || goal.reason == RejectionReason::kSearchStopped;
-    }
-  }
-  EXPECT_TRUE(saw_part);
-}
-
 TEST(Strategy, KeepsToTheEdgeBudgetAndStaysRepeatable) {
   const lab::RandomWorld world = lab::MakeRandomWorld(2, 3);
   PlanRequest request = For(world.robot, 4);

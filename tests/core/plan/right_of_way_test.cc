@@ -9,6 +9,7 @@
 #include "core/traffic/traffic.h"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
+#include "tests/support/counting_stop.h"
 
 namespace plumescout {
 namespace right_of_way_test {
@@ -91,6 +92,34 @@ TEST(FindWaits, AreThoseOfTheCandidatesOneByOne) {
   YieldToRobots(*waits, 0.0, options, plan);
   ASSERT_EQ(plan.candidates.size(), 1u);
   EXPECT_EQ(plan.rejected.size(), 2u);
+}
+
+TEST(FindWaitsUntil, LooksOnlyForTheBestThatIsClearOnceToldToStop) {
+  const PlanningOptions options;
+  Belief belief = CrossedBelief();
+  belief.robots["c"] = At("c", {3.0, 0.4});
+  Plan all = PlanOf({Way({5.0, 0.0}), Way({-4.0, 0.0}), Way({-5.0, 0.0}), Way({3.0, 0.0})});
+  for (std::size_t i = 0; i < all.candidates.size(); ++i) {
+    all.candidates[i].cost = 4.0 - static_cast<double>(i);
+  }
+  Plan plan = all;
+  testing::CountingStop stop(1);
+  const auto waits = FindWaitsUntil(stop.Fn(), belief, 0.0, options, plan);
+  ASSERT_TRUE(waits.has_value());
+  // The first before it was told, then the cheapest, which is blocked, and the next, which is
+  // clear.
+  EXPECT_THAT(waits->waits_s, ::testing::ElementsAre(std::nullopt, std::nullopt, 0.0));
+  ASSERT_EQ(plan.candidates.size(), 3u);
+  EXPECT_EQ(plan.candidates[0], all.candidates[0]);
+  EXPECT_EQ(plan.candidates[1], all.candidates[3]);
+  EXPECT_EQ(plan.candidates[2], all.candidates[2]);
+  ASSERT_EQ(plan.rejected.size(), 1u);
+  EXPECT_EQ(plan.rejected[0].reason, RejectionReason::kSearchStopped);
+  EXPECT_EQ(plan.end, PlanEnd::kStopped);
+  Plan whole = all;
+  EXPECT_EQ(FindWaitsUntil(NeverStop(), belief, 0.0, options, whole)->waits_s,
+            FindWaits(belief, 0.0, options, all)->waits_s);
+  EXPECT_EQ(whole, all);
 }
 
 TEST(FindWaits, OfARobotThatIsAloneAreNone) {

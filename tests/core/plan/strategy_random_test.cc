@@ -153,7 +153,7 @@ TEST(StrategyOnRandomBeliefs, AnswersSoundlyOrSaysWhyNot) {
     const Belief belief = RandomBelief(rng);
     const auto strategy = MakeStrategy(RandomOptions(rng));
     ASSERT_TRUE(strategy.ok()) << strategy.status();
-    const int polls_to_stop = OneOf(rng, {0, 1, 20, 500, 1'000'000'000});
+    const int polls_to_stop = OneOf(rng, {0, 1, 60, 500, 1'000'000'000});
     int polls = 0;
     const auto plan =
         (*strategy)->Plan(belief, RandomRequest(rng), [&] { return ++polls > polls_to_stop; });

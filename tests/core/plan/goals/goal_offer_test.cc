@@ -52,6 +52,17 @@ TEST(FindGoals, OffersFrontiersWhileThereAreAny) {
   EXPECT_FALSE(found.complete);
 }
 
+TEST(FindGoals, ToldToStopDoesNotFallBack) {
+  GoalCase c = Measured(kClosed);
+  GoalQuery query = c.Query();
+  query.stop = [] { return true; };
+  Rng rng(1);
+  const GoalOffer found = FindGoals(query, rng);
+  EXPECT_FALSE(found.fallback);
+  EXPECT_FALSE(found.complete);
+  EXPECT_THAT(found.goals, IsEmpty());
+}
+
 TEST(FindGoals, FallsBackToRandomPlacesIfNoFrontierIsLeft) {
   GoalCase c = Measured(kClosed);
   c.belief.robots["r"].fruitless_fallbacks = 1;

@@ -63,5 +63,22 @@ TEST(CostSearch, StopsSoon) {
   EXPECT_EQ(polls, 1);
 }
 
+TEST(CostSearch, StaysWithinItsCells) {
+  const PathCase c(5, {60, 50, 0, 1});
+  const CellRect cells =
+      CellRect::Sized(c.start_cell, 1, 1).Grown(3).Within(WholeRaster(c.cost.geometry()));
+  CostSearch search(c.cost, cells, c.stop);
+  EXPECT_TRUE(search.Run(c.start_cell, {cells.min}, c.stop));
+  EXPECT_EQ(search.WayTo(cells.min, c.start).back(), c.cost.geometry().Center(cells.min));
+}
+
+TEST(CostSearch, ToldToStopBeforeItBeginsFindsNothing) {
+  const PathCase c(4);
+  const StopFn now = [] { return true; };
+  CostSearch search(c.cost, WholeRaster(c.cost.geometry()), now);
+  EXPECT_FALSE(search.Run(c.start_cell, {c.start_cell}, now));
+  EXPECT_TRUE(search.WayTo(c.start_cell, c.start).empty());
+}
+
 }  // namespace cost_search_test
 }  // namespace plumescout
