@@ -43,6 +43,8 @@ absl::Status CheckPrice(const v1::Candidate& proto, absl::string_view field) {
       CheckFinite(Join(field, "expected_information_nats"), proto.expected_information_nats()));
   PLUMESCOUT_RETURN_IF_ERROR(CheckFinite(Join(field, "expected_information_bound_nats"),
                                          proto.expected_information_bound_nats()));
+  PLUMESCOUT_RETURN_IF_ERROR(
+      CheckRange(Join(field, "unseen_share"), proto.unseen_share(), 0.0, 1.0));
   PLUMESCOUT_RETURN_IF_ERROR(CheckFinite(Join(field, "reward"), proto.reward()));
   return CheckFinite(Join(field, "mean_concentration_ppm"), proto.mean_concentration_ppm());
 }
@@ -136,6 +138,7 @@ v1::Candidate ToProto(const Candidate& candidate) {
   if (candidate.information_bound_nats) {
     proto.set_expected_information_bound_nats(*candidate.information_bound_nats);
   }
+  if (candidate.unseen_share != 1.0) proto.set_unseen_share(candidate.unseen_share);
   if (candidate.reward) proto.set_reward(*candidate.reward);
   for (const Point2& stop : candidate.stops) *proto.add_stops() = ToProto(stop);
   return proto;
@@ -208,6 +211,7 @@ absl::StatusOr<Candidate> FromProto(const v1::Candidate& proto, absl::string_vie
   if (proto.has_expected_information_bound_nats()) {
     candidate.information_bound_nats = proto.expected_information_bound_nats();
   }
+  if (proto.has_unseen_share()) candidate.unseen_share = proto.unseen_share();
   if (proto.has_reward()) candidate.reward = proto.reward();
   for (int i = 0; i < proto.stops_size(); ++i) {
     PLUMESCOUT_ASSIGN_OR_RETURN(const Point2 stop,

@@ -38,6 +38,7 @@ Plan TestPlan() {
                       3.0,
                       12.5}};
   plan.candidates[0].reward = -0.25;
+  plan.candidates[0].unseen_share = 0.75;
   plan.candidates[0].stops = {{0.1, 0.2}, {0.35, 0.45}};
   plan.rejected = {{goal, RejectionReason::kClaimed, "robot r2"}};
   plan.trajectory = {{{{0.0, 0.0, 0.5}, 0.0, 0.0}, {{0.35, 0.45, 0.5}, 1.0, 0.5, 0.25}}, 2.0, 1.5};
@@ -87,6 +88,8 @@ TEST(PlanTest, WhatARobotWouldFollowIsChecked) {
       {"plan.chosen_index", [](auto& p) { p.set_chosen_index(-2); }},
       {"plan.candidates[0].cost", [](auto& p) { p.mutable_candidates(0)->set_cost(kNan); }},
       {"plan.candidates[0].length_m", [](auto& p) { p.mutable_candidates(0)->set_length_m(-1.0); }},
+      {"plan.candidates[0].unseen_share",
+       [](auto& p) { p.mutable_candidates(0)->set_unseen_share(1.5); }},
       {"plan.candidates[0].reward", [](auto& p) { p.mutable_candidates(0)->set_reward(kNan); }},
       {"plan.candidates[0].stops[1].y_m",
        [](auto& p) { p.mutable_candidates(0)->mutable_stops(1)->set_y_m(kNan); }},
@@ -132,11 +135,13 @@ TEST(PlanTest, APlanThatSamplesSitesSaysWhenItsLastSampleIsIn) {
   EXPECT_FALSE(ToProto(plan, "hall").has_map_update_s());
 }
 
-TEST(PlanTest, ACandidateWithoutARewardHasNone) {
+TEST(PlanTest, WhatACandidateHasNotIsAbsent) {
   Plan plan = TestPlan();
   plan.candidates[0].reward.reset();
   plan.candidates[0].stops.clear();
   EXPECT_FALSE(ToProto(plan, "hall").candidates(0).has_reward());
+  plan.candidates[0].unseen_share = 1.0;
+  EXPECT_FALSE(ToProto(plan, "hall").candidates(0).has_unseen_share());
   EXPECT_EQ(FromProto(ToProto(plan, "hall"), "plan").value(), plan);
 }
 
