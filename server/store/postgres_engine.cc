@@ -10,6 +10,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/types/status_macros.h"
 #include "server/store/head_marks.h"
+#include "server/store/postgres_changes.h"
 #include "server/store/postgres_schema.h"
 #include "server/store/store_errors.h"
 

@@ -42,7 +42,7 @@ struct SharedMission {
   AcquiredMission known;
 };
 
-// Reading. Whatever has a checksum is checked: kDataLoss, naming database and row. Other errors as
+// Whatever has a checksum is checked: kDataLoss, naming database and row. Other errors as
 // of PostgresConnection. What one call reads is of a single state of the database.
 
 // Of those of the keys that there are; kDataLoss in place of a row that is damaged.
@@ -74,35 +74,6 @@ absl::StatusOr<std::int64_t> SharedRecordBytes(PostgresConnection& connection,
                                                const MissionRow& row, std::int64_t after,
                                                std::int64_t last);
 absl::StatusOr<std::int64_t> NextSharedId(PostgresConnection& connection);
-
-// Writing. Each statement does what it says only if the mission's row still is `before`, epoch,
-// head and all, and then makes it `after`; it gives one number: 1, or 0 if it was another and
-// nothing was done. `after` has its writes counted up. Who becomes the owner must hold its lease.
-
-PostgresStatement CreateStatement(const MissionRow& made, const std::string& header,
-                                  std::int64_t owner);
-// Nor if a node that has not been forgotten, and is not `owner`, has it. See ForgetStatement.
-PostgresStatement AcquireStatement(const MissionRow& before, const MissionRow& after,
-                                   std::int64_t owner);
-PostgresStatement AppendStatement(const MissionRow& before, const MissionRow& after,
-                                  std::span<const std::string> records);
-PostgresStatement StandingStatement(const MissionRow& before, const MissionRow& after,
-                                    const std::string& standing);
-PostgresStatement SnapshotStatement(const MissionRow& before, const MissionRow& after,
-                                    const StoredSnapshot& snapshot,
-                                    std::span<const std::int64_t> leaving);
-// Forgets a node whose lease has run out. It cannot be renewed any more then; one that is being
-// renewed just now is waited for.
-PostgresStatement ForgetStatement(std::int64_t lease);
-PostgresStatement SaveStatement(const MissionRow& before, const MissionRow& after);
-PostgresStatement RemoveStatement(const MissionRow& before);
-// As the last, of a row that cannot be told by its checksum. Nor if a node that lives, and is not
-// `owner`, has it.
-PostgresStatement DiscardStatement(const DamagedRow& before, std::int64_t owner);
-// Each of the first two deletes at most `limit` records and counts them: of missions that were
-// removed, and of those that were trimmed. Other servers may be at it, too. Then missions are
-// forgotten of which no record is left.
-std::vector<PostgresStatement> PurgeStatements(std::int64_t limit);
 
 absl::Status SharedRowDamaged(const PostgresConnection& connection, absl::string_view key,
                               absl::string_view what);

@@ -11,13 +11,13 @@ import socket
 import ssl
 import struct
 import tempfile
-import threading
 import time
 import unittest
 
 import grpc
 
 import plumescout
+import raw_http2
 import running
 from plumescout.v1 import mission_service_pb2 as mission_pb
 from plumescout.v1 import mission_service_pb2_grpc as mission_grpc
@@ -28,74 +28,6 @@ MAX_OPEN_CALLS = 200  # of a certificate
 FLOOD_S = 6.0
 HONEST_CALL_S = 1.0  # the longest that an honest call may take beside a flood
 MAX_GROWTH_BYTES = 128 << 20
-
-DATA, HEADERS, RST_STREAM, SETTINGS = 0, 1, 3, 4
-END_HEADERS = 4
-CANCEL = 8
-
-
-def frame(kind, flags, stream, payload):
-    return struct.pack(">I", len(payload))[1:] + struct.pack(">BBI", kind, flags, stream) + payload
-
-
-def literal(name_index, value):
-    """A header whose name is of HPACK's static table, without Huffman codes."""
-    index = bytes([name_index]) if name_index < 15 else bytes([15, name_index - 15])
-    return index + bytes([len(value)]) + value
-
-
-# POST, https and a method of the service; 4 is :path, 1 :authority, 31 content-type.
-CALL = (
-    b"\x83\x87"
-    + literal(4, b"/plumescout.v1.MissionService/ListMissions")
-    + literal(1, b"localhost")
-    + literal(31, b"application/grpc")
-    + b"\0\x02te\x08trailers"
-)
-PREFACE = b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n" + frame(SETTINGS, 0, 0, b"")
-
-
-def resets(first_stream, count):
-    """Calls that are taken back as soon as they are made."""
-    frames = []
-    for stream in range(first_stream, first_stream + 2 * count, 2):
-        frames.append(frame(HEADERS, END_HEADERS, stream, CALL))
-        frames.append(frame(RST_STREAM, 0, stream, struct.pack(">I", CANCEL)))
-    return b"".join(frames)
-
-
-def half_requests(count):
-    """Calls whose request is never sent to its end."""
-    half = b"\0" + struct.pack(">I", 1000) + b"\0" * 500
-    streams = range(1, 2 * count, 2)
-    return b"".join(
-        frame(HEADERS, END_HEADERS, stream, CALL) + frame(DATA, 0, stream, half)
-        for stream in streams
-    )
-
-
-class Answers:
-    """How many calls of a connection have been answered."""
-
-    def __init__(self, link):
-        self._link = link
-        self._link.settimeout(0.0)
-        self._bytes = b""
-        self.count = 0
-
-    def look(self):
-        try:
-            while chunk := self._link.recv(1 << 16):
-                self._bytes += chunk
-        except (BlockingIOError, ssl.SSLWantReadError):
-            pass
-        while len(self._bytes) >= 9:
-            end = 9 + int.from_bytes(self._bytes[:3], "big")
-            if len(self._bytes) < end:
-                break
-            self.count += self._bytes[3] == HEADERS
-            self._bytes = self._bytes[end:]
-        return self.count
 
 
 class FrontTest(unittest.TestCase):
@@ -320,8 +252,8 @@ class FrontTest(unittest.TestCase):
         links = [self.handshake("127.0.0.5", "holder") for _ in range(10)]
         each = (MAX_OPEN_CALLS + 100) // len(links)
         for link in links:
-            link.sendall(PREFACE + half_requests(each))
-        answers = [Answers(link) for link in links]
+            link.sendall(raw_http2.PREFACE + raw_http2.half_requests(each))
+        answers = [raw_http2.Answers(link) for link in links]
         running.await_that(
             lambda: sum(answer.look() for answer in answers) >= 100, "the rest is turned away"
         )
@@ -349,7 +281,7 @@ class FrontTest(unittest.TestCase):
         alice.create_mission("flooded")
         server_before, front_before = self.server.rss_bytes(), self.front.rss_bytes()
         end = time.monotonic() + FLOOD_S
-        flood = Flood(lambda: self.handshake("127.0.0.3", "busy"), end)
+        flood = raw_http2.Flood(lambda: self.handshake("127.0.0.3", "busy"), end)
         slowest_s, calls = 0.0, 0
         while time.monotonic() < end:
             began = time.monotonic()
@@ -369,49 +301,6 @@ class FrontTest(unittest.TestCase):
         self.assertGreater(flood.resets, 3000)
         with self.assertRaises(OSError):  # the flood's source is shut out
             self.handshake("127.0.0.3")
-
-
-class Flood:
-    """Four connections at a time that open streams and reset them, as fast as they can."""
-
-    BATCH = 200
-
-    def __init__(self, handshake, end):
-        self._handshake = handshake
-        self._end = end
-        self.resets = self.connections = self.refused = 0
-        self._lock = threading.Lock()
-        self._threads = [threading.Thread(target=self._run) for _ in range(4)]
-        for thread in self._threads:
-            thread.start()
-
-    def join(self):
-        for thread in self._threads:
-            thread.join()
-
-    def _add(self, **counts):
-        with self._lock:
-            for name, count in counts.items():
-                setattr(self, name, getattr(self, name) + count)
-
-    def _run(self):
-        while time.monotonic() < self._end:
-            try:
-                link = self._handshake()
-            except OSError:
-                self._add(refused=1)
-                continue
-            self._add(connections=1)
-            try:
-                link.sendall(PREFACE)
-                stream = 1
-                while time.monotonic() < self._end:
-                    link.sendall(resets(stream, self.BATCH))
-                    self._add(resets=self.BATCH)
-                    stream += 2 * self.BATCH
-            except OSError:
-                pass  # ended by the front: on with another
-            link.close()
 
 
 if __name__ == "__main__":

@@ -133,6 +133,13 @@ class ServerNodesTest : public testing::Test {
       return answer;
     }
   }
+  grpc::Status Delete(const std::string& id) {
+    grpc::ClientContext context;
+    v1::DeleteMissionRequest request;
+    v1::DeleteMissionResponse response;
+    request.set_name("missions/" + id);
+    return missions_->DeleteMission(&context, request, &response);
+  }
 
   SlowStore store_;
   std::unique_ptr<Server> server_;
@@ -217,11 +224,7 @@ TEST_F(ServerNodesTest, TakingAMissionOverDoesNotMakeItUnready) {
 TEST_F(ServerNodesTest, WhatCannotBeReadCanBeDeleted) {
   ASSERT_TRUE(store_.Create("mill", "no mission begins so").ok());
   EXPECT_EQ(Get("mill").status.error_code(), grpc::StatusCode::DATA_LOSS);
-  grpc::ClientContext context;
-  v1::DeleteMissionRequest request;
-  v1::DeleteMissionResponse response;
-  request.set_name("missions/mill");
-  const grpc::Status deleted = missions_->DeleteMission(&context, request, &response);
+  const grpc::Status deleted = Delete("mill");
   EXPECT_TRUE(deleted.ok()) << deleted.error_message();
   EXPECT_EQ(Get("mill").status.error_code(), grpc::StatusCode::NOT_FOUND);
 }
@@ -239,11 +242,7 @@ TEST_F(ServerNodesTest, WhatTheStoreCallsDamagedIsNamedListedAndDeleted) {
   ASSERT_EQ(listed.missions(0).name(), "missions/mill");
   EXPECT_EQ(listed.missions(0).state(), v1::MISSION_STATE_DAMAGED);
   EXPECT_THAT(listed.missions(0).damage(), HasSubstr("the header is not what was written"));
-  grpc::ClientContext context;
-  v1::DeleteMissionRequest request;
-  v1::DeleteMissionResponse response;
-  request.set_name("missions/mill");
-  const grpc::Status deleted = missions_->DeleteMission(&context, request, &response);
+  const grpc::Status deleted = Delete("mill");
   EXPECT_TRUE(deleted.ok()) << deleted.error_message();
   EXPECT_EQ(Get("mill").status.error_code(), grpc::StatusCode::NOT_FOUND);
   EXPECT_TRUE(absl::IsNotFound(store_.Peek("acme/mill").status()));

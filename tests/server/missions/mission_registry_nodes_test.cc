@@ -55,6 +55,17 @@ class MissionRegistryNodesTest : public testing::Test {
     EXPECT_TRUE(host->Post(something).ok());
     return host;
   }
+  // Asks its writer something once that rests, as it does when it waits for what it did before to
+  // be durable. What becomes of it comes later.
+  static std::shared_ptr<std::promise<absl::Status>> AskAtRest(MissionHost& host) {
+    while (host.journal().next_deadline() == SteadyTime::max()) {
+    }
+    auto told = std::make_shared<std::promise<absl::Status>>();
+    EXPECT_TRUE(host.Post([](MissionWriter&) { ADD_FAILURE() << "it rests"; },
+                          [told](const absl::Status& status) { told->set_value(status); })
+                    .ok());
+    return told;
+  }
 
   SteadyTime now_ = SteadyTime() + std::chrono::hours(1);
   SharedStore store_;
@@ -239,17 +250,11 @@ TEST_F(MissionRegistryNodesTest, WhoAsksWhileAMissionMovesWaitsAndIsToldWhoHasIt
   store_.AwaitHeld(1);
   auto moved =
       std::async(std::launch::async, [this] { return registry_->HandOverAll(SteadyTime::max()); });
-  // The writer rests once it waits for what it did before to be durable.
-  while (host->journal().next_deadline() == SteadyTime::max()) {
-  }
-  std::promise<absl::Status> told;
-  EXPECT_TRUE(host->Post([](MissionWriter&) { ADD_FAILURE() << "it rests"; },
-                         [&](const absl::Status& status) { told.set_value(status); })
-                  .ok());
+  const auto told = AskAtRest(*host);
   EXPECT_TRUE(store_.released().empty()) << "not all is durable";
   store_.HeldStore::Release();
   EXPECT_TRUE(moved.get());
-  EXPECT_EQ(NodeElsewhere(told.get_future().get()), "n2");
+  EXPECT_EQ(NodeElsewhere(told->get_future().get()), "n2");
   EXPECT_EQ(store_.released(), (std::map<std::string, std::int64_t>{{"hall", 1}}));
   EXPECT_EQ(store_.Peek("hall")->head, 1);
   EXPECT_EQ(NodeElsewhere(registry_->Find("hall").status()), "n2");
@@ -294,16 +299,11 @@ TEST_F(MissionRegistryNodesTest, AMissionWhoseCallsComeToAnotherNodeIsGivenUpToI
   store_.AwaitHeld(1);
   const StrayMission stray{"hall", 1, "n3"};
   auto given = std::async(std::launch::async, [&] { return registry_->GiveUp(stray); });
-  while (host->journal().next_deadline() == SteadyTime::max()) {
-  }
-  std::promise<absl::Status> told;
-  EXPECT_TRUE(host->Post([](MissionWriter&) { ADD_FAILURE() << "it rests"; },
-                         [&](const absl::Status& status) { told.set_value(status); })
-                  .ok());
+  const auto told = AskAtRest(*host);
   EXPECT_TRUE(store_.released().empty()) << "not all is durable";
   store_.HeldStore::Release();
   EXPECT_TRUE(given.get().ok());
-  EXPECT_EQ(NodeElsewhere(told.get_future().get()), "n3");
+  EXPECT_EQ(NodeElsewhere(told->get_future().get()), "n3");
   EXPECT_EQ(store_.released(), (std::map<std::string, std::int64_t>{{"hall", 1}}));
   EXPECT_EQ(NodeElsewhere(registry_->Find("hall").status()), "n3") << "it is to have it first";
   EXPECT_TRUE(registry_->Create("yard", {}).ok()) << "the node goes on";
