@@ -54,7 +54,7 @@ std::string AccountOf(const Principal& caller, const std::string& peer) {
 
 absl::Status Door::Enter(Rpc rpc, const grpc::CallbackServerContext& call, CallInfo& info) const {
   info.rpc = rpc;
-  info.named_node = WordOf(call, kUnreachedKey);
+  info.unreached_node = WordOf(call, kUnreachedKey);
   info.request_id = WordOf(call, kRequestIdKey);
   if (info.request_id.empty()) info.request_id = NewRequestId();
   info.began = SteadyNow();
@@ -92,7 +92,7 @@ absl::Status Visit::Enter(const Door& door, Rpc rpc, grpc::CallbackServerContext
 
 absl::Status Door::Redirect(const CallInfo& info, const absl::Status& elsewhere) const {
   const absl::string_view owner = NodeElsewhere(elsewhere);
-  if (owner.empty() || owner != info.named_node) return elsewhere;
+  if (owner.empty() || owner != info.unreached_node) return elsewhere;
   const OwnedMission mission{KeyElsewhere(elsewhere), std::string(owner)};
   if (on_stray_) on_stray_(mission);
   return NodeUnreached(MissionIdOf(mission.key), owner);

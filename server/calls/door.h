@@ -30,7 +30,7 @@ struct CallInfo {
   // Whose share of the server it takes: the caller's, or, of those that nobody knows, that of the
   // machine they call from.
   std::string account;
-  std::string named_node;  // by the caller, and not reached, as the router says; empty: none
+  std::string unreached_node;  // that the call named, as the router says; empty: none
   std::string request_id;  // of log lines and error details: the caller's x-request-id, or made up
   SteadyTime began;
   SteadyTime deadline = SteadyTime::max();  // the caller's; no earlier than `began`
@@ -74,7 +74,7 @@ class Door {
   // filled in anyway.
   absl::Status Enter(Rpc rpc, const grpc::CallbackServerContext& call, CallInfo& info) const;
   void Leave(const CallInfo& info, const absl::Status& status) const;
-  // What a call is told whose mission is elsewhere: NODE_UNREACHED, if that is info.named_node.
+  // What a call is told whose mission is elsewhere: NODE_UNREACHED, if that is info.unreached_node.
   absl::Status Redirect(const CallInfo& info, const absl::Status& elsewhere) const;
 
  private:

@@ -121,9 +121,9 @@ TEST(DoorTest, CallsThatNamedTheNodeOfTheirMissionAndCameHereAreTold) {
   CallInfo info;
   const absl::Status elsewhere = MissionElsewhere("acme/hall", "n2");
   EXPECT_EQ(door.Redirect(info, elsewhere), elsewhere);
-  info.named_node = "n3";
+  info.unreached_node = "n3";
   EXPECT_EQ(door.Redirect(info, elsewhere), elsewhere) << "it has moved";
-  info.named_node = "n2";
+  info.unreached_node = "n2";
   EXPECT_TRUE(door.Redirect(info, absl::OkStatus()).ok());
   EXPECT_TRUE(strayed.empty());
   EXPECT_EQ(ErrorReason(door.Redirect(info, elsewhere)), reason::kNodeUnreached);
