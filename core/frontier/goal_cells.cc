@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 
 #include "core/grid/escape.h"
 #include "core/grid/grid_search.h"
 #include "core/grid/mask.h"
+#include "core/grid/padded.h"
 #include "core/grid/travel_search.h"
 
 namespace plumescout {
@@ -84,17 +86,27 @@ Search BeyondSearch(const Grid<CellState>& states, const std::vector<Frontier>& 
 std::vector<SearchSource> OpenRim(const TravelFromStarts& from_starts, const StopFn& stop,
                                   Search& beyond) {
   const CellRect& cells = beyond.cells();
-  std::vector<SearchSource> rim;
+  const auto width = static_cast<std::size_t>(cells.width());
+  Padded<std::uint8_t> own(cells, 0, 0, stop);
   ByRows(cells.min.y, cells.end.y, cells.width(), stop, [&](int y) {
     const int begin = beyond.IndexOf({cells.min.x, y});
-    for (int cell = begin; cell < begin + cells.width(); ++cell) {
-      if (!beyond.IsOpen(cell) || from_starts.IsReached(cell)) continue;
-      for (const int offset : beyond.offsets()) {
-        const int neighbour = cell + offset;
-        if (!from_starts.IsReached(neighbour) || beyond.IsOpen(neighbour)) continue;
-        beyond.Open(neighbour);
-        rim.push_back({beyond.CellAt(neighbour), 0.0});
-      }
+    std::uint8_t* const row = own.Row(y);
+    for (int x = 0; x < cells.width(); ++x) row[x] = beyond.IsOpen(begin + x) ? 1 : 0;
+  });
+  if (Stops(stop)) return {};
+  std::vector<SearchSource> rim;
+  std::vector<std::uint8_t> beside(width);
+  ByRows(cells.min.y, cells.end.y, cells.width(), stop, [&](int y) {
+    std::fill(beside.begin(), beside.end(), 0);
+    for (const int offset : own.NeighbourOffsets()) {
+      const std::uint8_t* const neighbour = own.Row(y) + offset;
+      for (std::size_t x = 0; x < width; ++x) beside[x] |= neighbour[x];
+    }
+    const int begin = beyond.IndexOf({cells.min.x, y});
+    for (int x = 0; x < cells.width(); ++x) {
+      if (beside[static_cast<std::size_t>(x)] == 0 || !from_starts.IsReached(begin + x)) continue;
+      beyond.Open(begin + x);
+      rim.push_back({{cells.min.x + x, y}, 0.0});
     }
   });
   return rim;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/types/grid_geometry.h"
 #include "core/types/pose2.h"
@@ -52,16 +53,16 @@ struct RayAxis {
 // meet at a corner. That is the corner rule of core/grid/neighbours.h.
 //
 // Returns false if a visit stopped the walk. Cost: O(cells crossed).
-// REQUIRES: finite points, fewer than 2^30 cells apart.
+// REQUIRES: finite points, fewer than 2^30 cells apart; `first` and `last` are the cells that hold
+// them.
 template <typename Visit>
-bool WalkSegment(const GridGeometry& geometry, Point2 from, Point2 to, Visit&& visit) {
+bool WalkSegment(const GridGeometry& geometry, Point2 from, Cell first, Point2 to, Cell last,
+                 Visit&& visit) {
   // Crossings of both axes nearer than this are one corner; as wide as the edges of CellAt.
   constexpr double kCorner_cells = 1e-9;
   const double dx = (to.x_m - from.x_m) / geometry.resolution_m;
   const double dy = (to.y_m - from.y_m) / geometry.resolution_m;
   const double length_cells = std::sqrt(dx * dx + dy * dy);
-  const Cell first = geometry.CellAt(from);
-  const Cell last = geometry.CellAt(to);
   RayAxis x((from.x_m - geometry.origin_x_m) / geometry.resolution_m, dx, first.x, last.x);
   RayAxis y((from.y_m - geometry.origin_y_m) / geometry.resolution_m, dy, first.y, last.y);
   double t = 0.0;
@@ -81,6 +82,12 @@ bool WalkSegment(const GridGeometry& geometry, Point2 from, Point2 to, Visit&& v
     }
   }
   return visit(last, (1.0 - t) * length_cells);
+}
+
+template <typename Visit>
+bool WalkSegment(const GridGeometry& geometry, Point2 from, Point2 to, Visit&& visit) {
+  return WalkSegment(geometry, from, geometry.CellAt(from), to, geometry.CellAt(to),
+                     std::forward<Visit>(visit));
 }
 
 }  // namespace plumescout

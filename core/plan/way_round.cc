@@ -13,6 +13,7 @@
 #include "core/plan/goals/travel_budget.h"
 #include "core/plan/paths/grid_exact.h"
 #include "core/plan/plan_start.h"
+#include "core/plan/selection/selection.h"
 #include "core/plan/trajectory_timing.h"
 #include "core/traffic/traffic.h"
 
@@ -32,15 +33,30 @@ double Arrival_s(const Candidate& candidate, std::optional<double> wait_s) {
   return wait_s ? candidate.duration_s + *wait_s : std::numeric_limits<double>::infinity();
 }
 
-std::vector<Standing> FindStanding(const Waits& waits, const SearchedWays& ways, const Plan& plan) {
-  const bool by_time = ways.query.options.selection_rule == SelectionRule::kInformationRate;
+std::vector<Standing> FindStanding(const Waits& waits, const Plan& plan) {
   std::vector<Standing> standing;
   for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
     const double arrival_s = Arrival_s(plan.candidates[i], waits.waits_s[i]);
     const bool stands = arrival_s >= plan.candidates[i].duration_s + kWorthAWayRound_s;
-    if (stands && (by_time || std::isinf(arrival_s))) standing.push_back({i, arrival_s});
+    if (stands) standing.push_back({i, arrival_s});
   }
   return standing;
+}
+
+// Leaves those that could not be gone, and might be chosen for what they are at the price of their
+// own ways.
+void KeepRivals(const Waits& waits, const PlanningOptions& options, const Plan& plan,
+                std::vector<Standing>& standing) {
+  std::vector<Candidate> clear;
+  for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
+    if (waits.waits_s[i]) clear.push_back(plan.candidates[i]);
+  }
+  const int best = SelectCandidate(clear, options);
+  std::erase_if(standing, [&](const Standing& one) {
+    return std::isfinite(one.arrival_s) ||
+           (best >= 0 && BeatsByMargin(clear[static_cast<std::size_t>(best)],
+                                       plan.candidates[one.candidate], options));
+  });
 }
 
 void BlockDisc(Point2 center, double radius_m, Grid<float>& penalty) {
@@ -103,7 +119,10 @@ std::vector<Candidate> FindRounds(const InformationMap& clear, const SearchedWay
 }  // namespace
 
 void LeadRound(const SearchedWays& ways, Waits& waits, Plan& plan) {
-  const std::vector<Standing> standing = FindStanding(waits, ways, plan);
+  std::vector<Standing> standing = FindStanding(waits, plan);
+  if (ways.query.options.selection_rule != SelectionRule::kInformationRate) {
+    KeepRivals(waits, ways.query.options, plan, standing);
+  }
   if (standing.empty() || ways.problem.stop()) return;
   Plan rounds;
   rounds.candidates = FindRounds(KeptClear(waits.traffic, ways), ways, standing, plan);

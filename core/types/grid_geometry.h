@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -36,12 +37,26 @@ struct GridGeometry {
     return {static_cast<int>(index % w), static_cast<int>(index / w)};
   }
   // The cell that holds the point, which may lie outside the raster. Saturates at +-2^30.
-  Cell CellAt(Point2 point) const;
+  Cell CellAt(Point2 point) const {
+    return {Coordinate((point.x_m - origin_x_m) / resolution_m),
+            Coordinate((point.y_m - origin_y_m) / resolution_m)};
+  }
   Point2 Center(Cell cell) const {
     return {origin_x_m + (cell.x + 0.5) * resolution_m, origin_y_m + (cell.y + 0.5) * resolution_m};
   }
 
   friend bool operator==(const GridGeometry&, const GridGeometry&) = default;
+
+ private:
+  // Without std::floor, which is a call where no processor is named to compile for.
+  static int Coordinate(double offset_cells) {
+    constexpr double kLimit = 1 << 30;
+    // A point on a cell edge that rounding puts a hair below it belongs to the cell above.
+    constexpr double kEdge_cells = 1e-9;
+    const double cells = std::clamp(offset_cells + kEdge_cells, -kLimit, kLimit);
+    const int toward_zero = static_cast<int>(cells);
+    return toward_zero - (static_cast<double>(toward_zero) > cells ? 1 : 0);
+  }
 };
 
 }  // namespace plumescout

@@ -212,6 +212,10 @@ struct PlanningOptions {
   // Where information is priced, what the live plans of other robots are about to tell counts as
   // told (core/plan/anticipation.h, ours); false: it is priced again.
   bool anticipate_robots = true;
+  // Each robot keeps to an area of its own, all with about as much to do
+  // (core/plan/goals/own_area.h, ours), and leaves it once nothing is left there; false: it goes
+  // where it likes.
+  bool balanced_areas = false;
 
   // How trajectories are timed. 0: no limit; else [0.001, 100]. With either limit the robot stops
   // at every corner and turns on the spot.

@@ -24,7 +24,12 @@ struct Pose2 {
   friend bool operator==(const Pose2&, const Pose2&) = default;
 };
 
-inline double Distance_m(Point2 a, Point2 b) { return std::hypot(b.x_m - a.x_m, b.y_m - a.y_m); }
+// Not by std::hypot, a call that guards against lengths no map has.
+inline double Distance_m(Point2 a, Point2 b) {
+  const double dx_m = b.x_m - a.x_m;
+  const double dy_m = b.y_m - a.y_m;
+  return std::sqrt(dx_m * dx_m + dy_m * dy_m);
+}
 
 // The angle in (-pi, pi] that differs from `angle_rad` by whole turns.
 inline double WrapAngle_rad(double angle_rad) {

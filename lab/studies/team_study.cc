@@ -43,6 +43,8 @@ constexpr TeamRow kTeams[] = {
     {8, true, true, "k8_late", "8, up to a second late", {145, 20, 40}, kLate_s},
     {4, false, true, "k4_ghosts", "4 ghosts", {150, 156, 168}, 0.0, true},
     {8, false, true, "k8_ghosts", "8 ghosts", {107, 114, 128}, 0.0, true},
+    {4, true, true, "k4_areas", "4, each its own area", {90, 80, 200}, 0.0, false, {}, true},
+    {8, true, true, "k8_areas", "8, each its own area", {60, 40, 150}, 0.0, false, {}, true},
 };
 constexpr std::size_t kQuickTeams = 2;
 // In buildings that are all doors and lanes for one.
@@ -143,7 +145,8 @@ std::vector<std::string> MakeNotes(const TrialPlan& plan, bool given) {
       "Each its own price: planning.anticipate_robots is off, so what others are about to tell is "
       "paid for again. Each its own way: planning.yield_to_robots is off too, so robots find each "
       "other in the way only when their beams meet. Up to a second late: in each leg robots fall "
-      "behind their trajectories by up to so much, here and there on the way.",
+      "behind their trajectories by up to so much, here and there on the way. Each its own area: "
+      "planning.balanced_areas is on.",
       "Promised already: of what the readings of chosen ways would tell if nobody else read, the "
       "share that live plans of others tell already, as missions foresee them. Bought twice: of "
       "what these ways were priced at when they were chosen, the share above what they tell beside "

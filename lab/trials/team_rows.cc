@@ -37,6 +37,7 @@ absl::StatusOr<StudyRow> MakeStudyRow(const TeamRow& team) {
   if (team.rule) planning.paths = PathKind::kGridExact;
   planning.yield_to_robots = team.yields;
   planning.anticipate_robots = team.anticipates;
+  planning.balanced_areas = team.balanced_areas;
   row.robots = team.robots;
   row.most_late_s = team.most_late_s;
   row.ghosts = team.ghosts;

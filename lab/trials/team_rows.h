@@ -28,6 +28,7 @@ struct TeamRow {
   double most_late_s = 0.0;                     // legs fall behind by up to this
   bool ghosts = false;                          // robots pass through each other
   std::optional<TeamRule> rule = std::nullopt;  // of others; none: strategy "plumescout"
+  bool balanced_areas = false;                  // each robot has its own
 };
 
 // Robots that share a mission with that strategy or rule. Errors: as MakeStudyRow.

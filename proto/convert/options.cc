@@ -119,6 +119,7 @@ void Visit(OneOf<PlanningOptions> auto& options, auto& field) {
   field("yield_to_robots", options.yield_to_robots);
   field("robot_clearance_m", options.robot_clearance_m);
   field("anticipate_robots", options.anticipate_robots);
+  field("balanced_areas", options.balanced_areas);
   field("max_acceleration_mps2", options.max_acceleration_mps2);
   field("max_turn_rate_rad_per_s", options.max_turn_rate_rad_per_s);
   field("travel_budget_m", options.travel_budget_m);

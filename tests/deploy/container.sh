@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: PlumeScout contributors
 # SPDX-License-Identifier: Apache-2.0
-# container.sh FOLDER PROGRAMS: makes the image plumescout-server of the packages in the folder, without
-# a registry: its base is a fresh Debian 12. Starts it as a user without rights on a root that it cannot
-# write, and asks for its health. A simulated robot, from outside, drives a mission; the server is killed,
-# started again, and has the mission. PROGRAMS has plumescout-lab. Needs root. scripts/packages
-# --container runs it.
+# container.sh FOLDER PROGRAMS: makes the image plumescout-server of the packages in the folder, or if
+# that is empty of the source alone (half an hour), without a registry: its base is a fresh Debian 12.
+# Starts it as a user without rights on a root that it cannot write, and asks for its health. A simulated
+# robot, from outside, drives a mission; the server is killed, started again, and has the mission. PROGRAMS
+# has plumescout-lab. Needs root. scripts/packages --container runs it.
 set -euo pipefail
-packages="$(realpath "$1")" programs="$(realpath "$2")"
+packages="${1:+$(realpath "$1")}" programs="$(realpath "$2")"
 root="$(cd "$(dirname "$0")/../.." && pwd)"
 "$root/scripts/setup" --container
 work="$root/out/container"
@@ -29,7 +29,11 @@ if ! image inspect --type image debian:12 > /dev/null 2>&1; then
   image commit --quiet --rm "$base" debian:12 > /dev/null
 fi
 say "The image"
-image bud --isolation chroot --pull-never --format docker --quiet --build-arg BASE=debian:12 \
+trust=() # behind a proxy with an authority of its own, the one that npm trusts here
+[[ -z "${NODE_EXTRA_CA_CERTS:-}" ]] ||
+  trust=(--build-arg NODE_EXTRA_CA_CERTS=/tmp/authorities.pem
+    --volume "$(realpath "$NODE_EXTRA_CA_CERTS"):/tmp/authorities.pem:ro")
+image bud "${trust[@]}" --isolation chroot --pull-never --format docker --quiet --build-arg BASE=debian:12 \
   --build-arg PACKAGES="${packages#"$root"/}" -t plumescout-server \
   -f "$root/deploy/container/Dockerfile" "$root" > "$work/image"
 

@@ -28,6 +28,7 @@ inline std::set<std::string> BoolFields() {
       "CreateMissionRequest.options.planning.return_home",
       "CreateMissionRequest.options.planning.yield_to_robots",
       "CreateMissionRequest.options.planning.anticipate_robots",
+      "CreateMissionRequest.options.planning.balanced_areas",
       "CreateMissionRequest.options.planning.sites.survey",
       "NextBestTrajectoryRequest.go_home",
       "ListPlansRequest.with_latest",

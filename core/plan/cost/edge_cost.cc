@@ -21,10 +21,11 @@ double SegmentIntegral_cells(const Grid<float>& raster, Point2 a, Point2 b) {
 double SegmentIntegralUpTo_cells(const Grid<float>& raster, Point2 a, Point2 b, double most_cells) {
   const GridGeometry& geometry = raster.geometry();
   // Between two cells of the raster the walk never leaves it.
-  if (!raster.Contains(geometry.CellAt(a)) || !raster.Contains(geometry.CellAt(b)))
-    return kInfinity;
+  const Cell first = geometry.CellAt(a);
+  const Cell last = geometry.CellAt(b);
+  if (!raster.Contains(first) || !raster.Contains(last)) return kInfinity;
   double sum = 0.0;
-  const bool passed = WalkSegment(geometry, a, b, [&](Cell cell, double length_cells) {
+  const bool passed = WalkSegment(geometry, a, first, b, last, [&](Cell cell, double length_cells) {
     const double value = raster[cell];
     if (value == kInfinity) return false;
     sum += value * length_cells;

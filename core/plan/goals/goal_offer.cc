@@ -5,19 +5,19 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <optional>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "core/plan/goals/frontier_goals.h"
 #include "core/plan/goals/goal_policy.h"
 #include "core/plan/goals/home_goal.h"
 #include "core/plan/goals/information_goals.h"
+#include "core/plan/goals/own_area.h"
 #include "core/plan/goals/random_goals.h"
 
 namespace plumescout {
 
-namespace {
-
-// Over what can be reached.
 TravelFromStarts TravelFrom(const GoalQuery& query, std::vector<SearchSource> sources) {
   CellRect cells = CellsAroundFree(*query.belief.occupancy);
   cells.Include(query.start);
@@ -27,8 +27,6 @@ TravelFromStarts TravelFrom(const GoalQuery& query, std::vector<SearchSource> so
   travel.Run(std::move(sources), [&query](const auto&) { return Stops(query.stop); });
   return travel;
 }
-
-}  // namespace
 
 const TravelFromStarts& GoalQuery::FromStart() const {
   if (!from_start) from_start.emplace(TravelFrom(*this, {{start}}));
@@ -70,6 +68,38 @@ GoalOffer EndMission(const GoalQuery& query, bool at_home, GoalOffer result) {
   return result;
 }
 
+// Takes those out that lie in other robots' areas.
+void LeaveToOthers(const OwnArea& area, std::vector<OfferedGoal>& goals,
+                   std::vector<RejectedGoal>& rejected) {
+  std::erase_if(goals, [&](const OfferedGoal& offered) {
+    if (area.Has(offered.goal.cell)) return false;
+    rejected.push_back(
+        {offered.goal, RejectionReason::kClaimed,
+         absl::StrCat("in the area of robot \"", area.OwnerOf(offered.goal.cell), "\"")});
+    return true;
+  });
+}
+
+// Goals that are there for what there is to learn, in the robot's own area or anywhere.
+GoalOffer FindWork(const GoalQuery& query, bool own_area_alone, Rng& rng) {
+  FrontierGoals frontiers = FindFrontierGoals(query);
+  std::optional<OwnArea> area;
+  if (own_area_alone && !Stops(query.stop)) area = OwnArea::Find(query, frontiers);
+  if (area) {
+    LeaveToOthers(*area, frontiers.gas, frontiers.rejected);
+    LeaveToOthers(*area, frontiers.occupancy, frontiers.rejected);
+  }
+  GoalOffer result;
+  result.rejected = std::move(frontiers.rejected);
+  result.goals = ChooseByPolicy(std::move(frontiers), query.options, rng, result.rejected);
+  if (query.options.goal_policy == GoalPolicy::kEverything && !Stops(query.stop)) {
+    const std::vector<Goal> telling =
+        InformationGoals(query, result.rejected, area ? &*area : nullptr);
+    result.goals.insert(result.goals.end(), telling.begin(), telling.end());
+  }
+  return result;
+}
+
 }  // namespace
 
 GoalOffer FindGoals(const GoalQuery& query, Rng& rng) {
@@ -77,14 +107,9 @@ GoalOffer FindGoals(const GoalQuery& query, Rng& rng) {
   if (IsOver(query.belief)) {
     return EndMission(query, query.options.return_home || query.belief.deadline_ns, {});
   }
-  FrontierGoals frontiers = FindFrontierGoals(query);
-  GoalOffer result;
-  result.rejected = std::move(frontiers.rejected);
-  result.goals = ChooseByPolicy(std::move(frontiers), query.options, rng, result.rejected);
-  if (query.options.goal_policy == GoalPolicy::kEverything && !Stops(query.stop)) {
-    const std::vector<Goal> telling = InformationGoals(query, result.rejected);
-    result.goals.insert(result.goals.end(), telling.begin(), telling.end());
-  }
+  const bool shares = query.options.balanced_areas && query.belief.robots.size() > 1;
+  GoalOffer result = FindWork(query, shares, rng);
+  if (shares && result.goals.empty() && !Stops(query.stop)) result = FindWork(query, false, rng);
   if (!result.goals.empty() || Stops(query.stop)) return result;
 
   result.fallback = true;

@@ -36,6 +36,9 @@ struct GoalQuery {
   mutable std::optional<TravelFromStarts> from_home = std::nullopt;
 };
 
+// The ways from there by steps between reachable cells. Cost: O(cells).
+TravelFromStarts TravelFrom(const GoalQuery& query, std::vector<SearchSource> sources);
+
 struct GoalOffer {
   std::vector<Goal> goals;
   std::vector<RejectedGoal> rejected;
@@ -53,10 +56,11 @@ GoalOffer GoHome(const GoalQuery& query);
 // nothing, the mission is complete instead. A goal that another robot is on its way to keeps the
 // mission open, for what that robot finds may need this one; one that is set aside does not, or a
 // frontier that no visit can dissolve would keep robots driving for ever. With options.return_home
-// the robot goes home before its mission is complete. If query.go_home, this is GoHome. Once the
-// mission is over (IsOver) it is complete at once, or as soon as the robot is home.
-// Deterministic in the query and `rng`, unless query.stop says so, which is asked all along. Cost:
-// O(cells).
+// the robot goes home before its mission is complete. With options.balanced_areas goals in other
+// robots' areas (own_area.h) are theirs, kClaimed, as long as there are any in its own. If
+// query.go_home, this is GoHome. Once the mission is over (IsOver) it is complete at once, or as
+// soon as the robot is home. Deterministic in the query and `rng`, unless query.stop says so, which
+// is asked all along. Cost: O(cells).
 GoalOffer FindGoals(const GoalQuery& query, Rng& rng);
 
 }  // namespace plumescout

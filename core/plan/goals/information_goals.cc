@@ -66,8 +66,9 @@ bool IsWorse(const Spot& a, const Spot& b) {
 // What each cell is worth driving to; 0 where no goal may be. Of no use once query.stop says so.
 class Merits {
  public:
-  explicit Merits(const GoalQuery& query)
+  Merits(const GoalQuery& query, const OwnArea* area)
       : query_(query),
+        area_(area),
         from_start_(query.FromStart()),
         left_(
             LeftToTell(query.ahead != nullptr ? *query.ahead : query.belief, cells(), query.stop)),
@@ -117,11 +118,12 @@ class Merits {
     const Cell inside = Inside(cell);
     if (query_.reachable[cell] == 0 || !(left_[inside] > 0.0F) || closed_[inside] != 0) return 0.0;
     const double travel_m = from_start_.Travel(cell);
-    if (travel_m < nearest_m_) return 0.0;
+    if (travel_m < nearest_m_ || (area_ != nullptr && !area_->Has(cell))) return 0.0;
     return static_cast<double>(around_[inside]) / (kErrand_m + travel_m);
   }
 
   const GoalQuery& query_;
+  const OwnArea* const area_;  // null: goals may be anywhere
   const TravelFromStarts& from_start_;
   // Of cells() alone.
   const Grid<float> left_;
@@ -176,10 +178,11 @@ Goal GoalAt(Cell cell, const GridGeometry& geometry) {
 
 }  // namespace
 
-std::vector<Goal> InformationGoals(const GoalQuery& query, std::vector<RejectedGoal>& rejected) {
+std::vector<Goal> InformationGoals(const GoalQuery& query, std::vector<RejectedGoal>& rejected,
+                                   const OwnArea* area) {
   std::vector<Goal> goals;
   if (query.belief.gas_counters.readings == 0) return goals;
-  Merits merits(query);
+  Merits merits(query, area);
   if (Stops(query.stop)) return goals;
   ClearPlacesInMemory(query, merits, rejected);
   std::vector<Spot> rows = BestOfRows(merits, query.stop);

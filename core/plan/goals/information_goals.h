@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/plan/goals/goal_offer.h"
+#include "core/plan/goals/own_area.h"
 #include "core/types/plan.h"
 
 namespace plumescout {
@@ -22,8 +23,9 @@ namespace plumescout {
 // it is where the reading is taken, so every visit brings the end nearer, which it would not for
 // the sake of cells beyond a wall. Places of this kind that are set aside, and those that
 // other robots are on their way to for whatever there is to learn, keep goals at the same distance,
-// and are added to `rejected` if that leaves any out. None before the first reading. Deterministic.
-// Cost: O(cells).
-std::vector<Goal> InformationGoals(const GoalQuery& query, std::vector<RejectedGoal>& rejected);
+// and are added to `rejected` if that leaves any out. None before the first reading, and none off
+// `area`, if there is one. Deterministic. Cost: O(cells).
+std::vector<Goal> InformationGoals(const GoalQuery& query, std::vector<RejectedGoal>& rejected,
+                                   const OwnArea* area = nullptr);
 
 }  // namespace plumescout

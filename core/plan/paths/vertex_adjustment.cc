@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "core/grid/neighbours.h"
@@ -22,7 +23,11 @@ constexpr double kLeastSaving = 1e-9;
 class Adjustment {
  public:
   Adjustment(const EdgeCost& cost, const StopFn& stop, ShortcutPath& path)
-      : cost_(cost), stop_(stop), path_(path), moved_(path.vertices.size(), 1) {}
+      : cost_(cost), stop_(stop), path_(path), moved_(path.vertices.size(), 1) {
+    for (std::size_t i = 1; i < path.vertices.size(); ++i) {
+      prices_.push_back(Price(path.vertices[i - 1], path.vertices[i], kUnlimited));
+    }
+  }
 
   void Run() {
     for (const int step : kSteps_cells) {
@@ -30,6 +35,7 @@ class Adjustment {
       for (int sweep = 0; sweep < kMaxSweeps && Sweep(step); ++sweep) {
       }
     }
+    path_.cost = std::accumulate(prices_.begin(), prices_.end(), 0.0);
   }
 
  private:
@@ -55,9 +61,7 @@ class Adjustment {
     const Point2 before = path_.vertices[i - 1];
     const Point2 after = path_.vertices[i + 1];
     const Cell cell = geometry.CellAt(path_.vertices[i]);
-    const double present =
-        Price(before, path_.vertices[i], kUnlimited) + Price(path_.vertices[i], after, kUnlimited);
-    double best = present * (1.0 - kLeastSaving);
+    double best = (prices_[i - 1] + prices_[i]) * (1.0 - kLeastSaving);
     bool found = false;
     for (const Cell offset : kNeighbours8) {
       const Cell to{cell.x + step * offset.x, cell.y + step * offset.y};
@@ -67,13 +71,14 @@ class Adjustment {
       if (cost_.LowerBound(Distance_m(before, place)) + rest >= best) continue;
       const double first = Price(before, place, best - rest);
       if (first + rest >= best) continue;
-      const double via = first + Price(place, after, best - first);
-      if (via >= best) continue;
-      best = via;
+      const double second = Price(place, after, best - first);
+      if (first + second >= best) continue;
+      best = first + second;
+      prices_[i - 1] = first;
+      prices_[i] = second;
       path_.vertices[i] = place;
       found = true;
     }
-    if (found) path_.cost += best - present;
     return found;
   }
 
@@ -85,14 +90,14 @@ class Adjustment {
   const EdgeCost& cost_;
   const StopFn& stop_;
   ShortcutPath& path_;
-  std::vector<char> moved_;  // by vertex, in the last sweep
+  std::vector<char> moved_;     // by vertex, in the last sweep
+  std::vector<double> prices_;  // of the edges, by the vertex that they leave
 };
 
 }  // namespace
 
 void AdjustVertices(const EdgeCost& cost, const StopFn& stop, ShortcutPath& path) {
   Adjustment(cost, stop, path).Run();
-  path.cost = PathCost(cost, path.vertices);
 }
 
 }  // namespace plumescout

@@ -23,6 +23,7 @@ namespace way_round_test {
 using ::testing::SizeIs;
 
 constexpr std::int64_t kNow_ns = 50'000'000'000;
+constexpr double kStraightCost = 10.0;
 
 RobotRecord At(const RobotId& robot, Point2 place) {
   RobotRecord record;
@@ -66,13 +67,26 @@ class Corridor {
     candidate.path = {start_, goal_.position};
     candidate.length_m = Distance_m(candidate.path[0], candidate.path[1]);
     candidate.duration_s = TimeTrajectory(candidate.path, 0.0, {}).duration_s;
+    candidate.cost = kStraightCost;
     return candidate;
   }
-  // With LeadRound, and then YieldToRobots.
-  Plan Planned(const PlanningOptions& options = {}) const {
+  // Half a metre away, which nobody blocks.
+  Candidate Near(double cost) const {
+    Candidate candidate = Straight();
+    candidate.goal.position = {start_.x_m - 0.5, start_.y_m};
+    candidate.goal.cell = geometry_.CellAt(candidate.goal.position);
+    candidate.path = {start_, candidate.goal.position};
+    candidate.duration_s = TimeTrajectory(candidate.path, 0.0, {}).duration_s;
+    candidate.cost = cost;
+    return candidate;
+  }
+  // With LeadRound, and then YieldToRobots. `beside`: other candidates.
+  Plan Planned(const PlanningOptions& options = {},
+               const std::vector<Candidate>& beside = {}) const {
     Plan plan;
     plan.robot = "a";
     plan.candidates = {Straight()};
+    plan.candidates.insert(plan.candidates.end(), beside.begin(), beside.end());
     const EdgeCost cost(information_, CostKind::kUcb, 0.0);
     const std::vector<Goal> goals = {goal_};
     const StopFn never = NeverStop();
@@ -186,6 +200,24 @@ TEST(LeadRound, OnlyBlockedWaysChangeWhereTimeDoesNotCount) {
   EXPECT_NE(wide.Planned().candidates[0].path, wide.Straight().path);
   wide.Stands({6.0, wide.middle_m()});
   EXPECT_NE(wide.Planned(by_cost).candidates[0].path, wide.Straight().path);
+}
+
+TEST(LeadRound, NoWayIsSoughtToWhatWouldNotBeChosenWhereTimeDoesNotCount) {
+  Corridor wide(3.0);
+  wide.Stands({6.0, wide.middle_m()});
+  PlanningOptions by_cost;
+  by_cost.selection_rule = SelectionRule::kLeastCost;
+  const Candidate cheaper = wide.Near(0.8 * kStraightCost);
+  const Plan plan = wide.Planned(by_cost, {cheaper});
+  ASSERT_THAT(plan.candidates, SizeIs(1));
+  EXPECT_EQ(plan.candidates[0], cheaper);
+  EXPECT_THAT(plan.rejected, SizeIs(1));
+  EXPECT_EQ(plan.effort.edges_evaluated, 0);
+
+  EXPECT_THAT(wide.Planned(by_cost, {wide.Near(1.2 * kStraightCost)}).candidates, SizeIs(2));
+  EXPECT_THAT(wide.Planned({}, {cheaper}).candidates, SizeIs(2)) << "it may bring more";
+  by_cost.commitment_margin_share = 0.3;
+  EXPECT_THAT(wide.Planned(by_cost, {cheaper}).candidates, SizeIs(2)) << "it might be kept";
 }
 
 }  // namespace way_round_test

@@ -16,12 +16,17 @@ namespace team_rows_test {
 using ::testing::ElementsAre;
 
 TEST(TeamRows, OursDriveByTheDefaultStrategy) {
-  const auto row = MakeStudyRow(
-      {.robots = 4, .yields = false, .anticipates = false, .name = "k4", .most_late_s = 1.5});
+  const auto row = MakeStudyRow({.robots = 4,
+                                 .yields = false,
+                                 .anticipates = false,
+                                 .name = "k4",
+                                 .most_late_s = 1.5,
+                                 .balanced_areas = true});
   ASSERT_TRUE(row.ok()) << row.status();
   EXPECT_EQ(row->mission.planning.strategy, "plumescout");
   EXPECT_FALSE(row->mission.planning.yield_to_robots);
   EXPECT_FALSE(row->mission.planning.anticipate_robots);
+  EXPECT_TRUE(row->mission.planning.balanced_areas);
   EXPECT_EQ(row->robots, 4);
   EXPECT_EQ(row->most_late_s, 1.5);
   EXPECT_FALSE(row->rule);

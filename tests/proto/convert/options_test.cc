@@ -39,6 +39,7 @@ MissionOptions Unlike() {
   options.planning.yield_to_robots = false;
   options.planning.robot_clearance_m = 0.5;
   options.planning.anticipate_robots = false;
+  options.planning.balanced_areas = true;
   options.planning.selection_rule = SelectionRule::kMeanUcb;
   options.planning.sampling = SamplingKind::kIid;
   options.planning.sample_count = 77;

@@ -244,5 +244,43 @@ TEST(FindGoals, IsCompleteAtHomeOrWithoutAWayThere) {
   EXPECT_THAT(Find(c).rejected, SizeIs(1));
 }
 
+// With an edge of the unseen at either end, and another robot near the east one.
+GoalCase TwoRobots() {
+  GoalCase c = Measured({"############",  //
+                         "?gggggggggg?",  //
+                         "?gSgggggggg?",  //
+                         "############"});
+  c.options.balanced_areas = true;
+  RobotRecord& other = c.belief.robots["a"];
+  other.state.id = "a";
+  other.state.has_pose = true;
+  const Point2 place = c.belief.geometry().Center({9, 1});
+  other.state.pose = {place.x_m, place.y_m, 0.0};
+  return c;
+}
+
+TEST(FindGoals, LeavesToOthersWhatLiesInTheirAreas) {
+  GoalCase c = TwoRobots();
+  const GoalOffer found = Find(c);
+  ASSERT_THAT(found.goals, SizeIs(1));
+  EXPECT_LT(found.goals[0].cell.x, 4);
+  ASSERT_THAT(found.rejected, SizeIs(1));
+  EXPECT_GT(found.rejected[0].goal.cell.x, 7);
+  EXPECT_EQ(found.rejected[0].reason, RejectionReason::kClaimed);
+  EXPECT_EQ(found.rejected[0].detail, "in the area of robot \"a\"");
+  c.options.balanced_areas = false;
+  EXPECT_THAT(Find(c).goals, SizeIs(2));
+}
+
+TEST(FindGoals, HelpsInOthersAreasOnceItsOwnHasNothing) {
+  GoalCase c = TwoRobots();
+  const Goal own = Find(c).goals.at(0);
+  c.belief.set_aside.push_back({own, "reported blocked", 1'000'000'000});
+  const GoalOffer found = Find(c);
+  ASSERT_THAT(found.goals, SizeIs(1));
+  EXPECT_GT(found.goals[0].cell.x, 7);
+  EXPECT_FALSE(found.fallback);
+}
+
 }  // namespace goal_offer_test
 }  // namespace plumescout
