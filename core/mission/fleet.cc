@@ -132,6 +132,13 @@ void Fleet::Hear(const RobotId& robot, std::int64_t now_ns) {
   }
 }
 
+bool Fleet::IsAnyLastHeardIn(std::int64_t first_ns, std::int64_t end_ns) const {
+  return std::any_of(robots_.begin(), robots_.end(), [&](const auto& entry) {
+    const std::optional<std::int64_t>& heard_ns = entry.second.heard_ns;
+    return heard_ns && *heard_ns >= first_ns && *heard_ns < end_ns;
+  });
+}
+
 // A robot that was told that the mission is complete keeps nobody from completing it.
 void Fleet::FallSilent(Member& member) {
   member.record.state.silent = true;

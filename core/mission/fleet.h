@@ -72,6 +72,8 @@ class Fleet {
 
   // The robot was heard of at the latest sample time; who was not for too long falls silent.
   void Hear(const RobotId& robot, std::int64_t now_ns);
+  // Whether there is a robot that was last heard of at a time in [first_ns, end_ns).
+  bool IsAnyLastHeardIn(std::int64_t first_ns, std::int64_t end_ns) const;
 
   // Checks that the observation is the next of the robot's log; see Mission::Apply for the errors.
   absl::Status CheckSequence(const RobotId& robot, const Observation& observation) const;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
@@ -55,6 +56,11 @@ absl::Status CheckTime(std::int64_t time_ns) {
 // for a replay to fail too.
 bool HasChangedNothing(const absl::Status& gas) {
   return absl::IsInvalidArgument(gas) || absl::IsFailedPrecondition(gas) || absl::IsCancelled(gas);
+}
+
+std::int64_t RefreshPeriod_ns(const GasOptions& gas) {
+  constexpr double kNanosecondsPerSecond = 1e9;
+  return std::llround(gas.refresh_period_s * kNanosecondsPerSecond);
 }
 
 }  // namespace
@@ -291,14 +297,18 @@ bool Mission::posterior_stale() const { return gas_.stale() || map_changed_since
 
 // A reading does not wait behind a refresh that a scan has just caused.
 bool Mission::refresh_due() const {
-  return gas_.replaced() || (posterior_stale() && PeriodHasPassedSince(refreshed_ns_)) ||
-         (gas_.stale() && PeriodHasPassedSince(readings_refreshed_ns_));
+  const std::int64_t since_ns = sample_time_ns_ - RefreshPeriod_ns(options_->gas);
+  const bool is_due = (posterior_stale() && refreshed_ns_ <= since_ns) ||
+                      (gas_.stale() && readings_refreshed_ns_ <= since_ns);
+  return gas_.replaced() || (is_due && !IsAmidRound());
 }
 
-bool Mission::PeriodHasPassedSince(std::int64_t time_ns) const {
-  constexpr double kNanosecondsPerSecond = 1e9;
-  return static_cast<double>(sample_time_ns_ - time_ns) >=
-         options_->gas.refresh_period_s * kNanosecondsPerSecond;
+bool Mission::IsAmidRound() const {
+  constexpr std::int64_t kRound_ns = 250'000'000;  // of robots that scan four times a second
+  if (sample_time_ns_ - refreshed_ns_ > kRound_ns) return false;
+  return fleet_.IsAnyLastHeardIn(
+      sample_time_ns_ - kRound_ns,
+      std::min(refreshed_ns_ + RefreshPeriod_ns(options_->gas), sample_time_ns_));
 }
 
 void Mission::UpdateRasters() const {

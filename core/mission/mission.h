@@ -119,7 +119,8 @@ class Mission {
   // 1. EpochAdopted. epoch() is then best recomputed beforehand; if not, Apply does it.
   bool adoption_due() const { return gas_.adoption_due(sample_time_ns_); }
   // 2. PosteriorRefreshed, to sample_time_ns(): a reading waits and refresh_period_s has gone by
-  // since the last refresh that found one, or the map changed and as much since any refresh.
+  // since the last refresh that found one, or the map changed and as much since any refresh. Robots
+  // that send in rounds have it after a round.
   bool refresh_due() const;
   // A refresh is due at once when readings were placed anew.
   // 3. EpochBegun, at sample_time_ns(). Then somebody may recompute epoch() on another thread.
@@ -220,7 +221,10 @@ class Mission {
   absl::StatusOr<Applied> Change(const KeepOutChanged& change);
   bool CoversHomes(const std::vector<Polygon>& areas) const;
   void KeepOutOf(std::vector<Polygon> areas);
-  bool PeriodHasPassedSince(std::int64_t time_ns) const;
+  // Robots of a team send in rounds. Whether one is under way: somebody who sent a moment ago has
+  // not since a refresh became due. A refresh amid a round would soon be out of date, and whoever
+  // asks for a belief after the round would wait for another. Nobody is waited for for long.
+  bool IsAmidRound() const;
   // Brings the status up to date, once a second of sample time. Cost: O(cells), and what it costs
   // to look at the gas.
   void AssessIfDue();

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -123,6 +124,62 @@ TEST(MissionConductGas, ReadingsBringRefreshesAboutBySampleTime) {
   last[0].observation.sample_time_ns = period_ns;
   ASSERT_TRUE(run.conduct.Ingest("r1", kLease, std::move(last)).status.ok());
   EXPECT_EQ(run.listener.events.back().body, EventBody(PosteriorRefreshed{period_ns}));
+}
+
+// Three robots that send a reading each in rounds.
+struct Rounds {
+  Rounds() : run(std::make_unique<Mission>(MissionOptions{})) {
+    for (const char* const robot : {"r2", "r3"}) {
+      EXPECT_TRUE(run.conduct.Register(RobotRegistered{robot, 0.2, kLease}).ok());
+    }
+  }
+  // Returns whether that brought a refresh about.
+  bool Send(const RobotId& robot, std::int64_t time_ms) {
+    auto one = GasBatch(sequences[robot] + 1, sequences[robot] + 1);
+    ++sequences[robot];
+    one[0].observation.sample_time_ns = time_ms * 1'000'000;
+    run.listener.told.clear();
+    EXPECT_TRUE(run.conduct.Ingest(robot, kLease, std::move(one)).status.ok());
+    return !run.listener.told.empty();
+  }
+
+  Conducted run;
+  std::map<RobotId, std::int64_t> sequences;
+};
+
+TEST(MissionConductGas, RefreshesOfATeamComeAfterItsRounds) {
+  Rounds team;
+  team.Send("r1", 100);
+  team.Send("r2", 101);
+  team.Send("r3", 102);
+  for (std::int64_t round_ms = 200; round_ms < 1000; round_ms += 100) {
+    EXPECT_FALSE(team.Send("r1", round_ms)) << round_ms;
+    EXPECT_FALSE(team.Send("r2", round_ms + 1)) << round_ms;
+    EXPECT_TRUE(team.Send("r3", round_ms + 2)) << round_ms;
+  }
+}
+
+TEST(MissionConductGas, RobotsOutOfStepHaveARefreshAfterEachHasSent) {
+  Rounds team;
+  for (const char* const robot : {"r1", "r2", "r3"}) team.Send(robot, 100);
+  int refreshes = 0;
+  for (std::int64_t time_ms = 200; time_ms < 1200; time_ms += 100) {
+    refreshes += team.Send("r1", time_ms) ? 1 : 0;
+    refreshes += team.Send("r2", time_ms + 33) ? 1 : 0;
+    refreshes += team.Send("r3", time_ms + 66) ? 1 : 0;
+  }
+  EXPECT_GE(refreshes, 7) << "in a second";
+}
+
+TEST(MissionConductGas, NobodyIsWaitedForForLong) {
+  Rounds team;
+  for (const char* const robot : {"r1", "r2", "r3"}) team.Send(robot, 100);
+  std::vector<std::int64_t> refreshed_ms;
+  for (std::int64_t time_ms = 200; time_ms < 800; time_ms += 100) {
+    if (team.Send("r1", time_ms)) refreshed_ms.push_back(time_ms);
+    if (team.Send("r2", time_ms)) refreshed_ms.push_back(time_ms);
+  }
+  EXPECT_THAT(refreshed_ms, ElementsAre(400, 500, 600, 700)) << "of r3 nothing more is heard";
 }
 
 TEST(MissionConductGas, EventsDoNotDependOnHowTheLogWasCut) {
