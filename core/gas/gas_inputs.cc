@@ -11,8 +11,18 @@
 namespace plumescout {
 namespace {
 
-void SortOnce(std::vector<GasCell>& cells) {
-  std::sort(cells.begin(), cells.end());
+using GasCells = std::vector<GasCell>;
+
+void Sort(GasCells::iterator begin, GasCells::iterator end) {
+  if (!std::is_sorted(begin, end)) std::sort(begin, end);
+}
+
+// Ascending, each once. Cells from `middle` on are by the map: mostly many, and ascending already.
+void SortOnce(GasCells& cells, std::size_t middle) {
+  const auto map = cells.begin() + static_cast<std::ptrdiff_t>(middle);
+  Sort(cells.begin(), map);
+  Sort(map, cells.end());
+  std::inplace_merge(cells.begin(), map, cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
 }
 
@@ -54,6 +64,8 @@ absl::StatusOr<std::vector<GasCell>> GasInputs::Update(const Grid<CellState>& st
   std::vector<GasCell> changed = GasCellsOf(readings_.TakeChanged());
   readings_.AgeStale(time_ns);
   for (const GasCell cell : GasCellsOf(readings_.TakeChanged())) changed.push_back(cell);
+  const std::size_t by_readings = changed.size();
+  changed.reserve(by_readings + freed.size());
   for (const std::size_t index : freed) {
     const GasCell gas_cell = GasCellOf(states_.At(index), factor_);
     changed.push_back(gas_cell);
@@ -63,7 +75,7 @@ absl::StatusOr<std::vector<GasCell>> GasInputs::Update(const Grid<CellState>& st
     changed.push_back({gas_cell.x - 1, gas_cell.y});
     changed.push_back({gas_cell.x, gas_cell.y - 1});
   }
-  SortOnce(changed);
+  SortOnce(changed, by_readings);
   return changed;
 }
 
@@ -127,7 +139,7 @@ std::vector<GasCell> GasInputs::GasCellsOf(std::span<const AnchorCell> cells) co
   std::vector<GasCell> gas_cells;
   gas_cells.reserve(cells.size());
   for (const AnchorCell cell : cells) gas_cells.push_back(GasCellOf(cell, factor_));
-  SortOnce(gas_cells);
+  SortOnce(gas_cells, gas_cells.size());
   return gas_cells;
 }
 

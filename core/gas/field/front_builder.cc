@@ -48,32 +48,35 @@ std::shared_ptr<const Front> FrontBuilder::Build(const SeparatorTree::Node& node
 
 void FrontBuilder::FindCells(const SeparatorTree::Node& node, const FieldCells& cells,
                              const Front* low, const Front* high, Front& front) {
+  found_.clear();
   for (Slot slot = node.first; slot < node.end; ++slot) {
-    if (cells.active[slot] != 0) front.cells.push_back(slot);
+    if (cells.active[slot] != 0) found_.push_back(slot);
   }
-  front.own = front.cells.size();
+  front.own = found_.size();
   for (std::size_t i = 0; i < front.own; ++i) {
-    const Slot slot = front.cells[i];
+    const Slot slot = found_[i];
     for (std::size_t direction = 0; direction < tree_->neighbours(slot).size(); ++direction) {
       const Slot next = tree_->neighbours(slot)[direction];
-      if (next >= node.end && cells.HasFactor(*tree_, slot, direction)) front.cells.push_back(next);
+      if (next >= node.end && cells.HasFactor(*tree_, slot, direction)) found_.push_back(next);
     }
   }
   for (const Front* child : {low, high}) {
     if (child == nullptr) continue;
     for (const Slot slot : child->boundary_cells()) {
-      if (slot >= node.end) front.cells.push_back(slot);
+      if (slot >= node.end) found_.push_back(slot);
     }
   }
-  const auto boundary = front.cells.begin() + static_cast<std::ptrdiff_t>(front.own);
-  std::sort(boundary, front.cells.end());
-  front.cells.erase(std::unique(boundary, front.cells.end()), front.cells.end());
+  const auto boundary = found_.begin() + static_cast<std::ptrdiff_t>(front.own);
+  std::sort(boundary, found_.end());
+  found_.erase(std::unique(boundary, found_.end()), found_.end());
+  front.cells.assign(found_.begin(), found_.end());
   for (std::size_t i = 0; i < front.cells.size(); ++i) {
     place_[front.cells[i]] = static_cast<std::uint32_t>(i);
   }
 }
 
-void FrontBuilder::Couple(const FieldCells& cells, Front& front) const {
+void FrontBuilder::Couple(const FieldCells& cells, Front& front) {
+  couplings_.clear();
   front.coupling_precision = prior_.prior_precision_per_ppm2;
   for (std::uint32_t i = 0; i < front.own; ++i) {
     const Slot slot = front.cells[i];
@@ -81,9 +84,10 @@ void FrontBuilder::Couple(const FieldCells& cells, Front& front) const {
       if (!cells.HasFactor(*tree_, slot, direction)) continue;
       const std::uint32_t place = place_[tree_->neighbours(slot)[direction]];
       if (place < front.own) continue;
-      front.couplings.push_back({i, place - static_cast<std::uint32_t>(front.own)});
+      couplings_.push_back({i, place - static_cast<std::uint32_t>(front.own)});
     }
   }
+  front.couplings.assign(couplings_.begin(), couplings_.end());
 }
 
 // H of the own cells and of the factors between them and others: [IPP] Eq. (3).
@@ -91,7 +95,10 @@ void FrontBuilder::Assemble(const FieldCells& cells, const Front& front) {
   const std::size_t unknowns = front.cells.size();
   rows_ = unknowns + kExtraRows;
   matrix_stride_ = PaddedRows(rows_);
-  matrix_.assign(matrix_stride_ * unknowns, 0.0);
+  Reserve(matrix_, matrix_stride_ * unknowns);
+  for (std::size_t j = 0; j < unknowns; ++j) {  // nothing above the diagonal is asked for
+    std::fill_n(matrix_.data() + j * matrix_stride_ + j, matrix_stride_ - j, 0.0);
+  }
   for (std::size_t j = 0; j < front.own; ++j) {
     const Slot slot = front.cells[j];
     double* const column = matrix_.data() + j * matrix_stride_;
@@ -168,7 +175,8 @@ void FrontBuilder::KeepDistribution(std::size_t weight_columns, Front& front) co
   }
   if (weight_columns > 0) front.weights.resize(own * weight_columns + kRowTile, 0.0);
   const double* const right_hand_side = extended_weights_.data() + (weight_columns + 1) * stride;
-  for (std::size_t i = 0; i < own; ++i) front.offset_ppm.push_back(-right_hand_side[i]);
+  front.offset_ppm.resize(own);
+  for (std::size_t i = 0; i < own; ++i) front.offset_ppm[i] = -right_hand_side[i];
 }
 
 void FrontBuilder::KeepMessage(Front& front) const {

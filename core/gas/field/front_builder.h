@@ -36,13 +36,16 @@ class FrontBuilder {
   void AddMessage(const Front& child);
   void Condition(Front& front);
   void KeepDistribution(std::size_t weight_columns, Front& front) const;
-  void Couple(const FieldCells& cells, Front& front) const;
+  void Couple(const FieldCells& cells, Front& front);
   void KeepMessage(Front& front) const;
 
   const SeparatorTree* tree_;
   FieldPrior prior_;
   std::vector<std::uint32_t> place_;  // by slot: row in the front
-  std::vector<double> matrix_;        // the front, rows: S, R, ground, right-hand side
+  // A front's own are made of these at once, for growing ones ask for memory again and again.
+  std::vector<Slot> found_;
+  std::vector<Front::Coupling> couplings_;
+  std::vector<double> matrix_;  // the front, rows: S, R, ground, right-hand side
   std::size_t rows_ = 0;
   std::size_t matrix_stride_ = 0;
   std::vector<double> transposed_inverse_;  // X^T

@@ -23,6 +23,7 @@ class LatticeLines {
   enum class Across { kX, kY };
   LatticeLines(Across across, double slope, std::size_t width, std::size_t height);
 
+  Across across() const { return across_; }
   // Never negative.
   std::int32_t line(LatticeCell cell) const {
     return across_ == Across::kX ? cell.x + shift_[static_cast<std::size_t>(cell.y)]

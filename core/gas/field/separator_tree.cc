@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/gas/field/lattice_lines.h"
@@ -33,6 +34,34 @@ double Score(double low, double high, double line) {
   return line * (1.0 + kImbalancePenalty * imbalance * imbalance);
 }
 
+// How many cells of a row, and of a column, are active up to any of its cells.
+class ActiveSums {
+ public:
+  ActiveSums(std::size_t width, std::size_t height, std::span<const std::uint8_t> active)
+      : width_(width), rows_((width + 1) * height), columns_(width * (height + 1)) {
+    for (std::size_t y = 0; y < height; ++y) {
+      for (std::size_t x = 0; x < width; ++x) {
+        const std::uint32_t here = active[y * width + x];
+        rows_[RowPlace(x + 1, y)] = rows_[RowPlace(x, y)] + here;
+        columns_[(y + 1) * width + x] = columns_[y * width + x] + here;
+      }
+    }
+  }
+  std::uint32_t InRow(std::size_t y, std::size_t x_begin, std::size_t x_end) const {
+    return rows_[RowPlace(x_end, y)] - rows_[RowPlace(x_begin, y)];
+  }
+  std::uint32_t InColumn(std::size_t x, std::size_t y_begin, std::size_t y_end) const {
+    return columns_[y_end * width_ + x] - columns_[y_begin * width_ + x];
+  }
+
+ private:
+  std::size_t RowPlace(std::size_t x, std::size_t y) const { return y * (width_ + 1) + x; }
+
+  std::size_t width_;
+  std::vector<std::uint32_t> rows_;
+  std::vector<std::uint32_t> columns_;
+};
+
 }  // namespace
 
 // Builds the tree, children first.
@@ -40,21 +69,44 @@ class Dissection {
  public:
   Dissection(SeparatorTree& tree, std::size_t height, std::span<const std::uint8_t> active,
              const StopFn& stop)
-      : tree_(tree), active_(active), stop_(stop) {
-    places_.reserve(active.size());
-    const auto width = static_cast<std::int32_t>(tree.width());
-    for (std::int32_t y = 0; y < static_cast<std::int32_t>(height); ++y) {
-      for (std::int32_t x = 0; x < width; ++x) places_.push_back({x, y});
-    }
-    AddLines(0.0, height);
-    const double slope = WallSlope(tree.width(), height, active);
-    if (slope != 0.0) AddLines(slope, height);
+      : tree_(tree), height_(height), active_(active), stop_(stop) {
+    AddLines(0.0);
   }
 
-  void Run() { Split(places_); }
+  void Run() {
+    const double slope = WallSlope(tree_.width(), height_, active_);
+    if (slope == 0.0) {
+      sums_.emplace(tree_.width(), height_, active_);
+      Split(Box{0, tree_.width(), 0, height_});
+    } else {
+      AddLines(slope);
+      std::vector<LatticeCell> places;
+      places.reserve(active_.size());
+      ForEachCell(Box{0, tree_.width(), 0, height_}, [&places](std::size_t x, std::size_t y) {
+        places.push_back({static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)});
+      });
+      Split(Places{places});
+    }
+  }
 
  private:
+  // Parts of the lattice: as lines along the axes leave them, cells [x_begin, x_end) of rows
+  // [y_begin, y_end); and as any lines do, cells side by side, row by row.
+  struct Box {
+    std::size_t x_begin = 0;
+    std::size_t x_end = 0;
+    std::size_t y_begin = 0;
+    std::size_t y_end = 0;
+
+    std::size_t size() const { return (x_end - x_begin) * (y_end - y_begin); }
+  };
   using Places = std::span<LatticeCell>;
+  template <typename Part>
+  struct Parts {
+    Part low;
+    Part high;
+    Part own;  // on the line
+  };
 
   struct Line {
     const LatticeLines* lines = nullptr;
@@ -70,39 +122,70 @@ class Dissection {
     double length() const { return active + kLineCharge * cells; }
   };
 
-  void AddLines(double slope, std::size_t height) {
-    lines_.emplace_back(LatticeLines::Across::kX, slope, tree_.width(), height);
-    lines_.emplace_back(LatticeLines::Across::kY, slope, tree_.width(), height);
+  void AddLines(double slope) {
+    lines_.emplace_back(LatticeLines::Across::kX, slope, tree_.width(), height_);
+    lines_.emplace_back(LatticeLines::Across::kY, slope, tree_.width(), height_);
   }
 
-  std::uint32_t Cell(LatticeCell place) const {
-    return static_cast<std::uint32_t>(place.y) * static_cast<std::uint32_t>(tree_.width()) +
-           static_cast<std::uint32_t>(place.x);
+  std::uint32_t Cell(std::size_t x, std::size_t y) const {
+    return static_cast<std::uint32_t>(y * tree_.width() + x);
   }
 
-  std::uint32_t Split(Places part) {
+  template <typename Visit>
+  static void ForEachCell(const Box& box, const Visit& visit) {
+    for (std::size_t y = box.y_begin; y < box.y_end; ++y) {
+      for (std::size_t x = box.x_begin; x < box.x_end; ++x) visit(x, y);
+    }
+  }
+  template <typename Visit>
+  static void ForEachCell(Places places, const Visit& visit) {
+    for (const LatticeCell place : places) {
+      visit(static_cast<std::size_t>(place.x), static_cast<std::size_t>(place.y));
+    }
+  }
+
+  template <typename Part>
+  std::uint32_t Split(Part part) {
     if (part.size() <= kLeafCells || Stops(stop_)) {
       return AddNode(part, {SeparatorTree::kNone, SeparatorTree::kNone});
     }
-    const Line line = BestLine(part);
-    const auto side = [&line](LatticeCell place) { return line.lines->line(place) - line.number; };
-    const auto high = std::stable_partition(part.begin(), part.end(),
-                                            [&](LatticeCell place) { return side(place) < 0; });
-    const auto own =
-        std::stable_partition(high, part.end(), [&](LatticeCell place) { return side(place) > 0; });
-    const std::uint32_t low_node = Split({part.begin(), high});
-    const std::uint32_t high_node = Split({high, own});
-    const std::uint32_t node = AddNode({own, part.end()}, {low_node, high_node});
+    const Parts<Part> parts = Divide(part, BestLine(part));
+    const std::uint32_t low_node = Split(parts.low);
+    const std::uint32_t high_node = Split(parts.high);
+    const std::uint32_t node = AddNode(parts.own, {low_node, high_node});
     tree_.nodes_[low_node].parent = node;
     tree_.nodes_[high_node].parent = node;
     return node;
   }
 
+  static Parts<Box> Divide(const Box& box, const Line& line) {
+    Parts<Box> parts = {box, box, box};
+    const auto at = static_cast<std::size_t>(line.number);
+    if (line.lines->across() == LatticeLines::Across::kX) {
+      parts.low.x_end = parts.own.x_begin = at;
+      parts.own.x_end = parts.high.x_begin = at + 1;
+    } else {
+      parts.low.y_end = parts.own.y_begin = at;
+      parts.own.y_end = parts.high.y_begin = at + 1;
+    }
+    return parts;
+  }
+  static Parts<Places> Divide(Places part, const Line& line) {
+    const auto side = [&line](LatticeCell place) { return line.lines->line(place) - line.number; };
+    const auto high = std::stable_partition(part.begin(), part.end(),
+                                            [&](LatticeCell place) { return side(place) < 0; });
+    const auto own =
+        std::stable_partition(high, part.end(), [&](LatticeCell place) { return side(place) > 0; });
+    return {{part.begin(), high}, {high, own}, {own, part.end()}};
+  }
+
   // The best line with cells on both sides. REQUIRES: a part of more cells than a leaf, so that
   // columns or rows number at least three.
-  Line BestLine(Places part) {
+  template <typename Part>
+  Line BestLine(const Part& part) {
     Line best;
     for (const LatticeLines& lines : lines_) {
+      counts_.resize(std::max(counts_.size(), lines.count()));
       const auto [first, last] = CountLines(lines, part);
       double above = 0.0;
       for (std::size_t k = first; k <= last; ++k) above += counts_[k].weight();
@@ -121,8 +204,21 @@ class Dissection {
   }
 
   // Adds the part to counts_; returns its first and its last line.
+  std::pair<std::size_t, std::size_t> CountLines(const LatticeLines& lines, const Box& box) {
+    if (lines.across() == LatticeLines::Across::kX) {
+      const auto cells = static_cast<std::uint32_t>(box.y_end - box.y_begin);
+      for (std::size_t x = box.x_begin; x < box.x_end; ++x) {
+        counts_[x] = {cells, sums_->InColumn(x, box.y_begin, box.y_end)};
+      }
+      return {box.x_begin, box.x_end - 1};
+    }
+    const auto cells = static_cast<std::uint32_t>(box.x_end - box.x_begin);
+    for (std::size_t y = box.y_begin; y < box.y_end; ++y) {
+      counts_[y] = {cells, sums_->InRow(y, box.x_begin, box.x_end)};
+    }
+    return {box.y_begin, box.y_end - 1};
+  }
   std::pair<std::size_t, std::size_t> CountLines(const LatticeLines& lines, Places part) {
-    counts_.resize(std::max(counts_.size(), lines.count()));
     std::size_t first = lines.count();
     std::size_t last = 0;
     for (const LatticeCell place : part) {
@@ -130,31 +226,34 @@ class Dissection {
       first = std::min(first, line);
       last = std::max(last, line);
       ++counts_[line].cells;
-      counts_[line].active += active_[Cell(place)];
+      counts_[line].active +=
+          active_[Cell(static_cast<std::size_t>(place.x), static_cast<std::size_t>(place.y))];
     }
     return {first, last};
   }
 
-  std::uint32_t AddNode(Places own, const std::array<std::uint32_t, 2>& children) {
+  template <typename Part>
+  std::uint32_t AddNode(const Part& own, const std::array<std::uint32_t, 2>& children) {
     const auto id = static_cast<std::uint32_t>(tree_.nodes_.size());
     const auto first = static_cast<Slot>(tree_.cell_of_slot_.size());
-    for (const LatticeCell place : own) {
-      const std::uint32_t cell = Cell(place);
+    ForEachCell(own, [&](std::size_t x, std::size_t y) {
+      const std::uint32_t cell = Cell(x, y);
       tree_.slot_of_cell_[cell] = static_cast<Slot>(tree_.cell_of_slot_.size());
       tree_.cell_of_slot_.push_back(cell);
       tree_.owner_.push_back(id);
-    }
+    });
     const auto end = static_cast<Slot>(tree_.cell_of_slot_.size());
     tree_.nodes_.push_back({SeparatorTree::kNone, children, first, end});
     return id;
   }
 
   SeparatorTree& tree_;
+  std::size_t height_;
   std::span<const std::uint8_t> active_;
   const StopFn& stop_;
-  std::vector<LatticeCell> places_;  // those of a part side by side
   std::vector<LatticeLines> lines_;
-  std::vector<Count> counts_;  // by line; 0 between uses
+  std::optional<ActiveSums> sums_;  // of boxes
+  std::vector<Count> counts_;       // by line; 0 between uses
 };
 
 SeparatorTree::SeparatorTree(std::size_t width, std::size_t height,
