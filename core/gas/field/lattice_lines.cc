@@ -3,7 +3,6 @@
 #include "core/gas/field/lattice_lines.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace plumescout {
 namespace {
@@ -93,7 +92,7 @@ LatticeLines::LatticeLines(Across across, double slope, std::size_t width, std::
   const double start = along < 0.0 ? -along * static_cast<double>(length - 1) : 0.0;
   shift_.reserve(length);
   for (std::size_t i = 0; i < length; ++i) {
-    const double shift = std::floor(start + along * static_cast<double>(i) + 0.5);
+    const double shift = start + along * static_cast<double>(i) + 0.5;  // > 0: a cast rounds down
     shift_.push_back(static_cast<std::int32_t>(shift));
   }
   count_ = breadth + static_cast<std::size_t>(std::max(shift_.front(), shift_.back()));
