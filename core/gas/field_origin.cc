@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "absl/status/status.h"
 #include "core/types/status_macros.h"
@@ -23,10 +25,11 @@ absl::StatusOr<std::unique_ptr<FieldEngine>> MakeField(const FieldOrigin& origin
                     origin.cells.size() == lattice.size() &&
                     origin.cells.size() < std::numeric_limits<Slot>::max();
   if (!fits) return absl::InvalidArgumentError("a gas field is made from other cells");
-  PLUMESCOUT_RETURN_IF_ERROR(CheckCells(origin.cells));
+  std::vector<CellInput> cells = origin.cells.Cells();
+  PLUMESCOUT_RETURN_IF_ERROR(CheckCells(cells));
   auto engine = std::make_unique<FieldEngine>(static_cast<std::size_t>(lattice.width),
                                               static_cast<std::size_t>(lattice.height),
-                                              origin.cells, options);
+                                              std::move(cells), options);
   for (const std::vector<CellChange>& changes : origin.changes) {
     PLUMESCOUT_RETURN_IF_ERROR(engine->Apply(changes));
   }

@@ -8,6 +8,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "core/gas/cell_runs.h"
 #include "core/gas/field/field_engine.h"
 #include "core/gas/gas_lattice.h"
 
@@ -16,7 +17,7 @@ namespace plumescout {
 // How a field came about: it was made from scratch, then told changes. The fields of an engine
 // depend, within their tolerance, on the way that they came; who goes it again has the same bits.
 struct FieldOrigin {
-  std::vector<CellInput> cells;                  // of the lattice, when it was made
+  CellRuns cells;                                // of the lattice, when it was made
   std::vector<std::vector<CellChange>> changes;  // call by call
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "absl/status/status.h"
 
@@ -20,8 +21,8 @@ void Raise(double& largest, double value) {
 
 FieldDrift DriftBetween(const EpochInputs& live, const FieldEngine& fresh) {
   FieldDrift drift;
-  for (std::size_t cell = 0; cell < live.cells.size(); ++cell) {
-    if (!live.cells[cell].active) continue;
+  for (std::size_t cell = 0; cell < live.lattice.size(); ++cell) {
+    if (!fresh.input(cell).active) continue;
     const double variance_ppm2 = fresh.variance_ppm2(cell);
     Raise(drift.mean_ppm, std::abs(live.mean_ppm[cell] - fresh.mean_ppm(cell)));
     Raise(drift.variance_ratio, std::abs(live.variance_ppm2[cell] - variance_ppm2) / variance_ppm2);
@@ -31,15 +32,21 @@ FieldDrift DriftBetween(const EpochInputs& live, const FieldEngine& fresh) {
 
 }  // namespace
 
+GasEpoch::GasEpoch(EpochInputs inputs) : inputs_(std::move(inputs)) {
+  origin_.cells = CellRuns(inputs_.cells);
+  inputs_.cells = {};
+}
+
 void GasEpoch::Recompute() {
   if (done()) return;
-  if (absl::Status status = CheckCells(inputs_.cells); !status.ok()) {
+  std::vector<CellInput> cells = origin_.cells.Cells();
+  if (absl::Status status = CheckCells(cells); !status.ok()) {
     failure_ = std::move(status);
     return;
   }
   auto engine = std::make_unique<FieldEngine>(static_cast<std::size_t>(inputs_.lattice.width),
                                               static_cast<std::size_t>(inputs_.lattice.height),
-                                              inputs_.cells, inputs_.options);
+                                              std::move(cells), inputs_.options);
   if (engine->abandoned()) return;
   if (inputs_.is_same_model) drift_ = DriftBetween(inputs_, *engine);
   if (!inputs_.aged.empty()) {
@@ -54,10 +61,8 @@ void GasEpoch::Recompute() {
 }
 
 FieldOrigin GasEpoch::TakeOrigin() {
-  FieldOrigin origin;
-  origin.cells = std::move(inputs_.cells);
-  if (!inputs_.aged.empty()) origin.changes.push_back(std::move(inputs_.aged));
-  return origin;
+  if (!inputs_.aged.empty()) origin_.changes.push_back(std::move(inputs_.aged));
+  return std::move(origin_);
 }
 
 }  // namespace plumescout

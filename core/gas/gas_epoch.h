@@ -40,7 +40,7 @@ struct FieldDrift {
 // beside the live one, which goes on meanwhile. Shares nothing with it.
 class GasEpoch {
  public:
-  explicit GasEpoch(EpochInputs inputs) : inputs_(std::move(inputs)) {}
+  explicit GasEpoch(EpochInputs inputs);
 
   // The long part; may run on any thread. Does nothing if it is done, and comes to nothing if
   // FieldOptions::stop ends it, or if evidence is none (of a damaged saved state).
@@ -62,6 +62,7 @@ class GasEpoch {
 
  private:
   EpochInputs inputs_;
+  FieldOrigin origin_;  // without `aged`
   std::optional<FieldDrift> drift_;
   std::unique_ptr<FieldEngine> engine_;
   absl::Status failure_ = absl::CancelledError("an epoch is abandoned");

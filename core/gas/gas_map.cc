@@ -19,11 +19,11 @@ std::int64_t CountActive(std::span<const CellInput> inputs) {
   return std::count_if(inputs.begin(), inputs.end(), [](const CellInput& i) { return i.active; });
 }
 
-std::unique_ptr<FieldEngine> MakeEngine(const GasLattice& lattice,
-                                        std::span<const CellInput> inputs,
+std::unique_ptr<FieldEngine> MakeEngine(const GasLattice& lattice, std::vector<CellInput> inputs,
                                         const FieldOptions& options) {
   return std::make_unique<FieldEngine>(static_cast<std::size_t>(lattice.width),
-                                       static_cast<std::size_t>(lattice.height), inputs, options);
+                                       static_cast<std::size_t>(lattice.height), std::move(inputs),
+                                       options);
 }
 
 // What `inputs` say and `engine` has not heard.
@@ -131,8 +131,9 @@ absl::Status GasMap::Rebuild(std::int64_t time_ns) {
     active_cells_ = CountActive(inputs);
   }
   PLUMESCOUT_RETURN_IF_ERROR(CheckCells(inputs));
-  auto engine = MakeEngine(lattice, inputs, field_options_);
-  TakeOver(std::move(engine), lattice, {std::move(inputs), {}});
+  FieldOrigin origin = {CellRuns(inputs), {}};
+  auto engine = MakeEngine(lattice, std::move(inputs), field_options_);
+  TakeOver(std::move(engine), lattice, std::move(origin));
   schedule_.NoteFresh(active_cells_);
   quality_.aged_to_ns = time_ns;
   const absl::Status status = engine_->Apply({});  // whether it is sound

@@ -3,7 +3,10 @@
 #pragma once
 
 #include <algorithm>
+#include <type_traits>
+#include <vector>
 
+#include "core/gas/cell_runs.h"
 #include "core/gas/field_region.h"
 #include "core/gas/gas_map.h"
 #include "core/gas/gas_maps.h"
@@ -24,9 +27,12 @@ void Visit(auto& archive, ConstOr<CellChange> auto& change) {
   archive(cell, input);
 }
 void Visit(auto& archive, ConstOr<FieldOrigin> auto& origin) {
-  auto& [cells, changes] = origin;
+  std::vector<CellInput> cells = origin.cells.Cells();
   archive.Runs(cells);
-  archive(changes);
+  if constexpr (!std::is_const_v<std::remove_reference_t<decltype(origin)>>) {
+    origin.cells = CellRuns(cells);
+  }
+  archive(origin.changes);
 }
 void Visit(auto& archive, ConstOr<GasLattice> auto& lattice) {
   auto& [x0, y0, width, height] = lattice;

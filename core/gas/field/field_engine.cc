@@ -40,7 +40,7 @@ bool HasSameLinks(const CellInput& a, const CellInput& b) {
 
 }  // namespace
 
-FieldEngine::FieldEngine(std::size_t width, std::size_t height, std::span<const CellInput> cells,
+FieldEngine::FieldEngine(std::size_t width, std::size_t height, std::vector<CellInput> cells,
                          const FieldOptions& options)
     : options_(options),
       tree_(MakeTree(width, height, cells, options.stop)),
@@ -49,6 +49,7 @@ FieldEngine::FieldEngine(std::size_t width, std::size_t height, std::span<const 
       factor_(tree_),
       marginals_(*tree_),
       dirty_(tree_->nodes().size()) {
+  cells = {};  // makes room
   Recompute();
 }
 

@@ -54,7 +54,7 @@ class FieldEngine {
   // `cells` by index y * width + x: width * height of them. Their activity shapes the tree; all
   // others may become active later, at some loss if most do. REQUIRES: width, height >= 1, inputs
   // as Apply takes them, precisions of the prior > 0.
-  FieldEngine(std::size_t width, std::size_t height, std::span<const CellInput> cells,
+  FieldEngine(std::size_t width, std::size_t height, std::vector<CellInput> cells,
               const FieldOptions& options);
 
   // Brings the fields up to date with all changes; of several to one cell the last holds. Added

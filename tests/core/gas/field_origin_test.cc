@@ -22,10 +22,10 @@ bool AreSame(const std::vector<double>& a, const std::vector<double>& b) {
 
 TEST(FieldOrigin, TheSameWayLeadsToTheSameBits) {
   Rng rng(1);
-  FieldOrigin origin;
-  origin.cells.resize(kLattice.size());
-  for (CellInput& cell : origin.cells) cell.active = rng.Below(5) != 0;
-  FieldEngine live(25, 18, origin.cells, kOptions);
+  std::vector<CellInput> cells(kLattice.size());
+  for (CellInput& cell : cells) cell.active = rng.Below(5) != 0;
+  FieldOrigin origin = {CellRuns(cells), {}};
+  FieldEngine live(25, 18, cells, kOptions);
   const auto tell = [&](FieldEngine& field, std::vector<CellChange> changes) {
     EXPECT_TRUE(field.Apply(changes).ok());
     return changes;
@@ -56,9 +56,8 @@ TEST(FieldOrigin, TheSameWayLeadsToTheSameBits) {
   }
 
   // All at once leads elsewhere, within the tolerance: that is why the way is kept.
-  FieldOrigin straight;
-  for (std::size_t i = 0; i < kLattice.size(); ++i) straight.cells.push_back(live.input(i));
-  const auto fresh = MakeField(straight, kLattice, kOptions);
+  for (std::size_t i = 0; i < kLattice.size(); ++i) cells[i] = live.input(i);
+  const auto fresh = MakeField({CellRuns(cells), {}}, kLattice, kOptions);
   ASSERT_TRUE(fresh.ok());
   EXPECT_FALSE(AreSame(live.variances_ppm2(), (*fresh)->variances_ppm2()));
 }
@@ -66,21 +65,25 @@ TEST(FieldOrigin, TheSameWayLeadsToTheSameBits) {
 TEST(FieldOrigin, WhatIsNoFieldIsRefused) {
   FieldOrigin origin;
   EXPECT_FALSE(MakeField(origin, kLattice, kOptions).ok());
-  origin.cells.resize(kLattice.size(), {.active = true});
+  std::vector<CellInput> cells(kLattice.size(), {.active = true});
+  origin.cells = CellRuns(cells);
   EXPECT_TRUE(MakeField(origin, kLattice, kOptions).ok());
   EXPECT_FALSE(MakeField(origin, {0, 0, 17, 25}, kOptions).ok());
-  origin.cells[3].precision = std::nan("");
+  cells[3].precision = std::nan("");
+  origin.cells = CellRuns(cells);
   EXPECT_FALSE(MakeField(origin, kLattice, kOptions).ok());
-  origin.cells[3] = {.active = true, .precision = 1.0, .weighted_deviation = INFINITY};
+  cells[3] = {.active = true, .precision = 1.0, .weighted_deviation = INFINITY};
+  origin.cells = CellRuns(cells);
   EXPECT_FALSE(MakeField(origin, kLattice, kOptions).ok());
-  origin.cells[3] = {.active = true};
+  cells[3] = {.active = true};
+  origin.cells = CellRuns(cells);
   origin.changes = {{{kLattice.size(), {}}}};
   EXPECT_FALSE(MakeField(origin, kLattice, kOptions).ok());
 }
 
 TEST(FieldOrigin, EndsWhenItIsTold) {
-  FieldOrigin origin;
-  origin.cells.resize(kLattice.size(), {.active = true});
+  const std::vector<CellInput> cells(kLattice.size(), {.active = true});
+  const FieldOrigin origin = {CellRuns(cells), {}};
   FieldOptions options = kOptions;
   options.stop = [] { return true; };
   EXPECT_EQ(MakeField(origin, kLattice, options).status().code(), absl::StatusCode::kCancelled);
