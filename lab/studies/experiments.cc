@@ -11,6 +11,7 @@
 #include "lab/studies/field_model.h"
 #include "lab/studies/gas_validation.h"
 #include "lab/studies/ipp_table1.h"
+#include "lab/studies/lhr_calibration.h"
 #include "lab/studies/lhr_table2.h"
 #include "lab/studies/mit_table1.h"
 #include "lab/studies/objectives.h"
@@ -32,7 +33,7 @@ namespace {
 struct Experiment {
   const char* name;
   absl::StatusOr<Study> (*run)(const ExperimentOptions&);
-  bool by_name_alone = false;  // takes an hour or more, and is of no paper
+  bool by_name_alone = false;  // takes long, and is no table or figure of a paper
 };
 
 constexpr Experiment kExperiments[] = {
@@ -41,6 +42,7 @@ constexpr Experiment kExperiments[] = {
     {"field_model", RunFieldModel},
     {"gas_validation", RunGasValidation},
     {"ipp_table1", RunIppTable1},
+    {"lhr_calibration", RunLhrCalibration, true},
     {"lhr_table2", RunLhrTable2},
     {"mit_table1", RunMitTable1},
     {"objectives", RunObjectives},

@@ -15,6 +15,7 @@
 #include "absl/strings/str_format.h"
 #include "core/types/status_macros.h"
 #include "lab/about/about.h"
+#include "lab/studies/lhr_rows.h"
 #include "lab/trials/convergence.h"
 #include "lab/trials/sampling_pictures.h"
 #include "lab/trials/sampling_study.h"
@@ -25,91 +26,12 @@
 namespace plumescout::lab {
 namespace {
 
-// [LHR] section IV-A.
-constexpr double kSpeed_mps = 5.0;
-constexpr double kDwell_s = 2.0;
-constexpr double kUpdatePeriod_s = 50.0;
-constexpr int kStride = 10;      // alpha
-constexpr int kCandidates = 15;  // M
-constexpr int kCycle = 10;       // T
-
-// Section II-A: the variance of a reading is proportional to it. By how much is ours: one standard
-// deviation is 1 ppm at 10 ppm; and readings below 1 ppm count as of 1 ppm.
-constexpr DwellNoise kNoise{
-    .sigma_ppm = 0.01, .share = 0.0, .variance_per_ppm = 0.1, .least_told_ppm2 = 0.1};
-// lambda_p, of which the paper says nothing: [XIT] Table I has 3, [IPP] section IV 0.5.
-constexpr double kPriorPrecision = 3.0;
-constexpr double kScannedPriors[] = {0.1, 0.5, 3.0, 10.0};
-constexpr std::uint64_t kScanSeed = 1000;  // of a world beside those of the tables
 constexpr int kWorlds = 5;
-constexpr double kTimeLimit_s = 50'000.0;  // all rows end long before
-constexpr double kJudgePeriod_s = 10.0;
 constexpr double kSecondsPerMinute = 60.0;
+constexpr double kWholeMission_s = 50'000.0;
 
-struct TableRow {
-  const char* name;
-  const char* label;
-  const char* strategy;
-  SamplingReward reward;
-  bool survey;
-  double paper_distance_m;       // Table II
-  double paper_convergence_min;  // Table II
-};
-constexpr TableRow kRows[] = {
-    {"sweep", "Sweep", "sweep", SamplingReward::kUcb, false, 2601, 95.33},
-    {"crs", "CRS", "random_sampling", SamplingReward::kUcb, true, 34807, 202.72},
-    {"lhr_mean", "LHR, mean", "lhr", SamplingReward::kMean, true, 15547, 46.71},
-    {"lhr_ucb", "LHR, UCB", "lhr", SamplingReward::kUcb, true, 24065, 51.41},
-    {"lhr_mean_no_survey", "mean, no survey", "lhr", SamplingReward::kMean, false, 9939, 78.07},
-    {"lhr_ucb_no_survey", "UCB, no survey", "lhr", SamplingReward::kUcb, false, 21321, 49.13},
-};
 constexpr std::size_t kSweep = 0;
 constexpr std::size_t kPictured = 3;  // Fig. 3 is of UCB
-
-absl::StatusOr<StudyRow> MakeRow(const TableRow& row, const Scene& world, double prior_precision) {
-  PLUMESCOUT_ASSIGN_OR_RETURN(StudyRow made, MakeStudyRow(row.name, row.strategy, true));
-  made.mission.occupancy.inflation_radius_m = 0.0;  // open, and the robot is a point
-  made.mission.gas.prior_precision_per_ppm2 = prior_precision;
-  PlanningOptions& planning = made.mission.planning;
-  planning.speed_mps = kSpeed_mps;
-  planning.dwell_s = kDwell_s;
-  planning.sites.region = RegionOf(world.geometry());
-  planning.sites.spacing_m = world.geometry().resolution_m;
-  planning.sites.reward = row.reward;
-  planning.sites.survey = row.survey;
-  planning.sites.survey_stride = kStride;
-  planning.sites.candidate_count = kCandidates;
-  planning.sites.cycle_sample_count = kCycle;
-  planning.sites.update_period_s = kUpdatePeriod_s;
-  return made;
-}
-
-// Drives of every row, with this lambda_p, from `corners` corners of the worlds.
-absl::StatusOr<SamplingPlan> MakePlan(const ExperimentOptions& options, std::vector<Scene> worlds,
-                                      std::size_t corners, double prior_precision) {
-  SamplingPlan plan;
-  plan.worlds = std::move(worlds);
-  const std::array<Point2, 4> starts = LhrStarts();
-  for (std::size_t world = 0; world < plan.worlds.size(); ++world) {
-    for (std::size_t corner = 0; corner < corners; ++corner) {
-      plan.cases.push_back({absl::StrCat("world_", world, "-corner_", corner),
-                            world,
-                            {starts[corner].x_m, starts[corner].y_m, 0.0},
-                            options.seed + world * starts.size() + corner});
-    }
-  }
-  for (const TableRow& row : kRows) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(StudyRow made, MakeRow(row, plan.worlds.front(), prior_precision));
-    plan.rows.push_back(std::move(made));
-  }
-  plan.noise = kNoise;
-  plan.first_dwell_s = kDwell_s;
-  plan.time_limit_s = kTimeLimit_s;
-  plan.judge_period_s = kJudgePeriod_s;
-  plan.folder = absl::StrCat(options.folder, "/drives");
-  plan.jobs = options.jobs;
-  return plan;
-}
 
 absl::StatusOr<SamplingPlan> MakeTablePlan(const ExperimentOptions& options) {
   const int count = options.trials.value_or(options.quick ? 1 : kWorlds);
@@ -117,22 +39,25 @@ absl::StatusOr<SamplingPlan> MakeTablePlan(const ExperimentOptions& options) {
   for (int i = 0; i < count; ++i) {
     worlds.push_back(MakeLhrScene(LhrScenarioSources(options.seed, i)));
   }
-  return MakePlan(options, std::move(worlds), options.quick ? 1 : LhrStarts().size(),
-                  kPriorPrecision);
+  SamplingPlan plan =
+      MakeLhrDrives(options, std::move(worlds), options.quick ? 1 : LhrStarts().size());
+  for (const LhrRow& row : kLhrRows) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(StudyRow made,
+                                MakeLhrStudyRow(row, kLhrUnstated, plan.worlds.front().geometry()));
+    plan.rows.push_back(std::move(made));
+  }
+  return plan;
 }
 
 using Drives = std::vector<std::vector<SamplingDrive>>;
 using Figure = std::function<double(const SamplingDrive&)>;
 
-double Driven_m(const SamplingDrive& drive) { return drive.driven_m; }
 double Elapsed_min(const SamplingDrive& drive) { return drive.elapsed_s / kSecondsPerMinute; }
 double Final_ppm(const SamplingDrive& drive) { return drive.errors.back().rmse_ppm; }
+double Convergence_min(const SamplingDrive& drive) { return LhrConvergence_min(drive); }
 Figure ConvergenceIn(double band) {
-  return [band](const SamplingDrive& drive) {
-    return ConvergenceTime_s(drive.errors, band).value_or(drive.elapsed_s) / kSecondsPerMinute;
-  };
+  return [band](const SamplingDrive& drive) { return LhrConvergence_min(drive, band); };
 }
-double Convergence_min(const SamplingDrive& drive) { return ConvergenceIn(kSteadyShare)(drive); }
 
 // Means over worlds, which are independent of each other as drives in one world are not.
 Spread SpreadBy(const SamplingPlan& plan, const std::vector<SamplingDrive>& drives,
@@ -164,19 +89,19 @@ TextTable MakeTextTable(const SamplingPlan& plan, const Drives& drives) {
       "method",       "distance, m",     "paper", "RMSE convergence time, min", "paper",
       "ours / paper", "sweep's over it", "paper", "whole mission, min",         "final RMSE, ppm"};
   const std::vector<double> sweep_min = MeansByWorld(plan, drives[kSweep], Convergence_min);
-  for (std::size_t row = 0; row < std::size(kRows); ++row) {
+  for (std::size_t row = 0; row < kLhrRows.size(); ++row) {
     const auto by = [&](const Figure& figure) { return SpreadBy(plan, drives[row], figure); };
     const Spread convergence_min = by(Convergence_min);
     const PairedRatio sooner =
         PairedRatioOf(sweep_min, MeansByWorld(plan, drives[row], Convergence_min));
     table.rows.push_back(
-        {kRows[row].label, SpreadText(by(Driven_m), 0),
-         absl::StrFormat("%.0f", kRows[row].paper_distance_m), SpreadText(convergence_min, 1),
-         absl::StrFormat("%.1f", kRows[row].paper_convergence_min),
-         absl::StrFormat("%.2f", convergence_min.mean / kRows[row].paper_convergence_min),
+        {kLhrRows[row].label, SpreadText(by(LhrDriven_m), 0),
+         absl::StrFormat("%.0f", kLhrRows[row].paper_distance_m), SpreadText(convergence_min, 1),
+         absl::StrFormat("%.1f", kLhrRows[row].paper_convergence_min),
+         absl::StrFormat("%.2f", convergence_min.mean / kLhrRows[row].paper_convergence_min),
          absl::StrFormat("%.2f [%.2f, %.2f]", sooner.mean, sooner.low, sooner.high),
-         absl::StrFormat("%.2f",
-                         kRows[kSweep].paper_convergence_min / kRows[row].paper_convergence_min),
+         absl::StrFormat(
+             "%.2f", kLhrRows[kSweep].paper_convergence_min / kLhrRows[row].paper_convergence_min),
          SpreadText(by(Elapsed_min), 1), SpreadText(by(Final_ppm), 3)});
   }
   return table;
@@ -192,40 +117,13 @@ TextTable MakeBandTable(const SamplingPlan& plan, const Drives& drives) {
     table.columns.push_back(absl::StrFormat("within %.2g %%", kPercent * band));
   }
   table.columns.emplace_back("paper");
-  for (std::size_t row = 0; row < std::size(kRows); ++row) {
+  for (std::size_t row = 0; row < kLhrRows.size(); ++row) {
     std::vector<std::string>& cells = table.rows.emplace_back();
-    cells = {kRows[row].label};
+    cells = {kLhrRows[row].label};
     for (const double band : kBands) {
       cells.push_back(SpreadText(SpreadBy(plan, drives[row], ConvergenceIn(band)), 1));
     }
-    cells.push_back(absl::StrFormat("%.1f", kRows[row].paper_convergence_min));
-  }
-  return table;
-}
-
-// All rows from one corner of one world beside those of the tables, with several lambda_p.
-absl::StatusOr<TextTable> ScanPriors(const ExperimentOptions& options,
-                                     const std::function<void(double)>& progress) {
-  TextTable table;
-  table.title = "RMSE convergence time, min, by λ_p: one corner of a world of its own";
-  table.columns = {"λ_p, 1 / ppm²"};
-  for (const TableRow& row : kRows) table.columns.emplace_back(row.label);
-  table.columns.insert(table.columns.end(), {"final RMSE, ppm", "map of nothing, ppm"});
-  const std::vector<Scene> worlds = {MakeLhrScene(LhrScenarioSources(options.seed + kScanSeed, 0))};
-  for (std::size_t i = 0; i < std::size(kScannedPriors); ++i) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(SamplingPlan plan, MakePlan(options, worlds, 1, kScannedPriors[i]));
-    plan.folder = absl::StrCat(options.folder, "/scan_", i);
-    plan.progress = [&progress, i](double share) {
-      progress((static_cast<double>(i) + share) / static_cast<double>(std::size(kScannedPriors)));
-    };
-    PLUMESCOUT_ASSIGN_OR_RETURN(const Drives drives, RunSamplingStudy(plan));
-    std::vector<std::string>& cells = table.rows.emplace_back();
-    cells = {absl::StrFormat("%g", kScannedPriors[i])};
-    for (const std::vector<SamplingDrive>& row : drives) {
-      cells.push_back(absl::StrFormat("%.1f", Convergence_min(row.front())));
-    }
-    cells.push_back(absl::StrFormat("%.3f", Final_ppm(drives[kSweep].front())));
-    cells.push_back(absl::StrFormat("%.3f", TruthRms_ppm(worlds)));
+    cells.push_back(absl::StrFormat("%.1f", kLhrRows[row].paper_convergence_min));
   }
   return table;
 }
@@ -233,17 +131,17 @@ absl::StatusOr<TextTable> ScanPriors(const ExperimentOptions& options,
 void AddNumbers(const SamplingPlan& plan, const Drives& drives, Study& study) {
   auto& figures = study.summary.figures;
   const std::vector<double> sweep_min = MeansByWorld(plan, drives[kSweep], Convergence_min);
-  for (std::size_t row = 0; row < std::size(kRows); ++row) {
-    const std::string name = kRows[row].name;
+  for (std::size_t row = 0; row < kLhrRows.size(); ++row) {
+    const std::string name = kLhrRows[row].name;
     const Spread convergence_min = SpreadBy(plan, drives[row], Convergence_min);
     const PairedRatio sooner =
         PairedRatioOf(sweep_min, MeansByWorld(plan, drives[row], Convergence_min));
-    figures.emplace_back(name + "_distance_m", SpreadBy(plan, drives[row], Driven_m).mean);
+    figures.emplace_back(name + "_distance_m", SpreadBy(plan, drives[row], LhrDriven_m).mean);
     figures.emplace_back(name + "_rmse_ct_min", convergence_min.mean);
     figures.emplace_back(name + "_rmse_ct_min_half_95", convergence_min.half_95);
     figures.emplace_back(name + "_final_rmse_ppm", SpreadBy(plan, drives[row], Final_ppm).mean);
     study.figures.key_numbers.emplace_back(
-        absl::StrCat(kRows[row].label, " converges after"),
+        absl::StrCat(kLhrRows[row].label, " converges after"),
         absl::StrFormat("%.0f min (%.1fx)", convergence_min.mean, sooner.mean));
   }
   figures.emplace_back("truth_rms_ppm", TruthRms_ppm(plan.worlds));
@@ -254,7 +152,7 @@ absl::Status AddPictures(const ExperimentOptions& options, SamplingPlan plan,
                          ReportFigures& figures) {
   plan.worlds = {MakeLhrScene(LhrTable1Sources())};
   plan.cases = {{"illustrative", 0, plan.cases.front().start, options.seed}};
-  plan.judge_period_s = kTimeLimit_s;  // after plans alone
+  plan.judge_period_s = kWholeMission_s;  // after plans alone
   const std::vector<int> pictured = {1, 2, 11, 31, 61};
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<MapPanel> panels,
                               PictureUpdates(plan, kPictured, 0, pictured));
@@ -266,10 +164,10 @@ absl::Status AddPictures(const ExperimentOptions& options, SamplingPlan plan,
 // Fig. 4.
 std::vector<Chart> MakeCharts(const SamplingPlan& plan, const Drives& drives) {
   std::vector<NamedDrives> rows;
-  for (std::size_t row = kSweep + 1; row < std::size(kRows); ++row) {
-    rows.push_back({absl::StrCat("Fig. 4, ", kRows[row].label), drives[row]});
+  for (std::size_t row = kSweep + 1; row < kLhrRows.size(); ++row) {
+    rows.push_back({absl::StrCat("Fig. 4, ", kLhrRows[row].label), drives[row]});
   }
-  return MakeErrorCharts(plan, {kRows[kSweep].label, drives[kSweep]}, rows);
+  return MakeErrorCharts(plan, {kLhrRows[kSweep].label, drives[kSweep]}, rows);
 }
 
 std::vector<std::string> MakeNotes(const SamplingPlan& plan) {
@@ -288,29 +186,23 @@ std::vector<std::string> MakeNotes(const SamplingPlan& plan) {
           "here. The variance of readings is proportional to them, as in section II-A."),
       absl::StrFormat(
           "What the paper does not say is ours: how sources are drawn, the plume's formula and "
-          "unit, how large the variance of readings is, lambda_p = %g and lambda_o = 10 of [XIT]. "
-          "With every site sampled the error is what the field smooths away; a map of nothing "
-          "has %.3f ppm.",
-          kPriorPrecision, TruthRms_ppm(plan.worlds)),
+          "unit, how large the variance of readings is; lambda_p = %g and beta = %g are those that "
+          "come nearest to its table in other worlds (lhr_calibration). With every site sampled "
+          "the error is what the field smooths away; a map of nothing has %.3f ppm.",
+          kLhrUnstated.prior_precision_per_ppm2, kLhrUnstated.beta, TruthRms_ppm(plan.worlds)),
   };
 }
 
 }  // namespace
 
 absl::StatusOr<Study> RunLhrTable2(const ExperimentOptions& options) {
-  const double table_share = options.quick ? 1.0 : 0.8;  // of the time, for the progress line
   PLUMESCOUT_ASSIGN_OR_RETURN(SamplingPlan plan, MakeTablePlan(options));
-  plan.progress = PartOfProgress(options, 0.0, table_share);
+  plan.progress = options.progress;
   PLUMESCOUT_ASSIGN_OR_RETURN(const Drives drives, RunSamplingStudy(plan));
   Study study;
   study.figures.title = "Low-to-high resolution sampling ([LHR] Table II)";
   study.figures.notes = MakeNotes(plan);
   study.figures.tables = {MakeTextTable(plan, drives), MakeBandTable(plan, drives)};
-  if (!options.quick) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(TextTable scan,
-                                ScanPriors(options, PartOfProgress(options, table_share, 1.0)));
-    study.figures.tables.push_back(std::move(scan));
-  }
   study.figures.charts = MakeCharts(plan, drives);
   PLUMESCOUT_RETURN_IF_ERROR(AddPictures(options, plan, study.figures));
   AddNumbers(plan, drives, study);
