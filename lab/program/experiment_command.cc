@@ -91,7 +91,9 @@ void AddExperimentCommand(CLI::App& app, absl::Status& status) {
       "On two cores xit_table3 takes some seven minutes, and team_study one to two hours: 108 "
       "missions of teams of up to eight, and 200 in one-lane buildings (20 with --trials 1). "
       "team_rivals takes some half an hour.");
-  experiment->add_option("name", arguments->name, "Which one; all: each but lhr_calibration and those of teams")
+  experiment
+      ->add_option("name", arguments->name,
+                   "Which one; all: each but lhr_calibration and those of teams")
       ->required()
       ->check(CLI::IsMember(names));
   experiment->add_option("--out", arguments->out,
