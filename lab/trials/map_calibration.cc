@@ -15,16 +15,21 @@ MapCalibration Calibrate(const Scene& truth, const Grid<float>& mean_ppm,
   MapCalibration sums;
   double cells = 0.0;
   double estimated = 0.0;
+  double all_estimated = 0.0;
   for (std::size_t i = 0; i < truth.occupancy.size(); ++i) {
     const double true_ppm = truth.conc_mean_ppm[i];
-    if (truth.occupancy[i] != CellState::kFree || true_ppm <= truth.critical_threshold_ppm)
-      continue;
+    if (truth.occupancy[i] != CellState::kFree) continue;
     const Point2 place = truth.geometry().Center(truth.geometry().CellAtIndex(i));
     const Cell cell = mean_ppm.geometry().CellAt(place);
     const auto known_ppm = static_cast<double>(mean_ppm.At(cell, kNone));
     const double said_ppm = std::isfinite(known_ppm) ? std::max(0.0, known_ppm) : 0.0;
     const double error_ppm = said_ppm - true_ppm;
     const double log_error = std::log1p(said_ppm) - std::log1p(true_ppm);
+    if (std::isfinite(known_ppm)) {
+      all_estimated += 1.0;
+      sums.log_rmse_all += log_error * log_error;
+    }
+    if (true_ppm <= truth.critical_threshold_ppm) continue;
     cells += 1.0;
     sums.rmse_ppm += error_ppm * error_ppm;
     sums.log_rmse += log_error * log_error;
@@ -39,6 +44,7 @@ MapCalibration Calibrate(const Scene& truth, const Grid<float>& mean_ppm,
   }
   return {.rmse_ppm = std::sqrt(sums.rmse_ppm / cells),
           .log_rmse = std::sqrt(sums.log_rmse / cells),
+          .log_rmse_all = std::sqrt(sums.log_rmse_all / all_estimated),
           .nlpd_nats = sums.nlpd_nats / estimated,
           .within_1_sigma = sums.within_1_sigma / estimated,
           .within_2_sigma = sums.within_2_sigma / estimated,

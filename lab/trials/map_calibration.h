@@ -11,6 +11,8 @@ namespace plumescout::lab {
 struct MapCalibration {
   double rmse_ppm = 0.0;
   double log_rmse = 0.0;  // of ln(1 ppm + c)
+  // The same over all free cells that the map estimates, critical or not.
+  double log_rmse_all = 0.0;
   // Of the cells that the map estimates, as Gaussians:
   double nlpd_nats = 0.0;       // negative logarithm of the density at the truth, mean
   double within_1_sigma = 0.0;  // share, 0.68 of true Gaussians

@@ -31,6 +31,8 @@ TEST(MapCalibrationTest, IsTakenOverCriticalCells) {
   const double high = std::log(14.0 / 11.0);
   const double low = std::log(10.0 / 11.0);
   EXPECT_NEAR(map.log_rmse, std::sqrt((high * high + low * low) / 2.0), 1e-9);
+  const double clean = std::log(501.0 / 2.0);
+  EXPECT_NEAR(map.log_rmse_all, std::sqrt((high * high + low * low + clean * clean) / 3.0), 1e-6);
   EXPECT_NEAR(map.nlpd_nats, 0.5 * std::log(2.0 * M_PI * 4.0) + 0.5 * (9.0 + 1.0) / 4.0 / 2.0,
               1e-9);
   EXPECT_EQ(map.within_1_sigma, 0.5);
@@ -43,6 +45,7 @@ TEST(MapCalibrationTest, WhatIsNotEstimatedIsCleanAirAndHasNoSigma) {
   mean_ppm[1] = std::numeric_limits<float>::quiet_NaN();
   const MapCalibration map = Calibrate(Truth(), mean_ppm, Grid<float>(kThree, 1.0F));
   EXPECT_NEAR(map.rmse_ppm, std::sqrt(100.0 / 2.0), 1e-9);
+  EXPECT_NEAR(map.log_rmse_all, std::sqrt(std::pow(std::log(11.0 / 2.0), 2.0) / 2.0), 1e-6);
   EXPECT_EQ(map.within_1_sigma, 1.0);
   EXPECT_EQ(map.rms_z, 0.0);
 }
