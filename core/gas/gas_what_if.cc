@@ -47,9 +47,7 @@ absl::StatusOr<std::shared_ptr<const GasWhatIf>> GasWhatIf::Given(
     if (index) read.push_back({*index, reading.precision_per_ppm2});
   }
   PLUMESCOUT_ASSIGN_OR_RETURN(FieldSnapshot field, field_.Given(read, stop));
-  auto given = std::make_shared<GasWhatIf>(*this);
-  given->field_ = std::move(field);
-  return given;
+  return std::shared_ptr<const GasWhatIf>(new GasWhatIf(*this, std::move(field)));
 }
 
 absl::StatusOr<std::optional<std::size_t>> GasWhatIf::FreeIndex(Cell cell) const {

@@ -58,7 +58,7 @@ class GasWhatIf {
 
   // Itself once these readings have been taken, whatever they say: others are then worth what
   // they tell beside them. For cells and errors see VarianceIfRead. Cost: that, and for each
-  // reading a copy of what lies on the way from its cell to the root of the factor.
+  // node of the factor that lies on the way from a cell to the root a copy.
   // kCancelled once `stop`, which is asked all along, says so.
   absl::StatusOr<std::shared_ptr<const GasWhatIf>> Given(std::span<const ForeseenCell> readings,
                                                          const StopFn& stop = {}) const;
@@ -70,6 +70,14 @@ class GasWhatIf {
   }
 
  private:
+  GasWhatIf(const GasWhatIf& other, FieldSnapshot field)
+      : field_(std::move(field)),
+        lattice_(other.lattice_),
+        states_(other.states_),
+        factor_(other.factor_),
+        prior_scale_(other.prior_scale_),
+        beside_ppm2_(other.beside_ppm2_) {}
+
   // In the lattice; none of a cell that is not free. Errors: kInvalidArgument off the map.
   absl::StatusOr<std::optional<std::size_t>> FreeIndex(Cell cell) const;
   // Those of cells that are free.

@@ -115,15 +115,13 @@ void EntropyFall::FindBound(std::size_t node) {
       bound.greatest_share = std::max(bound.greatest_share, bounds_[child].greatest_share);
     }
   }
-  ones_.resize(std::max(ones_.size(), front.boundary()), 1.0);
-  row_sums_.assign(front.own, 0.0);
-  front.AddWeighted({ones_.data(), front.boundary()}, scratch_, row_sums_.data());
   for (std::size_t i = 0; i < front.own; ++i) {
+    const double row_sum = front.weight_sums[i];
     if (weights_[front.cells[i]] > 0.0) {
-      const double share = row_sums_[i] * row_sums_[i] / variance_ppm2_[front.cells[i]];
+      const double share = row_sum * row_sum / variance_ppm2_[front.cells[i]];
       bound.greatest_share = std::max(bound.greatest_share, share);
     }
-    slopes_[i] *= row_sums_[i];
+    slopes_[i] *= row_sum;
   }
   AddTransposed(front);
   boundary_weights_.insert(boundary_weights_.end(),

@@ -58,8 +58,6 @@ class EntropyFall {
 
   // Of FindBound.
   std::vector<double> slopes_;  // of the cells of the present front
-  std::vector<double> ones_;
-  std::vector<double> row_sums_;
   std::vector<double> scratch_;
   std::vector<std::uint32_t> places_;
 };

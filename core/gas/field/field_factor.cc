@@ -6,6 +6,126 @@
 #include <utility>
 
 namespace plumescout {
+namespace {
+
+// The front once the cells below it have been read: C -= P K^-1 P^T, W -= P K^-1 Q^T with P and Q
+// those of the step, and K what the cells vary by together given the boundary, and the noise.
+class Conditioning {
+ public:
+  std::shared_ptr<const Front> After(const Front& front, const ReadingPaths::Step& step,
+                                     std::span<const double> noise_ppm2) {
+    auto after = std::make_shared<Front>();
+    after->cells = front.cells;
+    after->own = front.own;
+    after->covariance = front.covariance;
+    after->weights = front.weights;
+    after->couplings = front.couplings;
+    after->coupling_precision = front.coupling_precision;
+    after->offset_ppm = front.offset_ppm;
+    if (front.own == 0) return after;
+    FindGain(step, noise_ppm2.subspan(step.first, step.cells));
+    Whiten(step.own, front.own, step, own_);
+    Transpose(front.own, step);
+    SubtractFromCovariance(step.cells, *after);
+    if (!front.weights.empty()) {
+      Whiten(step.boundary, front.boundary(), step, boundary_);
+      SubtractFromWeights(step, *after);
+    }
+    after->SumWeights();
+    return after;
+  }
+
+ private:
+  // L^-1, with K = L L^T.
+  void FindGain(const ReadingPaths::Step& step, std::span<const double> noise_ppm2) {
+    stride_ = PaddedRows(step.cells);
+    matrix_.assign(stride_ * step.cells, 0.0);
+    for (std::size_t j = 0; j < step.cells; ++j) {
+      std::copy_n(step.among + j * step.stride() + j, step.cells - j,
+                  matrix_.data() + j * stride_ + j);
+      matrix_[j * stride_ + j] += noise_ppm2[j];
+    }
+    FactorizeFront(matrix_.data(), stride_, step.cells, step.cells);
+    inverse_.assign(stride_ * step.cells, 0.0);
+    InvertLower(matrix_.data(), stride_, step.cells, inverse_.data(), stride_);
+  }
+
+  // Each of the rows x becomes L^-1 x.
+  void Whiten(const double* rows, std::size_t count, const ReadingPaths::Step& step,
+              std::vector<double>& whitened) const {
+    const std::size_t stride = step.stride();
+    whitened.resize(std::max(whitened.size(), count * stride));
+    Accumulate({.a = inverse_.data(),
+                .a_stride = stride_,
+                .b = rows,
+                .b_row_stride = 1,
+                .b_column_stride = stride,
+                .c = whitened.data(),
+                .c_stride = stride,
+                .rows = stride,
+                .columns = count,
+                .depth = step.cells,
+                .overwrite = true});
+  }
+
+  // Of own_, by columns.
+  void Transpose(std::size_t own, const ReadingPaths::Step& step) {
+    column_stride_ = TileRows(own);
+    columns_.assign(column_stride_ * step.cells, 0.0);
+    for (std::size_t i = 0; i < own; ++i) {
+      for (std::size_t j = 0; j < step.cells; ++j) {
+        columns_[j * column_stride_ + i] = own_[i * step.stride() + j];
+      }
+    }
+  }
+
+  void SubtractFromCovariance(std::size_t cells, Front& front) {
+    const std::size_t own = front.own;
+    product_.assign(column_stride_ * own, 0.0);
+    Accumulate({.a = columns_.data(),
+                .a_stride = column_stride_,
+                .b = columns_.data(),
+                .b_row_stride = column_stride_,
+                .b_column_stride = 1,
+                .c = product_.data(),
+                .c_stride = column_stride_,
+                .rows = own,
+                .columns = own,
+                .depth = cells,
+                .lower_only = true});
+    double* value = front.covariance.data();
+    for (std::size_t j = 0; j < own; ++j) {
+      const double* const column = product_.data() + j * column_stride_;
+      for (std::size_t i = j; i < own; ++i) *value++ -= column[i];
+    }
+  }
+
+  // A tile leaves what lies beyond a column as it is: the rows of columns_ there are 0.
+  void SubtractFromWeights(const ReadingPaths::Step& step, Front& front) const {
+    Accumulate({.a = columns_.data(),
+                .a_stride = column_stride_,
+                .b = boundary_.data(),
+                .b_row_stride = 1,
+                .b_column_stride = step.stride(),
+                .c = front.weights.data(),
+                .c_stride = front.own,
+                .rows = front.own,
+                .columns = front.boundary(),
+                .depth = step.cells,
+                .scale = -1.0});
+  }
+
+  std::size_t stride_ = 0;  // of matrix_ and inverse_
+  std::vector<double> matrix_;
+  std::vector<double> inverse_;
+  std::vector<double> own_;
+  std::vector<double> boundary_;
+  std::size_t column_stride_ = 0;
+  std::vector<double> columns_;
+  std::vector<double> product_;
+};
+
+}  // namespace
 
 bool FieldFactor::Eliminate(std::span<const std::uint8_t> dirty, const FieldCells& cells,
                             FrontBuilder& builder, const StopFn& stop) {
@@ -57,6 +177,14 @@ void FieldFactor::AddReading(std::span<const PathStep> steps, double precision,
   for (const PathStep& step : steps) {
     std::shared_ptr<const Front>& front = fronts_[step.node];
     front = AfterReading(*front, step, precision, weighted_deviation);
+  }
+}
+
+void FieldFactor::AddForeseen(const ReadingPaths& paths, std::span<const double> noise_ppm2) {
+  Conditioning conditioning;
+  for (const ReadingPaths::Step& step : paths.steps()) {
+    std::shared_ptr<const Front>& front = fronts_[step.node];
+    front = conditioning.After(*front, step, noise_ppm2);
   }
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/gas/field/front_builder.h"
+#include "core/gas/field/reading_paths.h"
 #include "core/gas/field/separator_tree.h"
 #include "core/types/stop.h"
 
@@ -37,6 +38,9 @@ class FieldFactor {
   // The cell that the steps start from has more evidence. Its nodes are to be eliminated anew when
   // next any is. Cost: that of copying the fronts.
   void AddReading(std::span<const PathStep> steps, double precision, double weighted_deviation);
+  // The cells of `paths` have been read, each with noise of that variance (1 / precision), whatever
+  // was heard: only variances are right from then on. Cost: that of copying the fronts once.
+  void AddForeseen(const ReadingPaths& paths, std::span<const double> noise_ppm2);
 
   // Multiply-adds of eliminating all nodes. Cost: O(nodes).
   double work() const;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/gas/field/field_snapshot.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "absl/status/status.h"
@@ -11,12 +12,6 @@
 
 namespace plumescout {
 namespace {
-
-// Readings of active cells.
-struct Foreseen {
-  std::vector<Slot> slots;
-  std::vector<double> noise_ppm2;  // 1 / precision of each
-};
 
 absl::Status Cancelled() { return absl::CancelledError("told to stop"); }
 
@@ -30,39 +25,57 @@ absl::Status CheckReading(const SeparatorTree& tree, const ForeseenReading& read
   return absl::OkStatus();
 }
 
+}  // namespace
+
+absl::StatusOr<FieldSnapshot::Foreseen> FieldSnapshot::ActiveOf(
+    std::span<const ForeseenReading> readings) const {
+  std::vector<std::pair<Slot, double>> active;
+  for (const ForeseenReading& reading : readings) {
+    PLUMESCOUT_RETURN_IF_ERROR(CheckReading(factor_.tree(), reading));
+    const Slot slot = factor_.tree().slot(reading.cell);
+    if (IsActive(slot)) active.emplace_back(slot, 1.0 / reading.precision);
+  }
+  std::sort(active.begin(), active.end());
+  Foreseen foreseen;
+  for (const auto& [slot, noise_ppm2] : active) {
+    foreseen.slots.push_back(slot);
+    foreseen.noise_ppm2.push_back(noise_ppm2);
+  }
+  return foreseen;
+}
+
 // diag(Z_C (N + Z_CC)^-1 Z_C^T) for the cells C that are read and the noise N: with L L^T the
 // matrix in the middle, the rows of Z_C L^-T squared and summed. Mixed before they are continued
 // off the paths, the columns need no product over all cells.
-// kCancelled once `stop`, which is asked all along, says so.
-absl::StatusOr<InverseColumns> GainColumns(const FieldFactor& factor, const Foreseen& readings,
-                                           const StopFn& stop) {
-  InverseColumns columns(factor, readings.slots, stop);
+// kCancelled once `stop`, which is asked all along, says so. REQUIRES: some are read.
+absl::StatusOr<InverseColumns> FieldSnapshot::GainColumns(const Foreseen& readings,
+                                                          const StopFn& stop) const {
+  ReadingPaths paths(factor_, readings.slots, stop);
   if (Stops(stop)) return Cancelled();
   const std::size_t size = readings.slots.size();
   const std::size_t stride = PaddedRows(size);
+  const ReadingPaths::Step& root = paths.steps().back();
   std::vector<double> matrix(stride * size, 0.0);
   for (std::size_t j = 0; j < size; ++j) {
-    for (std::size_t i = j; i < size; ++i) {
-      matrix[j * stride + i] = columns.At(readings.slots[i], j);
-    }
+    std::copy_n(root.among + j * root.stride() + j, size - j, matrix.data() + j * stride + j);
     matrix[j * stride + j] += readings.noise_ppm2[j];
   }
   FactorizeFront(matrix.data(), stride, size, size);
   std::vector<double> inverse(stride * size, 0.0);
   InvertLower(matrix.data(), stride, size, inverse.data(), stride);
-  columns.Mix(inverse.data(), stride);
+  InverseColumns columns(factor_, std::move(paths));
+  columns.Mix(std::move(inverse), stride);
   return columns;
 }
-
-}  // namespace
 
 absl::StatusOr<std::vector<double>> FieldSnapshot::VarianceIfRead(
     std::span<const std::size_t> cells, double precision) const {
   PLUMESCOUT_ASSIGN_OR_RETURN(std::optional<InverseColumns> columns,
                               ColumnsIfRead(cells, precision));
-  std::vector<double> variance = variance_ppm2();
-  if (columns) columns->SubtractSquares(tolerance_ppm2_, variance);
-  return variance;
+  if (!columns) return variance_ppm2();
+  std::vector<double> variance = variance_ppm2_;
+  columns->SubtractSquares(tolerance_ppm2_, variance);
+  return ByCell(variance, {});
 }
 
 absl::StatusOr<std::optional<InverseColumns>> FieldSnapshot::ColumnsIfRead(
@@ -70,31 +83,10 @@ absl::StatusOr<std::optional<InverseColumns>> FieldSnapshot::ColumnsIfRead(
   std::vector<ForeseenReading> readings;
   for (const std::size_t cell : cells) readings.push_back({cell, precision});
   if (readings.empty()) PLUMESCOUT_RETURN_IF_ERROR(CheckReading(factor_.tree(), {0, precision}));
-  return ColumnsAfter(readings, stop);
-}
-
-absl::StatusOr<std::optional<InverseColumns>> FieldSnapshot::ColumnsAfter(
-    std::span<const ForeseenReading> readings, const StopFn& stop) const {
-  const SeparatorTree& tree = factor_.tree();
-  Foreseen foreseen;
-  for (const ForeseenReading& reading : readings) {
-    PLUMESCOUT_RETURN_IF_ERROR(CheckReading(tree, reading));
-    const Slot slot = tree.slot(reading.cell);
-    if (!IsActive(slot)) continue;
-    foreseen.slots.push_back(slot);
-    foreseen.noise_ppm2.push_back(1.0 / reading.precision);
-  }
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Foreseen foreseen, ActiveOf(readings));
   if (foreseen.slots.empty()) return std::nullopt;
-  PLUMESCOUT_ASSIGN_OR_RETURN(InverseColumns columns, GainColumns(factor_, foreseen, stop));
+  PLUMESCOUT_ASSIGN_OR_RETURN(InverseColumns columns, GainColumns(foreseen, stop));
   return columns;
-}
-
-absl::StatusOr<std::vector<double>> FieldSnapshot::VarianceAfter(
-    std::span<const ForeseenReading> readings, const StopFn& stop) const {
-  PLUMESCOUT_ASSIGN_OR_RETURN(std::optional<InverseColumns> columns, ColumnsAfter(readings, stop));
-  std::vector<double> variance = variance_ppm2(stop);
-  if (columns && !Stops(stop)) columns->SubtractSquares(tolerance_ppm2_, variance, stop);
-  return variance;
 }
 
 EntropyFall FieldSnapshot::FallOf(std::span<const double> weights,
@@ -113,29 +105,28 @@ EntropyFall FieldSnapshot::FallOf(std::span<const double> weights,
 
 absl::StatusOr<FieldSnapshot> FieldSnapshot::Given(std::span<const ForeseenReading> readings,
                                                    const StopFn& stop) const {
-  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<double> variance, VarianceAfter(readings, stop));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const Foreseen foreseen, ActiveOf(readings));
   if (Stops(stop)) return Cancelled();
   FieldSnapshot given = *this;
-  InPieces(variance.size(), stop, [&](std::size_t first, std::size_t end) {
-    for (auto slot = static_cast<Slot>(first); slot < end; ++slot) {
-      given.variance_ppm2_[slot] = variance[factor_.tree().cell(slot)];
-    }
-  });
-  for (const ForeseenReading& reading : readings) {
-    const Slot slot = factor_.tree().slot(reading.cell);
-    if (!IsActive(slot)) continue;
-    if (Stops(stop)) return Cancelled();
-    given.factor_.AddReading(given.factor_.StepsFrom(slot), reading.precision, 0.0);
-  }
+  if (foreseen.slots.empty()) return given;
+  PLUMESCOUT_ASSIGN_OR_RETURN(InverseColumns columns, GainColumns(foreseen, stop));
+  columns.SubtractSquares(tolerance_ppm2_, given.variance_ppm2_, stop);
+  if (Stops(stop)) return Cancelled();
+  given.factor_.AddForeseen(columns.paths(), foreseen.noise_ppm2);
   return given;
 }
 
 std::vector<double> FieldSnapshot::variance_ppm2(const StopFn& stop) const {
+  return ByCell(variance_ppm2_, stop);
+}
+
+std::vector<double> FieldSnapshot::ByCell(const std::vector<double>& by_slot,
+                                          const StopFn& stop) const {
   const SeparatorTree& tree = factor_.tree();
   std::vector<double> by_cell(tree.cells());
   InPieces(by_cell.size(), stop, [&](std::size_t first, std::size_t end) {
     for (auto slot = static_cast<Slot>(first); slot < end; ++slot) {
-      by_cell[tree.cell(slot)] = variance_ppm2_[slot];
+      by_cell[tree.cell(slot)] = by_slot[slot];
     }
   });
   return by_cell;

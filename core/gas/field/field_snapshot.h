@@ -57,7 +57,7 @@ class FieldSnapshot {
 
   // The snapshot of a field that has heard these readings besides; what they say is not known, so
   // it has variances only. Errors and cost: those of VarianceIfRead, and a copy of the fronts on
-  // the path of each cell. Tolerances add up.
+  // the paths of the cells. Tolerances add up.
   // kCancelled once `stop`, which is asked all along, says so.
   absl::StatusOr<FieldSnapshot> Given(std::span<const ForeseenReading> readings,
                                       const StopFn& stop = {}) const;
@@ -67,11 +67,16 @@ class FieldSnapshot {
   std::vector<double> variance_ppm2(const StopFn& stop = {}) const;
 
  private:
+  // Readings of active cells, by slot.
+  struct Foreseen {
+    std::vector<Slot> slots;
+    std::vector<double> noise_ppm2;  // 1 / precision of each
+  };
+
   bool IsActive(Slot slot) const { return variance_ppm2_[slot] > 0.0; }  // not NaN
-  absl::StatusOr<std::optional<InverseColumns>> ColumnsAfter(
-      std::span<const ForeseenReading> readings, const StopFn& stop) const;
-  absl::StatusOr<std::vector<double>> VarianceAfter(std::span<const ForeseenReading> readings,
-                                                    const StopFn& stop) const;
+  absl::StatusOr<Foreseen> ActiveOf(std::span<const ForeseenReading> readings) const;
+  absl::StatusOr<InverseColumns> GainColumns(const Foreseen& readings, const StopFn& stop) const;
+  std::vector<double> ByCell(const std::vector<double>& by_slot, const StopFn& stop) const;
 
   FieldFactor factor_;
   std::vector<double> variance_ppm2_;  // by slot

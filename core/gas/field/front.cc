@@ -3,6 +3,7 @@
 #include "core/gas/field/front.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/gas/field/prefetch.h"
 
@@ -47,6 +48,12 @@ void Front::AddWeighted(std::span<const double> boundary_values, std::vector<dou
     scratch[coupling.own] += coupling_precision * boundary_values[coupling.boundary];
   }
   AddCovariance(scratch, result);
+}
+
+void Front::SumWeights() {
+  weight_sums.assign(own, 0.0);
+  std::vector<double> scratch;
+  AddWeighted(std::vector<double>(boundary(), 1.0), scratch, weight_sums.data());
 }
 
 const double* Front::Weights(std::vector<double>& scratch) const {
@@ -104,10 +111,15 @@ std::shared_ptr<const Front> AfterReading(const Front& front, const PathStep& st
   after->couplings = front.couplings;
   after->coupling_precision = front.coupling_precision;
   after->offset_ppm = front.offset_ppm;
+  after->weight_sums = front.weight_sums;
   const std::size_t own = front.own;
   const double scale = 1.0 / (1.0 + precision * step.variance_ppm2);
   const double gain = (weighted_deviation - precision * step.mean_ppm) * scale;
-  for (std::size_t i = 0; i < own; ++i) after->offset_ppm[i] += gain * step.own[i];
+  const double weights_sum = std::accumulate(step.boundary.begin(), step.boundary.end(), 0.0);
+  for (std::size_t i = 0; i < own; ++i) {
+    after->offset_ppm[i] += gain * step.own[i];
+    after->weight_sums[i] -= precision * scale * weights_sum * step.own[i];
+  }
   double* column = after->covariance.data();
   for (std::size_t j = 0; j < own; ++j) {
     const double factor = precision * scale * step.own[j];

@@ -41,6 +41,7 @@ struct Front {
   std::vector<Coupling> couplings;
   double coupling_precision = 0.0;  // lambda_p
   std::vector<double> offset_ppm;   // S
+  std::vector<double> weight_sums;  // W 1
   // The Schur complement on R as DominantFront keeps it, columns packed: below the diagonal, then
   // ground, then right-hand side. Absent after a reading.
   std::vector<double> message;
@@ -58,6 +59,8 @@ struct Front {
   // result += W boundary; `scratch` is for |S| elements.
   void AddWeighted(std::span<const double> boundary_values, std::vector<double>& scratch,
                    double* result) const;
+  // Makes weight_sums of W.
+  void SumWeights();
   // W, |S| rows: a tile may read beyond its end. `scratch` may hold it, and must then live on.
   const double* Weights(std::vector<double>& scratch) const;
 

@@ -177,6 +177,7 @@ void FrontBuilder::KeepDistribution(std::size_t weight_columns, Front& front) co
   const double* const right_hand_side = extended_weights_.data() + (weight_columns + 1) * stride;
   front.offset_ppm.resize(own);
   for (std::size_t i = 0; i < own; ++i) front.offset_ppm[i] = -right_hand_side[i];
+  front.SumWeights();
 }
 
 void FrontBuilder::KeepMessage(Front& front) const {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -42,12 +43,46 @@ TEST(FieldFactorTest, HearsReadingsAsIfItHadBeenEliminatedWithThem) {
     const Front& expected = truth.factor.front(node);
     for (std::size_t i = 0; i < front.own; ++i) {
       EXPECT_NEAR(front.offset_ppm[i], expected.offset_ppm[i], 1e-10);
+      EXPECT_NEAR(front.weight_sums[i], expected.weight_sums[i], 1e-12);
     }
     for (std::size_t i = 0; i < front.covariance.size(); ++i) {
       EXPECT_NEAR(front.covariance[i], expected.covariance[i], 1e-12);
     }
     for (std::size_t i = 0; i < front.weights.size(); ++i) {
       EXPECT_NEAR(front.weights[i], expected.weights[i], 1e-12);
+    }
+  }
+}
+
+TEST(FieldFactorTest, ForeseesWhatItWouldBeWithSuchReadings) {
+  for (const std::size_t count : {1, 3, 8, 21}) {
+    FactorCase c(count);
+    FactorCase truth(count);
+    std::vector<Slot> slots = c.RandomActiveSlots(count);
+    slots.push_back(slots.front());
+    std::sort(slots.begin(), slots.end());
+    std::vector<double> noise_ppm2;
+    for (const Slot slot : slots) {
+      noise_ppm2.push_back(c.rng.Uniform(0.02, 3.0));
+      truth.cells.precision[slot] += 1.0 / noise_ppm2.back();
+    }
+    const FieldFactor before = c.factor;
+    const ReadingPaths paths(c.factor, slots);
+    c.factor.AddForeseen(paths, noise_ppm2);
+    FrontBuilder builder(*c.tree, testing::DefaultField().prior);
+    const std::vector<std::uint8_t> all(c.tree->nodes().size(), 1);
+    truth.factor.Eliminate(all, truth.cells, builder);
+    const auto expect_near = [](const std::vector<double>& are, const std::vector<double>& were) {
+      ASSERT_EQ(are.size(), were.size());
+      for (std::size_t i = 0; i < are.size(); ++i) EXPECT_NEAR(are[i], were[i], 1e-12);
+    };
+    for (std::size_t node = 0; node < all.size(); ++node) {
+      const Front& front = c.factor.front(node);
+      const Front& expected = truth.factor.front(node);
+      EXPECT_EQ(&front == &before.front(node), paths.StepAt(node) == nullptr);
+      expect_near(front.covariance, expected.covariance);
+      expect_near(front.weights, expected.weights);
+      expect_near(front.weight_sums, expected.weight_sums);
     }
   }
 }
