@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "core/gas/field/prefetch.h"
 #include "core/linalg/dense_kernel.h"
 
 namespace plumescout {
@@ -15,6 +16,9 @@ namespace {
 
 constexpr double kEntropyShare = 0.5;
 constexpr std::size_t kNodesPerStop = 16;
+// Fronts of so many nodes ahead are asked of memory: first what they are, then what they hold.
+constexpr std::size_t kFar = 8;
+constexpr std::size_t kNear = 3;
 
 // -1/2 ln(1 - share). Far from the readings shares are small, and the logarithm takes long.
 double Nats(double share) {
@@ -91,6 +95,8 @@ void EntropyFall::FindBounds(const StopFn& stop) {
   boundary_weights_.clear();
   for (std::size_t node = 0; node < nodes; ++node) {
     if (node % kNodesPerStop == 0 && Stops(stop)) return;
+    if (node + kFar < nodes) PrefetchBytes(&factor_->front(node + kFar), sizeof(Front));
+    if (node + kNear < nodes) factor_->front(node + kNear).Prefetch();
     FindBound(node);
   }
   has_bounds_ = true;
@@ -123,25 +129,9 @@ void EntropyFall::FindBound(std::size_t node) {
     }
     slopes_[i] *= row_sum;
   }
-  AddTransposed(front);
+  front.AddTransposed({slopes_.data(), front.own}, scratch_, slopes_.data() + front.own);
   boundary_weights_.insert(boundary_weights_.end(),
                            slopes_.begin() + static_cast<std::ptrdiff_t>(front.own), slopes_.end());
-}
-
-// slopes_R += W^T slopes_S
-void EntropyFall::AddTransposed(const Front& front) {
-  double* const boundary = slopes_.data() + front.own;
-  if (!front.couplings.empty()) {
-    scratch_.assign(front.own, 0.0);
-    front.AddCovariance({slopes_.data(), front.own}, scratch_.data());
-    for (const Front::Coupling& coupling : front.couplings) {
-      boundary[coupling.boundary] += front.coupling_precision * scratch_[coupling.own];
-    }
-  } else if (!front.weights.empty()) {
-    for (std::size_t j = 0; j < front.boundary(); ++j) {
-      boundary[j] += Dot(front.weights.data() + j * front.own, slopes_.data(), front.own);
-    }
-  }
 }
 
 std::optional<double> EntropyFall::Of(InverseColumns& columns, const StopFn& stop) const {

@@ -46,7 +46,6 @@ class EntropyFall {
     double greatest_share = 0;  // of its variance that a cell loses if the boundary loses 1 ppm^2
   };
   void FindBound(std::size_t node);
-  void AddTransposed(const Front& front);
 
   const FieldFactor* factor_;
   std::vector<double> variance_ppm2_;

@@ -59,6 +59,10 @@ struct Front {
   // result += W boundary; `scratch` is for |S| elements.
   void AddWeighted(std::span<const double> boundary_values, std::vector<double>& scratch,
                    double* result) const;
+  // result += W^T own; `scratch` is for |S| elements. Sums are rounded in another order than those
+  // of AddCovariance.
+  void AddTransposed(std::span<const double> own_values, std::vector<double>& scratch,
+                     double* result) const;
   // Makes weight_sums of W.
   void SumWeights();
   // W, |S| rows: a tile may read beyond its end. `scratch` may hold it, and must then live on.

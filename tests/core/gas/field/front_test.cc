@@ -58,6 +58,10 @@ TEST(FrontTest, MultipliesByItsCovarianceAndItsWeights) {
     const Eigen::VectorXd expected =
         own + DenseCovariance(front) * own + DenseWeights(front) * boundary;
     EXPECT_LE((sum - expected).cwiseAbs().sum(), 1e-10);
+    Eigen::VectorXd transposed = boundary;
+    front.AddTransposed(SpanOf(own), scratch, transposed.data());
+    const Eigen::VectorXd on_boundary = boundary + DenseWeights(front).transpose() * own;
+    EXPECT_LE((transposed - on_boundary).cwiseAbs().sum(), 1e-10);
     const Eigen::VectorXd weight_sums = DenseWeights(front).rowwise().sum();
     for (std::size_t i = 0; i < front.own; ++i) {
       EXPECT_NEAR(front.weight_sums[i], weight_sums(static_cast<Eigen::Index>(i)), 1e-12);
