@@ -3,7 +3,6 @@
 #include "core/gas/gas_what_if.h"
 
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -20,7 +19,7 @@ absl::StatusOr<Grid<float>> GasWhatIf::VarianceIfRead(std::span<const Cell> cell
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<std::size_t> read, FreeIndices(cells));
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<double> variance_ppm2,
                               field_.VarianceIfRead(read, precision));
-  return OnMap(variance_ppm2);
+  return OnMap([&](std::size_t cell) { return variance_ppm2[cell]; });
 }
 
 absl::StatusOr<std::optional<InverseColumns>> GasWhatIf::ColumnsIfRead(std::span<const Cell> cells,
@@ -31,12 +30,12 @@ absl::StatusOr<std::optional<InverseColumns>> GasWhatIf::ColumnsIfRead(std::span
 }
 
 EntropyFall GasWhatIf::FallOf(std::span<const float> weights, const StopFn& stop) const {
-  std::vector<double> by_lattice_cell(lattice_.size(), 0.0);
+  std::vector<double> by_slot(lattice_.size(), 0.0);
   const auto add = [&](std::size_t i, AnchorCell cell) {
-    by_lattice_cell[FieldIndex(cell)] += weights[i];
+    by_slot[field_.slot(FieldIndex(cell))] += weights[i];
   };
   states_.ForEachFree(add, stop);
-  return field_.FallOf(by_lattice_cell, beside_ppm2_, stop);
+  return field_.FallOf(std::move(by_slot), beside_ppm2_, stop);
 }
 
 absl::StatusOr<std::shared_ptr<const GasWhatIf>> GasWhatIf::Given(
@@ -68,17 +67,6 @@ absl::StatusOr<std::vector<std::size_t>> GasWhatIf::FreeIndices(std::span<const 
     if (index) indices.push_back(*index);
   }
   return indices;
-}
-
-Grid<float> GasWhatIf::OnMap(const std::vector<double>& by_lattice_cell, const StopFn& stop) const {
-  Grid<float> result(geometry(), std::numeric_limits<float>::quiet_NaN());
-  const auto write = [&](std::size_t i, AnchorCell cell) {
-    const std::size_t index = FieldIndex(cell);
-    const double beside_ppm2 = beside_ppm2_.empty() ? 0.0 : beside_ppm2_[index];
-    result[i] = static_cast<float>(prior_scale_ * (by_lattice_cell[index] + beside_ppm2));
-  };
-  states_.ForEachFree(write, stop);
-  return result;
 }
 
 }  // namespace plumescout

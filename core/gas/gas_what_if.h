@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -66,7 +67,7 @@ class GasWhatIf {
   // Marginal variance of every free cell now, ppm^2; NaN off those. Of no use once `stop`, which is
   // asked all along, says so. Cost: O(cells).
   Grid<float> variance_ppm2(const StopFn& stop = {}) const {
-    return OnMap(field_.variance_ppm2(stop), stop);
+    return OnMap([this](std::size_t cell) { return field_.variance_ppm2(cell); }, stop);
   }
 
  private:
@@ -82,7 +83,18 @@ class GasWhatIf {
   absl::StatusOr<std::optional<std::size_t>> FreeIndex(Cell cell) const;
   // Those of cells that are free.
   absl::StatusOr<std::vector<std::size_t>> FreeIndices(std::span<const Cell> cells) const;
-  Grid<float> OnMap(const std::vector<double>& by_lattice_cell, const StopFn& stop = {}) const;
+  // Of variances that `variance_ppm2` tells by lattice cell.
+  template <typename Variance>
+  Grid<float> OnMap(const Variance& variance_ppm2, const StopFn& stop = {}) const {
+    Grid<float> result(geometry(), std::numeric_limits<float>::quiet_NaN());
+    const auto write = [&](std::size_t i, AnchorCell cell) {
+      const std::size_t index = FieldIndex(cell);
+      const double beside_ppm2 = beside_ppm2_.empty() ? 0.0 : beside_ppm2_[index];
+      result[i] = static_cast<float>(prior_scale_ * (variance_ppm2(index) + beside_ppm2));
+    };
+    states_.ForEachFree(write, stop);
+    return result;
+  }
   // In the lattice, of a free cell.
   std::size_t FieldIndex(AnchorCell cell) const { return lattice_.Index(GasCellOf(cell, factor_)); }
 

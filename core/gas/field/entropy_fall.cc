@@ -110,7 +110,12 @@ void EntropyFall::FindBound(std::size_t node) {
   if (front.boundary() == 0) return;  // never bounded
   slopes_.assign(front.cells.size(), 0.0);
   for (std::size_t i = 0; i < front.own; ++i) {
-    slopes_[i] = weights_[front.cells[i]] / variance_ppm2_[front.cells[i]];
+    const double inverse = 1.0 / variance_ppm2_[front.cells[i]];
+    const double weight = weights_[front.cells[i]];
+    const double row_sum = front.weight_sums[i];
+    slopes_[i] = weight * inverse;
+    const double share = weight > 0.0 ? row_sum * row_sum * inverse : 0.0;
+    bound.greatest_share = std::max(bound.greatest_share, share);
   }
   if (!place.is_leaf()) {
     for (const std::uint32_t child : place.children) {
@@ -121,14 +126,7 @@ void EntropyFall::FindBound(std::size_t node) {
       bound.greatest_share = std::max(bound.greatest_share, bounds_[child].greatest_share);
     }
   }
-  for (std::size_t i = 0; i < front.own; ++i) {
-    const double row_sum = front.weight_sums[i];
-    if (weights_[front.cells[i]] > 0.0) {
-      const double share = row_sum * row_sum / variance_ppm2_[front.cells[i]];
-      bound.greatest_share = std::max(bound.greatest_share, share);
-    }
-    slopes_[i] *= row_sum;
-  }
+  for (std::size_t i = 0; i < front.own; ++i) slopes_[i] *= front.weight_sums[i];
   front.AddTransposed({slopes_.data(), front.own}, scratch_, slopes_.data() + front.own);
   boundary_weights_.insert(boundary_weights_.end(),
                            slopes_.begin() + static_cast<std::ptrdiff_t>(front.own), slopes_.end());

@@ -22,16 +22,16 @@ class Conditioning {
     after->couplings = front.couplings;
     after->coupling_precision = front.coupling_precision;
     after->offset_ppm = front.offset_ppm;
+    after->weight_sums = front.weight_sums;
     if (front.own == 0) return after;
     FindGain(step, noise_ppm2.subspan(step.first, step.cells));
     Whiten(step.own, front.own, step, own_);
     Transpose(front.own, step);
     SubtractFromCovariance(step.cells, *after);
-    if (!front.weights.empty()) {
-      Whiten(step.boundary, front.boundary(), step, boundary_);
-      SubtractFromWeights(step, *after);
-    }
-    after->SumWeights();
+    if (front.boundary() == 0) return after;
+    Whiten(step.boundary, front.boundary(), step, boundary_);
+    if (!front.weights.empty()) SubtractFromWeights(step, *after);
+    SubtractFromWeightSums(step, *after);
     return after;
   }
 
@@ -115,11 +115,24 @@ class Conditioning {
                 .scale = -1.0});
   }
 
+  void SubtractFromWeightSums(const ReadingPaths::Step& step, Front& front) {
+    boundary_sum_.assign(step.stride(), 0.0);
+    for (std::size_t r = 0; r < front.boundary(); ++r) {
+      const double* const row = boundary_.data() + r * step.stride();
+      for (std::size_t j = 0; j < step.stride(); ++j) boundary_sum_[j] += row[j];
+    }
+    for (std::size_t i = 0; i < front.own; ++i) {
+      const double* const row = own_.data() + i * step.stride();
+      front.weight_sums[i] -= Dot(row, boundary_sum_.data(), step.cells);
+    }
+  }
+
   std::size_t stride_ = 0;  // of matrix_ and inverse_
   std::vector<double> matrix_;
   std::vector<double> inverse_;
   std::vector<double> own_;
   std::vector<double> boundary_;
+  std::vector<double> boundary_sum_;
   std::size_t column_stride_ = 0;
   std::vector<double> columns_;
   std::vector<double> product_;
@@ -180,9 +193,11 @@ void FieldFactor::AddReading(std::span<const PathStep> steps, double precision,
   }
 }
 
-void FieldFactor::AddForeseen(const ReadingPaths& paths, std::span<const double> noise_ppm2) {
+void FieldFactor::AddForeseen(const ReadingPaths& paths, std::span<const double> noise_ppm2,
+                              const StopFn& stop) {
   Conditioning conditioning;
   for (const ReadingPaths::Step& step : paths.steps()) {
+    if (Stops(stop)) return;
     std::shared_ptr<const Front>& front = fronts_[step.node];
     front = conditioning.After(*front, step, noise_ppm2);
   }

@@ -39,8 +39,10 @@ class FieldFactor {
   // next any is. Cost: that of copying the fronts.
   void AddReading(std::span<const PathStep> steps, double precision, double weighted_deviation);
   // The cells of `paths` have been read, each with noise of that variance (1 / precision), whatever
-  // was heard: only variances are right from then on. Cost: that of copying the fronts once.
-  void AddForeseen(const ReadingPaths& paths, std::span<const double> noise_ppm2);
+  // was heard: only variances are right from then on. Of no use once `stop`, which is asked all
+  // along, says so. Cost: that of copying the fronts once.
+  void AddForeseen(const ReadingPaths& paths, std::span<const double> noise_ppm2,
+                   const StopFn& stop = {});
 
   // Multiply-adds of eliminating all nodes. Cost: O(nodes).
   double work() const;

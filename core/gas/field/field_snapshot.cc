@@ -89,18 +89,15 @@ absl::StatusOr<std::optional<InverseColumns>> FieldSnapshot::ColumnsIfRead(
   return columns;
 }
 
-EntropyFall FieldSnapshot::FallOf(std::span<const double> weights,
-                                  std::span<const double> beside_ppm2, const StopFn& stop) const {
-  const SeparatorTree& tree = factor_.tree();
+EntropyFall FieldSnapshot::FallOf(std::vector<double> weights, std::span<const double> beside_ppm2,
+                                  const StopFn& stop) const {
   std::vector<double> variance_ppm2 = variance_ppm2_;
-  std::vector<double> by_slot(variance_ppm2.size());
-  InPieces(by_slot.size(), stop, [&](std::size_t first, std::size_t end) {
-    for (auto slot = static_cast<Slot>(first); slot < end; ++slot) {
-      by_slot[slot] = weights[tree.cell(slot)];
-      if (!beside_ppm2.empty()) variance_ppm2[slot] += beside_ppm2[tree.cell(slot)];
+  InPieces(beside_ppm2.size(), stop, [&](std::size_t first, std::size_t end) {
+    for (std::size_t cell = first; cell < end; ++cell) {
+      variance_ppm2[slot(cell)] += beside_ppm2[cell];
     }
   });
-  return {factor_, std::move(variance_ppm2), std::move(by_slot), tolerance_ppm2_};
+  return {factor_, std::move(variance_ppm2), std::move(weights), tolerance_ppm2_};
 }
 
 absl::StatusOr<FieldSnapshot> FieldSnapshot::Given(std::span<const ForeseenReading> readings,
@@ -111,8 +108,8 @@ absl::StatusOr<FieldSnapshot> FieldSnapshot::Given(std::span<const ForeseenReadi
   if (foreseen.slots.empty()) return given;
   PLUMESCOUT_ASSIGN_OR_RETURN(InverseColumns columns, GainColumns(foreseen, stop));
   columns.SubtractSquares(tolerance_ppm2_, given.variance_ppm2_, stop);
+  given.factor_.AddForeseen(columns.paths(), foreseen.noise_ppm2, stop);
   if (Stops(stop)) return Cancelled();
-  given.factor_.AddForeseen(columns.paths(), foreseen.noise_ppm2);
   return given;
 }
 

@@ -50,9 +50,10 @@ class FieldSnapshot {
   absl::StatusOr<std::optional<InverseColumns>> ColumnsIfRead(std::span<const std::size_t> cells,
                                                               double precision,
                                                               const StopFn& stop = {}) const;
-  // For such columns. `weights` >= 0, and what each variance has beside that of the field, by cell
-  // index. Refers to this snapshot. Of no use once `stop`, which is asked all along, says so.
-  EntropyFall FallOf(std::span<const double> weights, std::span<const double> beside_ppm2,
+  // For such columns. `weights` >= 0 by slot, and what each variance has beside that of the field,
+  // by cell index, if anything. Refers to this snapshot. Of no use once `stop`, which is asked all
+  // along, says so.
+  EntropyFall FallOf(std::vector<double> weights, std::span<const double> beside_ppm2,
                      const StopFn& stop = {}) const;
 
   // The snapshot of a field that has heard these readings besides; what they say is not known, so
@@ -65,6 +66,8 @@ class FieldSnapshot {
   // Marginal variance by cell index; NaN off the active cells. Of no use once `stop`, which is
   // asked all along, says so. Cost: O(cells).
   std::vector<double> variance_ppm2(const StopFn& stop = {}) const;
+  double variance_ppm2(std::size_t cell) const { return variance_ppm2_[slot(cell)]; }
+  Slot slot(std::size_t cell) const { return factor_.tree().slot(cell); }
 
  private:
   // Readings of active cells, by slot.

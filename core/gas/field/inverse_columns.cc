@@ -3,6 +3,7 @@
 #include "core/gas/field/inverse_columns.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/linalg/dense_kernel.h"
@@ -39,11 +40,14 @@ void InverseColumns::SubtractSquares(double limit, std::vector<double>& by_slot,
     int asked_ = 0;
     bool stopped_ = false;
   };
-  Subtraction subtraction(limit, by_slot, stop);
-  Descend(subtraction);
+  constexpr double kSlackShare = 1e-3;
+  const double slack = kSlackShare * limit;
+  Subtraction subtraction(limit - slack, by_slot, stop);
+  Descend(subtraction, slack);
 }
 
-void InverseColumns::Descend(Visitor& visitor) {
+void InverseColumns::Descend(Visitor& visitor, double slack) {
+  slack_ = slack;
   DescendBelow(factor_->tree().nodes().size() - 1, 0, true, visitor);
 }
 
@@ -58,15 +62,16 @@ void InverseColumns::DescendBelow(std::size_t node, std::size_t depth, bool on_p
   if (front.boundary() > 0) GatherSquares(front, node, depth);
   const std::span<const double> on_boundary = {block.squares.data() + front.own, front.boundary()};
   if (step == nullptr && !visitor.Enter(node, on_boundary)) return;
+  const SeparatorTree::Node& place = factor_->tree().nodes()[node];
   GatherRows(front, depth);
+  if (step == nullptr && !place.is_leaf()) Compress(front, block);
   Continue(front, block);
   if (step != nullptr) AddOwn(*step, front, block);
   for (std::size_t i = 0; i < front.own; ++i) {
-    const double* const row = block.rows.data() + i * stride_;
-    block.squares[i] = Dot(row, row, stride_);
+    const double* const row = block.rows.data() + i * block.stride;
+    block.squares[i] = Dot(row, row, block.stride);
   }
   visitor.Take(front.own_cells(), {block.squares.data(), front.own});
-  const SeparatorTree::Node& place = factor_->tree().nodes()[node];
   if (place.is_leaf()) return;
   for (const std::uint32_t child : place.children) factor_->front(child).Prefetch();
   for (const std::uint32_t child : place.children) {
@@ -84,27 +89,67 @@ void InverseColumns::GatherSquares(const Front& front, std::size_t node, std::si
 
 void InverseColumns::GatherRows(const Front& front, std::size_t depth) {
   Block& block = blocks_[depth];
-  block.rows.resize(std::max(block.rows.size(), front.cells.size() * stride_));
-  double* to = block.rows.data() + front.own * stride_;
-  for (std::size_t i = 0; i < front.boundary(); ++i, to += stride_) {
-    std::copy_n(blocks_[depth - 1].rows.data() + place_[i] * stride_, stride_, to);
+  const std::size_t stride = block.stride = depth == 0 ? stride_ : blocks_[depth - 1].stride;
+  block.slack = depth == 0 ? slack_ : blocks_[depth - 1].slack;
+  block.rows.resize(std::max(block.rows.size(), front.cells.size() * stride));
+  double* to = block.rows.data() + front.own * stride;
+  for (std::size_t i = 0; i < front.boundary(); ++i, to += stride) {
+    std::copy_n(blocks_[depth - 1].rows.data() + place_[i] * stride, stride, to);
+  }
+}
+
+// Off the paths only X X^T counts, with X the rows on the boundary, and from afar these are much
+// alike: L L^T is as good with a column for each pivot of a Cholesky factorisation that takes the
+// longest row that is left first. What is left is positive semidefinite, so by W >= 0 with row sums
+// of at most 1 no square below becomes less by more than the most there is on its diagonal.
+void InverseColumns::Compress(const Front& front, Block& block) {
+  const std::size_t size = front.boundary();
+  const std::size_t stride = block.stride;
+  if (block.slack <= 0.0 || stride <= kRowTile) return;
+  const double slack = block.slack / 2.0;
+  const std::size_t most = stride - kRowTile;  // more would spare nothing
+  const double* const rows = block.rows.data() + front.own * stride;
+  left_.assign(block.squares.begin() + static_cast<std::ptrdiff_t>(front.own),
+               block.squares.begin() + static_cast<std::ptrdiff_t>(front.cells.size()));
+  lower_.assign(size * most, 0.0);
+  for (std::size_t rank = 0; rank <= most; ++rank) {
+    const auto longest = std::max_element(left_.begin(), left_.end());
+    if (*longest <= slack) {
+      block.slack -= slack;
+      block.stride = std::max(kRowTile, TileRows(rank));
+      for (std::size_t i = 0; i < size; ++i) {
+        std::copy_n(lower_.data() + i * most, block.stride,
+                    block.rows.data() + (front.own + i) * block.stride);
+      }
+      return;
+    }
+    if (rank == most) return;
+    const auto pivot = static_cast<std::size_t>(longest - left_.begin());
+    const double scale = 1.0 / std::sqrt(*longest);
+    for (std::size_t i = 0; i < size; ++i) {
+      double* const low = lower_.data() + i * most;
+      low[rank] = scale * (Dot(rows + i * stride, rows + pivot * stride, stride) -
+                           Dot(low, lower_.data() + pivot * most, rank));
+      left_[i] -= low[rank] * low[rank];
+    }
+    left_[pivot] = 0.0;
   }
 }
 
 // x_S = W x_R
 void InverseColumns::Continue(const Front& front, Block& block) {
   if (front.boundary() == 0 || front.own == 0) {
-    std::fill_n(block.rows.begin(), front.own * stride_, 0.0);
+    std::fill_n(block.rows.begin(), front.own * block.stride, 0.0);
     return;
   }
-  Accumulate({.a = block.rows.data() + front.own * stride_,
-              .a_stride = stride_,
+  Accumulate({.a = block.rows.data() + front.own * block.stride,
+              .a_stride = block.stride,
               .b = front.Weights(weights_),
               .b_row_stride = front.own,
               .b_column_stride = 1,
               .c = block.rows.data(),
-              .c_stride = stride_,
-              .rows = stride_,
+              .c_stride = block.stride,
+              .rows = block.stride,
               .columns = front.own,
               .depth = front.boundary(),
               .overwrite = true});

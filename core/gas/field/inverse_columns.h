@@ -37,13 +37,14 @@ class InverseColumns {
     // Those of the own cells of a node on a path, or that was entered.
     virtual void Take(std::span<const Slot> own, std::span<const double> squares) = 0;
   };
-  // Cost: all weights of the nodes that are visited.
-  void Descend(Visitor& visitor);
+  // Squares off the paths may be too small by `slack`. Cost: all weights of the nodes that are
+  // visited.
+  void Descend(Visitor& visitor, double slack = 0.0);
 
   // by_slot[slot] -= |x|^2 for the row x of each active cell, but for subtrees off the paths on
-  // whose boundary that is at most `limit`: with W >= 0 and row sums of at most 1, no row inside is
-  // longer than the longest there. The rest is left out once `stop`, which is asked all along, says
-  // so. Cost: all weights of the others.
+  // whose boundary that is at most `limit`, and for as much in all others: with W >= 0 and row sums
+  // of at most 1, no row inside is longer than the longest there. The rest is left out once `stop`,
+  // which is asked all along, says so. Cost: all weights of the others.
   void SubtractSquares(double limit, std::vector<double>& by_slot, const StopFn& stop = {});
 
  private:
@@ -51,24 +52,32 @@ class InverseColumns {
   struct Block {
     std::vector<double> rows;
     std::vector<double> squares;  // by row
+    std::size_t stride = 0;       // of rows, 0 beyond the columns
+    double slack = 0.0;           // by which squares below may still be too small
   };
 
   void DescendBelow(std::size_t node, std::size_t depth, bool on_path, Visitor& visitor);
   // Of the boundary, out of the block of the parent.
   void GatherSquares(const Front& front, std::size_t node, std::size_t depth);
   void GatherRows(const Front& front, std::size_t depth);
+  void Compress(const Front& front, Block& block);
   void Continue(const Front& front, Block& block);
   void AddOwn(const ReadingPaths::Step& step, const Front& front, Block& block) const;
 
   const FieldFactor* factor_;
   ReadingPaths paths_;
-  std::size_t stride_;  // of rows; 0 beyond the columns
+  std::size_t stride_;  // of rows on the paths
+  double slack_ = 0.0;  // there
   std::vector<double> mix_;
   std::size_t mix_stride_ = 0;
 
   std::vector<Block> blocks_;  // by depth
   std::vector<std::uint32_t> place_;
   std::vector<double> weights_;
+
+  // Of Compress.
+  std::vector<double> left_;   // of the squares
+  std::vector<double> lower_;  // L by rows
 };
 
 }  // namespace plumescout

@@ -44,6 +44,12 @@ struct World {
   std::vector<double> weights;
 };
 
+std::vector<double> BySlot(const FieldSnapshot& snapshot, const std::vector<double>& by_cell) {
+  std::vector<double> by_slot(by_cell.size());
+  for (std::size_t i = 0; i < by_cell.size(); ++i) by_slot[snapshot.slot(i)] = by_cell[i];
+  return by_slot;
+}
+
 // Cell by cell.
 double FallOf(const World& world, const std::vector<std::size_t>& cells,
               const std::vector<double>& beside_ppm2) {
@@ -61,7 +67,7 @@ double FallOf(const World& world, const std::vector<std::size_t>& cells,
 TEST(EntropyFallTest, AddsUpTheFallOfEveryCell) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     World world(seed);
-    const EntropyFall fall = world.snapshot.FallOf(world.weights, {});
+    const EntropyFall fall = world.snapshot.FallOf(BySlot(world.snapshot, world.weights), {});
     for (const std::size_t count : {1, 4, 11}) {
       const std::vector<std::size_t> cells = world.NearbyCells(count);
       auto columns = world.snapshot.ColumnsIfRead(cells, kPrecision).value();
@@ -78,15 +84,17 @@ TEST(EntropyFallTest, CountsWhatVariancesHaveBesides) {
   const std::vector<std::size_t> cells = world.NearbyCells(5);
   auto columns = world.snapshot.ColumnsIfRead(cells, kPrecision).value();
   const double truth = FallOf(world, cells, beside_ppm2);
-  EXPECT_NEAR(world.snapshot.FallOf(world.weights, beside_ppm2).Of(*columns, {}).value(), truth,
-              1e-8 * (1.0 + truth));
+  EXPECT_NEAR(world.snapshot.FallOf(BySlot(world.snapshot, world.weights), beside_ppm2)
+                  .Of(*columns, {})
+                  .value(),
+              truth, 1e-8 * (1.0 + truth));
 }
 
 TEST(EntropyFallTest, IsNeverAboveItsBoundAndOftenNearIt) {
   int bounded = 0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     World world(seed);
-    EntropyFall fall = world.snapshot.FallOf(world.weights, {});
+    EntropyFall fall = world.snapshot.FallOf(BySlot(world.snapshot, world.weights), {});
     fall.FindBounds();
     for (std::size_t count = 1; count <= 12; ++count) {
       auto columns = world.snapshot.ColumnsIfRead(world.NearbyCells(count), kPrecision).value();
@@ -112,7 +120,7 @@ TEST(EntropyFallTest, OfCellsWithoutWeightIsNothing) {
 
 TEST(EntropyFallTest, EndsWhenToldTo) {
   World world(7);
-  EntropyFall fall = world.snapshot.FallOf(world.weights, {});
+  EntropyFall fall = world.snapshot.FallOf(BySlot(world.snapshot, world.weights), {});
   auto columns = world.snapshot.ColumnsIfRead(world.NearbyCells(3), kPrecision).value();
   EXPECT_EQ(fall.Of(*columns, [] { return true; }), std::nullopt);
   int asked = 0;

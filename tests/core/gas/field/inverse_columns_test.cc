@@ -98,5 +98,23 @@ TEST(InverseColumnsTest, PassOverNoCellThatHasMoreThanTheLimit) {
   EXPECT_GT(left_out, 0U);
 }
 
+// As in plans: many columns that from afar are much alike.
+TEST(InverseColumnsTest, LeaveOutNoMoreThanTheLimitOfManyColumns) {
+  for (const std::size_t count : {12, 40}) {
+    const FactorCase c(count);
+    InverseColumns columns = ColumnsOf(c, SomeSlots(c, count));
+    const std::vector<double> all = Squares(columns, c, 0.0);
+    const double greatest = *std::max_element(all.begin(), all.end());
+    for (const double share : {1e-6, 1e-3, 0.3}) {
+      const double limit = share * greatest;
+      const std::vector<double> some = Squares(columns, c, limit);
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        EXPECT_LE(some[i], all[i] + 1e-12 * greatest);
+        EXPECT_GE(some[i], all[i] - limit - 1e-12 * greatest);
+      }
+    }
+  }
+}
+
 }  // namespace inverse_columns_test
 }  // namespace plumescout
