@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
-#include <span>
 
 namespace plumescout {
 namespace {
@@ -52,17 +51,17 @@ std::vector<Cell> PathToNearest(const Grid<std::uint8_t>& passable,
   search.Open(search.IndexOf(start));
   std::optional<Cell> nearest;
   double nearest_m = kUnreached_m;
-  search.Run({{start, 0.0}}, [&](std::span<const TravelSearch<double>::Entry> bucket) {
-    for (const auto& entry : bucket) {
-      const Cell cell = search.CellAt(entry.cell);
-      if (targets[cell] == 0 || entry.travel_m > nearest_m) continue;
-      if (entry.travel_m == nearest_m &&
+  search.Run({{start, 0.0}}, [&] {
+    search.ForEachOfLevel([&](int index, double travel_m) {
+      const Cell cell = search.CellAt(index);
+      if (targets[cell] == 0 || travel_m > nearest_m) return;
+      if (travel_m == nearest_m &&
           targets.geometry().Index(*nearest) < targets.geometry().Index(cell)) {
-        continue;
+        return;
       }
       nearest = cell;
-      nearest_m = entry.travel_m;
-    }
+      nearest_m = travel_m;
+    });
     return nearest.has_value();
   });
   return nearest ? search.WayTo(*nearest) : std::vector<Cell>{};

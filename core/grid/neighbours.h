@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <limits>
+#include <optional>
 
 #include "core/types/cell.h"
 
@@ -40,6 +42,32 @@ bool StepAllowed(Cell cell, Cell offset, Passable&& passable) {
   if (!passable(Shifted(cell, offset))) return false;
   return !IsDiagonal(offset) ||
          (passable(Shifted(cell, {offset.x, 0})) && passable(Shifted(cell, {0, offset.y})));
+}
+
+// The neighbour over which the shortest way enters `cell`; none if the way starts there.
+// `travel(Cell) -> Length` gives what a search found, infinite where it did not come.
+template <typename Length, typename Travel>
+std::optional<Cell> Predecessor(Cell cell, double resolution_m, Connectivity connectivity,
+                                Travel&& travel) {
+  constexpr Length kUnreached = std::numeric_limits<Length>::infinity();
+  const auto reached = [&travel](Cell c) { return travel(c) < kUnreached; };
+  std::optional<Cell> best;
+  Length best_m = travel(cell);
+  for (const Cell offset : kNeighbours8) {
+    if (IsDiagonal(offset) && connectivity == Connectivity::kFour) continue;
+    if (connectivity == Connectivity::kEightNoCornerCut && !StepAllowed(cell, offset, reached)) {
+      continue;
+    }
+    const Cell from = Shifted(cell, offset);
+    // The same sum as the search formed, so that it is met exactly; infinite where not reached.
+    const Length via_m =
+        travel(from) + static_cast<Length>(StepLength_cells(offset) * resolution_m);
+    if (via_m < best_m || (via_m == best_m && !best)) {
+      best = from;
+      best_m = via_m;
+    }
+  }
+  return best;
 }
 
 }  // namespace plumescout

@@ -7,13 +7,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include "core/grid/neighbours.h"
 #include "core/grid/padded.h"
+#include "core/grid/travel_levels.h"
 #include "core/types/cell_rect.h"
 #include "core/types/grid.h"
 #include "core/types/stop.h"
@@ -26,46 +25,16 @@ struct SearchSource {
   double travel_m = 0.0;
 };
 
-// The neighbour over which the shortest way enters `cell`; none if the way starts there.
-// `travel(Cell) -> Length` gives what a search found, infinite where it did not come.
-template <typename Length, typename Travel>
-std::optional<Cell> Predecessor(Cell cell, double resolution_m, Connectivity connectivity,
-                                Travel&& travel) {
-  constexpr Length kUnreached = std::numeric_limits<Length>::infinity();
-  const auto reached = [&travel](Cell c) { return travel(c) < kUnreached; };
-  std::optional<Cell> best;
-  Length best_m = travel(cell);
-  for (const Cell offset : kNeighbours8) {
-    if (IsDiagonal(offset) && connectivity == Connectivity::kFour) continue;
-    if (connectivity == Connectivity::kEightNoCornerCut && !StepAllowed(cell, offset, reached)) {
-      continue;
-    }
-    const Cell from = Shifted(cell, offset);
-    // The same sum as the search formed, so that it is met exactly; infinite where not reached.
-    const Length via_m =
-        travel(from) + static_cast<Length>(StepLength_cells(offset) * resolution_m);
-    if (via_m < best_m || (via_m == best_m && !best)) {
-      best = from;
-      best_m = via_m;
-    }
-  }
-  return best;
-}
-
 // Dijkstra over the cells of a raster with a queue of buckets as wide as the shortest step (Dial;
 // Denardo and Fox 1979): a step from one bucket always ends in a later one, so cells of one bucket
 // need no order. The engine of core/grid/grid_search.h, for those that read the result in place.
+// A cell spreads on in those directions alone in which no shorter way leads by the cell before it.
 //
 // With Length = float a way of n steps is right to n roundings, one part in 10^4 on any map.
 template <typename Length>
 class TravelSearch {
  public:
   static constexpr Length kUnreached = std::numeric_limits<Length>::infinity();
-
-  struct Entry {
-    int cell;  // index of the padded raster
-    Length travel_m;
-  };
 
   // `passable`: callable (std::size_t index of the raster) -> bool. No cell is passable that lies
   // off `cells`. None is, and none may be asked about by index, if `stop`, which is asked all
@@ -113,7 +82,7 @@ class TravelSearch {
   // Reached, and no shorter way will be found. Meaningful within `done`.
   bool IsSettled(int cell) const { return IsReached(cell) && LevelOf(travel_m_[cell]) <= level_; }
 
-  // Spreads from the sources until `done(bucket)`, asked after each bucket, or all is reached.
+  // Spreads from the sources until `done()`, asked after each level, or all is reached.
   // Sources that are outside or not passable are passed over.
   template <typename Done>
   void Run(std::vector<SearchSource> sources, Done&& done) {
@@ -123,26 +92,34 @@ class TravelSearch {
     if (!std::is_sorted(sources.begin(), sources.end(), earlier)) {
       std::sort(sources.begin(), sources.end(), earlier);
     }
-    for (auto next = sources.begin(); next != sources.end() || IsWaiting(); ++level_) {
-      if (!IsWaiting()) level_ = LevelOf(static_cast<Length>(next->travel_m));
+    for (auto next = sources.begin(); next != sources.end() || levels_.IsWaiting(); ++level_) {
+      if (!levels_.IsWaiting()) level_ = LevelOf(static_cast<Length>(next->travel_m));
+      Level& level = levels_.At(level_);
       for (; next != sources.end(); ++next) {
         const auto travel_m = static_cast<Length>(next->travel_m);
         if (LevelOf(travel_m) > level_) break;
         if (!cells_.Contains(next->cell)) continue;
-        Bucket& bucket = BucketOf(level_);
-        bucket.count += Reach(travel_m_.IndexOf(next->cell), travel_m, true, bucket.Tail());
+        const Entry source = {travel_m_.IndexOf(next->cell), 0, travel_m};
+        level.sources.count += Reach(source, 1, level.sources.Tail());
       }
-      Bucket& bucket = BucketOf(level_);
-      for (std::size_t i = 0; i < bucket.count; ++i) {
-        const Entry entry = bucket.slots[i];
-        if (entry.travel_m == travel_m_[entry.cell]) ReachNeighbours(entry);
-      }
-      if (done(std::span<const Entry>(bucket.slots.data(), bucket.count))) return;
-      bucket.count = 0;
+      ForEachNearest(level.sources, [this](const Entry& entry) { SpreadFromSource(entry); });
+      ForEachNearest(level.straight, [this](const Entry& entry) { SpreadFromStraight(entry); });
+      ForEachNearest(level.diagonal, [this](const Entry& entry) { SpreadFromDiagonal(entry); });
+      if (done()) return;
+      level.Clear();
     }
   }
   void Run(std::vector<SearchSource> sources) {
-    Run(std::move(sources), [](std::span<const Entry>) { return false; });
+    Run(std::move(sources), [] { return false; });
+  }
+
+  // Calls visit(cell, travel_m) for what was reached on the level that `done` is asked after.
+  template <typename Visit>
+  void ForEachOfLevel(const Visit& visit) {
+    const Level& level = levels_.At(level_);
+    for (const Bucket* const bucket : {&level.sources, &level.straight, &level.diagonal}) {
+      ForEachNearest(*bucket, [&](const Entry& entry) { visit(entry.cell, entry.travel_m); });
+    }
   }
 
   // Metres from the nearest source; kUnreached where blocked, not reached or outside.
@@ -167,9 +144,12 @@ class TravelSearch {
   Grid<Length> Field() const { return GridFrom<Length>(travel_m_, geometry_, Unblocked); }
 
  private:
+  using Entry = TravelEntry<Length>;
+  using Bucket = TravelBucket<Length>;
+  using Level = TravelLevel<Length>;
+
   // Below every length, so that no relaxation ever enters a blocked cell.
   static constexpr Length kBlocked = -1;
-  static constexpr std::size_t kBuckets = 4;  // three are in use; a power of two is quicker
 
   static Length Unblocked(Length travel_m) { return travel_m == kBlocked ? kUnreached : travel_m; }
 
@@ -177,62 +157,82 @@ class TravelSearch {
     return static_cast<std::int64_t>(travel_m * levels_per_m_);
   }
 
-  // Cells of one level; the slots behind `count` are room to write into.
-  struct Bucket {
-    static constexpr std::size_t kRoom = 8;  // as many as one visit may reach
-
-    Entry* Tail() {
-      if (slots.size() < count + kRoom) slots.resize(2 * (count + kRoom));
-      return slots.data() + count;
+  // Those that nothing nearer has been found for since.
+  template <typename Visit>
+  void ForEachNearest(const Bucket& bucket, const Visit& visit) const {
+    for (std::size_t i = 0; i < bucket.count; ++i) {
+      const Entry entry = bucket.slots[i];
+      if (entry.travel_m == travel_m_[entry.cell]) visit(entry);
     }
+  }
 
-    std::vector<Entry> slots;
-    std::size_t count = 0;
+  // Shortens the way to a cell if `allowed` is 1, and writes it to `slot`. Returns 1 if it did,
+  // else 0, without a branch: which neighbours are nearer is past predicting.
+  std::size_t Reach(const Entry& entry, int allowed, Entry* slot) {
+    Length& known_m = travel_m_[entry.cell];
+    const int nearer = int{entry.travel_m < known_m} & allowed;
+    known_m = nearer != 0 ? entry.travel_m : known_m;
+    *slot = entry;
+    return static_cast<std::size_t>(nearer);
+  }
+
+  // A diagonal step, and where in a list of straight steps those are that it lies between.
+  struct Diagonal {
+    int way;
+    std::size_t left;
+    std::size_t right;
   };
 
-  Bucket& BucketOf(std::int64_t level) {
-    return buckets_[static_cast<std::size_t>(level) % kBuckets];
-  }
-  bool IsWaiting() const {
-    return std::any_of(buckets_.begin(), buckets_.end(),
-                       [](const Bucket& bucket) { return bucket.count > 0; });
-  }
-
-  // Shortens the way to `cell` if `allowed`, and writes it to `slot`. Returns 1 if it did, else 0,
-  // without a branch: which neighbours are nearer is past predicting.
-  std::size_t Reach(int cell, Length travel_m, bool allowed, Entry* slot) {
-    Length& known_m = travel_m_[cell];
-    const bool nearer = (travel_m < known_m) & allowed;
-    known_m = nearer ? travel_m : known_m;
-    *slot = {cell, travel_m};
-    return nearer ? 1 : 0;
-  }
-
-  // A straight step leads into the next bucket, a diagonal one into that or the one after it.
-  // Where rounding says otherwise a cell waits in a neighbouring bucket, which costs a second
-  // visit at worst.
-  void ReachNeighbours(const Entry& from) {
-    Bucket& next = BucketOf(level_ + 1);
-    Entry* tail = next.Tail();
+  // Takes these steps, ways of 0 to 3 as kNeighbours8 has them. A straight step leads to the next
+  // level, a diagonal one to that or the one after it. Where rounding says otherwise a cell waits
+  // on a neighbouring level, which costs a second visit at worst.
+  template <std::size_t kStraight, std::size_t kDiagonal>
+  void Spread(const Entry& from, const std::array<int, kStraight>& straight,
+              const std::array<Diagonal, kDiagonal>& diagonal) {
+    Level& next = levels_.At(level_ + 1);
+    Entry* tail = next.straight.Tail();
     std::size_t count = 0;
-    std::array<bool, 4> open{};
+    std::array<int, kStraight> open{};
     const Length straight_m = from.travel_m + straight_m_;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const int neighbour = from.cell + offsets_[k];
-      open[k] = (travel_m_[neighbour] != kBlocked) | (connectivity_ == Connectivity::kEight);
-      count += Reach(neighbour, straight_m, true, tail + count);
+    for (std::size_t k = 0; k < kStraight; ++k) {
+      const int cell = from.cell + offsets_[static_cast<std::size_t>(straight[k])];
+      open[k] = (travel_m_[cell] != kBlocked) | (connectivity_ == Connectivity::kEight) ? 1 : 0;
+      count += Reach({cell, straight[k], straight_m}, 1, tail + count);
     }
-    next.count += count;
+    next.straight.count += count;
     if (connectivity_ == Connectivity::kFour) return;
     const Length diagonal_m = from.travel_m + diagonal_m_;
-    Bucket& after = LevelOf(diagonal_m) > level_ + 1 ? BucketOf(level_ + 2) : next;
+    Bucket& after = (LevelOf(diagonal_m) > level_ + 1 ? levels_.At(level_ + 2) : next).diagonal;
     tail = after.Tail();
     count = 0;
-    for (std::size_t k = 0; k < 4; ++k) {  // diagonal 4 + k lies between straights k and k + 1
-      const bool allowed = (int{open[k]} & int{open[(k + 1) % 4]}) != 0;  // no branch
-      count += Reach(from.cell + offsets_[4 + k], diagonal_m, allowed, tail + count);
+    for (const Diagonal& step : diagonal) {
+      const int cell = from.cell + offsets_[static_cast<std::size_t>(4 + step.way)];
+      count +=
+          Reach({cell, step.way, diagonal_m}, open[step.left] & open[step.right], tail + count);
     }
     after.count += count;
+  }
+
+  void SpreadFromSource(const Entry& from) {
+    Spread<4, 4>(from, {0, 1, 2, 3}, {{{0, 0, 1}, {1, 1, 2}, {2, 2, 3}, {3, 3, 0}}});
+  }
+  // What lies behind, or beside the cell before, is nearer to that one by 2 - sqrt(2) steps or
+  // more.
+  void SpreadFromStraight(const Entry& from) {
+    const int left = (from.way + 1) % 4;
+    const int right = (from.way + 3) % 4;
+    Spread<3, 2>(from, {from.way, left, right}, {{{from.way, 0, 1}, {right, 0, 2}}});
+  }
+  // The cells beside a diagonal step are open if no corner is cut. Else they may stand in the way
+  // of the ways that are shorter.
+  void SpreadFromDiagonal(const Entry& from) {
+    const int left = (from.way + 1) % 4;
+    const int right = (from.way + 3) % 4;
+    if (connectivity_ == Connectivity::kEight) {
+      Spread<2, 3>(from, {from.way, left}, {{{from.way, 0, 1}, {left, 0, 1}, {right, 0, 1}}});
+    } else {
+      Spread<2, 1>(from, {from.way, left}, {{{from.way, 0, 1}}});
+    }
   }
 
   GridGeometry geometry_;
@@ -243,7 +243,7 @@ class TravelSearch {
   Length straight_m_;
   Length diagonal_m_;
   Length levels_per_m_;
-  std::array<Bucket, kBuckets> buckets_;
+  TravelLevels<Length> levels_;
   std::int64_t level_ = 0;
 };
 

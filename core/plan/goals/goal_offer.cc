@@ -24,7 +24,7 @@ TravelFromStarts TravelFrom(const GoalQuery& query, std::vector<SearchSource> so
   TravelFromStarts travel(
       query.reachable.geometry(), cells, Connectivity::kEightNoCornerCut,
       [&query](std::size_t index) { return query.reachable[index] != 0; }, query.stop);
-  travel.Run(std::move(sources), [&query](const auto&) { return Stops(query.stop); });
+  travel.Run(std::move(sources), [&query] { return Stops(query.stop); });
   return travel;
 }
 

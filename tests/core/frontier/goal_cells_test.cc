@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <string>
 #include <utility>
 
 #include "core/frontier/occupancy_frontier.h"
@@ -88,6 +89,27 @@ TEST(GoalCells, AreNearByTravelAndNotThroughAWall) {
                                     "######T",  //
                                     "STTTTTT"});
   EXPECT_EQ(frontier.goal_cell, (Cell{6, 2}));
+}
+
+TEST(GoalCells, LieAtTheEndOfWaysOfAnyLength) {
+  for (std::size_t length = 1; length < 60; ++length) {
+    const std::string between(length, '.');
+    const std::string wall(length, '#');
+    const Frontier frontier = GoalIn({"ST" + wall + "#",     //
+                                      "TT" + between + "?",  //
+                                      "TT" + wall + "#"});
+    ASSERT_TRUE(frontier.reachable);
+    ASSERT_EQ(frontier.goal_cell, (Cell{1, 1})) << length;
+  }
+}
+
+TEST(GoalCells, AreThoseOfShortestWaysAndNotOfFewestSteps) {
+  const Frontier frontier = GoalIn({"TTTTTTTTT",    //
+                                    "T#######T",    // three diagonal steps to the frontier
+                                    "#.######T",    //
+                                    "##.#####T",    //
+                                    "###?...TS"});  // four straight ones
+  EXPECT_EQ(frontier.goal_cell, (Cell{7, 0}));
 }
 
 TEST(GoalCells, CountTheWayOutOfTheInflatedZone) {

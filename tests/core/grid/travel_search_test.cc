@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "core/grid/grid_search.h"
 #include "tests/support/random_grid.h"
 
@@ -63,6 +66,76 @@ TEST(TravelSearch, InFloatAgreesWithDoubleToItsRoundings) {
   }
 }
 
+// By definition: the least sum of steps, in the order in which they are driven, each sum rounded.
+template <typename Length>
+Grid<Length> SlowTravel_m(const Grid<std::uint8_t>& mask, const std::vector<SearchSource>& sources,
+                          Connectivity connectivity) {
+  Grid<Length> travel_m(mask.geometry(), std::numeric_limits<Length>::infinity());
+  for (const SearchSource& source : sources) {
+    if (mask[source.cell] == 0) continue;
+    travel_m[source.cell] = std::min(travel_m[source.cell], static_cast<Length>(source.travel_m));
+  }
+  const auto passable = [&](Cell cell) { return mask.At(cell, 0) != 0; };
+  for (bool shortened = true; shortened;) {
+    shortened = false;
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+      const Cell cell = mask.geometry().CellAtIndex(i);
+      for (const Cell offset : kNeighbours8) {
+        const Cell to = Shifted(cell, offset);
+        const bool allowed = connectivity == Connectivity::kEightNoCornerCut
+                                 ? StepAllowed(cell, offset, passable)
+                                 : passable(to);
+        if (!allowed || (connectivity == Connectivity::kFour && IsDiagonal(offset))) continue;
+        const Length via_m = travel_m[i] + static_cast<Length>(StepLength_cells(offset) *
+                                                               mask.geometry().resolution_m);
+        if (!(via_m < travel_m[to])) continue;
+        travel_m[to] = via_m;
+        shortened = true;
+      }
+    }
+  }
+  return travel_m;
+}
+
+template <typename Length>
+void ExpectLeastSums(Connectivity connectivity, Rng& rng) {
+  for (int trial = 0; trial < 30; ++trial) {
+    const double share = 0.5 + 0.5 * rng.Uniform01();
+    const Grid<std::uint8_t> mask = testing::RandomMask(31, 23, share, rng);
+    std::vector<SearchSource> sources;
+    for (int i = 0; i <= trial % 4; ++i) {
+      sources.push_back({testing::RandomCell(mask.geometry(), rng), 2.0 * i * rng.Uniform01()});
+    }
+    TravelSearch<Length> search(mask.geometry(), connectivity,
+                                [&mask](std::size_t index) { return mask[index] != 0; });
+    search.Run(sources);
+    ASSERT_EQ(search.Field(), SlowTravel_m<Length>(mask, sources, connectivity));
+  }
+}
+
+TEST(TravelSearch, FindsTheLeastSumsToTheBit) {
+  Rng rng(9);
+  for (const Connectivity connectivity :
+       {Connectivity::kFour, Connectivity::kEightNoCornerCut, Connectivity::kEight}) {
+    ExpectLeastSums<double>(connectivity, rng);
+    ExpectLeastSums<float>(connectivity, rng);
+  }
+}
+
+TEST(TravelSearch, ShowsWhatWasReachedOnALevel) {
+  const Grid<std::uint8_t> mask = OpenRow(4);
+  FloatSearch search = SearchOver(mask);
+  std::vector<Cell> reached;
+  search.Run({{{1, 0}, 0.0}}, [&] {
+    search.ForEachOfLevel([&](int cell, float travel_m) {
+      EXPECT_EQ(travel_m, search.Travel(search.CellAt(cell)));
+      reached.push_back(search.CellAt(cell));
+    });
+    return false;
+  });
+  EXPECT_THAT(reached, ElementsAre(Cell{1, 0}, Cell{2, 0}, Cell{0, 0}, Cell{3, 0}));
+}
+
 TEST(TravelSearch, InFloatReadsBackWholeWays) {
   Rng rng(2);
   for (int trial = 0; trial < 50; ++trial) {
@@ -99,8 +172,7 @@ TEST(TravelSearch, StopsAfterTheBucketAtWhichItIsDone) {
   const Grid<std::uint8_t> mask = OpenRow(10);
   FloatSearch search = SearchOver(mask);
   const int target = search.IndexOf({3, 0});
-  search.Run({{{0, 0}, 0.0}},
-             [&](std::span<const FloatSearch::Entry>) { return search.IsSettled(target); });
+  search.Run({{{0, 0}, 0.0}}, [&] { return search.IsSettled(target); });
   EXPECT_TRUE(search.IsReached(target));
   EXPECT_FALSE(search.IsReached(search.IndexOf({6, 0})));
 }
