@@ -4,6 +4,8 @@
 
 #include <cstddef>
 
+#include "core/grid/neighbours.h"
+
 namespace plumescout {
 namespace {
 
@@ -29,11 +31,12 @@ Frontier TakeCluster(const GridGeometry& geometry, const ClusterRule& rule, int 
   frontier.cells.push_back(cells.CellAt(seed));
   const auto offsets = cells.NeighbourOffsets();
   for (std::size_t i = 0; i < frontier.cells.size(); ++i) {
-    const int cell = cells.IndexOf(frontier.cells[i]);
-    for (const int offset : offsets) {
-      if (cells[cell + offset] != rule.waiting) continue;
-      cells[cell + offset] = rule.taken;
-      frontier.cells.push_back(cells.CellAt(cell + offset));
+    const Cell at = frontier.cells[i];
+    const int cell = cells.IndexOf(at);
+    for (std::size_t k = 0; k < offsets.size(); ++k) {
+      if (cells[cell + offsets[k]] != rule.waiting) continue;
+      cells[cell + offsets[k]] = rule.taken;
+      frontier.cells.push_back(Shifted(at, kNeighbours8[k]));
     }
   }
   frontier.centroid = Centroid(frontier.cells, geometry);

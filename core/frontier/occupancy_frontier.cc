@@ -4,10 +4,10 @@
 
 #include <array>
 #include <cstddef>
-#include <utility>
 
 #include "core/frontier/cluster.h"
 #include "core/frontier/goal_cells.h"
+#include "core/grid/neighbours.h"
 #include "core/grid/padded.h"
 
 namespace plumescout {
@@ -18,7 +18,7 @@ constexpr std::uint8_t kUnknown = 1;
 constexpr std::uint8_t kWaiting = 2;  // a frontier cell in no cluster yet
 constexpr std::uint8_t kTaken = 3;    // a frontier cell in a cluster
 constexpr std::uint8_t kFree = 4;     // this and larger: free
-constexpr std::uint8_t kReached = 5;
+constexpr std::uint8_t kReached = kFree + 1;
 
 std::uint8_t MarkOf(CellState state) {
   if (state == CellState::kFree) return kFree;
@@ -33,18 +33,22 @@ class OuterWavefront {
         offsets_(marks_.NeighbourOffsets()) {}
 
   void Run(const std::vector<Cell>& free_starts, const StopFn& stop) {
-    for (const Cell start : free_starts) Visit(marks_.IndexOf(start));
-    std::size_t since_stop = kCellsPerStop;
-    std::vector<int> wave;
-    while (!next_.empty()) {
-      wave.clear();
-      std::swap(wave, next_);
-      since_stop += wave.size();
-      if (since_stop >= kCellsPerStop) {
-        if (Stops(stop)) return;
-        since_stop = 0;
+    std::vector<int> reached;  // in the order in which they spread; behind `count` is room
+    std::size_t count = 0;
+    const auto tail = [&] {
+      if (reached.size() < count + kNeighbours8.size()) {
+        reached.resize(2 * (count + kNeighbours8.size()));
       }
-      for (const int cell : wave) VisitNeighbours(cell);
+      return reached.data() + count;
+    };
+    for (const Cell start : free_starts) {
+      const int cell = marks_.IndexOf(start);
+      count += Reach(cell, 1, marks_[cell], tail());
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i % kCellsPerStop == 0 && Stops(stop)) return;
+      int* const room = tail();
+      count += ReachNeighbours(reached[i], room);
     }
   }
 
@@ -52,33 +56,47 @@ class OuterWavefront {
   const std::vector<int>& frontier() const { return frontier_; }  // in the order met
 
  private:
-  void Visit(int cell) {
-    if (marks_[cell] == kFree) {
-      marks_[cell] = kReached;
-      next_.push_back(cell);
-    } else if (marks_[cell] == kUnknown) {
-      marks_[cell] = kWaiting;
-      frontier_.push_back(cell);
-    }
+  // Writes the cell to `slot`, and returns 1 if it is free and was not reached before, else 0:
+  // without a branch, for which neighbours are new is past predicting.
+  static std::size_t Reach(int cell, int allowed, std::uint8_t& mark, int* slot) {
+    const int is_new = int{mark == kFree} & allowed;
+    mark = static_cast<std::uint8_t>(mark + is_new);
+    *slot = cell;
+    return static_cast<std::size_t>(is_new);
   }
 
-  void VisitNeighbours(int cell) {
-    std::array<bool, 4> open{};
+  // Writes those that are new to `slots`, and returns how many.
+  std::size_t ReachNeighbours(int cell, int* slots) {
+    const std::array<int, 8> offsets = offsets_;  // known not to change meanwhile
+    std::uint8_t* const here = &marks_[cell];
+    std::array<int, 4> open{};
+    std::size_t count = 0;
+    int unknown = 0;
     for (std::size_t k = 0; k < 4; ++k) {
-      const int neighbour = cell + offsets_[k];
-      open[k] = marks_[neighbour] >= kFree;
-      Visit(neighbour);
+      std::uint8_t& mark = here[offsets[k]];
+      open[k] = int{mark >= kFree};
+      unknown |= int{mark == kUnknown};
+      count += Reach(cell + offsets[k], 1, mark, slots + count);
     }
     for (std::size_t k = 0; k < 4; ++k) {  // diagonal 4 + k lies between straights k and k + 1
-      const int neighbour = cell + offsets_[4 + k];
-      const bool cuts_corner = !open[k] || !open[(k + 1) % 4];
-      if (marks_[neighbour] != kFree || !cuts_corner) Visit(neighbour);
+      std::uint8_t& mark = here[offsets[4 + k]];
+      unknown |= int{mark == kUnknown};
+      count += Reach(cell + offsets[4 + k], open[k] & open[(k + 1) % 4], mark, slots + count);
+    }
+    if (unknown != 0) MarkFrontier(cell);
+    return count;
+  }
+
+  void MarkFrontier(int cell) {
+    for (const int offset : offsets_) {
+      if (marks_[cell + offset] != kUnknown) continue;
+      marks_[cell + offset] = kWaiting;
+      frontier_.push_back(cell + offset);
     }
   }
 
   Padded<std::uint8_t> marks_;
   std::array<int, 8> offsets_;
-  std::vector<int> next_;  // wave: what was reached and has to spread
   std::vector<int> frontier_;
 };
 

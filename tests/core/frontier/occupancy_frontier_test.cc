@@ -5,8 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <deque>
+#include <set>
+#include <vector>
+
 #include "core/grid/flood.h"
 #include "core/grid/mask.h"
+#include "core/grid/neighbours.h"
 #include "core/occupancy/free_space.h"
 #include "tests/support/grid_art.h"
 #include "tests/support/random_grid.h"
@@ -54,6 +59,49 @@ TEST(OccupancyFrontiers, EqualTheDefinitionOnRandomMaps) {
     ASSERT_EQ(ClustersOf(frontiers), expected);
     ASSERT_EQ(frontiers.size(), expected.size());
     clusters += static_cast<int>(frontiers.size());
+  }
+  EXPECT_GT(clusters, 100);
+}
+
+// The frontier cells in the order in which a plain queue of cells meets them.
+std::vector<Cell> SlowOrder(const Grid<CellState>& states, Cell start) {
+  const auto state = [&](Cell cell) { return states.At(cell, CellState::kOccupied); };
+  const auto is_free = [&](Cell cell) { return state(cell) == CellState::kFree; };
+  std::vector<Cell> frontier;
+  std::set<Cell> met = {start};
+  std::deque<Cell> queue = {start};
+  for (; !queue.empty(); queue.pop_front()) {
+    for (const Cell offset : kNeighbours8) {
+      const Cell to = Shifted(queue.front(), offset);
+      if (is_free(to) && StepAllowed(queue.front(), offset, is_free)) {
+        if (met.insert(to).second) queue.push_back(to);
+      } else if (state(to) == CellState::kUnknown) {
+        if (met.insert(to).second) frontier.push_back(to);
+      }
+    }
+  }
+  return frontier;
+}
+
+TEST(OccupancyFrontiers, AreInTheOrderInWhichAWavefrontMeetsThem) {
+  Rng rng(4);
+  int clusters = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const Grid<CellState> states =
+        testing::RandomStates(37, 29, 2 + static_cast<int>(rng.Below(8)), rng);
+    const Cell start = testing::RandomCell(states.geometry(), rng);
+    if (states[start] != CellState::kFree) continue;
+    std::set<Cell> found;
+    std::size_t next = 0;
+    const std::vector<Cell> order = SlowOrder(states, start);
+    for (const Frontier& frontier :
+         FindOccupancyFrontiers(states, TraversableCells(states, 0.2), {start}, 1)) {
+      while (next < order.size() && found.count(order[next]) > 0) ++next;
+      ASSERT_LT(next, order.size());
+      ASSERT_EQ(frontier.cells.front(), order[next]);
+      found.insert(frontier.cells.begin(), frontier.cells.end());
+      ++clusters;
+    }
   }
   EXPECT_GT(clusters, 100);
 }

@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "core/types/cell_state.h"
 #include "tests/support/grid_art.h"
+#include "tests/support/random_grid.h"
 
 namespace plumescout {
 namespace mask_test {
@@ -27,6 +30,37 @@ TEST(BoundsOf, IsTheLeastRectangleAroundTheValue) {
   EXPECT_EQ(BoundsOf(states, CellState::kOccupied), WholeRaster(states.geometry()));
   EXPECT_TRUE(BoundsOf(states, CellState::kUnknown).empty());
   EXPECT_TRUE(BoundsOf(Grid<CellState>(), CellState::kFree).empty());
+}
+
+// Of values of one byte and of several.
+template <typename T>
+void ExpectLeastRectangles(Rng& rng) {
+  for (int trial = 0; trial < 100; ++trial) {
+    const Grid<std::uint8_t> mask =
+        testing::RandomMask(1 + trial % 23, 1 + trial % 17, 0.1 * rng.Uniform01(), rng);
+    Grid<T> grid(mask.geometry());
+    CellRect expected;
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+      grid[i] = static_cast<T>(mask[i]);
+      if (mask[i] != 0) expected.Include(mask.geometry().CellAtIndex(i));
+    }
+    ASSERT_EQ(BoundsOf(grid, T{1}), expected);
+  }
+}
+
+TEST(BoundsOf, IsTheLeastRectangleOnRandomMasks) {
+  Rng rng(3);
+  ExpectLeastRectangles<std::uint8_t>(rng);
+  ExpectLeastRectangles<int>(rng);
+}
+
+TEST(FirstOf, IsTheEndWithoutTheValue) {
+  const std::array<std::uint8_t, 4> values = {0, 2, 1, 2};
+  const std::uint8_t* const begin = values.data();
+  EXPECT_EQ(FirstOf(begin, begin + 4, std::uint8_t{2}) - begin, 1);
+  EXPECT_EQ(FirstOf(begin, begin + 4, std::uint8_t{3}) - begin, 4);
+  EXPECT_EQ(FirstOf(begin, begin + 2, std::uint8_t{1}) - begin, 2);
+  EXPECT_EQ(FirstOf(begin, begin, std::uint8_t{0}) - begin, 0);
 }
 
 TEST(MaskWhere, IsOneWhereThePredicateHolds) {
