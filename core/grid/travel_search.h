@@ -124,8 +124,9 @@ class TravelSearch {
 
   // Metres from the nearest source; kUnreached where blocked, not reached or outside.
   Length Travel(Cell cell) const {
-    return cells_.Contains(cell) ? Unblocked(travel_m_[travel_m_.IndexOf(cell)]) : kUnreached;
+    return cells_.Contains(cell) ? TravelAt(travel_m_.IndexOf(cell)) : kUnreached;
   }
+  Length TravelAt(int cell) const { return Unblocked(travel_m_[cell]); }
 
   // The cells from a source to `goal`, both included; empty if not reached.
   std::vector<Cell> WayTo(Cell goal) const {

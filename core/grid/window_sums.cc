@@ -63,11 +63,16 @@ Grid<float> WindowSums(const Grid<float>& values, int reach_cells, const StopFn&
     const double* const north = table.Row(std::min(height, y + reach_cells + 1));
     const double* const south = table.Row(std::max(0, y - reach_cells));
     float* const row = GridRow(sums, y);
-    for (int x = 0; x < width; ++x) {
-      const int west = std::max(0, x - reach_cells);
-      const int east = std::min(width, x + reach_cells + 1);
-      row[x] = static_cast<float>(north[east] - north[west] - south[east] + south[west]);
+    const auto sum = [&](int west, int east) {
+      return static_cast<float>(north[east] - north[west] - south[east] + south[west]);
+    };
+    const int inside_begin = std::min(width, reach_cells);
+    const int inside_end = std::max(inside_begin, width - reach_cells);
+    for (int x = 0; x < inside_begin; ++x) row[x] = sum(0, std::min(width, x + reach_cells + 1));
+    for (int x = inside_begin; x < inside_end; ++x) {
+      row[x] = sum(x - reach_cells, x + reach_cells + 1);
     }
+    for (int x = inside_end; x < width; ++x) row[x] = sum(std::max(0, x - reach_cells), width);
   });
   return sums;
 }

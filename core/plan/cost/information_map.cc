@@ -8,6 +8,9 @@
 #include <cstddef>
 #include <limits>
 
+#include "core/grid/mask.h"
+#include "core/types/cell_rect.h"
+
 namespace plumescout {
 namespace {
 
@@ -70,17 +73,28 @@ struct Range {
   }
 };
 
+// Calls visit(index) for each, row by row.
+template <typename Visit>
+void ForEachTraversable(const Grid<std::uint8_t>& traversable, const StopFn& stop,
+                        const Visit& visit) {
+  const CellRect cells = BoundsOf(traversable, std::uint8_t{1});
+  ByRows(cells.min.y, cells.end.y, cells.width(), stop, [&](int y) {
+    const std::size_t begin = traversable.geometry().Index({cells.min.x, y});
+    const std::size_t end = begin + static_cast<std::size_t>(cells.width());
+    for (std::size_t i = begin; i < end; ++i) {
+      if (traversable[i] != 0) visit(i);
+    }
+  });
+}
+
 // Writes I of Eq. (8) into `values` on the traversable cells and returns I_min and I_max.
 Range WriteInformation(const InformationMapInput& input, const UpperConfidenceBound& bound,
                        const StopFn& stop, Grid<float>& values) {
   Range range;
-  InPieces(values.size(), stop, [&](std::size_t first, std::size_t end) {
-    for (std::size_t i = first; i < end; ++i) {
-      if (input.traversable[i] == 0) continue;
-      values[i] = bound(input.mean_ppm[i], input.variance_ppm2[i]);
-      range.low = std::min(range.low, values[i]);
-      range.high = std::max(range.high, values[i]);
-    }
+  ForEachTraversable(input.traversable, stop, [&](std::size_t i) {
+    values[i] = bound(input.mean_ppm[i], input.variance_ppm2[i]);
+    range.low = std::min(range.low, values[i]);
+    range.high = std::max(range.high, values[i]);
   });
   return range;
 }
@@ -90,15 +104,12 @@ void WritePenalty(const Grid<std::uint8_t>& traversable, const Range& range, con
                   InformationMap& information) {
   constexpr float kFlatInformation = 0.5F;
   const float scale = information.flat ? 0.0F : 1.0F / (range.high - range.low);
-  InPieces(information.penalty.size(), stop, [&](std::size_t first, std::size_t end) {
-    for (std::size_t i = first; i < end; ++i) {
-      if (traversable[i] == 0) continue;
-      float& value = information.value[i];
-      value =
-          information.flat ? kFlatInformation : std::clamp((value - range.low) * scale, 0.0F, 1.0F);
-      information.penalty[i] = std::max(1.0F - value, kMinPenalty);
-      information.min_penalty = std::min(information.min_penalty, information.penalty[i]);
-    }
+  ForEachTraversable(traversable, stop, [&](std::size_t i) {
+    float& value = information.value[i];
+    value =
+        information.flat ? kFlatInformation : std::clamp((value - range.low) * scale, 0.0F, 1.0F);
+    information.penalty[i] = std::max(1.0F - value, kMinPenalty);
+    information.min_penalty = std::min(information.min_penalty, information.penalty[i]);
   });
 }
 

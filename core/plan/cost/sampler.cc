@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
+#include "core/grid/mask.h"
 #include "core/grid/padded.h"
 #include "core/plan/cost/hilbert.h"
 #include "core/types/cell_rect.h"
@@ -120,15 +122,19 @@ std::vector<Cell> DrawSystematic(const Grid<float>& mass, std::size_t count, Rng
 Grid<float> SamplingMass(const InformationMap& information, const Grid<std::uint8_t>& domain,
                          Cell robot_cell, double uniform_share, const StopFn& stop) {
   Grid<float> mass(domain.geometry(), 0.0F, stop);
+  const CellRect bounds = BoundsOf(domain, std::uint8_t{1});
   double total = 0.0;
-  double cells = 0.0;
-  InPieces(mass.size(), stop, [&](std::size_t first, std::size_t end) {
-    for (std::size_t i = first; i < end; ++i) {
-      if (domain[i] == 0) continue;
-      total += information.value[i];
-      cells += 1.0;
+  std::size_t count = 0;
+  ByRows(bounds.min.y, bounds.end.y, bounds.width(), stop, [&](int y) {
+    const std::uint8_t* const inside = GridRow(domain, y);
+    const float* const value = GridRow(information.value, y);
+    for (int x = bounds.min.x; x < bounds.end.x; ++x) {
+      if (inside[x] == 0) continue;
+      total += static_cast<double>(value[x]);
+      ++count;
     }
   });
+  auto cells = static_cast<double>(count);
   if (domain.At(robot_cell, 0) != 0) {
     total -= information.value[robot_cell];
     cells -= 1.0;
@@ -138,9 +144,13 @@ Grid<float> SamplingMass(const InformationMap& information, const Grid<std::uint
   const auto per_information =
       no_information ? 0.0F : static_cast<float>((1.0 - uniform_share) / total);
   const auto per_cell = static_cast<float>((no_information ? 1.0 : uniform_share) / cells);
-  InPieces(mass.size(), stop, [&](std::size_t first, std::size_t end) {
-    for (std::size_t i = first; i < end; ++i) {
-      if (domain[i] != 0) mass[i] = per_information * information.value[i] + per_cell;  // Eq. (14)
+  ByRows(bounds.min.y, bounds.end.y, bounds.width(), stop, [&](int y) {
+    const std::uint8_t* const inside = GridRow(domain, y);
+    const float* const value = GridRow(information.value, y);
+    float* const row = GridRow(mass, y);
+    for (int x = bounds.min.x; x < bounds.end.x; ++x) {  // Eq. (14)
+      const float q = per_information * value[x] + per_cell;
+      row[x] = inside[x] != 0 ? q : 0.0F;
     }
   });
   if (mass.Contains(robot_cell)) mass[robot_cell] = 0.0F;

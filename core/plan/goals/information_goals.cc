@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -30,26 +31,29 @@ Grid<float> LeftToTell(const Belief& belief, const CellRect& cells, const StopFn
   const std::vector<float> relevance = Relevance(belief, cells, stop);
   const double observed_ppm2 = ObservedVariance_ppm2(mission.frontier, mission.gas);
   const auto most_ppm2 = static_cast<float>(OpenLatticeVariance_ppm2(mission.gas));
-  const auto of_cell = [&](float known_ppm2, float relevant) {
-    const float variance_ppm2 = std::min(known_ppm2, most_ppm2);
-    if (!(variance_ppm2 > 0.0F)) return 0.0F;
+  // How often what is known holds what counts as done. NaN where nothing is.
+  const auto times_done = [&](float known_ppm2, float relevant) {
+    const auto variance_ppm2 = static_cast<double>(std::min(known_ppm2, most_ppm2));
     const double sure = std::min(1.0, static_cast<double>(relevant));
-    const double done_ppm2 = observed_ppm2 * (1.0 - (1.0 - kDoneShare) * sure);
-    if (!(static_cast<double>(variance_ppm2) > done_ppm2)) return 0.0F;
-    constexpr double kEntropyShare = 0.5;
-    const double nats = kEntropyShare * std::log(static_cast<double>(variance_ppm2) / done_ppm2);
-    return relevant * static_cast<float>(nats);
+    return variance_ppm2 / (observed_ppm2 * (1.0 - (1.0 - kDoneShare) * sure));
   };
   GridGeometry geometry = belief.geometry();
   geometry.width = cells.width();
   geometry.height = cells.height();
   Grid<float> left(geometry, 0.0F, stop);
-  std::size_t to = 0;
+  const auto width = static_cast<std::size_t>(cells.width());
+  std::vector<double> times(width);
+  const float* relevant = relevance.data();
   ByRows(cells.min.y, cells.end.y, cells.width(), stop, [&](int y) {
     const float* const variance_ppm2 = GridRow(*belief.gas_variance_ppm2, y) + cells.min.x;
-    for (int x = 0; x < cells.width(); ++x, ++to) {
-      left[to] = of_cell(variance_ppm2[x], relevance[to]);
+    float* const row = GridRow(left, y - cells.min.y);
+    for (std::size_t x = 0; x < width; ++x) times[x] = times_done(variance_ppm2[x], relevant[x]);
+    for (std::size_t x = 0; x < width; ++x) {
+      constexpr double kEntropyShare = 0.5;
+      if (!(times[x] > 1.0)) continue;
+      row[x] = relevant[x] * static_cast<float>(kEntropyShare * std::log(times[x]));
     }
+    relevant += width;
   });
   return left;
 }
@@ -83,10 +87,22 @@ class Merits {
 
   // The best of a row, the first of several; of no merit if there is none.
   Spot BestOf(int y) const {
+    constexpr double kRounding = 1.0 + 1e-9;  // more than that of a quotient
+    const int row = y - cells().min.y;
+    const float* const left = GridRow(left_, row);
+    const float* const around = GridRow(around_, row);
+    const std::uint8_t* const closed = GridRow(closed_, row);
+    const std::uint8_t* const reachable = GridRow(query_.reachable, y) + cells().min.x;
+    const int first = from_start_.IndexOf({cells().min.x, y});
     Spot best;
-    for (int x = cells().min.x; x < cells().end.x; ++x) {
-      const double merit = At({x, y});
-      if (merit > best.merit) best = {merit, geometry().Index({x, y})};
+    for (int x = 0; x < cells().width(); ++x) {
+      if (reachable[x] == 0 || !(left[x] > 0.0F) || closed[x] != 0) continue;
+      const double travel_m = from_start_.TravelAt(first + x);
+      const auto nats = static_cast<double>(around[x]);
+      if (nats * kRounding < best.merit * (kErrand_m + travel_m)) continue;
+      const Cell cell{cells().min.x + x, y};
+      const double merit = At(cell);
+      if (merit > best.merit) best = {merit, geometry().Index(cell)};
     }
     return best;
   }

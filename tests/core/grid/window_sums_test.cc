@@ -32,7 +32,7 @@ double SlowSum(const Grid<float>& values, Cell middle, int reach_cells) {
 
 TEST(WindowSums, AreThoseOfALoopOverTheWindow) {
   Rng rng(7);
-  for (const int reach_cells : {0, 1, 4, 30}) {
+  for (const int reach_cells : {0, 1, 4, 11, 15, 30}) {
     const Grid<float> values = RandomValues({-1.3, 2.7, 0.1, 23, 17}, rng);
     const Grid<float> sums = WindowSums(values, reach_cells);
     ASSERT_EQ(sums.geometry(), values.geometry());
