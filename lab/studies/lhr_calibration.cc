@@ -89,8 +89,8 @@ void AddPair(const Pair& pair, const SamplingPlan& plan,
            absl::StrFormat("%g", unstated.beta)};
   double sum = 0.0;
   for (const auto& [row, place] : pair.rows) {
-    const auto mean = [&](double (*figure)(const SamplingDrive&)) {
-      return SpreadOf(MeansByWorld(plan, drives[place], figure)).mean;
+    const auto mean = [&plan, &of_row = drives[place]](double (*figure)(const SamplingDrive&)) {
+      return SpreadOf(MeansByWorld(plan, of_row, figure)).mean;
     };
     const double distance_m = mean(LhrDriven_m);
     const double convergence_min = mean(LhrConvergence_min);
