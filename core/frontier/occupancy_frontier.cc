@@ -17,8 +17,7 @@ constexpr std::uint8_t kBlocked = 0;  // occupied, or outside
 constexpr std::uint8_t kUnknown = 1;
 constexpr std::uint8_t kWaiting = 2;  // a frontier cell in no cluster yet
 constexpr std::uint8_t kTaken = 3;    // a frontier cell in a cluster
-constexpr std::uint8_t kFree = 4;     // this and larger: free
-constexpr std::uint8_t kReached = kFree + 1;
+constexpr std::uint8_t kFree = 4;     // this and larger: free; one more: reached
 
 std::uint8_t MarkOf(CellState state) {
   if (state == CellState::kFree) return kFree;

@@ -197,7 +197,7 @@ class TravelSearch {
     const Length straight_m = from.travel_m + straight_m_;
     for (std::size_t k = 0; k < kStraight; ++k) {
       const int cell = from.cell + offsets_[static_cast<std::size_t>(straight[k])];
-      open[k] = (travel_m_[cell] != kBlocked) | (connectivity_ == Connectivity::kEight) ? 1 : 0;
+      open[k] = int{travel_m_[cell] != kBlocked} | int{connectivity_ == Connectivity::kEight};
       count += Reach({cell, straight[k], straight_m}, 1, tail + count);
     }
     next.straight.count += count;
