@@ -62,7 +62,8 @@ TEST(FrontTest, MultipliesByItsCovarianceAndItsWeights) {
     front.AddTransposed(SpanOf(own), scratch, transposed.data());
     const Eigen::VectorXd on_boundary = boundary + DenseWeights(front).transpose() * own;
     EXPECT_LE((transposed - on_boundary).cwiseAbs().sum(), 1e-10);
-    const Eigen::VectorXd weight_sums = DenseWeights(front).rowwise().sum();
+    const Eigen::VectorXd weight_sums =
+        DenseWeights(front) * Eigen::VectorXd::Ones(static_cast<Eigen::Index>(front.boundary()));
     for (std::size_t i = 0; i < front.own; ++i) {
       EXPECT_NEAR(front.weight_sums[i], weight_sums(static_cast<Eigen::Index>(i)), 1e-12);
     }
