@@ -26,6 +26,7 @@ Grid<std::uint8_t> MaskWhere(const Grid<T>& grid, Predicate&& predicate) {
 // The first of [begin, end) that is `value`; `end` if none is.
 template <typename T>
 const T* FirstOf(const T* begin, const T* end, T value) {
+  if (begin == end) return end;    // of no grid at all: null, which memchr may not be asked about
   if constexpr (sizeof(T) == 1) {  // much quicker than std::find
     const auto* const first = static_cast<const T*>(
         std::memchr(begin, static_cast<int>(value), static_cast<std::size_t>(end - begin)));

@@ -54,6 +54,12 @@ TEST(BoundsOf, IsTheLeastRectangleOnRandomMasks) {
   ExpectLeastRectangles<int>(rng);
 }
 
+TEST(BoundsOf, IsEmptyWithoutCells) {
+  EXPECT_TRUE(BoundsOf(Grid<std::uint8_t>(), std::uint8_t{1}).empty());
+  EXPECT_TRUE(
+      BoundsOf(Grid<std::uint8_t>(GridGeometry{0.0, 0.0, 1.0, 0, 3}), std::uint8_t{1}).empty());
+}
+
 TEST(FirstOf, IsTheEndWithoutTheValue) {
   const std::array<std::uint8_t, 4> values = {0, 2, 1, 2};
   const std::uint8_t* const begin = values.data();
