@@ -14,15 +14,7 @@ class Conditioning {
  public:
   std::shared_ptr<const Front> After(const Front& front, const ReadingPaths::Step& step,
                                      std::span<const double> noise_ppm2) {
-    auto after = std::make_shared<Front>();
-    after->cells = front.cells;
-    after->own = front.own;
-    after->covariance = front.covariance;
-    after->weights = front.weights;
-    after->couplings = front.couplings;
-    after->coupling_precision = front.coupling_precision;
-    after->offset_ppm = front.offset_ppm;
-    after->weight_sums = front.weight_sums;
+    std::shared_ptr<Front> after = WithoutMessage(front);
     if (front.own == 0) return after;
     FindGain(step, noise_ppm2.subspan(step.first, step.cells));
     Whiten(step.own, front.own, step, own_);

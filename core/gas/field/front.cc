@@ -200,19 +200,24 @@ void Condition(const Front& front, std::span<const double> weights, PathStep& st
   }
 }
 
+std::shared_ptr<Front> WithoutMessage(const Front& front) {
+  auto copy = std::make_shared<Front>();
+  copy->cells = front.cells;
+  copy->own = front.own;
+  copy->covariance = front.covariance;
+  copy->weights = front.weights;
+  copy->couplings = front.couplings;
+  copy->coupling_precision = front.coupling_precision;
+  copy->offset_ppm = front.offset_ppm;
+  copy->weight_sums = front.weight_sums;
+  return copy;
+}
+
 // Sherman and Morrison on the joint distribution of S and cell i given R, of which W is the
 // derivative of the means.
 std::shared_ptr<const Front> AfterReading(const Front& front, const PathStep& step,
                                           double precision, double weighted_deviation) {
-  auto after = std::make_shared<Front>();
-  after->cells = front.cells;
-  after->own = front.own;
-  after->covariance = front.covariance;
-  after->weights = front.weights;
-  after->couplings = front.couplings;
-  after->coupling_precision = front.coupling_precision;
-  after->offset_ppm = front.offset_ppm;
-  after->weight_sums = front.weight_sums;
+  std::shared_ptr<Front> after = WithoutMessage(front);
   const std::size_t own = front.own;
   const double scale = 1.0 / (1.0 + precision * step.variance_ppm2);
   const double gain = (weighted_deviation - precision * step.mean_ppm) * scale;

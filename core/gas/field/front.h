@@ -90,6 +90,9 @@ struct PathStep {
 // q = w_R + W^T w_S. Moments of the step so far are those given S and R.
 void Condition(const Front& front, std::span<const double> weights, PathStep& step);
 
+// A copy of all but the message.
+std::shared_ptr<Front> WithoutMessage(const Front& front);
+
 // The front once cell i has `precision` more on the diagonal and `weighted_deviation` more on the
 // right-hand side: all but the message, which needs an elimination. Cost: a copy.
 std::shared_ptr<const Front> AfterReading(const Front& front, const PathStep& step,
