@@ -11,15 +11,13 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "client/lag_correction.h"
-#include "core/gas/gas_map.h"
-#include "core/gas/way_readings.h"
 #include "core/types/status_macros.h"
 #include "lab/about/about.h"
 #include "lab/formats/scene_folder.h"
 #include "lab/sim/scene_world.h"
 #include "lab/trials/gas_recording.h"
 #include "lab/trials/map_calibration.h"
+#include "lab/trials/recorded_map.h"
 #include "lab/trials/statistics.h"
 #include "lab/trials/study_scenes.h"
 #include "lab/trials/task_pool.h"
@@ -33,7 +31,6 @@ constexpr int kBuildings = 12;
 constexpr int kTrials = 3;
 constexpr double kDuration_s = 300.0;
 constexpr double kQuickDuration_s = 30.0;
-constexpr int kBatch = 20;  // readings between refreshes of a model that learns
 constexpr const char* kStrategies[] = {"plumescout", "xit_f"};
 
 struct Model {
@@ -75,44 +72,6 @@ std::vector<Model> Models() {
           {"root_learned", "points, roots, learned", false, Learned(0.3, 3e-4, kRoot)}};
 }
 
-struct Placed {
-  std::int64_t time_ns = 0;
-  Point2 place;
-  GasReading reading;
-};
-
-std::vector<Placed> Points(const GasRecording& recording) {
-  std::vector<Placed> placed;
-  client::LagCorrection correction(recording.response_time_s);
-  for (const HeardPose& heard : recording.heard) {
-    correction.NotePose(heard.time_ns, heard.pose);
-    if (!heard.reading) continue;
-    const client::GasSample air = correction.Correct({heard.time_ns, heard.pose, *heard.reading});
-    placed.push_back({air.time_ns, air.pose.position(), air.reading});
-  }
-  return placed;
-}
-
-std::vector<Placed> AlongWay(const GasRecording& recording, const GasOptions& gas) {
-  const WayModel model{.response_time_s = recording.response_time_s,
-                       .robot_from_sensor = {},
-                       .resolution_m = recording.states.geometry().resolution_m,
-                       .gas = gas};
-  std::vector<Placed> placed;
-  const auto place = [&placed](const std::vector<AirReading>& told) {
-    for (const AirReading& air : told) {
-      placed.push_back({air.time_ns, air.pose.position(), air.reading});
-    }
-  };
-  WayReadings way;
-  for (const HeardPose& heard : recording.heard) {
-    way.NotePose(heard.time_ns, heard.pose);
-    if (heard.reading) place(way.Add(model, heard.time_ns, heard.pose, *heard.reading));
-  }
-  place(way.Finish(model));
-  return placed;
-}
-
 struct Outcome {
   MapCalibration map;
   GasQuality gas;
@@ -120,21 +79,9 @@ struct Outcome {
 
 absl::StatusOr<Outcome> MapBy(const Model& model, const Scene& scene,
                               const GasRecording& recording) {
-  GasMap gas(model.gas, recording.states.geometry().resolution_m);
-  const std::int64_t end_ns = recording.heard.back().time_ns;
-  const bool learns = model.gas.precisions == GasPrecisions::kLearned;
-  int since_refresh = 0;
-  for (const Placed& p : model.along_way ? AlongWay(recording, model.gas) : Points(recording)) {
-    gas.Add(p.time_ns, p.place, p.reading);
-    if (!learns || ++since_refresh < kBatch) continue;
-    since_refresh = 0;
-    PLUMESCOUT_RETURN_IF_ERROR(gas.Refresh(recording.states, end_ns));
-    if (!gas.epoch_due(end_ns)) continue;
-    PLUMESCOUT_RETURN_IF_ERROR(gas.BeginEpoch(end_ns));
-    PLUMESCOUT_RETURN_IF_ERROR(gas.Adopt());
-  }
-  PLUMESCOUT_RETURN_IF_ERROR(gas.Refresh(recording.states, end_ns));
-  return Outcome{Calibrate(scene, gas.mean_ppm(), gas.error_variance_ppm2()), gas.quality()};
+  const auto readings = model.along_way ? AlongWay(recording, model.gas) : AtPoints(recording);
+  PLUMESCOUT_ASSIGN_OR_RETURN(const MapSnapshot map, MapRecording(recording, readings, model.gas));
+  return Outcome{Calibrate(scene, map.gas_mean_ppm, map.gas_variance_ppm2), map.gas_quality};
 }
 
 struct Mission {

@@ -18,24 +18,25 @@ namespace {
 
 constexpr double kNoRefresh_s = 3600.0;  // but when a plan asks for it
 
-void Note(const Event& event, std::vector<HeardPose>& heard) {
-  const auto* received = std::get_if<ObservationReceived>(&event.body);
-  if (received == nullptr) return;
-  const Observation& observation = received->observation;
-  HeardPose& entry = heard.emplace_back();
-  entry.time_ns = observation.sample_time_ns;
-  entry.pose = observation.pose;
-  if (const auto* reading = std::get_if<GasReading>(&observation.payload)) entry.reading = *reading;
-}
-
 }  // namespace
+
+std::optional<HeardPose> HeardIn(const Event& event) {
+  const auto* received = std::get_if<ObservationReceived>(&event.body);
+  if (received == nullptr) return std::nullopt;
+  const Observation& observation = received->observation;
+  HeardPose heard{observation.sample_time_ns, observation.pose, std::nullopt};
+  if (const auto* reading = std::get_if<GasReading>(&observation.payload)) heard.reading = *reading;
+  return heard;
+}
 
 absl::StatusOr<GasRecording> RecordGas(const SceneWorld& world, const MissionOptions& mission,
                                        std::uint64_t seed, double duration_s) {
   GasRecording recording;
   LocalOptions local;
   local.path_planners = MakeOmplPlanner;
-  local.on_event = [&recording](const Event& event) { Note(event, recording.heard); };
+  local.on_event = [&recording](const Event& event) {
+    if (const auto heard = HeardIn(event)) recording.heard.push_back(*heard);
+  };
   LocalPlannerClient planner(local);
   EpisodeOptions options;
   options.mission = "recording";

@@ -8,6 +8,7 @@
 
 #include "absl/status/statusor.h"
 #include "core/types/cell_state.h"
+#include "core/types/event.h"
 #include "core/types/gas_reading.h"
 #include "core/types/grid.h"
 #include "core/types/options.h"
@@ -22,6 +23,9 @@ struct HeardPose {
   Pose2 pose;
   std::optional<GasReading> reading;
 };
+
+// None if the event is no observation.
+std::optional<HeardPose> HeardIn(const Event& event);
 
 // A mission as its gas maps are made from it, so that several can be made from the same readings.
 struct GasRecording {

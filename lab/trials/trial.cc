@@ -17,6 +17,8 @@
 #include "lab/local/local_planner_client.h"
 #include "lab/sim/episode.h"
 #include "lab/sim/team_starts.h"
+#include "lab/trials/gas_recording.h"
+#include "lab/trials/recorded_map.h"
 #include "lab/trials/team_watch.h"
 #include "ompl_planners/ompl_planner.h"
 
@@ -43,6 +45,22 @@ const Observation* GasObservation(const Event& event) {
   const bool is_gas =
       received != nullptr && std::holds_alternative<GasReading>(received->observation.payload);
   return is_gas ? &received->observation : nullptr;
+}
+
+// What else than the mission's own map a trial makes of what was heard.
+struct Heard {
+  std::vector<Observation> readings;
+  GasRecording recording;
+};
+
+void Note(const Trial& trial, const Event& event, TrialRecord& record, Heard& heard) {
+  if (trial.second_field) {
+    if (const auto pose = HeardIn(event)) heard.recording.heard.push_back(*pose);
+  }
+  const Observation* gas = GasObservation(event);
+  if (gas == nullptr) return;
+  ++record.gas_readings;
+  if (trial.peer || trial.tells_other_entropies) heard.readings.push_back(*gas);
 }
 
 // RMSE of the readings' map in critical cells, as of [XIT] Eq. (23).
@@ -141,6 +159,7 @@ EpisodeOptions MakeEpisodeOptions(const Trial& trial, TrialRecord& record) {
   options.simulated.lidar.max_range_m = trial.robot.lidar_range_m;
   options.plan_latency_s = trial.robot.plan_latency_s;
   options.correct_gas_lag = trial.robot.corrects_gas_lag;
+  options.mission_corrects_lag = trial.robot.leaves_lag_to_mission;
   options.prior_variance_ppm2 = OpenLatticeVariance_ppm2(trial.mission->gas);
   options.on_sample = [&trial, &record](const MetricSample& sample, const MapSnapshot& map) {
     record.curve.push_back({sample.time_s, sample.metrics});
@@ -179,6 +198,33 @@ void EndWithoutFrontier(std::atomic<bool>& over, EpisodeOptions& options) {
   };
 }
 
+// By all but the mission's own map.
+absl::Status JudgeOtherwise(const Trial& trial, const EpisodeOptions& options,
+                            const MapSnapshot& map, Heard& heard, TrialRecord& record) {
+  const Scene& scene = trial.world->scene();
+  if (trial.tells_other_entropies) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(
+        record.other_entropies,
+        FindOtherEntropies(scene, trial.mission->gas, heard.readings, map.occupancy));
+  }
+  if (trial.peer) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(record.peer_rmse_ppm,
+                                PeerError_ppm(scene, *trial.peer, heard.readings));
+  }
+  if (trial.second_field) {
+    GasRecording& recording = heard.recording;
+    recording.states = map.occupancy;
+    if (options.mission_corrects_lag) {
+      recording.response_time_s = options.simulated.gas_sensor.time_constant_s;
+    }
+    PLUMESCOUT_ASSIGN_OR_RETURN(const MapSnapshot second,
+                                MapRecording(recording, AtPoints(recording), *trial.second_field));
+    const MapEvaluator evaluator(scene, OpenLatticeVariance_ppm2(*trial.second_field));
+    record.second_field = evaluator.Evaluate(second);
+  }
+  return absl::OkStatus();
+}
+
 }  // namespace
 
 absl::StatusOr<TrialRecord> RunTrial(const Trial& trial) {
@@ -191,13 +237,8 @@ absl::StatusOr<TrialRecord> RunTrial(const Trial& trial) {
       return MakeTeamRival(*trial.rule, planning, std::move(frontiers));
     };
   }
-  std::vector<Observation> readings;
-  local.on_event = [&](const Event& event) {
-    const Observation* gas = GasObservation(event);
-    if (gas == nullptr) return;
-    ++record.gas_readings;
-    if (trial.peer || trial.tells_other_entropies) readings.push_back(*gas);
-  };
+  Heard heard;
+  local.on_event = [&](const Event& event) { Note(trial, event, record, heard); };
   LocalPlannerClient planner(local);
   EpisodeOptions options = MakeEpisodeOptions(trial, record);
   TeamWatch watch(trial.robot.lidar_range_m);
@@ -218,19 +259,11 @@ absl::StatusOr<TrialRecord> RunTrial(const Trial& trial) {
   record.team = MakeTeamRecord(team, options.simulated.seen_radius_m);
   record.team.findings = watch.findings();
   PLUMESCOUT_ASSIGN_OR_RETURN(const MapSnapshot map, planner.GetMap(kMission));
-  const Scene& scene = trial.world->scene();
   while (record.mean_ppm.size() < trial.map_times_s.size()) {
-    record.mean_ppm.push_back(OnSceneGrid(map.gas_mean_ppm, scene.geometry()));
+    record.mean_ppm.push_back(OnSceneGrid(map.gas_mean_ppm, trial.world->scene().geometry()));
   }
   if (trial.on_end) trial.on_end(team, map);
-  if (trial.tells_other_entropies) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(
-        record.other_entropies,
-        FindOtherEntropies(scene, trial.mission->gas, readings, map.occupancy));
-  }
-  if (trial.peer) {
-    PLUMESCOUT_ASSIGN_OR_RETURN(record.peer_rmse_ppm, PeerError_ppm(scene, *trial.peer, readings));
-  }
+  PLUMESCOUT_RETURN_IF_ERROR(JudgeOtherwise(trial, options, map, heard, record));
   return record;
 }
 

@@ -26,6 +26,7 @@ struct TrialRobot {
   double lidar_range_m = 8.0;
   double plan_latency_s = 0.1;          // that it stands for each plan
   bool corrects_gas_lag = true;         // undoes the lag of its gas sensor, which it knows
+  bool leaves_lag_to_mission = false;   // instead the mission does, along the way
   bool stops_without_frontier = false;  // the trial ends with the first plan that goes to none
 
   friend bool operator==(const TrialRobot&, const TrialRobot&) = default;
@@ -47,6 +48,8 @@ struct Trial {
   std::optional<KernelDmvOptions> peer{};
   // Also tell the entropy at the end by other variances.
   bool tells_other_entropies = false;
+  // Also map the same readings, each at one place, in this field, and judge that map.
+  std::optional<GasOptions> second_field{};
   // Told what the robots did, and the map at the end; may be empty.
   std::function<void(const TeamResult&, const MapSnapshot&)> on_end{};
 };
@@ -81,6 +84,7 @@ struct TrialRecord {
   bool completed = false;               // the planner said so before the time was up
   std::optional<double> peer_rmse_ppm;  // of Kernel DM+V in critical cells, at the end
   std::optional<OtherEntropies> other_entropies;
+  std::optional<MapMetrics> second_field;  // at the end
   TeamRecord team;
 };
 

@@ -112,6 +112,9 @@ TrialRecord RecordFrom(const json& value) {
   if (value.contains("peer_rmse_ppm")) {
     record.peer_rmse_ppm = value.at("peer_rmse_ppm").get<double>();
   }
+  if (value.contains("second_field")) {
+    record.second_field = CurvePointFrom(value.at("second_field")).metrics;
+  }
   return record;
 }
 
@@ -171,6 +174,9 @@ absl::Status TrialStore::Keep(const std::string& name, const std::string& finger
                 {"maps", record.mean_ppm.size()},  {"curve", json::array()},
                 {"team", ToJson(record.team)}};
   if (record.peer_rmse_ppm) value["peer_rmse_ppm"] = *record.peer_rmse_ppm;
+  if (record.second_field) {
+    value["second_field"] = ToJson(CurvePoint{record.curve.back().time_s, *record.second_field});
+  }
   if (const auto& other = record.other_entropies) {
     value["other_entropies_nats"] = {other->whole_building_nats, other->propagated_nats};
   }
@@ -201,6 +207,12 @@ std::string Fingerprint(const Trial& trial, std::uint32_t scene_checksum) {
   if (const TrialRobot& robot = trial.robot; robot != TrialRobot{}) {
     absl::StrAppend(&times, " robot ", robot.lidar_range_m, " ", robot.plan_latency_s, " ",
                     robot.corrects_gas_lag, " ", robot.stops_without_frontier);
+    if (robot.leaves_lag_to_mission) absl::StrAppend(&times, " lag left");
+  }
+  if (trial.second_field) {
+    MissionOptions second;
+    second.gas = *trial.second_field;
+    absl::StrAppend(&times, " second ", Crc32c(ToProto(second).SerializeAsString()));
   }
   if (trial.tells_other_entropies) absl::StrAppend(&times, " entropies");
   return absl::StrFormat("mission %08x scene %08x robots %d seed %d duration %g maps%s",

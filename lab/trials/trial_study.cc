@@ -66,6 +66,7 @@ class SceneStudy {
     trial.most_late_s = plan_.rows[row].most_late_s;
     trial.ghosts = plan_.rows[row].ghosts;
     trial.rule = plan_.rows[row].rule;
+    trial.second_field = plan_.rows[row].second_field;
     trial.seed = plan_.first_seed + number;
     trial.duration_s = plan_.duration_s;
     trial.map_times_s = plan_.map_times_s;

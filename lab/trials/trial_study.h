@@ -23,9 +23,10 @@ struct StudyRow {
   bool samples_building = false;
   int robots = 1;
   TrialRobot robot = {};
-  double most_late_s = 0.0;           // see Trial
-  bool ghosts = false;                // likewise
-  std::optional<TeamRule> rule = {};  // likewise
+  double most_late_s = 0.0;                     // see Trial
+  bool ghosts = false;                          // likewise
+  std::optional<TeamRule> rule = {};            // likewise
+  std::optional<GasOptions> second_field = {};  // likewise
 };
 
 // A strategy of the table, driving until the time is up. With the paper's goals: they are drawn at

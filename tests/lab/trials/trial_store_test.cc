@@ -43,6 +43,7 @@ TrialRecord SomeRecord() {
                           .unseen_paid_nats = 60.5,
                           .unseen_paid_twice_nats = 20.25};
   record.other_entropies = {-2.5, 1.25};
+  record.second_field = MapMetrics{0.5, 3.5, 40.0, -1.5, 7};
   record.completed = true;
   return record;
 }
@@ -73,6 +74,9 @@ TEST(TrialStore, GivesBackWhatItKept) {
   ASSERT_TRUE(found->other_entropies.has_value());
   EXPECT_EQ(found->other_entropies->whole_building_nats, -2.5);
   EXPECT_EQ(found->other_entropies->propagated_nats, 1.25);
+  ASSERT_TRUE(found->second_field.has_value());
+  EXPECT_EQ(found->second_field->rmse_ppm, 3.5);
+  EXPECT_EQ(found->second_field->entropy_nats, -1.5);
   EXPECT_TRUE(found->completed);
   ASSERT_EQ(found->mean_ppm.size(), 1u);
   EXPECT_TRUE(std::isnan(found->mean_ppm[0][0]));
@@ -141,6 +145,15 @@ TEST(Fingerprint, TellsSettingsBuildingsSeedsAndTimesApart) {
   EXPECT_NE(by_robot, print);
   other.robot.stops_without_frontier = true;
   EXPECT_NE(Fingerprint(other, 1), by_robot);
+  other = trial;
+  other.robot.leaves_lag_to_mission = true;
+  EXPECT_NE(Fingerprint(other, 1), print);
+  other = trial;
+  other.second_field = GasOptions{};
+  const std::string by_field = Fingerprint(other, 1);
+  EXPECT_NE(by_field, print);
+  other.second_field = PublishedGasOptions();
+  EXPECT_NE(Fingerprint(other, 1), by_field);
   other = trial;
   other.rule = TeamRule::kBurgard;
   const std::string by_rule = Fingerprint(other, 1);

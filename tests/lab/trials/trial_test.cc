@@ -140,6 +140,39 @@ TEST(Trial, TellsOtherEntropiesOfTheSameReadings) {
   EXPECT_LT(record->other_entropies->propagated_nats, record->curve.back().metrics.entropy_nats);
 }
 
+TEST(Trial, MapsTheSameReadingsInASecondField) {
+  const SceneWorld world(SmallScene());
+  MissionOptions mission = MissionBy("xit_gff");
+  Trial trial = SmallTrial(mission, world);
+  EXPECT_FALSE(RunTrial(trial)->second_field.has_value());
+  trial.second_field = mission.gas;
+  const auto same = RunTrial(trial);
+  ASSERT_TRUE(same.ok() && same->second_field.has_value()) << same.status();
+  const MapMetrics& own = same->curve.back().metrics;
+  EXPECT_NEAR(same->second_field->rmse_ppm, own.rmse_ppm, 1e-3 * own.rmse_ppm);
+  EXPECT_NEAR(same->second_field->entropy_nats, own.entropy_nats, 1e-3 * own.critical_cells);
+  EXPECT_EQ(same->second_field->completeness, own.completeness);
+  trial.second_field = PublishedGasOptions();
+  const auto other = RunTrial(trial);
+  ASSERT_TRUE(other.ok()) << other.status();
+  EXPECT_EQ(other->curve.back().metrics.rmse_ppm, own.rmse_ppm) << "it is mapped alone";
+  EXPECT_GT(std::abs(other->second_field->rmse_ppm - own.rmse_ppm), 1e-2 * own.rmse_ppm);
+}
+
+TEST(Trial, RobotsMayLeaveTheLagToTheMission) {
+  const SceneWorld world(SmallScene());
+  MissionOptions mission = MissionBy("xit_gff");
+  Trial trial = SmallTrial(mission, world);
+  const auto undone = RunTrial(trial);
+  trial.robot.leaves_lag_to_mission = true;
+  trial.second_field = mission.gas;
+  const auto left = RunTrial(trial);
+  ASSERT_TRUE(undone.ok() && left.ok()) << left.status();
+  EXPECT_NE(left->curve.back().metrics.rmse_ppm, undone->curve.back().metrics.rmse_ppm);
+  EXPECT_NE(left->second_field->rmse_ppm, left->curve.back().metrics.rmse_ppm)
+      << "there each reading is at one place";
+}
+
 TEST(Trial, TeamsShareTheMission) {
   const SceneWorld world(SmallScene());
   const MissionOptions mission = MissionBy("plumescout");
