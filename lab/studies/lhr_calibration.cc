@@ -80,9 +80,10 @@ TextTable MakeTable(const std::vector<Pair>& pairs) {
   return table;
 }
 
-void AddPair(const Pair& pair, const SamplingPlan& plan,
-             const std::vector<std::vector<SamplingDrive>>& drives, TextTable& table,
-             Summary& summary) {
+// Tells the sum of squared logarithms.
+double AddPair(const Pair& pair, const SamplingPlan& plan,
+               const std::vector<std::vector<SamplingDrive>>& drives, TextTable& table,
+               Summary& summary) {
   const LhrUnstated& unstated = pair.unstated;
   std::vector<std::string>& cells = table.rows.emplace_back();
   cells = {absl::StrFormat("%g", unstated.prior_precision_per_ppm2),
@@ -103,6 +104,12 @@ void AddPair(const Pair& pair, const SamplingPlan& plan,
   summary.figures.emplace_back(
       absl::StrFormat("prior_%g_beta_%g_sum", unstated.prior_precision_per_ppm2, unstated.beta),
       sum);
+  return sum;
+}
+
+std::string Told(const LhrUnstated& unstated, double sum) {
+  return absl::StrFormat("λ_p = %g, β = %g: %.3f", unstated.prior_precision_per_ppm2, unstated.beta,
+                         sum);
 }
 
 }  // namespace
@@ -127,7 +134,14 @@ absl::StatusOr<Study> RunLhrCalibration(const ExperimentOptions& options) {
       "distances and of times. Table II is then made with it in other worlds.",
       plan.cases.size(), plan.worlds.size())};
   TextTable table = MakeTable(pairs);
-  for (const Pair& pair : pairs) AddPair(pair, plan, drives, table, study.summary);
+  std::vector<double> sums;
+  for (const Pair& pair : pairs) {
+    sums.push_back(AddPair(pair, plan, drives, table, study.summary));
+  }
+  const auto nearest = std::min_element(sums.begin(), sums.end());
+  const LhrUnstated& chosen = pairs[static_cast<std::size_t>(nearest - sums.begin())].unstated;
+  study.figures.key_numbers = {{"Nearest to the paper", Told(chosen, *nearest)},
+                               {"Pairs tried", absl::StrCat(pairs.size())}};
   study.figures.tables = {std::move(table)};
   study.table = MakeDriveTable(plan, drives);
   study.summary.about = AboutThisRun(options.seed);

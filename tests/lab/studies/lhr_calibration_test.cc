@@ -28,7 +28,9 @@ TEST(LhrCalibration, ComparesPairsWithThePaperAndSharesTheRowsThatBetaDoesNotCha
   EXPECT_THAT(table.rows, Each(SizeIs(table.columns.size())));
   EXPECT_EQ(table.rows[0][2], table.rows[1][2]);  // LHR, mean
   EXPECT_NE(table.rows[0][3], table.rows[1][3]);  // LHR, UCB
-  EXPECT_THAT(study->table.rows, SizeIs(6));      // drives: two by the mean, four by UCB
+  ASSERT_THAT(study->figures.key_numbers, SizeIs(2));
+  EXPECT_EQ(study->figures.key_numbers[1].second, "2");
+  EXPECT_THAT(study->table.rows, SizeIs(6));  // drives: two by the mean, four by UCB
   EXPECT_THAT(study->summary.figures,
               UnorderedElementsAre(Key("prior_5_beta_1_sum"), Key("prior_5_beta_2_sum")));
 }
