@@ -305,6 +305,8 @@ void GasMap::Publish() const {
   const bool is_beside = !beside.mean_ppm.empty();
   if (options_.estimate_noise) {
     FieldFit fit = FitOf(*engine_, lattice_, inputs_, options_);
+    // Offsets explain as much of each cell's part.
+    if (fit.energy > 0.0) fit.level_energy *= std::max(0.0, 1.0 - beside.explained / fit.energy);
     fit.energy -= beside.explained;
     noise_ = NoiseOf(fit, prior_scale_);
   }
@@ -316,7 +318,8 @@ void GasMap::Publish() const {
       deviation += beside.mean_ppm[index];
       variance += beside.variance_ppm2[index];
     }
-    const GasEstimate gas = OffScale(options_, deviation, noise_.scale * variance);
+    const GasEstimate gas =
+        OffScale(options_, deviation, noise_.Of(options_, deviation) * variance);
     mean_ppm_[i] = static_cast<float>(gas.median_ppm);
     variance_ppm2_[i] = static_cast<float>(prior_scale_.theta * variance);
     if (has_own_errors()) error_variance_ppm2_[i] = static_cast<float>(gas.variance_ppm2);
@@ -367,6 +370,7 @@ GasQuality GasMap::quality() const {
   GasQuality quality = quality_;
   quality.noise_scale = noise_.scale;
   quality.noise_log_stddev = noise_.log_stddev;
+  quality.clean_air_scale = noise_.Of(options_, 0.0);
   quality.prior_precision_scale = prior_scale_.theta;
   quality.prior_precision_log_stddev = prior_scale_.log_stddev;
   return quality;

@@ -162,6 +162,7 @@ void GasMap::VisitState(Archive& archive, Self& self) {
     archive(self.has_field());
     if (self.has_field()) HashField(archive, *self.engine_);
     if (self.options_.estimate_noise) archive(self.noise_scale());
+    if (HasNoiseByLevel(self.options_)) archive(self.quality().clean_air_scale);
   } else if constexpr (Archive::kReads) {
     const GasLattice& lattice = self.lattice_;
     const bool is_lattice = IsNearOrigin(lattice.x0) && IsNearOrigin(lattice.y0) &&

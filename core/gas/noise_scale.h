@@ -3,6 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+
+#include "core/types/options.h"
 
 namespace plumescout {
 
@@ -15,6 +18,8 @@ struct FieldFit {
   // How many readings there are; those that are less precise than the mission's count for as much
   // less.
   double readings = 0.0;
+  // `energy` with the part of each cell over LevelScale of its deviation.
+  double level_energy = 0.0;
 };
 
 // By what factor variances are larger than the model says: that all its precisions are wrong alike
@@ -25,9 +30,33 @@ inline double NoiseScale(const FieldFit& fit) {
   return std::max(1.0, (2.0 + std::max(0.0, fit.energy)) / (2.0 + fit.readings));
 }
 
+// Errors are larger where there is more gas, by what one scale for the whole field cannot say: gas
+// comes and goes where there is some. So the variance of a cell with the field's deviation d grows
+// by this, found in missions that were simulated (docs/decisions/0032-noise-by-level.md); the root
+// of lambda_p takes the unit away.
+inline double LevelScale(const GasOptions& gas, double deviation_ppm) {
+  constexpr double kPerLevel = 13.0;
+  constexpr double kCleanAir = 0.5;
+  return kPerLevel *
+         (kCleanAir + std::sqrt(gas.prior_precision_per_ppm2) * std::abs(deviation_ppm));
+}
+
+// Whether variances are scaled by it, cell by cell.
+inline bool HasNoiseByLevel(const GasOptions& gas) {
+  return gas.noise_by_level && gas.estimate_noise && gas.scale == GasScale::kLinear &&
+         gas.precisions == GasPrecisions::kFixed;
+}
+
 struct NoiseEstimate {
   double scale = 1.0;
   double log_stddev = 0.0;  // of its logarithm, nearly; 0: not estimated
+  // By what factor variances are larger than LevelScale says: NoiseScale with `level_energy`.
+  double level_scale = 1.0;
+
+  // What the variance of a cell is scaled by.
+  double Of(const GasOptions& gas, double deviation_ppm) const {
+    return HasNoiseByLevel(gas) ? level_scale * LevelScale(gas, deviation_ppm) : scale;
+  }
 };
 
 }  // namespace plumescout

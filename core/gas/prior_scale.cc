@@ -45,7 +45,10 @@ FieldFit FitOf(const FieldEngine& field, const GasLattice& lattice, const GasInp
   double precision = 0.0;
   for (const CellEvidence& e : inputs.AllEvidence()) {
     const std::size_t cell = lattice.Index(GasCellOf(e.cell, inputs.factor()));
-    fit.energy += e.evidence.weighted_square - e.evidence.weighted_deviation * field.mean_ppm(cell);
+    const double mean_ppm = field.mean_ppm(cell);
+    const double energy = e.evidence.weighted_square - e.evidence.weighted_deviation * mean_ppm;
+    fit.energy += energy;
+    fit.level_energy += energy / LevelScale(gas, mean_ppm);
     precision += e.evidence.precision;
   }
   fit.readings = std::min(static_cast<double>(inputs.counters().in_posterior),
@@ -89,7 +92,8 @@ PriorScale Improved(const PriorScale& now, const PriorFit& fit, std::int64_t rea
 NoiseEstimate NoiseOf(const FieldFit& fit, const PriorScale& prior) {
   // Of an inverse gamma distribution ln s has the variance psi'(a), nearly 1 / (a - 1/2).
   const double log_stddev = 1.0 / std::sqrt(1.5 + 0.5 * fit.readings);
-  return {std::max(NoiseScale(fit), prior.theta), log_stddev};
+  return {std::max(NoiseScale(fit), prior.theta), log_stddev,
+          NoiseScale({.energy = fit.level_energy, .readings = fit.readings})};
 }
 
 GasOptions WithPriorScale(GasOptions gas, const PriorScale& prior) {

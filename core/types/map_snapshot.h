@@ -62,14 +62,17 @@ struct GasQuality {
   std::int64_t failures = 0;          // refreshes and adoptions of which no field came
   double drift_mean_ppm = 0.0;        // largest found at the last adoption
   double drift_variance_ratio = 0.0;
-  // What published variances are scaled by, for readings fit the field that much worse than its
-  // precisions say; 1: not worse, or not estimated.
+  // How much worse readings fit the field than its precisions say, which is what published
+  // variances are scaled by unless that grows with the concentration; 1: not worse, or not
+  // estimated.
   double noise_scale = 1.0;
   double noise_log_stddev = 0.0;  // of ln noise_scale; 0 if that is not estimated
   // What lambda_p and lambda_d are of those of the options, in a field whose variances are scaled
   // by noise_scale; 1: given.
   double prior_precision_scale = 1.0;
   double prior_precision_log_stddev = 0.0;  // of its logarithm; 0 if it is not learned
+  // What published variances of clean air are scaled by.
+  double clean_air_scale = 1.0;
 
   friend bool operator==(const GasQuality&, const GasQuality&) = default;
 };

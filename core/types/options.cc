@@ -203,6 +203,7 @@ GasOptions PublishedGasOptions() {
   GasOptions gas;
   gas.observation_precision_per_ppm2 = 10.0;
   gas.background_precision_per_ppm2 = 0.001;
+  gas.noise_by_level = false;
   return gas;
 }
 

@@ -64,13 +64,17 @@ struct GasOptions {
   // Whether the variances that are published are scaled by how well readings fit the field (see
   // NoiseScale). Plans go by those of the model.
   bool estimate_noise = true;
+  // Whether that scale grows with the concentration (LevelScale). Only where noise is estimated, of
+  // linear fields with fixed precisions; others have one scale.
+  bool noise_by_level = true;
   // Whether lambda_p and lambda_d, in their ratio, follow from the readings
   // (core/gas/prior_scale.h); those above are then where that begins. Learned ones need
   // estimate_noise.
   GasPrecisions precisions = GasPrecisions::kFixed;
 };
 
-// The same with the precisions of [XIT] Table I: lambda_o = 10, lambda_d = 0.001.
+// The same with the precisions of [XIT] Table I, lambda_o = 10 and lambda_d = 0.001, and one scale
+// of noise.
 GasOptions PublishedGasOptions();
 
 inline constexpr int kMostLatticeFactor = 16;

@@ -107,8 +107,8 @@ void Visit(auto& archive, ConstOr<GasCounters> auto& counters) {
 void Visit(auto& archive, ConstOr<GasQuality> auto& quality) {
   auto& [mean_error_ppm, variance_error_ratio, aged_to_ns, ageing_error_ratio, refreshes, epochs,
          healed, failures, drift_mean_ppm, drift_variance_ratio, noise_scale, noise_log_stddev,
-         prior_precision_scale, prior_precision_log_stddev] = quality;
-  // The last four follow from the field.
+         prior_precision_scale, prior_precision_log_stddev, clean_air_scale] = quality;
+  // The last five follow from the field.
   archive(mean_error_ppm, variance_error_ratio, aged_to_ns, ageing_error_ratio, refreshes, epochs,
           healed, failures, drift_mean_ppm, drift_variance_ratio);
 }

@@ -65,8 +65,8 @@ MapMetrics MapEvaluator::Evaluate(const MapSnapshot& map) const {
   double squares_zero = 0.0;
   double entropy = critical_.empty() ? std::numeric_limits<double>::quiet_NaN() : 0.0;
   const GasQuality& quality = map.gas_quality;
-  const Estimate prior{ambient_ppm_,
-                       prior_variance_ppm2_ * quality.noise_scale / quality.prior_precision_scale};
+  const Estimate prior{
+      ambient_ppm_, prior_variance_ppm2_ * quality.clean_air_scale / quality.prior_precision_scale};
   for (const CriticalCell& cell : critical_) {
     const Estimate estimate = EstimateAt(map, cell.center, prior);
     const double error = estimate.mean_ppm - cell.truth_ppm;

@@ -50,6 +50,12 @@ GasOptions Gas(double prior_precision, double background_precision, GasScale sca
   return gas;
 }
 
+GasOptions OneScale() {
+  GasOptions gas;
+  gas.noise_by_level = false;
+  return gas;
+}
+
 GasOptions Learned(double prior_precision, double background_precision, GasScale scale) {
   GasOptions gas = Gas(prior_precision, background_precision, scale, true);
   gas.precisions = GasPrecisions::kLearned;
@@ -65,7 +71,8 @@ std::vector<Model> Models() {
           {"points_root", "points, roots", false, Gas(0.3, 9e-4, kRoot, true)},
           {"way_as_is", "way, linear, precisions as they are", true, Gas(3.0, 1e-3, kLinear, true)},
           // The ratios of (0.3, 9e-4) with lambda_o = 10, so the same means.
-          {"way_linear", "way, linear, as by default", true, GasOptions{}},
+          {"way_linear", "way, linear, one scale of noise", true, OneScale()},
+          {"way_level", "way, linear, as by default", true, GasOptions{}},
           {"way_root", "way, roots", true, Gas(0.3, 3e-4, kRoot, true)},
           {"learned", "points, linear, learned", false, Learned(3.0, 1e-3, kLinear)},
           {"way_learned", "way, linear, learned", true, Learned(3.0, 1e-3, kLinear)},

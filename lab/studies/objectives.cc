@@ -90,8 +90,9 @@ absl::StatusOr<Outcome> Drive(const SceneWorld& world, const Row& row, std::uint
   options.mission = "objective";
   options.create = strategy.mission;
   options.create->seed = seed;
-  options.create->gas.estimate_noise = true;   // what is promised is by the variances told
+  options.create->gas = GasOptions{};          // what is promised is by the variances told
   options.create->gas.refresh_period_s = 1.0;  // as often as objectives are assessed
+  options.mission_corrects_lag = true;
   options.create->objective = {
       .kind = row.kind, .threshold_ppm = kThreshold_ppm, .deadline_s = row.deadline_s};
   options.duration_s = duration_s;

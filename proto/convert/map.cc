@@ -237,7 +237,9 @@ GasQuality FromProto(const v1::GasQuality& proto) {
           .noise_scale = proto.noise_ratio(),
           .noise_log_stddev = proto.noise_log_stddev(),
           .prior_precision_scale = proto.prior_precision_ratio(),
-          .prior_precision_log_stddev = proto.prior_precision_log_stddev()};
+          .prior_precision_log_stddev = proto.prior_precision_log_stddev(),
+          .clean_air_scale = proto.clean_air_noise_ratio() > 0.0 ? proto.clean_air_noise_ratio()
+                                                                 : proto.noise_ratio()};
 }
 
 GasAudits AuditsFromProto(const v1::GasQuality& proto) {
@@ -267,6 +269,7 @@ v1::GasQuality ToProto(const GasQuality& quality, const GasAudits& audits) {
   proto.set_noise_log_stddev(quality.noise_log_stddev);
   proto.set_prior_precision_ratio(quality.prior_precision_scale);
   proto.set_prior_precision_log_stddev(quality.prior_precision_log_stddev);
+  proto.set_clean_air_noise_ratio(quality.clean_air_scale);
   return proto;
 }
 

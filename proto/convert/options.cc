@@ -46,6 +46,7 @@ void Visit(OneOf<GasOptions> auto& options, auto& field) {
   field("field_reach_m", options.field_reach_m);
   field("scale", options.scale);
   field("estimate_noise", options.estimate_noise);
+  field("noise_by_level", options.noise_by_level);
   field("precisions", options.precisions);
 }
 

@@ -88,6 +88,65 @@ TEST(NoiseScaleTest, AFieldKnowsTheEnergyOfItsReadings) {
   }
 }
 
+TEST(NoiseScaleTest, LevelsHaveTheUnitOfTheField) {
+  GasOptions gas;
+  EXPECT_EQ(LevelScale(gas, 0.0), 6.5);
+  EXPECT_NEAR(LevelScale(gas, 10.0), 13.0 * (0.5 + 10.0 * std::sqrt(3.0)), 1e-12);
+  EXPECT_EQ(LevelScale(gas, -10.0), LevelScale(gas, 10.0));
+  const double in_ppm = LevelScale(gas, 10.0);
+  gas.prior_precision_per_ppm2 *= 1e-6;  // the same gas in ppb
+  EXPECT_NEAR(LevelScale(gas, 10.0e3), in_ppm, 1e-9);
+}
+
+TEST(NoiseScaleTest, IsByLevelWhereFieldsAreLinearAndPrecisionsGiven) {
+  EXPECT_TRUE(HasNoiseByLevel(GasOptions{}));
+  EXPECT_FALSE(HasNoiseByLevel(PublishedGasOptions()));
+  GasOptions gas;
+  gas.estimate_noise = false;
+  EXPECT_FALSE(HasNoiseByLevel(gas));
+  gas = {};
+  gas.scale = GasScale::kSquareRoot;
+  EXPECT_FALSE(HasNoiseByLevel(gas));
+  gas = {};
+  gas.precisions = GasPrecisions::kLearned;
+  EXPECT_FALSE(HasNoiseByLevel(gas));
+  EXPECT_EQ((NoiseEstimate{.scale = 3.0, .level_scale = 2.0}).Of(gas, 5.0), 3.0);
+  EXPECT_EQ((NoiseEstimate{.scale = 3.0, .level_scale = 2.0}).Of({}, 0.0), 13.0);
+}
+
+// By the means of a dense solution: each reading's part of the energy is lambda z (z - m).
+TEST(NoiseScaleTest, VariancesGrowWithTheLevelAndWithWhatReadingsSayBeside) {
+  Rng rng(3);
+  const Grid<CellState> states = testing::RandomStates(14, 12, 0.2, rng);
+  std::vector<DenseReading> readings = testing::RandomReadings(states, 40, rng);
+  for (const double times : {1.0, 20.0}) {
+    for (DenseReading& reading : readings) reading.concentration_ppm *= times;
+    GasOptions gas;
+    gas.background_mean_ppm = 3.0;
+    GasMap map(gas);
+    Add(readings, states, map);
+    ASSERT_TRUE(map.Refresh(states, 0).ok());
+    const DenseField dense(states, readings, gas);
+    double energy = 0.0;
+    double weights = 0.0;
+    for (const DenseReading& r : readings) {
+      const auto cell = std::find(dense.cells().begin(), dense.cells().end(), r.cell);
+      const double mean = dense.mean_ppm()(cell - dense.cells().begin());
+      const double z = r.concentration_ppm - 3.0;
+      energy += r.precision * z * (r.concentration_ppm - mean) / LevelScale(gas, mean - 3.0);
+      weights += r.precision / gas.observation_precision_per_ppm2;
+    }
+    const double beside = NoiseScale({.energy = energy, .readings = std::min(40.0, weights)});
+    EXPECT_NEAR(map.quality().clean_air_scale, 6.5 * beside, 1e-3 * beside);
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      if (states[i] != CellState::kFree) continue;
+      const double expected =
+          beside * LevelScale(gas, map.mean_ppm()[i] - 3.0) * map.variance_ppm2()[i];
+      EXPECT_NEAR(map.error_variance_ppm2()[i], expected, 1e-3 * expected);
+    }
+  }
+}
+
 TEST(NoiseScaleTest, IsNotEstimatedUnlessAskedFor) {
   GasOptions fixed = PublishedGasOptions();
   fixed.estimate_noise = false;
@@ -100,7 +159,9 @@ TEST(NoiseScaleTest, IsNotEstimatedUnlessAskedFor) {
 
 TEST(NoiseScaleTest, OddReadingsNeverMakeAFieldSurer) {
   for (const double ppm : {0.0, 50.0}) {
-    GasMap map(Estimated());
+    GasOptions options = Estimated();
+    options.noise_by_level = ppm > 0.0;
+    GasMap map(options);
     GasMap plain{PublishedGasOptions()};
     for (int k = 0; k < 200; ++k) {
       const Point2 place{0.05 + 0.1 * (k % 8), 0.05 + 0.1 * (k / 8 % 8)};

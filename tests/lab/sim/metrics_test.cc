@@ -116,7 +116,7 @@ TEST(MetricsTest, FindsCellsByPositionOnAnotherGrid) {
 TEST(MetricsTest, NoiseThatTheMapEstimatesIsAlsoWhereItHasNoEstimate) {
   const Scene scene = MakeScene();
   MapSnapshot map = BlankMap(scene.geometry());
-  map.gas_quality.noise_scale = 40.0;
+  map.gas_quality.clean_air_scale = 40.0;
   const MapMetrics metrics = Evaluate(scene, map);
   EXPECT_NEAR(metrics.entropy_nats, 2.0 * Entropy(40.0 * kPriorVariance_ppm2), kRounding);
 }

@@ -20,12 +20,12 @@ TEST(FieldModel, TellsOfEveryModelHowFarItIsFromTheTruth) {
   const auto study = RunFieldModel(SmallStudy(folder));
   ASSERT_TRUE(study.ok()) << study.status();
   ASSERT_THAT(study->figures.tables, SizeIs(1));
-  EXPECT_THAT(study->figures.tables[0].rows, SizeIs(9));
+  EXPECT_THAT(study->figures.tables[0].rows, SizeIs(10));
   for (const auto& row : study->figures.tables[0].rows) {
     EXPECT_EQ(row.size(), study->figures.tables[0].columns.size());
   }
-  EXPECT_THAT(study->table.rows, SizeIs(2 * 9));  // two strategies
-  EXPECT_THAT(study->table.labels, SizeIs(2 * 9));
+  EXPECT_THAT(study->table.rows, SizeIs(2 * 10));  // two strategies
+  EXPECT_THAT(study->table.labels, SizeIs(2 * 10));
   EXPECT_THAT(study->summary.figures,
               Contains(std::pair<std::string, double>("plain_rmse_ratio", 1.0)));
   EXPECT_THAT(study->summary.figures, Contains(Key("way_root_within_2_sigma")));

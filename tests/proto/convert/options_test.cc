@@ -73,6 +73,7 @@ MissionOptions Unlike() {
   options.gas.audit_period_epochs = 7;
   options.gas.scale = GasScale::kSquareRoot;
   options.gas.estimate_noise = false;
+  options.gas.noise_by_level = false;
   options.keep_out = {{{{1, 2}, {3, 4}, {5, 7}}, "spill"}, {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}};
   options.gas_species = {{"methane", {}, {}, {}, {}}, {"ozone", 30.0, {}, 0.5, 0.25}};
   options.home = Point2{-1.0, 2.0};
@@ -99,6 +100,7 @@ TEST(OptionsTest, OptionsSurviveTheRoundTrip) {
   EXPECT_EQ(back->gas.audit_period_epochs, 7);
   EXPECT_EQ(back->gas.scale, GasScale::kSquareRoot);
   EXPECT_FALSE(back->gas.estimate_noise);
+  EXPECT_FALSE(back->gas.noise_by_level);
   EXPECT_EQ(back->frontier.fixed_gas_threshold_ppm, 4.0);
   EXPECT_EQ(back->keep_out, Unlike().keep_out);
   EXPECT_EQ(back->gas_species, Unlike().gas_species);
@@ -290,6 +292,13 @@ TEST(OptionsTest, JournalsThatDoNotNameTheNoiseOfMapsDidNotEstimateIt) {
   };
   EXPECT_FALSE(of(v1::MissionOptions()));
   EXPECT_TRUE(of(ToProto(MissionOptions())));
+}
+
+TEST(OptionsTest, JournalsThatDoNotNameNoiseByLevelHadOneScale) {
+  v1::MissionOptions proto;
+  proto.mutable_gas()->set_estimate_noise(true);
+  EXPECT_FALSE(FromProto(proto, RecordedDefaults(), "options")->gas.noise_by_level);
+  EXPECT_TRUE(FromProto(proto, MissionOptions(), "options")->gas.noise_by_level);
 }
 
 }  // namespace options_test
