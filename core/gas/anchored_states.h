@@ -28,9 +28,10 @@ class AnchoredStates {
     const Cell cell = states_.geometry().CellAtIndex(index);
     return {cell.x + corner_.x, cell.y + corner_.y};
   }
+  // A cell of states(), or beside it.
+  Cell CellAt(AnchorCell cell) const { return {cell.x - corner_.x, cell.y - corner_.y}; }
   bool IsFree(AnchorCell cell) const {
-    return states_.At({cell.x - corner_.x, cell.y - corner_.y}, CellState::kUnknown) ==
-           CellState::kFree;
+    return states_.At(CellAt(cell), CellState::kUnknown) == CellState::kFree;
   }
 
   // visit(index into states(), AnchorCell) of each free cell, in order: what At says of all of

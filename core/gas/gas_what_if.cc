@@ -22,17 +22,22 @@ absl::StatusOr<Grid<float>> GasWhatIf::VarianceIfRead(std::span<const Cell> cell
   return OnMap([&](std::size_t cell) { return variance_ppm2[cell]; });
 }
 
-absl::StatusOr<std::optional<InverseColumns>> GasWhatIf::ColumnsIfRead(std::span<const Cell> cells,
-                                                                       double precision,
-                                                                       const StopFn& stop) const {
+absl::StatusOr<std::optional<InverseColumns>> GasWhatIf::ColumnsIfRead(
+    std::span<const Cell> cells, double precision, const StopFn& stop,
+    std::optional<InverseColumns> used) const {
   PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<std::size_t> read, FreeIndices(cells));
-  return field_.ColumnsIfRead(read, precision, stop);
+  return field_.ColumnsIfRead(read, precision, stop, std::move(used));
 }
 
-EntropyFall GasWhatIf::FallOf(std::span<const float> weights, const StopFn& stop) const {
+EntropyFall GasWhatIf::FallOf(std::span<const float> weights, const CellRect& cells,
+                              const StopFn& stop) const {
   std::vector<double> by_slot(lattice_.size(), 0.0);
-  const auto add = [&](std::size_t i, AnchorCell cell) {
-    by_slot[field_.slot(FieldIndex(cell))] += weights[i];
+  const auto width = static_cast<std::size_t>(cells.width());
+  const auto add = [&](std::size_t, AnchorCell at) {
+    const Cell cell = states_.CellAt(at);
+    const auto x = static_cast<std::size_t>(cell.x - cells.min.x);
+    const auto y = static_cast<std::size_t>(cell.y - cells.min.y);
+    by_slot[field_.slot(FieldIndex(at))] += weights[y * width + x];
   };
   states_.ForEachFree(add, stop);
   return field_.FallOf(std::move(by_slot), beside_ppm2_, stop);

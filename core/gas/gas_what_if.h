@@ -14,6 +14,7 @@
 #include "core/gas/field/field_snapshot.h"
 #include "core/gas/gas_inputs.h"
 #include "core/gas/gas_lattice.h"
+#include "core/types/cell_rect.h"
 #include "core/types/grid.h"
 #include "core/types/stop.h"
 
@@ -41,7 +42,8 @@ class GasWhatIf {
         prior_scale_(prior_scale),
         beside_ppm2_(std::move(beside_ppm2)) {}
 
-  const GridGeometry& geometry() const { return states_.states().geometry(); }
+  const Grid<CellState>& states() const { return states_.states(); }
+  const GridGeometry& geometry() const { return states().geometry(); }
 
   // Marginal variance of every free cell if readings of `precision` (ppm^-2) each were taken in
   // `cells`, of geometry(), all at once; NaN off the free cells. Cells that are not free tell
@@ -50,12 +52,14 @@ class GasWhatIf {
   absl::StatusOr<Grid<float>> VarianceIfRead(std::span<const Cell> cells, double precision) const;
 
   // For EntropyFall: the columns of such readings, none if no cell is free, and what the free cells
-  // of geometry() weigh; that is of no use once `stop`, which is asked all along, says so. Both
-  // refer to this object. Errors: those of VarianceIfRead, and kCancelled once `stop` says so.
-  absl::StatusOr<std::optional<InverseColumns>> ColumnsIfRead(std::span<const Cell> cells,
-                                                              double precision,
-                                                              const StopFn& stop = {}) const;
-  EntropyFall FallOf(std::span<const float> weights, const StopFn& stop = {}) const;
+  // of geometry() weigh, all of which lie in `cells`, row by row; that is of no use once `stop`,
+  // which is asked all along, says so. Both refer to this object. Columns take the memory of those
+  // that are `used` no more. Errors: those of VarianceIfRead, and kCancelled once `stop` says so.
+  absl::StatusOr<std::optional<InverseColumns>> ColumnsIfRead(
+      std::span<const Cell> cells, double precision, const StopFn& stop = {},
+      std::optional<InverseColumns> used = std::nullopt) const;
+  EntropyFall FallOf(std::span<const float> weights, const CellRect& cells,
+                     const StopFn& stop = {}) const;
 
   // Itself once these readings have been taken, whatever they say: others are then worth what
   // they tell beside them. For cells and errors see VarianceIfRead. Cost: that, and for each

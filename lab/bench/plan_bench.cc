@@ -320,7 +320,7 @@ absl::Status MeasureScaling(int worlds, BenchSummary& summary) {
         rows[k].Add(result, c, d8, nullptr);
       }
       information_ms.push_back(MedianCpu_ms(3, [&] {
-        const ExpectedInformation information(c.world.belief);
+        ExpectedInformation information(c.world.belief);
         for (const auto& path : result.paths) {
           if (!path) continue;
           information.Of(ReadingCells(path->vertices, c.cost.geometry(), PlanningOptions{}));

@@ -48,7 +48,7 @@ absl::StatusOr<RobotId> RobotOf(const Belief& belief, const RobotId& asked) {
 // What the selection did not ask for, or did not need to know.
 void PriceInformation(const Belief& belief, const PlanningOptions& options, Plan& plan) {
   if (belief.gas_what_if == nullptr) return;
-  const ExpectedInformation information(belief);
+  ExpectedInformation information(belief);
   for (Candidate& candidate : plan.candidates) {
     if (candidate.expected_information_nats) continue;
     candidate.expected_information_nats =

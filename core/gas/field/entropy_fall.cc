@@ -84,7 +84,15 @@ class EntropyFall::Sum final : public InverseColumns::Visitor {
 EntropyFall::EntropyFall(const FieldFactor& factor, std::vector<double> variance_ppm2,
                          std::vector<double> weights, double tolerance_ppm2)
     : factor_(&factor),
-      variance_ppm2_(std::move(variance_ppm2)),
+      own_variance_ppm2_(std::move(variance_ppm2)),
+      variance_ppm2_(own_variance_ppm2_),
+      weights_(std::move(weights)),
+      tolerance_ppm2_(tolerance_ppm2) {}
+
+EntropyFall::EntropyFall(const FieldFactor& factor, std::span<const double> variance_ppm2,
+                         std::vector<double> weights, double tolerance_ppm2)
+    : factor_(&factor),
+      variance_ppm2_(variance_ppm2),
       weights_(std::move(weights)),
       tolerance_ppm2_(tolerance_ppm2) {}
 
@@ -109,23 +117,24 @@ void EntropyFall::FindBound(std::size_t node) {
   bound.first = boundary_weights_.size();
   if (front.boundary() == 0) return;  // never bounded
   slopes_.assign(front.cells.size(), 0.0);
+  double greatest_share = 0.0;
   for (std::size_t i = 0; i < front.own; ++i) {
     const double inverse = 1.0 / variance_ppm2_[front.cells[i]];
     const double weight = weights_[front.cells[i]];
     const double row_sum = front.weight_sums[i];
     slopes_[i] = weight * inverse;
     const double share = weight > 0.0 ? row_sum * row_sum * inverse : 0.0;
-    bound.greatest_share = std::max(bound.greatest_share, share);
+    greatest_share = std::max(greatest_share, share);
   }
   if (!place.is_leaf()) {
     for (const std::uint32_t child : place.children) {
-      const Front& below = factor_->front(child);
-      FindPlaces(below.boundary_cells(), front.cells, places_);
+      const std::span<const std::uint32_t> places = factor_->PlacesInParent(child);
       const double* const added = boundary_weights_.data() + bounds_[child].first;
-      for (std::size_t i = 0; i < places_.size(); ++i) slopes_[places_[i]] += added[i];
-      bound.greatest_share = std::max(bound.greatest_share, bounds_[child].greatest_share);
+      for (std::size_t i = 0; i < places.size(); ++i) slopes_[places[i]] += added[i];
+      greatest_share = std::max(greatest_share, bounds_[child].greatest_share);
     }
   }
+  bound.greatest_share = greatest_share;
   for (std::size_t i = 0; i < front.own; ++i) slopes_[i] *= front.weight_sums[i];
   front.AddTransposed({slopes_.data(), front.own}, scratch_, slopes_.data() + front.own);
   boundary_weights_.insert(boundary_weights_.end(),

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/gas/field/field_factor.h"
@@ -28,6 +29,11 @@ class EntropyFall {
   // Falls of the variance are left out as FieldSnapshot does. REQUIRES: `factor` outlives this.
   EntropyFall(const FieldFactor& factor, std::vector<double> variance_ppm2,
               std::vector<double> weights, double tolerance_ppm2);
+  // The same with variances that outlive this.
+  EntropyFall(const FieldFactor& factor, std::span<const double> variance_ppm2,
+              std::vector<double> weights, double tolerance_ppm2);
+  EntropyFall(EntropyFall&&) = default;
+  EntropyFall& operator=(EntropyFall&&) = default;
 
   // Nats. None if `stop`, which is asked all along, said so. Cost: that of the columns in every
   // active cell, less what readings hardly tell of.
@@ -48,7 +54,8 @@ class EntropyFall {
   void FindBound(std::size_t node);
 
   const FieldFactor* factor_;
-  std::vector<double> variance_ppm2_;
+  std::vector<double> own_variance_ppm2_;  // moves without its elements moving
+  std::span<const double> variance_ppm2_;
   std::vector<double> weights_;
   double tolerance_ppm2_;
   bool has_bounds_ = false;
@@ -58,7 +65,6 @@ class EntropyFall {
   // Of FindBound.
   std::vector<double> slopes_;  // of the cells of the present front
   std::vector<double> scratch_;
-  std::vector<std::uint32_t> places_;
 };
 
 }  // namespace plumescout

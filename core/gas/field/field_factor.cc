@@ -154,7 +154,6 @@ double FieldFactor::work() const {
 std::vector<PathStep> FieldFactor::StepsFrom(Slot slot) const {
   std::vector<PathStep> steps;
   std::vector<double> weights;  // of the cells of the front in the mean of the cell given them
-  std::vector<std::uint32_t> places;
   for (std::uint32_t node = tree_->owner(slot); node != SeparatorTree::kNone;
        node = tree_->nodes()[node].parent) {
     const Front& front = *fronts_[node];
@@ -166,7 +165,7 @@ std::vector<PathStep> FieldFactor::StepsFrom(Slot slot) const {
       weights[static_cast<std::size_t>(place - front.cells.begin())] = 1.0;
     } else {
       const PathStep& below = steps.back();
-      FindPlaces(fronts_[below.node]->boundary_cells(), front.cells, places);
+      const std::span<const std::uint32_t> places = PlacesInParent(below.node);
       for (std::size_t i = 0; i < places.size(); ++i) weights[places[i]] = below.boundary[i];
       step.mean_ppm = below.mean_ppm;
       step.variance_ppm2 = below.variance_ppm2;

@@ -25,6 +25,13 @@ class FieldFactor {
 
   const SeparatorTree& tree() const { return *tree_; }
   const Front& front(std::size_t node) const { return *fronts_[node]; }
+  // Which cells of its parent's front the boundary cells of a node are, that is not the root.
+  std::span<const std::uint32_t> PlacesInParent(std::size_t node) const {
+    const SeparatorTree::Node& parent = tree_->nodes()[tree_->nodes()[node].parent];
+    const std::span<const std::uint32_t> places = front(tree_->nodes()[node].parent).child_places;
+    const std::size_t size = front(node).boundary();
+    return parent.children[0] == node ? places.first(size) : places.last(size);
+  }
 
   // Eliminates the nodes anew whose flag is set. REQUIRES: ancestors of a flagged node are flagged;
   // at the first call all are. Returns false if `stop`, which is asked at every node, said so: then

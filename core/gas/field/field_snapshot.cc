@@ -48,9 +48,11 @@ absl::StatusOr<FieldSnapshot::Foreseen> FieldSnapshot::ActiveOf(
 // matrix in the middle, the rows of Z_C L^-T squared and summed. Mixed before they are continued
 // off the paths, the columns need no product over all cells.
 // kCancelled once `stop`, which is asked all along, says so. REQUIRES: some are read.
-absl::StatusOr<InverseColumns> FieldSnapshot::GainColumns(const Foreseen& readings,
-                                                          const StopFn& stop) const {
-  ReadingPaths paths(factor_, readings.slots, stop);
+absl::StatusOr<InverseColumns> FieldSnapshot::GainColumns(
+    const Foreseen& readings, const StopFn& stop, std::optional<InverseColumns> used) const {
+  std::optional<ReadingPaths> used_paths;
+  if (used) used_paths = (*std::move(used)).TakePaths();
+  ReadingPaths paths(factor_, readings.slots, stop, std::move(used_paths));
   if (Stops(stop)) return Cancelled();
   const std::size_t size = readings.slots.size();
   const std::size_t stride = PaddedRows(size);
@@ -63,7 +65,7 @@ absl::StatusOr<InverseColumns> FieldSnapshot::GainColumns(const Foreseen& readin
   FactorizeFront(matrix.data(), stride, size, size);
   std::vector<double> inverse(stride * size, 0.0);
   InvertLower(matrix.data(), stride, size, inverse.data(), stride);
-  InverseColumns columns(factor_, std::move(paths));
+  InverseColumns columns(factor_, std::move(paths), std::move(used));
   columns.Mix(std::move(inverse), stride);
   return columns;
 }
@@ -79,18 +81,22 @@ absl::StatusOr<std::vector<double>> FieldSnapshot::VarianceIfRead(
 }
 
 absl::StatusOr<std::optional<InverseColumns>> FieldSnapshot::ColumnsIfRead(
-    std::span<const std::size_t> cells, double precision, const StopFn& stop) const {
+    std::span<const std::size_t> cells, double precision, const StopFn& stop,
+    std::optional<InverseColumns> used) const {
   std::vector<ForeseenReading> readings;
   for (const std::size_t cell : cells) readings.push_back({cell, precision});
   if (readings.empty()) PLUMESCOUT_RETURN_IF_ERROR(CheckReading(factor_.tree(), {0, precision}));
   PLUMESCOUT_ASSIGN_OR_RETURN(const Foreseen foreseen, ActiveOf(readings));
   if (foreseen.slots.empty()) return std::nullopt;
-  PLUMESCOUT_ASSIGN_OR_RETURN(InverseColumns columns, GainColumns(foreseen, stop));
+  PLUMESCOUT_ASSIGN_OR_RETURN(InverseColumns columns, GainColumns(foreseen, stop, std::move(used)));
   return columns;
 }
 
 EntropyFall FieldSnapshot::FallOf(std::vector<double> weights, std::span<const double> beside_ppm2,
                                   const StopFn& stop) const {
+  if (beside_ppm2.empty()) {
+    return {factor_, std::span(variance_ppm2_), std::move(weights), tolerance_ppm2_};
+  }
   std::vector<double> variance_ppm2 = variance_ppm2_;
   InPieces(beside_ppm2.size(), stop, [&](std::size_t first, std::size_t end) {
     for (std::size_t cell = first; cell < end; ++cell) {

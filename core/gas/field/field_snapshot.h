@@ -45,11 +45,11 @@ class FieldSnapshot {
 
   // Columns of which |x|^2 is by how much that would lower the variance of each cell; none if no
   // cell is active. They refer to this snapshot. Errors: those of VarianceIfRead. Cost: that of the
-  // paths of the cells.
+  // paths of the cells. They take the memory of columns that are `used` no more.
   // kCancelled once `stop`, which is asked all along, says so.
-  absl::StatusOr<std::optional<InverseColumns>> ColumnsIfRead(std::span<const std::size_t> cells,
-                                                              double precision,
-                                                              const StopFn& stop = {}) const;
+  absl::StatusOr<std::optional<InverseColumns>> ColumnsIfRead(
+      std::span<const std::size_t> cells, double precision, const StopFn& stop = {},
+      std::optional<InverseColumns> used = std::nullopt) const;
   // For such columns. `weights` >= 0 by slot, and what each variance has beside that of the field,
   // by cell index, if anything. Refers to this snapshot. Of no use once `stop`, which is asked all
   // along, says so.
@@ -78,7 +78,9 @@ class FieldSnapshot {
 
   bool IsActive(Slot slot) const { return variance_ppm2_[slot] > 0.0; }  // not NaN
   absl::StatusOr<Foreseen> ActiveOf(std::span<const ForeseenReading> readings) const;
-  absl::StatusOr<InverseColumns> GainColumns(const Foreseen& readings, const StopFn& stop) const;
+  absl::StatusOr<InverseColumns> GainColumns(
+      const Foreseen& readings, const StopFn& stop,
+      std::optional<InverseColumns> used = std::nullopt) const;
   std::vector<double> ByCell(const std::vector<double>& by_slot, const StopFn& stop) const;
 
   FieldFactor factor_;

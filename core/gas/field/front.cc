@@ -158,15 +158,19 @@ void Front::SumWeights() {
 
 const double* Front::Weights(std::vector<double>& scratch) const {
   if (couplings.empty()) return weights.data();
-  scratch.assign(own * boundary() + kRowTile, 0.0);
+  scratch.resize(std::max(scratch.size(), own * boundary() + kRowTile));
   for (const Coupling& coupling : couplings) {
     double* const column = scratch.data() + coupling.boundary * own;
     const double* value = covariance.data() + coupling.own;  // along the row of C to its diagonal
+    const auto write = [&](std::size_t i) {
+      const double weight = coupling_precision * *value;
+      column[i] = coupling.is_first ? weight : column[i] + weight;
+    };
     for (std::size_t i = 0; i < coupling.own; ++i) {
-      column[i] += coupling_precision * *value;
+      write(i);
       value += own - i - 1;
     }
-    for (std::size_t i = coupling.own; i < own; ++i) column[i] += coupling_precision * *value++;
+    for (std::size_t i = coupling.own; i < own; ++i, ++value) write(i);
   }
   return scratch.data();
 }
@@ -177,6 +181,7 @@ void Front::Prefetch() const {
   PrefetchBytes(weights.data(), weights.size() * sizeof(double));
   PrefetchBytes(couplings.data(), couplings.size() * sizeof(Coupling));
   PrefetchBytes(weight_sums.data(), weight_sums.size() * sizeof(double));
+  PrefetchBytes(child_places.data(), child_places.size() * sizeof(std::uint32_t));
 }
 
 double Front::work() const {
@@ -210,6 +215,7 @@ std::shared_ptr<Front> WithoutMessage(const Front& front) {
   copy->coupling_precision = front.coupling_precision;
   copy->offset_ppm = front.offset_ppm;
   copy->weight_sums = front.weight_sums;
+  copy->child_places = front.child_places;
   return copy;
 }
 
@@ -238,16 +244,6 @@ std::shared_ptr<const Front> AfterReading(const Front& front, const PathStep& st
     for (std::size_t i = 0; i < own; ++i) *column++ -= factor * step.own[i];
   }
   return after;
-}
-
-void FindPlaces(std::span<const Slot> some, std::span<const Slot> all,
-                std::vector<std::uint32_t>& places) {
-  places.resize(some.size());
-  std::uint32_t place = 0;
-  for (std::size_t i = 0; i < some.size(); ++i) {
-    while (all[place] != some[i]) ++place;
-    places[i] = place;
-  }
 }
 
 }  // namespace plumescout

@@ -30,6 +30,7 @@ struct Front {
   struct Coupling {
     std::uint32_t own = 0;
     std::uint32_t boundary = 0;
+    bool is_first = true;  // of those of this cell of R, each of which has one
   };
 
   std::vector<Slot> cells;         // ascending: S, then R
@@ -42,6 +43,8 @@ struct Front {
   double coupling_precision = 0.0;  // lambda_p
   std::vector<double> offset_ppm;   // S
   std::vector<double> weight_sums;  // W 1
+  // Which of `cells` the boundary cells of the first child are, then those of the second.
+  std::vector<std::uint32_t> child_places;
   // The Schur complement on R as DominantFront keeps it, columns packed: below the diagonal, then
   // ground, then right-hand side. Absent after a reading.
   std::vector<double> message;
@@ -97,9 +100,5 @@ std::shared_ptr<Front> WithoutMessage(const Front& front);
 // right-hand side: all but the message, which needs an elimination. Cost: a copy.
 std::shared_ptr<const Front> AfterReading(const Front& front, const PathStep& step,
                                           double precision, double weighted_deviation);
-
-// Places of the ascending slots `some` among the ascending slots `all`, which hold them.
-void FindPlaces(std::span<const Slot> some, std::span<const Slot> all,
-                std::vector<std::uint32_t>& places);
 
 }  // namespace plumescout

@@ -73,10 +73,16 @@ void FrontBuilder::FindCells(const SeparatorTree::Node& node, const FieldCells& 
   for (std::size_t i = 0; i < front.cells.size(); ++i) {
     place_[front.cells[i]] = static_cast<std::uint32_t>(i);
   }
+  if (low == nullptr) return;
+  front.child_places.reserve(low->boundary() + high->boundary());
+  for (const Front* child : {low, high}) {
+    for (const Slot slot : child->boundary_cells()) front.child_places.push_back(place_[slot]);
+  }
 }
 
 void FrontBuilder::Couple(const FieldCells& cells, Front& front) {
   couplings_.clear();
+  is_coupled_.assign(front.boundary(), 0);
   front.coupling_precision = prior_.prior_precision_per_ppm2;
   for (std::uint32_t i = 0; i < front.own; ++i) {
     const Slot slot = front.cells[i];
@@ -84,7 +90,9 @@ void FrontBuilder::Couple(const FieldCells& cells, Front& front) {
       if (!cells.HasFactor(*tree_, slot, direction)) continue;
       const std::uint32_t place = place_[tree_->neighbours(slot)[direction]];
       if (place < front.own) continue;
-      couplings_.push_back({i, place - static_cast<std::uint32_t>(front.own)});
+      const std::uint32_t boundary = place - static_cast<std::uint32_t>(front.own);
+      couplings_.push_back({i, boundary, is_coupled_[boundary] == 0});
+      is_coupled_[boundary] = 1;
     }
   }
   front.couplings.assign(couplings_.begin(), couplings_.end());

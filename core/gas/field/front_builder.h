@@ -45,7 +45,8 @@ class FrontBuilder {
   // A front's own are made of these at once, for growing ones ask for memory again and again.
   std::vector<Slot> found_;
   std::vector<Front::Coupling> couplings_;
-  std::vector<double> matrix_;  // the front, rows: S, R, ground, right-hand side
+  std::vector<std::uint8_t> is_coupled_;  // by cell of the boundary
+  std::vector<double> matrix_;            // the front, rows: S, R, ground, right-hand side
   std::size_t rows_ = 0;
   std::size_t matrix_stride_ = 0;
   std::vector<double> transposed_inverse_;  // X^T

@@ -10,8 +10,15 @@
 
 namespace plumescout {
 
-InverseColumns::InverseColumns(const FieldFactor& factor, ReadingPaths paths)
-    : factor_(&factor), paths_(std::move(paths)), stride_(TileRows(paths_.cells())) {}
+InverseColumns::InverseColumns(const FieldFactor& factor, ReadingPaths paths,
+                               std::optional<InverseColumns> used)
+    : factor_(&factor), paths_(std::move(paths)), stride_(TileRows(paths_.cells())) {
+  if (!used) return;
+  blocks_ = std::move(used->blocks_);
+  weights_ = std::move(used->weights_);
+  left_ = std::move(used->left_);
+  lower_ = std::move(used->lower_);
+}
 
 void InverseColumns::Mix(std::vector<double> matrix, std::size_t stride) {
   mix_ = std::move(matrix);
@@ -58,7 +65,7 @@ void InverseColumns::DescendBelow(std::size_t node, std::size_t depth, bool on_p
   if (step == nullptr && front.boundary() == 0) return;
   if (blocks_.size() <= depth) blocks_.resize(depth + 1);
   Block& block = blocks_[depth];
-  block.squares.resize(std::max(block.squares.size(), front.cells.size()));
+  block.squares.For(front.cells.size());
   if (front.boundary() > 0) GatherSquares(front, node, depth);
   const std::span<const double> on_boundary = {block.squares.data() + front.own, front.boundary()};
   if (step == nullptr && !visitor.Enter(node, on_boundary)) return;
@@ -69,7 +76,7 @@ void InverseColumns::DescendBelow(std::size_t node, std::size_t depth, bool on_p
   if (step != nullptr) AddOwn(*step, front, block);
   for (std::size_t i = 0; i < front.own; ++i) {
     const double* const row = block.rows.data() + i * block.stride;
-    block.squares[i] = Dot(row, row, block.stride);
+    block.squares.data()[i] = Dot(row, row, block.stride);
   }
   visitor.Take(front.own_cells(), {block.squares.data(), front.own});
   if (place.is_leaf()) return;
@@ -80,9 +87,8 @@ void InverseColumns::DescendBelow(std::size_t node, std::size_t depth, bool on_p
 }
 
 void InverseColumns::GatherSquares(const Front& front, std::size_t node, std::size_t depth) {
-  FindPlaces(front.boundary_cells(), factor_->front(factor_->tree().nodes()[node].parent).cells,
-             place_);
-  const std::vector<double>& from = blocks_[depth - 1].squares;
+  place_ = factor_->PlacesInParent(node);
+  const double* const from = blocks_[depth - 1].squares.data();
   double* const to = blocks_[depth].squares.data() + front.own;
   for (std::size_t i = 0; i < front.boundary(); ++i) to[i] = from[place_[i]];
 }
@@ -91,8 +97,7 @@ void InverseColumns::GatherRows(const Front& front, std::size_t depth) {
   Block& block = blocks_[depth];
   const std::size_t stride = block.stride = depth == 0 ? stride_ : blocks_[depth - 1].stride;
   block.slack = depth == 0 ? slack_ : blocks_[depth - 1].slack;
-  block.rows.resize(std::max(block.rows.size(), front.cells.size() * stride));
-  double* to = block.rows.data() + front.own * stride;
+  double* to = block.rows.For(front.cells.size() * stride) + front.own * stride;
   for (std::size_t i = 0; i < front.boundary(); ++i, to += stride) {
     std::copy_n(blocks_[depth - 1].rows.data() + place_[i] * stride, stride, to);
   }
@@ -109,8 +114,7 @@ void InverseColumns::Compress(const Front& front, Block& block) {
   const double slack = block.slack / 2.0;
   const std::size_t most = stride - kRowTile;  // more would spare nothing
   const double* const rows = block.rows.data() + front.own * stride;
-  left_.assign(block.squares.begin() + static_cast<std::ptrdiff_t>(front.own),
-               block.squares.begin() + static_cast<std::ptrdiff_t>(front.cells.size()));
+  left_.assign(block.squares.data() + front.own, block.squares.data() + front.cells.size());
   lower_.assign(size * most, 0.0);
   for (std::size_t rank = 0; rank <= most; ++rank) {
     const auto longest = std::max_element(left_.begin(), left_.end());
@@ -139,7 +143,7 @@ void InverseColumns::Compress(const Front& front, Block& block) {
 // x_S = W x_R
 void InverseColumns::Continue(const Front& front, Block& block) {
   if (front.boundary() == 0 || front.own == 0) {
-    std::fill_n(block.rows.begin(), front.own * block.stride, 0.0);
+    std::fill_n(block.rows.data(), front.own * block.stride, 0.0);
     return;
   }
   Accumulate({.a = block.rows.data() + front.own * block.stride,

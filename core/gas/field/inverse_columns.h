@@ -4,11 +4,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/gas/field/field_factor.h"
 #include "core/gas/field/reading_paths.h"
+#include "core/linalg/room.h"
 #include "core/types/stop.h"
 
 namespace plumescout {
@@ -17,10 +20,13 @@ namespace plumescout {
 // what the cells that they are of add in the nodes on their paths.
 class InverseColumns {
  public:
-  // H^-1 e_i for each i of `paths`. REQUIRES: those are of `factor`, which outlives this.
-  InverseColumns(const FieldFactor& factor, ReadingPaths paths);
+  // H^-1 e_i for each i of `paths`. Takes the memory of those that are `used` no more. REQUIRES:
+  // `paths` are of `factor`, which outlives this.
+  InverseColumns(const FieldFactor& factor, ReadingPaths paths,
+                 std::optional<InverseColumns> used = std::nullopt);
 
   const ReadingPaths& paths() const { return paths_; }
+  ReadingPaths TakePaths() && { return std::move(paths_); }
 
   // Each row x (one element of each column) becomes M x. `matrix` is square and lower triangular,
   // by columns that lie `stride` >= PaddedRows(columns) apart and are 0 beyond its rows. REQUIRES:
@@ -50,10 +56,10 @@ class InverseColumns {
  private:
   // Of the cells of one front, own ones first.
   struct Block {
-    std::vector<double> rows;
-    std::vector<double> squares;  // by row
-    std::size_t stride = 0;       // of rows, 0 beyond the columns
-    double slack = 0.0;           // by which squares below may still be too small
+    Room rows;
+    Room squares;            // by row
+    std::size_t stride = 0;  // of rows, 0 beyond the columns
+    double slack = 0.0;      // by which squares below may still be too small
   };
 
   void DescendBelow(std::size_t node, std::size_t depth, bool on_path, Visitor& visitor);
@@ -71,8 +77,8 @@ class InverseColumns {
   std::vector<double> mix_;
   std::size_t mix_stride_ = 0;
 
-  std::vector<Block> blocks_;  // by depth
-  std::vector<std::uint32_t> place_;
+  std::vector<Block> blocks_;             // by depth
+  std::span<const std::uint32_t> place_;  // of the present boundary, in the block of the parent
   std::vector<double> weights_;
 
   // Of Compress.

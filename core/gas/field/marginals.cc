@@ -73,7 +73,7 @@ FieldShift Marginals::Visit(std::size_t node, std::size_t depth) {
   const Front& front = factor_->front(node);
   boundary_mean_.clear();
   if (front.boundary() > 0) {
-    GatherBoundary(front, factor_->front(place.parent), blocks_[depth - 1]);
+    GatherBoundary(front, factor_->PlacesInParent(node), blocks_[depth - 1]);
   }
   const BoundaryField boundary = {boundary_mean_, boundary_};
   if (dirty_[node] == 0) {
@@ -96,15 +96,15 @@ FieldShift Marginals::Visit(std::size_t node, std::size_t depth) {
 }
 
 // Z_RR, out of the parent's block, and m_R.
-void Marginals::GatherBoundary(const Front& front, const Front& parent, const Block& from) {
+void Marginals::GatherBoundary(const Front& front, std::span<const std::uint32_t> places,
+                               const Block& from) {
   const std::size_t size = front.boundary();
-  FindPlaces(front.boundary_cells(), parent.cells, place_);
   for (const Slot slot : front.boundary_cells()) boundary_mean_.push_back(mean_ppm_[slot]);
   boundary_.resize(size * size);
   for (std::size_t j = 0; j < size; ++j) {
-    const double* const column = from.values.data() + place_[j] * from.stride;
+    const double* const column = from.values.data() + places[j] * from.stride;
     for (std::size_t i = j; i < size; ++i) {
-      boundary_[j * size + i] = boundary_[i * size + j] = column[place_[i]];
+      boundary_[j * size + i] = boundary_[i * size + j] = column[places[i]];
     }
   }
 }

@@ -87,7 +87,7 @@ class Marginals {
   void PrefetchChildren(const SeparatorTree::Node& node,
                         void (BoundaryMemory::*prefetch)() const) const;
   FieldShift Visit(std::size_t node, std::size_t depth);
-  void GatherBoundary(const Front& front, const Front& parent, const Block& from);
+  void GatherBoundary(const Front& front, std::span<const std::uint32_t> places, const Block& from);
   void UpdateMean(const Front& front);
   void UpdateVariance(const Front& front);
   const double* FormCross(const Front& front);
@@ -116,8 +116,7 @@ class Marginals {
   std::vector<double> boundary_mean_;  // m_R
   std::vector<double> cross_;          // Z_SR = W Z_RR
   std::vector<double> own_;
-  std::vector<double> scratch_;       // of the weights of a leaf
-  std::vector<std::uint32_t> place_;  // of the boundary in the parent's block
+  std::vector<double> scratch_;  // of the weights of a leaf
 
   Hearing hearing_;
   std::vector<double> column_;  // x by slot, where it has been computed

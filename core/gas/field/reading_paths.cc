@@ -35,7 +35,8 @@ void Unpack(const Front& front, std::vector<double>& covariance) {
 }  // namespace
 
 ReadingPaths::ReadingPaths(const FieldFactor& factor, std::span<const Slot> slots,
-                           const StopFn& stop) {
+                           const StopFn& stop, std::optional<ReadingPaths> used) {
+  if (used) *this = *std::move(used);
   FindSteps(factor, slots);
   constexpr std::size_t kNodesPerStop = 8;
   for (std::size_t i = 0; i < steps_.size(); ++i) {
@@ -54,6 +55,7 @@ ReadingPaths::ReadingPaths(const FieldFactor& factor, std::span<const Slot> slot
 // A walk from cell to cell through the tree: a node is left once no later cell is in its subtree.
 void ReadingPaths::FindSteps(const FieldFactor& factor, std::span<const Slot> slots) {
   const std::vector<SeparatorTree::Node>& nodes = factor.tree().nodes();
+  steps_.clear();
   std::vector<Step> path;  // of the present cell, from the root
   std::vector<std::uint32_t> joining;
   std::size_t size = 0;
@@ -74,8 +76,7 @@ void ReadingPaths::FindSteps(const FieldFactor& factor, std::span<const Slot> sl
     for (std::size_t k = joining.size(); k-- > 0;) path.push_back({joining[k], i});
   }
   while (!path.empty()) leave(slots.size());
-  values_.assign(size, 0.0);
-  double* values = values_.data();
+  const double* values = values_.For(size);
   for (Step& step : steps_) {
     const Front& front = factor.front(step.node);
     step.own = values;
@@ -93,7 +94,7 @@ const ReadingPaths::Step* ReadingPaths::StepAt(std::size_t node) const {
 }
 
 ReadingPaths::Rows ReadingPaths::RowsOf(const Step& step, const Front& front) {
-  double* const own = values_.data() + (step.own - std::as_const(values_).data());
+  double* const own = values_.data() + (step.own - values_.data());
   return {own, own + front.own * step.stride(), own + front.cells.size() * step.stride()};
 }
 
@@ -101,6 +102,7 @@ ReadingPaths::Rows ReadingPaths::RowsOf(const Step& step, const Front& front) {
 void ReadingPaths::TakeLeaf(const Front& front, std::span<const Slot> slots, const Step& step) {
   const Rows to = RowsOf(step, front);
   const std::size_t stride = step.stride();
+  std::fill_n(to.own, (front.cells.size() + step.cells) * stride, 0.0);
   for (std::size_t j = 0; j < step.cells; ++j) {
     const std::size_t place = PlaceAmong(front.own_cells(), slots[step.first + j]);
     for (std::size_t s = 0; s < front.own; ++s) {
@@ -124,16 +126,16 @@ void ReadingPaths::GatherWeights(const FieldFactor& factor, std::span<const Slot
   const std::size_t stride = step.stride();
   const Rows to = RowsOf(step, front);
   weights_.assign(front.cells.size() * stride, 0.0);
+  std::fill_n(to.among, step.cells * stride, 0.0);
   std::size_t below = 0;
   for (const std::uint32_t child : factor.tree().nodes()[step.node].children) {
     const Step* const from = StepAt(child);
     if (from == nullptr) continue;
     const std::size_t first = from->first - step.first;
-    const std::span<const Slot> boundary = factor.front(child).boundary_cells();
-    FindPlaces(boundary, front.cells, places_);
-    for (std::size_t r = 0; r < boundary.size(); ++r) {
+    const std::span<const std::uint32_t> places = factor.PlacesInParent(child);
+    for (std::size_t r = 0; r < places.size(); ++r) {
       std::copy_n(from->boundary + r * from->stride(), from->cells,
-                  weights_.data() + places_[r] * stride + first);
+                  weights_.data() + places[r] * stride + first);
     }
     for (std::size_t j = 0; j < from->cells; ++j) {
       std::copy_n(from->among + j * from->stride() + j, from->cells - j,
@@ -166,6 +168,7 @@ void ReadingPaths::TakeInner(const Front& front, const Step& step) {
   covariances.b_row_stride = own;
   covariances.c = to.own;
   covariances.columns = own;
+  covariances.overwrite = true;
   Accumulate(covariances);
   Product among = from_weights;
   among.b = to.own;

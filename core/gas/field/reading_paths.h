@@ -4,11 +4,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/gas/field/front.h"
 #include "core/gas/field/separator_tree.h"
+#include "core/linalg/room.h"
 #include "core/types/stop.h"
 
 namespace plumescout {
@@ -34,8 +36,10 @@ class ReadingPaths {
   };
 
   // REQUIRES: `slots` are active, ascending, one at least; some may be the same. Of no use once
-  // `stop`, which is asked all along, says so. Cost: that of reading the fronts of the paths once.
-  ReadingPaths(const FieldFactor& factor, std::span<const Slot> slots, const StopFn& stop = {});
+  // `stop`, which is asked all along, says so. Takes the memory of those that are `used` no more.
+  // Cost: that of reading the fronts of the paths once.
+  ReadingPaths(const FieldFactor& factor, std::span<const Slot> slots, const StopFn& stop = {},
+               std::optional<ReadingPaths> used = std::nullopt);
   ReadingPaths(ReadingPaths&&) = default;
   ReadingPaths& operator=(ReadingPaths&&) = default;
 
@@ -45,7 +49,7 @@ class ReadingPaths {
   const Step* StepAt(std::size_t node) const;  // null: off the paths
 
  private:
-  // Those of Step in values_, which moves with it.
+  // Those of Step in values_.
   struct Rows {
     double* own = nullptr;
     double* boundary = nullptr;
@@ -59,12 +63,11 @@ class ReadingPaths {
   void GatherWeights(const FieldFactor& factor, std::span<const Slot> slots, const Step& step);
 
   std::vector<Step> steps_;
-  std::vector<double> values_;
+  Room values_;
 
   // Of the present step.
   std::vector<double> weights_;  // row by cell of the front: its weights in the means
   std::vector<double> covariance_;
-  std::vector<std::uint32_t> places_;
 };
 
 }  // namespace plumescout

@@ -26,8 +26,11 @@ class FieldWindow {
     return field_.Contains(inside) ? std::optional<Cell>(inside) : std::nullopt;
   }
 
-  // The cells of the map that are cells of the field.
-  CellRect cells() const { return CellRect::Sized(corner_, field_.width, field_.height); }
+  // Cells of the field as some of the map.
+  CellRect InMap(const CellRect& inside) const {
+    return {{inside.min.x + corner_.x, inside.min.y + corner_.y},
+            {inside.end.x + corner_.x, inside.end.y + corner_.y}};
+  }
 
   // Calls visit(index in the map, index in the field) for all cells of the field, until `stop`,
   // which is asked all along, says so.

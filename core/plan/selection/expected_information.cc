@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
+#include "core/grid/mask.h"
 #include "core/plan/cost/field_window.h"
 #include "core/plan/cost/relevance.h"
 
@@ -62,10 +64,12 @@ std::vector<Cell> ReadingCells(const std::vector<Point2>& path, const GridGeomet
 ExpectedInformation::ExpectedInformation(const Belief& belief, const StopFn& stop)
     : belief_(belief) {
   if (belief.gas_what_if == nullptr) return;
-  const FieldWindow window(belief.geometry(), belief.gas_what_if->geometry());
-  const std::vector<float> weights = Relevance(belief, window.cells(), stop);
+  const GasWhatIf& field = *belief.gas_what_if;
+  const CellRect free = BoundsOf(field.states(), CellState::kFree);
+  const FieldWindow window(belief.geometry(), field.geometry());
+  const std::vector<float> weights = Relevance(belief, window.InMap(free), stop);
   if (Stops(stop)) return;
-  fall_ = belief.gas_what_if->FallOf(weights, stop);
+  fall_ = field.FallOf(weights, free, stop);
 }
 
 void ExpectedInformation::FindBounds(const StopFn& stop) {
@@ -73,17 +77,17 @@ void ExpectedInformation::FindBounds(const StopFn& stop) {
 }
 
 std::optional<double> ExpectedInformation::Of(const std::vector<Cell>& readings,
-                                              const StopFn& stop) const {
+                                              const StopFn& stop) {
   return Ask(&EntropyFall::Of, readings, stop);
 }
 
 std::optional<double> ExpectedInformation::AtMost(const std::vector<Cell>& readings,
-                                                  const StopFn& stop) const {
+                                                  const StopFn& stop) {
   return Ask(&EntropyFall::AtMost, readings, stop);
 }
 
 std::optional<double> ExpectedInformation::Ask(Measure measure, const std::vector<Cell>& readings,
-                                               const StopFn& stop) const {
+                                               const StopFn& stop) {
   if (!fall_) return std::nullopt;
   const FieldWindow window(belief_.geometry(), belief_.gas_what_if->geometry());
   std::vector<Cell> inside;
@@ -91,10 +95,10 @@ std::optional<double> ExpectedInformation::Ask(Measure measure, const std::vecto
     if (const std::optional<Cell> cell = window.InField(reading)) inside.push_back(*cell);
   }
   const double precision = belief_.options->gas.observation_precision_per_ppm2;
-  auto columns = belief_.gas_what_if->ColumnsIfRead(inside, precision, stop);
+  auto columns = belief_.gas_what_if->ColumnsIfRead(inside, precision, stop, std::move(used_));
   if (!columns.ok()) return std::nullopt;
-  if (!columns->has_value()) return 0.0;
-  return ((*fall_).*measure)(**columns, stop);
+  used_ = *std::move(columns);
+  return used_ ? ((*fall_).*measure)(*used_, stop) : 0.0;
 }
 
 }  // namespace plumescout

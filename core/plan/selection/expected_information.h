@@ -33,19 +33,19 @@ class ExpectedInformation {
   // The sum over free cells of relevance (core/plan/cost/relevance.h) times 1/2 ln(variance now /
   // variance then), in nats. None if the belief has no gas field yet, or `stop` said so. Cost: that
   // of EntropyFall::Of.
-  std::optional<double> Of(const std::vector<Cell>& readings, const StopFn& stop = {}) const;
+  std::optional<double> Of(const std::vector<Cell>& readings, const StopFn& stop = {});
   // For AtMost. Finds none if `stop`, which is asked all along, says so. Cost: see EntropyFall.
   void FindBounds(const StopFn& stop = {});
   // No less, for less: that of EntropyFall::AtMost. None without bounds.
-  std::optional<double> AtMost(const std::vector<Cell>& readings, const StopFn& stop = {}) const;
+  std::optional<double> AtMost(const std::vector<Cell>& readings, const StopFn& stop = {});
 
  private:
   using Measure = std::optional<double> (EntropyFall::*)(InverseColumns&, const StopFn&) const;
-  std::optional<double> Ask(Measure measure, const std::vector<Cell>& readings,
-                            const StopFn& stop) const;
+  std::optional<double> Ask(Measure measure, const std::vector<Cell>& readings, const StopFn& stop);
 
   const Belief& belief_;
   std::optional<EntropyFall> fall_;
+  std::optional<InverseColumns> used_;  // of the last question, for their memory
 };
 
 }  // namespace plumescout

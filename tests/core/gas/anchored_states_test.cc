@@ -65,6 +65,7 @@ TEST(AnchoredStatesTest, FreeCellsAreVisitedInOrder) {
     EXPECT_GE(index, next) << "in order, and once";
     EXPECT_EQ(cell, states.At(index));
     EXPECT_TRUE(states.IsFree(cell));
+    EXPECT_EQ(states.states().geometry().Index(states.CellAt(cell)), index);
     next = index + 1;
     ++visited;
   });

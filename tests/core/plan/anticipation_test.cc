@@ -159,7 +159,7 @@ TEST(Anticipate, PricesTheUnionLessWhatIsPromised) {
   std::vector<Cell> own = {{30, 22}, {50, 30}, {120, 40}};
   std::vector<Cell> both = theirs;
   both.insert(both.end(), own.begin(), own.end());
-  const ExpectedInformation now(belief);
+  ExpectedInformation now(belief);
   const double conditioned = ExpectedInformation(*ahead).Of(own).value();
   const double difference = now.Of(both).value() - now.Of(theirs).value();
   EXPECT_NEAR(conditioned / difference, 1.0, 1e-3);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "tests/core/gas/field/factor_case.h"
@@ -117,6 +118,42 @@ TEST(FieldFactorTest, SharesTheNodesOffTheChangedPath) {
   for (std::size_t node = 0; node < root; ++node) {
     EXPECT_EQ(&copy.front(node), &c.factor.front(node));
   }
+}
+
+void ExpectPlacesInParents(const FieldFactor& factor) {
+  const std::vector<SeparatorTree::Node>& nodes = factor.tree().nodes();
+  for (std::size_t node = 0; node + 1 < nodes.size(); ++node) {
+    const std::vector<Slot>& above = factor.front(nodes[node].parent).cells;
+    std::vector<Slot> found;
+    for (const std::uint32_t place : factor.PlacesInParent(node)) found.push_back(above[place]);
+    const std::span<const Slot> boundary = factor.front(node).boundary_cells();
+    EXPECT_EQ(found, std::vector<Slot>(boundary.begin(), boundary.end()));
+  }
+}
+
+TEST(FieldFactorTest, KnowsThePlacesOfBoundariesInTheFrontsAbove) {
+  FactorCase c(7);
+  ExpectPlacesInParents(c.factor);
+  c.factor.AddReading(c.factor.StepsFrom(c.RandomActiveSlots(1)[0]), 3.0, 1.0);
+  ExpectPlacesInParents(c.factor);
+}
+
+// The fronts below stay as they are, and so do their boundaries.
+TEST(FieldFactorTest, KnowsThePlacesOnceAnotherCellOfTheRootIsActive) {
+  FactorCase c(8);
+  const SeparatorTree::Node& root = c.tree->nodes().back();
+  FrontBuilder builder(*c.tree, testing::DefaultField().prior);
+  std::vector<std::uint8_t> dirty(c.tree->nodes().size(), 0);
+  dirty.back() = 1;
+  int activated = 0;
+  for (Slot slot = root.first; slot < root.end; ++slot) {
+    if (c.IsActive(slot)) continue;
+    c.cells.active[slot] = 1;  // without factors to its neighbours
+    c.factor.Eliminate(dirty, c.cells, builder);
+    ExpectPlacesInParents(c.factor);
+    ++activated;
+  }
+  EXPECT_GT(activated, 0);
 }
 
 }  // namespace field_factor_test

@@ -96,14 +96,5 @@ TEST(FrontTest, ConditionsAStepOnItsBoundary) {
   }
 }
 
-TEST(FrontTest, FindsPlaces) {
-  const std::vector<Slot> all = {2, 3, 5, 8, 13};
-  std::vector<std::uint32_t> places;
-  FindPlaces(std::vector<Slot>{3, 8, 13}, all, places);
-  EXPECT_EQ(places, (std::vector<std::uint32_t>{1, 3, 4}));
-  FindPlaces({}, all, places);
-  EXPECT_TRUE(places.empty());
-}
-
 }  // namespace front_test
 }  // namespace plumescout

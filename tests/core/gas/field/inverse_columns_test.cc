@@ -6,6 +6,8 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/linalg/dense_kernel.h"
@@ -57,6 +59,18 @@ TEST(InverseColumnsTest, SubtractTheirSquaresFromEveryActiveCell) {
     const std::vector<Slot> slots = SomeSlots(c, count);
     InverseColumns columns = ColumnsOf(c, slots);
     ExpectSquares(Squares(columns, c, 0.0), c, DenseColumns(c, slots));
+  }
+}
+
+TEST(InverseColumnsTest, AreTheSameInTheMemoryOfOthers) {
+  const FactorCase c(5);
+  std::optional<InverseColumns> used;
+  for (const std::size_t count : {9, 1, 17, 2}) {
+    const std::vector<Slot> slots = SomeSlots(c, count);
+    InverseColumns fresh = ColumnsOf(c, slots);
+    InverseColumns columns(c.factor, ReadingPaths(c.factor, slots), std::move(used));
+    EXPECT_EQ(Squares(columns, c, 0.0), Squares(fresh, c, 0.0));
+    used = std::move(columns);
   }
 }
 

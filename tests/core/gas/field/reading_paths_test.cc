@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "tests/core/gas/field/factor_case.h"
@@ -38,6 +40,28 @@ TEST(ReadingPathsTest, HoldTheInverseBetweenTheirCellsAtTheRoot) {
         EXPECT_NEAR(Among(paths.steps().back(), i, j), truth, 1e-10);
       }
     }
+  }
+}
+
+TEST(ReadingPathsTest, AreTheSameInTheMemoryOfOthers) {
+  const FactorCase c(7);
+  std::optional<ReadingPaths> used;
+  for (const std::size_t count : {3, 30, 1, 12, 30}) {
+    const std::vector<Slot> slots = SomeSlots(c, count);
+    const ReadingPaths fresh(c.factor, slots);
+    ReadingPaths paths(c.factor, slots, {}, std::move(used));
+    ASSERT_EQ(paths.steps().size(), fresh.steps().size());
+    for (std::size_t i = 0; i < fresh.steps().size(); ++i) {
+      const ReadingPaths::Step& step = paths.steps()[i];
+      const ReadingPaths::Step& truth = fresh.steps()[i];
+      ASSERT_EQ(step.node, truth.node);
+      ASSERT_EQ(step.first, truth.first);
+      ASSERT_EQ(step.cells, truth.cells);
+      const std::size_t size =
+          (c.factor.front(step.node).cells.size() + step.cells) * step.stride();
+      EXPECT_TRUE(std::equal(step.own, step.own + size, truth.own)) << "padding included";
+    }
+    used = std::move(paths);
   }
 }
 

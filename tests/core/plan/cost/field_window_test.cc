@@ -28,6 +28,11 @@ TEST(FieldWindow, CellsOfTheMapAreThoseOfTheFieldOrNone) {
   EXPECT_FALSE(window.InField({2, 3}).has_value());
 }
 
+TEST(FieldWindow, RectanglesOfTheFieldLieOnTheMapToo) {
+  const CellRect whole = FieldWindow(kMap, kField).InMap(WholeRaster(kField));
+  EXPECT_EQ(whole, CellRect({2, 1}, {5, 3}));
+}
+
 TEST(FieldWindow, EveryCellOfTheFieldIsVisitedWhereItLies) {
   std::vector<std::pair<std::size_t, std::size_t>> visited;
   FieldWindow(kMap, kField).ForEachCell([&](std::size_t in_map, std::size_t in_field) {

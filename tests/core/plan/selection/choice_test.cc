@@ -115,7 +115,7 @@ TEST(Choose, PricesNoMoreThanItNeedsAndChoosesAsIfAllWerePriced) {
     Choose(random.belief, options, NeverStop(), lazy);
 
     Plan all = random.plan;
-    const ExpectedInformation information(random.belief);
+    ExpectedInformation information(random.belief);
     for (Candidate& candidate : all.candidates) {
       candidate.expected_information_nats =
           information.Of(ReadingCells(candidate.path, random.belief.geometry(), options));
