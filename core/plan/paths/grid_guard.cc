@@ -29,11 +29,13 @@ void CompleteOnGrid(const PathProblem& problem, PathSource source, PathResult& r
   if (!missed.empty()) {
     // Nothing else can be reached.
     CostSearch search(problem.cost, BoundsOf(problem.reachable, std::uint8_t{1}), problem.stop);
+    EdgePrices prices(problem.cost);
     stopped = !search.Run(problem.start_cell(), missed, problem.stop);
     for (std::size_t i = 0; i < result.paths.size(); ++i) {
       if (result.paths[i] || problem.reachable.At(problem.goals[i].cell, 0) == 0) continue;
       const std::vector<Point2> way = search.WayTo(problem.goals[i].cell, problem.start);
-      if (!way.empty()) result.paths[i] = Straighten(problem, way, source, result.effort);
+      if (way.empty()) continue;
+      result.paths[i] = Straighten(problem, way, source, prices, result.effort);
     }
   }
   result.end = EndOf(result.paths, stopped);

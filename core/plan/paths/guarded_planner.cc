@@ -10,8 +10,10 @@ namespace plumescout {
 PathResult GuardedPlanner::FindPaths(const PathProblem& problem) const {
   PathResult result = planner_->FindPaths(problem);
   if (straighten_) {
+    EdgePrices prices(problem.cost);
     for (std::optional<FoundPath>& path : result.paths) {
-      if (path) path = Straighten(problem, path->vertices, path->source, result.effort);
+      if (!path) continue;
+      path = Straighten(problem, path->vertices, path->source, prices, result.effort);
     }
   }
   if (grid_guard_ && result.end == PlanEnd::kQueueExhausted) {

@@ -34,7 +34,7 @@ std::vector<Point2> WithoutCollinear(const std::vector<Point2>& path) {
   return kept;
 }
 
-ShortcutPath Shortcut(const EdgeCost& cost, const std::vector<Point2>& path, const StopFn& stop) {
+ShortcutPath Shortcut(EdgePrices& prices, const std::vector<Point2>& path, const StopFn& stop) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   ShortcutPath result;
   std::vector<double> best(path.size(), kInfinity);
@@ -43,9 +43,9 @@ ShortcutPath Shortcut(const EdgeCost& cost, const std::vector<Point2>& path, con
   for (std::size_t i = 1; i < path.size(); ++i) {
     const std::size_t window = stop() ? 1 : std::min<std::size_t>(i, kShortcutWindow);
     for (std::size_t j = i; j-- > i - window;) {
-      if (best[j] + cost.LowerBound(Distance_m(path[j], path[i])) >= best[i]) continue;
+      if (best[j] + prices.cost().LowerBound(Distance_m(path[j], path[i])) >= best[i]) continue;
       ++result.edges_evaluated;
-      const double via_j = best[j] + cost.UpTo(path[j], path[i], best[i] - best[j]);
+      const double via_j = best[j] + prices.UpTo(path[j], path[i], best[i] - best[j]);
       if (via_j < best[i]) {
         best[i] = via_j;
         previous[i] = j;

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/plan/cost/edge_cost.h"
+#include "core/plan/paths/edge_prices.h"
 #include "core/types/pose2.h"
 #include "core/types/stop.h"
 
@@ -24,6 +24,6 @@ struct ShortcutPath {
 // When `stop` says so the rest of the path is taken as it is.
 // REQUIRES: at least one vertex. Cost: O(vertices * kShortcutWindow) edge integrals.
 inline constexpr int kShortcutWindow = 24;
-ShortcutPath Shortcut(const EdgeCost& cost, const std::vector<Point2>& path, const StopFn& stop);
+ShortcutPath Shortcut(EdgePrices& prices, const std::vector<Point2>& path, const StopFn& stop);
 
 }  // namespace plumescout

@@ -10,18 +10,18 @@
 namespace plumescout {
 
 FoundPath Straighten(const PathProblem& problem, const std::vector<Point2>& way, PathSource source,
-                     PlanEffort& effort) {
+                     EdgePrices& prices, PlanEffort& effort) {
   if (problem.cost.CountsVerticesOnly()) return {way, PathCost(problem.cost, way), source};
   const StopFn stop = [&] {
     const std::int64_t budget = problem.max_edge_evaluations;
     return (budget > 0 && effort.edges_evaluated >= budget) || problem.stop();
   };
-  ShortcutPath path = Shortcut(problem.cost, way, stop);
+  ShortcutPath path = Shortcut(prices, way, stop);
   effort.edges_evaluated += path.edges_evaluated;
   path.edges_evaluated = 0;
-  AdjustVertices(problem.cost, stop, path);
+  AdjustVertices(prices, stop, path);
   effort.edges_evaluated += path.edges_evaluated;
-  path = Shortcut(problem.cost, path.vertices, stop);
+  path = Shortcut(prices, path.vertices, stop);
   effort.edges_evaluated += path.edges_evaluated;
   return {std::move(path.vertices), path.cost, source};
 }

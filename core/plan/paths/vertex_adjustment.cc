@@ -22,8 +22,12 @@ constexpr double kLeastSaving = 1e-9;
 
 class Adjustment {
  public:
-  Adjustment(const EdgeCost& cost, const StopFn& stop, ShortcutPath& path)
-      : cost_(cost), stop_(stop), path_(path), moved_(path.vertices.size(), 1) {
+  Adjustment(EdgePrices& prices, const StopFn& stop, ShortcutPath& path)
+      : edges_(prices),
+        cost_(prices.cost()),
+        stop_(stop),
+        path_(path),
+        moved_(path.vertices.size(), 1) {
     for (std::size_t i = 1; i < path.vertices.size(); ++i) {
       prices_.push_back(Price(path.vertices[i - 1], path.vertices[i], kUnlimited));
     }
@@ -84,9 +88,10 @@ class Adjustment {
 
   double Price(Point2 a, Point2 b, double limit) {
     ++path_.edges_evaluated;
-    return cost_.UpTo(a, b, limit);
+    return edges_.UpTo(a, b, limit);
   }
 
+  EdgePrices& edges_;
   const EdgeCost& cost_;
   const StopFn& stop_;
   ShortcutPath& path_;
@@ -96,8 +101,8 @@ class Adjustment {
 
 }  // namespace
 
-void AdjustVertices(const EdgeCost& cost, const StopFn& stop, ShortcutPath& path) {
-  Adjustment(cost, stop, path).Run();
+void AdjustVertices(EdgePrices& prices, const StopFn& stop, ShortcutPath& path) {
+  Adjustment(prices, stop, path).Run();
 }
 
 }  // namespace plumescout

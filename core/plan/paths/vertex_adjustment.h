@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/plan/cost/edge_cost.h"
+#include "core/plan/paths/edge_prices.h"
 #include "core/plan/paths/shortcut.h"
 #include "core/types/stop.h"
 
@@ -13,6 +13,6 @@ namespace plumescout {
 // search happened to cross. Steps of four cells come first, then shorter ones. What `stop` leaves
 // undone stays as it was. `path.cost` is that of its vertices, before and after; `edges_evaluated`
 // is added to. Cost: some hundreds of edge integrals a vertex.
-void AdjustVertices(const EdgeCost& cost, const StopFn& stop, ShortcutPath& path);
+void AdjustVertices(EdgePrices& prices, const StopFn& stop, ShortcutPath& path);
 
 }  // namespace plumescout

@@ -49,7 +49,8 @@ TEST(Shortcut, FindsTheCheapestChoiceOfVertices) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const PathCase c(seed);
     const std::vector<Point2> path = RandomWalk(c, 9, rng);
-    const ShortcutPath shortcut = Shortcut(c.cost, path, NeverStop());
+    EdgePrices prices(c.cost);
+    const ShortcutPath shortcut = Shortcut(prices, path, NeverStop());
     EXPECT_NEAR(shortcut.cost, CheapestSubsequence(c.cost, path), kRounding);
     EXPECT_NEAR(shortcut.cost, PathCost(c.cost, shortcut.vertices), kRounding);
     EXPECT_EQ(shortcut.vertices.front(), path.front());
@@ -62,21 +63,24 @@ TEST(Shortcut, NeverMakesALongPathDearer) {
   Rng rng(2);
   const PathCase c(4);
   const std::vector<Point2> path = RandomWalk(c, 200, rng);
-  EXPECT_LE(Shortcut(c.cost, path, NeverStop()).cost, PathCost(c.cost, path) + kRounding);
+  EdgePrices prices(c.cost);
+  EXPECT_LE(Shortcut(prices, path, NeverStop()).cost, PathCost(c.cost, path) + kRounding);
 }
 
 TEST(Shortcut, TakesThePathAsItIsWhenStopped) {
   Rng rng(3);
   const PathCase c(5);
   const std::vector<Point2> path = RandomWalk(c, 20, rng);
-  const ShortcutPath shortcut = Shortcut(c.cost, path, [] { return true; });
+  EdgePrices prices(c.cost);
+  const ShortcutPath shortcut = Shortcut(prices, path, [] { return true; });
   EXPECT_EQ(shortcut.vertices, path);
   EXPECT_NEAR(shortcut.cost, PathCost(c.cost, path), kRounding);
 }
 
 TEST(Shortcut, OfOneVertexIsThatVertex) {
   const PathCase c(6);
-  const ShortcutPath shortcut = Shortcut(c.cost, {c.start}, NeverStop());
+  EdgePrices prices(c.cost);
+  const ShortcutPath shortcut = Shortcut(prices, {c.start}, NeverStop());
   EXPECT_THAT(shortcut.vertices, ElementsAre(c.start));
   EXPECT_EQ(shortcut.cost, 0.0);
 }

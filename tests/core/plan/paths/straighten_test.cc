@@ -25,10 +25,12 @@ TEST(Straighten, MakesThePathsOfATreeCheaper) {
   double after = 0.0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const PathCase c(seed);
+    EdgePrices prices(c.cost);
     for (const auto& path : TreePaths(c).paths) {
       if (!path) continue;
       PlanEffort effort;
-      const FoundPath straight = Straighten(c.Problem(), path->vertices, PathSource::kTree, effort);
+      const FoundPath straight =
+          Straighten(c.Problem(), path->vertices, PathSource::kTree, prices, effort);
       EXPECT_LE(straight.cost, path->cost + kRounding);
       EXPECT_NEAR(straight.cost, PathCost(c.cost, straight.vertices), kRounding);
       EXPECT_EQ(straight.vertices.front(), path->vertices.front());
@@ -46,9 +48,10 @@ TEST(Straighten, LeavesAWayAloneIfOnlyItsVerticesCost) {
   const PathCase c(5, {}, CostKind::kVertices);
   const PathResult found = TreePaths(c);
   ASSERT_TRUE(found.paths.front().has_value());
+  EdgePrices prices(c.cost);
   PlanEffort effort;
   const FoundPath path =
-      Straighten(c.Problem(), found.paths.front()->vertices, PathSource::kTree, effort);
+      Straighten(c.Problem(), found.paths.front()->vertices, PathSource::kTree, prices, effort);
   EXPECT_EQ(path.vertices, found.paths.front()->vertices);
   EXPECT_NEAR(path.cost, found.paths.front()->cost, kRounding);
 }
@@ -60,7 +63,8 @@ TEST(Straighten, KeepsToTheEdgeBudget) {
   const std::vector<Point2>& way = found.paths.front()->vertices;
   PlanEffort spent;
   spent.edges_evaluated = 1000;
-  const FoundPath path = Straighten(c.Problem(1, 1000), way, PathSource::kTree, spent);
+  EdgePrices prices(c.cost);
+  const FoundPath path = Straighten(c.Problem(1, 1000), way, PathSource::kTree, prices, spent);
   EXPECT_EQ(path.vertices, way);
 }
 

@@ -35,7 +35,8 @@ TEST(AdjustVertices, NeverMakesAPathDearerAndSayWhatItCosts) {
       ShortcutPath path = GridWay(c, goal);
       const std::vector<Point2> way = path.vertices;
       const double cost = path.cost;
-      AdjustVertices(c.cost, c.stop, path);
+      EdgePrices prices(c.cost);
+      AdjustVertices(prices, c.stop, path);
       EXPECT_LE(path.cost, cost + kRounding);
       EXPECT_NEAR(path.cost, PathCost(c.cost, path.vertices), kRounding);
       EXPECT_EQ(path.vertices.front(), way.front());
@@ -53,7 +54,8 @@ TEST(AdjustVertices, LeavesNoVertexThatANeighbouringCellWouldServeBetter) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const PathCase c(seed);
     ShortcutPath path = GridWay(c, c.goals.front());
-    AdjustVertices(c.cost, c.stop, path);
+    EdgePrices prices(c.cost);
+    AdjustVertices(prices, c.stop, path);
     for (std::size_t i = 1; i + 1 < path.vertices.size(); ++i) {
       const Cell cell = c.open.geometry().CellAt(path.vertices[i]);
       for (const Cell offset : kNeighbours8) {
@@ -71,8 +73,9 @@ TEST(AdjustVertices, LeavesThePathAsItIsIfStopped) {
   const PathCase c(2);
   ShortcutPath path = GridWay(c, c.goals.front());
   const std::vector<Point2> way = path.vertices;
+  EdgePrices prices(c.cost);
   AdjustVertices(
-      c.cost, [] { return true; }, path);
+      prices, [] { return true; }, path);
   EXPECT_EQ(path.vertices, way);
   EXPECT_NEAR(path.cost, PathCost(c.cost, way), kRounding);
 }
