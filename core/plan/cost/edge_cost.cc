@@ -12,26 +12,26 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-}  // namespace
-
-double SegmentIntegral_cells(const Grid<float>& raster, Point2 a, Point2 b) {
-  return SegmentIntegralUpTo_cells(raster, a, b, kInfinity);
-}
-
-double SegmentIntegralUpTo_cells(const Grid<float>& raster, Point2 a, Point2 b, double most_cells) {
-  const GridGeometry& geometry = raster.geometry();
+// SegmentIntegral_cells, but may stop and return +infinity once the sum is over `most_cells`.
+[[gnu::flatten]] double IntegralUpTo_cells(const Grid<float>& raster, const PointInCell& a,
+                                           const PointInCell& b, double most_cells) {
   // Between two cells of the raster the walk never leaves it.
-  const Cell first = geometry.CellAt(a);
-  const Cell last = geometry.CellAt(b);
-  if (!raster.Contains(first) || !raster.Contains(last)) return kInfinity;
+  if (!raster.Contains(a.cell) || !raster.Contains(b.cell)) return kInfinity;
   double sum = 0.0;
-  const bool passed = WalkSegment(geometry, a, first, b, last, [&](Cell cell, double length_cells) {
+  const auto add = [&](Cell cell, double length_cells) {
     const double value = raster[cell];
     if (value == kInfinity) return false;
     sum += value * length_cells;
     return sum <= most_cells;
-  });
-  return passed ? sum : kInfinity;
+  };
+  return WalkSegment(raster.geometry(), a.point, a.cell, b.point, b.cell, add) ? sum : kInfinity;
+}
+
+}  // namespace
+
+double SegmentIntegral_cells(const Grid<float>& raster, Point2 a, Point2 b) {
+  const GridGeometry& geometry = raster.geometry();
+  return IntegralUpTo_cells(raster, {a, geometry.CellAt(a)}, {b, geometry.CellAt(b)}, kInfinity);
 }
 
 double OpenSegmentIntegral_cells(const Grid<float>& raster, Point2 a, Point2 b,
@@ -59,18 +59,25 @@ EdgeCost::EdgeCost(const InformationMap& information, CostKind kind, double alph
 double EdgeCost::operator()(Point2 a, Point2 b) const { return UpTo(a, b, kInfinity); }
 
 double EdgeCost::UpTo(Point2 a, Point2 b, double limit) const {
+  return UpTo({a, geometry().CellAt(a)}, {b, geometry().CellAt(b)}, limit);
+}
+
+double EdgeCost::UpTo(const PointInCell& a, const PointInCell& b, double limit) const {
   // More than rounding takes off sums of prices, so that it decides between equals as if they were
   // summed to the end.
   constexpr double kRounding = 1.0 + 1e-9;
-  const double length_price = alpha_per_m_ > 0.0 ? alpha_per_m_ * Distance_m(a, b) : 0.0;
   const double most_cells =
-      penalty_weight_ > 0.0 ? (limit * kRounding - length_price) / penalty_weight_ : kInfinity;
-  const double penalty_cells = SegmentIntegralUpTo_cells(information_->penalty, a, b, most_cells);
+      penalty_weight_ > 0.0 ? (limit * kRounding - LengthPrice(a.point, b.point)) / penalty_weight_
+                            : kInfinity;
+  return OfPenalty(IntegralUpTo_cells(information_->penalty, a, b, most_cells), a.point, b.point);
+}
+
+double EdgeCost::OfPenalty(double penalty_cells, Point2 a, Point2 b) const {
   if (penalty_cells == kInfinity) return kInfinity;
   if (vertex_weight_ > 0.0) {
-    return static_cast<double>(information_->penalty[geometry().CellAt(b)]) + length_price;
+    return static_cast<double>(information_->penalty[geometry().CellAt(b)]) + LengthPrice(a, b);
   }
-  return penalty_weight_ * penalty_cells + length_price;
+  return penalty_weight_ * penalty_cells + LengthPrice(a, b);
 }
 
 double EdgeCost::InformedHeuristic(Point2 a, Point2 b) const {

@@ -19,12 +19,15 @@ namespace plumescout {
 // at a corner. Cost: O(cells crossed).
 double SegmentIntegral_cells(const Grid<float>& raster, Point2 a, Point2 b);
 
-// The same, but may stop and return +infinity once the sum is over `most_cells`.
-double SegmentIntegralUpTo_cells(const Grid<float>& raster, Point2 a, Point2 b, double most_cells);
-
 // The same over the cells that can be crossed: others count as `blocked_value`.
 double OpenSegmentIntegral_cells(const Grid<float>& raster, Point2 a, Point2 b,
                                  double blocked_value);
+
+// A point, and the cell of the raster that holds it.
+struct PointInCell {
+  Point2 point;
+  Cell cell;
+};
 
 // Price of driving a straight segment, [XIT] Eq. (12): information penalty, in cells, plus alpha
 // per metre. kVertices takes the penalty of the cell that the segment ends in and of no other (the
@@ -40,6 +43,10 @@ class EdgeCost {
   // The same if it is less than `limit`; else that or more, maybe +infinity. Those who look for
   // something cheaper need not know how much dearer it is.
   double UpTo(Point2 a, Point2 b, double limit) const;
+  double UpTo(const PointInCell& a, const PointInCell& b, double limit) const;
+
+  // The same where the penalty of the segment, SegmentIntegral_cells, is known.
+  double OfPenalty(double penalty_cells, Point2 a, Point2 b) const;
 
   // c-hat of [XIT] Eq. (6): no segment of this length, > 0, costs less.
   double LowerBound(double length_m) const {
@@ -70,6 +77,10 @@ class EdgeCost {
   const GridGeometry& geometry() const { return information_->penalty.geometry(); }
 
  private:
+  double LengthPrice(Point2 a, Point2 b) const {
+    return alpha_per_m_ > 0.0 ? alpha_per_m_ * Distance_m(a, b) : 0.0;
+  }
+
   const InformationMap* information_;
   double penalty_weight_;  // of the integral: 1 for kUcb, else 0
   double vertex_weight_;   // of the end: 1 for kVertices, else 0

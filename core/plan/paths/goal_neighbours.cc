@@ -4,21 +4,25 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace plumescout {
 
 std::vector<int> NearestSamples(std::span<const Point2> samples, Point2 goal, int count) {
-  std::vector<std::pair<double, int>> by_distance;
-  by_distance.reserve(samples.size());
-  for (const Point2 sample : samples) {
-    by_distance.emplace_back(Distance_m(sample, goal), static_cast<int>(by_distance.size()));
+  const auto most = static_cast<std::size_t>(std::max(count, 0));
+  std::vector<std::pair<double, int>> nearest;  // of those before, the nearest first
+  for (std::size_t i = 0; i < samples.size() && most > 0; ++i) {
+    const double distance_m = Distance_m(samples[i], goal);
+    if (nearest.size() == most) {
+      if (distance_m >= nearest.back().first) continue;
+      nearest.pop_back();
+    }
+    const std::pair<double, int> sample = {distance_m, static_cast<int>(i)};
+    nearest.insert(std::upper_bound(nearest.begin(), nearest.end(), sample), sample);
   }
-  const auto size =
-      std::min(static_cast<std::ptrdiff_t>(count), static_cast<std::ptrdiff_t>(by_distance.size()));
-  std::partial_sort(by_distance.begin(), by_distance.begin() + size, by_distance.end());
-  std::vector<int> nearest;
-  for (std::ptrdiff_t k = 0; k < size; ++k) nearest.push_back((by_distance.begin() + k)->second);
-  return nearest;
+  std::vector<int> indices;
+  for (const auto& [distance_m, index] : nearest) indices.push_back(index);
+  return indices;
 }
 
 GoalNeighbours::GoalNeighbours(const std::vector<Point2>& points, int sample_count,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/plan/cost/sampler.h"
 #include "core/plan/paths/connection_radius.h"
@@ -21,6 +22,7 @@ constexpr int kNotOpen = -1;
 // The implicit random geometric graph: samples, goal cells and the root, with their neighbours.
 struct Graph {
   std::vector<Point2> points;          // samples, then goal cells that are no sample, then the root
+  std::vector<Cell> cells;             // that hold them
   std::vector<int> goal_vertices;      // by goal; none if goal cells are no vertices
   std::vector<std::vector<int>> ends;  // by goal: where a path to it may end
   int sample_count = 0;
@@ -53,6 +55,8 @@ Graph MakeGraph(const PathProblem& problem, const PlanningOptions& options) {
     }
   }
   graph.points.push_back(problem.start);
+  cells.push_back(problem.start_cell());
+  graph.cells = std::move(cells);
   return graph;
 }
 
@@ -96,6 +100,9 @@ class XitSearch {
  private:
   double& g(int vertex) { return g_[static_cast<std::size_t>(vertex)]; }
   Point2 At(int vertex) const { return graph_.points[static_cast<std::size_t>(vertex)]; }
+  PointInCell InCell(int vertex) const {
+    return {At(vertex), graph_.cells[static_cast<std::size_t>(vertex)]};
+  }
   bool Taken(int vertex) const { return taken_[static_cast<std::size_t>(vertex)] != 0; }
   bool Solved(std::size_t goal) const {
     const std::vector<int>& ends = graph_.ends[goal];
@@ -165,7 +172,7 @@ class XitSearch {
     const std::int64_t budget = problem_.max_edge_evaluations;
     if (budget > 0 && effort_.edges_evaluated >= budget) return false;
     ++effort_.edges_evaluated;
-    const double via_v = g(v) + problem_.cost.UpTo(At(v), At(w), g(w) - g(v));
+    const double via_v = g(v) + problem_.cost.UpTo(InCell(v), InCell(w), g(w) - g(v));
     if (via_v < g(w)) Reach(w, v, via_v);  // line 21
     return true;
   }

@@ -5,6 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "core/types/rng.h"
+
 namespace plumescout {
 namespace goal_neighbours_test {
 
@@ -36,6 +42,26 @@ TEST(GoalNeighbours, ShareSamplesAndKeepEqualGoalsOnce) {
   const GoalNeighbours neighbours(kPoints, 4, {4, 4, 3}, 1);
   EXPECT_THAT(EdgesFrom(neighbours, 2), ElementsAre(Pair(2, 4)));
   EXPECT_THAT(EdgesFrom(neighbours, 3), IsEmpty()) << "its nearest sample is itself";
+}
+
+// Of few distances, so that many are equal: then the first of them comes first.
+TEST(NearestSamples, AreTheFirstOfAllByDistance) {
+  Rng rng(3);
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<Point2> samples(rng.Below(30));
+    for (Point2& sample : samples) sample.x_m = static_cast<double>(rng.Below(5));
+    std::vector<int> all(samples.size());
+    std::iota(all.begin(), all.end(), 0);
+    const Point2 goal = {static_cast<double>(rng.Below(5)), 1.0};
+    const auto distance_m = [&](int i) {
+      return Distance_m(samples[static_cast<std::size_t>(i)], goal);
+    };
+    std::stable_sort(all.begin(), all.end(),
+                     [&](int a, int b) { return distance_m(a) < distance_m(b); });
+    const int count = static_cast<int>(rng.Below(8));
+    all.resize(std::min(all.size(), static_cast<std::size_t>(count)));
+    EXPECT_EQ(NearestSamples(samples, goal, count), all);
+  }
 }
 
 TEST(GoalNeighbours, TakeAllSamplesIfThereAreFew) {
