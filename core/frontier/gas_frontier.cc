@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #include "core/frontier/cluster.h"
@@ -33,6 +34,41 @@ struct Thresholds {
 // NaN compares false: neither observed nor critical.
 bool IsObserved(CellState state, float variance_ppm2, double observed_variance_ppm2) {
   return state == CellState::kFree && static_cast<double>(variance_ppm2) <= observed_variance_ppm2;
+}
+
+double PercentileShare(const FrontierOptions& options) {
+  constexpr double kPercent = 0.01;
+  return kPercent * options.gas_percentile;
+}
+
+// Calls visit(mean_ppm, counts) for these cells, with 1 for observed ones that have a mean, else 0.
+template <typename Visit>
+void ForEachMean(const GasFrontierInput& input, const CellRect& cells,
+                 double observed_variance_ppm2, const StopFn& stop, const Visit& visit) {
+  ByRows(cells.min.y, cells.end.y, cells.width(), stop, [&](int y) {
+    const CellState* const state = GridRow(input.states, y);
+    const float* const mean_ppm = GridRow(input.mean_ppm, y);
+    const float* const variance_ppm2 = GridRow(input.variance_ppm2, y);
+    for (int x = cells.min.x; x < cells.end.x; ++x) {
+      const bool is_observed = IsObserved(state[x], variance_ppm2[x], observed_variance_ppm2);
+      visit(mean_ppm[x], int{is_observed} & int{!std::isnan(mean_ppm[x])});
+    }
+  });
+}
+
+// Whether the percentile is less than the minimum, since so many of the means are. This takes much
+// less time than the percentile.
+bool IsBelowMinimum(const GasFrontierInput& input, const CellRect& cells,
+                    double observed_variance_ppm2, const FrontierOptions& options,
+                    const StopFn& stop) {
+  std::int64_t observed = 0;
+  std::int64_t below = 0;
+  ForEachMean(input, cells, observed_variance_ppm2, stop, [&](float mean_ppm, int counts) {
+    observed += counts;
+    below += counts & int{static_cast<double>(mean_ppm) < options.min_gas_threshold_ppm};
+  });
+  const double rank = PercentileShare(options) * static_cast<double>(observed - 1);
+  return static_cast<double>(below) > rank + 1.0;  // both means that it lies between are
 }
 
 // The cells of the map that are free lie in `cells`.
@@ -109,18 +145,16 @@ double ObservedVariance_ppm2(const FrontierOptions& options, const GasOptions& g
 double GasThreshold_ppm(const GasFrontierInput& input, double observed_variance_ppm2,
                         const FrontierOptions& options, const StopFn& stop) {
   if (options.fixed_gas_threshold_ppm) return *options.fixed_gas_threshold_ppm;
+  const CellRect cells = BoundsOf(input.states, CellState::kFree);
+  if (IsBelowMinimum(input, cells, observed_variance_ppm2, options, stop)) {
+    return options.min_gas_threshold_ppm;
+  }
   std::vector<float> means_ppm;
-  InPieces(input.states.size(), stop, [&](std::size_t first, std::size_t end) {
-    for (std::size_t i = first; i < end; ++i) {
-      if (IsObserved(input.states[i], input.variance_ppm2[i], observed_variance_ppm2) &&
-          !std::isnan(input.mean_ppm[i])) {
-        means_ppm.push_back(input.mean_ppm[i]);
-      }
-    }
+  ForEachMean(input, cells, observed_variance_ppm2, stop, [&](float mean_ppm, int counts) {
+    if (counts != 0) means_ppm.push_back(mean_ppm);
   });
   if (means_ppm.empty() || Stops(stop)) return options.min_gas_threshold_ppm;
-  constexpr double kPercent = 0.01;
-  const double percentile_ppm = Quantile(std::move(means_ppm), kPercent * options.gas_percentile);
+  const double percentile_ppm = Quantile(std::move(means_ppm), PercentileShare(options));
   return std::max(percentile_ppm, options.min_gas_threshold_ppm);
 }
 

@@ -73,10 +73,11 @@ void WalkHilbertSquare(const HilbertSquare& square, int width, int height, Visit
     }
     return;
   }
+  const bool is_inside = low.x + reach < width && low.y + reach < height;
   for (const Cell at : kHilbertOrder.cells) {
     const Cell cell{corner.x + at.x * along.x + at.y * across.x,
                     corner.y + at.x * along.y + at.y * across.y};
-    if (cell.x < width && cell.y < height) visit(cell);
+    if (is_inside || (cell.x < width && cell.y < height)) visit(cell);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "core/grid/mask.h"
+#include "core/grid/padded.h"
 #include "core/types/cell_rect.h"
 
 namespace plumescout {
@@ -49,10 +50,11 @@ class UpperConfidenceBound {
         beta_(static_cast<float>(options.beta)) {}
 
   float operator()(float mean_ppm, float variance_ppm2) const {
-    if (!std::isfinite(mean_ppm)) mean_ppm = prior_mean_ppm_;
-    if (!std::isfinite(variance_ppm2)) variance_ppm2 = prior_variance_ppm2_;
-    const float mean = std::max(0.0F, mean_ppm) * mean_scale_;
-    return mean + beta_ * std::min(variance_limit_, variance_ppm2 * variance_scale_);
+    const float known_ppm = std::abs(mean_ppm) < kInfinity ? mean_ppm : prior_mean_ppm_;
+    const float known_ppm2 =
+        std::abs(variance_ppm2) < kInfinity ? variance_ppm2 : prior_variance_ppm2_;
+    const float mean = std::max(0.0F, known_ppm) * mean_scale_;
+    return mean + beta_ * std::min(variance_limit_, known_ppm2 * variance_scale_);
   }
 
  private:
@@ -64,52 +66,107 @@ class UpperConfidenceBound {
   float beta_;
 };
 
+// Of I, over traversable cells.
 struct Range {
   float low = kInfinity;
   float high = -kInfinity;
 
+  bool empty() const { return low > high; }
   bool flat() const {
     return !(high - low > kFlatContrast * std::max(std::abs(low), std::abs(high)));
   }
 };
 
-// Calls visit(index) for each, row by row.
-template <typename Visit>
-void ForEachTraversable(const Grid<std::uint8_t>& traversable, const StopFn& stop,
-                        const Visit& visit) {
-  const CellRect cells = BoundsOf(traversable, std::uint8_t{1});
-  ByRows(cells.min.y, cells.end.y, cells.width(), stop, [&](int y) {
-    const std::size_t begin = traversable.geometry().Index({cells.min.x, y});
-    const std::size_t end = begin + static_cast<std::size_t>(cells.width());
-    for (std::size_t i = begin; i < end; ++i) {
-      if (traversable[i] != 0) visit(i);
+// Finds the range of values, passing over those that are infinite.
+class RangeFinder {
+ public:
+  RangeFinder() {
+    low_.fill(kInfinity);
+    high_.fill(-kInfinity);
+  }
+
+  void Add(const float* values, int count) {
+    int i = 0;
+    for (; i + kLanes <= count; i += kLanes) {
+      for (int k = 0; k < kLanes; ++k) Take(values[i + k], low_[Lane(k)], high_[Lane(k)]);
     }
+    for (; i < count; ++i) Take(values[i], low_[0], high_[0]);
+  }
+
+  Range Found() const {
+    return {*std::min_element(low_.begin(), low_.end()),
+            *std::max_element(high_.begin(), high_.end())};
+  }
+
+ private:
+  static constexpr int kLanes = 8;  // comparisons that do not wait for each other
+  using Lanes = std::array<float, kLanes>;
+
+  static std::size_t Lane(int k) { return static_cast<std::size_t>(k); }
+  static void Take(float value, float& low, float& high) {
+    low = value < low ? value : low;
+    high = value > high && value < kInfinity ? value : high;
+  }
+
+  Lanes low_;
+  Lanes high_;
+};
+
+// Writes I of Eq. (8) into `values` on the traversable cells, all of which lie in `cells`, and
+// infinity on the others of these. Returns I_min and I_max.
+Range WriteInformation(const InformationMapInput& input, const CellRect& cells,
+                       const UpperConfidenceBound& bound, const StopFn& stop, Grid<float>& values) {
+  RangeFinder range;
+  ByRows(cells.min.y, cells.end.y, cells.width(), stop, [&](int y) {
+    const UpperConfidenceBound known_bound = bound;  // which no write can change
+    const std::uint8_t* const open = GridRow(input.traversable, y);
+    const float* const mean_ppm = GridRow(input.mean_ppm, y);
+    const float* const variance_ppm2 = GridRow(input.variance_ppm2, y);
+    float* const row = GridRow(values, y);
+    for (int x = cells.min.x; x < cells.end.x; ++x) {
+      row[x] = known_bound(mean_ppm[x], variance_ppm2[x]);
+    }
+    for (int x = cells.min.x; x < cells.end.x; ++x) row[x] = open[x] != 0 ? row[x] : kInfinity;
+    range.Add(row + cells.min.x, cells.width());
   });
+  return range.Found();
 }
 
-// Writes I of Eq. (8) into `values` on the traversable cells and returns I_min and I_max.
-Range WriteInformation(const InformationMapInput& input, const UpperConfidenceBound& bound,
-                       const StopFn& stop, Grid<float>& values) {
-  Range range;
-  ForEachTraversable(input.traversable, stop, [&](std::size_t i) {
-    values[i] = bound(input.mean_ppm[i], input.variance_ppm2[i]);
-    range.low = std::min(range.low, values[i]);
-    range.high = std::max(range.high, values[i]);
-  });
-  return range;
-}
+// Eq. (10) and (11) of one cell.
+class Scale {
+ public:
+  explicit Scale(const Range& range)
+      : low_(range.low),
+        scale_(range.flat() ? 0.0F : 1.0F / (range.high - range.low)),
+        offset_(range.flat() ? kFlatInformation : 0.0F) {}
 
-// Eq. (10) and (11), on I in the place of I-hat.
-void WritePenalty(const Grid<std::uint8_t>& traversable, const Range& range, const StopFn& stop,
-                  InformationMap& information) {
-  constexpr float kFlatInformation = 0.5F;
-  const float scale = information.flat ? 0.0F : 1.0F / (range.high - range.low);
-  ForEachTraversable(traversable, stop, [&](std::size_t i) {
-    float& value = information.value[i];
-    value =
-        information.flat ? kFlatInformation : std::clamp((value - range.low) * scale, 0.0F, 1.0F);
-    information.penalty[i] = std::max(1.0F - value, kMinPenalty);
-    information.min_penalty = std::min(information.min_penalty, information.penalty[i]);
+  float Value(float information) const {
+    return std::min(1.0F, std::max(0.0F, (information - low_) * scale_ + offset_));
+  }
+  static float Penalty(float value) { return std::max(1.0F - value, kMinPenalty); }
+
+ private:
+  static constexpr float kFlatInformation = 0.5F;
+
+  float low_;
+  float scale_;
+  float offset_;
+};
+
+// Turns what WriteInformation wrote into I-hat and P.
+void WritePenalty(const Grid<std::uint8_t>& traversable, const CellRect& cells, const Scale& scale,
+                  const StopFn& stop, InformationMap& information) {
+  ByRows(cells.min.y, cells.end.y, cells.width(), stop, [&](int y) {
+    const Scale known_scale = scale;  // which no write can change
+    const std::uint8_t* const open = GridRow(traversable, y);
+    float* const values = GridRow(information.value, y);
+    float* const penalties = GridRow(information.penalty, y);
+    for (int x = cells.min.x; x < cells.end.x; ++x) values[x] = known_scale.Value(values[x]);
+    for (int x = cells.min.x; x < cells.end.x; ++x) penalties[x] = Scale::Penalty(values[x]);
+    for (int x = cells.min.x; x < cells.end.x; ++x) {
+      penalties[x] = open[x] != 0 ? penalties[x] : kInfinity;
+      values[x] = open[x] != 0 ? values[x] : 0.0F;
+    }
   });
 }
 
@@ -119,11 +176,15 @@ InformationMap MakeInformationMap(const InformationMapInput& input, const Planni
                                   const StopFn& stop) {
   InformationMap information;
   const UpperConfidenceBound bound(input, options, stop);
+  const CellRect cells = BoundsOf(input.traversable, std::uint8_t{1});
   information.value = Grid<float>(input.traversable.geometry(), 0.0F, stop);
-  const Range range = WriteInformation(input, bound, stop, information.value);
+  const Range range = WriteInformation(input, cells, bound, stop, information.value);
   information.flat = range.flat();
   information.penalty = Grid<float>(input.traversable.geometry(), kInfinity, stop);
-  WritePenalty(input.traversable, range, stop, information);
+  const Scale scale(range);
+  WritePenalty(input.traversable, cells, scale, stop, information);
+  // P falls as I grows.
+  if (!range.empty()) information.min_penalty = Scale::Penalty(scale.Value(range.high));
   return information;
 }
 

@@ -42,6 +42,7 @@ std::vector<Cell> DrawIid(const Grid<float>& mass, std::size_t count, Rng& rng,
 struct MassCells {
   CellRect bounds;
   std::size_t count = 0;
+  double sum = 0.0;  // row by row
 };
 
 MassCells FindMass(const Grid<float>& mass, const StopFn& stop) {
@@ -52,11 +53,18 @@ MassCells FindMass(const Grid<float>& mass, const StopFn& stop) {
     const float* const end = row + mass.width();
     const float* const first = std::find_if(row, end, has_mass);
     if (first == end) return;
-    cells.count += static_cast<std::size_t>(std::count_if(first, end, has_mass));
-    int last = mass.width() - 1;
-    while (!has_mass(row[last])) --last;
+    const float* last = end - 1;
+    while (!has_mass(*last)) --last;
+    std::size_t count = 0;
+    double sum = cells.sum;
+    for (const float* q = first; q <= last; ++q) {
+      count += has_mass(*q) ? 1 : 0;
+      sum += static_cast<double>(*q);
+    }
+    cells.count += count;
+    cells.sum = sum;
     cells.bounds.Include({static_cast<int>(first - row), y});
-    cells.bounds.Include({last, y});
+    cells.bounds.Include({static_cast<int>(last - row), y});
   });
   return cells;
 }
@@ -64,26 +72,30 @@ MassCells FindMass(const Grid<float>& mass, const StopFn& stop) {
 // Distance in mass between systematic draws. Cells with at least that much are drawn for certain
 // and the others share the draws that remain, so that no cell is met twice.
 // REQUIRES: more than `count` cells with mass.
-double SystematicStep(const Grid<float>& mass, const CellRect& bounds, std::size_t count,
+double SystematicStep(const Grid<float>& mass, const MassCells& cells, std::size_t count,
                       const StopFn& stop) {
-  double step = std::numeric_limits<double>::infinity();
+  const CellRect& bounds = cells.bounds;
+  double step = cells.sum / static_cast<double>(count);
   std::size_t certain = 0;
-  while (
-      true) {  // ends: the step shrinks and more cells become certain in every round but the last
-    double shared_mass = 0.0;
+  // Ends: the step shrinks and more cells become certain in every round but the last.
+  while (true) {
     std::size_t now_certain = 0;
-    const auto add_row = [&](int y) {
+    bool is_whole = ByRows(bounds.min.y, bounds.end.y, bounds.width(), stop, [&](int y) {
+      const float* const row = GridRow(mass, y);
+      int in_row = 0;
+      for (int x = bounds.min.x; x < bounds.end.x; ++x) in_row += row[x] >= step ? 1 : 0;
+      now_certain += static_cast<std::size_t>(in_row);
+    });
+    if (now_certain == certain || now_certain >= count || !is_whole) return step;
+    certain = now_certain;
+    double shared_mass = 0.0;
+    is_whole = ByRows(bounds.min.y, bounds.end.y, bounds.width(), stop, [&](int y) {
       const float* const row = GridRow(mass, y);
       for (int x = bounds.min.x; x < bounds.end.x; ++x) {
-        const bool is_certain = row[x] >= step;
-        now_certain += is_certain ? 1 : 0;
-        shared_mass += is_certain ? 0.0 : static_cast<double>(row[x]);
+        shared_mass += row[x] >= step ? 0.0 : static_cast<double>(row[x]);
       }
-    };
-    const bool is_whole = ByRows(bounds.min.y, bounds.end.y, bounds.width(), stop, add_row);
-    const bool settled = std::isfinite(step) && now_certain == certain;
-    if (settled || now_certain >= count || !is_whole) return step;
-    certain = now_certain;
+    });
+    if (!is_whole) return step;
     step = shared_mass / static_cast<double>(count - certain);
   }
 }
@@ -91,7 +103,7 @@ double SystematicStep(const Grid<float>& mass, const CellRect& bounds, std::size
 std::vector<Cell> DrawSystematic(const Grid<float>& mass, std::size_t count, Rng& rng,
                                  const StopFn& stop) {
   const MassCells cells = FindMass(mass, stop);
-  const double step = count < cells.count ? SystematicStep(mass, cells.bounds, count, stop) : 0.0;
+  const double step = count < cells.count ? SystematicStep(mass, cells, count, stop) : 0.0;
   std::vector<Cell> samples;
   samples.reserve(std::min(count, cells.count));
   double until_next = step * (1.0 - rng.Uniform01());  // in (0, step]
@@ -128,11 +140,15 @@ Grid<float> SamplingMass(const InformationMap& information, const Grid<std::uint
   ByRows(bounds.min.y, bounds.end.y, bounds.width(), stop, [&](int y) {
     const std::uint8_t* const inside = GridRow(domain, y);
     const float* const value = GridRow(information.value, y);
+    double sum = total;
+    std::size_t in_row = 0;
     for (int x = bounds.min.x; x < bounds.end.x; ++x) {
       if (inside[x] == 0) continue;
-      total += static_cast<double>(value[x]);
-      ++count;
+      sum += static_cast<double>(value[x]);
+      ++in_row;
     }
+    total = sum;
+    count += in_row;
   });
   auto cells = static_cast<double>(count);
   if (domain.At(robot_cell, 0) != 0) {
@@ -149,9 +165,9 @@ Grid<float> SamplingMass(const InformationMap& information, const Grid<std::uint
     const float* const value = GridRow(information.value, y);
     float* const row = GridRow(mass, y);
     for (int x = bounds.min.x; x < bounds.end.x; ++x) {  // Eq. (14)
-      const float q = per_information * value[x] + per_cell;
-      row[x] = inside[x] != 0 ? q : 0.0F;
+      row[x] = per_information * value[x] + per_cell;
     }
+    for (int x = bounds.min.x; x < bounds.end.x; ++x) row[x] = inside[x] != 0 ? row[x] : 0.0F;
   });
   if (mass.Contains(robot_cell)) mass[robot_cell] = 0.0F;
   return mass;

@@ -3,6 +3,7 @@
 #include "core/plan/goals/frontier_goals.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -31,9 +32,13 @@ void MoveGoalOntoFrontier(const GoalQuery& query, Frontier& frontier) {
   if (standable.empty()) return;
   middle.x_m /= static_cast<double>(standable.size());
   middle.y_m /= static_cast<double>(standable.size());
-  frontier.goal_cell = *std::min_element(standable.begin(), standable.end(), [&](Cell a, Cell b) {
-    return Distance_m(geometry.Center(a), middle) < Distance_m(geometry.Center(b), middle);
-  });
+  double least_m = std::numeric_limits<double>::infinity();
+  for (const Cell cell : standable) {
+    const double distance_m = Distance_m(geometry.Center(cell), middle);
+    if (distance_m >= least_m) continue;
+    least_m = distance_m;
+    frontier.goal_cell = cell;
+  }
 }
 
 std::vector<Frontier> GasFrontiers(const GoalQuery& query) {

@@ -9,10 +9,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <vector>
 
 #include "core/gas/gas_map.h"
 #include "core/grid/flood.h"
 #include "core/grid/mask.h"
+#include "core/types/quantile.h"
+#include "core/types/rng.h"
 #include "tests/support/grid_art.h"
 #include "tests/support/random_grid.h"
 #include "tests/support/slow_frontier.h"
@@ -255,6 +258,24 @@ TEST(GasThreshold, PassesOverMeansThatAreNone) {
   DrawnGas gas = FiveMeans();
   gas.mean_ppm[Cell{2, 0}] = kNan;
   EXPECT_DOUBLE_EQ(Threshold(gas, 100.0), 8.0);
+}
+
+// By a percentile of sorted means; minima beside and between them, and equal to one.
+TEST(GasThreshold, IsTheGreaterOfPercentileAndMinimumOnRandomMaps) {
+  Rng rng(4);
+  for (int map = 0; map < 300; ++map) {
+    DrawnGas gas({"oo.o?oo#o.ooo"});
+    std::vector<float> means_ppm;
+    for (std::size_t i = 0; i < gas.states.size(); ++i) {
+      gas.mean_ppm[i] = static_cast<float>(rng.Below(8));
+      const bool counts = static_cast<double>(gas.variance_ppm2[i]) <= kObserved_ppm2;
+      if (counts) means_ppm.push_back(gas.mean_ppm[i]);
+    }
+    const double percent = rng.Uniform(0.0, 100.0);
+    const double minimum_ppm = 0.5 * static_cast<double>(1 + rng.Below(16));
+    EXPECT_EQ(Threshold(gas, percent, minimum_ppm),
+              std::max(Quantile(means_ppm, 0.01 * percent), minimum_ppm));
+  }
 }
 
 TEST(GasThreshold, MayBeFixed) {
