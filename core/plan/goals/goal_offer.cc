@@ -81,8 +81,7 @@ void LeaveToOthers(const OwnArea& area, std::vector<OfferedGoal>& goals,
 }
 
 // Goals that are there for what there is to learn, in the robot's own area or anywhere.
-GoalOffer FindWork(const GoalQuery& query, bool own_area_alone, Rng& rng) {
-  FrontierGoals frontiers = FindFrontierGoals(query);
+GoalOffer FindWork(const GoalQuery& query, FrontierGoals frontiers, bool own_area_alone, Rng& rng) {
   std::optional<OwnArea> area;
   if (own_area_alone && !Stops(query.stop)) area = OwnArea::Find(query, frontiers);
   if (area) {
@@ -108,8 +107,12 @@ GoalOffer FindGoals(const GoalQuery& query, Rng& rng) {
     return EndMission(query, query.options.return_home || query.belief.deadline_ns, {});
   }
   const bool shares = query.options.balanced_areas && query.belief.robots.size() > 1;
-  GoalOffer result = FindWork(query, shares, rng);
-  if (shares && result.goals.empty() && !Stops(query.stop)) result = FindWork(query, false, rng);
+  FrontierGoals frontiers = FindFrontierGoals(query);
+  GoalOffer result;
+  if (shares) result = FindWork(query, frontiers, true, rng);
+  if (!shares || (result.goals.empty() && !Stops(query.stop))) {
+    result = FindWork(query, std::move(frontiers), false, rng);
+  }
   if (!result.goals.empty() || Stops(query.stop)) return result;
 
   result.fallback = true;
