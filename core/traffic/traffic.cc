@@ -53,6 +53,13 @@ double Fastest_m(const std::vector<Point2>& places) {
   return fastest_m;
 }
 
+// REQUIRES: one place at least.
+Rectangle Around(const std::vector<Point2>& places) {
+  Rectangle around = {places.front(), places.front()};
+  for (const Point2 place : places) around = around.With({place, place});
+  return around;
+}
+
 // How far two robots may be nearer than it seems, for their frames lie where they do more or less.
 // A heading is the more doubt the farther the robot is from the origin of its frame.
 double Doubt_m(const RobotState& a, const RobotState& b) {
@@ -122,6 +129,7 @@ Traffic::Traffic(const std::map<RobotId, RobotRecord>& robots, const RobotId& ro
     if (IsOnItsWay(record, now_ns)) {
       GoOn(*record.live_trajectory, Progress_s(record, now_ns), other);
     }
+    other.around = Around(other.places);
     others_.push_back(std::move(other));
   }
 }
@@ -138,6 +146,7 @@ void Traffic::KeepWay(const RobotState& other, const Trajectory& way) {
   const double reach_m = Reach_m(self_, other, clearance_m_);
   Other going{other.id, reach_m, {way.waypoints.front().pose.position()}};
   GoOn(way, 0.0, going);
+  going.around = Around(going.places);
   others_.push_back(std::move(going));
   kept_ways_.push_back({other.id, reach_m, way});
 }
@@ -151,6 +160,7 @@ Traffic::Steps Traffic::StepsOf(const Trajectory& trajectory, double from_s) {
     steps.places.push_back(PoseAt(trajectory, time_s).position());
   }
   steps.fastest_m = Fastest_m(steps.places);
+  steps.around = Around(steps.places);
   steps.ends = left_s <= kHorizon_s;
   return steps;
 }
@@ -214,6 +224,9 @@ std::optional<Meeting> Traffic::FindEnd(const Steps& steps, std::size_t waited) 
 
 std::optional<std::size_t> Traffic::MeetingStep(const Other& other, const Steps& steps,
                                                 std::size_t waited) const {
+  constexpr double kRounding_m = 1e-6;
+  const double apart_m = other.reach_m + clearance_m_ + kRounding_m;
+  if (!steps.around.Grown(apart_m).Overlaps(other.around)) return std::nullopt;
   const auto place = [&](std::size_t k) {
     return other.places[std::min(k, other.places.size() - 1)];
   };

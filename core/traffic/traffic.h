@@ -11,6 +11,7 @@
 #include "core/belief/belief.h"
 #include "core/types/ids.h"
 #include "core/types/pose2.h"
+#include "core/types/rectangle.h"
 #include "core/types/trajectory.h"
 
 namespace plumescout {
@@ -89,6 +90,7 @@ class Traffic {
     double reach_m = 0.0;  // Reach_m
     std::vector<Point2> places;
     double fastest_m = 0.0;  // in one step
+    Rectangle around = {};   // all places
   };
   struct KeptWay {
     RobotId robot;
@@ -99,6 +101,7 @@ class Traffic {
   struct Steps {
     std::vector<Point2> places;
     double fastest_m = 0.0;
+    Rectangle around = {};
     bool ends = false;  // with the last of them; else it goes on beyond the horizon
 
     Point2 At(std::size_t step, std::size_t waited) const;
