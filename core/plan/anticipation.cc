@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/grid/padded.h"
 #include "core/grid/ray.h"
 #include "core/plan/cost/field_window.h"
 #include "core/plan/selection/selection.h"
@@ -112,11 +113,14 @@ std::optional<Belief> Anticipate(const Belief& belief, const RobotId& robot,
   const Grid<float> then = ahead.gas_what_if->variance_ppm2(stop);
   if (Stops(stop)) return std::nullopt;
   auto variance = std::make_shared<Grid<float>>(*belief.gas_variance_ppm2);
-  const auto lower = [&](std::size_t in_map, std::size_t in_field) {
-    float& known = (*variance)[in_map];
-    if (then[in_field] < known) known = then[in_field];  // NaN off free cells
-  };
-  window.ForEachCell(lower, stop);
+  const CellRect cells = window.InMap(WholeRaster(then.geometry()));
+  ByRows(cells.min.y, cells.end.y, cells.width(), stop, [&](int y) {
+    float* const known = GridRow(*variance, y) + cells.min.x;
+    const float* const less = GridRow(then, y - cells.min.y);
+    for (int x = 0; x < cells.width(); ++x) {
+      known[x] = less[x] < known[x] ? less[x] : known[x];  // NaN off free cells
+    }
+  });
   ahead.gas_variance_ppm2 = std::move(variance);
   return ahead;
 }

@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
 #include <optional>
 
 #include "core/types/cell.h"
 #include "core/types/cell_rect.h"
 #include "core/types/grid_geometry.h"
-#include "core/types/stop.h"
 
 namespace plumescout {
 
@@ -18,7 +16,7 @@ class FieldWindow {
  public:
   // REQUIRES: `map` covers `field`, by whole cells.
   FieldWindow(const GridGeometry& map, const GridGeometry& field)
-      : map_(map), field_(field), corner_(map.CellAt(field.Center({0, 0}))) {}
+      : field_(field), corner_(map.CellAt(field.Center({0, 0}))) {}
 
   // The cell of the map as one of the field; none if the field has it not.
   std::optional<Cell> InField(Cell cell) const {
@@ -32,19 +30,7 @@ class FieldWindow {
             {inside.end.x + corner_.x, inside.end.y + corner_.y}};
   }
 
-  // Calls visit(index in the map, index in the field) for all cells of the field, until `stop`,
-  // which is asked all along, says so.
-  template <typename Visit>
-  void ForEachCell(const Visit& visit, const StopFn& stop = {}) const {
-    ByRows(0, field_.height, field_.width, stop, [&](int y) {
-      std::size_t in_map = map_.Index({corner_.x, corner_.y + y});
-      std::size_t in_field = field_.Index({0, y});
-      for (int x = 0; x < field_.width; ++x) visit(in_map++, in_field++);
-    });
-  }
-
  private:
-  GridGeometry map_;
   GridGeometry field_;
   Cell corner_;
 };

@@ -2,17 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plan/cost/field_window.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <utility>
-#include <vector>
 
 namespace plumescout {
 namespace field_window_test {
-
-using ::testing::ElementsAre;
-using ::testing::Pair;
 
 // The map has grown by two columns to the west and by one row to the south since.
 const GridGeometry kField{0.0, 0.0, 0.1, 3, 2};
@@ -31,15 +24,6 @@ TEST(FieldWindow, CellsOfTheMapAreThoseOfTheFieldOrNone) {
 TEST(FieldWindow, RectanglesOfTheFieldLieOnTheMapToo) {
   const CellRect whole = FieldWindow(kMap, kField).InMap(WholeRaster(kField));
   EXPECT_EQ(whole, CellRect({2, 1}, {5, 3}));
-}
-
-TEST(FieldWindow, EveryCellOfTheFieldIsVisitedWhereItLies) {
-  std::vector<std::pair<std::size_t, std::size_t>> visited;
-  FieldWindow(kMap, kField).ForEachCell([&](std::size_t in_map, std::size_t in_field) {
-    visited.emplace_back(in_map, in_field);
-  });
-  EXPECT_THAT(visited, ElementsAre(Pair(8, 0), Pair(9, 1), Pair(10, 2),  // row 1 of the map
-                                   Pair(14, 3), Pair(15, 4), Pair(16, 5)));
 }
 
 }  // namespace field_window_test
