@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 
 #include "core/belief/objective_cells.h"
+#include "core/gas/noise_scale.h"
 #include "core/grid/padded.h"
 
 namespace plumescout {
@@ -46,29 +48,43 @@ float Greatest_ppm(const std::vector<float>& values_ppm, const StopFn& stop) {
   return *std::max_element(greatest_ppm.begin(), greatest_ppm.end());
 }
 
-}  // namespace
-
-std::vector<float> Relevance(const Grid<float>& mean_ppm, const MissionOptions& options,
-                             const CellRect& cells, const StopFn& stop) {
+// Of what cells hold: their means, and with `variance_ppm2`, which may be null, a standard
+// deviation more.
+std::vector<float> RelevanceOf(const Grid<float>& mean_ppm, const Grid<float>* variance_ppm2,
+                               const MissionOptions& options, const CellRect& cells,
+                               const StopFn& stop) {
   const auto background_ppm = static_cast<float>(options.gas.background_mean_ppm);
   const float sure_ppm = SureGas_ppm(options);
   const float greatest_ppm =
       std::max(sure_ppm, Greatest_ppm(mean_ppm.values(), stop) - background_ppm);
+  const auto width = static_cast<std::size_t>(cells.width());
+  std::vector<float> held_ppm(width);
   std::vector<float> relevance;
   relevance.reserve(cells.size());
   ByRows(cells.min.y, cells.end.y, cells.width(), stop, [&](int y) {
-    relevance.resize(relevance.size() + static_cast<std::size_t>(cells.width()));
-    float* const to = relevance.data() + relevance.size() - cells.width();
-    const float* const row_ppm = GridRow(mean_ppm, y) + cells.min.x;
-    for (int x = 0; x < cells.width(); ++x) {
-      const float above_ppm = row_ppm[x] - background_ppm;
+    std::copy_n(GridRow(mean_ppm, y) + cells.min.x, width, held_ppm.begin());
+    if (variance_ppm2 != nullptr) {
+      const float* const row_ppm2 = GridRow(*variance_ppm2, y) + cells.min.x;
+      for (std::size_t x = 0; x < width; ++x) held_ppm[x] += std::sqrt(row_ppm2[x]);
+    }
+    relevance.resize(relevance.size() + width);
+    float* const to = relevance.data() + relevance.size() - width;
+    for (std::size_t x = 0; x < width; ++x) {
+      const float above_ppm = held_ppm[x] - background_ppm;
       const float gas_ppm = above_ppm > 0.0F ? above_ppm : 0.0F;  // where it is NaN too
       const float sure = std::min(1.0F, gas_ppm / sure_ppm);
       to[x] = kCleanRelevance + (1.0F - kCleanRelevance) * sure * sure +
-              kErrorShare * gas_ppm / greatest_ppm;
+              kErrorShare * std::min(1.0F, gas_ppm / greatest_ppm);
     }
   });
   return relevance;
+}
+
+}  // namespace
+
+std::vector<float> Relevance(const Grid<float>& mean_ppm, const MissionOptions& options,
+                             const CellRect& cells, const StopFn& stop) {
+  return RelevanceOf(mean_ppm, nullptr, options, cells, stop);
 }
 
 std::vector<float> Relevance(const Grid<float>& mean_ppm, const MissionOptions& options) {
@@ -76,7 +92,10 @@ std::vector<float> Relevance(const Grid<float>& mean_ppm, const MissionOptions& 
 }
 
 std::vector<float> Relevance(const Belief& belief, const CellRect& cells, const StopFn& stop) {
-  std::vector<float> relevance = Relevance(*belief.gas_mean_ppm, *belief.options, cells, stop);
+  const bool by_bound = HasNoiseByLevel(belief.options->gas);
+  std::vector<float> relevance = RelevanceOf(
+      *belief.gas_mean_ppm, by_bound ? belief.Gas(0).published_variance_ppm2().get() : nullptr,
+      *belief.options, cells, stop);
   if (belief.options->objective.kind == ObjectiveKind::kCompleteMap) return relevance;
   if (Stops(stop)) return relevance;
   const Grid<std::uint8_t> all(belief.geometry(), std::uint8_t{1});

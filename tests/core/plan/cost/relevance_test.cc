@@ -91,7 +91,11 @@ TEST(Relevance, WhatIsDecidedHasNone) {
   hall.Set({5, 5}, 9.0F, 1.0F);
   hall.Forget({7, 7});
   const GridGeometry& geometry = hall.belief.geometry();
-  const std::vector<float> all = Relevance(*hall.belief.gas_mean_ppm, *hall.belief.options);
+  Belief whole = hall.belief;
+  MissionOptions options = *hall.belief.options;
+  options.objective = support::Objective(ObjectiveKind::kCompleteMap);
+  whole.options = std::make_shared<const MissionOptions>(options);
+  const std::vector<float> all = Relevance(whole);
   const std::vector<float> relevance = Relevance(hall.belief);
   for (std::size_t i = 0; i < relevance.size(); ++i) {
     const Cell cell = geometry.CellAtIndex(i);
@@ -101,10 +105,26 @@ TEST(Relevance, WhatIsDecidedHasNone) {
   }
 }
 
-TEST(Relevance, OfACompleteMapIsThatOfItsMeans) {
-  support::MeasuredHall hall(support::Objective(ObjectiveKind::kCompleteMap));
+TEST(Relevance, OfACompleteMapIsThatOfItsMeansWhereVariancesDoNotKnowTheLevel) {
+  support::MeasuredHall hall(support::Objective(ObjectiveKind::kCompleteMap),
+                             GasScale::kSquareRoot);
   hall.Set({5, 5}, 9.0F, 1.0F);
   EXPECT_EQ(Relevance(hall.belief), Relevance(*hall.belief.gas_mean_ppm, *hall.belief.options));
+}
+
+TEST(Relevance, ElseItIsThatOfAStandardDeviationMore) {
+  support::MeasuredHall hall(support::Objective(ObjectiveKind::kCompleteMap));
+  hall.Set({5, 5}, 9.0F, 1.0F);
+  hall.Set({6, 5}, 1.0F, 4.0F);
+  hall.Set({7, 5}, 9.0F, 100.0F);
+  const std::vector<float> relevance = Relevance(hall.belief);
+  const GridGeometry& geometry = hall.belief.geometry();
+  const auto at = [&](Cell cell) { return relevance[geometry.Index(cell)]; };
+  // The greatest mean is 9 ppm, and gas is sure from 4 ppm on.
+  EXPECT_NEAR(at({5, 5}), 1.0 + 0.5, kSingle);
+  EXPECT_NEAR(at({6, 5}), 0.05 + 0.95 * 0.75 * 0.75 + 0.5 * 3.0 / 9.0, kSingle);
+  EXPECT_NEAR(at({7, 5}), 1.5, kSingle) << "never above its bound";
+  EXPECT_EQ(Relevance(hall.belief, {{6, 5}, {7, 6}}), std::vector<float>(1, at({6, 5})));
 }
 
 }  // namespace relevance_test
