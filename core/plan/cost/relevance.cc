@@ -3,8 +3,8 @@
 #include "core/plan/cost/relevance.h"
 
 #include <algorithm>
-#include <cmath>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -93,9 +93,9 @@ std::vector<float> Relevance(const Grid<float>& mean_ppm, const MissionOptions& 
 
 std::vector<float> Relevance(const Belief& belief, const CellRect& cells, const StopFn& stop) {
   const bool by_bound = HasNoiseByLevel(belief.options->gas);
-  std::vector<float> relevance = RelevanceOf(
-      *belief.gas_mean_ppm, by_bound ? belief.gas_error_variance_ppm2.get() : nullptr,
-      *belief.options, cells, stop);
+  std::vector<float> relevance =
+      RelevanceOf(*belief.gas_mean_ppm, by_bound ? belief.gas_error_variance_ppm2.get() : nullptr,
+                  *belief.options, cells, stop);
   if (belief.options->objective.kind == ObjectiveKind::kCompleteMap) return relevance;
   if (Stops(stop)) return relevance;
   const Grid<std::uint8_t> all(belief.geometry(), std::uint8_t{1});
