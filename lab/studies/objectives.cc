@@ -30,7 +30,7 @@
 namespace plumescout::lab {
 namespace {
 
-constexpr std::uint64_t kFirstBuilding = 740;       // 730 to 733 were tuned on
+constexpr std::uint64_t kFirstBuilding = 762;       // 730 to 733 were tuned on
 constexpr std::uint64_t kFirstQuickBuilding = 730;  // a first look leaves the others unseen
 constexpr int kBuildings = 8;
 constexpr double kDuration_s = 600.0;
