@@ -275,14 +275,15 @@ void AddNumbers(const std::vector<Building>& buildings, Study& study) {
   }
   const auto count = static_cast<double>(buildings.size());
   for (const auto& [name, figure] : {figures[0], figures[1]}) {
-    key_numbers.emplace_back(absl::StrCat("Share of the oracle's gain, ", name),
+    const char* const label = figure == RmseShare ? "RMSE" : "entropy";
+    key_numbers.emplace_back(absl::StrCat("Share of the oracle's gain, ", label),
                              OracleShareText(buildings, kOwn, figure));
     key_numbers.emplace_back(
-        absl::StrCat("XIT-GFF's, ", name),
+        absl::StrCat("XIT-GFF's, ", label),
         absl::StrFormat("%.2f paper, %.2f ours", OracleShare(buildings, kGff, kBaseline, figure),
                         OracleShare(buildings, kGffOurs, kBaseline, figure)));
     const int best = BuildingsWhereBest(buildings, kOwn, figure);
-    key_numbers.emplace_back(absl::StrCat("Best of all rows, ", name),
+    key_numbers.emplace_back(absl::StrCat("Best of all rows, ", label),
                              absl::StrFormat("%d of %d buildings", best, buildings.size()));
     summary.figures.emplace_back(absl::StrCat(kContestants[kOwn].name, "_", name, "_best_share"),
                                  best / count);
