@@ -54,6 +54,8 @@ bool PathBlocked(const Scan& scan, const Pose2& scan_pose, const std::vector<Poi
   const std::vector<Point2> head = Head(path_ahead, options.lookahead_m);
   const double clearance_m =
       std::max(options.radius_m - options.map_blur_m, options.min_clearance_m);
+  const double end_clearance_m =
+      head.back() == path_ahead.back() ? clearance_m + options.end_margin_m : 0.0;
   int beams = 0;
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const double range_m = static_cast<double>(scan.ranges_m[i]);
@@ -63,9 +65,10 @@ bool PathBlocked(const Scan& scan, const Pose2& scan_pose, const std::vector<Poi
         scan_pose.yaw_rad + scan.start_angle_rad + static_cast<double>(i) * scan.angle_step_rad;
     const Point2 end = {scan_pose.x_m + range_m * std::cos(angle_rad),
                         scan_pose.y_m + range_m * std::sin(angle_rad)};
-    const double limit_m =
-        std::min(clearance_m, Distance_m(end, head.front()) - options.range_noise_m);
-    if (DistanceToPath_m(end, head) < limit_m && ++beams >= options.min_beams) return true;
+    const double nearer_m = Distance_m(end, head.front()) - options.range_noise_m;
+    const bool in_the_way = DistanceToPath_m(end, head) < std::min(clearance_m, nearer_m) ||
+                            Distance_m(end, head.back()) < std::min(end_clearance_m, nearer_m);
+    if (in_the_way && ++beams >= options.min_beams) return true;
   }
   return false;
 }

@@ -12,6 +12,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/time/time.h"
+#include "client/blockage.h"
 #include "client/motion.h"
 #include "client/planner_client.h"
 #include "client/sensor_bridge.h"
@@ -68,6 +69,8 @@ struct EpisodeOptions {
   // Instead the mission undoes it, along the way: see GasSensor::response_time_s.
   bool mission_corrects_lag = false;
   double gas_settling_s = 0.0;  // see client::GasSampling; < the mission's dwell_s
+  // See client::BlockageOptions.
+  double end_margin_m = client::BlockageOptions{}.end_margin_m;
   // In lockstep: how long the robot stands for each plan, >= 0.
   double plan_latency_s = 0.1;
   // False: the world waits for acknowledgements and plans, so an episode is repeatable. True: time

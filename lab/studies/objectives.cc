@@ -23,6 +23,7 @@
 #include "lab/studies/objective_truth.h"
 #include "lab/trials/map_calibration.h"
 #include "lab/trials/statistics.h"
+#include "lab/trials/study.h"
 #include "lab/trials/study_scenes.h"
 #include "lab/trials/task_pool.h"
 #include "lab/trials/trial_study.h"
@@ -93,6 +94,7 @@ absl::StatusOr<Outcome> Drive(const SceneWorld& world, const Row& row, std::uint
   options.create->gas = GasOptions{};          // what is promised is by the variances told
   options.create->gas.refresh_period_s = 1.0;  // as often as objectives are assessed
   options.mission_corrects_lag = true;
+  options.end_margin_m = kStudiedEndMargin_m;
   options.create->objective = {
       .kind = row.kind, .threshold_ppm = kThreshold_ppm, .deadline_s = row.deadline_s};
   options.duration_s = duration_s;

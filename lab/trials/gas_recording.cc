@@ -11,6 +11,7 @@
 #include "core/types/status_macros.h"
 #include "lab/local/local_planner_client.h"
 #include "lab/sim/episode.h"
+#include "lab/trials/study.h"
 #include "ompl_planners/ompl_planner.h"
 
 namespace plumescout::lab {
@@ -48,6 +49,7 @@ absl::StatusOr<GasRecording> RecordGas(const SceneWorld& world, const MissionOpt
   options.plan_budget = absl::InfiniteDuration();
   options.simulated.seed = seed;
   options.correct_gas_lag = false;
+  options.end_margin_m = kStudiedEndMargin_m;
   PLUMESCOUT_RETURN_IF_ERROR(RunEpisode(planner, world, options).status());
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto belief, planner.GetBelief(options.mission));
   recording.states = *belief->occupancy;

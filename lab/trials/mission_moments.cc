@@ -13,6 +13,7 @@
 #include "lab/local/local_planner_client.h"
 #include "lab/report/figures.h"
 #include "lab/report/palette.h"
+#include "lab/trials/study.h"
 #include "ompl_planners/ompl_planner.h"
 
 namespace plumescout::lab {
@@ -91,6 +92,7 @@ absl::StatusOr<RecordedMission> RecordMission(const SceneWorld& world, EpisodeOp
   };
   LocalPlannerClient planner(local);
   options.plan_budget = absl::InfiniteDuration();
+  options.end_margin_m = kStudiedEndMargin_m;
   options.on_plan = [&](const IssuedPlan& issued) {
     const auto belief = planner.GetBelief(options.mission);
     if (!belief.ok() || issued.plan.chosen < 0) return;

@@ -15,6 +15,10 @@
 
 namespace plumescout::lab {
 
+// EpisodeOptions::end_margin_m of all studies: figures were made when robots drove on to the cell
+// of a frontier itself, where one mission in seven touched a wall that was not on the map yet.
+inline constexpr double kStudiedEndMargin_m = 0.0;
+
 struct ExperimentOptions {
   std::uint64_t seed = 1;
   bool quick = false;                            // less of everything: a minute at most

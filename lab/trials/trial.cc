@@ -19,6 +19,7 @@
 #include "lab/sim/team_starts.h"
 #include "lab/trials/gas_recording.h"
 #include "lab/trials/recorded_map.h"
+#include "lab/trials/study.h"
 #include "lab/trials/team_watch.h"
 #include "ompl_planners/ompl_planner.h"
 
@@ -157,6 +158,7 @@ EpisodeOptions MakeEpisodeOptions(const Trial& trial, TrialRecord& record) {
   options.simulated.pace.most_late_s = trial.most_late_s;
   options.simulated.has_body = !trial.ghosts;
   options.simulated.lidar.max_range_m = trial.robot.lidar_range_m;
+  options.end_margin_m = kStudiedEndMargin_m;
   options.plan_latency_s = trial.robot.plan_latency_s;
   options.correct_gas_lag = trial.robot.corrects_gas_lag;
   options.mission_corrects_lag = trial.robot.leaves_lag_to_mission;

@@ -45,6 +45,27 @@ TEST(PathBlocked, WhatLiesBeyondTheLookaheadMayBeGoneWhenWeGetThere) {
   EXPECT_FALSE(PathBlocked(scan, {}, {{0, 0}, {3, 0}}, {.lookahead_m = 0.8}));
 }
 
+TEST(PathBlocked, ItsEndKeepsFartherFromWhatTheMapDoesNotShow) {
+  const Scan scan = ScanWithPosts({}, {{0.63, 0.0}});  // 8 cm beyond the end
+
+  EXPECT_TRUE(PathBlocked(scan, {}, {{0, 0}, {0.5, 0}}, {}));
+  EXPECT_FALSE(PathBlocked(scan, {}, {{0, 0}, {0.5, 0}}, {.end_margin_m = 0.0}));
+}
+
+TEST(PathBlocked, WhereThePathGoesOnIsNoEnd) {
+  const Scan scan = ScanWithPosts({}, {{0.5, 0.12}});
+
+  EXPECT_FALSE(PathBlocked(scan, {}, {{0, 0}, {0.5, 0}, {0.5, -1}}, {.min_beams = 1}));
+  EXPECT_FALSE(PathBlocked(scan, {}, {{0, 0}, {2, 0}}, {.lookahead_m = 0.5, .min_beams = 1}));
+  EXPECT_TRUE(PathBlocked(scan, {}, {{0, 0}, {0.5, 0}}, {.min_beams = 1}));
+}
+
+TEST(PathBlocked, AtItsEndARobotIsNotHeldByWhatIsAsNear) {
+  const Scan scan = ScanWithPosts({.x_m = 0.5}, {{0.63, 0.0}});
+
+  EXPECT_FALSE(PathBlocked(scan, {.x_m = 0.5}, {{0.5, 0}, {0.51, 0}}, {}));
+}
+
 TEST(PathBlocked, TheLookaheadFollowsCorners) {
   const Scan scan = ScanWithPosts({}, {{0.3, 0.4}});
   const BlockageOptions options{.lookahead_m = 1.0};
