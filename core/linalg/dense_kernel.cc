@@ -3,15 +3,16 @@
 #include "core/linalg/dense_kernel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
 namespace plumescout {
 namespace {
 
-constexpr std::size_t kColumnTile = 4;  // with kRowTile: 8 accumulators of 4 doubles
-constexpr std::size_t kDepth = 256;     // of a tile at once: 16 KiB of a, 8 KiB of b
-constexpr std::size_t kPanel = 24;      // columns factorised before the rest is updated
+constexpr std::size_t kColumnTile = 4;
+constexpr std::size_t kDepth = 256;  // of a tile at once: 16 KiB of a
+constexpr std::size_t kPanel = 24;   // columns factorised before the rest is updated
 
 // Widths of vector registers.
 constexpr int kPortableBytes = 16;
@@ -23,85 +24,73 @@ struct VectorOf {
   typedef double Type __attribute__((vector_size(kBytes)));
 };
 
-// kColumnTile elements of b, row by row.
-struct ColumnsOfB {
-  const double* values = nullptr;
-  std::size_t row_stride = 0;
-};
-
-// One tile of a product: kRowTile x kColumnTile elements of c, or fewer columns.
-struct TileOfProduct {
-  const double* a = nullptr;
-  std::size_t a_stride = 0;
-  const double* b = nullptr;  // kColumnTile elements each b_stride
-  std::size_t b_stride = 0;
+// Rows [k, k + depth) of b, and columns [column, column + columns), of a product.
+struct PartOfProduct {
+  std::size_t k = 0;
   std::size_t depth = 0;
-  double* c = nullptr;
-  std::size_t c_stride = 0;
+  std::size_t column = 0;
   std::size_t columns = 0;
-  double scale = 1.0;
-  bool overwrite = false;
 };
 
-// Kept in registers over all columns of a.
-template <int kBytes>
-[[gnu::always_inline]] inline void Accumulate(TileOfProduct t) {
+// Of kRowTile rows from `row` on, in registers over all columns of a. Where the part has fewer
+// columns than kColumns, those that lack are taken for its last, and left out in the end.
+template <int kBytes, std::size_t kColumns>
+[[gnu::always_inline]] inline void AccumulateTile(const Product& p, const PartOfProduct& part,
+                                                  std::size_t row) {
   using Vector = typename VectorOf<kBytes>::Type;
   constexpr std::size_t kLanes = kBytes / sizeof(double);
   constexpr std::size_t kParts = kRowTile / kLanes;
-  Vector sum[kColumnTile][kParts] = {};
-  for (std::size_t k = 0; k < t.depth; ++k, t.a += t.a_stride, t.b += t.b_stride) {
-    for (std::size_t part = 0; part < kParts; ++part) {
+  const std::size_t zeros = p.a_is_upper && row > part.k ? std::min(part.depth, row - part.k) : 0;
+  const std::size_t first = part.k + zeros;
+  const double* a = p.a + first * p.a_stride + row;
+  std::array<const double*, kColumns> b;
+  b[0] = p.b + first * p.b_row_stride + part.column * p.b_column_stride;
+  for (std::size_t j = 1; j < kColumns; ++j) {
+    b[j] = b[j - 1] + (j < part.columns ? p.b_column_stride : 0);
+  }
+  Vector sum[kColumns][kParts] = {};
+  std::size_t at = 0;
+  for (std::size_t k = zeros; k < part.depth; ++k, a += p.a_stride, at += p.b_row_stride) {
+    for (std::size_t i = 0; i < kParts; ++i) {
       Vector x;
-      std::memcpy(&x, t.a + part * kLanes, sizeof(x));
-      for (std::size_t j = 0; j < kColumnTile; ++j) sum[j][part] += x * t.b[j];
+      std::memcpy(&x, a + i * kLanes, sizeof(x));
+      for (std::size_t j = 0; j < kColumns; ++j) sum[j][i] += x * b[j][at];
     }
   }
-  for (std::size_t j = 0; j < t.columns; ++j, t.c += t.c_stride) {
-    for (std::size_t part = 0; part < kParts; ++part) {
+  const bool overwrite = p.overwrite && part.k == 0;
+  double* c = p.c + part.column * p.c_stride + row;
+  for (std::size_t j = 0; j < kColumns; ++j, c += p.c_stride) {
+    if (j == part.columns) break;  // unrolled: a register is not chosen by a variable
+    for (std::size_t i = 0; i < kParts; ++i) {
       Vector x = {};
-      if (!t.overwrite) std::memcpy(&x, t.c + part * kLanes, sizeof(x));
-      x += t.scale * sum[j][part];
-      std::memcpy(t.c + part * kLanes, &x, sizeof(x));
+      if (!overwrite) std::memcpy(&x, c + i * kLanes, sizeof(x));
+      x += p.scale * sum[j][i];
+      std::memcpy(c + i * kLanes, &x, sizeof(x));
     }
   }
 }
 
-// The columns of a tile, for rows [k, k + depth) of b; absent columns are 0.
-void PackColumns(const Product& p, std::size_t k, std::size_t depth, std::size_t column,
-                 std::size_t columns, double* packed) {
-  const double* b = p.b + k * p.b_row_stride + column * p.b_column_stride;
-  for (std::size_t i = 0; i < depth; ++i, b += p.b_row_stride) {
-    for (std::size_t j = 0; j < kColumnTile; ++j) {
-      packed[i * kColumnTile + j] = j < columns ? b[j * p.b_column_stride] : 0.0;
-    }
+template <int kBytes, std::size_t kColumns>
+[[gnu::always_inline]] inline void AccumulatePart(const Product& p, const PartOfProduct& part) {
+  const std::size_t first = p.lower_only ? part.column / kRowTile * kRowTile : 0;
+  for (std::size_t row = first; row < p.rows; row += kRowTile) {
+    AccumulateTile<kBytes, kColumns>(p, part, row);
   }
 }
 
+// A tile of the widest registers has twice the columns: sums enough that none waits for itself. `p`
+// is a copy, which no write to c can change.
 template <int kBytes>
-[[gnu::always_inline]] inline void AccumulateBody(const Product& p) {
-  double packed[kDepth * kColumnTile];
+[[gnu::always_inline]] inline void AccumulateBody(Product p) {
+  constexpr std::size_t kMost = kBytes == kAvx512Bytes ? 2 * kColumnTile : kColumnTile;
   for (std::size_t k = 0; k < p.depth; k += kDepth) {
-    const std::size_t depth = std::min(kDepth, p.depth - k);
-    for (std::size_t column = 0; column < p.columns; column += kColumnTile) {
-      const std::size_t columns = std::min(kColumnTile, p.columns - column);
-      const bool in_place = p.b_column_stride == 1 && columns == kColumnTile;
-      if (!in_place) PackColumns(p, k, depth, column, columns, packed);
-      const double* const b = in_place ? p.b + k * p.b_row_stride + column : packed;
-      const std::size_t b_stride = in_place ? p.b_row_stride : kColumnTile;
-      const std::size_t first = p.lower_only ? column / kRowTile * kRowTile : 0;
-      for (std::size_t row = first; row < p.rows; row += kRowTile) {
-        const std::size_t zeros = p.a_is_upper && row > k ? std::min(depth, row - k) : 0;
-        Accumulate<kBytes>({.a = p.a + (k + zeros) * p.a_stride + row,
-                            .a_stride = p.a_stride,
-                            .b = b + zeros * b_stride,
-                            .b_stride = b_stride,
-                            .depth = depth - zeros,
-                            .c = p.c + column * p.c_stride + row,
-                            .c_stride = p.c_stride,
-                            .columns = columns,
-                            .scale = p.scale,
-                            .overwrite = p.overwrite && k == 0});
+    PartOfProduct part = {k, std::min(kDepth, p.depth - k), 0, 0};
+    for (; part.column < p.columns; part.column += part.columns) {
+      part.columns = std::min(kMost, p.columns - part.column);
+      if (part.columns > kColumnTile) {
+        AccumulatePart<kBytes, kMost>(p, part);
+      } else {
+        AccumulatePart<kBytes, kColumnTile>(p, part);
       }
     }
   }
