@@ -209,15 +209,4 @@ void InvertLowerTransposed(const double* lower, std::size_t lower_stride, std::s
   }
 }
 
-double Dot(const double* a, const double* b, std::size_t size) {
-  constexpr std::size_t kLanes = 4;
-  double sum[kLanes] = {};
-  std::size_t i = 0;
-  for (; i + kLanes <= size; i += kLanes) {
-    for (std::size_t lane = 0; lane < kLanes; ++lane) sum[lane] += a[i + lane] * b[i + lane];
-  }
-  for (; i < size; ++i) sum[0] += a[i] * b[i];
-  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
-}
-
 }  // namespace plumescout

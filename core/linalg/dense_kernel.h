@@ -57,6 +57,15 @@ void InvertLowerTransposed(const double* lower, std::size_t lower_stride, std::s
 
 // Sum of a[i] * b[i], in four interleaved partial sums: chains of additions that do not wait for
 // each other.
-double Dot(const double* a, const double* b, std::size_t size);
+inline double Dot(const double* a, const double* b, std::size_t size) {
+  constexpr std::size_t kLanes = 4;
+  double sum[kLanes] = {};
+  std::size_t i = 0;
+  for (; i + kLanes <= size; i += kLanes) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) sum[lane] += a[i + lane] * b[i + lane];
+  }
+  for (; i < size; ++i) sum[0] += a[i] * b[i];
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
 
 }  // namespace plumescout

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "core/linalg/dense_kernel.h"
@@ -98,8 +99,13 @@ void InverseColumns::GatherRows(const Front& front, std::size_t depth) {
   const std::size_t stride = block.stride = depth == 0 ? stride_ : blocks_[depth - 1].stride;
   block.slack = depth == 0 ? slack_ : blocks_[depth - 1].slack;
   double* to = block.rows.For(front.cells.size() * stride) + front.own * stride;
-  for (std::size_t i = 0; i < front.boundary(); ++i, to += stride) {
-    std::copy_n(blocks_[depth - 1].rows.data() + place_[i] * stride, stride, to);
+  const double* const rows = depth == 0 ? nullptr : blocks_[depth - 1].rows.data();
+  for (std::size_t i = 0; i < front.boundary(); ++i) {
+    const double* const row = rows + place_[i] * stride;
+    // Tile by tile: rows are short, and a copy of no known size is a call.
+    for (std::size_t j = 0; j < stride; j += kRowTile, to += kRowTile) {
+      std::memcpy(to, row + j, kRowTile * sizeof(double));
+    }
   }
 }
 
