@@ -58,23 +58,26 @@ std::vector<float> RelevanceOf(const Grid<float>& mean_ppm, const Grid<float>* v
   const float greatest_ppm =
       std::max(sure_ppm, Greatest_ppm(mean_ppm.values(), stop) - background_ppm);
   const auto width = static_cast<std::size_t>(cells.width());
-  std::vector<float> held_ppm(width);
+  std::vector<float> gas_ppm(width);
   std::vector<float> relevance;
   relevance.reserve(cells.size());
+  // Loops of few operations each, that the compiler takes for several cells at once.
   ByRows(cells.min.y, cells.end.y, cells.width(), stop, [&](int y) {
-    std::copy_n(GridRow(mean_ppm, y) + cells.min.x, width, held_ppm.begin());
+    std::copy_n(GridRow(mean_ppm, y) + cells.min.x, width, gas_ppm.begin());
     if (variance_ppm2 != nullptr) {
       const float* const row_ppm2 = GridRow(*variance_ppm2, y) + cells.min.x;
-      for (std::size_t x = 0; x < width; ++x) held_ppm[x] += std::sqrt(row_ppm2[x]);
+      for (std::size_t x = 0; x < width; ++x) gas_ppm[x] += std::sqrt(row_ppm2[x]);
+    }
+    for (float& ppm : gas_ppm) {
+      const float above_ppm = ppm - background_ppm;
+      ppm = above_ppm > 0.0F ? above_ppm : 0.0F;  // where it is NaN too
     }
     relevance.resize(relevance.size() + width);
     float* const to = relevance.data() + relevance.size() - width;
+    for (std::size_t x = 0; x < width; ++x) to[x] = std::min(1.0F, gas_ppm[x] / sure_ppm);
+    for (float& ppm : gas_ppm) ppm = std::min(1.0F, ppm / greatest_ppm);
     for (std::size_t x = 0; x < width; ++x) {
-      const float above_ppm = held_ppm[x] - background_ppm;
-      const float gas_ppm = above_ppm > 0.0F ? above_ppm : 0.0F;  // where it is NaN too
-      const float sure = std::min(1.0F, gas_ppm / sure_ppm);
-      to[x] = kCleanRelevance + (1.0F - kCleanRelevance) * sure * sure +
-              kErrorShare * std::min(1.0F, gas_ppm / greatest_ppm);
+      to[x] = kCleanRelevance + (1.0F - kCleanRelevance) * to[x] * to[x] + kErrorShare * gas_ppm[x];
     }
   });
   return relevance;
