@@ -18,7 +18,8 @@ struct AttackSettings {
   absl::Duration warm_up = absl::Seconds(2);   // of honest callers
   absl::Duration patience = absl::Seconds(5);  // of theirs; a call that takes longer has failed
   std::uint64_t seed = 1;
-  std::string front_config;  // of HAProxy, for attacks that a front is to stop; empty: no front
+  std::string front_config;    // of HAProxy, for attacks that a front is to stop; empty: no front
+  bool beside_others = false;  // other work keeps the processors busy
 };
 
 // Something that a client might do to a server, out of malice or by mistake, and what honest robots

@@ -46,6 +46,7 @@ AttackSettings ForFacts(AttackSettings settings) {
   settings.time = absl::Milliseconds(500);
   settings.warm_up = absl::Milliseconds(200);
   settings.patience = absl::Seconds(60);
+  settings.beside_others = true;
   return settings;
 }
 
@@ -127,10 +128,10 @@ int main(int argc, char** argv) {
   app.add_option("--seconds", flags.seconds, "how long an attack goes on")
       ->check(CLI::Range(1.0, 3600.0));
   app.add_flag("--quick", flags.quick, "two seconds each");
-  app.add_flag(
-      "--facts", flags.facts,
-      "half a second each, and judge no times: whether the server lives, within its memory, "
-      "and answers honest calls");
+  app.add_flag("--facts", flags.facts,
+               "half a second each, maybe beside other work, and judge no times: whether the "
+               "server lives, within its memory, "
+               "and answers honest calls");
   app.add_option("--server-program", flags.settings.server_program, "plumescout-server to attack");
   app.add_option("--front-config", flags.settings.front_config,
                  "of HAProxy, such as deploy/haproxy/haproxy.cfg: what a front is to stop goes "
