@@ -26,11 +26,13 @@ constexpr std::size_t TileRows(std::size_t rows) {
 // that the subtree touches. W >= 0 with row sums <= 1, and C >= 0 element by element, since H is an
 // M-matrix. With H = L L^T, X = L_SS^-1: C = X^T X, W = -X^T L_RS^T. Immutable once built.
 struct Front {
-  // A prior factor between a cell of S and one of R.
+  // A prior factor between a cell of S and one of R of a leaf, which has few of both. Small, for
+  // there are nearly as many as cells.
+  static constexpr std::size_t kMaxLeafBoundary = std::size_t{1} << 15;
   struct Coupling {
-    std::uint32_t own = 0;
-    std::uint32_t boundary = 0;
-    bool is_first = true;  // of those of this cell of R, each of which has one
+    std::uint16_t own = 0;
+    std::uint16_t boundary : 15 = 0;
+    bool is_first : 1 = true;  // of those of this cell of R, each of which has one
   };
 
   std::vector<Slot> cells;         // ascending: S, then R

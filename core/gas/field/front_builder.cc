@@ -84,14 +84,18 @@ void FrontBuilder::Couple(const FieldCells& cells, Front& front) {
   couplings_.clear();
   is_coupled_.assign(front.boundary(), 0);
   front.coupling_precision = prior_.prior_precision_per_ppm2;
-  for (std::uint32_t i = 0; i < front.own; ++i) {
+  for (std::size_t i = 0; i < front.own; ++i) {
     const Slot slot = front.cells[i];
     for (std::size_t direction = 0; direction < tree_->neighbours(slot).size(); ++direction) {
       if (!cells.HasFactor(*tree_, slot, direction)) continue;
       const std::uint32_t place = place_[tree_->neighbours(slot)[direction]];
       if (place < front.own) continue;
-      const std::uint32_t boundary = place - static_cast<std::uint32_t>(front.own);
-      couplings_.push_back({i, boundary, is_coupled_[boundary] == 0});
+      const std::size_t boundary = place - front.own;
+      assert(boundary < Front::kMaxLeafBoundary);
+      Front::Coupling& coupling = couplings_.emplace_back();
+      coupling.own = static_cast<std::uint16_t>(i);
+      coupling.boundary = boundary & (Front::kMaxLeafBoundary - 1);
+      coupling.is_first = is_coupled_[boundary] == 0;
       is_coupled_[boundary] = 1;
     }
   }
