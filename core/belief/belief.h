@@ -76,6 +76,9 @@ struct RobotRecord {
   // Since when it has wanted one or another such goal without a plan that led to one, in sample
   // time, though it may want none for now; 0: it has not.
   std::int64_t wanted_since_ns = 0;
+  // The latest its legs have ended, those of long ago less (`TardinessAfter` in core/traffic); of a
+  // robot that has ended none a guess.
+  double tardiness_s = 0.1;
 };
 
 // Whether home is where it drives, whatever it asks for.
