@@ -75,7 +75,7 @@ double Doubt_m(const RobotState& a, const RobotState& b) {
 }  // namespace
 
 double TardinessAfter(double before_s, double late_s) {
-  constexpr double kKept = 0.8;
+  constexpr double kKept = 0.7;
   return std::max(kKept * before_s, std::clamp(late_s, 0.0, kLate_s));
 }
 

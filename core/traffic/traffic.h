@@ -125,8 +125,8 @@ class Traffic {
   std::vector<KeptWay> kept_ways_;
 };
 
-// A robot's tardiness after a leg that ended so late, s: seven legs take four fifths off what one
-// was late by.
+// A robot's tardiness after a leg that ended so late, s: four legs take three quarters off what
+// one was late by.
 double TardinessAfter(double before_s, double late_s);
 // How much of a Traffic's windows is reckoned with between two robots, in (0, 1]: more than either
 // has been late by.

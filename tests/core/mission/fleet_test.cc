@@ -143,10 +143,11 @@ TEST(FleetReport, RemembersHowLateLegsWere) {
   };
   end(ProgressOutcome::kAborted, 0.5);
   EXPECT_EQ(tardiness_s(), before_s) << "it ended somewhere else";
-  end(ProgressOutcome::kReached, 0.5);
-  EXPECT_NEAR(tardiness_s(), 0.5, 1e-9);
+  EXPECT_EQ(before_s, 1.0) << "nobody knows it";
+  end(ProgressOutcome::kReached, 0.9);
+  EXPECT_NEAR(tardiness_s(), 0.9, 1e-9);
   end(ProgressOutcome::kReached, -2.0);
-  EXPECT_NEAR(tardiness_s(), 0.4, 1e-9);
+  EXPECT_NEAR(tardiness_s(), 0.63, 1e-9);
 }
 
 TEST(FleetReport, CountsFallbacksInARowThatRevealedNothing) {
