@@ -76,9 +76,6 @@ struct RobotRecord {
   // Since when it has wanted one or another such goal without a plan that led to one, in sample
   // time, though it may want none for now; 0: it has not.
   std::int64_t wanted_since_ns = 0;
-  // The latest its legs have ended, those of long ago less (`TardinessAfter` in core/traffic). Who
-  // has ended none may be late.
-  double tardiness_s = 1.0;
 };
 
 // Whether home is where it drives, whatever it asks for.

@@ -10,7 +10,6 @@
 #include "core/mission/observation_check.h"
 #include "core/mission/plan_goals.h"
 #include "core/mission/sensor_check.h"
-#include "core/traffic/traffic.h"
 #include "core/types/checker.h"
 #include "core/types/error_reason.h"
 #include "core/types/status_macros.h"
@@ -267,7 +266,7 @@ absl::StatusOr<PlanId> Fleet::Issue(const Plan& plan, std::int64_t now_ns, bool 
   return member.record.last_plan;
 }
 
-absl::StatusOr<EndedPlan> Fleet::Report(const ProgressReported& report, std::int64_t now_ns) {
+absl::StatusOr<EndedPlan> Fleet::Report(const ProgressReported& report) {
   Member* const reporter = Find(report.robot);
   if (reporter == nullptr) return UnknownRobot(report.robot);
   Member& member = *reporter;
@@ -283,11 +282,6 @@ absl::StatusOr<EndedPlan> Fleet::Report(const ProgressReported& report, std::int
     return absl::AlreadyExistsError(absl::StrCat("plan ", report.plan_id, " has ended already"));
   }
   const LivePlan live = *member.live;
-  RobotRecord& record = member.record;
-  if (report.outcome == ProgressOutcome::kReached && record.live_trajectory != nullptr) {
-    const double late_s = static_cast<double>(now_ns - record.live_arrival_ns) * 1e-9;
-    record.tardiness_s = TardinessAfter(record.tardiness_s, late_s);
-  }
   // A place that was not reached says nothing of what can be seen from there, and who made way did
   // not look.
   const bool reached =

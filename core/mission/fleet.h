@@ -90,7 +90,7 @@ class Fleet {
   std::optional<GoalClaim> FindClaim(const Plan& plan, std::int64_t now_ns,
                                      const std::set<RobotId>& stopped = {}) const;
   // Ends the robot's live plan.
-  absl::StatusOr<EndedPlan> Report(const ProgressReported& report, std::int64_t now_ns);
+  absl::StatusOr<EndedPlan> Report(const ProgressReported& report);
 
   absl::StatusOr<std::int64_t> AppliedSequence(const RobotId& robot) const;
   absl::StatusOr<std::int64_t> LeaseToken(const RobotId& robot) const;

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <type_traits>
-
 #include "core/belief/belief.h"
 #include "core/mission/fleet.h"
 #include "core/types/visit_types.h"
@@ -13,13 +11,11 @@ namespace plumescout {
 void Visit(auto& archive, ConstOr<RobotRecord> auto& record) {
   auto& [state, plans_issued, fruitless_fallbacks, first_place, travelled_m, last_plan,
          live_trajectory, live_goal, live_arrival_ns, battery_low, heard_ns, assigned_plan,
-         wanted_goal, wanted_since_ns, tardiness_s] = record;
+         wanted_goal, wanted_since_ns] = record;
   archive(state, plans_issued, fruitless_fallbacks, first_place, travelled_m, last_plan,
           live_trajectory, live_goal, live_arrival_ns);
   // heard_ns is of the fleet
   archive.Since(2, battery_low, assigned_plan, wanted_goal, wanted_since_ns);
-  // With it missions of before would not have the hash that they had.
-  if constexpr (!std::remove_reference_t<decltype(archive)>::kHashes) archive.Since(3, tardiness_s);
 }
 
 template <typename Archive, typename Self>

@@ -225,7 +225,7 @@ absl::StatusOr<Applied> Mission::Change(const PlanIssued& issued) {
 }
 
 absl::StatusOr<Applied> Mission::Change(const ProgressReported& report) {
-  PLUMESCOUT_ASSIGN_OR_RETURN(const EndedPlan ended, fleet_.Report(report, sample_time_ns_));
+  PLUMESCOUT_ASSIGN_OR_RETURN(const EndedPlan ended, fleet_.Report(report));
   // A robot drives on, so what it was in the way of can be reached a moment later.
   const bool met = report.outcome == ProgressOutcome::kBlocked && ended.others_near;
   if (ended.goal && !met) goal_memory_.Remember(*ended.goal, report.outcome, Present());

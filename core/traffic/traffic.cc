@@ -74,19 +74,6 @@ double Doubt_m(const RobotState& a, const RobotState& b) {
 
 }  // namespace
 
-double TardinessAfter(double before_s, double late_s) {
-  constexpr double kKept = 0.7;
-  return std::max(kKept * before_s, std::clamp(late_s, 0.0, kLate_s));
-}
-
-double WindowShare(double tardiness_s, double other_tardiness_s) {
-  // Poses are a scan old, and arrivals told of a moment later.
-  constexpr double kLeast = 0.1;
-  constexpr double kMargin = 1.5;  // over what has been so far
-  const double latest_s = std::max(tardiness_s, other_tardiness_s);
-  return std::min(1.0, kLeast + kMargin * latest_s / kLate_s);
-}
-
 double Reach_m(const RobotState& a, const RobotState& b, double clearance_m) {
   return a.radius_m + b.radius_m + std::max(0.0, Doubt_m(a, b) - clearance_m);
 }
@@ -134,15 +121,11 @@ Point2 Traffic::Steps::At(std::size_t step, std::size_t waited) const {
 Traffic::Traffic(const std::map<RobotId, RobotRecord>& robots, const RobotId& robot,
                  double clearance_m, std::int64_t now_ns, Others others)
     : self_(robots.at(robot).state),
-      self_tardiness_s_(robots.at(robot).tardiness_s),
       clearance_m_(clearance_m),
       on_time_(others == Others::kOnTime) {
   for (const auto& [id, record] : robots) {
     if (id == robot || !record.state.has_pose || IsGone(record, now_ns)) continue;
-    Other other{id,
-                Reach_m(self_, record.state, clearance_m),
-                WindowShare(self_tardiness_s_, record.tardiness_s),
-                {record.state.pose.position()}};
+    Other other{id, Reach_m(self_, record.state, clearance_m), {record.state.pose.position()}};
     if (IsOnItsWay(record, now_ns)) {
       GoOn(*record.live_trajectory, Progress_s(record, now_ns), other);
     }
@@ -161,7 +144,7 @@ void Traffic::GoOn(const Trajectory& way, double from_s, Other& other) {
 
 void Traffic::KeepWay(const RobotState& other, const Trajectory& way) {
   const double reach_m = Reach_m(self_, other, clearance_m_);
-  Other going{other.id, reach_m, 1.0, {way.waypoints.front().pose.position()}};
+  Other going{other.id, reach_m, {way.waypoints.front().pose.position()}};
   GoOn(way, 0.0, going);
   going.around = Around(going.places);
   others_.push_back(std::move(going));
@@ -189,8 +172,7 @@ std::vector<Traffic::Hold> Traffic::Holds() const {
     for (std::size_t k = 0; k + 1 < other.places.size(); ++k) {
       if (other.places[k] == other.places[k + 1]) continue;  // the later one holds it for longer
       const double time_s = kStep_s * static_cast<double>(k + 1);
-      holds.push_back({other.places[k], apart_m,
-                       time_s + other.window_share * (kLate_s + kLateShare * time_s)});
+      holds.push_back({other.places[k], apart_m, time_s + kLate_s + kLateShare * time_s});
     }
     holds.push_back({other.places.back(), apart_m, std::numeric_limits<double>::infinity()});
   }
@@ -256,10 +238,9 @@ std::optional<std::size_t> Traffic::MeetingStep(const Other& other, const Steps&
   for (std::size_t k = 0; k <= last;) {
     const Point2 mine = steps.At(k, waited);
     const double time_s = kStep_s * static_cast<double>(k);
-    const double share = other.window_share;
     // Who is late now is where it was to be a while ago.
-    const std::size_t late = on_time_ ? 0 : StepsIn(share * (kLate_s + kLateShare * time_s));
-    const std::size_t early = on_time_ ? 0 : StepsIn(share * (kEarly_s + kEarlyShare * time_s));
+    const std::size_t late = on_time_ ? 0 : StepsIn(kLate_s + kLateShare * time_s);
+    const std::size_t early = on_time_ ? 0 : StepsIn(kEarly_s + kEarlyShare * time_s);
     double nearest_m2 = SquaredDistance_m2(mine, place(k));
     for (std::size_t j = k - std::min(k, late); j <= k + early; ++j) {
       nearest_m2 = std::min(nearest_m2, SquaredDistance_m2(mine, place(j)));

@@ -41,8 +41,7 @@ inline constexpr double kOffTrajectory_m = 0.5;
 // changed for another robot, and who comes later waits, goes elsewhere or stays.
 //
 // A robot is early or late by a little, and by more the farther ahead: it is reckoned with at every
-// place of its way from 0.5 s + 5 % before to 1 s + 10 % after its time there, or less where both
-// robots have kept to their times so far (`WindowShare`). Who has strayed from
+// place of its way from 0.5 s + 5 % before to 1 s + 10 % after its time there. Who has strayed from
 // its way, or should have ended it long ago, stands where it is. So does who is silent, for
 // kSilentBody_s after it was last heard of: then beams have met its body, if it is there. Beyond
 // kHorizon_s nothing is foreseen. Steps are made for robots of up to 2 m/s.
@@ -60,9 +59,8 @@ class Traffic {
           std::int64_t now_ns, Others others = Others::kEarlyOrLate);
 
   // Keeps a way free that another of the robots is to go on, beside the place where it stands: as
-  // if it were a live plan of its that begins now, whoever is on time, and no way may end on it.
-  // REQUIRES: waypoints not empty. Cost: O(waypoints + kHorizon_s), and O(waypoints) more for each
-  // FirstMeeting.
+  // if it were a live plan of its that begins now, and no way may end on it. REQUIRES: waypoints
+  // not empty. Cost: O(waypoints + kHorizon_s), and O(waypoints) more for each FirstMeeting.
   void KeepWay(const RobotState& other, const Trajectory& way);
   bool keeps_ways() const { return !kept_ways_.empty(); }
 
@@ -90,7 +88,6 @@ class Traffic {
   struct Other {
     RobotId robot;
     double reach_m = 0.0;  // Reach_m
-    double window_share = 1.0;
     std::vector<Point2> places;
     double fastest_m = 0.0;  // in one step
     Rectangle around = {};   // all places
@@ -118,19 +115,11 @@ class Traffic {
                                          std::size_t waited) const;
 
   RobotState self_;
-  double self_tardiness_s_;
   double clearance_m_;
   bool on_time_;
   std::vector<Other> others_;
   std::vector<KeptWay> kept_ways_;
 };
-
-// A robot's tardiness after a leg that ended so late, s: four legs take three quarters off what
-// one was late by.
-double TardinessAfter(double before_s, double late_s);
-// How much of a Traffic's windows is reckoned with between two robots, in (0, 1]: more than either
-// has been late by.
-double WindowShare(double tardiness_s, double other_tardiness_s);
 
 // Has the robot stand for so long before it leaves. REQUIRES: waypoints not empty, wait_s >= 0.
 void WaitAtStart(double wait_s, Trajectory& trajectory);

@@ -151,7 +151,7 @@ class TeamGauntlet {
   }
 
   void End(Driver& driver, ProgressOutcome outcome) {
-    ok_ = ok_ && fleet_.Report({driver.one.robot, driver.plan_id, outcome}, Now_ns()).ok();
+    ok_ = ok_ && fleet_.Report({driver.one.robot, driver.plan_id, outcome}).ok();
     driver.plan.reset();
     driver.asks_s = now_s_;
   }

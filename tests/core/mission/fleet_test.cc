@@ -115,46 +115,28 @@ TEST(FleetIssue, ClaimsEndWithAReportAndExpireWithoutOne) {
   const PlanId plan = *fleet.Issue(PlanTo("a", {1.0, 1.0}), 0);
   EXPECT_EQ(fleet.Claims(0).size(), 1u);
   EXPECT_EQ(fleet.Claims(51 * kSecond_ns).size(), 0u);  // 2 x 10 s + 30 s
-  ASSERT_TRUE(fleet.Report({"a", plan, ProgressOutcome::kAborted}, 0).ok());
+  ASSERT_TRUE(fleet.Report({"a", plan, ProgressOutcome::kAborted}).ok());
   EXPECT_TRUE(fleet.Claims(0).empty());
 }
 
 TEST(FleetReport, KnowsUnknownSupersededAndEndedPlans) {
   Fleet fleet = FleetOf({"a"});
-  EXPECT_EQ(fleet.Report({"a", 1, ProgressOutcome::kReached}, 0).status().code(),
+  EXPECT_EQ(fleet.Report({"a", 1, ProgressOutcome::kReached}).status().code(),
             absl::StatusCode::kNotFound);
   const PlanId first = *fleet.Issue(PlanTo("a", {1.0, 1.0}), 0);
   const PlanId second = *fleet.Issue(PlanTo("a", {3.0, 1.0}), 0);
-  EXPECT_EQ(fleet.Report({"a", first, ProgressOutcome::kReached}, 0).status().code(),
+  EXPECT_EQ(fleet.Report({"a", first, ProgressOutcome::kReached}).status().code(),
             absl::StatusCode::kFailedPrecondition);
-  EXPECT_TRUE(fleet.Report({"a", second, ProgressOutcome::kReached}, 0).ok());
-  EXPECT_EQ(fleet.Report({"a", second, ProgressOutcome::kReached}, 0).status().code(),
+  EXPECT_TRUE(fleet.Report({"a", second, ProgressOutcome::kReached}).ok());
+  EXPECT_EQ(fleet.Report({"a", second, ProgressOutcome::kReached}).status().code(),
             absl::StatusCode::kAlreadyExists);
-}
-
-TEST(FleetReport, RemembersHowLateLegsWere) {
-  Fleet fleet = FleetOf({"a"});
-  const auto tardiness_s = [&] { return fleet.Records().at("a").tardiness_s; };
-  const double before_s = tardiness_s();
-  const auto end = [&](ProgressOutcome outcome, double late_s) {
-    const PlanId plan = *fleet.Issue(PlanTo("a", {1.0, 1.0}), 0);  // takes 10 s
-    ASSERT_TRUE(
-        fleet.Report({"a", plan, outcome}, 10 * kSecond_ns + std::llround(late_s * 1e9)).ok());
-  };
-  end(ProgressOutcome::kAborted, 0.5);
-  EXPECT_EQ(tardiness_s(), before_s) << "it ended somewhere else";
-  EXPECT_EQ(before_s, 1.0) << "nobody knows it";
-  end(ProgressOutcome::kReached, 0.9);
-  EXPECT_NEAR(tardiness_s(), 0.9, 1e-9);
-  end(ProgressOutcome::kReached, -2.0);
-  EXPECT_NEAR(tardiness_s(), 0.63, 1e-9);
 }
 
 TEST(FleetReport, CountsFallbacksInARowThatRevealedNothing) {
   Fleet fleet = FleetOf({"a"});
   const auto fallback = [&](double x_m) {
     const PlanId plan = *fleet.Issue(PlanTo("a", {x_m, 1.0}, GoalKind::kRandomFreeSpace), 0);
-    EXPECT_TRUE(fleet.Report({"a", plan, ProgressOutcome::kReached}, 0).ok());
+    EXPECT_TRUE(fleet.Report({"a", plan, ProgressOutcome::kReached}).ok());
     return fleet.Records().at("a").fruitless_fallbacks;
   };
   EXPECT_EQ(fallback(1.0), 1);
@@ -167,7 +149,7 @@ TEST(FleetReport, CountsNoFallbackThatDidNotReachItsPlace) {
   Fleet fleet = FleetOf({"a"});
   for (const ProgressOutcome outcome : {ProgressOutcome::kBlocked, ProgressOutcome::kAborted}) {
     const PlanId plan = *fleet.Issue(PlanTo("a", {1.0, 1.0}, GoalKind::kRandomFreeSpace), 0);
-    ASSERT_TRUE(fleet.Report({"a", plan, outcome}, 0).ok());
+    ASSERT_TRUE(fleet.Report({"a", plan, outcome}).ok());
     EXPECT_EQ(fleet.Records().at("a").fruitless_fallbacks, 0);
   }
 }
@@ -175,7 +157,7 @@ TEST(FleetReport, CountsNoFallbackThatDidNotReachItsPlace) {
 TEST(FleetReport, SaysWhichGoalThePlanHad) {
   Fleet fleet = FleetOf({"a"});
   const PlanId plan = *fleet.Issue(PlanTo("a", {1.0, 2.0}), 0);
-  const auto ended = fleet.Report({"a", plan, ProgressOutcome::kBlocked}, 0);
+  const auto ended = fleet.Report({"a", plan, ProgressOutcome::kBlocked});
   ASSERT_TRUE(ended.ok());
   ASSERT_TRUE(ended->goal.has_value());
   EXPECT_EQ(ended->goal->position, (Point2{1.0, 2.0}));
@@ -187,7 +169,7 @@ TEST(FleetIssue, NobodyClaimsHomeAndNoMemoryKeepsFromIt) {
   const PlanId plan = *fleet.Issue(PlanTo("a", {1.0, 1.0}, GoalKind::kHome), 0);
   EXPECT_TRUE(fleet.Claims(0).empty());
   EXPECT_TRUE(fleet.Issue(PlanTo("b", {1.0, 1.0}, GoalKind::kHome), 0).ok());
-  EXPECT_EQ(fleet.Report({"a", plan, ProgressOutcome::kBlocked}, 0)->goal, std::nullopt);
+  EXPECT_EQ(fleet.Report({"a", plan, ProgressOutcome::kBlocked})->goal, std::nullopt);
 }
 
 TEST(FleetRecords, HoldTheFirstPlaceAndTheWaySinceThen) {
@@ -213,7 +195,7 @@ TEST(FleetRecords, HoldTheTrajectoryOfTheLivePlan) {
   EXPECT_EQ(fleet.Records().at("a").live_trajectory->duration_s, 10.0);
   EXPECT_EQ(fleet.Records().at("a").live_goal.value().position, (Point2{1.0, 1.0}));
   EXPECT_EQ(fleet.Records().at("a").last_plan, plan);
-  ASSERT_TRUE(fleet.Report({"a", plan, ProgressOutcome::kReached}, 0).ok());
+  ASSERT_TRUE(fleet.Report({"a", plan, ProgressOutcome::kReached}).ok());
   EXPECT_EQ(fleet.Records().at("a").live_trajectory, nullptr);
   EXPECT_FALSE(fleet.Records().at("a").live_goal.has_value());
   Plan stay = PlanTo("a", {1.0, 1.0});
@@ -282,7 +264,7 @@ TEST(FleetSilence, MaskClaimAndLivePlanLapseAndComeBackOnlyByANewPlan) {
   fleet.Hear("b", kStart_ns + 61 * kSecond_ns);
   EXPECT_FALSE(fleet.Records().at("b").state.silent);
   EXPECT_EQ(fleet.MasksFor("a").size(), 1u);
-  EXPECT_EQ(fleet.Report({"b", plan, ProgressOutcome::kReached}, 0).status().code(),
+  EXPECT_EQ(fleet.Report({"b", plan, ProgressOutcome::kReached}).status().code(),
             absl::StatusCode::kAlreadyExists);
 }
 
@@ -337,7 +319,7 @@ TEST(FleetRemove, LeavesNothingButTheLogAndTheLease) {
   EXPECT_EQ(fleet.AppliedSequence("b").status().code(), absl::StatusCode::kNotFound);
   EXPECT_EQ(fleet.LeaseToken("b").status().code(), absl::StatusCode::kNotFound);
   EXPECT_EQ(fleet.Issue(PlanTo("b", {1.0, 1.0}), 0).status().code(), absl::StatusCode::kNotFound);
-  EXPECT_EQ(fleet.Report({"b", 1, ProgressOutcome::kReached}, 0).status().code(),
+  EXPECT_EQ(fleet.Report({"b", 1, ProgressOutcome::kReached}).status().code(),
             absl::StatusCode::kNotFound);
 
   ASSERT_TRUE(fleet.Register({"d", 0.2, 1}, kMaxRobots).ok()) << "its place is free";
@@ -365,7 +347,7 @@ TEST(FleetNextMapUpdate, IsWhenTheFirstLivePlanHasItsLastSample) {
   const PlanId first = *fleet.Issue(PlanToSample("a", {1.0, 1.0}), 2 * kSecond_ns);
   ASSERT_TRUE(fleet.Issue(PlanToSample("b", {5.0, 1.0}), 4 * kSecond_ns).ok());
   EXPECT_EQ(fleet.NextMapUpdate_ns(4 * kSecond_ns), 12 * kSecond_ns);
-  ASSERT_TRUE(fleet.Report({"a", first, ProgressOutcome::kReached}, 0).ok());
+  ASSERT_TRUE(fleet.Report({"a", first, ProgressOutcome::kReached}).ok());
   EXPECT_EQ(fleet.NextMapUpdate_ns(12 * kSecond_ns), 14 * kSecond_ns);
 }
 

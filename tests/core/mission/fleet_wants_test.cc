@@ -83,7 +83,7 @@ TEST(FleetMakeWay, ClaimsNoPlaceAndCountsNeitherAsWorkNorAsFruitless) {
   ASSERT_TRUE(id.ok());
   EXPECT_TRUE(fleet.Claims(0).empty());
   EXPECT_NE(fleet.Records().at("a").live_trajectory, nullptr);
-  const auto ended = fleet.Report({"a", *id, ProgressOutcome::kReached}, 0);
+  const auto ended = fleet.Report({"a", *id, ProgressOutcome::kReached});
   ASSERT_TRUE(ended.ok());
   EXPECT_FALSE(ended->goal.has_value()) << "nothing to set aside";
   EXPECT_EQ(fleet.Records().at("a").fruitless_fallbacks, 0);
@@ -106,7 +106,7 @@ TEST(FleetAssigned, APlanStaysAssignedUntilItEndsOrAnotherIsAskedFor) {
   const auto first = fleet.Issue(PlanTo("a", {1.0, 1.0}), 0, /*assigned=*/true);
   ASSERT_TRUE(first.ok());
   EXPECT_EQ(fleet.Records().at("a").assigned_plan, *first);
-  ASSERT_TRUE(fleet.Report({"a", *first, ProgressOutcome::kReached}, 0).ok());
+  ASSERT_TRUE(fleet.Report({"a", *first, ProgressOutcome::kReached}).ok());
   EXPECT_EQ(fleet.Records().at("a").assigned_plan, 0);
   ASSERT_TRUE(fleet.Issue(PlanTo("a", {2.0, 1.0}), 0, /*assigned=*/true).ok());
   ASSERT_TRUE(fleet.Issue(PlanTo("a", {3.0, 1.0}), 0).ok());

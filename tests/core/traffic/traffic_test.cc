@@ -29,10 +29,8 @@ Trajectory Along(const std::vector<Point2>& path) {
   return trajectory;
 }
 
-// It has been as late as any is reckoned with.
 RobotRecord Standing(const RobotId& robot, Point2 place) {
   RobotRecord record;
-  record.tardiness_s = 1.0;
   record.state.id = robot;
   record.state.radius_m = kRadius_m;
   record.state.has_pose = true;
@@ -204,25 +202,22 @@ TEST(Traffic, OnTimeIsAnotherQuestion) {
 
 // Sampled finely: who is let go meets nobody who is on time, or early or late by the least of what
 // is reckoned with.
-void ExpectNobodyMet(double tardiness_s, const std::vector<double>& early_by_s) {
+TEST(Traffic, NobodyIsMetByRobotsThatKeepToTheirTimes) {
   Rng rng(7);
   int departures = 0;
   int waits = 0;
   for (int i = 0; i < 300; ++i) {
     const auto place = [&] { return Point2{rng.Uniform(0.0, 8.0), rng.Uniform(0.0, 8.0)}; };
     Trajectory mine = Along({place(), place(), place()});
-    RobotRecord self = Standing("a", mine.waypoints.front().pose.position());
-    RobotRecord other = Driving("b", Along({place(), place(), place()}));
-    self.tardiness_s = other.tardiness_s = tardiness_s;
-    const Traffic traffic({{"a", self}, {"b", other}}, "a", kClearance_m, kNow_ns);
+    const RobotRecord other = Driving("b", Along({place(), place(), place()}));
     const double apart_m =
         Distance_m(mine.waypoints.front().pose.position(), other.state.pose.position());
-    const std::optional<double> wait_s = traffic.LeastWait_s(mine);
+    const std::optional<double> wait_s = TrafficFor(mine, other).LeastWait_s(mine);
     if (!wait_s || apart_m < 0.7) continue;
     ++departures;
     if (*wait_s > 0.0) ++waits;
     WaitAtStart(*wait_s, mine);
-    for (const double early_s : early_by_s) {
+    for (const double early_s : {0.0, 0.4, -0.9}) {
       double nearest_m = apart_m;
       for (double time_s = 0.0; time_s < std::min(Traffic::kHorizon_s, mine.duration_s);
            time_s += 0.01) {
@@ -235,42 +230,6 @@ void ExpectNobodyMet(double tardiness_s, const std::vector<double>& early_by_s) 
   }
   EXPECT_GT(departures, 150);
   EXPECT_GT(waits, 20);
-}
-TEST(Traffic, NobodyIsMetByRobotsThatKeepToTheirTimes) { ExpectNobodyMet(1.0, {0.0, 0.4, -0.9}); }
-TEST(Traffic, NobodyIsMetWhoIsLaterThanBeforeByNoMoreThanAQuarter) {
-  ExpectNobodyMet(0.1, {0.0, -0.125});
-  ExpectNobodyMet(0.4, {0.0, -0.5});
-}
-
-TEST(Traffic, RobotsThatHaveBeenOnTimeAreWaitedForLess) {
-  const Trajectory way = Along({{0.0, 0.0}, {6.0, 0.0}});
-  const auto wait_s = [&](double mine_s, double other_s) {
-    RobotRecord self = Standing("a", {0.0, 0.0});
-    RobotRecord other = Driving("b", Along({{3.0, -3.0}, {3.0, 9.0}}));
-    self.tardiness_s = mine_s;
-    other.tardiness_s = other_s;
-    return Traffic({{"a", self}, {"b", other}}, "a", kClearance_m, kNow_ns).LeastWait_s(way);
-  };
-  EXPECT_LT(wait_s(0.0, 0.0).value(), wait_s(1.0, 1.0).value());
-  EXPECT_GT(wait_s(0.0, 0.0).value(), 0.0);
-  EXPECT_EQ(wait_s(1.0, 0.0), wait_s(1.0, 1.0)) << "then this one comes late";
-  EXPECT_EQ(wait_s(0.0, 1.0), wait_s(1.0, 1.0)) << "then that one does";
-}
-
-TEST(Traffic, TardinessIsTheWorstOfTheLatestLegs) {
-  EXPECT_EQ(TardinessAfter(0.1, 0.7), 0.7);
-  EXPECT_EQ(TardinessAfter(0.1, 60.0), 1.0) << "that is where windows are whole";
-  EXPECT_DOUBLE_EQ(TardinessAfter(1.0, -3.0), 0.7) << "who is early is on time";
-  double tardiness_s = 1.0;
-  for (int leg = 0; leg < 4; ++leg) tardiness_s = TardinessAfter(tardiness_s, 0.05);
-  EXPECT_NEAR(tardiness_s, 0.25, 0.02);
-}
-
-TEST(Traffic, WindowsAreWholeForWhoHasBeenLateAndNeverNone) {
-  EXPECT_EQ(WindowShare(1.0, 0.0), 1.0);
-  EXPECT_EQ(WindowShare(0.0, 0.7), 1.0);
-  EXPECT_NEAR(WindowShare(0.0, 0.0), 0.1, 1e-12);
-  for (const double late_s : {0.2, 0.5, 0.9}) EXPECT_GT(WindowShare(0.0, late_s), late_s);
 }
 
 TEST(Traffic, ProgressGoesByThePoseAndWhileStandingByTheTime) {
