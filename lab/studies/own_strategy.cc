@@ -253,12 +253,12 @@ void AddRowNumbers(const std::vector<Building>& buildings, const char* name, Fig
   }
 }
 
-// In how many buildings no other row has less.
-int BuildingsWhereBest(const std::vector<Building>& buildings, std::size_t row, FigureFn figure) {
+// In how many buildings ours, as missions have it, has the least of the first `rows` rows.
+int BuildingsWhereBest(const std::vector<Building>& buildings, std::size_t rows, FigureFn figure) {
   return static_cast<int>(
       std::count_if(buildings.begin(), buildings.end(), [&](const Building& building) {
-        const double value = figure(building, building.rows[row]);
-        return std::all_of(building.rows.begin(), building.rows.end(),
+        const double value = figure(building, building.rows[kOwn]);
+        return std::all_of(building.rows.begin(), building.rows.begin() + static_cast<int>(rows),
                            [&](const Reached& other) { return figure(building, other) >= value; });
       }));
 }
@@ -282,11 +282,15 @@ void AddNumbers(const std::vector<Building>& buildings, Study& study) {
         absl::StrCat("XIT-GFF's, ", label),
         absl::StrFormat("%.2f paper, %.2f ours", OracleShare(buildings, kGff, kBaseline, figure),
                         OracleShare(buildings, kGffOurs, kBaseline, figure)));
-    const int best = BuildingsWhereBest(buildings, kOwn, figure);
-    key_numbers.emplace_back(absl::StrCat("Best of all rows, ", label),
-                             absl::StrFormat("%d of %d buildings", best, buildings.size()));
-    summary.figures.emplace_back(absl::StrCat(kContestants[kOwn].name, "_", name, "_best_share"),
-                                 best / count);
+    const int best = BuildingsWhereBest(buildings, kOwn + 1, figure);
+    // Rows before ours in either field are of other strategies.
+    const int best_strategy = BuildingsWhereBest(buildings, kOwnInTheirField, figure);
+    key_numbers.emplace_back(
+        absl::StrCat("Best of all rows; of other strategies', ", label),
+        absl::StrFormat("%d; %d of %d buildings", best, best_strategy, buildings.size()));
+    const std::string prefix = absl::StrCat(kContestants[kOwn].name, "_", name);
+    summary.figures.emplace_back(prefix + "_best_share", best / count);
+    summary.figures.emplace_back(prefix + "_best_strategy_share", best_strategy / count);
   }
   const std::vector<double> worst = Of(buildings, kOwn, WorstShare);
   summary.figures.emplace_back(absl::StrCat(kContestants[kOwn].name, "_worst_rmse_share"),
