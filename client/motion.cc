@@ -121,6 +121,12 @@ class OthersMotion final : public Motion {
 
 }  // namespace
 
+double LengthOf_m(const std::vector<Point2>& path) {
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) length_m += Distance_m(path[i - 1], path[i]);
+  return length_m;
+}
+
 std::unique_ptr<Motion> StartMotion(Following following, const Trajectory& trajectory,
                                     const FollowerOptions& options, std::int64_t departure_ns) {
   if (following == Following::kIdeal) {

@@ -35,6 +35,9 @@ class Motion {
   virtual std::vector<Point2> PathAhead(const Pose2& pose) const = 0;
 };
 
+// Of the legs of a path.
+double LengthOf_m(const std::vector<Point2>& path);
+
 // Departs now. REQUIRES: waypoints not empty.
 std::unique_ptr<Motion> StartMotion(Following following, const Trajectory& trajectory,
                                     const FollowerOptions& options, std::int64_t departure_ns);

@@ -93,6 +93,11 @@ void AddConduct(CLI::App& app, RobotFlags& flags) {
                  "seconds that the robot has to stand before gas readings count, for a slow sensor "
                  "and a mission with a dwell time; 0: they always count")
       ->capture_default_str();
+  app.add_option(
+         "--replan-period", flags.loop.replan_period_s,
+         "on its way, ask for a better plan so many seconds after the last began, and go on "
+         "meanwhile; teams are sooner done with 1.5; 0: when it is there")
+      ->capture_default_str();
   app.add_option("--time-limit", flags.loop.time_limit_s,
                  "end after so many seconds of the robot's clock; 0: never")
       ->capture_default_str();

@@ -25,17 +25,13 @@ constexpr double kStuck_s = 3.0;
 constexpr double kStuckShare = 0.1;
 constexpr double kProgress_m = 0.1;
 constexpr double kProgress_rad = 0.2;
+// Of a leg with less left than this a robot asks for no better plan.
+constexpr double kWorthAnotherPlan_s = 0.3;
 // Remainders of a wait below this are rounding.
 constexpr double kTimeRounding_s = 1e-6;
 
 std::int64_t ToNanoseconds(double duration_s) {
   return std::llround(duration_s * kNanosecondsPerSecond);
-}
-
-double LengthOf_m(const std::vector<Point2>& path) {
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) length_m += Distance_m(path[i - 1], path[i]);
-  return length_m;
 }
 
 }  // namespace
@@ -140,7 +136,7 @@ absl::Status RobotLoop::Explore() {
     if (ErrorReason(health) == reason::kMissionFinished) EndRun(RobotEnd::kMissionFinished);
     if (over_) break;
     PLUMESCOUT_RETURN_IF_ERROR(health);
-    if (leg_.has_value()) {
+    if (leg_.has_value() && !pending_.valid() && !WantsBetterPlan()) {
       PLUMESCOUT_RETURN_IF_ERROR(Tick(options_.tick_s));
     } else if ((notices_.standing().paused && !pending_.valid()) || GoesOnWithoutLink()) {
       PLUMESCOUT_RETURN_IF_ERROR(Stand(options_.tick_s));
@@ -273,6 +269,25 @@ absl::Status RobotLoop::EndLeg(ProgressOutcome outcome) {
   return driver_.Drive({});
 }
 
+// Whether what has been learned since the leg began may be worth another. Not for the last bit of
+// it, nor against what the robot was told; nor where it waits for others, who reckon with it there.
+bool RobotLoop::WantsBetterPlan() const {
+  const double gone_s = SecondsSince(leg_->begun_ns);
+  const bool pays = options_.replan_period_s > 0.0 && gone_s >= options_.replan_period_s &&
+                    leg_->trajectory.duration_s - gone_s >= kWorthAnotherPlan_s;
+  return pays && !leg_->homeward && !leg_->motion->standing() && !leg_->motion->done() &&
+         !notices_.standing().paused && !GoesOnWithoutLink();
+}
+
+// Where the robot will be, on its way, when it has the answer to what it asks now.
+Pose2 RobotLoop::PoseWhenAnswered() const {
+  if (!leg_.has_value()) return driver_.pose();
+  const double takes_s =
+      options_.pacing == Pacing::kLockstep ? options_.plan_latency_s : answer_takes_s_;
+  const auto nearest = FindNearest(leg_->trajectory, driver_.pose().position());
+  return nearest ? PoseAt(leg_->trajectory, nearest->time_s + takes_s) : driver_.pose();
+}
+
 absl::Status RobotLoop::AskInLockstep() {
   Backoff backoff(options_.ingest.backoff);
   const absl::Time give_up = absl::Now() + options_.link_patience;
@@ -315,7 +330,8 @@ absl::Status RobotLoop::AskWhileRunning() {
 
 PlanCall RobotLoop::NextJob() {
   asked_ns_ = driver_.now_ns();
-  asked_pose_ = driver_.pose();
+  asked_on_the_way_ = leg_.has_value();
+  asked_pose_ = PoseWhenAnswered();
   asked_homeward_ = notices_.standing().ordered_home;
   PlanCall job{.report = report_, .query = {}};
   job.query.request.robot = options_.participation.robot;
@@ -330,6 +346,12 @@ PlanCall RobotLoop::NextJob() {
 absl::Status RobotLoop::Digest(PlanReply answer) {
   const Plan& plan = *answer.plan;
   ++result_.plans;
+  answer_takes_s_ = absl::ToDoubleSeconds(answer.rpc_wall);
+  if (asked_on_the_way_) {  // the plan before is no more, nor is there anything to tell of it
+    report_.reset();
+    if (leg_.has_value()) ++result_.replaced;
+    leg_.reset();
+  }
   observer_.OnPlan({.time_ns = asked_ns_,
                     .elapsed_s = static_cast<double>(asked_ns_ - start_ns_) / kNanosecondsPerSecond,
                     .pose = asked_pose_,
@@ -344,14 +366,16 @@ absl::Status RobotLoop::Digest(PlanReply answer) {
 
 absl::Status RobotLoop::Depart(const Plan& plan) {
   if (plan.trajectory.waypoints.empty() || !(plan.trajectory.duration_s > 0.0)) {
+    PLUMESCOUT_RETURN_IF_ERROR(driver_.Drive({}));
     return Stand(options_.stand_before_retry_s);
   }
   const std::int64_t now_ns = driver_.now_ns();
+  const Trajectory trajectory = InOwnFrame(plan.trajectory);
   const double patience_s = kLegPatience_s + kLegPatienceFactor * plan.trajectory.duration_s;
   leg_ = Leg{
       .plan = plan.id,
-      .motion =
-          StartMotion(options_.following, InOwnFrame(plan.trajectory), options_.follower, now_ns),
+      .trajectory = trajectory,
+      .motion = StartMotion(options_.following, trajectory, options_.follower, now_ns),
       .begun_ns = now_ns,
       .deadline_ns = now_ns + ToNanoseconds(patience_s),
       .progressed_ns = now_ns,
@@ -379,8 +403,8 @@ bool RobotLoop::Over() {
   return over_;
 }
 
-double RobotLoop::elapsed_s() const {
-  return static_cast<double>(driver_.now_ns() - start_ns_) / kNanosecondsPerSecond;
+double RobotLoop::SecondsSince(std::int64_t time_ns) const {
+  return static_cast<double>(driver_.now_ns() - time_ns) / kNanosecondsPerSecond;
 }
 
 }  // namespace plumescout::client

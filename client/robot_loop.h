@@ -34,6 +34,7 @@ struct RobotResult {
   int plans = 0;            // received
   int reached = 0;
   int blocked = 0;
+  int replaced = 0;     // by a plan that was asked for on the way
   int aborted = 0;      // not reached in a multiple of the planned time, or cut short
   int invalidated = 0;  // of those: because the service said so
   IngestStatistics ingest;
@@ -58,6 +59,7 @@ class RobotLoop {
   // The path being followed.
   struct Leg {
     PlanId plan = 0;
+    Trajectory trajectory;  // in the robot's frame
     std::unique_ptr<Motion> motion;
     std::int64_t begun_ns = 0;
     std::int64_t deadline_ns = 0;  // given up after this
@@ -98,6 +100,8 @@ class RobotLoop {
   std::optional<ProgressOutcome> LegOutcome() const;
   absl::Status EndLeg(ProgressOutcome outcome);
 
+  bool WantsBetterPlan() const;
+  Pose2 PoseWhenAnswered() const;
   absl::Status AskInLockstep();
   absl::Status AskWhileRunning();
   PlanCall NextJob();
@@ -106,7 +110,8 @@ class RobotLoop {
   Trajectory InOwnFrame(Trajectory trajectory) const;  // from the mission's
 
   bool Over();
-  double elapsed_s() const;
+  double SecondsSince(std::int64_t time_ns) const;  // by the robot's clock
+  double elapsed_s() const { return SecondsSince(start_ns_); }
 
   PlannerClient& client_;
   RobotDriver& driver_;
@@ -128,6 +133,8 @@ class RobotLoop {
   std::int64_t asked_ns_ = 0;
   Pose2 asked_pose_;
   bool asked_homeward_ = false;
+  bool asked_on_the_way_ = false;
+  double answer_takes_s_ = 0.1;  // the last one did
 
   OpenedLog opened_log_;
   std::optional<RobotSession> joined_;

@@ -159,7 +159,7 @@ void LeavePromisedSight(const Belief& belief, Plan& plan) {
   const PromisedSight sight(belief, plan.robot);
   for (Candidate& candidate : plan.candidates) {
     if (!EndsAtTheUnseen(candidate)) continue;
-    candidate.unseen_share = 1.0 - sight.ShareOf(candidate.goal.centroid);
+    candidate.unseen_share *= 1.0 - sight.ShareOf(candidate.goal.centroid);
   }
 }
 

@@ -24,6 +24,7 @@
 #include "core/plan/selection/selection.h"
 #include "core/plan/trajectory_timing.h"
 #include "core/plan/wait_place.h"
+#include "core/plan/way_left.h"
 #include "core/plan/way_round.h"
 #include "core/types/rng.h"
 #include "core/types/status_macros.h"
@@ -71,6 +72,7 @@ void GiveWay(const SearchedWays& ways, Plan& plan) {
   std::optional<Waits> waits =
       FindWaitsUntil(stop, query.belief, departure.yaw_rad, query.options, plan);
   if (!waits) return;
+  GoOnOnWayLeft(ways, *waits, plan);
   LeadRound(ways, *waits, plan);
   YieldToRobots(*waits, departure.yaw_rad, query.options, plan);
 }

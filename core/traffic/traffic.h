@@ -32,6 +32,11 @@ inline double Apart_m(const RobotState& a, const RobotState& b, double clearance
   return Reach_m(a, b, clearance_m) + clearance_m;
 }
 
+// What committed plans keep between robots, beside Reach_m. They were searched for on a belief of a
+// moment ago, with more, and time to spare for who is early or late: what that found clear is so
+// still, unless somebody was given another way since.
+inline constexpr double kCommittedClearance_m = 0.1;
+
 // Farther than this from its trajectory a robot is not following it: several times what followers
 // stray, and less than the width of a corridor.
 inline constexpr double kOffTrajectory_m = 0.5;

@@ -156,6 +156,10 @@ void AddMotionOptions(CLI::App& app, RobotArguments& arguments) {
       ->default_str("ideal");
   app.add_option("--late", arguments.most_late_s,
                  "Ideal following: each leg falls behind by up to so many seconds");
+  app.add_option("--replan-period", arguments.replan_period_s,
+                 "Robots ask for better plans on their way, so many seconds after the last began; "
+                 "teams are sooner done with 1.5 (0: when they are there)")
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--speed", arguments.speed_mps,
                  "Speed of robot and plans, metres a second (1.25)");
   app.add_option("--max-turn", arguments.max_turn_rad_per_s,
@@ -305,6 +309,7 @@ absl::StatusOr<PlannedEpisode> PlanEpisode(const RobotArguments& arguments,
   options.duration_s = arguments.duration_s;
   options.following = arguments.following;
   options.rates = arguments.rates;
+  options.replan_period_s = arguments.replan_period_s;
   options.realtime = arguments.realtime;
   options.correct_gas_lag = !arguments.raw_gas;
   options.mission_corrects_lag = !arguments.raw_gas && !arguments.point_gas;

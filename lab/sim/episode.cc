@@ -54,6 +54,7 @@ client::RobotLoopOptions LoopOptions(const EpisodeOptions& options) {
   loop.gas_sampling.settling_s = options.gas_settling_s;
   loop.blockage.end_margin_m = options.end_margin_m;
   loop.plan_latency_s = options.plan_latency_s;
+  loop.replan_period_s = options.replan_period_s;
   loop.real_clock = options.realtime;
   loop.max_edge_evaluations = options.max_edge_evaluations;
   loop.plan_budget = options.plan_budget;

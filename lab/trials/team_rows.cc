@@ -38,6 +38,7 @@ absl::StatusOr<StudyRow> MakeStudyRow(const TeamRow& team) {
   planning.yield_to_robots = team.yields;
   planning.anticipate_robots = team.anticipates;
   planning.balanced_areas = team.balanced_areas;
+  if (!team.rule) row.robot.replan_period_s = team.replan_period_s;
   row.robots = team.robots;
   row.most_late_s = team.most_late_s;
   row.ghosts = team.ghosts;

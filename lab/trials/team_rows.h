@@ -29,6 +29,7 @@ struct TeamRow {
   bool ghosts = false;                          // robots pass through each other
   std::optional<TeamRule> rule = std::nullopt;  // of others; none: strategy "plumescout"
   bool balanced_areas = false;                  // each robot has its own
+  double replan_period_s = 1.5;                 // of ours, on their way; 0: when they are there
 };
 
 // Robots that share a mission with that strategy or rule. Errors: as MakeStudyRow.

@@ -160,6 +160,7 @@ EpisodeOptions MakeEpisodeOptions(const Trial& trial, TrialRecord& record) {
   options.simulated.lidar.max_range_m = trial.robot.lidar_range_m;
   options.end_margin_m = kStudiedEndMargin_m;
   options.plan_latency_s = trial.robot.plan_latency_s;
+  options.replan_period_s = trial.robot.replan_period_s;
   options.correct_gas_lag = trial.robot.corrects_gas_lag;
   options.mission_corrects_lag = trial.robot.leaves_lag_to_mission;
   options.prior_variance_ppm2 = OpenLatticeVariance_ppm2(trial.mission->gas);

@@ -25,6 +25,7 @@ namespace plumescout::lab {
 struct TrialRobot {
   double lidar_range_m = 8.0;
   double plan_latency_s = 0.1;          // that it stands for each plan
+  double replan_period_s = 0.0;         // on its way, see client::RobotLoopOptions
   bool corrects_gas_lag = true;         // undoes the lag of its gas sensor, which it knows
   bool leaves_lag_to_mission = false;   // instead the mission does, along the way
   bool stops_without_frontier = false;  // the trial ends with the first plan that goes to none

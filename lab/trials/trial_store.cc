@@ -207,6 +207,7 @@ std::string Fingerprint(const Trial& trial, std::uint32_t scene_checksum) {
   if (const TrialRobot& robot = trial.robot; robot != TrialRobot{}) {
     absl::StrAppend(&times, " robot ", robot.lidar_range_m, " ", robot.plan_latency_s, " ",
                     robot.corrects_gas_lag, " ", robot.stops_without_frontier);
+    if (robot.replan_period_s > 0.0) absl::StrAppend(&times, " replan ", robot.replan_period_s);
     if (robot.leaves_lag_to_mission) absl::StrAppend(&times, " lag left");
   }
   if (trial.second_field) {

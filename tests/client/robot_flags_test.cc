@@ -23,7 +23,8 @@ RobotFlags Parse(const std::string& line) {
 }
 
 TEST(RobotFlagsTest, BecomeOptionsOfTheLoop) {
-  RobotFlags flags = Parse("--create-mission --frame-x 2 --gas-sensor pid,0.2 --max-speed 0.5");
+  RobotFlags flags = Parse(
+      "--create-mission --frame-x 2 --gas-sensor pid,0.2 --max-speed 0.5 --replan-period 1.5");
   ASSERT_TRUE(Prepare(flags).ok());
   const RobotLoopOptions& loop = flags.loop;
   EXPECT_EQ(loop.participation.mission, "hall");
@@ -31,6 +32,7 @@ TEST(RobotFlagsTest, BecomeOptionsOfTheLoop) {
   EXPECT_TRUE(loop.participation.create.has_value());
   EXPECT_EQ(loop.participation.sensors.size(), 1u);
   EXPECT_EQ(loop.follower.max_forward_mps, 0.5);
+  EXPECT_EQ(loop.replan_period_s, 1.5);
   EXPECT_GT(loop.new_log_epoch, 0);
   EXPECT_TRUE(loop.real_clock);
   EXPECT_TRUE(Validate(loop).ok()) << Validate(loop);

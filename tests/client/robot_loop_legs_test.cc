@@ -85,6 +85,49 @@ TEST_F(RobotLoopLegsTest, ARobotThatWaitsByPlanIsNotBlocked) {
   EXPECT_EQ(result->blocked, 0);
 }
 
+TEST_F(RobotLoopLegsTest, OnItsWayARobotAsksForABetterPlanAndGoesOn) {
+  for (const Pacing pacing : {Pacing::kLockstep, Pacing::kFreeRunning}) {
+    std::vector<Pose2> starts;
+    const auto tour = Tour({{2, 0}, {2, 1}});
+    server_.set_script([&](const PlanQuery& query) {
+      starts.push_back(*query.request.start);
+      return tour(query);
+    });
+    const std::size_t before = server_.reports().size();
+    driver_.set_pose({});
+    RobotLoopOptions options = Options(pacing, Following::kIdeal);
+    options.replan_period_s = 0.6;
+
+    const absl::StatusOr<RobotResult> result = Run(options);
+
+    ASSERT_TRUE(result.ok()) << result.status();
+    if (pacing == Pacing::kLockstep) {  // else a leg may end before the answer comes
+      EXPECT_EQ(result->replaced, 2) << "the second by the end of the mission";
+    }
+    ASSERT_EQ(starts.size(), 3u);
+    EXPECT_GT(starts[1].x_m, 0.2);
+    EXPECT_LT(starts[1].x_m, 2.0);
+    EXPECT_EQ(starts[1].y_m, 0.0);
+    EXPECT_EQ(server_.reports().size(), before) << "of plans that others took the place of";
+  }
+}
+
+TEST_F(RobotLoopLegsTest, WhoIsToStayOnItsWayStandsStill) {
+  int asked = 0;
+  const auto tour = Tour({{2, 0}});
+  server_.set_script([&](const PlanQuery& query) -> absl::StatusOr<Plan> {
+    ++asked;
+    if (asked == 2) return Plan{};
+    return asked == 1 ? tour(query) : CompletePlan();
+  });
+  RobotLoopOptions options = Options(Pacing::kLockstep, Following::kIdeal);
+  options.replan_period_s = 0.6;
+  const absl::StatusOr<RobotResult> result = Run(options);
+  ASSERT_TRUE(result.ok());
+  EXPECT_EQ(result->replaced, 1);
+  EXPECT_LT(result->distance_m, 2.0);
+}
+
 TEST_F(RobotLoopLegsTest, WithNowhereToGoItStandsAndAsksAgain) {
   int asked = 0;
   server_.set_script([&asked](const PlanQuery&) -> absl::StatusOr<Plan> {

@@ -21,6 +21,9 @@ TEST(RobotLoopOptionsTest, NonsenseIsRefusedByName) {
   options.answer_look_s = 0.0;
   EXPECT_THAT(std::string(Validate(options).message()), ::testing::HasSubstr("answer_look_s"));
   options = {};
+  options.replan_period_s = -1.0;
+  EXPECT_THAT(std::string(Validate(options).message()), ::testing::HasSubstr("replan_period_s"));
+  options = {};
   options.rates.gas_hz = std::nan("");
   EXPECT_THAT(std::string(Validate(options).message()), ::testing::HasSubstr("gas_hz"));
   options = {};

@@ -7,6 +7,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/mission/conduct/conduct_errors.h"
+#include "core/traffic/traffic.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
@@ -16,10 +17,6 @@ namespace {
 Observation Unreadable(std::int64_t sequence) {
   return {.sequence = sequence, .sample_time_ns = 0, .pose = {}, .payload = Scan{}};
 }
-
-// Of ways that were searched for on a belief of a moment ago, with more, and time to spare for who
-// is early or late: what that found clear is so still, unless somebody was given another way since.
-constexpr double kLeastClearance_m = 0.1;
 
 }  // namespace
 
@@ -136,7 +133,7 @@ absl::StatusOr<PlanId> MissionConduct::Commit(const Plan& plan, std::int64_t lea
     return absl::AbortedError(absl::StrCat("the way leads through (", place->x_m, ", ", place->y_m,
                                            "), which was closed"));
   }
-  if (const auto meeting = mission_->FindMeeting(plan, kLeastClearance_m)) {
+  if (const auto meeting = mission_->FindMeeting(plan, kCommittedClearance_m)) {
     return absl::AbortedError(
         absl::StrCat("the way meets robot \"", meeting->robot, "\" in ", meeting->time_s, " s"));
   }
@@ -150,7 +147,7 @@ absl::StatusOr<PlanId> MissionConduct::Commit(const Plan& plan, std::int64_t lea
 
 std::optional<RobotId> MissionConduct::InTheWayOf(const Plan& plan,
                                                   const std::set<RobotId>& stopped) const {
-  if (const auto meeting = mission_->FindMeeting(plan, kLeastClearance_m, stopped)) {
+  if (const auto meeting = mission_->FindMeeting(plan, kCommittedClearance_m, stopped)) {
     return meeting->robot;
   }
   const auto claim = mission_->FindClaim(plan, stopped);

@@ -26,17 +26,6 @@ int NearestCovered(const Goal& claimed, const std::vector<Candidate>& candidates
   return nearest;
 }
 
-// Index of the candidate that the robot's live plan ends at, -1 if there is none.
-int UnderWayTo(const std::vector<Candidate>& candidates, const Belief& belief,
-               const RobotId& robot) {
-  for (const GoalClaim& claim : belief.claims) {
-    if (claim.robot == robot && claim.expires_ns > belief.sample_time_ns) {
-      return NearestCovered(claim.goal, candidates);
-    }
-  }
-  return -1;
-}
-
 // Prices the expected information of candidates one by one, those that may be worth most first,
 // until no other can be the best.
 class Pricing {
@@ -102,6 +91,16 @@ class Pricing {
 };
 
 }  // namespace
+
+int UnderWayTo(const std::vector<Candidate>& candidates, const Belief& belief,
+               const RobotId& robot) {
+  for (const GoalClaim& claim : belief.claims) {
+    if (claim.robot == robot && claim.expires_ns > belief.sample_time_ns) {
+      return NearestCovered(claim.goal, candidates);
+    }
+  }
+  return -1;
+}
 
 void Choose(const Belief& belief, const PlanningOptions& options, const StopFn& stop, Plan& plan) {
   std::vector<Candidate>& candidates = plan.candidates;

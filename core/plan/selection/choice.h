@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "core/belief/belief.h"
 #include "core/types/options.h"
 #include "core/types/plan.h"
@@ -16,5 +18,9 @@ namespace plumescout {
 // options.commitment_margin_share, so that robots do not turn round for little (ours). Cost: that
 // of ExpectedInformation::AtMost for each candidate and ::Of for some, or nothing.
 void Choose(const Belief& belief, const PlanningOptions& options, const StopFn& stop, Plan& plan);
+
+// Index of the candidate that the robot's live plan ends at, -1 if there is none.
+int UnderWayTo(const std::vector<Candidate>& candidates, const Belief& belief,
+               const RobotId& robot);
 
 }  // namespace plumescout

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plan/way_left.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/plan/cost/edge_cost.h"
+#include "core/plan/selection/candidate_terms.h"
+#include "core/plan/selection/choice.h"
+#include "core/plan/trajectory_timing.h"
+#include "core/traffic/traffic.h"
+
+namespace plumescout {
+namespace {
+
+// Farther than this from its way a robot does not begin on it.
+constexpr double kOnWay_m = 0.1;
+
+struct WayLeft {
+  std::vector<Point2> path;
+  double wait_s = 0.0;  // of its stop where it stands
+};
+
+// From `start` to the end of the robot's live plan; none if it does not follow one from there, or
+// is to stop farther on.
+std::optional<WayLeft> FindWayLeft(const RobotRecord& robot, Point2 start, std::int64_t now_ns) {
+  if (robot.live_trajectory == nullptr || !robot.live_goal || !robot.state.has_pose ||
+      !IsOnItsWay(robot, now_ns)) {
+    return std::nullopt;
+  }
+  const std::optional<NearestTime> nearest = FindNearest(*robot.live_trajectory, start);
+  if (!nearest || !(nearest->distance_m <= kOnWay_m)) return std::nullopt;
+  // Who is on the move may begin farther on than it is, when it will have its plan.
+  const double gone_s = Progress_s(robot, now_ns);
+  const bool starts_ahead = PoseAt(*robot.live_trajectory, gone_s).position() != start;
+  const double begin_s = starts_ahead ? std::max(gone_s, nearest->time_s) : gone_s;
+  WayLeft left{{start}, 0.0};
+  for (const Waypoint& waypoint : robot.live_trajectory->waypoints) {
+    const double until_s = waypoint.arrival_time_s + waypoint.dwell_s;
+    if (until_s <= begin_s) continue;
+    const bool stands_there = waypoint.arrival_time_s <= begin_s;
+    if (stands_there) {
+      left.wait_s = until_s - begin_s;
+    } else if (waypoint.dwell_s > 0.0) {
+      return std::nullopt;
+    } else {
+      left.path.push_back(waypoint.pose.position());
+    }
+  }
+  if (left.path.size() < 2) return std::nullopt;
+  return left;
+}
+
+}  // namespace
+
+void GoOnOnWayLeft(const SearchedWays& ways, Waits& waits, Plan& plan) {
+  const auto& [query, departure, problem, judge] = ways;
+  if (!departure.way_out.empty()) return;
+  const std::int64_t now_ns = query.belief.sample_time_ns;
+  const std::optional<WayLeft> left = FindWayLeft(query.robot, departure.start, now_ns);
+  if (!left || !std::isfinite(PathCost(problem.cost, left->path))) return;
+  const int covered = UnderWayTo(plan.candidates, query.belief, plan.robot);
+  const auto index = static_cast<std::size_t>(covered);
+  if (covered >= 0 && waits.waits_s[index] && *waits.waits_s[index] <= left->wait_s) return;
+
+  Trajectory trajectory = TimeTrajectory(left->path, departure.yaw_rad, query.options);
+  const double duration_s = trajectory.duration_s;
+  WaitAtStart(left->wait_s, trajectory);
+  const Traffic on_time(query.belief.robots, plan.robot,
+                        std::min(kCommittedClearance_m, query.options.robot_clearance_m), now_ns,
+                        Traffic::Others::kOnTime);
+  if (on_time.FirstMeeting(trajectory)) return;
+
+  const Goal goal = covered >= 0 ? plan.candidates[index].goal : *query.robot.live_goal;
+  Candidate candidate = MakeCandidate(goal, left->path, PathSource::kTree, judge);
+  candidate.duration_s = duration_s;
+  if (covered >= 0) {
+    plan.candidates[index] = std::move(candidate);
+    waits.waits_s[index] = left->wait_s;
+  } else {
+    candidate.unseen_share = 0.0;
+    plan.candidates.push_back(std::move(candidate));
+    waits.waits_s.emplace_back(left->wait_s);
+  }
+}
+
+}  // namespace plumescout
