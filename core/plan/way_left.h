@@ -8,12 +8,13 @@
 
 namespace plumescout {
 
-// A robot that plans anew on its way has the right to what is left of it: the candidate that its
-// live plan's claim covers, if it would have to stand, goes on by that way in place of its own, as
-// long as all of it may still be driven and it meets nobody who keeps to the time. Others have
-// reckoned with it since it was committed, so that it waits for nobody. REQUIRES: duration_s of all
-// candidates, without waits; `waits` are theirs, and stay so. Cost: that of two Traffic and of a
-// FirstMeeting, for a robot on its way.
+// A robot that plans anew on its way has the right to what is left of it, as long as all of that
+// may still be driven and meets nobody who keeps to the time: others have reckoned with it since it
+// was committed. The candidate that its live plan's claim covers goes on by that way in place of
+// its own, if it would have to wait longer than the plan does. If there is no such candidate, what
+// the plan was for is no more, and the way is one of its own, for what it tells alone
+// (unseen_share = 0). Not of plans that stop farther on. REQUIRES: duration_s of all candidates,
+// without waits; `waits` are theirs, and stay so. Cost: that of a Traffic and of a FirstMeeting.
 void GoOnOnWayLeft(const SearchedWays& ways, Waits& waits, Plan& plan);
 
 }  // namespace plumescout
