@@ -45,7 +45,7 @@ struct RobotLoopOptions {
   double look_around_s = 0.5;   // standing before the first plan: a cell takes 3 beams to be free
   double plan_latency_s = 0.1;  // lockstep only: robot time that a plan costs, >= 0
   // On its way a robot asks for a better plan this long after it has begun the last, and goes on
-  // meanwhile; 0: when it is there. A team is sooner done with 1.5 s, at twice the plans.
+  // meanwhile; 0: when it is there. A team is sooner done with 1.5 s, at some 2.8 times the plans.
   double replan_period_s = 0.0;       // >= 0
   double stand_before_retry_s = 1.0;  // when there was nowhere to go, > 0
   double time_limit_s = 0.0;          // of the robot's clock; 0: none
