@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/plan/cost/edge_cost.h"
+#include "core/plan/goals/travel_budget.h"
 #include "core/plan/selection/candidate_terms.h"
 #include "core/plan/selection/choice.h"
 #include "core/plan/trajectory_timing.h"
@@ -61,13 +62,16 @@ std::optional<WayLeft> FindWayLeft(const RobotRecord& robot, Point2 start, std::
 
 void GoOnOnWayLeft(const SearchedWays& ways, Waits& waits, Plan& plan) {
   const auto& [query, departure, problem, judge] = ways;
-  if (!departure.way_out.empty()) return;
+  if (query.go_home || !departure.way_out.empty()) return;
   const std::int64_t now_ns = query.belief.sample_time_ns;
   const std::optional<WayLeft> left = FindWayLeft(query.robot, departure.start, now_ns);
   if (!left || !std::isfinite(PathCost(problem.cost, left->path))) return;
   const int covered = UnderWayTo(plan.candidates, query.belief, plan.robot);
   const auto index = static_cast<std::size_t>(covered);
   if (covered >= 0 && waits.waits_s[index] && *waits.waits_s[index] <= left->wait_s) return;
+  // By cost alone a way that leads to nothing any more may look best.
+  const bool priced = query.options.selection_rule == SelectionRule::kInformationRate;
+  if (covered < 0 && !priced) return;
 
   Trajectory trajectory = TimeTrajectory(left->path, departure.yaw_rad, query.options);
   const double duration_s = trajectory.duration_s;
@@ -80,6 +84,10 @@ void GoOnOnWayLeft(const SearchedWays& ways, Waits& waits, Plan& plan) {
   const Goal goal = covered >= 0 ? plan.candidates[index].goal : *query.robot.live_goal;
   Candidate candidate = MakeCandidate(goal, left->path, PathSource::kTree, judge);
   candidate.duration_s = duration_s;
+  Plan affordable;
+  affordable.candidates = {candidate};
+  RejectOverBudget(query, affordable);
+  if (affordable.candidates.empty()) return;
   if (covered >= 0) {
     plan.candidates[index] = std::move(candidate);
     waits.waits_s[index] = left->wait_s;

@@ -39,6 +39,11 @@ class WayLeftTest : public ::testing::Test {
         {.robot = "a", .goal = goal_, .expires_ns = std::numeric_limits<std::int64_t>::max()}};
   }
 
+  static PlanningOptions OptionsByRate() {
+    PlanningOptions options;
+    options.selection_rule = SelectionRule::kInformationRate;
+    return options;
+  }
   static RobotRecord Driving(const RobotId& id, const std::vector<Point2>& way, Point2 place,
                              double wait_s = 0.0) {
     RobotRecord robot;
@@ -74,10 +79,9 @@ class WayLeftTest : public ::testing::Test {
     const std::vector<Goal> goals = {goal_};
     const StopFn never = NeverStop();
     const Departure departure = {{}, here_, 0.0};
-    const PlanningOptions options;
-    const GoalQuery query = {belief_, belief_.robots.at("a"), geometry_.CellAt(here_), reachable_,
-                             options};
-    std::optional<Waits> waits = FindWaits(belief_, 0.0, options, plan_);
+    const GoalQuery query = {
+        belief_, belief_.robots.at("a"), geometry_.CellAt(here_), reachable_, options_, go_home_};
+    std::optional<Waits> waits = FindWaits(belief_, 0.0, options_, plan_);
     EXPECT_TRUE(waits.has_value());
     GoOnOnWayLeft(
         {query, departure, {cost, reachable_, here_, goals, 1, 0, never}, {cost, mean_ppm_, 0.0}},
@@ -93,6 +97,8 @@ class WayLeftTest : public ::testing::Test {
   Grid<std::uint8_t> reachable_;
   Grid<float> mean_ppm_;
   InformationMap information_;
+  PlanningOptions options_ = OptionsByRate();
+  bool go_home_ = false;
   Plan plan_;
 };
 
@@ -134,6 +140,16 @@ TEST_F(WayLeftTest, WhatItLeadsToIsNoMoreIsStillAWay) {
   EXPECT_THAT(GoOn({StraightTo(other)}), SizeIs(2));
   EXPECT_EQ(plan_.candidates[1].goal, goal_);
   EXPECT_EQ(plan_.candidates[1].unseen_share, 0.0);
+}
+
+TEST_F(WayLeftTest, NoOtherWayIsOfferedToWhoIsToGoHomeOrGoesByCost) {
+  OneGoesAhead();
+  const Goal other = testing::GoalAt({42, 3}, geometry_);
+  go_home_ = true;
+  EXPECT_THAT(GoOn({StraightTo(other)}), SizeIs(1));
+  go_home_ = false;
+  options_.selection_rule = SelectionRule::kLeastCost;
+  EXPECT_THAT(GoOn({StraightTo(other)}), SizeIs(1));
 }
 
 TEST_F(WayLeftTest, WhoStandsByPlanStandsForWhatIsLeftOfThat) {
