@@ -94,10 +94,9 @@ void AddConduct(CLI::App& app, RobotFlags& flags) {
                  "and a mission with a dwell time; 0: they always count")
       ->capture_default_str();
   app.add_option(
-         "--replan-period", flags.loop.replan_period_s,
-         "on its way, ask for a better plan so many seconds after the last began, and go on "
-         "meanwhile; teams are sooner done with 1.5; 0: when it is there")
-      ->capture_default_str();
+      "--replan-period", flags.loop.replan_period_s,
+      "on its way, ask for a better plan so many seconds after the last began, and go on "
+      "meanwhile; 0: when it is there; default: as plans advise");
   app.add_option("--time-limit", flags.loop.time_limit_s,
                  "end after so many seconds of the robot's clock; 0: never")
       ->capture_default_str();

@@ -273,7 +273,8 @@ absl::Status RobotLoop::EndLeg(ProgressOutcome outcome) {
 // it, nor against what the robot was told; nor where it waits for others, who reckon with it there.
 bool RobotLoop::WantsBetterPlan() const {
   const double gone_s = SecondsSince(leg_->begun_ns);
-  const bool pays = options_.replan_period_s > 0.0 && gone_s >= options_.replan_period_s &&
+  const double period_s = options_.replan_period_s.value_or(leg_->replan_after_s);
+  const bool pays = period_s > 0.0 && gone_s >= period_s &&
                     leg_->trajectory.duration_s - gone_s >= kWorthAnotherPlan_s;
   return pays && !leg_->homeward && !leg_->motion->standing() && !leg_->motion->done() &&
          !notices_.standing().paused && !GoesOnWithoutLink();
@@ -381,7 +382,8 @@ absl::Status RobotLoop::Depart(const Plan& plan) {
       .progressed_ns = now_ns,
       .yaw_rad = driver_.pose().yaw_rad,
       .patience_ns = ToNanoseconds(std::max(kStuck_s, kStuckShare * plan.trajectory.duration_s)),
-      .homeward = asked_homeward_};
+      .homeward = asked_homeward_,
+      .replan_after_s = plan.replan_after_s};
   leg_->left_m = LengthOf_m(leg_->motion->PathAhead(driver_.pose()));
   return absl::OkStatus();
 }

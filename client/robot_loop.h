@@ -69,7 +69,8 @@ class RobotLoop {
     double yaw_rad = 0.0;
     std::int64_t patience_ns = 0;  // with no progress
     bool stuck = false;
-    bool homeward = false;  // the robot knew when it asked that it is ordered home
+    bool homeward = false;        // the robot knew when it asked that it is ordered home
+    double replan_after_s = 0.0;  // as the plan says
   };
 
   absl::Status OpenLogOnDisk();

@@ -14,7 +14,7 @@ absl::Status Validate(const RobotLoopOptions& options) {
       .Positive("tick_s", options.tick_s)
       .Positive("answer_look_s", options.answer_look_s)
       .Positive("radius_m", options.participation.radius_m)
-      .NotNegative("replan_period_s", options.replan_period_s)
+      .NotNegative("replan_period_s", options.replan_period_s.value_or(0.0))
       .Positive("stand_before_retry_s", options.stand_before_retry_s)
       .NotNegative("look_around_s", options.look_around_s)
       .NotNegative("plan_latency_s", options.plan_latency_s)

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "absl/status/status.h"
 #include "absl/time/time.h"
@@ -44,9 +45,9 @@ struct RobotLoopOptions {
   double answer_look_s = 0.1;
   double look_around_s = 0.5;   // standing before the first plan: a cell takes 3 beams to be free
   double plan_latency_s = 0.1;  // lockstep only: robot time that a plan costs, >= 0
-  // On its way a robot asks for a better plan this long after it has begun the last, and goes on
-  // meanwhile; 0: when it is there. A team is sooner done with 1.5 s, at some 2.8 times the plans.
-  double replan_period_s = 0.0;       // >= 0
+  // On its way a robot asks for a better plan this long after it has begun the last, >= 0, and goes
+  // on meanwhile; 0: when it is there. None: as plans advise (Plan::replan_after_s).
+  std::optional<double> replan_period_s;
   double stand_before_retry_s = 1.0;  // when there was nowhere to go, > 0
   double time_limit_s = 0.0;          // of the robot's clock; 0: none
   // Lockstep only: while it says so the world does not wait for acknowledgements, and the robot

@@ -115,6 +115,7 @@ absl::StatusOr<plumescout::Plan> ComposedStrategy::Plan(const Belief& belief,
   }
   plan.explanation += WhySentHome(belief, request.robot) + WhyOver(belief);
   if (start.departure) MakeWay(belief, *start.departure, options_, stop, plan);
+  plan.replan_after_s = ReplanAfter_s(belief, options_, plan);
   return std::move(plan);
 }
 

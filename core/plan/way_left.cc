@@ -98,4 +98,16 @@ void GoOnOnWayLeft(const SearchedWays& ways, Waits& waits, Plan& plan) {
   }
 }
 
+double ReplanAfter_s(const Belief& belief, const PlanningOptions& options, const Plan& plan) {
+  const bool learns = plan.chosen >= 0 && plan.phase != MissionPhase::kReturning &&
+                      options.selection_rule == SelectionRule::kInformationRate &&
+                      options.dwell_s == 0.0;
+  const bool has_company =
+      std::any_of(belief.robots.begin(), belief.robots.end(), [&](const auto& other) {
+        const auto& [id, record] = other;
+        return id != plan.robot && record.state.has_pose && !record.state.silent;
+      });
+  return learns && has_company ? options.team_replan_period_s : 0.0;
+}
+
 }  // namespace plumescout

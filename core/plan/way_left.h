@@ -18,4 +18,9 @@ namespace plumescout {
 // without waits; `waits` are theirs, and stay so. Cost: that of a Traffic and of a FirstMeeting.
 void GoOnOnWayLeft(const SearchedWays& ways, Waits& waits, Plan& plan);
 
+// When the robot had better ask for another plan on its way (Plan::replan_after_s): as
+// options.team_replan_period_s says, if others are there that may have told much by then, and
+// candidates are chosen by what they tell. Not where it stops to sample, nor on the way home.
+double ReplanAfter_s(const Belief& belief, const PlanningOptions& options, const Plan& plan);
+
 }  // namespace plumescout

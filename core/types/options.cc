@@ -154,6 +154,7 @@ absl::Status Validate(const PlanningOptions& options) {
       .InRange("planning.travel_budget_m", options.travel_budget_m, 0.0, 1e9)
       .InRange("planning.return_margin_share", options.return_margin_share, 0.0, 10.0)
       .InRange("planning.robot_clearance_m", options.robot_clearance_m, 0.0, 10.0)
+      .InRange("planning.team_replan_period_s", options.team_replan_period_s, 0.0, 3600.0)
       .InRange("planning.planning_latency_s", options.planning_latency_s, 0.0, 60.0)
       .status();
 }

@@ -220,6 +220,9 @@ struct PlanningOptions {
   // (core/plan/goals/own_area.h, ours), and leaves it once nothing is left there; false: it goes
   // where it likes.
   bool balanced_areas = false;
+  // How long after it has set out a robot of a team is advised to ask for a better plan, seconds of
+  // driving, [0, 3600] (Plan::replan_after_s, ours); 0: when it is there.
+  double team_replan_period_s = 1.5;
 
   // How trajectories are timed. 0: no limit; else [0.001, 100]. With either limit the robot stops
   // at every corner and turns on the spot.

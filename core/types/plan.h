@@ -163,6 +163,9 @@ struct Plan {
   bool goal_kept = false;      // another was better, but not by the commitment margin
   bool start_escaped = false;  // the robot stood in the inflated zone; the path leads out first
   std::string explanation;     // one sentence for an operator
+  // So long after it has set out the robot had better ask for another plan, and go on meanwhile; 0:
+  // not before it is there. For who asked, and not in the committed event.
+  double replan_after_s = 0.0;
   // CPU time of planning, filled in by whoever ran the planner when it answers; 0 in the committed
   // event, which has to be the same whenever the run is repeated.
   double cpu_s = 0.0;

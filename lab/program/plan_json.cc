@@ -61,7 +61,8 @@ std::string PlanToJson(const Plan& plan, std::size_t tree_edges) {
                {"trajectory_duration_s", plan.trajectory.duration_s},
                {"field_flat", plan.field_flat},
                {"goal_kept", plan.goal_kept},
-               {"start_escaped", plan.start_escaped}};
+               {"start_escaped", plan.start_escaped},
+               {"replan_after_s", plan.replan_after_s}};
   json["effort"] = {{"samples", plan.effort.samples},
                     {"vertices", plan.effort.vertices},
                     {"tree_edges", tree_edges},

@@ -158,7 +158,7 @@ void AddMotionOptions(CLI::App& app, RobotArguments& arguments) {
                  "Ideal following: each leg falls behind by up to so many seconds");
   app.add_option("--replan-period", arguments.replan_period_s,
                  "Robots ask for better plans on their way, so many seconds after the last began; "
-                 "teams are sooner done with 1.5 (0: when they are there)")
+                 "0: when they are there (default: as plans advise)")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--speed", arguments.speed_mps,
                  "Speed of robot and plans, metres a second (1.25)");

@@ -65,7 +65,7 @@ struct RobotArguments {
   int survey_stride = 3;  // of rooms; the papers' 10 is for fields
   PoseErrorOptions pose_error;
   double most_late_s = 0.0;
-  double replan_period_s = 0.0;
+  std::optional<double> replan_period_s;
   TeamArguments team;
   client::Following following = client::Following::kIdeal;
   std::optional<double> speed_mps;

@@ -73,7 +73,7 @@ struct EpisodeOptions {
   double end_margin_m = client::BlockageOptions{}.end_margin_m;
   // In lockstep: how long the robot stands for each plan, >= 0.
   double plan_latency_s = 0.1;
-  double replan_period_s = 0.0;  // see client::RobotLoopOptions
+  std::optional<double> replan_period_s = 0.0;  // see client::RobotLoopOptions
   // False: the world waits for acknowledgements and plans, so an episode is repeatable. True: time
   // goes by as on a wall clock, plans take as long as they take.
   bool realtime = false;

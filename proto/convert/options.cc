@@ -121,6 +121,7 @@ void Visit(OneOf<PlanningOptions> auto& options, auto& field) {
   field("robot_clearance_m", options.robot_clearance_m);
   field("anticipate_robots", options.anticipate_robots);
   field("balanced_areas", options.balanced_areas);
+  field("team_replan_period_s", options.team_replan_period_s);
   field("max_acceleration_mps2", options.max_acceleration_mps2);
   field("max_turn_rate_rad_per_s", options.max_turn_rate_rad_per_s);
   field("travel_budget_m", options.travel_budget_m);

@@ -171,6 +171,7 @@ v1::Plan ToProto(const Plan& plan, const MissionId& mission) {
   proto.set_start_escaped(plan.start_escaped);
   proto.set_explanation(plan.explanation);
   if (SamplesSites(plan)) proto.set_map_update_s(plan.trajectory.duration_s);
+  if (plan.replan_after_s > 0.0) proto.set_replan_after_s(plan.replan_after_s);
   const auto cpu_ns = std::llround(plan.cpu_s * kNanosecondsPerSecond);
   proto.mutable_cpu_duration()->set_seconds(cpu_ns / std::llround(kNanosecondsPerSecond));
   proto.mutable_cpu_duration()->set_nanos(
@@ -264,6 +265,9 @@ absl::StatusOr<Plan> FromProto(const v1::Plan& proto, absl::string_view field) {
   plan.goal_kept = proto.goal_kept();
   plan.start_escaped = proto.start_escaped();
   plan.explanation = proto.explanation();
+  PLUMESCOUT_RETURN_IF_ERROR(
+      CheckNotNegative(Join(field, "replan_after_s"), proto.replan_after_s()));
+  plan.replan_after_s = proto.replan_after_s();
   plan.cpu_s = static_cast<double>(proto.cpu_duration().seconds()) +
                static_cast<double>(proto.cpu_duration().nanos()) / kNanosecondsPerSecond;
   return plan;

@@ -112,6 +112,30 @@ TEST_F(RobotLoopLegsTest, OnItsWayARobotAsksForABetterPlanAndGoesOn) {
   }
 }
 
+TEST_F(RobotLoopLegsTest, ItAsksOnItsWayWhenThePlanAdvisesItUnlessToldOtherwise) {
+  const auto tour = Tour({{2, 0}, {2, 1}});
+  server_.set_script([&](const PlanQuery& query) -> absl::StatusOr<Plan> {
+    auto plan = tour(query);
+    if (plan.ok()) plan->replan_after_s = 0.6;
+    return plan;
+  });
+  RobotLoopOptions options = Options(Pacing::kLockstep, Following::kIdeal);
+  absl::StatusOr<RobotResult> result = Run(options);
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_EQ(result->replaced, 2);
+
+  driver_.set_pose({});
+  server_.set_script([&, again = Tour({{2, 0}, {2, 1}})](const PlanQuery& query) mutable {
+    auto plan = again(query);
+    if (plan.ok()) plan->replan_after_s = 0.6;
+    return plan;
+  });
+  options.replan_period_s = 0.0;
+  result = Run(options);
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_EQ(result->replaced, 0);
+}
+
 TEST_F(RobotLoopLegsTest, WhoIsToStayOnItsWayStandsStill) {
   int asked = 0;
   const auto tour = Tour({{2, 0}});

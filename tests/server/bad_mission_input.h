@@ -109,6 +109,7 @@ inline BadInputs BadPlanningOptions() {
       .Values(p + "reading_rate_hz", {"nan", "inf", "-1", "0", "1001"})
       .Values(p + "commitment_margin_share", {"nan", "inf", "-0.1", "1.1"})
       .Values(p + "robot_clearance_m", {"nan", "inf", "-0.1", "10.1"})
+      .Values(p + "team_replan_period_s", {"nan", "inf", "-0.1", "3601"})
       .Values(p + "speed_mps", {"nan", "inf", "-1", "0", "101"})
       .Values(p + "dwell_s", {"nan", "inf", "-1", "3601"})
       .Values(p + "set_aside_s", {"nan", "inf", "-1", "0", "1e300"})

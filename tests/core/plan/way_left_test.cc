@@ -167,5 +167,50 @@ TEST_F(WayLeftTest, WhoHasStrayedHasNoWayLeft) {
   EXPECT_GT(GoOn({StraightTo(goal_)}).front().value_or(1e9), 0.0);
 }
 
+class ReplanAfterTest : public ::testing::Test {
+ protected:
+  ReplanAfterTest() {
+    plan_.robot = "a";
+    plan_.chosen = 0;
+    options_.selection_rule = SelectionRule::kInformationRate;
+    belief_.robots["a"].state.has_pose = true;
+    belief_.robots["b"].state.has_pose = true;
+  }
+  double Period_s() const { return ReplanAfter_s(belief_, options_, plan_); }
+
+  Belief belief_;
+  PlanningOptions options_;
+  Plan plan_;
+};
+
+TEST_F(ReplanAfterTest, RobotsOfATeamLearnOnTheirWay) {
+  EXPECT_EQ(Period_s(), options_.team_replan_period_s);
+  options_.team_replan_period_s = 0.0;
+  EXPECT_EQ(Period_s(), 0.0);
+}
+
+TEST_F(ReplanAfterTest, NobodyElseTellsAnything) {
+  belief_.robots["b"].state.silent = true;
+  EXPECT_EQ(Period_s(), 0.0);
+  belief_.robots["b"] = {};
+  EXPECT_EQ(Period_s(), 0.0) << "it has not been heard of";
+  belief_.robots.erase("b");
+  EXPECT_EQ(Period_s(), 0.0);
+}
+
+TEST_F(ReplanAfterTest, NotWhereNothingWouldBeBetterThen) {
+  plan_.chosen = -1;
+  EXPECT_EQ(Period_s(), 0.0) << "it stays";
+  plan_.chosen = 0;
+  plan_.phase = MissionPhase::kReturning;
+  EXPECT_EQ(Period_s(), 0.0);
+  plan_.phase = MissionPhase::kExploring;
+  options_.dwell_s = 2.0;
+  EXPECT_EQ(Period_s(), 0.0) << "it samples where it is";
+  options_.dwell_s = 0.0;
+  options_.selection_rule = SelectionRule::kLeastCost;
+  EXPECT_EQ(Period_s(), 0.0);
+}
+
 }  // namespace way_left_test
 }  // namespace plumescout

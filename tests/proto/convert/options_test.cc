@@ -40,6 +40,7 @@ MissionOptions Unlike() {
   options.planning.robot_clearance_m = 0.5;
   options.planning.anticipate_robots = false;
   options.planning.balanced_areas = true;
+  options.planning.team_replan_period_s = 2.5;
   options.planning.selection_rule = SelectionRule::kMeanUcb;
   options.planning.sampling = SamplingKind::kIid;
   options.planning.sample_count = 77;

@@ -44,6 +44,7 @@ Plan TestPlan() {
   plan.trajectory = {{{{0.0, 0.0, 0.5}, 0.0, 0.0}, {{0.35, 0.45, 0.5}, 1.0, 0.5, 0.25}}, 2.0, 1.5};
   plan.effort = {300, 250, 1000, 1, 4};
   plan.goal_kept = true;
+  plan.replan_after_s = 1.5;
   plan.field_flat = true;
   plan.start_escaped = true;
   plan.explanation = "to the nearest plume";
@@ -112,6 +113,7 @@ TEST(PlanTest, WhatARobotWouldFollowIsChecked) {
       {"plan.trajectory.waypoints[1].speed_mps",
        [](auto& p) { p.mutable_trajectory()->mutable_waypoints(1)->set_speed_mps(-1.0); }},
       {"plan.trajectory.duration_s", [](auto& p) { p.mutable_trajectory()->set_duration_s(kNan); }},
+      {"plan.replan_after_s", [](auto& p) { p.set_replan_after_s(-1.0); }},
   };
   for (const BadField& bad : kBad) {
     v1::Plan proto = ToProto(TestPlan(), "hall");
@@ -142,6 +144,8 @@ TEST(PlanTest, WhatACandidateHasNotIsAbsent) {
   EXPECT_FALSE(ToProto(plan, "hall").candidates(0).has_reward());
   plan.candidates[0].unseen_share = 1.0;
   EXPECT_FALSE(ToProto(plan, "hall").candidates(0).has_unseen_share());
+  plan.replan_after_s = 0.0;
+  EXPECT_FALSE(ToProto(plan, "hall").has_replan_after_s());
   EXPECT_EQ(FromProto(ToProto(plan, "hall"), "plan").value(), plan);
 }
 
