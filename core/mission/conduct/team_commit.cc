@@ -43,6 +43,7 @@ absl::StatusOr<PlanId> AssignBefore(std::span<const Plan> later, const Plan& pla
   for (const Plan& other : later) others.insert(other.robot);
   others.erase(plan.robot);
   if (!absl::IsAborted(id.status()) || conduct.InTheWayOf(plan, others)) return id;
+  if (conduct.mission().FindKeptOut(plan)) return id;  // nor would it be taken then
   while (const std::optional<RobotId> robot = conduct.InTheWayOf(plan)) {
     const auto other = std::find_if(later.begin(), later.end(),
                                     [&](const Plan& one) { return one.robot == *robot; });

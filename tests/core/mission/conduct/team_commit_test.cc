@@ -7,6 +7,8 @@
 
 #include <memory>
 
+#include "tests/support/box_room.h"
+
 namespace plumescout {
 namespace team_commit_test {
 
@@ -133,6 +135,24 @@ TEST(CommitTeam, NobodyIsStoppedForAPlanThatIsRefusedAllTheSame) {
   EXPECT_TRUE(committed.plans.empty());
   EXPECT_EQ(committed.left_out.size(), 2U);
   EXPECT_EQ(conduct.Snapshot()->robots.at("a").last_plan, 3);
+}
+
+TEST(CommitTeam, NobodyIsStoppedForAWayThatWasClosed) {
+  MissionConduct conduct(std::make_unique<Mission>(MissionOptions{}));
+  CommitForAll(conduct);
+  const Pose2 pose{5.0, 2.0, 0.0};
+  IncomingObservation scan;
+  scan.observation = {1, 1'000'000'000, pose, support::ScanInBox(pose, 10.0, 4.0)};
+  ASSERT_TRUE(conduct.Ingest("c", 3, {scan}).status.ok());
+  TeamPlan team;
+  team.plans = {To("b", 9.0), To("a", 1.0)};  // "a" goes where "b" would; "c" is where "a" would
+  team.plans[0].trajectory.waypoints = {{{0.0, 0.0, 0.0}, 0.0}, {{9.0, 0.0, 0.0}, 7.2}};
+  KeepOutChanged change;
+  change.added = {{{{4.0, -1.0}, {5.0, -1.0}, {5.0, 1.0}, {4.0, 1.0}}, "closed"}};
+  ASSERT_TRUE(conduct.ChangeKeepOut(change).ok());
+  const CommittedTeam committed = CommitTeam(team, conduct);
+  EXPECT_TRUE(committed.plans.empty());
+  EXPECT_NE(conduct.Snapshot()->robots.at("a").live_trajectory, nullptr);
 }
 
 }  // namespace team_commit_test
