@@ -133,8 +133,9 @@ absl::Status Mission::TakeIn(const RobotId& robot, const Observation& observatio
       CheckObservation(observation, *options_, sample_time_ns_, clock_offset_ns));
   const Pose2 pose = fleet_.InMission(robot, observation.pose);
   PLUMESCOUT_RETURN_IF_ERROR(CheckPlace(pose, options_->pose_limit_m));
-  fleet_.Hear(robot, std::max(sample_time_ns_, time_ns));
-  NotePose(robot, time_ns, pose);
+  const bool says_when = SaysWhen(observation);
+  if (says_when || progress_.began_ns) fleet_.Hear(robot, std::max(sample_time_ns_, time_ns));
+  if (SaysWhere(observation)) NotePose(robot, time_ns, pose);
   if (const auto* scan = std::get_if<Scan>(&observation.payload)) {
     PLUMESCOUT_RETURN_IF_ERROR(TakeScan(robot, time_ns, pose, *scan, turned_suspect));
   } else if (const auto* gas = std::get_if<GasReading>(&observation.payload)) {
@@ -143,7 +144,7 @@ absl::Status Mission::TakeIn(const RobotId& robot, const Observation& observatio
     PLUMESCOUT_RETURN_IF_ERROR(TakeCorrection(robot, observation, *correction));
   }
   sample_time_ns_ = std::max(sample_time_ns_, time_ns);
-  if (!progress_.began_ns) progress_.began_ns = time_ns;
+  if (!progress_.began_ns && says_when) progress_.began_ns = time_ns;
   TrimHistory();
   return absl::OkStatus();
 }

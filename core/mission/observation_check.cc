@@ -103,6 +103,17 @@ std::int64_t MissionTime_ns(const Observation& observation, std::int64_t clock_o
   return is_gap ? std::clamp<std::int64_t>(mapped_ns, 0, kMaxSampleTime_ns) : mapped_ns;
 }
 
+bool SaysWhen(const Observation& observation) {
+  return observation.sample_time_ns != 0 ||
+         !std::holds_alternative<SequenceGap>(observation.payload);
+}
+
+bool SaysWhere(const Observation& observation) {
+  const bool need_not = std::holds_alternative<SequenceGap>(observation.payload) ||
+                        std::holds_alternative<RobotStatus>(observation.payload);
+  return !need_not || observation.pose != Pose2{};
+}
+
 absl::Status CheckObservation(const Observation& observation, const MissionOptions& options,
                               std::int64_t newest_sample_time_ns, std::int64_t clock_offset_ns) {
   const std::int64_t time_ns = MissionTime_ns(observation, clock_offset_ns);

@@ -19,6 +19,12 @@ inline constexpr std::int64_t kMaxClockOffset_ns = (std::int64_t{1} << 62) - 1;
 // What is no time after 1970 stays as it is; a gap was made at no time in particular.
 std::int64_t MissionTime_ns(const Observation& observation, std::int64_t clock_offset_ns);
 
+// Whether it tells when it was made: a gap need not, and then its time is 0.
+bool SaysWhen(const Observation& observation);
+// Whether it tells where the robot was: a gap and a status need not, and then have the origin of
+// the robot's frame as their pose.
+bool SaysWhere(const Observation& observation);
+
 // OK if the mission can take the observation; otherwise kInvalidArgument naming field, value and
 // limit. Single bad beams of a scan are no fault of the scan. `newest_sample_time_ns`: of the
 // mission so far, 0 if none; a clock that leaps ahead of it by more than a day is refused, because

@@ -146,5 +146,24 @@ TEST(MissionObjective, TheDigestKnowsWhatWasReached) {
   EXPECT_NE(without.mission->Digest(), with.mission->Digest());
 }
 
+TEST(MissionObjective, AGapOfNoTimeDoesNotBeginAMission) {
+  constexpr std::int64_t kNow_ns = 1'700'000'000 * kSecond_ns;
+  Mission mission(For(ObjectiveKind::kCompleteMap, /*deadline_s=*/600.0));
+  const auto take = [&](const RobotId& robot, Observation observation) {
+    const auto applied = mission.Apply(ObservationReceived{robot, std::move(observation)});
+    ASSERT_TRUE(applied.ok() && applied->observation.ok());
+  };
+  for (const char* const robot : {"a", "b"}) {
+    ASSERT_TRUE(mission.Apply(RobotRegistered{robot, 0.2, 1}).ok());
+  }
+  take("a", {1, 0, {}, SequenceGap{1, 5}});
+  const Pose2 pose{1.5, 1.5, 0.0};
+  take("a", {6, kNow_ns, pose, support::ScanInBox(pose, 3.0, 3.0)});
+  const auto belief = mission.Snapshot();
+  EXPECT_EQ(belief->deadline_ns, kNow_ns + 600 * kSecond_ns);
+  EXPECT_FALSE(IsOver(*belief));
+  EXPECT_FALSE(belief->robots.at("b").state.silent) << "it has had no time to send anything";
+}
+
 }  // namespace mission_objective_test
 }  // namespace plumescout

@@ -210,5 +210,27 @@ TEST(MissionReadingsTest, SensorsThatLagCountAgainstTheBudget) {
   EXPECT_LT(drive.mission->memory_bytes() - before, kWayBytes);
 }
 
+// What comes without a pose has the origin of the robot's frame as its pose.
+TEST(MissionReadingsTest, WhatSaysNothingOfWhereIsNoPlaceOnTheWay) {
+  Drive plain;
+  Drive interrupted;
+  for (Drive* const drive : {&plain, &interrupted}) {
+    drive->Register({Slow()});
+    for (int tick = 0; tick <= 40; ++tick) {
+      drive->Tick(tick);
+      if (drive != &interrupted || tick % kReadingTicks != 2) continue;
+      const std::int64_t time_ns = kSecond_ns + tick * kTick_ns;
+      drive->Apply(ObservationReceived{"a", {++drive->sequence, time_ns, {}, RobotStatus{0.5}}});
+      const std::int64_t lost = ++drive->sequence;
+      drive->Apply(ObservationReceived{"a", {lost, time_ns, {}, SequenceGap{lost, lost}}});
+    }
+    drive->Refresh(40);
+  }
+  const auto expected = plain.mission->Snapshot();
+  const auto told = interrupted.mission->Snapshot();
+  EXPECT_TRUE(support::SameBytes(*told->gas_mean_ppm, *expected->gas_mean_ppm));
+  EXPECT_TRUE(support::SameBytes(*told->sampled, *expected->sampled));
+}
+
 }  // namespace mission_readings_test
 }  // namespace plumescout
