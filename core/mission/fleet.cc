@@ -23,6 +23,8 @@ constexpr double kClaimGrace_s = 30.0;
 // Poses and beams err a little: the disc is wider than the robot by this much.
 constexpr double kMaskMargin_m = 0.15;
 constexpr double kMaxRadius_m = 5.0;
+// Who is removed is remembered by its log and its lease: a few hundred bytes each.
+constexpr std::size_t kMostRobotsEver = 4096;
 // A robot whose way is blocked sees what blocks it within a metre ahead; both have driven on since
 // their latest poses came.
 constexpr double kMeeting_m = 1.5;
@@ -68,6 +70,10 @@ absl::Status Fleet::Register(const RobotRegistered& registration, int max_robot_
   if (!Knows(registration.robot) && present >= max_robot_count) {
     return absl::ResourceExhaustedError(
         absl::StrCat("the mission has ", max_robot_count, " robots already"));
+  }
+  if (found == robots_.end() && robots_.size() >= kMostRobotsEver) {
+    return absl::ResourceExhaustedError(absl::StrCat("the mission remembers ", kMostRobotsEver,
+                                                     " robots already, removed ones too"));
   }
   if (found != robots_.end() && registration.lease_token <= found->second.lease_token) {
     return TypedError(absl::StatusCode::kFailedPrecondition, reason::kLeaseSuperseded,

@@ -41,6 +41,8 @@ class Fleet {
 
   // `pose_limit_m`: of the place of its frame. A robot whose frame is put elsewhere has no pose
   // until it tells one, and its live plan, made from where it was taken to be, ends.
+  // kResourceExhausted also if so many were there ever, removed ones included, that no more can be
+  // remembered.
   absl::Status Register(const RobotRegistered& registration, int max_robot_count,
                         double pose_limit_m = MissionOptions().pose_limit_m);
 

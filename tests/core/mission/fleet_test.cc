@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "absl/strings/str_cat.h"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
 #include "tests/core/mission/fleet_case.h"
@@ -29,6 +30,18 @@ TEST(FleetRegister, RefusesOldLeasesBadRadiiAndTooManyRobots) {
   EXPECT_EQ(fleet.Register({"B!", 0.2, 1}, kMaxRobots).code(), absl::StatusCode::kInvalidArgument);
   EXPECT_EQ(fleet.Register({"b", 0.2, 1}, 1).code(), absl::StatusCode::kResourceExhausted);
   EXPECT_FALSE(fleet.Knows("b"));
+}
+
+TEST(FleetRegister, RemembersOnlySoManyWhoHaveLeft) {
+  constexpr int kMost = 4096;
+  Fleet fleet;
+  for (int i = 0; i < kMost; ++i) {
+    const RobotId robot = absl::StrCat("r", i);
+    ASSERT_TRUE(fleet.Register({robot, 0.2, 1}, 2).ok()) << i;
+    ASSERT_TRUE(fleet.Remove(robot).ok());
+  }
+  EXPECT_TRUE(absl::IsResourceExhausted(fleet.Register({"one-more", 0.2, 1}, 2)));
+  EXPECT_TRUE(fleet.Register({"r0", 0.2, 2}, 2).ok()) << "it was there before";
 }
 
 TEST(FleetRegister, RefusesAnEpochThatADoubleWouldNotHold) {
