@@ -58,6 +58,8 @@ class GrpcObservationStream final : public ObservationStream {
   absl::Status WriteFrame(const v1::StreamObservationsRequest& frame);
   absl::Status TakeOpened();
   // Ends the call, if it has not ended, and says why it did. Never OK.
+  // Of a call that hangs: it ends now, and the next may go to another server.
+  void HangUp();
   absl::Status EndedStatus();
   absl::Status AwaitFinish(absl::Time deadline);
   absl::Status Broken(absl::Status status);
@@ -107,7 +109,11 @@ absl::Status GrpcObservationStream::Open(v1::IngestService::Stub& stub, const Ro
   node_ = routes_.Address(mission_, context_);
   call_ = stub.PrepareAsyncStreamObservations(&context_, &queue_);
   call_->StartCall(TagOf(Op::kStart));
-  if (!Await(Op::kStart, deadline)) return EndedStatus();
+  if (!RunOne(deadline)) {  // it might wait for its turn on the connection for ever
+    HangUp();
+    RunOne(absl::InfiniteFuture());
+  }
+  if (!completed_ok_) return EndedStatus();
   StartRead();
   v1::StreamObservationsRequest frame;
   *frame.mutable_open() = OpeningOf(session);
@@ -225,15 +231,17 @@ absl::Status GrpcObservationStream::WriteFrame(const v1::StreamObservationsReque
   return Await(Op::kWrite, absl::Now() + timeouts_.write) ? absl::OkStatus() : EndedStatus();
 }
 
+void GrpcObservationStream::HangUp() {
+  routes_.Forget(mission_, node_);
+  context_.TryCancel();
+}
+
 absl::Status GrpcObservationStream::EndedStatus() {
   // If the server ended the call, the read under way ends too and the status is the server's.
   const absl::Time deadline = absl::Now() + kEndGrace;
   while (!reads_ended_ && RunOne(deadline)) {
   }
-  if (!reads_ended_) {
-    routes_.Forget(mission_, node_);  // it hangs
-    context_.TryCancel();
-  }
+  if (!reads_ended_) HangUp();
   const absl::Status status = AwaitFinish(absl::InfiniteFuture());
   switch (status.code()) {
     case absl::StatusCode::kOk:

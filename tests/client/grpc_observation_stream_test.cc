@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "absl/synchronization/notification.h"
 #include "tests/client/ingest_traffic.h"
 
@@ -291,6 +292,36 @@ TEST(GrpcObservationStreamTest, LargeBatchesAreCutIntoFramesThatAServerTakes) {
   EXPECT_LE(largest_bytes, kServerLimit_bytes);
   ASSERT_EQ(received.size(), batch.size());
   for (std::size_t i = 0; i < batch.size(); ++i) EXPECT_EQ(received[i], batch[i].sequence);
+}
+
+// On a connection that has as many streams as the server allows, the next one waits for its turn.
+TEST(GrpcObservationStreamTest, AStreamThatDoesNotGetItsTurnIsGivenUp) {
+  class Listener final : public v1::IngestService::Service {
+    grpc::Status StreamObservations(grpc::ServerContext*, ServerStream* stream) override {
+      Greet(*stream);
+      return Listen(*stream);
+    }
+  } service;
+  int port = 0;
+  grpc::ServerBuilder builder;
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, 1);
+  builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port);
+  builder.RegisterService(&service);
+  const auto server = builder.BuildAndStart();
+  const auto stub = v1::IngestService::NewStub(
+      grpc::CreateChannel(absl::StrCat("127.0.0.1:", port), grpc::InsecureChannelCredentials()));
+  MissionRoutes routes;
+  RobotSession session;
+  session.mission = "house";
+  session.robot = "scout";
+  auto first = OpenGrpcObservationStream(routes, *stub, session, kPatient);
+  ASSERT_TRUE(first.ok()) << first.status();
+
+  const absl::Status second = OpenGrpcObservationStream(routes, *stub, session, kQuick).status();
+
+  EXPECT_TRUE(absl::IsUnavailable(second)) << second;
+  first->reset();
+  server->Shutdown(std::chrono::system_clock::now());
 }
 
 }  // namespace grpc_observation_stream_test
