@@ -130,7 +130,8 @@ IngestResult MissionHost::Ingest(MissionWriter& writer, const RobotId& robot,
     return IngestResult{status, conduct.Position(robot).value_or(LogPosition{}), {}};
   };
   if (const absl::Status writable = CheckMayWrite(); !writable.ok()) return refuse(writable);
-  const absl::Status leased = conduct.CheckLease(robot, lease_token);
+  absl::Status leased = conduct.CheckLease(robot, lease_token);
+  leased.Update(leases_.Check(robot, lease_token));  // it may have been released since
   if (!leased.ok()) return refuse(leased);
   const std::int64_t in_force_ns = writer.mission().StateOf(robot).value().clock_offset_ns;
   const auto [offset_ns, was_set] = robot_clocks_.Reckon(robot, times, in_force_ns);

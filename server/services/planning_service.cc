@@ -216,8 +216,9 @@ absl::Status PlanningService::Report(const v1::ReportProgressRequest& request,
   const ProgressReported report{name.robot, plan.plan, outcome};
   const auto run = [host, report, token, response](const std::shared_ptr<UnaryCall>& runner) {
     return PostFor(runner, *host, [host, report, token, response, runner](MissionWriter& writer) {
-      const absl::Status writable = host->CheckMayWrite();
-      if (!writable.ok()) return runner->Answer(writable);
+      absl::Status allowed = host->CheckMayWrite();
+      allowed.Update(host->leases().Check(report.robot, token));
+      if (!allowed.ok()) return runner->Answer(allowed);
       const auto revision = writer.conduct().Report(report, token);
       if (revision.ok()) response->set_revision(*revision);
       AnswerWhenDurable(*host, runner, revision.status());

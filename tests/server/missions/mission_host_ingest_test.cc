@@ -363,5 +363,20 @@ TEST_F(ClocksTest, LinksTellHowOldTheNewestSampleIs) {
   EXPECT_FALSE(host_->robot_clocks().LinkOf("b").has_value());
 }
 
+TEST(MissionHostIngestTest, ABatchUnderALeaseThatWasReleasedMeanwhileIsRefused) {
+  MissionHost host(HostParts(), {});
+  AddRobot(host);
+  host.leases().Grant("r1", kLease);
+  ASSERT_TRUE(host.Post([&](MissionWriter& writer) {
+                    EXPECT_TRUE(host.Ingest(writer, "r1", kLease, GasBatch(1, 2)).status.ok());
+                    EXPECT_TRUE(host.leases().Release("r1", kLease).ok());
+                    const IngestResult late = host.Ingest(writer, "r1", kLease, GasBatch(3, 4));
+                    EXPECT_EQ(ErrorReason(late.status), reason::kLeaseSuperseded);
+                    EXPECT_EQ(late.position.applied_sequence, 2);
+                  })
+                  .ok());
+  Settle(host);
+}
+
 }  // namespace mission_host_ingest_test
 }  // namespace plumescout::server

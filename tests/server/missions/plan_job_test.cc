@@ -14,6 +14,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/synchronization/blocking_counter.h"
 #include "absl/synchronization/notification.h"
+#include "core/types/error_reason.h"
 #include "tests/server/host_parts.h"
 
 namespace plumescout::server {
@@ -271,6 +272,16 @@ TEST_F(PlanJobTest, StoppedMissionAnswersToo) {
   Start({.min_applied_sequence = 1000});
   host_->Stop(absl::NotFoundError("MISSION_NOT_FOUND: missions/hall"));
   EXPECT_TRUE(absl::IsNotFound(Answer().status()));
+}
+
+TEST_F(PlanJobTest, NothingIsCommittedUnderALeaseThatWasReleasedMeanwhile) {
+  StartHost([this](const Belief& belief, const PlanRequest& request, const StopFn&) {
+    EXPECT_TRUE(host_->leases().Release("r1", kLease).ok());
+    return PlanTo(belief, request.robot, 1.0);
+  });
+  host_->leases().Grant("r1", kLease);
+  Start({});
+  EXPECT_EQ(ErrorReason(Answer().status()), reason::kLeaseSuperseded);
 }
 
 }  // namespace plan_job_test
